@@ -1,0 +1,117 @@
+/**
+ * @file icc/base.h
+ * @brief Status codes, errors, the calling environment and the version.
+ *
+ * libicc keeps no global and no thread-local state, installs no signal
+ * handler, prints nothing and never ends the process. (Not related to ICC
+ * colour profiles.)
+ *
+ * SPDX-License-Identifier: MIT
+ */
+#ifndef ICC_BASE_H
+#define ICC_BASE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(ICC_STATIC) || !defined(__GNUC__)
+#define ICC_API
+#else
+#define ICC_API __attribute__((visibility("default")))
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Result of a call: ::ICC_OK or one of the `ICC_ERR_*` values. */
+typedef int32_t icc_status;
+
+/** Status codes. Their numbers never change. */
+enum {
+    ICC_OK = 0,              /**< the call did what it says */
+    ICC_ERR_ARGUMENT = 1,    /**< an argument is missing or out of range */
+    ICC_ERR_MEMORY = 2,      /**< an allocation failed */
+    ICC_ERR_VERSION = 3,     /**< a struct has a member that this library does not know */
+    ICC_ERR_BOUNDARY = 4,    /**< the boundary is not that of a simple, solid shape */
+    ICC_ERR_RESOLUTION = 5,  /**< the grid is too coarse, or would be too large */
+    ICC_ERR_TOPOLOGY = 6,    /**< the shape or the grid has the wrong topology */
+    ICC_ERR_OUTSIDE = 7,     /**< a point lies outside the domain */
+    ICC_ERR_SOLVER = 8,      /**< a numerical solver did not converge */
+    ICC_ERR_TRACE = 9,       /**< an integral curve does not reach its end */
+    ICC_ERR_CERTIFICATE = 10,/**< a result could not be certified */
+    ICC_ERR_CANCELLED = 11,  /**< the progress callback asked to stop */
+    ICC_ERR_UNSUPPORTED = 12,/**< this combination is not available */
+    ICC_ERR_FORMAT = 13      /**< input data is malformed */
+};
+
+/** Limits and markers. */
+enum {
+    ICC_MAX_DIM = 6          /**< largest dimension of a domain or grid */
+};
+
+/**
+ * What went wrong, filled in by the call that failed.
+ *
+ * Owned by the caller, who sets `size` to `sizeof(icc_error)` before the call;
+ * members beyond `size` are not touched. Every function that takes one accepts
+ * NULL. A call that succeeds leaves the struct alone.
+ */
+typedef struct icc_error {
+    size_t size;         /**< set by the caller: `sizeof(icc_error)` */
+    icc_status status;   /**< the status that the call returned */
+    int32_t side;        /**< 0: neither; 1: the source; 2: the target */
+    int64_t index;       /**< the vertex, facet, cell or point at fault, or -1 */
+    char message[240];   /**< one line of English, always terminated */
+} icc_error;
+
+/** One unit of work handed to icc_env::parallel_for. */
+typedef void (*icc_task)(void *argument, size_t index);
+
+/**
+ * How a call allocates, reports and runs in parallel.
+ *
+ * Zero-initialise, set `size`, then whatever is wanted; NULL in place of the
+ * struct means all defaults. The struct is read during the call and not kept;
+ * objects keep `user`, `alloc` and `dealloc`, which must stay valid for as long
+ * as the object lives.
+ *
+ * Results are bit-identical for every number of threads and for every
+ * implementation of `parallel_for`.
+ */
+typedef struct icc_env {
+    size_t size;                 /**< set by the caller: `sizeof(icc_env)` */
+    void *user;                  /**< handed to every callback below */
+    /** Memory for any type, or NULL if there is none. Set both or neither; must be
+     *  thread-safe when tasks run in parallel. Default: malloc and free. */
+    void *(*alloc)(void *user, size_t size);
+    /** Gives back what `alloc` returned; never called with NULL. */
+    void (*dealloc)(void *user, void *memory);
+    /** Takes one line of diagnostics, without a line end. Default: none. */
+    void (*log)(void *user, const char *message);
+    /** Called on the calling thread now and then during long work, with the name of the
+     *  stage and the share done in [0,1]. Non-zero cancels: the call gives up as soon as
+     *  it can and returns ::ICC_ERR_CANCELLED. Default: none. */
+    int32_t (*progress)(void *user, const char *stage, double share);
+    /** Runs task(argument, i) for every i in [0, n_tasks), in any order and on any
+     *  threads, and returns when all are done. Replaces the library's own threads. */
+    void (*parallel_for)(void *user, size_t n_tasks, icc_task task, void *argument);
+    /** Threads that a call may use, the calling one included; 0 and 1 mean one. Further
+     *  threads live only during the call. If one cannot be started, the others do its work. */
+    int32_t threads;
+} icc_env;
+
+/** The library's version, such as "0.1.0". Static; never NULL. */
+ICC_API const char *icc_version(void);
+
+/** The version as 10000 major + 100 minor + patch. */
+ICC_API int32_t icc_version_number(void);
+
+/** The name of a status, such as "ICC_ERR_MEMORY", or "unknown status". Static. */
+ICC_API const char *icc_status_name(icc_status status);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

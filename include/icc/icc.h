@@ -1,0 +1,432 @@
+/**
+ * @file icc/icc.h
+ * @brief Domains, charts and maps: carry the inside of a shape along with its boundary.
+ *
+ *     icc_domain (a boundary and what it encloses)
+ *       -> icc_chart (coordinates of the inside: boundary point + share of the way to the maximum)
+ *         -> icc_map (two charts and the homeomorphism of their boundaries)
+ *
+ * Objects are opaque and immutable once made. Any number of threads may use one object at the same
+ * time without locks. Each object keeps what it was made from alive: a domain may be freed while a
+ * chart on it is in use. Every `icc_*_free` accepts NULL.
+ *
+ * Creators write the new object to `*out`, or NULL on failure. `env` and `err` may always be NULL.
+ * Points are stored one after the other, `dim` doubles each. In option structs zero means the
+ * default.
+ *
+ * SPDX-License-Identifier: MIT
+ */
+#ifndef ICC_ICC_H
+#define ICC_ICC_H
+
+#include <icc/base.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ------------------------------------------------------------------ domain */
+
+/** A shape: its boundary, and what lies inside. */
+typedef struct icc_domain icc_domain;
+
+/** Where a point lies. */
+enum {
+    ICC_INSIDE = 1,   /**< in the interior */
+    ICC_BOUNDARY = 2, /**< on the boundary, up to 1e-14 of the bounding box's longest side */
+    ICC_OUTSIDE = 3   /**< elsewhere */
+};
+
+/** What icc_domain_get_info() tells. */
+typedef struct icc_domain_info {
+    size_t size;               /**< set by the caller: `sizeof(icc_domain_info)` */
+    int32_t dim;               /**< dimension */
+    int32_t orientation;       /**< 2-D: +1 counter-clockwise, -1 clockwise, with y upwards */
+    size_t n_vertices;         /**< vertices of the boundary */
+    size_t n_facets;           /**< facets of the boundary */
+    double lower[ICC_MAX_DIM]; /**< bounding box */
+    double upper[ICC_MAX_DIM]; /**< bounding box */
+    double measure;            /**< area (2-D); may overflow to HUGE_VAL for coordinates near 1e300 */
+} icc_domain_info;
+
+/**
+ * Makes a domain from its boundary.
+ *
+ * 2-D: a simple polygon. `facets` may be NULL: facet i then joins vertex i and vertex i + 1, the
+ * last one back to vertex 0. Otherwise the facets, two vertex indices each, must form one closed
+ * ring through all vertices, in any order but all in the same direction. Either orientation is
+ * accepted and remembered. Collinear vertices are fine.
+ *
+ * Everything is checked exactly, on the coordinates as given: finite numbers, no edge of length
+ * zero, no repeated vertex, no edges that cross, touch or run back over each other. Inside the
+ * library the shape is shifted and scaled by exact operations, so any position and size will do
+ * (an offset of 1e9, coordinates of 1e300). Vertices closer together than the smallest double,
+ * relative to the largest coordinate, count as repeated.
+ *
+ * @param[out] out   the domain; owned by the caller, see icc_domain_free()
+ * @param dim        2 (other dimensions: ::ICC_ERR_UNSUPPORTED)
+ * @param n_vertices at least dim + 1
+ * @param vertices   n_vertices * dim coordinates
+ * @param n_facets   number of facets; ignored when `facets` is NULL
+ * @param facets     n_facets * dim vertex indices, or NULL
+ * @param env        may be NULL
+ * @param err        may be NULL; `index` names the vertex or facet at fault
+ * @return ::ICC_OK, ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY, ::ICC_ERR_BOUNDARY (what is wrong with the
+ *         shape), ::ICC_ERR_UNSUPPORTED, ::ICC_ERR_VERSION or ::ICC_ERR_CANCELLED
+ *
+ * Cost: O(n log n) time, O(n) memory.
+ */
+ICC_API icc_status icc_domain_create(icc_domain **out, int32_t dim, size_t n_vertices,
+                                     const double *vertices, size_t n_facets,
+                                     const uint32_t *facets, const icc_env *env, icc_error *err);
+
+/** Frees a domain. */
+ICC_API void icc_domain_free(icc_domain *domain);
+
+/** Fills in `info`, whose `size` the caller has set. ::ICC_OK or ::ICC_ERR_ARGUMENT. */
+ICC_API icc_status icc_domain_get_info(const icc_domain *domain, icc_domain_info *info);
+
+/**
+ * Copies the boundary as it was given.
+ *
+ * @param domain        the domain
+ * @param[out] vertices room for n_vertices * dim doubles, or NULL
+ * @param[out] facets   room for n_facets * dim indices, or NULL
+ */
+ICC_API icc_status icc_domain_get_boundary(const icc_domain *domain, double *vertices,
+                                           uint32_t *facets);
+
+/**
+ * Says where points lie, exactly up to the tolerance of ::ICC_BOUNDARY, and finds the nearest
+ * boundary point.
+ *
+ * @param domain     the domain
+ * @param n          number of points
+ * @param points     n * dim coordinates; a point that is not finite is outside
+ * @param[out] where n values ::ICC_INSIDE, ::ICC_BOUNDARY or ::ICC_OUTSIDE
+ * @param[out] facet n indices of the nearest facet, or NULL
+ * @param[out] bary  n * dim barycentric coordinates of the nearest point on it, or NULL
+ * @param env        may be NULL
+ *
+ * Cost: O(log n) a point for ordinary shapes.
+ */
+ICC_API icc_status icc_domain_locate(const icc_domain *domain, size_t n, const double *points,
+                                     int32_t *where, uint32_t *facet, double *bary,
+                                     const icc_env *env);
+
+/** Defects that icc_boundary_defects() lists. `a` and `b` are vertex or facet indices. */
+enum {
+    ICC_DEFECT_NOT_FINITE = 1, /**< vertex a has a coordinate that is not finite; b = a */
+    ICC_DEFECT_REPEATED = 2,   /**< vertices a < b coincide */
+    ICC_DEFECT_SPIKE = 3,      /**< at vertex a the boundary runs back over itself; b = a */
+    ICC_DEFECT_CROSSING = 4,   /**< facets a < b cross */
+    ICC_DEFECT_TOUCH = 5,      /**< facets a < b touch or overlap without sharing a vertex */
+    ICC_DEFECT_FLAT = 6        /**< the shape has no area; a = b = 0 */
+};
+
+/**
+ * Lists everything that keeps a closed polygon from being the boundary of a domain.
+ *
+ * @param n_vertices    vertices of the ring
+ * @param vertices      n_vertices * 2 coordinates; facet i joins vertices i and i + 1
+ * @param capacity      how many defects the two arrays have room for
+ * @param[out] kinds    `capacity` kinds, `ICC_DEFECT_*`
+ * @param[out] items    `capacity` pairs (a, b); see there
+ * @param[out] n_defects how many there are in all, also beyond `capacity`
+ * @param env           may be NULL
+ * @param err           may be NULL
+ *
+ * Sorted by a, then b. Vertices that are not finite are listed and otherwise left out.
+ * Cost: O((n + k) log n) for k pairs of facets whose boxes overlap.
+ */
+ICC_API icc_status icc_boundary_defects(size_t n_vertices, const double *vertices, size_t capacity,
+                                        int32_t *kinds, uint32_t *items, size_t *n_defects,
+                                        const icc_env *env, icc_error *err);
+
+/* ------------------------------------------------------------------- chart */
+
+/** Coordinates of the inside of a domain: a boundary point and a share in [0,1]. */
+typedef struct icc_chart icc_chart;
+
+/** How coordinates are made. */
+enum {
+    /** Integral Curve Coordinates as Huynh and Gingold published them: a regular grid, a cousin
+     *  tree, a function on it, piecewise linear gradient lines. Not one-to-one: lines merge, so
+     *  that an open share of the area collapses, and thin parts of a shape between grid vertices
+     *  are not reached. icc_chart_measure() tells how much. */
+    ICC_METHOD_GRADIENT = 1
+};
+
+/** The function whose gradient lines are followed. */
+enum {
+    ICC_FUNCTION_DECAY = 1,   /**< thesis (4.1): 10 at the maximum, times 0.95 from parent to child */
+    ICC_FUNCTION_DISTANCE = 2 /**< minus the distance in the tree (L1 distance) */
+};
+
+/** The two published forms of Algorithm 2. */
+enum {
+    ICC_TREE_THESIS = 1, /**< vertices just outside the boundary belong to the tree */
+    ICC_TREE_PAPER = 2   /**< vertices just outside are children of all their neighbours inside */
+};
+
+/** Options of icc_chart_create(). */
+typedef struct icc_chart_options {
+    size_t size;           /**< set by the caller: `sizeof(icc_chart_options)` */
+    int32_t method;        /**< `ICC_METHOD_*`; 0: the best that there is for the dimension */
+    int32_t function;      /**< gradient: `ICC_FUNCTION_*`; 0: decay */
+    int32_t tree;          /**< gradient: `ICC_TREE_*`; 0: thesis */
+    int32_t cells;         /**< grid cells along the longest side, 2..16384; 0: 50, as in the papers */
+    const double *maximum; /**< where the maximum shall be (the nearest grid vertex inside is taken),
+                                or NULL: the grassfire's */
+} icc_chart_options;
+
+/** What icc_chart_get_info() tells. Members that the method does not have are 0. */
+typedef struct icc_chart_info {
+    size_t size;                 /**< set by the caller: `sizeof(icc_chart_info)` */
+    int32_t dim;                 /**< dimension */
+    int32_t method;              /**< `ICC_METHOD_*` */
+    int32_t function;            /**< `ICC_FUNCTION_*` */
+    int32_t tree;                /**< `ICC_TREE_*` */
+    double maximum[ICC_MAX_DIM]; /**< the point that every curve ends at */
+    double spacing;              /**< distance of grid neighbours */
+    size_t n_grid;               /**< grid vertices */
+    size_t n_inside;             /**< grid vertices inside the domain */
+    size_t n_tree;               /**< grid vertices in the tree */
+    size_t n_unreachable;        /**< grid vertices inside that the tree does not reach */
+    size_t n_cousin_violations;  /**< neighbours inside that are neither parent and child nor cousins */
+    size_t n_maxima;             /**< of the function, inside */
+    size_t n_minima;             /**< of the function, inside */
+    size_t n_saddles;            /**< of the function, inside */
+    size_t n_edges;              /**< edges between two triangles that curves run through */
+    size_t n_compression;        /**< edges where curves merge on the way up */
+    size_t n_expansion;          /**< edges where curves merge on the way down */
+    double seconds_grid;         /**< time to make the grid and find the maximum */
+    double seconds_tree;         /**< time to make and verify the tree */
+    double seconds_field;        /**< time to make and verify the function */
+} icc_chart_info;
+
+/** Shares that icc_chart_measure() estimates from evenly spread points. All lie in [0,1]. */
+typedef struct icc_chart_measures {
+    size_t size;             /**< set by the caller: `sizeof(icc_chart_measures)` */
+    size_t n_points;         /**< points of the area that were used */
+    size_t n_boundary;       /**< points of the boundary that were used */
+    double unreachable;      /**< area from which no curve reaches both the boundary and the maximum */
+    double uncovered;        /**< area that no curve from the boundary enters (expansion edges) */
+    double collapsed;        /**< coordinates (boundary length times share of the way) whose point
+                                  lies on a line where curves have merged (compression edges) */
+    double not_inward;       /**< boundary length where the gradient does not point inward */
+} icc_chart_measures;
+
+/**
+ * Makes coordinates of a domain.
+ *
+ * @param[out] out  the chart; owned by the caller, see icc_chart_free(). It keeps the domain alive.
+ * @param domain    the domain
+ * @param options   may be NULL
+ * @param env       may be NULL
+ * @param err       may be NULL
+ * @return ::ICC_OK; ::ICC_ERR_RESOLUTION when no grid vertex lies inside the domain or the grid would
+ *         have more than 2^28 vertices; ::ICC_ERR_OUTSIDE when `maximum` is outside;
+ *         ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY, ::ICC_ERR_UNSUPPORTED, ::ICC_ERR_VERSION,
+ *         ::ICC_ERR_CANCELLED
+ *
+ * Cost of method gradient with N cells along the longest side: O(N^2 + n N) time and memory at most;
+ * about 1 ms at N = 50.
+ */
+ICC_API icc_status icc_chart_create(icc_chart **out, const icc_domain *domain,
+                                    const icc_chart_options *options, const icc_env *env,
+                                    icc_error *err);
+
+/** Frees a chart. */
+ICC_API void icc_chart_free(icc_chart *chart);
+
+/** Fills in `info`, whose `size` the caller has set. ::ICC_OK or ::ICC_ERR_ARGUMENT. */
+ICC_API icc_status icc_chart_get_info(const icc_chart *chart, icc_chart_info *info);
+
+/** The domain that the chart was made on; borrowed. */
+ICC_API const icc_domain *icc_chart_domain(const icc_chart *chart);
+
+/**
+ * Estimates what the coordinates miss. Deterministic.
+ *
+ * @param chart         the chart
+ * @param n_points      points to use, for the area and for the boundary each; 0: 4096
+ * @param[out] measures its `size` is set by the caller
+ * @param env           may be NULL
+ * @param err           may be NULL
+ */
+ICC_API icc_status icc_chart_measure(const icc_chart *chart, size_t n_points,
+                                     icc_chart_measures *measures, const icc_env *env,
+                                     icc_error *err);
+
+/**
+ * Cartesian -> integral curve coordinates.
+ *
+ * A point on the boundary has t = 0. The maximum has t = 1, facet 0 and the facet's midpoint.
+ * A point that has no coordinates gets NaN in `bary` and `t`, UINT32_MAX in `facet` and its own
+ * status; the others are not affected.
+ *
+ * @param chart         the chart
+ * @param n             number of points
+ * @param points        n * dim coordinates
+ * @param[out] facet    n indices of the boundary facet where the curve starts
+ * @param[out] bary     n * dim barycentric coordinates there: not negative, sum 1
+ * @param[out] t        n shares of the curve's arc length from the boundary, in [0,1]
+ * @param[out] status   n statuses: ::ICC_OK, ::ICC_ERR_OUTSIDE, ::ICC_ERR_TRACE (the curve does not
+ *                      reach the boundary and the maximum), ::ICC_ERR_ARGUMENT (not finite); or NULL
+ * @param[out] n_failed how many points have no coordinates, or NULL
+ * @param env           may be NULL
+ * @return ::ICC_OK when the call ran, however many points failed; ::ICC_ERR_ARGUMENT,
+ *         ::ICC_ERR_MEMORY, ::ICC_ERR_VERSION or ::ICC_ERR_CANCELLED (the outputs are then undefined)
+ */
+ICC_API icc_status icc_chart_encode(const icc_chart *chart, size_t n, const double *points,
+                                    uint32_t *facet, double *bary, double *t, icc_status *status,
+                                    size_t *n_failed, const icc_env *env);
+
+/**
+ * Integral curve coordinates -> Cartesian; the inverse of icc_chart_encode().
+ *
+ * @param chart         the chart
+ * @param n             number of points
+ * @param facet         n facet indices
+ * @param bary          n * dim barycentric coordinates, not negative, sum 1 (up to 1e-9)
+ * @param t             n shares in [0,1]; t = 0 gives the boundary point, t = 1 the maximum
+ * @param[out] points   n * dim coordinates; NaN where there is no point
+ * @param[out] status   n statuses: ::ICC_OK, ::ICC_ERR_TRACE (the curve does not reach the maximum, or
+ *                      has left the domain there), ::ICC_ERR_ARGUMENT; or NULL
+ * @param[out] n_failed how many coordinates have no point, or NULL
+ * @param env           may be NULL
+ * @return as icc_chart_encode()
+ */
+ICC_API icc_status icc_chart_decode(const icc_chart *chart, size_t n, const uint32_t *facet,
+                                    const double *bary, const double *t, double *points,
+                                    icc_status *status, size_t *n_failed, const icc_env *env);
+
+/**
+ * The whole curve through a point, from the boundary to the maximum, as a polyline.
+ *
+ * @param chart          the chart
+ * @param point          dim coordinates
+ * @param capacity       how many points `curve` has room for
+ * @param[out] curve     capacity * dim coordinates; may be NULL when capacity is 0
+ * @param[out] n_curve   how many points the curve has, also beyond `capacity`
+ * @param env            may be NULL
+ * @param err            may be NULL
+ * @return ::ICC_OK, ::ICC_ERR_OUTSIDE, ::ICC_ERR_TRACE, ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY,
+ *         ::ICC_ERR_VERSION
+ */
+ICC_API icc_status icc_chart_trace(const icc_chart *chart, const double *point, size_t capacity,
+                                   double *curve, size_t *n_curve, const icc_env *env,
+                                   icc_error *err);
+
+/* --------------------------------------------------------------------- map */
+
+/** A map from one domain to another that agrees with the boundaries. */
+typedef struct icc_map icc_map;
+
+/** How a map works. */
+enum {
+    ICC_MAP_CURVES = 1 /**< point by point through the two charts, as the papers do */
+};
+
+/** Options of icc_map_create(). */
+typedef struct icc_map_options {
+    size_t size;                  /**< set by the caller: `sizeof(icc_map_options)` */
+    int32_t kind;                 /**< `ICC_MAP_*`; 0: the best that there is */
+    icc_chart_options chart;      /**< for the source; its `size` must be set unless all is 0 */
+    const double *target_maximum; /**< where the target's maximum shall be, or NULL: as the method
+                                       chooses. (`chart.maximum` is the source's.) */
+} icc_map_options;
+
+/** What icc_map_get_info() tells. */
+typedef struct icc_map_info {
+    size_t size;     /**< set by the caller: `sizeof(icc_map_info)` */
+    int32_t dim;     /**< dimension */
+    int32_t kind;    /**< `ICC_MAP_*` */
+    double seconds;  /**< time to make the map, charts included */
+} icc_map_info;
+
+/**
+ * Makes the map between two domains whose boundaries correspond: facet i goes to facet i, with the
+ * same barycentric coordinates. Builds both charts together.
+ *
+ * @param[out] out the map; owned by the caller, see icc_map_free()
+ * @param source   domain before
+ * @param target   domain after: same dimension, same number of vertices, same facets, and in 2-D the
+ *                 same orientation, else ::ICC_ERR_BOUNDARY
+ * @param options  may be NULL
+ * @param env      may be NULL
+ * @param err      may be NULL; `side` tells source (1) from target (2)
+ * @return as icc_chart_create(), or ::ICC_ERR_BOUNDARY
+ */
+ICC_API icc_status icc_map_create(icc_map **out, const icc_domain *source,
+                                  const icc_domain *target, const icc_map_options *options,
+                                  const icc_env *env, icc_error *err);
+
+/**
+ * Makes a map from two charts, which must use the same method and domains that correspond as
+ * icc_map_create() asks. Of the options only `kind` is used. The map keeps the charts alive.
+ */
+ICC_API icc_status icc_map_create_from_charts(icc_map **out, const icc_chart *source,
+                                              const icc_chart *target,
+                                              const icc_map_options *options, const icc_env *env,
+                                              icc_error *err);
+
+/** Frees a map. */
+ICC_API void icc_map_free(icc_map *map);
+
+/** Fills in `info`, whose `size` the caller has set. ::ICC_OK or ::ICC_ERR_ARGUMENT. */
+ICC_API icc_status icc_map_get_info(const icc_map *map, icc_map_info *info);
+
+/** The chart of the source; borrowed. */
+ICC_API const icc_chart *icc_map_source_chart(const icc_map *map);
+
+/** The chart of the target; borrowed. */
+ICC_API const icc_chart *icc_map_target_chart(const icc_map *map);
+
+/**
+ * Source -> target.
+ *
+ * @param map           the map
+ * @param n             number of points
+ * @param points        n * dim coordinates in the source
+ * @param[out] images   n * dim coordinates; NaN for a point that has no image. May be `points`.
+ * @param[out] status   n statuses: ::ICC_OK, ::ICC_ERR_OUTSIDE, ::ICC_ERR_TRACE, ::ICC_ERR_ARGUMENT; or
+ *                      NULL
+ * @param[out] n_failed how many points have no image, or NULL
+ * @param env           may be NULL
+ * @return as icc_chart_encode()
+ */
+ICC_API icc_status icc_map_apply(const icc_map *map, size_t n, const double *points,
+                                 double *images, icc_status *status, size_t *n_failed,
+                                 const icc_env *env);
+
+/** Target -> source; otherwise as icc_map_apply(). */
+ICC_API icc_status icc_map_apply_inverse(const icc_map *map, size_t n, const double *points,
+                                         double *images, icc_status *status, size_t *n_failed,
+                                         const icc_env *env);
+
+/**
+ * The derivative of the map at points of the source, exact for the piecewise map up to rounding;
+ * one-sided where it has a kink.
+ *
+ * @param map            the map
+ * @param n              number of points
+ * @param points         n * dim coordinates in the source's interior; on the boundary and at the
+ *                       maximum there is no derivative (::ICC_ERR_TRACE)
+ * @param[out] jacobians n * dim * dim: row i, column j is the derivative of image coordinate i by
+ *                       point coordinate j; NaN where there is none
+ * @param[out] status    n statuses, or NULL
+ * @param[out] n_failed  how many points have none, or NULL
+ * @param env            may be NULL
+ * @return as icc_chart_encode()
+ */
+ICC_API icc_status icc_map_jacobian(const icc_map *map, size_t n, const double *points,
+                                    double *jacobians, icc_status *status, size_t *n_failed,
+                                    const icc_env *env);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,256 @@
+/**
+ * @file icc/stages.h
+ * @brief The stages of Integral Curve Coordinates, each by itself: grid, maximum, tree, function,
+ * and the triangulation of sparse points.
+ *
+ * For those who study or teach the method, or need one stage only. Rules as in icc/icc.h.
+ * Source: L. Huynh, Bijective Deformations in R^n via Integral Curve Coordinates, thesis, George
+ * Mason University, 2013, chapters 4 and 6; L. Huynh and Y. Gingold, paper of the same name.
+ *
+ * SPDX-License-Identifier: MIT
+ */
+#ifndef ICC_STAGES_H
+#define ICC_STAGES_H
+
+#include <icc/icc.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* -------------------------------------------------------------------- grid */
+
+/** A regular grid of vertices, each inside or outside of a shape. Vertex (i_0, i_1, ..) has the
+ *  index i_0 + shape[0] * (i_1 + shape[1] * (..)) and the position origin + spacing * i. */
+typedef struct icc_grid icc_grid;
+
+/** What icc_grid_get_info() tells. */
+typedef struct icc_grid_info {
+    size_t size;                /**< set by the caller: `sizeof(icc_grid_info)` */
+    int32_t dim;                /**< dimension, 1..::ICC_MAX_DIM */
+    int32_t reserved;           /**< 0 */
+    size_t shape[ICC_MAX_DIM];  /**< vertices along each axis */
+    double origin[ICC_MAX_DIM]; /**< position of vertex 0 */
+    double spacing;             /**< distance of neighbours, the same along every axis */
+    size_t n_vertices;          /**< product of `shape` */
+    size_t n_inside;            /**< vertices inside */
+} icc_grid_info;
+
+/**
+ * Covers a domain with a grid, at least two vertices wider than the domain on every side.
+ *
+ * @param[out] out the grid; owned by the caller
+ * @param domain   the domain
+ * @param cells    cells along the longest side of the bounding box, 2..16384; 0: 50
+ * @param env      may be NULL
+ * @param err      may be NULL
+ * @return ::ICC_OK, ::ICC_ERR_RESOLUTION (no vertex inside, or more than 2^28 vertices), ...
+ */
+ICC_API icc_status icc_grid_create(icc_grid **out, const icc_domain *domain, int32_t cells,
+                                   const icc_env *env, icc_error *err);
+
+/**
+ * Makes a grid from a mask of its vertices: origin 0, spacing 1.
+ *
+ * @param[out] out the grid; owned by the caller
+ * @param dim      1..::ICC_MAX_DIM
+ * @param shape    vertices along each axis, dim numbers; the first axis runs fastest
+ * @param inside   one byte per vertex: 0 outside, anything else inside
+ * @param env      may be NULL
+ * @param err      may be NULL
+ */
+ICC_API icc_status icc_grid_create_mask(icc_grid **out, int32_t dim, const size_t *shape,
+                                        const uint8_t *inside, const icc_env *env, icc_error *err);
+
+/** Frees a grid. */
+ICC_API void icc_grid_free(icc_grid *grid);
+
+/** Fills in `info`, whose `size` the caller has set. ::ICC_OK or ::ICC_ERR_ARGUMENT. */
+ICC_API icc_status icc_grid_get_info(const icc_grid *grid, icc_grid_info *info);
+
+/** One byte per vertex, 1 inside and 0 outside; borrowed. */
+ICC_API const uint8_t *icc_grid_inside(const icc_grid *grid);
+
+/**
+ * The vertex farthest from the outside in the grassfire transform (Algorithm 1). Of several, the one
+ * nearest to their mean is taken, then the one with the smallest index.
+ *
+ * @param grid           the grid
+ * @param[out] vertex    the maximum
+ * @param[out] rounds    how often the fire burnt before it reached the vertex, or NULL
+ * @param env            may be NULL
+ * @param err            may be NULL
+ *
+ * Cost: O(vertices) time and memory.
+ */
+ICC_API icc_status icc_grid_maximum(const icc_grid *grid, uint32_t *vertex, uint32_t *rounds,
+                                    const icc_env *env, icc_error *err);
+
+/** The inside vertex nearest to a point (the smallest index of several). O(vertices). */
+ICC_API icc_status icc_grid_nearest(const icc_grid *grid, const double *point, uint32_t *vertex);
+
+/* -------------------------------------------------------------------- tree */
+
+/** A breadth-first tree over a grid; a cousin tree where the shape allows it. */
+typedef struct icc_tree icc_tree;
+
+/** Options of icc_tree_create(). */
+typedef struct icc_tree_options {
+    size_t size;               /**< set by the caller: `sizeof(icc_tree_options)` */
+    int32_t form;              /**< `ICC_TREE_*`; 0: thesis */
+    int32_t reserved;          /**< 0 */
+    const int32_t *axis_order; /**< the order in which a generation expands along the axes, a
+                                    permutation of 0..dim-1; NULL: 0, 1, .. */
+} icc_tree_options;
+
+/** What icc_tree_verify() found. */
+typedef struct icc_tree_report {
+    size_t size;                 /**< set by the caller: `sizeof(icc_tree_report)` */
+    size_t n_inside;             /**< vertices inside that the tree reaches */
+    size_t n_outside;            /**< vertices outside that belong to the tree */
+    size_t n_unreachable;        /**< vertices inside that it does not reach */
+    size_t n_pairs;              /**< neighbouring vertices, both inside and reached */
+    size_t n_cousin_violations;  /**< pairs that are neither parent and child nor cousins */
+    uint32_t violation[2];       /**< the first such pair in index order, or UINT32_MAX */
+} icc_tree_report;
+
+/**
+ * Grows the tree of Algorithm 2 from a vertex inside.
+ *
+ * In both forms the vertices outside that neighbour the inside have a generation: one more than the
+ * smallest among their neighbours inside. In the thesis' form they and the vertices that they expand
+ * into belong to the tree and have a parent; in the paper's form their parent is UINT32_MAX, standing
+ * for all their neighbours inside. A grid made by icc_grid_create() is wide enough for both layers; a
+ * mask may end at its last vertex, and layers beyond it are then absent.
+ *
+ * Theorem 2 of the paper (the result is a cousin tree) held in every 2-D case tried; it is false in
+ * 3-D and beyond. Nothing is assumed here: see icc_tree_verify().
+ *
+ * @param[out] out the tree; owned by the caller; keeps the grid alive
+ * @param grid     the grid
+ * @param root     the maximum: a vertex inside
+ * @param options  may be NULL
+ * @param env      may be NULL
+ * @param err      may be NULL
+ *
+ * Cost: O(vertices * dim) time, 8 bytes a vertex.
+ */
+ICC_API icc_status icc_tree_create(icc_tree **out, const icc_grid *grid, uint32_t root,
+                                   const icc_tree_options *options, const icc_env *env,
+                                   icc_error *err);
+
+/** Frees a tree. */
+ICC_API void icc_tree_free(icc_tree *tree);
+
+/** The parent of each vertex: UINT32_MAX for the root and for vertices without one; borrowed. */
+ICC_API const uint32_t *icc_tree_parents(const icc_tree *tree);
+
+/** The generation of each vertex: 0 for the root, -1 for vertices that are not reached; borrowed. */
+ICC_API const int32_t *icc_tree_generations(const icc_tree *tree);
+
+/** Checks the cousin rule (Definition 2) on every pair of neighbours inside. O(vertices * dim). */
+ICC_API icc_status icc_tree_verify(const icc_tree *tree, icc_tree_report *report,
+                                   const icc_env *env, icc_error *err);
+
+/* ------------------------------------------------------------------- field */
+
+/** A function on the vertices of a tree that falls from parent to child. */
+typedef struct icc_field icc_field;
+
+/** Options of icc_field_create(). */
+typedef struct icc_field_options {
+    size_t size;      /**< set by the caller: `sizeof(icc_field_options)` */
+    int32_t function; /**< `ICC_FUNCTION_*`; 0: decay */
+    int32_t reserved; /**< 0 */
+} icc_field_options;
+
+/** Critical points of a function on the vertices inside, by the links of the Kuhn triangulation. */
+typedef struct icc_field_report {
+    size_t size;         /**< set by the caller: `sizeof(icc_field_report)` */
+    size_t n_maxima;     /**< vertices with no higher neighbour */
+    size_t n_minima;     /**< vertices with no lower neighbour */
+    size_t n_saddles;    /**< other vertices where the higher or the lower neighbours do not form a
+                              contractible set. Beyond 2-D contractibility is decided by strong
+                              collapses; a set that does not collapse counts as not contractible. */
+    uint32_t critical;   /**< the first critical vertex in index order other than the root, or
+                              UINT32_MAX */
+    uint32_t reserved;   /**< 0 */
+} icc_field_report;
+
+/** Kinds of edges in icc_field_edges(). */
+enum {
+    ICC_EDGE_COMPRESSION = 1, /**< the gradients on both sides point to the edge */
+    ICC_EDGE_EXPANSION = 2    /**< the gradients on both sides point away from it */
+};
+
+/**
+ * Gives values to the vertices of a tree.
+ *
+ * decay: 10 at the root, times 0.95 with each generation (thesis, equation 4.1). distance: minus the
+ * generation. Both depend on the generation alone.
+ *
+ * @param[out] out the field; owned by the caller; keeps the tree alive
+ * @param tree     the tree
+ * @param options  may be NULL
+ * @param env      may be NULL
+ * @param err      may be NULL
+ */
+ICC_API icc_status icc_field_create(icc_field **out, const icc_tree *tree,
+                                    const icc_field_options *options, const icc_env *env,
+                                    icc_error *err);
+
+/** Frees a field. */
+ICC_API void icc_field_free(icc_field *field);
+
+/** One value per grid vertex; NaN where the tree does not reach; borrowed. */
+ICC_API const double *icc_field_values(const icc_field *field);
+
+/**
+ * Counts critical points. Vertices without a value count as lower than all others, equal values are
+ * ordered by vertex index. O(vertices * 3^dim) for the dimensions of practice.
+ */
+ICC_API icc_status icc_field_verify(const icc_field *field, icc_field_report *report,
+                                    const icc_env *env, icc_error *err);
+
+/**
+ * Lists compression and expansion edges (2-D): edges between two triangles with a value at every
+ * corner, at least one of whose corners is inside (thesis, sections 5 and 6.4).
+ *
+ * @param field        the field
+ * @param capacity     how many edges the arrays have room for
+ * @param[out] edges   `capacity` pairs of vertices
+ * @param[out] kinds   `capacity` kinds, `ICC_EDGE_*`
+ * @param[out] n_edges how many there are in all, also beyond `capacity`
+ * @param[out] n_tested how many edges were looked at, or NULL
+ * @return ::ICC_OK, ::ICC_ERR_ARGUMENT, ::ICC_ERR_UNSUPPORTED (not 2-D)
+ */
+ICC_API icc_status icc_field_edges(const icc_field *field, size_t capacity, uint32_t *edges,
+                                   int32_t *kinds, size_t *n_edges, size_t *n_tested);
+
+/* ----------------------------------------------------------- triangulation */
+
+/**
+ * Constrained Delaunay triangulation of a simple polygon with points inside (2-D).
+ *
+ * All decisions are exact. Triangles are counter-clockwise (with y upwards). A polygon of b vertices
+ * with p points inside has b + 2 p - 2 triangles, always; no vertex is added.
+ *
+ * @param n_boundary     vertices of the polygon, either orientation; they come first
+ * @param n_points       all vertices, those of the polygon included
+ * @param points         n_points * 2 coordinates
+ * @param[out] triangles room for 3 * (2 * n_points - n_boundary - 2) vertex indices
+ * @param env            may be NULL
+ * @param err            may be NULL; `index` names a point that is not strictly inside the polygon,
+ *                       or that repeats another
+ * @return ::ICC_OK, ::ICC_ERR_BOUNDARY, ::ICC_ERR_OUTSIDE, ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY, ...
+ *
+ * Cost: O(n log n) in practice, about 1 us a vertex; 100 bytes a vertex.
+ */
+ICC_API icc_status icc_triangulate(size_t n_boundary, size_t n_points, const double *points,
+                                   uint32_t *triangles, const icc_env *env, icc_error *err);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,15 @@
+/* What compilers spell differently, in one place. */
+#ifndef ICCP_COMPILER_H
+#define ICCP_COMPILER_H
+
+#if defined(__GNUC__)
+#define ICCP_PRINTF(text, first) __attribute__((format(printf, text, first)))
+#define ICCP_LIKELY(x) __builtin_expect(!!(x), 1)
+#define ICCP_UNLIKELY(x) __builtin_expect(!!(x), 0)
+#else
+#define ICCP_PRINTF(text, first)
+#define ICCP_LIKELY(x) (x)
+#define ICCP_UNLIKELY(x) (x)
+#endif
+
+#endif

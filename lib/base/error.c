@@ -1,0 +1,47 @@
+#include "base/error.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+/* A caller compiled against an older header has a shorter struct: fill a copy, then hand over as
+ * much of it as the caller has room for. */
+static void hand_over(icc_error *err, icc_error *full)
+{
+    size_t size = err->size;
+    if (size > sizeof *full)
+        size = sizeof *full;
+    if (size <= sizeof err->size)
+        return;
+    full->size = err->size;
+    memcpy(err, full, size);
+    if (size > offsetof(icc_error, message))
+        ((char *)err)[size - 1] = '\0';
+}
+
+icc_status iccp_fail(icc_error *err, icc_status status, int64_t index, const char *format, ...)
+{
+    if (err == NULL)
+        return status;
+    icc_error full = {0};
+    full.status = status;
+    full.index = index;
+    va_list args;
+    va_start(args, format);
+    (void)vsnprintf(full.message, sizeof full.message, format, args);
+    va_end(args);
+    hand_over(err, &full);
+    return status;
+}
+
+icc_status iccp_fail_memory(icc_error *err)
+{
+    return iccp_fail(err, ICC_ERR_MEMORY, -1, "out of memory");
+}
+
+icc_status iccp_fail_side(icc_error *err, icc_status status, int32_t side)
+{
+    if (err != NULL && err->size >= offsetof(icc_error, side) + sizeof err->side)
+        err->side = side;
+    return status;
+}

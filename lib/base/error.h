@@ -1,0 +1,19 @@
+/* Filling the caller's icc_error. */
+#ifndef ICCP_ERROR_H
+#define ICCP_ERROR_H
+
+#include "base/compiler.h"
+#include "icc/base.h"
+
+/* Describes a failure in the caller's struct (which may be NULL) and returns `status`, so that a
+ * function can end with it. Index -1 means that no single item is at fault. */
+icc_status iccp_fail(icc_error *err, icc_status status, int64_t index, const char *format, ...)
+    ICCP_PRINTF(4, 5);
+
+/* ICC_ERR_MEMORY with the usual text. */
+icc_status iccp_fail_memory(icc_error *err);
+
+/* Marks whose fault it is: 1 the source, 2 the target. Returns `status`. */
+icc_status iccp_fail_side(icc_error *err, icc_status status, int32_t side);
+
+#endif

@@ -1,0 +1,38 @@
+/* The similarity between the caller's coordinates and the library's, which are of size about 1.
+ *
+ * Every operation on the vertices is exact. An axis is shifted only when all its coordinates have one
+ * sign and lie within a factor of two of each other: the differences to the one nearest to zero are
+ * then exact (Sterbenz' lemma). The scale is a power of two, as two factors so that neither overflows
+ * when the shape is denormal. So the local shape is the caller's, exactly, and what is exactly
+ * simple here is exactly simple there. */
+#ifndef ICCP_FRAME_H
+#define ICCP_FRAME_H
+
+#include "icc/icc.h"
+
+typedef struct iccp_frame {
+    double shift[ICC_MAX_DIM]; /* caller's coordinate that becomes 0 */
+    double in[2];              /* local = (x - shift) * in[0] * in[1] */
+    double out[2];             /* x = local * out[0] * out[1] + shift; powers of two, 1 / in */
+} iccp_frame;
+
+/* Shift 0, scale 1. */
+extern const iccp_frame iccp_frame_identity;
+
+/* The frame of finite points: n of them, dim coordinates each; n >= 1. The largest local magnitude
+ * lies in [1/2, 1], or all are 0. */
+void iccp_frame_fit(iccp_frame *frame, int32_t dim, size_t n, const double *points);
+
+static inline void iccp_frame_in(const iccp_frame *frame, int32_t dim, const double *x, double *local)
+{
+    for (int32_t k = 0; k < dim; ++k)
+        local[k] = (x[k] - frame->shift[k]) * frame->in[0] * frame->in[1];
+}
+
+static inline void iccp_frame_out(const iccp_frame *frame, int32_t dim, const double *local, double *x)
+{
+    for (int32_t k = 0; k < dim; ++k)
+        x[k] = local[k] * frame->out[0] * frame->out[1] + frame->shift[k];
+}
+
+#endif

@@ -1,0 +1,26 @@
+/* The tree object and Algorithm 2 in both published forms. */
+#ifndef ICCP_COUSIN_H
+#define ICCP_COUSIN_H
+
+#include "grid/lattice.h"
+
+struct icc_tree {
+    iccp_memory memory;
+    atomic_size_t references;
+    icc_grid *grid;
+    int32_t form;                     /* ICC_TREE_* */
+    int32_t axis_order[ICC_MAX_DIM];
+    uint32_t root;
+    uint32_t *parent;                 /* ICCP_NONE for the root and for vertices without one */
+    int32_t *generation;              /* -1: not reached */
+    uint32_t *order;                  /* the n_reached vertices, parents before children */
+    size_t n_reached;                 /* vertices with a generation */
+};
+
+/* `axis_order` may be NULL. */
+icc_status iccp_tree_create(icc_tree **out, const icc_grid *grid, uint32_t root, int32_t form,
+                            const int32_t *axis_order, const iccp_env *env, icc_error *err);
+icc_tree *iccp_tree_retain(const icc_tree *tree);
+void iccp_tree_release(icc_tree *tree);
+
+#endif
