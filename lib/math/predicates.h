@@ -7,14 +7,37 @@
 #ifndef ICCP_PREDICATES_H
 #define ICCP_PREDICATES_H
 
+#include "base/compiler.h"
+
+#include <math.h>
+
+/* The filter's relative error, (3 + 16 eps) eps with eps = 2^-53 (Shewchuk, section 4.2). */
+#define ICCP_CROSS_ERROR 3.3306690738754716e-16
+
+/* iccp_cross_sign() for when its filter cannot tell. */
+int iccp_cross_sign_exact(double a, double b, double c, double d, double e, double f, double g,
+                          double h);
+
+/* The sign of (a - b)(c - d) - (e - f)(g - h). */
+static inline int iccp_cross_sign(double a, double b, double c, double d, double e, double f,
+                                  double g, double h)
+{
+    const double left = (a - b) * (c - d);
+    const double right = (e - f) * (g - h);
+    const double cross = left - right;
+    /* Equality holds when both products are zero, and then they are so exactly. */
+    if (ICCP_LIKELY(fabs(cross) >= ICCP_CROSS_ERROR * (fabs(left) + fabs(right))))
+        return (cross > 0.0) - (cross < 0.0);
+    return iccp_cross_sign_exact(a, b, c, d, e, f, g, h);
+}
+
 /* +1 when a, b, c make a left turn (counter-clockwise with y upwards). */
-int iccp_orient2d(const double a[2], const double b[2], const double c[2]);
+static inline int iccp_orient2d(const double a[2], const double b[2], const double c[2])
+{
+    return iccp_cross_sign(a[0], c[0], b[1], c[1], a[1], c[1], b[0], c[0]);
+}
 
 /* +1 when d lies inside the circle through a, b, c, which are counter-clockwise. */
 int iccp_incircle(const double a[2], const double b[2], const double c[2], const double d[2]);
-
-/* The sign of (a - b)(c - d) - (e - f)(g - h). */
-int iccp_cross_sign(double a, double b, double c, double d, double e, double f, double g,
-                    double h);
 
 #endif

@@ -1,0 +1,116 @@
+/* Sums of doubles that carry no rounding error.
+ *
+ * Based on: J. R. Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric
+ * Predicates, Discrete & Computational Geometry 18, 1997, sections 2.2 to 2.6.
+ *
+ * An expansion is an array of non-zero doubles that do not overlap, the smallest magnitude first; its
+ * value is their exact sum, its sign that of the last one. Zero is the empty expansion. Exact as long
+ * as nothing overflows and every product of two last places stays above 2^-1074. Relies on plain
+ * double arithmetic, rounded to even: no contraction to fused operations, no excess precision. */
+#ifndef ICCP_EXPANSION_H
+#define ICCP_EXPANSION_H
+
+#include <float.h>
+#include <math.h>
+#include <stddef.h>
+
+_Static_assert(FLT_EVAL_METHOD == 0 && FLT_RADIX == 2 && DBL_MANT_DIG == 53,
+               "the exact predicates need IEEE 754 doubles without excess precision");
+
+/* a + b = result + *error. */
+static inline double iccp_two_sum(double a, double b, double *error)
+{
+    const double sum = a + b;
+    const double b_part = sum - a;
+    *error = (a - (sum - b_part)) + (b - b_part);
+    return sum;
+}
+
+/* a + b = result + *error, for |a| >= |b| or a = 0. */
+static inline double iccp_fast_two_sum(double a, double b, double *error)
+{
+    const double sum = a + b;
+    *error = b - (sum - a);
+    return sum;
+}
+
+/* The upper 26 bits of a; the rest, a minus them, fits into 26 bits as well. */
+static inline double iccp_upper_half(double a)
+{
+    const double c = 134217729.0 * a; /* 2^27 + 1 */
+    return c - (c - a);
+}
+
+/* a b = result + *error. */
+static inline double iccp_two_product(double a, double b, double *error)
+{
+    const double product = a * b;
+    const double a_high = iccp_upper_half(a), a_low = a - a_high;
+    const double b_high = iccp_upper_half(b), b_low = b - b_high;
+    *error = a_low * b_low -
+             (((product - a_high * b_high) - a_low * b_high) - a_high * b_low);
+    return product;
+}
+
+/* Appends a component unless it is zero; returns the new length. */
+static inline size_t iccp_expansion_push(double *h, size_t n, double component)
+{
+    h[n] = component;
+    return n + (component != 0.0);
+}
+
+/* h = a + b, room for 2. */
+static inline size_t iccp_expansion_two_sum(double *h, double a, double b)
+{
+    double low;
+    const double high = iccp_two_sum(a, b, &low);
+    return iccp_expansion_push(h, iccp_expansion_push(h, 0, low), high);
+}
+
+/* h = e + f, room for m + n; returns the length. h is neither e nor f. */
+static inline size_t iccp_expansion_sum(double *h, size_t m, const double *e, size_t n,
+                                        const double *f)
+{
+    size_t i = 0, j = 0, length = 0;
+    double sum = 0.0, low;
+    while (i < m || j < n) {
+        const int from_e = j == n || (i < m && fabs(e[i]) < fabs(f[j]));
+        sum = iccp_two_sum(sum, from_e ? e[i++] : f[j++], &low);
+        length = iccp_expansion_push(h, length, low);
+    }
+    return sum != 0.0 ? iccp_expansion_push(h, length, sum) : length;
+}
+
+/* h = b e, room for 2 m; returns the length. h is not e. */
+static inline size_t iccp_expansion_scale(double *h, size_t m, const double *e, double b)
+{
+    size_t length = 0;
+    double sum = 0.0, low;
+    for (size_t i = 0; i < m; ++i) {
+        double product_low;
+        const double product = iccp_two_product(e[i], b, &product_low);
+        sum = iccp_two_sum(sum, product_low, &low);
+        length = iccp_expansion_push(h, length, low);
+        sum = iccp_fast_two_sum(product, sum, &low);
+        length = iccp_expansion_push(h, length, low);
+    }
+    return sum != 0.0 ? iccp_expansion_push(h, length, sum) : length;
+}
+
+/* h = a b - c d, room for 4; returns the length. */
+static inline size_t iccp_expansion_cross(double *h, double a, double b, double c, double d)
+{
+    double left[2], right[2];
+    left[1] = iccp_two_product(a, b, &left[0]);
+    right[1] = -iccp_two_product(c, d, &right[0]);
+    right[0] = -right[0];
+    return iccp_expansion_sum(h, 2, left, 2, right);
+}
+
+/* The sign of the value. */
+static inline int iccp_expansion_sign(size_t n, const double *e)
+{
+    return n == 0 ? 0 : e[n - 1] > 0.0 ? 1 : -1;
+}
+
+#endif
