@@ -1,0 +1,47 @@
+# Components: Runtime (the shared library), Development (headers, static library, CMake and
+# pkg-config files), Tools (the command).
+set(cmake_dir ${CMAKE_INSTALL_LIBDIR}/cmake/libicc)
+
+foreach(kind shared static)
+  string(TOUPPER ${kind} KIND)
+  if(NOT ICC_BUILD_${KIND})
+    continue()
+  endif()
+  set(target icc)
+  if(kind STREQUAL static)
+    set(target icc_static)
+  endif()
+  install(TARGETS ${target} EXPORT libicc-${kind}
+    RUNTIME COMPONENT Runtime
+    LIBRARY COMPONENT Runtime NAMELINK_COMPONENT Development
+    ARCHIVE COMPONENT Development)
+  install(EXPORT libicc-${kind} NAMESPACE libicc:: DESTINATION ${cmake_dir} COMPONENT Development)
+endforeach()
+
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/icc DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+  COMPONENT Development FILES_MATCHING PATTERN "*.h")
+
+configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/libiccConfig.cmake.in
+  ${PROJECT_BINARY_DIR}/libiccConfig.cmake INSTALL_DESTINATION ${cmake_dir}
+  NO_SET_AND_CHECK_MACRO)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/libiccConfigVersion.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/libiccConfig.cmake
+              ${PROJECT_BINARY_DIR}/libiccConfigVersion.cmake
+  DESTINATION ${cmake_dir} COMPONENT Development)
+
+# The prefix is known for certain only when installing (cmake --install --prefix). A prefix relative
+# to the .pc file would make pkg-config print -I/usr/include/../.. in a multiarch directory.
+install(CODE "
+  get_filename_component(prefix \"\${CMAKE_INSTALL_PREFIX}\" ABSOLUTE)
+  set(PROJECT_VERSION \"${PROJECT_VERSION}\")
+  set(PROJECT_DESCRIPTION \"${PROJECT_DESCRIPTION}\")
+  set(libdir \"${CMAKE_INSTALL_LIBDIR}\")
+  set(includedir \"${CMAKE_INSTALL_INCLUDEDIR}\")
+  cmake_path(ABSOLUTE_PATH libdir BASE_DIRECTORY \"\${prefix}\")
+  cmake_path(ABSOLUTE_PATH includedir BASE_DIRECTORY \"\${prefix}\")
+  configure_file(\"${PROJECT_SOURCE_DIR}/cmake/libicc.pc.in\"
+                 \"${PROJECT_BINARY_DIR}/libicc.pc\" @ONLY)"
+  COMPONENT Development)
+install(FILES ${PROJECT_BINARY_DIR}/libicc.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
+  COMPONENT Development)

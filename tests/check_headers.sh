@@ -1,0 +1,44 @@
+#!/bin/sh
+# Each public header compiles by itself as C and C++ of every age, and is plain C for those who parse
+# headers instead of compiling them.
+# usage: check_headers.sh INCLUDE_DIR
+set -eu
+include=$1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+failed=0
+
+# check COMPILER LANGUAGE STANDARD FLAG...
+check() {
+    compiler=$1 language=$2 standard=$3
+    shift 3
+    if ! "$compiler" -x "$language" -std="$standard" -pedantic -Wall -Wextra -Werror "$@" \
+        -I"$include" -fsyntax-only "$work/one.c" 2>"$work/log"; then
+        echo "icc/$name does not compile with $compiler -std=$standard $*:"
+        cat "$work/log"
+        failed=1
+    fi
+}
+
+for compiler in gcc clang; do
+    command -v "$compiler" >/dev/null || continue
+    for header in "$include"/icc/*.h; do
+        name=${header##*/}
+        printf '#include <icc/%s>\n#include <icc/%s>\nextern int icc_self_contained;\n' \
+            "$name" "$name" >"$work/one.c"
+        for standard in c99 c11 c17 c2x; do
+            check "$compiler" c "$standard" -Wstrict-prototypes -Wundef
+        done
+        # C++98 has no <cstdint> and no long long; every compiler has both nevertheless.
+        check "$compiler" c++ c++98 -Wno-long-long
+        for standard in c++11 c++14 c++17 c++20; do
+            check "$compiler" c++ "$standard" -Wundef
+        done
+        if "$compiler" -E -P -DICC_STATIC -I"$include" "$work/one.c" |
+            sed -n '/icc_status/,$p' | grep -n '__attribute__\|__declspec\|__asm'; then
+            echo "icc/$name is not plain C with -DICC_STATIC"
+            failed=1
+        fi
+    done
+done
+exit $failed

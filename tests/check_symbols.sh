@@ -1,0 +1,37 @@
+#!/bin/sh
+# The shared library exports exactly the functions that the public headers declare, under the version
+# ICC_0, and the static one defines nothing outside icc_ and iccp_.
+# usage: check_symbols.sh CC NM INCLUDE_DIR SHARED_LIBRARY STATIC_LIBRARY
+set -eu
+cc=$1 nm=$2 include=$3 shared=$4 static=$5
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+# Each declaration of an exported function, put on one line, is what carries the attribute.
+for header in "$include"/icc/*.h; do
+    echo "#include <icc/${header##*/}>"
+done >"$work/all.c"
+"$cc" -E -P -I"$include" "$work/all.c" | tr '\n' ' ' | tr ';' '\n' |
+    sed -n 's/.*visibility("default").*[^a-z0-9_]\(icc_[a-z0-9_]*\)(.*/\1/p' |
+    sort -u >"$work/declared"
+"$nm" -D --defined-only "$shared" | awk '$2 != "A" { print $3 }' | sort >"$work/versioned"
+sed 's/@@ICC_0$//' "$work/versioned" >"$work/exported"
+
+failed=0
+if ! [ -s "$work/declared" ]; then
+    echo "no declarations found in $include/icc"
+    failed=1
+fi
+if ! diff -u "$work/declared" "$work/exported"; then
+    echo "-: declared but not exported; +: exported but not declared (or without version ICC_0)"
+    failed=1
+fi
+# The sanitizers mark each global with a twin of their own.
+"$nm" -g --defined-only "$static" | awk 'NF == 3 { print $3 }' |
+    grep -v -e '^icc_' -e '^iccp_' -e '^__odr_asan' >"$work/foreign" || true
+if [ -s "$work/foreign" ]; then
+    echo "the static library defines names outside icc_ and iccp_:"
+    cat "$work/foreign"
+    failed=1
+fi
+exit $failed

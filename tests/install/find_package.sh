@@ -1,0 +1,39 @@
+#!/bin/sh
+# find_package(libicc): C and C++, shared and static. It fails where libicc is not installed.
+# usage: find_package.sh CMAKE STAGE WORK_DIR CC C_FLAGS
+set -eu
+cmake=$1 stage=$2 work=$3 cc=$4 flags=$5
+here=$(cd "$(dirname "$0")" && pwd)
+rm -rf "$work"
+mkdir -p "$work"
+version=$(sed -n 's/^Version: //p' "$(find "$stage" -name libicc.pc)")
+
+configure() {
+    "$cmake" -S "$here/find_package" -B "$1" -DCMAKE_PREFIX_PATH="$2" -DCMAKE_C_COMPILER="$cc" \
+        -DCMAKE_C_FLAGS="$flags" -DCMAKE_CXX_FLAGS="$flags" \
+        -DCMAKE_FIND_USE_SYSTEM_ENVIRONMENT_PATH=OFF -DCMAKE_FIND_USE_CMAKE_SYSTEM_PATH=OFF \
+        -DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF >"$1.log" 2>&1
+}
+
+if configure "$work/without" "$work/nowhere"; then
+    echo "configured although libicc is not there"
+    exit 1
+fi
+grep -q 'libicc' "$work/without.log"
+
+configure "$work/build" "$stage" || { cat "$work/build.log"; exit 1; }
+"$cmake" --build "$work/build" >"$work/build.log" 2>&1 || { cat "$work/build.log"; exit 1; }
+for program in shared_c shared_cpp static_c static_cpp; do
+    "$work/build/$program" "$version"
+done
+
+# The shared programs need the library at run time, the static ones do not.
+for program in shared_c shared_cpp; do
+    objdump -p "$work/build/$program" | grep -q 'NEEDED *libicc.so.0'
+done
+for program in static_c static_cpp; do
+    if objdump -p "$work/build/$program" | grep -q 'NEEDED *libicc'; then
+        echo "$program is not static"
+        exit 1
+    fi
+done
