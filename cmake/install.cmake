@@ -2,20 +2,14 @@
 # pkg-config files), Tools (the command).
 set(cmake_dir ${CMAKE_INSTALL_LIBDIR}/cmake/libicc)
 
-foreach(kind shared static)
-  string(TOUPPER ${kind} KIND)
-  if(NOT ICC_BUILD_${KIND})
-    continue()
+foreach(target IN ITEMS icc icc_static)
+  if(TARGET ${target})
+    install(TARGETS ${target} EXPORT ${target}
+      RUNTIME COMPONENT Runtime
+      LIBRARY COMPONENT Runtime NAMELINK_COMPONENT Development
+      ARCHIVE COMPONENT Development)
+    install(EXPORT ${target} NAMESPACE libicc:: DESTINATION ${cmake_dir} COMPONENT Development)
   endif()
-  set(target icc)
-  if(kind STREQUAL static)
-    set(target icc_static)
-  endif()
-  install(TARGETS ${target} EXPORT libicc-${kind}
-    RUNTIME COMPONENT Runtime
-    LIBRARY COMPONENT Runtime NAMELINK_COMPONENT Development
-    ARCHIVE COMPONENT Development)
-  install(EXPORT libicc-${kind} NAMESPACE libicc:: DESTINATION ${cmake_dir} COMPONENT Development)
 endforeach()
 
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/icc DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}

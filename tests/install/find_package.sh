@@ -10,16 +10,17 @@ version=$(sed -n 's/^Version: //p' "$(find "$stage" -name libicc.pc)")
 
 configure() {
     "$cmake" -S "$here/find_package" -B "$1" -DCMAKE_PREFIX_PATH="$2" -DCMAKE_C_COMPILER="$cc" \
-        -DCMAKE_C_FLAGS="$flags" -DCMAKE_CXX_FLAGS="$flags" \
-        -DCMAKE_FIND_USE_SYSTEM_ENVIRONMENT_PATH=OFF -DCMAKE_FIND_USE_CMAKE_SYSTEM_PATH=OFF \
-        -DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF >"$1.log" 2>&1
+        -DCMAKE_C_FLAGS="$flags" -DCMAKE_CXX_FLAGS="$flags" >"$1.log" 2>&1
 }
 
 if configure "$work/without" "$work/nowhere"; then
     echo "configured although libicc is not there"
     exit 1
 fi
-grep -q 'libicc' "$work/without.log"
+grep -q 'configuration file provided by "libicc"' "$work/without.log" || {
+    cat "$work/without.log"
+    exit 1
+}
 
 configure "$work/build" "$stage" || { cat "$work/build.log"; exit 1; }
 "$cmake" --build "$work/build" >"$work/build.log" 2>&1 || { cat "$work/build.log"; exit 1; }

@@ -31,11 +31,10 @@ if "$work/shared" "$version" 2>/dev/null; then
     exit 1
 fi
 
-# Without libicc.so beside it the linker takes libicc.a.
-mkdir "$work/static_only"
-cp "$lib/libicc.a" "$work/static_only"
+# The linker takes the first folder that has any libicc, here one without libicc.so.
+mkdir "$work/only_static"
+cp "$lib/libicc.a" "$work/only_static"
 # shellcheck disable=SC2046,SC2086
 "$cc" $flags $(pkg-config --cflags libicc) "$here/consumer.c" -o "$work/static" \
-    -L"$work/static_only" -Wl,-Bstatic -licc -Wl,-Bdynamic \
-    $(pkg-config --static --libs-only-l libicc | sed 's/-licc//')
+    -L"$work/only_static" $(pkg-config --static --libs libicc)
 "$work/static" "$version"

@@ -10,6 +10,8 @@ pc=$(find "$stage" -name libicc.pc)
 export PKG_CONFIG_LIBDIR="${pc%/*}"
 lib=$(dirname "${pc%/*}")
 
+# The backticks are those of the text.
+# shellcheck disable=SC2016
 sed -n '/^```c$/,/^```$/p' "$here/../../README.md" | grep -v '^```' >"$work/readme.c"
 # The flags are lists of words.
 # shellcheck disable=SC2046,SC2086
