@@ -331,11 +331,11 @@ enum {
 
 /** Options of icc_map_create(). */
 typedef struct icc_map_options {
-    size_t size;                  /**< set by the caller: `sizeof(icc_map_options)` */
-    int32_t kind;                 /**< `ICC_MAP_*`; 0: the best that there is */
-    icc_chart_options chart;      /**< for the source; its `size` must be set unless all is 0 */
-    const double *target_maximum; /**< where the target's maximum shall be, or NULL: as the method
-                                       chooses. (`chart.maximum` is the source's.) */
+    size_t size;                    /**< set by the caller: `sizeof(icc_map_options)` */
+    int32_t kind;                   /**< `ICC_MAP_*`; 0: the best that there is */
+    const icc_chart_options *chart; /**< for both charts, or NULL; its `maximum` is the source's */
+    const double *target_maximum;   /**< where the target's maximum shall be, or NULL: as the method
+                                         chooses */
 } icc_map_options;
 
 /** What icc_map_get_info() tells. */

@@ -1,0 +1,139 @@
+/* Argument checks of the chart functions. */
+#include "base/error.h"
+#include "base/options.h"
+#include "chart/bulk.h"
+#include "chart/create.h"
+
+#include <math.h>
+#include <string.h>
+
+icc_status icc_chart_create(icc_chart **out, const icc_domain *domain,
+                            const icc_chart_options *options, const icc_env *env, icc_error *err)
+{
+    if (out != NULL)
+        *out = NULL;
+    if (out == NULL || domain == NULL)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_chart_create: %s is NULL",
+                         out == NULL ? "out" : "domain");
+    iccp_env full_env;
+    icc_chart_options full;
+    icc_status status = iccp_env_read(&full_env, env, err);
+    if (status == ICC_OK)
+        status = iccp_read_struct(&full, sizeof full, options, "icc_chart_options", err);
+    return status == ICC_OK ? iccp_chart_create(out, domain, &full, &full_env, err) : status;
+}
+
+void icc_chart_free(icc_chart *chart)
+{
+    iccp_chart_release(chart);
+}
+
+icc_status icc_chart_get_info(const icc_chart *chart, icc_chart_info *info)
+{
+    if (chart == NULL || info == NULL)
+        return ICC_ERR_ARGUMENT;
+    return iccp_write_struct(info, &chart->info, sizeof chart->info, "icc_chart_info", NULL);
+}
+
+const icc_domain *icc_chart_domain(const icc_chart *chart)
+{
+    return chart != NULL ? chart->domain : NULL;
+}
+
+icc_status icc_chart_measure(const icc_chart *chart, size_t n_points, icc_chart_measures *measures,
+                             const icc_env *env, icc_error *err)
+{
+    if (chart == NULL || measures == NULL)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_chart_measure: %s is NULL",
+                         chart == NULL ? "chart" : "measures");
+    if (n_points > UINT32_MAX)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_chart_measure: %zu points are too many",
+                         n_points);
+    iccp_env full_env;
+    icc_chart_measures full = {0};
+    icc_status status = iccp_env_read(&full_env, env, err);
+    if (status == ICC_OK)
+        status = chart->ops->measure(chart, n_points > 0 ? n_points : 4096, &full, &full_env);
+    if (status == ICC_ERR_MEMORY)
+        return iccp_fail_memory(err);
+    return status == ICC_OK
+               ? iccp_write_struct(measures, &full, sizeof full, "icc_chart_measures", err)
+               : status;
+}
+
+icc_status icc_chart_encode(const icc_chart *chart, size_t n, const double *points,
+                            uint32_t *facet, double *bary, double *t, icc_status *status,
+                            size_t *n_failed, const icc_env *env)
+{
+    if (chart == NULL ||
+        (n > 0 && (points == NULL || facet == NULL || bary == NULL || t == NULL)))
+        return ICC_ERR_ARGUMENT;
+    iccp_env full_env;
+    const icc_status read = iccp_env_read(&full_env, env, NULL);
+    return read == ICC_OK
+               ? iccp_encode_all(chart, n, points, facet, bary, t, status, n_failed, &full_env)
+               : read;
+}
+
+icc_status icc_chart_decode(const icc_chart *chart, size_t n, const uint32_t *facet,
+                            const double *bary, const double *t, double *points,
+                            icc_status *status, size_t *n_failed, const icc_env *env)
+{
+    if (chart == NULL ||
+        (n > 0 && (points == NULL || facet == NULL || bary == NULL || t == NULL)))
+        return ICC_ERR_ARGUMENT;
+    iccp_env full_env;
+    const icc_status read = iccp_env_read(&full_env, env, NULL);
+    return read == ICC_OK
+               ? iccp_decode_all(chart, n, facet, bary, t, points, status, n_failed, &full_env)
+               : read;
+}
+
+typedef struct polyline {
+    const iccp_frame *frame;
+    int32_t dim;
+    size_t capacity, n;
+    double *points;
+} polyline;
+
+static icc_status append(void *argument, const double *local)
+{
+    polyline *line = argument;
+    if (line->n < line->capacity)
+        iccp_frame_out(line->frame, line->dim, local, line->points + (size_t)line->dim * line->n);
+    ++line->n;
+    return ICC_OK;
+}
+
+icc_status icc_chart_trace(const icc_chart *chart, const double *point, size_t capacity,
+                           double *curve, size_t *n_curve, const icc_env *env, icc_error *err)
+{
+    if (n_curve != NULL)
+        *n_curve = 0;
+    if (chart == NULL || point == NULL || n_curve == NULL || (capacity > 0 && curve == NULL))
+        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_chart_trace: an argument is NULL");
+    const int32_t dim = chart->domain->dim;
+    for (int32_t k = 0; k < dim; ++k)
+        if (!isfinite(point[k]))
+            return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_chart_trace: the point is not finite");
+    iccp_env full_env;
+    icc_status status = iccp_env_read(&full_env, env, err);
+    if (status != ICC_OK)
+        return status;
+    double local[ICC_MAX_DIM];
+    iccp_frame_in(&chart->domain->frame, dim, point, local);
+    polyline line = {&chart->domain->frame, dim, capacity, 0, curve};
+    iccp_path path;
+    iccp_path_init(&path, &full_env.memory);
+    status = chart->ops->trace(chart, local, &path, append, &line);
+    iccp_path_clear(&path);
+    if (status == ICC_ERR_OUTSIDE)
+        return iccp_fail(err, status, -1, "the point is outside the domain");
+    if (status == ICC_ERR_TRACE)
+        return iccp_fail(err, status, -1,
+                         "the curve through the point does not reach the boundary and the maximum");
+    if (status != ICC_OK)
+        return iccp_fail_memory(err);
+    *n_curve = line.n;
+    return ICC_OK;
+}

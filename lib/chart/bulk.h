@@ -1,0 +1,30 @@
+/* Bulk conversions between the caller's coordinates and a chart's. */
+#ifndef ICCP_BULK_H
+#define ICCP_BULK_H
+
+#include "chart/chart.h"
+
+/* One point in the caller's coordinates: checked, made local, encoded. */
+icc_status iccp_encode_point(const icc_chart *chart, const double *point, iccp_coords *coords,
+                             iccp_encode_jet *jet, iccp_path *path);
+
+/* One point's coordinates decoded, in the caller's coordinates; NaN when it fails. */
+icc_status iccp_decode_point(const icc_chart *chart, const iccp_coords *coords, double *point,
+                             iccp_decode_jet *jet, iccp_path *path);
+
+/* Whether an outcome concerns one point only, so that the call goes on. */
+static inline bool iccp_is_point_status(icc_status status)
+{
+    return status == ICC_OK || status == ICC_ERR_OUTSIDE || status == ICC_ERR_TRACE ||
+           status == ICC_ERR_ARGUMENT;
+}
+
+/* See icc_chart_encode() and icc_chart_decode(). */
+icc_status iccp_encode_all(const icc_chart *chart, size_t n, const double *points, uint32_t *facet,
+                           double *bary, double *t, icc_status *status, size_t *n_failed,
+                           const iccp_env *env);
+icc_status iccp_decode_all(const icc_chart *chart, size_t n, const uint32_t *facet,
+                           const double *bary, const double *t, double *points,
+                           icc_status *status, size_t *n_failed, const iccp_env *env);
+
+#endif

@@ -1,0 +1,62 @@
+/* The chart object: coordinates of a domain's inside, whatever the method. A method is a table of
+ * operations on local points; bulk calls, maps and measures are written once, on top of the table. */
+#ifndef ICCP_CHART_H
+#define ICCP_CHART_H
+
+#include "domain/domain.h"
+#include "icc/icc.h"
+#include "trace/path.h"
+
+/* Coordinates of one point. */
+typedef struct iccp_coords {
+    uint32_t facet;
+    double bary[ICC_MAX_DIM];
+    double t;
+} iccp_coords;
+
+/* Derivative of coordinates by the local point: bary[i * dim + j] of bary i by point coordinate j. */
+typedef struct iccp_encode_jet {
+    double bary[ICC_MAX_DIM * ICC_MAX_DIM];
+    double t[ICC_MAX_DIM];
+} iccp_encode_jet;
+
+/* Derivative of the local point by coordinates: bary[i * dim + j] of point coordinate i by bary j, bary
+ * 0 giving way (column 0 is zero). */
+typedef struct iccp_decode_jet {
+    double bary[ICC_MAX_DIM * ICC_MAX_DIM];
+    double t[ICC_MAX_DIM];
+} iccp_decode_jet;
+
+/* A curve as a polyline of local points, from the boundary to the maximum; for icc_chart_trace(). */
+typedef icc_status (*iccp_emit)(void *argument, const double *local);
+
+typedef struct iccp_chart_ops {
+    /* The point is inside or on the boundary. `jet` may be NULL; it is refused (ICC_ERR_TRACE) where there
+     * is no derivative. `path` is scratch. */
+    icc_status (*encode)(const icc_chart *chart, const double *point, iccp_coords *coords,
+                         iccp_encode_jet *jet, iccp_path *path);
+    icc_status (*decode)(const icc_chart *chart, const iccp_coords *coords, double *point,
+                         iccp_decode_jet *jet, iccp_path *path);
+    icc_status (*trace)(const icc_chart *chart, const double *point, iccp_path *path,
+                        iccp_emit emit, void *argument);
+    /* Fills in everything but `size`. n_points > 0. */
+    icc_status (*measure)(const icc_chart *chart, size_t n_points, icc_chart_measures *measures,
+                          const iccp_env *env);
+    void (*free_state)(icc_chart *chart);
+} iccp_chart_ops;
+
+struct icc_chart {
+    iccp_memory memory;
+    atomic_size_t references;
+    icc_domain *domain;
+    icc_chart_info info;       /* with the maximum in the caller's coordinates */
+    const iccp_chart_ops *ops;
+    void *state;               /* the method's own */
+};
+
+/* A chart without a method yet: the creator of a method fills in ops, state and info. */
+icc_status iccp_chart_new(icc_chart **out, const icc_domain *domain, const iccp_env *env);
+icc_chart *iccp_chart_retain(const icc_chart *chart);
+void iccp_chart_release(icc_chart *chart);
+
+#endif

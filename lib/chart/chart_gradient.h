@@ -1,0 +1,12 @@
+/* Method gradient: Integral Curve Coordinates as published, in 2-D. */
+#ifndef ICCP_CHART_GRADIENT_H
+#define ICCP_CHART_GRADIENT_H
+
+#include "chart/chart.h"
+
+/* `options` is complete: function, tree and cells are not 0. */
+icc_status iccp_chart_gradient_create(icc_chart **out, const icc_domain *domain,
+                                      const icc_chart_options *options, const iccp_env *env,
+                                      icc_error *err);
+
+#endif

@@ -1,0 +1,35 @@
+/* What a gradient chart knows, shared by the chart and its measures. */
+#ifndef ICCP_GRADIENT_STATE_H
+#define ICCP_GRADIENT_STATE_H
+
+#include "trace/walk2.h"
+
+typedef struct iccp_gradient_state {
+    icc_tree *tree;
+    icc_field *field;
+    iccp_fence fence;
+    double root[2];     /* the maximum in lattice coordinates */
+    double root_reach;  /* lattice: a point this close is the maximum */
+} iccp_gradient_state;
+
+static inline void iccp_gradient_to_lattice(const iccp_gradient_state *state, const double local[2],
+                                            double lattice[2])
+{
+    const icc_grid *grid = state->tree->grid;
+    for (int k = 0; k < 2; ++k)
+        lattice[k] = (local[k] - grid->origin[k]) / grid->spacing;
+}
+
+static inline void iccp_gradient_to_local(const iccp_gradient_state *state,
+                                          const double lattice[2], double local[2])
+{
+    const icc_grid *grid = state->tree->grid;
+    for (int k = 0; k < 2; ++k)
+        local[k] = lattice[k] * grid->spacing + grid->origin[k];
+}
+
+/* From a local boundary point to the maximum; see iccp_trace_uphill(). `jet` may be NULL. */
+icc_status iccp_gradient_ascend(const iccp_gradient_state *state, const double boundary[2],
+                                iccp_path *path, double *merge, iccp_jet2 *jet);
+
+#endif
