@@ -163,16 +163,6 @@ static icc_status encode(const icc_chart *chart, const double *point, iccp_coord
 
 /* ---- Algorithm 8: ICC to Cartesian ---- */
 
-icc_status iccp_gradient_ascend(const iccp_gradient_state *state, const double boundary[2],
-                                iccp_path *path, double *merge, iccp_jet2 *jet)
-{
-    double p[2];
-    iccp_gradient_to_lattice(state, boundary, p);
-    iccp_walk2 walk;
-    icc_status status = iccp_walk2_start(&walk, state->field, ICCP_UPHILL, p[0], p[1], jet);
-    return status == ICC_OK ? iccp_trace_uphill(&walk, path, merge) : status;
-}
-
 /* The derivative by the boundary parameter needs the walk up to the piece that holds the point, and the
  * whole length's: walk again with a jet. The path tells how far. */
 static icc_status fill_decode_jet(const iccp_gradient_state *state, const double start[2],
