@@ -12,8 +12,13 @@ struct icc_field {
     double *values;    /* one per grid vertex; NaN where the tree does not reach */
 };
 
+/* See icc_field_create(). The decay would underflow from some 13,850 generations on (cells = 16384
+ * get there); from there on the values are -1, -2, .., so that they always fall from one generation to
+ * the next. */
 icc_status iccp_field_create(icc_field **out, const icc_tree *tree, int32_t function,
                              const iccp_env *env, icc_error *err);
+
+/* Takes part in keeping a field alive, which is logically const for the one who asks. */
 icc_field *iccp_field_retain(const icc_field *field);
 void iccp_field_release(icc_field *field);
 

@@ -12,6 +12,12 @@
 /* No vertex. */
 #define ICCP_NONE UINT32_MAX
 
+/* Most vertices that a grid may have. */
+#define ICCP_MAX_VERTICES ((size_t)1 << 28)
+
+/* Loops over vertices report progress once per so many of them. */
+#define ICCP_VERTICES_PER_REPORT ((size_t)1 << 16)
+
 struct icc_grid {
     iccp_memory memory;
     atomic_size_t references;
@@ -25,22 +31,37 @@ struct icc_grid {
     uint8_t *inside;             /* 1 or 0 */
 };
 
-/* See icc_grid_create(); cells in 2..16384. Along the longest side there are exactly `cells` vertices
- * inside the bounding box, half a cell away from it at both ends; the other axes are centred. Two
- * layers of vertices lie beyond the bounding box on every side. */
-icc_status iccp_grid_create(icc_grid **out, const icc_domain *domain, int32_t cells,
-                            const iccp_env *env, icc_error *err);
+/* A lattice with every vertex outside, origin 0, spacing 1 and the identity frame. The shape has no
+ * zeros. ICC_ERR_RESOLUTION beyond ICCP_MAX_VERTICES. */
+icc_status iccp_grid_new(icc_grid **out, int32_t dim, const size_t *shape, const iccp_env *env,
+                         icc_error *err);
 
+/* See icc_grid_create_mask(). */
 icc_status iccp_grid_create_mask(icc_grid **out, int32_t dim, const size_t *shape,
                                  const uint8_t *inside, const iccp_env *env, icc_error *err);
 
+/* Takes part in keeping a grid alive, which is logically const for the one who asks. */
 icc_grid *iccp_grid_retain(const icc_grid *grid);
 void iccp_grid_release(icc_grid *grid);
 
-/* The neighbour of a vertex one step along axis k (step +1 or -1), or ICCP_NONE at the border. */
-uint32_t iccp_grid_neighbour(const icc_grid *grid, uint32_t vertex, int32_t k, int32_t step);
-
 /* The inside vertex nearest to a local point; the smallest index of several. ICCP_NONE if none. */
 uint32_t iccp_grid_nearest(const icc_grid *grid, const double *point);
+
+static inline uint32_t iccp_grid_coordinate(const icc_grid *grid, uint32_t vertex, int32_t k)
+{
+    return vertex / (uint32_t)grid->stride[k] % (uint32_t)grid->shape[k];
+}
+
+/* The neighbour of a vertex one step along axis k (step +1 or -1), or ICCP_NONE at the border. */
+static inline uint32_t iccp_grid_neighbour(const icc_grid *grid, uint32_t vertex, int32_t k,
+                                           int32_t step)
+{
+    const uint32_t stride = (uint32_t)grid->stride[k];
+    const uint32_t block = stride * (uint32_t)grid->shape[k];
+    const uint32_t within = vertex % block;
+    if (step < 0)
+        return within < stride ? ICCP_NONE : vertex - stride;
+    return within >= block - stride ? ICCP_NONE : vertex + stride;
+}
 
 #endif
