@@ -26,6 +26,7 @@ struct icc_domain {
     double upper[ICC_MAX_DIM];
     double tolerance;             /* local: 1e-14 of the longest side of the bounding box; points
                                      this close to the boundary are on it */
+    double measure;               /* local area */
     struct iccp_locator *locator;
 };
 
@@ -46,7 +47,8 @@ void iccp_domain_release(icc_domain *domain);
 int32_t iccp_domain_locate(const icc_domain *domain, const double *point, bool boundary_only,
                            uint32_t *facet, double *bary);
 
-/* The local point with the given barycentric coordinates on a facet: exact at the vertices. */
+/* The local point with the given barycentric coordinates on a facet: exact at the vertices, and in a
+ * coordinate that both ends share. */
 void iccp_domain_facet_point(const icc_domain *domain, uint32_t facet, const double *bary,
                              double *point);
 

@@ -10,6 +10,11 @@
 
 #include "icc/icc.h"
 
+#include <stdbool.h>
+
+/* 2^-200, the smallest local magnitude but zero that the exact predicates promise to work with. */
+#define ICCP_FRAME_SMALLEST 6.22301527786114170714e-61
+
 typedef struct iccp_frame {
     double shift[ICC_MAX_DIM]; /* caller's coordinate that becomes 0 */
     double in[2];              /* local = (x - shift) * in[0] * in[1] */
@@ -22,6 +27,10 @@ extern const iccp_frame iccp_frame_identity;
 /* The frame of finite points: n of them, dim coordinates each; n >= 1. The largest local magnitude
  * lies in [1/2, 1], or all are 0. */
 void iccp_frame_fit(iccp_frame *frame, int32_t dim, size_t n, const double *points);
+
+/* Whether the local coordinates of a vertex are 0 or at least ICCP_FRAME_SMALLEST. If so for all
+ * vertices, the scaling loses no bit of them. */
+bool iccp_frame_holds(const iccp_frame *frame, int32_t dim, const double *x);
 
 static inline void iccp_frame_in(const iccp_frame *frame, int32_t dim, const double *x, double *local)
 {

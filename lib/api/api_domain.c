@@ -1,0 +1,143 @@
+#include "base/env.h"
+#include "base/error.h"
+#include "base/options.h"
+#include "base/threads.h"
+#include "domain/domain.h"
+#include "domain/polygon.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Vertices, facets and cells are numbered with 32 bits. */
+static const size_t MAX_COUNT = UINT32_MAX / 4;
+
+static icc_status check_counts(size_t n_vertices, const double *vertices, size_t n_facets,
+                               const uint32_t *facets, icc_error *err)
+{
+    if (vertices == NULL && n_vertices > 0)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "vertices is NULL");
+    if (n_vertices > MAX_COUNT)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "%zu vertices are too many; at most %zu",
+                         n_vertices, MAX_COUNT);
+    if (facets != NULL && n_facets > MAX_COUNT)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "%zu facets are too many; at most %zu",
+                         n_facets, MAX_COUNT);
+    return ICC_OK;
+}
+
+icc_status icc_domain_create(icc_domain **out, int32_t dim, size_t n_vertices,
+                             const double *vertices, size_t n_facets, const uint32_t *facets,
+                             const icc_env *env, icc_error *err)
+{
+    if (out == NULL)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "out is NULL");
+    *out = NULL;
+    if (dim < 1 || dim > ICC_MAX_DIM)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "dim is %ld; it must lie in 1..%d", (long)dim,
+                         ICC_MAX_DIM);
+    if (dim != 2)
+        return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1,
+                         "dim is %ld; only domains of dimension 2 can be made", (long)dim);
+    iccp_env full;
+    icc_status status = iccp_env_read(&full, env, err);
+    if (status == ICC_OK)
+        status = check_counts(n_vertices, vertices, n_facets, facets, err);
+    if (status != ICC_OK)
+        return status;
+    return iccp_domain_create(out, dim, n_vertices, vertices, n_facets, facets, &full, err);
+}
+
+void icc_domain_free(icc_domain *domain)
+{
+    iccp_domain_release(domain);
+}
+
+icc_status icc_domain_get_info(const icc_domain *domain, icc_domain_info *info)
+{
+    if (domain == NULL || info == NULL)
+        return ICC_ERR_ARGUMENT;
+    const iccp_frame *frame = &domain->frame;
+    icc_domain_info full = {0};
+    full.dim = domain->dim;
+    full.orientation = domain->orientation;
+    full.n_vertices = domain->n_vertices;
+    full.n_facets = domain->n_facets;
+    iccp_frame_out(frame, domain->dim, domain->lower, full.lower);
+    iccp_frame_out(frame, domain->dim, domain->upper, full.upper);
+    full.measure = domain->measure;
+    for (int32_t k = 0; k < domain->dim; ++k)
+        full.measure = full.measure * frame->out[0] * frame->out[1];
+    return iccp_write_struct(info, &full, sizeof full, "icc_domain_info", NULL);
+}
+
+icc_status icc_domain_get_boundary(const icc_domain *domain, double *vertices, uint32_t *facets)
+{
+    if (domain == NULL)
+        return ICC_ERR_ARGUMENT;
+    const size_t dim = (size_t)domain->dim;
+    if (vertices != NULL)
+        memcpy(vertices, domain->given, domain->n_vertices * dim * sizeof *vertices);
+    if (facets != NULL)
+        memcpy(facets, domain->facets, domain->n_facets * dim * sizeof *facets);
+    return ICC_OK;
+}
+
+typedef struct locate_call {
+    const icc_domain *domain;
+    const double *points;
+    int32_t *where;
+    uint32_t *facet;
+    double *bary;
+} locate_call;
+
+static void locate_point(const locate_call *call, size_t i)
+{
+    const size_t dim = (size_t)call->domain->dim;
+    double local[ICC_MAX_DIM], bary[ICC_MAX_DIM];
+    uint32_t facet = 0;
+    iccp_frame_in(&call->domain->frame, call->domain->dim, call->points + dim * i, local);
+    const bool nearest = call->facet != NULL || call->bary != NULL;
+    call->where[i] = iccp_domain_locate(call->domain, local, !nearest, nearest ? &facet : NULL, bary);
+    if (call->facet != NULL)
+        call->facet[i] = facet;
+    if (call->bary != NULL)
+        memcpy(call->bary + dim * i, bary, dim * sizeof *bary);
+}
+
+static icc_status locate_chunk(void *argument, size_t begin, size_t end)
+{
+    for (size_t i = begin; i < end; ++i)
+        locate_point(argument, i);
+    return ICC_OK;
+}
+
+icc_status icc_domain_locate(const icc_domain *domain, size_t n, const double *points,
+                             int32_t *where, uint32_t *facet, double *bary, const icc_env *env)
+{
+    if (domain == NULL || (n > 0 && (points == NULL || where == NULL)))
+        return ICC_ERR_ARGUMENT;
+    iccp_env full;
+    const icc_status status = iccp_env_read(&full, env, NULL);
+    if (status != ICC_OK)
+        return status;
+    locate_call call = {domain, points, where, facet, bary};
+    return iccp_for_chunks(&full, "locate", n, 1024, locate_chunk, &call);
+}
+
+icc_status icc_boundary_defects(size_t n_vertices, const double *vertices, size_t capacity,
+                                int32_t *kinds, uint32_t *items, size_t *n_defects,
+                                const icc_env *env, icc_error *err)
+{
+    if (n_defects == NULL)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "n_defects is NULL");
+    *n_defects = 0;
+    if (capacity > 0 && (kinds == NULL || items == NULL))
+        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "kinds or items is NULL");
+    iccp_env full;
+    icc_status status = iccp_env_read(&full, env, err);
+    if (status == ICC_OK)
+        status = check_counts(n_vertices, vertices, 0, NULL, err);
+    if (status != ICC_OK)
+        return status;
+    return iccp_boundary_defects(n_vertices, vertices, capacity, kinds, items, n_defects, &full, err);
+}

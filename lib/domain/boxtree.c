@@ -1,0 +1,179 @@
+/* Strip tree in the manner of D. H. Ballard, Strip trees: a hierarchical representation for curves,
+ * 1981, with boxes for strips: the tree halves the ring, not the plane. Consecutive edges lie close
+ * together, so no sorting is needed. */
+#include "domain/boxtree.h"
+
+#include "domain/segment.h"
+
+#include <math.h>
+
+enum {
+    LEAF = 4,  /* edges in a leaf */
+    DEEP = 64  /* more than any path is long */
+};
+
+static const iccp_box empty = {{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
+
+static void include(iccp_box *box, const double *lower, const double *upper)
+{
+    for (int k = 0; k < 2; ++k) {
+        box->lower[k] = lower[k] < box->lower[k] ? lower[k] : box->lower[k];
+        box->upper[k] = upper[k] > box->upper[k] ? upper[k] : box->upper[k];
+    }
+}
+
+static bool overlap(const iccp_box *a, const iccp_box *b)
+{
+    return a->lower[0] <= b->upper[0] && b->lower[0] <= a->upper[0] &&
+           a->lower[1] <= b->upper[1] && b->lower[1] <= a->upper[1];
+}
+
+static iccp_box edge_box(const iccp_boxtree *tree, size_t edge)
+{
+    const double *a = tree->points + 2 * edge;
+    iccp_box box = empty;
+    include(&box, a, a);
+    include(&box, a + 2, a + 2);
+    return box;
+}
+
+static size_t leaf_end(const iccp_boxtree *tree, size_t node)
+{
+    const size_t end = (node - tree->n_leaves + 1) * LEAF;
+    return end < tree->n ? end : tree->n;
+}
+
+void iccp_boxtree_create(iccp_boxtree *tree, const double *points, size_t n,
+                         const iccp_memory *memory)
+{
+    *tree = (iccp_boxtree){.points = points, .n = n, .n_leaves = 1};
+    while (tree->n_leaves * LEAF < n)
+        tree->n_leaves *= 2;
+    tree->boxes = iccp_alloc(memory, 2 * tree->n_leaves, sizeof *tree->boxes);
+    if (tree->boxes == NULL)
+        return;
+    for (size_t node = 2 * tree->n_leaves; node-- > 0;)
+        tree->boxes[node] = empty;
+    for (size_t edge = 0; edge < n; ++edge) {
+        const iccp_box box = edge_box(tree, edge);
+        include(&tree->boxes[tree->n_leaves + edge / LEAF], box.lower, box.upper);
+    }
+    for (size_t node = 2 * tree->n_leaves; node-- > 2;)
+        include(&tree->boxes[node / 2], tree->boxes[node].lower, tree->boxes[node].upper);
+}
+
+void iccp_boxtree_free(iccp_boxtree *tree, const iccp_memory *memory)
+{
+    iccp_free(memory, tree->boxes);
+    *tree = (iccp_boxtree){0};
+}
+
+void iccp_boxtree_start(iccp_boxtree_query *query, const iccp_boxtree *tree, uint32_t after)
+{
+    const size_t first = (size_t)after + 1;
+    *query = (iccp_boxtree_query){.tree = tree, .box = edge_box(tree, after), .next = first};
+    query->node = tree->n_leaves + after / LEAF;
+    query->end = leaf_end(tree, query->node);
+}
+
+/* The node after a node and all below it, from left to right; 0 at the end. */
+static size_t skip(size_t node)
+{
+    while (node & 1)
+        node >>= 1;
+    return node == 0 ? 0 : node + 1;
+}
+
+static bool next_leaf(iccp_boxtree_query *query)
+{
+    const iccp_boxtree *tree = query->tree;
+    size_t node = skip(query->node);
+    while (node != 0) {
+        if (!overlap(&tree->boxes[node], &query->box))
+            node = skip(node);
+        else if (node < tree->n_leaves)
+            node = 2 * node;
+        else
+            break;
+    }
+    query->node = node;
+    if (node == 0)
+        return false;
+    query->next = (node - tree->n_leaves) * LEAF;
+    query->end = leaf_end(tree, node);
+    return true;
+}
+
+bool iccp_boxtree_next(iccp_boxtree_query *query, uint32_t *edge)
+{
+    do {
+        while (query->next < query->end) {
+            const size_t e = query->next++;
+            const iccp_box box = edge_box(query->tree, e);
+            if (overlap(&box, &query->box)) {
+                *edge = (uint32_t)e;
+                return true;
+            }
+        }
+    } while (next_leaf(query));
+    return false;
+}
+
+static double box_distance2(const iccp_box *box, const double *p)
+{
+    double sum = 0;
+    for (int k = 0; k < 2; ++k) {
+        const double below = box->lower[k] - p[k], above = p[k] - box->upper[k];
+        const double d = below > above ? below : above;
+        sum += d > 0 ? d * d : 0;
+    }
+    return sum;
+}
+
+typedef struct nearest {
+    uint32_t edge;
+    double t, distance2;
+} nearest;
+
+static void search_leaf(const iccp_boxtree *tree, size_t node, const double *p, nearest *best)
+{
+    const size_t end = leaf_end(tree, node);
+    for (size_t e = (node - tree->n_leaves) * LEAF; e < end; ++e) {
+        const double *a = tree->points + 2 * e;
+        double t;
+        const double distance2 = iccp_segment_nearest(a, a + 2, p, &t);
+        if (distance2 < best->distance2 || (distance2 == best->distance2 && e < best->edge))
+            *best = (nearest){(uint32_t)e, t, distance2};
+    }
+}
+
+uint32_t iccp_boxtree_nearest(const iccp_boxtree *tree, const double *p, double *t,
+                              double *distance2)
+{
+    struct {
+        size_t node;
+        double distance2;
+    } stack[DEEP];
+    nearest best = {UINT32_MAX, 0, HUGE_VAL};
+    size_t depth = 0, node = 1;
+    for (;;) {
+        while (node < tree->n_leaves) {
+            const double left = box_distance2(&tree->boxes[2 * node], p);
+            const double right = box_distance2(&tree->boxes[2 * node + 1], p);
+            const size_t far = right < left ? 2 * node : 2 * node + 1;
+            stack[depth].node = far;
+            stack[depth++].distance2 = right < left ? left : right;
+            node = far ^ 1;
+        }
+        search_leaf(tree, node, p, &best);
+        do {
+            if (depth == 0) {
+                *t = best.t;
+                *distance2 = best.distance2;
+                return best.edge;
+            }
+            --depth;
+        } while (stack[depth].distance2 > best.distance2);
+        node = stack[depth].node;
+    }
+}

@@ -1,0 +1,44 @@
+/* A tree of bounding boxes over the edges of a ring. */
+#ifndef ICCP_BOXTREE_H
+#define ICCP_BOXTREE_H
+
+#include "base/memory.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct iccp_box {
+    double lower[2], upper[2];
+} iccp_box;
+
+/* A complete binary tree stored as a heap: node i has children 2 i and 2 i + 1, node 1 is the root.
+ * Leaf n_leaves + j holds edges 4 j to 4 j + 3; boxes of leaves beyond the last edge are empty. */
+typedef struct iccp_boxtree {
+    const double *points; /* n + 1 points, borrowed; edge k joins points k and k + 1 */
+    size_t n;
+    size_t n_leaves;
+    iccp_box *boxes;
+} iccp_boxtree;
+
+/* Coordinates that are NaN belong to no box. tree->boxes is NULL if there is no memory. */
+void iccp_boxtree_create(iccp_boxtree *tree, const double *points, size_t n,
+                         const iccp_memory *memory);
+void iccp_boxtree_free(iccp_boxtree *tree, const iccp_memory *memory);
+
+/* Lists the edges after edge `after` whose boxes meet that of `after`, in ascending order. */
+typedef struct iccp_boxtree_query {
+    const iccp_boxtree *tree;
+    iccp_box box;
+    size_t node;
+    size_t next, end; /* edges of the current leaf yet to be looked at */
+} iccp_boxtree_query;
+
+void iccp_boxtree_start(iccp_boxtree_query *query, const iccp_boxtree *tree, uint32_t after);
+bool iccp_boxtree_next(iccp_boxtree_query *query, uint32_t *edge);
+
+/* The edge nearest to p (the first of several), the share of the way along it of the nearest point,
+ * and the squared distance. */
+uint32_t iccp_boxtree_nearest(const iccp_boxtree *tree, const double *p, double *t,
+                              double *distance2);
+
+#endif

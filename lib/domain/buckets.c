@@ -1,0 +1,256 @@
+/* Point in polygon with a uniform grid: after E. Haines, Point in polygon strategies (Graphics Gems
+ * IV, 1994), "grid method", made exact. From a point one walks straight to a point of the same cell
+ * for which the answer is known, and counts the edges between. */
+#include "domain/buckets.h"
+
+#include "domain/frame.h"
+#include "domain/segment.h"
+#include "math/predicates.h"
+
+#include <assert.h>
+#include <math.h>
+#include <stdbool.h>
+#include <string.h>
+
+enum {
+    CELLS_PER_EDGE = 4,         /* at most */
+    ENTRIES_PER_EDGE = 16,      /* at most, about: bounds memory when long edges crowd the box */
+    MAX_CELLS = 1 << 26
+};
+
+/* An edge belongs to all cells that it comes this near to, in tolerances. The tolerance itself is
+ * about 20 units in the last place of the coordinates (frame.h: the box is at least 1/4 long); the
+ * rest absorbs what is lost in computing cells. */
+static const double SLACK = 4;
+
+static const double *edge_start(const iccp_buckets *b, size_t edge)
+{
+    return b->points + 2 * edge;
+}
+
+/* The column (axis 0) or row (axis 1) of a coordinate; what lies beyond the grid goes to its rim. */
+static uint32_t slot(const iccp_buckets *b, int axis, double x)
+{
+    const double s = (x - b->origin[axis]) * b->rate[axis];
+    const uint32_t last = b->size[axis] - 1;
+    return s >= (double)last ? last : s > 0 ? (uint32_t)s : 0;
+}
+
+/* Shapes the cells so that as few edges as possible share one: with Lx and Ly the lengths of the
+ * ring along the axes, edges cross about Lx / hx + Ly / hy sides of cells, which for a given area of
+ * cells is least when hx / hy = Lx / Ly. Column 0 lies outside the box, so each row starts outside. */
+static void choose_cells(iccp_buckets *b, const iccp_ring *ring)
+{
+    const double slack = SLACK * b->tolerance, n = (double)ring->n;
+    double length[2] = {0, 0}, side[2], count[2];
+    for (size_t k = 0; k < ring->n; ++k)
+        for (int axis = 0; axis < 2; ++axis)
+            length[axis] += fabs(edge_start(b, k)[2 + axis] - edge_start(b, k)[axis]);
+    for (int axis = 0; axis < 2; ++axis) {
+        side[axis] = b->upper[axis] - b->lower[axis] + 2 * slack;
+        length[axis] += slack;
+    }
+    const double cells = fmin(CELLS_PER_EDGE * n, MAX_CELLS);
+    count[0] = sqrt(cells * side[0] * length[1] / (side[1] * length[0]));
+    count[0] = fmax(1, fmin(count[0], cells));
+    count[1] = cells / count[0];
+    const double entries = length[0] / side[0] * count[0] + length[1] / side[1] * count[1];
+    const double shrink = fmin(1, ENTRIES_PER_EDGE * n / entries);
+    for (int axis = 0; axis < 2; ++axis) {
+        count[axis] = fmin(count[axis] * shrink, side[axis] / (4 * slack));
+        count[axis] = fmax(1, floor(count[axis]));
+        b->step[axis] = side[axis] / count[axis];
+        b->rate[axis] = count[axis] / side[axis];
+        b->size[axis] = (uint32_t)count[axis];
+        b->origin[axis] = b->lower[axis] - slack;
+    }
+    b->origin[0] -= b->step[0];
+    ++b->size[0];
+}
+
+/* Where an edge that runs upwards from a to b passes height y, between its ends. */
+static double x_at(const double *a, const double *b, double y)
+{
+    if (y <= a[1])
+        return a[0];
+    if (y >= b[1])
+        return b[0];
+    return a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0]);
+}
+
+/* Counts an edge in its cells, or, when `edges` is there, enters it into them from their ends. */
+static void enter(iccp_buckets *b, uint32_t edge, uint32_t *edges)
+{
+    const double slack = SLACK * b->tolerance;
+    const double *low = edge_start(b, edge), *high = low + 2;
+    if (low[1] > high[1]) {
+        low = high;
+        high = edge_start(b, edge);
+    }
+    const uint32_t last_row = slot(b, 1, high[1] + slack);
+    for (uint32_t row = slot(b, 1, low[1] - slack); row <= last_row; ++row) {
+        const double bottom = b->origin[1] + row * b->step[1];
+        const double x0 = x_at(low, high, bottom - slack);
+        const double x1 = x_at(low, high, bottom + b->step[1] + slack);
+        const uint32_t last = slot(b, 0, fmax(x0, x1) + slack);
+        iccp_bucket *const cells = b->cells + (size_t)row * b->size[0];
+        for (uint32_t column = slot(b, 0, fmin(x0, x1) - slack); column <= last; ++column) {
+            if (edges != NULL)
+                edges[--cells[column].first] = edge;
+            else
+                ++cells[column].first;
+        }
+    }
+}
+
+/* Points of a cell on a parabola, which no line meets more than twice: so one of the first 2 m + 1 is
+ * on none of m edges. */
+static void candidate(const iccp_buckets *b, uint32_t row, uint32_t column, uint32_t number, double *p)
+{
+    double u = 0.5 + 0.6180339887498949 * number;
+    u -= floor(u);
+    p[0] = b->origin[0] + (column + u) * b->step[0];
+    p[1] = b->origin[1] + (row + 0.25 + 0.5 * u * u) * b->step[1];
+}
+
+/* Whether an odd number of times the way from p to q crosses the edge, neither lying on it. A point
+ * of the edge on the line through p and q counts as left of the line: so of two edges that meet there
+ * both or one or none cross, as it should be. */
+static bool crosses(const iccp_buckets *b, uint32_t edge, const double *p, const double *q)
+{
+    const double *start = edge_start(b, edge), *end = start + 2;
+    if ((iccp_orient2d(p, q, start) >= 0) == (iccp_orient2d(p, q, end) >= 0))
+        return false;
+    return iccp_orient2d(start, end, p) != iccp_orient2d(start, end, q);
+}
+
+static bool on_an_edge(const iccp_buckets *b, const iccp_bucket *cell, const double *p)
+{
+    for (uint32_t i = cell->first; i < cell[1].first; ++i)
+        if (iccp_segment_has(edge_start(b, b->edges[i]), edge_start(b, b->edges[i]) + 2, p))
+            return true;
+    return false;
+}
+
+/* Whether the way from known point p in the cell to known point q in the next one leads from inside to
+ * outside or back. The edges of each cell are in ascending order. */
+static bool changes(const iccp_buckets *b, const iccp_bucket *cell, const double *p, const double *q)
+{
+    bool odd = false;
+    uint32_t i = cell[0].first, j = cell[1].first;
+    while (i < cell[1].first || j < cell[2].first) {
+        const uint32_t e = i < cell[1].first ? b->edges[i] : UINT32_MAX;
+        const uint32_t f = j < cell[2].first ? b->edges[j] : UINT32_MAX;
+        odd ^= crosses(b, e < f ? e : f, p, q);
+        i += e <= f;
+        j += f <= e;
+    }
+    return odd;
+}
+
+/* Finds the known point of every cell of a row, and whether it lies inside. */
+static void explore_row(iccp_buckets *b, uint32_t row)
+{
+    iccp_bucket *const cells = b->cells + (size_t)row * b->size[0];
+    double p[2], q[2];
+    bool inside = false;
+    candidate(b, row, 0, 0, p);
+    cells[0].state = 0;
+    for (uint32_t column = 1; column < b->size[0]; ++column) {
+        uint32_t number = 0;
+        candidate(b, row, column, number, q);
+        while (on_an_edge(b, &cells[column], q))
+            candidate(b, row, column, ++number, q);
+        inside ^= changes(b, &cells[column - 1], p, q);
+        cells[column].state = 2 * number + inside;
+        memcpy(p, q, sizeof p);
+    }
+}
+
+icc_status iccp_buckets_create(iccp_buckets *buckets, const iccp_ring *ring, const double *lower,
+                               const double *upper, double tolerance, const iccp_memory *memory)
+{
+    iccp_buckets *const b = buckets;
+    *b = (iccp_buckets){.points = ring->points, .tolerance = tolerance};
+    for (int axis = 0; axis < 2; ++axis) {
+        b->lower[axis] = lower[axis] - tolerance;
+        b->upper[axis] = upper[axis] + tolerance;
+    }
+    choose_cells(b, ring);
+    const size_t n_cells = (size_t)b->size[0] * b->size[1];
+    b->cells = iccp_alloc_zero(memory, n_cells + 1, sizeof *b->cells);
+    if (b->cells == NULL)
+        return ICC_ERR_MEMORY;
+    for (uint32_t edge = 0; edge < ring->n; ++edge)
+        enter(b, edge, NULL);
+    uint32_t n_entries = 0;
+    for (size_t i = 0; i <= n_cells; ++i)
+        b->cells[i].first = n_entries += b->cells[i].first;
+    b->edges = iccp_alloc(memory, n_entries, sizeof *b->edges);
+    if (b->edges == NULL) {
+        iccp_buckets_free(b, memory);
+        return ICC_ERR_MEMORY;
+    }
+    for (uint32_t edge = (uint32_t)ring->n; edge-- > 0;)
+        enter(b, edge, b->edges);
+    for (uint32_t row = 0; row < b->size[1]; ++row)
+        explore_row(b, row);
+    return ICC_OK;
+}
+
+void iccp_buckets_free(iccp_buckets *buckets, const iccp_memory *memory)
+{
+    iccp_free(memory, buckets->cells);
+    iccp_free(memory, buckets->edges);
+    *buckets = (iccp_buckets){0};
+}
+
+/* Whether p is farther than `distance` from the box of an edge. */
+static bool far_from(const double *a, const double *p, double distance)
+{
+    return (p[0] < a[0] - distance && p[0] < a[2] - distance) ||
+           (p[0] > a[0] + distance && p[0] > a[2] + distance) ||
+           (p[1] < a[1] - distance && p[1] < a[3] - distance) ||
+           (p[1] > a[1] + distance && p[1] > a[3] + distance);
+}
+
+/* What the predicates cannot digest is 0: a shift by far less than the tolerance. */
+static double digestible(double x)
+{
+    return fabs(x) < ICCP_FRAME_SMALLEST ? 0 : x;
+}
+
+iccp_place iccp_buckets_find(const iccp_buckets *buckets, const double *point)
+{
+    const iccp_buckets *const b = buckets;
+    iccp_place place = {ICC_OUTSIDE, 0, 0};
+    if (!(point[0] >= b->lower[0] && point[0] <= b->upper[0] && point[1] >= b->lower[1] &&
+          point[1] <= b->upper[1]))
+        return place;
+    const uint32_t row = slot(b, 1, point[1]), column = slot(b, 0, point[0]);
+    const iccp_bucket *cell = b->cells + (size_t)row * b->size[0] + column;
+    bool inside = cell->state & 1;
+    if (cell->first == cell[1].first) {
+        place.where = inside ? ICC_INSIDE : ICC_OUTSIDE;
+        return place;
+    }
+    const double p[2] = {digestible(point[0]), digestible(point[1])};
+    double q[2], best = b->tolerance * b->tolerance;
+    candidate(b, row, column, cell->state / 2, q);
+    for (uint32_t i = cell->first; i < cell[1].first; ++i) {
+        const uint32_t edge = b->edges[i];
+        const double *a = edge_start(b, edge);
+        double t;
+        if (!far_from(a, p, b->tolerance)) {
+            const double distance2 = iccp_segment_nearest(a, a + 2, p, &t);
+            if (distance2 < best || (distance2 == best && place.where != ICC_BOUNDARY)) {
+                best = distance2;
+                place = (iccp_place){ICC_BOUNDARY, edge, t};
+            }
+        }
+        inside ^= crosses(b, edge, p, q);
+    }
+    if (place.where != ICC_BOUNDARY)
+        place.where = inside ? ICC_INSIDE : ICC_OUTSIDE;
+    return place;
+}

@@ -1,0 +1,41 @@
+/* A grid of cells over a ring that answers "inside, outside or on the edge" without a search: cells
+ * that no edge comes near know the answer, the others know a point of theirs for which it is known
+ * and the edges that can lie between. */
+#ifndef ICCP_BUCKETS_H
+#define ICCP_BUCKETS_H
+
+#include "domain/ring.h"
+#include "icc/icc.h"
+
+typedef struct iccp_bucket {
+    uint32_t first; /* the cell's edges are edges[first] up to the next cell's first */
+    uint32_t state; /* 2 * number of the cell's known point + whether that lies inside */
+} iccp_bucket;
+
+typedef struct iccp_buckets {
+    const double *points;   /* the ring's, borrowed */
+    double lower[2], upper[2]; /* beyond this box everything is outside */
+    double origin[2];
+    double step[2], rate[2];   /* size of a cell, and 1 / size */
+    uint32_t size[2];          /* cells along x and y */
+    double tolerance;
+    iccp_bucket *cells;        /* one more than there are cells */
+    uint32_t *edges;
+} iccp_buckets;
+
+/* What is known about a point. */
+typedef struct iccp_place {
+    int32_t where;  /* ICC_INSIDE, ICC_BOUNDARY, ICC_OUTSIDE */
+    uint32_t edge;  /* for ICC_BOUNDARY: the nearest edge, */
+    double t;       /* and the share of the way along it */
+} iccp_place;
+
+/* For a simple ring in a box; points up to `tolerance` from it count as on it. */
+icc_status iccp_buckets_create(iccp_buckets *buckets, const iccp_ring *ring, const double *lower,
+                               const double *upper, double tolerance, const iccp_memory *memory);
+void iccp_buckets_free(iccp_buckets *buckets, const iccp_memory *memory);
+
+/* Exact but for the tolerance. A point that is not finite is outside. */
+iccp_place iccp_buckets_find(const iccp_buckets *buckets, const double *p);
+
+#endif

@@ -1,0 +1,12 @@
+/* One thing that is wrong with a ring. */
+#ifndef ICCP_DEFECT_H
+#define ICCP_DEFECT_H
+
+#include <stdint.h>
+
+typedef struct iccp_defect {
+    int32_t kind;  /* ICC_DEFECT_*; 0: none */
+    uint32_t a, b; /* positions in the ring: of points, or of edges, as icc.h says for the kind */
+} iccp_defect;
+
+#endif

@@ -1,0 +1,23 @@
+/* Everything that is wrong with a ring, sorted. */
+#ifndef ICCP_DEFECTS_H
+#define ICCP_DEFECTS_H
+
+#include "domain/defect.h"
+#include "domain/ring.h"
+
+/* Where a list goes; see icc_boundary_defects(). */
+typedef struct iccp_defect_list {
+    size_t capacity;
+    int32_t *kinds;
+    uint32_t *items;
+    size_t n; /* also beyond capacity */
+} iccp_defect_list;
+
+/* Points whose coordinates are NaN are listed as not finite. */
+icc_status iccp_defects_list(iccp_defect_list *list, const iccp_ring *ring, const iccp_env *env);
+
+/* The first of that list, or kind 0 if there is none or it takes long to find: only a number of pairs
+ * of edges proportional to n is looked at. */
+icc_status iccp_defects_first(iccp_defect *first, const iccp_ring *ring, const iccp_env *env);
+
+#endif

@@ -1,0 +1,177 @@
+#include "domain/polygon.h"
+
+#include "base/error.h"
+#include "domain/defects.h"
+#include "domain/segment.h"
+#include "domain/sweep.h"
+#include "math/predicates.h"
+
+#include <math.h>
+
+static bool finite_point(const double *p)
+{
+    return isfinite(p[0]) && isfinite(p[1]);
+}
+
+static icc_status fail_not_finite(icc_error *err, size_t vertex)
+{
+    return iccp_fail(err, ICC_ERR_BOUNDARY, (int64_t)vertex, "vertex %zu is not finite", vertex);
+}
+
+static icc_status fail_too_small(icc_error *err, size_t vertex, const double *x)
+{
+    return iccp_fail(err, ICC_ERR_BOUNDARY, (int64_t)vertex,
+                     "vertex %zu (%.17g, %.17g): a coordinate is not 0, but less than 2^-200 of the "
+                     "largest one",
+                     vertex, x[0], x[1]);
+}
+
+icc_status iccp_polygon_localise(iccp_frame *frame, double *local, size_t n, const double *vertices,
+                                 icc_error *err)
+{
+    for (size_t i = 0; i < n; ++i)
+        if (!finite_point(vertices + 2 * i))
+            return fail_not_finite(err, i);
+    iccp_frame_fit(frame, 2, n, vertices);
+    for (size_t i = 0; i < n; ++i) {
+        if (!iccp_frame_holds(frame, 2, vertices + 2 * i))
+            return fail_too_small(err, i, vertices + 2 * i);
+        iccp_frame_in(frame, 2, vertices + 2 * i, local + 2 * i);
+    }
+    return ICC_OK;
+}
+
+/* "cross near (x, y)", with the vertices or edges in the caller's numbers. */
+static icc_status fail_pair(icc_error *err, const iccp_defect *defect, const iccp_ring *ring,
+                            const iccp_frame *frame)
+{
+    const double *a = ring->points + 2 * (size_t)defect->a, *b = ring->points + 2 * (size_t)defect->b;
+    double at[2];
+    iccp_segments_point(a, a + 2, b, b + 2, at);
+    iccp_frame_out(frame, 2, at, at);
+    const uint32_t e = ring->facet[defect->a], f = ring->facet[defect->b];
+    return iccp_fail(err, ICC_ERR_BOUNDARY, e < f ? e : f, "edges %lu and %lu %s near (%.9g, %.9g)",
+                     (unsigned long)(e < f ? e : f), (unsigned long)(e < f ? f : e),
+                     defect->kind == ICC_DEFECT_CROSSING ? "cross" : "touch", at[0], at[1]);
+}
+
+static icc_status fail_defect(icc_error *err, const iccp_defect *defect, const iccp_ring *ring,
+                              const iccp_frame *frame)
+{
+    const uint32_t v = ring->vertex[defect->a], w = ring->vertex[defect->b];
+    switch (defect->kind) {
+    case ICC_DEFECT_REPEATED:
+        return iccp_fail(err, ICC_ERR_BOUNDARY, v > w ? v : w, "vertex %lu repeats vertex %lu",
+                         (unsigned long)(v > w ? v : w), (unsigned long)(v > w ? w : v));
+    case ICC_DEFECT_SPIKE:
+        return iccp_fail(err, ICC_ERR_BOUNDARY, v,
+                         "at vertex %lu the boundary runs back over itself", (unsigned long)v);
+    case ICC_DEFECT_FLAT:
+        return iccp_fail(err, ICC_ERR_BOUNDARY, -1,
+                         "all vertices lie on one line: the shape has no area");
+    default:
+        return fail_pair(err, defect, ring, frame);
+    }
+}
+
+icc_status iccp_polygon_check(const iccp_ring *ring, const iccp_frame *frame, const iccp_env *env,
+                              icc_error *err)
+{
+    iccp_defect any, first = {0};
+    icc_status status = iccp_sweep(&any, ring, env);
+    if (status == ICC_OK && any.kind == 0)
+        return ICC_OK;
+    if (status == ICC_OK)
+        status = iccp_defects_first(&first, ring, env);
+    if (status == ICC_ERR_MEMORY)
+        return iccp_fail_memory(err);
+    if (status != ICC_OK)
+        return iccp_fail(err, status, -1, "cancelled while the boundary was checked");
+    return fail_defect(err, first.kind != 0 ? &first : &any, ring, frame);
+}
+
+int iccp_polygon_orientation(const iccp_ring *ring)
+{
+    uint32_t v = 0;
+    for (uint32_t k = 1; k < ring->n; ++k)
+        if (iccp_point_less(ring->points + 2 * (size_t)k, ring->points + 2 * (size_t)v))
+            v = k;
+    const double *p = ring->points + 2 * (size_t)v;
+    return iccp_orient2d(ring->points + 2 * (size_t)iccp_ring_before(ring, v), p, p + 2);
+}
+
+/* Half the sum of the cross products of the sides with vertex 0. Each product and each sum is carried
+ * with its rounding error: T. Ogita, S. M. Rump, S. Oishi, Accurate sum and dot product, 2005,
+ * algorithm 5.3. */
+double iccp_polygon_area(const iccp_ring *ring)
+{
+    const double *origin = ring->points;
+    double sum = 0, error = 0;
+    for (size_t k = 1; k + 1 < ring->n; ++k) {
+        const double *p = ring->points + 2 * k, *q = p + 2;
+        const double factors[2][2] = {{p[0] - origin[0], q[1] - origin[1]},
+                                      {origin[1] - p[1], q[0] - origin[0]}};
+        for (int i = 0; i < 2; ++i) {
+            const double product = factors[i][0] * factors[i][1];
+            const double total = sum + product, part = total - sum;
+            error += fma(factors[i][0], factors[i][1], -product);
+            error += (sum - (total - part)) + (product - part);
+            sum = total;
+        }
+    }
+    return 0.5 * fabs(sum + error);
+}
+
+/* Local coordinates for the list: a vertex that is not finite becomes NaN. The frame is that of the
+ * finite ones, which `scratch` gathers. */
+static icc_status localise_finite(double *local, double *scratch, size_t n, const double *vertices,
+                                  icc_error *err)
+{
+    size_t n_finite = 0;
+    for (size_t i = 0; i < n; ++i)
+        if (finite_point(vertices + 2 * i)) {
+            scratch[2 * n_finite] = vertices[2 * i];
+            scratch[2 * n_finite + 1] = vertices[2 * i + 1];
+            ++n_finite;
+        }
+    iccp_frame frame = iccp_frame_identity;
+    if (n_finite > 0)
+        iccp_frame_fit(&frame, 2, n_finite, scratch);
+    for (size_t i = 0; i < n; ++i) {
+        if (!finite_point(vertices + 2 * i)) {
+            local[2 * i] = local[2 * i + 1] = NAN;
+            continue;
+        }
+        if (!iccp_frame_holds(&frame, 2, vertices + 2 * i))
+            return fail_too_small(err, i, vertices + 2 * i);
+        iccp_frame_in(&frame, 2, vertices + 2 * i, local + 2 * i);
+    }
+    return ICC_OK;
+}
+
+icc_status iccp_boundary_defects(size_t n, const double *vertices, size_t capacity, int32_t *kinds,
+                                 uint32_t *items, size_t *n_defects, const iccp_env *env,
+                                 icc_error *err)
+{
+    const iccp_memory *memory = &env->memory;
+    iccp_defect_list list = {.capacity = capacity, .kinds = kinds, .items = items};
+    iccp_ring ring = {.n = n, .points = iccp_alloc(memory, n + 1, 2 * sizeof(double))};
+    double *scratch = iccp_alloc(memory, n, 2 * sizeof(double));
+    icc_status status = ICC_ERR_MEMORY;
+    if (ring.points != NULL && scratch != NULL)
+        status = localise_finite(ring.points, scratch, n, vertices, err);
+    iccp_free(memory, scratch);
+    if (status == ICC_OK && n > 0) {
+        ring.points[2 * n] = ring.points[0];
+        ring.points[2 * n + 1] = ring.points[1];
+    }
+    if (status == ICC_OK)
+        status = iccp_defects_list(&list, &ring, env);
+    iccp_free(memory, ring.points);
+    *n_defects = list.n;
+    if (status == ICC_ERR_MEMORY)
+        return iccp_fail_memory(err);
+    if (status == ICC_ERR_CANCELLED)
+        return iccp_fail(err, status, -1, "cancelled while the boundary was checked");
+    return status;
+}

@@ -1,0 +1,28 @@
+/* Checking polygons as the caller gives them, and saying what is wrong. */
+#ifndef ICCP_POLYGON_H
+#define ICCP_POLYGON_H
+
+#include "domain/frame.h"
+#include "domain/ring.h"
+
+/* Fits a frame to the vertices and writes their local coordinates. ICC_ERR_BOUNDARY for a vertex that
+ * is not finite, or too near an axis of the local frame to work with exactly. */
+icc_status iccp_polygon_localise(iccp_frame *frame, double *local, size_t n, const double *vertices,
+                                 icc_error *err);
+
+/* ICC_ERR_BOUNDARY unless the ring, of at least 3 points, is a simple polygon. */
+icc_status iccp_polygon_check(const iccp_ring *ring, const iccp_frame *frame, const iccp_env *env,
+                              icc_error *err);
+
+/* +1 counter-clockwise, -1 clockwise: exact for a simple polygon. */
+int iccp_polygon_orientation(const iccp_ring *ring);
+
+/* The area, in local units; accurate to a few units in the last place but for very thin shapes. */
+double iccp_polygon_area(const iccp_ring *ring);
+
+/* See icc_boundary_defects(). */
+icc_status iccp_boundary_defects(size_t n, const double *vertices, size_t capacity, int32_t *kinds,
+                                 uint32_t *items, size_t *n_defects, const iccp_env *env,
+                                 icc_error *err);
+
+#endif

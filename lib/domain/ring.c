@@ -1,0 +1,80 @@
+#include "domain/ring.h"
+
+#include "base/error.h"
+
+static const uint32_t NONE = UINT32_MAX;
+
+/* Finds the facet that starts at each vertex. */
+static icc_status index_starts(uint32_t *start, size_t n, const uint32_t *facets, icc_error *err)
+{
+    for (size_t v = 0; v < n; ++v)
+        start[v] = NONE;
+    for (uint32_t f = 0; f < n; ++f) {
+        for (size_t end = 0; end < 2; ++end)
+            if (facets[2 * f + end] >= n)
+                return iccp_fail(err, ICC_ERR_BOUNDARY, f,
+                                 "facet %lu names vertex %lu, but there are only %zu vertices",
+                                 (unsigned long)f, (unsigned long)facets[2 * f + end], n);
+        const uint32_t v = facets[2 * f];
+        if (start[v] != NONE)
+            return iccp_fail(err, ICC_ERR_BOUNDARY, f,
+                             "facets %lu and %lu both start at vertex %lu; a boundary is one ring "
+                             "of facets in one direction",
+                             (unsigned long)start[v], (unsigned long)f, (unsigned long)v);
+        start[v] = f;
+    }
+    return ICC_OK;
+}
+
+/* Walks from vertex 0 along the facets. No two start at the same vertex, so the walk has come all
+ * the way round when it is back at vertex 0 for the first time after n facets. */
+static icc_status walk(iccp_ring *ring, const uint32_t *start, const uint32_t *facets,
+                       icc_error *err)
+{
+    uint32_t v = 0;
+    for (size_t k = 0; k < ring->n; ++k) {
+        ring->vertex[k] = v;
+        ring->facet[k] = start[v];
+        v = facets[2 * start[v] + 1];
+        if ((v == 0) != (k + 1 == ring->n))
+            return iccp_fail(err, ICC_ERR_BOUNDARY, ring->facet[k],
+                             "the facets are not one ring through all %zu vertices: %zu steps from "
+                             "vertex 0 lead to vertex %lu",
+                             ring->n, k + 1, (unsigned long)v);
+    }
+    return ICC_OK;
+}
+
+icc_status iccp_ring_create(iccp_ring *ring, size_t n, const double *vertices,
+                            const uint32_t *facets, const iccp_memory *memory, icc_error *err)
+{
+    ring->n = n;
+    ring->points = iccp_alloc(memory, n + 1, 2 * sizeof *ring->points);
+    ring->vertex = iccp_alloc(memory, n, sizeof *ring->vertex);
+    ring->facet = iccp_alloc(memory, n, sizeof *ring->facet);
+    uint32_t *start = iccp_alloc(memory, n, sizeof *start);
+    icc_status status;
+    if (ring->points == NULL || ring->vertex == NULL || ring->facet == NULL || start == NULL)
+        status = iccp_fail_memory(err);
+    else
+        status = index_starts(start, n, facets, err);
+    if (status == ICC_OK)
+        status = walk(ring, start, facets, err);
+    iccp_free(memory, start);
+    if (status != ICC_OK) {
+        iccp_ring_free(ring, memory);
+        return status;
+    }
+    for (size_t k = 0; k <= n; ++k)
+        for (size_t axis = 0; axis < 2; ++axis)
+            ring->points[2 * k + axis] = vertices[2 * (size_t)ring->vertex[k % n] + axis];
+    return ICC_OK;
+}
+
+void iccp_ring_free(iccp_ring *ring, const iccp_memory *memory)
+{
+    iccp_free(memory, ring->points);
+    iccp_free(memory, ring->vertex);
+    iccp_free(memory, ring->facet);
+    *ring = (iccp_ring){0};
+}

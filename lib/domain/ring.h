@@ -1,0 +1,28 @@
+/* The vertices and facets of a polygon in the order in which one meets them walking round it. The
+ * rest of this folder works on rings; vertex and facet numbers come back where results leave it. */
+#ifndef ICCP_RING_H
+#define ICCP_RING_H
+
+#include "base/env.h"
+
+typedef struct iccp_ring {
+    size_t n;
+    double *points;   /* n + 1 local points; the last is the first again: edge k joins k and k + 1 */
+    uint32_t *vertex; /* vertex[k] is the number of point k */
+    uint32_t *facet;  /* facet[k] is the number of edge k */
+} iccp_ring;
+
+/* Orders n facets over n vertices, starting with vertex 0, and takes over the coordinates.
+ * ICC_ERR_BOUNDARY when the facets are not one closed ring in one direction. */
+icc_status iccp_ring_create(iccp_ring *ring, size_t n, const double *vertices,
+                            const uint32_t *facets, const iccp_memory *memory, icc_error *err);
+
+/* Accepts a ring that is all zero. */
+void iccp_ring_free(iccp_ring *ring, const iccp_memory *memory);
+
+static inline uint32_t iccp_ring_before(const iccp_ring *ring, uint32_t k)
+{
+    return k > 0 ? k - 1 : (uint32_t)ring->n - 1;
+}
+
+#endif
