@@ -4,7 +4,9 @@
 
 #include "field/field.h"
 
-/* Fills in everything but `size`. Only vertices inside are judged. */
+/* See icc_field_verify(). Only vertices inside that have a value are judged; vertices outside count as
+ * lower than they are, whatever their value. Fills in everything but `size`; ICC_ERR_MEMORY or
+ * ICC_ERR_CANCELLED leave the report as it was. */
 icc_status iccp_field_verify(const icc_field *field, icc_field_report *report,
                              const iccp_env *env);
 

@@ -1,0 +1,130 @@
+/* Based on: T. Banchoff, Critical Points and Curvature for Embedded Polyhedra, Journal of Differential
+ * Geometry 1, 1967: what a piecewise linear function does at a vertex can be read off the neighbours
+ * that are higher and those that are lower. */
+#include "field/critical.h"
+
+#include "base/threads.h"
+#include "grid/kuhn.h"
+
+#include <math.h>
+
+static const size_t GRAIN = 1 << 14; /* vertices per chunk */
+
+typedef struct work {
+    const icc_field *field;
+    iccp_kuhn kuhn;
+    ptrdiff_t offset[ICCP_LINK_SIZE]; /* to each neighbour's index */
+    icc_field_report *partial;        /* what each chunk found */
+} work;
+
+/* Whether neighbour i of a vertex lies in the grid. */
+static bool in_grid(const work *w, uint32_t v, int i)
+{
+    const icc_grid *grid = w->field->tree->grid;
+    for (int32_t k = 0; k < grid->dim; ++k) {
+        const int step = w->kuhn.step[i][k];
+        if (step != 0 && iccp_grid_neighbour(grid, v, k, step) == ICCP_NONE)
+            return false;
+    }
+    return true;
+}
+
+static bool at_border(const icc_grid *grid, uint32_t v)
+{
+    for (int32_t k = 0; k < grid->dim; ++k)
+        if (iccp_grid_neighbour(grid, v, k, -1) == ICCP_NONE ||
+            iccp_grid_neighbour(grid, v, k, +1) == ICCP_NONE)
+            return true;
+    return false;
+}
+
+static iccp_link_set higher_neighbours(const work *w, uint32_t v)
+{
+    const double *f = w->field->values;
+    const icc_grid *grid = w->field->tree->grid;
+    const bool border = at_border(grid, v);
+    iccp_link_set higher = {{0, 0}};
+    for (int i = 0; i < w->kuhn.n_neighbours; ++i) {
+        if (border && !in_grid(w, v, i))
+            continue;
+        const size_t u = (size_t)((ptrdiff_t)v + w->offset[i]);
+        if (grid->inside[u] && (f[u] > f[v] || (f[u] >= f[v] && u > v)))
+            iccp_link_add(&higher, i);
+    }
+    return higher;
+}
+
+static iccp_link_set complement(const iccp_kuhn *kuhn, iccp_link_set set)
+{
+    iccp_link_set rest = {{0, 0}};
+    for (int i = 0; i < kuhn->n_neighbours; ++i)
+        if (!iccp_link_has(&set, i))
+            iccp_link_add(&rest, i);
+    return rest;
+}
+
+static void judge(const work *w, uint32_t v, icc_field_report *report)
+{
+    const iccp_link_set higher = higher_neighbours(w, v);
+    const iccp_link_set lower = complement(&w->kuhn, higher);
+    if ((higher.word[0] | higher.word[1]) == 0)
+        ++report->n_maxima;
+    else if ((lower.word[0] | lower.word[1]) == 0)
+        ++report->n_minima;
+    else if (!iccp_kuhn_contractible(&w->kuhn, higher) ||
+             !iccp_kuhn_contractible(&w->kuhn, lower))
+        ++report->n_saddles;
+    else
+        return;
+    if (report->critical == ICCP_NONE && v != w->field->tree->root)
+        report->critical = v;
+}
+
+static icc_status judge_chunk(void *argument, size_t begin, size_t end)
+{
+    const work *w = argument;
+    icc_field_report report = {.critical = ICCP_NONE};
+    for (uint32_t v = (uint32_t)begin; v < end; ++v)
+        if (w->field->tree->grid->inside[v] && !isnan(w->field->values[v]))
+            judge(w, v, &report);
+    w->partial[begin / GRAIN] = report;
+    return ICC_OK;
+}
+
+static void set_offsets(work *w)
+{
+    const icc_grid *grid = w->field->tree->grid;
+    for (int i = 0; i < w->kuhn.n_neighbours; ++i) {
+        w->offset[i] = 0;
+        for (int32_t k = 0; k < grid->dim; ++k)
+            w->offset[i] += w->kuhn.step[i][k] * (ptrdiff_t)grid->stride[k];
+    }
+}
+
+icc_status iccp_field_verify(const icc_field *field, icc_field_report *report, const iccp_env *env)
+{
+    const icc_grid *grid = field->tree->grid;
+    const size_t n_chunks = (grid->n_vertices + GRAIN - 1) / GRAIN;
+    work w = {.field = field};
+    w.partial = iccp_alloc(&env->memory, n_chunks, sizeof *w.partial);
+    if (w.partial == NULL)
+        return ICC_ERR_MEMORY;
+    iccp_kuhn_init(&w.kuhn, grid->dim);
+    set_offsets(&w);
+    const icc_status status =
+        iccp_for_chunks(env, "critical points", grid->n_vertices, GRAIN, judge_chunk, &w);
+    if (status == ICC_OK) {
+        report->n_maxima = report->n_minima = report->n_saddles = 0;
+        report->critical = ICCP_NONE;
+        report->reserved = 0;
+        for (size_t c = n_chunks; c-- > 0;) {
+            report->n_maxima += w.partial[c].n_maxima;
+            report->n_minima += w.partial[c].n_minima;
+            report->n_saddles += w.partial[c].n_saddles;
+            if (w.partial[c].critical != ICCP_NONE)
+                report->critical = w.partial[c].critical;
+        }
+    }
+    iccp_free(&env->memory, w.partial);
+    return status;
+}

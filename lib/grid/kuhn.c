@@ -1,0 +1,125 @@
+/* Based on: J. A. Barmak and E. G. Minian, Strong Homotopy Types, Nerves and Collapses, Discrete &
+ * Computational Geometry 47, 2012.
+ *
+ * A vertex is dominated by another one when everything joined to it, itself included, is joined to the
+ * other; the simplices of the triangulation being its cliques, it can then be moved into the other one
+ * and dropped without changing the homotopy type. What is left when no vertex is dominated does not
+ * depend on the order, so a set that can be reduced to one vertex is reduced by dropping any that will
+ * go. In a link of up to 3 dimensions (6 vertices round a circle, 14 round a sphere) every
+ * contractible set can: tests/unit/test_grid.c. */
+#include "grid/kuhn.h"
+
+#include <assert.h>
+#include <string.h>
+
+static bool is_empty(const iccp_link_set *set)
+{
+    return (set->word[0] | set->word[1]) == 0;
+}
+
+/* All the members of `part` that are also in `set` are in `whole`. */
+static bool covers(const iccp_link_set *whole, const iccp_link_set *part, const iccp_link_set *set)
+{
+    return (part->word[0] & set->word[0] & ~whole->word[0]) == 0 &&
+           (part->word[1] & set->word[1] & ~whole->word[1]) == 0;
+}
+
+static void drop(iccp_link_set *set, int i)
+{
+    set->word[i / 64] &= ~((uint64_t)1 << (i % 64));
+}
+
+static bool dominated(const iccp_kuhn *kuhn, const iccp_link_set *set, int i)
+{
+    for (int j = 0; j < kuhn->n_neighbours; ++j)
+        if (j != i && iccp_link_has(set, j) && iccp_link_has(&kuhn->joined[i], j) &&
+            covers(&kuhn->joined[j], &kuhn->joined[i], set))
+            return true;
+    return false;
+}
+
+/* A dominated member, or -1. */
+static int find_dominated(const iccp_kuhn *kuhn, const iccp_link_set *set, int first)
+{
+    for (int i = first; i < kuhn->n_neighbours; ++i)
+        if (iccp_link_has(set, i) && dominated(kuhn, set, i))
+            return i;
+    return -1;
+}
+
+static bool is_single(const iccp_link_set *set)
+{
+    const uint64_t a = set->word[0], b = set->word[1];
+    return (a == 0 && b != 0 && (b & (b - 1)) == 0) || (b == 0 && a != 0 && (a & (a - 1)) == 0);
+}
+
+static bool collapses(const iccp_kuhn *kuhn, iccp_link_set set)
+{
+    int first = 0;
+    while (!is_single(&set)) {
+        int i = find_dominated(kuhn, &set, first);
+        if (i < 0 && first > 0)
+            i = find_dominated(kuhn, &set, 0);
+        if (i < 0)
+            return false;
+        drop(&set, i);
+        first = i;
+    }
+    return true;
+}
+
+/* Dropping a member leads to a smaller number, whose answer is known. */
+static void tabulate(iccp_kuhn *kuhn)
+{
+    for (uint64_t bits = 1; bits < (uint64_t)1 << kuhn->n_neighbours; ++bits) {
+        iccp_link_set set = {{bits, 0}};
+        bool answer = is_single(&set);
+        if (!answer) {
+            const int i = find_dominated(kuhn, &set, 0);
+            if (i >= 0) {
+                drop(&set, i);
+                answer = kuhn->contractible[set.word[0] / 64] >> (set.word[0] % 64) & 1;
+            }
+        }
+        kuhn->contractible[bits / 64] |= (uint64_t)answer << (bits % 64);
+    }
+    kuhn->tabulated = true;
+}
+
+/* Differ by 0s and 1s only, or by 0s and -1s only. */
+static bool are_joined(const iccp_kuhn *kuhn, int i, int j)
+{
+    int lowest = 0, highest = 0;
+    for (int32_t k = 0; k < kuhn->dim; ++k) {
+        const int difference = kuhn->step[i][k] - kuhn->step[j][k];
+        lowest = difference < lowest ? difference : lowest;
+        highest = difference > highest ? difference : highest;
+    }
+    return highest - lowest <= 1;
+}
+
+void iccp_kuhn_init(iccp_kuhn *kuhn, int32_t dim)
+{
+    assert(dim >= 1 && dim <= ICC_MAX_DIM);
+    memset(kuhn, 0, sizeof *kuhn);
+    kuhn->dim = dim;
+    for (int corner = 1; corner < 1 << dim; ++corner)
+        for (int sign = 1; sign >= -1; sign -= 2) {
+            for (int32_t k = 0; k < dim; ++k)
+                kuhn->step[kuhn->n_neighbours][k] = (int8_t)(sign * (corner >> k & 1));
+            ++kuhn->n_neighbours;
+        }
+    for (int i = 0; i < kuhn->n_neighbours; ++i)
+        for (int j = 0; j < kuhn->n_neighbours; ++j)
+            if (are_joined(kuhn, i, j))
+                iccp_link_add(&kuhn->joined[i], j);
+    if (dim <= 3)
+        tabulate(kuhn);
+}
+
+bool iccp_kuhn_contractible(const iccp_kuhn *kuhn, iccp_link_set set)
+{
+    if (kuhn->tabulated)
+        return kuhn->contractible[set.word[0] / 64] >> (set.word[0] % 64) & 1;
+    return !is_empty(&set) && collapses(kuhn, set);
+}

@@ -1,0 +1,47 @@
+/* Links of the Kuhn (Freudenthal) triangulation of a grid: every cell is cut along its diagonals from
+ * lower to upper corners, and two vertices are joined when they differ by 0s and 1s only, or by 0s
+ * and -1s only. Any dimension up to ICC_MAX_DIM. */
+#ifndef ICCP_KUHN_H
+#define ICCP_KUHN_H
+
+#include "icc/base.h"
+
+#include <stdbool.h>
+
+enum {
+    ICCP_LINK_SIZE = 126,  /* neighbours of a vertex in ICC_MAX_DIM dimensions: 2 (2^6 - 1) */
+    ICCP_LINK_TABLE = 1 << 14 /* sets of the 14 neighbours in 3-D */
+};
+
+/* A set of neighbours: bit i of word[i / 64] stands for neighbour i. */
+typedef struct iccp_link_set {
+    uint64_t word[2];
+} iccp_link_set;
+
+typedef struct iccp_kuhn {
+    int32_t dim;
+    int n_neighbours;                             /* 2 (2^dim - 1) */
+    int8_t step[ICCP_LINK_SIZE][ICC_MAX_DIM];     /* to each neighbour */
+    iccp_link_set joined[ICCP_LINK_SIZE];         /* neighbour i and those joined to it */
+    bool tabulated;                               /* up to 3-D: the answers for all sets */
+    uint64_t contractible[ICCP_LINK_TABLE / 64];
+} iccp_kuhn;
+
+/* Takes about 1 ms in 3-D, which is what its table costs, and microseconds otherwise. */
+void iccp_kuhn_init(iccp_kuhn *kuhn, int32_t dim);
+
+static inline void iccp_link_add(iccp_link_set *set, int i)
+{
+    set->word[i / 64] |= (uint64_t)1 << (i % 64);
+}
+
+static inline bool iccp_link_has(const iccp_link_set *set, int i)
+{
+    return set->word[i / 64] >> (i % 64) & 1;
+}
+
+/* Whether the part of the link that a set of neighbours spans is contractible: exact up to 3-D; beyond
+ * it, false may also mean that strong collapses do not show it. */
+bool iccp_kuhn_contractible(const iccp_kuhn *kuhn, iccp_link_set set);
+
+#endif
