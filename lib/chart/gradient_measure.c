@@ -59,7 +59,7 @@ static icc_status judge_chunk(void *argument, size_t begin, size_t end)
 static size_t count_candidates(const icc_domain *domain, size_t n)
 {
     const double box = (domain->upper[0] - domain->lower[0]) * (domain->upper[1] - domain->lower[1]);
-    const double fill = iccp_domain_measure(domain) / box;
+    const double fill = domain->measure / box;
     return (size_t)ceil((double)n * fmin(fill > 0 ? 1 / fill : MOST_CANDIDATES, MOST_CANDIDATES));
 }
 
