@@ -1,0 +1,340 @@
+/* Argument checks of the stages. */
+#include "base/error.h"
+#include "base/options.h"
+#include "domain/domain.h"
+#include "field/critical.h"
+#include "field/edges.h"
+#include "field/field.h"
+#include "grid/grassfire.h"
+#include "grid/lattice.h"
+#include "grid/rasterise.h"
+#include "icc/stages.h"
+#include "mesh/triangulate.h"
+#include "tree/cousin.h"
+#include "tree/verify.h"
+
+#include <math.h>
+
+static const int32_t DEFAULT_CELLS = 50; /* the papers' */
+static const int32_t MAX_CELLS = 16384;
+static const size_t MAX_POINTS = UINT32_MAX / 16; /* corners of triangles are numbered too */
+
+/* Every creator starts like this. `missing` names the first input that is NULL, or is NULL itself. */
+static icc_status begin(iccp_env *full, const icc_env *env, const char *missing, icc_error *err)
+{
+    if (missing != NULL)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "%s is NULL", missing);
+    return iccp_env_read(full, env, err);
+}
+
+/* Below this layer some functions return these two without a text. */
+static icc_status explain(icc_status status, icc_error *err)
+{
+    if (status == ICC_ERR_MEMORY)
+        return iccp_fail_memory(err);
+    if (status == ICC_ERR_CANCELLED)
+        return iccp_fail(err, status, -1, "cancelled by the progress callback");
+    return status;
+}
+
+/* -------------------------------------------------------------------- grid */
+
+icc_status icc_grid_create(icc_grid **out, const icc_domain *domain, int32_t cells,
+                           const icc_env *env, icc_error *err)
+{
+    if (out != NULL)
+        *out = NULL;
+    iccp_env full_env;
+    const char *missing = out == NULL ? "out" : domain == NULL ? "domain" : NULL;
+    const icc_status status = begin(&full_env, env, missing, err);
+    if (status != ICC_OK)
+        return status;
+    if (cells == 0)
+        cells = DEFAULT_CELLS;
+    if (cells < 2 || cells > MAX_CELLS)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "cells is %ld; it must lie in 2..%ld",
+                         (long)cells, (long)MAX_CELLS);
+    if (domain->dim != 2)
+        return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1, "grids are made from 2-D domains only");
+    return explain(iccp_grid_create(out, domain, cells, &full_env, err), err);
+}
+
+icc_status icc_grid_create_mask(icc_grid **out, int32_t dim, const size_t *shape,
+                                const uint8_t *inside, const icc_env *env, icc_error *err)
+{
+    if (out != NULL)
+        *out = NULL;
+    iccp_env full_env;
+    const char *missing =
+        out == NULL ? "out" : shape == NULL ? "shape" : inside == NULL ? "inside" : NULL;
+    const icc_status status = begin(&full_env, env, missing, err);
+    if (status != ICC_OK)
+        return status;
+    if (dim < 1 || dim > ICC_MAX_DIM)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "dim is %ld; it must lie in 1..%d", (long)dim,
+                         ICC_MAX_DIM);
+    for (int32_t k = 0; k < dim; ++k)
+        if (shape[k] == 0)
+            return iccp_fail(err, ICC_ERR_ARGUMENT, k, "shape[%ld] is 0", (long)k);
+    return explain(iccp_grid_create_mask(out, dim, shape, inside, &full_env, err), err);
+}
+
+void icc_grid_free(icc_grid *grid)
+{
+    iccp_grid_release(grid);
+}
+
+icc_status icc_grid_get_info(const icc_grid *grid, icc_grid_info *info)
+{
+    if (grid == NULL || info == NULL)
+        return ICC_ERR_ARGUMENT;
+    icc_grid_info full = {.dim = grid->dim,
+                          .spacing = grid->spacing * grid->frame.out[0] * grid->frame.out[1],
+                          .n_vertices = grid->n_vertices,
+                          .n_inside = grid->n_inside};
+    iccp_frame_out(&grid->frame, grid->dim, grid->origin, full.origin);
+    for (int32_t k = 0; k < grid->dim; ++k)
+        full.shape[k] = grid->shape[k];
+    return iccp_write_struct(info, &full, sizeof full, "icc_grid_info", NULL);
+}
+
+const uint8_t *icc_grid_inside(const icc_grid *grid)
+{
+    return grid != NULL ? grid->inside : NULL;
+}
+
+icc_status icc_grid_maximum(const icc_grid *grid, uint32_t *vertex, uint32_t *rounds,
+                            const icc_env *env, icc_error *err)
+{
+    iccp_env full_env;
+    const char *missing = grid == NULL ? "grid" : vertex == NULL ? "vertex" : NULL;
+    const icc_status status = begin(&full_env, env, missing, err);
+    if (status != ICC_OK)
+        return status;
+    return explain(iccp_grassfire(grid, vertex, rounds, &full_env, err), err);
+}
+
+icc_status icc_grid_nearest(const icc_grid *grid, const double *point, uint32_t *vertex)
+{
+    if (grid == NULL || point == NULL || vertex == NULL)
+        return ICC_ERR_ARGUMENT;
+    for (int32_t k = 0; k < grid->dim; ++k)
+        if (!isfinite(point[k]))
+            return ICC_ERR_ARGUMENT;
+    double local[ICC_MAX_DIM];
+    iccp_frame_in(&grid->frame, grid->dim, point, local);
+    *vertex = iccp_grid_nearest(grid, local);
+    return *vertex != ICCP_NONE ? ICC_OK : ICC_ERR_RESOLUTION;
+}
+
+/* -------------------------------------------------------------------- tree */
+
+static icc_status check_axis_order(const int32_t *order, int32_t dim, icc_error *err)
+{
+    if (order == NULL)
+        return ICC_OK;
+    uint32_t seen = 0;
+    for (int32_t k = 0; k < dim; ++k) {
+        if (order[k] < 0 || order[k] >= dim || (seen >> order[k] & 1) != 0)
+            return iccp_fail(err, ICC_ERR_ARGUMENT, k,
+                             "axis_order is not a permutation of 0..%ld: entry %ld is %ld",
+                             (long)dim - 1, (long)k, (long)order[k]);
+        seen |= (uint32_t)1 << order[k];
+    }
+    return ICC_OK;
+}
+
+static icc_status read_tree_options(icc_tree_options *full, const icc_tree_options *options,
+                                    int32_t dim, icc_error *err)
+{
+    const icc_status status =
+        iccp_read_struct(full, sizeof *full, options, "icc_tree_options", err);
+    if (status != ICC_OK)
+        return status;
+    if (full->form == 0)
+        full->form = ICC_TREE_THESIS;
+    if (full->form != ICC_TREE_THESIS && full->form != ICC_TREE_PAPER)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_tree_options.form is %ld",
+                         (long)full->form);
+    if (full->reserved != 0)
+        return iccp_fail(err, ICC_ERR_VERSION, -1, "icc_tree_options.reserved is not 0");
+    return check_axis_order(full->axis_order, dim, err);
+}
+
+icc_status icc_tree_create(icc_tree **out, const icc_grid *grid, uint32_t root,
+                           const icc_tree_options *options, const icc_env *env, icc_error *err)
+{
+    if (out != NULL)
+        *out = NULL;
+    iccp_env full_env;
+    const char *missing = out == NULL ? "out" : grid == NULL ? "grid" : NULL;
+    icc_status status = begin(&full_env, env, missing, err);
+    if (status != ICC_OK)
+        return status;
+    icc_tree_options full;
+    status = read_tree_options(&full, options, grid->dim, err);
+    if (status != ICC_OK)
+        return status;
+    if (root >= grid->n_vertices || !grid->inside[root])
+        return iccp_fail(err, ICC_ERR_ARGUMENT, root, "the root, vertex %lu, is not inside",
+                         (unsigned long)root);
+    return explain(
+        iccp_tree_create(out, grid, root, full.form, full.axis_order, &full_env, err), err);
+}
+
+void icc_tree_free(icc_tree *tree)
+{
+    iccp_tree_release(tree);
+}
+
+const uint32_t *icc_tree_parents(const icc_tree *tree)
+{
+    return tree != NULL ? tree->parent : NULL;
+}
+
+const int32_t *icc_tree_generations(const icc_tree *tree)
+{
+    return tree != NULL ? tree->generation : NULL;
+}
+
+icc_status icc_tree_verify(const icc_tree *tree, icc_tree_report *report, const icc_env *env,
+                           icc_error *err)
+{
+    iccp_env full_env;
+    const char *missing = tree == NULL ? "tree" : report == NULL ? "report" : NULL;
+    icc_status status = begin(&full_env, env, missing, err);
+    if (status != ICC_OK)
+        return status;
+    icc_tree_report full;
+    status = explain(iccp_tree_verify(tree, &full, &full_env), err);
+    if (status != ICC_OK)
+        return status;
+    return iccp_write_struct(report, &full, sizeof full, "icc_tree_report", err);
+}
+
+/* ------------------------------------------------------------------- field */
+
+icc_status icc_field_create(icc_field **out, const icc_tree *tree,
+                            const icc_field_options *options, const icc_env *env, icc_error *err)
+{
+    if (out != NULL)
+        *out = NULL;
+    iccp_env full_env;
+    const char *missing = out == NULL ? "out" : tree == NULL ? "tree" : NULL;
+    icc_status status = begin(&full_env, env, missing, err);
+    if (status != ICC_OK)
+        return status;
+    icc_field_options full;
+    status = iccp_read_struct(&full, sizeof full, options, "icc_field_options", err);
+    if (status != ICC_OK)
+        return status;
+    if (full.function == 0)
+        full.function = ICC_FUNCTION_DECAY;
+    if (full.function != ICC_FUNCTION_DECAY && full.function != ICC_FUNCTION_DISTANCE)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_field_options.function is %ld",
+                         (long)full.function);
+    if (full.reserved != 0)
+        return iccp_fail(err, ICC_ERR_VERSION, -1, "icc_field_options.reserved is not 0");
+    return explain(iccp_field_create(out, tree, full.function, &full_env, err), err);
+}
+
+void icc_field_free(icc_field *field)
+{
+    iccp_field_release(field);
+}
+
+const double *icc_field_values(const icc_field *field)
+{
+    return field != NULL ? field->values : NULL;
+}
+
+icc_status icc_field_verify(const icc_field *field, icc_field_report *report, const icc_env *env,
+                            icc_error *err)
+{
+    iccp_env full_env;
+    const char *missing = field == NULL ? "field" : report == NULL ? "report" : NULL;
+    icc_status status = begin(&full_env, env, missing, err);
+    if (status != ICC_OK)
+        return status;
+    icc_field_report full;
+    status = explain(iccp_field_verify(field, &full, &full_env), err);
+    if (status != ICC_OK)
+        return status;
+    return iccp_write_struct(report, &full, sizeof full, "icc_field_report", err);
+}
+
+icc_status icc_field_edges(const icc_field *field, size_t capacity, uint32_t *edges,
+                           int32_t *kinds, size_t *n_edges, size_t *n_tested)
+{
+    if (field == NULL || n_edges == NULL || (capacity > 0 && (edges == NULL || kinds == NULL)))
+        return ICC_ERR_ARGUMENT;
+    if (field->tree->grid->dim != 2)
+        return ICC_ERR_UNSUPPORTED;
+    const iccp_edge_count count = iccp_field_edges(field, capacity, edges, kinds);
+    *n_edges = count.n_compression + count.n_expansion;
+    if (n_tested != NULL)
+        *n_tested = count.n_tested;
+    return ICC_OK;
+}
+
+/* ----------------------------------------------------------- triangulation */
+
+/* The points inside, in the polygon's local coordinates. Those within its bounding box are shifted
+ * and scaled as exactly as its vertices (domain/frame.h). */
+static icc_status localise(double *local, const icc_domain *polygon, size_t n_points,
+                           const double *points, icc_error *err)
+{
+    for (size_t i = polygon->n_vertices; i < n_points; ++i) {
+        const double *p = points + 2 * i;
+        if (!isfinite(p[0]) || !isfinite(p[1]))
+            return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)i, "point %zu is not finite", i);
+        iccp_frame_in(&polygon->frame, 2, p, local + 2 * i);
+        for (int k = 0; k < 2; ++k)
+            if (local[2 * i + (size_t)k] < polygon->lower[k] ||
+                local[2 * i + (size_t)k] > polygon->upper[k])
+                return iccp_fail(err, ICC_ERR_OUTSIDE, (int64_t)i,
+                                 "point %zu (%.17g, %.17g) is not inside the polygon", i, p[0], p[1]);
+        if (!iccp_frame_holds(&polygon->frame, 2, p))
+            return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)i,
+                             "point %zu (%.17g, %.17g): a coordinate is not 0, but less than "
+                             "2^-200 of the largest one",
+                             i, p[0], p[1]);
+    }
+    return ICC_OK;
+}
+
+static icc_status triangulate(const icc_domain *polygon, size_t n_points, const double *points,
+                              uint32_t *triangles, const iccp_env *env, icc_error *err)
+{
+    double *local = iccp_alloc(&env->memory, n_points, 2 * sizeof *local);
+    if (local == NULL)
+        return iccp_fail_memory(err);
+    for (size_t i = 0; i < 2 * polygon->n_vertices; ++i)
+        local[i] = polygon->vertices[i];
+    icc_status status = localise(local, polygon, n_points, points, err);
+    if (status == ICC_OK)
+        status = iccp_triangulate(polygon->n_vertices, n_points, local, triangles, env, err);
+    iccp_free(&env->memory, local);
+    return status;
+}
+
+icc_status icc_triangulate(size_t n_boundary, size_t n_points, const double *points,
+                           uint32_t *triangles, const icc_env *env, icc_error *err)
+{
+    iccp_env full_env;
+    const char *missing = points == NULL ? "points" : triangles == NULL ? "triangles" : NULL;
+    icc_status status = begin(&full_env, env, missing, err);
+    if (status != ICC_OK)
+        return status;
+    if (n_boundary < 3 || n_points < n_boundary || n_points > MAX_POINTS)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, -1,
+                         "a polygon of %zu vertices among %zu points: at least 3 vertices, and at "
+                         "most %zu points",
+                         n_boundary, n_points, MAX_POINTS);
+    icc_domain *polygon;
+    status = iccp_domain_create(&polygon, 2, n_boundary, points, 0, NULL, &full_env, err);
+    if (status == ICC_OK)
+        status = triangulate(polygon, n_points, points, triangles, &full_env, err);
+    iccp_domain_release(polygon);
+    return explain(status, err);
+}
