@@ -1,0 +1,49 @@
+/* The command line: which command, with which options. */
+#ifndef ARGS_H
+#define ARGS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct args {
+    const char *command;
+    /* files */
+    const char *source, *target, *points, *coords, *output, *repair, *json_file;
+    const char *operands[2];
+    size_t n_operands;
+    /* how charts and maps are made: 0 means the library's choice */
+    int32_t method, map, function, tree, cells, improve, threads;
+    double maximum[2], target_maximum[2];
+    bool has_maximum, has_target_maximum, unconstrained;
+    /* what to do */
+    bool inverse, quiet, json, elevation, y_down, compression, has_background;
+    unsigned char background[4];
+    int32_t lines;
+} args;
+
+/* Bits of the commands. */
+enum {
+    FOR_MAP = 1, FOR_ENCODE = 2, FOR_DECODE = 4, FOR_WARP = 8, FOR_MESH = 16, FOR_CHECK = 32,
+    FOR_INFO = 64, FOR_PLOT = 128, FOR_ALL = 255
+};
+
+typedef struct command {
+    const char *name;
+    unsigned bit;
+    size_t n_operands;
+    bool needs_target;
+    int (*run)(const args *a);
+    const char *usage;   /* what follows the name */
+    const char *summary; /* one line */
+    const char *details; /* paragraphs for --help */
+} command;
+
+/* Reads argv[2..argc) for a command. Returns DONE, or MISUSED with a line on stderr. *help is set
+ * when --help is among them; nothing else counts then. */
+int args_parse(args *out, const command *c, int argc, char **argv, bool *help);
+
+/* Prints the help of a command on stdout. */
+void args_help(const command *c);
+
+#endif

@@ -1,0 +1,7 @@
+#include "commands.h"
+
+#include "say.h"
+
+int run_plot(const args *a) {
+    return misused(a->command, "not available yet");
+}

@@ -1,0 +1,196 @@
+#define _POSIX_C_SOURCE 200809L
+
+#include "job.h"
+
+#include "defect.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+void job_start(job *j, const args *a) {
+    long processors = sysconf(_SC_NPROCESSORS_ONLN);
+    *j = (job){.args = a, .started = seconds_now()};
+    progress_start(&j->bar, a->quiet);
+    j->env = (icc_env){.size = sizeof j->env, .user = &j->bar, .progress = progress_show};
+    j->env.threads = a->threads > 0 ? a->threads : processors > 0 && processors < 1024 ? (int32_t)processors : 1;
+}
+
+void job_end(job *j) {
+    progress_end(&j->bar);
+    icc_map_free(j->map);
+    icc_chart_free(j->chart);
+    for (size_t side = 0; side < 2; side++) {
+        icc_domain_free(j->domains[side]);
+        cage_free(&j->cages[side]);
+    }
+}
+
+const char *job_file(const job *j, int side) {
+    return side == 2 && j->args->target != NULL ? j->args->target : j->args->source;
+}
+
+int job_failed(job *j, const icc_error *err) {
+    progress_end(&j->bar);
+    const cage *c = &j->cages[err->side == 2];
+    size_t line = 0;
+    if (err->index >= 0 && (uint64_t)err->index < c->n)
+        line = c->lines[err->index];
+    const char *message = err->message[0] != '\0' ? err->message : icc_status_name(err->status);
+    return failed(job_file(j, err->side), line, "%s", message);
+}
+
+int job_failed_status(job *j, icc_status status) {
+    icc_error err = {.size = sizeof err, .status = status, .index = -1};
+    return job_failed(j, &err);
+}
+
+static int read_cage(job *j, size_t side) {
+    const char *name = job_file(j, (int)side + 1);
+    size_t n;
+    char *text = file_read(name, &n);
+    if (text == NULL)
+        return FAILED;
+    problem wrong;
+    bool good = cage_read(&j->cages[side], side == 0 ? CAGE_SOURCE : CAGE_TARGET, text, n, &wrong);
+    free(text);
+    return good ? DONE : failed(name, wrong.line, "%s", wrong.text);
+}
+
+int job_read_cages(job *j) {
+    if (j->cages[0].n > 0)
+        return DONE;
+    int result = read_cage(j, 0);
+    if (result != DONE || j->args->target == NULL)
+        return result;
+    result = read_cage(j, 1);
+    if (result == DONE && j->cages[0].n != j->cages[1].n)
+        return failed(j->args->target, 0, "%zu vertices, but the source %s has %zu; they correspond one by one",
+                      j->cages[1].n, j->args->source, j->cages[0].n);
+    j->seconds_read = seconds_now() - j->started;
+    return result;
+}
+
+/* A boundary that is no boundary: names the first defect by its line, and counts the others. */
+static int failed_boundary(job *j, size_t side, const icc_error *err) {
+    const cage *c = &j->cages[side];
+    defect_list list;
+    size_t n_all;
+    if (defects_find(&list, c, 1, &n_all, &j->env, NULL) != ICC_OK || list.n == 0)
+        return job_failed(j, err);
+    progress_end(&j->bar);
+    char text[200], more[80] = "";
+    if (n_all > 1)
+        snprintf(more, sizeof more, " (%zu defects in all; 'libicc check' lists them)", n_all);
+    failed(job_file(j, (int)side + 1), c->lines[list.items[0]], "%s%s", defect_text(text, &list, 0, c), more);
+    defects_free(&list);
+    return FAILED;
+}
+
+static int make_domain(job *j, size_t side) {
+    const cage *c = &j->cages[side];
+    icc_error err = {.size = sizeof err, .index = -1};
+    icc_status status = icc_domain_create(&j->domains[side], 2, c->n, c->points, 0, NULL, &j->env, &err);
+    if (status == ICC_OK)
+        return DONE;
+    err.side = (int32_t)side + 1;
+    return status == ICC_ERR_BOUNDARY ? failed_boundary(j, side, &err) : job_failed(j, &err);
+}
+
+int job_make_domains(job *j) {
+    int result = job_read_cages(j);
+    for (size_t side = 0; side < 2 && result == DONE; side++)
+        if (j->cages[side].n > 0 && j->domains[side] == NULL)
+            result = make_domain(j, side);
+    return result;
+}
+
+static icc_chart_options chart_options(const args *a) {
+    return (icc_chart_options){
+        .size = sizeof(icc_chart_options),
+        .method = a->method,
+        .function = a->function,
+        .tree = a->tree,
+        .cells = a->cells,
+        .maximum = a->has_maximum ? a->maximum : NULL,
+    };
+}
+
+int job_make_chart(job *j) {
+    int result = job_make_domains(j);
+    if (result != DONE)
+        return result;
+    double began = seconds_now();
+    icc_chart_options options = chart_options(j->args);
+    icc_error err = {.size = sizeof err, .index = -1};
+    if (icc_chart_create(&j->chart, j->domains[0], &options, &j->env, &err) != ICC_OK)
+        return job_failed(j, &err);
+    j->seconds_made = seconds_now() - began;
+    return DONE;
+}
+
+int job_make_map(job *j) {
+    int result = job_make_domains(j);
+    if (result != DONE)
+        return result;
+    double began = seconds_now();
+    icc_chart_options chart = chart_options(j->args);
+    icc_map_options options = {.size = sizeof options, .kind = j->args->map, .chart = &chart};
+    if (j->args->has_target_maximum)
+        options.target_maximum = j->args->target_maximum;
+    icc_error err = {.size = sizeof err, .index = -1};
+    if (icc_map_create(&j->map, j->domains[0], j->domains[1], &options, &j->env, &err) != ICC_OK)
+        return job_failed(j, &err);
+    j->seconds_made = seconds_now() - began;
+    return DONE;
+}
+
+int job_partial(job *j, size_t n, const icc_status *status, const char *what) {
+    size_t n_failed = 0, n_outside = 0;
+    for (size_t i = 0; i < n; i++) {
+        n_failed += status[i] != ICC_OK;
+        n_outside += status[i] == ICC_ERR_OUTSIDE;
+    }
+    progress_end(&j->bar);
+    if (n_failed == 0)
+        return DONE;
+    note("%zu of %zu %s have no image: %zu outside the cage, %zu that the curves do not reach", n_failed, n,
+         what, n_outside, n_failed - n_outside);
+    return PARTIAL;
+}
+
+bool report_open(report *r, const job *j) {
+    if (!outfile_open(&r->file, j->args->json_file))
+        return false;
+    r->json = (json){.stream = r->file.stream, .first = true};
+    json_open(&r->json, NULL, '{');
+    json_text(&r->json, "command", j->args->command);
+    json_text(&r->json, "version", icc_version());
+    json_text(&r->json, "source", j->args->source);
+    if (j->args->target != NULL)
+        json_text(&r->json, "target", j->args->target);
+    json_count(&r->json, "vertices", j->cages[0].n);
+    return true;
+}
+
+bool report_close(report *r) {
+    json_close(&r->json, '}');
+    return outfile_close(&r->file);
+}
+
+int report_points(const job *j, size_t n, size_t n_failed, double seconds) {
+    report r;
+    if (!j->args->json)
+        return DONE;
+    if (!report_open(&r, j))
+        return FAILED;
+    json_count(&r.json, "points", n);
+    json_count(&r.json, "without_image", n_failed);
+    json_open(&r.json, "seconds", '{');
+    json_number(&r.json, "read", j->seconds_read);
+    json_number(&r.json, "make", j->seconds_made);
+    json_number(&r.json, "apply", seconds);
+    json_close(&r.json, '}');
+    return report_close(&r) ? DONE : FAILED;
+}

@@ -1,0 +1,44 @@
+/* One line on stderr about what went wrong. */
+#ifndef SAY_H
+#define SAY_H
+
+#include <stdarg.h>
+#include <stddef.h>
+
+#if defined(__GNUC__)
+#define SAY_FORMAT(string, first) __attribute__((format(printf, string, first)))
+#else
+#define SAY_FORMAT(string, first)
+#endif
+
+/* The exit codes of the command. */
+enum {
+    DONE = 0,   /* all is well */
+    FAILED = 1, /* the input or the computation failed */
+    MISUSED = 2,/* wrong usage */
+    PARTIAL = 4 /* done, but some points have no image */
+};
+
+/* What is wrong with an input, and where. `line` counts from 1; 0: no particular line. */
+typedef struct problem {
+    size_t line;
+    char text[240];
+} problem;
+
+/* Fills in a problem and returns false, so that a reader can `return spoilt(...)`. */
+int spoilt(problem *out, size_t line, const char *format, ...) SAY_FORMAT(3, 4);
+
+/* Prints `libicc: FILE:LINE: message` and returns FAILED. No file: NULL; no line: 0. */
+int failed(const char *file, size_t line, const char *format, ...) SAY_FORMAT(3, 4);
+
+/* Prints `libicc: message (see 'libicc COMMAND --help')` and returns MISUSED. */
+int misused(const char *command, const char *format, ...) SAY_FORMAT(2, 3);
+
+/* Prints `libicc: message`. */
+void note(const char *format, ...) SAY_FORMAT(1, 2);
+
+/* Copies the word at `word` for use in a message: at most 24 characters, up to white space, with
+ * anything unprintable shown as '?'. Returns `out`. */
+const char *quoted(char out[32], const char *word);
+
+#endif
