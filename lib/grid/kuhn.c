@@ -1,12 +1,14 @@
 /* Based on: J. A. Barmak and E. G. Minian, Strong Homotopy Types, Nerves and Collapses, Discrete &
  * Computational Geometry 47, 2012.
  *
- * A vertex is dominated by another one when everything joined to it, itself included, is joined to the
- * other; the simplices of the triangulation being its cliques, it can then be moved into the other one
- * and dropped without changing the homotopy type. What is left when no vertex is dominated does not
- * depend on the order, so a set that can be reduced to one vertex is reduced by dropping any that will
- * go. In a link of up to 3 dimensions (6 vertices round a circle, 14 round a sphere) every
- * contractible set can: tests/unit/test_grid.c. */
+ * The simplices of the triangulation are the cliques of joined vertices. Up to 3-D the link is two
+ * points, a circle or a sphere, where by Alexander duality a set is contractible when it and the rest
+ * are each connected and not empty.
+ *
+ * Beyond, strong collapses: a vertex is dominated by another one when everything joined to it, itself
+ * included, is joined to the other; it can then be moved into the other one and dropped without
+ * changing the homotopy type. What is left when no vertex is dominated does not depend on the order,
+ * so a set that can be reduced to one vertex is reduced by dropping whatever will go. */
 #include "grid/kuhn.h"
 
 #include <assert.h>
@@ -68,21 +70,33 @@ static bool collapses(const iccp_kuhn *kuhn, iccp_link_set set)
     return true;
 }
 
-/* Dropping a member leads to a smaller number, whose answer is known. */
+/* For sets within the first word. */
+static bool is_connected(const iccp_kuhn *kuhn, uint64_t set)
+{
+    uint64_t reached = set & (~set + 1), before = 0;
+    while (reached != before) {
+        before = reached;
+        for (int i = 0; i < kuhn->n_neighbours; ++i)
+            if (before >> i & 1)
+                reached |= kuhn->joined[i].word[0] & set;
+    }
+    return reached == set && set != 0;
+}
+
+static void put(iccp_kuhn *kuhn, uint64_t set)
+{
+    kuhn->contractible[set / 64] |= (uint64_t)1 << (set % 64);
+}
+
+/* The answer for a set is the answer for the rest. */
 static void tabulate(iccp_kuhn *kuhn)
 {
-    for (uint64_t bits = 1; bits < (uint64_t)1 << kuhn->n_neighbours; ++bits) {
-        iccp_link_set set = {{bits, 0}};
-        bool answer = is_single(&set);
-        if (!answer) {
-            const int i = find_dominated(kuhn, &set, 0);
-            if (i >= 0) {
-                drop(&set, i);
-                answer = kuhn->contractible[set.word[0] / 64] >> (set.word[0] % 64) & 1;
-            }
+    const uint64_t all = ((uint64_t)1 << kuhn->n_neighbours) - 1;
+    for (uint64_t set = 0; set <= all / 2; ++set)
+        if (is_connected(kuhn, set) && is_connected(kuhn, all - set)) {
+            put(kuhn, set);
+            put(kuhn, all - set);
         }
-        kuhn->contractible[bits / 64] |= (uint64_t)answer << (bits % 64);
-    }
     kuhn->tabulated = true;
 }
 

@@ -27,7 +27,7 @@ typedef struct iccp_kuhn {
     uint64_t contractible[ICCP_LINK_TABLE / 64];
 } iccp_kuhn;
 
-/* Takes about 1 ms in 3-D, which is what its table costs, and microseconds otherwise. */
+/* Takes about a millisecond in 3-D, for the table, and microseconds otherwise. */
 void iccp_kuhn_init(iccp_kuhn *kuhn, int32_t dim);
 
 static inline void iccp_link_add(iccp_link_set *set, int i)
