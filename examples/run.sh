@@ -1,6 +1,6 @@
 #!/bin/sh
 # Installs what is missing, builds the library, installs it below build/, compiles the examples
-# against it, and warps a picture.
+# against it, and runs them; the first one warps a picture.
 set -eu
 cd "$(dirname "$0")/.."
 . cmake/deps.sh
@@ -8,20 +8,26 @@ need gcc libc6-dev make cmake pkg-config libpng-dev libcjson-dev
 
 build=build/examples
 stage=$PWD/$build/stage
-data=examples/data
+programs=$build/programs
 out=$build/out
 mkdir -p "$build" "$out"
 
-echo "building the library"
+echo "building and installing the library"
 quietly "$build/configure.log" cmake -S . -B "$build/library" -DCMAKE_BUILD_TYPE=Release
 quietly "$build/build.log" cmake --build "$build/library" --parallel "$(nproc)"
 quietly "$build/install.log" cmake --install "$build/library" --prefix "$stage"
 
-echo "building the examples"
-quietly "$build/configure.log" cmake -S examples -B "$build/programs" -DCMAKE_PREFIX_PATH="$stage"
-quietly "$build/build.log" cmake --build "$build/programs" --parallel "$(nproc)"
+echo "building the examples against it"
+quietly "$build/configure.log" cmake -S examples -B "$programs" -DCMAKE_PREFIX_PATH="$stage"
+quietly "$build/build.log" cmake --build "$programs" --parallel "$(nproc)"
 
-echo "warping $data/coffee.png"
-"$build/programs/warp" "$data/coffee.src.txt" "$data/coffee.tgt.txt" "$data/coffee.png" \
-    "$out/coffee.png"
-echo "the result is $out/coffee.png"
+for name in inspect_stages maximum_and_rotation sparse_points; do
+    "$programs/$name" >"$out/$name.txt"
+    echo "$name: the result is $out/$name.txt"
+done
+printf 'l_to_square: '
+"$programs/l_to_square" "$out/l_to_square.svg"
+
+echo "warp_picture: examples/data/coffee.png"
+"$programs/warp_picture" examples/data/coffee.src.txt examples/data/coffee.tgt.txt \
+    examples/data/coffee.png "$out/coffee.png"
