@@ -106,10 +106,15 @@ static bool between(const double a[2], const double b[2], const double c[2])
     return (a[0] - b[0]) * (c[0] - b[0]) <= 0 && (a[1] - b[1]) * (c[1] - b[1]) <= 0;
 }
 
-/* An edge on the line of the step: the step meets it in the end that comes first. */
+/* An edge on the line of the step: the step begins on it or meets the end that comes first. */
 static bool hit_collinear(const double p[2], const double q[2], const double a[2],
                           const double b[2], iccp_fence_hit *hit)
 {
+    if (between(a, p, b)) {
+        hit->share = 0;
+        hit->along = clamp01(hypot(p[0] - a[0], p[1] - a[1]) / hypot(b[0] - a[0], b[1] - a[1]));
+        return true;
+    }
     const bool meets_a = between(p, a, q), meets_b = between(p, b, q);
     if (!meets_a && !meets_b)
         return false;

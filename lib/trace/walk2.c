@@ -74,14 +74,18 @@ static bool triangle_gradient(const iccp_walk2 *w, size_t i, size_t j, int upper
 
 /* Exact sign of (cu - u) gv - (cv - v) gu: the side of the line from (u, v) to the corner (cu, cv)
  * to which the gradient points; + is left. The filter's bound: each difference and product is off by
- * at most 2^-53 of itself, so the result by less than 4 * 2^-53 times the sum of magnitudes. */
+ * at most 2^-53 of itself, so the result by less than 4 * 2^-53 times the sum of magnitudes. The
+ * values are brought near 1 for the exact sign: far from the maximum decay makes them tiny. */
 static int turn_sign(const gradient *g, double cu, double cv, double u, double v)
 {
     const double left = (cu - u) * g->gv, right = (cv - v) * g->gu;
     const double det = left - right;
     if (fabs(det) > 1e-15 * (fabs(left) + fabs(right)) && fabs(det) > 1e-290)
         return sign(det);
-    return iccp_cross_sign(cu, u, g->va, g->vb, cv, v, g->ua, g->ub);
+    int e;
+    (void)frexp(fmax(fmax(fabs(g->ua), fabs(g->ub)), fmax(fabs(g->va), fabs(g->vb))), &e);
+    return iccp_cross_sign(cu, u, ldexp(g->va, -e), ldexp(g->vb, -e), cv, v, ldexp(g->ua, -e),
+                           ldexp(g->ub, -e));
 }
 
 /* Exact sign of the gradient's component into the triangle across its edge k. */
@@ -116,18 +120,17 @@ static void meet_edge(const gradient *g, int upper, int k, double *u, double *v)
 
 /* Moving along the gradient to edge k moves the end by the start's motion, projected along the
  * gradient onto the edge: dq = dp - g (n . dp) / (n . g) with the edge's normal n. */
-static void carry_jet(iccp_walk2 *w, const gradient *g, int k, double du, double dv)
+static void carry_jet(iccp_walk2 *w, const gradient *g, int k)
 {
     const crossing *across = &ACROSS[w->upper][k];
     const double nu = across->dj != 0 ? 0 : 1;
     const double nv = across->di != 0 ? 0 : across->dj != 0 ? 1 : -1;
-    const double length = sqrt(du * du + dv * dv);
+    const double steepness = hypot(g->gu, g->gv);
     for (int c = 0; c < 2; ++c) {
         const double t = ratio(nu * w->jet->x[c] + nv * w->jet->y[c], nu * g->gu + nv * g->gv);
-        const double dx = -t * g->gu, dy = -t * g->gv;
-        w->jet->x[c] += dx;
-        w->jet->y[c] += dy;
-        w->jet->s[c] += ratio(du * dx + dv * dy, length);
+        w->jet->x[c] -= t * g->gu;
+        w->jet->y[c] -= t * g->gv;
+        w->jet->s[c] -= t * steepness;
     }
 }
 
@@ -183,7 +186,7 @@ static icc_status go_to_edge(iccp_walk2 *w, const gradient *g, int k)
         return ICC_OK;
     }
     if (w->jet != NULL)
-        carry_jet(w, g, k, u - w->u, v - w->v);
+        carry_jet(w, g, k);
     record(w, w->i, w->j, w->u, w->v, u, v);
     const crossing *across = &ACROSS[w->upper][k];
     w->i += (size_t)across->di;
@@ -256,6 +259,18 @@ static double rise_to(const iccp_walk2 *w, int m)
     return w->direction * (w->f[vertex_at(w, i, j)] - w->f[vertex_at(w, w->i, w->j)]);
 }
 
+/* The rises to the six neighbours in units of the largest, so that their squares do not vanish. */
+static void find_rises(const iccp_walk2 *w, double rise[6])
+{
+    double largest = 0;
+    for (int m = 0; m < 6; ++m) {
+        rise[m] = rise_to(w, m);
+        largest = fmax(largest, fabs(rise[m]));
+    }
+    for (int m = 0; m < 6 && largest > 0; ++m)
+        rise[m] /= largest;
+}
+
 /* The square of the slope inside the sector between neighbours m and m + 1 when its gradient points
  * into the open sector, else -1. One of the two is an axis and the other a diagonal, or both are
  * axes. */
@@ -299,8 +314,7 @@ static icc_status step_from_vertex(iccp_walk2 *w)
 {
     double rise[6], best = 0;
     int edge = -1, sector = -1, level = -1;
-    for (int m = 0; m < 6; ++m)
-        rise[m] = rise_to(w, m);
+    find_rises(w, rise);
     for (int m = 0; m < 6; ++m) {
         const double slope = rise[m] > 0 ? rise[m] * rise[m] / (m % 3 == 1 ? 2 : 1) : -1;
         if (slope > best) {
