@@ -5,9 +5,22 @@
 #include "base/env.h"
 #include "icc/stages.h"
 
+/* Stands for the neighbour beyond an edge of the polygon. */
+#define ICCP_NO_NEIGHBOUR UINT32_MAX
+
 /* See icc_triangulate(); the points are local (domain/frame.h), their non-zero magnitudes in
- * [2^-200, 2^200]. */
+ * [2^-200, 2^200]; at most ICCP_TRIMESH_MAX_POINTS (2^28) of them.
+ *
+ * ICC_ERR_BOUNDARY: the polygon is not simple. ICC_ERR_OUTSIDE: the point `index` lies outside the
+ * polygon or on it. ICC_ERR_ARGUMENT: it repeats another point inside. */
 icc_status iccp_triangulate(size_t n_boundary, size_t n_points, const double *points,
                             uint32_t *triangles, const iccp_env *env, icc_error *err);
+
+/* The same, and for each corner (number k of triangle t is 3 t + k) the corner that faces the same
+ * edge from the other side, or ICCP_NO_NEIGHBOUR. `neighbours` has the room of `triangles`, or is
+ * NULL. */
+icc_status iccp_triangulate_mesh(size_t n_boundary, size_t n_points, const double *points,
+                                 uint32_t *triangles, uint32_t *neighbours, const iccp_env *env,
+                                 icc_error *err);
 
 #endif

@@ -1,4 +1,5 @@
 /* The exact predicates against GMP's rationals on inputs made to be degenerate or nearly so. */
+#include "../random.h"
 #include "math/expansion.h"
 #include "math/predicates.h"
 
@@ -8,29 +9,6 @@
 #include <stdlib.h>
 
 enum { N = 100000 };
-
-typedef struct random_source {
-    uint64_t state;
-} random_source;
-
-/* SplitMix64. */
-static uint64_t next(random_source *r)
-{
-    uint64_t z = r->state += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-}
-
-static int below(random_source *r, int n)
-{
-    return (int)(next(r) % (uint64_t)n);
-}
-
-static double unit(random_source *r)
-{
-    return (double)(next(r) >> 11) * 0x1p-53;
-}
 
 /* What the predicates do not promise to get right becomes zero. */
 static double in_range(double a)
@@ -126,8 +104,8 @@ static int cross_sign(const double v[8])
 /* A magnitude that is zero now and then, otherwise anywhere in the permitted range or near 1. */
 static double any(random_source *r)
 {
-    const double sign = next(r) & 1 ? -1.0 : 1.0;
-    switch (below(r, 6)) {
+    const double sign = random_bits(r) & 1 ? -1.0 : 1.0;
+    switch (random_below(r, 6)) {
     case 0:
         return 0.0;
     case 1:
@@ -135,28 +113,28 @@ static double any(random_source *r)
     case 2:
         return sign * 0x1p200;
     case 3:
-        return sign * unit(r) + sign;
+        return sign * random_unit(r) + sign;
     case 4:
-        return ldexp(sign, below(r, 401) - 200);
+        return ldexp(sign, random_below(r, 401) - 200);
     default:
-        return sign * ldexp(1.0 + unit(r), below(r, 400) - 200);
+        return sign * ldexp(1.0 + random_unit(r), random_below(r, 400) - 200);
     }
 }
 
 static double grid(random_source *r, int cells)
 {
-    return below(r, 2 * cells + 1) - cells;
+    return random_below(r, 2 * cells + 1) - cells;
 }
 
 /* Three points on a line through the plane or a few units in the last place beside it. */
 static void nearly_collinear(random_source *r, double p[3][2])
 {
-    const double scale = ldexp(1.0, below(r, 100) - 50), offset = below(r, 3) * 12.0;
-    const double dx = unit(r) * scale, dy = unit(r) * scale;
+    const double scale = ldexp(1.0, random_below(r, 100) - 50), offset = random_below(r, 3) * 12.0;
+    const double dx = random_unit(r) * scale, dy = random_unit(r) * scale;
     for (int i = 0; i < 3; ++i) {
-        const double s = below(r, 2) ? unit(r) : grid(r, 8) / 8.0;
-        p[i][0] = nudge(offset + s * dx, below(r, 3) - 1);
-        p[i][1] = nudge(offset + s * dy, below(r, 3) - 1);
+        const double s = random_below(r, 2) ? random_unit(r) : grid(r, 8) / 8.0;
+        p[i][0] = nudge(offset + s * dx, random_below(r, 3) - 1);
+        p[i][1] = nudge(offset + s * dy, random_below(r, 3) - 1);
     }
 }
 
@@ -166,7 +144,7 @@ static void last_bits(random_source *r, double p[3][2])
     const double corner[3] = {0.5, 12.0, 24.0};
     for (int i = 0; i < 3; ++i)
         for (int k = 0; k < 2; ++k)
-            p[i][k] = corner[i] + (i == 0 ? below(r, 256) * 0x1p-53 : 0.0);
+            p[i][k] = corner[i] + (i == 0 ? random_below(r, 256) * 0x1p-53 : 0.0);
 }
 
 static void spread(random_source *r, double p[3][2])
@@ -174,7 +152,7 @@ static void spread(random_source *r, double p[3][2])
     for (int i = 0; i < 3; ++i)
         for (int k = 0; k < 2; ++k)
             p[i][k] = any(r);
-    if (next(r) & 1) {
+    if (random_bits(r) & 1) {
         p[2][0] = in_range(p[0][0] + p[1][0]);
         p[2][1] = in_range(p[0][1] + p[1][1]);
     }
@@ -216,14 +194,14 @@ END_TEST
 static void make_cross(random_source *r, double v[8])
 {
     for (int i = 0; i < 8; ++i)
-        v[i] = i % 4 < 2 ? any(r) : unit(r);
-    const int kind = below(r, 4);
+        v[i] = i % 4 < 2 ? any(r) : random_unit(r);
+    const int kind = random_below(r, 4);
     if (kind == 0)
         return;
     for (int i = 0; i < 4; ++i)
         v[4 + i] = kind == 1 ? v[i] : kind == 2 ? v[(i + 2) % 4] : v[3 - i];
-    const int i = below(r, 8);
-    v[i] = v[i] == 0.0 ? 0x1p-200 : nudge(v[i], below(r, 3) - 1);
+    const int i = random_below(r, 8);
+    v[i] = v[i] == 0.0 ? 0x1p-200 : nudge(v[i], random_below(r, 3) - 1);
 }
 
 START_TEST(cross_sign_is_exact)
@@ -252,23 +230,23 @@ END_TEST
 static void nearly_cocircular(random_source *r, double p[4][2])
 {
     static const double corner[4][2] = {{33, 56}, {16, 63}, {39, 52}, {25, 60}}; /* radius 65 */
-    const double scale = ldexp(below(r, 2) ? 1.0 : 0.1, below(r, 80) - 40);
+    const double scale = ldexp(random_below(r, 2) ? 1.0 : 0.1, random_below(r, 80) - 40);
     const double centre[2] = {grid(r, 9) * scale, grid(r, 9) * scale};
     for (int i = 0; i < 4; ++i) {
-        const double *c = corner[below(r, 4)];
-        const int swap = below(r, 2);
+        const double *c = corner[random_below(r, 4)];
+        const int swap = random_below(r, 2);
         for (int k = 0; k < 2; ++k) {
-            const double sign = below(r, 2) ? 1.0 : -1.0;
+            const double sign = random_below(r, 2) ? 1.0 : -1.0;
             p[i][k] = centre[k] + scale * sign * c[k ^ swap];
-            if (below(r, 4) == 0)
-                p[i][k] = nudge(p[i][k], below(r, 3) - 1);
+            if (random_below(r, 4) == 0)
+                p[i][k] = nudge(p[i][k], random_below(r, 3) - 1);
         }
     }
 }
 
 static void small_lattice(random_source *r, double p[4][2])
 {
-    const double scale = ldexp(1.0, below(r, 300) - 150) * (below(r, 2) ? 1.0 : 1.0 / 3.0);
+    const double scale = ldexp(1.0, random_below(r, 300) - 150) * (random_below(r, 2) ? 1.0 : 1.0 / 3.0);
     for (int i = 0; i < 4; ++i)
         for (int k = 0; k < 2; ++k)
             p[i][k] = scale * grid(r, 3);
@@ -282,8 +260,8 @@ static void rectangle(random_source *r, double p[4][2])
         p[i][0] = x[i == 1 || i == 2];
         p[i][1] = y[i >= 2];
     }
-    if (next(r) & 1) {
-        const int i = below(r, 4), k = below(r, 2);
+    if (random_bits(r) & 1) {
+        const int i = random_below(r, 4), k = random_below(r, 2);
         p[i][k] = p[i][k] == 0.0 ? 0x1p-200 : in_range(p[i][k] * (1.0 - 0x1p-52));
     }
 }
@@ -368,9 +346,9 @@ START_TEST(expansions_keep_their_value)
     mpq_init(c);
     for (int i = 0; i < N / 10; ++i) {
         double e[4], f[4], sum[8], scaled[16];
-        const size_t m = iccp_expansion_cross(e, unit(&r), unit(&r), any(&r), unit(&r));
-        const size_t n = iccp_expansion_cross(f, any(&r), unit(&r), unit(&r), unit(&r));
-        const double factor = unit(&r);
+        const size_t m = iccp_expansion_cross(e, random_unit(&r), random_unit(&r), any(&r), random_unit(&r));
+        const size_t n = iccp_expansion_cross(f, any(&r), random_unit(&r), random_unit(&r), random_unit(&r));
+        const double factor = random_unit(&r);
         const size_t n_sum = iccp_expansion_sum(sum, m, e, n, f);
         const size_t n_scaled = iccp_expansion_scale(scaled, n_sum, sum, factor);
         for (size_t k = 0; k + 1 < n_sum; ++k)

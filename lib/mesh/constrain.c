@@ -1,0 +1,332 @@
+/* Based on: M. V. Anglada, An improved incremental algorithm for constructing restricted Delaunay
+ * triangulations, Computers & Graphics 21, 1997: take out the triangles that an edge crosses, and
+ * triangulate what they leave on either side of it. The two polygons are visible from the edge, so
+ * cutting off corners one after the other works in linear time (G. T. Toussaint, D. Avis, On a convex
+ * hull algorithm for polygons and its application to triangulation problems, Pattern Recognition 15,
+ * 1982); flips then make the result Delaunay. */
+#include "mesh/constrain.h"
+
+#include "base/error.h"
+#include "math/predicates.h"
+
+#include <assert.h>
+
+enum side { LEFT, RIGHT };
+
+/* Marks the index of a link in place of a corner. */
+static const uint32_t LINK = (uint32_t)1 << 31;
+
+/* A vertex of the chains on either side of the edge that is being inserted, and the edge that leads
+ * to it from the one before. */
+typedef struct chain_link {
+    uint32_t side;     /* LEFT or RIGHT */
+    uint32_t vertex;
+    uint32_t previous; /* the link before it on its side */
+    uint32_t outer;    /* the corner beyond the edge; or, when the chain runs along both sides of an
+                          edge between crossed triangles, LINK and the other chain_link */
+} chain_link;
+
+typedef struct cutter {
+    iccp_trimesh *mesh;
+    uint32_t from, to;   /* the edge that is being inserted */
+    uint32_t *corner_of; /* one corner of every vertex */
+    uint32_t *triangles; /* those that the edge crosses; later those still to be made Delaunay */
+    uint8_t *waiting;    /* whether a triangle is among the latter */
+    chain_link *links;         /* the first stands for `from`, on both sides */
+    uint32_t n_triangles, n_links;
+    uint32_t room;       /* for as many triangles, and three more links */
+    icc_error *err;
+} cutter;
+
+static uint32_t vertex_at(const cutter *k, uint32_t corner)
+{
+    return k->mesh->corners[corner].vertex;
+}
+
+/* On which side of the edge a vertex lies: +1 left, -1 right. */
+static int side_of(const cutter *k, uint32_t vertex)
+{
+    return iccp_orient2d(iccp_point(k->mesh, k->from), iccp_point(k->mesh, k->to),
+                         iccp_point(k->mesh, vertex));
+}
+
+static icc_status fail_touch(const cutter *k, uint32_t vertex)
+{
+    const unsigned long from = k->from, to = k->to, point = vertex;
+    if (vertex < k->mesh->n_boundary)
+        return iccp_fail(k->err, ICC_ERR_BOUNDARY, vertex,
+                         "vertex %lu lies on the polygon's edge from vertex %lu to %lu", point,
+                         from, to);
+    return iccp_fail(k->err, ICC_ERR_OUTSIDE, vertex,
+                     "point %lu is not inside the polygon: it lies on the edge from vertex %lu to %lu",
+                     point, from, to);
+}
+
+static icc_status fail_cross(const cutter *k, uint32_t a, uint32_t b)
+{
+    return iccp_fail(k->err, ICC_ERR_BOUNDARY, k->from,
+                     "the polygon crosses itself: its edges %lu-%lu and %lu-%lu",
+                     (unsigned long)k->from, (unsigned long)k->to, (unsigned long)a,
+                     (unsigned long)b);
+}
+
+static bool is_present(const cutter *k)
+{
+    const uint32_t first = k->corner_of[k->from];
+    uint32_t corner = first;
+    do {
+        if (vertex_at(k, iccp_after(corner)) == k->to)
+            return true;
+        corner = iccp_around(k->mesh, corner);
+    } while (corner != first);
+    return false;
+}
+
+/* Whether a vertex on the line of the edge lies on the same side of its beginning as its end. */
+static bool is_ahead(const cutter *k, uint32_t vertex)
+{
+    const double *from = iccp_point(k->mesh, k->from), *to = iccp_point(k->mesh, k->to);
+    const double *p = iccp_point(k->mesh, vertex);
+    const int axis = from[0] < to[0] || from[0] > to[0] ? 0 : 1;
+    return (from[axis] < to[axis]) == (from[axis] < p[axis]);
+}
+
+/* The corner at the beginning of the edge whose triangle the edge enters. */
+static icc_status find_start(const cutter *k, uint32_t *start)
+{
+    const uint32_t ghost = k->mesh->n_points;
+    uint32_t corner = k->corner_of[k->from];
+    for (;; corner = iccp_around(k->mesh, corner)) {
+        const uint32_t right = vertex_at(k, iccp_after(corner));
+        const uint32_t left = vertex_at(k, iccp_before(corner));
+        const int side = right == ghost ? 1 : side_of(k, right);
+        if (side == 0 && is_ahead(k, right))
+            return fail_touch(k, right);
+        if (side < 0 && left != ghost && side_of(k, left) > 0)
+            break;
+    }
+    *start = corner;
+    return ICC_OK;
+}
+
+static bool add_triangle(cutter *k, uint32_t triangle, const iccp_memory *memory)
+{
+    if (k->n_triangles == k->room) {
+        const size_t room = 2 * (size_t)k->room;
+        uint32_t *triangles = iccp_grow(memory, k->triangles, k->room, room, sizeof *triangles);
+        if (triangles == NULL)
+            return false;
+        k->triangles = triangles;
+        chain_link *links = iccp_grow(memory, k->links, k->n_links, room + 3, sizeof *links);
+        if (links == NULL)
+            return false;
+        k->links = links;
+        k->room = (uint32_t)room;
+    }
+    k->triangles[k->n_triangles++] = triangle;
+    return true;
+}
+
+static void add_link(cutter *k, uint32_t side, uint32_t vertex, uint32_t outer)
+{
+    k->links[k->n_links++] = (chain_link){side, vertex, 0, outer};
+}
+
+/* Follows the edge from the first triangle that it enters to its end, and notes the triangles and the
+ * chains. */
+static icc_status collect(cutter *k, uint32_t corner, const iccp_memory *memory)
+{
+    const iccp_corner *const c = k->mesh->corners;
+    k->n_triangles = k->n_links = 0;
+    add_triangle(k, corner / 3, memory);
+    add_link(k, LEFT, k->from, 0);
+    add_link(k, LEFT, vertex_at(k, iccp_before(corner)), c[iccp_after(corner)].twin);
+    add_link(k, RIGHT, vertex_at(k, iccp_after(corner)), c[iccp_before(corner)].twin);
+    for (;;) {
+        const uint32_t right = vertex_at(k, iccp_after(corner));
+        const uint32_t left = vertex_at(k, iccp_before(corner));
+        if (iccp_is_boundary_edge(k->mesh, left, right))
+            return fail_cross(k, left, right);
+        const uint32_t twin = c[corner].twin, apex = c[twin].vertex;
+        const int side = apex == k->to ? 0 : side_of(k, apex);
+        if (side == 0 && apex != k->to)
+            return fail_touch(k, apex);
+        if (!add_triangle(k, twin / 3, memory))
+            return iccp_fail_memory(k->err);
+        if (side >= 0)
+            add_link(k, LEFT, apex, c[iccp_before(twin)].twin);
+        if (side <= 0)
+            add_link(k, RIGHT, apex, c[iccp_after(twin)].twin);
+        if (side == 0)
+            return ICC_OK;
+        corner = side > 0 ? iccp_after(twin) : iccp_before(twin);
+    }
+}
+
+/* Finds the edges that a chain runs along twice. The corners on the inside of the chains, which are
+ * about to be taken out, point to their links meanwhile. */
+static void pair_links(cutter *k)
+{
+    iccp_corner *const c = k->mesh->corners;
+    for (uint32_t i = 1; i < k->n_links; ++i) {
+        const uint32_t inner = c[k->links[i].outer].twin;
+        if ((inner & LINK) == 0) {
+            c[inner].twin = LINK | i;
+            continue;
+        }
+        k->links[i].outer = inner;
+        k->links[inner & ~LINK].outer = LINK | i;
+    }
+}
+
+/* Makes a corner of a new triangle face the edge of a link. */
+static void attach(cutter *k, uint32_t corner, uint32_t index)
+{
+    const uint32_t outer = k->links[index].outer;
+    if ((outer & LINK) != 0)
+        k->links[outer & ~LINK].outer = corner;
+    else
+        iccp_link(k->mesh, corner, outer);
+}
+
+static void put(cutter *k, uint32_t corner, uint32_t vertex)
+{
+    k->mesh->corners[corner].vertex = vertex;
+    k->corner_of[vertex] = corner;
+}
+
+/* Makes a triangle of a link, the one before it and `last`, whose edge it becomes. */
+static void cut_off(cutter *k, uint32_t triangle, uint32_t middle, uint32_t last)
+{
+    chain_link *const l = k->links;
+    const uint32_t corner = 3 * triangle;
+    const uint32_t at_first = corner + 1 + l[last].side, at_last = corner + 2 - l[last].side;
+    put(k, corner, l[middle].vertex);
+    put(k, at_first, l[l[middle].previous].vertex);
+    put(k, at_last, l[last].vertex);
+    attach(k, at_first, last);
+    attach(k, at_last, middle);
+    l[last].outer = corner;
+}
+
+/* Whether the chain turns towards the edge at a link when `last` follows. */
+static bool is_ear(const cutter *k, uint32_t middle, uint32_t last)
+{
+    const chain_link *const l = k->links;
+    const double *a = iccp_point(k->mesh, l[l[middle].previous].vertex);
+    const double *b = iccp_point(k->mesh, l[middle].vertex);
+    const double *c = iccp_point(k->mesh, l[last].vertex);
+    return iccp_orient2d(a, b, c) == (l[last].side == LEFT ? -1 : 1);
+}
+
+/* Triangulates both sides of the edge in the places of the triangles that were taken out. */
+static void fill(cutter *k)
+{
+    chain_link *const l = k->links;
+    uint32_t top[2] = {0, 0}, n_used = 0;
+    for (uint32_t last = 1; last < k->n_links; ++last) {
+        uint32_t middle = top[l[last].side];
+        for (; middle != 0 && is_ear(k, middle, last); middle = l[middle].previous)
+            cut_off(k, k->triangles[n_used++], middle, last);
+        l[last].previous = middle;
+        top[l[last].side] = last;
+    }
+    assert(n_used == k->n_triangles && l[top[LEFT]].previous == 0 && l[top[RIGHT]].previous == 0);
+    iccp_link(k->mesh, l[top[LEFT]].outer, l[top[RIGHT]].outer);
+}
+
+static bool must_flip(const cutter *k, uint32_t corner)
+{
+    const iccp_trimesh *const mesh = k->mesh;
+    const uint32_t beyond = vertex_at(k, mesh->corners[corner].twin);
+    const uint32_t from = vertex_at(k, iccp_after(corner));
+    const uint32_t to = vertex_at(k, iccp_before(corner));
+    return beyond != mesh->n_points && !iccp_is_boundary_edge(mesh, from, to) &&
+           iccp_incircle(iccp_point(mesh, vertex_at(k, corner)), iccp_point(mesh, from),
+                         iccp_point(mesh, to), iccp_point(mesh, beyond)) > 0;
+}
+
+static void enqueue(cutter *k, uint32_t triangle)
+{
+    for (uint32_t corner = 3 * triangle; corner < 3 * triangle + 3; ++corner)
+        k->corner_of[vertex_at(k, corner)] = corner;
+    if (!k->waiting[triangle])
+        k->triangles[k->n_triangles++] = triangle;
+    k->waiting[triangle] = 1;
+}
+
+/* Flips edges between the new triangles until all are Delaunay. The edges round them are so already
+ * (the constraint took nothing from them), hence no other triangle ever waits. */
+static void legalise(cutter *k)
+{
+    for (uint32_t i = 0; i < k->n_triangles; ++i)
+        k->waiting[k->triangles[i]] = 1;
+    while (k->n_triangles > 0) {
+        const uint32_t triangle = k->triangles[--k->n_triangles];
+        k->waiting[triangle] = 0;
+        for (uint32_t corner = 3 * triangle; corner < 3 * triangle + 3; ++corner)
+            if (must_flip(k, corner)) {
+                const uint32_t other = k->mesh->corners[corner].twin / 3;
+                iccp_flip(k->mesh, corner);
+                enqueue(k, triangle);
+                enqueue(k, other);
+                break;
+            }
+    }
+}
+
+static icc_status insert_edge(cutter *k, const iccp_memory *memory)
+{
+    if (is_present(k))
+        return ICC_OK;
+    uint32_t start = 0;
+    icc_status status = find_start(k, &start);
+    if (status == ICC_OK)
+        status = collect(k, start, memory);
+    if (status != ICC_OK)
+        return status;
+    pair_links(k);
+    fill(k);
+    legalise(k);
+    return ICC_OK;
+}
+
+static icc_status insert_all(cutter *k, const iccp_env *env)
+{
+    enum { REPORT = 1024 };
+    for (uint32_t corner = 0; corner < 3 * k->mesh->n_triangles; ++corner)
+        if (vertex_at(k, corner) != k->mesh->n_points)
+            k->corner_of[vertex_at(k, corner)] = corner;
+    for (uint32_t i = 0; i < k->mesh->n_boundary; ++i) {
+        if (i % REPORT == 0 &&
+            iccp_progress(env, "constrain", (double)i / (double)k->mesh->n_boundary) != ICC_OK)
+            return ICC_ERR_CANCELLED;
+        k->from = i;
+        k->to = i + 1 < k->mesh->n_boundary ? i + 1 : 0;
+        const icc_status status = insert_edge(k, &env->memory);
+        if (status != ICC_OK)
+            return status;
+    }
+    return ICC_OK;
+}
+
+icc_status iccp_constrain(iccp_trimesh *mesh, const iccp_env *env, icc_error *err)
+{
+    enum { ROOM = 64 };
+    const iccp_memory *const memory = &env->memory;
+    cutter k = {.mesh = mesh, .room = ROOM, .err = err};
+    k.corner_of = iccp_alloc(memory, mesh->n_points, sizeof *k.corner_of);
+    k.waiting = iccp_alloc_zero(memory, mesh->n_triangles, sizeof *k.waiting);
+    k.triangles = iccp_alloc(memory, ROOM, sizeof *k.triangles);
+    k.links = iccp_alloc(memory, ROOM + 3, sizeof *k.links);
+    icc_status status;
+    if (k.corner_of == NULL || k.waiting == NULL || k.triangles == NULL || k.links == NULL)
+        status = iccp_fail_memory(err);
+    else
+        status = insert_all(&k, env);
+    iccp_free(memory, k.links);
+    iccp_free(memory, k.triangles);
+    iccp_free(memory, k.waiting);
+    iccp_free(memory, k.corner_of);
+    return status;
+}

@@ -1,0 +1,96 @@
+/* Based on: N. Amenta, S. Choi, G. Rote, Incremental Constructions con BRIO, Symposium on
+ * Computational Geometry 2003. The random rounds bound the expected work whatever the points are; the
+ * curve puts consecutive points of a round, and what they touch in memory, next to each other. */
+#include "mesh/order.h"
+
+#include <string.h>
+
+/* A key is, from the top: the round, 4 bits; the place on the curve, 32 bits; the index, 28 bits. */
+enum { ROUND_SHIFT = 60, CURVE_SHIFT = 28, CURVE_BITS = 16, DIGIT_BITS = 9, LAST_ROUND = 15 };
+
+/* The place on the Hilbert curve of a cell of the 2^16 x 2^16 square. The curve's four orientations
+ * are states: a cell's quadrant gives a digit and the orientation within the quadrant. */
+static uint64_t hilbert(uint32_t x, uint32_t y)
+{
+    static const uint8_t digit[16] = {0, 1, 3, 2, 0, 3, 1, 2, 2, 3, 1, 0, 2, 1, 3, 0};
+    static const uint8_t inner[16] = {4, 0, 12, 0, 0, 8, 4, 4, 8, 4, 8, 12, 12, 12, 0, 8};
+    uint32_t place = 0, state = 0;
+    for (uint32_t bit = CURVE_BITS; bit-- > 0;) {
+        const uint32_t quadrant = state | (x >> bit & 1) << 1 | (y >> bit & 1);
+        place = place << 2 | digit[quadrant];
+        state = inner[quadrant];
+    }
+    return place;
+}
+
+/* Three points of four fall into the last round, three of four of the others into the one before,
+ * and so on: the finaliser of MurmurHash3 scatters the index's bits. */
+static uint64_t pick_round(uint32_t index)
+{
+    uint32_t bits = index;
+    bits = (bits ^ bits >> 16) * 0x85ebca6bu;
+    bits = (bits ^ bits >> 13) * 0xc2b2ae35u;
+    bits ^= bits >> 16;
+    uint64_t round = LAST_ROUND;
+    for (; (bits & 3) == 0 && round > 0; bits >>= 2)
+        --round;
+    return round;
+}
+
+/* Cells per unit along one axis, and where cell 0 begins. */
+typedef struct axis {
+    double origin, scale;
+} axis;
+
+static axis measure(size_t n, const double *coordinates)
+{
+    double low = coordinates[0], high = low;
+    for (size_t i = 1; i < n; ++i) {
+        const double x = coordinates[2 * i];
+        low = x < low ? x : low;
+        high = x > high ? x : high;
+    }
+    return (axis){low, high > low ? 65535.0 / (high - low) : 0.0};
+}
+
+static uint32_t cell(const axis *a, double x)
+{
+    const double place = (x - a->origin) * a->scale;
+    return place < 65535.0 ? (uint32_t)place : 65535u;
+}
+
+/* One pass of a radix sort, least digit first. */
+static void sort_by_digit(uint64_t *to, const uint64_t *from, size_t n, int shift)
+{
+    const uint64_t mask = (1u << DIGIT_BITS) - 1;
+    size_t start[(1 << DIGIT_BITS) + 1] = {0};
+    for (size_t i = 0; i < n; ++i)
+        ++start[(from[i] >> shift & mask) + 1];
+    for (size_t digit = 0; digit < mask; ++digit)
+        start[digit + 1] += start[digit];
+    for (size_t i = 0; i < n; ++i)
+        to[start[from[i] >> shift & mask]++] = from[i];
+}
+
+icc_status iccp_insertion_order(uint32_t *order, size_t n, const double *points,
+                                const iccp_memory *memory)
+{
+    uint64_t *keys = iccp_alloc(memory, n, 2 * sizeof *keys);
+    if (keys == NULL)
+        return ICC_ERR_MEMORY;
+    uint64_t *from = keys, *to = keys + n;
+    const axis x = measure(n, points), y = measure(n, points + 1);
+    for (size_t i = 0; i < n; ++i)
+        from[i] = pick_round((uint32_t)i) << ROUND_SHIFT |
+                  hilbert(cell(&x, points[2 * i]), cell(&y, points[2 * i + 1])) << CURVE_SHIFT | i;
+    for (int shift = CURVE_SHIFT; shift < 64; shift += DIGIT_BITS) {
+        sort_by_digit(to, from, n, shift);
+        uint64_t *const sorted = to;
+        to = from;
+        from = sorted;
+    }
+    for (size_t i = 0; i < n; ++i)
+        order[i] = (uint32_t)(from[i] & ((1u << CURVE_SHIFT) - 1));
+    iccp_free(memory, keys);
+    return ICC_OK;
+}

@@ -1,0 +1,128 @@
+/* The Delaunay triangulation of all points, made to contain the edges of the polygon, less what lies
+ * outside: mesh/delaunay.c, mesh/constrain.c, and the rest here. */
+#include "mesh/triangulate.h"
+
+#include "base/error.h"
+#include "mesh/constrain.h"
+#include "mesh/delaunay.h"
+
+#include <assert.h>
+
+/* Of a triangle outside. */
+static const uint32_t OUTSIDE = UINT32_MAX;
+
+/* Marks what can be reached from the ghosts without crossing the polygon: number[t] becomes OUTSIDE,
+ * and stays 0 inside. `stack` has room for every triangle. */
+static void mark_outside(const iccp_trimesh *mesh, uint32_t *number, uint32_t *stack)
+{
+    const iccp_corner *const c = mesh->corners;
+    uint32_t seed = 0, n = 0;
+    while (c[seed].vertex != mesh->n_points)
+        ++seed;
+    stack[n++] = seed / 3;
+    number[seed / 3] = OUTSIDE;
+    while (n > 0) {
+        const uint32_t triangle = stack[--n];
+        for (uint32_t corner = 3 * triangle; corner < 3 * triangle + 3; ++corner) {
+            const uint32_t other = c[corner].twin / 3;
+            if (number[other] == OUTSIDE ||
+                iccp_is_boundary_edge(mesh, c[iccp_after(corner)].vertex,
+                                      c[iccp_before(corner)].vertex))
+                continue;
+            number[other] = OUTSIDE;
+            stack[n++] = other;
+        }
+    }
+}
+
+/* The first point that is neither a vertex of the polygon nor inside, or n_points. */
+static uint32_t find_outsider(const iccp_trimesh *mesh, const uint32_t *number)
+{
+    uint32_t first = mesh->n_points;
+    for (uint32_t corner = 0; corner < 3 * mesh->n_triangles; ++corner) {
+        const uint32_t vertex = mesh->corners[corner].vertex;
+        if (number[corner / 3] == OUTSIDE && vertex >= mesh->n_boundary && vertex < first)
+            first = vertex;
+    }
+    return first;
+}
+
+/* Numbers the triangles inside and returns how many there are. */
+static uint32_t number_inside(const iccp_trimesh *mesh, uint32_t *number)
+{
+    uint32_t n = 0;
+    for (uint32_t t = 0; t < mesh->n_triangles; ++t)
+        if (number[t] != OUTSIDE)
+            number[t] = n++;
+    return n;
+}
+
+static void copy_out(const iccp_trimesh *mesh, const uint32_t *number, uint32_t *triangles,
+                  uint32_t *neighbours)
+{
+    const iccp_corner *const c = mesh->corners;
+    for (uint32_t corner = 0; corner < 3 * mesh->n_triangles; ++corner) {
+        if (number[corner / 3] == OUTSIDE)
+            continue;
+        *triangles++ = c[corner].vertex;
+        if (neighbours == NULL)
+            continue;
+        const uint32_t other = number[c[corner].twin / 3];
+        *neighbours++ = other == OUTSIDE ? ICCP_NO_NEIGHBOUR : 3 * other + c[corner].twin % 3;
+    }
+}
+
+/* Keeps what lies inside. */
+static icc_status extract(const iccp_trimesh *mesh, uint32_t *triangles, uint32_t *neighbours,
+                          const iccp_env *env, icc_error *err)
+{
+    const size_t n = mesh->n_triangles;
+    uint32_t *number = iccp_alloc_zero(&env->memory, n, sizeof *number);
+    uint32_t *stack = iccp_alloc(&env->memory, n, sizeof *stack);
+    icc_status status = ICC_OK;
+    if (number == NULL || stack == NULL) {
+        status = iccp_fail_memory(err);
+        goto done;
+    }
+    mark_outside(mesh, number, stack);
+    const uint32_t outsider = find_outsider(mesh, number);
+    if (outsider < mesh->n_points) {
+        status = iccp_fail(err, ICC_ERR_OUTSIDE, outsider, "point %lu lies outside the polygon",
+                           (unsigned long)outsider);
+        goto done;
+    }
+    const uint32_t n_inside = number_inside(mesh, number);
+    assert(n_inside == 2 * mesh->n_points - mesh->n_boundary - 2);
+    (void)n_inside;
+    copy_out(mesh, number, triangles, neighbours);
+done:
+    iccp_free(&env->memory, stack);
+    iccp_free(&env->memory, number);
+    return status;
+}
+
+icc_status iccp_triangulate_mesh(size_t n_boundary, size_t n_points, const double *points,
+                                 uint32_t *triangles, uint32_t *neighbours, const iccp_env *env,
+                                 icc_error *err)
+{
+    assert(n_boundary >= 3 && n_boundary <= n_points && n_points <= ICCP_TRIMESH_MAX_POINTS);
+    iccp_trimesh mesh = {.points = points,
+                         .n_points = (uint32_t)n_points,
+                         .n_boundary = (uint32_t)n_boundary};
+    mesh.corners = iccp_alloc(&env->memory, 2 * n_points - 2, 3 * sizeof *mesh.corners);
+    if (mesh.corners == NULL)
+        return iccp_fail_memory(err);
+    icc_status status = iccp_delaunay(&mesh, env, err);
+    if (status == ICC_OK)
+        status = iccp_constrain(&mesh, env, err);
+    if (status == ICC_OK)
+        status = extract(&mesh, triangles, neighbours, env, err);
+    iccp_free(&env->memory, mesh.corners);
+    return status;
+}
+
+icc_status iccp_triangulate(size_t n_boundary, size_t n_points, const double *points,
+                            uint32_t *triangles, const iccp_env *env, icc_error *err)
+{
+    return iccp_triangulate_mesh(n_boundary, n_points, points, triangles, NULL, env, err);
+}

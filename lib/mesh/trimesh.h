@@ -1,0 +1,81 @@
+/* Triangles and their neighbours, as corners.
+ *
+ * Corner c belongs to triangle c / 3 and faces one of its edges, the half-edge c, which runs from the
+ * vertex after it to the vertex before it, counter-clockwise; its twin is the corner that faces the
+ * same edge from the other triangle. The vertex n_points is the ghost: the triangles between it and
+ * the edges of the hull cover the plane outside the hull, so that every half-edge has a twin. */
+#ifndef ICCP_TRIMESH_H
+#define ICCP_TRIMESH_H
+
+#include "base/env.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* So that a corner has a bit to spare and an index fits into the sort key of mesh/order.c. */
+#define ICCP_TRIMESH_MAX_POINTS ((size_t)1 << 28)
+
+typedef struct iccp_corner {
+    uint32_t vertex, twin;
+} iccp_corner;
+
+typedef struct iccp_trimesh {
+    const double *points;  /* borrowed */
+    uint32_t n_points;
+    uint32_t n_boundary;   /* the first ones are the vertices of a polygon, in their order */
+    uint32_t n_triangles;
+    iccp_corner *corners;  /* room for 3 (2 n_points - 2), as many as there are in the end */
+} iccp_trimesh;
+
+/* The next corner of the triangle, counter-clockwise. */
+static inline uint32_t iccp_after(uint32_t corner)
+{
+    return corner % 3 == 2 ? corner - 2 : corner + 1;
+}
+
+static inline uint32_t iccp_before(uint32_t corner)
+{
+    return corner % 3 == 0 ? corner + 2 : corner - 1;
+}
+
+/* The corner at the same vertex in the next triangle round it, counter-clockwise. */
+static inline uint32_t iccp_around(const iccp_trimesh *mesh, uint32_t corner)
+{
+    return iccp_after(mesh->corners[iccp_after(corner)].twin);
+}
+
+static inline void iccp_link(iccp_trimesh *mesh, uint32_t a, uint32_t b)
+{
+    mesh->corners[a].twin = b;
+    mesh->corners[b].twin = a;
+}
+
+static inline const double *iccp_point(const iccp_trimesh *mesh, uint32_t vertex)
+{
+    return mesh->points + 2 * (size_t)vertex;
+}
+
+/* Whether the segment between two vertices is an edge of the polygon. */
+static inline bool iccp_is_boundary_edge(const iccp_trimesh *mesh, uint32_t a, uint32_t b)
+{
+    const uint32_t low = a < b ? a : b, high = a < b ? b : a;
+    return high < mesh->n_boundary && (high - low == 1 || high - low == mesh->n_boundary - 1);
+}
+
+/* Replaces the edge that the corner faces by the other diagonal of its two triangles. The corner and
+ * the one after it keep their vertices; the triangles keep their places. */
+static inline void iccp_flip(iccp_trimesh *mesh, uint32_t corner)
+{
+    iccp_corner *const c = mesh->corners;
+    const uint32_t after = iccp_after(corner), before = iccp_before(corner);
+    const uint32_t twin = c[corner].twin;
+    const uint32_t twin_after = iccp_after(twin), twin_before = iccp_before(twin);
+    const uint32_t outer = c[twin_after].twin, twin_outer = c[after].twin;
+    c[before].vertex = c[twin].vertex;
+    c[twin_before].vertex = c[corner].vertex;
+    iccp_link(mesh, corner, outer);
+    iccp_link(mesh, twin, twin_outer);
+    iccp_link(mesh, after, twin_after);
+}
+
+#endif
