@@ -165,15 +165,18 @@ static icc_status encode(const icc_chart *chart, const double *point, iccp_coord
 
 /* The derivative by the boundary parameter needs the walk up to the piece that holds the point, and the
  * whole length's: walk again with a jet. The path tells how far. */
-static icc_status fill_decode_jet(const iccp_gradient_state *state, const double start[2],
-                                  const double tangent[2], const iccp_path *path, size_t piece,
-                                  double share, double t, iccp_decode_jet *jet)
+static icc_status fill_decode_jet(const icc_chart *chart, const iccp_coords *coords,
+                                  const double boundary[2], const iccp_path *path, size_t piece,
+                                  double share, iccp_decode_jet *jet)
 {
-    iccp_jet2 moving = {{tangent[0], 0}, {tangent[1], 0}, {0, 0}};
+    const iccp_gradient_state *state = chart->state;
+    const uint32_t *ends = chart->domain->facets + 2 * (size_t)coords->facet;
+    const double *from = state->fence.vertices + 2 * (size_t)ends[0];
+    const double *to = state->fence.vertices + 2 * (size_t)ends[1];
+    iccp_jet2 moving = {{to[0] - from[0], 0}, {to[1] - from[1], 0}, {0, 0}};
     iccp_jet2 before = moving, after = moving;
     iccp_walk2 walk;
-    icc_status status =
-        iccp_walk2_start(&walk, state->field, ICCP_UPHILL, start[0], start[1], &moving);
+    icc_status status = iccp_gradient_depart(chart, coords->facet, boundary, &walk, &moving);
     for (size_t k = 0; status == ICC_OK && k + 1 < path->n; ++k) {
         if (k == piece)
             before = moving;
@@ -185,7 +188,7 @@ static icc_status fill_decode_jet(const iccp_gradient_state *state, const double
         return status;
     const iccp_path_point *a = path->points + piece, *b = a + 1;
     const double length = b->s - a->s, total = path->points[path->n - 1].s;
-    const double ds = t * moving.s[0] - before.s[0] - share * (after.s[0] - before.s[0]);
+    const double ds = coords->t * moving.s[0] - before.s[0] - share * (after.s[0] - before.s[0]);
     const double ux = (b->x - a->x) / length, uy = (b->y - a->y) / length;
     const double h = state->tree->grid->spacing;
     *jet = (iccp_decode_jet){.t = {h * total * ux, h * total * uy}};
@@ -209,7 +212,10 @@ static icc_status decode(const icc_chart *chart, const iccp_coords *coords, doub
     memcpy(point, boundary, sizeof boundary);
     if (coords->t <= 0)
         return ICC_OK;
-    icc_status status = iccp_gradient_ascend(state, boundary, path, NULL, NULL);
+    iccp_walk2 walk;
+    icc_status status = iccp_gradient_depart(chart, coords->facet, boundary, &walk, NULL);
+    if (status == ICC_OK)
+        status = iccp_trace_uphill(&walk, path, NULL);
     if (status != ICC_OK)
         return status;
     if (path->n < 2)
@@ -224,13 +230,7 @@ static icc_status decode(const icc_chart *chart, const iccp_coords *coords, doub
         return ICC_ERR_TRACE;
     if (jet == NULL)
         return ICC_OK;
-    const uint32_t *ends = chart->domain->facets + 2 * (size_t)coords->facet;
-    const double *from = state->fence.vertices + 2 * (size_t)ends[0];
-    const double *to = state->fence.vertices + 2 * (size_t)ends[1];
-    const double tangent[2] = {to[0] - from[0], to[1] - from[1]};
-    double start[2];
-    iccp_gradient_to_lattice(state, boundary, start);
-    return fill_decode_jet(state, start, tangent, path, piece, share, coords->t, jet);
+    return fill_decode_jet(chart, coords, boundary, path, piece, share, jet);
 }
 
 /* ---- the whole curve ---- */
@@ -263,18 +263,25 @@ static icc_status trace(const icc_chart *chart, const double *point, iccp_path *
                         iccp_emit emit, void *argument)
 {
     const iccp_gradient_state *state = chart->state;
-    const int32_t where = iccp_domain_locate(chart->domain, point, true, NULL, NULL);
+    uint32_t facet;
+    double bary[2];
+    const int32_t where = iccp_domain_locate(chart->domain, point, true, &facet, bary);
     if (where == ICC_OUTSIDE)
         return ICC_ERR_OUTSIDE;
     double p[2];
     iccp_gradient_to_lattice(state, point, p);
     if (at_maximum(state, p))
         return emit(argument, point);
+    iccp_walk2 walk;
     icc_status status = ICC_OK;
-    if (where == ICC_INSIDE)
+    if (where == ICC_BOUNDARY)
+        status = iccp_gradient_depart(chart, facet, point, &walk, NULL);
+    else
         status = trace_below(chart, p, path, emit, argument);
+    if (status == ICC_OK && where == ICC_INSIDE)
+        status = iccp_walk2_start(&walk, state->field, ICCP_UPHILL, p[0], p[1], NULL);
     if (status == ICC_OK)
-        status = iccp_gradient_ascend(state, point, path, NULL, NULL);
+        status = iccp_trace_uphill(&walk, path, NULL);
     for (size_t k = 0; status == ICC_OK && k < path->n; ++k)
         status = emit_point(state, path->points + k, emit, argument);
     return status;

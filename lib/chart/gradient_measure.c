@@ -112,7 +112,7 @@ static size_t find_facet(const boundary_samples *samples, double length)
     return low;
 }
 
-static void judge_boundary_point(const boundary_samples *samples, size_t index, iccp_path *path)
+static void judge_boundary_point(const boundary_samples *samples, size_t index)
 {
     const icc_domain *domain = samples->chart->domain;
     const iccp_gradient_state *state = samples->chart->state;
@@ -121,27 +121,23 @@ static void judge_boundary_point(const boundary_samples *samples, size_t index, 
     const double width = samples->length[facet + 1] - samples->length[facet];
     const double along = width > 0 ? (wanted - samples->length[facet]) / width : 0;
     const double bary[2] = {1 - along, along};
-    const double *a, *b;
-    double point[2], lattice[2], merge;
-    facet_ends(domain, facet, &a, &b);
+    double point[2], lattice[2], inward[2], merge;
     iccp_domain_facet_point(domain, (uint32_t)facet, bary, point);
-    const double inward[2] = {domain->orientation * (a[1] - b[1]),
-                              domain->orientation * (b[0] - a[0])};
     iccp_gradient_to_lattice(state, point, lattice);
+    iccp_gradient_inward(domain, (uint32_t)facet, inward);
     samples->inward[index] = iccp_slope_sign(state->field, lattice, inward) > 0;
     samples->collapsed[index] = NAN;
-    if (iccp_gradient_ascend(state, point, path, &merge, NULL) == ICC_OK && path->n >= 2)
-        samples->collapsed[index] = 1 - merge / path->points[path->n - 1].s;
+    iccp_walk2 walk;
+    if (iccp_gradient_depart(samples->chart, (uint32_t)facet, point, &walk, NULL) == ICC_OK &&
+        iccp_trace_uphill(&walk, NULL, &merge) == ICC_OK && walk.s > 0)
+        samples->collapsed[index] = 1 - merge / walk.s;
 }
 
 static icc_status judge_boundary_chunk(void *argument, size_t begin, size_t end)
 {
     const boundary_samples *samples = argument;
-    iccp_path path;
-    iccp_path_init(&path, &samples->chart->memory);
     for (size_t i = begin; i < end; ++i)
-        judge_boundary_point(samples, i, &path);
-    iccp_path_clear(&path);
+        judge_boundary_point(samples, i);
     return ICC_OK;
 }
 

@@ -2,6 +2,7 @@
 #ifndef ICCP_GRADIENT_STATE_H
 #define ICCP_GRADIENT_STATE_H
 
+#include "chart/chart.h"
 #include "trace/walk2.h"
 
 typedef struct iccp_gradient_state {
@@ -28,8 +29,11 @@ static inline void iccp_gradient_to_local(const iccp_gradient_state *state,
         local[k] = lattice[k] * grid->spacing + grid->origin[k];
 }
 
-/* From a local boundary point to the maximum; see iccp_trace_uphill(). `jet` may be NULL. */
-icc_status iccp_gradient_ascend(const iccp_gradient_state *state, const double boundary[2],
-                                iccp_path *path, double *merge, iccp_jet2 *jet);
+/* Across a facet, into the domain; not of unit length. */
+void iccp_gradient_inward(const icc_domain *domain, uint32_t facet, double inward[2]);
+
+/* Starts uphill at a local point of a facet, into the domain. `jet` may be NULL. */
+icc_status iccp_gradient_depart(const icc_chart *chart, uint32_t facet, const double point[2],
+                                iccp_walk2 *walk, iccp_jet2 *jet);
 
 #endif

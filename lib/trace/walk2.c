@@ -342,6 +342,34 @@ static icc_status step_from_vertex(iccp_walk2 *w)
     return ICC_OK;
 }
 
+/* Direction from a walk that stands on an edge of its triangle, as far as that can be at a start, to the
+ * triangle on the other side; false when it stands on none. */
+static bool other_side(const iccp_walk2 *w, int side[2])
+{
+    side[0] = w->upper ? -(w->u <= 0 && w->i > 0) : -(w->v > 0 && w->v >= w->u);
+    side[1] = w->upper ? 0 : w->v > 0 ? w->v >= w->u : -(w->j > 0);
+    return side[0] != 0 || side[1] != 0;
+}
+
+/* To that triangle, if it has values. */
+static bool change_sides(iccp_walk2 *w, const int side[2])
+{
+    iccp_walk2 there = *w;
+    gradient g;
+    there.upper = !w->upper;
+    if (side[1] == 0) {
+        --there.i;
+        there.u = 1;
+    } else if (side[0] == 0) {
+        --there.j;
+        there.v = 1;
+    }
+    if (!triangle_gradient(&there, there.i, there.j, there.upper, &g))
+        return false;
+    *w = there;
+    return true;
+}
+
 icc_status iccp_walk2_start(iccp_walk2 *walk, const icc_field *field, int direction, double x,
                             double y, iccp_jet2 *jet)
 {
@@ -365,7 +393,18 @@ icc_status iccp_walk2_start(iccp_walk2 *walk, const icc_field *field, int direct
         return isnan(walk->f[vertex_at(walk, walk->i, walk->j)]) ? ICC_ERR_TRACE : ICC_OK;
     }
     gradient g;
-    return triangle_gradient(walk, walk->i, walk->j, walk->upper, &g) ? ICC_OK : ICC_ERR_TRACE;
+    int side[2];
+    if (triangle_gradient(walk, walk->i, walk->j, walk->upper, &g) ||
+        (other_side(walk, side) && change_sides(walk, side)))
+        return ICC_OK;
+    return ICC_ERR_TRACE;
+}
+
+void iccp_walk2_face(iccp_walk2 *walk, const double ahead[2])
+{
+    int side[2];
+    if (!walk->at_vertex && other_side(walk, side) && side[0] * ahead[0] + side[1] * ahead[1] > 0)
+        (void)change_sides(walk, side);
 }
 
 icc_status iccp_walk2_step(iccp_walk2 *walk)

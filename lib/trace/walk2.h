@@ -42,6 +42,10 @@ typedef struct iccp_walk2 {
 icc_status iccp_walk2_start(iccp_walk2 *walk, const icc_field *field, int direction, double x,
                             double y, iccp_jet2 *jet);
 
+/* Called after a start that lies on an edge, has it go into the triangle on the side to which `ahead`
+ * points, if that has values; does nothing after any other start. */
+void iccp_walk2_face(iccp_walk2 *walk, const double ahead[2]);
+
 /* Goes on to the next edge or vertex (Algorithm 3). ICC_ERR_TRACE when there is no way on. */
 icc_status iccp_walk2_step(iccp_walk2 *walk);
 
