@@ -54,25 +54,15 @@ static iccp_link_set higher_neighbours(const work *w, uint32_t v)
     return higher;
 }
 
-static iccp_link_set complement(const iccp_kuhn *kuhn, iccp_link_set set)
-{
-    iccp_link_set rest = {{0, 0}};
-    for (int i = 0; i < kuhn->n_neighbours; ++i)
-        if (!iccp_link_has(&set, i))
-            iccp_link_add(&rest, i);
-    return rest;
-}
-
 static void judge(const work *w, uint32_t v, icc_field_report *report)
 {
     const iccp_link_set higher = higher_neighbours(w, v);
-    const iccp_link_set lower = complement(&w->kuhn, higher);
-    if ((higher.word[0] | higher.word[1]) == 0)
+    const iccp_link_set lower = iccp_link_rest(&w->kuhn, &higher);
+    if (iccp_link_is_empty(&higher))
         ++report->n_maxima;
-    else if ((lower.word[0] | lower.word[1]) == 0)
+    else if (iccp_link_is_empty(&lower))
         ++report->n_minima;
-    else if (!iccp_kuhn_contractible(&w->kuhn, higher) ||
-             !iccp_kuhn_contractible(&w->kuhn, lower))
+    else if (!iccp_kuhn_regular(&w->kuhn, &higher))
         ++report->n_saddles;
     else
         return;

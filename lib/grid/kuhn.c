@@ -1,23 +1,21 @@
 /* Based on: J. A. Barmak and E. G. Minian, Strong Homotopy Types, Nerves and Collapses, Discrete &
  * Computational Geometry 47, 2012.
  *
- * The simplices of the triangulation are the cliques of joined vertices. Up to 3-D the link is two
- * points, a circle or a sphere, where by Alexander duality a set is contractible when it and the rest
- * are each connected and not empty.
+ * The simplices of the triangulation are the cliques of joined vertices. The link is a sphere of one
+ * dimension less. Up to 3-D, where it is two points, a circle or a sphere, a set and the rest are both
+ * contractible when each is connected and not empty (Alexander duality).
  *
  * Beyond, strong collapses: a vertex is dominated by another one when everything joined to it, itself
  * included, is joined to the other; it can then be moved into the other one and dropped without
  * changing the homotopy type. What is left when no vertex is dominated does not depend on the order,
- * so a set that can be reduced to one vertex is reduced by dropping whatever will go. */
+ * so a set that can be reduced to one vertex is reduced by dropping whatever will go. It is enough
+ * that one of the two sets collapses: its neighbourhood is then a ball, and so is the rest of the
+ * sphere (C. P. Rourke and B. J. Sanderson, Introduction to Piecewise-Linear Topology, chapter 3),
+ * which shrinks to the other set. */
 #include "grid/kuhn.h"
 
 #include <assert.h>
 #include <string.h>
-
-static bool is_empty(const iccp_link_set *set)
-{
-    return (set->word[0] | set->word[1]) == 0;
-}
 
 /* All the members of `part` that are also in `set` are in `whole`. */
 static bool covers(const iccp_link_set *whole, const iccp_link_set *part, const iccp_link_set *set)
@@ -58,6 +56,8 @@ static bool is_single(const iccp_link_set *set)
 static bool collapses(const iccp_kuhn *kuhn, iccp_link_set set)
 {
     int first = 0;
+    if (iccp_link_is_empty(&set))
+        return false;
     while (!is_single(&set)) {
         int i = find_dominated(kuhn, &set, first);
         if (i < 0 && first > 0)
@@ -85,7 +85,7 @@ static bool is_connected(const iccp_kuhn *kuhn, uint64_t set)
 
 static void put(iccp_kuhn *kuhn, uint64_t set)
 {
-    kuhn->contractible[set / 64] |= (uint64_t)1 << (set % 64);
+    kuhn->regular[set / 64] |= (uint64_t)1 << (set % 64);
 }
 
 /* The answer for a set is the answer for the rest. */
@@ -123,17 +123,19 @@ void iccp_kuhn_init(iccp_kuhn *kuhn, int32_t dim)
                 kuhn->step[kuhn->n_neighbours][k] = (int8_t)(sign * (corner >> k & 1));
             ++kuhn->n_neighbours;
         }
-    for (int i = 0; i < kuhn->n_neighbours; ++i)
+    for (int i = 0; i < kuhn->n_neighbours; ++i) {
+        iccp_link_add(&kuhn->all, i);
         for (int j = 0; j < kuhn->n_neighbours; ++j)
             if (are_joined(kuhn, i, j))
                 iccp_link_add(&kuhn->joined[i], j);
+    }
     if (dim <= 3)
         tabulate(kuhn);
 }
 
-bool iccp_kuhn_contractible(const iccp_kuhn *kuhn, iccp_link_set set)
+bool iccp_kuhn_regular(const iccp_kuhn *kuhn, const iccp_link_set *set)
 {
     if (kuhn->tabulated)
-        return kuhn->contractible[set.word[0] / 64] >> (set.word[0] % 64) & 1;
-    return !is_empty(&set) && collapses(kuhn, set);
+        return kuhn->regular[set->word[0] / 64] >> (set->word[0] % 64) & 1;
+    return collapses(kuhn, *set) || collapses(kuhn, iccp_link_rest(kuhn, set));
 }

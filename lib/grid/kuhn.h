@@ -22,9 +22,10 @@ typedef struct iccp_kuhn {
     int32_t dim;
     int n_neighbours;                             /* 2 (2^dim - 1) */
     int8_t step[ICCP_LINK_SIZE][ICC_MAX_DIM];     /* to each neighbour */
+    iccp_link_set all;
     iccp_link_set joined[ICCP_LINK_SIZE];         /* neighbour i and those joined to it */
     bool tabulated;                               /* up to 3-D: the answers for all sets */
-    uint64_t contractible[ICCP_LINK_TABLE / 64];
+    uint64_t regular[ICCP_LINK_TABLE / 64];
 } iccp_kuhn;
 
 /* Takes about a millisecond in 3-D, for the table, and microseconds otherwise. */
@@ -40,8 +41,19 @@ static inline bool iccp_link_has(const iccp_link_set *set, int i)
     return set->word[i / 64] >> (i % 64) & 1;
 }
 
-/* Whether the part of the link that a set of neighbours spans is contractible: exact up to 3-D; beyond
- * it, false may also mean that strong collapses do not show it. */
-bool iccp_kuhn_contractible(const iccp_kuhn *kuhn, iccp_link_set set);
+static inline bool iccp_link_is_empty(const iccp_link_set *set)
+{
+    return (set->word[0] | set->word[1]) == 0;
+}
+
+/* The neighbours that are not in a set. */
+static inline iccp_link_set iccp_link_rest(const iccp_kuhn *kuhn, const iccp_link_set *set)
+{
+    return (iccp_link_set){{kuhn->all.word[0] & ~set->word[0], kuhn->all.word[1] & ~set->word[1]}};
+}
+
+/* Whether a set of neighbours and the rest of them each span a contractible part of the link. Exact up
+ * to 3-D; beyond, true is exact and false may mean that it could not be shown. */
+bool iccp_kuhn_regular(const iccp_kuhn *kuhn, const iccp_link_set *set);
 
 #endif

@@ -1,0 +1,76 @@
+/* An environment whose allocations, or whose patience, end at the k-th call. */
+#ifndef TESTS_FAULTY_H
+#define TESTS_FAULTY_H
+
+#include "icc/base.h"
+
+#include <check.h>
+#include <stdlib.h>
+
+typedef struct faulty {
+    size_t n_live;    /* allocations not yet given back */
+    size_t n_allocs;
+    size_t fail_at;   /* this allocation fails, and only this one; 0: none */
+    size_t n_reports;
+    size_t cancel_at; /* this progress report is answered with "stop"; 0: none */
+} faulty;
+
+static inline void *faulty_alloc(void *user, size_t size)
+{
+    faulty *f = user;
+    if (++f->n_allocs == f->fail_at)
+        return NULL;
+    ++f->n_live;
+    return malloc(size);
+}
+
+static inline void faulty_dealloc(void *user, void *memory)
+{
+    --((faulty *)user)->n_live;
+    free(memory);
+}
+
+static inline int32_t faulty_progress(void *user, const char *stage, double share)
+{
+    faulty *f = user;
+    ck_assert(stage != NULL && share >= 0 && share <= 1);
+    return ++f->n_reports == f->cancel_at;
+}
+
+static inline icc_env faulty_env(faulty *f)
+{
+    return (icc_env){.size = sizeof(icc_env),
+                     .user = f,
+                     .alloc = faulty_alloc,
+                     .dealloc = faulty_dealloc,
+                     .progress = faulty_progress};
+}
+
+/* Makes something and frees it again; its status. */
+typedef icc_status (*faulty_call)(const icc_env *env, icc_error *err, void *argument);
+
+/* Lets every allocation and every progress report fail in turn: each gives its status and a text, and
+ * nothing is left behind. */
+static inline void faulty_sweep(faulty_call call, void *argument)
+{
+    for (int cancels = 0; cancels < 2; ++cancels) {
+        icc_status status = -1;
+        size_t k = 0;
+        while (status != ICC_OK) {
+            ++k;
+            faulty f = {.fail_at = cancels ? 0 : k, .cancel_at = cancels ? k : 0};
+            icc_error err = {.size = sizeof err};
+            const icc_env env = faulty_env(&f);
+            status = call(&env, &err, argument);
+            ck_assert_uint_eq(f.n_live, 0);
+            if (status == ICC_OK)
+                break;
+            ck_assert_int_eq(status, cancels ? ICC_ERR_CANCELLED : ICC_ERR_MEMORY);
+            ck_assert_int_eq(err.status, status);
+            ck_assert(err.message[0] != '\0');
+        }
+        ck_assert_msg(k > 1, "nothing could be made to fail");
+    }
+}
+
+#endif
