@@ -28,6 +28,6 @@ done
 printf 'l_to_square: '
 "$programs/l_to_square" "$out/l_to_square.svg"
 
-echo "warp_picture: examples/data/coffee.png"
-"$programs/warp_picture" examples/data/coffee.src.txt examples/data/coffee.tgt.txt \
-    examples/data/coffee.png "$out/coffee.png"
+echo "warp_picture: examples/data/chelsea.png"
+"$programs/warp_picture" examples/data/chelsea.src.txt examples/data/chelsea.tgt.txt \
+    examples/data/chelsea.png "$out/chelsea.png"
