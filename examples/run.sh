@@ -25,7 +25,7 @@ for name in inspect_stages maximum_and_rotation sparse_points; do
     "$programs/$name" >"$out/$name.txt"
     echo "$name: the result is $out/$name.txt"
 done
-printf 'l_to_square: '
+echo "l_to_square:"
 "$programs/l_to_square" "$out/l_to_square.svg"
 
 echo "warp_picture: examples/data/chelsea.png"
