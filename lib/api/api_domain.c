@@ -97,7 +97,8 @@ static void locate_point(const locate_call *call, size_t i)
     uint32_t facet = 0;
     iccp_frame_in(&call->domain->frame, call->domain->dim, call->points + dim * i, local);
     const bool nearest = call->facet != NULL || call->bary != NULL;
-    call->where[i] = iccp_domain_locate(call->domain, local, !nearest, nearest ? &facet : NULL, bary);
+    call->where[i] =
+        iccp_domain_locate(call->domain, local, !nearest, nearest ? &facet : NULL, bary);
     if (call->facet != NULL)
         call->facet[i] = facet;
     if (call->bary != NULL)
@@ -139,5 +140,6 @@ icc_status icc_boundary_defects(size_t n_vertices, const double *vertices, size_
         status = check_counts(n_vertices, vertices, 0, NULL, err);
     if (status != ICC_OK)
         return status;
-    return iccp_boundary_defects(n_vertices, vertices, capacity, kinds, items, n_defects, &full, err);
+    return iccp_boundary_defects(n_vertices, vertices, capacity, kinds, items, n_defects, &full,
+                                 err);
 }

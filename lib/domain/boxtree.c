@@ -8,8 +8,8 @@
 #include <math.h>
 
 enum {
-    LEAF = 4,  /* edges in a leaf */
-    DEEP = 64  /* more than any path is long */
+    LEAF = 4, /* edges in a leaf */
+    DEEP = 64 /* more than any path is long */
 };
 
 static const iccp_box empty = {{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
@@ -24,8 +24,8 @@ static void include(iccp_box *box, const double *lower, const double *upper)
 
 static bool overlap(const iccp_box *a, const iccp_box *b)
 {
-    return a->lower[0] <= b->upper[0] && b->lower[0] <= a->upper[0] &&
-           a->lower[1] <= b->upper[1] && b->lower[1] <= a->upper[1];
+    return a->lower[0] <= b->upper[0] && b->lower[0] <= a->upper[0] && a->lower[1] <= b->upper[1] &&
+           b->lower[1] <= a->upper[1];
 }
 
 static iccp_box edge_box(const iccp_boxtree *tree, size_t edge)

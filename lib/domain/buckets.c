@@ -12,10 +12,14 @@
 #include <stdbool.h>
 #include <string.h>
 
+/* Chosen with tests/bench/bench_domain.c: more cells make points no faster to locate, fewer slow them
+ * down. Entries, edges counted in each of their cells, are bounded for the sake of memory when long
+ * edges crowd the box. */
 enum {
-    CELLS_PER_EDGE = 4,         /* at most */
-    ENTRIES_PER_EDGE = 16,      /* at most, about: bounds memory when long edges crowd the box */
-    MAX_CELLS = 1 << 26
+    MIN_CELLS = 1024,
+    CELLS_PER_EDGE = 4,
+    MAX_CELLS = 1 << 26,
+    ENTRIES_PER_EDGE = 16 /* at most, about */
 };
 
 /* An edge belongs to all cells that it comes this near to, in tolerances. The tolerance itself is
@@ -50,12 +54,12 @@ static void choose_cells(iccp_buckets *b, const iccp_ring *ring)
         side[axis] = b->upper[axis] - b->lower[axis] + 2 * slack;
         length[axis] += slack;
     }
-    const double cells = fmin(CELLS_PER_EDGE * n, MAX_CELLS);
+    const double cells = fmax(MIN_CELLS, fmin(CELLS_PER_EDGE * n, MAX_CELLS));
     count[0] = sqrt(cells * side[0] * length[1] / (side[1] * length[0]));
     count[0] = fmax(1, fmin(count[0], cells));
     count[1] = cells / count[0];
     const double entries = length[0] / side[0] * count[0] + length[1] / side[1] * count[1];
-    const double shrink = fmin(1, ENTRIES_PER_EDGE * n / entries);
+    const double shrink = fmin(1, (ENTRIES_PER_EDGE * n + MIN_CELLS) / entries);
     for (int axis = 0; axis < 2; ++axis) {
         count[axis] = fmin(count[axis] * shrink, side[axis] / (4 * slack));
         count[axis] = fmax(1, floor(count[axis]));
@@ -105,7 +109,8 @@ static void enter(iccp_buckets *b, uint32_t edge, uint32_t *edges)
 
 /* Points of a cell on a parabola, which no line meets more than twice: so one of the first 2 m + 1 is
  * on none of m edges. */
-static void candidate(const iccp_buckets *b, uint32_t row, uint32_t column, uint32_t number, double *p)
+static void candidate(const iccp_buckets *b, uint32_t row, uint32_t column, uint32_t number,
+                      double *p)
 {
     double u = 0.5 + 0.6180339887498949 * number;
     u -= floor(u);
@@ -134,7 +139,8 @@ static bool on_an_edge(const iccp_buckets *b, const iccp_bucket *cell, const dou
 
 /* Whether the way from known point p in the cell to known point q in the next one leads from inside to
  * outside or back. The edges of each cell are in ascending order. */
-static bool changes(const iccp_buckets *b, const iccp_bucket *cell, const double *p, const double *q)
+static bool changes(const iccp_buckets *b, const iccp_bucket *cell, const double *p,
+                    const double *q)
 {
     bool odd = false;
     uint32_t i = cell[0].first, j = cell[1].first;

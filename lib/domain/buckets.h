@@ -13,21 +13,21 @@ typedef struct iccp_bucket {
 } iccp_bucket;
 
 typedef struct iccp_buckets {
-    const double *points;   /* the ring's, borrowed */
+    const double *points;      /* the ring's, borrowed */
     double lower[2], upper[2]; /* beyond this box everything is outside */
     double origin[2];
-    double step[2], rate[2];   /* size of a cell, and 1 / size */
-    uint32_t size[2];          /* cells along x and y */
+    double step[2], rate[2]; /* size of a cell, and 1 / size */
+    uint32_t size[2];        /* cells along x and y */
     double tolerance;
-    iccp_bucket *cells;        /* one more than there are cells */
+    iccp_bucket *cells; /* one more than there are cells */
     uint32_t *edges;
 } iccp_buckets;
 
 /* What is known about a point. */
 typedef struct iccp_place {
-    int32_t where;  /* ICC_INSIDE, ICC_BOUNDARY, ICC_OUTSIDE */
-    uint32_t edge;  /* for ICC_BOUNDARY: the nearest edge, */
-    double t;       /* and the share of the way along it */
+    int32_t where; /* ICC_INSIDE, ICC_BOUNDARY, ICC_OUTSIDE */
+    uint32_t edge; /* for ICC_BOUNDARY: the nearest edge, */
+    double t;      /* and the share of the way along it */
 } iccp_place;
 
 /* For a simple ring in a box; points up to `tolerance` from it count as on it. */

@@ -20,7 +20,7 @@ typedef struct walk {
     uint32_t *twin;  /* the next point equal to this one, by index */
     size_t n_finite;
     iccp_defect_list *list;
-    size_t enough;   /* stop after so many defects */
+    size_t enough; /* stop after so many defects */
     size_t n_pairs, patience;
 } walk;
 
@@ -143,7 +143,7 @@ static icc_status run(walk *w, const iccp_env *env)
     if (flat(w))
         emit(w, ICC_DEFECT_FLAT, 0, 0);
     for (uint32_t a = 0; a < w->ring->n && !done(w); ++a) {
-        if (a % 1024 == 0) {
+        if (a % 64 == 0) {
             const icc_status status =
                 iccp_progress(env, "list defects", (double)a / (double)w->ring->n);
             if (status != ICC_OK)

@@ -15,18 +15,18 @@ struct icc_domain {
     iccp_memory memory;
     atomic_size_t references;
     int32_t dim;
-    int32_t orientation;          /* +1 counter-clockwise, -1 clockwise, in the caller's and in local
+    int32_t orientation; /* +1 counter-clockwise, -1 clockwise, in the caller's and in local
                                      coordinates alike */
     size_t n_vertices, n_facets;
-    double *given;                /* n_vertices * dim, as the caller gave them */
-    double *vertices;             /* n_vertices * dim, local: what everything else works with */
-    uint32_t *facets;             /* n_facets * dim vertex indices, as given or made up */
+    double *given;    /* n_vertices * dim, as the caller gave them */
+    double *vertices; /* n_vertices * dim, local: what everything else works with */
+    uint32_t *facets; /* n_facets * dim vertex indices, as given or made up */
     iccp_frame frame;
-    double lower[ICC_MAX_DIM];    /* local bounding box */
+    double lower[ICC_MAX_DIM]; /* local bounding box */
     double upper[ICC_MAX_DIM];
-    double tolerance;             /* local: 1e-14 of the longest side of the bounding box; points
+    double tolerance; /* local: 1e-14 of the longest side of the bounding box; points
                                      this close to the boundary are on it */
-    double measure;               /* local area */
+    double measure;   /* local area */
     struct iccp_locator *locator;
 };
 

@@ -32,13 +32,15 @@ void iccp_frame_fit(iccp_frame *frame, int32_t dim, size_t n, const double *poin
  * vertices, the scaling loses no bit of them. */
 bool iccp_frame_holds(const iccp_frame *frame, int32_t dim, const double *x);
 
-static inline void iccp_frame_in(const iccp_frame *frame, int32_t dim, const double *x, double *local)
+static inline void iccp_frame_in(const iccp_frame *frame, int32_t dim, const double *x,
+                                 double *local)
 {
     for (int32_t k = 0; k < dim; ++k)
         local[k] = (x[k] - frame->shift[k]) * frame->in[0] * frame->in[1];
 }
 
-static inline void iccp_frame_out(const iccp_frame *frame, int32_t dim, const double *local, double *x)
+static inline void iccp_frame_out(const iccp_frame *frame, int32_t dim, const double *local,
+                                  double *x)
 {
     for (int32_t k = 0; k < dim; ++k)
         x[k] = local[k] * frame->out[0] * frame->out[1] + frame->shift[k];

@@ -13,9 +13,8 @@ iccp_locator *iccp_locator_create(iccp_ring *ring, const double *lower, const do
     locator->ring = *ring;
     *ring = (iccp_ring){0};
     iccp_boxtree_create(&locator->tree, locator->ring.points, locator->ring.n, memory);
-    if (locator->tree.boxes == NULL ||
-        iccp_buckets_create(&locator->buckets, &locator->ring, lower, upper, tolerance, memory) !=
-            ICC_OK) {
+    if (locator->tree.boxes == NULL || iccp_buckets_create(&locator->buckets, &locator->ring, lower,
+                                                           upper, tolerance, memory) != ICC_OK) {
         iccp_locator_free(locator, memory);
         return NULL;
     }

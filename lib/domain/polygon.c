@@ -20,10 +20,11 @@ static icc_status fail_not_finite(icc_error *err, size_t vertex)
 
 static icc_status fail_too_small(icc_error *err, size_t vertex, const double *x)
 {
-    return iccp_fail(err, ICC_ERR_BOUNDARY, (int64_t)vertex,
-                     "vertex %zu (%.17g, %.17g): a coordinate is not 0, but less than 2^-200 of the "
-                     "largest one",
-                     vertex, x[0], x[1]);
+    return iccp_fail(
+        err, ICC_ERR_BOUNDARY, (int64_t)vertex,
+        "vertex %zu (%.17g, %.17g): a coordinate is not 0, but less than 2^-200 of the "
+        "largest one",
+        vertex, x[0], x[1]);
 }
 
 icc_status iccp_polygon_localise(iccp_frame *frame, double *local, size_t n, const double *vertices,
@@ -45,7 +46,8 @@ icc_status iccp_polygon_localise(iccp_frame *frame, double *local, size_t n, con
 static icc_status fail_pair(icc_error *err, const iccp_defect *defect, const iccp_ring *ring,
                             const iccp_frame *frame)
 {
-    const double *a = ring->points + 2 * (size_t)defect->a, *b = ring->points + 2 * (size_t)defect->b;
+    const double *a = ring->points + 2 * (size_t)defect->a,
+                 *b = ring->points + 2 * (size_t)defect->b;
     double at[2];
     iccp_segments_point(a, a + 2, b, b + 2, at);
     iccp_frame_out(frame, 2, at, at);

@@ -7,7 +7,7 @@
 
 typedef struct iccp_ring {
     size_t n;
-    double *points;   /* n + 1 local points; the last is the first again: edge k joins k and k + 1 */
+    double *points; /* n + 1 local points; the last is the first again: edge k joins k and k + 1 */
     uint32_t *vertex; /* vertex[k] is the number of point k */
     uint32_t *facet;  /* facet[k] is the number of edge k */
 } iccp_ring;

@@ -197,7 +197,8 @@ static void check_agreement(size_t n, const double *points, const defects *d)
     const int64_t a = d->items[0], b = d->items[1];
     const int32_t kind = d->kinds[0];
     REQUIRE(err.index == (kind == ICC_DEFECT_FLAT ? -1 : kind == ICC_DEFECT_REPEATED ? b : a));
-    static const char *const words[] = {"", "finite", "repeats", "back over", "cross", "touch", "line"};
+    static const char *const words[] = {"",      "finite", "repeats", "back over",
+                                        "cross", "touch",  "line"};
     ck_assert_msg(strstr(err.message, words[kind]) != NULL, "%d: %s", kind, err.message);
 }
 
@@ -241,8 +242,11 @@ START_TEST(test_known_defects)
         {6, {0, 0, 2, 2, 4, 0, 4, 4, 2, 2, 0, 4}, "vertex 4 repeats vertex 1", 4},
         {5, {0, 0, 1, 0, 3, 1, 2, 0, 4, 0}, "at vertex 0 the boundary runs back over itself", 0},
         {6, {0, 0, 3, 0, 3, 3, 2, 0, 1, 0, 0, 3}, "edges 0 and 2 touch near (2, 0)", 0},
-        {3, {1e300, 0, 0, 1e300, 1, 1}, "vertex 2 (1, 1): a coordinate is not 0, but less than 2^-200 "
-                                        "of the largest one", 2},
+        {3,
+         {1e300, 0, 0, 1e300, 1, 1},
+         "vertex 2 (1, 1): a coordinate is not 0, but less than 2^-200 "
+         "of the largest one",
+         2},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
         icc_domain *domain = (icc_domain *)&state;
@@ -289,9 +293,9 @@ START_TEST(test_list_capacity)
     ck_assert_uint_gt(all.n, 3);
     for (size_t capacity = 0; capacity <= all.n; ++capacity) {
         memset(&some, 0x7f, sizeof some);
-        ck_assert_int_eq(icc_boundary_defects(7, points, capacity, some.kinds, some.items, &some.n,
-                                              NULL, NULL),
-                         ICC_OK);
+        ck_assert_int_eq(
+            icc_boundary_defects(7, points, capacity, some.kinds, some.items, &some.n, NULL, NULL),
+            ICC_OK);
         ck_assert_uint_eq(some.n, all.n);
         ck_assert_int_eq(memcmp(some.kinds, all.kinds, capacity * sizeof *all.kinds), 0);
         ck_assert_int_eq(memcmp(some.items, all.items, 2 * capacity * sizeof *all.items), 0);
@@ -314,10 +318,18 @@ START_TEST(test_random_integers)
         slow_defects(&d, &s);
         n_simple += d.n == 0;
         switch (round % 4) {
-        case 0: check_shape(&s, 1, 0, 0); break;
-        case 1: check_shape(&s, 0x1p-1074, 0, 0); break;
-        case 2: check_shape(&s, 0x1p1015, 0, 0); break;
-        default: check_shape(&s, 0.125, 1e9, -1e15); break;
+        case 0:
+            check_shape(&s, 1, 0, 0);
+            break;
+        case 1:
+            check_shape(&s, 0x1p-1074, 0, 0);
+            break;
+        case 2:
+            check_shape(&s, 0x1p1015, 0, 0);
+            break;
+        default:
+            check_shape(&s, 0.125, 1e9, -1e15);
+            break;
         }
     }
     ck_assert_int_gt(n_simple, 1000);
@@ -416,12 +428,24 @@ static void make_star(shape *s, int n)
 static void make_any(shape *s, int round)
 {
     switch (round % 6) {
-    case 0: make_maze(s, 1 + below(150)); break;
-    case 1: make_comb(s, 2 + below(60), 1 + below(400), 1, 1); break;
-    case 2: make_comb(s, 2 + below(60), 1 + below(400), 0, 1); break;
-    case 3: make_comb(s, 2 + below(60), 1 + below(400), 1 + below(5), -below(5)); break;
-    case 4: make_spiral(s, 1 + below(12)); break;
-    default: make_star(s, 3 + below(150)); break;
+    case 0:
+        make_maze(s, 1 + below(150));
+        break;
+    case 1:
+        make_comb(s, 2 + below(60), 1 + below(400), 1, 1);
+        break;
+    case 2:
+        make_comb(s, 2 + below(60), 1 + below(400), 0, 1);
+        break;
+    case 3:
+        make_comb(s, 2 + below(60), 1 + below(400), 1 + below(5), -below(5));
+        break;
+    case 4:
+        make_spiral(s, 1 + below(12));
+        break;
+    default:
+        make_star(s, 3 + below(150));
+        break;
     }
 }
 
@@ -463,8 +487,8 @@ START_TEST(test_slit)
 {
     for (int direction = -1; direction <= 1; ++direction) {
         const double tip = direction == 0 ? 1.0 / 3 : nextafter(1.0 / 3, direction);
-        const double points[] = {0, 0, 1, 0, 1, 1.0 / 3, 0.25, tip, 1, 1, 0, 1, 0, 1.0 / 3,
-                                 0.125, 1.0 / 3};
+        const double points[] = {0, 0, 1, 0, 1, 1.0 / 3, 0.25,  tip,
+                                 1, 1, 0, 1, 0, 1.0 / 3, 0.125, 1.0 / 3};
         const double touching[] = {0, 0, 1, 0, 1, 1, 0.5, tip, 0, 1, 0, 1.0 / 3, 0.75, 1.0 / 3};
         icc_domain *domain;
         icc_error err;
@@ -478,6 +502,35 @@ START_TEST(test_slit)
         ck_assert_int_eq(d.n == 0, direction > 0);
         ck_assert(direction != 0 || (d.kinds[0] == ICC_DEFECT_TOUCH && d.n == 2));
     }
+}
+END_TEST
+
+/* Moves everything by at most one unit in the last place: sweep and list, which look at different
+ * pairs of edges, must still say the same. */
+START_TEST(test_nearly_degenerate)
+{
+    static shape s;
+    static double points[2 * MAX_N];
+    static defects d;
+    int n_simple = 0, n_rounds = 20000;
+    for (int round = 0; round < n_rounds; ++round) {
+        if (round % 16 == 0) {
+            make_maze(&s, 1 + below(20));
+        } else {
+            s.n = 3 + below(6);
+            for (int i = 0; i < s.n; ++i)
+                s.at[i] = (spot){below(4), below(4)};
+        }
+        to_doubles(&s, 1.0 / 3, round % 2 == 0 ? 0 : 0.7, 0, points);
+        for (int i = 0; i < 2 * s.n; ++i)
+            points[i] = below(2) == 0 ? points[i] : nextafter(points[i], below(2) == 0 ? 9 : -9);
+        for (int i = 0; i < 2 * s.n; ++i)
+            points[i] = fabs(points[i]) < 1e-20 ? 0 : points[i];
+        list(&d, (size_t)s.n, points);
+        check_agreement((size_t)s.n, points, &d);
+        n_simple += d.n == 0;
+    }
+    ck_assert(n_simple > n_rounds / 20 && n_simple < n_rounds / 2);
 }
 END_TEST
 
@@ -612,7 +665,36 @@ START_TEST(test_locate_exactly)
         icc_domain_free(domain);
     }
     REQUIRE(n_points[ICC_INSIDE] > 5000 && n_points[ICC_BOUNDARY] > 30000 &&
-              n_points[ICC_OUTSIDE] > 20000);
+            n_points[ICC_OUTSIDE] > 20000);
+}
+END_TEST
+
+/* Vertices much closer together than the tolerance are still told apart. */
+START_TEST(test_clustered_vertices)
+{
+    double points[2 * 12];
+    int n_simple = 0;
+    for (int round = 0; round < 20000; ++round) {
+        const size_t n = 3 + (size_t)below(round % 2 == 0 ? 2 : 6);
+        for (size_t i = 0; i < 2 * n; ++i)
+            points[i] = (unit() - 0.5) * ldexp(1, -below(120));
+        icc_domain *domain;
+        icc_error err;
+        if (create(&domain, n, points, &err) != ICC_OK)
+            continue;
+        ++n_simple;
+        for (uint32_t i = 0; i < n; ++i)
+            for (int nearest = 0; nearest < 2; ++nearest) {
+                uint32_t facet;
+                double bary[2];
+                const double *p = domain->vertices + 2 * i;
+                REQUIRE(iccp_domain_locate(domain, p, nearest == 0, &facet, bary) == ICC_BOUNDARY);
+                REQUIRE((facet == i && bary[0] == 1 && bary[1] == 0) ||
+                        ((facet + 1) % n == i && bary[0] == 0 && bary[1] == 1));
+            }
+        icc_domain_free(domain);
+    }
+    ck_assert_int_gt(n_simple, 5000);
 }
 END_TEST
 
@@ -681,8 +763,8 @@ START_TEST(test_odd_points)
 {
     const double nan = HUGE_VAL - HUGE_VAL;
     const double square[] = {0, 0, 1, 0, 1, 1, 0, 1};
-    const double odd[] = {nan,  0.5, 0.5,   nan, HUGE_VAL, 0.5,      -HUGE_VAL, -HUGE_VAL, 1e308,
-                          -1e308, 2,  0.5, 5e-324, 0.5,  1e-300,    -1e-300,   0.5,   1e-320};
+    const double odd[] = {nan,    0.5, 0.5, nan,    HUGE_VAL, 0.5,    -HUGE_VAL, -HUGE_VAL, 1e308,
+                          -1e308, 2,   0.5, 5e-324, 0.5,      1e-300, -1e-300,   0.5,       1e-320};
     icc_domain *domain;
     icc_error err;
     ck_assert_int_eq(create(&domain, 4, square, &err), ICC_OK);
@@ -773,31 +855,38 @@ START_TEST(test_arguments)
     int32_t where;
     size_t n;
     ck_assert_int_eq(icc_domain_create(NULL, 2, 4, square, 0, NULL, NULL, &err), ICC_ERR_ARGUMENT);
-    ck_assert_int_eq(icc_domain_create(&domain, 0, 4, square, 0, NULL, NULL, &err), ICC_ERR_ARGUMENT);
-    ck_assert_int_eq(icc_domain_create(&domain, 7, 4, square, 0, NULL, NULL, &err), ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_domain_create(&domain, 0, 4, square, 0, NULL, NULL, &err),
+                     ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_domain_create(&domain, 7, 4, square, 0, NULL, NULL, &err),
+                     ICC_ERR_ARGUMENT);
     ck_assert_int_eq(icc_domain_create(&domain, 3, 4, square, 0, NULL, NULL, &err),
                      ICC_ERR_UNSUPPORTED);
     ck_assert_int_eq(icc_domain_create(&domain, 2, 4, NULL, 0, NULL, NULL, &err), ICC_ERR_ARGUMENT);
     ck_assert_int_eq(icc_domain_create(&domain, 2, SIZE_MAX / 8, square, 0, NULL, NULL, &err),
                      ICC_ERR_ARGUMENT);
-    ck_assert_int_eq(icc_domain_create(&domain, 2, 4, square, SIZE_MAX, (const uint32_t *)square, NULL,
-                                       &err),
+    ck_assert_int_eq(
+        icc_domain_create(&domain, 2, 4, square, SIZE_MAX, (const uint32_t *)square, NULL, &err),
+        ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_domain_create(&domain, 2, 4, square, 0, NULL, &env, &err),
                      ICC_ERR_ARGUMENT);
-    ck_assert_int_eq(icc_domain_create(&domain, 2, 4, square, 0, NULL, &env, &err), ICC_ERR_ARGUMENT);
     ck_assert_ptr_null(domain);
     ck_assert_int_eq(icc_boundary_defects(4, square, 0, NULL, NULL, NULL, NULL, &err),
                      ICC_ERR_ARGUMENT);
     ck_assert_int_eq(icc_boundary_defects(4, square, 1, NULL, NULL, &n, NULL, &err),
                      ICC_ERR_ARGUMENT);
-    ck_assert_int_eq(icc_boundary_defects(4, NULL, 0, NULL, NULL, &n, NULL, &err), ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_boundary_defects(4, NULL, 0, NULL, NULL, &n, NULL, &err),
+                     ICC_ERR_ARGUMENT);
     ck_assert_int_eq(icc_boundary_defects(4, square, 0, NULL, NULL, &n, &env, &err),
                      ICC_ERR_ARGUMENT);
     ck_assert_int_eq(icc_domain_get_info(NULL, NULL), ICC_ERR_ARGUMENT);
     ck_assert_int_eq(icc_domain_get_boundary(NULL, NULL, NULL), ICC_ERR_ARGUMENT);
-    ck_assert_int_eq(icc_domain_locate(NULL, 1, square, &where, NULL, NULL, NULL), ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_domain_locate(NULL, 1, square, &where, NULL, NULL, NULL),
+                     ICC_ERR_ARGUMENT);
     ck_assert_int_eq(create(&domain, 4, square, &err), ICC_OK);
-    ck_assert_int_eq(icc_domain_locate(domain, 1, NULL, &where, NULL, NULL, NULL), ICC_ERR_ARGUMENT);
-    ck_assert_int_eq(icc_domain_locate(domain, 1, square, NULL, NULL, NULL, NULL), ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_domain_locate(domain, 1, NULL, &where, NULL, NULL, NULL),
+                     ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_domain_locate(domain, 1, square, NULL, NULL, NULL, NULL),
+                     ICC_ERR_ARGUMENT);
     ck_assert_int_eq(icc_domain_locate(domain, 1, square, &where, NULL, NULL, &env),
                      ICC_ERR_ARGUMENT);
     ck_assert_int_eq(icc_domain_locate(domain, 0, NULL, NULL, NULL, NULL, NULL), ICC_OK);
@@ -915,8 +1004,8 @@ START_TEST(test_threads)
     icc_domain_locate(domain, N, queries, where[0], facet[0], bary[0], NULL);
     for (int32_t threads = 2; threads <= 8; threads += 3) {
         const icc_env env = {.size = sizeof env, .threads = threads};
-        ck_assert_int_eq(
-            icc_domain_locate(domain, N, queries, where[1], facet[1], bary[1], &env), ICC_OK);
+        ck_assert_int_eq(icc_domain_locate(domain, N, queries, where[1], facet[1], bary[1], &env),
+                         ICC_OK);
         ck_assert_int_eq(memcmp(where[0], where[1], sizeof where[0]), 0);
         ck_assert_int_eq(memcmp(facet[0], facet[1], sizeof facet[0]), 0);
         ck_assert_int_eq(memcmp(bary[0], bary[1], sizeof bary[0]), 0);
@@ -988,8 +1077,10 @@ int main(void)
     tcase_add_test(checks, test_random_integers);
     tcase_add_test(checks, test_shapes);
     tcase_add_test(checks, test_slit);
+    tcase_add_test(checks, test_nearly_degenerate);
     tcase_add_test(checks, test_facets);
     tcase_add_test(checks, test_locate_exactly);
+    tcase_add_test(checks, test_clustered_vertices);
     tcase_add_test(checks, test_invariance);
     tcase_add_test(checks, test_tolerance);
     tcase_add_test(checks, test_odd_points);

@@ -125,9 +125,8 @@ START_TEST(test_range)
     static const struct {
         double x;
         bool holds;
-    } cases[] = {{0, true},      {1, false},      {1e-310, false}, {5e-324, false},
-                 {1e200, false}, {1e245, true},   {-1e245, true},  {-1, false},
-                 {1e299, true},  {-5e-324, false}};
+    } cases[] = {{0, true},     {1, false},     {1e-310, false}, {5e-324, false}, {1e200, false},
+                 {1e245, true}, {-1e245, true}, {-1, false},     {1e299, true},   {-5e-324, false}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
         iccp_frame frame;
         points[4] = cases[i].x;
