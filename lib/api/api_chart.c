@@ -1,4 +1,5 @@
 /* Argument checks of the chart functions. */
+#include "api/check.h"
 #include "base/error.h"
 #include "base/options.h"
 #include "chart/bulk.h"
@@ -19,7 +20,7 @@ icc_status icc_chart_create(icc_chart **out, const icc_domain *domain,
     icc_chart_options full;
     icc_status status = iccp_env_read(&full_env, env, err);
     if (status == ICC_OK)
-        status = iccp_read_struct(&full, sizeof full, options, "icc_chart_options", err);
+        status = iccp_read_chart_options(&full, options, domain->dim, err);
     return status == ICC_OK ? iccp_chart_create(out, domain, &full, &full_env, err) : status;
 }
 
@@ -54,11 +55,9 @@ icc_status icc_chart_measure(const icc_chart *chart, size_t n_points, icc_chart_
     icc_status status = iccp_env_read(&full_env, env, err);
     if (status == ICC_OK)
         status = chart->ops->measure(chart, n_points > 0 ? n_points : 4096, &full, &full_env);
-    if (status == ICC_ERR_MEMORY)
-        return iccp_fail_memory(err);
     return status == ICC_OK
                ? iccp_write_struct(measures, &full, sizeof full, "icc_chart_measures", err)
-               : status;
+               : iccp_explain(err, status);
 }
 
 icc_status icc_chart_encode(const icc_chart *chart, size_t n, const double *points,

@@ -1,4 +1,5 @@
 /* Argument checks of the map functions. */
+#include "api/check.h"
 #include "base/error.h"
 #include "base/options.h"
 #include "map/curves.h"
@@ -17,7 +18,9 @@ icc_status icc_map_create(icc_map **out, const icc_domain *source, const icc_dom
     if (status == ICC_OK)
         status = iccp_read_struct(&full, sizeof full, options, "icc_map_options", err);
     if (status == ICC_OK)
-        status = iccp_read_struct(&chart, sizeof chart, full.chart, "icc_chart_options", err);
+        status = iccp_read_chart_options(&chart, full.chart, source->dim, err);
+    if (status == ICC_OK)
+        status = iccp_check_maximum(full.target_maximum, target->dim, err);
     if (status != ICC_OK)
         return status;
     icc_chart_options target_chart = chart;

@@ -27,16 +27,6 @@ static icc_status begin(iccp_env *full, const icc_env *env, const char *missing,
     return iccp_env_read(full, env, err);
 }
 
-/* Below this layer some functions return these two without a text. */
-static icc_status explain(icc_status status, icc_error *err)
-{
-    if (status == ICC_ERR_MEMORY)
-        return iccp_fail_memory(err);
-    if (status == ICC_ERR_CANCELLED)
-        return iccp_fail(err, status, -1, "cancelled by the progress callback");
-    return status;
-}
-
 /* -------------------------------------------------------------------- grid */
 
 icc_status icc_grid_create(icc_grid **out, const icc_domain *domain, int32_t cells,
@@ -56,7 +46,7 @@ icc_status icc_grid_create(icc_grid **out, const icc_domain *domain, int32_t cel
                          (long)cells, (long)MAX_CELLS);
     if (domain->dim != 2)
         return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1, "grids are made from 2-D domains only");
-    return explain(iccp_grid_create(out, domain, cells, &full_env, err), err);
+    return iccp_explain(err, iccp_grid_create(out, domain, cells, &full_env, err));
 }
 
 icc_status icc_grid_create_mask(icc_grid **out, int32_t dim, const size_t *shape,
@@ -76,7 +66,7 @@ icc_status icc_grid_create_mask(icc_grid **out, int32_t dim, const size_t *shape
     for (int32_t k = 0; k < dim; ++k)
         if (shape[k] == 0)
             return iccp_fail(err, ICC_ERR_ARGUMENT, k, "shape[%ld] is 0", (long)k);
-    return explain(iccp_grid_create_mask(out, dim, shape, inside, &full_env, err), err);
+    return iccp_explain(err, iccp_grid_create_mask(out, dim, shape, inside, &full_env, err));
 }
 
 void icc_grid_free(icc_grid *grid)
@@ -111,7 +101,7 @@ icc_status icc_grid_maximum(const icc_grid *grid, uint32_t *vertex, uint32_t *ro
     const icc_status status = begin(&full_env, env, missing, err);
     if (status != ICC_OK)
         return status;
-    return explain(iccp_grassfire(grid, vertex, rounds, &full_env, err), err);
+    return iccp_explain(err, iccp_grassfire(grid, vertex, rounds, &full_env, err));
 }
 
 icc_status icc_grid_nearest(const icc_grid *grid, const double *point, uint32_t *vertex)
@@ -178,8 +168,8 @@ icc_status icc_tree_create(icc_tree **out, const icc_grid *grid, uint32_t root,
     if (root >= grid->n_vertices || !grid->inside[root])
         return iccp_fail(err, ICC_ERR_ARGUMENT, root, "the root, vertex %lu, is not inside",
                          (unsigned long)root);
-    return explain(
-        iccp_tree_create(out, grid, root, full.form, full.axis_order, &full_env, err), err);
+    return iccp_explain(
+        err, iccp_tree_create(out, grid, root, full.form, full.axis_order, &full_env, err));
 }
 
 void icc_tree_free(icc_tree *tree)
@@ -206,7 +196,7 @@ icc_status icc_tree_verify(const icc_tree *tree, icc_tree_report *report, const 
     if (status != ICC_OK)
         return status;
     icc_tree_report full;
-    status = explain(iccp_tree_verify(tree, &full, &full_env), err);
+    status = iccp_explain(err, iccp_tree_verify(tree, &full, &full_env));
     if (status != ICC_OK)
         return status;
     return iccp_write_struct(report, &full, sizeof full, "icc_tree_report", err);
@@ -235,7 +225,7 @@ icc_status icc_field_create(icc_field **out, const icc_tree *tree,
                          (long)full.function);
     if (full.reserved != 0)
         return iccp_fail(err, ICC_ERR_VERSION, -1, "icc_field_options.reserved is not 0");
-    return explain(iccp_field_create(out, tree, full.function, &full_env, err), err);
+    return iccp_explain(err, iccp_field_create(out, tree, full.function, &full_env, err));
 }
 
 void icc_field_free(icc_field *field)
@@ -257,7 +247,7 @@ icc_status icc_field_verify(const icc_field *field, icc_field_report *report, co
     if (status != ICC_OK)
         return status;
     icc_field_report full;
-    status = explain(iccp_field_verify(field, &full, &full_env), err);
+    status = iccp_explain(err, iccp_field_verify(field, &full, &full_env));
     if (status != ICC_OK)
         return status;
     return iccp_write_struct(report, &full, sizeof full, "icc_field_report", err);
@@ -336,5 +326,5 @@ icc_status icc_triangulate(size_t n_boundary, size_t n_points, const double *poi
     if (status == ICC_OK)
         status = triangulate(polygon, n_points, points, triangles, &full_env, err);
     iccp_domain_release(polygon);
-    return explain(status, err);
+    return iccp_explain(err, status);
 }

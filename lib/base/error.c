@@ -39,6 +39,15 @@ icc_status iccp_fail_memory(icc_error *err)
     return iccp_fail(err, ICC_ERR_MEMORY, -1, "out of memory");
 }
 
+icc_status iccp_explain(icc_error *err, icc_status status)
+{
+    if (status == ICC_ERR_MEMORY)
+        return iccp_fail_memory(err);
+    if (status == ICC_ERR_CANCELLED)
+        return iccp_fail(err, status, -1, "cancelled by the progress callback");
+    return status;
+}
+
 icc_status iccp_fail_side(icc_error *err, icc_status status, int32_t side)
 {
     if (err != NULL && err->size >= offsetof(icc_error, side) + sizeof err->side)

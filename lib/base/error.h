@@ -13,6 +13,10 @@ icc_status iccp_fail(icc_error *err, icc_status status, int64_t index, const cha
 /* ICC_ERR_MEMORY with the usual text. */
 icc_status iccp_fail_memory(icc_error *err);
 
+/* Describes a failure that is returned from deep inside without a text: out of memory, cancelled.
+ * Returns `status`, whatever it is. */
+icc_status iccp_explain(icc_error *err, icc_status status);
+
 /* Marks whose fault it is: 1 the source, 2 the target. Returns `status`. */
 icc_status iccp_fail_side(icc_error *err, icc_status status, int32_t side);
 

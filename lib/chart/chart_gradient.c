@@ -304,7 +304,7 @@ icc_status iccp_chart_gradient_create(icc_chart **out, const icc_domain *domain,
 {
     icc_status status = iccp_chart_new(out, domain, env);
     if (status != ICC_OK)
-        return iccp_fail_memory(err);
+        return status;
     icc_chart *chart = *out;
     chart->ops = &OPS;
     chart->info.method = ICC_METHOD_GRADIENT;
@@ -312,14 +312,11 @@ icc_status iccp_chart_gradient_create(icc_chart **out, const icc_domain *domain,
     chart->info.tree = options->tree;
     iccp_gradient_state *state = iccp_alloc_zero(&env->memory, 1, sizeof *state);
     chart->state = state;
-    status = state != NULL ? make_tree(state, chart, options, env, err) : iccp_fail_memory(err);
+    status = state != NULL ? make_tree(state, chart, options, env, err) : ICC_ERR_MEMORY;
     if (status == ICC_OK)
         status = make_field(state, chart, options, env, err);
-    if (status == ICC_OK) {
+    if (status == ICC_OK)
         status = iccp_fence_create(&state->fence, domain, state->tree->grid, env);
-        if (status != ICC_OK)
-            (void)iccp_fail_memory(err);
-    }
     if (status == ICC_OK) {
         place_maximum(state, chart);
         return ICC_OK;

@@ -19,5 +19,5 @@ icc_status iccp_chart_create(icc_chart **out, const icc_domain *domain,
         full.tree = ICC_TREE_THESIS;
     if (full.cells == 0)
         full.cells = 50;
-    return iccp_chart_gradient_create(out, domain, &full, env, err);
+    return iccp_explain(err, iccp_chart_gradient_create(out, domain, &full, env, err));
 }
