@@ -116,7 +116,7 @@ int main(int argc, char **argv)
         icc_map_info info = {.size = sizeof info};
         check(icc_map_create(&map, source, target, &options, NULL, &error), &error);
         check(icc_map_get_info(map, &info), &error);
-        printf("%3d cells: the map took %.2f ms\n", chart.cells, 1e3 * info.seconds);
+        printf("  making the map with %3d cells %8.2f ms\n", chart.cells, 1e3 * info.seconds);
         draw_panel(svg, map, 0, row);
         draw_panel(svg, map, 1, row);
         icc_map_free(map);

@@ -23,11 +23,12 @@ quietly "$build/build.log" cmake --build "$programs" --parallel "$(nproc)"
 
 for name in inspect_stages maximum_and_rotation sparse_points; do
     "$programs/$name" >"$out/$name.txt"
-    echo "$name: the result is $out/$name.txt"
+    echo "$name"
+    echo "the result is $out/$name.txt"
 done
 echo "l_to_square:"
 "$programs/l_to_square" "$out/l_to_square.svg"
 
-echo "warp_picture: examples/data/chelsea.png"
+echo "warp_picture examples/data/chelsea.png"
 "$programs/warp_picture" examples/data/chelsea.src.txt examples/data/chelsea.tgt.txt \
     examples/data/chelsea.png "$out/chelsea.png"

@@ -75,8 +75,8 @@ static double *find_sources(const icc_map *map, size_t width, size_t height, con
         n_inside += status[i] != ICC_ERR_OUTSIDE;
         n_lost += status[i] != ICC_OK && status[i] != ICC_ERR_OUTSIDE;
     }
-    printf("  pixels inside the target  %zu\n", n_inside);
-    printf("  of these without a source %zu\n", n_lost);
+    printf("  pixels inside the target  %8zu\n", n_inside);
+    printf("  of these without a source %8zu\n", n_lost);
     free(status);
     return points;
 }
@@ -97,6 +97,23 @@ static void sample(const png_image *image, const png_byte *pixels, double x, dou
         const double bottom = b[c] + du * (b[4 * right + (size_t)c] - b[c]);
         colour[c] = (png_byte)lround(top + dv * (bottom - top));
     }
+}
+
+static void print_time(const char *stage, double time)
+{
+    printf("  %-25s %8.2f ms\n", stage, 1e3 * time);
+}
+
+/* What making the map's two charts took, stage by stage. */
+static void print_chart_times(const icc_map *map)
+{
+    icc_chart_info source = {.size = sizeof source}, target = {.size = sizeof target};
+    if (icc_chart_get_info(icc_map_source_chart(map), &source) != ICC_OK ||
+        icc_chart_get_info(icc_map_target_chart(map), &target) != ICC_OK)
+        return;
+    print_time("  grids and their maxima", source.seconds_grid + target.seconds_grid);
+    print_time("  trees", source.seconds_tree + target.seconds_tree);
+    print_time("  functions", source.seconds_field + target.seconds_field);
 }
 
 int main(int argc, char **argv)
@@ -133,11 +150,12 @@ int main(int argc, char **argv)
     const double have_pixels = seconds();
     if (!png_image_write_to_file(&image, argv[4], 0, after, 0, NULL))
         stop(argv[4], image.message);
-    printf("  read picture and cages    %.3f s\n", have_input - start);
-    printf("  make the map              %.3f s\n", have_map - have_input);
-    printf("  map the pixels            %.3f s\n", have_sources - have_map);
-    printf("  mix the colours           %.3f s\n", have_pixels - have_sources);
-    printf("  write the picture         %.3f s\n", seconds() - have_pixels);
+    print_time("read picture and cages", have_input - start);
+    print_time("make the map", have_map - have_input);
+    print_chart_times(map);
+    print_time("map the pixels", have_sources - have_map);
+    print_time("mix the colours", have_pixels - have_sources);
+    print_time("write the picture", seconds() - have_pixels);
     printf("the result is %s\n", argv[4]);
 
     icc_map_free(map);
