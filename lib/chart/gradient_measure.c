@@ -17,12 +17,13 @@ typedef struct area_samples {
 /* Shapes that fill less of their bounding box than one part in this get fewer samples than wanted. */
 static const double MOST_CANDIDATES = 64;
 
-/* The R2 sequence (M. Roberts, 2018): multiples of the powers of the inverse plastic number. */
+/* The R2 sequence (M. Roberts, 2018): multiples of the powers of the inverse plastic number. Its point 0
+ * is the middle of the box, which is special in a symmetric shape: left out. */
 static void candidate(const icc_domain *domain, size_t index, double p[2])
 {
     static const double STEP[2] = {0.75487766624669276, 0.56984029099805327};
     for (int k = 0; k < 2; ++k) {
-        const double x = 0.5 + STEP[k] * (double)index;
+        const double x = 0.5 + STEP[k] * (double)(index + 1);
         p[k] = domain->lower[k] + (x - floor(x)) * (domain->upper[k] - domain->lower[k]);
     }
 }
