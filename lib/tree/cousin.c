@@ -1,14 +1,14 @@
 /* Based on: L. Huynh, Bijective Deformations in R^n via Integral Curve Coordinates, thesis, 2013,
  * section 4.2, Algorithm 2; the paper's form: Huynh and Gingold, section 5.2.
  *
- * A generation expands along the first axis, all of it, then along the second, and so on. The two
- * forms differ in what becomes of the vertices outside. No vertex outside has a child inside, so
- * neither form's tree inside depends on them, and they are added afterwards, layer by layer.
+ * A generation expands along the first axis, all of it, then along the second, and so on. No vertex
+ * outside has a child inside, so the tree inside does not depend on those outside. It is grown first
+ * (this is all there is to it in the paper's form), then the vertices outside are added, again
+ * generation by generation.
  *
- * In the thesis' pseudocode a vertex outside may also reach another one across a gap that is two cells
- * wide, before the far side of the gap is reached from inside; that vertex would then lie higher than
- * its neighbours inside, against the purpose of the layer. Here the first layer hangs on the inside
- * only. */
+ * One thing is not as in the thesis' pseudocode. There a vertex outside may reach the far side of a gap
+ * two cells wide before the inside does, and what it reaches then lies higher than its neighbours
+ * inside, against the purpose of this layer. Here a neighbour of the inside waits for it. */
 #include "tree/cousin.h"
 
 #include "base/error.h"
@@ -16,65 +16,116 @@
 #include <assert.h>
 #include <string.h>
 
-static void visit(icc_tree *tree, uint32_t from, uint32_t vertex, bool inside)
+static void visit(icc_tree *tree, uint32_t from, uint32_t vertex)
 {
-    if (vertex == ICCP_NONE || tree->generation[vertex] >= 0 ||
-        (tree->grid->inside[vertex] != 0) != inside)
-        return;
     tree->generation[vertex] = tree->generation[from] + 1;
-    if (inside || tree->form == ICC_TREE_THESIS)
+    if (tree->grid->inside[vertex] || tree->form == ICC_TREE_THESIS)
         tree->parent[vertex] = from;
     tree->order[tree->n_reached++] = vertex;
 }
 
-/* One generation, order[begin..end), into its neighbours inside or into those outside. */
-static void expand(icc_tree *tree, size_t begin, size_t end, bool inside)
+/* The generation that a vertex outside is given by the inside, or INT32_MAX. */
+static int32_t generation_due(const icc_tree *tree, uint32_t vertex)
 {
-    for (int32_t a = 0; a < tree->grid->dim; ++a) {
-        const int32_t k = tree->axis_order[a];
-        for (size_t i = begin; i < end; ++i) {
+    int32_t due = INT32_MAX;
+    for (int32_t k = 0; k < tree->grid->dim; ++k)
+        for (int32_t step = -1; step <= 1; step += 2) {
+            const uint32_t u = iccp_grid_neighbour(tree->grid, vertex, k, step);
+            if (u != ICCP_NONE && tree->grid->inside[u] && tree->generation[u] >= 0 &&
+                tree->generation[u] < due)
+                due = tree->generation[u] + 1;
+        }
+    return due;
+}
+
+/* Expands order[begin..end), vertices of one generation, along one axis into the inside. */
+static void expand_inside(icc_tree *tree, size_t begin, size_t end, int32_t axis)
+{
+    for (size_t i = begin; i < end; ++i)
+        for (int32_t step = -1; step <= 1; step += 2) {
             const uint32_t v = tree->order[i];
-            visit(tree, v, iccp_grid_neighbour(tree->grid, v, k, -1), inside);
-            visit(tree, v, iccp_grid_neighbour(tree->grid, v, k, +1), inside);
+            const uint32_t u = iccp_grid_neighbour(tree->grid, v, axis, step);
+            if (u != ICCP_NONE && tree->grid->inside[u] && tree->generation[u] < 0)
+                visit(tree, v, u);
+        }
+}
+
+/* Whether a vertex outside may expand into another one: not ahead of the inside. */
+static bool may_reach(const icc_tree *tree, uint32_t from, uint32_t vertex)
+{
+    const int32_t due = generation_due(tree, vertex);
+    return due == INT32_MAX || due == tree->generation[from] + 1;
+}
+
+/* The same into the outside. Vertices outside expand only next to the inside. */
+static void expand_outside(icc_tree *tree, size_t begin, size_t end, int32_t axis)
+{
+    for (size_t i = begin; i < end; ++i) {
+        const uint32_t v = tree->order[i];
+        const bool inside = tree->grid->inside[v];
+        if (!inside && generation_due(tree, v) == INT32_MAX)
+            continue;
+        for (int32_t step = -1; step <= 1; step += 2) {
+            const uint32_t u = iccp_grid_neighbour(tree->grid, v, axis, step);
+            if (u != ICCP_NONE && !tree->grid->inside[u] && tree->generation[u] < 0 &&
+                (inside || may_reach(tree, v, u)))
+                visit(tree, v, u);
         }
     }
 }
 
-/* Expands the vertices from order[begin] on, generation by generation: into the inside with all that
- * are found on the way, or into the outside by one layer. */
-static icc_status spread(icc_tree *tree, size_t begin, bool inside, const iccp_env *env)
+/* The end of the vertices of one generation that begin at order[begin]; there may be none. */
+static size_t end_of(const icc_tree *tree, size_t begin, size_t limit, int32_t generation)
 {
-    const size_t n_first = tree->n_reached;
-    size_t next_report = begin;
-    while (begin < (inside ? tree->n_reached : n_first)) {
-        if (begin >= next_report) {
-            const double share = (double)begin / (double)tree->grid->n_vertices;
-            if (iccp_progress(env, "tree", share) != ICC_OK)
-                return ICC_ERR_CANCELLED;
-            next_report = begin + ICCP_VERTICES_PER_REPORT;
-        }
-        const size_t limit = inside ? tree->n_reached : n_first;
-        const int32_t generation = tree->generation[tree->order[begin]];
-        size_t end = begin + 1;
-        while (end < limit && tree->generation[tree->order[end]] == generation)
-            ++end;
-        expand(tree, begin, end, inside);
+    size_t end = begin;
+    while (end < limit && tree->generation[tree->order[end]] == generation)
+        ++end;
+    return end;
+}
+
+/* Reports progress when `done` has come to `*next`. */
+static icc_status report(const icc_tree *tree, size_t done, size_t *next, const iccp_env *env)
+{
+    if (done < *next)
+        return ICC_OK;
+    *next = done + ICCP_VERTICES_PER_REPORT;
+    return iccp_progress(env, "tree", 0.5 * (double)done / (double)tree->grid->n_vertices);
+}
+
+static icc_status grow_inside(icc_tree *tree, const iccp_env *env)
+{
+    size_t next_report = 0, begin = 0;
+    tree->generation[tree->root] = 0;
+    tree->order[tree->n_reached++] = tree->root;
+    for (int32_t generation = 0; begin < tree->n_reached; ++generation) {
+        if (report(tree, begin, &next_report, env) != ICC_OK)
+            return ICC_ERR_CANCELLED;
+        const size_t end = tree->n_reached;
+        for (int32_t a = 0; a < tree->grid->dim; ++a)
+            expand_inside(tree, begin, end, tree->axis_order[a]);
         begin = end;
     }
+    tree->n_inside = tree->n_reached;
     return ICC_OK;
 }
 
-static icc_status grow(icc_tree *tree, const iccp_env *env)
+/* Goes through the inside again, and through the vertices outside as they are found. */
+static icc_status grow_outside(icc_tree *tree, const iccp_env *env)
 {
-    tree->generation[tree->root] = 0;
-    tree->order[tree->n_reached++] = tree->root;
-    icc_status status = spread(tree, 0, true, env);
-    tree->n_inside = tree->n_reached;
-    if (status == ICC_OK)
-        status = spread(tree, 0, false, env);
-    if (status == ICC_OK)
-        status = spread(tree, tree->n_inside, false, env);
-    return status;
+    size_t next_report = 0, in = 0, out = tree->n_inside;
+    for (int32_t generation = 0; in < tree->n_inside || out < tree->n_reached; ++generation) {
+        if (report(tree, tree->n_inside + in, &next_report, env) != ICC_OK)
+            return ICC_ERR_CANCELLED;
+        const size_t in_end = end_of(tree, in, tree->n_inside, generation);
+        const size_t out_end = end_of(tree, out, tree->n_reached, generation);
+        for (int32_t a = 0; a < tree->grid->dim; ++a) {
+            expand_outside(tree, in, in_end, tree->axis_order[a]);
+            expand_outside(tree, out, out_end, tree->axis_order[a]);
+        }
+        in = in_end;
+        out = out_end;
+    }
+    return ICC_OK;
 }
 
 /* No vertex visited yet. */
@@ -113,7 +164,9 @@ icc_status iccp_tree_create(icc_tree **out, const icc_grid *grid, uint32_t root,
     tree->form = form;
     for (int32_t k = 0; k < grid->dim; ++k)
         tree->axis_order[k] = axis_order != NULL ? axis_order[k] : k;
-    const icc_status status = grow(tree, env);
+    icc_status status = grow_inside(tree, env);
+    if (status == ICC_OK)
+        status = grow_outside(tree, env);
     if (status != ICC_OK) {
         iccp_tree_release(tree);
         return status;

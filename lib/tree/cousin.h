@@ -13,9 +13,8 @@ struct icc_tree {
     uint32_t root;
     uint32_t *parent;                 /* ICCP_NONE for the root and for vertices without one */
     int32_t *generation;              /* -1: not reached */
-    uint32_t *order;                  /* the n_reached vertices, parents before children; first the
-                                         n_inside inside, then the layers outside, each of these by
-                                         generation */
+    uint32_t *order;                  /* the n_reached vertices, parents before children: first the
+                                         n_inside inside, then those outside, both by generation */
     size_t n_reached;                 /* vertices with a generation */
     size_t n_inside;                  /* those of them that are inside */
 };
