@@ -1,9 +1,14 @@
 /* Based on: M. V. Anglada, An improved incremental algorithm for constructing restricted Delaunay
- * triangulations, Computers & Graphics 21, 1997: take out the triangles that an edge crosses, and
- * triangulate what they leave on either side of it. The two polygons are visible from the edge, so
- * cutting off corners one after the other works in linear time (G. T. Toussaint, D. Avis, On a convex
- * hull algorithm for polygons and its application to triangulation problems, Pattern Recognition 15,
- * 1982); flips then make the result Delaunay. */
+ * triangulations, Computers & Graphics 21, 1997: take out the triangles that an edge crosses and
+ * triangulate the two polygons that they leave on either side of it; and on J. R. Shewchuk,
+ * B. C. Brown, Fast segment insertion and incremental construction of constrained Delaunay
+ * triangulations, Computational Geometry 48, 2015, for the order: vertices are cut off at random, and
+ * put back in reverse, each followed by flips round it. That takes time proportional to the number of
+ * triangles where one fixed order can take its square.
+ *
+ * Every vertex of these polygons sees the edge. Therefore each at which the polygon is convex can be
+ * cut off, the ends of the edge excepted, whatever was cut off before: a vertex inside the triangle
+ * would have to see the edge across its sides. */
 #include "mesh/constrain.h"
 
 #include "base/error.h"
@@ -13,28 +18,35 @@
 
 enum side { LEFT, RIGHT };
 
+/* An edge that crosses n triangles has n + 3 links. */
+enum { EXTRA = 3 };
+
 /* Marks the index of a link in place of a corner. */
 static const uint32_t LINK = (uint32_t)1 << 31;
 
 /* A vertex of the chains on either side of the edge that is being inserted, and the edge that leads
  * to it from the one before. */
 typedef struct chain_link {
-    uint32_t side;     /* LEFT or RIGHT */
+    uint32_t side; /* LEFT or RIGHT */
     uint32_t vertex;
-    uint32_t previous; /* the link before it on its side */
-    uint32_t outer;    /* the corner beyond the edge; or, when the chain runs along both sides of an
-                          edge between crossed triangles, LINK and the other chain_link */
+    uint32_t previous, next; /* the links before and after it on its side */
+    uint32_t outer; /* the corner beyond the edge; or, when the chain runs along both sides of an edge
+                       between crossed triangles, LINK and the other link */
+    bool queued;
 } chain_link;
 
 typedef struct cutter {
     iccp_trimesh *mesh;
     uint32_t from, to;   /* the edge that is being inserted */
     uint32_t *corner_of; /* one corner of every vertex */
-    uint32_t *triangles; /* those that the edge crosses; later those still to be made Delaunay */
-    uint8_t *waiting;    /* whether a triangle is among the latter */
-    chain_link *links;         /* the first stands for `from`, on both sides */
+    uint32_t *triangles; /* those that the edge crosses */
+    uint8_t *waiting;    /* whether a triangle's vertex has yet to be put back */
+    chain_link *links;   /* the first is `from`, on both sides; the last two are `to` */
+    uint32_t *queue;     /* links that may be ready to be cut off, each at most once */
     uint32_t n_triangles, n_links;
-    uint32_t room;       /* for as many triangles, and three more links */
+    uint32_t room;       /* for as many triangles, and EXTRA more of the others */
+    uint32_t last[2];    /* the last link on either side so far */
+    uint64_t random;
     icc_error *err;
 } cutter;
 
@@ -109,27 +121,34 @@ static icc_status find_start(const cutter *k, uint32_t *start)
     return ICC_OK;
 }
 
-static bool add_triangle(cutter *k, uint32_t triangle, const iccp_memory *memory)
+/* Makes room for one more triangle, and its link. */
+static bool reserve(cutter *k, const iccp_memory *memory)
 {
-    if (k->n_triangles == k->room) {
-        const size_t room = 2 * (size_t)k->room;
-        uint32_t *triangles = iccp_grow(memory, k->triangles, k->room, room, sizeof *triangles);
-        if (triangles == NULL)
-            return false;
-        k->triangles = triangles;
-        chain_link *links = iccp_grow(memory, k->links, k->n_links, room + 3, sizeof *links);
-        if (links == NULL)
-            return false;
-        k->links = links;
-        k->room = (uint32_t)room;
-    }
-    k->triangles[k->n_triangles++] = triangle;
+    if (k->n_triangles < k->room)
+        return true;
+    const size_t room = 2 * (size_t)k->room;
+    uint32_t *triangles = iccp_grow(memory, k->triangles, k->room, room, sizeof *triangles);
+    if (triangles == NULL)
+        return false;
+    k->triangles = triangles;
+    chain_link *links = iccp_grow(memory, k->links, k->n_links, room + EXTRA, sizeof *links);
+    if (links == NULL)
+        return false;
+    k->links = links;
+    uint32_t *queue = iccp_grow(memory, k->queue, 0, room + EXTRA, sizeof *queue);
+    if (queue == NULL)
+        return false;
+    k->queue = queue;
+    k->room = (uint32_t)room;
     return true;
 }
 
 static void add_link(cutter *k, uint32_t side, uint32_t vertex, uint32_t outer)
 {
-    k->links[k->n_links++] = (chain_link){side, vertex, 0, outer};
+    const uint32_t index = k->n_links++;
+    k->links[index] = (chain_link){side, vertex, k->last[side], 0, outer, false};
+    k->links[k->last[side]].next = index;
+    k->last[side] = index;
 }
 
 /* Follows the edge from the first triangle that it enters to its end, and notes the triangles and the
@@ -137,8 +156,10 @@ static void add_link(cutter *k, uint32_t side, uint32_t vertex, uint32_t outer)
 static icc_status collect(cutter *k, uint32_t corner, const iccp_memory *memory)
 {
     const iccp_corner *const c = k->mesh->corners;
-    k->n_triangles = k->n_links = 0;
-    add_triangle(k, corner / 3, memory);
+    k->n_triangles = 0;
+    k->triangles[k->n_triangles++] = corner / 3;
+    k->n_links = 0;
+    k->last[LEFT] = k->last[RIGHT] = 0;
     add_link(k, LEFT, k->from, 0);
     add_link(k, LEFT, vertex_at(k, iccp_before(corner)), c[iccp_after(corner)].twin);
     add_link(k, RIGHT, vertex_at(k, iccp_after(corner)), c[iccp_before(corner)].twin);
@@ -151,8 +172,9 @@ static icc_status collect(cutter *k, uint32_t corner, const iccp_memory *memory)
         const int side = apex == k->to ? 0 : side_of(k, apex);
         if (side == 0 && apex != k->to)
             return fail_touch(k, apex);
-        if (!add_triangle(k, twin / 3, memory))
+        if (!reserve(k, memory))
             return iccp_fail_memory(k->err);
+        k->triangles[k->n_triangles++] = twin / 3;
         if (side >= 0)
             add_link(k, LEFT, apex, c[iccp_before(twin)].twin);
         if (side <= 0)
@@ -189,89 +211,111 @@ static void attach(cutter *k, uint32_t corner, uint32_t index)
         iccp_link(k->mesh, corner, outer);
 }
 
-static void put(cutter *k, uint32_t corner, uint32_t vertex)
+/* Whether the chain turns towards the edge at a link. */
+static bool is_convex(const cutter *k, const chain_link *l)
 {
-    k->mesh->corners[corner].vertex = vertex;
-    k->corner_of[vertex] = corner;
+    const double *a = iccp_point(k->mesh, k->links[l->previous].vertex);
+    const double *b = iccp_point(k->mesh, l->vertex);
+    const double *c = iccp_point(k->mesh, k->links[l->next].vertex);
+    return iccp_orient2d(a, b, c) == (l->side == LEFT ? -1 : 1);
 }
 
-/* Makes a triangle of a link, the one before it and `last`, whose edge it becomes. */
-static void cut_off(cutter *k, uint32_t triangle, uint32_t middle, uint32_t last)
+/* Makes a triangle of a link and those next to it, its own vertex first, and joins these. */
+static void cut_off(cutter *k, uint32_t triangle, uint32_t index)
 {
-    chain_link *const l = k->links;
+    iccp_corner *const c = k->mesh->corners;
+    const chain_link *const l = &k->links[index];
+    chain_link *const previous = &k->links[l->previous], *const next = &k->links[l->next];
     const uint32_t corner = 3 * triangle;
-    const uint32_t at_first = corner + 1 + l[last].side, at_last = corner + 2 - l[last].side;
-    put(k, corner, l[middle].vertex);
-    put(k, at_first, l[l[middle].previous].vertex);
-    put(k, at_last, l[last].vertex);
-    attach(k, at_first, last);
-    attach(k, at_last, middle);
-    l[last].outer = corner;
+    const uint32_t at_previous = corner + 1 + l->side, at_next = corner + 2 - l->side;
+    c[corner].vertex = l->vertex;
+    c[at_previous].vertex = previous->vertex;
+    c[at_next].vertex = next->vertex;
+    attach(k, at_previous, l->next);
+    attach(k, at_next, index);
+    next->outer = corner;
+    next->previous = l->previous;
+    previous->next = l->next;
 }
 
-/* Whether the chain turns towards the edge at a link when `last` follows. */
-static bool is_ear(const cutter *k, uint32_t middle, uint32_t last)
+/* Queues all vertices between the ends in random order; returns how many they are. */
+static uint32_t shuffle(cutter *k)
 {
-    const chain_link *const l = k->links;
-    const double *a = iccp_point(k->mesh, l[l[middle].previous].vertex);
-    const double *b = iccp_point(k->mesh, l[middle].vertex);
-    const double *c = iccp_point(k->mesh, l[last].vertex);
-    return iccp_orient2d(a, b, c) == (l[last].side == LEFT ? -1 : 1);
+    uint32_t n = 0;
+    for (uint32_t i = 1; i + 2 < k->n_links; ++i, ++n) {
+        k->random = k->random * 6364136223846793005u + 1442695040888963407u; /* Knuth's MMIX */
+        const uint32_t place = (uint32_t)((k->random >> 32) * (n + 1) >> 32);
+        k->queue[n] = k->queue[place];
+        k->queue[place] = i;
+        k->links[i].queued = true;
+    }
+    return n;
 }
 
 /* Triangulates both sides of the edge in the places of the triangles that were taken out. */
-static void fill(cutter *k)
+static void cut_all(cutter *k)
 {
     chain_link *const l = k->links;
-    uint32_t top[2] = {0, 0}, n_used = 0;
-    for (uint32_t last = 1; last < k->n_links; ++last) {
-        uint32_t middle = top[l[last].side];
-        for (; middle != 0 && is_ear(k, middle, last); middle = l[middle].previous)
-            cut_off(k, k->triangles[n_used++], middle, last);
-        l[last].previous = middle;
-        top[l[last].side] = last;
+    const uint32_t n_places = shuffle(k);
+    uint32_t head = 0, n_queued = n_places, n_used = 0;
+    for (; n_queued > 0; --n_queued, head = head + 1 < n_places ? head + 1 : 0) {
+        const uint32_t index = k->queue[head];
+        l[index].queued = false;
+        if (!is_convex(k, &l[index]))
+            continue;
+        cut_off(k, k->triangles[n_used++], index);
+        const uint32_t near[2] = {l[index].previous, l[index].next};
+        for (int i = 0; i < 2; ++i) {
+            const bool is_end = near[i] == 0 || l[near[i]].next == 0;
+            if (is_end || l[near[i]].queued)
+                continue;
+            l[near[i]].queued = true;
+            k->queue[(head + n_queued++) % n_places] = near[i];
+        }
     }
-    assert(n_used == k->n_triangles && l[top[LEFT]].previous == 0 && l[top[RIGHT]].previous == 0);
-    iccp_link(k->mesh, l[top[LEFT]].outer, l[top[RIGHT]].outer);
+    assert(n_used == k->n_triangles);
+    iccp_link(k->mesh, l[k->last[LEFT]].outer, l[k->last[RIGHT]].outer);
 }
 
 static bool must_flip(const cutter *k, uint32_t corner)
 {
     const iccp_trimesh *const mesh = k->mesh;
-    const uint32_t beyond = vertex_at(k, mesh->corners[corner].twin);
+    const uint32_t twin = mesh->corners[corner].twin, beyond = vertex_at(k, twin);
     const uint32_t from = vertex_at(k, iccp_after(corner));
     const uint32_t to = vertex_at(k, iccp_before(corner));
-    return beyond != mesh->n_points && !iccp_is_boundary_edge(mesh, from, to) &&
+    return beyond != mesh->n_points && !k->waiting[twin / 3] &&
+           !iccp_is_boundary_edge(mesh, from, to) &&
            iccp_incircle(iccp_point(mesh, vertex_at(k, corner)), iccp_point(mesh, from),
                          iccp_point(mesh, to), iccp_point(mesh, beyond)) > 0;
 }
 
-static void enqueue(cutter *k, uint32_t triangle)
+/* Goes round the vertex at a corner, from one neighbour on its chain to the other, and flips the edges
+ * that it faces while they are not Delaunay. */
+static void legalise(cutter *k, uint32_t corner)
 {
-    for (uint32_t corner = 3 * triangle; corner < 3 * triangle + 3; ++corner)
-        k->corner_of[vertex_at(k, corner)] = corner;
-    if (!k->waiting[triangle])
-        k->triangles[k->n_triangles++] = triangle;
-    k->waiting[triangle] = 1;
+    const uint32_t last = vertex_at(k, iccp_before(corner));
+    for (;;) {
+        if (must_flip(k, corner))
+            iccp_flip(k->mesh, corner);
+        else if (vertex_at(k, iccp_before(corner)) != last)
+            corner = iccp_around(k->mesh, corner);
+        else
+            return;
+    }
 }
 
-/* Flips edges between the new triangles until all are Delaunay. The edges round them are so already
- * (the constraint took nothing from them), hence no other triangle ever waits. */
-static void legalise(cutter *k)
+/* Puts the vertices back. What lies beyond the chains stays: it was Delaunay and still is. */
+static void put_back(cutter *k)
 {
     for (uint32_t i = 0; i < k->n_triangles; ++i)
         k->waiting[k->triangles[i]] = 1;
-    while (k->n_triangles > 0) {
-        const uint32_t triangle = k->triangles[--k->n_triangles];
-        k->waiting[triangle] = 0;
-        for (uint32_t corner = 3 * triangle; corner < 3 * triangle + 3; ++corner)
-            if (must_flip(k, corner)) {
-                const uint32_t other = k->mesh->corners[corner].twin / 3;
-                iccp_flip(k->mesh, corner);
-                enqueue(k, triangle);
-                enqueue(k, other);
-                break;
-            }
+    for (uint32_t i = k->n_triangles; i-- > 0;) {
+        k->waiting[k->triangles[i]] = 0;
+        legalise(k, 3 * k->triangles[i]);
+    }
+    for (uint32_t i = 0; i < 3 * k->n_triangles; ++i) {
+        const uint32_t corner = 3 * k->triangles[i / 3] + i % 3;
+        k->corner_of[vertex_at(k, corner)] = corner;
     }
 }
 
@@ -286,8 +330,8 @@ static icc_status insert_edge(cutter *k, const iccp_memory *memory)
     if (status != ICC_OK)
         return status;
     pair_links(k);
-    fill(k);
-    legalise(k);
+    cut_all(k);
+    put_back(k);
     return ICC_OK;
 }
 
@@ -318,12 +362,15 @@ icc_status iccp_constrain(iccp_trimesh *mesh, const iccp_env *env, icc_error *er
     k.corner_of = iccp_alloc(memory, mesh->n_points, sizeof *k.corner_of);
     k.waiting = iccp_alloc_zero(memory, mesh->n_triangles, sizeof *k.waiting);
     k.triangles = iccp_alloc(memory, ROOM, sizeof *k.triangles);
-    k.links = iccp_alloc(memory, ROOM + 3, sizeof *k.links);
+    k.links = iccp_alloc(memory, ROOM + EXTRA, sizeof *k.links);
+    k.queue = iccp_alloc(memory, ROOM + EXTRA, sizeof *k.queue);
     icc_status status;
-    if (k.corner_of == NULL || k.waiting == NULL || k.triangles == NULL || k.links == NULL)
+    if (k.corner_of == NULL || k.waiting == NULL || k.triangles == NULL || k.links == NULL ||
+        k.queue == NULL)
         status = iccp_fail_memory(err);
     else
         status = insert_all(&k, env);
+    iccp_free(memory, k.queue);
     iccp_free(memory, k.links);
     iccp_free(memory, k.triangles);
     iccp_free(memory, k.waiting);

@@ -1,9 +1,10 @@
 /* Based on: N. Amenta, S. Choi, G. Rote, Incremental Constructions con BRIO, Symposium on
  * Computational Geometry 2003. The random rounds bound the expected work whatever the points are; the
- * curve puts consecutive points of a round, and what they touch in memory, next to each other. */
+ * curve puts consecutive points of a round, and what they touch in memory, next to each other. Cells
+ * of the curve in which many points cluster get a curve of their own. */
 #include "mesh/order.h"
 
-#include <string.h>
+#include <stdbool.h>
 
 /* A key is, from the top: the round, 4 bits; the place on the curve, 32 bits; the index, 28 bits. */
 enum { ROUND_SHIFT = 60, CURVE_SHIFT = 28, CURVE_BITS = 16, DIGIT_BITS = 9, LAST_ROUND = 15 };
@@ -37,16 +38,21 @@ static uint64_t pick_round(uint32_t index)
     return round;
 }
 
-/* Cells per unit along one axis, and where cell 0 begins. */
+/* The cells of one axis: where they begin, and how many there are per unit. */
 typedef struct axis {
     double origin, scale;
 } axis;
 
-static axis measure(size_t n, const double *coordinates)
+static size_t index_of(uint64_t key)
 {
-    double low = coordinates[0], high = low;
+    return (size_t)(key & (((uint64_t)1 << CURVE_SHIFT) - 1));
+}
+
+static axis measure(const uint64_t *keys, size_t n, const double *coordinates)
+{
+    double low = coordinates[2 * index_of(keys[0])], high = low;
     for (size_t i = 1; i < n; ++i) {
-        const double x = coordinates[2 * i];
+        const double x = coordinates[2 * index_of(keys[i])];
         low = x < low ? x : low;
         high = x > high ? x : high;
     }
@@ -72,25 +78,53 @@ static void sort_by_digit(uint64_t *to, const uint64_t *from, size_t n, int shif
         to[start[from[i] >> shift & mask]++] = from[i];
 }
 
+/* Places the points of some keys on a curve through their own bounding box, and sorts. */
+static void sort_along_curve(uint64_t *keys, uint64_t *scratch, size_t n, const double *points)
+{
+    const uint64_t curve = (uint64_t)UINT32_MAX << CURVE_SHIFT;
+    const axis x = measure(keys, n, points), y = measure(keys, n, points + 1);
+    for (size_t i = 0; i < n; ++i) {
+        const double *p = points + 2 * index_of(keys[i]);
+        keys[i] = (keys[i] & ~curve) | hilbert(cell(&x, p[0]), cell(&y, p[1])) << CURVE_SHIFT;
+    }
+    for (int shift = CURVE_SHIFT; shift < 64; shift += 2 * DIGIT_BITS) {
+        sort_by_digit(scratch, keys, n, shift);
+        sort_by_digit(keys, scratch, n, shift + DIGIT_BITS);
+    }
+}
+
+/* Sorts again what shares a cell, when it is much; false when nothing was. */
+static bool refine(uint64_t *keys, uint64_t *scratch, size_t n, const double *points)
+{
+    enum { MUCH = 64 }; /* walking across a few tens of triangles costs less than sorting again */
+    bool refined = false;
+    for (size_t begin = 0, end; begin < n; begin = end) {
+        end = begin + 1;
+        while (end < n && keys[begin] >> CURVE_SHIFT == keys[end] >> CURVE_SHIFT)
+            ++end;
+        if (end - begin < MUCH)
+            continue;
+        sort_along_curve(keys + begin, scratch, end - begin, points);
+        refined = true;
+    }
+    return refined;
+}
+
 icc_status iccp_insertion_order(uint32_t *order, size_t n, const double *points,
                                 const iccp_memory *memory)
 {
+    /* Each level is finer by 2^16; the local coordinates span less than 2^450. */
+    enum { MOST_LEVELS = 28 };
     uint64_t *keys = iccp_alloc(memory, n, 2 * sizeof *keys);
     if (keys == NULL)
         return ICC_ERR_MEMORY;
-    uint64_t *from = keys, *to = keys + n;
-    const axis x = measure(n, points), y = measure(n, points + 1);
     for (size_t i = 0; i < n; ++i)
-        from[i] = pick_round((uint32_t)i) << ROUND_SHIFT |
-                  hilbert(cell(&x, points[2 * i]), cell(&y, points[2 * i + 1])) << CURVE_SHIFT | i;
-    for (int shift = CURVE_SHIFT; shift < 64; shift += DIGIT_BITS) {
-        sort_by_digit(to, from, n, shift);
-        uint64_t *const sorted = to;
-        to = from;
-        from = sorted;
-    }
+        keys[i] = pick_round((uint32_t)i) << ROUND_SHIFT | i;
+    sort_along_curve(keys, keys + n, n, points);
+    for (int level = 1; level < MOST_LEVELS && refine(keys, keys + n, n, points); ++level)
+        continue;
     for (size_t i = 0; i < n; ++i)
-        order[i] = (uint32_t)(from[i] & ((1u << CURVE_SHIFT) - 1));
+        order[i] = (uint32_t)index_of(keys[i]);
     iccp_free(memory, keys);
     return ICC_OK;
 }
