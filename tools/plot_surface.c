@@ -76,9 +76,9 @@ static void cell_point(const view *v, size_t cell, double u, double w, double ou
 
 /* ------------------------------------------------------------------- tiles */
 
-/* Deep blue below, through teal, to warm white on top; darker where the slope turns from the light. */
+/* Steel blue below, through pale green, to warm white on top; darker where the slope turns from the light. */
 static void tile_colour(double height, double light, int rgb[3]) {
-    static const double ramp[5][3] = {{38, 70, 110}, {62, 116, 156}, {112, 168, 182}, {190, 222, 208}, {253, 247, 226}};
+    static const double ramp[5][3] = {{102, 136, 172}, {128, 166, 192}, {166, 202, 206}, {212, 231, 216}, {255, 250, 234}};
     double x = fmin(fmax(height, 0), 1) * 4;
     int i = x >= 4 ? 3 : (int)x;
     for (int k = 0; k < 3; k++)

@@ -27,7 +27,8 @@ void mixture_add(mixture *m, const picture *p, double x, double y) {
 void mixture_store(const mixture *m, picture *p, size_t pixel) {
     uint16_t *to = p->samples + pixel * p->channels;
     unsigned n_colours = p->channels >= 3 ? 3 : 1;
-    bool by_alpha = p->channels > n_colours && m->plain[n_colours] > 0;
+    /* An alpha that rounds to 0 has no colour to weight by. */
+    bool by_alpha = p->channels > n_colours && m->plain[n_colours] >= 0.5 * m->n;
     double largest = (double)((1u << p->depth) - 1);
     for (unsigned c = 0; c < p->channels; c++) {
         double value = by_alpha && c < n_colours ? m->weighted[c] / m->plain[n_colours] : m->plain[c] / m->n;

@@ -1,0 +1,106 @@
+#!/bin/sh
+# Malformed input gives exit code 1 and one line that names the file and the line, and says what is wrong.
+# shellcheck source-path=SCRIPTDIR source=lib.sh
+. "$(dirname "$0")/lib.sh"
+make_cages
+
+# rejects PLACE MESSAGE: the file `bad` on standard input of this function is no cage.
+rejects() {
+    cat >bad
+    run 1 map -s bad -t target.txt -p points.txt
+    says "libicc: bad:$1"
+    says "$2"
+    run 1 map -s source.txt -t bad -p points.txt
+    says "libicc: bad:$1"
+}
+
+# Text.
+printf '' | rejects ' ' '0 vertices'
+printf '0 0\n' | rejects ' ' '1 vertex;'
+printf '0 0\n1 0\n0 0\n' | rejects ' ' '2 vertices'
+printf '0 0\n1 abc\n1 1\n' | rejects 2: "'abc' is not a number"
+printf '0 0\n1,5 2\n1 1\n' | rejects 2: "'1,5' has a comma"
+printf '0,0\n1,0\n1,1\n' | rejects 1: "has a comma"
+printf '0 0\n\n# c\n1 0 0\n1 1\n' | rejects 4: '3 numbers in this line'
+printf '0 0\n1\n1 1\n' | rejects 2: '1 number in this line'
+printf '0 0\nnan 1\n1 1\n' | rejects 2: "'nan' is not a finite number"
+printf '0 0\n1 -Infinity\n1 1\n' | rejects 2: 'is not a finite number'
+printf '0 0\n1 1e999\n1 1\n' | rejects 2: 'is not a finite number'
+printf '0 0\n0x10 0\n1 1\n' | rejects 2: "'0x10' is not a number"
+printf '0 0\n1 1e\n1 1\n' | rejects 2: "'1e' is not a number"
+printf '0 0\n1 .\n1 1\n' | rejects 2: "'.' is not a number"
+printf '0 0\n\000\n1 1\n' | rejects 2: 'zero byte'
+printf '0 0\n\001\377\n1 1\n' | rejects 2: "'??' is not a number"
+printf 'OFF\n3 1 0\n' | rejects ' ' 'an OFF surface'
+printf '\223NUMPY\001' | rejects ' ' 'a .npy mask'
+
+# Geometry.
+printf '0 0\n10 0\n10 10\n5 -5\n0 10\n3 3\n' | rejects 1: 'the edge from vertex 0 crosses the edge from vertex 2 (line 3)'
+printf '\n0 0\n4 0\n4 4\n4 4\n0 4\n-1 1\n' | rejects 4: 'vertex 2 coincides with vertex 3 (line 5)'
+printf '0 0\n1 1\n2 2\n3 3\n4 4\n5 5\n' | rejects 1: 'defects in all'
+printf '0 0\n0 1\n1 0\n' >bad
+run 1 map -s source.txt -t bad -p points.txt
+says 'libicc: bad: 3 vertices, but the source source.txt has 6'
+printf -- '-1 10\n5 12\n6.5 7\n12 6\n12 1\n0 0\n' >bad
+run 1 map -s source.txt -t bad -p points.txt
+says 'libicc: bad:'
+says 'clockwise'
+run 1 map -s nowhere -t target.txt -p points.txt
+says 'libicc: nowhere: cannot be opened'
+run 1 map -s . -t target.txt -p points.txt
+says 'libicc: .: cannot be read'
+run 1 info -s source.txt --maximum 8,8
+says 'libicc: source.txt:'
+
+# WKT.
+printf 'POLYGON ((0 0, 1 0, 1 1' | rejects 1: "')' is missing"
+printf 'POLYGON ((0 0,\n 1 zero, 1 1))' | rejects 2: "'zero,' is not a number"
+printf 'POLYGON ((0 0, 9 0, 9 9), (1 1, 2 1, 2 2))' | rejects 1: 'has a hole'
+printf 'MULTIPOLYGON (((0 0, 9 0, 9 9)))' | rejects 1: 'several parts'
+printf 'POLYGON Z ((0 0 0, 9 0 0, 9 9 0))' | rejects 1: 'more than two coordinates'
+printf 'POLYGON EMPTY' | rejects 1: 'is empty'
+printf 'LINESTRING (0 0, 1 1)' | rejects 1: 'a cage is a POLYGON'
+printf 'POLYGON ((0 0, 1 0, 1 1)) POINT (1 1)' | rejects 1: 'more text behind'
+
+# GeoJSON.
+printf '{"type":"Polygon",\n"coordinates":[[[0,0],' | rejects 2: 'the JSON ends early'
+printf '{"type":"Polygon",\n"coordinates":[[[0,0] [1,1]]]}' | rejects 2: 'not valid JSON'
+printf '{"type":"Polygon","coordinates":[[[0,0],[1,0],[1,1]],[[0,0],[1,0],[1,1]]]}' | rejects ' ' '1 hole;'
+printf '{"type":"MultiPolygon","coordinates":[[[[0,0],[1,0],[1,1]]],[[[0,0],[1,0],[1,1]]]]}' | rejects ' ' '2 parts'
+printf '{"type":"Polygon","coordinates":[[[0,0],[1,0,7],[1,1]]]}' | rejects ' ' 'vertex 1 has more than two'
+printf '{"type":"Polygon","coordinates":[[[0,0],[1,"a"],[1,1]]]}' | rejects ' ' 'vertex 1 is not a pair'
+printf '{"type":"Polygon","coordinates":[[[0,0],[1e999,0],[1,1]]]}' | rejects ' ' 'vertex 1 is not finite'
+printf '{"type":"Polygon"}' | rejects ' ' 'no coordinates'
+printf '{"type":"Point","coordinates":[0,0]}' | rejects ' ' "'Point'"
+printf '{"type":"FeatureCollection","features":[]}' | rejects ' ' 'none of the 0 features'
+printf '{"type":"FeatureCollection","features":[{},{}]}' | rejects ' ' 'none of the 2 features'
+printf '[1,2,3]' | rejects ' ' 'a cage is a Polygon'
+
+# SVG.
+printf '<svg></svg>' | rejects ' ' 'no complete <path> or <polygon>'
+printf '<svg><path d="M0 0L1 0' | rejects ' ' 'no complete <path> or <polygon>'
+printf '<svg><path d="M0 0L1 0 1 1z"/><polygon points="0 0 1 0 1 1"/></svg>' | rejects ' ' '0 of the 2 shapes'
+printf '<svg>\n<path d="M0 0L1 0\n1 one z"/></svg>' | rejects 3: "'one'"
+printf '<svg><path d="M0 0L9 0 9 9zM1 1L2 1 2 2z"/></svg>' | rejects 1: 'goes on after Z'
+printf '<svg><path d="M0 0L9 0 9 9M1 1L2 1 2 2z"/></svg>' | rejects 1: 'several parts'
+printf '<svg><path d="M0 0A1 1 0 0 0 5 5z"/></svg>' | rejects 1: 'has an arc'
+printf '<svg><path d="L0 0 1 1 1 0"/></svg>' | rejects 1: 'does not begin with M'
+printf '<svg><path d="M0 0B1 1"/></svg>' | rejects 1: "'B' is not a command"
+printf '<svg><path/></svg>' | rejects 1: 'has no outline'
+printf '<svg><g transform="scale(2)"><g><path d="M0 0L1 0 1 1z"/></g></g></svg>' | rejects 1: 'has a transform'
+printf '<svg><polygon points="0 0 1 0 1"/></svg>' | rejects 1: 'lacks its y'
+printf '<svg><polygon points="0 0 1 x 1 1"/></svg>' | rejects 1: "'x'"
+
+# Points and coordinates.
+printf '1 1\n1 2 3\n' >bad
+run 1 map -s source.txt -t target.txt -p bad
+says 'libicc: bad:2: 3 numbers in this line; a point is'
+printf '1 1\n1 2 3\n' | run 1 map -s source.txt -t target.txt
+says 'libicc: standard input:2:'
+printf '0 0.5 0.5 0.5\n6 0.5 0.5 0.5\n' >bad
+run 1 decode -s source.txt --coords bad
+says 'libicc: bad:2: 6 is not an edge; the cage has the edges 0 to 5'
+printf '0.5 0.5 0.5 0.5\n' >bad
+run 1 decode -s source.txt --coords bad
+says 'libicc: bad:1: 0.5 is not an edge'
+finish

@@ -1,0 +1,89 @@
+#!/bin/sh
+# check, info and mesh.
+# shellcheck source-path=SCRIPTDIR source=lib.sh
+. "$(dirname "$0")/lib.sh"
+make_cages
+
+# Valid, but not certifiable.
+run 1 check -s source.txt -t target.txt
+holds out 'source.txt: a simple polygon, 6 vertices, counter-clockwise, area 75'
+holds err 'not certifiable'
+[ "$(wc -l <err)" -eq 1 ] || complain "stderr is not one line"
+run 1 check -s source.txt --json
+holds out '"certified": false'
+
+# Every crossing is listed, on its line.
+printf '0 0\n10 0\n10 10\n7 -5\n4 10\n1 -5\n0 10\n' >crossed
+run 1 check -s crossed
+[ "$(grep -c 'crosses' out)" -eq 4 ] || complain "not 4 crossings: $(cat out)"
+holds out 'crossed:1: the edge from vertex 0 crosses the edge from vertex 2 (line 3)'
+holds err 'libicc: crossed: 4 defects'
+run 1 check -s crossed --repair mended
+[ ! -e mended ] || complain "a cage that is not valid was written"
+holds err 'nothing was written'
+
+# A repeated vertex and a spike are mended, in both cages alike.
+printf '0 0\n4 0\n4 0\n4 2\n4 4\n4 6\n4 4\n0 4\n' >spiked
+printf '0 0\n4 0\n5 0\n5 2\n5 4\n5 5\n4.5 5\n0 5\n' >partner
+run 1 check -s spiked --repair mended
+run 1 check -s mended
+holds out 'mended: a simple polygon, 5 vertices'
+run 1 check -s spiked -t partner --repair both.geojson
+run 1 check -s both.geojson -t both.geojson
+[ "$(grep -c 'a simple polygon, 5 vertices' out)" -eq 2 ] || complain "not mended: $(cat out)"
+
+# info.
+run 0 info -s source.txt -t target.txt
+for line in 'cage        6 vertices' 'method      gradient' 'maximum ' 'tree ' 'critical    1 maxima, 0 minima, 0 saddles' \
+    'unreachable' 'uncovered' 'collapsed' 'not inward' 'map ' 'seconds'; do
+    holds out "$line"
+done
+run 0 info -s source.txt --maximum 2.5,2.5 --cells 20
+awk '$1 == "maximum" { dx = $2 - 2.5; dy = $3 - 2.5; found = dx * dx + dy * dy <= 0.125 + 1e-9 }
+     END { exit !found }' out || complain "not the nearest grid vertex: $(cat out)"
+
+# mesh: the file stays as it is but for two numbers a vertex.
+cat >mesh.obj <<'END'
+# two triangles
+mtllib a.mtl
+v 5 0 7 1.0
+v  10 0	0
+v 10 2.5 0
+v 7.5 5 0
+vt 0 0
+f 1/1 2/1 3/1
+f -4 -2 -1
+END
+run 0 mesh -s source.txt -t target.txt mesh.obj out.obj
+holds out '2 triangles: 2 keep their orientation, 0 inverted, 0 collapsed'
+run 0 mesh -s source.txt -t target.txt -i out.obj back.obj
+grep '^v ' mesh.obj | awk '{ print $2, $3, $4 }' >expected
+grep '^v ' back.obj | awk '{ print $2, $3, $4 }' >got
+close_to got expected 1e-12
+grep -v '^v ' mesh.obj >expected
+grep -v '^v ' out.obj >got
+same got expected "what is no vertex"
+holds out.obj ' 7 1.0'
+printf 'OFF # plane\n4 2 0\n5 0 0\n10 0 0\n10 2.5 0\n7.5 5 0\n3 0 1 2 255 0 0\n4 0 1 2 3\n' >mesh.off
+run 0 mesh -s source.txt -t target.txt mesh.off out.off
+holds out '3 triangles: 3 keep their orientation'
+printf 'v 5 0\nv 10 0\nv 10 0\nv 8 8\nf 1 2 3\nf 1 2 4\n' >flat.obj
+run 4 mesh -s source.txt -t target.txt flat.obj out.obj
+holds out '0 keep their orientation, 0 inverted, 0 collapsed, 1 flat before, 1 without image'
+
+printf 'v 5 0\nv 10 zero\n' >bad
+run 1 mesh -s source.txt -t target.txt bad out.obj
+says "libicc: bad:2: 'zero'"
+printf 'v 5 0\nf 1 2 3\n' >bad
+run 1 mesh -s source.txt -t target.txt bad out.obj
+says 'libicc: bad:2: the face has the vertex 2; there are 1 so far'
+printf 'v 5 0\nv 6 0\nf 1 0 2\n' >bad
+run 1 mesh -s source.txt -t target.txt bad out.obj
+says 'libicc: bad:3: the face has the vertex 0'
+printf 'OFF\n2 1 0\n5 0 0\n' >bad
+run 1 mesh -s source.txt -t target.txt bad out.obj
+says 'libicc: bad:4: the file ends early'
+printf 'nothing\n' >bad
+run 1 mesh -s source.txt -t target.txt bad out.obj
+says 'libicc: bad: there are no vertices'
+finish

@@ -1,0 +1,85 @@
+#!/bin/sh
+# Points: order, exit codes, what has no image, reports, files, threads, locale.
+# shellcheck source-path=SCRIPTDIR source=lib.sh
+. "$(dirname "$0")/lib.sh"
+make_cages
+
+# The cage goes to the cage, vertices and edges.
+run 0 map -s source.txt -t target.txt -p source.txt
+close_to out target.txt 1e-12
+run 0 map -s source.txt -t target.txt -p target.txt --inverse
+close_to out source.txt 1e-12
+printf '5 0\n10 2.5\n7.5 5\n' >middles.txt
+printf '6 0.5\n12 3.5\n9.25 6.5\n' >expected
+run 0 map -s source.txt -t target.txt -p middles.txt
+close_to out expected 1e-12
+
+# On the cage, there and back is where one began, also through the coordinates.
+run 0 map -s source.txt -t target.txt -p middles.txt -o there
+run 0 map -s source.txt -t target.txt -p there -i
+close_to out middles.txt 1e-12
+run 0 encode -s source.txt -p middles.txt -o coords
+run 0 decode -s source.txt --coords coords
+close_to out middles.txt 1e-12
+run 0 encode -s source.txt -p points.txt
+awk '{ if (NF != 4 || $1 != int($1) || $1 < 0 || $1 > 5 || $2 < 0 || $3 < 0 || $4 < 0 || $4 > 1 ||
+           $2 + $3 < 1 - 1e-12 || $2 + $3 > 1 + 1e-12) bad = 1 } END { exit bad || NR != 5 }' out ||
+    complain "these are no coordinates: $(cat out)"
+
+# A point without an image: nan, exit 4, its count on stderr; the others keep their place.
+printf '5 0\n8 8\nnan 1\n5 0\n' >some.txt
+run 4 map -s source.txt -t target.txt -p some.txt
+holds err "libicc: 2 of 4 points have no image: 1 outside"
+[ "$(wc -l <err)" -eq 1 ] || complain "stderr is not one line"
+[ "$(sed -n '2,3p' out | sort -u)" = "nan nan" ] || complain "not nan: $(cat out)"
+[ "$(sed -n 1p out)" = "$(sed -n 4p out)" ] || complain "the order is lost"
+run 4 encode -s source.txt -p some.txt -o coords
+[ "$(sed -n 2p coords)" = "nan nan nan nan" ] || complain "not nan: $(cat coords)"
+run 4 decode -s source.txt --coords coords
+[ "$(sed -n 2p out)" = "nan nan" ] || complain "not nan: $(cat out)"
+printf '' | run 0 map -s source.txt -t target.txt
+[ ! -s out ] || complain "no points, but images: $(cat out)"
+
+# Numbers come out as they went in: every double survives %.17g.
+printf '0.1 0.1\n0.30000000000000004 1e-300\n' >exact.txt
+printf '0 0\n1 0\n1 1\n0 1\n' >square.txt
+run 0 encode -s square.txt -p exact.txt
+
+# The report.
+run 4 map -s source.txt -t target.txt -p some.txt -o images --json=report.json
+[ ! -s out ] || complain "the report went to stdout"
+for member in '"command": "map"' '"source": "source.txt"' '"points": 4' '"without_image": 2' '"vertices": 6'; do
+    holds report.json "$member"
+done
+run 4 map -s source.txt -t target.txt -p some.txt -o images --json
+holds out '"points": 4'
+run 0 info -s source.txt -t target.txt --json
+holds out '"cousin_violations": 0'
+holds out '"inverted":'
+
+# A result is written whole or not at all, and the old one stays until then.
+printf 'old\n' >images
+run 1 map -s source.txt -t bad -p points.txt -o images
+holds images old
+run 1 map -s source.txt -t target.txt -p points.txt -o nowhere/images
+says 'libicc: nowhere/images: cannot be written'
+ls ./*.part 2>/dev/null && complain "a temporary file was left behind"
+if [ -w /dev/full ]; then
+    "${tool:?}" map -s source.txt -t target.txt -p points.txt >/dev/full 2>err
+    [ $? -eq 1 ] || complain "a full disk was not noticed"
+    [ "$(wc -l <err)" -eq 1 ] || complain "stderr is not one line: $(cat err)"
+fi
+
+# Threads and locale do not change a bit.
+awk 'BEGIN { for (i = 0; i < 3000; i++) printf "%.6f %.6f\n", (i * 0.618034) % 1 * 10, (i * 0.754878) % 1 * 10 }' >many.txt
+run 4 map -s source.txt -t target.txt -p many.txt -j 1
+mv out one
+for threads in 2 3 8; do
+    run 4 map -s source.txt -t target.txt -p many.txt -j "$threads"
+    same out one "$threads threads"
+done
+for locale in $(locale -a 2>/dev/null | grep -E '^(de_DE|fr_FR|cs_CZ)' | head -n 2); do
+    LC_ALL=$locale run 4 map -s source.txt -t target.txt -p many.txt
+    same out one "$locale"
+done
+finish

@@ -1,0 +1,80 @@
+#!/bin/sh
+# Wrong usage is told in one line, with exit code 2 and nothing on stdout; help and version are not errors.
+# shellcheck source-path=SCRIPTDIR source=lib.sh
+. "$(dirname "$0")/lib.sh"
+make_cages
+
+run 0 --version
+grep -q '^libicc [0-9]*\.[0-9]*\.[0-9]*$' out || complain "no version: $(cat out)"
+run 0 --help
+for command in map encode decode warp mesh check info plot; do
+    run 0 --help
+    holds out "  $command "
+    run 0 "$command" --help
+    holds out "Usage: libicc $command"
+    holds out "--source FILE"
+    [ ! -s err ] || complain "$command --help writes to stderr"
+    run 0 "$command" -h
+    run 2 "$command"
+    says "(see 'libicc $command --help')"
+    run 2 "$command" --nonsense
+    says "--nonsense"
+done
+
+run 2
+says "which command?"
+run 2 frobnicate
+says "'frobnicate'"
+run 2 weights
+says "not available in this version"
+run 2 map --source source.txt
+says "--target FILE is missing"
+run 2 map --target target.txt
+says "--source FILE is missing"
+run 2 info --source
+says "--source needs a value"
+run 2 info -s source.txt extra
+says "'extra' is one argument too many"
+run 2 warp -s source.txt -t target.txt in.png
+says "usage: libicc warp"
+run 2 encode -s source.txt --inverse
+says "--inverse"
+run 2 info -s source.txt --quiet=yes
+says "--quiet takes no value"
+
+for pair in "--method foliation" "--method disc" "--method field" "--map mesh" "--function laplace" \
+    "--function bilaplace" "--improve 3"; do
+    # shellcheck disable=SC2086
+    run 2 map -s source.txt -t target.txt $pair
+    says "not available in this version"
+done
+run 2 info -s source.txt --unconstrained
+says "not available in this version"
+run 2 info -s source.txt --method magic
+says "it may be: gradient"
+for value in 1 0 -3 2.5 20000 many '' 1e99; do
+    run 2 info -s source.txt "--cells=$value"
+    says "--cells '$value' must be a whole number from 2 to 16384"
+done
+for value in 1 '1,' ',2' '1,2,3' '1 2' 'nan,1' a,b; do
+    run 2 info -s source.txt --maximum "$value"
+    says "must be two numbers X,Y"
+done
+run 2 warp -s source.txt -t target.txt --background red a.png b.png
+says "RRGGBB"
+run 2 map -s - -t target.txt
+says "only one input can be standard input"
+run 2 map -s source.txt -t target.txt --json
+says "use --json=FILE"
+
+# The same option in every spelling.
+run 0 info --source source.txt --cells 20
+sed '/^seconds/d' out >first
+for spelling in "--source=source.txt --cells=20" "-s source.txt -n 20" "-ssource.txt -n20" "-q -n20 -s source.txt" \
+    "-qs source.txt --threads=1 --cells 20 --improve 0 --method gradient --function decay --tree thesis"; do
+    # shellcheck disable=SC2086
+    run 0 info $spelling
+    sed '/^seconds/d' out >second
+    same first second "$spelling"
+done
+finish

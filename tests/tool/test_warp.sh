@@ -1,0 +1,99 @@
+#!/bin/sh
+# warp: pictures of every kind, what is inside and outside, filtering, failures.
+# shellcheck source-path=SCRIPTDIR source=lib.sh
+. "$(dirname "$0")/lib.sh"
+
+# The helper reads and writes pictures with libpng alone.
+pictures=$scratch/pictures
+"${CC:-cc}" -std=c11 -o "$pictures" "$here/pictures.c" -lpng || exit 1
+
+square() { # LOW HIGH: a square cage in pixels
+    printf '%s %s\n%s %s\n%s %s\n%s %s\n' "$1" "$1" "$2" "$1" "$2" "$2" "$1" "$2"
+}
+same_picture() {
+    "$pictures" same "$1" "$2" || complain "$1 and $2 differ: $3"
+}
+pixel() { # FILE X Y SAMPLES
+    [ "$("$pictures" at "$1" "$2" "$3")" = "$4" ] ||
+        complain "pixel $2 $3 of $1 is $("$pictures" at "$1" "$2" "$3") instead of $4"
+}
+square 4 28 >cage.txt
+square 2 14 >half.txt
+square 4 12 >small.txt
+square 8 24 >big.txt
+
+# The same cage twice changes nothing, whatever the kind of picture.
+for kind in "1 8" "2 8" "3 8" "4 8" "1 16" "2 16" "3 16" "4 16"; do
+    # shellcheck disable=SC2086
+    "$pictures" make in.png 32 30 $kind ramp
+    run 0 warp -s cage.txt -t cage.txt in.png out.png
+    same_picture in.png out.png "$kind"
+    [ ! -s out ] || complain "warp writes to stdout"
+done
+"$pictures" palette in.png 32 32
+run 0 warp -s cage.txt -t cage.txt in.png out.png
+same_picture in.png out.png palette
+[ "$("$pictures" kind out.png)" = "32 32 4 8" ] || complain "a palette becomes $("$pictures" kind out.png)"
+run 0 warp -s cage.txt -t cage.txt - - <in.png
+same_picture in.png out "through the standard streams"
+
+# A flat picture stays flat; pixels outside the target cage are not touched, or cleared when asked.
+"$pictures" make in.png 32 32 3 8 flat
+run 0 warp -s half.txt -t cage.txt in.png out.png
+same_picture in.png out.png flat
+run 0 warp -s half.txt -t cage.txt --background 00000000 in.png out.png
+[ "$("$pictures" kind out.png)" = "32 32 4 8" ] || complain "no alpha to be clear with"
+pixel out.png 3 16 "0 0 0 0"
+pixel out.png 4 16 "85 86 87 255"
+pixel out.png 27 27 "85 86 87 255"
+pixel out.png 28 27 "0 0 0 0"
+"$pictures" make in.png 32 32 1 16 flat
+run 0 warp -s half.txt -t cage.txt --background '#ff8000' in.png out.png
+pixel out.png 0 0 "65535 32896 0"
+pixel out.png 16 16 "21845 21845 21845"
+
+# Twice as large: bilinear, so a ramp stays a ramp. The middle of pixel 16 comes from 8.25.
+"$pictures" make in.png 32 32 2 16 ramp
+run 0 warp -s half.txt -t cage.txt in.png out.png
+pixel out.png 16 16 "$(awk 'BEGIN { print 1023 * 7.75, int(1023 * 8.75 + 0.5) }' | awk '{ print int($1 + 0.5), $2 }')"
+
+# Half as large: stripes of one pixel become an even grey instead of vanishing or beating.
+"$pictures" make in.png 64 64 1 8 stripes
+square 4 60 >wide.txt
+run 0 warp -s wide.txt -t half.txt in.png out.png
+for x in 4 5 6 7 8 9 10 11; do
+    value=$("$pictures" at out.png "$x" 8)
+    if [ "$value" -lt 96 ] || [ "$value" -gt 160 ]; then
+        complain "stripes shrink to $value at $x"
+    fi
+done
+
+# Pixels without an image keep their colour, are counted, and give exit code 4. A needle of a cage
+# between the grid's vertices has many.
+"$pictures" make in.png 64 64 1 8 flat
+printf '2 2\n62 2\n62 20\n40 2.5\n30 2.5\n20 60\n2 60\n' >thin.txt
+"$tool" warp -s thin.txt -t thin.txt --cells 8 in.png out.png >out 2>err
+case $? in
+0) ;;
+4) grep -q '^libicc: [0-9]* of [0-9]* pixels have no image' err || complain "not counted: $(cat err)" ;;
+*) complain "thin cage: $(cat err)" ;;
+esac
+same_picture in.png out.png "without an image"
+
+# What is no picture, or half of one; nothing is left behind, nothing is overwritten.
+printf 'no picture\n' >bad.png
+echo old >out.png
+run 1 warp -s cage.txt -t cage.txt bad.png out.png
+says 'libicc: bad.png: this is not a PNG picture'
+for size in 20 60 100; do
+    head -c "$size" in.png >bad.png
+    run 1 warp -s cage.txt -t cage.txt bad.png out.png
+    says 'libicc: bad.png: the PNG picture is damaged'
+done
+run 1 warp -s cage.txt -t cage.txt nowhere.png out.png
+says 'libicc: nowhere.png: cannot be opened'
+holds out.png old
+run 1 warp -s cage.txt -t cage.txt in.png no/where.png
+says 'libicc: no/where.png: cannot be written'
+
+finish
