@@ -38,6 +38,10 @@ typedef struct gradient {
     double gu, gv;
 } gradient;
 
+/* In units of f: far above the square root of the smallest normal double, so that the squares of rises
+ * that matter beside one of this size are normal. */
+static const double TINY_RISE = 1e-100;
+
 static int sign(double x)
 {
     return (x > 0) - (x < 0);
@@ -259,15 +263,17 @@ static double rise_to(const iccp_walk2 *w, int m)
     return w->direction * (w->f[vertex_at(w, i, j)] - w->f[vertex_at(w, w->i, w->j)]);
 }
 
-/* The rises to the six neighbours in units of the largest, so that their squares do not vanish. */
+/* The rises to the six neighbours. Tiny ones are given in units of the largest, so that their squares do
+ * not vanish. */
 static void find_rises(const iccp_walk2 *w, double rise[6])
 {
     double largest = 0;
     for (int m = 0; m < 6; ++m) {
         rise[m] = rise_to(w, m);
-        largest = fmax(largest, fabs(rise[m]));
+        if (fabs(rise[m]) > largest)
+            largest = fabs(rise[m]);
     }
-    for (int m = 0; m < 6 && largest > 0; ++m)
+    for (int m = 0; m < 6 && largest > 0 && largest < TINY_RISE; ++m)
         rise[m] /= largest;
 }
 
@@ -456,13 +462,13 @@ icc_status iccp_trace_uphill(iccp_walk2 *walk, iccp_path *path, double *merge)
 }
 
 /* Cuts the last step short at the fence. */
-static void end_at_fence(iccp_walk2 *w, const iccp_walk2 *before, const iccp_jet2 *jet_before,
+static void end_at_fence(iccp_walk2 *w, double s_before, const iccp_jet2 *jet_before,
                          const iccp_fence *fence, const iccp_fence_hit *hit)
 {
     const double dx = hit->share * (w->to[0] - w->from[0]);
     const double dy = hit->share * (w->to[1] - w->from[1]);
     const double length = sqrt(dx * dx + dy * dy);
-    w->s = before->s + length;
+    w->s = s_before + length;
     w->to[0] = w->from[0] + dx;
     w->to[1] = w->from[1] + dy;
     if (w->jet == NULL)
@@ -484,16 +490,18 @@ icc_status iccp_trace_downhill(iccp_walk2 *walk, const iccp_fence *fence, iccp_p
 {
     icc_status status = begin_path(walk, path);
     bool hit_fence = false;
+    iccp_jet2 jet_before = {{0}, {0}, {0}};
     while (status == ICC_OK && !hit_fence) {
-        const iccp_walk2 before = *walk;
-        const iccp_jet2 jet_before = walk->jet != NULL ? *walk->jet : (iccp_jet2){{0}, {0}, {0}};
+        const double s_before = walk->s;
+        if (walk->jet != NULL)
+            jet_before = *walk->jet;
         status = iccp_walk2_step(walk);
         /* A step that leaves the grid may have passed the fence first. */
-        if (walk->s <= before.s && status != ICC_OK)
+        if (walk->s <= s_before && status != ICC_OK)
             return status;
         hit_fence = iccp_fence_first(fence, walk->cell[0], walk->cell[1], walk->from, walk->to, hit);
         if (hit_fence)
-            end_at_fence(walk, &before, &jet_before, fence, hit);
+            end_at_fence(walk, s_before, &jet_before, fence, hit);
         if (path != NULL && (hit_fence || status == ICC_OK)) {
             const icc_status appended =
                 iccp_path_append(path, walk->to[0], walk->to[1], walk->s);
