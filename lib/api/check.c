@@ -32,5 +32,8 @@ icc_status iccp_read_chart_options(icc_chart_options *full, const icc_chart_opti
         return iccp_fail(err, ICC_ERR_ARGUMENT, -1,
                          "icc_chart_options.cells is %ld; it must lie in %ld..%ld",
                          (long)full->cells, (long)MIN_CELLS, (long)MAX_CELLS);
+    if (full->method == ICC_METHOD_DISC && full->maximum != NULL)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, -1,
+                         "method disc has its own maximum: icc_chart_options.maximum must be NULL");
     return iccp_check_maximum(full->maximum, dim, err);
 }

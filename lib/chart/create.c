@@ -1,23 +1,203 @@
 #include "chart/create.h"
 
 #include "base/error.h"
+#include "chart/chart_disc.h"
+#include "chart/chart_foliation.h"
 #include "chart/chart_gradient.h"
+
+
+static icc_status complete(icc_chart_options *options, icc_error *err)
+{
+    if (options->method == 0)
+        options->method = ICC_METHOD_FOLIATION;
+    if (options->function == 0)
+        options->function = ICC_FUNCTION_DECAY;
+    if (options->tree == 0)
+        options->tree = ICC_TREE_THESIS;
+    if (options->cells == 0)
+        options->cells = 50;
+    if (options->method == ICC_METHOD_GRADIENT || options->method == ICC_METHOD_FOLIATION ||
+        options->method == ICC_METHOD_DISC)
+        return ICC_OK;
+    return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1, "method %ld is not available",
+                     (long)options->method);
+}
+
+/* How often a chart that cannot be certified is tried again on a mesh with cells half as large. */
+enum { REFINEMENTS = 2 };
+
+/* One or two domains on their way to harmonic charts. */
+typedef struct harmonic_job {
+    size_t n;
+    const icc_domain *const *domain;
+    const icc_chart_options *options;
+    int32_t cells;
+    iccp_harmonic base[2];
+    double *image[2];     /* in the disc; only where needed */
+    uint32_t centre[2];
+} harmonic_job;
+
+static icc_status make_bases(harmonic_job *job, const iccp_env *env, icc_error *err)
+{
+    const icc_domain *other = job->n > 1 ? job->domain[1] : NULL;
+    uint32_t *pieces = iccp_alloc(&env->memory, job->domain[0]->n_facets, sizeof *pieces);
+    if (pieces == NULL)
+        return ICC_ERR_MEMORY;
+    iccp_planar_pieces(pieces, job->domain[0], other, job->cells);
+    icc_status status = ICC_OK;
+    for (size_t k = 0; status == ICC_OK && k < job->n; ++k) {
+        status = iccp_harmonic_create(&job->base[k], job->domain[k], pieces, job->cells, env,
+                                      err);
+        if (status != ICC_OK)
+            (void)iccp_fail_side(err, status, (int32_t)k + 1);
+    }
+    iccp_free(&env->memory, pieces);
+    return status;
+}
+
+/* Both meshes to one circle, each boundary vertex to the mean of its two arc-length parameters. */
+static icc_status make_images(harmonic_job *job, const iccp_env *env)
+{
+    const size_t n_boundary = job->base[0].mesh.n_boundary;
+    double *turns = iccp_alloc_zero(&env->memory, n_boundary, sizeof *turns);
+    icc_status status = turns != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    for (size_t k = 0; status == ICC_OK && k < job->n; ++k)
+        iccp_add_arc_length(&job->base[k].mesh, 1.0 / (double)job->n, turns);
+    for (size_t k = 0; status == ICC_OK && k < job->n; ++k) {
+        job->image[k] = iccp_alloc(&env->memory, job->base[k].mesh.n_vertices, 2 * sizeof(double));
+        status = job->image[k] != NULL
+                     ? iccp_harmonic_disc(&job->base[k], turns, job->image[k], env)
+                     : ICC_ERR_MEMORY;
+    }
+    iccp_free(&env->memory, turns);
+    return status;
+}
+
+static icc_status choose_given(harmonic_job *job, size_t k, icc_error *err)
+{
+    const double *maximum = job->options[k].maximum;
+    const iccp_planar *mesh = &job->base[k].mesh;
+    double local[2];
+    iccp_frame_in(&job->domain[k]->frame, 2, maximum, local);
+    if (iccp_domain_locate(job->domain[k], local, true, NULL, NULL) != ICC_INSIDE) {
+        (void)iccp_fail(err, ICC_ERR_OUTSIDE, -1, "the maximum (%g, %g) is not inside the domain",
+                        maximum[0], maximum[1]);
+        return iccp_fail_side(err, ICC_ERR_OUTSIDE, (int32_t)k + 1);
+    }
+    job->centre[k] = iccp_nearest_vertex(mesh, mesh->points, local);
+    return ICC_OK;
+}
+
+/* The source's maximum is the vertex deepest inside; the target's is the vertex nearest to where the
+ * maps to the disc, composed, take it: left alone, the two may end in different limbs. */
+static icc_status choose_centres(harmonic_job *job, const iccp_env *env, icc_error *err)
+{
+    icc_status status = ICC_OK;
+    if (job->options[0].maximum != NULL)
+        status = choose_given(job, 0, err);
+    else
+        job->centre[0] = iccp_deepest_vertex(&job->base[0].mesh, job->domain[0]);
+    if (status != ICC_OK || job->n < 2)
+        return status;
+    if (job->options[1].maximum != NULL)
+        return choose_given(job, 1, err);
+    status = make_images(job, env);
+    if (status == ICC_OK)
+        job->centre[1] = iccp_nearest_vertex(&job->base[1].mesh, job->image[1],
+                                             job->image[0] + 2 * (size_t)job->centre[0]);
+    return status;
+}
+
+static icc_status finish(harmonic_job *job, size_t k, icc_chart **out, const iccp_env *env,
+                         icc_error *err)
+{
+    const icc_status status =
+        job->options[0].method == ICC_METHOD_DISC
+            ? iccp_chart_disc_create(out, job->domain[k], &job->base[k], &job->image[k], env, err)
+            : iccp_chart_foliation_create(out, job->domain[k], &job->base[k], job->centre[k], env,
+                                          err);
+    return status == ICC_OK ? ICC_OK : iccp_fail_side(err, status, (int32_t)k + 1);
+}
+
+static icc_status try_harmonic(harmonic_job *job, icc_chart **out, const iccp_env *env,
+                               icc_error *err)
+{
+    icc_status status = make_bases(job, env, err);
+    if (status == ICC_OK)
+        status = job->options[0].method == ICC_METHOD_DISC ? make_images(job, env)
+                                                           : choose_centres(job, env, err);
+    for (size_t k = 0; status == ICC_OK && k < job->n; ++k)
+        status = finish(job, k, &out[k], env, err);
+    for (size_t k = 0; k < job->n; ++k) {
+        iccp_harmonic_free(&job->base[k]);
+        iccp_free(&env->memory, job->image[k]);
+        job->image[k] = NULL;
+        if (status != ICC_OK) {
+            iccp_chart_release(out[k]);
+            out[k] = NULL;
+        }
+    }
+    return status;
+}
+
+static icc_status create_harmonic(harmonic_job *job, icc_chart **out, const iccp_env *env,
+                                  icc_error *err)
+{
+    job->cells = job->options[0].cells;
+    icc_status status = try_harmonic(job, out, env, err);
+    for (int k = 0; k < REFINEMENTS && status == ICC_ERR_CERTIFICATE; ++k) {
+        job->cells *= 2;
+        iccp_log(env, "the chart cannot be certified: trying %ld cells", (long)job->cells);
+        status = try_harmonic(job, out, env, err);
+    }
+    return iccp_explain(err, status);
+}
 
 icc_status iccp_chart_create(icc_chart **out, const icc_domain *domain,
                              const icc_chart_options *options, const iccp_env *env,
                              icc_error *err)
 {
     icc_chart_options full = *options;
-    if (full.method == 0)
-        full.method = ICC_METHOD_GRADIENT;
-    if (full.method != ICC_METHOD_GRADIENT)
-        return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1, "method %ld is not available",
-                         (long)full.method);
-    if (full.function == 0)
-        full.function = ICC_FUNCTION_DECAY;
-    if (full.tree == 0)
-        full.tree = ICC_TREE_THESIS;
-    if (full.cells == 0)
-        full.cells = 50;
-    return iccp_explain(err, iccp_chart_gradient_create(out, domain, &full, env, err));
+    *out = NULL;
+    const icc_status status = complete(&full, err);
+    if (status != ICC_OK)
+        return status;
+    if (full.method == ICC_METHOD_GRADIENT)
+        return iccp_explain(err, iccp_chart_gradient_create(out, domain, &full, env, err));
+    harmonic_job job = {.n = 1, .domain = &domain, .options = &full};
+    return create_harmonic(&job, out, env, err);
+}
+
+static icc_status create_gradient_pair(icc_chart *out[2], const icc_domain *const domain[2],
+                                       const icc_chart_options options[2], const iccp_env *env,
+                                       icc_error *err)
+{
+    for (size_t k = 0; k < 2; ++k) {
+        const icc_status status =
+            iccp_explain(err, iccp_chart_gradient_create(&out[k], domain[k], &options[k], env, err));
+        if (status != ICC_OK) {
+            if (k == 1)
+                iccp_chart_release(out[0]);
+            out[0] = out[1] = NULL;
+            return iccp_fail_side(err, status, (int32_t)k + 1);
+        }
+    }
+    return ICC_OK;
+}
+
+icc_status iccp_chart_create_pair(icc_chart *out[2], const icc_domain *const domain[2],
+                                  const icc_chart_options options[2], const iccp_env *env,
+                                  icc_error *err)
+{
+    icc_chart_options full[2] = {options[0], options[1]};
+    out[0] = out[1] = NULL;
+    icc_status status = complete(&full[0], err);
+    if (status == ICC_OK)
+        status = complete(&full[1], err);
+    if (status != ICC_OK)
+        return status;
+    if (full[0].method == ICC_METHOD_GRADIENT)
+        return create_gradient_pair(out, domain, full, env, err);
+    harmonic_job job = {.n = 2, .domain = domain, .options = full};
+    return create_harmonic(&job, out, env, err);
 }

@@ -59,6 +59,7 @@ icc_status iccp_map_create_from_charts(icc_map **out, const icc_chart *source,
     map->target = iccp_chart_retain(target);
     map->info.dim = source->info.dim;
     map->info.kind = ICC_MAP_CURVES;
+    map->info.certified = source->info.certified && target->info.certified;
     *out = map;
     return ICC_OK;
 }
@@ -73,13 +74,10 @@ icc_status iccp_map_create(icc_map **out, const icc_domain *source, const icc_do
     icc_status status = check_correspondence(source, target, err);
     if (status != ICC_OK)
         return status;
-    status = iccp_chart_create(&charts[0], source, source_options, env, err);
-    if (status != ICC_OK)
-        return iccp_fail_side(err, status, 1);
-    status = iccp_chart_create(&charts[1], target, target_options, env, err);
-    if (status != ICC_OK)
-        (void)iccp_fail_side(err, status, 2);
-    else
+    const icc_domain *const domains[2] = {source, target};
+    const icc_chart_options options[2] = {*source_options, *target_options};
+    status = iccp_chart_create_pair(charts, domains, options, env, err);
+    if (status == ICC_OK)
         status = iccp_map_create_from_charts(out, charts[0], charts[1], kind, env, err);
     iccp_chart_release(charts[0]);
     iccp_chart_release(charts[1]);

@@ -1,0 +1,371 @@
+/* The map is Tutte's (chart/harmonic.h). Its image is a convex polygon round the origin; a point's
+ * curve is the ray from the boundary of that polygon to the origin. */
+#include "chart/chart_disc.h"
+
+#include "base/clock.h"
+#include "base/error.h"
+#include "chart/certificate.h"
+#include "math/predicates.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct disc_state {
+    iccp_planar mesh;
+    double *image;       /* 2 n_vertices */
+    iccp_finder before;  /* in the domain */
+    iccp_finder after;   /* in the disc */
+    double maximum[2];   /* the point that goes to the origin */
+    uint32_t *boundary_corner; /* n_boundary: the corner that faces each boundary edge */
+} disc_state;
+
+static const double ORIGIN[2] = {0, 0};
+
+static const double *rim(const disc_state *state, uint32_t k)
+{
+    return state->image + 2 * (size_t)(k < state->mesh.n_boundary ? k : 0);
+}
+
+/* Whether the ray to z lies counter-clockwise of rim vertex k, by less than half a turn. */
+static bool is_past(const disc_state *state, uint32_t k, const double z[2])
+{
+    return iccp_orient2d(ORIGIN, rim(state, k), z) >= 0;
+}
+
+/* The rim edge that the ray from the origin through z meets. Rim vertices come in order of angle, from
+ * vertex 0 on, once round. */
+static uint32_t find_rim(const disc_state *state, const double z[2])
+{
+    const bool first_half = is_past(state, 0, z);
+    uint32_t low = 0, high = (uint32_t)state->mesh.n_boundary;
+    while (high - low > 1) {
+        const uint32_t middle = low + (high - low) / 2;
+        /* Is the vertex in the half turn after vertex 0? */
+        const bool middle_first = iccp_orient2d(ORIGIN, rim(state, 0), rim(state, middle)) > 0;
+        const bool past = middle_first == first_half ? is_past(state, middle, z) : middle_first;
+        if (past)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+static double cross(const double a[2], const double b[2])
+{
+    return a[0] * b[1] - a[1] * b[0];
+}
+
+/* z = (1 - t) ((1 - lambda) p + lambda q) for rim edge p q. */
+static void to_polar(const disc_state *state, const double z[2], uint32_t *edge, double *lambda,
+                     double *t)
+{
+    *edge = find_rim(state, z);
+    const double *p = rim(state, *edge), *q = rim(state, *edge + 1);
+    const double alpha = cross(z, q) / cross(p, q), beta = cross(p, z) / cross(p, q);
+    *lambda = fmin(fmax(beta / (alpha + beta), 0), 1);
+    *t = fmin(fmax(1 - (alpha + beta), 0), 1);
+}
+
+/* Rows: derivative of lambda and of t by z. */
+static void polar_jet(const disc_state *state, const double z[2], uint32_t edge, double rows[2][2])
+{
+    const double *p = rim(state, edge), *q = rim(state, edge + 1);
+    const double area = cross(p, q);
+    const double alpha = cross(z, q) / area, beta = cross(p, z) / area, sum = alpha + beta;
+    const double d_alpha[2] = {q[1] / area, -q[0] / area}, d_beta[2] = {-p[1] / area, p[0] / area};
+    for (int c = 0; c < 2; ++c) {
+        rows[0][c] = (d_beta[c] * alpha - beta * d_alpha[c]) / (sum * sum);
+        rows[1][c] = -(d_alpha[c] + d_beta[c]);
+    }
+}
+
+/* The affine map of a triangle from one set of corners to another. */
+static void triangle_jacobian(const iccp_planar *mesh, uint32_t triangle, const double *from,
+                              const double *to, double j[2][2])
+{
+    const uint32_t *v = mesh->triangles + 3 * (size_t)triangle;
+    double a[2][2], b[2][2];
+    for (int c = 0; c < 2; ++c)
+        for (int i = 0; i < 2; ++i) {
+            a[i][c] = from[2 * (size_t)v[c + 1] + (size_t)i] - from[2 * (size_t)v[0] + (size_t)i];
+            b[i][c] = to[2 * (size_t)v[c + 1] + (size_t)i] - to[2 * (size_t)v[0] + (size_t)i];
+        }
+    const double det = a[0][0] * a[1][1] - a[0][1] * a[1][0];
+    for (int i = 0; i < 2; ++i) {
+        j[i][0] = (b[i][0] * a[1][1] - b[i][1] * a[1][0]) / det;
+        j[i][1] = (b[i][1] * a[0][0] - b[i][0] * a[0][1]) / det;
+    }
+}
+
+static void interpolate(const iccp_planar *mesh, uint32_t triangle, const double bary[3],
+                        const double *points, double p[2])
+{
+    const uint32_t *v = mesh->triangles + 3 * (size_t)triangle;
+    for (size_t i = 0; i < 2; ++i)
+        p[i] = bary[0] * points[2 * (size_t)v[0] + i] + bary[1] * points[2 * (size_t)v[1] + i] +
+               bary[2] * points[2 * (size_t)v[2] + i];
+}
+
+static bool at_maximum(const icc_chart *chart, const double p[2])
+{
+    const disc_state *state = chart->state;
+    return fabs(p[0] - state->maximum[0]) <= chart->domain->tolerance &&
+           fabs(p[1] - state->maximum[1]) <= chart->domain->tolerance;
+}
+
+static double along_slope(const icc_chart *chart, uint32_t facet)
+{
+    const disc_state *state = chart->state;
+    return (double)chart->domain->orientation / state->mesh.pieces[facet];
+}
+
+static icc_status encode_inside(const icc_chart *chart, const double *point, iccp_coords *coords,
+                                iccp_encode_jet *jet)
+{
+    const disc_state *state = chart->state;
+    uint32_t triangle, edge;
+    double bary[3], z[2], lambda, t;
+    if (!iccp_finder_find(&state->before, point, &triangle, bary))
+        return ICC_ERR_TRACE;
+    interpolate(&state->mesh, triangle, bary, state->image, z);
+    to_polar(state, z, &edge, &lambda, &t);
+    const double along = iccp_planar_along(&state->mesh, chart->domain, edge, lambda);
+    *coords = (iccp_coords){.facet = state->mesh.facet[edge], .bary = {1 - along, along}, .t = t};
+    if (jet == NULL)
+        return ICC_OK;
+    double inner[2][2], rows[2][2];
+    triangle_jacobian(&state->mesh, triangle, state->mesh.points, state->image, inner);
+    polar_jet(state, z, edge, rows);
+    for (int c = 0; c < 2; ++c) {
+        jet->bary[2 + c] = along_slope(chart, coords->facet) *
+                           (rows[0][0] * inner[0][c] + rows[0][1] * inner[1][c]);
+        jet->bary[c] = -jet->bary[2 + c];
+        jet->t[c] = rows[1][0] * inner[0][c] + rows[1][1] * inner[1][c];
+    }
+    return ICC_OK;
+}
+
+static icc_status encode(const icc_chart *chart, const double *point, iccp_coords *coords,
+                         iccp_encode_jet *jet, iccp_path *path)
+{
+    (void)path;
+    const int32_t where =
+        iccp_domain_locate(chart->domain, point, true, &coords->facet, coords->bary);
+    coords->t = 0;
+    if (where == ICC_OUTSIDE)
+        return ICC_ERR_OUTSIDE;
+    if (where == ICC_BOUNDARY)
+        return jet == NULL ? ICC_OK : ICC_ERR_TRACE;
+    if (!at_maximum(chart, point))
+        return encode_inside(chart, point, coords, jet);
+    *coords = (iccp_coords){.facet = 0, .bary = {0.5, 0.5}, .t = 1};
+    return jet == NULL ? ICC_OK : ICC_ERR_TRACE;
+}
+
+static icc_status decode(const icc_chart *chart, const iccp_coords *coords, double *point,
+                         iccp_decode_jet *jet, iccp_path *path)
+{
+    (void)path;
+    const disc_state *state = chart->state;
+    if (jet != NULL && (coords->t <= 0 || coords->t >= 1))
+        return ICC_ERR_TRACE;
+    if (coords->t <= 0) {
+        iccp_domain_facet_point(chart->domain, coords->facet, coords->bary, point);
+        return ICC_OK;
+    }
+    if (coords->t >= 1) {
+        memcpy(point, state->maximum, sizeof state->maximum);
+        return ICC_OK;
+    }
+    double lambda, z[2], bary[3];
+    uint32_t triangle;
+    const uint32_t edge = iccp_planar_edge(&state->mesh, chart->domain, coords->facet,
+                                           coords->bary[1], &lambda);
+    const double *p = rim(state, edge), *q = rim(state, edge + 1);
+    for (int i = 0; i < 2; ++i)
+        z[i] = (1 - coords->t) * ((1 - lambda) * p[i] + lambda * q[i]);
+    if (!iccp_finder_find(&state->after, z, &triangle, bary))
+        return ICC_ERR_TRACE;
+    interpolate(&state->mesh, triangle, bary, state->mesh.points, point);
+    if (jet == NULL)
+        return ICC_OK;
+    double outer[2][2];
+    triangle_jacobian(&state->mesh, triangle, state->image, state->mesh.points, outer);
+    const double slope = along_slope(chart, coords->facet);
+    for (int i = 0; i < 2; ++i) {
+        jet->t[i] = jet->bary[2 * i] = jet->bary[2 * i + 1] = 0;
+        for (int c = 0; c < 2; ++c) {
+            jet->bary[2 * i + 1] += outer[i][c] * (1 - coords->t) * (q[c] - p[c]) / slope;
+            jet->t[i] -= outer[i][c] * ((1 - lambda) * p[c] + lambda * q[c]);
+        }
+    }
+    return ICC_OK;
+}
+
+/* ---- the preimage of a ray ---- */
+
+static bool holds_origin(const disc_state *state, uint32_t triangle)
+{
+    const uint32_t *v = state->mesh.triangles + 3 * (size_t)triangle;
+    for (int k = 0; k < 3; ++k)
+        if (iccp_orient2d(state->image + 2 * (size_t)v[k], state->image + 2 * (size_t)v[(k + 1) % 3],
+                          ORIGIN) < 0)
+            return false;
+    return true;
+}
+
+/* Emits the point that goes to where the line through the origin and r meets the image of the edge that
+ * a corner faces. */
+static icc_status emit_crossing(const disc_state *state, uint32_t corner, const double r[2],
+                                iccp_emit emit, void *argument)
+{
+    const uint32_t u = state->mesh.triangles[iccp_corner_after(corner)];
+    const uint32_t v = state->mesh.triangles[iccp_corner_before(corner)];
+    const double du = cross(r, state->image + 2 * (size_t)u);
+    const double dv = cross(r, state->image + 2 * (size_t)v);
+    const double share = fabs(du - dv) > 0 ? fmin(fmax(du / (du - dv), 0), 1) : 0;
+    const double *p = state->mesh.points + 2 * (size_t)u, *q = state->mesh.points + 2 * (size_t)v;
+    const double point[2] = {p[0] + share * (q[0] - p[0]), p[1] + share * (q[1] - p[1])};
+    return emit(argument, point);
+}
+
+static icc_status trace(const icc_chart *chart, const double *point, iccp_path *path,
+                        iccp_emit emit, void *argument)
+{
+    const disc_state *state = chart->state;
+    iccp_coords coords;
+    icc_status status = encode(chart, point, &coords, NULL, path);
+    if (status != ICC_OK)
+        return status;
+    if (coords.t >= 1)
+        return emit(argument, point);
+    double lambda, start[2], r[2];
+    const uint32_t edge = iccp_planar_edge(&state->mesh, chart->domain, coords.facet,
+                                           coords.bary[1], &lambda);
+    const double *p = rim(state, edge), *q = rim(state, edge + 1);
+    for (int i = 0; i < 2; ++i)
+        r[i] = (1 - lambda) * p[i] + lambda * q[i];
+    iccp_domain_facet_point(chart->domain, coords.facet, coords.bary, start);
+    status = emit(argument, start);
+    uint32_t corner = state->boundary_corner[edge];
+    for (size_t left = state->mesh.n_triangles; status == ICC_OK && !holds_origin(state, corner / 3);
+         --left) {
+        const double *x = state->image + 2 * (size_t)state->mesh.triangles[corner];
+        const uint32_t exit = iccp_orient2d(r, ORIGIN, x) > 0 ? iccp_corner_after(corner)
+                                                              : iccp_corner_before(corner);
+        status = emit_crossing(state, exit, r, emit, argument);
+        corner = state->mesh.twins[exit];
+        if (corner == ICCP_NO_NEIGHBOUR || left == 0)
+            return ICC_ERR_TRACE;
+    }
+    return status == ICC_OK ? emit(argument, state->maximum) : status;
+}
+
+static icc_status measure(const icc_chart *chart, size_t n_points, icc_chart_measures *measures,
+                          const iccp_env *env)
+{
+    (void)chart;
+    (void)n_points;
+    (void)env;
+    *measures = (icc_chart_measures){0};
+    return ICC_OK;
+}
+
+static void free_state(icc_chart *chart)
+{
+    disc_state *state = chart->state;
+    iccp_finder_free(&state->before);
+    iccp_finder_free(&state->after);
+    iccp_planar_free(&state->mesh);
+    iccp_free(&chart->memory, state->image);
+    iccp_free(&chart->memory, state->boundary_corner);
+    iccp_free(&chart->memory, state);
+}
+
+static const iccp_chart_ops OPS = {encode, decode, trace, measure, free_state};
+
+/* The image's rim is a convex polygon that goes once round the origin: every edge turns left round the
+ * origin, every corner turns left, and the angles grow from 0 to one turn. */
+static size_t count_rim_faults(const iccp_planar *mesh, const double *image)
+{
+    const size_t n = mesh->n_boundary;
+    size_t n_faults = 0, n_wraps = 0;
+    for (size_t k = 0; k < n; ++k) {
+        const double *p = image + 2 * k, *q = image + 2 * ((k + 1) % n);
+        n_faults += iccp_orient2d(ORIGIN, p, q) <= 0;
+        n_faults += iccp_orient2d(p, q, image + 2 * ((k + 2) % n)) < 0;
+        n_wraps += p[1] < 0 && q[1] >= 0;
+    }
+    return n_faults + (n_wraps != 1);
+}
+
+static icc_status certify(const iccp_planar *mesh, const double *image, icc_error *err)
+{
+    iccp_certificate domain = {0}, disc = {0};
+    iccp_certify_mesh(mesh, mesh->points, &domain);
+    iccp_certify_mesh(mesh, image, &disc);
+    const size_t n_rim = count_rim_faults(mesh, image);
+    if (iccp_certificate_holds(&domain) && iccp_certificate_holds(&disc) && n_rim == 0)
+        return ICC_OK;
+    return iccp_fail(err, ICC_ERR_CERTIFICATE, -1,
+                     "the map to the disc cannot be certified: %zu triangles inverted in the domain "
+                     "and %zu in the disc, %zu faults of topology, %zu of the rim",
+                     domain.n_inverted, disc.n_inverted, domain.n_topology, n_rim);
+}
+
+static icc_status fill_state(disc_state *state, const iccp_planar *mesh, const double *image,
+                             const iccp_env *env)
+{
+    icc_status status = iccp_finder_create(&state->before, mesh, mesh->points, env);
+    if (status == ICC_OK)
+        status = iccp_finder_create(&state->after, mesh, image, env);
+    if (status != ICC_OK)
+        return status;
+    state->boundary_corner = iccp_alloc(&env->memory, mesh->n_boundary, sizeof(uint32_t));
+    if (state->boundary_corner == NULL)
+        return ICC_ERR_MEMORY;
+    for (uint32_t c = 0; c < 3 * mesh->n_triangles; ++c)
+        if (mesh->twins[c] == ICCP_NO_NEIGHBOUR)
+            state->boundary_corner[mesh->triangles[iccp_corner_after(c)]] = c;
+    uint32_t triangle = 0;
+    double bary[3] = {1, 0, 0};
+    if (!iccp_finder_find(&state->after, ORIGIN, &triangle, bary))
+        return ICC_ERR_CERTIFICATE;
+    interpolate(mesh, triangle, bary, mesh->points, state->maximum);
+    return ICC_OK;
+}
+
+icc_status iccp_chart_disc_create(icc_chart **out, const icc_domain *domain, iccp_harmonic *base,
+                                  double **image, const iccp_env *env, icc_error *err)
+{
+    const double start = iccp_seconds();
+    icc_status status = certify(&base->mesh, *image, err);
+    if (status != ICC_OK)
+        return status;
+    const double seconds = iccp_seconds() - start;
+    status = iccp_chart_new(out, domain, env);
+    if (status != ICC_OK)
+        return status;
+    icc_chart *chart = *out;
+    chart->ops = &OPS;
+    chart->info.method = ICC_METHOD_DISC;
+    chart->info.certified = 1;
+    iccp_harmonic_describe(base, domain, &chart->info);
+    chart->info.seconds_certify = seconds;
+    disc_state *state = iccp_alloc_zero(&env->memory, 1, sizeof *state);
+    chart->state = state;
+    status = state != NULL ? fill_state(state, &base->mesh, *image, env) : ICC_ERR_MEMORY;
+    if (status != ICC_OK) {
+        iccp_chart_release(chart);
+        *out = NULL;
+        if (status == ICC_ERR_CERTIFICATE)
+            (void)iccp_fail(err, status, -1, "the disc's centre lies in no triangle");
+        return status;
+    }
+    state->mesh = iccp_harmonic_take_mesh(base);
+    state->image = *image;
+    *image = NULL;
+    iccp_frame_out(&domain->frame, 2, state->maximum, chart->info.maximum);
+    return ICC_OK;
+}

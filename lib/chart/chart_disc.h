@@ -1,0 +1,13 @@
+/* Method disc: polar coordinates of the harmonic map to a disc. */
+#ifndef ICCP_CHART_DISC_H
+#define ICCP_CHART_DISC_H
+
+#include "chart/chart.h"
+#include "chart/harmonic.h"
+
+/* Makes the chart from the base's map to the disc (`image`, as iccp_harmonic_disc() gives it), and takes
+ * the mesh and the image over on success. ICC_ERR_CERTIFICATE when the map is not one-to-one. */
+icc_status iccp_chart_disc_create(icc_chart **out, const icc_domain *domain, iccp_harmonic *base,
+                                  double **image, const iccp_env *env, icc_error *err);
+
+#endif

@@ -1,0 +1,423 @@
+/* Integral Curve Coordinates along leaves that never meet: docs/theory.md, foliations. The idea of
+ * simplicial foliations: M. Campen, C. Silva, D. Zorin, Bijective Maps from Simplicial Foliations,
+ * 2016. */
+#include "chart/chart_foliation.h"
+
+#include "base/clock.h"
+#include "base/error.h"
+#include "chart/certificate.h"
+#include "trace/leaf.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct foliation_state {
+    iccp_planar mesh;
+    iccp_psi psi;
+    iccp_finder finder;
+    uint32_t *boundary_corner; /* n_boundary: the corner that faces each boundary edge */
+} foliation_state;
+
+static const double *centre_of(const foliation_state *state)
+{
+    return state->mesh.points + 2 * (size_t)state->psi.centre;
+}
+
+static double distance(const double p[2], const double q[2])
+{
+    const double dx = q[0] - p[0], dy = q[1] - p[1];
+    return sqrt(dx * dx + dy * dy);
+}
+
+/* The length of part of a leaf that starts at a point, and how it changes. */
+typedef struct leaf_length {
+    double length;
+    double by_label;    /* derivative by the leaf's label while the point stays */
+    double by_point[2]; /* derivative by the point while the label stays */
+} leaf_length;
+
+/* Adds the piece from p, which moves by dp with the label, to q, which moves by dq. */
+static void add_piece(leaf_length *l, const double p[2], const double dp[2], const double q[2],
+                      const double dq[2])
+{
+    const double length = distance(p, q);
+    l->length += length;
+    if (length > 0)
+        l->by_label += ((q[0] - p[0]) * (dq[0] - dp[0]) + (q[1] - p[1]) * (dq[1] - dp[1])) / length;
+}
+
+static void start_leaf(leaf_length *l, const double p[2], const double q[2])
+{
+    const double length = distance(p, q);
+    *l = (leaf_length){0};
+    if (length > 0) {
+        l->by_point[0] = (p[0] - q[0]) / length;
+        l->by_point[1] = (p[1] - q[1]) / length;
+    }
+}
+
+/* Walks a leaf from a point by `next`, whose last crossing is left in `crossing`. With `to_centre` the
+ * piece from there to the centre belongs to it. */
+static leaf_length walk(const foliation_state *state, iccp_crossing *crossing, const double start[2],
+                        bool to_centre,
+                        bool (*next)(const iccp_planar *, const iccp_psi *, iccp_crossing *))
+{
+    static const double still[2] = {0, 0};
+    double p[2] = {start[0], start[1]}, dp[2] = {0, 0}, q[2], dq[2];
+    leaf_length l;
+    iccp_crossing_point(&state->mesh, crossing, q);
+    start_leaf(&l, p, q);
+    do {
+        iccp_crossing_point(&state->mesh, crossing, q);
+        iccp_crossing_slope(&state->mesh, crossing, dq);
+        add_piece(&l, p, dp, q, dq);
+        memcpy(p, q, sizeof p);
+        memcpy(dp, dq, sizeof dp);
+    } while (next(&state->mesh, &state->psi, crossing));
+    if (to_centre)
+        add_piece(&l, p, dp, centre_of(state), still);
+    return l;
+}
+
+static leaf_length walk_up(const foliation_state *state, const iccp_leaf *leaf,
+                           const double point[2])
+{
+    iccp_crossing crossing = leaf->up;
+    if (!leaf->in_star)
+        return walk(state, &crossing, point, true, iccp_leaf_rise);
+    leaf_length l;
+    start_leaf(&l, point, centre_of(state));
+    l.length = distance(point, centre_of(state));
+    return l;
+}
+
+static bool at_maximum(const icc_chart *chart, const double p[2])
+{
+    const double *m = centre_of(chart->state);
+    return fabs(p[0] - m[0]) <= chart->domain->tolerance &&
+           fabs(p[1] - m[1]) <= chart->domain->tolerance;
+}
+
+/* How the share along a facet changes with the share along one of its pieces. */
+static double along_slope(const icc_chart *chart, uint32_t facet)
+{
+    const foliation_state *state = chart->state;
+    return (double)chart->domain->orientation / state->mesh.pieces[facet];
+}
+
+static void fill_encode_jet(const icc_chart *chart, uint32_t triangle, const double bary[3],
+                            const iccp_crossing *end, uint32_t facet, const leaf_length *up,
+                            const leaf_length *down, iccp_encode_jet *jet)
+{
+    const foliation_state *state = chart->state;
+    double gradient[2];
+    iccp_label_gradient(&state->mesh, &state->psi, triangle, bary, gradient);
+    const double rise = (double)end->below + (double)end->above;
+    const double total = up->length + down->length;
+    for (int c = 0; c < 2; ++c) {
+        const double along = along_slope(chart, facet) * gradient[c] / rise;
+        const double d_up = up->by_label * gradient[c] + up->by_point[c];
+        const double d_down = down->by_label * gradient[c] + down->by_point[c];
+        jet->bary[c] = -along;
+        jet->bary[2 + c] = along;
+        jet->t[c] = (d_down * up->length - down->length * d_up) / (total * total);
+    }
+}
+
+static icc_status encode_inside(const icc_chart *chart, const double *point, iccp_coords *coords,
+                                iccp_encode_jet *jet)
+{
+    const foliation_state *state = chart->state;
+    uint32_t triangle;
+    double bary[3];
+    iccp_leaf leaf;
+    if (!iccp_finder_find(&state->finder, point, &triangle, bary))
+        return ICC_ERR_TRACE;
+    const icc_status status = iccp_leaf_through(&state->mesh, &state->psi, triangle, bary, &leaf);
+    if (status != ICC_OK)
+        return status;
+    const leaf_length up = walk_up(state, &leaf, point);
+    iccp_crossing end = leaf.down;
+    const leaf_length down = walk(state, &end, point, false, iccp_leaf_fall);
+    const uint32_t edge = state->mesh.triangles[iccp_corner_after(end.corner)];
+    const double along =
+        iccp_planar_along(&state->mesh, chart->domain, edge, iccp_crossing_share(&end));
+    *coords = (iccp_coords){.facet = state->mesh.facet[edge], .bary = {1 - along, along}};
+    coords->t = down.length / (down.length + up.length);
+    if (jet != NULL)
+        fill_encode_jet(chart, triangle, bary, &end, coords->facet, &up, &down, jet);
+    return ICC_OK;
+}
+
+static icc_status encode(const icc_chart *chart, const double *point, iccp_coords *coords,
+                         iccp_encode_jet *jet, iccp_path *path)
+{
+    (void)path;
+    const int32_t where =
+        iccp_domain_locate(chart->domain, point, true, &coords->facet, coords->bary);
+    coords->t = 0;
+    if (where == ICC_OUTSIDE)
+        return ICC_ERR_OUTSIDE;
+    if (where == ICC_BOUNDARY)
+        return jet == NULL ? ICC_OK : ICC_ERR_TRACE;
+    if (!at_maximum(chart, point))
+        return encode_inside(chart, point, coords, jet);
+    *coords = (iccp_coords){.facet = 0, .bary = {0.5, 0.5}, .t = 1};
+    return jet == NULL ? ICC_OK : ICC_ERR_TRACE;
+}
+
+static iccp_crossing boundary_crossing(const icc_chart *chart, const iccp_coords *coords)
+{
+    const foliation_state *state = chart->state;
+    double lambda;
+    const uint32_t edge = iccp_planar_edge(&state->mesh, chart->domain, coords->facet,
+                                           coords->bary[1], &lambda);
+    return iccp_leaf_from_boundary(&state->psi, state->boundary_corner[edge], lambda);
+}
+
+/* The leaf from a boundary point to the maximum, with its arc length. */
+static icc_status follow(const icc_chart *chart, const iccp_coords *coords, iccp_path *path)
+{
+    const foliation_state *state = chart->state;
+    double p[2], q[2], length = 0;
+    iccp_crossing crossing = boundary_crossing(chart, coords);
+    iccp_domain_facet_point(chart->domain, coords->facet, coords->bary, p);
+    path->n = 0;
+    icc_status status = iccp_path_append(path, p[0], p[1], 0);
+    while (status == ICC_OK && iccp_leaf_rise(&state->mesh, &state->psi, &crossing)) {
+        iccp_crossing_point(&state->mesh, &crossing, q);
+        length += distance(p, q);
+        status = iccp_path_append(path, q[0], q[1], length);
+        memcpy(p, q, sizeof p);
+    }
+    if (status != ICC_OK)
+        return status;
+    const double *m = centre_of(state);
+    return iccp_path_append(path, m[0], m[1], length + distance(p, m));
+}
+
+/* Walks the leaf again for the derivatives of the piece's ends and of the lengths by the label. */
+static void fill_decode_jet(const icc_chart *chart, const iccp_coords *coords,
+                            const iccp_path *path, size_t piece, double share,
+                            iccp_decode_jet *jet)
+{
+    const foliation_state *state = chart->state;
+    iccp_crossing crossing = boundary_crossing(chart, coords);
+    const double rise = (double)crossing.below + (double)crossing.above;
+    leaf_length l = {0};
+    double ends[2][2] = {{0}}, before[2] = {0}, slope[2], previous[2];
+    iccp_crossing_slope(&state->mesh, &crossing, previous);
+    for (size_t k = 0; k + 1 < path->n; ++k) {
+        const double p[2] = {path->points[k].x, path->points[k].y};
+        const double q[2] = {path->points[k + 1].x, path->points[k + 1].y};
+        slope[0] = slope[1] = 0;
+        if (iccp_leaf_rise(&state->mesh, &state->psi, &crossing))
+            iccp_crossing_slope(&state->mesh, &crossing, slope);
+        if (k == piece) {
+            memcpy(ends[0], previous, sizeof previous);
+            memcpy(ends[1], slope, sizeof slope);
+            before[0] = l.by_label;
+        }
+        add_piece(&l, p, previous, q, slope);
+        if (k == piece)
+            before[1] = l.by_label;
+        memcpy(previous, slope, sizeof slope);
+    }
+    const iccp_path_point *a = path->points + piece, *b = a + 1;
+    const double length = b->s - a->s, total = path->points[path->n - 1].s;
+    const double direction[2] = {(b->x - a->x) / length, (b->y - a->y) / length};
+    const double slide = coords->t * l.by_label - before[0] - share * (before[1] - before[0]);
+    for (int i = 0; i < 2; ++i) {
+        const double by_label = ends[0][i] + share * (ends[1][i] - ends[0][i]) + slide * direction[i];
+        jet->t[i] = total * direction[i];
+        jet->bary[2 * i] = 0;
+        jet->bary[2 * i + 1] = by_label * rise / along_slope(chart, coords->facet);
+    }
+}
+
+static icc_status decode(const icc_chart *chart, const iccp_coords *coords, double *point,
+                         iccp_decode_jet *jet, iccp_path *path)
+{
+    if (jet != NULL && (coords->t <= 0 || coords->t >= 1))
+        return ICC_ERR_TRACE;
+    if (coords->t <= 0) {
+        iccp_domain_facet_point(chart->domain, coords->facet, coords->bary, point);
+        return ICC_OK;
+    }
+    if (coords->t >= 1) {
+        memcpy(point, centre_of(chart->state), 2 * sizeof *point);
+        return ICC_OK;
+    }
+    const icc_status status = follow(chart, coords, path);
+    if (status != ICC_OK)
+        return status;
+    const double s = coords->t * path->points[path->n - 1].s;
+    const size_t piece = iccp_path_find(path, s);
+    const iccp_path_point *a = path->points + piece, *b = a + 1;
+    const double share = b->s > a->s ? (s - a->s) / (b->s - a->s) : 0;
+    point[0] = a->x + share * (b->x - a->x);
+    point[1] = a->y + share * (b->y - a->y);
+    if (jet != NULL)
+        fill_decode_jet(chart, coords, path, piece, share, jet);
+    return ICC_OK;
+}
+
+static icc_status emit_down(const foliation_state *state, const iccp_leaf *leaf, iccp_path *path,
+                            iccp_emit emit, void *argument)
+{
+    iccp_crossing crossing = leaf->down;
+    icc_status status = ICC_OK;
+    path->n = 0;
+    do {
+        double p[2];
+        iccp_crossing_point(&state->mesh, &crossing, p);
+        status = iccp_path_append(path, p[0], p[1], 0);
+    } while (status == ICC_OK && iccp_leaf_fall(&state->mesh, &state->psi, &crossing));
+    for (size_t k = path->n; status == ICC_OK && k-- > 0;) {
+        const double p[2] = {path->points[k].x, path->points[k].y};
+        status = emit(argument, p);
+    }
+    return status;
+}
+
+static icc_status emit_up(const foliation_state *state, const iccp_leaf *leaf, iccp_emit emit,
+                          void *argument)
+{
+    icc_status status = ICC_OK;
+    iccp_crossing crossing = leaf->up;
+    if (!leaf->in_star)
+        do {
+            double p[2];
+            iccp_crossing_point(&state->mesh, &crossing, p);
+            status = emit(argument, p);
+        } while (status == ICC_OK && iccp_leaf_rise(&state->mesh, &state->psi, &crossing));
+    return status == ICC_OK ? emit(argument, centre_of(state)) : status;
+}
+
+static icc_status trace(const icc_chart *chart, const double *point, iccp_path *path,
+                        iccp_emit emit, void *argument)
+{
+    const foliation_state *state = chart->state;
+    iccp_coords coords;
+    const int32_t where =
+        iccp_domain_locate(chart->domain, point, true, &coords.facet, coords.bary);
+    if (where == ICC_OUTSIDE)
+        return ICC_ERR_OUTSIDE;
+    if (at_maximum(chart, point))
+        return emit(argument, point);
+    if (where == ICC_BOUNDARY) {
+        icc_status status = follow(chart, &coords, path);
+        for (size_t k = 0; status == ICC_OK && k < path->n; ++k) {
+            const double p[2] = {path->points[k].x, path->points[k].y};
+            status = emit(argument, p);
+        }
+        return status;
+    }
+    uint32_t triangle;
+    double bary[3];
+    iccp_leaf leaf;
+    if (!iccp_finder_find(&state->finder, point, &triangle, bary))
+        return ICC_ERR_TRACE;
+    icc_status status = iccp_leaf_through(&state->mesh, &state->psi, triangle, bary, &leaf);
+    if (status == ICC_OK)
+        status = emit_down(state, &leaf, path, emit, argument);
+    if (status == ICC_OK)
+        status = emit(argument, point);
+    return status == ICC_OK ? emit_up(state, &leaf, emit, argument) : status;
+}
+
+static icc_status measure(const icc_chart *chart, size_t n_points, icc_chart_measures *measures,
+                          const iccp_env *env)
+{
+    (void)chart;
+    (void)n_points;
+    (void)env;
+    *measures = (icc_chart_measures){0};
+    return ICC_OK;
+}
+
+static void free_state(icc_chart *chart)
+{
+    foliation_state *state = chart->state;
+    iccp_finder_free(&state->finder);
+    iccp_psi_free(&state->psi);
+    iccp_planar_free(&state->mesh);
+    iccp_free(&chart->memory, state->boundary_corner);
+    iccp_free(&chart->memory, state);
+}
+
+static const iccp_chart_ops OPS = {encode, decode, trace, measure, free_state};
+
+/* Shares of harmonic flux to try: one half is the fairest; less copes with sharper corners. */
+static const double HARMONIC_SHARES[] = {0.5, 0.25, 0.0};
+
+static icc_status make_psi(foliation_state *state, const iccp_harmonic *base, uint32_t centre,
+                           icc_chart_info *info, const iccp_env *env, icc_error *err)
+{
+    iccp_certificate certificate = {0};
+    const double start = iccp_seconds();
+    iccp_certify_mesh(&base->mesh, base->mesh.points, &certificate);
+    for (size_t k = 0; k < sizeof HARMONIC_SHARES / sizeof *HARMONIC_SHARES; ++k) {
+        icc_status status = iccp_psi_create(&state->psi, &base->mesh, &base->laplacian,
+                                            &base->solver, centre, HARMONIC_SHARES[k], env);
+        const double solved = iccp_seconds();
+        if (status == ICC_OK)
+            status = iccp_certify_psi(&base->mesh, &state->psi, &certificate, &env->memory);
+        if (status != ICC_OK)
+            return status;
+        if (iccp_certificate_holds(&certificate)) {
+            info->certified = 1;
+            info->n_ties = certificate.n_ties;
+            info->harmonic_share = HARMONIC_SHARES[k];
+            info->seconds_solve += solved - start;
+            info->seconds_certify = iccp_seconds() - solved;
+            return ICC_OK;
+        }
+        iccp_psi_free(&state->psi);
+    }
+    return iccp_fail(err, ICC_ERR_CERTIFICATE, -1,
+                     "the foliation cannot be certified: %zu inverted triangles, %zu faults of "
+                     "topology, %zu open and %zu flat triangles, %zu irregular vertices",
+                     certificate.n_inverted, certificate.n_topology, certificate.n_open,
+                     certificate.n_flat, certificate.n_irregular);
+}
+
+static icc_status list_boundary(foliation_state *state, const iccp_planar *mesh,
+                                const iccp_memory *memory)
+{
+    state->boundary_corner = iccp_alloc(memory, mesh->n_boundary, sizeof(uint32_t));
+    if (state->boundary_corner == NULL)
+        return ICC_ERR_MEMORY;
+    for (uint32_t c = 0; c < 3 * mesh->n_triangles; ++c)
+        if (mesh->twins[c] == ICCP_NO_NEIGHBOUR)
+            state->boundary_corner[mesh->triangles[iccp_corner_after(c)]] = c;
+    return ICC_OK;
+}
+
+icc_status iccp_chart_foliation_create(icc_chart **out, const icc_domain *domain,
+                                       iccp_harmonic *base, uint32_t centre, const iccp_env *env,
+                                       icc_error *err)
+{
+    icc_status status = iccp_chart_new(out, domain, env);
+    if (status != ICC_OK)
+        return status;
+    icc_chart *chart = *out;
+    chart->ops = &OPS;
+    chart->info.method = ICC_METHOD_FOLIATION;
+    iccp_harmonic_describe(base, domain, &chart->info);
+    foliation_state *state = iccp_alloc_zero(&env->memory, 1, sizeof *state);
+    chart->state = state;
+    status = state != NULL ? make_psi(state, base, centre, &chart->info, env, err) : ICC_ERR_MEMORY;
+    if (status == ICC_OK)
+        status = list_boundary(state, &base->mesh, &env->memory);
+    if (status == ICC_OK)
+        status = iccp_finder_create(&state->finder, &base->mesh, base->mesh.points, env);
+    if (status != ICC_OK) {
+        iccp_chart_release(chart);
+        *out = NULL;
+        return status;
+    }
+    state->mesh = iccp_harmonic_take_mesh(base);
+    iccp_frame_out(&domain->frame, 2, centre_of(state), chart->info.maximum);
+    return ICC_OK;
+}

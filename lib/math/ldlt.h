@@ -1,0 +1,27 @@
+/* Sparse LDL^T factorisation of a symmetric positive definite matrix. */
+#ifndef ICCP_LDLT_H
+#define ICCP_LDLT_H
+
+#include "base/env.h"
+#include "math/symmetric.h"
+
+typedef struct iccp_ldlt {
+    iccp_memory memory;
+    size_t n;
+    uint32_t *order;  /* the row that was eliminated k-th */
+    size_t *first;    /* n + 1: where the columns of L begin */
+    uint32_t *row;    /* rows below the diagonal, in eliminated numbering */
+    double *value;
+    double *pivot;    /* D */
+} iccp_ldlt;
+
+/* ICC_ERR_SOLVER when a pivot is not positive: the matrix is not positive definite to working
+ * precision. Cost: proportional to the sum of the squared column counts of L. */
+icc_status iccp_ldlt_create(iccp_ldlt *factor, const iccp_symmetric *matrix, const iccp_env *env);
+void iccp_ldlt_free(iccp_ldlt *factor);
+
+/* Solves for n_rhs right sides at once: entry i of side r at b[i * n_rhs + r], replaced by the
+ * solution. `work` has room for n * n_rhs doubles. */
+void iccp_ldlt_solve(const iccp_ldlt *factor, size_t n_rhs, double *b, double *work);
+
+#endif

@@ -1,0 +1,104 @@
+/* Y. Saad, Iterative Methods for Sparse Linear Systems, 2nd edition, 2003, sections 9.2 and 10.2. */
+#include "math/pcg.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Relative residuals: wanted, and the worst that is accepted when rounding stops progress earlier. */
+static const double WANTED = 1e-13, ACCEPTED = 1e-9;
+
+/* Iterations without a new smallest residual after which progress has ended. */
+enum { PATIENCE = 200 };
+
+static double dot(size_t n, const double *a, const double *b)
+{
+    double sum = 0;
+    for (size_t i = 0; i < n; ++i)
+        sum += a[i] * b[i];
+    return sum;
+}
+
+static void multiply(const iccp_symmetric *m, const double *x, double *y)
+{
+    for (size_t i = 0; i < m->n; ++i) {
+        double sum = m->diagonal[i] * x[i];
+        for (size_t p = m->first[i]; p < m->first[i + 1]; ++p)
+            sum += m->value[p] * x[m->column[p]];
+        y[i] = sum;
+    }
+}
+
+/* z = ((D + L) D^-1 (D + L^T))^-1 r */
+static void precondition(const iccp_symmetric *m, const double *r, double *z)
+{
+    for (size_t i = 0; i < m->n; ++i) {
+        double sum = r[i];
+        for (size_t p = m->first[i]; p < m->first[i + 1]; ++p)
+            if (m->column[p] < i)
+                sum -= m->value[p] * z[m->column[p]];
+        z[i] = sum / m->diagonal[i];
+    }
+    for (size_t i = m->n; i-- > 0;) {
+        double sum = 0;
+        for (size_t p = m->first[i]; p < m->first[i + 1]; ++p)
+            if (m->column[p] > i)
+                sum += m->value[p] * z[m->column[p]];
+        z[i] -= sum / m->diagonal[i];
+    }
+}
+
+/* One right side: r holds it and becomes the residual; x becomes the solution. */
+static icc_status iterate(const iccp_symmetric *m, double *x, double *r, double *z, double *p,
+                          double *q, const iccp_env *env)
+{
+    const size_t n = m->n;
+    const double size = sqrt(dot(n, r, r));
+    double least = size;
+    memset(x, 0, n * sizeof *x);
+    if (!(size > 0))
+        return size >= 0 ? ICC_OK : ICC_ERR_SOLVER;
+    precondition(m, r, z);
+    memcpy(p, z, n * sizeof *p);
+    double rz = dot(n, r, z);
+    for (size_t since = 0; least > WANTED * size && since < PATIENCE; ++since) {
+        if (since % 16 == 0) {
+            const icc_status status = iccp_progress(env, "solve", 0);
+            if (status != ICC_OK)
+                return status;
+        }
+        multiply(m, p, q);
+        const double step = rz / dot(n, p, q);
+        for (size_t i = 0; i < n; ++i) {
+            x[i] += step * p[i];
+            r[i] -= step * q[i];
+        }
+        const double residual = sqrt(dot(n, r, r));
+        if (residual < least) {
+            least = residual;
+            since = 0;
+        }
+        precondition(m, r, z);
+        const double next = dot(n, r, z), beta = next / rz;
+        rz = next;
+        for (size_t i = 0; i < n; ++i)
+            p[i] = z[i] + beta * p[i];
+    }
+    return least <= ACCEPTED * size ? ICC_OK : ICC_ERR_SOLVER;
+}
+
+icc_status iccp_pcg_solve(const iccp_symmetric *matrix, size_t n_rhs, double *b, double *work,
+                          const iccp_env *env)
+{
+    const size_t n = matrix->n;
+    double *x = work, *r = work + n, *z = work + 2 * n, *p = work + 3 * n, *q = work + 4 * n;
+    for (size_t side = 0; side < n_rhs; ++side) {
+        for (size_t i = 0; i < n; ++i)
+            r[i] = b[i * n_rhs + side];
+        const icc_status status = iterate(matrix, x, r, z, p, q, env);
+        if (status != ICC_OK)
+            return status;
+        for (size_t i = 0; i < n; ++i)
+            b[i * n_rhs + side] = x[i];
+    }
+    return ICC_OK;
+}

@@ -1,0 +1,17 @@
+/* Conjugate gradients with a symmetric Gauss-Seidel preconditioner. */
+#ifndef ICCP_PCG_H
+#define ICCP_PCG_H
+
+#include "base/env.h"
+#include "math/symmetric.h"
+
+/* Doubles of work space per unknown. */
+enum { ICCP_PCG_WORK = 5 };
+
+/* Solves for n_rhs right sides, one after the other: entry i of side r at b[i * n_rhs + r], replaced
+ * by the solution. Iterates until the residual is 1e-13 of the right side or no longer falls;
+ * ICC_ERR_SOLVER when it then is above 1e-9. `work`: ICCP_PCG_WORK * n doubles. */
+icc_status iccp_pcg_solve(const iccp_symmetric *matrix, size_t n_rhs, double *b, double *work,
+                          const iccp_env *env);
+
+#endif

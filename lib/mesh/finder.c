@@ -1,0 +1,155 @@
+#include "mesh/finder.h"
+
+#include "math/predicates.h"
+
+#include <math.h>
+
+/* Cells that a triangle misses by less than this, in cells, list it too: the slab arithmetic below is
+ * rounded. */
+static const double SLACK = 1e-9;
+
+static size_t cell_of(double x, size_t n)
+{
+    if (!(x > 0))
+        return 0;
+    return x < (double)n ? (size_t)x : n - 1;
+}
+
+static void corner_in_cells(const iccp_finder *f, uint32_t triangle, int k, double q[2])
+{
+    const double *p = f->points + 2 * (size_t)f->triangles[3 * (size_t)triangle + (size_t)k];
+    q[0] = (p[0] - f->origin[0]) * f->rate;
+    q[1] = (p[1] - f->origin[1]) * f->rate;
+}
+
+/* Widens [low, high] to the part of the segment a b with y in [bottom, bottom + 1]. */
+static void clip_to_row(const double a[2], const double b[2], double bottom, double *low,
+                        double *high)
+{
+    const double lower = fmin(a[1], b[1]), upper = fmax(a[1], b[1]);
+    if (upper < bottom - SLACK || lower > bottom + 1 + SLACK)
+        return;
+    double x[2] = {a[0], b[0]};
+    const double ends[2] = {a[1], b[1]};
+    for (int k = 0; k < 2; ++k) {
+        const double y = fmin(fmax(ends[k], bottom), bottom + 1);
+        if (upper > lower)
+            x[k] = a[0] + (b[0] - a[0]) * fmin(fmax((y - a[1]) / (b[1] - a[1]), 0), 1);
+    }
+    *low = fmin(*low, fmin(x[0], x[1]));
+    *high = fmax(*high, fmax(x[0], x[1]));
+}
+
+static void visit_triangle(iccp_finder *f, uint32_t triangle, bool fill)
+{
+    double q[3][2];
+    for (int k = 0; k < 3; ++k)
+        corner_in_cells(f, triangle, k, q[k]);
+    const double bottom = fmin(fmin(q[0][1], q[1][1]), q[2][1]);
+    const double top = fmax(fmax(q[0][1], q[1][1]), q[2][1]);
+    const size_t last = cell_of(top + SLACK, f->size[1]);
+    for (size_t j = cell_of(bottom - SLACK, f->size[1]); j <= last; ++j) {
+        double low = HUGE_VAL, high = -HUGE_VAL;
+        for (int k = 0; k < 3; ++k)
+            clip_to_row(q[k], q[(k + 1) % 3], (double)j, &low, &high);
+        if (low > high)
+            continue;
+        const size_t i_last = cell_of(high + SLACK, f->size[0]);
+        for (size_t i = cell_of(low - SLACK, f->size[0]); i <= i_last; ++i) {
+            const size_t cell = i + f->size[0] * j;
+            if (fill)
+                f->entries[--f->first[cell]] = triangle;
+            else
+                ++f->first[cell];
+        }
+    }
+}
+
+/* About as many cells as triangles. */
+static void choose_cells(iccp_finder *f, const iccp_planar *mesh)
+{
+    double lower[2] = {HUGE_VAL, HUGE_VAL}, upper[2] = {-HUGE_VAL, -HUGE_VAL};
+    for (size_t v = 0; v < mesh->n_vertices; ++v)
+        for (int k = 0; k < 2; ++k) {
+            lower[k] = fmin(lower[k], f->points[2 * v + (size_t)k]);
+            upper[k] = fmax(upper[k], f->points[2 * v + (size_t)k]);
+        }
+    const double width = upper[0] - lower[0], height = upper[1] - lower[1];
+    const double longest = fmax(width, height);
+    const double area = fmax(width * height, longest * longest / (double)mesh->n_triangles);
+    f->rate = sqrt((double)mesh->n_triangles / area);
+    f->size[0] = (size_t)(width * f->rate) + 1;
+    f->size[1] = (size_t)(height * f->rate) + 1;
+    f->origin[0] = lower[0];
+    f->origin[1] = lower[1];
+}
+
+icc_status iccp_finder_create(iccp_finder *finder, const iccp_planar *mesh, const double *points,
+                              const iccp_env *env)
+{
+    iccp_finder *f = finder;
+    *f = (iccp_finder){.memory = env->memory, .points = points, .triangles = mesh->triangles};
+    choose_cells(f, mesh);
+    const size_t n_cells = f->size[0] * f->size[1];
+    f->first = iccp_alloc_zero(&f->memory, n_cells + 1, sizeof *f->first);
+    if (f->first == NULL)
+        return ICC_ERR_MEMORY;
+    for (uint32_t t = 0; t < mesh->n_triangles; ++t)
+        visit_triangle(f, t, false);
+    for (size_t c = 1; c <= n_cells; ++c)
+        f->first[c] += f->first[c - 1];
+    f->entries = iccp_alloc(&f->memory, f->first[n_cells], sizeof *f->entries);
+    if (f->entries == NULL) {
+        iccp_finder_free(f);
+        return ICC_ERR_MEMORY;
+    }
+    for (uint32_t t = (uint32_t)mesh->n_triangles; t-- > 0;)
+        visit_triangle(f, t, true);
+    return ICC_OK;
+}
+
+void iccp_finder_free(iccp_finder *finder)
+{
+    iccp_free(&finder->memory, finder->first);
+    iccp_free(&finder->memory, finder->entries);
+    *finder = (iccp_finder){.memory = finder->memory};
+}
+
+static double cross(const double a[2], const double b[2], const double c[2])
+{
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+static bool holds(const iccp_finder *f, uint32_t triangle, const double p[2], double bary[3])
+{
+    const uint32_t *v = f->triangles + 3 * (size_t)triangle;
+    const double *q[3];
+    for (int k = 0; k < 3; ++k)
+        q[k] = f->points + 2 * (size_t)v[k];
+    double sum = 0;
+    for (int k = 0; k < 3; ++k) {
+        if (iccp_orient2d(q[(k + 1) % 3], q[(k + 2) % 3], p) < 0)
+            return false;
+        bary[k] = fmax(cross(q[(k + 1) % 3], q[(k + 2) % 3], p), 0);
+        sum += bary[k];
+    }
+    if (!(sum > 0))
+        return false;
+    for (int k = 0; k < 3; ++k)
+        bary[k] /= sum;
+    return true;
+}
+
+bool iccp_finder_find(const iccp_finder *finder, const double p[2], uint32_t *triangle,
+                      double bary[3])
+{
+    const size_t i = cell_of((p[0] - finder->origin[0]) * finder->rate, finder->size[0]);
+    const size_t j = cell_of((p[1] - finder->origin[1]) * finder->rate, finder->size[1]);
+    const size_t cell = i + finder->size[0] * j;
+    for (size_t e = finder->first[cell]; e < finder->first[cell + 1]; ++e)
+        if (holds(finder, finder->entries[e], p, bary)) {
+            *triangle = finder->entries[e];
+            return true;
+        }
+    return false;
+}

@@ -1,0 +1,141 @@
+/* Cotangent weights: U. Pinkall and K. Polthier, Computing discrete minimal surfaces and their
+ * conjugates, 1993. On a Delaunay mesh they are not negative; the bounds take care of constrained
+ * edges, cut triangles and needles. Any positive weights keep the maps that are made from them
+ * one-to-one; these make them fair. */
+#include "mesh/laplacian.h"
+
+#include <math.h>
+
+/* An equilateral mesh has weights of 0.58. */
+static const double LEAST_WEIGHT = 0.02, MOST_WEIGHT = 50;
+
+/* Half the cotangent of the angle at a corner. */
+static double half_cotangent(const iccp_planar *mesh, uint32_t corner)
+{
+    const double *p = mesh->points + 2 * (size_t)mesh->triangles[corner];
+    const double *a = mesh->points + 2 * (size_t)mesh->triangles[iccp_corner_after(corner)];
+    const double *b = mesh->points + 2 * (size_t)mesh->triangles[iccp_corner_before(corner)];
+    const double ux = a[0] - p[0], uy = a[1] - p[1], vx = b[0] - p[0], vy = b[1] - p[1];
+    const double dot = ux * vx + uy * vy, cross = ux * vy - uy * vx;
+    return cross > 0 ? 0.5 * dot / cross : copysign(MOST_WEIGHT, dot);
+}
+
+static double edge_weight(const iccp_planar *mesh, uint32_t corner)
+{
+    const double w = half_cotangent(mesh, corner) + half_cotangent(mesh, mesh->twins[corner]);
+    return fmin(fmax(w, LEAST_WEIGHT), MOST_WEIGHT);
+}
+
+/* An edge between two vertices of which the first, at least, is not on the boundary. */
+typedef void (*edge_visitor)(iccp_laplacian *l, uint32_t n_boundary, uint32_t a, uint32_t b,
+                             double weight);
+
+static void visit_edges(iccp_laplacian *l, const iccp_planar *mesh, uint32_t left_out,
+                        bool with_weights, edge_visitor visit)
+{
+    const uint32_t n_boundary = (uint32_t)mesh->n_boundary;
+    for (uint32_t c = 0; c < 3 * mesh->n_triangles; ++c) {
+        if (mesh->twins[c] == ICCP_NO_NEIGHBOUR || mesh->twins[c] < c)
+            continue;
+        uint32_t a = mesh->triangles[iccp_corner_after(c)];
+        uint32_t b = mesh->triangles[iccp_corner_before(c)];
+        if (a == left_out || b == left_out || (a < n_boundary && b < n_boundary))
+            continue;
+        if (a < n_boundary) {
+            const uint32_t swap = a;
+            a = b;
+            b = swap;
+        }
+        visit(l, n_boundary, a, b, with_weights ? edge_weight(mesh, c) : 0);
+    }
+}
+
+static void count_edge(iccp_laplacian *l, uint32_t n_boundary, uint32_t a, uint32_t b, double weight)
+{
+    (void)weight;
+    if (b < n_boundary) {
+        ++l->rim_first[a - n_boundary];
+    } else {
+        ++l->first[a - n_boundary];
+        ++l->first[b - n_boundary];
+    }
+}
+
+static void add_entry(iccp_laplacian *l, uint32_t row, uint32_t column, double weight)
+{
+    const size_t p = --l->first[row];
+    l->column[p] = column;
+    l->value[p] = -weight;
+    l->diagonal[row] += weight;
+}
+
+static void add_edge(iccp_laplacian *l, uint32_t n_boundary, uint32_t a, uint32_t b, double weight)
+{
+    if (b < n_boundary) {
+        const size_t p = --l->rim_first[a - n_boundary];
+        l->rim_vertex[p] = b;
+        l->rim_weight[p] = weight;
+        l->diagonal[a - n_boundary] += weight;
+    } else {
+        add_entry(l, a - n_boundary, b - n_boundary, weight);
+        add_entry(l, b - n_boundary, a - n_boundary, weight);
+    }
+}
+
+static void sum_up(size_t *counts, size_t n)
+{
+    for (size_t i = 1; i <= n; ++i)
+        counts[i] += counts[i - 1];
+}
+
+static icc_status allocate_entries(iccp_laplacian *l, size_t n)
+{
+    const size_t n_entries = l->first[n], n_rim = l->rim_first[n];
+    l->column = iccp_alloc(&l->memory, n_entries, sizeof *l->column);
+    l->value = iccp_alloc(&l->memory, n_entries, sizeof *l->value);
+    l->rim_vertex = iccp_alloc(&l->memory, n_rim, sizeof *l->rim_vertex);
+    l->rim_weight = iccp_alloc(&l->memory, n_rim, sizeof *l->rim_weight);
+    return l->column != NULL && l->value != NULL && l->rim_vertex != NULL && l->rim_weight != NULL
+               ? ICC_OK
+               : ICC_ERR_MEMORY;
+}
+
+icc_status iccp_laplacian_create(iccp_laplacian *laplacian, const iccp_planar *mesh,
+                                 uint32_t left_out, const iccp_env *env)
+{
+    const size_t n = mesh->n_vertices - mesh->n_boundary;
+    iccp_laplacian *l = laplacian;
+    *l = (iccp_laplacian){.memory = env->memory};
+    l->first = iccp_alloc_zero(&l->memory, n + 1, sizeof *l->first);
+    l->rim_first = iccp_alloc_zero(&l->memory, n + 1, sizeof *l->rim_first);
+    l->diagonal = iccp_alloc_zero(&l->memory, n, sizeof *l->diagonal);
+    icc_status status = ICC_ERR_MEMORY;
+    if (l->first != NULL && l->rim_first != NULL && l->diagonal != NULL) {
+        visit_edges(l, mesh, left_out, false, count_edge);
+        sum_up(l->first, n);
+        sum_up(l->rim_first, n);
+        status = allocate_entries(l, n);
+    }
+    if (status != ICC_OK) {
+        iccp_laplacian_free(l);
+        return status;
+    }
+    visit_edges(l, mesh, left_out, true, add_edge);
+    if (left_out != ICCP_NO_NEIGHBOUR)
+        l->diagonal[left_out - mesh->n_boundary] = 1;
+    l->matrix = (iccp_symmetric){n, l->first, l->column, l->value, l->diagonal};
+    return ICC_OK;
+}
+
+void iccp_laplacian_free(iccp_laplacian *laplacian)
+{
+    iccp_laplacian *l = laplacian;
+    iccp_free(&l->memory, l->first);
+    iccp_free(&l->memory, l->column);
+    iccp_free(&l->memory, l->value);
+    iccp_free(&l->memory, l->diagonal);
+    iccp_free(&l->memory, l->rim_first);
+    iccp_free(&l->memory, l->rim_vertex);
+    iccp_free(&l->memory, l->rim_weight);
+    *l = (iccp_laplacian){.memory = l->memory};
+}

@@ -1,0 +1,56 @@
+/* A triangle mesh of a polygonal domain whose edges cover the polygon.
+ *
+ * Boundary vertices come first, counter-clockwise, however the domain is wound: mesh edge k of the
+ * boundary joins vertices k and k + 1. Corners are numbered as in mesh/triangulate.h: corner c is
+ * number c % 3 of triangle c / 3 and faces the half-edge from the corner after it to the one before. */
+#ifndef ICCP_PLANAR_H
+#define ICCP_PLANAR_H
+
+#include "domain/domain.h"
+#include "mesh/triangulate.h"
+
+typedef struct iccp_planar {
+    iccp_memory memory;
+    size_t n_vertices, n_boundary, n_triangles;
+    double *points;      /* local, 2 n_vertices */
+    uint32_t *triangles; /* 3 n_triangles, counter-clockwise */
+    uint32_t *twins;     /* 3 n_triangles: the corner facing the same edge, or ICCP_NO_NEIGHBOUR */
+    uint32_t *facet;     /* n_boundary: the domain's facet that holds boundary edge k */
+    uint32_t *first;     /* n_facets: the boundary edge that holds a facet's first vertex */
+    uint32_t *pieces;    /* n_facets: boundary edges on a facet */
+} iccp_planar;
+
+/* The next corner of the triangle, counter-clockwise, and the one before. */
+static inline uint32_t iccp_corner_after(uint32_t corner)
+{
+    return corner % 3 == 2 ? corner - 2 : corner + 1;
+}
+
+static inline uint32_t iccp_corner_before(uint32_t corner)
+{
+    return corner % 3 == 0 ? corner + 2 : corner - 1;
+}
+
+/* The lattice step for so many cells along the longest side of the bounding box. */
+double iccp_planar_step(const icc_domain *domain, int32_t cells);
+
+/* How finely two domains with corresponding facets must cut each facet so that no boundary edge of
+ * either is longer than a cell; of one domain when `b` is NULL. The pieces of a facet are equal. Where
+ * that takes more than cells^2 edges in all, longer ones are allowed. */
+void iccp_planar_pieces(uint32_t *pieces, const icc_domain *a, const icc_domain *b,
+                        int32_t cells);
+
+/* Meshes a domain: its facets cut into pieces, points of a triangular lattice inside that keep away
+ * from the boundary, constrained Delaunay, and edges between two boundary vertices cut at their
+ * middle. At most 2 n_boundary + 1.2 cells^2 vertices; no triangle is degenerate or inverted, exactly. */
+icc_status iccp_planar_create(iccp_planar *mesh, const icc_domain *domain, const uint32_t *pieces,
+                              int32_t cells, const iccp_env *env, icc_error *err);
+void iccp_planar_free(iccp_planar *mesh);
+
+/* A point of boundary edge k, `lambda` of the way along it, as a share of its facet; and back. */
+double iccp_planar_along(const iccp_planar *mesh, const icc_domain *domain, uint32_t k,
+                         double lambda);
+uint32_t iccp_planar_edge(const iccp_planar *mesh, const icc_domain *domain, uint32_t facet,
+                          double along, double *lambda);
+
+#endif
