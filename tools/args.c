@@ -1,105 +1,11 @@
-/* One table of options drives both the reading and the help. */
 #include "args.h"
 
 #include "number.h"
+#include "options.h"
 #include "say.h"
 
-#include <icc/icc.h>
 #include <stdio.h>
 #include <string.h>
-
-typedef enum option_kind {
-    OPTION_FLAG,   /* bool */
-    OPTION_TEXT,   /* const char * */
-    OPTION_COUNT,  /* int32_t between low and high */
-    OPTION_CHOICE, /* int32_t, by name */
-    OPTION_POINT,  /* double[2], and a bool that it is there */
-    OPTION_COLOUR, /* unsigned char[4], and a bool that it is there */
-    OPTION_REPORT, /* bool, and a const char * when =FILE follows */
-    OPTION_HELP
-} option_kind;
-
-/* A name that an option takes; value 0: known, but not in this version. */
-typedef struct choice {
-    const char *name;
-    int32_t value;
-} choice;
-
-typedef struct option {
-    const char *name;
-    char letter;
-    option_kind kind;
-    unsigned commands;
-    size_t offset, present; /* in args */
-    int32_t low, high;
-    const choice *choices;
-    const char *value, *help;
-} option;
-
-static const choice methods[] = {{"gradient", ICC_METHOD_GRADIENT}, {"foliation", 0}, {"field", 0},
-                                 {"disc", 0},                       {NULL, 0}};
-static const choice maps[] = {{"curves", ICC_MAP_CURVES}, {"mesh", 0}, {NULL, 0}};
-static const choice functions[] = {{"decay", ICC_FUNCTION_DECAY}, {"distance", ICC_FUNCTION_DISTANCE},
-                                   {"laplace", 0},                {"bilaplace", 0}, {NULL, 0}};
-static const choice trees[] = {{"thesis", ICC_TREE_THESIS}, {"paper", ICC_TREE_PAPER}, {NULL, 0}};
-
-enum { FOR_PAIRS = FOR_MAP | FOR_WARP | FOR_MESH, MAY_PAIR = FOR_PAIRS | FOR_CHECK | FOR_INFO | FOR_PLOT };
-
-#define AT(member) offsetof(args, member)
-static const option options[] = {
-    {.name = "source", .letter = 's', .kind = OPTION_TEXT, .commands = FOR_ALL, .offset = AT(source),
-     .value = "FILE", .help = "the cage before: text, GeoJSON, WKT or SVG"},
-    {.name = "target", .letter = 't', .kind = OPTION_TEXT, .commands = MAY_PAIR, .offset = AT(target),
-     .value = "FILE", .help = "the cage after; its vertices correspond by their order"},
-    {.name = "points", .letter = 'p', .kind = OPTION_TEXT, .commands = FOR_MAP | FOR_ENCODE,
-     .offset = AT(points), .value = "FILE", .help = "points, `x y` per line (default: -)"},
-    {.name = "coords", .letter = 'p', .kind = OPTION_TEXT, .commands = FOR_DECODE, .offset = AT(coords),
-     .value = "FILE", .help = "coordinates, `facet b0 b1 t` per line (default: -)"},
-    {.name = "inverse", .letter = 'i', .kind = OPTION_FLAG, .commands = FOR_MAP | FOR_MESH,
-     .offset = AT(inverse), .help = "from target to source"},
-    {.name = "output", .letter = 'o', .kind = OPTION_TEXT, .commands = FOR_MAP | FOR_ENCODE | FOR_DECODE,
-     .offset = AT(output), .value = "FILE", .help = "where the result goes (default: -)"},
-    {.name = "background", .kind = OPTION_COLOUR, .commands = FOR_WARP, .offset = AT(background),
-     .present = AT(has_background), .value = "RRGGBB[AA]",
-     .help = "colour of pixels outside the target cage (default: unchanged)"},
-    {.name = "repair", .kind = OPTION_TEXT, .commands = FOR_CHECK, .offset = AT(repair), .value = "FILE",
-     .help = "write the cage without repeated vertices and spikes"},
-    {.name = "elevation", .kind = OPTION_FLAG, .commands = FOR_PLOT, .offset = AT(elevation),
-     .help = "draw the function as a surface"},
-    {.name = "compression", .kind = OPTION_FLAG, .commands = FOR_PLOT, .offset = AT(compression),
-     .help = "draw compression edges too"},
-    {.name = "lines", .kind = OPTION_COUNT, .commands = FOR_PLOT, .offset = AT(lines), .low = 1,
-     .high = 100000, .value = "N", .help = "integral curves (default: 120)"},
-    {.name = "y-down", .kind = OPTION_FLAG, .commands = FOR_PLOT, .offset = AT(y_down),
-     .help = "y points down, as in pictures"},
-    {.name = "method", .letter = 'm', .kind = OPTION_CHOICE, .commands = FOR_ALL, .offset = AT(method),
-     .choices = methods, .value = "NAME", .help = "gradient"},
-    {.name = "map", .kind = OPTION_CHOICE, .commands = MAY_PAIR, .offset = AT(map), .choices = maps,
-     .value = "NAME", .help = "curves"},
-    {.name = "improve", .kind = OPTION_COUNT, .commands = MAY_PAIR, .offset = AT(improve), .high = 1000000,
-     .value = "N", .help = "rounds of improvement; 0 in this version"},
-    {.name = "function", .letter = 'f', .kind = OPTION_CHOICE, .commands = FOR_ALL, .offset = AT(function),
-     .choices = functions, .value = "NAME", .help = "decay (default) or distance"},
-    {.name = "unconstrained", .kind = OPTION_FLAG, .commands = FOR_ALL, .offset = AT(unconstrained),
-     .help = "without the tree's inequalities; not in this version"},
-    {.name = "tree", .kind = OPTION_CHOICE, .commands = FOR_ALL, .offset = AT(tree), .choices = trees,
-     .value = "NAME", .help = "thesis (default) or paper: the form of Algorithm 2"},
-    {.name = "cells", .letter = 'n', .kind = OPTION_COUNT, .commands = FOR_ALL, .offset = AT(cells),
-     .low = 2, .high = 16384, .value = "N", .help = "grid cells along the longest side (default: 50)"},
-    {.name = "maximum", .kind = OPTION_POINT, .commands = FOR_ALL, .offset = AT(maximum),
-     .present = AT(has_maximum), .value = "X,Y", .help = "where the curves shall end, in the source"},
-    {.name = "target-maximum", .kind = OPTION_POINT, .commands = MAY_PAIR, .offset = AT(target_maximum),
-     .present = AT(has_target_maximum), .value = "X,Y", .help = "where they shall end in the target"},
-    {.name = "threads", .letter = 'j', .kind = OPTION_COUNT, .commands = FOR_ALL, .offset = AT(threads),
-     .low = 1, .high = 1024, .value = "N", .help = "threads to use (default: one per processor)"},
-    {.name = "json", .kind = OPTION_REPORT, .commands = FOR_ALL, .offset = AT(json),
-     .present = AT(json_file), .value = "[=FILE]", .help = "write a report in JSON (default: -)"},
-    {.name = "quiet", .letter = 'q', .kind = OPTION_FLAG, .commands = FOR_ALL, .offset = AT(quiet),
-     .help = "no progress bar"},
-    {.name = "help", .letter = 'h', .kind = OPTION_HELP, .commands = FOR_ALL, .help = "this text"},
-};
-#undef AT
-enum { N_OPTIONS = sizeof options / sizeof *options };
 
 /* Where the reading is. */
 typedef struct reading {
@@ -110,47 +16,55 @@ typedef struct reading {
     bool *help;
 } reading;
 
-static bool *flag_at(args *a, size_t offset) {
+static bool *flag_at(args *a, size_t offset)
+{
     return (bool *)((char *)a + offset);
 }
 
-static int set_choice(reading *r, const option *o, const char *value) {
+static int set_choice(reading *r, const option *o, const char *value)
+{
     char list[128] = "";
     for (const choice *c = o->choices; c->name != NULL; c++) {
         if (strcmp(c->name, value) == 0 && c->value == 0)
-            return misused(r->command->name, "--%s %s is not available in this version", o->name, value);
+            return misused(r->command->name, "--%s %s is not available in this version", o->name,
+                           value);
         if (strcmp(c->name, value) == 0) {
             *(int32_t *)((char *)r->out + o->offset) = c->value;
             return DONE;
         }
         if (c->value != 0)
-            snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", *list ? ", " : "", c->name);
+            snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", *list ? ", " : "",
+                     c->name);
     }
-    return misused(r->command->name, "--%s '%.40s' is unknown; it may be: %s", o->name, value, list);
+    return misused(r->command->name, "--%s '%.40s' is unknown; it may be: %s", o->name, value,
+                   list);
 }
 
-static int set_count(reading *r, const option *o, const char *value) {
+static int set_count(reading *r, const option *o, const char *value)
+{
     double number;
     if (number_parse(value, &number) != NUMBER_OK || number < o->low || number > o->high ||
         number != (double)(int32_t)number)
-        return misused(r->command->name, "--%s '%.40s' must be a whole number from %d to %d", o->name,
-                       value, (int)o->low, (int)o->high);
+        return misused(r->command->name, "--%s '%.40s' must be a whole number from %d to %d",
+                       o->name, value, (int)o->low, (int)o->high);
     *(int32_t *)((char *)r->out + o->offset) = (int32_t)number;
     return DONE;
 }
 
-static int set_point(reading *r, const option *o, const char *value) {
+static int set_point(reading *r, const option *o, const char *value)
+{
     double *xy = (double *)((char *)r->out + o->offset);
     const char *p = value;
-    bool good = number_read(&p, &xy[0]) == NUMBER_OK && *p++ == ',' &&
-                number_parse(p, &xy[1]) == NUMBER_OK;
+    bool good =
+        number_read(&p, &xy[0]) == NUMBER_OK && *p++ == ',' && number_parse(p, &xy[1]) == NUMBER_OK;
     if (!good)
         return misused(r->command->name, "--%s '%.40s' must be two numbers X,Y", o->name, value);
     *flag_at(r->out, o->present) = true;
     return DONE;
 }
 
-static int set_colour(reading *r, const option *o, const char *value) {
+static int set_colour(reading *r, const option *o, const char *value)
+{
     static const char digits[] = "0123456789abcdef";
     unsigned char *rgba = (unsigned char *)r->out + o->offset;
     const char *p = value + (*value == '#');
@@ -161,26 +75,36 @@ static int set_colour(reading *r, const option *o, const char *value) {
         const char *digit = strchr(digits, p[i] >= 'A' && p[i] <= 'F' ? p[i] | 0x20 : p[i]);
         good = digit != NULL;
         if (good)
-            rgba[i / 2] = (unsigned char)(i % 2 == 0 ? 16 * (digit - digits) : rgba[i / 2] + (digit - digits));
+            rgba[i / 2] = (unsigned char)(i % 2 == 0 ? 16 * (digit - digits)
+                                                     : rgba[i / 2] + (digit - digits));
     }
     if (!good)
-        return misused(r->command->name, "--%s '%.40s' must be a colour RRGGBB or RRGGBBAA", o->name, value);
+        return misused(r->command->name, "--%s '%.40s' must be a colour RRGGBB or RRGGBBAA",
+                       o->name, value);
     *flag_at(r->out, o->present) = true;
     return DONE;
 }
 
-static int set_value(reading *r, const option *o, const char *value) {
+static int set_value(reading *r, const option *o, const char *value)
+{
     switch (o->kind) {
-    case OPTION_COUNT: return set_count(r, o, value);
-    case OPTION_CHOICE: return set_choice(r, o, value);
-    case OPTION_POINT: return set_point(r, o, value);
-    case OPTION_COLOUR: return set_colour(r, o, value);
-    default: *(const char **)((char *)r->out + o->offset) = value; return DONE;
+    case OPTION_COUNT:
+        return set_count(r, o, value);
+    case OPTION_CHOICE:
+        return set_choice(r, o, value);
+    case OPTION_POINT:
+        return set_point(r, o, value);
+    case OPTION_COLOUR:
+        return set_colour(r, o, value);
+    default:
+        *(const char **)((char *)r->out + o->offset) = value;
+        return DONE;
     }
 }
 
 /* An option that was found, with the text behind '=' or NULL. */
-static int take_option(reading *r, const option *o, const char *attached) {
+static int take_option(reading *r, const option *o, const char *attached)
+{
     if (o->kind == OPTION_REPORT) {
         *flag_at(r->out, o->offset) = true;
         *(const char **)((char *)r->out + o->present) = attached != NULL ? attached : "-";
@@ -197,7 +121,8 @@ static int take_option(reading *r, const option *o, const char *attached) {
     return set_value(r, o, attached != NULL ? attached : r->argv[r->at++]);
 }
 
-static const option *find_long(const command *c, const char *name, size_t n) {
+static const option *find_long(const command *c, const char *name, size_t n)
+{
     for (size_t i = 0; i < N_OPTIONS; i++)
         if (options[i].commands & c->bit && strlen(options[i].name) == n &&
             strncmp(options[i].name, name, n) == 0)
@@ -205,14 +130,16 @@ static const option *find_long(const command *c, const char *name, size_t n) {
     return NULL;
 }
 
-static const option *find_short(const command *c, char letter) {
+static const option *find_short(const command *c, char letter)
+{
     for (size_t i = 0; i < N_OPTIONS; i++)
         if (options[i].commands & c->bit && options[i].letter == letter)
             return &options[i];
     return NULL;
 }
 
-static int take_long(reading *r, const char *text) {
+static int take_long(reading *r, const char *text)
+{
     size_t n = strcspn(text, "=");
     const option *o = find_long(r->command, text, n);
     if (o == NULL)
@@ -221,11 +148,13 @@ static int take_long(reading *r, const char *text) {
 }
 
 /* -q, -qi, -o FILE and -oFILE. */
-static int take_short(reading *r, const char *text) {
+static int take_short(reading *r, const char *text)
+{
     for (; *text != '\0'; text++) {
         const option *o = find_short(r->command, *text);
         if (o == NULL)
-            return misused(r->command->name, "there is no option -%c", *text > 32 && *text < 127 ? *text : '?');
+            return misused(r->command->name, "there is no option -%c",
+                           *text > 32 && *text < 127 ? *text : '?');
         bool alone = o->kind == OPTION_FLAG || o->kind == OPTION_HELP;
         int result = take_option(r, o, !alone && text[1] != '\0' ? text + 1 : NULL);
         if (result != DONE || !alone)
@@ -234,7 +163,8 @@ static int take_short(reading *r, const char *text) {
     return DONE;
 }
 
-static int take_operand(reading *r, const char *text) {
+static int take_operand(reading *r, const char *text)
+{
     if (r->out->n_operands == r->command->n_operands)
         return misused(r->command->name, "'%.60s' is one argument too many", text);
     r->out->operands[r->out->n_operands++] = text;
@@ -242,7 +172,8 @@ static int take_operand(reading *r, const char *text) {
 }
 
 /* What no single option can tell. */
-static int check_together(const args *a, const command *c) {
+static int check_together(const args *a, const command *c)
+{
     if (a->n_operands < c->n_operands)
         return misused(c->name, "usage: libicc %s %s", c->name, c->usage);
     if (a->source == NULL)
@@ -252,7 +183,8 @@ static int check_together(const args *a, const command *c) {
     if (a->unconstrained)
         return misused(c->name, "--unconstrained is not available in this version");
     if (a->improve != 0)
-        return misused(c->name, "--improve %d is not available in this version; 0 is", (int)a->improve);
+        return misused(c->name, "--improve %d is not available in this version; 0 is",
+                       (int)a->improve);
     const char *inputs[] = {a->source, a->target, a->points ? a->points : a->coords,
                             c->bit & (FOR_WARP | FOR_MESH) ? a->operands[0] : NULL};
     size_t n_standard = 0;
@@ -264,7 +196,8 @@ static int check_together(const args *a, const command *c) {
 }
 
 /* Reads come by default from stdin, and results go by default to stdout. */
-static int settle_streams(args *a, const command *c) {
+static int settle_streams(args *a, const command *c)
+{
     if (c->bit & (FOR_MAP | FOR_ENCODE) && a->points == NULL)
         a->points = "-";
     if (c->bit & FOR_DECODE && a->coords == NULL)
@@ -276,11 +209,13 @@ static int settle_streams(args *a, const command *c) {
         result = a->operands[0];
     if (a->json && !(c->bit & (FOR_CHECK | FOR_INFO)) && strcmp(a->json_file, "-") == 0 &&
         result != NULL && strcmp(result, "-") == 0)
-        return misused(c->name, "result and report cannot both go to standard output; use --json=FILE");
+        return misused(c->name,
+                       "result and report cannot both go to standard output; use --json=FILE");
     return DONE;
 }
 
-int args_parse(args *out, const command *c, int argc, char **argv, bool *help) {
+int args_parse(args *out, const command *c, int argc, char **argv, bool *help)
+{
     *out = (args){.command = c->name};
     *help = false;
     reading r = {.out = out, .command = c, .argc = argc, .at = 2, .argv = argv, .help = help};
@@ -301,7 +236,8 @@ int args_parse(args *out, const command *c, int argc, char **argv, bool *help) {
     return result != DONE ? result : check_together(out, c);
 }
 
-void args_help(const command *c) {
+void args_help(const command *c)
+{
     printf("Usage: libicc %s %s\n%s.\n\n%s\nOptions:\n", c->name, c->usage, c->summary, c->details);
     for (size_t i = 0; i < N_OPTIONS; i++) {
         const option *o = &options[i];

@@ -24,8 +24,15 @@ typedef struct args {
 
 /* Bits of the commands. */
 enum {
-    FOR_MAP = 1, FOR_ENCODE = 2, FOR_DECODE = 4, FOR_WARP = 8, FOR_MESH = 16, FOR_CHECK = 32,
-    FOR_INFO = 64, FOR_PLOT = 128, FOR_ALL = 255
+    FOR_MAP = 1,
+    FOR_ENCODE = 2,
+    FOR_DECODE = 4,
+    FOR_WARP = 8,
+    FOR_MESH = 16,
+    FOR_CHECK = 32,
+    FOR_INFO = 64,
+    FOR_PLOT = 128,
+    FOR_ALL = 255
 };
 
 typedef struct command {

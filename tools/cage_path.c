@@ -1,7 +1,7 @@
 /* The data of an SVG path: one subpath of M L H V C S Q T Z, absolute or relative.
  *
- * Each curve becomes CURVE_SEGMENTS edges at equal steps of its parameter, whatever its size: so the
- * same path with moved points gives the same number of vertices, and they correspond. */
+ * Each curve becomes CURVE_SEGMENTS edges at equal steps of its parameter, whatever its size: so
+ * the same path with moved points gives the same number of vertices, and they correspond. */
 #include "cage.h"
 
 #include "number.h"
@@ -19,14 +19,16 @@ typedef struct pen {
     problem *wrong;
 } pen;
 
-static void skip_separators(pen *p) {
+static void skip_separators(pen *p)
+{
     while (p->at < p->end && strchr(" \t\r\n,", *p->at) != NULL) {
         p->line += *p->at == '\n';
         p->at++;
     }
 }
 
-static bool read_numbers(pen *p, size_t n, double *values) {
+static bool read_numbers(pen *p, size_t n, double *values)
+{
     for (size_t i = 0; i < n; i++) {
         skip_separators(p);
         char shown[32];
@@ -38,14 +40,16 @@ static bool read_numbers(pen *p, size_t n, double *values) {
     return true;
 }
 
-static void line_to(pen *p, double x, double y) {
+static void line_to(pen *p, double x, double y)
+{
     cage_add(p->out, x, y, p->line);
     p->x = p->handle_x = x;
     p->y = p->handle_y = y;
 }
 
 /* A cubic from the pen over (a, b), (c, d) to (x, y). */
-static void curve_to(pen *p, const double *abcdxy) {
+static void curve_to(pen *p, const double *abcdxy)
+{
     double x0 = p->x, y0 = p->y;
     for (int i = 1; i < CURVE_SEGMENTS; i++) {
         double t = (double)i / CURVE_SEGMENTS, s = 1 - t;
@@ -59,59 +63,89 @@ static void curve_to(pen *p, const double *abcdxy) {
 }
 
 /* A quadratic over (a, b), raised to a cubic. */
-static void quadratic_to(pen *p, double a, double b, double x, double y) {
+static void quadratic_to(pen *p, double a, double b, double x, double y)
+{
     curve_to(p, (double[]){p->x + (a - p->x) * 2 / 3, p->y + (b - p->y) * 2 / 3,
                            x + (a - x) * 2 / 3, y + (b - y) * 2 / 3, x, y});
     p->handle_x = a;
     p->handle_y = b;
 }
 
-static size_t numbers_of(char command) {
+static size_t numbers_of(char command)
+{
     switch (command) {
-    case 'M': case 'L': case 'T': return 2;
-    case 'H': case 'V': return 1;
-    case 'C': return 6;
-    case 'S': case 'Q': return 4;
-    default: return 0;
+    case 'M':
+    case 'L':
+    case 'T':
+        return 2;
+    case 'H':
+    case 'V':
+        return 1;
+    case 'C':
+        return 6;
+    case 'S':
+    case 'Q':
+        return 4;
+    default:
+        return 0;
     }
 }
 
 /* Draws one step. `previous` tells whether the mirrored handle of S and T counts. */
-static void draw(pen *p, char command, char previous, const double *v) {
+static void draw(pen *p, char command, char previous, const double *v)
+{
     bool after_cubic = previous == 'C' || previous == 'S';
     bool after_quadratic = previous == 'Q' || previous == 'T';
     double mx = 2 * p->x - p->handle_x, my = 2 * p->y - p->handle_y;
     switch (command) {
-    case 'M': case 'L': line_to(p, v[0], v[1]); break;
-    case 'H': line_to(p, v[0], p->y); break;
-    case 'V': line_to(p, p->x, v[0]); break;
-    case 'C': curve_to(p, v); break;
-    case 'S':
-        curve_to(p, (double[]){after_cubic ? mx : p->x, after_cubic ? my : p->y, v[0], v[1], v[2], v[3]});
+    case 'M':
+    case 'L':
+        line_to(p, v[0], v[1]);
         break;
-    case 'Q': quadratic_to(p, v[0], v[1], v[2], v[3]); break;
-    default: quadratic_to(p, after_quadratic ? mx : p->x, after_quadratic ? my : p->y, v[0], v[1]);
+    case 'H':
+        line_to(p, v[0], p->y);
+        break;
+    case 'V':
+        line_to(p, p->x, v[0]);
+        break;
+    case 'C':
+        curve_to(p, v);
+        break;
+    case 'S':
+        curve_to(p, (double[]){after_cubic ? mx : p->x, after_cubic ? my : p->y, v[0], v[1], v[2],
+                               v[3]});
+        break;
+    case 'Q':
+        quadratic_to(p, v[0], v[1], v[2], v[3]);
+        break;
+    default:
+        quadratic_to(p, after_quadratic ? mx : p->x, after_quadratic ? my : p->y, v[0], v[1]);
     }
 }
 
 /* Lower-case commands count from the pen. */
-static void make_absolute(const pen *p, char command, size_t n, double *v) {
+static void make_absolute(const pen *p, char command, size_t n, double *v)
+{
     for (size_t i = 0; i < n; i++)
         v[i] += command == 'V' || (command != 'H' && i % 2 == 1) ? p->y : p->x;
 }
 
 /* One command with all the groups of numbers that follow it. */
-static bool read_command(pen *p, char letter, char *previous) {
+static bool read_command(pen *p, char letter, char *previous)
+{
     char command = (char)(letter & ~0x20);
     size_t n = numbers_of(command);
     if (command == 'A')
-        return spoilt(p->wrong, p->line, "the path has an arc; convert it to lines or curves first");
+        return spoilt(p->wrong, p->line,
+                      "the path has an arc; convert it to lines or curves first");
     if (n == 0)
         return spoilt(p->wrong, p->line, "'%c' is not a command of a path",
                       letter > 32 && letter < 127 ? letter : '?');
     if ((command == 'M') != (p->out->n == 0))
-        return spoilt(p->wrong, p->line, p->out->n == 0 ? "the path does not begin with M"
-                      : "the path has several parts; a cage is one outline without holes");
+        return spoilt(p->wrong, p->line,
+                      p->out->n == 0
+                          ? "the path does not begin with M"
+                          : "the path has several parts; a cage is one outline without holes");
     bool relative = letter >= 'a';
     do {
         double v[6];
@@ -127,7 +161,8 @@ static bool read_command(pen *p, char letter, char *previous) {
     return true;
 }
 
-bool cage_read_path(cage *out, const char *data, const char *end, size_t line, problem *wrong) {
+bool cage_read_path(cage *out, const char *data, const char *end, size_t line, problem *wrong)
+{
     pen p = {.out = out, .at = data, .end = end, .line = line, .wrong = wrong};
     char previous = '\0';
     for (skip_separators(&p); p.at < p.end; skip_separators(&p)) {
@@ -139,7 +174,8 @@ bool cage_read_path(cage *out, const char *data, const char *end, size_t line, p
         }
         skip_separators(&p);
         if (p.at < p.end)
-            return spoilt(wrong, p.line, "the path goes on after Z; a cage is one outline without holes");
+            return spoilt(wrong, p.line,
+                          "the path goes on after Z; a cage is one outline without holes");
     }
     cage_open_ring(out);
     return true;

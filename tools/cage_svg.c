@@ -1,7 +1,7 @@
 /* Cages as SVG: the outline of a <path> or a <polygon>.
  *
- * Coordinates are taken as they are written, y downwards as in every picture. An element with the id
- * "source" or "target" is chosen by the role of the cage; else the file must have one shape only. A
+ * Coordinates are taken as they are written, y downwards as in every picture. An element with the
+ * id "source" or "target" is chosen by the role of the cage; else the file must have one shape only. A
  * transform on the shape or around it is refused, since reading on would misplace the cage. */
 #include "cage.h"
 
@@ -24,12 +24,14 @@ typedef struct shape {
     bool transformed;
 } shape;
 
-static bool is_named(const tag *t, const char *name) {
+static bool is_named(const tag *t, const char *name)
+{
     return t->n_name == strlen(name) && strncmp(t->name, name, t->n_name) == 0;
 }
 
 /* The '>' that ends a tag, minding quotes; NULL if there is none. */
-static const char *tag_end(const char *p) {
+static const char *tag_end(const char *p)
+{
     char quote = '\0';
     for (; *p != '\0'; p++) {
         if (quote != '\0')
@@ -43,7 +45,8 @@ static const char *tag_end(const char *p) {
 }
 
 /* The next tag at or behind p, comments and declarations left out; false at the end of the file. */
-static bool next_tag(const char *p, tag *out) {
+static bool next_tag(const char *p, tag *out)
+{
     while ((p = strchr(p, '<')) != NULL) {
         if (strncmp(p, "<!--", 4) == 0) {
             p = strstr(p + 4, "-->");
@@ -69,7 +72,8 @@ static bool next_tag(const char *p, tag *out) {
 }
 
 /* The value of an attribute: from the result up to *end; NULL if the tag does not have it. */
-static const char *attribute(const tag *t, const char *name, const char **end) {
+static const char *attribute(const tag *t, const char *name, const char **end)
+{
     const char *p = t->name + t->n_name;
     size_t n = strlen(name);
     while (p < t->end) {
@@ -97,13 +101,16 @@ static const char *attribute(const tag *t, const char *name, const char **end) {
     return NULL;
 }
 
-static bool has_id(const tag *t, const char *id) {
+static bool has_id(const tag *t, const char *id)
+{
     const char *end, *value = attribute(t, "id", &end);
-    return value != NULL && (size_t)(end - value) == strlen(id) && strncmp(value, id, strlen(id)) == 0;
+    return value != NULL && (size_t)(end - value) == strlen(id) &&
+           strncmp(value, id, strlen(id)) == 0;
 }
 
 /* Finds the shape to read. Tags nest; `outer` is the depth of the outermost open transform. */
-static shape find_shape(const char *text, cage_role role) {
+static shape find_shape(const char *text, cage_role role)
+{
     shape found = {0};
     size_t depth = 0, outer = 0;
     tag t;
@@ -132,7 +139,8 @@ static shape find_shape(const char *text, cage_role role) {
     return found;
 }
 
-static bool read_polygon(cage *out, const char *p, const char *end, size_t line, problem *wrong) {
+static bool read_polygon(cage *out, const char *p, const char *end, size_t line, problem *wrong)
+{
     double xy[2];
     size_t n = 0;
     for (;;) {
@@ -153,7 +161,8 @@ static bool read_polygon(cage *out, const char *p, const char *end, size_t line,
     return true;
 }
 
-bool cage_read_svg(cage *out, cage_role role, const char *text, size_t n, problem *wrong) {
+bool cage_read_svg(cage *out, cage_role role, const char *text, size_t n, problem *wrong)
+{
     (void)n;
     const char *id = cage_role_name(role), *end = NULL;
     shape found = find_shape(text, role);

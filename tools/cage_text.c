@@ -3,7 +3,8 @@
 
 #include "table.h"
 
-bool cage_read_text(cage *out, const char *text, size_t n, problem *wrong) {
+bool cage_read_text(cage *out, const char *text, size_t n, problem *wrong)
+{
     static const table_form form = {.columns = 2, .what = "a vertex is `x y`, one per line"};
     table rows;
     bool good = table_read(&rows, text, n, &form, wrong);

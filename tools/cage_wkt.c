@@ -13,7 +13,8 @@ typedef struct reader {
 
 static const char blanks[] = " \t\r\n";
 
-static bool next_is(reader *r, char c) {
+static bool next_is(reader *r, char c)
+{
     r->at += strspn(r->at, blanks);
     if (*r->at != c)
         return false;
@@ -22,7 +23,8 @@ static bool next_is(reader *r, char c) {
 }
 
 /* Takes a word in capitals or not, if it comes next and ends there. */
-static bool next_word(reader *r, const char *word) {
+static bool next_word(reader *r, const char *word)
+{
     r->at += strspn(r->at, blanks);
     const char *p = r->at;
     for (; *word != '\0'; word++, p++)
@@ -34,17 +36,20 @@ static bool next_word(reader *r, const char *word) {
     return true;
 }
 
-static bool expect(reader *r, char c) {
+static bool expect(reader *r, char c)
+{
     char shown[32];
     if (next_is(r, c))
         return true;
     if (*r->at == '\0')
-        return spoilt(r->wrong, cage_line(r->text, r->at), "the text ends early; '%c' is missing", c);
+        return spoilt(r->wrong, cage_line(r->text, r->at), "the text ends early; '%c' is missing",
+                      c);
     return spoilt(r->wrong, cage_line(r->text, r->at), "'%s' where '%c' is expected",
                   quoted(shown, r->at), c);
 }
 
-static bool read_number(reader *r, double *value) {
+static bool read_number(reader *r, double *value)
+{
     r->at += strspn(r->at, blanks);
     char shown[32];
     const char *word = r->at;
@@ -55,7 +60,8 @@ static bool read_number(reader *r, double *value) {
                   kind == NUMBER_NOT_FINITE ? "finite number" : "number");
 }
 
-static bool read_ring(reader *r, cage *out) {
+static bool read_ring(reader *r, cage *out)
+{
     if (!expect(r, '('))
         return false;
     size_t line = 1;
@@ -71,7 +77,8 @@ static bool read_ring(reader *r, cage *out) {
     return expect(r, ')');
 }
 
-static bool read_type(reader *r) {
+static bool read_type(reader *r)
+{
     size_t line = cage_line(r->text, r->at);
     if (next_word(r, "SRID")) {
         r->at += strcspn(r->at, ";");
@@ -88,7 +95,8 @@ static bool read_type(reader *r) {
     return true;
 }
 
-bool cage_read_wkt(cage *out, const char *text, size_t n, problem *wrong) {
+bool cage_read_wkt(cage *out, const char *text, size_t n, problem *wrong)
+{
     reader r = {.text = text, .at = text, .wrong = wrong};
     if (n >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0)
         r.at += 3;
@@ -96,8 +104,9 @@ bool cage_read_wkt(cage *out, const char *text, size_t n, problem *wrong) {
     if (!read_type(&r) || !expect(&r, '(') || !read_ring(&r, out))
         return false;
     if (next_is(&r, ','))
-        return spoilt(wrong, cage_line(text, r.at), "the polygon has a hole; cut it open into parts "
-                                                    "without holes and make one map per part");
+        return spoilt(wrong, cage_line(text, r.at),
+                      "the polygon has a hole; cut it open into parts "
+                      "without holes and make one map per part");
     if (!expect(&r, ')'))
         return false;
     next_is(&r, ';');

@@ -18,19 +18,23 @@ typedef struct check {
     size_t n_dropped; /* by --repair */
 } check;
 
-static const char *kind_name(int32_t kind) {
-    static const char *const names[] = {"unknown", "not_finite", "repeated", "spike", "crossing", "touch", "flat"};
+static const char *kind_name(int32_t kind)
+{
+    static const char *const names[] = {"unknown",  "not_finite", "repeated", "spike",
+                                        "crossing", "touch",      "flat"};
     return kind >= ICC_DEFECT_NOT_FINITE && kind <= ICC_DEFECT_FLAT ? names[kind] : names[0];
 }
 
-static int find_defects(check *c) {
+static int find_defects(check *c)
+{
     c->n_defects = 0;
     for (size_t side = 0; side < 2; side++) {
         icc_error err = {.size = sizeof err, .index = -1, .side = (int32_t)side + 1};
         defects_free(&c->defects[side]);
         if (c->job.cages[side].n == 0)
             continue;
-        if (defects_find(&c->defects[side], &c->job.cages[side], 0, NULL, &c->job.env, &err) != ICC_OK)
+        if (defects_find(&c->defects[side], &c->job.cages[side], 0, NULL, &c->job.env, &err) !=
+            ICC_OK)
             return job_failed(&c->job, &err);
         c->n_defects += c->defects[side].n;
     }
@@ -38,7 +42,8 @@ static int find_defects(check *c) {
     return DONE;
 }
 
-static void print_defects(const check *c) {
+static void print_defects(const check *c)
+{
     for (size_t side = 0; side < 2; side++)
         for (size_t i = 0; i < c->defects[side].n; i++) {
             const cage *at = &c->job.cages[side];
@@ -51,17 +56,21 @@ static void print_defects(const check *c) {
         }
 }
 
-static void print_domains(const check *c) {
+static void print_domains(const check *c)
+{
     for (size_t side = 0; side < 2; side++) {
         icc_domain_info info = {.size = sizeof info};
-        if (c->job.domains[side] == NULL || icc_domain_get_info(c->job.domains[side], &info) != ICC_OK)
+        if (c->job.domains[side] == NULL ||
+            icc_domain_get_info(c->job.domains[side], &info) != ICC_OK)
             continue;
-        printf("%s: a simple polygon, %zu vertices, %s, area %.17g\n", job_file(&c->job, (int)side + 1),
-               info.n_vertices, info.orientation > 0 ? "counter-clockwise" : "clockwise", info.measure);
+        printf("%s: a simple polygon, %zu vertices, %s, area %.17g\n",
+               job_file(&c->job, (int)side + 1), info.n_vertices,
+               info.orientation > 0 ? "counter-clockwise" : "clockwise", info.measure);
     }
 }
 
-static int write_report(const check *c, bool certified) {
+static int write_report(const check *c, bool certified)
+{
     report r;
     if (!report_open(&r, &c->job))
         return FAILED;
@@ -88,21 +97,24 @@ static int write_report(const check *c, bool certified) {
 /* ------------------------------------------------------------------ repair */
 
 /* Marks the vertices that repeat another or end a spike. */
-static size_t mark_superfluous(const check *c, unsigned char *drop) {
+static size_t mark_superfluous(const check *c, unsigned char *drop)
+{
     size_t n = 0;
     for (size_t side = 0; side < 2; side++)
         for (size_t i = 0; i < c->defects[side].n; i++) {
             int32_t kind = c->defects[side].kinds[i];
             if (kind != ICC_DEFECT_REPEATED && kind != ICC_DEFECT_SPIKE)
                 continue;
-            uint32_t vertex = c->defects[side].items[2 * i + 1]; /* of two repeated ones the later */
+            uint32_t vertex =
+                c->defects[side].items[2 * i + 1]; /* of two repeated ones the later */
             n += drop[vertex] == 0;
             drop[vertex] = 1;
         }
     return n;
 }
 
-static void drop_vertices(cage *c, const unsigned char *drop) {
+static void drop_vertices(cage *c, const unsigned char *drop)
+{
     size_t kept = 0;
     for (size_t i = 0; i < c->n; i++) {
         if (drop[i])
@@ -115,7 +127,8 @@ static void drop_vertices(cage *c, const unsigned char *drop) {
 
 /* Drops vertices in both cages alike, so that they go on to correspond, until none is superfluous:
  * a spike whose tip is gone may leave a repeated vertex behind. */
-static int drop_superfluous(check *c) {
+static int drop_superfluous(check *c)
+{
     for (;;) {
         size_t n = c->job.cages[0].n;
         unsigned char *drop = need(n, 1);
@@ -126,7 +139,8 @@ static int drop_superfluous(check *c) {
                 drop_vertices(&c->job.cages[side], drop);
         free(drop);
         if (!enough)
-            return failed(c->job.args->source, 0, "fewer than 3 vertices would be left after the repair");
+            return failed(c->job.args->source, 0,
+                          "fewer than 3 vertices would be left after the repair");
         c->n_dropped += n_marked;
         if (n_marked == 0)
             return DONE;
@@ -135,9 +149,13 @@ static int drop_superfluous(check *c) {
     }
 }
 
-static void write_feature(FILE *stream, const cage *c, cage_role role) {
-    fprintf(stream, "{\"type\": \"Feature\", \"properties\": {\"role\": \"%s\"},\n \"geometry\": {\"type\": \"Polygon\", "
-                    "\"coordinates\": [[", cage_role_name(role));
+static void write_feature(FILE *stream, const cage *c, cage_role role)
+{
+    fprintf(stream,
+            "{\"type\": \"Feature\", \"properties\": {\"role\": \"%s\"},\n \"geometry\": "
+            "{\"type\": \"Polygon\", "
+            "\"coordinates\": [[",
+            cage_role_name(role));
     for (size_t i = 0; i <= c->n; i++) {
         const double *p = c->points + 2 * (i % c->n);
         fprintf(stream, "%s\n  [%.17g, %.17g]", i > 0 ? "," : "", p[0], p[1]);
@@ -146,10 +164,12 @@ static void write_feature(FILE *stream, const cage *c, cage_role role) {
 }
 
 /* One cage as text; two, or a name that ends in .geojson or .json, as a FeatureCollection. */
-static int write_cages(const check *c) {
+static int write_cages(const check *c)
+{
     const cage *cages = c->job.cages;
     const char *name = c->job.args->repair, *dot = strrchr(name, '.');
-    bool geojson = cages[1].n > 0 || (dot != NULL && (strcmp(dot, ".geojson") == 0 || strcmp(dot, ".json") == 0));
+    bool geojson = cages[1].n > 0 ||
+                   (dot != NULL && (strcmp(dot, ".geojson") == 0 || strcmp(dot, ".json") == 0));
     outfile file;
     if (!outfile_open(&file, name))
         return FAILED;
@@ -167,29 +187,34 @@ static int write_cages(const check *c) {
     return outfile_close(&file) ? DONE : FAILED;
 }
 
-static int repair(check *c) {
+static int repair(check *c)
+{
     size_t n_found = c->n_defects;
     int result = drop_superfluous(c);
     if (result != DONE)
         return result;
     if (c->n_defects > 0)
-        return failed(c->job.args->source, 0, "%zu of %zu defects remain when %zu vertices are dropped, so nothing was "
-                                              "written; mend the crossings by hand",
+        return failed(c->job.args->source, 0,
+                      "%zu of %zu defects remain when %zu vertices are dropped, so nothing was "
+                      "written; mend the crossings by hand",
                       c->n_defects, n_found, c->n_dropped);
     return write_cages(c);
 }
 
 /* ---------------------------------------------------------------- the whole */
 
-static int verdict_on_defects(check *c) {
+static int verdict_on_defects(check *c)
+{
     if (c->job.args->json && write_report(c, false) != DONE)
         return FAILED;
     bool first = c->defects[0].n > 0;
     return failed(job_file(&c->job, first ? 1 : 2), 0, "%zu defect%s%s; see the list", c->n_defects,
-                  c->n_defects == 1 ? "" : "s", first && c->defects[1].n > 0 ? " in both cages" : "");
+                  c->n_defects == 1 ? "" : "s",
+                  first && c->defects[1].n > 0 ? " in both cages" : "");
 }
 
-static int verdict_on_method(check *c) {
+static int verdict_on_method(check *c)
+{
     int result = c->job.args->target != NULL ? job_make_map(&c->job) : job_make_domains(&c->job);
     progress_end(&c->job.bar);
     if (result != DONE)
@@ -198,11 +223,13 @@ static int verdict_on_method(check *c) {
         return FAILED;
     if (!c->job.args->json)
         print_domains(c);
-    return failed(c->job.args->source, 0, "the cages are valid, but the method gradient is not certifiable: its curves "
-                                          "merge ('libicc info' tells how much)");
+    return failed(c->job.args->source, 0,
+                  "the cages are valid, but the method gradient is not certifiable: its curves "
+                  "merge ('libicc info' tells how much)");
 }
 
-static int run(check *c) {
+static int run(check *c)
+{
     int result = job_read_cages(&c->job);
     if (result == DONE)
         result = find_defects(c);
@@ -217,7 +244,8 @@ static int run(check *c) {
     return result == DONE ? verdict_on_method(c) : result;
 }
 
-int run_check(const args *a) {
+int run_check(const args *a)
+{
     check c = {0};
     job_start(&c.job, a);
     int result = run(&c);

@@ -1,7 +1,7 @@
 /* libicc encode, libicc decode: Cartesian coordinates to integral curve coordinates and back.
  *
- * A row of coordinates is `facet b0 b1 t`: the curve starts on the edge from vertex `facet` (from 0)
- * at b0 of that vertex plus b1 of the next one, and the point lies at the share t of its length. */
+ * A row of coordinates is `facet b0 b1 t`: the curve starts on the edge from vertex `facet` (from
+ * 0) at b0 of that vertex plus b1 of the next one, and the point lies at the share t of its length. */
 #include "commands.h"
 
 #include "memory.h"
@@ -17,7 +17,8 @@ typedef struct coordinates {
     icc_status *status;
 } coordinates;
 
-static coordinates coordinates_make(size_t n) {
+static coordinates coordinates_make(size_t n)
+{
     return (coordinates){
         .facet = need(n, sizeof(uint32_t)),
         .bary = need(n, 2 * sizeof(double)),
@@ -26,15 +27,17 @@ static coordinates coordinates_make(size_t n) {
     };
 }
 
-static void coordinates_free(coordinates *c) {
+static void coordinates_free(coordinates *c)
+{
     free(c->facet);
     free(c->bary);
     free(c->t);
     free(c->status);
 }
 
-static int finish(job *j, const coordinates *c, icc_status ran, size_t n, size_t columns, const double *rows,
-                  double began, const char *what) {
+static int finish(job *j, const coordinates *c, icc_status ran, size_t n, size_t columns,
+                  const double *rows, double began, const char *what)
+{
     double seconds = seconds_now() - began;
     progress_end(&j->bar);
     if (ran != ICC_OK)
@@ -48,11 +51,13 @@ static int finish(job *j, const coordinates *c, icc_status ran, size_t n, size_t
     return result == DONE ? job_partial(j, n, c->status, what) : result;
 }
 
-static int encode(job *j, const table *points) {
+static int encode(job *j, const table *points)
+{
     size_t n = points->n;
     coordinates c = coordinates_make(n);
     double *rows = need(n, 4 * sizeof *rows), began = seconds_now();
-    icc_status ran = icc_chart_encode(j->chart, n, points->values, c.facet, c.bary, c.t, c.status, NULL, &j->env);
+    icc_status ran = icc_chart_encode(j->chart, n, points->values, c.facet, c.bary, c.t, c.status,
+                                      NULL, &j->env);
     for (size_t i = 0; ran == ICC_OK && i < n; i++) {
         rows[4 * i] = c.status[i] == ICC_OK ? (double)c.facet[i] : NAN;
         rows[4 * i + 1] = c.bary[2 * i];
@@ -66,14 +71,16 @@ static int encode(job *j, const table *points) {
 }
 
 /* Splits the rows into the library's arrays. A row of NaN is a point that encode did not find. */
-static int take_rows(const job *j, const table *rows, coordinates *c) {
+static int take_rows(const job *j, const table *rows, coordinates *c)
+{
     for (size_t i = 0; i < rows->n; i++) {
         const double *row = rows->values + 4 * i;
         c->facet[i] = UINT32_MAX;
         if (!isnan(row[0])) {
             if (!(row[0] >= 0 && row[0] < (double)j->cages[0].n && floor(row[0]) == row[0]))
-                return failed(j->args->coords, rows->lines[i], "%.17g is not an edge; the cage has the edges 0 to %zu",
-                              row[0], j->cages[0].n - 1);
+                return failed(j->args->coords, rows->lines[i],
+                              "%.17g is not an edge; the cage has the edges 0 to %zu", row[0],
+                              j->cages[0].n - 1);
             c->facet[i] = (uint32_t)row[0];
         }
         c->bary[2 * i] = row[1];
@@ -83,13 +90,15 @@ static int take_rows(const job *j, const table *rows, coordinates *c) {
     return DONE;
 }
 
-static int decode(job *j, const table *rows) {
+static int decode(job *j, const table *rows)
+{
     size_t n = rows->n;
     coordinates c = coordinates_make(n);
     double *points = need(n, 2 * sizeof *points), began = seconds_now();
     int result = take_rows(j, rows, &c);
     if (result == DONE) {
-        icc_status ran = icc_chart_decode(j->chart, n, c.facet, c.bary, c.t, points, c.status, NULL, &j->env);
+        icc_status ran =
+            icc_chart_decode(j->chart, n, c.facet, c.bary, c.t, points, c.status, NULL, &j->env);
         result = finish(j, &c, ran, n, 2, points, began, "coordinates");
     }
     free(points);
@@ -97,7 +106,9 @@ static int decode(job *j, const table *rows) {
     return result;
 }
 
-static int run(const args *a, const char *name, const table_form *form, int (*code)(job *, const table *)) {
+static int run(const args *a, const char *name, const table_form *form,
+               int (*code)(job *, const table *))
+{
     job j;
     table rows;
     job_start(&j, a);
@@ -112,12 +123,16 @@ static int run(const args *a, const char *name, const table_form *form, int (*co
     return result;
 }
 
-int run_encode(const args *a) {
-    static const table_form form = {.columns = 2, .special = true, .what = "a point is `x y`, one per line"};
+int run_encode(const args *a)
+{
+    static const table_form form = {
+        .columns = 2, .special = true, .what = "a point is `x y`, one per line"};
     return run(a, a->points, &form, encode);
 }
 
-int run_decode(const args *a) {
-    static const table_form form = {.columns = 4, .special = true, .what = "coordinates are `facet b0 b1 t`, one row per line"};
+int run_decode(const args *a)
+{
+    static const table_form form = {
+        .columns = 4, .special = true, .what = "coordinates are `facet b0 b1 t`, one row per line"};
     return run(a, a->coords, &form, decode);
 }

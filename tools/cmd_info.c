@@ -24,20 +24,24 @@ typedef struct info {
     map_shares shares;
 } info;
 
-static const char *method_name(int32_t method) {
+static const char *method_name(int32_t method)
+{
     return method == ICC_METHOD_GRADIENT ? "gradient" : "unknown";
 }
 
-static const char *function_name(int32_t function) {
+static const char *function_name(int32_t function)
+{
     return function == ICC_FUNCTION_DISTANCE ? "distance" : "decay";
 }
 
-static const char *tree_name(int32_t tree) {
+static const char *tree_name(int32_t tree)
+{
     return tree == ICC_TREE_PAPER ? "paper" : "thesis";
 }
 
 /* Collapsed: less than a billionth of the mean change of area is left. */
-static void add_sign(map_shares *s, const double *jacobian, double mean) {
+static void add_sign(map_shares *s, const double *jacobian, double mean)
+{
     const double collapse = 1e-9;
     double det = jacobian[0] * jacobian[3] - jacobian[1] * jacobian[2];
     double one = 1.0 / (double)s->n;
@@ -49,11 +53,13 @@ static void add_sign(map_shares *s, const double *jacobian, double mean) {
         s->inverted += one;
 }
 
-static int measure_map(info *x) {
+static int measure_map(info *x)
+{
     job *j = &x->job;
     icc_domain_info target = {.size = sizeof target};
     icc_domain_get_info(j->domains[1], &target);
-    double *points = need(N_SAMPLES, 2 * sizeof *points), *jacobians = need(N_SAMPLES, 4 * sizeof *jacobians);
+    double *points = need(N_SAMPLES, 2 * sizeof *points),
+           *jacobians = need(N_SAMPLES, 4 * sizeof *jacobians);
     x->shares.n = sample_inside(j->domains[0], N_SAMPLES, points, &j->env);
     icc_status ran = icc_map_jacobian(j->map, x->shares.n, points, jacobians, NULL, NULL, &j->env);
     for (size_t i = 0; i < x->shares.n && ran == ICC_OK; i++)
@@ -63,7 +69,8 @@ static int measure_map(info *x) {
     return ran == ICC_OK ? DONE : job_failed_status(j, ran);
 }
 
-static int gather(info *x) {
+static int gather(info *x)
+{
     job *j = &x->job;
     bool pair = j->args->target != NULL;
     int result = pair ? job_make_map(j) : job_make_chart(j);
@@ -80,37 +87,50 @@ static int gather(info *x) {
     return result;
 }
 
-static void print_domain(const info *x) {
+static void print_domain(const info *x)
+{
     const icc_domain_info *d = &x->domain;
     printf("cage        %zu vertices, %s, area %.17g\n", d->n_vertices,
            d->orientation > 0 ? "counter-clockwise" : "clockwise", d->measure);
-    printf("box         %.17g %.17g to %.17g %.17g\n", d->lower[0], d->lower[1], d->upper[0], d->upper[1]);
+    printf("box         %.17g %.17g to %.17g %.17g\n", d->lower[0], d->lower[1], d->upper[0],
+           d->upper[1]);
 }
 
-static void print_chart(const icc_chart_info *c) {
-    printf("method      %s, function %s, tree %s\n", method_name(c->method), function_name(c->function),
-           tree_name(c->tree));
-    printf("grid        %zu vertices, %zu inside, spacing %.17g\n", c->n_grid, c->n_inside, c->spacing);
+static void print_chart(const icc_chart_info *c)
+{
+    printf("method      %s, function %s, tree %s\n", method_name(c->method),
+           function_name(c->function), tree_name(c->tree));
+    printf("grid        %zu vertices, %zu inside, spacing %.17g\n", c->n_grid, c->n_inside,
+           c->spacing);
     printf("maximum     %.17g %.17g\n", c->maximum[0], c->maximum[1]);
-    printf("tree        %zu vertices, %zu unreachable, %zu cousin violations\n", c->n_tree, c->n_unreachable,
-           c->n_cousin_violations);
-    printf("critical    %zu maxima, %zu minima, %zu saddles\n", c->n_maxima, c->n_minima, c->n_saddles);
-    printf("edges       %zu, of which %zu compression, %zu expansion\n", c->n_edges, c->n_compression, c->n_expansion);
+    printf("tree        %zu vertices, %zu unreachable, %zu cousin violations\n", c->n_tree,
+           c->n_unreachable, c->n_cousin_violations);
+    printf("critical    %zu maxima, %zu minima, %zu saddles\n", c->n_maxima, c->n_minima,
+           c->n_saddles);
+    printf("edges       %zu, of which %zu compression, %zu expansion\n", c->n_edges,
+           c->n_compression, c->n_expansion);
 }
 
-static void print_shares(const info *x) {
+static void print_shares(const info *x)
+{
     const icc_chart_measures *m = &x->measures;
-    printf("unreachable %6.2f %% of the area: no curve through it reaches both boundary and maximum\n", 100 * m->unreachable);
-    printf("uncovered   %6.2f %% of the area: no curve from the boundary enters it\n", 100 * m->uncovered);
-    printf("collapsed   %6.2f %% of the coordinates: on lines where curves have merged\n", 100 * m->collapsed);
-    printf("not inward  %6.2f %% of the boundary: the gradient does not point inward\n", 100 * m->not_inward);
+    printf(
+        "unreachable %6.2f %% of the area: no curve through it reaches both boundary and maximum\n",
+        100 * m->unreachable);
+    printf("uncovered   %6.2f %% of the area: no curve from the boundary enters it\n",
+           100 * m->uncovered);
+    printf("collapsed   %6.2f %% of the coordinates: on lines where curves have merged\n",
+           100 * m->collapsed);
+    printf("not inward  %6.2f %% of the boundary: the gradient does not point inward\n",
+           100 * m->not_inward);
     if (x->shares.n == 0)
         return;
     printf("map         %6.2f %% of the area collapses, %.2f %% inverts, %.2f %% has no image\n",
            100 * x->shares.collapsed, 100 * x->shares.inverted, 100 * x->shares.without_image);
 }
 
-static void report_chart(json *j, const icc_chart_info *c) {
+static void report_chart(json *j, const icc_chart_info *c)
+{
     json_text(j, "method", method_name(c->method));
     json_text(j, "function", function_name(c->function));
     json_text(j, "tree_form", tree_name(c->tree));
@@ -132,7 +152,8 @@ static void report_chart(json *j, const icc_chart_info *c) {
     json_count(j, "expansion_edges", c->n_expansion);
 }
 
-static void report_shares(json *j, const info *x) {
+static void report_shares(json *j, const info *x)
+{
     json_open(j, "shares", '{');
     json_number(j, "unreachable", x->measures.unreachable);
     json_number(j, "uncovered", x->measures.uncovered);
@@ -149,11 +170,13 @@ static void report_shares(json *j, const info *x) {
     json_close(j, '}');
 }
 
-static int write_report(const info *x) {
+static int write_report(const info *x)
+{
     report r;
     if (!report_open(&r, &x->job))
         return FAILED;
-    json_text(&r.json, "orientation", x->domain.orientation > 0 ? "counter-clockwise" : "clockwise");
+    json_text(&r.json, "orientation",
+              x->domain.orientation > 0 ? "counter-clockwise" : "clockwise");
     json_number(&r.json, "area", x->domain.measure);
     report_chart(&r.json, &x->chart);
     report_shares(&r.json, x);
@@ -167,19 +190,24 @@ static int write_report(const info *x) {
     return report_close(&r) ? DONE : FAILED;
 }
 
-static int print(const info *x) {
+static int print(const info *x)
+{
     if (x->job.args->json)
         return write_report(x);
     print_domain(x);
     print_chart(&x->chart);
     print_shares(x);
-    printf("seconds     read %.4f, grid %.4f, tree %.4f, function %.4f, all %.4f\n", x->job.seconds_read,
-           x->chart.seconds_grid, x->chart.seconds_tree, x->chart.seconds_field, seconds_now() - x->job.started);
+    printf("seconds     read %.4f, grid %.4f, tree %.4f, function %.4f, all %.4f\n",
+           x->job.seconds_read, x->chart.seconds_grid, x->chart.seconds_tree,
+           x->chart.seconds_field, seconds_now() - x->job.started);
     return DONE;
 }
 
-int run_info(const args *a) {
-    info x = {.domain = {.size = sizeof x.domain}, .chart = {.size = sizeof x.chart}, .measures = {.size = sizeof x.measures}};
+int run_info(const args *a)
+{
+    info x = {.domain = {.size = sizeof x.domain},
+              .chart = {.size = sizeof x.chart},
+              .measures = {.size = sizeof x.measures}};
     job_start(&x.job, a);
     int result = gather(&x);
     if (result == DONE)

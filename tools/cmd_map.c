@@ -6,7 +6,8 @@
 
 #include <stdlib.h>
 
-static int map_points(job *j, table *points) {
+static int map_points(job *j, table *points)
+{
     size_t n_failed = 0;
     icc_status *status = need(points->n, sizeof *status);
     double began = seconds_now();
@@ -25,8 +26,10 @@ static int map_points(job *j, table *points) {
     return result;
 }
 
-int run_map(const args *a) {
-    static const table_form form = {.columns = 2, .special = true, .what = "a point is `x y`, one per line"};
+int run_map(const args *a)
+{
+    static const table_form form = {
+        .columns = 2, .special = true, .what = "a point is `x y`, one per line"};
     job j;
     table points;
     job_start(&j, a);

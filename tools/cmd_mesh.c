@@ -15,18 +15,22 @@ typedef struct tally {
     size_t kept, inverted, collapsed, flat_before, without_image;
 } tally;
 
-static bool has_image(const double *points, const uint32_t *triangle) {
+static bool has_image(const double *points, const uint32_t *triangle)
+{
     for (size_t k = 0; k < 3; k++)
         if (isnan(points[2 * triangle[k]]))
             return false;
     return true;
 }
 
-static int triangle_sign(const double *points, const uint32_t *triangle) {
-    return orientation(points + 2 * triangle[0], points + 2 * triangle[1], points + 2 * triangle[2]);
+static int triangle_sign(const double *points, const uint32_t *triangle)
+{
+    return orientation(points + 2 * triangle[0], points + 2 * triangle[1],
+                       points + 2 * triangle[2]);
 }
 
-static tally count(const mesh_file *m, const double *images) {
+static tally count(const mesh_file *m, const double *images)
+{
     tally t = {0};
     for (size_t i = 0; i < m->n_triangles; i++) {
         const uint32_t *triangle = m->triangles + 3 * i;
@@ -47,10 +51,12 @@ static tally count(const mesh_file *m, const double *images) {
     return t;
 }
 
-static int report_tally(const job *j, const mesh_file *m, const tally *t, size_t n_failed) {
+static int report_tally(const job *j, const mesh_file *m, const tally *t, size_t n_failed)
+{
     char text[256];
     snprintf(text, sizeof text,
-             "%zu triangles: %zu keep their orientation, %zu inverted, %zu collapsed, %zu flat before, %zu without image",
+             "%zu triangles: %zu keep their orientation, %zu inverted, %zu collapsed, %zu flat "
+             "before, %zu without image",
              m->n_triangles, t->kept, t->inverted, t->collapsed, t->flat_before, t->without_image);
     if (!j->args->json) {
         if (strcmp(j->args->operands[1], "-") == 0)
@@ -75,7 +81,8 @@ static int report_tally(const job *j, const mesh_file *m, const tally *t, size_t
     return report_close(&r) ? DONE : FAILED;
 }
 
-static int write_mesh(const job *j, const mesh_file *m, const double *images) {
+static int write_mesh(const job *j, const mesh_file *m, const double *images)
+{
     outfile file;
     if (!outfile_open(&file, j->args->operands[1]))
         return FAILED;
@@ -83,12 +90,13 @@ static int write_mesh(const job *j, const mesh_file *m, const double *images) {
     return outfile_close(&file) ? DONE : FAILED;
 }
 
-static int map_mesh(job *j, const mesh_file *m) {
+static int map_mesh(job *j, const mesh_file *m)
+{
     size_t n = m->n_vertices, n_failed;
     double *images = need(n, 2 * sizeof *images);
     icc_status *status = need(n, sizeof *status);
-    icc_status ran = (j->args->inverse ? icc_map_apply_inverse : icc_map_apply)(j->map, n, m->points, images, status,
-                                                                               &n_failed, &j->env);
+    icc_status ran = (j->args->inverse ? icc_map_apply_inverse : icc_map_apply)(
+        j->map, n, m->points, images, status, &n_failed, &j->env);
     progress_end(&j->bar);
     int result = ran == ICC_OK ? DONE : job_failed_status(j, ran);
     if (result == DONE)
@@ -104,7 +112,8 @@ static int map_mesh(job *j, const mesh_file *m) {
     return result;
 }
 
-static int run_job(job *j, const args *a) {
+static int run_job(job *j, const args *a)
+{
     int result = job_make_map(j);
     size_t n;
     char *text = result == DONE ? file_read(a->operands[0], &n) : NULL;
@@ -121,7 +130,8 @@ static int run_job(job *j, const args *a) {
     return result;
 }
 
-int run_mesh(const args *a) {
+int run_mesh(const args *a)
+{
     job j;
     job_start(&j, a);
     int result = run_job(&j, a);

@@ -26,25 +26,29 @@ typedef struct plot {
 } plot;
 
 /* The shapes are drawn with the same longest side. */
-static int lay_out(plot *x) {
+static int lay_out(plot *x)
+{
     x->height = 0;
     for (size_t side = 0; side < x->n_sides; side++) {
         const icc_domain_info *box = &x->stages[side].box;
         double width = box->upper[0] - box->lower[0], height = box->upper[1] - box->lower[1];
         double scale = panel_size / fmax(width, height);
         if (!(isfinite(scale) && scale > 0 && isfinite(width) && isfinite(height)))
-            return failed(job_file(&x->job, (int)side + 1), 0, "the shape is too large or too small to draw");
+            return failed(job_file(&x->job, (int)side + 1), 0,
+                          "the shape is too large or too small to draw");
         x->widths[side] = fmax(scale * width, (x->rows[ROW_SURFACE] ? 0.8 : 0.4) * panel_size);
         x->height = fmax(x->height, fmax(scale * height, 0.2 * panel_size));
     }
     return DONE;
 }
 
-static double row_height(const plot *x, int what) {
+static double row_height(const plot *x, int what)
+{
     return what == ROW_SURFACE ? 0.7 * panel_size : x->height;
 }
 
-static double row_top(const plot *x, int what) {
+static double row_top(const plot *x, int what)
+{
     double top = margin;
     for (int above = 0; above < what; above++)
         top += x->rows[above] ? row_height(x, above) + caption + margin : 0;
@@ -52,10 +56,14 @@ static double row_top(const plot *x, int what) {
 }
 
 /* The panel in a row and column; a shape is centred in its box, a surface fills it. */
-static panel make_panel(const plot *x, int what, size_t side) {
+static panel make_panel(const plot *x, int what, size_t side)
+{
     const icc_domain_info *box = &x->stages[side].box;
     double width = box->upper[0] - box->lower[0], height = box->upper[1] - box->lower[1];
-    panel p = {.svg = x->svg, .stages = &x->stages[side], .side = (int)side + 1, .y_down = x->job.args->y_down};
+    panel p = {.svg = x->svg,
+               .stages = &x->stages[side],
+               .side = (int)side + 1,
+               .y_down = x->job.args->y_down};
     snprintf(p.clip, sizeof p.clip, "shape-%d-%zu", what, side);
     p.scale = panel_size / fmax(width, height);
     p.width = what == ROW_SURFACE ? x->widths[side] : p.scale * width;
@@ -65,32 +73,46 @@ static panel make_panel(const plot *x, int what, size_t side) {
     return p;
 }
 
-static int draw_pattern(plot *x, const panel *p, pattern what) {
+static int draw_pattern(plot *x, const panel *p, pattern what)
+{
     places *from = &x->places[p->side == 2];
     int result = from->points == NULL ? places_make(from, p, &x->job) : DONE;
     return result == DONE ? plot_pattern(p, &x->job, from, what) : result;
 }
 
-static int draw_panel(plot *x, int what, size_t side) {
-    static const char *const captions[N_ROWS] = {"function and integral curves", "elevation", "checkerboard", "uv map"};
+static int draw_panel(plot *x, int what, size_t side)
+{
+    static const char *const captions[N_ROWS] = {"function and integral curves", "elevation",
+                                                 "checkerboard", "uv map"};
     panel p = make_panel(x, what, side);
     char label[64];
-    snprintf(label, sizeof label, "%s%s", x->n_sides == 1 ? "" : side == 0 ? "source: " : "target: ", captions[what]);
-    svg_label(x->svg, p.left + p.width / 2, row_top(x, what) + row_height(x, what) + caption, label);
+    snprintf(label, sizeof label, "%s%s",
+             x->n_sides == 1 ? ""
+             : side == 0     ? "source: "
+                             : "target: ",
+             captions[what]);
+    svg_label(x->svg, p.left + p.width / 2, row_top(x, what) + row_height(x, what) + caption,
+              label);
     plot_clip(&p, &x->job.cages[side]);
     switch (what) {
-    case ROW_SHAPE: return plot_shape(&p, &x->job);
-    case ROW_SURFACE: return plot_surface(&p, &x->job);
-    case ROW_CHECKERBOARD: return draw_pattern(x, &p, PATTERN_CHECKERBOARD);
-    default: return draw_pattern(x, &p, PATTERN_UV);
+    case ROW_SHAPE:
+        return plot_shape(&p, &x->job);
+    case ROW_SURFACE:
+        return plot_surface(&p, &x->job);
+    case ROW_CHECKERBOARD:
+        return draw_pattern(x, &p, PATTERN_CHECKERBOARD);
+    default:
+        return draw_pattern(x, &p, PATTERN_UV);
     }
 }
 
-static int draw(plot *x) {
+static int draw(plot *x)
+{
     int result = lay_out(x);
     if (result != DONE)
         return result;
-    svg_begin(x->svg, margin + x->widths[0] + margin + (x->n_sides > 1 ? x->widths[1] + margin : 0), row_top(x, N_ROWS));
+    svg_begin(x->svg, margin + x->widths[0] + margin + (x->n_sides > 1 ? x->widths[1] + margin : 0),
+              row_top(x, N_ROWS));
     for (int what = 0; what < N_ROWS; what++)
         for (size_t side = 0; side < x->n_sides && x->rows[what] && result == DONE; side++)
             result = draw_panel(x, what, side);
@@ -98,7 +120,8 @@ static int draw(plot *x) {
     return result;
 }
 
-static int write_drawing(plot *x) {
+static int write_drawing(plot *x)
+{
     outfile file;
     if (!outfile_open(&file, x->job.args->operands[0]))
         return FAILED;
@@ -106,7 +129,8 @@ static int write_drawing(plot *x) {
     return outfile_close(&file) ? DONE : FAILED;
 }
 
-static int make_stages(plot *x) {
+static int make_stages(plot *x)
+{
     bool pair = x->job.args->target != NULL;
     int result = pair ? job_make_map(&x->job) : job_make_chart(&x->job);
     x->rows[ROW_SHAPE] = true;
@@ -118,7 +142,8 @@ static int make_stages(plot *x) {
     return result;
 }
 
-static int make_drawing(plot *x) {
+static int make_drawing(plot *x)
+{
     x->svg = open_memstream(&x->text, &x->n_text);
     if (x->svg == NULL)
         return failed(NULL, 0, "not enough memory for the drawing");
@@ -129,7 +154,8 @@ static int make_drawing(plot *x) {
     return result == DONE && !good ? failed(NULL, 0, "not enough memory for the drawing") : result;
 }
 
-int run_plot(const args *a) {
+int run_plot(const args *a)
+{
     plot x = {0};
     double began = seconds_now();
     job_start(&x.job, a);

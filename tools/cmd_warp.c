@@ -29,7 +29,8 @@ typedef struct warp {
 } warp;
 
 /* Marks the pixels whose centre lies in the target cage, row by row. */
-static int find_inside(warp *w) {
+static int find_inside(warp *w)
+{
     size_t width = w->to.width;
     double *centres = need(width, 2 * sizeof *centres);
     int32_t *where = need(width, sizeof *where);
@@ -51,7 +52,8 @@ static int find_inside(warp *w) {
 }
 
 /* Maps the centres of the pixels inside back to the source. */
-static int find_origins(warp *w) {
+static int find_origins(warp *w)
+{
     size_t n_all = w->to.width * w->to.height, n = 0;
     double *points = need(w->n_pixels, 2 * sizeof *points);
     w->status = need(w->n_pixels, sizeof *w->status);
@@ -60,7 +62,8 @@ static int find_origins(warp *w) {
             points[2 * n] = (double)(i % w->to.width) + 0.5;
             points[2 * n++ + 1] = (double)(i / w->to.width) + 0.5;
         }
-    icc_status ran = icc_map_apply_inverse(w->job.map, n, points, points, w->status, &w->n_failed, &w->job.env);
+    icc_status ran =
+        icc_map_apply_inverse(w->job.map, n, points, points, w->status, &w->n_failed, &w->job.env);
     n = 0;
     for (size_t i = 0; i < n_all; i++) {
         bool found = ran == ICC_OK && w->inside[i];
@@ -72,20 +75,25 @@ static int find_origins(warp *w) {
     return ran == ICC_OK ? DONE : job_failed_status(&w->job, ran);
 }
 
-static double distance(const warp *w, size_t i, size_t k) {
+static double distance(const warp *w, size_t i, size_t k)
+{
     return hypot(w->origin[2 * i] - w->origin[2 * k], w->origin[2 * i + 1] - w->origin[2 * k + 1]);
 }
 
 /* How many samples a side pixel i takes. Of the two neighbours along an axis the nearer one counts:
  * at a jump of the map the other one tells nothing about this pixel. fmin passes over NaN. */
-static size_t samples_a_side(const warp *w, size_t i) {
+static size_t samples_a_side(const warp *w, size_t i)
+{
     size_t width = w->to.width, x = i % width, y = i / width;
-    double across = fmin(x > 0 ? distance(w, i, i - 1) : NAN, x + 1 < width ? distance(w, i, i + 1) : NAN);
+    double across =
+        fmin(x > 0 ? distance(w, i, i - 1) : NAN, x + 1 < width ? distance(w, i, i + 1) : NAN);
     double down = fmin(y > 0 ? distance(w, i, i - width) : NAN,
                        y + 1 < w->to.height ? distance(w, i, i + width) : NAN);
     double step = fmax(across, down);
     /* 1.05: a plain rotation or shift, with its rounding, stays sharp. */
-    return !(step > 1.05) ? 1 : step >= MAX_SAMPLES_A_SIDE ? MAX_SAMPLES_A_SIDE : (size_t)ceil(step);
+    return !(step > 1.05)               ? 1
+           : step >= MAX_SAMPLES_A_SIDE ? MAX_SAMPLES_A_SIDE
+                                        : (size_t)ceil(step);
 }
 
 /* A batch of pixels that take several samples. */
@@ -94,11 +102,13 @@ typedef struct batch {
     size_t n_points, n_pixels;
     struct {
         size_t pixel, side;
-    } *pixels;
+    } * pixels;
 } batch;
 
-static icc_status finish_batch(warp *w, batch *b) {
-    icc_status ran = icc_map_apply_inverse(w->job.map, b->n_points, b->points, b->points, NULL, NULL, &w->job.env);
+static icc_status finish_batch(warp *w, batch *b)
+{
+    icc_status ran = icc_map_apply_inverse(w->job.map, b->n_points, b->points, b->points, NULL,
+                                           NULL, &w->job.env);
     const double *p = b->points;
     for (size_t k = 0; k < b->n_pixels && ran == ICC_OK; k++) {
         size_t i = b->pixels[k].pixel;
@@ -114,18 +124,23 @@ static icc_status finish_batch(warp *w, batch *b) {
     return ran;
 }
 
-static void add_to_batch(const warp *w, batch *b, size_t i, size_t side) {
+static void add_to_batch(const warp *w, batch *b, size_t i, size_t side)
+{
     b->pixels[b->n_pixels].pixel = i;
     b->pixels[b->n_pixels++].side = side;
     for (size_t s = 0; s < side * side; s++) {
-        b->points[2 * b->n_points] = (double)(i % w->to.width) + ((double)(s % side) + 0.5) / (double)side;
-        b->points[2 * b->n_points++ + 1] = (double)(i / w->to.width) + ((double)(s / side) + 0.5) / (double)side;
+        b->points[2 * b->n_points] =
+            (double)(i % w->to.width) + ((double)(s % side) + 0.5) / (double)side;
+        b->points[2 * b->n_points++ + 1] =
+            (double)(i / w->to.width) + ((double)(s / side) + 0.5) / (double)side;
     }
 }
 
-static int paint(warp *w) {
+static int paint(warp *w)
+{
     size_t n_all = w->to.width * w->to.height;
-    batch b = {.points = need(MAX_BATCH, 2 * sizeof *b.points), .pixels = need(MAX_BATCH, sizeof *b.pixels)};
+    batch b = {.points = need(MAX_BATCH, 2 * sizeof *b.points),
+               .pixels = need(MAX_BATCH, sizeof *b.pixels)};
     icc_status ran = ICC_OK;
     for (size_t i = 0; i < n_all && ran == ICC_OK; i++) {
         if (isnan(w->origin[2 * i]))
@@ -149,14 +164,16 @@ static int paint(warp *w) {
 }
 
 /* Outside the cage, and where there is no image, the background shows. */
-static void clear(warp *w) {
+static void clear(warp *w)
+{
     const unsigned char *rgba = w->job.args->background;
     for (size_t i = 0; i < w->to.width * w->to.height; i++)
         if (isnan(w->origin[2 * i]))
             picture_set(&w->to, i, rgba);
 }
 
-static int read_picture(warp *w) {
+static int read_picture(warp *w)
+{
     const args *a = w->job.args;
     size_t n;
     char *bytes = file_read(a->operands[0], &n);
@@ -168,7 +185,8 @@ static int read_picture(warp *w) {
     if (!good)
         return failed(a->operands[0], 0, "%s", wrong.text);
     if (a->has_background)
-        picture_widen(&w->from, a->background[0] != a->background[1] || a->background[0] != a->background[2],
+        picture_widen(&w->from,
+                      a->background[0] != a->background[1] || a->background[0] != a->background[2],
                       a->background[3] < 255);
     w->to = picture_copy(&w->from);
     w->inside = need(w->to.width * w->to.height, 1);
@@ -176,7 +194,8 @@ static int read_picture(warp *w) {
     return DONE;
 }
 
-static int write_picture(const warp *w) {
+static int write_picture(const warp *w)
+{
     const char *name = w->job.args->operands[1];
     problem wrong;
     size_t n;
@@ -193,7 +212,8 @@ static int write_picture(const warp *w) {
     return result;
 }
 
-static int warp_picture(warp *w) {
+static int warp_picture(warp *w)
+{
     double began = seconds_now();
     int result = find_inside(w);
     if (result == DONE)
@@ -212,7 +232,8 @@ static int warp_picture(warp *w) {
     return result == DONE ? job_partial(&w->job, w->n_pixels, w->status, "pixels") : result;
 }
 
-int run_warp(const args *a) {
+int run_warp(const args *a)
+{
     warp w = {0};
     job_start(&w.job, a);
     int result = job_make_map(&w.job);

@@ -13,8 +13,8 @@ typedef struct defect_list {
 } defect_list;
 
 /* Lists at most `limit` defects (0: all); `n_all`, if wanted, tells how many there are. */
-icc_status defects_find(defect_list *out, const cage *c, size_t limit, size_t *n_all, const icc_env *env,
-                        icc_error *err);
+icc_status defects_find(defect_list *out, const cage *c, size_t limit, size_t *n_all,
+                        const icc_env *env, icc_error *err);
 
 void defects_free(defect_list *list);
 

@@ -12,7 +12,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static char *read_stream(FILE *stream, size_t *n) {
+static char *read_stream(FILE *stream, size_t *n)
+{
     char *text = NULL;
     size_t room = 0, got;
     *n = 0;
@@ -25,7 +26,8 @@ static char *read_stream(FILE *stream, size_t *n) {
     return text;
 }
 
-char *file_read(const char *name, size_t *n) {
+char *file_read(const char *name, size_t *n)
+{
     bool standard = strcmp(name, "-") == 0;
     FILE *stream = standard ? stdin : fopen(name, "rb");
     if (stream == NULL) {
@@ -46,12 +48,14 @@ char *file_read(const char *name, size_t *n) {
 }
 
 /* A rename would turn a device or a link into a plain file, so those are written directly. */
-static bool is_plain_or_absent(const char *name) {
+static bool is_plain_or_absent(const char *name)
+{
     struct stat info;
     return lstat(name, &info) != 0 || S_ISREG(info.st_mode);
 }
 
-static FILE *open_beside(const char *name, char **temporary) {
+static FILE *open_beside(const char *name, char **temporary)
+{
     size_t n = strlen(name) + 32;
     char *path = need(n, 1);
     snprintf(path, n, "%s.%ld.part", name, (long)getpid());
@@ -63,7 +67,8 @@ static FILE *open_beside(const char *name, char **temporary) {
     return stream;
 }
 
-bool outfile_open(outfile *out, const char *name) {
+bool outfile_open(outfile *out, const char *name)
+{
     *out = (outfile){.name = name};
     if (strcmp(name, "-") == 0)
         out->stream = stdout;
@@ -78,7 +83,8 @@ bool outfile_open(outfile *out, const char *name) {
     return false;
 }
 
-bool outfile_close(outfile *out) {
+bool outfile_close(outfile *out)
+{
     bool good = fflush(out->stream) == 0 && !ferror(out->stream);
     int why = errno;
     if (out->stream != stdout && fclose(out->stream) != 0 && good) {
@@ -98,7 +104,8 @@ bool outfile_close(outfile *out) {
     return good;
 }
 
-void outfile_abandon(outfile *out) {
+void outfile_abandon(outfile *out)
+{
     if (out->stream != stdout)
         fclose(out->stream);
     if (out->temporary != NULL)

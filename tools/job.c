@@ -9,15 +9,19 @@
 #include <string.h>
 #include <unistd.h>
 
-void job_start(job *j, const args *a) {
+void job_start(job *j, const args *a)
+{
     long processors = sysconf(_SC_NPROCESSORS_ONLN);
     *j = (job){.args = a, .started = seconds_now()};
     progress_start(&j->bar, a->quiet);
     j->env = (icc_env){.size = sizeof j->env, .user = &j->bar, .progress = progress_show};
-    j->env.threads = a->threads > 0 ? a->threads : processors > 0 && processors < 1024 ? (int32_t)processors : 1;
+    j->env.threads = a->threads > 0                        ? a->threads
+                     : processors > 0 && processors < 1024 ? (int32_t)processors
+                                                           : 1;
 }
 
-void job_end(job *j) {
+void job_end(job *j)
+{
     progress_end(&j->bar);
     icc_map_free(j->map);
     icc_chart_free(j->chart);
@@ -27,11 +31,13 @@ void job_end(job *j) {
     }
 }
 
-const char *job_file(const job *j, int side) {
+const char *job_file(const job *j, int side)
+{
     return side == 2 && j->args->target != NULL ? j->args->target : j->args->source;
 }
 
-int job_failed(job *j, const icc_error *err) {
+int job_failed(job *j, const icc_error *err)
+{
     progress_end(&j->bar);
     const cage *c = &j->cages[err->side == 2];
     size_t line = 0;
@@ -41,12 +47,14 @@ int job_failed(job *j, const icc_error *err) {
     return failed(job_file(j, err->side), line, "%s", message);
 }
 
-int job_failed_status(job *j, icc_status status) {
+int job_failed_status(job *j, icc_status status)
+{
     icc_error err = {.size = sizeof err, .status = status, .index = -1};
     return job_failed(j, &err);
 }
 
-static int read_cage(job *j, size_t side) {
+static int read_cage(job *j, size_t side)
+{
     const char *name = job_file(j, (int)side + 1);
     size_t n;
     char *text = file_read(name, &n);
@@ -58,7 +66,8 @@ static int read_cage(job *j, size_t side) {
     return good ? DONE : failed(name, wrong.line, "%s", wrong.text);
 }
 
-int job_read_cages(job *j) {
+int job_read_cages(job *j)
+{
     if (j->cages[0].n > 0)
         return DONE;
     int result = read_cage(j, 0);
@@ -66,14 +75,16 @@ int job_read_cages(job *j) {
         return result;
     result = read_cage(j, 1);
     if (result == DONE && j->cages[0].n != j->cages[1].n)
-        return failed(j->args->target, 0, "%zu vertices, but the source %s has %zu; they correspond one by one",
+        return failed(j->args->target, 0,
+                      "%zu vertices, but the source %s has %zu; they correspond one by one",
                       j->cages[1].n, j->args->source, j->cages[0].n);
     j->seconds_read = seconds_now() - j->started;
     return result;
 }
 
 /* A boundary that is no boundary: names the first defect by its line, and counts the others. */
-static int failed_boundary(job *j, size_t side, const icc_error *err) {
+static int failed_boundary(job *j, size_t side, const icc_error *err)
+{
     const cage *c = &j->cages[side];
     defect_list list;
     size_t n_all;
@@ -83,22 +94,26 @@ static int failed_boundary(job *j, size_t side, const icc_error *err) {
     char text[200], more[80] = "";
     if (n_all > 1)
         snprintf(more, sizeof more, " (%zu defects in all; 'libicc check' lists them)", n_all);
-    failed(job_file(j, (int)side + 1), c->lines[list.items[0]], "%s%s", defect_text(text, &list, 0, c), more);
+    failed(job_file(j, (int)side + 1), c->lines[list.items[0]], "%s%s",
+           defect_text(text, &list, 0, c), more);
     defects_free(&list);
     return FAILED;
 }
 
-static int make_domain(job *j, size_t side) {
+static int make_domain(job *j, size_t side)
+{
     const cage *c = &j->cages[side];
     icc_error err = {.size = sizeof err, .index = -1};
-    icc_status status = icc_domain_create(&j->domains[side], 2, c->n, c->points, 0, NULL, &j->env, &err);
+    icc_status status =
+        icc_domain_create(&j->domains[side], 2, c->n, c->points, 0, NULL, &j->env, &err);
     if (status == ICC_OK)
         return DONE;
     err.side = (int32_t)side + 1;
     return status == ICC_ERR_BOUNDARY ? failed_boundary(j, side, &err) : job_failed(j, &err);
 }
 
-int job_make_domains(job *j) {
+int job_make_domains(job *j)
+{
     int result = job_read_cages(j);
     for (size_t side = 0; side < 2 && result == DONE; side++)
         if (j->cages[side].n > 0 && j->domains[side] == NULL)
@@ -106,7 +121,8 @@ int job_make_domains(job *j) {
     return result;
 }
 
-static icc_chart_options chart_options(const args *a) {
+static icc_chart_options chart_options(const args *a)
+{
     return (icc_chart_options){
         .size = sizeof(icc_chart_options),
         .method = a->method,
@@ -117,7 +133,8 @@ static icc_chart_options chart_options(const args *a) {
     };
 }
 
-int job_make_chart(job *j) {
+int job_make_chart(job *j)
+{
     int result = job_make_domains(j);
     if (result != DONE)
         return result;
@@ -130,7 +147,8 @@ int job_make_chart(job *j) {
     return DONE;
 }
 
-int job_make_map(job *j) {
+int job_make_map(job *j)
+{
     int result = job_make_domains(j);
     if (result != DONE)
         return result;
@@ -146,7 +164,8 @@ int job_make_map(job *j) {
     return DONE;
 }
 
-int job_partial(job *j, size_t n, const icc_status *status, const char *what) {
+int job_partial(job *j, size_t n, const icc_status *status, const char *what)
+{
     size_t n_failed = 0, n_outside = 0;
     for (size_t i = 0; i < n; i++) {
         n_failed += status[i] != ICC_OK;
@@ -155,12 +174,13 @@ int job_partial(job *j, size_t n, const icc_status *status, const char *what) {
     progress_end(&j->bar);
     if (n_failed == 0)
         return DONE;
-    note("%zu of %zu %s have no image: %zu outside the cage, %zu that the curves do not reach", n_failed, n,
-         what, n_outside, n_failed - n_outside);
+    note("%zu of %zu %s have no image: %zu outside the cage, %zu that the curves do not reach",
+         n_failed, n, what, n_outside, n_failed - n_outside);
     return PARTIAL;
 }
 
-bool report_open(report *r, const job *j) {
+bool report_open(report *r, const job *j)
+{
     if (!outfile_open(&r->file, j->args->json_file))
         return false;
     r->json = (json){.stream = r->file.stream, .first = true};
@@ -174,12 +194,14 @@ bool report_open(report *r, const job *j) {
     return true;
 }
 
-bool report_close(report *r) {
+bool report_close(report *r)
+{
     json_close(&r->json, '}');
     return outfile_close(&r->file);
 }
 
-int report_points(const job *j, size_t n, size_t n_failed, double seconds) {
+int report_points(const job *j, size_t n, size_t n_failed, double seconds)
+{
     report r;
     if (!j->args->json)
         return DONE;

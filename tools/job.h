@@ -22,8 +22,8 @@ typedef struct job {
     double started, seconds_read, seconds_made;
 } job;
 
-/* The functions below return DONE, or FAILED with a line on stderr. Each does what it needs unless it
- * has been done. A job is to be ended in any case. */
+/* The functions below return DONE, or FAILED with a line on stderr. Each does what it needs unless
+ * it has been done. A job is to be ended in any case. */
 void job_start(job *j, const args *a);
 void job_end(job *j);
 

@@ -2,7 +2,8 @@
 
 #include <math.h>
 
-static void write_string(FILE *stream, const char *text) {
+static void write_string(FILE *stream, const char *text)
+{
     fputc('"', stream);
     for (const char *c = text; *c != '\0'; c++) {
         if (*c == '"' || *c == '\\')
@@ -15,7 +16,8 @@ static void write_string(FILE *stream, const char *text) {
     fputc('"', stream);
 }
 
-static void begin(json *j, const char *name) {
+static void begin(json *j, const char *name)
+{
     if (j->depth > 0)
         fprintf(j->stream, "%s\n%*s", j->first ? "" : ",", (int)(2 * j->depth), "");
     j->first = false;
@@ -25,14 +27,16 @@ static void begin(json *j, const char *name) {
     }
 }
 
-void json_open(json *j, const char *name, char bracket) {
+void json_open(json *j, const char *name, char bracket)
+{
     begin(j, name);
     fputc(bracket, j->stream);
     j->depth++;
     j->first = true;
 }
 
-void json_close(json *j, char bracket) {
+void json_close(json *j, char bracket)
+{
     j->depth--;
     if (!j->first)
         fprintf(j->stream, "\n%*s", (int)(2 * j->depth), "");
@@ -42,22 +46,26 @@ void json_close(json *j, char bracket) {
         fputc('\n', j->stream);
 }
 
-void json_text(json *j, const char *name, const char *value) {
+void json_text(json *j, const char *name, const char *value)
+{
     begin(j, name);
     write_string(j->stream, value);
 }
 
-void json_count(json *j, const char *name, size_t value) {
+void json_count(json *j, const char *name, size_t value)
+{
     begin(j, name);
     fprintf(j->stream, "%zu", value);
 }
 
-void json_flag(json *j, const char *name, bool value) {
+void json_flag(json *j, const char *name, bool value)
+{
     begin(j, name);
     fputs(value ? "true" : "false", j->stream);
 }
 
-void json_number(json *j, const char *name, double value) {
+void json_number(json *j, const char *name, double value)
+{
     begin(j, name);
     if (isfinite(value))
         fprintf(j->stream, "%.17g", value);

@@ -14,7 +14,7 @@ typedef struct json {
 
 /* Each takes the name of a member, or NULL inside a list. */
 void json_open(json *j, const char *name, char bracket); /* '{' or '[' */
-void json_close(json *j, char bracket);                   /* '}' or ']' */
+void json_close(json *j, char bracket);                  /* '}' or ']' */
 void json_text(json *j, const char *name, const char *value);
 void json_count(json *j, const char *name, size_t value);
 void json_flag(json *j, const char *name, bool value);

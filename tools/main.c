@@ -9,62 +9,97 @@
 #include <string.h>
 
 static const command commands[] = {
-    {.name = "map", .bit = FOR_MAP, .needs_target = true, .run = run_map,
+    {.name = "map",
+     .bit = FOR_MAP,
+     .needs_target = true,
+     .run = run_map,
      .usage = "--source FILE --target FILE [OPTION]... < POINTS > IMAGES",
      .summary = "Carries points along with their cage",
-     .details = "Reads one point `x y` per line and writes its image per line, in the same order. A point\n"
-                "without an image gives `nan nan`; the exit code is then 4. Blank lines and lines that\n"
-                "begin with # are left out.\n"},
-    {.name = "encode", .bit = FOR_ENCODE, .run = run_encode,
+     .details =
+         "Reads one point `x y` per line and writes its image per line, in the same order. A "
+         "point\n"
+         "without an image gives `nan nan`; the exit code is then 4. Blank lines and lines that\n"
+         "begin with # are left out.\n"},
+    {.name = "encode",
+     .bit = FOR_ENCODE,
+     .run = run_encode,
      .usage = "--source FILE [OPTION]... < POINTS > COORDINATES",
      .summary = "Gives the integral curve coordinates of points",
-     .details = "Writes `facet b0 b1 t` per point `x y`: its curve starts on the edge from vertex `facet`\n"
-                "(counted from 0), at b0 of that vertex plus b1 of the next; t is the share of the curve's\n"
+     .details = "Writes `facet b0 b1 t` per point `x y`: its curve starts on the edge from vertex "
+                "`facet`\n"
+                "(counted from 0), at b0 of that vertex plus b1 of the next; t is the share of the "
+                "curve's\n"
                 "length from there to the point.\n"},
-    {.name = "decode", .bit = FOR_DECODE, .run = run_decode,
+    {.name = "decode",
+     .bit = FOR_DECODE,
+     .run = run_decode,
      .usage = "--source FILE [OPTION]... < COORDINATES > POINTS",
      .summary = "Gives the points of integral curve coordinates",
      .details = "The inverse of `libicc encode`.\n"},
-    {.name = "warp", .bit = FOR_WARP, .n_operands = 2, .needs_target = true, .run = run_warp,
+    {.name = "warp",
+     .bit = FOR_WARP,
+     .n_operands = 2,
+     .needs_target = true,
+     .run = run_warp,
      .usage = "--source FILE --target FILE [OPTION]... IN.png OUT.png",
      .summary = "Warps a picture inside a cage",
-     .details = "Cages are in pixels: x to the right, y down, pixel (i, j) covers [i, i+1] x [j, j+1]. A pixel\n"
-                "whose centre lies in the target cage gets the colour that the map brings there; all others\n"
-                "stay as they are. PNG of any kind goes in; grey or RGB, with or without alpha, 8 or 16 bits\n"
+     .details = "Cages are in pixels: x to the right, y down, pixel (i, j) covers [i, i+1] x [j, "
+                "j+1]. A pixel\n"
+                "whose centre lies in the target cage gets the colour that the map brings there; "
+                "all others\n"
+                "stay as they are. PNG of any kind goes in; grey or RGB, with or without alpha, 8 "
+                "or 16 bits\n"
                 "comes out.\n"},
-    {.name = "mesh", .bit = FOR_MESH, .n_operands = 2, .needs_target = true, .run = run_mesh,
+    {.name = "mesh",
+     .bit = FOR_MESH,
+     .n_operands = 2,
+     .needs_target = true,
+     .run = run_mesh,
      .usage = "--source FILE --target FILE [OPTION]... IN OUT",
      .summary = "Carries the vertices of a mesh along",
-     .details = "OBJ and OFF, in the plane (a third coordinate is kept). Says how many triangles keep their\n"
+     .details = "OBJ and OFF, in the plane (a third coordinate is kept). Says how many triangles "
+                "keep their\n"
                 "orientation, and how many invert or collapse, with exact signs.\n"},
-    {.name = "check", .bit = FOR_CHECK, .run = run_check,
+    {.name = "check",
+     .bit = FOR_CHECK,
+     .run = run_check,
      .usage = "--source FILE [--target FILE] [OPTION]...",
      .summary = "Checks cages and certifies the map between them",
-     .details = "Lists every crossing, contact, spike and repeated vertex, one per line. Exit code 0 means\n"
+     .details = "Lists every crossing, contact, spike and repeated vertex, one per line. Exit code "
+                "0 means\n"
                 "certified to be one-to-one; the method gradient cannot be, so it gives 1.\n"},
-    {.name = "info", .bit = FOR_INFO, .run = run_info,
+    {.name = "info",
+     .bit = FOR_INFO,
+     .run = run_info,
      .usage = "--source FILE [--target FILE] [OPTION]...",
      .summary = "Tells what a chart is made of, and what it misses",
      .details = "With a target it also tells what share of the area collapses or inverts.\n"},
-    {.name = "plot", .bit = FOR_PLOT, .n_operands = 1, .run = run_plot,
+    {.name = "plot",
+     .bit = FOR_PLOT,
+     .n_operands = 1,
+     .run = run_plot,
      .usage = "--source FILE [--target FILE] [OPTION]... OUT.svg",
      .summary = "Draws cage, function, tree, maximum and integral curves",
-     .details = "With a target: both shapes side by side, and below them a checkerboard and the u v map that\n"
+     .details = "With a target: both shapes side by side, and below them a checkerboard and the u "
+                "v map that\n"
                 "the target inherits.\n"},
 };
 enum { N_COMMANDS = sizeof commands / sizeof *commands };
 
-static void print_help(void) {
+static void print_help(void)
+{
     puts("Usage: libicc COMMAND [OPTION]...\n\n"
          "Carries everything inside a shape along when its boundary moves.\n\nCommands:");
     for (size_t i = 0; i < N_COMMANDS; i++)
         printf("  %-8s %s\n", commands[i].name, commands[i].summary);
     puts("\n'libicc COMMAND --help' tells about a command; 'libicc --version' prints the version.\n"
-         "Exit codes: 0 done; 1 the input or the computation failed; 2 wrong usage; 4 done, but some\n"
+         "Exit codes: 0 done; 1 the input or the computation failed; 2 wrong usage; 4 done, but "
+         "some\n"
          "points have no image.\n(Not related to ICC colour profiles.)");
 }
 
-static int run_command(const command *c, int argc, char **argv) {
+static int run_command(const command *c, int argc, char **argv)
+{
     args a;
     bool help;
     int result = args_parse(&a, c, argc, argv, &help);
@@ -76,15 +111,19 @@ static int run_command(const command *c, int argc, char **argv) {
 }
 
 /* Whatever was printed must have arrived. */
-static int flushed(int result) {
+static int flushed(int result)
+{
     if (fflush(stdout) != 0 || ferror(stdout))
-        return result == DONE || result == PARTIAL ? failed("-", 0, "output cannot be written") : result;
+        return result == DONE || result == PARTIAL ? failed("-", 0, "output cannot be written")
+                                                   : result;
     return result;
 }
 
-int main(int argc, char **argv) {
+int main(int argc, char **argv)
+{
     if (argc < 2)
-        return misused(NULL, "which command? one of map, encode, decode, warp, mesh, check, info, plot");
+        return misused(NULL,
+                       "which command? one of map, encode, decode, warp, mesh, check, info, plot");
     const char *name = argv[1];
     for (size_t i = 0; i < N_COMMANDS; i++)
         if (strcmp(name, commands[i].name) == 0)

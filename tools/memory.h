@@ -4,7 +4,7 @@
 
 #include <stddef.h>
 
-/* n * size bytes, all zero; never NULL, free() it. Prints one line and exits 1 when there is none. */
+/* n * size bytes, all zero; never NULL, free() it. Says so and exits 1 when there is no memory. */
 void *need(size_t n, size_t size);
 
 /* Makes room for at least `wanted` items in an array of *capacity, which at least doubles. */

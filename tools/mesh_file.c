@@ -15,7 +15,8 @@ typedef struct lines {
     problem *wrong;
 } lines;
 
-static bool first_line(lines *r, mesh_file *mesh, problem *wrong) {
+static bool first_line(lines *r, mesh_file *mesh, problem *wrong)
+{
     *r = (lines){.mesh = mesh, .at = mesh->text, .line = 1, .wrong = wrong};
     if (strncmp(r->at, "\xef\xbb\xbf", 3) == 0)
         r->at += 3;
@@ -23,7 +24,8 @@ static bool first_line(lines *r, mesh_file *mesh, problem *wrong) {
     return mesh->n_text > 0;
 }
 
-static bool next_line(lines *r) {
+static bool next_line(lines *r)
+{
     if (*r->end == '\0')
         return false;
     r->at = r->end + 1;
@@ -32,22 +34,26 @@ static bool next_line(lines *r) {
     return *r->at != '\0';
 }
 
-static void skip_blanks(lines *r) {
+static void skip_blanks(lines *r)
+{
     r->at += strspn(r->at, " \t\r");
     if (*r->at == '#')
         r->at = r->end;
 }
 
-static bool next_number(lines *r, double *value) {
+static bool next_number(lines *r, double *value)
+{
     skip_blanks(r);
     char shown[32];
     const char *word = r->at;
-    if (r->at < r->end && number_read(&r->at, value) == NUMBER_OK && strchr(" \t\r\n", *r->at) != NULL)
+    if (r->at < r->end && number_read(&r->at, value) == NUMBER_OK &&
+        strchr(" \t\r\n", *r->at) != NULL)
         return true;
     return spoilt(r->wrong, r->line, "'%s' is not a finite number", quoted(shown, word));
 }
 
-static bool add_vertex(lines *r) {
+static bool add_vertex(lines *r)
+{
     mesh_file *m = r->mesh;
     m->points = grow(m->points, &m->room_points, 2 * (m->n_vertices + 1), sizeof *m->points);
     m->spans = grow(m->spans, &m->room_spans, 2 * (m->n_vertices + 1), sizeof *m->spans);
@@ -60,31 +66,37 @@ static bool add_vertex(lines *r) {
     return true;
 }
 
-static void add_corner(mesh_file *m, uint32_t corners[3], size_t *n, uint32_t vertex) {
+static void add_corner(mesh_file *m, uint32_t corners[3], size_t *n, uint32_t vertex)
+{
     corners[*n < 3 ? *n : 2] = vertex;
     if (++*n < 3)
         return;
-    m->triangles = grow(m->triangles, &m->room_triangles, 3 * (m->n_triangles + 1), sizeof *m->triangles);
+    m->triangles =
+        grow(m->triangles, &m->room_triangles, 3 * (m->n_triangles + 1), sizeof *m->triangles);
     memcpy(m->triangles + 3 * m->n_triangles++, corners, 3 * sizeof *corners);
     corners[1] = vertex;
 }
 
 /* One corner of an OBJ face: v, v/vt, v//vn or v/vt/vn, from 1, or from -1 backwards. */
-static bool obj_corner(lines *r, uint32_t *vertex) {
+static bool obj_corner(lines *r, uint32_t *vertex)
+{
     double index;
     char shown[32];
     const char *word = r->at;
     double n = (double)r->mesh->n_vertices;
-    if (number_read(&r->at, &index) != NUMBER_OK || strchr("/ \t\r\n", *r->at) == NULL || floor(index) != index)
+    if (number_read(&r->at, &index) != NUMBER_OK || strchr("/ \t\r\n", *r->at) == NULL ||
+        floor(index) != index)
         return spoilt(r->wrong, r->line, "'%s' is not a corner of a face", quoted(shown, word));
     if (!(fabs(index) >= 1 && fabs(index) <= n))
-        return spoilt(r->wrong, r->line, "the face has the vertex %.17g; there are %.0f so far", index, n);
+        return spoilt(r->wrong, r->line, "the face has the vertex %.17g; there are %.0f so far",
+                      index, n);
     *vertex = (uint32_t)(index > 0 ? index - 1 : n + index);
     r->at += strcspn(r->at, " \t\r\n");
     return true;
 }
 
-static bool obj_face(lines *r) {
+static bool obj_face(lines *r)
+{
     uint32_t corners[3], vertex = 0;
     size_t n = 0;
     for (skip_blanks(r); r->at < r->end; skip_blanks(r)) {
@@ -95,7 +107,8 @@ static bool obj_face(lines *r) {
     return n >= 3 || spoilt(r->wrong, r->line, "the face has %zu corners", n);
 }
 
-static bool read_obj(lines *r) {
+static bool read_obj(lines *r)
+{
     do {
         skip_blanks(r);
         bool vertex = r->at[0] == 'v' && strchr(" \t", r->at[1]) != NULL;
@@ -108,24 +121,28 @@ static bool read_obj(lines *r) {
 }
 
 /* Moves to the next line of an OFF file that says something. */
-static bool off_line(lines *r) {
+static bool off_line(lines *r)
+{
     for (skip_blanks(r); r->at >= r->end; skip_blanks(r))
         if (!next_line(r))
             return spoilt(r->wrong, r->line, "the file ends early");
     return true;
 }
 
-static bool off_count(lines *r, double limit, uint32_t *count) {
+static bool off_count(lines *r, double limit, uint32_t *count)
+{
     double value;
     if (!next_number(r, &value))
         return false;
     if (!(value >= 0 && value < limit && floor(value) == value))
-        return spoilt(r->wrong, r->line, "%.17g where a whole number below %.17g is expected", value, limit);
+        return spoilt(r->wrong, r->line, "%.17g where a whole number below %.17g is expected",
+                      value, limit);
     *count = (uint32_t)value;
     return true;
 }
 
-static bool off_face(lines *r) {
+static bool off_face(lines *r)
+{
     uint32_t corners[3], vertex = 0, n_corners = 0;
     size_t n = 0;
     if (!off_line(r) || !off_count(r, 1e6, &n_corners))
@@ -139,7 +156,8 @@ static bool off_face(lines *r) {
     return n >= 3 || spoilt(r->wrong, r->line, "the face has %zu corners", n);
 }
 
-static bool read_off(lines *r) {
+static bool read_off(lines *r)
+{
     uint32_t n_vertices, n_faces;
     r->at += 3;
     if (!off_line(r) || !off_count(r, 4e9, &n_vertices) || !off_count(r, 4e9, &n_faces))
@@ -156,11 +174,14 @@ static bool read_off(lines *r) {
     return true;
 }
 
-bool mesh_read(mesh_file *out, const char *text, size_t n, problem *wrong) {
+bool mesh_read(mesh_file *out, const char *text, size_t n, problem *wrong)
+{
     *out = (mesh_file){.text = text, .n_text = n};
     lines r;
     if (!first_line(&r, out, wrong) || strlen(text) != n)
-        return spoilt(wrong, 0, n == 0 ? "the file is empty" : "this is not a text file; OBJ and OFF are read");
+        return spoilt(wrong, 0,
+                      n == 0 ? "the file is empty"
+                             : "this is not a text file; OBJ and OFF are read");
     bool off = strncmp(r.at, "OFF", 3) == 0 && strchr(" \t\r\n#", r.at[3]) != NULL;
     if (!(off ? read_off(&r) : read_obj(&r)))
         return false;
@@ -169,14 +190,16 @@ bool mesh_read(mesh_file *out, const char *text, size_t n, problem *wrong) {
     return true;
 }
 
-void mesh_free(mesh_file *m) {
+void mesh_free(mesh_file *m)
+{
     free(m->points);
     free(m->spans);
     free(m->triangles);
     *m = (mesh_file){0};
 }
 
-void mesh_write(const mesh_file *m, const double *points, FILE *stream) {
+void mesh_write(const mesh_file *m, const double *points, FILE *stream)
+{
     size_t done = 0;
     for (size_t i = 0; i < m->n_vertices; i++) {
         fwrite(m->text + done, 1, m->spans[2 * i] - done, stream);

@@ -5,18 +5,21 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool is_digit(char c) {
+static bool is_digit(char c)
+{
     return c >= '0' && c <= '9';
 }
 
-static const char *skip_digits(const char *p) {
+static const char *skip_digits(const char *p)
+{
     while (is_digit(*p))
         p++;
     return p;
 }
 
 /* The end of the decimal number at p, or NULL. strtod() alone takes more: blanks, 0x1p3, nan(7). */
-static const char *decimal_end(const char *p) {
+static const char *decimal_end(const char *p)
+{
     if (*p == '+' || *p == '-')
         p++;
     const char *whole = skip_digits(p);
@@ -40,7 +43,8 @@ static const char *decimal_end(const char *p) {
 }
 
 /* Length of a word for a number that is not finite, sign included, or 0. */
-static size_t special_length(const char *p) {
+static size_t special_length(const char *p)
+{
     static const char *const words[] = {"infinity", "inf", "nan"};
     size_t sign = *p == '+' || *p == '-';
     for (size_t w = 0; w < sizeof words / sizeof *words; w++) {
@@ -53,7 +57,8 @@ static size_t special_length(const char *p) {
     return 0;
 }
 
-number_kind number_read(const char **cursor, double *value) {
+number_kind number_read(const char **cursor, double *value)
+{
     const char *end = decimal_end(*cursor);
     if (end == NULL) {
         size_t special = special_length(*cursor);
@@ -66,7 +71,8 @@ number_kind number_read(const char **cursor, double *value) {
     return isfinite(*value) ? NUMBER_OK : NUMBER_NOT_FINITE;
 }
 
-number_kind number_parse(const char *text, double *value) {
+number_kind number_parse(const char *text, double *value)
+{
     number_kind kind = number_read(&text, value);
     return *text == '\0' ? kind : NUMBER_BAD;
 }

@@ -15,7 +15,8 @@ typedef struct expansion {
 } expansion;
 
 /* Adds a number exactly (GROW-EXPANSION with Knuth's two-sum), leaving zeros out. */
-static void add(expansion *e, double x) {
+static void add(expansion *e, double x)
+{
     int n = 0;
     for (int i = 0; i < e->n; i++) {
         double y = e->parts[i], sum = x + y, part = sum - x;
@@ -29,13 +30,15 @@ static void add(expansion *e, double x) {
     e->n = n;
 }
 
-static void add_product(expansion *e, double x, double y) {
+static void add_product(expansion *e, double x, double y)
+{
     double product = x * y;
     add(e, fma(x, y, -product));
     add(e, product);
 }
 
-static int exact(const double a[2], const double b[2], const double c[2]) {
+static int exact(const double a[2], const double b[2], const double c[2])
+{
     double size = 0, s[6] = {a[0], a[1], b[0], b[1], c[0], c[1]};
     int exponent;
     for (int i = 0; i < 6; i++)
@@ -54,7 +57,8 @@ static int exact(const double a[2], const double b[2], const double c[2]) {
     return e.n == 0 ? 0 : e.parts[e.n - 1] > 0 ? 1 : -1;
 }
 
-int orientation(const double a[2], const double b[2], const double c[2]) {
+int orientation(const double a[2], const double b[2], const double c[2])
+{
     /* (3 + 16 u) u with u = 2^-53, Shewchuk's bound A; it holds while nothing underflows. */
     const double bound = (3 + 8 * DBL_EPSILON) * (DBL_EPSILON / 2), tiny = 1e-280;
     double left = (a[0] - c[0]) * (b[1] - c[1]), right = (a[1] - c[1]) * (b[0] - c[0]);

@@ -9,7 +9,7 @@
 typedef struct panel {
     FILE *svg;
     const stages *stages;
-    int side; /* 1 source, 2 target */
+    int side;      /* 1 source, 2 target */
     char clip[48]; /* id of the shape's clip path */
     double left, top, width, height, scale;
     bool y_down;

@@ -1,5 +1,5 @@
-/* Figure 6 of the paper, first and second row: what a checkerboard and the coordinates u (red) and v
- * (green), painted on the source, become. */
+/* Figure 6 of the paper, first and second row: what a checkerboard and the coordinates u (red) and
+ * v (green), painted on the source, become. */
 #include "plot.h"
 
 #include "memory.h"
@@ -10,8 +10,11 @@
 
 enum { SQUARES = 16, SIDE = 2 /* samples a side of a pixel */ };
 
-static void pattern_colour(const icc_domain_info *box, pattern what, const double at[2], double rgb[3]) {
-    static const double light[3] = {244, 211, 120}, dark[3] = {60, 90, 160}, none[3] = {253, 205, 211};
+static void pattern_colour(const icc_domain_info *box, pattern what, const double at[2],
+                           double rgb[3])
+{
+    static const double light[3] = {244, 211, 120}, dark[3] = {60, 90, 160},
+                        none[3] = {253, 205, 211};
     double size = fmax(box->upper[0] - box->lower[0], box->upper[1] - box->lower[1]);
     double u = (at[0] - box->lower[0]) / size, v = (at[1] - box->lower[1]) / size;
     memcpy(rgb, none, sizeof none);
@@ -27,24 +30,29 @@ static void pattern_colour(const icc_domain_info *box, pattern what, const doubl
     rgb[2] = 64;
 }
 
-int places_make(places *out, const panel *p, job *j) {
+int places_make(places *out, const panel *p, job *j)
+{
     *out = (places){.width = (size_t)ceil(p->width), .height = (size_t)ceil(p->height)};
     size_t columns = out->width * SIDE, rows = out->height * SIDE;
     out->points = need(columns * rows, 2 * sizeof *out->points);
     for (size_t i = 0; i < columns * rows; i++)
         panel_locate(p, p->left + ((double)(i % columns) + 0.5) * p->width / (double)columns,
-                     p->top + ((double)(i / columns) + 0.5) * p->height / (double)rows, out->points + 2 * i);
+                     p->top + ((double)(i / columns) + 0.5) * p->height / (double)rows,
+                     out->points + 2 * i);
     if (p->side == 1)
         return DONE;
-    icc_status ran = icc_map_apply_inverse(j->map, columns * rows, out->points, out->points, NULL, NULL, &j->env);
+    icc_status ran = icc_map_apply_inverse(j->map, columns * rows, out->points, out->points, NULL,
+                                           NULL, &j->env);
     return ran == ICC_OK ? DONE : job_failed_status(j, ran);
 }
 
-void places_free(places *s) {
+void places_free(places *s)
+{
     free(s->points);
 }
 
-int plot_pattern(const panel *p, job *j, const places *from, pattern what) {
+int plot_pattern(const panel *p, job *j, const places *from, pattern what)
+{
     picture image = picture_make(from->width, from->height, 3, 8);
     icc_domain_info box = {.size = sizeof box};
     icc_domain_get_info(j->domains[0], &box);

@@ -11,19 +11,23 @@
 
 enum { MIN_TREE_SPACING = 5, MAX_HANDLES = 64, DEFAULT_LINES = 120 };
 
-void panel_place(const panel *p, const double at[2], double out[2]) {
+void panel_place(const panel *p, const double at[2], double out[2])
+{
     const icc_domain_info *box = &p->stages->box;
     out[0] = p->left + p->scale * (at[0] - box->lower[0]);
     out[1] = p->top + p->scale * (p->y_down ? at[1] - box->lower[1] : box->upper[1] - at[1]);
 }
 
-void panel_locate(const panel *p, double x, double y, double out[2]) {
+void panel_locate(const panel *p, double x, double y, double out[2])
+{
     const icc_domain_info *box = &p->stages->box;
     out[0] = box->lower[0] + (x - p->left) / p->scale;
-    out[1] = p->y_down ? box->lower[1] + (y - p->top) / p->scale : box->upper[1] - (y - p->top) / p->scale;
+    out[1] = p->y_down ? box->lower[1] + (y - p->top) / p->scale
+                       : box->upper[1] - (y - p->top) / p->scale;
 }
 
-static void write_ring(const panel *p, const cage *c) {
+static void write_ring(const panel *p, const cage *c)
+{
     double *ring = need(c->n, 2 * sizeof *ring);
     for (size_t i = 0; i < c->n; i++)
         panel_place(p, c->points + 2 * i, ring + 2 * i);
@@ -32,27 +36,32 @@ static void write_ring(const panel *p, const cage *c) {
     free(ring);
 }
 
-void plot_clip(const panel *p, const cage *c) {
+void plot_clip(const panel *p, const cage *c)
+{
     fprintf(p->svg, "<clipPath id=\"%s\"><path d=\"", p->clip);
     write_ring(p, c);
     fputs("\"/></clipPath>\n", p->svg);
 }
 
-void plot_cage(const panel *p, const cage *c) {
-    fputs("<path fill=\"none\" stroke=\"#111\" stroke-width=\"1.5\" stroke-linejoin=\"round\" d=\"", p->svg);
+void plot_cage(const panel *p, const cage *c)
+{
+    fputs("<path fill=\"none\" stroke=\"#111\" stroke-width=\"1.5\" stroke-linejoin=\"round\" d=\"",
+          p->svg);
     write_ring(p, c);
     fputs("\"/>\n", p->svg);
     for (size_t i = 0; c->n <= MAX_HANDLES && i < c->n; i++) {
         double at[2];
         panel_place(p, c->points + 2 * i, at);
-        fprintf(p->svg, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"2.4\" fill=\"#111\"/>\n", at[0], at[1]);
+        fprintf(p->svg, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"2.4\" fill=\"#111\"/>\n", at[0],
+                at[1]);
     }
 }
 
 /* ------------------------------------------------------------------ curves */
 
 /* Points spread evenly over the length of the boundary. */
-static double *spread(const cage *c, size_t n) {
+static double *spread(const cage *c, size_t n)
+{
     double *points = need(n, 2 * sizeof *points), total = 0, walked = 0;
     for (size_t i = 0; i < c->n; i++) {
         const double *a = c->points + 2 * i, *b = c->points + 2 * ((i + 1) % c->n);
@@ -74,14 +83,17 @@ static double *spread(const cage *c, size_t n) {
     return points;
 }
 
-int curves_make(curves *out, const panel *p, job *j) {
+int curves_make(curves *out, const panel *p, job *j)
+{
     size_t n = j->args->lines > 0 ? (size_t)j->args->lines : DEFAULT_LINES, room = 4096, used = 0;
     double *starts = spread(&j->cages[p->side == 2], n);
-    *out = (curves){.starts = need(n + 1, sizeof *out->starts), .points = need(room, 2 * sizeof *out->points)};
+    *out = (curves){.starts = need(n + 1, sizeof *out->starts),
+                    .points = need(room, 2 * sizeof *out->points)};
     icc_status status = ICC_OK;
     for (size_t i = 0; i < n && status != ICC_ERR_MEMORY; i++) {
         size_t length = 0;
-        status = icc_chart_trace(p->stages->chart, starts + 2 * i, room - used, out->points + 2 * used, &length, &j->env, NULL);
+        status = icc_chart_trace(p->stages->chart, starts + 2 * i, room - used,
+                                 out->points + 2 * used, &length, &j->env, NULL);
         if (status == ICC_OK && length > room - used) {
             room = 2 * (used + length);
             size_t bytes = 2 * used * sizeof *out->points;
@@ -89,7 +101,8 @@ int curves_make(curves *out, const panel *p, job *j) {
             memcpy(longer, out->points, bytes);
             free(out->points);
             out->points = longer;
-            status = icc_chart_trace(p->stages->chart, starts + 2 * i, length, longer + 2 * used, &length, &j->env, NULL);
+            status = icc_chart_trace(p->stages->chart, starts + 2 * i, length, longer + 2 * used,
+                                     &length, &j->env, NULL);
         }
         if (status == ICC_OK) {
             used += length;
@@ -100,15 +113,19 @@ int curves_make(curves *out, const panel *p, job *j) {
     return status == ICC_ERR_MEMORY ? job_failed_status(j, status) : DONE;
 }
 
-void curves_free(curves *c) {
+void curves_free(curves *c)
+{
     free(c->starts);
     free(c->points);
 }
 
-static int draw_curves(const panel *p, job *j) {
+static int draw_curves(const panel *p, job *j)
+{
     curves c;
     int result = curves_make(&c, p, j);
-    fputs("<path fill=\"none\" stroke=\"#1d4ed8\" stroke-width=\"0.9\" stroke-linejoin=\"round\" stroke-opacity=\"0.85\" d=\"", p->svg);
+    fputs("<path fill=\"none\" stroke=\"#1d4ed8\" stroke-width=\"0.9\" stroke-linejoin=\"round\" "
+          "stroke-opacity=\"0.85\" d=\"",
+          p->svg);
     for (size_t i = 0; i < c.n; i++) {
         for (size_t k = c.starts[i]; k < c.starts[i + 1]; k++)
             panel_place(p, c.points + 2 * k, c.points + 2 * k);
@@ -122,7 +139,8 @@ static int draw_curves(const panel *p, job *j) {
 /* ------------------------------------------------------------------ shades */
 
 /* From slate at the lowest value to white at the maximum; rose where no value is. */
-static void shade(const stages *s, double value, unsigned char rgba[4]) {
+static void shade(const stages *s, double value, unsigned char rgba[4])
+{
     static const double low[3] = {148, 163, 184}, high[3] = {255, 255, 255};
     static const unsigned char none[4] = {253, 205, 211, 255};
     memcpy(rgba, none, 4);
@@ -133,13 +151,15 @@ static void shade(const stages *s, double value, unsigned char rgba[4]) {
         rgba[k] = (unsigned char)(low[k] + t * (high[k] - low[k]) + 0.5);
 }
 
-static int draw_shades(const panel *p) {
+static int draw_shades(const panel *p)
+{
     picture image = picture_make((size_t)ceil(p->width), (size_t)ceil(p->height), 3, 8);
     for (size_t i = 0; i < image.width * image.height; i++) {
         double at[2];
         unsigned char rgba[4];
-        panel_locate(p, p->left + ((double)(i % image.width) + 0.5) * p->width / (double)image.width,
-                     p->top + ((double)(i / image.width) + 0.5) * p->height / (double)image.height, at);
+        panel_locate(
+            p, p->left + ((double)(i % image.width) + 0.5) * p->width / (double)image.width,
+            p->top + ((double)(i / image.width) + 0.5) * p->height / (double)image.height, at);
         shade(p->stages, stages_value(p->stages, at), rgba);
         picture_set(&image, i, rgba);
     }
@@ -150,7 +170,8 @@ static int draw_shades(const panel *p) {
 
 /* ---------------------------------------------------------- tree and edges */
 
-static void draw_segment(const panel *p, uint32_t a, uint32_t b) {
+static void draw_segment(const panel *p, uint32_t a, uint32_t b)
+{
     double ends[4];
     stages_position(p->stages, a, ends);
     stages_position(p->stages, b, ends + 2);
@@ -160,33 +181,44 @@ static void draw_segment(const panel *p, uint32_t a, uint32_t b) {
 }
 
 /* The tree where a vertex inside is the parent; left out where it would be a grey mush. */
-static void draw_tree(const panel *p) {
+static void draw_tree(const panel *p)
+{
     const uint32_t *parents = icc_tree_parents(p->stages->tree);
     const uint8_t *inside = icc_grid_inside(p->stages->grid);
     if (p->stages->lattice.spacing * p->scale < MIN_TREE_SPACING)
         return;
-    fputs("<path fill=\"none\" stroke=\"#64748b\" stroke-width=\"0.7\" stroke-opacity=\"0.75\" d=\"", p->svg);
+    fputs(
+        "<path fill=\"none\" stroke=\"#64748b\" stroke-width=\"0.7\" stroke-opacity=\"0.75\" d=\"",
+        p->svg);
     for (size_t i = 0; i < p->stages->lattice.n_vertices; i++)
         if (parents[i] != UINT32_MAX && inside[parents[i]])
             draw_segment(p, parents[i], (uint32_t)i);
     fputs("\"/>\n", p->svg);
 }
 
-static void draw_edges(const panel *p, int32_t kind, const char *colour) {
-    fprintf(p->svg, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"2\" stroke-linecap=\"round\" d=\"", colour);
+static void draw_edges(const panel *p, int32_t kind, const char *colour)
+{
+    fprintf(p->svg,
+            "<path fill=\"none\" stroke=\"%s\" stroke-width=\"2\" stroke-linecap=\"round\" d=\"",
+            colour);
     for (size_t i = 0; i < p->stages->n_edges; i++)
         if (p->stages->kinds[i] == kind)
             draw_segment(p, p->stages->edges[2 * i], p->stages->edges[2 * i + 1]);
     fputs("\"/>\n", p->svg);
 }
 
-static void draw_maximum(const panel *p) {
+static void draw_maximum(const panel *p)
+{
     double at[2];
     panel_place(p, p->stages->chart_info.maximum, at);
-    fprintf(p->svg, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"5.5\" fill=\"#dc2626\" stroke=\"white\" stroke-width=\"1.5\"/>\n", at[0], at[1]);
+    fprintf(p->svg,
+            "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"5.5\" fill=\"#dc2626\" stroke=\"white\" "
+            "stroke-width=\"1.5\"/>\n",
+            at[0], at[1]);
 }
 
-int plot_shape(const panel *p, job *j) {
+int plot_shape(const panel *p, job *j)
+{
     int result = draw_shades(p);
     fprintf(p->svg, "<g clip-path=\"url(#%s)\">\n", p->clip);
     draw_tree(p);

@@ -27,17 +27,20 @@ typedef struct writer {
 } writer;
 
 /* Both structs end the same way: a message of 160 bytes, handed over as libpng's error pointer. */
-static void stop(png_structp png, png_const_charp message) {
+static void stop(png_structp png, png_const_charp message)
+{
     snprintf(png_get_error_ptr(png), 160, "%s", message);
     longjmp(png_jmpbuf(png), 1);
 }
 
-static void ignore(png_structp png, png_const_charp message) {
+static void ignore(png_structp png, png_const_charp message)
+{
     (void)png;
     (void)message;
 }
 
-static void take_bytes(png_structp png, png_bytep to, size_t n) {
+static void take_bytes(png_structp png, png_bytep to, size_t n)
+{
     png_keep *k = png_get_io_ptr(png);
     if (n > k->n)
         png_error(png, "the file ends early");
@@ -46,32 +49,37 @@ static void take_bytes(png_structp png, png_bytep to, size_t n) {
     k->n -= n;
 }
 
-static void give_bytes(png_structp png, png_bytep from, size_t n) {
+static void give_bytes(png_structp png, png_bytep from, size_t n)
+{
     writer *w = png_get_io_ptr(png);
     w->bytes = grow(w->bytes, &w->room, w->n + n, 1);
     memcpy(w->bytes + w->n, from, n);
     w->n += n;
 }
 
-static void no_flush(png_structp png) {
+static void no_flush(png_structp png)
+{
     (void)png;
 }
 
-void png_keep_free(struct png_keep *keep) {
+void png_keep_free(struct png_keep *keep)
+{
     if (keep != NULL)
         png_destroy_read_struct(&keep->png, &keep->info, NULL);
     free(keep);
 }
 
 /* Rows as libpng gives them, most significant byte first, to samples. */
-static void unpack(picture *p, const png_byte *row, size_t y) {
+static void unpack(picture *p, const png_byte *row, size_t y)
+{
     size_t n = p->width * p->channels;
     uint16_t *to = p->samples + y * n;
     for (size_t i = 0; i < n; i++)
         to[i] = p->depth == 8 ? row[i] : (uint16_t)(row[2 * i] << 8 | row[2 * i + 1]);
 }
 
-static void pack(const picture *p, png_byte *row, size_t y) {
+static void pack(const picture *p, png_byte *row, size_t y)
+{
     size_t n = p->width * p->channels;
     const uint16_t *from = p->samples + y * n;
     for (size_t i = 0; i < n; i++) {
@@ -82,7 +90,8 @@ static void pack(const picture *p, png_byte *row, size_t y) {
 }
 
 /* Everything that libpng may jump out of. `rows` is freed by the caller. */
-static bool decode(png_keep *k, picture *out, png_byte **rows) {
+static bool decode(png_keep *k, picture *out, png_byte **rows)
+{
     if (setjmp(png_jmpbuf(k->png)))
         return false;
     png_set_read_fn(k->png, k, take_bytes);
@@ -104,7 +113,8 @@ static bool decode(png_keep *k, picture *out, png_byte **rows) {
     return true;
 }
 
-bool picture_decode(picture *out, const char *bytes, size_t n, problem *wrong) {
+bool picture_decode(picture *out, const char *bytes, size_t n, problem *wrong)
+{
     *out = (picture){0};
     if (n < 8 || png_sig_cmp((png_const_bytep)bytes, 0, 8) != 0)
         return spoilt(wrong, 0, "this is not a PNG picture; convert it to PNG first");
@@ -126,7 +136,8 @@ bool picture_decode(picture *out, const char *bytes, size_t n, problem *wrong) {
     return true;
 }
 
-static void carry_over(writer *w, const png_keep *k) {
+static void carry_over(writer *w, const png_keep *k)
+{
     png_fixed_point v[8];
     png_uint_32 x, y, length;
     png_charp name;
@@ -144,9 +155,10 @@ static void carry_over(writer *w, const png_keep *k) {
         png_set_pHYs(w->png, w->info, x, y, unit);
 }
 
-static bool encode(writer *w, const picture *p, const png_keep *keep, png_byte *row) {
-    static const int colour_types[] = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA, PNG_COLOR_TYPE_RGB,
-                                       PNG_COLOR_TYPE_RGB_ALPHA};
+static bool encode(writer *w, const picture *p, const png_keep *keep, png_byte *row)
+{
+    static const int colour_types[] = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA,
+                                       PNG_COLOR_TYPE_RGB, PNG_COLOR_TYPE_RGB_ALPHA};
     if (setjmp(png_jmpbuf(w->png)))
         return false;
     png_set_write_fn(w->png, w, give_bytes, no_flush);
@@ -165,7 +177,9 @@ static bool encode(writer *w, const picture *p, const png_keep *keep, png_byte *
     return true;
 }
 
-unsigned char *picture_encode(const picture *p, const struct png_keep *keep, size_t *n, problem *wrong) {
+unsigned char *picture_encode(const picture *p, const struct png_keep *keep, size_t *n,
+                              problem *wrong)
+{
     writer w = {0};
     w.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, w.message, stop, ignore);
     w.info = w.png != NULL ? png_create_info_struct(w.png) : NULL;

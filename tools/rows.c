@@ -3,7 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-int rows_read(table *out, const char *name, const table_form *form) {
+int rows_read(table *out, const char *name, const table_form *form)
+{
     size_t n;
     char *text = file_read(name, &n);
     if (text == NULL)
@@ -17,7 +18,8 @@ int rows_read(table *out, const char *name, const table_form *form) {
     return failed(name, wrong.line, "%s", wrong.text);
 }
 
-int rows_write(const char *name, size_t n, size_t columns, const double *values) {
+int rows_write(const char *name, size_t n, size_t columns, const double *values)
+{
     outfile file;
     if (!outfile_open(&file, name))
         return FAILED;

@@ -1,5 +1,5 @@
-/* The R2 sequence: multiples of (1/g, 1/g^2) modulo 1, where g^3 = g + 1. M. Roberts, The unreasonable
- * effectiveness of quasirandom sequences, 2018. */
+/* The R2 sequence: multiples of (1/g, 1/g^2) modulo 1, where g^3 = g + 1. M. Roberts, The
+ * unreasonable effectiveness of quasirandom sequences, 2018. */
 #include "sample.h"
 
 #include "memory.h"
@@ -10,7 +10,8 @@
 
 enum { BATCH = 4096, MAX_BATCHES = 1000 };
 
-size_t sample_inside(const icc_domain *domain, size_t n, double *points, const icc_env *env) {
+size_t sample_inside(const icc_domain *domain, size_t n, double *points, const icc_env *env)
+{
     const double g = 1.32471795724474602596, step[2] = {1 / g, 1 / (g * g)};
     icc_domain_info info = {.size = sizeof info};
     if (icc_domain_get_info(domain, &info) != ICC_OK)

@@ -3,7 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
-int spoilt(problem *out, size_t line, const char *format, ...) {
+int spoilt(problem *out, size_t line, const char *format, ...)
+{
     va_list list;
     va_start(list, format);
     out->line = line;
@@ -13,14 +14,16 @@ int spoilt(problem *out, size_t line, const char *format, ...) {
 }
 
 /* A message is one line, whatever names of files it holds. */
-static void print_line(const char *text) {
+static void print_line(const char *text)
+{
     fputs("libicc: ", stderr);
     for (const char *c = text; *c != '\0'; c++)
         fputc(*c == '\n' || *c == '\r' ? ' ' : *c, stderr);
     fputc('\n', stderr);
 }
 
-int failed(const char *file, size_t line, const char *format, ...) {
+int failed(const char *file, size_t line, const char *format, ...)
+{
     char text[4096];
     size_t used = 0;
     if (file != NULL) {
@@ -37,7 +40,8 @@ int failed(const char *file, size_t line, const char *format, ...) {
     return FAILED;
 }
 
-int misused(const char *command, const char *format, ...) {
+int misused(const char *command, const char *format, ...)
+{
     char text[1024];
     va_list list;
     va_start(list, format);
@@ -48,7 +52,8 @@ int misused(const char *command, const char *format, ...) {
     return MISUSED;
 }
 
-void note(const char *format, ...) {
+void note(const char *format, ...)
+{
     char text[4096];
     va_list list;
     va_start(list, format);
@@ -57,7 +62,8 @@ void note(const char *format, ...) {
     print_line(text);
 }
 
-const char *quoted(char out[32], const char *word) {
+const char *quoted(char out[32], const char *word)
+{
     size_t n = 0;
     while (n < 24 && word[n] != '\0' && strchr(" \t\r\n", word[n]) == NULL) {
         out[n] = word[n] > 32 && word[n] < 127 ? word[n] : '?';

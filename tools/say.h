@@ -13,10 +13,10 @@
 
 /* The exit codes of the command. */
 enum {
-    DONE = 0,   /* all is well */
-    FAILED = 1, /* the input or the computation failed */
-    MISUSED = 2,/* wrong usage */
-    PARTIAL = 4 /* done, but some points have no image */
+    DONE = 0,    /* all is well */
+    FAILED = 1,  /* the input or the computation failed */
+    MISUSED = 2, /* wrong usage */
+    PARTIAL = 4  /* done, but some points have no image */
 };
 
 /* What is wrong with an input, and where. `line` counts from 1; 0: no particular line. */

@@ -5,7 +5,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-static void find_range(stages *s) {
+static void find_range(stages *s)
+{
     const double *values = icc_field_values(s->field);
     const uint8_t *inside = icc_grid_inside(s->grid);
     s->low = HUGE_VAL;
@@ -17,7 +18,8 @@ static void find_range(stages *s) {
         }
 }
 
-static int find_edges(stages *s, job *j) {
+static int find_edges(stages *s, job *j)
+{
     size_t n = 0;
     icc_status status = icc_field_edges(s->field, 0, NULL, NULL, &n, NULL);
     s->edges = need(n, 2 * sizeof *s->edges);
@@ -28,7 +30,8 @@ static int find_edges(stages *s, job *j) {
     return status == ICC_OK ? DONE : job_failed_status(j, status);
 }
 
-static icc_status make(stages *s, const job *j, icc_error *err) {
+static icc_status make(stages *s, const job *j, icc_error *err)
+{
     icc_tree_options form = {.size = sizeof form, .form = j->args->tree};
     icc_field_options function = {.size = sizeof function, .function = j->args->function};
     uint32_t root;
@@ -44,11 +47,15 @@ static icc_status make(stages *s, const job *j, icc_error *err) {
     return status;
 }
 
-int stages_make(stages *out, job *j, int side) {
-    *out = (stages){.box = {.size = sizeof out->box}, .chart_info = {.size = sizeof out->chart_info},
+int stages_make(stages *out, job *j, int side)
+{
+    *out = (stages){.box = {.size = sizeof out->box},
+                    .chart_info = {.size = sizeof out->chart_info},
                     .lattice = {.size = sizeof out->lattice}};
     out->domain = j->domains[side == 2];
-    out->chart = j->map == NULL ? j->chart : side == 2 ? icc_map_target_chart(j->map) : icc_map_source_chart(j->map);
+    out->chart = j->map == NULL ? j->chart
+                 : side == 2    ? icc_map_target_chart(j->map)
+                                : icc_map_source_chart(j->map);
     icc_domain_get_info(out->domain, &out->box);
     icc_chart_get_info(out->chart, &out->chart_info);
     icc_error err = {.size = sizeof err, .index = -1};
@@ -62,7 +69,8 @@ int stages_make(stages *out, job *j, int side) {
     return find_edges(out, j);
 }
 
-void stages_free(stages *s) {
+void stages_free(stages *s)
+{
     icc_field_free(s->field);
     icc_tree_free(s->tree);
     icc_grid_free(s->grid);
@@ -70,13 +78,15 @@ void stages_free(stages *s) {
     free(s->kinds);
 }
 
-void stages_position(const stages *s, uint32_t vertex, double out[2]) {
+void stages_position(const stages *s, uint32_t vertex, double out[2])
+{
     size_t columns = s->lattice.shape[0];
     out[0] = s->lattice.origin[0] + s->lattice.spacing * (double)(vertex % columns);
     out[1] = s->lattice.origin[1] + s->lattice.spacing * (double)(vertex / columns);
 }
 
-double stages_value(const stages *s, const double p[2]) {
+double stages_value(const stages *s, const double p[2])
+{
     const icc_grid_info *g = &s->lattice;
     double u = (p[0] - g->origin[0]) / g->spacing, v = (p[1] - g->origin[1]) / g->spacing;
     if (!(u >= 0 && v >= 0 && u < (double)(g->shape[0] - 1) && v < (double)(g->shape[1] - 1)))
@@ -87,5 +97,6 @@ double stages_value(const stages *s, const double p[2]) {
     v -= floor(v);
     /* The diagonal of a cell runs from its lowest corner to its highest. */
     side = u >= v ? at[1] : at[g->shape[0]];
-    return u >= v ? low + u * (side - low) + v * (high - side) : low + v * (side - low) + u * (high - side);
+    return u >= v ? low + u * (side - low) + v * (high - side)
+                  : low + v * (side - low) + u * (high - side);
 }

@@ -21,7 +21,7 @@ typedef struct stages {
     int32_t *kinds;
 } stages;
 
-/* Repeats the stages of the chart of the source (side 1) or the target (2), with the same maximum. */
+/* Repeats the stages of the source's (side 1) or the target's (2) chart, with the same maximum. */
 int stages_make(stages *out, job *j, int side);
 void stages_free(stages *s);
 

@@ -4,27 +4,33 @@
 
 #include <stdlib.h>
 
-void svg_begin(FILE *svg, double width, double height) {
-    fprintf(svg,
-            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" "
-            "width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\">\n"
-            "<rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n",
-            width, height, width, height);
+void svg_begin(FILE *svg, double width, double height)
+{
+    fprintf(
+        svg,
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" "
+        "width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\">\n"
+        "<rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n",
+        width, height, width, height);
 }
 
-void svg_end(FILE *svg) {
+void svg_end(FILE *svg)
+{
     fputs("</svg>\n", svg);
 }
 
-void svg_label(FILE *svg, double x, double y, const char *text) {
+void svg_label(FILE *svg, double x, double y, const char *text)
+{
     fprintf(svg,
-            "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\" font-family=\"Helvetica, Arial, sans-serif\" "
+            "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\" font-family=\"Helvetica, Arial, "
+            "sans-serif\" "
             "font-size=\"15\" fill=\"#444\">%s</text>\n",
             x, y, text);
 }
 
-static void write_base64(FILE *svg, const unsigned char *bytes, size_t n) {
+static void write_base64(FILE *svg, const unsigned char *bytes, size_t n)
+{
     static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     for (size_t i = 0; i < n; i += 3) {
         unsigned group = (unsigned)bytes[i] << 16;
@@ -37,7 +43,9 @@ static void write_base64(FILE *svg, const unsigned char *bytes, size_t n) {
     }
 }
 
-int svg_picture(FILE *svg, double x, double y, double width, double height, const char *clip, const picture *p) {
+int svg_picture(FILE *svg, double x, double y, double width, double height, const char *clip,
+                const picture *p)
+{
     problem wrong;
     size_t n;
     unsigned char *bytes = picture_encode(p, NULL, &n, &wrong);
@@ -53,7 +61,8 @@ int svg_picture(FILE *svg, double x, double y, double width, double height, cons
     return DONE;
 }
 
-void svg_polyline(FILE *svg, size_t n, const double *points) {
+void svg_polyline(FILE *svg, size_t n, const double *points)
+{
     for (size_t i = 0; i < n; i++)
         fprintf(svg, "%c%.2f %.2f", i == 0 ? 'M' : 'L', points[2 * i], points[2 * i + 1]);
 }

@@ -13,7 +13,8 @@ void svg_end(FILE *svg);
 void svg_label(FILE *svg, double x, double y, const char *text);
 
 /* A picture as part of the file, stretched over a box and cut to the clip path `clip`. */
-int svg_picture(FILE *svg, double x, double y, double width, double height, const char *clip, const picture *p);
+int svg_picture(FILE *svg, double x, double y, double width, double height, const char *clip,
+                const picture *p);
 
 /* A piece of path data: a polyline of n points. */
 void svg_polyline(FILE *svg, size_t n, const double *points);

@@ -8,8 +8,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Vertices, facets and cells are numbered with 32 bits. */
-static const size_t MAX_COUNT = UINT32_MAX / 4;
+/* Whatever is counted per edge is counted in 32 bits; domain/buckets.c has up to about 20 of it. */
+static const size_t MAX_COUNT = UINT32_MAX / 64;
 
 static icc_status check_counts(size_t n_vertices, const double *vertices, size_t n_facets,
                                const uint32_t *facets, icc_error *err)

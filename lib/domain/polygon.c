@@ -85,10 +85,8 @@ icc_status iccp_polygon_check(const iccp_ring *ring, const iccp_frame *frame, co
         return ICC_OK;
     if (status == ICC_OK)
         status = iccp_defects_first(&first, ring, env);
-    if (status == ICC_ERR_MEMORY)
-        return iccp_fail_memory(err);
     if (status != ICC_OK)
-        return iccp_fail(err, status, -1, "cancelled while the boundary was checked");
+        return iccp_explain(err, status);
     return fail_defect(err, first.kind != 0 ? &first : &any, ring, frame);
 }
 
@@ -171,9 +169,5 @@ icc_status iccp_boundary_defects(size_t n, const double *vertices, size_t capaci
         status = iccp_defects_list(&list, &ring, env);
     iccp_free(memory, ring.points);
     *n_defects = list.n;
-    if (status == ICC_ERR_MEMORY)
-        return iccp_fail_memory(err);
-    if (status == ICC_ERR_CANCELLED)
-        return iccp_fail(err, status, -1, "cancelled while the boundary was checked");
-    return status;
+    return iccp_explain(err, status);
 }

@@ -60,20 +60,22 @@ void iccp_segments_point(const double *a, const double *b, const double *c, cons
     point[1] = a[1] + t * u[1];
 }
 
-/* Measured from the nearer end, for accuracy. Rounding may put a vertex on an edge nearby, so only at
- * an end is the distance 0: a vertex is then always found as itself. */
+/* Rounding may put a vertex on an edge nearby, so only at an end is the distance 0: a vertex is then
+ * always found as itself. */
 double iccp_segment_nearest(const double *a, const double *b, const double *p, double *t)
 {
     const double d[2] = {b[0] - a[0], b[1] - a[1]};
-    const double from_a[2] = {p[0] - a[0], p[1] - a[1]}, from_b[2] = {p[0] - b[0], p[1] - b[1]};
-    const double length2 = d[0] * d[0] + d[1] * d[1];
-    const double along = from_a[0] * d[0] + from_a[1] * d[1];
-    const double *w = 2 * along < length2 ? from_a : from_b;
-    if (along <= 0 || along >= length2) {
-        *t = along <= 0 ? 0 : 1;
-        return w[0] * w[0] + w[1] * w[1];
+    double w[2] = {p[0] - a[0], p[1] - a[1]};
+    const double along = w[0] * d[0] + w[1] * d[1], length2 = d[0] * d[0] + d[1] * d[1];
+    if (along > 0 && along < length2) {
+        const double across = d[0] * w[1] - d[1] * w[0];
+        *t = along / length2;
+        return across * across / length2 + DBL_MIN;
     }
-    const double across = d[0] * w[1] - d[1] * w[0];
-    *t = along / length2;
-    return across * across / length2 + DBL_MIN;
+    *t = along > 0 ? 1 : 0;
+    if (along > 0) {
+        w[0] = p[0] - b[0];
+        w[1] = p[1] - b[1];
+    }
+    return w[0] * w[0] + w[1] * w[1];
 }

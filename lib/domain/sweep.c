@@ -3,8 +3,8 @@
  * first place where two edges meet is met by edges that were neighbours just before.
  *
  * Points are swept by x, then y, as if the plane were sheared a little; so no edge is vertical and no
- * two points are met at once. All comparisons are exact. What could make the order ambiguous is a
- * defect: repeated points and spikes are looked for first, and a point on an edge ends the sweep. */
+ * two points are met at once. All comparisons are exact, and repeated points and spikes are looked for
+ * first: so edges on the line have one order until they meet. */
 #include "domain/sweep.h"
 
 #include "domain/avl.h"
@@ -43,8 +43,9 @@ static void compare(sweep *s, uint32_t below, uint32_t above)
         found(s, kind, e, f);
 }
 
-/* The highest edge below point v; reports an edge that v lies on. */
-static uint32_t find_below(sweep *s, uint32_t v)
+/* The highest edge below point v. An edge through v counts as above; it becomes a neighbour of v's
+ * edges, and comparing them tells. */
+static uint32_t find_below(const sweep *s, uint32_t v)
 {
     const iccp_avl_node *const nodes = s->line.nodes;
     uint32_t below = 0;
@@ -52,13 +53,9 @@ static uint32_t find_below(sweep *s, uint32_t v)
         const uint32_t e = nodes[node].item;
         const double *a = point(s, e), *b = point(s, e + 1);
         const bool forward = iccp_point_less(a, b);
-        const int side = iccp_orient2d(forward ? a : b, forward ? b : a, point(s, v));
-        if (side == 0) {
-            found(s, ICC_DEFECT_TOUCH, e, v);
-            return 0;
-        }
-        below = side > 0 ? node : below;
-        node = side > 0 ? nodes[node].right : nodes[node].left;
+        const bool above = iccp_orient2d(forward ? a : b, forward ? b : a, point(s, v)) > 0;
+        below = above ? node : below;
+        node = above ? nodes[node].right : nodes[node].left;
     }
     return below;
 }
@@ -66,8 +63,6 @@ static uint32_t find_below(sweep *s, uint32_t v)
 static void start_two(sweep *s, uint32_t v, uint32_t in, uint32_t out)
 {
     const uint32_t below = find_below(s, v);
-    if (s->found.kind != 0)
-        return;
     const bool out_is_lower = iccp_orient2d(point(s, v), point(s, v + 1), point(s, in)) > 0;
     const uint32_t lower = out_is_lower ? out : in, upper = out_is_lower ? in : out;
     const uint32_t first = iccp_avl_insert(&s->line, below, lower);

@@ -112,9 +112,26 @@ static int incircle_full(const double a[2], const double b[2], const double c[2]
     return iccp_expansion_sign(iccp_expansion_sum(sum, n_ab, ab, n_cd, cd), sum);
 }
 
-/* `permanent` is the determinant's sum with all terms taken positive, as the filter computed it. */
+/* Whether six numbers are multiples of one unit and at most 2^12 of it: the sum with 2^42 times the
+ * largest is rounded to such a unit, or a larger one. Then no term of the determinant exceeds 2^53
+ * units, and plain doubles hold it exactly. Makes points on a lattice, where ties are the rule, cheap. */
+static int are_few_units(double x[3][2])
+{
+    double largest = 0.0;
+    for (int i = 0; i < 3; ++i)
+        largest = fmax(largest, fmax(fabs(x[i][0]), fabs(x[i][1])));
+    const double round = 0x1p42 * largest;
+    int exact = 1;
+    for (int i = 0; i < 3; ++i)
+        for (int k = 0; k < 2; ++k)
+            exact &= (x[i][k] + round) - round == x[i][k];
+    return exact;
+}
+
+/* `circle` is the determinant and `permanent` the sum of its terms all taken positive, as the filter
+ * computed them. */
 static int incircle_exact(const double a[2], const double b[2], const double c[2],
-                          const double d[2], double permanent)
+                          const double d[2], double circle, double permanent)
 {
     double difference[3][2], sum[96], tail;
     const double *points[3] = {a, b, c};
@@ -124,6 +141,8 @@ static int incircle_exact(const double a[2], const double b[2], const double c[2
             difference[i][k] = iccp_two_sum(points[i][k], -d[k], &tail);
             rounded |= tail != 0.0;
         }
+    if (!rounded && are_few_units(difference))
+        return (circle > 0.0) - (circle < 0.0);
     const size_t n = circle_of_differences(sum, difference[0], difference[1], difference[2]);
     if (!rounded || fabs(estimate(n, sum)) >= circle_error_2 * permanent)
         return iccp_expansion_sign(n, sum);
@@ -144,5 +163,5 @@ int iccp_incircle(const double a[2], const double b[2], const double c[2], const
                              c2 * (fabs(axby) + fabs(bxay));
     if (ICCP_LIKELY(fabs(circle) > circle_error * permanent))
         return (circle > 0.0) - (circle < 0.0);
-    return incircle_exact(a, b, c, d, permanent);
+    return incircle_exact(a, b, c, d, circle, permanent);
 }

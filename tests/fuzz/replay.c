@@ -108,7 +108,7 @@ int main(int argc, char **argv)
         (void)fprintf(stderr, "usage: replay CORPUS_DIR [ROUNDS]\n");
         return 2;
     }
-    const long rounds = argc > 2 ? strtol(argv[2], NULL, 10) : 2000;
+    const long rounds = argc > 2 ? strtol(argv[2], NULL, 10) : 10000;
     const size_t n = read_corpus(argv[1], corpus);
     for (size_t i = 0; i < n; ++i)
         run(corpus[i].data, corpus[i].size);

@@ -18,12 +18,14 @@ typedef struct image {
     png_byte *rows;
 } image;
 
-static void quit(const char *what) {
+static void quit(const char *what)
+{
     fprintf(stderr, "pictures: %s\n", what);
     exit(1);
 }
 
-static image load(const char *name) {
+static image load(const char *name)
+{
     FILE *file = fopen(name, "rb");
     if (file == NULL)
         quit(name);
@@ -35,8 +37,10 @@ static image load(const char *name) {
     png_read_info(png, info);
     png_set_expand(png);
     png_read_update_info(png, info);
-    image i = {.width = png_get_image_width(png, info), .height = png_get_image_height(png, info),
-               .channels = png_get_channels(png, info), .depth = png_get_bit_depth(png, info),
+    image i = {.width = png_get_image_width(png, info),
+               .height = png_get_image_height(png, info),
+               .channels = png_get_channels(png, info),
+               .depth = png_get_bit_depth(png, info),
                .row_bytes = png_get_rowbytes(png, info)};
     i.rows = calloc(i.height, i.row_bytes);
     for (png_uint_32 y = 0; y < i.height; y++)
@@ -46,7 +50,8 @@ static image load(const char *name) {
     return i;
 }
 
-static void save(const char *name, const image *i, int colour_type) {
+static void save(const char *name, const image *i, int colour_type)
+{
     static const png_color colours[4] = {{255, 0, 0}, {0, 255, 0}, {0, 0, 255}, {9, 9, 9}};
     static const png_byte alphas[4] = {255, 255, 255, 0};
     FILE *file = fopen(name, "wb");
@@ -72,7 +77,9 @@ static void save(const char *name, const image *i, int colour_type) {
 }
 
 /* Something that differs from sample to sample, linear in x and y, or in stripes of one pixel. */
-static unsigned sample(const char *pattern, unsigned x, unsigned y, unsigned channel, unsigned largest) {
+static unsigned sample(const char *pattern, unsigned x, unsigned y, unsigned channel,
+                       unsigned largest)
+{
     if (strcmp(pattern, "flat") == 0)
         return largest / 3 + channel;
     if (strcmp(pattern, "stripes") == 0)
@@ -80,10 +87,13 @@ static unsigned sample(const char *pattern, unsigned x, unsigned y, unsigned cha
     return (largest / 64) * ((channel % 2 == 0 ? x : y) + channel) % (largest + 1);
 }
 
-static void make(char **argv) {
-    static const int colour_types[] = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA, PNG_COLOR_TYPE_RGB,
-                                       PNG_COLOR_TYPE_RGB_ALPHA};
-    image i = {.width = (png_uint_32)atoi(argv[3]), .height = (png_uint_32)atoi(argv[4]), .channels = atoi(argv[5]),
+static void make(char **argv)
+{
+    static const int colour_types[] = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA,
+                                       PNG_COLOR_TYPE_RGB, PNG_COLOR_TYPE_RGB_ALPHA};
+    image i = {.width = (png_uint_32)atoi(argv[3]),
+               .height = (png_uint_32)atoi(argv[4]),
+               .channels = atoi(argv[5]),
                .depth = atoi(argv[6])};
     size_t bytes = (size_t)i.depth / 8;
     i.row_bytes = i.width * (size_t)i.channels * bytes;
@@ -100,8 +110,12 @@ static void make(char **argv) {
     free(i.rows);
 }
 
-static void palette(char **argv) {
-    image i = {.width = (png_uint_32)atoi(argv[3]), .height = (png_uint_32)atoi(argv[4]), .channels = 1, .depth = 2};
+static void palette(char **argv)
+{
+    image i = {.width = (png_uint_32)atoi(argv[3]),
+               .height = (png_uint_32)atoi(argv[4]),
+               .channels = 1,
+               .depth = 2};
     i.row_bytes = (i.width + 3) / 4;
     i.rows = calloc(i.height, i.row_bytes);
     memset(i.rows, 0x1b, i.height * i.row_bytes);
@@ -109,16 +123,18 @@ static void palette(char **argv) {
     free(i.rows);
 }
 
-static int same(char **argv) {
+static int same(char **argv)
+{
     image a = load(argv[2]), b = load(argv[3]);
-    int differ = a.width != b.width || a.height != b.height || a.channels != b.channels || a.depth != b.depth ||
-                 memcmp(a.rows, b.rows, a.height * a.row_bytes) != 0;
+    int differ = a.width != b.width || a.height != b.height || a.channels != b.channels ||
+                 a.depth != b.depth || memcmp(a.rows, b.rows, a.height * a.row_bytes) != 0;
     free(a.rows);
     free(b.rows);
     return differ;
 }
 
-static void at(char **argv) {
+static void at(char **argv)
+{
     image i = load(argv[2]);
     size_t bytes = (size_t)i.depth / 8, x = (size_t)atoi(argv[3]), y = (size_t)atoi(argv[4]);
     const png_byte *p = i.rows + y * i.row_bytes + x * (size_t)i.channels * bytes;
@@ -128,13 +144,15 @@ static void at(char **argv) {
     free(i.rows);
 }
 
-static void kind(char **argv) {
+static void kind(char **argv)
+{
     image i = load(argv[2]);
     printf("%u %u %d %d\n", (unsigned)i.width, (unsigned)i.height, i.channels, i.depth);
     free(i.rows);
 }
 
-int main(int argc, char **argv) {
+int main(int argc, char **argv)
+{
     if (argc == 8 && strcmp(argv[1], "make") == 0)
         make(argv);
     else if (argc == 5 && strcmp(argv[1], "palette") == 0)

@@ -2,6 +2,7 @@
  * of the others, and where points lie. */
 #include "domain/avl.h"
 #include "domain/domain.h"
+#include "domain/locate.h"
 #include "icc/icc.h"
 
 #include <check.h>
@@ -698,6 +699,101 @@ START_TEST(test_clustered_vertices)
 }
 END_TEST
 
+/* A vertex less than one unit in the last place from the middle of a slanting edge. */
+START_TEST(test_vertex_near_edge)
+{
+    int n_simple = 0;
+    for (int round = 0; round < 20000; ++round) {
+        const double slope = unit(), t = unit();
+        double points[] = {0, 0, 1, slope, 1, 2, t, t * slope, 0, 2};
+        icc_domain *domain;
+        icc_error err;
+        if (create(&domain, 5, points, &err) != ICC_OK) {
+            points[7] = nextafter(points[7], 2);
+            if (create(&domain, 5, points, &err) != ICC_OK)
+                continue;
+        }
+        ++n_simple;
+        int32_t where;
+        uint32_t facet;
+        double bary[2];
+        icc_domain_locate(domain, 1, points + 6, &where, &facet, bary, NULL);
+        REQUIRE(where == ICC_BOUNDARY);
+        REQUIRE((facet == 2 && bary[1] == 1) || (facet == 3 && bary[0] == 1));
+        icc_domain_free(domain);
+    }
+    ck_assert_int_gt(n_simple, 15000);
+}
+END_TEST
+
+/* Where edges pass from cell to cell of the buckets, points on either side of them and of the cells'
+ * sides are on the boundary up to the tolerance and not beyond. */
+START_TEST(test_sides_of_cells)
+{
+    static shape s;
+    static double points[2 * MAX_N];
+    for (int round = 0; round < 60; ++round) {
+        make_any(&s, round);
+        to_doubles(&s, 1.0 / 7, 0.3, 1000, points);
+        icc_domain *domain;
+        icc_error err;
+        if (create(&domain, (size_t)s.n, points, &err) != ICC_OK)
+            continue;
+        const iccp_buckets *b = &domain->locator->buckets;
+        for (int i = 0; i < 1000; ++i) {
+            const uint32_t e = (uint32_t)below(s.n);
+            const double *p = domain->vertices + 2 * domain->facets[2 * e];
+            const double *q = domain->vertices + 2 * domain->facets[2 * e + 1];
+            const int axis = below(2);
+            const double length = hypot(q[0] - p[0], q[1] - p[1]);
+            const double first = floor((fmin(p[axis], q[axis]) - b->origin[axis]) * b->rate[axis]);
+            const double side = b->origin[axis] + (first + 1) * b->step[axis];
+            const double t = (side - p[axis]) / (q[axis] - p[axis]);
+            if (!(t > 0.01 && t < 0.99))
+                continue;
+            const double off = 1.8 * (unit() - 0.5) * domain->tolerance,
+                         along = 1e-15 * (unit() - 0.5);
+            double x[2] = {p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])};
+            x[axis] = side;
+            x[0] += along * (q[0] - p[0]) / length - off * (q[1] - p[1]) / length;
+            x[1] += along * (q[1] - p[1]) / length + off * (q[0] - p[0]) / length;
+            REQUIRE(iccp_domain_locate(domain, x, true, NULL, NULL) == ICC_BOUNDARY);
+        }
+        icc_domain_free(domain);
+    }
+}
+END_TEST
+
+/* An edge through the point of a cell for which the answer would be known. */
+START_TEST(test_edge_through_known_point)
+{
+    double points[] = {0, 0, 1, 0, 1, 1, 0.6, 1, 0.5, 0.25, 0.5, 1, 0, 1};
+    double x = 0.5;
+    for (int round = 0; round < 2; ++round) {
+        points[8] = points[10] = x;
+        icc_domain *domain;
+        icc_error err;
+        ck_assert_int_eq(create(&domain, 7, points, &err), ICC_OK);
+        for (int i = 0; i < 20000; ++i) {
+            const double p[2] = {x + 0.2 * (unit() - 0.5), unit()};
+            int32_t where;
+            icc_domain_locate(domain, 1, p, &where, NULL, NULL, NULL);
+            const double right = x + (0.6 - x) * (p[1] - 0.25) / 0.75;
+            if (fabs(p[0] - right) > 1e-9 && fabs(p[0] - x) > 1e-9)
+                REQUIRE(where ==
+                        (p[1] > 0.25 && p[0] > x && p[0] < right ? ICC_OUTSIDE : ICC_INSIDE));
+        }
+        /* The next edge goes where this grid has such a point; the grid stays the same. */
+        const iccp_buckets *b = &domain->locator->buckets;
+        const double scale = domain->frame.out[0] * domain->frame.out[1];
+        const double column = floor((0.5 / scale - b->origin[0]) * b->rate[0]) + 0.5;
+        x = (b->origin[0] + column * b->step[0]) * scale;
+        icc_domain_free(domain);
+    }
+    ck_assert(x == points[8]);
+}
+END_TEST
+
 /* Wherever the shape lies and however large it is, the same points lie inside. Points are spaced by
  * what the coarsest of the placements can tell apart. */
 START_TEST(test_invariance)
@@ -843,6 +939,27 @@ START_TEST(test_info)
     icc_domain_get_info(domain, &info);
     ck_assert(info.measure == HUGE_VAL && info.upper[0] == 1e300);
     icc_domain_free(domain);
+}
+END_TEST
+
+/* Triangles a few units thin, whose products have more bits than a double. */
+START_TEST(test_area_of_slivers)
+{
+    for (int round = 0; round < 20000; ++round) {
+        const int64_t x = (1 << 30) + below(1 << 30), y = (1 << 30) + below(1 << 30);
+        const int64_t u = x + below(9) - 4, v = y + below(9) - 4;
+        const double points[] = {0, 0, (double)x, (double)y, (double)u, (double)v};
+        const int64_t twice = x * v - y * u;
+        icc_domain *domain;
+        icc_error err;
+        icc_domain_info info = {.size = sizeof info};
+        if (create(&domain, 3, points, &err) != ICC_OK)
+            continue;
+        icc_domain_get_info(domain, &info);
+        REQUIRE(info.measure == 0.5 * (double)llabs(twice));
+        REQUIRE(info.orientation == (twice > 0 ? 1 : -1));
+        icc_domain_free(domain);
+    }
 }
 END_TEST
 
@@ -1081,11 +1198,15 @@ int main(void)
     tcase_add_test(checks, test_facets);
     tcase_add_test(checks, test_locate_exactly);
     tcase_add_test(checks, test_clustered_vertices);
+    tcase_add_test(checks, test_vertex_near_edge);
+    tcase_add_test(checks, test_sides_of_cells);
+    tcase_add_test(checks, test_edge_through_known_point);
     tcase_add_test(checks, test_invariance);
     tcase_add_test(checks, test_tolerance);
     tcase_add_test(checks, test_odd_points);
     tcase_add_test(checks, test_facet_point);
     tcase_add_test(checks, test_info);
+    tcase_add_test(checks, test_area_of_slivers);
     tcase_add_test(checks, test_arguments);
     tcase_add_test(checks, test_memory_and_cancel);
     tcase_add_test(checks, test_threads);

@@ -91,6 +91,37 @@ START_TEST(test_exact)
 }
 END_TEST
 
+/* Doubles with all their bits, on both sides of the ratio up to which an axis is shifted. */
+START_TEST(test_shift)
+{
+    int n_shifted = 0;
+    for (int round = 0; round < 20000; ++round) {
+        const double sign = next() % 2 == 0 ? 1 : -1,
+                     ratio = 1 + 3 * ldexp((double)(next() >> 11), -53);
+        const double lowest = sign * (1 + ldexp((double)(next() >> 11), -53));
+        double points[2 * N], local[2 * N], back[2];
+        double low = HUGE_VAL, high = 0;
+        for (int i = 0; i < 2 * N; ++i) {
+            points[i] = lowest * (1 + (ratio - 1) * ldexp((double)(next() >> 11), -53));
+            if (i % 2 == 0) {
+                low = fmin(low, fabs(points[i]));
+                high = fmax(high, fabs(points[i]));
+            }
+        }
+        iccp_frame frame;
+        iccp_frame_fit(&frame, 2, N, points);
+        (void)largest_local(&frame, N, points, local);
+        REQUIRE(frame.shift[0] == (high <= 2 * low ? sign * low : 0));
+        n_shifted += high <= 2 * low;
+        for (int i = 0; i < N; ++i) {
+            iccp_frame_out(&frame, 2, local + 2 * i, back);
+            REQUIRE(back[0] == points[2 * i] && back[1] == points[2 * i + 1]);
+        }
+    }
+    ck_assert(n_shifted > 4000 && n_shifted < 16000);
+}
+END_TEST
+
 START_TEST(test_extremes)
 {
     static const double cases[][6] = {
@@ -174,6 +205,7 @@ int main(void)
 {
     TCase *frame = tcase_create("frame");
     tcase_add_test(frame, test_exact);
+    tcase_add_test(frame, test_shift);
     tcase_add_test(frame, test_extremes);
     tcase_add_test(frame, test_range);
     tcase_add_test(frame, test_other_dimensions);

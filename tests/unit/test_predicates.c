@@ -252,6 +252,21 @@ static void small_lattice(random_source *r, double p[4][2])
             p[i][k] = scale * grid(r, 3);
 }
 
+/* Integers of 6 to 16 bits, at most one off the circle round the origin. */
+static void integers(random_source *r, double p[4][2])
+{
+    static const double corner[4][2] = {{33, 56}, {16, 63}, {39, 52}, {25, 60}}; /* radius 65 */
+    const double factor = (double)(1 + random_below(r, 1 << random_below(r, 11)));
+    for (int i = 0; i < 4; ++i) {
+        const int which = random_below(r, 4), swap = random_below(r, 2);
+        for (int k = 0; k < 2; ++k) {
+            const double sign = random_below(r, 2) ? 1.0 : -1.0;
+            const double off = random_below(r, 8) == 0 ? 1.0 : 0.0;
+            p[i][k] = sign * (factor * corner[which][k ^ swap] + off);
+        }
+    }
+}
+
 /* On one circle in exact arithmetic whatever the magnitudes: the corners of a rectangle. */
 static void rectangle(random_source *r, double p[4][2])
 {
@@ -297,12 +312,12 @@ START_TEST(incircle_is_exact)
     int n_zero = 0;
     for (int i = 0; i < N; ++i) {
         double p[4][2];
-        void (*const make[4])(random_source *, double[4][2]) = {nearly_cocircular, small_lattice,
-                                                               rectangle, wild};
-        make[i % 4](&r, p);
+        void (*const make[5])(random_source *, double[4][2]) = {nearly_cocircular, small_lattice,
+                                                               integers, rectangle, wild};
+        make[i % 5](&r, p);
         const int s = exact_incircle(&q, p);
         ck_assert_int_eq(iccp_incircle(p[0], p[1], p[2], p[3]), s);
-        if (i % 16 < 4)
+        if (i % 20 < 5)
             check_all_orders(p, s);
         n_zero += s == 0;
     }

@@ -1,0 +1,331 @@
+/* One object of each kind, and calls of every function that may fail, for tests that put all of them
+ * through the same treatment. */
+#ifndef TESTS_API_OBJECTS_H
+#define TESTS_API_OBJECTS_H
+
+#include <check.h>
+#include <icc/stages.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { N_CORNERS = 6, N_POINTS = 400 };
+
+/* An L and what it becomes. */
+static const double SOURCE[2 * N_CORNERS] = {0, 0, 3, 0, 3, 1, 1, 1, 1, 3, 0, 3};
+static const double TARGET[2 * N_CORNERS] = {0, 0, 4, 0.5, 3.5, 2, 2, 2, 1.5, 3, -0.5, 3.5};
+/* A ring that crosses itself. */
+static const double BOWTIE[8] = {0, 0, 2, 2, 2, 0, 0, 1};
+static const uint32_t FACETS[2 * N_CORNERS] = {0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 0};
+
+typedef struct objects {
+    icc_domain *source, *target;
+    icc_chart *chart, *target_chart;
+    icc_map *map;
+    icc_grid *grid, *mask;
+    icc_tree *tree;
+    icc_field *field;
+    double points[2 * N_POINTS]; /* in the source */
+    uint32_t facet[N_POINTS];
+    double bary[2 * N_POINTS], t[N_POINTS];
+} objects;
+
+static inline void objects_init(objects *o)
+{
+    static const size_t SHAPE[3] = {5, 5, 5};
+    uint8_t inside[125];
+    memset(inside, 1, sizeof inside);
+    ck_assert_int_eq(icc_domain_create(&o->source, 2, N_CORNERS, SOURCE, 0, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_domain_create(&o->target, 2, N_CORNERS, TARGET, 0, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_chart_create(&o->chart, o->source, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_chart_create(&o->target_chart, o->target, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_map_create_from_charts(&o->map, o->chart, o->target_chart, NULL, NULL, NULL),
+                     ICC_OK);
+    ck_assert_int_eq(icc_grid_create(&o->grid, o->source, 0, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_grid_create_mask(&o->mask, 3, SHAPE, inside, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_tree_create(&o->tree, o->mask, 62, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_field_create(&o->field, o->tree, NULL, NULL, NULL), ICC_OK);
+    for (size_t i = 0; i < N_POINTS; ++i) {
+        const double a = fmod(0.5 + 0.7548776662466927 * (double)i, 1);
+        const double b = fmod(0.5 + 0.5698402909980532 * (double)i, 1);
+        o->points[2 * i] = i % 2 ? 3 * a : a;
+        o->points[2 * i + 1] = i % 2 ? b : 3 * b;
+    }
+    ck_assert_int_eq(icc_chart_encode(o->chart, N_POINTS, o->points, o->facet, o->bary, o->t, NULL,
+                                      NULL, NULL), ICC_OK);
+}
+
+static inline void objects_clear(objects *o)
+{
+    icc_field_free(o->field);
+    icc_tree_free(o->tree);
+    icc_grid_free(o->mask);
+    icc_grid_free(o->grid);
+    icc_map_free(o->map);
+    icc_chart_free(o->chart);
+    icc_chart_free(o->target_chart);
+    icc_domain_free(o->source);
+    icc_domain_free(o->target);
+}
+
+/* What a call computed, as bytes to compare. */
+typedef struct outcome {
+    double numbers[4 * N_POINTS];
+    uint32_t indices[3 * N_POINTS];
+    icc_status status[N_POINTS];
+    size_t count;
+} outcome;
+
+/* A call on the objects. A creator frees what it made and writes what tells it apart. */
+typedef struct call {
+    const char *name;
+    icc_status (*run)(const objects *o, outcome *out, const icc_env *env, icc_error *err);
+} call;
+
+/* Checks that a creator hands over an object if and only if it succeeds. */
+#define HANDED_OVER(status, object) ck_assert_int_eq((status) == ICC_OK, (object) != NULL)
+
+static inline icc_status call_domain_create(const objects *o, outcome *out, const icc_env *env,
+                                            icc_error *err)
+{
+    (void)o;
+    icc_domain *domain = (icc_domain *)&domain;
+    const icc_status status =
+        icc_domain_create(&domain, 2, N_CORNERS, SOURCE, N_CORNERS, FACETS, env, err);
+    HANDED_OVER(status, domain);
+    if (status == ICC_OK)
+        (void)icc_domain_get_boundary(domain, out->numbers, out->indices);
+    icc_domain_free(domain);
+    return status;
+}
+
+static inline icc_status call_domain_locate(const objects *o, outcome *out, const icc_env *env,
+                                            icc_error *err)
+{
+    (void)err;
+    return icc_domain_locate(o->source, N_POINTS, o->points, out->status, out->indices,
+                             out->numbers, env);
+}
+
+static inline icc_status call_boundary_defects(const objects *o, outcome *out, const icc_env *env,
+                                               icc_error *err)
+{
+    (void)o;
+    return icc_boundary_defects(4, BOWTIE, N_POINTS, out->status, out->indices, &out->count, env, err);
+}
+
+static inline icc_status call_chart_create(const objects *o, outcome *out, const icc_env *env,
+                                           icc_error *err)
+{
+    icc_chart *chart = (icc_chart *)&chart;
+    const icc_status status = icc_chart_create(&chart, o->source, NULL, env, err);
+    HANDED_OVER(status, chart);
+    icc_chart_info info = {.size = sizeof info};
+    if (status == ICC_OK)
+        (void)icc_chart_get_info(chart, &info);
+    out->count = info.n_tree;
+    memcpy(out->numbers, info.maximum, sizeof info.maximum);
+    icc_chart_free(chart);
+    return status;
+}
+
+static inline icc_status call_chart_measure(const objects *o, outcome *out, const icc_env *env,
+                                            icc_error *err)
+{
+    icc_chart_measures m = {.size = sizeof m};
+    const icc_status status = icc_chart_measure(o->chart, 3000, &m, env, err);
+    memcpy(out->numbers, &m, sizeof m);
+    return status;
+}
+
+static inline icc_status call_chart_encode(const objects *o, outcome *out, const icc_env *env,
+                                           icc_error *err)
+{
+    (void)err;
+    return icc_chart_encode(o->chart, N_POINTS, o->points, out->indices, out->numbers,
+                            out->numbers + 2 * N_POINTS, out->status, &out->count, env);
+}
+
+static inline icc_status call_chart_decode(const objects *o, outcome *out, const icc_env *env,
+                                           icc_error *err)
+{
+    (void)err;
+    return icc_chart_decode(o->chart, N_POINTS, o->facet, o->bary, o->t, out->numbers, out->status,
+                            &out->count, env);
+}
+
+static inline icc_status call_chart_trace(const objects *o, outcome *out, const icc_env *env,
+                                          icc_error *err)
+{
+    return icc_chart_trace(o->chart, o->points, N_POINTS, out->numbers, &out->count, env, err);
+}
+
+static inline icc_status call_map_create(const objects *o, outcome *out, const icc_env *env,
+                                         icc_error *err)
+{
+    icc_map *map = (icc_map *)&map;
+    const icc_status status = icc_map_create(&map, o->source, o->target, NULL, env, err);
+    HANDED_OVER(status, map);
+    if (status == ICC_OK)
+        (void)icc_map_apply(map, N_POINTS, o->points, out->numbers, out->status, &out->count, NULL);
+    icc_map_free(map);
+    return status;
+}
+
+static inline icc_status call_map_create_from_charts(const objects *o, outcome *out,
+                                                     const icc_env *env, icc_error *err)
+{
+    icc_map *map = (icc_map *)&map;
+    const icc_status status =
+        icc_map_create_from_charts(&map, o->chart, o->target_chart, NULL, env, err);
+    HANDED_OVER(status, map);
+    if (status == ICC_OK)
+        (void)icc_map_apply(map, N_POINTS, o->points, out->numbers, out->status, &out->count, NULL);
+    icc_map_free(map);
+    return status;
+}
+
+static inline icc_status call_map_apply(const objects *o, outcome *out, const icc_env *env,
+                                        icc_error *err)
+{
+    (void)err;
+    return icc_map_apply(o->map, N_POINTS, o->points, out->numbers, out->status, &out->count, env);
+}
+
+static inline icc_status call_map_apply_inverse(const objects *o, outcome *out, const icc_env *env,
+                                                icc_error *err)
+{
+    (void)err;
+    return icc_map_apply_inverse(o->map, N_POINTS, o->points, out->numbers, out->status, &out->count,
+                                 env);
+}
+
+static inline icc_status call_map_jacobian(const objects *o, outcome *out, const icc_env *env,
+                                           icc_error *err)
+{
+    (void)err;
+    return icc_map_jacobian(o->map, N_POINTS, o->points, out->numbers, out->status, &out->count, env);
+}
+
+static inline icc_status call_grid_create(const objects *o, outcome *out, const icc_env *env,
+                                          icc_error *err)
+{
+    icc_grid *grid = (icc_grid *)&grid;
+    const icc_status status = icc_grid_create(&grid, o->source, 0, env, err);
+    HANDED_OVER(status, grid);
+    icc_grid_info info = {.size = sizeof info};
+    if (status == ICC_OK)
+        (void)icc_grid_get_info(grid, &info);
+    out->count = info.n_inside;
+    icc_grid_free(grid);
+    return status;
+}
+
+static inline icc_status call_grid_create_mask(const objects *o, outcome *out, const icc_env *env,
+                                               icc_error *err)
+{
+    static const size_t SHAPE[3] = {5, 5, 5};
+    icc_grid *grid = (icc_grid *)&grid;
+    const icc_status status = icc_grid_create_mask(&grid, 3, SHAPE, icc_grid_inside(o->mask), env, err);
+    HANDED_OVER(status, grid);
+    if (status == ICC_OK)
+        out->count = icc_grid_inside(grid)[31];
+    icc_grid_free(grid);
+    return status;
+}
+
+static inline icc_status call_grid_maximum(const objects *o, outcome *out, const icc_env *env,
+                                           icc_error *err)
+{
+    return icc_grid_maximum(o->grid, out->indices, out->indices + 1, env, err);
+}
+
+static inline icc_status call_tree_create(const objects *o, outcome *out, const icc_env *env,
+                                          icc_error *err)
+{
+    icc_tree *tree = (icc_tree *)&tree;
+    const icc_status status = icc_tree_create(&tree, o->mask, 62, NULL, env, err);
+    HANDED_OVER(status, tree);
+    if (status == ICC_OK)
+        memcpy(out->indices, icc_tree_parents(tree), 125 * sizeof *out->indices);
+    icc_tree_free(tree);
+    return status;
+}
+
+static inline icc_status call_tree_verify(const objects *o, outcome *out, const icc_env *env,
+                                          icc_error *err)
+{
+    icc_tree_report report = {.size = sizeof report};
+    const icc_status status = icc_tree_verify(o->tree, &report, env, err);
+    memcpy(out->indices, &report, sizeof report);
+    return status;
+}
+
+static inline icc_status call_field_create(const objects *o, outcome *out, const icc_env *env,
+                                           icc_error *err)
+{
+    icc_field *field = (icc_field *)&field;
+    const icc_status status = icc_field_create(&field, o->tree, NULL, env, err);
+    HANDED_OVER(status, field);
+    if (status == ICC_OK)
+        memcpy(out->numbers, icc_field_values(field), 125 * sizeof *out->numbers);
+    icc_field_free(field);
+    return status;
+}
+
+static inline icc_status call_field_verify(const objects *o, outcome *out, const icc_env *env,
+                                           icc_error *err)
+{
+    icc_field_report report = {.size = sizeof report};
+    const icc_status status = icc_field_verify(o->field, &report, env, err);
+    memcpy(out->indices, &report, sizeof report);
+    return status;
+}
+
+static inline icc_status call_triangulate(const objects *o, outcome *out, const icc_env *env,
+                                          icc_error *err)
+{
+    double points[2 * (N_CORNERS + 100)];
+    memcpy(points, SOURCE, sizeof SOURCE);
+    memcpy(points + 2 * N_CORNERS, o->points, 200 * sizeof *points);
+    return icc_triangulate(N_CORNERS, N_CORNERS + 100, points, out->indices, env, err);
+}
+
+static const call CALLS[] = {
+    {"icc_domain_create", call_domain_create},
+    {"icc_domain_locate", call_domain_locate},
+    {"icc_boundary_defects", call_boundary_defects},
+    {"icc_chart_create", call_chart_create},
+    {"icc_chart_measure", call_chart_measure},
+    {"icc_chart_encode", call_chart_encode},
+    {"icc_chart_decode", call_chart_decode},
+    {"icc_chart_trace", call_chart_trace},
+    {"icc_map_create", call_map_create},
+    {"icc_map_create_from_charts", call_map_create_from_charts},
+    {"icc_map_apply", call_map_apply},
+    {"icc_map_apply_inverse", call_map_apply_inverse},
+    {"icc_map_jacobian", call_map_jacobian},
+    {"icc_grid_create", call_grid_create},
+    {"icc_grid_create_mask", call_grid_create_mask},
+    {"icc_grid_maximum", call_grid_maximum},
+    {"icc_tree_create", call_tree_create},
+    {"icc_tree_verify", call_tree_verify},
+    {"icc_field_create", call_field_create},
+    {"icc_field_verify", call_field_verify},
+    {"icc_triangulate", call_triangulate},
+};
+enum { N_CALLS = sizeof CALLS / sizeof *CALLS };
+
+/* Whether the call takes an icc_error, which must then tell what the status tells. */
+static inline int has_error(const call *c)
+{
+    static const char *const WITHOUT[] = {"icc_domain_locate", "icc_chart_encode", "icc_chart_decode",
+                                          "icc_map_apply", "icc_map_apply_inverse",
+                                          "icc_map_jacobian"};
+    for (size_t i = 0; i < sizeof WITHOUT / sizeof *WITHOUT; ++i)
+        if (strcmp(c->name, WITHOUT[i]) == 0)
+            return 0;
+    return 1;
+}
+
+#endif

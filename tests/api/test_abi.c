@@ -1,0 +1,197 @@
+/* What a program compiled against these headers relies on. A number that changes here breaks every
+ * program that is not recompiled: see docs/abi.md. */
+#include <check.h>
+#include <icc/stages.h>
+#include <stddef.h>
+#include <stdlib.h>
+
+#define IS(constant, value) _Static_assert((constant) == (value), #constant " has changed")
+#define SIZE(type, bytes) _Static_assert(sizeof(type) == (bytes), "the size of " #type " has changed")
+#define AT(type, member, offset)                                                                     \
+    _Static_assert(offsetof(type, member) == (offset), #type "." #member " has moved")
+
+IS(ICC_OK, 0);
+IS(ICC_ERR_ARGUMENT, 1);
+IS(ICC_ERR_MEMORY, 2);
+IS(ICC_ERR_VERSION, 3);
+IS(ICC_ERR_BOUNDARY, 4);
+IS(ICC_ERR_RESOLUTION, 5);
+IS(ICC_ERR_TOPOLOGY, 6);
+IS(ICC_ERR_OUTSIDE, 7);
+IS(ICC_ERR_SOLVER, 8);
+IS(ICC_ERR_TRACE, 9);
+IS(ICC_ERR_CERTIFICATE, 10);
+IS(ICC_ERR_CANCELLED, 11);
+IS(ICC_ERR_UNSUPPORTED, 12);
+IS(ICC_ERR_FORMAT, 13);
+
+IS(ICC_MAX_DIM, 6);
+
+IS(ICC_INSIDE, 1);
+IS(ICC_BOUNDARY, 2);
+IS(ICC_OUTSIDE, 3);
+
+IS(ICC_DEFECT_NOT_FINITE, 1);
+IS(ICC_DEFECT_REPEATED, 2);
+IS(ICC_DEFECT_SPIKE, 3);
+IS(ICC_DEFECT_CROSSING, 4);
+IS(ICC_DEFECT_TOUCH, 5);
+IS(ICC_DEFECT_FLAT, 6);
+
+IS(ICC_METHOD_GRADIENT, 1);
+
+IS(ICC_FUNCTION_DECAY, 1);
+IS(ICC_FUNCTION_DISTANCE, 2);
+
+IS(ICC_TREE_THESIS, 1);
+IS(ICC_TREE_PAPER, 2);
+
+IS(ICC_MAP_CURVES, 1);
+
+IS(ICC_EDGE_COMPRESSION, 1);
+IS(ICC_EDGE_EXPANSION, 2);
+
+_Static_assert(sizeof(icc_status) == 4, "icc_status has changed");
+
+/* Every 64-bit platform of practice lays them out like this. */
+#if defined(__LP64__)
+
+SIZE(icc_error, 264);
+AT(icc_error, size, 0);
+AT(icc_error, status, 8);
+AT(icc_error, side, 12);
+AT(icc_error, index, 16);
+AT(icc_error, message, 24);
+
+SIZE(icc_env, 64);
+AT(icc_env, size, 0);
+AT(icc_env, user, 8);
+AT(icc_env, alloc, 16);
+AT(icc_env, dealloc, 24);
+AT(icc_env, log, 32);
+AT(icc_env, progress, 40);
+AT(icc_env, parallel_for, 48);
+AT(icc_env, threads, 56);
+
+SIZE(icc_domain_info, 136);
+AT(icc_domain_info, size, 0);
+AT(icc_domain_info, dim, 8);
+AT(icc_domain_info, orientation, 12);
+AT(icc_domain_info, n_vertices, 16);
+AT(icc_domain_info, n_facets, 24);
+AT(icc_domain_info, lower, 32);
+AT(icc_domain_info, upper, 80);
+AT(icc_domain_info, measure, 128);
+
+SIZE(icc_chart_options, 32);
+AT(icc_chart_options, size, 0);
+AT(icc_chart_options, method, 8);
+AT(icc_chart_options, function, 12);
+AT(icc_chart_options, tree, 16);
+AT(icc_chart_options, cells, 20);
+AT(icc_chart_options, maximum, 24);
+
+SIZE(icc_chart_info, 192);
+AT(icc_chart_info, size, 0);
+AT(icc_chart_info, dim, 8);
+AT(icc_chart_info, method, 12);
+AT(icc_chart_info, function, 16);
+AT(icc_chart_info, tree, 20);
+AT(icc_chart_info, maximum, 24);
+AT(icc_chart_info, spacing, 72);
+AT(icc_chart_info, n_grid, 80);
+AT(icc_chart_info, n_inside, 88);
+AT(icc_chart_info, n_tree, 96);
+AT(icc_chart_info, n_unreachable, 104);
+AT(icc_chart_info, n_cousin_violations, 112);
+AT(icc_chart_info, n_maxima, 120);
+AT(icc_chart_info, n_minima, 128);
+AT(icc_chart_info, n_saddles, 136);
+AT(icc_chart_info, n_edges, 144);
+AT(icc_chart_info, n_compression, 152);
+AT(icc_chart_info, n_expansion, 160);
+AT(icc_chart_info, seconds_grid, 168);
+AT(icc_chart_info, seconds_tree, 176);
+AT(icc_chart_info, seconds_field, 184);
+
+SIZE(icc_chart_measures, 56);
+AT(icc_chart_measures, size, 0);
+AT(icc_chart_measures, n_points, 8);
+AT(icc_chart_measures, n_boundary, 16);
+AT(icc_chart_measures, unreachable, 24);
+AT(icc_chart_measures, uncovered, 32);
+AT(icc_chart_measures, collapsed, 40);
+AT(icc_chart_measures, not_inward, 48);
+
+SIZE(icc_map_options, 32);
+AT(icc_map_options, size, 0);
+AT(icc_map_options, kind, 8);
+AT(icc_map_options, chart, 16);
+AT(icc_map_options, target_maximum, 24);
+
+SIZE(icc_map_info, 24);
+AT(icc_map_info, size, 0);
+AT(icc_map_info, dim, 8);
+AT(icc_map_info, kind, 12);
+AT(icc_map_info, seconds, 16);
+
+SIZE(icc_grid_info, 136);
+AT(icc_grid_info, size, 0);
+AT(icc_grid_info, dim, 8);
+AT(icc_grid_info, reserved, 12);
+AT(icc_grid_info, shape, 16);
+AT(icc_grid_info, origin, 64);
+AT(icc_grid_info, spacing, 112);
+AT(icc_grid_info, n_vertices, 120);
+AT(icc_grid_info, n_inside, 128);
+
+SIZE(icc_tree_options, 24);
+AT(icc_tree_options, size, 0);
+AT(icc_tree_options, form, 8);
+AT(icc_tree_options, reserved, 12);
+AT(icc_tree_options, axis_order, 16);
+
+SIZE(icc_tree_report, 56);
+AT(icc_tree_report, size, 0);
+AT(icc_tree_report, n_inside, 8);
+AT(icc_tree_report, n_outside, 16);
+AT(icc_tree_report, n_unreachable, 24);
+AT(icc_tree_report, n_pairs, 32);
+AT(icc_tree_report, n_cousin_violations, 40);
+AT(icc_tree_report, violation, 48);
+
+SIZE(icc_field_options, 16);
+AT(icc_field_options, size, 0);
+AT(icc_field_options, function, 8);
+AT(icc_field_options, reserved, 12);
+
+SIZE(icc_field_report, 40);
+AT(icc_field_report, size, 0);
+AT(icc_field_report, n_maxima, 8);
+AT(icc_field_report, n_minima, 16);
+AT(icc_field_report, n_saddles, 24);
+AT(icc_field_report, critical, 32);
+AT(icc_field_report, reserved, 36);
+
+#endif
+
+/* The library that is linked and the headers belong together. */
+START_TEST(the_version_is_that_of_the_headers)
+{
+    ck_assert_int_ge(icc_version_number(), 100);
+    ck_assert_int_lt(icc_version_number(), 10000);
+}
+END_TEST
+
+int main(void)
+{
+    Suite *suite = suite_create("abi");
+    TCase *tests = tcase_create("all");
+    tcase_add_test(tests, the_version_is_that_of_the_headers);
+    suite_add_tcase(suite, tests);
+    SRunner *runner = srunner_create(suite);
+    srunner_run_all(runner, CK_NORMAL);
+    const int n_failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}

@@ -1,0 +1,613 @@
+/* Bad arguments, and the rules of structs that begin with their size. */
+#include "objects.h"
+
+#include <stdbool.h>
+#include <stdio.h>
+
+#define REFUSED(call) ck_assert_int_eq((call), ICC_ERR_ARGUMENT)
+
+/* A refusal that must also be explained. */
+#define EXPLAINED(call)                                                                              \
+    do {                                                                                             \
+        err = (icc_error){.size = sizeof err};                                                       \
+        REFUSED(call);                                                                               \
+        ck_assert(err.status == ICC_ERR_ARGUMENT && err.message[0] != '\0');                         \
+    } while (0)
+
+/* The same, of a creator, which must also reset its out. */
+#define NOT_MADE(object, call)                                                                       \
+    do {                                                                                             \
+        (object) = (void *)&err;                                                                     \
+        EXPLAINED(call);                                                                             \
+        ck_assert_ptr_null(object);                                                                  \
+    } while (0)
+
+START_TEST(domains_refuse_bad_arguments)
+{
+    objects o;
+    objects_init(&o);
+    icc_error err;
+    icc_domain *d;
+    EXPLAINED(icc_domain_create(NULL, 2, N_CORNERS, SOURCE, 0, NULL, NULL, &err));
+    NOT_MADE(d, icc_domain_create(&d, 0, N_CORNERS, SOURCE, 0, NULL, NULL, &err));
+    NOT_MADE(d, icc_domain_create(&d, 7, N_CORNERS, SOURCE, 0, NULL, NULL, &err));
+    NOT_MADE(d, icc_domain_create(&d, 2, N_CORNERS, NULL, 0, NULL, NULL, &err));
+    NOT_MADE(d, icc_domain_create(&d, 2, SIZE_MAX / 2, SOURCE, 0, NULL, NULL, &err));
+    NOT_MADE(d, icc_domain_create(&d, 2, N_CORNERS, SOURCE, SIZE_MAX / 2, FACETS, NULL, &err));
+    ck_assert_int_eq(icc_domain_create(&d, 3, N_CORNERS, SOURCE, 0, NULL, NULL, &err),
+                     ICC_ERR_UNSUPPORTED);
+    ck_assert_int_eq(err.status, ICC_ERR_UNSUPPORTED);
+    for (size_t n = 0; n < 3; ++n) {
+        err.status = ICC_OK;
+        const icc_status status = icc_domain_create(&d, 2, n, SOURCE, 0, NULL, NULL, &err);
+        ck_assert(status == ICC_ERR_ARGUMENT || status == ICC_ERR_BOUNDARY);
+        ck_assert(err.status == status && d == NULL);
+    }
+    static const uint32_t WRONG[][2 * N_CORNERS] = {{0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6},
+                                                    {0, 1, 1, 2, 2, 3, 3, 4, 5, 4, 5, 0},
+                                                    {0, 1, 1, 2, 2, 0, 3, 4, 4, 5, 5, 3},
+                                                    {0, 1, 0, 1, 2, 3, 3, 4, 4, 5, 5, 0}};
+    for (size_t k = 0; k < sizeof WRONG / sizeof *WRONG; ++k) {
+        err.status = ICC_OK;
+        const icc_status status =
+            icc_domain_create(&d, 2, N_CORNERS, SOURCE, N_CORNERS, WRONG[k], NULL, &err);
+        ck_assert(status == ICC_ERR_BOUNDARY || status == ICC_ERR_ARGUMENT);
+        ck_assert(err.status == status && err.index >= 0 && d == NULL);
+    }
+    icc_domain_info info = {.size = sizeof info};
+    REFUSED(icc_domain_get_info(NULL, &info));
+    REFUSED(icc_domain_get_info(o.source, NULL));
+    REFUSED(icc_domain_get_boundary(NULL, o.points, o.facet));
+    ck_assert_int_eq(icc_domain_get_boundary(o.source, NULL, NULL), ICC_OK);
+    int32_t where[1];
+    REFUSED(icc_domain_locate(NULL, 1, SOURCE, where, NULL, NULL, NULL));
+    REFUSED(icc_domain_locate(o.source, 1, NULL, where, NULL, NULL, NULL));
+    REFUSED(icc_domain_locate(o.source, 1, SOURCE, NULL, NULL, NULL, NULL));
+    ck_assert_int_eq(icc_domain_locate(o.source, 0, NULL, NULL, NULL, NULL, NULL), ICC_OK);
+    int32_t kinds[4];
+    uint32_t items[8];
+    size_t n;
+    EXPLAINED(icc_boundary_defects(4, BOWTIE, 4, kinds, items, NULL, NULL, &err));
+    EXPLAINED(icc_boundary_defects(4, BOWTIE, 4, NULL, items, &n, NULL, &err));
+    EXPLAINED(icc_boundary_defects(4, BOWTIE, 4, kinds, NULL, &n, NULL, &err));
+    EXPLAINED(icc_boundary_defects(4, NULL, 4, kinds, items, &n, NULL, &err));
+    EXPLAINED(icc_boundary_defects(SIZE_MAX / 2, BOWTIE, 4, kinds, items, &n, NULL, &err));
+    ck_assert_int_eq(icc_boundary_defects(4, BOWTIE, 0, NULL, NULL, &n, NULL, &err), ICC_OK);
+    ck_assert_uint_ge(n, 1);
+    objects_clear(&o);
+}
+END_TEST
+
+START_TEST(charts_refuse_bad_arguments)
+{
+    objects o;
+    objects_init(&o);
+    icc_error err;
+    icc_chart *c;
+    EXPLAINED(icc_chart_create(NULL, o.source, NULL, NULL, &err));
+    NOT_MADE(c, icc_chart_create(&c, NULL, NULL, NULL, &err));
+    static const double NOT_FINITE[2] = {0.5, NAN};
+    const icc_chart_options bad[] = {
+        {.size = sizeof *bad, .function = 3},  {.size = sizeof *bad, .function = -1},
+        {.size = sizeof *bad, .tree = 3},      {.size = sizeof *bad, .tree = -1},
+        {.size = sizeof *bad, .cells = 1},     {.size = sizeof *bad, .cells = -50},
+        {.size = sizeof *bad, .cells = 16385}, {.size = sizeof *bad, .maximum = NOT_FINITE},
+    };
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; ++k) {
+        NOT_MADE(c, icc_chart_create(&c, o.source, &bad[k], NULL, &err));
+        icc_map *m;
+        const icc_map_options options = {.size = sizeof options, .chart = &bad[k]};
+        NOT_MADE(m, icc_map_create(&m, o.source, o.target, &options, NULL, &err));
+    }
+    static const int32_t METHODS[] = {-1, 2, 99};
+    for (int k = 0; k < 3; ++k) {
+        const icc_chart_options options = {.size = sizeof options, .method = METHODS[k]};
+        ck_assert_int_eq(icc_chart_create(&c, o.source, &options, NULL, &err), ICC_ERR_UNSUPPORTED);
+        ck_assert(c == NULL && err.status == ICC_ERR_UNSUPPORTED);
+    }
+    icc_chart_info info = {.size = sizeof info};
+    REFUSED(icc_chart_get_info(NULL, &info));
+    REFUSED(icc_chart_get_info(o.chart, NULL));
+    ck_assert_ptr_null(icc_chart_domain(NULL));
+    ck_assert_ptr_eq(icc_chart_domain(o.chart), o.source);
+    icc_chart_measures m = {.size = sizeof m};
+    EXPLAINED(icc_chart_measure(NULL, 0, &m, NULL, &err));
+    EXPLAINED(icc_chart_measure(o.chart, 0, NULL, NULL, &err));
+    EXPLAINED(icc_chart_measure(o.chart, SIZE_MAX, &m, NULL, &err));
+    ck_assert_int_eq(icc_chart_measure(o.chart, 1, &m, NULL, NULL), ICC_OK);
+    uint32_t f;
+    double b[2], t, p[2] = {0.5, 0.5};
+    REFUSED(icc_chart_encode(NULL, 1, p, &f, b, &t, NULL, NULL, NULL));
+    REFUSED(icc_chart_encode(o.chart, 1, NULL, &f, b, &t, NULL, NULL, NULL));
+    REFUSED(icc_chart_encode(o.chart, 1, p, NULL, b, &t, NULL, NULL, NULL));
+    REFUSED(icc_chart_encode(o.chart, 1, p, &f, NULL, &t, NULL, NULL, NULL));
+    REFUSED(icc_chart_encode(o.chart, 1, p, &f, b, NULL, NULL, NULL, NULL));
+    size_t n = 7;
+    ck_assert_int_eq(icc_chart_encode(o.chart, 0, NULL, NULL, NULL, NULL, NULL, &n, NULL), ICC_OK);
+    ck_assert_uint_eq(n, 0);
+    REFUSED(icc_chart_decode(NULL, 1, o.facet, o.bary, o.t, p, NULL, NULL, NULL));
+    REFUSED(icc_chart_decode(o.chart, 1, NULL, o.bary, o.t, p, NULL, NULL, NULL));
+    REFUSED(icc_chart_decode(o.chart, 1, o.facet, NULL, o.t, p, NULL, NULL, NULL));
+    REFUSED(icc_chart_decode(o.chart, 1, o.facet, o.bary, NULL, p, NULL, NULL, NULL));
+    REFUSED(icc_chart_decode(o.chart, 1, o.facet, o.bary, o.t, NULL, NULL, NULL, NULL));
+    ck_assert_int_eq(icc_chart_decode(o.chart, 0, NULL, NULL, NULL, NULL, NULL, &n, NULL), ICC_OK);
+    EXPLAINED(icc_chart_trace(NULL, p, 0, NULL, &n, NULL, &err));
+    EXPLAINED(icc_chart_trace(o.chart, NULL, 0, NULL, &n, NULL, &err));
+    EXPLAINED(icc_chart_trace(o.chart, p, 0, NULL, NULL, NULL, &err));
+    EXPLAINED(icc_chart_trace(o.chart, p, 1, NULL, &n, NULL, &err));
+    EXPLAINED(icc_chart_trace(o.chart, NOT_FINITE, 0, NULL, &n, NULL, &err));
+    const double outside[2] = {2, 2};
+    ck_assert_int_eq(icc_chart_trace(o.chart, outside, 0, NULL, &n, NULL, &err), ICC_ERR_OUTSIDE);
+    ck_assert_int_eq(err.status, ICC_ERR_OUTSIDE);
+    objects_clear(&o);
+}
+END_TEST
+
+START_TEST(maps_refuse_bad_arguments)
+{
+    objects o;
+    objects_init(&o);
+    icc_error err;
+    icc_map *m;
+    EXPLAINED(icc_map_create(NULL, o.source, o.target, NULL, NULL, &err));
+    NOT_MADE(m, icc_map_create(&m, NULL, o.target, NULL, NULL, &err));
+    NOT_MADE(m, icc_map_create(&m, o.source, NULL, NULL, NULL, &err));
+    EXPLAINED(icc_map_create_from_charts(NULL, o.chart, o.target_chart, NULL, NULL, &err));
+    NOT_MADE(m, icc_map_create_from_charts(&m, NULL, o.target_chart, NULL, NULL, &err));
+    NOT_MADE(m, icc_map_create_from_charts(&m, o.chart, NULL, NULL, NULL, &err));
+    static const double NOT_FINITE[2] = {HUGE_VAL, 0};
+    icc_map_options options = {.size = sizeof options, .target_maximum = NOT_FINITE};
+    NOT_MADE(m, icc_map_create(&m, o.source, o.target, &options, NULL, &err));
+    options = (icc_map_options){.size = sizeof options, .kind = 2};
+    ck_assert_int_eq(icc_map_create(&m, o.source, o.target, &options, NULL, &err), ICC_ERR_UNSUPPORTED);
+    ck_assert(m == NULL && err.status == ICC_ERR_UNSUPPORTED);
+    ck_assert_int_eq(icc_map_create_from_charts(&m, o.chart, o.target_chart, &options, NULL, &err),
+                     ICC_ERR_UNSUPPORTED);
+    icc_map_info info = {.size = sizeof info};
+    REFUSED(icc_map_get_info(NULL, &info));
+    REFUSED(icc_map_get_info(o.map, NULL));
+    ck_assert(icc_map_source_chart(NULL) == NULL && icc_map_target_chart(NULL) == NULL);
+    ck_assert(icc_map_source_chart(o.map) == o.chart && icc_map_target_chart(o.map) == o.target_chart);
+    double p[2] = {0.5, 0.5}, j[4];
+    size_t n = 7;
+    REFUSED(icc_map_apply(NULL, 1, p, p, NULL, NULL, NULL));
+    REFUSED(icc_map_apply(o.map, 1, NULL, p, NULL, NULL, NULL));
+    REFUSED(icc_map_apply(o.map, 1, p, NULL, NULL, NULL, NULL));
+    ck_assert_int_eq(icc_map_apply(o.map, 0, NULL, NULL, NULL, &n, NULL), ICC_OK);
+    ck_assert_uint_eq(n, 0);
+    REFUSED(icc_map_apply_inverse(NULL, 1, p, p, NULL, NULL, NULL));
+    REFUSED(icc_map_apply_inverse(o.map, 1, NULL, p, NULL, NULL, NULL));
+    REFUSED(icc_map_apply_inverse(o.map, 1, p, NULL, NULL, NULL, NULL));
+    REFUSED(icc_map_jacobian(NULL, 1, p, j, NULL, NULL, NULL));
+    REFUSED(icc_map_jacobian(o.map, 1, NULL, j, NULL, NULL, NULL));
+    REFUSED(icc_map_jacobian(o.map, 1, p, NULL, NULL, NULL, NULL));
+    objects_clear(&o);
+}
+END_TEST
+
+START_TEST(stages_refuse_bad_arguments)
+{
+    static const size_t SHAPE[2] = {3, 3}, EMPTY[2] = {3, 0};
+    static const uint8_t NOTHING[9] = {0};
+    objects o;
+    objects_init(&o);
+    icc_error err;
+    icc_grid *g;
+    EXPLAINED(icc_grid_create(NULL, o.source, 0, NULL, &err));
+    NOT_MADE(g, icc_grid_create(&g, NULL, 0, NULL, &err));
+    NOT_MADE(g, icc_grid_create(&g, o.source, 1, NULL, &err));
+    NOT_MADE(g, icc_grid_create(&g, o.source, -1, NULL, &err));
+    NOT_MADE(g, icc_grid_create(&g, o.source, 16385, NULL, &err));
+    EXPLAINED(icc_grid_create_mask(NULL, 2, SHAPE, NOTHING, NULL, &err));
+    NOT_MADE(g, icc_grid_create_mask(&g, 0, SHAPE, NOTHING, NULL, &err));
+    NOT_MADE(g, icc_grid_create_mask(&g, 7, SHAPE, NOTHING, NULL, &err));
+    NOT_MADE(g, icc_grid_create_mask(&g, 2, NULL, NOTHING, NULL, &err));
+    NOT_MADE(g, icc_grid_create_mask(&g, 2, SHAPE, NULL, NULL, &err));
+    NOT_MADE(g, icc_grid_create_mask(&g, 2, EMPTY, NOTHING, NULL, &err));
+    icc_grid_info info = {.size = sizeof info};
+    REFUSED(icc_grid_get_info(NULL, &info));
+    REFUSED(icc_grid_get_info(o.grid, NULL));
+    ck_assert_ptr_null(icc_grid_inside(NULL));
+    uint32_t v;
+    EXPLAINED(icc_grid_maximum(NULL, &v, NULL, NULL, &err));
+    EXPLAINED(icc_grid_maximum(o.grid, NULL, NULL, NULL, &err));
+    const double p[3] = {1, 1, 1}, not_finite[3] = {1, NAN, 1};
+    REFUSED(icc_grid_nearest(NULL, p, &v));
+    REFUSED(icc_grid_nearest(o.grid, NULL, &v));
+    REFUSED(icc_grid_nearest(o.grid, p, NULL));
+    REFUSED(icc_grid_nearest(o.grid, not_finite, &v));
+    ck_assert_int_eq(icc_grid_create_mask(&g, 2, SHAPE, NOTHING, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_grid_nearest(g, p, &v), ICC_ERR_RESOLUTION);
+    ck_assert_int_eq(icc_grid_maximum(g, &v, NULL, NULL, &err), ICC_ERR_RESOLUTION);
+    icc_tree *t;
+    NOT_MADE(t, icc_tree_create(&t, g, 4, NULL, NULL, &err));
+    icc_grid_free(g);
+    EXPLAINED(icc_tree_create(NULL, o.mask, 62, NULL, NULL, &err));
+    NOT_MADE(t, icc_tree_create(&t, NULL, 62, NULL, NULL, &err));
+    NOT_MADE(t, icc_tree_create(&t, o.mask, 125, NULL, NULL, &err));
+    NOT_MADE(t, icc_tree_create(&t, o.mask, UINT32_MAX, NULL, NULL, &err));
+    static const int32_t ORDERS[3][3] = {{0, 1, 1}, {0, 1, 3}, {-1, 0, 1}};
+    for (int k = 0; k < 5; ++k) {
+        const icc_tree_options bad = {.size = sizeof bad, .form = k == 3 ? 3 : k == 4 ? -1 : 0,
+                                      .axis_order = k < 3 ? ORDERS[k] : NULL};
+        NOT_MADE(t, icc_tree_create(&t, o.mask, 62, &bad, NULL, &err));
+    }
+    ck_assert(icc_tree_parents(NULL) == NULL && icc_tree_generations(NULL) == NULL);
+    icc_tree_report tree_report = {.size = sizeof tree_report};
+    EXPLAINED(icc_tree_verify(NULL, &tree_report, NULL, &err));
+    EXPLAINED(icc_tree_verify(o.tree, NULL, NULL, &err));
+    icc_field *f;
+    EXPLAINED(icc_field_create(NULL, o.tree, NULL, NULL, &err));
+    NOT_MADE(f, icc_field_create(&f, NULL, NULL, NULL, &err));
+    const icc_field_options function = {.size = sizeof function, .function = 3};
+    NOT_MADE(f, icc_field_create(&f, o.tree, &function, NULL, &err));
+    ck_assert_ptr_null(icc_field_values(NULL));
+    icc_field_report report = {.size = sizeof report};
+    EXPLAINED(icc_field_verify(NULL, &report, NULL, &err));
+    EXPLAINED(icc_field_verify(o.field, NULL, NULL, &err));
+    size_t n;
+    uint32_t edges[2];
+    int32_t kinds[1];
+    REFUSED(icc_field_edges(NULL, 0, NULL, NULL, &n, NULL));
+    REFUSED(icc_field_edges(o.field, 0, NULL, NULL, NULL, NULL));
+    REFUSED(icc_field_edges(o.field, 1, NULL, kinds, &n, NULL));
+    REFUSED(icc_field_edges(o.field, 1, edges, NULL, &n, NULL));
+    ck_assert_int_eq(icc_field_edges(o.field, 1, edges, kinds, &n, NULL), ICC_ERR_UNSUPPORTED);
+    /* Numbers that another version may give a meaning. */
+    const icc_tree_options later_tree = {.size = sizeof later_tree, .reserved = 1};
+    const icc_field_options later_field = {.size = sizeof later_field, .reserved = 1};
+    ck_assert_int_eq(icc_tree_create(&t, o.mask, 62, &later_tree, NULL, NULL), ICC_ERR_VERSION);
+    ck_assert_int_eq(icc_field_create(&f, o.tree, &later_field, NULL, NULL), ICC_ERR_VERSION);
+    objects_clear(&o);
+}
+END_TEST
+
+START_TEST(the_triangulation_refuses_bad_arguments)
+{
+    icc_error err;
+    double points[2 * N_CORNERS + 2];
+    uint32_t triangles[3 * (N_CORNERS + 1)];
+    memcpy(points, SOURCE, sizeof SOURCE);
+    points[2 * N_CORNERS] = 0.5;
+    points[2 * N_CORNERS + 1] = 0.5;
+    ck_assert_int_eq(icc_triangulate(N_CORNERS, N_CORNERS + 1, points, triangles, NULL, NULL), ICC_OK);
+    EXPLAINED(icc_triangulate(N_CORNERS, N_CORNERS + 1, NULL, triangles, NULL, &err));
+    EXPLAINED(icc_triangulate(N_CORNERS, N_CORNERS + 1, points, NULL, NULL, &err));
+    EXPLAINED(icc_triangulate(2, N_CORNERS, points, triangles, NULL, &err));
+    EXPLAINED(icc_triangulate(N_CORNERS + 1, N_CORNERS, points, triangles, NULL, &err));
+    EXPLAINED(icc_triangulate(N_CORNERS, SIZE_MAX, points, triangles, NULL, &err));
+    points[2 * N_CORNERS] = NAN;
+    EXPLAINED(icc_triangulate(N_CORNERS, N_CORNERS + 1, points, triangles, NULL, &err));
+    ck_assert_int_eq(err.index, N_CORNERS);
+    points[2 * N_CORNERS] = 2.5;
+    points[2 * N_CORNERS + 1] = 2.5;
+    ck_assert_int_eq(icc_triangulate(N_CORNERS, N_CORNERS + 1, points, triangles, NULL, &err),
+                     ICC_ERR_OUTSIDE);
+    ck_assert_int_eq(err.index, N_CORNERS);
+    points[0] = NAN;
+    ck_assert_int_eq(icc_triangulate(N_CORNERS, N_CORNERS + 1, points, triangles, NULL, &err),
+                     ICC_ERR_BOUNDARY);
+    ck_assert_int_eq(err.index, 0);
+}
+END_TEST
+
+START_TEST(freeing_nothing_does_nothing)
+{
+    icc_domain_free(NULL);
+    icc_chart_free(NULL);
+    icc_map_free(NULL);
+    icc_grid_free(NULL);
+    icc_tree_free(NULL);
+    icc_field_free(NULL);
+}
+END_TEST
+
+/* ---- env ---- */
+
+static void *some_alloc(void *user, size_t size)
+{
+    (void)user;
+    return malloc(size);
+}
+
+/* Every function that takes an env reads it by the same rules. */
+START_TEST(every_call_checks_its_env)
+{
+    static outcome out;
+    objects o;
+    objects_init(&o);
+    struct {
+        icc_env env;
+        unsigned char tail[16];
+    } longer;
+    for (int i = 0; i < N_CALLS; ++i) {
+        const icc_env bad[] = {{.size = 0},
+                               {.size = sizeof(size_t) - 1},
+                               {.size = SIZE_MAX},
+                               {.size = sizeof *bad, .alloc = some_alloc},
+                               {.size = sizeof *bad, .threads = -1},
+                               {.size = sizeof *bad, .threads = 1025}};
+        for (size_t k = 0; k < sizeof bad / sizeof *bad; ++k) {
+            icc_error err = {.size = sizeof err};
+            REFUSED(CALLS[i].run(&o, &out, &bad[k], &err));
+            if (has_error(&CALLS[i]))
+                ck_assert_int_eq(err.status, ICC_ERR_ARGUMENT);
+        }
+        const icc_env shortest = {.size = sizeof(size_t), .threads = -1};
+        ck_assert_int_eq(CALLS[i].run(&o, &out, &shortest, NULL), ICC_OK);
+        memset(&longer, 0, sizeof longer);
+        longer.env.size = sizeof longer;
+        ck_assert_int_eq(CALLS[i].run(&o, &out, &longer.env, NULL), ICC_OK);
+        longer.tail[15] = 1;
+        icc_error err = {.size = sizeof err};
+        ck_assert_int_eq(CALLS[i].run(&o, &out, &longer.env, &err), ICC_ERR_VERSION);
+        if (has_error(&CALLS[i]))
+            ck_assert_int_eq(err.status, ICC_ERR_VERSION);
+    }
+    objects_clear(&o);
+}
+END_TEST
+
+/* ---- structs that are read ---- */
+
+typedef icc_status (*reader)(const objects *o, const void *options, icc_error *err);
+
+static icc_status read_chart_options(const objects *o, const void *options, icc_error *err)
+{
+    icc_chart *chart;
+    const icc_status status = icc_chart_create(&chart, o->source, options, NULL, err);
+    icc_chart_free(chart);
+    return status;
+}
+
+static icc_status read_inner_chart_options(const objects *o, const void *options, icc_error *err)
+{
+    icc_map *map;
+    const icc_map_options outer = {.size = sizeof outer, .chart = options};
+    const icc_status status = icc_map_create(&map, o->source, o->target, &outer, NULL, err);
+    icc_map_free(map);
+    return status;
+}
+
+static icc_status read_map_options(const objects *o, const void *options, icc_error *err)
+{
+    icc_map *map;
+    const icc_status status = icc_map_create(&map, o->source, o->target, options, NULL, err);
+    icc_map_free(map);
+    return status;
+}
+
+static icc_status read_map_options_too(const objects *o, const void *options, icc_error *err)
+{
+    icc_map *map;
+    const icc_status status =
+        icc_map_create_from_charts(&map, o->chart, o->target_chart, options, NULL, err);
+    icc_map_free(map);
+    return status;
+}
+
+static icc_status read_tree_options(const objects *o, const void *options, icc_error *err)
+{
+    icc_tree *tree;
+    const icc_status status = icc_tree_create(&tree, o->mask, 62, options, NULL, err);
+    icc_tree_free(tree);
+    return status;
+}
+
+static icc_status read_field_options(const objects *o, const void *options, icc_error *err)
+{
+    icc_field *field;
+    const icc_status status = icc_field_create(&field, o->tree, options, NULL, err);
+    icc_field_free(field);
+    return status;
+}
+
+START_TEST(options_may_be_older_or_newer)
+{
+    static const struct {
+        reader read;
+        size_t size;
+    } READERS[] = {{read_chart_options, sizeof(icc_chart_options)},
+                   {read_inner_chart_options, sizeof(icc_chart_options)},
+                   {read_map_options, sizeof(icc_map_options)},
+                   {read_map_options_too, sizeof(icc_map_options)},
+                   {read_tree_options, sizeof(icc_tree_options)},
+                   {read_field_options, sizeof(icc_field_options)}};
+    objects o;
+    objects_init(&o);
+    for (size_t k = 0; k < sizeof READERS / sizeof *READERS; ++k) {
+        union {
+            size_t size;
+            double alignment;
+            unsigned char bytes[256];
+        } given;
+        icc_error err;
+        memset(&given, 0, sizeof given);
+        EXPLAINED(READERS[k].read(&o, &given, &err));
+        given.size = 7;
+        EXPLAINED(READERS[k].read(&o, &given, &err));
+        given.size = SIZE_MAX;
+        EXPLAINED(READERS[k].read(&o, &given, &err));
+        for (size_t size = sizeof(size_t); size <= sizeof given; size += 4) {
+            given.size = size;
+            ck_assert_int_eq(READERS[k].read(&o, &given, &err), ICC_OK);
+        }
+        given.bytes[READERS[k].size] = 1;
+        given.size = READERS[k].size;
+        ck_assert_int_eq(READERS[k].read(&o, &given, &err), ICC_OK);
+        given.size = READERS[k].size + 1;
+        ck_assert_int_eq(READERS[k].read(&o, &given, &err), ICC_ERR_VERSION);
+        ck_assert(err.status == ICC_ERR_VERSION && err.message[0] != '\0');
+        /* A struct that ends before a member does not set it. */
+        memset(given.bytes + sizeof(size_t), 0xff, sizeof given - sizeof(size_t));
+        given.size = sizeof(size_t);
+        ck_assert_int_eq(READERS[k].read(&o, &given, &err), ICC_OK);
+        ck_assert_int_eq(READERS[k].read(&o, NULL, &err), ICC_OK);
+    }
+    objects_clear(&o);
+}
+END_TEST
+
+/* ---- structs that are filled ---- */
+
+typedef icc_status (*writer)(const objects *o, void *info);
+
+static icc_status write_domain_info(const objects *o, void *info)
+{
+    return icc_domain_get_info(o->source, info);
+}
+
+static icc_status write_chart_info(const objects *o, void *info)
+{
+    return icc_chart_get_info(o->chart, info);
+}
+
+static icc_status write_measures(const objects *o, void *info)
+{
+    return icc_chart_measure(o->chart, 10, info, NULL, NULL);
+}
+
+static icc_status write_map_info(const objects *o, void *info)
+{
+    return icc_map_get_info(o->map, info);
+}
+
+static icc_status write_grid_info(const objects *o, void *info)
+{
+    return icc_grid_get_info(o->grid, info);
+}
+
+static icc_status write_tree_report(const objects *o, void *info)
+{
+    return icc_tree_verify(o->tree, info, NULL, NULL);
+}
+
+static icc_status write_field_report(const objects *o, void *info)
+{
+    return icc_field_verify(o->field, info, NULL, NULL);
+}
+
+START_TEST(infos_may_be_older_or_newer)
+{
+    static const struct {
+        writer write;
+        size_t size;
+    } WRITERS[] = {{write_domain_info, sizeof(icc_domain_info)},
+                   {write_chart_info, sizeof(icc_chart_info)},
+                   {write_measures, sizeof(icc_chart_measures)},
+                   {write_map_info, sizeof(icc_map_info)},
+                   {write_grid_info, sizeof(icc_grid_info)},
+                   {write_tree_report, sizeof(icc_tree_report)},
+                   {write_field_report, sizeof(icc_field_report)}};
+    enum { ROOM = 512 };
+    objects o;
+    objects_init(&o);
+    for (size_t k = 0; k < sizeof WRITERS / sizeof *WRITERS; ++k) {
+        union {
+            size_t size;
+            double alignment;
+            unsigned char bytes[ROOM];
+        } full, part;
+        memset(&full, 0xaa, sizeof full);
+        full.size = 0;
+        REFUSED(WRITERS[k].write(&o, &full));
+        full.size = SIZE_MAX;
+        REFUSED(WRITERS[k].write(&o, &full));
+        full.size = WRITERS[k].size;
+        ck_assert_int_eq(WRITERS[k].write(&o, &full), ICC_OK);
+        ck_assert_uint_eq(full.size, WRITERS[k].size);
+        for (size_t size = sizeof(size_t); size <= ROOM; ++size) {
+            memset(&part, 0xaa, sizeof part);
+            part.size = size;
+            ck_assert_int_eq(WRITERS[k].write(&o, &part), ICC_OK);
+            bool same = part.size == size;
+            for (size_t b = sizeof(size_t); b < ROOM; ++b) {
+                const unsigned char expected = b >= size ? 0xaa
+                                               : b >= WRITERS[k].size ? 0
+                                                                      : full.bytes[b];
+                same = same && part.bytes[b] == expected;
+            }
+            if (!same)
+                ck_abort_msg("struct %zu with room for %zu bytes is filled wrongly", k, size);
+        }
+    }
+    objects_clear(&o);
+}
+END_TEST
+
+START_TEST(errors_may_be_older_or_newer)
+{
+    union {
+        icc_error err;
+        unsigned char bytes[sizeof(icc_error) + 32];
+    } given;
+    icc_chart *chart;
+    for (size_t size = 0; size <= sizeof given; ++size) {
+        memset(&given, 0xaa, sizeof given);
+        given.err.size = size;
+        REFUSED(icc_chart_create(&chart, NULL, NULL, NULL, &given.err));
+        ck_assert_uint_eq(given.err.size, size);
+        for (size_t b = size > sizeof(size_t) ? size : sizeof(size_t); b < sizeof given; ++b)
+            if (given.bytes[b] != 0xaa)
+                ck_abort_msg("byte %zu of %zu is written", b, size);
+        if (size >= 12)
+            ck_assert_int_eq(given.err.status, ICC_ERR_ARGUMENT);
+        if (size > offsetof(icc_error, message))
+            ck_assert_ptr_nonnull(memchr(given.err.message, '\0', size - offsetof(icc_error, message)));
+    }
+    /* What succeeds leaves the error alone. */
+    memset(&given, 0xaa, sizeof given);
+    given.err.size = sizeof(icc_error);
+    objects o;
+    objects_init(&o);
+    ck_assert_int_eq(icc_chart_create(&chart, o.source, NULL, NULL, &given.err), ICC_OK);
+    icc_chart_free(chart);
+    for (size_t b = sizeof(size_t); b < sizeof given; ++b)
+        ck_assert_int_eq(given.bytes[b], 0xaa);
+    objects_clear(&o);
+}
+END_TEST
+
+START_TEST(everything_has_a_name)
+{
+    static const char *const NAMES[] = {
+        "ICC_OK", "ICC_ERR_ARGUMENT", "ICC_ERR_MEMORY", "ICC_ERR_VERSION", "ICC_ERR_BOUNDARY",
+        "ICC_ERR_RESOLUTION", "ICC_ERR_TOPOLOGY", "ICC_ERR_OUTSIDE", "ICC_ERR_SOLVER",
+        "ICC_ERR_TRACE", "ICC_ERR_CERTIFICATE", "ICC_ERR_CANCELLED", "ICC_ERR_UNSUPPORTED",
+        "ICC_ERR_FORMAT"};
+    for (int32_t k = 0; k < 14; ++k)
+        ck_assert_str_eq(icc_status_name(k), NAMES[k]);
+    static const int32_t UNKNOWN[] = {-1, 14, INT32_MAX, INT32_MIN};
+    for (int k = 0; k < 4; ++k)
+        ck_assert_str_eq(icc_status_name(UNKNOWN[k]), "unknown status");
+    char version[32];
+    const int32_t number = icc_version_number();
+    (void)snprintf(version, sizeof version, "%d.%d.%d", (int)(number / 10000), (int)(number / 100 % 100),
+                   (int)(number % 100));
+    ck_assert_str_eq(icc_version(), version);
+}
+END_TEST
+
+int main(void)
+{
+    Suite *suite = suite_create("api");
+    TCase *tests = tcase_create("all");
+    tcase_set_timeout(tests, 120);
+    tcase_add_test(tests, domains_refuse_bad_arguments);
+    tcase_add_test(tests, charts_refuse_bad_arguments);
+    tcase_add_test(tests, maps_refuse_bad_arguments);
+    tcase_add_test(tests, stages_refuse_bad_arguments);
+    tcase_add_test(tests, the_triangulation_refuses_bad_arguments);
+    tcase_add_test(tests, freeing_nothing_does_nothing);
+    tcase_add_test(tests, every_call_checks_its_env);
+    tcase_add_test(tests, options_may_be_older_or_newer);
+    tcase_add_test(tests, infos_may_be_older_or_newer);
+    tcase_add_test(tests, errors_may_be_older_or_newer);
+    tcase_add_test(tests, everything_has_a_name);
+    suite_add_tcase(suite, tests);
+    SRunner *runner = srunner_create(suite);
+    srunner_run_all(runner, CK_NORMAL);
+    const int n_failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}

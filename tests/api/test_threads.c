@@ -1,0 +1,251 @@
+/* Results do not depend on threads, objects may be shared, progress stays on its thread and cancels. */
+#include "objects.h"
+
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdbool.h>
+
+static void check_equal(const call *c, const outcome *a, const outcome *b)
+{
+    if (memcmp(a, b, sizeof *a) != 0)
+        ck_abort_msg("%s: another result", c->name);
+}
+
+static void serial(const objects *o, const call *c, outcome *out)
+{
+    memset(out, 0, sizeof *out);
+    ck_assert_int_eq(c->run(o, out, NULL, NULL), ICC_OK);
+}
+
+START_TEST(results_do_not_depend_on_the_number_of_threads)
+{
+    static outcome plain, out;
+    objects o;
+    objects_init(&o);
+    for (int i = 0; i < N_CALLS; ++i) {
+        serial(&o, &CALLS[i], &plain);
+        for (int32_t n = 1; n <= 8; ++n) {
+            const icc_env env = {.size = sizeof env, .threads = n};
+            memset(&out, 0, sizeof out);
+            ck_assert_int_eq(CALLS[i].run(&o, &out, &env, NULL), ICC_OK);
+            check_equal(&CALLS[i], &plain, &out);
+        }
+    }
+    objects_clear(&o);
+}
+END_TEST
+
+typedef struct crew {
+    icc_task task;
+    void *argument;
+    size_t n_tasks;
+    atomic_size_t next, n_rounds;
+} crew;
+
+static void *crew_work(void *argument)
+{
+    crew *c = argument;
+    for (size_t i; (i = atomic_fetch_add(&c->next, 1)) < c->n_tasks;)
+        c->task(c->argument, c->n_tasks - 1 - i);
+    return NULL;
+}
+
+/* Four threads, the last task first. */
+static void crew_run(void *user, size_t n_tasks, icc_task task, void *argument)
+{
+    crew *c = user;
+    pthread_t threads[4];
+    c->task = task;
+    c->argument = argument;
+    c->n_tasks = n_tasks;
+    atomic_store(&c->next, 0);
+    atomic_fetch_add(&c->n_rounds, 1);
+    for (int k = 0; k < 4; ++k)
+        ck_assert_int_eq(pthread_create(&threads[k], NULL, crew_work, c), 0);
+    for (int k = 0; k < 4; ++k)
+        ck_assert_int_eq(pthread_join(threads[k], NULL), 0);
+}
+
+START_TEST(the_caller_may_run_the_tasks)
+{
+    static outcome plain, out;
+    objects o;
+    objects_init(&o);
+    crew c = {.n_tasks = 0};
+    for (int i = 0; i < N_CALLS; ++i) {
+        serial(&o, &CALLS[i], &plain);
+        const icc_env env = {.size = sizeof env, .user = &c, .parallel_for = crew_run, .threads = 8};
+        memset(&out, 0, sizeof out);
+        ck_assert_int_eq(CALLS[i].run(&o, &out, &env, NULL), ICC_OK);
+        check_equal(&CALLS[i], &plain, &out);
+    }
+    ck_assert_uint_ge(atomic_load(&c.n_rounds), 7);
+    objects_clear(&o);
+}
+END_TEST
+
+typedef struct user {
+    const objects *o;
+    const outcome *expected;
+    bool same;
+} user;
+
+static void *use_objects(void *argument)
+{
+    user *u = argument;
+    outcome *out = malloc(sizeof *out);
+    const icc_env env = {.size = sizeof env, .threads = 2};
+    u->same = out != NULL;
+    for (int round = 0; u->same && round < 2; ++round)
+        for (int i = 0; i < N_CALLS; ++i) {
+            memset(out, 0, sizeof *out);
+            u->same = u->same && CALLS[i].run(u->o, out, &env, NULL) == ICC_OK &&
+                      memcmp(out, &u->expected[i], sizeof *out) == 0;
+        }
+    free(out);
+    return NULL;
+}
+
+START_TEST(objects_may_be_shared)
+{
+    static outcome expected[N_CALLS];
+    objects o;
+    objects_init(&o);
+    for (int i = 0; i < N_CALLS; ++i)
+        serial(&o, &CALLS[i], &expected[i]);
+    enum { N_USERS = 4 };
+    pthread_t threads[N_USERS];
+    user users[N_USERS];
+    for (int k = 0; k < N_USERS; ++k) {
+        users[k] = (user){&o, expected, false};
+        ck_assert_int_eq(pthread_create(&threads[k], NULL, use_objects, &users[k]), 0);
+    }
+    for (int k = 0; k < N_USERS; ++k) {
+        ck_assert_int_eq(pthread_join(threads[k], NULL), 0);
+        ck_assert(users[k].same);
+    }
+    objects_clear(&o);
+}
+END_TEST
+
+/* ---- progress ---- */
+
+typedef struct watcher {
+    pthread_t caller;
+    size_t n_calls, cancel_at;
+    atomic_long n_live;
+    double last;
+    char stage[64];
+    crew crew;
+} watcher;
+
+static int32_t watch(void *user_pointer, const char *stage, double share)
+{
+    watcher *w = user_pointer;
+    ck_assert(pthread_equal(pthread_self(), w->caller));
+    ck_assert(stage != NULL && stage[0] != '\0' && strlen(stage) < sizeof w->stage);
+    ck_assert(share >= 0 && share <= 1);
+    if (strcmp(stage, w->stage) == 0)
+        ck_assert_double_ge(share, w->last);
+    strcpy(w->stage, stage);
+    w->last = share;
+    return w->n_calls++ == w->cancel_at;
+}
+
+static void *watch_alloc(void *user_pointer, size_t size)
+{
+    watcher *w = user_pointer;
+    atomic_fetch_add(&w->n_live, 1);
+    return malloc(size);
+}
+
+static void watch_dealloc(void *user_pointer, void *memory)
+{
+    watcher *w = user_pointer;
+    atomic_fetch_sub(&w->n_live, 1);
+    free(memory);
+}
+
+static void watch_tasks(void *user_pointer, size_t n_tasks, icc_task task, void *argument)
+{
+    watcher *w = user_pointer;
+    crew_run(&w->crew, n_tasks, task, argument);
+}
+
+/* Cancels a call at every chance that it gives, and returns how many there are. */
+static size_t cancel_everywhere(const objects *o, const call *c, int32_t threads, bool own_tasks)
+{
+    static outcome out;
+    for (size_t k = 0;; ++k) {
+        watcher w = {.caller = pthread_self(), .cancel_at = k};
+        icc_env env = {.size = sizeof env, .user = &w, .alloc = watch_alloc, .dealloc = watch_dealloc,
+                       .progress = watch, .threads = threads};
+        if (own_tasks)
+            env.parallel_for = watch_tasks;
+        icc_error err = {.size = sizeof err};
+        const icc_status status = c->run(o, &out, &env, &err);
+        if (atomic_load(&w.n_live) != 0)
+            ck_abort_msg("%s leaks when it is cancelled", c->name);
+        if (status == ICC_OK) {
+            ck_assert_uint_eq(w.n_calls, k);
+            return k;
+        }
+        if (status != ICC_ERR_CANCELLED || w.n_calls != k + 1 ||
+            (has_error(c) && (err.status != status || err.message[0] == '\0')))
+            ck_abort_msg("%s: status %d, error %d after %zu calls", c->name, (int)status,
+                         (int)err.status, w.n_calls);
+    }
+}
+
+START_TEST(every_long_call_can_be_cancelled)
+{
+    objects o;
+    objects_init(&o);
+    for (int i = 0; i < N_CALLS; ++i) {
+        const size_t n = cancel_everywhere(&o, &CALLS[i], 1, false);
+        const char *name = CALLS[i].name;
+        /* These take no time, or one report per 65536 vertices is enough. */
+        if (n == 0 && strcmp(name, "icc_chart_trace") != 0 &&
+            strcmp(name, "icc_map_create_from_charts") != 0 &&
+            strcmp(name, "icc_grid_create_mask") != 0)
+            ck_abort_msg("%s reports no progress", name);
+    }
+    objects_clear(&o);
+}
+END_TEST
+
+START_TEST(progress_stays_on_the_calling_thread)
+{
+    objects o;
+    objects_init(&o);
+    for (int i = 0; i < N_CALLS; ++i) {
+        static outcome out;
+        for (int own = 0; own < 2; ++own) {
+            watcher w = {.caller = pthread_self(), .cancel_at = SIZE_MAX};
+            const icc_env env = {.size = sizeof env, .user = &w, .progress = watch, .threads = 4,
+                                 .parallel_for = own ? watch_tasks : NULL};
+            ck_assert_int_eq(CALLS[i].run(&o, &out, &env, NULL), ICC_OK);
+        }
+        (void)cancel_everywhere(&o, &CALLS[i], 1, true);
+    }
+    objects_clear(&o);
+}
+END_TEST
+
+int main(void)
+{
+    Suite *suite = suite_create("threads");
+    TCase *tests = tcase_create("all");
+    tcase_set_timeout(tests, 240);
+    tcase_add_test(tests, results_do_not_depend_on_the_number_of_threads);
+    tcase_add_test(tests, the_caller_may_run_the_tasks);
+    tcase_add_test(tests, objects_may_be_shared);
+    tcase_add_test(tests, every_long_call_can_be_cancelled);
+    tcase_add_test(tests, progress_stays_on_the_calling_thread);
+    suite_add_tcase(suite, tests);
+    SRunner *runner = srunner_create(suite);
+    srunner_run_all(runner, CK_NORMAL);
+    const int n_failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}

@@ -1,0 +1,95 @@
+/* Any bytes as a polygon and points: its chart answers all of them with coordinates in range that
+ * decode again, or with a status. */
+#include "outlines.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+typedef struct codes {
+    uint32_t facet[MAX_POINTS];
+    double bary[2 * MAX_POINTS], t[MAX_POINTS];
+    icc_status status[MAX_POINTS];
+} codes;
+
+static void check_codes(const codes *c, size_t n, size_t n_facets)
+{
+    for (size_t i = 0; i < n; ++i) {
+        const double *b = c->bary + 2 * i;
+        if (c->status[i] != ICC_OK)
+            require(c->facet[i] == UINT32_MAX && isnan(b[0]) && isnan(b[1]) && isnan(c->t[i]));
+        else
+            require(c->facet[i] < n_facets && b[0] >= 0 && b[1] >= 0 &&
+                    fabs(b[0] + b[1] - 1) < 1e-15 && c->t[i] >= 0 && c->t[i] <= 1);
+    }
+}
+
+static void check_curve(const icc_chart *chart, const double *point, icc_status encoded)
+{
+    enum { CAPACITY = 8 };
+    double curve[2 * CAPACITY];
+    size_t n = 99;
+    const icc_status status = icc_chart_trace(chart, point, CAPACITY, curve, &n, NULL, NULL);
+    require(is_point_status(status));
+    require(status == ICC_OK ? n >= 1 : n == 0);
+    /* A boundary point has coordinates even where no curve starts. */
+    require(status == encoded || (encoded == ICC_OK && status == ICC_ERR_TRACE));
+    for (size_t i = 0; i < 2 * n && i < 2 * CAPACITY; ++i)
+        require(isfinite(curve[i]));
+}
+
+static void check_measures(const icc_chart *chart)
+{
+    icc_chart_measures m = {.size = sizeof m};
+    require(icc_chart_measure(chart, 64, &m, NULL, NULL) == ICC_OK);
+    require(m.unreachable >= 0 && m.uncovered >= 0 && m.unreachable + m.uncovered <= 1 + 1e-12);
+    require(m.collapsed >= 0 && m.collapsed <= 1 && m.not_inward >= 0 && m.not_inward <= 1);
+}
+
+static void check_chart(const icc_chart *chart, size_t n_facets, size_t n, const double *points)
+{
+    static codes c;
+    double back[2 * MAX_POINTS];
+    icc_status status[MAX_POINTS];
+    size_t n_failed, n_lost;
+    require(icc_chart_encode(chart, n, points, c.facet, c.bary, c.t, c.status, &n_failed, NULL) == ICC_OK);
+    check_codes(&c, n, n_facets);
+    require(icc_chart_decode(chart, n, c.facet, c.bary, c.t, back, status, &n_lost, NULL) == ICC_OK);
+    require(n_lost >= n_failed);
+    check_results(n, status, back, 2, n_lost);
+    for (size_t i = 0; i < n; ++i) {
+        if (c.status[i] != ICC_OK)
+            require(status[i] == ICC_ERR_ARGUMENT);
+        if (c.status[i] == ICC_OK && (c.t[i] <= 0 || c.t[i] >= 1))
+            require(status[i] == ICC_OK);
+        if (i % 8 == 0)
+            check_curve(chart, points + 2 * i, c.status[i]);
+    }
+    check_measures(chart);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    double xy[2 * MAX_VERTICES], points[2 * MAX_POINTS];
+    if (size < 6)
+        return 0;
+    const int kind = data[0];
+    const size_t n = read_outline(data + 2, size - 2, kind & 1, kind & 2, xy);
+    place_outline(n, xy, kind >> 4);
+    const size_t n_points = pick_points(n, xy, data + 2, size - 2, points);
+    icc_domain *domain;
+    if (icc_domain_create(&domain, 2, n, xy, 0, NULL, NULL, NULL) != ICC_OK)
+        return 0;
+    const icc_chart_options options = {.size = sizeof options,
+                                       .function = 1 + (kind >> 2 & 1),
+                                       .tree = 1 + (kind >> 3 & 1),
+                                       .cells = 2 + data[1] % 64,
+                                       .maximum = kind & 64 ? points + 4 : NULL};
+    icc_chart *chart;
+    const icc_status status = icc_chart_create(&chart, domain, &options, NULL, NULL);
+    require(status == ICC_OK || status == ICC_ERR_RESOLUTION ||
+            (status == ICC_ERR_OUTSIDE && options.maximum != NULL));
+    if (status == ICC_OK)
+        check_chart(chart, n, n_points, points);
+    icc_chart_free(chart);
+    icc_domain_free(domain);
+    return 0;
+}

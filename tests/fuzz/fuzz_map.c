@@ -1,0 +1,56 @@
+/* Any bytes as two polygons and points: either they do not correspond, or every point of the source,
+ * and of the target, gets a finite image or a status. */
+#include "outlines.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+static void check_map(const icc_map *map, size_t n_vertices, const double *source,
+                      const double *target, size_t n, const double *points)
+{
+    double images[4 * MAX_POINTS];
+    icc_status status[MAX_POINTS];
+    size_t n_failed;
+    require(icc_map_apply(map, n, points, images, status, &n_failed, NULL) == ICC_OK);
+    check_results(n, status, images, 2, n_failed);
+    require(icc_map_apply_inverse(map, n, points, images, status, &n_failed, NULL) == ICC_OK);
+    check_results(n, status, images, 2, n_failed);
+    require(icc_map_jacobian(map, n, points, images, status, &n_failed, NULL) == ICC_OK);
+    for (size_t i = 0; i < n; ++i)
+        require(is_point_status(status[i]) && isnan(images[4 * i]) == (status[i] != ICC_OK));
+    require(icc_map_apply(map, n_vertices, source, images, status, NULL, NULL) == ICC_OK);
+    require(memcmp(images, target, n_vertices * 2 * sizeof *target) == 0);
+    require(icc_map_apply_inverse(map, n_vertices, target, images, status, NULL, NULL) == ICC_OK);
+    require(memcmp(images, source, n_vertices * 2 * sizeof *source) == 0);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    double source[2 * MAX_VERTICES], target[2 * MAX_VERTICES], points[2 * MAX_POINTS];
+    if (size < 8)
+        return 0;
+    const int kind = data[0];
+    const size_t half = (size - 2) / 2;
+    const size_t n = read_outline(data + 2, half, kind & 1, kind & 2, source);
+    const size_t m = read_outline(data + 2 + half, half, kind & 4, kind & 2, target);
+    place_outline(n, source, kind >> 4);
+    place_outline(m, target, kind >> 6);
+    const size_t n_points = pick_points(n, source, data + 2, size - 2, points);
+    icc_domain *domains[2] = {NULL, NULL};
+    const icc_chart_options chart = {.size = sizeof chart, .function = 1 + (kind >> 3 & 1),
+                                     .cells = 2 + data[1] % 64};
+    const icc_map_options options = {.size = sizeof options, .chart = &chart};
+    icc_map *map = NULL;
+    if (icc_domain_create(&domains[0], 2, n, source, 0, NULL, NULL, NULL) == ICC_OK &&
+        icc_domain_create(&domains[1], 2, m, target, 0, NULL, NULL, NULL) == ICC_OK) {
+        icc_error err = {.size = sizeof err};
+        const icc_status status = icc_map_create(&map, domains[0], domains[1], &options, NULL, &err);
+        require(status == ICC_OK || status == ICC_ERR_RESOLUTION || status == ICC_ERR_BOUNDARY);
+        require(status == ICC_OK ? map != NULL : map == NULL && err.side > 0);
+    }
+    if (map != NULL)
+        check_map(map, n, source, target, n_points, points);
+    icc_map_free(map);
+    icc_domain_free(domains[0]);
+    icc_domain_free(domains[1]);
+    return 0;
+}

@@ -1,0 +1,40 @@
+/* The options of the command: one table for reading them and for telling about them. */
+#ifndef OPTIONS_H
+#define OPTIONS_H
+
+#include "args.h"
+
+typedef enum option_kind {
+    OPTION_FLAG,   /* bool */
+    OPTION_TEXT,   /* const char * */
+    OPTION_COUNT,  /* int32_t between low and high */
+    OPTION_CHOICE, /* int32_t, by name */
+    OPTION_POINT,  /* double[2], and a bool that it is there */
+    OPTION_COLOUR, /* unsigned char[4], and a bool that it is there */
+    OPTION_REPORT, /* bool, and a const char * when =FILE follows */
+    OPTION_HELP
+} option_kind;
+
+/* A name that an option takes; value 0: known, but not in this version. */
+typedef struct choice {
+    const char *name;
+    int32_t value;
+} choice;
+
+typedef struct option {
+    const char *name;
+    char letter;
+    option_kind kind;
+    unsigned commands;
+    size_t offset, present; /* in args */
+    int32_t low, high;
+    const choice *choices;
+    const char *value, *help;
+} option;
+
+enum {
+    N_OPTIONS = 25
+};
+extern const option options[N_OPTIONS];
+
+#endif
