@@ -18,7 +18,11 @@ static const double TARGET[2 * N_CORNERS] = {0, 0, 4, 0.5, 3.5, 2, 2, 2, 1.5, 3,
 static const double BOWTIE[8] = {0, 0, 2, 2, 2, 0, 0, 1};
 static const uint32_t FACETS[2 * N_CORNERS] = {0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 0};
 
+static const int32_t METHODS[] = {ICC_METHOD_GRADIENT, ICC_METHOD_FOLIATION, ICC_METHOD_DISC};
+enum { N_METHODS = sizeof METHODS / sizeof *METHODS };
+
 typedef struct objects {
+    icc_chart_options options;
     icc_domain *source, *target;
     icc_chart *chart, *target_chart;
     icc_map *map;
@@ -30,15 +34,18 @@ typedef struct objects {
     double bary[2 * N_POINTS], t[N_POINTS];
 } objects;
 
-static inline void objects_init(objects *o)
+/* With charts of the given method; 0: the default. */
+static inline void objects_init(objects *o, int32_t method)
 {
+    o->options = (icc_chart_options){.size = sizeof o->options, .method = method};
     static const size_t SHAPE[3] = {5, 5, 5};
     uint8_t inside[125];
     memset(inside, 1, sizeof inside);
     ck_assert_int_eq(icc_domain_create(&o->source, 2, N_CORNERS, SOURCE, 0, NULL, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_domain_create(&o->target, 2, N_CORNERS, TARGET, 0, NULL, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(icc_chart_create(&o->chart, o->source, NULL, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(icc_chart_create(&o->target_chart, o->target, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_chart_create(&o->chart, o->source, &o->options, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_chart_create(&o->target_chart, o->target, &o->options, NULL, NULL),
+                     ICC_OK);
     ck_assert_int_eq(icc_map_create_from_charts(&o->map, o->chart, o->target_chart, NULL, NULL, NULL),
                      ICC_OK);
     ck_assert_int_eq(icc_grid_create(&o->grid, o->source, 0, NULL, NULL), ICC_OK);
@@ -118,12 +125,12 @@ static inline icc_status call_chart_create(const objects *o, outcome *out, const
                                            icc_error *err)
 {
     icc_chart *chart = (icc_chart *)&chart;
-    const icc_status status = icc_chart_create(&chart, o->source, NULL, env, err);
+    const icc_status status = icc_chart_create(&chart, o->source, &o->options, env, err);
     HANDED_OVER(status, chart);
     icc_chart_info info = {.size = sizeof info};
     if (status == ICC_OK)
         (void)icc_chart_get_info(chart, &info);
-    out->count = info.n_tree;
+    out->count = info.n_tree + info.n_mesh_triangles;
     memcpy(out->numbers, info.maximum, sizeof info.maximum);
     icc_chart_free(chart);
     return status;
@@ -164,7 +171,8 @@ static inline icc_status call_map_create(const objects *o, outcome *out, const i
                                          icc_error *err)
 {
     icc_map *map = (icc_map *)&map;
-    const icc_status status = icc_map_create(&map, o->source, o->target, NULL, env, err);
+    const icc_map_options options = {.size = sizeof options, .chart = &o->options};
+    const icc_status status = icc_map_create(&map, o->source, o->target, &options, env, err);
     HANDED_OVER(status, map);
     if (status == ICC_OK)
         (void)icc_map_apply(map, N_POINTS, o->points, out->numbers, out->status, &out->count, NULL);

@@ -54,18 +54,21 @@ static size_t fail_each(const objects *o, const call *c)
 
 START_TEST(failed_allocations_are_reported)
 {
-    objects o;
-    objects_init(&o);
-    for (int i = 0; i < N_CALLS; ++i) {
-        const size_t n = fail_each(&o, &CALLS[i]);
-        /* The calls that only read need none. */
-        if (strcmp(CALLS[i].name, "icc_domain_locate") != 0 &&
-            strcmp(CALLS[i].name, "icc_chart_encode") != 0 &&
-            strcmp(CALLS[i].name, "icc_tree_verify") != 0 &&
-            strcmp(CALLS[i].name, "icc_field_verify") != 0 && n == 0)
-            ck_abort_msg("%s: the allocator was not used", CALLS[i].name);
+    for (int m = 0; m < N_METHODS; ++m) {
+        objects o;
+        objects_init(&o, METHODS[m]);
+        for (int i = 0; i < N_CALLS; ++i) {
+            const size_t n = fail_each(&o, &CALLS[i]);
+            /* The calls that only read need none, nor do measures that are 0 without looking. */
+            if (strcmp(CALLS[i].name, "icc_domain_locate") != 0 &&
+                strcmp(CALLS[i].name, "icc_chart_encode") != 0 &&
+                strcmp(CALLS[i].name, "icc_tree_verify") != 0 &&
+                strcmp(CALLS[i].name, "icc_field_verify") != 0 && n == 0 &&
+                METHODS[m] == ICC_METHOD_GRADIENT)
+                ck_abort_msg("%s: the allocator was not used", CALLS[i].name);
+        }
+        objects_clear(&o);
     }
-    objects_clear(&o);
 }
 END_TEST
 

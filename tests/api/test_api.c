@@ -25,7 +25,7 @@
 START_TEST(domains_refuse_bad_arguments)
 {
     objects o;
-    objects_init(&o);
+    objects_init(&o, 0);
     icc_error err;
     icc_domain *d;
     EXPLAINED(icc_domain_create(NULL, 2, N_CORNERS, SOURCE, 0, NULL, NULL, &err));
@@ -81,17 +81,18 @@ END_TEST
 START_TEST(charts_refuse_bad_arguments)
 {
     objects o;
-    objects_init(&o);
+    objects_init(&o, 0);
     icc_error err;
     icc_chart *c;
     EXPLAINED(icc_chart_create(NULL, o.source, NULL, NULL, &err));
     NOT_MADE(c, icc_chart_create(&c, NULL, NULL, NULL, &err));
-    static const double NOT_FINITE[2] = {0.5, NAN};
+    static const double NOT_FINITE[2] = {0.5, NAN}, INSIDE[2] = {0.5, 0.5};
     const icc_chart_options bad[] = {
         {.size = sizeof *bad, .function = 3},  {.size = sizeof *bad, .function = -1},
         {.size = sizeof *bad, .tree = 3},      {.size = sizeof *bad, .tree = -1},
         {.size = sizeof *bad, .cells = 1},     {.size = sizeof *bad, .cells = -50},
         {.size = sizeof *bad, .cells = 16385}, {.size = sizeof *bad, .maximum = NOT_FINITE},
+        {.size = sizeof *bad, .method = ICC_METHOD_DISC, .maximum = INSIDE},
     };
     for (size_t k = 0; k < sizeof bad / sizeof *bad; ++k) {
         NOT_MADE(c, icc_chart_create(&c, o.source, &bad[k], NULL, &err));
@@ -99,9 +100,13 @@ START_TEST(charts_refuse_bad_arguments)
         const icc_map_options options = {.size = sizeof options, .chart = &bad[k]};
         NOT_MADE(m, icc_map_create(&m, o.source, o.target, &options, NULL, &err));
     }
-    static const int32_t METHODS[] = {-1, 2, 99};
+    const icc_chart_options disc = {.size = sizeof disc, .method = ICC_METHOD_DISC};
+    const icc_map_options target = {.size = sizeof target, .chart = &disc, .target_maximum = INSIDE};
+    icc_map *map;
+    NOT_MADE(map, icc_map_create(&map, o.source, o.target, &target, NULL, &err));
+    static const int32_t UNKNOWN[] = {-1, 3, 99};
     for (int k = 0; k < 3; ++k) {
-        const icc_chart_options options = {.size = sizeof options, .method = METHODS[k]};
+        const icc_chart_options options = {.size = sizeof options, .method = UNKNOWN[k]};
         ck_assert_int_eq(icc_chart_create(&c, o.source, &options, NULL, &err), ICC_ERR_UNSUPPORTED);
         ck_assert(c == NULL && err.status == ICC_ERR_UNSUPPORTED);
     }
@@ -146,7 +151,7 @@ END_TEST
 START_TEST(maps_refuse_bad_arguments)
 {
     objects o;
-    objects_init(&o);
+    objects_init(&o, 0);
     icc_error err;
     icc_map *m;
     EXPLAINED(icc_map_create(NULL, o.source, o.target, NULL, NULL, &err));
@@ -190,7 +195,7 @@ START_TEST(stages_refuse_bad_arguments)
     static const size_t SHAPE[2] = {3, 3}, EMPTY[2] = {3, 0};
     static const uint8_t NOTHING[9] = {0};
     objects o;
-    objects_init(&o);
+    objects_init(&o, 0);
     icc_error err;
     icc_grid *g;
     EXPLAINED(icc_grid_create(NULL, o.source, 0, NULL, &err));
@@ -315,7 +320,7 @@ START_TEST(every_call_checks_its_env)
 {
     static outcome out;
     objects o;
-    objects_init(&o);
+    objects_init(&o, 0);
     struct {
         icc_env env;
         unsigned char tail[16];
@@ -414,7 +419,7 @@ START_TEST(options_may_be_older_or_newer)
                    {read_tree_options, sizeof(icc_tree_options)},
                    {read_field_options, sizeof(icc_field_options)}};
     objects o;
-    objects_init(&o);
+    objects_init(&o, 0);
     for (size_t k = 0; k < sizeof READERS / sizeof *READERS; ++k) {
         union {
             size_t size;
@@ -501,7 +506,7 @@ START_TEST(infos_may_be_older_or_newer)
                    {write_field_report, sizeof(icc_field_report)}};
     enum { ROOM = 512 };
     objects o;
-    objects_init(&o);
+    objects_init(&o, 0);
     for (size_t k = 0; k < sizeof WRITERS / sizeof *WRITERS; ++k) {
         union {
             size_t size;
@@ -559,7 +564,7 @@ START_TEST(errors_may_be_older_or_newer)
     memset(&given, 0xaa, sizeof given);
     given.err.size = sizeof(icc_error);
     objects o;
-    objects_init(&o);
+    objects_init(&o, 0);
     ck_assert_int_eq(icc_chart_create(&chart, o.source, NULL, NULL, &given.err), ICC_OK);
     icc_chart_free(chart);
     for (size_t b = sizeof(size_t); b < sizeof given; ++b)

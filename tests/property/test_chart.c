@@ -1,4 +1,4 @@
-/* What holds for the coordinates of every shape, whatever the options. */
+/* What holds for the gradient coordinates of every shape, whatever the options. */
 #include "chart/chart.h"
 #include "chart/gradient_state.h"
 
@@ -109,6 +109,7 @@ static icc_chart_options options_number(int k)
 {
     static const int32_t CELLS[] = {2, 3, 7, 20, 50, 200};
     return (icc_chart_options){.size = sizeof(icc_chart_options),
+                               .method = ICC_METHOD_GRADIENT,
                                .tree = k % 2 ? ICC_TREE_PAPER : ICC_TREE_THESIS,
                                .function = k / 2 % 2 ? ICC_FUNCTION_DISTANCE : ICC_FUNCTION_DECAY,
                                .cells = CELLS[k / 4]};
@@ -117,7 +118,8 @@ enum { N_OPTIONS = 24 };
 
 static icc_chart_options cells(int32_t n)
 {
-    return (icc_chart_options){.size = sizeof(icc_chart_options), .cells = n};
+    return (icc_chart_options){.size = sizeof(icc_chart_options), .method = ICC_METHOD_GRADIENT,
+                               .cells = n};
 }
 
 /* Errors of one round trip, in units of the shape's width and as they are. */
