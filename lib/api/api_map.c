@@ -21,6 +21,10 @@ icc_status icc_map_create(icc_map **out, const icc_domain *source, const icc_dom
         status = iccp_read_chart_options(&chart, full.chart, source->dim, err);
     if (status == ICC_OK)
         status = iccp_check_maximum(full.target_maximum, target->dim, err);
+    if (status == ICC_OK && chart.method == ICC_METHOD_DISC && full.target_maximum != NULL)
+        status = iccp_fail(err, ICC_ERR_ARGUMENT, -1,
+                           "method disc has its own maximum: icc_map_options.target_maximum must "
+                           "be NULL");
     if (status != ICC_OK)
         return status;
     icc_chart_options target_chart = chart;

@@ -37,6 +37,12 @@ typedef struct harmonic_job {
     uint32_t centre[2];
 } harmonic_job;
 
+/* Says which of two domains is at fault. */
+static icc_status blame(const harmonic_job *job, size_t k, icc_status status, icc_error *err)
+{
+    return job->n > 1 ? iccp_fail_side(err, status, (int32_t)k + 1) : status;
+}
+
 static icc_status make_bases(harmonic_job *job, const iccp_env *env, icc_error *err)
 {
     const icc_domain *other = job->n > 1 ? job->domain[1] : NULL;
@@ -49,7 +55,7 @@ static icc_status make_bases(harmonic_job *job, const iccp_env *env, icc_error *
         status = iccp_harmonic_create(&job->base[k], job->domain[k], pieces, job->cells, env,
                                       err);
         if (status != ICC_OK)
-            (void)iccp_fail_side(err, status, (int32_t)k + 1);
+            (void)blame(job, k, status, err);
     }
     iccp_free(&env->memory, pieces);
     return status;
@@ -82,7 +88,7 @@ static icc_status choose_given(harmonic_job *job, size_t k, icc_error *err)
     if (iccp_domain_locate(job->domain[k], local, true, NULL, NULL) != ICC_INSIDE) {
         (void)iccp_fail(err, ICC_ERR_OUTSIDE, -1, "the maximum (%g, %g) is not inside the domain",
                         maximum[0], maximum[1]);
-        return iccp_fail_side(err, ICC_ERR_OUTSIDE, (int32_t)k + 1);
+        return blame(job, k, ICC_ERR_OUTSIDE, err);
     }
     job->centre[k] = iccp_nearest_vertex(mesh, mesh->points, local);
     return ICC_OK;
@@ -116,7 +122,7 @@ static icc_status finish(harmonic_job *job, size_t k, icc_chart **out, const icc
             ? iccp_chart_disc_create(out, job->domain[k], &job->base[k], &job->image[k], env, err)
             : iccp_chart_foliation_create(out, job->domain[k], &job->base[k], job->centre[k], env,
                                           err);
-    return status == ICC_OK ? ICC_OK : iccp_fail_side(err, status, (int32_t)k + 1);
+    return status == ICC_OK ? ICC_OK : blame(job, k, status, err);
 }
 
 static icc_status try_harmonic(harmonic_job *job, icc_chart **out, const iccp_env *env,

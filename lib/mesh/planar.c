@@ -101,7 +101,8 @@ static bool is_clear(const icc_domain *domain, const double p[2], double distanc
 }
 
 /* Rows of a lattice of equilateral triangles, centred in the bounding box. */
-static void place_lattice(iccp_planar *mesh, const icc_domain *domain, double step, size_t capacity)
+static icc_status place_lattice(iccp_planar *mesh, const icc_domain *domain, double step,
+                                size_t capacity, const iccp_env *env)
 {
     const double rise = 0.5 * sqrt(3.0) * step;
     const double width = domain->upper[0] - domain->lower[0];
@@ -109,7 +110,10 @@ static void place_lattice(iccp_planar *mesh, const icc_domain *domain, double st
     const size_t n_rows = (size_t)(height / rise) + 1, n_columns = (size_t)(width / step) + 2;
     const double y0 = domain->lower[1] + 0.5 * (height - (double)(n_rows - 1) * rise);
     const double x0 = domain->lower[0] + 0.5 * (width - (double)(n_columns - 1) * step);
-    for (size_t j = 0; j < n_rows; ++j)
+    for (size_t j = 0; j < n_rows; ++j) {
+        const icc_status status = iccp_progress(env, "mesh", (double)j / (double)n_rows);
+        if (status != ICC_OK)
+            return status;
         for (size_t i = 0; i < n_columns && mesh->n_vertices < capacity; ++i) {
             double *p = mesh->points + 2 * mesh->n_vertices;
             p[0] = x0 + ((double)i + (j % 2 == 0 ? 0.25 : -0.25)) * step;
@@ -117,6 +121,8 @@ static void place_lattice(iccp_planar *mesh, const icc_domain *domain, double st
             if (is_clear(domain, p, CLEARANCE * step))
                 ++mesh->n_vertices;
         }
+    }
+    return ICC_OK;
 }
 
 static size_t lattice_capacity(const icc_domain *domain, double step)
@@ -220,9 +226,10 @@ icc_status iccp_planar_create(iccp_planar *mesh, const icc_domain *domain, const
     memcpy(mesh->pieces, pieces, domain->n_facets * sizeof *pieces);
     place_boundary(mesh, domain);
     mesh->n_vertices = mesh->n_boundary;
-    place_lattice(mesh, domain, step, capacity);
-    status = iccp_triangulate_mesh(mesh->n_boundary, mesh->n_vertices, mesh->points,
-                                   mesh->triangles, mesh->twins, env, err);
+    status = place_lattice(mesh, domain, step, capacity, env);
+    if (status == ICC_OK)
+        status = iccp_triangulate_mesh(mesh->n_boundary, mesh->n_vertices, mesh->points,
+                                       mesh->triangles, mesh->twins, env, err);
     if (status != ICC_OK) {
         iccp_planar_free(mesh);
         return status;
