@@ -155,12 +155,13 @@ static icc_status encode(const icc_chart *chart, const double *point, iccp_coord
     coords->t = 0;
     if (where == ICC_OUTSIDE)
         return ICC_ERR_OUTSIDE;
-    if (where == ICC_BOUNDARY)
+    /* The maximum first: it may lie in a corridor so narrow that all of it counts as boundary. */
+    const bool is_top = at_maximum(chart, point);
+    if (is_top)
+        *coords = (iccp_coords){.facet = 0, .bary = {0.5, 0.5}, .t = 1};
+    if (is_top || where == ICC_BOUNDARY)
         return jet == NULL ? ICC_OK : ICC_ERR_TRACE;
-    if (!at_maximum(chart, point))
-        return encode_inside(chart, point, coords, jet);
-    *coords = (iccp_coords){.facet = 0, .bary = {0.5, 0.5}, .t = 1};
-    return jet == NULL ? ICC_OK : ICC_ERR_TRACE;
+    return encode_inside(chart, point, coords, jet);
 }
 
 static icc_status decode(const icc_chart *chart, const iccp_coords *coords, double *point,

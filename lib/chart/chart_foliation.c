@@ -18,6 +18,8 @@ typedef struct foliation_state {
     uint32_t *boundary_corner; /* n_boundary: the corner that faces each boundary edge */
 } foliation_state;
 
+static const double STILL[2] = {0, 0};
+
 static const double *centre_of(const foliation_state *state)
 {
     return state->mesh.points + 2 * (size_t)state->psi.centre;
@@ -46,49 +48,65 @@ static void add_piece(leaf_length *l, const double p[2], const double dp[2], con
         l->by_label += ((q[0] - p[0]) * (dq[0] - dp[0]) + (q[1] - p[1]) * (dq[1] - dp[1])) / length;
 }
 
-static void start_leaf(leaf_length *l, const double p[2], const double q[2])
+/* The first piece, from the point to q, where the leaf leaves its triangle: part of the straight piece
+ * from p to q. Labels are rounded, and a leaf that runs along an edge may leave the triangle slightly
+ * on the wrong side of the point; the length is negative then, and what follows makes up for it. */
+static leaf_length start_leaf(const double point[2], const double p[2], const double q[2],
+                              const double dq[2])
 {
+    leaf_length l = {0};
     const double length = distance(p, q);
-    *l = (leaf_length){0};
     if (length > 0) {
-        l->by_point[0] = (p[0] - q[0]) / length;
-        l->by_point[1] = (p[1] - q[1]) / length;
+        const double ahead[2] = {(q[0] - p[0]) / length, (q[1] - p[1]) / length};
+        l.length = (q[0] - point[0]) * ahead[0] + (q[1] - point[1]) * ahead[1];
+        l.by_label = ahead[0] * dq[0] + ahead[1] * dq[1];
+        l.by_point[0] = -ahead[0];
+        l.by_point[1] = -ahead[1];
     }
+    return l;
 }
 
-/* Walks a leaf from a point by `next`, whose last crossing is left in `crossing`. With `to_centre` the
- * piece from there to the centre belongs to it. */
-static leaf_length walk(const foliation_state *state, iccp_crossing *crossing, const double start[2],
-                        bool to_centre,
-                        bool (*next)(const iccp_planar *, const iccp_psi *, iccp_crossing *))
+/* Adds the rest of a leaf from a crossing on, by `next`, whose last crossing is left in `crossing`.
+ * With `to_centre` the piece from there to the centre belongs to it. */
+static void walk(const foliation_state *state, leaf_length *l, iccp_crossing *crossing,
+                 bool to_centre,
+                 bool (*next)(const iccp_planar *, const iccp_psi *, iccp_crossing *))
 {
-    static const double still[2] = {0, 0};
-    double p[2] = {start[0], start[1]}, dp[2] = {0, 0}, q[2], dq[2];
-    leaf_length l;
-    iccp_crossing_point(&state->mesh, crossing, q);
-    start_leaf(&l, p, q);
-    do {
+    double p[2], dp[2], q[2], dq[2];
+    iccp_crossing_point(&state->mesh, crossing, p);
+    iccp_crossing_slope(&state->mesh, crossing, dp);
+    while (next(&state->mesh, &state->psi, crossing)) {
         iccp_crossing_point(&state->mesh, crossing, q);
         iccp_crossing_slope(&state->mesh, crossing, dq);
-        add_piece(&l, p, dp, q, dq);
+        add_piece(l, p, dp, q, dq);
         memcpy(p, q, sizeof p);
         memcpy(dp, dq, sizeof dp);
-    } while (next(&state->mesh, &state->psi, crossing));
+    }
     if (to_centre)
-        add_piece(&l, p, dp, centre_of(state), still);
-    return l;
+        add_piece(l, p, dp, centre_of(state), STILL);
 }
 
-static leaf_length walk_up(const foliation_state *state, const iccp_leaf *leaf,
-                           const double point[2])
+/* The two parts of the leaf through a point; `end` becomes the leaf's crossing with the boundary. */
+static void measure_leaf(const foliation_state *state, const iccp_leaf *leaf,
+                         const double point[2], leaf_length *up, leaf_length *down,
+                         iccp_crossing *end)
 {
+    double low[2], d_low[2], high[2], d_high[2] = {0, 0};
     iccp_crossing crossing = leaf->up;
+    *end = leaf->down;
+    iccp_crossing_point(&state->mesh, end, low);
+    iccp_crossing_slope(&state->mesh, end, d_low);
+    if (leaf->in_star) {
+        memcpy(high, centre_of(state), sizeof high);
+    } else {
+        iccp_crossing_point(&state->mesh, &crossing, high);
+        iccp_crossing_slope(&state->mesh, &crossing, d_high);
+    }
+    *up = start_leaf(point, low, high, d_high);
+    *down = start_leaf(point, high, low, d_low);
     if (!leaf->in_star)
-        return walk(state, &crossing, point, true, iccp_leaf_rise);
-    leaf_length l;
-    start_leaf(&l, point, centre_of(state));
-    l.length = distance(point, centre_of(state));
-    return l;
+        walk(state, up, &crossing, true, iccp_leaf_rise);
+    walk(state, down, end, false, iccp_leaf_fall);
 }
 
 static bool at_maximum(const icc_chart *chart, const double p[2])
@@ -136,14 +154,14 @@ static icc_status encode_inside(const icc_chart *chart, const double *point, icc
     const icc_status status = iccp_leaf_through(&state->mesh, &state->psi, triangle, bary, &leaf);
     if (status != ICC_OK)
         return status;
-    const leaf_length up = walk_up(state, &leaf, point);
-    iccp_crossing end = leaf.down;
-    const leaf_length down = walk(state, &end, point, false, iccp_leaf_fall);
+    leaf_length up, down;
+    iccp_crossing end;
+    measure_leaf(state, &leaf, point, &up, &down, &end);
     const uint32_t edge = state->mesh.triangles[iccp_corner_after(end.corner)];
     const double along =
         iccp_planar_along(&state->mesh, chart->domain, edge, iccp_crossing_share(&end));
     *coords = (iccp_coords){.facet = state->mesh.facet[edge], .bary = {1 - along, along}};
-    coords->t = down.length / (down.length + up.length);
+    coords->t = fmin(fmax(down.length / (down.length + up.length), 0), 1);
     if (jet != NULL)
         fill_encode_jet(chart, triangle, bary, &end, coords->facet, &up, &down, jet);
     return ICC_OK;

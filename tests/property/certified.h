@@ -1,0 +1,423 @@
+/* What holds for every chart and map that is certified, whatever the method. Each test_METHOD.c names
+ * its METHOD and runs these checks on its shapes. */
+#ifndef TESTS_PROPERTY_CERTIFIED_H
+#define TESTS_PROPERTY_CERTIFIED_H
+
+#include "chart/chart.h"
+#include "icc/icc.h"
+#include "mesh/planar.h"
+
+#include "../hard_shapes.h"
+
+#include <check.h>
+#include <stdlib.h>
+
+typedef struct subject {
+    icc_domain *domain;
+    icc_chart *chart;
+    icc_domain_info shape;
+    icc_chart_info info;
+    double width;
+} subject;
+
+static inline icc_chart_options method_options(int32_t cells)
+{
+    return (icc_chart_options){.size = sizeof(icc_chart_options), .method = METHOD, .cells = cells};
+}
+
+static inline icc_domain *domain_of(const shape *s)
+{
+    icc_domain *domain;
+    ck_assert_int_eq(icc_domain_create(&domain, 2, s->n, s->xy, 0, NULL, NULL, NULL), ICC_OK);
+    return domain;
+}
+
+static inline subject subject_of(const shape *outline, const icc_chart_options *options)
+{
+    subject s = {.shape = {.size = sizeof s.shape}, .info = {.size = sizeof s.info}};
+    icc_error err = {.size = sizeof err};
+    s.domain = domain_of(outline);
+    if (icc_chart_create(&s.chart, s.domain, options, NULL, &err) != ICC_OK)
+        ck_abort_msg("no chart: %s", err.message);
+    (void)icc_domain_get_info(s.domain, &s.shape);
+    (void)icc_chart_get_info(s.chart, &s.info);
+    s.width = fmax(s.shape.upper[0] - s.shape.lower[0], s.shape.upper[1] - s.shape.lower[1]);
+    ck_assert(s.info.method == METHOD && s.info.certified == 1 && s.info.n_mesh_triangles > 0);
+    return s;
+}
+
+static inline void subject_clear(subject *s)
+{
+    icc_chart_free(s->chart);
+    icc_domain_free(s->domain);
+}
+
+static inline double distance_of(const double a[2], const double b[2])
+{
+    return hypot(a[0] - b[0], a[1] - b[1]);
+}
+
+static inline bool is_inside(const icc_domain *domain, const double p[2])
+{
+    int32_t where;
+    ck_assert_int_eq(icc_domain_locate(domain, 1, p, &where, NULL, NULL, NULL), ICC_OK);
+    return where == ICC_INSIDE;
+}
+
+/* A random point inside: of the bounding box, or, for thin shapes, between two boundary points. */
+static inline void pick_inside(const subject *s, random_source *r, double p[2])
+{
+    const icc_domain *d = s->domain;
+    for (int tries = 0;; ++tries) {
+        double share = random_unit(r);
+        const size_t a = (size_t)random_below(r, (int)d->n_vertices);
+        const size_t b = (size_t)random_below(r, (int)d->n_vertices);
+        for (size_t k = 0; k < 2; ++k)
+            p[k] = tries < 50 ? random_between(r, s->shape.lower[k], s->shape.upper[k])
+                              : d->given[2 * a + k] * (1 - share) + d->given[2 * b + k] * share;
+        if (is_inside(d, p))
+            return;
+        ck_assert_int_lt(tries, 100000);
+    }
+}
+
+typedef struct code {
+    uint32_t facet;
+    double bary[2], t;
+} code;
+
+static inline code encode_point(const icc_chart *chart, const double p[2])
+{
+    code c;
+    icc_status status;
+    size_t n_failed;
+    ck_assert_int_eq(icc_chart_encode(chart, 1, p, &c.facet, c.bary, &c.t, &status, &n_failed, NULL),
+                     ICC_OK);
+    if (status != ICC_OK || n_failed != 0)
+        ck_abort_msg("(%.17g, %.17g) has no coordinates: %d", p[0], p[1], (int)status);
+    if (!(c.t >= 0 && c.t <= 1 && c.bary[0] >= 0 && c.bary[1] >= 0 &&
+          fabs(c.bary[0] + c.bary[1] - 1) < 1e-15))
+        ck_abort_msg("coordinates out of range");
+    return c;
+}
+
+static inline void decode_point(const icc_chart *chart, const code *c, double p[2])
+{
+    icc_status status;
+    ck_assert_int_eq(icc_chart_decode(chart, 1, &c->facet, c->bary, &c->t, p, &status, NULL, NULL),
+                     ICC_OK);
+    if (status != ICC_OK)
+        ck_abort_msg("facet %u, %.17g, t = %.17g is nowhere: %d", (unsigned)c->facet, c->bary[1], c->t,
+                     (int)status);
+}
+
+static inline void check_round_trip(const subject *s, const double p[2], double tolerance)
+{
+    double back[2];
+    const code c = encode_point(s->chart, p);
+    decode_point(s->chart, &c, back);
+    if (!(distance_of(p, back) <= tolerance * s->width))
+        ck_abort_msg("(%.17g, %.17g) comes back %g away", p[0], p[1], distance_of(p, back) / s->width);
+}
+
+/* The mesh that the chart was made on. */
+static inline iccp_planar mesh_of(const subject *s)
+{
+    uint32_t *pieces = malloc(s->domain->n_facets * sizeof *pieces);
+    iccp_env env;
+    iccp_planar mesh;
+    ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
+    iccp_planar_pieces(pieces, s->domain, NULL, s->info.cells);
+    ck_assert_int_eq(iccp_planar_create(&mesh, s->domain, pieces, s->info.cells, &env, NULL), ICC_OK);
+    ck_assert_uint_eq(mesh.n_triangles, s->info.n_mesh_triangles);
+    free(pieces);
+    return mesh;
+}
+
+/* Mesh vertices, middles of edges and of triangles, the maximum and points very near it. */
+static inline void check_special_points(const subject *s, double tolerance)
+{
+    iccp_planar mesh = mesh_of(s);
+    static const double BARY[5][3] = {
+        {1, 0, 0}, {0.5, 0.5, 0}, {0, 0.25, 0.75}, {1 / 3.0, 1 / 3.0, 1 / 3.0}, {1 - 2e-9, 1e-9, 1e-9}};
+    for (size_t t = 0; t < mesh.n_triangles; t += 1 + mesh.n_triangles / 500)
+        for (int k = 0; k < 5; ++k) {
+            double local[2] = {0, 0}, p[2];
+            for (size_t c = 0; c < 3; ++c)
+                for (size_t i = 0; i < 2; ++i)
+                    local[i] += BARY[k][c] * mesh.points[2 * mesh.triangles[3 * t + c] + i];
+            iccp_frame_out(&s->domain->frame, 2, local, p);
+            if (is_inside(s->domain, p))
+                check_round_trip(s, p, tolerance);
+        }
+    iccp_planar_free(&mesh);
+    const code top = encode_point(s->chart, s->info.maximum);
+    ck_assert(top.facet == 0 && top.t >= 1 && top.bary[0] == 0.5);
+    for (int k = 0; k < 64; ++k) {
+        const double r = s->width * pow(10, -3 - k % 16);
+        const double p[2] = {s->info.maximum[0] + r * cos(k), s->info.maximum[1] + r * sin(k)};
+        if (is_inside(s->domain, p))
+            check_round_trip(s, p, tolerance);
+    }
+}
+
+/* Along the curve through a point t rises strictly and the foot stays. */
+static inline void check_curve(const subject *s, const double p[2], double slack)
+{
+    enum { CAPACITY = 20000 };
+    static double curve[2 * CAPACITY];
+    size_t n;
+    const code own = encode_point(s->chart, p);
+    code foot = own;
+    double start[2], last = -1;
+    bool met = false;
+    ck_assert_int_eq(icc_chart_trace(s->chart, p, CAPACITY, curve, &n, NULL, NULL), ICC_OK);
+    ck_assert(n >= 2 && n <= CAPACITY);
+    foot.t = 0;
+    decode_point(s->chart, &foot, start);
+    ck_assert_double_le(distance_of(start, curve), 1e-12 * s->width);
+    ck_assert_mem_eq(curve + 2 * (n - 1), s->info.maximum, 2 * sizeof(double));
+    for (size_t k = 0; k + 1 < n; k += 1 + n / 40) {
+        const double *q = curve + 2 * k;
+        const double step = distance_of(q, q + 2);
+        met = met || distance_of(p, q) <= 1e-12 * s->width;
+        if (k > 0 && (step < 1e-9 * s->width || !is_inside(s->domain, q)))
+            continue;
+        const code c = encode_point(s->chart, q);
+        if (!(c.t > last))
+            ck_abort_msg("t does not rise: %.17g after %.17g", c.t, last);
+        last = c.t;
+        const code same = {own.facet, {own.bary[0], own.bary[1]}, c.t};
+        double back[2];
+        decode_point(s->chart, &same, back);
+        if (distance_of(back, q) > slack * s->width)
+            ck_abort_msg("the curve leaves its foot by %g at t = %g", distance_of(back, q) / s->width,
+                         c.t);
+    }
+}
+
+/* Boundary points have t = 0 where they are and come back. */
+static inline void check_boundary(const subject *s, random_source *r)
+{
+    for (uint32_t f = 0; f < s->domain->n_facets; ++f)
+        for (int k = 0; k < 3; ++k) {
+            const double along = k == 0 ? 0 : random_unit(r);
+            const code c = {f, {1 - along, along}, 0};
+            double p[2], back[2];
+            decode_point(s->chart, &c, p);
+            const code again = encode_point(s->chart, p);
+            ck_assert(again.t <= 0);
+            decode_point(s->chart, &again, back);
+            ck_assert_double_le(distance_of(p, back), 4e-15 * s->width);
+        }
+}
+
+/* Coordinates -> point -> coordinates; near the maximum the foot is not well determined. */
+static inline void check_decoding(const subject *s, random_source *r, double tolerance,
+                                  double slack)
+{
+    const code c = {.facet = (uint32_t)random_below(r, (int)s->domain->n_facets),
+                    .t = 0.01 + 0.9 * random_unit(r)};
+    code given = c;
+    double p[2], q[2];
+    given.bary[1] = random_unit(r);
+    given.bary[0] = 1 - given.bary[1];
+    decode_point(s->chart, &given, p);
+    const code again = encode_point(s->chart, p);
+    decode_point(s->chart, &again, q);
+    if (again.t <= 0 && slack > 0.1)
+        return; /* everything in the corridor is on the boundary */
+    if (distance_of(p, q) > tolerance * s->width || fabs(again.t - given.t) > slack)
+        ck_abort_msg("t = %.17g comes back as %.17g, %g away", given.t, again.t,
+                     distance_of(p, q) / s->width);
+}
+
+/* Everything above, with n random points. `tolerance` is for points that go to coordinates and back,
+ * `slack` for coordinates: in a corridor as wide as w the rounding of a point moves its coordinates by
+ * 1e-16 / w. */
+static inline void check_chart(const shape *outline, int32_t cells, int n, double tolerance,
+                               double slack)
+{
+    const icc_chart_options options = method_options(cells);
+    subject s = subject_of(outline, &options);
+    random_source r = {7 + (uint64_t)n};
+    for (int k = 0; k < n; ++k) {
+        double p[2];
+        pick_inside(&s, &r, p);
+        check_round_trip(&s, p, tolerance);
+        if (k % 10 == 0)
+            check_curve(&s, p, slack);
+    }
+    for (int k = 0; k < n; ++k)
+        check_decoding(&s, &r, tolerance, slack);
+    check_boundary(&s, &r);
+    check_special_points(&s, tolerance);
+    subject_clear(&s);
+}
+
+/* ---- maps ---- */
+
+static inline icc_map *map_of(const icc_domain *source, const icc_domain *target, int32_t cells)
+{
+    const icc_chart_options chart = method_options(cells);
+    const icc_map_options options = {.size = sizeof options, .chart = &chart};
+    icc_error err = {.size = sizeof err};
+    icc_map *map;
+    if (icc_map_create(&map, source, target, &options, NULL, &err) != ICC_OK)
+        ck_abort_msg("no map: %s", err.message);
+    icc_map_info info = {.size = sizeof info};
+    (void)icc_map_get_info(map, &info);
+    ck_assert(info.certified == 1 && info.kind == ICC_MAP_CURVES);
+    return map;
+}
+
+static inline void apply(const icc_map *map, bool inverse, const double p[2], double q[2])
+{
+    icc_status status;
+    const icc_status ran = inverse ? icc_map_apply_inverse(map, 1, p, q, &status, NULL, NULL)
+                                   : icc_map_apply(map, 1, p, q, &status, NULL, NULL);
+    ck_assert_int_eq(ran, ICC_OK);
+    if (status != ICC_OK)
+        ck_abort_msg("(%.17g, %.17g) has no image: %d", p[0], p[1], (int)status);
+}
+
+/* Facets go to facets at the same shares, both ways. */
+static inline void check_boundary_map(const icc_map *map, const icc_domain *source,
+                                      const icc_domain *target, const double width[2],
+                                      random_source *r)
+{
+    for (uint32_t f = 0; f < source->n_facets; ++f)
+        for (int k = 0; k < 3; ++k) {
+            const double along = k == 0 ? 0 : random_unit(r), bary[2] = {1 - along, along};
+            double p[2], q[2], local[2], image[2];
+            iccp_domain_facet_point(source, f, bary, local);
+            iccp_frame_out(&source->frame, 2, local, p);
+            iccp_domain_facet_point(target, f, bary, local);
+            iccp_frame_out(&target->frame, 2, local, q);
+            apply(map, false, p, image);
+            ck_assert_double_le(distance_of(q, image), 1e-12 * width[1]);
+            apply(map, true, q, image);
+            ck_assert_double_le(distance_of(p, image), 1e-12 * width[0]);
+        }
+}
+
+/* Both one-sided differences agree with each other, and then with the derivative. Returns how many
+ * columns could be compared. */
+static inline int check_jacobian(const icc_map *map, const subject *s, const double p[2],
+                                 double target_width)
+{
+    const double h = 1e-7 * s->width, scale = target_width / s->width;
+    double j[4];
+    icc_status status;
+    int n = 0;
+    ck_assert_int_eq(icc_map_jacobian(map, 1, p, j, &status, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(status, ICC_OK);
+    const double det = (j[0] / scale) * (j[3] / scale) - (j[1] / scale) * (j[2] / scale);
+    if (!(det > 0))
+        ck_abort_msg("det %g at (%.17g, %.17g)", det, p[0], p[1]);
+    for (int axis = 0; axis < 2; ++axis) {
+        double q[3][2], image[3][2];
+        for (int k = 0; k < 3; ++k) {
+            memcpy(q[k], p, sizeof q[k]);
+            q[k][axis] += (k - 1) * h;
+            if (!is_inside(s->domain, q[k]))
+                return n;
+            apply(map, false, q[k], image[k]);
+        }
+        double column[2], gap = 0, size = 0;
+        for (int i = 0; i < 2; ++i) {
+            const double left = (image[1][i] - image[0][i]) / (q[1][axis] - q[0][axis]);
+            const double right = (image[2][i] - image[1][i]) / (q[2][axis] - q[1][axis]);
+            column[i] = (left + right) / 2;
+            gap = fmax(gap, fabs(left - right));
+            size = fmax(size, fabs(left) + fabs(j[2 * i + axis]));
+        }
+        if (gap > 1e-4 * size)
+            continue;
+        ++n;
+        for (int i = 0; i < 2; ++i)
+            if (fabs(column[i] - j[2 * i + axis]) > 1e-3 * size)
+                ck_abort_msg("derivative %g instead of %g at (%.17g, %.17g)", j[2 * i + axis],
+                             column[i], p[0], p[1]);
+    }
+    return n;
+}
+
+/* The subject of a map's source, borrowed. */
+static inline subject source_of(const icc_map *map, const icc_domain *source)
+{
+    subject s = {.domain = (icc_domain *)source, .chart = (icc_chart *)icc_map_source_chart(map),
+                 .shape = {.size = sizeof s.shape}, .info = {.size = sizeof s.info}};
+    (void)icc_domain_get_info(source, &s.shape);
+    (void)icc_chart_get_info(s.chart, &s.info);
+    s.width = fmax(s.shape.upper[0] - s.shape.lower[0], s.shape.upper[1] - s.shape.lower[1]);
+    return s;
+}
+
+static inline void check_map(const shape *from, const shape *to, int32_t cells, int n)
+{
+    icc_domain *source = domain_of(from), *target = domain_of(to);
+    icc_map *map = map_of(source, target, cells);
+    const subject s = source_of(map, source), s_target = source_of(map, target);
+    const double width[2] = {s.width, s_target.width};
+    random_source r = {11 + (uint64_t)n};
+    int n_compared = 0;
+    for (int k = 0; k < n; ++k) {
+        double p[2], q[2], back[2];
+        pick_inside(&s, &r, p);
+        apply(map, false, p, q);
+        ck_assert(is_inside(target, q));
+        apply(map, true, q, back);
+        if (distance_of(p, back) > 1e-11 * s.width)
+            ck_abort_msg("(%.17g, %.17g) comes back %g away", p[0], p[1],
+                         distance_of(p, back) / s.width);
+        n_compared += check_jacobian(map, &s, p, width[1]);
+    }
+    ck_assert_int_gt(n_compared, n);
+    check_boundary_map(map, source, target, width, &r);
+    icc_map_free(map);
+    icc_domain_free(source);
+    icc_domain_free(target);
+}
+
+/* Pairs of shapes with the same number of vertices. */
+enum { N_PAIRS = 8 };
+
+static inline void pair_number(int k, shape *source, shape *target)
+{
+    switch (k) {
+    case 0:
+        *source = shape_square();
+        *target = shape_dart();
+        break;
+    case 1:
+        *source = shape_l();
+        *target = shape_star(3, 0.45, 0.2);
+        break;
+    case 2:
+        *source = shape_star(5, 0.4, 0.1);
+        *target = shape_star(5, 0.7, 0.5);
+        break;
+    case 3:
+        *source = shape_worm(12, 0.8, 0.2);
+        *target = shape_worm(12, 0.9, -0.5);
+        break;
+    case 4:
+        *source = shape_e();
+        *target = shape_star(6, 0.6, 0.3);
+        break;
+    case 5:
+        *source = shape_wild(30, 2);
+        *target = shape_wild(30, 3);
+        break;
+    case 6:
+        *source = shape_dumbbell(0.05);
+        *target = shape_wild(12, 8);
+        break;
+    default:
+        *source = shape_spiral(20, 1.5);
+        *target = shape_worm(20, 0.3, 0.2);
+    }
+}
+
+#endif

@@ -1,0 +1,51 @@
+/* What holds for foliation coordinates of every shape. */
+#define METHOD ICC_METHOD_FOLIATION
+#include "certified.h"
+
+/* Everything of certified.h, either way round and at several resolutions. */
+START_TEST(every_shape_has_coordinates)
+{
+    static const int32_t CELLS[] = {2, 5, 20, 50};
+    const shape s = shape_number(_i), reversed = shape_reversed(&s);
+    for (int k = 0; k < 4; ++k) {
+        check_chart(&s, CELLS[k], 100, 1e-12, 1e-9);
+        check_chart(&reversed, CELLS[k], 100, 1e-12, 1e-9);
+    }
+}
+END_TEST
+
+START_TEST(hard_shapes_have_coordinates)
+{
+    const shape s = shape_hard(_i), reversed = shape_reversed(&s);
+    check_chart(&s, 50, 100, 1e-12, shape_hard_slack(_i));
+    check_chart(&reversed, 12, 100, 1e-12, shape_hard_slack(_i));
+}
+END_TEST
+
+START_TEST(maps_are_one_to_one)
+{
+    shape source, target;
+    pair_number(_i, &source, &target);
+    check_map(&source, &target, 30, 300);
+    source = shape_reversed(&source);
+    target = shape_reversed(&target);
+    check_map(&source, &target, 11, 300);
+    check_map(&target, &source, 50, 100);
+}
+END_TEST
+
+int main(void)
+{
+    Suite *suite = suite_create("foliation");
+    TCase *tests = tcase_create("all");
+    tcase_set_timeout(tests, 120);
+    tcase_add_loop_test(tests, every_shape_has_coordinates, 0, N_SHAPES);
+    tcase_add_loop_test(tests, hard_shapes_have_coordinates, 0, N_HARD_SHAPES);
+    tcase_add_loop_test(tests, maps_are_one_to_one, 0, N_PAIRS);
+    suite_add_tcase(suite, tests);
+    SRunner *runner = srunner_create(suite);
+    srunner_run_all(runner, CK_NORMAL);
+    const int n_failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}
