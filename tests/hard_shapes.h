@@ -73,7 +73,23 @@ static inline shape shape_wild(size_t n, uint64_t seed)
     return shape_blob(n, random_for_blob, &r);
 }
 
-enum { N_HARD_SHAPES = 14 };
+/* A square with a corner rounded off by so small a radius that the edges there are a few rounding errors
+ * long on the scale of the whole. */
+static inline shape shape_fillet(double radius)
+{
+    enum { N = 16 };
+    shape s = {.n = 3 + N};
+    const double corners[6] = {0, 1, 0, 0, 1, 0};
+    memcpy(s.xy, corners, sizeof corners);
+    for (size_t k = 0; k < N; ++k) {
+        const double a = 1.5707963267948966 * (double)k / (N - 1);
+        s.xy[6 + 2 * k] = 1 - radius + radius * cos(a);
+        s.xy[7 + 2 * k] = 1 - radius + radius * sin(a);
+    }
+    return s;
+}
+
+enum { N_HARD_SHAPES = 17 };
 
 static inline shape shape_hard(int k)
 {
@@ -104,6 +120,12 @@ static inline shape shape_hard(int k)
         return shape_wild(120, 4);
     case 12:
         return shape_worm(60, 0.02, 0.9);
+    case 13:
+        return shape_fillet(1e-8);
+    case 14:
+        return shape_fillet(1e-9);
+    case 15:
+        return shape_fillet(1e-12);
     default:
         return shape_wild(11, 9);
     }
@@ -112,7 +134,7 @@ static inline shape shape_hard(int k)
 /* How much the rounding of a point may change what depends on its place across the shape. */
 static inline double shape_hard_slack(int k)
 {
-    return k == 3 || k == 6 ? 0.2 : k == 2 || k == 5 ? 1e-5 : 1e-9;
+    return k == 3 || k == 6 ? 0.2 : k == 15 ? 1e-4 : k == 2 || k == 5 || k == 14 ? 1e-5 : 1e-7;
 }
 
 #endif

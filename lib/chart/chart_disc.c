@@ -1,4 +1,4 @@
-/* The map is Tutte's (chart/harmonic.h). Its image is a convex polygon round the origin; a point's
+/* The map is Tutte's (chart/harmonic.h). Its image is a polygon round the origin; a point's
  * curve is the ray from the boundary of that polygon to the origin. */
 #include "chart/chart_disc.h"
 
@@ -91,7 +91,8 @@ static void triangle_jacobian(const iccp_planar *mesh, uint32_t triangle, const 
             a[i][c] = from[2 * (size_t)v[c + 1] + (size_t)i] - from[2 * (size_t)v[0] + (size_t)i];
             b[i][c] = to[2 * (size_t)v[c + 1] + (size_t)i] - to[2 * (size_t)v[0] + (size_t)i];
         }
-    const double det = a[0][0] * a[1][1] - a[0][1] * a[1][0];
+    const double det = iccp_area2d(from + 2 * (size_t)v[0], from + 2 * (size_t)v[1],
+                                   from + 2 * (size_t)v[2]);
     for (int i = 0; i < 2; ++i) {
         j[i][0] = (b[i][0] * a[1][1] - b[i][1] * a[1][0]) / det;
         j[i][1] = (b[i][1] * a[0][0] - b[i][0] * a[0][1]) / det;
@@ -286,8 +287,9 @@ static void free_state(icc_chart *chart)
 
 static const iccp_chart_ops OPS = {encode, decode, trace, measure, free_state};
 
-/* The image's rim is a convex polygon that goes once round the origin: every edge turns left round the
- * origin, every corner turns left, and the angles grow from 0 to one turn. */
+/* The image's rim goes once round the origin: every edge turns left round it and the angles grow from 0 to
+ * one turn. So the rim is simple and every ray from the origin meets it once; it need not be convex,
+ * which rounding would spoil where boundary edges are very short. */
 static size_t count_rim_faults(const iccp_planar *mesh, const double *image)
 {
     const size_t n = mesh->n_boundary;
@@ -295,7 +297,6 @@ static size_t count_rim_faults(const iccp_planar *mesh, const double *image)
     for (size_t k = 0; k < n; ++k) {
         const double *p = image + 2 * k, *q = image + 2 * ((k + 1) % n);
         n_faults += iccp_orient2d(ORIGIN, p, q) <= 0;
-        n_faults += iccp_orient2d(p, q, image + 2 * ((k + 2) % n)) < 0;
         n_wraps += p[1] < 0 && q[1] >= 0;
     }
     return n_faults + (n_wraps != 1);

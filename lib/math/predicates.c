@@ -60,6 +60,18 @@ int iccp_cross_sign_exact(double a, double b, double c, double d, double e, doub
     return cross_sign_full(a, b, c, d, e, f, g, h);
 }
 
+/* The exact cross product of the rounded differences, and what rounding them has taken away. */
+double iccp_area2d(const double a[2], const double b[2], const double c[2])
+{
+    double tail[4], cross[4];
+    const double ax = iccp_two_sum(a[0], -c[0], &tail[0]);
+    const double by = iccp_two_sum(b[1], -c[1], &tail[1]);
+    const double ay = iccp_two_sum(a[1], -c[1], &tail[2]);
+    const double bx = iccp_two_sum(b[0], -c[0], &tail[3]);
+    const size_t n = iccp_expansion_cross(cross, ax, by, ay, bx);
+    return estimate(n, cross) + ((ax * tail[1] + by * tail[0]) - (ay * tail[3] + bx * tail[2]));
+}
+
 /* h = e (x^2 + y^2) for e of at most 12 components, room for 8 n. */
 static size_t lift(double *h, size_t n, const double *e, double x, double y)
 {

@@ -37,6 +37,10 @@ static inline int iccp_orient2d(const double a[2], const double b[2], const doub
     return iccp_cross_sign(a[0], c[0], b[1], c[1], a[1], c[1], b[0], c[0]);
 }
 
+/* Twice the area of a, b, c, positive when they make a left turn, to a few rounding errors of itself
+ * however flat the triangle is, unless the coordinates themselves hardly tell it from a line. */
+double iccp_area2d(const double a[2], const double b[2], const double c[2]);
+
 /* +1 when d lies inside the circle through a, b, c, which are counter-clockwise. */
 int iccp_incircle(const double a[2], const double b[2], const double c[2], const double d[2]);
 

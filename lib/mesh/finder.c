@@ -8,6 +8,10 @@
  * rounded. */
 static const double SLACK = 1e-9;
 
+/* Of twice a triangle's area in the products that it is the sum of: below it barycentric coordinates in
+ * plain doubles would be off by more than 1e-14. */
+static const double FLATTEST = 0.05;
+
 static size_t cell_of(double x, size_t n)
 {
     if (!(x > 0))
@@ -115,9 +119,19 @@ void iccp_finder_free(iccp_finder *finder)
     *finder = (iccp_finder){.memory = finder->memory};
 }
 
-static double cross(const double a[2], const double b[2], const double c[2])
+/* The areas of a p and each edge, in plain doubles; false when the triangle is so flat that they would
+ * be far off. */
+static bool plain_areas(const double *const q[3], const double p[2], double area[3])
 {
-    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    double sum = 0, size = 0;
+    for (int k = 0; k < 3; ++k) {
+        const double *a = q[(k + 1) % 3], *b = q[(k + 2) % 3];
+        const double left = (a[0] - p[0]) * (b[1] - p[1]), right = (a[1] - p[1]) * (b[0] - p[0]);
+        area[k] = left - right;
+        sum += area[k];
+        size += fabs(left) + fabs(right);
+    }
+    return sum > FLATTEST * size;
 }
 
 static bool holds(const iccp_finder *f, uint32_t triangle, const double p[2], double bary[3])
@@ -126,11 +140,15 @@ static bool holds(const iccp_finder *f, uint32_t triangle, const double p[2], do
     const double *q[3];
     for (int k = 0; k < 3; ++k)
         q[k] = f->points + 2 * (size_t)v[k];
-    double sum = 0;
-    for (int k = 0; k < 3; ++k) {
+    for (int k = 0; k < 3; ++k)
         if (iccp_orient2d(q[(k + 1) % 3], q[(k + 2) % 3], p) < 0)
             return false;
-        bary[k] = fmax(cross(q[(k + 1) % 3], q[(k + 2) % 3], p), 0);
+    if (!plain_areas(q, p, bary))
+        for (int k = 0; k < 3; ++k)
+            bary[k] = iccp_area2d(q[(k + 1) % 3], q[(k + 2) % 3], p);
+    double sum = 0;
+    for (int k = 0; k < 3; ++k) {
+        bary[k] = fmax(bary[k], 0);
         sum += bary[k];
     }
     if (!(sum > 0))

@@ -2,6 +2,7 @@
  * certified labels a leaf meets no triangle twice, so every walk ends. */
 #include "trace/leaf.h"
 
+#include "math/predicates.h"
 
 /* A share of a positive rise, at least 1 and at most all of it. */
 static int64_t part_of(int64_t rise, double share)
@@ -57,7 +58,7 @@ static void bary_gradient(const iccp_planar *mesh, uint32_t corner, double gradi
     const double *p = mesh->points + 2 * (size_t)mesh->triangles[corner];
     const double *a = mesh->points + 2 * (size_t)mesh->triangles[iccp_corner_after(corner)];
     const double *b = mesh->points + 2 * (size_t)mesh->triangles[iccp_corner_before(corner)];
-    const double area = (a[0] - p[0]) * (b[1] - p[1]) - (a[1] - p[1]) * (b[0] - p[0]);
+    const double area = iccp_area2d(p, a, b);
     gradient[0] = (a[1] - b[1]) / area;
     gradient[1] = (b[0] - a[0]) / area;
 }
