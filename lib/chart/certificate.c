@@ -68,8 +68,9 @@ static void check_triangle(const iccp_planar *mesh, const iccp_psi *psi, uint32_
     certificate->n_flat += rise[0] == 0 && rise[1] == 0 && rise[2] == 0;
     for (int k = 0; k < 3; ++k) {
         const int after = (k + 1) % 3, before = (k + 2) % 3;
-        certificate->n_ties += rise[k] == 0 && mesh->twins[3 * triangle + (uint32_t)k] >
-                                                   3 * triangle + (uint32_t)k;
+        const uint32_t corner = 3 * triangle + (uint32_t)k, twin = mesh->twins[corner];
+        certificate->n_open += twin != ICCP_NO_NEIGHBOUR && psi->rise[twin] != -rise[k];
+        certificate->n_ties += rise[k] == 0 && twin > corner;
         /* Corner `before` faces the half-edge k -> after, corner `after` the one before -> k. */
         const int to_after = rise_sign(rise[before], v[k], v[after]);
         const int to_before = -rise_sign(rise[after], v[before], v[k]);

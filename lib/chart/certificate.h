@@ -10,7 +10,8 @@ typedef struct iccp_certificate {
     size_t n_inverted;    /* triangles that are not counter-clockwise */
     size_t n_topology;    /* half-edges without a proper twin or not on the boundary where they should
                              be, and 1 more unless vertices - edges + triangles is 1 */
-    size_t n_open;        /* triangles whose rises do not sum to 0 */
+    size_t n_open;        /* triangles whose rises do not sum to 0, and half-edges whose rise is not the
+                             opposite of their twin's */
     size_t n_flat;        /* triangles, boundary edges and edges round the centre with no rise */
     size_t n_irregular;   /* vertices that do not have one ascending and one descending run of
                              neighbours; 1 more unless psi winds once along the boundary */
