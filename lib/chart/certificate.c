@@ -14,13 +14,13 @@ bool iccp_certificate_holds(const iccp_certificate *c)
  * it is edge k of the boundary. */
 static bool is_linked(const iccp_planar *mesh, uint32_t corner)
 {
-    const uint32_t a = mesh->triangles[iccp_corner_after(corner)];
-    const uint32_t b = mesh->triangles[iccp_corner_before(corner)];
+    const uint32_t a = mesh->triangles[iccp_after(corner)];
+    const uint32_t b = mesh->triangles[iccp_before(corner)];
     const uint32_t twin = mesh->twins[corner];
     if (twin == ICCP_NO_NEIGHBOUR)
         return a < mesh->n_boundary && b == (a + 1) % mesh->n_boundary;
-    return mesh->twins[twin] == corner && mesh->triangles[iccp_corner_after(twin)] == b &&
-           mesh->triangles[iccp_corner_before(twin)] == a;
+    return mesh->twins[twin] == corner && mesh->triangles[iccp_after(twin)] == b &&
+           mesh->triangles[iccp_before(twin)] == a;
 }
 
 void iccp_certify_mesh(const iccp_planar *mesh, const double *points, iccp_certificate *certificate)

@@ -222,8 +222,8 @@ static bool holds_origin(const disc_state *state, uint32_t triangle)
 static icc_status emit_crossing(const disc_state *state, uint32_t corner, const double r[2],
                                 iccp_emit emit, void *argument)
 {
-    const uint32_t u = state->mesh.triangles[iccp_corner_after(corner)];
-    const uint32_t v = state->mesh.triangles[iccp_corner_before(corner)];
+    const uint32_t u = state->mesh.triangles[iccp_after(corner)];
+    const uint32_t v = state->mesh.triangles[iccp_before(corner)];
     const double du = cross(r, state->image + 2 * (size_t)u);
     const double dv = cross(r, state->image + 2 * (size_t)v);
     const double share = fabs(du - dv) > 0 ? fmin(fmax(du / (du - dv), 0), 1) : 0;
@@ -254,8 +254,8 @@ static icc_status trace(const icc_chart *chart, const double *point, iccp_path *
     for (size_t left = state->mesh.n_triangles; status == ICC_OK && !holds_origin(state, corner / 3);
          --left) {
         const double *x = state->image + 2 * (size_t)state->mesh.triangles[corner];
-        const uint32_t exit = iccp_orient2d(r, ORIGIN, x) > 0 ? iccp_corner_after(corner)
-                                                              : iccp_corner_before(corner);
+        const uint32_t exit = iccp_orient2d(r, ORIGIN, x) > 0 ? iccp_after(corner)
+                                                              : iccp_before(corner);
         status = emit_crossing(state, exit, r, emit, argument);
         corner = state->mesh.twins[exit];
         if (corner == ICCP_NO_NEIGHBOUR || left == 0)
@@ -329,7 +329,7 @@ static icc_status fill_state(disc_state *state, const iccp_planar *mesh, const d
         return ICC_ERR_MEMORY;
     for (uint32_t c = 0; c < 3 * mesh->n_triangles; ++c)
         if (mesh->twins[c] == ICCP_NO_NEIGHBOUR)
-            state->boundary_corner[mesh->triangles[iccp_corner_after(c)]] = c;
+            state->boundary_corner[mesh->triangles[iccp_after(c)]] = c;
     uint32_t triangle = 0;
     double bary[3] = {1, 0, 0};
     if (!iccp_finder_find(&state->after, ORIGIN, &triangle, bary))

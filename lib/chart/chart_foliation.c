@@ -157,7 +157,7 @@ static icc_status encode_inside(const icc_chart *chart, const double *point, icc
     leaf_length up, down;
     iccp_crossing end;
     measure_leaf(state, &leaf, point, &up, &down, &end);
-    const uint32_t edge = state->mesh.triangles[iccp_corner_after(end.corner)];
+    const uint32_t edge = state->mesh.triangles[iccp_after(end.corner)];
     const double along =
         iccp_planar_along(&state->mesh, chart->domain, edge, iccp_crossing_share(&end));
     *coords = (iccp_coords){.facet = state->mesh.facet[edge], .bary = {1 - along, along}};
@@ -408,7 +408,7 @@ static icc_status list_boundary(foliation_state *state, const iccp_planar *mesh,
         return ICC_ERR_MEMORY;
     for (uint32_t c = 0; c < 3 * mesh->n_triangles; ++c)
         if (mesh->twins[c] == ICCP_NO_NEIGHBOUR)
-            state->boundary_corner[mesh->triangles[iccp_corner_after(c)]] = c;
+            state->boundary_corner[mesh->triangles[iccp_after(c)]] = c;
     return ICC_OK;
 }
 

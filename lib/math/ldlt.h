@@ -8,16 +8,25 @@
 typedef struct iccp_ldlt {
     iccp_memory memory;
     size_t n;
-    uint32_t *order;  /* the row that was eliminated k-th */
-    size_t *first;    /* n + 1: where the columns of L begin */
-    uint32_t *row;    /* rows below the diagonal, in eliminated numbering */
+    uint32_t *order;    /* the row that is eliminated k-th */
+    uint32_t *position; /* when a row is eliminated */
+    uint32_t *parent;   /* in the elimination tree, eliminated numbering */
+    size_t *first;      /* n + 1: where the columns of L begin */
+    uint32_t *row;      /* rows below the diagonal, in eliminated numbering */
     double *value;
-    double *pivot;    /* D */
+    double *pivot;      /* D */
 } iccp_ldlt;
 
-/* ICC_ERR_SOLVER when a pivot is not positive: the matrix is not positive definite to working
- * precision. Cost: proportional to the sum of the squared column counts of L. */
-icc_status iccp_ldlt_create(iccp_ldlt *factor, const iccp_symmetric *matrix, const iccp_env *env);
+/* Orders and analyses a matrix by its pattern alone, and makes room for the factor. Rows come in groups
+ * of `block` with the same pattern; the groups are ordered. Accepts what was never analysed or freed. */
+icc_status iccp_ldlt_analyse(iccp_ldlt *factor, const iccp_symmetric *matrix, size_t block,
+                             const iccp_env *env);
+
+/* Factorises a matrix with the analysed pattern. ICC_ERR_SOLVER when a pivot is not positive: the
+ * matrix is not positive definite to working precision. Cost: proportional to the sum of the squared
+ * column counts of L. */
+icc_status iccp_ldlt_factorise(iccp_ldlt *factor, const iccp_symmetric *matrix,
+                               const iccp_env *env);
 void iccp_ldlt_free(iccp_ldlt *factor);
 
 /* Solves for n_rhs right sides at once: entry i of side r at b[i * n_rhs + r], replaced by the

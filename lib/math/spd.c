@@ -6,7 +6,15 @@ icc_status iccp_spd_create(iccp_spd *solver, const iccp_symmetric *matrix, bool 
                            const iccp_env *env)
 {
     *solver = (iccp_spd){.matrix = *matrix, .direct = iccp_ordering_available() && !iterative};
-    return solver->direct ? iccp_ldlt_create(&solver->factor, matrix, env) : ICC_OK;
+    if (!solver->direct)
+        return ICC_OK;
+    icc_status status = iccp_ldlt_analyse(&solver->factor, matrix, 1, env);
+    if (status != ICC_OK)
+        return status;
+    status = iccp_ldlt_factorise(&solver->factor, matrix, env);
+    if (status != ICC_OK)
+        iccp_ldlt_free(&solver->factor);
+    return status;
 }
 
 void iccp_spd_free(iccp_spd *solver)

@@ -13,8 +13,8 @@ static const double LEAST_WEIGHT = 0.02, MOST_WEIGHT = 50;
 static double half_cotangent(const iccp_planar *mesh, uint32_t corner)
 {
     const double *p = mesh->points + 2 * (size_t)mesh->triangles[corner];
-    const double *a = mesh->points + 2 * (size_t)mesh->triangles[iccp_corner_after(corner)];
-    const double *b = mesh->points + 2 * (size_t)mesh->triangles[iccp_corner_before(corner)];
+    const double *a = mesh->points + 2 * (size_t)mesh->triangles[iccp_after(corner)];
+    const double *b = mesh->points + 2 * (size_t)mesh->triangles[iccp_before(corner)];
     const double ux = a[0] - p[0], uy = a[1] - p[1], vx = b[0] - p[0], vy = b[1] - p[1];
     const double dot = ux * vx + uy * vy, cross = ux * vy - uy * vx;
     return cross > 0 ? 0.5 * dot / cross : copysign(MOST_WEIGHT, dot);
@@ -37,8 +37,8 @@ static void visit_edges(iccp_laplacian *l, const iccp_planar *mesh, uint32_t lef
     for (uint32_t c = 0; c < 3 * mesh->n_triangles; ++c) {
         if (mesh->twins[c] == ICCP_NO_NEIGHBOUR || mesh->twins[c] < c)
             continue;
-        uint32_t a = mesh->triangles[iccp_corner_after(c)];
-        uint32_t b = mesh->triangles[iccp_corner_before(c)];
+        uint32_t a = mesh->triangles[iccp_after(c)];
+        uint32_t b = mesh->triangles[iccp_before(c)];
         if (a == left_out || b == left_out || (a < n_boundary && b < n_boundary))
             continue;
         if (a < n_boundary) {

@@ -4,12 +4,11 @@
 #include "base/error.h"
 #include "domain/locate.h"
 #include "math/predicates.h"
+#include "mesh/corners.h"
+#include "mesh/grading.h"
 
 #include <math.h>
 #include <string.h>
-
-/* Lattice points closer to the boundary than this, in lattice steps, would make flat triangles. */
-static const double CLEARANCE = 0.6;
 
 double iccp_planar_step(const icc_domain *domain, int32_t cells)
 {
@@ -91,45 +90,34 @@ uint32_t iccp_planar_edge(const iccp_planar *mesh, const icc_domain *domain, uin
 
 /* ---- inside ---- */
 
-static bool is_clear(const icc_domain *domain, const double p[2], double distance)
+/* The longer of the two edges at each boundary vertex. */
+static void edge_lengths(const iccp_planar *mesh, double *length)
 {
-    if (iccp_domain_locate(domain, p, true, NULL, NULL) != ICC_INSIDE)
-        return false;
-    double t, distance2;
-    (void)iccp_boxtree_nearest(&domain->locator->tree, p, &t, &distance2);
-    return distance2 > distance * distance;
-}
-
-/* Rows of a lattice of equilateral triangles, centred in the bounding box. */
-static icc_status place_lattice(iccp_planar *mesh, const icc_domain *domain, double step,
-                                size_t capacity, const iccp_env *env)
-{
-    const double rise = 0.5 * sqrt(3.0) * step;
-    const double width = domain->upper[0] - domain->lower[0];
-    const double height = domain->upper[1] - domain->lower[1];
-    const size_t n_rows = (size_t)(height / rise) + 1, n_columns = (size_t)(width / step) + 2;
-    const double y0 = domain->lower[1] + 0.5 * (height - (double)(n_rows - 1) * rise);
-    const double x0 = domain->lower[0] + 0.5 * (width - (double)(n_columns - 1) * step);
-    for (size_t j = 0; j < n_rows; ++j) {
-        const icc_status status = iccp_progress(env, "mesh", (double)j / (double)n_rows);
-        if (status != ICC_OK)
-            return status;
-        for (size_t i = 0; i < n_columns && mesh->n_vertices < capacity; ++i) {
-            double *p = mesh->points + 2 * mesh->n_vertices;
-            p[0] = x0 + ((double)i + (j % 2 == 0 ? 0.25 : -0.25)) * step;
-            p[1] = y0 + (double)j * rise;
-            if (is_clear(domain, p, CLEARANCE * step))
-                ++mesh->n_vertices;
-        }
+    const size_t n = mesh->n_boundary;
+    double before = 0;
+    for (size_t k = n; k-- > 0;) {
+        const double *p = mesh->points + 2 * k, *q = mesh->points + 2 * ((k + 1) % n);
+        length[k] = hypot(q[0] - p[0], q[1] - p[1]);
     }
-    return ICC_OK;
+    const double last = length[n - 1];
+    for (size_t k = 0; k < n; ++k) {
+        const double own = length[k];
+        length[k] = fmax(own, k > 0 ? before : last);
+        before = own;
+    }
 }
 
-static size_t lattice_capacity(const icc_domain *domain, double step)
+static icc_status inner_points(const iccp_planar *mesh, const icc_domain *domain, double step,
+                               double **points, size_t *n_points, const iccp_env *env)
 {
-    const double width = domain->upper[0] - domain->lower[0];
-    const double height = domain->upper[1] - domain->lower[1];
-    return ((size_t)(height / (0.5 * sqrt(3.0) * step)) + 1) * ((size_t)(width / step) + 2);
+    double *length = iccp_alloc(&env->memory, mesh->n_boundary, sizeof *length);
+    if (length == NULL)
+        return ICC_ERR_MEMORY;
+    edge_lengths(mesh, length);
+    const iccp_samples samples = {mesh->n_boundary, mesh->points, length};
+    const icc_status status = iccp_graded_points(domain, &samples, step, points, n_points, env);
+    iccp_free(&env->memory, length);
+    return status;
 }
 
 /* ---- chords ---- */
@@ -139,104 +127,102 @@ static bool turns_left(const iccp_planar *mesh, uint32_t a, uint32_t b, const do
     return iccp_orient2d(mesh->points + 2 * (size_t)a, mesh->points + 2 * (size_t)b, c) > 0;
 }
 
-static void link_corners(iccp_planar *mesh, uint32_t a, uint32_t b)
-{
-    mesh->twins[a] = b;
-    if (b != ICCP_NO_NEIGHBOUR)
-        mesh->twins[b] = a;
-}
-
-static void write_triangle(iccp_planar *mesh, uint32_t t, uint32_t a, uint32_t b, uint32_t c)
-{
-    mesh->triangles[3 * (size_t)t] = a;
-    mesh->triangles[3 * (size_t)t + 1] = b;
-    mesh->triangles[3 * (size_t)t + 2] = c;
-}
-
-/* Cuts the edge that a corner faces at its middle, and the two triangles beside it in two, unless
- * rounding of the middle would make one of the four not positive. */
-static void split_edge(iccp_planar *mesh, uint32_t corner)
+/* Cuts the edge that a corner faces at its middle, unless rounding of the middle would make one of the
+ * four new triangles not positive. */
+static void split_edge(iccp_planar *mesh, iccp_corners *corners, uint32_t corner)
 {
     const uint32_t twin = mesh->twins[corner];
-    const uint32_t after = iccp_corner_after(corner), before = iccp_corner_before(corner);
-    const uint32_t twin_after = iccp_corner_after(twin), twin_before = iccp_corner_before(twin);
-    const uint32_t a = mesh->triangles[after], b = mesh->triangles[before];
+    const uint32_t a = mesh->triangles[iccp_after(corner)], b = mesh->triangles[iccp_before(corner)];
     const uint32_t x = mesh->triangles[corner], y = mesh->triangles[twin];
     const double *pa = mesh->points + 2 * (size_t)a, *pb = mesh->points + 2 * (size_t)b;
     const double middle[2] = {0.5 * pa[0] + 0.5 * pb[0], 0.5 * pa[1] + 0.5 * pb[1]};
     if (!turns_left(mesh, x, a, middle) || !turns_left(mesh, b, x, middle) ||
         !turns_left(mesh, y, b, middle) || !turns_left(mesh, a, y, middle))
         return;
-    const uint32_t m = (uint32_t)mesh->n_vertices++;
-    memcpy(mesh->points + 2 * (size_t)m, middle, sizeof middle);
-    const uint32_t near_new = (uint32_t)mesh->n_triangles++, far_new = (uint32_t)mesh->n_triangles++;
-    const uint32_t near_side = mesh->twins[after], far_side = mesh->twins[twin_after];
-    write_triangle(mesh, near_new, x, m, b);
-    write_triangle(mesh, far_new, y, m, a);
-    mesh->triangles[before] = m;
-    mesh->triangles[twin_before] = m;
-    link_corners(mesh, corner, 3 * far_new);
-    link_corners(mesh, twin, 3 * near_new);
-    link_corners(mesh, 3 * near_new + 1, near_side);
-    link_corners(mesh, 3 * far_new + 1, far_side);
-    link_corners(mesh, 3 * near_new + 2, after);
-    link_corners(mesh, 3 * far_new + 2, twin_after);
+    memcpy(mesh->points + 2 * mesh->n_vertices, middle, sizeof middle);
+    iccp_cut_edge(corners, corner, (uint32_t)mesh->n_vertices++);
 }
 
 /* New triangles come last, so that an edge which a cut hands over to one is still met. */
 static void split_chords(iccp_planar *mesh)
 {
     const uint32_t n = (uint32_t)mesh->n_boundary;
-    for (uint32_t c = 0; c < 3 * mesh->n_triangles; ++c)
-        if (mesh->twins[c] != ICCP_NO_NEIGHBOUR && mesh->triangles[iccp_corner_after(c)] < n &&
-            mesh->triangles[iccp_corner_before(c)] < n)
-            split_edge(mesh, c);
+    iccp_corners corners = {mesh->triangles, mesh->twins, mesh->n_triangles};
+    for (uint32_t c = 0; c < 3 * corners.n_triangles; ++c)
+        if (mesh->twins[c] != ICCP_NO_NEIGHBOUR && mesh->triangles[iccp_after(c)] < n &&
+            mesh->triangles[iccp_before(c)] < n)
+            split_edge(mesh, &corners, c);
+    mesh->n_triangles = corners.n_triangles;
 }
 
 /* ---- all of it ---- */
 
-static icc_status allocate(iccp_planar *mesh, const icc_domain *domain, size_t capacity)
+static icc_status allocate_boundary(iccp_planar *mesh, const icc_domain *domain)
 {
-    const size_t n_facets = domain->n_facets, most = capacity + mesh->n_boundary;
-    mesh->points = iccp_alloc(&mesh->memory, most, 2 * sizeof(double));
-    mesh->triangles = iccp_alloc(&mesh->memory, 2 * most, 3 * sizeof(uint32_t));
-    mesh->twins = iccp_alloc(&mesh->memory, 2 * most, 3 * sizeof(uint32_t));
+    const size_t n_facets = domain->n_facets;
+    mesh->points = iccp_alloc(&mesh->memory, mesh->n_boundary, 2 * sizeof(double));
     mesh->facet = iccp_alloc(&mesh->memory, mesh->n_boundary, sizeof(uint32_t));
     mesh->first = iccp_alloc(&mesh->memory, n_facets, sizeof(uint32_t));
     mesh->pieces = iccp_alloc(&mesh->memory, n_facets, sizeof(uint32_t));
-    return mesh->points != NULL && mesh->triangles != NULL && mesh->twins != NULL &&
-                   mesh->facet != NULL && mesh->first != NULL && mesh->pieces != NULL
+    return mesh->points != NULL && mesh->facet != NULL && mesh->first != NULL &&
+                   mesh->pieces != NULL
                ? ICC_OK
                : ICC_ERR_MEMORY;
+}
+
+/* Appends the inner points and makes room for a cut in every chord, of which there are at most as many
+ * as boundary vertices. */
+static icc_status allocate_inside(iccp_planar *mesh, const double *inner, size_t n_inner)
+{
+    const size_t most = 2 * mesh->n_boundary + n_inner;
+    double *points =
+        iccp_grow(&mesh->memory, mesh->points, 2 * mesh->n_boundary, 2 * most, sizeof *points);
+    if (points == NULL)
+        return ICC_ERR_MEMORY;
+    mesh->points = points;
+    if (n_inner > 0)
+        memcpy(points + 2 * mesh->n_boundary, inner, 2 * n_inner * sizeof *points);
+    mesh->n_vertices = mesh->n_boundary + n_inner;
+    mesh->triangles = iccp_alloc(&mesh->memory, 2 * most, 3 * sizeof(uint32_t));
+    mesh->twins = iccp_alloc(&mesh->memory, 2 * most, 3 * sizeof(uint32_t));
+    return mesh->triangles != NULL && mesh->twins != NULL ? ICC_OK : ICC_ERR_MEMORY;
+}
+
+static icc_status fill_mesh(iccp_planar *mesh, const icc_domain *domain, const uint32_t *pieces,
+                            double step, const iccp_env *env, icc_error *err)
+{
+    double *inner = NULL;
+    size_t n_inner = 0;
+    icc_status status = allocate_boundary(mesh, domain);
+    if (status == ICC_OK) {
+        memcpy(mesh->pieces, pieces, domain->n_facets * sizeof *pieces);
+        place_boundary(mesh, domain);
+        status = inner_points(mesh, domain, step, &inner, &n_inner, env);
+    }
+    if (status == ICC_OK)
+        status = allocate_inside(mesh, inner, n_inner);
+    iccp_free(&mesh->memory, inner);
+    if (status == ICC_OK)
+        status = iccp_triangulate_mesh(mesh->n_boundary, mesh->n_vertices, mesh->points,
+                                       mesh->triangles, mesh->twins, env, err);
+    if (status == ICC_OK) {
+        mesh->n_triangles = 2 * mesh->n_vertices - mesh->n_boundary - 2;
+        split_chords(mesh);
+    }
+    return status;
 }
 
 icc_status iccp_planar_create(iccp_planar *mesh, const icc_domain *domain, const uint32_t *pieces,
                               int32_t cells, const iccp_env *env, icc_error *err)
 {
     *mesh = (iccp_planar){.memory = env->memory};
-    const double step = iccp_planar_step(domain, cells);
     for (size_t f = 0; f < domain->n_facets; ++f)
         mesh->n_boundary += pieces[f];
-    const size_t capacity = mesh->n_boundary + lattice_capacity(domain, step);
-    icc_status status = allocate(mesh, domain, capacity);
-    if (status != ICC_OK) {
+    const icc_status status =
+        fill_mesh(mesh, domain, pieces, iccp_planar_step(domain, cells), env, err);
+    if (status != ICC_OK)
         iccp_planar_free(mesh);
-        return iccp_fail_memory(err);
-    }
-    memcpy(mesh->pieces, pieces, domain->n_facets * sizeof *pieces);
-    place_boundary(mesh, domain);
-    mesh->n_vertices = mesh->n_boundary;
-    status = place_lattice(mesh, domain, step, capacity, env);
-    if (status == ICC_OK)
-        status = iccp_triangulate_mesh(mesh->n_boundary, mesh->n_vertices, mesh->points,
-                                       mesh->triangles, mesh->twins, env, err);
-    if (status != ICC_OK) {
-        iccp_planar_free(mesh);
-        return status;
-    }
-    mesh->n_triangles = 2 * mesh->n_vertices - mesh->n_boundary - 2;
-    split_chords(mesh);
-    return ICC_OK;
+    return status;
 }
 
 void iccp_planar_free(iccp_planar *mesh)

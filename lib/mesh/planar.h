@@ -1,13 +1,14 @@
 /* A triangle mesh of a polygonal domain whose edges cover the polygon.
  *
  * Boundary vertices come first, counter-clockwise, however the domain is wound: mesh edge k of the
- * boundary joins vertices k and k + 1. Corners are numbered as in mesh/triangulate.h: corner c is
- * number c % 3 of triangle c / 3 and faces the half-edge from the corner after it to the one before. */
+ * boundary joins vertices k and k + 1. Corners are numbered as in mesh/trimesh.h: corner c is number
+ * c % 3 of triangle c / 3 and faces the half-edge from the corner after it to the one before. */
 #ifndef ICCP_PLANAR_H
 #define ICCP_PLANAR_H
 
 #include "domain/domain.h"
 #include "mesh/triangulate.h"
+#include "mesh/trimesh.h"
 
 typedef struct iccp_planar {
     iccp_memory memory;
@@ -20,17 +21,6 @@ typedef struct iccp_planar {
     uint32_t *pieces;    /* n_facets: boundary edges on a facet */
 } iccp_planar;
 
-/* The next corner of the triangle, counter-clockwise, and the one before. */
-static inline uint32_t iccp_corner_after(uint32_t corner)
-{
-    return corner % 3 == 2 ? corner - 2 : corner + 1;
-}
-
-static inline uint32_t iccp_corner_before(uint32_t corner)
-{
-    return corner % 3 == 0 ? corner + 2 : corner - 1;
-}
-
 /* The lattice step for so many cells along the longest side of the bounding box. */
 double iccp_planar_step(const icc_domain *domain, int32_t cells);
 
@@ -40,9 +30,9 @@ double iccp_planar_step(const icc_domain *domain, int32_t cells);
 void iccp_planar_pieces(uint32_t *pieces, const icc_domain *a, const icc_domain *b,
                         int32_t cells);
 
-/* Meshes a domain: its facets cut into pieces, points of a triangular lattice inside that keep away
- * from the boundary, constrained Delaunay, and edges between two boundary vertices cut at their
- * middle. At most 2 n_boundary + 1.2 cells^2 vertices; no triangle is degenerate or inverted, exactly. */
+/* Meshes a domain: its facets cut into pieces, points inside that are graded from the boundary's
+ * spacing to the step (mesh/grading.h), constrained Delaunay, and edges between two boundary vertices
+ * cut at their middle. No triangle is degenerate or inverted, exactly. */
 icc_status iccp_planar_create(iccp_planar *mesh, const icc_domain *domain, const uint32_t *pieces,
                               int32_t cells, const iccp_env *env, icc_error *err);
 void iccp_planar_free(iccp_planar *mesh);

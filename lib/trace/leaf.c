@@ -15,7 +15,7 @@ static int64_t part_of(int64_t rise, double share)
 static icc_status leaf_in_star(const iccp_psi *psi, uint32_t corner, const double bary[3],
                                iccp_leaf *leaf)
 {
-    const double a = bary[iccp_corner_after(corner) % 3], b = bary[iccp_corner_before(corner) % 3];
+    const double a = bary[iccp_after(corner) % 3], b = bary[iccp_before(corner) % 3];
     if (!(a + b > 0) || psi->rise[corner] <= 0)
         return ICC_ERR_TRACE;
     const int64_t below = part_of(psi->rise[corner], b / (a + b));
@@ -56,8 +56,8 @@ icc_status iccp_leaf_through(const iccp_planar *mesh, const iccp_psi *psi, uint3
 static void bary_gradient(const iccp_planar *mesh, uint32_t corner, double gradient[2])
 {
     const double *p = mesh->points + 2 * (size_t)mesh->triangles[corner];
-    const double *a = mesh->points + 2 * (size_t)mesh->triangles[iccp_corner_after(corner)];
-    const double *b = mesh->points + 2 * (size_t)mesh->triangles[iccp_corner_before(corner)];
+    const double *a = mesh->points + 2 * (size_t)mesh->triangles[iccp_after(corner)];
+    const double *b = mesh->points + 2 * (size_t)mesh->triangles[iccp_before(corner)];
     const double area = iccp_area2d(p, a, b);
     gradient[0] = (a[1] - b[1]) / area;
     gradient[1] = (b[0] - a[0]) / area;
@@ -93,8 +93,8 @@ iccp_crossing iccp_leaf_from_boundary(const iccp_psi *psi, uint32_t corner, doub
 
 void iccp_crossing_point(const iccp_planar *mesh, const iccp_crossing *crossing, double p[2])
 {
-    const double *a = mesh->points + 2 * (size_t)mesh->triangles[iccp_corner_after(crossing->corner)];
-    const double *b = mesh->points + 2 * (size_t)mesh->triangles[iccp_corner_before(crossing->corner)];
+    const double *a = mesh->points + 2 * (size_t)mesh->triangles[iccp_after(crossing->corner)];
+    const double *b = mesh->points + 2 * (size_t)mesh->triangles[iccp_before(crossing->corner)];
     const double share = iccp_crossing_share(crossing);
     p[0] = a[0] + share * (b[0] - a[0]);
     p[1] = a[1] + share * (b[1] - a[1]);
@@ -102,8 +102,8 @@ void iccp_crossing_point(const iccp_planar *mesh, const iccp_crossing *crossing,
 
 void iccp_crossing_slope(const iccp_planar *mesh, const iccp_crossing *crossing, double slope[2])
 {
-    const double *a = mesh->points + 2 * (size_t)mesh->triangles[iccp_corner_after(crossing->corner)];
-    const double *b = mesh->points + 2 * (size_t)mesh->triangles[iccp_corner_before(crossing->corner)];
+    const double *a = mesh->points + 2 * (size_t)mesh->triangles[iccp_after(crossing->corner)];
+    const double *b = mesh->points + 2 * (size_t)mesh->triangles[iccp_before(crossing->corner)];
     const double rise = (double)crossing->below + (double)crossing->above;
     slope[0] = (b[0] - a[0]) / rise;
     slope[1] = (b[1] - a[1]) / rise;
@@ -111,7 +111,7 @@ void iccp_crossing_slope(const iccp_planar *mesh, const iccp_crossing *crossing,
 
 bool iccp_leaf_rise(const iccp_planar *mesh, const iccp_psi *psi, iccp_crossing *crossing)
 {
-    const uint32_t corner = crossing->corner, after = iccp_corner_after(corner);
+    const uint32_t corner = crossing->corner, after = iccp_after(corner);
     if (mesh->triangles[corner] == psi->centre)
         return false;
     const int64_t opposite = crossing->above + psi->rise[after];
@@ -119,7 +119,7 @@ bool iccp_leaf_rise(const iccp_planar *mesh, const iccp_psi *psi, iccp_crossing 
         *crossing = (iccp_crossing){mesh->twins[after], -opposite, crossing->above};
     else
         *crossing =
-            (iccp_crossing){mesh->twins[iccp_corner_before(corner)], crossing->below, opposite};
+            (iccp_crossing){mesh->twins[iccp_before(corner)], crossing->below, opposite};
     return true;
 }
 
@@ -128,11 +128,11 @@ bool iccp_leaf_fall(const iccp_planar *mesh, const iccp_psi *psi, iccp_crossing 
     const uint32_t twin = mesh->twins[crossing->corner];
     if (twin == ICCP_NO_NEIGHBOUR)
         return false;
-    const uint32_t after = iccp_corner_after(twin);
+    const uint32_t after = iccp_after(twin);
     const int64_t opposite = psi->rise[after] - crossing->below;
     if (opposite >= 0)
         *crossing = (iccp_crossing){after, crossing->below, opposite};
     else
-        *crossing = (iccp_crossing){iccp_corner_before(twin), -opposite, crossing->above};
+        *crossing = (iccp_crossing){iccp_before(twin), -opposite, crossing->above};
     return true;
 }

@@ -126,8 +126,8 @@ static void quantise(iccp_psi *psi, const iccp_planar *mesh, const double *phi)
         psi->label[v] =
             v == psi->centre ? 0 : to_units(angle_between(mesh, psi->centre, 0, v) + phi[v]);
     for (uint32_t c = 0; c < 3 * mesh->n_triangles; ++c) {
-        const uint32_t a = mesh->triangles[iccp_corner_after(c)];
-        const uint32_t b = mesh->triangles[iccp_corner_before(c)];
+        const uint32_t a = mesh->triangles[iccp_after(c)];
+        const uint32_t b = mesh->triangles[iccp_before(c)];
         psi->rise[c] = 0;
         if (a != psi->centre && b != psi->centre)
             psi->rise[c] = lifted(psi->label[b] - psi->label[a],

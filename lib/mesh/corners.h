@@ -1,0 +1,22 @@
+/* Local changes of a triangle mesh given by two arrays: the vertex of each corner, and the corner that
+ * faces the same edge from the other side (ICCP_NO_NEIGHBOUR on the boundary). Numbering as in
+ * mesh/trimesh.h. */
+#ifndef ICCP_CORNERS_H
+#define ICCP_CORNERS_H
+
+#include "mesh/triangulate.h"
+#include "mesh/trimesh.h"
+
+typedef struct iccp_corners {
+    uint32_t *vertex, *twin;
+    size_t n_triangles;
+} iccp_corners;
+
+/* Puts vertex m on the edge that a corner faces and cuts the triangles beside it in two: two more at the
+ * end, or one for an edge of the boundary. */
+void iccp_cut_edge(iccp_corners *corners, uint32_t corner, uint32_t m);
+
+/* Replaces the edge, which is not on the boundary, by the other diagonal of its two triangles. */
+void iccp_turn_edge(iccp_corners *corners, uint32_t corner);
+
+#endif
