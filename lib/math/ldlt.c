@@ -5,6 +5,7 @@
 
 #include "math/ordering.h"
 
+#include <math.h>
 #include <stdbool.h>
 #include <string.h>
 
@@ -158,7 +159,7 @@ static icc_status eliminate(iccp_ldlt *l, elimination *e, const iccp_env *env)
                 return status;
         }
         l->pivot[k] = eliminate_row(l, e, k);
-        if (!(l->pivot[k] > 0))
+        if (!(l->pivot[k] > 0 && isfinite(l->pivot[k])))
             return ICC_ERR_SOLVER;
     }
     return ICC_OK;

@@ -67,7 +67,11 @@ static icc_status iterate(const iccp_symmetric *m, double *x, double *r, double 
                 return status;
         }
         multiply(m, p, q);
-        const double step = rz / dot(n, p, q);
+        const double curvature = dot(n, p, q);
+        /* Otherwise the matrix is not positive definite, or the residual is rounding. */
+        if (!(curvature > 0 && rz > 0))
+            break;
+        const double step = rz / curvature;
         for (size_t i = 0; i < n; ++i) {
             x[i] += step * p[i];
             r[i] -= step * q[i];

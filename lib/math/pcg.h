@@ -10,7 +10,8 @@ enum { ICCP_PCG_WORK = 5 };
 
 /* Solves for n_rhs right sides, one after the other: entry i of side r at b[i * n_rhs + r], replaced
  * by the solution. Iterates until the residual is 1e-13 of the right side or no longer falls;
- * ICC_ERR_SOLVER when it then is above 1e-9. `work`: ICCP_PCG_WORK * n doubles. */
+ * ICC_ERR_SOLVER when it then is above 1e-9, or a direction shows before that the matrix is not
+ * positive definite. `work`: ICCP_PCG_WORK * n doubles. */
 icc_status iccp_pcg_solve(const iccp_symmetric *matrix, size_t n_rhs, double *b, double *work,
                           const iccp_env *env);
 

@@ -122,8 +122,8 @@ START_TEST(triangles_must_be_positive)
         const uint32_t c = random_corner(&x, &r);
         double *p = mesh->points + 2 * (size_t)mesh->triangles[c];
         const double old[2] = {p[0], p[1]};
-        const double *a = mesh->points + 2 * (size_t)mesh->triangles[iccp_corner_after(c)];
-        const double *b = mesh->points + 2 * (size_t)mesh->triangles[iccp_corner_before(c)];
+        const double *a = mesh->points + 2 * (size_t)mesh->triangles[iccp_after(c)];
+        const double *b = mesh->points + 2 * (size_t)mesh->triangles[iccp_before(c)];
         for (int i = 0; i < 2; ++i)
             p[i] = k % 2 ? a[i] : a[i] + b[i] - old[i];
         iccp_certificate certificate = {0};
@@ -143,7 +143,7 @@ START_TEST(rises_must_close)
     subject x = subject_of(&s, 15);
     random_source r = {4};
     for (int k = 0; k < 2000; ++k) {
-        const uint32_t c = random_outer_corner(&x, &r), d = iccp_corner_after(c);
+        const uint32_t c = random_outer_corner(&x, &r), d = iccp_after(c);
         const int64_t old[2] = {x.psi.rise[c], x.psi.rise[d]};
         x.psi.rise[c] += k % 2 ? 1 : -1;
         ck_assert_uint_gt(certify(&x).n_open, 0);
@@ -163,8 +163,8 @@ static void shift(subject *x, uint32_t vertex, int64_t amount)
 {
     const iccp_planar *mesh = &x->base.mesh;
     for (uint32_t c = 0; c < 3 * mesh->n_triangles; ++c) {
-        const uint32_t a = mesh->triangles[iccp_corner_after(c)];
-        const uint32_t b = mesh->triangles[iccp_corner_before(c)];
+        const uint32_t a = mesh->triangles[iccp_after(c)];
+        const uint32_t b = mesh->triangles[iccp_before(c)];
         if (a != x->psi.centre && b != x->psi.centre)
             x->psi.rise[c] += b == vertex ? amount : a == vertex ? -amount : 0;
     }
@@ -177,8 +177,8 @@ static void neighbours_of(const subject *x, uint32_t vertex, int64_t *least, int
     *least = INT64_MAX;
     *most = INT64_MIN;
     for (uint32_t c = 0; c < 3 * mesh->n_triangles; ++c) {
-        const uint32_t a = mesh->triangles[iccp_corner_after(c)];
-        const uint32_t b = mesh->triangles[iccp_corner_before(c)];
+        const uint32_t a = mesh->triangles[iccp_after(c)];
+        const uint32_t b = mesh->triangles[iccp_before(c)];
         if ((a != vertex && b != vertex) || a == x->psi.centre || b == x->psi.centre)
             continue;
         const int64_t rise = a == vertex ? x->psi.rise[c] : -x->psi.rise[c];
@@ -222,8 +222,8 @@ START_TEST(ties_are_ordered)
     const iccp_planar *mesh = &x.base.mesh;
     size_t n_tied = 0, n_flat = 0;
     for (uint32_t c = 0; c < 3 * mesh->n_triangles; ++c) {
-        const uint32_t a = mesh->triangles[iccp_corner_after(c)];
-        const uint32_t b = mesh->triangles[iccp_corner_before(c)], o = mesh->triangles[c];
+        const uint32_t a = mesh->triangles[iccp_after(c)];
+        const uint32_t b = mesh->triangles[iccp_before(c)], o = mesh->triangles[c];
         if (a < mesh->n_boundary || b < mesh->n_boundary || o < mesh->n_boundary ||
             a == x.psi.centre || b == x.psi.centre || o == x.psi.centre)
             continue;
@@ -233,7 +233,7 @@ START_TEST(ties_are_ordered)
         /* On the link of the centre it is an error. */
         ck_assert(tied.n_ties > 0 || tied.n_flat > 0);
         n_tied += iccp_certificate_holds(&tied);
-        const int64_t second = x.psi.rise[iccp_corner_after(c)];
+        const int64_t second = x.psi.rise[iccp_after(c)];
         shift(&x, o, -second);
         const iccp_certificate flat = certify(&x);
         ck_assert_uint_gt(flat.n_flat, 0);

@@ -43,8 +43,8 @@ static size_t count_chords(const iccp_planar *mesh)
     size_t n = 0;
     for (uint32_t c = 0; c < 3 * mesh->n_triangles; ++c) {
         const uint32_t twin = mesh->twins[c];
-        const uint32_t a = mesh->triangles[iccp_corner_after(c)];
-        const uint32_t b = mesh->triangles[iccp_corner_before(c)];
+        const uint32_t a = mesh->triangles[iccp_after(c)];
+        const uint32_t b = mesh->triangles[iccp_before(c)];
         if (twin == ICCP_NO_NEIGHBOUR || twin < c || a >= mesh->n_boundary || b >= mesh->n_boundary)
             continue;
         ++n;
