@@ -141,7 +141,6 @@ static size_t check_mesh(size_t n, const double *xy, int32_t cells)
     ck_assert(iccp_certificate_holds(&certificate));
     const size_t n_cells = (size_t)cells * (size_t)cells;
     ck_assert_uint_le(m.mesh.n_vertices, 8 * n + 3 * n_cells);
-    ck_assert_uint_le(m.mesh.n_vertices, 2 * m.mesh.n_boundary + 12 * n_cells / 10 + 4 * (size_t)cells + 4);
     check_rim(&m);
     check_shares(&m, &r);
     check_finder(&m, &r);
