@@ -519,8 +519,11 @@ static bool is_disc(const iccp_kuhn *kuhn, const iccp_link_set *set)
 START_TEST(regular_sets_up_to_3d)
 {
     static iccp_kuhn kuhn;
-    for (int32_t dim = 1; dim <= 3; ++dim) {
+    for (int round = 0; round < 6; ++round) { /* each dimension without and with a table */
+        const int32_t dim = 1 + round / 2;
         iccp_kuhn_init(&kuhn, dim);
+        if (round % 2 == 1)
+            iccp_kuhn_tabulate(&kuhn);
         ck_assert_int_eq(kuhn.n_neighbours, 2 * ((1 << dim) - 1));
         for (uint64_t bits = 0; bits < (uint64_t)1 << kuhn.n_neighbours; ++bits) {
             const iccp_link_set set = {{bits, 0}}, rest = iccp_link_rest(&kuhn, &set);
