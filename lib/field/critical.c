@@ -8,7 +8,7 @@
 
 #include <math.h>
 
-static const size_t GRAIN = 1 << 14; /* vertices per chunk */
+static const size_t GRAIN = 1 << 12; /* vertices per chunk: at most 0.4 s, in 6-D */
 
 typedef struct work {
     const icc_field *field;
