@@ -253,6 +253,10 @@ START_TEST(stages_refuse_bad_arguments)
     REFUSED(icc_field_edges(o.field, 1, NULL, kinds, &n, NULL));
     REFUSED(icc_field_edges(o.field, 1, edges, NULL, &n, NULL));
     ck_assert_int_eq(icc_field_edges(o.field, 1, edges, kinds, &n, NULL), ICC_ERR_UNSUPPORTED);
+    static const int32_t ORDER[3] = {2, 0, 1};
+    const icc_tree_options good = {.size = sizeof good, .axis_order = ORDER};
+    ck_assert_int_eq(icc_tree_create(&t, o.mask, 62, &good, NULL, &err), ICC_OK);
+    icc_tree_free(t);
     /* Numbers that another version may give a meaning. */
     const icc_tree_options later_tree = {.size = sizeof later_tree, .reserved = 1};
     const icc_field_options later_field = {.size = sizeof later_field, .reserved = 1};
@@ -288,6 +292,65 @@ START_TEST(the_triangulation_refuses_bad_arguments)
     ck_assert_int_eq(icc_triangulate(N_CORNERS, N_CORNERS + 1, points, triangles, NULL, &err),
                      ICC_ERR_BOUNDARY);
     ck_assert_int_eq(err.index, 0);
+}
+END_TEST
+
+/* Far too small beside the polygon, and far outside. */
+START_TEST(the_triangulation_names_the_point)
+{
+    icc_error err = {.size = sizeof err};
+    uint32_t triangles[3 * 8];
+    const double tiny[12] = {-1, -1, 1, -1, 1, 1, -1, 1, 0.5, 0.5, 1e-70, 0.25};
+    ck_assert_int_eq(icc_triangulate(4, 6, tiny, triangles, NULL, &err), ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(err.index, 5);
+    const double far[12] = {-1, -1, 1, -1, 1, 1, -1, 1, 0.5, 0.5, 1e300, 0.25};
+    ck_assert_int_eq(icc_triangulate(4, 6, far, triangles, NULL, &err), ICC_ERR_OUTSIDE);
+    ck_assert_int_eq(err.index, 5);
+}
+END_TEST
+
+/* The edges that icc_chart_get_info() counts, one by one, in as much room as there is. */
+START_TEST(edges_are_listed)
+{
+    icc_domain *domain;
+    icc_grid *grid;
+    icc_tree *tree;
+    icc_field *field;
+    uint32_t root, edges[2 * N_POINTS];
+    int32_t kinds[N_POINTS];
+    size_t n, again, n_tested;
+    ck_assert_int_eq(icc_domain_create(&domain, 2, N_CORNERS, SOURCE, 0, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_grid_create(&grid, domain, 12, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_grid_maximum(grid, &root, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_tree_create(&tree, grid, root, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_field_create(&field, tree, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_field_edges(field, N_POINTS, edges, kinds, &n, &n_tested), ICC_OK);
+    ck_assert(n > 10 && n <= N_POINTS && n < n_tested);
+    size_t n_compression = 0;
+    icc_grid_info info = {.size = sizeof info};
+    ck_assert_int_eq(icc_grid_get_info(grid, &info), ICC_OK);
+    for (size_t k = 0; k < n; ++k) {
+        ck_assert(kinds[k] == ICC_EDGE_COMPRESSION || kinds[k] == ICC_EDGE_EXPANSION);
+        n_compression += kinds[k] == ICC_EDGE_COMPRESSION;
+        const uint32_t low = edges[2 * k] < edges[2 * k + 1] ? edges[2 * k] : edges[2 * k + 1];
+        const uint32_t step = edges[2 * k] + edges[2 * k + 1] - 2 * low;
+        ck_assert(step == 1 || step == info.shape[0] || step == info.shape[0] + 1);
+    }
+    ck_assert_int_eq(icc_field_edges(field, 3, edges, kinds, &again, NULL), ICC_OK);
+    ck_assert_uint_eq(again, n);
+    const icc_chart_options options = {.size = sizeof options, .cells = 12};
+    icc_chart *chart;
+    ck_assert_int_eq(icc_chart_create(&chart, domain, &options, NULL, NULL), ICC_OK);
+    icc_chart_info counted = {.size = sizeof counted};
+    ck_assert_int_eq(icc_chart_get_info(chart, &counted), ICC_OK);
+    ck_assert_uint_eq(counted.n_edges, n_tested);
+    ck_assert_uint_eq(counted.n_compression, n_compression);
+    ck_assert_uint_eq(counted.n_expansion, n - n_compression);
+    icc_chart_free(chart);
+    icc_field_free(field);
+    icc_tree_free(tree);
+    icc_grid_free(grid);
+    icc_domain_free(domain);
 }
 END_TEST
 
@@ -598,6 +661,8 @@ int main(void)
     tcase_add_test(tests, maps_refuse_bad_arguments);
     tcase_add_test(tests, stages_refuse_bad_arguments);
     tcase_add_test(tests, the_triangulation_refuses_bad_arguments);
+    tcase_add_test(tests, the_triangulation_names_the_point);
+    tcase_add_test(tests, edges_are_listed);
     tcase_add_test(tests, freeing_nothing_does_nothing);
     tcase_add_test(tests, every_call_checks_its_env);
     tcase_add_test(tests, options_may_be_older_or_newer);
