@@ -15,7 +15,8 @@ static double fall(int32_t function, double value)
 }
 
 /* The value of each generation, so that equal generations have equal bits. */
-static icc_status tabulate(double **out, const icc_tree *tree, int32_t function, const iccp_env *env)
+static icc_status tabulate(double **out, const icc_tree *tree, int32_t function,
+                           const iccp_env *env)
 {
     int32_t last = 0;
     for (size_t i = 0; i < tree->n_reached; ++i)

@@ -7,8 +7,8 @@
 struct icc_field {
     iccp_memory memory;
     icc_tree *tree;
-    int32_t function;  /* ICC_FUNCTION_* */
-    double *values;    /* one per grid vertex; NaN where the tree does not reach */
+    int32_t function; /* ICC_FUNCTION_* */
+    double *values;   /* one per grid vertex; NaN where the tree does not reach */
 };
 
 /* See icc_field_create(). The decay would underflow from some 13,850 generations on (cells = 16384

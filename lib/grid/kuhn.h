@@ -9,7 +9,7 @@
 #include <stdbool.h>
 
 enum {
-    ICCP_LINK_SIZE = 126,  /* neighbours of a vertex in ICC_MAX_DIM dimensions: 2 (2^6 - 1) */
+    ICCP_LINK_SIZE = 126,     /* neighbours of a vertex in ICC_MAX_DIM dimensions: 2 (2^6 - 1) */
     ICCP_LINK_TABLE = 1 << 14 /* sets of the 14 neighbours in 3-D */
 };
 
@@ -20,12 +20,12 @@ typedef struct iccp_link_set {
 
 typedef struct iccp_kuhn {
     int32_t dim;
-    int n_neighbours;                             /* 2 (2^dim - 1) */
-    int8_t step[ICCP_LINK_SIZE][ICC_MAX_DIM];     /* to each neighbour */
+    int n_neighbours;                         /* 2 (2^dim - 1) */
+    int8_t step[ICCP_LINK_SIZE][ICC_MAX_DIM]; /* to each neighbour */
     iccp_link_set all;
-    iccp_link_set joined[ICCP_LINK_SIZE];         /* neighbour i and those joined to it */
+    iccp_link_set joined[ICCP_LINK_SIZE]; /* neighbour i and those joined to it */
     bool tabulated;
-    uint64_t regular[ICCP_LINK_TABLE / 64];       /* the answers for all sets, when tabulated */
+    uint64_t regular[ICCP_LINK_TABLE / 64]; /* the answers for all sets, when tabulated */
 } iccp_kuhn;
 
 void iccp_kuhn_init(iccp_kuhn *kuhn, int32_t dim);

@@ -90,7 +90,8 @@ static void run_polygon(const char *name, int32_t cells)
     for (int k = 0; k < BOUNDARY; ++k) { /* a rounded square with a dent */
         const int side = 4 * k / BOUNDARY;
         const double t = (double)(k % (BOUNDARY / 4)) / (BOUNDARY / 4) * 2 - 1;
-        const double out = 1.25 - 0.25 * t * t, at[4][2] = {{t, -out}, {out, t}, {-t, out}, {-0.4, -t}};
+        const double out = 1.25 - 0.25 * t * t,
+                     at[4][2] = {{t, -out}, {out, t}, {-t, out}, {-0.4, -t}};
         memcpy(points + 2 * k, at[side], sizeof at[side]);
     }
     icc_domain *domain;

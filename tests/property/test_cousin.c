@@ -25,11 +25,10 @@ static void try_root(const icc_grid *grid, uint32_t root, int32_t form, tally *s
     icc_field *field = NULL;
     icc_tree_report tree_report = {.size = sizeof tree_report};
     icc_field_report field_report = {.size = sizeof field_report};
-    const bool works =
-        icc_tree_create(&tree, grid, root, &options, NULL, NULL) == ICC_OK &&
-        icc_tree_verify(tree, &tree_report, NULL, NULL) == ICC_OK &&
-        icc_field_create(&field, tree, NULL, NULL, NULL) == ICC_OK &&
-        icc_field_verify(field, &field_report, NULL, NULL) == ICC_OK;
+    const bool works = icc_tree_create(&tree, grid, root, &options, NULL, NULL) == ICC_OK &&
+                       icc_tree_verify(tree, &tree_report, NULL, NULL) == ICC_OK &&
+                       icc_field_create(&field, tree, NULL, NULL, NULL) == ICC_OK &&
+                       icc_field_verify(field, &field_report, NULL, NULL) == ICC_OK;
     ++sum->n_pairs;
     sum->n_broken += !works || tree_report.n_unreachable > 0;
     sum->n_violated += tree_report.n_cousin_violations > 0;
@@ -68,8 +67,8 @@ static bool is_connected(uint32_t mask, int nx, uint32_t first_column)
     uint32_t reached = mask & (~mask + 1), before = 0;
     while (reached != before) {
         before = reached;
-        reached |= (reached & ~last_column) << 1 | (reached & ~first_column) >> 1 |
-                   reached << nx | reached >> nx;
+        reached |= (reached & ~last_column) << 1 | (reached & ~first_column) >> 1 | reached << nx |
+                   reached >> nx;
         reached &= mask;
     }
     return mask != 0 && reached == mask;

@@ -19,7 +19,8 @@ static icc_grid *grid_of(int32_t dim, const size_t *sides, const uint8_t *inside
     return grid;
 }
 
-static icc_tree *tree_of(const icc_grid *grid, uint32_t root, int32_t form, const int32_t *axis_order)
+static icc_tree *tree_of(const icc_grid *grid, uint32_t root, int32_t form,
+                         const int32_t *axis_order)
 {
     const icc_tree_options options = {
         .size = sizeof options, .form = form, .axis_order = axis_order};
