@@ -7,19 +7,19 @@
 #define REFUSED(call) ck_assert_int_eq((call), ICC_ERR_ARGUMENT)
 
 /* A refusal that must also be explained. */
-#define EXPLAINED(call)                                                                              \
-    do {                                                                                             \
-        err = (icc_error){.size = sizeof err};                                                       \
-        REFUSED(call);                                                                               \
-        ck_assert(err.status == ICC_ERR_ARGUMENT && err.message[0] != '\0');                         \
+#define EXPLAINED(call)                                                                            \
+    do {                                                                                           \
+        err = (icc_error){.size = sizeof err};                                                     \
+        REFUSED(call);                                                                             \
+        ck_assert(err.status == ICC_ERR_ARGUMENT && err.message[0] != '\0');                       \
     } while (0)
 
 /* The same, of a creator, which must also reset its out. */
-#define NOT_MADE(object, call)                                                                       \
-    do {                                                                                             \
-        (object) = (void *)&err;                                                                     \
-        EXPLAINED(call);                                                                             \
-        ck_assert_ptr_null(object);                                                                  \
+#define NOT_MADE(object, call)                                                                     \
+    do {                                                                                           \
+        (object) = (void *)&err;                                                                   \
+        EXPLAINED(call);                                                                           \
+        ck_assert_ptr_null(object);                                                                \
     } while (0)
 
 START_TEST(domains_refuse_bad_arguments)
@@ -159,7 +159,8 @@ START_TEST(maps_refuse_bad_arguments)
     icc_map_options options = {.size = sizeof options, .target_maximum = NOT_FINITE};
     NOT_MADE(m, icc_map_create(&m, o.source, o.target, &options, NULL, &err));
     options = (icc_map_options){.size = sizeof options, .kind = 2};
-    ck_assert_int_eq(icc_map_create(&m, o.source, o.target, &options, NULL, &err), ICC_ERR_UNSUPPORTED);
+    ck_assert_int_eq(icc_map_create(&m, o.source, o.target, &options, NULL, &err),
+                     ICC_ERR_UNSUPPORTED);
     ck_assert(m == NULL && err.status == ICC_ERR_UNSUPPORTED);
     ck_assert_int_eq(icc_map_create_from_charts(&m, o.chart, o.target_chart, &options, NULL, &err),
                      ICC_ERR_UNSUPPORTED);
@@ -167,7 +168,8 @@ START_TEST(maps_refuse_bad_arguments)
     REFUSED(icc_map_get_info(NULL, &info));
     REFUSED(icc_map_get_info(o.map, NULL));
     ck_assert(icc_map_source_chart(NULL) == NULL && icc_map_target_chart(NULL) == NULL);
-    ck_assert(icc_map_source_chart(o.map) == o.chart && icc_map_target_chart(o.map) == o.target_chart);
+    ck_assert(icc_map_source_chart(o.map) == o.chart &&
+              icc_map_target_chart(o.map) == o.target_chart);
     double p[2] = {0.5, 0.5}, j[4];
     size_t n = 7;
     REFUSED(icc_map_apply(NULL, 1, p, p, NULL, NULL, NULL));
@@ -228,7 +230,10 @@ START_TEST(stages_refuse_bad_arguments)
     NOT_MADE(t, icc_tree_create(&t, o.mask, UINT32_MAX, NULL, NULL, &err));
     static const int32_t ORDERS[3][3] = {{0, 1, 1}, {0, 1, 3}, {-1, 0, 1}};
     for (int k = 0; k < 5; ++k) {
-        const icc_tree_options bad = {.size = sizeof bad, .form = k == 3 ? 3 : k == 4 ? -1 : 0,
+        const icc_tree_options bad = {.size = sizeof bad,
+                                      .form = k == 3   ? 3
+                                              : k == 4 ? -1
+                                                       : 0,
                                       .axis_order = k < 3 ? ORDERS[k] : NULL};
         NOT_MADE(t, icc_tree_create(&t, o.mask, 62, &bad, NULL, &err));
     }
@@ -274,7 +279,8 @@ START_TEST(the_triangulation_refuses_bad_arguments)
     memcpy(points, SOURCE, sizeof SOURCE);
     points[2 * N_CORNERS] = 0.5;
     points[2 * N_CORNERS + 1] = 0.5;
-    ck_assert_int_eq(icc_triangulate(N_CORNERS, N_CORNERS + 1, points, triangles, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_triangulate(N_CORNERS, N_CORNERS + 1, points, triangles, NULL, NULL),
+                     ICC_OK);
     EXPLAINED(icc_triangulate(N_CORNERS, N_CORNERS + 1, NULL, triangles, NULL, &err));
     EXPLAINED(icc_triangulate(N_CORNERS, N_CORNERS + 1, points, NULL, NULL, &err));
     EXPLAINED(icc_triangulate(2, N_CORNERS, points, triangles, NULL, &err));
@@ -555,13 +561,11 @@ START_TEST(infos_may_be_older_or_newer)
     static const struct {
         writer write;
         size_t size;
-    } WRITERS[] = {{write_domain_info, sizeof(icc_domain_info)},
-                   {write_chart_info, sizeof(icc_chart_info)},
-                   {write_measures, sizeof(icc_chart_measures)},
-                   {write_map_info, sizeof(icc_map_info)},
-                   {write_grid_info, sizeof(icc_grid_info)},
-                   {write_tree_report, sizeof(icc_tree_report)},
-                   {write_field_report, sizeof(icc_field_report)}};
+    } WRITERS[] = {
+        {write_domain_info, sizeof(icc_domain_info)},  {write_chart_info, sizeof(icc_chart_info)},
+        {write_measures, sizeof(icc_chart_measures)},  {write_map_info, sizeof(icc_map_info)},
+        {write_grid_info, sizeof(icc_grid_info)},      {write_tree_report, sizeof(icc_tree_report)},
+        {write_field_report, sizeof(icc_field_report)}};
     enum { ROOM = 512 };
     objects o;
     objects_init(&o);
@@ -585,7 +589,7 @@ START_TEST(infos_may_be_older_or_newer)
             ck_assert_int_eq(WRITERS[k].write(&o, &part), ICC_OK);
             bool same = part.size == size;
             for (size_t b = sizeof(size_t); b < ROOM; ++b) {
-                const unsigned char expected = b >= size ? 0xaa
+                const unsigned char expected = b >= size              ? 0xaa
                                                : b >= WRITERS[k].size ? 0
                                                                       : full.bytes[b];
                 same = same && part.bytes[b] == expected;
@@ -616,7 +620,8 @@ START_TEST(errors_may_be_older_or_newer)
         if (size >= 12)
             ck_assert_int_eq(given.err.status, ICC_ERR_ARGUMENT);
         if (size > offsetof(icc_error, message))
-            ck_assert_ptr_nonnull(memchr(given.err.message, '\0', size - offsetof(icc_error, message)));
+            ck_assert_ptr_nonnull(
+                memchr(given.err.message, '\0', size - offsetof(icc_error, message)));
     }
     /* What succeeds leaves the error alone. */
     memset(&given, 0xaa, sizeof given);
@@ -633,11 +638,20 @@ END_TEST
 
 START_TEST(everything_has_a_name)
 {
-    static const char *const NAMES[] = {
-        "ICC_OK", "ICC_ERR_ARGUMENT", "ICC_ERR_MEMORY", "ICC_ERR_VERSION", "ICC_ERR_BOUNDARY",
-        "ICC_ERR_RESOLUTION", "ICC_ERR_TOPOLOGY", "ICC_ERR_OUTSIDE", "ICC_ERR_SOLVER",
-        "ICC_ERR_TRACE", "ICC_ERR_CERTIFICATE", "ICC_ERR_CANCELLED", "ICC_ERR_UNSUPPORTED",
-        "ICC_ERR_FORMAT"};
+    static const char *const NAMES[] = {"ICC_OK",
+                                        "ICC_ERR_ARGUMENT",
+                                        "ICC_ERR_MEMORY",
+                                        "ICC_ERR_VERSION",
+                                        "ICC_ERR_BOUNDARY",
+                                        "ICC_ERR_RESOLUTION",
+                                        "ICC_ERR_TOPOLOGY",
+                                        "ICC_ERR_OUTSIDE",
+                                        "ICC_ERR_SOLVER",
+                                        "ICC_ERR_TRACE",
+                                        "ICC_ERR_CERTIFICATE",
+                                        "ICC_ERR_CANCELLED",
+                                        "ICC_ERR_UNSUPPORTED",
+                                        "ICC_ERR_FORMAT"};
     for (int32_t k = 0; k < 14; ++k)
         ck_assert_str_eq(icc_status_name(k), NAMES[k]);
     static const int32_t UNKNOWN[] = {-1, 14, INT32_MAX, INT32_MIN};
@@ -645,8 +659,8 @@ START_TEST(everything_has_a_name)
         ck_assert_str_eq(icc_status_name(UNKNOWN[k]), "unknown status");
     char version[32];
     const int32_t number = icc_version_number();
-    (void)snprintf(version, sizeof version, "%d.%d.%d", (int)(number / 10000), (int)(number / 100 % 100),
-                   (int)(number % 100));
+    (void)snprintf(version, sizeof version, "%d.%d.%d", (int)(number / 10000),
+                   (int)(number / 100 % 100), (int)(number % 100));
     ck_assert_str_eq(icc_version(), version);
 }
 END_TEST

@@ -74,7 +74,8 @@ START_TEST(the_caller_may_run_the_tasks)
     crew c = {.n_tasks = 0};
     for (int i = 0; i < N_CALLS; ++i) {
         serial(&o, &CALLS[i], &plain);
-        const icc_env env = {.size = sizeof env, .user = &c, .parallel_for = crew_run, .threads = 8};
+        const icc_env env = {
+            .size = sizeof env, .user = &c, .parallel_for = crew_run, .threads = 8};
         memset(&out, 0, sizeof out);
         ck_assert_int_eq(CALLS[i].run(&o, &out, &env, NULL), ICC_OK);
         check_equal(&CALLS[i], &plain, &out);
@@ -178,8 +179,12 @@ static size_t cancel_everywhere(const objects *o, const call *c, int32_t threads
     static outcome out;
     for (size_t k = 0;; ++k) {
         watcher w = {.caller = pthread_self(), .cancel_at = k};
-        icc_env env = {.size = sizeof env, .user = &w, .alloc = watch_alloc, .dealloc = watch_dealloc,
-                       .progress = watch, .threads = threads};
+        icc_env env = {.size = sizeof env,
+                       .user = &w,
+                       .alloc = watch_alloc,
+                       .dealloc = watch_dealloc,
+                       .progress = watch,
+                       .threads = threads};
         if (own_tasks)
             env.parallel_for = watch_tasks;
         icc_error err = {.size = sizeof err};
@@ -222,7 +227,10 @@ START_TEST(progress_stays_on_the_calling_thread)
         static outcome out;
         for (int own = 0; own < 2; ++own) {
             watcher w = {.caller = pthread_self(), .cancel_at = SIZE_MAX};
-            const icc_env env = {.size = sizeof env, .user = &w, .progress = watch, .threads = 4,
+            const icc_env env = {.size = sizeof env,
+                                 .user = &w,
+                                 .progress = watch,
+                                 .threads = 4,
                                  .parallel_for = own ? watch_tasks : NULL};
             ck_assert_int_eq(CALLS[i].run(&o, &out, &env, NULL), ICC_OK);
         }

@@ -121,7 +121,8 @@ START_TEST(curves_are_drawn_from_anywhere)
         /* Whoever draws may stop. */
         for (size_t m = 0; m < d.n; ++m) {
             drawing short_of = {.stop_at = m};
-            ck_assert_int_eq(chart->ops->trace(chart, starts[k], &path, draw, &short_of), ICC_ERR_MEMORY);
+            ck_assert_int_eq(chart->ops->trace(chart, starts[k], &path, draw, &short_of),
+                             ICC_ERR_MEMORY);
             ck_assert_uint_eq(short_of.n, m);
         }
     }
@@ -167,7 +168,8 @@ START_TEST(inward_is_inward)
             iccp_domain_facet_point(chart->domain, facet, bary, p);
             iccp_gradient_inward(chart->domain, facet, inward);
             for (int side = -1; side <= 1; side += 2) {
-                const double q[2] = {p[0] + side * 1e-6 * inward[0], p[1] + side * 1e-6 * inward[1]};
+                const double q[2] = {p[0] + side * 1e-6 * inward[0],
+                                     p[1] + side * 1e-6 * inward[1]};
                 ck_assert_int_eq(iccp_domain_locate(chart->domain, q, true, NULL, NULL),
                                  side > 0 ? ICC_INSIDE : ICC_OUTSIDE);
             }

@@ -248,7 +248,8 @@ static bool has_higher_neighbour(world *w, size_t i, size_t j)
 static void set_one_maximum(world *w, random_source *r, bool levels)
 {
     const size_t n = w->grid.shape[0];
-    const size_t i = 1 + (size_t)random_below(r, (int)n - 2), j = 1 + (size_t)random_below(r, (int)n - 2);
+    const size_t i = 1 + (size_t)random_below(r, (int)n - 2),
+                 j = 1 + (size_t)random_below(r, (int)n - 2);
     w->tree.root = (uint32_t)(i + n * j);
     for (size_t v = 0; v < n * n; ++v)
         w->values[v] = -1e9;
@@ -327,7 +328,8 @@ START_TEST(tiny_values_are_values)
         pick_start(&r, p);
         for (int tiny = 0; tiny < 2; ++tiny) {
             iccp_walk2 walk;
-            ck_assert_int_eq(iccp_walk2_start(&walk, &w.field, ICCP_UPHILL, p[0], p[1], NULL), ICC_OK);
+            ck_assert_int_eq(iccp_walk2_start(&walk, &w.field, ICCP_UPHILL, p[0], p[1], NULL),
+                             ICC_OK);
             ck_assert_int_eq(iccp_trace_uphill(&walk, NULL, NULL), ICC_OK);
             lengths[tiny] = walk.s;
             for (size_t v = 0; v < w.grid.n_vertices; ++v)
@@ -345,12 +347,13 @@ START_TEST(tiny_rises_count_beside_deep_falls)
     world_init(&w, 5, 5, 24);
     for (size_t j = 0; j < 5; ++j)
         for (size_t i = 0; i < 5; ++i)
-            *value(&w, i, j) = i + j < 3 ? (double)(i + j) - 3 : ldexp(1 + (double)(i + j) / 16, -1021);
+            *value(&w, i, j) =
+                i + j < 3 ? (double)(i + j) - 3 : ldexp(1 + (double)(i + j) / 16, -1021);
     for (size_t j = 0; j < 4; ++j)
         for (size_t i = 0; i < 4; ++i) {
             iccp_walk2 walk;
-            ck_assert_int_eq(iccp_walk2_start(&walk, &w.field, ICCP_UPHILL, (double)i, (double)j, NULL),
-                             ICC_OK);
+            ck_assert_int_eq(
+                iccp_walk2_start(&walk, &w.field, ICCP_UPHILL, (double)i, (double)j, NULL), ICC_OK);
             ck_assert_int_eq(iccp_trace_uphill(&walk, NULL, NULL), ICC_OK);
         }
 }
@@ -361,7 +364,8 @@ START_TEST(edges_with_one_triangle_are_starts)
 {
     static const double STARTS[][2] = {{2, 2.5}, {2.5, 2}, {3, 2.5}, {2.5, 3}, {2.5, 2.5}};
     /* Vertex (i, j) that has no value, and the start on the edge opposite to it. */
-    static const size_t MISSING[][3] = {{1, 2, 0}, {2, 1, 1}, {4, 3, 2}, {3, 4, 3}, {3, 2, 4}, {2, 3, 4}};
+    static const size_t MISSING[][3] = {{1, 2, 0}, {2, 1, 1}, {4, 3, 2},
+                                        {3, 4, 3}, {3, 2, 4}, {2, 3, 4}};
     for (size_t k = 0; k < sizeof MISSING / sizeof *MISSING; ++k) {
         world w;
         world_init(&w, 7, 7, 0);
@@ -371,7 +375,8 @@ START_TEST(edges_with_one_triangle_are_starts)
         int n_ways = 0;
         for (int direction = -1; direction <= 1; direction += 2) {
             iccp_walk2 walk;
-            ck_assert_int_eq(iccp_walk2_start(&walk, &w.field, direction, p[0], p[1], NULL), ICC_OK);
+            ck_assert_int_eq(iccp_walk2_start(&walk, &w.field, direction, p[0], p[1], NULL),
+                             ICC_OK);
             double q[2];
             iccp_walk2_position(&walk, q);
             ck_assert(q[0] == p[0] && q[1] == p[1]);
@@ -423,8 +428,8 @@ START_TEST(starts_without_values_are_refused)
     set_linear(&w, 1, 2);
     *value(&w, 3, 3) = NAN;
     iccp_walk2 walk;
-    static const double bad[][2] = {{3, 3}, {2.5, 2.6}, {3.5, 3.1}, {-0.1, 1}, {1, -0.1}, {4, 1},
-                                    {1, 4}, {NAN, 1}, {1, HUGE_VAL}};
+    static const double bad[][2] = {{3, 3}, {2.5, 2.6}, {3.5, 3.1}, {-0.1, 1},    {1, -0.1},
+                                    {4, 1}, {1, 4},     {NAN, 1},   {1, HUGE_VAL}};
     for (size_t k = 0; k < sizeof bad / sizeof *bad; ++k)
         ck_assert_int_eq(iccp_walk2_start(&walk, &w.field, ICCP_UPHILL, bad[k][0], bad[k][1], NULL),
                          ICC_ERR_TRACE);
@@ -545,8 +550,7 @@ START_TEST(the_first_hit_is_that_of_all_edges)
             const double from[2] = {(double)p[0] / 8, (double)p[1] / 8};
             const double to[2] = {(double)q[0] / 8, (double)q[1] / 8};
             iccp_fence_hit hit;
-            const bool found =
-                iccp_fence_first(&f.fence, (size_t)i, (size_t)j, from, to, &hit);
+            const bool found = iccp_fence_first(&f.fence, (size_t)i, (size_t)j, from, to, &hit);
             ck_assert_int_eq(found, first <= 1);
             if (!found)
                 continue;
@@ -583,7 +587,8 @@ static bool inside_fence(const fenced *f, const double p[2])
 {
     bool inside = false;
     for (size_t k = 0; k < f->domain.n_facets; ++k) {
-        const double *a = f->corners + 2 * f->facets[2 * k], *b = f->corners + 2 * f->facets[2 * k + 1];
+        const double *a = f->corners + 2 * f->facets[2 * k],
+                     *b = f->corners + 2 * f->facets[2 * k + 1];
         if ((a[1] > p[1]) != (b[1] > p[1]) &&
             (p[0] - a[0]) * fabs(b[1] - a[1]) <
                 (b[0] - a[0]) * (p[1] - a[1]) * (b[1] > a[1] ? 1 : -1))
@@ -653,14 +658,16 @@ START_TEST(ascending_from_the_end_of_a_descent_comes_back)
                 continue;
             }
             iccp_walk2 up;
-            ck_assert_int_eq(iccp_walk2_start(&up, &f.w.field, ICCP_UPHILL, end.x, end.y, NULL), ICC_OK);
+            ck_assert_int_eq(iccp_walk2_start(&up, &f.w.field, ICCP_UPHILL, end.x, end.y, NULL),
+                             ICC_OK);
             ck_assert_int_eq(iccp_trace_uphill(&up, &path, NULL), ICC_OK);
             double nearest = HUGE_VAL;
             for (size_t m = 0; m + 1 < path.n; ++m)
                 nearest = fmin(nearest, to_segment(p, path.points + m, path.points + m + 1));
             ck_assert_double_le(nearest, 1e-9);
             iccp_walk2 rest;
-            ck_assert_int_eq(iccp_walk2_start(&rest, &f.w.field, ICCP_UPHILL, p[0], p[1], NULL), ICC_OK);
+            ck_assert_int_eq(iccp_walk2_start(&rest, &f.w.field, ICCP_UPHILL, p[0], p[1], NULL),
+                             ICC_OK);
             ck_assert_int_eq(iccp_trace_uphill(&rest, NULL, NULL), ICC_OK);
             ck_assert_double_eq_tol(up.s, d.walk.s + rest.s, 1e-8);
             ++n_alone;
