@@ -398,6 +398,7 @@ START_TEST(points_elsewhere_have_no_coordinates)
     double p[2];
     ck_assert_int_eq(decode(&s, &nearly, p), ICC_OK);
     ck_assert_double_eq(p[0], 1);
+    ck_assert_double_eq_tol(p[1], 0.5 / (1 + 4e-10), 1e-15);
     subject_clear(&s);
 }
 END_TEST
