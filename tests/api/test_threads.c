@@ -85,6 +85,32 @@ START_TEST(the_caller_may_run_the_tasks)
 }
 END_TEST
 
+/* More tasks than the library hands over at once; every one of them must run, and only once. */
+START_TEST(long_loops_run_every_task_once)
+{
+    enum { N = 40000 };
+    objects o;
+    objects_init(&o);
+    double *points = malloc(2 * N * sizeof *points), *images = malloc(4 * N * sizeof *images);
+    ck_assert(points != NULL && images != NULL);
+    for (size_t i = 0; i < 2 * N; ++i)
+        points[i] = o.points[i % (2 * N_POINTS)] + (i % 7 == 0 ? 3 : 0);
+    crew c = {.n_tasks = 0};
+    const icc_env env = {.size = sizeof env, .user = &c, .parallel_for = crew_run};
+    size_t n_failed[2];
+    ck_assert_int_eq(icc_map_apply(o.map, N, points, images, NULL, &n_failed[0], NULL), ICC_OK);
+    ck_assert_int_eq(icc_map_apply(o.map, N, points, images + 2 * N, NULL, &n_failed[1], &env),
+                     ICC_OK);
+    ck_assert_uint_eq(n_failed[0], n_failed[1]);
+    ck_assert(n_failed[0] > N / 100 && n_failed[0] < N);
+    ck_assert_mem_eq(images, images + 2 * N, 2 * N * sizeof *images);
+    ck_assert_uint_gt(atomic_load(&c.n_rounds), 1);
+    free(points);
+    free(images);
+    objects_clear(&o);
+}
+END_TEST
+
 typedef struct user {
     const objects *o;
     const outcome *expected;
@@ -247,6 +273,7 @@ int main(void)
     tcase_set_timeout(tests, 240);
     tcase_add_test(tests, results_do_not_depend_on_the_number_of_threads);
     tcase_add_test(tests, the_caller_may_run_the_tasks);
+    tcase_add_test(tests, long_loops_run_every_task_once);
     tcase_add_test(tests, objects_may_be_shared);
     tcase_add_test(tests, every_long_call_can_be_cancelled);
     tcase_add_test(tests, progress_stays_on_the_calling_thread);
