@@ -39,10 +39,11 @@ static double width(const subject *s)
     return fmax(s->shape.upper[0] - s->shape.lower[0], s->shape.upper[1] - s->shape.lower[1]);
 }
 
+/* Without padding: codes are compared byte by byte. */
 typedef struct code {
     uint32_t facet;
-    double bary[2], t;
     icc_status status;
+    double bary[2], t;
 } code;
 
 static code encode(const subject *s, const double p[2])
