@@ -32,6 +32,9 @@ install(CODE "
   set(PROJECT_DESCRIPTION \"${PROJECT_DESCRIPTION}\")
   set(libdir \"${CMAKE_INSTALL_LIBDIR}\")
   set(includedir \"${CMAKE_INSTALL_INCLUDEDIR}\")
+  if(\"${ICC_WITH_AMD}\")
+    set(private_libraries \"-lamd -lsuitesparseconfig \")
+  endif()
   cmake_path(ABSOLUTE_PATH libdir BASE_DIRECTORY \"\${prefix}\")
   cmake_path(ABSOLUTE_PATH includedir BASE_DIRECTORY \"\${prefix}\")
   configure_file(\"${PROJECT_SOURCE_DIR}/cmake/libicc.pc.in\"

@@ -1,5 +1,5 @@
-/* Looks at every stage of Integral Curve Coordinates by itself: the grid, its maximum, the tree, the
- * function on it. Prints each as a small picture. */
+/* Looks at every stage of Integral Curve Coordinates by itself: the grid, its maximum, the tree,
+ * the function on it. Prints each as a small picture. */
 #include <icc/stages.h>
 
 #include <stdio.h>
@@ -47,7 +47,8 @@ static char tree_mark(const stages *s, uint32_t v)
 
 static char generation_mark(const stages *s, uint32_t v)
 {
-    return s->generations[v] < 0 ? ' ' : "0123456789abcdefghijklmnopqrstuvwxyz"[s->generations[v] % 36];
+    static const char digits[] = "0123456789abcdefghijklmnopqrstuvwxyz";
+    return s->generations[v] < 0 ? ' ' : digits[s->generations[v] % 36];
 }
 
 /* The function in tenths of its maximum, 10. */
@@ -102,8 +103,8 @@ int main(void)
     check(icc_field_edges(field, 0, NULL, NULL, &n_edges, &n_tested), &error);
     s.values = icc_field_values(field);
     draw("the function: 10 at the maximum, times 0.95 from parent to child", &s, value_mark);
-    printf("%zu maximum, %zu minima, %zu saddles; of %zu edges %zu are compression or expansion edges\n",
-           critical.n_maxima, critical.n_minima, critical.n_saddles, n_tested, n_edges);
+    printf("%zu maximum, %zu minima, %zu saddles; curves merge at %zu of %zu edges\n",
+           critical.n_maxima, critical.n_minima, critical.n_saddles, n_edges, n_tested);
 
     icc_field_free(field);
     icc_tree_free(tree);

@@ -2,8 +2,9 @@
  *
  *     l_to_square OUT.svg
  *
- * Draws a checkerboard in the L (left) and where the map takes it in the square (right), with integral
- * lines from the boundary to the maximum. Above on the default grid, below on one twice as fine. */
+ * Draws a checkerboard in the L (left) and where the map takes it in the square (right), with
+ * integral lines from the boundary to the maximum. Above on the default grid, below on one twice
+ * as fine. */
 #include <icc/icc.h>
 
 #include <math.h>
@@ -12,7 +13,7 @@
 
 enum { N = 8, SIDE = 300, GAP = 20 };
 
-/* Vertex i of one goes to vertex i of the other: the L's inner corner becomes the square's outer one. */
+/* Vertex i of one goes to vertex i of the other: the L's inner corner becomes the square's. */
 static const double L[N][2] = {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}, {0, 1}};
 static const double SQUARE[N][2] = {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
 
@@ -43,7 +44,7 @@ static void draw_row(FILE *svg, int row, const double *sources)
     }
 }
 
-/* Every pixel of the panel: its centre in the L itself, or carried back to the L from the square. */
+/* Every pixel of the panel: its centre in the L itself, or carried back to it from the square. */
 static void draw_checkerboard(FILE *svg, const icc_map *map, int in_square)
 {
     static double points[2 * SIDE], sources[2 * SIDE];

@@ -1,6 +1,6 @@
 /* How much the result depends on the choice of the maximum, and on how the source lies on the grid
- * (thesis, figures 6.5 and 6.6). Maps the same points in different ways and prints how far their images
- * move, in percent of the target's size. */
+ * (thesis, figures 6.5 and 6.6). Maps the same points in different ways and prints how far their
+ * images move, in percent of the target's size. */
 #include <icc/icc.h>
 
 #include <math.h>

@@ -1,6 +1,6 @@
-/* Deforms a triangulation of sparse points, as the thesis does for its figures (chapter 6): the corners
- * are mapped, and the determinant of every triangle's matrix (equation 2.2) tells whether it has kept its
- * orientation, collapsed, or turned over. */
+/* Deforms a triangulation of sparse points, as the thesis does for its figures (chapter 6): the
+ * corners are mapped, and the determinant of every triangle's matrix (equation 2.2) tells whether
+ * it has kept its orientation, collapsed, or turned over. */
 #include <icc/stages.h>
 
 #include <math.h>

@@ -2,8 +2,9 @@
  *
  *     warp_picture SOURCE.txt TARGET.txt IN.png OUT.png
  *
- * A cage is a text file with one vertex `x y` per line, in pixels, x to the right and y down. Vertex i
- * of the source goes to vertex i of the target. What lies outside the target becomes transparent. */
+ * A cage is a text file with one vertex `x y` per line, in pixels, x to the right and y down.
+ * Vertex i of the source goes to vertex i of the target. What lies outside the target becomes
+ * transparent. */
 #include <icc/icc.h>
 
 #include <math.h>
@@ -55,8 +56,8 @@ static icc_domain *read_cage(const char *path)
     return domain;
 }
 
-/* Finds the source of every pixel: the image of its centre under the inverse map. Pixels outside the
- * target get NaN, and so do those that the method cannot map. */
+/* Finds the source of every pixel: the image of its centre under the inverse map. Pixels outside
+ * the target get NaN, and so do those that the method cannot map. */
 static double *find_sources(const icc_map *map, size_t width, size_t height, const icc_env *env)
 {
     const size_t n = width * height;

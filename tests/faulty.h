@@ -8,9 +8,9 @@
 #include <stdlib.h>
 
 typedef struct faulty {
-    size_t n_live;    /* allocations not yet given back */
+    size_t n_live; /* allocations not yet given back */
     size_t n_allocs;
-    size_t fail_at;   /* this allocation fails, and only this one; 0: none */
+    size_t fail_at; /* this allocation fails, and only this one; 0: none */
     size_t n_reports;
     size_t cancel_at; /* this progress report is answered with "stop"; 0: none */
 } faulty;

@@ -37,7 +37,8 @@ static inline shape shape_dart(void)
 
 static inline shape shape_e(void)
 {
-    return shape_of(12, (double[]){0, 0, 4, 0, 4, 1, 1, 1, 1, 2, 3, 2, 3, 3, 1, 3, 1, 4, 4, 4, 4, 5, 0, 5});
+    return shape_of(
+        12, (double[]){0, 0, 4, 0, 4, 1, 1, 1, 1, 2, 3, 2, 3, 3, 1, 3, 1, 4, 4, 4, 4, 5, 0, 5});
 }
 
 /* Regular, with `spikes` tips of radius 1 and dents of the given radius, turned by `angle`. */

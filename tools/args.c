@@ -142,6 +142,8 @@ static int take_long(reading *r, const char *text)
 {
     size_t n = strcspn(text, "=");
     const option *o = find_long(r->command, text, n);
+    if (o == NULL && (strcmp(text, "geojson") == 0 || strcmp(text, "mesh") == 0))
+        return misused(r->command->name, "--%s is not available in this version", text);
     if (o == NULL)
         return misused(r->command->name, "there is no option --%.40s", text);
     return take_option(r, o, text[n] == '=' ? text + n + 1 : NULL);

@@ -15,18 +15,23 @@ typedef struct tally {
     size_t kept, inverted, collapsed, flat_before, without_image;
 } tally;
 
+static const double *corner(const double *points, const uint32_t *triangle, size_t k)
+{
+    return points + 2 * (size_t)triangle[k];
+}
+
 static bool has_image(const double *points, const uint32_t *triangle)
 {
     for (size_t k = 0; k < 3; k++)
-        if (isnan(points[2 * triangle[k]]))
+        if (isnan(corner(points, triangle, k)[0]))
             return false;
     return true;
 }
 
 static int triangle_sign(const double *points, const uint32_t *triangle)
 {
-    return orientation(points + 2 * triangle[0], points + 2 * triangle[1],
-                       points + 2 * triangle[2]);
+    return orientation(corner(points, triangle, 0), corner(points, triangle, 1),
+                       corner(points, triangle, 2));
 }
 
 static tally count(const mesh_file *m, const double *images)

@@ -80,20 +80,29 @@ static double distance(const warp *w, size_t i, size_t k)
     return hypot(w->origin[2 * i] - w->origin[2 * k], w->origin[2 * i + 1] - w->origin[2 * k + 1]);
 }
 
-/* How many samples a side pixel i takes. Of the two neighbours along an axis the nearer one counts:
- * at a jump of the map the other one tells nothing about this pixel. fmin passes over NaN. */
-static size_t samples_a_side(const warp *w, size_t i)
+/* A grid of samples in a pixel. */
+typedef struct sampling {
+    size_t columns, rows;
+} sampling;
+
+/* Of the two neighbours along an axis the nearer one counts: at a jump of the map the other one tells
+ * nothing about this pixel. fmin passes over NaN. A bilinear sample is two pixels wide, so that steps
+ * of 1.25 pixels still cover everything. */
+static size_t samples_along(double before, double after)
+{
+    double n = ceil(fmin(before, after) / 1.25);
+    return !(n > 1) ? 1 : n >= MAX_SAMPLES_A_SIDE ? MAX_SAMPLES_A_SIDE : (size_t)n;
+}
+
+static sampling choose_sampling(const warp *w, size_t i)
 {
     size_t width = w->to.width, x = i % width, y = i / width;
-    double across =
-        fmin(x > 0 ? distance(w, i, i - 1) : NAN, x + 1 < width ? distance(w, i, i + 1) : NAN);
-    double down = fmin(y > 0 ? distance(w, i, i - width) : NAN,
-                       y + 1 < w->to.height ? distance(w, i, i + width) : NAN);
-    double step = fmax(across, down);
-    /* 1.05: a plain rotation or shift, with its rounding, stays sharp. */
-    return !(step > 1.05)               ? 1
-           : step >= MAX_SAMPLES_A_SIDE ? MAX_SAMPLES_A_SIDE
-                                        : (size_t)ceil(step);
+    return (sampling){
+        .columns = samples_along(x > 0 ? distance(w, i, i - 1) : NAN,
+                                 x + 1 < width ? distance(w, i, i + 1) : NAN),
+        .rows = samples_along(y > 0 ? distance(w, i, i - width) : NAN,
+                              y + 1 < w->to.height ? distance(w, i, i + width) : NAN),
+    };
 }
 
 /* A batch of pixels that take several samples. */
@@ -101,7 +110,7 @@ typedef struct batch {
     double *points;
     size_t n_points, n_pixels;
     struct {
-        size_t pixel, side;
+        size_t pixel, n_samples;
     } * pixels;
 } batch;
 
@@ -113,7 +122,7 @@ static icc_status finish_batch(warp *w, batch *b)
     for (size_t k = 0; k < b->n_pixels && ran == ICC_OK; k++) {
         size_t i = b->pixels[k].pixel;
         mixture m = {0};
-        for (size_t s = b->pixels[k].side * b->pixels[k].side; s > 0; s--, p += 2)
+        for (size_t s = b->pixels[k].n_samples; s > 0; s--, p += 2)
             if (!isnan(p[0]))
                 mixture_add(&m, &w->from, p[0], p[1]);
         if (!(m.n > 0))
@@ -124,15 +133,16 @@ static icc_status finish_batch(warp *w, batch *b)
     return ran;
 }
 
-static void add_to_batch(const warp *w, batch *b, size_t i, size_t side)
+static void add_to_batch(const warp *w, batch *b, size_t i, sampling grid)
 {
+    size_t n = grid.columns * grid.rows;
     b->pixels[b->n_pixels].pixel = i;
-    b->pixels[b->n_pixels++].side = side;
-    for (size_t s = 0; s < side * side; s++) {
-        b->points[2 * b->n_points] =
-            (double)(i % w->to.width) + ((double)(s % side) + 0.5) / (double)side;
-        b->points[2 * b->n_points++ + 1] =
-            (double)(i / w->to.width) + ((double)(s / side) + 0.5) / (double)side;
+    b->pixels[b->n_pixels++].n_samples = n;
+    for (size_t s = 0; s < n; s++) {
+        double u = ((double)(s % grid.columns) + 0.5) / (double)grid.columns;
+        double v = ((double)(s / grid.columns) + 0.5) / (double)grid.rows;
+        b->points[2 * b->n_points] = (double)(i % w->to.width) + u;
+        b->points[2 * b->n_points++ + 1] = (double)(i / w->to.width) + v;
     }
 }
 
@@ -145,11 +155,11 @@ static int paint(warp *w)
     for (size_t i = 0; i < n_all && ran == ICC_OK; i++) {
         if (isnan(w->origin[2 * i]))
             continue;
-        size_t side = samples_a_side(w, i);
-        if (side > 1) {
-            if (b.n_points + side * side > MAX_BATCH)
+        sampling grid = choose_sampling(w, i);
+        if (grid.columns * grid.rows > 1) {
+            if (b.n_points + grid.columns * grid.rows > MAX_BATCH)
                 ran = finish_batch(w, &b);
-            add_to_batch(w, &b, i, side);
+            add_to_batch(w, &b, i, grid);
             continue;
         }
         mixture m = {0};

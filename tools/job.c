@@ -166,16 +166,20 @@ int job_make_map(job *j)
 
 int job_partial(job *j, size_t n, const icc_status *status, const char *what)
 {
-    size_t n_failed = 0, n_outside = 0;
+    size_t n_failed = 0, n_outside = 0, n_illegal = 0;
     for (size_t i = 0; i < n; i++) {
         n_failed += status[i] != ICC_OK;
         n_outside += status[i] == ICC_ERR_OUTSIDE;
+        n_illegal += status[i] == ICC_ERR_ARGUMENT;
     }
     progress_end(&j->bar);
     if (n_failed == 0)
         return DONE;
-    note("%zu of %zu %s have no image: %zu outside the cage, %zu that the curves do not reach",
-         n_failed, n, what, n_outside, n_failed - n_outside);
+    char illegal[64] = "";
+    if (n_illegal > 0)
+        snprintf(illegal, sizeof illegal, ", %zu not finite or out of range", n_illegal);
+    note("%zu of %zu %s have no image: %zu outside the cage, %zu that the curves do not reach%s",
+         n_failed, n, what, n_outside, n_failed - n_outside - n_illegal, illegal);
     return PARTIAL;
 }
 

@@ -32,9 +32,7 @@ typedef struct option {
     const char *value, *help;
 } option;
 
-enum {
-    N_OPTIONS = 25
-};
+enum { N_OPTIONS = 25 };
 extern const option options[N_OPTIONS];
 
 #endif

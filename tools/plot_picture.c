@@ -8,7 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SQUARES = 16, SIDE = 2 /* samples a side of a pixel */ };
+enum { SQUARES = 16 };
+static const size_t samples = 2; /* samples a side of a pixel */
 
 static void pattern_colour(const icc_domain_info *box, pattern what, const double at[2],
                            double rgb[3])
@@ -33,7 +34,7 @@ static void pattern_colour(const icc_domain_info *box, pattern what, const doubl
 int places_make(places *out, const panel *p, job *j)
 {
     *out = (places){.width = (size_t)ceil(p->width), .height = (size_t)ceil(p->height)};
-    size_t columns = out->width * SIDE, rows = out->height * SIDE;
+    size_t columns = out->width * samples, rows = out->height * samples;
     out->points = need(columns * rows, 2 * sizeof *out->points);
     for (size_t i = 0; i < columns * rows; i++)
         panel_locate(p, p->left + ((double)(i % columns) + 0.5) * p->width / (double)columns,
@@ -58,15 +59,16 @@ int plot_pattern(const panel *p, job *j, const places *from, pattern what)
     icc_domain_get_info(j->domains[0], &box);
     for (size_t i = 0; i < image.width * image.height; i++) {
         double sum[3] = {0, 0, 0};
-        for (size_t s = 0; s < SIDE * SIDE; s++) {
+        for (size_t s = 0; s < samples * samples; s++) {
             double rgb[3];
-            size_t x = i % image.width * SIDE + s % SIDE, y = i / image.width * SIDE + s / SIDE;
-            pattern_colour(&box, what, from->points + 2 * (y * image.width * SIDE + x), rgb);
+            size_t x = i % image.width * samples + s % samples,
+                   y = i / image.width * samples + s / samples;
+            pattern_colour(&box, what, from->points + 2 * (y * image.width * samples + x), rgb);
             for (size_t k = 0; k < 3; k++)
                 sum[k] += rgb[k];
         }
         for (size_t k = 0; k < 3; k++)
-            image.samples[3 * i + k] = (uint16_t)(sum[k] / (SIDE * SIDE) + 0.5);
+            image.samples[3 * i + k] = (uint16_t)(sum[k] / (double)(samples * samples) + 0.5);
     }
     int result = svg_picture(p->svg, p->left, p->top, p->width, p->height, p->clip, &image);
     plot_cage(p, &j->cages[p->side == 2]);

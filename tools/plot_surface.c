@@ -10,6 +10,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum {
     MAX_CELLS = 120,   /* along a side; finer grids are thinned out */
@@ -29,7 +30,8 @@ typedef struct view {
 typedef struct stroke {
     size_t cell;
     bool outline;
-    double ends[4]; /* in the drawing */
+    double middle[2]; /* in the shape */
+    double ends[4];   /* in the drawing */
 } stroke;
 
 typedef struct ink {
@@ -164,13 +166,13 @@ static void draw_cell(const view *v, job *j, size_t cell, bool crossed)
 
 static void add_stroke(const view *v, ink *i, const double a[2], const double b[2], bool outline)
 {
-    double middle[2] = {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2};
     double from = stages_value(v->panel->stages, a), to = stages_value(v->panel->stages, b);
     if (isnan(from) || isnan(to))
         return;
     i->strokes = grow(i->strokes, &i->room, i->n + 1, sizeof *i->strokes);
     stroke *s = &i->strokes[i->n++];
-    *s = (stroke){.cell = cell_of(v, middle), .outline = outline};
+    *s = (stroke){.middle = {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2}, .outline = outline};
+    s->cell = cell_of(v, s->middle);
     place(v, a, from, s->ends);
     place(v, b, to, s->ends + 2);
 }
@@ -188,6 +190,25 @@ static void add_line(const view *v, ink *i, const double a[2], const double b[2]
         last[0] = next[0];
         last[1] = next[1];
     }
+}
+
+/* A curve may leave the shape for a while; what is outside has no surface to lie on. */
+static icc_status drop_outside(const view *v, job *j, ink *i)
+{
+    double *middles = need(i->n, 2 * sizeof *middles);
+    int32_t *where = need(i->n, sizeof *where);
+    size_t kept = 0;
+    for (size_t k = 0; k < i->n; k++)
+        memcpy(middles + 2 * k, i->strokes[k].middle, sizeof i->strokes[k].middle);
+    icc_status ran =
+        icc_domain_locate(v->panel->stages->domain, i->n, middles, where, NULL, NULL, &j->env);
+    for (size_t k = 0; k < i->n && ran == ICC_OK; k++)
+        if (i->strokes[k].outline || where[k] != ICC_OUTSIDE)
+            i->strokes[kept++] = i->strokes[k];
+    i->n = kept;
+    free(middles);
+    free(where);
+    return ran;
 }
 
 static int compare_strokes(const void *a, const void *b)
@@ -209,9 +230,13 @@ static int gather_ink(const view *v, job *j, ink *i)
         for (size_t q = lines.starts[k]; q + 1 < lines.starts[k + 1]; q++)
             add_line(v, i, lines.points + 2 * q, lines.points + 2 * (q + 1), false);
     curves_free(&lines);
-    if (i->n > 0)
-        qsort(i->strokes, i->n, sizeof *i->strokes, compare_strokes);
-    return result;
+    if (i->n == 0 || result != DONE)
+        return result;
+    icc_status ran = drop_outside(v, j, i);
+    if (ran != ICC_OK)
+        return job_failed_status(j, ran);
+    qsort(i->strokes, i->n, sizeof *i->strokes, compare_strokes);
+    return DONE;
 }
 
 /* The strokes of a cell; *next is the first of them, and moves behind the last. */
@@ -260,16 +285,29 @@ static void stretch(const view *v, const double p[2], double value, double box[4
     }
 }
 
-/* Makes outline and summit fill the panel. */
+/* Makes what has a value fill the panel. */
 static void fit_view(view *v, const cage *c)
 {
     const panel *p = v->panel;
+    const stages *s = p->stages;
+    const double *values = icc_field_values(s->field);
+    const uint8_t *inside = icc_grid_inside(s->grid);
     double box[4] = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-    stretch(v, p->stages->chart_info.maximum, p->stages->high, box);
-    for (size_t i = 0; i < c->n; i++) {
-        double value = stages_value(p->stages, c->points + 2 * i);
-        stretch(v, c->points + 2 * i, isnan(value) ? p->stages->low : value, box);
+    for (uint32_t i = 0; i < s->lattice.n_vertices; i++) {
+        double at[2];
+        stages_position(s, i, at);
+        if (inside[i] && !isnan(values[i]))
+            stretch(v, at, values[i], box);
     }
+    for (size_t i = 0; i < c->n; i++) {
+        double value = stages_value(s, c->points + 2 * i);
+        if (!isnan(value))
+            stretch(v, c->points + 2 * i, value, box);
+    }
+    /* A single vertex inside has no extent. */
+    const double least = s->lattice.spacing / v->size;
+    for (size_t k = 0; k < 2; k++)
+        box[k + 2] = fmax(box[k + 2], box[k] + least);
     v->fit = fmin(p->width / (box[2] - box[0]), p->height / (box[3] - box[1]));
     v->at[0] = p->left + p->width / 2 - v->fit * (box[0] + box[2]) / 2;
     v->at[1] = p->top + p->height / 2 - v->fit * (box[1] + box[3]) / 2;

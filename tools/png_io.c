@@ -183,7 +183,7 @@ unsigned char *picture_encode(const picture *p, const struct png_keep *keep, siz
     writer w = {0};
     w.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, w.message, stop, ignore);
     w.info = w.png != NULL ? png_create_info_struct(w.png) : NULL;
-    png_byte *row = need(p->width, 2 * p->channels);
+    png_byte *row = need(p->width, 2 * (size_t)p->channels);
     bool good = w.info != NULL && encode(&w, p, keep, row);
     free(row);
     png_destroy_write_struct(&w.png, &w.info);

@@ -55,8 +55,10 @@ icc_status icc_grid_create_mask(icc_grid **out, int32_t dim, const size_t *shape
     if (out != NULL)
         *out = NULL;
     iccp_env full_env;
-    const char *missing =
-        out == NULL ? "out" : shape == NULL ? "shape" : inside == NULL ? "inside" : NULL;
+    const char *missing = out == NULL      ? "out"
+                          : shape == NULL  ? "shape"
+                          : inside == NULL ? "inside"
+                                           : NULL;
     const icc_status status = begin(&full_env, env, missing, err);
     if (status != ICC_OK)
         return status;
@@ -204,8 +206,8 @@ icc_status icc_tree_verify(const icc_tree *tree, icc_tree_report *report, const 
 
 /* ------------------------------------------------------------------- field */
 
-icc_status icc_field_create(icc_field **out, const icc_tree *tree,
-                            const icc_field_options *options, const icc_env *env, icc_error *err)
+icc_status icc_field_create(icc_field **out, const icc_tree *tree, const icc_field_options *options,
+                            const icc_env *env, icc_error *err)
 {
     if (out != NULL)
         *out = NULL;
@@ -253,8 +255,8 @@ icc_status icc_field_verify(const icc_field *field, icc_field_report *report, co
     return iccp_write_struct(report, &full, sizeof full, "icc_field_report", err);
 }
 
-icc_status icc_field_edges(const icc_field *field, size_t capacity, uint32_t *edges,
-                           int32_t *kinds, size_t *n_edges, size_t *n_tested)
+icc_status icc_field_edges(const icc_field *field, size_t capacity, uint32_t *edges, int32_t *kinds,
+                           size_t *n_edges, size_t *n_tested)
 {
     if (field == NULL || n_edges == NULL || (capacity > 0 && (edges == NULL || kinds == NULL)))
         return ICC_ERR_ARGUMENT;
@@ -283,7 +285,8 @@ static icc_status localise(double *local, const icc_domain *polygon, size_t n_po
             if (local[2 * i + (size_t)k] < polygon->lower[k] ||
                 local[2 * i + (size_t)k] > polygon->upper[k])
                 return iccp_fail(err, ICC_ERR_OUTSIDE, (int64_t)i,
-                                 "point %zu (%.17g, %.17g) is not inside the polygon", i, p[0], p[1]);
+                                 "point %zu (%.17g, %.17g) is not inside the polygon", i, p[0],
+                                 p[1]);
         if (!iccp_frame_holds(&polygon->frame, 2, p))
             return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)i,
                              "point %zu (%.17g, %.17g): a coordinate is not 0, but less than "

@@ -15,7 +15,8 @@ static double fall(int32_t function, double value)
 }
 
 /* The value of each generation, so that equal generations have equal bits. */
-static icc_status tabulate(double **out, const icc_tree *tree, int32_t function, const iccp_env *env)
+static icc_status tabulate(double **out, const icc_tree *tree, int32_t function,
+                           const iccp_env *env)
 {
     int32_t last = 0;
     for (size_t i = 0; i < tree->n_reached; ++i)
@@ -54,7 +55,6 @@ icc_status iccp_field_create(icc_field **out, const icc_tree *tree, int32_t func
     if (field == NULL)
         return iccp_fail_memory(err);
     field->memory = env->memory;
-    atomic_init(&field->references, 1);
     field->tree = iccp_tree_retain(tree);
     field->function = function;
     field->values = iccp_alloc(&env->memory, tree->grid->n_vertices, sizeof *field->values);
@@ -67,16 +67,9 @@ icc_status iccp_field_create(icc_field **out, const icc_tree *tree, int32_t func
     return ICC_OK;
 }
 
-icc_field *iccp_field_retain(const icc_field *field)
-{
-    icc_field *shared = (icc_field *)field;
-    atomic_fetch_add_explicit(&shared->references, 1, memory_order_relaxed);
-    return shared;
-}
-
 void iccp_field_release(icc_field *field)
 {
-    if (field == NULL || atomic_fetch_sub(&field->references, 1) != 1)
+    if (field == NULL)
         return;
     const iccp_memory memory = field->memory;
     iccp_tree_release(field->tree);

@@ -6,10 +6,9 @@
 
 struct icc_field {
     iccp_memory memory;
-    atomic_size_t references;
     icc_tree *tree;
-    int32_t function;  /* ICC_FUNCTION_* */
-    double *values;    /* one per grid vertex; NaN where the tree does not reach */
+    int32_t function; /* ICC_FUNCTION_* */
+    double *values;   /* one per grid vertex; NaN where the tree does not reach */
 };
 
 /* See icc_field_create(). The decay would underflow from some 13,850 generations on (cells = 16384
@@ -18,8 +17,7 @@ struct icc_field {
 icc_status iccp_field_create(icc_field **out, const icc_tree *tree, int32_t function,
                              const iccp_env *env, icc_error *err);
 
-/* Takes part in keeping a field alive, which is logically const for the one who asks. */
-icc_field *iccp_field_retain(const icc_field *field);
+/* NULL is a no-op. Nothing shares a field yet, so it has one owner. */
 void iccp_field_release(icc_field *field);
 
 #endif

@@ -83,23 +83,6 @@ static bool is_connected(const iccp_kuhn *kuhn, uint64_t set)
     return reached == set && set != 0;
 }
 
-static void put(iccp_kuhn *kuhn, uint64_t set)
-{
-    kuhn->regular[set / 64] |= (uint64_t)1 << (set % 64);
-}
-
-/* The answer for a set is the answer for the rest. */
-static void tabulate(iccp_kuhn *kuhn)
-{
-    const uint64_t all = ((uint64_t)1 << kuhn->n_neighbours) - 1;
-    for (uint64_t set = 0; set <= all / 2; ++set)
-        if (is_connected(kuhn, set) && is_connected(kuhn, all - set)) {
-            put(kuhn, set);
-            put(kuhn, all - set);
-        }
-    kuhn->tabulated = true;
-}
-
 /* Differ by 0s and 1s only, or by 0s and -1s only. */
 static bool are_joined(const iccp_kuhn *kuhn, int i, int j)
 {
@@ -129,13 +112,33 @@ void iccp_kuhn_init(iccp_kuhn *kuhn, int32_t dim)
             if (are_joined(kuhn, i, j))
                 iccp_link_add(&kuhn->joined[i], j);
     }
-    if (dim <= 3)
-        tabulate(kuhn);
+}
+
+static void put(iccp_kuhn *kuhn, uint64_t set)
+{
+    kuhn->regular[set / 64] |= (uint64_t)1 << (set % 64);
+}
+
+/* The answer for a set is the answer for the rest. */
+void iccp_kuhn_tabulate(iccp_kuhn *kuhn)
+{
+    if (kuhn->dim > 3)
+        return;
+    const uint64_t all = kuhn->all.word[0];
+    for (uint64_t set = 0; set <= all / 2; ++set)
+        if (is_connected(kuhn, set) && is_connected(kuhn, all - set)) {
+            put(kuhn, set);
+            put(kuhn, all - set);
+        }
+    kuhn->tabulated = true;
 }
 
 bool iccp_kuhn_regular(const iccp_kuhn *kuhn, const iccp_link_set *set)
 {
+    const iccp_link_set rest = iccp_link_rest(kuhn, set);
     if (kuhn->tabulated)
         return kuhn->regular[set->word[0] / 64] >> (set->word[0] % 64) & 1;
-    return collapses(kuhn, *set) || collapses(kuhn, iccp_link_rest(kuhn, set));
+    if (kuhn->dim <= 3)
+        return is_connected(kuhn, set->word[0]) && is_connected(kuhn, rest.word[0]);
+    return collapses(kuhn, *set) || collapses(kuhn, rest);
 }

@@ -9,7 +9,7 @@
 #include <stdbool.h>
 
 enum {
-    ICCP_LINK_SIZE = 126,  /* neighbours of a vertex in ICC_MAX_DIM dimensions: 2 (2^6 - 1) */
+    ICCP_LINK_SIZE = 126,     /* neighbours of a vertex in ICC_MAX_DIM dimensions: 2 (2^6 - 1) */
     ICCP_LINK_TABLE = 1 << 14 /* sets of the 14 neighbours in 3-D */
 };
 
@@ -20,16 +20,19 @@ typedef struct iccp_link_set {
 
 typedef struct iccp_kuhn {
     int32_t dim;
-    int n_neighbours;                             /* 2 (2^dim - 1) */
-    int8_t step[ICCP_LINK_SIZE][ICC_MAX_DIM];     /* to each neighbour */
+    int n_neighbours;                         /* 2 (2^dim - 1) */
+    int8_t step[ICCP_LINK_SIZE][ICC_MAX_DIM]; /* to each neighbour */
     iccp_link_set all;
-    iccp_link_set joined[ICCP_LINK_SIZE];         /* neighbour i and those joined to it */
-    bool tabulated;                               /* up to 3-D: the answers for all sets */
-    uint64_t regular[ICCP_LINK_TABLE / 64];
+    iccp_link_set joined[ICCP_LINK_SIZE]; /* neighbour i and those joined to it */
+    bool tabulated;
+    uint64_t regular[ICCP_LINK_TABLE / 64]; /* the answers for all sets, when tabulated */
 } iccp_kuhn;
 
-/* Takes about a millisecond in 3-D, for the table, and microseconds otherwise. */
 void iccp_kuhn_init(iccp_kuhn *kuhn, int32_t dim);
+
+/* Finds the answers for all sets in advance, which pays when more than about 2^n_neighbours will be
+ * asked for. Up to 3-D (1 ms); has no effect beyond. */
+void iccp_kuhn_tabulate(iccp_kuhn *kuhn);
 
 static inline void iccp_link_add(iccp_link_set *set, int i)
 {

@@ -23,12 +23,12 @@ struct icc_grid {
     atomic_size_t references;
     int32_t dim;
     size_t shape[ICC_MAX_DIM];
-    size_t stride[ICC_MAX_DIM];  /* stride[0] = 1; index = sum of i_k * stride[k] */
-    double origin[ICC_MAX_DIM];  /* local position of vertex 0 */
-    double spacing;              /* local */
-    iccp_frame frame;            /* of the domain, or the identity for masks */
+    size_t stride[ICC_MAX_DIM]; /* stride[0] = 1; index = sum of i_k * stride[k] */
+    double origin[ICC_MAX_DIM]; /* local position of vertex 0 */
+    double spacing;             /* local */
+    iccp_frame frame;           /* of the domain, or the identity for masks */
     size_t n_vertices, n_inside;
-    uint8_t *inside;             /* 1 or 0 */
+    uint8_t *inside; /* 1 or 0 */
 };
 
 /* A lattice with every vertex outside, origin 0, spacing 1 and the identity frame. The shape has no

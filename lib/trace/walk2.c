@@ -263,15 +263,15 @@ static double rise_to(const iccp_walk2 *w, int m)
     return w->direction * (w->f[vertex_at(w, i, j)] - w->f[vertex_at(w, w->i, w->j)]);
 }
 
-/* The rises to the six neighbours. Tiny ones are given in units of the largest, so that their squares do
- * not vanish. */
+/* The rises to the six neighbours, in units of the largest when that is tiny, so that its square does not
+ * vanish. */
 static void find_rises(const iccp_walk2 *w, double rise[6])
 {
     double largest = 0;
     for (int m = 0; m < 6; ++m) {
         rise[m] = rise_to(w, m);
-        if (fabs(rise[m]) > largest)
-            largest = fabs(rise[m]);
+        if (rise[m] > largest)
+            largest = rise[m];
     }
     for (int m = 0; m < 6 && largest > 0 && largest < TINY_RISE; ++m)
         rise[m] /= largest;

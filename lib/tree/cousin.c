@@ -2,19 +2,19 @@
  * section 4.2, Algorithm 2; the paper's form: Huynh and Gingold, section 5.2.
  *
  * A generation expands along the first axis, all of it, then along the second, and so on. No vertex
- * outside has a child inside, so the tree inside does not depend on those outside. It is grown first
- * (this is all there is to it in the paper's form), then the vertices outside are added, again
- * generation by generation.
+ * outside has a child inside, so the tree inside does not depend on those outside. It is grown first,
+ * then the vertices outside are added, again generation by generation; in the paper's form they get no
+ * parent.
  *
  * One thing is not as in the thesis' pseudocode. There a vertex outside may reach the far side of a gap
  * two cells wide before the inside does, and what it reaches then lies higher than its neighbours
- * inside, against the purpose of this layer. Here a neighbour of the inside waits for it. */
+ * inside, against the purpose of this layer. Here a neighbour of the inside waits for it. Where
+ * vertices inside and outside compete for one between them, the one inside becomes its parent. */
 #include "tree/cousin.h"
 
 #include "base/error.h"
 
 #include <assert.h>
-#include <string.h>
 
 static void visit(icc_tree *tree, uint32_t from, uint32_t vertex)
 {
@@ -38,7 +38,7 @@ static int32_t generation_due(const icc_tree *tree, uint32_t vertex)
     return due;
 }
 
-/* Expands order[begin..end), vertices of one generation, along one axis into the inside. */
+/* Expands order[begin..end), a generation, along one axis into the inside. */
 static void expand_inside(icc_tree *tree, size_t begin, size_t end, int32_t axis)
 {
     for (size_t i = begin; i < end; ++i)
@@ -97,7 +97,7 @@ static icc_status grow_inside(icc_tree *tree, const iccp_env *env)
     size_t next_report = 0, begin = 0;
     tree->generation[tree->root] = 0;
     tree->order[tree->n_reached++] = tree->root;
-    for (int32_t generation = 0; begin < tree->n_reached; ++generation) {
+    while (begin < tree->n_reached) {
         if (report(tree, begin, &next_report, env) != ICC_OK)
             return ICC_ERR_CANCELLED;
         const size_t end = tree->n_reached;

@@ -8,15 +8,15 @@ struct icc_tree {
     iccp_memory memory;
     atomic_size_t references;
     icc_grid *grid;
-    int32_t form;                     /* ICC_TREE_* */
+    int32_t form; /* ICC_TREE_* */
     int32_t axis_order[ICC_MAX_DIM];
     uint32_t root;
-    uint32_t *parent;                 /* ICCP_NONE for the root and for vertices without one */
-    int32_t *generation;              /* -1: not reached */
-    uint32_t *order;                  /* the n_reached vertices, parents before children: first the
+    uint32_t *parent;    /* ICCP_NONE for the root and for vertices without one */
+    int32_t *generation; /* -1: not reached */
+    uint32_t *order;     /* the n_reached vertices, parents before children: first the
                                          n_inside inside, then those outside, both by generation */
-    size_t n_reached;                 /* vertices with a generation */
-    size_t n_inside;                  /* those of them that are inside */
+    size_t n_reached;    /* vertices with a generation */
+    size_t n_inside;     /* those of them that are inside */
 };
 
 /* See icc_tree_create(); the root is inside. `axis_order` may be NULL.

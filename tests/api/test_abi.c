@@ -6,8 +6,9 @@
 #include <stdlib.h>
 
 #define IS(constant, value) _Static_assert((constant) == (value), #constant " has changed")
-#define SIZE(type, bytes) _Static_assert(sizeof(type) == (bytes), "the size of " #type " has changed")
-#define AT(type, member, offset)                                                                     \
+#define SIZE(type, bytes)                                                                          \
+    _Static_assert(sizeof(type) == (bytes), "the size of " #type " has changed")
+#define AT(type, member, offset)                                                                   \
     _Static_assert(offsetof(type, member) == (offset), #type "." #member " has moved")
 
 IS(ICC_OK, 0);

@@ -31,8 +31,8 @@ static size_t fail_each(const objects *o, const call *c)
     ck_assert_int_eq(c->run(o, &plain, NULL, NULL), ICC_OK);
     for (size_t k = 0;; ++k) {
         counter count = {.fail_at = k};
-        const icc_env env = {.size = sizeof env, .user = &count, .alloc = count_alloc,
-                             .dealloc = count_dealloc};
+        const icc_env env = {
+            .size = sizeof env, .user = &count, .alloc = count_alloc, .dealloc = count_dealloc};
         icc_error err = {.size = sizeof err};
         memset(&out, 0, sizeof out);
         const icc_status status = c->run(o, &out, &env, &err);
@@ -45,9 +45,10 @@ static size_t fail_each(const objects *o, const call *c)
                 ck_abort_msg("%s gives something else with another allocator", c->name);
             return k;
         }
-        if (status != ICC_ERR_MEMORY || (has_error(c) && (err.status != status || err.message[0] == '\0')))
-            ck_abort_msg("%s: status %d, error %d (%s) when allocation %zu fails", c->name, (int)status,
-                         (int)err.status, err.message, k);
+        if (status != ICC_ERR_MEMORY ||
+            (has_error(c) && (err.status != status || err.message[0] == '\0')))
+            ck_abort_msg("%s: status %d, error %d (%s) when allocation %zu fails", c->name,
+                         (int)status, (int)err.status, err.message, k);
         ck_assert_uint_lt(k, 10000);
     }
 }
@@ -76,8 +77,8 @@ END_TEST
 START_TEST(objects_are_freed_in_any_order)
 {
     counter count = {.fail_at = SIZE_MAX};
-    const icc_env env = {.size = sizeof env, .user = &count, .alloc = count_alloc,
-                         .dealloc = count_dealloc};
+    const icc_env env = {
+        .size = sizeof env, .user = &count, .alloc = count_alloc, .dealloc = count_dealloc};
     icc_domain *domain;
     icc_chart *chart;
     icc_map *map;

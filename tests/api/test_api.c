@@ -7,19 +7,19 @@
 #define REFUSED(call) ck_assert_int_eq((call), ICC_ERR_ARGUMENT)
 
 /* A refusal that must also be explained. */
-#define EXPLAINED(call)                                                                              \
-    do {                                                                                             \
-        err = (icc_error){.size = sizeof err};                                                       \
-        REFUSED(call);                                                                               \
-        ck_assert(err.status == ICC_ERR_ARGUMENT && err.message[0] != '\0');                         \
+#define EXPLAINED(call)                                                                            \
+    do {                                                                                           \
+        err = (icc_error){.size = sizeof err};                                                     \
+        REFUSED(call);                                                                             \
+        ck_assert(err.status == ICC_ERR_ARGUMENT && err.message[0] != '\0');                       \
     } while (0)
 
 /* The same, of a creator, which must also reset its out. */
-#define NOT_MADE(object, call)                                                                       \
-    do {                                                                                             \
-        (object) = (void *)&err;                                                                     \
-        EXPLAINED(call);                                                                             \
-        ck_assert_ptr_null(object);                                                                  \
+#define NOT_MADE(object, call)                                                                     \
+    do {                                                                                           \
+        (object) = (void *)&err;                                                                   \
+        EXPLAINED(call);                                                                           \
+        ck_assert_ptr_null(object);                                                                \
     } while (0)
 
 START_TEST(domains_refuse_bad_arguments)
@@ -164,7 +164,8 @@ START_TEST(maps_refuse_bad_arguments)
     icc_map_options options = {.size = sizeof options, .target_maximum = NOT_FINITE};
     NOT_MADE(m, icc_map_create(&m, o.source, o.target, &options, NULL, &err));
     options = (icc_map_options){.size = sizeof options, .kind = 2};
-    ck_assert_int_eq(icc_map_create(&m, o.source, o.target, &options, NULL, &err), ICC_ERR_UNSUPPORTED);
+    ck_assert_int_eq(icc_map_create(&m, o.source, o.target, &options, NULL, &err),
+                     ICC_ERR_UNSUPPORTED);
     ck_assert(m == NULL && err.status == ICC_ERR_UNSUPPORTED);
     ck_assert_int_eq(icc_map_create_from_charts(&m, o.chart, o.target_chart, &options, NULL, &err),
                      ICC_ERR_UNSUPPORTED);
@@ -172,7 +173,8 @@ START_TEST(maps_refuse_bad_arguments)
     REFUSED(icc_map_get_info(NULL, &info));
     REFUSED(icc_map_get_info(o.map, NULL));
     ck_assert(icc_map_source_chart(NULL) == NULL && icc_map_target_chart(NULL) == NULL);
-    ck_assert(icc_map_source_chart(o.map) == o.chart && icc_map_target_chart(o.map) == o.target_chart);
+    ck_assert(icc_map_source_chart(o.map) == o.chart &&
+              icc_map_target_chart(o.map) == o.target_chart);
     double p[2] = {0.5, 0.5}, j[4];
     size_t n = 7;
     REFUSED(icc_map_apply(NULL, 1, p, p, NULL, NULL, NULL));
@@ -233,7 +235,10 @@ START_TEST(stages_refuse_bad_arguments)
     NOT_MADE(t, icc_tree_create(&t, o.mask, UINT32_MAX, NULL, NULL, &err));
     static const int32_t ORDERS[3][3] = {{0, 1, 1}, {0, 1, 3}, {-1, 0, 1}};
     for (int k = 0; k < 5; ++k) {
-        const icc_tree_options bad = {.size = sizeof bad, .form = k == 3 ? 3 : k == 4 ? -1 : 0,
+        const icc_tree_options bad = {.size = sizeof bad,
+                                      .form = k == 3   ? 3
+                                              : k == 4 ? -1
+                                                       : 0,
                                       .axis_order = k < 3 ? ORDERS[k] : NULL};
         NOT_MADE(t, icc_tree_create(&t, o.mask, 62, &bad, NULL, &err));
     }
@@ -258,6 +263,10 @@ START_TEST(stages_refuse_bad_arguments)
     REFUSED(icc_field_edges(o.field, 1, NULL, kinds, &n, NULL));
     REFUSED(icc_field_edges(o.field, 1, edges, NULL, &n, NULL));
     ck_assert_int_eq(icc_field_edges(o.field, 1, edges, kinds, &n, NULL), ICC_ERR_UNSUPPORTED);
+    static const int32_t ORDER[3] = {2, 0, 1};
+    const icc_tree_options good = {.size = sizeof good, .axis_order = ORDER};
+    ck_assert_int_eq(icc_tree_create(&t, o.mask, 62, &good, NULL, &err), ICC_OK);
+    icc_tree_free(t);
     /* Numbers that another version may give a meaning. */
     const icc_tree_options later_tree = {.size = sizeof later_tree, .reserved = 1};
     const icc_field_options later_field = {.size = sizeof later_field, .reserved = 1};
@@ -275,7 +284,8 @@ START_TEST(the_triangulation_refuses_bad_arguments)
     memcpy(points, SOURCE, sizeof SOURCE);
     points[2 * N_CORNERS] = 0.5;
     points[2 * N_CORNERS + 1] = 0.5;
-    ck_assert_int_eq(icc_triangulate(N_CORNERS, N_CORNERS + 1, points, triangles, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_triangulate(N_CORNERS, N_CORNERS + 1, points, triangles, NULL, NULL),
+                     ICC_OK);
     EXPLAINED(icc_triangulate(N_CORNERS, N_CORNERS + 1, NULL, triangles, NULL, &err));
     EXPLAINED(icc_triangulate(N_CORNERS, N_CORNERS + 1, points, NULL, NULL, &err));
     EXPLAINED(icc_triangulate(2, N_CORNERS, points, triangles, NULL, &err));
@@ -293,6 +303,65 @@ START_TEST(the_triangulation_refuses_bad_arguments)
     ck_assert_int_eq(icc_triangulate(N_CORNERS, N_CORNERS + 1, points, triangles, NULL, &err),
                      ICC_ERR_BOUNDARY);
     ck_assert_int_eq(err.index, 0);
+}
+END_TEST
+
+/* Far too small beside the polygon, and far outside. */
+START_TEST(the_triangulation_names_the_point)
+{
+    icc_error err = {.size = sizeof err};
+    uint32_t triangles[3 * 8];
+    const double tiny[12] = {-1, -1, 1, -1, 1, 1, -1, 1, 0.5, 0.5, 1e-70, 0.25};
+    ck_assert_int_eq(icc_triangulate(4, 6, tiny, triangles, NULL, &err), ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(err.index, 5);
+    const double far[12] = {-1, -1, 1, -1, 1, 1, -1, 1, 0.5, 0.5, 1e300, 0.25};
+    ck_assert_int_eq(icc_triangulate(4, 6, far, triangles, NULL, &err), ICC_ERR_OUTSIDE);
+    ck_assert_int_eq(err.index, 5);
+}
+END_TEST
+
+/* The edges that icc_chart_get_info() counts, one by one, in as much room as there is. */
+START_TEST(edges_are_listed)
+{
+    icc_domain *domain;
+    icc_grid *grid;
+    icc_tree *tree;
+    icc_field *field;
+    uint32_t root, edges[2 * N_POINTS];
+    int32_t kinds[N_POINTS];
+    size_t n, again, n_tested;
+    ck_assert_int_eq(icc_domain_create(&domain, 2, N_CORNERS, SOURCE, 0, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_grid_create(&grid, domain, 12, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_grid_maximum(grid, &root, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_tree_create(&tree, grid, root, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_field_create(&field, tree, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_field_edges(field, N_POINTS, edges, kinds, &n, &n_tested), ICC_OK);
+    ck_assert(n > 10 && n <= N_POINTS && n < n_tested);
+    size_t n_compression = 0;
+    icc_grid_info info = {.size = sizeof info};
+    ck_assert_int_eq(icc_grid_get_info(grid, &info), ICC_OK);
+    for (size_t k = 0; k < n; ++k) {
+        ck_assert(kinds[k] == ICC_EDGE_COMPRESSION || kinds[k] == ICC_EDGE_EXPANSION);
+        n_compression += kinds[k] == ICC_EDGE_COMPRESSION;
+        const uint32_t low = edges[2 * k] < edges[2 * k + 1] ? edges[2 * k] : edges[2 * k + 1];
+        const uint32_t step = edges[2 * k] + edges[2 * k + 1] - 2 * low;
+        ck_assert(step == 1 || step == info.shape[0] || step == info.shape[0] + 1);
+    }
+    ck_assert_int_eq(icc_field_edges(field, 3, edges, kinds, &again, NULL), ICC_OK);
+    ck_assert_uint_eq(again, n);
+    const icc_chart_options options = {.size = sizeof options, .cells = 12};
+    icc_chart *chart;
+    ck_assert_int_eq(icc_chart_create(&chart, domain, &options, NULL, NULL), ICC_OK);
+    icc_chart_info counted = {.size = sizeof counted};
+    ck_assert_int_eq(icc_chart_get_info(chart, &counted), ICC_OK);
+    ck_assert_uint_eq(counted.n_edges, n_tested);
+    ck_assert_uint_eq(counted.n_compression, n_compression);
+    ck_assert_uint_eq(counted.n_expansion, n - n_compression);
+    icc_chart_free(chart);
+    icc_field_free(field);
+    icc_tree_free(tree);
+    icc_grid_free(grid);
+    icc_domain_free(domain);
 }
 END_TEST
 
@@ -497,13 +566,11 @@ START_TEST(infos_may_be_older_or_newer)
     static const struct {
         writer write;
         size_t size;
-    } WRITERS[] = {{write_domain_info, sizeof(icc_domain_info)},
-                   {write_chart_info, sizeof(icc_chart_info)},
-                   {write_measures, sizeof(icc_chart_measures)},
-                   {write_map_info, sizeof(icc_map_info)},
-                   {write_grid_info, sizeof(icc_grid_info)},
-                   {write_tree_report, sizeof(icc_tree_report)},
-                   {write_field_report, sizeof(icc_field_report)}};
+    } WRITERS[] = {
+        {write_domain_info, sizeof(icc_domain_info)},  {write_chart_info, sizeof(icc_chart_info)},
+        {write_measures, sizeof(icc_chart_measures)},  {write_map_info, sizeof(icc_map_info)},
+        {write_grid_info, sizeof(icc_grid_info)},      {write_tree_report, sizeof(icc_tree_report)},
+        {write_field_report, sizeof(icc_field_report)}};
     enum { ROOM = 512 };
     objects o;
     objects_init(&o, 0);
@@ -527,7 +594,7 @@ START_TEST(infos_may_be_older_or_newer)
             ck_assert_int_eq(WRITERS[k].write(&o, &part), ICC_OK);
             bool same = part.size == size;
             for (size_t b = sizeof(size_t); b < ROOM; ++b) {
-                const unsigned char expected = b >= size ? 0xaa
+                const unsigned char expected = b >= size              ? 0xaa
                                                : b >= WRITERS[k].size ? 0
                                                                       : full.bytes[b];
                 same = same && part.bytes[b] == expected;
@@ -558,7 +625,8 @@ START_TEST(errors_may_be_older_or_newer)
         if (size >= 12)
             ck_assert_int_eq(given.err.status, ICC_ERR_ARGUMENT);
         if (size > offsetof(icc_error, message))
-            ck_assert_ptr_nonnull(memchr(given.err.message, '\0', size - offsetof(icc_error, message)));
+            ck_assert_ptr_nonnull(
+                memchr(given.err.message, '\0', size - offsetof(icc_error, message)));
     }
     /* What succeeds leaves the error alone. */
     memset(&given, 0xaa, sizeof given);
@@ -575,11 +643,20 @@ END_TEST
 
 START_TEST(everything_has_a_name)
 {
-    static const char *const NAMES[] = {
-        "ICC_OK", "ICC_ERR_ARGUMENT", "ICC_ERR_MEMORY", "ICC_ERR_VERSION", "ICC_ERR_BOUNDARY",
-        "ICC_ERR_RESOLUTION", "ICC_ERR_TOPOLOGY", "ICC_ERR_OUTSIDE", "ICC_ERR_SOLVER",
-        "ICC_ERR_TRACE", "ICC_ERR_CERTIFICATE", "ICC_ERR_CANCELLED", "ICC_ERR_UNSUPPORTED",
-        "ICC_ERR_FORMAT"};
+    static const char *const NAMES[] = {"ICC_OK",
+                                        "ICC_ERR_ARGUMENT",
+                                        "ICC_ERR_MEMORY",
+                                        "ICC_ERR_VERSION",
+                                        "ICC_ERR_BOUNDARY",
+                                        "ICC_ERR_RESOLUTION",
+                                        "ICC_ERR_TOPOLOGY",
+                                        "ICC_ERR_OUTSIDE",
+                                        "ICC_ERR_SOLVER",
+                                        "ICC_ERR_TRACE",
+                                        "ICC_ERR_CERTIFICATE",
+                                        "ICC_ERR_CANCELLED",
+                                        "ICC_ERR_UNSUPPORTED",
+                                        "ICC_ERR_FORMAT"};
     for (int32_t k = 0; k < 14; ++k)
         ck_assert_str_eq(icc_status_name(k), NAMES[k]);
     static const int32_t UNKNOWN[] = {-1, 14, INT32_MAX, INT32_MIN};
@@ -587,8 +664,8 @@ START_TEST(everything_has_a_name)
         ck_assert_str_eq(icc_status_name(UNKNOWN[k]), "unknown status");
     char version[32];
     const int32_t number = icc_version_number();
-    (void)snprintf(version, sizeof version, "%d.%d.%d", (int)(number / 10000), (int)(number / 100 % 100),
-                   (int)(number % 100));
+    (void)snprintf(version, sizeof version, "%d.%d.%d", (int)(number / 10000),
+                   (int)(number / 100 % 100), (int)(number % 100));
     ck_assert_str_eq(icc_version(), version);
 }
 END_TEST
@@ -603,6 +680,8 @@ int main(void)
     tcase_add_test(tests, maps_refuse_bad_arguments);
     tcase_add_test(tests, stages_refuse_bad_arguments);
     tcase_add_test(tests, the_triangulation_refuses_bad_arguments);
+    tcase_add_test(tests, the_triangulation_names_the_point);
+    tcase_add_test(tests, edges_are_listed);
     tcase_add_test(tests, freeing_nothing_does_nothing);
     tcase_add_test(tests, every_call_checks_its_env);
     tcase_add_test(tests, options_may_be_older_or_newer);

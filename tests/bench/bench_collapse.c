@@ -1,16 +1,16 @@
-/* How much the papers' method collapses, at which resolution: what the charts miss, and the sign of the
- * map's derivative at evenly spread points. Cage files (`x y` per line) may be given in pairs, source and
- * target. */
+/* How much the papers' method collapses, at which resolution: what the charts miss, and the sign
+ * of the map's derivative at evenly spread points. Cage files (`x y` per line) may be given in
+ * pairs, source and target. */
 #include "bench.h"
 
 enum { POINTS = 40000, MOST_VERTICES = 100000 };
 
-/* Determinants this small relative to the ratio of the areas are rounding: they come out of sums of up
- * to some thousand terms of size 1. */
+/* Determinants this small relative to the ratio of the areas are rounding: they come out of sums
+ * of up to some thousand terms of size 1. */
 static const double FLAT = 1e-9;
 
-/* Points spread evenly inside a domain by the R2 sequence (M. Roberts, 2018). A lattice will not do: it
- * meets the grid's own lattice in vertices, where curves merge. */
+/* Points spread evenly inside a domain by the R2 sequence (M. Roberts, 2018). A lattice will not
+ * do: it meets the grid's own lattice in vertices, where curves merge. */
 static void spread_points(const icc_domain *domain, double *points)
 {
     icc_domain_info info = {.size = sizeof info};
@@ -82,8 +82,8 @@ static void measure(const char *name, const icc_domain *source, const icc_domain
     for (int k = 0; k < 2; ++k) {
         icc_chart_measures m = {.size = sizeof m};
         bench_check(icc_chart_measure(charts[k], POINTS, &m, NULL, &error), &error);
-        printf(" %7.2f %6.2f %6.2f %6.2f", 100 * m.unreachable, 100 * m.uncovered, 100 * m.collapsed,
-               100 * m.not_inward);
+        printf(" %7.2f %6.2f %6.2f %6.2f", 100 * m.unreachable, 100 * m.uncovered,
+               100 * m.collapsed, 100 * m.not_inward);
     }
     printf("\n");
     fflush(stdout);

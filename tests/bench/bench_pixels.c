@@ -1,10 +1,11 @@
-/* The paper's pictures have 38,850 pixels on average; mapping one on a grid of 50 x 50 took its authors
- * about 30 minutes, 46 ms a pixel (section 7). */
+/* The paper's pictures have 38,850 pixels on average; mapping one on a grid of 50 x 50 took its
+ * authors about 30 minutes, 46 ms a pixel (section 7). */
 #include "bench.h"
 
 enum { PIXELS = 38850, REPEATS = 7, MOST_THREADS = 2 };
 
-/* The centres of square pixels that lie inside a domain, row by row; PIXELS of them or hardly fewer. */
+/* The centres of square pixels that lie inside a domain, row by row; PIXELS of them or hardly
+ * fewer. */
 static size_t list_pixels(const icc_domain *domain, double *points)
 {
     icc_domain_info info = {.size = sizeof info};
@@ -23,8 +24,8 @@ static size_t list_pixels(const icc_domain *domain, double *points)
     return n;
 }
 
-typedef icc_status (*direction)(const icc_map *, size_t, const double *, double *, icc_status *, size_t *,
-                                const icc_env *);
+typedef icc_status (*direction)(const icc_map *, size_t, const double *, double *, icc_status *,
+                                size_t *, const icc_env *);
 
 static void measure(const char *name, const char *what, const icc_map *map, direction apply,
                     const icc_domain *from)

@@ -1,5 +1,6 @@
-/* The thesis' table 6.1: how long a tripus takes, 54 boundary points and 11 inside, at three resolutions.
- * The thesis shows its shape only as a picture; this one is drawn to the same numbers. */
+/* The thesis' table 6.1: how long a tripus takes, 54 boundary points and 11 inside, at three
+ * resolutions. The thesis shows its shape only as a picture; this one is drawn to the same
+ * numbers. */
 #include "bench.h"
 
 #include <icc/stages.h>
@@ -92,7 +93,8 @@ static times run_once(double source[N][2], double target[N][2], int32_t cells)
     double images[N_INSIDE][2];
     bench_check(icc_map_create(&map, from, to, &options, NULL, &error), &error);
     since = bench_seconds();
-    bench_check(icc_map_apply(map, N_INSIDE, source[N_BOUNDARY], images[0], NULL, NULL, NULL), &error);
+    bench_check(icc_map_apply(map, N_INSIDE, source[N_BOUNDARY], images[0], NULL, NULL, NULL),
+                &error);
     lap(&t.gradient, &since);
     uint32_t triangles[N_TRIANGLES][3];
     bench_check(icc_triangulate(N_BOUNDARY, N, source[0], triangles[0], NULL, &error), &error);
@@ -149,7 +151,8 @@ int main(void)
             best.other = fmin(best.other, t.other);
         }
         const times *published = &TABLE[k].published;
-        printf("%zu grid points published, %zu here (%d cells)\n", TABLE[k].grid_points, n_tree, cells);
+        printf("%zu grid points published, %zu here (%d cells)\n", TABLE[k].grid_points, n_tree,
+               cells);
         print("Maxima", published->maxima, best.maxima);
         print("BFS", published->bfs, best.bfs);
         print("Gradient", published->gradient, best.gradient);

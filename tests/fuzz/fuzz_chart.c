@@ -50,9 +50,11 @@ static void check_chart(const icc_chart *chart, size_t n_facets, size_t n, const
     double back[2 * MAX_POINTS];
     icc_status status[MAX_POINTS];
     size_t n_failed, n_lost;
-    require(icc_chart_encode(chart, n, points, c.facet, c.bary, c.t, c.status, &n_failed, NULL) == ICC_OK);
+    require(icc_chart_encode(chart, n, points, c.facet, c.bary, c.t, c.status, &n_failed, NULL) ==
+            ICC_OK);
     check_codes(&c, n, n_facets);
-    require(icc_chart_decode(chart, n, c.facet, c.bary, c.t, back, status, &n_lost, NULL) == ICC_OK);
+    require(icc_chart_decode(chart, n, c.facet, c.bary, c.t, back, status, &n_lost, NULL) ==
+            ICC_OK);
     require(n_lost >= n_failed);
     check_results(n, status, back, 2, n_lost);
     for (size_t i = 0; i < n; ++i) {

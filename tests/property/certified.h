@@ -255,6 +255,67 @@ static inline void check_chart(const shape *outline, int32_t cells, int n, doubl
     subject_clear(&s);
 }
 
+/* Coordinates do not depend on size, and far from zero points come back as well as they are given. */
+static inline void check_places(const shape *outline, int32_t cells)
+{
+    static const double PLACES[5][3] = {
+        {0x1p-1000, 0, 0}, {0x1p900, 0, 0}, {1e300, 0, 0}, {1e-300, 0, 0}, {10, 1e9, -1e9}};
+    const icc_chart_options options = method_options(cells);
+    subject plain = subject_of(outline, &options);
+    random_source r = {5};
+    for (int k = 0; k < 5; ++k) {
+        const double *place = PLACES[k];
+        const shape moved = shape_moved(outline, place[0], place[1], place[2]);
+        subject s = subject_of(&moved, &options);
+        for (int i = 0; i < 100; ++i) {
+            double p[2], q[2], back[2];
+            pick_inside(&plain, &r, p);
+            for (int c = 0; c < 2; ++c)
+                q[c] = p[c] * place[0] + place[1 + c];
+            if (!is_inside(s.domain, q))
+                continue;
+            const code a = encode_point(plain.chart, p), b = encode_point(s.chart, q);
+            decode_point(s.chart, &b, back);
+            /* Rounding the vertices may change the mesh: only scaling by powers of two rounds nothing. */
+            if (k < 2)
+                ck_assert(a.facet == b.facet && !(fabs(a.t - b.t) > 0) && !(fabs(a.bary[1] - b.bary[1]) > 0));
+            ck_assert_double_le(distance_of(back, q) / s.width, k < 4 ? 1e-12 : 5e-8);
+        }
+        subject_clear(&s);
+    }
+    subject_clear(&plain);
+}
+
+/* Facets in any order give the same coordinates under other numbers. */
+static inline void check_shuffled(const shape *outline, int32_t cells)
+{
+    const icc_chart_options options = method_options(cells);
+    subject plain = subject_of(outline, &options), s = plain;
+    uint32_t facets[2 * SHAPE_MAX];
+    const size_t n = outline->n;
+    random_source r = {6};
+    for (size_t f = 0; f < n; ++f) {
+        const size_t other = (size_t)random_below(&r, (int)f + 1);
+        memcpy(facets + 2 * f, facets + 2 * other, 2 * sizeof *facets);
+        facets[2 * other] = (uint32_t)f;
+        facets[2 * other + 1] = (uint32_t)((f + 1) % n);
+    }
+    ck_assert_int_eq(icc_domain_create(&s.domain, 2, n, outline->xy, n, facets, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_chart_create(&s.chart, s.domain, &options, NULL, NULL), ICC_OK);
+    for (int i = 0; i < 100; ++i) {
+        double p[2];
+        pick_inside(&plain, &r, p);
+        const code a = encode_point(plain.chart, p), b = encode_point(s.chart, p);
+        ck_assert_uint_eq(facets[2 * b.facet], a.facet);
+        ck_assert_double_le(fabs(a.t - b.t), 1e-12);
+        ck_assert_double_le(fabs(a.bary[1] - b.bary[1]), 1e-9);
+        check_round_trip(&s, p, 1e-12);
+    }
+    check_boundary(&s, &r);
+    subject_clear(&s);
+    subject_clear(&plain);
+}
+
 /* ---- maps ---- */
 
 static inline icc_map *map_of(const icc_domain *source, const icc_domain *target, int32_t cells)

@@ -49,8 +49,9 @@ static code encode(const subject *s, const double p[2])
 {
     code c;
     size_t n_failed;
-    ck_assert_int_eq(icc_chart_encode(s->chart, 1, p, &c.facet, c.bary, &c.t, &c.status, &n_failed,
-                                      NULL), ICC_OK);
+    ck_assert_int_eq(
+        icc_chart_encode(s->chart, 1, p, &c.facet, c.bary, &c.t, &c.status, &n_failed, NULL),
+        ICC_OK);
     if (n_failed != (c.status != ICC_OK))
         ck_abort_msg("wrong number of failures");
     return c;
@@ -59,8 +60,8 @@ static code encode(const subject *s, const double p[2])
 static icc_status decode(const subject *s, const code *c, double p[2])
 {
     icc_status status;
-    ck_assert_int_eq(icc_chart_decode(s->chart, 1, &c->facet, c->bary, &c->t, p, &status, NULL, NULL),
-                     ICC_OK);
+    ck_assert_int_eq(
+        icc_chart_decode(s->chart, 1, &c->facet, c->bary, &c->t, p, &status, NULL, NULL), ICC_OK);
     return status;
 }
 
@@ -146,7 +147,8 @@ static void check_round_trip(const subject *s, const double p[2])
     if (distance(p, back) > 1e-10 * width(s))
         ck_abort_msg("(%.17g, %.17g) comes back %g away", p[0], p[1], distance(p, back));
     const code again = encode(s, back);
-    if (again.facet == c.facet && (fabs(again.t - c.t) > 1e-12 || fabs(again.bary[1] - c.bary[1]) > 1e-11))
+    if (again.facet == c.facet &&
+        (fabs(again.t - c.t) > 1e-12 || fabs(again.bary[1] - c.bary[1]) > 1e-11))
         ck_abort_msg("coordinates come back %g away", fabs(again.t - c.t));
 }
 
@@ -163,7 +165,8 @@ START_TEST(points_come_back_where_lines_do_not_merge)
                 double p[2];
                 int32_t where;
                 pick(&s, &r, p);
-                ck_assert_int_eq(icc_domain_locate(s.domain, 1, p, &where, NULL, NULL, NULL), ICC_OK);
+                ck_assert_int_eq(icc_domain_locate(s.domain, 1, p, &where, NULL, NULL, NULL),
+                                 ICC_OK);
                 if (where != ICC_INSIDE)
                     continue;
                 ++n_inside;
@@ -311,7 +314,8 @@ START_TEST(boundary_points_have_t_zero)
                 ck_assert_int_eq(decode(&s, &on, p), ICC_OK);
                 if (i < 2)
                     ck_assert_mem_eq(p, i == 0 ? a : b, sizeof p);
-                const double expected[2] = {a[0] + along * (b[0] - a[0]), a[1] + along * (b[1] - a[1])};
+                const double expected[2] = {a[0] + along * (b[0] - a[0]),
+                                            a[1] + along * (b[1] - a[1])};
                 ck_assert_double_le(distance(p, expected), 1e-15 * width(&s));
                 const code c = encode(&s, p);
                 ck_assert_int_eq(c.status, ICC_OK);
@@ -367,8 +371,9 @@ START_TEST(points_elsewhere_have_no_coordinates)
     double bary[N_BAD][2], t[N_BAD];
     icc_status status[N_BAD];
     size_t n_failed;
-    ck_assert_int_eq(icc_chart_encode(s.chart, N_BAD, BAD[0], facet, bary[0], t, status, &n_failed, NULL),
-                     ICC_OK);
+    ck_assert_int_eq(
+        icc_chart_encode(s.chart, N_BAD, BAD[0], facet, bary[0], t, status, &n_failed, NULL),
+        ICC_OK);
     ck_assert_uint_eq(n_failed, N_BAD - 1);
     for (int k = 0; k < N_BAD - 1; ++k) {
         ck_assert_int_eq(status[k], k < 5 ? ICC_ERR_OUTSIDE : ICC_ERR_ARGUMENT);
@@ -382,9 +387,10 @@ START_TEST(points_elsewhere_have_no_coordinates)
     const double near[2] = {0.25, -1e-15};
     const code c = encode(&s, near);
     ck_assert(c.status == ICC_OK && c.facet == 0 && c.t == 0 && c.bary[1] == 0.25);
-    const code codes[] = {{4, {0.5, 0.5}, 0.5, 0},  {0, {0.5, 0.6}, 0.5, 0}, {0, {-0.5, 1.5}, 0.5, 0},
-                          {0, {0.5, 0.5}, 1.1, 0},  {0, {0.5, 0.5}, -0.1, 0}, {0, {NAN, 0.5}, 0.5, 0},
-                          {0, {0.5, 0.5}, NAN, 0},  {0, {HUGE_VAL, 0}, 0, 0}, {UINT32_MAX, {1, 0}, 0, 0}};
+    const code codes[] = {
+        {4, {0.5, 0.5}, 0.5, 0}, {0, {0.5, 0.6}, 0.5, 0},  {0, {-0.5, 1.5}, 0.5, 0},
+        {0, {0.5, 0.5}, 1.1, 0}, {0, {0.5, 0.5}, -0.1, 0}, {0, {NAN, 0.5}, 0.5, 0},
+        {0, {0.5, 0.5}, NAN, 0}, {0, {HUGE_VAL, 0}, 0, 0}, {UINT32_MAX, {1, 0}, 0, 0}};
     for (size_t k = 0; k < sizeof codes / sizeof *codes; ++k) {
         double p[2] = {0, 0};
         ck_assert_int_eq(decode(&s, codes + k, p), ICC_ERR_ARGUMENT);
@@ -394,6 +400,7 @@ START_TEST(points_elsewhere_have_no_coordinates)
     double p[2];
     ck_assert_int_eq(decode(&s, &nearly, p), ICC_OK);
     ck_assert_double_eq(p[0], 1);
+    ck_assert_double_eq_tol(p[1], 0.5 / (1 + 4e-10), 1e-15);
     subject_clear(&s);
 }
 END_TEST
@@ -414,7 +421,9 @@ static void compare(const subject *a, const subject *b, const double p[2], const
     if (c.status != ICC_OK)
         return;
     if (tolerance <= 0) {
-        ck_assert_mem_eq(&c, &d, sizeof c);
+        ck_assert_uint_eq(c.facet, d.facet);
+        ck_assert_mem_eq(c.bary, d.bary, sizeof c.bary);
+        ck_assert_mem_eq(&c.t, &d.t, sizeof c.t);
         return;
     }
     double foot[2][2];

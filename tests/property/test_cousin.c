@@ -15,21 +15,22 @@ typedef struct tally {
     size_t n_masks, n_pairs; /* pairs of a mask and a root */
     size_t n_violated;       /* pairs whose tree breaks the cousin rule */
     size_t n_critical;       /* pairs whose function has a critical vertex besides the root */
+    size_t n_broken;         /* pairs where something failed, or something was not reached */
 } tally;
 
 static void try_root(const icc_grid *grid, uint32_t root, int32_t form, tally *sum)
 {
     const icc_tree_options options = {.size = sizeof options, .form = form};
-    icc_tree *tree;
-    icc_field *field;
+    icc_tree *tree = NULL;
+    icc_field *field = NULL;
     icc_tree_report tree_report = {.size = sizeof tree_report};
     icc_field_report field_report = {.size = sizeof field_report};
-    ck_assert_int_eq(icc_tree_create(&tree, grid, root, &options, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(icc_tree_verify(tree, &tree_report, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(icc_field_create(&field, tree, NULL, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(icc_field_verify(field, &field_report, NULL, NULL), ICC_OK);
-    ck_assert_uint_eq(tree_report.n_unreachable, 0);
+    const bool works = icc_tree_create(&tree, grid, root, &options, NULL, NULL) == ICC_OK &&
+                       icc_tree_verify(tree, &tree_report, NULL, NULL) == ICC_OK &&
+                       icc_field_create(&field, tree, NULL, NULL, NULL) == ICC_OK &&
+                       icc_field_verify(field, &field_report, NULL, NULL) == ICC_OK;
     ++sum->n_pairs;
+    sum->n_broken += !works || tree_report.n_unreachable > 0;
     sum->n_violated += tree_report.n_cousin_violations > 0;
     sum->n_critical += field_report.critical != UINT32_MAX || field_report.n_maxima != 1;
     icc_field_free(field);
@@ -39,12 +40,14 @@ static void try_root(const icc_grid *grid, uint32_t root, int32_t form, tally *s
 static void try_all_roots(int32_t dim, const size_t *sides, const uint8_t *inside, tally *sum)
 {
     icc_grid *grid;
-    icc_grid_info info = {.size = sizeof info};
-    ck_assert_int_eq(icc_grid_create_mask(&grid, dim, sides, inside, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(icc_grid_get_info(grid, &info), ICC_OK);
+    size_t n = 1;
+    for (int32_t k = 0; k < dim; ++k)
+        n *= sides[k];
+    if (icc_grid_create_mask(&grid, dim, sides, inside, NULL, NULL) != ICC_OK)
+        ++sum->n_broken;
     ++sum->n_masks;
-    for (uint32_t v = 0; v < info.n_vertices; ++v)
-        if (inside[v])
+    for (uint32_t v = 0; v < n; ++v)
+        if (grid != NULL && inside[v])
             try_root(grid, v, (int32_t)(1 + sum->n_pairs % 2), sum);
     icc_grid_free(grid);
 }
@@ -64,8 +67,8 @@ static bool is_connected(uint32_t mask, int nx, uint32_t first_column)
     uint32_t reached = mask & (~mask + 1), before = 0;
     while (reached != before) {
         before = reached;
-        reached |= (reached & ~last_column) << 1 | (reached & ~first_column) >> 1 |
-                   reached << nx | reached >> nx;
+        reached |= (reached & ~last_column) << 1 | (reached & ~first_column) >> 1 | reached << nx |
+                   reached >> nx;
         reached &= mask;
     }
     return mask != 0 && reached == mask;
@@ -99,6 +102,7 @@ static tally try_plane(int nx, int ny, int least, size_t stride)
             inside[v] = mask >> v & 1;
         try_all_roots(2, (size_t[]){(size_t)nx, (size_t)ny}, inside, &sum);
     }
+    ck_assert_uint_eq(sum.n_broken, 0);
     return sum;
 }
 
@@ -178,6 +182,7 @@ static tally try_random(int32_t dim, const size_t *sides, size_t rounds, int n_s
         try_root(grid, root, ICC_TREE_THESIS, &sum);
         icc_grid_free(grid);
     }
+    ck_assert_uint_eq(sum.n_broken, 0);
     return sum;
 }
 

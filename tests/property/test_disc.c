@@ -27,6 +27,16 @@ START_TEST(hard_shapes_have_coordinates)
 }
 END_TEST
 
+START_TEST(places_and_orders_do_not_matter)
+{
+    const shape s = shape_number(_i), reversed = shape_reversed(&s);
+    check_places(&s, 20);
+    check_places(&reversed, 11);
+    check_shuffled(&s, 20);
+    check_shuffled(&reversed, 11);
+}
+END_TEST
+
 START_TEST(maps_are_one_to_one)
 {
     shape source, target;
@@ -46,6 +56,7 @@ int main(void)
     tcase_set_timeout(tests, 120);
     tcase_add_loop_test(tests, every_shape_has_coordinates, 0, N_SHAPES);
     tcase_add_loop_test(tests, hard_shapes_have_coordinates, 0, N_HARD_SHAPES);
+    tcase_add_loop_test(tests, places_and_orders_do_not_matter, 0, N_SHAPES);
     tcase_add_loop_test(tests, maps_are_one_to_one, 0, N_PAIRS);
     suite_add_tcase(suite, tests);
     SRunner *runner = srunner_create(suite);

@@ -147,13 +147,17 @@ static void check_boundary(const icc_map *map, const shape *source, const shape 
             double p[2][2], q[2];
             for (int k = 0; k < 2; ++k) {
                 const size_t a = 2 * f, b = 2 * ((f + 1) % source->n);
-                p[0][k] = source->xy[a + (size_t)k] * (1 - along) + source->xy[b + (size_t)k] * along;
-                p[1][k] = target->xy[a + (size_t)k] * (1 - along) + target->xy[b + (size_t)k] * along;
+                p[0][k] =
+                    source->xy[a + (size_t)k] * (1 - along) + source->xy[b + (size_t)k] * along;
+                p[1][k] =
+                    target->xy[a + (size_t)k] * (1 - along) + target->xy[b + (size_t)k] * along;
             }
             size_t n_failed[2];
             ck_assert_int_eq(icc_map_apply(map, 1, p[0], q, NULL, &n_failed[0], NULL), ICC_OK);
-            ck_assert_double_le(distance(q, p[1]), i == 0 ? 0 : 1e-12 * w[1] + 0x1p-52 * fabs(q[0]));
-            ck_assert_int_eq(icc_map_apply_inverse(map, 1, p[1], q, NULL, &n_failed[1], NULL), ICC_OK);
+            ck_assert_double_le(distance(q, p[1]),
+                                i == 0 ? 0 : 1e-12 * w[1] + 0x1p-52 * fabs(q[0]));
+            ck_assert_int_eq(icc_map_apply_inverse(map, 1, p[1], q, NULL, &n_failed[1], NULL),
+                             ICC_OK);
             /* Far from zero the point is rounded off the boundary. */
             if (i > 0 && fabs(p[1][0]) > 1e8 * w[1] / 40)
                 n_failed[1] = 0;
@@ -269,10 +273,9 @@ START_TEST(facets_may_come_in_any_order)
         }
         icc_domain *domain[2];
         for (int side = 0; side < 2; ++side)
-            ck_assert_int_eq(icc_domain_create(&domain[side], 2, n, s[side].xy, n, facets, NULL, NULL),
-                             ICC_OK);
-        const icc_chart_options chart = {.size = sizeof chart, .method = ICC_METHOD_GRADIENT,
-                                         .cells = 25};
+            ck_assert_int_eq(
+                icc_domain_create(&domain[side], 2, n, s[side].xy, n, facets, NULL, NULL), ICC_OK);
+        const icc_chart_options chart = {.size = sizeof chart, .method = ICC_METHOD_GRADIENT, .cells = 25};
         const icc_map_options options = {.size = sizeof options, .chart = &chart};
         icc_map *map, *plain = map_of(&s[0], &s[1], 25, 0);
         ck_assert_int_eq(icc_map_create(&map, domain[0], domain[1], &options, NULL, NULL), ICC_OK);
@@ -287,8 +290,8 @@ START_TEST(facets_may_come_in_any_order)
             ck_assert_mem_eq(q[0], q[1], sizeof q[0]);
             (void)icc_chart_encode(icc_map_source_chart(map), 1, p, &facet[0], bary[0], &t[0], NULL,
                                    NULL, NULL);
-            (void)icc_chart_encode(icc_map_source_chart(plain), 1, p, &facet[1], bary[1], &t[1], NULL,
-                                   NULL, NULL);
+            (void)icc_chart_encode(icc_map_source_chart(plain), 1, p, &facet[1], bary[1], &t[1],
+                                   NULL, NULL, NULL);
             if (facet[0] != UINT32_MAX)
                 ck_assert_uint_eq(facets[2 * facet[0]], facet[1]);
         }
@@ -375,7 +378,8 @@ START_TEST(charts_make_the_same_map)
     pair_number(2, &source, &target);
     icc_map *map = map_of(&source, &target, 40, 0), *again;
     ck_assert_int_eq(icc_map_create_from_charts(&again, icc_map_source_chart(map),
-                                                icc_map_target_chart(map), NULL, NULL, NULL), ICC_OK);
+                                                icc_map_target_chart(map), NULL, NULL, NULL),
+                     ICC_OK);
     icc_map_info info = {.size = sizeof info};
     ck_assert_int_eq(icc_map_get_info(map, &info), ICC_OK);
     ck_assert(info.dim == 2 && info.kind == ICC_MAP_CURVES && info.seconds > 0);
@@ -479,14 +483,17 @@ START_TEST(boundary_and_maximum_have_no_derivative)
     icc_map *map = map_of(&square, &square, 10, 0);
     icc_chart_info info = {.size = sizeof info};
     (void)icc_chart_get_info(icc_map_source_chart(map), &info);
-    const double points[5][2] = {{0.5, 0}, {0, 0}, {info.maximum[0], info.maximum[1]}, {2, 2}, {NAN, 0}};
+    const double points[5][2] = {
+        {0.5, 0}, {0, 0}, {info.maximum[0], info.maximum[1]}, {2, 2}, {NAN, 0}};
     double j[5][4];
     icc_status status[5];
     size_t n_failed;
     ck_assert_int_eq(icc_map_jacobian(map, 5, points[0], j[0], status, &n_failed, NULL), ICC_OK);
     ck_assert_uint_eq(n_failed, 5);
     for (int k = 0; k < 5; ++k) {
-        ck_assert_int_eq(status[k], k < 3 ? ICC_ERR_TRACE : k == 3 ? ICC_ERR_OUTSIDE : ICC_ERR_ARGUMENT);
+        ck_assert_int_eq(status[k], k < 3    ? ICC_ERR_TRACE
+                                    : k == 3 ? ICC_ERR_OUTSIDE
+                                             : ICC_ERR_ARGUMENT);
         for (int m = 0; m < 4; ++m)
             ck_assert(isnan(j[k][m]));
     }

@@ -29,7 +29,7 @@ awk '{ if (NF != 4 || $1 != int($1) || $1 < 0 || $1 > 5 || $2 < 0 || $3 < 0 || $
 # A point without an image: nan, exit 4, its count on stderr; the others keep their place.
 printf '5 0\n8 8\nnan 1\n5 0\n' >some.txt
 run 4 map -s source.txt -t target.txt -p some.txt
-holds err "libicc: 2 of 4 points have no image: 1 outside"
+holds err "libicc: 2 of 4 points have no image: 1 outside the cage, 0 that the curves do not reach, 1 not finite"
 [ "$(wc -l <err)" -eq 1 ] || complain "stderr is not one line"
 [ "$(sed -n '2,3p' out | sort -u)" = "nan nan" ] || complain "not nan: $(cat out)"
 [ "$(sed -n 1p out)" = "$(sed -n 4p out)" ] || complain "the order is lost"
@@ -37,6 +37,8 @@ run 4 encode -s source.txt -p some.txt -o coords
 [ "$(sed -n 2p coords)" = "nan nan nan nan" ] || complain "not nan: $(cat coords)"
 run 4 decode -s source.txt --coords coords
 [ "$(sed -n 2p out)" = "nan nan" ] || complain "not nan: $(cat out)"
+printf '0 0.7 0.7 0.5\n0 0.5 0.5 1.5\n' | run 4 decode -s source.txt
+holds err '2 not finite or out of range'
 printf '' | run 0 map -s source.txt -t target.txt
 [ ! -s out ] || complain "no points, but images: $(cat out)"
 

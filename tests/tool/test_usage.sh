@@ -48,6 +48,8 @@ for pair in "--method foliation" "--method disc" "--method field" "--map mesh" "
     run 2 map -s source.txt -t target.txt $pair
     says "not available in this version"
 done
+run 2 map -s source.txt -t target.txt --geojson
+says "not available in this version"
 run 2 info -s source.txt --unconstrained
 says "not available in this version"
 run 2 info -s source.txt --method magic

@@ -23,8 +23,8 @@ START_TEST(version_is_written_down_once)
     (void)snprintf(text, sizeof text, "%d.%d.%d", ICCP_VERSION_MAJOR, ICCP_VERSION_MINOR,
                    ICCP_VERSION_PATCH);
     ck_assert_str_eq(icc_version(), text);
-    ck_assert_int_eq(icc_version_number(), 10000 * ICCP_VERSION_MAJOR + 100 * ICCP_VERSION_MINOR +
-                                               ICCP_VERSION_PATCH);
+    ck_assert_int_eq(icc_version_number(),
+                     10000 * ICCP_VERSION_MAJOR + 100 * ICCP_VERSION_MINOR + ICCP_VERSION_PATCH);
 }
 END_TEST
 
@@ -98,7 +98,8 @@ START_TEST(writing_a_struct)
     } room;
     memset(&room, 0x55, sizeof room);
     room.given.size = sizeof room.given;
-    ck_assert_int_eq(iccp_write_struct(&room.given, &full, sizeof full, "new_struct", NULL), ICC_OK);
+    ck_assert_int_eq(iccp_write_struct(&room.given, &full, sizeof full, "new_struct", NULL),
+                     ICC_OK);
     ck_assert(room.given.size == sizeof room.given && room.given.a == 1 && room.given.b == 2);
     for (size_t i = 0; i < sizeof room.beyond; ++i)
         ck_assert_uint_eq(room.beyond[i], 0x55);

@@ -192,13 +192,13 @@ START_TEST(edges_are_what_gradients_say)
             if (!isnan(field->values[v]))
                 field->values[v] = random_below(&r, 5);
         size_t n_edges, n_tested, n = 0, n_expected = 0;
-        ck_assert_int_eq(icc_field_edges(field, 3 * MAX_VERTICES, edges, kinds, &n_edges, &n_tested),
-                         ICC_OK);
+        ck_assert_int_eq(
+            icc_field_edges(field, 3 * MAX_VERTICES, edges, kinds, &n_edges, &n_tested), ICC_OK);
         for (size_t v = 0; v < tree->grid->n_vertices; ++v)
             for (int e = 1; e <= 3; ++e) {
                 const size_t nx = tree->grid->shape[0], dx = e != 2, dy = e != 1;
-                const int32_t kind = kind_of(field, (int64_t)(v % nx), (int64_t)(v / nx),
-                                             (int64_t)dx, (int64_t)dy);
+                const int32_t kind =
+                    kind_of(field, (int64_t)(v % nx), (int64_t)(v / nx), (int64_t)dx, (int64_t)dy);
                 n_expected += kind >= 0;
                 if (kind <= 0)
                     continue;
@@ -221,10 +221,8 @@ END_TEST
 /* Along a diagonal the sum of two values is compared with twice a third: a rounded sum would tie. */
 START_TEST(diagonals_are_compared_exactly)
 {
-    static const double sums[4][3] = {{0x1p53, 1, 0x1p52},
-                                      {1, 0x1p-60, 0.5},
-                                      {0x1p54, -1, 0x1p53},
-                                      {0x1p53 + 2, 1, 0x1p52 + 1}};
+    static const double sums[4][3] = {
+        {0x1p53, 1, 0x1p52}, {1, 0x1p-60, 0.5}, {0x1p54, -1, 0x1p53}, {0x1p53 + 2, 1, 0x1p52 + 1}};
     static const int signs[4] = {1, 1, -1, 1}; /* of a + b - 2 c */
     for (int i = 0; i < 4; ++i)
         for (int flip = -1; flip <= 1; flip += 2) {
@@ -449,9 +447,9 @@ START_TEST(triangles_fill_the_polygon)
         ck_assert_int_eq(icc_triangulate(6, 8, moved, triangles, NULL, NULL), ICC_OK);
         int64_t area = 0;
         for (int t = 0; t < 8; ++t) {
-            const int64_t one = doubled_area(points + 2 * triangles[3 * t],
-                                             points + 2 * triangles[3 * t + 1],
-                                             points + 2 * triangles[3 * t + 2]);
+            const int64_t one =
+                doubled_area(points + 2 * triangles[3 * t], points + 2 * triangles[3 * t + 1],
+                             points + 2 * triangles[3 * t + 2]);
             ck_assert_int_gt(one, 0);
             area += one;
         }

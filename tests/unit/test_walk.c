@@ -93,7 +93,7 @@ START_TEST(a_linear_function_gives_straight_lines)
     random_source r = {1};
     world w;
     world_init(&w, SIDE, SIDE, 0);
-    for (int round = 0; round < 20000; ++round) {
+    for (int round = 0; round < 5000; ++round) {
         double d[2], p[2];
         for (int k = 0; k < 2; ++k)
             d[k] = round % 2 ? random_below(&r, 7) - 3 : random_between(&r, -1, 1);
@@ -110,12 +110,12 @@ START_TEST(a_linear_function_gives_straight_lines)
         double at[2] = {p[0], p[1]};
         while (status == ICC_OK && !on_border(&w, at)) {
             status = iccp_walk2_step(&walk);
-            ck_assert_double_eq(walk.from[0], at[0]);
-            ck_assert_double_eq(walk.from[1], at[1]);
+            if (memcmp(walk.from, at, sizeof at) != 0)
+                ck_abort_msg("a step does not begin where the last one ended");
             memcpy(at, walk.to, sizeof at);
             const double off = (at[0] - p[0]) * ahead[1] - (at[1] - p[1]) * ahead[0];
-            ck_assert_double_le(fabs(off), 1e-12);
-            ck_assert_int_lt(++n_steps, 4 * SIDE + 4);
+            if (!(fabs(off) <= 1e-12) || ++n_steps > 4 * SIDE + 4)
+                ck_abort_msg("%g off the straight line after %d steps", off, n_steps);
         }
         ck_assert(on_border(&w, at));
         ck_assert_double_eq_tol(walk.s, way_out(&w, p, ahead), 1e-12);
@@ -248,7 +248,8 @@ static bool has_higher_neighbour(world *w, size_t i, size_t j)
 static void set_one_maximum(world *w, random_source *r, bool levels)
 {
     const size_t n = w->grid.shape[0];
-    const size_t i = 1 + (size_t)random_below(r, (int)n - 2), j = 1 + (size_t)random_below(r, (int)n - 2);
+    const size_t i = 1 + (size_t)random_below(r, (int)n - 2),
+                 j = 1 + (size_t)random_below(r, (int)n - 2);
     w->tree.root = (uint32_t)(i + n * j);
     for (size_t v = 0; v < n * n; ++v)
         w->values[v] = -1e9;
@@ -269,7 +270,7 @@ static void set_one_maximum(world *w, random_source *r, bool levels)
             w->values[v] = lowest;
 }
 
-static void check_ascent(world *w, const double p[2], bool levels)
+static void check_ascent(world *w, const double p[2])
 {
     iccp_walk2 walk;
     ck_assert_int_eq(iccp_walk2_start(&walk, &w->field, ICCP_UPHILL, p[0], p[1], NULL), ICC_OK);
@@ -278,12 +279,11 @@ static void check_ascent(world *w, const double p[2], bool levels)
     while (!iccp_walk2_at_root(&walk)) {
         const bool was_vertex = walk.at_vertex;
         const double at_vertex = was_vertex ? *value(w, walk.i, walk.j) : 0;
-        ck_assert_int_eq(iccp_walk2_step(&walk), ICC_OK);
+        const icc_status status = iccp_walk2_step(&walk);
         const double after = interpolate(w, walk.to[0], walk.to[1]);
-        ck_assert_double_ge(after, before - 1e-9);
-        ck_assert_double_ge(walk.s, s);
-        if (was_vertex && walk.at_vertex && !levels)
-            ck_assert_double_gt(*value(w, walk.i, walk.j), at_vertex);
+        if (status != ICC_OK || after < before - 1e-9 || walk.s < s ||
+            (was_vertex && walk.at_vertex && *value(w, walk.i, walk.j) <= at_vertex))
+            ck_abort_msg("status %d, f from %.17g to %.17g", (int)status, before, after);
         before = after;
         s = walk.s;
     }
@@ -296,23 +296,20 @@ START_TEST(every_ascent_ends_at_the_only_maximum)
     world w;
     world_init(&w, SIDE, SIDE, 0);
     for (int round = 0; round < 300; ++round) {
+        /* Equal values are ordered by index, which may make further maxima. */
         const bool levels = round % 3 == 2;
         set_one_maximum(&w, &r, levels);
         for (int k = 0; k < 100; ++k) {
             double p[2];
             pick_start(&r, p);
-            /* Equal values are ordered by index, which may make further maxima. */
-            if (!levels)
-                check_ascent(&w, p, levels);
-        }
-        iccp_walk2 walk;
-        for (int k = 0; k < 100; ++k) {
-            double p[2];
-            pick_start(&r, p);
+            if (!levels) {
+                check_ascent(&w, p);
+                continue;
+            }
+            iccp_walk2 walk;
             (void)iccp_walk2_start(&walk, &w.field, ICCP_UPHILL, p[0], p[1], NULL);
-            const icc_status status = iccp_trace_uphill(&walk, NULL, NULL);
-            ck_assert(status == ICC_OK || levels);
-            ck_assert_uint_gt(walk.steps_left, 0);
+            (void)iccp_trace_uphill(&walk, NULL, NULL);
+            ck_assert_uint_gt(walk.steps_left, 2 * w.grid.n_vertices);
         }
     }
 }
@@ -331,13 +328,95 @@ START_TEST(tiny_values_are_values)
         pick_start(&r, p);
         for (int tiny = 0; tiny < 2; ++tiny) {
             iccp_walk2 walk;
-            ck_assert_int_eq(iccp_walk2_start(&walk, &w.field, ICCP_UPHILL, p[0], p[1], NULL), ICC_OK);
+            ck_assert_int_eq(iccp_walk2_start(&walk, &w.field, ICCP_UPHILL, p[0], p[1], NULL),
+                             ICC_OK);
             ck_assert_int_eq(iccp_trace_uphill(&walk, NULL, NULL), ICC_OK);
             lengths[tiny] = walk.s;
             for (size_t v = 0; v < w.grid.n_vertices; ++v)
                 w.values[v] = (w.values[v] + 1e4) * 0x1p-900;
         }
         ck_assert_double_eq_tol(lengths[0], lengths[1], 1e-6);
+    }
+}
+END_TEST
+
+/* Tiny steps up beside a fall by 1: where decay ends and whole numbers go on, see field.c. */
+START_TEST(tiny_rises_count_beside_deep_falls)
+{
+    world w;
+    world_init(&w, 5, 5, 24);
+    for (size_t j = 0; j < 5; ++j)
+        for (size_t i = 0; i < 5; ++i)
+            *value(&w, i, j) =
+                i + j < 3 ? (double)(i + j) - 3 : ldexp(1 + (double)(i + j) / 16, -1021);
+    for (size_t j = 0; j < 4; ++j)
+        for (size_t i = 0; i < 4; ++i) {
+            iccp_walk2 walk;
+            ck_assert_int_eq(
+                iccp_walk2_start(&walk, &w.field, ICCP_UPHILL, (double)i, (double)j, NULL), ICC_OK);
+            ck_assert_int_eq(iccp_trace_uphill(&walk, NULL, NULL), ICC_OK);
+        }
+}
+END_TEST
+
+/* On the outermost edge with values there is a triangle on one side only. */
+START_TEST(edges_with_one_triangle_are_starts)
+{
+    static const double STARTS[][2] = {{2, 2.5}, {2.5, 2}, {3, 2.5}, {2.5, 3}, {2.5, 2.5}};
+    /* Vertex (i, j) that has no value, and the start on the edge opposite to it. */
+    static const size_t MISSING[][3] = {{1, 2, 0}, {2, 1, 1}, {4, 3, 2},
+                                        {3, 4, 3}, {3, 2, 4}, {2, 3, 4}};
+    for (size_t k = 0; k < sizeof MISSING / sizeof *MISSING; ++k) {
+        world w;
+        world_init(&w, 7, 7, 0);
+        set_linear(&w, 1, 1.25);
+        *value(&w, MISSING[k][0], MISSING[k][1]) = NAN;
+        const double *p = STARTS[MISSING[k][2]];
+        int n_ways = 0;
+        for (int direction = -1; direction <= 1; direction += 2) {
+            iccp_walk2 walk;
+            ck_assert_int_eq(iccp_walk2_start(&walk, &w.field, direction, p[0], p[1], NULL),
+                             ICC_OK);
+            double q[2];
+            iccp_walk2_position(&walk, q);
+            ck_assert(q[0] == p[0] && q[1] == p[1]);
+            icc_status status = iccp_walk2_step(&walk);
+            if (status == ICC_OK && walk.s <= 0)
+                status = iccp_walk2_step(&walk);
+            n_ways += status == ICC_OK;
+        }
+        ck_assert_int_eq(n_ways, 1);
+    }
+}
+END_TEST
+
+/* A start on an edge where lines part goes to the side that is asked for. */
+START_TEST(starts_face_the_side_that_is_asked_for)
+{
+    static const double STARTS[][2] = {{3, 2.5}, {2.5, 3}, {2.5, 2.5}};
+    static const double NORMALS[][2] = {{1, 0}, {0, 1}, {1, -1}};
+    for (int k = 0; k < 6; ++k) {
+        world w;
+        world_init(&w, 7, 7, 0);
+        const double *p = STARTS[k / 2], *n = NORMALS[k / 2];
+        for (size_t j = 0; j < 7; ++j)
+            for (size_t i = 0; i < 7; ++i)
+                *value(&w, i, j) = fabs(n[0] * ((double)i - p[0]) + n[1] * ((double)j - p[1]));
+        const double side = k % 2 ? 1 : -1, ahead[2] = {side * n[0], side * n[1]};
+        iccp_walk2 walk;
+        ck_assert_int_eq(iccp_walk2_start(&walk, &w.field, ICCP_UPHILL, p[0], p[1], NULL), ICC_OK);
+        iccp_walk2_face(&walk, ahead);
+        ck_assert_int_eq(iccp_walk2_step(&walk), ICC_OK);
+        ck_assert_double_gt((walk.to[0] - p[0]) * ahead[0] + (walk.to[1] - p[1]) * ahead[1], 0);
+        /* Off the edges nothing changes. */
+        for (int start = 0; start < 2; ++start) {
+            const double x = start ? 3 : 3.25, y = start ? 2 : 2.5;
+            ck_assert_int_eq(iccp_walk2_start(&walk, &w.field, ICCP_UPHILL, x, y, NULL), ICC_OK);
+            const iccp_walk2 before = walk;
+            iccp_walk2_face(&walk, ahead);
+            ck_assert(walk.i == before.i && walk.j == before.j && walk.upper == before.upper &&
+                      walk.at_vertex == before.at_vertex);
+        }
     }
 }
 END_TEST
@@ -349,8 +428,8 @@ START_TEST(starts_without_values_are_refused)
     set_linear(&w, 1, 2);
     *value(&w, 3, 3) = NAN;
     iccp_walk2 walk;
-    static const double bad[][2] = {{3, 3}, {2.5, 2.6}, {3.5, 3.1}, {-0.1, 1}, {1, -0.1}, {4, 1},
-                                    {1, 4}, {NAN, 1}, {1, HUGE_VAL}};
+    static const double bad[][2] = {{3, 3}, {2.5, 2.6}, {3.5, 3.1}, {-0.1, 1},    {1, -0.1},
+                                    {4, 1}, {1, 4},     {NAN, 1},   {1, HUGE_VAL}};
     for (size_t k = 0; k < sizeof bad / sizeof *bad; ++k)
         ck_assert_int_eq(iccp_walk2_start(&walk, &w.field, ICCP_UPHILL, bad[k][0], bad[k][1], NULL),
                          ICC_ERR_TRACE);
@@ -448,7 +527,7 @@ START_TEST(the_first_hit_is_that_of_all_edges)
     fenced f;
     world_init(&f.w, 7, 6, 0);
     int n_hits = 0, n_touches = 0;
-    for (int round = 0; round < 400; ++round) {
+    for (int round = 0; round < 100; ++round) {
         long corners[MAX_CORNERS][2];
         const size_t n = 3 + (size_t)random_below(&r, MAX_CORNERS - 2);
         for (size_t k = 0; k < n; ++k)
@@ -471,8 +550,7 @@ START_TEST(the_first_hit_is_that_of_all_edges)
             const double from[2] = {(double)p[0] / 8, (double)p[1] / 8};
             const double to[2] = {(double)q[0] / 8, (double)q[1] / 8};
             iccp_fence_hit hit;
-            const bool found =
-                iccp_fence_first(&f.fence, (size_t)i, (size_t)j, from, to, &hit);
+            const bool found = iccp_fence_first(&f.fence, (size_t)i, (size_t)j, from, to, &hit);
             ck_assert_int_eq(found, first <= 1);
             if (!found)
                 continue;
@@ -487,8 +565,8 @@ START_TEST(the_first_hit_is_that_of_all_edges)
         }
         iccp_fence_free(&f.fence);
     }
-    ck_assert_int_gt(n_hits, 10000);
-    ck_assert_int_gt(n_touches, 500);
+    ck_assert_int_gt(n_hits, 2500);
+    ck_assert_int_gt(n_touches, 125);
 }
 END_TEST
 
@@ -509,7 +587,8 @@ static bool inside_fence(const fenced *f, const double p[2])
 {
     bool inside = false;
     for (size_t k = 0; k < f->domain.n_facets; ++k) {
-        const double *a = f->corners + 2 * f->facets[2 * k], *b = f->corners + 2 * f->facets[2 * k + 1];
+        const double *a = f->corners + 2 * f->facets[2 * k],
+                     *b = f->corners + 2 * f->facets[2 * k + 1];
         if ((a[1] > p[1]) != (b[1] > p[1]) &&
             (p[0] - a[0]) * fabs(b[1] - a[1]) <
                 (b[0] - a[0]) * (p[1] - a[1]) * (b[1] > a[1] ? 1 : -1))
@@ -579,14 +658,16 @@ START_TEST(ascending_from_the_end_of_a_descent_comes_back)
                 continue;
             }
             iccp_walk2 up;
-            ck_assert_int_eq(iccp_walk2_start(&up, &f.w.field, ICCP_UPHILL, end.x, end.y, NULL), ICC_OK);
+            ck_assert_int_eq(iccp_walk2_start(&up, &f.w.field, ICCP_UPHILL, end.x, end.y, NULL),
+                             ICC_OK);
             ck_assert_int_eq(iccp_trace_uphill(&up, &path, NULL), ICC_OK);
             double nearest = HUGE_VAL;
             for (size_t m = 0; m + 1 < path.n; ++m)
                 nearest = fmin(nearest, to_segment(p, path.points + m, path.points + m + 1));
             ck_assert_double_le(nearest, 1e-9);
             iccp_walk2 rest;
-            ck_assert_int_eq(iccp_walk2_start(&rest, &f.w.field, ICCP_UPHILL, p[0], p[1], NULL), ICC_OK);
+            ck_assert_int_eq(iccp_walk2_start(&rest, &f.w.field, ICCP_UPHILL, p[0], p[1], NULL),
+                             ICC_OK);
             ck_assert_int_eq(iccp_trace_uphill(&rest, NULL, NULL), ICC_OK);
             ck_assert_double_eq_tol(up.s, d.walk.s + rest.s, 1e-8);
             ++n_alone;
@@ -744,6 +825,9 @@ int main(void)
     tcase_add_test(tests, flat_functions_end);
     tcase_add_test(tests, every_ascent_ends_at_the_only_maximum);
     tcase_add_test(tests, tiny_values_are_values);
+    tcase_add_test(tests, tiny_rises_count_beside_deep_falls);
+    tcase_add_test(tests, edges_with_one_triangle_are_starts);
+    tcase_add_test(tests, starts_face_the_side_that_is_asked_for);
     tcase_add_test(tests, starts_without_values_are_refused);
     tcase_add_test(tests, slope_sign_is_that_of_the_gradient);
     tcase_add_test(tests, the_first_hit_is_that_of_all_edges);

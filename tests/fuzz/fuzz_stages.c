@@ -1,0 +1,148 @@
+/* Any mask with any root: every stage works, the two forms of the tree agree, and what the stages say
+ * about each other is consistent. */
+#include "icc/stages.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+enum { MAX_VERTICES = 1 << 12 };
+
+/* assert() is off in release builds. */
+static void require(bool fact)
+{
+    if (!fact)
+        abort();
+}
+
+/* The input, one byte at a time; zeros when it has ended. */
+typedef struct reader {
+    const uint8_t *data;
+    size_t size;
+} reader;
+
+static unsigned next_byte(reader *in)
+{
+    if (in->size == 0)
+        return 0;
+    --in->size;
+    return *in->data++;
+}
+
+typedef struct shape {
+    int32_t dim;
+    size_t sides[ICC_MAX_DIM], n;
+    uint8_t inside[MAX_VERTICES];
+} shape;
+
+/* One byte for the dimension, one for each side, then one bit for each vertex. */
+static void read_shape(shape *s, reader *in)
+{
+    s->dim = 1 + (int32_t)(next_byte(in) % ICC_MAX_DIM);
+    s->n = 1;
+    for (int32_t k = 0; k < s->dim; ++k) {
+        s->sides[k] = 1 + next_byte(in) % 64;
+        if (s->sides[k] > MAX_VERTICES / s->n)
+            s->sides[k] = MAX_VERTICES / s->n;
+        s->n *= s->sides[k];
+    }
+    unsigned bits = 0;
+    for (size_t v = 0; v < s->n; ++v) {
+        if (v % 8 == 0)
+            bits = next_byte(in);
+        s->inside[v] = bits >> v % 8 & 1;
+    }
+}
+
+static icc_tree *make_tree(const icc_grid *grid, uint32_t root, int32_t form, int32_t dim,
+                           unsigned turn)
+{
+    int32_t order[ICC_MAX_DIM];
+    for (int32_t k = 0; k < dim; ++k)
+        order[k] = (k + (int32_t)turn) % dim;
+    const icc_tree_options options = {.size = sizeof options, .form = form, .axis_order = order};
+    icc_tree *tree;
+    require(icc_tree_create(&tree, grid, root, &options, NULL, NULL) == ICC_OK);
+    return tree;
+}
+
+static void check_parents(const icc_tree *tree, const shape *s, uint32_t root, int32_t form)
+{
+    const uint32_t *parent = icc_tree_parents(tree);
+    const int32_t *generation = icc_tree_generations(tree);
+    require(generation[root] == 0 && parent[root] == UINT32_MAX);
+    for (size_t v = 0; v < s->n; ++v) {
+        const bool has_parent = parent[v] != UINT32_MAX;
+        require(has_parent == (generation[v] > 0 && (s->inside[v] || form == ICC_TREE_THESIS)));
+        if (has_parent) {
+            require(generation[parent[v]] == generation[v] - 1);
+            require(s->inside[parent[v]] || !s->inside[v]);
+        }
+    }
+}
+
+static void check_report(const icc_tree *tree, const icc_grid *grid)
+{
+    icc_tree_report report = {.size = sizeof report};
+    icc_grid_info info = {.size = sizeof info};
+    require(icc_tree_verify(tree, &report, NULL, NULL) == ICC_OK);
+    require(icc_grid_get_info(grid, &info) == ICC_OK);
+    require(report.n_inside >= 1 && report.n_inside + report.n_unreachable == info.n_inside);
+    require(report.n_cousin_violations <= report.n_pairs);
+    require((report.violation[0] == UINT32_MAX) == (report.n_cousin_violations == 0));
+}
+
+static void check_field(const icc_tree *tree, const shape *s, int32_t function)
+{
+    const icc_field_options options = {.size = sizeof options, .function = function};
+    icc_field *field;
+    icc_field_report report = {.size = sizeof report};
+    require(icc_field_create(&field, tree, &options, NULL, NULL) == ICC_OK);
+    const double *f = icc_field_values(field);
+    for (size_t v = 0; v < s->n; ++v) {
+        const uint32_t parent = icc_tree_parents(tree)[v];
+        require(isnan(f[v]) == (icc_tree_generations(tree)[v] < 0));
+        require(parent == UINT32_MAX || f[v] < f[parent]);
+    }
+    require(icc_field_verify(field, &report, NULL, NULL) == ICC_OK);
+    require(report.n_maxima >= 1);
+    size_t n_edges = 0, n_tested = 0;
+    const icc_status status = icc_field_edges(field, 0, NULL, NULL, &n_edges, &n_tested);
+    require(status == (s->dim == 2 ? ICC_OK : ICC_ERR_UNSUPPORTED) && n_edges <= n_tested);
+    icc_field_free(field);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    static shape s;
+    reader in = {data, size};
+    const unsigned choice = next_byte(&in);
+    read_shape(&s, &in);
+    icc_grid *grid;
+    require(icc_grid_create_mask(&grid, s.dim, s.sides, s.inside, NULL, NULL) == ICC_OK);
+    uint32_t maximum, rounds, root = next_byte(&in) % (uint32_t)s.n;
+    const icc_status status = icc_grid_maximum(grid, &maximum, &rounds, NULL, NULL);
+    if (status == ICC_OK) {
+        require(s.inside[maximum]);
+        if (!s.inside[root])
+            root = maximum;
+        icc_tree *trees[2];
+        for (int32_t form = ICC_TREE_THESIS; form <= ICC_TREE_PAPER; ++form) {
+            icc_tree *tree = make_tree(grid, root, form, s.dim, choice / 2);
+            check_parents(tree, &s, root, form);
+            check_report(tree, grid);
+            check_field(tree, &s, 1 + (int32_t)(choice % 2));
+            trees[form - 1] = tree;
+        }
+        for (size_t v = 0; v < s.n; ++v)
+            require(icc_tree_generations(trees[0])[v] == icc_tree_generations(trees[1])[v]);
+        icc_tree_free(trees[0]);
+        icc_tree_free(trees[1]);
+    } else {
+        require(status == ICC_ERR_RESOLUTION);
+    }
+    icc_grid_free(grid);
+    return 0;
+}
