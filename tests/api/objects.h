@@ -41,7 +41,6 @@ static inline void objects_init(objects *o, int32_t method)
     static const size_t SHAPE[3] = {5, 5, 5};
     uint8_t inside[125];
     memset(inside, 1, sizeof inside);
-<<<<<<< HEAD
     ck_assert_int_eq(icc_domain_create(&o->source, 2, N_CORNERS, SOURCE, 0, NULL, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_domain_create(&o->target, 2, N_CORNERS, TARGET, 0, NULL, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_chart_create(&o->chart, o->source, &o->options, NULL, NULL), ICC_OK);
@@ -49,16 +48,6 @@ static inline void objects_init(objects *o, int32_t method)
                      ICC_OK);
     ck_assert_int_eq(icc_map_create_from_charts(&o->map, o->chart, o->target_chart, NULL, NULL, NULL),
                      ICC_OK);
-=======
-    ck_assert_int_eq(icc_domain_create(&o->source, 2, N_CORNERS, SOURCE, 0, NULL, NULL, NULL),
-                     ICC_OK);
-    ck_assert_int_eq(icc_domain_create(&o->target, 2, N_CORNERS, TARGET, 0, NULL, NULL, NULL),
-                     ICC_OK);
-    ck_assert_int_eq(icc_chart_create(&o->chart, o->source, NULL, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(icc_chart_create(&o->target_chart, o->target, NULL, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(
-        icc_map_create_from_charts(&o->map, o->chart, o->target_chart, NULL, NULL, NULL), ICC_OK);
->>>>>>> main
     ck_assert_int_eq(icc_grid_create(&o->grid, o->source, 0, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_grid_create_mask(&o->mask, 3, SHAPE, inside, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_tree_create(&o->tree, o->mask, 62, NULL, NULL, NULL), ICC_OK);

@@ -90,7 +90,7 @@ START_TEST(long_loops_run_every_task_once)
 {
     enum { N = 40000 };
     objects o;
-    objects_init(&o);
+    objects_init(&o, METHODS[_i]);
     double *points = malloc(2 * N * sizeof *points), *images = malloc(4 * N * sizeof *images);
     ck_assert(points != NULL && images != NULL);
     for (size_t i = 0; i < 2 * N; ++i)
@@ -272,20 +272,12 @@ int main(void)
     Suite *suite = suite_create("threads");
     TCase *tests = tcase_create("all");
     tcase_set_timeout(tests, 240);
-<<<<<<< HEAD
     tcase_add_loop_test(tests, results_do_not_depend_on_the_number_of_threads, 0, N_METHODS);
     tcase_add_loop_test(tests, the_caller_may_run_the_tasks, 0, N_METHODS);
+    tcase_add_loop_test(tests, long_loops_run_every_task_once, 0, N_METHODS);
     tcase_add_loop_test(tests, objects_may_be_shared, 0, N_METHODS);
     tcase_add_loop_test(tests, every_long_call_can_be_cancelled, 0, N_METHODS);
     tcase_add_loop_test(tests, progress_stays_on_the_calling_thread, 0, N_METHODS);
-=======
-    tcase_add_test(tests, results_do_not_depend_on_the_number_of_threads);
-    tcase_add_test(tests, the_caller_may_run_the_tasks);
-    tcase_add_test(tests, long_loops_run_every_task_once);
-    tcase_add_test(tests, objects_may_be_shared);
-    tcase_add_test(tests, every_long_call_can_be_cancelled);
-    tcase_add_test(tests, progress_stays_on_the_calling_thread);
->>>>>>> main
     suite_add_tcase(suite, tests);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_NORMAL);
