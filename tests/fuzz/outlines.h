@@ -62,6 +62,13 @@ static inline size_t pick_points(size_t n, const double *xy, const uint8_t *data
 }
 enum { MAX_POINTS = 4 * MAX_VERTICES };
 
+static inline int32_t pick_method(int choice)
+{
+    static const int32_t METHODS[4] = {ICC_METHOD_GRADIENT, ICC_METHOD_FOLIATION, ICC_METHOD_DISC, 0};
+    return METHODS[choice & 3];
+}
+
+
 static inline int is_point_status(icc_status status)
 {
     return status == ICC_OK || status == ICC_ERR_OUTSIDE || status == ICC_ERR_TRACE ||
