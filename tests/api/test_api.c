@@ -349,7 +349,8 @@ START_TEST(edges_are_listed)
     }
     ck_assert_int_eq(icc_field_edges(field, 3, edges, kinds, &again, NULL), ICC_OK);
     ck_assert_uint_eq(again, n);
-    const icc_chart_options options = {.size = sizeof options, .cells = 12};
+    const icc_chart_options options = {
+        .size = sizeof options, .method = ICC_METHOD_GRADIENT, .cells = 12};
     icc_chart *chart;
     ck_assert_int_eq(icc_chart_create(&chart, domain, &options, NULL, NULL), ICC_OK);
     icc_chart_info counted = {.size = sizeof counted};
