@@ -66,7 +66,8 @@ static double area(const icc_domain *domain)
 static void measure(const char *name, const icc_domain *source, const icc_domain *target,
                     int32_t function, int32_t cells)
 {
-    const icc_chart_options chart = {.size = sizeof chart, .function = function, .cells = cells};
+    const icc_chart_options chart = {.size = sizeof chart, .method = ICC_METHOD_GRADIENT, .function = function,
+                                     .cells = cells};
     const icc_map_options options = {.size = sizeof options, .chart = &chart};
     icc_map *map;
     icc_error error = {.size = sizeof error};

@@ -58,7 +58,8 @@ int main(void)
         const bench_pair pair = bench_number(k);
         icc_domain *source = bench_domain(pair.n, pair.source[0]);
         icc_domain *target = bench_domain(pair.n, pair.target[0]);
-        const icc_chart_options chart = {.size = sizeof chart, .cells = 50};
+        const icc_chart_options chart = {
+            .size = sizeof chart, .method = ICC_METHOD_GRADIENT, .cells = 50};
         const icc_map_options options = {.size = sizeof options, .chart = &chart};
         icc_map *map;
         icc_error error = {.size = sizeof error};

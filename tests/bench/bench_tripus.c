@@ -87,7 +87,8 @@ static times run_once(double source[N][2], double target[N][2], int32_t cells)
     run_stages(from, cells, &t);
     run_stages(to, cells, &t);
 
-    const icc_chart_options chart = {.size = sizeof chart, .cells = cells};
+    const icc_chart_options chart = {
+        .size = sizeof chart, .method = ICC_METHOD_GRADIENT, .cells = cells};
     const icc_map_options options = {.size = sizeof options, .chart = &chart};
     icc_map *map;
     double images[N_INSIDE][2];
@@ -111,7 +112,8 @@ static int32_t find_cells(double xy[N][2], size_t wanted, size_t *n_tree)
     icc_domain *domain = bench_domain(N_BOUNDARY, xy[0]);
     int32_t best = 0;
     for (int32_t cells = 10; cells <= MOST_CELLS; ++cells) {
-        const icc_chart_options options = {.size = sizeof options, .cells = cells};
+        const icc_chart_options options = {
+            .size = sizeof options, .method = ICC_METHOD_GRADIENT, .cells = cells};
         icc_chart *chart;
         icc_chart_info info = {.size = sizeof info};
         icc_error error = {.size = sizeof error};
