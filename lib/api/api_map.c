@@ -2,7 +2,20 @@
 #include "api/check.h"
 #include "base/error.h"
 #include "base/options.h"
-#include "map/curves.h"
+#include "map/apply.h"
+#include "map/certify.h"
+
+#include <string.h>
+
+static icc_status read_options(icc_map_options *full, const icc_map_options *options, icc_error *err)
+{
+    const icc_status status =
+        iccp_read_struct(full, sizeof *full, options, "icc_map_options", err);
+    if (status == ICC_OK && full->iterations < -1)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_map_options.iterations is %ld",
+                         (long)full->iterations);
+    return status;
+}
 
 icc_status icc_map_create(icc_map **out, const icc_domain *source, const icc_domain *target,
                           const icc_map_options *options, const icc_env *env, icc_error *err)
@@ -16,7 +29,7 @@ icc_status icc_map_create(icc_map **out, const icc_domain *source, const icc_dom
     icc_chart_options chart;
     icc_status status = iccp_env_read(&full_env, env, err);
     if (status == ICC_OK)
-        status = iccp_read_struct(&full, sizeof full, options, "icc_map_options", err);
+        status = read_options(&full, options, err);
     if (status == ICC_OK)
         status = iccp_read_chart_options(&chart, full.chart, source->dim, err);
     if (status == ICC_OK)
@@ -27,9 +40,9 @@ icc_status icc_map_create(icc_map **out, const icc_domain *source, const icc_dom
                            "be NULL");
     if (status != ICC_OK)
         return status;
-    icc_chart_options target_chart = chart;
-    target_chart.maximum = full.target_maximum;
-    return iccp_map_create(out, source, target, full.kind, &chart, &target_chart, &full_env, err);
+    icc_chart_options charts[2] = {chart, chart};
+    charts[1].maximum = full.target_maximum;
+    return iccp_map_create(out, source, target, &full, charts, &full_env, err);
 }
 
 icc_status icc_map_create_from_charts(icc_map **out, const icc_chart *source,
@@ -45,8 +58,8 @@ icc_status icc_map_create_from_charts(icc_map **out, const icc_chart *source,
     icc_map_options full;
     icc_status status = iccp_env_read(&full_env, env, err);
     if (status == ICC_OK)
-        status = iccp_read_struct(&full, sizeof full, options, "icc_map_options", err);
-    return status == ICC_OK ? iccp_map_create_from_charts(out, source, target, full.kind,
+        status = read_options(&full, options, err);
+    return status == ICC_OK ? iccp_map_create_from_charts(out, source, target, &full,
                                                           &full_env, err)
                             : status;
 }
@@ -73,33 +86,29 @@ const icc_chart *icc_map_target_chart(const icc_map *map)
     return map != NULL ? map->target : NULL;
 }
 
-static icc_status apply(const icc_chart *from, const icc_chart *to, size_t n, const double *points,
+static icc_status apply(const icc_map *map, bool inverse, size_t n, const double *points,
                         double *images, icc_status *status, size_t *n_failed, const icc_env *env)
 {
-    if (n > 0 && (points == NULL || images == NULL))
+    if (map == NULL || (n > 0 && (points == NULL || images == NULL)))
         return ICC_ERR_ARGUMENT;
     iccp_env full_env;
     const icc_status read = iccp_env_read(&full_env, env, NULL);
     return read == ICC_OK
-               ? iccp_curves_apply(from, to, n, points, images, status, n_failed, &full_env)
+               ? iccp_map_apply(map, inverse, n, points, images, status, n_failed, &full_env)
                : read;
 }
 
 icc_status icc_map_apply(const icc_map *map, size_t n, const double *points, double *images,
                          icc_status *status, size_t *n_failed, const icc_env *env)
 {
-    return map != NULL
-               ? apply(map->source, map->target, n, points, images, status, n_failed, env)
-               : ICC_ERR_ARGUMENT;
+    return apply(map, false, n, points, images, status, n_failed, env);
 }
 
 icc_status icc_map_apply_inverse(const icc_map *map, size_t n, const double *points,
                                  double *images, icc_status *status, size_t *n_failed,
                                  const icc_env *env)
 {
-    return map != NULL
-               ? apply(map->target, map->source, n, points, images, status, n_failed, env)
-               : ICC_ERR_ARGUMENT;
+    return apply(map, true, n, points, images, status, n_failed, env);
 }
 
 icc_status icc_map_jacobian(const icc_map *map, size_t n, const double *points, double *jacobians,
@@ -109,7 +118,93 @@ icc_status icc_map_jacobian(const icc_map *map, size_t n, const double *points, 
         return ICC_ERR_ARGUMENT;
     iccp_env full_env;
     const icc_status read = iccp_env_read(&full_env, env, NULL);
-    return read == ICC_OK ? iccp_curves_jacobian(map->source, map->target, n, points, jacobians,
-                                                 status, n_failed, &full_env)
+    return read == ICC_OK ? iccp_map_jacobian(map, n, points, jacobians, status, n_failed, &full_env)
                           : read;
+}
+
+icc_status icc_map_improve(icc_map **out, const icc_map *map, const icc_improve_options *options,
+                           icc_improve_report *report, const icc_env *env, icc_error *err)
+{
+    if (out != NULL)
+        *out = NULL;
+    if (out == NULL || map == NULL)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_map_improve: an argument is NULL");
+    iccp_env full_env;
+    icc_improve_options full;
+    icc_improve_report full_report = {0};
+    icc_status status = iccp_env_read(&full_env, env, err);
+    if (status == ICC_OK)
+        status = iccp_read_struct(&full, sizeof full, options, "icc_improve_options", err);
+    if (status == ICC_OK && (full.iterations < 0 || full.levels < -1 ||
+                             !(full.tolerance >= 0 && full.tolerance < 1)))
+        status = iccp_fail(err, ICC_ERR_ARGUMENT, -1,
+                           "icc_improve_options: a member is out of range");
+    if (status == ICC_OK)
+        status = iccp_map_improve(out, map, &full, &full_report, &full_env, err);
+    if (status != ICC_OK || report == NULL)
+        return status;
+    status = iccp_write_struct(report, &full_report, sizeof full_report, "icc_improve_report", err);
+    if (status != ICC_OK) {
+        iccp_map_release(*out);
+        *out = NULL;
+    }
+    return status;
+}
+
+icc_status icc_map_mesh(const icc_map *map, double *vertices, double *images, uint32_t *triangles)
+{
+    if (map == NULL)
+        return ICC_ERR_ARGUMENT;
+    if (map->mesh == NULL)
+        return ICC_ERR_UNSUPPORTED;
+    const iccp_plmap *pl = &map->mesh->pl;
+    const size_t n = pl->n_vertices;
+    for (size_t v = 0; vertices != NULL && v < n; ++v)
+        iccp_frame_out(&map->source->domain->frame, 2, pl->points + 2 * v, vertices + 2 * v);
+    for (size_t v = 0; images != NULL && v < n; ++v)
+        iccp_frame_out(&map->target->domain->frame, 2, pl->images + 2 * v, images + 2 * v);
+    if (triangles != NULL)
+        memcpy(triangles, pl->corners.vertex, 3 * pl->corners.n_triangles * sizeof *triangles);
+    return ICC_OK;
+}
+
+static icc_status check_mesh(size_t n_vertices, size_t n_triangles, const uint32_t *triangles,
+                             icc_error *err)
+{
+    if (n_vertices < 3 || n_triangles < 1 || n_vertices > UINT32_MAX / 4 ||
+        n_triangles > UINT32_MAX / 4)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, -1,
+                         "icc_map_certify: %zu vertices and %zu triangles", n_vertices,
+                         n_triangles);
+    for (size_t k = 0; k < 3 * n_triangles; ++k)
+        if (triangles[k] >= n_vertices)
+            return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)(k / 3),
+                             "triangle %zu has vertex %lu of %zu", k / 3,
+                             (unsigned long)triangles[k], n_vertices);
+    return ICC_OK;
+}
+
+icc_status icc_map_certify(const icc_map *map, size_t n_vertices, const double *vertices,
+                           size_t n_triangles, const uint32_t *triangles, double *images,
+                           icc_certificate *certificate, const icc_env *env, icc_error *err)
+{
+    if (map == NULL || vertices == NULL || triangles == NULL || certificate == NULL)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_map_certify: an argument is NULL");
+    iccp_env full_env;
+    icc_certificate full = {0};
+    icc_status status = iccp_env_read(&full_env, env, err);
+    if (status == ICC_OK)
+        status = check_mesh(n_vertices, n_triangles, triangles, err);
+    if (status != ICC_OK)
+        return status;
+    double *own = images != NULL ? NULL
+                                 : iccp_alloc(&full_env.memory, n_vertices, 2 * sizeof *own);
+    if (images == NULL && own == NULL)
+        return iccp_fail_memory(err);
+    status = iccp_map_certify(map, n_vertices, vertices, n_triangles, triangles,
+                              images != NULL ? images : own, &full, &full_env, err);
+    iccp_free(&full_env.memory, own);
+    return status == ICC_OK
+               ? iccp_write_struct(certificate, &full, sizeof full, "icc_certificate", err)
+               : status;
 }

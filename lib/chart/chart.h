@@ -5,6 +5,7 @@
 
 #include "domain/domain.h"
 #include "icc/icc.h"
+#include "mesh/planar.h"
 #include "trace/path.h"
 
 /* Coordinates of one point. */
@@ -42,6 +43,8 @@ typedef struct iccp_chart_ops {
     /* Fills in everything but `size`. n_points > 0. */
     icc_status (*measure)(const icc_chart *chart, size_t n_points, icc_chart_measures *measures,
                           const iccp_env *env);
+    /* The triangle mesh of the domain that the chart lives on, or NULL. */
+    const iccp_planar *(*mesh)(const icc_chart *chart);
     void (*free_state)(icc_chart *chart);
 } iccp_chart_ops;
 

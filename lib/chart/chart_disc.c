@@ -274,6 +274,12 @@ static icc_status measure(const icc_chart *chart, size_t n_points, icc_chart_mea
     return ICC_OK;
 }
 
+static const iccp_planar *mesh_of(const icc_chart *chart)
+{
+    const disc_state *state = chart->state;
+    return &state->mesh;
+}
+
 static void free_state(icc_chart *chart)
 {
     disc_state *state = chart->state;
@@ -285,7 +291,7 @@ static void free_state(icc_chart *chart)
     iccp_free(&chart->memory, state);
 }
 
-static const iccp_chart_ops OPS = {encode, decode, trace, measure, free_state};
+static const iccp_chart_ops OPS = {encode, decode, trace, measure, mesh_of, free_state};
 
 /* The image's rim goes once round the origin: every edge turns left round it and the angles grow from 0 to
  * one turn. So the rim is simple and every ray from the origin meets it once; it need not be convex,

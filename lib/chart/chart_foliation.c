@@ -354,6 +354,12 @@ static icc_status measure(const icc_chart *chart, size_t n_points, icc_chart_mea
     return ICC_OK;
 }
 
+static const iccp_planar *mesh_of(const icc_chart *chart)
+{
+    const foliation_state *state = chart->state;
+    return &state->mesh;
+}
+
 static void free_state(icc_chart *chart)
 {
     foliation_state *state = chart->state;
@@ -364,7 +370,7 @@ static void free_state(icc_chart *chart)
     iccp_free(&chart->memory, state);
 }
 
-static const iccp_chart_ops OPS = {encode, decode, trace, measure, free_state};
+static const iccp_chart_ops OPS = {encode, decode, trace, measure, mesh_of, free_state};
 
 /* Shares of harmonic flux to try: one half is the fairest; less copes with sharper corners. */
 static const double HARMONIC_SHARES[] = {0.5, 0.25, 0.0};

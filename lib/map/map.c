@@ -4,6 +4,9 @@
 #include "base/error.h"
 #include "chart/create.h"
 
+/* Cells of a mesh along the longest side: where the boundary is no finer, coarse is fair enough. */
+enum { MESH_CELLS = 20 };
+
 /* The boundaries correspond when their facets join the same vertices and they turn the same way. */
 static icc_status check_correspondence(const icc_domain *source, const icc_domain *target,
                                        icc_error *err)
@@ -32,64 +35,169 @@ static icc_status check_correspondence(const icc_domain *source, const icc_domai
     return status == ICC_OK ? ICC_OK : iccp_fail_side(err, status, 2);
 }
 
-static icc_status check_charts(const icc_chart *source, const icc_chart *target, int32_t kind,
-                               icc_error *err)
+/* Kind 0 is the best that the charts allow. */
+static icc_status choose_kind(int32_t *kind, const icc_chart *source, const icc_chart *target,
+                              icc_error *err)
 {
-    if (kind != 0 && kind != ICC_MAP_CURVES)
-        return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1, "map kind %ld is not available", (long)kind);
     if (source->info.method != target->info.method)
         return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1,
                          "the charts use different methods (%ld and %ld)",
                          (long)source->info.method, (long)target->info.method);
-    return check_correspondence(source->domain, target->domain, err);
+    const bool has_mesh = source->ops->mesh(source) != NULL;
+    if (*kind == 0)
+        *kind = has_mesh ? ICC_MAP_MESH : ICC_MAP_CURVES;
+    if (*kind == ICC_MAP_CURVES || (*kind == ICC_MAP_MESH && has_mesh))
+        return ICC_OK;
+    return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1,
+                     "map kind %ld is not available for charts of method %ld", (long)*kind,
+                     (long)source->info.method);
 }
 
-icc_status iccp_map_create_from_charts(icc_map **out, const icc_chart *source,
-                                       const icc_chart *target, int32_t kind, const iccp_env *env,
-                                       icc_error *err)
+static icc_status new_map(icc_map **out, const icc_chart *source, const icc_chart *target,
+                          const iccp_env *env)
 {
-    const icc_status status = check_charts(source, target, kind, err);
-    if (status != ICC_OK)
-        return status;
     icc_map *map = iccp_alloc_zero(&env->memory, 1, sizeof *map);
+    *out = map;
     if (map == NULL)
-        return iccp_fail_memory(err);
+        return ICC_ERR_MEMORY;
     map->memory = env->memory;
     map->source = iccp_chart_retain(source);
     map->target = iccp_chart_retain(target);
     map->info.dim = source->info.dim;
     map->info.kind = ICC_MAP_CURVES;
     map->info.certified = source->info.certified && target->info.certified;
+    return ICC_OK;
+}
+
+static icc_status add_mesh(icc_map *map, int32_t iterations, const iccp_env *env, icc_error *err)
+{
+    const icc_status status = iccp_mesh_map_create(&map->mesh, map->source, map->target,
+                                                   iterations, &map->info, env, err);
+    if (map->mesh != NULL)
+        map->info.kind = ICC_MAP_MESH;
+    else if (status == ICC_OK)
+        iccp_log(env, "%zu triangles could not be repaired: the map is of kind curves",
+                 map->info.n_unrepaired);
+    return status;
+}
+
+icc_status iccp_map_create_from_charts(icc_map **out, const icc_chart *source,
+                                       const icc_chart *target, const icc_map_options *options,
+                                       const iccp_env *env, icc_error *err)
+{
+    const double start = iccp_seconds();
+    int32_t kind = options->kind;
+    icc_map *map = NULL;
+    icc_status status = choose_kind(&kind, source, target, err);
+    if (status == ICC_OK)
+        status = check_correspondence(source->domain, target->domain, err);
+    if (status == ICC_OK)
+        status = new_map(&map, source, target, env);
+    if (status == ICC_OK && kind == ICC_MAP_MESH)
+        status = add_mesh(map, options->iterations, env, err);
+    if (status != ICC_OK) {
+        iccp_map_release(map);
+        return iccp_explain(err, status);
+    }
+    map->info.seconds = iccp_seconds() - start;
     *out = map;
     return ICC_OK;
 }
 
+static icc_status create_with(icc_map **out, const icc_domain *const domains[2],
+                              const icc_map_options *options,
+                              const icc_chart_options chart_options[2], const iccp_env *env,
+                              icc_error *err)
+{
+    icc_chart *charts[2] = {NULL, NULL};
+    icc_status status = iccp_chart_create_pair(charts, domains, chart_options, env, err);
+    if (status == ICC_OK)
+        status = iccp_map_create_from_charts(out, charts[0], charts[1], options, env, err);
+    iccp_chart_release(charts[0]);
+    iccp_chart_release(charts[1]);
+    return status;
+}
+
+/* The method that suits the kind, where the caller leaves it open: discs are the better start for a
+ * mesh, unless a maximum is given, which they do not have. */
+static void complete(icc_chart_options chart_options[2], int32_t kind)
+{
+    const bool has_maximum =
+        chart_options[0].maximum != NULL || chart_options[1].maximum != NULL;
+    for (int k = 0; k < 2 && kind != ICC_MAP_CURVES; ++k) {
+        if (chart_options[k].method == 0)
+            chart_options[k].method = has_maximum ? ICC_METHOD_FOLIATION : ICC_METHOD_DISC;
+        if (chart_options[k].cells == 0 && chart_options[k].method != ICC_METHOD_GRADIENT)
+            chart_options[k].cells = MESH_CELLS;
+    }
+}
+
 icc_status iccp_map_create(icc_map **out, const icc_domain *source, const icc_domain *target,
-                           int32_t kind, const icc_chart_options *source_options,
-                           const icc_chart_options *target_options, const iccp_env *env,
+                           const icc_map_options *options,
+                           const icc_chart_options chart_options[2], const iccp_env *env,
                            icc_error *err)
 {
     const double start = iccp_seconds();
-    icc_chart *charts[2] = {NULL, NULL};
+    const icc_domain *const domains[2] = {source, target};
+    icc_chart_options full[2] = {chart_options[0], chart_options[1]};
     icc_status status = check_correspondence(source, target, err);
     if (status != ICC_OK)
         return status;
-    const icc_domain *const domains[2] = {source, target};
-    const icc_chart_options options[2] = {*source_options, *target_options};
-    status = iccp_chart_create_pair(charts, domains, options, env, err);
-    if (status == ICC_OK)
-        status = iccp_map_create_from_charts(out, charts[0], charts[1], kind, env, err);
-    iccp_chart_release(charts[0]);
-    iccp_chart_release(charts[1]);
+    complete(full, options->kind);
+    status = create_with(out, domains, options, full, env, err);
+    /* Each start has shapes that it cannot be repaired from. */
+    if (status == ICC_OK && (*out)->info.n_unrepaired > 0 && chart_options[0].method == 0 &&
+        full[0].method == ICC_METHOD_DISC) {
+        icc_map *second = NULL;
+        full[0].method = full[1].method = ICC_METHOD_FOLIATION;
+        status = create_with(&second, domains, options, full, env, err);
+        if (status == ICC_OK && second->info.n_unrepaired == 0) {
+            iccp_map_release(*out);
+            *out = second;
+        } else {
+            iccp_map_release(second);
+            status = status == ICC_ERR_MEMORY || status == ICC_ERR_CANCELLED ? status : ICC_OK;
+        }
+        if (status != ICC_OK) {
+            iccp_map_release(*out);
+            *out = NULL;
+        }
+    }
     if (status == ICC_OK)
         (*out)->info.seconds = iccp_seconds() - start;
     return status;
+}
+
+icc_status iccp_map_improve(icc_map **out, const icc_map *map, const icc_improve_options *options,
+                            icc_improve_report *report, const iccp_env *env, icc_error *err)
+{
+    const double start = iccp_seconds();
+    icc_map *better = NULL;
+    if (map->mesh == NULL)
+        return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1, "only maps of kind mesh can be improved");
+    icc_status status = new_map(&better, map->source, map->target, env);
+    if (status == ICC_OK)
+        status = iccp_mesh_map_improve(&better->mesh, map->mesh, options, report, env, err);
+    if (status != ICC_OK) {
+        iccp_map_release(better);
+        return iccp_explain(err, status);
+    }
+    better->info = map->info;
+    better->info.n_vertices = better->mesh->pl.n_vertices;
+    better->info.n_triangles = better->mesh->pl.corners.n_triangles;
+    better->info.energy = report->energy;
+    better->info.n_iterations += report->n_iterations;
+    better->info.n_levels += report->n_levels;
+    better->info.seconds = iccp_seconds() - start;
+    *out = better;
+    return ICC_OK;
 }
 
 void iccp_map_release(icc_map *map)
 {
     if (map == NULL)
         return;
+    iccp_mesh_map_free(map->mesh, &map->memory);
     iccp_chart_release(map->source);
     iccp_chart_release(map->target);
     const iccp_memory memory = map->memory;

@@ -1,25 +1,30 @@
-/* The map object: two charts whose boundaries correspond. */
+/* The map object: two charts whose boundaries correspond, and the mesh where there is one. */
 #ifndef ICCP_MAP_H
 #define ICCP_MAP_H
 
-#include "chart/chart.h"
+#include "map/mesh_map.h"
 
 struct icc_map {
     iccp_memory memory;
     icc_chart *source, *target;
+    iccp_mesh_map *mesh;       /* NULL for kind curves */
     icc_map_info info;
 };
 
-/* See icc_map_create(); `kind` may be 0. */
+/* See icc_map_create(). `options` gives kind and iterations; the charts' options are separate. */
 icc_status iccp_map_create(icc_map **out, const icc_domain *source, const icc_domain *target,
-                           int32_t kind, const icc_chart_options *source_options,
-                           const icc_chart_options *target_options, const iccp_env *env,
+                           const icc_map_options *options,
+                           const icc_chart_options chart_options[2], const iccp_env *env,
                            icc_error *err);
 
-/* See icc_map_create_from_charts(); `kind` may be 0. */
+/* See icc_map_create_from_charts(). */
 icc_status iccp_map_create_from_charts(icc_map **out, const icc_chart *source,
-                                       const icc_chart *target, int32_t kind, const iccp_env *env,
-                                       icc_error *err);
+                                       const icc_chart *target, const icc_map_options *options,
+                                       const iccp_env *env, icc_error *err);
+
+/* See icc_map_improve(). */
+icc_status iccp_map_improve(icc_map **out, const icc_map *map, const icc_improve_options *options,
+                            icc_improve_report *report, const iccp_env *env, icc_error *err);
 void iccp_map_release(icc_map *map);
 
 #endif

@@ -139,16 +139,51 @@ AT(icc_chart_measures, not_inward, 48);
 SIZE(icc_map_options, 32);
 AT(icc_map_options, size, 0);
 AT(icc_map_options, kind, 8);
+AT(icc_map_options, iterations, 12);
 AT(icc_map_options, chart, 16);
 AT(icc_map_options, target_maximum, 24);
 
-SIZE(icc_map_info, 32);
+SIZE(icc_map_info, 112);
 AT(icc_map_info, size, 0);
 AT(icc_map_info, dim, 8);
 AT(icc_map_info, kind, 12);
 AT(icc_map_info, certified, 16);
-AT(icc_map_info, reserved, 20);
-AT(icc_map_info, seconds, 24);
+AT(icc_map_info, n_levels, 20);
+AT(icc_map_info, n_vertices, 24);
+AT(icc_map_info, n_triangles, 32);
+AT(icc_map_info, n_inverted, 40);
+AT(icc_map_info, n_unrepaired, 48);
+AT(icc_map_info, n_iterations, 56);
+AT(icc_map_info, energy_start, 64);
+AT(icc_map_info, energy, 72);
+AT(icc_map_info, seconds, 80);
+AT(icc_map_info, seconds_repair, 88);
+AT(icc_map_info, seconds_improve, 96);
+AT(icc_map_info, seconds_certify, 104);
+
+SIZE(icc_improve_options, 24);
+AT(icc_improve_options, size, 0);
+AT(icc_improve_options, iterations, 8);
+AT(icc_improve_options, levels, 12);
+AT(icc_improve_options, tolerance, 16);
+
+SIZE(icc_improve_report, 48);
+AT(icc_improve_report, size, 0);
+AT(icc_improve_report, energy_start, 8);
+AT(icc_improve_report, energy, 16);
+AT(icc_improve_report, n_iterations, 24);
+AT(icc_improve_report, n_triangles, 32);
+AT(icc_improve_report, n_levels, 40);
+AT(icc_improve_report, cancelled, 44);
+
+SIZE(icc_certificate, 48);
+AT(icc_certificate, size, 0);
+AT(icc_certificate, certified, 8);
+AT(icc_certificate, boundary_simple, 12);
+AT(icc_certificate, n_inverted, 16);
+AT(icc_certificate, n_flat, 24);
+AT(icc_certificate, n_no_image, 32);
+AT(icc_certificate, first, 40);
 
 SIZE(icc_grid_info, 136);
 AT(icc_grid_info, size, 0);

@@ -1,0 +1,121 @@
+#include "map/apply.h"
+
+#include "base/threads.h"
+#include "chart/bulk.h"
+#include "map/curves.h"
+
+#include <math.h>
+
+/* Points per task: long enough to outweigh the handing out, short enough to cancel quickly. */
+enum { GRAIN = 128 };
+
+typedef struct map_loop {
+    const icc_map *map;
+    bool inverse;
+    const iccp_memory *memory;
+    const double *points;
+    double *images;    /* or NULL */
+    double *jacobians; /* or NULL */
+    icc_status *status;
+    atomic_size_t n_failed;
+} map_loop;
+
+/* Through the mesh; on the boundary straight to the corresponding point of the other cage. */
+static icc_status mesh_point(const icc_map *map, bool inverse, const double *point, double *image,
+                             double *jacobian)
+{
+    const icc_domain *from = (inverse ? map->target : map->source)->domain;
+    const icc_domain *to = (inverse ? map->source : map->target)->domain;
+    double local[2], local_image[2], bary[2];
+    uint32_t facet;
+    if (!isfinite(point[0]) || !isfinite(point[1]))
+        return ICC_ERR_ARGUMENT;
+    iccp_frame_in(&from->frame, 2, point, local);
+    const int32_t where = iccp_domain_locate(from, local, true, &facet, bary);
+    if (where == ICC_OUTSIDE)
+        return ICC_ERR_OUTSIDE;
+    if (where == ICC_BOUNDARY) {
+        if (jacobian != NULL)
+            return ICC_ERR_TRACE;
+        iccp_domain_facet_point(to, facet, bary, local_image);
+    } else {
+        const icc_status status =
+            iccp_mesh_map_point(map->mesh, inverse, local, local_image, jacobian);
+        if (status != ICC_OK)
+            return status;
+    }
+    iccp_frame_out(&to->frame, 2, local_image, image);
+    for (int k = 0; jacobian != NULL && k < 4; ++k)
+        jacobian[k] *= (from->frame.in[0] * to->frame.out[0]) *
+                       (from->frame.in[1] * to->frame.out[1]);
+    return ICC_OK;
+}
+
+static void fill_nan(double *values, size_t n)
+{
+    for (size_t k = 0; k < n; ++k)
+        values[k] = NAN;
+}
+
+static icc_status map_point(map_loop *loop, size_t i, iccp_path *path)
+{
+    const icc_map *map = loop->map;
+    const size_t dim = (size_t)map->info.dim;
+    const icc_chart *from = loop->inverse ? map->target : map->source;
+    const icc_chart *to = loop->inverse ? map->source : map->target;
+    const double *point = loop->points + dim * i;
+    double own[ICC_MAX_DIM];
+    double *image = loop->images != NULL ? loop->images + dim * i : own;
+    double *jacobian = loop->jacobians != NULL ? loop->jacobians + dim * dim * i : NULL;
+    const icc_status status = map->mesh != NULL
+                                  ? mesh_point(map, loop->inverse, point, image, jacobian)
+                                  : iccp_curves_point(from, to, point, image, jacobian, path);
+    if (status != ICC_OK) {
+        fill_nan(image, dim);
+        if (jacobian != NULL)
+            fill_nan(jacobian, dim * dim);
+    }
+    return status;
+}
+
+static icc_status map_chunk(void *argument, size_t begin, size_t end)
+{
+    map_loop *loop = argument;
+    icc_status status = ICC_OK;
+    size_t n_failed = 0;
+    iccp_path path;
+    iccp_path_init(&path, loop->memory);
+    for (size_t i = begin; i < end && iccp_is_point_status(status); ++i) {
+        status = map_point(loop, i, &path);
+        n_failed += status != ICC_OK;
+        if (loop->status != NULL)
+            loop->status[i] = status;
+    }
+    iccp_path_clear(&path);
+    atomic_fetch_add(&loop->n_failed, n_failed);
+    return iccp_is_point_status(status) ? ICC_OK : status;
+}
+
+static icc_status run(map_loop *loop, const char *stage, size_t n, size_t *n_failed,
+                      const iccp_env *env)
+{
+    const icc_status status = iccp_for_chunks(env, stage, n, GRAIN, map_chunk, loop);
+    if (n_failed != NULL)
+        *n_failed = atomic_load(&loop->n_failed);
+    return status;
+}
+
+icc_status iccp_map_apply(const icc_map *map, bool inverse, size_t n, const double *points,
+                          double *images, icc_status *status, size_t *n_failed,
+                          const iccp_env *env)
+{
+    map_loop loop = {map, inverse, &env->memory, points, images, NULL, status, 0};
+    return run(&loop, "map", n, n_failed, env);
+}
+
+icc_status iccp_map_jacobian(const icc_map *map, size_t n, const double *points, double *jacobians,
+                             icc_status *status, size_t *n_failed, const iccp_env *env)
+{
+    map_loop loop = {map, false, &env->memory, points, NULL, jacobians, status, 0};
+    return run(&loop, "jacobian", n, n_failed, env);
+}

@@ -1,0 +1,20 @@
+/* Making a certified piecewise linear map fairer without losing its certificate. */
+#ifndef ICCP_IMPROVE_H
+#define ICCP_IMPROVE_H
+
+#include "map/newton.h"
+
+typedef struct iccp_improvement {
+    double energy;       /* the map's at the end */
+    size_t n_iterations;
+    size_t n_levels;     /* refinements */
+} iccp_improvement;
+
+/* Lowers the symmetric Dirichlet energy of a map whose triangles are all positive, which they stay, with
+ * the boundary fixed: at most `iterations` steps, until one gains less than `tolerance` of the energy;
+ * then cuts the triangles with the most energy and goes on, at most `levels` times. On any failure,
+ * ICC_ERR_CANCELLED included, the map is valid and no worse than before. */
+icc_status iccp_improve(iccp_plmap *map, size_t iterations, double tolerance, size_t levels,
+                        iccp_improvement *improvement, const iccp_env *env);
+
+#endif

@@ -1,0 +1,269 @@
+/* docs/theory.md, the mesh map. Huynh and Gingold, section 9: a one-to-one map as the start of one that
+ * is fair as well. */
+#include "map/mesh_map.h"
+
+#include "base/clock.h"
+#include "base/error.h"
+#include "map/outline.h"
+#include "map/repair.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Defaults of icc_improve_options. */
+static const double TOLERANCE = 1e-4;
+enum { ITERATIONS = 60, LEVELS = 4 };
+
+/* ---- start ---- */
+
+/* The image of a mesh vertex: of a boundary vertex the corresponding point of the other cage, of others
+ * what the charts say. */
+static icc_status vertex_image(const icc_chart *source, const icc_chart *target,
+                               const iccp_planar *mesh, size_t v, double image[2], iccp_path *path)
+{
+    const double *point = mesh->points + 2 * v;
+    iccp_coords coords;
+    if (v < mesh->n_boundary) {
+        const uint32_t k = (uint32_t)v;
+        const double along = iccp_planar_along(mesh, source->domain, k, 0);
+        const double bary[2] = {1 - along, along};
+        iccp_domain_facet_point(target->domain, mesh->facet[k], bary, image);
+        return ICC_OK;
+    }
+    const icc_status status = source->ops->encode(source, point, &coords, NULL, path);
+    return status == ICC_OK ? target->ops->decode(target, &coords, image, NULL, path) : status;
+}
+
+static icc_status start(iccp_plmap *pl, const icc_chart *source, const icc_chart *target,
+                        const iccp_env *env)
+{
+    const iccp_planar *mesh = source->ops->mesh(source);
+    double *images = iccp_alloc(&env->memory, mesh->n_vertices, 2 * sizeof *images);
+    iccp_path path;
+    iccp_path_init(&path, &env->memory);
+    icc_status status = images != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    for (size_t v = 0; status == ICC_OK && v < mesh->n_vertices; ++v) {
+        if (v % 1024 == 0)
+            status = iccp_progress(env, "start", (double)v / (double)mesh->n_vertices);
+        if (status == ICC_OK)
+            status = vertex_image(source, target, mesh, v, images + 2 * v, &path);
+    }
+    if (status == ICC_OK)
+        status = iccp_plmap_create(pl, mesh, images,
+                                   sqrt(target->domain->measure / source->domain->measure),
+                                   &env->memory);
+    iccp_path_clear(&path);
+    iccp_free(&env->memory, images);
+    return status;
+}
+
+/* ---- certificate ---- */
+
+/* The boundary vertices in order, from the half-edges without twins; 0 unless they form one ring. */
+static size_t boundary_ring(const iccp_plmap *pl, uint32_t *next, uint32_t *ring)
+{
+    size_t n = 0;
+    uint32_t first = 0;
+    for (uint32_t c = 0; c < 3 * pl->corners.n_triangles; ++c)
+        if (pl->corners.twin[c] == ICCP_NO_NEIGHBOUR) {
+            first = pl->corners.vertex[iccp_after(c)];
+            next[first] = pl->corners.vertex[iccp_before(c)];
+            ++n;
+        }
+    return n > 0 && iccp_outline_follow(next, first, n, ring) ? n : 0;
+}
+
+static icc_status check_boundaries(const iccp_plmap *pl, const iccp_env *env, icc_error *err)
+{
+    uint32_t *next = iccp_alloc(&env->memory, pl->n_vertices, sizeof *next);
+    uint32_t *ring = iccp_alloc(&env->memory, pl->n_vertices, sizeof *ring);
+    icc_status status = next != NULL && ring != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    if (status == ICC_OK) {
+        const size_t n = boundary_ring(pl, next, ring);
+        status = n > 0 ? iccp_outline_check(pl->points, ring, n, env) : ICC_ERR_CERTIFICATE;
+        if (status == ICC_OK)
+            status = iccp_outline_check(pl->images, ring, n, env);
+        if (status == ICC_ERR_BOUNDARY || status == ICC_ERR_CERTIFICATE)
+            status = iccp_fail(err, ICC_ERR_CERTIFICATE, -1,
+                               "the boundary of the mesh or of its image is not simple");
+    }
+    iccp_free(&env->memory, next);
+    iccp_free(&env->memory, ring);
+    return status;
+}
+
+/* Every triangle positive before and after, a disc by Euler's formula, and both boundaries simple: then
+ * the map of the closed polygons is a homeomorphism. */
+static icc_status certify(const iccp_plmap *pl, const iccp_env *env, icc_error *err)
+{
+    size_t n_faults = 0, n_open = 0;
+    const size_t n_triangles = pl->corners.n_triangles;
+    for (uint32_t t = 0; t < n_triangles; ++t)
+        n_faults += !iccp_plmap_positive_point(pl, t) || !iccp_plmap_positive_image(pl, t);
+    for (uint32_t c = 0; c < 3 * n_triangles; ++c) {
+        const uint32_t twin = pl->corners.twin[c];
+        n_open += twin == ICCP_NO_NEIGHBOUR;
+        if (twin != ICCP_NO_NEIGHBOUR)
+            n_faults += pl->corners.twin[twin] != c ||
+                        pl->corners.vertex[iccp_after(twin)] != pl->corners.vertex[iccp_before(c)] ||
+                        pl->corners.vertex[iccp_before(twin)] != pl->corners.vertex[iccp_after(c)];
+    }
+    if (n_faults > 0 || 2 * pl->n_vertices != n_triangles + n_open + 2)
+        return iccp_fail(err, ICC_ERR_CERTIFICATE, -1,
+                         "the mesh map cannot be certified: %zu faults", n_faults);
+    return check_boundaries(pl, env, err);
+}
+
+/* ---- all of it ---- */
+
+static icc_status finish(iccp_mesh_map *map, icc_map_info *info, const iccp_env *env,
+                         icc_error *err)
+{
+    const double begin = iccp_seconds();
+    icc_status status = certify(&map->pl, env, err);
+    const iccp_planar mesh = {.n_vertices = map->pl.n_vertices,
+                              .n_triangles = map->pl.corners.n_triangles,
+                              .triangles = map->pl.corners.vertex};
+    if (status == ICC_OK)
+        status = iccp_finder_create(&map->before, &mesh, map->pl.points, env);
+    if (status == ICC_OK)
+        status = iccp_finder_create(&map->after, &mesh, map->pl.images, env);
+    info->n_vertices = map->pl.n_vertices;
+    info->n_triangles = map->pl.corners.n_triangles;
+    info->seconds_certify = iccp_seconds() - begin;
+    return status;
+}
+
+/* Improves as far as asked; when cancelled, says so in `cancelled` and keeps what there is. */
+static icc_status improve(iccp_plmap *pl, const icc_improve_options *options, bool *cancelled,
+                          iccp_improvement *improvement, const iccp_env *env)
+{
+    const size_t iterations = options->iterations > 0 ? (size_t)options->iterations : ITERATIONS;
+    const size_t levels = options->levels < 0    ? 0
+                          : options->levels == 0 ? LEVELS
+                                                 : (size_t)options->levels;
+    const double tolerance = options->tolerance > 0 ? options->tolerance : TOLERANCE;
+    const icc_status status = iccp_improve(pl, iterations, tolerance, levels, improvement, env);
+    *cancelled = status == ICC_ERR_CANCELLED;
+    return *cancelled ? ICC_OK : status;
+}
+
+static icc_status build(iccp_mesh_map *map, const icc_chart *source, const icc_chart *target,
+                        int32_t iterations, icc_map_info *info, const iccp_env *env,
+                        icc_error *err)
+{
+    icc_status status = start(&map->pl, source, target, env);
+    if (status != ICC_OK)
+        return status;
+    const double begin = iccp_seconds();
+    info->n_inverted = iccp_plmap_count_inverted(&map->pl);
+    status = iccp_repair(&map->pl, &info->n_unrepaired, env);
+    const double repaired = iccp_seconds();
+    info->seconds_repair = repaired - begin;
+    if (status != ICC_OK || info->n_unrepaired > 0)
+        return status;
+    info->energy_start = info->energy = iccp_plmap_energy(&map->pl);
+    if (iterations >= 0) {
+        iccp_improvement improvement;
+        bool cancelled;
+        const icc_improve_options options = {.iterations = iterations};
+        status = improve(&map->pl, &options, &cancelled, &improvement, env);
+        if (status == ICC_OK && cancelled)
+            status = ICC_ERR_CANCELLED;
+        info->energy = improvement.energy;
+        info->n_iterations = improvement.n_iterations;
+        info->n_levels = (int32_t)improvement.n_levels;
+    }
+    info->seconds_improve = iccp_seconds() - repaired;
+    return status == ICC_OK ? finish(map, info, env, err) : status;
+}
+
+icc_status iccp_mesh_map_create(iccp_mesh_map **out, const icc_chart *source,
+                                const icc_chart *target, int32_t iterations, icc_map_info *info,
+                                const iccp_env *env, icc_error *err)
+{
+    iccp_mesh_map *map = iccp_alloc_zero(&env->memory, 1, sizeof *map);
+    *out = NULL;
+    if (map == NULL)
+        return ICC_ERR_MEMORY;
+    const icc_status status = build(map, source, target, iterations, info, env, err);
+    if (status == ICC_OK && info->n_unrepaired == 0)
+        *out = map;
+    else
+        iccp_mesh_map_free(map, &env->memory);
+    return status;
+}
+
+icc_status iccp_mesh_map_improve(iccp_mesh_map **out, const iccp_mesh_map *map,
+                                 const icc_improve_options *options, icc_improve_report *report,
+                                 const iccp_env *env, icc_error *err)
+{
+    iccp_mesh_map *better = iccp_alloc_zero(&env->memory, 1, sizeof *better);
+    *out = NULL;
+    if (better == NULL)
+        return ICC_ERR_MEMORY;
+    iccp_improvement improvement = {0};
+    bool cancelled = false;
+    icc_map_info info = {0};
+    report->energy_start = iccp_plmap_energy(&map->pl);
+    icc_status status = iccp_plmap_copy(&better->pl, &map->pl, &env->memory);
+    if (status == ICC_OK)
+        status = improve(&better->pl, options, &cancelled, &improvement, env);
+    /* A callback that still asks to stop must not keep the result from being finished. */
+    iccp_env quiet = *env;
+    quiet.progress = NULL;
+    if (status == ICC_OK)
+        status = finish(better, &info, &quiet, err);
+    if (status != ICC_OK) {
+        iccp_mesh_map_free(better, &env->memory);
+        return status;
+    }
+    report->energy = improvement.energy;
+    report->n_iterations = improvement.n_iterations;
+    report->n_triangles = info.n_triangles;
+    report->n_levels = (int32_t)improvement.n_levels;
+    report->cancelled = cancelled;
+    *out = better;
+    return ICC_OK;
+}
+
+void iccp_mesh_map_free(iccp_mesh_map *map, const iccp_memory *memory)
+{
+    if (map == NULL)
+        return;
+    iccp_plmap_free(&map->pl);
+    iccp_finder_free(&map->before);
+    iccp_finder_free(&map->after);
+    iccp_free(memory, map);
+}
+
+/* ---- points ---- */
+
+static void triangle_jacobian(const uint32_t *v, const double *from, const double *to,
+                              double jacobian[4])
+{
+    iccp_element element;
+    const double *const image[3] = {to + 2 * (size_t)v[0], to + 2 * (size_t)v[1],
+                                    to + 2 * (size_t)v[2]};
+    iccp_element_create(&element, from + 2 * (size_t)v[0], from + 2 * (size_t)v[1],
+                        from + 2 * (size_t)v[2]);
+    iccp_element_jacobian(&element, image, jacobian);
+}
+
+icc_status iccp_mesh_map_point(const iccp_mesh_map *map, bool inverse, const double *point,
+                               double *image, double *jacobian)
+{
+    const double *from = inverse ? map->pl.images : map->pl.points;
+    const double *to = inverse ? map->pl.points : map->pl.images;
+    uint32_t triangle;
+    double bary[3];
+    if (!iccp_finder_find(inverse ? &map->after : &map->before, point, &triangle, bary))
+        return ICC_ERR_TRACE;
+    const uint32_t *v = map->pl.corners.vertex + 3 * (size_t)triangle;
+    for (size_t d = 0; d < 2; ++d)
+        image[d] = bary[0] * to[2 * (size_t)v[0] + d] + bary[1] * to[2 * (size_t)v[1] + d] +
+                   bary[2] * to[2 * (size_t)v[2] + d];
+    if (jacobian != NULL)
+        triangle_jacobian(v, from, to, jacobian);
+    return ICC_OK;
+}

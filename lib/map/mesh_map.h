@@ -1,0 +1,34 @@
+/* Map kind mesh: an internal piecewise linear map, certified and made fair. */
+#ifndef ICCP_MESH_MAP_H
+#define ICCP_MESH_MAP_H
+
+#include "chart/chart.h"
+#include "map/improve.h"
+#include "mesh/finder.h"
+
+/* Immutable once made. */
+typedef struct iccp_mesh_map {
+    iccp_plmap pl;
+    iccp_finder before; /* in the source */
+    iccp_finder after;  /* in the target */
+} iccp_mesh_map;
+
+/* Starts from two charts that were made together: their images of the source chart's mesh. Fills in
+ * the mesh's members of `info`. When the repair fails, info->n_unrepaired is not 0 and *out is NULL, with
+ * ICC_OK. `iterations` as in icc_map_options. */
+icc_status iccp_mesh_map_create(iccp_mesh_map **out, const icc_chart *source,
+                                const icc_chart *target, int32_t iterations, icc_map_info *info,
+                                const iccp_env *env, icc_error *err);
+
+/* A better one from a copy; see icc_map_improve(). */
+icc_status iccp_mesh_map_improve(iccp_mesh_map **out, const iccp_mesh_map *map,
+                                 const icc_improve_options *options, icc_improve_report *report,
+                                 const iccp_env *env, icc_error *err);
+void iccp_mesh_map_free(iccp_mesh_map *map, const iccp_memory *memory);
+
+/* One local point, forward or back. `jacobian`: 4 numbers row by row, or NULL. ICC_ERR_TRACE when no
+ * triangle holds the point, which can only be within rounding of the boundary. */
+icc_status iccp_mesh_map_point(const iccp_mesh_map *map, bool inverse, const double *point,
+                               double *image, double *jacobian);
+
+#endif

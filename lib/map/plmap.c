@@ -1,0 +1,184 @@
+#include "map/plmap.h"
+
+#include "math/predicates.h"
+
+#include <string.h>
+
+static icc_status make_room(iccp_plmap *map, size_t n_vertices, size_t n_triangles)
+{
+    if (n_vertices > map->vertex_room) {
+        const size_t room = n_vertices + n_vertices / 2;
+        double *points = iccp_grow(&map->memory, map->points, 2 * map->n_vertices, 2 * room,
+                                   sizeof *points);
+        if (points != NULL)
+            map->points = points;
+        double *images = iccp_grow(&map->memory, map->images, 2 * map->n_vertices, 2 * room,
+                                   sizeof *images);
+        if (images != NULL)
+            map->images = images;
+        uint8_t *fixed = iccp_grow(&map->memory, map->fixed, map->n_vertices, room, 1);
+        if (fixed != NULL)
+            map->fixed = fixed;
+        if (points == NULL || images == NULL || fixed == NULL)
+            return ICC_ERR_MEMORY;
+        map->vertex_room = room;
+    }
+    if (n_triangles > map->triangle_room) {
+        const size_t room = n_triangles + n_triangles / 2, n = 3 * map->corners.n_triangles;
+        uint32_t *vertex =
+            iccp_grow(&map->memory, map->corners.vertex, n, 3 * room, sizeof *vertex);
+        if (vertex != NULL)
+            map->corners.vertex = vertex;
+        uint32_t *twin = iccp_grow(&map->memory, map->corners.twin, n, 3 * room, sizeof *twin);
+        if (twin != NULL)
+            map->corners.twin = twin;
+        if (vertex == NULL || twin == NULL)
+            return ICC_ERR_MEMORY;
+        map->triangle_room = room;
+    }
+    return ICC_OK;
+}
+
+static icc_status fill(iccp_plmap *map, size_t n_vertices, size_t n_triangles,
+                       const double *points, const double *images, const uint32_t *vertex,
+                       const uint32_t *twin)
+{
+    const icc_status status = make_room(map, n_vertices, n_triangles);
+    if (status != ICC_OK) {
+        iccp_plmap_free(map);
+        return status;
+    }
+    map->n_vertices = n_vertices;
+    map->corners.n_triangles = n_triangles;
+    memcpy(map->points, points, 2 * n_vertices * sizeof *points);
+    memcpy(map->images, images, 2 * n_vertices * sizeof *images);
+    memcpy(map->corners.vertex, vertex, 3 * n_triangles * sizeof *vertex);
+    memcpy(map->corners.twin, twin, 3 * n_triangles * sizeof *twin);
+    return ICC_OK;
+}
+
+icc_status iccp_plmap_create(iccp_plmap *map, const iccp_planar *mesh, const double *images,
+                             double stretch, const iccp_memory *memory)
+{
+    *map = (iccp_plmap){.memory = *memory, .stretch = stretch};
+    const icc_status status = fill(map, mesh->n_vertices, mesh->n_triangles, mesh->points, images,
+                                   mesh->triangles, mesh->twins);
+    if (status == ICC_OK) {
+        memset(map->fixed, 1, mesh->n_boundary);
+        memset(map->fixed + mesh->n_boundary, 0, mesh->n_vertices - mesh->n_boundary);
+    }
+    return status;
+}
+
+icc_status iccp_plmap_copy(iccp_plmap *map, const iccp_plmap *other, const iccp_memory *memory)
+{
+    *map = (iccp_plmap){.memory = *memory, .stretch = other->stretch};
+    const icc_status status =
+        fill(map, other->n_vertices, other->corners.n_triangles, other->points, other->images,
+             other->corners.vertex, other->corners.twin);
+    if (status == ICC_OK)
+        memcpy(map->fixed, other->fixed, other->n_vertices);
+    return status;
+}
+
+void iccp_plmap_free(iccp_plmap *map)
+{
+    iccp_free(&map->memory, map->points);
+    iccp_free(&map->memory, map->images);
+    iccp_free(&map->memory, map->fixed);
+    iccp_free(&map->memory, map->corners.vertex);
+    iccp_free(&map->memory, map->corners.twin);
+    *map = (iccp_plmap){.memory = map->memory};
+}
+
+bool iccp_plmap_positive_point(const iccp_plmap *map, uint32_t triangle)
+{
+    const uint32_t c = 3 * triangle;
+    return iccp_orient2d(iccp_plmap_point(map, c), iccp_plmap_point(map, c + 1),
+                         iccp_plmap_point(map, c + 2)) > 0;
+}
+
+bool iccp_plmap_positive_image(const iccp_plmap *map, uint32_t triangle)
+{
+    const uint32_t c = 3 * triangle;
+    return iccp_orient2d(iccp_plmap_image(map, c), iccp_plmap_image(map, c + 1),
+                         iccp_plmap_image(map, c + 2)) > 0;
+}
+
+size_t iccp_plmap_count_inverted(const iccp_plmap *map)
+{
+    size_t n = 0;
+    for (uint32_t t = 0; t < map->corners.n_triangles; ++t)
+        n += !iccp_plmap_positive_image(map, t);
+    return n;
+}
+
+/* Whether the halves x a m and x m b of the triangle that a corner is in keep its sign at m. */
+static bool can_halve(const double *x, const double *a, const double *b, const double m[2])
+{
+    return iccp_orient2d(x, a, b) <= 0 ||
+           (iccp_orient2d(x, a, m) > 0 && iccp_orient2d(x, m, b) > 0);
+}
+
+static bool can_cut(const iccp_plmap *map, uint32_t corner, const double point[2],
+                    const double image[2])
+{
+    const uint32_t a = iccp_after(corner), b = iccp_before(corner);
+    return can_halve(iccp_plmap_point(map, corner), iccp_plmap_point(map, a),
+                     iccp_plmap_point(map, b), point) &&
+           can_halve(iccp_plmap_image(map, corner), iccp_plmap_image(map, a),
+                     iccp_plmap_image(map, b), image);
+}
+
+static void middle_of(const double *a, const double *b, double m[2])
+{
+    m[0] = 0.5 * a[0] + 0.5 * b[0];
+    m[1] = 0.5 * a[1] + 0.5 * b[1];
+}
+
+icc_status iccp_plmap_cut(iccp_plmap *map, uint32_t corner, bool *done)
+{
+    const uint32_t twin = map->corners.twin[corner];
+    const uint32_t after = iccp_after(corner), before = iccp_before(corner);
+    double point[2], image[2];
+    middle_of(iccp_plmap_point(map, after), iccp_plmap_point(map, before), point);
+    middle_of(iccp_plmap_image(map, after), iccp_plmap_image(map, before), image);
+    *done = can_cut(map, corner, point, image) &&
+            (twin == ICCP_NO_NEIGHBOUR || can_cut(map, twin, point, image));
+    if (!*done)
+        return ICC_OK;
+    const icc_status status =
+        make_room(map, map->n_vertices + 1, map->corners.n_triangles + 2);
+    if (status != ICC_OK)
+        return status;
+    const size_t m = map->n_vertices++;
+    memcpy(map->points + 2 * m, point, sizeof point);
+    memcpy(map->images + 2 * m, image, sizeof image);
+    map->fixed[m] = twin == ICCP_NO_NEIGHBOUR;
+    iccp_cut_edge(&map->corners, corner, (uint32_t)m);
+    return ICC_OK;
+}
+
+void iccp_plmap_element(const iccp_plmap *map, uint32_t triangle, iccp_element *element)
+{
+    double p[3][2];
+    for (uint32_t k = 0; k < 3; ++k)
+        for (int d = 0; d < 2; ++d)
+            p[k][d] = map->stretch * iccp_plmap_point(map, 3 * triangle + k)[d];
+    iccp_element_create(element, p[0], p[1], p[2]);
+}
+
+double iccp_plmap_energy(const iccp_plmap *map)
+{
+    double sum = 0, area = 0;
+    for (uint32_t t = 0; t < map->corners.n_triangles; ++t) {
+        const double *const image[3] = {iccp_plmap_image(map, 3 * t),
+                                        iccp_plmap_image(map, 3 * t + 1),
+                                        iccp_plmap_image(map, 3 * t + 2)};
+        iccp_element element;
+        iccp_plmap_element(map, t, &element);
+        sum += iccp_dirichlet_energy(&element, image);
+        area += element.area;
+    }
+    return sum / area;
+}

@@ -1,0 +1,53 @@
+/* A piecewise linear map: a triangle mesh of the source and an image for every vertex. */
+#ifndef ICCP_PLMAP_H
+#define ICCP_PLMAP_H
+
+#include "map/distortion.h"
+#include "mesh/corners.h"
+#include "mesh/planar.h"
+
+typedef struct iccp_plmap {
+    iccp_memory memory;
+    iccp_corners corners;
+    size_t n_vertices;
+    size_t vertex_room, triangle_room;
+    double *points;  /* local in the source */
+    double *images;  /* local in the target */
+    uint8_t *fixed;  /* 1 for vertices on the boundary */
+    double stretch;  /* lengths of the source are multiplied by this for energies, so that both areas
+                        are the same and energies are those of shape alone */
+} iccp_plmap;
+
+/* Copies a mesh. `images`: 2 n_vertices. */
+icc_status iccp_plmap_create(iccp_plmap *map, const iccp_planar *mesh, const double *images,
+                             double stretch, const iccp_memory *memory);
+icc_status iccp_plmap_copy(iccp_plmap *map, const iccp_plmap *other, const iccp_memory *memory);
+void iccp_plmap_free(iccp_plmap *map);
+
+static inline const double *iccp_plmap_image(const iccp_plmap *map, uint32_t corner)
+{
+    return map->images + 2 * (size_t)map->corners.vertex[corner];
+}
+
+static inline const double *iccp_plmap_point(const iccp_plmap *map, uint32_t corner)
+{
+    return map->points + 2 * (size_t)map->corners.vertex[corner];
+}
+
+/* Whether a triangle is positive before and after the map, exactly. */
+bool iccp_plmap_positive_point(const iccp_plmap *map, uint32_t triangle);
+bool iccp_plmap_positive_image(const iccp_plmap *map, uint32_t triangle);
+size_t iccp_plmap_count_inverted(const iccp_plmap *map);
+
+/* Cuts the edge that a corner faces at its middle, before and after the map, unless rounding would make
+ * a triangle that is positive now, before or after, not positive. Makes room as needed. */
+icc_status iccp_plmap_cut(iccp_plmap *map, uint32_t corner, bool *done);
+
+/* Of a triangle before the map, stretched. */
+void iccp_plmap_element(const iccp_plmap *map, uint32_t triangle, iccp_element *element);
+
+/* Mean of the symmetric Dirichlet energy over the stretched area: 4 for an isometry, infinite when a
+ * triangle is not positive. */
+double iccp_plmap_energy(const iccp_plmap *map);
+
+#endif

@@ -1,0 +1,13 @@
+/* Making every triangle of a piecewise linear map positive. */
+#ifndef ICCP_REPAIR_H
+#define ICCP_REPAIR_H
+
+#include "map/newton.h"
+
+/* Turns edges, moves single vertices, untangles patches and then everything; where that is not enough,
+ * refines the mesh round what is left and begins again. The boundary's images stay. Iterations are
+ * capped, clocks are not read: the same input gives the same bits. `n_left` tells how many triangles
+ * are not positive in the end: 0 unless it failed. */
+icc_status iccp_repair(iccp_plmap *map, size_t *n_left, const iccp_env *env);
+
+#endif
