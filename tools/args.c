@@ -4,6 +4,7 @@
 #include "options.h"
 #include "say.h"
 
+#include <icc/icc.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -173,6 +174,21 @@ static int take_operand(reading *r, const char *text)
     return DONE;
 }
 
+/* Options that only some methods have. */
+static int check_method(const args *a, const command *c)
+{
+    const char *gradient_only = a->function != 0 ? "function"
+                                : a->tree != 0   ? "tree"
+                                : a->elevation   ? "elevation"
+                                : a->compression ? "compression"
+                                                 : NULL;
+    if (gradient_only != NULL && a->method != ICC_METHOD_GRADIENT)
+        return misused(c->name, "--%s needs --method gradient", gradient_only);
+    if (a->method == ICC_METHOD_DISC && (a->has_maximum || a->has_target_maximum))
+        return misused(c->name, "--method disc has no --maximum: it finds its own");
+    return DONE;
+}
+
 /* What no single option can tell. */
 static int check_together(const args *a, const command *c)
 {
@@ -187,6 +203,9 @@ static int check_together(const args *a, const command *c)
     if (a->improve != 0)
         return misused(c->name, "--improve %d is not available in this version; 0 is",
                        (int)a->improve);
+    int result = check_method(a, c);
+    if (result != DONE)
+        return result;
     const char *inputs[] = {a->source, a->target, a->points ? a->points : a->coords,
                             c->bit & (FOR_WARP | FOR_MESH) ? a->operands[0] : NULL};
     size_t n_standard = 0;

@@ -7,6 +7,7 @@
 #include "defect.h"
 #include "job.h"
 #include "memory.h"
+#include "options.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -16,6 +17,9 @@ typedef struct check {
     defect_list defects[2];
     size_t n_defects;
     size_t n_dropped; /* by --repair */
+    icc_chart_info charts[2];
+    icc_map_info map; /* of kind 0 without a target */
+    bool certified;   /* all there is */
 } check;
 
 static const char *kind_name(int32_t kind)
@@ -69,7 +73,34 @@ static void print_domains(const check *c)
     }
 }
 
-static int write_report(const check *c, bool certified)
+static void print_chart(const char *file, const icc_chart_info *chart)
+{
+    printf("%s: %s chart certified: %zu triangles, none of them inverted", file,
+           choice_name(methods, chart->method), chart->n_mesh_triangles);
+    if (chart->method == ICC_METHOD_FOLIATION)
+        printf("; every leaf runs from the boundary to the maximum (%zu ties)", chart->n_ties);
+    putchar('\n');
+}
+
+static void print_certificates(const check *c)
+{
+    for (size_t side = 0; side < 2; side++)
+        if (c->charts[side].certified)
+            print_chart(job_file(&c->job, (int)side + 1), &c->charts[side]);
+    if (c->map.certified)
+        printf("map: %s, certified one-to-one\n", choice_name(maps, c->map.kind));
+}
+
+static void report_certificates(const check *c, json *j)
+{
+    if (c->charts[0].method != 0)
+        json_text(j, "method", choice_name(methods, c->charts[0].method));
+    if (c->map.kind != 0)
+        json_text(j, "map", choice_name(maps, c->map.kind));
+    json_flag(j, "certified", c->certified);
+}
+
+static int write_report(const check *c)
 {
     report r;
     if (!report_open(&r, &c->job))
@@ -90,7 +121,7 @@ static int write_report(const check *c, bool certified)
     json_close(&r.json, ']');
     if (c->job.args->repair != NULL)
         json_count(&r.json, "dropped_vertices", c->n_dropped);
-    json_flag(&r.json, "certified", certified);
+    report_certificates(c, &r.json);
     return report_close(&r) ? DONE : FAILED;
 }
 
@@ -205,7 +236,7 @@ static int repair(check *c)
 
 static int verdict_on_defects(check *c)
 {
-    if (c->job.args->json && write_report(c, false) != DONE)
+    if (c->job.args->json && write_report(c) != DONE)
         return FAILED;
     bool first = c->defects[0].n > 0;
     return failed(job_file(&c->job, first ? 1 : 2), 0, "%zu defect%s%s; see the list", c->n_defects,
@@ -213,16 +244,44 @@ static int verdict_on_defects(check *c)
                   first && c->defects[1].n > 0 ? " in both cages" : "");
 }
 
-static int verdict_on_method(check *c)
+/* Makes the chart, or both charts and the map; the library certifies what it can. */
+static int certify(check *c)
 {
-    int result = c->job.args->target != NULL ? job_make_map(&c->job) : job_make_domains(&c->job);
+    bool pair = c->job.args->target != NULL;
+    int result = pair ? job_make_map(&c->job) : job_make_chart(&c->job);
     progress_end(&c->job.bar);
     if (result != DONE)
         return result;
-    if (c->job.args->json && write_report(c, false) != DONE)
+    c->certified = true;
+    for (size_t side = 0; side < (pair ? 2 : 1); side++) {
+        c->charts[side].size = sizeof c->charts[side];
+        icc_chart_get_info(!pair       ? c->job.chart
+                           : side == 0 ? icc_map_source_chart(c->job.map)
+                                       : icc_map_target_chart(c->job.map),
+                           &c->charts[side]);
+        c->certified = c->certified && c->charts[side].certified;
+    }
+    if (!pair)
+        return DONE;
+    c->map.size = sizeof c->map;
+    icc_map_get_info(c->job.map, &c->map);
+    c->certified = c->certified && c->map.certified;
+    return DONE;
+}
+
+static int verdict_on_method(check *c)
+{
+    int result = certify(c);
+    if (result != DONE)
+        return result;
+    if (c->job.args->json && write_report(c) != DONE)
         return FAILED;
-    if (!c->job.args->json)
+    if (!c->job.args->json) {
         print_domains(c);
+        print_certificates(c);
+    }
+    if (c->certified)
+        return DONE;
     return failed(c->job.args->source, 0,
                   "the cages are valid, but the method gradient is not certifiable: its curves "
                   "merge ('libicc info' tells how much)");

@@ -86,11 +86,12 @@ static int draw_panel(plot *x, int what, size_t side)
                                                  "checkerboard", "uv map"};
     panel p = make_panel(x, what, side);
     char label[64];
+    bool bare = what == ROW_SHAPE && x->stages[side].field == NULL;
     snprintf(label, sizeof label, "%s%s",
              x->n_sides == 1 ? ""
              : side == 0     ? "source: "
                              : "target: ",
-             captions[what]);
+             bare ? "integral curves" : captions[what]);
     svg_label(x->svg, p.left + p.width / 2, row_top(x, what) + row_height(x, what) + caption,
               label);
     plot_clip(&p, &x->job.cages[side]);

@@ -2,15 +2,26 @@
 
 #include <icc/icc.h>
 
-static const choice methods[] = {
-    {"gradient", ICC_METHOD_GRADIENT}, {"foliation", 0}, {"field", 0}, {"disc", 0}, {NULL, 0}};
-static const choice maps[] = {{"curves", ICC_MAP_CURVES}, {"mesh", 0}, {NULL, 0}};
-static const choice functions[] = {{"decay", ICC_FUNCTION_DECAY},
-                                   {"distance", ICC_FUNCTION_DISTANCE},
-                                   {"laplace", 0},
-                                   {"bilaplace", 0},
-                                   {NULL, 0}};
-static const choice trees[] = {{"thesis", ICC_TREE_THESIS}, {"paper", ICC_TREE_PAPER}, {NULL, 0}};
+const choice methods[] = {{"foliation", ICC_METHOD_FOLIATION},
+                          {"disc", ICC_METHOD_DISC},
+                          {"gradient", ICC_METHOD_GRADIENT},
+                          {"field", 0},
+                          {NULL, 0}};
+const choice maps[] = {{"curves", ICC_MAP_CURVES}, {"mesh", 0}, {NULL, 0}};
+const choice functions[] = {{"decay", ICC_FUNCTION_DECAY},
+                            {"distance", ICC_FUNCTION_DISTANCE},
+                            {"laplace", 0},
+                            {"bilaplace", 0},
+                            {NULL, 0}};
+const choice trees[] = {{"thesis", ICC_TREE_THESIS}, {"paper", ICC_TREE_PAPER}, {NULL, 0}};
+
+const char *choice_name(const choice *choices, int32_t value)
+{
+    for (const choice *c = choices; c->name != NULL; c++)
+        if (c->value == value)
+            return c->name;
+    return "unknown";
+}
 
 enum {
     FOR_PAIRS = FOR_MAP | FOR_WARP | FOR_MESH,
@@ -77,12 +88,12 @@ const option options[N_OPTIONS] = {
      .kind = OPTION_FLAG,
      .commands = FOR_PLOT,
      .offset = AT(elevation),
-     .help = "draw the function as a surface"},
+     .help = "gradient: draw the function as a surface"},
     {.name = "compression",
      .kind = OPTION_FLAG,
      .commands = FOR_PLOT,
      .offset = AT(compression),
-     .help = "draw compression edges too"},
+     .help = "gradient: draw compression edges too"},
     {.name = "lines",
      .kind = OPTION_COUNT,
      .commands = FOR_PLOT,
@@ -103,7 +114,7 @@ const option options[N_OPTIONS] = {
      .offset = AT(method),
      .choices = methods,
      .value = "NAME",
-     .help = "gradient"},
+     .help = "foliation (default), disc or gradient"},
     {.name = "map",
      .kind = OPTION_CHOICE,
      .commands = MAY_PAIR,
@@ -125,7 +136,7 @@ const option options[N_OPTIONS] = {
      .offset = AT(function),
      .choices = functions,
      .value = "NAME",
-     .help = "decay (default) or distance"},
+     .help = "gradient: decay (default) or distance"},
     {.name = "unconstrained",
      .kind = OPTION_FLAG,
      .commands = FOR_ALL,
@@ -137,7 +148,7 @@ const option options[N_OPTIONS] = {
      .offset = AT(tree),
      .choices = trees,
      .value = "NAME",
-     .help = "thesis (default) or paper: the form of Algorithm 2"},
+     .help = "gradient: thesis (default) or paper, the form of Algorithm 2"},
     {.name = "cells",
      .letter = 'n',
      .kind = OPTION_COUNT,
@@ -146,14 +157,14 @@ const option options[N_OPTIONS] = {
      .low = 2,
      .high = 16384,
      .value = "N",
-     .help = "grid cells along the longest side (default: 50)"},
+     .help = "cells along the longest side (default: 50)"},
     {.name = "maximum",
      .kind = OPTION_POINT,
      .commands = FOR_ALL,
      .offset = AT(maximum),
      .present = AT(has_maximum),
      .value = "X,Y",
-     .help = "where the curves shall end, in the source"},
+     .help = "where the curves shall end, in the source (not with disc)"},
     {.name = "target-maximum",
      .kind = OPTION_POINT,
      .commands = MAY_PAIR,

@@ -32,6 +32,11 @@ typedef struct option {
     const char *value, *help;
 } option;
 
+extern const choice methods[], maps[], functions[], trees[];
+
+/* The name of a value that the library gave. */
+const char *choice_name(const choice *choices, int32_t value);
+
 enum { N_OPTIONS = 25 };
 extern const option options[N_OPTIONS];
 

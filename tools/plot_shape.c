@@ -151,20 +151,27 @@ static void shade(const stages *s, double value, unsigned char rgba[4])
         rgba[k] = (unsigned char)(low[k] + t * (high[k] - low[k]) + 0.5);
 }
 
-static int draw_shades(const panel *p)
+static int draw_shades(const panel *p, job *j)
 {
     picture image = picture_make((size_t)ceil(p->width), (size_t)ceil(p->height), 3, 8);
-    for (size_t i = 0; i < image.width * image.height; i++) {
-        double at[2];
-        unsigned char rgba[4];
+    size_t n = image.width * image.height;
+    double *points = need(n, 2 * sizeof *points), *values = need(n, sizeof *values);
+    for (size_t i = 0; i < n; i++)
         panel_locate(
             p, p->left + ((double)(i % image.width) + 0.5) * p->width / (double)image.width,
-            p->top + ((double)(i / image.width) + 0.5) * p->height / (double)image.height, at);
-        shade(p->stages, stages_value(p->stages, at), rgba);
+            p->top + ((double)(i / image.width) + 0.5) * p->height / (double)image.height,
+            points + 2 * i);
+    int result = stages_values(p->stages, j, n, points, values);
+    for (size_t i = 0; i < n && result == DONE; i++) {
+        unsigned char rgba[4];
+        shade(p->stages, values[i], rgba);
         picture_set(&image, i, rgba);
     }
-    int result = svg_picture(p->svg, p->left, p->top, p->width, p->height, p->clip, &image);
+    if (result == DONE)
+        result = svg_picture(p->svg, p->left, p->top, p->width, p->height, p->clip, &image);
     picture_free(&image);
+    free(points);
+    free(values);
     return result;
 }
 
@@ -219,14 +226,17 @@ static void draw_maximum(const panel *p)
 
 int plot_shape(const panel *p, job *j)
 {
-    int result = draw_shades(p);
+    bool has_tree = p->stages->tree != NULL;
+    int result = draw_shades(p, j);
     fprintf(p->svg, "<g clip-path=\"url(#%s)\">\n", p->clip);
-    draw_tree(p);
+    if (has_tree)
+        draw_tree(p);
     if (result == DONE)
         result = draw_curves(p, j);
     if (j->args->compression)
         draw_edges(p, ICC_EDGE_COMPRESSION, "#f59e0b");
-    draw_edges(p, ICC_EDGE_EXPANSION, "#a21caf");
+    if (has_tree)
+        draw_edges(p, ICC_EDGE_EXPANSION, "#a21caf");
     fputs("</g>\n", p->svg);
     plot_cage(p, &j->cages[p->side == 2]);
     draw_maximum(p);

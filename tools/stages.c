@@ -58,6 +58,9 @@ int stages_make(stages *out, job *j, int side)
                                 : icc_map_source_chart(j->map);
     icc_domain_get_info(out->domain, &out->box);
     icc_chart_get_info(out->chart, &out->chart_info);
+    out->high = 1;
+    if (out->chart_info.method != ICC_METHOD_GRADIENT)
+        return DONE;
     icc_error err = {.size = sizeof err, .index = -1};
     icc_status status = make(out, j, &err);
     if (status != ICC_OK) {
@@ -99,4 +102,18 @@ double stages_value(const stages *s, const double p[2])
     side = u >= v ? at[1] : at[g->shape[0]];
     return u >= v ? low + u * (side - low) + v * (high - side)
                   : low + v * (side - low) + u * (high - side);
+}
+
+int stages_values(const stages *s, job *j, size_t n, const double *points, double *values)
+{
+    for (size_t i = 0; i < n && s->field != NULL; i++)
+        values[i] = stages_value(s, points + 2 * i);
+    if (s->field != NULL)
+        return DONE;
+    uint32_t *facet = need(n, sizeof *facet);
+    double *bary = need(n, 2 * sizeof *bary);
+    icc_status ran = icc_chart_encode(s->chart, n, points, facet, bary, values, NULL, NULL, &j->env);
+    free(facet);
+    free(bary);
+    return ran == ICC_OK ? DONE : job_failed_status(j, ran);
 }

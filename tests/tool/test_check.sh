@@ -4,12 +4,27 @@
 . "$(dirname "$0")/lib.sh"
 make_cages
 
+# Certified charts and maps.
+for method in foliation disc; do
+    run 0 check -s source.txt -t target.txt -m "$method" --map curves
+    holds out 'source.txt: a simple polygon, 6 vertices, counter-clockwise, area 75'
+    holds out "source.txt: $method chart certified"
+    holds out "target.txt: $method chart certified"
+    holds out 'map: curves, certified one-to-one'
+    [ ! -s err ] || complain "certified, but: $(cat err)"
+    run 0 check -s source.txt -t target.txt -m "$method" --map curves --json
+    holds out '"certified": true'
+    holds out "\"method\": \"$method\""
+    run 0 check -s source.txt -m "$method"
+    grep -q '^map' out && complain "a map without a target"
+done
+
 # Valid, but not certifiable.
-run 1 check -s source.txt -t target.txt
+run 1 check -s source.txt -t target.txt -m gradient
 holds out 'source.txt: a simple polygon, 6 vertices, counter-clockwise, area 75'
 holds err 'not certifiable'
 [ "$(wc -l <err)" -eq 1 ] || complain "stderr is not one line"
-run 1 check -s source.txt --json
+run 1 check -s source.txt -m gradient --json
 holds out '"certified": false'
 
 # Every crossing is listed, on its line.
@@ -25,20 +40,35 @@ holds err 'nothing was written'
 # A repeated vertex and a spike are mended, in both cages alike.
 printf '0 0\n4 0\n4 0\n4 2\n4 4\n4 6\n4 4\n0 4\n' >spiked
 printf '0 0\n4 0\n5 0\n5 2\n5 4\n5 5\n4.5 5\n0 5\n' >partner
-run 1 check -s spiked --repair mended
-run 1 check -s mended
+run 0 check -s spiked --repair mended
+run 0 check -s mended
 holds out 'mended: a simple polygon, 5 vertices'
-run 1 check -s spiked -t partner --repair both.geojson
-run 1 check -s both.geojson -t both.geojson
+run 0 check -s spiked -t partner --repair both.geojson
+run 0 check -s both.geojson -t both.geojson
 [ "$(grep -c 'a simple polygon, 5 vertices' out)" -eq 2 ] || complain "not mended: $(cat out)"
 
 # info.
-run 0 info -s source.txt -t target.txt
+run 0 info -s source.txt -t target.txt -m gradient
 for line in 'cage        6 vertices' 'method      gradient' 'maximum ' 'tree ' 'critical    1 maxima, 0 minima, 0 saddles' \
     'unreachable' 'uncovered' 'collapsed' 'not inward' 'map ' 'seconds'; do
     holds out "$line"
 done
-run 0 info -s source.txt --maximum 2.5,2.5 --cells 20
+for method in foliation disc; do
+    run 0 info -s source.txt -t target.txt -m "$method"
+    for line in 'cage        6 vertices' "method      $method, certified" 'maximum ' 'mesh ' \
+        '  0.00 % collapses, 0.00 % inverts, 0.00 % has no image' 'distortion  mean ' 'seconds'; do
+        holds out "$line"
+    done
+    grep -qE '^(tree|critical|uncovered)' out && complain "$method has no tree"
+    run 0 info -s source.txt -t target.txt -m "$method" --json
+    holds out '"certified": true'
+done
+# Nothing is distorted where nothing changes, whatever the size.
+awk '{ print 3 * $1, 3 * $2 }' source.txt >larger.txt
+run 0 info -s source.txt -t larger.txt
+awk '$1 == "distortion" { found = $3 + 0 > 3.999 && $3 + 0 < 4.01 } END { exit !found }' out ||
+    complain "distortion of a similarity: $(cat out)"
+run 0 info -s source.txt --maximum 2.5,2.5 --cells 20 -m gradient
 awk '$1 == "maximum" { dx = $2 - 2.5; dy = $3 - 2.5; found = dx * dx + dy * dy <= 0.125 + 1e-9 }
      END { exit !found }' out || complain "not the nearest grid vertex: $(cat out)"
 

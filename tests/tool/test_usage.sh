@@ -42,8 +42,7 @@ says "--inverse"
 run 2 info -s source.txt --quiet=yes
 says "--quiet takes no value"
 
-for pair in "--method foliation" "--method disc" "--method field" "--map mesh" "--function laplace" \
-    "--function bilaplace" "--improve 3"; do
+for pair in "--method field" "--function laplace" "--function bilaplace"; do
     # shellcheck disable=SC2086
     run 2 map -s source.txt -t target.txt $pair
     says "not available in this version"
@@ -53,7 +52,19 @@ says "not available in this version"
 run 2 info -s source.txt --unconstrained
 says "not available in this version"
 run 2 info -s source.txt --method magic
-says "it may be: gradient"
+says "it may be: foliation, disc, gradient"
+for pair in "--function distance" "--tree paper"; do
+    # shellcheck disable=SC2086
+    run 2 info -s source.txt $pair
+    says "${pair% *} needs --method gradient"
+    # shellcheck disable=SC2086
+    run 2 info -s source.txt $pair --method disc
+    says "${pair% *} needs --method gradient"
+done
+run 2 map -s source.txt -t target.txt --method disc --maximum 1,1
+says "--method disc has no --maximum"
+run 2 map -s source.txt -t target.txt --method disc --target-maximum 1,1
+says "--method disc has no --maximum"
 for value in 1 0 -3 2.5 20000 many '' 1e99; do
     run 2 info -s source.txt "--cells=$value"
     says "--cells '$value' must be a whole number from 2 to 16384"
@@ -70,10 +81,10 @@ run 2 map -s source.txt -t target.txt --json
 says "use --json=FILE"
 
 # The same option in every spelling.
-run 0 info --source source.txt --cells 20
+run 0 info --source source.txt --cells 20 --method gradient
 sed '/^seconds/d' out >first
-for spelling in "--source=source.txt --cells=20" "-s source.txt -n 20" "-ssource.txt -n20" "-q -n20 -s source.txt" \
-    "-qs source.txt --threads=1 --cells 20 --improve 0 --method gradient --function decay --tree thesis"; do
+for spelling in "--source=source.txt --cells=20 --method=gradient" "-s source.txt -n 20 -m gradient" \
+    "-ssource.txt -n20 -mgradient" "-q -n20 -m gradient -s source.txt" "-qs source.txt --threads=1 --cells 20 --improve 0 --method gradient --function decay --tree thesis"; do
     # shellcheck disable=SC2086
     run 0 info $spelling
     sed '/^seconds/d' out >second

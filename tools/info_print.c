@@ -1,0 +1,82 @@
+#include "info.h"
+
+#include "options.h"
+
+#include <stdio.h>
+
+static void print_domain(const icc_domain_info *d)
+{
+    printf("cage        %zu vertices, %s, area %.17g\n", d->n_vertices,
+           d->orientation > 0 ? "counter-clockwise" : "clockwise", d->measure);
+    printf("box         %.17g %.17g to %.17g %.17g\n", d->lower[0], d->lower[1], d->upper[0],
+           d->upper[1]);
+}
+
+static void print_gradient(const icc_chart_info *c, const icc_chart_measures *m)
+{
+    printf("method      gradient, function %s, tree %s, not certifiable\n",
+           choice_name(functions, c->function), choice_name(trees, c->tree));
+    printf("grid        %zu vertices, %zu inside, spacing %.17g\n", c->n_grid, c->n_inside,
+           c->spacing);
+    printf("maximum     %.17g %.17g\n", c->maximum[0], c->maximum[1]);
+    printf("tree        %zu vertices, %zu unreachable, %zu cousin violations\n", c->n_tree,
+           c->n_unreachable, c->n_cousin_violations);
+    printf("critical    %zu maxima, %zu minima, %zu saddles\n", c->n_maxima, c->n_minima,
+           c->n_saddles);
+    printf("edges       %zu, of which %zu compression, %zu expansion\n", c->n_edges,
+           c->n_compression, c->n_expansion);
+    printf(
+        "unreachable %6.2f %% of the area: no curve through it reaches both boundary and maximum\n",
+        100 * m->unreachable);
+    printf("uncovered   %6.2f %% of the area: no curve from the boundary enters it\n",
+           100 * m->uncovered);
+    printf("collapsed   %6.2f %% of the coordinates: on lines where curves have merged\n",
+           100 * m->collapsed);
+    printf("not inward  %6.2f %% of the boundary: the gradient does not point inward\n",
+           100 * m->not_inward);
+}
+
+static void print_certified(const icc_chart_info *c)
+{
+    printf("method      %s, %s\n", choice_name(methods, c->method),
+           c->certified ? "certified" : "not certified");
+    printf("mesh        %zu vertices, %zu of them on the boundary, %zu triangles, spacing %.17g\n",
+           c->n_mesh_vertices, c->n_mesh_boundary, c->n_mesh_triangles, c->spacing);
+    printf("maximum     %.17g %.17g\n", c->maximum[0], c->maximum[1]);
+    if (c->method == ICC_METHOD_FOLIATION)
+        printf("leaves      %zu ties, flux through the boundary %.4g %% harmonic\n", c->n_ties,
+               100 * c->harmonic_share);
+}
+
+static void print_map(const info *x)
+{
+    const icc_map_info *m = &x->map;
+    const map_shares *s = &x->shares;
+    printf("map         %s, %s\n", choice_name(maps, m->kind),
+           m->certified ? "certified" : "not certified");
+    printf("area        %6.2f %% collapses, %.2f %% inverts, %.2f %% has no image\n",
+           100 * s->collapsed, 100 * s->inverted, 100 * s->without_image);
+    printf("distortion  mean %.4g, median %.4g, 99 %% below %.4g%s (symmetric Dirichlet; 4: none)\n",
+           s->mean, s->median, s->nearly_all,
+           s->collapsed + s->inverted + s->without_image > 0 ? " for the rest" : "");
+}
+
+void info_print(const info *x)
+{
+    const icc_chart_info *c = &x->chart;
+    print_domain(&x->domain);
+    if (c->method == ICC_METHOD_GRADIENT)
+        print_gradient(c, &x->measures);
+    else
+        print_certified(c);
+    if (x->shares.n > 0)
+        print_map(x);
+    printf("seconds     read %.4f, ", x->job.seconds_read);
+    if (c->method == ICC_METHOD_GRADIENT)
+        printf("grid %.4f, tree %.4f, function %.4f", c->seconds_grid, c->seconds_tree,
+               c->seconds_field);
+    else
+        printf("mesh %.4f, solve %.4f, certify %.4f", c->seconds_mesh, c->seconds_solve,
+               c->seconds_certify);
+    printf(", all %.4f\n", seconds_now() - x->job.started);
+}

@@ -1,0 +1,107 @@
+#include "info.h"
+
+#include "options.h"
+
+static void report_gradient(json *j, const icc_chart_info *c)
+{
+    json_text(j, "function", choice_name(functions, c->function));
+    json_text(j, "tree_form", choice_name(trees, c->tree));
+    json_count(j, "grid_vertices", c->n_grid);
+    json_count(j, "inside_vertices", c->n_inside);
+    json_count(j, "tree_vertices", c->n_tree);
+    json_count(j, "unreachable_vertices", c->n_unreachable);
+    json_count(j, "cousin_violations", c->n_cousin_violations);
+    json_count(j, "maxima", c->n_maxima);
+    json_count(j, "minima", c->n_minima);
+    json_count(j, "saddles", c->n_saddles);
+    json_count(j, "edges", c->n_edges);
+    json_count(j, "compression_edges", c->n_compression);
+    json_count(j, "expansion_edges", c->n_expansion);
+}
+
+static void report_mesh(json *j, const icc_chart_info *c)
+{
+    json_count(j, "mesh_vertices", c->n_mesh_vertices);
+    json_count(j, "mesh_boundary", c->n_mesh_boundary);
+    json_count(j, "mesh_triangles", c->n_mesh_triangles);
+    if (c->method != ICC_METHOD_FOLIATION)
+        return;
+    json_count(j, "ties", c->n_ties);
+    json_number(j, "harmonic_share", c->harmonic_share);
+}
+
+static void report_chart(json *j, const icc_chart_info *c)
+{
+    json_text(j, "method", choice_name(methods, c->method));
+    json_flag(j, "certified", c->certified != 0);
+    json_open(j, "maximum", '[');
+    json_number(j, NULL, c->maximum[0]);
+    json_number(j, NULL, c->maximum[1]);
+    json_close(j, ']');
+    json_number(j, "spacing", c->spacing);
+    if (c->method == ICC_METHOD_GRADIENT)
+        report_gradient(j, c);
+    else
+        report_mesh(j, c);
+}
+
+static void report_shares(json *j, const icc_chart_measures *m)
+{
+    json_open(j, "shares", '{');
+    json_number(j, "unreachable", m->unreachable);
+    json_number(j, "uncovered", m->uncovered);
+    json_number(j, "collapsed", m->collapsed);
+    json_number(j, "not_inward", m->not_inward);
+    json_close(j, '}');
+}
+
+static void report_map(json *j, const icc_map_info *m, const map_shares *s)
+{
+    json_open(j, "map", '{');
+    json_text(j, "kind", choice_name(maps, m->kind));
+    json_flag(j, "certified", m->certified != 0);
+    json_count(j, "samples", s->n);
+    json_number(j, "collapsed", s->collapsed);
+    json_number(j, "inverted", s->inverted);
+    json_number(j, "without_image", s->without_image);
+    json_open(j, "distortion", '{');
+    json_number(j, "mean", s->mean);
+    json_number(j, "median", s->median);
+    json_number(j, "share_99", s->nearly_all);
+    json_close(j, '}');
+    json_close(j, '}');
+}
+
+static void report_seconds(json *j, const info *x)
+{
+    const icc_chart_info *c = &x->chart;
+    json_open(j, "seconds", '{');
+    json_number(j, "read", x->job.seconds_read);
+    if (c->method == ICC_METHOD_GRADIENT) {
+        json_number(j, "grid", c->seconds_grid);
+        json_number(j, "tree", c->seconds_tree);
+        json_number(j, "function", c->seconds_field);
+    } else {
+        json_number(j, "mesh", c->seconds_mesh);
+        json_number(j, "solve", c->seconds_solve);
+        json_number(j, "certify", c->seconds_certify);
+    }
+    json_number(j, "all", seconds_now() - x->job.started);
+    json_close(j, '}');
+}
+
+int info_report(const info *x)
+{
+    report r;
+    if (!report_open(&r, &x->job))
+        return FAILED;
+    json_text(&r.json, "orientation",
+              x->domain.orientation > 0 ? "counter-clockwise" : "clockwise");
+    json_number(&r.json, "area", x->domain.measure);
+    report_chart(&r.json, &x->chart);
+    report_shares(&r.json, &x->measures);
+    if (x->shares.n > 0)
+        report_map(&r.json, &x->map, &x->shares);
+    report_seconds(&r.json, x);
+    return report_close(&r) ? DONE : FAILED;
+}
