@@ -196,7 +196,11 @@ static inline void check_curve(const subject *s, const double p[2], double slack
     }
 }
 
-/* Boundary points have t = 0 where they are and come back. */
+/* No curve is longer than this, in widths: the longest runs along a spiral. */
+enum { MAX_LENGTH = 60 };
+
+/* Boundary points have t = 0 where they are and come back; what has t close to 0 or 1 is close to them
+ * or to the maximum. */
 static inline void check_boundary(const subject *s, random_source *r)
 {
     for (uint32_t f = 0; f < s->domain->n_facets; ++f)
@@ -209,6 +213,15 @@ static inline void check_boundary(const subject *s, random_source *r)
             ck_assert(again.t <= 0);
             decode_point(s->chart, &again, back);
             ck_assert_double_le(distance_of(p, back), 4e-15 * s->width);
+            /* The t of a disc is no length. */
+            for (int e = 6; e < 320 && METHOD == ICC_METHOD_FOLIATION; e = 5 * e / 4) {
+                const double near = pow(10, -e), bound = MAX_LENGTH * near + 4e-15;
+                const code low = {f, {1 - along, along}, near}, high = {f, {1 - along, along}, 1 - near};
+                decode_point(s->chart, &low, back);
+                ck_assert_double_le(distance_of(p, back), bound * s->width);
+                decode_point(s->chart, &high, back);
+                ck_assert_double_le(distance_of(s->info.maximum, back), bound * s->width);
+            }
         }
 }
 
