@@ -163,7 +163,7 @@ START_TEST(maps_refuse_bad_arguments)
     static const double NOT_FINITE[2] = {HUGE_VAL, 0};
     icc_map_options options = {.size = sizeof options, .target_maximum = NOT_FINITE};
     NOT_MADE(m, icc_map_create(&m, o.source, o.target, &options, NULL, &err));
-    options = (icc_map_options){.size = sizeof options, .kind = 2};
+    options = (icc_map_options){.size = sizeof options, .kind = 3};
     ck_assert_int_eq(icc_map_create(&m, o.source, o.target, &options, NULL, &err),
                      ICC_ERR_UNSUPPORTED);
     ck_assert(m == NULL && err.status == ICC_ERR_UNSUPPORTED);

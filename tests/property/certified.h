@@ -334,7 +334,7 @@ static inline void check_shuffled(const shape *outline, int32_t cells)
 static inline icc_map *map_of(const icc_domain *source, const icc_domain *target, int32_t cells)
 {
     const icc_chart_options chart = method_options(cells);
-    const icc_map_options options = {.size = sizeof options, .chart = &chart};
+    const icc_map_options options = {.size = sizeof options, .kind = ICC_MAP_CURVES, .chart = &chart};
     icc_error err = {.size = sizeof err};
     icc_map *map;
     if (icc_map_create(&map, source, target, &options, NULL, &err) != ICC_OK)

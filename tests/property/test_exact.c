@@ -501,7 +501,7 @@ static void check_pair(const shape *source, const shape *target, int32_t cells, 
                                            NULL), ICC_OK);
     const icc_chart_options chart = {.size = sizeof chart, .method = ICC_METHOD_FOLIATION,
                                      .cells = cells};
-    const icc_map_options options = {.size = sizeof options, .chart = &chart};
+    const icc_map_options options = {.size = sizeof options, .kind = ICC_MAP_CURVES, .chart = &chart};
     ck_assert_int_eq(icc_map_create(&map, domain[0], domain[1], &options, NULL, NULL), ICC_OK);
     iccp_planar_pieces(pieces, domain[0], domain[1], cells);
     for (int k = 0; k < 2; ++k) {

@@ -18,7 +18,7 @@ static iccp_env plain_env(void)
 static icc_chart *chart_of(const shape *s, int32_t cells)
 {
     const iccp_env env = plain_env();
-    const icc_chart_options options = {.cells = cells};
+    const icc_chart_options options = {.method = ICC_METHOD_GRADIENT, .cells = cells};
     icc_domain *domain;
     icc_chart *chart;
     ck_assert_int_eq(iccp_domain_create(&domain, 2, s->n, s->xy, 0, NULL, &env, NULL), ICC_OK);
@@ -56,6 +56,8 @@ START_TEST(a_chart_lives_as_long_as_someone_holds_it)
 }
 END_TEST
 
+static const icc_map_options ANY_KIND = {0};
+
 START_TEST(methods_do_not_mix)
 {
     const shape s = shape_square();
@@ -64,7 +66,7 @@ START_TEST(methods_do_not_mix)
     icc_map *map;
     icc_error err = {.size = sizeof err};
     b->info.method = 99;
-    ck_assert_int_eq(iccp_map_create_from_charts(&map, a, b, 0, &env, &err), ICC_ERR_UNSUPPORTED);
+    ck_assert_int_eq(iccp_map_create_from_charts(&map, a, b, &ANY_KIND, &env, &err), ICC_ERR_UNSUPPORTED);
     ck_assert_int_eq(err.status, ICC_ERR_UNSUPPORTED);
     iccp_chart_release(a);
     iccp_chart_release(b);
@@ -79,7 +81,7 @@ START_TEST(dimensions_do_not_mix)
     icc_map *map;
     icc_error err = {.size = sizeof err};
     b->domain->dim = 3;
-    ck_assert_int_eq(iccp_map_create_from_charts(&map, a, b, 0, &env, &err), ICC_ERR_BOUNDARY);
+    ck_assert_int_eq(iccp_map_create_from_charts(&map, a, b, &ANY_KIND, &env, &err), ICC_ERR_BOUNDARY);
     ck_assert_int_eq(err.side, 2);
     b->domain->dim = 2;
     iccp_chart_release(a);
