@@ -66,11 +66,12 @@ static leaf_length start_leaf(const double point[2], const double p[2], const do
     return l;
 }
 
+typedef bool (*leaf_step)(const iccp_planar *mesh, const iccp_psi *psi, iccp_crossing *crossing);
+
 /* Adds the rest of a leaf from a crossing on, by `next`, whose last crossing is left in `crossing`.
  * With `to_centre` the piece from there to the centre belongs to it. */
-static void walk(const foliation_state *state, leaf_length *l, iccp_crossing *crossing,
-                 bool to_centre,
-                 bool (*next)(const iccp_planar *, const iccp_psi *, iccp_crossing *))
+static inline void walk_deriving(const foliation_state *state, leaf_length *l,
+                                 iccp_crossing *crossing, bool to_centre, leaf_step next)
 {
     double p[2], dp[2], q[2], dq[2];
     iccp_crossing_point(&state->mesh, crossing, p);
@@ -86,9 +87,24 @@ static void walk(const foliation_state *state, leaf_length *l, iccp_crossing *cr
         add_piece(l, p, dp, centre_of(state), STILL);
 }
 
+/* The same without derivatives: most of the time that a mapped point takes. */
+static inline void walk(const foliation_state *state, leaf_length *l, iccp_crossing *crossing,
+                        bool to_centre, leaf_step next)
+{
+    double p[2], q[2];
+    iccp_crossing_point(&state->mesh, crossing, p);
+    while (next(&state->mesh, &state->psi, crossing)) {
+        iccp_crossing_point(&state->mesh, crossing, q);
+        l->length += distance(p, q);
+        memcpy(p, q, sizeof p);
+    }
+    if (to_centre)
+        l->length += distance(p, centre_of(state));
+}
+
 /* The two parts of the leaf through a point; `end` becomes the leaf's crossing with the boundary. */
 static void measure_leaf(const foliation_state *state, const iccp_leaf *leaf,
-                         const double point[2], leaf_length *up, leaf_length *down,
+                         const double point[2], bool derive, leaf_length *up, leaf_length *down,
                          iccp_crossing *end)
 {
     double low[2], d_low[2], high[2], d_high[2] = {0, 0};
@@ -104,9 +120,14 @@ static void measure_leaf(const foliation_state *state, const iccp_leaf *leaf,
     }
     *up = start_leaf(point, low, high, d_high);
     *down = start_leaf(point, high, low, d_low);
-    if (!leaf->in_star)
+    if (!leaf->in_star && derive)
+        walk_deriving(state, up, &crossing, true, iccp_leaf_rise);
+    else if (!leaf->in_star)
         walk(state, up, &crossing, true, iccp_leaf_rise);
-    walk(state, down, end, false, iccp_leaf_fall);
+    if (derive)
+        walk_deriving(state, down, end, false, iccp_leaf_fall);
+    else
+        walk(state, down, end, false, iccp_leaf_fall);
 }
 
 static bool at_maximum(const icc_chart *chart, const double p[2])
@@ -156,7 +177,7 @@ static icc_status encode_inside(const icc_chart *chart, const double *point, icc
         return status;
     leaf_length up, down;
     iccp_crossing end;
-    measure_leaf(state, &leaf, point, &up, &down, &end);
+    measure_leaf(state, &leaf, point, jet != NULL, &up, &down, &end);
     const uint32_t edge = state->mesh.triangles[iccp_after(end.corner)];
     const double along =
         iccp_planar_along(&state->mesh, chart->domain, edge, iccp_crossing_share(&end));

@@ -91,15 +91,6 @@ iccp_crossing iccp_leaf_from_boundary(const iccp_psi *psi, uint32_t corner, doub
     return (iccp_crossing){corner, below, psi->rise[corner] - below};
 }
 
-void iccp_crossing_point(const iccp_planar *mesh, const iccp_crossing *crossing, double p[2])
-{
-    const double *a = mesh->points + 2 * (size_t)mesh->triangles[iccp_after(crossing->corner)];
-    const double *b = mesh->points + 2 * (size_t)mesh->triangles[iccp_before(crossing->corner)];
-    const double share = iccp_crossing_share(crossing);
-    p[0] = a[0] + share * (b[0] - a[0]);
-    p[1] = a[1] + share * (b[1] - a[1]);
-}
-
 void iccp_crossing_slope(const iccp_planar *mesh, const iccp_crossing *crossing, double slope[2])
 {
     const double *a = mesh->points + 2 * (size_t)mesh->triangles[iccp_after(crossing->corner)];
@@ -107,32 +98,4 @@ void iccp_crossing_slope(const iccp_planar *mesh, const iccp_crossing *crossing,
     const double rise = (double)crossing->below + (double)crossing->above;
     slope[0] = (b[0] - a[0]) / rise;
     slope[1] = (b[1] - a[1]) / rise;
-}
-
-bool iccp_leaf_rise(const iccp_planar *mesh, const iccp_psi *psi, iccp_crossing *crossing)
-{
-    const uint32_t corner = crossing->corner, after = iccp_after(corner);
-    if (mesh->triangles[corner] == psi->centre)
-        return false;
-    const int64_t opposite = crossing->above + psi->rise[after];
-    if (opposite < 0)
-        *crossing = (iccp_crossing){mesh->twins[after], -opposite, crossing->above};
-    else
-        *crossing =
-            (iccp_crossing){mesh->twins[iccp_before(corner)], crossing->below, opposite};
-    return true;
-}
-
-bool iccp_leaf_fall(const iccp_planar *mesh, const iccp_psi *psi, iccp_crossing *crossing)
-{
-    const uint32_t twin = mesh->twins[crossing->corner];
-    if (twin == ICCP_NO_NEIGHBOUR)
-        return false;
-    const uint32_t after = iccp_after(twin);
-    const int64_t opposite = psi->rise[after] - crossing->below;
-    if (opposite >= 0)
-        *crossing = (iccp_crossing){after, crossing->below, opposite};
-    else
-        *crossing = (iccp_crossing){iccp_before(twin), -opposite, crossing->above};
-    return true;
 }

@@ -34,21 +34,56 @@ icc_status iccp_leaf_through(const iccp_planar *mesh, const iccp_psi *psi, uint3
 /* The leaf from boundary edge k, `lambda` of the way along it. `corner` faces the edge. */
 iccp_crossing iccp_leaf_from_boundary(const iccp_psi *psi, uint32_t corner, double lambda);
 
-void iccp_crossing_point(const iccp_planar *mesh, const iccp_crossing *crossing, double p[2]);
-
 /* The derivative of the crossing's point by the leaf's label, per unit. */
 void iccp_crossing_slope(const iccp_planar *mesh, const iccp_crossing *crossing, double slope[2]);
-
-/* Goes on to the next crossing towards the centre; false when the triangle touches the centre. */
-bool iccp_leaf_rise(const iccp_planar *mesh, const iccp_psi *psi, iccp_crossing *crossing);
-
-/* Goes on to the next crossing towards the boundary; false when this one is on the boundary. */
-bool iccp_leaf_fall(const iccp_planar *mesh, const iccp_psi *psi, iccp_crossing *crossing);
 
 /* How far along its half-edge a crossing lies, in [0, 1]. */
 static inline double iccp_crossing_share(const iccp_crossing *crossing)
 {
     return (double)crossing->below / ((double)crossing->below + (double)crossing->above);
+}
+
+/* What follows is done at every triangle that a leaf meets. */
+
+static inline void iccp_crossing_point(const iccp_planar *mesh, const iccp_crossing *crossing,
+                                       double p[2])
+{
+    const double *a = mesh->points + 2 * (size_t)mesh->triangles[iccp_after(crossing->corner)];
+    const double *b = mesh->points + 2 * (size_t)mesh->triangles[iccp_before(crossing->corner)];
+    const double share = iccp_crossing_share(crossing);
+    p[0] = a[0] + share * (b[0] - a[0]);
+    p[1] = a[1] + share * (b[1] - a[1]);
+}
+
+/* Goes on to the next crossing towards the centre; false when the triangle touches the centre. */
+static inline bool iccp_leaf_rise(const iccp_planar *mesh, const iccp_psi *psi,
+                                  iccp_crossing *crossing)
+{
+    const uint32_t corner = crossing->corner, after = iccp_after(corner);
+    if (mesh->triangles[corner] == psi->centre)
+        return false;
+    const int64_t opposite = crossing->above + psi->rise[after];
+    const bool under = opposite < 0;
+    crossing->corner = mesh->twins[under ? after : iccp_before(corner)];
+    crossing->below = under ? -opposite : crossing->below;
+    crossing->above = under ? crossing->above : opposite;
+    return true;
+}
+
+/* Goes on to the next crossing towards the boundary; false when this one is on the boundary. */
+static inline bool iccp_leaf_fall(const iccp_planar *mesh, const iccp_psi *psi,
+                                  iccp_crossing *crossing)
+{
+    const uint32_t twin = mesh->twins[crossing->corner];
+    if (twin == ICCP_NO_NEIGHBOUR)
+        return false;
+    const uint32_t after = iccp_after(twin);
+    const int64_t opposite = psi->rise[after] - crossing->below;
+    const bool under = opposite < 0;
+    crossing->corner = under ? iccp_before(twin) : after;
+    crossing->below = under ? -opposite : crossing->below;
+    crossing->above = under ? crossing->above : opposite;
+    return true;
 }
 
 #endif
