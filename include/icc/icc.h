@@ -465,6 +465,22 @@ ICC_API icc_status icc_map_improve(icc_map **out, const icc_map *map,
                                    const icc_env *env, icc_error *err);
 
 /**
+ * The map to a target that has moved: the source stays, the mesh and where its inside went are taken
+ * over from `map`, repaired, and improved by a few steps. For dragging a cage, where each frame goes on
+ * from the one before; the mesh is not refined further.
+ *
+ * @param[out] out   the map; owned by the caller. It has no charts: icc_map_source_chart() gives NULL.
+ * @param map        a map of kind mesh, else ::ICC_ERR_UNSUPPORTED
+ * @param target     the new target, which must correspond as icc_map_create() asks
+ * @param iterations steps of improvement at most; 0: 8; -1: none
+ * @param env        may be NULL
+ * @param err        may be NULL
+ * @return as icc_map_create(); ::ICC_ERR_CERTIFICATE when the target has moved too far: make a new map
+ */
+ICC_API icc_status icc_map_follow(icc_map **out, const icc_map *map, const icc_domain *target,
+                                  int32_t iterations, const icc_env *env, icc_error *err);
+
+/**
  * The mesh of a map of kind mesh, in the caller's coordinates (rounded once; the certificate is about
  * the numbers inside).
  *
@@ -516,10 +532,10 @@ ICC_API void icc_map_free(icc_map *map);
 /** Fills in `info`, whose `size` the caller has set. ::ICC_OK or ::ICC_ERR_ARGUMENT. */
 ICC_API icc_status icc_map_get_info(const icc_map *map, icc_map_info *info);
 
-/** The chart of the source; borrowed. */
+/** The chart of the source; borrowed. NULL for maps made by icc_map_follow(). */
 ICC_API const icc_chart *icc_map_source_chart(const icc_map *map);
 
-/** The chart of the target; borrowed. */
+/** The chart of the target; borrowed. NULL for maps made by icc_map_follow(). */
 ICC_API const icc_chart *icc_map_target_chart(const icc_map *map);
 
 /**

@@ -151,6 +151,22 @@ icc_status icc_map_improve(icc_map **out, const icc_map *map, const icc_improve_
     return status;
 }
 
+icc_status icc_map_follow(icc_map **out, const icc_map *map, const icc_domain *target,
+                          int32_t iterations, const icc_env *env, icc_error *err)
+{
+    if (out != NULL)
+        *out = NULL;
+    if (out == NULL || map == NULL || target == NULL)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_map_follow: an argument is NULL");
+    if (iterations < -1)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_map_follow: iterations is %ld",
+                         (long)iterations);
+    iccp_env full_env;
+    const icc_status status = iccp_env_read(&full_env, env, err);
+    return status == ICC_OK ? iccp_map_follow(out, map, target, iterations, &full_env, err)
+                            : status;
+}
+
 icc_status icc_map_mesh(const icc_map *map, double *vertices, double *images, uint32_t *triangles)
 {
     if (map == NULL)
@@ -160,9 +176,9 @@ icc_status icc_map_mesh(const icc_map *map, double *vertices, double *images, ui
     const iccp_plmap *pl = &map->mesh->pl;
     const size_t n = pl->n_vertices;
     for (size_t v = 0; vertices != NULL && v < n; ++v)
-        iccp_frame_out(&map->source->domain->frame, 2, pl->points + 2 * v, vertices + 2 * v);
+        iccp_frame_out(&map->source_domain->frame, 2, pl->points + 2 * v, vertices + 2 * v);
     for (size_t v = 0; images != NULL && v < n; ++v)
-        iccp_frame_out(&map->target->domain->frame, 2, pl->images + 2 * v, images + 2 * v);
+        iccp_frame_out(&map->target_domain->frame, 2, pl->images + 2 * v, images + 2 * v);
     if (triangles != NULL)
         memcpy(triangles, pl->corners.vertex, 3 * pl->corners.n_triangles * sizeof *triangles);
     return ICC_OK;

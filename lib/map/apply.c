@@ -24,8 +24,8 @@ typedef struct map_loop {
 static icc_status mesh_point(const icc_map *map, bool inverse, const double *point, double *image,
                              double *jacobian)
 {
-    const icc_domain *from = (inverse ? map->target : map->source)->domain;
-    const icc_domain *to = (inverse ? map->source : map->target)->domain;
+    const icc_domain *from = inverse ? map->target_domain : map->source_domain;
+    const icc_domain *to = inverse ? map->source_domain : map->target_domain;
     double local[2], local_image[2], bary[2];
     uint32_t facet;
     if (!isfinite(point[0]) || !isfinite(point[1]))

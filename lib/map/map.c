@@ -53,7 +53,7 @@ static icc_status choose_kind(int32_t *kind, const icc_chart *source, const icc_
                      (long)source->info.method);
 }
 
-static icc_status new_map(icc_map **out, const icc_chart *source, const icc_chart *target,
+static icc_status new_map(icc_map **out, const icc_domain *source, const icc_domain *target,
                           const iccp_env *env)
 {
     icc_map *map = iccp_alloc_zero(&env->memory, 1, sizeof *map);
@@ -61,12 +61,18 @@ static icc_status new_map(icc_map **out, const icc_chart *source, const icc_char
     if (map == NULL)
         return ICC_ERR_MEMORY;
     map->memory = env->memory;
+    map->source_domain = iccp_domain_retain(source);
+    map->target_domain = iccp_domain_retain(target);
+    map->info.dim = source->dim;
+    map->info.kind = ICC_MAP_CURVES;
+    return ICC_OK;
+}
+
+static void add_charts(icc_map *map, const icc_chart *source, const icc_chart *target)
+{
     map->source = iccp_chart_retain(source);
     map->target = iccp_chart_retain(target);
-    map->info.dim = source->info.dim;
-    map->info.kind = ICC_MAP_CURVES;
     map->info.certified = source->info.certified && target->info.certified;
-    return ICC_OK;
 }
 
 static icc_status add_mesh(icc_map *map, int32_t iterations, const iccp_env *env, icc_error *err)
@@ -92,7 +98,9 @@ icc_status iccp_map_create_from_charts(icc_map **out, const icc_chart *source,
     if (status == ICC_OK)
         status = check_correspondence(source->domain, target->domain, err);
     if (status == ICC_OK)
-        status = new_map(&map, source, target, env);
+        status = new_map(&map, source->domain, target->domain, env);
+    if (status == ICC_OK)
+        add_charts(map, source, target);
     if (status == ICC_OK && kind == ICC_MAP_MESH)
         status = add_mesh(map, options->iterations, env, err);
     if (status != ICC_OK) {
@@ -175,7 +183,9 @@ icc_status iccp_map_improve(icc_map **out, const icc_map *map, const icc_improve
     icc_map *better = NULL;
     if (map->mesh == NULL)
         return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1, "only maps of kind mesh can be improved");
-    icc_status status = new_map(&better, map->source, map->target, env);
+    icc_status status = new_map(&better, map->source_domain, map->target_domain, env);
+    if (status == ICC_OK && map->source != NULL)
+        add_charts(better, map->source, map->target);
     if (status == ICC_OK)
         status = iccp_mesh_map_improve(&better->mesh, map->mesh, options, report, env, err);
     if (status != ICC_OK) {
@@ -193,6 +203,34 @@ icc_status iccp_map_improve(icc_map **out, const icc_map *map, const icc_improve
     return ICC_OK;
 }
 
+icc_status iccp_map_follow(icc_map **out, const icc_map *map, const icc_domain *target,
+                           int32_t iterations, const iccp_env *env, icc_error *err)
+{
+    const double start = iccp_seconds();
+    icc_map *next = NULL;
+    if (map->mesh == NULL)
+        return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1, "only maps of kind mesh can be followed");
+    icc_status status = check_correspondence(map->source_domain, target, err);
+    if (status == ICC_OK)
+        status = new_map(&next, map->source_domain, target, env);
+    if (status == ICC_OK)
+        status = iccp_mesh_map_follow(&next->mesh, map->mesh, map->source_domain,
+                                      map->target_domain, target, iterations, &next->info, env, err);
+    if (status == ICC_OK && next->mesh == NULL)
+        status = iccp_fail(err, ICC_ERR_CERTIFICATE, -1,
+                           "%zu triangles could not be repaired: the target has moved too far",
+                           next->info.n_unrepaired);
+    if (status != ICC_OK) {
+        iccp_map_release(next);
+        return iccp_explain(err, status);
+    }
+    next->info.kind = ICC_MAP_MESH;
+    next->info.certified = 1;
+    next->info.seconds = iccp_seconds() - start;
+    *out = next;
+    return ICC_OK;
+}
+
 void iccp_map_release(icc_map *map)
 {
     if (map == NULL)
@@ -200,6 +238,8 @@ void iccp_map_release(icc_map *map)
     iccp_mesh_map_free(map->mesh, &map->memory);
     iccp_chart_release(map->source);
     iccp_chart_release(map->target);
+    iccp_domain_release(map->source_domain);
+    iccp_domain_release(map->target_domain);
     const iccp_memory memory = map->memory;
     iccp_free(&memory, map);
 }

@@ -6,8 +6,9 @@
 
 struct icc_map {
     iccp_memory memory;
-    icc_chart *source, *target;
-    iccp_mesh_map *mesh;       /* NULL for kind curves */
+    icc_domain *source_domain, *target_domain;
+    icc_chart *source, *target; /* both NULL for maps that follow another */
+    iccp_mesh_map *mesh;        /* NULL for kind curves */
     icc_map_info info;
 };
 
@@ -25,6 +26,10 @@ icc_status iccp_map_create_from_charts(icc_map **out, const icc_chart *source,
 /* See icc_map_improve(). */
 icc_status iccp_map_improve(icc_map **out, const icc_map *map, const icc_improve_options *options,
                             icc_improve_report *report, const iccp_env *env, icc_error *err);
+
+/* See icc_map_follow(). */
+icc_status iccp_map_follow(icc_map **out, const icc_map *map, const icc_domain *target,
+                           int32_t iterations, const iccp_env *env, icc_error *err);
 void iccp_map_release(icc_map *map);
 
 #endif

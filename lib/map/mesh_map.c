@@ -14,6 +14,10 @@
 static const double TOLERANCE = 1e-4;
 enum { ITERATIONS = 60, LEVELS = 4 };
 
+/* Steps for a target that has moved a little: a frame of an animation has no time for more, and the next
+ * frame goes on from here. */
+enum { FOLLOW_ITERATIONS = 8 };
+
 /* ---- start ---- */
 
 /* The image of a mesh vertex: of a boundary vertex the corresponding point of the other cage, of others
@@ -49,7 +53,7 @@ static icc_status start(iccp_plmap *pl, const icc_chart *source, const icc_chart
             status = vertex_image(source, target, mesh, v, images + 2 * v, &path);
     }
     if (status == ICC_OK)
-        status = iccp_plmap_create(pl, mesh, images,
+        status = iccp_plmap_create(pl, mesh, source->domain, images,
                                    sqrt(target->domain->measure / source->domain->measure),
                                    &env->memory);
     iccp_path_clear(&path);
@@ -148,26 +152,22 @@ static icc_status improve(iccp_plmap *pl, const icc_improve_options *options, bo
     return *cancelled ? ICC_OK : status;
 }
 
-static icc_status build(iccp_mesh_map *map, const icc_chart *source, const icc_chart *target,
-                        int32_t iterations, icc_map_info *info, const iccp_env *env,
-                        icc_error *err)
+/* Repairs, improves and certifies what is in map->pl. */
+static icc_status refit(iccp_mesh_map *map, const icc_improve_options *options, icc_map_info *info,
+                        const iccp_env *env, icc_error *err)
 {
-    icc_status status = start(&map->pl, source, target, env);
-    if (status != ICC_OK)
-        return status;
     const double begin = iccp_seconds();
     info->n_inverted = iccp_plmap_count_inverted(&map->pl);
-    status = iccp_repair(&map->pl, &info->n_unrepaired, env);
+    icc_status status = iccp_repair(&map->pl, &info->n_unrepaired, env);
     const double repaired = iccp_seconds();
     info->seconds_repair = repaired - begin;
     if (status != ICC_OK || info->n_unrepaired > 0)
         return status;
     info->energy_start = info->energy = iccp_plmap_energy(&map->pl);
-    if (iterations >= 0) {
+    if (options->iterations >= 0) {
         iccp_improvement improvement;
         bool cancelled;
-        const icc_improve_options options = {.iterations = iterations};
-        status = improve(&map->pl, &options, &cancelled, &improvement, env);
+        status = improve(&map->pl, options, &cancelled, &improvement, env);
         if (status == ICC_OK && cancelled)
             status = ICC_ERR_CANCELLED;
         info->energy = improvement.energy;
@@ -186,7 +186,10 @@ icc_status iccp_mesh_map_create(iccp_mesh_map **out, const icc_chart *source,
     *out = NULL;
     if (map == NULL)
         return ICC_ERR_MEMORY;
-    const icc_status status = build(map, source, target, iterations, info, env, err);
+    const icc_improve_options options = {.iterations = iterations};
+    icc_status status = start(&map->pl, source, target, env);
+    if (status == ICC_OK)
+        status = refit(map, &options, info, env, err);
     if (status == ICC_OK && info->n_unrepaired == 0)
         *out = map;
     else
@@ -225,6 +228,52 @@ icc_status iccp_mesh_map_improve(iccp_mesh_map **out, const iccp_mesh_map *map,
     report->cancelled = cancelled;
     *out = better;
     return ICC_OK;
+}
+
+/* Images in the local coordinates of one target become those in another's; where the inside goes from
+ * there is up to the repair. */
+static void change_frame(iccp_plmap *pl, const iccp_frame *from, const iccp_frame *to)
+{
+    for (size_t v = 0; v < pl->n_vertices; ++v) {
+        double own[2];
+        iccp_frame_out(from, 2, pl->images + 2 * v, own);
+        iccp_frame_in(to, 2, own, pl->images + 2 * v);
+    }
+}
+
+/* Moves the boundary's images to where another target wants them. */
+static void move_boundary(iccp_plmap *pl, const icc_domain *target)
+{
+    for (size_t v = 0; v < pl->n_vertices; ++v)
+        if (pl->fixed[v]) {
+            const double bary[2] = {1 - pl->along[v], pl->along[v]};
+            iccp_domain_facet_point(target, pl->facet[v], bary, pl->images + 2 * v);
+        }
+}
+
+icc_status iccp_mesh_map_follow(iccp_mesh_map **out, const iccp_mesh_map *map,
+                                const icc_domain *source, const icc_domain *old_target,
+                                const icc_domain *target, int32_t iterations, icc_map_info *info,
+                                const iccp_env *env, icc_error *err)
+{
+    iccp_mesh_map *next = iccp_alloc_zero(&env->memory, 1, sizeof *next);
+    *out = NULL;
+    if (next == NULL)
+        return ICC_ERR_MEMORY;
+    icc_status status = iccp_plmap_copy(&next->pl, &map->pl, &env->memory);
+    if (status == ICC_OK) {
+        change_frame(&next->pl, &old_target->frame, &target->frame);
+        move_boundary(&next->pl, target);
+        next->pl.stretch = sqrt(target->measure / source->measure);
+        const icc_improve_options options = {
+            .iterations = iterations == 0 ? FOLLOW_ITERATIONS : iterations, .levels = -1};
+        status = refit(next, &options, info, env, err);
+    }
+    if (status == ICC_OK && info->n_unrepaired == 0)
+        *out = next;
+    else
+        iccp_mesh_map_free(next, &env->memory);
+    return status;
 }
 
 void iccp_mesh_map_free(iccp_mesh_map *map, const iccp_memory *memory)

@@ -4,39 +4,41 @@
 
 #include <string.h>
 
+/* Replaces *array by a copy with more room, and leaves it alone on failure. */
+static icc_status enlarge(const iccp_memory *memory, void *array, size_t n, size_t room, size_t size)
+{
+    void *old;
+    memcpy(&old, array, sizeof old);
+    void *larger = iccp_grow(memory, old, n, room, size);
+    if (larger == NULL)
+        return ICC_ERR_MEMORY;
+    memcpy(array, &larger, sizeof larger);
+    return ICC_OK;
+}
+
 static icc_status make_room(iccp_plmap *map, size_t n_vertices, size_t n_triangles)
 {
+    const iccp_memory *memory = &map->memory;
+    const size_t n = map->n_vertices, n_corners = 3 * map->corners.n_triangles;
+    icc_status status = ICC_OK;
     if (n_vertices > map->vertex_room) {
         const size_t room = n_vertices + n_vertices / 2;
-        double *points = iccp_grow(&map->memory, map->points, 2 * map->n_vertices, 2 * room,
-                                   sizeof *points);
-        if (points != NULL)
-            map->points = points;
-        double *images = iccp_grow(&map->memory, map->images, 2 * map->n_vertices, 2 * room,
-                                   sizeof *images);
-        if (images != NULL)
-            map->images = images;
-        uint8_t *fixed = iccp_grow(&map->memory, map->fixed, map->n_vertices, room, 1);
-        if (fixed != NULL)
-            map->fixed = fixed;
-        if (points == NULL || images == NULL || fixed == NULL)
-            return ICC_ERR_MEMORY;
-        map->vertex_room = room;
+        status |= enlarge(memory, &map->points, n, room, 2 * sizeof *map->points);
+        status |= enlarge(memory, &map->images, n, room, 2 * sizeof *map->images);
+        status |= enlarge(memory, &map->fixed, n, room, sizeof *map->fixed);
+        status |= enlarge(memory, &map->facet, n, room, sizeof *map->facet);
+        status |= enlarge(memory, &map->along, n, room, sizeof *map->along);
+        if (status == ICC_OK)
+            map->vertex_room = room;
     }
     if (n_triangles > map->triangle_room) {
-        const size_t room = n_triangles + n_triangles / 2, n = 3 * map->corners.n_triangles;
-        uint32_t *vertex =
-            iccp_grow(&map->memory, map->corners.vertex, n, 3 * room, sizeof *vertex);
-        if (vertex != NULL)
-            map->corners.vertex = vertex;
-        uint32_t *twin = iccp_grow(&map->memory, map->corners.twin, n, 3 * room, sizeof *twin);
-        if (twin != NULL)
-            map->corners.twin = twin;
-        if (vertex == NULL || twin == NULL)
-            return ICC_ERR_MEMORY;
-        map->triangle_room = room;
+        const size_t room = n_triangles + n_triangles / 2;
+        status |= enlarge(memory, &map->corners.vertex, n_corners, 3 * room, sizeof(uint32_t));
+        status |= enlarge(memory, &map->corners.twin, n_corners, 3 * room, sizeof(uint32_t));
+        if (status == ICC_OK)
+            map->triangle_room = room;
     }
-    return ICC_OK;
+    return status == ICC_OK ? ICC_OK : ICC_ERR_MEMORY;
 }
 
 static icc_status fill(iccp_plmap *map, size_t n_vertices, size_t n_triangles,
@@ -57,27 +59,32 @@ static icc_status fill(iccp_plmap *map, size_t n_vertices, size_t n_triangles,
     return ICC_OK;
 }
 
-icc_status iccp_plmap_create(iccp_plmap *map, const iccp_planar *mesh, const double *images,
-                             double stretch, const iccp_memory *memory)
+icc_status iccp_plmap_create(iccp_plmap *map, const iccp_planar *mesh, const icc_domain *domain,
+                             const double *images, double stretch, const iccp_memory *memory)
 {
-    *map = (iccp_plmap){.memory = *memory, .stretch = stretch};
+    *map = (iccp_plmap){.memory = *memory, .stretch = stretch, .orientation = domain->orientation};
     const icc_status status = fill(map, mesh->n_vertices, mesh->n_triangles, mesh->points, images,
                                    mesh->triangles, mesh->twins);
-    if (status == ICC_OK) {
-        memset(map->fixed, 1, mesh->n_boundary);
-        memset(map->fixed + mesh->n_boundary, 0, mesh->n_vertices - mesh->n_boundary);
+    for (uint32_t v = 0; status == ICC_OK && v < mesh->n_vertices; ++v) {
+        map->fixed[v] = v < mesh->n_boundary;
+        map->facet[v] = map->fixed[v] ? mesh->facet[v] : 0;
+        map->along[v] = map->fixed[v] ? iccp_planar_along(mesh, domain, v, 0) : 0;
     }
     return status;
 }
 
 icc_status iccp_plmap_copy(iccp_plmap *map, const iccp_plmap *other, const iccp_memory *memory)
 {
-    *map = (iccp_plmap){.memory = *memory, .stretch = other->stretch};
+    *map = (iccp_plmap){
+        .memory = *memory, .stretch = other->stretch, .orientation = other->orientation};
     const icc_status status =
         fill(map, other->n_vertices, other->corners.n_triangles, other->points, other->images,
              other->corners.vertex, other->corners.twin);
-    if (status == ICC_OK)
-        memcpy(map->fixed, other->fixed, other->n_vertices);
+    if (status == ICC_OK) {
+        memcpy(map->fixed, other->fixed, other->n_vertices * sizeof *map->fixed);
+        memcpy(map->facet, other->facet, other->n_vertices * sizeof *map->facet);
+        memcpy(map->along, other->along, other->n_vertices * sizeof *map->along);
+    }
     return status;
 }
 
@@ -86,6 +93,8 @@ void iccp_plmap_free(iccp_plmap *map)
     iccp_free(&map->memory, map->points);
     iccp_free(&map->memory, map->images);
     iccp_free(&map->memory, map->fixed);
+    iccp_free(&map->memory, map->facet);
+    iccp_free(&map->memory, map->along);
     iccp_free(&map->memory, map->corners.vertex);
     iccp_free(&map->memory, map->corners.twin);
     *map = (iccp_plmap){.memory = map->memory};
@@ -136,6 +145,18 @@ static void middle_of(const double *a, const double *b, double m[2])
     m[1] = 0.5 * a[1] + 0.5 * b[1];
 }
 
+/* Vertex m in the middle of the edge from a to b, which may be one of the boundary. */
+static void place_on_boundary(iccp_plmap *map, size_t m, bool fixed, uint32_t a, uint32_t b)
+{
+    const double facet_end = map->orientation > 0 ? 1 : 0;
+    map->fixed[m] = fixed;
+    map->facet[m] = fixed ? map->facet[a] : 0;
+    map->along[m] = 0;
+    if (fixed)
+        map->along[m] = 0.5 * (map->along[a] +
+                               (map->facet[b] == map->facet[a] ? map->along[b] : facet_end));
+}
+
 icc_status iccp_plmap_cut(iccp_plmap *map, uint32_t corner, bool *done)
 {
     const uint32_t twin = map->corners.twin[corner];
@@ -154,7 +175,8 @@ icc_status iccp_plmap_cut(iccp_plmap *map, uint32_t corner, bool *done)
     const size_t m = map->n_vertices++;
     memcpy(map->points + 2 * m, point, sizeof point);
     memcpy(map->images + 2 * m, image, sizeof image);
-    map->fixed[m] = twin == ICCP_NO_NEIGHBOUR;
+    place_on_boundary(map, m, twin == ICCP_NO_NEIGHBOUR, map->corners.vertex[after],
+                      map->corners.vertex[before]);
     iccp_cut_edge(&map->corners, corner, (uint32_t)m);
     return ICC_OK;
 }

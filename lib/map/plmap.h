@@ -14,13 +14,16 @@ typedef struct iccp_plmap {
     double *points;  /* local in the source */
     double *images;  /* local in the target */
     uint8_t *fixed;  /* 1 for vertices on the boundary */
+    uint32_t *facet; /* of fixed vertices: the facet of the boundary edge that begins there, counter- */
+    double *along;   /* clockwise, and where on the facet the vertex lies, in [0, 1] */
+    int32_t orientation; /* of the source: facets run along with the boundary (1) or against it (-1) */
     double stretch;  /* lengths of the source are multiplied by this for energies, so that both areas
                         are the same and energies are those of shape alone */
 } iccp_plmap;
 
-/* Copies a mesh. `images`: 2 n_vertices. */
-icc_status iccp_plmap_create(iccp_plmap *map, const iccp_planar *mesh, const double *images,
-                             double stretch, const iccp_memory *memory);
+/* Copies the mesh of a domain. `images`: 2 n_vertices. */
+icc_status iccp_plmap_create(iccp_plmap *map, const iccp_planar *mesh, const icc_domain *domain,
+                             const double *images, double stretch, const iccp_memory *memory);
 icc_status iccp_plmap_copy(iccp_plmap *map, const iccp_plmap *other, const iccp_memory *memory);
 void iccp_plmap_free(iccp_plmap *map);
 
