@@ -205,6 +205,11 @@ static icc_status fill_mesh(iccp_planar *mesh, const icc_domain *domain, const u
     if (status == ICC_OK)
         status = iccp_triangulate_mesh(mesh->n_boundary, mesh->n_vertices, mesh->points,
                                        mesh->triangles, mesh->twins, env, err);
+    /* The domain is simple, but points along its facets are rounded. */
+    if (status == ICC_ERR_BOUNDARY || status == ICC_ERR_OUTSIDE)
+        status = iccp_fail(err, ICC_ERR_CERTIFICATE, -1,
+                           "the domain cannot be meshed: two of its sides are closer than rounding "
+                           "errors of points on them");
     if (status == ICC_OK) {
         mesh->n_triangles = 2 * mesh->n_vertices - mesh->n_boundary - 2;
         split_chords(mesh);

@@ -32,7 +32,8 @@ void iccp_planar_pieces(uint32_t *pieces, const icc_domain *a, const icc_domain 
 
 /* Meshes a domain: its facets cut into pieces, points inside that are graded from the boundary's
  * spacing to the step (mesh/grading.h), constrained Delaunay, and edges between two boundary vertices
- * cut at their middle. No triangle is degenerate or inverted, exactly. */
+ * cut at their middle. No triangle is degenerate or inverted, exactly. ICC_ERR_CERTIFICATE when sides
+ * are so close that rounded points on them touch. */
 icc_status iccp_planar_create(iccp_planar *mesh, const icc_domain *domain, const uint32_t *pieces,
                               int32_t cells, const iccp_env *env, icc_error *err);
 void iccp_planar_free(iccp_planar *mesh);
