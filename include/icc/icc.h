@@ -526,6 +526,27 @@ ICC_API icc_status icc_map_certify(const icc_map *map, size_t n_vertices, const 
                                    icc_certificate *certificate, const icc_env *env,
                                    icc_error *err);
 
+/**
+ * Carries a caller's triangle mesh along so that no triangle inverts: maps the vertices, then moves the
+ * images of inner ones until every triangle keeps its orientation. Triangles and the images of boundary
+ * vertices stay, so it cannot always succeed; the certificate tells.
+ *
+ * @param map              a 2-D map
+ * @param n_vertices       vertices of the mesh
+ * @param vertices         n_vertices * 2 coordinates in the source
+ * @param n_triangles      triangles
+ * @param triangles        n_triangles * 3 vertex indices
+ * @param[out] images      n_vertices * 2 coordinates
+ * @param[out] certificate of the images returned; its `size` is set by the caller
+ * @param env              may be NULL
+ * @param err              may be NULL
+ * @return as icc_map_certify()
+ */
+ICC_API icc_status icc_map_repair(const icc_map *map, size_t n_vertices, const double *vertices,
+                                  size_t n_triangles, const uint32_t *triangles, double *images,
+                                  icc_certificate *certificate, const icc_env *env,
+                                  icc_error *err);
+
 /** Frees a map. */
 ICC_API void icc_map_free(icc_map *map);
 

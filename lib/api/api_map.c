@@ -200,12 +200,12 @@ static icc_status check_mesh(size_t n_vertices, size_t n_triangles, const uint32
     return ICC_OK;
 }
 
-icc_status icc_map_certify(const icc_map *map, size_t n_vertices, const double *vertices,
-                           size_t n_triangles, const uint32_t *triangles, double *images,
-                           icc_certificate *certificate, const icc_env *env, icc_error *err)
+/* Both ways of carrying a caller's mesh along. */
+static icc_status carry_mesh(const icc_map *map, size_t n_vertices, const double *vertices,
+                             size_t n_triangles, const uint32_t *triangles, bool repaired,
+                             double *images, icc_certificate *certificate, const icc_env *env,
+                             icc_error *err)
 {
-    if (map == NULL || vertices == NULL || triangles == NULL || certificate == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_map_certify: an argument is NULL");
     iccp_env full_env;
     icc_certificate full = {0};
     icc_status status = iccp_env_read(&full_env, env, err);
@@ -217,10 +217,31 @@ icc_status icc_map_certify(const icc_map *map, size_t n_vertices, const double *
                                  : iccp_alloc(&full_env.memory, n_vertices, 2 * sizeof *own);
     if (images == NULL && own == NULL)
         return iccp_fail_memory(err);
-    status = iccp_map_certify(map, n_vertices, vertices, n_triangles, triangles,
+    status = iccp_map_certify(map, n_vertices, vertices, n_triangles, triangles, repaired,
                               images != NULL ? images : own, &full, &full_env, err);
     iccp_free(&full_env.memory, own);
     return status == ICC_OK
                ? iccp_write_struct(certificate, &full, sizeof full, "icc_certificate", err)
                : status;
+}
+
+icc_status icc_map_certify(const icc_map *map, size_t n_vertices, const double *vertices,
+                           size_t n_triangles, const uint32_t *triangles, double *images,
+                           icc_certificate *certificate, const icc_env *env, icc_error *err)
+{
+    if (map == NULL || vertices == NULL || triangles == NULL || certificate == NULL)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_map_certify: an argument is NULL");
+    return carry_mesh(map, n_vertices, vertices, n_triangles, triangles, false, images,
+                      certificate, env, err);
+}
+
+icc_status icc_map_repair(const icc_map *map, size_t n_vertices, const double *vertices,
+                          size_t n_triangles, const uint32_t *triangles, double *images,
+                          icc_certificate *certificate, const icc_env *env, icc_error *err)
+{
+    if (map == NULL || vertices == NULL || triangles == NULL || images == NULL ||
+        certificate == NULL)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_map_repair: an argument is NULL");
+    return carry_mesh(map, n_vertices, vertices, n_triangles, triangles, true, images, certificate,
+                      env, err);
 }

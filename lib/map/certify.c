@@ -6,10 +6,10 @@
 #include "domain/frame.h"
 #include "map/apply.h"
 #include "map/outline.h"
+#include "map/repair.h"
 #include "math/predicates.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 typedef struct mesh_check {
@@ -27,17 +27,17 @@ static int orientation(const double *points, const uint32_t *v)
 
 /* Copies points into coordinates for exact signs. Those that are not finite become 0; their triangles
  * are not looked at. */
-static icc_status localise(double *local, size_t n, const double *points, icc_error *err)
+static icc_status localise(double *local, iccp_frame *frame, size_t n, const double *points,
+                           icc_error *err)
 {
-    iccp_frame frame;
     for (size_t k = 0; k < 2 * n; ++k)
         local[k] = isfinite(points[2 * (k / 2)]) && isfinite(points[2 * (k / 2) + 1]) ? points[k] : 0;
-    iccp_frame_fit(&frame, 2, n, local);
+    iccp_frame_fit(frame, 2, n, local);
     for (size_t v = 0; v < n; ++v) {
-        if (!iccp_frame_holds(&frame, 2, local + 2 * v))
+        if (!iccp_frame_holds(frame, 2, local + 2 * v))
             return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)v,
                              "vertex %zu has a coordinate too small for exact signs", v);
-        iccp_frame_in(&frame, 2, local + 2 * v, local + 2 * v);
+        iccp_frame_in(frame, 2, local + 2 * v, local + 2 * v);
     }
     return ICC_OK;
 }
@@ -50,6 +50,7 @@ static bool has_image(const double *image)
 static void check_triangles(const mesh_check *m, const double *images)
 {
     icc_certificate *c = m->result;
+    c->n_no_image = c->n_flat = c->n_inverted = 0;
     for (size_t v = 0; v < m->n_vertices; ++v)
         c->n_no_image += !has_image(images + 2 * v);
     c->first = -1;
@@ -69,84 +70,143 @@ static void check_triangles(const mesh_check *m, const double *images)
     }
 }
 
-typedef struct half_edge {
-    uint32_t low, high, from, to;
-} half_edge;
-
-static int by_ends(const void *a, const void *b)
+/* Turns every triangle counter-clockwise before the map and finds who is beside whom. */
+static icc_status build_corners(const mesh_check *m, iccp_corners *corners, bool *is_manifold,
+                                const iccp_env *env)
 {
-    const half_edge *p = a, *q = b;
-    if (p->low != q->low)
-        return p->low < q->low ? -1 : 1;
-    return (p->high > q->high) - (p->high < q->high);
-}
-
-/* Half-edges with the triangle on their left before the map, sorted by their ends. */
-static void list_edges(const mesh_check *m, half_edge *edges)
-{
-    for (size_t t = 0; t < m->n_triangles; ++t) {
-        const uint32_t *v = m->triangles + 3 * t;
-        const bool turned = orientation(m->before, v) < 0;
-        for (size_t k = 0; k < 3; ++k) {
-            const uint32_t a = v[k], b = v[(k + 1) % 3];
-            edges[3 * t + k] = (half_edge){a < b ? a : b, a < b ? b : a, turned ? b : a,
-                                           turned ? a : b};
+    *corners = (iccp_corners){.n_triangles = m->n_triangles};
+    corners->vertex = iccp_alloc(&env->memory, m->n_triangles, 3 * sizeof *corners->vertex);
+    corners->twin = iccp_alloc(&env->memory, m->n_triangles, 3 * sizeof *corners->twin);
+    if (corners->vertex == NULL || corners->twin == NULL)
+        return ICC_ERR_MEMORY;
+    memcpy(corners->vertex, m->triangles, 3 * m->n_triangles * sizeof *corners->vertex);
+    for (uint32_t *v = corners->vertex; v < corners->vertex + 3 * m->n_triangles; v += 3)
+        if (orientation(m->before, v) < 0) {
+            const uint32_t swap = v[1];
+            v[1] = v[2];
+            v[2] = swap;
         }
-    }
-    qsort(edges, 3 * m->n_triangles, sizeof *edges, by_ends);
+    return iccp_find_twins(corners, is_manifold, env);
 }
 
-/* Links the ends of edges that belong to one triangle. Returns how many there are, 0 when an edge
- * belongs to more than two triangles or a vertex to more than two such edges. */
-static size_t link_boundary(const half_edge *edges, size_t n, uint32_t *next, uint32_t *first)
+static void free_corners(iccp_corners *corners, const iccp_memory *memory)
 {
-    size_t n_boundary = 0;
-    for (size_t k = 0; k < n;) {
-        size_t end = k + 1;
-        while (end < n && by_ends(&edges[k], &edges[end]) == 0)
-            ++end;
-        if (end - k > 2)
-            return 0;
-        if (end - k == 1) {
-            if (next[edges[k].from] != UINT32_MAX)
+    iccp_free(memory, corners->vertex);
+    iccp_free(memory, corners->twin);
+}
+
+/* The boundary as one ring; 0 when it is not. */
+static size_t boundary_ring(const iccp_corners *corners, size_t n_vertices, uint32_t *next,
+                            uint32_t *ring)
+{
+    size_t n = 0;
+    uint32_t first = 0;
+    memset(next, 0xff, n_vertices * sizeof *next);
+    for (uint32_t c = 0; c < 3 * corners->n_triangles; ++c)
+        if (corners->twin[c] == ICCP_NO_NEIGHBOUR) {
+            first = corners->vertex[iccp_after(c)];
+            if (next[first] != UINT32_MAX)
                 return 0;
-            next[edges[k].from] = edges[k].to;
-            *first = edges[k].from;
-            ++n_boundary;
+            next[first] = corners->vertex[iccp_before(c)];
+            ++n;
         }
-        k = end;
-    }
-    return n_boundary;
+    return n > 0 && iccp_outline_follow(next, first, n, ring) ? n : 0;
 }
 
-static icc_status check_boundary(const mesh_check *m, const iccp_env *env)
+/* ICC_ERR_BOUNDARY unless the boundary is one polygon that is simple before and after. */
+static icc_status check_boundary(const mesh_check *m, const iccp_corners *corners,
+                                 const iccp_env *env)
 {
-    const size_t n_edges = 3 * m->n_triangles;
-    half_edge *edges = iccp_alloc(&env->memory, n_edges, sizeof *edges);
     uint32_t *next = iccp_alloc(&env->memory, m->n_vertices, sizeof *next);
     uint32_t *ring = iccp_alloc(&env->memory, m->n_vertices, sizeof *ring);
-    icc_status status = edges != NULL && next != NULL && ring != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    icc_status status = next != NULL && ring != NULL ? ICC_OK : ICC_ERR_MEMORY;
     if (status == ICC_OK) {
-        uint32_t first = 0;
-        memset(next, 0xff, m->n_vertices * sizeof *next);
-        list_edges(m, edges);
-        const size_t n = link_boundary(edges, n_edges, next, &first);
-        status = ICC_ERR_BOUNDARY;
-        if (n > 0 && iccp_outline_follow(next, first, n, ring))
-            status = iccp_outline_check(m->before, ring, n, env);
+        const size_t n = boundary_ring(corners, m->n_vertices, next, ring);
+        status = n > 0 ? iccp_outline_check(m->before, ring, n, env) : ICC_ERR_BOUNDARY;
         if (status == ICC_OK)
             status = iccp_outline_check(m->after, ring, n, env);
     }
-    iccp_free(&env->memory, edges);
     iccp_free(&env->memory, next);
     iccp_free(&env->memory, ring);
     return status;
 }
 
-icc_status iccp_map_certify(const icc_map *map, size_t n_vertices, const double *vertices,
-                            size_t n_triangles, const uint32_t *triangles, double *images,
-                            icc_certificate *certificate, const iccp_env *env, icc_error *err)
+static double area_of(const mesh_check *m, const double *points)
 {
+    double sum = 0;
+    for (size_t t = 0; t < m->n_triangles; ++t) {
+        const uint32_t *v = m->triangles + 3 * t;
+        sum += fabs(iccp_area2d(points + 2 * (size_t)v[0], points + 2 * (size_t)v[1],
+                                points + 2 * (size_t)v[2]));
+    }
+    return sum;
+}
+
+/* Moves the images of inner vertices until every triangle is positive, as far as that goes; the
+ * triangles stay. */
+static icc_status repair(const mesh_check *m, const iccp_corners *corners, const iccp_env *env)
+{
+    const double before = area_of(m, m->before), after = area_of(m, m->after);
+    uint8_t *fixed = iccp_alloc_zero(&env->memory, m->n_vertices, 1);
+    if (fixed == NULL)
+        return ICC_ERR_MEMORY;
+    for (uint32_t c = 0; c < 3 * m->n_triangles; ++c)
+        if (corners->twin[c] == ICCP_NO_NEIGHBOUR)
+            fixed[corners->vertex[iccp_after(c)]] = fixed[corners->vertex[iccp_before(c)]] = 1;
+    iccp_plmap pl = {.memory = env->memory,
+                     .corners = *corners,
+                     .n_vertices = m->n_vertices,
+                     .points = m->before,
+                     .images = m->after,
+                     .fixed = fixed,
+                     .stretch = before > 0 && after > 0 ? sqrt(after / before) : 1};
+    size_t n_left;
+    const icc_status status = iccp_repair(&pl, true, &n_left, env);
+    iccp_free(&env->memory, fixed);
+    return status;
+}
+
+static bool has_flat(const mesh_check *m)
+{
+    for (size_t t = 0; t < m->n_triangles; ++t)
+        if (orientation(m->before, m->triangles + 3 * t) == 0)
+            return true;
+    return false;
+}
+
+/* Repairs if asked to and possible, and judges. */
+static icc_status judge(mesh_check *m, bool repaired, double *images, const iccp_frame *frame,
+                        const iccp_env *env)
+{
+    iccp_corners corners;
+    bool is_manifold = false;
+    check_triangles(m, images);
+    icc_status status = build_corners(m, &corners, &is_manifold, env);
+    if (status == ICC_OK && repaired && is_manifold && m->result->first >= 0 &&
+        m->result->n_no_image == 0 && !has_flat(m)) {
+        status = repair(m, &corners, env);
+        /* What is judged is what the caller gets, rounded. */
+        for (size_t v = 0; status == ICC_OK && v < m->n_vertices; ++v) {
+            iccp_frame_out(frame, 2, m->after + 2 * v, images + 2 * v);
+            iccp_frame_in(frame, 2, images + 2 * v, m->after + 2 * v);
+        }
+        if (status == ICC_OK)
+            check_triangles(m, images);
+    }
+    if (status == ICC_OK)
+        status = is_manifold ? check_boundary(m, &corners, env) : ICC_ERR_BOUNDARY;
+    m->result->boundary_simple = status == ICC_OK;
+    m->result->certified = status == ICC_OK && m->result->first < 0;
+    free_corners(&corners, &env->memory);
+    return status == ICC_ERR_BOUNDARY ? ICC_OK : status;
+}
+
+icc_status iccp_map_certify(const icc_map *map, size_t n_vertices, const double *vertices,
+                            size_t n_triangles, const uint32_t *triangles, bool repaired,
+                            double *images, icc_certificate *certificate, const iccp_env *env,
+                            icc_error *err)
+{
+    iccp_frame frame;
     mesh_check m = {n_vertices, n_triangles, triangles, NULL, NULL, certificate};
     m.before = iccp_alloc(&env->memory, n_vertices, 2 * sizeof(double));
     m.after = iccp_alloc(&env->memory, n_vertices, 2 * sizeof(double));
@@ -154,17 +214,11 @@ icc_status iccp_map_certify(const icc_map *map, size_t n_vertices, const double 
     if (status == ICC_OK)
         status = iccp_map_apply(map, false, n_vertices, vertices, images, NULL, NULL, env);
     if (status == ICC_OK)
-        status = localise(m.before, n_vertices, vertices, err);
+        status = localise(m.before, &frame, n_vertices, vertices, err);
     if (status == ICC_OK)
-        status = localise(m.after, n_vertices, images, err);
-    if (status == ICC_OK) {
-        check_triangles(&m, images);
-        status = check_boundary(&m, env);
-        certificate->boundary_simple = status == ICC_OK;
-        certificate->certified = status == ICC_OK && certificate->first < 0;
-        if (status == ICC_ERR_BOUNDARY)
-            status = ICC_OK;
-    }
+        status = localise(m.after, &frame, n_vertices, images, err);
+    if (status == ICC_OK)
+        status = judge(&m, repaired, images, &frame, env);
     iccp_free(&env->memory, m.before);
     iccp_free(&env->memory, m.after);
     return iccp_explain(err, status);

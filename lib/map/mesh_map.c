@@ -158,7 +158,7 @@ static icc_status refit(iccp_mesh_map *map, const icc_improve_options *options, 
 {
     const double begin = iccp_seconds();
     info->n_inverted = iccp_plmap_count_inverted(&map->pl);
-    icc_status status = iccp_repair(&map->pl, &info->n_unrepaired, env);
+    icc_status status = iccp_repair(&map->pl, false, &info->n_unrepaired, env);
     const double repaired = iccp_seconds();
     info->seconds_repair = repaired - begin;
     if (status != ICC_OK || info->n_unrepaired > 0)

@@ -152,18 +152,21 @@ static void mark_patch(const iccp_plmap *map, int rings, uint8_t *movable)
     }
 }
 
-static icc_status untangle_patches(iccp_plmap *map, size_t *n_left, const iccp_env *env)
+static icc_status untangle_patches(iccp_plmap *map, bool keep_mesh, size_t *n_left,
+                                   const iccp_env *env)
 {
     uint8_t *movable = iccp_alloc(&env->memory, map->n_vertices, 1);
     icc_status status = movable != NULL ? ICC_OK : ICC_ERR_MEMORY;
-    turn_edges(map);
+    if (!keep_mesh)
+        turn_edges(map);
     *n_left = iccp_plmap_count_inverted(map);
     for (size_t k = 0; status == ICC_OK && *n_left > 0 && k < sizeof RINGS / sizeof *RINGS; ++k) {
         if (RINGS[k] > 0)
             mark_patch(map, RINGS[k], movable);
         status = untangle(map, RINGS[k] > 0 ? movable : NULL, env);
         if (status == ICC_OK) {
-            turn_edges(map);
+            if (!keep_mesh)
+                turn_edges(map);
             *n_left = iccp_plmap_count_inverted(map);
         }
     }
@@ -205,13 +208,15 @@ static icc_status cut_chords(iccp_plmap *map)
     return status;
 }
 
-icc_status iccp_repair(iccp_plmap *map, size_t *n_left, const iccp_env *env)
+icc_status iccp_repair(iccp_plmap *map, bool keep_mesh, size_t *n_left, const iccp_env *env)
 {
+    if (keep_mesh)
+        return untangle_patches(map, true, n_left, env);
     iccp_plmap start;
     icc_status status = iccp_plmap_copy(&start, map, &env->memory);
     if (status != ICC_OK)
         return status;
-    status = untangle_patches(map, n_left, env);
+    status = untangle_patches(map, false, n_left, env);
     for (int round = 0; status == ICC_OK && *n_left > 0 && round < ROUNDS; ++round) {
         status = refine_round(&start, map, env);
         if (status == ICC_OK) {
@@ -219,7 +224,7 @@ icc_status iccp_repair(iccp_plmap *map, size_t *n_left, const iccp_env *env)
             status = iccp_plmap_copy(map, &start, &env->memory);
         }
         if (status == ICC_OK)
-            status = untangle_patches(map, n_left, env);
+            status = untangle_patches(map, false, n_left, env);
     }
     iccp_plmap_free(&start);
     return status == ICC_OK && *n_left == 0 ? cut_chords(map) : status;
