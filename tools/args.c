@@ -52,6 +52,14 @@ static int set_count(reading *r, const option *o, const char *value)
     return DONE;
 }
 
+static int set_length(reading *r, const option *o, const char *value)
+{
+    double *length = (double *)((char *)r->out + o->offset);
+    if (number_parse(value, length) != NUMBER_OK || !(*length > 0))
+        return misused(r->command->name, "--%s '%.40s' must be a number above 0", o->name, value);
+    return DONE;
+}
+
 static int set_point(reading *r, const option *o, const char *value)
 {
     double *xy = (double *)((char *)r->out + o->offset);
@@ -91,6 +99,8 @@ static int set_value(reading *r, const option *o, const char *value)
     switch (o->kind) {
     case OPTION_COUNT:
         return set_count(r, o, value);
+    case OPTION_LENGTH:
+        return set_length(r, o, value);
     case OPTION_CHOICE:
         return set_choice(r, o, value);
     case OPTION_POINT:
@@ -143,7 +153,7 @@ static int take_long(reading *r, const char *text)
 {
     size_t n = strcspn(text, "=");
     const option *o = find_long(r->command, text, n);
-    if (o == NULL && (strcmp(text, "geojson") == 0 || strcmp(text, "mesh") == 0))
+    if (o == NULL && strcmp(text, "mesh") == 0)
         return misused(r->command->name, "--%s is not available in this version", text);
     if (o == NULL)
         return misused(r->command->name, "there is no option --%.40s", text);
@@ -168,8 +178,10 @@ static int take_short(reading *r, const char *text)
 
 static int take_operand(reading *r, const char *text)
 {
-    if (r->out->n_operands == r->command->n_operands)
-        return misused(r->command->name, "'%.60s' is one argument too many", text);
+    const command *c = r->command;
+    size_t most = c->n_operands_geojson > c->n_operands ? c->n_operands_geojson : c->n_operands;
+    if (r->out->n_operands == most)
+        return misused(c->name, "'%.60s' is one argument too many", text);
     r->out->operands[r->out->n_operands++] = text;
     return DONE;
 }
@@ -184,30 +196,49 @@ static int check_method(const args *a, const command *c)
                                                  : NULL;
     if (gradient_only != NULL && a->method != ICC_METHOD_GRADIENT)
         return misused(c->name, "--%s needs --method gradient", gradient_only);
+    if (a->map == ICC_MAP_MESH && a->method == ICC_METHOD_GRADIENT)
+        return misused(c->name, "--map mesh needs a method that can be certified, not gradient");
+    if (a->triangles &&
+        (a->target == NULL || a->map == ICC_MAP_CURVES || a->method == ICC_METHOD_GRADIENT))
+        return misused(c->name, "--triangles needs a map of kind mesh: --target FILE --map mesh");
     if (a->method == ICC_METHOD_DISC && (a->has_maximum || a->has_target_maximum))
         return misused(c->name, "--method disc has no --maximum: it finds its own");
+    return DONE;
+}
+
+static int check_operands(const args *a, const command *c)
+{
+    size_t n_operands = a->geojson ? c->n_operands_geojson : c->n_operands;
+    if (a->n_operands < n_operands && a->geojson)
+        return misused(c->name, "--geojson needs two files, IN and OUT");
+    if (a->n_operands < n_operands)
+        return misused(c->name, "usage: libicc %s %s", c->name, c->usage);
+    if (a->n_operands > n_operands)
+        return misused(c->name, "'%.60s' is one argument too many without --geojson",
+                       a->operands[0]);
+    if (a->geojson && (a->points != NULL || a->output != NULL))
+        return misused(c->name, "--points and --output do not go with --geojson IN OUT");
+    if (a->tolerance > 0 && !a->geojson)
+        return misused(c->name, "--tolerance goes with --geojson only");
     return DONE;
 }
 
 /* What no single option can tell. */
 static int check_together(const args *a, const command *c)
 {
-    if (a->n_operands < c->n_operands)
-        return misused(c->name, "usage: libicc %s %s", c->name, c->usage);
     if (a->source == NULL)
         return misused(c->name, "--source FILE is missing");
     if (c->needs_target && a->target == NULL)
         return misused(c->name, "--target FILE is missing");
     if (a->unconstrained)
         return misused(c->name, "--unconstrained is not available in this version");
-    if (a->improve != 0)
-        return misused(c->name, "--improve %d is not available in this version; 0 is",
-                       (int)a->improve);
     int result = check_method(a, c);
+    if (result == DONE)
+        result = check_operands(a, c);
     if (result != DONE)
         return result;
     const char *inputs[] = {a->source, a->target, a->points ? a->points : a->coords,
-                            c->bit & (FOR_WARP | FOR_MESH) ? a->operands[0] : NULL};
+                            c->n_operands == 2 || a->geojson ? a->operands[0] : NULL};
     size_t n_standard = 0;
     for (size_t i = 0; i < sizeof inputs / sizeof *inputs; i++)
         n_standard += inputs[i] != NULL && strcmp(inputs[i], "-") == 0;
@@ -219,12 +250,12 @@ static int check_together(const args *a, const command *c)
 /* Reads come by default from stdin, and results go by default to stdout. */
 static int settle_streams(args *a, const command *c)
 {
-    if (c->bit & (FOR_MAP | FOR_ENCODE) && a->points == NULL)
+    if (c->bit & (FOR_MAP | FOR_ENCODE) && a->points == NULL && !a->geojson)
         a->points = "-";
     if (c->bit & FOR_DECODE && a->coords == NULL)
         a->coords = "-";
     const char *result = a->output != NULL ? a->output : "-";
-    if (c->bit & (FOR_WARP | FOR_MESH))
+    if (c->n_operands == 2 || a->geojson)
         result = a->operands[1];
     if (c->bit & FOR_PLOT)
         result = a->operands[0];
@@ -237,7 +268,7 @@ static int settle_streams(args *a, const command *c)
 
 int args_parse(args *out, const command *c, int argc, char **argv, bool *help)
 {
-    *out = (args){.command = c->name};
+    *out = (args){.command = c->name, .improve = -1};
     *help = false;
     reading r = {.out = out, .command = c, .argc = argc, .at = 2, .argv = argv, .help = help};
     bool only_operands = false;

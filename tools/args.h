@@ -13,11 +13,13 @@ typedef struct args {
     const char *operands[2];
     size_t n_operands;
     /* how charts and maps are made: 0 means the library's choice */
-    int32_t method, map, function, tree, cells, improve, threads;
+    int32_t method, map, function, tree, cells, threads;
+    int32_t improve;  /* steps at most; -1: the library's choice */
+    double tolerance; /* 0: the command's choice */
     double maximum[2], target_maximum[2];
     bool has_maximum, has_target_maximum, unconstrained;
     /* what to do */
-    bool inverse, quiet, json, elevation, y_down, compression, has_background;
+    bool inverse, geojson, quiet, json, elevation, triangles, y_down, compression, has_background;
     unsigned char background[4];
     int32_t lines;
 } args;
@@ -39,6 +41,7 @@ typedef struct command {
     const char *name;
     unsigned bit;
     size_t n_operands;
+    size_t n_operands_geojson; /* with --geojson */
     bool needs_target;
     int (*run)(const args *a);
     const char *usage;   /* what follows the name */

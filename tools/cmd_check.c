@@ -87,8 +87,17 @@ static void print_certificates(const check *c)
     for (size_t side = 0; side < 2; side++)
         if (c->charts[side].certified)
             print_chart(job_file(&c->job, (int)side + 1), &c->charts[side]);
-    if (c->map.certified)
-        printf("map: %s, certified one-to-one\n", choice_name(maps, c->map.kind));
+    if (c->map.n_unrepaired > 0)
+        printf("map: %zu triangles of the mesh could not be repaired, so it is of kind curves\n",
+               c->map.n_unrepaired);
+    if (!c->map.certified)
+        return;
+    printf("map: %s, certified one-to-one", choice_name(maps, c->map.kind));
+    if (c->map.kind == ICC_MAP_MESH)
+        printf(
+            ": all %zu triangles keep their orientation, exactly, and both boundaries are simple",
+            c->map.n_triangles);
+    putchar('\n');
 }
 
 static void report_certificates(const check *c, json *j)

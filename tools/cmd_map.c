@@ -28,6 +28,8 @@ static int map_points(job *j, table *points)
 
 int run_map(const args *a)
 {
+    if (a->geojson)
+        return run_geojson(a);
     static const table_form form = {
         .columns = 2, .special = true, .what = "a point is `x y`, one per line"};
     job j;

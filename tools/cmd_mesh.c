@@ -56,7 +56,34 @@ static tally count(const mesh_file *m, const double *images)
     return t;
 }
 
-static int report_tally(const job *j, const mesh_file *m, const tally *t, size_t n_failed)
+/* What the library says of the mesh as a whole; from target to source it has nothing to say. */
+static int certify(job *j, const mesh_file *m, icc_certificate *certificate)
+{
+    icc_error err = {.size = sizeof err, .index = -1};
+    if (j->args->inverse || m->n_triangles == 0)
+        return DONE;
+    certificate->size = sizeof *certificate;
+    if (icc_map_certify(j->map, m->n_vertices, m->points, m->n_triangles, m->triangles, NULL,
+                        certificate, &j->env, &err) != ICC_OK)
+        return job_failed(j, &err);
+    return DONE;
+}
+
+static void print_tally(const job *j, const char *text, const icc_certificate *certificate)
+{
+    const char *verdict = certificate->size == 0   ? ""
+                          : certificate->certified ? "; mesh and image are certified one-to-one"
+                          : certificate->boundary_simple ? "; not certified"
+                                                         : "; not certified, nor is the boundary "
+                                                           "one simple polygon before and after";
+    if (strcmp(j->args->operands[1], "-") == 0)
+        note("%s%s", text, verdict);
+    else
+        printf("%s%s\n", text, verdict);
+}
+
+static int report_tally(const job *j, const mesh_file *m, const tally *t, size_t n_failed,
+                        const icc_certificate *certificate)
 {
     char text[256];
     snprintf(text, sizeof text,
@@ -64,10 +91,7 @@ static int report_tally(const job *j, const mesh_file *m, const tally *t, size_t
              "before, %zu without image",
              m->n_triangles, t->kept, t->inverted, t->collapsed, t->flat_before, t->without_image);
     if (!j->args->json) {
-        if (strcmp(j->args->operands[1], "-") == 0)
-            note("%s", text);
-        else
-            puts(text);
+        print_tally(j, text, certificate);
         return DONE;
     }
     report r;
@@ -83,6 +107,10 @@ static int report_tally(const job *j, const mesh_file *m, const tally *t, size_t
     json_count(&r.json, "flat_before", t->flat_before);
     json_count(&r.json, "without_image", t->without_image);
     json_close(&r.json, '}');
+    if (certificate->size > 0) {
+        json_flag(&r.json, "boundary_simple", certificate->boundary_simple != 0);
+        json_flag(&r.json, "certified", certificate->certified != 0);
+    }
     return report_close(&r) ? DONE : FAILED;
 }
 
@@ -106,9 +134,12 @@ static int map_mesh(job *j, const mesh_file *m)
     int result = ran == ICC_OK ? DONE : job_failed_status(j, ran);
     if (result == DONE)
         result = write_mesh(j, m, images);
+    icc_certificate certificate = {0};
+    if (result == DONE)
+        result = certify(j, m, &certificate);
     if (result == DONE) {
         tally t = count(m, images);
-        result = report_tally(j, m, &t, n_failed);
+        result = report_tally(j, m, &t, n_failed, &certificate);
     }
     if (result == DONE)
         result = job_partial(j, n, status, "vertices");

@@ -91,7 +91,7 @@ static int draw_panel(plot *x, int what, size_t side)
              x->n_sides == 1 ? ""
              : side == 0     ? "source: "
                              : "target: ",
-             bare ? "integral curves" : captions[what]);
+             bare ? (x->job.args->triangles ? "triangles" : "integral curves") : captions[what]);
     svg_label(x->svg, p.left + p.width / 2, row_top(x, what) + row_height(x, what) + caption,
               label);
     plot_clip(&p, &x->job.cages[side]);

@@ -48,17 +48,31 @@ static void print_certified(const icc_chart_info *c)
                100 * c->harmonic_share);
 }
 
+static void print_mesh_map(const icc_map_info *m)
+{
+    printf("triangles   %zu, %zu vertices; %zu were not positive and have been repaired\n",
+           m->n_triangles, m->n_vertices, m->n_inverted);
+    printf("energy      %.4g, improved to %.4g in %zu steps, %d refinements\n", m->energy_start,
+           m->energy, m->n_iterations, (int)m->n_levels);
+}
+
 static void print_map(const info *x)
 {
     const icc_map_info *m = &x->map;
     const map_shares *s = &x->shares;
     printf("map         %s, %s\n", choice_name(maps, m->kind),
            m->certified ? "certified" : "not certified");
+    if (m->n_unrepaired > 0)
+        printf("            of kind curves because %zu triangles could not be repaired\n",
+               m->n_unrepaired);
+    if (m->kind == ICC_MAP_MESH)
+        print_mesh_map(m);
     printf("area        %6.2f %% collapses, %.2f %% inverts, %.2f %% has no image\n",
            100 * s->collapsed, 100 * s->inverted, 100 * s->without_image);
-    printf("distortion  mean %.4g, median %.4g, 99 %% below %.4g%s (symmetric Dirichlet; 4: none)\n",
-           s->mean, s->median, s->nearly_all,
-           s->collapsed + s->inverted + s->without_image > 0 ? " for the rest" : "");
+    printf(
+        "distortion  mean %.4g, median %.4g, 99 %% below %.4g%s (symmetric Dirichlet; 4: none)\n",
+        s->mean, s->median, s->nearly_all,
+        s->collapsed + s->inverted + s->without_image > 0 ? " for the rest" : "");
 }
 
 void info_print(const info *x)
@@ -78,5 +92,8 @@ void info_print(const info *x)
     else
         printf("mesh %.4f, solve %.4f, certify %.4f", c->seconds_mesh, c->seconds_solve,
                c->seconds_certify);
+    if (x->map.kind == ICC_MAP_MESH)
+        printf(", repair %.4f, improve %.4f, certify %.4f", x->map.seconds_repair,
+               x->map.seconds_improve, x->map.seconds_certify);
     printf(", all %.4f\n", seconds_now() - x->job.started);
 }

@@ -55,11 +55,31 @@ static void report_shares(json *j, const icc_chart_measures *m)
     json_close(j, '}');
 }
 
+static void report_mesh_map(json *j, const icc_map_info *m)
+{
+    json_count(j, "triangles", m->n_triangles);
+    json_count(j, "vertices", m->n_vertices);
+    json_count(j, "repaired", m->n_inverted);
+    json_count(j, "steps", m->n_iterations);
+    json_count(j, "refinements", (size_t)m->n_levels);
+    json_number(j, "energy_before", m->energy_start);
+    json_number(j, "energy", m->energy);
+    json_open(j, "seconds", '{');
+    json_number(j, "repair", m->seconds_repair);
+    json_number(j, "improve", m->seconds_improve);
+    json_number(j, "certify", m->seconds_certify);
+    json_number(j, "all", m->seconds);
+    json_close(j, '}');
+}
+
 static void report_map(json *j, const icc_map_info *m, const map_shares *s)
 {
     json_open(j, "map", '{');
     json_text(j, "kind", choice_name(maps, m->kind));
     json_flag(j, "certified", m->certified != 0);
+    json_count(j, "unrepaired", m->n_unrepaired);
+    if (m->kind == ICC_MAP_MESH)
+        report_mesh_map(j, m);
     json_count(j, "samples", s->n);
     json_number(j, "collapsed", s->collapsed);
     json_number(j, "inverted", s->inverted);

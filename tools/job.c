@@ -121,11 +121,13 @@ int job_make_domains(job *j)
     return result;
 }
 
+/* A maximum that the user wants asks for the method that takes one. */
 static icc_chart_options chart_options(const args *a)
 {
+    bool wants_maximum = a->has_maximum || a->has_target_maximum;
     return (icc_chart_options){
         .size = sizeof(icc_chart_options),
-        .method = a->method,
+        .method = a->method == 0 && wants_maximum ? ICC_METHOD_FOLIATION : a->method,
         .function = a->function,
         .tree = a->tree,
         .cells = a->cells,
@@ -155,6 +157,7 @@ int job_make_map(job *j)
     double began = seconds_now();
     icc_chart_options chart = chart_options(j->args);
     icc_map_options options = {.size = sizeof options, .kind = j->args->map, .chart = &chart};
+    options.iterations = j->args->improve > 0 ? j->args->improve : j->args->improve == 0 ? -1 : 0;
     if (j->args->has_target_maximum)
         options.target_maximum = j->args->target_maximum;
     icc_error err = {.size = sizeof err, .index = -1};

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-static void write_string(FILE *stream, const char *text)
+void json_string(FILE *stream, const char *text)
 {
     fputc('"', stream);
     for (const char *c = text; *c != '\0'; c++) {
@@ -22,7 +22,7 @@ static void begin(json *j, const char *name)
         fprintf(j->stream, "%s\n%*s", j->first ? "" : ",", (int)(2 * j->depth), "");
     j->first = false;
     if (name != NULL) {
-        write_string(j->stream, name);
+        json_string(j->stream, name);
         fputs(": ", j->stream);
     }
 }
@@ -49,7 +49,7 @@ void json_close(json *j, char bracket)
 void json_text(json *j, const char *name, const char *value)
 {
     begin(j, name);
-    write_string(j->stream, value);
+    json_string(j->stream, value);
 }
 
 void json_count(json *j, const char *name, size_t value)

@@ -20,4 +20,7 @@ void json_count(json *j, const char *name, size_t value);
 void json_flag(json *j, const char *name, bool value);
 void json_number(json *j, const char *name, double value); /* null when it is not finite */
 
+/* A string by itself. */
+void json_string(FILE *stream, const char *text);
+
 #endif

@@ -11,15 +11,20 @@
 static const command commands[] = {
     {.name = "map",
      .bit = FOR_MAP,
+     .n_operands_geojson = 2,
      .needs_target = true,
      .run = run_map,
-     .usage = "--source FILE --target FILE [OPTION]... < POINTS > IMAGES",
+     .usage = "--source FILE --target FILE [OPTION]... < POINTS > IMAGES\n"
+              "       libicc map --source FILE --target FILE --geojson [OPTION]... IN OUT",
      .summary = "Carries points along with their cage",
      .details =
          "Reads one point `x y` per line and writes its image per line, in the same order. A "
          "point\n"
          "without an image gives `nan nan`; the exit code is then 4. Blank lines and lines that\n"
-         "begin with # are left out.\n"},
+         "begin with # are left out.\n\n"
+         "With --geojson it carries the points, lines and polygons of a GeoJSON file, with more\n"
+         "vertices where the map bends lines. Points and polygons without an image become empty,\n"
+         "lines are cut, and the exit code is then 4.\n"},
     {.name = "encode",
      .bit = FOR_ENCODE,
      .run = run_encode,
@@ -59,7 +64,9 @@ static const command commands[] = {
      .summary = "Carries the vertices of a mesh along",
      .details = "OBJ and OFF, in the plane (a third coordinate is kept). Says how many triangles "
                 "keep their\n"
-                "orientation, and how many invert or collapse, with exact signs.\n"},
+                "orientation, how many invert or collapse, and whether the mesh and its image are "
+                "one-to-one,\n"
+                "with exact signs. A mesh that is sampled from a one-to-one map need not be.\n"},
     {.name = "check",
      .bit = FOR_CHECK,
      .run = run_check,
@@ -67,19 +74,24 @@ static const command commands[] = {
      .summary = "Checks cages and certifies the map between them",
      .details = "Lists every crossing, contact, spike and repeated vertex, one per line. Exit code "
                 "0 means\n"
-                "certified to be one-to-one; the method gradient cannot be, so it gives 1.\n"},
+                "that the charts and the map are certified to be one-to-one; the method gradient "
+                "cannot be, so\n"
+                "it gives 1.\n"},
     {.name = "info",
      .bit = FOR_INFO,
      .run = run_info,
      .usage = "--source FILE [--target FILE] [OPTION]...",
      .summary = "Tells what a chart is made of, and what it misses",
-     .details = "With a target it also tells what share of the area collapses or inverts.\n"},
+     .details =
+         "With a target it also tells how the map was made, what share of the area collapses "
+         "or inverts,\n"
+         "and how much the rest is distorted.\n"},
     {.name = "plot",
      .bit = FOR_PLOT,
      .n_operands = 1,
      .run = run_plot,
      .usage = "--source FILE [--target FILE] [OPTION]... OUT.svg",
-     .summary = "Draws cage, function, tree, maximum and integral curves",
+     .summary = "Draws cage, integral curves, maximum and what they are made of",
      .details = "With a target: both shapes side by side, and below them a checkerboard and the u "
                 "v map that\n"
                 "the target inherits.\n"},

@@ -8,6 +8,7 @@ typedef enum option_kind {
     OPTION_FLAG,   /* bool */
     OPTION_TEXT,   /* const char * */
     OPTION_COUNT,  /* int32_t between low and high */
+    OPTION_LENGTH, /* double above 0 */
     OPTION_CHOICE, /* int32_t, by name */
     OPTION_POINT,  /* double[2], and a bool that it is there */
     OPTION_COLOUR, /* unsigned char[4], and a bool that it is there */
@@ -37,7 +38,7 @@ extern const choice methods[], maps[], functions[], trees[];
 /* The name of a value that the library gave. */
 const char *choice_name(const choice *choices, int32_t value);
 
-enum { N_OPTIONS = 25 };
+enum { N_OPTIONS = 28 };
 extern const option options[N_OPTIONS];
 
 #endif

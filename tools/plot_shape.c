@@ -157,10 +157,10 @@ static int draw_shades(const panel *p, job *j)
     size_t n = image.width * image.height;
     double *points = need(n, 2 * sizeof *points), *values = need(n, sizeof *values);
     for (size_t i = 0; i < n; i++)
-        panel_locate(
-            p, p->left + ((double)(i % image.width) + 0.5) * p->width / (double)image.width,
-            p->top + ((double)(i / image.width) + 0.5) * p->height / (double)image.height,
-            points + 2 * i);
+        panel_locate(p,
+                     p->left + ((double)(i % image.width) + 0.5) * p->width / (double)image.width,
+                     p->top + ((double)(i / image.width) + 0.5) * p->height / (double)image.height,
+                     points + 2 * i);
     int result = stages_values(p->stages, j, n, points, values);
     for (size_t i = 0; i < n && result == DONE; i++) {
         unsigned char rgba[4];
@@ -224,6 +224,34 @@ static void draw_maximum(const panel *p)
             at[0], at[1]);
 }
 
+/* The mesh of the map, every edge once. */
+static int draw_triangles(const panel *p, job *j)
+{
+    icc_map_info info = {.size = sizeof info};
+    icc_map_get_info(j->map, &info);
+    if (info.kind != ICC_MAP_MESH)
+        return failed(NULL, 0,
+                      "the map is not of kind mesh: its repair failed; plot without "
+                      "--triangles");
+    double *points = need(info.n_vertices, 2 * sizeof *points);
+    uint32_t *triangles = need(info.n_triangles, 3 * sizeof *triangles);
+    icc_map_mesh(j->map, p->side == 1 ? points : NULL, p->side == 2 ? points : NULL, triangles);
+    for (size_t i = 0; i < info.n_vertices; i++)
+        panel_place(p, points + 2 * i, points + 2 * i);
+    fputs("<path fill=\"none\" stroke=\"#334155\" stroke-width=\"0.4\" d=\"", p->svg);
+    for (size_t i = 0; i < 3 * info.n_triangles; i++) {
+        uint32_t a = triangles[i], b = triangles[i % 3 == 2 ? i - 2 : i + 1];
+        double ends[4] = {points[2 * a], points[2 * a + 1], points[2 * b], points[2 * b + 1]};
+        /* The triangle on the other side runs from b to a; where there is none, the outline is. */
+        if (a < b)
+            svg_polyline(p->svg, 2, ends);
+    }
+    fputs("\"/>\n", p->svg);
+    free(points);
+    free(triangles);
+    return DONE;
+}
+
 int plot_shape(const panel *p, job *j)
 {
     bool has_tree = p->stages->tree != NULL;
@@ -232,13 +260,14 @@ int plot_shape(const panel *p, job *j)
     if (has_tree)
         draw_tree(p);
     if (result == DONE)
-        result = draw_curves(p, j);
+        result = j->args->triangles ? draw_triangles(p, j) : draw_curves(p, j);
     if (j->args->compression)
         draw_edges(p, ICC_EDGE_COMPRESSION, "#f59e0b");
     if (has_tree)
         draw_edges(p, ICC_EDGE_EXPANSION, "#a21caf");
     fputs("</g>\n", p->svg);
     plot_cage(p, &j->cages[p->side == 2]);
-    draw_maximum(p);
+    if (!j->args->triangles)
+        draw_maximum(p);
     return result;
 }

@@ -112,7 +112,8 @@ int stages_values(const stages *s, job *j, size_t n, const double *points, doubl
         return DONE;
     uint32_t *facet = need(n, sizeof *facet);
     double *bary = need(n, 2 * sizeof *bary);
-    icc_status ran = icc_chart_encode(s->chart, n, points, facet, bary, values, NULL, NULL, &j->env);
+    icc_status ran =
+        icc_chart_encode(s->chart, n, points, facet, bary, values, NULL, NULL, &j->env);
     free(facet);
     free(bary);
     return ran == ICC_OK ? DONE : job_failed_status(j, ran);

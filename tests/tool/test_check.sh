@@ -19,6 +19,20 @@ for method in foliation disc; do
     grep -q '^map' out && complain "a map without a target"
 done
 
+# The default is the mesh map, improved or not.
+for improve in "" "--improve 0" "--improve 2"; do
+    # shellcheck disable=SC2086
+    run 0 check -s source.txt -t target.txt $improve
+    grep -q 'map: mesh, certified one-to-one: all [0-9]* triangles keep' out || complain "no mesh: $(cat out)"
+done
+run 0 info -s source.txt -t target.txt --improve 0
+holds out 'map         mesh, certified'
+holds out 'in 0 steps'
+awk '$1 == "energy" { print $2 + 0 }' out >before
+run 0 info -s source.txt -t target.txt --json
+awk -F '[:,]' '/"energy_before"/ { before = $2 } /"energy"/ { after = $2 } /"steps"/ { steps = $2 }
+    END { exit !(steps > 0 && after >= 4 && after < before) }' out || complain "not improved: $(cat out)"
+
 # Valid, but not certifiable.
 run 1 check -s source.txt -t target.txt -m gradient
 holds out 'source.txt: a simple polygon, 6 vertices, counter-clockwise, area 75'
@@ -86,6 +100,9 @@ f -4 -2 -1
 END
 run 0 mesh -s source.txt -t target.txt mesh.obj out.obj
 holds out '2 triangles: 2 keep their orientation, 0 inverted, 0 collapsed'
+holds out 'mesh and image are certified one-to-one'
+run 0 mesh -s source.txt -t target.txt --json mesh.obj out.obj
+holds out '"certified": true'
 run 0 mesh -s source.txt -t target.txt -i out.obj back.obj
 grep '^v ' mesh.obj | awk '{ print $2, $3, $4 }' >expected
 grep '^v ' back.obj | awk '{ print $2, $3, $4 }' >got
@@ -100,6 +117,12 @@ holds out '3 triangles: 3 keep their orientation'
 printf 'v 5 0\nv 10 0\nv 10 0\nv 8 8\nf 1 2 3\nf 1 2 4\n' >flat.obj
 run 4 mesh -s source.txt -t target.txt flat.obj out.obj
 holds out '0 keep their orientation, 0 inverted, 0 collapsed, 1 flat before, 1 without image'
+holds out '; not certified'
+# Two triangles beside each other on the cage are fine one by one, but overlap together.
+printf 'v 0 0\nv 5 0\nv 5 5\nv 0 5\nf 1 2 3\nf 1 2 4\n' >overlap.obj
+run 0 mesh -s source.txt -t target.txt overlap.obj out.obj
+holds out '2 keep their orientation'
+holds out 'not certified, nor is the boundary one simple polygon'
 
 printf 'v 5 0\nv 10 zero\n' >bad
 run 1 mesh -s source.txt -t target.txt bad out.obj

@@ -36,6 +36,10 @@ for method in foliation disc; do
     says '--elevation needs --method gradient'
 done
 
+run 0 plot -s source.txt -t target.txt --triangles drawing.svg
+holds drawing.svg 'target: triangles'
+well_formed drawing.svg
+
 run 0 plot -s source.txt -t target.txt -m gradient --elevation --compression --y-down --lines 20 drawing.svg
 for part in 'source: checkerboard' 'target: uv map' 'target: elevation' 'source: function'; do
     holds drawing.svg "$part"

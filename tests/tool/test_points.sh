@@ -30,9 +30,13 @@ awk '{ if (NF != 4 || $1 != int($1) || $1 < 0 || $1 > 5 || $2 < 0 || $3 < 0 || $
 awk 'BEGIN { for (i = 0; i < 500; i++) { x = (i * 0.618034) % 1 * 10; y = (i * 0.754878) % 1 * 10
              if (x > 0 && y > 0 && (x < 5 || y < 5)) printf "%.17g %.17g\n", x, y } }' >inside.txt
 for method in foliation disc; do
-    run 0 map -s source.txt -t target.txt -m "$method" -p inside.txt -o there
-    run 0 map -s source.txt -t target.txt -m "$method" -p there -i
-    close_to out inside.txt 1e-12
+    for map in mesh curves; do
+        run 0 map -s source.txt -t target.txt -m "$method" --map "$map" -p inside.txt -o there
+        run 0 map -s source.txt -t target.txt -m "$method" --map "$map" -p there -i
+        close_to out inside.txt 1e-12
+        run 0 map -s source.txt -t target.txt -m "$method" --map "$map" -p source.txt
+        close_to out target.txt 1e-12
+    done
     run 0 encode -s target.txt -m "$method" -p there -o coords
     run 0 decode -s target.txt -m "$method" --coords coords
     close_to out there 1e-12

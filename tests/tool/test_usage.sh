@@ -48,7 +48,27 @@ for pair in "--method field" "--function laplace" "--function bilaplace"; do
     says "not available in this version"
 done
 run 2 map -s source.txt -t target.txt --geojson
-says "not available in this version"
+says "--geojson needs two files, IN and OUT"
+run 2 map -s source.txt -t target.txt --geojson in out more
+says "'more' is one argument too many"
+run 2 map -s source.txt -t target.txt in out
+says "'in' is one argument too many without --geojson"
+run 2 map -s source.txt -t target.txt --geojson in out -p points.txt
+says "--points and --output do not go with --geojson"
+run 2 map -s source.txt -t target.txt --tolerance 1
+says "--tolerance goes with --geojson only"
+run 2 map -s source.txt -t - --geojson - out
+says "only one input can be standard input"
+for value in 0 -1 nan inf x ''; do
+    run 2 map -s source.txt -t target.txt --geojson in out "--tolerance=$value"
+    says "must be a number above 0"
+done
+run 2 map -s source.txt -t target.txt -m gradient --map mesh
+says "--map mesh needs a method that can be certified"
+run 2 plot -s source.txt --triangles out.svg
+says "--triangles needs a map of kind mesh"
+run 2 plot -s source.txt -t target.txt --map curves --triangles out.svg
+says "--triangles needs a map of kind mesh"
 run 2 info -s source.txt --unconstrained
 says "not available in this version"
 run 2 info -s source.txt --method magic
