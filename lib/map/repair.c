@@ -13,6 +13,9 @@ static const int RINGS[] = {2, 5, 12, 0};
 /* Steps of one untangling, and rounds of refinement. */
 enum { STEPS = 60, ROUNDS = 4 };
 
+/* Where a few rounds multiply the triangles by more than this, refinement is not what is missing. */
+enum { MOST_GROWTH = 2 };
+
 /* Epsilon's lower bound falls by at least this share a step. Newton's method needs few steps for each
  * epsilon; Garanzha et al. take 0.1 with a slower one. */
 static const double SLOWEST = 0.3;
@@ -213,11 +216,14 @@ icc_status iccp_repair(iccp_plmap *map, bool keep_mesh, size_t *n_left, const ic
     if (keep_mesh)
         return untangle_patches(map, true, n_left, env);
     iccp_plmap start;
+    const size_t most = MOST_GROWTH * map->corners.n_triangles;
     icc_status status = iccp_plmap_copy(&start, map, &env->memory);
     if (status != ICC_OK)
         return status;
     status = untangle_patches(map, false, n_left, env);
-    for (int round = 0; status == ICC_OK && *n_left > 0 && round < ROUNDS; ++round) {
+    for (int round = 0; status == ICC_OK && *n_left > 0 && round < ROUNDS &&
+                        start.corners.n_triangles <= most;
+         ++round) {
         status = refine_round(&start, map, env);
         if (status == ICC_OK) {
             iccp_plmap_free(map);
