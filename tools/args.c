@@ -218,6 +218,8 @@ static int check_operands(const args *a, const command *c)
                        a->operands[0]);
     if (a->geojson && (a->points != NULL || a->output != NULL))
         return misused(c->name, "--points and --output do not go with --geojson IN OUT");
+    if (a->repair_mesh && a->inverse)
+        return misused(c->name, "--repair does not go with --inverse");
     if (a->tolerance > 0 && !a->geojson)
         return misused(c->name, "--tolerance goes with --geojson only");
     return DONE;

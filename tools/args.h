@@ -19,7 +19,7 @@ typedef struct args {
     double maximum[2], target_maximum[2];
     bool has_maximum, has_target_maximum, unconstrained;
     /* what to do */
-    bool inverse, geojson, quiet, json, elevation, triangles, y_down, compression, has_background;
+    bool inverse, repair_mesh, geojson, quiet, json, elevation, triangles, y_down, compression, has_background;
     unsigned char background[4];
     int32_t lines;
 } args;

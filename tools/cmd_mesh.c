@@ -56,17 +56,19 @@ static tally count(const mesh_file *m, const double *images)
     return t;
 }
 
-/* What the library says of the mesh as a whole; from target to source it has nothing to say. */
-static int certify(job *j, const mesh_file *m, icc_certificate *certificate)
+/* What the library says of the mesh as a whole, which may have its images repaired; from target to
+ * source it has nothing to say. */
+static int certify(job *j, const mesh_file *m, double *images, icc_certificate *certificate)
 {
     icc_error err = {.size = sizeof err, .index = -1};
     if (j->args->inverse || m->n_triangles == 0)
         return DONE;
     certificate->size = sizeof *certificate;
-    if (icc_map_certify(j->map, m->n_vertices, m->points, m->n_triangles, m->triangles, NULL,
-                        certificate, &j->env, &err) != ICC_OK)
-        return job_failed(j, &err);
-    return DONE;
+    icc_status ran = (j->args->repair_mesh ? icc_map_repair : icc_map_certify)(
+        j->map, m->n_vertices, m->points, m->n_triangles, m->triangles, images, certificate,
+        &j->env, &err);
+    progress_end(&j->bar);
+    return ran == ICC_OK ? DONE : job_failed(j, &err);
 }
 
 static void print_tally(const job *j, const char *text, const icc_certificate *certificate)
@@ -130,13 +132,11 @@ static int map_mesh(job *j, const mesh_file *m)
     icc_status *status = need(n, sizeof *status);
     icc_status ran = (j->args->inverse ? icc_map_apply_inverse : icc_map_apply)(
         j->map, n, m->points, images, status, &n_failed, &j->env);
+    icc_certificate certificate = {0};
+    int result = ran == ICC_OK ? certify(j, m, images, &certificate) : job_failed_status(j, ran);
     progress_end(&j->bar);
-    int result = ran == ICC_OK ? DONE : job_failed_status(j, ran);
     if (result == DONE)
         result = write_mesh(j, m, images);
-    icc_certificate certificate = {0};
-    if (result == DONE)
-        result = certify(j, m, &certificate);
     if (result == DONE) {
         tally t = count(m, images);
         result = report_tally(j, m, &t, n_failed, &certificate);

@@ -38,7 +38,7 @@ extern const choice methods[], maps[], functions[], trees[];
 /* The name of a value that the library gave. */
 const char *choice_name(const choice *choices, int32_t value);
 
-enum { N_OPTIONS = 28 };
+enum { N_OPTIONS = 29 };
 extern const option options[N_OPTIONS];
 
 #endif

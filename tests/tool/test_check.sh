@@ -124,6 +124,22 @@ run 0 mesh -s source.txt -t target.txt overlap.obj out.obj
 holds out '2 keep their orientation'
 holds out 'not certified, nor is the boundary one simple polygon'
 
+# A mesh that is sampled from a one-to-one map can invert; --repair moves its inner vertices.
+awk -v n=20 'BEGIN { h = 10 / n
+    for (j = 0; j <= n; j++) for (i = 0; i <= n; i++) if (i <= n / 2 || j <= n / 2) {
+        id[i, j] = ++k; printf "v %.17g %.17g\n", i * h, j * h }
+    for (j = 0; j < n; j++) for (i = 0; i < n; i++) if (i < n / 2 || j < n / 2)
+        printf "f %d %d %d\nf %d %d %d\n", id[i, j], id[i + 1, j], id[i + 1, j + 1],
+            id[i, j], id[i + 1, j + 1], id[i, j + 1] }' >grid.obj
+printf '0 0\n1 -3\n2 9\n9 9\n3 12\n-6 2\n' >bent.txt
+run 0 mesh -s source.txt -t bent.txt grid.obj out.obj
+holds out '; not certified'
+grep -q ' 0 inverted' out && complain "nothing to repair: $(cat out)"
+run 0 mesh -s source.txt -t bent.txt --repair grid.obj out.obj
+holds out '600 triangles: 600 keep their orientation, 0 inverted, 0 collapsed'
+holds out 'mesh and image are certified one-to-one'
+[ "$(grep -c '^v ' out.obj)" -eq 341 ] || complain "vertices were added or lost"
+
 printf 'v 5 0\nv 10 zero\n' >bad
 run 1 mesh -s source.txt -t target.txt bad out.obj
 says "libicc: bad:2: 'zero'"

@@ -55,6 +55,8 @@ run 2 map -s source.txt -t target.txt in out
 says "'in' is one argument too many without --geojson"
 run 2 map -s source.txt -t target.txt --geojson in out -p points.txt
 says "--points and --output do not go with --geojson"
+run 2 mesh -s source.txt -t target.txt --repair --inverse in out
+says "--repair does not go with --inverse"
 run 2 map -s source.txt -t target.txt --tolerance 1
 says "--tolerance goes with --geojson only"
 run 2 map -s source.txt -t - --geojson - out
