@@ -24,6 +24,10 @@ install(FILES ${PROJECT_BINARY_DIR}/libiccConfig.cmake
               ${PROJECT_BINARY_DIR}/libiccConfigVersion.cmake
   DESTINATION ${cmake_dir} COMPONENT Development)
 
+set(private_libraries "")
+if(ICC_WITH_AMD)
+  set(private_libraries "-lamd -lsuitesparseconfig ")
+endif()
 # The prefix is known for certain only when installing (cmake --install --prefix). A prefix relative
 # to the .pc file would make pkg-config print -I/usr/include/../.. in a multiarch directory.
 install(CODE "
@@ -32,9 +36,7 @@ install(CODE "
   set(PROJECT_DESCRIPTION \"${PROJECT_DESCRIPTION}\")
   set(libdir \"${CMAKE_INSTALL_LIBDIR}\")
   set(includedir \"${CMAKE_INSTALL_INCLUDEDIR}\")
-  if(\"${ICC_WITH_AMD}\")
-    set(private_libraries \"-lamd -lsuitesparseconfig \")
-  endif()
+  set(private_libraries \"${private_libraries}\")
   cmake_path(ABSOLUTE_PATH libdir BASE_DIRECTORY \"\${prefix}\")
   cmake_path(ABSOLUTE_PATH includedir BASE_DIRECTORY \"\${prefix}\")
   configure_file(\"${PROJECT_SOURCE_DIR}/cmake/libicc.pc.in\"
