@@ -53,7 +53,7 @@ icc_status icc_chart_measure(const icc_chart *chart, size_t n_points, icc_chart_
     iccp_env full_env;
     icc_chart_measures full = {0};
     icc_status status = iccp_env_read(&full_env, env, err);
-    if (status == ICC_OK)
+    if (status == ICC_OK && chart->ops->measure != NULL)
         status = chart->ops->measure(chart, n_points > 0 ? n_points : 4096, &full, &full_env);
     return status == ICC_OK
                ? iccp_write_struct(measures, &full, sizeof full, "icc_chart_measures", err)

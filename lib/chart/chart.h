@@ -40,11 +40,9 @@ typedef struct iccp_chart_ops {
                          iccp_decode_jet *jet, iccp_path *path);
     icc_status (*trace)(const icc_chart *chart, const double *point, iccp_path *path,
                         iccp_emit emit, void *argument);
-    /* Fills in everything but `size`. n_points > 0. */
+    /* Fills in everything but `size`; n_points > 0. NULL for methods that miss nothing. */
     icc_status (*measure)(const icc_chart *chart, size_t n_points, icc_chart_measures *measures,
                           const iccp_env *env);
-    /* The triangle mesh of the domain that the chart lives on, or NULL. */
-    const iccp_planar *(*mesh)(const icc_chart *chart);
     void (*free_state)(icc_chart *chart);
 } iccp_chart_ops;
 
@@ -55,6 +53,7 @@ struct icc_chart {
     icc_chart_info info;       /* with the maximum in the caller's coordinates */
     const iccp_chart_ops *ops;
     void *state;               /* the method's own */
+    const iccp_planar *mesh;   /* the domain's that the chart lives on, part of the state; or NULL */
 };
 
 /* A chart without a method yet: the creator of a method fills in ops, state and info. */

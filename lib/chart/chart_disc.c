@@ -16,7 +16,6 @@ typedef struct disc_state {
     iccp_finder before;  /* in the domain */
     iccp_finder after;   /* in the disc */
     double maximum[2];   /* the point that goes to the origin */
-    uint32_t *boundary_corner; /* n_boundary: the corner that faces each boundary edge */
 } disc_state;
 
 static const double ORIGIN[2] = {0, 0};
@@ -115,12 +114,6 @@ static bool at_maximum(const icc_chart *chart, const double p[2])
            fabs(p[1] - state->maximum[1]) <= chart->domain->tolerance;
 }
 
-static double along_slope(const icc_chart *chart, uint32_t facet)
-{
-    const disc_state *state = chart->state;
-    return (double)chart->domain->orientation / state->mesh.pieces[facet];
-}
-
 static icc_status encode_inside(const icc_chart *chart, const double *point, iccp_coords *coords,
                                 iccp_encode_jet *jet)
 {
@@ -139,7 +132,7 @@ static icc_status encode_inside(const icc_chart *chart, const double *point, icc
     triangle_jacobian(&state->mesh, triangle, state->mesh.points, state->image, inner);
     polar_jet(state, z, edge, rows);
     for (int c = 0; c < 2; ++c) {
-        jet->bary[2 + c] = along_slope(chart, coords->facet) *
+        jet->bary[2 + c] = iccp_planar_along_slope(&state->mesh, chart->domain, coords->facet) *
                            (rows[0][0] * inner[0][c] + rows[0][1] * inner[1][c]);
         jet->bary[c] = -jet->bary[2 + c];
         jet->t[c] = rows[1][0] * inner[0][c] + rows[1][1] * inner[1][c];
@@ -194,7 +187,7 @@ static icc_status decode(const icc_chart *chart, const iccp_coords *coords, doub
         return ICC_OK;
     double outer[2][2];
     triangle_jacobian(&state->mesh, triangle, state->image, state->mesh.points, outer);
-    const double slope = along_slope(chart, coords->facet);
+    const double slope = iccp_planar_along_slope(&state->mesh, chart->domain, coords->facet);
     for (int i = 0; i < 2; ++i) {
         jet->t[i] = jet->bary[2 * i] = jet->bary[2 * i + 1] = 0;
         for (int c = 0; c < 2; ++c) {
@@ -250,7 +243,7 @@ static icc_status trace(const icc_chart *chart, const double *point, iccp_path *
         r[i] = (1 - lambda) * p[i] + lambda * q[i];
     iccp_domain_facet_point(chart->domain, coords.facet, coords.bary, start);
     status = emit(argument, start);
-    uint32_t corner = state->boundary_corner[edge];
+    uint32_t corner = state->mesh.rim[edge];
     for (size_t left = state->mesh.n_triangles; status == ICC_OK && !holds_origin(state, corner / 3);
          --left) {
         const double *x = state->image + 2 * (size_t)state->mesh.triangles[corner];
@@ -264,22 +257,6 @@ static icc_status trace(const icc_chart *chart, const double *point, iccp_path *
     return status == ICC_OK ? emit(argument, state->maximum) : status;
 }
 
-static icc_status measure(const icc_chart *chart, size_t n_points, icc_chart_measures *measures,
-                          const iccp_env *env)
-{
-    (void)chart;
-    (void)n_points;
-    (void)env;
-    *measures = (icc_chart_measures){0};
-    return ICC_OK;
-}
-
-static const iccp_planar *mesh_of(const icc_chart *chart)
-{
-    const disc_state *state = chart->state;
-    return &state->mesh;
-}
-
 static void free_state(icc_chart *chart)
 {
     disc_state *state = chart->state;
@@ -287,11 +264,10 @@ static void free_state(icc_chart *chart)
     iccp_finder_free(&state->after);
     iccp_planar_free(&state->mesh);
     iccp_free(&chart->memory, state->image);
-    iccp_free(&chart->memory, state->boundary_corner);
     iccp_free(&chart->memory, state);
 }
 
-static const iccp_chart_ops OPS = {encode, decode, trace, measure, mesh_of, free_state};
+static const iccp_chart_ops OPS = {encode, decode, trace, NULL, free_state};
 
 /* The image's rim goes once round the origin: every edge turns left round it and the angles grow from 0 to
  * one turn. So the rim is simple and every ray from the origin meets it once; it need not be convex,
@@ -330,12 +306,6 @@ static icc_status fill_state(disc_state *state, const iccp_planar *mesh, const d
         status = iccp_finder_create(&state->after, mesh, image, env);
     if (status != ICC_OK)
         return status;
-    state->boundary_corner = iccp_alloc(&env->memory, mesh->n_boundary, sizeof(uint32_t));
-    if (state->boundary_corner == NULL)
-        return ICC_ERR_MEMORY;
-    for (uint32_t c = 0; c < 3 * mesh->n_triangles; ++c)
-        if (mesh->twins[c] == ICCP_NO_NEIGHBOUR)
-            state->boundary_corner[mesh->triangles[iccp_after(c)]] = c;
     uint32_t triangle = 0;
     double bary[3] = {1, 0, 0};
     if (!iccp_finder_find(&state->after, ORIGIN, &triangle, bary))
@@ -372,6 +342,7 @@ icc_status iccp_chart_disc_create(icc_chart **out, const icc_domain *domain, icc
         return status;
     }
     state->mesh = iccp_harmonic_take_mesh(base);
+    chart->mesh = &state->mesh;
     state->image = *image;
     *image = NULL;
     iccp_frame_out(&domain->frame, 2, state->maximum, chart->info.maximum);

@@ -15,7 +15,6 @@ typedef struct foliation_state {
     iccp_planar mesh;
     iccp_psi psi;
     iccp_finder finder;
-    uint32_t *boundary_corner; /* n_boundary: the corner that faces each boundary edge */
 } foliation_state;
 
 static const double STILL[2] = {0, 0};
@@ -137,13 +136,6 @@ static bool at_maximum(const icc_chart *chart, const double p[2])
            fabs(p[1] - m[1]) <= chart->domain->tolerance;
 }
 
-/* How the share along a facet changes with the share along one of its pieces. */
-static double along_slope(const icc_chart *chart, uint32_t facet)
-{
-    const foliation_state *state = chart->state;
-    return (double)chart->domain->orientation / state->mesh.pieces[facet];
-}
-
 static void fill_encode_jet(const icc_chart *chart, uint32_t triangle, const double bary[3],
                             const iccp_crossing *end, uint32_t facet, const leaf_length *up,
                             const leaf_length *down, iccp_encode_jet *jet)
@@ -154,7 +146,7 @@ static void fill_encode_jet(const icc_chart *chart, uint32_t triangle, const dou
     const double rise = (double)end->below + (double)end->above;
     const double total = up->length + down->length;
     for (int c = 0; c < 2; ++c) {
-        const double along = along_slope(chart, facet) * gradient[c] / rise;
+        const double along = iccp_planar_along_slope(&state->mesh, chart->domain, facet) * gradient[c] / rise;
         const double d_up = up->by_label * gradient[c] + up->by_point[c];
         const double d_down = down->by_label * gradient[c] + down->by_point[c];
         jet->bary[c] = -along;
@@ -211,7 +203,7 @@ static iccp_crossing boundary_crossing(const icc_chart *chart, const iccp_coords
     double lambda;
     const uint32_t edge = iccp_planar_edge(&state->mesh, chart->domain, coords->facet,
                                            coords->bary[1], &lambda);
-    return iccp_leaf_from_boundary(&state->psi, state->boundary_corner[edge], lambda);
+    return iccp_leaf_from_boundary(&state->psi, state->mesh.rim[edge], lambda);
 }
 
 /* The leaf from a boundary point to the maximum, with its arc length. */
@@ -270,7 +262,7 @@ static void fill_decode_jet(const icc_chart *chart, const iccp_coords *coords,
         const double by_label = ends[0][i] + share * (ends[1][i] - ends[0][i]) + slide * direction[i];
         jet->t[i] = total * direction[i];
         jet->bary[2 * i] = 0;
-        jet->bary[2 * i + 1] = by_label * rise / along_slope(chart, coords->facet);
+        jet->bary[2 * i + 1] = by_label * rise / iccp_planar_along_slope(&state->mesh, chart->domain, coords->facet);
     }
 }
 
@@ -365,33 +357,16 @@ static icc_status trace(const icc_chart *chart, const double *point, iccp_path *
     return status == ICC_OK ? emit_up(state, &leaf, emit, argument) : status;
 }
 
-static icc_status measure(const icc_chart *chart, size_t n_points, icc_chart_measures *measures,
-                          const iccp_env *env)
-{
-    (void)chart;
-    (void)n_points;
-    (void)env;
-    *measures = (icc_chart_measures){0};
-    return ICC_OK;
-}
-
-static const iccp_planar *mesh_of(const icc_chart *chart)
-{
-    const foliation_state *state = chart->state;
-    return &state->mesh;
-}
-
 static void free_state(icc_chart *chart)
 {
     foliation_state *state = chart->state;
     iccp_finder_free(&state->finder);
     iccp_psi_free(&state->psi);
     iccp_planar_free(&state->mesh);
-    iccp_free(&chart->memory, state->boundary_corner);
     iccp_free(&chart->memory, state);
 }
 
-static const iccp_chart_ops OPS = {encode, decode, trace, measure, mesh_of, free_state};
+static const iccp_chart_ops OPS = {encode, decode, trace, NULL, free_state};
 
 /* Shares of harmonic flux to try: one half is the fairest; less copes with sharper corners. */
 static const double HARMONIC_SHARES[] = {0.5, 0.25, 0.0};
@@ -427,18 +402,6 @@ static icc_status make_psi(foliation_state *state, const iccp_harmonic *base, ui
                      certificate.n_flat, certificate.n_irregular);
 }
 
-static icc_status list_boundary(foliation_state *state, const iccp_planar *mesh,
-                                const iccp_memory *memory)
-{
-    state->boundary_corner = iccp_alloc(memory, mesh->n_boundary, sizeof(uint32_t));
-    if (state->boundary_corner == NULL)
-        return ICC_ERR_MEMORY;
-    for (uint32_t c = 0; c < 3 * mesh->n_triangles; ++c)
-        if (mesh->twins[c] == ICCP_NO_NEIGHBOUR)
-            state->boundary_corner[mesh->triangles[iccp_after(c)]] = c;
-    return ICC_OK;
-}
-
 icc_status iccp_chart_foliation_create(icc_chart **out, const icc_domain *domain,
                                        iccp_harmonic *base, uint32_t centre, const iccp_env *env,
                                        icc_error *err)
@@ -454,8 +417,6 @@ icc_status iccp_chart_foliation_create(icc_chart **out, const icc_domain *domain
     chart->state = state;
     status = state != NULL ? make_psi(state, base, centre, &chart->info, env, err) : ICC_ERR_MEMORY;
     if (status == ICC_OK)
-        status = list_boundary(state, &base->mesh, &env->memory);
-    if (status == ICC_OK)
         status = iccp_finder_create(&state->finder, &base->mesh, base->mesh.points, env);
     if (status != ICC_OK) {
         iccp_chart_release(chart);
@@ -463,6 +424,7 @@ icc_status iccp_chart_foliation_create(icc_chart **out, const icc_domain *domain
         return status;
     }
     state->mesh = iccp_harmonic_take_mesh(base);
+    chart->mesh = &state->mesh;
     iccp_frame_out(&domain->frame, 2, centre_of(state), chart->info.maximum);
     return ICC_OK;
 }

@@ -287,12 +287,6 @@ static icc_status trace(const icc_chart *chart, const double *point, iccp_path *
     return status;
 }
 
-static const iccp_planar *no_mesh(const icc_chart *chart)
-{
-    (void)chart;
-    return NULL;
-}
-
 static void free_state(icc_chart *chart)
 {
     iccp_gradient_state *state = chart->state;
@@ -302,7 +296,7 @@ static void free_state(icc_chart *chart)
     iccp_free(&chart->memory, state);
 }
 
-static const iccp_chart_ops OPS = {encode, decode, trace, iccp_gradient_measure, no_mesh, free_state};
+static const iccp_chart_ops OPS = {encode, decode, trace, iccp_gradient_measure, free_state};
 
 icc_status iccp_chart_gradient_create(icc_chart **out, const icc_domain *domain,
                                       const icc_chart_options *options, const iccp_env *env,

@@ -43,7 +43,7 @@ static icc_status choose_kind(int32_t *kind, const icc_chart *source, const icc_
         return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1,
                          "the charts use different methods (%ld and %ld)",
                          (long)source->info.method, (long)target->info.method);
-    const bool has_mesh = source->ops->mesh(source) != NULL;
+    const bool has_mesh = source->mesh != NULL;
     if (*kind == 0)
         *kind = has_mesh ? ICC_MAP_MESH : ICC_MAP_CURVES;
     if (*kind == ICC_MAP_CURVES || (*kind == ICC_MAP_MESH && has_mesh))

@@ -41,7 +41,7 @@ static icc_status vertex_image(const icc_chart *source, const icc_chart *target,
 static icc_status start(iccp_plmap *pl, const icc_chart *source, const icc_chart *target,
                         const iccp_env *env)
 {
-    const iccp_planar *mesh = source->ops->mesh(source);
+    const iccp_planar *mesh = source->mesh;
     double *images = iccp_alloc(&env->memory, mesh->n_vertices, 2 * sizeof *images);
     iccp_path path;
     iccp_path_init(&path, &env->memory);

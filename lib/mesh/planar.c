@@ -88,6 +88,11 @@ uint32_t iccp_planar_edge(const iccp_planar *mesh, const icc_domain *domain, uin
     return domain->orientation > 0 ? mesh->first[facet] + piece : mesh->first[facet] - piece;
 }
 
+double iccp_planar_along_slope(const iccp_planar *mesh, const icc_domain *domain, uint32_t facet)
+{
+    return (double)domain->orientation / mesh->pieces[facet];
+}
+
 /* ---- inside ---- */
 
 /* The longer of the two edges at each boundary vertex. */
@@ -155,6 +160,13 @@ static void split_chords(iccp_planar *mesh)
     mesh->n_triangles = corners.n_triangles;
 }
 
+static void list_rim(iccp_planar *mesh)
+{
+    for (uint32_t c = 0; c < 3 * mesh->n_triangles; ++c)
+        if (mesh->twins[c] == ICCP_NO_NEIGHBOUR)
+            mesh->rim[mesh->triangles[iccp_after(c)]] = c;
+}
+
 /* ---- all of it ---- */
 
 static icc_status allocate_boundary(iccp_planar *mesh, const icc_domain *domain)
@@ -162,10 +174,11 @@ static icc_status allocate_boundary(iccp_planar *mesh, const icc_domain *domain)
     const size_t n_facets = domain->n_facets;
     mesh->points = iccp_alloc(&mesh->memory, mesh->n_boundary, 2 * sizeof(double));
     mesh->facet = iccp_alloc(&mesh->memory, mesh->n_boundary, sizeof(uint32_t));
+    mesh->rim = iccp_alloc(&mesh->memory, mesh->n_boundary, sizeof(uint32_t));
     mesh->first = iccp_alloc(&mesh->memory, n_facets, sizeof(uint32_t));
     mesh->pieces = iccp_alloc(&mesh->memory, n_facets, sizeof(uint32_t));
-    return mesh->points != NULL && mesh->facet != NULL && mesh->first != NULL &&
-                   mesh->pieces != NULL
+    return mesh->points != NULL && mesh->facet != NULL && mesh->rim != NULL &&
+                   mesh->first != NULL && mesh->pieces != NULL
                ? ICC_OK
                : ICC_ERR_MEMORY;
 }
@@ -213,6 +226,7 @@ static icc_status fill_mesh(iccp_planar *mesh, const icc_domain *domain, const u
     if (status == ICC_OK) {
         mesh->n_triangles = 2 * mesh->n_vertices - mesh->n_boundary - 2;
         split_chords(mesh);
+        list_rim(mesh);
     }
     return status;
 }
@@ -236,6 +250,7 @@ void iccp_planar_free(iccp_planar *mesh)
     iccp_free(&mesh->memory, mesh->triangles);
     iccp_free(&mesh->memory, mesh->twins);
     iccp_free(&mesh->memory, mesh->facet);
+    iccp_free(&mesh->memory, mesh->rim);
     iccp_free(&mesh->memory, mesh->first);
     iccp_free(&mesh->memory, mesh->pieces);
     *mesh = (iccp_planar){.memory = mesh->memory};

@@ -17,6 +17,7 @@ typedef struct iccp_planar {
     uint32_t *triangles; /* 3 n_triangles, counter-clockwise */
     uint32_t *twins;     /* 3 n_triangles: the corner facing the same edge, or ICCP_NO_NEIGHBOUR */
     uint32_t *facet;     /* n_boundary: the domain's facet that holds boundary edge k */
+    uint32_t *rim;       /* n_boundary: the corner that faces boundary edge k */
     uint32_t *first;     /* n_facets: the boundary edge that holds a facet's first vertex */
     uint32_t *pieces;    /* n_facets: boundary edges on a facet */
 } iccp_planar;
@@ -43,5 +44,8 @@ double iccp_planar_along(const iccp_planar *mesh, const icc_domain *domain, uint
                          double lambda);
 uint32_t iccp_planar_edge(const iccp_planar *mesh, const icc_domain *domain, uint32_t facet,
                           double along, double *lambda);
+
+/* How the share of a facet changes with the share of one of its boundary edges. */
+double iccp_planar_along_slope(const iccp_planar *mesh, const icc_domain *domain, uint32_t facet);
 
 #endif
