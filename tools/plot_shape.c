@@ -255,7 +255,7 @@ static int draw_triangles(const panel *p, job *j)
 int plot_shape(const panel *p, job *j)
 {
     bool has_tree = p->stages->tree != NULL;
-    int result = draw_shades(p, j);
+    int result = j->args->triangles ? DONE : draw_shades(p, j);
     fprintf(p->svg, "<g clip-path=\"url(#%s)\">\n", p->clip);
     if (has_tree)
         draw_tree(p);
