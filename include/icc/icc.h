@@ -600,6 +600,46 @@ ICC_API icc_status icc_map_jacobian(const icc_map *map, size_t n, const double *
                                     double *jacobians, icc_status *status, size_t *n_failed,
                                     const icc_env *env);
 
+/** A picture in memory: rows from top to bottom, samples of a pixel side by side. */
+typedef struct icc_picture {
+    size_t size;      /**< set by the caller: `sizeof(icc_picture)` */
+    int32_t width;    /**< pixels in a row */
+    int32_t height;   /**< rows */
+    int32_t channels; /**< samples of a pixel, 1..4 */
+    int32_t bytes;    /**< of a sample: 1, or 2 in the machine's order; unsigned, all values used */
+    int32_t alpha;    /**< 1: the last of at least two channels is opacity, and the others are not
+                           multiplied by it; 0: there is none */
+    int32_t reserved; /**< 0 */
+    size_t stride;    /**< bytes from a row to the next */
+    void *pixels;     /**< the first row; any alignment. Only read in a source. */
+} icc_picture;
+
+/**
+ * Carries a picture along: every pixel of the target whose centre lies in the target domain or on its
+ * boundary gets the colour of the place in the source that goes there; all others are left alone. Pixel
+ * (i, j), column i of row j, covers [i, i+1] x [j, j+1] in the coordinates of the domains.
+ *
+ * Colours between pixels are bilinear, and weighted by opacity. Where the map shrinks the picture they
+ * are means of up to 16 x 16 samples, so that it does not alias. Beyond its rim the source goes on with
+ * the colour of the rim. A map that is the identity copies exactly.
+ *
+ * @param map           the map, 2-D; kind mesh is the fast one
+ * @param source        read
+ * @param target        the same channels, bytes and alpha as the source, any width and height. Its pixels
+ *                      must not overlap the source's.
+ * @param[out] n_failed pixels inside that have no image, which are left alone, or NULL; always 0 for kind
+ *                      mesh
+ * @param env           may be NULL; results are the same for every number of threads
+ * @param err           may be NULL
+ * @return ::ICC_OK, ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY, ::ICC_ERR_VERSION, ::ICC_ERR_CANCELLED (some
+ *         pixels have been written)
+ *
+ * Cost of kind mesh: nanoseconds a pixel.
+ */
+ICC_API icc_status icc_map_warp(const icc_map *map, const icc_picture *source,
+                                const icc_picture *target, size_t *n_failed, const icc_env *env,
+                                icc_error *err);
+
 #ifdef __cplusplus
 }
 #endif
