@@ -72,13 +72,17 @@ done
 # between the grid's vertices has many.
 "$pictures" make in.png 64 64 1 8 flat
 printf '2 2\n62 2\n62 20\n40 2.5\n30 2.5\n20 60\n2 60\n' >thin.txt
-"$tool" warp -s thin.txt -t thin.txt --cells 8 in.png out.png >out 2>err
-case $? in
-0) ;;
-4) grep -q '^libicc: [0-9]* of [0-9]* pixels have no image' err || complain "not counted: $(cat err)" ;;
-*) complain "thin cage: $(cat err)" ;;
-esac
+run 4 warp -s thin.txt -t thin.txt -m gradient --cells 8 in.png out.png
+grep -q '^libicc: [0-9]* of 4096 pixels have no image' err || complain "not counted: $(cat err)"
 same_picture in.png out.png "without an image"
+for method in foliation disc; do
+    for map in mesh curves; do
+        run 0 warp -s thin.txt -t thin.txt -m "$method" --map "$map" --cells 8 in.png out.png
+        same_picture in.png out.png "$method, $map"
+    done
+done
+run 0 warp -s thin.txt -t thin.txt in.png out.png --json
+holds out '"without_image": 0'
 
 # What is no picture, or half of one; nothing is left behind, nothing is overwritten.
 printf 'no picture\n' >bad.png
