@@ -113,16 +113,26 @@ static size_t boundary_ring(const iccp_corners *corners, size_t n_vertices, uint
     return n > 0 && iccp_outline_follow(next, first, n, ring) ? n : 0;
 }
 
+static bool have_images(const uint32_t *ring, size_t n, const double *images)
+{
+    for (size_t k = 0; k < n; ++k)
+        if (!has_image(images + 2 * (size_t)ring[k]))
+            return false;
+    return true;
+}
+
 /* ICC_ERR_BOUNDARY unless the boundary is one polygon that is simple before and after. */
 static icc_status check_boundary(const mesh_check *m, const iccp_corners *corners,
-                                 const iccp_env *env)
+                                 const double *images, const iccp_env *env)
 {
     uint32_t *next = iccp_alloc(&env->memory, m->n_vertices, sizeof *next);
     uint32_t *ring = iccp_alloc(&env->memory, m->n_vertices, sizeof *ring);
     icc_status status = next != NULL && ring != NULL ? ICC_OK : ICC_ERR_MEMORY;
     if (status == ICC_OK) {
         const size_t n = boundary_ring(corners, m->n_vertices, next, ring);
-        status = n > 0 ? iccp_outline_check(m->before, ring, n, env) : ICC_ERR_BOUNDARY;
+        status = n > 0 && have_images(ring, n, images)
+                     ? iccp_outline_check(m->before, ring, n, env)
+                     : ICC_ERR_BOUNDARY;
         if (status == ICC_OK)
             status = iccp_outline_check(m->after, ring, n, env);
     }
@@ -194,7 +204,7 @@ static icc_status judge(mesh_check *m, bool repaired, double *images, const iccp
             check_triangles(m, images);
     }
     if (status == ICC_OK)
-        status = is_manifold ? check_boundary(m, &corners, env) : ICC_ERR_BOUNDARY;
+        status = is_manifold ? check_boundary(m, &corners, images, env) : ICC_ERR_BOUNDARY;
     m->result->boundary_simple = status == ICC_OK;
     m->result->certified = status == ICC_OK && m->result->first < 0;
     free_corners(&corners, &env->memory);
