@@ -26,6 +26,7 @@ typedef struct objects {
     icc_domain *source, *target;
     icc_chart *chart, *target_chart;
     icc_map *map;
+    icc_map *mesh_map; /* of kind mesh, whatever the method, coarse and not yet improved */
     icc_grid *grid, *mask;
     icc_tree *tree;
     icc_field *field;
@@ -33,6 +34,16 @@ typedef struct objects {
     uint32_t facet[N_POINTS];
     double bary[2 * N_POINTS], t[N_POINTS];
 } objects;
+
+static inline icc_map *make_mesh_map(const objects *o)
+{
+    const icc_chart_options chart = {.size = sizeof chart, .cells = 6};
+    const icc_map_options options = {
+        .size = sizeof options, .kind = ICC_MAP_MESH, .iterations = -1, .chart = &chart};
+    icc_map *map;
+    ck_assert_int_eq(icc_map_create(&map, o->source, o->target, &options, NULL, NULL), ICC_OK);
+    return map;
+}
 
 /* With charts of the given method; 0: the default. */
 static inline void objects_init(objects *o, int32_t method)
@@ -48,6 +59,7 @@ static inline void objects_init(objects *o, int32_t method)
                      ICC_OK);
     ck_assert_int_eq(icc_map_create_from_charts(&o->map, o->chart, o->target_chart, NULL, NULL, NULL),
                      ICC_OK);
+    o->mesh_map = make_mesh_map(o);
     ck_assert_int_eq(icc_grid_create(&o->grid, o->source, 0, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_grid_create_mask(&o->mask, 3, SHAPE, inside, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_tree_create(&o->tree, o->mask, 62, NULL, NULL, NULL), ICC_OK);
@@ -70,6 +82,7 @@ static inline void objects_clear(objects *o)
     icc_grid_free(o->mask);
     icc_grid_free(o->grid);
     icc_map_free(o->map);
+    icc_map_free(o->mesh_map);
     icc_chart_free(o->chart);
     icc_chart_free(o->target_chart);
     icc_domain_free(o->source);
@@ -218,6 +231,73 @@ static inline icc_status call_map_jacobian(const objects *o, outcome *out, const
                             env);
 }
 
+/* Cancelled, it succeeds with what it has; the tests are told what those of other calls are. */
+static inline icc_status call_map_improve(const objects *o, outcome *out, const icc_env *env,
+                                          icc_error *err)
+{
+    icc_map *map = (icc_map *)&map;
+    const icc_improve_options options = {.size = sizeof options, .iterations = 2, .levels = 1};
+    icc_improve_report report = {.size = sizeof report};
+    const icc_status status = icc_map_improve(&map, o->mesh_map, &options, &report, env, err);
+    HANDED_OVER(status, map);
+    ck_assert(report.energy <= report.energy_start);
+    if (status == ICC_OK)
+        (void)icc_map_apply(map, N_POINTS, o->points, out->numbers, out->status, &out->count, NULL);
+    icc_map_free(map);
+    if (!report.cancelled)
+        return status;
+    if (err != NULL)
+        *err = (icc_error){.size = sizeof *err, .status = ICC_ERR_CANCELLED, .message = "stopped"};
+    return ICC_ERR_CANCELLED;
+}
+
+static inline icc_status call_map_follow(const objects *o, outcome *out, const icc_env *env,
+                                         icc_error *err)
+{
+    double moved[2 * N_CORNERS];
+    icc_domain *target;
+    memcpy(moved, TARGET, sizeof moved);
+    moved[2] += 0.25;
+    ck_assert_int_eq(icc_domain_create(&target, 2, N_CORNERS, moved, 0, NULL, NULL, NULL), ICC_OK);
+    icc_map *map = (icc_map *)&map;
+    const icc_status status = icc_map_follow(&map, o->mesh_map, target, 2, env, err);
+    HANDED_OVER(status, map);
+    icc_domain_free(target);
+    if (status == ICC_OK)
+        (void)icc_map_apply(map, N_POINTS, o->points, out->numbers, out->status, &out->count, NULL);
+    icc_map_free(map);
+    return status;
+}
+
+/* The source in four triangles. */
+static const uint32_t TRIANGLES[12] = {0, 1, 3, 1, 2, 3, 0, 3, 5, 3, 4, 5};
+
+static inline icc_status call_map_certify(const objects *o, outcome *out, const icc_env *env,
+                                          icc_error *err)
+{
+    icc_certificate c = {.size = sizeof c};
+    const icc_status status = icc_map_certify(o->mesh_map, N_CORNERS, SOURCE, 4, TRIANGLES,
+                                              out->numbers, &c, env, err);
+    memcpy(out->indices, &c, sizeof c);
+    return status;
+}
+
+/* One vertex inside, close to the boundary. */
+static inline icc_status call_map_repair(const objects *o, outcome *out, const icc_env *env,
+                                         icc_error *err)
+{
+    static const uint32_t FAN[15] = {6, 1, 2, 6, 2, 3, 6, 3, 0, 6, 0, 1, 0, 3, 5};
+    double vertices[2 * (N_CORNERS + 1)];
+    icc_certificate c = {.size = sizeof c};
+    memcpy(vertices, SOURCE, sizeof SOURCE);
+    vertices[2 * N_CORNERS] = 0.9999;
+    vertices[2 * N_CORNERS + 1] = 0.999;
+    const icc_status status = icc_map_repair(o->mesh_map, N_CORNERS + 1, vertices, 5, FAN,
+                                             out->numbers, &c, env, err);
+    memcpy(out->indices, &c, sizeof c);
+    return status;
+}
+
 static inline icc_status call_grid_create(const objects *o, outcome *out, const icc_env *env,
                                           icc_error *err)
 {
@@ -317,6 +397,10 @@ static const call CALLS[] = {
     {"icc_map_apply", call_map_apply},
     {"icc_map_apply_inverse", call_map_apply_inverse},
     {"icc_map_jacobian", call_map_jacobian},
+    {"icc_map_improve", call_map_improve},
+    {"icc_map_follow", call_map_follow},
+    {"icc_map_certify", call_map_certify},
+    {"icc_map_repair", call_map_repair},
     {"icc_grid_create", call_grid_create},
     {"icc_grid_create_mask", call_grid_create_mask},
     {"icc_grid_maximum", call_grid_maximum},

@@ -192,6 +192,92 @@ START_TEST(maps_refuse_bad_arguments)
 }
 END_TEST
 
+START_TEST(mesh_maps_refuse_bad_arguments)
+{
+    objects o;
+    objects_init(&o, ICC_METHOD_GRADIENT);
+    icc_error err;
+    icc_map *m;
+    const icc_map_options bad = {.size = sizeof bad, .iterations = -2};
+    NOT_MADE(m, icc_map_create(&m, o.source, o.target, &bad, NULL, &err));
+    NOT_MADE(m, icc_map_create_from_charts(&m, o.chart, o.target_chart, &bad, NULL, &err));
+    EXPLAINED(icc_map_improve(NULL, o.mesh_map, NULL, NULL, NULL, &err));
+    NOT_MADE(m, icc_map_improve(&m, NULL, NULL, NULL, NULL, &err));
+    const icc_improve_options options[] = {{.size = sizeof *options, .iterations = -1},
+                                           {.size = sizeof *options, .levels = -2},
+                                           {.size = sizeof *options, .tolerance = -1e-9},
+                                           {.size = sizeof *options, .tolerance = 1},
+                                           {.size = sizeof *options, .tolerance = NAN}};
+    for (size_t k = 0; k < sizeof options / sizeof *options; ++k)
+        NOT_MADE(m, icc_map_improve(&m, o.mesh_map, &options[k], NULL, NULL, &err));
+    icc_improve_report report = {.size = 0};
+    NOT_MADE(m, icc_map_improve(&m, o.mesh_map, NULL, &report, NULL, &err));
+    EXPLAINED(icc_map_follow(NULL, o.mesh_map, o.target, 0, NULL, &err));
+    NOT_MADE(m, icc_map_follow(&m, NULL, o.target, 0, NULL, &err));
+    NOT_MADE(m, icc_map_follow(&m, o.mesh_map, NULL, 0, NULL, &err));
+    NOT_MADE(m, icc_map_follow(&m, o.mesh_map, o.target, -2, NULL, &err));
+    REFUSED(icc_map_mesh(NULL, NULL, NULL, NULL));
+    objects_clear(&o);
+}
+END_TEST
+
+/* A map of curves has no mesh. */
+START_TEST(only_mesh_maps_can_be_improved)
+{
+    objects o;
+    objects_init(&o, ICC_METHOD_GRADIENT);
+    icc_error err = {.size = sizeof err};
+    icc_map *m = (icc_map *)&m;
+    ck_assert_int_eq(icc_map_improve(&m, o.map, NULL, NULL, NULL, &err), ICC_ERR_UNSUPPORTED);
+    ck_assert(m == NULL && err.status == ICC_ERR_UNSUPPORTED && err.message[0] != '\0');
+    m = (icc_map *)&m;
+    err.status = 0;
+    ck_assert_int_eq(icc_map_follow(&m, o.map, o.target, 0, NULL, &err), ICC_ERR_UNSUPPORTED);
+    ck_assert(m == NULL && err.status == ICC_ERR_UNSUPPORTED);
+    ck_assert_int_eq(icc_map_mesh(o.map, NULL, NULL, NULL), ICC_ERR_UNSUPPORTED);
+    const icc_map_options mesh = {.size = sizeof mesh, .kind = ICC_MAP_MESH};
+    ck_assert_int_eq(icc_map_create_from_charts(&m, o.chart, o.target_chart, &mesh, NULL, &err),
+                     ICC_ERR_UNSUPPORTED);
+    ck_assert_ptr_null(m);
+    objects_clear(&o);
+}
+END_TEST
+
+typedef icc_status (*mesh_call)(const icc_map *, size_t, const double *, size_t, const uint32_t *,
+                                double *, icc_certificate *, const icc_env *, icc_error *);
+
+START_TEST(certificates_refuse_bad_arguments)
+{
+    objects o;
+    objects_init(&o, 0);
+    icc_error err;
+    double images[2 * N_CORNERS];
+    static const mesh_call CALLED[2] = {icc_map_certify, icc_map_repair};
+    uint32_t t[12];
+    memcpy(t, TRIANGLES, sizeof t);
+    for (int k = 0; k < 2; ++k) {
+        icc_certificate c = {.size = sizeof c};
+        const mesh_call f = CALLED[k];
+        EXPLAINED(f(NULL, N_CORNERS, SOURCE, 4, t, images, &c, NULL, &err));
+        EXPLAINED(f(o.map, N_CORNERS, NULL, 4, t, images, &c, NULL, &err));
+        EXPLAINED(f(o.map, N_CORNERS, SOURCE, 4, NULL, images, &c, NULL, &err));
+        EXPLAINED(f(o.map, N_CORNERS, SOURCE, 4, t, images, NULL, NULL, &err));
+        EXPLAINED(f(o.map, 2, SOURCE, 4, t, images, &c, NULL, &err));
+        EXPLAINED(f(o.map, N_CORNERS, SOURCE, 0, t, images, &c, NULL, &err));
+        t[7] = N_CORNERS;
+        EXPLAINED(f(o.map, N_CORNERS, SOURCE, 4, t, images, &c, NULL, &err));
+        ck_assert_int_eq(err.index, 2);
+        t[7] = TRIANGLES[7];
+        c.size = 7;
+        EXPLAINED(f(o.map, N_CORNERS, SOURCE, 4, t, images, &c, NULL, &err));
+    }
+    icc_certificate c = {.size = sizeof c};
+    EXPLAINED(icc_map_repair(o.map, N_CORNERS, SOURCE, 4, t, NULL, &c, NULL, &err));
+    ck_assert_int_eq(icc_map_certify(o.map, N_CORNERS, SOURCE, 4, t, NULL, &c, NULL, NULL), ICC_OK);
+    objects_clear(&o);
+}
+END_TEST
+
 START_TEST(stages_refuse_bad_arguments)
 {
     static const size_t SHAPE[2] = {3, 3}, EMPTY[2] = {3, 0};
@@ -461,6 +547,14 @@ static icc_status read_map_options_too(const objects *o, const void *options, ic
     return status;
 }
 
+static icc_status read_improve_options(const objects *o, const void *options, icc_error *err)
+{
+    icc_map *map;
+    const icc_status status = icc_map_improve(&map, o->mesh_map, options, NULL, NULL, err);
+    icc_map_free(map);
+    return status;
+}
+
 static icc_status read_tree_options(const objects *o, const void *options, icc_error *err)
 {
     icc_tree *tree;
@@ -486,6 +580,7 @@ START_TEST(options_may_be_older_or_newer)
                    {read_inner_chart_options, sizeof(icc_chart_options)},
                    {read_map_options, sizeof(icc_map_options)},
                    {read_map_options_too, sizeof(icc_map_options)},
+                   {read_improve_options, sizeof(icc_improve_options)},
                    {read_tree_options, sizeof(icc_tree_options)},
                    {read_field_options, sizeof(icc_field_options)}};
     objects o;
@@ -547,6 +642,20 @@ static icc_status write_map_info(const objects *o, void *info)
     return icc_map_get_info(o->map, info);
 }
 
+static icc_status write_improve_report(const objects *o, void *info)
+{
+    const icc_improve_options few = {.size = sizeof few, .iterations = 1, .levels = -1};
+    icc_map *map;
+    const icc_status status = icc_map_improve(&map, o->mesh_map, &few, info, NULL, NULL);
+    icc_map_free(map);
+    return status;
+}
+
+static icc_status write_certificate(const objects *o, void *info)
+{
+    return icc_map_certify(o->mesh_map, N_CORNERS, SOURCE, 4, TRIANGLES, NULL, info, NULL, NULL);
+}
+
 static icc_status write_grid_info(const objects *o, void *info)
 {
     return icc_grid_get_info(o->grid, info);
@@ -570,6 +679,8 @@ START_TEST(infos_may_be_older_or_newer)
     } WRITERS[] = {
         {write_domain_info, sizeof(icc_domain_info)},  {write_chart_info, sizeof(icc_chart_info)},
         {write_measures, sizeof(icc_chart_measures)},  {write_map_info, sizeof(icc_map_info)},
+        {write_improve_report, sizeof(icc_improve_report)},
+        {write_certificate, sizeof(icc_certificate)},
         {write_grid_info, sizeof(icc_grid_info)},      {write_tree_report, sizeof(icc_tree_report)},
         {write_field_report, sizeof(icc_field_report)}};
     enum { ROOM = 512 };
@@ -679,6 +790,9 @@ int main(void)
     tcase_add_test(tests, domains_refuse_bad_arguments);
     tcase_add_test(tests, charts_refuse_bad_arguments);
     tcase_add_test(tests, maps_refuse_bad_arguments);
+    tcase_add_test(tests, mesh_maps_refuse_bad_arguments);
+    tcase_add_test(tests, only_mesh_maps_can_be_improved);
+    tcase_add_test(tests, certificates_refuse_bad_arguments);
     tcase_add_test(tests, stages_refuse_bad_arguments);
     tcase_add_test(tests, the_triangulation_refuses_bad_arguments);
     tcase_add_test(tests, the_triangulation_names_the_point);
