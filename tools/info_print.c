@@ -52,7 +52,7 @@ static void print_mesh_map(const icc_map_info *m)
 {
     printf("triangles   %zu, %zu vertices; %zu were not positive and have been repaired\n",
            m->n_triangles, m->n_vertices, m->n_inverted);
-    printf("energy      %.4g, improved to %.4g in %zu steps, %d refinements\n", m->energy_start,
+    printf("energy      %.4g, improved to %.4g (steps: %zu, refinements: %d)\n", m->energy_start,
            m->energy, m->n_iterations, (int)m->n_levels);
 }
 

@@ -121,13 +121,11 @@ int job_make_domains(job *j)
     return result;
 }
 
-/* A maximum that the user wants asks for the method that takes one. */
 static icc_chart_options chart_options(const args *a)
 {
-    bool wants_maximum = a->has_maximum || a->has_target_maximum;
     return (icc_chart_options){
         .size = sizeof(icc_chart_options),
-        .method = a->method == 0 && wants_maximum ? ICC_METHOD_FOLIATION : a->method,
+        .method = a->method,
         .function = a->function,
         .tree = a->tree,
         .cells = a->cells,

@@ -27,7 +27,7 @@ for improve in "" "--improve 0" "--improve 2"; do
 done
 run 0 info -s source.txt -t target.txt --improve 0
 holds out 'map         mesh, certified'
-holds out 'in 0 steps'
+holds out '(steps: 0, refinements: 0)'
 awk '$1 == "energy" { print $2 + 0 }' out >before
 run 0 info -s source.txt -t target.txt --json
 awk -F '[:,]' '/"energy_before"/ { before = $2 } /"energy"/ { after = $2 } /"steps"/ { steps = $2 }
