@@ -6,10 +6,12 @@
 #define ICCP_PRINTF(text, first) __attribute__((format(printf, text, first)))
 #define ICCP_LIKELY(x) __builtin_expect(!!(x), 1)
 #define ICCP_UNLIKELY(x) __builtin_expect(!!(x), 0)
+#define ICCP_INLINE inline __attribute__((always_inline))
 #else
 #define ICCP_PRINTF(text, first)
 #define ICCP_LIKELY(x) (x)
 #define ICCP_UNLIKELY(x) (x)
+#define ICCP_INLINE inline
 #endif
 
 #endif

@@ -5,6 +5,8 @@
  * The largest sums are 2^48 for one byte a sample, and just under 2^64 for two. */
 #include "map/sampler.h"
 
+#include "base/compiler.h"
+
 #include <string.h>
 
 enum {
@@ -22,47 +24,72 @@ typedef struct format {
     bool wide, alpha;
 } format;
 
-static inline int position_bits(format f)
+static ICCP_INLINE int position_bits(format f)
 {
     return f.wide ? WIDE_BITS : NARROW_BITS;
 }
 
-static inline int floor_bits(format f)
+static ICCP_INLINE int floor_bits(format f)
 {
     return f.wide ? WIDE_FLOOR : NARROW_FLOOR;
 }
 
-/* The four pixels round a position, and how far it is from the first. */
+/* The pixel up and left of a position, how far the others of the four round it are in memory, and how far
+ * it is from the first. */
 typedef struct cell {
-    const uint8_t *at[4];
-    uint64_t right, down;
+    const uint8_t *first;
+    size_t right, down;
+    uint64_t share_right, share_down;
 } cell;
 
-/* Sums over the four pixels, times 4^bits. Of colours the weighted ones where there is opacity, and then
- * the weights last. */
+/* Sums over the four pixels, times 4^bits, channel by channel. */
 typedef struct sums {
     uint64_t of[4];
 } sums;
 
+/* What does not change along a walk. */
+typedef struct plane {
+    const uint8_t *pixels;
+    size_t stride, right, down;
+    int64_t last_column, last_row;
+} plane;
+
 /* The last row and column count as the far side of the cells before them. */
-static inline cell find_cell(const icc_picture *p, format f, int64_t u, int64_t v)
+static ICCP_INLINE plane make_plane(const icc_picture *p, format f)
 {
-    const int bits = position_bits(f);
-    const int64_t half = (int64_t)1 << (31 - bits);
-    const int64_t last_column = p->width > 1 ? p->width - 2 : 0;
-    const int64_t last_row = p->height > 1 ? p->height - 2 : 0;
-    int64_t i = (u + half) >> 32, j = (v + half) >> 32;
-    i = i < last_column ? i : last_column;
-    j = j < last_row ? j : last_row;
-    const size_t pixel = (size_t)(f.channels << f.wide);
-    const size_t right = p->width > 1 ? pixel : 0, down = p->height > 1 ? p->stride : 0;
-    const uint8_t *first = (const uint8_t *)p->pixels + (size_t)j * p->stride + (size_t)i * pixel;
-    return (cell){{first, first + right, first + down, first + down + right},
-                  (uint64_t)((u + half - i * ((int64_t)1 << 32)) >> (32 - bits)),
-                  (uint64_t)((v + half - j * ((int64_t)1 << 32)) >> (32 - bits))};
+    const bool wide = p->width > 1, high = p->height > 1;
+    return (plane){p->pixels,
+                   p->stride,
+                   wide ? (size_t)(f.channels << f.wide) : 0,
+                   high ? p->stride : 0,
+                   wide ? p->width - 2 : 0,
+                   high ? p->height - 2 : 0};
 }
 
-static inline uint64_t sample(const uint8_t *pixel, int channel, bool wide)
+static ICCP_INLINE cell find_cell(const plane *p, format f, int64_t u, int64_t v)
+{
+    const int bits = position_bits(f);
+    u += (int64_t)1 << (31 - bits);
+    v += (int64_t)1 << (31 - bits);
+    int64_t i = u >> 32, j = v >> 32;
+    i = i < p->last_column ? i : p->last_column;
+    j = j < p->last_row ? j : p->last_row;
+    const size_t pixel = (size_t)(f.channels << f.wide);
+    return (cell){p->pixels + (size_t)j * p->stride + (size_t)i * pixel, p->right, p->down,
+                  (uint64_t)(u - i * ((int64_t)1 << 32)) >> (32 - bits),
+                  (uint64_t)(v - j * ((int64_t)1 << 32)) >> (32 - bits)};
+}
+
+/* Differences may wrap, the result does not. */
+static ICCP_INLINE uint64_t blend(const cell *c, int bits, uint64_t s00, uint64_t s10, uint64_t s01,
+                             uint64_t s11)
+{
+    const uint64_t top = (s00 << bits) + c->share_right * (s10 - s00);
+    const uint64_t bottom = (s01 << bits) + c->share_right * (s11 - s01);
+    return (top << bits) + c->share_down * (bottom - top);
+}
+
+static ICCP_INLINE uint64_t sample(const uint8_t *pixel, int channel, bool wide)
 {
     if (!wide)
         return pixel[channel];
@@ -71,99 +98,151 @@ static inline uint64_t sample(const uint8_t *pixel, int channel, bool wide)
     return value;
 }
 
-/* Differences may wrap, the result does not. */
-static inline uint64_t blend(const uint64_t s[4], const cell *c, int bits)
+static ICCP_INLINE void plain_sum(const cell *c, format f, int channel, sums *s)
 {
-    const uint64_t top = (s[0] << bits) + c->right * (s[1] - s[0]);
-    const uint64_t bottom = (s[2] << bits) + c->right * (s[3] - s[2]);
-    return (top << bits) + c->down * (bottom - top);
+    const uint8_t *p = c->first, *q = p + c->down;
+    if (channel < f.channels)
+        s->of[channel] = blend(c, position_bits(f), sample(p, channel, f.wide),
+                               sample(p + c->right, channel, f.wide),
+                               sample(q, channel, f.wide),
+                               sample(q + c->right, channel, f.wide));
 }
 
-static inline uint64_t plain_sum(const cell *c, format f, int channel)
+/* Two samples of one byte in one number: their sums stay below 2^32. */
+static ICCP_INLINE uint64_t pair(const uint8_t *pixel, int channel)
 {
-    uint64_t s[4];
-    for (int k = 0; k < 4; ++k)
-        s[k] = sample(c->at[k], channel, f.wide);
-    return blend(s, c, position_bits(f));
+    return pixel[channel] | (uint64_t)pixel[channel + 1] << 32;
 }
 
-static inline sums weighted_sums(const cell *c, format f)
+static ICCP_INLINE void plain_sum_pair(const cell *c, format f, int channel, sums *s)
 {
-    uint64_t weight[4], s[4];
-    sums result = {{0}};
-    for (int k = 0; k < 4; ++k)
-        weight[k] = (sample(c->at[k], f.channels - 1, f.wide) << floor_bits(f)) + 1;
-    for (int channel = 0; channel < f.channels - 1; ++channel) {
-        for (int k = 0; k < 4; ++k)
-            s[k] = weight[k] * sample(c->at[k], channel, f.wide);
-        result.of[channel] = blend(s, c, position_bits(f));
+    const uint8_t *p = c->first, *q = p + c->down;
+    if (f.wide || channel + 1 >= f.channels) {
+        plain_sum(c, f, channel, s);
+        plain_sum(c, f, channel + 1, s);
+        return;
     }
-    result.of[f.channels - 1] = blend(weight, c, position_bits(f));
-    return result;
+    const uint64_t both =
+        blend(c, position_bits(f), pair(p, channel), pair(p + c->right, channel),
+              pair(q, channel), pair(q + c->right, channel));
+    s->of[channel] = both & UINT32_MAX;
+    s->of[channel + 1] = both >> 32;
 }
 
-static inline void put(uint8_t *to, int channel, bool wide, uint64_t value)
+static ICCP_INLINE sums plain_sums(const cell *c, format f)
 {
-    const uint16_t two = (uint16_t)value;
-    if (wide)
-        memcpy(to + 2 * channel, &two, sizeof two);
-    else
-        to[channel] = (uint8_t)value;
+    sums s = {{0}};
+    plain_sum_pair(c, f, 0, &s);
+    plain_sum_pair(c, f, 2, &s);
+    return s;
+}
+
+/* The weight of one of the four pixels: 2^s a + 1. */
+static ICCP_INLINE uint64_t weight_of(const uint8_t *pixel, format f)
+{
+    return (sample(pixel, f.channels - 1, f.wide) << floor_bits(f)) + 1;
+}
+
+static ICCP_INLINE void weighted_sum(const cell *c, format f, int channel, sums *s)
+{
+    const uint8_t *p = c->first, *q = p + c->down;
+    if (channel < f.channels - 1)
+        s->of[channel] = blend(c, position_bits(f), weight_of(p, f) * sample(p, channel, f.wide),
+                               weight_of(p + c->right, f) * sample(p + c->right, channel, f.wide),
+                               weight_of(q, f) * sample(q, channel, f.wide),
+                               weight_of(q + c->right, f) * sample(q + c->right, channel, f.wide));
+}
+
+/* Of the weighted colours, and of the weights last. */
+static ICCP_INLINE sums weighted_sums(const cell *c, format f)
+{
+    const uint8_t *p = c->first, *q = p + c->down;
+    sums s = {{0}};
+    weighted_sum(c, f, 0, &s);
+    weighted_sum(c, f, 1, &s);
+    weighted_sum(c, f, 2, &s);
+    s.of[f.channels - 1] = blend(c, position_bits(f), weight_of(p, f), weight_of(p + c->right, f),
+                                 weight_of(q, f), weight_of(q + c->right, f));
+    return s;
 }
 
 /* Equal opacities weight nothing: the result is the same to the last bit. */
-static inline bool same_opacity(const cell *c, format f)
+static ICCP_INLINE bool same_opacity(const cell *c, format f)
 {
-    const uint64_t first = sample(c->at[0], f.channels - 1, f.wide);
-    bool same = true;
-    for (int k = 1; k < 4; ++k)
-        same = same && sample(c->at[k], f.channels - 1, f.wide) == first;
-    return same;
+    const int last = f.channels - 1;
+    const uint8_t *p = c->first, *q = p + c->down;
+    const uint64_t opacity = sample(p, last, f.wide);
+    return sample(p + c->right, last, f.wide) == opacity && sample(q, last, f.wide) == opacity &&
+           sample(q + c->right, last, f.wide) == opacity;
 }
 
-static inline void paint_one(const cell *c, format f, uint8_t *to)
+static ICCP_INLINE void put(uint8_t *to, format f, int channel, uint64_t value)
+{
+    const uint16_t two = (uint16_t)value;
+    if (channel < f.channels && f.wide)
+        memcpy(to + 2 * channel, &two, sizeof two);
+    else if (channel < f.channels)
+        to[channel] = (uint8_t)value;
+}
+
+static ICCP_INLINE void put_plain(uint8_t *to, format f, const sums *s)
 {
     const int bits = 2 * position_bits(f);
     const uint64_t half = (uint64_t)1 << (bits - 1);
-    if (!f.alpha || same_opacity(c, f)) {
-        for (int channel = 0; channel < f.channels; ++channel)
-            put(to, channel, f.wide, (plain_sum(c, f, channel) + half) >> bits);
-        return;
-    }
-    const sums s = weighted_sums(c, f);
-    const uint64_t weight = s.of[f.channels - 1];
-    for (int channel = 0; channel < f.channels - 1; ++channel)
-        put(to, channel, f.wide, (s.of[channel] + weight / 2) / weight);
-    const uint64_t opacity = (weight - (half << 1)) >> floor_bits(f);
-    put(to, f.channels - 1, f.wide, (opacity + half) >> bits);
+    put(to, f, 0, (s->of[0] + half) >> bits);
+    put(to, f, 1, (s->of[1] + half) >> bits);
+    put(to, f, 2, (s->of[2] + half) >> bits);
+    put(to, f, 3, (s->of[3] + half) >> bits);
 }
 
-static inline void paint(const icc_picture *p, format f, iccp_walk w, uint8_t *to)
+static ICCP_INLINE void put_weighted(uint8_t *to, format f, const sums *s)
 {
+    const int bits = 2 * position_bits(f), last = f.channels - 1;
+    const uint64_t one = (uint64_t)1 << bits, weight = s->of[last];
+    for (int channel = 0; channel < last; ++channel)
+        put(to, f, channel, (s->of[channel] + weight / 2) / weight);
+    put(to, f, last, (((weight - one) >> floor_bits(f)) + one / 2) >> bits);
+}
+
+static ICCP_INLINE void paint_one(const cell *c, format f, uint8_t *to)
+{
+    if (!f.alpha || same_opacity(c, f)) {
+        const sums s = plain_sums(c, f);
+        put_plain(to, f, &s);
+    } else {
+        const sums s = weighted_sums(c, f);
+        put_weighted(to, f, &s);
+    }
+}
+
+static ICCP_INLINE void paint(const icc_picture *picture, format f, iccp_walk w, uint8_t *to)
+{
+    const plane p = make_plane(picture, f);
     for (; w.n > 0; --w.n, w.u += w.du, w.v += w.dv, to += f.channels << f.wide) {
-        const cell c = find_cell(p, f, w.u, w.v);
+        const cell c = find_cell(&p, f, w.u, w.v);
         paint_one(&c, f, to);
     }
 }
 
-static inline void gather_one(const cell *c, format f, float weight, iccp_gathered *to)
+static ICCP_INLINE void add(iccp_gathered *to, format f, int channel, const sums *s, float weight)
 {
-    if (f.alpha) {
-        const sums s = weighted_sums(c, f);
-        for (int channel = 0; channel < f.channels; ++channel)
-            to->sums[channel] += weight * (float)s.of[channel];
-    } else
-        for (int channel = 0; channel < f.channels; ++channel)
-            to->sums[channel] += weight * (float)(int64_t)plain_sum(c, f, channel);
-    to->weight += weight;
+    if (channel < f.channels)
+        to->sums[channel] +=
+            weight * (f.alpha ? (float)s->of[channel] : (float)(int64_t)s->of[channel]);
 }
 
-static inline void gather(const icc_picture *p, format f, iccp_walk w, float weight, size_t phase,
-                          size_t per_pixel, iccp_gathered *pixels)
+static ICCP_INLINE void gather(const icc_picture *picture, format f, iccp_walk w, float weight,
+                               size_t phase, size_t per_pixel, iccp_gathered *pixels)
 {
+    const plane p = make_plane(picture, f);
     for (; w.n > 0; --w.n, w.u += w.du, w.v += w.dv) {
-        const cell c = find_cell(p, f, w.u, w.v);
-        gather_one(&c, f, weight, pixels);
+        const cell c = find_cell(&p, f, w.u, w.v);
+        const sums s = f.alpha ? weighted_sums(&c, f) : plain_sums(&c, f);
+        add(pixels, f, 0, &s, weight);
+        add(pixels, f, 1, &s, weight);
+        add(pixels, f, 2, &s, weight);
+        add(pixels, f, 3, &s, weight);
+        pixels->weight += weight;
         if (++phase == per_pixel) {
             phase = 0;
             ++pixels;
@@ -171,7 +250,7 @@ static inline void gather(const icc_picture *p, format f, iccp_walk w, float wei
     }
 }
 
-/* One kernel for every format: the compiler sees constants. */
+/* One kernel for every format: all above is inlined into it, and the format is a constant. */
 #define WITH_FORMAT(picture, CALL)                                                                 \
     switch ((picture)->channels * 4 + ((picture)->bytes == 2) * 2 + (picture)->alpha) {            \
         FORMAT(1, false, false, CALL)                                                              \
@@ -286,8 +365,8 @@ void iccp_sampler_store(const icc_picture *source, const iccp_gathered *gathered
     const float weight = f.alpha ? gathered->sums[f.channels - 1] : whole;
     const int n_colours = f.channels - f.alpha;
     for (int channel = 0; channel < n_colours; ++channel)
-        put(to, channel, f.wide, rounded(gathered->sums[channel] / weight, largest));
+        put(to, f, channel, rounded(gathered->sums[channel] / weight, largest));
     const float opacity = (weight / whole - 1) / (float)(1 << floor_bits(f));
     if (f.alpha)
-        put(to, n_colours, f.wide, rounded(opacity > 0 ? opacity : 0, largest));
+        put(to, f, n_colours, rounded(opacity > 0 ? opacity : 0, largest));
 }
