@@ -69,7 +69,9 @@ static void visit_triangle(iccp_finder *f, uint32_t triangle, bool fill)
     }
 }
 
-/* About as many cells as triangles. */
+/* Cells per triangle: more make queries faster and the finder larger. */
+static const double DENSITY = 4;
+
 static void choose_cells(iccp_finder *f, const iccp_planar *mesh)
 {
     double lower[2] = {HUGE_VAL, HUGE_VAL}, upper[2] = {-HUGE_VAL, -HUGE_VAL};
@@ -81,7 +83,7 @@ static void choose_cells(iccp_finder *f, const iccp_planar *mesh)
     const double width = upper[0] - lower[0], height = upper[1] - lower[1];
     const double longest = fmax(width, height);
     const double area = fmax(width * height, longest * longest / (double)mesh->n_triangles);
-    f->rate = sqrt((double)mesh->n_triangles / area);
+    f->rate = sqrt(DENSITY * (double)mesh->n_triangles / area);
     f->size[0] = (size_t)(width * f->rate) + 1;
     f->size[1] = (size_t)(height * f->rate) + 1;
     f->origin[0] = lower[0];
@@ -119,43 +121,43 @@ void iccp_finder_free(iccp_finder *finder)
     *finder = (iccp_finder){.memory = finder->memory};
 }
 
-/* The areas of a p and each edge, in plain doubles; false when the triangle is so flat that they would
- * be far off. */
-static bool plain_areas(const double *const q[3], const double p[2], double area[3])
-{
-    double sum = 0, size = 0;
-    for (int k = 0; k < 3; ++k) {
-        const double *a = q[(k + 1) % 3], *b = q[(k + 2) % 3];
-        const double left = (a[0] - p[0]) * (b[1] - p[1]), right = (a[1] - p[1]) * (b[0] - p[0]);
-        area[k] = left - right;
-        sum += area[k];
-        size += fabs(left) + fabs(right);
-    }
-    return sum > FLATTEST * size;
-}
+/* Of the sum of magnitudes: the rounding of an area's differences, products and their difference stays
+ * below it, so that beyond it the sign is right. */
+static const double CERTAIN = 1e-15;
 
-static bool holds(const iccp_finder *f, uint32_t triangle, const double p[2], double bary[3])
+/* The doubtful case: p is next to an edge, or the triangle is flat. */
+static bool holds_exactly(const double *const q[3], const double p[2], double bary[3])
 {
-    const uint32_t *v = f->triangles + 3 * (size_t)triangle;
-    const double *q[3];
-    for (int k = 0; k < 3; ++k)
-        q[k] = f->points + 2 * (size_t)v[k];
     for (int k = 0; k < 3; ++k)
         if (iccp_orient2d(q[(k + 1) % 3], q[(k + 2) % 3], p) < 0)
             return false;
-    if (!plain_areas(q, p, bary))
-        for (int k = 0; k < 3; ++k)
-            bary[k] = iccp_area2d(q[(k + 1) % 3], q[(k + 2) % 3], p);
-    double sum = 0;
-    for (int k = 0; k < 3; ++k) {
-        bary[k] = fmax(bary[k], 0);
-        sum += bary[k];
-    }
-    if (!(sum > 0))
-        return false;
     for (int k = 0; k < 3; ++k)
-        bary[k] /= sum;
-    return true;
+        bary[k] = fmax(iccp_area2d(q[(k + 1) % 3], q[(k + 2) % 3], p), 0);
+    return bary[0] + bary[1] + bary[2] > 0;
+}
+
+/* Whether the triangle holds p, exactly; then `bary` are the areas that p makes with its edges. All three
+ * are computed before anything is decided: one branch that is hard to predict, not three. */
+static bool holds(const iccp_finder *f, uint32_t triangle, const double p[2], double bary[3])
+{
+    const uint32_t *v = f->triangles + 3 * (size_t)triangle;
+    const double *const q[3] = {f->points + 2 * (size_t)v[0], f->points + 2 * (size_t)v[1],
+                                f->points + 2 * (size_t)v[2]};
+    const double ax = q[0][0] - p[0], ay = q[0][1] - p[1], bx = q[1][0] - p[0];
+    const double by = q[1][1] - p[1], cx = q[2][0] - p[0], cy = q[2][1] - p[1];
+    const double bc = bx * cy, cb = by * cx, ca = cx * ay, ac = cy * ax, ab = ax * by, ba = ay * bx;
+    const double size =
+        fabs(bc) + fabs(cb) + fabs(ca) + fabs(ac) + fabs(ab) + fabs(ba);
+    bary[0] = bc - cb;
+    bary[1] = ca - ac;
+    bary[2] = ab - ba;
+    const double least01 = bary[0] < bary[1] ? bary[0] : bary[1];
+    const double least = least01 < bary[2] ? least01 : bary[2];
+    if (least < -CERTAIN * size)
+        return false;
+    if (least > CERTAIN * size && bary[0] + bary[1] + bary[2] > FLATTEST * size)
+        return true;
+    return holds_exactly(q, p, bary);
 }
 
 bool iccp_finder_find(const iccp_finder *finder, const double p[2], uint32_t *triangle,
@@ -166,6 +168,9 @@ bool iccp_finder_find(const iccp_finder *finder, const double p[2], uint32_t *tr
     const size_t cell = i + finder->size[0] * j;
     for (size_t e = finder->first[cell]; e < finder->first[cell + 1]; ++e)
         if (holds(finder, finder->entries[e], p, bary)) {
+            const double scale = 1 / (bary[0] + bary[1] + bary[2]);
+            for (int k = 0; k < 3; ++k)
+                bary[k] *= scale;
             *triangle = finder->entries[e];
             return true;
         }

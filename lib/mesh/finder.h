@@ -11,7 +11,7 @@ typedef struct iccp_finder {
     const uint32_t *triangles; /* borrowed */
     double origin[2], rate;    /* cell = (point - origin) * rate */
     size_t size[2];
-    size_t *first;
+    uint32_t *first;           /* cells + 1: where the triangles of a cell begin in `entries` */
     uint32_t *entries;
 } iccp_finder;
 
