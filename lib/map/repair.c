@@ -10,8 +10,9 @@
 /* Rings of neighbours round the inverted triangles that are free to move, in turn; 0 means all. */
 static const int RINGS[] = {2, 5, 12, 0};
 
-/* Steps of one untangling, and rounds of refinement. */
-enum { STEPS = 60, ROUNDS = 4 };
+/* Steps of one untangling, steps without fewer inverted triangles after which it is given up, and rounds
+ * of refinement. */
+enum { STEPS = 60, PATIENCE = 15, ROUNDS = 4 };
 
 /* Where a few rounds multiply the triangles by more than this, refinement is not what is missing. */
 enum { MOST_GROWTH = 2 };
@@ -84,16 +85,20 @@ static void turn_edges(iccp_plmap *map)
 
 /* ---- untangling ---- */
 
-static double smallest_determinant(const iccp_newton *newton, const iccp_plmap *map)
+/* The smallest determinant, and how many are not positive. */
+static double smallest_determinant(const iccp_newton *newton, const iccp_plmap *map, size_t *n_bad)
 {
     double least = HUGE_VAL;
+    *n_bad = 0;
     for (size_t e = 0; e < newton->n_elements; ++e) {
         const uint32_t c = 3 * newton->triangle[e];
         const double *const image[3] = {iccp_plmap_image(map, c), iccp_plmap_image(map, c + 1),
                                         iccp_plmap_image(map, c + 2)};
         double j[4];
         iccp_element_jacobian(&newton->element[e], image, j);
-        least = fmin(least, j[0] * j[3] - j[1] * j[2]);
+        const double det = j[0] * j[3] - j[1] * j[2];
+        least = fmin(least, det);
+        *n_bad += det <= 0;
     }
     return least;
 }
@@ -112,9 +117,11 @@ static icc_status untangle(iccp_plmap *map, const uint8_t *movable, const iccp_e
     icc_status status = iccp_newton_create(&newton, map, movable, env);
     if (status != ICC_OK)
         return status;
-    double least = smallest_determinant(&newton, map);
+    size_t n_bad, fewest, since = 0;
+    double least = smallest_determinant(&newton, map, &n_bad);
+    fewest = n_bad;
     double epsilon = least > 0 ? 1e-10 : sqrt(1e-12 + 0.04 * least * least);
-    for (int k = 0; status == ICC_OK && k < STEPS && newton.n_free > 0; ++k) {
+    for (int k = 0; status == ICC_OK && k < STEPS && since < PATIENCE && newton.n_free > 0; ++k) {
         double slope;
         const double before = iccp_newton_energy(&newton, map, ICCP_UNTANGLE, epsilon);
         status = iccp_progress(env, "untangle", (double)k / STEPS);
@@ -124,7 +131,9 @@ static icc_status untangle(iccp_plmap *map, const uint8_t *movable, const iccp_e
             break;
         const double after =
             iccp_newton_move(&newton, map, ICCP_UNTANGLE, epsilon, before, slope);
-        least = smallest_determinant(&newton, map);
+        least = smallest_determinant(&newton, map, &n_bad);
+        since = n_bad < fewest ? 0 : since + 1;
+        fewest = n_bad < fewest ? n_bad : fewest;
         if (least > 0 && after >= 0.99 * before)
             break;
         epsilon = next_epsilon(epsilon, least, before, after);
