@@ -9,8 +9,10 @@
 
 #include <math.h>
 
-/* A bilinear sample is two pixels wide: steps of this many pixels still see every pixel. */
-static const double STEP = 1.25;
+/* Pixels of the source from sample to sample, at most. A bilinear sample sees two, so even at 1.25 none is
+ * missed, but of a zone plate's rings too fine for the target shrunk by that, 54 % of the contrast would be
+ * left, and 32 % at 1.1, as much as a mean over the whole pixel leaves. */
+static const double STEP = 1.1;
 
 static iccp_edge make_edge(const iccp_place *a, const iccp_place *b)
 {

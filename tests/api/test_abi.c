@@ -186,6 +186,17 @@ AT(icc_certificate, n_flat, 24);
 AT(icc_certificate, n_no_image, 32);
 AT(icc_certificate, first, 40);
 
+SIZE(icc_picture, 48);
+AT(icc_picture, size, 0);
+AT(icc_picture, width, 8);
+AT(icc_picture, height, 12);
+AT(icc_picture, channels, 16);
+AT(icc_picture, bytes, 20);
+AT(icc_picture, alpha, 24);
+AT(icc_picture, reserved, 28);
+AT(icc_picture, stride, 32);
+AT(icc_picture, pixels, 40);
+
 SIZE(icc_grid_info, 136);
 AT(icc_grid_info, size, 0);
 AT(icc_grid_info, dim, 8);
