@@ -100,6 +100,13 @@ static void warp(const mapped *m, const icc_picture *from, const icc_picture *to
     ck_assert_uint_eq(n_failed, 0);
 }
 
+static int32_t map_kind(const mapped *m)
+{
+    icc_map_info info = {.size = sizeof info};
+    ck_assert_int_eq(icc_map_get_info(m->map, &info), ICC_OK);
+    return info.kind;
+}
+
 static bool inside(const mapped *m, int32_t i, int32_t j)
 {
     const double centre[2] = {i + 0.5, j + 0.5};
@@ -153,6 +160,22 @@ START_TEST(test_identity)
 END_TEST
 
 /* Pixels outside keep every bit, those inside are all written: two backgrounds tell which is which. */
+static void check_extent(const mapped *m)
+{
+    icc_picture from = make(40, 40, 1, 1, 0), to = make(40, 40, 1, 1, 0);
+    memset(from.pixels, 100, from.stride * 40);
+    for (unsigned background = 0; background <= 50; background += 50) {
+        memset(to.pixels, (int)background, to.stride * 40);
+        warp(m, &from, &to);
+        for (int32_t j = 0; j < 40; ++j)
+            for (int32_t i = 0; i < 40; ++i)
+                ck_assert_msg(get(&to, i, j, 0) == (inside(m, i, j) ? 100 : background),
+                              "pixel %d %d: %u", (int)i, (int)j, get(&to, i, j, 0));
+    }
+    free(from.pixels);
+    free(to.pixels);
+}
+
 START_TEST(test_extent)
 {
     const double halves[8] = {4.5, 4.5, 30.5, 4.5, 30.5, 33.5, 4.5, 33.5};
@@ -162,22 +185,35 @@ START_TEST(test_extent)
     const size_t sizes[4] = {4, 3, 4, 10};
     for (int k = 0; k < 4; ++k) {
         mapped m = make_map(sizes[k], cages[k], cages[k], ICC_MAP_MESH);
-        icc_picture from = make(40, 40, 1, 1, 0), to[2] = {make(40, 40, 1, 1, 0), make(40, 40, 1, 1, 0)};
-        memset(from.pixels, 100, from.stride * 40);
-        for (int b = 0; b < 2; ++b) {
-            memset(to[b].pixels, 50 * b, to[b].stride * 40);
-            warp(&m, &from, &to[b]);
-            for (int32_t j = 0; j < 40; ++j)
-                for (int32_t i = 0; i < 40; ++i)
-                    ck_assert_msg(get(&to[b], i, j, 0) ==
-                                      (inside(&m, i, j) ? 100 : 50 * (unsigned)b),
-                                  "cage %d, pixel %d %d: %u", k, (int)i, (int)j,
-                                  get(&to[b], i, j, 0));
-            free(to[b].pixels);
-        }
-        free(from.pixels);
+        check_extent(&m);
         unmake(&m);
     }
+}
+END_TEST
+
+/* Jagged targets with all vertices on centres, so that many centres lie on edges, from sources that shrink
+ * into them more and more. */
+START_TEST(test_centres_on_edges)
+{
+    uint32_t random = 7;
+    int n_maps = 0;
+    for (int k = 0; k < 40; ++k) {
+        double from[24], to[24];
+        for (size_t i = 0; i < 12; ++i) {
+            const double angle = 6.28318530717958647692 * (double)i / 12;
+            random = random * 1664525 + 1013904223;
+            const double radius = 6 + (double)(random >> 24) / 16;
+            to[2 * i] = floor(20 + radius * cos(angle)) + 0.5;
+            to[2 * i + 1] = floor(20 + radius * sin(angle)) + 0.5;
+            from[2 * i] = 20 + (1 + k / 3) * 12 * cos(angle);
+            from[2 * i + 1] = 20 + (1 + k / 3) * 12 * sin(angle);
+        }
+        mapped m = make_map(12, from, to, ICC_MAP_MESH);
+        n_maps += map_kind(&m) == ICC_MAP_MESH;
+        check_extent(&m);
+        unmake(&m);
+    }
+    ck_assert_int_ge(n_maps, 36);
 }
 END_TEST
 
@@ -528,6 +564,7 @@ int main(void)
     TCase *tcase = tcase_create("warp");
     tcase_add_test(tcase, test_identity);
     tcase_add_test(tcase, test_extent);
+    tcase_add_test(tcase, test_centres_on_edges);
     tcase_add_test(tcase, test_quarter_turn);
     tcase_add_test(tcase, test_every_pixel);
     tcase_add_test(tcase, test_kinds_agree);
