@@ -23,6 +23,39 @@ static void check_map(const icc_map *map, size_t n_vertices, const double *sourc
     require(memcmp(images, source, n_vertices * 2 * sizeof *source) == 0);
 }
 
+/* Of kind mesh: certified, with a mesh that can be had, checked, repaired and improved. */
+static void check_mesh(const icc_map *map, const icc_domain *target)
+{
+    icc_map_info info = {.size = sizeof info}, after = info;
+    require(icc_map_get_info(map, &info) == ICC_OK);
+    require(info.certified == 1 && info.n_unrepaired == 0 && info.energy >= 4 - 1e-9);
+    require(info.energy <= info.energy_start * (1 + 1e-12));
+    double *vertices = malloc(4 * info.n_vertices * sizeof *vertices);
+    uint32_t *triangles = malloc(3 * info.n_triangles * sizeof *triangles);
+    require(vertices != NULL && triangles != NULL);
+    require(icc_map_mesh(map, vertices, vertices + 2 * info.n_vertices, triangles) == ICC_OK);
+    for (size_t c = 0; c < 3 * info.n_triangles; ++c)
+        require(triangles[c] < info.n_vertices);
+    icc_certificate checked = {.size = sizeof checked};
+    const icc_status status =
+        icc_map_repair(map, info.n_vertices, vertices, info.n_triangles, triangles,
+                       vertices + 2 * info.n_vertices, &checked, NULL, NULL);
+    require(status == ICC_OK || status == ICC_ERR_ARGUMENT);
+    require(status != ICC_OK || checked.certified == (checked.boundary_simple && checked.first < 0));
+    const icc_improve_options few = {.size = sizeof few, .iterations = 1, .levels = 1};
+    icc_improve_report report = {.size = sizeof report};
+    icc_map *better, *same;
+    require(icc_map_improve(&better, map, &few, &report, NULL, NULL) == ICC_OK);
+    require(icc_map_get_info(better, &after) == ICC_OK);
+    require(after.energy <= info.energy * (1 + 1e-12) && after.n_triangles == report.n_triangles);
+    const icc_status followed = icc_map_follow(&same, better, target, -1, NULL, NULL);
+    require(followed == ICC_OK || followed == ICC_ERR_CERTIFICATE);
+    icc_map_free(same);
+    icc_map_free(better);
+    free(vertices);
+    free(triangles);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     double source[2 * MAX_VERTICES], target[2 * MAX_VERTICES], points[2 * MAX_POINTS];
@@ -38,8 +71,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     icc_domain *domains[2] = {NULL, NULL};
     const icc_chart_options chart = {
         .size = sizeof chart, .method = pick_method(data[1] >> 6), .function = 1 + (kind >> 3 & 1),
-        .cells = 2 + data[1] % 64};
-    const icc_map_options options = {.size = sizeof options, .chart = &chart};
+        .cells = 2 + data[1] % 32};
+    const icc_map_options options = {.size = sizeof options,
+                                     .kind = data[1] % 4 == 3 ? ICC_MAP_CURVES : 0,
+                                     .iterations = data[1] % 2 ? 2 : -1,
+                                     .chart = &chart};
     icc_map *map = NULL;
     if (icc_domain_create(&domains[0], 2, n, source, 0, NULL, NULL, NULL) == ICC_OK &&
         icc_domain_create(&domains[1], 2, m, target, 0, NULL, NULL, NULL) == ICC_OK) {
@@ -50,8 +86,13 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
                 status == ICC_ERR_CERTIFICATE);
         require(status == ICC_OK ? map != NULL : map == NULL && err.side > 0);
     }
-    if (map != NULL)
+    if (map != NULL) {
+        icc_map_info info = {.size = sizeof info};
+        require(icc_map_get_info(map, &info) == ICC_OK);
         check_map(map, n, source, target, n_points, points);
+        if (info.kind == ICC_MAP_MESH)
+            check_mesh(map, domains[1]);
+    }
     icc_map_free(map);
     icc_domain_free(domains[0]);
     icc_domain_free(domains[1]);

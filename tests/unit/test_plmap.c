@@ -355,19 +355,20 @@ static void check_boundary(const iccp_plmap *map, const iccp_plmap *broken)
     ck_assert_uint_eq(n_faults, 0);
 }
 
-static size_t repair_and_check(iccp_plmap *map)
+static size_t repair_and_check(iccp_plmap *map, bool twice)
 {
     const iccp_env env = default_env();
     iccp_plmap broken, again;
-    size_t n_left = 12345, n_again;
+    size_t n_left = 12345, n_again = 0;
     ck_assert_int_eq(iccp_plmap_copy(&broken, map, &env.memory), ICC_OK);
     ck_assert_int_eq(iccp_plmap_copy(&again, map, &env.memory), ICC_OK);
     ck_assert_int_eq(iccp_repair(map, false, &n_left, &env), ICC_OK);
     check_mesh(map);
     check_boundary(map, &broken);
     ck_assert_uint_eq(iccp_plmap_count_inverted(map), n_left);
-    ck_assert_int_eq(iccp_repair(&again, false, &n_again, &env), ICC_OK);
-    ck_assert(is_same(map, &again));
+    if (twice)
+        ck_assert_int_eq(iccp_repair(&again, false, &n_again, &env), ICC_OK);
+    ck_assert(!twice || (is_same(map, &again) && n_again == n_left));
     iccp_plmap_free(&broken);
     iccp_plmap_free(&again);
     return n_left;
@@ -380,9 +381,9 @@ START_TEST(broken_maps_are_repaired_or_counted)
         for (int how = 0; how < N_BREAKS; ++how) {
             const shape s = shape_number(k);
             random_source r = {(uint64_t)(10 * k + how)};
-            iccp_plmap map = map_of(&s, 10, identity, 1);
+            iccp_plmap map = map_of(&s, 6, identity, 1);
             break_map(&map, how, &r);
-            const size_t n_left = repair_and_check(&map);
+            const size_t n_left = repair_and_check(&map, k < 2);
             n_failed += n_left > 0;
             if (n_left > 0 && how < N_REPAIRABLE)
                 ck_abort_msg("shape %d broken in way %d: %zu triangles left", k, how, n_left);
@@ -399,7 +400,7 @@ START_TEST(what_cannot_be_repaired_is_counted)
     iccp_plmap map = map_of(&s, 6, identity, 1);
     for (size_t v = 0; v < map.n_vertices; ++v)
         map.images[2 * v] *= -1;
-    ck_assert_uint_gt(repair_and_check(&map), 0);
+    ck_assert_uint_gt(repair_and_check(&map, true), 0);
     iccp_plmap_free(&map);
 }
 END_TEST
@@ -548,7 +549,7 @@ static icc_status cut_often(const icc_env *env, icc_error *err, void *argument)
     icc_status status = iccp_plmap_copy(&map, argument, &full.memory);
     if (status == ICC_OK)
         status = iccp_progress(&full, "cut", 0);
-    for (uint32_t c = 0; status == ICC_OK && c < 300; ++c) {
+    for (uint32_t c = 0; status == ICC_OK && c < 3 * map.corners.n_triangles && c < 300; ++c) {
         status = iccp_plmap_cut(&map, c, &done);
         if (status != ICC_OK)
             check_certified(&map);
@@ -560,7 +561,7 @@ static icc_status cut_often(const icc_env *env, icc_error *err, void *argument)
 START_TEST(failures_leave_valid_maps)
 {
     const shape l = shape_l(), square = shape_square();
-    iccp_plmap start = map_of(&l, 5, wave, 1), small = map_of(&square, 2, identity, 1);
+    iccp_plmap start = map_of(&l, 3, wave, 1), small = map_of(&square, 2, identity, 1);
     faulty_sweep(cut_often, &start);
     faulty_sweep(improve_copy, &start);
     faulty_sweep(repair_copy, &start);
