@@ -4,6 +4,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "map/compatible.h"
 #include "map/outline.h"
 #include "map/repair.h"
 
@@ -178,6 +179,58 @@ static icc_status refit(iccp_mesh_map *map, const icc_improve_options *options, 
     return status == ICC_OK ? finish(map, info, env, err) : status;
 }
 
+static void swap_sides(iccp_plmap *pl)
+{
+    double *points = pl->points;
+    pl->points = pl->images;
+    pl->images = points;
+}
+
+/* The start that needs no repair but where rounding makes it: compatible triangulations, of any shapes.
+ * Triangles of the source that rounding has spoilt are repaired like those of the target. */
+static icc_status start_compatible(iccp_plmap *pl, const icc_chart *source,
+                                   const icc_chart *target, const iccp_env *env)
+{
+    const iccp_planar *mesh = source->mesh;
+    double *images = iccp_alloc(&env->memory, mesh->n_boundary, 2 * sizeof *images);
+    icc_status status = images != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    for (size_t v = 0; status == ICC_OK && v < mesh->n_boundary; ++v)
+        status = vertex_image(source, target, mesh, v, images + 2 * v, NULL);
+    if (status == ICC_OK)
+        status = iccp_compatible_create(pl, mesh, source->domain, images,
+                                        sqrt(target->domain->measure / source->domain->measure),
+                                        env);
+    iccp_free(&env->memory, images);
+    if (status != ICC_OK)
+        return status;
+    size_t n_left = 0;
+    swap_sides(pl);
+    if (iccp_plmap_count_inverted(pl) > 0)
+        status = iccp_repair(pl, true, &n_left, env);
+    swap_sides(pl);
+    return status == ICC_OK && n_left > 0 ? ICC_ERR_CERTIFICATE : status;
+}
+
+/* Where the charts give a start that cannot be repaired. Leaves info->n_unrepaired as it is unless it
+ * comes to a certified map. */
+static icc_status try_compatible(iccp_mesh_map *map, const icc_chart *source,
+                                 const icc_chart *target, const icc_improve_options *options,
+                                 icc_map_info *info, const iccp_env *env)
+{
+    icc_map_info own = *info;
+    iccp_log(env, "%zu triangles could not be repaired: trying compatible triangulations",
+             info->n_unrepaired);
+    iccp_plmap_free(&map->pl);
+    icc_status status = start_compatible(&map->pl, source, target, env);
+    if (status == ICC_OK)
+        status = refit(map, options, &own, env, NULL);
+    own.n_inverted = info->n_inverted;
+    own.seconds_repair += info->seconds_repair;
+    if (status == ICC_OK)
+        *info = own;
+    return status == ICC_ERR_MEMORY || status == ICC_ERR_CANCELLED ? status : ICC_OK;
+}
+
 icc_status iccp_mesh_map_create(iccp_mesh_map **out, const icc_chart *source,
                                 const icc_chart *target, int32_t iterations, icc_map_info *info,
                                 const iccp_env *env, icc_error *err)
@@ -190,6 +243,8 @@ icc_status iccp_mesh_map_create(iccp_mesh_map **out, const icc_chart *source,
     icc_status status = start(&map->pl, source, target, env);
     if (status == ICC_OK)
         status = refit(map, &options, info, env, err);
+    if (status == ICC_OK && info->n_unrepaired > 0)
+        status = try_compatible(map, source, target, &options, info, env);
     if (status == ICC_OK && info->n_unrepaired == 0)
         *out = map;
     else

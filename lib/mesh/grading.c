@@ -66,26 +66,22 @@ static icc_status push_entry(level *l, uint32_t sample, const iccp_memory *memor
     return ICC_OK;
 }
 
-/* The width that a sample allows at distance `distance` from it. */
-static double allowed(const iccp_samples *samples, uint32_t i, double distance)
+/* Whether a sample is so near a point that it forbids cells of the given width there: its length and
+ * GROWTH times the distance, less `slack`, do not reach the width. */
+static bool forbids(const iccp_samples *samples, uint32_t i, double x, double y, double width,
+                    double slack)
 {
-    return samples->length[i] + GROWTH * distance;
-}
-
-static double distance_to(const iccp_samples *samples, uint32_t i, double x, double y)
-{
+    const double spare = width - samples->length[i], reach = spare / GROWTH + slack;
     const double dx = samples->points[2 * (size_t)i] - x;
     const double dy = samples->points[2 * (size_t)i + 1] - y;
-    return sqrt(dx * dx + dy * dy);
+    return spare > 0 && dx * dx + dy * dy < reach * reach;
 }
 
 static bool must_split(const builder *b, const level *l, const cell *c)
 {
-    for (size_t e = c->first; e < c->first + c->n; ++e) {
-        const uint32_t i = l->entries[e];
-        if (allowed(b->samples, i, distance_to(b->samples, i, c->x, c->y)) < l->width)
+    for (size_t e = c->first; e < c->first + c->n; ++e)
+        if (forbids(b->samples, l->entries[e], c->x, c->y, l->width, 0))
             return true;
-    }
     return false;
 }
 
@@ -96,8 +92,7 @@ static icc_status add_child(const builder *b, const level *from, const cell *par
     cell child = {x, y, to->n_entries, 0};
     for (size_t e = parent->first; e < parent->first + parent->n; ++e) {
         const uint32_t i = from->entries[e];
-        const double nearest = distance_to(b->samples, i, x, y) - 0.71 * to->width;
-        if (allowed(b->samples, i, fmax(nearest, 0)) < to->width &&
+        if (forbids(b->samples, i, x, y, to->width, 0.71 * to->width) &&
             push_entry(to, i, b->memory) != ICC_OK)
             return ICC_ERR_MEMORY;
     }
