@@ -369,7 +369,8 @@ typedef struct icc_map_options {
     int32_t iterations;             /**< mesh: steps of improvement on each level of refinement; 0: as
                                          many as pay, at most 60; -1: no improvement */
     const icc_chart_options *chart; /**< for both charts, or NULL; its `maximum` is the source's. For
-                                         kind mesh method 0 means disc, and cells 0 means 20. */
+                                         kind mesh method 0 means disc (foliation when a maximum is
+                                         given), and cells 0 means 20. */
     const double *target_maximum;   /**< where the target's maximum shall be, or NULL: as the method
                                          chooses */
 } icc_map_options;

@@ -14,6 +14,9 @@ static const int RINGS[] = {2, 5, 12, 0};
  * of refinement. */
 enum { STEPS = 60, PATIENCE = 15, ROUNDS = 4 };
 
+/* Refinement helps where a few triangles are stuck, one in this many at most. */
+enum { FEW = 50 };
+
 /* Where a few rounds multiply the triangles by more than this, refinement is not what is missing. */
 enum { MOST_GROWTH = 2 };
 
@@ -231,6 +234,7 @@ icc_status iccp_repair(iccp_plmap *map, bool keep_mesh, size_t *n_left, const ic
         return status;
     status = untangle_patches(map, false, n_left, env);
     for (int round = 0; status == ICC_OK && *n_left > 0 && round < ROUNDS &&
+                        *n_left <= map->corners.n_triangles / FEW &&
                         start.corners.n_triangles <= most;
          ++round) {
         status = refine_round(&start, map, env);
