@@ -16,6 +16,12 @@ enum {
     WIDE_FLOOR = 4
 };
 
+/* Positions times 2^32, all n inside the rectangle of the pixels' centres. */
+typedef struct walk {
+    int64_t u, v, du, dv;
+    size_t n;
+} walk;
+
 static const double ONE = 4294967296.0; /* of a walk's positions */
 
 /* What a kernel is compiled for. */
@@ -215,7 +221,7 @@ static ICCP_INLINE void paint_one(const cell *c, format f, uint8_t *to)
     }
 }
 
-static ICCP_INLINE void paint(const icc_picture *picture, format f, iccp_walk w, uint8_t *to)
+static ICCP_INLINE void paint(const icc_picture *picture, format f, walk w, uint8_t *to)
 {
     const plane p = make_plane(picture, f);
     for (; w.n > 0; --w.n, w.u += w.du, w.v += w.dv, to += f.channels << f.wide) {
@@ -231,7 +237,7 @@ static ICCP_INLINE void add(iccp_gathered *to, format f, int channel, const sums
             weight * (f.alpha ? (float)s->of[channel] : (float)(int64_t)s->of[channel]);
 }
 
-static ICCP_INLINE void gather(const icc_picture *picture, format f, iccp_walk w, float weight,
+static ICCP_INLINE void gather(const icc_picture *picture, format f, walk w, float weight,
                                size_t phase, size_t per_pixel, iccp_gathered *pixels)
 {
     const plane p = make_plane(picture, f);
@@ -273,17 +279,17 @@ static ICCP_INLINE void gather(const icc_picture *picture, format f, iccp_walk w
         CALL(((format){channels, wide, alpha}));                                                   \
         break;
 
-static void paint_walk(const icc_picture *source, const iccp_walk *walk, uint8_t *to)
+static void paint_walk(const icc_picture *source, const walk *w, uint8_t *to)
 {
-#define PAINT(f) paint(source, f, *walk, to)
+#define PAINT(f) paint(source, f, *w, to)
     WITH_FORMAT(source, PAINT)
 #undef PAINT
 }
 
-static void gather_walk(const icc_picture *source, const iccp_walk *walk, float weight,
+static void gather_walk(const icc_picture *source, const walk *w, float weight,
                         size_t phase, size_t per_pixel, iccp_gathered *pixels)
 {
-#define GATHER(f) gather(source, f, *walk, weight, phase, per_pixel, pixels)
+#define GATHER(f) gather(source, f, *w, weight, phase, per_pixel, pixels)
     WITH_FORMAT(source, GATHER)
 #undef GATHER
 }
@@ -291,7 +297,7 @@ static void gather_walk(const icc_picture *source, const iccp_walk *walk, float 
 /* ---- lines ---- */
 
 /* The end of a rounded walk is checked, not that of the line. */
-bool iccp_walk_inside(iccp_walk *walk, const icc_picture *picture, const iccp_line *line)
+static bool walk_inside(walk *w, const icc_picture *picture, const iccp_line *line)
 {
     const double right = picture->width - 1, bottom = picture->height - 1;
     const double steps = (double)(line->n - 1);
@@ -299,13 +305,13 @@ bool iccp_walk_inside(iccp_walk *walk, const icc_picture *picture, const iccp_li
     if (!(line->u >= 0 && line->u <= right && u >= 0 && u <= right && line->v >= 0 &&
           line->v <= bottom && v >= 0 && v <= bottom))
         return false;
-    /* A step of a single sample may be anything. */
-    const double scale = line->n > 1 ? ONE : 0;
-    *walk = (iccp_walk){(int64_t)(line->u * ONE), (int64_t)(line->v * ONE),
-                        scale > 0 ? (int64_t)(line->du * scale) : 0,
-                        scale > 0 ? (int64_t)(line->dv * scale) : 0, line->n};
+    /* A step of a single sample may be anything, and is not taken. */
+    const bool moves = line->n > 1;
+    *w = (walk){(int64_t)(line->u * ONE), (int64_t)(line->v * ONE),
+                moves ? (int64_t)(line->du * ONE) : 0, moves ? (int64_t)(line->dv * ONE) : 0,
+                line->n};
     const int64_t n = (int64_t)line->n - 1;
-    const int64_t last_u = walk->u + n * walk->du, last_v = walk->v + n * walk->dv;
+    const int64_t last_u = w->u + n * w->du, last_v = w->v + n * w->dv;
     return last_u >= 0 && last_u <= (int64_t)(right * ONE) && last_v >= 0 &&
            last_v <= (int64_t)(bottom * ONE);
 }
@@ -317,37 +323,37 @@ static int64_t clamped(double x, int32_t n)
     return !(x > 0) ? 0 : (int64_t)((x < last ? x : last) * ONE);
 }
 
-iccp_walk iccp_walk_clamped(const icc_picture *picture, const iccp_line *line, size_t k)
+static walk walk_clamped(const icc_picture *picture, const iccp_line *line, size_t k)
 {
     const double u = line->u + (double)k * line->du, v = line->v + (double)k * line->dv;
-    return (iccp_walk){clamped(u, picture->width), clamped(v, picture->height), 0, 0, 1};
+    return (walk){clamped(u, picture->width), clamped(v, picture->height), 0, 0, 1};
 }
 
 void iccp_sampler_paint(const icc_picture *source, const iccp_line *line, uint8_t *to)
 {
-    iccp_walk walk;
+    walk w;
     const size_t pixel = (size_t)(source->channels * source->bytes);
-    if (iccp_walk_inside(&walk, source, line)) {
-        paint_walk(source, &walk, to);
+    if (walk_inside(&w, source, line)) {
+        paint_walk(source, &w, to);
         return;
     }
     for (size_t k = 0; k < line->n; ++k) {
-        walk = iccp_walk_clamped(source, line, k);
-        paint_walk(source, &walk, to + k * pixel);
+        w = walk_clamped(source, line, k);
+        paint_walk(source, &w, to + k * pixel);
     }
 }
 
 void iccp_sampler_gather(const icc_picture *source, const iccp_line *line, float weight,
                          size_t phase, size_t per_pixel, iccp_gathered *pixels)
 {
-    iccp_walk walk;
-    if (iccp_walk_inside(&walk, source, line)) {
-        gather_walk(source, &walk, weight, phase, per_pixel, pixels);
+    walk w;
+    if (walk_inside(&w, source, line)) {
+        gather_walk(source, &w, weight, phase, per_pixel, pixels);
         return;
     }
     for (size_t k = 0; k < line->n; ++k) {
-        walk = iccp_walk_clamped(source, line, k);
-        gather_walk(source, &walk, weight, (phase + k) % per_pixel, per_pixel,
+        w = walk_clamped(source, line, k);
+        gather_walk(source, &w, weight, (phase + k) % per_pixel, per_pixel,
                     pixels + (phase + k) / per_pixel);
     }
 }

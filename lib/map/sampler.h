@@ -6,14 +6,8 @@
 
 #include <stdbool.h>
 
-/* Positions in a picture, in pixels from the centre of the first one, times 2^32. All n lie inside the
- * rectangle of the pixels' centres. */
-typedef struct iccp_walk {
-    int64_t u, v, du, dv;
-    size_t n;
-} iccp_walk;
-
-/* A line of positions before they are known to lie inside; see iccp_walk_inside(). */
+/* n positions in a picture, in pixels from the centre of the first one. Beyond the rectangle of the pixels'
+ * centres the nearest place on it counts. */
 typedef struct iccp_line {
     double u, v, du, dv;
     size_t n;
@@ -25,12 +19,6 @@ typedef struct iccp_gathered {
     float weight;
     bool owned; /* for the caller: whether the mean shall be written */
 } iccp_gathered;
-
-/* Whether all of a line lies inside; if so it becomes a walk. */
-bool iccp_walk_inside(iccp_walk *walk, const icc_picture *picture, const iccp_line *line);
-
-/* Position k of a line, clamped to the inside: a walk of one step. */
-iccp_walk iccp_walk_clamped(const icc_picture *picture, const iccp_line *line, size_t k);
 
 /* Writes the samples to consecutive pixels, which have the source's format. Positions are rounded to
  * 2^-12 pixels (2^-14 with two bytes); from there on results are exact but for one rounding. */
