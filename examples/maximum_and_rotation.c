@@ -71,7 +71,8 @@ static void map_points(size_t n, double points[MOST][2], double rotation, const 
         images[i][1] = s * points[i][0] + c * points[i][1];
     }
     icc_domain *source = make_tripus(0, rotation), *target = make_tripus(0.5, 0);
-    const icc_chart_options chart = {.size = sizeof chart, .maximum = maximum};
+    const icc_chart_options chart = {
+        .size = sizeof chart, .method = ICC_METHOD_GRADIENT, .maximum = maximum};
     const icc_map_options options = {
         .size = sizeof options, .chart = &chart, .target_maximum = maximum};
     icc_map *map;

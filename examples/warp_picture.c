@@ -7,7 +7,6 @@
  * transparent. */
 #include <icc/icc.h>
 
-#include <math.h>
 #include <png.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -56,48 +55,23 @@ static icc_domain *read_cage(const char *path)
     return domain;
 }
 
-/* Finds the source of every pixel: the image of its centre under the inverse map. Pixels outside
- * the target get NaN, and so do those that the method cannot map. */
-static double *find_sources(const icc_map *map, size_t width, size_t height, const icc_env *env)
+/* Draws the warped picture. Pixels outside the target are left as they are. */
+static void warp(const icc_map *map, const png_image *image, png_byte *before, png_byte *after)
 {
-    const size_t n = width * height;
-    double *points = allocate(n, 2 * sizeof *points);
-    icc_status *status = allocate(n, sizeof *status);
-    for (size_t i = 0; i < n; ++i) {
-        points[2 * i] = (double)(i % width) + 0.5;
-        points[2 * i + 1] = (double)(i / width) + 0.5;
-    }
-    const icc_status result = icc_map_apply_inverse(map, n, points, points, status, NULL, env);
-    if (result != ICC_OK)
-        stop("mapping the pixels", icc_status_name(result));
-
-    size_t n_inside = 0, n_lost = 0;
-    for (size_t i = 0; i < n; ++i) {
-        n_inside += status[i] != ICC_ERR_OUTSIDE;
-        n_lost += status[i] != ICC_OK && status[i] != ICC_ERR_OUTSIDE;
-    }
-    printf("  pixels inside the target  %8zu\n", n_inside);
-    printf("  of these without a source %8zu\n", n_lost);
-    free(status);
-    return points;
-}
-
-/* The colour at (x, y), mixed from the four pixels whose centres are nearest. */
-static void sample(const png_image *image, const png_byte *pixels, double x, double y,
-                   png_byte colour[4])
-{
-    const double u = fmin(fmax(x - 0.5, 0), image->width - 1.0);
-    const double v = fmin(fmax(y - 0.5, 0), image->height - 1.0);
-    const size_t i = (size_t)u, j = (size_t)v;
-    const size_t right = i + 1 < image->width, below = j + 1 < image->height;
-    const png_byte *a = pixels + 4 * (i + image->width * j);
-    const png_byte *b = a + 4 * image->width * below;
-    const double du = u - (double)i, dv = v - (double)j;
-    for (int c = 0; c < 4; ++c) {
-        const double top = a[c] + du * (a[4 * right + (size_t)c] - a[c]);
-        const double bottom = b[c] + du * (b[4 * right + (size_t)c] - b[c]);
-        colour[c] = (png_byte)lround(top + dv * (bottom - top));
-    }
+    const icc_env two_threads = {.size = sizeof two_threads, .threads = 2};
+    icc_error error = {.size = sizeof error};
+    const icc_picture from = {.size = sizeof from,
+                              .width = (int32_t)image->width,
+                              .height = (int32_t)image->height,
+                              .channels = 4,
+                              .bytes = 1,
+                              .alpha = 1,
+                              .stride = 4 * (size_t)image->width,
+                              .pixels = before};
+    icc_picture to = from;
+    to.pixels = after;
+    if (icc_map_warp(map, &from, &to, NULL, &two_threads, &error) != ICC_OK)
+        stop("warping", error.message);
 }
 
 static void print_time(const char *stage, double time)
@@ -105,16 +79,17 @@ static void print_time(const char *stage, double time)
     printf("  %-25s %8.2f ms\n", stage, 1e3 * time);
 }
 
-/* What making the map's two charts took, stage by stage. */
-static void print_chart_times(const icc_map *map)
+/* What the map is, and what making it took. */
+static void describe(const icc_map *map)
 {
-    icc_chart_info source = {.size = sizeof source}, target = {.size = sizeof target};
-    if (icc_chart_get_info(icc_map_source_chart(map), &source) != ICC_OK ||
-        icc_chart_get_info(icc_map_target_chart(map), &target) != ICC_OK)
+    icc_map_info info = {.size = sizeof info};
+    if (icc_map_get_info(map, &info) != ICC_OK)
         return;
-    print_time("  grids and their maxima", source.seconds_grid + target.seconds_grid);
-    print_time("  trees", source.seconds_tree + target.seconds_tree);
-    print_time("  functions", source.seconds_field + target.seconds_field);
+    print_time("  of that, repairing it", info.seconds_repair);
+    print_time("  making it fair", info.seconds_improve);
+    print_time("  certifying it", info.seconds_certify);
+    printf("  the map has %zu triangles and is %s\n", info.n_triangles,
+           info.certified ? "certified to be one-to-one" : "not certified");
 }
 
 int main(int argc, char **argv)
@@ -140,29 +115,21 @@ int main(int argc, char **argv)
         stop("making the map", error.message);
 
     const double have_map = seconds();
-    const icc_env two_threads = {.size = sizeof two_threads, .threads = 2};
-    double *sources = find_sources(map, image.width, image.height, &two_threads);
-
-    const double have_sources = seconds();
-    for (size_t i = 0; i < n; ++i)
-        if (!isnan(sources[2 * i]))
-            sample(&image, before, sources[2 * i], sources[2 * i + 1], after + 4 * i);
+    warp(map, &image, before, after);
 
     const double have_pixels = seconds();
     if (!png_image_write_to_file(&image, argv[4], 0, after, 0, NULL))
         stop(argv[4], image.message);
     print_time("read picture and cages", have_input - start);
     print_time("make the map", have_map - have_input);
-    print_chart_times(map);
-    print_time("map the pixels", have_sources - have_map);
-    print_time("mix the colours", have_pixels - have_sources);
+    describe(map);
+    print_time("warp the pixels", have_pixels - have_map);
     print_time("write the picture", seconds() - have_pixels);
     printf("the result is %s\n", argv[4]);
 
     icc_map_free(map);
     icc_domain_free(source);
     icc_domain_free(target);
-    free(sources);
     free(before);
     free(after);
     return EXIT_SUCCESS;
