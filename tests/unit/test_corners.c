@@ -146,6 +146,39 @@ START_TEST(random_changes_keep_every_invariant)
 }
 END_TEST
 
+/* Twins follow from the vertices alone. */
+START_TEST(twins_are_found)
+{
+    static uint32_t own[3 * MAX_TRIANGLES];
+    iccp_env env;
+    ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
+    for (int run = 0; run < 20; ++run) {
+        random_source r = {(uint64_t)run};
+        iccp_corners c = fan(5, run % 2 == 0);
+        bool is_manifold = false;
+        for (uint32_t v = 7; v < 500; ++v)
+            iccp_cut_edge(&c, (uint32_t)random_below(&r, 3 * (int)c.n_triangles), v);
+        memcpy(own, c.twin, 3 * c.n_triangles * sizeof *own);
+        memset(c.twin, 0, 3 * c.n_triangles * sizeof *own);
+        ck_assert_int_eq(iccp_find_twins(&c, &is_manifold, &env), ICC_OK);
+        ck_assert(is_manifold);
+        ck_assert_mem_eq(own, c.twin, 3 * c.n_triangles * sizeof *own);
+        /* One triangle the other way round, twice the same, or with an edge of no length. */
+        const uint32_t first = c.vertex[0];
+        c.vertex[0] = c.vertex[1];
+        c.vertex[1] = first;
+        ck_assert_int_eq(iccp_find_twins(&c, &is_manifold, &env), ICC_OK);
+        ck_assert(!is_manifold);
+        memcpy(c.vertex, c.vertex + 3, 3 * sizeof *c.vertex);
+        ck_assert_int_eq(iccp_find_twins(&c, &is_manifold, &env), ICC_OK);
+        ck_assert(!is_manifold);
+        c.vertex[0] = c.vertex[1];
+        ck_assert_int_eq(iccp_find_twins(&c, &is_manifold, &env), ICC_OK);
+        ck_assert(!is_manifold);
+    }
+}
+END_TEST
+
 /* Turning takes the pair a quarter round: four times is nothing, as a set of triangles. */
 START_TEST(four_turns_change_nothing)
 {
@@ -186,6 +219,7 @@ int main(void)
     Suite *suite = suite_create("corners");
     TCase *tests = tcase_create("all");
     tcase_add_test(tests, random_changes_keep_every_invariant);
+    tcase_add_test(tests, twins_are_found);
     tcase_add_test(tests, four_turns_change_nothing);
     tcase_add_test(tests, a_boundary_may_be_cut_again_and_again);
     suite_add_tcase(suite, tests);
