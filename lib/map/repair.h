@@ -4,7 +4,7 @@
 
 #include "map/newton.h"
 
-/* Turns edges (unless `keep_mesh`), moves single vertices, untangles patches and then everything; where that is not enough
+/* Turns edges (unless `keep_mesh`), untangles patches and then everything; where that is not enough
  * and the mesh may change, refines it round what is left and begins again. The boundary's images stay. Iterations are
  * capped, clocks are not read: the same input gives the same bits. `n_left` tells how many triangles
  * are not positive in the end: 0 unless it failed. */
