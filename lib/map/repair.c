@@ -14,6 +14,10 @@ static const int RINGS[] = {2, 5, 12, 0};
  * of refinement. */
 enum { STEPS = 60, PATIENCE = 15, ROUNDS = 4 };
 
+/* Where one triangle in this many is inverted still after a first untangling, larger patches have never
+ * helped on random pairs of shapes: another start is called for. */
+enum { MANY = 20 };
+
 /* Refinement helps where a few triangles are stuck, one in this many at most. */
 enum { FEW = 50 };
 
@@ -183,6 +187,8 @@ static icc_status untangle_patches(iccp_plmap *map, bool keep_mesh, size_t *n_le
             if (!keep_mesh)
                 turn_edges(map);
             *n_left = iccp_plmap_count_inverted(map);
+            if (!keep_mesh && *n_left > map->corners.n_triangles / MANY)
+                break;
         }
     }
     iccp_free(&env->memory, movable);
