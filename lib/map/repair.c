@@ -14,12 +14,10 @@ static const int RINGS[] = {2, 5, 12, 0};
  * of refinement. */
 enum { STEPS = 60, PATIENCE = 15, ROUNDS = 4 };
 
-/* Where one triangle in this many is inverted still after a first untangling, larger patches have never
- * helped on random pairs of shapes: another start is called for. */
-enum { MANY = 20 };
-
-/* Refinement helps where a few triangles are stuck, one in this many at most. */
-enum { FEW = 50 };
+/* Where more than A_FEW and one triangle in MANY are inverted still after a first untangling, larger
+ * patches have never helped on random pairs of shapes: another start is called for. And refinement
+ * helps where A_FEW and one in FEW are stuck, at most. */
+enum { A_FEW = 10, MANY = 20, FEW = 50 };
 
 /* Where a few rounds multiply the triangles by more than this, refinement is not what is missing. */
 enum { MOST_GROWTH = 2 };
@@ -187,7 +185,7 @@ static icc_status untangle_patches(iccp_plmap *map, bool keep_mesh, size_t *n_le
             if (!keep_mesh)
                 turn_edges(map);
             *n_left = iccp_plmap_count_inverted(map);
-            if (!keep_mesh && *n_left > map->corners.n_triangles / MANY)
+            if (!keep_mesh && *n_left > A_FEW + map->corners.n_triangles / MANY)
                 break;
         }
     }
@@ -240,7 +238,7 @@ icc_status iccp_repair(iccp_plmap *map, bool keep_mesh, size_t *n_left, const ic
         return status;
     status = untangle_patches(map, false, n_left, env);
     for (int round = 0; status == ICC_OK && *n_left > 0 && round < ROUNDS &&
-                        *n_left <= map->corners.n_triangles / FEW &&
+                        *n_left <= A_FEW + map->corners.n_triangles / FEW &&
                         start.corners.n_triangles <= most;
          ++round) {
         status = refine_round(&start, map, env);
