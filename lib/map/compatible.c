@@ -286,7 +286,7 @@ static icc_status cut_all(overlay *o, const iccp_env *env)
         const size_t begin = p;
         while (p < o->n_pieces && o->pieces[p].triangle == t)
             ++p;
-        cut_triangle(o, t, o->pieces + begin, p - begin);
+        cut_triangle(o, t, o->n_pieces > 0 ? o->pieces + begin : NULL, p - begin);
     }
     bool is_manifold;
     const icc_status status = iccp_find_twins(&o->result, &is_manifold, env);
