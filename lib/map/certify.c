@@ -95,50 +95,14 @@ static void free_corners(iccp_corners *corners, const iccp_memory *memory)
     iccp_free(memory, corners->twin);
 }
 
-/* The boundary as one ring; 0 when it is not. */
-static size_t boundary_ring(const iccp_corners *corners, size_t n_vertices, uint32_t *next,
-                            uint32_t *ring)
+/* Whether every vertex of the boundary has an image. */
+static bool boundary_has_images(const iccp_corners *corners, const double *images)
 {
-    size_t n = 0;
-    uint32_t first = 0;
-    memset(next, 0xff, n_vertices * sizeof *next);
     for (uint32_t c = 0; c < 3 * corners->n_triangles; ++c)
-        if (corners->twin[c] == ICCP_NO_NEIGHBOUR) {
-            first = corners->vertex[iccp_after(c)];
-            if (next[first] != UINT32_MAX)
-                return 0;
-            next[first] = corners->vertex[iccp_before(c)];
-            ++n;
-        }
-    return n > 0 && iccp_outline_follow(next, first, n, ring) ? n : 0;
-}
-
-static bool have_images(const uint32_t *ring, size_t n, const double *images)
-{
-    for (size_t k = 0; k < n; ++k)
-        if (!has_image(images + 2 * (size_t)ring[k]))
+        if (corners->twin[c] == ICCP_NO_NEIGHBOUR &&
+            !has_image(images + 2 * (size_t)corners->vertex[iccp_after(c)]))
             return false;
     return true;
-}
-
-/* ICC_ERR_BOUNDARY unless the boundary is one polygon that is simple before and after. */
-static icc_status check_boundary(const mesh_check *m, const iccp_corners *corners,
-                                 const double *images, const iccp_env *env)
-{
-    uint32_t *next = iccp_alloc(&env->memory, m->n_vertices, sizeof *next);
-    uint32_t *ring = iccp_alloc(&env->memory, m->n_vertices, sizeof *ring);
-    icc_status status = next != NULL && ring != NULL ? ICC_OK : ICC_ERR_MEMORY;
-    if (status == ICC_OK) {
-        const size_t n = boundary_ring(corners, m->n_vertices, next, ring);
-        status = n > 0 && have_images(ring, n, images)
-                     ? iccp_outline_check(m->before, ring, n, env)
-                     : ICC_ERR_BOUNDARY;
-        if (status == ICC_OK)
-            status = iccp_outline_check(m->after, ring, n, env);
-    }
-    iccp_free(&env->memory, next);
-    iccp_free(&env->memory, ring);
-    return status;
 }
 
 static double area_of(const mesh_check *m, const double *points)
@@ -204,7 +168,9 @@ static icc_status judge(mesh_check *m, bool repaired, double *images, const iccp
             check_triangles(m, images);
     }
     if (status == ICC_OK)
-        status = is_manifold ? check_boundary(m, &corners, images, env) : ICC_ERR_BOUNDARY;
+        status = is_manifold && boundary_has_images(&corners, images)
+                     ? iccp_outline_check(&corners, m->n_vertices, m->before, m->after, env)
+                     : ICC_ERR_BOUNDARY;
     m->result->boundary_simple = status == ICC_OK;
     m->result->certified = status == ICC_OK && m->result->first < 0;
     free_corners(&corners, &env->memory);

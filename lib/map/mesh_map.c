@@ -64,39 +64,6 @@ static icc_status start(iccp_plmap *pl, const icc_chart *source, const icc_chart
 
 /* ---- certificate ---- */
 
-/* The boundary vertices in order, from the half-edges without twins; 0 unless they form one ring. */
-static size_t boundary_ring(const iccp_plmap *pl, uint32_t *next, uint32_t *ring)
-{
-    size_t n = 0;
-    uint32_t first = 0;
-    for (uint32_t c = 0; c < 3 * pl->corners.n_triangles; ++c)
-        if (pl->corners.twin[c] == ICCP_NO_NEIGHBOUR) {
-            first = pl->corners.vertex[iccp_after(c)];
-            next[first] = pl->corners.vertex[iccp_before(c)];
-            ++n;
-        }
-    return n > 0 && iccp_outline_follow(next, first, n, ring) ? n : 0;
-}
-
-static icc_status check_boundaries(const iccp_plmap *pl, const iccp_env *env, icc_error *err)
-{
-    uint32_t *next = iccp_alloc(&env->memory, pl->n_vertices, sizeof *next);
-    uint32_t *ring = iccp_alloc(&env->memory, pl->n_vertices, sizeof *ring);
-    icc_status status = next != NULL && ring != NULL ? ICC_OK : ICC_ERR_MEMORY;
-    if (status == ICC_OK) {
-        const size_t n = boundary_ring(pl, next, ring);
-        status = n > 0 ? iccp_outline_check(pl->points, ring, n, env) : ICC_ERR_CERTIFICATE;
-        if (status == ICC_OK)
-            status = iccp_outline_check(pl->images, ring, n, env);
-        if (status == ICC_ERR_BOUNDARY || status == ICC_ERR_CERTIFICATE)
-            status = iccp_fail(err, ICC_ERR_CERTIFICATE, -1,
-                               "the boundary of the mesh or of its image is not simple");
-    }
-    iccp_free(&env->memory, next);
-    iccp_free(&env->memory, ring);
-    return status;
-}
-
 /* Every triangle positive before and after, a disc by Euler's formula, and both boundaries simple: then
  * the map of the closed polygons is a homeomorphism. */
 static icc_status certify(const iccp_plmap *pl, const iccp_env *env, icc_error *err)
@@ -116,7 +83,12 @@ static icc_status certify(const iccp_plmap *pl, const iccp_env *env, icc_error *
     if (n_faults > 0 || 2 * pl->n_vertices != n_triangles + n_open + 2)
         return iccp_fail(err, ICC_ERR_CERTIFICATE, -1,
                          "the mesh map cannot be certified: %zu faults", n_faults);
-    return check_boundaries(pl, env, err);
+    const icc_status status =
+        iccp_outline_check(&pl->corners, pl->n_vertices, pl->points, pl->images, env);
+    return status == ICC_ERR_BOUNDARY
+               ? iccp_fail(err, ICC_ERR_CERTIFICATE, -1,
+                           "the boundary of the mesh or of its image is not simple")
+               : status;
 }
 
 /* ---- all of it ---- */
