@@ -169,8 +169,11 @@ enum {
 
 /** The function whose gradient lines are followed. */
 enum {
-    ICC_FUNCTION_DECAY = 1,   /**< thesis (4.1): 10 at the maximum, times 0.95 from parent to child */
-    ICC_FUNCTION_DISTANCE = 2 /**< minus the distance in the tree (L1 distance) */
+    ICC_FUNCTION_DECAY = 1,    /**< thesis (4.1): 10 at the maximum, times 0.95 from parent to child */
+    ICC_FUNCTION_DISTANCE = 2, /**< minus the distance in the tree (L1 distance) */
+    ICC_FUNCTION_LAPLACE = 3,  /**< discretely harmonic: 1 at the maximum, 0 outside */
+    ICC_FUNCTION_BILAPLACE = 4,/**< discretely biharmonic, simply supported (Navier) */
+    ICC_FUNCTION_CLAMPED = 5   /**< discretely biharmonic, clamped: changes its sign unless constrained */
 };
 
 /** The two published forms of Algorithm 2. */

@@ -158,12 +158,59 @@ ICC_API icc_status icc_tree_verify(const icc_tree *tree, icc_tree_report *report
 /** A function on the vertices of a tree that falls from parent to child. */
 typedef struct icc_field icc_field;
 
+/** Whether f(parent) >= (1 + eta) f(child) is imposed on the edges of the tree inside (Laplace and
+ *  bi-Laplace; decay and distance fulfil it anyway). */
+enum {
+    ICC_CONSTRAINTS_NEEDED = 1, /**< only when the function without has other critical points than one
+                                     maximum at the root */
+    ICC_CONSTRAINTS_NONE = 2,   /**< never */
+    ICC_CONSTRAINTS_ALL = 3     /**< always */
+};
+
+/** How the linear systems of Laplace and bi-Laplace are solved. */
+enum {
+    ICC_SOLVER_DIRECT = 1,   /**< sparse factorisation: each value to about 1e-12 of itself */
+    ICC_SOLVER_ITERATIVE = 2 /**< conjugate gradients with a multigrid preconditioner: for large
+                                  grids, above all in 3-D */
+};
+
 /** Options of icc_field_create(). */
 typedef struct icc_field_options {
-    size_t size;      /**< set by the caller: `sizeof(icc_field_options)` */
-    int32_t function; /**< `ICC_FUNCTION_*`; 0: decay */
-    int32_t reserved; /**< 0 */
+    size_t size;         /**< set by the caller: `sizeof(icc_field_options)` */
+    int32_t function;    /**< `ICC_FUNCTION_*`; 0: decay */
+    int32_t constraints; /**< `ICC_CONSTRAINTS_*`; 0: needed */
+    int32_t solver;      /**< `ICC_SOLVER_*`; 0: by the predicted work of a factorisation */
+    int32_t reserved;    /**< 0 */
+    double eta;          /**< least relative fall from parent to child, in (0, 0.01]; 0: 1e-6 */
+    double leaf;         /**< constrained bi-Laplace: least value at vertices without children, in
+                              (0, 0.01]; 0: 1e-9 */
 } icc_field_options;
+
+/** What icc_field_get_info() tells. Members that the function does not have are 0. */
+typedef struct icc_field_info {
+    size_t size;            /**< set by the caller: `sizeof(icc_field_info)` */
+    int32_t function;       /**< `ICC_FUNCTION_*` */
+    int32_t constrained;    /**< 1: the tree's inequalities were imposed */
+    int32_t solver;         /**< `ICC_SOLVER_*` */
+    int32_t reserved;       /**< 0 */
+    size_t n_unknowns;      /**< vertices inside that the tree reaches, but for the root */
+    size_t n_violated;      /**< tree edges where the function without constraints breaks the
+                                 inequality; of those here, if it was not constrained */
+    size_t n_active;        /**< inequalities that hold with equality */
+    size_t n_iterations;    /**< of the active set or the interior point method; 0 without constraints */
+    size_t n_inner;         /**< of conjugate gradients, all together */
+    double work;            /**< multiplications of the largest factorisation */
+    double residual_before; /**< KKT residual before the final sweep from the root to the leaves: the largest
+                                 |min(slack, multiplier)| of an inequality, or |row of the equation| if
+                                 there are none; the maximum of f is 1 */
+    double residual;        /**< the same after the sweep: for the function that is handed out */
+    double least_log;       /**< the smallest of icc_field_logs() inside; 0 if there are none */
+    double seconds_setup;   /**< time to number the rows and to build the matrices */
+    double seconds_order;   /**< time for orderings and symbolic factorisations */
+    double seconds_factor;  /**< time for factorisations */
+    double seconds_solve;   /**< time for triangular solves and conjugate gradients */
+    double seconds_verify;  /**< time to count critical points, sweep and find the residuals */
+} icc_field_info;
 
 /** Critical points of a function on the vertices inside, by the links of the Kuhn triangulation. */
 typedef struct icc_field_report {
@@ -191,11 +238,25 @@ enum {
  * generations where that would underflow, from about 13,850 on. distance: minus the generation. Both
  * depend on the generation alone.
  *
+ * laplace: 1 at the root, 0 outside, and at every other vertex the mean of its neighbours: the function with
+ * the least Dirichlet energy. bilaplace: that with the least sum of squared Laplacians over the vertices
+ * inside, which is f = c L^-2 e_root (simply supported, Navier); clamped: over the vertices next to them
+ * outside, too. Laplace and bilaplace are positive inside, however far from the root; clamped changes its
+ * sign unless it is constrained. With constraints, the least energy among the functions that fall by
+ * eta along every tree edge inside and, for bilaplace and clamped, are at least `leaf` at the leaves.
+ *
+ * Nothing is assumed about critical points: see icc_field_verify(). Inequalities on a tree that is not a
+ * cousin tree, as in 3-D, do not rule out others than the maximum.
+ *
  * @param[out] out the field; owned by the caller; keeps the tree alive
  * @param tree     the tree
  * @param options  may be NULL
  * @param env      may be NULL
  * @param err      may be NULL
+ * @return ::ICC_OK; ::ICC_ERR_SOLVER when a solver did not converge; ::ICC_ERR_RESOLUTION when the root is
+ *         the only vertex inside (laplace, bilaplace, clamped); ::ICC_ERR_UNSUPPORTED for a direct
+ *         solver in a build without one; ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY, ::ICC_ERR_CANCELLED,
+ *         ::ICC_ERR_VERSION
  */
 ICC_API icc_status icc_field_create(icc_field **out, const icc_tree *tree,
                                     const icc_field_options *options, const icc_env *env,
@@ -204,8 +265,17 @@ ICC_API icc_status icc_field_create(icc_field **out, const icc_tree *tree,
 /** Frees a field. */
 ICC_API void icc_field_free(icc_field *field);
 
-/** One value per grid vertex; NaN where the tree does not reach; borrowed. */
+/** Fills in `info`, whose `size` the caller has set. ::ICC_OK or ::ICC_ERR_ARGUMENT. */
+ICC_API icc_status icc_field_get_info(const icc_field *field, icc_field_info *info);
+
+/** One value per grid vertex; NaN where the tree does not reach; borrowed. Laplace and bilaplace decay
+ *  exponentially in long limbs: values below 2^-1022 are 0 here, see icc_field_logs(). */
 ICC_API const double *icc_field_values(const icc_field *field);
+
+/** The natural logarithm of every value, accurate also where the values underflow; -HUGE_VAL outside, NaN
+ *  where the tree does not reach; borrowed. NULL for decay and distance, and when some value
+ *  inside is not positive. */
+ICC_API const double *icc_field_logs(const icc_field *field);
 
 /**
  * Counts critical points. Vertices outside or without a value count as lower than all others, equal

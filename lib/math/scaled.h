@@ -1,0 +1,45 @@
+/* Numbers beyond the range of double: fraction * 2^exponent. */
+#ifndef ICCP_SCALED_H
+#define ICCP_SCALED_H
+
+#include <math.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* The exponent of 0: lower than any other, and still far from overflow when exponents are added. */
+#define ICCP_ZERO_EXPONENT (INT32_MIN / 4)
+
+/* A vector of such numbers. Normalised: |fraction| in [0.5, 1), or 0 with ICCP_ZERO_EXPONENT. */
+typedef struct iccp_scaled {
+    double *fraction;
+    int32_t *exponent;
+} iccp_scaled;
+
+/* Stores x * 2^exponent, x finite, in normalised form. */
+static inline void iccp_scaled_set(const iccp_scaled *vector, size_t i, double x, int32_t exponent)
+{
+    int shift;
+    vector->fraction[i] = frexp(x, &shift);
+    vector->exponent[i] = vector->fraction[i] < 0 || vector->fraction[i] > 0 ? exponent + shift
+                                                                             : ICCP_ZERO_EXPONENT;
+}
+
+/* Entry i times 2^-exponent as a double: 0 when that is below its range. */
+static inline double iccp_scaled_get(const iccp_scaled *vector, size_t i, int32_t exponent)
+{
+    const int32_t shift = vector->exponent[i] - exponent;
+    return shift < -2000 ? 0.0 : ldexp(vector->fraction[i], shift);
+}
+
+/* -1, 0 or 1 as entry i is smaller than, equal to or larger than entry j; both normalised, not
+ * negative. */
+static inline int iccp_scaled_compare(const iccp_scaled *vector, size_t i, size_t j)
+{
+    const int32_t a = vector->exponent[i], b = vector->exponent[j];
+    if (a != b)
+        return a > b ? 1 : -1;
+    const double x = vector->fraction[i], y = vector->fraction[j];
+    return (x > y) - (x < y);
+}
+
+#endif
