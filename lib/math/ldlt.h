@@ -3,6 +3,7 @@
 #define ICCP_LDLT_H
 
 #include "base/env.h"
+#include "math/scaled.h"
 #include "math/symmetric.h"
 
 typedef struct iccp_ldlt {
@@ -32,5 +33,10 @@ void iccp_ldlt_free(iccp_ldlt *factor);
 /* Solves for n_rhs right sides at once: entry i of side r at b[i * n_rhs + r], replaced by the
  * solution. `work` has room for n * n_rhs doubles. */
 void iccp_ldlt_solve(const iccp_ldlt *factor, size_t n_rhs, double *b, double *work);
+
+/* The same for one right side of normalised numbers, without under- or overflow. `work` has room for
+ * n of them. The solution of an M-matrix with a right side that is not negative is right to the last
+ * few digits in every component, since nothing cancels. */
+void iccp_ldlt_solve_scaled(const iccp_ldlt *factor, const iccp_scaled *b, const iccp_scaled *work);
 
 #endif

@@ -1,6 +1,7 @@
 /* The two ways to solve sparse positive definite systems, against each other and, where the libraries
  * are installed, against CHOLMOD and CXSparse. */
 #include "math/ordering.h"
+#include "math/scaled.h"
 #include "math/spd.h"
 #include "mesh/laplacian.h"
 
@@ -482,6 +483,135 @@ START_TEST(failures_leave_nothing_behind)
 }
 END_TEST
 
+static iccp_scaled scaled_vector(size_t n)
+{
+    return (iccp_scaled){calloc(n + 1, sizeof(double)), calloc(n + 1, sizeof(int32_t))};
+}
+
+static void scaled_clear(iccp_scaled *v)
+{
+    free(v->fraction);
+    free(v->exponent);
+}
+
+static iccp_ldlt factorised(const iccp_symmetric *m)
+{
+    const iccp_env env = plain_env();
+    iccp_ldlt factor;
+    ck_assert_int_eq(iccp_ldlt_analyse(&factor, m, 1, &env), ICC_OK);
+    ck_assert_int_eq(iccp_ldlt_factorise(&factor, m, &env), ICC_OK);
+    return factor;
+}
+
+/* b * 2^exponent in, the solution out. */
+static iccp_scaled solve_scaled(const iccp_ldlt *factor, const double *b, int32_t exponent)
+{
+    iccp_scaled x = scaled_vector(factor->n), work = scaled_vector(factor->n);
+    for (size_t i = 0; i < factor->n; ++i)
+        iccp_scaled_set(&x, i, b[i], exponent);
+    iccp_ldlt_solve_scaled(factor, &x, &work);
+    for (size_t i = 0; i < factor->n; ++i)
+        if (x.exponent[i] == ICCP_ZERO_EXPONENT)
+            ck_assert(!(fabs(x.fraction[i]) > 0));
+        else
+            ck_assert(fabs(x.fraction[i]) >= 0.5 && fabs(x.fraction[i]) < 1);
+    scaled_clear(&work);
+    return x;
+}
+
+/* In the range of double the scaled solve gives what the plain one gives, and it is homogeneous
+ * whatever the size of the right side. */
+START_TEST(scaled_solves_agree_with_plain_ones)
+{
+    static const int32_t SHIFTS[] = {0, 1, 255, 256, 511, -257, 5000, -77777, 1000003, -9999999};
+    random_source r = {6};
+    if (!iccp_ordering_available())
+        return;
+    for (size_t k = 0; k < 30; ++k) {
+        equations s = k < 3 ? grid_system(30) : random_system(2 + (size_t)random_below(&r, 300), 4, &r);
+        iccp_ldlt factor = factorised(&s.m);
+        double *b = random_sides(s.m.n, &r), *x = malloc(2 * s.m.n * sizeof *x);
+        for (size_t i = 0; i < s.m.n; ++i)
+            b[i] = k % 2 ? fabs(b[i]) * (random_below(&r, 3) == 0) : b[i];
+        memcpy(x, b, s.m.n * sizeof *x);
+        iccp_ldlt_solve(&factor, 1, x, x + s.m.n);
+        double largest = 0;
+        for (size_t i = 0; i < s.m.n; ++i)
+            largest = fmax(largest, fabs(x[i]));
+        const int32_t shift = SHIFTS[k % (sizeof SHIFTS / sizeof *SHIFTS)];
+        iccp_scaled y = solve_scaled(&factor, b, shift);
+        for (size_t i = 0; i < s.m.n; ++i)
+            ck_assert_double_le(fabs(iccp_scaled_get(&y, i, shift) - x[i]),
+                                1e-12 * (k % 2 ? fabs(x[i]) : largest));
+        scaled_clear(&y);
+        iccp_ldlt_free(&factor);
+        free(b);
+        free(x);
+        system_clear(&s);
+    }
+}
+END_TEST
+
+/* -f(k - 1) + 4 f(k) - f(k + 1) = [k = 0], f(n) = 0: f(k) = g^(k + 1) (1 - g^2(n - k)) / (1 - g^2(n + 1))
+ * with g = 2 - sqrt 3, down to 2^-38000.. */
+START_TEST(long_chains_do_not_underflow)
+{
+    enum { N = 20000 };
+    if (!iccp_ordering_available())
+        return;
+    edge *edges = malloc(N * sizeof *edges);
+    double *extra = calloc(N, sizeof *extra), *b = calloc(N, sizeof *b), *x = malloc(2 * N * sizeof *x);
+    for (uint32_t k = 0; k < N; ++k) {
+        edges[k] = (edge){k, k + 1, 1};
+        extra[k] = k == 0 || k == N - 1 ? 3 : 2;
+    }
+    equations s = from_edges(N, N - 1, edges, extra);
+    iccp_ldlt factor = factorised(&s.m);
+    memcpy(x, b, N * sizeof *x);
+    x[0] = b[0] = 1;
+    iccp_ldlt_solve(&factor, 1, x, x + N);
+    ck_assert(!(x[N - 1] > 0));
+    iccp_scaled y = solve_scaled(&factor, b, 0);
+    const long double g = 2 - sqrtl(3), unit = log2l(g);
+    for (size_t k = 0; k < N; ++k) {
+        const long double exact = (k + 1) * unit + log2l(1 - powl(g, 2 * (N - (long double)k)));
+        const long double given = log2l(y.fraction[k]) + y.exponent[k];
+        ck_assert_double_le((double)fabsl(given - exact), 1e-11);
+        if (x[k] > 1e-300)
+            ck_assert_double_le(fabs(iccp_scaled_get(&y, k, 0) - x[k]), 1e-12 * x[k]);
+    }
+    ck_assert_int_lt(y.exponent[N - 1], -37000);
+    scaled_clear(&y);
+    iccp_ldlt_free(&factor);
+    system_clear(&s);
+    free(edges);
+    free(extra);
+    free(b);
+    free(x);
+}
+END_TEST
+
+/* What nothing flows to is exactly 0. */
+START_TEST(scaled_zeros_stay_zero)
+{
+    const edge edges[] = {{0, 1, 1}, {1, 2, 1}, {3, 4, 1}, {4, 5, 1}};
+    const double extra[] = {1, 0, 0, 1, 0, 0}, b[] = {0, 0, 1, 0, 0, 0}, zero[6] = {0};
+    if (!iccp_ordering_available())
+        return;
+    equations s = from_edges(6, 4, edges, extra);
+    iccp_ldlt factor = factorised(&s.m);
+    iccp_scaled x = solve_scaled(&factor, b, -4000), y = solve_scaled(&factor, zero, 0);
+    for (size_t i = 0; i < 6; ++i) {
+        ck_assert((x.exponent[i] == ICCP_ZERO_EXPONENT) == (i >= 3));
+        ck_assert(y.exponent[i] == ICCP_ZERO_EXPONENT);
+    }
+    scaled_clear(&x);
+    scaled_clear(&y);
+    iccp_ldlt_free(&factor);
+    system_clear(&s);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("positive definite systems");
@@ -494,6 +624,9 @@ int main(void)
     tcase_add_test(tests, nothing_and_one_row_are_solved);
     tcase_add_test(tests, other_matrices_are_refused);
     tcase_add_test(tests, failures_leave_nothing_behind);
+    tcase_add_test(tests, scaled_solves_agree_with_plain_ones);
+    tcase_add_test(tests, long_chains_do_not_underflow);
+    tcase_add_test(tests, scaled_zeros_stay_zero);
     suite_add_tcase(suite, tests);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_NORMAL);
