@@ -176,6 +176,22 @@ enum {
     ICC_FUNCTION_CLAMPED = 5   /**< discretely biharmonic, clamped: changes its sign unless constrained */
 };
 
+/** Whether f(parent) >= (1 + eta) f(child) is imposed on the edges of the tree inside (Laplace and
+ *  bi-Laplace; decay and distance fulfil it anyway). */
+enum {
+    ICC_CONSTRAINTS_NEEDED = 1, /**< only when the function without has other critical points than one
+                                     maximum at the root */
+    ICC_CONSTRAINTS_NONE = 2,   /**< never */
+    ICC_CONSTRAINTS_ALL = 3     /**< always */
+};
+
+/** How the linear systems of Laplace and bi-Laplace are solved. */
+enum {
+    ICC_SOLVER_DIRECT = 1,   /**< sparse factorisation: each value to about 1e-12 of itself */
+    ICC_SOLVER_ITERATIVE = 2 /**< conjugate gradients with a multigrid preconditioner: for large
+                                  grids, above all in 3-D */
+};
+
 /** The two published forms of Algorithm 2. */
 enum {
     ICC_TREE_THESIS = 1, /**< vertices just outside the boundary belong to the tree */
@@ -193,6 +209,11 @@ typedef struct icc_chart_options {
     const double *maximum; /**< where the maximum shall be: the nearest vertex inside is taken. NULL:
                                 the grassfire's (gradient), the deepest vertex (foliation). Disc has
                                 its own, the point that goes to the centre: NULL only. */
+    int32_t constraints;   /**< gradient: `ICC_CONSTRAINTS_*`; 0: needed */
+    int32_t solver;        /**< gradient: `ICC_SOLVER_*`; 0: by the predicted work */
+    double eta;            /**< gradient: least relative fall along tree edges, in (0, 0.01]; 0: 1e-6 */
+    double leaf;           /**< gradient, constrained bi-Laplace: least value at the leaves, in
+                                (0, 0.01]; 0: 1e-9 */
 } icc_chart_options;
 
 /** What icc_chart_get_info() tells. Members that the method does not have are 0. */

@@ -158,22 +158,6 @@ ICC_API icc_status icc_tree_verify(const icc_tree *tree, icc_tree_report *report
 /** A function on the vertices of a tree that falls from parent to child. */
 typedef struct icc_field icc_field;
 
-/** Whether f(parent) >= (1 + eta) f(child) is imposed on the edges of the tree inside (Laplace and
- *  bi-Laplace; decay and distance fulfil it anyway). */
-enum {
-    ICC_CONSTRAINTS_NEEDED = 1, /**< only when the function without has other critical points than one
-                                     maximum at the root */
-    ICC_CONSTRAINTS_NONE = 2,   /**< never */
-    ICC_CONSTRAINTS_ALL = 3     /**< always */
-};
-
-/** How the linear systems of Laplace and bi-Laplace are solved. */
-enum {
-    ICC_SOLVER_DIRECT = 1,   /**< sparse factorisation: each value to about 1e-12 of itself */
-    ICC_SOLVER_ITERATIVE = 2 /**< conjugate gradients with a multigrid preconditioner: for large
-                                  grids, above all in 3-D */
-};
-
 /** Options of icc_field_create(). */
 typedef struct icc_field_options {
     size_t size;         /**< set by the caller: `sizeof(icc_field_options)` */
@@ -261,6 +245,18 @@ enum {
 ICC_API icc_status icc_field_create(icc_field **out, const icc_tree *tree,
                                     const icc_field_options *options, const icc_env *env,
                                     icc_error *err);
+
+/** The function of a gradient chart, or NULL for other charts; borrowed, as is what hangs on it. */
+ICC_API const icc_field *icc_chart_field(const icc_chart *chart);
+
+/** The tree that a field was made on; borrowed. */
+ICC_API const icc_tree *icc_field_tree(const icc_field *field);
+
+/** The grid that a tree was grown on; borrowed. */
+ICC_API const icc_grid *icc_tree_grid(const icc_tree *tree);
+
+/** The vertex that a tree was grown from; UINT32_MAX for NULL. */
+ICC_API uint32_t icc_tree_root(const icc_tree *tree);
 
 /** Frees a field. */
 ICC_API void icc_field_free(icc_field *field);

@@ -4,6 +4,7 @@
 #include "base/options.h"
 #include "chart/bulk.h"
 #include "chart/create.h"
+#include "chart/gradient_state.h"
 
 #include <math.h>
 #include <string.h>
@@ -39,6 +40,14 @@ icc_status icc_chart_get_info(const icc_chart *chart, icc_chart_info *info)
 const icc_domain *icc_chart_domain(const icc_chart *chart)
 {
     return chart != NULL ? chart->domain : NULL;
+}
+
+const icc_field *icc_chart_field(const icc_chart *chart)
+{
+    if (chart == NULL || chart->info.method != ICC_METHOD_GRADIENT)
+        return NULL;
+    const iccp_gradient_state *state = chart->state;
+    return state->field;
 }
 
 icc_status icc_chart_measure(const icc_chart *chart, size_t n_points, icc_chart_measures *measures,

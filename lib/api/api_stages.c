@@ -1,10 +1,11 @@
 /* Argument checks of the stages. */
+#include "api/check.h"
 #include "base/error.h"
 #include "base/options.h"
 #include "domain/domain.h"
 #include "field/critical.h"
 #include "field/edges.h"
-#include "field/field.h"
+#include "field/create.h"
 #include "grid/grassfire.h"
 #include "grid/lattice.h"
 #include "grid/rasterise.h"
@@ -179,6 +180,16 @@ void icc_tree_free(icc_tree *tree)
     iccp_tree_release(tree);
 }
 
+const icc_grid *icc_tree_grid(const icc_tree *tree)
+{
+    return tree != NULL ? tree->grid : NULL;
+}
+
+uint32_t icc_tree_root(const icc_tree *tree)
+{
+    return tree != NULL ? tree->root : ICCP_NONE;
+}
+
 const uint32_t *icc_tree_parents(const icc_tree *tree)
 {
     return tree != NULL ? tree->parent : NULL;
@@ -220,14 +231,10 @@ icc_status icc_field_create(icc_field **out, const icc_tree *tree, const icc_fie
     status = iccp_read_struct(&full, sizeof full, options, "icc_field_options", err);
     if (status != ICC_OK)
         return status;
-    if (full.function == 0)
-        full.function = ICC_FUNCTION_DECAY;
-    if (full.function != ICC_FUNCTION_DECAY && full.function != ICC_FUNCTION_DISTANCE)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_field_options.function is %ld",
-                         (long)full.function);
     if (full.reserved != 0)
         return iccp_fail(err, ICC_ERR_VERSION, -1, "icc_field_options.reserved is not 0");
-    return iccp_explain(err, iccp_field_create(out, tree, full.function, &full_env, err));
+    status = iccp_check_function(&full, "icc_field_options", err);
+    return status == ICC_OK ? iccp_field_create(out, tree, &full, &full_env, err) : status;
 }
 
 void icc_field_free(icc_field *field)
@@ -237,7 +244,26 @@ void icc_field_free(icc_field *field)
 
 const double *icc_field_values(const icc_field *field)
 {
-    return field != NULL ? field->values : NULL;
+    if (field == NULL)
+        return NULL;
+    return field->plain != NULL ? field->plain : field->values;
+}
+
+const double *icc_field_logs(const icc_field *field)
+{
+    return field != NULL ? field->logs : NULL;
+}
+
+icc_status icc_field_get_info(const icc_field *field, icc_field_info *info)
+{
+    if (field == NULL || info == NULL)
+        return ICC_ERR_ARGUMENT;
+    return iccp_write_struct(info, &field->info, sizeof field->info, "icc_field_info", NULL);
+}
+
+const icc_tree *icc_field_tree(const icc_field *field)
+{
+    return field != NULL ? field->tree : NULL;
 }
 
 icc_status icc_field_verify(const icc_field *field, icc_field_report *report, const icc_env *env,

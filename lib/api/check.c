@@ -6,6 +6,7 @@
 #include <math.h>
 
 static const int32_t MIN_CELLS = 2, MAX_CELLS = 16384;
+static const double MAX_SHARE = 0.01; /* of eta and leaf: functions still look like themselves */
 
 icc_status iccp_check_maximum(const double *maximum, int32_t dim, icc_error *err)
 {
@@ -15,6 +16,36 @@ icc_status iccp_check_maximum(const double *maximum, int32_t dim, icc_error *err
     return ICC_OK;
 }
 
+static icc_status check_choice(int32_t value, int32_t last, const char *name, const char *member,
+                               icc_error *err)
+{
+    if (value >= 0 && value <= last)
+        return ICC_OK;
+    return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "%s.%s is %ld", name, member, (long)value);
+}
+
+/* Small relative amounts; 0 stands for a default. Refuses NaN. */
+static icc_status check_share(double value, const char *name, const char *member, icc_error *err)
+{
+    if (value >= 0 && value <= MAX_SHARE)
+        return ICC_OK;
+    return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "%s.%s is %g; it must lie in (0, %g], or be 0", name,
+                     member, value, MAX_SHARE);
+}
+
+icc_status iccp_check_function(const icc_field_options *options, const char *name, icc_error *err)
+{
+    icc_status status =
+        check_choice(options->function, ICC_FUNCTION_CLAMPED, name, "function", err);
+    if (status == ICC_OK)
+        status = check_choice(options->constraints, ICC_CONSTRAINTS_ALL, name, "constraints", err);
+    if (status == ICC_OK)
+        status = check_choice(options->solver, ICC_SOLVER_ITERATIVE, name, "solver", err);
+    if (status == ICC_OK)
+        status = check_share(options->eta, name, "eta", err);
+    return status == ICC_OK ? check_share(options->leaf, name, "leaf", err) : status;
+}
+
 icc_status iccp_read_chart_options(icc_chart_options *full, const icc_chart_options *options,
                                    int32_t dim, icc_error *err)
 {
@@ -22,9 +53,13 @@ icc_status iccp_read_chart_options(icc_chart_options *full, const icc_chart_opti
         iccp_read_struct(full, sizeof *full, options, "icc_chart_options", err);
     if (status != ICC_OK)
         return status;
-    if (full->function < 0 || full->function > ICC_FUNCTION_DISTANCE)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_chart_options.function is %ld",
-                         (long)full->function);
+    const icc_field_options function = {.function = full->function,
+                                        .constraints = full->constraints,
+                                        .solver = full->solver,
+                                        .eta = full->eta,
+                                        .leaf = full->leaf};
+    if (iccp_check_function(&function, "icc_chart_options", err) != ICC_OK)
+        return ICC_ERR_ARGUMENT;
     if (full->tree < 0 || full->tree > ICC_TREE_PAPER)
         return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_chart_options.tree is %ld",
                          (long)full->tree);

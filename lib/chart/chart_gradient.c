@@ -4,6 +4,7 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "chart/gradient_measure.h"
+#include "field/create.h"
 #include "field/critical.h"
 #include "field/edges.h"
 #include "grid/grassfire.h"
@@ -62,8 +63,12 @@ static icc_status make_field(iccp_gradient_state *state, icc_chart *chart,
 {
     const double start = iccp_seconds();
     icc_field_report report = {0};
-    icc_status status =
-        iccp_field_create(&state->field, state->tree, options->function, env, err);
+    const icc_field_options function = {.function = options->function,
+                                        .constraints = options->constraints,
+                                        .solver = options->solver,
+                                        .eta = options->eta,
+                                        .leaf = options->leaf};
+    icc_status status = iccp_field_create(&state->field, state->tree, &function, env, err);
     if (status == ICC_OK)
         status = iccp_field_verify(state->field, &report, env);
     if (status != ICC_OK)

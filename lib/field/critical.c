@@ -40,7 +40,6 @@ static bool at_border(const icc_grid *grid, uint32_t v)
 
 static iccp_link_set higher_neighbours(const work *w, uint32_t v)
 {
-    const double *f = w->field->values;
     const icc_grid *grid = w->field->tree->grid;
     const bool border = at_border(grid, v);
     iccp_link_set higher = {{0, 0}};
@@ -48,7 +47,10 @@ static iccp_link_set higher_neighbours(const work *w, uint32_t v)
         if (border && !in_grid(w, v, i))
             continue;
         const size_t u = (size_t)((ptrdiff_t)v + w->offset[i]);
-        if (grid->inside[u] && (f[u] > f[v] || (f[u] >= f[v] && u > v)))
+        if (!grid->inside[u])
+            continue;
+        const int order = iccp_field_compare(w->field, (uint32_t)u, v);
+        if (order > 0 || (order == 0 && u > v))
             iccp_link_add(&higher, i);
     }
     return higher;

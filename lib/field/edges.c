@@ -25,9 +25,10 @@ static const edge_kind KINDS[3] = {
     {{{0, 0}, {1, 1}}, {{1, 0}, {0, 1}}, {MIDDLE, MIDDLE}},
 };
 
-/* An edge of the grid: its ends, then its apexes. */
+/* An edge of the grid: its ends, then its apexes, and the function there. */
 typedef struct edge {
     uint32_t vertex[4];
+    double f[4];
     const int *foot;
 } edge;
 
@@ -48,12 +49,13 @@ static bool edge_at(edge *out, const icc_grid *grid, size_t i, size_t j, int kin
     return true;
 }
 
-static bool is_tested(const icc_field *field, const edge *e)
+static bool is_tested(const icc_field *field, edge *e)
 {
     const uint8_t *inside = field->tree->grid->inside;
     bool any_inside = false;
+    iccp_field_local(field, 4, e->vertex, e->f);
     for (int c = 0; c < 4; ++c) {
-        if (isnan(field->values[e->vertex[c]]))
+        if (isnan(e->f[c]))
             return false;
         any_inside |= inside[e->vertex[c]];
     }
@@ -76,19 +78,19 @@ static int compare_mean(double a, double b, double c)
 }
 
 /* +1 when the gradient on that side points to the edge, -1 when it points away from it. */
-static int towards(const double *f, const edge *e, int side)
+static int towards(const edge *e, int side)
 {
-    const double a = f[e->vertex[0]], b = f[e->vertex[1]], apex = f[e->vertex[2 + side]];
+    const double a = e->f[0], b = e->f[1], apex = e->f[2 + side];
     if (e->foot[side] == MIDDLE)
         return compare_mean(a, b, apex);
     return compare(e->foot[side] == 0 ? a : b, apex);
 }
 
 /* ICC_EDGE_* or 0. */
-static int32_t judge(const double *f, const edge *e)
+static int32_t judge(const edge *e)
 {
-    const int first = towards(f, e, 0);
-    if (first == 0 || first != towards(f, e, 1))
+    const int first = towards(e, 0);
+    if (first == 0 || first != towards(e, 1))
         return 0;
     return first > 0 ? ICC_EDGE_COMPRESSION : ICC_EDGE_EXPANSION;
 }
@@ -106,7 +108,7 @@ iccp_edge_count iccp_field_edges(const icc_field *field, size_t capacity, uint32
                 if (!edge_at(&e, grid, i, j, kind) || !is_tested(field, &e))
                     continue;
                 ++count.n_tested;
-                const int32_t found = judge(field->values, &e);
+                const int32_t found = judge(&e);
                 if (found == 0)
                     continue;
                 const size_t n = count.n_compression + count.n_expansion;

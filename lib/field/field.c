@@ -1,70 +1,83 @@
-/* Based on: L. Huynh, Bijective Deformations in R^n via Integral Curve Coordinates, thesis, 2013,
- * section 4.2, equation 4.1; tree distance: Huynh and Gingold, section 5.2. */
 #include "field/field.h"
 
-#include "base/error.h"
+#include <stdbool.h>
 
-#include <float.h>
-#include <math.h>
+/* Below 2^LEAST_EXPONENT differences of neighbouring values would lose bits. */
+enum { LEAST_EXPONENT = -900 };
 
-/* The value one generation further from the root. */
-static double fall(int32_t function, double value)
-{
-    const double next = 0.95 * value;
-    return function == ICC_FUNCTION_DECAY && next >= DBL_MIN ? next : floor(value) - 1.0;
-}
-
-/* The value of each generation, so that equal generations have equal bits. */
-static icc_status tabulate(double **out, const icc_tree *tree, int32_t function,
-                           const iccp_env *env)
-{
-    int32_t last = 0;
-    for (size_t i = 0; i < tree->n_reached; ++i)
-        if (tree->generation[tree->order[i]] > last)
-            last = tree->generation[tree->order[i]];
-    double *value = iccp_alloc(&env->memory, (size_t)last + 1, sizeof *value);
-    *out = value;
-    if (value == NULL)
-        return ICC_ERR_MEMORY;
-    value[0] = function == ICC_FUNCTION_DECAY ? 10.0 : 0.0;
-    for (int32_t g = 0; g < last; ++g)
-        value[g + 1] = fall(function, value[g]);
-    return ICC_OK;
-}
-
-static icc_status assign(icc_field *field, const iccp_env *env)
-{
-    const icc_tree *tree = field->tree;
-    const size_t n = tree->grid->n_vertices;
-    double *of_generation;
-    icc_status status = tabulate(&of_generation, tree, field->function, env);
-    for (size_t v = 0; v < n && status == ICC_OK; ++v) {
-        if (v % ICCP_VERTICES_PER_REPORT == 0)
-            status = iccp_progress(env, "function", (double)v / (double)n);
-        field->values[v] = tree->generation[v] < 0 ? NAN : of_generation[tree->generation[v]];
-    }
-    iccp_free(&env->memory, of_generation);
-    return status;
-}
-
-icc_status iccp_field_create(icc_field **out, const icc_tree *tree, int32_t function,
-                             const iccp_env *env, icc_error *err)
+icc_status iccp_field_new(icc_field **out, const icc_tree *tree, const iccp_env *env)
 {
     *out = NULL;
     icc_field *field = iccp_alloc_zero(&env->memory, 1, sizeof *field);
     if (field == NULL)
-        return iccp_fail_memory(err);
+        return ICC_ERR_MEMORY;
     field->memory = env->memory;
     field->tree = iccp_tree_retain(tree);
-    field->function = function;
-    field->values = iccp_alloc(&env->memory, tree->grid->n_vertices, sizeof *field->values);
-    icc_status status = field->values != NULL ? assign(field, env) : ICC_ERR_MEMORY;
-    if (status != ICC_OK) {
+    const size_t n = tree->grid->n_vertices;
+    field->values = iccp_alloc(&env->memory, n, sizeof *field->values);
+    if (field->values == NULL) {
         iccp_field_release(field);
-        return status == ICC_ERR_MEMORY ? iccp_fail_memory(err) : status;
+        return ICC_ERR_MEMORY;
     }
+    for (size_t v = 0; v < n; ++v)
+        field->values[v] = NAN;
     *out = field;
     return ICC_OK;
+}
+
+static icc_status assign_logs(icc_field *field, const iccp_rows *rows, const iccp_scaled *f)
+{
+    static const double LN_2 = 0.69314718055994530942;
+    const icc_tree *tree = field->tree;
+    field->logs = iccp_alloc(&field->memory, tree->grid->n_vertices, sizeof *field->logs);
+    if (field->logs == NULL)
+        return ICC_ERR_MEMORY;
+    for (size_t v = 0; v < tree->grid->n_vertices; ++v)
+        field->logs[v] = tree->generation[v] < 0 ? NAN : -HUGE_VAL;
+    for (size_t k = 0; k < rows->n; ++k) {
+        const double u = log(f->fraction[k]) + LN_2 * f->exponent[k];
+        field->logs[rows->vertex[k]] = u;
+        field->info.least_log = fmin(field->info.least_log, u);
+    }
+    return ICC_OK;
+}
+
+/* Fractions in place of the values, which are kept for those who want plain numbers. */
+static icc_status assign_exponents(icc_field *field, const iccp_rows *rows, const iccp_scaled *f)
+{
+    const size_t n = field->tree->grid->n_vertices;
+    field->plain = field->values;
+    field->values = iccp_alloc(&field->memory, n, sizeof *field->values);
+    field->exponent = iccp_alloc(&field->memory, n, sizeof *field->exponent);
+    if (field->values == NULL || field->exponent == NULL)
+        return ICC_ERR_MEMORY;
+    for (size_t v = 0; v < n; ++v) {
+        field->values[v] = field->plain[v];
+        field->exponent[v] = ICCP_ZERO_EXPONENT;
+    }
+    for (size_t k = 0; k < rows->n; ++k) {
+        field->values[rows->vertex[k]] = f->fraction[k];
+        field->exponent[rows->vertex[k]] = f->exponent[k];
+    }
+    return ICC_OK;
+}
+
+icc_status iccp_field_assign(icc_field *field, const iccp_rows *rows, const iccp_scaled *f)
+{
+    const icc_tree *tree = field->tree;
+    bool positive = true;
+    int32_t least = 0;
+    for (size_t i = 0; i < tree->n_reached; ++i)
+        field->values[tree->order[i]] = 0;
+    for (size_t k = 0; k < rows->n; ++k) {
+        field->values[rows->vertex[k]] = iccp_scaled_get(f, k, 0);
+        positive = positive && f->fraction[k] > 0;
+        least = f->exponent[k] < least ? f->exponent[k] : least;
+    }
+    icc_status status = positive ? assign_logs(field, rows, f) : ICC_OK;
+    if (status == ICC_OK && positive && least < LEAST_EXPONENT)
+        status = assign_exponents(field, rows, f);
+    return status;
 }
 
 void iccp_field_release(icc_field *field)
@@ -74,5 +87,8 @@ void iccp_field_release(icc_field *field)
     const iccp_memory memory = field->memory;
     iccp_tree_release(field->tree);
     iccp_free(&memory, field->values);
+    iccp_free(&memory, field->exponent);
+    iccp_free(&memory, field->plain);
+    iccp_free(&memory, field->logs);
     iccp_free(&memory, field);
 }

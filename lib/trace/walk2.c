@@ -52,17 +52,19 @@ static double clamp01(double x)
     return x > 0 ? (x < 1 ? x : 1) : 0;
 }
 
-static size_t vertex_at(const iccp_walk2 *w, size_t i, size_t j)
+static uint32_t vertex_at(const iccp_walk2 *w, size_t i, size_t j)
 {
-    return i + w->nx * j;
+    return (uint32_t)(i + w->nx * j);
 }
 
 /* False when a corner has no value. A flat triangle gets the gradient of the vertex order. */
 static bool triangle_gradient(const iccp_walk2 *w, size_t i, size_t j, int upper, gradient *g)
 {
-    const double *f = w->f + vertex_at(w, i, j);
-    const double f00 = f[0], f11 = f[1 + w->nx];
-    const double other = upper ? f[w->nx] : f[1];
+    const uint32_t v = vertex_at(w, i, j), up = (uint32_t)w->nx;
+    const uint32_t corners[3] = {v, v + 1 + up, upper ? v + up : v + 1};
+    double f[3];
+    iccp_field_local(w->field, 3, corners, f);
+    const double f00 = f[0], f11 = f[1], other = f[2];
     *g = upper ? (gradient){.ua = f11, .ub = other, .va = other, .vb = f00}
                : (gradient){.ua = other, .ub = f00, .va = f11, .vb = other};
     if (isnan(f00) || isnan(f11) || isnan(other))
@@ -207,9 +209,9 @@ static icc_status go_to_edge(iccp_walk2 *w, const gradient *g, int k)
 static icc_status follow_edge(iccp_walk2 *w, int k)
 {
     const int *a = CORNER[w->upper][(k + 1) % 3], *b = CORNER[w->upper][(k + 2) % 3];
-    const size_t ia = vertex_at(w, w->i + (size_t)a[0], w->j + (size_t)a[1]);
-    const size_t ib = vertex_at(w, w->i + (size_t)b[0], w->j + (size_t)b[1]);
-    const int by_value = sign(w->f[ib] - w->f[ia]);
+    const uint32_t ia = vertex_at(w, w->i + (size_t)a[0], w->j + (size_t)a[1]);
+    const uint32_t ib = vertex_at(w, w->i + (size_t)b[0], w->j + (size_t)b[1]);
+    const int by_value = iccp_field_compare(w->field, ib, ia);
     const int order = w->direction * (by_value != 0 ? by_value : ib > ia ? 1 : -1);
     const int *end = order > 0 ? b : a;
     go_to_corner(w, end[0], end[1]);
@@ -254,22 +256,20 @@ static icc_status step_from_inside(iccp_walk2 *w)
     return ICC_ERR_TRACE;
 }
 
-/* How much f rises from the vertex to its neighbour m, in the direction of the walk; NaN: no value. */
-static double rise_to(const iccp_walk2 *w, int m)
-{
-    const size_t i = w->i + (size_t)AROUND[m][0], j = w->j + (size_t)AROUND[m][1];
-    if (i >= w->nx || j >= w->ny)
-        return NAN;
-    return w->direction * (w->f[vertex_at(w, i, j)] - w->f[vertex_at(w, w->i, w->j)]);
-}
-
-/* The rises to the six neighbours, in units of the largest when that is tiny, so that its square does not
- * vanish. */
+/* How much f rises from the vertex to its six neighbours, in the direction of the walk; NaN: no value. In
+ * units of the largest when that is tiny, so that its square does not vanish. */
 static void find_rises(const iccp_walk2 *w, double rise[6])
 {
-    double largest = 0;
+    uint32_t star[7];
+    double f[7], largest = 0;
+    const uint32_t here = star[6] = vertex_at(w, w->i, w->j);
     for (int m = 0; m < 6; ++m) {
-        rise[m] = rise_to(w, m);
+        const size_t i = w->i + (size_t)AROUND[m][0], j = w->j + (size_t)AROUND[m][1];
+        star[m] = i < w->nx && j < w->ny ? vertex_at(w, i, j) : here;
+    }
+    iccp_field_local(w->field, 7, star, f);
+    for (int m = 0; m < 6; ++m) {
+        rise[m] = star[m] != here ? w->direction * (f[m] - f[6]) : NAN;
         if (rise[m] > largest)
             largest = rise[m];
     }
@@ -381,7 +381,7 @@ icc_status iccp_walk2_start(iccp_walk2 *walk, const icc_field *field, int direct
 {
     const icc_grid *grid = field->tree->grid;
     assert(grid->dim == 2);
-    *walk = (iccp_walk2){.f = field->values, .direction = direction, .jet = jet, .edge = -1};
+    *walk = (iccp_walk2){.field = field, .direction = direction, .jet = jet, .edge = -1};
     walk->nx = grid->shape[0];
     walk->ny = grid->shape[1];
     walk->root = field->tree->root;
@@ -396,7 +396,7 @@ icc_status iccp_walk2_start(iccp_walk2 *walk, const icc_field *field, int direct
     walk->upper = walk->v > walk->u;
     if (walk->u <= 0 && walk->v <= 0) {
         walk->at_vertex = true;
-        return isnan(walk->f[vertex_at(walk, walk->i, walk->j)]) ? ICC_ERR_TRACE : ICC_OK;
+        return isnan(field->values[vertex_at(walk, walk->i, walk->j)]) ? ICC_ERR_TRACE : ICC_OK;
     }
     gradient g;
     int side[2];

@@ -20,7 +20,7 @@ typedef struct iccp_jet2 {
 enum { ICCP_UPHILL = 1, ICCP_DOWNHILL = -1 };
 
 typedef struct iccp_walk2 {
-    const double *f;
+    const icc_field *field;
     size_t nx, ny;         /* vertices along the axes */
     uint32_t root;         /* the maximum */
     int direction;         /* ICCP_UPHILL or ICCP_DOWNHILL */

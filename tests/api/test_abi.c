@@ -45,6 +45,16 @@ IS(ICC_METHOD_DISC, 4);
 
 IS(ICC_FUNCTION_DECAY, 1);
 IS(ICC_FUNCTION_DISTANCE, 2);
+IS(ICC_FUNCTION_LAPLACE, 3);
+IS(ICC_FUNCTION_BILAPLACE, 4);
+IS(ICC_FUNCTION_CLAMPED, 5);
+
+IS(ICC_CONSTRAINTS_NEEDED, 1);
+IS(ICC_CONSTRAINTS_NONE, 2);
+IS(ICC_CONSTRAINTS_ALL, 3);
+
+IS(ICC_SOLVER_DIRECT, 1);
+IS(ICC_SOLVER_ITERATIVE, 2);
 
 IS(ICC_TREE_THESIS, 1);
 IS(ICC_TREE_PAPER, 2);
@@ -87,13 +97,17 @@ AT(icc_domain_info, lower, 32);
 AT(icc_domain_info, upper, 80);
 AT(icc_domain_info, measure, 128);
 
-SIZE(icc_chart_options, 32);
+SIZE(icc_chart_options, 56);
 AT(icc_chart_options, size, 0);
 AT(icc_chart_options, method, 8);
 AT(icc_chart_options, function, 12);
 AT(icc_chart_options, tree, 16);
 AT(icc_chart_options, cells, 20);
 AT(icc_chart_options, maximum, 24);
+AT(icc_chart_options, constraints, 32);
+AT(icc_chart_options, solver, 36);
+AT(icc_chart_options, eta, 40);
+AT(icc_chart_options, leaf, 48);
 
 SIZE(icc_chart_info, 264);
 AT(icc_chart_info, size, 0);
@@ -222,10 +236,35 @@ AT(icc_tree_report, n_pairs, 32);
 AT(icc_tree_report, n_cousin_violations, 40);
 AT(icc_tree_report, violation, 48);
 
-SIZE(icc_field_options, 16);
+SIZE(icc_field_options, 40);
 AT(icc_field_options, size, 0);
 AT(icc_field_options, function, 8);
-AT(icc_field_options, reserved, 12);
+AT(icc_field_options, constraints, 12);
+AT(icc_field_options, solver, 16);
+AT(icc_field_options, reserved, 20);
+AT(icc_field_options, eta, 24);
+AT(icc_field_options, leaf, 32);
+
+SIZE(icc_field_info, 136);
+AT(icc_field_info, size, 0);
+AT(icc_field_info, function, 8);
+AT(icc_field_info, constrained, 12);
+AT(icc_field_info, solver, 16);
+AT(icc_field_info, reserved, 20);
+AT(icc_field_info, n_unknowns, 24);
+AT(icc_field_info, n_violated, 32);
+AT(icc_field_info, n_active, 40);
+AT(icc_field_info, n_iterations, 48);
+AT(icc_field_info, n_inner, 56);
+AT(icc_field_info, work, 64);
+AT(icc_field_info, residual_before, 72);
+AT(icc_field_info, residual, 80);
+AT(icc_field_info, least_log, 88);
+AT(icc_field_info, seconds_setup, 96);
+AT(icc_field_info, seconds_order, 104);
+AT(icc_field_info, seconds_factor, 112);
+AT(icc_field_info, seconds_solve, 120);
+AT(icc_field_info, seconds_verify, 128);
 
 SIZE(icc_field_report, 40);
 AT(icc_field_report, size, 0);
