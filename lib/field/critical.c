@@ -47,7 +47,7 @@ static iccp_link_set higher_neighbours(const work *w, uint32_t v)
         if (border && !in_grid(w, v, i))
             continue;
         const size_t u = (size_t)((ptrdiff_t)v + w->offset[i]);
-        if (!grid->inside[u])
+        if (!grid->inside[u] || isnan(w->field->values[u]))
             continue;
         const int order = iccp_field_compare(w->field, (uint32_t)u, v);
         if (order > 0 || (order == 0 && u > v))

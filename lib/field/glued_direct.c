@@ -1,55 +1,196 @@
-/* Assembly and factorisation of the glued problem. Diagonal entries are sums of squares, by
- * s'Ls = sum of (s_u - s_v)^2 over neighbours: in the difference of 2 dim |s|^2 and the products inside of a
- * cluster their last digits would be lost, and with them the accuracy of small components (A. Alfa,
- * J. Xue, Q. Ye, Accurate computation of the smallest eigenvalue of a diagonally dominant M-matrix,
- * Math. Comp. 71, 2002, on why these decide). */
+/* The glued problem by factorisation. The clusters of rows, the root's apart, are the unknowns.
+ *
+ * Diagonal entries of P'LP are sums of squares, by s'Ls = sum of (s_u - s_v)^2 over neighbours u, v: the
+ * accuracy of small components hangs on how far the diagonal exceeds the rest of its row, and in
+ * the difference of 2 dim |s|^2 and the products within the cluster that would be lost. */
 #include "base/clock.h"
 #include "field/glued.h"
 #include "math/ldlt.h"
-#include "math/ordering.h"
 
-/* Clusters, other than the root's, are the unknowns of the system. */
-typedef struct system {
+/* Clusters between looks at the progress callback. */
+enum { CLUSTERS_PER_REPORT = 1 << 16 };
+
+typedef struct assembly {
     const iccp_rows *rows;
     const iccp_gluing *gluing;
-    size_t n;
-    uint32_t *unknown; /* of each row's cluster; ICCP_NONE: the root's, where the value is known */
-    uint32_t *head;    /* the last row of each cluster */
-    uint32_t *next;    /* the next row of the same cluster, downwards; ICCP_NONE after the top */
+    size_t n;           /* unknowns */
+    uint32_t *unknown;  /* n rows: the cluster of each; ICCP_NONE: the root's */
+    uint32_t *last;     /* per cluster: its last row */
+    uint32_t *previous; /* n rows: the row before in the same cluster; ICCP_NONE at its top */
+    size_t *slot;       /* per column: where its entry of the current row is, if that is its own */
     size_t *first;
     uint32_t *column;
-    double *value, *diagonal;
-    size_t *slot;      /* where a column's entry of the current row is, if that entry says so too */
-    double *known;     /* right side */
-} system;
+    double *value, *diagonal, *known; /* known: the right side */
+} assembly;
 
-static void *get(const iccp_env *env, size_t n, size_t size)
+/* Numbers the clusters and links their rows. */
+static void find_clusters(assembly *a)
 {
-    return iccp_alloc(&env->memory, n, size);
-}
-
-/* Numbers the clusters and lists their rows; returns the number of entries off the diagonal blocks. */
-static size_t find_clusters(system *s)
-{
-    const iccp_rows *rows = s->rows;
-    const uint32_t *top = s->gluing->top;
-    size_t n_entries = 0;
-    s->n = 0;
-    for (uint32_t k = 0; k < rows->n; ++k) {
-        if (top[k] != k)
-            s->unknown[k] = s->unknown[top[k]];
-        else
-            s->unknown[k] = k == 0 ? ICCP_NONE : (uint32_t)s->n++;
-        const uint32_t u = s->unknown[k];
+    const uint32_t *top = a->gluing->top;
+    a->n = 0;
+    for (uint32_t k = 0; k < a->rows->n; ++k) {
+        const bool is_top = top[k] == k;
+        if (is_top)
+            a->unknown[k] = k == 0 ? ICCP_NONE : (uint32_t)a->n++;
+        const uint32_t u = a->unknown[k] = a->unknown[top[k]];
         if (u == ICCP_NONE)
             continue;
-        s->next[k] = top[k] == k ? ICCP_NONE : s->head[u];
-        s->head[u] = k;
+        a->previous[k] = is_top ? ICCP_NONE : a->last[u];
+        a->last[u] = k;
     }
-    for (size_t k = 0; k < rows->n; ++k)
-        for (int32_t d = 0; d < rows->n_neighbours; ++d) {
-            const uint32_t j = rows->neighbour[k * (size_t)rows->n_neighbours + (size_t)d];
-            n_entries += j != ICCP_NONE && top[j] != top[k];
+}
+
+static size_t count_entries(const assembly *a)
+{
+    const size_t degree = (size_t)a->rows->n_neighbours;
+    size_t n_entries = 0;
+    for (size_t k = 0; k < a->rows->n; ++k)
+        for (size_t d = 0; d < degree; ++d) {
+            const uint32_t j = a->rows->neighbour[k * degree + d];
+            n_entries += j != ICCP_NONE && a->unknown[j] != a->unknown[k];
         }
-    return n_entries;
+    return n_entries; /* those of the root's row too: an upper bound is wanted */
+}
+
+static bool allocate(assembly *a, const iccp_env *env)
+{
+    const iccp_memory *m = &env->memory;
+    const size_t n = a->n, n_entries = count_entries(a);
+    a->slot = iccp_alloc_zero(m, n, sizeof *a->slot);
+    a->first = iccp_alloc(m, n + 1, sizeof *a->first);
+    a->column = iccp_alloc(m, n_entries, sizeof *a->column);
+    a->value = iccp_alloc(m, n_entries, sizeof *a->value);
+    a->diagonal = iccp_alloc_zero(m, n, sizeof *a->diagonal);
+    a->known = iccp_alloc_zero(m, n, sizeof *a->known);
+    return a->slot != NULL && a->first != NULL && a->column != NULL && a->value != NULL &&
+           a->diagonal != NULL && a->known != NULL;
+}
+
+static void release(assembly *a, const iccp_env *env)
+{
+    void *const arrays[] = {a->unknown, a->last,  a->previous, a->slot, a->first,
+                            a->column,  a->value, a->diagonal, a->known};
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; ++i)
+        iccp_free(&env->memory, arrays[i]);
+}
+
+/* Adds -x to the entry (u, v), which is made if the row has none yet. */
+static void subtract(assembly *a, size_t u, uint32_t v, double x, size_t *end)
+{
+    size_t p = a->slot[v];
+    if (p < a->first[u] || p >= *end || a->column[p] != v) {
+        p = a->slot[v] = (*end)++;
+        a->column[p] = v;
+        a->value[p] = 0;
+    }
+    a->value[p] -= x;
+}
+
+/* Row u of P'LP, which begins at first[u]. */
+static void assemble_row(assembly *a, size_t u)
+{
+    const size_t degree = (size_t)a->rows->n_neighbours;
+    const double *share = a->gluing->share;
+    size_t end = a->first[u];
+    for (uint32_t k = a->last[u]; k != ICCP_NONE; k = a->previous[k])
+        for (size_t d = 0; d < degree; ++d) {
+            const uint32_t j = a->rows->neighbour[k * degree + d];
+            if (j != ICCP_NONE && a->unknown[j] == u) {
+                const double step = share[k] - share[j];
+                a->diagonal[u] += 0.5 * step * step; /* met from either end */
+                continue;
+            }
+            a->diagonal[u] += share[k] * share[k];
+            if (j == ICCP_NONE)
+                continue;
+            if (a->unknown[j] == ICCP_NONE)
+                a->known[u] += share[k] * share[j];
+            else
+                subtract(a, u, a->unknown[j], share[k] * share[j], &end);
+        }
+    a->first[u + 1] = end;
+}
+
+static icc_status assemble(assembly *a, const iccp_env *env)
+{
+    const iccp_memory *m = &env->memory;
+    const size_t n = a->rows->n;
+    a->unknown = iccp_alloc(m, n, sizeof *a->unknown);
+    a->last = iccp_alloc(m, n, sizeof *a->last);
+    a->previous = iccp_alloc(m, n, sizeof *a->previous);
+    if (a->unknown == NULL || a->last == NULL || a->previous == NULL)
+        return ICC_ERR_MEMORY;
+    find_clusters(a);
+    if (!allocate(a, env))
+        return ICC_ERR_MEMORY;
+    a->first[0] = 0;
+    icc_status status = ICC_OK;
+    for (size_t u = 0; u < a->n && status == ICC_OK; ++u) {
+        if (u % CLUSTERS_PER_REPORT == 0)
+            status = iccp_progress(env, "matrix", (double)u / (double)a->n);
+        assemble_row(a, u);
+    }
+    return status;
+}
+
+/* x of the clusters into `f` of the rows. */
+static void expand(const assembly *a, const iccp_scaled *x, const iccp_scaled *f)
+{
+    for (size_t k = 0; k < a->rows->n; ++k) {
+        const uint32_t u = a->unknown[k];
+        const double share = a->gluing->share[k];
+        if (u == ICCP_NONE)
+            iccp_scaled_set(f, k, share, 0);
+        else
+            iccp_scaled_set(f, k, share * x->fraction[u], x->exponent[u]);
+    }
+}
+
+static icc_status solve(const assembly *a, const iccp_ldlt *factor, const iccp_scaled *f,
+                        const iccp_env *env)
+{
+    double *fraction = iccp_alloc(&env->memory, 2 * a->n, sizeof *fraction);
+    int32_t *exponent = iccp_alloc(&env->memory, 2 * a->n, sizeof *exponent);
+    const bool room = fraction != NULL && exponent != NULL;
+    if (room) {
+        const iccp_scaled x = {fraction, exponent}, work = {fraction + a->n, exponent + a->n};
+        for (size_t u = 0; u < a->n; ++u)
+            iccp_scaled_set(&x, u, a->known[u], 0);
+        iccp_ldlt_solve_scaled(factor, &x, &work);
+        expand(a, &x, f);
+    }
+    iccp_free(&env->memory, fraction);
+    iccp_free(&env->memory, exponent);
+    return room ? ICC_OK : ICC_ERR_MEMORY;
+}
+
+/* Time since the last call. */
+static double lap(double *clock)
+{
+    const double before = *clock;
+    *clock = iccp_seconds();
+    return *clock - before;
+}
+
+icc_status iccp_glued_direct(const iccp_rows *rows, const iccp_gluing *gluing,
+                             const iccp_scaled *f, icc_field_info *info, const iccp_env *env)
+{
+    assembly a = {.rows = rows, .gluing = gluing};
+    iccp_ldlt factor = {.memory = env->memory};
+    double clock = iccp_seconds();
+    icc_status status = assemble(&a, env);
+    info->seconds_setup += lap(&clock);
+    const iccp_symmetric matrix = {a.n, a.first, a.column, a.value, a.diagonal};
+    if (status == ICC_OK)
+        status = iccp_ldlt_analyse(&factor, &matrix, 1, env);
+    info->seconds_order += lap(&clock);
+    if (status == ICC_OK)
+        status = iccp_ldlt_factorise(&factor, &matrix, env);
+    info->seconds_factor += lap(&clock);
+    if (status == ICC_OK)
+        status = solve(&a, &factor, f, env);
+    info->seconds_solve += lap(&clock);
+    iccp_ldlt_free(&factor);
+    release(&a, env);
+    return status;
 }

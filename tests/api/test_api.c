@@ -88,10 +88,13 @@ START_TEST(charts_refuse_bad_arguments)
     NOT_MADE(c, icc_chart_create(&c, NULL, NULL, NULL, &err));
     static const double NOT_FINITE[2] = {0.5, NAN}, INSIDE[2] = {0.5, 0.5};
     const icc_chart_options bad[] = {
-        {.size = sizeof *bad, .function = 3},  {.size = sizeof *bad, .function = -1},
+        {.size = sizeof *bad, .function = 6},  {.size = sizeof *bad, .function = -1},
         {.size = sizeof *bad, .tree = 3},      {.size = sizeof *bad, .tree = -1},
         {.size = sizeof *bad, .cells = 1},     {.size = sizeof *bad, .cells = -50},
         {.size = sizeof *bad, .cells = 16385}, {.size = sizeof *bad, .maximum = NOT_FINITE},
+        {.size = sizeof *bad, .constraints = 4}, {.size = sizeof *bad, .solver = 3},
+        {.size = sizeof *bad, .eta = 0.02},    {.size = sizeof *bad, .eta = NAN},
+        {.size = sizeof *bad, .leaf = -1e-9},
         {.size = sizeof *bad, .method = ICC_METHOD_DISC, .maximum = INSIDE},
     };
     for (size_t k = 0; k < sizeof bad / sizeof *bad; ++k) {
@@ -335,7 +338,7 @@ START_TEST(stages_refuse_bad_arguments)
     icc_field *f;
     EXPLAINED(icc_field_create(NULL, o.tree, NULL, NULL, &err));
     NOT_MADE(f, icc_field_create(&f, NULL, NULL, NULL, &err));
-    const icc_field_options function = {.size = sizeof function, .function = 3};
+    const icc_field_options function = {.size = sizeof function, .function = 6};
     NOT_MADE(f, icc_field_create(&f, o.tree, &function, NULL, &err));
     ck_assert_ptr_null(icc_field_values(NULL));
     icc_field_report report = {.size = sizeof report};

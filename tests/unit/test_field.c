@@ -530,7 +530,7 @@ START_TEST(wrong_arguments)
     ck_assert_int_eq(icc_field_create(NULL, tree, NULL, NULL, NULL), ICC_ERR_ARGUMENT);
     ck_assert_int_eq(icc_field_create(&field, NULL, NULL, NULL, NULL), ICC_ERR_ARGUMENT);
     ck_assert_ptr_null(field);
-    icc_field_options options = {.size = sizeof options, .function = 3};
+    icc_field_options options = {.size = sizeof options, .function = 6};
     ck_assert_int_eq(icc_field_create(&field, tree, &options, NULL, NULL), ICC_ERR_ARGUMENT);
     options = (icc_field_options){.size = sizeof options, .reserved = 1};
     ck_assert_int_eq(icc_field_create(&field, tree, &options, NULL, NULL), ICC_ERR_VERSION);
