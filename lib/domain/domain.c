@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "domain/locate.h"
+#include "domain/mask.h"
 #include "domain/polygon.h"
 
 #include <assert.h>
@@ -113,6 +114,7 @@ void iccp_domain_release(icc_domain *domain)
         return;
     const iccp_memory memory = domain->memory;
     iccp_locator_free(domain->locator, &memory);
+    iccp_mask_free(domain->mask);
     iccp_free(&memory, domain->given);
     iccp_free(&memory, domain->vertices);
     iccp_free(&memory, domain->facets);

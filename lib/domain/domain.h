@@ -10,6 +10,7 @@
 #include <stdbool.h>
 
 struct iccp_locator;
+struct iccp_mask;
 
 struct icc_domain {
     iccp_memory memory;
@@ -28,6 +29,7 @@ struct icc_domain {
                                      this close to the boundary are on it */
     double measure;   /* local area */
     struct iccp_locator *locator;
+    struct iccp_mask *mask; /* what the boundary was made from, or NULL */
 };
 
 /* See icc_domain_create(); arguments have been checked for NULL and dim == 2. */
