@@ -107,6 +107,27 @@ static inline size_t iccp_expansion_cross(double *h, double a, double b, double 
     return iccp_expansion_sum(h, 2, left, 2, right);
 }
 
+/* h = (a - b)(c - d), room for 8; returns the length. */
+static inline size_t iccp_expansion_product_of_differences(double *h, double a, double b, double c,
+                                                           double d)
+{
+    double left[2], low[4], high[4], right_low;
+    const double right = iccp_two_sum(c, -d, &right_low);
+    const size_t n = iccp_expansion_two_sum(left, a, -b);
+    const size_t n_low = iccp_expansion_scale(low, n, left, right_low);
+    const size_t n_high = iccp_expansion_scale(high, n, left, right);
+    return iccp_expansion_sum(h, n_low, low, n_high, high);
+}
+
+/* The value, to within a factor 1 + 2 eps. */
+static inline double iccp_expansion_estimate(size_t n, const double *e)
+{
+    double sum = 0.0;
+    for (size_t i = 0; i < n; ++i)
+        sum += e[i];
+    return sum;
+}
+
 /* The sign of the value. */
 static inline int iccp_expansion_sign(size_t n, const double *e)
 {

@@ -14,32 +14,13 @@ static const double cross_error_2 = 2.2204460492503146e-16;
 static const double circle_error = 1.1102230246251577e-15;
 static const double circle_error_2 = 4.440892098500632e-16;
 
-/* The value of an expansion, to within a factor 1 + 2 eps. */
-static double estimate(size_t n, const double *e)
-{
-    double sum = 0.0;
-    for (size_t i = 0; i < n; ++i)
-        sum += e[i];
-    return sum;
-}
-
-/* h = (a - b)(c - d), room for 8. */
-static size_t product_of_differences(double *h, double a, double b, double c, double d)
-{
-    double left[2], low[4], high[4], right_low;
-    const double right = iccp_two_sum(c, -d, &right_low);
-    const size_t n = iccp_expansion_two_sum(left, a, -b);
-    const size_t n_low = iccp_expansion_scale(low, n, left, right_low);
-    const size_t n_high = iccp_expansion_scale(high, n, left, right);
-    return iccp_expansion_sum(h, n_low, low, n_high, high);
-}
-
 static int cross_sign_full(double a, double b, double c, double d, double e, double f, double g,
                            double h)
 {
     double left[8], right[8], cross[16];
-    const size_t n_left = product_of_differences(left, a, b, c, d);
-    const size_t n_right = product_of_differences(right, f, e, g, h); /* negative */
+    const size_t n_left = iccp_expansion_product_of_differences(left, a, b, c, d);
+    const size_t n_right =
+        iccp_expansion_product_of_differences(right, f, e, g, h); /* negative */
     return iccp_expansion_sign(iccp_expansion_sum(cross, n_left, left, n_right, right), cross);
 }
 
@@ -55,7 +36,7 @@ int iccp_cross_sign_exact(double a, double b, double c, double d, double e, doub
     const int rounded =
         tail[0] != 0.0 || tail[1] != 0.0 || tail[2] != 0.0 || tail[3] != 0.0;
     if (!rounded ||
-        fabs(estimate(n, cross)) >= cross_error_2 * (fabs(ab * cd) + fabs(ef * gh)))
+        fabs(iccp_expansion_estimate(n, cross)) >= cross_error_2 * (fabs(ab * cd) + fabs(ef * gh)))
         return iccp_expansion_sign(n, cross);
     return cross_sign_full(a, b, c, d, e, f, g, h);
 }
@@ -69,7 +50,7 @@ double iccp_area2d(const double a[2], const double b[2], const double c[2])
     const double ay = iccp_two_sum(a[1], -c[1], &tail[2]);
     const double bx = iccp_two_sum(b[0], -c[0], &tail[3]);
     const size_t n = iccp_expansion_cross(cross, ax, by, ay, bx);
-    return estimate(n, cross) + ((ax * tail[1] + by * tail[0]) - (ay * tail[3] + bx * tail[2]));
+    return iccp_expansion_estimate(n, cross) + ((ax * tail[1] + by * tail[0]) - (ay * tail[3] + bx * tail[2]));
 }
 
 /* h = e (x^2 + y^2) for e of at most 12 components, room for 8 n. */
@@ -156,7 +137,7 @@ static int incircle_exact(const double a[2], const double b[2], const double c[2
     if (!rounded && are_few_units(difference))
         return (circle > 0.0) - (circle < 0.0);
     const size_t n = circle_of_differences(sum, difference[0], difference[1], difference[2]);
-    if (!rounded || fabs(estimate(n, sum)) >= circle_error_2 * permanent)
+    if (!rounded || fabs(iccp_expansion_estimate(n, sum)) >= circle_error_2 * permanent)
         return iccp_expansion_sign(n, sum);
     return incircle_full(a, b, c, d);
 }

@@ -41,6 +41,33 @@ static inline int iccp_orient2d(const double a[2], const double b[2], const doub
  * however flat the triangle is, unless the coordinates themselves hardly tell it from a line. */
 double iccp_area2d(const double a[2], const double b[2], const double c[2]);
 
+/* iccp_orient3d() for when its filter cannot tell. `det` is the determinant and `permanent` the sum
+ * of its terms all taken positive, as the filter computed them. */
+int iccp_orient3d_exact(const double a[3], const double b[3], const double c[3], const double d[3],
+                        double det, double permanent);
+
+/* The filter's relative error, (7 + 56 eps) eps (Shewchuk, section 4.3). */
+#define ICCP_ORIENT3D_ERROR 7.7715611723761027e-16
+
+/* +1 when d lies on the side of the plane through a, b, c from which they look counter-clockwise. */
+static inline int iccp_orient3d(const double a[3], const double b[3], const double c[3],
+                                const double d[3])
+{
+    const double ax = a[0] - d[0], ay = a[1] - d[1], az = a[2] - d[2];
+    const double bx = b[0] - d[0], by = b[1] - d[1], bz = b[2] - d[2];
+    const double cx = c[0] - d[0], cy = c[1] - d[1], cz = c[2] - d[2];
+    const double axcy = ax * cy, cxay = cx * ay;
+    const double cxby = cx * by, bxcy = bx * cy;
+    const double bxay = bx * ay, axby = ax * by;
+    const double det = bz * (axcy - cxay) + az * (cxby - bxcy) + cz * (bxay - axby);
+    const double permanent = fabs(bz) * (fabs(axcy) + fabs(cxay)) +
+                             fabs(az) * (fabs(cxby) + fabs(bxcy)) +
+                             fabs(cz) * (fabs(bxay) + fabs(axby));
+    if (ICCP_LIKELY(fabs(det) > ICCP_ORIENT3D_ERROR * permanent))
+        return (det > 0.0) - (det < 0.0);
+    return iccp_orient3d_exact(a, b, c, d, det, permanent);
+}
+
 /* +1 when d lies inside the circle through a, b, c, which are counter-clockwise. */
 int iccp_incircle(const double a[2], const double b[2], const double c[2], const double d[2]);
 

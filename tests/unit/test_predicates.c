@@ -24,12 +24,12 @@ static double nudge(double a, int direction)
 
 /* Room for the rationals of one evaluation. */
 typedef struct exact {
-    mpq_t x[6], m[3], sum, t;
+    mpq_t x[9], m[3], sum, t;
 } exact;
 
 static void exact_init(exact *q)
 {
-    for (int i = 0; i < 6; ++i)
+    for (int i = 0; i < 9; ++i)
         mpq_init(q->x[i]);
     for (int i = 0; i < 3; ++i)
         mpq_init(q->m[i]);
@@ -39,7 +39,7 @@ static void exact_init(exact *q)
 
 static void exact_clear(exact *q)
 {
-    for (int i = 0; i < 6; ++i)
+    for (int i = 0; i < 9; ++i)
         mpq_clear(q->x[i]);
     for (int i = 0; i < 3; ++i)
         mpq_clear(q->m[i]);
@@ -93,6 +93,21 @@ static int exact_incircle(exact *q, double p[4][2])
             mpq_mul(q->t, q->t, q->m[i]);
             mpq_add(q->sum, q->sum, q->t);
         }
+    return mpq_sgn(q->sum);
+}
+
+static int exact_orient3d(exact *q, double p[4][3])
+{
+    for (int i = 0; i < 3; ++i)
+        for (int k = 0; k < 3; ++k)
+            difference(q, q->x[3 * i + k], p[i + 1][k], p[0][k]);
+    mpq_set_ui(q->sum, 0, 1);
+    for (int k = 0; k < 3; ++k) {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+        cross(q, q->m[0], q->x[3 + i], q->x[6 + j], q->x[3 + j], q->x[6 + i]);
+        mpq_mul(q->m[0], q->m[0], q->x[k]);
+        mpq_add(q->sum, q->sum, q->m[0]);
+    }
     return mpq_sgn(q->sum);
 }
 
@@ -327,8 +342,86 @@ START_TEST(incircle_is_exact)
 }
 END_TEST
 
+/* Four points of a plane through a random frame, or a few units in the last place beside it. */
+static void nearly_coplanar(random_source *r, double p[4][3])
+{
+    const double scale = ldexp(1.0, random_below(r, 100) - 50), offset = random_below(r, 3) * 12.0;
+    double u[3], v[3];
+    for (int k = 0; k < 3; ++k) {
+        u[k] = random_unit(r) * scale;
+        v[k] = random_unit(r) * scale;
+    }
+    for (int i = 0; i < 4; ++i) {
+        const int coarse = random_below(r, 2);
+        const double s = coarse ? grid(r, 8) / 8.0 : random_unit(r);
+        const double t = coarse ? grid(r, 8) / 8.0 : random_unit(r);
+        for (int k = 0; k < 3; ++k)
+            p[i][k] = nudge(offset + s * u[k] + t * v[k], random_below(r, 3) - 1);
+    }
+}
+
+/* Corners of a parallelogram: coplanar in exact arithmetic, of all magnitudes. */
+static void parallelogram(random_source *r, double p[4][3])
+{
+    for (int k = 0; k < 3; ++k) {
+        const double x[2] = {any(r), any(r)};
+        const int level = random_below(r, 3);
+        for (int i = 0; i < 4; ++i)
+            p[i][k] = x[level == 0 ? i & 1 : level == 1 ? i >> 1 : 0];
+    }
+    if (random_bits(r) & 1) {
+        const int i = random_below(r, 4), k = random_below(r, 3);
+        p[i][k] = p[i][k] == 0.0 ? 0x1p-200 : in_range(p[i][k] * (1.0 - 0x1p-52));
+    }
+}
+
+static void lattice3(random_source *r, double p[4][3])
+{
+    const int cells = 1 << random_below(r, 18);
+    const double scale = ldexp(random_below(r, 2) ? 1.0 : 1.0 / 3.0, random_below(r, 300) - 150);
+    for (int k = 0; k < 3; ++k) {
+        for (int i = 0; i < 3; ++i)
+            p[i][k] = scale * grid(r, cells);
+        p[3][k] = in_range(p[0][k] + p[1][k] - p[2][k]);
+    }
+}
+
+static void wild3(random_source *r, double p[4][3])
+{
+    for (int i = 0; i < 4; ++i)
+        for (int k = 0; k < 3; ++k)
+            p[i][k] = any(r);
+}
+
+START_TEST(orientation_in_space_is_exact)
+{
+    exact q;
+    exact_init(&q);
+    random_source r = {5};
+    int n_zero = 0;
+    for (int i = 0; i < N; ++i) {
+        double p[4][3];
+        void (*const make[4])(random_source *, double[4][3]) = {nearly_coplanar, parallelogram,
+                                                               lattice3, wild3};
+        make[i % 4](&r, p);
+        const int s = exact_orient3d(&q, p);
+        ck_assert_int_eq(iccp_orient3d(p[0], p[1], p[2], p[3]), s);
+        ck_assert_int_eq(iccp_orient3d(p[1], p[0], p[2], p[3]), -s);
+        ck_assert_int_eq(iccp_orient3d(p[0], p[1], p[3], p[2]), -s);
+        ck_assert_int_eq(iccp_orient3d(p[1], p[2], p[3], p[0]), -s);
+        ck_assert_int_eq(iccp_orient3d(p[2], p[3], p[0], p[1]), s);
+        n_zero += s == 0;
+    }
+    ck_assert_int_gt(n_zero, N / 20);
+    ck_assert_int_lt(n_zero, N * 3 / 4);
+    exact_clear(&q);
+}
+END_TEST
+
 START_TEST(signs_mean_what_the_header_says)
 {
+    const double o[3] = {0, 0, 0}, x[3] = {1, 0, 0}, y[3] = {0, 1, 0}, z[3] = {0, 0, 1};
+    ck_assert_int_eq(iccp_orient3d(o, x, y, z), 1);
     const double a[2] = {0, 0}, b[2] = {1, 0}, c[2] = {0, 1};
     const double in[2] = {0.5, 0.5}, on[2] = {1, 1}, out[2] = {1, 1 + 0x1p-52};
     ck_assert_int_eq(iccp_orient2d(a, b, c), 1);
@@ -395,6 +488,7 @@ int main(void)
     tcase_add_test(tests, orientation_is_exact);
     tcase_add_test(tests, cross_sign_is_exact);
     tcase_add_test(tests, incircle_is_exact);
+    tcase_add_test(tests, orientation_in_space_is_exact);
     suite_add_tcase(suite, tests);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_NORMAL);
