@@ -34,14 +34,27 @@ typedef struct icc_grid_info {
     double spacing;             /**< distance of neighbours, the same along every axis */
     size_t n_vertices;          /**< product of `shape` */
     size_t n_inside;            /**< vertices inside */
+    size_t n_stray;             /**< vertices that lie inside the boundary, but were taken outside because
+                                     no steps along the axes lead to the rest (beyond 2-D) */
+    int32_t cells;              /**< grid cells along the longest side of the domain; 0 for a grid from
+                                     a mask of vertices */
+    int32_t reserved2;          /**< 0 */
 } icc_grid_info;
 
 /**
  * Covers a domain with a grid, at least two vertices wider than the domain on every side.
  *
+ * A vertex is inside when it lies strictly inside the boundary. Where a domain is thinner than the grid,
+ * the vertices inside may fall into pieces; beyond 2-D only the largest of them is kept, and the
+ * others are counted (icc_grid_info::n_stray).
+ *
+ * The grid of a mask (icc_domain_create_mask()) has the boundary's vertices among its own: each cell of
+ * the mask is cut in an even number of parts along each axis, 2 or as many more as `cells` asks for.
+ *
  * @param[out] out the grid; owned by the caller
  * @param domain   the domain
- * @param cells    cells along the longest side of the bounding box, 2..16384; 0: 50
+ * @param cells    cells along the longest side of the bounding box, 2..16384; 0: 50. For masks: at
+ *                 least so many; 0: two for each cell of the mask
  * @param env      may be NULL
  * @param err      may be NULL
  * @return ::ICC_OK, ::ICC_ERR_RESOLUTION (no vertex inside, or more than 2^28 vertices), ...

@@ -41,12 +41,10 @@ icc_status icc_grid_create(icc_grid **out, const icc_domain *domain, int32_t cel
     if (status != ICC_OK)
         return status;
     if (cells == 0)
-        cells = DEFAULT_CELLS;
+        cells = domain->mask == NULL ? DEFAULT_CELLS : 2;
     if (cells < 2 || cells > MAX_CELLS)
         return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "cells is %ld; it must lie in 2..%ld",
                          (long)cells, (long)MAX_CELLS);
-    if (domain->dim != 2)
-        return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1, "grids are made from 2-D domains only");
     return iccp_explain(err, iccp_grid_create(out, domain, cells, &full_env, err));
 }
 
@@ -84,7 +82,9 @@ icc_status icc_grid_get_info(const icc_grid *grid, icc_grid_info *info)
     icc_grid_info full = {.dim = grid->dim,
                           .spacing = grid->spacing * grid->frame.out[0] * grid->frame.out[1],
                           .n_vertices = grid->n_vertices,
-                          .n_inside = grid->n_inside};
+                          .n_inside = grid->n_inside,
+                          .n_stray = grid->n_stray,
+                          .cells = grid->cells};
     iccp_frame_out(&grid->frame, grid->dim, grid->origin, full.origin);
     for (int32_t k = 0; k < grid->dim; ++k)
         full.shape[k] = grid->shape[k];

@@ -1,5 +1,5 @@
 /* The grid object: a regular n-D lattice, each vertex inside or outside. Written once for any
- * dimension; only making one from a polygon (rasterise.h) knows about 2-D. */
+ * dimension; only making one from a domain (rasterise.h) knows what the domain is. */
 #ifndef ICCP_LATTICE_H
 #define ICCP_LATTICE_H
 
@@ -27,7 +27,9 @@ struct icc_grid {
     double origin[ICC_MAX_DIM]; /* local position of vertex 0 */
     double spacing;             /* local */
     iccp_frame frame;           /* of the domain, or the identity for masks */
+    int32_t cells;              /* along the longest side of a domain; 0 for masks of vertices */
     size_t n_vertices, n_inside;
+    size_t n_stray;  /* vertices that were inside, but apart from the rest */
     uint8_t *inside; /* 1 or 0 */
 };
 

@@ -1,123 +1,15 @@
-/* Scan conversion of a polygon by the parity rule, all edges first, then all rows.
- *
- * Where an edge crosses a row, the first vertex beyond it toggles; summing the toggles up along the
- * row says what is inside. Edges are half open, so that a row through a polygon vertex counts its two
- * edges once or as a pair. Vertices of the grid on an edge are marked apart: they are outside. */
 #include "grid/rasterise.h"
 
 #include "base/error.h"
-#include "math/predicates.h"
+#include "domain/mask.h"
+#include "grid/pieces.h"
+#include "grid/scan_mask.h"
+#include "grid/scan_polygon.h"
+#include "grid/scan_surface.h"
 
-#include <assert.h>
 #include <math.h>
 
-enum { TOGGLE = 1, ON_EDGE = 2 };
-
-static const size_t MARGIN = 2; /* layers of vertices beyond the bounding box */
-
-static double position(const icc_grid *grid, int k, size_t i)
-{
-    return grid->origin[k] + grid->spacing * (double)i;
-}
-
-/* The first index whose position is at least x, given that rounding moves an estimate by few. */
-static size_t first_from(const icc_grid *grid, int k, double x)
-{
-    const double estimate = floor((x - grid->origin[k]) / grid->spacing);
-    size_t i = estimate > 0.0 ? (size_t)estimate : 0;
-    while (i > 0 && position(grid, k, i - 1) >= x)
-        --i;
-    while (position(grid, k, i) < x)
-        ++i;
-    return i;
-}
-
-static uint8_t *row(const icc_grid *grid, size_t j)
-{
-    return grid->inside + grid->stride[1] * j;
-}
-
-static void mark_horizontal(icc_grid *grid, const double *a, const double *b)
-{
-    const size_t j = first_from(grid, 1, a[1]);
-    if (position(grid, 1, j) > a[1])
-        return;
-    const double end = fmax(a[0], b[0]);
-    for (size_t i = first_from(grid, 0, fmin(a[0], b[0])); position(grid, 0, i) <= end; ++i)
-        row(grid, j)[i] |= ON_EDGE;
-}
-
-/* Finds the first vertex of row j to the right of the edge from a up to b. */
-static void mark_crossing(icc_grid *grid, size_t j, const double *a, const double *b)
-{
-    double p[2] = {0.0, position(grid, 1, j)};
-    const double x = a[0] + (b[0] - a[0]) * ((p[1] - a[1]) / (b[1] - a[1]));
-    size_t i = first_from(grid, 0, fmax(fmin(a[0], b[0]), fmin(x, fmax(a[0], b[0]))));
-    for (; i > 0; --i) {
-        p[0] = position(grid, 0, i - 1);
-        if (iccp_orient2d(a, b, p) > 0)
-            break;
-    }
-    int side = 0;
-    for (;; ++i) {
-        p[0] = position(grid, 0, i);
-        side = iccp_orient2d(a, b, p);
-        if (side < 0)
-            break;
-        if (side == 0)
-            row(grid, j)[i] |= ON_EDGE;
-    }
-    if (p[1] < b[1])
-        row(grid, j)[i] ^= TOGGLE;
-}
-
-static icc_status mark_edges(icc_grid *grid, const icc_domain *domain, const iccp_env *env)
-{
-    size_t n_crossings = 0, next_report = 0;
-    for (size_t e = 0; e < domain->n_facets; ++e) {
-        if (n_crossings >= next_report) {
-            const double share = 0.5 * (double)e / (double)domain->n_facets;
-            if (iccp_progress(env, "grid", share) != ICC_OK)
-                return ICC_ERR_CANCELLED;
-            next_report = n_crossings + ICCP_VERTICES_PER_REPORT;
-        }
-        const double *a = domain->vertices + 2 * (size_t)domain->facets[2 * e];
-        const double *b = domain->vertices + 2 * (size_t)domain->facets[2 * e + 1];
-        if (a[1] > b[1]) {
-            const double *lower = b;
-            b = a;
-            a = lower;
-        }
-        if (a[1] < b[1])
-            for (size_t j = first_from(grid, 1, a[1]); position(grid, 1, j) <= b[1]; ++j)
-                mark_crossing(grid, j, a, b);
-        else
-            mark_horizontal(grid, a, b);
-        n_crossings += 1 + (size_t)((b[1] - a[1]) / grid->spacing);
-    }
-    return ICC_OK;
-}
-
-static icc_status fill_rows(icc_grid *grid, const iccp_env *env)
-{
-    size_t next_report = 0;
-    for (size_t j = 0; j < grid->shape[1]; ++j) {
-        uint8_t *at = row(grid, j);
-        if (j * grid->shape[0] >= next_report) {
-            const double share = 0.5 + 0.5 * (double)j / (double)grid->shape[1];
-            if (iccp_progress(env, "grid", share) != ICC_OK)
-                return ICC_ERR_CANCELLED;
-            next_report += ICCP_VERTICES_PER_REPORT;
-        }
-        uint8_t parity = 0;
-        for (size_t i = 0; i < grid->shape[0]; ++i) {
-            parity ^= at[i] & TOGGLE;
-            at[i] = parity && !(at[i] & ON_EDGE);
-            grid->n_inside += at[i];
-        }
-    }
-    return ICC_OK;
-}
+enum { MARGIN = 2 }; /* layers of vertices beyond the bounding box */
 
 /* How many vertices fit into a side of the bounding box, never closer than a quarter of a cell to its
  * ends unless there is only one. */
@@ -127,32 +19,89 @@ static size_t vertices_within(double side, double spacing)
     return n > 1.0 ? (size_t)n : 1;
 }
 
-icc_status iccp_grid_create(icc_grid **out, const icc_domain *domain, int32_t cells,
+/* No vertex inside yet. */
+static icc_status cover_box(icc_grid **out, const icc_domain *domain, int32_t cells,
                             const iccp_env *env, icc_error *err)
 {
-    assert(domain->dim == 2);
-    const double side[2] = {domain->upper[0] - domain->lower[0],
-                            domain->upper[1] - domain->lower[1]};
-    const double spacing = fmax(side[0], side[1]) / cells;
-    size_t shape[2];
-    for (int k = 0; k < 2; ++k)
+    double side[ICC_MAX_DIM], longest = 0;
+    for (int32_t k = 0; k < domain->dim; ++k) {
+        side[k] = domain->upper[k] - domain->lower[k];
+        longest = fmax(longest, side[k]);
+    }
+    const double spacing = longest / cells;
+    size_t shape[ICC_MAX_DIM];
+    for (int32_t k = 0; k < domain->dim; ++k)
         shape[k] = vertices_within(side[k], spacing) + 2 * MARGIN;
-    icc_status status = iccp_grid_new(out, 2, shape, env, err);
+    const icc_status status = iccp_grid_new(out, domain->dim, shape, env, err);
     if (status != ICC_OK)
         return status;
     icc_grid *grid = *out;
-    grid->frame = domain->frame;
+    grid->cells = cells;
     grid->spacing = spacing;
-    for (int k = 0; k < 2; ++k)
+    for (int32_t k = 0; k < domain->dim; ++k)
         grid->origin[k] = domain->lower[k] + 0.5 * side[k] - 0.5 * spacing * (double)(shape[k] - 1);
-    status = mark_edges(grid, domain, env);
-    if (status == ICC_OK)
-        status = fill_rows(grid, env);
-    if (status == ICC_OK && grid->n_inside == 0)
+    return ICC_OK;
+}
+
+static icc_status create_in_boundary(icc_grid **out, const icc_domain *domain, int32_t cells,
+                                     const iccp_env *env, icc_error *err)
+{
+    icc_status status = cover_box(out, domain, cells, env, err);
+    if (status != ICC_OK)
+        return status;
+    if (domain->dim == 2)
+        return iccp_scan_polygon(*out, domain, env);
+    status = iccp_scan_surface(*out, domain, env);
+    return status == ICC_OK ? iccp_grid_keep_largest(*out, env) : status;
+}
+
+/* Vertices to a cell of the mask: the least even number for which there are `cells` along the longest
+ * side. */
+static size_t cuts_for(const iccp_mask *mask, int32_t cells)
+{
+    size_t longest = 0;
+    for (int32_t k = 0; k < mask->dim; ++k)
+        longest = mask->shape[k] > longest ? mask->shape[k] : longest;
+    const size_t half = ((size_t)cells + 2 * longest - 1) / (2 * longest);
+    return half > 1 ? 2 * half : 2;
+}
+
+static icc_status create_in_mask(icc_grid **out, const icc_domain *domain, int32_t cells,
+                                 const iccp_env *env, icc_error *err)
+{
+    const iccp_mask *mask = domain->mask;
+    const size_t cuts = cuts_for(mask, cells);
+    const double border = -(double)MARGIN / (double)cuts;
+    double first[ICC_MAX_DIM];
+    size_t shape[ICC_MAX_DIM], longest = 0;
+    for (int32_t k = 0; k < mask->dim; ++k) {
+        shape[k] = cuts * mask->shape[k] + 1 + 2 * MARGIN;
+        longest = mask->shape[k] > longest ? mask->shape[k] : longest;
+        first[k] = border;
+    }
+    const icc_status status = iccp_grid_new(out, mask->dim, shape, env, err);
+    if (status != ICC_OK)
+        return status;
+    icc_grid *grid = *out;
+    grid->cells = (int32_t)(cuts * longest);
+    grid->spacing = 1.0 / (double)cuts * domain->frame.in[0] * domain->frame.in[1];
+    iccp_frame_in(&domain->frame, mask->dim, first, grid->origin);
+    return iccp_scan_mask(grid, mask, cuts, MARGIN, env);
+}
+
+icc_status iccp_grid_create(icc_grid **out, const icc_domain *domain, int32_t cells,
+                            const iccp_env *env, icc_error *err)
+{
+    *out = NULL;
+    icc_status status = domain->mask != NULL ? create_in_mask(out, domain, cells, env, err)
+                                             : create_in_boundary(out, domain, cells, env, err);
+    if (status == ICC_OK && (*out)->n_inside == 0)
         status = iccp_fail(err, ICC_ERR_RESOLUTION, -1,
                            "no grid vertex lies inside: use more than %d cells", (int)cells);
-    if (status != ICC_OK) {
-        iccp_grid_release(grid);
+    if (status == ICC_OK) {
+        (*out)->frame = domain->frame;
+    } else {
+        iccp_grid_release(*out);
         *out = NULL;
     }
     return status;

@@ -211,7 +211,7 @@ AT(icc_picture, reserved, 28);
 AT(icc_picture, stride, 32);
 AT(icc_picture, pixels, 40);
 
-SIZE(icc_grid_info, 136);
+SIZE(icc_grid_info, 152);
 AT(icc_grid_info, size, 0);
 AT(icc_grid_info, dim, 8);
 AT(icc_grid_info, reserved, 12);
@@ -220,6 +220,9 @@ AT(icc_grid_info, origin, 64);
 AT(icc_grid_info, spacing, 112);
 AT(icc_grid_info, n_vertices, 120);
 AT(icc_grid_info, n_inside, 128);
+AT(icc_grid_info, n_stray, 136);
+AT(icc_grid_info, cells, 144);
+AT(icc_grid_info, reserved2, 148);
 
 SIZE(icc_tree_options, 24);
 AT(icc_tree_options, size, 0);
