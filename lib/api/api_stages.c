@@ -12,6 +12,8 @@
 #include "icc/stages.h"
 #include "mesh/triangulate.h"
 #include "tree/cousin.h"
+#include "tree/grow.h"
+#include "tree/ranks.h"
 #include "tree/verify.h"
 
 #include <math.h>
@@ -213,6 +215,51 @@ icc_status icc_tree_verify(const icc_tree *tree, icc_tree_report *report, const 
     if (status != ICC_OK)
         return status;
     return iccp_write_struct(report, &full, sizeof full, "icc_tree_report", err);
+}
+
+static icc_status check_wish(const icc_tree *tree, const double *values, icc_error *err)
+{
+    for (size_t i = 0; values != NULL && i < tree->n_inside; ++i)
+        if (isnan(values[tree->order[i]]))
+            return iccp_fail(err, ICC_ERR_ARGUMENT, tree->order[i], "the value of vertex %lu is NaN",
+                             (unsigned long)tree->order[i]);
+    return ICC_OK;
+}
+
+icc_status icc_tree_grow(const icc_tree *tree, const double *values, uint32_t *rank,
+                         icc_grow_report *report, const icc_env *env, icc_error *err)
+{
+    iccp_env full_env;
+    const char *missing = tree == NULL ? "tree" : rank == NULL ? "rank" : NULL;
+    icc_status status = begin(&full_env, env, missing, err);
+    if (status == ICC_OK)
+        status = check_wish(tree, values, err);
+    if (status != ICC_OK)
+        return status;
+    icc_grow_report full;
+    status = iccp_tree_grow(tree, values, rank, &full, &full_env, err);
+    if (report == NULL || (status != ICC_OK && status != ICC_ERR_TOPOLOGY))
+        return status;
+    const icc_status written = iccp_write_struct(report, &full, sizeof full, "icc_grow_report", err);
+    return written != ICC_OK ? written : status;
+}
+
+icc_status icc_tree_verify_ranks(const icc_tree *tree, const uint32_t *rank,
+                                 icc_field_report *report, const icc_env *env, icc_error *err)
+{
+    iccp_env full_env;
+    const char *missing = tree == NULL     ? "tree"
+                          : rank == NULL   ? "rank"
+                          : report == NULL ? "report"
+                                           : NULL;
+    icc_status status = begin(&full_env, env, missing, err);
+    if (status != ICC_OK)
+        return status;
+    icc_field_report full;
+    status = iccp_explain(err, iccp_tree_verify_ranks(tree, rank, &full, &full_env));
+    if (status != ICC_OK)
+        return status;
+    return iccp_write_struct(report, &full, sizeof full, "icc_field_report", err);
 }
 
 /* ------------------------------------------------------------------- field */

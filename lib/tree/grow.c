@@ -1,0 +1,270 @@
+/* Based on: Huynh and Gingold, section 5.2, for what is to be reached; J. H. C. Whitehead, Simplicial Spaces,
+ * Nuclei and m-Groups, 1939, for how: a vertex whose neighbours in a set form a contractible part of
+ * its link may be added to the set, or taken from it, without a change of the homotopy type.
+ *
+ * The tree's order (Algorithm 2) makes critical vertices beyond the plane. Here it is a wish only. A set
+ * grows from the root: of the vertices that touch it, it takes the first one in the order wished for
+ * whose neighbours in it are contractible, as are then the others (grid/kuhn.h). A vertex that is
+ * not has to wait until the set has taken another neighbour of it. When all are taken, no vertex but
+ * the root is critical, whatever the shape.
+ *
+ * Should it get stuck, the set of all vertices is thinned in the same way: the last one whose neighbours in
+ * the set are contractible goes, but for the root, and the order is read backwards. There are shapes,
+ * even balls, where both fail: Bing's house with two rooms. */
+#include "tree/grow.h"
+
+#include "base/error.h"
+#include "grid/star.h"
+#include "tree/queue.h"
+#include "tree/sort.h"
+
+#include <assert.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+enum {
+    MEMBER = 1,  /* is to be taken: inside and reached by the tree; not the root */
+    IN_SET = 2,  /* belongs to the set at the moment */
+    CUT = 4,     /* has neighbours beyond the grid */
+    WAITED = 8   /* has been refused */
+};
+
+static const size_t TESTS_PER_REPORT = 1 << 12; /* of links: at most 0.1 s, in 6-D */
+
+typedef struct growth {
+    const icc_tree *tree;
+    const iccp_env *env;
+    const uint32_t *wish; /* the n vertices, the root among them, in the order wished for */
+    uint32_t *sorted;     /* memory of `wish` where it is not the tree's */
+    uint32_t *place;      /* of each of them in `wish` */
+    uint8_t *state;
+    uint32_t *rank;
+    iccp_queue queue; /* places, or places from the end, of vertices to be tried */
+    iccp_star star;
+    bool thinning;
+    size_t n, n_taken, n_tests, n_waited;
+} growth;
+
+/* ------------------------------------------------------------ the two ways */
+
+static uint8_t in_set(const growth *g, uint32_t v, int i)
+{
+    return g->state[iccp_star_vertex(&g->star, v, i)] / IN_SET & 1;
+}
+
+static iccp_link_set neighbours_in_set(const growth *g, uint32_t v)
+{
+    iccp_link_set set = {{0, 0}};
+    if (g->state[v] & CUT) {
+        const iccp_link_set within = iccp_star_within(&g->star, v);
+        for (int i = 0; i < g->star.kuhn.n_neighbours; ++i)
+            if (iccp_link_has(&within, i) && in_set(g, v, i))
+                iccp_link_add(&set, i);
+        return set;
+    }
+    for (int i = 0; i < g->star.kuhn.n_neighbours; ++i)
+        set.word[i / 64] |= (uint64_t)in_set(g, v, i) << (i % 64);
+    return set;
+}
+
+/* Puts the neighbours that are not taken yet into the queue. */
+static void call_neighbours(growth *g, uint32_t v)
+{
+    const uint8_t wanted = g->thinning ? MEMBER | IN_SET : MEMBER;
+    const iccp_link_set within =
+        g->state[v] & CUT ? iccp_star_within(&g->star, v) : g->star.kuhn.all;
+    for (int i = 0; i < g->star.kuhn.n_neighbours; ++i) {
+        if (!iccp_link_has(&within, i))
+            continue;
+        const uint32_t u = iccp_star_vertex(&g->star, v, i);
+        if ((g->state[u] & (MEMBER | IN_SET)) != wanted)
+            continue;
+        const uint32_t place = g->place[u];
+        iccp_queue_push(&g->queue, g->thinning ? (uint32_t)g->n - 1 - place : place);
+    }
+}
+
+/* Into the set, or out of it. */
+static void take(growth *g, uint32_t v)
+{
+    g->state[v] ^= IN_SET;
+    g->rank[v] = (uint32_t)(g->thinning ? g->n - g->n_taken : g->n_taken);
+    ++g->n_taken;
+    call_neighbours(g, v);
+}
+
+/* Takes vertices until there are none left to try. A vertex is tried once for each of its neighbours
+ * that is taken, at most. */
+static icc_status take_all(growth *g)
+{
+    const char *stage = g->thinning ? "thin" : "grow";
+    for (;;) {
+        const uint32_t key = iccp_queue_pop(&g->queue);
+        if (key == UINT32_MAX)
+            return ICC_OK;
+        if (g->n_tests++ % TESTS_PER_REPORT == 0 &&
+            iccp_progress(g->env, stage, (double)g->n_taken / (double)g->n) != ICC_OK)
+            return ICC_ERR_CANCELLED;
+        const uint32_t v = g->wish[g->thinning ? (uint32_t)g->n - 1 - key : key];
+        const iccp_link_set set = neighbours_in_set(g, v);
+        if (iccp_kuhn_regular(&g->star.kuhn, &set)) {
+            take(g, v);
+        } else {
+            g->n_waited += (g->state[v] & WAITED) == 0;
+            g->state[v] |= WAITED;
+        }
+    }
+}
+
+/* The root counts as taken either way, and is never tried. */
+static icc_status grow(growth *g)
+{
+    const uint32_t root = g->tree->root;
+    g->thinning = false;
+    g->n_taken = 1;
+    g->rank[root] = 0;
+    g->state[root] |= IN_SET;
+    call_neighbours(g, root);
+    return take_all(g);
+}
+
+static icc_status thin(growth *g)
+{
+    g->thinning = true;
+    g->n_taken = 1;
+    for (size_t i = 0; i < g->n; ++i) {
+        g->state[g->wish[i]] |= IN_SET;
+        if (g->wish[i] != g->tree->root)
+            iccp_queue_push(&g->queue, (uint32_t)(g->n - 1 - i));
+    }
+    return take_all(g);
+}
+
+/* ------------------------------------------------------------------ set-up */
+
+static icc_status make_wish(growth *g, const double *values)
+{
+    g->wish = g->tree->order;
+    if (values == NULL)
+        return ICC_OK;
+    uint32_t *work = iccp_alloc(&g->env->memory, g->n, sizeof *work);
+    g->sorted = iccp_alloc(&g->env->memory, g->n, sizeof *g->sorted);
+    if (work != NULL && g->sorted != NULL) {
+        memcpy(g->sorted, g->tree->order, g->n * sizeof *g->sorted);
+        iccp_sort_falling(g->sorted, work, g->n, values);
+    }
+    const bool done = work != NULL && g->sorted != NULL;
+    iccp_free(&g->env->memory, work);
+    g->wish = g->sorted;
+    return done ? ICC_OK : ICC_ERR_MEMORY;
+}
+
+static icc_status start(growth *g, const double *values)
+{
+    const iccp_memory *memory = &g->env->memory;
+    const size_t n_vertices = g->tree->grid->n_vertices;
+    g->state = iccp_alloc_zero(memory, n_vertices, sizeof *g->state);
+    g->place = iccp_alloc(memory, n_vertices, sizeof *g->place);
+    iccp_queue_create(&g->queue, g->n, memory);
+    if (g->state == NULL || g->place == NULL || g->queue.level[0] == NULL)
+        return ICC_ERR_MEMORY;
+    const icc_status status = make_wish(g, values);
+    if (status != ICC_OK)
+        return status;
+    iccp_star_init(&g->star, g->tree->grid, g->n);
+    for (size_t v = 0; v < n_vertices; ++v)
+        g->rank[v] = ICCP_NONE;
+    for (size_t i = 0; i < g->n; ++i) {
+        const uint32_t v = g->wish[i];
+        g->place[v] = (uint32_t)i;
+        g->state[v] = iccp_star_is_cut(&g->star, v) ? MEMBER | CUT : MEMBER;
+    }
+    g->state[g->tree->root] &= (uint8_t)~MEMBER;
+    return ICC_OK;
+}
+
+static void end(growth *g)
+{
+    const iccp_memory *memory = &g->env->memory;
+    iccp_queue_free(&g->queue, memory);
+    iccp_free(memory, g->sorted);
+    iccp_free(memory, g->place);
+    iccp_free(memory, g->state);
+}
+
+/* ------------------------------------------------------------- the outcome */
+
+/* Edges on which the order is not the one wished for. */
+static size_t count_turned(const growth *g)
+{
+    size_t n_turned = 0;
+    for (size_t k = 0; k < g->n; ++k) {
+        const uint32_t v = g->wish[k];
+        const iccp_link_set within =
+            g->state[v] & CUT ? iccp_star_within(&g->star, v) : g->star.kuhn.all;
+        for (int i = 0; i < g->star.kuhn.n_neighbours; ++i) {
+            const uint32_t u = iccp_star_vertex(&g->star, v, i);
+            n_turned += iccp_link_has(&within, i) && g->rank[u] < g->rank[v] && g->place[u] > k;
+        }
+    }
+    return n_turned;
+}
+
+static uint32_t first_without_rank(const growth *g)
+{
+    for (size_t i = 0; i < g->n; ++i)
+        if (g->rank[g->wish[i]] == ICCP_NONE)
+            return g->wish[i];
+    return ICCP_NONE;
+}
+
+static icc_status fail_stuck(const growth *g, const icc_grow_report *report, icc_error *err)
+{
+    char at[96];
+    int used = 0;
+    for (int32_t k = 0; k < g->tree->grid->dim; ++k)
+        used += snprintf(at + used, sizeof at - (size_t)used, "%s%" PRIu32, k == 0 ? "" : ", ",
+                         iccp_grid_coordinate(g->tree->grid, report->vertex, k));
+    return iccp_fail(err, ICC_ERR_TOPOLOGY, report->vertex,
+                     "no order with one critical vertex was found: growth stops before vertex "
+                     "%" PRIu32 " (%s), %zu of %zu left, thinning leaves %zu; try a finer grid",
+                     report->vertex, at, report->n_unplaced, g->n, report->n_left);
+}
+
+/* Grows and, if that is not enough, thins. */
+static icc_status find_order(growth *g, icc_grow_report *report, icc_error *err)
+{
+    icc_status status = grow(g);
+    if (status != ICC_OK)
+        return status;
+    report->n_postponed = g->n_waited;
+    report->n_unplaced = g->n - g->n_taken;
+    report->vertex = first_without_rank(g);
+    report->method = g->n_waited > 0 ? ICC_GROW_GROWN : ICC_GROW_AS_WISHED;
+    if (report->n_unplaced > 0) {
+        status = thin(g);
+        if (status != ICC_OK)
+            return status;
+        report->method = ICC_GROW_THINNED;
+        report->n_left = g->n - g->n_taken;
+    }
+    report->n_tests = g->n_tests;
+    if (report->n_left > 0)
+        return fail_stuck(g, report, err);
+    if (report->method != ICC_GROW_AS_WISHED)
+        report->n_turned = count_turned(g);
+    return ICC_OK;
+}
+
+icc_status iccp_tree_grow(const icc_tree *tree, const double *values, uint32_t *rank,
+                          icc_grow_report *report, const iccp_env *env, icc_error *err)
+{
+    growth g = {.tree = tree, .env = env, .rank = rank, .n = tree->n_inside};
+    *report = (icc_grow_report){.n_vertices = g.n, .vertex = ICCP_NONE};
+    icc_status status = start(&g, values);
+    if (status == ICC_OK)
+        status = find_order(&g, report, err);
+    end(&g);
+    return iccp_explain(err, status);
+}
