@@ -21,6 +21,8 @@ icc_status icc_chart_create(icc_chart **out, const icc_domain *domain,
     icc_chart_options full;
     icc_status status = iccp_env_read(&full_env, env, err);
     if (status == ICC_OK)
+        status = iccp_check_planar(domain, err);
+    if (status == ICC_OK)
         status = iccp_read_chart_options(&full, options, domain->dim, err);
     return status == ICC_OK ? iccp_chart_create(out, domain, &full, &full_env, err) : status;
 }

@@ -35,9 +35,9 @@ icc_status icc_domain_create(icc_domain **out, int32_t dim, size_t n_vertices,
     if (dim < 1 || dim > ICC_MAX_DIM)
         return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "dim is %ld; it must lie in 1..%d", (long)dim,
                          ICC_MAX_DIM);
-    if (dim != 2)
-        return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1,
-                         "dim is %ld; only domains of dimension 2 can be made", (long)dim);
+    if (dim != 2 && facets == NULL)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, -1,
+                         "facets is NULL; only those of a polygon can be left out");
     iccp_env full;
     icc_status status = iccp_env_read(&full, env, err);
     if (status == ICC_OK)

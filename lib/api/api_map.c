@@ -29,6 +29,10 @@ icc_status icc_map_create(icc_map **out, const icc_domain *source, const icc_dom
     icc_chart_options chart;
     icc_status status = iccp_env_read(&full_env, env, err);
     if (status == ICC_OK)
+        status = iccp_check_planar(source, err);
+    if (status == ICC_OK)
+        status = iccp_check_planar(target, err);
+    if (status == ICC_OK)
         status = read_options(&full, options, err);
     if (status == ICC_OK)
         status = iccp_read_chart_options(&chart, full.chart, source->dim, err);

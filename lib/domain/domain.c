@@ -1,11 +1,14 @@
 #include "domain/domain.h"
 
 #include "base/error.h"
+#include "domain/inside.h"
 #include "domain/locate.h"
 #include "domain/mask.h"
 #include "domain/polygon.h"
+#include "domain/simplex.h"
+#include "domain/simplicial.h"
 
-#include <assert.h>
+#include <math.h>
 #include <string.h>
 
 /* What icc.h promises: rounding of input files is of this order. In longest sides of the box. */
@@ -14,15 +17,15 @@ static const double BOUNDARY_TOLERANCE = 1e-14;
 static icc_status copy_boundary(icc_domain *d, const double *vertices, const uint32_t *facets,
                                 icc_error *err)
 {
-    const size_t n = d->n_vertices;
-    d->given = iccp_alloc(&d->memory, n, 2 * sizeof *d->given);
-    d->vertices = iccp_alloc(&d->memory, n, 2 * sizeof *d->vertices);
-    d->facets = iccp_alloc(&d->memory, n, 2 * sizeof *d->facets);
+    const size_t dim = (size_t)d->dim, n = d->n_vertices;
+    d->given = iccp_alloc(&d->memory, n, dim * sizeof *d->given);
+    d->vertices = iccp_alloc(&d->memory, n, dim * sizeof *d->vertices);
+    d->facets = iccp_alloc(&d->memory, d->n_facets, dim * sizeof *d->facets);
     if (d->given == NULL || d->vertices == NULL || d->facets == NULL)
         return iccp_fail_memory(err);
-    memcpy(d->given, vertices, n * 2 * sizeof *d->given);
+    memcpy(d->given, vertices, n * dim * sizeof *d->given);
     if (facets != NULL) {
-        memcpy(d->facets, facets, n * 2 * sizeof *d->facets);
+        memcpy(d->facets, facets, d->n_facets * dim * sizeof *d->facets);
         return ICC_OK;
     }
     for (uint32_t i = 0; i < n; ++i) {
@@ -34,11 +37,12 @@ static icc_status copy_boundary(icc_domain *d, const double *vertices, const uin
 
 static void measure_box(icc_domain *d)
 {
+    const size_t dim = (size_t)d->dim;
     double longest = 0;
-    for (size_t k = 0; k < 2; ++k) {
+    for (size_t k = 0; k < dim; ++k) {
         d->lower[k] = d->upper[k] = d->vertices[k];
         for (size_t i = 1; i < d->n_vertices; ++i) {
-            const double x = d->vertices[2 * i + k];
+            const double x = d->vertices[dim * i + k];
             d->lower[k] = x < d->lower[k] ? x : d->lower[k];
             d->upper[k] = x > d->upper[k] ? x : d->upper[k];
         }
@@ -48,8 +52,22 @@ static void measure_box(icc_domain *d)
     d->tolerance = BOUNDARY_TOLERANCE * longest;
 }
 
+/* ---------------------------------------------------------------- polygons */
+
+/* The ring's tree has the form of a facet tree's (domain/facet_tree.h). */
+static void view_tree(icc_domain *d)
+{
+    d->tree = (iccp_facet_tree){.dim = 2,
+                                .n = d->n_facets,
+                                .vertices = d->vertices,
+                                .facets = d->facets,
+                                .n_leaves = d->locator->tree.n_leaves,
+                                .boxes = d->locator->tree.boxes->lower,
+                                .order = d->locator->ring.facet};
+}
+
 /* Everything that follows from the copied boundary. */
-static icc_status complete(icc_domain *d, const iccp_env *env, icc_error *err)
+static icc_status complete_polygon(icc_domain *d, const iccp_env *env, icc_error *err)
 {
     const size_t n = d->n_vertices;
     iccp_ring ring = {0};
@@ -66,15 +84,15 @@ static icc_status complete(icc_domain *d, const iccp_env *env, icc_error *err)
     d->orientation = iccp_polygon_orientation(&ring);
     d->measure = iccp_polygon_area(&ring);
     d->locator = iccp_locator_create(&ring, d->lower, d->upper, d->tolerance, &d->memory);
-    return d->locator != NULL ? ICC_OK : iccp_fail_memory(err);
+    if (d->locator == NULL)
+        return iccp_fail_memory(err);
+    view_tree(d);
+    return ICC_OK;
 }
 
-icc_status iccp_domain_create(icc_domain **out, int32_t dim, size_t n_vertices,
-                              const double *vertices, size_t n_facets, const uint32_t *facets,
-                              const iccp_env *env, icc_error *err)
+static icc_status check_polygon_counts(size_t n_vertices, size_t n_facets, const uint32_t *facets,
+                                       icc_error *err)
 {
-    assert(dim == 2);
-    *out = NULL;
     if (n_vertices < 3)
         return iccp_fail(err, ICC_ERR_BOUNDARY, -1, "a polygon needs at least 3 vertices, not %zu",
                          n_vertices);
@@ -82,16 +100,93 @@ icc_status iccp_domain_create(icc_domain **out, int32_t dim, size_t n_vertices,
         return iccp_fail(err, ICC_ERR_BOUNDARY, -1,
                          "a closed ring through %zu vertices has as many facets, not %zu",
                          n_vertices, n_facets);
+    return ICC_OK;
+}
+
+/* -------------------------------------------------------- other dimensions */
+
+static icc_status check_interval(icc_domain *d, icc_error *err)
+{
+    const double a = d->vertices[d->facets[0]], b = d->vertices[d->facets[1]];
+    if (a == b)
+        return iccp_fail(err, ICC_ERR_BOUNDARY, 1, "the interval has no length");
+    d->orientation = a < b ? 1 : -1;
+    d->measure = fabs(b - a);
+    return ICC_OK;
+}
+
+static icc_status check_complex(iccp_complex *c, const iccp_env *env, icc_error *err)
+{
+    c->across = iccp_alloc(&env->memory, c->n_facets, c->dim * sizeof *c->across);
+    if (c->across == NULL)
+        return iccp_fail_memory(err);
+    icc_status status = iccp_complex_join(c, env, err);
+    if (status == ICC_OK)
+        status = iccp_complex_check_shape(c, env, err);
+    iccp_free(&env->memory, c->across);
+    return status;
+}
+
+static icc_status check_geometry(icc_domain *d, const iccp_env *env, icc_error *err)
+{
+    icc_status status = iccp_simplicial_check_flat(&d->tree, err);
+    if (status == ICC_OK && d->dim == 3)
+        status = iccp_simplicial_check_simple(&d->tree, &d->frame, env, err);
+    if (status == ICC_OK)
+        status = iccp_simplicial_measure(&d->tree, &d->orientation, &d->measure, err);
+    return status;
+}
+
+static icc_status complete_simplicial(icc_domain *d, const iccp_env *env, icc_error *err)
+{
+    iccp_complex c = {(size_t)d->dim, d->n_vertices, d->n_facets, d->facets, NULL};
+    icc_status status = iccp_complex_check_indices(&c, err);
+    if (status == ICC_OK)
+        status =
+            iccp_simplicial_localise(&d->frame, d->vertices, &c, d->given, env, err);
+    if (status == ICC_OK && d->dim > 1)
+        status = check_complex(&c, env, err);
+    if (status != ICC_OK)
+        return status;
+    measure_box(d);
+    iccp_facet_tree_create(&d->tree, c.dim, d->vertices, d->n_facets, d->facets, &d->memory);
+    if (d->tree.boxes == NULL)
+        return iccp_fail_memory(err);
+    return d->dim == 1 ? check_interval(d, err) : check_geometry(d, env, err);
+}
+
+static icc_status check_counts(size_t dim, size_t n_facets, icc_error *err)
+{
+    if (dim == 1 && n_facets != 2)
+        return iccp_fail(err, ICC_ERR_BOUNDARY, -1, "an interval has 2 facets, not %zu", n_facets);
+    if (n_facets <= dim)
+        return iccp_fail(err, ICC_ERR_BOUNDARY, -1,
+                         "a closed boundary in %zu dimensions has at least %zu facets, not %zu", dim,
+                         dim + 1, n_facets);
+    return ICC_OK;
+}
+
+icc_status iccp_domain_create(icc_domain **out, int32_t dim, size_t n_vertices,
+                              const double *vertices, size_t n_facets, const uint32_t *facets,
+                              const iccp_env *env, icc_error *err)
+{
+    *out = NULL;
+    icc_status status = dim == 2 ? check_polygon_counts(n_vertices, n_facets, facets, err)
+                                 : check_counts((size_t)dim, n_facets, err);
+    if (status != ICC_OK)
+        return status;
     icc_domain *domain = iccp_alloc_zero(&env->memory, 1, sizeof *domain);
     if (domain == NULL)
         return iccp_fail_memory(err);
     domain->memory = env->memory;
     atomic_init(&domain->references, 1);
     domain->dim = dim;
-    domain->n_vertices = domain->n_facets = n_vertices;
-    icc_status status = copy_boundary(domain, vertices, facets, err);
+    domain->n_vertices = n_vertices;
+    domain->n_facets = dim == 2 ? n_vertices : n_facets;
+    status = copy_boundary(domain, vertices, facets, err);
     if (status == ICC_OK)
-        status = complete(domain, env, err);
+        status = dim == 2 ? complete_polygon(domain, env, err)
+                          : complete_simplicial(domain, env, err);
     if (status != ICC_OK) {
         iccp_domain_release(domain);
         return status;
@@ -113,6 +208,8 @@ void iccp_domain_release(icc_domain *domain)
         atomic_fetch_sub_explicit(&domain->references, 1, memory_order_acq_rel) != 1)
         return;
     const iccp_memory memory = domain->memory;
+    if (domain->locator == NULL)
+        iccp_facet_tree_free(&domain->tree, &memory);
     iccp_locator_free(domain->locator, &memory);
     iccp_mask_free(domain->mask);
     iccp_free(&memory, domain->given);
@@ -121,10 +218,9 @@ void iccp_domain_release(icc_domain *domain)
     iccp_free(&memory, domain);
 }
 
-int32_t iccp_domain_locate(const icc_domain *domain, const double *point, bool boundary_only,
-                           uint32_t *facet, double *bary)
+static int32_t locate_in_polygon(const icc_domain *domain, const double *point, bool nearest,
+                                 uint32_t *facet, double *bary)
 {
-    const bool nearest = facet != NULL && !boundary_only;
     const iccp_place place = iccp_locator_find(domain->locator, point, nearest);
     if (facet != NULL && (nearest || place.where == ICC_BOUNDARY)) {
         *facet = domain->locator->ring.facet[place.edge];
@@ -134,13 +230,75 @@ int32_t iccp_domain_locate(const icc_domain *domain, const double *point, bool b
     return place.where;
 }
 
-/* From the nearer end, so that both ends come out exactly, and a coordinate that they share too. */
+static bool finite(size_t dim, const double *point)
+{
+    for (size_t k = 0; k < dim; ++k)
+        if (!isfinite(point[k]))
+            return false;
+    return true;
+}
+
+int32_t iccp_domain_locate(const icc_domain *domain, const double *point, bool boundary_only,
+                           uint32_t *facet, double *bary)
+{
+    const bool nearest = facet != NULL && !boundary_only;
+    if (domain->dim == 2)
+        return locate_in_polygon(domain, point, nearest, facet, bary);
+    const size_t dim = domain->tree.dim;
+    double p[ICC_MAX_DIM], share[ICC_MAX_DIM], distance2;
+    uint32_t at = 0;
+    int32_t where = ICC_OUTSIDE;
+    iccp_inside_reach(dim, point, p);
+    if (finite(dim, point))
+        where = iccp_inside_find(&domain->tree, domain->tolerance, p, &at, share);
+    if (nearest && where != ICC_BOUNDARY)
+        at = iccp_facet_tree_nearest(&domain->tree, p, share, &distance2);
+    if (facet != NULL && (nearest || where == ICC_BOUNDARY)) {
+        *facet = at;
+        memcpy(bary, share, dim * sizeof *bary);
+    }
+    return where;
+}
+
+/* From the nearest vertex, so that vertices come out exactly, and a coordinate that they share too. */
 void iccp_domain_facet_point(const icc_domain *domain, uint32_t facet, const double *bary,
                              double *point)
 {
-    const size_t from = bary[0] >= bary[1] ? 0 : 1;
-    const double *a = domain->vertices + 2 * (size_t)domain->facets[2 * facet + from];
-    const double *b = domain->vertices + 2 * (size_t)domain->facets[2 * facet + 1 - from];
-    for (int k = 0; k < 2; ++k)
-        point[k] = a[k] + bary[1 - from] * (b[k] - a[k]);
+    const size_t dim = domain->tree.dim;
+    const double *corners[ICC_MAX_DIM];
+    size_t from = 0;
+    iccp_facet_corners(&domain->tree, facet, corners);
+    for (size_t i = 1; i < dim; ++i)
+        from = bary[i] > bary[from] ? i : from;
+    for (size_t k = 0; k < dim; ++k) {
+        point[k] = corners[from][k];
+        for (size_t i = 0; i < dim; ++i)
+            if (i != from)
+                point[k] += bary[i] * (corners[i][k] - corners[from][k]);
+    }
+}
+
+bool iccp_domain_cross(const icc_domain *domain, const double *from, const double *to, double *share,
+                       uint32_t *facet, double *bary)
+{
+    const size_t dim = domain->tree.dim;
+    double ends[2][ICC_MAX_DIM], at[ICC_MAX_DIM];
+    const double *corners[ICC_MAX_DIM];
+    iccp_inside_reach(dim, from, ends[0]);
+    iccp_inside_reach(dim, to, ends[1]);
+    if (!iccp_segment_crossing(&domain->tree, ends[0], ends[1], share, facet))
+        return false;
+    for (size_t k = 0; k < dim; ++k)
+        at[k] = ends[0][k] + *share * (ends[1][k] - ends[0][k]);
+    iccp_facet_corners(&domain->tree, *facet, corners);
+    (void)iccp_simplex_nearest(dim, dim, corners, *share < 1 ? at : ends[1], bary);
+    return true;
+}
+
+size_t iccp_domain_line(const icc_domain *domain, int32_t axis, const double *point,
+                        size_t capacity, iccp_line_crossing *crossings)
+{
+    double p[ICC_MAX_DIM];
+    iccp_inside_reach(domain->tree.dim, point, p);
+    return iccp_line_crossings(&domain->tree, (size_t)axis, p, capacity, crossings);
 }

@@ -3,6 +3,8 @@
 #define ICCP_DOMAIN_H
 
 #include "base/env.h"
+#include "domain/crossings.h"
+#include "domain/facet_tree.h"
 #include "domain/frame.h"
 #include "icc/icc.h"
 
@@ -16,23 +18,26 @@ struct icc_domain {
     iccp_memory memory;
     atomic_size_t references;
     int32_t dim;
-    int32_t orientation; /* +1 counter-clockwise, -1 clockwise, in the caller's and in local
-                                     coordinates alike */
+    int32_t orientation; /* +1 or -1 as icc_domain_info has it, in the caller's and in local
+                            coordinates alike */
     size_t n_vertices, n_facets;
     double *given;    /* n_vertices * dim, as the caller gave them */
-    double *vertices; /* n_vertices * dim, local: what everything else works with */
+    double *vertices; /* n_vertices * dim, local: what everything else works with. One that belongs to
+                         no facet, which polygons do not have, is a copy of one that does. */
     uint32_t *facets; /* n_facets * dim vertex indices, as given or made up */
     iccp_frame frame;
     double lower[ICC_MAX_DIM]; /* local bounding box */
     double upper[ICC_MAX_DIM];
-    double tolerance; /* local: 1e-14 of the longest side of the bounding box; points
-                                     this close to the boundary are on it */
-    double measure;   /* local area */
-    struct iccp_locator *locator;
-    struct iccp_mask *mask; /* what the boundary was made from, or NULL */
+    double tolerance; /* local: 1e-14 of the longest side of the bounding box; points this close to the
+                         boundary are on it */
+    double measure;   /* local length, area, volume, ... */
+    iccp_facet_tree tree; /* over local vertices; in 2-D a view of the locator's */
+    struct iccp_locator *locator; /* 2-D only, else NULL: the polygon as a ring, and faster answers */
+    struct iccp_mask *mask;       /* what the boundary was made from, or NULL */
 };
 
-/* See icc_domain_create(); arguments have been checked for NULL and dim == 2. */
+/* See icc_domain_create(); arguments have been checked for NULL and the range of dim. Facets may be
+ * NULL in 2-D. */
 icc_status iccp_domain_create(icc_domain **out, int32_t dim, size_t n_vertices,
                               const double *vertices, size_t n_facets, const uint32_t *facets,
                               const iccp_env *env, icc_error *err);
@@ -41,7 +46,7 @@ icc_status iccp_domain_create(icc_domain **out, int32_t dim, size_t n_vertices,
 icc_domain *iccp_domain_retain(const icc_domain *domain);
 void iccp_domain_release(icc_domain *domain);
 
-/* ICC_INSIDE, ICC_BOUNDARY or ICC_OUTSIDE for a local point, exactly up to `tolerance`. When `facet`
+/* ICC_INSIDE, ICC_BOUNDARY or ICC_OUTSIDE for a local point, in the sense of icc_domain_locate(). When `facet`
  * is not NULL the nearest facet and the barycentric coordinates of the nearest point on it are
  * written too (which costs more for points far from the boundary; for ICC_BOUNDARY only, pass
  * `boundary_only` to skip that otherwise). Bary is not negative and sums to 1; a point that is a
@@ -50,8 +55,20 @@ int32_t iccp_domain_locate(const icc_domain *domain, const double *point, bool b
                            uint32_t *facet, double *bary);
 
 /* The local point with the given barycentric coordinates on a facet: exact at the vertices, and in a
- * coordinate that both ends share. */
+ * coordinate that all its vertices share. */
 void iccp_domain_facet_point(const icc_domain *domain, uint32_t facet, const double *bary,
                              double *point);
+
+/* The first point of the boundary on the way from one local point to another, both included: the share
+ * of the way, the facet (of several, the one with the smallest number) and the barycentric coordinates
+ * there. False, and nothing written, if there is none. A segment never slips through between two
+ * facets; one that runs within a facet meets only those at its ends. */
+bool iccp_domain_cross(const icc_domain *domain, const double *from, const double *to, double *share,
+                       uint32_t *facet, double *bary);
+
+/* All crossings of the boundary with the line through a local point along an axis, sorted; see
+ * iccp_line_crossings(). The inside lies between each even one and the next. */
+size_t iccp_domain_line(const icc_domain *domain, int32_t axis, const double *point,
+                        size_t capacity, iccp_line_crossing *crossings);
 
 #endif

@@ -1,0 +1,148 @@
+#include "domain/complex.h"
+
+#include "base/error.h"
+
+#include <stdbool.h>
+#include <string.h>
+
+static const uint32_t NONE = UINT32_MAX;
+
+static const uint32_t *corners(const iccp_complex *c, size_t facet)
+{
+    return c->facets + c->dim * facet;
+}
+
+/* A corner of a facet is number dim f + i. Floods reach what hangs together with a first one. */
+typedef struct flood {
+    const iccp_complex *c;
+    bool *reached;    /* per corner */
+    uint32_t *queue;  /* room for all corners */
+    uint32_t *at;     /* per vertex: a facet there, or NONE */
+} flood;
+
+static size_t corner_of(const iccp_complex *c, size_t facet, uint32_t vertex)
+{
+    size_t i = 0;
+    while (corners(c, facet)[i] != vertex)
+        ++i;
+    return i;
+}
+
+/* The corners at one vertex that can be reached across ridges at it. */
+static void flood_vertex(flood *f, uint32_t first)
+{
+    const iccp_complex *c = f->c;
+    const uint32_t dim = (uint32_t)c->dim, vertex = c->facets[first];
+    size_t n = 0, done = 0;
+    f->queue[n++] = first;
+    f->reached[first] = true;
+    while (done < n) {
+        const uint32_t corner = f->queue[done++], facet = corner / dim;
+        for (uint32_t i = 0; i < dim; ++i) {
+            if (dim * facet + i == corner)
+                continue;
+            const uint32_t other = c->across[dim * facet + i];
+            const uint32_t next = dim * other + (uint32_t)corner_of(c, other, vertex);
+            if (!f->reached[next]) {
+                f->reached[next] = true;
+                f->queue[n++] = next;
+            }
+        }
+    }
+}
+
+static icc_status check_vertices(flood *f, icc_error *err)
+{
+    const iccp_complex *c = f->c;
+    for (size_t v = 0; v < c->n_vertices; ++v)
+        f->at[v] = NONE;
+    memset(f->reached, 0, c->dim * c->n_facets * sizeof *f->reached);
+    for (uint32_t corner = 0; corner < c->dim * c->n_facets; ++corner) {
+        if (f->reached[corner])
+            continue;
+        const uint32_t v = c->facets[corner], facet = corner / (uint32_t)c->dim;
+        const char *name = iccp_complex_facet(c->dim);
+        if (f->at[v] != NONE)
+            return iccp_fail(err, ICC_ERR_BOUNDARY, v,
+                             "two surfaces share vertex %lu: %ss %lu and %lu there are not "
+                             "connected round it",
+                             (unsigned long)v, name, (unsigned long)f->at[v],
+                             (unsigned long)facet);
+        f->at[v] = facet;
+        flood_vertex(f, corner);
+    }
+    return ICC_OK;
+}
+
+/* How many facets hang together with facet 0; reached[] says which. */
+static size_t flood_facets(flood *f)
+{
+    const iccp_complex *c = f->c;
+    size_t n = 0, done = 0;
+    memset(f->reached, 0, c->n_facets * sizeof *f->reached);
+    f->queue[n++] = 0;
+    f->reached[0] = true;
+    while (done < n) {
+        const size_t facet = f->queue[done++];
+        for (size_t i = 0; i < c->dim; ++i) {
+            const uint32_t other = c->across[c->dim * facet + i];
+            if (!f->reached[other]) {
+                f->reached[other] = true;
+                f->queue[n++] = other;
+            }
+        }
+    }
+    return n;
+}
+
+static icc_status check_connected(flood *f, icc_error *err)
+{
+    const iccp_complex *c = f->c;
+    const char *name = iccp_complex_facet(c->dim);
+    const size_t n = flood_facets(f);
+    size_t other = 0;
+    while (other < c->n_facets && f->reached[other])
+        ++other;
+    if (other == c->n_facets)
+        return ICC_OK;
+    return iccp_fail(err, ICC_ERR_TOPOLOGY, (int64_t)other,
+                     "the boundary has more than one component, or the shape an inner void: %s %zu "
+                     "is not connected to %s 0 (%zu %ss are)",
+                     name, other, name, n, name);
+}
+
+/* L. Euler: V - E + F = 2 - 2 genus for a closed connected oriented surface. */
+static icc_status check_genus(const flood *f, icc_error *err)
+{
+    const iccp_complex *c = f->c;
+    size_t n = 0;
+    for (size_t v = 0; v < c->n_vertices; ++v)
+        n += f->at[v] != NONE;
+    const size_t genus = (2 + c->n_facets / 2 - n) / 2;
+    if (genus == 0)
+        return ICC_OK;
+    return iccp_fail(err, ICC_ERR_TOPOLOGY, -1,
+                     "the surface has genus %zu: it must be a sphere, without handles", genus);
+}
+
+icc_status iccp_complex_check_shape(const iccp_complex *c, const iccp_env *env, icc_error *err)
+{
+    const iccp_memory *memory = &env->memory;
+    flood f = {.c = c};
+    f.reached = iccp_alloc(memory, c->dim * c->n_facets, sizeof *f.reached);
+    f.queue = iccp_alloc(memory, c->dim * c->n_facets, sizeof *f.queue);
+    f.at = iccp_alloc(memory, c->n_vertices, sizeof *f.at);
+    icc_status status = ICC_OK;
+    if (f.reached == NULL || f.queue == NULL || f.at == NULL)
+        status = iccp_fail_memory(err);
+    if (status == ICC_OK)
+        status = check_vertices(&f, err);
+    if (status == ICC_OK)
+        status = check_connected(&f, err);
+    if (status == ICC_OK && c->dim == 3)
+        status = check_genus(&f, err);
+    iccp_free(memory, f.at);
+    iccp_free(memory, f.queue);
+    iccp_free(memory, f.reached);
+    return status;
+}

@@ -1,0 +1,81 @@
+/* Branch and bound over a tree of boxes, the nearer child first: N. Roussopoulos, S. Kelley,
+ * F. Vincent, Nearest Neighbor Queries, 1995. */
+#include "domain/facet_tree.h"
+
+#include "domain/simplex.h"
+
+#include <math.h>
+
+enum {
+    LEAF = ICCP_FACET_LEAF,
+    DEEP = 64 /* more than any path is long */
+};
+
+static double box_distance2(size_t dim, const double *box, const double *p)
+{
+    double sum = 0;
+    for (size_t k = 0; k < dim; ++k) {
+        const double below = box[k] - p[k], above = p[k] - box[dim + k];
+        const double d = below > above ? below : above;
+        sum += d > 0 ? d * d : 0;
+    }
+    return sum;
+}
+
+typedef struct nearest {
+    uint32_t facet;
+    double distance2;
+    double *bary;
+} nearest;
+
+static void search_leaf(const iccp_facet_tree *tree, size_t node, const double *p, nearest *best)
+{
+    const size_t dim = tree->dim, first = (node - tree->n_leaves) * LEAF;
+    for (size_t place = first; place < first + LEAF && place < tree->n; ++place) {
+        const uint32_t facet = tree->order[place];
+        const double *corners[ICC_MAX_DIM];
+        double box[2 * ICC_MAX_DIM], bary[ICC_MAX_DIM];
+        iccp_facet_box(tree, facet, box);
+        if (box_distance2(dim, box, p) > best->distance2)
+            continue;
+        iccp_facet_corners(tree, facet, corners);
+        const double distance2 = iccp_simplex_nearest(dim, dim, corners, p, bary);
+        if (distance2 > best->distance2 || (distance2 == best->distance2 && facet > best->facet))
+            continue;
+        best->facet = facet;
+        best->distance2 = distance2;
+        for (size_t i = 0; i < dim; ++i)
+            best->bary[i] = bary[i];
+    }
+}
+
+uint32_t iccp_facet_tree_nearest(const iccp_facet_tree *tree, const double *p, double *bary,
+                                 double *distance2)
+{
+    struct {
+        size_t node;
+        double distance2;
+    } stack[DEEP];
+    const size_t size = 2 * tree->dim;
+    nearest best = {UINT32_MAX, HUGE_VAL, bary};
+    size_t depth = 0, node = 1;
+    for (;;) {
+        while (node < tree->n_leaves) {
+            const double left = box_distance2(tree->dim, tree->boxes + size * 2 * node, p);
+            const double right = box_distance2(tree->dim, tree->boxes + size * (2 * node + 1), p);
+            const size_t far = right < left ? 2 * node : 2 * node + 1;
+            stack[depth].node = far;
+            stack[depth++].distance2 = right < left ? left : right;
+            node = far ^ 1;
+        }
+        search_leaf(tree, node, p, &best);
+        do {
+            if (depth == 0) {
+                *distance2 = best.distance2;
+                return best.facet;
+            }
+            --depth;
+        } while (stack[depth].distance2 > best.distance2);
+        node = stack[depth].node;
+    }
+}

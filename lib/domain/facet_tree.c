@@ -1,0 +1,243 @@
+/* A tree of boxes halved at the median of the facets' centres along the longest side: C. Ericson,
+ * Real-Time Collision Detection, sections 6.2 and 6.6. The halving runs level by level, without
+ * recursion. */
+#include "domain/facet_tree.h"
+
+#include <math.h>
+
+enum { LEAF = ICCP_FACET_LEAF };
+
+/* ------------------------------------------------------------------ making */
+
+static void include(size_t dim, double *box, const double *other)
+{
+    for (size_t k = 0; k < dim; ++k) {
+        box[k] = other[k] < box[k] ? other[k] : box[k];
+        box[dim + k] = other[dim + k] > box[dim + k] ? other[dim + k] : box[dim + k];
+    }
+}
+
+/* The axis along which the centres spread most. */
+static size_t widest_axis(size_t dim, const double *centres, const uint32_t *order, size_t n)
+{
+    size_t widest = 0;
+    double most = -1;
+    for (size_t k = 0; k < dim; ++k) {
+        double low = HUGE_VAL, high = -HUGE_VAL;
+        for (size_t i = 0; i < n; ++i) {
+            const double x = centres[dim * order[i] + k];
+            low = x < low ? x : low;
+            high = x > high ? x : high;
+        }
+        if (high - low > most) {
+            most = high - low;
+            widest = k;
+        }
+    }
+    return widest;
+}
+
+typedef struct sorter {
+    const double *keys; /* of facet f: keys[stride f] */
+    size_t stride;
+} sorter;
+
+/* A strict order: of equal keys the smaller number comes first. */
+static bool before(const sorter *s, uint32_t a, uint32_t b)
+{
+    const double x = s->keys[s->stride * a], y = s->keys[s->stride * b];
+    return x < y || (x == y && a < b);
+}
+
+static uint32_t middle_of_three(const sorter *s, uint32_t a, uint32_t b, uint32_t c)
+{
+    if (before(s, a, b))
+        return before(s, b, c) ? b : before(s, a, c) ? c : a;
+    return before(s, a, c) ? a : before(s, b, c) ? c : b;
+}
+
+/* C. A. R. Hoare, Algorithm 65: Find, 1961: puts the n_first smallest of n at the beginning. */
+static void split(const sorter *s, uint32_t *order, ptrdiff_t n_first, ptrdiff_t n)
+{
+    ptrdiff_t low = 0, high = n - 1;
+    while (low < high) {
+        const uint32_t pivot =
+            middle_of_three(s, order[low], order[low + (high - low) / 2], order[high]);
+        ptrdiff_t i = low, j = high;
+        while (i <= j) {
+            while (before(s, order[i], pivot))
+                ++i;
+            while (before(s, pivot, order[j]))
+                --j;
+            if (i > j)
+                break;
+            const uint32_t swap = order[i];
+            order[i++] = order[j];
+            order[j--] = swap;
+        }
+        if (j < n_first)
+            low = i;
+        if (n_first < i)
+            high = j;
+    }
+}
+
+static void arrange(iccp_facet_tree *tree, const double *centres)
+{
+    for (uint32_t f = 0; f < tree->n; ++f)
+        tree->order[f] = f;
+    for (size_t size = tree->n_leaves * LEAF; size > LEAF; size /= 2)
+        for (size_t first = 0; first + size / 2 < tree->n; first += size) {
+            const size_t n = tree->n - first < size ? tree->n - first : size;
+            const size_t axis = widest_axis(tree->dim, centres, tree->order + first, n);
+            const sorter s = {centres + axis, tree->dim};
+            split(&s, tree->order + first, (ptrdiff_t)(size / 2), (ptrdiff_t)n);
+        }
+}
+
+static void fill_boxes(iccp_facet_tree *tree)
+{
+    const size_t dim = tree->dim;
+    for (size_t i = 0; i < 4 * dim * tree->n_leaves; ++i)
+        tree->boxes[i] = i % (2 * dim) < dim ? HUGE_VAL : -HUGE_VAL;
+    for (size_t place = 0; place < tree->n; ++place) {
+        double box[2 * ICC_MAX_DIM];
+        iccp_facet_box(tree, tree->order[place], box);
+        include(dim, tree->boxes + 2 * dim * (tree->n_leaves + place / LEAF), box);
+    }
+    for (size_t node = 2 * tree->n_leaves; node-- > 2;)
+        include(dim, tree->boxes + 2 * dim * (node / 2), tree->boxes + 2 * dim * node);
+}
+
+void iccp_facet_tree_create(iccp_facet_tree *tree, size_t dim, const double *vertices, size_t n,
+                            const uint32_t *facets, const iccp_memory *memory)
+{
+    *tree = (iccp_facet_tree){
+        .dim = dim, .n = n, .vertices = vertices, .facets = facets, .n_leaves = 1};
+    while (tree->n_leaves * LEAF < n)
+        tree->n_leaves *= 2;
+    double *centres = iccp_alloc(memory, n, dim * sizeof *centres);
+    tree->order = iccp_alloc(memory, n, sizeof *tree->order);
+    tree->boxes = iccp_alloc(memory, 2 * tree->n_leaves, 2 * dim * sizeof *tree->boxes);
+    if (centres == NULL || tree->order == NULL || tree->boxes == NULL) {
+        iccp_free(memory, centres);
+        iccp_facet_tree_free(tree, memory);
+        return;
+    }
+    for (uint32_t f = 0; f < n; ++f) {
+        double box[2 * ICC_MAX_DIM];
+        iccp_facet_box(tree, f, box);
+        for (size_t k = 0; k < dim; ++k)
+            centres[dim * f + k] = box[k] + box[dim + k];
+    }
+    arrange(tree, centres);
+    fill_boxes(tree);
+    iccp_free(memory, centres);
+}
+
+void iccp_facet_tree_free(iccp_facet_tree *tree, const iccp_memory *memory)
+{
+    iccp_free(memory, tree->boxes);
+    iccp_free(memory, tree->order);
+    *tree = (iccp_facet_tree){0};
+}
+
+/* ------------------------------------------------------------------ boxes */
+
+static bool overlap(size_t dim, const double *a, const double *b)
+{
+    for (size_t k = 0; k < dim; ++k)
+        if (!(a[k] <= b[dim + k] && b[k] <= a[dim + k]))
+            return false;
+    return true;
+}
+
+/* Whether the segment passes through a box, or within rounding of it: the shares of the way at which
+ * it enters and leaves each pair of planes (Ericson, section 5.3.3), a little too generous. */
+static bool passes(size_t dim, const double *box, const double *from, const double *to)
+{
+    double enter = 0, leave = 1;
+    for (size_t k = 0; k < dim; ++k) {
+        const double step = to[k] - from[k];
+        if (!(fabs(step) > 0))
+            continue; /* overlap() has looked */
+        const double low = (box[k] - from[k]) / step, high = (box[dim + k] - from[k]) / step;
+        const double slack = 1e-14 * (1 + fabs(from[k] / step));
+        enter = fmax(enter, fmin(low, high) - slack);
+        leave = fmin(leave, fmax(low, high) + slack);
+    }
+    return enter <= leave;
+}
+
+static bool wanted(const iccp_facet_query *query, const double *box)
+{
+    const size_t dim = query->tree->dim;
+    return overlap(dim, box, query->box) &&
+           (query->from == NULL || passes(dim, box, query->from, query->to));
+}
+
+static void enter_leaf(iccp_facet_query *query, size_t node)
+{
+    const size_t first = (node - query->tree->n_leaves) * LEAF;
+    query->node = node;
+    query->next = first;
+    query->end = first + LEAF < query->tree->n ? first + LEAF : query->tree->n;
+}
+
+/* The node after a node and all below it, from left to right; 0 at the end. */
+static size_t skip(size_t node)
+{
+    while (node & 1)
+        node >>= 1;
+    return node == 0 ? 0 : node + 1;
+}
+
+/* Goes to the first wanted leaf from a node on. */
+static bool descend(iccp_facet_query *query, size_t node)
+{
+    const iccp_facet_tree *tree = query->tree;
+    while (node != 0) {
+        if (!wanted(query, tree->boxes + 2 * tree->dim * node))
+            node = skip(node);
+        else if (node < tree->n_leaves)
+            node = 2 * node;
+        else
+            break;
+    }
+    if (node != 0)
+        enter_leaf(query, node);
+    return node != 0;
+}
+
+void iccp_facet_query_start(iccp_facet_query *query, const iccp_facet_tree *tree,
+                            const double *box)
+{
+    *query = (iccp_facet_query){.tree = tree};
+    for (size_t i = 0; i < 2 * tree->dim; ++i)
+        query->box[i] = box[i];
+    (void)descend(query, 1);
+}
+
+void iccp_facet_query_start_after(iccp_facet_query *query, const iccp_facet_tree *tree,
+                                  size_t place)
+{
+    *query = (iccp_facet_query){.tree = tree};
+    iccp_facet_box(tree, tree->order[place], query->box);
+    enter_leaf(query, tree->n_leaves + place / LEAF);
+    query->next = place + 1;
+}
+
+bool iccp_facet_query_next(iccp_facet_query *query, uint32_t *facet)
+{
+    do {
+        while (query->next < query->end) {
+            double box[2 * ICC_MAX_DIM];
+            *facet = query->tree->order[query->next++];
+            iccp_facet_box(query->tree, *facet, box);
+            if (wanted(query, box))
+                return true;
+        }
+    } while (query->end > 0 && descend(query, skip(query->node)));
+    query->end = 0;
+    return false;
+}

@@ -1,0 +1,75 @@
+/* A tree of bounding boxes over the facets of a boundary in any dimension. */
+#ifndef ICCP_FACET_TREE_H
+#define ICCP_FACET_TREE_H
+
+#include "base/memory.h"
+#include "icc/base.h"
+
+#include <stdbool.h>
+
+enum { ICCP_FACET_LEAF = 4 };
+
+/* A complete binary tree stored as a heap, as domain/boxtree.h has it for polygons: node 1 is the root,
+ * leaf n_leaves + j holds places 4 j to 4 j + 3, and order[] says which facets stand there. */
+typedef struct iccp_facet_tree {
+    size_t dim, n;
+    const double *vertices; /* borrowed: dim coordinates each */
+    const uint32_t *facets; /* borrowed: dim corners each */
+    size_t n_leaves;
+    double *boxes; /* 2 dim numbers a node: lower, upper */
+    uint32_t *order;
+} iccp_facet_tree;
+
+/* tree->boxes is NULL if there is no memory. */
+void iccp_facet_tree_create(iccp_facet_tree *tree, size_t dim, const double *vertices,
+                            size_t n_facets, const uint32_t *facets, const iccp_memory *memory);
+void iccp_facet_tree_free(iccp_facet_tree *tree, const iccp_memory *memory);
+
+/* The corners of a facet. */
+static inline void iccp_facet_corners(const iccp_facet_tree *tree, uint32_t facet,
+                                      const double **corners)
+{
+    for (size_t i = 0; i < tree->dim; ++i)
+        corners[i] = tree->vertices + tree->dim * tree->facets[tree->dim * facet + i];
+}
+
+/* Its bounding box: lower and upper. */
+static inline void iccp_facet_box(const iccp_facet_tree *tree, uint32_t facet, double *box)
+{
+    const size_t dim = tree->dim;
+    const double *corners[ICC_MAX_DIM];
+    iccp_facet_corners(tree, facet, corners);
+    for (size_t k = 0; k < dim; ++k) {
+        box[k] = box[dim + k] = corners[0][k];
+        for (size_t i = 1; i < dim; ++i) {
+            box[k] = corners[i][k] < box[k] ? corners[i][k] : box[k];
+            box[dim + k] = corners[i][k] > box[dim + k] ? corners[i][k] : box[dim + k];
+        }
+    }
+}
+
+/* Lists the facets whose boxes meet a given one, touching included. */
+typedef struct iccp_facet_query {
+    const iccp_facet_tree *tree;
+    double box[2 * ICC_MAX_DIM]; /* may be made smaller at any time */
+    const double *from, *to;     /* with a segment: only boxes that come near it; or NULL */
+    size_t node;
+    size_t next, end; /* places of the current leaf yet to be looked at */
+} iccp_facet_query;
+
+/* In the order of the tree. `box`: 2 dim numbers, lower and upper. */
+void iccp_facet_query_start(iccp_facet_query *query, const iccp_facet_tree *tree,
+                            const double *box);
+
+/* For the box of the facet at a place, and only facets at later places. */
+void iccp_facet_query_start_after(iccp_facet_query *query, const iccp_facet_tree *tree,
+                                  size_t place);
+
+bool iccp_facet_query_next(iccp_facet_query *query, uint32_t *facet);
+
+/* The facet nearest to a finite p (of several, the first), the barycentric coordinates of the nearest
+ * point on it, and the squared distance. */
+uint32_t iccp_facet_tree_nearest(const iccp_facet_tree *tree, const double *p, double *bary,
+                                 double *distance2);
+
+#endif

@@ -1,0 +1,82 @@
+/* The boundary by distance, the rest by the parity of crossings on the shortest way out along an axis
+ * (C. Ericson, Real-Time Collision Detection, section 5.4.1, with exact signs). */
+#include "domain/inside.h"
+
+#include "domain/crossings.h"
+#include "domain/simplex.h"
+#include "icc/icc.h"
+
+#include <math.h>
+
+enum { MAX = ICC_MAX_DIM };
+
+/* Products of three of them stay finite, and all facets are equally far in doubles. */
+static const double FAR = 1e60;
+static const double TINY = 0x1p-200;
+
+void iccp_inside_reach(size_t dim, const double *p, double *reachable)
+{
+    for (size_t k = 0; k < dim; ++k) {
+        const double x = p[k] > FAR ? FAR : p[k] < -FAR ? -FAR : p[k];
+        reachable[k] = fabs(x) >= TINY ? x : 0;
+    }
+}
+
+static bool on_boundary(const iccp_facet_tree *tree, double tolerance, const double *p,
+                        uint32_t *facet, double *bary)
+{
+    double box[2 * MAX], best = tolerance * tolerance;
+    iccp_facet_query query;
+    uint32_t next;
+    bool found = false;
+    for (size_t k = 0; k < tree->dim; ++k) {
+        box[k] = p[k] - tolerance;
+        box[tree->dim + k] = p[k] + tolerance;
+    }
+    iccp_facet_query_start(&query, tree, box);
+    while (iccp_facet_query_next(&query, &next)) {
+        const double *corners[MAX];
+        double share[MAX];
+        iccp_facet_corners(tree, next, corners);
+        const double distance2 = iccp_simplex_nearest(tree->dim, tree->dim, corners, p, share);
+        if (distance2 > best || (found && !(distance2 < best) && next > *facet))
+            continue;
+        found = true;
+        best = distance2;
+        *facet = next;
+        for (size_t i = 0; i < tree->dim; ++i)
+            bary[i] = share[i];
+    }
+    return found;
+}
+
+/* The axis and direction in which p is nearest to a side of the box; false if it lies beyond one. */
+static bool way_out(const iccp_facet_tree *tree, const double *p, size_t *axis, bool *upwards)
+{
+    const double *box = tree->boxes + 2 * tree->dim;
+    double shortest = HUGE_VAL;
+    for (size_t k = 0; k < tree->dim; ++k) {
+        const double down = p[k] - box[k], up = box[tree->dim + k] - p[k];
+        const double way = up < down ? up : down;
+        if (way < 0)
+            return false;
+        if (way < shortest) {
+            shortest = way;
+            *axis = k;
+            *upwards = up < down;
+        }
+    }
+    return true;
+}
+
+int32_t iccp_inside_find(const iccp_facet_tree *tree, double tolerance, const double *p,
+                         uint32_t *facet, double *bary)
+{
+    size_t axis = 0;
+    bool upwards = true;
+    if (on_boundary(tree, tolerance, p, facet, bary))
+        return ICC_BOUNDARY;
+    if (!way_out(tree, p, &axis, &upwards))
+        return ICC_OUTSIDE;
+    return iccp_ray_parity(tree, axis, upwards, p) ? ICC_INSIDE : ICC_OUTSIDE;
+}

@@ -1,0 +1,174 @@
+/* Two triangles meet if and only if a side of one meets the other: C. Ericson, Real-Time Collision
+ * Detection, section 5.2.10, with exact signs in place of its coordinates, and coplanar triangles in a
+ * projection. Triangles with a common corner meet elsewhere if and only if the opposite side of one
+ * meets the other: what they share beyond the corner reaches one of these sides. */
+#include "domain/triangles.h"
+
+#include "domain/segment.h"
+#include "math/predicates.h"
+
+typedef const double *const *triangle;
+
+static void drop(double *out, const double *p, int axis)
+{
+    out[0] = p[(axis + 1) % 3];
+    out[1] = p[(axis + 2) % 3];
+}
+
+/* An axis along which the triangle's shadow has an area, and the shadow. */
+static void cast_shadow(triangle t, double shadow[3][2], int *axis)
+{
+    for (*axis = 0; *axis < 3; ++*axis) {
+        for (int i = 0; i < 3; ++i)
+            drop(shadow[i], t[i], *axis);
+        if (iccp_orient2d(shadow[0], shadow[1], shadow[2]) != 0)
+            return;
+    }
+    *axis = 0;
+}
+
+static bool has_point(double t[3][2], const double *p)
+{
+    bool left = false, right = false;
+    for (int i = 0; i < 3; ++i) {
+        const int turn = iccp_orient2d(t[i], t[(i + 1) % 3], p);
+        left |= turn > 0;
+        right |= turn < 0;
+    }
+    return !(left && right);
+}
+
+static bool coplanar_segment_meets(const double *p, const double *q, triangle t)
+{
+    double shadow[3][2], from[2], to[2];
+    int axis;
+    cast_shadow(t, shadow, &axis);
+    drop(from, p, axis);
+    drop(to, q, axis);
+    for (int i = 0; i < 3; ++i)
+        if (iccp_segments_meet(from, to, shadow[i], shadow[(i + 1) % 3]) != 0)
+            return true;
+    return has_point(shadow, from);
+}
+
+static bool segment_meets(const double *p, const double *q, triangle t)
+{
+    const int side = iccp_orient3d(t[0], t[1], t[2], p);
+    if (side == iccp_orient3d(t[0], t[1], t[2], q))
+        return side == 0 && coplanar_segment_meets(p, q, t);
+    const int first = iccp_orient3d(p, q, t[0], t[1]);
+    const int second = iccp_orient3d(p, q, t[1], t[2]);
+    if (first * second < 0)
+        return false;
+    const int third = iccp_orient3d(p, q, t[2], t[0]);
+    return first * third >= 0 && second * third >= 0;
+}
+
+/* Whether points lie strictly on one side of a triangle's plane. */
+static bool beside(triangle t, size_t n, triangle points)
+{
+    const int side = iccp_orient3d(t[0], t[1], t[2], points[0]);
+    for (size_t i = 1; side != 0 && i < n; ++i)
+        if (iccp_orient3d(t[0], t[1], t[2], points[i]) != side)
+            return false;
+    return side != 0;
+}
+
+static bool meet_apart(triangle s, triangle t)
+{
+    if (beside(s, 3, t) || beside(t, 3, s))
+        return false;
+    for (int i = 0; i < 3; ++i)
+        if (segment_meets(s[i], s[(i + 1) % 3], t) || segment_meets(t[i], t[(i + 1) % 3], s))
+            return true;
+    return false;
+}
+
+/* s[0] and t[0] are the common corner. */
+static bool meet_at_corner(triangle s, triangle t)
+{
+    if (beside(s, 2, t + 1) || beside(t, 2, s + 1))
+        return false;
+    return segment_meets(s[1], s[2], t) || segment_meets(t[1], t[2], s);
+}
+
+/* The first two corners are common: the triangles overlap if they are coplanar and their third corners
+ * lie on the same side. */
+static bool meet_at_side(triangle s, triangle t)
+{
+    if (iccp_orient3d(s[0], s[1], s[2], t[2]) != 0)
+        return false;
+    double shadow[3][2], other[2];
+    int axis;
+    cast_shadow(s, shadow, &axis);
+    drop(other, t[2], axis);
+    return iccp_orient2d(shadow[0], shadow[1], shadow[2]) ==
+           iccp_orient2d(shadow[0], shadow[1], other);
+}
+
+/* Lists the corners with the common ones first, in the same order in both. */
+static int match(const double *vertices, const uint32_t *s, const uint32_t *t, const double **a,
+                 const double **b)
+{
+    int n = 0, n_other = 0;
+    bool taken[3] = {false, false, false};
+    const double *rest[3];
+    for (int i = 0; i < 3; ++i) {
+        int j = 0;
+        while (j < 3 && s[i] != t[j])
+            ++j;
+        if (j < 3) {
+            taken[j] = true;
+            a[n] = b[n] = vertices + 3 * (size_t)s[i];
+            ++n;
+        } else {
+            rest[n_other++] = vertices + 3 * (size_t)s[i];
+        }
+    }
+    for (int i = 0; i < n_other; ++i)
+        a[n + i] = rest[i];
+    for (int j = 0, k = n; j < 3; ++j)
+        if (!taken[j])
+            b[k++] = vertices + 3 * (size_t)t[j];
+    return n;
+}
+
+bool iccp_triangles_meet(const double *vertices, const uint32_t *s, const uint32_t *t)
+{
+    const double *a[3], *b[3];
+    switch (match(vertices, s, t, a, b)) {
+    case 0:
+        return meet_apart(a, b);
+    case 1:
+        return meet_at_corner(a, b);
+    case 2:
+        return meet_at_side(a, b);
+    default:
+        return true;
+    }
+}
+
+icc_status iccp_triangles_find(const iccp_facet_tree *tree, uint32_t pair[2], const iccp_env *env)
+{
+    pair[0] = pair[1] = 0;
+    for (size_t place = 0; place < tree->n; ++place) {
+        if (place % 256 == 0) {
+            const icc_status status =
+                iccp_progress(env, "check surface", (double)place / (double)tree->n);
+            if (status != ICC_OK)
+                return status;
+        }
+        const uint32_t f = tree->order[place];
+        iccp_facet_query query;
+        uint32_t g;
+        iccp_facet_query_start_after(&query, tree, place);
+        while (iccp_facet_query_next(&query, &g))
+            if (iccp_triangles_meet(tree->vertices, tree->facets + 3 * (size_t)f,
+                                    tree->facets + 3 * (size_t)g)) {
+                pair[0] = f < g ? f : g;
+                pair[1] = f < g ? g : f;
+                return ICC_OK;
+            }
+    }
+    return ICC_OK;
+}

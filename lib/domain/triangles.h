@@ -1,0 +1,16 @@
+/* Whether the triangles of a closed surface meet where they should not. Exact. */
+#ifndef ICCP_TRIANGLES_H
+#define ICCP_TRIANGLES_H
+
+#include "base/env.h"
+#include "domain/facet_tree.h"
+
+/* Whether two different triangles, three vertex indices each, have a point in common that does not
+ * belong to the corners or the side that they share. Neither has area 0. */
+bool iccp_triangles_meet(const double *vertices, const uint32_t *s, const uint32_t *t);
+
+/* A pair of triangles that meet so, the first in the order of the tree; pair[0] < pair[1]. Two equal
+ * numbers if there is none. ICC_OK or ICC_ERR_CANCELLED. */
+icc_status iccp_triangles_find(const iccp_facet_tree *tree, uint32_t pair[2], const iccp_env *env);
+
+#endif
