@@ -75,6 +75,21 @@ ICC_API icc_status icc_grid_create(icc_grid **out, const icc_domain *domain, int
 ICC_API icc_status icc_grid_create_mask(icc_grid **out, int32_t dim, const size_t *shape,
                                         const uint8_t *inside, const icc_env *env, icc_error *err);
 
+/**
+ * Makes a grid of half the spacing with the same inside: each simplex of the Kuhn triangulation is cut
+ * into 2^dim, and a new vertex is inside when both ends of the edge that it halves are. Walls one
+ * vertex thick stay so; for a grid that follows its domain more closely, make one with twice
+ * icc_grid_info::cells.
+ *
+ * @param[out] out the grid; owned by the caller
+ * @param grid     the grid
+ * @param env      may be NULL
+ * @param err      may be NULL
+ * @return ::ICC_OK, ::ICC_ERR_RESOLUTION (more than 2^28 vertices), ...
+ */
+ICC_API icc_status icc_grid_refine(icc_grid **out, const icc_grid *grid, const icc_env *env,
+                                   icc_error *err);
+
 /** Frees a grid. */
 ICC_API void icc_grid_free(icc_grid *grid);
 

@@ -9,6 +9,7 @@
 #include "grid/grassfire.h"
 #include "grid/lattice.h"
 #include "grid/rasterise.h"
+#include "grid/refine.h"
 #include "icc/stages.h"
 #include "mesh/triangulate.h"
 #include "tree/cousin.h"
@@ -70,6 +71,18 @@ icc_status icc_grid_create_mask(icc_grid **out, int32_t dim, const size_t *shape
         if (shape[k] == 0)
             return iccp_fail(err, ICC_ERR_ARGUMENT, k, "shape[%ld] is 0", (long)k);
     return iccp_explain(err, iccp_grid_create_mask(out, dim, shape, inside, &full_env, err));
+}
+
+icc_status icc_grid_refine(icc_grid **out, const icc_grid *grid, const icc_env *env, icc_error *err)
+{
+    if (out != NULL)
+        *out = NULL;
+    iccp_env full_env;
+    const char *missing = out == NULL ? "out" : grid == NULL ? "grid" : NULL;
+    const icc_status status = begin(&full_env, env, missing, err);
+    if (status != ICC_OK)
+        return status;
+    return iccp_explain(err, iccp_grid_refine(out, grid, &full_env, err));
 }
 
 void icc_grid_free(icc_grid *grid)
