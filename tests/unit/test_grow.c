@@ -11,7 +11,6 @@
 
 #include <check.h>
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 enum { MAX_VERTICES = 1 << 17, MAX_CELLS = 1 << 12 };
@@ -203,12 +202,9 @@ static icc_grow_report grow(const icc_tree *tree, const double *values, uint32_t
 
 static uint32_t rank[MAX_VERTICES];
 
-/* Whether the order of the tree has one critical vertex by itself. */
-static bool tree_is_regular(const icc_tree *tree)
+static bool is_regular(const icc_tree *tree)
 {
     icc_field_report found = {.size = sizeof found};
-    for (size_t i = 0; i < tree->n_inside; ++i)
-        rank[tree->order[i]] = (uint32_t)i;
     ck_assert_int_eq(icc_tree_verify_ranks(tree, rank, &found, NULL, NULL), ICC_OK);
     return found.critical == UINT32_MAX && found.n_maxima == 1;
 }
@@ -244,7 +240,8 @@ START_TEST(the_queue_gives_out_the_smallest)
 }
 END_TEST
 
-/* A well of one cell by one, two deep, each cell cut in two. */
+/* A well of one cell by one, two deep, each cell cut in two. The generations alone leave half of the roots
+ * with a critical vertex besides; how many depends on how ties are broken. */
 START_TEST(every_root_in_an_open_box)
 {
     const cells box = open_box(1, 2);
@@ -255,12 +252,16 @@ START_TEST(every_root_in_an_open_box)
         if (!grid->inside[root])
             continue;
         icc_tree *tree = tree_of(grid, root);
-        const bool regular = tree_is_regular(tree);
+        for (uint32_t v = 0; v < grid->n_vertices; ++v) /* lower indices first */
+            rank[v] = (uint32_t)tree->generation[v] * (uint32_t)grid->n_vertices + v;
+        n_irregular += !is_regular(tree);
+        for (uint32_t i = 0; i < tree->n_inside; ++i)
+            rank[tree->order[i]] = i;
+        const bool regular = is_regular(tree);
         const icc_grow_report report = grow(tree, NULL, rank);
         ck_assert_uint_eq(report.n_unplaced, 0);
         ck_assert((report.method == ICC_GROW_AS_WISHED) == regular);
         ck_assert((report.n_postponed == 0) == regular);
-        n_irregular += !regular;
         icc_tree_free(tree);
     }
     ck_assert_uint_eq(n_irregular, 171);
@@ -291,25 +292,25 @@ START_TEST(a_house_with_thin_walls)
 }
 END_TEST
 
-/* Thick walls make the house a ball, but not an easy one: whether an order is found is open. */
+/* Thick walls make the house a ball. Growth gets stuck in it all the same; thinning need not. */
 START_TEST(a_house_with_thick_walls)
 {
     const cells h = house();
     random_source r = {2};
-    size_t n_stuck = 0, n_found = 0;
+    size_t n_stuck = 0, n_thinned = 0;
     for (size_t cuts = 1; cuts <= 3; ++cuts) {
         icc_grid *grid = closed_grid(&h, cuts);
         for (int i = 0; i < 12; ++i) {
             icc_tree *tree = tree_of(grid, random_inside(&r, grid));
             const icc_grow_report report = grow(tree, NULL, rank);
             n_stuck += report.n_unplaced > 0;
-            n_found += report.n_left == 0;
+            n_thinned += report.n_unplaced > 0 && report.n_left == 0;
             icc_tree_free(tree);
         }
         icc_grid_free(grid);
     }
     ck_assert_uint_gt(n_stuck, 0);
-    (void)printf("thick houses: growth stuck %zu of 36, found %zu\n", n_stuck, n_found);
+    ck_assert_uint_gt(n_thinned, 0);
 }
 END_TEST
 
