@@ -35,7 +35,7 @@ icc_status icc_domain_create(icc_domain **out, int32_t dim, size_t n_vertices,
     if (dim < 1 || dim > ICC_MAX_DIM)
         return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "dim is %ld; it must lie in 1..%d", (long)dim,
                          ICC_MAX_DIM);
-    if (dim != 2 && facets == NULL)
+    if (dim != 2 && facets == NULL && n_facets > 0)
         return iccp_fail(err, ICC_ERR_ARGUMENT, -1,
                          "facets is NULL; only those of a polygon can be left out");
     iccp_env full;

@@ -11,7 +11,7 @@ enum {
     DEEP = 64 /* more than any path is long */
 };
 
-static double box_distance2(size_t dim, const double *box, const double *p)
+static ICCP_INLINE double box_distance2(size_t dim, const double *box, const double *p)
 {
     double sum = 0;
     for (size_t k = 0; k < dim; ++k) {
@@ -28,14 +28,15 @@ typedef struct nearest {
     double *bary;
 } nearest;
 
-static void search_leaf(const iccp_facet_tree *tree, size_t node, const double *p, nearest *best)
+static ICCP_INLINE void search_leaf(const iccp_facet_tree *tree, size_t dim, size_t node,
+                                    const double *p, nearest *best)
 {
-    const size_t dim = tree->dim, first = (node - tree->n_leaves) * LEAF;
+    const size_t first = (node - tree->n_leaves) * LEAF;
     for (size_t place = first; place < first + LEAF && place < tree->n; ++place) {
         const uint32_t facet = tree->order[place];
         const double *corners[ICC_MAX_DIM];
         double box[2 * ICC_MAX_DIM], bary[ICC_MAX_DIM];
-        iccp_facet_box(tree, facet, box);
+        iccp_facet_box_of(tree, dim, facet, box);
         if (box_distance2(dim, box, p) > best->distance2)
             continue;
         iccp_facet_corners(tree, facet, corners);
@@ -49,33 +50,42 @@ static void search_leaf(const iccp_facet_tree *tree, size_t node, const double *
     }
 }
 
-uint32_t iccp_facet_tree_nearest(const iccp_facet_tree *tree, const double *p, double *bary,
-                                 double *distance2)
+static ICCP_INLINE void search(const iccp_facet_tree *tree, size_t dim, const double *p,
+                               nearest *best)
 {
     struct {
         size_t node;
         double distance2;
     } stack[DEEP];
-    const size_t size = 2 * tree->dim;
-    nearest best = {UINT32_MAX, HUGE_VAL, bary};
+    const size_t size = 2 * dim;
     size_t depth = 0, node = 1;
     for (;;) {
         while (node < tree->n_leaves) {
-            const double left = box_distance2(tree->dim, tree->boxes + size * 2 * node, p);
-            const double right = box_distance2(tree->dim, tree->boxes + size * (2 * node + 1), p);
+            const double left = box_distance2(dim, tree->boxes + size * 2 * node, p);
+            const double right = box_distance2(dim, tree->boxes + size * (2 * node + 1), p);
             const size_t far = right < left ? 2 * node : 2 * node + 1;
             stack[depth].node = far;
             stack[depth++].distance2 = right < left ? left : right;
             node = far ^ 1;
         }
-        search_leaf(tree, node, p, &best);
+        search_leaf(tree, dim, node, p, best);
         do {
-            if (depth == 0) {
-                *distance2 = best.distance2;
-                return best.facet;
-            }
+            if (depth == 0)
+                return;
             --depth;
-        } while (stack[depth].distance2 > best.distance2);
+        } while (stack[depth].distance2 > best->distance2);
         node = stack[depth].node;
     }
+}
+
+uint32_t iccp_facet_tree_nearest(const iccp_facet_tree *tree, const double *p, double *bary,
+                                 double *distance2)
+{
+    nearest best = {UINT32_MAX, HUGE_VAL, bary};
+    if (tree->dim == 3)
+        search(tree, 3, p, &best);
+    else
+        search(tree, tree->dim, p, &best);
+    *distance2 = best.distance2;
+    return best.facet;
 }

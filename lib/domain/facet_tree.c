@@ -144,7 +144,7 @@ void iccp_facet_tree_free(iccp_facet_tree *tree, const iccp_memory *memory)
 
 /* ------------------------------------------------------------------ boxes */
 
-static bool overlap(size_t dim, const double *a, const double *b)
+static ICCP_INLINE bool overlap(size_t dim, const double *a, const double *b)
 {
     for (size_t k = 0; k < dim; ++k)
         if (!(a[k] <= b[dim + k] && b[k] <= a[dim + k]))
@@ -169,19 +169,10 @@ static bool passes(size_t dim, const double *box, const double *from, const doub
     return enter <= leave;
 }
 
-static bool wanted(const iccp_facet_query *query, const double *box)
+static ICCP_INLINE bool wanted(const iccp_facet_query *query, size_t dim, const double *box)
 {
-    const size_t dim = query->tree->dim;
     return overlap(dim, box, query->box) &&
            (query->from == NULL || passes(dim, box, query->from, query->to));
-}
-
-static void enter_leaf(iccp_facet_query *query, size_t node)
-{
-    const size_t first = (node - query->tree->n_leaves) * LEAF;
-    query->node = node;
-    query->next = first;
-    query->end = first + LEAF < query->tree->n ? first + LEAF : query->tree->n;
 }
 
 /* The node after a node and all below it, from left to right; 0 at the end. */
@@ -192,12 +183,20 @@ static size_t skip(size_t node)
     return node == 0 ? 0 : node + 1;
 }
 
+static void enter_leaf(iccp_facet_query *query, size_t node)
+{
+    const size_t first = (node - query->tree->n_leaves) * LEAF;
+    query->node = skip(node);
+    query->next = first;
+    query->end = first + LEAF < query->tree->n ? first + LEAF : query->tree->n;
+}
+
 /* Goes to the first wanted leaf from a node on. */
-static bool descend(iccp_facet_query *query, size_t node)
+static ICCP_INLINE bool descend(iccp_facet_query *query, size_t dim, size_t node)
 {
     const iccp_facet_tree *tree = query->tree;
     while (node != 0) {
-        if (!wanted(query, tree->boxes + 2 * tree->dim * node))
+        if (!wanted(query, dim, tree->boxes + 2 * dim * node))
             node = skip(node);
         else if (node < tree->n_leaves)
             node = 2 * node;
@@ -206,16 +205,31 @@ static bool descend(iccp_facet_query *query, size_t node)
     }
     if (node != 0)
         enter_leaf(query, node);
+    else
+        query->node = 0;
     return node != 0;
+}
+
+static ICCP_INLINE bool next_of(iccp_facet_query *query, size_t dim, uint32_t *facet)
+{
+    do {
+        while (query->next < query->end) {
+            double box[2 * ICC_MAX_DIM];
+            *facet = query->tree->order[query->next++];
+            iccp_facet_box_of(query->tree, dim, *facet, box);
+            if (wanted(query, dim, box))
+                return true;
+        }
+    } while (descend(query, dim, query->node));
+    return false;
 }
 
 void iccp_facet_query_start(iccp_facet_query *query, const iccp_facet_tree *tree,
                             const double *box)
 {
-    *query = (iccp_facet_query){.tree = tree};
+    *query = (iccp_facet_query){.tree = tree, .node = 1};
     for (size_t i = 0; i < 2 * tree->dim; ++i)
         query->box[i] = box[i];
-    (void)descend(query, 1);
 }
 
 void iccp_facet_query_start_after(iccp_facet_query *query, const iccp_facet_tree *tree,
@@ -229,15 +243,6 @@ void iccp_facet_query_start_after(iccp_facet_query *query, const iccp_facet_tree
 
 bool iccp_facet_query_next(iccp_facet_query *query, uint32_t *facet)
 {
-    do {
-        while (query->next < query->end) {
-            double box[2 * ICC_MAX_DIM];
-            *facet = query->tree->order[query->next++];
-            iccp_facet_box(query->tree, *facet, box);
-            if (wanted(query, box))
-                return true;
-        }
-    } while (query->end > 0 && descend(query, skip(query->node)));
-    query->end = 0;
-    return false;
+    const size_t dim = query->tree->dim;
+    return dim == 3 ? next_of(query, 3, facet) : next_of(query, dim, facet);
 }

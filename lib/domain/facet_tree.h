@@ -2,6 +2,7 @@
 #ifndef ICCP_FACET_TREE_H
 #define ICCP_FACET_TREE_H
 
+#include "base/compiler.h"
 #include "base/memory.h"
 #include "icc/base.h"
 
@@ -33,19 +34,25 @@ static inline void iccp_facet_corners(const iccp_facet_tree *tree, uint32_t face
         corners[i] = tree->vertices + tree->dim * tree->facets[tree->dim * facet + i];
 }
 
-/* Its bounding box: lower and upper. */
+/* Its bounding box, lower and upper, for dim = tree->dim: where the compiler knows that it is 3 it need
+ * not loop. */
+static ICCP_INLINE void iccp_facet_box_of(const iccp_facet_tree *tree, size_t dim, uint32_t facet,
+                                          double *box)
+{
+    const uint32_t *corner = tree->facets + dim * facet;
+    for (size_t k = 0; k < dim; ++k)
+        box[k] = box[dim + k] = tree->vertices[dim * corner[0] + k];
+    for (size_t i = 1; i < dim; ++i)
+        for (size_t k = 0; k < dim; ++k) {
+            const double x = tree->vertices[dim * corner[i] + k];
+            box[k] = x < box[k] ? x : box[k];
+            box[dim + k] = x > box[dim + k] ? x : box[dim + k];
+        }
+}
+
 static inline void iccp_facet_box(const iccp_facet_tree *tree, uint32_t facet, double *box)
 {
-    const size_t dim = tree->dim;
-    const double *corners[ICC_MAX_DIM];
-    iccp_facet_corners(tree, facet, corners);
-    for (size_t k = 0; k < dim; ++k) {
-        box[k] = box[dim + k] = corners[0][k];
-        for (size_t i = 1; i < dim; ++i) {
-            box[k] = corners[i][k] < box[k] ? corners[i][k] : box[k];
-            box[dim + k] = corners[i][k] > box[dim + k] ? corners[i][k] : box[dim + k];
-        }
-    }
+    iccp_facet_box_of(tree, tree->dim, facet, box);
 }
 
 /* Lists the facets whose boxes meet a given one, touching included. */
@@ -53,7 +60,7 @@ typedef struct iccp_facet_query {
     const iccp_facet_tree *tree;
     double box[2 * ICC_MAX_DIM]; /* may be made smaller at any time */
     const double *from, *to;     /* with a segment: only boxes that come near it; or NULL */
-    size_t node;
+    size_t node;                 /* where to go on after the leaf; 0: nowhere */
     size_t next, end; /* places of the current leaf yet to be looked at */
 } iccp_facet_query;
 
