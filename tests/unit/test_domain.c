@@ -976,8 +976,8 @@ START_TEST(test_arguments)
                      ICC_ERR_ARGUMENT);
     ck_assert_int_eq(icc_domain_create(&domain, 7, 4, square, 0, NULL, NULL, &err),
                      ICC_ERR_ARGUMENT);
-    ck_assert_int_eq(icc_domain_create(&domain, 3, 4, square, 0, NULL, NULL, &err),
-                     ICC_ERR_UNSUPPORTED);
+    ck_assert_int_eq(icc_domain_create(&domain, 3, 2, square, 4, NULL, NULL, &err),
+                     ICC_ERR_ARGUMENT);
     ck_assert_int_eq(icc_domain_create(&domain, 2, 4, NULL, 0, NULL, NULL, &err), ICC_ERR_ARGUMENT);
     ck_assert_int_eq(icc_domain_create(&domain, 2, SIZE_MAX / 8, square, 0, NULL, NULL, &err),
                      ICC_ERR_ARGUMENT);
