@@ -8,9 +8,11 @@
 #include "../faulty.h"
 #include "../random.h"
 #include "../shapes.h"
+#include "../surfaces.h"
 
 #include <check.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { MAX_N = 64, MAX_VERTICES = 4096 };
@@ -359,6 +361,133 @@ START_TEST(no_grid_without_vertices_inside)
 }
 END_TEST
 
+/* -------------------------------------------------------- closed surfaces */
+
+static icc_domain *domain_in(int32_t dim, size_t n_vertices, const double *vertices, size_t n_facets,
+                             const uint32_t *facets)
+{
+    icc_domain *domain;
+    icc_error err = {.size = sizeof err};
+    const icc_status status =
+        icc_domain_create(&domain, dim, n_vertices, vertices, n_facets, facets, NULL, &err);
+    ck_assert_msg(status == ICC_OK, "%s", err.message);
+    return domain;
+}
+
+/* Vertex by vertex; nothing may be stray. Returns how many lie on the boundary. */
+static size_t check_against_locate(const icc_domain *domain, const icc_grid *grid)
+{
+    size_t n_on = 0, n_wrong = 0, n_inside = 0;
+    for (uint32_t v = 0; v < grid->n_vertices; ++v) {
+        double p[ICC_MAX_DIM];
+        for (int32_t k = 0; k < grid->dim; ++k)
+            p[k] = grid->origin[k] + grid->spacing * iccp_grid_coordinate(grid, v, k);
+        const int32_t place = iccp_domain_locate(domain, p, false, NULL, NULL);
+        n_on += place == ICC_BOUNDARY;
+        n_inside += place == ICC_INSIDE;
+        n_wrong += grid->inside[v] != (place == ICC_INSIDE);
+    }
+    ck_assert_uint_eq(n_wrong, 0);
+    ck_assert_uint_eq(n_inside, grid->n_inside);
+    ck_assert_uint_eq(grid->n_stray, 0);
+    return n_on;
+}
+
+START_TEST(surfaces_of_every_kind)
+{
+    static surface s;
+    random_source r = {7};
+    for (int round = 0; round < 24; ++round) {
+        surface_octahedron(&s);
+        for (int i = 0; i < round % 4; ++i)
+            surface_split(&s);
+        for (size_t i = 0; i < s.n_vertices && round % 3 > 0; ++i) { /* sheared; then bent as well */
+            double *v = s.vertices + 3 * i;
+            v[0] += 0.25 * v[1] + (round % 3 == 2 ? 0.3 * v[2] * v[2] : 0);
+            v[1] += round % 3 == 2 ? 0.1 * random_unit(&r) * 0.125 : 0.5 * v[2];
+        }
+        icc_domain *domain = domain_in(3, s.n_vertices, s.vertices, s.n_faces, s.faces);
+        icc_grid *grid = grid_in(domain, 5 + random_below(&r, 20));
+        check_against_locate(domain, grid);
+        icc_grid_free(grid);
+        icc_domain_free(domain);
+    }
+}
+END_TEST
+
+/* The boundary of a box of cells, as one that does not know of them; flat along the axes. */
+static icc_domain *box_domain(int32_t dim, const size_t *sides, const uint8_t *cells)
+{
+    icc_domain *mask;
+    icc_domain_info info = {.size = sizeof info};
+    ck_assert_int_eq(icc_domain_create_mask(&mask, dim, sides, cells, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_domain_get_info(mask, &info), ICC_OK);
+    double *vertices = calloc(info.n_vertices * (size_t)dim, sizeof *vertices);
+    uint32_t *facets = calloc(info.n_facets * (size_t)dim, sizeof *facets);
+    ck_assert_int_eq(icc_domain_get_boundary(mask, vertices, facets), ICC_OK);
+    icc_domain *domain = domain_in(dim, info.n_vertices, vertices, info.n_facets, facets);
+    free(vertices);
+    free(facets);
+    icc_domain_free(mask);
+    return domain;
+}
+
+START_TEST(boundaries_along_the_rows)
+{
+    const uint8_t l[8] = {1, 1, 1, 0, 1, 0, 0, 0};
+    const uint8_t line[3] = {1, 1, 1};
+    size_t n_on = 0;
+    for (int32_t dim = 1; dim <= 4; ++dim) {
+        icc_domain *domain = dim == 3   ? box_domain(3, (size_t[]){2, 2, 2}, l)
+                             : dim == 1 ? box_domain(1, (size_t[]){3}, line)
+                                        : box_domain(dim, (size_t[]){3, 1, 1, 1}, line);
+        for (int32_t cells = 2; cells <= (dim < 4 ? 13 : 7); ++cells) {
+            icc_grid *grid;
+            const icc_status status = icc_grid_create(&grid, domain, cells, NULL, NULL);
+            ck_assert(status == ICC_OK || status == ICC_ERR_RESOLUTION);
+            if (status == ICC_OK)
+                n_on += check_against_locate(domain, grid);
+            icc_grid_free(grid);
+        }
+        icc_domain_free(domain);
+    }
+    ck_assert_uint_gt(n_on, 500);
+}
+END_TEST
+
+/* Two blocks joined by a rod that lies between the rows of a coarse grid. */
+START_TEST(stray_pieces_are_dropped)
+{
+    enum { LONG = 21, WIDE = 5 };
+    uint8_t cells[LONG * WIDE * WIDE];
+    for (int i = 0; i < LONG * WIDE * WIDE; ++i) {
+        const int x = i % LONG, y = i / LONG % WIDE, z = i / (LONG * WIDE);
+        cells[i] = x < 5 || x > 10 || (y == 0 && z == 0);
+    }
+    icc_domain *domain = box_domain(3, (size_t[]){LONG, WIDE, WIDE}, cells);
+    icc_grid *coarse = grid_in(domain, 7), *fine = grid_in(domain, 34);
+    icc_grid_info info = {.size = sizeof info};
+    ck_assert_int_eq(icc_grid_get_info(coarse, &info), ICC_OK);
+    ck_assert_uint_gt(info.n_stray, 0);
+    ck_assert_uint_gt(info.n_inside, info.n_stray);
+    ck_assert_int_eq(info.cells, 7);
+    icc_tree *tree;
+    uint32_t root;
+    icc_tree_report report = {.size = sizeof report};
+    ck_assert_int_eq(icc_grid_maximum(coarse, &root, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_tree_create(&tree, coarse, root, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_tree_verify(tree, &report, NULL, NULL), ICC_OK);
+    ck_assert_uint_eq(report.n_unreachable, 0);
+    ck_assert_uint_eq(report.n_inside, info.n_inside);
+    ck_assert_int_eq(icc_grid_get_info(fine, &info), ICC_OK);
+    ck_assert_uint_eq(info.n_stray, 0);
+    icc_tree_free(tree);
+    icc_grid_free(fine);
+    icc_grid_free(coarse);
+    icc_domain_free(domain);
+}
+END_TEST
+
 /* ---------------------------------------------------------- the grassfire */
 
 /* Algorithm 1, as printed; what is left in the end stays marked. */
@@ -652,6 +781,12 @@ START_TEST(every_failure_is_reported)
     faulty_sweep(make_and_burn, domain);
     faulty_sweep(make_mask_and_burn, NULL);
     icc_domain_free(domain);
+    static surface octahedron;
+    surface_octahedron(&octahedron);
+    domain = domain_in(3, octahedron.n_vertices, octahedron.vertices, octahedron.n_faces,
+                       octahedron.faces);
+    faulty_sweep(make_and_burn, domain);
+    icc_domain_free(domain);
 }
 END_TEST
 
@@ -706,6 +841,9 @@ int main(void)
     tcase_add_test(tests, extreme_shapes);
     tcase_add_test(tests, info_is_in_the_callers_coordinates);
     tcase_add_test(tests, no_grid_without_vertices_inside);
+    tcase_add_test(tests, surfaces_of_every_kind);
+    tcase_add_test(tests, boundaries_along_the_rows);
+    tcase_add_test(tests, stray_pieces_are_dropped);
     tcase_add_test(tests, the_maximum_burns_last);
     tcase_add_test(tests, the_maximum_of_polygons);
     tcase_add_test(tests, regular_sets_up_to_3d);
