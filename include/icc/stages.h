@@ -34,8 +34,9 @@ typedef struct icc_grid_info {
     double spacing;             /**< distance of neighbours, the same along every axis */
     size_t n_vertices;          /**< product of `shape` */
     size_t n_inside;            /**< vertices inside */
-    size_t n_stray;             /**< vertices that lie inside the boundary, but were taken outside because
-                                     no steps along the axes lead to the rest (beyond 2-D) */
+    size_t n_stray;             /**< vertices that lie inside the boundary, but were taken outside: pieces
+                                     beside the largest (see icc_grid_create()), and what
+                                     icc_grid_restrict() took */
     int32_t cells;              /**< grid cells along the longest side of the domain; 0 for a grid from
                                      a mask of vertices */
     int32_t reserved2;          /**< 0 */
@@ -89,6 +90,18 @@ ICC_API icc_status icc_grid_create_mask(icc_grid **out, int32_t dim, const size_
  */
 ICC_API icc_status icc_grid_refine(icc_grid **out, const icc_grid *grid, const icc_env *env,
                                    icc_error *err);
+
+/**
+ * Copies a grid and takes some vertices outside.
+ *
+ * @param[out] out the grid; owned by the caller
+ * @param grid     the grid
+ * @param keep     one byte per vertex: 0 takes it outside, which icc_grid_info::n_stray counts
+ * @param env      may be NULL
+ * @param err      may be NULL
+ */
+ICC_API icc_status icc_grid_restrict(icc_grid **out, const icc_grid *grid, const uint8_t *keep,
+                                     const icc_env *env, icc_error *err);
 
 /** Frees a grid. */
 ICC_API void icc_grid_free(icc_grid *grid);
@@ -345,7 +358,7 @@ typedef struct icc_grow_report {
     size_t n_unplaced;  /**< vertices left when growth got stuck */
     size_t n_left;      /**< vertices left, but for the root, when thinning got stuck, too */
     size_t n_turned;    /**< edges of the Kuhn triangulation along which the order is not as wished */
-    size_t n_tests;     /**< links that were looked at: at most n_vertices * 2^(dim+2) */
+    size_t n_tests;     /**< links that were looked at: less than 2^(dim+3) a vertex */
 } icc_grow_report;
 
 /**
@@ -357,13 +370,18 @@ typedef struct icc_grow_report {
  * are those of the Kuhn triangulation, decided as for icc_field_report::n_saddles.) If growth gets
  * stuck, the set of all vertices is thinned down to the root instead. A function that falls with the
  * rank has one critical point, the maximum, in any dimension. There are shapes where both fail, such as
- * Bing's house with two rooms: a finer grid may help, but none helps a shape that is not a ball.
+ * Bing's house with two rooms: a finer grid may help. Nothing helps a shape that is not a ball, as the
+ * vertices inside a surface may be where parts of it come near each other; growth then leaves the few
+ * vertices where it would close a ring.
  *
  * @param tree       the tree
  * @param values     the order wished for, one value per grid vertex, the largest first; equal ones
  *                   in the order of the tree. NULL: the order of the tree.
  * @param[out] rank  room for one number per grid vertex: 0 for the root, then 1, 2, ..; UINT32_MAX
- *                   for vertices outside or not reached. After a failure undefined.
+ *                   for vertices outside or not reached. After ::ICC_ERR_TOPOLOGY the vertices that
+ *                   growth has placed have their ranks, the others UINT32_MAX: without these, as
+ *                   icc_grid_restrict() makes the grid, the order has one critical vertex. After
+ *                   another failure undefined.
  * @param[out] report what was done, or NULL; also after ::ICC_ERR_TOPOLOGY
  * @param env        may be NULL
  * @param err        may be NULL; `index` names the vertex where growth got stuck

@@ -85,6 +85,22 @@ icc_status icc_grid_refine(icc_grid **out, const icc_grid *grid, const icc_env *
     return iccp_explain(err, iccp_grid_refine(out, grid, &full_env, err));
 }
 
+icc_status icc_grid_restrict(icc_grid **out, const icc_grid *grid, const uint8_t *keep,
+                             const icc_env *env, icc_error *err)
+{
+    if (out != NULL)
+        *out = NULL;
+    iccp_env full_env;
+    const char *missing = out == NULL    ? "out"
+                          : grid == NULL ? "grid"
+                          : keep == NULL ? "keep"
+                                         : NULL;
+    const icc_status status = begin(&full_env, env, missing, err);
+    if (status != ICC_OK)
+        return status;
+    return iccp_explain(err, iccp_grid_restrict(out, grid, keep, &full_env, err));
+}
+
 void icc_grid_free(icc_grid *grid)
 {
     iccp_grid_release(grid);

@@ -63,6 +63,26 @@ icc_status iccp_grid_create_mask(icc_grid **out, int32_t dim, const size_t *shap
     return ICC_OK;
 }
 
+icc_status iccp_grid_restrict(icc_grid **out, const icc_grid *grid, const uint8_t *keep,
+                              const iccp_env *env, icc_error *err)
+{
+    const icc_status status = iccp_grid_new(out, grid->dim, grid->shape, env, err);
+    if (status != ICC_OK)
+        return status;
+    icc_grid *part = *out;
+    part->frame = grid->frame;
+    part->spacing = grid->spacing;
+    part->cells = grid->cells;
+    for (int32_t k = 0; k < grid->dim; ++k)
+        part->origin[k] = grid->origin[k];
+    for (size_t v = 0; v < grid->n_vertices; ++v) {
+        part->inside[v] = grid->inside[v] && keep[v] != 0;
+        part->n_inside += part->inside[v];
+    }
+    part->n_stray = grid->n_stray + grid->n_inside - part->n_inside;
+    return ICC_OK;
+}
+
 icc_grid *iccp_grid_retain(const icc_grid *grid)
 {
     icc_grid *shared = (icc_grid *)grid;

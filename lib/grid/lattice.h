@@ -29,7 +29,7 @@ struct icc_grid {
     iccp_frame frame;           /* of the domain, or the identity for masks */
     int32_t cells;              /* along the longest side of a domain; 0 for masks of vertices */
     size_t n_vertices, n_inside;
-    size_t n_stray;  /* vertices that were inside, but apart from the rest */
+    size_t n_stray;  /* vertices that were inside and have been taken out */
     uint8_t *inside; /* 1 or 0 */
 };
 
@@ -41,6 +41,10 @@ icc_status iccp_grid_new(icc_grid **out, int32_t dim, const size_t *shape, const
 /* See icc_grid_create_mask(). */
 icc_status iccp_grid_create_mask(icc_grid **out, int32_t dim, const size_t *shape,
                                  const uint8_t *inside, const iccp_env *env, icc_error *err);
+
+/* See icc_grid_restrict(). */
+icc_status iccp_grid_restrict(icc_grid **out, const icc_grid *grid, const uint8_t *keep,
+                              const iccp_env *env, icc_error *err);
 
 /* Takes part in keeping a grid alive, which is logically const for the one who asks. */
 icc_grid *iccp_grid_retain(const icc_grid *grid);

@@ -123,6 +123,10 @@ static icc_status grow(growth *g)
     const uint32_t root = g->tree->root;
     g->thinning = false;
     g->n_taken = 1;
+    for (size_t i = 0; i < g->n; ++i) {
+        g->rank[g->wish[i]] = ICCP_NONE;
+        g->state[g->wish[i]] &= (uint8_t)~IN_SET;
+    }
     g->rank[root] = 0;
     g->state[root] |= IN_SET;
     call_neighbours(g, root);
@@ -232,7 +236,8 @@ static icc_status fail_stuck(const growth *g, const icc_grow_report *report, icc
                      report->vertex, at, report->n_unplaced, g->n, report->n_left);
 }
 
-/* Grows and, if that is not enough, thins. */
+/* Grows and, if that is not enough, thins. When both get stuck it grows once more, since the ranks that
+ * growth gives are worth having. */
 static icc_status find_order(growth *g, icc_grow_report *report, icc_error *err)
 {
     icc_status status = grow(g);
@@ -244,11 +249,13 @@ static icc_status find_order(growth *g, icc_grow_report *report, icc_error *err)
     report->method = g->n_waited > 0 ? ICC_GROW_GROWN : ICC_GROW_AS_WISHED;
     if (report->n_unplaced > 0) {
         status = thin(g);
-        if (status != ICC_OK)
-            return status;
         report->method = ICC_GROW_THINNED;
         report->n_left = g->n - g->n_taken;
     }
+    if (status == ICC_OK && report->n_left > 0)
+        status = grow(g);
+    if (status != ICC_OK)
+        return status;
     report->n_tests = g->n_tests;
     if (report->n_left > 0)
         return fail_stuck(g, report, err);
