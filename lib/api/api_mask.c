@@ -14,7 +14,8 @@ icc_status icc_domain_create_mask(icc_domain **out, int32_t dim, const size_t *s
         return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "dim is %ld; it must lie in 1..%d", (long)dim,
                          ICC_MAX_DIM);
     if (shape == NULL || cells == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "%s is NULL", shape == NULL ? "shape" : "cells");
+        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "%s is NULL",
+                         shape == NULL ? "shape" : "cells");
     for (int32_t k = 0; k < dim; ++k)
         if (shape[k] == 0)
             return iccp_fail(err, ICC_ERR_ARGUMENT, k, "shape[%ld] is 0", (long)k);

@@ -3,9 +3,9 @@
 #include "base/error.h"
 #include "base/options.h"
 #include "domain/domain.h"
+#include "field/create.h"
 #include "field/critical.h"
 #include "field/edges.h"
-#include "field/create.h"
 #include "grid/grassfire.h"
 #include "grid/lattice.h"
 #include "grid/rasterise.h"
@@ -250,8 +250,8 @@ static icc_status check_wish(const icc_tree *tree, const double *values, icc_err
 {
     for (size_t i = 0; values != NULL && i < tree->n_inside; ++i)
         if (isnan(values[tree->order[i]]))
-            return iccp_fail(err, ICC_ERR_ARGUMENT, tree->order[i], "the value of vertex %lu is NaN",
-                             (unsigned long)tree->order[i]);
+            return iccp_fail(err, ICC_ERR_ARGUMENT, tree->order[i],
+                             "the value of vertex %lu is NaN", (unsigned long)tree->order[i]);
     return ICC_OK;
 }
 
@@ -269,7 +269,8 @@ icc_status icc_tree_grow(const icc_tree *tree, const double *values, uint32_t *r
     status = iccp_tree_grow(tree, values, rank, &full, &full_env, err);
     if (report == NULL || (status != ICC_OK && status != ICC_ERR_TOPOLOGY))
         return status;
-    const icc_status written = iccp_write_struct(report, &full, sizeof full, "icc_grow_report", err);
+    const icc_status written =
+        iccp_write_struct(report, &full, sizeof full, "icc_grow_report", err);
     return written != ICC_OK ? written : status;
 }
 

@@ -127,9 +127,9 @@ static icc_status check_outside(flood *f, const iccp_env *env, icc_error *err)
         return ICC_OK;
     char text[TEXT_SIZE];
     const int64_t index = describe(mask, other, text);
-    return iccp_fail(err, ICC_ERR_TOPOLOGY, index,
-                     "the mask encloses a hole: %s, outside, is cut off from the rest of the outside",
-                     text);
+    return iccp_fail(
+        err, ICC_ERR_TOPOLOGY, index,
+        "the mask encloses a hole: %s, outside, is cut off from the rest of the outside", text);
 }
 
 /* ------------------------------------------------------------------- shape */
@@ -158,7 +158,8 @@ static icc_status check_corners(const iccp_mask *mask, int64_t *euler, const icc
         int n_axes;
         const uint64_t block = iccp_mask_block(mask, at, &n_axes);
         if (n_done++ % CELLS_PER_REPORT == 0) {
-            const double share = (double)at[mask->dim - 1] / (2.0 * (double)mask->shape[mask->dim - 1]);
+            const double share =
+                (double)at[mask->dim - 1] / (2.0 * (double)mask->shape[mask->dim - 1]);
             if (iccp_progress(env, "mask", share) != ICC_OK)
                 return ICC_ERR_CANCELLED;
         }

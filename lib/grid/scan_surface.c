@@ -11,7 +11,9 @@
 #include <assert.h>
 #include <math.h>
 
-enum { MOST_CROSSINGS = 256 }; /* of a row; if there are more, its vertices are located one by one */
+enum {
+    MOST_CROSSINGS = 256
+}; /* of a row; if there are more, its vertices are located one by one */
 
 static const size_t ROWS_PER_CHUNK = 64, FACETS_PER_REPORT = 1 << 10;
 

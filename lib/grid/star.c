@@ -30,8 +30,8 @@ iccp_link_set iccp_star_within(const iccp_star *star, uint32_t v)
         bool in_grid = true;
         for (int32_t k = 0; k < star->grid->dim; ++k) {
             const int step = star->kuhn.step[i][k];
-            in_grid = in_grid && (step == 0 ||
-                                  iccp_grid_neighbour(star->grid, v, k, step) != ICCP_NONE);
+            in_grid =
+                in_grid && (step == 0 || iccp_grid_neighbour(star->grid, v, k, step) != ICCP_NONE);
         }
         if (in_grid)
             iccp_link_add(&within, i);

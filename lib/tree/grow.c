@@ -24,10 +24,10 @@
 #include <string.h>
 
 enum {
-    MEMBER = 1,  /* is to be taken: inside and reached by the tree; not the root */
-    IN_SET = 2,  /* belongs to the set at the moment */
-    CUT = 4,     /* has neighbours beyond the grid */
-    WAITED = 8   /* has been refused */
+    MEMBER = 1, /* is to be taken: inside and reached by the tree; not the root */
+    IN_SET = 2, /* belongs to the set at the moment */
+    CUT = 4,    /* has neighbours beyond the grid */
+    WAITED = 8  /* has been refused */
 };
 
 static const size_t TESTS_PER_REPORT = 1 << 12; /* of links: at most 0.1 s, in 6-D */

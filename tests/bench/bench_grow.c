@@ -55,8 +55,8 @@ static void run(const char *name, mask_shape shape, int32_t dim, size_t cells, b
     }
     const double n = (double)report.n_vertices;
     printf("%-22s %9zu %7.0f %7.0f %6.2f %9zu %9zu %9zu\n", name, report.n_vertices,
-           1e9 * tree_time / n, 1e9 * grow_time / n, (double)report.n_tests / n,
-           report.n_postponed, report.n_unplaced, report.n_left);
+           1e9 * tree_time / n, 1e9 * grow_time / n, (double)report.n_tests / n, report.n_postponed,
+           report.n_unplaced, report.n_left);
     icc_grid_free(grid);
     mask_free(&m);
     free(values);

@@ -363,8 +363,8 @@ END_TEST
 
 /* -------------------------------------------------------- closed surfaces */
 
-static icc_domain *domain_in(int32_t dim, size_t n_vertices, const double *vertices, size_t n_facets,
-                             const uint32_t *facets)
+static icc_domain *domain_in(int32_t dim, size_t n_vertices, const double *vertices,
+                             size_t n_facets, const uint32_t *facets)
 {
     icc_domain *domain;
     icc_error err = {.size = sizeof err};
@@ -401,7 +401,8 @@ START_TEST(surfaces_of_every_kind)
         surface_octahedron(&s);
         for (int i = 0; i < round % 4; ++i)
             surface_split(&s);
-        for (size_t i = 0; i < s.n_vertices && round % 3 > 0; ++i) { /* sheared; then bent as well */
+        for (size_t i = 0; i < s.n_vertices && round % 3 > 0;
+             ++i) { /* sheared; then bent as well */
             double *v = s.vertices + 3 * i;
             v[0] += 0.25 * v[1] + (round % 3 == 2 ? 0.3 * v[2] * v[2] : 0);
             v[1] += round % 3 == 2 ? 0.1 * random_unit(&r) * 0.125 : 0.5 * v[2];

@@ -527,8 +527,8 @@ START_TEST(rings_are_opened)
     iccp_env env;
     ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
     icc_grid *grid;
-    ck_assert_int_eq(icc_grid_create_mask(&grid, 3, (size_t[]){SIDE, SIDE, SIDE}, inside, NULL, NULL),
-                     ICC_OK);
+    ck_assert_int_eq(
+        icc_grid_create_mask(&grid, 3, (size_t[]){SIDE, SIDE, SIDE}, inside, NULL, NULL), ICC_OK);
     const uint32_t root = 6 + SIDE * (6 + SIDE * 4);
     icc_grow_report report;
     icc_error err = {.size = sizeof err};

@@ -33,8 +33,7 @@ static icc_status make(icc_domain **out, const mask *m, icc_error *err)
 {
     *out = (icc_domain *)&out;
     *err = (icc_error){.size = sizeof *err, .index = -2};
-    const icc_status status =
-        icc_domain_create_mask(out, m->dim, m->shape, m->cells, NULL, err);
+    const icc_status status = icc_domain_create_mask(out, m->dim, m->shape, m->cells, NULL, err);
     ck_assert((*out == NULL) == (status != ICC_OK));
     return status;
 }
@@ -300,7 +299,7 @@ START_TEST(all_small_masks)
         mask m = from_bits(dim, shapes[i], 0);
         const uint64_t n = (uint64_t)1 << count(&m);
         size_t n_solid = 0;
-        for (uint64_t bits = 0; bits < n; bits += n > 10000 ? 61 : 1) {
+        for (uint64_t bits = 0; bits<n; bits += n> 10000 ? 61 : 1) {
             m = from_bits(dim, shapes[i], bits);
             n_solid += try_mask(&m);
         }
@@ -342,8 +341,9 @@ START_TEST(what_is_wrong_is_said)
     mask m = from_bits(2, four, 0);
     expect(&m, "empty", -1);
     m = from_bits(2, four, 0x8001);
-    expect(&m, "not one piece: no way through cells with common faces leads from cell 0 (0, 0) to "
-               "cell 15 (3, 3)",
+    expect(&m,
+           "not one piece: no way through cells with common faces leads from cell 0 (0, 0) to "
+           "cell 15 (3, 3)",
            15);
     m = from_bits(2, three, 0x1ef);
     expect(&m, "encloses a hole: cell 4 (1, 1)", 4);
@@ -400,7 +400,8 @@ typedef struct ridge {
 
 static int compare_ridges(const void *a, const void *b)
 {
-    return memcmp(((const ridge *)a)->vertex, ((const ridge *)b)->vertex, sizeof(uint32_t[ICC_MAX_DIM]));
+    return memcmp(((const ridge *)a)->vertex, ((const ridge *)b)->vertex,
+                  sizeof(uint32_t[ICC_MAX_DIM]));
 }
 
 static ridge ridge_of(const uint32_t *facet, int dim, int left_out)
@@ -582,9 +583,9 @@ START_TEST(moved_boundaries_correspond)
     ck_assert_int_eq(icc_domain_get_boundary(domain, vertices, facets), ICC_OK);
     for (size_t i = 0; i < info.n_vertices; ++i)
         vertices[3 * i] += 0.125 * vertices[3 * i + 1];
-    ck_assert_int_eq(icc_domain_create(&moved, 3, info.n_vertices, vertices, info.n_facets, facets,
-                                       NULL, &err),
-                     ICC_OK);
+    ck_assert_int_eq(
+        icc_domain_create(&moved, 3, info.n_vertices, vertices, info.n_facets, facets, NULL, &err),
+        ICC_OK);
     ck_assert_int_eq(icc_domain_get_info(moved, &info), ICC_OK);
     ck_assert_double_eq_tol(info.measure, (double)count_solid(&m), 1e-9);
     free(vertices);
@@ -607,8 +608,7 @@ static icc_status make_file(const char *folder, const char *name, icc_error *err
     }
     icc_domain *domain;
     *err = (icc_error){.size = sizeof *err};
-    const icc_status status =
-        icc_domain_create_mask(&domain, a.dim, a.shape, a.cells, NULL, err);
+    const icc_status status = icc_domain_create_mask(&domain, a.dim, a.shape, a.cells, NULL, err);
     if (status == ICC_OK) {
         icc_grid *grid;
         icc_tree *tree;
@@ -702,9 +702,12 @@ START_TEST(wrong_arguments)
     ck_assert_int_eq(icc_domain_create_mask(&domain, 2, NULL, cells, NULL, NULL), ICC_ERR_ARGUMENT);
     ck_assert_ptr_null(domain);
     ck_assert_int_eq(icc_domain_create_mask(&domain, 2, shape, NULL, NULL, NULL), ICC_ERR_ARGUMENT);
-    ck_assert_int_eq(icc_domain_create_mask(&domain, 0, shape, cells, NULL, NULL), ICC_ERR_ARGUMENT);
-    ck_assert_int_eq(icc_domain_create_mask(&domain, 7, shape, cells, NULL, NULL), ICC_ERR_ARGUMENT);
-    ck_assert_int_eq(icc_domain_create_mask(&domain, 3, shape, cells, NULL, &err), ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_domain_create_mask(&domain, 0, shape, cells, NULL, NULL),
+                     ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_domain_create_mask(&domain, 7, shape, cells, NULL, NULL),
+                     ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_domain_create_mask(&domain, 3, shape, cells, NULL, &err),
+                     ICC_ERR_ARGUMENT);
     ck_assert_int_eq(err.index, 2);
     static const size_t large[3][2] = {{SIZE_MAX, 2}, {1 << 14, 1 << 14}, {1 << 28, 1}};
     for (int i = 0; i < 3; ++i)
