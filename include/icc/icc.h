@@ -41,40 +41,62 @@ enum {
 typedef struct icc_domain_info {
     size_t size;               /**< set by the caller: `sizeof(icc_domain_info)` */
     int32_t dim;               /**< dimension */
-    int32_t orientation;       /**< 2-D: +1 counter-clockwise, -1 clockwise, with y upwards */
+    int32_t orientation;       /**< +1 when the facets are listed as seen from outside: 2-D the ring
+                                    counter-clockwise, with y upwards; 3-D each face
+                                    counter-clockwise; any n: the determinants of the facets,
+                                    seen from within, positive; 1-D the lower end first. Else -1 */
     size_t n_vertices;         /**< vertices of the boundary */
     size_t n_facets;           /**< facets of the boundary */
     double lower[ICC_MAX_DIM]; /**< bounding box */
     double upper[ICC_MAX_DIM]; /**< bounding box */
-    double measure;            /**< area (2-D); may overflow to HUGE_VAL for coordinates near 1e300 */
+    double measure;            /**< length, area (2-D), volume (3-D) and so on; may overflow to
+                                    HUGE_VAL for coordinates near 1e300 */
 } icc_domain_info;
 
 /**
- * Makes a domain from its boundary.
+ * Makes a domain from its boundary. Either orientation is accepted and remembered.
  *
  * 2-D: a simple polygon. `facets` may be NULL: facet i then joins vertex i and vertex i + 1, the
  * last one back to vertex 0. Otherwise the facets, two vertex indices each, must form one closed
- * ring through all vertices, in any order but all in the same direction. Either orientation is
- * accepted and remembered. Collinear vertices are fine.
+ * ring through all vertices, in any order but all in the same direction. Collinear vertices are
+ * fine. Checked exactly: no edge of length zero, no repeated vertex, no edges that cross, touch or
+ * run back over each other.
  *
- * Everything is checked exactly, on the coordinates as given: finite numbers, no edge of length
- * zero, no repeated vertex, no edges that cross, touch or run back over each other. Inside the
- * library the shape is shifted and scaled by exact operations, so any position and size will do
- * (an offset of 1e9, coordinates of 1e300). Vertices closer together than the smallest double,
- * relative to the largest coordinate, count as repeated.
+ * 3-D: a closed surface of triangles, three vertex indices each, in any order. Checked exactly: no
+ * face with area 0; each edge belongs to two faces, which run along it in opposite directions; the
+ * faces at each vertex form one cycle; one component, so no inner voids; genus 0; the surface does
+ * not meet itself, which is to say that two faces have nothing in common but the vertices and edges
+ * that they share. Coplanar faces are fine.
+ *
+ * 4-D to 6-D: a closed boundary of simplices, dim vertex indices each. Checked: each ridge (dim - 1
+ * vertices) belongs to two facets, which run along it in opposite directions; the facets at each
+ * vertex hang together; one component; and, exactly in 4-D and to rounding (1e-13) beyond, no flat
+ * facet; to rounding, a volume other than 0. Self-intersection is NOT checked beyond 3-D, nor is
+ * the topology of the boundary.
+ *
+ * 1-D: an interval: two facets of one vertex each.
+ *
+ * All checks are made on the coordinates as given. Inside the library the shape is shifted and
+ * scaled by exact operations, so any position and size will do (an offset of 1e9, coordinates of
+ * 1e300). A coordinate other than 0 that is smaller than 2^-200 of the largest one is refused.
+ * Except in 2-D, vertices that belong to no facet are kept and otherwise ignored.
  *
  * @param[out] out   the domain; owned by the caller, see icc_domain_free()
- * @param dim        2 (other dimensions: ::ICC_ERR_UNSUPPORTED)
+ * @param dim        1..::ICC_MAX_DIM
  * @param n_vertices at least dim + 1
  * @param vertices   n_vertices * dim coordinates
  * @param n_facets   number of facets; ignored when `facets` is NULL
- * @param facets     n_facets * dim vertex indices, or NULL
+ * @param facets     n_facets * dim vertex indices; NULL in 2-D only
  * @param env        may be NULL
- * @param err        may be NULL; `index` names the vertex or facet at fault
+ * @param err        may be NULL; `index` names the vertex or facet at fault; where two are, the
+ *                   message names both
  * @return ::ICC_OK, ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY, ::ICC_ERR_BOUNDARY (what is wrong with the
- *         shape), ::ICC_ERR_UNSUPPORTED, ::ICC_ERR_VERSION or ::ICC_ERR_CANCELLED
+ *         shape), ::ICC_ERR_TOPOLOGY (several components, an inner void, handles),
+ *         ::ICC_ERR_VERSION or ::ICC_ERR_CANCELLED
  *
- * Cost: O(n log n) time, O(n) memory.
+ * Cost: O(n log n) time, O(n) memory for ordinary shapes; 1.5 us and 70 bytes (110 while it is made) a triangle. Self-
+ * intersection is looked for in all pairs of triangles whose boxes meet, which can be n^2 for long
+ * thin ones.
  */
 ICC_API icc_status icc_domain_create(icc_domain **out, int32_t dim, size_t n_vertices,
                                      const double *vertices, size_t n_facets,
@@ -127,7 +149,9 @@ ICC_API icc_status icc_domain_get_boundary(const icc_domain *domain, double *ver
 
 /**
  * Says where points lie, exactly up to the tolerance of ::ICC_BOUNDARY, and finds the nearest
- * boundary point.
+ * boundary point. Beyond 3-D it is not exact: points within about 1e-13 of the bounding box's longest
+ * side of the boundary may be misplaced; and where a boundary meets itself, inside is what an odd
+ * number of layers separates from infinity.
  *
  * @param domain     the domain
  * @param n          number of points
@@ -137,7 +161,8 @@ ICC_API icc_status icc_domain_get_boundary(const icc_domain *domain, double *ver
  * @param[out] bary  n * dim barycentric coordinates of the nearest point on it, or NULL
  * @param env        may be NULL
  *
- * Cost: O(log n) a point for ordinary shapes.
+ * Cost: O(log n) a point for ordinary shapes: in 3-D with 27,000 faces 0.5 to 2 us to place a point,
+ * 5 to 10 us to find the nearest facet.
  */
 ICC_API icc_status icc_domain_locate(const icc_domain *domain, size_t n, const double *points,
                                      int32_t *where, uint32_t *facet, double *bary,
