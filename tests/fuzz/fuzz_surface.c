@@ -1,0 +1,156 @@
+/* Any bytes as a boundary in 3-D: it is refused with a reason, or the domain finds its own vertices,
+ * agrees with its mirror image, and does not contradict itself about points, lines and segments.
+ *
+ * Byte 0 chooses a shape to start from, its frame, and how bytes move the vertices: small integers make
+ * degenerate surfaces likely, a nudge by one unit in the last place nearly degenerate ones. Three bytes
+ * a vertex; what is left replaces vertex indices of the faces. */
+#include "../surfaces.h"
+#include "domain/domain.h"
+#include "icc/icc.h"
+
+#include <stdlib.h>
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+static void require(int condition)
+{
+    if (!condition)
+        abort();
+}
+
+static int in_bar(int x, int y, int z)
+{
+    return x >= 0 && x < 3 && y == 1 && z == 1;
+}
+
+static void choose(surface *s, int which)
+{
+    if (which == 3) {
+        surface_cells(s, 3, in_bar);
+        return;
+    }
+    surface_octahedron(s);
+    for (int i = 0; i < which; ++i)
+        surface_split(s);
+    for (size_t i = 0; i < 3 * s->n_vertices; ++i)
+        s->vertices[i] *= 1 << which;
+}
+
+static double moved(double x, uint8_t byte)
+{
+    x += (double)(byte & 7) - (byte & 1 ? 4 : (double)(byte & 7));
+    return byte & 64 ? nextafter(x, byte & 128 ? 10 : -10) : x;
+}
+
+static void read_surface(surface *s, const uint8_t *data, size_t size)
+{
+    static const double scales[4] = {1, 1e300, 1e-310, 0x1p-40};
+    static const double offsets[4] = {0, 1e9, -0x1p50, 12345.678};
+    const size_t n = 3 * s->n_vertices < size - 1 ? 3 * s->n_vertices : size - 1;
+    for (size_t i = 0; i < n; ++i)
+        s->vertices[i] = moved(s->vertices[i], data[1 + i]);
+    for (size_t i = 0; i < 3 * s->n_vertices; ++i)
+        s->vertices[i] = s->vertices[i] * scales[data[0] >> 2 & 3] + offsets[data[0] >> 4 & 3];
+    for (size_t i = 1 + n; i + 1 < size; i += 2)
+        s->faces[data[i] % (3 * s->n_faces)] = data[i + 1] % (uint32_t)(s->n_vertices + 1);
+}
+
+/* A line through the point has the inside between its crossings; where the point is beside the
+ * boundary, these tell which side it is on. */
+static void check_lines(const icc_domain *domain, const double *local, int32_t where)
+{
+    iccp_line_crossing crossings[512];
+    for (int axis = 0; axis < 3; ++axis) {
+        const size_t n = iccp_domain_line(domain, axis, local, 512, crossings);
+        size_t n_before = 0, n_near = 0;
+        require(n % 2 == 0 && n <= domain->n_facets);
+        for (size_t i = 0; i < n; ++i) {
+            require(i == 0 || crossings[i - 1].at <= crossings[i].at);
+            n_before += crossings[i].at < local[axis];
+            n_near += fabs(crossings[i].at - local[axis]) < 1e-6;
+        }
+        if (where != ICC_BOUNDARY && n_near == 0)
+            require((n_before % 2 == 1) == (where == ICC_INSIDE));
+    }
+}
+
+static int32_t check_point(const icc_domain *domain, const double *p)
+{
+    int32_t where, again;
+    uint32_t facet;
+    double bary[3], local[3];
+    require(icc_domain_locate(domain, 1, p, &where, &facet, bary, NULL) == ICC_OK);
+    require(icc_domain_locate(domain, 1, p, &again, NULL, NULL, NULL) == ICC_OK);
+    require(where == again && where >= ICC_INSIDE && where <= ICC_OUTSIDE);
+    require(facet < domain->n_facets && bary[0] >= 0 && bary[1] >= 0 && bary[2] >= 0);
+    require(fabs(bary[0] + bary[1] + bary[2] - 1) < 1e-15);
+    iccp_frame_in(&domain->frame, 3, p, local);
+    check_lines(domain, local, where);
+    return where;
+}
+
+static void check_segment(const icc_domain *domain, const double *p, const double *q, int32_t from,
+                          int32_t to)
+{
+    double a[3], b[3], share, bary[3];
+    uint32_t facet;
+    iccp_frame_in(&domain->frame, 3, p, a);
+    iccp_frame_in(&domain->frame, 3, q, b);
+    const bool crosses = iccp_domain_cross(domain, a, b, &share, &facet, bary);
+    if (from != to && from != ICC_BOUNDARY && to != ICC_BOUNDARY)
+        require(crosses);
+    if (crosses)
+        require(share >= 0 && share <= 1 && facet < domain->n_facets &&
+                fabs(bary[0] + bary[1] + bary[2] - 1) < 1e-15);
+}
+
+static void check_domain(const icc_domain *domain, const surface *s)
+{
+    icc_domain_info info = {.size = sizeof info};
+    require(icc_domain_get_info(domain, &info) == ICC_OK && info.measure >= 0);
+    require(info.orientation == 1 || info.orientation == -1);
+    for (size_t f = 0; f < s->n_faces; ++f) {
+        const double *v = s->vertices + 3 * s->faces[3 * f];
+        const double *w = s->vertices + 3 * s->faces[(3 * f + 100) % (3 * s->n_faces)];
+        double middle[3], beyond[3];
+        for (int k = 0; k < 3; ++k) {
+            middle[k] = 0.5 * v[k] + 0.5 * w[k];
+            beyond[k] = 0.75 * info.upper[k] + 0.25 * middle[k];
+        }
+        require(check_point(domain, v) == ICC_BOUNDARY);
+        check_segment(domain, middle, beyond, check_point(domain, middle),
+                      check_point(domain, beyond));
+    }
+}
+
+static icc_status create(icc_domain **out, surface *s, icc_error *err)
+{
+    *err = (icc_error){.size = sizeof *err};
+    const icc_status status =
+        icc_domain_create(out, 3, s->n_vertices, s->vertices, s->n_faces, s->faces, NULL, err);
+    require((*out != NULL) == (status == ICC_OK));
+    require(status == ICC_OK || status == ICC_ERR_BOUNDARY || status == ICC_ERR_TOPOLOGY);
+    require(status == ICC_OK || err->message[0] != '\0');
+    return status;
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    static surface s;
+    icc_domain *domain, *mirrored;
+    icc_error err;
+    if (size == 0)
+        return 0;
+    choose(&s, data[0] & 3);
+    read_surface(&s, data, size);
+    const icc_status status = create(&domain, &s, &err);
+    if (domain != NULL)
+        check_domain(domain, &s);
+    for (size_t i = 0; i < 3 * s.n_vertices; i += 3)
+        s.vertices[i] = -s.vertices[i];
+    require(create(&mirrored, &s, &err) == status);
+    require(domain == NULL || domain->orientation == -mirrored->orientation);
+    icc_domain_free(domain);
+    icc_domain_free(mirrored);
+    return 0;
+}
