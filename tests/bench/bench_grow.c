@@ -78,7 +78,6 @@ int main(void)
     run("bowl 128^3", bowl, 3, 128, false);
     run("box 128^3, random wish", mask_box, 3, 128, true);
     run("ball 16^4", mask_ball, 4, 16, false);
-    run("bowl 16^4", bowl, 4, 16, false);
     run("box 8^5", mask_box, 5, 8, false);
     return 0;
 }

@@ -296,6 +296,22 @@ START_TEST(every_root_in_an_open_box)
 }
 END_TEST
 
+/* The smallest solid against Theorem 2: its tree is no cousin tree, though its order will do. */
+START_TEST(three_cubes_in_an_l)
+{
+    const cells l = {.dim = 3, .shape = {2, 1, 2}, .solid = {1, 1, 1, 0}};
+    icc_grid *grid = closed_grid(&l, 1);
+    ck_assert_uint_eq(grid->n_inside, 16);
+    icc_tree *tree = tree_of(grid, 2);
+    icc_tree_report report = {.size = sizeof report};
+    ck_assert_int_eq(icc_tree_verify(tree, &report, NULL, NULL), ICC_OK);
+    ck_assert_uint_eq(report.n_cousin_violations, 1);
+    ck_assert_int_eq(grow(tree, NULL, rank).method, ICC_GROW_AS_WISHED);
+    icc_tree_free(tree);
+    icc_grid_free(grid);
+}
+END_TEST
+
 START_TEST(a_house_with_thin_walls)
 {
     const cells h = house();
@@ -646,6 +662,7 @@ int main(void)
     TCase *tests = tcase_create("grow");
     tcase_add_test(tests, the_queue_gives_out_the_smallest);
     tcase_add_test(tests, every_root_in_an_open_box);
+    tcase_add_test(tests, three_cubes_in_an_l);
     tcase_add_test(tests, a_house_with_thin_walls);
     tcase_add_test(tests, a_house_with_thick_walls);
     tcase_add_test(tests, random_balls);

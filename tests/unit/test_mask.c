@@ -595,6 +595,80 @@ START_TEST(moved_boundaries_correspond)
 }
 END_TEST
 
+/* Grows on the grid of a mask from its maximum or another vertex; whether there is an order. */
+static bool grow(const mask *m, int32_t cells, random_source *r, icc_grow_report *report)
+{
+    icc_domain *domain;
+    icc_error err;
+    icc_grid *grid;
+    icc_tree *tree;
+    uint32_t root;
+    ck_assert_int_eq(make(&domain, m, &err), ICC_OK);
+    ck_assert_int_eq(icc_grid_create(&grid, domain, cells, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_grid_maximum(grid, &root, NULL, NULL, NULL), ICC_OK);
+    while (r != NULL &&
+           (root = (uint32_t)random_below(r, (int)grid->n_vertices), !grid->inside[root]))
+        continue;
+    ck_assert_int_eq(icc_tree_create(&tree, grid, root, NULL, NULL, NULL), ICC_OK);
+    uint32_t *rank = calloc(grid->n_vertices, sizeof *rank);
+    *report = (icc_grow_report){.size = sizeof *report};
+    const icc_status status = icc_tree_grow(tree, NULL, rank, report, NULL, &err);
+    ck_assert_uint_eq(report->n_vertices, grid->n_inside);
+    ck_assert(status == ICC_OK || status == ICC_ERR_TOPOLOGY);
+    icc_field_report found = {.size = sizeof found};
+    ck_assert_int_eq(icc_tree_verify_ranks(tree, rank, &found, NULL, NULL), ICC_OK);
+    ck_assert(status != ICC_OK || (found.critical == UINT32_MAX && found.n_maxima == 1));
+    free(rank);
+    icc_tree_free(tree);
+    icc_grid_free(grid);
+    icc_domain_free(domain);
+    return status == ICC_OK;
+}
+
+START_TEST(orders_in_random_solids)
+{
+    static const struct {
+        int32_t dim;
+        size_t side;
+        int rounds, n_shapes;
+    } kinds[3] = {{2, 12, 120, 10}, {3, 9, 500, 3}, {4, 3, 120, 5}};
+    random_source r = {7};
+    for (int k = 0; k < 3; ++k)
+        for (int i = 0; i < kinds[k].n_shapes; ++i) {
+            const mask m = random_solid(&r, kinds[k].dim, kinds[k].side, kinds[k].rounds);
+            for (int j = 0; j < 4; ++j) {
+                icc_grow_report report;
+                const int32_t cells = j == 2 ? 4 * (int32_t)kinds[k].side : 0;
+                ck_assert(grow(&m, cells, j > 0 ? &r : NULL, &report));
+                ck_assert(kinds[k].dim > 2 || report.method == ICC_GROW_AS_WISHED);
+            }
+        }
+}
+END_TEST
+
+/* Bing's house with two rooms, walls one cell thick: a ball, as any that can be filled with clay through
+ * its two shafts. On the coarsest grid its inside is the house with thin walls, which cannot be taken
+ * down; on a finer one it can. */
+START_TEST(a_house_needs_a_finer_grid)
+{
+    mask m = {.dim = 3, .shape = {11, 11, 5}};
+    for (int i = 0; i < 11 * 11 * 5; ++i) {
+        const int x = i % 11, y = i / 11 % 11, z = i / 121;
+        const int shaft = z < 2 ? 3 : 7, wing = z < 2 ? 1 : 9;
+        const bool hole = (z <= 2 && x == 3 && y == 5) || (z >= 2 && x == 7 && y == 5);
+        const bool shell = x % 10 == 0 || y % 10 == 0 || z % 2 == 0;
+        const bool in_room = (abs(x - shaft) <= 1 && abs(y - 5) <= 1) || (x == wing && y == 5);
+        m.cells[i] = !hole && (shell || in_room);
+    }
+    ck_assert_uint_eq(count_solid(&m), 457);
+    icc_grow_report report;
+    ck_assert(!grow(&m, 0, NULL, &report));
+    ck_assert_uint_gt(report.n_left, 0);
+    ck_assert(grow(&m, 44, NULL, &report));
+    ck_assert_int_eq(report.method, ICC_GROW_THINNED);
+}
+END_TEST
+
 /* --------------------------------------------------------------- real ones */
 
 static icc_status make_file(const char *folder, const char *name, icc_error *err)
@@ -728,6 +802,8 @@ int main(void)
     tcase_add_test(tests, boundaries_are_closed_and_outward);
     tcase_add_test(tests, grids_of_masks);
     tcase_add_test(tests, moved_boundaries_correspond);
+    tcase_add_test(tests, orders_in_random_solids);
+    tcase_add_test(tests, a_house_needs_a_finer_grid);
     tcase_add_test(tests, masks_from_files);
     tcase_add_test(tests, every_failure_is_reported);
     tcase_add_test(tests, wrong_arguments);
