@@ -1,11 +1,9 @@
 #include "domain/domain.h"
 
 #include "base/error.h"
-#include "domain/inside.h"
 #include "domain/locate.h"
 #include "domain/mask.h"
 #include "domain/polygon.h"
-#include "domain/simplex.h"
 #include "domain/simplicial.h"
 
 #include <math.h>
@@ -120,7 +118,9 @@ static icc_status check_complex(iccp_complex *c, const iccp_env *env, icc_error 
     c->across = iccp_alloc(&env->memory, c->n_facets, c->dim * sizeof *c->across);
     if (c->across == NULL)
         return iccp_fail_memory(err);
-    icc_status status = iccp_complex_join(c, env, err);
+    icc_status status = iccp_explain(err, iccp_progress(env, "check boundary", 0));
+    if (status == ICC_OK)
+        status = iccp_complex_join(c, env, err);
     if (status == ICC_OK)
         status = iccp_complex_check_shape(c, env, err);
     iccp_free(&env->memory, c->across);
@@ -142,12 +142,13 @@ static icc_status complete_simplicial(icc_domain *d, const iccp_env *env, icc_er
     iccp_complex c = {(size_t)d->dim, d->n_vertices, d->n_facets, d->facets, NULL};
     icc_status status = iccp_complex_check_indices(&c, err);
     if (status == ICC_OK)
-        status =
-            iccp_simplicial_localise(&d->frame, d->vertices, &c, d->given, env, err);
+        status = iccp_simplicial_localise(&d->frame, d->vertices, &c, d->given, env, err);
     if (status == ICC_OK && d->dim > 1)
         status = check_complex(&c, env, err);
     if (status != ICC_OK)
         return status;
+    if (iccp_progress(env, "check boundary", 0.5) != ICC_OK)
+        return iccp_explain(err, ICC_ERR_CANCELLED);
     measure_box(d);
     iccp_facet_tree_create(&d->tree, c.dim, d->vertices, d->n_facets, d->facets, &d->memory);
     if (d->tree.boxes == NULL)
@@ -155,7 +156,7 @@ static icc_status complete_simplicial(icc_domain *d, const iccp_env *env, icc_er
     return d->dim == 1 ? check_interval(d, err) : check_geometry(d, env, err);
 }
 
-static icc_status check_counts(size_t dim, size_t n_facets, icc_error *err)
+static icc_status check_counts(size_t dim, size_t n_vertices, size_t n_facets, icc_error *err)
 {
     if (dim == 1 && n_facets != 2)
         return iccp_fail(err, ICC_ERR_BOUNDARY, -1, "an interval has 2 facets, not %zu", n_facets);
@@ -163,6 +164,10 @@ static icc_status check_counts(size_t dim, size_t n_facets, icc_error *err)
         return iccp_fail(err, ICC_ERR_BOUNDARY, -1,
                          "a closed boundary in %zu dimensions has at least %zu facets, not %zu", dim,
                          dim + 1, n_facets);
+    if (n_vertices <= dim)
+        return iccp_fail(err, ICC_ERR_BOUNDARY, -1,
+                         "a closed boundary in %zu dimensions has at least %zu vertices, not %zu",
+                         dim, dim + 1, n_vertices);
     return ICC_OK;
 }
 
@@ -172,7 +177,7 @@ icc_status iccp_domain_create(icc_domain **out, int32_t dim, size_t n_vertices,
 {
     *out = NULL;
     icc_status status = dim == 2 ? check_polygon_counts(n_vertices, n_facets, facets, err)
-                                 : check_counts((size_t)dim, n_facets, err);
+                                 : check_counts((size_t)dim, n_vertices, n_facets, err);
     if (status != ICC_OK)
         return status;
     icc_domain *domain = iccp_alloc_zero(&env->memory, 1, sizeof *domain);
@@ -216,89 +221,4 @@ void iccp_domain_release(icc_domain *domain)
     iccp_free(&memory, domain->vertices);
     iccp_free(&memory, domain->facets);
     iccp_free(&memory, domain);
-}
-
-static int32_t locate_in_polygon(const icc_domain *domain, const double *point, bool nearest,
-                                 uint32_t *facet, double *bary)
-{
-    const iccp_place place = iccp_locator_find(domain->locator, point, nearest);
-    if (facet != NULL && (nearest || place.where == ICC_BOUNDARY)) {
-        *facet = domain->locator->ring.facet[place.edge];
-        bary[0] = 1 - place.t;
-        bary[1] = place.t;
-    }
-    return place.where;
-}
-
-static bool finite(size_t dim, const double *point)
-{
-    for (size_t k = 0; k < dim; ++k)
-        if (!isfinite(point[k]))
-            return false;
-    return true;
-}
-
-int32_t iccp_domain_locate(const icc_domain *domain, const double *point, bool boundary_only,
-                           uint32_t *facet, double *bary)
-{
-    const bool nearest = facet != NULL && !boundary_only;
-    if (domain->dim == 2)
-        return locate_in_polygon(domain, point, nearest, facet, bary);
-    const size_t dim = domain->tree.dim;
-    double p[ICC_MAX_DIM], share[ICC_MAX_DIM], distance2;
-    uint32_t at = 0;
-    int32_t where = ICC_OUTSIDE;
-    iccp_inside_reach(dim, point, p);
-    if (finite(dim, point))
-        where = iccp_inside_find(&domain->tree, domain->tolerance, p, &at, share);
-    if (nearest && where != ICC_BOUNDARY)
-        at = iccp_facet_tree_nearest(&domain->tree, p, share, &distance2);
-    if (facet != NULL && (nearest || where == ICC_BOUNDARY)) {
-        *facet = at;
-        memcpy(bary, share, dim * sizeof *bary);
-    }
-    return where;
-}
-
-/* From the nearest vertex, so that vertices come out exactly, and a coordinate that they share too. */
-void iccp_domain_facet_point(const icc_domain *domain, uint32_t facet, const double *bary,
-                             double *point)
-{
-    const size_t dim = domain->tree.dim;
-    const double *corners[ICC_MAX_DIM];
-    size_t from = 0;
-    iccp_facet_corners(&domain->tree, facet, corners);
-    for (size_t i = 1; i < dim; ++i)
-        from = bary[i] > bary[from] ? i : from;
-    for (size_t k = 0; k < dim; ++k) {
-        point[k] = corners[from][k];
-        for (size_t i = 0; i < dim; ++i)
-            if (i != from)
-                point[k] += bary[i] * (corners[i][k] - corners[from][k]);
-    }
-}
-
-bool iccp_domain_cross(const icc_domain *domain, const double *from, const double *to, double *share,
-                       uint32_t *facet, double *bary)
-{
-    const size_t dim = domain->tree.dim;
-    double ends[2][ICC_MAX_DIM], at[ICC_MAX_DIM];
-    const double *corners[ICC_MAX_DIM];
-    iccp_inside_reach(dim, from, ends[0]);
-    iccp_inside_reach(dim, to, ends[1]);
-    if (!iccp_segment_crossing(&domain->tree, ends[0], ends[1], share, facet))
-        return false;
-    for (size_t k = 0; k < dim; ++k)
-        at[k] = ends[0][k] + *share * (ends[1][k] - ends[0][k]);
-    iccp_facet_corners(&domain->tree, *facet, corners);
-    (void)iccp_simplex_nearest(dim, dim, corners, *share < 1 ? at : ends[1], bary);
-    return true;
-}
-
-size_t iccp_domain_line(const icc_domain *domain, int32_t axis, const double *point,
-                        size_t capacity, iccp_line_crossing *crossings)
-{
-    double p[ICC_MAX_DIM];
-    iccp_inside_reach(domain->tree.dim, point, p);
-    return iccp_line_crossings(&domain->tree, (size_t)axis, p, capacity, crossings);
 }

@@ -139,6 +139,9 @@ START_TEST(holes_are_named)
     refuse(&s, &(expected){ICC_ERR_BOUNDARY, -1, "at least 4 facets, not 3"});
     s.n_faces = 0;
     refuse(&s, &(expected){ICC_ERR_BOUNDARY, -1, "at least 4 facets, not 0"});
+    s = t;
+    s.n_vertices = 3;
+    refuse(&s, &(expected){ICC_ERR_BOUNDARY, -1, "at least 4 vertices, not 3"});
 }
 END_TEST
 
@@ -198,7 +201,7 @@ START_TEST(flat_shapes_are_refused)
     s.vertices[13] = 0.5;
     s.vertices[14] = 0;
     refuse(&s, &(expected){ICC_ERR_BOUNDARY, 0, "face 0 has area 0: its corners lie on one line"});
-    s.n_vertices = 3;
+    s.n_vertices = 4;
     s.n_faces = 0;
     for (int i = 0; i < 4; ++i) /* one triangle, twice on either side, is not even a manifold */
         surface_face(&s, 0, i % 2 ? 1 : 2, i % 2 ? 2 : 1);
@@ -869,6 +872,78 @@ START_TEST(polytopes_are_checked)
 }
 END_TEST
 
+/* A point x of a simplex is the nearest to p if and only if all corners v have (p - x)(v - x) <= 0: else
+ * going that way makes the squared distance smaller by up to the square of that over (v - x)^2. */
+START_TEST(nearest_points_are_nearest)
+{
+    random_source r = {13};
+    int n_inner = 0;
+    for (int round = 0; round < 200000; ++round) {
+        const size_t dim = 1 + (size_t)random_below(&r, 6), n = 1 + (size_t)random_below(&r, (int)dim);
+        const double thin = random_below(&r, 3) == 0 ? ldexp(1, -random_below(&r, 70)) : 1;
+        double v[6][6], p[6], x[6] = {0}, bary[6], sum = 0, away2 = 0;
+        const double *corners[6];
+        for (size_t i = 0; i < n; ++i) {
+            corners[i] = v[i];
+            for (size_t k = 0; k < dim; ++k)
+                v[i][k] = (k == 0 ? 1 : thin) * (random_below(&r, 2) ? random_unit(&r)
+                                                                     : random_below(&r, 3) * 0.5);
+        }
+        for (size_t k = 0; k < dim; ++k)
+            p[k] = (k == 0 ? 1 : thin) * (2 * random_unit(&r) - 0.5);
+        const double distance2 = iccp_simplex_nearest(dim, n, corners, p, bary);
+        for (size_t i = 0; i < n; ++i) {
+            REQUIRE(bary[i] >= 0);
+            sum += bary[i];
+            for (size_t k = 0; k < dim; ++k)
+                x[k] += bary[i] * v[i][k];
+        }
+        REQUIRE(fabs(sum - 1) < 1e-15);
+        for (size_t k = 0; k < dim; ++k)
+            away2 += (p[k] - x[k]) * (p[k] - x[k]);
+        REQUIRE(fabs(sqrt(away2) - sqrt(distance2)) < 1e-14);
+        for (size_t i = 0; i < n; ++i) {
+            double product = 0, length2 = 0;
+            for (size_t k = 0; k < dim; ++k) {
+                product += (p[k] - x[k]) * (v[i][k] - x[k]);
+                length2 += (v[i][k] - x[k]) * (v[i][k] - x[k]);
+            }
+            REQUIRE(product <= 0 || product * product <= length2 * (1e-15 * distance2 + 1e-31));
+            n_inner += product > -1e-13;
+        }
+    }
+    ck_assert_int_gt(n_inner, 100000);
+}
+END_TEST
+
+/* Two polytopes side by side, with or without a common vertex, and one within another. */
+START_TEST(polytopes_are_counted)
+{
+    for (size_t dim = 4; dim <= 6; ++dim) {
+        icc_domain *domain;
+        icc_error err;
+        for (int kind = 0; kind < 3; ++kind) {
+            cross_polytope(&s, (int)dim);
+            const uint32_t n = (uint32_t)s.n_vertices, n_facets = (uint32_t)s.n_faces;
+            for (size_t i = 0; i < dim * n; ++i)
+                s.vertices[dim * n + i] = kind == 2 ? 0.5 * s.vertices[i]
+                                                    : s.vertices[i] + (i % dim == 0 ? 2 + kind : 0);
+            for (size_t i = 0; i < dim * n_facets; ++i) {
+                const uint32_t v = s.faces[i] + n;
+                s.faces[dim * n_facets + i] = kind == 0 && v == n + 1 ? 0 : v;
+            }
+            s.n_vertices *= 2;
+            s.n_faces *= 2;
+            const icc_status status = create_n(&domain, (int)dim, &s, &err);
+            ck_assert_int_eq(status, kind == 0 ? ICC_ERR_BOUNDARY : ICC_ERR_TOPOLOGY);
+            ck_assert_int_eq(err.index, kind == 0 ? 0 : n_facets);
+            ck_assert(strstr(err.message, kind == 0 ? "two surfaces share vertex 0"
+                                                    : "more than one component") != NULL);
+        }
+    }
+}
+END_TEST
+
 START_TEST(intervals_are_domains)
 {
     const double ends[3] = {5, 2, 9};
@@ -1043,6 +1118,8 @@ int main(void)
     tcase_add_test(tests, maps_of_surfaces_are_refused);
     tcase_add_test(tests, polytopes_are_domains);
     tcase_add_test(tests, polytopes_are_checked);
+    tcase_add_test(tests, polytopes_are_counted);
+    tcase_add_test(tests, nearest_points_are_nearest);
     tcase_add_test(tests, intervals_are_domains);
     tcase_add_test(tests, polygons_answer_too);
     tcase_add_test(tests, real_surfaces_are_accepted);
