@@ -76,6 +76,12 @@ icc_status iccp_grid_restrict(icc_grid **out, const icc_grid *grid, const uint8_
     for (int32_t k = 0; k < grid->dim; ++k)
         part->origin[k] = grid->origin[k];
     for (size_t v = 0; v < grid->n_vertices; ++v) {
+        if (v % ICCP_VERTICES_PER_REPORT == 0 &&
+            iccp_progress(env, "grid", (double)v / (double)grid->n_vertices) != ICC_OK) {
+            iccp_grid_release(part);
+            *out = NULL;
+            return ICC_ERR_CANCELLED;
+        }
         part->inside[v] = grid->inside[v] && keep[v] != 0;
         part->n_inside += part->inside[v];
     }

@@ -374,6 +374,61 @@ static inline icc_status call_field_verify(const objects *o, outcome *out, const
     return status;
 }
 
+static inline icc_status call_domain_create_mask(const objects *o, outcome *out, const icc_env *env,
+                                                 icc_error *err)
+{
+    static const size_t SHAPE[3] = {5, 5, 5};
+    icc_domain *domain = (icc_domain *)&domain;
+    const icc_status status =
+        icc_domain_create_mask(&domain, 3, SHAPE, icc_grid_inside(o->mask), env, err);
+    HANDED_OVER(status, domain);
+    icc_domain_info info = {.size = sizeof info};
+    if (status == ICC_OK && icc_domain_get_info(domain, &info) == ICC_OK)
+        out->count = info.n_facets;
+    icc_domain_free(domain);
+    return status;
+}
+
+static inline icc_status call_grid_refine(const objects *o, outcome *out, const icc_env *env,
+                                          icc_error *err)
+{
+    icc_grid *grid = (icc_grid *)&grid;
+    const icc_status status = icc_grid_refine(&grid, o->mask, env, err);
+    HANDED_OVER(status, grid);
+    if (status == ICC_OK)
+        memcpy(out->indices, icc_grid_inside(grid), 729);
+    icc_grid_free(grid);
+    return status;
+}
+
+static inline icc_status call_grid_restrict(const objects *o, outcome *out, const icc_env *env,
+                                            icc_error *err)
+{
+    icc_grid *grid = (icc_grid *)&grid;
+    const icc_status status = icc_grid_restrict(&grid, o->mask, icc_grid_inside(o->mask), env, err);
+    HANDED_OVER(status, grid);
+    if (status == ICC_OK)
+        memcpy(out->indices, icc_grid_inside(grid), 125);
+    icc_grid_free(grid);
+    return status;
+}
+
+static inline icc_status call_tree_grow(const objects *o, outcome *out, const icc_env *env,
+                                        icc_error *err)
+{
+    return icc_tree_grow(o->tree, NULL, out->indices, NULL, env, err);
+}
+
+static inline icc_status call_tree_verify_ranks(const objects *o, outcome *out, const icc_env *env,
+                                                icc_error *err)
+{
+    icc_field_report report = {.size = sizeof report};
+    const icc_status status =
+        icc_tree_verify_ranks(o->tree, icc_tree_parents(o->tree), &report, env, err);
+    memcpy(out->indices, &report, sizeof report);
+    return status;
+}
+
 static inline icc_status call_triangulate(const objects *o, outcome *out, const icc_env *env,
                                           icc_error *err)
 {
@@ -385,6 +440,7 @@ static inline icc_status call_triangulate(const objects *o, outcome *out, const 
 
 static const call CALLS[] = {
     {"icc_domain_create", call_domain_create},
+    {"icc_domain_create_mask", call_domain_create_mask},
     {"icc_domain_locate", call_domain_locate},
     {"icc_boundary_defects", call_boundary_defects},
     {"icc_chart_create", call_chart_create},
@@ -403,9 +459,13 @@ static const call CALLS[] = {
     {"icc_map_repair", call_map_repair},
     {"icc_grid_create", call_grid_create},
     {"icc_grid_create_mask", call_grid_create_mask},
+    {"icc_grid_refine", call_grid_refine},
+    {"icc_grid_restrict", call_grid_restrict},
     {"icc_grid_maximum", call_grid_maximum},
     {"icc_tree_create", call_tree_create},
     {"icc_tree_verify", call_tree_verify},
+    {"icc_tree_grow", call_tree_grow},
+    {"icc_tree_verify_ranks", call_tree_verify_ranks},
     {"icc_field_create", call_field_create},
     {"icc_field_verify", call_field_verify},
     {"icc_triangulate", call_triangulate},

@@ -64,6 +64,9 @@ IS(ICC_MAP_MESH, 2);
 
 IS(ICC_EDGE_COMPRESSION, 1);
 IS(ICC_EDGE_EXPANSION, 2);
+IS(ICC_GROW_AS_WISHED, 1);
+IS(ICC_GROW_GROWN, 2);
+IS(ICC_GROW_THINNED, 3);
 
 _Static_assert(sizeof(icc_status) == 4, "icc_status has changed");
 
@@ -276,6 +279,17 @@ AT(icc_field_report, n_minima, 16);
 AT(icc_field_report, n_saddles, 24);
 AT(icc_field_report, critical, 32);
 AT(icc_field_report, reserved, 36);
+
+SIZE(icc_grow_report, 64);
+AT(icc_grow_report, size, 0);
+AT(icc_grow_report, method, 8);
+AT(icc_grow_report, vertex, 12);
+AT(icc_grow_report, n_vertices, 16);
+AT(icc_grow_report, n_postponed, 24);
+AT(icc_grow_report, n_unplaced, 32);
+AT(icc_grow_report, n_left, 40);
+AT(icc_grow_report, n_turned, 48);
+AT(icc_grow_report, n_tests, 56);
 
 #endif
 
