@@ -7,6 +7,8 @@
 #include "field/glued.h"
 #include "math/ldlt.h"
 
+#include <stdbool.h>
+
 /* Clusters between looks at the progress callback. */
 enum { CLUSTERS_PER_REPORT = 1 << 16 };
 
