@@ -62,11 +62,26 @@ static icc_status assign_exponents(icc_field *field, const iccp_rows *rows, cons
     return ICC_OK;
 }
 
+/* What an earlier assignment has left. */
+static void forget(icc_field *field)
+{
+    if (field->plain != NULL) {
+        iccp_free(&field->memory, field->values);
+        field->values = field->plain;
+    }
+    iccp_free(&field->memory, field->exponent);
+    iccp_free(&field->memory, field->logs);
+    field->exponent = NULL;
+    field->plain = field->logs = NULL;
+    field->info.least_log = 0;
+}
+
 icc_status iccp_field_assign(icc_field *field, const iccp_rows *rows, const iccp_scaled *f)
 {
     const icc_tree *tree = field->tree;
     bool positive = true;
     int32_t least = 0;
+    forget(field);
     for (size_t i = 0; i < tree->n_reached; ++i)
         field->values[tree->order[i]] = 0;
     for (size_t k = 0; k < rows->n; ++k) {
