@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "field/bilaplace.h"
 #include "field/constrained.h"
 #include "field/critical.h"
 #include "field/glued.h"
@@ -87,17 +88,30 @@ static iccp_glued_solver glued_solver(const job *j)
     return iccp_glued_direct;
 }
 
-static icc_status solve(job *j, const iccp_env *env)
+static icc_status solve_laplace(job *j, const iccp_env *env)
 {
     icc_field_info *info = &j->field->info;
     const iccp_gluing none = {j->top, j->share};
     const icc_status status = glued_solver(j)(&j->rows, &none, &j->f, info, env);
     if (status != ICC_OK)
         return status;
-    const double clock = iccp_seconds();
     for (size_t k = 1; k < j->rows.n; ++k)
         info->residual = fmax(info->residual, fabs(iccp_laplacian_row(&j->rows, &j->f, k, 0)));
     info->residual_before = info->residual;
+    return ICC_OK;
+}
+
+static icc_status solve(job *j, const iccp_env *env)
+{
+    icc_field_info *info = &j->field->info;
+    const int32_t function = j->options->function;
+    const icc_status status =
+        function == ICC_FUNCTION_LAPLACE
+            ? solve_laplace(j, env)
+            : iccp_bilaplace(&j->rows, function, info->solver, &j->f, info, env);
+    if (status != ICC_OK)
+        return status;
+    const double clock = iccp_seconds();
     info->n_violated = iccp_inequalities_violated(&j->rows, j->options->eta, &j->f);
     info->seconds_verify += iccp_seconds() - clock;
     return ICC_OK;
