@@ -222,8 +222,9 @@ enum {
  * generations where that would underflow, from about 13,850 on. distance: minus the generation. Both
  * depend on the generation alone.
  *
- * laplace: 1 at the root, 0 outside, and at every other vertex the mean of its neighbours: the function with
- * the least Dirichlet energy. bilaplace: that with the least sum of squared Laplacians over the vertices
+ * laplace: 1 at the root, 0 at the vertices outside that neighbour the inside, and at every other vertex
+ * the mean of its neighbours: the function with the least Dirichlet energy. (Beyond those zeros, minus
+ * the value two steps back.) bilaplace: that with the least sum of squared Laplacians over the vertices
  * inside, which is f = c L^-2 e_root (simply supported, Navier); clamped: over the vertices next to them
  * outside, too. Laplace and bilaplace are positive inside, however far from the root; clamped changes its
  * sign unless it is constrained. With constraints, the least energy among the functions that fall by
