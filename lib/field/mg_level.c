@@ -1,0 +1,370 @@
+/* Coarse levels are rediscretised: the vertices inside with even coordinates, with the stencil of their own
+ * spacing. Three things keep that close to the fine problem, whatever the mask:
+ * - the boundary stays where it is: a neighbour outside counts 1 / (its distance in coarse steps),
+ *   which is the symmetric form of Shortley and Weller's stencil (W. Hackbusch, Elliptic Differential
+ *   Equations, 2nd edition, 2017, section 4.8.1);
+ * - coarse neighbours never look through a wall: if there is one between them, neither is kept;
+ * - corridors too narrow for a coarse vertex need none: what is wrong there decays within their width,
+ *   which the smoother sees to.
+ * Measured on the masks of tests/hard_masks.h: 9 to 14 iterations to 1e-10 instead of 11 to 36 with
+ * the plain stencil and the walls looked through. */
+#include "field/mg_level.h"
+
+#include <string.h>
+
+size_t iccp_mg_row_of(const iccp_mg_level *level, const icc_grid *grid, uint32_t vertex, uint32_t *x)
+{
+    size_t row = 0;
+    uint32_t rest = vertex / (uint32_t)grid->shape[0];
+    *x = vertex - rest * (uint32_t)grid->shape[0] - level->corner[0] + 1;
+    for (int32_t k = 1; k < grid->dim; ++k) {
+        const uint32_t next = rest / (uint32_t)grid->shape[k];
+        row += level->stride[k] * (rest - next * (uint32_t)grid->shape[k] - level->corner[k] + 1);
+        rest = next;
+    }
+    return row;
+}
+
+/* The rows of the box, their strides, parities and empty ranges. */
+static icc_status make_rows(iccp_mg_level *level, const iccp_memory *memory)
+{
+    const int32_t last = level->dim - 1;
+    size_t n = 1;
+    level->stride[0] = 0;
+    for (int32_t k = 1; k < level->dim; ++k) {
+        level->stride[k] = n;
+        n *= level->extent[k] + 2;
+    }
+    level->n_rows = n;
+    level->n_slabs = last > 0 ? level->extent[last] + 2 : 1;
+    level->row = iccp_alloc_zero(memory, n + 1, sizeof *level->row);
+    level->range = iccp_alloc(memory, 2 * n, sizeof *level->range);
+    if (level->row == NULL || level->range == NULL)
+        return ICC_ERR_MEMORY;
+    for (size_t r = 0; r < n; ++r) {
+        level->range[2 * r] = UINT32_MAX;
+        level->range[2 * r + 1] = 0;
+    }
+    for (int32_t k = 1; k < level->dim; ++k)
+        for (size_t r = 0; r < n; ++r)
+            level->row[r].parity ^= (uint32_t)(r / level->stride[k] % (level->extent[k] + 2)) & 1;
+    return ICC_OK;
+}
+
+static void widen(uint32_t *range, uint32_t first, uint32_t last)
+{
+    if (first < range[0])
+        range[0] = first;
+    if (last > range[1])
+        range[1] = last;
+}
+
+/* Windows: the ranges of a row and of all rows round it (axis by axis), and one vertex more to both sides.
+ * Where they are stored follows. `wide`: 2 n_rows numbers of work space. */
+static void place_windows(iccp_mg_level *level, uint32_t *wide)
+{
+    const size_t n = level->n_rows;
+    memcpy(wide, level->range, 2 * n * sizeof *wide);
+    for (int32_t k = 1; k < level->dim; ++k) {
+        for (size_t r = 0; r < n; ++r) {
+            level->row[r].first = wide[2 * r];
+            level->row[r].last = wide[2 * r + 1];
+        }
+        for (size_t r = 0; r < n; ++r) {
+            if (r >= level->stride[k])
+                widen(wide + 2 * r, level->row[r - level->stride[k]].first,
+                      level->row[r - level->stride[k]].last);
+            if (r + level->stride[k] < n)
+                widen(wide + 2 * r, level->row[r + level->stride[k]].first,
+                      level->row[r + level->stride[k]].last);
+        }
+    }
+    size_t at = 0;
+    for (size_t r = 0; r < n; ++r) {
+        iccp_mg_row *row = level->row + r;
+        row->first = wide[2 * r] > wide[2 * r + 1] ? 1 : (wide[2 * r] - 1) / 2 * 2;
+        row->last = wide[2 * r] > wide[2 * r + 1] ? 0 : (wide[2 * r + 1] + 1) | 1;
+        const size_t half = (row->last + 1 - row->first) / 2;
+        for (size_t h = 0; h < 2; ++h)
+            row->base[h] = (ptrdiff_t)(at + h * half) - (ptrdiff_t)(row->first / 2);
+        at += 2 * half;
+    }
+    level->n_entries = at;
+}
+
+static icc_status make_windows(iccp_mg_level *level, const iccp_memory *memory)
+{
+    uint32_t *wide = iccp_alloc(memory, 2 * level->n_rows, sizeof *wide);
+    if (wide == NULL)
+        return ICC_ERR_MEMORY;
+    place_windows(level, wide);
+    iccp_free(memory, wide);
+    level->inside = iccp_alloc_zero(memory, level->n_entries, 1);
+    level->x = iccp_alloc_zero(memory, level->n_entries, sizeof *level->x);
+    level->b = iccp_alloc_zero(memory, level->n_entries, sizeof *level->b);
+    return level->inside != NULL && level->x != NULL && level->b != NULL ? ICC_OK : ICC_ERR_MEMORY;
+}
+
+/* Lists the runs of every half, or counts them if there is no list yet. */
+static size_t list_runs(iccp_mg_level *level)
+{
+    size_t n_runs = 0;
+    for (size_t r = 0; r < level->n_rows; ++r) {
+        iccp_mg_row *row = level->row + r;
+        for (uint32_t h = 0; h < 2; ++h) {
+            row->run[h] = (uint32_t)n_runs;
+            for (uint32_t k = row->first / 2; 2 * k < row->last; ++k) {
+                if (!level->inside[iccp_mg_position(level, r, 2 * k + h)])
+                    continue;
+                const uint32_t begin = k;
+                while (2 * k < row->last && level->inside[iccp_mg_position(level, r, 2 * k + h)])
+                    ++k;
+                if (level->run != NULL)
+                    level->run[n_runs] = (iccp_mg_run){begin, k};
+                ++n_runs;
+                level->n_inside += level->run != NULL ? k - begin : 0;
+            }
+        }
+    }
+    level->row[level->n_rows].run[0] = (uint32_t)n_runs;
+    return n_runs;
+}
+
+static icc_status make_runs(iccp_mg_level *level, const iccp_memory *memory)
+{
+    level->run = iccp_alloc(memory, list_runs(level), sizeof *level->run);
+    if (level->run == NULL)
+        return ICC_ERR_MEMORY;
+    list_runs(level);
+    return ICC_OK;
+}
+
+static void find_extent(iccp_mg_level *level, const icc_grid *grid, size_t n, const uint32_t *vertex)
+{
+    uint32_t high[ICC_MAX_DIM] = {0};
+    for (int32_t k = 0; k < grid->dim; ++k)
+        level->corner[k] = UINT32_MAX;
+    for (size_t i = 0; i < n; ++i) {
+        uint32_t rest = vertex[i];
+        for (int32_t k = 0; k < grid->dim; ++k) {
+            const uint32_t next = rest / (uint32_t)grid->shape[k];
+            const uint32_t c = rest - next * (uint32_t)grid->shape[k];
+            level->corner[k] = c < level->corner[k] ? c : level->corner[k];
+            high[k] = c > high[k] ? c : high[k];
+            rest = next;
+        }
+    }
+    for (int32_t k = 0; k < grid->dim; ++k)
+        level->extent[k] = high[k] - level->corner[k] + 1;
+}
+
+icc_status iccp_mg_level_fine(iccp_mg_level *level, const icc_grid *grid, size_t n,
+                              const uint32_t *vertex, const iccp_env *env)
+{
+    *level = (iccp_mg_level){.dim = grid->dim};
+    find_extent(level, grid, n, vertex);
+    icc_status status = make_rows(level, &env->memory);
+    if (status != ICC_OK)
+        return status;
+    uint32_t x;
+    for (size_t i = 0; i < n; ++i) {
+        const size_t r = iccp_mg_row_of(level, grid, vertex[i], &x);
+        widen(level->range + 2 * r, x, x);
+    }
+    status = make_windows(level, &env->memory);
+    if (status != ICC_OK)
+        return status;
+    for (size_t i = 0; i < n; ++i) {
+        const size_t r = iccp_mg_row_of(level, grid, vertex[i], &x);
+        level->inside[iccp_mg_position(level, r, x)] = 1;
+    }
+    return make_runs(level, &env->memory);
+}
+
+/* ------------------------------------------------------------------ coarse */
+
+/* A place in a level's box. */
+typedef struct place {
+    uint32_t at[ICC_MAX_DIM];
+    size_t row;
+} place;
+
+static bool is_inside(const iccp_mg_level *level, size_t row, uint32_t x)
+{
+    const iccp_mg_row *r = level->row + row;
+    return x >= r->first && x <= r->last && level->inside[iccp_mg_position(level, row, x)];
+}
+
+/* Whether the vertex `steps` along an axis is inside; the box has an end. */
+static bool is_inside_along(const iccp_mg_level *level, const place *p, int32_t axis, int32_t sign,
+                            uint32_t steps)
+{
+    const uint32_t at = p->at[axis];
+    if (sign < 0 ? at <= steps : steps > level->extent[axis] - at)
+        return false;
+    const size_t step = steps * level->stride[axis];
+    const uint32_t x = axis > 0 ? p->at[0] : sign < 0 ? at - steps : at + steps;
+    return is_inside(level, sign < 0 ? p->row - step : p->row + step, x);
+}
+
+/* The same vertex on a level 2^depth times as fine. */
+static place finer(const iccp_mg_level *fine, const place *p, int32_t depth)
+{
+    place f = {.row = 0};
+    for (int32_t k = 0; k < fine->dim; ++k) {
+        f.at[k] = p->at[k] << depth;
+        f.row += fine->stride[k] * f.at[k];
+    }
+    return f;
+}
+
+/* The place of x = 0 in a row; false for rows on the rim of the box. */
+static bool row_place(const iccp_mg_level *level, size_t row, place *p)
+{
+    *p = (place){.row = row};
+    for (int32_t k = 1; k < level->dim; ++k) {
+        p->at[k] = (uint32_t)(row / level->stride[k] % (level->extent[k] + 2));
+        if (p->at[k] == 0 || p->at[k] > level->extent[k])
+            return false;
+    }
+    return true;
+}
+
+static bool is_kept(const iccp_mg_level *fine, const place *f)
+{
+    if (!is_inside(fine, f->row, f->at[0]))
+        return false;
+    for (int32_t k = 0; k < fine->dim; ++k)
+        for (int32_t sign = -1; sign <= 1; sign += 2)
+            if (!is_inside_along(fine, f, k, sign, 1) && is_inside_along(fine, f, k, sign, 2))
+                return false;
+    return true;
+}
+
+/* The diagonal entry: 1 for a neighbour inside, 1 / distance for one outside. */
+static double diagonal(const iccp_mg_level *level, const iccp_mg_level *finest, int32_t depth,
+                       const place *p)
+{
+    const place f = finer(finest, p, depth);
+    const uint32_t whole = (uint32_t)1 << depth;
+    double sum = 0;
+    for (int32_t k = 0; k < level->dim; ++k)
+        for (int32_t sign = -1; sign <= 1; sign += 2) {
+            uint32_t steps = 1;
+            if (is_inside_along(level, p, k, sign, 1))
+                steps = whole;
+            while (steps < whole && is_inside_along(finest, &f, k, sign, steps))
+                ++steps;
+            sum += (double)whole / steps;
+        }
+    return sum;
+}
+
+/* Every coarse row next to a row of the finer level covers it, so that both can be added to each other
+ * without asking. */
+static void cover(iccp_mg_level *level, const iccp_mg_level *fine)
+{
+    for (size_t r = 0; r < fine->n_rows; ++r) {
+        const uint32_t first = fine->range[2 * r], last = fine->range[2 * r + 1];
+        if (first > last)
+            continue;
+        size_t row = 0, odd[ICC_MAX_DIM], n_odd = 0;
+        for (int32_t k = 1; k < fine->dim; ++k) {
+            const size_t c = r / fine->stride[k] % (fine->extent[k] + 2);
+            row += c / 2 * level->stride[k];
+            if (c % 2 != 0)
+                odd[n_odd++] = level->stride[k];
+        }
+        for (size_t corner = 0; corner < (size_t)1 << n_odd; ++corner) {
+            size_t at = row;
+            for (size_t j = 0; j < n_odd; ++j)
+                at += corner >> j & 1 ? odd[j] : 0;
+            widen(level->range + 2 * at, first / 2 > 1 ? first / 2 : 1, (last + 1) / 2);
+        }
+    }
+}
+
+typedef struct coarsening {
+    iccp_mg_level *level;
+    const iccp_mg_level *fine, *finest;
+    int32_t depth;
+} coarsening;
+
+static void mark_row(const coarsening *c, size_t row)
+{
+    place p;
+    if (!row_place(c->level, row, &p))
+        return;
+    place f = finer(c->fine, &p, 1);
+    const uint32_t last = c->level->range[2 * row + 1];
+    for (uint32_t x = c->level->range[2 * row]; x <= last && x <= c->level->extent[0]; ++x) {
+        f.at[0] = 2 * x;
+        c->level->inside[iccp_mg_position(c->level, row, x)] = is_kept(c->fine, &f);
+    }
+}
+
+static void weigh_row(const coarsening *c, size_t row)
+{
+    place p;
+    if (!row_place(c->level, row, &p))
+        return;
+    for (uint32_t h = 0; h < 2; ++h) {
+        const iccp_mg_run *end, *run = iccp_mg_runs(c->level, row, (int)h, &end);
+        for (; run < end; ++run)
+            for (uint32_t k = run->begin; k < run->end; ++k) {
+                p.at[0] = 2 * k + h;
+                c->level->inverse[iccp_mg_position(c->level, row, p.at[0])] =
+                    (float)(1 / diagonal(c->level, c->finest, c->depth, &p));
+            }
+    }
+}
+
+icc_status iccp_mg_level_coarse(iccp_mg_level *level, const iccp_mg_level *fine,
+                                const iccp_mg_level *finest, int32_t depth, const iccp_env *env)
+{
+    const coarsening c = {level, fine, finest, depth};
+    *level = (iccp_mg_level){.dim = fine->dim};
+    for (int32_t k = 0; k < fine->dim; ++k) {
+        level->extent[k] = fine->extent[k] / 2;
+        if (level->extent[k] == 0)
+            return ICC_OK;
+    }
+    icc_status status = make_rows(level, &env->memory);
+    if (status == ICC_OK) {
+        cover(level, fine);
+        status = make_windows(level, &env->memory);
+    }
+    if (status == ICC_OK) {
+        for (size_t r = 0; r < level->n_rows; ++r)
+            mark_row(&c, r);
+        status = make_runs(level, &env->memory);
+    }
+    if (status == ICC_OK && level->n_inside > 0) {
+        level->inverse = iccp_alloc_zero(&env->memory, level->n_entries, sizeof *level->inverse);
+        status = level->inverse != NULL ? ICC_OK : ICC_ERR_MEMORY;
+        for (size_t r = 0; r < level->n_rows && status == ICC_OK; ++r)
+            weigh_row(&c, r);
+    }
+    if (status != ICC_OK || level->n_inside == 0)
+        iccp_mg_level_free(level, &env->memory);
+    return status;
+}
+
+void iccp_mg_level_drop_scaffold(iccp_mg_level *level, const iccp_memory *memory)
+{
+    iccp_free(memory, level->inside);
+    iccp_free(memory, level->range);
+    level->inside = NULL;
+    level->range = NULL;
+}
+
+void iccp_mg_level_free(iccp_mg_level *level, const iccp_memory *memory)
+{
+    iccp_mg_level_drop_scaffold(level, memory);
+    iccp_free(memory, level->row);
+    iccp_free(memory, level->run);
+    iccp_free(memory, level->inverse);
+    iccp_free(memory, level->x);
+    iccp_free(memory, level->b);
+    *level = (iccp_mg_level){.dim = level->dim};
+}
