@@ -244,7 +244,7 @@ static void measure(const row *r)
         f.imbalance = r->function == LAPLACE && !f.info.constrained
                           ? ground_imbalance(&g, icc_field_logs(field))
                           : NAN;
-        f.n_violated = count_violated(&g, field);
+        f.n_violated = f.info.constrained ? count_violated(&g, field) : 0;
         print(r, &f);
     }
     icc_field_free(field);
