@@ -142,15 +142,10 @@ static void measure_pairs(void)
 typedef struct result {
     char name[32];
     double share[N_KINDS][N_MEASURES]; /* NaN where there is no chart */
+    size_t critical[N_KINDS][3];       /* maxima, minima, saddles */
 } result;
 
-typedef struct totals {
-    double seconds[N_KINDS];
-    size_t n_charts[N_KINDS], n_regular[N_KINDS];
-} totals;
-
-static bool measure_cage(const icc_domain *domain, int k, int32_t cells, double share[N_MEASURES],
-                         totals *t)
+static bool measure_cage(const icc_domain *domain, int k, int32_t cells, result *r, double *seconds)
 {
     const icc_chart_options options = options_of(&KINDS[k], cells);
     icc_error error = {.size = sizeof error};
@@ -160,17 +155,15 @@ static bool measure_cage(const icc_domain *domain, int k, int32_t cells, double 
         printf("%s: %s\n", KINDS[k].name, error.message);
         return false;
     }
-    t->seconds[k] += bench_seconds() - start;
+    *seconds += bench_seconds() - start;
     icc_chart_info info = {.size = sizeof info};
     icc_chart_measures m = {.size = sizeof m};
     bench_check(icc_chart_get_info(chart, &info), &error);
     bench_check(icc_chart_measure(chart, POINTS, &m, NULL, &error), &error);
-    ++t->n_charts[k];
-    t->n_regular[k] += info.n_maxima == 1 && info.n_minima == 0 && info.n_saddles == 0;
-    share[0] = m.unreachable;
-    share[1] = m.uncovered;
-    share[2] = m.collapsed;
-    share[3] = m.not_inward;
+    memcpy(r->critical[k], (size_t[]){info.n_maxima, info.n_minima, info.n_saddles},
+           sizeof r->critical[k]);
+    memcpy(r->share[k], (double[]){m.unreachable, m.uncovered, m.collapsed, m.not_inward},
+           sizeof r->share[k]);
     icc_chart_free(chart);
     return true;
 }
@@ -205,13 +198,33 @@ static void print_table(const char *title, int measured, const result *results, 
     printf("\n");
 }
 
+static void print_critical(const result *results, int n)
+{
+    printf("\n%-30s", "maxima/minima/saddles");
+    int n_regular[N_KINDS] = {0};
+    for (int i = 0; i < n; ++i) {
+        printf("\n%-30s", results[i].name);
+        for (int k = 0; k < N_KINDS; ++k) {
+            const size_t *c = results[i].critical[k];
+            char text[64];
+            (void)snprintf(text, sizeof text, "%zu/%zu/%zu", c[0], c[1], c[2]);
+            printf(" %9s", text);
+            n_regular[k] += c[0] == 1 && c[1] == 0 && c[2] == 0;
+        }
+    }
+    printf("\n%-30s", "one maximum, nothing else");
+    for (int k = 0; k < N_KINDS; ++k)
+        printf(" %9d", n_regular[k]);
+    printf("\n");
+}
+
 static void measure_cages(const char *directory, int32_t cells)
 {
     static const char *const TITLES[N_MEASURES] = {"% unreachable", "% uncovered", "% collapsed",
                                                    "% not inward"};
     static result results[MOST_CAGES];
     struct dirent **entries;
-    totals t = {{0}, {0}, {0}};
+    double seconds[N_KINDS] = {0};
     int n = scandir(directory, &entries, is_cage, alphasort);
     if (n <= 0) {
         printf("%s: no cages; skipped\n", directory);
@@ -224,22 +237,17 @@ static void measure_cages(const char *directory, int32_t cells)
         (void)snprintf(results[i].name, sizeof results[i].name, "%.31s", entries[i]->d_name);
         icc_domain *domain = cage_read(path);
         for (int k = 0; k < N_KINDS; ++k)
-            if (!measure_cage(domain, k, cells, results[i].share[k], &t))
+            if (!measure_cage(domain, k, cells, &results[i], &seconds[k]))
                 for (int m = 0; m < N_MEASURES; ++m)
                     results[i].share[k][m] = NAN;
         icc_domain_free(domain);
     }
     for (int m = 0; m < N_MEASURES; ++m)
         print_table(TITLES[m], m, results, n);
-    printf("\n%-30s", "charts");
-    for (int k = 0; k < N_KINDS; ++k)
-        printf(" %9zu", t.n_charts[k]);
-    printf("\n%-30s", "one maximum, nothing else");
-    for (int k = 0; k < N_KINDS; ++k)
-        printf(" %9zu", t.n_regular[k]);
+    print_critical(results, n);
     printf("\n%-30s", "seconds, all together");
     for (int k = 0; k < N_KINDS; ++k)
-        printf(" %9.3f", t.seconds[k]);
+        printf(" %9.3f", seconds[k]);
     printf("\n");
 }
 
