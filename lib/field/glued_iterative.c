@@ -12,14 +12,15 @@
 
 #include <string.h>
 
-/* Accepted: values above CUT of the largest and TRUNCATION times those where the shell ends. */
-static const double CUT = 1e-5, TRUNCATION = 1e7;
+/* Accepted: values above CUT of the largest and TRUNCATION times those where the shell ends. Of 1e-5 ..
+ * 1e-8, all leave residuals below 1e-9 of each value; the lower, the fewer shells. */
+static const double CUT = 1e-7, TRUNCATION = 1e7;
 
 /* Values below this share of the largest are no help in guessing how large a shell should be. */
-static const double NEGLIGIBLE = 1e-13;
+static const double NEGLIGIBLE = 1e-14;
 
 /* Each shell is solved to this; a tenth of CUT, so that rows next to an accepted one are good, too. */
-static const iccp_mg_goal GOAL = {.relative = 1e-10, .componentwise = 1e-9, .floor = 1e-6};
+static const iccp_mg_goal GOAL = {.relative = 1e-10, .componentwise = 1e-9, .floor = 1e-8};
 
 enum { LEAST_SHELL = 1024 };
 

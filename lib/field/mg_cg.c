@@ -18,15 +18,24 @@ static const size_t ENTRIES_PER_REPORT = (size_t)1 << 20;
 /* Sums are taken in so many interleaved parts, whatever the width of the machine's vectors. */
 enum { LANES = 8 };
 
+typedef struct upward {
+    double rz[LANES], zaz[LANES];
+} upward;
+
+typedef struct downward {
+    double rr[LANES];     /* |r|^2 */
+    double peak[LANES];   /* the largest x */
+    double excess[LANES]; /* the largest |r| - bound * max(x, least) */
+} downward;
+
 typedef struct solver {
     iccp_multigrid *mg;
     const iccp_mg_level *level;
     double *x, *r;
     float *p;
-    double alpha, beta;
-    double rz, zaz;      /* of the pass up */
-    double rr, peak, excess; /* of the pass down: |r|^2, the largest x, the largest breach of the bounds below */
-    double bound, least; /* |r| <= bound * max(x, least) */
+    double alpha, beta, bound, least;
+    upward up;     /* of the last pass up */
+    downward down; /* of the last pass down */
 } solver;
 
 /* Stencils. n_near is a constant wherever these are called. */
@@ -51,65 +60,73 @@ static double add_lanes(const double lanes[LANES])
     return sum;
 }
 
+static double max_lanes(const double lanes[LANES])
+{
+    double most = lanes[0];
+    for (int j = 1; j < LANES; ++j)
+        most = lanes[j] > most ? lanes[j] : most;
+    return most;
+}
+
+static ICCP_INLINE void measure_at(const stretch *t, const float *z, const double *r, size_t i,
+                                   size_t lane, int32_t n_near, upward *up)
+{
+    up->rz[lane] += r[i] * (double)z[i];
+    up->zaz[lane] += (double)z[i] * apply(z, t->near, i, n_near);
+}
+
 static ICCP_INLINE void measure(solver *s, const stretch *t, int32_t n_near)
 {
     const float *z = s->level->x + t->at;
     const double *r = s->r + t->at;
-    double rz[LANES] = {0}, zaz[LANES] = {0};
     size_t i = 0;
-    for (; i + LANES <= t->n; i += LANES)
-        for (size_t j = 0; j < LANES; ++j) {
-            rz[j] += r[i + j] * (double)z[i + j];
-            zaz[j] += (double)z[i + j] * apply(z, t->near, i + j, n_near);
-        }
-    for (size_t j = 0; i + j < t->n; ++j) {
-        rz[j] += r[i + j] * (double)z[i + j];
-        zaz[j] += (double)z[i + j] * apply(z, t->near, i + j, n_near);
+    if (t->n >= LANES) {
+        upward up = s->up;
+        for (; i + LANES <= t->n; i += LANES)
+            for (size_t j = 0; j < LANES; ++j)
+                measure_at(t, z, r, i + j, j, n_near, &up);
+        s->up = up;
     }
-    s->rz += add_lanes(rz);
-    s->zaz += add_lanes(zaz);
+    for (size_t j = 0; i + j < t->n; ++j)
+        measure_at(t, z, r, i + j, j, n_near, &s->up);
 }
 
-typedef struct lanes {
-    double rr[LANES], peak[LANES], excess[LANES];
-} lanes;
+/* What a pass down writes and reads, in registers. */
+typedef struct update {
+    double *restrict x, *restrict r;
+    float *restrict b;
+    const float *p;
+    double alpha, bound, least;
+} update;
 
-static ICCP_INLINE void step(const solver *s, double *restrict x, double *restrict r, float *restrict b,
-                             const float *p, const float *const *near, size_t i, int32_t n_near,
-                             double *rr, double *peak, double *excess)
+static ICCP_INLINE void advance_at(const update *u, const float *const *near, size_t i, size_t lane,
+                                   int32_t n_near, downward *down)
 {
-    const double value = x[i] + s->alpha * (double)p[i];
-    const double rest = r[i] - s->alpha * apply(p, near, i, n_near);
-    const double large = value > s->least ? value : s->least;
-    const double over = (rest < 0 ? -rest : rest) - s->bound * large;
-    x[i] = value;
-    r[i] = rest;
-    b[i] = (float)rest;
-    *rr += rest * rest;
-    *peak = value > *peak ? value : *peak;
-    *excess = over > *excess ? over : *excess;
+    const double x = u->x[i] + u->alpha * (double)u->p[i];
+    const double r = u->r[i] - u->alpha * apply(u->p, near, i, n_near);
+    const double excess = (r < 0 ? -r : r) - u->bound * (x > u->least ? x : u->least);
+    u->x[i] = x;
+    u->r[i] = r;
+    u->b[i] = (float)r;
+    down->rr[lane] += r * r;
+    down->peak[lane] = x > down->peak[lane] ? x : down->peak[lane];
+    down->excess[lane] = excess > down->excess[lane] ? excess : down->excess[lane];
 }
 
 static ICCP_INLINE void advance(solver *s, const stretch *t, int32_t n_near)
 {
-    double *restrict x = s->x + t->at, *restrict r = s->r + t->at;
-    float *restrict b = s->level->b + t->at;
-    const float *p = s->p + t->at;
-    const solver constant = *s;
-    lanes l = {{0}, {0}, {0}};
-    for (size_t j = 0; j < LANES; ++j)
-        l.excess[j] = -HUGE_VAL;
+    const update u = {s->x + t->at, s->r + t->at, s->level->b + t->at, s->p + t->at,
+                      s->alpha,     s->bound,     s->least};
     size_t i = 0;
-    for (; i + LANES <= t->n; i += LANES)
-        for (size_t j = 0; j < LANES; ++j)
-            step(&constant, x, r, b, p, t->near, i + j, n_near, &l.rr[j], &l.peak[j], &l.excess[j]);
-    for (size_t j = 0; i + j < t->n; ++j)
-        step(&constant, x, r, b, p, t->near, i + j, n_near, &l.rr[j], &l.peak[j], &l.excess[j]);
-    s->rr += add_lanes(l.rr);
-    for (size_t j = 0; j < LANES; ++j) {
-        s->peak = fmax(s->peak, l.peak[j]);
-        s->excess = fmax(s->excess, l.excess[j]);
+    if (t->n >= LANES) {
+        downward down = s->down;
+        for (; i + LANES <= t->n; i += LANES)
+            for (size_t j = 0; j < LANES; ++j)
+                advance_at(&u, t->near, i + j, j, n_near, &down);
+        s->down = down;
     }
+    for (size_t j = 0; i + j < t->n; ++j)
+        advance_at(&u, t->near, i + j, j, n_near, &s->down);
 }
 
 static void measure_stretch(solver *s, const stretch *t)
@@ -179,8 +196,9 @@ static icc_status pass_down(solver *s, const iccp_env *env)
 {
     const size_t n = s->level->n_slabs;
     icc_status status = ICC_OK;
-    s->rr = s->peak = 0;
-    s->excess = -HUGE_VAL;
+    s->down = (downward){{0}, {0}, {0}};
+    for (int j = 0; j < LANES; ++j)
+        s->down.excess[j] = -HUGE_VAL;
     for (size_t slab = 0; slab < n + 4 && status == ICC_OK; ++slab) {
         if (slab < n)
             for_slab(s, slab, s->p, turn);
@@ -198,7 +216,7 @@ static icc_status pass_up(solver *s, const iccp_env *env)
     const size_t n = s->level->n_slabs;
     icc_status status = ICC_OK;
     iccp_multigrid_correct(s->mg);
-    s->rz = s->zaz = 0;
+    s->up = (upward){{0}, {0}};
     for (size_t slab = 0; slab < n + 3 && status == ICC_OK; ++slab) {
         iccp_multigrid_ascend(s->mg, slab);
         if (slab >= 3)
@@ -216,24 +234,26 @@ static icc_status iterate(solver *s, double size, const iccp_mg_goal *goal, size
     size_t since = 0;
     s->bound = goal->componentwise * 2 * s->level->dim;
     /* A pass with alpha = 0 measures what is there and begins the first V-cycle. */
-    s->alpha = s->beta = 0;
     icc_status status = pass_down(s, env);
-    while (status == ICC_OK && !(sqrt(s->rr) <= wanted && s->excess <= 0)) {
-        since = s->rr < least ? 0 : since + 1;
-        least = fmin(s->rr, least);
-        if (!isfinite(s->rr) || since > PATIENCE)
+    while (status == ICC_OK) {
+        const double rr = add_lanes(s->down.rr);
+        if (sqrt(rr) <= wanted && max_lanes(s->down.excess) <= 0)
+            break;
+        since = rr < least ? 0 : since + 1;
+        least = fmin(rr, least);
+        if (!isfinite(rr) || since > PATIENCE)
             return ICC_ERR_SOLVER;
         status = pass_up(s, env);
         if (status != ICC_OK)
             break;
-        const bool first = !(s->alpha > 0);
-        s->beta = first ? 0 : s->rz / rz;
-        rz = s->rz;
-        const double curvature = s->zaz - (first ? 0 : s->beta * rz / s->alpha);
-        if (!(rz > 0 && curvature > 0))
+        const double next = add_lanes(s->up.rz), zaz = add_lanes(s->up.zaz);
+        s->beta = s->alpha > 0 ? next / rz : 0;
+        const double curvature = s->alpha > 0 ? zaz - s->beta * next / s->alpha : zaz;
+        if (!(next > 0 && curvature > 0))
             return ICC_ERR_SOLVER;
+        rz = next;
         s->alpha = rz / curvature;
-        s->least = goal->floor * s->peak;
+        s->least = goal->floor * max_lanes(s->down.peak);
         status = pass_down(s, env);
         ++*n_iterations;
     }
