@@ -81,6 +81,7 @@ static int examine_function(info *x, const stages *s)
         return DONE;
     if (icc_field_verify(s->field, &found, &x->job.env, &err) != ICC_OK)
         return job_failed(&x->job, &err);
+    x->n_inner_expansion = s->n_inner_expansion;
     x->n_holes = stages_holes(s);
     x->has_critical = found.critical != UINT32_MAX;
     if (x->has_critical)

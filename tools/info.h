@@ -24,7 +24,8 @@ typedef struct info {
     icc_field_info field;
     bool has_critical; /* besides the maximum there are others, the first one here */
     double critical[2];
-    size_t n_holes; /* of the grid's inside */
+    size_t n_holes;           /* of the grid's inside */
+    size_t n_inner_expansion; /* expansion edges between two triangles inside */
     icc_map_info map;
     map_shares shares;
 } info;

@@ -59,8 +59,9 @@ static void print_gradient(const info *x)
     if (function_solves(c->function))
         print_solution(&x->field);
     print_critical(x);
-    printf("edges       %zu, of which %zu compression, %zu expansion\n", c->n_edges,
-           c->n_compression, c->n_expansion);
+    printf("edges       %zu, of which %zu compression, %zu expansion; %zu of these at triangles "
+           "inside\n",
+           c->n_edges, c->n_compression, c->n_expansion, x->n_inner_expansion);
     printf(
         "unreachable %6.2f %% of the area: no curve through it reaches both boundary and maximum\n",
         100 * m->unreachable);

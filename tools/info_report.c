@@ -32,6 +32,7 @@ static void report_gradient(json *j, const info *x)
     json_count(j, "edges", c->n_edges);
     json_count(j, "compression_edges", c->n_compression);
     json_count(j, "expansion_edges", c->n_expansion);
+    json_count(j, "expansion_edges_inside", x->n_inner_expansion);
 }
 
 static void report_mesh(json *j, const icc_chart_info *c)

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 
 /* From here on, in orders of magnitude, a linear scale shows little but the summit. */
-static const double many_decades = 3;
+static const double many_decades = 2;
 
 static void find_range(stages *s)
 {
@@ -32,6 +32,16 @@ static void find_scale(stages *s)
     find_range(s);
 }
 
+static bool inner_edge(const stages *s, uint32_t a, uint32_t b)
+{
+    const uint8_t *inside = icc_grid_inside(s->grid);
+    const size_t row = s->lattice.shape[0],
+                 step = b - a; /* 1, row, or row + 1: a is the lower one */
+    size_t left = step == 1 ? a + row + 1 : step == row ? a - 1 : a + row;
+    size_t right = step == 1 ? a - row : step == row ? a + row + 1 : a + 1;
+    return inside[a] && inside[b] && inside[left] && inside[right];
+}
+
 static int find_edges(stages *s, job *j)
 {
     size_t n = 0;
@@ -41,6 +51,9 @@ static int find_edges(stages *s, job *j)
     if (status == ICC_OK && n > 0)
         status = icc_field_edges(s->field, n, s->edges, s->kinds, &n, NULL);
     s->n_edges = n;
+    for (size_t i = 0; i < n && status == ICC_OK; i++)
+        s->n_inner_expansion += s->kinds[i] == ICC_EDGE_EXPANSION &&
+                                inner_edge(s, s->edges[2 * i], s->edges[2 * i + 1]);
     return status == ICC_OK ? DONE : job_failed_status(j, status);
 }
 

@@ -24,6 +24,7 @@ typedef struct stages {
     size_t n_edges;
     uint32_t *edges; /* n_edges pairs: compression and expansion edges */
     int32_t *kinds;
+    size_t n_inner_expansion; /* expansion edges whose two triangles are inside */
 } stages;
 
 /* Of the chart that the job has made of the source (side 1), or of its map's source or target (2). Other
