@@ -7,6 +7,8 @@
 
 #include "../hard_masks.h"
 
+static const double ETA = 1e-6, LEAF = 1e-9;
+
 typedef struct bench_case {
     const char *shape;
     int32_t dim;
@@ -48,7 +50,7 @@ static void print_points(const icc_tree *tree, const iccp_rows *rows, const iccp
     iccp_field_release(field);
 }
 
-static void measure(const bench_case *c, int32_t function)
+static void measure(const bench_case *c, int32_t function, bool constrained)
 {
     iccp_env env;
     iccp_rows rows;
@@ -61,12 +63,15 @@ static void measure(const bench_case *c, int32_t function)
                            bench_alloc(rows.n, sizeof *f.exponent)};
     const double start = bench_seconds();
     const icc_status status =
-        iccp_bilaplace(&rows, function, ICC_SOLVER_DIRECT, &f, &info, &env);
+        constrained ? iccp_bilaplace_constrained(&rows, function, ETA, LEAF, &f, &info, &env)
+                    : iccp_bilaplace(&rows, function, ICC_SOLVER_DIRECT, &f, &info, &env);
     printf("%-10s %d %5zu %8zu %-7s", c->shape, (int)c->dim, c->cells, rows.n,
            function == ICC_FUNCTION_CLAMPED ? "clamped" : "Navier");
-    printf(" %7.3f %7.3f %7.3f", bench_seconds() - start, info.seconds_order, info.seconds_factor);
+    printf(" %8.3f %7.3f %8.3f %8.3f %5zu %5.1f", bench_seconds() - start, info.seconds_order,
+           info.seconds_factor, info.seconds_solve, info.n_iterations,
+           100 * (double)info.n_active / (double)rows.n);
     if (status == ICC_OK) {
-        printf(" %8.1e", info.residual);
+        printf(" %8.1e %8.1e", info.residual_before, info.residual);
         print_points(tree, &rows, &f, &env);
     } else
         printf(" %s", icc_status_name(status));
@@ -78,20 +83,28 @@ static void measure(const bench_case *c, int32_t function)
     icc_tree_free(tree);
 }
 
+static void measure_all(const bench_case *c)
+{
+    for (int constrained = 0; constrained < 2; ++constrained) {
+        measure(c, ICC_FUNCTION_BILAPLACE, constrained);
+        measure(c, ICC_FUNCTION_CLAMPED, constrained);
+    }
+}
+
 int main(int argc, char **argv)
 {
     static const bench_case SMALL[] = {{"box", 2, 200}, {"C", 2, 200},       {"star", 2, 200},
-                                       {"L", 2, 200},   {"dumbbell", 3, 32}, {"tripod", 3, 32}};
-    printf("                                         seconds\n"
-           "shape     dim cells     rows function      all   order  factor residual  max  min sadd\n");
-    for (size_t k = 0; argc < 4 && k < sizeof SMALL / sizeof *SMALL; ++k) {
-        measure(&SMALL[k], ICC_FUNCTION_BILAPLACE);
-        measure(&SMALL[k], ICC_FUNCTION_CLAMPED);
-    }
+                                       {"L", 2, 200},   {"dumbbell", 3, 32}, {"tripod", 3, 32},
+                                       {"drum", 3, 32}};
+    printf("                                           seconds                         steps active "
+           "residual\n"
+           "shape     dim cells     rows function       all   order   factor    solve         %%   "
+           "before    after  max  min sadd\n");
+    for (size_t k = 0; argc < 4 && k < sizeof SMALL / sizeof *SMALL; ++k)
+        measure_all(&SMALL[k]);
     for (int k = 1; k + 2 < argc; k += 3) {
         const bench_case c = {argv[k], atoi(argv[k + 1]), (size_t)atoi(argv[k + 2])};
-        measure(&c, ICC_FUNCTION_BILAPLACE);
-        measure(&c, ICC_FUNCTION_CLAMPED);
+        measure_all(&c);
     }
     return EXIT_SUCCESS;
 }
