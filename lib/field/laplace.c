@@ -46,6 +46,8 @@ static double predict_work(const icc_tree *tree)
 
 static int32_t choose_solver(const job *j)
 {
+    if (j->options->function == ICC_FUNCTION_CLAMPED)
+        return ICC_SOLVER_DIRECT;
     if (j->options->solver != 0)
         return j->options->solver;
     const icc_tree *tree = j->field->tree;
@@ -84,14 +86,13 @@ static void end(job *j, const iccp_env *env)
 
 static iccp_glued_solver glued_solver(const job *j)
 {
-    (void)j;
-    return iccp_glued_direct;
+    return j->field->info.solver == ICC_SOLVER_DIRECT ? iccp_glued_direct : iccp_glued_iterative;
 }
 
 static icc_status solve_laplace(job *j, const iccp_env *env)
 {
     icc_field_info *info = &j->field->info;
-    const iccp_gluing none = {j->top, j->share};
+    const iccp_gluing none = {.top = j->top, .share = j->share};
     const icc_status status = glued_solver(j)(&j->rows, &none, &j->f, info, env);
     if (status != ICC_OK)
         return status;
@@ -120,8 +121,13 @@ static icc_status solve(job *j, const iccp_env *env)
 static icc_status constrain(job *j, const iccp_env *env)
 {
     icc_field_info *info = &j->field->info;
+    const int32_t function = j->options->function;
+    const double eta = j->options->eta;
     info->constrained = 1;
-    return iccp_constrained_laplace(&j->rows, j->options->eta, glued_solver(j), &j->f, info, env);
+    if (function == ICC_FUNCTION_LAPLACE)
+        return iccp_constrained_laplace(&j->rows, eta, glued_solver(j), &j->f, info, env);
+    info->solver = ICC_SOLVER_DIRECT;
+    return iccp_bilaplace_constrained(&j->rows, function, eta, j->options->leaf, &j->f, info, env);
 }
 
 /* Whether the only critical point is a maximum at the root. */
