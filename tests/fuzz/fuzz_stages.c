@@ -144,6 +144,9 @@ static void check_values(const icc_field *field, const shape *s, const icc_field
 {
     const double *f = icc_field_values(field), *u = icc_field_logs(field);
     const double eta = options->eta > 0 ? options->eta : 1e-6;
+    const double leaf = options->function == ICC_FUNCTION_LAPLACE ? 0
+                        : options->leaf > 0                       ? options->leaf
+                                                                  : 1e-9;
     const icc_tree *tree = icc_field_tree(field);
     icc_field_info info = {.size = sizeof info};
     require(icc_field_get_info(field, &info) == ICC_OK);
@@ -156,6 +159,7 @@ static void check_values(const icc_field *field, const shape *s, const icc_field
         require(f[v] <= 1 || (!info.constrained && options->function != ICC_FUNCTION_LAPLACE));
         require(u != NULL || options->function == ICC_FUNCTION_CLAMPED);
         require(u == NULL || (isfinite(u[v]) && fabs(exp(u[v]) - f[v]) <= 1e-12 * (1 + fabs(f[v]))));
+        require(!info.constrained || f[v] >= leaf);
         require(!info.constrained || parent == UINT32_MAX || f[parent] >= (1 + eta) * f[v]);
     }
 }
