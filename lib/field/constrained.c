@@ -34,6 +34,7 @@ typedef struct state {
     double worst;       /* the largest multiplier or violation of these */
     uint32_t *top;      /* gluing by `active` */
     double *share;
+    uint32_t *order;
     double *multiplier; /* of active edges, in units of f at the row's top */
     double *size;       /* of the terms that it comes from */
     uint64_t random;
@@ -146,8 +147,9 @@ static void flip(state *s, int level)
 static icc_status iterate(state *s, iccp_glued_solver solve, icc_field_info *info,
                           const iccp_env *env)
 {
-    const iccp_gluing gluing = {s->top, s->share};
+    const iccp_gluing gluing = {s->top, s->share, s->order};
     int stalled = 0;
+    s->order[0] = ICCP_NONE;
     glue(s);
     judge(s);
     const size_t first = s->n_wrong;
@@ -200,16 +202,17 @@ icc_status iccp_constrained_laplace(const iccp_rows *rows, double eta, iccp_glue
     const iccp_memory *m = &env->memory;
     const size_t n = rows->n;
     bool *flags = iccp_alloc_zero(m, 2 * n, sizeof *flags);
-    uint32_t *top = iccp_alloc(m, n, sizeof *top);
+    uint32_t *indices = iccp_alloc(m, 2 * n, sizeof *indices);
     double *numbers = iccp_alloc(m, 3 * n, sizeof *numbers);
     icc_status status = ICC_ERR_MEMORY;
-    if (flags != NULL && top != NULL && numbers != NULL) {
+    if (flags != NULL && indices != NULL && numbers != NULL) {
         state s = {.rows = rows,
                    .f = f,
                    .sigma = 1 + eta,
                    .active = flags,
                    .wrong = flags + n,
-                   .top = top,
+                   .top = indices,
+                   .order = indices + n,
                    .share = numbers,
                    .multiplier = numbers + n,
                    .size = numbers + 2 * n,
@@ -221,7 +224,7 @@ icc_status iccp_constrained_laplace(const iccp_rows *rows, double eta, iccp_glue
             finish(&s, info);
     }
     iccp_free(m, flags);
-    iccp_free(m, top);
+    iccp_free(m, indices);
     iccp_free(m, numbers);
     return status;
 }

@@ -5,6 +5,7 @@
  * the difference of 2 dim |s|^2 and the products within the cluster that would be lost. */
 #include "base/clock.h"
 #include "field/glued.h"
+#include "field/inequalities.h"
 #include "math/ldlt.h"
 
 #include <math.h>
@@ -149,21 +150,21 @@ static void expand(const assembly *a, const iccp_scaled *x, const iccp_scaled *f
     }
 }
 
-/* known - P'LP x, each component with the error of a rounding of x. */
-static void find_residual(const assembly *a, const iccp_scaled *x, const iccp_scaled *residual)
+/* -P'L f, cluster by cluster. Differences of neighbours are exact, those of the terms of P'LP x would not
+ * be. */
+static void find_residual(const assembly *a, const iccp_scaled *x, const iccp_scaled *f,
+                          const iccp_scaled *residual)
 {
     for (size_t u = 0; u < a->n; ++u) {
-        const int32_t unit = x->exponent[u];
-        double sum = a->known[u] > 0 ? ldexp(a->known[u], -unit) : 0;
-        sum -= a->diagonal[u] * x->fraction[u];
-        for (size_t p = a->first[u]; p < a->first[u + 1]; ++p)
-            sum -= a->value[p] * iccp_scaled_get(x, a->column[p], unit);
-        iccp_scaled_set(residual, u, sum, unit);
+        double sum = 0;
+        for (uint32_t k = a->last[u]; k != ICCP_NONE; k = a->previous[k])
+            sum -= a->gluing->share[k] * iccp_laplacian_row(a->rows, f, k, x->exponent[u]);
+        iccp_scaled_set(residual, u, sum, x->exponent[u]);
     }
 }
 
-/* The solution is improved once: its components are right as they are, but sums of many rows of
- * the residual, which multipliers are, gain a digit. */
+/* The solution is improved once. Its components are right as they are, but multipliers are sums over many
+ * rows of the residual, and gain two digits. */
 static icc_status solve(const assembly *a, const iccp_ldlt *factor, const iccp_scaled *f,
                         const iccp_env *env)
 {
@@ -177,7 +178,8 @@ static icc_status solve(const assembly *a, const iccp_ldlt *factor, const iccp_s
         for (size_t u = 0; u < n; ++u)
             iccp_scaled_set(&x, u, a->known[u], 0);
         iccp_ldlt_solve_scaled(factor, &x, &work);
-        find_residual(a, &x, &d);
+        expand(a, &x, f);
+        find_residual(a, &x, f, &d);
         iccp_ldlt_solve_scaled(factor, &d, &work);
         for (size_t u = 0; u < n; ++u)
             iccp_scaled_set(&x, u, x.fraction[u] + iccp_scaled_get(&d, u, x.exponent[u]),

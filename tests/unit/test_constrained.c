@@ -47,7 +47,7 @@ static problem problem_new(int32_t dim, const size_t *shape, const uint8_t *insi
         p.share[k] = 1;
         iccp_scaled_set(&p.f, k, 1, 0);
     }
-    p.gluing = (iccp_gluing){p.top, p.share};
+    p.gluing = (iccp_gluing){.top = p.top, .share = p.share};
     return p;
 }
 

@@ -101,7 +101,7 @@ static icc_status solve(problem *p, size_t *n_inner)
 {
     const iccp_env env = default_env();
     icc_field_info info = {0};
-    const iccp_gluing gluing = {p->top, p->share};
+    const iccp_gluing gluing = {.top = p->top, .share = p->share};
     const icc_status status = iccp_glued_iterative(&p->rows, &gluing, &p->f, &info, &env);
     if (n_inner != NULL)
         *n_inner = info.n_inner;
@@ -404,7 +404,7 @@ START_TEST(decay_is_followed)
         const uint32_t end = (uint32_t)(8 + MASK_MARGIN + (8 + MASK_MARGIN) * m.shape[0]);
         problem p = problem_of(2, m.shape, m.inside, from_end ? end : ICCP_NONE);
         const iccp_scaled g = {malloc(p.rows.n * sizeof(double)), malloc(p.rows.n * sizeof(int32_t))};
-        const iccp_gluing gluing = {p.top, p.share};
+        const iccp_gluing gluing = {.top = p.top, .share = p.share};
         icc_field_info info = {0};
         ck_assert_int_eq(solve(&p, NULL), ICC_OK);
         ck_assert_double_le(residual(&p), 1e-8);
@@ -432,7 +432,7 @@ START_TEST(glued_decay_is_followed)
     for (int k = 0; k < 3; ++k) {
         problem p = drawn(shapes[k], k == 2 ? 3 : 2, k == 2 ? 40 : 120);
         const iccp_scaled g = {malloc(p.rows.n * sizeof(double)), malloc(p.rows.n * sizeof(int32_t))};
-        const iccp_gluing gluing = {p.top, p.share};
+        const iccp_gluing gluing = {.top = p.top, .share = p.share};
         icc_field_info info = {0};
         glue(&p, &r, 10, 0.999999);
         ck_assert_int_eq(solve(&p, NULL), ICC_OK);
@@ -484,7 +484,7 @@ END_TEST
 static icc_status solve_in(const icc_env *outer, icc_error *err, void *argument)
 {
     problem *p = argument;
-    const iccp_gluing gluing = {p->top, p->share};
+    const iccp_gluing gluing = {.top = p->top, .share = p->share};
     icc_field_info info = {0};
     iccp_env env;
     const icc_status status = iccp_env_read(&env, outer, err);
