@@ -32,7 +32,7 @@ static inline iccp_panel iccp_panel_of(const iccp_supernodes *nodes, size_t s, d
 /* Columns of one block of a product, and strips after which progress is looked at. */
 enum { ICCP_BLOCK = 32, ICCP_STRIPS_PER_REPORT = 64 };
 
-/* How far a factorisation is, in multiplications, zeros counted. */
+/* How far a factorisation is, in multiplications. */
 typedef struct iccp_labour {
     const iccp_env *env;
     double done, reported, all;

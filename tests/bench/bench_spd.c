@@ -1,6 +1,7 @@
 /* What five-point and seven-point Laplacians cost to order, analyse, factorise and solve, beside
  * CHOLMOD where it is installed. Arguments: names of shapes to try, all by default; `nd` orders boxes
- * by bisecting them instead of by degree, `plain` leaves CHOLMOD out. One thread. */
+ * by bisecting them instead of by degree, `plain` leaves CHOLMOD out. One thread, and seconds of its own: other programs
+ * disturb them less. */
 #include "bench.h"
 
 #include "math/ldlt.h"
@@ -13,6 +14,11 @@
 #endif
 
 #define OUTSIDE UINT32_MAX
+
+static double seconds(void)
+{
+    return (double)clock() / CLOCKS_PER_SEC;
+}
 
 /* Unknowns of a grid of size^dim cells: those inside a shape. */
 typedef struct grid {
@@ -201,16 +207,16 @@ static void time_cholmod(const iccp_symmetric *m)
             }
     }
     start[m->n] = k;
-    const double t0 = bench_seconds();
+    const double t0 = seconds();
     cholmod_factor *factor = cholmod_analyze(a, &common);
-    const double t1 = bench_seconds();
+    const double t1 = seconds();
     cholmod_factorize(a, factor, &common);
-    const double t2 = bench_seconds();
+    const double t2 = seconds();
     cholmod_dense *b = cholmod_ones(m->n, 1, CHOLMOD_REAL, &common);
-    const double t3 = bench_seconds();
+    const double t3 = seconds();
     cholmod_dense *x = cholmod_solve(CHOLMOD_A, factor, b, &common);
     printf("  cholmod    analyse %.3f  factor %.3f  solve %.4f  lnz %.3g  %.0f MB\n", t1 - t0, t2 - t1,
-           bench_seconds() - t3, common.lnz, (double)common.memory_usage * 1e-6);
+           seconds() - t3, common.lnz, (double)common.memory_usage * 1e-6);
     cholmod_free_dense(&x, &common);
     cholmod_free_dense(&b, &common);
     cholmod_free_factor(&factor, &common);
@@ -251,11 +257,11 @@ static void time_solves(const iccp_ldlt *factor, const iccp_symmetric *m)
     for (size_t i = 0; i < n; ++i)
         iccp_scaled_set(&y, i, i == source, 0);
     x[source] = 1;
-    const double t0 = bench_seconds();
+    const double t0 = seconds();
     iccp_ldlt_solve(factor, 1, x, x + n);
-    const double t1 = bench_seconds();
+    const double t1 = seconds();
     iccp_ldlt_solve_scaled(factor, &y, &work);
-    const double t2 = bench_seconds();
+    const double t2 = seconds();
     int32_t lowest = 0;
     for (size_t i = 0; i < n; ++i)
         lowest = y.exponent[i] < lowest ? y.exponent[i] : lowest;
@@ -274,18 +280,18 @@ static void time_ours(const grid *g, const iccp_symmetric *m, bool by_bisection)
     uint32_t *order = bench_alloc(m->n, sizeof *order);
     iccp_ldlt factor;
     const icc_error error = {.size = sizeof error};
-    const double t0 = bench_seconds();
+    const double t0 = seconds();
     if (by_bisection)
         dissect(g, order);
     else
         bench_check(iccp_ordering(m, order, &env), &error);
-    const double t1 = bench_seconds();
+    const double t1 = seconds();
     bench_check(iccp_ldlt_analyse_ordered(&factor, m, order, &env), &error);
-    const double t2 = bench_seconds();
+    const double t2 = seconds();
     bench_check(iccp_ldlt_factorise(&factor, m, &env), &error);
-    const double t3 = bench_seconds();
+    const double t3 = seconds();
     bench_check(iccp_ldlt_factorise(&factor, m, &env), &error);
-    const double t4 = bench_seconds();
+    const double t4 = seconds();
     printf("  %s  order %.3f  analyse %.3f  factor %.3f  again %.3f  entries %.3g  work %.3g  %.1f GF/s"
            "  supernodes %zu  %.0f MB\n",
            by_bisection ? "bisection" : "degree   ", t1 - t0, t2 - t1, t3 - t2, t4 - t3,
