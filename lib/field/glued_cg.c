@@ -26,17 +26,15 @@ double iccp_mg_dot(size_t n, const double *a, const double *b)
     return sum;
 }
 
-static ICCP_INLINE void apply_run(const double *x, double *restrict y, size_t at, const size_t *near,
+/* One run of L x. n_near is a constant wherever this is called. */
+static ICCP_INLINE void apply_run(const double *x, double *restrict y, const double *const *near,
                                   size_t n, int32_t n_near)
 {
-    const double *p[2 * ICC_MAX_DIM];
-    for (int32_t j = 0; j < n_near; ++j)
-        p[j] = x + near[j];
     for (size_t i = 0; i < n; ++i) {
-        double sum = p[0][i] + p[1][i];
+        double sum = near[0][i] + near[1][i];
         for (int32_t j = 2; j < n_near; ++j)
-            sum += p[j][i];
-        y[at + i] = n_near * x[at + i] - sum;
+            sum += near[j][i];
+        y[i] = n_near * x[i] - sum;
     }
 }
 
@@ -47,15 +45,18 @@ static void laplacian(const iccp_mg_level *level, const double *x, double *y)
         for (int half = 0; half < 2; ++half) {
             const iccp_mg_run *end, *run = iccp_mg_runs(level, row, half, &end);
             for (; run < end; ++run) {
-                size_t near[2 * ICC_MAX_DIM];
-                const size_t at = iccp_mg_near(level, row, half, run->begin, near);
+                size_t offset[2 * ICC_MAX_DIM];
+                const double *near[2 * ICC_MAX_DIM];
+                const size_t at = iccp_mg_near(level, row, half, run->begin, offset);
                 const size_t n = run->end - run->begin;
+                for (int32_t j = 0; j < 2 * level->dim; ++j)
+                    near[j] = x + offset[j];
                 if (level->dim == 2)
-                    apply_run(x, y, at, near, n, 4);
+                    apply_run(x + at, y + at, near, n, 4);
                 else if (level->dim == 3)
-                    apply_run(x, y, at, near, n, 6);
+                    apply_run(x + at, y + at, near, n, 6);
                 else
-                    apply_run(x, y, at, near, n, 2 * level->dim);
+                    apply_run(x + at, y + at, near, n, 2 * level->dim);
             }
         }
 }

@@ -15,174 +15,73 @@ enum { PATIENCE = 40 };
 /* Progress is reported whenever so many entries have been worked on. */
 static const size_t ENTRIES_PER_REPORT = (size_t)1 << 20;
 
-/* Sums are taken in so many interleaved parts, whatever the width of the machine's vectors. */
-enum { LANES = 8 };
-
-typedef struct upward {
-    double rz[LANES], zaz[LANES];
-} upward;
-
-typedef struct downward {
-    double rr[LANES];     /* |r|^2 */
-    double peak[LANES];   /* the largest x */
-    double excess[LANES]; /* the largest |r| - bound * max(x, least) */
-} downward;
-
 typedef struct solver {
     iccp_multigrid *mg;
     const iccp_mg_level *level;
     double *x, *r;
     float *p;
     double alpha, beta, bound, least;
-    upward up;     /* of the last pass up */
-    downward down; /* of the last pass down */
+    iccp_mg_upward up;     /* of the last pass up */
+    iccp_mg_downward down; /* of the last pass down */
 } solver;
 
-/* Stencils. n_near is a constant wherever these are called. */
-static ICCP_INLINE double apply(const float *centre, const float *const *near, size_t i, int32_t n_near)
-{
-    double sum = (double)near[0][i] + (double)near[1][i];
-    for (int32_t j = 2; j < n_near; ++j)
-        sum += (double)near[j][i];
-    return n_near * (double)centre[i] - sum;
-}
-
-typedef struct stretch {
-    size_t at, n;
-    const float *near[2 * ICC_MAX_DIM]; /* of the vector that the stencil is applied to */
-} stretch;
-
-static double add_lanes(const double lanes[LANES])
+static double add_lanes(const double lanes[ICCP_MG_LANES])
 {
     double sum = 0;
-    for (int j = 0; j < LANES; ++j)
+    for (int j = 0; j < ICCP_MG_LANES; ++j)
         sum += lanes[j];
     return sum;
 }
 
-static double max_lanes(const double lanes[LANES])
+static double max_lanes(const double lanes[ICCP_MG_LANES])
 {
     double most = lanes[0];
-    for (int j = 1; j < LANES; ++j)
+    for (int j = 1; j < ICCP_MG_LANES; ++j)
         most = lanes[j] > most ? lanes[j] : most;
     return most;
 }
 
-static ICCP_INLINE void measure_at(const stretch *t, const float *z, const double *r, size_t i,
-                                   size_t lane, int32_t n_near, upward *up)
-{
-    up->rz[lane] += r[i] * (double)z[i];
-    up->zaz[lane] += (double)z[i] * apply(z, t->near, i, n_near);
-}
+/* A run of a level. */
+typedef struct stretch {
+    size_t row, n;
+    int half;
+    uint32_t begin;
+} stretch;
 
-static ICCP_INLINE void measure(solver *s, const stretch *t, int32_t n_near)
-{
-    const float *z = s->level->x + t->at;
-    const double *r = s->r + t->at;
-    size_t i = 0;
-    if (t->n >= LANES) {
-        upward up = s->up;
-        for (; i + LANES <= t->n; i += LANES)
-            for (size_t j = 0; j < LANES; ++j)
-                measure_at(t, z, r, i + j, j, n_near, &up);
-        s->up = up;
-    }
-    for (size_t j = 0; i + j < t->n; ++j)
-        measure_at(t, z, r, i + j, j, n_near, &s->up);
-}
-
-/* What a pass down writes and reads, in registers. */
-typedef struct update {
-    double *restrict x, *restrict r;
-    float *restrict b;
-    const float *p;
-    double alpha, bound, least;
-} update;
-
-static ICCP_INLINE void advance_at(const update *u, const float *const *near, size_t i, size_t lane,
-                                   int32_t n_near, downward *down)
-{
-    const double x = u->x[i] + u->alpha * (double)u->p[i];
-    const double r = u->r[i] - u->alpha * apply(u->p, near, i, n_near);
-    const double excess = (r < 0 ? -r : r) - u->bound * (x > u->least ? x : u->least);
-    u->x[i] = x;
-    u->r[i] = r;
-    u->b[i] = (float)r;
-    down->rr[lane] += r * r;
-    down->peak[lane] = x > down->peak[lane] ? x : down->peak[lane];
-    down->excess[lane] = excess > down->excess[lane] ? excess : down->excess[lane];
-}
-
-static ICCP_INLINE void advance(solver *s, const stretch *t, int32_t n_near)
-{
-    const update u = {s->x + t->at, s->r + t->at, s->level->b + t->at, s->p + t->at,
-                      s->alpha,     s->bound,     s->least};
-    size_t i = 0;
-    if (t->n >= LANES) {
-        downward down = s->down;
-        for (; i + LANES <= t->n; i += LANES)
-            for (size_t j = 0; j < LANES; ++j)
-                advance_at(&u, t->near, i + j, j, n_near, &down);
-        s->down = down;
-    }
-    for (size_t j = 0; i + j < t->n; ++j)
-        advance_at(&u, t->near, i + j, j, n_near, &s->down);
-}
-
-static void measure_stretch(solver *s, const stretch *t)
-{
-    switch (s->level->dim) {
-    case 2:
-        measure(s, t, 4);
-        break;
-    case 3:
-        measure(s, t, 6);
-        break;
-    default:
-        measure(s, t, 2 * s->level->dim);
-    }
-}
-
-static void advance_stretch(solver *s, const stretch *t)
-{
-    switch (s->level->dim) {
-    case 2:
-        advance(s, t, 4);
-        break;
-    case 3:
-        advance(s, t, 6);
-        break;
-    default:
-        advance(s, t, 2 * s->level->dim);
-    }
-}
-
-/* Does something with every run of a slab and the neighbours of its vertices in `all`. */
-static void for_slab(solver *s, size_t slab, const float *all, void (*act)(solver *, const stretch *))
+/* Does something with every run of a slab. */
+static ICCP_INLINE void for_slab(solver *s, size_t slab, void (*act)(solver *, const stretch *))
 {
     const size_t n = s->level->n_rows / s->level->n_slabs;
     for (size_t row = slab * n; row < (slab + 1) * n; ++row)
         for (int half = 0; half < 2; ++half) {
             const iccp_mg_run *end, *run = iccp_mg_runs(s->level, row, half, &end);
             for (; run < end; ++run) {
-                size_t near[2 * ICC_MAX_DIM];
-                stretch t = {.n = run->end - run->begin};
-                t.at = iccp_mg_near(s->level, row, half, run->begin, near);
-                for (int32_t j = 0; j < 2 * s->level->dim; ++j)
-                    t.near[j] = all + near[j];
+                const stretch t = {row, run->end - run->begin, half, run->begin};
                 act(s, &t);
             }
         }
 }
 
-/* p = z + beta p */
 static void turn(solver *s, const stretch *t)
 {
-    const float *z = s->level->x + t->at;
-    float *restrict p = s->p + t->at;
-    const float beta = (float)s->beta;
-    for (size_t i = 0; i < t->n; ++i)
-        p[i] = z[i] + beta * p[i];
+    const size_t at = iccp_mg_position(s->level, t->row, 2 * t->begin + (uint32_t)t->half);
+    s->level->kernels->turn(s->p + at, s->level->x + at, (float)s->beta, t->n);
+}
+
+static void advance(solver *s, const stretch *t)
+{
+    const float *near[2 * ICC_MAX_DIM];
+    const size_t at = iccp_mg_near_in(s->level, t->row, t->half, t->begin, s->p, near);
+    const iccp_mg_step step = {s->x + at, s->r + at, s->level->b + at, s->p + at,
+                               s->alpha,  s->bound,  s->least};
+    s->level->kernels->advance(&step, near, t->n, 2 * s->level->dim, &s->down);
+}
+
+static void measure(solver *s, const stretch *t)
+{
+    const float *near[2 * ICC_MAX_DIM];
+    const size_t at = iccp_mg_near_in(s->level, t->row, t->half, t->begin, s->level->x, near);
+    s->level->kernels->measure(s->level->x + at, s->r + at, near, t->n, 2 * s->level->dim, &s->up);
 }
 
 /* Reports progress once for so many entries. */
@@ -196,14 +95,14 @@ static icc_status pass_down(solver *s, const iccp_env *env)
 {
     const size_t n = s->level->n_slabs;
     icc_status status = ICC_OK;
-    s->down = (downward){{0}, {0}, {0}};
-    for (int j = 0; j < LANES; ++j)
+    s->down = (iccp_mg_downward){{0}, {0}, {0}};
+    for (int j = 0; j < ICCP_MG_LANES; ++j)
         s->down.excess[j] = -HUGE_VAL;
     for (size_t slab = 0; slab < n + 4 && status == ICC_OK; ++slab) {
         if (slab < n)
-            for_slab(s, slab, s->p, turn);
+            for_slab(s, slab, turn);
         if (slab >= 1 && slab - 1 < n)
-            for_slab(s, slab - 1, s->p, advance_stretch);
+            for_slab(s, slab - 1, advance);
         if (slab >= 1)
             iccp_multigrid_descend(s->mg, slab - 1);
         status = report(s, slab, env);
@@ -216,11 +115,11 @@ static icc_status pass_up(solver *s, const iccp_env *env)
     const size_t n = s->level->n_slabs;
     icc_status status = ICC_OK;
     iccp_multigrid_correct(s->mg);
-    s->up = (upward){{0}, {0}};
+    s->up = (iccp_mg_upward){{0}, {0}};
     for (size_t slab = 0; slab < n + 3 && status == ICC_OK; ++slab) {
         iccp_multigrid_ascend(s->mg, slab);
         if (slab >= 3)
-            for_slab(s, slab - 3, s->level->x, measure_stretch);
+            for_slab(s, slab - 3, measure);
         status = report(s, slab, env);
     }
     return status;

@@ -161,7 +161,8 @@ static void find_extent(iccp_mg_level *level, const icc_grid *grid, size_t n, co
 icc_status iccp_mg_level_fine(iccp_mg_level *level, const icc_grid *grid, size_t n,
                               const uint32_t *vertex, const iccp_env *env)
 {
-    *level = (iccp_mg_level){.dim = grid->dim};
+    *level = (iccp_mg_level){.dim = grid->dim,
+                             .kernels = iccp_mg_kernels_choose(2 * grid->dim, false)};
     find_extent(level, grid, n, vertex);
     icc_status status = make_rows(level, &env->memory);
     if (status != ICC_OK)
@@ -323,7 +324,7 @@ icc_status iccp_mg_level_coarse(iccp_mg_level *level, const iccp_mg_level *fine,
                                 const iccp_mg_level *finest, int32_t depth, const iccp_env *env)
 {
     const coarsening c = {level, fine, finest, depth};
-    *level = (iccp_mg_level){.dim = fine->dim};
+    *level = (iccp_mg_level){.dim = fine->dim, .kernels = fine->kernels};
     for (int32_t k = 0; k < fine->dim; ++k) {
         level->extent[k] = fine->extent[k] / 2;
         if (level->extent[k] == 0)

@@ -8,9 +8,8 @@
 #ifndef ICCP_MG_LEVEL_H
 #define ICCP_MG_LEVEL_H
 
+#include "field/mg_kernel.h"
 #include "grid/lattice.h"
-
-#include <stdbool.h>
 
 /* Vertices inside that follow each other in a half: entries [begin, end). */
 typedef struct iccp_mg_run {
@@ -38,6 +37,7 @@ typedef struct iccp_mg_level {
                            to one on the finer level; only while the levels are made */
     float *inverse;     /* n_entries: 1 / diagonal; NULL on the finest level, where it is 1 / (2 dim) */
     float *x, *b;       /* n_entries each */
+    const iccp_mg_kernels *kernels;
 } iccp_mg_level;
 
 /* The vertices of a list, each at most once. */
@@ -78,10 +78,21 @@ static inline size_t iccp_mg_near(const iccp_mg_level *level, size_t row, int ha
     near[0] = (size_t)(other - (half == 0));
     near[1] = (size_t)(other + (half == 1));
     for (int32_t a = 1; a < level->dim; ++a) {
-        near[2 * a] = (size_t)(level->row[row - level->stride[a]].base[half] + (ptrdiff_t)k);
-        near[2 * a + 1] = (size_t)(level->row[row + level->stride[a]].base[half] + (ptrdiff_t)k);
+        near[2 * a] = (size_t)(r[-(ptrdiff_t)level->stride[a]].base[half] + (ptrdiff_t)k);
+        near[2 * a + 1] = (size_t)(r[level->stride[a]].base[half] + (ptrdiff_t)k);
     }
     return (size_t)(r->base[half] + (ptrdiff_t)k);
+}
+
+/* The same for an array of floats. */
+static inline size_t iccp_mg_near_in(const iccp_mg_level *level, size_t row, int half, uint32_t k,
+                                     const float *x, const float *near[2 * ICC_MAX_DIM])
+{
+    size_t offset[2 * ICC_MAX_DIM];
+    const size_t at = iccp_mg_near(level, row, half, k, offset);
+    for (int32_t j = 0; j < 2 * level->dim; ++j)
+        near[j] = x + offset[j];
+    return at;
 }
 
 #endif

@@ -3,60 +3,8 @@
  * from it, and then only red has a residual. On the way up red is b / diagonal and the coarse
  * correction, black and red follow from that.
  *
- * Inner loops run over pieces of halves of rows: contiguous, without a branch, vectorised. Sums are
- * taken in the same order by every code path, so that the bits are the same. */
+ * Loops run over pieces of halves of rows: contiguous, without a branch, vectorised. */
 #include "field/mg_sweep.h"
-
-/* x = inverse (b + sum of n_near neighbours); without b and inverse the sum alone. n_near is a constant
- * wherever this is called. */
-static ICCP_INLINE void gather(float *restrict x, const float *b, const float *inverse,
-                               const float *all, const size_t *near, size_t n, int32_t n_near)
-{
-    const float *p[2 * ICC_MAX_DIM];
-    for (int32_t j = 0; j < n_near; ++j)
-        p[j] = all + near[j];
-    for (size_t i = 0; i < n; ++i) {
-        float sum = p[0][i] + p[1][i];
-        for (int32_t j = 2; j < n_near; ++j)
-            sum += p[j][i];
-        x[i] = b != NULL ? inverse[i] * (b[i] + sum) : sum;
-    }
-}
-
-static void relax_run(float *restrict x, const float *b, const float *inverse, const float *all,
-                      const size_t *near, size_t n, int32_t dim)
-{
-    switch (dim) {
-    case 1:
-        gather(x, b, inverse, all, near, n, 2);
-        break;
-    case 2:
-        gather(x, b, inverse, all, near, n, 4);
-        break;
-    case 3:
-        gather(x, b, inverse, all, near, n, 6);
-        break;
-    default:
-        gather(x, b, inverse, all, near, n, 2 * dim);
-    }
-}
-
-static void residual_run(float *restrict x, const float *all, const size_t *near, size_t n, int32_t dim)
-{
-    switch (dim) {
-    case 1:
-        gather(x, NULL, NULL, all, near, n, 2);
-        break;
-    case 2:
-        gather(x, NULL, NULL, all, near, n, 4);
-        break;
-    case 3:
-        gather(x, NULL, NULL, all, near, n, 6);
-        break;
-    default:
-        gather(x, NULL, NULL, all, near, n, 2 * dim);
-    }
-}
 
 static size_t rows_per_slab(const iccp_mg_level *level)
 {
@@ -97,10 +45,10 @@ void iccp_mg_relax(const iccp_mg_level *level, const iccp_mg_scratch *scratch, s
         const int half = half_of(level, row, colour);
         const iccp_mg_run *end, *run = iccp_mg_runs(level, row, half, &end);
         for (; run < end; ++run) {
-            size_t near[2 * ICC_MAX_DIM];
-            const size_t at = iccp_mg_near(level, row, half, run->begin, near);
-            relax_run(level->x + at, level->b + at, inverse_at(level, scratch, at), level->x, near,
-                      run->end - run->begin, level->dim);
+            const float *near[2 * ICC_MAX_DIM];
+            const size_t at = iccp_mg_near_in(level, row, half, run->begin, level->x, near);
+            level->kernels->relax(level->x + at, level->b + at, inverse_at(level, scratch, at), near,
+                                  run->end - run->begin, 2 * level->dim);
         }
     }
 }
@@ -112,9 +60,9 @@ void iccp_mg_residual(const iccp_mg_level *level, size_t slab)
         const int half = half_of(level, row, ICCP_RED);
         const iccp_mg_run *end, *run = iccp_mg_runs(level, row, half, &end);
         for (; run < end; ++run) {
-            size_t near[2 * ICC_MAX_DIM];
-            const size_t at = iccp_mg_near(level, row, half, run->begin, near);
-            residual_run(level->x + at, level->x, near, run->end - run->begin, level->dim);
+            const float *near[2 * ICC_MAX_DIM];
+            const size_t at = iccp_mg_near_in(level, row, half, run->begin, level->x, near);
+            level->kernels->add(level->x + at, near, run->end - run->begin, 2 * level->dim);
         }
     }
 }
