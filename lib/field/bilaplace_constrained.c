@@ -14,7 +14,7 @@
 static const double ENOUGH = 1e-12, ACCEPTABLE = 1e-8;
 
 /* Means of slack * multiplier where the active set is tried. The last one is never reached. */
-static const double TARGETS[] = {1e-12, 1e-15, 1e-17, 1e-19, 0};
+static const double TARGETS[] = {1e-12, 1e-14, 1e-16, 1e-18, 0};
 
 /* A slack below this, relative to the parent or the bound, is equality. */
 static const double EQUAL = 1e-12;

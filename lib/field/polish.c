@@ -3,8 +3,8 @@
  * converge from everywhere; from the last iterates of an interior point method it takes a few steps.
  *
  * Active edges glue children to parents. A cluster in which leaves are active is held: its values are the
- * highest that one of these leaves asks for, and the others are inactive unless they ask for the
- * same. */
+ * highest that one of these leaves asks for. The others are then above their bounds, as a rule by no more
+ * than eta times the bound, which is nothing; if it is more than `enough`, they are inactive. */
 #include "field/polish.h"
 
 #include "base/clock.h"
@@ -14,18 +14,16 @@
 #include <string.h>
 
 enum {
-    PATIENCE = 4, /* corrections without an improvement */
+    PATIENCE = 6, /* corrections without an improvement */
     MAX_CORRECTIONS = 60
 };
-
-/* Values that leaves of a cluster ask for are the same up to rounding. */
-static const double SAME = 1e-12;
 
 enum { LIFTED = 1, RISES = 2, STAYS = 4 };
 
 typedef struct state {
     const iccp_program *program;
     size_t n;
+    double enough;     /* slacks and multipliers above its negative are not wrong */
     uint8_t *active;   /* per inequality */
     uint8_t *open;     /* per row: an active leaf is reached from here by active edges, downwards */
     uint8_t *mark;     /* LIFTED: such a leaf bears what would be a negative multiplier of the row's edge;
@@ -67,7 +65,7 @@ static void hold_clusters(state *s)
     }
     for (size_t j = 0; j < p->n_leaves; ++j) {
         const uint32_t k = p->leaf_row[j];
-        if (s->held[s->top[k]] * s->share[k] > p->leaf * (1 + SAME))
+        if (s->held[s->top[k]] * s->share[k] > p->leaf + s->enough)
             *leaf_active(s, j) = 0;
     }
 }
@@ -106,7 +104,7 @@ static icc_status solve(state *s, double *residual, icc_field_info *info, const 
 }
 
 /* Returns how many leaves fell below their bound, which makes them active. */
-static size_t correct_leaves(state *s, double tolerance)
+static size_t correct_leaves(state *s)
 {
     const iccp_program *p = s->program;
     size_t n_wrong = 0;
@@ -114,7 +112,7 @@ static size_t correct_leaves(state *s, double tolerance)
     for (size_t j = 0; j < p->n_leaves; ++j) {
         const uint32_t k = p->leaf_row[j];
         s->open[k] = *leaf_active(s, j);
-        if (!*leaf_active(s, j) && s->f[k] < p->leaf - tolerance) {
+        if (!*leaf_active(s, j) && s->f[k] < p->leaf - s->enough) {
             *leaf_active(s, j) = 1;
             ++n_wrong;
         }
@@ -126,7 +124,7 @@ static size_t correct_leaves(state *s, double tolerance)
  * follow from the gradient from the leaves to the root. Leaves of a held cluster have multipliers of
  * their own, as many as are needed for the edges above them not to get negative; what is
  * then left over at the top must not be positive, or the cluster rises. */
-static size_t correct_edges(state *s, double tolerance)
+static size_t correct_edges(state *s)
 {
     const iccp_program *p = s->program;
     size_t n_wrong = 0;
@@ -137,9 +135,9 @@ static size_t correct_edges(state *s, double tolerance)
         double multiplier = (s->sum[k] - s->gradient[k]) / p->sigma;
         uint8_t *active = &s->active[k - 1];
         if (!*active) {
-            const bool rises = s->open[k] && multiplier > tolerance;
+            const bool rises = s->open[k] && multiplier > s->enough;
             s->mark[k] |= rises ? RISES : 0;
-            *active = s->f[q] - p->sigma * s->f[k] < -tolerance;
+            *active = s->f[q] - p->sigma * s->f[k] < -s->enough;
             n_wrong += rises + (size_t)*active;
             continue;
         }
@@ -149,7 +147,7 @@ static size_t correct_edges(state *s, double tolerance)
         }
         s->open[q] |= s->open[k];
         s->sum[q] += multiplier;
-        if (multiplier < -tolerance) {
+        if (multiplier < -s->enough) {
             *active = 0;
             ++n_wrong;
         }
@@ -179,7 +177,7 @@ static void let_rise(state *s)
     }
 }
 
-static icc_status iterate(state *s, double enough, iccp_candidate *candidate, icc_field_info *info,
+static icc_status iterate(state *s, iccp_candidate *candidate, icc_field_info *info,
                           const iccp_env *env)
 {
     int patience = PATIENCE;
@@ -197,10 +195,10 @@ static icc_status iterate(state *s, double enough, iccp_candidate *candidate, ic
             candidate->residual = residual;
             patience = PATIENCE;
         }
-        const size_t n_wrong_leaves = correct_leaves(s, enough);
-        const size_t n_wrong_edges = correct_edges(s, enough);
+        const size_t n_wrong_leaves = correct_leaves(s);
+        const size_t n_wrong_edges = correct_edges(s);
         let_rise(s);
-        if (residual <= enough || n_wrong_leaves + n_wrong_edges == 0)
+        if (residual <= s->enough || n_wrong_leaves + n_wrong_edges == 0)
             break;
     }
     return ICC_OK;
@@ -210,7 +208,7 @@ icc_status iccp_polish(const iccp_program *program, uint8_t *active, double enou
                        iccp_candidate *candidate, icc_field_info *info, const iccp_env *env)
 {
     const size_t n = program->rows->n, n_work = program->a.n_rows + n; /* at least 2 n */
-    state s = {.program = program, .n = n, .active = active};
+    state s = {.program = program, .n = n, .enough = enough, .active = active};
     s.top = iccp_alloc(&env->memory, n, 2 * sizeof *s.top);
     s.open = iccp_alloc(&env->memory, n, 2 * sizeof *s.open);
     s.room = iccp_alloc(&env->memory, 5 * n + n_work, sizeof *s.room);
@@ -224,7 +222,7 @@ icc_status iccp_polish(const iccp_program *program, uint8_t *active, double enou
         s.gradient = s.room + 3 * n;
         s.sum = s.room + 4 * n;
         s.work = s.room + 5 * n;
-        status = iterate(&s, enough, candidate, info, env);
+        status = iterate(&s, candidate, info, env);
     }
     iccp_free(&env->memory, s.top);
     iccp_free(&env->memory, s.open);
