@@ -5,7 +5,8 @@
  *
  * A shell need not reach to the end of what is left: if it ends where the solution has fallen to v, with 0
  * assumed beyond, a value of w is wrong by about (v / w)^2 of itself (sinh(D - s) / sinh(D) in place of
- * exp(-s)). Rows are taken in the order of the tree, which reaches near rows first. */
+ * exp(-s)). Nothing flows into a shell from beyond but what has left it there: rows next to known ones always
+ * belong to it. */
 #include "base/clock.h"
 #include "field/glued.h"
 #include "field/glued_cg.h"
@@ -22,7 +23,7 @@ static const double NEGLIGIBLE = 1e-14;
 /* Each shell is solved to this; a tenth of CUT, so that rows next to an accepted one are good, too. */
 static const iccp_mg_goal GOAL = {.relative = 1e-10, .componentwise = 1e-9, .floor = 1e-8};
 
-enum { LEAST_SHELL = 1024 };
+enum { LEAST_GROWTH = 512 };
 
 enum { LEFT = 0, IN_SHELL = 1, KNOWN = 2 };
 
@@ -32,9 +33,14 @@ typedef struct shells {
     const iccp_scaled *f;
     icc_field_info *info;
     const iccp_env *env;
-    uint32_t *order; /* n rows, by their tops: members behind their top */
-    uint8_t *state;  /* n: LEFT, IN_SHELL, KNOWN */
-    size_t begin, end, size; /* the shell: rows order[begin] .. order[end - 1]; their wanted number */
+    uint32_t *order;   /* n rows, by their tops: members behind their top */
+    uint32_t *cluster; /* n + 1: where the rows with that top begin in `order` */
+    uint8_t *state;    /* n: LEFT, IN_SHELL, KNOWN */
+    uint32_t *row;     /* n: the shell's rows, members behind their top */
+    size_t n;          /* their number */
+    size_t n_left;     /* rows that are LEFT */
+    size_t growth;     /* rows to be added to what the last shell leaves over */
+    bool first;
 } shells;
 
 typedef struct shell {
@@ -47,51 +53,64 @@ typedef struct shell {
 } shell;
 
 /* Rows by their tops, stable: a counting sort. */
-static icc_status sort_rows(shells *s)
+static void sort_rows(shells *s)
 {
     const size_t n = s->rows->n;
-    uint32_t *first = iccp_alloc_zero(&s->env->memory, n + 1, sizeof *first);
-    if (first == NULL)
-        return ICC_ERR_MEMORY;
     for (size_t k = 0; k < n; ++k)
-        ++first[s->gluing->top[k] + 1];
-    for (size_t k = 0; k < n; ++k)
-        first[k + 1] += first[k];
-    for (uint32_t k = 0; k < n; ++k)
-        s->order[first[s->gluing->top[k]]++] = k;
-    iccp_free(&s->env->memory, first);
-    return ICC_OK;
+        ++s->cluster[s->gluing->top[k]];
+    for (size_t k = 0, sum = 0; k <= n; ++k) {
+        sum += s->cluster[k];
+        s->cluster[k] = (uint32_t)sum; /* the end of the cluster */
+    }
+    for (size_t k = n; k-- > 0;)
+        s->order[--s->cluster[s->gluing->top[k]]] = (uint32_t)k;
 }
 
-static bool is_last(const shells *s, size_t i)
+static void add_cluster(shells *s, uint32_t top)
 {
-    return i + 1 == s->rows->n || s->gluing->top[s->order[i + 1]] != s->gluing->top[s->order[i]];
-}
-
-static void choose_rows(shells *s)
-{
-    const size_t left = s->rows->n - s->begin;
-    s->end = s->begin + (s->size < left ? s->size : left);
-    while (!is_last(s, s->end - 1))
-        ++s->end;
-    for (size_t i = s->begin; i < s->end; ++i)
+    for (uint32_t i = s->cluster[top]; i < s->cluster[top + 1]; ++i) {
+        s->n_left -= s->state[s->order[i]] == LEFT && !s->first;
         s->state[s->order[i]] = IN_SHELL;
+        s->row[s->n++] = s->order[i];
+    }
 }
-
-/* ------------------------------------------------------------------ one shell */
 
 static const uint32_t *neighbours(const shells *s, uint32_t row)
 {
     return s->rows->neighbour + row * (size_t)s->rows->n_neighbours;
 }
 
+static bool has_neighbour(const shells *s, uint32_t row, uint8_t state)
+{
+    for (int32_t d = 0; d < s->rows->n_neighbours; ++d) {
+        const uint32_t j = neighbours(s, row)[d];
+        if (j != ICCP_NONE && s->state[j] == state)
+            return true;
+    }
+    return false;
+}
+
+/* Adds rows in the order of their distance from those that are there. */
+static void grow(shells *s)
+{
+    const size_t least = s->n + s->growth;
+    for (size_t i = 0; i < s->n && s->n < least; ++i)
+        for (int32_t d = 0; d < s->rows->n_neighbours; ++d) {
+            const uint32_t j = neighbours(s, s->row[i])[d];
+            if (j != ICCP_NONE && s->state[j] == LEFT)
+                add_cluster(s, s->gluing->top[j]);
+        }
+}
+
+/* ------------------------------------------------------------------ one shell */
+
 /* The largest known value next to the shell decides on the unit. */
 static void find_exponent(const shells *s, shell *h)
 {
-    h->exponent = s->begin == 0 ? 0 : ICCP_ZERO_EXPONENT;
-    for (size_t i = s->begin; i < s->end && s->begin > 0; ++i)
+    h->exponent = s->first ? 0 : ICCP_ZERO_EXPONENT;
+    for (size_t i = 0; i < s->n && !s->first; ++i)
         for (int32_t d = 0; d < s->rows->n_neighbours; ++d) {
-            const uint32_t j = neighbours(s, s->order[i])[d];
+            const uint32_t j = neighbours(s, s->row[i])[d];
             if (j != ICCP_NONE && s->state[j] == KNOWN && s->f->exponent[j] > h->exponent)
                 h->exponent = s->f->exponent[j];
         }
@@ -102,13 +121,13 @@ static void find_exponent(const shells *s, shell *h)
 static void load(const shells *s, shell *h)
 {
     size_t top = 0;
-    if (s->begin == 0)
+    if (s->first)
         h->r[h->vertex[0]] = 1;
-    for (size_t i = s->begin; i < s->end && s->begin > 0; ++i) {
-        const uint32_t row = s->order[i];
+    for (size_t i = 0; i < s->n && !s->first; ++i) {
+        const uint32_t row = s->row[i];
         double sum = 0;
         if (s->gluing->top[row] == row)
-            top = h->vertex[i - s->begin];
+            top = h->vertex[i];
         for (int32_t d = 0; d < s->rows->n_neighbours; ++d) {
             const uint32_t j = neighbours(s, row)[d];
             if (j != ICCP_NONE && s->state[j] == KNOWN)
@@ -123,12 +142,12 @@ static void place(const shells *s, shell *h)
 {
     const iccp_mg_level *level = &h->mg.level[0];
     size_t top = 0;
-    for (size_t i = s->begin; i < s->end; ++i) {
-        const uint32_t row = s->order[i];
+    for (size_t i = 0; i < s->n; ++i) {
+        const uint32_t row = s->row[i];
         uint32_t x;
-        const size_t r = iccp_mg_row_of(level, s->rows->tree->grid, h->vertex[i - s->begin], &x);
+        const size_t r = iccp_mg_row_of(level, s->rows->tree->grid, h->vertex[i], &x);
         const size_t at = iccp_mg_position(level, r, x);
-        h->vertex[i - s->begin] = (uint32_t)at;
+        h->vertex[i] = (uint32_t)at;
         if (s->gluing->top[row] == row) {
             top = at;
             h->x[at] = iccp_scaled_get(s->f, row, h->exponent);
@@ -170,8 +189,8 @@ static bool allocate(const shells *s, shell *h)
     const iccp_memory *m = &s->env->memory;
     const size_t n = h->mg.level[0].n_entries;
     size_t n_glued = 0;
-    for (size_t i = s->begin; i < s->end; ++i)
-        n_glued += s->gluing->top[s->order[i]] != s->order[i];
+    for (size_t i = 0; i < s->n; ++i)
+        n_glued += s->gluing->top[s->row[i]] != s->row[i];
     h->glue = iccp_alloc(m, n_glued, sizeof *h->glue);
     h->x = iccp_alloc_zero(m, n, sizeof *h->x);
     h->r = iccp_alloc_zero(m, n, sizeof *h->r);
@@ -182,13 +201,13 @@ static bool allocate(const shells *s, shell *h)
 static icc_status solve_shell(shells *s, shell *h)
 {
     const double start = iccp_seconds();
-    const size_t n = s->end - s->begin;
-    h->vertex = iccp_alloc(&s->env->memory, n, sizeof *h->vertex);
+    h->vertex = iccp_alloc(&s->env->memory, s->n, sizeof *h->vertex);
     if (h->vertex == NULL)
         return ICC_ERR_MEMORY;
-    for (size_t i = 0; i < n; ++i)
-        h->vertex[i] = s->rows->vertex[s->order[s->begin + i]];
-    icc_status status = iccp_multigrid_create(&h->mg, s->rows->tree->grid, n, h->vertex, s->env);
+    for (size_t i = 0; i < s->n; ++i)
+        h->vertex[i] = s->rows->vertex[s->row[i]];
+    icc_status status =
+        iccp_multigrid_create(&h->mg, s->rows->tree->grid, s->n, h->vertex, s->env);
     if (status == ICC_OK && !allocate(s, h))
         status = ICC_ERR_MEMORY;
     if (status != ICC_OK)
@@ -222,84 +241,99 @@ typedef struct extent {
     size_t significant; /* rows with a value that is not negligible */
 } extent;
 
-static bool is_on_rim(const shells *s, uint32_t row)
-{
-    for (int32_t d = 0; d < s->rows->n_neighbours; ++d) {
-        const uint32_t j = neighbours(s, row)[d];
-        if (j != ICCP_NONE && s->state[j] == LEFT)
-            return true;
-    }
-    return false;
-}
-
 /* Spreads x to the members on the way. */
 static extent measure(const shells *s, shell *h)
 {
     extent e = {0, 0, 0};
+    const size_t n = h->mg.level[0].n_entries;
     for (size_t i = 0; i < h->n_glued; ++i)
         h->x[h->glue[i].member] = h->glue[i].share * h->x[h->glue[i].top];
-    for (size_t i = s->begin; i < s->end; ++i)
-        e.peak = fmax(e.peak, h->x[h->vertex[i - s->begin]]);
-    for (size_t i = s->begin; i < s->end; ++i) {
-        const double x = h->x[h->vertex[i - s->begin]];
-        e.significant += x > NEGLIGIBLE * e.peak;
-        if (s->end < s->rows->n && x > e.rim && is_on_rim(s, s->order[i]))
+    for (size_t i = 0; i < n; ++i)
+        e.peak = h->x[i] > e.peak ? h->x[i] : e.peak;
+    for (size_t i = 0; i < n; ++i)
+        e.significant += h->x[i] > NEGLIGIBLE * e.peak;
+    for (size_t i = 0; i < s->n && s->n_left > 0; ++i) {
+        const double x = h->x[h->vertex[i]];
+        if (x > e.rim && has_neighbour(s, s->row[i], LEFT))
             e.rim = x;
     }
     return e;
 }
 
-/* Takes over the rows whose tops exceed the limit; the others move up to the end of the shell. */
-static size_t accept_rows(shells *s, const shell *h, double limit, double unit)
+/* Takes over the rows whose tops exceed the limit. */
+static void accept_rows(shells *s, const shell *h, double limit, double unit)
 {
-    size_t to = s->end, top = s->end;
-    for (size_t i = s->end; i-- > s->begin;) {
-        /* Backwards: the top of a row is the first of its cluster. */
-        if (is_last(s, i) || i + 1 == s->end)
-            for (top = i; s->gluing->top[s->order[top]] != s->order[top];)
-                --top;
-        const uint32_t row = s->order[i];
-        const bool accepted = h->x[h->vertex[top - s->begin]] > limit;
-        s->state[row] = accepted ? KNOWN : LEFT;
-        if (accepted)
-            iccp_scaled_set(s->f, row, unit * h->x[h->vertex[i - s->begin]], h->exponent);
-        else
-            s->order[--to] = row;
+    bool accepted = false;
+    for (size_t i = 0; i < s->n; ++i) {
+        const uint32_t row = s->row[i];
+        const double x = h->x[h->vertex[i]];
+        if (s->gluing->top[row] == row)
+            accepted = x > limit;
+        if (!accepted)
+            continue;
+        s->state[row] = KNOWN;
+        iccp_scaled_set(s->f, row, unit * x, h->exponent);
     }
-    const size_t n_accepted = to - s->begin;
-    s->begin = to;
-    return n_accepted;
+}
+
+/* Whether the shell goes on with the cluster that begins at row[i]: it is worth it, or has to. */
+static bool is_kept(const shells *s, const shell *h, size_t i, size_t end, double negligible)
+{
+    if (s->state[s->row[i]] == KNOWN)
+        return false;
+    bool kept = h->x[h->vertex[i]] > negligible;
+    for (; i < end && !kept; ++i)
+        kept = has_neighbour(s, s->row[i], KNOWN);
+    return kept;
+}
+
+static void drop_rows(shells *s, const shell *h, double negligible)
+{
+    size_t n = 0;
+    for (size_t i = 0, end = 0; i < s->n; i = end) {
+        const uint32_t top = s->row[i];
+        end = i + s->cluster[top + 1] - s->cluster[top];
+        const bool kept = is_kept(s, h, i, end, negligible);
+        for (; i < end; ++i) {
+            if (kept)
+                s->row[n++] = s->row[i];
+            else if (s->state[s->row[i]] == IN_SHELL)
+                s->state[s->row[i]] = LEFT;
+            s->n_left += s->state[s->row[i]] == LEFT;
+        }
+    }
+    s->n = n;
 }
 
 /* A shell that ends too early is worth less than its work, one that goes too far costs more. */
-static void adapt_size(shells *s, const extent *e, bool first)
+static void adapt_growth(shells *s, const extent *e)
 {
     const double wanted = CUT / TRUNCATION * e->peak;
-    if (first)
-        s->size = e->significant;
+    if (s->first)
+        s->growth = e->significant / 2;
     else if (e->rim > wanted)
-        s->size += s->size / 2;
+        s->growth += s->growth / 2;
     else if (e->rim < 1e-3 * wanted)
-        s->size -= s->size / 8;
-    s->size = s->size > LEAST_SHELL ? s->size : LEAST_SHELL;
+        s->growth -= s->growth / 8;
+    s->growth = s->growth > LEAST_GROWTH ? s->growth : LEAST_GROWTH;
 }
 
 static icc_status next_shell(shells *s)
 {
     shell h = {0};
-    const bool first = s->begin == 0;
-    choose_rows(s);
     icc_status status = solve_shell(s, &h);
     if (status == ICC_OK) {
         const extent e = measure(s, &h);
         const double limit = fmax(CUT * e.peak, TRUNCATION * e.rim);
-        const double unit = first ? 1 / h.x[h.vertex[0]] : 1;
-        if (!(e.peak > 0) || !isfinite(unit))
-            status = ICC_ERR_SOLVER;
-        else {
+        const double unit = s->first ? 1 / h.x[h.vertex[0]] : 1;
+        if (e.peak > 0 && unit > 0 && isfinite(unit)) {
             accept_rows(s, &h, limit, unit);
-            adapt_size(s, &e, first);
-        }
+            drop_rows(s, &h, NEGLIGIBLE * e.peak);
+            adapt_growth(s, &e);
+            s->first = false;
+            grow(s);
+        } else
+            status = ICC_ERR_SOLVER;
     }
     free_shell(s, &h);
     return status;
@@ -308,16 +342,28 @@ static icc_status next_shell(shells *s)
 icc_status iccp_glued_iterative(const iccp_rows *rows, const iccp_gluing *gluing,
                                 const iccp_scaled *f, icc_field_info *info, const iccp_env *env)
 {
-    shells s = {.rows = rows, .gluing = gluing, .f = f, .info = info, .env = env, .size = rows->n};
-    s.order = iccp_alloc(&env->memory, rows->n, sizeof *s.order);
-    s.state = iccp_alloc_zero(&env->memory, rows->n, sizeof *s.state);
-    icc_status status = s.order != NULL && s.state != NULL ? sort_rows(&s) : ICC_ERR_MEMORY;
-    while (status == ICC_OK && s.begin < rows->n) {
-        status = iccp_progress(env, "multigrid", (double)s.begin / (double)rows->n);
+    const iccp_memory *m = &env->memory;
+    shells s = {.rows = rows, .gluing = gluing, .f = f, .info = info, .env = env, .first = true};
+    s.order = iccp_alloc(m, rows->n, sizeof *s.order);
+    s.cluster = iccp_alloc_zero(m, rows->n + 1, sizeof *s.cluster);
+    s.state = iccp_alloc_zero(m, rows->n, sizeof *s.state);
+    s.row = iccp_alloc(m, rows->n, sizeof *s.row);
+    icc_status status = ICC_ERR_MEMORY;
+    if (s.order != NULL && s.cluster != NULL && s.state != NULL && s.row != NULL) {
+        sort_rows(&s);
+        for (uint32_t k = 0; k < rows->n; ++k)
+            if (gluing->top[k] == k)
+                add_cluster(&s, k);
+        status = ICC_OK;
+    }
+    while (status == ICC_OK && s.n > 0) {
+        status = iccp_progress(env, "multigrid", 1 - (double)(s.n + s.n_left) / (double)rows->n);
         if (status == ICC_OK)
             status = next_shell(&s);
     }
-    iccp_free(&env->memory, s.order);
-    iccp_free(&env->memory, s.state);
+    iccp_free(m, s.order);
+    iccp_free(m, s.cluster);
+    iccp_free(m, s.state);
+    iccp_free(m, s.row);
     return status;
 }
