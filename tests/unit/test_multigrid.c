@@ -62,6 +62,15 @@ static void problem_clear(problem *p)
     icc_grid_free(p->grid);
 }
 
+/* The masks of every kind, and those with limbs that differ most. */
+enum { N_KINDS = N_MASKS + 2 };
+
+static mask_kind kind_number(int k)
+{
+    const mask_kind more[2] = {{"two ways", 2, mask_two_ways}, {"comb", 2, mask_comb}};
+    return k < N_MASKS ? mask_number(k) : more[k - N_MASKS];
+}
+
 static problem drawn(mask_shape shape, int32_t dim, size_t cells)
 {
     mask m = mask_draw(shape, dim, cells);
@@ -287,8 +296,8 @@ START_TEST(cycle_is_symmetric_positive_definite)
             check_cycle(&p, &r);
             problem_clear(&p);
         }
-    for (int k = 0; k < N_MASKS; ++k) {
-        const mask_kind kind = mask_number(k);
+    for (int k = 0; k < N_KINDS; ++k) {
+        const mask_kind kind = kind_number(k);
         problem p = drawn(kind.shape, kind.dim == 3 ? 3 : 2, kind.dim == 3 ? 24 : 70);
         check_cycle(&p, &r);
         problem_clear(&p);
@@ -320,8 +329,8 @@ static size_t count_iterations(const problem *p)
 /* On every mask, thin walls and corridors that coarse levels cannot see included. */
 START_TEST(iterations_do_not_grow)
 {
-    for (int k = 0; k < N_MASKS; ++k) {
-        const mask_kind kind = mask_number(k);
+    for (int k = 0; k < N_KINDS; ++k) {
+        const mask_kind kind = kind_number(k);
         for (int32_t dim = 2; dim <= 4; ++dim) {
             if (kind.dim != 0 && kind.dim != dim)
                 continue;
@@ -380,15 +389,28 @@ START_TEST(glued_agrees_with_elimination)
 }
 END_TEST
 
+static void check_direct(const problem *p)
+{
+    const iccp_env env = default_env();
+    const iccp_scaled g = {malloc(p->rows.n * sizeof(double)), malloc(p->rows.n * sizeof(int32_t))};
+    const iccp_gluing gluing = {.top = p->top, .share = p->share};
+    icc_field_info info = {0};
+    if (iccp_glued_direct(&p->rows, &gluing, &g, &info, &env) == ICC_OK)
+        ck_assert_double_le(difference(p, &g), 1e-6);
+    free(g.fraction);
+    free(g.exponent);
+}
+
 START_TEST(every_mask_is_solved)
 {
-    for (int k = 0; k < N_MASKS; ++k) {
-        const mask_kind kind = mask_number(k);
-        problem p = drawn(kind.shape, kind.dim == 3 ? 3 : 2, kind.dim == 3 ? 30 : 150);
+    for (int k = 0; k < N_KINDS; ++k) {
+        const mask_kind kind = kind_number(k);
+        problem p = drawn(kind.shape, kind.dim == 3 ? 3 : 2, kind.dim == 3 ? 24 : 150);
         ck_assert_int_eq(solve(&p, NULL), ICC_OK);
         check_form(&p);
         ck_assert_double_le(residual(&p), 1e-8);
         ck_assert_uint_eq(false_maxima(&p), 0);
+        check_direct(&p);
         problem_clear(&p);
     }
 }
@@ -398,14 +420,10 @@ END_TEST
  * 1e-133 from one end. */
 START_TEST(decay_is_followed)
 {
-    const iccp_env env = default_env();
     mask m = mask_draw(mask_serpentine, 2, 200);
     for (int from_end = 0; from_end < 2; ++from_end) {
         const uint32_t end = (uint32_t)(8 + MASK_MARGIN + (8 + MASK_MARGIN) * m.shape[0]);
         problem p = problem_of(2, m.shape, m.inside, from_end ? end : ICCP_NONE);
-        const iccp_scaled g = {malloc(p.rows.n * sizeof(double)), malloc(p.rows.n * sizeof(int32_t))};
-        const iccp_gluing gluing = {.top = p.top, .share = p.share};
-        icc_field_info info = {0};
         ck_assert_int_eq(solve(&p, NULL), ICC_OK);
         ck_assert_double_le(residual(&p), 1e-8);
         ck_assert_uint_eq(false_maxima(&p), 0);
@@ -413,10 +431,7 @@ START_TEST(decay_is_followed)
         for (size_t k = 0; k < p.rows.n; ++k)
             least = p.f.exponent[k] < least ? p.f.exponent[k] : least;
         ck_assert_int_lt(least, from_end ? -430 : -210);
-        if (iccp_glued_direct(&p.rows, &gluing, &g, &info, &env) == ICC_OK)
-            ck_assert_double_le(difference(&p, &g), 1e-6);
-        free(g.fraction);
-        free(g.exponent);
+        check_direct(&p);
         problem_clear(&p);
     }
     mask_free(&m);
@@ -426,22 +441,15 @@ END_TEST
 /* The same with a tenth of the rows glued, as by the inequalities. */
 START_TEST(glued_decay_is_followed)
 {
-    const iccp_env env = default_env();
     random_source r = {4};
-    const mask_shape shapes[3] = {mask_serpentine, mask_c, mask_tripod};
-    for (int k = 0; k < 3; ++k) {
-        problem p = drawn(shapes[k], k == 2 ? 3 : 2, k == 2 ? 40 : 120);
-        const iccp_scaled g = {malloc(p.rows.n * sizeof(double)), malloc(p.rows.n * sizeof(int32_t))};
-        const iccp_gluing gluing = {.top = p.top, .share = p.share};
-        icc_field_info info = {0};
+    for (int k = 0; k < N_KINDS; ++k) {
+        const mask_kind kind = kind_number(k);
+        problem p = drawn(kind.shape, kind.dim == 3 ? 3 : 2, kind.dim == 3 ? 22 : 100);
         glue(&p, &r, 10, 0.999999);
         ck_assert_int_eq(solve(&p, NULL), ICC_OK);
         check_form(&p);
         ck_assert_double_le(residual(&p), 1e-8);
-        if (iccp_glued_direct(&p.rows, &gluing, &g, &info, &env) == ICC_OK)
-            ck_assert_double_le(difference(&p, &g), 1e-6);
-        free(g.fraction);
-        free(g.exponent);
+        check_direct(&p);
         problem_clear(&p);
     }
 }
