@@ -116,6 +116,11 @@ static void find_exponent(const shells *s, shell *h)
         }
 }
 
+static icc_status report(const shells *s, size_t i)
+{
+    return i % ICCP_VERTICES_PER_REPORT == 0 ? iccp_progress(s->env, "multigrid", 0) : ICC_OK;
+}
+
 /* r = P' of what the known values contribute. In the first shell nothing is known; there it is a unit load
  * at the root, and the solution is scaled afterwards. */
 static void load(const shells *s, shell *h)
@@ -138,11 +143,12 @@ static void load(const shells *s, shell *h)
 }
 
 /* Replaces vertices by positions, lists what is glued and fills in the guess. */
-static void place(const shells *s, shell *h)
+static icc_status place(const shells *s, shell *h)
 {
     const iccp_mg_level *level = &h->mg.level[0];
+    icc_status status = ICC_OK;
     size_t top = 0;
-    for (size_t i = 0; i < s->n; ++i) {
+    for (size_t i = 0; i < s->n && status == ICC_OK; ++i) {
         const uint32_t row = s->row[i];
         uint32_t x;
         const size_t r = iccp_mg_row_of(level, s->rows->tree->grid, h->vertex[i], &x);
@@ -153,7 +159,9 @@ static void place(const shells *s, shell *h)
             h->x[at] = iccp_scaled_get(s->f, row, h->exponent);
         } else
             h->glue[h->n_glued++] = (iccp_glue){at, top, s->gluing->share[row]};
+        status = report(s, i);
     }
+    return status;
 }
 
 /* Scales the guess so that its energy is least, and makes r its residual; the size of the load. */
@@ -213,7 +221,9 @@ static icc_status solve_shell(shells *s, shell *h)
     if (status != ICC_OK)
         return status;
     find_exponent(s, h);
-    place(s, h);
+    status = place(s, h);
+    if (status != ICC_OK)
+        return status;
     load(s, h);
     const double middle = iccp_seconds();
     s->info->seconds_setup += middle - start;
@@ -261,19 +271,22 @@ static extent measure(const shells *s, shell *h)
 }
 
 /* Takes over the rows whose tops exceed the limit. */
-static void accept_rows(shells *s, const shell *h, double limit, double unit)
+static icc_status accept_rows(shells *s, const shell *h, double limit, double unit)
 {
+    icc_status status = ICC_OK;
     bool accepted = false;
-    for (size_t i = 0; i < s->n; ++i) {
+    for (size_t i = 0; i < s->n && status == ICC_OK; ++i) {
         const uint32_t row = s->row[i];
         const double x = h->x[h->vertex[i]];
         if (s->gluing->top[row] == row)
             accepted = x > limit;
+        status = report(s, i);
         if (!accepted)
             continue;
         s->state[row] = KNOWN;
         iccp_scaled_set(s->f, row, unit * x, h->exponent);
     }
+    return status;
 }
 
 /* Whether the shell goes on with the cluster that begins at row[i]: it is worth it, or has to. */
@@ -318,23 +331,30 @@ static void adapt_growth(shells *s, const extent *e)
     s->growth = s->growth > LEAST_GROWTH ? s->growth : LEAST_GROWTH;
 }
 
+/* Takes what is good from a shell that has been solved, and prepares the next one. */
+static icc_status advance(shells *s, shell *h)
+{
+    const extent e = measure(s, h);
+    const double limit = fmax(CUT * e.peak, TRUNCATION * e.rim);
+    const double unit = s->first ? 1 / h->x[h->vertex[0]] : 1;
+    if (!(e.peak > 0 && unit > 0 && isfinite(unit)))
+        return ICC_ERR_SOLVER;
+    const icc_status status = accept_rows(s, h, limit, unit);
+    if (status != ICC_OK)
+        return status;
+    drop_rows(s, h, NEGLIGIBLE * e.peak);
+    adapt_growth(s, &e);
+    s->first = false;
+    grow(s);
+    return ICC_OK;
+}
+
 static icc_status next_shell(shells *s)
 {
     shell h = {0};
     icc_status status = solve_shell(s, &h);
-    if (status == ICC_OK) {
-        const extent e = measure(s, &h);
-        const double limit = fmax(CUT * e.peak, TRUNCATION * e.rim);
-        const double unit = s->first ? 1 / h.x[h.vertex[0]] : 1;
-        if (e.peak > 0 && unit > 0 && isfinite(unit)) {
-            accept_rows(s, &h, limit, unit);
-            drop_rows(s, &h, NEGLIGIBLE * e.peak);
-            adapt_growth(s, &e);
-            s->first = false;
-            grow(s);
-        } else
-            status = ICC_ERR_SOLVER;
-    }
+    if (status == ICC_OK)
+        status = advance(s, &h);
     free_shell(s, &h);
     return status;
 }

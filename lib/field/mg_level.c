@@ -158,6 +158,34 @@ static void find_extent(iccp_mg_level *level, const icc_grid *grid, size_t n, co
         level->extent[k] = high[k] - level->corner[k] + 1;
 }
 
+static icc_status find_ranges(iccp_mg_level *level, const icc_grid *grid, size_t n,
+                              const uint32_t *vertex, const iccp_env *env)
+{
+    icc_status status = ICC_OK;
+    for (size_t i = 0; i < n && status == ICC_OK; ++i) {
+        uint32_t x;
+        const size_t r = iccp_mg_row_of(level, grid, vertex[i], &x);
+        widen(level->range + 2 * r, x, x);
+        if (i % ICCP_VERTICES_PER_REPORT == 0)
+            status = iccp_progress(env, "multigrid", 0);
+    }
+    return status;
+}
+
+static icc_status mark_inside(iccp_mg_level *level, const icc_grid *grid, size_t n,
+                              const uint32_t *vertex, const iccp_env *env)
+{
+    icc_status status = ICC_OK;
+    for (size_t i = 0; i < n && status == ICC_OK; ++i) {
+        uint32_t x;
+        const size_t r = iccp_mg_row_of(level, grid, vertex[i], &x);
+        level->inside[iccp_mg_position(level, r, x)] = 1;
+        if (i % ICCP_VERTICES_PER_REPORT == 0)
+            status = iccp_progress(env, "multigrid", 0);
+    }
+    return status;
+}
+
 icc_status iccp_mg_level_fine(iccp_mg_level *level, const icc_grid *grid, size_t n,
                               const uint32_t *vertex, const iccp_env *env)
 {
@@ -165,21 +193,13 @@ icc_status iccp_mg_level_fine(iccp_mg_level *level, const icc_grid *grid, size_t
                              .kernels = iccp_mg_kernels_choose(2 * grid->dim, false)};
     find_extent(level, grid, n, vertex);
     icc_status status = make_rows(level, &env->memory);
-    if (status != ICC_OK)
-        return status;
-    uint32_t x;
-    for (size_t i = 0; i < n; ++i) {
-        const size_t r = iccp_mg_row_of(level, grid, vertex[i], &x);
-        widen(level->range + 2 * r, x, x);
-    }
-    status = make_windows(level, &env->memory);
-    if (status != ICC_OK)
-        return status;
-    for (size_t i = 0; i < n; ++i) {
-        const size_t r = iccp_mg_row_of(level, grid, vertex[i], &x);
-        level->inside[iccp_mg_position(level, r, x)] = 1;
-    }
-    return make_runs(level, &env->memory);
+    if (status == ICC_OK)
+        status = find_ranges(level, grid, n, vertex, env);
+    if (status == ICC_OK)
+        status = make_windows(level, &env->memory);
+    if (status == ICC_OK)
+        status = mark_inside(level, grid, n, vertex, env);
+    return status == ICC_OK ? make_runs(level, &env->memory) : status;
 }
 
 /* ------------------------------------------------------------------ coarse */
@@ -320,6 +340,38 @@ static void weigh_row(const coarsening *c, size_t row)
     }
 }
 
+static icc_status for_rows(const coarsening *c, void (*act)(const coarsening *, size_t),
+                           const iccp_env *env)
+{
+    const size_t length = c->level->n_entries / c->level->n_rows + 1;
+    const size_t rows_per_report = ICCP_VERTICES_PER_REPORT / length + 1;
+    icc_status status = ICC_OK;
+    for (size_t r = 0; r < c->level->n_rows && status == ICC_OK; ++r) {
+        act(c, r);
+        if (r % rows_per_report == 0)
+            status = iccp_progress(env, "multigrid", 0);
+    }
+    return status;
+}
+
+static icc_status fill_coarse(const coarsening *c, const iccp_env *env)
+{
+    iccp_mg_level *level = c->level;
+    icc_status status = make_rows(level, &env->memory);
+    if (status != ICC_OK)
+        return status;
+    cover(level, c->fine);
+    status = make_windows(level, &env->memory);
+    if (status == ICC_OK)
+        status = for_rows(c, mark_row, env);
+    if (status == ICC_OK)
+        status = make_runs(level, &env->memory);
+    if (status != ICC_OK || level->n_inside == 0)
+        return status;
+    level->inverse = iccp_alloc_zero(&env->memory, level->n_entries, sizeof *level->inverse);
+    return level->inverse != NULL ? for_rows(c, weigh_row, env) : ICC_ERR_MEMORY;
+}
+
 icc_status iccp_mg_level_coarse(iccp_mg_level *level, const iccp_mg_level *fine,
                                 const iccp_mg_level *finest, int32_t depth, const iccp_env *env)
 {
@@ -330,22 +382,7 @@ icc_status iccp_mg_level_coarse(iccp_mg_level *level, const iccp_mg_level *fine,
         if (level->extent[k] == 0)
             return ICC_OK;
     }
-    icc_status status = make_rows(level, &env->memory);
-    if (status == ICC_OK) {
-        cover(level, fine);
-        status = make_windows(level, &env->memory);
-    }
-    if (status == ICC_OK) {
-        for (size_t r = 0; r < level->n_rows; ++r)
-            mark_row(&c, r);
-        status = make_runs(level, &env->memory);
-    }
-    if (status == ICC_OK && level->n_inside > 0) {
-        level->inverse = iccp_alloc_zero(&env->memory, level->n_entries, sizeof *level->inverse);
-        status = level->inverse != NULL ? ICC_OK : ICC_ERR_MEMORY;
-        for (size_t r = 0; r < level->n_rows && status == ICC_OK; ++r)
-            weigh_row(&c, r);
-    }
+    const icc_status status = fill_coarse(&c, env);
     if (status != ICC_OK || level->n_inside == 0)
         iccp_mg_level_free(level, &env->memory);
     return status;

@@ -32,9 +32,6 @@ icc_status iccp_multigrid_create(iccp_multigrid *mg, const icc_grid *grid, size_
     if (status == ICC_OK)
         status = make_scratch(mg);
     while (status == ICC_OK && mg->n_levels < ICCP_MG_MAX_LEVELS) {
-        status = iccp_progress(env, "multigrid", 0);
-        if (status != ICC_OK)
-            break;
         iccp_mg_level *coarse = &mg->level[mg->n_levels];
         status = iccp_mg_level_coarse(coarse, coarse - 1, &mg->level[0], mg->n_levels, env);
         if (coarse->n_inside == 0)

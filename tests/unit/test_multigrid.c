@@ -117,6 +117,57 @@ static icc_status solve(problem *p, size_t *n_inner)
     return status;
 }
 
+/* ---------------------------------------------------------------- the kernels */
+
+enum { LONGEST = 70, FLOATS = LONGEST + 8 };
+
+/* What all kernels of a set make of the same numbers. */
+typedef struct outcome {
+    float x[FLOATS], sum[FLOATS], p[FLOATS], b[FLOATS];
+    double y[FLOATS], r[FLOATS];
+    iccp_mg_upward up;
+    iccp_mg_downward down;
+} outcome;
+
+static void run_kernels(const iccp_mg_kernels *kernels, size_t n, int32_t n_near, uint64_t seed,
+                        outcome *o)
+{
+    random_source r = {seed};
+    float vector[2 * ICC_MAX_DIM][FLOATS];
+    const float *near[2 * ICC_MAX_DIM];
+    memset(o, 0, sizeof *o);
+    for (int32_t j = 0; j < 2 * ICC_MAX_DIM; ++j)
+        for (size_t i = 0; i < FLOATS; ++i)
+            vector[j][i] = (float)random_between(&r, -1, 1);
+    for (int32_t j = 0; j < n_near; ++j)
+        near[j] = vector[j] + random_below(&r, 8);
+    for (size_t i = 0; i < FLOATS; ++i) {
+        o->p[i] = (float)random_between(&r, -1, 1);
+        o->y[i] = random_between(&r, -1, 1);
+        o->r[i] = random_between(&r, -1, 1);
+    }
+    kernels->relax(o->x, vector[11], vector[10], near, n, n_near);
+    kernels->add(o->sum, near, n, n_near);
+    kernels->turn(o->p, vector[9], 0.7f, n);
+    kernels->measure(vector[8], o->r, near, n, n_near, &o->up);
+    const iccp_mg_step step = {o->y, o->r, o->b, o->p, 0.3, 1e-3, 0.1};
+    kernels->advance(&step, near, n, n_near, &o->down);
+}
+
+/* On every machine and for any length. */
+START_TEST(kernels_agree_to_the_bit)
+{
+    for (int32_t n_near = 4; n_near <= 6; n_near += 2)
+        for (size_t n = 0; n <= LONGEST; ++n) {
+            outcome fast, portable;
+            run_kernels(iccp_mg_kernels_choose(n_near, false), n, n_near, n, &fast);
+            run_kernels(iccp_mg_kernels_choose(n_near, true), n, n_near, n, &portable);
+            ck_assert(memcmp(&fast, &portable, sizeof fast) == 0);
+            ck_assert(fast.x[n] >= 0 && fast.x[n] <= 0);
+        }
+}
+END_TEST
+
 /* ------------------------------------------------------------ what is solved */
 
 /* P'LP densely: n * n, 0 in the rows and columns of members but for 1 on their diagonal. */
@@ -534,6 +585,7 @@ int main(void)
 {
     Suite *suite = suite_create("multigrid");
     TCase *tests = tcase_create("multigrid");
+    tcase_add_test(tests, kernels_agree_to_the_bit);
     tcase_add_test(tests, cycle_is_symmetric_positive_definite);
     tcase_add_test(tests, iterations_do_not_grow);
     tcase_add_test(tests, plain_agrees_with_elimination);
