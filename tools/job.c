@@ -41,7 +41,8 @@ int job_failed(job *j, const icc_error *err)
     progress_end(&j->bar);
     const cage *c = &j->cages[err->side == 2];
     size_t line = 0;
-    if (err->index >= 0 && (uint64_t)err->index < c->n)
+    bool of_grid = err->status == ICC_ERR_RESOLUTION || err->status == ICC_ERR_SOLVER;
+    if (!of_grid && err->index >= 0 && (uint64_t)err->index < c->n)
         line = c->lines[err->index];
     const char *message = err->message[0] != '\0' ? err->message : icc_status_name(err->status);
     return failed(job_file(j, err->side), line, "%s", message);

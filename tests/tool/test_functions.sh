@@ -92,6 +92,15 @@ holds out 'the first besides the maximum lies at'
 run 0 info -s gap.txt -m gradient -f laplace --cells 200 --json=report.json
 one_maximum "a gap with small cells"
 
+# A grid with one vertex inside: no function, no drawing of the others, no line of the cage to blame.
+awk 'BEGIN { for (i = 0; i <= 20; i++) printf "%.1f 0\n", i / 10; print "0.9 1" }' >coarse.txt
+run 1 info -s coarse.txt -m gradient -f laplace --cells 2
+says 'libicc: coarse.txt: the grid is too coarse'
+run 1 plot -s coarse.txt -m gradient -f decay,laplace,distance --cells 2 drawing.svg
+says 'libicc: coarse.txt: the grid is too coarse'
+[ ! -e drawing.svg ] || complain "a drawing although a function failed"
+run 0 plot -s coarse.txt -m gradient -f decay,distance --cells 2 drawing.svg
+
 # Maps and coordinates. In a convex cage nearly all points come back.
 printf '0 0\n8 -1\n12 5\n7 10\n-1 7\n' >convex.txt
 printf '5 4\n1 1\n9 3\n4 7.5\n6.25 1.5\n' >some.txt
