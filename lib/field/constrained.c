@@ -149,7 +149,6 @@ static icc_status iterate(state *s, iccp_glued_solver solve, icc_field_info *inf
 {
     const iccp_gluing gluing = {s->top, s->share, s->order};
     int stalled = 0;
-    s->order[0] = ICCP_NONE;
     glue(s);
     judge(s);
     const size_t first = s->n_wrong;
@@ -196,23 +195,23 @@ static void finish(state *s, icc_field_info *info)
 }
 
 icc_status iccp_constrained_laplace(const iccp_rows *rows, double eta, iccp_glued_solver solve,
-                                    const iccp_scaled *f, icc_field_info *info,
+                                    uint32_t *order, const iccp_scaled *f, icc_field_info *info,
                                     const iccp_env *env)
 {
     const iccp_memory *m = &env->memory;
     const size_t n = rows->n;
     bool *flags = iccp_alloc_zero(m, 2 * n, sizeof *flags);
-    uint32_t *indices = iccp_alloc(m, 2 * n, sizeof *indices);
+    uint32_t *top = iccp_alloc(m, n, sizeof *top);
     double *numbers = iccp_alloc(m, 3 * n, sizeof *numbers);
     icc_status status = ICC_ERR_MEMORY;
-    if (flags != NULL && indices != NULL && numbers != NULL) {
+    if (flags != NULL && top != NULL && numbers != NULL) {
         state s = {.rows = rows,
                    .f = f,
                    .sigma = 1 + eta,
                    .active = flags,
                    .wrong = flags + n,
-                   .top = indices,
-                   .order = indices + n,
+                   .top = top,
+                   .order = order,
                    .share = numbers,
                    .multiplier = numbers + n,
                    .size = numbers + 2 * n,
@@ -224,7 +223,7 @@ icc_status iccp_constrained_laplace(const iccp_rows *rows, double eta, iccp_glue
             finish(&s, info);
     }
     iccp_free(m, flags);
-    iccp_free(m, indices);
+    iccp_free(m, top);
     iccp_free(m, numbers);
     return status;
 }

@@ -19,6 +19,7 @@ typedef struct job {
     iccp_scaled f;
     uint32_t *top; /* the gluing of nothing */
     double *share;
+    uint32_t *order; /* as in iccp_gluing */
 } job;
 
 /* Most multiplications of a factorisation that are preferred to conjugate gradients. */
@@ -65,8 +66,11 @@ static icc_status begin(job *j, const iccp_env *env)
     j->f.exponent = iccp_alloc(&env->memory, n, sizeof *j->f.exponent);
     j->top = iccp_alloc(&env->memory, n, sizeof *j->top);
     j->share = iccp_alloc(&env->memory, n, sizeof *j->share);
-    if (j->f.fraction == NULL || j->f.exponent == NULL || j->top == NULL || j->share == NULL)
+    j->order = iccp_alloc(&env->memory, n, sizeof *j->order);
+    if (j->f.fraction == NULL || j->f.exponent == NULL || j->top == NULL || j->share == NULL ||
+        j->order == NULL)
         return ICC_ERR_MEMORY;
+    j->order[0] = ICCP_NONE;
     for (uint32_t k = 0; k < n; ++k) {
         iccp_scaled_set(&j->f, k, 1, 0);
         j->top[k] = k;
@@ -82,6 +86,7 @@ static void end(job *j, const iccp_env *env)
     iccp_free(&env->memory, j->f.exponent);
     iccp_free(&env->memory, j->top);
     iccp_free(&env->memory, j->share);
+    iccp_free(&env->memory, j->order);
 }
 
 static iccp_glued_solver glued_solver(const job *j)
@@ -92,7 +97,7 @@ static iccp_glued_solver glued_solver(const job *j)
 static icc_status solve_laplace(job *j, const iccp_env *env)
 {
     icc_field_info *info = &j->field->info;
-    const iccp_gluing none = {.top = j->top, .share = j->share};
+    const iccp_gluing none = {j->top, j->share, j->order};
     const icc_status status = glued_solver(j)(&j->rows, &none, &j->f, info, env);
     if (status != ICC_OK)
         return status;
@@ -125,7 +130,7 @@ static icc_status constrain(job *j, const iccp_env *env)
     const double eta = j->options->eta;
     info->constrained = 1;
     if (function == ICC_FUNCTION_LAPLACE)
-        return iccp_constrained_laplace(&j->rows, eta, glued_solver(j), &j->f, info, env);
+        return iccp_constrained_laplace(&j->rows, eta, glued_solver(j), j->order, &j->f, info, env);
     info->solver = ICC_SOLVER_DIRECT;
     return iccp_bilaplace_constrained(&j->rows, function, eta, j->options->leaf, &j->f, info, env);
 }

@@ -44,7 +44,9 @@ static void measure(const one *c, const iccp_rows *rows, const iccp_env *env)
         share[k] = 1;
         iccp_scaled_set(&f, k, 1, 0);
     }
-    const iccp_gluing gluing = {.top = top, .share = share};
+    uint32_t *order = bench_alloc(rows->n, sizeof *order);
+    order[0] = ICCP_NONE;
+    const iccp_gluing gluing = {top, share, order};
     const iccp_glued_solver solve = c->iterative ? iccp_glued_iterative : iccp_glued_direct;
     icc_field_info info = {.size = sizeof info};
     const icc_error error = {.message = "no result"};
@@ -53,7 +55,7 @@ static void measure(const one *c, const iccp_rows *rows, const iccp_env *env)
     seconds[0] = processor_seconds() - start;
     info = (icc_field_info){.size = sizeof info};
     start = processor_seconds();
-    const icc_status status = iccp_constrained_laplace(rows, 1e-6, solve, &f, &info, env);
+    const icc_status status = iccp_constrained_laplace(rows, 1e-6, solve, order, &f, &info, env);
     seconds[1] = processor_seconds() - start;
     print_result(c, rows, &f, &info, seconds);
     if (status != ICC_OK)
@@ -62,6 +64,7 @@ static void measure(const one *c, const iccp_rows *rows, const iccp_env *env)
     free(f.exponent);
     free(top);
     free(share);
+    free(order);
 }
 
 static void run(const one *c)

@@ -24,6 +24,7 @@ typedef struct problem {
     iccp_scaled f;
     uint32_t *top;
     double *share;
+    uint32_t *order;
     iccp_gluing gluing;
 } problem;
 
@@ -47,7 +48,9 @@ static problem problem_new(int32_t dim, const size_t *shape, const uint8_t *insi
         p.share[k] = 1;
         iccp_scaled_set(&p.f, k, 1, 0);
     }
-    p.gluing = (iccp_gluing){.top = p.top, .share = p.share};
+    p.order = malloc(n * sizeof *p.order);
+    p.order[0] = ICCP_NONE;
+    p.gluing = (iccp_gluing){p.top, p.share, p.order};
     return p;
 }
 
@@ -59,6 +62,7 @@ static void problem_free(problem *p)
     free(p->f.exponent);
     free(p->top);
     free(p->share);
+    free(p->order);
 }
 
 static problem problem_on(mask_shape shape, int32_t dim, size_t cells)
@@ -178,7 +182,8 @@ static icc_field_info solve(problem *p)
 static icc_field_info constrain(problem *p, double eta)
 {
     icc_field_info info = solve(p);
-    ck_assert_int_eq(iccp_constrained_laplace(&p->rows, eta, iccp_glued_direct, &p->f, &info, &p->env),
+    ck_assert_int_eq(iccp_constrained_laplace(&p->rows, eta, iccp_glued_direct, p->order, &p->f, &info,
+                                              &p->env),
                      ICC_OK);
     return info;
 }
@@ -550,11 +555,13 @@ START_TEST(back_ends_that_do_not_converge)
 {
     problem p = problem_on(mask_c, 2, 20);
     icc_field_info info = {.size = sizeof info};
-    ck_assert_int_eq(iccp_constrained_laplace(&p.rows, 1e-6, solve_randomly, &p.f, &info, &p.env),
+    ck_assert_int_eq(iccp_constrained_laplace(&p.rows, 1e-6, solve_randomly, NULL, &p.f, &info, &p.env),
                      ICC_ERR_SOLVER);
     ck_assert_uint_eq(info.n_iterations, info.n_inner);
     info = solve(&p);
-    ck_assert_int_eq(iccp_constrained_laplace(&p.rows, 1e-6, solve_roughly, &p.f, &info, &p.env), ICC_OK);
+    ck_assert_int_eq(iccp_constrained_laplace(&p.rows, 1e-6, solve_roughly, p.order, &p.f, &info,
+                                              &p.env),
+                     ICC_OK);
     ck_assert(info.n_iterations < 40 && info.residual < 1e-9);
     ck_assert_uint_eq(count_violated(&p, 1e-6), 0);
     problem_free(&p);
@@ -568,7 +575,7 @@ START_TEST(chains_too_long_for_their_shares)
     memset(inside, 1, N);
     problem p = problem_new(1, (size_t[]){N}, inside, 0);
     icc_field_info info = {.size = sizeof info};
-    ck_assert_int_eq(iccp_constrained_laplace(&p.rows, 0.01, solve_flatly, &p.f, &info, &p.env),
+    ck_assert_int_eq(iccp_constrained_laplace(&p.rows, 0.01, solve_flatly, NULL, &p.f, &info, &p.env),
                      ICC_ERR_SOLVER);
     ck_assert_uint_eq(info.n_iterations, 0);
     problem_free(&p);
@@ -582,9 +589,11 @@ static icc_status call_constrained(const icc_env *env, icc_error *err, void *arg
     iccp_env inner;
     icc_field_info info = {.size = sizeof info};
     ck_assert_int_eq(iccp_env_read(&inner, env, err), ICC_OK);
+    p->order[0] = ICCP_NONE;
     icc_status status = iccp_glued_direct(&p->rows, &p->gluing, &p->f, &info, &inner);
     if (status == ICC_OK)
-        status = iccp_constrained_laplace(&p->rows, 1e-6, iccp_glued_direct, &p->f, &info, &inner);
+        status = iccp_constrained_laplace(&p->rows, 1e-6, iccp_glued_direct, p->order, &p->f, &info,
+                                          &inner);
     return iccp_explain(err, status);
 }
 
