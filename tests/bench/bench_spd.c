@@ -1,7 +1,7 @@
 /* What five-point and seven-point Laplacians cost to order, analyse, factorise and solve, beside
  * CHOLMOD where it is installed. Arguments: names of shapes to try, all by default; `nd` orders boxes
- * by bisecting them instead of by degree, `plain` leaves CHOLMOD out. One thread, and seconds of its own: other programs
- * disturb them less. */
+ * by bisecting them instead of by degree, `plain` leaves CHOLMOD out. One thread, and seconds of its
+ * own: other programs disturb them less. */
 #include "bench.h"
 
 #include "math/ldlt.h"
@@ -56,7 +56,7 @@ static bool is_star(double x, double y, double z)
     return hypot(x, y) < 0.65 + 0.3 * cos(5 * atan2(y, x));
 }
 
-/* Corridors 18 thousandths of the square wide, walls of 2. */
+/* Corridors 36 thousandths of the square wide, to and fro. */
 static bool is_snake(double x, double y, double z)
 {
     const double lane = (y + 1) * 25;
@@ -76,10 +76,12 @@ static const struct {
     inside is_inside;
     size_t size, layers;
 } SHAPES[] = {
-    {"square200", is_square, 200, 1}, {"l200", is_l, 200, 1},           {"c200", is_c, 200, 1},
-    {"star200", is_star, 200, 1},     {"square1000", is_square, 1000, 1}, {"l1000", is_l, 1000, 1},
-    {"c1000", is_c, 1000, 1},         {"star1000", is_star, 1000, 1},   {"snake1000", is_snake, 1000, 1},
-    {"box32", is_square, 32, 32},     {"tube32", is_tube, 32, 32},      {"tube64", is_tube, 64, 64},
+    {"square200", is_square, 200, 1},   {"l200", is_l, 200, 1},
+    {"c200", is_c, 200, 1},             {"star200", is_star, 200, 1},
+    {"square1000", is_square, 1000, 1}, {"l1000", is_l, 1000, 1},
+    {"c1000", is_c, 1000, 1},           {"star1000", is_star, 1000, 1},
+    {"snake1000", is_snake, 1000, 1},   {"box32", is_square, 32, 32},
+    {"tube32", is_tube, 32, 32},        {"tube64", is_tube, 64, 64},
     {"box64", is_square, 64, 64},
 };
 

@@ -314,7 +314,8 @@ typedef bool (*rule)(int x, int y, int z);
 static lattice make_lattice(int width, int height, int depth, rule is_in)
 {
     const size_t n_cells = (size_t)width * (size_t)height * (size_t)depth;
-    lattice g = {.unknown = calloc(n_cells, sizeof *g.unknown), .first = calloc(n_cells + 1, sizeof *g.first),
+    lattice g = {.unknown = calloc(n_cells, sizeof *g.unknown),
+                 .first = calloc(n_cells + 1, sizeof *g.first),
                  .column = calloc(6 * n_cells, sizeof *g.column),
                  .value = calloc(6 * n_cells, sizeof *g.value),
                  .diagonal = calloc(n_cells, sizeof *g.diagonal)};
@@ -378,45 +379,120 @@ static const struct {
     rule is_in;
 } MAZES[] = {{200, 199, 1, in_snake}, {40, 35, 11, in_storeys}, {149, 150, 1, in_comb}};
 
-/* From one end of a maze to the other every number is positive and satisfies its equation to 1e-12 of
- * its own size. */
-START_TEST(mazes_are_solved_in_every_component)
+/* Solves for a source and checks that every number is positive and satisfies its equation to 1e-12 of
+ * its own size. Returns the lowest exponent. */
+static int32_t check_components(const lattice *g, const iccp_ldlt *l, size_t source)
 {
-    const iccp_env env = plain_env();
-    lattice g = make_lattice(MAZES[_i].width, MAZES[_i].height, MAZES[_i].depth, MAZES[_i].is_in);
-    iccp_ldlt l;
-    icc_status status = iccp_ldlt_analyse(&l, &g.m, 1, &env);
-    if (status == ICC_ERR_UNSUPPORTED) {
-        lattice_clear(&g);
-        return;
-    }
-    ck_assert_int_eq(status, ICC_OK);
-    ck_assert_int_eq(iccp_ldlt_factorise(&l, &g.m, &env), ICC_OK);
-    const iccp_scaled x = {malloc(g.n * sizeof(double)), malloc(g.n * sizeof(int32_t))};
-    const iccp_scaled work = {malloc(g.n * sizeof(double)), malloc(g.n * sizeof(int32_t))};
-    for (int source = 0; source < 3; ++source) {
-        const size_t top = source == 0 ? 0 : source == 1 ? g.n - 1 : g.n / 2;
-        double lowest = 0;
-        for (size_t i = 0; i < g.n; ++i)
-            iccp_scaled_set(&x, i, i == top, 0);
-        iccp_ldlt_solve_scaled(&l, &x, &work);
-        for (size_t i = 0; i < g.n; ++i) {
-            const int32_t unit = x.exponent[i];
-            double sum = -g.diagonal[i] * x.fraction[i] + (i == top ? ldexp(1, -unit) : 0);
-            for (size_t p = g.first[i]; p < g.first[i + 1]; ++p)
-                sum -= g.value[p] * iccp_scaled_get(&x, g.column[p], unit);
-            ck_assert(x.fraction[i] > 0 && unit != ICCP_ZERO_EXPONENT);
-            ck_assert_double_le(fabs(sum), 1e-12 * g.diagonal[i] * x.fraction[i]);
-            lowest = fmin(lowest, unit);
-        }
-        ck_assert(_i != 0 || source == 2 || lowest < -10000);
+    const iccp_scaled x = {malloc(g->n * sizeof(double)), malloc(g->n * sizeof(int32_t))};
+    const iccp_scaled work = {malloc(g->n * sizeof(double)), malloc(g->n * sizeof(int32_t))};
+    int32_t lowest = 0;
+    for (size_t i = 0; i < g->n; ++i)
+        iccp_scaled_set(&x, i, i == source, 0);
+    iccp_ldlt_solve_scaled(l, &x, &work);
+    for (size_t i = 0; i < g->n; ++i) {
+        const int32_t unit = x.exponent[i];
+        double sum = -g->diagonal[i] * x.fraction[i] + (i == source ? ldexp(1, -unit) : 0);
+        for (size_t p = g->first[i]; p < g->first[i + 1]; ++p)
+            sum -= g->value[p] * iccp_scaled_get(&x, g->column[p], unit);
+        ck_assert(x.fraction[i] > 0 && unit != ICCP_ZERO_EXPONENT);
+        ck_assert_double_le(fabs(sum), 1e-12 * g->diagonal[i] * x.fraction[i]);
+        lowest = unit < lowest ? unit : lowest;
     }
     free(x.fraction);
     free(x.exponent);
     free(work.fraction);
     free(work.exponent);
-    iccp_ldlt_free(&l);
+    return lowest;
+}
+
+START_TEST(mazes_are_solved_in_every_component)
+{
+    const iccp_env env = plain_env();
+    lattice g = make_lattice(MAZES[_i].width, MAZES[_i].height, MAZES[_i].depth, MAZES[_i].is_in);
+    iccp_ldlt l;
+    const icc_status status = iccp_ldlt_analyse(&l, &g.m, 1, &env);
+    if (status != ICC_ERR_UNSUPPORTED) {
+        ck_assert_int_eq(status, ICC_OK);
+        ck_assert_int_eq(iccp_ldlt_factorise(&l, &g.m, &env), ICC_OK);
+        const int32_t lowest = check_components(&g, &l, 0);
+        ck_assert(_i != 0 || lowest < -10000);
+        check_components(&g, &l, g.n - 1);
+        check_components(&g, &l, g.n / 2);
+        iccp_ldlt_free(&l);
+    }
     lattice_clear(&g);
+}
+END_TEST
+
+static bool in_ring(int x, int y, int z)
+{
+    const int u = x < y ? x : y, v = x > y ? 399 - x : 399 - y;
+    (void)z;
+    return (u < v ? u : v) < 2;
+}
+
+/* Every row before those that are nearer to the source. */
+static uint32_t *falling_distance(const lattice *g, uint32_t source)
+{
+    uint32_t *order = malloc(g->n * sizeof *order);
+    bool *is_seen = calloc(g->n, sizeof *is_seen);
+    size_t n_seen = 0;
+    order[g->n - ++n_seen] = source;
+    is_seen[source] = true;
+    for (size_t k = 1; k <= n_seen; ++k) {
+        const uint32_t i = order[g->n - k];
+        for (size_t p = g->first[i]; p < g->first[i + 1]; ++p)
+            if (!is_seen[g->column[p]]) {
+                is_seen[g->column[p]] = true;
+                order[g->n - ++n_seen] = g->column[p];
+            }
+    }
+    ck_assert_uint_eq(n_seen, g->n);
+    free(is_seen);
+    return order;
+}
+
+/* A ring has no end to begin with, and orders by degree join its two sides. */
+START_TEST(rings_are_solved_in_order_of_distance)
+{
+    const iccp_env env = plain_env();
+    lattice g = make_lattice(400, 400, 1, in_ring);
+    const uint32_t source = (uint32_t)(g.n / 3);
+    uint32_t *order = falling_distance(&g, source);
+    iccp_ldlt l;
+    ck_assert_int_eq(iccp_ldlt_analyse_ordered(&l, &g.m, order, &env), ICC_OK);
+    ck_assert_int_eq(iccp_ldlt_factorise(&l, &g.m, &env), ICC_OK);
+    ck_assert_int_lt(check_components(&g, &l, source), -1050);
+    iccp_ldlt_free(&l);
+    free(order);
+    lattice_clear(&g);
+}
+END_TEST
+
+/* Two rows that meet in a third share a panel, with a 0 between them. The first has the larger right
+ * side by far, yet what gets from it to the second is less than the second has. */
+START_TEST(stored_zeros_carry_nothing)
+{
+    const size_t first[] = {0, 1, 2, 4};
+    const uint32_t column[] = {2, 2, 0, 1}, order[] = {0, 1, 2};
+    const double tie = -0x1p-900, value[] = {tie, tie, tie, tie}, diagonal[] = {1, 1, 1};
+    const iccp_symmetric m = {3, first, column, value, diagonal};
+    const iccp_env env = plain_env();
+    double fraction[3], work_fraction[3];
+    int32_t exponent[3], work_exponent[3];
+    const iccp_scaled x = {fraction, exponent}, work = {work_fraction, work_exponent};
+    iccp_ldlt l;
+    ck_assert_int_eq(iccp_ldlt_analyse_ordered(&l, &m, order, &env), ICC_OK);
+    ck_assert_uint_eq(l.nodes.n, 1);
+    ck_assert_int_eq(iccp_ldlt_factorise(&l, &m, &env), ICC_OK);
+    iccp_scaled_set(&x, 0, 1, 3000);
+    iccp_scaled_set(&x, 1, 1, 1500);
+    iccp_scaled_set(&x, 2, 0, 0);
+    iccp_ldlt_solve_scaled(&l, &x, &work);
+    ck_assert_int_eq(exponent[0], 3001);
+    ck_assert_int_eq(exponent[1], 1501);
+    ck_assert_int_eq(exponent[2], 2101);
+    iccp_ldlt_free(&l);
 }
 END_TEST
 
@@ -449,8 +525,8 @@ START_TEST(long_factorisations_report_often)
     lattice g = make_lattice(20, 20, 20, everywhere);
     watch w = {0};
     iccp_env env;
-    ck_assert_int_eq(iccp_env_read(&env, &(icc_env){.size = sizeof(icc_env), .user = &w, .progress = look},
-                                   NULL), ICC_OK);
+    const icc_env outer = {.size = sizeof outer, .user = &w, .progress = look};
+    ck_assert_int_eq(iccp_env_read(&env, &outer, NULL), ICC_OK);
     uint32_t *order = malloc(g.n * sizeof *order);
     for (uint32_t i = 0; i < g.n; ++i)
         order[i] = i;
@@ -535,6 +611,8 @@ int main(void)
     tcase_add_test(tests, factorising_again_changes_nothing);
     tcase_add_test(tests, wrong_signs_are_refused);
     tcase_add_loop_test(tests, mazes_are_solved_in_every_component, 0, sizeof MAZES / sizeof *MAZES);
+    tcase_add_test(tests, rings_are_solved_in_order_of_distance);
+    tcase_add_test(tests, stored_zeros_carry_nothing);
     tcase_add_test(tests, long_factorisations_report_often);
     tcase_add_test(tests, failures_leave_nothing_behind);
     tcase_add_test(tests, nothing_is_factorised);
