@@ -80,7 +80,7 @@ for pair in "--function distance" "--function laplace" "--tree paper" "--constra
     says "${pair% *} needs --method gradient"
 done
 # Functions: names, what they have, how many.
-for names in magic laplace,magic '' laplace, ,laplace laplac; do
+for names in magic laplace,magic '' 'laplace,' ',laplace' laplac; do
     run 2 plot -s source.txt -m gradient "--function=$names" out.svg
     says "is unknown; it may be: decay, distance, laplace, bilaplace, clamped"
 done
