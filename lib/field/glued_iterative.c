@@ -270,6 +270,13 @@ static extent measure(const shells *s, shell *h)
     return e;
 }
 
+/* From the normalised value: shares may be tiny. */
+static void share_top(const shells *s, uint32_t row)
+{
+    const uint32_t top = s->gluing->top[row];
+    iccp_scaled_set(s->f, row, s->gluing->share[row] * s->f->fraction[top], s->f->exponent[top]);
+}
+
 /* Takes over the rows whose tops exceed the limit. */
 static icc_status accept_rows(shells *s, const shell *h, double limit, double unit)
 {
@@ -284,7 +291,10 @@ static icc_status accept_rows(shells *s, const shell *h, double limit, double un
         if (!accepted)
             continue;
         s->state[row] = KNOWN;
-        iccp_scaled_set(s->f, row, unit * x, h->exponent);
+        if (s->gluing->top[row] == row)
+            iccp_scaled_set(s->f, row, unit * x, h->exponent);
+        else
+            share_top(s, row);
     }
     return status;
 }
@@ -300,19 +310,24 @@ static bool is_kept(const shells *s, const shell *h, size_t i, size_t end, doubl
     return kept;
 }
 
-static void drop_rows(shells *s, const shell *h, double negligible)
+/* Puts together what the shell goes on with; its values are the guess for the next one. */
+static void keep_rows(shells *s, const shell *h, double negligible, double unit)
 {
     size_t n = 0;
     for (size_t i = 0, end = 0; i < s->n; i = end) {
         const uint32_t top = s->row[i];
         end = i + s->cluster[top + 1] - s->cluster[top];
         const bool kept = is_kept(s, h, i, end, negligible);
+        const bool guessed = kept && h->x[h->vertex[i]] > 0;
         for (; i < end; ++i) {
+            const uint32_t row = s->row[i];
+            if (guessed)
+                iccp_scaled_set(s->f, row, unit * h->x[h->vertex[i]], h->exponent);
             if (kept)
-                s->row[n++] = s->row[i];
-            else if (s->state[s->row[i]] == IN_SHELL)
-                s->state[s->row[i]] = LEFT;
-            s->n_left += s->state[s->row[i]] == LEFT;
+                s->row[n++] = row;
+            else if (s->state[row] == IN_SHELL)
+                s->state[row] = LEFT;
+            s->n_left += s->state[row] == LEFT;
         }
     }
     s->n = n;
@@ -342,7 +357,7 @@ static icc_status advance(shells *s, shell *h)
     const icc_status status = accept_rows(s, h, limit, unit);
     if (status != ICC_OK)
         return status;
-    drop_rows(s, h, NEGLIGIBLE * e.peak);
+    keep_rows(s, h, NEGLIGIBLE * e.peak, unit);
     adapt_growth(s, &e);
     s->first = false;
     grow(s);

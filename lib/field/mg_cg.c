@@ -1,5 +1,5 @@
 /* Conjugate gradients in the form with one round of dot products an iteration: A. Chronopoulos and C. W.
- * Gear, s-step iterative methods for symmetric linear systems, 1989, section 2. Memory is what costs time here,
+ * Gear, s-step iterative methods for symmetric linear systems, 1989. Memory is what costs time here,
  * so that an iteration is two passes over it: down (new direction p, new x and r, first half of the
  * V-cycle) and up (second half, dot products), slab by slab with each step a slab behind the one before.
  *
@@ -147,7 +147,11 @@ static icc_status iterate(solver *s, double size, const iccp_mg_goal *goal, size
             break;
         const double next = add_lanes(s->up.rz), zaz = add_lanes(s->up.zaz);
         s->beta = s->alpha > 0 ? next / rz : 0;
-        const double curvature = s->alpha > 0 ? zaz - s->beta * next / s->alpha : zaz;
+        double curvature = s->alpha > 0 ? zaz - s->beta * next / s->alpha : zaz;
+        if (!(curvature > 0)) { /* a difference of rounding errors: from here anew */
+            s->beta = 0;
+            curvature = zaz;
+        }
         if (!(next > 0 && curvature > 0))
             return ICC_ERR_SOLVER;
         rz = next;

@@ -49,6 +49,20 @@ icc_status iccp_mg_level_fine(iccp_mg_level *level, const icc_grid *grid, size_t
 icc_status iccp_mg_level_coarse(iccp_mg_level *level, const iccp_mg_level *fine,
                                 const iccp_mg_level *finest, int32_t depth, const iccp_env *env);
 
+/* The steps of making a level, for mg_level.c and mg_coarse.c: rows of the box of a given extent, with empty
+ * ranges; windows, once the ranges are known; runs, once it is known who is inside. */
+icc_status iccp_mg_make_rows(iccp_mg_level *level, const iccp_memory *memory);
+icc_status iccp_mg_make_windows(iccp_mg_level *level, const iccp_memory *memory);
+icc_status iccp_mg_make_runs(iccp_mg_level *level, const iccp_memory *memory);
+
+static inline void iccp_mg_widen(uint32_t *range, uint32_t first, uint32_t last)
+{
+    if (first < range[0])
+        range[0] = first;
+    if (last > range[1])
+        range[1] = last;
+}
+
 void iccp_mg_level_drop_scaffold(iccp_mg_level *level, const iccp_memory *memory);
 void iccp_mg_level_free(iccp_mg_level *level, const iccp_memory *memory);
 

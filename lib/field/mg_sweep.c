@@ -1,5 +1,5 @@
-/* W. Hackbusch, Multi-Grid Methods and Applications, 1985, sections 3.2 to 3.4; red-black smoothing:
- * section 3.3.2. A V-cycle that starts from 0 needs no x on the way down: red is b / diagonal, black follows
+/* W. Hackbusch, Multi-Grid Methods and Applications, 1985, chapter 3: red-black smoothing, linear
+ * interpolation and its transpose. A V-cycle that starts from 0 needs no x on the way down: red is b / diagonal, black follows
  * from it, and then only red has a residual. On the way up red is b / diagonal and the coarse
  * correction, black and red follow from that.
  *

@@ -1,4 +1,4 @@
-/* W. Hackbusch, Multi-Grid Methods and Applications, 1985, section 2.5; as a preconditioner: O. Tatebe,
+/* W. Hackbusch, Multi-Grid Methods and Applications, 1985, chapter 2; as a preconditioner: O. Tatebe,
  * The multigrid preconditioned conjugate gradient method, 1993. One red-black sweep before and one in the
  * reverse order after the coarse correction make it symmetric. Several slabs are in work at the
  * same time, each a step behind the one before, so that all steps find their data in the cache. */

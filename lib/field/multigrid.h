@@ -16,7 +16,7 @@ typedef struct iccp_multigrid {
 } iccp_multigrid;
 
 /* For n >= 1 vertices of a list, each at most once. 8 bytes a vertex and the same on the coarser levels
- * (a half of that in 2-D, a fifth in 3-D), one more while it is being made, 24 bytes for each row of the bounding
+ * (a half of that in 2-D, a fifth in 3-D), one more while it is being made, 40 bytes for each row of the bounding
  * box; vertices outside take part where the shape is narrower than its rows are long. */
 icc_status iccp_multigrid_create(iccp_multigrid *mg, const icc_grid *grid, size_t n,
                                  const uint32_t *vertex, const iccp_env *env);
