@@ -62,21 +62,23 @@ static void load(const factorisation *f, uint32_t s, const iccp_panel *p)
 
 /* What panel `from` does to a later one, whose columns its rows [begin, end) are. */
 typedef struct update {
+    const factorisation *f;
     iccp_panel from;
     const uint32_t *below; /* rows of `from` below its columns */
     size_t begin, end;
     double *value;  /* of the later panel */
     uint32_t first; /* its first column */
+    size_t block, block_end; /* the rows among those that are packed */
 } update;
 
 /* Takes a tile away: rows [low, high) of `from`, columns from row j on. */
-static void scatter(const factorisation *f, const update *u, const double *tile, size_t strip,
-                    size_t n_strips, size_t j, size_t width)
+static void scatter(const update *u, const double *tile, size_t strip, size_t n_strips, size_t j,
+                    size_t width)
 {
     const size_t start = STRIP * strip, low = start < u->begin ? u->begin - start : 0;
     const size_t left = u->from.rows - start, most = STRIP * n_strips;
     const size_t high = left < most ? left : most;
-    const size_t *offset = f->offset + start;
+    const size_t *offset = u->f->offset + start;
     for (size_t c = 0; c < width; ++c) {
         double *column = u->value + STRIP * (u->below[j + c - u->from.columns] - u->first);
         for (size_t i = low; i < high; ++i)
@@ -84,39 +86,34 @@ static void scatter(const factorisation *f, const update *u, const double *tile,
     }
 }
 
-/* Strips [strip, strips) times the packed rows [begin, end). */
-static void update_strips(const factorisation *f, const update *u, size_t begin, size_t end,
-                          size_t strip, size_t strips)
+static icc_status update_strips(void *argument, size_t strip, size_t strips)
 {
+    const update *u = argument;
     const size_t depth = u->from.columns, stride = STRIP * depth;
     for (size_t n; strip < strips; strip += n) {
-        const double *b = f->packed;
+        const double *b = u->f->packed;
         n = strip + 1 < strips ? 2 : 1;
-        for (size_t j = begin; j < end && j < STRIP * (strip + n); j += ICCP_TILE) {
-            const size_t width = iccp_panel_width(end - j);
+        for (size_t j = u->block; j < u->block_end && j < STRIP * (strip + n); j += ICCP_TILE) {
+            const size_t left = u->block_end - j, width = iccp_panel_width(left);
             double tile[2 * ICCP_TILE * ICCP_STRIP];
-            f->multiply(tile, n, width, u->from.value + strip * stride, stride, b, depth);
-            scatter(f, u, tile, strip, n, j, end - j < width ? end - j : width);
+            u->f->multiply(tile, n, width, u->from.value + strip * stride, stride, b, depth);
+            scatter(u, tile, strip, n, j, left < width ? left : width);
             b += width * depth;
         }
     }
+    return ICC_OK;
 }
 
-static icc_status apply(factorisation *f, const update *u)
+static icc_status apply(factorisation *f, update *u)
 {
-    const size_t n_strips = (u->from.rows + STRIP - 1) / STRIP;
+    const size_t n_strips = (u->from.rows + STRIP - 1) / STRIP, depth = u->from.columns;
     icc_status status = ICC_OK;
-    for (size_t begin = u->begin, end; status == ICC_OK && begin < u->end; begin = end) {
-        end = u->end - begin < ICCP_BLOCK ? u->end : begin + ICCP_BLOCK;
-        iccp_panel_pack(f->packed, &u->from, begin, end, 0, u->from.columns);
-        for (size_t s = begin / STRIP; status == ICC_OK && s < n_strips;
-             s += ICCP_STRIPS_PER_REPORT) {
-            const size_t left = n_strips - s;
-            const size_t n = left < ICCP_STRIPS_PER_REPORT ? left : ICCP_STRIPS_PER_REPORT;
-            update_strips(f, u, begin, end, s, s + n);
-            status = iccp_labour_add(&f->labour, (double)(STRIP * n * (end - begin)) *
-                                                     (double)u->from.columns);
-        }
+    for (u->block = u->begin; status == ICC_OK && u->block < u->end; u->block = u->block_end) {
+        u->block_end = u->end - u->block < ICCP_BLOCK ? u->end : u->block + ICCP_BLOCK;
+        iccp_panel_pack(f->packed, &u->from, u->block, u->block_end, 0, depth);
+        status = iccp_labour_strips(&f->labour, u->block / STRIP, n_strips,
+                                    (double)(STRIP * (u->block_end - u->block)) * (double)depth,
+                                    update_strips, u);
     }
     return status;
 }
@@ -146,7 +143,7 @@ static icc_status update_from(factorisation *f, uint32_t from, uint32_t to)
         ++end;
     for (size_t i = begin; i < panel.rows; ++i)
         f->offset[i] = iccp_panel_row(&target, f->local[below[i - panel.columns]]);
-    const update u = {panel, below, begin, end, target.value, nodes->column[to]};
+    update u = {f, panel, below, begin, end, target.value, nodes->column[to], 0, 0};
     const icc_status status = apply(f, &u);
     enlist(f, from, end);
     return status;
@@ -205,8 +202,9 @@ icc_status iccp_ldlt_factorise_signed(iccp_ldlt *factor, const iccp_symmetric *m
     const iccp_supernodes *nodes = &factor->nodes;
     const iccp_memory *memory = &env->memory;
     factorisation f = {.l = factor, .matrix = matrix, .multiply = iccp_multiply_choose(),
-                       .labour = {.env = env}};
+                       .labour = {.env = env, .quiet = *env}};
     icc_status status = make_room(factor);
+    f.labour.quiet.progress = NULL;
     f.local = iccp_alloc(memory, factor->n, sizeof *f.local);
     f.waiting = iccp_alloc(memory, nodes->n, 2 * sizeof *f.waiting);
     f.done = iccp_alloc(memory, nodes->n + nodes->most_rows, sizeof *f.done);

@@ -10,6 +10,12 @@
 /* Between two looks at the clock of whoever waits: 20 ms at 1.5e9 multiplications a second. */
 static const double PER_REPORT = 3e7;
 
+/* Less than this is done sooner than threads are started. */
+static const double PER_THREADS = 1e7;
+
+/* Strips that a thread takes at once. */
+enum { GRAIN = 16 };
+
 icc_status iccp_labour_add(iccp_labour *labour, double multiplications)
 {
     labour->done += multiplications;
@@ -17,6 +23,38 @@ icc_status iccp_labour_add(iccp_labour *labour, double multiplications)
         return ICC_OK;
     labour->reported = labour->done;
     return iccp_progress(labour->env, "factorise", fmin(1, labour->done / labour->all));
+}
+
+typedef struct shifted {
+    iccp_chunk chunk;
+    void *argument;
+    size_t begin;
+} shifted;
+
+static icc_status run_shifted(void *argument, size_t begin, size_t end)
+{
+    const shifted *s = argument;
+    return s->chunk(s->argument, s->begin + begin, s->begin + end);
+}
+
+icc_status iccp_labour_strips(iccp_labour *labour, size_t begin, size_t end, double cost,
+                              iccp_chunk chunk, void *argument)
+{
+    const iccp_env *quiet = &labour->quiet;
+    const bool has_threads = quiet->threads > 1 || quiet->parallel_for != NULL;
+    const size_t most = (size_t)fmax(2, PER_REPORT / cost);
+    icc_status status = ICC_OK;
+    for (size_t n; status == ICC_OK && begin < end; begin += n) {
+        n = end - begin < most ? end - begin : most;
+        if (has_threads && n > GRAIN && cost * (double)n > PER_THREADS)
+            status = iccp_for_chunks(quiet, "factorise", n, GRAIN, run_shifted,
+                                     &(shifted){chunk, argument, begin});
+        else
+            status = chunk(argument, begin, begin + n);
+        if (status == ICC_OK)
+            status = iccp_labour_add(labour, cost * (double)n);
+    }
+    return status;
 }
 
 void iccp_panel_pack(double *packed, const iccp_panel *panel, size_t begin, size_t end, size_t first,
@@ -34,41 +72,46 @@ void iccp_panel_pack(double *packed, const iccp_panel *panel, size_t begin, size
 }
 
 /* Columns [begin, end), from row `begin` on, minus the product of columns [first, begin). */
-static void update_strips(const iccp_panel *p, size_t first, size_t begin, size_t end,
-                          const double *packed, iccp_multiply multiply, size_t strip, size_t strips)
+typedef struct product {
+    const iccp_panel *panel;
+    size_t first, begin, end;
+    const double *packed;
+    iccp_multiply multiply;
+} product;
+
+static icc_status update_strips(void *argument, size_t strip, size_t strips)
 {
-    const size_t stride = STRIP * p->columns, depth = begin - first;
+    const product *u = argument;
+    const iccp_panel *p = u->panel;
+    const size_t stride = STRIP * p->columns, depth = u->begin - u->first;
     for (size_t n; strip < strips; strip += n) {
         double *row = p->value + strip * stride;
+        const double *b = u->packed;
         n = strip + 1 < strips ? 2 : 1;
-        const double *b = packed;
-        for (size_t j = begin; j < end && j < STRIP * (strip + n); j += ICCP_TILE) {
-            const size_t width = iccp_panel_width(end - j), here = end - j < width ? end - j : width;
+        for (size_t j = u->begin; j < u->end && j < STRIP * (strip + n); j += ICCP_TILE) {
+            const size_t left = u->end - j, width = iccp_panel_width(left);
+            const size_t here = left < width ? left : width;
             double tile[2 * ICCP_TILE * ICCP_STRIP];
-            multiply(tile, n, width, row + STRIP * first, stride, b, depth);
+            u->multiply(tile, n, width, row + STRIP * u->first, stride, b, depth);
             for (size_t t = 0; t < n; ++t)
                 for (size_t k = 0; k < STRIP * here; ++k)
                     row[t * stride + STRIP * j + k] -= tile[t * ICCP_TILE * STRIP + k];
             b += width * depth;
         }
     }
+    return ICC_OK;
 }
 
 static icc_status update(const iccp_panel *p, size_t first, size_t begin, size_t end,
                          iccp_multiply multiply, double *packed, iccp_labour *labour)
 {
     const size_t n_strips = (p->rows + STRIP - 1) / STRIP, depth = begin - first;
-    icc_status status = ICC_OK;
+    product u = {p, first, begin, end, packed, multiply};
     if (depth == 0)
         return ICC_OK;
     iccp_panel_pack(packed, p, begin, end, first, begin);
-    for (size_t s = begin / STRIP; status == ICC_OK && s < n_strips; s += ICCP_STRIPS_PER_REPORT) {
-        const size_t left = n_strips - s;
-        const size_t n = left < ICCP_STRIPS_PER_REPORT ? left : ICCP_STRIPS_PER_REPORT;
-        update_strips(p, first, begin, end, packed, multiply, s, s + n);
-        status = iccp_labour_add(labour, (double)(STRIP * n * (end - begin)) * (double)depth);
-    }
-    return status;
+    return iccp_labour_strips(labour, begin / STRIP, n_strips,
+                              (double)(STRIP * (end - begin)) * (double)depth, update_strips, &u);
 }
 
 static bool is_pivot(double pivot, int sign)

@@ -3,7 +3,7 @@
 #ifndef ICCP_PANEL_H
 #define ICCP_PANEL_H
 
-#include "base/env.h"
+#include "base/threads.h"
 #include "math/dense.h"
 #include "math/supernodes.h"
 
@@ -29,17 +29,23 @@ static inline iccp_panel iccp_panel_of(const iccp_supernodes *nodes, size_t s, d
                         value + nodes->first_value[s], pivot + nodes->column[s]};
 }
 
-/* Columns of one block of a product, and strips after which progress is looked at. */
-enum { ICCP_BLOCK = 32, ICCP_STRIPS_PER_REPORT = 64 };
+/* Columns of one block of a product. */
+enum { ICCP_BLOCK = 32 };
 
 /* How far a factorisation is, in multiplications. */
 typedef struct iccp_labour {
     const iccp_env *env;
+    iccp_env quiet; /* the same without progress, for the loops inside */
     double done, reported, all;
 } iccp_labour;
 
 /* Adds to what is done, and reports it now and then. */
 icc_status iccp_labour_add(iccp_labour *labour, double multiplications);
+
+/* Runs chunk() over the strips [begin, end) of a product, `cost` multiplications each, on all threads
+ * where that pays. Strips are written independently: the bits do not depend on the threads. */
+icc_status iccp_labour_strips(iccp_labour *labour, size_t begin, size_t end, double cost,
+                              iccp_chunk chunk, void *argument);
 
 /* packed = rows [begin, end) of columns [first, last) of L D, for iccp_multiply: by groups of
  * ICCP_TILE rows, the last of them as narrow as it may be. At most ICCP_BLOCK rows. */

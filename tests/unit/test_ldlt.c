@@ -541,6 +541,60 @@ START_TEST(long_factorisations_report_often)
 }
 END_TEST
 
+static void run_backwards(void *user, size_t n_tasks, icc_task task, void *argument)
+{
+    *(size_t *)user += n_tasks;
+    while (n_tasks-- > 0)
+        task(argument, n_tasks);
+}
+
+/* The same bits for every number of threads, and when tasks come in another order. */
+START_TEST(threads_change_nothing)
+{
+    enum { N = 1600 };
+    size_t *first = malloc((N + 1) * sizeof *first), n_tasks = 0;
+    uint32_t *column = malloc((size_t)N * N * sizeof *column), order[N];
+    double *value = malloc((size_t)N * N * sizeof *value), diagonal[N], pivot[N];
+    size_t k = 0;
+    for (uint32_t i = 0; i < N; ++i) {
+        first[i] = k;
+        diagonal[i] = N;
+        order[i] = i;
+        for (uint32_t j = 0; j < N; ++j)
+            if (j != i) {
+                column[k] = j;
+                value[k++] = cos((double)(i + j) * 0.7) + cos((double)(i * j) * 0.3);
+            }
+    }
+    first[N] = k;
+    const iccp_symmetric m = {N, first, column, value, diagonal};
+    double *one = NULL;
+    for (int32_t run = 0; run < 4; ++run) {
+        const icc_env outer = {.size = sizeof outer, .user = &n_tasks, .threads = 1 + 2 * run,
+                               .parallel_for = run == 3 ? run_backwards : NULL};
+        iccp_env env;
+        iccp_ldlt l;
+        ck_assert_int_eq(iccp_env_read(&env, &outer, NULL), ICC_OK);
+        ck_assert_int_eq(iccp_ldlt_analyse_ordered(&l, &m, order, &env), ICC_OK);
+        ck_assert_int_eq(iccp_ldlt_factorise(&l, &m, &env), ICC_OK);
+        const size_t n_bytes = l.nodes.first_value[l.nodes.n] * sizeof *one;
+        if (run == 0) {
+            one = malloc(n_bytes);
+            memcpy(one, l.value, n_bytes);
+            memcpy(pivot, l.pivot, sizeof pivot);
+        }
+        ck_assert(memcmp(l.value, one, n_bytes) == 0);
+        ck_assert(memcmp(l.pivot, pivot, sizeof pivot) == 0);
+        iccp_ldlt_free(&l);
+    }
+    ck_assert_uint_gt(n_tasks, 0);
+    free(one);
+    free(first);
+    free(column);
+    free(value);
+}
+END_TEST
+
 /* Analyses and factorises twice; what fails is tried again at once, with the memory that is there. */
 static icc_status make_factor(const matrix *a, const uint32_t *order, const int8_t *sign,
                               const iccp_env *env)
@@ -614,6 +668,7 @@ int main(void)
     tcase_add_test(tests, rings_are_solved_in_order_of_distance);
     tcase_add_test(tests, stored_zeros_carry_nothing);
     tcase_add_test(tests, long_factorisations_report_often);
+    tcase_add_test(tests, threads_change_nothing);
     tcase_add_test(tests, failures_leave_nothing_behind);
     tcase_add_test(tests, nothing_is_factorised);
     suite_add_tcase(suite, tests);
