@@ -2,6 +2,7 @@
  * the function on it. Prints each as a small picture. */
 #include <icc/stages.h>
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -24,7 +25,7 @@ typedef struct stages {
     uint32_t maximum;
     const uint32_t *parents;
     const int32_t *generations;
-    const double *values;
+    const double *values, *logs;
 } stages;
 
 static char grid_mark(const stages *s, uint32_t v)
@@ -55,6 +56,13 @@ static char generation_mark(const stages *s, uint32_t v)
 static char value_mark(const stages *s, uint32_t v)
 {
     return s->values[v] >= 0 ? " .:-=+*#%@@"[(int)s->values[v]] : ' ';
+}
+
+/* Steps by a factor of e below the maximum, 1. */
+static char log_mark(const stages *s, uint32_t v)
+{
+    static const char digits[] = "0123456789abcdefghijklmnopqrstuvwxyz";
+    return s->inside[v] ? digits[(int)-s->logs[v] % 36] : '.';
 }
 
 static void draw(const char *title, const stages *s, char (*mark)(const stages *, uint32_t))
@@ -105,6 +113,21 @@ int main(void)
     draw("the function: 10 at the maximum, times 0.95 from parent to child", &s, value_mark);
     printf("%zu maximum, %zu minima, %zu saddles; curves merge at %zu of %zu edges\n",
            critical.n_maxima, critical.n_minima, critical.n_saddles, n_edges, n_tested);
+
+    icc_field_free(field);
+
+    icc_field_options laplace = {.size = sizeof laplace, .function = ICC_FUNCTION_LAPLACE};
+    icc_field_info info = {.size = sizeof info};
+    check(icc_field_create(&field, tree, &laplace, NULL, &error), &error);
+    check(icc_field_get_info(field, &info), &error);
+    check(icc_field_verify(field, &critical, NULL, &error), &error);
+    s.logs = icc_field_logs(field);
+    draw("another function, discretely harmonic: 1 at the maximum, 0 outside; minus its logarithm",
+         &s, log_mark);
+    printf("%zu maximum, %zu minima, %zu saddles; the least value is %.2g\n", critical.n_maxima,
+           critical.n_minima, critical.n_saddles, exp(info.least_log));
+    printf("it breaks the inequality of %zu tree edges; equations hold to %.1g\n", info.n_violated,
+           info.residual);
 
     icc_field_free(field);
     icc_tree_free(tree);

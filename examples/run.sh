@@ -32,3 +32,6 @@ echo "l_to_square:"
 echo "warp_picture examples/data/chelsea.png"
 "$programs/warp_picture" examples/data/chelsea.src.txt examples/data/chelsea.tgt.txt \
     examples/data/chelsea.png "$out/chelsea.png"
+
+echo "functions.sh:"
+LIBICC=$stage/bin/libicc sh examples/functions.sh "$out"

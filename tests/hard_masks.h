@@ -106,6 +106,24 @@ static inline bool mask_rooms(const double *p, int32_t dim, double cells)
     return (x < 12 && y < 12) || (x < 6 && x > 4) || (y < 6 && y > 4);
 }
 
+/* A wide way round and one straight across that is one vertex wide: shorter, but far less gets through. */
+static inline bool mask_two_ways(const double *p, int32_t dim, double cells)
+{
+    (void)dim;
+    const double x = fabs(p[0] - 0.5), y = fabs(p[1] - 0.5);
+    return fmax(x, y) > 0.4 || fabs(floor(p[1] * cells) - floor(cells / 2)) < 0.5;
+}
+
+/* A back with teeth 1, 2, 3, .. vertices wide. */
+static inline bool mask_comb(const double *p, int32_t dim, double cells)
+{
+    (void)dim;
+    double start = 2, x = floor(p[0] * cells);
+    for (double width = 1; start + width <= x; ++width)
+        start += width + 2;
+    return p[1] < 0.1 || x >= start;
+}
+
 /* A tube of radius 0.13 round a C. */
 static inline bool mask_c_tube(const double *p, int32_t dim, double cells)
 {
@@ -150,7 +168,7 @@ static inline bool mask_pit(const double *p, int32_t dim, double cells)
     return !(p[0] > 7. / 16 && p[0] < 11. / 16 && p[1] > 7. / 16 && p[1] < 11. / 16 && p[2] > 11. / 16);
 }
 
-/* All shapes. `dim` 0 for any dimension. */
+/* All shapes but the ring with two ways and the comb. `dim` 0 for any dimension. */
 typedef struct mask_kind {
     const char *name;
     int32_t dim;

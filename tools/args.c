@@ -55,9 +55,21 @@ static int set_count(reading *r, const option *o, const char *value)
 static int set_length(reading *r, const option *o, const char *value)
 {
     double *length = (double *)((char *)r->out + o->offset);
-    if (number_parse(value, length) != NUMBER_OK || !(*length > 0))
-        return misused(r->command->name, "--%s '%.40s' must be a number above 0", o->name, value);
+    char most[32] = "";
+    if (o->most > 0)
+        snprintf(most, sizeof most, " and at most %g", o->most);
+    if (number_parse(value, length) != NUMBER_OK || !(*length > 0) ||
+        (o->most > 0 && *length > o->most))
+        return misused(r->command->name, "--%s '%.40s' must be a number above 0%s", o->name, value,
+                       most);
     return DONE;
+}
+
+static int set_functions(reading *r, const char *value)
+{
+    problem wrong;
+    r->out->n_functions = functions_parse(r->out->functions, value, &wrong);
+    return r->out->n_functions > 0 ? DONE : misused(r->command->name, "%s", wrong.text);
 }
 
 static int set_point(reading *r, const option *o, const char *value)
@@ -103,6 +115,8 @@ static int set_value(reading *r, const option *o, const char *value)
         return set_length(r, o, value);
     case OPTION_CHOICE:
         return set_choice(r, o, value);
+    case OPTION_FUNCTIONS:
+        return set_functions(r, value);
     case OPTION_POINT:
         return set_point(r, o, value);
     case OPTION_COLOUR:
@@ -189,11 +203,15 @@ static int take_operand(reading *r, const char *text)
 /* Options that only some methods have. */
 static int check_method(const args *a, const command *c)
 {
-    const char *gradient_only = a->function != 0 ? "function"
-                                : a->tree != 0   ? "tree"
-                                : a->elevation   ? "elevation"
-                                : a->compression ? "compression"
-                                                 : NULL;
+    const char *gradient_only = a->n_functions > 0 ? "function"
+                                : a->constrained   ? "constrained"
+                                : a->unconstrained ? "unconstrained"
+                                : a->eta > 0       ? "eta"
+                                : a->solver != 0   ? "solver"
+                                : a->tree != 0     ? "tree"
+                                : a->elevation     ? "elevation"
+                                : a->compression   ? "compression"
+                                                   : NULL;
     if (gradient_only != NULL && a->method != ICC_METHOD_GRADIENT)
         return misused(c->name, "--%s needs --method gradient", gradient_only);
     if (a->map == ICC_MAP_MESH && a->method == ICC_METHOD_GRADIENT)
@@ -204,6 +222,36 @@ static int check_method(const args *a, const command *c)
     if (a->method == ICC_METHOD_DISC && (a->has_maximum || a->has_target_maximum))
         return misused(c->name, "--method disc has no --maximum: it finds its own");
     return DONE;
+}
+
+/* Options that only functions which solve an equation have. */
+static int check_functions(const args *a, const command *c)
+{
+    const char *solved_only = a->constrained     ? "constrained"
+                              : a->unconstrained ? "unconstrained"
+                              : a->eta > 0       ? "eta"
+                              : a->solver != 0   ? "solver"
+                                                 : NULL;
+    bool solves = false;
+    for (size_t i = 0; i < a->n_functions; i++)
+        solves = solves || function_solves(a->functions[i].function);
+    if (solved_only != NULL && !solves)
+        return misused(c->name, "--%s needs --function laplace, bilaplace or clamped", solved_only);
+    if (a->constrained && a->unconstrained)
+        return misused(c->name, "--constrained and --unconstrained exclude each other");
+    if (a->n_functions > 1 && !(c->bit & FOR_PLOT))
+        return misused(c->name, "--function takes one name here; only plot takes several");
+    return DONE;
+}
+
+/* The flags stand for the functions that say nothing themselves. */
+static void settle_functions(args *a)
+{
+    for (size_t i = 0; i < a->n_functions; i++)
+        if (a->functions[i].constraints == 0 && function_solves(a->functions[i].function))
+            a->functions[i].constraints = a->constrained     ? ICC_CONSTRAINTS_ALL
+                                          : a->unconstrained ? ICC_CONSTRAINTS_NONE
+                                                             : 0;
 }
 
 static int check_operands(const args *a, const command *c)
@@ -232,9 +280,9 @@ static int check_together(const args *a, const command *c)
         return misused(c->name, "--source FILE is missing");
     if (c->needs_target && a->target == NULL)
         return misused(c->name, "--target FILE is missing");
-    if (a->unconstrained)
-        return misused(c->name, "--unconstrained is not available in this version");
     int result = check_method(a, c);
+    if (result == DONE)
+        result = check_functions(a, c);
     if (result == DONE)
         result = check_operands(a, c);
     if (result != DONE)
@@ -286,6 +334,7 @@ int args_parse(args *out, const command *c, int argc, char **argv, bool *help)
     }
     if (result != DONE || *help)
         return result;
+    settle_functions(out);
     result = settle_streams(out, c);
     return result != DONE ? result : check_together(out, c);
 }

@@ -2,6 +2,8 @@
 #ifndef ARGS_H
 #define ARGS_H
 
+#include "function.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -13,13 +15,17 @@ typedef struct args {
     const char *operands[2];
     size_t n_operands;
     /* how charts and maps are made: 0 means the library's choice */
-    int32_t method, map, function, tree, cells, threads;
-    int32_t improve;  /* steps at most; -1: the library's choice */
+    int32_t method, map, tree, solver, cells, threads;
+    function_choice functions[MAX_FUNCTIONS];
+    size_t n_functions;
+    int32_t improve; /* steps at most; -1: the library's choice */
+    double eta;
     double tolerance; /* 0: the command's choice */
     double maximum[2], target_maximum[2];
-    bool has_maximum, has_target_maximum, unconstrained;
+    bool has_maximum, has_target_maximum, constrained, unconstrained;
     /* what to do */
-    bool inverse, repair_mesh, geojson, quiet, json, elevation, triangles, y_down, compression, has_background;
+    bool inverse, repair_mesh, geojson, quiet, json, elevation, triangles, y_down, compression,
+        has_background;
     unsigned char background[4];
     int32_t lines;
 } args;

@@ -4,9 +4,12 @@
 #include "info.h"
 #include "memory.h"
 #include "sample.h"
+#include "stages.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { N_SAMPLES = 4096 };
 
@@ -68,6 +71,51 @@ static int measure_map(info *x)
     return ran == ICC_OK ? DONE : job_failed_status(j, ran);
 }
 
+/* How the function was made, and where the first critical point lies that should not be there. */
+static int examine_function(info *x, const stages *s)
+{
+    icc_field_report found = {.size = sizeof found};
+    icc_error err = {.size = sizeof err, .index = -1};
+    x->field = s->field_info;
+    if (s->field == NULL)
+        return DONE;
+    if (icc_field_verify(s->field, &found, &x->job.env, &err) != ICC_OK)
+        return job_failed(&x->job, &err);
+    x->n_inner_expansion = s->n_inner_expansion;
+    x->n_holes = stages_holes(s);
+    x->has_critical = found.critical != UINT32_MAX;
+    if (x->has_critical)
+        stages_position(s, found.critical, x->critical);
+    return DONE;
+}
+
+/* Euler's formula: a hole brings a saddle, whatever the function; further critical points are its own. */
+static const char *own_reason(const info *x)
+{
+    if (x->chart.n_maxima == 1 && x->chart.n_minima == 0 && x->chart.n_saddles <= x->n_holes)
+        return NULL;
+    if (function_solves(x->field.function) && !x->field.constrained)
+        return "the inequalities that keep such points away were not imposed";
+    if (x->chart.n_cousin_violations > 0)
+        return "the tree breaks the cousin rule, so falling along it does not exclude them";
+    return "the function keeps to the inequalities only up to its residual";
+}
+
+const char *info_reason(char text[240], const info *x)
+{
+    const char *own = own_reason(x);
+    text[0] = '\0';
+    if (x->n_holes > 0)
+        snprintf(
+            text, 240,
+            "gaps narrower than a cell make %zu hole%s in the shape, each with a saddle, until "
+            "--cells resolves them%s",
+            x->n_holes, x->n_holes == 1 ? "" : "s", own != NULL ? "; and " : "");
+    size_t used = strlen(text);
+    snprintf(text + used, 240 - used, "%s", own != NULL ? own : "");
+    return text;
+}
+
 static int gather(info *x)
 {
     job *j = &x->job;
@@ -81,7 +129,13 @@ static int gather(info *x)
     icc_chart_get_info(chart, &x->chart);
     if (icc_chart_measure(chart, 0, &x->measures, &j->env, &err) != ICC_OK)
         return job_failed(j, &err);
-    result = pair ? measure_map(x) : DONE;
+    stages parts;
+    result = stages_make(&parts, j, 1);
+    if (result == DONE)
+        result = examine_function(x, &parts);
+    stages_free(&parts);
+    if (result == DONE && pair)
+        result = measure_map(x);
     progress_end(&j->bar);
     return result;
 }

@@ -4,6 +4,8 @@
 
 #include "job.h"
 
+#include <icc/stages.h>
+
 /* What becomes of the area under the map, by its derivative at evenly spread points. */
 typedef struct map_shares {
     size_t n; /* points; 0: there is no map */
@@ -18,9 +20,18 @@ typedef struct info {
     icc_domain_info domain;
     icc_chart_info chart;
     icc_chart_measures measures;
+    /* Method gradient. */
+    icc_field_info field;
+    bool has_critical; /* besides the maximum there are others, the first one here */
+    double critical[2];
+    size_t n_holes;           /* of the grid's inside */
+    size_t n_inner_expansion; /* expansion edges between two triangles inside */
     icc_map_info map;
     map_shares shares;
 } info;
+
+/* Why the function has other critical points than one maximum, for those that have. */
+const char *info_reason(char text[240], const info *x);
 
 void info_print(const info *x);
 

@@ -2,6 +2,7 @@
 
 #include "options.h"
 
+#include <math.h>
 #include <stdio.h>
 
 static void print_domain(const icc_domain_info *d)
@@ -12,19 +13,55 @@ static void print_domain(const icc_domain_info *d)
            d->upper[1]);
 }
 
-static void print_gradient(const icc_chart_info *c, const icc_chart_measures *m)
+static void print_solution(const icc_field_info *f)
 {
+    printf("solution    %zu unknowns, solver %s", f->n_unknowns, choice_name(solvers, f->solver));
+    if (f->solver == ICC_SOLVER_ITERATIVE)
+        printf(" in %zu steps", f->n_inner);
+    if (f->least_log < 0)
+        printf(", least value 10^%.1f of the greatest\n", f->least_log / log(10));
+    else
+        printf(", some values are not positive\n");
+    if (f->constrained)
+        printf("tree edges  %zu broke the inequality without constraints; %zu hold with equality, "
+               "found "
+               "in %zu iterations\n",
+               f->n_violated, f->n_active, f->n_iterations);
+    else
+        printf("tree edges  %zu break the inequality, which was not imposed\n", f->n_violated);
+    printf("residual    %.2g, and %.2g before the last sweep along the tree\n", f->residual,
+           f->residual_before);
+}
+
+static void print_critical(const info *x)
+{
+    const icc_chart_info *c = &x->chart;
+    printf("critical    %zu maxima, %zu minima, %zu saddles\n", c->n_maxima, c->n_minima,
+           c->n_saddles);
+    char reason[240];
+    if (x->has_critical)
+        printf("            the first besides the maximum lies at %.17g %.17g:\n            %s\n",
+               x->critical[0], x->critical[1], info_reason(reason, x));
+}
+
+static void print_gradient(const info *x)
+{
+    const icc_chart_info *c = &x->chart;
+    const icc_chart_measures *m = &x->measures;
+    char label[48];
     printf("method      gradient, function %s, tree %s, not certifiable\n",
-           choice_name(functions, c->function), choice_name(trees, c->tree));
+           function_label(label, &x->field), choice_name(trees, c->tree));
     printf("grid        %zu vertices, %zu inside, spacing %.17g\n", c->n_grid, c->n_inside,
            c->spacing);
     printf("maximum     %.17g %.17g\n", c->maximum[0], c->maximum[1]);
     printf("tree        %zu vertices, %zu unreachable, %zu cousin violations\n", c->n_tree,
            c->n_unreachable, c->n_cousin_violations);
-    printf("critical    %zu maxima, %zu minima, %zu saddles\n", c->n_maxima, c->n_minima,
-           c->n_saddles);
-    printf("edges       %zu, of which %zu compression, %zu expansion\n", c->n_edges,
-           c->n_compression, c->n_expansion);
+    if (function_solves(c->function))
+        print_solution(&x->field);
+    print_critical(x);
+    printf("edges       %zu, of which %zu compression, %zu expansion; %zu of these at triangles "
+           "inside\n",
+           c->n_edges, c->n_compression, c->n_expansion, x->n_inner_expansion);
     printf(
         "unreachable %6.2f %% of the area: no curve through it reaches both boundary and maximum\n",
         100 * m->unreachable);
@@ -75,20 +112,31 @@ static void print_map(const info *x)
         s->collapsed + s->inverted + s->without_image > 0 ? " for the rest" : "");
 }
 
+static void print_gradient_seconds(const info *x)
+{
+    const icc_chart_info *c = &x->chart;
+    const icc_field_info *f = &x->field;
+    printf("grid %.4f, tree %.4f, function %.4f", c->seconds_grid, c->seconds_tree,
+           c->seconds_field);
+    if (function_solves(c->function))
+        printf(" (set up %.4f, order %.4f, factorise %.4f, solve %.4f, verify %.4f)",
+               f->seconds_setup, f->seconds_order, f->seconds_factor, f->seconds_solve,
+               f->seconds_verify);
+}
+
 void info_print(const info *x)
 {
     const icc_chart_info *c = &x->chart;
     print_domain(&x->domain);
     if (c->method == ICC_METHOD_GRADIENT)
-        print_gradient(c, &x->measures);
+        print_gradient(x);
     else
         print_certified(c);
     if (x->shares.n > 0)
         print_map(x);
     printf("seconds     read %.4f, ", x->job.seconds_read);
     if (c->method == ICC_METHOD_GRADIENT)
-        printf("grid %.4f, tree %.4f, function %.4f", c->seconds_grid, c->seconds_tree,
-               c->seconds_field);
+        print_gradient_seconds(x);
     else
         printf("mesh %.4f, solve %.4f, certify %.4f", c->seconds_mesh, c->seconds_solve,
                c->seconds_certify);

@@ -2,9 +2,18 @@
 
 #include "options.h"
 
-static void report_gradient(json *j, const icc_chart_info *c)
+static void report_point(json *j, const char *name, const double point[2])
 {
-    json_text(j, "function", choice_name(functions, c->function));
+    json_open(j, name, '[');
+    json_number(j, NULL, point[0]);
+    json_number(j, NULL, point[1]);
+    json_close(j, ']');
+}
+
+static void report_gradient(json *j, const info *x)
+{
+    const icc_chart_info *c = &x->chart;
+    function_report(j, &x->field);
     json_text(j, "tree_form", choice_name(trees, c->tree));
     json_count(j, "grid_vertices", c->n_grid);
     json_count(j, "inside_vertices", c->n_inside);
@@ -14,9 +23,16 @@ static void report_gradient(json *j, const icc_chart_info *c)
     json_count(j, "maxima", c->n_maxima);
     json_count(j, "minima", c->n_minima);
     json_count(j, "saddles", c->n_saddles);
+    json_count(j, "holes", x->n_holes);
+    if (x->has_critical) {
+        char reason[240];
+        report_point(j, "first_critical", x->critical);
+        json_text(j, "reason", info_reason(reason, x));
+    }
     json_count(j, "edges", c->n_edges);
     json_count(j, "compression_edges", c->n_compression);
     json_count(j, "expansion_edges", c->n_expansion);
+    json_count(j, "expansion_edges_inside", x->n_inner_expansion);
 }
 
 static void report_mesh(json *j, const icc_chart_info *c)
@@ -30,17 +46,15 @@ static void report_mesh(json *j, const icc_chart_info *c)
     json_number(j, "harmonic_share", c->harmonic_share);
 }
 
-static void report_chart(json *j, const icc_chart_info *c)
+static void report_chart(json *j, const info *x)
 {
+    const icc_chart_info *c = &x->chart;
     json_text(j, "method", choice_name(methods, c->method));
     json_flag(j, "certified", c->certified != 0);
-    json_open(j, "maximum", '[');
-    json_number(j, NULL, c->maximum[0]);
-    json_number(j, NULL, c->maximum[1]);
-    json_close(j, ']');
+    report_point(j, "maximum", c->maximum);
     json_number(j, "spacing", c->spacing);
     if (c->method == ICC_METHOD_GRADIENT)
-        report_gradient(j, c);
+        report_gradient(j, x);
     else
         report_mesh(j, c);
 }
@@ -118,7 +132,7 @@ int info_report(const info *x)
     json_text(&r.json, "orientation",
               x->domain.orientation > 0 ? "counter-clockwise" : "clockwise");
     json_number(&r.json, "area", x->domain.measure);
-    report_chart(&r.json, &x->chart);
+    report_chart(&r.json, x);
     report_shares(&r.json, &x->measures);
     if (x->shares.n > 0)
         report_map(&r.json, &x->map, &x->shares);

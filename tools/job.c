@@ -41,7 +41,8 @@ int job_failed(job *j, const icc_error *err)
     progress_end(&j->bar);
     const cage *c = &j->cages[err->side == 2];
     size_t line = 0;
-    if (err->index >= 0 && (uint64_t)err->index < c->n)
+    bool of_grid = err->status == ICC_ERR_RESOLUTION || err->status == ICC_ERR_SOLVER;
+    if (!of_grid && err->index >= 0 && (uint64_t)err->index < c->n)
         line = c->lines[err->index];
     const char *message = err->message[0] != '\0' ? err->message : icc_status_name(err->status);
     return failed(job_file(j, err->side), line, "%s", message);
@@ -71,10 +72,9 @@ int job_read_cages(job *j)
     if (j->cages[0].n > 0)
         return DONE;
     int result = read_cage(j, 0);
-    if (result != DONE || j->args->target == NULL)
-        return result;
-    result = read_cage(j, 1);
-    if (result == DONE && j->cages[0].n != j->cages[1].n)
+    if (result == DONE && j->args->target != NULL)
+        result = read_cage(j, 1);
+    if (result == DONE && j->args->target != NULL && j->cages[0].n != j->cages[1].n)
         return failed(j->args->target, 0,
                       "%zu vertices, but the source %s has %zu; they correspond one by one",
                       j->cages[1].n, j->args->source, j->cages[0].n);
@@ -121,15 +121,19 @@ int job_make_domains(job *j)
     return result;
 }
 
-static icc_chart_options chart_options(const args *a)
+static icc_chart_options chart_options(const job *j)
 {
+    const args *a = j->args;
     return (icc_chart_options){
         .size = sizeof(icc_chart_options),
         .method = a->method,
-        .function = a->function,
+        .function = a->functions[j->function].function,
         .tree = a->tree,
         .cells = a->cells,
         .maximum = a->has_maximum ? a->maximum : NULL,
+        .constraints = a->functions[j->function].constraints,
+        .solver = a->solver,
+        .eta = a->eta,
     };
 }
 
@@ -139,7 +143,7 @@ int job_make_chart(job *j)
     if (result != DONE)
         return result;
     double began = seconds_now();
-    icc_chart_options options = chart_options(j->args);
+    icc_chart_options options = chart_options(j);
     icc_error err = {.size = sizeof err, .index = -1};
     if (icc_chart_create(&j->chart, j->domains[0], &options, &j->env, &err) != ICC_OK)
         return job_failed(j, &err);
@@ -153,7 +157,7 @@ int job_make_map(job *j)
     if (result != DONE)
         return result;
     double began = seconds_now();
-    icc_chart_options chart = chart_options(j->args);
+    icc_chart_options chart = chart_options(j);
     icc_map_options options = {.size = sizeof options, .kind = j->args->map, .chart = &chart};
     options.iterations = j->args->improve > 0 ? j->args->improve : j->args->improve == 0 ? -1 : 0;
     if (j->args->has_target_maximum)

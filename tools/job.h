@@ -17,6 +17,7 @@ typedef struct job {
     icc_env env;
     cage cages[2]; /* source, target */
     icc_domain *domains[2];
+    size_t function;  /* which of args->functions; the first unless there are several */
     icc_chart *chart; /* of the source */
     icc_map *map;
     double started, seconds_read, seconds_made;

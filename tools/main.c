@@ -92,9 +92,11 @@ static const command commands[] = {
      .run = run_plot,
      .usage = "--source FILE [--target FILE] [OPTION]... OUT.svg",
      .summary = "Draws cage, integral curves, maximum and what they are made of",
-     .details = "With a target: both shapes side by side, and below them a checkerboard and the u "
-                "v map that\n"
-                "the target inherits.\n"},
+     .details = "With a target: both shapes side by side, and a u v map and a checkerboard that "
+                "the target\n"
+                "inherits. --function takes several names here, with commas between, and "
+                "each may end\n"
+                "in :constrained or :unconstrained; then there is a column for each.\n"},
 };
 enum { N_COMMANDS = sizeof commands / sizeof *commands };
 

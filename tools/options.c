@@ -8,11 +8,12 @@ const choice methods[] = {{"foliation", ICC_METHOD_FOLIATION},
                           {"field", 0},
                           {NULL, 0}};
 const choice maps[] = {{"mesh", ICC_MAP_MESH}, {"curves", ICC_MAP_CURVES}, {NULL, 0}};
-const choice functions[] = {{"decay", ICC_FUNCTION_DECAY},
-                            {"distance", ICC_FUNCTION_DISTANCE},
-                            {"laplace", 0},
-                            {"bilaplace", 0},
-                            {NULL, 0}};
+const choice functions[] = {
+    {"decay", ICC_FUNCTION_DECAY},     {"distance", ICC_FUNCTION_DISTANCE},
+    {"laplace", ICC_FUNCTION_LAPLACE}, {"bilaplace", ICC_FUNCTION_BILAPLACE},
+    {"clamped", ICC_FUNCTION_CLAMPED}, {NULL, 0}};
+const choice solvers[] = {
+    {"direct", ICC_SOLVER_DIRECT}, {"iterative", ICC_SOLVER_ITERATIVE}, {NULL, 0}};
 const choice trees[] = {{"thesis", ICC_TREE_THESIS}, {"paper", ICC_TREE_PAPER}, {NULL, 0}};
 
 const char *choice_name(const choice *choices, int32_t value)
@@ -152,17 +153,34 @@ const option options[N_OPTIONS] = {
      .help = "map mesh: at most so many steps of improvement a level; 0: none"},
     {.name = "function",
      .letter = 'f',
-     .kind = OPTION_CHOICE,
+     .kind = OPTION_FUNCTIONS,
      .commands = FOR_ALL,
-     .offset = AT(function),
-     .choices = functions,
      .value = "NAME",
-     .help = "gradient: decay (default) or distance"},
+     .help = "gradient: decay (default), distance, laplace, bilaplace or clamped"},
+    {.name = "constrained",
+     .kind = OPTION_FLAG,
+     .commands = FOR_ALL,
+     .offset = AT(constrained),
+     .help = "laplace, bilaplace, clamped: impose the tree's inequalities"},
     {.name = "unconstrained",
      .kind = OPTION_FLAG,
      .commands = FOR_ALL,
      .offset = AT(unconstrained),
-     .help = "without the tree's inequalities; not in this version"},
+     .help = "do not (default: only when there are false extrema or saddles without)"},
+    {.name = "eta",
+     .kind = OPTION_LENGTH,
+     .commands = FOR_ALL,
+     .offset = AT(eta),
+     .most = 0.01,
+     .value = "X",
+     .help = "constrained: least relative fall from parent to child (default: 1e-6)"},
+    {.name = "solver",
+     .kind = OPTION_CHOICE,
+     .commands = FOR_ALL,
+     .offset = AT(solver),
+     .choices = solvers,
+     .value = "NAME",
+     .help = "direct or iterative (default: by the work that they would take)"},
     {.name = "tree",
      .kind = OPTION_CHOICE,
      .commands = FOR_ALL,

@@ -8,8 +8,9 @@ typedef enum option_kind {
     OPTION_FLAG,   /* bool */
     OPTION_TEXT,   /* const char * */
     OPTION_COUNT,  /* int32_t between low and high */
-    OPTION_LENGTH, /* double above 0 */
+    OPTION_LENGTH, /* double above 0, and at most `most` unless that is 0 */
     OPTION_CHOICE, /* int32_t, by name */
+    OPTION_FUNCTIONS,
     OPTION_POINT,  /* double[2], and a bool that it is there */
     OPTION_COLOUR, /* unsigned char[4], and a bool that it is there */
     OPTION_REPORT, /* bool, and a const char * when =FILE follows */
@@ -29,16 +30,17 @@ typedef struct option {
     unsigned commands;
     size_t offset, present; /* in args */
     int32_t low, high;
+    double most;
     const choice *choices;
     const char *value, *help;
 } option;
 
-extern const choice methods[], maps[], functions[], trees[];
+extern const choice methods[], maps[], functions[], solvers[], trees[];
 
 /* The name of a value that the library gave. */
 const char *choice_name(const choice *choices, int32_t value);
 
-enum { N_OPTIONS = 29 };
+enum { N_OPTIONS = 32 };
 extern const option options[N_OPTIONS];
 
 #endif

@@ -42,8 +42,8 @@ int places_make(places *out, const panel *p, job *j)
                      out->points + 2 * i);
     if (p->side == 1)
         return DONE;
-    icc_status ran = icc_map_apply_inverse(j->map, columns * rows, out->points, out->points, NULL,
-                                           NULL, &j->env);
+    icc_status ran = icc_map_apply_inverse(p->stages->map, columns * rows, out->points, out->points,
+                                           NULL, NULL, &j->env);
     return ran == ICC_OK ? DONE : job_failed_status(j, ran);
 }
 

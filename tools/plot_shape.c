@@ -225,17 +225,18 @@ static void draw_maximum(const panel *p)
 }
 
 /* The mesh of the map, every edge once. */
-static int draw_triangles(const panel *p, job *j)
+static int draw_triangles(const panel *p)
 {
     icc_map_info info = {.size = sizeof info};
-    icc_map_get_info(j->map, &info);
+    const icc_map *map = p->stages->map;
+    icc_map_get_info(map, &info);
     if (info.kind != ICC_MAP_MESH)
         return failed(NULL, 0,
                       "the map is not of kind mesh: its repair failed; plot without "
                       "--triangles");
     double *points = need(info.n_vertices, 2 * sizeof *points);
     uint32_t *triangles = need(info.n_triangles, 3 * sizeof *triangles);
-    icc_map_mesh(j->map, p->side == 1 ? points : NULL, p->side == 2 ? points : NULL, triangles);
+    icc_map_mesh(map, p->side == 1 ? points : NULL, p->side == 2 ? points : NULL, triangles);
     for (size_t i = 0; i < info.n_vertices; i++)
         panel_place(p, points + 2 * i, points + 2 * i);
     fputs("<path fill=\"none\" stroke=\"#334155\" stroke-width=\"0.4\" d=\"", p->svg);
@@ -260,7 +261,7 @@ int plot_shape(const panel *p, job *j)
     if (has_tree)
         draw_tree(p);
     if (result == DONE)
-        result = j->args->triangles ? draw_triangles(p, j) : draw_curves(p, j);
+        result = j->args->triangles ? draw_triangles(p) : draw_curves(p, j);
     if (j->args->compression)
         draw_edges(p, ICC_EDGE_COMPRESSION, "#f59e0b");
     if (has_tree)

@@ -121,7 +121,7 @@ static void draw_tile(const view *v, size_t cell, double u, double w, double sid
         cell_point(v, cell, u + side * (round[c][0] * (1 - 1e-9)),
                    w + side * (round[c][1] * (1 - 1e-9)), p);
         values[c] = stages_value(v->panel->stages, p);
-        if (isnan(values[c]))
+        if (!isfinite(values[c]))
             return;
         place(v, p, values[c], outline + 2 * c);
         mean += values[c] / 4;
@@ -167,7 +167,7 @@ static void draw_cell(const view *v, job *j, size_t cell, bool crossed)
 static void add_stroke(const view *v, ink *i, const double a[2], const double b[2], bool outline)
 {
     double from = stages_value(v->panel->stages, a), to = stages_value(v->panel->stages, b);
-    if (isnan(from) || isnan(to))
+    if (!isfinite(from) || !isfinite(to))
         return;
     i->strokes = grow(i->strokes, &i->room, i->n + 1, sizeof *i->strokes);
     stroke *s = &i->strokes[i->n++];
@@ -290,18 +290,17 @@ static void fit_view(view *v, const cage *c)
 {
     const panel *p = v->panel;
     const stages *s = p->stages;
-    const double *values = icc_field_values(s->field);
     const uint8_t *inside = icc_grid_inside(s->grid);
     double box[4] = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     for (uint32_t i = 0; i < s->lattice.n_vertices; i++) {
         double at[2];
         stages_position(s, i, at);
-        if (inside[i] && !isnan(values[i]))
-            stretch(v, at, values[i], box);
+        if (inside[i] && !isnan(s->values[i]))
+            stretch(v, at, s->values[i], box);
     }
     for (size_t i = 0; i < c->n; i++) {
         double value = stages_value(s, c->points + 2 * i);
-        if (!isnan(value))
+        if (isfinite(value))
             stretch(v, c->points + 2 * i, value, box);
     }
     /* A single vertex inside has no extent. */

@@ -234,7 +234,8 @@ enum {
  *  bi-Laplace; decay and distance fulfil it anyway). */
 enum {
     ICC_CONSTRAINTS_NEEDED = 1, /**< only when the function without has other critical points than one
-                                     maximum at the root */
+                                     maximum at the root (and, in 2-D, the saddles of holes, which no
+                                     function can avoid) */
     ICC_CONSTRAINTS_NONE = 2,   /**< never */
     ICC_CONSTRAINTS_ALL = 3     /**< always */
 };

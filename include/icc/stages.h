@@ -204,7 +204,8 @@ typedef struct icc_field_options {
     size_t size;         /**< set by the caller: `sizeof(icc_field_options)` */
     int32_t function;    /**< `ICC_FUNCTION_*`; 0: decay */
     int32_t constraints; /**< `ICC_CONSTRAINTS_*`; 0: needed */
-    int32_t solver;      /**< `ICC_SOLVER_*`; 0: by the predicted work of a factorisation */
+    int32_t solver;      /**< `ICC_SOLVER_*`; 0: by the predicted work of a factorisation. Clamped and
+                              constrained bi-Laplace are always factorised */
     int32_t reserved;    /**< 0 */
     double eta;          /**< least relative fall from parent to child, in (0, 0.01]; 0: 1e-6 */
     double leaf;         /**< constrained bi-Laplace: least value at vertices without children, in
@@ -263,8 +264,9 @@ enum {
  * generations where that would underflow, from about 13,850 on. distance: minus the generation. Both
  * depend on the generation alone.
  *
- * laplace: 1 at the root, 0 outside, and at every other vertex the mean of its neighbours: the function with
- * the least Dirichlet energy. bilaplace: that with the least sum of squared Laplacians over the vertices
+ * laplace: 1 at the root, 0 at the vertices outside that neighbour the inside, and at every other vertex
+ * the mean of its neighbours: the function with the least Dirichlet energy. (Beyond those zeros, minus
+ * the value two steps back.) bilaplace: that with the least sum of squared Laplacians over the vertices
  * inside, which is f = c L^-2 e_root (simply supported, Navier); clamped: over the vertices next to them
  * outside, too. Laplace and bilaplace are positive inside, however far from the root; clamped changes its
  * sign unless it is constrained. With constraints, the least energy among the functions that fall by

@@ -62,11 +62,65 @@ static icc_status assign_exponents(icc_field *field, const iccp_rows *rows, cons
     return ICC_OK;
 }
 
+/* The highest inside vertex two steps from an outside vertex, or ICCP_NONE if that is next to the inside. */
+static uint32_t highest_behind(const icc_field *field, uint32_t v)
+{
+    const icc_grid *grid = field->tree->grid;
+    uint32_t best = ICCP_NONE;
+    for (int32_t i = 0; i < 2 * grid->dim; ++i) {
+        const uint32_t ring = iccp_grid_neighbour(grid, v, i / 2, i % 2 * 2 - 1);
+        if (ring == ICCP_NONE)
+            continue;
+        if (grid->inside[ring])
+            return ICCP_NONE;
+        for (int32_t j = 0; j < 2 * grid->dim; ++j) {
+            const uint32_t u = iccp_grid_neighbour(grid, ring, j / 2, j % 2 * 2 - 1);
+            if (u != ICCP_NONE && grid->inside[u] && !isnan(field->values[u]) &&
+                (best == ICCP_NONE || iccp_field_compare(field, u, best) > 0))
+                best = u;
+        }
+    }
+    return best;
+}
+
+/* The layer beyond the zeros mirrors the one before them: with zeros there too, a boundary that cuts
+ * the corner of a cell would see a level triangle (tests/bench/bench_collapse: a third less area uncovered,
+ * fewer boundary points where the gradient does not point inward). */
+static void mirror(icc_field *field)
+{
+    const icc_tree *tree = field->tree;
+    for (size_t i = tree->n_inside; i < tree->n_reached; ++i) {
+        const uint32_t v = tree->order[i], behind = highest_behind(field, v);
+        if (behind == ICCP_NONE)
+            continue;
+        field->values[v] = -field->values[behind];
+        if (field->exponent != NULL)
+            field->exponent[v] = field->exponent[behind];
+        if (field->plain != NULL)
+            field->plain[v] = -field->plain[behind];
+    }
+}
+
+/* What an earlier assignment has left. */
+static void forget(icc_field *field)
+{
+    if (field->plain != NULL) {
+        iccp_free(&field->memory, field->values);
+        field->values = field->plain;
+    }
+    iccp_free(&field->memory, field->exponent);
+    iccp_free(&field->memory, field->logs);
+    field->exponent = NULL;
+    field->plain = field->logs = NULL;
+    field->info.least_log = 0;
+}
+
 icc_status iccp_field_assign(icc_field *field, const iccp_rows *rows, const iccp_scaled *f)
 {
     const icc_tree *tree = field->tree;
     bool positive = true;
     int32_t least = 0;
+    forget(field);
     for (size_t i = 0; i < tree->n_reached; ++i)
         field->values[tree->order[i]] = 0;
     for (size_t k = 0; k < rows->n; ++k) {
@@ -77,6 +131,8 @@ icc_status iccp_field_assign(icc_field *field, const iccp_rows *rows, const iccp
     icc_status status = positive ? assign_logs(field, rows, f) : ICC_OK;
     if (status == ICC_OK && positive && least < LEAST_EXPONENT)
         status = assign_exponents(field, rows, f);
+    if (status == ICC_OK)
+        mirror(field);
     return status;
 }
 

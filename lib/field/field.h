@@ -18,9 +18,10 @@ struct icc_field {
 /* A field whose values are all NaN. */
 icc_status iccp_field_new(icc_field **out, const icc_tree *tree, const iccp_env *env);
 
-/* Takes over the values of a function on the rows: 0 outside. Logarithms are made when all are positive,
- * exponents when doubles would not hold them. ICC_ERR_MEMORY leaves the field usable only for
- * iccp_field_release(). */
+/* Takes over the values of a function on the rows: 0 at the vertices outside next to them, and beyond these
+ * minus the value two steps back, as if it went on. Logarithms are made when all are positive,
+ * exponents when doubles would not hold them. May be called again. ICC_ERR_MEMORY leaves the field usable
+ * only for iccp_field_release(). */
 icc_status iccp_field_assign(icc_field *field, const iccp_rows *rows, const iccp_scaled *f);
 
 /* NULL is a no-op. Nothing shares a field yet, so it has one owner. */

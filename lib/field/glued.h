@@ -15,6 +15,8 @@ typedef struct iccp_gluing {
     const uint32_t *top;  /* n: the row that each is glued to, itself if to none. top[k] <= k and
                              top[top[k]] == top[k]; top[0] == 0 */
     const double *share;  /* n: in (0, 1]; 1 where top[k] == k */
+    uint32_t *order;      /* n, or NULL: where a solver by factorisation keeps its order of
+                             elimination for the next call; order[0] is ICCP_NONE before the first */
 } iccp_gluing;
 
 /* A solver of this problem. f: n entries; a guess (normalised, positive) on entry, which only the

@@ -1,9 +1,11 @@
-/* Sparse LDL^T factorisation of a symmetric positive definite matrix. */
+/* Sparse LDL^T factorisation of a symmetric matrix, positive definite or quasi-definite, by
+ * supernodes. */
 #ifndef ICCP_LDLT_H
 #define ICCP_LDLT_H
 
 #include "base/env.h"
 #include "math/scaled.h"
+#include "math/supernodes.h"
 #include "math/symmetric.h"
 
 typedef struct iccp_ldlt {
@@ -11,23 +13,41 @@ typedef struct iccp_ldlt {
     size_t n;
     uint32_t *order;    /* the row that is eliminated k-th */
     uint32_t *position; /* when a row is eliminated */
-    uint32_t *parent;   /* in the elimination tree, eliminated numbering */
-    size_t *first;      /* n + 1: where the columns of L begin */
-    uint32_t *row;      /* rows below the diagonal, in eliminated numbering */
-    double *value;
+    iccp_supernodes nodes;
+    size_t n_entries;   /* of L, below the diagonal */
+    double work;        /* multiplications of one factorisation, without those by stored zeros */
+    double *value;      /* the panels of L; NULL before the first factorisation */
     double *pivot;      /* D */
 } iccp_ldlt;
 
-/* Orders and analyses a matrix by its pattern alone, and makes room for the factor. Rows come in groups
- * of `block` with the same pattern; the groups are ordered. Accepts what was never analysed or freed. */
+/* Orders and analyses a matrix by its pattern alone. Rows come in groups of `block` with the same
+ * pattern; the groups are ordered. From then on `work`, `n_entries` and what the panels will take,
+ * iccp_ldlt_bytes(), are known. On failure nothing is left allocated. */
 icc_status iccp_ldlt_analyse(iccp_ldlt *factor, const iccp_symmetric *matrix, size_t block,
                              const iccp_env *env);
 
-/* Factorises a matrix with the analysed pattern. ICC_ERR_SOLVER when a pivot is not positive: the
- * matrix is not positive definite to working precision. Cost: proportional to the sum of the squared
- * column counts of L. */
+/* The same with an order that the caller has: order[k] is eliminated k-th, or at another time when
+ * that makes no difference to the factor. */
+icc_status iccp_ldlt_analyse_ordered(iccp_ldlt *factor, const iccp_symmetric *matrix,
+                                     const uint32_t *order, const iccp_env *env);
+
+/* Bytes of L and D: all that a factorisation takes but for a few words per row and 32 doubles per
+ * column of the widest supernode. */
+double iccp_ldlt_bytes(const iccp_ldlt *factor);
+
+/* Factorises a matrix with the analysed pattern, into the memory that the first call allocates.
+ * ICC_ERR_SOLVER when a pivot is not positive: the matrix is not positive definite to working
+ * precision. Cost: proportional to the sum of the squared column counts of L. The same bits on every
+ * processor. */
 icc_status iccp_ldlt_factorise(iccp_ldlt *factor, const iccp_symmetric *matrix,
                                const iccp_env *env);
+
+/* The same for a quasi-definite matrix: sign[i], 1 or -1, is that of the pivot of row i.
+ * ICC_ERR_SOLVER when a pivot has another sign. */
+icc_status iccp_ldlt_factorise_signed(iccp_ldlt *factor, const iccp_symmetric *matrix,
+                                      const int8_t *sign, const iccp_env *env);
+
+/* Accepts what was never analysed (zeroed but for its memory) or freed. */
 void iccp_ldlt_free(iccp_ldlt *factor);
 
 /* Solves for n_rhs right sides at once: entry i of side r at b[i * n_rhs + r], replaced by the
@@ -36,7 +56,9 @@ void iccp_ldlt_solve(const iccp_ldlt *factor, size_t n_rhs, double *b, double *w
 
 /* The same for one right side of normalised numbers, without under- or overflow. `work` has room for
  * n of them. The solution of an M-matrix with a right side that is not negative is right to the last
- * few digits in every component, since nothing cancels. */
+ * few digits in every component, since nothing cancels, unless entries of L itself underflow: orders
+ * that join rows directly whose numbers differ by 10^300 lose them. Orders by degree do that in long
+ * rings, not where corridors end; an order by falling distance from the source never does. */
 void iccp_ldlt_solve_scaled(const iccp_ldlt *factor, const iccp_scaled *b, const iccp_scaled *work);
 
 #endif

@@ -4,6 +4,7 @@
  * for entries of the factor from 2^-500 to 2^500. Where two numbers are added, what lies 2 or more
  * units e lower is below 2^-512 of the other one: it is dropped. */
 #include "math/ldlt.h"
+#include "math/panel.h"
 
 enum { UNIT = 512, MAX_STEPS = 4 };
 
@@ -11,6 +12,12 @@ enum { UNIT = 512, MAX_STEPS = 4 };
 #define UNIT_DOWN 0x1p-512
 #define HIGH 0x1p256
 #define LOW 0x1p-256
+#define STRIP ((size_t)ICCP_STRIP)
+
+static size_t least(size_t a, size_t b)
+{
+    return a < b ? a : b;
+}
 
 /* Entries so large that they do not fit after MAX_STEPS are not finite. */
 static ICCP_INLINE void normalise(double *x, int32_t *e)
@@ -27,16 +34,16 @@ static ICCP_INLINE void normalise(double *x, int32_t *e)
         *x *= UNIT_UP;
 }
 
-/* (x, e) -= (term, unit). */
-static ICCP_INLINE void subtract(double *x, int32_t *e, double term, int32_t unit)
+/* (x, e) += (term, unit). A 0 may come with any unit: panels store some. */
+static ICCP_INLINE void add(double *x, int32_t *e, double term, int32_t unit)
 {
     if (ICCP_LIKELY(unit == *e)) {
-        *x -= term;
+        *x += term;
     } else if (unit < *e) {
         if (unit == *e - 1)
-            *x -= term * UNIT_DOWN;
-    } else {
-        *x = (unit == *e + 1 ? *x * UNIT_DOWN : 0.0) - term;
+            *x += term * UNIT_DOWN;
+    } else if (term < 0 || term > 0) {
+        *x = (unit == *e + 1 ? *x * UNIT_DOWN : 0.0) + term;
         *e = unit;
     }
 }
@@ -65,27 +72,113 @@ static void scatter(const iccp_ldlt *l, const iccp_scaled *b, const iccp_scaled 
                         work->fraction[k] < 0 || work->fraction[k] > 0 ? work->exponent[k] * UNIT : 0);
 }
 
+/* The unit that two numbers share, whatever the unit of 0; false when they have none. */
+static bool share_unit(int32_t *unit, int32_t e)
+{
+    if (*unit == ICCP_ZERO_EXPONENT)
+        *unit = e;
+    return e == *unit || e == ICCP_ZERO_EXPONENT;
+}
+
+/* sum[r] = what row r of a strip gives to its right side; unit[r] is the unit of it. */
+static void multiply_strip(double *sum, int32_t *unit, const double *strip, size_t depth,
+                           const double *x, const int32_t *e, size_t n_alike, int32_t common)
+{
+    for (size_t r = 0; r < STRIP; ++r) {
+        sum[r] = 0;
+        unit[r] = common;
+    }
+    if (depth <= n_alike) {
+        for (size_t k = 0; k < depth; ++k)
+            for (size_t r = 0; r < STRIP; ++r)
+                sum[r] -= strip[STRIP * k + r] * x[k];
+        return;
+    }
+    for (size_t k = 0; k < depth; ++k)
+        for (size_t r = 0; r < STRIP; ++r)
+            add(&sum[r], &unit[r], -strip[STRIP * k + r] * x[k], e[k]);
+}
+
+static void forward(const iccp_scaled *work, const iccp_panel *p, uint32_t first,
+                    const uint32_t *below)
+{
+    double *x = work->fraction + first, sum[ICCP_STRIP];
+    int32_t *e = work->exponent + first, unit[ICCP_STRIP], common = ICCP_ZERO_EXPONENT;
+    size_t n_alike = 0; /* first columns with entries of one unit, `common` */
+    const double *strip = p->value;
+    for (size_t i = 0; i < p->rows; i += STRIP, strip += STRIP * p->columns) {
+        const size_t depth = least(i, p->columns);
+        while (n_alike < depth && share_unit(&common, e[n_alike]))
+            ++n_alike;
+        multiply_strip(sum, unit, strip, depth, x, e, n_alike, common);
+        for (size_t r = 0; r < least(STRIP, p->rows - i); ++r) {
+            for (size_t k = depth; k < least(i + r, p->columns); ++k)
+                add(&sum[r], &unit[r], -strip[STRIP * k + r] * x[k], e[k]);
+            const size_t row = i + r < p->columns ? first + i + r : below[i + r - p->columns];
+            add(&work->fraction[row], &work->exponent[row], sum[r], unit[r]);
+            if (i + r < p->columns)
+                normalise(&x[i + r], &e[i + r]);
+        }
+    }
+}
+
+/* Rows of a strip times their entries y of the solution, taken from the columns before them. */
+static void multiply_transposed(double *x, int32_t *e, const double *strip, size_t depth,
+                                const double y[ICCP_STRIP], const int32_t unit[ICCP_STRIP])
+{
+    int32_t common = ICCP_ZERO_EXPONENT;
+    bool is_alike = true;
+    for (size_t r = 0; r < STRIP; ++r)
+        is_alike = is_alike && share_unit(&common, unit[r]);
+    for (size_t k = 0; k < depth; ++k, strip += STRIP)
+        if (ICCP_LIKELY(is_alike))
+            add(&x[k], &e[k],
+                -((strip[0] * y[0] + strip[1] * y[1]) + (strip[2] * y[2] + strip[3] * y[3])),
+                common);
+        else
+            for (size_t r = 0; r < STRIP; ++r)
+                add(&x[k], &e[k], -strip[r] * y[r], unit[r]);
+}
+
+static void backward(const iccp_scaled *work, const iccp_panel *p, uint32_t first,
+                     const uint32_t *below)
+{
+    double *x = work->fraction + first;
+    int32_t *e = work->exponent + first;
+    for (size_t k = 0; k < p->columns; ++k)
+        x[k] /= p->pivot[k];
+    for (size_t i = (p->rows + STRIP - 1) / STRIP * STRIP; i > 0;) {
+        i -= STRIP;
+        const double *strip = p->value + i * p->columns;
+        const size_t depth = least(i, p->columns);
+        double y[ICCP_STRIP] = {0};
+        int32_t unit[ICCP_STRIP];
+        for (size_t r = 0; r < STRIP; ++r)
+            unit[r] = ICCP_ZERO_EXPONENT;
+        for (size_t r = least(STRIP, p->rows - i); r-- > 0;) {
+            if (i + r < p->columns)
+                normalise(&x[i + r], &e[i + r]);
+            const size_t row = i + r < p->columns ? first + i + r : below[i + r - p->columns];
+            y[r] = work->fraction[row];
+            unit[r] = work->exponent[row];
+            for (size_t k = depth; k < least(i + r, p->columns); ++k)
+                add(&x[k], &e[k], -strip[STRIP * k + r] * y[r], unit[r]);
+        }
+        multiply_transposed(x, e, strip, depth, y, unit);
+    }
+}
+
 void iccp_ldlt_solve_scaled(const iccp_ldlt *factor, const iccp_scaled *b, const iccp_scaled *work)
 {
-    const size_t n = factor->n;
-    double *x = work->fraction;
-    int32_t *e = work->exponent;
+    const iccp_supernodes *nodes = &factor->nodes;
     gather(factor, b, work);
-    for (size_t k = 0; k < n; ++k) {
-        normalise(&x[k], &e[k]);
-        if (e[k] == ICCP_ZERO_EXPONENT)
-            continue;
-        for (size_t p = factor->first[k]; p < factor->first[k + 1]; ++p)
-            subtract(&x[factor->row[p]], &e[factor->row[p]], factor->value[p] * x[k], e[k]);
+    for (size_t s = 0; s < nodes->n; ++s) {
+        const iccp_panel panel = iccp_panel_of(nodes, s, factor->value, factor->pivot);
+        forward(work, &panel, nodes->column[s], nodes->row + nodes->first_row[s]);
     }
-    for (size_t k = n; k-- > 0;) {
-        double sum = x[k] / factor->pivot[k];
-        int32_t unit = e[k];
-        for (size_t p = factor->first[k]; p < factor->first[k + 1]; ++p)
-            subtract(&sum, &unit, factor->value[p] * x[factor->row[p]], e[factor->row[p]]);
-        normalise(&sum, &unit);
-        x[k] = sum;
-        e[k] = unit;
+    for (size_t s = nodes->n; s-- > 0;) {
+        const iccp_panel panel = iccp_panel_of(nodes, s, factor->value, factor->pivot);
+        backward(work, &panel, nodes->column[s], nodes->row + nodes->first_row[s]);
     }
     scatter(factor, b, work);
 }

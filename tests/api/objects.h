@@ -29,6 +29,7 @@ typedef struct objects {
     icc_map *mesh_map; /* of kind mesh, whatever the method, coarse and not yet improved */
     icc_grid *grid, *mask;
     icc_tree *tree;
+    icc_tree *bent; /* on an L, where the inequalities of functions matter */
     icc_field *field;
     double points[2 * N_POINTS]; /* in the source */
     uint32_t facet[N_POINTS];
@@ -43,6 +44,23 @@ static inline icc_map *make_mesh_map(const objects *o)
     icc_map *map;
     ck_assert_int_eq(icc_map_create(&map, o->source, o->target, &options, NULL, NULL), ICC_OK);
     return map;
+}
+
+static inline icc_tree *make_bent_tree(void)
+{
+    static const size_t SHAPE[2] = {17, 17};
+    uint8_t inside[17 * 17];
+    icc_grid *grid;
+    icc_tree *tree;
+    uint32_t root;
+    for (size_t v = 0; v < sizeof inside; ++v)
+        inside[v] = v % 17 > 1 && v % 17 < 15 && v / 17 > 1 && v / 17 < 15 &&
+                    (v % 17 < 7 || v / 17 < 7);
+    ck_assert_int_eq(icc_grid_create_mask(&grid, 2, SHAPE, inside, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_grid_maximum(grid, &root, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_tree_create(&tree, grid, root, NULL, NULL, NULL), ICC_OK);
+    icc_grid_free(grid);
+    return tree;
 }
 
 /* With charts of the given method; 0: the default. */
@@ -63,6 +81,7 @@ static inline void objects_init(objects *o, int32_t method)
     ck_assert_int_eq(icc_grid_create(&o->grid, o->source, 0, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_grid_create_mask(&o->mask, 3, SHAPE, inside, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_tree_create(&o->tree, o->mask, 62, NULL, NULL, NULL), ICC_OK);
+    o->bent = make_bent_tree();
     ck_assert_int_eq(icc_field_create(&o->field, o->tree, NULL, NULL, NULL), ICC_OK);
     for (size_t i = 0; i < N_POINTS; ++i) {
         const double a = fmod(0.5 + 0.7548776662466927 * (double)i, 1);
@@ -79,6 +98,7 @@ static inline void objects_clear(objects *o)
 {
     icc_field_free(o->field);
     icc_tree_free(o->tree);
+    icc_tree_free(o->bent);
     icc_grid_free(o->mask);
     icc_grid_free(o->grid);
     icc_map_free(o->map);
@@ -365,6 +385,65 @@ static inline icc_status call_field_create(const objects *o, outcome *out, const
     return status;
 }
 
+/* Everything that is known about a field but the seconds, which differ. */
+static inline icc_status make_function(const objects *o, int32_t function, int32_t constraints,
+                                       int32_t solver, outcome *out, const icc_env *env,
+                                       icc_error *err)
+{
+    icc_field *field = (icc_field *)&field;
+    const icc_field_options options = {.size = sizeof options,
+                                       .function = function,
+                                       .constraints = constraints,
+                                       .solver = solver};
+    const icc_status status = icc_field_create(&field, o->bent, &options, env, err);
+    HANDED_OVER(status, field);
+    icc_field_info info = {.size = sizeof info};
+    if (status == ICC_OK) {
+        ck_assert_int_eq(icc_field_get_info(field, &info), ICC_OK);
+        memcpy(out->numbers, icc_field_values(field), 17 * 17 * sizeof *out->numbers);
+        if (icc_field_logs(field) != NULL)
+            memcpy(out->numbers + 17 * 17, icc_field_logs(field), 17 * 17 * sizeof *out->numbers);
+    }
+    memcpy(out->indices, &info, offsetof(icc_field_info, seconds_setup));
+    icc_field_free(field);
+    return status;
+}
+
+static inline icc_status call_laplace(const objects *o, outcome *out, const icc_env *env,
+                                      icc_error *err)
+{
+    return make_function(o, ICC_FUNCTION_LAPLACE, ICC_CONSTRAINTS_NEEDED, ICC_SOLVER_DIRECT, out,
+                         env, err);
+}
+
+static inline icc_status call_laplace_constrained(const objects *o, outcome *out,
+                                                  const icc_env *env, icc_error *err)
+{
+    return make_function(o, ICC_FUNCTION_LAPLACE, ICC_CONSTRAINTS_ALL, ICC_SOLVER_DIRECT, out, env,
+                         err);
+}
+
+static inline icc_status call_laplace_iterative(const objects *o, outcome *out, const icc_env *env,
+                                                icc_error *err)
+{
+    return make_function(o, ICC_FUNCTION_LAPLACE, ICC_CONSTRAINTS_ALL, ICC_SOLVER_ITERATIVE, out,
+                         env, err);
+}
+
+static inline icc_status call_bilaplace(const objects *o, outcome *out, const icc_env *env,
+                                        icc_error *err)
+{
+    return make_function(o, ICC_FUNCTION_BILAPLACE, ICC_CONSTRAINTS_ALL, ICC_SOLVER_DIRECT, out,
+                         env, err);
+}
+
+static inline icc_status call_clamped(const objects *o, outcome *out, const icc_env *env,
+                                      icc_error *err)
+{
+    return make_function(o, ICC_FUNCTION_CLAMPED, ICC_CONSTRAINTS_ALL, ICC_SOLVER_DIRECT, out, env,
+                         err);
+}
+
 static inline icc_status call_field_verify(const objects *o, outcome *out, const icc_env *env,
                                            icc_error *err)
 {
@@ -467,6 +546,11 @@ static const call CALLS[] = {
     {"icc_tree_grow", call_tree_grow},
     {"icc_tree_verify_ranks", call_tree_verify_ranks},
     {"icc_field_create", call_field_create},
+    {"icc_field_create: Laplace", call_laplace},
+    {"icc_field_create: Laplace, constrained", call_laplace_constrained},
+    {"icc_field_create: Laplace, iterative", call_laplace_iterative},
+    {"icc_field_create: bi-Laplace", call_bilaplace},
+    {"icc_field_create: clamped", call_clamped},
     {"icc_field_verify", call_field_verify},
     {"icc_triangulate", call_triangulate},
 };

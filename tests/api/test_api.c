@@ -116,6 +116,7 @@ START_TEST(charts_refuse_bad_arguments)
     icc_chart_info info = {.size = sizeof info};
     REFUSED(icc_chart_get_info(NULL, &info));
     REFUSED(icc_chart_get_info(o.chart, NULL));
+    ck_assert(icc_chart_field(NULL) == NULL && icc_chart_field(o.chart) == NULL); /* a foliation */
     ck_assert_ptr_null(icc_chart_domain(NULL));
     ck_assert_ptr_eq(icc_chart_domain(o.chart), o.source);
     icc_chart_measures m = {.size = sizeof m};
@@ -338,9 +339,30 @@ START_TEST(stages_refuse_bad_arguments)
     icc_field *f;
     EXPLAINED(icc_field_create(NULL, o.tree, NULL, NULL, &err));
     NOT_MADE(f, icc_field_create(&f, NULL, NULL, NULL, &err));
-    const icc_field_options function = {.size = sizeof function, .function = 6};
-    NOT_MADE(f, icc_field_create(&f, o.tree, &function, NULL, &err));
+    const icc_field_options bad[] = {
+        {.size = sizeof *bad, .function = 6},        {.size = sizeof *bad, .function = -1},
+        {.size = sizeof *bad, .constraints = 4},     {.size = sizeof *bad, .constraints = -1},
+        {.size = sizeof *bad, .solver = 3},          {.size = sizeof *bad, .solver = -1},
+        {.size = sizeof *bad, .eta = -1e-6},         {.size = sizeof *bad, .eta = 0.0100001},
+        {.size = sizeof *bad, .eta = NAN},           {.size = sizeof *bad, .leaf = -1e-9},
+        {.size = sizeof *bad, .leaf = HUGE_VAL},     {.size = sizeof *bad, .leaf = NAN},
+    };
+    static const char *const NAMED[] = {"function", "function", "constraints", "constraints",
+                                        "solver",   "solver",   "eta",         "eta",
+                                        "eta",      "leaf",     "leaf",        "leaf"};
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; ++k) {
+        NOT_MADE(f, icc_field_create(&f, o.tree, &bad[k], NULL, &err));
+        ck_assert_ptr_nonnull(strstr(err.message, NAMED[k]));
+    }
     ck_assert_ptr_null(icc_field_values(NULL));
+    ck_assert_ptr_null(icc_field_logs(NULL));
+    ck_assert_ptr_null(icc_field_logs(o.field)); /* of the decay */
+    ck_assert(icc_field_tree(NULL) == NULL && icc_tree_grid(NULL) == NULL);
+    ck_assert(icc_field_tree(o.field) == o.tree && icc_tree_grid(o.tree) != NULL);
+    ck_assert(icc_tree_root(NULL) == UINT32_MAX && icc_tree_root(o.tree) == 62);
+    icc_field_info field_info = {.size = sizeof field_info};
+    REFUSED(icc_field_get_info(NULL, &field_info));
+    REFUSED(icc_field_get_info(o.field, NULL));
     icc_field_report report = {.size = sizeof report};
     EXPLAINED(icc_field_verify(NULL, &report, NULL, &err));
     EXPLAINED(icc_field_verify(o.field, NULL, NULL, &err));
@@ -669,6 +691,11 @@ static icc_status write_tree_report(const objects *o, void *info)
     return icc_tree_verify(o->tree, info, NULL, NULL);
 }
 
+static icc_status write_field_info(const objects *o, void *info)
+{
+    return icc_field_get_info(o->field, info);
+}
+
 static icc_status write_field_report(const objects *o, void *info)
 {
     return icc_field_verify(o->field, info, NULL, NULL);
@@ -685,7 +712,7 @@ START_TEST(infos_may_be_older_or_newer)
         {write_improve_report, sizeof(icc_improve_report)},
         {write_certificate, sizeof(icc_certificate)},
         {write_grid_info, sizeof(icc_grid_info)},      {write_tree_report, sizeof(icc_tree_report)},
-        {write_field_report, sizeof(icc_field_report)}};
+        {write_field_info, sizeof(icc_field_info)},    {write_field_report, sizeof(icc_field_report)}};
     enum { ROOM = 512 };
     objects o;
     objects_init(&o, 0);

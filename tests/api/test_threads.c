@@ -111,6 +111,85 @@ START_TEST(long_loops_run_every_task_once)
 }
 END_TEST
 
+/* A ball and a C, large enough that loops are shared out. */
+static icc_tree *large_tree(bool ball)
+{
+    enum { BALL = 40, C = 180 };
+    const size_t side = ball ? BALL : C, n = ball ? side * side * side : side * side;
+    const double middle = 0.5 * (double)(side - 1), size = middle - 2;
+    uint8_t *inside = malloc(n);
+    icc_grid *grid;
+    icc_tree *tree;
+    uint32_t root;
+    ck_assert_ptr_nonnull(inside);
+    for (size_t v = 0; v < n; ++v) {
+        const double x = (double)(v % side) - middle, y = (double)(v / side % side) - middle;
+        const double z = ball ? (double)(v / side / side) - middle : 0, r = sqrt(x * x + y * y + z * z);
+        inside[v] = r < size && (ball || (r > 0.5 * size && (x < 0 || fabs(y) > 0.3 * size)));
+    }
+    ck_assert_int_eq(icc_grid_create_mask(&grid, ball ? 3 : 2, (size_t[]){side, side, side}, inside,
+                                          NULL, NULL),
+                     ICC_OK);
+    ck_assert_int_eq(icc_grid_maximum(grid, &root, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_tree_create(&tree, grid, root, NULL, NULL, NULL), ICC_OK);
+    icc_grid_free(grid);
+    free(inside);
+    return tree;
+}
+
+static icc_field *large_field(const icc_tree *tree, int32_t function, int32_t solver,
+                              const icc_env *env)
+{
+    const icc_field_options options = {.size = sizeof options,
+                                       .function = function,
+                                       .constraints = ICC_CONSTRAINTS_ALL,
+                                       .solver = solver};
+    icc_field *field;
+    ck_assert_int_eq(icc_field_create(&field, tree, &options, env, NULL), ICC_OK);
+    return field;
+}
+
+static void check_same(const icc_field *a, const icc_field *b, size_t n)
+{
+    icc_field_info of_a = {.size = sizeof of_a}, of_b = {.size = sizeof of_b};
+    ck_assert_int_eq(icc_field_get_info(a, &of_a), ICC_OK);
+    ck_assert_int_eq(icc_field_get_info(b, &of_b), ICC_OK);
+    ck_assert_mem_eq(&of_a, &of_b, offsetof(icc_field_info, seconds_setup));
+    ck_assert_mem_eq(icc_field_values(a), icc_field_values(b), n * sizeof(double));
+    ck_assert_mem_eq(icc_field_logs(a), icc_field_logs(b), n * sizeof(double));
+}
+
+static const struct {
+    bool ball;
+    int32_t function, solver;
+} LARGE[] = {{true, ICC_FUNCTION_LAPLACE, ICC_SOLVER_ITERATIVE},
+             {false, ICC_FUNCTION_LAPLACE, ICC_SOLVER_ITERATIVE},
+             {false, ICC_FUNCTION_LAPLACE, ICC_SOLVER_DIRECT},
+             {false, ICC_FUNCTION_BILAPLACE, ICC_SOLVER_DIRECT}};
+enum { N_LARGE = sizeof LARGE / sizeof *LARGE };
+
+START_TEST(functions_do_not_depend_on_the_number_of_threads)
+{
+    icc_tree *tree = large_tree(LARGE[_i].ball);
+    icc_grid_info info = {.size = sizeof info};
+    ck_assert_int_eq(icc_grid_get_info(icc_tree_grid(tree), &info), ICC_OK);
+    const int32_t function = LARGE[_i].function, solver = LARGE[_i].solver;
+    icc_field *plain = large_field(tree, function, solver, NULL);
+    for (int32_t n = 2; n <= 4; ++n) {
+        crew c = {.n_tasks = 0};
+        const icc_env env = {.size = sizeof env,
+                             .user = &c,
+                             .parallel_for = n == 4 ? crew_run : NULL,
+                             .threads = n};
+        icc_field *field = large_field(tree, function, solver, &env);
+        check_same(plain, field, info.n_vertices);
+        icc_field_free(field);
+    }
+    icc_field_free(plain);
+    icc_tree_free(tree);
+}
+END_TEST
+
 typedef struct user {
     const objects *o;
     const outcome *expected;
@@ -275,6 +354,7 @@ int main(void)
     tcase_add_loop_test(tests, results_do_not_depend_on_the_number_of_threads, 0, N_METHODS);
     tcase_add_loop_test(tests, the_caller_may_run_the_tasks, 0, N_METHODS);
     tcase_add_loop_test(tests, long_loops_run_every_task_once, 0, N_METHODS);
+    tcase_add_loop_test(tests, functions_do_not_depend_on_the_number_of_threads, 0, N_LARGE);
     tcase_add_loop_test(tests, objects_may_be_shared, 0, N_METHODS);
     tcase_add_loop_test(tests, every_long_call_can_be_cancelled, 0, N_METHODS);
     tcase_add_loop_test(tests, progress_stays_on_the_calling_thread, 0, N_METHODS);

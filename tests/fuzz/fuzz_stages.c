@@ -1,6 +1,7 @@
 /* Any mask with any root: every stage works, the two forms of the tree agree, and what the stages say
- * about each other is consistent. */
+ * about each other is consistent. On small masks, any solved function too. */
 #include "icc/stages.h"
+#include "math/ordering.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -8,7 +9,7 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-enum { MAX_VERTICES = 1 << 12 };
+enum { MAX_VERTICES = 1 << 12, MAX_SOLVED = 256 };
 
 /* assert() is off in release builds. */
 static void require(bool fact)
@@ -114,6 +115,74 @@ static void check_field(const icc_tree *tree, const shape *s, int32_t function)
     icc_field_free(field);
 }
 
+/* Two bytes: what to solve for and how, and how large the falls and the bounds shall be. */
+static icc_field_options read_options(reader *in)
+{
+    static const double ETAS[4] = {0, 1e-12, 1e-3, 1e-2}, LEAVES[4] = {0, 1e-15, 1e-4, 1e-2};
+    const unsigned what = next_byte(in), sizes = next_byte(in);
+    return (icc_field_options){.size = sizeof(icc_field_options),
+                               .function = ICC_FUNCTION_LAPLACE + (int32_t)(what % 3),
+                               .constraints = (int32_t)(what / 3 % 4),
+                               .solver = (int32_t)(what / 12 % 3),
+                               .eta = ETAS[sizes % 4],
+                               .leaf = LEAVES[sizes / 4 % 4]};
+}
+
+/* Whether the tree is so deep that falls and bounds cannot both be kept. */
+static bool is_infeasible(const icc_tree *tree, const shape *s, const icc_field_options *options)
+{
+    const double eta = options->eta > 0 ? options->eta : 1e-6;
+    const double leaf = options->leaf > 0 ? options->leaf : 1e-9;
+    int32_t deepest = 0;
+    for (size_t v = 0; v < s->n; ++v)
+        if (s->inside[v] && icc_tree_generations(tree)[v] > deepest)
+            deepest = icc_tree_generations(tree)[v];
+    return options->function != ICC_FUNCTION_LAPLACE && leaf * pow(1 + eta, deepest) > 1;
+}
+
+static void check_values(const icc_field *field, const shape *s, const icc_field_options *options)
+{
+    const double *f = icc_field_values(field), *u = icc_field_logs(field);
+    const double eta = options->eta > 0 ? options->eta : 1e-6;
+    const double leaf = options->function == ICC_FUNCTION_LAPLACE ? 0
+                        : options->leaf > 0                       ? options->leaf
+                                                                  : 1e-9;
+    const icc_tree *tree = icc_field_tree(field);
+    icc_field_info info = {.size = sizeof info};
+    require(icc_field_get_info(field, &info) == ICC_OK);
+    require(info.constrained || options->constraints != ICC_CONSTRAINTS_ALL);
+    for (size_t v = 0; v < s->n; ++v) {
+        const uint32_t parent = icc_tree_parents(tree)[v];
+        require(isnan(f[v]) == (icc_tree_generations(tree)[v] < 0));
+        if (isnan(f[v]) || !s->inside[v])
+            continue;
+        require(f[v] <= 1 || (!info.constrained && options->function != ICC_FUNCTION_LAPLACE));
+        require(u != NULL || options->function == ICC_FUNCTION_CLAMPED);
+        require(u == NULL || (isfinite(u[v]) && fabs(exp(u[v]) - f[v]) <= 1e-12 * (1 + fabs(f[v]))));
+        require(!info.constrained || f[v] >= leaf);
+        require(!info.constrained || parent == UINT32_MAX || f[parent] >= (1 + eta) * f[v]);
+    }
+}
+
+static void check_solution(const icc_tree *tree, const shape *s, const icc_field_options *options)
+{
+    icc_field *field;
+    icc_tree_report report = {.size = sizeof report};
+    require(icc_tree_verify(tree, &report, NULL, NULL) == ICC_OK);
+    const icc_status status = icc_field_create(&field, tree, options, NULL, NULL);
+    if (report.n_inside == 1)
+        require(status == ICC_ERR_RESOLUTION);
+    else if (!iccp_ordering_available() && options->solver == ICC_SOLVER_DIRECT)
+        require(status == ICC_ERR_UNSUPPORTED);
+    else if (is_infeasible(tree, s, options))
+        require(status != ICC_OK || options->constraints != ICC_CONSTRAINTS_ALL);
+    else
+        require(status == ICC_OK);
+    if (status == ICC_OK)
+        check_values(field, s, options);
+    icc_field_free(field);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     static shape s;
@@ -128,12 +197,15 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         require(s.inside[maximum]);
         if (!s.inside[root])
             root = maximum;
+        const icc_field_options options = read_options(&in);
         icc_tree *trees[2];
         for (int32_t form = ICC_TREE_THESIS; form <= ICC_TREE_PAPER; ++form) {
             icc_tree *tree = make_tree(grid, root, form, s.dim, choice / 2);
             check_parents(tree, &s, root, form);
             check_report(tree, grid);
             check_field(tree, &s, 1 + (int32_t)(choice % 2));
+            if (s.n <= MAX_SOLVED)
+                check_solution(tree, &s, &options);
             trees[form - 1] = tree;
         }
         for (size_t v = 0; v < s.n; ++v)

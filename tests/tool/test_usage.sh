@@ -42,11 +42,8 @@ says "--inverse"
 run 2 info -s source.txt --quiet=yes
 says "--quiet takes no value"
 
-for pair in "--method field" "--function laplace" "--function bilaplace"; do
-    # shellcheck disable=SC2086
-    run 2 map -s source.txt -t target.txt $pair
-    says "not available in this version"
-done
+run 2 map -s source.txt -t target.txt --method field
+says "not available in this version"
 run 2 map -s source.txt -t target.txt --geojson
 says "--geojson needs two files, IN and OUT"
 run 2 map -s source.txt -t target.txt --geojson in out more
@@ -71,11 +68,10 @@ run 2 plot -s source.txt --triangles out.svg
 says "--triangles needs a map of kind mesh"
 run 2 plot -s source.txt -t target.txt --map curves --triangles out.svg
 says "--triangles needs a map of kind mesh"
-run 2 info -s source.txt --unconstrained
-says "not available in this version"
 run 2 info -s source.txt --method magic
 says "it may be: foliation, disc, gradient"
-for pair in "--function distance" "--tree paper"; do
+for pair in "--function distance" "--function laplace" "--tree paper" "--constrained " "--unconstrained " \
+    "--eta 1e-3" "--solver direct"; do
     # shellcheck disable=SC2086
     run 2 info -s source.txt $pair
     says "${pair% *} needs --method gradient"
@@ -83,6 +79,38 @@ for pair in "--function distance" "--tree paper"; do
     run 2 info -s source.txt $pair --method disc
     says "${pair% *} needs --method gradient"
 done
+# Functions: names, what they have, how many.
+for names in magic laplace,magic '' 'laplace,' ',laplace' laplac; do
+    run 2 plot -s source.txt -m gradient "--function=$names" out.svg
+    says "is unknown; it may be: decay, distance, laplace, bilaplace, clamped"
+done
+for names in laplace:loose laplace: decay:constrained distance:unconstrained clamped:constrainedly; do
+    run 2 info -s source.txt -m gradient --function "$names"
+    says "--function '$names': behind the colon"
+done
+run 2 info -s source.txt -m gradient --function laplace,decay
+says "only plot takes several"
+run 2 plot -s source.txt -m gradient -f decay,decay,decay,decay,decay,decay,decay,decay,decay out.svg
+says "--function takes at most 8 names"
+for pair in "--constrained " "--unconstrained " "--eta 1e-3" "--solver iterative"; do
+    for function in decay distance; do
+        # shellcheck disable=SC2086
+        run 2 info -s source.txt -m gradient --function $function $pair
+        says "${pair% *} needs --function laplace, bilaplace or clamped"
+    done
+    # shellcheck disable=SC2086
+    run 2 info -s source.txt -m gradient $pair
+    says "${pair% *} needs --function laplace, bilaplace or clamped"
+done
+run 2 info -s source.txt -m gradient -f laplace --constrained --unconstrained
+says "--constrained and --unconstrained exclude each other"
+for value in 0 -1e-6 nan 0.011 1 x ''; do
+    run 2 info -s source.txt -m gradient -f laplace --constrained "--eta=$value"
+    says "must be a number above 0 and at most 0.01"
+done
+run 2 info -s source.txt -m gradient -f laplace --solver magic
+says "it may be: direct, iterative"
+
 run 2 map -s source.txt -t target.txt --method disc --maximum 1,1
 says "--method disc has no --maximum"
 run 2 map -s source.txt -t target.txt --method disc --target-maximum 1,1

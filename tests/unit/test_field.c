@@ -114,6 +114,61 @@ START_TEST(values_fall_however_deep_the_tree)
 }
 END_TEST
 
+/* A function from 1 down to 2^-(20 n), assigned to the rows of a path. */
+static icc_field *steep_field(size_t n)
+{
+    uint8_t inside[MAX_VERTICES] = {0};
+    memset(inside + 2, 1, n);
+    icc_tree *tree = tree_on(1, (size_t[]){n + 4}, inside, 2, 0);
+    icc_field *field;
+    iccp_env env;
+    iccp_rows rows;
+    double fraction[MAX_VERTICES];
+    int32_t exponent[MAX_VERTICES];
+    const iccp_scaled f = {fraction, exponent};
+    ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(iccp_field_new(&field, tree, &env), ICC_OK);
+    ck_assert_int_eq(iccp_rows_create(&rows, tree, &env), ICC_OK);
+    for (size_t k = 0; k < n; ++k)
+        iccp_scaled_set(&f, k, 1 + 0.5 * (double)(k % 2), -20 * (int32_t)k);
+    ck_assert_int_eq(iccp_field_assign(field, &rows, &f), ICC_OK);
+    iccp_rows_free(&rows);
+    icc_tree_free(tree);
+    return field;
+}
+
+START_TEST(values_go_on_beyond_doubles)
+{
+    enum { N = 200 };
+    icc_field *field = steep_field(N);
+    ck_assert_ptr_nonnull(field->exponent);
+    const double *f = icc_field_values(field), *u = icc_field_logs(field);
+    for (uint32_t v = 2; v < N + 2; ++v) {
+        const int k = (int)v - 2;
+        ck_assert(f[v] == ldexp(1 + 0.5 * (k % 2), -20 * k));
+        ck_assert_double_eq_tol(u[v], log(1 + 0.5 * (k % 2)) - 20 * k * log(2), 1e-11);
+        uint32_t both[2] = {v, v + 1};
+        double local[2];
+        iccp_field_local(field, 2, both, local);
+        const double expected = k == N - 1 ? 0 : (k % 2 ? 1 / 1.5 : 1.5) * 0x1p-20;
+        ck_assert_double_eq_tol(local[1] / local[0], expected, 1e-20);
+        ck_assert_int_eq(iccp_field_compare(field, v, v + 1), 1);
+        ck_assert_int_eq(iccp_field_compare(field, v + 1, v), -1);
+        ck_assert_int_eq(iccp_field_compare(field, v, v), 0);
+    }
+    ck_assert(f[N + 1] == 0 && f[1] == 0 && u[1] == -HUGE_VAL); /* 2^-3980 */
+    ck_assert(f[0] == -f[2]); /* beyond the zero: mirrored */
+    ck_assert_double_eq(field->info.least_log, u[N + 1]);
+    const icc_field_report report = report_on(field);
+    ck_assert_uint_eq(report.n_maxima, 1);
+    ck_assert_uint_eq(report.n_minima + report.n_saddles, 0);
+    icc_field_free(field);
+    field = steep_field(40); /* 2^-780 needs no exponents */
+    ck_assert(field->exponent == NULL && field->plain == NULL && field->logs != NULL);
+    icc_field_free(field);
+}
+END_TEST
+
 /* ------------------------------------------------------------------ edges */
 
 /* A triangle of the grid by its corners, which may lie beyond the grid. */
@@ -559,6 +614,7 @@ int main(void)
     TCase *tests = tcase_create("field");
     tcase_add_test(tests, values_fall_with_the_generation);
     tcase_add_test(tests, values_fall_however_deep_the_tree);
+    tcase_add_test(tests, values_go_on_beyond_doubles);
     tcase_add_test(tests, edges_are_what_gradients_say);
     tcase_add_test(tests, diagonals_are_compared_exactly);
     tcase_add_test(tests, edges_are_counted_beyond_capacity);

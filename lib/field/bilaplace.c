@@ -1,0 +1,189 @@
+/* Based on: L. Huynh and Y. Gingold, Bijective Deformations in R^n via Integral Curve Coordinates,
+ * section 5.2. Simply supported (Navier), the minimum satisfies L L f = 0 but at the root, so that two
+ * solves with the M-matrix L give it; nothing cancels in them. Clamped, it is a least squares
+ * problem with the Laplacians outside as further equations. */
+#include "field/bilaplace.h"
+
+#include "base/clock.h"
+#include "field/energy.h"
+#include "math/ldlt.h"
+
+#include <assert.h>
+#include <math.h>
+
+/* The Laplacian of the rows, the root's included. */
+typedef struct laplacian {
+    iccp_symmetric matrix;
+    size_t *first;
+    uint32_t *column;
+    double *value, *diagonal;
+} laplacian;
+
+static void laplacian_free(laplacian *l, const iccp_env *env)
+{
+    iccp_free(&env->memory, l->first);
+    iccp_free(&env->memory, l->column);
+    iccp_free(&env->memory, l->value);
+    iccp_free(&env->memory, l->diagonal);
+}
+
+static icc_status laplacian_create(laplacian *l, const iccp_rows *rows, const iccp_env *env)
+{
+    const size_t n = rows->n, degree = (size_t)rows->n_neighbours;
+    l->first = iccp_alloc(&env->memory, n + 1, sizeof *l->first);
+    l->column = iccp_alloc(&env->memory, n, degree * sizeof *l->column);
+    l->value = iccp_alloc(&env->memory, n, degree * sizeof *l->value);
+    l->diagonal = iccp_alloc(&env->memory, n, sizeof *l->diagonal);
+    if (l->first == NULL || l->column == NULL || l->value == NULL || l->diagonal == NULL) {
+        laplacian_free(l, env);
+        return ICC_ERR_MEMORY;
+    }
+    size_t p = 0;
+    for (size_t k = 0; k < n; ++k) {
+        l->first[k] = p;
+        l->diagonal[k] = (double)degree;
+        for (size_t d = 0; d < degree; ++d)
+            if (rows->neighbour[k * degree + d] != ICCP_NONE) {
+                l->column[p] = rows->neighbour[k * degree + d];
+                l->value[p++] = -1;
+            }
+    }
+    l->first[n] = p;
+    l->matrix = (iccp_symmetric){n, l->first, l->column, l->value, l->diagonal};
+    return ICC_OK;
+}
+
+static icc_status factorise(iccp_ldlt *factor, const iccp_symmetric *matrix, icc_field_info *info,
+                            const iccp_env *env)
+{
+    double start = iccp_seconds();
+    icc_status status = iccp_ldlt_analyse(factor, matrix, 1, env);
+    info->seconds_order += iccp_seconds() - start;
+    if (status != ICC_OK)
+        return status;
+    start = iccp_seconds();
+    status = iccp_ldlt_factorise(factor, matrix, env);
+    info->seconds_factor += iccp_seconds() - start;
+    if (status != ICC_OK)
+        iccp_ldlt_free(factor);
+    return status;
+}
+
+/* Divides by the value of the root, which becomes 1. */
+static void scale(const iccp_scaled *f, size_t n)
+{
+    const double root = f->fraction[0];
+    const int32_t exponent = f->exponent[0];
+    for (size_t k = 0; k < n; ++k)
+        if (f->exponent[k] != ICCP_ZERO_EXPONENT)
+            iccp_scaled_set(f, k, f->fraction[k] / root, f->exponent[k] - exponent);
+}
+
+static icc_status navier_direct(const iccp_rows *rows, const iccp_scaled *f, icc_field_info *info,
+                                const iccp_env *env)
+{
+    const size_t n = rows->n;
+    const double start = iccp_seconds();
+    laplacian l;
+    icc_status status = laplacian_create(&l, rows, env);
+    if (status != ICC_OK)
+        return status;
+    info->seconds_setup += iccp_seconds() - start;
+    iccp_ldlt factor;
+    status = factorise(&factor, &l.matrix, info, env);
+    laplacian_free(&l, env);
+    if (status != ICC_OK)
+        return status;
+    const iccp_scaled work = {iccp_alloc(&env->memory, n, sizeof *work.fraction),
+                              iccp_alloc(&env->memory, n, sizeof *work.exponent)};
+    status = work.fraction != NULL && work.exponent != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    const double begin = iccp_seconds();
+    for (size_t k = 0; k < n; ++k)
+        iccp_scaled_set(f, k, k == 0, 0);
+    for (int solve = 0; solve < 2 && status == ICC_OK; ++solve) {
+        status = iccp_progress(env, "bi-Laplace", 0.5 * solve);
+        if (status == ICC_OK)
+            iccp_ldlt_solve_scaled(&factor, f, &work);
+    }
+    if (status == ICC_OK)
+        scale(f, n);
+    info->seconds_solve += iccp_seconds() - begin;
+    iccp_free(&env->memory, work.fraction);
+    iccp_free(&env->memory, work.exponent);
+    iccp_ldlt_free(&factor);
+    return status;
+}
+
+/* Unknowns: all rows but the root. */
+static icc_status clamped(const iccp_rows *rows, const iccp_sparse *a, double *f, icc_field_info *info,
+                          const iccp_env *env)
+{
+    const size_t n = rows->n;
+    uint32_t *unknown = iccp_alloc(&env->memory, n, sizeof *unknown);
+    double *share = iccp_alloc(&env->memory, n, sizeof *share);
+    icc_status status = ICC_ERR_MEMORY;
+    if (unknown != NULL && share != NULL) {
+        for (uint32_t k = 0; k < n; ++k) {
+            unknown[k] = k == 0 ? ICCP_NONE : k - 1;
+            share[k] = 1;
+        }
+        const iccp_reduction all = {n - 1, unknown, share};
+        f[0] = 1;
+        status = iccp_energy_minimise(a, &all, f, info, env);
+    }
+    iccp_free(&env->memory, unknown);
+    iccp_free(&env->memory, share);
+    return status;
+}
+
+/* The largest |A'A f| but for the root's. */
+static icc_status find_residual(const iccp_sparse *a, const double *f, icc_field_info *info,
+                                const iccp_env *env)
+{
+    double *work = iccp_alloc(&env->memory, a->n_rows, sizeof *work);
+    double *gradient = iccp_alloc(&env->memory, a->n_columns, sizeof *gradient);
+    const icc_status status = work != NULL && gradient != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    if (status == ICC_OK) {
+        iccp_energy_gradient(a, f, work, gradient);
+        info->residual = 0;
+        for (size_t k = 1; k < a->n_columns; ++k)
+            info->residual = fmax(info->residual, fabs(gradient[k]));
+        info->residual_before = info->residual;
+    }
+    iccp_free(&env->memory, work);
+    iccp_free(&env->memory, gradient);
+    return status;
+}
+
+icc_status iccp_bilaplace(const iccp_rows *rows, int32_t function, int32_t solver,
+                          const iccp_scaled *f, icc_field_info *info, const iccp_env *env)
+{
+    const size_t n = rows->n;
+    double start = iccp_seconds();
+    iccp_sparse a;
+    icc_status status = iccp_energy_create(&a, rows, function, env);
+    if (status != ICC_OK)
+        return status;
+    info->seconds_setup += iccp_seconds() - start;
+    double *plain = iccp_alloc(&env->memory, n, sizeof *plain);
+    (void)solver;
+    if (plain == NULL)
+        status = ICC_ERR_MEMORY;
+    else if (function == ICC_FUNCTION_CLAMPED)
+        status = clamped(rows, &a, plain, info, env);
+    else
+        status = navier_direct(rows, f, info, env);
+    start = iccp_seconds();
+    for (size_t k = 0; k < n && status == ICC_OK; ++k) {
+        if (function == ICC_FUNCTION_CLAMPED)
+            iccp_scaled_set(f, k, plain[k], 0);
+        else
+            plain[k] = iccp_scaled_get(f, k, 0);
+    }
+    if (status == ICC_OK)
+        status = find_residual(&a, plain, info, env);
+    info->seconds_verify += iccp_seconds() - start;
+    iccp_free(&env->memory, plain);
+    iccp_sparse_free(&a);
+    return status;
+}

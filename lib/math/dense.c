@@ -1,0 +1,92 @@
+/* Register-blocked products: the sums of a tile stay in registers while two streams go by, as in
+ * K. Goto, R. van de Geijn, Anatomy of high-performance matrix multiplication, ACM Trans. Math.
+ * Software 34, 2008, sections 5 and 6. */
+#include "math/dense.h"
+
+#include "base/compiler.h"
+
+enum { STRIP = 4 };
+
+/* With a constant width the loops over rows and columns are unrolled and run in vector registers. */
+static ICCP_INLINE void multiply_strip(double *tile, size_t width, const double *a, const double *b,
+                                       size_t depth)
+{
+    double sum[ICCP_TILE][STRIP] = {{0}};
+    for (size_t k = 0; k < depth; ++k)
+        for (size_t c = 0; c < width; ++c)
+            for (size_t r = 0; r < STRIP; ++r)
+                sum[c][r] += a[STRIP * k + r] * b[width * k + c];
+    for (size_t c = 0; c < width; ++c)
+        for (size_t r = 0; r < STRIP; ++r)
+            tile[STRIP * c + r] = sum[c][r];
+}
+
+void iccp_multiply_portable(double *tile, size_t n_strips, size_t width, const double *a,
+                            size_t stride, const double *b, size_t depth)
+{
+    for (size_t t = 0; t < n_strips; ++t, a += stride, tile += ICCP_TILE * STRIP)
+        if (width == 4)
+            multiply_strip(tile, 4, a, b, depth);
+        else if (width == 2)
+            multiply_strip(tile, 2, a, b, depth);
+        else
+            multiply_strip(tile, 1, a, b, depth);
+}
+
+#if defined(__GNUC__) && defined(__x86_64__)
+
+#include <immintrin.h>
+
+#define AVX2 __attribute__((target("avx2")))
+
+AVX2 static ICCP_INLINE void multiply_avx2(double *tile, size_t n_strips, size_t width,
+                                           const double *a, size_t stride, const double *b,
+                                           size_t depth)
+{
+    __m256d sum[2][ICCP_TILE];
+    for (size_t t = 0; t < n_strips; ++t)
+        for (size_t c = 0; c < width; ++c)
+            sum[t][c] = _mm256_setzero_pd();
+    for (size_t k = 0; k < depth; ++k)
+        for (size_t t = 0; t < n_strips; ++t) {
+            const __m256d rows = _mm256_loadu_pd(a + t * stride + STRIP * k);
+            for (size_t c = 0; c < width; ++c) {
+                const __m256d entry = _mm256_broadcast_sd(b + width * k + c);
+                sum[t][c] = _mm256_add_pd(sum[t][c], _mm256_mul_pd(rows, entry));
+            }
+        }
+    for (size_t t = 0; t < n_strips; ++t)
+        for (size_t c = 0; c < width; ++c)
+            _mm256_storeu_pd(tile + STRIP * (ICCP_TILE * t + c), sum[t][c]);
+}
+
+AVX2 static void choose_width(double *tile, size_t n_strips, size_t width, const double *a,
+                              size_t stride, const double *b, size_t depth)
+{
+    if (width == 4 && n_strips == 2)
+        multiply_avx2(tile, 2, 4, a, stride, b, depth);
+    else if (width == 4)
+        multiply_avx2(tile, 1, 4, a, stride, b, depth);
+    else if (width == 2 && n_strips == 2)
+        multiply_avx2(tile, 2, 2, a, stride, b, depth);
+    else if (width == 2)
+        multiply_avx2(tile, 1, 2, a, stride, b, depth);
+    else if (n_strips == 2)
+        multiply_avx2(tile, 2, 1, a, stride, b, depth);
+    else
+        multiply_avx2(tile, 1, 1, a, stride, b, depth);
+}
+
+iccp_multiply iccp_multiply_choose(void)
+{
+    return __builtin_cpu_supports("avx2") ? choose_width : iccp_multiply_portable;
+}
+
+#else
+
+iccp_multiply iccp_multiply_choose(void)
+{
+    return iccp_multiply_portable;
+}
+
+#endif

@@ -1,0 +1,235 @@
+/* Left-looking supernodal factorisation: E. Ng, B. Peyton, Block sparse Cholesky algorithms on advanced
+ * uniprocessor computers, SIAM J. Sci. Comput. 14, 1993, with L D L^T in place of L L^T. A panel gets
+ * the entries of the matrix, then the product of each panel before it that has rows among its columns,
+ * tile by tile, then it is factorised by itself. */
+#include "math/ldlt.h"
+#include "math/panel.h"
+
+#include <string.h>
+
+#define NONE ICCP_NO_PARENT
+#define STRIP ((size_t)ICCP_STRIP)
+
+/* What a panel costs besides its products, in multiplications: about a microsecond. */
+static const double PER_PANEL = 2000;
+
+/* Work space of one factorisation. Each finished panel waits in the list of the next one that it has
+ * rows for. */
+typedef struct factorisation {
+    iccp_ldlt *l;
+    const iccp_symmetric *matrix;
+    int8_t *sign;      /* in eliminated numbering, or NULL */
+    iccp_multiply multiply;
+    iccp_labour labour;
+    uint32_t *local;   /* n: where a row is in the current panel */
+    uint32_t *waiting; /* the first panel that waits for a panel, or NONE */
+    uint32_t *next;    /* the one that waits behind it */
+    size_t *done;      /* its first row that has not been used yet */
+    size_t *offset;    /* of the rows of one panel in another one */
+    double *packed;
+} factorisation;
+
+static void find_local(const factorisation *f, uint32_t s)
+{
+    const iccp_supernodes *nodes = &f->l->nodes;
+    const uint32_t first = nodes->column[s], columns = nodes->column[s + 1] - first;
+    const uint32_t *row = nodes->row + nodes->first_row[s];
+    for (uint32_t k = 0; k < columns; ++k)
+        f->local[first + k] = k;
+    for (uint32_t i = 0; i < iccp_supernodes_below(nodes, s); ++i)
+        f->local[row[i]] = columns + i;
+}
+
+/* The entries of the matrix. */
+static void load(const factorisation *f, uint32_t s, const iccp_panel *p)
+{
+    const iccp_ldlt *l = f->l;
+    const iccp_symmetric *m = f->matrix;
+    const uint32_t first = l->nodes.column[s];
+    memset(p->value, 0,
+           (l->nodes.first_value[s + 1] - l->nodes.first_value[s]) * sizeof *p->value);
+    for (uint32_t k = 0; k < p->columns; ++k) {
+        const uint32_t row = l->order[first + k];
+        double *column = p->value + STRIP * k;
+        column[iccp_panel_row(p, k)] = m->diagonal[row];
+        for (size_t q = m->first[row]; q < m->first[row + 1]; ++q) {
+            const uint32_t i = l->position[m->column[q]];
+            if (i > first + k)
+                column[iccp_panel_row(p, f->local[i])] += m->value[q];
+        }
+    }
+}
+
+/* What panel `from` does to a later one, whose columns its rows [begin, end) are. */
+typedef struct update {
+    const factorisation *f;
+    iccp_panel from;
+    const uint32_t *below; /* rows of `from` below its columns */
+    size_t begin, end;
+    double *value;  /* of the later panel */
+    uint32_t first; /* its first column */
+    size_t block, block_end; /* the rows among those that are packed */
+} update;
+
+/* Takes a tile away: rows [low, high) of `from`, columns from row j on. */
+static void scatter(const update *u, const double *tile, size_t strip, size_t n_strips, size_t j,
+                    size_t width)
+{
+    const size_t start = STRIP * strip, low = start < u->begin ? u->begin - start : 0;
+    const size_t left = u->from.rows - start, most = STRIP * n_strips;
+    const size_t high = left < most ? left : most;
+    const size_t *offset = u->f->offset + start;
+    for (size_t c = 0; c < width; ++c) {
+        double *column = u->value + STRIP * (u->below[j + c - u->from.columns] - u->first);
+        for (size_t i = low; i < high; ++i)
+            column[offset[i]] -= tile[i / STRIP * STRIP * ICCP_TILE + STRIP * c + i % STRIP];
+    }
+}
+
+static icc_status update_strips(void *argument, size_t strip, size_t strips)
+{
+    const update *u = argument;
+    const size_t depth = u->from.columns, stride = STRIP * depth;
+    for (size_t n; strip < strips; strip += n) {
+        const double *b = u->f->packed;
+        n = strip + 1 < strips ? 2 : 1;
+        for (size_t j = u->block; j < u->block_end && j < STRIP * (strip + n); j += ICCP_TILE) {
+            const size_t left = u->block_end - j, width = iccp_panel_width(left);
+            double tile[2 * ICCP_TILE * ICCP_STRIP];
+            u->f->multiply(tile, n, width, u->from.value + strip * stride, stride, b, depth);
+            scatter(u, tile, strip, n, j, left < width ? left : width);
+            b += width * depth;
+        }
+    }
+    return ICC_OK;
+}
+
+static icc_status apply(factorisation *f, update *u)
+{
+    const size_t n_strips = (u->from.rows + STRIP - 1) / STRIP, depth = u->from.columns;
+    icc_status status = ICC_OK;
+    for (u->block = u->begin; status == ICC_OK && u->block < u->end; u->block = u->block_end) {
+        u->block_end = u->end - u->block < ICCP_BLOCK ? u->end : u->block + ICCP_BLOCK;
+        iccp_panel_pack(f->packed, &u->from, u->block, u->block_end, 0, depth);
+        status = iccp_labour_strips(&f->labour, u->block / STRIP, n_strips,
+                                    (double)(STRIP * (u->block_end - u->block)) * (double)depth,
+                                    update_strips, u);
+    }
+    return status;
+}
+
+/* Panel `from` joins the list of the panel whose column its row `done` is. */
+static void enlist(factorisation *f, uint32_t from, size_t done)
+{
+    const iccp_supernodes *nodes = &f->l->nodes;
+    const size_t columns = iccp_supernodes_columns(nodes, from);
+    if (done == columns + iccp_supernodes_below(nodes, from))
+        return;
+    const uint32_t to = nodes->owner[nodes->row[nodes->first_row[from] + done - columns]];
+    f->done[from] = done;
+    f->next[from] = f->waiting[to];
+    f->waiting[to] = from;
+}
+
+static icc_status update_from(factorisation *f, uint32_t from, uint32_t to)
+{
+    const iccp_supernodes *nodes = &f->l->nodes;
+    const iccp_panel panel = iccp_panel_of(nodes, from, f->l->value, f->l->pivot);
+    const iccp_panel target = iccp_panel_of(nodes, to, f->l->value, f->l->pivot);
+    const uint32_t *below = nodes->row + nodes->first_row[from];
+    const size_t begin = f->done[from];
+    size_t end = begin;
+    while (end < panel.rows && below[end - panel.columns] < nodes->column[to + 1])
+        ++end;
+    for (size_t i = begin; i < panel.rows; ++i)
+        f->offset[i] = iccp_panel_row(&target, f->local[below[i - panel.columns]]);
+    update u = {f, panel, below, begin, end, target.value, nodes->column[to], 0, 0};
+    const icc_status status = apply(f, &u);
+    enlist(f, from, end);
+    return status;
+}
+
+/* All labour of a factorisation, zeros counted. A panel costs what it does to itself and to others. */
+static double labour_of(const iccp_supernodes *nodes)
+{
+    double sum = 0;
+    for (size_t s = 0; s < nodes->n; ++s) {
+        const double columns = (double)iccp_supernodes_columns(nodes, s);
+        const double below = (double)iccp_supernodes_below(nodes, s);
+        sum += PER_PANEL + columns * (columns * columns / 6 + below * (columns + below) / 2);
+    }
+    return sum;
+}
+
+static icc_status run(factorisation *f)
+{
+    const iccp_supernodes *nodes = &f->l->nodes;
+    icc_status status = iccp_progress(f->labour.env, "factorise", 0);
+    f->labour.all = labour_of(nodes);
+    for (uint32_t s = 0; s < nodes->n; ++s)
+        f->waiting[s] = NONE;
+    for (uint32_t s = 0; status == ICC_OK && s < nodes->n; ++s) {
+        const iccp_panel panel = iccp_panel_of(nodes, s, f->l->value, f->l->pivot);
+        find_local(f, s);
+        load(f, s, &panel);
+        for (uint32_t from = f->waiting[s], next; status == ICC_OK && from != NONE; from = next) {
+            next = f->next[from];
+            status = update_from(f, from, s);
+        }
+        const int8_t *sign = f->sign == NULL ? NULL : f->sign + nodes->column[s];
+        if (status == ICC_OK)
+            status = iccp_panel_factorise(&panel, sign, f->multiply, f->packed, &f->labour);
+        if (status == ICC_OK)
+            status = iccp_labour_add(&f->labour, PER_PANEL);
+        if (status == ICC_OK)
+            enlist(f, s, panel.columns);
+    }
+    return status;
+}
+
+static icc_status make_room(iccp_ldlt *l)
+{
+    if (l->value == NULL)
+        l->value = iccp_alloc(&l->memory, l->nodes.first_value[l->nodes.n], sizeof *l->value);
+    if (l->pivot == NULL)
+        l->pivot = iccp_alloc(&l->memory, l->n, sizeof *l->pivot);
+    return l->value != NULL && l->pivot != NULL ? ICC_OK : ICC_ERR_MEMORY;
+}
+
+icc_status iccp_ldlt_factorise_signed(iccp_ldlt *factor, const iccp_symmetric *matrix,
+                                      const int8_t *sign, const iccp_env *env)
+{
+    const iccp_supernodes *nodes = &factor->nodes;
+    const iccp_memory *memory = &env->memory;
+    factorisation f = {.l = factor, .matrix = matrix, .multiply = iccp_multiply_choose(),
+                       .labour = {.env = env, .quiet = *env}};
+    icc_status status = make_room(factor);
+    f.labour.quiet.progress = NULL;
+    f.local = iccp_alloc(memory, factor->n, sizeof *f.local);
+    f.waiting = iccp_alloc(memory, nodes->n, 2 * sizeof *f.waiting);
+    f.done = iccp_alloc(memory, nodes->n + nodes->most_rows, sizeof *f.done);
+    f.packed = iccp_alloc(memory, nodes->most_columns, ICCP_BLOCK * sizeof *f.packed);
+    if (sign != NULL)
+        f.sign = iccp_alloc(memory, factor->n, sizeof *f.sign);
+    if (f.local == NULL || f.waiting == NULL || f.done == NULL || f.packed == NULL ||
+        (sign != NULL && f.sign == NULL))
+        status = ICC_ERR_MEMORY;
+    if (status == ICC_OK) {
+        f.next = f.waiting + nodes->n;
+        f.offset = f.done + nodes->n;
+        for (size_t k = 0; sign != NULL && k < factor->n; ++k)
+            f.sign[k] = sign[factor->order[k]];
+        status = run(&f);
+    }
+    iccp_free(memory, f.local);
+    iccp_free(memory, f.waiting);
+    iccp_free(memory, f.done);
+    iccp_free(memory, f.packed);
+    iccp_free(memory, f.sign);
+    return status;
+}
+
+icc_status iccp_ldlt_factorise(iccp_ldlt *factor, const iccp_symmetric *matrix, const iccp_env *env)
+{
+    return iccp_ldlt_factorise_signed(factor, matrix, NULL, env);
+}

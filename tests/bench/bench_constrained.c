@@ -1,0 +1,114 @@
+/* Laplace's function under the tree's inequalities, beside the figures of a prototype on the same masks: A with
+ * CHOLMOD, B with conjugate gradients and multigrid. Processor time of one thread. */
+#include "field/constrained.h"
+#include "field/inequalities.h"
+#include "grid/grassfire.h"
+
+#include "../hard_masks.h"
+#include "bench.h"
+
+typedef struct one {
+    const char *name;
+    mask_shape shape;
+    int32_t dim;
+    size_t cells;
+    bool iterative;
+    const char *figures; /* of the prototype: seconds; iterations; residual */
+} one;
+
+static double processor_seconds(void)
+{
+    return (double)clock() / CLOCKS_PER_SEC;
+}
+
+static void print_result(const one *c, const iccp_rows *rows, const iccp_scaled *f,
+                         const icc_field_info *info, const double seconds[2])
+{
+    printf("%-10s %4zu^%d %8zu %7.3f %8.3f %4zu %5zu %6.1f %% %9.1e %9.1e %5zu   %s\n", c->name,
+           c->cells, (int)c->dim, rows->n, seconds[0], seconds[1], info->n_iterations, info->n_inner,
+           100 * (double)info->n_active / (double)rows->n, info->residual_before, info->residual,
+           iccp_inequalities_violated(rows, 1e-6, f), c->figures);
+    printf("%43s matrices %.3f, orders %.3f, factors %.3f, solves %.3f, checks %.3f s\n", "",
+           info->seconds_setup, info->seconds_order, info->seconds_factor, info->seconds_solve,
+           info->seconds_verify);
+    fflush(stdout);
+}
+
+static void measure(const one *c, const iccp_rows *rows, const iccp_env *env)
+{
+    const iccp_scaled f = {bench_alloc(rows->n, sizeof(double)), bench_alloc(rows->n, sizeof(int32_t))};
+    uint32_t *top = bench_alloc(rows->n, sizeof *top);
+    double *share = bench_alloc(rows->n, sizeof *share);
+    for (uint32_t k = 0; k < rows->n; ++k) {
+        top[k] = k;
+        share[k] = 1;
+        iccp_scaled_set(&f, k, 1, 0);
+    }
+    uint32_t *order = bench_alloc(rows->n, sizeof *order);
+    order[0] = ICCP_NONE;
+    const iccp_gluing gluing = {top, share, order};
+    const iccp_glued_solver solve = c->iterative ? iccp_glued_iterative : iccp_glued_direct;
+    icc_field_info info = {.size = sizeof info};
+    const icc_error error = {.message = "no result"};
+    double seconds[2], start = processor_seconds();
+    bench_check(solve(rows, &gluing, &f, &info, env), &error);
+    seconds[0] = processor_seconds() - start;
+    info = (icc_field_info){.size = sizeof info};
+    start = processor_seconds();
+    const icc_status status = iccp_constrained_laplace(rows, 1e-6, solve, order, &f, &info, env);
+    seconds[1] = processor_seconds() - start;
+    print_result(c, rows, &f, &info, seconds);
+    if (status != ICC_OK)
+        printf("%43s %s\n", "", icc_status_name(status));
+    free(f.fraction);
+    free(f.exponent);
+    free(top);
+    free(share);
+    free(order);
+}
+
+static void run(const one *c)
+{
+    mask m = mask_draw(c->shape, c->dim, c->cells);
+    iccp_env env;
+    icc_error error = {.size = sizeof error};
+    icc_grid *grid;
+    icc_tree *tree;
+    iccp_rows rows;
+    uint32_t root;
+    bench_check(iccp_env_read(&env, NULL, &error), &error);
+    bench_check(iccp_grid_create_mask(&grid, m.dim, m.shape, m.inside, &env, &error), &error);
+    mask_free(&m);
+    bench_check(iccp_grassfire(grid, &root, NULL, &env, &error), &error);
+    bench_check(iccp_tree_create(&tree, grid, root, ICC_TREE_THESIS, NULL, &env, &error), &error);
+    iccp_grid_release(grid);
+    bench_check(iccp_rows_create(&rows, tree, &env), &error);
+    measure(c, &rows, &env);
+    iccp_rows_free(&rows);
+    iccp_tree_release(tree);
+}
+
+int main(int n_arguments, char **arguments)
+{
+    static const one all[] = {
+        {"C", mask_c, 2, 50, false, "A 0.003; 4; 1e-15"},
+        {"C", mask_c, 2, 200, false, "A 0.091; 9; 8e-15"},
+        {"L", mask_l, 2, 1000, false, "A 9.7; 5; 4e-13"},
+        {"star", mask_star, 2, 1000, false, "A 11; 17; 7e-14"},
+        {"C", mask_c, 2, 1000, false, "A 46; 45; 1e-13"},
+        {"serpentine", mask_serpentine, 2, 1000, false, "-"},
+        {"C tube", mask_c_tube, 3, 64, false, "A 1.8; 10; 2e-15"},
+        {"C", mask_c, 2, 200, true, "B 0.08; 14; 1e-10"},
+        {"C tube", mask_c_tube, 3, 64, true, "B 0.11; 11; 3e-10"},
+        {"C tube", mask_c_tube, 3, 128, true, "B 1.1; 12; 6e-11..5e-10"},
+        {"tripod", mask_tripod, 3, 128, true, "B 2.6; 26; 6e-11..5e-10"},
+        {"dumbbell", mask_dumbbell, 3, 128, true, "B 0.96; 17; 6e-11..5e-10"},
+    };
+    const int n_all = (int)(sizeof all / sizeof *all);
+    printf("mask          grid     rows    free  constr. its. inner  active    before     after  bad   "
+           "prototype\n");
+    for (int i = 0; i < n_all; ++i)
+        if (n_arguments < 2 || atoi(arguments[1]) == i)
+            run(&all[i]);
+    return 0;
+}
