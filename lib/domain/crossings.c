@@ -179,12 +179,14 @@ static bool meets(const iccp_facet_tree *tree, uint32_t facet, const double *fro
     iccp_facet_corners(tree, facet, points);
     points[tree->dim] = from;
     const int sign_from = iccp_orient(tree->dim, points);
-    const double height_from = fabs(iccp_orient_value(tree->dim, points));
     points[tree->dim] = to;
     const int sign_to = iccp_orient(tree->dim, points);
     if (sign_from == sign_to || !within_sides(tree, points, from, to))
         return false;
-    const double both = height_from + fabs(iccp_orient_value(tree->dim, points));
+    const double height_to = fabs(iccp_orient_value(tree->dim, points));
+    points[tree->dim] = from;
+    const double height_from = fabs(iccp_orient_value(tree->dim, points));
+    const double both = height_from + height_to;
     *share = sign_from == 0 ? 0 : sign_to == 0 ? 1 : both > 0 ? height_from / both : 0;
     return true;
 }
