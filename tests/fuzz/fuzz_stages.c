@@ -183,6 +183,23 @@ static void check_solution(const icc_tree *tree, const shape *s, const icc_field
     icc_field_free(field);
 }
 
+/* Most masks are no balls. What growth places is regular by itself all the same. */
+static void check_order(const icc_tree *tree, const shape *s)
+{
+    static uint32_t rank[MAX_VERTICES];
+    icc_grow_report report = {.size = sizeof report};
+    icc_field_report found = {.size = sizeof found};
+    const icc_status status = icc_tree_grow(tree, NULL, rank, &report, NULL, NULL);
+    require(status == ICC_OK || (status == ICC_ERR_TOPOLOGY && report.n_left > 0));
+    require(report.n_tests <= report.n_vertices << (s->dim + 3));
+    size_t n_ranked = 0;
+    for (size_t v = 0; v < s->n; ++v)
+        n_ranked += rank[v] != UINT32_MAX;
+    require(n_ranked == report.n_vertices - (status == ICC_OK ? 0 : report.n_unplaced));
+    require(icc_tree_verify_ranks(tree, rank, &found, NULL, NULL) == ICC_OK);
+    require(status != ICC_OK || (found.critical == UINT32_MAX && found.n_maxima == 1));
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     static shape s;
@@ -203,6 +220,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
             icc_tree *tree = make_tree(grid, root, form, s.dim, choice / 2);
             check_parents(tree, &s, root, form);
             check_report(tree, grid);
+            check_order(tree, &s);
             check_field(tree, &s, 1 + (int32_t)(choice % 2));
             if (s.n <= MAX_SOLVED)
                 check_solution(tree, &s, &options);
