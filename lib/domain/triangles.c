@@ -84,9 +84,24 @@ static bool meet_apart(triangle s, triangle t)
     return false;
 }
 
-/* s[0] and t[0] are the common corner. */
+/* Whether the boxes of a segment and a triangle have no point in common. */
+static bool apart(const double *p, const double *q, triangle t)
+{
+    for (int k = 0; k < 3; ++k) {
+        const double low = p[k] < q[k] ? p[k] : q[k], high = p[k] < q[k] ? q[k] : p[k];
+        if ((t[0][k] < low && t[1][k] < low && t[2][k] < low) ||
+            (t[0][k] > high && t[1][k] > high && t[2][k] > high))
+            return true;
+    }
+    return false;
+}
+
+/* s[0] and t[0] are the common corner. The first test is for the many pairs round a corner, the second
+ * for those of a smooth surface. */
 static bool meet_at_corner(triangle s, triangle t)
 {
+    if (apart(s[1], s[2], t) && apart(t[1], t[2], s))
+        return false;
     if (beside(s, 2, t + 1) || beside(t, 2, s + 1))
         return false;
     return segment_meets(s[1], s[2], t) || segment_meets(t[1], t[2], s);

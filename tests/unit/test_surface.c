@@ -964,6 +964,16 @@ START_TEST(intervals_are_domains)
     ck_assert_int_eq(icc_domain_locate(domain, 6, points, where, facet, bary, NULL), ICC_OK);
     for (int i = 0; i < 6; ++i)
         ck_assert(where[i] == expect[i] && facet[i] == nearest[i] && bary[i] == 1);
+    double local[6], share, one;
+    iccp_line_crossing line[2];
+    for (int i = 0; i < 6; ++i)
+        iccp_frame_in(&domain->frame, 1, points + i, local + i);
+    ck_assert_uint_eq(iccp_domain_line(domain, 0, local, 2, line), 2);
+    ck_assert(line[0].at == local[1] && line[0].facet == 1);
+    ck_assert(line[1].at == local[4] && line[1].facet == 0);
+    ck_assert(iccp_domain_cross(domain, local + 2, local + 5, &share, facet, &one));
+    ck_assert(facet[0] == 0 && one == 1 && fabs(share - 5.0 / 6) < 1e-15);
+    ck_assert(!iccp_domain_cross(domain, local + 2, local + 3, &share, facet, &one));
     icc_domain_free(domain);
     ck_assert_int_eq(icc_domain_create(&domain, 1, 3, ends, 3, facets, NULL, &err),
                      ICC_ERR_BOUNDARY);
