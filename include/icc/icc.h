@@ -131,6 +131,23 @@ ICC_API icc_status icc_domain_create_mask(icc_domain **out, int32_t dim, const s
                                           const uint8_t *cells, const icc_env *env,
                                           icc_error *err);
 
+/**
+ * Fills cells of a mask where others, or gaps, touch only along an edge or a corner, which
+ * icc_domain_create_mask() refuses: one after the other, each time the one that leaves the fewest such
+ * places around it. Whatever cannot be mended so, and all else that may be wrong, is left as it is.
+ *
+ * @param dim           1..::ICC_MAX_DIM
+ * @param shape         cells along each axis
+ * @param[in,out] cells as for icc_domain_create_mask(); those that are filled become 1
+ * @param[out] n_filled how many, or NULL
+ * @param env           may be NULL
+ * @param err           may be NULL
+ * @return ::ICC_OK, ::ICC_ERR_RESOLUTION, ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY, ::ICC_ERR_CANCELLED;
+ *         the cells are as they were unless it is ::ICC_OK
+ */
+ICC_API icc_status icc_mask_repair(int32_t dim, const size_t *shape, uint8_t *cells,
+                                   size_t *n_filled, const icc_env *env, icc_error *err);
+
 /** Frees a domain. */
 ICC_API void icc_domain_free(icc_domain *domain);
 

@@ -1,0 +1,10 @@
+/* Masks whose cells touch only along an edge or a corner. */
+#ifndef ICCP_MASK_REPAIR_H
+#define ICCP_MASK_REPAIR_H
+
+#include "domain/mask.h"
+
+/* Fills cells until no others touch so, or none can be filled without more of it; see icc_mask_repair(). */
+icc_status iccp_mask_repair(iccp_mask *mask, size_t *n_filled, const iccp_env *env);
+
+#endif
