@@ -233,6 +233,13 @@ enum {
      *  coordinates are continuous, piecewise smooth, and in doubles come back to about 1e-15 of the
      *  domain's size. A mesh *sampled* from the map can still have inverted triangles. */
     ICC_METHOD_FOLIATION = 2,
+    /** Integral Curve Coordinates along a field that the curves cannot merge in, on a regular grid in any
+     *  dimension: a vector for every grid vertex that points uphill in all simplices around it, for
+     *  the discretely harmonic function, and linear interpolation between them. The curves are
+     *  followed exactly but for rounding. Certified when there is such a vector everywhere and the
+     *  boundary is crossed inward all over, which is checked vertex by vertex; if not, there is a
+     *  chart all the same, and icc_chart_info::n_infeasible and n_not_inward tell how much is amiss. */
+    ICC_METHOD_FIELD = 3,
     /** Polar coordinates of the harmonic map to a disc (Tutte), piecewise linear. A homeomorphism under
      *  the same certificate; the curves are the preimages of radii. */
     ICC_METHOD_DISC = 4
@@ -273,7 +280,7 @@ enum {
 /** Options of icc_chart_create(). */
 typedef struct icc_chart_options {
     size_t size;           /**< set by the caller: `sizeof(icc_chart_options)` */
-    int32_t method;        /**< `ICC_METHOD_*`; 0: the best that there is, in 2-D foliation */
+    int32_t method;        /**< `ICC_METHOD_*`; 0: the best that there is: in 2-D foliation, else field */
     int32_t function;      /**< gradient: `ICC_FUNCTION_*`; 0: decay */
     int32_t tree;          /**< gradient: `ICC_TREE_*`; 0: thesis */
     int32_t cells;         /**< grid or mesh cells along the longest side, 2..16384; 0: 50, as in the
@@ -321,6 +328,12 @@ typedef struct icc_chart_info {
     double seconds_mesh;         /**< time to make the mesh */
     double seconds_solve;        /**< time to solve for the function or the map */
     double seconds_certify;      /**< time to certify it */
+    size_t n_stray;              /**< field: grid vertices inside that were given up, because without them
+                                      the others form a ball */
+    size_t n_infeasible;         /**< field: grid vertices where no vector points uphill in all simplices */
+    size_t n_contacts;           /**< field: pairs of a facet and a grid vertex of a simplex that it runs
+                                      through */
+    size_t n_not_inward;         /**< field: those of them where the vector does not point inward */
 } icc_chart_info;
 
 /** Shares that icc_chart_measure() estimates from evenly spread points. All lie in [0,1]. For a

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/options.h"
 #include "chart/bulk.h"
+#include "chart/chart_field.h"
 #include "chart/create.h"
 #include "chart/gradient_state.h"
 
@@ -20,8 +21,6 @@ icc_status icc_chart_create(icc_chart **out, const icc_domain *domain,
     iccp_env full_env;
     icc_chart_options full;
     icc_status status = iccp_env_read(&full_env, env, err);
-    if (status == ICC_OK)
-        status = iccp_check_planar(domain, err);
     if (status == ICC_OK)
         status = iccp_read_chart_options(&full, options, domain->dim, err);
     return status == ICC_OK ? iccp_chart_create(out, domain, &full, &full_env, err) : status;
@@ -46,6 +45,8 @@ const icc_domain *icc_chart_domain(const icc_chart *chart)
 
 const icc_field *icc_chart_field(const icc_chart *chart)
 {
+    if (chart != NULL && chart->info.method == ICC_METHOD_FIELD)
+        return iccp_chart_field_function(chart);
     if (chart == NULL || chart->info.method != ICC_METHOD_GRADIENT)
         return NULL;
     const iccp_gradient_state *state = chart->state;

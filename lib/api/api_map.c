@@ -29,10 +29,6 @@ icc_status icc_map_create(icc_map **out, const icc_domain *source, const icc_dom
     icc_chart_options chart;
     icc_status status = iccp_env_read(&full_env, env, err);
     if (status == ICC_OK)
-        status = iccp_check_planar(source, err);
-    if (status == ICC_OK)
-        status = iccp_check_planar(target, err);
-    if (status == ICC_OK)
         status = read_options(&full, options, err);
     if (status == ICC_OK)
         status = iccp_read_chart_options(&chart, full.chart, source->dim, err);
@@ -213,6 +209,8 @@ static icc_status carry_mesh(const icc_map *map, size_t n_vertices, const double
     iccp_env full_env;
     icc_certificate full = {0};
     icc_status status = iccp_env_read(&full_env, env, err);
+    if (status == ICC_OK)
+        status = iccp_check_planar(map->source_domain, err);
     if (status == ICC_OK)
         status = check_mesh(n_vertices, n_triangles, triangles, err);
     if (status != ICC_OK)

@@ -15,7 +15,7 @@ icc_status iccp_check_planar(const icc_domain *domain, icc_error *err)
     if (info.dim == 2)
         return ICC_OK;
     return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1,
-                     "dim is %ld; there are charts and maps of domains of dimension 2 only",
+                     "dim is %ld; triangle meshes are carried along in dimension 2 only",
                      (long)info.dim);
 }
 

@@ -11,7 +11,7 @@ icc_status iccp_read_chart_options(icc_chart_options *full, const icc_chart_opti
 /* How a function is made: by the options of a field and of a chart alike. `name`: of the struct. */
 icc_status iccp_check_function(const icc_field_options *options, const char *name, icc_error *err);
 
-/* Charts and maps are made on polygons only. */
+/* Triangle meshes are carried along by maps of polygons only. */
 icc_status iccp_check_planar(const icc_domain *domain, icc_error *err);
 
 /* A maximum that the caller wants; NULL is fine. */

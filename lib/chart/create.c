@@ -2,25 +2,29 @@
 
 #include "base/error.h"
 #include "chart/chart_disc.h"
+#include "chart/chart_field.h"
 #include "chart/chart_foliation.h"
 #include "chart/chart_gradient.h"
 
 
-static icc_status complete(icc_chart_options *options, icc_error *err)
+static icc_status complete(icc_chart_options *options, int32_t dim, icc_error *err)
 {
     if (options->method == 0)
-        options->method = ICC_METHOD_FOLIATION;
+        options->method = dim == 2 ? ICC_METHOD_FOLIATION : ICC_METHOD_FIELD;
     if (options->function == 0)
         options->function = ICC_FUNCTION_DECAY;
     if (options->tree == 0)
         options->tree = ICC_TREE_THESIS;
     if (options->cells == 0)
         options->cells = 50;
-    if (options->method == ICC_METHOD_GRADIENT || options->method == ICC_METHOD_FOLIATION ||
-        options->method == ICC_METHOD_DISC)
-        return ICC_OK;
-    return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1, "method %ld is not available",
-                     (long)options->method);
+    if (options->method < ICC_METHOD_GRADIENT || options->method > ICC_METHOD_DISC)
+        return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1, "method %ld is not available",
+                         (long)options->method);
+    if (options->method == ICC_METHOD_FIELD ? dim < 2 : dim != 2)
+        return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1,
+                         "method %ld is not available for domains of dimension %ld",
+                         (long)options->method, (long)dim);
+    return ICC_OK;
 }
 
 /* How often a chart that cannot be certified is tried again on a mesh with cells half as large. */
@@ -159,28 +163,46 @@ static icc_status create_harmonic(harmonic_job *job, icc_chart **out, const iccp
     return iccp_explain(err, status);
 }
 
+/* The maximum is the caller's, if there is one. */
+static icc_status create_field(icc_chart **out, const icc_domain *domain,
+                               const icc_chart_options *options, const iccp_env *env,
+                               icc_error *err)
+{
+    double local[ICC_MAX_DIM];
+    if (options->maximum != NULL) {
+        iccp_frame_in(&domain->frame, domain->dim, options->maximum, local);
+        if (iccp_domain_locate(domain, local, true, NULL, NULL) != ICC_INSIDE)
+            return iccp_fail(err, ICC_ERR_OUTSIDE, -1, "the maximum is not inside the domain");
+    }
+    return iccp_explain(err, iccp_chart_field_create(out, domain, options,
+                                                     options->maximum != NULL ? local : NULL, env,
+                                                     err));
+}
+
 icc_status iccp_chart_create(icc_chart **out, const icc_domain *domain,
                              const icc_chart_options *options, const iccp_env *env,
                              icc_error *err)
 {
     icc_chart_options full = *options;
     *out = NULL;
-    const icc_status status = complete(&full, err);
+    const icc_status status = complete(&full, domain->dim, err);
     if (status != ICC_OK)
         return status;
     if (full.method == ICC_METHOD_GRADIENT)
         return iccp_explain(err, iccp_chart_gradient_create(out, domain, &full, env, err));
+    if (full.method == ICC_METHOD_FIELD)
+        return create_field(out, domain, &full, env, err);
     harmonic_job job = {.n = 1, .domain = &domain, .options = &full};
     return create_harmonic(&job, out, env, err);
 }
 
-static icc_status create_gradient_pair(icc_chart *out[2], const icc_domain *const domain[2],
-                                       const icc_chart_options options[2], const iccp_env *env,
-                                       icc_error *err)
+/* Methods on grids: the charts have nothing in common. */
+static icc_status create_apart(icc_chart *out[2], const icc_domain *const domain[2],
+                               const icc_chart_options options[2], const iccp_env *env,
+                               icc_error *err)
 {
     for (size_t k = 0; k < 2; ++k) {
-        const icc_status status =
-            iccp_explain(err, iccp_chart_gradient_create(&out[k], domain[k], &options[k], env, err));
+        const icc_status status = iccp_chart_create(&out[k], domain[k], &options[k], env, err);
         if (status != ICC_OK) {
             if (k == 1)
                 iccp_chart_release(out[0]);
@@ -197,13 +219,13 @@ icc_status iccp_chart_create_pair(icc_chart *out[2], const icc_domain *const dom
 {
     icc_chart_options full[2] = {options[0], options[1]};
     out[0] = out[1] = NULL;
-    icc_status status = complete(&full[0], err);
+    icc_status status = complete(&full[0], domain[0]->dim, err);
     if (status == ICC_OK)
-        status = complete(&full[1], err);
+        status = complete(&full[1], domain[1]->dim, err);
     if (status != ICC_OK)
         return status;
-    if (full[0].method == ICC_METHOD_GRADIENT)
-        return create_gradient_pair(out, domain, full, env, err);
+    if (full[0].method == ICC_METHOD_GRADIENT || full[0].method == ICC_METHOD_FIELD)
+        return create_apart(out, domain, full, env, err);
     harmonic_job job = {.n = 2, .domain = domain, .options = full};
     return create_harmonic(&job, out, env, err);
 }

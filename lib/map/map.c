@@ -7,6 +7,13 @@
 /* Cells of a mesh along the longest side: where the boundary is no finer, coarse is fair enough. */
 enum { MESH_CELLS = 20 };
 
+static const char *turn_of(const icc_domain *domain)
+{
+    if (domain->dim == 2)
+        return domain->orientation > 0 ? "counter-clockwise" : "clockwise";
+    return domain->orientation > 0 ? "oriented outward" : "oriented inward";
+}
+
 /* The boundaries correspond when their facets join the same vertices and they turn the same way. */
 static icc_status check_correspondence(const icc_domain *source, const icc_domain *target,
                                        icc_error *err)
@@ -17,16 +24,18 @@ static icc_status check_correspondence(const icc_domain *source, const icc_domai
         status = iccp_fail(err, ICC_ERR_BOUNDARY, -1,
                            "the source has dimension %ld, the target %ld", (long)source->dim,
                            (long)target->dim);
-    else if (source->n_vertices != target->n_vertices || source->n_facets != target->n_facets)
+    else if (source->n_vertices != target->n_vertices)
         status = iccp_fail(err, ICC_ERR_BOUNDARY, -1,
                            "the source has %zu vertices, the target %zu: vertex i must "
                            "correspond to vertex i",
                            source->n_vertices, target->n_vertices);
+    else if (source->n_facets != target->n_facets)
+        status = iccp_fail(err, ICC_ERR_BOUNDARY, -1, "the source has %zu facets, the target %zu",
+                           source->n_facets, target->n_facets);
     else if (source->orientation != target->orientation)
         status = iccp_fail(err, ICC_ERR_BOUNDARY, -1,
                            "the source is %s, the target %s: both must turn the same way",
-                           source->orientation > 0 ? "counter-clockwise" : "clockwise",
-                           target->orientation > 0 ? "counter-clockwise" : "clockwise");
+                           turn_of(source), turn_of(target));
     for (size_t i = 0; status == ICC_OK && i < n_ends; ++i)
         if (source->facets[i] != target->facets[i])
             status = iccp_fail(err, ICC_ERR_BOUNDARY, (int64_t)(i / (size_t)source->dim),
@@ -128,14 +137,15 @@ static icc_status create_with(icc_map **out, const icc_domain *const domains[2],
 
 /* The method that suits the kind, where the caller leaves it open: discs are the better start for a
  * mesh, unless a maximum is given, which they do not have. */
-static void complete(icc_chart_options chart_options[2], int32_t kind)
+static void complete(icc_chart_options chart_options[2], int32_t dim, int32_t kind)
 {
     const bool has_maximum =
         chart_options[0].maximum != NULL || chart_options[1].maximum != NULL;
-    for (int k = 0; k < 2 && kind != ICC_MAP_CURVES; ++k) {
+    for (int k = 0; k < 2 && kind != ICC_MAP_CURVES && dim == 2; ++k) {
         if (chart_options[k].method == 0)
             chart_options[k].method = has_maximum ? ICC_METHOD_FOLIATION : ICC_METHOD_DISC;
-        if (chart_options[k].cells == 0 && chart_options[k].method != ICC_METHOD_GRADIENT)
+        if (chart_options[k].cells == 0 && chart_options[k].method != ICC_METHOD_GRADIENT &&
+            chart_options[k].method != ICC_METHOD_FIELD)
             chart_options[k].cells = MESH_CELLS;
     }
 }
@@ -149,9 +159,13 @@ icc_status iccp_map_create(icc_map **out, const icc_domain *source, const icc_do
     const icc_domain *const domains[2] = {source, target};
     icc_chart_options full[2] = {chart_options[0], chart_options[1]};
     icc_status status = check_correspondence(source, target, err);
+    if (status == ICC_OK && options->kind == ICC_MAP_MESH && source->dim != 2)
+        status = iccp_fail(err, ICC_ERR_UNSUPPORTED, -1,
+                           "map kind mesh is not available for domains of dimension %ld",
+                           (long)source->dim);
     if (status != ICC_OK)
         return status;
-    complete(full, options->kind);
+    complete(full, source->dim, options->kind);
     status = create_with(out, domains, options, full, env, err);
     /* Each start has shapes that it cannot be repaired from. */
     if (status == ICC_OK && (*out)->info.n_unrepaired > 0 && chart_options[0].method == 0 &&

@@ -1,0 +1,418 @@
+/* Based on: Huynh and Gingold, Bijective Deformations in R^n via Integral Curve Coordinates, for grid, tree
+ * and function; the curves follow the field of docs/theory.md, fields on grids, instead of the
+ * function's gradient, whose curves merge. */
+#include "chart/chart_field.h"
+
+#include "base/clock.h"
+#include "base/error.h"
+#include "field/cones.h"
+#include "field/create.h"
+#include "field/critical.h"
+#include "grid/grassfire.h"
+#include "grid/rasterise.h"
+#include "trace/flow.h"
+#include "tree/settle.h"
+#include "tree/verify.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { SWEEPS = 2 };
+
+/* Share of the vertices inside that may be given up so that the others form a ball. */
+static const double MOST_LOST = 0.05;
+
+typedef struct field_state {
+    icc_tree *tree;
+    icc_field *field;
+    iccp_cover cover;
+    iccp_cones cones;
+    iccp_flow flow;
+    double root[ICC_MAX_DIM]; /* local */
+} field_state;
+
+/* ---- making it ---- */
+
+static icc_status choose_root(const icc_grid *grid, const double *maximum, uint32_t *root,
+                              const iccp_env *env, icc_error *err)
+{
+    if (maximum == NULL)
+        return iccp_grassfire(grid, root, NULL, env, err);
+    *root = iccp_grid_nearest(grid, maximum);
+    return ICC_OK;
+}
+
+static icc_status make_tree(field_state *state, icc_chart *chart, const icc_chart_options *options,
+                            const double *maximum, const iccp_env *env, icc_error *err)
+{
+    icc_grid *grid;
+    uint32_t root = 0;
+    icc_grow_report grown = {0};
+    icc_tree_report report = {0};
+    double start = iccp_seconds();
+    icc_status status = iccp_grid_create(&grid, chart->domain, options->cells, env, err);
+    if (status != ICC_OK)
+        return status;
+    status = choose_root(grid, maximum, &root, env, err);
+    chart->info.seconds_grid = iccp_seconds() - start;
+    start = iccp_seconds();
+    uint32_t *rank = iccp_alloc(&env->memory, grid->n_vertices, sizeof *rank);
+    if (status == ICC_OK && rank == NULL)
+        status = ICC_ERR_MEMORY;
+    if (status == ICC_OK)
+        status = iccp_tree_settle(&state->tree, grid, root, ICC_TREE_THESIS, NULL, MOST_LOST, rank,
+                                  &grown, env, err);
+    if (status == ICC_OK)
+        status = iccp_tree_verify(state->tree, &report, env);
+    iccp_free(&env->memory, rank);
+    iccp_grid_release(grid);
+    chart->info.seconds_tree = iccp_seconds() - start;
+    chart->info.n_tree = report.n_inside + report.n_outside;
+    chart->info.n_unreachable = report.n_unreachable;
+    chart->info.n_cousin_violations = report.n_cousin_violations;
+    return status;
+}
+
+static icc_status make_field(field_state *state, icc_chart *chart, const icc_chart_options *options,
+                             const iccp_env *env, icc_error *err)
+{
+    const double start = iccp_seconds();
+    icc_field_report report = {0};
+    const icc_field_options function = {.function = ICC_FUNCTION_LAPLACE,
+                                        .constraints = ICC_CONSTRAINTS_NONE,
+                                        .solver = options->solver};
+    icc_status status = iccp_field_create(&state->field, state->tree, &function, env, err);
+    if (status == ICC_OK)
+        status = iccp_field_verify(state->field, &report, env);
+    chart->info.n_maxima = report.n_maxima;
+    chart->info.n_minima = report.n_minima;
+    chart->info.n_saddles = report.n_saddles;
+    chart->info.seconds_field = iccp_seconds() - start;
+    return status;
+}
+
+static icc_status make_vectors(field_state *state, icc_chart *chart, const iccp_env *env)
+{
+    const double start = iccp_seconds();
+    iccp_smooth smooth = {.memory = env->memory};
+    icc_status status =
+        iccp_cover_create(&state->cover, chart->domain, state->tree->grid, env);
+    if (status == ICC_OK)
+        status = iccp_smooth_create(&smooth, state->field, &state->cover, SWEEPS, env);
+    if (status == ICC_OK)
+        status = iccp_cones_create(&state->cones, &smooth, &state->cover, env);
+    iccp_smooth_free(&smooth);
+    chart->info.seconds_solve = iccp_seconds() - start;
+    return status;
+}
+
+static void finish(field_state *state, icc_chart *chart)
+{
+    const icc_grid *grid = state->tree->grid;
+    const int32_t dim = grid->dim;
+    icc_chart_info *info = &chart->info;
+    size_t steps = 1000;
+    for (int32_t k = 0; k < dim; ++k) {
+        state->root[k] = grid->origin[k] +
+                         grid->spacing * iccp_grid_coordinate(grid, state->tree->root, k);
+        steps += 200 * grid->shape[k];
+    }
+    state->flow = (iccp_flow){.grid = grid,
+                              .domain = chart->domain,
+                              .cover = &state->cover,
+                              .vector = state->cones.vector,
+                              .root = state->tree->root,
+                              .most_steps = steps};
+    iccp_frame_out(&chart->domain->frame, dim, state->root, info->maximum);
+    info->spacing = grid->spacing * chart->domain->frame.out[0] * chart->domain->frame.out[1];
+    info->cells = grid->cells;
+    info->n_grid = grid->n_vertices;
+    info->n_inside = grid->n_inside;
+    info->n_infeasible = state->cones.n_infeasible;
+    info->n_contacts = state->cones.n_contacts;
+    info->n_not_inward = state->cones.n_not_inward;
+    info->n_stray = grid->n_stray;
+    info->certified =
+        info->n_infeasible == 0 && info->n_not_inward == 0 && info->n_stray == 0;
+}
+
+/* ---- places ---- */
+
+static void to_lattice(const field_state *state, const double *local, double *x)
+{
+    const icc_grid *grid = state->tree->grid;
+    for (int32_t k = 0; k < grid->dim; ++k)
+        x[k] = (local[k] - grid->origin[k]) / grid->spacing;
+}
+
+static void to_local(const field_state *state, const iccp_flow_place *place, const double *at,
+                     double *local)
+{
+    const icc_grid *grid = state->tree->grid;
+    iccp_flow_position(&state->flow, place, at, local);
+    for (int32_t k = 0; k < grid->dim; ++k)
+        local[k] = grid->origin[k] + grid->spacing * local[k];
+}
+
+static bool at_maximum(const icc_chart *chart, const double *point)
+{
+    const field_state *state = chart->state;
+    for (int32_t k = 0; k < chart->domain->dim; ++k)
+        if (fabs(point[k] - state->root[k]) > chart->domain->tolerance)
+            return false;
+    return true;
+}
+
+/* A local point of the boundary, in the simplex that the curve enters from there. */
+static icc_status find_entry(const icc_chart *chart, const double *point, iccp_flow_place *place)
+{
+    const field_state *state = chart->state;
+    double x[ICC_MAX_DIM], ahead[ICC_MAX_DIM];
+    to_lattice(state, point, x);
+    if (!iccp_flow_find(&state->flow, x, NULL, place))
+        return ICC_ERR_TRACE;
+    iccp_flow_vector(&state->flow, place, ahead);
+    return iccp_flow_find(&state->flow, x, ahead, place) ? ICC_OK : ICC_ERR_TRACE;
+}
+
+/* ---- Cartesian to coordinates ---- */
+
+static void coords_of_maximum(const icc_chart *chart, iccp_coords *coords)
+{
+    *coords = (iccp_coords){.facet = 0, .t = 1};
+    for (int32_t k = 0; k < chart->domain->dim; ++k)
+        coords->bary[k] = 1.0 / chart->domain->dim;
+}
+
+/* ICC_INSIDE and so on. A simplex that no facet runs through is inside with its vertices. */
+static int32_t locate(const icc_chart *chart, const double *point, iccp_flow_place *place,
+                      iccp_coords *coords)
+{
+    const field_state *state = chart->state;
+    double x[ICC_MAX_DIM];
+    to_lattice(state, point, x);
+    if (!iccp_flow_find(&state->flow, x, NULL, place))
+        return ICC_OUTSIDE;
+    const uint32_t lowest = place->simplex.corner[0];
+    if (state->cover.bits[lowest] == 0 && state->tree->grid->inside[lowest])
+        return ICC_INSIDE;
+    return iccp_domain_locate(chart->domain, point, true, &coords->facet, coords->bary);
+}
+
+static icc_status walk_down(const field_state *state, const iccp_flow_place *place,
+                            iccp_coords *coords, double *length)
+{
+    iccp_flow_walk walk;
+    icc_status status = iccp_flow_start(&walk, &state->flow, -1, place);
+    double s;
+    while (status == ICC_OK && !iccp_flow_leaves(&walk, &s, &coords->facet, coords->bary))
+        status = iccp_flow_next(&walk);
+    if (status == ICC_OK)
+        *length = walk.length + iccp_flow_length(&walk, s);
+    return status;
+}
+
+static icc_status walk_up(const field_state *state, const iccp_flow_place *place, double *length)
+{
+    iccp_flow_walk walk;
+    icc_status status = iccp_flow_start(&walk, &state->flow, +1, place);
+    while (status == ICC_OK && !walk.ends)
+        status = iccp_flow_next(&walk);
+    if (status == ICC_OK)
+        *length = walk.length + walk.end_length;
+    return status;
+}
+
+static icc_status encode(const icc_chart *chart, const double *point, iccp_coords *coords,
+                         iccp_encode_jet *jet, iccp_path *path)
+{
+    (void)path;
+    const field_state *state = chart->state;
+    iccp_flow_place place;
+    const int32_t where = locate(chart, point, &place, coords);
+    coords->t = 0;
+    if (where == ICC_OUTSIDE)
+        return ICC_ERR_OUTSIDE;
+    if (where == ICC_BOUNDARY)
+        return jet == NULL ? ICC_OK : ICC_ERR_TRACE;
+    if (at_maximum(chart, point)) {
+        coords_of_maximum(chart, coords);
+        return jet == NULL ? ICC_OK : ICC_ERR_TRACE;
+    }
+    if (jet != NULL)
+        return ICC_ERR_TRACE;
+    double down = 0, up = 0;
+    icc_status status = walk_down(state, &place, coords, &down);
+    if (status == ICC_OK)
+        status = walk_up(state, &place, &up);
+    if (status == ICC_OK)
+        coords->t = down / (down + up);
+    return status;
+}
+
+/* ---- and back ---- */
+
+/* The whole curve from a boundary point, its pieces noted. */
+static icc_status climb(const icc_chart *chart, const double *point, iccp_flow_walk *walk,
+                        iccp_path *path)
+{
+    const field_state *state = chart->state;
+    iccp_flow_place place;
+    path->n_marks = 0;
+    icc_status status = find_entry(chart, point, &place);
+    if (status == ICC_OK)
+        status = iccp_flow_start(walk, &state->flow, +1, &place);
+    if (status == ICC_OK)
+        status = iccp_flow_note(walk, path);
+    while (status == ICC_OK && !walk->ends) {
+        status = iccp_flow_next(walk);
+        if (status == ICC_OK)
+            status = iccp_flow_note(walk, path);
+    }
+    return status;
+}
+
+static icc_status decode(const icc_chart *chart, const iccp_coords *coords, double *point,
+                         iccp_decode_jet *jet, iccp_path *path)
+{
+    const field_state *state = chart->state;
+    iccp_flow_walk walk;
+    double at[ICC_MAX_DIM];
+    if (jet != NULL)
+        return ICC_ERR_TRACE;
+    if (coords->t >= 1) {
+        memcpy(point, state->root, (size_t)chart->domain->dim * sizeof *point);
+        return ICC_OK;
+    }
+    iccp_domain_facet_point(chart->domain, coords->facet, coords->bary, point);
+    if (coords->t <= 0)
+        return ICC_OK;
+    icc_status status = climb(chart, point, &walk, path);
+    if (status != ICC_OK)
+        return status;
+    const double length = coords->t * (walk.length + walk.end_length);
+    status = iccp_flow_rewind(&walk, path, length);
+    if (status != ICC_OK)
+        return status;
+    iccp_flow_at(&walk, iccp_flow_at_length(&walk, length - walk.length), at);
+    to_local(state, &walk.place, at, point);
+    return ICC_OK;
+}
+
+/* ---- the whole curve ---- */
+
+static icc_status emit_marks(const field_state *state, const iccp_path *path, bool reversed,
+                             iccp_emit emit, void *argument)
+{
+    icc_status status = ICC_OK;
+    for (size_t i = 0; status == ICC_OK && i < path->n_marks; ++i) {
+        const iccp_flow_mark *mark = path->marks + (reversed ? path->n_marks - 1 - i : i);
+        double local[ICC_MAX_DIM];
+        to_local(state, &mark->place, mark->place.at, local);
+        status = emit(argument, local);
+    }
+    return status;
+}
+
+/* From the boundary up to the point, which is the last mark and left out. */
+static icc_status trace_below(const icc_chart *chart, const iccp_flow_place *place, iccp_path *path,
+                              iccp_emit emit, void *argument)
+{
+    const field_state *state = chart->state;
+    iccp_flow_walk walk;
+    iccp_coords coords;
+    double s, local[ICC_MAX_DIM];
+    path->n_marks = 0;
+    icc_status status = iccp_flow_start(&walk, &state->flow, -1, place);
+    while (status == ICC_OK && !iccp_flow_leaves(&walk, &s, &coords.facet, coords.bary)) {
+        status = iccp_flow_next(&walk);
+        if (status == ICC_OK)
+            status = iccp_flow_note(&walk, path);
+    }
+    if (status != ICC_OK)
+        return status;
+    iccp_domain_facet_point(chart->domain, coords.facet, coords.bary, local);
+    status = emit(argument, local);
+    return status == ICC_OK ? emit_marks(state, path, true, emit, argument) : status;
+}
+
+static icc_status trace(const icc_chart *chart, const double *point, iccp_path *path, iccp_emit emit,
+                        void *argument)
+{
+    const field_state *state = chart->state;
+    iccp_flow_place place;
+    iccp_flow_walk walk;
+    iccp_coords coords;
+    const int32_t where = locate(chart, point, &place, &coords);
+    icc_status status = ICC_OK;
+    if (where == ICC_OUTSIDE)
+        return ICC_ERR_OUTSIDE;
+    if (at_maximum(chart, point))
+        return emit(argument, point);
+    if (where == ICC_INSIDE)
+        status = trace_below(chart, &place, path, emit, argument);
+    else
+        status = find_entry(chart, point, &place);
+    path->n_marks = 0;
+    if (status == ICC_OK)
+        status = iccp_flow_start(&walk, &state->flow, +1, &place);
+    for (bool more = true; status == ICC_OK && more;) {
+        status = iccp_flow_note(&walk, path);
+        more = !walk.ends;
+        if (status == ICC_OK && more)
+            status = iccp_flow_next(&walk);
+    }
+    if (status == ICC_OK)
+        status = emit_marks(state, path, false, emit, argument);
+    return status == ICC_OK ? emit(argument, state->root) : status;
+}
+
+static void free_state(icc_chart *chart)
+{
+    field_state *state = chart->state;
+    iccp_cones_free(&state->cones);
+    iccp_cover_free(&state->cover);
+    iccp_field_release(state->field);
+    iccp_tree_release(state->tree);
+    iccp_free(&chart->memory, state);
+}
+
+static const iccp_chart_ops OPS = {encode, decode, trace, NULL, free_state};
+
+const icc_field *iccp_chart_field_function(const icc_chart *chart)
+{
+    const field_state *state = chart->state;
+    return state->field;
+}
+
+icc_status iccp_chart_field_create(icc_chart **out, const icc_domain *domain,
+                                   const icc_chart_options *options, const double *maximum,
+                                   const iccp_env *env, icc_error *err)
+{
+    icc_status status = iccp_chart_new(out, domain, env);
+    if (status != ICC_OK)
+        return status;
+    icc_chart *chart = *out;
+    chart->ops = &OPS;
+    chart->info.method = ICC_METHOD_FIELD;
+    chart->info.function = ICC_FUNCTION_LAPLACE;
+    chart->info.tree = ICC_TREE_THESIS;
+    field_state *state = iccp_alloc_zero(&env->memory, 1, sizeof *state);
+    chart->state = state;
+    status = ICC_ERR_MEMORY;
+    if (state != NULL) {
+        state->cover.memory = state->cones.memory = env->memory;
+        status = make_tree(state, chart, options, maximum, env, err);
+    }
+    if (status == ICC_OK)
+        status = make_field(state, chart, options, env, err);
+    if (status == ICC_OK)
+        status = make_vectors(state, chart, env);
+    if (status == ICC_OK) {
+        finish(state, chart);
+        return ICC_OK;
+    }
+    iccp_chart_release(chart);
+    *out = NULL;
+    return status;
+}

@@ -1,0 +1,17 @@
+/* Method field: curves of a Lipschitz field along which a function on a grid rises, in any dimension. */
+#ifndef ICCP_CHART_FIELD_H
+#define ICCP_CHART_FIELD_H
+
+#include "chart/chart.h"
+#include "field/field.h"
+
+/* `options` is complete. `maximum` (local coordinates) is where the maximum shall be, whatever the options
+ * say, or NULL. */
+icc_status iccp_chart_field_create(icc_chart **out, const icc_domain *domain,
+                                   const icc_chart_options *options, const double *maximum,
+                                   const iccp_env *env, icc_error *err);
+
+/* The function of a chart of this method. */
+const icc_field *iccp_chart_field_function(const icc_chart *chart);
+
+#endif

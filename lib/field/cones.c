@@ -1,0 +1,425 @@
+/* The field of docs/theory.md, fields on grids: where X_v . grad f > 0 in every simplex at v, for all v,
+ * X . grad f > 0 everywhere, since X is linear in each simplex and grad f constant. X is Lipschitz, so
+ * its curves do not merge, and f keeps them from closing.
+ *
+ * A vector for a vertex: the mean of the gradients' directions if it will do, else the point of their
+ * hull nearest to the origin, which exists if and only if any vector will. The inward normals of the
+ * boundary are wanted too: with them the curves cross it one way. Where there is no vector for all of
+ * these, the normals go first; where there is none for the gradients, the function is changed a
+ * little: it is moved to the nearest values for which the gradients have a positive product with the
+ * vector, simplex by simplex (L. G. Gubin, B. T. Polyak, E. V. Raik, The Method of Projections for
+ * Finding the Common Point of Convex Sets, 1967), and the vectors are found anew. */
+#include "field/cones.h"
+
+#include "base/threads.h"
+#include "field/minnorm.h"
+
+#include <float.h>
+#include <string.h>
+
+enum { MOST_NORMALS = 64, MOST_ROUNDS = 40 };
+
+static const size_t GRAIN = 1 << 10; /* vertices per chunk */
+
+/* Products of unit vectors. A mean is taken when all are above the first, which keeps the vectors smooth;
+ * a vector passes with the second; the projection aims at the third. */
+static const double GOOD = 0.15, LEAST = 1e-6, AIM = 0.05;
+
+/* A vertex and the simplices at it. */
+typedef struct star {
+    const iccp_smooth *smooth;
+    const iccp_cover *cover;
+    const iccp_orders *orders;
+    uint32_t vertex;
+    int32_t exponent;
+    double up[1 << ICC_MAX_DIM], down[1 << ICC_MAX_DIM];          /* values, by set of axes */
+    uint8_t up_inside[1 << ICC_MAX_DIM], down_inside[1 << ICC_MAX_DIM];
+    size_t n_gradients, n_normals;
+    double *direction; /* gradients, then normals: length 1 */
+} star;
+
+static size_t most_directions(int32_t dim)
+{
+    size_t n = 1;
+    for (int32_t k = 2; k <= dim + 1; ++k)
+        n *= (size_t)k;
+    return n + MOST_NORMALS;
+}
+
+static void load(star *s, uint32_t v)
+{
+    const icc_grid *grid = s->smooth->grid;
+    const int n_sets = 1 << grid->dim;
+    s->vertex = v;
+    s->exponent = iccp_smooth_exponent(s->smooth, v);
+    for (int set = 1; set < n_sets && s->smooth->exponent != NULL; ++set) {
+        const int32_t a = s->smooth->exponent[(ptrdiff_t)v + s->orders->offset[set]];
+        const int32_t b = s->smooth->exponent[(ptrdiff_t)v - s->orders->offset[set]];
+        s->exponent = a > s->exponent ? a : s->exponent;
+        s->exponent = b > s->exponent ? b : s->exponent;
+    }
+    for (int set = 0; set < n_sets; ++set) {
+        const uint32_t up = (uint32_t)((ptrdiff_t)v + s->orders->offset[set]);
+        const uint32_t down = (uint32_t)((ptrdiff_t)v - s->orders->offset[set]);
+        s->up[set] = iccp_smooth_get(s->smooth, up, s->exponent);
+        s->down[set] = iccp_smooth_get(s->smooth, down, s->exponent);
+        s->up_inside[set] = grid->inside[up];
+        s->down_inside[set] = grid->inside[down];
+    }
+}
+
+/* Whether simplex r with the vertex as corner k meets the domain; its lowest corner. */
+static bool is_active(const star *s, int32_t r, int32_t k, uint32_t *lowest)
+{
+    const int8_t *axis = s->orders->axis[r];
+    const int32_t dim = s->orders->dim;
+    int below = 0, above = 0;
+    bool any = s->up_inside[0];
+    for (int32_t i = k; i-- > 0;) {
+        below |= 1 << axis[i];
+        any = any || s->down_inside[below];
+    }
+    for (int32_t i = k; i < dim; ++i) {
+        above |= 1 << axis[i];
+        any = any || s->up_inside[above];
+    }
+    *lowest = (uint32_t)((ptrdiff_t)s->vertex - s->orders->offset[below]);
+    return any || iccp_cover_has(s->cover, *lowest, r);
+}
+
+/* The gradient in simplex r with the vertex as corner k, by axis. */
+static void gradient_of(const star *s, int32_t r, int32_t k, double *gradient)
+{
+    const int8_t *axis = s->orders->axis[r];
+    int set = 0;
+    double value = s->up[0];
+    for (int32_t i = k; i-- > 0;) {
+        set |= 1 << axis[i];
+        gradient[axis[i]] = value - s->down[set];
+        value = s->down[set];
+    }
+    set = 0;
+    value = s->up[0];
+    for (int32_t i = k; i < s->orders->dim; ++i) {
+        set |= 1 << axis[i];
+        gradient[axis[i]] = s->up[set] - value;
+        value = s->up[set];
+    }
+}
+
+static double dot(int32_t dim, const double *a, const double *b)
+{
+    double sum = 0;
+    for (int32_t k = 0; k < dim; ++k)
+        sum += a[k] * b[k];
+    return sum;
+}
+
+/* False when the vector has no direction. */
+static bool normalise(int32_t dim, double *v)
+{
+    double longest = 0;
+    for (int32_t k = 0; k < dim; ++k)
+        longest = fmax(longest, fabs(v[k]));
+    if (!(longest > 0))
+        return false;
+    for (int32_t k = 0; k < dim; ++k)
+        v[k] /= longest;
+    const double length = sqrt(dot(dim, v, v));
+    for (int32_t k = 0; k < dim; ++k)
+        v[k] /= length;
+    return true;
+}
+
+/* A gradient of 0 stays as it is: no vector has a positive product with it. */
+static void list_gradients(star *s)
+{
+    const int32_t dim = s->orders->dim;
+    s->n_gradients = s->n_normals = 0;
+    for (int32_t r = 0; r < s->orders->n; ++r)
+        for (int32_t k = 0; k <= dim; ++k) {
+            uint32_t lowest;
+            if (!is_active(s, r, k, &lowest))
+                continue;
+            double *g = s->direction + (size_t)dim * s->n_gradients++;
+            gradient_of(s, r, k, g);
+            (void)normalise(dim, g);
+        }
+}
+
+static void list_normals(star *s)
+{
+    static const double SAME = 1 - 1e-12;
+    const size_t dim = (size_t)s->orders->dim;
+    double *normals = s->direction + dim * s->n_gradients;
+    const uint32_t *facet = s->cover->facet;
+    for (uint32_t i = s->cover->first[s->vertex];
+         i < s->cover->first[s->vertex + 1] && s->n_normals < MOST_NORMALS; ++i) {
+        const double *normal = s->cover->normal + dim * facet[i];
+        bool fresh = true;
+        for (size_t j = 0; fresh && j < s->n_normals; ++j)
+            fresh = dot((int32_t)dim, normals + dim * j, normal) < SAME;
+        if (fresh)
+            memcpy(normals + dim * s->n_normals++, normal, dim * sizeof *normal);
+    }
+}
+
+/* The least product of a vector of length 1 with any of n directions. */
+static double least_product(int32_t dim, size_t n, const double *direction, const double *x)
+{
+    double least = DBL_MAX;
+    for (size_t i = 0; i < n; ++i)
+        least = fmin(least, dot(dim, direction + (size_t)dim * i, x));
+    return least;
+}
+
+/* A vector of length 1 with products above LEAST with all of n directions. If there is none, false and the
+ * mean or, where that is 0, nothing new. */
+static bool find_vector(int32_t dim, size_t n, const double *direction, double *x)
+{
+    double mean[ICC_MAX_DIM] = {0}, nearest[ICC_MAX_DIM];
+    for (size_t i = 0; i < n; ++i)
+        for (int32_t k = 0; k < dim; ++k)
+            mean[k] += direction[(size_t)dim * i + (size_t)k];
+    const bool has_mean = normalise(dim, mean);
+    if (has_mean)
+        memcpy(x, mean, (size_t)dim * sizeof *x);
+    if (has_mean && least_product(dim, n, direction, mean) > GOOD)
+        return true;
+    if (!(iccp_minnorm((size_t)dim, n, direction, nearest) > LEAST) || !normalise(dim, nearest))
+        return false;
+    if (!(least_product(dim, n, direction, nearest) > LEAST))
+        return false;
+    memcpy(x, nearest, (size_t)dim * sizeof *x);
+    return true;
+}
+
+/* Towards the root, for vertices joined to it. */
+static bool is_radial(const star *s, double *x)
+{
+    const int n_sets = 1 << s->orders->dim;
+    for (int set = 1; set < n_sets; ++set)
+        for (int sign = -1; sign <= 1; sign += 2)
+            if ((ptrdiff_t)s->vertex + sign * s->orders->offset[set] == (ptrdiff_t)s->smooth->root) {
+                for (int32_t k = 0; k < s->orders->dim; ++k)
+                    x[k] = set >> k & 1 ? sign : 0;
+                return true;
+            }
+    return false;
+}
+
+/* Writes the vector of a vertex; whether it is uphill in all simplices. Of the normals none are wanted, or all
+ * that there is room for; `firmly` prefers them to the gradients. */
+static bool choose(star *s, bool firmly, double *x)
+{
+    const int32_t dim = s->orders->dim;
+    list_gradients(s);
+    if (s->n_gradients == 0)
+        return true;
+    double unit[ICC_MAX_DIM];
+    if (is_radial(s, x)) {
+        memcpy(unit, x, sizeof unit);
+        (void)normalise(dim, unit);
+        return least_product(dim, s->n_gradients, s->direction, unit) > LEAST;
+    }
+    list_normals(s);
+    const double *normals = s->direction + (size_t)dim * s->n_gradients;
+    if (find_vector(dim, s->n_gradients + s->n_normals, s->direction, x))
+        return true;
+    if (firmly && find_vector(dim, s->n_normals, normals, unit)) {
+        /* As uphill as the normals leave it. */
+        for (int32_t k = 0; k < dim; ++k)
+            unit[k] = x[k];
+        double mixed[ICC_MAX_DIM];
+        for (double share = 0.25; share <= 1; share += 0.25) {
+            (void)find_vector(dim, s->n_normals, normals, mixed);
+            for (int32_t k = 0; k < dim; ++k)
+                mixed[k] = share * mixed[k] + (1 - share) * unit[k];
+            if (normalise(dim, mixed) && least_product(dim, s->n_normals, normals, mixed) > AIM)
+                break;
+        }
+        memcpy(x, mixed, (size_t)dim * sizeof *x);
+        return least_product(dim, s->n_gradients, s->direction, x) > LEAST;
+    }
+    return find_vector(dim, s->n_gradients, s->direction, x);
+}
+
+typedef struct work {
+    iccp_cones *cones;
+    iccp_smooth *smooth;
+    const iccp_cover *cover;
+    const iccp_orders *orders;
+    uint8_t *state; /* by vertex: bits below */
+} work;
+
+enum { DIRTY = 1, FAILS = 2, FIRM = 4 };
+
+static icc_status star_init(star *s, const work *w)
+{
+    *s = (star){.smooth = w->smooth, .cover = w->cover, .orders = w->orders};
+    s->direction = iccp_alloc(&w->cones->memory, most_directions(w->orders->dim),
+                              (size_t)w->orders->dim * sizeof *s->direction);
+    return s->direction != NULL ? ICC_OK : ICC_ERR_MEMORY;
+}
+
+static icc_status choose_chunk(void *argument, size_t begin, size_t end)
+{
+    work *w = argument;
+    const size_t dim = (size_t)w->orders->dim;
+    star s;
+    const icc_status status = star_init(&s, w);
+    for (size_t v = begin; status == ICC_OK && v < end; ++v) {
+        if (!(w->state[v] & DIRTY))
+            continue;
+        load(&s, (uint32_t)v);
+        const bool good = choose(&s, w->state[v] & FIRM, w->cones->vector + dim * v);
+        w->state[v] = (uint8_t)((w->state[v] & FIRM) | (good ? 0 : FAILS));
+    }
+    iccp_free(&w->cones->memory, s.direction);
+    return status;
+}
+
+/* Moves the values of the corners of one simplex so that the gradient's product with x is AIM of its length; the
+ * root's, which is the largest, stays. The product is the sum of the values, each times how much
+ * faster x goes along the axis before the corner than along the one after it. */
+static bool project(const work *w, const star *s, int32_t r, uint32_t lowest, const double *x,
+                    const double *gradient)
+{
+    const int8_t *axis = w->orders->axis[r];
+    const int32_t dim = w->orders->dim;
+    const double length = sqrt(dot(dim, gradient, gradient));
+    const double lack = AIM * length - dot(dim, gradient, x);
+    if (!(lack > 0))
+        return false;
+    double part[ICC_MAX_DIM + 1], norm2 = 0;
+    uint32_t corner = lowest;
+    for (int32_t j = 0; j <= dim; ++j) {
+        part[j] = (j > 0 ? x[axis[j - 1]] : 0) - (j < dim ? x[axis[j]] : 0);
+        part[j] = corner == w->smooth->root ? 0 : part[j];
+        norm2 += part[j] * part[j];
+        corner += j < dim ? (uint32_t)w->smooth->grid->stride[axis[j]] : 0;
+    }
+    corner = lowest;
+    for (int32_t j = 0; j <= dim && norm2 > 0; ++j) {
+        const double value = iccp_smooth_get(w->smooth, corner, s->exponent);
+        iccp_smooth_set(w->smooth, corner, value + 1.0001 * lack * part[j] / norm2, s->exponent);
+        corner += j < dim ? (uint32_t)w->smooth->grid->stride[axis[j]] : 0;
+    }
+    return norm2 > 0;
+}
+
+/* Everything at the vertices around has to be looked at again. */
+static void soil(const work *w, uint32_t v)
+{
+    const icc_grid *grid = w->smooth->grid;
+    size_t n = 1;
+    for (int32_t k = 0; k < grid->dim; ++k)
+        n *= 5;
+    for (size_t i = 0; i < n; ++i) {
+        ptrdiff_t u = v;
+        size_t rest = i;
+        for (int32_t k = 0; k < grid->dim; ++k, rest /= 5)
+            u += ((ptrdiff_t)(rest % 5) - 2) * (ptrdiff_t)grid->stride[k];
+        if (u >= 0 && (size_t)u < grid->n_vertices && w->smooth->needed[u])
+            w->state[u] |= DIRTY;
+    }
+}
+
+static void adjust(work *w, star *s, uint32_t v)
+{
+    const int32_t dim = w->orders->dim;
+    double x[ICC_MAX_DIM], gradient[ICC_MAX_DIM];
+    memcpy(x, w->cones->vector + (size_t)dim * v, (size_t)dim * sizeof *x);
+    if (!normalise(dim, x))
+        return;
+    for (int32_t r = 0; r < w->orders->n; ++r)
+        for (int32_t k = 0; k <= dim; ++k) {
+            uint32_t lowest;
+            load(s, v);
+            if (!is_active(s, r, k, &lowest))
+                continue;
+            gradient_of(s, r, k, gradient);
+            w->cones->n_adjusted += project(w, s, r, lowest, x, gradient);
+        }
+    soil(w, v);
+}
+
+static icc_status choose_all(work *w, const iccp_env *env)
+{
+    const icc_status status =
+        iccp_for_chunks(env, "vectors", w->smooth->grid->n_vertices, GRAIN, choose_chunk, w);
+    w->cones->n_infeasible = 0;
+    for (size_t v = 0; v < w->smooth->grid->n_vertices; ++v)
+        w->cones->n_infeasible += (w->state[v] & FAILS) != 0;
+    return status;
+}
+
+static icc_status adjust_all(work *w, const iccp_env *env)
+{
+    star s;
+    icc_status status = star_init(&s, w);
+    for (int round = 0; status == ICC_OK && w->cones->n_infeasible > 0 && round < MOST_ROUNDS;
+         ++round) {
+        for (size_t v = 0; v < w->smooth->grid->n_vertices; ++v)
+            if (w->state[v] & FAILS)
+                adjust(w, &s, (uint32_t)v);
+        status = choose_all(w, env);
+    }
+    iccp_free(&w->cones->memory, s.direction);
+    return status;
+}
+
+/* The boundary is crossed one way when it is at the corners of all simplices that it runs through. */
+static void check_inward(work *w)
+{
+    iccp_cones *c = w->cones;
+    const size_t dim = (size_t)w->orders->dim;
+    for (uint32_t v = 0; v < w->smooth->grid->n_vertices; ++v)
+        for (uint32_t i = w->cover->first[v]; i < w->cover->first[v + 1]; ++i) {
+            const double *normal = w->cover->normal + dim * w->cover->facet[i];
+            ++c->n_contacts;
+            c->n_not_inward += !(dot((int32_t)dim, normal, c->vector + dim * v) > 0);
+        }
+}
+
+static icc_status fill(work *w, const iccp_env *env)
+{
+    const icc_grid *grid = w->smooth->grid;
+    for (size_t v = 0; v < grid->n_vertices; ++v) {
+        w->state[v] = w->smooth->needed[v] && v != w->smooth->root ? DIRTY : 0;
+        w->cones->n_vertices += w->state[v];
+    }
+    icc_status status = choose_all(w, env);
+    if (status == ICC_OK)
+        status = adjust_all(w, env);
+    if (status == ICC_OK)
+        check_inward(w);
+    return status;
+}
+
+icc_status iccp_cones_create(iccp_cones *cones, iccp_smooth *smooth, const iccp_cover *cover,
+                             const iccp_env *env)
+{
+    const icc_grid *grid = smooth->grid;
+    *cones = (iccp_cones){.memory = env->memory, .grid = grid};
+    work w = {.cones = cones, .smooth = smooth, .cover = cover};
+    iccp_orders *orders = iccp_alloc(&env->memory, 1, sizeof *orders);
+    w.orders = orders;
+    w.state = iccp_alloc(&env->memory, grid->n_vertices, sizeof *w.state);
+    cones->vector = iccp_alloc_zero(&env->memory, grid->n_vertices,
+                                    (size_t)grid->dim * sizeof *cones->vector);
+    icc_status status = ICC_ERR_MEMORY;
+    if (orders != NULL && w.state != NULL && cones->vector != NULL) {
+        iccp_orders_init(orders, grid);
+        status = fill(&w, env);
+    }
+    iccp_free(&env->memory, orders);
+    iccp_free(&env->memory, w.state);
+    return status;
+}
+
+void iccp_cones_free(iccp_cones *cones)
+{
+    iccp_free(&cones->memory, cones->vector);
+    *cones = (iccp_cones){.memory = cones->memory};
+}

@@ -1,0 +1,25 @@
+/* One vector for every vertex of the simplices that meet a domain, uphill in each simplex at the vertex.
+ * Interpolated linearly they are a field along which the function rises everywhere. */
+#ifndef ICCP_CONES_H
+#define ICCP_CONES_H
+
+#include "field/smooth.h"
+
+typedef struct iccp_cones {
+    iccp_memory memory;
+    const icc_grid *grid;   /* borrowed */
+    double *vector;         /* dim per vertex: of length 1, but from vertices joined to the root all the way
+                               to it, so that the field is radial around it; 0 where none is needed */
+    size_t n_vertices;      /* that need one */
+    size_t n_infeasible;    /* where no vector is uphill in all simplices */
+    size_t n_adjusted;      /* values of the function that were changed to prevent that */
+    size_t n_contacts;      /* pairs of a simplex and a facet that runs through it */
+    size_t n_not_inward;    /* those of them where a vector does not point inward */
+} iccp_cones;
+
+/* Changes `smooth` where it has to. Free it in any case. */
+icc_status iccp_cones_create(iccp_cones *cones, iccp_smooth *smooth, const iccp_cover *cover,
+                             const iccp_env *env);
+void iccp_cones_free(iccp_cones *cones);
+
+#endif

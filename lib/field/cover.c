@@ -1,0 +1,373 @@
+/* A simplex and a facet have a common point unless some plane separates them. Only the planes of the
+ * simplex' own facets and the plane of the facet are tried, so that a few simplices are taken to
+ * touch although they do not; none is missed. */
+#include "field/cover.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { FACETS_PER_REPORT = 1 << 12 };
+
+/* Lattice units: a boundary along the facets of the grid, as that of a mask, runs through none of the
+ * simplices on either side. Coordinates are rounded to 1e-14 or so. */
+static const double CONTACT = 1e-9;
+
+typedef enum { APART, GRAZES, TOUCHES } contact;
+
+int32_t iccp_order_rank(int32_t dim, const int8_t *axis)
+{
+    int32_t rank = 0;
+    for (int32_t i = 0; i < dim; ++i) {
+        int32_t smaller = 0;
+        for (int32_t j = i + 1; j < dim; ++j)
+            smaller += axis[j] < axis[i];
+        rank = rank * (dim - i) + smaller;
+    }
+    return rank;
+}
+
+/* The next one in lexicographic order; false after the last. */
+static bool next_order(int32_t dim, int8_t *axis)
+{
+    int32_t i = dim - 2, j = dim - 1;
+    while (i >= 0 && axis[i] > axis[i + 1])
+        --i;
+    if (i < 0)
+        return false;
+    while (axis[j] < axis[i])
+        --j;
+    const int8_t swap = axis[i];
+    axis[i] = axis[j];
+    axis[j] = swap;
+    for (int32_t low = i + 1, high = dim - 1; low < high; ++low, --high) {
+        const int8_t other = axis[low];
+        axis[low] = axis[high];
+        axis[high] = other;
+    }
+    return true;
+}
+
+void iccp_orders_init(iccp_orders *orders, const icc_grid *grid)
+{
+    int8_t axis[ICC_MAX_DIM];
+    orders->dim = grid->dim;
+    orders->n = 0;
+    for (int32_t k = 0; k < grid->dim; ++k)
+        axis[k] = (int8_t)k;
+    do
+        memcpy(orders->axis[orders->n++], axis, sizeof axis);
+    while (next_order(grid->dim, axis));
+    for (int set = 0; set < 1 << grid->dim; ++set) {
+        orders->offset[set] = 0;
+        for (int32_t k = 0; k < grid->dim; ++k)
+            if (set >> k & 1)
+                orders->offset[set] += (ptrdiff_t)grid->stride[k];
+    }
+}
+
+/* A facet on its way through the grid. */
+typedef struct scan {
+    iccp_cover *cover;
+    const icc_domain *domain;
+    const iccp_orders *orders;
+    uint32_t facet;
+    double corner[ICC_MAX_DIM][ICC_MAX_DIM]; /* lattice coordinates */
+    double normal[ICC_MAX_DIM];              /* inward */
+    double level;                            /* of the facet's plane */
+    uint32_t *seen;                          /* by vertex: the last facet noted there, + 1 */
+    uint32_t *count;                         /* by vertex: how many facets, in the first pass */
+} scan;
+
+/* Inward normal of unit length by elimination: the null vector of the facet's edges. */
+static void find_normal(scan *s)
+{
+    const int32_t dim = s->domain->dim;
+    double a[ICC_MAX_DIM][ICC_MAX_DIM];
+    int32_t free_column = dim - 1, column[ICC_MAX_DIM];
+    bool used[ICC_MAX_DIM] = {false};
+    for (int32_t i = 0; i + 1 < dim; ++i)
+        for (int32_t k = 0; k < dim; ++k)
+            a[i][k] = s->corner[i + 1][k] - s->corner[0][k];
+    for (int32_t i = 0; i + 1 < dim; ++i) {
+        int32_t row = i, best = -1;
+        for (int32_t r = i; r + 1 < dim; ++r)
+            for (int32_t k = 0; k < dim; ++k)
+                if (!used[k] && (best < 0 || fabs(a[r][k]) > fabs(a[row][best]))) {
+                    row = r;
+                    best = k;
+                }
+        used[best] = true;
+        column[i] = best;
+        for (int32_t k = 0; k < dim; ++k) {
+            const double swap = a[i][k];
+            a[i][k] = a[row][k];
+            a[row][k] = swap;
+        }
+        for (int32_t r = 0; r + 1 < dim; ++r) {
+            const double factor = r != i && fabs(a[i][best]) > 0 ? a[r][best] / a[i][best] : 0;
+            for (int32_t k = 0; k < dim; ++k)
+                a[r][k] -= factor * a[i][k];
+        }
+    }
+    for (int32_t k = 0; k < dim; ++k)
+        free_column = used[k] ? free_column : k;
+    double length = 1;
+    s->normal[free_column] = 1;
+    for (int32_t i = 0; i + 1 < dim; ++i) {
+        const int32_t k = column[i];
+        s->normal[k] = fabs(a[i][k]) > 0 ? -a[i][free_column] / a[i][k] : 0;
+        length += s->normal[k] * s->normal[k];
+    }
+    length = sqrt(length);
+    for (int32_t k = 0; k < dim; ++k)
+        s->normal[k] /= length;
+}
+
+/* The sign of the determinant of the facet's edges and a vector, which tells one side from the other. */
+static double side_of(const scan *s, const double *v)
+{
+    const int32_t dim = s->domain->dim;
+    double a[ICC_MAX_DIM][ICC_MAX_DIM], sign = 1;
+    for (int32_t i = 0; i < dim; ++i)
+        for (int32_t k = 0; k < dim; ++k)
+            a[i][k] = i + 1 < dim ? s->corner[i + 1][k] - s->corner[0][k] : v[k];
+    for (int32_t c = 0; c < dim; ++c) {
+        int32_t pivot = c;
+        for (int32_t r = c + 1; r < dim; ++r)
+            pivot = fabs(a[r][c]) > fabs(a[pivot][c]) ? r : pivot;
+        if (!(fabs(a[pivot][c]) > 0))
+            return 0;
+        sign = pivot != c ? -sign : sign;
+        for (int32_t k = 0; k < dim; ++k) {
+            const double swap = a[c][k];
+            a[c][k] = a[pivot][k];
+            a[pivot][k] = swap;
+        }
+        sign = a[c][c] < 0 ? -sign : sign;
+        for (int32_t r = c + 1; r < dim; ++r) {
+            const double factor = a[r][c] / a[c][c];
+            for (int32_t k = c; k < dim; ++k)
+                a[r][k] -= factor * a[c][k];
+        }
+    }
+    return sign;
+}
+
+static void load(scan *s, uint32_t facet)
+{
+    const int32_t dim = s->domain->dim;
+    const icc_grid *grid = s->cover->grid;
+    s->facet = facet;
+    for (int32_t i = 0; i < dim; ++i) {
+        const double *p = s->domain->vertices +
+                          (size_t)dim * s->domain->facets[(size_t)dim * facet + (size_t)i];
+        for (int32_t k = 0; k < dim; ++k)
+            s->corner[i][k] = (p[k] - grid->origin[k]) / grid->spacing;
+    }
+    find_normal(s);
+    /* An outward vector, then the edges, have the orientation's sign; here it comes last. */
+    const double parity = dim % 2 == 0 ? -1 : 1;
+    const double outward = side_of(s, s->normal) * s->domain->orientation * parity;
+    s->level = 0;
+    for (int32_t k = 0; k < dim; ++k) {
+        s->normal[k] = outward > 0 ? -s->normal[k] : s->normal[k];
+        s->level += s->normal[k] * s->corner[0][k];
+        s->cover->normal[(size_t)dim * facet + (size_t)k] = s->normal[k];
+    }
+}
+
+/* Whether the plane of the facet passes a simplex on one side. */
+static contact plane_contact(const scan *s, const int32_t *cell, const int8_t *axis)
+{
+    double height = -s->level, low, high;
+    for (int32_t k = 0; k < s->domain->dim; ++k)
+        height += s->normal[k] * cell[k];
+    low = high = height;
+    for (int32_t k = 0; k < s->domain->dim; ++k) {
+        height += s->normal[axis[k]];
+        low = fmin(low, height);
+        high = fmax(high, height);
+    }
+    if (low > CONTACT || high < -CONTACT)
+        return APART;
+    return low < -CONTACT && high > CONTACT ? TOUCHES : GRAZES;
+}
+
+static contact contact_with(const scan *s, const int32_t *cell, const int8_t *axis)
+{
+    const int32_t dim = s->domain->dim;
+    contact least = TOUCHES;
+    for (int32_t i = 0; i <= dim; ++i) {
+        double highest = -HUGE_VAL;
+        for (int32_t j = 0; j < dim; ++j) {
+            const double above = i == 0 ? 1 : s->corner[j][axis[i - 1]] - cell[axis[i - 1]];
+            const double below = i == dim ? 0 : s->corner[j][axis[i]] - cell[axis[i]];
+            highest = fmax(highest, above - below);
+        }
+        if (highest < -CONTACT)
+            return APART;
+        least = highest > CONTACT ? least : GRAZES;
+    }
+    const contact plane = plane_contact(s, cell, axis);
+    return plane < least ? plane : least;
+}
+
+/* The corners of a simplex in a cell, and whether one is inside. */
+static bool corners_of(const scan *s, uint32_t lowest, const int8_t *axis, uint32_t *corner)
+{
+    const icc_grid *grid = s->cover->grid;
+    bool any = grid->inside[lowest];
+    corner[0] = lowest;
+    for (int32_t k = 0; k < grid->dim; ++k) {
+        corner[k + 1] = corner[k] + (uint32_t)grid->stride[axis[k]];
+        any = any || grid->inside[corner[k + 1]];
+    }
+    return any;
+}
+
+/* Whether the middle of a simplex that the boundary only grazes is inside. */
+static bool middle_is_inside(const scan *s, const int32_t *cell, const int8_t *axis)
+{
+    const icc_grid *grid = s->cover->grid;
+    double middle[ICC_MAX_DIM];
+    for (int32_t k = 0; k < grid->dim; ++k)
+        middle[axis[k]] = grid->origin[axis[k]] +
+                          grid->spacing * (cell[axis[k]] + (double)(grid->dim - k) / (grid->dim + 1));
+    return iccp_domain_locate(s->domain, middle, true, NULL, NULL) == ICC_INSIDE;
+}
+
+static void note(scan *s, const uint32_t *corner, bool second)
+{
+    for (int32_t k = 0; k <= s->domain->dim; ++k) {
+        const uint32_t v = corner[k];
+        if (s->seen[v] == s->facet + 1)
+            continue;
+        s->seen[v] = s->facet + 1;
+        if (second)
+            s->cover->facet[s->count[v]++] = s->facet;
+        else
+            ++s->count[v];
+    }
+}
+
+static void visit_cell(scan *s, const int32_t *cell, bool second)
+{
+    const icc_grid *grid = s->cover->grid;
+    uint32_t lowest = 0;
+    for (int32_t k = 0; k < grid->dim; ++k)
+        lowest += (uint32_t)cell[k] * (uint32_t)grid->stride[k];
+    for (int32_t r = 0; r < s->orders->n; ++r) {
+        const int8_t *axis = s->orders->axis[r];
+        const contact c = contact_with(s, cell, axis);
+        uint32_t corner[ICC_MAX_DIM + 1];
+        if (c == APART)
+            continue;
+        const bool any_inside = corners_of(s, lowest, axis, corner);
+        const bool has = iccp_cover_has(s->cover, lowest, r);
+        /* What is grazed from outside belongs to nobody. */
+        if (c == GRAZES && !any_inside && !has && !middle_is_inside(s, cell, axis))
+            continue;
+        s->cover->bits[lowest] |= (uint32_t)1 << (r % 32);
+        note(s, corner, second);
+    }
+}
+
+static void visit_facet(scan *s, uint32_t facet, bool second)
+{
+    const int32_t dim = s->domain->dim;
+    const icc_grid *grid = s->cover->grid;
+    int32_t first[ICC_MAX_DIM], last[ICC_MAX_DIM], cell[ICC_MAX_DIM];
+    load(s, facet);
+    for (int32_t k = 0; k < dim; ++k) {
+        double low = s->corner[0][k], high = low;
+        for (int32_t i = 1; i < dim; ++i) {
+            low = fmin(low, s->corner[i][k]);
+            high = fmax(high, s->corner[i][k]);
+        }
+        first[k] = cell[k] = (int32_t)fmax(floor(low - CONTACT), 0);
+        last[k] = (int32_t)fmin(floor(high + CONTACT), (double)grid->shape[k] - 2);
+    }
+    for (int32_t k = 0; k < dim;) {
+        double centre = -s->level, reach = CONTACT;
+        for (int32_t i = 0; i < dim; ++i) {
+            centre += s->normal[i] * (cell[i] + 0.5);
+            reach += 0.5 * fabs(s->normal[i]);
+        }
+        if (fabs(centre) <= reach)
+            visit_cell(s, cell, second);
+        for (k = 0; k < dim && ++cell[k] > last[k]; ++k)
+            cell[k] = first[k];
+    }
+}
+
+static icc_status visit_all(scan *s, bool second, const iccp_env *env)
+{
+    memset(s->seen, 0, s->cover->grid->n_vertices * sizeof *s->seen);
+    icc_status status = ICC_OK;
+    for (size_t f = 0; status == ICC_OK && f < s->domain->n_facets; ++f) {
+        if (f % FACETS_PER_REPORT == 0)
+            status = iccp_progress(env, "cover",
+                                   (0.5 * (double)f) / (double)s->domain->n_facets + 0.5 * second);
+        visit_facet(s, (uint32_t)f, second);
+    }
+    return status;
+}
+
+/* From counts to the place of each vertex' first facet. */
+static icc_status make_room(scan *s)
+{
+    const size_t n = s->cover->grid->n_vertices;
+    size_t sum = 0;
+    for (size_t v = 0; v < n; ++v) {
+        s->cover->first[v] = (uint32_t)sum;
+        sum += s->count[v];
+        s->count[v] = s->cover->first[v];
+    }
+    s->cover->first[n] = (uint32_t)sum;
+    if (sum > UINT32_MAX)
+        return ICC_ERR_RESOLUTION;
+    s->cover->facet = iccp_alloc(&s->cover->memory, sum, sizeof *s->cover->facet);
+    return s->cover->facet != NULL ? ICC_OK : ICC_ERR_MEMORY;
+}
+
+static icc_status fill(scan *s, const iccp_env *env)
+{
+    icc_status status = visit_all(s, false, env);
+    if (status == ICC_OK)
+        status = make_room(s);
+    return status == ICC_OK ? visit_all(s, true, env) : status;
+}
+
+icc_status iccp_cover_create(iccp_cover *cover, const icc_domain *domain, const icc_grid *grid,
+                             const iccp_env *env)
+{
+    const size_t n = grid->n_vertices;
+    *cover = (iccp_cover){.memory = env->memory, .grid = grid};
+    cover->bits = iccp_alloc_zero(&env->memory, n, sizeof *cover->bits);
+    cover->first = iccp_alloc(&env->memory, n + 1, sizeof *cover->first);
+    cover->normal = iccp_alloc(&env->memory, domain->n_facets * (size_t)domain->dim,
+                               sizeof *cover->normal);
+    iccp_orders *orders = iccp_alloc(&env->memory, 1, sizeof *orders);
+    scan s = {.cover = cover, .domain = domain, .orders = orders};
+    s.seen = iccp_alloc(&env->memory, n, sizeof *s.seen);
+    s.count = iccp_alloc_zero(&env->memory, n, sizeof *s.count);
+    icc_status status = ICC_ERR_MEMORY;
+    if (cover->bits != NULL && cover->first != NULL && cover->normal != NULL && orders != NULL &&
+        s.seen != NULL && s.count != NULL) {
+        iccp_orders_init(orders, grid);
+        status = fill(&s, env);
+    }
+    iccp_free(&env->memory, orders);
+    iccp_free(&env->memory, s.seen);
+    iccp_free(&env->memory, s.count);
+    return status;
+}
+
+void iccp_cover_free(iccp_cover *cover)
+{
+    iccp_free(&cover->memory, cover->bits);
+    iccp_free(&cover->memory, cover->first);
+    iccp_free(&cover->memory, cover->facet);
+    iccp_free(&cover->memory, cover->normal);
+    *cover = (iccp_cover){.memory = cover->memory};
+}

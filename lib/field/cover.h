@@ -1,0 +1,46 @@
+/* Which simplices of the Kuhn triangulation meet a domain, and which facets of its boundary come near each
+ * vertex of the grid. */
+#ifndef ICCP_COVER_H
+#define ICCP_COVER_H
+
+#include "grid/kuhn_simplex.h"
+
+enum { ICCP_MOST_ORDERS = 720 }; /* orders of ICC_MAX_DIM axes */
+
+/* The simplices at a vertex: each has an order of the axes and a corner that is the vertex. */
+typedef struct iccp_orders {
+    int32_t dim;
+    int32_t n; /* dim! */
+    int8_t axis[ICCP_MOST_ORDERS][ICC_MAX_DIM]; /* in lexicographic order */
+    ptrdiff_t offset[1 << ICC_MAX_DIM];         /* one step along each axis of a set of axes */
+} iccp_orders;
+
+void iccp_orders_init(iccp_orders *orders, const icc_grid *grid);
+
+/* The number of an order in lexicographic order. */
+int32_t iccp_order_rank(int32_t dim, const int8_t *axis);
+
+typedef struct iccp_cover {
+    iccp_memory memory;
+    const icc_grid *grid; /* borrowed */
+    /* By cell (its lowest corner). Bit r % 32 stands for the simplex with order number r: it meets the
+     * domain although no vertex of it is inside, or a facet runs through it. Beyond 4-D several
+     * simplices share a bit. */
+    uint32_t *bits;
+    uint32_t *first; /* n_vertices + 1: of the facets that run through simplices at each vertex */
+    uint32_t *facet;
+    double *normal;  /* dim for each facet: inward, length 1 */
+} iccp_cover;
+
+/* cover->memory is set even on failure; free it in any case. */
+icc_status iccp_cover_create(iccp_cover *cover, const icc_domain *domain, const icc_grid *grid,
+                             const iccp_env *env);
+void iccp_cover_free(iccp_cover *cover);
+
+/* Whether a facet runs through a simplex, or may do so. */
+static inline bool iccp_cover_has(const iccp_cover *cover, uint32_t lowest, int32_t rank)
+{
+    return cover->bits[lowest] >> (rank % 32) & 1;
+}
+
+#endif

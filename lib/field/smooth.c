@@ -1,0 +1,245 @@
+#include "field/smooth.h"
+
+#include "base/threads.h"
+
+#include <string.h>
+
+static const size_t GRAIN = 1 << 14; /* vertices per chunk */
+
+static void mark(iccp_smooth *s, const iccp_orders *orders, uint32_t lowest, int32_t r)
+{
+    uint32_t corner = lowest;
+    s->needed[corner] = 1;
+    for (int32_t k = 0; k < orders->dim; ++k) {
+        corner += (uint32_t)s->grid->stride[orders->axis[r][k]];
+        s->needed[corner] = 1;
+    }
+}
+
+/* The vertices of simplices with a vertex inside are those joined to one. */
+static void mark_needed(iccp_smooth *s, const iccp_orders *orders, const iccp_cover *cover)
+{
+    const icc_grid *grid = s->grid;
+    for (size_t v = 0; v < grid->n_vertices; ++v) {
+        if (grid->inside[v])
+            for (int set = 0; set < 1 << grid->dim; ++set) {
+                s->needed[(ptrdiff_t)v + orders->offset[set]] = 1;
+                s->needed[(ptrdiff_t)v - orders->offset[set]] = 1;
+            }
+        for (int32_t r = 0; cover->bits[v] != 0 && r < orders->n; ++r)
+            if (iccp_cover_has(cover, (uint32_t)v, r))
+                mark(s, orders, (uint32_t)v, r);
+    }
+}
+
+/* A walk outwards through the simplices that facets run through. */
+typedef struct outskirts {
+    iccp_smooth *smooth;
+    const iccp_orders *orders;
+    const iccp_cover *cover;
+    uint32_t *queue;
+    int32_t *distance; /* steps from the vertices next to the inside; -1: none yet */
+    double *scale;     /* by which the function falls with each step */
+    size_t n;
+} outskirts;
+
+static void reach(outskirts *o, uint32_t v, uint32_t from)
+{
+    iccp_smooth *s = o->smooth;
+    if (o->distance[v] >= 0)
+        return;
+    o->distance[v] = o->distance[from] + 1;
+    o->scale[v] = o->scale[from];
+    iccp_smooth_set(s, v, -o->scale[v] * o->distance[v], iccp_smooth_exponent(s, from));
+    if (s->exponent != NULL)
+        o->scale[v] = -s->value[v] / o->distance[v];
+    o->queue[o->n++] = v;
+}
+
+/* To the other corners of the simplices at a vertex that meet the domain: with corner k of the simplex. */
+static void reach_star(outskirts *o, uint32_t v)
+{
+    const iccp_orders *orders = o->orders;
+    for (int32_t r = 0; r < orders->n; ++r) {
+        uint32_t lowest = v;
+        for (int32_t k = 0; k <= orders->dim; ++k) {
+            if (iccp_cover_has(o->cover, lowest, r)) {
+                uint32_t corner = lowest;
+                for (int32_t j = 0; j <= orders->dim; ++j) {
+                    reach(o, corner, v);
+                    if (j < orders->dim)
+                        corner += (uint32_t)o->smooth->grid->stride[orders->axis[r][j]];
+                }
+            }
+            if (k < orders->dim)
+                lowest -= (uint32_t)o->smooth->grid->stride[orders->axis[r][k]];
+        }
+    }
+}
+
+/* The largest value among the inside vertices joined to v; 0 if there are none. Such vertices start. */
+static double value_behind(const outskirts *o, uint32_t v)
+{
+    const icc_grid *grid = o->smooth->grid;
+    double most = 0;
+    for (int set = 1; set < 1 << grid->dim; ++set)
+        for (int sign = -1; sign <= 1; sign += 2) {
+            const uint32_t u = (uint32_t)((ptrdiff_t)v + sign * o->orders->offset[set]);
+            if (grid->inside[u])
+                most = fmax(most, iccp_smooth_get(o->smooth, u, iccp_smooth_exponent(o->smooth, v)));
+        }
+    return most;
+}
+
+/* Zeros take the exponent of what lies behind them, so that scales make sense. */
+static void start_ring(outskirts *o, uint32_t v)
+{
+    iccp_smooth *s = o->smooth;
+    const icc_grid *grid = s->grid;
+    if (s->exponent != NULL) {
+        s->exponent[v] = ICCP_ZERO_EXPONENT;
+        for (int set = 1; set < 1 << grid->dim; ++set)
+            for (int sign = -1; sign <= 1; sign += 2) {
+                const uint32_t u = (uint32_t)((ptrdiff_t)v + sign * o->orders->offset[set]);
+                if (grid->inside[u] && s->exponent[u] > s->exponent[v])
+                    s->exponent[v] = s->exponent[u];
+            }
+        if (s->exponent[v] == ICCP_ZERO_EXPONENT)
+            return;
+    }
+    o->scale[v] = value_behind(o, v);
+    if (o->scale[v] > 0) {
+        o->distance[v] = 0;
+        o->queue[o->n++] = v;
+    }
+}
+
+static void extend(outskirts *o)
+{
+    const icc_grid *grid = o->smooth->grid;
+    for (size_t v = 0; v < grid->n_vertices; ++v) {
+        o->distance[v] = grid->inside[v] ? 0 : -1;
+        if (!grid->inside[v] && o->smooth->needed[v])
+            start_ring(o, (uint32_t)v);
+    }
+    for (size_t i = 0; i < o->n; ++i)
+        reach_star(o, o->queue[i]);
+}
+
+typedef struct sweep {
+    const iccp_smooth *from;
+    double *value;
+    int32_t *exponent;
+} sweep;
+
+static icc_status sweep_chunk(void *argument, size_t begin, size_t end)
+{
+    sweep *w = argument;
+    const iccp_smooth *s = w->from;
+    const icc_grid *grid = s->grid;
+    const iccp_scaled to = {w->value, w->exponent};
+    for (size_t v = begin; v < end; ++v) {
+        const int32_t exponent = iccp_smooth_exponent(s, (uint32_t)v);
+        w->value[v] = s->value[v];
+        if (w->exponent != NULL)
+            w->exponent[v] = exponent;
+        if (!s->needed[v] || v == s->root)
+            continue;
+        double sum = 0;
+        for (int32_t k = 0; k < grid->dim; ++k)
+            sum += iccp_smooth_get(s, (uint32_t)(v - grid->stride[k]), exponent) +
+                   iccp_smooth_get(s, (uint32_t)(v + grid->stride[k]), exponent);
+        const double mean = 0.5 * (s->value[v] + sum / (2.0 * grid->dim));
+        if (w->exponent != NULL)
+            iccp_scaled_set(&to, v, mean, exponent);
+        else
+            w->value[v] = mean;
+    }
+    return ICC_OK;
+}
+
+static icc_status run_sweep(iccp_smooth *s, const iccp_env *env)
+{
+    const size_t n = s->grid->n_vertices;
+    sweep w = {.from = s};
+    w.value = iccp_alloc(&s->memory, n, sizeof *w.value);
+    if (s->exponent != NULL)
+        w.exponent = iccp_alloc(&s->memory, n, sizeof *w.exponent);
+    icc_status status = w.value != NULL && (s->exponent == NULL || w.exponent != NULL)
+                            ? ICC_OK
+                            : ICC_ERR_MEMORY;
+    if (status == ICC_OK)
+        status = iccp_for_chunks(env, "smooth", n, GRAIN, sweep_chunk, &w);
+    if (status == ICC_OK) {
+        double *value = s->value;
+        int32_t *exponent = s->exponent;
+        s->value = w.value;
+        s->exponent = w.exponent;
+        w.value = value;
+        w.exponent = exponent;
+    }
+    iccp_free(&s->memory, w.value);
+    iccp_free(&s->memory, w.exponent);
+    return status;
+}
+
+static icc_status allocate(iccp_smooth *s, const icc_field *field)
+{
+    const size_t n = s->grid->n_vertices;
+    s->needed = iccp_alloc_zero(&s->memory, n, sizeof *s->needed);
+    s->value = iccp_alloc(&s->memory, n, sizeof *s->value);
+    if (field->exponent != NULL)
+        s->exponent = iccp_alloc(&s->memory, n, sizeof *s->exponent);
+    if (s->needed == NULL || s->value == NULL || (field->exponent != NULL && s->exponent == NULL))
+        return ICC_ERR_MEMORY;
+    for (size_t v = 0; v < n; ++v) {
+        const bool has = s->grid->inside[v] && !isnan(field->values[v]);
+        s->value[v] = has ? field->values[v] : 0;
+        if (s->exponent != NULL)
+            s->exponent[v] = has ? field->exponent[v] : ICCP_ZERO_EXPONENT;
+    }
+    return ICC_OK;
+}
+
+static icc_status extend_all(iccp_smooth *s, const iccp_orders *orders, const iccp_cover *cover)
+{
+    const size_t n = s->grid->n_vertices;
+    outskirts o = {.smooth = s, .orders = orders, .cover = cover};
+    o.queue = iccp_alloc(&s->memory, n, sizeof *o.queue);
+    o.distance = iccp_alloc(&s->memory, n, sizeof *o.distance);
+    o.scale = iccp_alloc(&s->memory, n, sizeof *o.scale);
+    const bool has_memory = o.queue != NULL && o.distance != NULL && o.scale != NULL;
+    if (has_memory) {
+        mark_needed(s, orders, cover);
+        extend(&o);
+    }
+    iccp_free(&s->memory, o.queue);
+    iccp_free(&s->memory, o.distance);
+    iccp_free(&s->memory, o.scale);
+    return has_memory ? ICC_OK : ICC_ERR_MEMORY;
+}
+
+icc_status iccp_smooth_create(iccp_smooth *smooth, const icc_field *field, const iccp_cover *cover,
+                              int sweeps, const iccp_env *env)
+{
+    *smooth = (iccp_smooth){
+        .memory = env->memory, .grid = field->tree->grid, .root = field->tree->root};
+    iccp_orders *orders = iccp_alloc(&env->memory, 1, sizeof *orders);
+    icc_status status = orders != NULL ? allocate(smooth, field) : ICC_ERR_MEMORY;
+    if (status == ICC_OK) {
+        iccp_orders_init(orders, smooth->grid);
+        status = extend_all(smooth, orders, cover);
+    }
+    for (int k = 0; status == ICC_OK && k < sweeps; ++k)
+        status = run_sweep(smooth, env);
+    iccp_free(&env->memory, orders);
+    return status;
+}
+
+void iccp_smooth_free(iccp_smooth *smooth)
+{
+    iccp_free(&smooth->memory, smooth->value);
+    iccp_free(&smooth->memory, smooth->exponent);
+    iccp_free(&smooth->memory, smooth->needed);
+    *smooth = (iccp_smooth){.memory = smooth->memory};
+}
