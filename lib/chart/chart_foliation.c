@@ -213,18 +213,18 @@ static icc_status follow(const icc_chart *chart, const iccp_coords *coords, iccp
     double p[2], q[2], length = 0;
     iccp_crossing crossing = boundary_crossing(chart, coords);
     iccp_domain_facet_point(chart->domain, coords->facet, coords->bary, p);
-    path->n = 0;
-    icc_status status = iccp_path_append(path, p[0], p[1], 0);
+    iccp_path_start(path, 2);
+    icc_status status = iccp_path_append(path, p, 0);
     while (status == ICC_OK && iccp_leaf_rise(&state->mesh, &state->psi, &crossing)) {
         iccp_crossing_point(&state->mesh, &crossing, q);
         length += distance(p, q);
-        status = iccp_path_append(path, q[0], q[1], length);
+        status = iccp_path_append(path, q, length);
         memcpy(p, q, sizeof p);
     }
     if (status != ICC_OK)
         return status;
     const double *m = centre_of(state);
-    return iccp_path_append(path, m[0], m[1], length + distance(p, m));
+    return iccp_path_append(path, m, length + distance(p, m));
 }
 
 /* Walks the leaf again for the derivatives of the piece's ends and of the lengths by the label. */
@@ -239,8 +239,7 @@ static void fill_decode_jet(const icc_chart *chart, const iccp_coords *coords,
     double ends[2][2] = {{0}}, before[2] = {0}, slope[2], previous[2];
     iccp_crossing_slope(&state->mesh, &crossing, previous);
     for (size_t k = 0; k + 1 < path->n; ++k) {
-        const double p[2] = {path->points[k].x, path->points[k].y};
-        const double q[2] = {path->points[k + 1].x, path->points[k + 1].y};
+        const double *p = iccp_path_at(path, k), *q = iccp_path_at(path, k + 1);
         slope[0] = slope[1] = 0;
         if (iccp_leaf_rise(&state->mesh, &state->psi, &crossing))
             iccp_crossing_slope(&state->mesh, &crossing, slope);
@@ -254,9 +253,9 @@ static void fill_decode_jet(const icc_chart *chart, const iccp_coords *coords,
             before[1] = l.by_label;
         memcpy(previous, slope, sizeof slope);
     }
-    const iccp_path_point *a = path->points + piece, *b = a + 1;
-    const double length = b->s - a->s, total = path->points[path->n - 1].s;
-    const double direction[2] = {(b->x - a->x) / length, (b->y - a->y) / length};
+    const double *a = iccp_path_at(path, piece), *b = iccp_path_at(path, piece + 1);
+    const double length = b[2] - a[2], total = iccp_path_length(path);
+    const double direction[2] = {(b[0] - a[0]) / length, (b[1] - a[1]) / length};
     const double slide = coords->t * l.by_label - before[0] - share * (before[1] - before[0]);
     for (int i = 0; i < 2; ++i) {
         const double by_label = ends[0][i] + share * (ends[1][i] - ends[0][i]) + slide * direction[i];
@@ -282,12 +281,9 @@ static icc_status decode(const icc_chart *chart, const iccp_coords *coords, doub
     const icc_status status = follow(chart, coords, path);
     if (status != ICC_OK)
         return status;
-    const double s = coords->t * path->points[path->n - 1].s;
-    const size_t piece = iccp_path_find(path, s);
-    const iccp_path_point *a = path->points + piece, *b = a + 1;
-    const double share = b->s > a->s ? (s - a->s) / (b->s - a->s) : 0;
-    point[0] = a->x + share * (b->x - a->x);
-    point[1] = a->y + share * (b->y - a->y);
+    double share;
+    const size_t piece = iccp_path_find(path, coords->t * iccp_path_length(path), &share);
+    iccp_path_point(path, piece, share, point);
     if (jet != NULL)
         fill_decode_jet(chart, coords, path, piece, share, jet);
     return ICC_OK;
@@ -298,16 +294,14 @@ static icc_status emit_down(const foliation_state *state, const iccp_leaf *leaf,
 {
     iccp_crossing crossing = leaf->down;
     icc_status status = ICC_OK;
-    path->n = 0;
+    iccp_path_start(path, 2);
     do {
         double p[2];
         iccp_crossing_point(&state->mesh, &crossing, p);
-        status = iccp_path_append(path, p[0], p[1], 0);
+        status = iccp_path_append(path, p, 0);
     } while (status == ICC_OK && iccp_leaf_fall(&state->mesh, &state->psi, &crossing));
-    for (size_t k = path->n; status == ICC_OK && k-- > 0;) {
-        const double p[2] = {path->points[k].x, path->points[k].y};
-        status = emit(argument, p);
-    }
+    for (size_t k = path->n; status == ICC_OK && k-- > 0;)
+        status = emit(argument, iccp_path_at(path, k));
     return status;
 }
 
@@ -338,10 +332,8 @@ static icc_status trace(const icc_chart *chart, const double *point, iccp_path *
         return emit(argument, point);
     if (where == ICC_BOUNDARY) {
         icc_status status = follow(chart, &coords, path);
-        for (size_t k = 0; status == ICC_OK && k < path->n; ++k) {
-            const double p[2] = {path->points[k].x, path->points[k].y};
-            status = emit(argument, p);
-        }
+        for (size_t k = 0; status == ICC_OK && k < path->n; ++k)
+            status = emit(argument, iccp_path_at(path, k));
         return status;
     }
     uint32_t triangle;

@@ -191,10 +191,10 @@ static icc_status fill_decode_jet(const icc_chart *chart, const iccp_coords *coo
     }
     if (status != ICC_OK)
         return status;
-    const iccp_path_point *a = path->points + piece, *b = a + 1;
-    const double length = b->s - a->s, total = path->points[path->n - 1].s;
+    const double *a = iccp_path_at(path, piece), *b = iccp_path_at(path, piece + 1);
+    const double length = b[2] - a[2], total = iccp_path_length(path);
     const double ds = coords->t * moving.s[0] - before.s[0] - share * (after.s[0] - before.s[0]);
-    const double ux = (b->x - a->x) / length, uy = (b->y - a->y) / length;
+    const double ux = (b[0] - a[0]) / length, uy = (b[1] - a[1]) / length;
     const double h = state->tree->grid->spacing;
     *jet = (iccp_decode_jet){.t = {h * total * ux, h * total * uy}};
     jet->bary[1] = h * (before.x[0] + share * (after.x[0] - before.x[0]) + ds * ux);
@@ -225,11 +225,9 @@ static icc_status decode(const icc_chart *chart, const iccp_coords *coords, doub
         return status;
     if (path->n < 2)
         return ICC_ERR_TRACE;
-    const double s = coords->t * path->points[path->n - 1].s;
-    const size_t piece = iccp_path_find(path, s);
-    const iccp_path_point *a = path->points + piece, *b = a + 1;
-    const double share = b->s > a->s ? (s - a->s) / (b->s - a->s) : 0;
-    const double p[2] = {a->x + share * (b->x - a->x), a->y + share * (b->y - a->y)};
+    double share, p[2];
+    const size_t piece = iccp_path_find(path, coords->t * iccp_path_length(path), &share);
+    iccp_path_point(path, piece, share, p);
     iccp_gradient_to_local(state, p, point);
     if (iccp_domain_locate(chart->domain, point, true, NULL, NULL) == ICC_OUTSIDE)
         return ICC_ERR_TRACE;
@@ -240,10 +238,9 @@ static icc_status decode(const icc_chart *chart, const iccp_coords *coords, doub
 
 /* ---- the whole curve ---- */
 
-static icc_status emit_point(const iccp_gradient_state *state, const iccp_path_point *p,
+static icc_status emit_point(const iccp_gradient_state *state, const double *lattice,
                              iccp_emit emit, void *argument)
 {
-    const double lattice[2] = {p->x, p->y};
     double local[2];
     iccp_gradient_to_local(state, lattice, local);
     return emit(argument, local);
@@ -260,7 +257,7 @@ static icc_status trace_below(const icc_chart *chart, const double p[2], iccp_pa
     if (status == ICC_OK)
         status = iccp_trace_downhill(&walk, &state->fence, path, &hit);
     for (size_t k = path->n; status == ICC_OK && k-- > 1;)
-        status = emit_point(state, path->points + k, emit, argument);
+        status = emit_point(state, iccp_path_at(path, k), emit, argument);
     return status;
 }
 
@@ -288,7 +285,7 @@ static icc_status trace(const icc_chart *chart, const double *point, iccp_path *
     if (status == ICC_OK)
         status = iccp_trace_uphill(&walk, path, NULL);
     for (size_t k = 0; status == ICC_OK && k < path->n; ++k)
-        status = emit_point(state, path->points + k, emit, argument);
+        status = emit_point(state, iccp_path_at(path, k), emit, argument);
     return status;
 }
 

@@ -441,8 +441,8 @@ static icc_status begin_path(const iccp_walk2 *walk, iccp_path *path)
         return ICC_OK;
     double p[2];
     iccp_walk2_position(walk, p);
-    path->n = 0;
-    return iccp_path_append(path, p[0], p[1], walk->s);
+    iccp_path_start(path, 2);
+    return iccp_path_append(path, p, walk->s);
 }
 
 icc_status iccp_trace_uphill(iccp_walk2 *walk, iccp_path *path, double *merge)
@@ -452,7 +452,7 @@ icc_status iccp_trace_uphill(iccp_walk2 *walk, iccp_path *path, double *merge)
     while (status == ICC_OK && !iccp_walk2_at_root(walk)) {
         status = iccp_walk2_step(walk);
         if (status == ICC_OK && path != NULL)
-            status = iccp_path_append(path, walk->to[0], walk->to[1], walk->s);
+            status = iccp_path_append(path, walk->to, walk->s);
         if (!walk->merged)
             free_length = walk->s;
     }
@@ -503,8 +503,7 @@ icc_status iccp_trace_downhill(iccp_walk2 *walk, const iccp_fence *fence, iccp_p
         if (hit_fence)
             end_at_fence(walk, s_before, &jet_before, fence, hit);
         if (path != NULL && (hit_fence || status == ICC_OK)) {
-            const icc_status appended =
-                iccp_path_append(path, walk->to[0], walk->to[1], walk->s);
+            const icc_status appended = iccp_path_append(path, walk->to, walk->s);
             if (appended != ICC_OK)
                 return appended;
         }

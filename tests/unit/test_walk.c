@@ -150,13 +150,18 @@ START_TEST(lines_merge_on_a_compression_edge)
         ck_assert_double_eq_tol(merge, length, 1e-12);
         ck_assert_double_eq_tol(walk.s, length + 7 - (y + slope * across), 1e-12);
         ck_assert(walk.merged && iccp_walk2_at_root(&walk));
-        ck_assert_double_eq(path.points[0].x, x);
-        ck_assert_double_eq(path.points[path.n - 1].y, 7);
+        ck_assert_double_eq(iccp_path_at(&path, 0)[0], x);
+        ck_assert_double_eq(iccp_path_at(&path, path.n - 1)[1], 7);
         for (size_t k = 0; k < path.n; ++k)
-            if (path.points[k].s > length + 1e-9)
-                ck_assert(path.points[k].x == 5 && path.points[k].y == floor(path.points[k].y));
-        const size_t middle = iccp_path_find(&path, walk.s / 2);
-        ck_assert(path.points[middle].s <= walk.s / 2 && path.points[middle + 1].s > walk.s / 2);
+            if (iccp_path_length_at(&path, k) > length + 1e-9) {
+                const double *p = iccp_path_at(&path, k);
+                ck_assert(p[0] == 5 && p[1] == floor(p[1]));
+            }
+        double share;
+        const size_t middle = iccp_path_find(&path, walk.s / 2, &share);
+        ck_assert(iccp_path_length_at(&path, middle) <= walk.s / 2);
+        ck_assert(iccp_path_length_at(&path, middle + 1) > walk.s / 2);
+        ck_assert(share >= 0 && share < 1);
         iccp_path_clear(&path);
     }
 }
@@ -621,12 +626,12 @@ static descent descend(const fenced *f, const double p[2], iccp_path *path)
     return d;
 }
 
-static double to_segment(const double p[2], const iccp_path_point *a, const iccp_path_point *b)
+static double to_segment(const double p[2], const double a[2], const double b[2])
 {
-    const double dx = b->x - a->x, dy = b->y - a->y, length2 = dx * dx + dy * dy;
-    double t = length2 > 0 ? ((p[0] - a->x) * dx + (p[1] - a->y) * dy) / length2 : 0;
+    const double dx = b[0] - a[0], dy = b[1] - a[1], length2 = dx * dx + dy * dy;
+    double t = length2 > 0 ? ((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / length2 : 0;
     t = fmax(0, fmin(1, t));
-    return hypot(a->x + t * dx - p[0], a->y + t * dy - p[1]);
+    return hypot(a[0] + t * dx - p[0], a[1] + t * dy - p[1]);
 }
 
 START_TEST(ascending_from_the_end_of_a_descent_comes_back)
@@ -647,23 +652,24 @@ START_TEST(ascending_from_the_end_of_a_descent_comes_back)
             /* The function may have a minimum inside. */
             if (d.status != ICC_OK)
                 continue;
-            ck_assert_double_eq(path.points[path.n - 1].s, d.walk.s);
-            const iccp_path_point end = path.points[path.n - 1];
+            ck_assert_double_eq(iccp_path_length(&path), d.walk.s);
+            const double end[2] = {d.walk.to[0], d.walk.to[1]};
+            ck_assert_mem_eq(iccp_path_at(&path, path.n - 1), end, sizeof end);
             const double *a = f.corners + 2 * f.facets[2 * d.hit.facet];
             const double *b = f.corners + 2 * f.facets[2 * d.hit.facet + 1];
-            ck_assert_double_eq_tol(end.x, a[0] + d.hit.along * (b[0] - a[0]), 1e-12);
-            ck_assert_double_eq_tol(end.y, a[1] + d.hit.along * (b[1] - a[1]), 1e-12);
+            ck_assert_double_eq_tol(end[0], a[0] + d.hit.along * (b[0] - a[0]), 1e-12);
+            ck_assert_double_eq_tol(end[1], a[1] + d.hit.along * (b[1] - a[1]), 1e-12);
             if (d.walk.merged) {
                 ++n_merged;
                 continue;
             }
             iccp_walk2 up;
-            ck_assert_int_eq(iccp_walk2_start(&up, &f.w.field, ICCP_UPHILL, end.x, end.y, NULL),
+            ck_assert_int_eq(iccp_walk2_start(&up, &f.w.field, ICCP_UPHILL, end[0], end[1], NULL),
                              ICC_OK);
             ck_assert_int_eq(iccp_trace_uphill(&up, &path, NULL), ICC_OK);
             double nearest = HUGE_VAL;
             for (size_t m = 0; m + 1 < path.n; ++m)
-                nearest = fmin(nearest, to_segment(p, path.points + m, path.points + m + 1));
+                nearest = fmin(nearest, to_segment(p, iccp_path_at(&path, m), iccp_path_at(&path, m + 1)));
             ck_assert_double_le(nearest, 1e-9);
             iccp_walk2 rest;
             ck_assert_int_eq(iccp_walk2_start(&rest, &f.w.field, ICCP_UPHILL, p[0], p[1], NULL),
@@ -779,16 +785,23 @@ START_TEST(running_out_of_memory_is_reported)
     iccp_walk2 walk;
     (void)iccp_walk2_start(&walk, &f.w.field, ICCP_UPHILL, p[0], p[1], NULL);
     ck_assert_int_eq(iccp_trace_uphill(&walk, &path, NULL), ICC_ERR_MEMORY);
+    /* Room for 1024, 2048 and 4096 doubles, three of which make a point. */
     left = 3;
+    iccp_path_start(&path, 2);
     for (int k = 0; k < 1000; ++k)
-        ck_assert_int_eq(iccp_path_append(&path, k, 2 * k, 3 * k), ICC_OK);
-    for (int k = 0; k < 999; ++k)
-        ck_assert_uint_eq(iccp_path_find(&path, 3 * k + 1), (size_t)k);
-    for (int k = 0; k < 24; ++k)
-        ck_assert_int_eq(iccp_path_append(&path, 0, 0, 0), ICC_OK);
-    ck_assert_int_eq(iccp_path_append(&path, 0, 0, 0), ICC_ERR_MEMORY);
-    ck_assert_uint_eq(path.n, 1024);
-    ck_assert_double_eq(path.points[999].y, 1998);
+        ck_assert_int_eq(iccp_path_append(&path, (double[2]){k, 2 * k}, 3 * k), ICC_OK);
+    for (int k = 0; k < 999; ++k) {
+        double share, at[2];
+        ck_assert_uint_eq(iccp_path_find(&path, 3 * k + 0.75, &share), (size_t)k);
+        ck_assert_double_eq(share, 0.25);
+        iccp_path_point(&path, (size_t)k, share, at);
+        ck_assert(at[0] == k + 0.25 && at[1] == 2 * k + 0.5);
+    }
+    for (int k = 0; k < 365; ++k)
+        ck_assert_int_eq(iccp_path_append(&path, p, 0), ICC_OK);
+    ck_assert_int_eq(iccp_path_append(&path, p, 0), ICC_ERR_MEMORY);
+    ck_assert_uint_eq(path.n, 1365);
+    ck_assert_double_eq(iccp_path_at(&path, 999)[1], 1998);
     iccp_path_clear(&path);
     iccp_fence_free(&f.fence);
 }
@@ -804,8 +817,8 @@ START_TEST(long_descents_need_memory)
     fence_init(&f, 4);
     size_t left = 0;
     const iccp_memory memory = {&left, no_memory, give_back};
-    iccp_path_point points[3];
-    iccp_path path = {.memory = &memory, .capacity = 3, .points = points};
+    double points[9];
+    iccp_path path = {.memory = &memory, .capacity = 9, .points = points};
     const double p[2] = {9.3, 11.9};
     ck_assert_int_eq(descend(&f, p, &path).status, ICC_ERR_MEMORY);
     ck_assert_uint_eq(path.n, 3);
