@@ -74,13 +74,18 @@ static int set_functions(reading *r, const char *value)
 
 static int set_point(reading *r, const option *o, const char *value)
 {
-    double *xy = (double *)((char *)r->out + o->offset);
-    const char *p = value;
-    bool good =
-        number_read(&p, &xy[0]) == NUMBER_OK && *p++ == ',' && number_parse(p, &xy[1]) == NUMBER_OK;
+    double *at = (double *)((char *)r->out + o->offset);
+    size_t n = 0;
+    bool good = true, more = true;
+    for (const char *p = value; good && more; p += more) {
+        good = n < ICC_MAX_DIM && number_read(&p, &at[n++]) == NUMBER_OK;
+        more = *p == ',';
+        good = good && (more || *p == '\0');
+    }
     if (!good)
-        return misused(r->command->name, "--%s '%.40s' must be two numbers X,Y", o->name, value);
-    *flag_at(r->out, o->present) = true;
+        return misused(r->command->name, "--%s '%.40s' must be numbers X,Y or X,Y,Z and so on",
+                       o->name, value);
+    *(size_t *)((char *)r->out + o->present) = n;
     return DONE;
 }
 
@@ -219,7 +224,7 @@ static int check_method(const args *a, const command *c)
     if (a->triangles &&
         (a->target == NULL || a->map == ICC_MAP_CURVES || a->method == ICC_METHOD_GRADIENT))
         return misused(c->name, "--triangles needs a map of kind mesh: --target FILE --map mesh");
-    if (a->method == ICC_METHOD_DISC && (a->has_maximum || a->has_target_maximum))
+    if (a->method == ICC_METHOD_DISC && (a->n_maximum > 0 || a->n_target_maximum > 0))
         return misused(c->name, "--method disc has no --maximum: it finds its own");
     return DONE;
 }

@@ -4,6 +4,7 @@
 
 #include "function.h"
 
+#include <icc/base.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -11,7 +12,7 @@
 typedef struct args {
     const char *command;
     /* files */
-    const char *source, *target, *points, *coords, *output, *repair, *json_file;
+    const char *source, *target, *points, *coords, *output, *repair, *boundary, *json_file;
     const char *operands[2];
     size_t n_operands;
     /* how charts and maps are made: 0 means the library's choice */
@@ -21,8 +22,9 @@ typedef struct args {
     int32_t improve; /* steps at most; -1: the library's choice */
     double eta;
     double tolerance; /* 0: the command's choice */
-    double maximum[2], target_maximum[2];
-    bool has_maximum, has_target_maximum, constrained, unconstrained;
+    double maximum[ICC_MAX_DIM], target_maximum[ICC_MAX_DIM];
+    size_t n_maximum, n_target_maximum; /* their coordinates; 0: not given */
+    bool constrained, unconstrained;
     /* what to do */
     bool inverse, repair_mesh, geojson, quiet, json, elevation, triangles, y_down, compression,
         has_background;

@@ -6,13 +6,35 @@
 #include <stdlib.h>
 #include <string.h>
 
+void cage_add_point(cage *c, const double *at, size_t line)
+{
+    c->points = grow(c->points, &c->room_points, c->dim * (c->n + 1), sizeof *c->points);
+    c->lines = grow(c->lines, &c->room_lines, c->n + 1, sizeof *c->lines);
+    memcpy(c->points + c->dim * c->n, at, c->dim * sizeof *at);
+    c->lines[c->n++] = line;
+}
+
 void cage_add(cage *c, double x, double y, size_t line)
 {
-    c->points = grow(c->points, &c->room_points, 2 * (c->n + 1), sizeof *c->points);
-    c->lines = grow(c->lines, &c->room_lines, c->n + 1, sizeof *c->lines);
-    c->points[2 * c->n] = x;
-    c->points[2 * c->n + 1] = y;
-    c->lines[c->n++] = line;
+    cage_add_point(c, (const double[2]){x, y}, line);
+}
+
+static void add_triangle(cage *c, const uint32_t corners[3], size_t line)
+{
+    c->facets = grow(c->facets, &c->room_facets, 3 * (c->n_facets + 1), sizeof *c->facets);
+    c->facet_lines =
+        grow(c->facet_lines, &c->room_facet_lines, c->n_facets + 1, sizeof *c->facet_lines);
+    memcpy(c->facets + 3 * c->n_facets, corners, 3 * sizeof *corners);
+    c->facet_lines[c->n_facets++] = line;
+}
+
+void cage_add_corner(cage *c, size_t k, uint32_t vertex, size_t line)
+{
+    c->fan[k < 2 ? k : 2] = vertex;
+    if (k < 2)
+        return;
+    add_triangle(c, c->fan, line);
+    c->fan[1] = vertex;
 }
 
 void cage_open_ring(cage *c)
@@ -28,6 +50,9 @@ void cage_free(cage *c)
 {
     free(c->points);
     free(c->lines);
+    free(c->facets);
+    free(c->facet_lines);
+    free(c->cells);
     *c = (cage){0};
 }
 
@@ -62,48 +87,69 @@ static bool is_wkt(const char *text)
     return false;
 }
 
-/* Formats of other kinds of domains, to say more than "not a number". */
-static bool is_known_stranger(const char *text, problem *wrong)
+/* OBJ has no mark of its own, but its lines begin with words. */
+static bool is_obj(const char *text)
 {
-    static const struct {
-        const char *magic, *name;
-    } strangers[] = {
-        {"\x93NUMPY", "a .npy mask"}, {"\x89PNG", "a PNG picture"}, {"PLY\n", "a PLY surface"},
-        {"PLY\r", "a PLY surface"},   {"OFF\n", "an OFF surface"},  {"OFF\r", "an OFF surface"},
-    };
-    for (size_t i = 0; i < sizeof strangers / sizeof *strangers; i++)
-        if (begins_with(text, strangers[i].magic)) {
-            spoilt(wrong, 0,
-                   "this is %s; this version takes cages in the plane: text, GeoJSON, WKT or "
-                   "SVG",
-                   strangers[i].name);
+    static const char *const words[] = {"v",  "vt", "vn", "vp", "f",      "o",     "g",
+                                        "s",  "l",  "p",  "mtllib", "usemtl"};
+    while (*text == '#') {
+        text += strcspn(text, "\n");
+        text += strspn(text, " \t\r\n");
+    }
+    size_t n = strcspn(text, " \t\r\n");
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strlen(words[i]) == n && strncmp(text, words[i], n) == 0)
             return true;
-        }
     return false;
 }
 
-static bool read_any(cage *out, cage_role role, const char *text, size_t n, problem *wrong)
+static bool is_word(const char *text, const char *word)
+{
+    size_t n = strlen(word);
+    return strncmp(text, word, n) == 0 && strchr(" \t\r\n#", text[n]) != NULL;
+}
+
+static bool has_faces(const cage *c, problem *wrong)
+{
+    return c->n_facets > 0 ||
+           spoilt(wrong, 0, "there are no faces; a cage in space is a closed surface");
+}
+
+static bool read_any(cage *out, cage_role role, size_t dim, const char *text, size_t n,
+                     problem *wrong)
 {
     const char *p = text;
     if (n >= 3 && memcmp(p, "\xef\xbb\xbf", 3) == 0)
         p += 3;
     p += strspn(p, " \t\r\n");
+    out->dim = 3;
+    if (is_word(p, "ply"))
+        return cage_read_ply(out, text, n, wrong) && has_faces(out, wrong);
+    if (is_word(p, "OFF") || is_obj(p))
+        return cage_read_surface(out, text, n, wrong) && has_faces(out, wrong);
+    if (n >= 6 && memcmp(p, "\x93NUMPY", 6) == 0)
+        return cage_read_npy(out, text, n, wrong);
+    out->dim = 2;
     if (*p == '{' || *p == '[')
         return cage_read_geojson(out, role, text, n, wrong);
     if (*p == '<')
         return cage_read_svg(out, role, text, n, wrong);
     if (is_wkt(p))
         return cage_read_wkt(out, text, n, wrong);
-    return !is_known_stranger(p, wrong) && cage_read_text(out, text, n, wrong);
+    if (begins_with(p, "\x89PNG"))
+        return spoilt(wrong, 0, "this is a PNG picture, not a cage");
+    out->dim = dim;
+    return cage_read_text(out, dim, text, n, wrong);
 }
 
-bool cage_read(cage *out, cage_role role, const char *text, size_t n, problem *wrong)
+bool cage_read(cage *out, cage_role role, size_t dim, const char *text, size_t n, problem *wrong)
 {
     *out = (cage){0};
-    bool good = read_any(out, role, text, n, wrong);
-    if (good && out->n < 3)
-        good = spoilt(wrong, 0, "%zu %s; a cage has at least 3", out->n,
-                      out->n == 1 ? "vertex" : "vertices");
+    bool good = read_any(out, role, dim, text, n, wrong);
+    size_t least = out->dim + 1;
+    if (good && out->cells == NULL && out->n < least)
+        good = spoilt(wrong, 0, "%zu %s; a cage has at least %zu", out->n,
+                      out->n == 1 ? "vertex" : "vertices", least);
     if (!good)
         cage_free(out);
     return good;

@@ -325,7 +325,9 @@ int run_geojson(const args *a)
     cJSON_InitHooks(&hooks);
     carriage c = {0};
     job_start(&c.job, a);
-    c.result = job_make_map(&c.job);
+    c.result = job_read_plane(&c.job, "--geojson");
+    if (c.result == DONE)
+        c.result = job_make_map(&c.job);
     cJSON *root = c.result == DONE ? read_file(a->operands[0]) : NULL;
     if (root != NULL) {
         double began = seconds_now();
@@ -336,7 +338,7 @@ int run_geojson(const args *a)
             c.result = write_file(&c, root);
         if (c.result == DONE)
             c.result = verdict(&c, began);
-    } else
+    } else if (c.result == DONE)
         c.result = FAILED;
     cJSON_Delete(root);
     job_end(&c.job);

@@ -17,7 +17,8 @@ static int map_points(job *j, table *points)
     progress_end(&j->bar);
     int result = ran == ICC_OK ? DONE : job_failed_status(j, ran);
     if (result == DONE)
-        result = rows_write(j->args->output ? j->args->output : "-", points->n, 2, points->values);
+        result = rows_write(j->args->output ? j->args->output : "-", points->n, points->columns,
+                            points->values);
     if (result == DONE)
         result = report_points(j, points->n, n_failed, seconds);
     if (result == DONE)
@@ -30,14 +31,14 @@ int run_map(const args *a)
 {
     if (a->geojson)
         return run_geojson(a);
-    static const table_form form = {
-        .columns = 2, .special = true, .what = "a point is `x y`, one per line"};
     job j;
     table points;
     job_start(&j, a);
     int result = job_make_map(&j);
-    if (result == DONE)
+    if (result == DONE) {
+        table_form form = rows_of_points(job_dim(&j));
         result = rows_read(&points, a->points, &form);
+    }
     if (result == DONE) {
         result = map_points(&j, &points);
         table_free(&points);

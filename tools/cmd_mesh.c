@@ -1,4 +1,5 @@
-/* libicc mesh: carries the vertices of a mesh along, and tells what became of its triangles. */
+/* libicc mesh: carries the vertices of a mesh along, and tells what became of its triangles or
+ * tetrahedra. */
 #include "commands.h"
 
 #include "job.h"
@@ -10,40 +11,45 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Triangles by what became of their orientation; those that had none before count by themselves. */
+/* Elements by what became of their orientation; those that had none before count by themselves. In the
+ * plane they are triangles, in space tetrahedra. */
 typedef struct tally {
-    size_t kept, inverted, collapsed, flat_before, without_image;
+    size_t all, kept, inverted, collapsed, flat_before, without_image;
 } tally;
 
-static const double *corner(const double *points, const uint32_t *triangle, size_t k)
+static const char *elements_name(const mesh_file *m)
 {
-    return points + 2 * (size_t)triangle[k];
+    return m->dim == 2 ? "triangles" : "tetrahedra";
 }
 
-static bool has_image(const double *points, const uint32_t *triangle)
+static bool has_image(const mesh_file *m, const double *points, const uint32_t *corners)
 {
-    for (size_t k = 0; k < 3; k++)
-        if (isnan(corner(points, triangle, k)[0]))
+    for (size_t k = 0; k <= m->dim; k++)
+        if (isnan(points[m->dim * corners[k]]))
             return false;
     return true;
 }
 
-static int triangle_sign(const double *points, const uint32_t *triangle)
+static int element_sign(const mesh_file *m, const double *points, const uint32_t *corners)
 {
-    return orientation(corner(points, triangle, 0), corner(points, triangle, 1),
-                       corner(points, triangle, 2));
+    const double *at[4] = {NULL, NULL, NULL, NULL};
+    for (size_t k = 0; k <= m->dim; k++)
+        at[k] = points + m->dim * corners[k];
+    return m->dim == 2 ? orientation(at[0], at[1], at[2])
+                       : orientation_3d(at[0], at[1], at[2], at[3]);
 }
 
 static tally count(const mesh_file *m, const double *images)
 {
-    tally t = {0};
-    for (size_t i = 0; i < m->n_triangles; i++) {
-        const uint32_t *triangle = m->triangles + 3 * i;
-        if (!has_image(images, triangle)) {
+    tally t = {.all = m->dim == 2 ? m->n_triangles : m->n_tetrahedra};
+    const uint32_t *elements = m->dim == 2 ? m->triangles : m->tetrahedra;
+    for (size_t i = 0; i < t.all; i++) {
+        const uint32_t *corners = elements + (m->dim + 1) * i;
+        if (!has_image(m, images, corners)) {
             t.without_image++;
             continue;
         }
-        int before = triangle_sign(m->points, triangle), after = triangle_sign(images, triangle);
+        int before = element_sign(m, m->points, corners), after = element_sign(m, images, corners);
         if (before == 0)
             t.flat_before++;
         else if (after == 0)
@@ -56,12 +62,12 @@ static tally count(const mesh_file *m, const double *images)
     return t;
 }
 
-/* What the library says of the mesh as a whole, which may have its images repaired; from target to
- * source it has nothing to say. */
+/* What the library says of a triangle mesh as a whole, which may have its images repaired; from target
+ * to source it has nothing to say. */
 static int certify(job *j, const mesh_file *m, double *images, icc_certificate *certificate)
 {
     icc_error err = {.size = sizeof err, .index = -1};
-    if (j->args->inverse || m->n_triangles == 0)
+    if (m->dim != 2 || j->args->inverse || m->n_triangles == 0)
         return DONE;
     certificate->size = sizeof *certificate;
     icc_status ran = (j->args->repair_mesh ? icc_map_repair : icc_map_certify)(
@@ -89,9 +95,10 @@ static int report_tally(const job *j, const mesh_file *m, const tally *t, size_t
 {
     char text[256];
     snprintf(text, sizeof text,
-             "%zu triangles: %zu keep their orientation, %zu inverted, %zu collapsed, %zu flat "
+             "%zu %s: %zu keep their orientation, %zu inverted, %zu collapsed, %zu flat "
              "before, %zu without image",
-             m->n_triangles, t->kept, t->inverted, t->collapsed, t->flat_before, t->without_image);
+             t->all, elements_name(m), t->kept, t->inverted, t->collapsed, t->flat_before,
+             t->without_image);
     if (!j->args->json) {
         print_tally(j, text, certificate);
         return DONE;
@@ -101,8 +108,8 @@ static int report_tally(const job *j, const mesh_file *m, const tally *t, size_t
         return FAILED;
     json_count(&r.json, "points", m->n_vertices);
     json_count(&r.json, "without_image", n_failed);
-    json_open(&r.json, "triangles", '{');
-    json_count(&r.json, "all", m->n_triangles);
+    json_open(&r.json, elements_name(m), '{');
+    json_count(&r.json, "all", t->all);
     json_count(&r.json, "kept", t->kept);
     json_count(&r.json, "inverted", t->inverted);
     json_count(&r.json, "collapsed", t->collapsed);
@@ -128,7 +135,7 @@ static int write_mesh(const job *j, const mesh_file *m, const double *images)
 static int map_mesh(job *j, const mesh_file *m)
 {
     size_t n = m->n_vertices, n_failed;
-    double *images = need(n, 2 * sizeof *images);
+    double *images = need(n, m->dim * sizeof *images);
     icc_status *status = need(n, sizeof *status);
     icc_status ran = (j->args->inverse ? icc_map_apply_inverse : icc_map_apply)(
         j->map, n, m->points, images, status, &n_failed, &j->env);
@@ -148,21 +155,30 @@ static int map_mesh(job *j, const mesh_file *m)
     return result;
 }
 
-static int run_job(job *j, const args *a)
+static int read_and_map(job *j)
 {
-    int result = job_make_map(j);
+    const char *name = j->args->operands[0];
     size_t n;
-    char *text = result == DONE ? file_read(a->operands[0], &n) : NULL;
+    char *text = file_read(name, &n);
     if (text == NULL)
         return FAILED;
     mesh_file m;
     problem wrong;
-    if (mesh_read(&m, text, n, &wrong))
-        result = map_mesh(j, &m);
-    else
-        result = failed(a->operands[0], wrong.line, "%s", wrong.text);
+    int result = mesh_read(&m, job_dim(j), text, n, &wrong)
+                     ? map_mesh(j, &m)
+                     : failed(name, wrong.line, "%s", wrong.text);
     mesh_free(&m);
     free(text);
+    return result;
+}
+
+static int check_dimension(job *j)
+{
+    int result = job_read_cages(j);
+    if (result == DONE && job_dim(j) != 2 && job_dim(j) != 3)
+        return failed(j->args->source, 0, "%zu dimensions; meshes have 2 or 3", job_dim(j));
+    if (result == DONE && j->args->repair_mesh && job_dim(j) != 2)
+        return failed(j->args->source, 0, "3 dimensions; --repair needs cages in the plane");
     return result;
 }
 
@@ -170,7 +186,11 @@ int run_mesh(const args *a)
 {
     job j;
     job_start(&j, a);
-    int result = run_job(&j, a);
+    int result = check_dimension(&j);
+    if (result == DONE)
+        result = job_make_map(&j);
+    if (result == DONE)
+        result = read_and_map(&j);
     job_end(&j);
     return result;
 }

@@ -105,7 +105,9 @@ int run_warp(const args *a)
 {
     warp w = {0};
     job_start(&w.job, a);
-    int result = job_make_map(&w.job);
+    int result = job_read_plane(&w.job, "warp");
+    if (result == DONE)
+        result = job_make_map(&w.job);
     if (result == DONE)
         result = read_picture(&w);
     if (result == DONE)

@@ -2,6 +2,7 @@
 
 #include "job.h"
 
+#include "correspond.h"
 #include "defect.h"
 
 #include <stdio.h>
@@ -36,14 +37,23 @@ const char *job_file(const job *j, int side)
     return side == 2 && j->args->target != NULL ? j->args->target : j->args->source;
 }
 
+/* In the plane edge i begins at vertex i. Beyond, the index is that of a facet, unless the message is
+ * about a vertex. */
+static size_t line_at_fault(const cage *c, const icc_error *err)
+{
+    bool of_grid = err->status == ICC_ERR_RESOLUTION || err->status == ICC_ERR_SOLVER;
+    bool of_face = c->dim != 2 && c->n_facets > 0 && strncmp(err->message, "vertex", 6) != 0 &&
+                   strncmp(err->message, "two surfaces share vertex", 25) != 0;
+    size_t n = of_face ? c->n_facets : c->n;
+    if (of_grid || err->index < 0 || (uint64_t)err->index >= n)
+        return 0;
+    return (of_face ? c->facet_lines : c->lines)[err->index];
+}
+
 int job_failed(job *j, const icc_error *err)
 {
     progress_end(&j->bar);
-    const cage *c = &j->cages[err->side == 2];
-    size_t line = 0;
-    bool of_grid = err->status == ICC_ERR_RESOLUTION || err->status == ICC_ERR_SOLVER;
-    if (!of_grid && err->index >= 0 && (uint64_t)err->index < c->n)
-        line = c->lines[err->index];
+    size_t line = line_at_fault(&j->cages[err->side == 2], err);
     const char *message = err->message[0] != '\0' ? err->message : icc_status_name(err->status);
     return failed(job_file(j, err->side), line, "%s", message);
 }
@@ -54,6 +64,11 @@ int job_failed_status(job *j, icc_status status)
     return job_failed(j, &err);
 }
 
+size_t job_dim(const job *j)
+{
+    return j->cages[0].dim;
+}
+
 static int read_cage(job *j, size_t side)
 {
     const char *name = job_file(j, (int)side + 1);
@@ -62,23 +77,48 @@ static int read_cage(job *j, size_t side)
     if (text == NULL)
         return FAILED;
     problem wrong;
-    bool good = cage_read(&j->cages[side], side == 0 ? CAGE_SOURCE : CAGE_TARGET, text, n, &wrong);
+    bool good = side == 0 ? cage_read(&j->cages[0], CAGE_SOURCE, 2, text, n, &wrong)
+                          : cage_read(&j->cages[1], CAGE_TARGET, job_dim(j), text, n, &wrong);
     free(text);
     return good ? DONE : failed(name, wrong.line, "%s", wrong.text);
 }
 
+/* Points of options must have as many coordinates as the cage. */
+static int check_points(const job *j)
+{
+    const args *a = j->args;
+    const struct {
+        const char *name;
+        size_t n;
+    } points[] = {{"maximum", a->n_maximum}, {"target-maximum", a->n_target_maximum}};
+    for (size_t i = 0; i < 2; i++)
+        if (points[i].n > 0 && points[i].n != job_dim(j))
+            return misused(a->command, "--%s has %zu coordinates, but the cage %zu",
+                           points[i].name, points[i].n, job_dim(j));
+    return DONE;
+}
+
 int job_read_cages(job *j)
 {
-    if (j->cages[0].n > 0)
+    if (job_dim(j) > 0)
         return DONE;
     int result = read_cage(j, 0);
+    if (result == DONE)
+        result = check_points(j);
     if (result == DONE && j->args->target != NULL)
         result = read_cage(j, 1);
-    if (result == DONE && j->args->target != NULL && j->cages[0].n != j->cages[1].n)
-        return failed(j->args->target, 0,
-                      "%zu vertices, but the source %s has %zu; they correspond one by one",
-                      j->cages[1].n, j->args->source, j->cages[0].n);
+    if (result == DONE && j->args->target != NULL)
+        result = correspond(j);
     j->seconds_read = seconds_now() - j->started;
+    return result;
+}
+
+int job_read_plane(job *j, const char *what)
+{
+    int result = job_read_cages(j);
+    if (result == DONE && job_dim(j) != 2)
+        result = failed(j->args->source, 0, "%zu dimension%s; %s needs cages in the plane",
+                        job_dim(j), job_dim(j) == 1 ? "" : "s", what);
     return result;
 }
 
@@ -105,19 +145,35 @@ static int make_domain(job *j, size_t side)
     const cage *c = &j->cages[side];
     icc_error err = {.size = sizeof err, .index = -1};
     icc_status status =
-        icc_domain_create(&j->domains[side], 2, c->n, c->points, 0, NULL, &j->env, &err);
+        c->cells != NULL && c->n == 0
+            ? icc_domain_create_mask(&j->domains[side], (int32_t)c->dim, c->shape, c->cells,
+                                     &j->env, &err)
+            : icc_domain_create(&j->domains[side], (int32_t)c->dim, c->n, c->points, c->n_facets,
+                                c->facets, &j->env, &err);
     if (status == ICC_OK)
         return DONE;
     err.side = (int32_t)side + 1;
-    return status == ICC_ERR_BOUNDARY ? failed_boundary(j, side, &err) : job_failed(j, &err);
+    return status == ICC_ERR_BOUNDARY && c->dim == 2 ? failed_boundary(j, side, &err)
+                                                     : job_failed(j, &err);
+}
+
+/* The domain of a mask knows what its boundary is. */
+static int make_source(job *j)
+{
+    int result = make_domain(j, 0);
+    if (result != DONE || j->cages[0].cells == NULL)
+        return result;
+    cage_take_boundary(&j->cages[0], j->domains[0]);
+    return correspond(j);
 }
 
 int job_make_domains(job *j)
 {
     int result = job_read_cages(j);
-    for (size_t side = 0; side < 2 && result == DONE; side++)
-        if (j->cages[side].n > 0 && j->domains[side] == NULL)
-            result = make_domain(j, side);
+    if (result == DONE && j->domains[0] == NULL)
+        result = make_source(j);
+    if (result == DONE && j->args->target != NULL && j->domains[1] == NULL)
+        result = make_domain(j, 1);
     return result;
 }
 
@@ -130,7 +186,7 @@ static icc_chart_options chart_options(const job *j)
         .function = a->functions[j->function].function,
         .tree = a->tree,
         .cells = a->cells,
-        .maximum = a->has_maximum ? a->maximum : NULL,
+        .maximum = a->n_maximum > 0 ? a->maximum : NULL,
         .constraints = a->functions[j->function].constraints,
         .solver = a->solver,
         .eta = a->eta,
@@ -160,7 +216,7 @@ int job_make_map(job *j)
     icc_chart_options chart = chart_options(j);
     icc_map_options options = {.size = sizeof options, .kind = j->args->map, .chart = &chart};
     options.iterations = j->args->improve > 0 ? j->args->improve : j->args->improve == 0 ? -1 : 0;
-    if (j->args->has_target_maximum)
+    if (j->args->n_target_maximum > 0)
         options.target_maximum = j->args->target_maximum;
     icc_error err = {.size = sizeof err, .index = -1};
     if (icc_map_create(&j->map, j->domains[0], j->domains[1], &options, &j->env, &err) != ICC_OK)
@@ -199,7 +255,10 @@ bool report_open(report *r, const job *j)
     json_text(&r->json, "source", j->args->source);
     if (j->args->target != NULL)
         json_text(&r->json, "target", j->args->target);
+    json_count(&r->json, "dimension", job_dim(j));
     json_count(&r->json, "vertices", j->cages[0].n);
+    if (j->cages[0].n_facets > 0)
+        json_count(&r->json, "facets", j->cages[0].n_facets);
     return true;
 }
 

@@ -28,11 +28,18 @@ typedef struct job {
 void job_start(job *j, const args *a);
 void job_end(job *j);
 
-/* Reads the source, and the target if there is one; their numbers of vertices then agree. */
+/* Reads the source, and the target if there is one; they then correspond, unless the source is a
+ * mask. */
 int job_read_cages(job *j);
 
-/* Reads the cages and makes their domains. */
+/* Coordinates of a point, once the cages have been read. */
+size_t job_dim(const job *j);
+
+/* Reads the cages and makes their domains. A mask then has the vertices and facets of its boundary. */
 int job_make_domains(job *j);
+
+/* Reads the cages, which must be in the plane for `what`. */
+int job_read_plane(job *j, const char *what);
 
 /* All that, and the chart of the source. */
 int job_make_chart(job *j);

@@ -11,7 +11,7 @@ typedef enum option_kind {
     OPTION_LENGTH, /* double above 0, and at most `most` unless that is 0 */
     OPTION_CHOICE, /* int32_t, by name */
     OPTION_FUNCTIONS,
-    OPTION_POINT,  /* double[2], and a bool that it is there */
+    OPTION_POINT,  /* double[ICC_MAX_DIM], and a size_t: how many there are */
     OPTION_COLOUR, /* unsigned char[4], and a bool that it is there */
     OPTION_REPORT, /* bool, and a const char * when =FILE follows */
     OPTION_HELP
@@ -40,7 +40,7 @@ extern const choice methods[], maps[], functions[], solvers[], trees[];
 /* The name of a value that the library gave. */
 const char *choice_name(const choice *choices, int32_t value);
 
-enum { N_OPTIONS = 32 };
+enum { N_OPTIONS = 33 };
 extern const option options[N_OPTIONS];
 
 #endif

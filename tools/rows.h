@@ -5,6 +5,10 @@
 #include "job.h"
 #include "table.h"
 
+/* Rows of points, and of integral curve coordinates. */
+table_form rows_of_points(size_t dim);
+table_form rows_of_coordinates(size_t dim);
+
 /* Reads rows from a file. Returns DONE, or FAILED with a line on stderr. Free the table then. */
 int rows_read(table *out, const char *name, const table_form *form);
 

@@ -42,8 +42,8 @@ says "--inverse"
 run 2 info -s source.txt --quiet=yes
 says "--quiet takes no value"
 
-run 2 map -s source.txt -t target.txt --method field
-says "not available in this version"
+run 2 map -s source.txt -t target.txt --method fields
+says "it may be: foliation, disc, gradient, field"
 run 2 map -s source.txt -t target.txt --geojson
 says "--geojson needs two files, IN and OUT"
 run 2 map -s source.txt -t target.txt --geojson in out more
@@ -119,9 +119,15 @@ for value in 1 0 -3 2.5 20000 many '' 1e99; do
     run 2 info -s source.txt "--cells=$value"
     says "--cells '$value' must be a whole number from 2 to 16384"
 done
-for value in 1 '1,' ',2' '1,2,3' '1 2' 'nan,1' a,b; do
+for value in '1,' ',2' '1 2' 'nan,1' a,b '1,2,3,4,5,6,7' ''; do
     run 2 info -s source.txt --maximum "$value"
-    says "must be two numbers X,Y"
+    says "must be numbers X,Y or X,Y,Z"
+done
+for value in 1 '1,2,3'; do
+    run 2 info -s source.txt --maximum "$value"
+    says "coordinates, but the cage 2"
+    run 2 map -s source.txt -t target.txt --target-maximum "$value"
+    says "coordinates, but the cage 2"
 done
 run 2 warp -s source.txt -t target.txt --background red a.png b.png
 says "RRGGBB"
