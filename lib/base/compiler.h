@@ -7,11 +7,13 @@
 #define ICCP_LIKELY(x) __builtin_expect(!!(x), 1)
 #define ICCP_UNLIKELY(x) __builtin_expect(!!(x), 0)
 #define ICCP_INLINE inline __attribute__((always_inline))
+#define ICCP_PREFETCH(address) __builtin_prefetch(address)
 #else
 #define ICCP_PRINTF(text, first)
 #define ICCP_LIKELY(x) (x)
 #define ICCP_UNLIKELY(x) (x)
 #define ICCP_INLINE inline
+#define ICCP_PREFETCH(address) ((void)(address))
 #endif
 
 #endif

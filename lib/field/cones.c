@@ -17,7 +17,7 @@
 #include <float.h>
 #include <string.h>
 
-enum { MOST_NORMALS = 64, MOST_ROUNDS = 40 };
+enum { MOST_NORMALS = 64, FIRM_ROUNDS = 20, MOST_ROUNDS = 40 };
 
 static const size_t GRAIN = 1 << 10; /* vertices per chunk */
 
@@ -208,38 +208,46 @@ static bool is_radial(const star *s, double *x)
     return false;
 }
 
-/* Writes the vector of a vertex; whether it is uphill in all simplices. Of the normals none are wanted, or all
- * that there is room for; `firmly` prefers them to the gradients. */
-static bool choose(star *s, bool firmly, double *x)
+/* Turns a vector that n normals agree with towards `uphill`, as far as they still do. */
+static void tilt(int32_t dim, size_t n, const double *normals, const double *uphill, double *x)
+{
+    const double least = fmin(0.5 * least_product(dim, n, normals, x), AIM);
+    double turned[ICC_MAX_DIM];
+    for (double share = 4; share > 0.1; share *= 0.5) {
+        for (int32_t k = 0; k < dim; ++k)
+            turned[k] = x[k] + share * uphill[k];
+        if (normalise(dim, turned) && least_product(dim, n, normals, turned) >= least) {
+            memcpy(x, turned, (size_t)dim * sizeof *x);
+            return;
+        }
+    }
+}
+
+/* Writes the vector of a vertex; whether it is uphill in all simplices. It agrees with the normals when some
+ * vector does, unless gradients are to go first. */
+static bool choose(star *s, bool gradients_first, double *x)
 {
     const int32_t dim = s->orders->dim;
     list_gradients(s);
     if (s->n_gradients == 0)
         return true;
-    double unit[ICC_MAX_DIM];
     if (is_radial(s, x)) {
+        double unit[ICC_MAX_DIM];
         memcpy(unit, x, sizeof unit);
         (void)normalise(dim, unit);
         return least_product(dim, s->n_gradients, s->direction, unit) > LEAST;
     }
     list_normals(s);
-    const double *normals = s->direction + (size_t)dim * s->n_gradients;
     if (find_vector(dim, s->n_gradients + s->n_normals, s->direction, x))
         return true;
-    if (firmly && find_vector(dim, s->n_normals, normals, unit)) {
-        /* As uphill as the normals leave it. */
-        for (int32_t k = 0; k < dim; ++k)
-            unit[k] = x[k];
-        double mixed[ICC_MAX_DIM];
-        for (double share = 0.25; share <= 1; share += 0.25) {
-            (void)find_vector(dim, s->n_normals, normals, mixed);
-            for (int32_t k = 0; k < dim; ++k)
-                mixed[k] = share * mixed[k] + (1 - share) * unit[k];
-            if (normalise(dim, mixed) && least_product(dim, s->n_normals, normals, mixed) > AIM)
-                break;
+    if (s->n_normals > 0 && !gradients_first) {
+        const double *normals = s->direction + (size_t)dim * s->n_gradients;
+        double uphill[ICC_MAX_DIM] = {0};
+        (void)find_vector(dim, s->n_gradients, s->direction, uphill);
+        if (find_vector(dim, s->n_normals, normals, x)) {
+            tilt(dim, s->n_normals, normals, uphill, x);
+            return least_product(dim, s->n_gradients, s->direction, x) > LEAST;
         }
-        memcpy(x, mixed, (size_t)dim * sizeof *x);
-        return least_product(dim, s->n_gradients, s->direction, x) > LEAST;
     }
     return find_vector(dim, s->n_gradients, s->direction, x);
 }
@@ -252,7 +260,13 @@ typedef struct work {
     uint8_t *state; /* by vertex: bits below */
 } work;
 
-enum { DIRTY = 1, FAILS = 2, FIRM = 4 };
+enum { DIRTY = 1, FAILS = 2, GRADIENTS_FIRST = 4 };
+
+static void load_vector(const work *w, uint32_t v, double *x)
+{
+    for (int32_t k = 0; k < w->orders->dim; ++k)
+        x[k] = (double)w->cones->vector[(size_t)w->orders->dim * v + (size_t)k];
+}
 
 static icc_status star_init(star *s, const work *w)
 {
@@ -271,9 +285,12 @@ static icc_status choose_chunk(void *argument, size_t begin, size_t end)
     for (size_t v = begin; status == ICC_OK && v < end; ++v) {
         if (!(w->state[v] & DIRTY))
             continue;
+        double x[ICC_MAX_DIM] = {0};
         load(&s, (uint32_t)v);
-        const bool good = choose(&s, w->state[v] & FIRM, w->cones->vector + dim * v);
-        w->state[v] = (uint8_t)((w->state[v] & FIRM) | (good ? 0 : FAILS));
+        const bool good = choose(&s, w->state[v] & GRADIENTS_FIRST, x);
+        w->state[v] = (uint8_t)((w->state[v] & GRADIENTS_FIRST) | (good ? 0 : FAILS));
+        for (size_t k = 0; k < dim; ++k)
+            w->cones->vector[dim * v + k] = (float)x[k];
     }
     iccp_free(&w->cones->memory, s.direction);
     return status;
@@ -329,7 +346,7 @@ static void adjust(work *w, star *s, uint32_t v)
 {
     const int32_t dim = w->orders->dim;
     double x[ICC_MAX_DIM], gradient[ICC_MAX_DIM];
-    memcpy(x, w->cones->vector + (size_t)dim * v, (size_t)dim * sizeof *x);
+    load_vector(w, v, x);
     if (!normalise(dim, x))
         return;
     for (int32_t r = 0; r < w->orders->n; ++r)
@@ -361,8 +378,10 @@ static icc_status adjust_all(work *w, const iccp_env *env)
     for (int round = 0; status == ICC_OK && w->cones->n_infeasible > 0 && round < MOST_ROUNDS;
          ++round) {
         for (size_t v = 0; v < w->smooth->grid->n_vertices; ++v)
-            if (w->state[v] & FAILS)
+            if (w->state[v] & FAILS) {
+                w->state[v] |= round >= FIRM_ROUNDS ? GRADIENTS_FIRST : 0;
                 adjust(w, &s, (uint32_t)v);
+            }
         status = choose_all(w, env);
     }
     iccp_free(&w->cones->memory, s.direction);
@@ -374,12 +393,15 @@ static void check_inward(work *w)
 {
     iccp_cones *c = w->cones;
     const size_t dim = (size_t)w->orders->dim;
-    for (uint32_t v = 0; v < w->smooth->grid->n_vertices; ++v)
+    for (uint32_t v = 0; v < w->smooth->grid->n_vertices; ++v) {
+        double x[ICC_MAX_DIM];
+        load_vector(w, v, x);
         for (uint32_t i = w->cover->first[v]; i < w->cover->first[v + 1]; ++i) {
             const double *normal = w->cover->normal + dim * w->cover->facet[i];
             ++c->n_contacts;
-            c->n_not_inward += !(dot((int32_t)dim, normal, c->vector + dim * v) > 0);
+            c->n_not_inward += !(dot((int32_t)dim, normal, x) > 0);
         }
+    }
 }
 
 static icc_status fill(work *w, const iccp_env *env)

@@ -8,8 +8,9 @@
 typedef struct iccp_cones {
     iccp_memory memory;
     const icc_grid *grid;   /* borrowed */
-    double *vector;         /* dim per vertex: of length 1, but from vertices joined to the root all the way
-                               to it, so that the field is radial around it; 0 where none is needed */
+    float *vector;          /* dim per vertex: of length 1, but from vertices joined to the root all the way
+                               to it, so that the field is radial around it; 0 where none is needed.
+                               Exactly these numbers are checked: half the memory, which curves wait for */
     size_t n_vertices;      /* that need one */
     size_t n_infeasible;    /* where no vector is uphill in all simplices */
     size_t n_adjusted;      /* values of the function that were changed to prevent that */

@@ -56,9 +56,9 @@ void iccp_flow_vector(const iccp_flow *flow, const iccp_flow_place *place, doubl
     memset(vector, 0, (size_t)dim * sizeof *vector);
     for (int32_t i = 0; i <= dim; ++i) {
         const double below = i < dim ? place->at[place->simplex.axis[i]] : 0;
-        const double *x = flow->vector + (size_t)dim * place->simplex.corner[i];
+        const float *x = flow->vector + (size_t)dim * place->simplex.corner[i];
         for (int32_t k = 0; k < dim; ++k)
-            vector[k] += (above - below) * x[k];
+            vector[k] += (above - below) * (double)x[k];
         above = below;
     }
 }
@@ -100,30 +100,43 @@ static inline double slope_of(const double *series, int32_t n, double s)
     return sum;
 }
 
-/* A root of a series between `low`, where it is positive, and `high`, where it need not be negative: Newton's
- * method, kept between the two. HUGE_VAL when it finds none. */
-static double root_of(const double *series, int32_t n, double low, double high, double guess)
+/* A root of a series between 0, where it is positive, and `high`, where it need not be negative: Newton's
+ * method, kept between the two. HUGE_VAL when there is none. */
+static double root_of(const double *series, int32_t n, double high, double guess)
 {
-    enum { MOST = 60 };
-    double s = guess;
-    bool below = false; /* whether `high` is known to lie beyond the root */
+    enum { MOST = 60, FIRST = 5 };
+    static const double CLOSE = 1e-8;
+    double low = 0, s = guess;
+    bool is_beyond = false; /* whether `high` is known to lie beyond the root */
+    /* The first terms do for the first step. */
+    int32_t used = n > FIRST ? FIRST : n;
     for (int k = 0; k < MOST; ++k) {
-        const double value = value_of(series, n, s), slope = slope_of(series, n, s);
+        double value = series[used - 1], slope = 0;
+        for (int32_t j = used - 1; j-- > 0;) {
+            slope = slope * s + value;
+            value = value * s + series[j];
+        }
+        double next = s - value / slope;
+        if (used < n) {
+            used = n;
+            s = next > 0 && next < high ? next : s;
+            continue;
+        }
+        /* The next step would be about the square of this one. */
+        if (fabs(next - s) <= CLOSE * s)
+            return next;
         if (value > 0) {
             low = s;
         } else {
             high = s;
-            below = true;
+            is_beyond = true;
         }
-        double next = s - value / slope;
         if (!(next > low && next < high)) {
-            if (!below && !(value_of(series, n, high) <= 0))
+            if (!is_beyond && !(value_of(series, n, high) <= 0))
                 return HUGE_VAL;
-            below = true;
+            is_beyond = true;
             next = 0.5 * (low + high);
         }
-        if (fabs(next - s) <= 4 * DBL_EPSILON * next)
-            return next;
         s = next;
     }
     return s;
@@ -143,9 +156,24 @@ static inline double first_root(double a, double b, double c)
 
 static ICCP_INLINE void load_corner(iccp_flow_walk *w, int32_t dim, int32_t i)
 {
-    const double *x = w->flow->vector + (size_t)dim * w->place.simplex.corner[i];
+    const float *x = w->flow->vector + (size_t)dim * w->place.simplex.corner[i];
     for (int32_t k = 0; k < dim; ++k)
-        w->corner[i][k] = w->sign * x[k];
+        w->corner[i][k] = w->sign * (double)x[k];
+}
+
+/* Most of the time is spent waiting for the vector of the next corner: ask for it as soon as it is known. */
+static ICCP_INLINE void expect_corner(const iccp_flow_walk *w, int32_t dim, int32_t exit)
+{
+    const iccp_kuhn_simplex *simplex = &w->place.simplex;
+    const size_t *stride = w->flow->grid->stride;
+    size_t corner;
+    if (exit == 0)
+        corner = simplex->corner[dim] + stride[simplex->axis[0]];
+    else if (exit == dim)
+        corner = simplex->corner[0] - stride[simplex->axis[dim - 1]];
+    else
+        corner = simplex->corner[exit - 1] + stride[simplex->axis[exit]];
+    ICCP_PREFETCH(w->flow->vector + (size_t)dim * corner);
 }
 
 /* Which facet a quadratic curve would reach first, and when; the others' distances do not matter. */
@@ -170,48 +198,53 @@ static ICCP_INLINE double guess_exit(const iccp_flow_walk *w, int32_t dim, int32
     return best;
 }
 
-/* The series as far as it counts up to `reach`. Returns how far it may be used. */
+static const double INVERSE[ICCP_FLOW_TERMS + 2] = {
+    0,        1.,       1. / 2,  1. / 3,  1. / 4,  1. / 5,  1. / 6,  1. / 7,  1. / 8,
+    1. / 9,   1. / 10,  1. / 11, 1. / 12, 1. / 13, 1. / 14, 1. / 15, 1. / 16, 1. / 17,
+    1. / 18,  1. / 19,  1. / 20, 1. / 21, 1. / 22, 1. / 23, 1. / 24, 1. / 25};
+
+/* The series as far as it counts, and a guess where it ends. Returns how far it may be used. */
 static ICCP_INLINE double expand(iccp_flow_walk *w, int32_t dim, int32_t *exit, double *guess)
 {
     const int8_t *axis = w->place.simplex.axis;
     double a[ICC_MAX_DIM][ICC_MAX_DIM], norm = 0;
-    for (int32_t i = 0; i < dim; ++i) {
-        double sum = 0;
+    for (int32_t i = 0; i < dim; ++i)
         for (int32_t k = 0; k < dim; ++k) {
-            a[i][k] = w->corner[i + 1][k] - w->corner[i][k];
-            sum += fabs(a[i][k]);
+            a[axis[i]][k] = w->corner[i + 1][k] - w->corner[i][k];
+            norm += fabs(a[axis[i]][k]);
         }
-        norm = sum > norm ? sum : norm;
-    }
     for (int32_t k = 0; k < dim; ++k) {
         w->term[0][k] = w->place.at[k];
         w->speed[0][k] = w->corner[0][k];
     }
     for (int32_t i = 0; i < dim; ++i)
         for (int32_t k = 0; k < dim; ++k)
-            w->speed[0][k] += w->place.at[axis[i]] * a[i][k];
+            w->speed[0][k] += w->place.at[i] * a[i][k];
     double reach = HUGE_VAL, power = 0;
+    int32_t j = 0;
     *exit = ICCP_FLOW_WITHIN;
     *guess = 0;
-    int32_t j = 0;
     for (;; ++j) {
-        double largest = 0;
+        double size = 0;
         for (int32_t k = 0; k < dim; ++k) {
-            w->term[j + 1][k] = w->speed[j][k] / (j + 1);
-            largest = fmax(largest, fabs(w->term[j + 1][k]));
+            w->term[j + 1][k] = w->speed[j][k] * INVERSE[j + 1];
+            size += fabs(w->term[j + 1][k]);
         }
         if (j == 1) {
             *guess = guess_exit(w, dim, exit);
-            reach = fmin(1.25 * *guess, FARTHEST / norm);
-            power = reach;
+            if (*exit != ICCP_FLOW_WITHIN)
+                expect_corner(w, dim, *exit);
+            reach = 1.25 * *guess;
+            reach = reach * norm > FARTHEST ? FARTHEST / norm : reach;
+            power = reach * reach * norm;
         }
         power *= reach;
-        if (j >= 1 && (largest * power * norm * reach <= NEGLIGIBLE || j + 2 > ICCP_FLOW_TERMS))
+        if (j >= 1 && (size * power * INVERSE[j + 2] <= NEGLIGIBLE || j + 2 > ICCP_FLOW_TERMS))
             break;
         for (int32_t k = 0; k < dim; ++k) {
             double sum = 0;
             for (int32_t i = 0; i < dim; ++i)
-                sum += w->term[j + 1][axis[i]] * a[i][k];
+                sum += w->term[j + 1][i] * a[i][k];
             w->speed[j + 1][k] = sum;
         }
     }
@@ -234,7 +267,7 @@ static bool dips(const double *series, int32_t n, double end, double *root)
     }
     if (value_of(series, n, low) >= 0)
         return false;
-    *root = root_of(series, n, 0, low, 0.5 * low);
+    *root = root_of(series, n, low, 0.5 * low);
     return true;
 }
 
@@ -251,7 +284,7 @@ static ICCP_INLINE bool find_earlier(iccp_flow_walk *w, int32_t dim)
             series[0] = SLACK;
         double root = HUGE_VAL;
         if (value_of(series, w->n_terms, w->end) < 0)
-            root = root_of(series, w->n_terms, 0, w->end, 0.5 * w->end);
+            root = root_of(series, w->n_terms, w->end, 0.5 * w->end);
         else if (!dips(series, w->n_terms, w->end, &root))
             continue;
         if (root < w->end) {
@@ -261,6 +294,38 @@ static ICCP_INLINE bool find_earlier(iccp_flow_walk *w, int32_t dim)
         }
     }
     return found;
+}
+
+static ICCP_INLINE void place_at(const iccp_flow_walk *w, int32_t dim, double s, double *at)
+{
+    double x[ICC_MAX_DIM];
+    for (int32_t k = 0; k < dim; ++k)
+        x[k] = w->term[w->n_terms - 1][k];
+    for (int32_t j = w->n_terms - 1; j-- > 0;)
+        for (int32_t k = 0; k < dim; ++k)
+            x[k] = x[k] * s + w->term[j][k];
+    for (int32_t k = 0; k < dim; ++k)
+        at[k] = x[k];
+}
+
+/* Whether no other facet can be crossed before: every coordinate is positive at the end, and does not fall so
+ * fast at the start that it could have been negative between. */
+static ICCP_INLINE bool is_first(const iccp_flow_walk *w, int32_t dim)
+{
+    const int8_t *axis = w->place.simplex.axis;
+    double above = 1, above_start = 1, above_speed = 0;
+    for (int32_t i = 0; i <= dim; ++i) {
+        const double below = i < dim ? w->finish[axis[i]] : 0;
+        const double below_start = i < dim ? w->term[0][axis[i]] : 0;
+        const double below_speed = i < dim ? w->term[1][axis[i]] : 0;
+        const double straight = above_start - below_start + (above_speed - below_speed) * w->end;
+        if (i != w->exit && (above - below < 0 || straight < 0))
+            return false;
+        above = below;
+        above_start = below_start;
+        above_speed = below_speed;
+    }
+    return true;
 }
 
 static ICCP_INLINE void find_end(iccp_flow_walk *w, int32_t dim, double reach, int32_t exit,
@@ -273,14 +338,19 @@ static ICCP_INLINE void find_end(iccp_flow_walk *w, int32_t dim, double reach, i
         coordinate_series(w, dim, exit, series);
         if (series[0] <= SLACK)
             series[0] = SLACK;
-        const double root = root_of(series, w->n_terms, 0, reach, fmin(guess, 0.999 * reach));
+        const double root =
+            root_of(series, w->n_terms, reach, guess < reach ? guess : 0.999 * reach);
         if (root < reach) {
             w->end = root;
             w->exit = exit;
         }
     }
+    place_at(w, dim, w->end, w->finish);
+    if (is_first(w, dim))
+        return;
     while (find_earlier(w, dim))
         continue;
+    place_at(w, dim, w->end, w->finish);
 }
 
 /* The corner that is the root, or ICCP_FLOW_WITHIN. */
@@ -306,6 +376,8 @@ static icc_status radial_piece(iccp_flow_walk *w, int32_t dim, int32_t corner)
     w->n_terms = 2;
     w->ends = w->sign > 0;
     w->end = w->ends ? 1 : weight / (1 - weight);
+    for (int32_t k = 0; k < dim; ++k)
+        w->finish[k] = w->term[0][k] + w->end * w->term[1][k];
     w->exit = w->ends ? ICCP_FLOW_WITHIN : corner;
     return weight < 1 || w->ends ? ICC_OK : ICC_ERR_TRACE;
 }
@@ -355,11 +427,11 @@ static ICCP_INLINE double integrate(const iccp_flow_walk *w, int32_t dim, double
     }
     if (w->n_terms == 2)
         return s * sqrt(first);
-    const double change = s * sqrt(second / first);
+    const double change2 = s * s * second;
     int r = 0, parts = 1;
-    while (r + 1 < N_RULES && change > RULES[r].most)
+    while (r + 1 < N_RULES && change2 > RULES[r].most * RULES[r].most * first)
         ++r;
-    while (parts < MOST_PARTS && change > RULES[r].most * parts)
+    while (parts < MOST_PARTS && change2 > RULES[r].most * RULES[r].most * first * parts * parts)
         parts *= 2;
     double sum = 0;
     for (int p = 0; p < parts; ++p) {
@@ -397,26 +469,13 @@ static ICCP_INLINE icc_status find_piece(iccp_flow_walk *w, int32_t dim)
     return ICC_OK;
 }
 
-static ICCP_INLINE void place_at(const iccp_flow_walk *w, int32_t dim, double s, double *at)
-{
-    double x[ICC_MAX_DIM];
-    for (int32_t k = 0; k < dim; ++k)
-        x[k] = w->term[w->n_terms - 1][k];
-    for (int32_t j = w->n_terms - 1; j-- > 0;)
-        for (int32_t k = 0; k < dim; ++k)
-            x[k] = x[k] * s + w->term[j][k];
-    for (int32_t k = 0; k < dim; ++k)
-        at[k] = x[k];
-}
-
 /* Onto the facet, exactly, and no corner's weight negative; then across. */
 static ICCP_INLINE icc_status cross(iccp_flow_walk *w, int32_t dim)
 {
     iccp_flow_place *p = &w->place;
     const int32_t i = w->exit;
     const int8_t *axis = p->simplex.axis;
-    double at[ICC_MAX_DIM], above = 1;
-    place_at(w, dim, w->end, at);
+    double above = 1, *at = w->finish;
     if (i > 0 && i < dim)
         at[axis[i - 1]] = at[axis[i]] = 0.5 * (at[axis[i - 1]] + at[axis[i]]);
     for (int32_t k = 0; k < dim; ++k) {
@@ -434,10 +493,12 @@ static ICCP_INLINE icc_status cross(iccp_flow_walk *w, int32_t dim)
         p->at[axis[dim - 1]] = 1;
     if (!iccp_kuhn_simplex_cross(&p->simplex, w->flow->grid, i, &p->entry))
         return ICC_ERR_TRACE;
-    if (i == 0)
-        memmove(w->corner[0], w->corner[1], (size_t)dim * sizeof w->corner[0]);
-    if (i == dim)
-        memmove(w->corner[1], w->corner[0], (size_t)dim * sizeof w->corner[0]);
+    for (int32_t c = 0; i == 0 && c < dim; ++c)
+        for (int32_t k = 0; k < dim; ++k)
+            w->corner[c][k] = w->corner[c + 1][k];
+    for (int32_t c = dim; i == dim && c > 0; --c)
+        for (int32_t k = 0; k < dim; ++k)
+            w->corner[c][k] = w->corner[c - 1][k];
     load_corner(w, dim, p->entry);
     return ICC_OK;
 }
@@ -585,12 +646,11 @@ bool iccp_flow_leaves(const iccp_flow_walk *walk, double *s, uint32_t *facet, do
     static const double BEYOND = 1e-9; /* of the piece: it may end on the boundary, up to rounding */
     const icc_domain *domain = walk->flow->domain;
     const icc_grid *grid = walk->flow->grid;
-    double at[ICC_MAX_DIM], from[ICC_MAX_DIM], to[ICC_MAX_DIM], share;
+    double from[ICC_MAX_DIM], to[ICC_MAX_DIM], share;
     if (!iccp_flow_near_boundary(walk->flow, &walk->place))
         return false;
     local_of(walk, walk->term[0], from);
-    iccp_flow_at(walk, walk->end, at);
-    local_of(walk, at, to);
+    local_of(walk, walk->finish, to);
     for (int32_t k = 0; k < grid->dim; ++k)
         to[k] += BEYOND * (to[k] - from[k]);
     if (!iccp_domain_cross(domain, from, to, &share, facet, bary))

@@ -14,7 +14,7 @@ typedef struct iccp_flow {
     const icc_grid *grid;
     const icc_domain *domain;
     const iccp_cover *cover;
-    const double *vector; /* dim per vertex */
+    const float *vector; /* dim per vertex */
     uint32_t root;        /* where all curves end; in the simplices around it they are straight */
     size_t most_steps;
 } iccp_flow;
@@ -39,6 +39,7 @@ typedef struct iccp_flow_walk {
     double term[ICCP_FLOW_TERMS + 1][ICC_MAX_DIM];
     double speed[ICCP_FLOW_TERMS + 1][ICC_MAX_DIM]; /* the derivative: n_terms - 1 terms */
     double end, end_length;
+    double finish[ICC_MAX_DIM]; /* the place at the end */
     int32_t exit; /* the corner opposite to the facet where the piece ends, or ICCP_FLOW_WITHIN */
     bool ends;    /* at the root */
 } iccp_flow_walk;
