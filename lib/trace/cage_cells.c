@@ -1,0 +1,163 @@
+/* Facets are cut in half across their longest edge until the box of each piece is no wider than a cell. */
+#include "trace/cage_cells.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Cells that a facet misses by less than this, in cells, are entered too: far more than the rounding of
+ * lattice coordinates, and almost free. Also the cells on both sides of a boundary along the grid. */
+static const double SLACK = 1e-9;
+
+enum {
+    FACETS_PER_REPORT = 1 << 12,
+    /* Every dim halvings or so a piece is half as long; facets are at most 2^14 cells long. */
+    MOST_PIECES = 16 * ICC_MAX_DIM
+};
+
+typedef struct piece {
+    double corner[ICC_MAX_DIM][ICC_MAX_DIM];
+} piece;
+
+static void to_lattice(const icc_grid *grid, const double *local, double *lattice)
+{
+    for (int k = 0; k < grid->dim; ++k)
+        lattice[k] = (local[k] - grid->origin[k]) / grid->spacing;
+}
+
+static void to_local(const icc_grid *grid, const double *lattice, double *local)
+{
+    for (int k = 0; k < grid->dim; ++k)
+        local[k] = lattice[k] * grid->spacing + grid->origin[k];
+}
+
+static bool has(const iccp_cage_cells *cage, uint32_t cell)
+{
+    return cage->bits[cell / 64] >> (cell % 64) & 1;
+}
+
+/* All cells that the box of a piece meets. */
+static void mark_box(iccp_cage_cells *cage, const double *lower, const double *upper)
+{
+    const icc_grid *grid = cage->grid;
+    size_t first[ICC_MAX_DIM], last[ICC_MAX_DIM], at[ICC_MAX_DIM], cell = 0;
+    for (int k = 0; k < grid->dim; ++k) {
+        const double end = (double)grid->shape[k] - 2;
+        first[k] = at[k] = (size_t)fmax(0, fmin(end, floor(lower[k] - SLACK)));
+        last[k] = (size_t)fmax(0, fmin(end, floor(upper[k] + SLACK)));
+        cell += at[k] * grid->stride[k];
+    }
+    for (int k = 0; k < grid->dim;) {
+        cage->bits[cell / 64] |= (uint64_t)1 << (cell % 64);
+        for (k = 0; k < grid->dim; ++k) {
+            cell += grid->stride[k];
+            if (++at[k] <= last[k])
+                break;
+            cell -= (at[k] - first[k]) * grid->stride[k];
+            at[k] = first[k];
+        }
+    }
+}
+
+/* The longest edge of a piece, from corner i to corner j. */
+static void longest_edge(int dim, const piece *p, int *i, int *j)
+{
+    double longest = -1;
+    for (int a = 0; a < dim; ++a)
+        for (int b = a + 1; b < dim; ++b) {
+            double square = 0;
+            for (int k = 0; k < dim; ++k)
+                square += (p->corner[a][k] - p->corner[b][k]) * (p->corner[a][k] - p->corner[b][k]);
+            if (square > longest) {
+                longest = square;
+                *i = a;
+                *j = b;
+            }
+        }
+}
+
+/* The bounding box; returns its longest side. */
+static double find_box(int dim, const piece *p, double *lower, double *upper)
+{
+    double longest = 0;
+    for (int k = 0; k < dim; ++k) {
+        lower[k] = upper[k] = p->corner[0][k];
+        for (int i = 1; i < dim; ++i) {
+            lower[k] = fmin(lower[k], p->corner[i][k]);
+            upper[k] = fmax(upper[k], p->corner[i][k]);
+        }
+        longest = fmax(longest, upper[k] - lower[k]);
+    }
+    return longest;
+}
+
+static void mark_facet(iccp_cage_cells *cage, uint32_t facet)
+{
+    const int dim = cage->grid->dim;
+    piece pieces[MOST_PIECES];
+    int n = 1;
+    for (int i = 0; i < dim; ++i) {
+        const uint32_t v = cage->domain->facets[(size_t)dim * facet + (size_t)i];
+        to_lattice(cage->grid, cage->domain->vertices + (size_t)dim * v, pieces[0].corner[i]);
+    }
+    while (n > 0) {
+        piece *p = &pieces[n - 1], *q = p + 1;
+        double lower[ICC_MAX_DIM], upper[ICC_MAX_DIM];
+        if (find_box(dim, p, lower, upper) <= 1 || n == MOST_PIECES) {
+            mark_box(cage, lower, upper);
+            --n;
+            continue;
+        }
+        int i = 0, j = 0;
+        longest_edge(dim, p, &i, &j);
+        *q = *p;
+        for (int k = 0; k < dim; ++k)
+            p->corner[i][k] = q->corner[j][k] = 0.5 * (p->corner[i][k] + p->corner[j][k]);
+        ++n;
+    }
+}
+
+icc_status iccp_cage_cells_create(iccp_cage_cells *cage, const icc_domain *domain,
+                                  const icc_grid *grid, const iccp_env *env)
+{
+    *cage = (iccp_cage_cells){.memory = env->memory, .domain = domain, .grid = grid};
+    cage->bits = iccp_alloc_zero(&env->memory, grid->n_vertices / 64 + 1, sizeof *cage->bits);
+    if (cage->bits == NULL)
+        return ICC_ERR_MEMORY;
+    icc_status status = ICC_OK;
+    for (size_t f = 0; status == ICC_OK && f < domain->n_facets; ++f) {
+        if (f % FACETS_PER_REPORT == 0)
+            status = iccp_progress(env, "cage", (double)f / (double)domain->n_facets);
+        mark_facet(cage, (uint32_t)f);
+    }
+    return status;
+}
+
+void iccp_cage_cells_free(iccp_cage_cells *cage)
+{
+    iccp_free(&cage->memory, cage->bits);
+    cage->bits = NULL;
+}
+
+bool iccp_cage_cells_cross(const iccp_cage_cells *cage, uint32_t cell, const double *from,
+                           const double *to, iccp_cage_hit *hit)
+{
+    double ends[2][ICC_MAX_DIM];
+    if (!has(cage, cell))
+        return false;
+    to_local(cage->grid, from, ends[0]);
+    to_local(cage->grid, to, ends[1]);
+    if (!iccp_domain_cross(cage->domain, ends[0], ends[1], &hit->share, &hit->facet, hit->bary))
+        return false;
+    for (int k = 0; k < cage->grid->dim; ++k)
+        hit->point[k] = from[k] + hit->share * (to[k] - from[k]);
+    return true;
+}
+
+bool iccp_cage_cells_touch(const iccp_cage_cells *cage, const double *point, iccp_cage_hit *hit)
+{
+    double local[ICC_MAX_DIM];
+    to_local(cage->grid, point, local);
+    hit->share = 1;
+    memcpy(hit->point, point, (size_t)cage->grid->dim * sizeof *point);
+    return iccp_domain_locate(cage->domain, local, true, &hit->facet, hit->bary) == ICC_BOUNDARY;
+}

@@ -1,0 +1,348 @@
+/* Based on: L. Huynh, Bijective Deformations in R^n via Integral Curve Coordinates, thesis, 2013,
+ * chapter 5, Algorithms 3-5 (Huynh and Gingold, section 6, where n dimensions are sketched).
+ *
+ * In a simplex the line follows the gradient to a facet. If the gradient of the simplex behind points away
+ * from there, the line crosses; if not, it stays in the facet, or goes wherever is steepest among the faces
+ * around it (walkn_star.c), and so on in lower and lower faces down to the vertices. f rises strictly, or
+ * where it is level the vertex index does, so that a walk cannot loop. */
+#include "trace/walkn.h"
+
+#include "math/predicates.h"
+
+#include <assert.h>
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+/* Facets that are met this close together, relative to the time it takes, are met together: what two
+ * quotients may be off by rounding. */
+static const double SAME_TIME = 8 * DBL_EPSILON;
+
+/* The face that carries a step, and how its points move. */
+typedef struct motion {
+    int n;                             /* corners */
+    int corner[ICC_MAX_DIM + 1];       /* numbers in the simplex */
+    double speed[ICC_MAX_DIM + 2];     /* of the coordinates between one corner and the next: speed[a] below
+                                          corner a; 0 at both ends */
+    double y[ICC_MAX_DIM + 2];         /* where they are; 1 and 0 at the ends */
+} motion;
+
+static const icc_grid *grid_of(const iccp_walkn *w)
+{
+    return w->slope.field->tree->grid;
+}
+
+static unsigned all_corners(const iccp_walkn *w)
+{
+    return (2u << grid_of(w)->dim) - 1;
+}
+
+static void find_position(const iccp_walkn *w, double *x)
+{
+    for (int k = 0; k < grid_of(w)->dim; ++k) {
+        const int8_t axis = w->place.simplex.axis[k];
+        x[axis] = w->place.low[axis] + w->place.y[k + 1];
+    }
+}
+
+/* ---- which face ---- */
+
+/* The sign of the speed at which a point moves away from the facet opposite to corner i, for the values of a
+ * simplex; exact. */
+static int corner_sign(int dim, const double *f, int i)
+{
+    const double below = i > 0 ? f[i - 1] : f[i], above = i < dim ? f[i + 1] : f[i];
+    return iccp_cross_sign(f[i], below, 1, 0, above, f[i], 1, 0);
+}
+
+static bool has_values(const iccp_walkn *w, double *f)
+{
+    const int dim = grid_of(w)->dim;
+    iccp_slope_values(&w->slope, (size_t)dim + 1, w->place.simplex.corner, f);
+    for (int i = 0; i <= dim; ++i)
+        if (isnan(f[i]))
+            return false;
+    return true;
+}
+
+/* Whether the gradient of the place's simplex points into it from its face. */
+static bool points_in(const iccp_walkn *w, const double *f)
+{
+    const int dim = grid_of(w)->dim;
+    for (int i = 0; i <= dim; ++i)
+        if (!(w->place.face >> i & 1) && corner_sign(dim, f, i) <= 0)
+            return false;
+    return true;
+}
+
+/* The corners of the face that the line goes on in. */
+static icc_status choose(iccp_walkn *w, unsigned *corners)
+{
+    double f[ICC_MAX_DIM + 1];
+    w->slope.level = false;
+    if (w->ahead) {
+        if (!has_values(w, f))
+            return ICC_ERR_TRACE;
+        *corners = all_corners(w);
+        if (points_in(w, f))
+            return ICC_OK;
+    }
+    return iccp_place_turn(&w->place, &w->slope, corners);
+}
+
+/* ---- how far ---- */
+
+static void find_motion(const iccp_walkn *w, unsigned corners, motion *m)
+{
+    const int dim = grid_of(w)->dim;
+    uint32_t vertices[ICC_MAX_DIM + 1];
+    double f[ICC_MAX_DIM + 1];
+    m->n = 0;
+    for (int i = 0; i <= dim; ++i)
+        if (corners >> i & 1) {
+            vertices[m->n] = w->place.simplex.corner[i];
+            m->y[m->n] = w->place.y[i];
+            m->corner[m->n++] = i;
+        }
+    iccp_slope_values(&w->slope, (size_t)m->n, vertices, f);
+    for (int a = 1; a < m->n; ++a)
+        m->speed[a] = (f[a] - f[a - 1]) / (m->corner[a] - m->corner[a - 1]);
+    m->speed[0] = m->speed[m->n] = 0;
+    m->y[0] = 1;
+    m->y[m->n] = 0;
+}
+
+/* When the barycentric coordinate of a corner becomes 0; never (HUGE_VAL) if it does not fall. */
+static double time_of(const motion *m, int a)
+{
+    const double speed = m->speed[a + 1] - m->speed[a];
+    return speed > 0 ? (m->y[a] - m->y[a + 1]) / speed : HUGE_VAL;
+}
+
+/* Moves on to the first of the facets opposite to the corners that belong to `face`; returns the corners that
+ * are left, or 0 when nothing moves. */
+static unsigned move(motion *m, unsigned face)
+{
+    double time[ICC_MAX_DIM + 1], first = HUGE_VAL;
+    for (int a = 0; a < m->n; ++a) {
+        time[a] = face >> m->corner[a] & 1 ? time_of(m, a) : HUGE_VAL;
+        first = fmin(first, time[a]);
+    }
+    if (!(first < HUGE_VAL))
+        return 0;
+    for (int a = 1; a < m->n; ++a)
+        m->y[a] += first * m->speed[a];
+    unsigned left = 0;
+    for (int a = 0; a < m->n; ++a) {
+        if (time[a] > first * (1 + SAME_TIME) && m->y[a] > m->y[a + 1])
+            left |= 1u << m->corner[a];
+        else if (a + 1 < m->n)
+            m->y[a + 1] = m->y[a];
+    }
+    /* Those that have met the lower end. */
+    for (int a = m->n - 1; a > 0 && !(left >> m->corner[a] & 1); --a)
+        m->y[a] = 0;
+    return left;
+}
+
+/* ---- steps ---- */
+
+/* Across the facet opposite to corner i, where the walk stands. */
+static icc_status cross(iccp_walkn *w, int i)
+{
+    iccp_place *p = &w->place;
+    const int dim = grid_of(w)->dim;
+    const int8_t lowest = p->simplex.axis[0], highest = p->simplex.axis[dim - 1];
+    int32_t fresh;
+    if (!iccp_kuhn_simplex_cross(&p->simplex, grid_of(w), i, &fresh))
+        return ICC_ERR_TRACE;
+    if (i == 0) {
+        ++p->low[lowest];
+        memmove(p->y + 1, p->y + 2, (size_t)dim * sizeof *p->y);
+    } else if (i == dim) {
+        --p->low[highest];
+        memmove(p->y + 1, p->y, (size_t)dim * sizeof *p->y);
+    }
+    p->face = all_corners(w) & ~(1u << fresh);
+    w->ahead = true;
+    return ICC_OK;
+}
+
+static double distance(int dim, const double *p, const double *q)
+{
+    double square = 0;
+    for (int k = 0; k < dim; ++k)
+        square += (q[k] - p[k]) * (q[k] - p[k]);
+    return sqrt(square);
+}
+
+static void record(iccp_walkn *w, const motion *m)
+{
+    const int dim = grid_of(w)->dim;
+    for (int a = 1; a < m->n; ++a)
+        for (int k = m->corner[a - 1]; k < m->corner[a]; ++k)
+            w->place.y[k + 1] = m->y[a];
+    memcpy(w->from, w->to, sizeof w->from);
+    find_position(w, w->to);
+    w->s += distance(dim, w->from, w->to);
+    w->cell = w->place.simplex.corner[0];
+}
+
+icc_status iccp_walkn_step(iccp_walkn *walk)
+{
+    unsigned corners;
+    motion m;
+    if (walk->steps_left == 0 || choose(walk, &corners) != ICC_OK)
+        return ICC_ERR_TRACE;
+    --walk->steps_left;
+    find_motion(walk, corners, &m);
+    const unsigned left = move(&m, walk->place.face);
+    if (left == 0)
+        return ICC_ERR_TRACE;
+    record(walk, &m);
+    walk->place.face = left;
+    walk->ahead = false;
+    for (int i = 0; i <= grid_of(walk)->dim; ++i)
+        if ((left | 1u << i) == all_corners(walk))
+            return cross(walk, i);
+    walk->merged = true;
+    return ICC_OK;
+}
+
+bool iccp_walkn_at_root(const iccp_walkn *walk)
+{
+    const unsigned face = walk->place.face;
+    int i = 0;
+    if ((face & (face - 1)) != 0)
+        return false;
+    while (!(face >> i & 1))
+        ++i;
+    return walk->place.simplex.corner[i] == walk->slope.field->tree->root;
+}
+
+/* ---- the start ---- */
+
+/* The simplex that holds a point, or of several the one to which `ahead` points. */
+static bool settle(iccp_walkn *w, const double *x, const double *ahead)
+{
+    const icc_grid *grid = grid_of(w);
+    iccp_place *p = &w->place;
+    double u[ICC_MAX_DIM];
+    uint32_t lowest = 0;
+    for (int k = 0; k < grid->dim; ++k) {
+        const double last = (double)grid->shape[k] - 1;
+        if (!(x[k] >= 0 && x[k] <= last) || last < 1)
+            return false;
+        const double cell = fmin(floor(x[k]), last - 1);
+        const bool back = cell > 0 && x[k] <= cell && ahead[k] < 0;
+        p->low[k] = (uint32_t)cell - back;
+        u[k] = x[k] - p->low[k];
+        lowest += p->low[k] * (uint32_t)grid->stride[k];
+        int i = k;
+        for (; i > 0; --i) {
+            const int8_t other = p->simplex.axis[i - 1];
+            if (u[other] > u[k] || (u[other] >= u[k] && ahead[other] >= ahead[k]))
+                break;
+            p->simplex.axis[i] = other;
+        }
+        p->simplex.axis[i] = (int8_t)k;
+    }
+    p->y[0] = 1;
+    p->y[grid->dim + 1] = 0;
+    p->face = 0;
+    for (int k = 0; k <= grid->dim; ++k) {
+        p->simplex.corner[k] = lowest;
+        if (k < grid->dim) {
+            p->y[k + 1] = u[p->simplex.axis[k]];
+            lowest += (uint32_t)grid->stride[p->simplex.axis[k]];
+        }
+        if (p->y[k] > p->y[k + 1])
+            p->face |= 1u << k;
+    }
+    return true;
+}
+
+icc_status iccp_walkn_start(iccp_walkn *walk, const icc_field *field, int direction,
+                            const double *x, const double *ahead)
+{
+    static const double NOWHERE[ICC_MAX_DIM] = {0};
+    const icc_grid *grid = field->tree->grid;
+    double f[ICC_MAX_DIM + 1];
+    *walk = (iccp_walkn){.slope = {field, direction, false}};
+    if (!settle(walk, x, ahead != NULL ? ahead : NOWHERE))
+        return ICC_ERR_TRACE;
+    memcpy(walk->to, x, (size_t)grid->dim * sizeof *x);
+    walk->ahead = ahead != NULL && walk->place.face != all_corners(walk) && has_values(walk, f);
+    /* A line meets each simplex and each of its facets at most once. */
+    size_t per_cell = 4;
+    for (int k = 2; k <= grid->dim; ++k)
+        per_cell *= (size_t)k;
+    walk->steps_left = per_cell * grid->n_vertices;
+    for (int i = 0; i <= grid->dim; ++i)
+        if ((walk->place.face >> i & 1) && isnan(field->values[walk->place.simplex.corner[i]]))
+            return ICC_ERR_TRACE;
+    return ICC_OK;
+}
+
+int iccp_walkn_slope_sign(const icc_field *field, const double *x, const double *direction)
+{
+    iccp_walkn w = {.slope = {field, 1, false}};
+    double f[ICC_MAX_DIM + 1], rise = 0;
+    if (!settle(&w, x, direction) || !has_values(&w, f))
+        return 0;
+    for (int k = 0; k < field->tree->grid->dim; ++k)
+        rise += (f[k + 1] - f[k]) * direction[w.place.simplex.axis[k]];
+    return (rise > 0) - (rise < 0);
+}
+
+/* ---- whole lines ---- */
+
+static icc_status begin_path(const iccp_walkn *walk, iccp_path *path)
+{
+    if (path == NULL)
+        return ICC_OK;
+    iccp_path_start(path, (size_t)grid_of(walk)->dim);
+    return iccp_path_append(path, walk->to, walk->s);
+}
+
+icc_status iccp_walkn_uphill(iccp_walkn *walk, iccp_path *path, double *merge)
+{
+    icc_status status = begin_path(walk, path);
+    double free_length = walk->s;
+    while (status == ICC_OK && !iccp_walkn_at_root(walk)) {
+        status = iccp_walkn_step(walk);
+        if (status == ICC_OK && path != NULL)
+            status = iccp_path_append(path, walk->to, walk->s);
+        if (!walk->merged)
+            free_length = walk->s;
+    }
+    if (merge != NULL)
+        *merge = free_length;
+    return status;
+}
+
+icc_status iccp_walkn_downhill(iccp_walkn *walk, const iccp_cage_cells *cage, iccp_path *path,
+                               iccp_cage_hit *hit)
+{
+    icc_status status = begin_path(walk, path);
+    bool met = false;
+    while (status == ICC_OK && !met) {
+        const double before = walk->s;
+        status = iccp_walkn_step(walk);
+        /* A step that leaves the grid may have passed the boundary first. */
+        if (walk->s > before || status == ICC_OK)
+            met = iccp_cage_cells_cross(cage, walk->cell, walk->from, walk->to, hit);
+        if (met) {
+            memcpy(walk->to, hit->point, sizeof walk->to);
+            walk->s = before + hit->share * (walk->s - before);
+        } else if (status != ICC_OK) {
+            return iccp_cage_cells_touch(cage, walk->to, hit) ? ICC_OK : status;
+        }
+        if (path != NULL) {
+            const icc_status appended = iccp_path_append(path, walk->to, walk->s);
+            if (appended != ICC_OK)
+                return appended;
+        }
+    }
+    return met ? ICC_OK : status;
+}
