@@ -33,6 +33,26 @@ typedef struct field_state {
 
 /* ---- making it ---- */
 
+/* Vertices inside, about, and in all at most, where the caller leaves the number of cells open: thin shapes get
+ * smaller cells. Enough for real surfaces (bench_field); 0.2 s and 40 MB in 3-D. */
+static const double INSIDE_BUDGET = 65536, BUDGET = 4194304;
+
+static int32_t choose_cells(const icc_domain *domain, int32_t cells)
+{
+    enum { FEWEST = 8, MOST = 16384 };
+    if (cells > 0 || domain->mask != NULL)
+        return cells;
+    double longest = 0, box = 1;
+    for (int32_t k = 0; k < domain->dim; ++k)
+        longest = fmax(longest, domain->upper[k] - domain->lower[k]);
+    for (int32_t k = 0; k < domain->dim; ++k)
+        box *= (domain->upper[k] - domain->lower[k]) / longest;
+    const double share = fabs(domain->measure) / pow(longest, domain->dim);
+    const double n = fmin(pow(INSIDE_BUDGET / share, 1.0 / domain->dim),
+                          pow(BUDGET / box, 1.0 / domain->dim));
+    return (int32_t)fmin(fmax(ceil(n), FEWEST), MOST);
+}
+
 static icc_status choose_root(const icc_grid *grid, const double *maximum, uint32_t *root,
                               const iccp_env *env, icc_error *err)
 {
@@ -50,7 +70,8 @@ static icc_status make_tree(field_state *state, icc_chart *chart, const icc_char
     icc_grow_report grown = {0};
     icc_tree_report report = {0};
     double start = iccp_seconds();
-    icc_status status = iccp_grid_create(&grid, chart->domain, options->cells, env, err);
+    icc_status status = iccp_grid_create(&grid, chart->domain, choose_cells(chart->domain, options->cells), env,
+                                         err);
     if (status != ICC_OK)
         return status;
     status = choose_root(grid, maximum, &root, env, err);
@@ -120,7 +141,7 @@ static void finish(field_state *state, icc_chart *chart)
     state->flow = (iccp_flow){.grid = grid,
                               .domain = chart->domain,
                               .cover = &state->cover,
-                              .vector = state->cones.vector,
+                              .cones = &state->cones,
                               .root = state->tree->root,
                               .most_steps = steps};
     iccp_frame_out(&chart->domain->frame, dim, state->root, info->maximum);
@@ -401,7 +422,7 @@ icc_status iccp_chart_field_create(icc_chart **out, const icc_domain *domain,
     chart->state = state;
     status = ICC_ERR_MEMORY;
     if (state != NULL) {
-        state->cover.memory = state->cones.memory = env->memory;
+        state->cover.memory = state->cones.memory = state->cones.sides.memory = env->memory;
         status = make_tree(state, chart, options, maximum, env, err);
     }
     if (status == ICC_OK)

@@ -15,7 +15,7 @@ static icc_status complete(icc_chart_options *options, int32_t dim, icc_error *e
         options->function = ICC_FUNCTION_DECAY;
     if (options->tree == 0)
         options->tree = ICC_TREE_THESIS;
-    if (options->cells == 0)
+    if (options->cells == 0 && options->method != ICC_METHOD_FIELD)
         options->cells = 50;
     if (options->method < ICC_METHOD_GRADIENT || options->method > ICC_METHOD_DISC)
         return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1, "method %ld is not available",

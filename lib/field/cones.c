@@ -35,7 +35,9 @@ typedef struct star {
     double up[1 << ICC_MAX_DIM], down[1 << ICC_MAX_DIM];          /* values, by set of axes */
     uint8_t up_inside[1 << ICC_MAX_DIM], down_inside[1 << ICC_MAX_DIM];
     size_t n_gradients, n_normals;
-    double *direction; /* gradients, then normals: length 1 */
+    double *direction;   /* gradients, then normals: length 1 */
+    const uint8_t *side; /* by simplex; only those on side `number` are looked at. NULL: all */
+    uint8_t number;
 } star;
 
 static size_t most_directions(int32_t dim)
@@ -84,6 +86,8 @@ static bool is_active(const star *s, int32_t r, int32_t k, uint32_t *lowest)
         any = any || s->up_inside[above];
     }
     *lowest = (uint32_t)((ptrdiff_t)s->vertex - s->orders->offset[below]);
+    if (s->side != NULL && s->side[iccp_side_simplex(dim, r, k)] != s->number)
+        return false;
     return any || iccp_cover_has(s->cover, *lowest, r);
 }
 
@@ -147,6 +151,19 @@ static void list_gradients(star *s)
         }
 }
 
+/* Whether a facet runs through some simplex on the side that is looked at. */
+static bool is_on_side(const star *s, uint32_t facet)
+{
+    for (int32_t r = 0; s->side != NULL && r < s->orders->n; ++r)
+        for (int32_t k = 0; k <= s->orders->dim; ++k) {
+            uint32_t lowest;
+            if (is_active(s, r, k, &lowest) &&
+                iccp_cover_touches(s->cover, facet, lowest, s->orders->axis[r]))
+                return true;
+        }
+    return s->side == NULL;
+}
+
 static void list_normals(star *s)
 {
     static const double SAME = 1 - 1e-12;
@@ -159,7 +176,7 @@ static void list_normals(star *s)
         bool fresh = true;
         for (size_t j = 0; fresh && j < s->n_normals; ++j)
             fresh = dot((int32_t)dim, normals + dim * j, normal) < SAME;
-        if (fresh)
+        if (fresh && is_on_side(s, facet[i]))
             memcpy(normals + dim * s->n_normals++, normal, dim * sizeof *normal);
     }
 }
@@ -223,12 +240,13 @@ static void tilt(int32_t dim, size_t n, const double *normals, const double *uph
     }
 }
 
-/* Writes the vector of a vertex; whether it is uphill in all simplices. It agrees with the normals when some
- * vector does, unless gradients are to go first. */
-static bool choose(star *s, bool gradients_first, double *x)
+/* Writes the vector of a vertex, or of one side of it; whether it is uphill in all simplices. It agrees with
+ * the normals when some vector does, unless gradients are to go first. `agrees`: with everything. */
+static bool choose(star *s, bool gradients_first, double *x, bool *agrees)
 {
     const int32_t dim = s->orders->dim;
     list_gradients(s);
+    *agrees = true;
     if (s->n_gradients == 0)
         return true;
     if (is_radial(s, x)) {
@@ -240,6 +258,7 @@ static bool choose(star *s, bool gradients_first, double *x)
     list_normals(s);
     if (find_vector(dim, s->n_gradients + s->n_normals, s->direction, x))
         return true;
+    *agrees = false;
     if (s->n_normals > 0 && !gradients_first) {
         const double *normals = s->direction + (size_t)dim * s->n_gradients;
         double uphill[ICC_MAX_DIM] = {0};
@@ -260,12 +279,15 @@ typedef struct work {
     uint8_t *state; /* by vertex: bits below */
 } work;
 
-enum { DIRTY = 1, FAILS = 2, GRADIENTS_FIRST = 4 };
+enum { DIRTY = 1, FAILS = 2, GRADIENTS_FIRST = 4, SPLIT = 8, TORN = 16 };
 
-static void load_vector(const work *w, uint32_t v, double *x)
+/* The vector of a vertex as corner k of simplex r. */
+static void load_vector(const work *w, uint32_t v, int32_t r, int32_t k, double *x)
 {
-    for (int32_t k = 0; k < w->orders->dim; ++k)
-        x[k] = (double)w->cones->vector[(size_t)w->orders->dim * v + (size_t)k];
+    const int32_t dim = w->orders->dim;
+    const float *vector = iccp_cones_vector(w->cones, v, r, k);
+    for (int32_t i = 0; i < dim; ++i)
+        x[i] = (double)vector[i];
 }
 
 static icc_status star_init(star *s, const work *w)
@@ -274,6 +296,31 @@ static icc_status star_init(star *s, const work *w)
     s->direction = iccp_alloc(&w->cones->memory, most_directions(w->orders->dim),
                               (size_t)w->orders->dim * sizeof *s->direction);
     return s->direction != NULL ? ICC_OK : ICC_ERR_MEMORY;
+}
+
+static void store(float *vector, int32_t dim, const double *x)
+{
+    for (int32_t k = 0; k < dim; ++k)
+        vector[k] = (float)x[k];
+}
+
+/* The vectors of a vertex that has several; whether all are uphill. */
+static bool choose_sides(work *w, star *s, uint32_t v)
+{
+    const iccp_sides *sides = &w->cones->sides;
+    const int32_t dim = w->orders->dim;
+    const size_t entry = iccp_sides_find(sides, v);
+    const uint32_t end = entry + 1 < sides->n ? sides->first[entry + 1] : (uint32_t)sides->n_vectors;
+    bool good = true, agrees;
+    s->side = sides->side + entry * sides->n_simplices;
+    for (uint32_t i = sides->first[entry]; i < end; ++i) {
+        double x[ICC_MAX_DIM] = {0};
+        s->number = (uint8_t)(i - sides->first[entry]);
+        good = choose(s, w->state[v] & GRADIENTS_FIRST, x, &agrees) && good;
+        store(sides->vector + (size_t)dim * i, dim, x);
+    }
+    s->side = NULL;
+    return good;
 }
 
 static icc_status choose_chunk(void *argument, size_t begin, size_t end)
@@ -286,13 +333,58 @@ static icc_status choose_chunk(void *argument, size_t begin, size_t end)
         if (!(w->state[v] & DIRTY))
             continue;
         double x[ICC_MAX_DIM] = {0};
+        bool good, agrees = true;
         load(&s, (uint32_t)v);
-        const bool good = choose(&s, w->state[v] & GRADIENTS_FIRST, x);
-        w->state[v] = (uint8_t)((w->state[v] & GRADIENTS_FIRST) | (good ? 0 : FAILS));
-        for (size_t k = 0; k < dim; ++k)
-            w->cones->vector[dim * v + k] = (float)x[k];
+        if (w->state[v] & SPLIT) {
+            good = choose_sides(w, &s, (uint32_t)v);
+        } else {
+            good = choose(&s, w->state[v] & GRADIENTS_FIRST, x, &agrees);
+            store(w->cones->vector + dim * v, (int32_t)dim, x);
+        }
+        w->state[v] &= GRADIENTS_FIRST | SPLIT;
+        w->state[v] |= (uint8_t)((good ? 0 : FAILS) | (agrees ? 0 : TORN));
     }
     iccp_free(&w->cones->memory, s.direction);
+    return status;
+}
+
+static void list_active(const star *s, uint8_t *active)
+{
+    for (int32_t r = 0; r < s->orders->n; ++r)
+        for (int32_t k = 0; k <= s->orders->dim; ++k) {
+            uint32_t lowest;
+            active[iccp_side_simplex(s->orders->dim, r, k)] = is_active(s, r, k, &lowest);
+        }
+}
+
+/* Gives several vectors to vertices outside that one does not suit and that lie between parts of the domain. */
+static icc_status split_torn(work *w)
+{
+    const icc_grid *grid = w->smooth->grid;
+    iccp_sides *sides = &w->cones->sides;
+    star s;
+    icc_status status = star_init(&s, w);
+    uint8_t *active = iccp_alloc(&sides->memory, 2 * sides->n_simplices, sizeof *active);
+    if (status == ICC_OK && active == NULL)
+        status = ICC_ERR_MEMORY;
+    for (uint32_t v = 0; status == ICC_OK && v < grid->n_vertices; ++v) {
+        double x[ICC_MAX_DIM];
+        if (!(w->state[v] & TORN) || grid->inside[v])
+            continue;
+        load(&s, v);
+        if (is_radial(&s, x))
+            continue;
+        list_active(&s, active);
+        uint8_t *side = active + sides->n_simplices;
+        const int n_sides = iccp_sides_split(w->cover, w->orders, v, active, side);
+        if (n_sides < 2)
+            continue;
+        status = iccp_sides_add(sides, v, n_sides, side);
+        w->state[v] |= SPLIT | DIRTY;
+        w->cones->vector[(size_t)grid->dim * v] = ICCP_SEVERAL;
+    }
+    iccp_free(&sides->memory, active);
+    iccp_free(&sides->memory, s.direction);
     return status;
 }
 
@@ -346,17 +438,16 @@ static void adjust(work *w, star *s, uint32_t v)
 {
     const int32_t dim = w->orders->dim;
     double x[ICC_MAX_DIM], gradient[ICC_MAX_DIM];
-    load_vector(w, v, x);
-    if (!normalise(dim, x))
-        return;
     for (int32_t r = 0; r < w->orders->n; ++r)
         for (int32_t k = 0; k <= dim; ++k) {
             uint32_t lowest;
             load(s, v);
             if (!is_active(s, r, k, &lowest))
                 continue;
+            load_vector(w, v, r, k, x);
             gradient_of(s, r, k, gradient);
-            w->cones->n_adjusted += project(w, s, r, lowest, x, gradient);
+            if (normalise(dim, x))
+                w->cones->n_adjusted += project(w, s, r, lowest, x, gradient);
         }
     soil(w, v);
 }
@@ -388,20 +479,48 @@ static icc_status adjust_all(work *w, const iccp_env *env)
     return status;
 }
 
-/* The boundary is crossed one way when it is at the corners of all simplices that it runs through. */
-static void check_inward(work *w)
+/* Facets at a vertex, or at one side of it, and those that its vector does not cross inward. */
+static void count_contacts(work *w, const star *s, const float *vector)
 {
-    iccp_cones *c = w->cones;
     const size_t dim = (size_t)w->orders->dim;
-    for (uint32_t v = 0; v < w->smooth->grid->n_vertices; ++v) {
-        double x[ICC_MAX_DIM];
-        load_vector(w, v, x);
-        for (uint32_t i = w->cover->first[v]; i < w->cover->first[v + 1]; ++i) {
-            const double *normal = w->cover->normal + dim * w->cover->facet[i];
-            ++c->n_contacts;
-            c->n_not_inward += !(dot((int32_t)dim, normal, x) > 0);
-        }
+    double x[ICC_MAX_DIM];
+    for (size_t k = 0; k < dim; ++k)
+        x[k] = (double)vector[k];
+    for (uint32_t i = w->cover->first[s->vertex]; i < w->cover->first[s->vertex + 1]; ++i) {
+        const uint32_t facet = w->cover->facet[i];
+        if (!is_on_side(s, facet))
+            continue;
+        ++w->cones->n_contacts;
+        w->cones->n_not_inward += !(dot((int32_t)dim, w->cover->normal + dim * facet, x) > 0);
     }
+}
+
+/* The boundary is crossed one way when it is at the corners of all simplices that it runs through. */
+static icc_status check_inward(work *w)
+{
+    const iccp_sides *sides = &w->cones->sides;
+    const size_t dim = (size_t)w->orders->dim;
+    star s;
+    const icc_status status = star_init(&s, w);
+    size_t entry = 0;
+    for (uint32_t v = 0; status == ICC_OK && v < w->smooth->grid->n_vertices; ++v) {
+        s.vertex = v;
+        s.side = NULL;
+        if (!(w->state[v] & SPLIT)) {
+            count_contacts(w, &s, w->cones->vector + dim * v);
+            continue;
+        }
+        const size_t end = entry + 1 < sides->n ? sides->first[entry + 1] : sides->n_vectors;
+        load(&s, v);
+        s.side = sides->side + sides->n_simplices * entry;
+        for (size_t i = sides->first[entry]; i < end; ++i) {
+            s.number = (uint8_t)(i - sides->first[entry]);
+            count_contacts(w, &s, sides->vector + dim * i);
+        }
+        ++entry;
+    }
+    iccp_free(&w->cones->memory, s.direction);
+    return status;
 }
 
 static icc_status fill(work *w, const iccp_env *env)
@@ -413,10 +532,12 @@ static icc_status fill(work *w, const iccp_env *env)
     }
     icc_status status = choose_all(w, env);
     if (status == ICC_OK)
-        status = adjust_all(w, env);
+        status = split_torn(w);
     if (status == ICC_OK)
-        check_inward(w);
-    return status;
+        status = choose_all(w, env);
+    if (status == ICC_OK)
+        status = adjust_all(w, env);
+    return status == ICC_OK ? check_inward(w) : status;
 }
 
 icc_status iccp_cones_create(iccp_cones *cones, iccp_smooth *smooth, const iccp_cover *cover,
@@ -424,6 +545,7 @@ icc_status iccp_cones_create(iccp_cones *cones, iccp_smooth *smooth, const iccp_
 {
     const icc_grid *grid = smooth->grid;
     *cones = (iccp_cones){.memory = env->memory, .grid = grid};
+    iccp_sides_init(&cones->sides, grid->dim, &env->memory);
     work w = {.cones = cones, .smooth = smooth, .cover = cover};
     iccp_orders *orders = iccp_alloc(&env->memory, 1, sizeof *orders);
     w.orders = orders;
@@ -443,5 +565,6 @@ icc_status iccp_cones_create(iccp_cones *cones, iccp_smooth *smooth, const iccp_
 void iccp_cones_free(iccp_cones *cones)
 {
     iccp_free(&cones->memory, cones->vector);
-    *cones = (iccp_cones){.memory = cones->memory};
+    iccp_sides_free(&cones->sides);
+    *cones = (iccp_cones){.memory = cones->memory, .sides = cones->sides};
 }

@@ -74,6 +74,7 @@ typedef struct scan {
     double corner[ICC_MAX_DIM][ICC_MAX_DIM]; /* lattice coordinates */
     double normal[ICC_MAX_DIM];              /* inward */
     double level;                            /* of the facet's plane */
+    uint32_t faces;                          /* of the simplex looked at: met by the facet */
     uint32_t *seen;                          /* by vertex: the last facet noted there, + 1 */
     uint32_t *count;                         /* by vertex: how many facets, in the first pass */
 } scan;
@@ -153,7 +154,7 @@ static double side_of(const scan *s, const double *v)
     return sign;
 }
 
-static void load(scan *s, uint32_t facet)
+static void load_corners(scan *s, uint32_t facet)
 {
     const int32_t dim = s->domain->dim;
     const icc_grid *grid = s->cover->grid;
@@ -164,16 +165,28 @@ static void load(scan *s, uint32_t facet)
         for (int32_t k = 0; k < dim; ++k)
             s->corner[i][k] = (p[k] - grid->origin[k]) / grid->spacing;
     }
+}
+
+static void find_level(scan *s)
+{
+    s->level = 0;
+    for (int32_t k = 0; k < s->domain->dim; ++k)
+        s->level += s->normal[k] * s->corner[0][k];
+}
+
+static void load(scan *s, uint32_t facet)
+{
+    const int32_t dim = s->domain->dim;
+    load_corners(s, facet);
     find_normal(s);
     /* An outward vector, then the edges, have the orientation's sign; here it comes last. */
     const double parity = dim % 2 == 0 ? -1 : 1;
     const double outward = side_of(s, s->normal) * s->domain->orientation * parity;
-    s->level = 0;
     for (int32_t k = 0; k < dim; ++k) {
         s->normal[k] = outward > 0 ? -s->normal[k] : s->normal[k];
-        s->level += s->normal[k] * s->corner[0][k];
         s->cover->normal[(size_t)dim * facet + (size_t)k] = s->normal[k];
     }
+    find_level(s);
 }
 
 /* Whether the plane of the facet passes a simplex on one side. */
@@ -185,27 +198,30 @@ static contact plane_contact(const scan *s, const int32_t *cell, const int8_t *a
     low = high = height;
     for (int32_t k = 0; k < s->domain->dim; ++k) {
         height += s->normal[axis[k]];
-        low = fmin(low, height);
-        high = fmax(high, height);
+        low = height < low ? height : low;
+        high = height > high ? height : high;
     }
     if (low > CONTACT || high < -CONTACT)
         return APART;
     return low < -CONTACT && high > CONTACT ? TOUCHES : GRAZES;
 }
 
-static contact contact_with(const scan *s, const int32_t *cell, const int8_t *axis)
+static contact contact_with(scan *s, const int32_t *cell, const int8_t *axis)
 {
     const int32_t dim = s->domain->dim;
     contact least = TOUCHES;
+    s->faces = 0;
     for (int32_t i = 0; i <= dim; ++i) {
-        double highest = -HUGE_VAL;
+        double highest = -HUGE_VAL, lowest = HUGE_VAL;
         for (int32_t j = 0; j < dim; ++j) {
             const double above = i == 0 ? 1 : s->corner[j][axis[i - 1]] - cell[axis[i - 1]];
             const double below = i == dim ? 0 : s->corner[j][axis[i]] - cell[axis[i]];
-            highest = fmax(highest, above - below);
+            highest = above - below > highest ? above - below : highest;
+            lowest = above - below < lowest ? above - below : lowest;
         }
         if (highest < -CONTACT)
             return APART;
+        s->faces |= lowest <= CONTACT ? (uint32_t)1 << i : 0;
         least = highest > CONTACT ? least : GRAZES;
     }
     const contact plane = plane_contact(s, cell, axis);
@@ -268,6 +284,9 @@ static void visit_cell(scan *s, const int32_t *cell, bool second)
         if (c == GRAZES && !any_inside && !has && !middle_is_inside(s, cell, axis))
             continue;
         s->cover->bits[lowest] |= (uint32_t)1 << (r % 32);
+        for (int32_t i = 0; i <= grid->dim; ++i)
+            if (s->faces >> i & 1)
+                s->cover->faces[lowest] |= iccp_cover_face_bit(grid->dim, r, i);
         note(s, corner, second);
     }
 }
@@ -342,8 +361,9 @@ icc_status iccp_cover_create(iccp_cover *cover, const icc_domain *domain, const 
                              const iccp_env *env)
 {
     const size_t n = grid->n_vertices;
-    *cover = (iccp_cover){.memory = env->memory, .grid = grid};
+    *cover = (iccp_cover){.memory = env->memory, .grid = grid, .domain = domain};
     cover->bits = iccp_alloc_zero(&env->memory, n, sizeof *cover->bits);
+    cover->faces = iccp_alloc_zero(&env->memory, n, sizeof *cover->faces);
     cover->first = iccp_alloc(&env->memory, n + 1, sizeof *cover->first);
     cover->normal = iccp_alloc(&env->memory, domain->n_facets * (size_t)domain->dim,
                                sizeof *cover->normal);
@@ -352,7 +372,7 @@ icc_status iccp_cover_create(iccp_cover *cover, const icc_domain *domain, const 
     s.seen = iccp_alloc(&env->memory, n, sizeof *s.seen);
     s.count = iccp_alloc_zero(&env->memory, n, sizeof *s.count);
     icc_status status = ICC_ERR_MEMORY;
-    if (cover->bits != NULL && cover->first != NULL && cover->normal != NULL && orders != NULL &&
+    if (cover->bits != NULL && cover->faces != NULL && cover->first != NULL && cover->normal != NULL && orders != NULL &&
         s.seen != NULL && s.count != NULL) {
         iccp_orders_init(orders, grid);
         status = fill(&s, env);
@@ -363,9 +383,24 @@ icc_status iccp_cover_create(iccp_cover *cover, const icc_domain *domain, const 
     return status;
 }
 
+bool iccp_cover_touches(const iccp_cover *cover, uint32_t facet, uint32_t lowest, const int8_t *axis)
+{
+    const int32_t dim = cover->grid->dim;
+    scan s = {.cover = (iccp_cover *)cover, .domain = cover->domain};
+    int32_t cell[ICC_MAX_DIM];
+    load_corners(&s, facet);
+    for (int32_t k = 0; k < dim; ++k) {
+        cell[k] = (int32_t)iccp_grid_coordinate(cover->grid, lowest, k);
+        s.normal[k] = cover->normal[(size_t)dim * facet + (size_t)k];
+    }
+    find_level(&s);
+    return contact_with(&s, cell, axis) != APART;
+}
+
 void iccp_cover_free(iccp_cover *cover)
 {
     iccp_free(&cover->memory, cover->bits);
+    iccp_free(&cover->memory, cover->faces);
     iccp_free(&cover->memory, cover->first);
     iccp_free(&cover->memory, cover->facet);
     iccp_free(&cover->memory, cover->normal);

@@ -23,10 +23,12 @@ int32_t iccp_order_rank(int32_t dim, const int8_t *axis);
 typedef struct iccp_cover {
     iccp_memory memory;
     const icc_grid *grid; /* borrowed */
+    const icc_domain *domain; /* borrowed */
     /* By cell (its lowest corner). Bit r % 32 stands for the simplex with order number r: it meets the
      * domain although no vertex of it is inside, or a facet runs through it. Beyond 4-D several
      * simplices share a bit. */
     uint32_t *bits;
+    uint32_t *faces; /* by cell, iccp_cover_face_bit(): a facet may meet a face of that simplex */
     uint32_t *first; /* n_vertices + 1: of the facets that run through simplices at each vertex */
     uint32_t *facet;
     double *normal;  /* dim for each facet: inward, length 1 */
@@ -42,5 +44,14 @@ static inline bool iccp_cover_has(const iccp_cover *cover, uint32_t lowest, int3
 {
     return cover->bits[lowest] >> (rank % 32) & 1;
 }
+
+/* Of the face opposite to corner i of the simplex with order number r. Beyond 3-D several share a bit. */
+static inline uint32_t iccp_cover_face_bit(int32_t dim, int32_t r, int32_t i)
+{
+    return (uint32_t)1 << ((r * (dim + 1) + i) % 32);
+}
+
+/* Whether a facet has a point in common with a simplex, or may have one. */
+bool iccp_cover_touches(const iccp_cover *cover, uint32_t facet, uint32_t lowest, const int8_t *axis);
 
 #endif

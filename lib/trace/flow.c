@@ -52,11 +52,12 @@ void iccp_flow_position(const iccp_flow *flow, const iccp_flow_place *place, con
 void iccp_flow_vector(const iccp_flow *flow, const iccp_flow_place *place, double *vector)
 {
     const int32_t dim = flow->grid->dim;
+    const int32_t r = iccp_order_rank(dim, place->simplex.axis);
     double above = 1;
     memset(vector, 0, (size_t)dim * sizeof *vector);
     for (int32_t i = 0; i <= dim; ++i) {
         const double below = i < dim ? place->at[place->simplex.axis[i]] : 0;
-        const float *x = flow->vector + (size_t)dim * place->simplex.corner[i];
+        const float *x = iccp_cones_vector(flow->cones, place->simplex.corner[i], r, i);
         for (int32_t k = 0; k < dim; ++k)
             vector[k] += (above - below) * (double)x[k];
         above = below;
@@ -142,21 +143,14 @@ static double root_of(const double *series, int32_t n, double high, double guess
     return s;
 }
 
-/* The smallest positive root of a + b s + c s^2 / 2, a >= 0; HUGE_VAL if there is none. */
-static inline double first_root(double a, double b, double c)
-{
-    const double d = b * b - 2 * a * c;
-    if (d < 0 || (b >= 0 && c >= 0))
-        return HUGE_VAL;
-    const double q = sqrt(d);
-    return b < 0 ? 2 * a / (q - b) : (b + q) / -c;
-}
-
 /* ---- one piece ---- */
 
 static ICCP_INLINE void load_corner(iccp_flow_walk *w, int32_t dim, int32_t i)
 {
-    const float *x = w->flow->vector + (size_t)dim * w->place.simplex.corner[i];
+    const uint32_t v = w->place.simplex.corner[i];
+    const float *x = w->flow->cones->vector + (size_t)dim * v;
+    if (ICCP_UNLIKELY(x[0] >= ICCP_SEVERAL))
+        x = iccp_cones_vector(w->flow->cones, v, iccp_order_rank(dim, w->place.simplex.axis), i);
     for (int32_t k = 0; k < dim; ++k)
         w->corner[i][k] = w->sign * (double)x[k];
 }
@@ -173,29 +167,33 @@ static ICCP_INLINE void expect_corner(const iccp_flow_walk *w, int32_t dim, int3
         corner = simplex->corner[0] - stride[simplex->axis[dim - 1]];
     else
         corner = simplex->corner[exit - 1] + stride[simplex->axis[exit]];
-    ICCP_PREFETCH(w->flow->vector + (size_t)dim * corner);
+    ICCP_PREFETCH(w->flow->cones->vector + (size_t)dim * corner);
 }
 
-/* Which facet a quadratic curve would reach first, and when; the others' distances do not matter. */
+/* Which facet a straight curve would reach first, and when a quadratic one would reach that. */
 static ICCP_INLINE double guess_exit(const iccp_flow_walk *w, int32_t dim, int32_t *exit)
 {
     const int8_t *axis = w->place.simplex.axis;
-    double best = HUGE_VAL, a0 = 1, b0 = 0, c0 = 0;
-    *exit = ICCP_FLOW_WITHIN;
+    double best = HUGE_VAL, a = 1, b = 0, a_best = 0, b_best = 0;
+    int32_t first = ICCP_FLOW_WITHIN;
     for (int32_t i = 0; i <= dim; ++i) {
-        const double a1 = i < dim ? w->term[0][axis[i]] : 0;
-        const double b1 = i < dim ? w->term[1][axis[i]] : 0;
-        const double c1 = i < dim ? w->term[2][axis[i]] : 0;
-        const double a = a0 - a1, root = first_root(a <= SLACK ? SLACK : a, b0 - b1, 2 * (c0 - c1));
-        if (root < best) {
-            best = root;
-            *exit = i;
-        }
-        a0 = a1;
-        b0 = b1;
-        c0 = c1;
+        const double a_next = i < dim ? w->term[0][axis[i]] : 0;
+        const double b_next = i < dim ? w->term[1][axis[i]] : 0;
+        const double slope = b - b_next, time = (a - a_next) / -slope;
+        const bool sooner = slope < 0 && time < best;
+        best = sooner ? time : best;
+        first = sooner ? i : first;
+        a = a_next;
+        b = b_next;
     }
-    return best;
+    *exit = first;
+    if (first == ICCP_FLOW_WITHIN)
+        return HUGE_VAL;
+    a_best = (first > 0 ? w->term[0][axis[first - 1]] : 1) - (first < dim ? w->term[0][axis[first]] : 0);
+    b_best = (first > 0 ? w->term[1][axis[first - 1]] : 0) - (first < dim ? w->term[1][axis[first]] : 0);
+    const double c = (first > 0 ? w->term[2][axis[first - 1]] : 0) - (first < dim ? w->term[2][axis[first]] : 0);
+    const double d = b_best * b_best - 4 * a_best * c;
+    return d >= 0 ? 2 * a_best / (sqrt(d) - b_best) : -b_best / (2 * c);
 }
 
 static const double INVERSE[ICCP_FLOW_TERMS + 2] = {
@@ -234,7 +232,7 @@ static ICCP_INLINE double expand(iccp_flow_walk *w, int32_t dim, int32_t *exit, 
             *guess = guess_exit(w, dim, exit);
             if (*exit != ICCP_FLOW_WITHIN)
                 expect_corner(w, dim, *exit);
-            reach = 1.25 * *guess;
+            reach = 1.1 * *guess + SLACK;
             reach = reach * norm > FARTHEST ? FARTHEST / norm : reach;
             power = reach * reach * norm;
         }

@@ -2,7 +2,7 @@
 #ifndef ICCP_FLOW_H
 #define ICCP_FLOW_H
 
-#include "field/cover.h"
+#include "field/cones.h"
 #include "trace/path.h"
 
 enum {
@@ -14,7 +14,7 @@ typedef struct iccp_flow {
     const icc_grid *grid;
     const icc_domain *domain;
     const iccp_cover *cover;
-    const float *vector; /* dim per vertex */
+    const iccp_cones *cones;
     uint32_t root;        /* where all curves end; in the simplices around it they are straight */
     size_t most_steps;
 } iccp_flow;
