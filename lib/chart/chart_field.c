@@ -35,7 +35,7 @@ typedef struct field_state {
 
 /* Vertices inside, about, and in all at most, where the caller leaves the number of cells open: thin shapes get
  * smaller cells. Enough for real surfaces (bench_field); 0.2 s and 40 MB in 3-D. */
-static const double INSIDE_BUDGET = 65536, BUDGET = 4194304;
+static const double PLANE_BUDGET = 16384, INSIDE_BUDGET = 65536, BUDGET = 4194304;
 
 static int32_t choose_cells(const icc_domain *domain, int32_t cells)
 {
@@ -48,7 +48,8 @@ static int32_t choose_cells(const icc_domain *domain, int32_t cells)
     for (int32_t k = 0; k < domain->dim; ++k)
         box *= (domain->upper[k] - domain->lower[k]) / longest;
     const double share = fabs(domain->measure) / pow(longest, domain->dim);
-    const double n = fmin(pow(INSIDE_BUDGET / share, 1.0 / domain->dim),
+    const double inside = domain->dim == 2 ? PLANE_BUDGET : INSIDE_BUDGET;
+    const double n = fmin(pow(inside / share, 1.0 / domain->dim),
                           pow(BUDGET / box, 1.0 / domain->dim));
     return (int32_t)fmin(fmax(ceil(n), FEWEST), MOST);
 }

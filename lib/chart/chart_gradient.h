@@ -1,4 +1,4 @@
-/* Method gradient: Integral Curve Coordinates as published, in 2-D. */
+/* Method gradient: Integral Curve Coordinates as published. */
 #ifndef ICCP_CHART_GRADIENT_H
 #define ICCP_CHART_GRADIENT_H
 

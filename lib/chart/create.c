@@ -5,6 +5,7 @@
 #include "chart/chart_field.h"
 #include "chart/chart_foliation.h"
 #include "chart/chart_gradient.h"
+#include "chart/pairing.h"
 
 
 static icc_status complete(icc_chart_options *options, int32_t dim, icc_error *err)
@@ -163,20 +164,59 @@ static icc_status create_harmonic(harmonic_job *job, icc_chart **out, const iccp
     return iccp_explain(err, status);
 }
 
-/* The maximum is the caller's, if there is one. */
+/* The maximum is the caller's, if there is one, else `wish`, which may be NULL. */
 static icc_status create_field(icc_chart **out, const icc_domain *domain,
-                               const icc_chart_options *options, const iccp_env *env,
-                               icc_error *err)
+                               const icc_chart_options *options, const double *wish,
+                               const iccp_env *env, icc_error *err)
 {
     double local[ICC_MAX_DIM];
+    *out = NULL;
     if (options->maximum != NULL) {
         iccp_frame_in(&domain->frame, domain->dim, options->maximum, local);
         if (iccp_domain_locate(domain, local, true, NULL, NULL) != ICC_INSIDE)
             return iccp_fail(err, ICC_ERR_OUTSIDE, -1, "the maximum is not inside the domain");
+        wish = local;
     }
-    return iccp_explain(err, iccp_chart_field_create(out, domain, options,
-                                                     options->maximum != NULL ? local : NULL, env,
-                                                     err));
+    return iccp_explain(err, iccp_chart_field_create(out, domain, options, wish, env, err));
+}
+
+/* The image of one chart's maximum in the other's domain; NULL if that is no good place for one. */
+static const double *guess_maximum(const icc_chart *chart, const icc_domain *other, double *image)
+{
+    double local[ICC_MAX_DIM];
+    iccp_frame_in(&chart->domain->frame, chart->domain->dim, chart->info.maximum, local);
+    return iccp_pair_point(chart->domain, other, local, image) ? image : NULL;
+}
+
+/* The target's maximum is where the source's goes, about; where that is too near the boundary, the other way
+ * round. Left alone, the two may end in different limbs. */
+static icc_status create_field_pair(icc_chart *out[2], const icc_domain *const domain[2],
+                                    const icc_chart_options options[2], const iccp_env *env,
+                                    icc_error *err)
+{
+    double image[ICC_MAX_DIM];
+    int32_t side = 1;
+    icc_status status = create_field(&out[0], domain[0], &options[0], NULL, env, err);
+    if (status == ICC_OK) {
+        const double *wish = guess_maximum(out[0], domain[1], image);
+        side = 2;
+        status = create_field(&out[1], domain[1], &options[1], wish, env, err);
+        if (status == ICC_OK && wish == NULL && options[0].maximum == NULL)
+            wish = guess_maximum(out[1], domain[0], image);
+        else
+            wish = NULL;
+        if (wish != NULL) {
+            iccp_chart_release(out[0]);
+            side = 1;
+            status = create_field(&out[0], domain[0], &options[0], wish, env, err);
+        }
+    }
+    if (status == ICC_OK)
+        return ICC_OK;
+    iccp_chart_release(out[0]);
+    iccp_chart_release(out[1]);
+    out[0] = out[1] = NULL;
+    return iccp_fail_side(err, status, side);
 }
 
 icc_status iccp_chart_create(icc_chart **out, const icc_domain *domain,
@@ -191,18 +231,18 @@ icc_status iccp_chart_create(icc_chart **out, const icc_domain *domain,
     if (full.method == ICC_METHOD_GRADIENT)
         return iccp_explain(err, iccp_chart_gradient_create(out, domain, &full, env, err));
     if (full.method == ICC_METHOD_FIELD)
-        return create_field(out, domain, &full, env, err);
+        return create_field(out, domain, &full, NULL, env, err);
     harmonic_job job = {.n = 1, .domain = &domain, .options = &full};
     return create_harmonic(&job, out, env, err);
 }
 
-/* Methods on grids: the charts have nothing in common. */
-static icc_status create_apart(icc_chart *out[2], const icc_domain *const domain[2],
-                               const icc_chart_options options[2], const iccp_env *env,
-                               icc_error *err)
+static icc_status create_gradient_pair(icc_chart *out[2], const icc_domain *const domain[2],
+                                       const icc_chart_options options[2], const iccp_env *env,
+                                       icc_error *err)
 {
     for (size_t k = 0; k < 2; ++k) {
-        const icc_status status = iccp_chart_create(&out[k], domain[k], &options[k], env, err);
+        const icc_status status =
+            iccp_explain(err, iccp_chart_gradient_create(&out[k], domain[k], &options[k], env, err));
         if (status != ICC_OK) {
             if (k == 1)
                 iccp_chart_release(out[0]);
@@ -224,8 +264,10 @@ icc_status iccp_chart_create_pair(icc_chart *out[2], const icc_domain *const dom
         status = complete(&full[1], domain[1]->dim, err);
     if (status != ICC_OK)
         return status;
-    if (full[0].method == ICC_METHOD_GRADIENT || full[0].method == ICC_METHOD_FIELD)
-        return create_apart(out, domain, full, env, err);
+    if (full[0].method == ICC_METHOD_GRADIENT)
+        return create_gradient_pair(out, domain, full, env, err);
+    if (full[0].method == ICC_METHOD_FIELD)
+        return create_field_pair(out, domain, full, env, err);
     harmonic_job job = {.n = 2, .domain = domain, .options = full};
     return create_harmonic(&job, out, env, err);
 }

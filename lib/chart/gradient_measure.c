@@ -3,6 +3,7 @@
 #include "chart/gradient_measure.h"
 
 #include "base/threads.h"
+#include "chart/gradient_line.h"
 
 #include <math.h>
 
@@ -17,27 +18,34 @@ typedef struct area_samples {
 /* Shapes that fill less of their bounding box than one part in this get fewer samples than wanted. */
 static const double MOST_CANDIDATES = 64;
 
-/* The R2 sequence (M. Roberts, 2018): multiples of the powers of the inverse plastic number. Its point 0
- * is the middle of the box, which is special in a symmetric shape: left out. */
-static void candidate(const icc_domain *domain, size_t index, double p[2])
+/* The sequence R_d (M. Roberts, 2018): multiples of the powers of 1/x, x^(d + 1) = x + 1. */
+static double sequence(int32_t dim, int32_t k, size_t index)
 {
-    static const double STEP[2] = {0.75487766624669276, 0.56984029099805327};
-    for (int k = 0; k < 2; ++k) {
-        const double x = 0.5 + STEP[k] * (double)(index + 1);
-        p[k] = domain->lower[k] + (x - floor(x)) * (domain->upper[k] - domain->lower[k]);
-    }
+    static const double FIRST[ICC_MAX_DIM] = {0.61803398874989485, 0.75487766624669276,
+                                              0.81917251339616444, 0.85667488385450287,
+                                              0.88127146163356959, 0.89865371262869929};
+    double step = FIRST[dim - 1];
+    for (int32_t i = 0; i < k; ++i)
+        step *= FIRST[dim - 1];
+    const double x = 0.5 + step * (double)(index + 1);
+    return x - floor(x);
 }
 
-static uint8_t judge_point(const iccp_gradient_state *state, const double local[2])
+/* Its point 0 is the middle of the box, which is special in a symmetric shape: left out. */
+static void candidate(const icc_domain *domain, size_t index, double *p)
 {
-    double p[2];
+    for (int32_t k = 0; k < domain->dim; ++k)
+        p[k] = domain->lower[k] +
+               sequence(domain->dim, k, index) * (domain->upper[k] - domain->lower[k]);
+}
+
+static uint8_t judge_point(const iccp_gradient_state *state, const double *local)
+{
+    double p[ICC_MAX_DIM];
+    iccp_gradient_line down, up;
     iccp_gradient_to_lattice(state, local, p);
-    iccp_walk2 down, up;
-    iccp_fence_hit hit;
-    if (iccp_walk2_start(&down, state->field, ICCP_DOWNHILL, p[0], p[1], NULL) != ICC_OK ||
-        iccp_trace_downhill(&down, &state->fence, NULL, &hit) != ICC_OK ||
-        iccp_walk2_start(&up, state->field, ICCP_UPHILL, p[0], p[1], NULL) != ICC_OK ||
-        iccp_trace_uphill(&up, NULL, NULL) != ICC_OK)
+    if (iccp_gradient_down(state, p, NULL, NULL, &down) != ICC_OK ||
+        iccp_gradient_up(state, p, NULL, NULL, &up) != ICC_OK)
         return UNREACHABLE;
     return down.merged ? UNCOVERED : COVERED;
 }
@@ -47,7 +55,7 @@ static icc_status judge_chunk(void *argument, size_t begin, size_t end)
     const area_samples *samples = argument;
     const icc_domain *domain = samples->chart->domain;
     for (size_t i = begin; i < end; ++i) {
-        double p[2];
+        double p[ICC_MAX_DIM];
         candidate(domain, i, p);
         samples->verdict[i] = iccp_domain_locate(domain, p, true, NULL, NULL) == ICC_INSIDE
                                   ? judge_point(samples->chart->state, p)
@@ -59,7 +67,9 @@ static icc_status judge_chunk(void *argument, size_t begin, size_t end)
 /* How many points to spread over the bounding box so that about n lie inside. */
 static size_t count_candidates(const icc_domain *domain, size_t n)
 {
-    const double box = (domain->upper[0] - domain->lower[0]) * (domain->upper[1] - domain->lower[1]);
+    double box = 1;
+    for (int32_t k = 0; k < domain->dim; ++k)
+        box *= domain->upper[k] - domain->lower[k];
     const double fill = domain->measure / box;
     return (size_t)ceil((double)n * fmin(fill > 0 ? 1 / fill : MOST_CANDIDATES, MOST_CANDIDATES));
 }
@@ -87,25 +97,19 @@ static icc_status measure_area(const icc_chart *chart, size_t n_points,
 
 typedef struct boundary_samples {
     const icc_chart *chart;
-    const double *length;  /* of the boundary up to each facet, n_facets + 1 */
+    const double *extent;  /* of the boundary up to each facet, n_facets + 1, up to a factor */
     size_t n;
     double *collapsed;     /* share of the way on which the curve is not alone; NaN: no curve */
     uint8_t *inward;
 } boundary_samples;
 
-static void facet_ends(const icc_domain *domain, size_t facet, const double **a, const double **b)
-{
-    *a = domain->vertices + 2 * (size_t)domain->facets[2 * facet];
-    *b = domain->vertices + 2 * (size_t)domain->facets[2 * facet + 1];
-}
-
-/* The facet that holds the given length of boundary. */
-static size_t find_facet(const boundary_samples *samples, double length)
+/* The facet that holds the given extent of boundary. */
+static size_t find_facet(const boundary_samples *samples, double extent)
 {
     size_t low = 0, high = samples->chart->domain->n_facets;
     while (high - low > 1) {
         const size_t middle = low + (high - low) / 2;
-        if (samples->length[middle] <= length)
+        if (samples->extent[middle] <= extent)
             low = middle;
         else
             high = middle;
@@ -113,25 +117,43 @@ static size_t find_facet(const boundary_samples *samples, double length)
     return low;
 }
 
+/* The share of the boundary's extent places a point along its facet; the sequence across. Sorted, such numbers
+ * cut [0, 1] into barycentric coordinates that are evenly spread. */
+static void place_on_facet(int32_t dim, double along, size_t index, double *bary)
+{
+    double cut[ICC_MAX_DIM] = {along};
+    for (int32_t k = 1; k < dim - 1; ++k) {
+        const double x = sequence(dim - 2, k - 1, index);
+        int32_t i = k;
+        for (; i > 0 && cut[i - 1] < x; --i)
+            cut[i] = cut[i - 1];
+        cut[i] = x;
+    }
+    bary[0] = 1 - cut[0];
+    for (int32_t k = 1; k < dim; ++k)
+        bary[k] = cut[k - 1] - (k < dim - 1 ? cut[k] : 0);
+}
+
 static void judge_boundary_point(const boundary_samples *samples, size_t index)
 {
     const icc_domain *domain = samples->chart->domain;
     const iccp_gradient_state *state = samples->chart->state;
-    const double wanted = ((double)index + 0.5) / (double)samples->n * samples->length[domain->n_facets];
+    const double *extent = samples->extent;
+    const double wanted = ((double)index + 0.5) / (double)samples->n * extent[domain->n_facets];
     const size_t facet = find_facet(samples, wanted);
-    const double width = samples->length[facet + 1] - samples->length[facet];
-    const double along = width > 0 ? (wanted - samples->length[facet]) / width : 0;
-    const double bary[2] = {1 - along, along};
-    double point[2], lattice[2], inward[2], merge;
+    const double width = extent[facet + 1] - extent[facet];
+    const double along = width > 0 ? (wanted - extent[facet]) / width : 0;
+    double bary[ICC_MAX_DIM], point[ICC_MAX_DIM], lattice[ICC_MAX_DIM], inward[ICC_MAX_DIM];
+    place_on_facet(domain->dim, along, index, bary);
     iccp_domain_facet_point(domain, (uint32_t)facet, bary, point);
     iccp_gradient_to_lattice(state, point, lattice);
     iccp_gradient_inward(domain, (uint32_t)facet, inward);
-    samples->inward[index] = iccp_slope_sign(state->field, lattice, inward) > 0;
+    samples->inward[index] = iccp_gradient_slope_sign(state, lattice, inward) > 0;
     samples->collapsed[index] = NAN;
-    iccp_walk2 walk;
-    if (iccp_gradient_depart(samples->chart, (uint32_t)facet, point, &walk, NULL) == ICC_OK &&
-        iccp_trace_uphill(&walk, NULL, &merge) == ICC_OK && walk.s > 0)
-        samples->collapsed[index] = 1 - merge / walk.s;
+    iccp_gradient_line line;
+    if (iccp_gradient_up_from(samples->chart, (uint32_t)facet, point, NULL, &line) == ICC_OK &&
+        line.s > 0)
+        samples->collapsed[index] = 1 - line.alone / line.s;
 }
 
 static icc_status judge_boundary_chunk(void *argument, size_t begin, size_t end)
@@ -158,28 +180,36 @@ static void sum_boundary(const boundary_samples *samples, icc_chart_measures *me
     measures->collapsed = n_curves > 0 ? collapsed / (double)n_curves : 0;
 }
 
+static void sum_extents(const icc_domain *domain, double *extent)
+{
+    double inward[ICC_MAX_DIM];
+    extent[0] = 0;
+    for (size_t f = 0; f < domain->n_facets; ++f) {
+        double square = 0;
+        iccp_gradient_inward(domain, (uint32_t)f, inward);
+        for (int32_t k = 0; k < domain->dim; ++k)
+            square += inward[k] * inward[k];
+        extent[f + 1] = extent[f] + sqrt(square);
+    }
+}
+
 static icc_status measure_boundary(const icc_chart *chart, size_t n_points,
                                    icc_chart_measures *measures, const iccp_env *env)
 {
     const icc_domain *domain = chart->domain;
-    double *length = iccp_alloc(&env->memory, domain->n_facets + 1, sizeof *length);
+    double *extent = iccp_alloc(&env->memory, domain->n_facets + 1, sizeof *extent);
     double *collapsed = iccp_alloc(&env->memory, n_points, sizeof *collapsed);
     uint8_t *inward = iccp_alloc(&env->memory, n_points, 1);
     icc_status status = ICC_ERR_MEMORY;
-    if (length != NULL && collapsed != NULL && inward != NULL) {
-        length[0] = 0;
-        for (size_t f = 0; f < domain->n_facets; ++f) {
-            const double *a, *b;
-            facet_ends(domain, f, &a, &b);
-            length[f + 1] = length[f] + hypot(b[0] - a[0], b[1] - a[1]);
-        }
-        boundary_samples samples = {chart, length, n_points, collapsed, inward};
+    if (extent != NULL && collapsed != NULL && inward != NULL) {
+        sum_extents(domain, extent);
+        boundary_samples samples = {chart, extent, n_points, collapsed, inward};
         status = iccp_for_chunks(env, "measure boundary", n_points, 64, judge_boundary_chunk,
                                  &samples);
         if (status == ICC_OK)
             sum_boundary(&samples, measures);
     }
-    iccp_free(&env->memory, length);
+    iccp_free(&env->memory, extent);
     iccp_free(&env->memory, collapsed);
     iccp_free(&env->memory, inward);
     return status;

@@ -3,36 +3,38 @@
 #define ICCP_GRADIENT_STATE_H
 
 #include "chart/chart.h"
+#include "trace/cage_cells.h"
 #include "trace/walk2.h"
 
 typedef struct iccp_gradient_state {
     icc_tree *tree;
     icc_field *field;
-    iccp_fence fence;
-    double root[2];     /* the maximum in lattice coordinates */
-    double root_reach;  /* lattice: a point this close is the maximum */
+    iccp_fence fence;         /* the boundary as walks meet it: in the plane */
+    iccp_cage_cells cage;     /* and elsewhere */
+    double root[ICC_MAX_DIM]; /* the maximum in lattice coordinates */
+    double root_reach;        /* lattice: a point this close is the maximum */
 } iccp_gradient_state;
 
-static inline void iccp_gradient_to_lattice(const iccp_gradient_state *state, const double local[2],
-                                            double lattice[2])
+static inline void iccp_gradient_to_lattice(const iccp_gradient_state *state, const double *local,
+                                            double *lattice)
 {
     const icc_grid *grid = state->tree->grid;
-    for (int k = 0; k < 2; ++k)
+    for (int k = 0; k < grid->dim; ++k)
         lattice[k] = (local[k] - grid->origin[k]) / grid->spacing;
 }
 
-static inline void iccp_gradient_to_local(const iccp_gradient_state *state,
-                                          const double lattice[2], double local[2])
+static inline void iccp_gradient_to_local(const iccp_gradient_state *state, const double *lattice,
+                                          double *local)
 {
     const icc_grid *grid = state->tree->grid;
-    for (int k = 0; k < 2; ++k)
+    for (int k = 0; k < grid->dim; ++k)
         local[k] = lattice[k] * grid->spacing + grid->origin[k];
 }
 
-/* Across a facet, into the domain; not of unit length. */
-void iccp_gradient_inward(const icc_domain *domain, uint32_t facet, double inward[2]);
+/* Across a facet, into the domain; as long as (dim - 1)! times the measure of the facet. */
+void iccp_gradient_inward(const icc_domain *domain, uint32_t facet, double *inward);
 
-/* Starts uphill at a local point of a facet, into the domain. `jet` may be NULL. */
+/* In the plane, starts uphill at a local point of a facet, into the domain. `jet` may be NULL. */
 icc_status iccp_gradient_depart(const icc_chart *chart, uint32_t facet, const double point[2],
                                 iccp_walk2 *walk, iccp_jet2 *jet);
 

@@ -1,0 +1,33 @@
+/* A gradient line from a point down to the boundary, or up to the maximum: in the plane by trace/walk2.h,
+ * which knows derivatives, elsewhere by trace/walkn.h. */
+#ifndef ICCP_GRADIENT_LINE_H
+#define ICCP_GRADIENT_LINE_H
+
+#include "chart/gradient_state.h"
+
+typedef struct iccp_gradient_line {
+    double s;                 /* arc length, lattice units */
+    bool merged;              /* whether others have joined it */
+    double alone;             /* up: arc length until they did */
+    uint32_t facet;           /* down: where it ends */
+    double bary[ICC_MAX_DIM];
+} iccp_gradient_line;
+
+/* From a point in lattice coordinates to the boundary. `path`, in lattice coordinates, may be NULL; so may
+ * `jet`, and must be except in the plane. */
+icc_status iccp_gradient_down(const iccp_gradient_state *state, const double *from,
+                              iccp_path *path, iccp_jet2 *jet, iccp_gradient_line *line);
+
+/* Likewise, to the maximum. */
+icc_status iccp_gradient_up(const iccp_gradient_state *state, const double *from, iccp_path *path,
+                            iccp_jet2 *jet, iccp_gradient_line *line);
+
+/* To the maximum from a local point of a facet, into the domain. */
+icc_status iccp_gradient_up_from(const icc_chart *chart, uint32_t facet, const double *point,
+                                 iccp_path *path, iccp_gradient_line *line);
+
+/* Sign of the derivative of f at a point along a direction, both in lattice coordinates; not exact. */
+int iccp_gradient_slope_sign(const iccp_gradient_state *state, const double *at,
+                             const double *direction);
+
+#endif
