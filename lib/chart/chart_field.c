@@ -10,7 +10,7 @@
 #include "field/critical.h"
 #include "grid/grassfire.h"
 #include "grid/rasterise.h"
-#include "trace/flow.h"
+#include "trace/flow_jet.h"
 #include "tree/settle.h"
 #include "tree/verify.h"
 
@@ -71,8 +71,8 @@ static icc_status make_tree(field_state *state, icc_chart *chart, const icc_char
     icc_grow_report grown = {0};
     icc_tree_report report = {0};
     double start = iccp_seconds();
-    icc_status status = iccp_grid_create(&grid, chart->domain, choose_cells(chart->domain, options->cells), env,
-                                         err);
+    const int32_t cells = choose_cells(chart->domain, options->cells);
+    icc_status status = iccp_grid_create(&grid, chart->domain, cells, env, err);
     if (status != ICC_OK)
         return status;
     status = choose_root(grid, maximum, &root, env, err);
@@ -221,28 +221,98 @@ static int32_t locate(const icc_chart *chart, const double *point, iccp_flow_pla
     return iccp_domain_locate(chart->domain, point, true, &coords->facet, coords->bary);
 }
 
+/* `jet` may be NULL; else it starts as the derivative of the place by the point, and ends at the boundary. */
 static icc_status walk_down(const field_state *state, const iccp_flow_place *place,
-                            iccp_coords *coords, double *length)
+                            iccp_coords *coords, double *length, iccp_flow_jet *jet)
 {
+    const size_t dim = (size_t)state->tree->grid->dim;
     iccp_flow_walk walk;
     icc_status status = iccp_flow_start(&walk, &state->flow, -1, place);
     double s;
-    while (status == ICC_OK && !iccp_flow_leaves(&walk, &s, &coords->facet, coords->bary))
+    while (status == ICC_OK && !iccp_flow_leaves(&walk, &s, &coords->facet, coords->bary)) {
+        if (jet != NULL && !iccp_flow_jet_pass(&walk, jet))
+            return ICC_ERR_TRACE;
         status = iccp_flow_next(&walk);
-    if (status == ICC_OK)
-        *length = walk.length + iccp_flow_length(&walk, s);
-    return status;
+    }
+    if (status != ICC_OK)
+        return status;
+    *length = walk.length + iccp_flow_length(&walk, s);
+    if (jet == NULL)
+        return ICC_OK;
+    iccp_flow_jet_within(&walk, s, jet);
+    const double *normal = state->cover.normal + dim * coords->facet;
+    return iccp_flow_jet_onto(&walk, s, normal, jet) ? ICC_OK : ICC_ERR_TRACE;
 }
 
-static icc_status walk_up(const field_state *state, const iccp_flow_place *place, double *length)
+static icc_status walk_up(const field_state *state, const iccp_flow_place *place, double *length,
+                          iccp_flow_jet *jet)
 {
     iccp_flow_walk walk;
     icc_status status = iccp_flow_start(&walk, &state->flow, +1, place);
-    while (status == ICC_OK && !walk.ends)
+    while (status == ICC_OK && !walk.ends) {
+        if (jet != NULL && !iccp_flow_jet_pass(&walk, jet))
+            return ICC_ERR_TRACE;
         status = iccp_flow_next(&walk);
+    }
+    if (status == ICC_OK && jet != NULL)
+        (void)iccp_flow_jet_pass(&walk, jet);
     if (status == ICC_OK)
         *length = walk.length + walk.end_length;
     return status;
+}
+
+/* Each parameter moves the point along an axis. */
+static void unit_jet(iccp_flow_jet *jet, int32_t dim)
+{
+    *jet = (iccp_flow_jet){.n = dim};
+    for (int32_t k = 0; k < dim; ++k)
+        jet->place[k][k] = 1;
+}
+
+/* From movements of a point on a facet to its barycentric coordinates: by the normal equations of the
+ * facet's edges, which are independent. */
+static void facet_slopes(const icc_domain *domain, uint32_t facet, const double *movement,
+                         double *slope)
+{
+    const int32_t dim = domain->dim, n = dim - 1;
+    const double *corner[ICC_MAX_DIM];
+    double gram[ICC_MAX_DIM][ICC_MAX_DIM] = {{0}}, right[ICC_MAX_DIM] = {0};
+    iccp_facet_corners(&domain->tree, facet, corner);
+    for (int32_t i = 0; i < n; ++i)
+        for (int32_t k = 0; k < dim; ++k) {
+            const double edge = corner[i + 1][k] - corner[0][k];
+            right[i] += edge * movement[k];
+            for (int32_t j = 0; j < n; ++j)
+                gram[i][j] += edge * (corner[j + 1][k] - corner[0][k]);
+        }
+    for (int32_t c = 0; c < n; ++c)
+        for (int32_t r = 0; r < n; ++r) {
+            const double factor = r != c ? gram[r][c] / gram[c][c] : 0;
+            for (int32_t k = c; k < n; ++k)
+                gram[r][k] -= factor * gram[c][k];
+            right[r] -= factor * right[c];
+        }
+    slope[0] = 0;
+    for (int32_t i = 0; i < n; ++i) {
+        slope[i + 1] = right[i] / gram[i][i];
+        slope[0] -= slope[i + 1];
+    }
+}
+
+static void fill_encode_jet(const icc_chart *chart, uint32_t facet, const iccp_flow_jet *down,
+                            double s_down, const iccp_flow_jet *up, double s_up,
+                            iccp_encode_jet *jet)
+{
+    const field_state *state = chart->state;
+    const int32_t dim = chart->domain->dim;
+    const double h = state->tree->grid->spacing, length = s_down + s_up;
+    for (int32_t j = 0; j < dim; ++j) {
+        double slope[ICC_MAX_DIM];
+        facet_slopes(chart->domain, facet, down->place[j], slope);
+        for (int32_t i = 0; i < dim; ++i)
+            jet->bary[i * dim + j] = slope[i];
+        jet->t[j] = (down->length[j] * s_up - s_down * up->length[j]) / (length * length * h);
+    }
 }
 
 static icc_status encode(const icc_chart *chart, const double *point, iccp_coords *coords,
@@ -261,15 +331,21 @@ static icc_status encode(const icc_chart *chart, const double *point, iccp_coord
         coords_of_maximum(chart, coords);
         return jet == NULL ? ICC_OK : ICC_ERR_TRACE;
     }
+    double s_down = 0, s_up = 0;
+    iccp_flow_jet down, up;
+    if (jet != NULL) {
+        unit_jet(&down, chart->domain->dim);
+        unit_jet(&up, chart->domain->dim);
+    }
+    icc_status status = walk_down(state, &place, coords, &s_down, jet != NULL ? &down : NULL);
+    if (status == ICC_OK)
+        status = walk_up(state, &place, &s_up, jet != NULL ? &up : NULL);
+    if (status != ICC_OK)
+        return status;
+    coords->t = s_down / (s_down + s_up);
     if (jet != NULL)
-        return ICC_ERR_TRACE;
-    double down = 0, up = 0;
-    icc_status status = walk_down(state, &place, coords, &down);
-    if (status == ICC_OK)
-        status = walk_up(state, &place, &up);
-    if (status == ICC_OK)
-        coords->t = down / (down + up);
-    return status;
+        fill_encode_jet(chart, coords->facet, &down, s_down, &up, s_up, jet);
+    return ICC_OK;
 }
 
 /* ---- and back ---- */
@@ -294,13 +370,59 @@ static icc_status climb(const icc_chart *chart, const double *point, iccp_flow_w
     return status;
 }
 
+/* By the barycentric coordinates but the first: the walk once more with derivatives, those at the start of
+ * the piece that holds the point kept. */
+static icc_status fill_decode_jet(const icc_chart *chart, const iccp_coords *coords,
+                                  const iccp_path *path, const iccp_flow_walk *end, double s,
+                                  double total, iccp_decode_jet *jet)
+{
+    const field_state *state = chart->state;
+    const int32_t dim = chart->domain->dim;
+    const double h = state->tree->grid->spacing;
+    const double *corner[ICC_MAX_DIM];
+    iccp_flow_jet whole = {.n = dim - 1}, part = {0};
+    iccp_flow_walk walk;
+    iccp_facet_corners(&chart->domain->tree, coords->facet, corner);
+    for (int32_t c = 0; c + 1 < dim; ++c)
+        for (int32_t k = 0; k < dim; ++k)
+            whole.place[c][k] = (corner[c + 1][k] - corner[0][k]) / h;
+    icc_status status = iccp_flow_start(&walk, &state->flow, +1, &path->marks[0].place);
+    for (bool more = true; status == ICC_OK && more;) {
+        if (walk.length <= end->length)
+            part = whole;
+        more = !walk.ends;
+        if (!iccp_flow_jet_pass(&walk, &whole) && more)
+            return ICC_ERR_TRACE;
+        if (more)
+            status = iccp_flow_next(&walk);
+    }
+    if (status != ICC_OK)
+        return status;
+    double ahead[ICC_MAX_DIM];
+    iccp_flow_jet_within(end, s, &part);
+    for (int32_t c = 0; c + 1 < dim; ++c)
+        ahead[c] = coords->t * whole.length[c] - part.length[c];
+    iccp_flow_jet_advance(end, s, ahead, &part);
+    for (int32_t i = 0; i < dim; ++i) {
+        jet->bary[i * dim] = 0;
+        for (int32_t c = 0; c + 1 < dim; ++c)
+            jet->bary[i * dim + c + 1] = h * part.place[c][i];
+    }
+    /* By t: along the curve. */
+    part = (iccp_flow_jet){.n = 1};
+    iccp_flow_jet_advance(end, s, &total, &part);
+    for (int32_t i = 0; i < dim; ++i)
+        jet->t[i] = h * part.place[0][i];
+    return ICC_OK;
+}
+
 static icc_status decode(const icc_chart *chart, const iccp_coords *coords, double *point,
                          iccp_decode_jet *jet, iccp_path *path)
 {
     const field_state *state = chart->state;
     iccp_flow_walk walk;
     double at[ICC_MAX_DIM];
-    if (jet != NULL)
+    if (jet != NULL && (coords->t <= 0 || coords->t >= 1))
         return ICC_ERR_TRACE;
     if (coords->t >= 1) {
         memcpy(point, state->root, (size_t)chart->domain->dim * sizeof *point);
@@ -312,13 +434,15 @@ static icc_status decode(const icc_chart *chart, const iccp_coords *coords, doub
     icc_status status = climb(chart, point, &walk, path);
     if (status != ICC_OK)
         return status;
-    const double length = coords->t * (walk.length + walk.end_length);
+    const double total = walk.length + walk.end_length, length = coords->t * total;
     status = iccp_flow_rewind(&walk, path, length);
     if (status != ICC_OK)
         return status;
-    iccp_flow_at(&walk, iccp_flow_at_length(&walk, length - walk.length), at);
+    const double s = iccp_flow_at_length(&walk, length - walk.length);
+    iccp_flow_at(&walk, s, at);
     to_local(state, &walk.place, at, point);
-    return ICC_OK;
+    return jet == NULL ? ICC_OK
+                       : fill_decode_jet(chart, coords, path, &walk, s, total, jet);
 }
 
 /* ---- the whole curve ---- */

@@ -7,7 +7,6 @@
 #include "chart/chart_gradient.h"
 #include "chart/pairing.h"
 
-
 static icc_status complete(icc_chart_options *options, int32_t dim, icc_error *err)
 {
     if (options->method == 0)
@@ -21,7 +20,9 @@ static icc_status complete(icc_chart_options *options, int32_t dim, icc_error *e
     if (options->method < ICC_METHOD_GRADIENT || options->method > ICC_METHOD_DISC)
         return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1, "method %ld is not available",
                          (long)options->method);
-    if (options->method == ICC_METHOD_FIELD ? dim < 2 : dim != 2)
+    const bool planar =
+        options->method == ICC_METHOD_FOLIATION || options->method == ICC_METHOD_DISC;
+    if (planar ? dim != 2 : dim < 2)
         return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1,
                          "method %ld is not available for domains of dimension %ld",
                          (long)options->method, (long)dim);
