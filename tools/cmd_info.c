@@ -3,72 +3,32 @@
 
 #include "info.h"
 #include "memory.h"
-#include "sample.h"
 #include "stages.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { N_SAMPLES = 4096 };
-
-static int compare_numbers(const void *a, const void *b)
+/* The critical vertices of the order in which the tree was grown, and, beyond the plane, what it takes
+ * to have an order with none but the maximum. */
+static int examine_order(info *x, const stages *s)
 {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static void summarise(map_shares *s, size_t n, double *energies)
-{
-    if (n == 0)
-        return;
-    for (size_t i = 0; i < n; i++)
-        s->mean += energies[i] / (double)n;
-    qsort(energies, n, sizeof *energies, compare_numbers);
-    s->median = energies[n / 2];
-    s->nearly_all = energies[(n - 1) * 99 / 100];
-}
-
-/* `growth` is the mean change of area. */
-static void share_out(map_shares *s, const double *jacobians, double growth)
-{
-    const double collapse = 1e-9; /* less of the mean change of area is left than that */
-    const double one = 1.0 / (double)s->n;
-    double *energies = need(s->n, sizeof *energies);
-    size_t n = 0;
-    for (size_t i = 0; i < s->n; i++) {
-        const double *j = jacobians + 4 * i;
-        double det = (j[0] * j[3] - j[1] * j[2]) / growth;
-        double square = (j[0] * j[0] + j[1] * j[1] + j[2] * j[2] + j[3] * j[3]) / growth;
-        if (isnan(det))
-            s->without_image += one;
-        else if (fabs(det) < collapse)
-            s->collapsed += one;
-        else if (det < 0)
-            s->inverted += one;
-        else
-            energies[n++] = square + square / (det * det);
+    icc_field_report found = {.size = sizeof found};
+    icc_error err = {.size = sizeof err, .index = -1};
+    x->grid = s->lattice;
+    uint32_t *rank = need(s->lattice.n_vertices, sizeof *rank);
+    const int32_t *generations = icc_tree_generations(s->tree);
+    for (size_t i = 0; i < s->lattice.n_vertices; i++)
+        rank[i] = generations[i] < 0 ? UINT32_MAX : (uint32_t)generations[i];
+    icc_status status = icc_tree_verify_ranks(s->tree, rank, &found, &x->job.env, &err);
+    x->n_order_critical = found.n_maxima + found.n_minima + found.n_saddles - 1;
+    if (status == ICC_OK && s->lattice.dim > 2) {
+        x->growth.size = sizeof x->growth;
+        status = icc_tree_grow(s->tree, s->values, rank, &x->growth, &x->job.env, &err);
+        x->grown = status == ICC_OK;
     }
-    summarise(s, n, energies);
-    free(energies);
-}
-
-static int measure_map(info *x)
-{
-    job *j = &x->job;
-    icc_domain_info target = {.size = sizeof target};
-    icc_map_get_info(j->map, &x->map);
-    icc_domain_get_info(j->domains[1], &target);
-    double *points = need(N_SAMPLES, 2 * sizeof *points),
-           *jacobians = need(N_SAMPLES, 4 * sizeof *jacobians);
-    x->shares.n = sample_inside(j->domains[0], N_SAMPLES, points, &j->env);
-    icc_status ran = icc_map_jacobian(j->map, x->shares.n, points, jacobians, NULL, NULL, &j->env);
-    if (ran == ICC_OK && x->shares.n > 0)
-        share_out(&x->shares, jacobians, fabs(target.measure / x->domain.measure));
-    free(points);
-    free(jacobians);
-    return ran == ICC_OK ? DONE : job_failed_status(j, ran);
+    free(rank);
+    return status == ICC_OK || status == ICC_ERR_TOPOLOGY ? DONE : job_failed(&x->job, &err);
 }
 
 /* How the function was made, and where the first critical point lies that should not be there. */
@@ -82,11 +42,11 @@ static int examine_function(info *x, const stages *s)
     if (icc_field_verify(s->field, &found, &x->job.env, &err) != ICC_OK)
         return job_failed(&x->job, &err);
     x->n_inner_expansion = s->n_inner_expansion;
-    x->n_holes = stages_holes(s);
+    x->n_holes = s->lattice.dim == 2 ? stages_holes(s) : 0;
     x->has_critical = found.critical != UINT32_MAX;
     if (x->has_critical)
         stages_position(s, found.critical, x->critical);
-    return DONE;
+    return examine_order(x, s);
 }
 
 /* Euler's formula: a hole brings a saddle, whatever the function; further critical points are its own. */
@@ -94,6 +54,8 @@ static const char *own_reason(const info *x)
 {
     if (x->chart.n_maxima == 1 && x->chart.n_minima == 0 && x->chart.n_saddles <= x->n_holes)
         return NULL;
+    if (x->domain.dim > 2)
+        return "beyond the plane the inequalities of a tree would not exclude them";
     if (function_solves(x->field.function) && !x->field.constrained)
         return "the inequalities that keep such points away were not imposed";
     if (x->chart.n_cousin_violations > 0)
@@ -116,6 +78,25 @@ const char *info_reason(char text[240], const info *x)
     return text;
 }
 
+bool info_has_grid(const info *x)
+{
+    return x->chart.method == ICC_METHOD_GRADIENT || x->chart.method == ICC_METHOD_FIELD;
+}
+
+const char *info_growth(char text[160], const info *x)
+{
+    const icc_grow_report *g = &x->growth;
+    if (g->method == ICC_GROW_AS_WISHED)
+        snprintf(text, 160, "the order of the function has no critical vertex but the maximum");
+    else if (!x->grown)
+        snprintf(text, 160, "stuck: %zu vertices cannot be placed, %zu are left by thinning",
+                 g->n_unplaced, g->n_left);
+    else
+        snprintf(text, 160, "%s, %zu vertices had to wait, %zu edges against the function",
+                 g->method == ICC_GROW_GROWN ? "grown" : "thinned", g->n_postponed, g->n_turned);
+    return text;
+}
+
 static int gather(info *x)
 {
     job *j = &x->job;
@@ -127,7 +108,8 @@ static int gather(info *x)
     icc_error err = {.size = sizeof err, .index = -1};
     icc_domain_get_info(j->domains[0], &x->domain);
     icc_chart_get_info(chart, &x->chart);
-    if (icc_chart_measure(chart, 0, &x->measures, &j->env, &err) != ICC_OK)
+    if (x->chart.method == ICC_METHOD_GRADIENT &&
+        icc_chart_measure(chart, 0, &x->measures, &j->env, &err) != ICC_OK)
         return job_failed(j, &err);
     stages parts;
     result = stages_make(&parts, j, 1);
@@ -135,7 +117,7 @@ static int gather(info *x)
         result = examine_function(x, &parts);
     stages_free(&parts);
     if (result == DONE && pair)
-        result = measure_map(x);
+        result = info_measure_map(x);
     progress_end(&j->bar);
     return result;
 }

@@ -5,12 +5,27 @@
 #include <math.h>
 #include <stdio.h>
 
-static void print_domain(const icc_domain_info *d)
+static void print_point(const info *x, const char *before, const double *at, const char *behind)
 {
-    printf("cage        %zu vertices, %s, area %.17g\n", d->n_vertices,
-           d->orientation > 0 ? "counter-clockwise" : "clockwise", d->measure);
-    printf("box         %.17g %.17g to %.17g %.17g\n", d->lower[0], d->lower[1], d->upper[0],
-           d->upper[1]);
+    fputs(before, stdout);
+    for (int32_t k = 0; k < x->domain.dim; k++)
+        printf("%s%.17g", k > 0 ? " " : "", at[k]);
+    fputs(behind, stdout);
+}
+
+static void print_domain(const info *x)
+{
+    const icc_domain_info *d = &x->domain;
+    const char *const measures[] = {"measure", "length", "area", "volume"};
+    const char *const turns[] = {"facing inward", "facing outward", "clockwise",
+                                 "counter-clockwise"};
+    printf("cage        %zu vertices, ", d->n_vertices);
+    if (d->dim != 2)
+        printf("%zu facets, ", d->n_facets);
+    printf("%s, %s %.17g\n", turns[(d->dim == 2 ? 2 : 0) + (d->orientation > 0)],
+           measures[d->dim > 3 ? 0 : d->dim], d->measure);
+    print_point(x, "box         ", d->lower, " to ");
+    print_point(x, "", d->upper, "\n");
 }
 
 static void print_solution(const icc_field_info *f)
@@ -39,38 +54,74 @@ static void print_critical(const info *x)
     printf("critical    %zu maxima, %zu minima, %zu saddles\n", c->n_maxima, c->n_minima,
            c->n_saddles);
     char reason[240];
-    if (x->has_critical)
-        printf("            the first besides the maximum lies at %.17g %.17g:\n            %s\n",
-               x->critical[0], x->critical[1], info_reason(reason, x));
+    if (!x->has_critical)
+        return;
+    print_point(x, "            the first besides the maximum lies at ", x->critical, ":\n");
+    printf("            %s\n", info_reason(reason, x));
 }
 
-static void print_gradient(const info *x)
+static void print_grid(const info *x)
 {
     const icc_chart_info *c = &x->chart;
-    const icc_chart_measures *m = &x->measures;
-    char label[48];
-    printf("method      gradient, function %s, tree %s, not certifiable\n",
-           function_label(label, &x->field), choice_name(trees, c->tree));
-    printf("grid        %zu vertices, %zu inside, spacing %.17g\n", c->n_grid, c->n_inside,
-           c->spacing);
-    printf("maximum     %.17g %.17g\n", c->maximum[0], c->maximum[1]);
-    printf("tree        %zu vertices, %zu unreachable, %zu cousin violations\n", c->n_tree,
+    char text[160];
+    printf("grid        %zu vertices, %zu inside, ", c->n_grid, c->n_inside);
+    if (x->domain.dim > 2)
+        printf("%zu given up, ", x->grid.n_stray);
+    printf("spacing %.17g\n", c->spacing);
+    print_point(x, "maximum     ", c->maximum, "\n");
+    printf("tree        %zu vertices, %zu unreachable, %zu cousin violations", c->n_tree,
            c->n_unreachable, c->n_cousin_violations);
+    if (x->domain.dim > 2)
+        printf(", %zu critical vertices in its order\norder       %s", x->n_order_critical,
+               info_growth(text, x));
+    putchar('\n');
     if (function_solves(c->function))
         print_solution(&x->field);
     print_critical(x);
-    printf("edges       %zu, of which %zu compression, %zu expansion; %zu of these at triangles "
-           "inside\n",
-           c->n_edges, c->n_compression, c->n_expansion, x->n_inner_expansion);
-    printf(
-        "unreachable %6.2f %% of the area: no curve through it reaches both boundary and maximum\n",
-        100 * m->unreachable);
-    printf("uncovered   %6.2f %% of the area: no curve from the boundary enters it\n",
-           100 * m->uncovered);
+}
+
+static void print_shares(const info *x)
+{
+    const icc_chart_info *c = &x->chart;
+    const icc_chart_measures *m = &x->measures;
+    const char *measure = x->domain.dim == 2 ? "area" : "volume";
+    if (x->domain.dim == 2)
+        printf("edges       %zu, of which %zu compression, %zu expansion; %zu of these at triangles "
+               "inside\n",
+               c->n_edges, c->n_compression, c->n_expansion, x->n_inner_expansion);
+    if (m->n_points == 0)
+        return;
+    printf("unreachable %6.2f %% of the %s: no curve through it reaches both boundary and maximum\n",
+           100 * m->unreachable, measure);
+    printf("uncovered   %6.2f %% of the %s: no curve from the boundary enters it\n",
+           100 * m->uncovered, measure);
     printf("collapsed   %6.2f %% of the coordinates: on lines where curves have merged\n",
            100 * m->collapsed);
     printf("not inward  %6.2f %% of the boundary: the gradient does not point inward\n",
            100 * m->not_inward);
+}
+
+static void print_gradient(const info *x)
+{
+    char label[48];
+    printf("method      gradient, function %s, tree %s, not certifiable\n",
+           function_label(label, &x->field), choice_name(trees, x->chart.tree));
+    print_grid(x);
+    print_shares(x);
+}
+
+static void print_field(const info *x)
+{
+    const icc_chart_info *c = &x->chart;
+    char label[48];
+    printf("method      field, function %s, %s\n", function_label(label, &x->field),
+           c->certified ? "certified" : "not certified");
+    print_grid(x);
+    printf("vectors     %zu of %zu vertices have none that points uphill all round\n",
+           c->n_infeasible, c->n_inside);
+    printf("not inward  %6.2f %% of %zu contacts with the boundary: curves do not enter there\n",
+           c->n_contacts > 0 ? 100 * (double)c->n_not_inward / (double)c->n_contacts : 0,
+           c->n_contacts);
 }
 
 static void print_certified(const icc_chart_info *c)
@@ -104,15 +155,16 @@ static void print_map(const info *x)
                m->n_unrepaired);
     if (m->kind == ICC_MAP_MESH)
         print_mesh_map(m);
-    printf("area        %6.2f %% collapses, %.2f %% inverts, %.2f %% has no image\n",
-           100 * s->collapsed, 100 * s->inverted, 100 * s->without_image);
+    printf("%-11s %6.2f %% collapses, %.2f %% inverts, %.2f %% has no image\n",
+           x->domain.dim == 2 ? "area" : "volume", 100 * s->collapsed, 100 * s->inverted, 100 * s->without_image);
     printf(
-        "distortion  mean %.4g, median %.4g, 99 %% below %.4g%s (symmetric Dirichlet; 4: none)\n",
+        "distortion  mean %.4g, median %.4g, 99 %% below %.4g%s (symmetric Dirichlet; %d: none)\n",
         s->mean, s->median, s->nearly_all,
-        s->collapsed + s->inverted + s->without_image > 0 ? " for the rest" : "");
+        s->collapsed + s->inverted + s->without_image > 0 ? " for the rest" : "",
+        2 * (int)x->domain.dim);
 }
 
-static void print_gradient_seconds(const info *x)
+static void print_grid_seconds(const info *x)
 {
     const icc_chart_info *c = &x->chart;
     const icc_field_info *f = &x->field;
@@ -122,21 +174,25 @@ static void print_gradient_seconds(const info *x)
         printf(" (set up %.4f, order %.4f, factorise %.4f, solve %.4f, verify %.4f)",
                f->seconds_setup, f->seconds_order, f->seconds_factor, f->seconds_solve,
                f->seconds_verify);
+    if (c->method == ICC_METHOD_FIELD)
+        printf(", vectors %.4f", c->seconds_solve);
 }
 
 void info_print(const info *x)
 {
     const icc_chart_info *c = &x->chart;
-    print_domain(&x->domain);
+    print_domain(x);
     if (c->method == ICC_METHOD_GRADIENT)
         print_gradient(x);
+    else if (c->method == ICC_METHOD_FIELD)
+        print_field(x);
     else
         print_certified(c);
     if (x->shares.n > 0)
         print_map(x);
     printf("seconds     read %.4f, ", x->job.seconds_read);
-    if (c->method == ICC_METHOD_GRADIENT)
-        print_gradient_seconds(x);
+    if (info_has_grid(x))
+        print_grid_seconds(x);
     else
         printf("mesh %.4f, solve %.4f, certify %.4f", c->seconds_mesh, c->seconds_solve,
                c->seconds_certify);

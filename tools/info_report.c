@@ -2,15 +2,30 @@
 
 #include "options.h"
 
-static void report_point(json *j, const char *name, const double point[2])
+static void report_point(json *j, const char *name, size_t dim, const double *point)
 {
     json_open(j, name, '[');
-    json_number(j, NULL, point[0]);
-    json_number(j, NULL, point[1]);
+    for (size_t k = 0; k < dim; k++)
+        json_number(j, NULL, point[k]);
     json_close(j, ']');
 }
 
-static void report_gradient(json *j, const info *x)
+static void report_growth(json *j, const info *x)
+{
+    static const char *const methods_of_growth[] = {"stuck", "as wished", "grown", "thinned"};
+    const icc_grow_report *g = &x->growth;
+    json_count(j, "given_up_vertices", x->grid.n_stray);
+    json_count(j, "critical_in_tree_order", x->n_order_critical);
+    json_open(j, "order", '{');
+    json_text(j, "found", methods_of_growth[x->grown ? g->method : 0]);
+    json_count(j, "postponed", g->n_postponed);
+    json_count(j, "unplaced", g->n_unplaced);
+    json_count(j, "left", g->n_left);
+    json_count(j, "turned_edges", g->n_turned);
+    json_close(j, '}');
+}
+
+static void report_grid(json *j, const info *x)
 {
     const icc_chart_info *c = &x->chart;
     function_report(j, &x->field);
@@ -26,9 +41,18 @@ static void report_gradient(json *j, const info *x)
     json_count(j, "holes", x->n_holes);
     if (x->has_critical) {
         char reason[240];
-        report_point(j, "first_critical", x->critical);
+        report_point(j, "first_critical", (size_t)x->domain.dim, x->critical);
         json_text(j, "reason", info_reason(reason, x));
     }
+    if (x->domain.dim > 2)
+        report_growth(j, x);
+    if (c->method == ICC_METHOD_FIELD) {
+        json_count(j, "infeasible_vertices", c->n_infeasible);
+        json_count(j, "contacts", c->n_contacts);
+        json_count(j, "contacts_not_inward", c->n_not_inward);
+    }
+    if (x->domain.dim > 2)
+        return;
     json_count(j, "edges", c->n_edges);
     json_count(j, "compression_edges", c->n_compression);
     json_count(j, "expansion_edges", c->n_expansion);
@@ -51,10 +75,10 @@ static void report_chart(json *j, const info *x)
     const icc_chart_info *c = &x->chart;
     json_text(j, "method", choice_name(methods, c->method));
     json_flag(j, "certified", c->certified != 0);
-    report_point(j, "maximum", c->maximum);
+    report_point(j, "maximum", (size_t)x->domain.dim, c->maximum);
     json_number(j, "spacing", c->spacing);
-    if (c->method == ICC_METHOD_GRADIENT)
-        report_gradient(j, x);
+    if (info_has_grid(x))
+        report_grid(j, x);
     else
         report_mesh(j, c);
 }
@@ -111,7 +135,7 @@ static void report_seconds(json *j, const info *x)
     const icc_chart_info *c = &x->chart;
     json_open(j, "seconds", '{');
     json_number(j, "read", x->job.seconds_read);
-    if (c->method == ICC_METHOD_GRADIENT) {
+    if (info_has_grid(x)) {
         json_number(j, "grid", c->seconds_grid);
         json_number(j, "tree", c->seconds_tree);
         json_number(j, "function", c->seconds_field);
@@ -129,11 +153,15 @@ int info_report(const info *x)
     report r;
     if (!report_open(&r, &x->job))
         return FAILED;
-    json_text(&r.json, "orientation",
-              x->domain.orientation > 0 ? "counter-clockwise" : "clockwise");
-    json_number(&r.json, "area", x->domain.measure);
+    if (x->domain.dim == 2)
+        json_text(&r.json, "orientation",
+                  x->domain.orientation > 0 ? "counter-clockwise" : "clockwise");
+    else
+        json_text(&r.json, "orientation", x->domain.orientation > 0 ? "outward" : "inward");
+    json_number(&r.json, x->domain.dim == 2 ? "area" : "measure", x->domain.measure);
     report_chart(&r.json, x);
-    report_shares(&r.json, &x->measures);
+    if (x->chart.method != ICC_METHOD_FIELD)
+        report_shares(&r.json, &x->measures);
     if (x->shares.n > 0)
         report_map(&r.json, &x->map, &x->shares);
     report_seconds(&r.json, x);

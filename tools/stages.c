@@ -79,7 +79,7 @@ int stages_make(stages *out, job *j, int side)
     icc_field_get_info(out->field, &out->field_info);
     icc_grid_get_info(out->grid, &out->lattice);
     find_scale(out);
-    return find_edges(out, j);
+    return out->box.dim == 2 ? find_edges(out, j) : DONE;
 }
 
 void stages_free(stages *s)
@@ -88,11 +88,14 @@ void stages_free(stages *s)
     free(s->kinds);
 }
 
-void stages_position(const stages *s, uint32_t vertex, double out[2])
+void stages_position(const stages *s, uint32_t vertex, double *out)
 {
-    size_t columns = s->lattice.shape[0];
-    out[0] = s->lattice.origin[0] + s->lattice.spacing * (double)(vertex % columns);
-    out[1] = s->lattice.origin[1] + s->lattice.spacing * (double)(vertex / columns);
+    size_t rest = vertex;
+    for (int32_t k = 0; k < s->lattice.dim; k++) {
+        out[k] = s->lattice.origin[k] +
+                 s->lattice.spacing * (double)(rest % s->lattice.shape[k]);
+        rest /= s->lattice.shape[k];
+    }
 }
 
 static bool in_shape(const stages *s, size_t vertex)

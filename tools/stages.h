@@ -1,4 +1,4 @@
-/* A chart, and the stages of method gradient that it was made in, so that they can be drawn. */
+/* A chart, and the stages of methods gradient and field that it was made in, so that they can be drawn. */
 #ifndef STAGES_H
 #define STAGES_H
 
@@ -12,7 +12,7 @@ typedef struct stages {
     const icc_map *map; /* that the chart belongs to; or NULL */
     icc_domain_info box;
     icc_chart_info chart_info;
-    /* Method gradient; else NULL. Borrowed from the chart. */
+    /* Methods gradient and field; else NULL. Borrowed from the chart. */
     const icc_field *field;
     const icc_tree *tree;
     const icc_grid *grid;
@@ -21,7 +21,7 @@ typedef struct stages {
     const double *values; /* what is drawn of the function: its values, or their logarithms */
     bool logarithmic;
     double low, high; /* least and largest of them inside */
-    size_t n_edges;
+    size_t n_edges; /* in the plane; else none */
     uint32_t *edges; /* n_edges pairs: compression and expansion edges */
     int32_t *kinds;
     size_t n_inner_expansion; /* expansion edges whose two triangles are inside */
@@ -32,10 +32,10 @@ typedef struct stages {
 int stages_make(stages *out, job *j, int side);
 void stages_free(stages *s);
 
-/* The position of a grid vertex. */
-void stages_position(const stages *s, uint32_t vertex, double out[2]);
+/* The position of a grid vertex: as many coordinates as the grid has dimensions. */
+void stages_position(const stages *s, uint32_t vertex, double *out);
 
-/* Around how many holes the triangles lie whose vertices are all inside and in the tree. Each brings a
+/* In the plane: around how many holes the triangles lie whose vertices are all inside and in the tree. Each brings a
  * saddle to any function that is lower outside. */
 size_t stages_holes(const stages *s);
 
