@@ -41,6 +41,7 @@ IS(ICC_DEFECT_FLAT, 6);
 
 IS(ICC_METHOD_GRADIENT, 1);
 IS(ICC_METHOD_FOLIATION, 2);
+IS(ICC_METHOD_FIELD, 3);
 IS(ICC_METHOD_DISC, 4);
 
 IS(ICC_FUNCTION_DECAY, 1);
@@ -112,7 +113,7 @@ AT(icc_chart_options, solver, 36);
 AT(icc_chart_options, eta, 40);
 AT(icc_chart_options, leaf, 48);
 
-SIZE(icc_chart_info, 264);
+SIZE(icc_chart_info, 296);
 AT(icc_chart_info, size, 0);
 AT(icc_chart_info, dim, 8);
 AT(icc_chart_info, method, 12);
@@ -144,6 +145,10 @@ AT(icc_chart_info, seconds_field, 232);
 AT(icc_chart_info, seconds_mesh, 240);
 AT(icc_chart_info, seconds_solve, 248);
 AT(icc_chart_info, seconds_certify, 256);
+AT(icc_chart_info, n_stray, 264);
+AT(icc_chart_info, n_infeasible, 272);
+AT(icc_chart_info, n_contacts, 280);
+AT(icc_chart_info, n_not_inward, 288);
 
 SIZE(icc_chart_measures, 56);
 AT(icc_chart_measures, size, 0);
