@@ -47,8 +47,8 @@ static void find_position(const iccp_walkn *w, double *x)
 
 /* ---- which face ---- */
 
-/* The sign of the speed at which a point moves away from the facet opposite to corner i, for the values of a
- * simplex; exact. */
+/* The sign of the speed at which the gradient of a simplex with these values leads away from the facet opposite
+ * to corner i; exact. */
 static int corner_sign(int dim, const double *f, int i)
 {
     const double below = i > 0 ? f[i - 1] : f[i], above = i < dim ? f[i + 1] : f[i];
@@ -65,14 +65,22 @@ static bool has_values(const iccp_walkn *w, double *f)
     return true;
 }
 
-/* Whether the gradient of the place's simplex points into it from its face. */
-static bool points_in(const iccp_walkn *w, const double *f)
+/* Whether the gradient of the place's simplex leads from its face into the simplex, or into the one of its
+ * faces with the corners found. */
+static bool leads_in(const iccp_walkn *w, const double *f, unsigned *corners)
 {
     const int dim = grid_of(w)->dim;
-    for (int i = 0; i <= dim; ++i)
-        if (!(w->place.face >> i & 1) && corner_sign(dim, f, i) <= 0)
+    bool leads = false;
+    *corners = all_corners(w);
+    for (int i = 0; i <= dim; ++i) {
+        const int sign = w->place.face >> i & 1 ? 1 : corner_sign(dim, f, i);
+        if (sign < 0)
             return false;
-    return true;
+        if (sign == 0)
+            *corners &= ~(1u << i);
+        leads = leads || (sign > 0 && !(w->place.face >> i & 1));
+    }
+    return leads;
 }
 
 /* The corners of the face that the line goes on in. */
@@ -83,8 +91,7 @@ static icc_status choose(iccp_walkn *w, unsigned *corners)
     if (w->ahead) {
         if (!has_values(w, f))
             return ICC_ERR_TRACE;
-        *corners = all_corners(w);
-        if (points_in(w, f))
+        if (leads_in(w, f, corners))
             return ICC_OK;
     }
     return iccp_place_turn(&w->place, &w->slope, corners);

@@ -302,6 +302,274 @@ START_TEST(walks_rise_the_steepest_way)
 }
 END_TEST
 
+/* Growing from the root: each vertex is lower than one that shares a simplex with it. With `levels`, or as low.
+ * The border is lowest. */
+static void set_one_maximum(world *w, random_source *r, bool levels)
+{
+    const size_t n = w->grid.n_vertices;
+    static uint32_t queue[MAX_VERTICES];
+    size_t n_queue = 0;
+    double x[ICC_MAX_DIM], next = 1000;
+    uint32_t root = 0;
+    for (int32_t k = 0; k < w->grid.dim; ++k)
+        root += (uint32_t)w->grid.stride[k] * (1 + (uint32_t)random_below(r, (int)w->grid.shape[k] - 2));
+    w->tree.root = root;
+    for (size_t v = 0; v < n; ++v)
+        w->values[v] = NAN;
+    queue[n_queue++] = root;
+    w->values[root] = next;
+    while (n_queue > 0) {
+        const size_t i = (size_t)random_below(r, (int)n_queue);
+        const uint32_t v = queue[i];
+        bool done = true;
+        for (unsigned set = 1; set < 2u << w->grid.dim && done; ++set) {
+            const int sign = set & 1 ? 1 : -1;
+            uint32_t u = v;
+            position(w, v, x);
+            bool inner = true;
+            for (int32_t k = 0; k < w->grid.dim; ++k)
+                if (set >> (k + 1) & 1) {
+                    u += (uint32_t)sign * (uint32_t)w->grid.stride[k];
+                    inner = inner && x[k] + sign > 0 && x[k] + sign < (double)(w->grid.shape[k] - 1);
+                }
+            if (!inner || !isnan(w->values[u]))
+                continue;
+            next -= levels ? random_below(r, 2) : random_unit(r);
+            w->values[u] = next;
+            queue[n_queue++] = u;
+            done = random_below(r, 3) == 0;
+        }
+        if (done)
+            queue[i] = queue[--n_queue];
+    }
+    for (size_t v = 0; v < n; ++v)
+        if (isnan(w->values[v]))
+            w->values[v] = next - 2;
+}
+
+START_TEST(every_ascent_ends_at_the_only_maximum)
+{
+    random_source r = {4};
+    for (int round = 0; round < 1200; ++round) {
+        const bool levels = round / 6 % 2;
+        const int32_t dim = 1 + round % ICC_MAX_DIM;
+        cube_init(&W, dim, 0);
+        set_one_maximum(&W, &r, levels);
+        for (int k = 0; k < 20; ++k) {
+            double p[ICC_MAX_DIM];
+            pick_start(&W, &r, p);
+            iccp_walkn walk;
+            ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, ICCP_UPHILL, p, NULL), ICC_OK);
+            const size_t budget = walk.steps_left;
+            const icc_status status = iccp_walkn_uphill(&walk, NULL, NULL);
+            /* Of several vertices as high as their neighbours, one may be a maximum by its index. */
+            ck_assert(levels || status == ICC_OK);
+            ck_assert_uint_lt(budget - walk.steps_left, 20 * W.grid.n_vertices);
+        }
+    }
+}
+END_TEST
+
+/* Few different values: many faces are level, many simplices as steep as each other. */
+START_TEST(level_functions_end)
+{
+    random_source r = {5};
+    for (int round = 0; round < 1500; ++round) {
+        const int32_t dim = 1 + round % ICC_MAX_DIM;
+        const int n_values = 1 + round / 6 % 4;
+        cube_init(&W, dim, UINT32_MAX);
+        for (size_t v = 0; v < W.grid.n_vertices; ++v)
+            W.values[v] = random_below(&r, n_values);
+        for (int k = 0; k < 20; ++k) {
+            double p[ICC_MAX_DIM], before;
+            pick_start(&W, &r, p);
+            const int direction = k % 2 ? ICCP_UPHILL : ICCP_DOWNHILL;
+            iccp_walkn walk;
+            ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, direction, p, NULL), ICC_OK);
+            int n = 0;
+            for (before = interpolate(&W, p); iccp_walkn_step(&walk) == ICC_OK; ++n) {
+                const double after = interpolate(&W, walk.to);
+                ck_assert(direction * (after - before) >= -1e-12);
+                before = after;
+            }
+            ck_assert_int_lt(n, 40 * (int)SIDE[dim]);
+            ck_assert(on_border(&W, walk.to) ||
+                      (is_vertex(&walk) && is_peak(&W, walk.to, direction)));
+        }
+    }
+}
+END_TEST
+
+/* f = slope x_last - the sum of |x_k - 2| over the others. Lines get to the planes x_k = 2 one by one, and go
+ * on in them. */
+START_TEST(lines_merge_in_lower_and_lower_faces)
+{
+    random_source r = {6};
+    for (int round = 0; round < 3000; ++round) {
+        const int32_t dim = 2 + round % 5;
+        const size_t shape[ICC_MAX_DIM] = {5, 5, 5, 5, 5, 5};
+        size_t sides[ICC_MAX_DIM];
+        double p[ICC_MAX_DIM], off[ICC_MAX_DIM], x[ICC_MAX_DIM];
+        for (int32_t k = 0; k < dim; ++k)
+            sides[k] = k == dim - 1 ? 5 : shape[k];
+        world_init(&W, dim, sides, 0);
+        const double slope = random_between(&r, 0.01, 0.3);
+        for (uint32_t v = 0; v < W.grid.n_vertices; ++v) {
+            position(&W, v, x);
+            W.values[v] = slope * x[dim - 1];
+            for (int32_t k = 0; k < dim - 1; ++k)
+                W.values[v] -= fabs(x[k] - 2);
+        }
+        for (int32_t k = 0; k < dim - 1; ++k) {
+            W.tree.root += 2 * (uint32_t)W.grid.stride[k];
+            p[k] = random_between(&r, 0.5, 3.5);
+            const double distance = fabs(p[k] - 2);
+            int32_t i = k;
+            for (; i > 0 && off[i - 1] > distance; --i)
+                off[i] = off[i - 1];
+            off[i] = distance;
+        }
+        W.tree.root += 4 * (uint32_t)W.grid.stride[dim - 1];
+        p[dim - 1] = random_between(&r, 0.5, 2);
+        double length = 0, at = 0, merge = 0;
+        for (int32_t k = 0; k < dim - 1; ++k) {
+            length += (off[k] - at) * sqrt(dim - 1 - k + slope * slope);
+            at = off[k];
+            merge = k == 0 ? length : merge;
+        }
+        length += 4 - (p[dim - 1] + slope * at);
+        iccp_walkn walk;
+        double found;
+        ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, ICCP_UPHILL, p, NULL), ICC_OK);
+        ck_assert_int_eq(iccp_walkn_uphill(&walk, NULL, &found), ICC_OK);
+        ck_assert_double_eq_tol(walk.s, length, 1e-11);
+        ck_assert_double_eq_tol(found, merge, 1e-11);
+        ck_assert(walk.merged);
+    }
+}
+END_TEST
+
+/* f = |x_k - 2|: where two slopes part, the walk goes to the side that it is told to. */
+START_TEST(starts_go_ahead)
+{
+    random_source r = {7};
+    for (int round = 0; round < 2000; ++round) {
+        const int32_t dim = 1 + round % ICC_MAX_DIM, axis = random_below(&r, dim);
+        const size_t shape[ICC_MAX_DIM] = {5, 5, 5, 5, 5, 5};
+        double p[ICC_MAX_DIM], x[ICC_MAX_DIM], ahead[ICC_MAX_DIM];
+        world_init(&W, dim, shape, UINT32_MAX);
+        for (uint32_t v = 0; v < W.grid.n_vertices; ++v) {
+            position(&W, v, x);
+            W.values[v] = fabs(x[axis] - 2);
+        }
+        for (int32_t k = 0; k < dim; ++k) {
+            p[k] = random_between(&r, 0.5, 3.5);
+            ahead[k] = random_between(&r, -1, 1);
+        }
+        p[axis] = 2;
+        iccp_walkn walk;
+        ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, ICCP_UPHILL, p, ahead), ICC_OK);
+        const double end = ahead[axis] > 0 ? 4 : 0;
+        while (fabs(walk.to[axis] - end) > 0) {
+            const icc_status status = iccp_walkn_step(&walk);
+            ck_assert(ahead[axis] * (walk.to[axis] - 2) > 0);
+            ck_assert(status == ICC_OK || fabs(walk.to[axis] - end) <= 0);
+        }
+        ck_assert_double_eq_tol(walk.s, 2, 1e-14);
+        ck_assert_int_eq(iccp_walkn_slope_sign(&W.field, p, ahead), 1);
+    }
+}
+END_TEST
+
+/* Whether two walks go the same way, to the bit. */
+static void check_same(const icc_field *a, const icc_field *b, const double *p, int direction)
+{
+    iccp_walkn one, other;
+    ck_assert_int_eq(iccp_walkn_start(&one, a, direction, p, NULL), ICC_OK);
+    ck_assert_int_eq(iccp_walkn_start(&other, b, direction, p, NULL), ICC_OK);
+    for (icc_status status = ICC_OK; status == ICC_OK;) {
+        status = iccp_walkn_step(&one);
+        ck_assert_int_eq(iccp_walkn_step(&other), status);
+        ck_assert_mem_eq(one.to, other.to, sizeof one.to);
+    }
+}
+
+START_TEST(only_ratios_of_values_count)
+{
+    static double tiny[MAX_VERTICES], fractions[MAX_VERTICES];
+    static int32_t exponents[MAX_VERTICES];
+    random_source r = {8};
+    for (int round = 0; round < 300; ++round) {
+        const int32_t dim = 1 + round % 5;
+        cube_init(&W, dim, UINT32_MAX);
+        set_random(&W, &r);
+        for (size_t v = 0; v < W.grid.n_vertices; ++v) {
+            /* Steep falls beside gentle rises, too. */
+            W.values[v] = ldexp(W.values[v], -random_below(&r, 30));
+            tiny[v] = ldexp(W.values[v], -850);
+            fractions[v] = frexp(W.values[v], &exponents[v]);
+            exponents[v] -= 5000;
+        }
+        icc_field small = W.field, scaled = W.field;
+        small.values = tiny;
+        scaled.values = fractions;
+        scaled.exponent = exponents;
+        for (int k = 0; k < 20; ++k) {
+            double p[ICC_MAX_DIM];
+            pick_start(&W, &r, p);
+            const int direction = k % 2 ? ICCP_UPHILL : ICCP_DOWNHILL;
+            check_same(&W.field, &small, p, direction);
+            check_same(&W.field, &scaled, p, direction);
+        }
+    }
+}
+END_TEST
+
+START_TEST(starts_without_values_are_refused)
+{
+    const double places[][3] = {{-1e-9, 1, 1}, {1, 1, 7.001}, {NAN, 1, 1}, {1, HUGE_VAL, 1}};
+    const double vertex[3] = {3, 3, 3}, edge[3] = {3.5, 3, 3}, inner[3] = {3.1, 3.2, 3.3};
+    const double other[3] = {3.3, 3.2, 3.1}, forward[3] = {1, 1, 1}, back[3] = {-1, -1, -1};
+    iccp_walkn walk;
+    cube_init(&W, 3, 0);
+    set_linear(&W, forward);
+    for (size_t i = 0; i < sizeof places / sizeof places[0]; ++i)
+        ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, ICCP_UPHILL, places[i], NULL),
+                         ICC_ERR_TRACE);
+    W.values[3 + 8 * 3 + 64 * 4] = NAN; /* (3, 3, 4) */
+    ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, ICCP_UPHILL, vertex, NULL), ICC_OK);
+    ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, ICCP_UPHILL, edge, NULL), ICC_OK);
+    ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, ICCP_UPHILL, inner, NULL), ICC_ERR_TRACE);
+    ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, ICCP_UPHILL, other, NULL), ICC_OK);
+    ck_assert_int_eq(iccp_walkn_slope_sign(&W.field, inner, forward), 0);
+    ck_assert_int_eq(iccp_walkn_slope_sign(&W.field, other, forward), 1);
+    ck_assert_int_eq(iccp_walkn_slope_sign(&W.field, other, back), -1);
+    W.values[3 + 8 * 3 + 64 * 3] = NAN;
+    ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, ICCP_UPHILL, vertex, NULL), ICC_ERR_TRACE);
+}
+END_TEST
+
+START_TEST(lines_that_leave_what_has_values_end)
+{
+    const double up[3] = {1, 0.5, 0.25};
+    random_source r = {9};
+    cube_init(&W, 3, UINT32_MAX);
+    set_linear(&W, up);
+    for (uint32_t v = 0; v < W.grid.n_vertices; ++v)
+        if (iccp_grid_coordinate(&W.grid, v, 0) > 4)
+            W.values[v] = NAN;
+    for (int k = 0; k < 200; ++k) {
+        double p[3];
+        for (int i = 0; i < 3; ++i)
+            p[i] = random_between(&r, 0, 3);
+        iccp_walkn walk;
+        ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, ICCP_UPHILL, p, NULL), ICC_OK);
+        ck_assert_int_eq(iccp_walkn_uphill(&walk, NULL, NULL), ICC_ERR_TRACE);
+        ck_assert_double_eq(walk.to[0], 4);
+    }
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("walkn");
@@ -310,6 +578,13 @@ int main(void)
     tcase_add_test(tests, a_linear_function_gives_straight_lines);
     tcase_add_test(tests, in_the_plane_walks_are_those_of_walk2);
     tcase_add_test(tests, walks_rise_the_steepest_way);
+    tcase_add_test(tests, every_ascent_ends_at_the_only_maximum);
+    tcase_add_test(tests, level_functions_end);
+    tcase_add_test(tests, lines_merge_in_lower_and_lower_faces);
+    tcase_add_test(tests, starts_go_ahead);
+    tcase_add_test(tests, only_ratios_of_values_count);
+    tcase_add_test(tests, starts_without_values_are_refused);
+    tcase_add_test(tests, lines_that_leave_what_has_values_end);
     suite_add_tcase(suite, tests);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_NORMAL);
