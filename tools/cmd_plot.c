@@ -9,6 +9,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { ROW_UV, ROW_CHECKERBOARD, ROW_SHAPE, ROW_SURFACE, N_ROWS };
 enum { MAX_COLUMNS = MAX_FUNCTIONS + 1 };
@@ -238,10 +239,15 @@ static int make_columns(plot *x)
 
 int run_plot(const args *a)
 {
+    const char *dot = strrchr(a->operands[0], '.');
+    if (dot != NULL && strcmp(dot, ".vtk") == 0)
+        return run_plot_vtk(a);
     plot x = {0};
     double began = seconds_now();
     job_start(&x.job, a);
-    int result = make_columns(&x);
+    int result = job_read_plane(&x.job, "an SVG (unlike OUT.vtk)");
+    if (result == DONE)
+        result = make_columns(&x);
     if (result == DONE)
         result = make_drawing(&x);
     if (result == DONE)

@@ -119,9 +119,9 @@ static void print_field(const info *x)
     print_grid(x);
     printf("vectors     %zu of %zu vertices have none that points uphill all round\n",
            c->n_infeasible, c->n_inside);
-    printf("not inward  %6.2f %% of %zu contacts with the boundary: curves do not enter there\n",
+    printf("not inward  %6.2f %% (%zu of %zu contacts with the boundary): curves do not enter there\n",
            c->n_contacts > 0 ? 100 * (double)c->n_not_inward / (double)c->n_contacts : 0,
-           c->n_contacts);
+           c->n_not_inward, c->n_contacts);
 }
 
 static void print_certified(const icc_chart_info *c)
