@@ -452,10 +452,10 @@ static void adjust(work *w, star *s, uint32_t v)
     soil(w, v);
 }
 
-static icc_status choose_all(work *w, const iccp_env *env)
+static icc_status choose_all(work *w, const char *stage, const iccp_env *env)
 {
     const icc_status status =
-        iccp_for_chunks(env, "vectors", w->smooth->grid->n_vertices, GRAIN, choose_chunk, w);
+        iccp_for_chunks(env, stage, w->smooth->grid->n_vertices, GRAIN, choose_chunk, w);
     w->cones->n_infeasible = 0;
     for (size_t v = 0; v < w->smooth->grid->n_vertices; ++v)
         w->cones->n_infeasible += (w->state[v] & FAILS) != 0;
@@ -473,7 +473,7 @@ static icc_status adjust_all(work *w, const iccp_env *env)
                 w->state[v] |= round >= FIRM_ROUNDS ? GRADIENTS_FIRST : 0;
                 adjust(w, &s, (uint32_t)v);
             }
-        status = choose_all(w, env);
+        status = choose_all(w, round % 2 == 0 ? "adjust" : "adjust again", env);
     }
     iccp_free(&w->cones->memory, s.direction);
     return status;
@@ -530,11 +530,11 @@ static icc_status fill(work *w, const iccp_env *env)
         w->state[v] = w->smooth->needed[v] && v != w->smooth->root ? DIRTY : 0;
         w->cones->n_vertices += w->state[v];
     }
-    icc_status status = choose_all(w, env);
+    icc_status status = choose_all(w, "vectors", env);
     if (status == ICC_OK)
         status = split_torn(w);
     if (status == ICC_OK)
-        status = choose_all(w, env);
+        status = choose_all(w, "vectors of sides", env);
     if (status == ICC_OK)
         status = adjust_all(w, env);
     return status == ICC_OK ? check_inward(w) : status;

@@ -158,7 +158,7 @@ static icc_status sweep_chunk(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
-static icc_status run_sweep(iccp_smooth *s, const iccp_env *env)
+static icc_status run_sweep(iccp_smooth *s, const char *stage, const iccp_env *env)
 {
     const size_t n = s->grid->n_vertices;
     sweep w = {.from = s};
@@ -169,7 +169,7 @@ static icc_status run_sweep(iccp_smooth *s, const iccp_env *env)
                             ? ICC_OK
                             : ICC_ERR_MEMORY;
     if (status == ICC_OK)
-        status = iccp_for_chunks(env, "smooth", n, GRAIN, sweep_chunk, &w);
+        status = iccp_for_chunks(env, stage, n, GRAIN, sweep_chunk, &w);
     if (status == ICC_OK) {
         double *value = s->value;
         int32_t *exponent = s->exponent;
@@ -231,7 +231,7 @@ icc_status iccp_smooth_create(iccp_smooth *smooth, const icc_field *field, const
         status = extend_all(smooth, orders, cover);
     }
     for (int k = 0; status == ICC_OK && k < sweeps; ++k)
-        status = run_sweep(smooth, env);
+        status = run_sweep(smooth, k % 2 == 0 ? "smooth" : "smooth again", env);
     iccp_free(&env->memory, orders);
     return status;
 }

@@ -18,7 +18,8 @@ static const double TARGET[2 * N_CORNERS] = {0, 0, 4, 0.5, 3.5, 2, 2, 2, 1.5, 3,
 static const double BOWTIE[8] = {0, 0, 2, 2, 2, 0, 0, 1};
 static const uint32_t FACETS[2 * N_CORNERS] = {0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 0};
 
-static const int32_t METHODS[] = {ICC_METHOD_GRADIENT, ICC_METHOD_FOLIATION, ICC_METHOD_DISC};
+static const int32_t METHODS[] = {ICC_METHOD_GRADIENT, ICC_METHOD_FOLIATION, ICC_METHOD_FIELD,
+                                  ICC_METHOD_DISC};
 enum { N_METHODS = sizeof METHODS / sizeof *METHODS };
 
 typedef struct objects {

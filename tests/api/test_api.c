@@ -107,7 +107,7 @@ START_TEST(charts_refuse_bad_arguments)
     const icc_map_options target = {.size = sizeof target, .chart = &disc, .target_maximum = INSIDE};
     icc_map *map;
     NOT_MADE(map, icc_map_create(&map, o.source, o.target, &target, NULL, &err));
-    static const int32_t UNKNOWN[] = {-1, 3, 99};
+    static const int32_t UNKNOWN[] = {-1, 5, 99};
     for (int k = 0; k < 3; ++k) {
         const icc_chart_options options = {.size = sizeof options, .method = UNKNOWN[k]};
         ck_assert_int_eq(icc_chart_create(&c, o.source, &options, NULL, &err), ICC_ERR_UNSUPPORTED);
