@@ -19,16 +19,17 @@ static bool is_higher(const void *context, uint32_t u, uint32_t v)
     return r->rank[u] < r->rank[v] || (r->rank[u] == r->rank[v] && u > v);
 }
 
+static icc_status judge_chunk(void *argument, size_t begin, size_t end)
+{
+    return iccp_critical_chunk(argument, begin, end, is_ranked, is_higher);
+}
+
 icc_status iccp_tree_verify_ranks(const icc_tree *tree, const uint32_t *rank,
                                   icc_field_report *report, const iccp_env *env)
 {
     const ranks context = {tree, rank};
-    const iccp_ordering ordering = {.context = &context,
-                                    .ranked = is_ranked,
-                                    .is_higher = is_higher,
-                                    .n_ranked = tree->n_inside,
-                                    .highest = tree->root};
-    return iccp_grid_critical(tree->grid, &ordering, report, env);
+    return iccp_critical_count(tree->grid, &context, tree->n_inside, tree->root, judge_chunk, report,
+                               env);
 }
 
 static void lower(const iccp_star *star, const uint32_t *rank, uint32_t v, double gap,
