@@ -32,12 +32,21 @@ static icc_status choose_root(const icc_grid *grid, const icc_domain *domain, co
     return ICC_OK;
 }
 
+enum { PAPERS_CELLS = 50 };
+
+/* Masks bring their own. */
+static int32_t choose_cells(const icc_domain *domain, int32_t cells)
+{
+    return cells > 0 || domain->mask != NULL ? cells : PAPERS_CELLS;
+}
+
 static icc_status make_tree(iccp_gradient_state *state, icc_chart *chart,
                             const icc_chart_options *options, const iccp_env *env, icc_error *err)
 {
     icc_grid *grid = NULL;
     const double start = iccp_seconds();
-    icc_status status = iccp_grid_create(&grid, chart->domain, options->cells, env, err);
+    const int32_t cells = choose_cells(chart->domain, options->cells);
+    icc_status status = iccp_grid_create(&grid, chart->domain, cells, env, err);
     if (status != ICC_OK)
         return status;
     uint32_t root;
@@ -50,6 +59,7 @@ static icc_status make_tree(iccp_gradient_state *state, icc_chart *chart,
     if (status == ICC_OK)
         status = iccp_tree_verify(state->tree, &report, env);
     chart->info.seconds_tree = iccp_seconds() - middle;
+    chart->info.cells = grid->cells;
     chart->info.n_grid = grid->n_vertices;
     chart->info.n_inside = grid->n_inside;
     chart->info.n_tree = report.n_inside + report.n_outside;

@@ -4,7 +4,7 @@
 
 #include "chart/chart.h"
 
-/* `options` is complete: function, tree and cells are not 0. */
+/* `options` is complete: function and tree are not 0. */
 icc_status iccp_chart_gradient_create(icc_chart **out, const icc_domain *domain,
                                       const icc_chart_options *options, const iccp_env *env,
                                       icc_error *err);

@@ -11,17 +11,17 @@ static icc_status complete(icc_chart_options *options, int32_t dim, icc_error *e
 {
     if (options->method == 0)
         options->method = dim == 2 ? ICC_METHOD_FOLIATION : ICC_METHOD_FIELD;
+    const bool planar =
+        options->method == ICC_METHOD_FOLIATION || options->method == ICC_METHOD_DISC;
     if (options->function == 0)
         options->function = ICC_FUNCTION_DECAY;
     if (options->tree == 0)
         options->tree = ICC_TREE_THESIS;
-    if (options->cells == 0 && options->method != ICC_METHOD_FIELD)
+    if (options->cells == 0 && planar)
         options->cells = 50;
     if (options->method < ICC_METHOD_GRADIENT || options->method > ICC_METHOD_DISC)
         return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1, "method %ld is not available",
                          (long)options->method);
-    const bool planar =
-        options->method == ICC_METHOD_FOLIATION || options->method == ICC_METHOD_DISC;
     if (planar ? dim != 2 : dim < 2)
         return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1,
                          "method %ld is not available for domains of dimension %ld",

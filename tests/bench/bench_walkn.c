@@ -4,19 +4,40 @@
 
 #include "../hard_masks.h"
 #include "../random.h"
+#include "../surfaces.h"
 #include "bench.h"
 
 enum { N_WALKS = 4000 };
+
+/* Of the processor: other programs may be running. */
+static double seconds(void)
+{
+    return (double)clock() / CLOCKS_PER_SEC;
+}
 
 typedef struct tally {
     size_t n_steps, n_crossings, n_lines, n_ends;
     double seconds;
 } tally;
 
+static const struct {
+    const char *name;
+    int32_t function;
+} FUNCTION[] = {{"distance", ICC_FUNCTION_DISTANCE},
+                {"decay", ICC_FUNCTION_DECAY},
+                {"laplace", ICC_FUNCTION_LAPLACE}};
+
+/* A point of the grid in a cell whose nearest corner is inside. */
 static void pick(const icc_grid *grid, random_source *r, double *p)
 {
-    for (int32_t k = 0; k < grid->dim; ++k)
-        p[k] = random_between(r, 2, (double)grid->shape[k] - 3);
+    size_t nearest;
+    do {
+        nearest = 0;
+        for (int32_t k = 0; k < grid->dim; ++k) {
+            p[k] = random_between(r, 2, (double)grid->shape[k] - 3);
+            nearest += (size_t)(p[k] + 0.5) * grid->stride[k];
+        }
+    } while (!grid->inside[nearest]);
 }
 
 static tally climb(const icc_field *field)
@@ -24,7 +45,7 @@ static tally climb(const icc_field *field)
     tally t = {0};
     random_source r = {1};
     double p[ICC_MAX_DIM];
-    const double begin = bench_seconds();
+    const double begin = seconds();
     for (; t.n_lines < N_WALKS; ++t.n_lines) {
         iccp_walkn walk;
         pick(field->tree->grid, &r, p);
@@ -34,7 +55,7 @@ static tally climb(const icc_field *field)
         t.n_steps += budget - walk.steps_left;
         t.n_ends += status == ICC_OK;
     }
-    t.seconds = bench_seconds() - begin;
+    t.seconds = seconds() - begin;
     /* Again, to see what the steps are. */
     r = (random_source){1};
     for (size_t i = 0; i < t.n_lines; ++i) {
@@ -53,7 +74,7 @@ static tally climb_plane(const icc_field *field)
     tally t = {0};
     random_source r = {1};
     double p[ICC_MAX_DIM];
-    const double begin = bench_seconds();
+    const double begin = seconds();
     for (; t.n_lines < N_WALKS; ++t.n_lines) {
         iccp_walk2 walk;
         pick(field->tree->grid, &r, p);
@@ -63,7 +84,7 @@ static tally climb_plane(const icc_field *field)
         t.n_steps += budget - walk.steps_left;
         t.n_ends += status == ICC_OK;
     }
-    t.seconds = bench_seconds() - begin;
+    t.seconds = seconds() - begin;
     return t;
 }
 
@@ -77,12 +98,6 @@ static void print(const char *name, const char *function, const tally *t)
 
 static void run(const char *name, mask_shape shape, int32_t dim, size_t cells)
 {
-    static const struct {
-        const char *name;
-        int32_t function;
-    } FUNCTION[] = {{"distance", ICC_FUNCTION_DISTANCE},
-                    {"decay", ICC_FUNCTION_DECAY},
-                    {"laplace", ICC_FUNCTION_LAPLACE}};
     mask m = mask_draw(shape, dim, cells);
     uint32_t root;
     icc_grid *grid;
@@ -110,6 +125,49 @@ static void run(const char *name, mask_shape shape, int32_t dim, size_t cells)
     mask_free(&m);
 }
 
+/* Coordinates of points in a ball, from the boundary up and from the points both ways. */
+static void run_chart(int32_t cells)
+{
+    static surface ball;
+    static double points[3 * N_WALKS], bary[3 * N_WALKS], t[N_WALKS];
+    static uint32_t facet[N_WALKS];
+    random_source r = {1};
+    icc_domain *domain;
+    icc_error err = {.size = sizeof err};
+    surface_star(&ball, 4, 0, &r);
+    bench_check(icc_domain_create(&domain, 3, ball.n_vertices, ball.vertices, ball.n_faces,
+                                  ball.faces, NULL, &err),
+                &err);
+    for (int i = 0; i < 3; ++i) {
+        icc_chart *chart;
+        icc_chart_info info = {.size = sizeof info};
+        const icc_chart_options options = {.size = sizeof options,
+                                           .method = ICC_METHOD_GRADIENT,
+                                           .function = FUNCTION[i].function,
+                                           .constraints = ICC_CONSTRAINTS_NONE,
+                                           .cells = cells};
+        const double begin = seconds();
+        bench_check(icc_chart_create(&chart, domain, &options, NULL, &err), &err);
+        const double made = seconds();
+        for (int k = 0; k < 3 * N_WALKS; ++k)
+            points[k] = random_between(&r, -0.57, 0.57);
+        size_t down, up;
+        const double ready = seconds();
+        bench_check(icc_chart_encode(chart, N_WALKS, points, facet, bary, t, NULL, &down, NULL),
+                    &err);
+        const double there = seconds();
+        bench_check(icc_chart_decode(chart, N_WALKS, facet, bary, t, points, NULL, &up, NULL), &err);
+        const double back = seconds();
+        (void)icc_chart_get_info(chart, &info);
+        printf("ball, %3ld cells %-9s %8zu inside %7.2f s, of these %5.2f for f %7.1f us there %7.1f us "
+               "back %5zu %5zu astray\n",
+               (long)cells, FUNCTION[i].name, info.n_inside, made - begin, info.seconds_field,
+               1e6 * (there - ready) / N_WALKS, 1e6 * (back - there) / N_WALKS, down, up);
+        icc_chart_free(chart);
+    }
+    icc_domain_free(domain);
+}
+
 int main(void)
 {
     printf("%-12s %-9s %7s %7s %8s %7s %9s\n", "ascents", "function", "steps", "ns/step", "us each",
@@ -119,5 +177,7 @@ int main(void)
     run("ball 64^3", mask_ball, 3, 64);
     run("box 16^4", mask_box, 4, 16);
     run("box 8^5", mask_box, 5, 8);
+    run_chart(32);
+    run_chart(64);
     return EXIT_SUCCESS;
 }
