@@ -92,15 +92,20 @@ static bool is_obj(const char *text)
 {
     static const char *const words[] = {"v",  "vt", "vn", "vp", "f",      "o",     "g",
                                         "s",  "l",  "p",  "mtllib", "usemtl"};
-    while (*text == '#') {
-        text += strcspn(text, "\n");
-        text += strspn(text, " \t\r\n");
-    }
     size_t n = strcspn(text, " \t\r\n");
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         if (strlen(words[i]) == n && strncmp(text, words[i], n) == 0)
             return true;
     return false;
+}
+
+static const char *skip_comments(const char *text)
+{
+    while (*text == '#') {
+        text += strcspn(text, "\n");
+        text += strspn(text, " \t\r\n");
+    }
+    return text;
 }
 
 static bool is_word(const char *text, const char *word)
@@ -125,7 +130,8 @@ static bool read_any(cage *out, cage_role role, size_t dim, const char *text, si
     out->dim = 3;
     if (is_word(p, "ply"))
         return cage_read_ply(out, text, n, wrong) && has_faces(out, wrong);
-    if (is_word(p, "OFF") || is_obj(p))
+    const char *first = skip_comments(p);
+    if (is_word(first, "OFF") || is_obj(first))
         return cage_read_surface(out, text, n, wrong) && has_faces(out, wrong);
     if (n >= 6 && memcmp(p, "\x93NUMPY", 6) == 0)
         return cage_read_npy(out, text, n, wrong);

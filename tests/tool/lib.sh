@@ -65,3 +65,39 @@ make_cages() {
     printf '0 0\n12 1\n12 6\n6.5 7\n5 12\n-1 10\n' >target.txt
     printf '1 1\n2.5 3.25\n7 2\n2 8\n4.5 4.5\n' >points.txt
 }
+
+# A cube as cube.obj (its vertices alone: corners.txt), and what becomes of it: moved.obj, moved.txt.
+make_cubes() {
+    printf '0 0 0\n0 0 1\n0 1 0\n0 1 1\n1 0 0\n1 0 1\n1 1 0\n1 1 1\n' >corners.txt
+    printf '0 0 0\n0 0.25 1\n0 1 0\n0 1.25 1\n1 0 0\n1 0.25 1.25\n1 1 0\n1.5 1.25 1\n' >moved.txt
+    printf 'f 1 2 3\nf 3 2 4\nf 5 7 6\nf 7 8 6\nf 1 5 2\nf 5 6 2\n' >faces
+    printf 'f 3 4 7\nf 7 4 8\nf 1 3 5\nf 5 3 7\nf 2 6 4\nf 6 8 4\n' >>faces
+    sed 's/^/v /' corners.txt | cat - faces >cube.obj
+    sed 's/^/v /' moved.txt | cat - faces >moved.obj
+}
+
+# bytes NUMBER...: each as one byte.
+bytes() {
+    for byte in "$@"; do
+        # shellcheck disable=SC2059 # the format is the byte
+        printf "\\$(printf %03o "$byte")"
+    done
+}
+
+# binary little|big: cube.obj as a binary PLY file; its coordinates are 0 and 1.
+binary() {
+    printf 'ply\nformat binary_%s_endian 1.0\nelement vertex 8\nproperty double x\nproperty double y\n' "$1"
+    printf 'property double z\nelement face 12\nproperty list uchar ushort vertex_index\nend_header\n'
+    one='0 0 0 0 0 0 240 63'
+    [ "$1" = big ] && one='63 240 0 0 0 0 0 0'
+    tr ' ' '\n' <corners.txt | while read -r x; do
+        # shellcheck disable=SC2086 # bytes
+        [ "$x" = 1 ] && bytes $one || bytes 0 0 0 0 0 0 0 0
+    done
+    sed 's/^f //' faces | while read -r a b c; do
+        bytes 3
+        for corner in $((a - 1)) $((b - 1)) $((c - 1)); do
+            [ "$1" = big ] && bytes 0 "$corner" || bytes "$corner" 0
+        done
+    done
+}
