@@ -1,8 +1,10 @@
 /* Walks in any dimension, against what can be said without walking, and against walks in the plane. */
+#include "grid/rasterise.h"
 #include "trace/walk2.h"
 #include "trace/walkn.h"
 
 #include "../random.h"
+#include "../surfaces.h"
 
 #include <check.h>
 #include <math.h>
@@ -570,6 +572,145 @@ START_TEST(lines_that_leave_what_has_values_end)
 }
 END_TEST
 
+/* ---- the boundary ---- */
+
+/* A rough ball, or a block of cells of a mask. */
+static icc_domain *pick_domain(random_source *r, int32_t dim)
+{
+    static surface s;
+    const size_t shape[ICC_MAX_DIM] = {2, 1, 2, 1, 1, 1};
+    static const uint8_t full[8] = {1, 1, 1, 1, 1, 1, 1, 1};
+    icc_domain *domain = NULL;
+    if (dim == 3) {
+        surface_star(&s, 1 + random_below(r, 3), 0.3, r);
+        ck_assert_int_eq(icc_domain_create(&domain, 3, s.n_vertices, s.vertices, s.n_faces, s.faces,
+                                           NULL, NULL),
+                         ICC_OK);
+    } else {
+        ck_assert_int_eq(icc_domain_create_mask(&domain, dim, shape, full, NULL, NULL), ICC_OK);
+    }
+    return domain;
+}
+
+static uint32_t cell_of(const icc_grid *grid, const double *x)
+{
+    size_t cell = 0;
+    for (int32_t k = 0; k < grid->dim; ++k)
+        cell += (size_t)x[k] * grid->stride[k];
+    return (uint32_t)cell;
+}
+
+static bool is_marked(const iccp_cage_cells *cage, uint32_t cell)
+{
+    return cage->bits[cell / 64] >> (cell % 64) & 1;
+}
+
+/* A point of the boundary, in lattice coordinates. */
+static void pick_on_boundary(const icc_domain *domain, const icc_grid *grid, random_source *r,
+                             double *x)
+{
+    double bary[ICC_MAX_DIM], rest = 1, p[ICC_MAX_DIM];
+    for (int32_t k = 0; k < domain->dim; ++k) {
+        bary[k] = k + 1 < domain->dim ? rest * random_unit(r) : rest;
+        rest -= bary[k];
+    }
+    iccp_domain_facet_point(domain, (uint32_t)random_below(r, (int)domain->n_facets), bary, p);
+    for (int32_t k = 0; k < domain->dim; ++k)
+        x[k] = (p[k] - grid->origin[k]) / grid->spacing;
+}
+
+static double from_boundary(const icc_domain *domain, const icc_grid *grid, const double *x)
+{
+    double p[ICC_MAX_DIM], q[ICC_MAX_DIM], bary[ICC_MAX_DIM], square = 0;
+    uint32_t facet;
+    for (int32_t k = 0; k < domain->dim; ++k)
+        p[k] = x[k] * grid->spacing + grid->origin[k];
+    (void)iccp_domain_locate(domain, p, false, &facet, bary);
+    iccp_domain_facet_point(domain, facet, bary, q);
+    for (int32_t k = 0; k < domain->dim; ++k)
+        square += (p[k] - q[k]) * (p[k] - q[k]);
+    return sqrt(square) / grid->spacing;
+}
+
+START_TEST(cells_of_the_cage_are_those_at_the_boundary)
+{
+    random_source r = {10};
+    for (int round = 0; round < 24; ++round) {
+        const int32_t dim = round % 2 ? 3 : 4;
+        const iccp_env env = {.memory = iccp_memory_default};
+        icc_domain *domain = pick_domain(&r, dim);
+        icc_grid *grid;
+        iccp_cage_cells cage;
+        ck_assert_int_eq(iccp_grid_create(&grid, domain, 2 + random_below(&r, dim == 3 ? 30 : 8), &env,
+                                          NULL),
+                         ICC_OK);
+        ck_assert_int_eq(iccp_cage_cells_create(&cage, domain, grid, &env), ICC_OK);
+        for (int k = 0; k < 2000; ++k) {
+            double x[ICC_MAX_DIM];
+            pick_on_boundary(domain, grid, &r, x);
+            for (int32_t m = 0; m < dim; ++m)
+                x[m] += (random_below(&r, 3) - 1) * 1e-12;
+            ck_assert(is_marked(&cage, cell_of(grid, x)));
+        }
+        size_t n_marked = 0;
+        for (uint32_t v = 0; v < grid->n_vertices; ++v)
+            if (is_marked(&cage, v)) {
+                double middle[ICC_MAX_DIM];
+                for (int32_t m = 0; m < dim; ++m)
+                    middle[m] = iccp_grid_coordinate(grid, v, m) + 0.5;
+                ck_assert_double_le(from_boundary(domain, grid, middle), 1.5 * sqrt(dim));
+                ++n_marked;
+            }
+        ck_assert(n_marked > 0);
+        iccp_cage_cells_free(&cage);
+        icc_grid_free(grid);
+        icc_domain_free(domain);
+    }
+}
+END_TEST
+
+START_TEST(no_step_slips_through_the_cage)
+{
+    random_source r = {11};
+    size_t n_hits = 0;
+    for (int round = 0; round < 20; ++round) {
+        const int32_t dim = round % 2 ? 3 : 4;
+        const iccp_env env = {.memory = iccp_memory_default};
+        icc_domain *domain = pick_domain(&r, dim);
+        icc_grid *grid;
+        iccp_cage_cells cage;
+        ck_assert_int_eq(iccp_grid_create(&grid, domain, 9, &env, NULL), ICC_OK);
+        ck_assert_int_eq(iccp_cage_cells_create(&cage, domain, grid, &env), ICC_OK);
+        for (int k = 0; k < 2000; ++k) {
+            double x[2][ICC_MAX_DIM], local[2][ICC_MAX_DIM], share, bary[ICC_MAX_DIM];
+            uint32_t facet, cell = 0;
+            for (int32_t m = 0; m < dim; ++m) {
+                const int at = random_below(&r, (int)grid->shape[m] - 1);
+                cell += (uint32_t)at * (uint32_t)grid->stride[m];
+                for (int i = 0; i < 2; ++i) {
+                    x[i][m] = at + (random_below(&r, 4) ? random_unit(&r) : random_below(&r, 2));
+                    local[i][m] = x[i][m] * grid->spacing + grid->origin[m];
+                }
+            }
+            iccp_cage_hit hit;
+            const bool found = iccp_cage_cells_cross(&cage, cell, x[0], x[1], &hit);
+            ck_assert_int_eq(found, iccp_domain_cross(domain, local[0], local[1], &share, &facet, bary));
+            n_hits += found;
+            if (!found)
+                continue;
+            ck_assert(hit.facet == facet && hit.share >= share && hit.share <= share);
+            ck_assert_double_le(from_boundary(domain, grid, hit.point), 1e-12);
+            ck_assert(iccp_cage_cells_touch(&cage, hit.point, &hit));
+            ck_assert(!iccp_cage_cells_touch(&cage, (double[ICC_MAX_DIM]){0.5}, &hit));
+        }
+        iccp_cage_cells_free(&cage);
+        icc_grid_free(grid);
+        icc_domain_free(domain);
+    }
+    ck_assert_uint_gt(n_hits, 2000);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("walkn");
@@ -585,6 +726,8 @@ int main(void)
     tcase_add_test(tests, only_ratios_of_values_count);
     tcase_add_test(tests, starts_without_values_are_refused);
     tcase_add_test(tests, lines_that_leave_what_has_values_end);
+    tcase_add_test(tests, cells_of_the_cage_are_those_at_the_boundary);
+    tcase_add_test(tests, no_step_slips_through_the_cage);
     suite_add_tcase(suite, tests);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_NORMAL);
