@@ -18,10 +18,11 @@ static const command commands[] = {
               "       libicc map --source FILE --target FILE --geojson [OPTION]... IN OUT",
      .summary = "Carries points along with their cage",
      .details =
-         "Reads one point `x y` per line and writes its image per line, in the same order. A "
-         "point\n"
-         "without an image gives `nan nan`; the exit code is then 4. Blank lines and lines that\n"
-         "begin with # are left out.\n\n"
+         "Reads one point per line, `x y` in the plane and `x y z` in space, and writes its image "
+         "per\n"
+         "line, in the same order. A point without an image gives `nan nan`; the exit code is then "
+         "4.\n"
+         "Blank lines and lines that begin with # are left out.\n\n"
          "With --geojson it carries the points, lines and polygons of a GeoJSON file, with more\n"
          "vertices where the map bends lines. Points and polygons without an image become empty,\n"
          "lines are cut, and the exit code is then 4.\n"},
@@ -34,7 +35,8 @@ static const command commands[] = {
                 "`facet`\n"
                 "(counted from 0), at b0 of that vertex plus b1 of the next; t is the share of the "
                 "curve's\n"
-                "length from there to the point.\n"},
+                "length from there to the point. In space the facet is a face, with three numbers b, "
+                "and so on.\n"},
     {.name = "decode",
      .bit = FOR_DECODE,
      .run = run_decode,
@@ -62,41 +64,52 @@ static const command commands[] = {
      .run = run_mesh,
      .usage = "--source FILE --target FILE [OPTION]... IN OUT",
      .summary = "Carries the vertices of a mesh along",
-     .details = "OBJ and OFF, in the plane (a third coordinate is kept). Says how many triangles "
-                "keep their\n"
-                "orientation, how many invert or collapse, and whether the mesh and its image are "
-                "one-to-one,\n"
-                "with exact signs. A mesh that is sampled from a one-to-one map need not be.\n"},
+     .details =
+         "OBJ, OFF, Medit (.mesh) and legacy VTK as text. Says how many triangles (in space: "
+         "tetrahedra)\n"
+         "keep their orientation, how many invert or collapse, and in the plane whether the mesh and "
+         "its\n"
+         "image are one-to-one, with exact signs. A mesh that is sampled from a one-to-one map need "
+         "not be.\n"},
     {.name = "check",
      .bit = FOR_CHECK,
      .run = run_check,
      .usage = "--source FILE [--target FILE] [OPTION]...",
      .summary = "Checks cages and certifies the map between them",
-     .details = "Lists every crossing, contact, spike and repeated vertex, one per line. Exit code "
-                "0 means\n"
-                "that the charts and the map are certified to be one-to-one; the method gradient "
-                "cannot be, so\n"
-                "it gives 1.\n"},
+     .details =
+         "In the plane it lists every crossing, contact, spike and repeated vertex, one per line; "
+         "elsewhere\n"
+         "the first defect is named. Exit code 0 means that the charts and the map are certified to "
+         "be\n"
+         "one-to-one; the method gradient cannot be, so it gives 1. A mask by itself is only checked "
+         "to be\n"
+         "one solid piece without holes; --boundary writes the vertices of its boundary, which, "
+         "moved, are\n"
+         "a target.\n"},
     {.name = "info",
      .bit = FOR_INFO,
      .run = run_info,
      .usage = "--source FILE [--target FILE] [OPTION]...",
      .summary = "Tells what a chart is made of, and what it misses",
      .details =
-         "With a target it also tells how the map was made, what share of the area collapses "
+         "With a target it also tells how the map was made, what share of the inside collapses "
          "or inverts,\n"
          "and how much the rest is distorted.\n"},
     {.name = "plot",
      .bit = FOR_PLOT,
      .n_operands = 1,
      .run = run_plot,
-     .usage = "--source FILE [--target FILE] [OPTION]... OUT.svg",
+     .usage = "--source FILE [--target FILE] [OPTION]... OUT.svg|OUT.vtk",
      .summary = "Draws cage, integral curves, maximum and what they are made of",
      .details = "With a target: both shapes side by side, and a u v map and a checkerboard that "
                 "the target\n"
                 "inherits. --function takes several names here, with commas between, and "
                 "each may end\n"
-                "in :constrained or :unconstrained; then there is a column for each.\n"},
+                "in :constrained or :unconstrained; then there is a column for each.\n\n"
+                "OUT.vtk, for ParaView, has the source alone, in the plane or in space: grid, tree, "
+                "boundary and\n"
+                "curves (cell data `part`: 0 to 3), with the displacement to the target if there is "
+                "one.\n"},
 };
 enum { N_COMMANDS = sizeof commands / sizeof *commands };
 

@@ -92,12 +92,12 @@ binary() {
     [ "$1" = big ] && one='63 240 0 0 0 0 0 0'
     tr ' ' '\n' <corners.txt | while read -r x; do
         # shellcheck disable=SC2086 # bytes
-        [ "$x" = 1 ] && bytes $one || bytes 0 0 0 0 0 0 0 0
+        if [ "$x" = 1 ]; then bytes $one; else bytes 0 0 0 0 0 0 0 0; fi
     done
     sed 's/^f //' faces | while read -r a b c; do
         bytes 3
         for corner in $((a - 1)) $((b - 1)) $((c - 1)); do
-            [ "$1" = big ] && bytes 0 "$corner" || bytes "$corner" 0
+            if [ "$1" = big ]; then bytes 0 "$corner"; else bytes "$corner" 0; fi
         done
     done
 }
