@@ -1,5 +1,5 @@
 /* Based on: L. Huynh, thesis, 2013, section 5.1, Algorithms 6-8 (Huynh and Gingold, section 4): the same in
- * any dimension, on top of gradient_line.h. Derivatives there are in the plane only. */
+ * any dimension, on top of gradient_line.h. */
 #include "chart/chart_gradient.h"
 
 #include "base/clock.h"
@@ -139,8 +139,6 @@ static icc_status encode(const icc_chart *chart, const double *point, iccp_coord
     (void)path;
     const iccp_gradient_state *state = chart->state;
     const int32_t dim = chart->domain->dim;
-    if (jet != NULL && dim != 2)
-        return ICC_ERR_UNSUPPORTED;
     const int32_t where =
         iccp_domain_locate(chart->domain, point, true, &coords->facet, coords->bary);
     if (where == ICC_OUTSIDE)
@@ -154,9 +152,10 @@ static icc_status encode(const icc_chart *chart, const double *point, iccp_coord
         coords_of_maximum(dim, coords);
         return jet == NULL ? ICC_OK : ICC_ERR_TRACE;
     }
-    static const iccp_jet2 identity = {{1, 0}, {0, 1}, {0, 0}};
-    iccp_jet2 jets[2] = {identity, identity};
+    iccp_jetn jets[2];
     iccp_gradient_line down, up;
+    for (int k = 0; k < 2 && jet != NULL; ++k)
+        iccp_gradient_identity(dim, &jets[k]);
     icc_status status = iccp_gradient_down(state, p, NULL, jet != NULL ? &jets[0] : NULL, &down);
     if (status == ICC_OK)
         status = iccp_gradient_up(state, p, NULL, jet != NULL ? &jets[1] : NULL, &up);
@@ -166,7 +165,7 @@ static icc_status encode(const icc_chart *chart, const double *point, iccp_coord
     memcpy(coords->bary, down.bary, sizeof coords->bary);
     coords->t = down.s / (down.s + up.s);
     if (jet != NULL)
-        iccp_gradient_encode_jet(state, &down, &jets[0], &up, &jets[1], jet);
+        iccp_gradient_encode_jet(chart, &down, &jets[0], &up, &jets[1], jet);
     return ICC_OK;
 }
 
@@ -178,8 +177,6 @@ static icc_status decode(const icc_chart *chart, const iccp_coords *coords, doub
     const iccp_gradient_state *state = chart->state;
     const int32_t dim = chart->domain->dim;
     double boundary[ICC_MAX_DIM], p[ICC_MAX_DIM], share;
-    if (jet != NULL && dim != 2)
-        return ICC_ERR_UNSUPPORTED;
     if (jet != NULL && (coords->t <= 0 || coords->t >= 1))
         return ICC_ERR_TRACE;
     if (coords->t >= 1) {

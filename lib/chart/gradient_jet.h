@@ -1,17 +1,20 @@
-/* Derivatives of gradient coordinates, in the plane. */
+/* Derivatives of gradient coordinates. */
 #ifndef ICCP_GRADIENT_JET_H
 #define ICCP_GRADIENT_JET_H
 
 #include "chart/gradient_line.h"
 
+/* Of a point by itself. */
+void iccp_gradient_identity(int32_t dim, iccp_jetn *jet);
+
 /* Of the coordinates by the point, from the jets of the lines down and up. */
-void iccp_gradient_encode_jet(const iccp_gradient_state *state, const iccp_gradient_line *down,
-                              const iccp_jet2 *down_jet, const iccp_gradient_line *up,
-                              const iccp_jet2 *up_jet, iccp_encode_jet *jet);
+void iccp_gradient_encode_jet(const icc_chart *chart, const iccp_gradient_line *down,
+                              const iccp_jetn *down_jet, const iccp_gradient_line *up,
+                              const iccp_jetn *up_jet, iccp_encode_jet *jet);
 
 /* Of the point by the coordinates; it lies on `piece` of the line from the boundary point. */
 icc_status iccp_gradient_decode_jet(const icc_chart *chart, const iccp_coords *coords,
-                                    const double boundary[2], const iccp_path *path, size_t piece,
+                                    const double *boundary, const iccp_path *path, size_t piece,
                                     double share, iccp_decode_jet *jet);
 
 #endif

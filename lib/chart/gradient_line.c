@@ -1,7 +1,5 @@
 #include "chart/gradient_line.h"
 
-#include "trace/walkn.h"
-
 #include <string.h>
 
 static bool is_plane(const iccp_gradient_state *state)
@@ -9,13 +7,34 @@ static bool is_plane(const iccp_gradient_state *state)
     return state->tree->grid->dim == 2;
 }
 
+static void to_plane(const iccp_jetn *jet, iccp_jet2 *flat)
+{
+    for (int c = 0; c < 2; ++c) {
+        flat->x[c] = jet->x[0][c];
+        flat->y[c] = jet->x[1][c];
+        flat->s[c] = jet->s[c];
+    }
+}
+
+static void from_plane(const iccp_jet2 *flat, iccp_jetn *jet)
+{
+    for (int c = 0; c < 2; ++c) {
+        jet->x[0][c] = flat->x[c];
+        jet->x[1][c] = flat->y[c];
+        jet->s[c] = flat->s[c];
+    }
+}
+
 static icc_status down_in_plane(const iccp_gradient_state *state, const double *from,
-                                iccp_path *path, iccp_jet2 *jet, iccp_gradient_line *line)
+                                iccp_path *path, iccp_jetn *jet, iccp_gradient_line *line)
 {
     iccp_walk2 walk;
     iccp_fence_hit hit;
-    icc_status status =
-        iccp_walk2_start(&walk, state->field, ICCP_DOWNHILL, from[0], from[1], jet);
+    iccp_jet2 flat;
+    if (jet != NULL)
+        to_plane(jet, &flat);
+    icc_status status = iccp_walk2_start(&walk, state->field, ICCP_DOWNHILL, from[0], from[1],
+                                         jet != NULL ? &flat : NULL);
     if (status == ICC_OK)
         status = iccp_trace_downhill(&walk, &state->fence, path, &hit);
     if (status == ICC_OK)
@@ -23,17 +42,19 @@ static icc_status down_in_plane(const iccp_gradient_state *state, const double *
                                      .merged = walk.merged,
                                      .facet = hit.facet,
                                      .bary = {1 - hit.along, hit.along}};
+    if (status == ICC_OK && jet != NULL)
+        from_plane(&flat, jet);
     return status;
 }
 
 icc_status iccp_gradient_down(const iccp_gradient_state *state, const double *from,
-                              iccp_path *path, iccp_jet2 *jet, iccp_gradient_line *line)
+                              iccp_path *path, iccp_jetn *jet, iccp_gradient_line *line)
 {
     if (is_plane(state))
         return down_in_plane(state, from, path, jet, line);
     iccp_walkn walk;
     iccp_cage_hit hit;
-    icc_status status = iccp_walkn_start(&walk, state->field, ICCP_DOWNHILL, from, NULL);
+    icc_status status = iccp_walkn_start(&walk, state->field, ICCP_DOWNHILL, from, NULL, jet);
     if (status == ICC_OK)
         status = iccp_walkn_downhill(&walk, &state->cage, path, &hit);
     if (status != ICC_OK)
@@ -60,35 +81,74 @@ static icc_status climb(iccp_walkn *walk, iccp_path *path, iccp_gradient_line *l
 }
 
 icc_status iccp_gradient_up(const iccp_gradient_state *state, const double *from, iccp_path *path,
-                            iccp_jet2 *jet, iccp_gradient_line *line)
+                            iccp_jetn *jet, iccp_gradient_line *line)
 {
     icc_status status;
-    if (is_plane(state)) {
-        iccp_walk2 walk;
-        status = iccp_walk2_start(&walk, state->field, ICCP_UPHILL, from[0], from[1], jet);
-        return status == ICC_OK ? climb_in_plane(&walk, path, line) : status;
+    if (!is_plane(state)) {
+        iccp_walkn walk;
+        status = iccp_walkn_start(&walk, state->field, ICCP_UPHILL, from, NULL, jet);
+        return status == ICC_OK ? climb(&walk, path, line) : status;
     }
-    iccp_walkn walk;
-    status = iccp_walkn_start(&walk, state->field, ICCP_UPHILL, from, NULL);
-    return status == ICC_OK ? climb(&walk, path, line) : status;
+    iccp_walk2 walk;
+    iccp_jet2 flat;
+    if (jet != NULL)
+        to_plane(jet, &flat);
+    status = iccp_walk2_start(&walk, state->field, ICCP_UPHILL, from[0], from[1],
+                              jet != NULL ? &flat : NULL);
+    if (status == ICC_OK)
+        status = climb_in_plane(&walk, path, line);
+    if (status == ICC_OK && jet != NULL)
+        from_plane(&flat, jet);
+    return status;
+}
+
+/* Uphill into the domain; gradient_state.h has the same for the plane. */
+static icc_status depart(const icc_chart *chart, uint32_t facet, const double *point,
+                         iccp_walkn *walk, iccp_jetn *jet)
+{
+    const iccp_gradient_state *state = chart->state;
+    double from[ICC_MAX_DIM], inward[ICC_MAX_DIM];
+    iccp_gradient_to_lattice(state, point, from);
+    iccp_cage_inward(chart->domain, facet, inward);
+    return iccp_walkn_start(walk, state->field, ICCP_UPHILL, from, inward, jet);
 }
 
 icc_status iccp_gradient_up_from(const icc_chart *chart, uint32_t facet, const double *point,
                                  iccp_path *path, iccp_gradient_line *line)
 {
-    const iccp_gradient_state *state = chart->state;
     icc_status status;
-    if (is_plane(state)) {
+    if (is_plane(chart->state)) {
         iccp_walk2 walk;
         status = iccp_gradient_depart(chart, facet, point, &walk, NULL);
         return status == ICC_OK ? climb_in_plane(&walk, path, line) : status;
     }
     iccp_walkn walk;
-    double from[ICC_MAX_DIM], inward[ICC_MAX_DIM];
-    iccp_gradient_to_lattice(state, point, from);
-    iccp_gradient_inward(chart->domain, facet, inward);
-    status = iccp_walkn_start(&walk, state->field, ICCP_UPHILL, from, inward);
+    status = depart(chart, facet, point, &walk, NULL);
     return status == ICC_OK ? climb(&walk, path, line) : status;
+}
+
+icc_status iccp_gradient_up_again(const icc_chart *chart, uint32_t facet, const double *point,
+                                  const iccp_jetn *jet, size_t piece, size_t n_steps,
+                                  iccp_gradient_replay *replay)
+{
+    const bool plane = is_plane(chart->state);
+    iccp_walkn walk;
+    iccp_walk2 walk2;
+    iccp_jet2 flat;
+    replay->end = *jet;
+    to_plane(jet, &flat);
+    icc_status status = plane ? iccp_gradient_depart(chart, facet, point, &walk2, &flat)
+                              : depart(chart, facet, point, &walk, &replay->end);
+    for (size_t k = 0; status == ICC_OK && k < n_steps; ++k) {
+        if (k == piece)
+            replay->before = replay->end;
+        status = plane ? iccp_walk2_step(&walk2) : iccp_walkn_step(&walk);
+        if (plane)
+            from_plane(&flat, &replay->end);
+        if (k == piece)
+            replay->after = replay->end;
+    }
+    return status;
 }
 
 int iccp_gradient_slope_sign(const iccp_gradient_state *state, const double *at,

@@ -31,9 +31,6 @@ static inline void iccp_gradient_to_local(const iccp_gradient_state *state, cons
         local[k] = lattice[k] * grid->spacing + grid->origin[k];
 }
 
-/* Across a facet, into the domain; as long as (dim - 1)! times the measure of the facet. */
-void iccp_gradient_inward(const icc_domain *domain, uint32_t facet, double *inward);
-
 /* In the plane, starts uphill at a local point of a facet, into the domain. `jet` may be NULL. */
 icc_status iccp_gradient_depart(const icc_chart *chart, uint32_t facet, const double point[2],
                                 iccp_walk2 *walk, iccp_jet2 *jet);

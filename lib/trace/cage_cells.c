@@ -161,3 +161,44 @@ bool iccp_cage_cells_touch(const iccp_cage_cells *cage, const double *point, icc
     memcpy(hit->point, point, (size_t)cage->grid->dim * sizeof *point);
     return iccp_domain_locate(cage->domain, local, true, &hit->facet, hit->bary) == ICC_BOUNDARY;
 }
+
+/* By elimination; overwrites the matrix. */
+static double determinant(int n, double a[ICC_MAX_DIM][ICC_MAX_DIM])
+{
+    double det = 1;
+    for (int c = 0; c < n; ++c) {
+        int pivot = c;
+        for (int r = c + 1; r < n; ++r)
+            pivot = fabs(a[r][c]) > fabs(a[pivot][c]) ? r : pivot;
+        if (!(fabs(a[pivot][c]) > 0))
+            return 0;
+        for (int k = c; k < n; ++k) {
+            const double swap = a[c][k];
+            a[c][k] = pivot != c ? -a[pivot][k] : swap;
+            a[pivot][k] = pivot != c ? swap : a[pivot][k];
+        }
+        det *= a[c][c];
+        for (int r = c + 1; r < n; ++r)
+            for (int k = n; k-- > c;)
+                a[r][k] -= a[r][c] / a[c][c] * a[c][k];
+    }
+    return det;
+}
+
+/* The determinant of a vector out of the domain and the facet's edges has the orientation's sign: component
+ * k of the outward normal is the cofactor of that vector's component k. */
+void iccp_cage_inward(const icc_domain *domain, uint32_t facet, double *inward)
+{
+    const int dim = domain->dim;
+    const double *corners[ICC_MAX_DIM];
+    iccp_facet_corners(&domain->tree, facet, corners);
+    for (int k = 0; k < dim; ++k) {
+        double minor[ICC_MAX_DIM][ICC_MAX_DIM];
+        for (int i = 0; i + 1 < dim; ++i)
+            for (int j = 0; j + 1 < dim; ++j) {
+                const int axis = j < k ? j : j + 1;
+                minor[i][j] = corners[i + 1][axis] - corners[0][axis];
+            }
+        inward[k] = (k % 2 == 0 ? -1 : 1) * domain->orientation * determinant(dim - 1, minor);
+    }
+}

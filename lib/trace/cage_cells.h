@@ -36,4 +36,7 @@ bool iccp_cage_cells_cross(const iccp_cage_cells *cage, uint32_t cell, const dou
 /* Whether a point in lattice coordinates is on the boundary up to the domain's tolerance. */
 bool iccp_cage_cells_touch(const iccp_cage_cells *cage, const double *point, iccp_cage_hit *hit);
 
+/* Across a facet, into the domain; as long as (dim - 1)! times the measure of the facet. */
+void iccp_cage_inward(const icc_domain *domain, uint32_t facet, double *inward);
+
 #endif

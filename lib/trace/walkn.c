@@ -25,6 +25,7 @@ typedef struct motion {
     double speed[ICC_MAX_DIM + 2];     /* of the coordinates between one corner and the next: speed[a] below
                                           corner a; 0 at both ends */
     double y[ICC_MAX_DIM + 2];         /* where they are; 1 and 0 at the ends */
+    int exit;                          /* the number here of the corner whose facet is met */
 } motion;
 
 static const icc_grid *grid_of(const iccp_walkn *w)
@@ -133,7 +134,10 @@ static unsigned move(motion *m, unsigned face)
     double time[ICC_MAX_DIM + 1], first = HUGE_VAL;
     for (int a = 0; a < m->n; ++a) {
         time[a] = face >> m->corner[a] & 1 ? time_of(m, a) : HUGE_VAL;
-        first = fmin(first, time[a]);
+        if (time[a] < first) {
+            first = time[a];
+            m->exit = a;
+        }
     }
     if (!(first < HUGE_VAL))
         return 0;
@@ -195,6 +199,52 @@ static void record(iccp_walkn *w, const motion *m)
     w->cell = w->place.simplex.corner[0];
 }
 
+/* What the face that carries a step leaves of a derivative, by the coordinates between its corners: where the
+ * walk has got to the face by steps, they are the same along all axes of a block; at a start, their mean. */
+static void project_jet(const iccp_walkn *w, const motion *m, int parameter, double *y)
+{
+    y[0] = y[m->n] = 0;
+    for (int a = 1; a < m->n; ++a) {
+        y[a] = 0;
+        for (int k = m->corner[a - 1]; k < m->corner[a]; ++k)
+            y[a] += w->jet->x[w->place.simplex.axis[k]][parameter];
+        y[a] /= m->corner[a] - m->corner[a - 1];
+    }
+}
+
+static void write_jet(iccp_walkn *w, const motion *m, int parameter, const double *y)
+{
+    for (int k = 0; k < grid_of(w)->dim; ++k)
+        w->jet->x[k][parameter] = 0;
+    for (int a = 1; a < m->n; ++a)
+        for (int k = m->corner[a - 1]; k < m->corner[a]; ++k)
+            w->jet->x[w->place.simplex.axis[k]][parameter] = y[a];
+}
+
+/* The facet is met where y[exit] - y[exit + 1] = 0. If others are met there, too, what they fix does not move
+ * any more. */
+static void carry_jet(iccp_walkn *w, const motion *m, unsigned left)
+{
+    const int e = m->exit, last = m->n - 1;
+    double slope2 = 0;
+    for (int a = 1; a <= last; ++a)
+        slope2 += m->speed[a] * m->speed[a] * (m->corner[a] - m->corner[a - 1]);
+    for (int c = 0; c < grid_of(w)->dim; ++c) {
+        double y[ICC_MAX_DIM + 2];
+        project_jet(w, m, c, y);
+        const double dt = (y[e] - y[e + 1]) / (m->speed[e + 1] - m->speed[e]);
+        for (int a = 1; a <= last; ++a)
+            y[a] += dt * m->speed[a];
+        for (int a = 0; a < last; ++a)
+            if (!(left >> m->corner[a] & 1))
+                y[a + 1] = y[a];
+        for (int a = last; a > 0 && !(left >> m->corner[a] & 1); --a)
+            y[a] = 0;
+        w->jet->s[c] += dt * sqrt(slope2);
+        write_jet(w, m, c, y);
+    }
+}
+
 icc_status iccp_walkn_step(iccp_walkn *walk)
 {
     unsigned corners;
@@ -206,6 +256,8 @@ icc_status iccp_walkn_step(iccp_walkn *walk)
     const unsigned left = move(&m, walk->place.face);
     if (left == 0)
         return ICC_ERR_TRACE;
+    if (walk->jet != NULL)
+        carry_jet(walk, &m, left);
     record(walk, &m);
     walk->place.face = left;
     walk->ahead = false;
@@ -270,12 +322,12 @@ static bool settle(iccp_walkn *w, const double *x, const double *ahead)
 }
 
 icc_status iccp_walkn_start(iccp_walkn *walk, const icc_field *field, int direction,
-                            const double *x, const double *ahead)
+                            const double *x, const double *ahead, iccp_jetn *jet)
 {
     static const double NOWHERE[ICC_MAX_DIM] = {0};
     const icc_grid *grid = field->tree->grid;
     double f[ICC_MAX_DIM + 1];
-    *walk = (iccp_walkn){.slope = {field, direction, false}};
+    *walk = (iccp_walkn){.slope = {field, direction, false}, .jet = jet};
     if (!settle(walk, x, ahead != NULL ? ahead : NOWHERE))
         return ICC_ERR_TRACE;
     memcpy(walk->to, x, (size_t)grid->dim * sizeof *x);
@@ -328,20 +380,48 @@ icc_status iccp_walkn_uphill(iccp_walkn *walk, iccp_path *path, double *merge)
     return status;
 }
 
+/* Cuts the last step short at the boundary, from what the arc length and the jet were before it. */
+static void end_at_cage(iccp_walkn *w, double s_before, const iccp_jetn *jet_before,
+                        const iccp_cage_cells *cage, const iccp_cage_hit *hit)
+{
+    const int dim = grid_of(w)->dim;
+    const double length = hit->share * (w->s - s_before);
+    memcpy(w->to, hit->point, sizeof w->to);
+    w->s = s_before + length;
+    if (w->jet == NULL)
+        return;
+    double normal[ICC_MAX_DIM], along = 0;
+    iccp_cage_inward(cage->domain, hit->facet, normal);
+    for (int k = 0; k < dim; ++k)
+        along += normal[k] * (w->to[k] - w->from[k]);
+    *w->jet = *jet_before;
+    for (int c = 0; c < dim; ++c) {
+        double off = 0;
+        for (int k = 0; k < dim; ++k)
+            off += normal[k] * w->jet->x[k][c];
+        const double dt = fabs(along) > 0 ? off / along : 0;
+        for (int k = 0; k < dim; ++k)
+            w->jet->x[k][c] -= dt * (w->to[k] - w->from[k]);
+        w->jet->s[c] -= dt * length;
+    }
+}
+
 icc_status iccp_walkn_downhill(iccp_walkn *walk, const iccp_cage_cells *cage, iccp_path *path,
                                iccp_cage_hit *hit)
 {
     icc_status status = begin_path(walk, path);
     bool met = false;
+    iccp_jetn jet_before;
     while (status == ICC_OK && !met) {
         const double before = walk->s;
+        if (walk->jet != NULL)
+            jet_before = *walk->jet;
         status = iccp_walkn_step(walk);
         /* A step that leaves the grid may have passed the boundary first. */
         if (walk->s > before || status == ICC_OK)
             met = iccp_cage_cells_cross(cage, walk->cell, walk->from, walk->to, hit);
         if (met) {
-            memcpy(walk->to, hit->point, sizeof walk->to);
-            walk->s = before + hit->share * (walk->s - before);
+            end_at_cage(walk, before, &jet_before, cage, hit);
         } else if (status != ICC_OK) {
             return iccp_cage_cells_touch(cage, walk->to, hit) ? ICC_OK : status;
         }

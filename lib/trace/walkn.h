@@ -1,5 +1,5 @@
 /* Walking along an integral line of a piecewise linear function on the Kuhn triangulation of a grid of any
- * dimension: trace/walk2.h is the same for the plane, with derivatives.
+ * dimension: trace/walk2.h is the same for the plane, and twice as fast there.
  *
  * Which simplex or face comes next is decided by exact signs of what f does there. Where the line meets it is
  * computed in doubles, and so is, which of a simplex' facets is met first: facets that are met at the same
@@ -13,6 +13,12 @@
 #include "trace/path.h"
 #include "trace/walkn_star.h"
 
+/* Derivatives by up to dim parameters of what a walk computes. */
+typedef struct iccp_jetn {
+    double x[ICC_MAX_DIM][ICC_MAX_DIM]; /* of the position: by coordinate, then by parameter */
+    double s[ICC_MAX_DIM];              /* of the arc length so far */
+} iccp_jetn;
+
 typedef struct iccp_walkn {
     iccp_slope slope;
     iccp_place place;
@@ -22,13 +28,15 @@ typedef struct iccp_walkn {
     uint32_t cell;          /* the lowest corner of the cell that the last step lay in */
     double from[ICC_MAX_DIM], to[ICC_MAX_DIM]; /* the last step */
     size_t steps_left;      /* far more than a line can need; ICC_ERR_TRACE when used up */
+    iccp_jetn *jet;         /* NULL when derivatives are not wanted */
 } iccp_walkn;
 
 /* Stands at a point in lattice coordinates; `direction` as in trace/walk2.h. From a point that lies on a
  * face, the walk goes into the simplex to which `ahead` points, if the gradient there does not lead out of
- * it again; NULL: the steepest way. ICC_ERR_TRACE when the point is not in a simplex with values. */
+ * it again; NULL: the steepest way. When `jet` is not NULL it holds the derivative of the point and is
+ * carried along. ICC_ERR_TRACE when the point is not in a simplex with values. */
 icc_status iccp_walkn_start(iccp_walkn *walk, const icc_field *field, int direction,
-                            const double *x, const double *ahead);
+                            const double *x, const double *ahead, iccp_jetn *jet);
 
 /* Goes on to the next face (Algorithm 3). ICC_ERR_TRACE when there is no way on. */
 icc_status iccp_walkn_step(iccp_walkn *walk);
@@ -42,7 +50,7 @@ bool iccp_walkn_at_root(const iccp_walkn *walk);
 icc_status iccp_walkn_uphill(iccp_walkn *walk, iccp_path *path, double *merge);
 
 /* Algorithm 5: to the boundary. The walk must have started inside. The last step ends on the cage, and
- * walk->s includes it. */
+ * walk->s and the jet include it. */
 icc_status iccp_walkn_downhill(iccp_walkn *walk, const iccp_cage_cells *cage, iccp_path *path,
                                iccp_cage_hit *hit);
 

@@ -49,7 +49,7 @@ static tally climb(const icc_field *field)
     for (; t.n_lines < N_WALKS; ++t.n_lines) {
         iccp_walkn walk;
         pick(field->tree->grid, &r, p);
-        icc_status status = iccp_walkn_start(&walk, field, ICCP_UPHILL, p, NULL);
+        icc_status status = iccp_walkn_start(&walk, field, ICCP_UPHILL, p, NULL, NULL);
         const size_t budget = walk.steps_left;
         status = iccp_walkn_uphill(&walk, NULL, NULL);
         t.n_steps += budget - walk.steps_left;
@@ -61,7 +61,7 @@ static tally climb(const icc_field *field)
     for (size_t i = 0; i < t.n_lines; ++i) {
         iccp_walkn walk;
         pick(field->tree->grid, &r, p);
-        if (iccp_walkn_start(&walk, field, ICCP_UPHILL, p, NULL) != ICC_OK)
+        if (iccp_walkn_start(&walk, field, ICCP_UPHILL, p, NULL, NULL) != ICC_OK)
             continue;
         while (!iccp_walkn_at_root(&walk) && iccp_walkn_step(&walk) == ICC_OK)
             t.n_crossings += walk.ahead;

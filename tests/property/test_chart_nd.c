@@ -113,7 +113,7 @@ static icc_domain *corner(int32_t dim)
 }
 
 /* The last one is large: only some tests include it. */
-enum { FOX = 2, N_SMALL = 7, N_SHAPES = 8 };
+enum { FOX = 2, FLAT = 3, N_SMALL = 7, N_SHAPES = 8 };
 
 static icc_domain *shape_number(int k)
 {
@@ -374,7 +374,7 @@ START_TEST(inward_is_inward)
             for (int32_t m = 0; m < domain->dim; ++m)
                 bary[m] = 1.0 / domain->dim;
             iccp_domain_facet_point(domain, f, bary, middle);
-            iccp_gradient_inward(domain, f, inward);
+            iccp_cage_inward(domain, f, inward);
             for (int32_t m = 0; m < domain->dim; ++m)
                 length += inward[m] * inward[m];
             ck_assert_double_gt(length, 0);
@@ -390,20 +390,72 @@ START_TEST(inward_is_inward)
 }
 END_TEST
 
-START_TEST(derivatives_are_for_the_plane)
+/* Whether a derivative is that of three values a step apart, two times; false where they do not tell, as where
+ * the function has a kink. */
+static bool agrees(double low, double at, double high, double step, double derivative)
 {
-    subject s;
-    ck_assert(subject_init(&s, 1, ICC_FUNCTION_DECAY));
-    iccp_coords coords = {.bary = {1, 0, 0}, .t = 0.5};
-    iccp_encode_jet down;
-    iccp_decode_jet up;
-    iccp_path path;
-    double p[3] = {0};
-    iccp_path_init(&path, &s.chart->memory);
-    ck_assert_int_eq(s.chart->ops->decode(s.chart, &coords, p, &up, &path), ICC_ERR_UNSUPPORTED);
-    ck_assert_int_eq(s.chart->ops->encode(s.chart, p, &coords, &down, &path), ICC_ERR_UNSUPPORTED);
-    iccp_path_clear(&path);
-    subject_clear(&s);
+    const double left = (at - low) / step, right = (high - at) / step;
+    if (fabs(left - right) > 1e-5 * (1 + fabs(left)))
+        return false;
+    ck_assert_double_eq_tol(0.5 * (left + right), derivative, 1e-4 * (1 + fabs(left)));
+    return true;
+}
+
+START_TEST(jets_are_derivatives)
+{
+    static const double STEP = 1e-7;
+    random_source r = {6};
+    int n_encoded = 0, n_decoded = 0, n_tried = 0;
+    for (int k = 0; k < 2 * N_SMALL; ++k) {
+        subject s;
+        iccp_path path;
+        if (k / 2 == FLAT || !subject_init(&s, k / 2, k % 2 ? ICC_FUNCTION_LAPLACE : ICC_FUNCTION_DECAY))
+            continue;
+        iccp_path_init(&path, &s.chart->memory);
+        const int32_t dim = s.shape.dim, i = k % dim;
+        const iccp_chart_ops *ops = s.chart->ops;
+        for (int m = 0; m < 100; ++m) {
+            double p[ICC_MAX_DIM], q[3][ICC_MAX_DIM];
+            iccp_coords c[3], start;
+            iccp_encode_jet encoded;
+            iccp_decode_jet decoded;
+            bool good = true;
+            pick_inside(&s, &r, p);
+            iccp_frame_in(&s.domain->frame, dim, p, q[1]);
+            ++n_tried;
+            for (int n = 0; n < 3 && good; ++n) {
+                memcpy(q[n], q[1], sizeof q[n]);
+                q[n][i] += (n - 1) * STEP;
+                good = ops->encode(s.chart, q[n], &c[n], n == 1 ? &encoded : NULL, &path) == ICC_OK;
+            }
+            if (!good || c[0].facet != c[1].facet || c[2].facet != c[1].facet)
+                continue;
+            good = agrees(c[0].t, c[1].t, c[2].t, STEP, encoded.t[i]);
+            for (int32_t b = 0; b < dim && good; ++b)
+                good = agrees(c[0].bary[b], c[1].bary[b], c[2].bary[b], STEP, encoded.bary[b * dim + i]);
+            n_encoded += good;
+            /* By t, and from the first corner of the facet to another. */
+            for (int32_t b = 0; b < dim; ++b) {
+                start = c[1];
+                good = true;
+                for (int n = 0; n < 3 && good; ++n) {
+                    start = c[1];
+                    start.t += b == 0 ? (n - 1) * STEP : 0;
+                    start.bary[b] += b > 0 ? (n - 1) * STEP : 0;
+                    start.bary[0] -= b > 0 ? (n - 1) * STEP : 0;
+                    good = ops->decode(s.chart, &start, q[n], n == 1 ? &decoded : NULL, &path) == ICC_OK;
+                }
+                for (int32_t x = 0; x < dim && good; ++x)
+                    good = agrees(q[0][x], q[1][x], q[2][x], STEP,
+                                  b == 0 ? decoded.t[x] : decoded.bary[x * dim + b]);
+                n_decoded += good;
+            }
+        }
+        iccp_path_clear(&path);
+        subject_clear(&s);
+    }
+    ck_assert_int_gt(n_encoded, n_tried / 2);
+    ck_assert_int_gt(n_decoded, n_tried);
 }
 END_TEST
 
@@ -506,7 +558,7 @@ int main(void)
     tcase_add_test(tests, the_maximum_is_a_point_like_others);
     tcase_add_test(tests, curves_rise_from_the_boundary_to_the_maximum);
     tcase_add_test(tests, inward_is_inward);
-    tcase_add_test(tests, derivatives_are_for_the_plane);
+    tcase_add_test(tests, jets_are_derivatives);
     tcase_add_test(tests, measures_are_shares);
     tcase_add_test(tests, results_do_not_depend_on_the_number_of_threads);
     tcase_add_test(tests, every_failure_is_reported);

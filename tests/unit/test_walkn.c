@@ -150,7 +150,7 @@ START_TEST(a_linear_function_gives_straight_lines)
         for (int32_t k = 0; k < dim; ++k)
             ahead[k] = direction * d[k];
         iccp_walkn walk;
-        ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, direction, p, round % 2 ? ahead : NULL),
+        ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, direction, p, round % 2 ? ahead : NULL, NULL),
                          ICC_OK);
         icc_status status = ICC_OK;
         double at[ICC_MAX_DIM];
@@ -191,7 +191,7 @@ START_TEST(in_the_plane_walks_are_those_of_walk2)
             iccp_walk2 flat;
             iccp_walkn walk;
             ck_assert_int_eq(iccp_walk2_start(&flat, &W.field, direction, p[0], p[1], NULL), ICC_OK);
-            ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, direction, p, NULL), ICC_OK);
+            ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, direction, p, NULL, NULL), ICC_OK);
             icc_status status = ICC_OK;
             while (status == ICC_OK) {
                 status = iccp_walk2_step(&flat);
@@ -277,7 +277,7 @@ START_TEST(walks_rise_the_steepest_way)
             pick_start(&W, &r, p);
             iccp_walkn walk;
             const int direction = k % 2 ? ICCP_UPHILL : ICCP_DOWNHILL;
-            ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, direction, p, NULL), ICC_OK);
+            ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, direction, p, NULL, NULL), ICC_OK);
             for (double before = interpolate(&W, p), s = 0;;) {
                 const iccp_walkn last = walk;
                 const icc_status status = iccp_walkn_step(&walk);
@@ -361,7 +361,7 @@ START_TEST(every_ascent_ends_at_the_only_maximum)
             double p[ICC_MAX_DIM];
             pick_start(&W, &r, p);
             iccp_walkn walk;
-            ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, ICCP_UPHILL, p, NULL), ICC_OK);
+            ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, ICCP_UPHILL, p, NULL, NULL), ICC_OK);
             const size_t budget = walk.steps_left;
             const icc_status status = iccp_walkn_uphill(&walk, NULL, NULL);
             /* Of several vertices as high as their neighbours, one may be a maximum by its index. */
@@ -387,7 +387,7 @@ START_TEST(level_functions_end)
             pick_start(&W, &r, p);
             const int direction = k % 2 ? ICCP_UPHILL : ICCP_DOWNHILL;
             iccp_walkn walk;
-            ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, direction, p, NULL), ICC_OK);
+            ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, direction, p, NULL, NULL), ICC_OK);
             int n = 0;
             for (before = interpolate(&W, p); iccp_walkn_step(&walk) == ICC_OK; ++n) {
                 const double after = interpolate(&W, walk.to);
@@ -442,7 +442,7 @@ START_TEST(lines_merge_in_lower_and_lower_faces)
         length += 4 - (p[dim - 1] + slope * at);
         iccp_walkn walk;
         double found;
-        ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, ICCP_UPHILL, p, NULL), ICC_OK);
+        ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, ICCP_UPHILL, p, NULL, NULL), ICC_OK);
         ck_assert_int_eq(iccp_walkn_uphill(&walk, NULL, &found), ICC_OK);
         ck_assert_double_eq_tol(walk.s, length, 1e-11);
         ck_assert_double_eq_tol(found, merge, 1e-11);
@@ -470,7 +470,7 @@ START_TEST(starts_go_ahead)
         }
         p[axis] = 2;
         iccp_walkn walk;
-        ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, ICCP_UPHILL, p, ahead), ICC_OK);
+        ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, ICCP_UPHILL, p, ahead, NULL), ICC_OK);
         const double end = ahead[axis] > 0 ? 4 : 0;
         while (fabs(walk.to[axis] - end) > 0) {
             const icc_status status = iccp_walkn_step(&walk);
@@ -487,8 +487,8 @@ END_TEST
 static void check_same(const icc_field *a, const icc_field *b, const double *p, int direction)
 {
     iccp_walkn one, other;
-    ck_assert_int_eq(iccp_walkn_start(&one, a, direction, p, NULL), ICC_OK);
-    ck_assert_int_eq(iccp_walkn_start(&other, b, direction, p, NULL), ICC_OK);
+    ck_assert_int_eq(iccp_walkn_start(&one, a, direction, p, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(iccp_walkn_start(&other, b, direction, p, NULL, NULL), ICC_OK);
     for (icc_status status = ICC_OK; status == ICC_OK;) {
         status = iccp_walkn_step(&one);
         ck_assert_int_eq(iccp_walkn_step(&other), status);
@@ -536,18 +536,18 @@ START_TEST(starts_without_values_are_refused)
     cube_init(&W, 3, 0);
     set_linear(&W, forward);
     for (size_t i = 0; i < sizeof places / sizeof places[0]; ++i)
-        ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, ICCP_UPHILL, places[i], NULL),
+        ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, ICCP_UPHILL, places[i], NULL, NULL),
                          ICC_ERR_TRACE);
     W.values[3 + 8 * 3 + 64 * 4] = NAN; /* (3, 3, 4) */
-    ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, ICCP_UPHILL, vertex, NULL), ICC_OK);
-    ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, ICCP_UPHILL, edge, NULL), ICC_OK);
-    ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, ICCP_UPHILL, inner, NULL), ICC_ERR_TRACE);
-    ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, ICCP_UPHILL, other, NULL), ICC_OK);
+    ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, ICCP_UPHILL, vertex, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, ICCP_UPHILL, edge, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, ICCP_UPHILL, inner, NULL, NULL), ICC_ERR_TRACE);
+    ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, ICCP_UPHILL, other, NULL, NULL), ICC_OK);
     ck_assert_int_eq(iccp_walkn_slope_sign(&W.field, inner, forward), 0);
     ck_assert_int_eq(iccp_walkn_slope_sign(&W.field, other, forward), 1);
     ck_assert_int_eq(iccp_walkn_slope_sign(&W.field, other, back), -1);
     W.values[3 + 8 * 3 + 64 * 3] = NAN;
-    ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, ICCP_UPHILL, vertex, NULL), ICC_ERR_TRACE);
+    ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, ICCP_UPHILL, vertex, NULL, NULL), ICC_ERR_TRACE);
 }
 END_TEST
 
@@ -565,7 +565,7 @@ START_TEST(lines_that_leave_what_has_values_end)
         for (int i = 0; i < 3; ++i)
             p[i] = random_between(&r, 0, 3);
         iccp_walkn walk;
-        ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, ICCP_UPHILL, p, NULL), ICC_OK);
+        ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, ICCP_UPHILL, p, NULL, NULL), ICC_OK);
         ck_assert_int_eq(iccp_walkn_uphill(&walk, NULL, NULL), ICC_ERR_TRACE);
         ck_assert_double_eq(walk.to[0], 4);
     }
