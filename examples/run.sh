@@ -21,13 +21,16 @@ echo "building the examples against it"
 quietly "$build/configure.log" cmake -S examples -B "$programs" -DCMAKE_PREFIX_PATH="$stage"
 quietly "$build/build.log" cmake --build "$programs" --parallel "$(nproc)"
 
-for name in inspect_stages maximum_and_rotation sparse_points; do
+for name in inspect_stages maximum_and_rotation sparse_points solid_through_time; do
     "$programs/$name" >"$out/$name.txt"
     echo "$name"
     echo "the result is $out/$name.txt"
 done
 echo "l_to_square:"
 "$programs/l_to_square" "$out/l_to_square.svg"
+
+echo "animal_pose:"
+"$programs/animal_pose" "$out/animal.vtk"
 
 echo "warp_picture examples/data/chelsea.png"
 "$programs/warp_picture" examples/data/chelsea.src.txt examples/data/chelsea.tgt.txt \
