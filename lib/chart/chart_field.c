@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "chart/field_measure.h"
 #include "field/cones.h"
 #include "field/create.h"
 #include "field/critical.h"
@@ -523,7 +524,16 @@ static void free_state(icc_chart *chart)
     iccp_free(&chart->memory, state);
 }
 
-static const iccp_chart_ops OPS = {encode, decode, trace, NULL, free_state};
+static icc_status measure(const icc_chart *chart, size_t n_points, icc_chart_measures *measures,
+                          const iccp_env *env)
+{
+    const field_state *state = chart->state;
+    if (chart->info.certified)
+        return ICC_OK;
+    return iccp_field_measure(chart, &state->flow, n_points, measures, env);
+}
+
+static const iccp_chart_ops OPS = {encode, decode, trace, measure, free_state};
 
 const icc_field *iccp_chart_field_function(const icc_chart *chart)
 {

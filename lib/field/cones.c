@@ -276,7 +276,8 @@ typedef struct work {
     iccp_smooth *smooth;
     const iccp_cover *cover;
     const iccp_orders *orders;
-    uint8_t *state; /* by vertex: bits below */
+    uint8_t *state;         /* by vertex: bits below */
+    iccp_smooth original;   /* the function before any change; only its values are its own */
 } work;
 
 enum { DIRTY = 1, FAILS = 2, GRADIENTS_FIRST = 4, SPLIT = 8, TORN = 16 };
@@ -388,9 +389,41 @@ static icc_status split_torn(work *w)
     return status;
 }
 
-/* Moves the values of the corners of one simplex so that the gradient's product with x is AIM of its length; the
- * root's, which is the largest, stays. The product is the sum of the values, each times how much
- * faster x goes along the axis before the corner than along the one after it. */
+/* How far the value of a vertex may be changed: inside to half of it or twice; outside next to the inside, to
+ * as much as the smallest value there, since across a gap the function may be smaller by any factor, and
+ * what is little on one side is too much on the other. */
+static void find_bounds(const work *w, uint32_t v, int32_t exponent, double *low, double *high)
+{
+    const icc_grid *grid = w->smooth->grid;
+    const double own = iccp_smooth_get(&w->original, v, exponent);
+    *low = fmin(0.5 * own, 2 * own);
+    *high = fmax(0.5 * own, 2 * own);
+    if (grid->inside[v])
+        return;
+    double least = HUGE_VAL;
+    for (int set = 1; set < 1 << grid->dim; ++set)
+        for (int sign = -1; sign <= 1; sign += 2) {
+            const uint32_t u = (uint32_t)((ptrdiff_t)v + sign * w->orders->offset[set]);
+            if (grid->inside[u])
+                least = fmin(least, fabs(iccp_smooth_get(&w->original, u, exponent)));
+        }
+    if (least < HUGE_VAL) {
+        *low = -least;
+        *high = least;
+    }
+}
+
+static void move_value(const work *w, uint32_t v, int32_t exponent, double step)
+{
+    double low, high;
+    const double value = iccp_smooth_get(w->smooth, v, exponent) + step;
+    find_bounds(w, v, exponent, &low, &high);
+    iccp_smooth_set(w->smooth, v, fmin(fmax(value, low), high), exponent);
+}
+
+/* Moves the values of the corners of one simplex so that the gradient's product with x is AIM of its length, as
+ * far as they may be; the root's, which is the largest, stays. The product is the sum of the values, each
+ * times how much faster x goes along the axis before the corner than along the one after it. */
 static bool project(const work *w, const star *s, int32_t r, uint32_t lowest, const double *x,
                     const double *gradient)
 {
@@ -410,8 +443,8 @@ static bool project(const work *w, const star *s, int32_t r, uint32_t lowest, co
     }
     corner = lowest;
     for (int32_t j = 0; j <= dim && norm2 > 0; ++j) {
-        const double value = iccp_smooth_get(w->smooth, corner, s->exponent);
-        iccp_smooth_set(w->smooth, corner, value + 1.0001 * lack * part[j] / norm2, s->exponent);
+        if (part[j] < 0 || part[j] > 0)
+            move_value(w, corner, s->exponent, 1.0001 * lack * part[j] / norm2);
         corner += j < dim ? (uint32_t)w->smooth->grid->stride[axis[j]] : 0;
     }
     return norm2 > 0;
@@ -540,6 +573,21 @@ static icc_status fill(work *w, const iccp_env *env)
     return status == ICC_OK ? check_inward(w) : status;
 }
 
+static bool copy_values(iccp_smooth *copy, const iccp_smooth *smooth)
+{
+    const size_t n = smooth->grid->n_vertices;
+    *copy = *smooth;
+    copy->value = iccp_alloc(&smooth->memory, n, sizeof *copy->value);
+    if (smooth->exponent != NULL)
+        copy->exponent = iccp_alloc(&smooth->memory, n, sizeof *copy->exponent);
+    if (copy->value == NULL || (smooth->exponent != NULL && copy->exponent == NULL))
+        return false;
+    memcpy(copy->value, smooth->value, n * sizeof *copy->value);
+    if (smooth->exponent != NULL)
+        memcpy(copy->exponent, smooth->exponent, n * sizeof *copy->exponent);
+    return true;
+}
+
 icc_status iccp_cones_create(iccp_cones *cones, iccp_smooth *smooth, const iccp_cover *cover,
                              const iccp_env *env)
 {
@@ -550,15 +598,18 @@ icc_status iccp_cones_create(iccp_cones *cones, iccp_smooth *smooth, const iccp_
     iccp_orders *orders = iccp_alloc(&env->memory, 1, sizeof *orders);
     w.orders = orders;
     w.state = iccp_alloc(&env->memory, grid->n_vertices, sizeof *w.state);
+    const bool copied = copy_values(&w.original, smooth);
     cones->vector = iccp_alloc_zero(&env->memory, grid->n_vertices,
                                     (size_t)grid->dim * sizeof *cones->vector);
     icc_status status = ICC_ERR_MEMORY;
-    if (orders != NULL && w.state != NULL && cones->vector != NULL) {
+    if (orders != NULL && w.state != NULL && copied && cones->vector != NULL) {
         iccp_orders_init(orders, grid);
         status = fill(&w, env);
     }
     iccp_free(&env->memory, orders);
     iccp_free(&env->memory, w.state);
+    iccp_free(&env->memory, w.original.value);
+    iccp_free(&env->memory, w.original.exponent);
     return status;
 }
 

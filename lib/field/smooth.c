@@ -128,15 +128,48 @@ static void extend(outskirts *o)
 
 typedef struct sweep {
     const iccp_smooth *from;
+    const iccp_orders *orders;
     double *value;
     int32_t *exponent;
 } sweep;
+
+/* Between a vertex inside and others: what lies outside may belong to a part of the domain across a gap,
+ * where the function is larger by any factor. */
+static double mean_inside(const iccp_smooth *s, size_t v, int32_t exponent)
+{
+    const icc_grid *grid = s->grid;
+    const double own = s->value[v];
+    double sum = 0;
+    for (int32_t k = 0; k < 2 * grid->dim; ++k) {
+        const size_t u = k % 2 == 0 ? v - grid->stride[k / 2] : v + grid->stride[k / 2];
+        const double other = iccp_smooth_get(s, (uint32_t)u, exponent);
+        sum += grid->inside[u] ? other : fmax(fmin(other, own), -own);
+    }
+    return 0.5 * (own + sum / (2.0 * grid->dim));
+}
+
+/* Not above half of any value inside that it is joined to, for the same reason. */
+static double mean_outside(const sweep *w, size_t v, int32_t exponent)
+{
+    const iccp_smooth *s = w->from;
+    const icc_grid *grid = s->grid;
+    double sum = 0, most = HUGE_VAL;
+    for (int32_t k = 0; k < grid->dim; ++k)
+        sum += iccp_smooth_get(s, (uint32_t)(v - grid->stride[k]), exponent) +
+               iccp_smooth_get(s, (uint32_t)(v + grid->stride[k]), exponent);
+    for (int set = 1; set < 1 << grid->dim; ++set)
+        for (int sign = -1; sign <= 1; sign += 2) {
+            const uint32_t u = (uint32_t)((ptrdiff_t)v + sign * w->orders->offset[set]);
+            if (grid->inside[u])
+                most = fmin(most, 0.5 * iccp_smooth_get(s, u, exponent));
+        }
+    return fmin(0.5 * (s->value[v] + sum / (2.0 * grid->dim)), most);
+}
 
 static icc_status sweep_chunk(void *argument, size_t begin, size_t end)
 {
     sweep *w = argument;
     const iccp_smooth *s = w->from;
-    const icc_grid *grid = s->grid;
     const iccp_scaled to = {w->value, w->exponent};
     for (size_t v = begin; v < end; ++v) {
         const int32_t exponent = iccp_smooth_exponent(s, (uint32_t)v);
@@ -145,11 +178,8 @@ static icc_status sweep_chunk(void *argument, size_t begin, size_t end)
             w->exponent[v] = exponent;
         if (!s->needed[v] || v == s->root)
             continue;
-        double sum = 0;
-        for (int32_t k = 0; k < grid->dim; ++k)
-            sum += iccp_smooth_get(s, (uint32_t)(v - grid->stride[k]), exponent) +
-                   iccp_smooth_get(s, (uint32_t)(v + grid->stride[k]), exponent);
-        const double mean = 0.5 * (s->value[v] + sum / (2.0 * grid->dim));
+        const double mean =
+            s->grid->inside[v] ? mean_inside(s, v, exponent) : mean_outside(w, v, exponent);
         if (w->exponent != NULL)
             iccp_scaled_set(&to, v, mean, exponent);
         else
@@ -158,10 +188,11 @@ static icc_status sweep_chunk(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
-static icc_status run_sweep(iccp_smooth *s, const char *stage, const iccp_env *env)
+static icc_status run_sweep(iccp_smooth *s, const iccp_orders *orders, const char *stage,
+                            const iccp_env *env)
 {
     const size_t n = s->grid->n_vertices;
-    sweep w = {.from = s};
+    sweep w = {.from = s, .orders = orders};
     w.value = iccp_alloc(&s->memory, n, sizeof *w.value);
     if (s->exponent != NULL)
         w.exponent = iccp_alloc(&s->memory, n, sizeof *w.exponent);
@@ -231,7 +262,7 @@ icc_status iccp_smooth_create(iccp_smooth *smooth, const icc_field *field, const
         status = extend_all(smooth, orders, cover);
     }
     for (int k = 0; status == ICC_OK && k < sweeps; ++k)
-        status = run_sweep(smooth, k % 2 == 0 ? "smooth" : "smooth again", env);
+        status = run_sweep(smooth, orders, k % 2 == 0 ? "smooth" : "smooth again", env);
     iccp_free(&env->memory, orders);
     return status;
 }

@@ -15,6 +15,10 @@
  * rounding. */
 static const double NEGLIGIBLE = 1e-16, SLACK = 1e-15;
 
+/* How much further than guessed a series is made to hold, besides a tenth: so that the facet is surely passed
+ * there even when the curve starts on it. */
+static const double BEYOND = 1e-6;
+
 /* In terms of 1 / |A|: further than this a piece is cut, so that ICCP_FLOW_TERMS terms suffice. */
 static const double FARTHEST = 1.5;
 
@@ -232,7 +236,7 @@ static ICCP_INLINE double expand(iccp_flow_walk *w, int32_t dim, int32_t *exit, 
             *guess = guess_exit(w, dim, exit);
             if (*exit != ICCP_FLOW_WITHIN)
                 expect_corner(w, dim, *exit);
-            reach = 1.1 * *guess + SLACK;
+            reach = 1.1 * *guess + BEYOND;
             reach = reach * norm > FARTHEST ? FARTHEST / norm : reach;
             power = reach * reach * norm;
         }
@@ -641,7 +645,7 @@ static double meet_plane(const iccp_flow_walk *w, uint32_t facet, double guess, 
 bool iccp_flow_leaves(const iccp_flow_walk *walk, double *s, uint32_t *facet, double *bary)
 {
     static const double SAME = 1e-11; /* lattice units: the curve meets the facet itself */
-    static const double BEYOND = 1e-9; /* of the piece: it may end on the boundary, up to rounding */
+    static const double FURTHER = 1e-9; /* of the piece: it may end on the boundary, up to rounding */
     const icc_domain *domain = walk->flow->domain;
     const icc_grid *grid = walk->flow->grid;
     double from[ICC_MAX_DIM], to[ICC_MAX_DIM], share;
@@ -650,7 +654,7 @@ bool iccp_flow_leaves(const iccp_flow_walk *walk, double *s, uint32_t *facet, do
     local_of(walk, walk->term[0], from);
     local_of(walk, walk->finish, to);
     for (int32_t k = 0; k < grid->dim; ++k)
-        to[k] += BEYOND * (to[k] - from[k]);
+        to[k] += FURTHER * (to[k] - from[k]);
     if (!iccp_domain_cross(domain, from, to, &share, facet, bary))
         return false;
     const double same2 = SAME * grid->spacing * SAME * grid->spacing;

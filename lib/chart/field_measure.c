@@ -1,0 +1,147 @@
+/* Curves of this method do not merge, so nothing is uncovered or collapsed: what can be amiss is that a curve
+ * does not arrive, and that it crosses the boundary outward on its way up. */
+#include "chart/field_measure.h"
+
+#include "base/threads.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { GRAIN = 64 };
+
+typedef struct samples {
+    const icc_chart *chart;
+    const iccp_flow *flow;
+    size_t n;
+    const double *cumulated; /* facets' extents, added up; the last one is 1 */
+    uint8_t *result;         /* bits below, for each sample */
+} samples;
+
+enum { INSIDE = 1, UNREACHABLE = 2, OUTWARD = 4 };
+
+/* Coordinate k of point i of an evenly spread sequence: multiples of a generalised golden ratio (M. Roberts,
+ * The Unreasonable Effectiveness of Quasirandom Sequences, 2018). */
+static double spread(size_t i, int32_t k, int32_t dim)
+{
+    double ratio = 1.5;
+    for (int step = 0; step < 60; ++step)
+        ratio = pow(1 + ratio, 1.0 / (dim + 1));
+    const double x = 0.5 + (double)(i + 1) * pow(ratio, -(k + 1));
+    return x - floor(x);
+}
+
+static uint8_t judge_point(const samples *s, size_t i, iccp_path *path)
+{
+    const icc_domain *domain = s->chart->domain;
+    double point[ICC_MAX_DIM];
+    iccp_coords coords;
+    for (int32_t k = 0; k < domain->dim; ++k)
+        point[k] = domain->lower[k] +
+                   (domain->upper[k] - domain->lower[k]) * spread(i, k, domain->dim);
+    const icc_status status = s->chart->ops->encode(s->chart, point, &coords, NULL, path);
+    if (status == ICC_ERR_OUTSIDE)
+        return 0;
+    return status == ICC_OK ? INSIDE : INSIDE | UNREACHABLE;
+}
+
+static uint32_t find_facet(const samples *s, double share)
+{
+    size_t low = 0, high = s->chart->domain->n_facets - 1;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        if (s->cumulated[middle] < share)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return (uint32_t)low;
+}
+
+/* An evenly spread point of the boundary; the gaps between sorted numbers are barycentric coordinates. */
+static uint8_t judge_boundary(const samples *s, size_t i)
+{
+    const icc_domain *domain = s->chart->domain;
+    const icc_grid *grid = s->flow->grid;
+    const int32_t dim = domain->dim;
+    const uint32_t facet = find_facet(s, ((double)i + 0.5) / (double)s->n);
+    double cut[ICC_MAX_DIM + 1], bary[ICC_MAX_DIM], x[ICC_MAX_DIM], vector[ICC_MAX_DIM], inward = 0;
+    cut[0] = 0;
+    for (int32_t k = 1; k < dim; ++k) {
+        int32_t at = k;
+        const double u = spread(i, k, dim);
+        for (; at > 1 && cut[at - 1] > u; --at)
+            cut[at] = cut[at - 1];
+        cut[at] = u;
+    }
+    cut[dim] = 1;
+    for (int32_t k = 0; k < dim; ++k)
+        bary[k] = cut[k + 1] - cut[k];
+    iccp_domain_facet_point(domain, facet, bary, x);
+    for (int32_t k = 0; k < dim; ++k)
+        x[k] = (x[k] - grid->origin[k]) / grid->spacing;
+    const double *normal = s->flow->cover->normal + (size_t)dim * facet;
+    iccp_flow_place place;
+    if (!iccp_flow_find(s->flow, x, normal, &place))
+        return OUTWARD;
+    iccp_flow_vector(s->flow, &place, vector);
+    for (int32_t k = 0; k < dim; ++k)
+        inward += normal[k] * vector[k];
+    return inward > 0 ? 0 : OUTWARD;
+}
+
+static icc_status judge_chunk(void *argument, size_t begin, size_t end)
+{
+    samples *s = argument;
+    iccp_path path;
+    iccp_path_init(&path, &s->chart->memory);
+    for (size_t i = begin; i < end; ++i)
+        s->result[i] = (uint8_t)(judge_point(s, i, &path) | judge_boundary(s, i));
+    iccp_path_clear(&path);
+    return ICC_OK;
+}
+
+/* To the extent of a facet its product of edge lengths is near enough. */
+static void cumulate(const icc_domain *domain, double *cumulated)
+{
+    double sum = 0;
+    for (size_t f = 0; f < domain->n_facets; ++f) {
+        const double *corner[ICC_MAX_DIM];
+        double extent = 1;
+        iccp_facet_corners(&domain->tree, (uint32_t)f, corner);
+        for (int32_t i = 1; i < domain->dim; ++i) {
+            double length2 = 0;
+            for (int32_t k = 0; k < domain->dim; ++k)
+                length2 += (corner[i][k] - corner[0][k]) * (corner[i][k] - corner[0][k]);
+            extent *= sqrt(length2);
+        }
+        cumulated[f] = sum += extent;
+    }
+    for (size_t f = 0; f < domain->n_facets; ++f)
+        cumulated[f] /= sum;
+}
+
+icc_status iccp_field_measure(const icc_chart *chart, const iccp_flow *flow, size_t n_points,
+                              icc_chart_measures *measures, const iccp_env *env)
+{
+    size_t n_unreachable = 0, n_outward = 0;
+    double *cumulated = iccp_alloc(&env->memory, chart->domain->n_facets, sizeof *cumulated);
+    uint8_t *result = iccp_alloc(&env->memory, n_points, sizeof *result);
+    samples s = {chart, flow, n_points, cumulated, result};
+    icc_status status = cumulated != NULL && result != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    if (status == ICC_OK) {
+        cumulate(chart->domain, cumulated);
+        status = iccp_for_chunks(env, "measure", n_points, GRAIN, judge_chunk, &s);
+    }
+    for (size_t i = 0; status == ICC_OK && i < n_points; ++i) {
+        measures->n_points += (result[i] & INSIDE) != 0;
+        n_unreachable += (result[i] & UNREACHABLE) != 0;
+        n_outward += (result[i] & OUTWARD) != 0;
+    }
+    if (measures->n_points > 0)
+        measures->unreachable = (double)n_unreachable / (double)measures->n_points;
+    measures->n_boundary = n_points;
+    measures->not_inward = (double)n_outward / (double)n_points;
+    iccp_free(&env->memory, cumulated);
+    iccp_free(&env->memory, result);
+    return status;
+}

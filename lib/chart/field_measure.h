@@ -1,0 +1,12 @@
+/* What the coordinates of a chart of method field miss, by sampling. */
+#ifndef ICCP_FIELD_MEASURE_H
+#define ICCP_FIELD_MEASURE_H
+
+#include "chart/chart.h"
+#include "trace/flow.h"
+
+/* See icc_chart_measure(); `encode` is the chart's. */
+icc_status iccp_field_measure(const icc_chart *chart, const iccp_flow *flow, size_t n_points,
+                              icc_chart_measures *measures, const iccp_env *env);
+
+#endif

@@ -1,0 +1,525 @@
+/* Charts and maps of method field: what the certificate promises, in several dimensions. */
+#include <check.h>
+#include <icc/stages.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../npy.h"
+#include "../obj.h"
+#include "../random.h"
+#include "../surfaces.h"
+
+enum { N_POINTS = 150 };
+
+/* A boundary of any dimension up to 6, and another position of its vertices. */
+typedef struct pair {
+    int32_t dim;
+    size_t n_vertices, n_facets;
+    double *from, *to;
+    uint32_t *facets;
+    icc_domain *source, *target;
+} pair;
+
+/* Turns, bends and stretches a point of a shape of size about 1. */
+static void deform(int32_t dim, const double *x, double *y)
+{
+    const double angle = 0.5 * x[dim - 1], c = cos(angle), s = sin(angle);
+    memcpy(y, x, (size_t)dim * sizeof *y);
+    y[0] = 1.2 * (c * x[0] - s * x[1]);
+    y[1] = s * x[0] + c * x[1] + 0.2 * x[0] * x[0];
+    for (int32_t k = 2; k < dim; ++k)
+        y[k] = x[k] + 0.1 * sin(2 * x[0]);
+}
+
+static void make_target(pair *p)
+{
+    icc_error err = {.size = sizeof err};
+    p->to = malloc(p->n_vertices * (size_t)p->dim * sizeof *p->to);
+    for (size_t v = 0; v < p->n_vertices; ++v)
+        deform(p->dim, p->from + (size_t)p->dim * v, p->to + (size_t)p->dim * v);
+    ck_assert_msg(icc_domain_create(&p->target, p->dim, p->n_vertices, p->to, p->n_facets, p->facets,
+                                    NULL, &err) == ICC_OK,
+                  "%s", err.message);
+}
+
+static void pair_free(pair *p)
+{
+    icc_domain_free(p->source);
+    icc_domain_free(p->target);
+    free(p->from);
+    free(p->to);
+    free(p->facets);
+}
+
+static void pair_of_surface(pair *p, const surface *s)
+{
+    icc_error err = {.size = sizeof err};
+    *p = (pair){.dim = 3, .n_vertices = s->n_vertices, .n_facets = s->n_faces};
+    p->from = malloc(s->n_vertices * 3 * sizeof *p->from);
+    p->facets = malloc(s->n_faces * 3 * sizeof *p->facets);
+    memcpy(p->from, s->vertices, s->n_vertices * 3 * sizeof *p->from);
+    memcpy(p->facets, s->faces, s->n_faces * 3 * sizeof *p->facets);
+    ck_assert_msg(icc_domain_create(&p->source, 3, p->n_vertices, p->from, p->n_facets, p->facets,
+                                    NULL, &err) == ICC_OK,
+                  "%s", err.message);
+    make_target(p);
+}
+
+/* A mask, scaled to a size of about 1. */
+static void pair_of_mask(pair *p, int32_t dim, const size_t *shape, const uint8_t *cells)
+{
+    icc_error err = {.size = sizeof err};
+    icc_domain_info info = {.size = sizeof info};
+    *p = (pair){.dim = dim};
+    ck_assert_msg(icc_domain_create_mask(&p->source, dim, shape, cells, NULL, &err) == ICC_OK, "%s",
+                  err.message);
+    ck_assert_int_eq(icc_domain_get_info(p->source, &info), ICC_OK);
+    p->n_vertices = info.n_vertices;
+    p->n_facets = info.n_facets;
+    p->from = malloc(p->n_vertices * (size_t)dim * sizeof *p->from);
+    p->facets = malloc(p->n_facets * (size_t)dim * sizeof *p->facets);
+    ck_assert_int_eq(icc_domain_get_boundary(p->source, p->from, p->facets), ICC_OK);
+    make_target(p);
+}
+
+static void random_inside(random_source *r, const icc_domain *domain, double *point)
+{
+    icc_domain_info info = {.size = sizeof info};
+    int32_t where = ICC_OUTSIDE;
+    ck_assert_int_eq(icc_domain_get_info(domain, &info), ICC_OK);
+    while (where != ICC_INSIDE) {
+        for (int32_t k = 0; k < info.dim; ++k)
+            point[k] = random_between(r, info.lower[k], info.upper[k]);
+        ck_assert_int_eq(icc_domain_locate(domain, 1, point, &where, NULL, NULL, NULL), ICC_OK);
+    }
+}
+
+static icc_map *make_map(const pair *p, int32_t cells)
+{
+    icc_error err = {.size = sizeof err};
+    const icc_chart_options chart = {.size = sizeof chart, .method = ICC_METHOD_FIELD, .cells = cells};
+    const icc_map_options options = {
+        .size = sizeof options, .kind = ICC_MAP_CURVES, .chart = &chart};
+    icc_map *map;
+    ck_assert_msg(icc_map_create(&map, p->source, p->target, &options, NULL, &err) == ICC_OK, "%s",
+                  err.message);
+    return map;
+}
+
+static double largest_difference(size_t n, const double *a, const double *b)
+{
+    double largest = 0;
+    for (size_t i = 0; i < n; ++i)
+        largest = fmax(largest, fabs(a[i] - b[i]));
+    return largest;
+}
+
+/* There and back, for points that have images: how many do not, or do not come back. */
+static size_t count_lost(random_source *r, const pair *p, const icc_map *map, double tolerance)
+{
+    const size_t dim = (size_t)p->dim;
+    double points[N_POINTS * ICC_MAX_DIM], images[N_POINTS * ICC_MAX_DIM], back[N_POINTS * ICC_MAX_DIM];
+    int32_t where[N_POINTS];
+    size_t lost = 0;
+    for (size_t i = 0; i < N_POINTS; ++i)
+        random_inside(r, p->source, points + dim * i);
+    ck_assert_int_eq(icc_map_apply(map, N_POINTS, points, images, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_map_apply_inverse(map, N_POINTS, images, back, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_domain_locate(p->target, N_POINTS, images, where, NULL, NULL, NULL), ICC_OK);
+    for (size_t i = 0; i < N_POINTS; ++i)
+        lost += where[i] != ICC_INSIDE ||
+                !(largest_difference(dim, points + dim * i, back + dim * i) <= tolerance);
+    return lost;
+}
+
+/* Boundary points go where their barycentric coordinates say. */
+static void check_boundary(random_source *r, const pair *p, const icc_map *map)
+{
+    const size_t dim = (size_t)p->dim;
+    for (int i = 0; i < N_POINTS; ++i) {
+        const uint32_t *facet = p->facets + dim * (size_t)random_below(r, (int)p->n_facets);
+        double bary[ICC_MAX_DIM], sum = 0, x[ICC_MAX_DIM] = {0}, y[ICC_MAX_DIM] = {0}, z[ICC_MAX_DIM];
+        for (size_t k = 0; k < dim; ++k)
+            sum += bary[k] = random_unit(r);
+        for (size_t k = 0; k < dim; ++k)
+            for (size_t c = 0; c < dim; ++c) {
+                x[c] += bary[k] / sum * p->from[dim * facet[k] + c];
+                y[c] += bary[k] / sum * p->to[dim * facet[k] + c];
+            }
+        icc_status status;
+        ck_assert_int_eq(icc_map_apply(map, 1, x, z, &status, NULL, NULL), ICC_OK);
+        /* A point may be rounded to the outside, but not by more than the tolerance of a boundary. */
+        ck_assert_int_eq(status, ICC_OK);
+        ck_assert(largest_difference(dim, y, z) < 1e-9);
+    }
+}
+
+static icc_chart_info info_of(const icc_chart *chart)
+{
+    icc_chart_info info = {.size = sizeof info};
+    ck_assert_int_eq(icc_chart_get_info(chart, &info), ICC_OK);
+    return info;
+}
+
+/* The certificate is what the counts say. */
+static bool is_certified(const icc_map *map)
+{
+    const icc_chart *const charts[2] = {icc_map_source_chart(map), icc_map_target_chart(map)};
+    icc_map_info whole = {.size = sizeof whole};
+    bool both = true;
+    for (int k = 0; k < 2; ++k) {
+        const icc_chart_info info = info_of(charts[k]);
+        ck_assert_int_eq(info.method, ICC_METHOD_FIELD);
+        ck_assert(info.certified ==
+                  (info.n_infeasible == 0 && info.n_not_inward == 0 && info.n_stray == 0));
+        ck_assert(info.n_not_inward <= info.n_contacts && info.n_contacts > 0);
+        both = both && info.certified;
+    }
+    ck_assert_int_eq(icc_map_get_info(map, &whole), ICC_OK);
+    ck_assert_int_eq(whole.certified, both);
+    return both;
+}
+
+/* Everything on a curve has its boundary point, and t rises along it. */
+static void check_curve(const icc_chart *chart, const double *point, int32_t dim)
+{
+    enum { ROOM = 4000 };
+    static double curve[ROOM * ICC_MAX_DIM];
+    size_t n;
+    uint32_t facet, first_facet;
+    double bary[ICC_MAX_DIM], first[ICC_MAX_DIM], t, last = -1, start[ICC_MAX_DIM];
+    icc_status status;
+    ck_assert_int_eq(icc_chart_trace(chart, point, ROOM, curve, &n, NULL, NULL), ICC_OK);
+    ck_assert(n >= 2 && n <= ROOM);
+    ck_assert_int_eq(
+        icc_chart_encode(chart, 1, point, &first_facet, first, &t, &status, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(status, ICC_OK);
+    t = 0;
+    ck_assert_int_eq(icc_chart_decode(chart, 1, &first_facet, first, &t, start, &status, NULL, NULL),
+                     ICC_OK);
+    ck_assert(largest_difference((size_t)dim, start, curve) < 1e-9);
+    for (size_t i = 1; i + 1 < n; ++i) {
+        const double *x = curve + (size_t)dim * i;
+        double from[ICC_MAX_DIM];
+        ck_assert_int_eq(icc_chart_encode(chart, 1, x, &facet, bary, &t, &status, NULL, NULL), ICC_OK);
+        ck_assert_int_eq(status, ICC_OK);
+        ck_assert(t > last - 1e-9);
+        last = t;
+        t = 0;
+        ck_assert_int_eq(icc_chart_decode(chart, 1, &facet, bary, &t, from, &status, NULL, NULL), ICC_OK);
+        /* Curves come together uphill: a place there tells less about where it came from. */
+        ck_assert(last > 0.9 || largest_difference((size_t)dim, start, from) < 1e-6);
+    }
+    const icc_chart_info info = info_of(chart);
+    ck_assert(largest_difference((size_t)dim, info.maximum, curve + (size_t)dim * (n - 1)) < 1e-12);
+}
+
+static double determinant(int32_t dim, const double *matrix)
+{
+    double a[ICC_MAX_DIM * ICC_MAX_DIM], value = 1;
+    memcpy(a, matrix, (size_t)(dim * dim) * sizeof *a);
+    for (int32_t c = 0; c < dim; ++c) {
+        int32_t pivot = c;
+        for (int32_t r = c + 1; r < dim; ++r)
+            pivot = fabs(a[r * dim + c]) > fabs(a[pivot * dim + c]) ? r : pivot;
+        for (int32_t k = 0; k < dim && pivot != c; ++k) {
+            const double swap = a[c * dim + k];
+            a[c * dim + k] = a[pivot * dim + k];
+            a[pivot * dim + k] = swap;
+        }
+        value *= pivot != c ? -a[c * dim + c] : a[c * dim + c];
+        for (int32_t r = c + 1; r < dim; ++r) {
+            const double factor = a[r * dim + c] / a[c * dim + c];
+            for (int32_t k = 0; k < dim; ++k)
+                a[r * dim + k] -= factor * a[c * dim + k];
+        }
+    }
+    return value;
+}
+
+/* Positive, and what differences say but where a kink lies between. */
+static void check_jacobians(random_source *r, const pair *p, const icc_map *map)
+{
+    const size_t dim = (size_t)p->dim;
+    const double h = 1e-6;
+    int n_close = 0;
+    for (int i = 0; i < N_POINTS; ++i) {
+        double x[ICC_MAX_DIM], jacobian[ICC_MAX_DIM * ICC_MAX_DIM], worst = 0, largest = 0;
+        icc_status status;
+        random_inside(r, p->source, x);
+        ck_assert_int_eq(icc_map_jacobian(map, 1, x, jacobian, &status, NULL, NULL), ICC_OK);
+        ck_assert_int_eq(status, ICC_OK);
+        ck_assert(determinant(p->dim, jacobian) > 0);
+        for (size_t j = 0; j < dim; ++j) {
+            double low[ICC_MAX_DIM], high[ICC_MAX_DIM], y[ICC_MAX_DIM], z[ICC_MAX_DIM];
+            memcpy(low, x, sizeof x);
+            memcpy(high, x, sizeof x);
+            low[j] -= h;
+            high[j] += h;
+            (void)icc_map_apply(map, 1, low, y, NULL, NULL, NULL);
+            (void)icc_map_apply(map, 1, high, z, NULL, NULL, NULL);
+            for (size_t k = 0; k < dim; ++k) {
+                worst = fmax(worst, fabs((z[k] - y[k]) / (2 * h) - jacobian[dim * k + j]));
+                largest = fmax(largest, fabs(jacobian[dim * k + j]));
+            }
+        }
+        n_close += worst < 1e-5 * largest;
+    }
+    ck_assert_int_ge(n_close, N_POINTS * 95 / 100);
+}
+
+static void check_certified_map(random_source *r, const pair *p, const icc_map *map)
+{
+    ck_assert_uint_eq(count_lost(r, p, map, 1e-8), 0);
+    check_boundary(r, p, map);
+    check_jacobians(r, p, map);
+    for (int i = 0; i < 5; ++i) {
+        double x[ICC_MAX_DIM];
+        random_inside(r, p->source, x);
+        check_curve(icc_map_source_chart(map), x, p->dim);
+    }
+}
+
+static surface shape;
+
+START_TEST(certified_surfaces)
+{
+    random_source r = {11};
+    int n_certified = 0;
+    for (int round = 0; round < 6; ++round) {
+        pair p;
+        surface_star(&shape, 1 + round % 3, round < 3 ? 0 : 0.25, &r);
+        pair_of_surface(&p, &shape);
+        icc_map *map = make_map(&p, 20 + 4 * round);
+        if (is_certified(map)) {
+            ++n_certified;
+            check_certified_map(&r, &p, map);
+        } else {
+            ck_assert_uint_le(count_lost(&r, &p, map, 1e-8), N_POINTS / 10);
+        }
+        icc_map_free(map);
+        pair_free(&p);
+    }
+    ck_assert_int_ge(n_certified, 4);
+}
+END_TEST
+
+/* The same boundary before and after: nothing moves. */
+START_TEST(identity)
+{
+    random_source r = {12};
+    pair p;
+    surface_star(&shape, 2, 0.1, &r);
+    pair_of_surface(&p, &shape);
+    const icc_chart_options chart = {.size = sizeof chart, .cells = 24};
+    const icc_map_options options = {.size = sizeof options, .chart = &chart};
+    icc_map *map;
+    ck_assert_int_eq(icc_map_create(&map, p.source, p.source, &options, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(info_of(icc_map_source_chart(map)).method, ICC_METHOD_FIELD);
+    const icc_chart_info a = info_of(icc_map_source_chart(map));
+    const icc_chart_info b = info_of(icc_map_target_chart(map));
+    for (int i = 0; i < N_POINTS; ++i) {
+        double x[3], y[3];
+        random_inside(&r, p.source, x);
+        ck_assert_int_eq(icc_map_apply(map, 1, x, y, NULL, NULL, NULL), ICC_OK);
+        ck_assert(memcmp(a.maximum, b.maximum, sizeof a.maximum) != 0 ||
+                  largest_difference(3, x, y) < 1e-10);
+    }
+    icc_map_free(map);
+    pair_free(&p);
+}
+END_TEST
+
+/* Faces listed the other way round: the same map. */
+START_TEST(orientation_does_not_matter)
+{
+    random_source r = {13};
+    pair p, q;
+    surface_star(&shape, 2, 0.1, &r);
+    pair_of_surface(&p, &shape);
+    for (size_t f = 0; f < shape.n_faces; ++f) {
+        const uint32_t first = shape.faces[3 * f];
+        shape.faces[3 * f] = shape.faces[3 * f + 1];
+        shape.faces[3 * f + 1] = first;
+    }
+    pair_of_surface(&q, &shape);
+    icc_map *a = make_map(&p, 20), *b = make_map(&q, 20);
+    ck_assert(is_certified(a) == is_certified(b));
+    for (int i = 0; i < N_POINTS; ++i) {
+        double x[3], y[3], z[3];
+        random_inside(&r, p.source, x);
+        ck_assert_int_eq(icc_map_apply(a, 1, x, y, NULL, NULL, NULL), ICC_OK);
+        ck_assert_int_eq(icc_map_apply(b, 1, x, z, NULL, NULL, NULL), ICC_OK);
+        ck_assert(largest_difference(3, y, z) < 1e-9);
+    }
+    icc_map *wrong;
+    icc_error err = {.size = sizeof err};
+    ck_assert_int_eq(icc_map_create(&wrong, p.source, q.target, NULL, NULL, &err), ICC_ERR_BOUNDARY);
+    ck_assert(wrong == NULL && err.side == 2);
+    icc_map_free(a);
+    icc_map_free(b);
+    pair_free(&p);
+    pair_free(&q);
+}
+END_TEST
+
+/* Three cells round a corner, in every dimension. */
+START_TEST(masks)
+{
+    random_source r = {14};
+    for (int32_t dim = 2; dim <= 4; ++dim) {
+        size_t shape_of[ICC_MAX_DIM], n = 1;
+        uint8_t cells[16] = {0};
+        pair p;
+        for (int32_t k = 0; k < dim; ++k) {
+            shape_of[k] = k < 2 ? 2 : 1;
+            n *= shape_of[k];
+        }
+        for (size_t i = 0; i < n; ++i)
+            cells[i] = i != 3;
+        pair_of_mask(&p, dim, shape_of, cells);
+        icc_map *map = make_map(&p, dim == 4 ? 8 : 16);
+        const bool certified = is_certified(map);
+        const size_t lost = count_lost(&r, &p, map, 1e-7);
+        if (certified)
+            ck_assert_uint_eq(lost, 0);
+        ck_assert_uint_le(lost, N_POINTS / 20);
+        check_boundary(&r, &p, map);
+        icc_map_free(map);
+        pair_free(&p);
+    }
+}
+END_TEST
+
+/* Parts closer to each other than the grid's vertices: two plates, joined at one end. */
+static int in_clip(int x, int y, int z)
+{
+    return x >= 0 && x < 8 && y >= 0 && y < 8 && z >= 0 && z < 5 && (z != 2 || x == 0);
+}
+
+START_TEST(thin_gaps)
+{
+    random_source r = {15};
+    pair p;
+    surface_cells(&shape, 8, in_clip);
+    for (size_t v = 0; v < shape.n_vertices; ++v) {
+        /* Two cells of the grid below: its vertices in the gap belong to both plates. */
+        double *x = shape.vertices + 3 * v;
+        x[2] = x[2] < 2.5 ? x[2] : x[2] - 0.7;
+        for (int k = 0; k < 3; ++k)
+            x[k] = x[k] / 8 + 0.001 * x[(k + 1) % 3];
+    }
+    pair_of_surface(&p, &shape);
+    icc_map *map = make_map(&p, 60);
+    ck_assert_uint_le(count_lost(&r, &p, map, 1e-8), N_POINTS / 50);
+    const icc_chart *chart = icc_map_target_chart(map);
+    icc_chart_measures measures = {.size = sizeof measures};
+    ck_assert_int_eq(icc_chart_measure(chart, 1000, &measures, NULL, NULL), ICC_OK);
+    ck_assert(measures.unreachable <= 0.02 && measures.not_inward <= 0.05);
+    ck_assert(info_of(chart).certified || (measures.n_points > 100 && measures.n_boundary == 1000));
+    ck_assert(measures.uncovered <= 0 && measures.collapsed <= 0);
+    icc_map_free(map);
+    pair_free(&p);
+}
+END_TEST
+
+START_TEST(what_is_not_available_is_named)
+{
+    random_source r = {16};
+    pair p;
+    icc_error err = {.size = sizeof err};
+    icc_map *map;
+    icc_chart *chart;
+    surface_star(&shape, 1, 0, &r);
+    pair_of_surface(&p, &shape);
+    const icc_map_options mesh = {.size = sizeof mesh, .kind = ICC_MAP_MESH};
+    ck_assert_int_eq(icc_map_create(&map, p.source, p.target, &mesh, NULL, &err), ICC_ERR_UNSUPPORTED);
+    ck_assert(map == NULL && strstr(err.message, "mesh") != NULL);
+    for (int32_t method = ICC_METHOD_FOLIATION; method <= ICC_METHOD_DISC; method += 2) {
+        const icc_chart_options options = {.size = sizeof options, .method = method};
+        ck_assert_int_eq(icc_chart_create(&chart, p.source, &options, NULL, &err), ICC_ERR_UNSUPPORTED);
+        ck_assert(chart == NULL && strstr(err.message, "dimension 3") != NULL);
+    }
+    const double outside[3] = {2, 0, 0};
+    const icc_chart_options wrong = {.size = sizeof wrong, .maximum = outside};
+    ck_assert_int_eq(icc_chart_create(&chart, p.source, &wrong, NULL, &err), ICC_ERR_OUTSIDE);
+    const double inside[3] = {0.2, 0.1, -0.1};
+    const icc_chart_options right = {.size = sizeof right, .maximum = inside, .cells = 20};
+    ck_assert_int_eq(icc_chart_create(&chart, p.source, &right, NULL, &err), ICC_OK);
+    const icc_chart_info info = info_of(chart);
+    ck_assert(largest_difference(3, info.maximum, inside) <= 0.5 * info.spacing + 1e-12);
+    ck_assert_ptr_nonnull(icc_chart_field(chart));
+    icc_chart_free(chart);
+    /* The first facet that differs. */
+    const uint32_t first = p.facets[3 * 5];
+    for (int k = 0; k < 2; ++k)
+        p.facets[15 + k] = p.facets[16 + k];
+    p.facets[17] = first;
+    icc_domain *turned;
+    ck_assert_int_eq(icc_domain_create(&turned, 3, p.n_vertices, p.to, p.n_facets, p.facets, NULL, &err),
+                     ICC_OK);
+    ck_assert_int_eq(icc_map_create(&map, p.source, turned, NULL, NULL, &err), ICC_ERR_BOUNDARY);
+    ck_assert(err.index == 5 && err.side == 2 && strstr(err.message, "facet 5") != NULL);
+    icc_domain_free(turned);
+    pair_free(&p);
+}
+END_TEST
+
+/* Real surfaces and masks, where they lie beside this tree. */
+START_TEST(real_shapes)
+{
+    static const char *const NAMES[] = {"t01_cube_bend", "t06_spikes_sphere"};
+    random_source r = {17};
+    for (int i = 0; i < 2; ++i) {
+        char path[1024];
+        obj source, target;
+        pair p = {.dim = 3};
+        (void)snprintf(path, sizeof path, "%s/3d/%s.src.obj", TEST_SHARED_DATA, NAMES[i]);
+        if (!obj_read(&source, path))
+            return;
+        (void)snprintf(path, sizeof path, "%s/3d/%s.tgt.obj", TEST_SHARED_DATA, NAMES[i]);
+        ck_assert(obj_read(&target, path));
+        p.n_vertices = source.n_vertices;
+        p.n_facets = source.n_faces;
+        p.from = source.vertices;
+        p.to = target.vertices;
+        p.facets = source.faces;
+        ck_assert_int_eq(icc_domain_create(&p.source, 3, p.n_vertices, p.from, p.n_facets, p.facets,
+                                           NULL, NULL),
+                         ICC_OK);
+        ck_assert_int_eq(icc_domain_create(&p.target, 3, p.n_vertices, p.to, p.n_facets, p.facets,
+                                           NULL, NULL),
+                         ICC_OK);
+        icc_map *map = make_map(&p, 32);
+        ck_assert(is_certified(map));
+        ck_assert_uint_eq(count_lost(&r, &p, map, 1e-8), 0);
+        check_boundary(&r, &p, map);
+        check_jacobians(&r, &p, map);
+        icc_map_free(map);
+        pair_free(&p);
+        obj_free(&(obj){.vertices = NULL, .faces = target.faces});
+    }
+}
+END_TEST
+
+int main(void)
+{
+    Suite *suite = suite_create("field");
+    TCase *tests = tcase_create("field");
+    tcase_set_timeout(tests, 300);
+    tcase_add_test(tests, certified_surfaces);
+    tcase_add_test(tests, identity);
+    tcase_add_test(tests, orientation_does_not_matter);
+    tcase_add_test(tests, masks);
+    tcase_add_test(tests, thin_gaps);
+    tcase_add_test(tests, what_is_not_available_is_named);
+    tcase_add_test(tests, real_shapes);
+    suite_add_tcase(suite, tests);
+    SRunner *runner = srunner_create(suite);
+    srunner_run_all(runner, CK_NORMAL);
+    const int failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed > 0;
+}
