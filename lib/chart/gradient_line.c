@@ -47,8 +47,8 @@ static icc_status down_in_plane(const iccp_gradient_state *state, const double *
     return status;
 }
 
-icc_status iccp_gradient_down(const iccp_gradient_state *state, const double *from,
-                              iccp_path *path, iccp_jetn *jet, iccp_gradient_line *line)
+icc_status iccp_gradient_down(const iccp_gradient_state *state, const double *from, iccp_path *path,
+                              iccp_jetn *jet, iccp_gradient_line *line)
 {
     if (is_plane(state))
         return down_in_plane(state, from, path, jet, line);

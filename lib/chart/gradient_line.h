@@ -7,17 +7,17 @@
 #include "trace/walkn.h"
 
 typedef struct iccp_gradient_line {
-    double s;                 /* arc length, lattice units */
-    bool merged;              /* whether others have joined it */
-    double alone;             /* up: arc length until they did */
-    uint32_t facet;           /* down: where it ends */
+    double s;       /* arc length, lattice units */
+    bool merged;    /* whether others have joined it */
+    double alone;   /* up: arc length until they did */
+    uint32_t facet; /* down: where it ends */
     double bary[ICC_MAX_DIM];
 } iccp_gradient_line;
 
 /* From a point in lattice coordinates to the boundary. `path`, in lattice coordinates, may be NULL; so may
  * `jet`, which holds the derivative of the point and becomes that of the line's end and length. */
-icc_status iccp_gradient_down(const iccp_gradient_state *state, const double *from,
-                              iccp_path *path, iccp_jetn *jet, iccp_gradient_line *line);
+icc_status iccp_gradient_down(const iccp_gradient_state *state, const double *from, iccp_path *path,
+                              iccp_jetn *jet, iccp_gradient_line *line);
 
 /* Likewise, to the maximum. */
 icc_status iccp_gradient_up(const iccp_gradient_state *state, const double *from, iccp_path *path,

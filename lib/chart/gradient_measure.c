@@ -97,9 +97,9 @@ static icc_status measure_area(const icc_chart *chart, size_t n_points,
 
 typedef struct boundary_samples {
     const icc_chart *chart;
-    const double *extent;  /* of the boundary up to each facet, n_facets + 1, up to a factor */
+    const double *extent; /* of the boundary up to each facet, n_facets + 1, up to a factor */
     size_t n;
-    double *collapsed;     /* share of the way on which the curve is not alone; NaN: no curve */
+    double *collapsed; /* share of the way on which the curve is not alone; NaN: no curve */
     uint8_t *inward;
 } boundary_samples;
 
@@ -117,8 +117,8 @@ static size_t find_facet(const boundary_samples *samples, double extent)
     return low;
 }
 
-/* The share of the boundary's extent places a point along its facet; the sequence across. Sorted, such numbers
- * cut [0, 1] into barycentric coordinates that are evenly spread. */
+/* The share of the boundary's extent places a point along its facet; the sequence across. Sorted, such
+ * numbers cut [0, 1] into barycentric coordinates that are evenly spread. */
 static void place_on_facet(int32_t dim, double along, size_t index, double *bary)
 {
     double cut[ICC_MAX_DIM] = {along};
@@ -204,8 +204,8 @@ static icc_status measure_boundary(const icc_chart *chart, size_t n_points,
     if (extent != NULL && collapsed != NULL && inward != NULL) {
         sum_extents(domain, extent);
         boundary_samples samples = {chart, extent, n_points, collapsed, inward};
-        status = iccp_for_chunks(env, "measure boundary", n_points, 64, judge_boundary_chunk,
-                                 &samples);
+        status =
+            iccp_for_chunks(env, "measure boundary", n_points, 64, judge_boundary_chunk, &samples);
         if (status == ICC_OK)
             sum_boundary(&samples, measures);
     }

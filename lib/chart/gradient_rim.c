@@ -1,7 +1,8 @@
 #include "chart/gradient_rim.h"
 
 /* The neighbour in a layer with the highest or the lowest value, or ICCP_NONE. */
-static uint32_t extreme(const icc_field *field, const uint8_t *layer, uint32_t v, int wanted, int sign)
+static uint32_t extreme(const icc_field *field, const uint8_t *layer, uint32_t v, int wanted,
+                        int sign)
 {
     const icc_grid *grid = field->tree->grid;
     uint32_t best = ICCP_NONE;
@@ -27,7 +28,8 @@ static void go_on(icc_field *field, uint32_t v, uint32_t u, uint32_t t)
     double f[2];
     iccp_field_local(field, 2, both, f);
     field->values[v] = 2 * f[0] - f[1];
-    field->exponent[v] = field->exponent[u] > field->exponent[t] ? field->exponent[u] : field->exponent[t];
+    field->exponent[v] =
+        field->exponent[u] > field->exponent[t] ? field->exponent[u] : field->exponent[t];
 }
 
 static void mark_layers(const icc_tree *tree, uint8_t *layer)

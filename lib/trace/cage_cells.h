@@ -11,7 +11,7 @@ typedef struct iccp_cage_cells {
     iccp_memory memory;
     const icc_domain *domain; /* borrowed, as is the grid */
     const icc_grid *grid;
-    uint64_t *bits;           /* by the lowest corner of each cell */
+    uint64_t *bits; /* by the lowest corner of each cell */
 } iccp_cage_cells;
 
 /* Where a step meets the boundary. */

@@ -20,12 +20,13 @@ static const double SAME_TIME = 8 * DBL_EPSILON;
 
 /* The face that carries a step, and how its points move. */
 typedef struct motion {
-    int n;                             /* corners */
-    int corner[ICC_MAX_DIM + 1];       /* numbers in the simplex */
-    double speed[ICC_MAX_DIM + 2];     /* of the coordinates between one corner and the next: speed[a] below
+    int n;                       /* corners */
+    int corner[ICC_MAX_DIM + 1]; /* numbers in the simplex */
+    double speed[ICC_MAX_DIM +
+                 2];           /* of the coordinates between one corner and the next: speed[a] below
                                           corner a; 0 at both ends */
-    double y[ICC_MAX_DIM + 2];         /* where they are; 1 and 0 at the ends */
-    int exit;                          /* the number here of the corner whose facet is met */
+    double y[ICC_MAX_DIM + 2]; /* where they are; 1 and 0 at the ends */
+    int exit;                  /* the number here of the corner whose facet is met */
 } motion;
 
 static const icc_grid *grid_of(const iccp_walkn *w)
@@ -48,8 +49,8 @@ static void find_position(const iccp_walkn *w, double *x)
 
 /* ---- which face ---- */
 
-/* The sign of the speed at which the gradient of a simplex with these values leads away from the facet opposite
- * to corner i; exact. */
+/* The sign of the speed at which the gradient of a simplex with these values leads away from the
+ * facet opposite to corner i; exact. */
 static int corner_sign(int dim, const double *f, int i)
 {
     const double below = i > 0 ? f[i - 1] : f[i], above = i < dim ? f[i + 1] : f[i];
@@ -66,8 +67,8 @@ static bool has_values(const iccp_walkn *w, double *f)
     return true;
 }
 
-/* Whether the gradient of the place's simplex leads from its face into the simplex, or into the one of its
- * faces with the corners found. */
+/* Whether the gradient of the place's simplex leads from its face into the simplex, or into the one
+ * of its faces with the corners found. */
 static bool leads_in(const iccp_walkn *w, const double *f, unsigned *corners)
 {
     const int dim = grid_of(w)->dim;
@@ -127,8 +128,8 @@ static double time_of(const motion *m, int a)
     return speed > 0 ? (m->y[a] - m->y[a + 1]) / speed : HUGE_VAL;
 }
 
-/* Moves on to the first of the facets opposite to the corners that belong to `face`; returns the corners that
- * are left, or 0 when nothing moves. */
+/* Moves on to the first of the facets opposite to the corners that belong to `face`; returns the
+ * corners that are left, or 0 when nothing moves. */
 static unsigned move(motion *m, unsigned face)
 {
     double time[ICC_MAX_DIM + 1], first = HUGE_VAL;
@@ -199,8 +200,9 @@ static void record(iccp_walkn *w, const motion *m)
     w->cell = w->place.simplex.corner[0];
 }
 
-/* What the face that carries a step leaves of a derivative, by the coordinates between its corners: where the
- * walk has got to the face by steps, they are the same along all axes of a block; at a start, their mean. */
+/* What the face that carries a step leaves of a derivative, by the coordinates between its corners:
+ * where the walk has got to the face by steps, they are the same along all axes of a block; at a
+ * start, their mean. */
 static void project_jet(const iccp_walkn *w, const motion *m, int parameter, double *y)
 {
     y[0] = y[m->n] = 0;

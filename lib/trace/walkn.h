@@ -1,9 +1,9 @@
-/* Walking along an integral line of a piecewise linear function on the Kuhn triangulation of a grid of any
- * dimension: trace/walk2.h is the same for the plane, and twice as fast there.
+/* Walking along an integral line of a piecewise linear function on the Kuhn triangulation of a grid
+ * of any dimension: trace/walk2.h is the same for the plane, and twice as fast there.
  *
- * Which simplex or face comes next is decided by exact signs of what f does there. Where the line meets it is
- * computed in doubles, and so is, which of a simplex' facets is met first: facets that are met at the same
- * time up to rounding count as met together, in the face that they share.
+ * Which simplex or face comes next is decided by exact signs of what f does there. Where the line meets
+ * it is computed in doubles, and so is which of a simplex' facets is met first: facets that are met at
+ * the same time up to rounding count as met together, in the face that they share.
  *
  * Lattice coordinates: vertex (i_0, i_1, ..) is at these coordinates. */
 #ifndef ICCP_WALKN_H
@@ -22,13 +22,13 @@ typedef struct iccp_jetn {
 typedef struct iccp_walkn {
     iccp_slope slope;
     iccp_place place;
-    bool ahead;             /* try the simplex of the place before others */
-    bool merged;            /* the walk has followed a lower face or met one: other lines are on it */
-    double s;               /* arc length walked */
-    uint32_t cell;          /* the lowest corner of the cell that the last step lay in */
+    bool ahead;    /* try the simplex of the place before others */
+    bool merged;   /* the walk has followed a lower face or met one: other lines are on it */
+    double s;      /* arc length walked */
+    uint32_t cell; /* the lowest corner of the cell that the last step lay in */
     double from[ICC_MAX_DIM], to[ICC_MAX_DIM]; /* the last step */
-    size_t steps_left;      /* far more than a line can need; ICC_ERR_TRACE when used up */
-    iccp_jetn *jet;         /* NULL when derivatives are not wanted */
+    size_t steps_left; /* far more than a line can need; ICC_ERR_TRACE when used up */
+    iccp_jetn *jet;    /* NULL when derivatives are not wanted */
 } iccp_walkn;
 
 /* Stands at a point in lattice coordinates; `direction` as in trace/walk2.h. From a point that lies on a

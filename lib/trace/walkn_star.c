@@ -24,20 +24,20 @@ static const double TINY_RISE = 1e-100;
 
 /* Blocks of axes that follow each other. */
 typedef struct chain {
-    double slope2;             /* the sum of their shares */
+    double slope2; /* the sum of their shares */
     int n;
     uint8_t set[ICC_MAX_DIM]; /* axes gone along after each block */
 } chain;
 
-/* The vertices that are reached from a corner along sets of some axes, all up or all down. A set is a number
- * with a bit for each entry of axis[]. */
+/* The vertices that are reached from a corner along sets of some axes, all up or all down. A set is a
+ * number with a bit for each entry of axis[]. */
 typedef struct fan {
     int n;
     int8_t axis[ICC_MAX_DIM];
-    bool rising;           /* every block has to rise */
-    const double *f;       /* by set; NaN where there is no value */
-    double unit;           /* of rises when they are squared */
-    chain steepest[SETS];  /* that ends at each set; slope2 < 0: none */
+    bool rising;          /* every block has to rise */
+    const double *f;      /* by set; NaN where there is no value */
+    double unit;          /* of rises when they are squared */
+    chain steepest[SETS]; /* that ends at each set; slope2 < 0: none */
 } fan;
 
 /* A face, taken apart. */
@@ -147,8 +147,8 @@ static void take_apart(hinge *h, const iccp_place *place, const icc_grid *grid)
     memcpy(h->down.axis, h->up.axis, sizeof h->up.axis);
 }
 
-/* The vertices of a fan. Those beyond the grid are replaced by the corner; returns the sets that lead to the
- * others, a bit for each. */
+/* The vertices of a fan. Those beyond the grid are replaced by the corner; returns the sets that lead
+ * to the others, a bit for each. */
 static uint64_t list(const hinge *h, const fan *way, bool down, uint32_t corner, uint32_t *vertices)
 {
     uint64_t there = 1;
@@ -167,7 +167,8 @@ static uint64_t list(const hinge *h, const fan *way, bool down, uint32_t corner,
     return there;
 }
 
-/* The values of n vertices, the first of which is a corner. Of a level face, only what is as high counts. */
+/* The values of n vertices, the first of which is a corner. Around a level face, only what is as high
+ * counts. */
 static void load(const iccp_slope *slope, size_t n, const uint32_t *vertices, double *f)
 {
     const iccp_slope plain = {slope->field, slope->direction, false};
@@ -238,7 +239,8 @@ static bool finds_a_rise(const hinge *h, const iccp_slope *slope)
         return true;
     iccp_slope_values(slope, (size_t)h->n, h->corner, f);
     for (int i = 0; i + 1 < h->n; ++i)
-        if (h->between[i].steepest[full(&h->between[i])].n > 1 || f[i] > f[i + 1] || f[i] < f[i + 1])
+        if (h->between[i].steepest[full(&h->between[i])].n > 1 || f[i] > f[i + 1] ||
+            f[i] < f[i + 1])
             return true;
     return false;
 }

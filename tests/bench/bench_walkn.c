@@ -156,10 +156,12 @@ static void run_chart(int32_t cells)
         bench_check(icc_chart_encode(chart, N_WALKS, points, facet, bary, t, NULL, &down, NULL),
                     &err);
         const double there = seconds();
-        bench_check(icc_chart_decode(chart, N_WALKS, facet, bary, t, points, NULL, &up, NULL), &err);
+        bench_check(icc_chart_decode(chart, N_WALKS, facet, bary, t, points, NULL, &up, NULL),
+                    &err);
         const double back = seconds();
         (void)icc_chart_get_info(chart, &info);
-        printf("ball, %3ld cells %-9s %8zu inside %7.2f s, of these %5.2f for f %7.1f us there %7.1f us "
+        printf("ball, %3ld cells %-9s %8zu inside %7.2f s, of these %5.2f for f %7.1f us there "
+               "%7.1f us "
                "back %5zu %5zu astray\n",
                (long)cells, FUNCTION[i].name, info.n_inside, made - begin, info.seconds_field,
                1e6 * (there - ready) / N_WALKS, 1e6 * (back - there) / N_WALKS, down, up);

@@ -46,9 +46,9 @@ static int has_box_cell(int x, int y, int z)
 static icc_domain *domain_of_surface(const surface *s)
 {
     icc_domain *domain;
-    ck_assert_int_eq(icc_domain_create(&domain, 3, s->n_vertices, s->vertices, s->n_faces, s->faces,
-                                       NULL, NULL),
-                     ICC_OK);
+    ck_assert_int_eq(
+        icc_domain_create(&domain, 3, s->n_vertices, s->vertices, s->n_faces, s->faces, NULL, NULL),
+        ICC_OK);
     return domain;
 }
 
@@ -77,9 +77,9 @@ static icc_domain *fox(void)
     obj o;
     icc_domain *domain = NULL;
     if (obj_read(&o, TEST_SHARED_DATA "/3d/t08_fox.src.obj"))
-        ck_assert_int_eq(icc_domain_create(&domain, 3, o.n_vertices, o.vertices, o.n_faces, o.faces,
-                                           NULL, NULL),
-                         ICC_OK);
+        ck_assert_int_eq(
+            icc_domain_create(&domain, 3, o.n_vertices, o.vertices, o.n_faces, o.faces, NULL, NULL),
+            ICC_OK);
     obj_free(&o);
     return domain;
 }
@@ -160,8 +160,8 @@ typedef struct code {
 static code encode(const subject *s, const double *p)
 {
     code c = {0};
-    ck_assert_int_eq(icc_chart_encode(s->chart, 1, p, &c.facet, c.bary, &c.t, &c.status, NULL, NULL),
-                     ICC_OK);
+    ck_assert_int_eq(
+        icc_chart_encode(s->chart, 1, p, &c.facet, c.bary, &c.t, &c.status, NULL, NULL), ICC_OK);
     return c;
 }
 
@@ -353,7 +353,8 @@ START_TEST(curves_rise_from_the_boundary_to_the_maximum)
             for (size_t m = 1; m < n; ++m) {
                 const double *a = curve + (m - 1) * dim, *b = curve + m * dim;
                 if (interpolate(&s, b) < interpolate(&s, a) - 1e-9)
-                    ck_abort_msg("shape %d falls by %g", k / 2, interpolate(&s, a) - interpolate(&s, b));
+                    ck_abort_msg("shape %d falls by %g", k / 2,
+                                 interpolate(&s, a) - interpolate(&s, b));
                 nearest = fmin(nearest, distance(&s, p, b));
             }
             ck_assert_double_le(nearest, 1e-13 * width(&s));
@@ -409,7 +410,8 @@ START_TEST(jets_are_derivatives)
     for (int k = 0; k < 2 * N_SMALL; ++k) {
         subject s;
         iccp_path path;
-        if (k / 2 == FLAT || !subject_init(&s, k / 2, k % 2 ? ICC_FUNCTION_LAPLACE : ICC_FUNCTION_DECAY))
+        if (k / 2 == FLAT ||
+            !subject_init(&s, k / 2, k % 2 ? ICC_FUNCTION_LAPLACE : ICC_FUNCTION_DECAY))
             continue;
         iccp_path_init(&path, &s.chart->memory);
         const int32_t dim = s.shape.dim, i = k % dim;
@@ -432,7 +434,8 @@ START_TEST(jets_are_derivatives)
                 continue;
             good = agrees(c[0].t, c[1].t, c[2].t, STEP, encoded.t[i]);
             for (int32_t b = 0; b < dim && good; ++b)
-                good = agrees(c[0].bary[b], c[1].bary[b], c[2].bary[b], STEP, encoded.bary[b * dim + i]);
+                good = agrees(c[0].bary[b], c[1].bary[b], c[2].bary[b], STEP,
+                              encoded.bary[b * dim + i]);
             n_encoded += good;
             /* By t, and from the first corner of the facet to another. */
             for (int32_t b = 0; b < dim; ++b) {
@@ -443,7 +446,8 @@ START_TEST(jets_are_derivatives)
                     start.t += b == 0 ? (n - 1) * STEP : 0;
                     start.bary[b] += b > 0 ? (n - 1) * STEP : 0;
                     start.bary[0] -= b > 0 ? (n - 1) * STEP : 0;
-                    good = ops->decode(s.chart, &start, q[n], n == 1 ? &decoded : NULL, &path) == ICC_OK;
+                    good = ops->decode(s.chart, &start, q[n], n == 1 ? &decoded : NULL, &path) ==
+                           ICC_OK;
                 }
                 for (int32_t x = 0; x < dim && good; ++x)
                     good = agrees(q[0][x], q[1][x], q[2][x], STEP,

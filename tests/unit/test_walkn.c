@@ -150,8 +150,9 @@ START_TEST(a_linear_function_gives_straight_lines)
         for (int32_t k = 0; k < dim; ++k)
             ahead[k] = direction * d[k];
         iccp_walkn walk;
-        ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, direction, p, round % 2 ? ahead : NULL, NULL),
-                         ICC_OK);
+        ck_assert_int_eq(
+            iccp_walkn_start(&walk, &W.field, direction, p, round % 2 ? ahead : NULL, NULL),
+            ICC_OK);
         icc_status status = ICC_OK;
         double at[ICC_MAX_DIM];
         memcpy(at, p, sizeof at);
@@ -190,7 +191,8 @@ START_TEST(in_the_plane_walks_are_those_of_walk2)
             const int direction = k % 2 ? ICCP_UPHILL : ICCP_DOWNHILL;
             iccp_walk2 flat;
             iccp_walkn walk;
-            ck_assert_int_eq(iccp_walk2_start(&flat, &W.field, direction, p[0], p[1], NULL), ICC_OK);
+            ck_assert_int_eq(iccp_walk2_start(&flat, &W.field, direction, p[0], p[1], NULL),
+                             ICC_OK);
             ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, direction, p, NULL, NULL), ICC_OK);
             icc_status status = ICC_OK;
             while (status == ICC_OK) {
@@ -199,8 +201,9 @@ START_TEST(in_the_plane_walks_are_those_of_walk2)
                 if (other != status || fabs(walk.to[0] - flat.to[0]) > 1e-11 ||
                     fabs(walk.to[1] - flat.to[1]) > 1e-11 || fabs(walk.s - flat.s) > 1e-10 ||
                     (status == ICC_OK && walk.merged != flat.merged))
-                    ck_abort_msg("(%.17g, %.17g), not (%.17g, %.17g); status %d, not %d", walk.to[0],
-                                 walk.to[1], flat.to[0], flat.to[1], (int)other, (int)status);
+                    ck_abort_msg("(%.17g, %.17g), not (%.17g, %.17g); status %d, not %d",
+                                 walk.to[0], walk.to[1], flat.to[0], flat.to[1], (int)other,
+                                 (int)status);
                 ++n_steps;
             }
             ++n_ends;
@@ -211,8 +214,8 @@ START_TEST(in_the_plane_walks_are_those_of_walk2)
 END_TEST
 
 /* A direction of length 1, and whether a point moved a little that way stays on the lattice. */
-static bool pick_direction(const world *w, random_source *r, const double *p, double step, double *d,
-                           double *moved)
+static bool pick_direction(const world *w, random_source *r, const double *p, double step,
+                           double *d, double *moved)
 {
     double length = 0;
     bool inside = true;
@@ -314,7 +317,8 @@ static void set_one_maximum(world *w, random_source *r, bool levels)
     double x[ICC_MAX_DIM], next = 1000;
     uint32_t root = 0;
     for (int32_t k = 0; k < w->grid.dim; ++k)
-        root += (uint32_t)w->grid.stride[k] * (1 + (uint32_t)random_below(r, (int)w->grid.shape[k] - 2));
+        root += (uint32_t)w->grid.stride[k] *
+                (1 + (uint32_t)random_below(r, (int)w->grid.shape[k] - 2));
     w->tree.root = root;
     for (size_t v = 0; v < n; ++v)
         w->values[v] = NAN;
@@ -332,7 +336,8 @@ static void set_one_maximum(world *w, random_source *r, bool levels)
             for (int32_t k = 0; k < w->grid.dim; ++k)
                 if (set >> (k + 1) & 1) {
                     u += (uint32_t)sign * (uint32_t)w->grid.stride[k];
-                    inner = inner && x[k] + sign > 0 && x[k] + sign < (double)(w->grid.shape[k] - 1);
+                    inner =
+                        inner && x[k] + sign > 0 && x[k] + sign < (double)(w->grid.shape[k] - 1);
                 }
             if (!inner || !isnan(w->values[u]))
                 continue;
@@ -541,13 +546,15 @@ START_TEST(starts_without_values_are_refused)
     W.values[3 + 8 * 3 + 64 * 4] = NAN; /* (3, 3, 4) */
     ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, ICCP_UPHILL, vertex, NULL, NULL), ICC_OK);
     ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, ICCP_UPHILL, edge, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, ICCP_UPHILL, inner, NULL, NULL), ICC_ERR_TRACE);
+    ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, ICCP_UPHILL, inner, NULL, NULL),
+                     ICC_ERR_TRACE);
     ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, ICCP_UPHILL, other, NULL, NULL), ICC_OK);
     ck_assert_int_eq(iccp_walkn_slope_sign(&W.field, inner, forward), 0);
     ck_assert_int_eq(iccp_walkn_slope_sign(&W.field, other, forward), 1);
     ck_assert_int_eq(iccp_walkn_slope_sign(&W.field, other, back), -1);
     W.values[3 + 8 * 3 + 64 * 3] = NAN;
-    ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, ICCP_UPHILL, vertex, NULL, NULL), ICC_ERR_TRACE);
+    ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, ICCP_UPHILL, vertex, NULL, NULL),
+                     ICC_ERR_TRACE);
 }
 END_TEST
 
@@ -583,9 +590,9 @@ static icc_domain *pick_domain(random_source *r, int32_t dim)
     icc_domain *domain = NULL;
     if (dim == 3) {
         surface_star(&s, 1 + random_below(r, 3), 0.3, r);
-        ck_assert_int_eq(icc_domain_create(&domain, 3, s.n_vertices, s.vertices, s.n_faces, s.faces,
-                                           NULL, NULL),
-                         ICC_OK);
+        ck_assert_int_eq(
+            icc_domain_create(&domain, 3, s.n_vertices, s.vertices, s.n_faces, s.faces, NULL, NULL),
+            ICC_OK);
     } else {
         ck_assert_int_eq(icc_domain_create_mask(&domain, dim, shape, full, NULL, NULL), ICC_OK);
     }
@@ -641,9 +648,9 @@ START_TEST(cells_of_the_cage_are_those_at_the_boundary)
         icc_domain *domain = pick_domain(&r, dim);
         icc_grid *grid;
         iccp_cage_cells cage;
-        ck_assert_int_eq(iccp_grid_create(&grid, domain, 2 + random_below(&r, dim == 3 ? 30 : 8), &env,
-                                          NULL),
-                         ICC_OK);
+        ck_assert_int_eq(
+            iccp_grid_create(&grid, domain, 2 + random_below(&r, dim == 3 ? 30 : 8), &env, NULL),
+            ICC_OK);
         ck_assert_int_eq(iccp_cage_cells_create(&cage, domain, grid, &env), ICC_OK);
         for (int k = 0; k < 2000; ++k) {
             double x[ICC_MAX_DIM];
@@ -694,7 +701,8 @@ START_TEST(no_step_slips_through_the_cage)
             }
             iccp_cage_hit hit;
             const bool found = iccp_cage_cells_cross(&cage, cell, x[0], x[1], &hit);
-            ck_assert_int_eq(found, iccp_domain_cross(domain, local[0], local[1], &share, &facet, bary));
+            ck_assert_int_eq(found,
+                             iccp_domain_cross(domain, local[0], local[1], &share, &facet, bary));
             n_hits += found;
             if (!found)
                 continue;
