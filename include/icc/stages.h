@@ -308,8 +308,9 @@ ICC_API void icc_field_free(icc_field *field);
 /** Fills in `info`, whose `size` the caller has set. ::ICC_OK or ::ICC_ERR_ARGUMENT. */
 ICC_API icc_status icc_field_get_info(const icc_field *field, icc_field_info *info);
 
-/** One value per grid vertex; NaN where the tree does not reach; borrowed. Laplace and bilaplace decay
- *  exponentially in long limbs: values below 2^-1022 are 0 here, see icc_field_logs(). */
+/** One value per grid vertex; NaN where the tree does not reach; borrowed. (Beyond 2-D the function of a
+ *  gradient chart goes on to some vertices outside.) Laplace and bilaplace decay exponentially in long
+ *  limbs: values below 2^-1022 are 0 here, see icc_field_logs(). */
 ICC_API const double *icc_field_values(const icc_field *field);
 
 /** The natural logarithm of every value, accurate also where the values underflow; -HUGE_VAL outside, NaN

@@ -42,6 +42,9 @@ typedef struct gradient {
  * that matter beside one of this size are normal. */
 static const double TINY_RISE = 1e-100;
 
+/* The sine of an angle below which a step runs along a fence's edge that it meets: rounding of both. */
+static const double PARALLEL = 1e-12;
+
 static int sign(double x)
 {
     return (x > 0) - (x < 0);
@@ -475,7 +478,12 @@ static void end_at_fence(iccp_walk2 *w, double s_before, const iccp_jet2 *jet_be
         return;
     const double *a = fence->vertices + 2 * (size_t)fence->ends[2 * (size_t)hit->facet];
     const double *b = fence->vertices + 2 * (size_t)fence->ends[2 * (size_t)hit->facet + 1];
-    const double nx = a[1] - b[1], ny = b[0] - a[0];
+    double nx = a[1] - b[1], ny = b[0] - a[0];
+    /* A step along the edge that it meets ends at the edge's end. */
+    if (fabs(nx * dx + ny * dy) <= PARALLEL * hypot(nx, ny) * length) {
+        nx = dx;
+        ny = dy;
+    }
     *w->jet = *jet_before;
     for (int c = 0; c < 2; ++c) {
         const double t = ratio(nx * w->jet->x[c] + ny * w->jet->y[c], nx * dx + ny * dy);

@@ -18,6 +18,9 @@
  * quotients may be off by rounding. */
 static const double SAME_TIME = 8 * DBL_EPSILON;
 
+/* The sine of an angle below which a step runs within a facet that it meets: rounding of both. */
+static const double PARALLEL = 1e-12;
+
 /* The face that carries a step, and how its points move. */
 typedef struct motion {
     int n;                       /* corners */
@@ -382,6 +385,24 @@ icc_status iccp_walkn_uphill(iccp_walkn *walk, iccp_path *path, double *merge)
     return status;
 }
 
+/* What does not change along the boundary where a step meets it: the distance from the facet's plane; of a
+ * step in that plane, which ends at the facet's border, how far it goes. */
+static void find_constraint(const iccp_walkn *w, const icc_domain *domain, uint32_t facet,
+                            double *normal)
+{
+    const int dim = domain->dim;
+    double step[ICC_MAX_DIM], along = 0, square = 0, length = 0;
+    iccp_cage_inward(domain, facet, normal);
+    for (int k = 0; k < dim; ++k) {
+        step[k] = w->to[k] - w->from[k];
+        along += normal[k] * step[k];
+        square += normal[k] * normal[k];
+        length += step[k] * step[k];
+    }
+    if (fabs(along) <= PARALLEL * sqrt(square) * sqrt(length))
+        memcpy(normal, step, (size_t)dim * sizeof *step);
+}
+
 /* Cuts the last step short at the boundary, from what the arc length and the jet were before it. */
 static void end_at_cage(iccp_walkn *w, double s_before, const iccp_jetn *jet_before,
                         const iccp_cage_cells *cage, const iccp_cage_hit *hit)
@@ -393,7 +414,7 @@ static void end_at_cage(iccp_walkn *w, double s_before, const iccp_jetn *jet_bef
     if (w->jet == NULL)
         return;
     double normal[ICC_MAX_DIM], along = 0;
-    iccp_cage_inward(cage->domain, hit->facet, normal);
+    find_constraint(w, cage->domain, hit->facet, normal);
     for (int k = 0; k < dim; ++k)
         along += normal[k] * (w->to[k] - w->from[k]);
     *w->jet = *jet_before;
