@@ -133,7 +133,7 @@ static bool read_any(cage *out, cage_role role, size_t dim, const char *text, si
     const char *first = skip_comments(p);
     if (is_word(first, "OFF") || is_obj(first))
         return cage_read_surface(out, text, n, wrong) && has_faces(out, wrong);
-    if (n >= 6 && memcmp(p, "\x93NUMPY", 6) == 0)
+    if (n >= 6 && memcmp(text, "\x93NUMPY", 6) == 0)
         return cage_read_npy(out, text, n, wrong);
     out->dim = 2;
     if (*p == '{' || *p == '[')
