@@ -1,4 +1,4 @@
-/* What it costs to walk along integral lines in 2 to 5 dimensions. Run by hand on a quiet machine. */
+/* What it costs to walk along integral lines in 2 to 6 dimensions. Run by hand on a quiet machine. */
 #include "trace/walk2.h"
 #include "trace/walkn.h"
 
@@ -179,6 +179,7 @@ int main(void)
     run("ball 64^3", mask_ball, 3, 64);
     run("box 16^4", mask_box, 4, 16);
     run("box 8^5", mask_box, 5, 8);
+    run("box 5^6", mask_box, 6, 5);
     run_chart(32);
     run_chart(64);
     return EXIT_SUCCESS;

@@ -8,6 +8,7 @@
 
 #include <check.h>
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -25,7 +26,7 @@ static world W;
 
 static void world_init(world *w, int32_t dim, const size_t *shape, uint32_t root)
 {
-    memset(w, 0, sizeof *w);
+    memset(w, 0, offsetof(world, values));
     w->grid.dim = dim;
     w->grid.spacing = 1;
     w->grid.n_vertices = 1;
@@ -579,6 +580,44 @@ START_TEST(lines_that_leave_what_has_values_end)
 }
 END_TEST
 
+START_TEST(crossing_a_facet_twice_comes_back)
+{
+    random_source r = {12};
+    int n_border = 0;
+    for (int round = 0; round < 6000; ++round) {
+        const int32_t dim = 1 + round % ICC_MAX_DIM, i = random_below(&r, dim + 1);
+        double x[ICC_MAX_DIM], back[ICC_MAX_DIM], lambda[ICC_MAX_DIM + 1];
+        iccp_kuhn_simplex s, other;
+        int32_t fresh, again;
+        cube_init(&W, dim, 0);
+        for (int32_t k = 0; k < dim; ++k)
+            x[k] = random_between(&r, 0, (double)SIDE[dim] - 1);
+        ck_assert(iccp_kuhn_simplex_at(&s, &W.grid, x, lambda));
+        iccp_kuhn_simplex_point(&s, &W.grid, lambda, back);
+        for (int32_t k = 0; k < dim; ++k)
+            ck_assert_double_eq_tol(back[k], x[k], 1e-14 * (double)SIDE[dim]);
+        other = s;
+        if (!iccp_kuhn_simplex_cross(&other, &W.grid, i, &fresh)) {
+            ck_assert_mem_eq(&other, &s, sizeof s);
+            ++n_border;
+            continue;
+        }
+        /* The corners that stay keep their order. */
+        for (int32_t k = 0, m = 0; k <= dim; ++k)
+            if (k != fresh) {
+                m += m == i;
+                ck_assert_uint_eq(other.corner[k], s.corner[m++]);
+            }
+        ck_assert_uint_ne(other.corner[fresh], s.corner[i]);
+        ck_assert(iccp_kuhn_simplex_cross(&other, &W.grid, fresh, &again));
+        ck_assert_int_eq(again, i);
+        ck_assert_mem_eq(other.corner, s.corner, sizeof *s.corner * (size_t)(dim + 1));
+        ck_assert_mem_eq(other.axis, s.axis, sizeof *s.axis * (size_t)dim);
+    }
+    ck_assert_int_gt(n_border, 100);
+}
+END_TEST
+
 /* ---- the boundary ---- */
 
 /* A rough ball, or a block of cells of a mask. */
@@ -734,6 +773,7 @@ int main(void)
     tcase_add_test(tests, only_ratios_of_values_count);
     tcase_add_test(tests, starts_without_values_are_refused);
     tcase_add_test(tests, lines_that_leave_what_has_values_end);
+    tcase_add_test(tests, crossing_a_facet_twice_comes_back);
     tcase_add_test(tests, cells_of_the_cage_are_those_at_the_boundary);
     tcase_add_test(tests, no_step_slips_through_the_cage);
     suite_add_tcase(suite, tests);
