@@ -321,7 +321,8 @@ static double interpolate(const subject *s, const double *p)
     iccp_kuhn_simplex simplex;
     iccp_frame_in(&s->domain->frame, s->shape.dim, p, local);
     iccp_gradient_to_lattice(state, local, x);
-    ck_assert(iccp_kuhn_simplex_at(&simplex, state->tree->grid, x, lambda));
+    if (!iccp_kuhn_simplex_at(&simplex, state->tree->grid, x, lambda))
+        ck_abort_msg("beyond the grid");
     for (int32_t i = 0; i <= s->shape.dim; ++i)
         if (lambda[i] > 0)
             f += lambda[i] * state->field->values[simplex.corner[i]];
