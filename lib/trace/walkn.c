@@ -10,27 +10,11 @@
 #include "math/predicates.h"
 
 #include <assert.h>
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
-/* Facets that are met this close together, relative to the time it takes, are met together: what two
- * quotients may be off by rounding. */
-static const double SAME_TIME = 8 * DBL_EPSILON;
-
 /* The sine of an angle below which a step runs within a facet that it meets: rounding of both. */
 static const double PARALLEL = 1e-12;
-
-/* The face that carries a step, and how its points move. */
-typedef struct motion {
-    int n;                       /* corners */
-    int corner[ICC_MAX_DIM + 1]; /* numbers in the simplex */
-    double speed[ICC_MAX_DIM +
-                 2];           /* of the coordinates between one corner and the next: speed[a] below
-                                          corner a; 0 at both ends */
-    double y[ICC_MAX_DIM + 2]; /* where they are; 1 and 0 at the ends */
-    int exit;                  /* the number here of the corner whose facet is met */
-} motion;
 
 static const icc_grid *grid_of(const iccp_walkn *w)
 {
@@ -102,64 +86,6 @@ static icc_status choose(iccp_walkn *w, unsigned *corners)
     return iccp_place_turn(&w->place, &w->slope, corners);
 }
 
-/* ---- how far ---- */
-
-static void find_motion(const iccp_walkn *w, unsigned corners, motion *m)
-{
-    const int dim = grid_of(w)->dim;
-    uint32_t vertices[ICC_MAX_DIM + 1];
-    double f[ICC_MAX_DIM + 1];
-    m->n = 0;
-    for (int i = 0; i <= dim; ++i)
-        if (corners >> i & 1) {
-            vertices[m->n] = w->place.simplex.corner[i];
-            m->y[m->n] = w->place.y[i];
-            m->corner[m->n++] = i;
-        }
-    iccp_slope_values(&w->slope, (size_t)m->n, vertices, f);
-    for (int a = 1; a < m->n; ++a)
-        m->speed[a] = (f[a] - f[a - 1]) / (m->corner[a] - m->corner[a - 1]);
-    m->speed[0] = m->speed[m->n] = 0;
-    m->y[0] = 1;
-    m->y[m->n] = 0;
-}
-
-/* When the barycentric coordinate of a corner becomes 0; never (HUGE_VAL) if it does not fall. */
-static double time_of(const motion *m, int a)
-{
-    const double speed = m->speed[a + 1] - m->speed[a];
-    return speed > 0 ? (m->y[a] - m->y[a + 1]) / speed : HUGE_VAL;
-}
-
-/* Moves on to the first of the facets opposite to the corners that belong to `face`; returns the
- * corners that are left, or 0 when nothing moves. */
-static unsigned move(motion *m, unsigned face)
-{
-    double time[ICC_MAX_DIM + 1], first = HUGE_VAL;
-    for (int a = 0; a < m->n; ++a) {
-        time[a] = face >> m->corner[a] & 1 ? time_of(m, a) : HUGE_VAL;
-        if (time[a] < first) {
-            first = time[a];
-            m->exit = a;
-        }
-    }
-    if (!(first < HUGE_VAL))
-        return 0;
-    for (int a = 1; a < m->n; ++a)
-        m->y[a] += first * m->speed[a];
-    unsigned left = 0;
-    for (int a = 0; a < m->n; ++a) {
-        if (time[a] > first * (1 + SAME_TIME) && m->y[a] > m->y[a + 1])
-            left |= 1u << m->corner[a];
-        else if (a + 1 < m->n)
-            m->y[a + 1] = m->y[a];
-    }
-    /* Those that have met the lower end. */
-    for (int a = m->n - 1; a > 0 && !(left >> m->corner[a] & 1); --a)
-        m->y[a] = 0;
-    return left;
-}
-
 /* ---- steps ---- */
 
 /* Across the facet opposite to corner i, where the walk stands. */
@@ -191,7 +117,7 @@ static double distance(int dim, const double *p, const double *q)
     return sqrt(square);
 }
 
-static void record(iccp_walkn *w, const motion *m)
+static void record(iccp_walkn *w, const iccp_motion *m)
 {
     const int dim = grid_of(w)->dim;
     for (int a = 1; a < m->n; ++a)
@@ -203,66 +129,19 @@ static void record(iccp_walkn *w, const motion *m)
     w->cell = w->place.simplex.corner[0];
 }
 
-/* What the face that carries a step leaves of a derivative, by the coordinates between its corners:
- * where the walk has got to the face by steps, they are the same along all axes of a block; at a
- * start, their mean. */
-static void project_jet(const iccp_walkn *w, const motion *m, int parameter, double *y)
-{
-    y[0] = y[m->n] = 0;
-    for (int a = 1; a < m->n; ++a) {
-        y[a] = 0;
-        for (int k = m->corner[a - 1]; k < m->corner[a]; ++k)
-            y[a] += w->jet->x[w->place.simplex.axis[k]][parameter];
-        y[a] /= m->corner[a] - m->corner[a - 1];
-    }
-}
-
-static void write_jet(iccp_walkn *w, const motion *m, int parameter, const double *y)
-{
-    for (int k = 0; k < grid_of(w)->dim; ++k)
-        w->jet->x[k][parameter] = 0;
-    for (int a = 1; a < m->n; ++a)
-        for (int k = m->corner[a - 1]; k < m->corner[a]; ++k)
-            w->jet->x[w->place.simplex.axis[k]][parameter] = y[a];
-}
-
-/* The facet is met where y[exit] - y[exit + 1] = 0. If others are met there, too, what they fix does not move
- * any more. */
-static void carry_jet(iccp_walkn *w, const motion *m, unsigned left)
-{
-    const int e = m->exit, last = m->n - 1;
-    double slope2 = 0;
-    for (int a = 1; a <= last; ++a)
-        slope2 += m->speed[a] * m->speed[a] * (m->corner[a] - m->corner[a - 1]);
-    for (int c = 0; c < grid_of(w)->dim; ++c) {
-        double y[ICC_MAX_DIM + 2];
-        project_jet(w, m, c, y);
-        const double dt = (y[e] - y[e + 1]) / (m->speed[e + 1] - m->speed[e]);
-        for (int a = 1; a <= last; ++a)
-            y[a] += dt * m->speed[a];
-        for (int a = 0; a < last; ++a)
-            if (!(left >> m->corner[a] & 1))
-                y[a + 1] = y[a];
-        for (int a = last; a > 0 && !(left >> m->corner[a] & 1); --a)
-            y[a] = 0;
-        w->jet->s[c] += dt * sqrt(slope2);
-        write_jet(w, m, c, y);
-    }
-}
-
 icc_status iccp_walkn_step(iccp_walkn *walk)
 {
     unsigned corners;
-    motion m;
+    iccp_motion m;
     if (walk->steps_left == 0 || choose(walk, &corners) != ICC_OK)
         return ICC_ERR_TRACE;
     --walk->steps_left;
-    find_motion(walk, corners, &m);
-    const unsigned left = move(&m, walk->place.face);
+    iccp_motion_find(&m, &walk->place, &walk->slope, corners);
+    const unsigned left = iccp_motion_run(&m, walk->place.face);
     if (left == 0)
         return ICC_ERR_TRACE;
     if (walk->jet != NULL)
-        carry_jet(walk, &m, left);
+        iccp_motion_carry(&m, &walk->place, left, walk->jet);
     record(walk, &m);
     walk->place.face = left;
     walk->ahead = false;

@@ -11,13 +11,7 @@
 
 #include "trace/cage_cells.h"
 #include "trace/path.h"
-#include "trace/walkn_star.h"
-
-/* Derivatives by up to dim parameters of what a walk computes. */
-typedef struct iccp_jetn {
-    double x[ICC_MAX_DIM][ICC_MAX_DIM]; /* of the position: by coordinate, then by parameter */
-    double s[ICC_MAX_DIM];              /* of the arc length so far */
-} iccp_jetn;
+#include "trace/walkn_motion.h"
 
 typedef struct iccp_walkn {
     iccp_slope slope;
