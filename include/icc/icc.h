@@ -288,7 +288,7 @@ typedef struct icc_chart_options {
     int32_t cells;         /**< grid or mesh cells along the longest side, 2..16384; 0: 50, as in the
                                 papers; gradient on a mask: see icc_grid_create() */
     const double *maximum; /**< where the maximum shall be: the nearest vertex inside is taken. NULL:
-                                the grassfire's (gradient), the deepest vertex (foliation). Disc has
+                                the grassfire's (gradient, field), the deepest vertex (foliation). Disc has
                                 its own, the point that goes to the centre: NULL only. */
     int32_t constraints;   /**< gradient: `ICC_CONSTRAINTS_*`; 0: needed */
     int32_t solver;        /**< gradient: `ICC_SOLVER_*`; 0: by the predicted work */
@@ -465,7 +465,7 @@ typedef struct icc_map icc_map;
 
 /** How a map works. */
 enum {
-    ICC_MAP_CURVES = 1, /**< point by point through the two charts, as the papers do */
+    ICC_MAP_CURVES = 1, /**< point by point through the two charts, as the papers do; any dimension */
     /** An internal piecewise linear map (2-D): a triangle mesh of the source with an image for every
      *  vertex, started from the charts, repaired until every triangle is positive, made fair, and
      *  certified: every triangle exactly positive before and after, both boundaries exactly simple. The
@@ -513,7 +513,8 @@ typedef struct icc_map_info {
 /**
  * Makes the map between two domains whose boundaries correspond: facet i goes to facet i, with the
  * same barycentric coordinates. Builds both charts together: foliation and disc cut both boundaries
- * alike, and foliation pairs the maxima (the target's is where the disc maps take the source's).
+ * alike, and foliation pairs the maxima (the target's is where the disc maps take the source's), as
+ * field does (by the affine map that fits the boundary best, the nearer the better).
  *
  * @param[out] out the map; owned by the caller, see icc_map_free()
  * @param source   domain before

@@ -75,8 +75,10 @@ typedef struct scan {
     double normal[ICC_MAX_DIM];              /* inward */
     double level;                            /* of the facet's plane */
     uint32_t faces;                          /* of the simplex looked at: met by the facet */
+    uint32_t reached;                        /* its corners that count where the facet is */
     uint32_t *seen;                          /* by vertex: the last facet noted there, + 1 */
     uint32_t *count;                         /* by vertex: how many facets, in the first pass */
+    uint32_t *outside;                       /* by cell: simplices found outside, up to 4-D */
 } scan;
 
 /* Inward normal of unit length by elimination: the null vector of the facet's edges. */
@@ -210,7 +212,7 @@ static contact contact_with(scan *s, const int32_t *cell, const int8_t *axis)
 {
     const int32_t dim = s->domain->dim;
     contact least = TOUCHES;
-    s->faces = 0;
+    s->faces = s->reached = 0;
     for (int32_t i = 0; i <= dim; ++i) {
         double highest = -HUGE_VAL, lowest = HUGE_VAL;
         for (int32_t j = 0; j < dim; ++j) {
@@ -223,6 +225,7 @@ static contact contact_with(scan *s, const int32_t *cell, const int8_t *axis)
             return APART;
         s->faces |= lowest <= CONTACT ? (uint32_t)1 << i : 0;
         least = highest > CONTACT ? least : GRAZES;
+        s->reached |= highest > CONTACT ? (uint32_t)1 << i : 0;
     }
     const contact plane = plane_contact(s, cell, axis);
     return plane < least ? plane : least;
@@ -241,22 +244,30 @@ static bool corners_of(const scan *s, uint32_t lowest, const int8_t *axis, uint3
     return any;
 }
 
-/* Whether the middle of a simplex that the boundary only grazes is inside. */
-static bool middle_is_inside(const scan *s, const int32_t *cell, const int8_t *axis)
+/* Whether the middle of a simplex that the boundary only grazes is inside; asked once where each has a bit. */
+static bool middle_is_inside(const scan *s, const int32_t *cell, uint32_t lowest, int32_t r)
 {
     const icc_grid *grid = s->cover->grid;
+    const int8_t *axis = s->orders->axis[r];
+    const uint32_t bit = s->orders->n <= 32 ? (uint32_t)1 << r : 0;
     double middle[ICC_MAX_DIM];
+    if (s->outside[lowest] & bit)
+        return false;
     for (int32_t k = 0; k < grid->dim; ++k)
         middle[axis[k]] = grid->origin[axis[k]] +
                           grid->spacing * (cell[axis[k]] + (double)(grid->dim - k) / (grid->dim + 1));
-    return iccp_domain_locate(s->domain, middle, true, NULL, NULL) == ICC_INSIDE;
+    if (iccp_domain_locate(s->domain, middle, true, NULL, NULL) == ICC_INSIDE)
+        return true;
+    s->outside[lowest] |= bit;
+    return false;
 }
 
+/* A facet that only touches a face of a simplex does not meet the vectors of the other corners. */
 static void note(scan *s, const uint32_t *corner, bool second)
 {
     for (int32_t k = 0; k <= s->domain->dim; ++k) {
         const uint32_t v = corner[k];
-        if (s->seen[v] == s->facet + 1)
+        if (!(s->reached >> k & 1) || s->seen[v] == s->facet + 1)
             continue;
         s->seen[v] = s->facet + 1;
         if (second)
@@ -281,7 +292,7 @@ static void visit_cell(scan *s, const int32_t *cell, bool second)
         const bool any_inside = corners_of(s, lowest, axis, corner);
         const bool has = iccp_cover_has(s->cover, lowest, r);
         /* What is grazed from outside belongs to nobody. */
-        if (c == GRAZES && !any_inside && !has && !middle_is_inside(s, cell, axis))
+        if (c == GRAZES && !any_inside && !has && !middle_is_inside(s, cell, lowest, r))
             continue;
         s->cover->bits[lowest] |= (uint32_t)1 << (r % 32);
         for (int32_t i = 0; i <= grid->dim; ++i)
@@ -371,15 +382,17 @@ icc_status iccp_cover_create(iccp_cover *cover, const icc_domain *domain, const 
     scan s = {.cover = cover, .domain = domain, .orders = orders};
     s.seen = iccp_alloc(&env->memory, n, sizeof *s.seen);
     s.count = iccp_alloc_zero(&env->memory, n, sizeof *s.count);
+    s.outside = iccp_alloc_zero(&env->memory, n, sizeof *s.outside);
     icc_status status = ICC_ERR_MEMORY;
     if (cover->bits != NULL && cover->faces != NULL && cover->first != NULL && cover->normal != NULL && orders != NULL &&
-        s.seen != NULL && s.count != NULL) {
+        s.seen != NULL && s.count != NULL && s.outside != NULL) {
         iccp_orders_init(orders, grid);
         status = fill(&s, env);
     }
     iccp_free(&env->memory, orders);
     iccp_free(&env->memory, s.seen);
     iccp_free(&env->memory, s.count);
+    iccp_free(&env->memory, s.outside);
     return status;
 }
 
