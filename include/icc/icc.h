@@ -477,8 +477,7 @@ enum {
 /** Options of icc_map_create(). */
 typedef struct icc_map_options {
     size_t size;                    /**< set by the caller: `sizeof(icc_map_options)` */
-    int32_t kind;                   /**< `ICC_MAP_*`; 0: mesh where the method is certified, else
-                                         curves */
+    int32_t kind;                   /**< `ICC_MAP_*`; 0: mesh for foliation and disc, else curves */
     int32_t iterations;             /**< mesh: steps of improvement on each level of refinement; 0: as
                                          many as pay, at most 60; -1: no improvement */
     const icc_chart_options *chart; /**< for both charts, or NULL; its `maximum` is the source's. For
