@@ -1,8 +1,8 @@
 /* The glued problem by factorisation. The clusters of rows, the root's apart, are the unknowns.
  *
- * Diagonal entries of P'LP are sums of squares, by s'Ls = sum of (s_u - s_v)^2 over neighbours u, v: the
- * accuracy of small components hangs on how far the diagonal exceeds the rest of its row, and in
- * the difference of 2 dim |s|^2 and the products within the cluster that would be lost. */
+ * Diagonal entries of P'LP are sums of squares, by s'Ls = sum of (s_u - s_v)^2 over neighbours u,
+ * v: the accuracy of small components hangs on how far the diagonal exceeds the rest of its row,
+ * and in the difference of 2 dim |s|^2 and the products within the cluster that would be lost. */
 #include "base/clock.h"
 #include "field/glued.h"
 #include "field/inequalities.h"
@@ -150,8 +150,8 @@ static void expand(const assembly *a, const iccp_scaled *x, const iccp_scaled *f
     }
 }
 
-/* -P'L f, cluster by cluster. Differences of neighbours are exact, those of the terms of P'LP x would not
- * be. */
+/* -P'L f, cluster by cluster. Differences of neighbours are exact, those of the terms of P'LP x
+ * would not be. */
 static void find_residual(const assembly *a, const iccp_scaled *x, const iccp_scaled *f,
                           const iccp_scaled *residual)
 {
@@ -163,8 +163,8 @@ static void find_residual(const assembly *a, const iccp_scaled *x, const iccp_sc
     }
 }
 
-/* The solution is improved once. Its components are right as they are, but multipliers are sums over many
- * rows of the residual, and gain two digits. */
+/* The solution is improved once. Its components are right as they are, but multipliers are sums
+ * over many rows of the residual, and gain two digits. */
 static icc_status solve(const assembly *a, const iccp_ldlt *factor, const iccp_scaled *f,
                         const iccp_env *env)
 {
@@ -202,8 +202,8 @@ static void keep_order(const assembly *a, const iccp_ldlt *factor, uint32_t *ord
             *order++ = k;
 }
 
-/* Eliminates each cluster when its last row was eliminated before. Of rows that were single then, this
- * makes no new fill: a path through clusters that come earlier is one through rows that came
+/* Eliminates each cluster when its last row was eliminated before. Of rows that were single then,
+ * this makes no new fill: a path through clusters that come earlier is one through rows that came
  * earlier, as the rows of a cluster hang together. */
 static void contract_order(const assembly *a, const uint32_t *kept, uint32_t *order)
 {
@@ -244,8 +244,8 @@ static double lap(double *clock)
     return *clock - before;
 }
 
-icc_status iccp_glued_direct(const iccp_rows *rows, const iccp_gluing *gluing,
-                             const iccp_scaled *f, icc_field_info *info, const iccp_env *env)
+icc_status iccp_glued_direct(const iccp_rows *rows, const iccp_gluing *gluing, const iccp_scaled *f,
+                             icc_field_info *info, const iccp_env *env)
 {
     assembly a = {.rows = rows, .gluing = gluing};
     iccp_ldlt factor = {.memory = env->memory};
