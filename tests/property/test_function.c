@@ -188,6 +188,33 @@ static void check_inequalities(const ground *g, const icc_field *field, int32_t 
     ck_assert_ptr_nonnull(icc_field_logs(field));
 }
 
+/* Vertices less edges plus triangles of the inside of a grid in the plane: 1 less the number of holes. */
+static long euler_characteristic(const ground *g)
+{
+    const uint32_t nx = (uint32_t)g->info.shape[0];
+    long sum = 0;
+    for (uint32_t v = 0; v + nx + 1 < g->info.n_vertices; ++v) {
+        const bool here = ground_holds(g, v), right = ground_holds(g, v + 1);
+        const bool above = ground_holds(g, v + nx), across = ground_holds(g, v + nx + 1);
+        sum += here - (here && right) - (here && above) - (here && across) +
+               (here && right && across) + (here && above && across);
+    }
+    return sum; /* nothing lies in the last row or column */
+}
+
+/* No critical points that constraints could remove. */
+static void check_not_needed(const ground *g, const icc_field *field)
+{
+    const icc_field_report report = report_of(field);
+    const long holes = g->info.dim == 2 ? 1 - euler_characteristic(g) : 0;
+    ck_assert_uint_eq(report.n_maxima, 1);
+    ck_assert_uint_eq(report.n_minima, 0);
+    ck_assert_int_le((long)report.n_saddles, holes);
+    ck_assert(holes == 0 || report.n_saddles > 0);
+    for (size_t i = 1; i < g->n; ++i)
+        ck_assert(icc_field_values(field)[g->order[i]] <= 1);
+}
+
 static void check_choice(const ground *g, const icc_field_options *options)
 {
     icc_field *field = field_with(g, options);
@@ -201,7 +228,7 @@ static void check_choice(const ground *g, const icc_field_options *options)
     const icc_field_report report = report_of(field);
     ck_assert_uint_ge(report.n_maxima, 1);
     if (options->constraints == ICC_CONSTRAINTS_NEEDED && !info.constrained)
-        check_regular(field);
+        check_not_needed(g, field);
     icc_field_free(field);
 }
 
@@ -228,7 +255,7 @@ END_TEST
 
 START_TEST(every_choice_on_every_shape)
 {
-    ground g = ground_number(_i, 26);
+    ground g = ground_number(_i, 20);
     check_all_choices(&g);
     ground_free(&g);
 }
@@ -860,8 +887,8 @@ START_TEST(long_stages_can_be_cancelled)
             ck_assert_uint_gt(w.n_factorise, 5);
         }
         ck_assert_uint_gt(n_reports, 10);
-        for (size_t k = 0; k <= 12; ++k) {
-            const size_t at = 1 + k * (n_reports - 1) / 12;
+        for (size_t k = 0; k <= 6; ++k) {
+            const size_t at = 1 + k * (n_reports - 1) / 6;
             w = (watcher){.cancel_at = at};
             icc_error err = {.size = sizeof err};
             ck_assert_int_eq(make(&env, &err, &j), ICC_ERR_CANCELLED);
@@ -974,13 +1001,12 @@ START_TEST(curves_run_where_doubles_end)
     static const double XY[8] = {0, 0, 300, 0, 300, 1, 0, 1}, MAXIMUM[2] = {0.5, 0.5};
     icc_domain *domain;
     ck_assert_int_eq(icc_domain_create(&domain, 2, 4, XY, 0, NULL, NULL, NULL), ICC_OK);
-    for (int kind = 0; kind < 4; ++kind) {
+    for (int kind = 0; kind < 3; ++kind) { /* the others are kept above LEAF */
         icc_chart *chart = chart_of(domain, kind, 3000, MAXIMUM);
         const icc_field *field = icc_chart_field(chart);
         const double *u = icc_field_logs(field);
         ck_assert_ptr_nonnull(u);
-        if (KINDS[kind].constraints == ICC_CONSTRAINTS_NONE)
-            ck_assert_double_lt(info_of(field).least_log, -750);
+        ck_assert_double_lt(info_of(field).least_log, -750);
         check_regular(field);
         for (int i = 1; i < 40; ++i) {
             const double p[2] = {300 * (i / 40.), 0.05 + 0.9 * fmod(0.618 * i, 1)};
