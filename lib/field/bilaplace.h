@@ -20,7 +20,7 @@ icc_status iccp_bilaplace(const iccp_rows *rows, int32_t function, int32_t solve
  * without children. Fills in n_iterations (interior point method and active set together), n_active and
  * both residuals, and adds to the rest of `info`.
  *
- * residual_before is at most 1e-12 as a rule and 1e-8 at worst; else there is no result but ICC_ERR_SOLVER
+ * residual_before is at most 1e-11 as a rule and 1e-8 at worst; else there is no result but ICC_ERR_SOLVER
  * and a line in the log. No edge is violated afterwards, in rounded arithmetic too: a sweep from the
  * leaves to the root raises what is too low for the bounds, and one back lowers what is too high for its
  * parent. Both change f by rounding errors and by what residual_before says, and bounds hold to about
