@@ -108,10 +108,10 @@ static void judge(state *s)
 }
 
 /* Changes each of the wrong ones with probability 2^-level, and the last of them if that was none.
- * In the variables f_parent - sigma f_child this is a linear complementarity problem with a positive
- * definite matrix. To change the last alone, to which this comes as the level rises, is Murty's
- * rule, which reaches the solution from every state: K. Murty, Note on a Bard-type scheme for
- * solving the complementarity problem, Opsearch 11, 1974. */
+ * In the variables f_parent - sigma f_child this is a linear complementarity problem with a
+ * positive definite matrix. To change the last alone, to which this comes as the level rises, is
+ * Murty's rule, which reaches the solution from every state: K. Murty, Note on a Bard-type scheme
+ * for solving the complementarity problem, Opsearch 11, 1974. */
 static void flip(state *s, int level)
 {
     const uint64_t mask = ((uint64_t)1 << level) - 1;
