@@ -164,7 +164,8 @@ typedef struct icc_field_options {
     int32_t function;    /**< `ICC_FUNCTION_*`; 0: decay */
     int32_t constraints; /**< `ICC_CONSTRAINTS_*`; 0: needed */
     int32_t solver;      /**< `ICC_SOLVER_*`; 0: by the predicted work of a factorisation. Clamped and
-                              constrained bi-Laplace are always factorised */
+                              constrained bi-Laplace are always factorised; Laplace is iterated
+                              where a factorisation loses small values, as in long thin rings */
     int32_t reserved;    /**< 0 */
     double eta;          /**< least relative fall from parent to child, in (0, 0.01]; 0: 1e-6 */
     double leaf;         /**< constrained bi-Laplace: least value at vertices without children, in

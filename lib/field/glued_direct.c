@@ -14,6 +14,9 @@
 /* Clusters between looks at the progress callback. */
 enum { CLUSTERS_PER_REPORT = 1 << 16 };
 
+/* Of a component, in its own size: far above the 1e-15 of solutions that are right, far below the 1 of others. */
+static const double MOST_RESIDUAL = 1e-6;
+
 typedef struct assembly {
     const iccp_rows *rows;
     const iccp_gluing *gluing;
@@ -163,6 +166,18 @@ static void find_residual(const assembly *a, const iccp_scaled *x, const iccp_sc
     }
 }
 
+/* Whether every component is about what it should be, by its residual. Entries of the factor that underflow, as
+ * they can in long thin rings (math/ldlt.h), spoil whole stretches. */
+static bool is_accurate(const assembly *a, const iccp_scaled *x, const iccp_scaled *residual)
+{
+    for (size_t u = 0; u < a->n; ++u) {
+        const double r = fabs(iccp_scaled_get(residual, u, x->exponent[u]));
+        if (!(r <= MOST_RESIDUAL * a->diagonal[u] * x->fraction[u]))
+            return false;
+    }
+    return true;
+}
+
 /* The solution is improved once. Its components are right as they are, but multipliers are sums
  * over many rows of the residual, and gain two digits. */
 static icc_status solve(const assembly *a, const iccp_ldlt *factor, const iccp_scaled *f,
@@ -172,6 +187,7 @@ static icc_status solve(const assembly *a, const iccp_ldlt *factor, const iccp_s
     double *fraction = iccp_alloc(&env->memory, 3 * n, sizeof *fraction);
     int32_t *exponent = iccp_alloc(&env->memory, 3 * n, sizeof *exponent);
     const bool room = fraction != NULL && exponent != NULL;
+    bool accurate = true;
     if (room) {
         const iccp_scaled x = {fraction, exponent}, d = {fraction + n, exponent + n};
         const iccp_scaled work = {fraction + 2 * n, exponent + 2 * n};
@@ -180,6 +196,7 @@ static icc_status solve(const assembly *a, const iccp_ldlt *factor, const iccp_s
         iccp_ldlt_solve_scaled(factor, &x, &work);
         expand(a, &x, f);
         find_residual(a, &x, f, &d);
+        accurate = is_accurate(a, &x, &d);
         iccp_ldlt_solve_scaled(factor, &d, &work);
         for (size_t u = 0; u < n; ++u)
             iccp_scaled_set(&x, u, x.fraction[u] + iccp_scaled_get(&d, u, x.exponent[u]),
@@ -188,7 +205,7 @@ static icc_status solve(const assembly *a, const iccp_ldlt *factor, const iccp_s
     }
     iccp_free(&env->memory, fraction);
     iccp_free(&env->memory, exponent);
-    return room ? ICC_OK : ICC_ERR_MEMORY;
+    return !room ? ICC_ERR_MEMORY : accurate ? ICC_OK : ICC_ERR_SOLVER;
 }
 
 /* Keeps the order of elimination, as one of all rows. */
