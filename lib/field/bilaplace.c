@@ -61,6 +61,7 @@ static icc_status factorise(iccp_ldlt *factor, const iccp_symmetric *matrix, icc
     info->seconds_order += iccp_seconds() - start;
     if (status != ICC_OK)
         return status;
+    info->work = fmax(info->work, factor->work);
     start = iccp_seconds();
     status = iccp_ldlt_factorise(factor, matrix, env);
     info->seconds_factor += iccp_seconds() - start;
@@ -166,11 +167,12 @@ icc_status iccp_bilaplace(const iccp_rows *rows, int32_t function, int32_t solve
         return status;
     info->seconds_setup += iccp_seconds() - start;
     double *plain = iccp_alloc(&env->memory, n, sizeof *plain);
-    (void)solver;
     if (plain == NULL)
         status = ICC_ERR_MEMORY;
     else if (function == ICC_FUNCTION_CLAMPED)
         status = clamped(rows, &a, plain, info, env);
+    else if (solver == ICC_SOLVER_ITERATIVE)
+        status = iccp_bilaplace_iterative(rows, f, info, env);
     else
         status = navier_direct(rows, f, info, env);
     start = iccp_seconds();

@@ -207,6 +207,34 @@ START_TEST(small_minima_are_those_of_a_dense_solver)
 }
 END_TEST
 
+/* The iterative solver agrees with the direct one, or knows that it cannot. */
+START_TEST(both_solvers_agree)
+{
+    const iccp_env env = plain_env();
+    int n_solved = 0;
+    for (int s = 0; s < N_MASKS; ++s) {
+        const int32_t dim = mask_number(s).dim == 3 ? 3 : 2;
+        problem p = problem_of(mask_number(s).shape, dim, dim == 3 ? 20 : 60);
+        icc_field_info info = {.size = sizeof info};
+        ck_assert_int_eq(
+            iccp_bilaplace(&p.rows, ICC_FUNCTION_BILAPLACE, ICC_SOLVER_DIRECT, &p.f, &info, &env), ICC_OK);
+        double *direct = malloc(p.n * sizeof *direct);
+        for (size_t k = 0; k < p.n; ++k)
+            direct[k] = value(&p, k);
+        const icc_status status =
+            iccp_bilaplace(&p.rows, ICC_FUNCTION_BILAPLACE, ICC_SOLVER_ITERATIVE, &p.f, &info, &env);
+        ck_assert(status == ICC_OK || status == ICC_ERR_SOLVER);
+        ck_assert_uint_gt(info.n_inner, 0);
+        for (size_t k = 0; k < p.n && status == ICC_OK; ++k)
+            ck_assert_double_le(fabs(value(&p, k) - direct[k]), 1e-6 * direct[k]);
+        n_solved += status == ICC_OK;
+        free(direct);
+        problem_clear(&p);
+    }
+    ck_assert_int_ge(n_solved, 6);
+}
+END_TEST
+
 START_TEST(nothing_underflows)
 {
     const iccp_env env = plain_env();
@@ -510,7 +538,7 @@ END_TEST
 typedef struct sweep_case {
     problem p;
     int32_t function;
-    int way; /* without inequalities, with them, by the interior point method */
+    int way; /* without inequalities, with them, by the interior point method, iteratively */
 } sweep_case;
 
 static icc_status solve_anew(const icc_env *outer, icc_error *err, void *argument)
@@ -522,6 +550,8 @@ static icc_status solve_anew(const icc_env *outer, icc_error *err, void *argumen
     return iccp_explain(
         err, c->way == 0
                  ? iccp_bilaplace(&c->p.rows, c->function, ICC_SOLVER_DIRECT, &c->p.f, &info, &env)
+             : c->way == 3
+                 ? iccp_bilaplace(&c->p.rows, c->function, ICC_SOLVER_ITERATIVE, &c->p.f, &info, &env)
              : c->way == 1
                  ? iccp_bilaplace_constrained(&c->p.rows, c->function, 1e-6, 1e-9, &c->p.f, &info, &env)
                  : solve_from_inside(&c->p, c->function, c->p.f.fraction, &info.residual, &env));
@@ -529,7 +559,7 @@ static icc_status solve_anew(const icc_env *outer, icc_error *err, void *argumen
 
 START_TEST(failures_leave_nothing_behind)
 {
-    for (int k = 0; k < 6; ++k) {
+    for (int k = 0; k < 8; ++k) {
         sweep_case c = {problem_of(mask_c, 2, 16), FUNCTIONS[k % 2], k / 2};
         faulty_sweep(solve_anew, &c);
         problem_clear(&c.p);
@@ -543,6 +573,7 @@ int main(void)
     TCase *tests = tcase_create("all");
     tcase_set_timeout(tests, 300);
     tcase_add_test(tests, small_minima_are_those_of_a_dense_solver);
+    tcase_add_test(tests, both_solvers_agree);
     tcase_add_test(tests, nothing_underflows);
     tcase_add_test(tests, small_constrained_minima_have_the_least_energy);
     tcase_add_test(tests, both_ways_lead_to_the_same_function);
