@@ -295,7 +295,7 @@ static void share_top(const shells *s, uint32_t row)
 }
 
 /* Takes over the rows whose tops exceed the limit. */
-static icc_status accept_rows(shells *s, const shell *h, double limit, double unit)
+static icc_status accept_rows(shells *s, const shell *h, double limit, double one)
 {
     icc_status status = ICC_OK;
     bool accepted = false;
@@ -309,7 +309,7 @@ static icc_status accept_rows(shells *s, const shell *h, double limit, double un
             continue;
         s->state[row] = KNOWN;
         if (s->gluing->top[row] == row)
-            iccp_scaled_set(s->f, row, unit * x, h->exponent);
+            iccp_scaled_set(s->f, row, x / one, h->exponent);
         else
             share_top(s, row);
     }
@@ -328,7 +328,7 @@ static bool is_kept(const shells *s, const shell *h, size_t i, size_t end, doubl
 }
 
 /* Puts together what the shell goes on with; its values are the guess for the next one. */
-static void keep_rows(shells *s, const shell *h, double negligible, double unit)
+static void keep_rows(shells *s, const shell *h, double negligible, double one)
 {
     size_t n = 0;
     for (size_t i = 0, end = 0; i < s->n; i = end) {
@@ -339,7 +339,7 @@ static void keep_rows(shells *s, const shell *h, double negligible, double unit)
         for (; i < end; ++i) {
             const uint32_t row = s->row[i];
             if (guessed)
-                iccp_scaled_set(s->f, row, unit * h->x[h->vertex[i]], h->exponent);
+                iccp_scaled_set(s->f, row, h->x[h->vertex[i]] / one, h->exponent);
             if (kept)
                 s->row[n++] = row;
             else if (s->state[row] == IN_SHELL)
@@ -368,15 +368,15 @@ static icc_status advance(shells *s, shell *h)
 {
     const extent e = measure(s, h);
     const double limit = fmax(CUT * e.peak, TRUNCATION * e.rim);
-    const double unit = s->first ? 1 / h->x[h->vertex[0]] : 1;
-    if (!(e.peak > 0 && unit > 0 && isfinite(unit)))
+    const double one = s->first ? h->x[h->vertex[0]] : 1;
+    if (!(e.peak > 0 && one > 0 && isfinite(one)))
         return ICC_ERR_SOLVER;
     icc_status status = report(s, 0);
     if (status == ICC_OK)
-        status = accept_rows(s, h, limit, unit);
+        status = accept_rows(s, h, limit, one);
     if (status != ICC_OK)
         return status;
-    keep_rows(s, h, NEGLIGIBLE * e.peak, unit);
+    keep_rows(s, h, NEGLIGIBLE * e.peak, one);
     adapt_growth(s, &e);
     s->first = false;
     grow(s);
