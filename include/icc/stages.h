@@ -240,7 +240,9 @@ enum {
  * @param options  may be NULL
  * @param env      may be NULL
  * @param err      may be NULL
- * @return ::ICC_OK; ::ICC_ERR_SOLVER when a solver did not converge; ::ICC_ERR_RESOLUTION when the root is
+ * @return ::ICC_OK; ::ICC_ERR_SOLVER when a solver did not converge, which has only been seen with inequalities on
+ *         bilaplace and clamped, where they ask for more than 1 at the root (as `leaf` and `eta` do of
+ *         deep trees) or `leaf` is 1e-2; ::ICC_ERR_RESOLUTION when the root is
  *         the only vertex inside (laplace, bilaplace, clamped); ::ICC_ERR_UNSUPPORTED for a direct
  *         solver in a build without one; ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY, ::ICC_ERR_CANCELLED,
  *         ::ICC_ERR_VERSION
