@@ -5,6 +5,7 @@
 #include "field/bilaplace.h"
 
 #include "base/clock.h"
+#include "field/dissection.h"
 #include "field/energy.h"
 #include "field/inequalities.h"
 #include "math/ldlt.h"
@@ -16,9 +17,6 @@
 
 /* Of a component, in its own size: far above the 1e-15 of solutions that are right, far below the 1 of others. */
 static const double MOST_RESIDUAL = 1e-6;
-
-/* Of the elimination by distance, whose separators are whole generations: multiplications. */
-static const double MOST_WORK_BY_DISTANCE = 2e10;
 
 /* The Laplacian of the rows, the root's included. */
 typedef struct laplacian {
@@ -62,34 +60,27 @@ static icc_status laplacian_create(laplacian *l, const iccp_rows *rows, const ic
     return ICC_OK;
 }
 
-/* The farthest rows first. */
-static icc_status analyse_by_distance(iccp_ldlt *factor, const iccp_symmetric *matrix,
-                                      const iccp_env *env)
+static icc_status analyse(iccp_ldlt *factor, const iccp_symmetric *matrix, const iccp_rows *rows,
+                          const iccp_env *env)
 {
     uint32_t *order = iccp_alloc(&env->memory, matrix->n, sizeof *order);
     if (order == NULL)
         return ICC_ERR_MEMORY;
-    for (size_t i = 0; i < matrix->n; ++i)
-        order[i] = (uint32_t)(matrix->n - 1 - i);
-    icc_status status = iccp_ldlt_analyse_ordered(factor, matrix, order, env);
+    icc_status status = iccp_dissection(rows, order, env);
+    if (status == ICC_OK)
+        status = iccp_ldlt_analyse_ordered(factor, matrix, order, env);
     iccp_free(&env->memory, order);
-    if (status == ICC_OK && factor->work > MOST_WORK_BY_DISTANCE) {
-        iccp_ldlt_free(factor);
-        status = ICC_ERR_SOLVER;
-    }
     return status;
 }
 
-static icc_status factorise(iccp_ldlt *factor, const iccp_symmetric *matrix, bool by_distance,
+static icc_status factorise(iccp_ldlt *factor, const iccp_symmetric *matrix, const iccp_rows *rows,
                             icc_field_info *info, const iccp_env *env)
 {
     double start = iccp_seconds();
-    icc_status status = by_distance ? analyse_by_distance(factor, matrix, env)
-                                    : iccp_ldlt_analyse(factor, matrix, 1, env);
+    icc_status status = analyse(factor, matrix, rows, env);
     info->seconds_order += iccp_seconds() - start;
     if (status != ICC_OK)
         return status;
-    info->work = fmax(info->work, factor->work);
     info->work = fmax(info->work, factor->work);
     start = iccp_seconds();
     status = iccp_ldlt_factorise(factor, matrix, env);
@@ -157,25 +148,21 @@ static icc_status solve_twice(const iccp_rows *rows, const iccp_ldlt *factor, co
     return status;
 }
 
-/* In long thin rings, which an order by degree may spoil (math/ldlt.h), once more by distance. */
 static icc_status navier_direct(const iccp_rows *rows, const iccp_scaled *f, icc_field_info *info,
                                 const iccp_env *env)
 {
-    const double start = iccp_seconds();
+    double start = iccp_seconds();
     laplacian l;
+    iccp_ldlt factor;
     icc_status status = laplacian_create(&l, rows, env);
     if (status != ICC_OK)
         return status;
     info->seconds_setup += iccp_seconds() - start;
-    status = ICC_ERR_SOLVER;
-    for (int by_distance = 0; by_distance < 2 && status == ICC_ERR_SOLVER; ++by_distance) {
-        iccp_ldlt factor;
-        status = factorise(&factor, &l.matrix, by_distance != 0, info, env);
-        if (status != ICC_OK)
-            break;
-        const double begin = iccp_seconds();
+    status = factorise(&factor, &l.matrix, rows, info, env);
+    if (status == ICC_OK) {
+        start = iccp_seconds();
         status = solve_twice(rows, &factor, f, env);
-        info->seconds_solve += iccp_seconds() - begin;
+        info->seconds_solve += iccp_seconds() - start;
         iccp_ldlt_free(&factor);
     }
     laplacian_free(&l, env);

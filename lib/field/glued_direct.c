@@ -4,6 +4,7 @@
  * v: the accuracy of small components hangs on how far the diagonal exceeds the rest of its row,
  * and in the difference of 2 dim |s|^2 and the products within the cluster that would be lost. */
 #include "base/clock.h"
+#include "field/dissection.h"
 #include "field/glued.h"
 #include "field/inequalities.h"
 #include "math/ldlt.h"
@@ -208,20 +209,8 @@ static icc_status solve(const assembly *a, const iccp_ldlt *factor, const iccp_s
     return !room ? ICC_ERR_MEMORY : accurate ? ICC_OK : ICC_ERR_SOLVER;
 }
 
-/* Keeps the order of elimination, as one of all rows. */
-static void keep_order(const assembly *a, const iccp_ldlt *factor, uint32_t *order)
-{
-    for (size_t i = 0; i < a->n; ++i)
-        for (uint32_t k = a->last[factor->order[i]]; k != ICCP_NONE; k = a->previous[k])
-            *order++ = k;
-    for (uint32_t k = 0; k < a->rows->n; ++k)
-        if (a->unknown[k] == ICCP_NONE)
-            *order++ = k;
-}
-
-/* Eliminates each cluster when its last row was eliminated before. Of rows that were single then,
- * this makes no new fill: a path through clusters that come earlier is one through rows that came
- * earlier, as the rows of a cluster hang together. */
+/* Eliminates each cluster when its last row would be. This makes no new fill: a path through clusters that
+ * come earlier is one through rows that come earlier, as the rows of a cluster hang together. */
 static void contract_order(const assembly *a, const uint32_t *kept, uint32_t *order)
 {
     size_t end = a->n;
@@ -238,18 +227,17 @@ static icc_status analyse(const assembly *a, iccp_ldlt *factor, const iccp_symme
                           const iccp_env *env)
 {
     uint32_t *kept = a->gluing->order;
-    if (kept == NULL || kept[0] == ICCP_NONE) {
-        const icc_status status = iccp_ldlt_analyse(factor, matrix, 1, env);
-        if (status == ICC_OK && kept != NULL)
-            keep_order(a, factor, kept);
-        return status;
-    }
     uint32_t *order = iccp_alloc(&env->memory, a->n, sizeof *order);
-    if (order == NULL)
-        return ICC_ERR_MEMORY;
-    contract_order(a, kept, order);
-    const icc_status status = iccp_ldlt_analyse_ordered(factor, matrix, order, env);
+    uint32_t *rows = iccp_alloc(&env->memory, kept == NULL ? a->rows->n : 0, sizeof *rows);
+    icc_status status = order != NULL && rows != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    if (status == ICC_OK && (kept == NULL || kept[0] == ICCP_NONE))
+        status = iccp_dissection(a->rows, kept == NULL ? rows : kept, env);
+    if (status == ICC_OK) {
+        contract_order(a, kept == NULL ? rows : kept, order);
+        status = iccp_ldlt_analyse_ordered(factor, matrix, order, env);
+    }
     iccp_free(&env->memory, order);
+    iccp_free(&env->memory, rows);
     return status;
 }
 
