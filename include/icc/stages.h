@@ -243,9 +243,9 @@ enum {
  * @return ::ICC_OK; ::ICC_ERR_SOLVER when a solver did not converge, which has only been seen with inequalities on
  *         bilaplace and clamped, where they ask for more than 1 at the root (as `leaf` and `eta` do of
  *         deep trees) or `leaf` is 1e-2; ::ICC_ERR_RESOLUTION when the root is
- *         the only vertex inside (laplace, bilaplace, clamped); ::ICC_ERR_UNSUPPORTED for a direct
- *         solver in a build without one; ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY, ::ICC_ERR_CANCELLED,
- *         ::ICC_ERR_VERSION
+ *         the only vertex inside (laplace, bilaplace, clamped); ::ICC_ERR_UNSUPPORTED for clamped, and
+ *         for bilaplace under inequalities, in a build without AMD; ::ICC_ERR_ARGUMENT,
+ *         ::ICC_ERR_MEMORY, ::ICC_ERR_CANCELLED, ::ICC_ERR_VERSION
  */
 ICC_API icc_status icc_field_create(icc_field **out, const icc_tree *tree,
                                     const icc_field_options *options, const icc_env *env,

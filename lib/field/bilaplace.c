@@ -12,7 +12,6 @@
 
 #include <assert.h>
 #include <math.h>
-#include <stdbool.h>
 #include <string.h>
 
 /* Of a component, in its own size: far above the 1e-15 of solutions that are right, far below the 1 of others. */
@@ -100,28 +99,34 @@ static void scale(const iccp_scaled *f, size_t n)
             iccp_scaled_set(f, k, f->fraction[k] / root, f->exponent[k] - exponent);
 }
 
-/* Whether every component of L x = b is about what it should be. */
-static bool is_solution(const iccp_rows *rows, const iccp_scaled *x, const iccp_scaled *b)
+/* ICC_ERR_SOLVER unless every component of L x = b is about what it should be. */
+static icc_status check_solution(const iccp_rows *rows, const iccp_scaled *x, const iccp_scaled *b,
+                                 const iccp_env *env)
 {
-    for (size_t k = 0; k < rows->n; ++k) {
+    icc_status status = ICC_OK;
+    for (size_t k = 0; k < rows->n && status == ICC_OK; ++k) {
         const int32_t unit = x->exponent[k];
+        if (k % ICCP_VERTICES_PER_REPORT == 0)
+            status = iccp_progress(env, "check", (double)k / (double)rows->n);
         const double r = iccp_laplacian_row(rows, x, k, unit) - iccp_scaled_get(b, k, unit);
         if (!(fabs(r) <= MOST_RESIDUAL * rows->n_neighbours * x->fraction[k]))
-            return false;
+            return ICC_ERR_SOLVER;
     }
-    return true;
+    return status;
 }
 
 /* L f = b. Takes f over into b if it is good. `work` is room. */
 static icc_status solve(const iccp_rows *rows, const iccp_ldlt *factor, const iccp_scaled *b,
-                        const iccp_scaled *f, const iccp_scaled *work)
+                        const iccp_scaled *f, const iccp_scaled *work, const iccp_env *env)
 {
     const size_t n = rows->n;
     memcpy(f->fraction, b->fraction, n * sizeof *f->fraction);
     memcpy(f->exponent, b->exponent, n * sizeof *f->exponent);
-    iccp_ldlt_solve_scaled(factor, f, work);
-    if (!is_solution(rows, f, b))
-        return ICC_ERR_SOLVER;
+    icc_status status = iccp_ldlt_solve_scaled(factor, f, work, env);
+    if (status == ICC_OK)
+        status = check_solution(rows, f, b, env);
+    if (status != ICC_OK)
+        return status;
     memcpy(b->fraction, f->fraction, n * sizeof *f->fraction);
     memcpy(b->exponent, f->exponent, n * sizeof *f->exponent);
     return ICC_OK;
@@ -141,7 +146,7 @@ static icc_status solve_twice(const iccp_rows *rows, const iccp_ldlt *factor, co
         status = iccp_progress(env, "bi-Laplace", 0.5 * pass);
         const iccp_scaled work = {fraction + n, exponent + n};
         if (status == ICC_OK)
-            status = solve(rows, factor, &b, f, &work);
+            status = solve(rows, factor, &b, f, &work, env);
     }
     iccp_free(&env->memory, fraction);
     iccp_free(&env->memory, exponent);

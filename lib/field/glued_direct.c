@@ -156,15 +156,19 @@ static void expand(const assembly *a, const iccp_scaled *x, const iccp_scaled *f
 
 /* -P'L f, cluster by cluster. Differences of neighbours are exact, those of the terms of P'LP x
  * would not be. */
-static void find_residual(const assembly *a, const iccp_scaled *x, const iccp_scaled *f,
-                          const iccp_scaled *residual)
+static icc_status find_residual(const assembly *a, const iccp_scaled *x, const iccp_scaled *f,
+                                const iccp_scaled *residual, const iccp_env *env)
 {
-    for (size_t u = 0; u < a->n; ++u) {
+    icc_status status = iccp_progress(env, "check", 0);
+    for (size_t u = 0; u < a->n && status == ICC_OK; ++u) {
         double sum = 0;
+        if ((u + 1) % CLUSTERS_PER_REPORT == 0)
+            status = iccp_progress(env, "check", (double)u / (double)a->n);
         for (uint32_t k = a->last[u]; k != ICCP_NONE; k = a->previous[k])
             sum -= a->gluing->share[k] * iccp_laplacian_row(a->rows, f, k, x->exponent[u]);
         iccp_scaled_set(residual, u, sum, x->exponent[u]);
     }
+    return status;
 }
 
 /* Whether every component is about what it should be, by its residual. Entries of the factor that underflow, as
@@ -179,34 +183,46 @@ static bool is_accurate(const assembly *a, const iccp_scaled *x, const iccp_scal
     return true;
 }
 
-/* The solution is improved once. Its components are right as they are, but multipliers are sums
- * over many rows of the residual, and gain two digits. */
+/* x = A^-1 b, and once more for what is left. Components are right as they are, but multipliers are
+ * sums over many rows of the residual, and gain two digits. */
+static icc_status solve_twice(const assembly *a, const iccp_ldlt *factor, const iccp_scaled *x,
+                              const iccp_scaled *d, const iccp_scaled *work, const iccp_scaled *f,
+                              const iccp_env *env)
+{
+    for (size_t u = 0; u < a->n; ++u)
+        iccp_scaled_set(x, u, a->known[u], 0);
+    icc_status status = iccp_ldlt_solve_scaled(factor, x, work, env);
+    if (status != ICC_OK)
+        return status;
+    expand(a, x, f);
+    status = find_residual(a, x, f, d, env);
+    if (status == ICC_OK && !is_accurate(a, x, d))
+        status = ICC_ERR_SOLVER;
+    if (status == ICC_OK)
+        status = iccp_ldlt_solve_scaled(factor, d, work, env);
+    if (status != ICC_OK)
+        return status;
+    for (size_t u = 0; u < a->n; ++u)
+        iccp_scaled_set(x, u, x->fraction[u] + iccp_scaled_get(d, u, x->exponent[u]), x->exponent[u]);
+    expand(a, x, f);
+    return ICC_OK;
+}
+
 static icc_status solve(const assembly *a, const iccp_ldlt *factor, const iccp_scaled *f,
                         const iccp_env *env)
 {
     const size_t n = a->n;
     double *fraction = iccp_alloc(&env->memory, 3 * n, sizeof *fraction);
     int32_t *exponent = iccp_alloc(&env->memory, 3 * n, sizeof *exponent);
-    const bool room = fraction != NULL && exponent != NULL;
-    bool accurate = true;
-    if (room) {
+    icc_status status = ICC_ERR_MEMORY;
+    if (fraction != NULL && exponent != NULL) {
         const iccp_scaled x = {fraction, exponent}, d = {fraction + n, exponent + n};
         const iccp_scaled work = {fraction + 2 * n, exponent + 2 * n};
-        for (size_t u = 0; u < n; ++u)
-            iccp_scaled_set(&x, u, a->known[u], 0);
-        iccp_ldlt_solve_scaled(factor, &x, &work);
-        expand(a, &x, f);
-        find_residual(a, &x, f, &d);
-        accurate = is_accurate(a, &x, &d);
-        iccp_ldlt_solve_scaled(factor, &d, &work);
-        for (size_t u = 0; u < n; ++u)
-            iccp_scaled_set(&x, u, x.fraction[u] + iccp_scaled_get(&d, u, x.exponent[u]),
-                            x.exponent[u]);
-        expand(a, &x, f);
+        status = solve_twice(a, factor, &x, &d, &work, f, env);
     }
     iccp_free(&env->memory, fraction);
     iccp_free(&env->memory, exponent);
-    return !room ? ICC_ERR_MEMORY : accurate ? ICC_OK : ICC_ERR_SOLVER;
+    return status;
 }
 
 /* Eliminates each cluster when its last row would be. This makes no new fill: a path through clusters that

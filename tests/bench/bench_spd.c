@@ -235,7 +235,7 @@ static double residual(const iccp_symmetric *m, const iccp_scaled *x, size_t sou
     return worst;
 }
 
-static void time_solves(const iccp_ldlt *factor, const iccp_symmetric *m)
+static void time_solves(const iccp_ldlt *factor, const iccp_symmetric *m, const iccp_env *env)
 {
     const size_t n = m->n, source = n / 2;
     double *x = bench_alloc(2 * n, sizeof *x);
@@ -247,7 +247,7 @@ static void time_solves(const iccp_ldlt *factor, const iccp_symmetric *m)
     const double t0 = seconds();
     iccp_ldlt_solve(factor, 1, x, x + n);
     const double t1 = seconds();
-    iccp_ldlt_solve_scaled(factor, &y, &work);
+    bench_check(iccp_ldlt_solve_scaled(factor, &y, &work, env), &(icc_error){.message = "solve"});
     const double t2 = seconds();
     int32_t lowest = 0;
     for (size_t i = 0; i < n; ++i)
@@ -282,7 +282,7 @@ static void time_ours(const grid *g, const iccp_symmetric *m, bool dissected)
            dissected ? "dissection" : "degree    ", t1 - t0, t2 - t1, t3 - t2, t4 - t3,
            (double)factor.n_entries, factor.work, 2e-9 * factor.work / (t4 - t3), factor.nodes.n,
            1e-6 * iccp_ldlt_bytes(&factor));
-    time_solves(&factor, m);
+    time_solves(&factor, m, &env);
     iccp_ldlt_free(&factor);
     free(order);
 }
