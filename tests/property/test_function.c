@@ -410,6 +410,36 @@ START_TEST(long_thin_rings)
 }
 END_TEST
 
+/* Two rooms and a corridor between them: 60 wide, 1 wide and 900 long. A separator in its middle would see
+ * neither room. */
+START_TEST(rooms_far_apart)
+{
+    enum { ROOM = 60, LENGTH = 900, NX = 2 * ROOM + LENGTH + 4, NY = ROOM + 4 };
+    ground g;
+    mask m = {.dim = 2, .shape = {NX, NY}, .n_vertices = NX * NY};
+    m.inside = calloc(m.n_vertices, 1);
+    ck_assert_ptr_nonnull(m.inside);
+    for (size_t y = 2; y < NY - 2; ++y)
+        for (size_t x = 2; x < NX - 2; ++x)
+            m.inside[y * NX + x] = x < ROOM + 2 || x >= NX - ROOM - 2 || y == NY / 2;
+    ck_assert_int_eq(ground_create(&g, &m, NX * (NY / 2) + ROOM / 2, 0), ICC_OK);
+    mask_free(&m);
+    for (int32_t function = ICC_FUNCTION_LAPLACE; function <= ICC_FUNCTION_BILAPLACE; ++function) {
+        icc_field *field = field_of(&g, function, ICC_CONSTRAINTS_NONE, ICC_SOLVER_DIRECT);
+        const double *u = icc_field_logs(field);
+        ck_assert_int_eq(info_of(field).solver, ICC_SOLVER_DIRECT);
+        ck_assert_double_lt(info_of(field).least_log, -1000);
+        check_regular(field);
+        if (function == ICC_FUNCTION_LAPLACE)
+            ck_assert_double_le(ground_imbalance(&g, u), 1e-11);
+        else
+            ck_assert_double_le(imbalance_of_laplacian(&g, u), 1e-6);
+        icc_field_free(field);
+    }
+    ground_free(&g);
+}
+END_TEST
+
 /* -------------------------------------------------------- the serpentine */
 
 /* How fast a discretely harmonic function decays along a corridor w vertices wide: per vertex. */
@@ -1173,6 +1203,7 @@ int main(void)
     tcase_add_test(tests, laplace_is_the_mean_of_its_neighbours);
     tcase_add_test(tests, both_solvers_give_the_same_function);
     tcase_add_test(tests, long_thin_rings);
+    tcase_add_test(tests, rooms_far_apart);
     tcase_add_test(tests, nothing_underflows_in_the_serpentine);
     tcase_add_test(tests, inequalities_far_below_the_range_of_doubles);
     tcase_add_test(tests, constrained_laplace_is_optimal);
