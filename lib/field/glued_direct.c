@@ -171,8 +171,8 @@ static icc_status find_residual(const assembly *a, const iccp_scaled *x, const i
     return status;
 }
 
-/* Whether every component is about what it should be, by its residual. Entries of the factor that underflow, as
- * they can in long thin rings (math/ldlt.h), spoil whole stretches. */
+/* Whether every component is about what it should be, by its residual. Entries of the factor that underflow,
+ * which the bands of field/dissection.c are to prevent, spoil whole stretches. */
 static bool is_accurate(const assembly *a, const iccp_scaled *x, const iccp_scaled *residual)
 {
     for (size_t u = 0; u < a->n; ++u) {
