@@ -206,7 +206,8 @@ typedef struct icc_field_options {
     int32_t function;    /**< `ICC_FUNCTION_*`; 0: decay */
     int32_t constraints; /**< `ICC_CONSTRAINTS_*`; 0: needed */
     int32_t solver;      /**< `ICC_SOLVER_*`; 0: by the predicted work of a factorisation. Clamped and
-                              constrained bi-Laplace are always factorised */
+                              constrained bi-Laplace are always factorised; Laplace is iterated
+                              where a factorisation loses small values, as in long thin rings */
     int32_t reserved;    /**< 0 */
     double eta;          /**< least relative fall from parent to child, in (0, 0.01]; 0: 1e-6 */
     double leaf;         /**< constrained bi-Laplace: least value at vertices without children, in
@@ -281,10 +282,12 @@ enum {
  * @param options  may be NULL
  * @param env      may be NULL
  * @param err      may be NULL
- * @return ::ICC_OK; ::ICC_ERR_SOLVER when a solver did not converge; ::ICC_ERR_RESOLUTION when the root is
- *         the only vertex inside (laplace, bilaplace, clamped); ::ICC_ERR_UNSUPPORTED for a direct
- *         solver in a build without one; ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY, ::ICC_ERR_CANCELLED,
- *         ::ICC_ERR_VERSION
+ * @return ::ICC_OK; ::ICC_ERR_SOLVER when a solver did not converge, which has only been seen with inequalities on
+ *         bilaplace and clamped, where they ask for more than 1 at the root (as `leaf` and `eta` do of
+ *         deep trees) or `leaf` is 1e-2; ::ICC_ERR_RESOLUTION when the root is
+ *         the only vertex inside (laplace, bilaplace, clamped); ::ICC_ERR_UNSUPPORTED for clamped, and
+ *         for bilaplace under inequalities, in a build without AMD; ::ICC_ERR_ARGUMENT,
+ *         ::ICC_ERR_MEMORY, ::ICC_ERR_CANCELLED, ::ICC_ERR_VERSION
  */
 ICC_API icc_status icc_field_create(icc_field **out, const icc_tree *tree,
                                     const icc_field_options *options, const icc_env *env,

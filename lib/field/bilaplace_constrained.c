@@ -1,6 +1,7 @@
-/* An interior point method finds which inequalities are active, and an active set iteration makes of that a
- * solution that is exact up to rounding. Far from the root f is as small as the leaf's bound, and what
- * is active there shows only in the last iterates; so the two take turns. */
+/* An active set iteration is fast when it converges, and then exact up to rounding. When it does not, an
+ * interior point method, which is slower and always converges, tells it where to begin. Far from the
+ * root f is as small as the leaves' bounds, and what is active there shows only in the last iterates of
+ * the latter; so the two take turns. */
 #include "base/clock.h"
 #include "field/bilaplace.h"
 #include "field/inequalities.h"
@@ -10,8 +11,9 @@
 #include <math.h>
 #include <string.h>
 
-/* Residuals, for a maximum of 1: no better one is looked for; a worse one is not handed out. */
-static const double ENOUGH = 1e-12, ACCEPTABLE = 1e-8;
+/* Residuals, for a maximum of 1: no better one is looked for; no other method is tried; a worse one is not
+ * handed out. */
+static const double ENOUGH = 1e-12, GOOD = 1e-11, ACCEPTABLE = 1e-8;
 
 /* Means of slack * multiplier where the active set is tried. The last one is never reached. */
 static const double TARGETS[] = {1e-12, 1e-14, 1e-16, 1e-18, 0};
@@ -47,7 +49,7 @@ static icc_status optimise(const iccp_program *program, iccp_candidate *candidat
     if (active == NULL)
         return ICC_ERR_MEMORY;
     icc_status status = iccp_polish(program, active, ENOUGH, candidate, info, env);
-    if (status == ICC_OK && candidate->residual > ENOUGH)
+    if (status == ICC_OK && candidate->residual > GOOD)
         status = take_turns(program, active, candidate, info, env);
     iccp_free(&env->memory, active);
     if (status != ICC_OK || candidate->residual <= ACCEPTABLE)

@@ -1,8 +1,8 @@
-/* Primal-dual active set: M. Hintermueller, K. Ito, K. Kunisch, The primal-dual active set strategy as a
- * semismooth Newton method, SIAM J. Optim. 13, 2002. An active inequality glues a child to its parent, so
- * that each step solves a smaller problem of the same kind (glued.h), and one sweep from the leaves to the
- * root gives the multipliers. All tests are relative to the function where they are made: it spans
- * hundreds of orders of magnitude in long limbs. */
+/* Primal-dual active set: M. Hintermueller, K. Ito, K. Kunisch, The primal-dual active set strategy
+ * as a semismooth Newton method, SIAM J. Optim. 13, 2002. An active inequality glues a child to its
+ * parent, so that each step solves a smaller problem of the same kind (glued.h), and one sweep from
+ * the leaves to the root gives the multipliers. All tests are relative to the function where they
+ * are made: it spans hundreds of orders of magnitude in long limbs. */
 #include "field/constrained.h"
 
 #include "base/clock.h"
@@ -13,13 +13,14 @@
 
 enum {
     MOST_ITERATIONS = 1000,
-    PATIENCE = 3, /* steps without progress before smaller ones are taken */
-    MOST_LEVELS = 60 /* single changes, but for fewer than 2^60 candidates */
+    PATIENCE = 3,    /* steps without progress before smaller ones are taken */
+    MOST_LEVELS = 60 /* single changes, unless there are 2^60 candidates */
 };
 
-/* Slacks in units of f, and multipliers in units of the terms that they come from, are rounding errors
- * up to the first, and within what an iterative solver can do up to the second. */
-static const double NOISE = 1e-13, ACCEPTABLE = 1e-9;
+/* Slacks and multipliers in units of f are rounding errors up to the first: with a factorisation
+ * they were 3e-14 at most (700,000 rows). Up to the second they are within what an iterative solver
+ * can do. */
+static const double NOISE = 3e-13, ACCEPTABLE = 1e-9;
 
 /* Shares are squared, and a tenth of the exponents is left for the entries of the factor. */
 static const double LEAST_SHARE = 1e-120;
@@ -28,19 +29,19 @@ typedef struct state {
     const iccp_rows *rows;
     const iccp_scaled *f;
     double sigma;
-    bool *active;       /* the edge from each row to its parent */
-    bool *wrong;        /* active with a negative multiplier, or violated */
+    bool *active; /* the edge from each row to its parent */
+    bool *wrong;  /* active with a negative multiplier, or violated */
     size_t n_wrong;
-    double worst;       /* the largest multiplier or violation of these */
-    uint32_t *top;      /* gluing by `active` */
+    double worst;  /* the largest multiplier or violation of these */
+    uint32_t *top; /* gluing by `active` */
     double *share;
     uint32_t *order;
-    double *multiplier; /* of active edges, in units of f at the row's top */
-    double *size;       /* of the terms that it comes from */
+    double *multiplier; /* of active edges, in units of 2^exponent of f at the row's top */
+    double *work;       /* 2 n, the multipliers among them: for the residual */
     uint64_t random;
 } state;
 
-/* SplitMix64 (G. Steele, D. Lea, C. Flood, Fast splittable pseudorandom number generators, 2014). */
+/* SplitMix64: G. Steele, D. Lea, C. Flood, Fast splittable pseudorandom number generators, 2014. */
 static uint64_t next_random(state *s)
 {
     uint64_t z = s->random += 0x9e3779b97f4a7c15u;
@@ -64,42 +65,18 @@ static bool glue(state *s)
     return least > LEAST_SHARE;
 }
 
-/* Row k of the Laplacian in units of f at the row's top, and the sum of its terms' sizes. */
-static double gradient(const state *s, size_t k, double *size)
-{
-    const uint32_t *neighbour = s->rows->neighbour + k * (size_t)s->rows->n_neighbours;
-    const uint32_t top = s->top[k];
-    const double own = s->share[k], unit = s->f->fraction[top];
-    double sum = 0;
-    *size = own;
-    for (int32_t d = 0; d < s->rows->n_neighbours; ++d) {
-        const uint32_t j = neighbour[d];
-        double other = 0;
-        if (j != ICCP_NONE)
-            other = s->top[j] == top ? s->share[j]
-                                     : iccp_scaled_get(s->f, j, s->f->exponent[top]) / unit;
-        sum += own - other;
-        *size += other;
-    }
-    return sum;
-}
-
 /* (1 + eta) multiplier_k = sum of those of k's active children - row k of the gradient. */
 static void find_multipliers(state *s)
 {
     const iccp_rows *rows = s->rows;
     for (size_t k = 0; k < rows->n; ++k)
-        s->multiplier[k] = s->size[k] = 0;
+        s->multiplier[k] = 0;
     for (size_t k = rows->n; k-- > 1;) {
         if (!s->active[k])
             continue;
-        const uint32_t p = rows->parent[k];
-        double size;
-        const double row = gradient(s, k, &size);
+        const double row = iccp_laplacian_row(rows, s->f, k, s->f->exponent[s->top[k]]);
         s->multiplier[k] = (s->multiplier[k] - row) / s->sigma;
-        s->size[k] += size;
-        s->multiplier[p] += s->multiplier[k];
-        s->size[p] += s->size[k];
+        s->multiplier[rows->parent[k]] += s->multiplier[k];
     }
 }
 
@@ -110,6 +87,12 @@ static double violation(const state *s, size_t k)
     return s->sigma * iccp_scaled_get(s->f, k, s->f->exponent[p]) / s->f->fraction[p] - 1;
 }
 
+/* By how much a multiplier is negative, in units of f. */
+static double pull(const state *s, size_t k)
+{
+    return -s->multiplier[k] / iccp_scaled_get(s->f, k, s->f->exponent[s->top[k]]);
+}
+
 /* Marks the inequalities that are on the wrong side. */
 static void judge(state *s)
 {
@@ -117,18 +100,18 @@ static void judge(state *s)
     s->n_wrong = 0;
     s->worst = 0;
     for (size_t k = 1; k < s->rows->n; ++k) {
-        const double by = s->active[k] ? -s->multiplier[k] / s->size[k] : violation(s, k);
+        const double by = s->active[k] ? pull(s, k) : violation(s, k);
         s->wrong[k] = by > NOISE;
         s->n_wrong += s->wrong[k];
         s->worst = fmax(s->worst, by);
     }
 }
 
-/* Changes each of the wrong ones with probability 2^-level, and one at least. In the variables
- * f_parent - sigma f_child the problem is a linear complementarity problem with a positive definite
- * matrix. Whatever the state, there is a sequence of single changes to the solution (K. Murty, Note
- * on a Bard-type scheme for solving the complementarity problem, Opsearch 11, 1974), and each of its steps has
- * a positive probability: the steps go round in circles with probability 0. */
+/* Changes each of the wrong ones with probability 2^-level, and the last of them if that was none.
+ * In the variables f_parent - sigma f_child this is a linear complementarity problem with a
+ * positive definite matrix. To change the last alone, to which this comes as the level rises, is
+ * Murty's rule, which reaches the solution from every state: K. Murty, Note on a Bard-type scheme
+ * for solving the complementarity problem, Opsearch 11, 1974. */
 static void flip(state *s, int level)
 {
     const uint64_t mask = ((uint64_t)1 << level) - 1;
@@ -153,8 +136,7 @@ static icc_status iterate(state *s, iccp_glued_solver solve, icc_field_info *inf
     judge(s);
     const size_t first = s->n_wrong;
     for (size_t least = first; s->n_wrong > 0;) {
-        icc_status status =
-            iccp_progress(env, "inequalities", 1 - (double)least / (double)first);
+        icc_status status = iccp_progress(env, "inequalities", 1 - (double)least / (double)first);
         const int level = stalled / PATIENCE;
         flip(s, level < MOST_LEVELS ? level : MOST_LEVELS);
         if (status == ICC_OK && (!glue(s) || info->n_iterations == MOST_ITERATIONS))
@@ -174,12 +156,12 @@ static icc_status iterate(state *s, iccp_glued_solver solve, icc_field_info *inf
 }
 
 /* The values are at most 1, so that what underflows does not matter here. */
-static double residual(const state *s, double *work)
+static double residual(const state *s)
 {
     const iccp_scaled row = {s->share, NULL};
     for (size_t k = 0; k < s->rows->n; ++k)
         s->share[k] = iccp_laplacian_row(s->rows, s->f, k, 0);
-    return iccp_inequalities_residual(s->rows, s->sigma - 1, 0, s->f, &row, work);
+    return iccp_inequalities_residual(s->rows, s->sigma - 1, 0, s->f, &row, s->work);
 }
 
 static void finish(state *s, icc_field_info *info)
@@ -188,9 +170,9 @@ static void finish(state *s, icc_field_info *info)
     info->n_active = 0;
     for (size_t k = 1; k < s->rows->n; ++k)
         info->n_active += s->active[k];
-    info->residual_before = residual(s, s->multiplier);
+    info->residual_before = residual(s);
     iccp_inequalities_sweep(s->rows, s->sigma - 1, s->f);
-    info->residual = residual(s, s->multiplier);
+    info->residual = residual(s);
     info->seconds_verify += iccp_seconds() - start;
 }
 
@@ -214,7 +196,7 @@ icc_status iccp_constrained_laplace(const iccp_rows *rows, double eta, iccp_glue
                    .order = order,
                    .share = numbers,
                    .multiplier = numbers + n,
-                   .size = numbers + 2 * n,
+                   .work = numbers + n,
                    .random = 1};
         info->n_violated = iccp_inequalities_violated(rows, eta, f);
         info->n_iterations = 0;

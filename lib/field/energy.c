@@ -224,6 +224,7 @@ static icc_status factorise(least_squares *s, icc_field_info *info, const iccp_e
     info->seconds_order += iccp_seconds() - start;
     if (status != ICC_OK)
         return status;
+    info->work = fmax(info->work, s->factor.work);
     start = iccp_seconds();
     status = iccp_ldlt_factorise(&s->factor, &s->gram.matrix, env);
     info->seconds_factor += iccp_seconds() - start;

@@ -23,7 +23,8 @@ typedef struct iccp_gluing {
  * iterative one uses and NULL fractions are not allowed; the normalised solution on return, positive
  * everywhere. Adds what it did to `info` (work, n_inner, seconds_*). */
 
-/* By factorisation (math/ldlt): every entry to about 1e-12 of itself, however small. */
+/* By factorisation (math/ldlt): every entry to about 1e-12 of itself, however small. ICC_ERR_SOLVER when some are
+ * not, by their residuals: then f is meaningless. */
 icc_status iccp_glued_direct(const iccp_rows *rows, const iccp_gluing *gluing,
                              const iccp_scaled *f, icc_field_info *info, const iccp_env *env);
 

@@ -1,9 +1,10 @@
 /* The glued problem by factorisation. The clusters of rows, the root's apart, are the unknowns.
  *
- * Diagonal entries of P'LP are sums of squares, by s'Ls = sum of (s_u - s_v)^2 over neighbours u, v: the
- * accuracy of small components hangs on how far the diagonal exceeds the rest of its row, and in
- * the difference of 2 dim |s|^2 and the products within the cluster that would be lost. */
+ * Diagonal entries of P'LP are sums of squares, by s'Ls = sum of (s_u - s_v)^2 over neighbours u,
+ * v: the accuracy of small components hangs on how far the diagonal exceeds the rest of its row,
+ * and in the difference of 2 dim |s|^2 and the products within the cluster that would be lost. */
 #include "base/clock.h"
+#include "field/dissection.h"
 #include "field/glued.h"
 #include "field/inequalities.h"
 #include "math/ldlt.h"
@@ -13,6 +14,9 @@
 
 /* Clusters between looks at the progress callback. */
 enum { CLUSTERS_PER_REPORT = 1 << 16 };
+
+/* Of a component, in its own size: far above the 1e-15 of solutions that are right, far below the 1 of others. */
+static const double MOST_RESIDUAL = 1e-6;
 
 typedef struct assembly {
     const iccp_rows *rows;
@@ -150,61 +154,79 @@ static void expand(const assembly *a, const iccp_scaled *x, const iccp_scaled *f
     }
 }
 
-/* -P'L f, cluster by cluster. Differences of neighbours are exact, those of the terms of P'LP x would not
- * be. */
-static void find_residual(const assembly *a, const iccp_scaled *x, const iccp_scaled *f,
-                          const iccp_scaled *residual)
+/* -P'L f, cluster by cluster. Differences of neighbours are exact, those of the terms of P'LP x
+ * would not be. */
+static icc_status find_residual(const assembly *a, const iccp_scaled *x, const iccp_scaled *f,
+                                const iccp_scaled *residual, const iccp_env *env)
 {
-    for (size_t u = 0; u < a->n; ++u) {
+    icc_status status = iccp_progress(env, "check", 0);
+    for (size_t u = 0; u < a->n && status == ICC_OK; ++u) {
         double sum = 0;
+        if ((u + 1) % CLUSTERS_PER_REPORT == 0)
+            status = iccp_progress(env, "check", (double)u / (double)a->n);
         for (uint32_t k = a->last[u]; k != ICCP_NONE; k = a->previous[k])
             sum -= a->gluing->share[k] * iccp_laplacian_row(a->rows, f, k, x->exponent[u]);
         iccp_scaled_set(residual, u, sum, x->exponent[u]);
     }
+    return status;
 }
 
-/* The solution is improved once. Its components are right as they are, but multipliers are sums over many
- * rows of the residual, and gain two digits. */
+/* Whether every component is about what it should be, by its residual. Entries of the factor that underflow,
+ * which the bands of field/dissection.c are to prevent, spoil whole stretches. */
+static bool is_accurate(const assembly *a, const iccp_scaled *x, const iccp_scaled *residual)
+{
+    for (size_t u = 0; u < a->n; ++u) {
+        const double r = fabs(iccp_scaled_get(residual, u, x->exponent[u]));
+        if (!(r <= MOST_RESIDUAL * a->diagonal[u] * x->fraction[u]))
+            return false;
+    }
+    return true;
+}
+
+/* x = A^-1 b, and once more for what is left. Components are right as they are, but multipliers are
+ * sums over many rows of the residual, and gain two digits. */
+static icc_status solve_twice(const assembly *a, const iccp_ldlt *factor, const iccp_scaled *x,
+                              const iccp_scaled *d, const iccp_scaled *work, const iccp_scaled *f,
+                              const iccp_env *env)
+{
+    for (size_t u = 0; u < a->n; ++u)
+        iccp_scaled_set(x, u, a->known[u], 0);
+    icc_status status = iccp_ldlt_solve_scaled(factor, x, work, env);
+    if (status != ICC_OK)
+        return status;
+    expand(a, x, f);
+    status = find_residual(a, x, f, d, env);
+    if (status == ICC_OK && !is_accurate(a, x, d))
+        status = ICC_ERR_SOLVER;
+    if (status == ICC_OK)
+        status = iccp_ldlt_solve_scaled(factor, d, work, env);
+    if (status != ICC_OK)
+        return status;
+    for (size_t u = 0; u < a->n; ++u)
+        iccp_scaled_set(x, u, x->fraction[u] + iccp_scaled_get(d, u, x->exponent[u]), x->exponent[u]);
+    expand(a, x, f);
+    return ICC_OK;
+}
+
 static icc_status solve(const assembly *a, const iccp_ldlt *factor, const iccp_scaled *f,
                         const iccp_env *env)
 {
     const size_t n = a->n;
     double *fraction = iccp_alloc(&env->memory, 3 * n, sizeof *fraction);
     int32_t *exponent = iccp_alloc(&env->memory, 3 * n, sizeof *exponent);
-    const bool room = fraction != NULL && exponent != NULL;
-    if (room) {
+    icc_status status = ICC_ERR_MEMORY;
+    if (fraction != NULL && exponent != NULL) {
         const iccp_scaled x = {fraction, exponent}, d = {fraction + n, exponent + n};
         const iccp_scaled work = {fraction + 2 * n, exponent + 2 * n};
-        for (size_t u = 0; u < n; ++u)
-            iccp_scaled_set(&x, u, a->known[u], 0);
-        iccp_ldlt_solve_scaled(factor, &x, &work);
-        expand(a, &x, f);
-        find_residual(a, &x, f, &d);
-        iccp_ldlt_solve_scaled(factor, &d, &work);
-        for (size_t u = 0; u < n; ++u)
-            iccp_scaled_set(&x, u, x.fraction[u] + iccp_scaled_get(&d, u, x.exponent[u]),
-                            x.exponent[u]);
-        expand(a, &x, f);
+        status = solve_twice(a, factor, &x, &d, &work, f, env);
     }
     iccp_free(&env->memory, fraction);
     iccp_free(&env->memory, exponent);
-    return room ? ICC_OK : ICC_ERR_MEMORY;
+    return status;
 }
 
-/* Keeps the order of elimination, as one of all rows. */
-static void keep_order(const assembly *a, const iccp_ldlt *factor, uint32_t *order)
-{
-    for (size_t i = 0; i < a->n; ++i)
-        for (uint32_t k = a->last[factor->order[i]]; k != ICCP_NONE; k = a->previous[k])
-            *order++ = k;
-    for (uint32_t k = 0; k < a->rows->n; ++k)
-        if (a->unknown[k] == ICCP_NONE)
-            *order++ = k;
-}
-
-/* Eliminates each cluster when its last row was eliminated before. Of rows that were single then, this
- * makes no new fill: a path through clusters that come earlier is one through rows that came
- * earlier, as the rows of a cluster hang together. */
+/* Eliminates each cluster when its last row would be. This makes no new fill: a path through clusters that
+ * come earlier is one through rows that come earlier, as the rows of a cluster hang together. */
 static void contract_order(const assembly *a, const uint32_t *kept, uint32_t *order)
 {
     size_t end = a->n;
@@ -221,18 +243,17 @@ static icc_status analyse(const assembly *a, iccp_ldlt *factor, const iccp_symme
                           const iccp_env *env)
 {
     uint32_t *kept = a->gluing->order;
-    if (kept == NULL || kept[0] == ICCP_NONE) {
-        const icc_status status = iccp_ldlt_analyse(factor, matrix, 1, env);
-        if (status == ICC_OK && kept != NULL)
-            keep_order(a, factor, kept);
-        return status;
-    }
     uint32_t *order = iccp_alloc(&env->memory, a->n, sizeof *order);
-    if (order == NULL)
-        return ICC_ERR_MEMORY;
-    contract_order(a, kept, order);
-    const icc_status status = iccp_ldlt_analyse_ordered(factor, matrix, order, env);
+    uint32_t *rows = iccp_alloc(&env->memory, kept == NULL ? a->rows->n : 0, sizeof *rows);
+    icc_status status = order != NULL && rows != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    if (status == ICC_OK && (kept == NULL || kept[0] == ICCP_NONE))
+        status = iccp_dissection(a->rows, kept == NULL ? rows : kept, env);
+    if (status == ICC_OK) {
+        contract_order(a, kept == NULL ? rows : kept, order);
+        status = iccp_ldlt_analyse_ordered(factor, matrix, order, env);
+    }
     iccp_free(&env->memory, order);
+    iccp_free(&env->memory, rows);
     return status;
 }
 
@@ -244,8 +265,8 @@ static double lap(double *clock)
     return *clock - before;
 }
 
-icc_status iccp_glued_direct(const iccp_rows *rows, const iccp_gluing *gluing,
-                             const iccp_scaled *f, icc_field_info *info, const iccp_env *env)
+icc_status iccp_glued_direct(const iccp_rows *rows, const iccp_gluing *gluing, const iccp_scaled *f,
+                             icc_field_info *info, const iccp_env *env)
 {
     assembly a = {.rows = rows, .gluing = gluing};
     iccp_ldlt factor = {.memory = env->memory};

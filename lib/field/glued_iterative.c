@@ -75,6 +75,23 @@ static void add_cluster(shells *s, uint32_t top)
     }
 }
 
+static icc_status report(const shells *s, size_t i)
+{
+    return i % ICCP_VERTICES_PER_REPORT == 0 ? iccp_progress(s->env, "multigrid", 0) : ICC_OK;
+}
+
+/* The first shell. */
+static icc_status add_all(shells *s)
+{
+    icc_status status = ICC_OK;
+    for (uint32_t k = 0; k < s->rows->n && status == ICC_OK; ++k) {
+        if (s->gluing->top[k] == k)
+            add_cluster(s, k);
+        status = report(s, k);
+    }
+    return status;
+}
+
 static const uint32_t *neighbours(const shells *s, uint32_t row)
 {
     return s->rows->neighbour + row * (size_t)s->rows->n_neighbours;
@@ -114,11 +131,6 @@ static void find_exponent(const shells *s, shell *h)
             if (j != ICCP_NONE && s->state[j] == KNOWN && s->f->exponent[j] > h->exponent)
                 h->exponent = s->f->exponent[j];
         }
-}
-
-static icc_status report(const shells *s, size_t i)
-{
-    return i % ICCP_VERTICES_PER_REPORT == 0 ? iccp_progress(s->env, "multigrid", 0) : ICC_OK;
 }
 
 /* r = P' of what the known values contribute. In the first shell nothing is known; there it is a unit load
@@ -164,12 +176,10 @@ static icc_status place(const shells *s, shell *h)
     return status;
 }
 
-/* Scales the guess so that its energy is least, and makes r its residual; the size of the load. */
+/* Scales the guess, of which q is P'LP x, so that its energy is least, and makes r its residual; the size of the load. */
 static double begin_with_guess(shell *h)
 {
-    const iccp_mg_level *level = &h->mg.level[0];
-    const size_t n = level->n_entries;
-    iccp_glued_apply(level, h->n_glued, h->glue, h->x, h->q);
+    const size_t n = h->mg.level[0].n_entries;
     for (size_t i = 0; i < h->n_glued; ++i)
         h->x[h->glue[i].member] = 0;
     const double size = sqrt(iccp_mg_dot(n, h->r, h->r)), xb = iccp_mg_dot(n, h->x, h->r);
@@ -184,9 +194,16 @@ static double begin_with_guess(shell *h)
 
 static icc_status solve(shells *s, shell *h)
 {
+    iccp_glued_apply(&h->mg.level[0], h->n_glued, h->glue, h->x, h->q);
+    icc_status status = report(s, 0);
+    if (status != ICC_OK)
+        return status;
     const double size = begin_with_guess(h);
     iccp_free(&s->env->memory, h->q);
     h->q = NULL;
+    status = report(s, 0);
+    if (status != ICC_OK)
+        return status;
     return h->n_glued > 0 ? iccp_glued_cg(&h->mg, h->n_glued, h->glue, h->x, h->r, size, &GOAL,
                                           &s->info->n_inner, s->env)
                           : iccp_mg_cg(&h->mg, h->x, h->r, size, &GOAL, &s->info->n_inner, s->env);
@@ -278,7 +295,7 @@ static void share_top(const shells *s, uint32_t row)
 }
 
 /* Takes over the rows whose tops exceed the limit. */
-static icc_status accept_rows(shells *s, const shell *h, double limit, double unit)
+static icc_status accept_rows(shells *s, const shell *h, double limit, double one)
 {
     icc_status status = ICC_OK;
     bool accepted = false;
@@ -292,7 +309,7 @@ static icc_status accept_rows(shells *s, const shell *h, double limit, double un
             continue;
         s->state[row] = KNOWN;
         if (s->gluing->top[row] == row)
-            iccp_scaled_set(s->f, row, unit * x, h->exponent);
+            iccp_scaled_set(s->f, row, x / one, h->exponent);
         else
             share_top(s, row);
     }
@@ -311,7 +328,7 @@ static bool is_kept(const shells *s, const shell *h, size_t i, size_t end, doubl
 }
 
 /* Puts together what the shell goes on with; its values are the guess for the next one. */
-static void keep_rows(shells *s, const shell *h, double negligible, double unit)
+static void keep_rows(shells *s, const shell *h, double negligible, double one)
 {
     size_t n = 0;
     for (size_t i = 0, end = 0; i < s->n; i = end) {
@@ -322,7 +339,7 @@ static void keep_rows(shells *s, const shell *h, double negligible, double unit)
         for (; i < end; ++i) {
             const uint32_t row = s->row[i];
             if (guessed)
-                iccp_scaled_set(s->f, row, unit * h->x[h->vertex[i]], h->exponent);
+                iccp_scaled_set(s->f, row, h->x[h->vertex[i]] / one, h->exponent);
             if (kept)
                 s->row[n++] = row;
             else if (s->state[row] == IN_SHELL)
@@ -351,13 +368,15 @@ static icc_status advance(shells *s, shell *h)
 {
     const extent e = measure(s, h);
     const double limit = fmax(CUT * e.peak, TRUNCATION * e.rim);
-    const double unit = s->first ? 1 / h->x[h->vertex[0]] : 1;
-    if (!(e.peak > 0 && unit > 0 && isfinite(unit)))
+    const double one = s->first ? h->x[h->vertex[0]] : 1;
+    if (!(e.peak > 0 && one > 0 && isfinite(one)))
         return ICC_ERR_SOLVER;
-    const icc_status status = accept_rows(s, h, limit, unit);
+    icc_status status = report(s, 0);
+    if (status == ICC_OK)
+        status = accept_rows(s, h, limit, one);
     if (status != ICC_OK)
         return status;
-    keep_rows(s, h, NEGLIGIBLE * e.peak, unit);
+    keep_rows(s, h, NEGLIGIBLE * e.peak, one);
     adapt_growth(s, &e);
     s->first = false;
     grow(s);
@@ -386,10 +405,7 @@ icc_status iccp_glued_iterative(const iccp_rows *rows, const iccp_gluing *gluing
     icc_status status = ICC_ERR_MEMORY;
     if (s.order != NULL && s.cluster != NULL && s.state != NULL && s.row != NULL) {
         sort_rows(&s);
-        for (uint32_t k = 0; k < rows->n; ++k)
-            if (gluing->top[k] == k)
-                add_cluster(&s, k);
-        status = ICC_OK;
+        status = add_all(&s);
     }
     while (status == ICC_OK && s.n > 0) {
         status = iccp_progress(env, "multigrid", 1 - (double)(s.n + s.n_left) / (double)rows->n);

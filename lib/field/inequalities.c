@@ -1,3 +1,5 @@
+/* Optimality under inequalities along a tree: each row but the root has one multiplier, that of the
+ * edge to its parent, so that stationarity is a triangular system. */
 #include "field/inequalities.h"
 
 #include <assert.h>
@@ -52,9 +54,9 @@ double iccp_laplacian_row(const iccp_rows *rows, const iccp_scaled *f, size_t k,
 }
 
 /* A leaf's bound and its edge pull at the same value: with both tight, the edge's multiplier may be
- * raised at will, the bound's with it, and so on up the tree as long as edges are tight. `lift` is the
- * least price of that below a row: the largest slack on the way, by which a residual is bounded where the
- * multipliers are positive. */
+ * raised at will, the bound's with it, and so on up the tree as long as edges are tight. `lift` is
+ * the least price of that below a row: the largest slack on the way, by which a residual is bounded
+ * where the multipliers are positive. */
 double iccp_inequalities_residual(const iccp_rows *rows, double eta, double leaf,
                                   const iccp_scaled *f, const iccp_scaled *gradient, double *work)
 {

@@ -16,8 +16,11 @@ enum {
     MAX_ITERATIONS = 200,
     MAX_CORRECTIONS = 8,
     MAX_SOFTENINGS = 4,
-    PATIENCE = 6 /* iterations that reduce the products by less than a tenth */
+    PATIENCE = 6 /* iterations that reduce the products by less than a tenth, and residuals by hardly more */
 };
+
+/* Share of the first residuals: the products do not fall before. */
+static const double NEARLY_FEASIBLE = 1e-6;
 
 /* Weights are at most its inverse, which A'A, with entries up to 4 dim (dim + 1/2), can stand beside. Between
  * 1e-8 and 1e-5 the iterations are the same. */
@@ -28,6 +31,9 @@ static const double SHORTEN = 0.995;
 
 /* Least slacks and multipliers to start from; a power of ten more or less costs 2 iterations. */
 static const double LEAST_SLACK = 0.01, LEAST_MULTIPLIER = 0.001;
+
+/* A step that gets less far is taken towards the middle of the way instead. */
+static const double SHORT_STEP = 0.01;
 
 /* Error of a step, relative to the slacks. */
 static const double PREDICTOR_ERROR = 0.5, CORRECTOR_ERROR = 0.1;
@@ -151,8 +157,9 @@ static double step_length(const iccp_interior *p)
 }
 
 /* Predictor: straight to products of 0. Corrector: to equal products, the smaller the further the predictor
- * got, with the predictor's second order terms. */
-static void find_step(iccp_interior *p)
+ * got, with the predictor's second order terms. Where that leads into a wall, to
+ * equal products alone. Returns the share of the residuals that a whole step makes up for. */
+static double find_step(iccp_interior *p)
 {
     const double mean = mean_product(p);
     for (size_t i = 0; i < n_pairs(p); ++i)
@@ -167,6 +174,15 @@ static void find_step(iccp_interior *p)
     for (size_t i = 0; i < n_pairs(p); ++i)
         p->product[i] += p->step_slack[i] * p->step_multiplier[i] - pow(after, 3) * mean;
     solve(p, CORRECTOR_ERROR);
+    if (step_length(p) >= SHORT_STEP)
+        return 1;
+    for (size_t i = 0; i < n_pairs(p); ++i) {
+        p->product[i] = p->slack[i] * p->multiplier[i] - mean;
+        p->primal[i] = 0;
+    }
+    memset(p->dual, 0, n_rows(p) * sizeof *p->dual);
+    solve(p, CORRECTOR_ERROR);
+    return 0;
 }
 
 static void take_step(iccp_interior *p, double length)
@@ -187,12 +203,13 @@ static icc_status iterate(iccp_interior *p, icc_field_info *info, const iccp_env
     if (status != ICC_OK)
         return status;
     const double start = iccp_seconds();
-    find_step(p);
+    const double made_up = find_step(p);
     const double length = SHORTEN * step_length(p);
     info->seconds_solve += iccp_seconds() - start;
     if (!(length > 1e-6))
         return ICC_ERR_SOLVER;
     take_step(p, length);
+    p->remaining *= 1 - made_up * length;
     ++p->n_iterations;
     return ICC_OK;
 }
@@ -204,6 +221,7 @@ icc_status iccp_interior_run(iccp_interior *interior, double target, bool *stuck
     double mean = mean_product(interior);
     *stuck = false;
     while (mean > target && !*stuck) {
+        const double remaining = interior->remaining;
         icc_status status = iccp_progress(env, "interior point", fmin(1, target / mean));
         if (status == ICC_OK)
             status = iterate(interior, info, env);
@@ -211,7 +229,8 @@ icc_status iccp_interior_run(iccp_interior *interior, double target, bool *stuck
             return status;
         const double last = mean;
         mean = mean_product(interior);
-        patience = mean < 0.9 * last ? PATIENCE : patience - 1;
+        const bool gets_feasible = interior->remaining > NEARLY_FEASIBLE && interior->remaining < 0.98 * remaining;
+        patience = mean < 0.9 * last || gets_feasible ? PATIENCE : patience - 1;
         *stuck = status != ICC_OK || patience == 0 || interior->n_iterations >= MAX_ITERATIONS;
     }
     return ICC_OK;
@@ -314,7 +333,7 @@ icc_status iccp_interior_create(iccp_interior *interior, const iccp_program *pro
                                 icc_field_info *info, const iccp_env *env)
 {
     iccp_interior *p = interior;
-    *p = (iccp_interior){.memory = env->memory, .program = program, .softness = SOFTNESS};
+    *p = (iccp_interior){.memory = env->memory, .program = program, .softness = SOFTNESS, .remaining = 1};
     p->b.memory = p->gram.memory = p->factor.memory = env->memory;
     double clock = iccp_seconds();
     icc_status status = allocate(p, env);

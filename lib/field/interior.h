@@ -11,6 +11,7 @@ typedef struct iccp_interior {
     double *f;                   /* per row; f_0 = 1 */
     double *slack, *multiplier;  /* per inequality; positive */
     size_t n_iterations;
+    double remaining;            /* share of the first iterate's residuals: each step takes its length off */
     double softness;             /* see interior.c */
     iccp_sparse b;               /* A above G, without the root's column */
     iccp_gram gram;

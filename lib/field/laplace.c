@@ -89,9 +89,23 @@ static void end(job *j, const iccp_env *env)
     iccp_free(&env->memory, j->order);
 }
 
+/* By factorisation where that works, else by iteration; `info` tells. */
+static icc_status solve_directly(const iccp_rows *rows, const iccp_gluing *gluing,
+                                 const iccp_scaled *f, icc_field_info *info, const iccp_env *env)
+{
+    const icc_status status = iccp_glued_direct(rows, gluing, f, info, env);
+    if (status != ICC_ERR_SOLVER)
+        return status;
+    iccp_log(env, "the factorisation loses values far from the maximum: iterating instead");
+    info->solver = ICC_SOLVER_ITERATIVE;
+    for (size_t k = 0; k < rows->n; ++k)
+        iccp_scaled_set(f, k, 1, 0);
+    return iccp_glued_iterative(rows, gluing, f, info, env);
+}
+
 static iccp_glued_solver glued_solver(const job *j)
 {
-    return j->field->info.solver == ICC_SOLVER_DIRECT ? iccp_glued_direct : iccp_glued_iterative;
+    return j->field->info.solver == ICC_SOLVER_DIRECT ? solve_directly : iccp_glued_iterative;
 }
 
 static icc_status solve_laplace(job *j, const iccp_env *env)

@@ -1,7 +1,7 @@
 /* W. Hackbusch, Multi-Grid Methods and Applications, 1985, chapter 3: red-black smoothing, linear
- * interpolation and its transpose. A V-cycle that starts from 0 needs no x on the way down: red is b / diagonal, black follows
- * from it, and then only red has a residual. On the way up red is b / diagonal and the coarse
- * correction, black and red follow from that.
+ * interpolation and its transpose. A V-cycle that starts from 0 needs no x on the way down: red is
+ * b / diagonal, black follows from it, and then only red has a residual. On the way up red is b / diagonal
+ * and the coarse correction, black and red follow from that.
  *
  * Loops run over pieces of halves of rows: contiguous, without a branch, vectorised. */
 #include "field/mg_sweep.h"

@@ -15,9 +15,9 @@ typedef struct iccp_multigrid {
     iccp_mg_scratch scratch;
 } iccp_multigrid;
 
-/* For n >= 1 vertices of a list, each at most once. 8 bytes a vertex and the same on the coarser levels
- * (a half of that in 2-D, a fifth in 3-D), one more while it is being made, 40 bytes for each row of the bounding
- * box; vertices outside take part where the shape is narrower than its rows are long. */
+/* For n >= 1 vertices of a list, each at most once. Some 12 bytes a vertex of a large box, one more while it
+ * is being made, and 40 for each row of the bounding box; vertices outside count where they are stored
+ * (mg_level.h). */
 icc_status iccp_multigrid_create(iccp_multigrid *mg, const icc_grid *grid, size_t n,
                                  const uint32_t *vertex, const iccp_env *env);
 void iccp_multigrid_free(iccp_multigrid *mg);

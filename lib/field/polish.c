@@ -1,6 +1,8 @@
 /* Primal-dual active set: M. Hintermueller, K. Ito, K. Kunisch, The primal-dual active set strategy as a
- * semismooth Newton method, SIAM J. Optim. 13, 2002. A'A is no M-matrix and the iteration does not
- * converge from everywhere; from the last iterates of an interior point method it takes a few steps.
+ * semismooth Newton method, SIAM J. Optim. 13, 2002. A'A is no M-matrix, and nothing says that the
+ * iteration converges: it does so nearly always from the empty set, at one generation or so a step
+ * where f gets as small as the bounds, and within a few steps from the last iterates of an interior
+ * point method.
  *
  * Active edges glue children to parents. A cluster in which leaves are active is held: its values are the
  * highest that one of these leaves asks for. The others are then above their bounds, as a rule by no more
@@ -14,16 +16,21 @@
 #include <string.h>
 
 enum {
-    PATIENCE = 6, /* corrections without an improvement */
-    MAX_CORRECTIONS = 60
+    PATIENCE = 20, /* corrections with neither a smaller residual nor fewer changes */
+    TRUST = 3,    /* of these are made in full */
+    MAX_CORRECTIONS = 1000
 };
+
+/* Slacks and multipliers are wrong below minus this part of `enough`. With all of it, a contact moves by one
+ * row a step where the function is tiny; with a hundredth, rounding errors get active. */
+static const double WRONG = 0.1;
 
 enum { LIFTED = 1, RISES = 2, STAYS = 4 };
 
 typedef struct state {
     const iccp_program *program;
     size_t n;
-    double enough;     /* slacks and multipliers above its negative are not wrong */
+    double enough, tolerance;
     uint8_t *active;   /* per inequality */
     uint8_t *open;     /* per row: an active leaf is reached from here by active edges, downwards */
     uint8_t *mark;     /* LIFTED: such a leaf bears what would be a negative multiplier of the row's edge;
@@ -36,7 +43,21 @@ typedef struct state {
     double *sum;       /* of the multipliers of the children's edges */
     double *work;
     double *room;      /* what the arrays of doubles lie in */
+    bool hesitant;     /* only every other change is made, by chance */
+    uint64_t random;
 } state;
+
+/* Whether to make a change. Making all of them may lead round in circles. SplitMix64 (G. Steele, D. Lea,
+ * C. Flood, Fast splittable pseudorandom number generators, 2014). */
+static bool decide(state *s)
+{
+    if (!s->hesitant)
+        return true;
+    uint64_t z = s->random += 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return (z ^ (z >> 31)) >> 63;
+}
 
 static uint8_t *leaf_active(const state *s, size_t j)
 {
@@ -112,8 +133,8 @@ static size_t correct_leaves(state *s)
     for (size_t j = 0; j < p->n_leaves; ++j) {
         const uint32_t k = p->leaf_row[j];
         s->open[k] = *leaf_active(s, j);
-        if (!*leaf_active(s, j) && s->f[k] < p->leaf - s->enough) {
-            *leaf_active(s, j) = 1;
+        if (!*leaf_active(s, j) && s->f[k] < p->leaf - s->tolerance) {
+            *leaf_active(s, j) = decide(s);
             ++n_wrong;
         }
     }
@@ -135,10 +156,11 @@ static size_t correct_edges(state *s)
         double multiplier = (s->sum[k] - s->gradient[k]) / p->sigma;
         uint8_t *active = &s->active[k - 1];
         if (!*active) {
-            const bool rises = s->open[k] && multiplier > s->enough;
-            s->mark[k] |= rises ? RISES : 0;
-            *active = s->f[q] - p->sigma * s->f[k] < -s->enough;
-            n_wrong += rises + (size_t)*active;
+            const bool rises = s->open[k] && multiplier > s->tolerance;
+            const bool violated = s->f[q] - p->sigma * s->f[k] < -s->tolerance;
+            s->mark[k] |= rises && decide(s) ? RISES : 0;
+            *active = violated && decide(s);
+            n_wrong += (size_t)rises + violated;
             continue;
         }
         if (s->open[k] && multiplier < 0) {
@@ -147,8 +169,8 @@ static size_t correct_edges(state *s)
         }
         s->open[q] |= s->open[k];
         s->sum[q] += multiplier;
-        if (multiplier < -s->enough) {
-            *active = 0;
+        if (multiplier < -s->tolerance) {
+            *active = !decide(s);
             ++n_wrong;
         }
     }
@@ -181,6 +203,7 @@ static icc_status iterate(state *s, iccp_candidate *candidate, icc_field_info *i
                           const iccp_env *env)
 {
     int patience = PATIENCE;
+    size_t fewest = SIZE_MAX;
     for (int k = 0; k < MAX_CORRECTIONS && patience > 0; ++k) {
         double residual;
         const icc_status status = solve(s, &residual, info, env);
@@ -195,11 +218,15 @@ static icc_status iterate(state *s, iccp_candidate *candidate, icc_field_info *i
             candidate->residual = residual;
             patience = PATIENCE;
         }
-        const size_t n_wrong_leaves = correct_leaves(s);
-        const size_t n_wrong_edges = correct_edges(s);
+        s->hesitant = patience <= PATIENCE - TRUST;
+        const size_t n_wrong = correct_leaves(s) + correct_edges(s);
         let_rise(s);
-        if (residual <= s->enough || n_wrong_leaves + n_wrong_edges == 0)
+        if (residual <= s->enough || n_wrong == 0)
             break;
+        if (n_wrong < fewest) {
+            fewest = n_wrong;
+            patience = PATIENCE;
+        }
     }
     return ICC_OK;
 }
@@ -208,7 +235,9 @@ icc_status iccp_polish(const iccp_program *program, uint8_t *active, double enou
                        iccp_candidate *candidate, icc_field_info *info, const iccp_env *env)
 {
     const size_t n = program->rows->n, n_work = program->a.n_rows + n; /* at least 2 n */
-    state s = {.program = program, .n = n, .enough = enough, .active = active};
+    state s = {.program = program, .n = n, .active = active};
+    s.enough = enough;
+    s.tolerance = WRONG * enough;
     s.top = iccp_alloc(&env->memory, n, 2 * sizeof *s.top);
     s.open = iccp_alloc(&env->memory, n, 2 * sizeof *s.open);
     s.room = iccp_alloc(&env->memory, 5 * n + n_work, sizeof *s.room);

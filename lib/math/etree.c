@@ -8,6 +8,16 @@
 
 #define NONE ICCP_NO_PARENT
 
+/* Columns between two looks at the progress callback. */
+enum { COLUMNS_PER_REPORT = 1 << 16 };
+
+icc_status iccp_etree_progress(const iccp_etree *tree, int pass, size_t k, const iccp_env *env)
+{
+    if (k % COLUMNS_PER_REPORT != 0)
+        return ICC_OK;
+    return iccp_progress(env, "analyse", (pass + (double)k / (double)tree->matrix->n) / ICCP_N_PASSES);
+}
+
 static void number(const iccp_etree *t)
 {
     for (uint32_t k = 0; k < t->matrix->n; ++k)
@@ -15,11 +25,13 @@ static void number(const iccp_etree *t)
 }
 
 /* Paths to the root of what is built so far are shortened on the way. */
-static void find_parents(const iccp_etree *t, uint32_t *ancestor)
+static icc_status find_parents(const iccp_etree *t, uint32_t *ancestor, const iccp_env *env)
 {
     const iccp_symmetric *m = t->matrix;
-    for (uint32_t k = 0; k < m->n; ++k) {
+    icc_status status = ICC_OK;
+    for (uint32_t k = 0; k < m->n && status == ICC_OK; ++k) {
         const uint32_t row = t->order[k];
+        status = iccp_etree_progress(t, ICCP_PASS_TREE, k, env);
         t->parent[k] = ancestor[k] = NONE;
         for (size_t p = m->first[row]; p < m->first[row + 1]; ++p)
             for (uint32_t i = t->position[m->column[p]], next; i < k; i = next) {
@@ -29,6 +41,7 @@ static void find_parents(const iccp_etree *t, uint32_t *ancestor)
                     t->parent[i] = k;
             }
     }
+    return status;
 }
 
 /* place[v]: when a postorder visits column v. Children come in their old order. */
@@ -78,11 +91,13 @@ icc_status iccp_etree_build(const iccp_etree *tree, const iccp_env *env)
     if (work == NULL)
         return ICC_ERR_MEMORY;
     number(tree);
-    find_parents(tree, work);
-    postorder(n, tree->parent, work, work + n, work + 2 * n, work + 3 * n);
-    renumber(tree, work, work + n);
+    const icc_status status = find_parents(tree, work, env);
+    if (status == ICC_OK) {
+        postorder(n, tree->parent, work, work + n, work + 2 * n, work + 3 * n);
+        renumber(tree, work, work + n);
+    }
     iccp_free(&env->memory, work);
-    return ICC_OK;
+    return status;
 }
 
 /* What a column's rows are found with. In a postorder the descendants of column j are the columns
@@ -121,9 +136,11 @@ static void count_leaf(const counting *c, uint32_t *delta, uint32_t i, uint32_t 
 
 /* Differences between a column's count and the sum of its children's; as unsigned numbers they may
  * wrap round, the sums do not. */
-static void count_differences(const iccp_etree *t, const counting *c, uint32_t *delta)
+static icc_status count_differences(const iccp_etree *t, const counting *c, uint32_t *delta,
+                                    const iccp_env *env)
 {
     const iccp_symmetric *m = t->matrix;
+    icc_status status = ICC_OK;
     for (uint32_t j = 0; j < m->n; ++j) {
         c->first[j] = c->ancestor[j] = j;
         c->leaf[j] = NONE;
@@ -135,8 +152,9 @@ static void count_differences(const iccp_etree *t, const counting *c, uint32_t *
         if (t->parent[j] != NONE && c->first[t->parent[j]] > c->first[j])
             c->first[t->parent[j]] = c->first[j];
     }
-    for (uint32_t j = 0; j < m->n; ++j) {
+    for (uint32_t j = 0; j < m->n && status == ICC_OK; ++j) {
         const uint32_t row = t->order[j];
+        status = iccp_etree_progress(t, ICCP_PASS_COUNT, j, env);
         if (t->parent[j] != NONE)
             --delta[t->parent[j]];
         for (size_t p = m->first[row]; p < m->first[row + 1]; ++p)
@@ -145,6 +163,7 @@ static void count_differences(const iccp_etree *t, const counting *c, uint32_t *
         if (t->parent[j] != NONE)
             c->ancestor[j] = t->parent[j];
     }
+    return status;
 }
 
 icc_status iccp_etree_count(const iccp_etree *tree, uint32_t *count, const iccp_env *env)
@@ -154,10 +173,10 @@ icc_status iccp_etree_count(const iccp_etree *tree, uint32_t *count, const iccp_
     if (work == NULL)
         return ICC_ERR_MEMORY;
     const counting c = {work, work + n, work + 2 * n, work + 3 * n};
-    count_differences(tree, &c, count);
-    for (size_t j = 0; j < n; ++j)
+    const icc_status status = count_differences(tree, &c, count, env);
+    for (size_t j = 0; j < n && status == ICC_OK; ++j)
         if (tree->parent[j] != NONE)
             count[tree->parent[j]] += count[j];
     iccp_free(&env->memory, work);
-    return ICC_OK;
+    return status;
 }

@@ -8,6 +8,9 @@
 
 enum { UNIT = 512, MAX_STEPS = 4 };
 
+/* Entries of the factor between two looks at the progress callback: some 10 ms. */
+enum { ENTRIES_PER_REPORT = 1 << 22 };
+
 #define UNIT_UP 0x1p512
 #define UNIT_DOWN 0x1p-512
 #define HIGH 0x1p256
@@ -168,17 +171,33 @@ static void backward(const iccp_scaled *work, const iccp_panel *p, uint32_t firs
     }
 }
 
-void iccp_ldlt_solve_scaled(const iccp_ldlt *factor, const iccp_scaled *b, const iccp_scaled *work)
+/* Reports progress when the next entries begin with supernode s. */
+static icc_status report(const iccp_supernodes *nodes, size_t s, bool is_back, const iccp_env *env)
+{
+    const size_t begin = nodes->first_value[s], end = nodes->first_value[s + 1];
+    if (begin / ENTRIES_PER_REPORT == end / ENTRIES_PER_REPORT && s > 0)
+        return ICC_OK;
+    const double share = (double)begin / (double)nodes->first_value[nodes->n];
+    return iccp_progress(env, "solve", 0.5 * (is_back ? 2 - share : share));
+}
+
+icc_status iccp_ldlt_solve_scaled(const iccp_ldlt *factor, const iccp_scaled *b, const iccp_scaled *work,
+                                  const iccp_env *env)
 {
     const iccp_supernodes *nodes = &factor->nodes;
+    icc_status status = ICC_OK;
     gather(factor, b, work);
-    for (size_t s = 0; s < nodes->n; ++s) {
+    for (size_t s = 0; s < nodes->n && status == ICC_OK; ++s) {
         const iccp_panel panel = iccp_panel_of(nodes, s, factor->value, factor->pivot);
+        status = report(nodes, s, false, env);
         forward(work, &panel, nodes->column[s], nodes->row + nodes->first_row[s]);
     }
-    for (size_t s = nodes->n; s-- > 0;) {
+    for (size_t s = nodes->n; s-- > 0 && status == ICC_OK;) {
         const iccp_panel panel = iccp_panel_of(nodes, s, factor->value, factor->pivot);
+        status = report(nodes, s, true, env);
         backward(work, &panel, nodes->column[s], nodes->row + nodes->first_row[s]);
     }
-    scatter(factor, b, work);
+    if (status == ICC_OK)
+        scatter(factor, b, work);
+    return status;
 }

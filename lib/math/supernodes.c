@@ -74,15 +74,18 @@ static void measure(iccp_supernodes *nodes, const iccp_etree *t, const uint32_t 
 }
 
 /* Row i reaches the supernodes of its entries and those above them in the tree, up to its own. */
-static void list_rows(iccp_supernodes *nodes, const iccp_etree *t, uint32_t *mark, size_t *end)
+static icc_status list_rows(iccp_supernodes *nodes, const iccp_etree *t, uint32_t *mark, size_t *end,
+                            const iccp_env *env)
 {
     const iccp_symmetric *m = t->matrix;
+    icc_status status = ICC_OK;
     for (size_t s = 0; s < nodes->n; ++s) {
         mark[s] = NONE;
         end[s] = nodes->first_row[s];
     }
-    for (uint32_t i = 0; i < m->n; ++i) {
+    for (uint32_t i = 0; i < m->n && status == ICC_OK; ++i) {
         const uint32_t row = t->order[i], own = nodes->owner[i];
+        status = iccp_etree_progress(t, ICCP_PASS_ROWS, i, env);
         for (size_t p = m->first[row]; p < m->first[row + 1]; ++p) {
             if (t->position[m->column[p]] >= i)
                 continue;
@@ -93,6 +96,7 @@ static void list_rows(iccp_supernodes *nodes, const iccp_etree *t, uint32_t *mar
             }
         }
     }
+    return status;
 }
 
 static icc_status find_rows(iccp_supernodes *nodes, const iccp_etree *t, const iccp_env *env)
@@ -100,12 +104,12 @@ static icc_status find_rows(iccp_supernodes *nodes, const iccp_etree *t, const i
     uint32_t *mark = iccp_alloc(&env->memory, nodes->n, sizeof *mark);
     size_t *end = iccp_alloc(&env->memory, nodes->n, sizeof *end);
     nodes->row = iccp_alloc(&env->memory, nodes->first_row[nodes->n], sizeof *nodes->row);
-    const bool has_room = mark != NULL && end != NULL && nodes->row != NULL;
-    if (has_room)
-        list_rows(nodes, t, mark, end);
+    icc_status status = ICC_ERR_MEMORY;
+    if (mark != NULL && end != NULL && nodes->row != NULL)
+        status = list_rows(nodes, t, mark, end, env);
     iccp_free(&env->memory, mark);
     iccp_free(&env->memory, end);
-    return has_room ? ICC_OK : ICC_ERR_MEMORY;
+    return status;
 }
 
 static icc_status find_partition(iccp_supernodes *nodes, const iccp_etree *t, const uint32_t *count,

@@ -557,6 +557,12 @@ static const call CALLS[] = {
 };
 enum { N_CALLS = sizeof CALLS / sizeof *CALLS };
 
+/* Whether the call has nothing to do with charts, and takes long: once is enough, whatever the methods. */
+static inline int is_once(const call *c)
+{
+    return strncmp(c->name, "icc_field_create:", 17) == 0;
+}
+
 /* Whether the call takes an icc_error, which must then tell what the status tells. */
 static inline int has_error(const call *c)
 {

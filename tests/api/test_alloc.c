@@ -59,6 +59,8 @@ START_TEST(failed_allocations_are_reported)
         objects o;
         objects_init(&o, METHODS[m]);
         for (int i = 0; i < N_CALLS; ++i) {
+            if (m > 0 && is_once(&CALLS[i]))
+                continue;
             const size_t n = fail_each(&o, &CALLS[i]);
             /* The calls that only read need none, nor do measures that are 0 without looking. */
             if (strcmp(CALLS[i].name, "icc_domain_locate") != 0 &&
@@ -117,7 +119,7 @@ int main(void)
 {
     Suite *suite = suite_create("allocations");
     TCase *tests = tcase_create("all");
-    tcase_set_timeout(tests, 120);
+    tcase_set_timeout(tests, 300);
     tcase_add_test(tests, failed_allocations_are_reported);
     tcase_add_test(tests, objects_are_freed_in_any_order);
     suite_add_tcase(suite, tests);

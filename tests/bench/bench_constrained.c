@@ -1,5 +1,5 @@
-/* Laplace's function under the tree's inequalities, beside the figures of a prototype on the same masks: A with
- * CHOLMOD, B with conjugate gradients and multigrid. Processor time of one thread. */
+/* Laplace's function under the tree's inequalities, beside the figures of a prototype on the same
+ * masks: A with CHOLMOD, B with conjugate gradients and multigrid. Processor time of one thread. */
 #include "field/constrained.h"
 #include "field/inequalities.h"
 #include "grid/grassfire.h"
@@ -25,9 +25,9 @@ static void print_result(const one *c, const iccp_rows *rows, const iccp_scaled 
                          const icc_field_info *info, const double seconds[2])
 {
     printf("%-10s %4zu^%d %8zu %7.3f %8.3f %4zu %5zu %6.1f %% %9.1e %9.1e %5zu   %s\n", c->name,
-           c->cells, (int)c->dim, rows->n, seconds[0], seconds[1], info->n_iterations, info->n_inner,
-           100 * (double)info->n_active / (double)rows->n, info->residual_before, info->residual,
-           iccp_inequalities_violated(rows, 1e-6, f), c->figures);
+           c->cells, (int)c->dim, rows->n, seconds[0], seconds[1], info->n_iterations,
+           info->n_inner, 100 * (double)info->n_active / (double)rows->n, info->residual_before,
+           info->residual, iccp_inequalities_violated(rows, 1e-6, f), c->figures);
     printf("%43s matrices %.3f, orders %.3f, factors %.3f, solves %.3f, checks %.3f s\n", "",
            info->seconds_setup, info->seconds_order, info->seconds_factor, info->seconds_solve,
            info->seconds_verify);
@@ -36,7 +36,8 @@ static void print_result(const one *c, const iccp_rows *rows, const iccp_scaled 
 
 static void measure(const one *c, const iccp_rows *rows, const iccp_env *env)
 {
-    const iccp_scaled f = {bench_alloc(rows->n, sizeof(double)), bench_alloc(rows->n, sizeof(int32_t))};
+    const iccp_scaled f = {bench_alloc(rows->n, sizeof(double)),
+                           bench_alloc(rows->n, sizeof(int32_t))};
     uint32_t *top = bench_alloc(rows->n, sizeof *top);
     double *share = bench_alloc(rows->n, sizeof *share);
     for (uint32_t k = 0; k < rows->n; ++k) {
@@ -105,7 +106,8 @@ int main(int n_arguments, char **arguments)
         {"dumbbell", mask_dumbbell, 3, 128, true, "B 0.96; 17; 6e-11..5e-10"},
     };
     const int n_all = (int)(sizeof all / sizeof *all);
-    printf("mask          grid     rows    free  constr. its. inner  active    before     after  bad   "
+    printf("mask          grid     rows    free  constr. its. inner  active    before     after  "
+           "bad   "
            "prototype\n");
     for (int i = 0; i < n_all; ++i)
         if (n_arguments < 2 || atoi(arguments[1]) == i)

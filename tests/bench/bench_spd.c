@@ -1,9 +1,11 @@
 /* What five-point and seven-point Laplacians cost to order, analyse, factorise and solve, beside
- * CHOLMOD where it is installed. Arguments: names of shapes to try, all by default; `nd` orders boxes
- * by bisecting them instead of by degree, `plain` leaves CHOLMOD out. One thread, and seconds of its
+ * CHOLMOD where it is installed. Arguments: names of shapes to try, all by default; `nd` orders
+ * by dissection instead of by degree, `plain` leaves CHOLMOD out. One thread, and seconds of its
  * own: other programs disturb them less. */
 #include "bench.h"
 
+#include "field/dissection.h"
+#include "grid/grassfire.h"
 #include "math/ldlt.h"
 #include "math/ordering.h"
 
@@ -141,49 +143,32 @@ static equations laplacian(const grid *g)
     return s;
 }
 
-/* A box of cells, the separators that have been taken out of it before, and where it ends in the
- * order. */
-typedef struct part {
-    size_t low[3], high[3], end;
-} part;
-
-/* Nested dissection: the middle layer across the longest side last, then the two halves. */
-static void dissect(const grid *g, uint32_t *order)
+/* The same cells as rows of a tree from the grassfire's maximum, and the order for those. */
+static double dissect(const grid *g, uint32_t *order, const iccp_env *env)
 {
-    enum { MOST = 200, LEAF = 4 };
-    part stack[MOST] = {{{0, 0, 0}, {g->size, g->size, g->layers}, g->n}};
-    size_t height = 1;
-    while (height > 0) {
-        part box = stack[--height];
-        int axis = 0;
-        for (int d = 1; d < 3; ++d)
-            if (box.high[d] - box.low[d] > box.high[axis] - box.low[axis])
-                axis = d;
-        part wall = box, halves[2] = {box, box};
-        const size_t middle = (box.low[axis] + box.high[axis]) / 2;
-        const bool is_leaf = box.high[axis] - box.low[axis] <= LEAF;
-        if (!is_leaf) {
-            wall.low[axis] = halves[0].high[axis] = middle;
-            wall.high[axis] = halves[1].low[axis] = middle + 1;
-        }
-        size_t n[2] = {0, 0};
-        for (int k = 0; k < (is_leaf ? 1 : 3); ++k) {
-            const part *p = k == 0 ? &wall : &halves[k - 1];
-            for (size_t z = p->high[2]; z-- > p->low[2];)
-                for (size_t y = p->high[1]; y-- > p->low[1];)
-                    for (size_t x = p->high[0]; x-- > p->low[0];) {
-                        const uint32_t v = g->unknown[x + g->size * (y + g->size * z)];
-                        if (v != OUTSIDE && k == 0)
-                            order[--box.end] = v;
-                        else if (v != OUTSIDE)
-                            ++n[k - 1];
-                    }
-        }
-        for (int k = 0; k < 2 && !is_leaf; ++k) {
-            halves[k].end = k == 0 ? box.end - n[1] : box.end;
-            stack[height++] = halves[k];
-        }
-    }
+    const size_t shape[3] = {g->size, g->size, g->layers};
+    uint8_t *marks = bench_alloc(g->size * g->size * g->layers, 1);
+    icc_error error = {.size = sizeof error};
+    icc_grid *lattice;
+    icc_tree *tree;
+    iccp_rows rows;
+    uint32_t root;
+    for (size_t i = 0; i < g->size * g->size * g->layers; ++i)
+        marks[i] = g->unknown[i] != OUTSIDE;
+    bench_check(iccp_grid_create_mask(&lattice, g->layers > 1 ? 3 : 2, shape, marks, env, &error), &error);
+    bench_check(iccp_grassfire(lattice, &root, NULL, env, &error), &error);
+    bench_check(iccp_tree_create(&tree, lattice, root, ICC_TREE_PAPER, NULL, env, &error), &error);
+    bench_check(iccp_rows_create(&rows, tree, env), &error);
+    const double start = seconds();
+    bench_check(iccp_dissection(&rows, order, env), &error);
+    const double end = seconds();
+    for (size_t k = 0; k < g->n; ++k)
+        order[k] = g->unknown[rows.vertex[order[k]]];
+    iccp_rows_free(&rows);
+    iccp_tree_release(tree);
+    iccp_grid_release(lattice);
+    free(marks);
+    return end - start;
 }
 
 #ifdef BENCH_WITH_CHOLMOD
@@ -250,7 +235,7 @@ static double residual(const iccp_symmetric *m, const iccp_scaled *x, size_t sou
     return worst;
 }
 
-static void time_solves(const iccp_ldlt *factor, const iccp_symmetric *m)
+static void time_solves(const iccp_ldlt *factor, const iccp_symmetric *m, const iccp_env *env)
 {
     const size_t n = m->n, source = n / 2;
     double *x = bench_alloc(2 * n, sizeof *x);
@@ -262,7 +247,7 @@ static void time_solves(const iccp_ldlt *factor, const iccp_symmetric *m)
     const double t0 = seconds();
     iccp_ldlt_solve(factor, 1, x, x + n);
     const double t1 = seconds();
-    iccp_ldlt_solve_scaled(factor, &y, &work);
+    bench_check(iccp_ldlt_solve_scaled(factor, &y, &work, env), &(icc_error){.message = "solve"});
     const double t2 = seconds();
     int32_t lowest = 0;
     for (size_t i = 0; i < n; ++i)
@@ -275,17 +260,15 @@ static void time_solves(const iccp_ldlt *factor, const iccp_symmetric *m)
     free(work.exponent);
 }
 
-static void time_ours(const grid *g, const iccp_symmetric *m, bool by_bisection)
+static void time_ours(const grid *g, const iccp_symmetric *m, bool dissected)
 {
     iccp_env env;
     bench_check(iccp_env_read(&env, NULL, NULL), &(icc_error){.size = sizeof(icc_error)});
     uint32_t *order = bench_alloc(m->n, sizeof *order);
     iccp_ldlt factor;
     const icc_error error = {.size = sizeof error};
-    const double t0 = seconds();
-    if (by_bisection)
-        dissect(g, order);
-    else
+    const double taken = dissected ? dissect(g, order, &env) : 0, t0 = seconds() - taken;
+    if (!dissected)
         bench_check(iccp_ordering(m, order, &env), &error);
     const double t1 = seconds();
     bench_check(iccp_ldlt_analyse_ordered(&factor, m, order, &env), &error);
@@ -296,19 +279,19 @@ static void time_ours(const grid *g, const iccp_symmetric *m, bool by_bisection)
     const double t4 = seconds();
     printf("  %s  order %.3f  analyse %.3f  factor %.3f  again %.3f  entries %.3g  work %.3g  %.1f GF/s"
            "  supernodes %zu  %.0f MB\n",
-           by_bisection ? "bisection" : "degree   ", t1 - t0, t2 - t1, t3 - t2, t4 - t3,
+           dissected ? "dissection" : "degree    ", t1 - t0, t2 - t1, t3 - t2, t4 - t3,
            (double)factor.n_entries, factor.work, 2e-9 * factor.work / (t4 - t3), factor.nodes.n,
            1e-6 * iccp_ldlt_bytes(&factor));
-    time_solves(&factor, m);
+    time_solves(&factor, m, &env);
     iccp_ldlt_free(&factor);
     free(order);
 }
 
 int main(int argc, char **argv)
 {
-    bool all = true, by_bisection = false, alone = false;
+    bool all = true, dissected = false, alone = false;
     for (int a = 1; a < argc; ++a) {
-        by_bisection = by_bisection || strcmp(argv[a], "nd") == 0;
+        dissected = dissected || strcmp(argv[a], "nd") == 0;
         alone = alone || strcmp(argv[a], "plain") == 0;
         all = all && (strcmp(argv[a], "nd") == 0 || strcmp(argv[a], "plain") == 0);
     }
@@ -322,7 +305,7 @@ int main(int argc, char **argv)
         equations s = laplacian(&g);
         const iccp_symmetric m = {g.n, s.first, s.column, s.value, s.diagonal};
         printf("%s: %zu unknowns\n", SHAPES[k].name, g.n);
-        time_ours(&g, &m, by_bisection);
+        time_ours(&g, &m, dissected);
 #ifdef BENCH_WITH_CHOLMOD
         if (!alone)
             time_cholmod(&m);

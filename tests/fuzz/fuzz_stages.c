@@ -164,6 +164,12 @@ static void check_values(const icc_field *field, const shape *s, const icc_field
     }
 }
 
+/* The header says so of bounds that are large beside the falls. */
+static bool may_give_up(const icc_field_options *options)
+{
+    return options->function != ICC_FUNCTION_LAPLACE && options->leaf > 1e-3;
+}
+
 static void check_solution(const icc_tree *tree, const shape *s, const icc_field_options *options)
 {
     icc_field *field;
@@ -172,12 +178,12 @@ static void check_solution(const icc_tree *tree, const shape *s, const icc_field
     const icc_status status = icc_field_create(&field, tree, options, NULL, NULL);
     if (report.n_inside == 1)
         require(status == ICC_ERR_RESOLUTION);
-    else if (!iccp_ordering_available() && options->solver == ICC_SOLVER_DIRECT)
-        require(status == ICC_ERR_UNSUPPORTED);
+    else if (status == ICC_ERR_UNSUPPORTED) /* only Laplacians have an order of their own */
+        require(!iccp_ordering_available() && options->function != ICC_FUNCTION_LAPLACE);
     else if (is_infeasible(tree, s, options))
         require(status != ICC_OK || options->constraints != ICC_CONSTRAINTS_ALL);
     else
-        require(status == ICC_OK);
+        require(status == ICC_OK || (status == ICC_ERR_SOLVER && may_give_up(options)));
     if (status == ICC_OK)
         check_values(field, s, options);
     icc_field_free(field);

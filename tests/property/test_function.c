@@ -188,6 +188,33 @@ static void check_inequalities(const ground *g, const icc_field *field, int32_t 
     ck_assert_ptr_nonnull(icc_field_logs(field));
 }
 
+/* Vertices less edges plus triangles of the inside of a grid in the plane: 1 less the number of holes. */
+static long euler_characteristic(const ground *g)
+{
+    const uint32_t nx = (uint32_t)g->info.shape[0];
+    long sum = 0;
+    for (uint32_t v = 0; v + nx + 1 < g->info.n_vertices; ++v) {
+        const bool here = ground_holds(g, v), right = ground_holds(g, v + 1);
+        const bool above = ground_holds(g, v + nx), across = ground_holds(g, v + nx + 1);
+        sum += here - (here && right) - (here && above) - (here && across) +
+               (here && right && across) + (here && above && across);
+    }
+    return sum; /* nothing lies in the last row or column */
+}
+
+/* No critical points that constraints could remove. */
+static void check_not_needed(const ground *g, const icc_field *field)
+{
+    const icc_field_report report = report_of(field);
+    const long holes = g->info.dim == 2 ? 1 - euler_characteristic(g) : 0;
+    ck_assert_uint_eq(report.n_maxima, 1);
+    ck_assert_uint_eq(report.n_minima, 0);
+    ck_assert_int_le((long)report.n_saddles, holes);
+    ck_assert(holes == 0 || report.n_saddles > 0);
+    for (size_t i = 1; i < g->n; ++i)
+        ck_assert(icc_field_values(field)[g->order[i]] <= 1);
+}
+
 static void check_choice(const ground *g, const icc_field_options *options)
 {
     icc_field *field = field_with(g, options);
@@ -201,7 +228,7 @@ static void check_choice(const ground *g, const icc_field_options *options)
     const icc_field_report report = report_of(field);
     ck_assert_uint_ge(report.n_maxima, 1);
     if (options->constraints == ICC_CONSTRAINTS_NEEDED && !info.constrained)
-        check_regular(field);
+        check_not_needed(g, field);
     icc_field_free(field);
 }
 
@@ -228,7 +255,7 @@ END_TEST
 
 START_TEST(every_choice_on_every_shape)
 {
-    ground g = ground_number(_i, 26);
+    ground g = ground_number(_i, 20);
     check_all_choices(&g);
     ground_free(&g);
 }
@@ -283,6 +310,133 @@ START_TEST(both_solvers_give_the_same_function)
         icc_field_free(iterative);
         ground_free(&g);
     }
+}
+END_TEST
+
+/* ------------------------------------------------------------------ rings */
+
+enum { RING = 400 };
+
+/* A square ring; its root in the middle of one side, so that the other side is 2 RING away. */
+static ground ring_of(size_t width)
+{
+    const size_t side = RING + 2 * MASK_MARGIN, low = MASK_MARGIN + width, high = side - low;
+    ground g;
+    mask m = mask_draw(mask_box, 2, RING);
+    ck_assert_ptr_nonnull(m.inside);
+    for (size_t y = low; y < high; ++y)
+        memset(m.inside + y * side + low, 0, high - low);
+    const uint32_t root = (uint32_t)(side / 2 * side + MASK_MARGIN + width / 2);
+    ck_assert_int_eq(ground_create(&g, &m, root, 0), ICC_OK);
+    mask_free(&m);
+    return g;
+}
+
+/* The Laplacian at v, in units of exp(unit). */
+static double laplacian_near(const ground *g, const double *logs, uint32_t v, double unit)
+{
+    double sum = 2 * g->info.dim * exp(logs[v] - unit);
+    for (int32_t d = 0; d < 2 * g->info.dim; ++d) {
+        const uint32_t u = ground_neighbour(g, v, d);
+        if (u != UINT32_MAX && ground_holds(g, u))
+            sum -= exp(logs[u] - unit);
+    }
+    return sum;
+}
+
+/* As ground_imbalance(), of the Laplacian of a function. */
+static double imbalance_of_laplacian(const ground *g, const double *logs)
+{
+    double worst = 0;
+    for (size_t i = 1; i < g->n; ++i) {
+        const uint32_t v = g->order[i];
+        double sum = 2 * g->info.dim * laplacian_near(g, logs, v, logs[v]), size = fabs(sum);
+        for (int32_t d = 0; d < 2 * g->info.dim; ++d) {
+            const uint32_t u = ground_neighbour(g, v, d);
+            if (u == UINT32_MAX || !ground_holds(g, u))
+                continue;
+            const double l = laplacian_near(g, logs, u, logs[v]);
+            sum -= l;
+            size += fabs(l);
+        }
+        worst = fmax(worst, fabs(sum) / size);
+    }
+    return worst;
+}
+
+static void count_lines(void *user, const char *message)
+{
+    ck_assert_uint_gt(strlen(message), 0);
+    ++*(int *)user;
+}
+
+/* In both ways round, values fall by up to 10^500: no factor may join rows across that. */
+static icc_field *ring_field(const ground *g, int32_t function)
+{
+    const icc_field_options options = choice(function, ICC_CONSTRAINTS_NONE, ICC_SOLVER_DIRECT);
+    int n_lines = 0;
+    const icc_env env = {.size = sizeof env, .user = &n_lines, .log = count_lines};
+    icc_field *field;
+    ck_assert_int_eq(icc_field_create(&field, g->tree, &options, &env, NULL), ICC_OK);
+    ck_assert_int_eq(info_of(field).solver, ICC_SOLVER_DIRECT);
+    ck_assert_int_eq(n_lines, 0); /* it would tell of a change of the solver */
+    const icc_field_report report = report_of(field);
+    ck_assert_uint_eq(report.n_maxima, 1);
+    ck_assert_uint_eq(report.n_minima, 0);
+    ck_assert_uint_eq(report.n_saddles, 1);
+    return field;
+}
+
+START_TEST(long_thin_rings)
+{
+    static const size_t WIDTHS[4] = {1, 2, 3, 6};
+    for (int k = 0; k < 4; ++k) {
+        ground g = ring_of(WIDTHS[k]);
+        icc_field *direct = ring_field(&g, ICC_FUNCTION_LAPLACE);
+        icc_field *bilaplace = ring_field(&g, ICC_FUNCTION_BILAPLACE);
+        icc_field *iterative =
+            field_of(&g, ICC_FUNCTION_LAPLACE, ICC_CONSTRAINTS_NONE, ICC_SOLVER_ITERATIVE);
+        const double *u = icc_field_logs(direct), *v = icc_field_logs(iterative);
+        ck_assert_double_lt(info_of(direct).least_log, -300);
+        ck_assert_double_le(ground_imbalance(&g, u), 1e-11);
+        ck_assert_double_le(imbalance_of_laplacian(&g, icc_field_logs(bilaplace)), 1e-6);
+        for (size_t i = 0; i < g.n; ++i)
+            ck_assert_double_le(fabs(u[g.order[i]] - v[g.order[i]]), 1e-6);
+        icc_field_free(direct);
+        icc_field_free(bilaplace);
+        icc_field_free(iterative);
+        ground_free(&g);
+    }
+}
+END_TEST
+
+/* Two rooms and a corridor between them: 60 wide, 1 wide and 900 long. A separator in its middle would see
+ * neither room. */
+START_TEST(rooms_far_apart)
+{
+    enum { ROOM = 60, LENGTH = 900, NX = 2 * ROOM + LENGTH + 4, NY = ROOM + 4 };
+    ground g;
+    mask m = {.dim = 2, .shape = {NX, NY}, .n_vertices = NX * NY};
+    m.inside = calloc(m.n_vertices, 1);
+    ck_assert_ptr_nonnull(m.inside);
+    for (size_t y = 2; y < NY - 2; ++y)
+        for (size_t x = 2; x < NX - 2; ++x)
+            m.inside[y * NX + x] = x < ROOM + 2 || x >= NX - ROOM - 2 || y == NY / 2;
+    ck_assert_int_eq(ground_create(&g, &m, NX * (NY / 2) + ROOM / 2, 0), ICC_OK);
+    mask_free(&m);
+    for (int32_t function = ICC_FUNCTION_LAPLACE; function <= ICC_FUNCTION_BILAPLACE; ++function) {
+        icc_field *field = field_of(&g, function, ICC_CONSTRAINTS_NONE, ICC_SOLVER_DIRECT);
+        const double *u = icc_field_logs(field);
+        ck_assert_int_eq(info_of(field).solver, ICC_SOLVER_DIRECT);
+        ck_assert_double_lt(info_of(field).least_log, -1000);
+        check_regular(field);
+        if (function == ICC_FUNCTION_LAPLACE)
+            ck_assert_double_le(ground_imbalance(&g, u), 1e-11);
+        else
+            ck_assert_double_le(imbalance_of_laplacian(&g, u), 1e-6);
+        icc_field_free(field);
+    }
+    ground_free(&g);
 }
 END_TEST
 
@@ -826,21 +980,26 @@ START_TEST(every_failure_of_every_choice_is_reported)
 }
 END_TEST
 
-/* Reports of each stage, and when to give up. */
+/* What a direct solution goes through. */
+enum { N_STAGES = 7 };
+static const char *const STAGES[N_STAGES] = {"rows",      "matrix", "order", "analyse",
+                                             "factorise", "solve",  "check"};
+
+/* Reports, also of each stage, and when to give up. */
 typedef struct watcher {
-    size_t n_reports, n_factorise, cancel_at;
+    size_t n_reports, n_of[N_STAGES], cancel_at;
 } watcher;
 
 static int32_t watch(void *user, const char *stage, double share)
 {
     watcher *w = user;
     ck_assert(share >= 0 && share <= 1);
-    w->n_factorise += strcmp(stage, "factorise") == 0;
+    for (int k = 0; k < N_STAGES; ++k)
+        w->n_of[k] += strcmp(stage, STAGES[k]) == 0;
     return ++w->n_reports == w->cancel_at;
 }
 
-/* The longest stage is the factorisation: it reports every so many multiplications, and can be cancelled
- * at its beginning, within it and at its end. */
+/* Every stage reports often, the factorisation every so many multiplications, and all can be cancelled. */
 START_TEST(long_stages_can_be_cancelled)
 {
     static const double MOST_BETWEEN_REPORTS = 4e7; /* multiplications, some 20 ms */
@@ -855,9 +1014,12 @@ START_TEST(long_stages_can_be_cancelled)
         const size_t n_reports = w.n_reports;
         icc_field_free(field);
         if (solver == ICC_SOLVER_DIRECT) {
+            static const size_t LEAST[N_STAGES] = {2, 2, 20, 6, 6, 4, 2};
+            for (int k = 0; k < N_STAGES; ++k)
+                if (w.n_of[k] < LEAST[k])
+                    ck_abort_msg("%s: %zu reports", STAGES[k], w.n_of[k]);
             ck_assert_double_gt(info.work, 1e7);
-            ck_assert_double_ge((double)w.n_factorise, info.work / MOST_BETWEEN_REPORTS);
-            ck_assert_uint_gt(w.n_factorise, 5);
+            ck_assert_double_ge((double)w.n_of[4], info.work / MOST_BETWEEN_REPORTS);
         }
         ck_assert_uint_gt(n_reports, 10);
         for (size_t k = 0; k <= 12; ++k) {
@@ -974,13 +1136,12 @@ START_TEST(curves_run_where_doubles_end)
     static const double XY[8] = {0, 0, 300, 0, 300, 1, 0, 1}, MAXIMUM[2] = {0.5, 0.5};
     icc_domain *domain;
     ck_assert_int_eq(icc_domain_create(&domain, 2, 4, XY, 0, NULL, NULL, NULL), ICC_OK);
-    for (int kind = 0; kind < 4; ++kind) {
+    for (int kind = 0; kind < 3; ++kind) { /* the others are kept above LEAF */
         icc_chart *chart = chart_of(domain, kind, 3000, MAXIMUM);
         const icc_field *field = icc_chart_field(chart);
         const double *u = icc_field_logs(field);
         ck_assert_ptr_nonnull(u);
-        if (KINDS[kind].constraints == ICC_CONSTRAINTS_NONE)
-            ck_assert_double_lt(info_of(field).least_log, -750);
+        ck_assert_double_lt(info_of(field).least_log, -750);
         check_regular(field);
         for (int i = 1; i < 40; ++i) {
             const double p[2] = {300 * (i / 40.), 0.05 + 0.9 * fmod(0.618 * i, 1)};
@@ -1041,6 +1202,8 @@ int main(void)
     tcase_add_loop_test(tests, every_choice_on_every_shape, 0, N_MASKS);
     tcase_add_test(tests, laplace_is_the_mean_of_its_neighbours);
     tcase_add_test(tests, both_solvers_give_the_same_function);
+    tcase_add_test(tests, long_thin_rings);
+    tcase_add_test(tests, rooms_far_apart);
     tcase_add_test(tests, nothing_underflows_in_the_serpentine);
     tcase_add_test(tests, inequalities_far_below_the_range_of_doubles);
     tcase_add_test(tests, constrained_laplace_is_optimal);

@@ -506,10 +506,11 @@ static iccp_ldlt factorised(const iccp_symmetric *m)
 /* b * 2^exponent in, the solution out. */
 static iccp_scaled solve_scaled(const iccp_ldlt *factor, const double *b, int32_t exponent)
 {
+    const iccp_env env = plain_env();
     iccp_scaled x = scaled_vector(factor->n), work = scaled_vector(factor->n);
     for (size_t i = 0; i < factor->n; ++i)
         iccp_scaled_set(&x, i, b[i], exponent);
-    iccp_ldlt_solve_scaled(factor, &x, &work);
+    ck_assert_int_eq(iccp_ldlt_solve_scaled(factor, &x, &work, &env), ICC_OK);
     for (size_t i = 0; i < factor->n; ++i)
         if (x.exponent[i] == ICCP_ZERO_EXPONENT)
             ck_assert(!(fabs(x.fraction[i]) > 0));
