@@ -15,12 +15,11 @@ enum { NX = 14, NY = 6, NZ = 9, N_CELLS = NX * NY * NZ };
 
 /* Boxes of cells: from (x, y, z) to (x, y, z). */
 static const int blocks[][6] = {
-    {2, 1, 4, 11, 5, 7},   /* trunk */
-    {2, 1, 0, 4, 2, 4},    /* four legs */
-    {2, 4, 0, 4, 5, 4},    {9, 1, 0, 11, 2, 4}, {9, 4, 0, 11, 5, 4},
-    {10, 2, 6, 13, 4, 9},  /* head */
-    {13, 2, 6, 14, 4, 8},  /* nose */
-    {0, 2, 5, 2, 3, 6},    /* tail */
+    {2, 1, 4, 11, 5, 7}, /* trunk */
+    {2, 1, 0, 4, 2, 4},  /* four legs */
+    {2, 4, 0, 4, 5, 4},   {9, 1, 0, 11, 2, 4}, {9, 4, 0, 11, 5, 4}, {10, 2, 6, 13, 4, 9}, /* head */
+    {13, 2, 6, 14, 4, 8},                                                                 /* nose */
+    {0, 2, 5, 2, 3, 6},                                                                   /* tail */
 };
 
 typedef struct mesh {
@@ -110,12 +109,14 @@ static icc_domain *make_domain(const mesh *surface, const double *vertices)
 static mesh fill(const icc_domain *domain)
 {
     enum { FINE = 2, PX = FINE * NX + 1, PY = FINE * NY + 1, PZ = FINE * NZ + 1 };
-    static const int order[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
+    static const int order[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1},
+                                    {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
     const size_t step[3] = {1, PX, PX * PY}, n = PX * PY * PZ;
     mesh m = {.n_vertices = n, .vertices = need(n, 3 * sizeof(double))};
     int32_t *where = need(n, sizeof *where);
     m.elements = need(6 * n, 4 * sizeof(uint32_t));
-    for (size_t i = 0; i < n; i++) { /* a little off the places where the surface has its vertices */
+    for (size_t i = 0; i < n;
+         i++) { /* a little off the places where the surface has its vertices */
         m.vertices[3 * i] = (double)(i % PX) / FINE + 0.013;
         m.vertices[3 * i + 1] = (double)(i / PX % PY) / FINE + 0.017;
         m.vertices[3 * i + 2] = (double)(i / PX / PY) / FINE + 0.019;
@@ -124,8 +125,9 @@ static mesh fill(const icc_domain *domain)
     for (size_t i = 0; i + step[0] + step[1] + step[2] < n; i++) {
         bool whole = true;
         for (size_t c = 0; c < 8; c++)
-            whole = whole && where[i + (c & 1) * step[0] + (c >> 1 & 1) * step[1] +
-                                   (c >> 2) * step[2]] == ICC_INSIDE;
+            whole = whole &&
+                    where[i + (c & 1) * step[0] + (c >> 1 & 1) * step[1] + (c >> 2) * step[2]] ==
+                        ICC_INSIDE;
         for (int t = 0; whole && t < 6; t++) {
             size_t at = i;
             for (int k = 0; k < 4; at += k < 3 ? step[order[t][k]] : 0, k++)
@@ -192,7 +194,8 @@ static void report(const icc_chart *chart, const char *name)
 {
     icc_chart_info info = {.size = sizeof info};
     check(icc_chart_get_info(chart, &info), NULL);
-    printf("%s: grid of %zu vertices inside, %zu without a vector, %zu given up; curves enter at all but "
+    printf("%s: grid of %zu vertices inside, %zu without a vector, %zu given up; curves enter at "
+           "all but "
            "%zu of %zu contacts with the boundary: %scertified\n",
            name, info.n_inside, info.n_infeasible, info.n_stray, info.n_not_inward, info.n_contacts,
            info.certified ? "" : "not ");

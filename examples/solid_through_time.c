@@ -13,7 +13,8 @@ static void check(icc_status status, const icc_error *err)
 {
     if (status == ICC_OK)
         return;
-    fprintf(stderr, "solid_through_time: %s\n", err != NULL ? err->message : icc_status_name(status));
+    fprintf(stderr, "solid_through_time: %s\n",
+            err != NULL ? err->message : icc_status_name(status));
     exit(EXIT_FAILURE);
 }
 
@@ -51,8 +52,9 @@ static icc_domain *make_target(const icc_domain *source)
         for (size_t k = 0; k < 4; ++k)
             vertices[4 * i + k] = moved[k];
     }
-    check(icc_domain_create(&target, 4, info.n_vertices, vertices, info.n_facets, facets, NULL, &err),
-          &err);
+    check(
+        icc_domain_create(&target, 4, info.n_vertices, vertices, info.n_facets, facets, NULL, &err),
+        &err);
     printf("boundary: %zu vertices, %zu tetrahedra\n", info.n_vertices, info.n_facets);
     free(vertices);
     free(facets);

@@ -90,8 +90,8 @@ static bool is_wkt(const char *text)
 /* OBJ has no mark of its own, but its lines begin with words. */
 static bool is_obj(const char *text)
 {
-    static const char *const words[] = {"v",  "vt", "vn", "vp", "f",      "o",     "g",
-                                        "s",  "l",  "p",  "mtllib", "usemtl"};
+    static const char *const words[] = {"v", "vt", "vn", "vp", "f",      "o",
+                                        "g", "s",  "l",  "p",  "mtllib", "usemtl"};
     size_t n = strcspn(text, " \t\r\n");
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         if (strlen(words[i]) == n && strncmp(text, words[i], n) == 0)

@@ -22,8 +22,8 @@ typedef struct cage {
     size_t *lines;   /* line of each vertex in its file, or 0 where the format does not tell */
     size_t n_facets; /* dim vertices each; 0: the ring through the vertices */
     uint32_t *facets;
-    size_t *facet_lines;        /* as `lines` */
-    uint8_t *cells;             /* of a mask: one byte each, the first axis fastest; else NULL */
+    size_t *facet_lines;       /* as `lines` */
+    uint8_t *cells;            /* of a mask: one byte each, the first axis fastest; else NULL */
     size_t shape[ICC_MAX_DIM]; /* of a mask: cells along each axis */
     size_t room_points, room_lines, room_facets, room_facet_lines;
     uint32_t fan[3]; /* of the face that is being read */

@@ -122,8 +122,8 @@ static bool read_shape(header *h)
         if (!take(h, ',') && (skip_spaces(h), h->at == h->end || *h->at != ')'))
             return spoilt(h->wrong, 0, "the shape of the .npy file is no list of numbers");
     }
-    return c->dim > 0 || spoilt(h->wrong, 0, "the array has no axes; a mask has 1 to %d",
-                                ICC_MAX_DIM);
+    return c->dim > 0 ||
+           spoilt(h->wrong, 0, "the array has no axes; a mask has 1 to %d", ICC_MAX_DIM);
 }
 
 static bool read_entry(header *h)
@@ -139,7 +139,9 @@ static bool read_entry(header *h)
         return spoilt(h->wrong, 0, "the header of the .npy file has '%s' %s", name,
                       seen == NULL ? "in it, which is unknown" : "twice");
     *seen = true;
-    return seen == &h->has_type ? read_type(h) : seen == &h->has_order ? read_order(h) : read_shape(h);
+    return seen == &h->has_type    ? read_type(h)
+           : seen == &h->has_order ? read_order(h)
+                                   : read_shape(h);
 }
 
 /* A dictionary as Python writes it. */
@@ -216,7 +218,8 @@ bool cage_read_npy(cage *out, const char *text, size_t n, problem *wrong)
         return spoilt(wrong, 0, "the header of the .npy file lacks descr, fortran_order or shape");
     size_t n_cells = count_cells(&h, n - (size_t)(h.end - text));
     if (n_cells == 0)
-        return spoilt(wrong, 0, "the .npy file has %zu bytes of data, which is not what its shape says",
+        return spoilt(wrong, 0,
+                      "the .npy file has %zu bytes of data, which is not what its shape says",
                       n - (size_t)(h.end - text));
     take_cells(&h, n_cells, h.end);
     return true;

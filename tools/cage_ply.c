@@ -16,10 +16,10 @@ typedef struct ply_type {
     char kind; /* i: signed, u: unsigned, f: floating point */
 } ply_type;
 
-static const ply_type types[] = {
-    {{"char", "int8"}, 1, 'i'},   {{"uchar", "uint8"}, 1, 'u'}, {{"short", "int16"}, 2, 'i'},
-    {{"ushort", "uint16"}, 2, 'u'}, {{"int", "int32"}, 4, 'i'},   {{"uint", "uint32"}, 4, 'u'},
-    {{"float", "float32"}, 4, 'f'}, {{"double", "float64"}, 8, 'f'}};
+static const ply_type types[] = {{{"char", "int8"}, 1, 'i'},     {{"uchar", "uint8"}, 1, 'u'},
+                                 {{"short", "int16"}, 2, 'i'},   {{"ushort", "uint16"}, 2, 'u'},
+                                 {{"int", "int32"}, 4, 'i'},     {{"uint", "uint32"}, 4, 'u'},
+                                 {{"float", "float32"}, 4, 'f'}, {{"double", "float64"}, 8, 'f'}};
 
 /* What a property is to us. */
 typedef enum ply_use { PLY_SKIP = -1, PLY_X, PLY_Y, PLY_Z, PLY_CORNERS } ply_use;
@@ -104,8 +104,7 @@ static ply_use find_use(const char *of, const char *name, bool list)
 {
     if (strcmp(of, "face") == 0 && list && strncmp(name, "vertex_ind", 10) == 0)
         return PLY_CORNERS;
-    if (strcmp(of, "vertex") == 0 && !list && strlen(name) == 1 && *name >= 'x' &&
-        *name <= 'z')
+    if (strcmp(of, "vertex") == 0 && !list && strlen(name) == 1 && *name >= 'x' && *name <= 'z')
         return (ply_use)(*name - 'x');
     return PLY_SKIP;
 }

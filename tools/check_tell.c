@@ -36,9 +36,10 @@ static void print_mask(const cage *mask, const icc_domain_info *info)
     }
     for (size_t i = 0; i < n; i++)
         n_inside += mask->cells[i];
-    printf(" cells, %zu of them inside, in one piece without holes; its boundary: %zu vertices, %zu "
-           "facets\n",
-           n_inside, info->n_vertices, info->n_facets);
+    printf(
+        " cells, %zu of them inside, in one piece without holes; its boundary: %zu vertices, %zu "
+        "facets\n",
+        n_inside, info->n_vertices, info->n_facets);
 }
 
 static void print_domain(const cage *c, const icc_domain_info *info)
@@ -56,7 +57,8 @@ static void print_domain(const cage *c, const icc_domain_info *info)
     else
         printf("a closed boundary, %zu vertices, %zu facets, measure %.17g%s\n", info->n_vertices,
                info->n_facets, info->measure,
-               info->dim > 3 ? " (whether it meets itself is not checked beyond 3 dimensions)" : "");
+               info->dim > 3 ? " (whether it meets itself is not checked beyond 3 dimensions)"
+                             : "");
 }
 
 void check_print_domains(const check *c)
@@ -75,9 +77,10 @@ static void print_chart(const char *file, const icc_chart_info *chart)
 {
     printf("%s: %s chart certified: ", file, choice_name(methods, chart->method));
     if (chart->method == ICC_METHOD_FIELD)
-        printf("every one of %zu grid vertices has a vector that points uphill all round, and curves "
-               "enter all over the boundary",
-               chart->n_inside);
+        printf(
+            "every one of %zu grid vertices has a vector that points uphill all round, and curves "
+            "enter all over the boundary",
+            chart->n_inside);
     else
         printf("%zu triangles, none of them inverted", chart->n_mesh_triangles);
     if (chart->method == ICC_METHOD_FOLIATION)
@@ -88,13 +91,13 @@ static void print_chart(const char *file, const icc_chart_info *chart)
 /* What keeps a field from its certificate. */
 static void print_field(const char *file, const icc_chart_info *chart)
 {
-    printf("%s: field chart not certified: %zu of %zu grid vertices have no vector that points uphill "
-           "all round, %zu were given up; at %zu of %zu contacts with the boundary the curves do not "
-           "enter (%.3g %%)\n",
-           file, chart->n_infeasible, chart->n_inside, chart->n_stray, chart->n_not_inward, chart->n_contacts,
-           chart->n_contacts > 0
-               ? 100 * (double)chart->n_not_inward / (double)chart->n_contacts
-               : 0);
+    printf(
+        "%s: field chart not certified: %zu of %zu grid vertices have no vector that points uphill "
+        "all round, %zu were given up; at %zu of %zu contacts with the boundary the curves do not "
+        "enter (%.3g %%)\n",
+        file, chart->n_infeasible, chart->n_inside, chart->n_stray, chart->n_not_inward,
+        chart->n_contacts,
+        chart->n_contacts > 0 ? 100 * (double)chart->n_not_inward / (double)chart->n_contacts : 0);
 }
 
 void check_print_certificates(const check *c)

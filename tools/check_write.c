@@ -121,8 +121,8 @@ int check_repair(check *c)
 static void write_npy(FILE *stream, const cage *c)
 {
     char header[256];
-    int used = snprintf(header, sizeof header,
-                        "{'descr': '|u1', 'fortran_order': True, 'shape': (");
+    int used =
+        snprintf(header, sizeof header, "{'descr': '|u1', 'fortran_order': True, 'shape': (");
     size_t n = 1;
     for (size_t k = 0; k < c->dim; k++) {
         used += snprintf(header + used, sizeof header - (size_t)used, "%zu,%s", c->shape[k],

@@ -108,8 +108,7 @@ static int gather(info *x)
     icc_error err = {.size = sizeof err, .index = -1};
     icc_domain_get_info(j->domains[0], &x->domain);
     icc_chart_get_info(chart, &x->chart);
-    if (x->chart.method == ICC_METHOD_GRADIENT &&
-        icc_chart_measure(chart, 0, &x->measures, &j->env, &err) != ICC_OK)
+    if (info_has_grid(x) && icc_chart_measure(chart, 0, &x->measures, &j->env, &err) != ICC_OK)
         return job_failed(j, &err);
     stages parts;
     result = stages_make(&parts, j, 1);

@@ -25,10 +25,10 @@ typedef struct info {
     icc_field_info field;
     bool has_critical; /* besides the maximum there are others, the first one here */
     double critical[ICC_MAX_DIM];
-    size_t n_order_critical; /* critical vertices of the tree's own order, besides the maximum */
-    icc_grow_report growth;  /* of an order that falls with the function; beyond the plane */
-    bool grown;              /* whether it got to the end */
-    size_t n_holes;          /* of the grid's inside, in the plane */
+    size_t n_order_critical;  /* critical vertices of the tree's own order, besides the maximum */
+    icc_grow_report growth;   /* of an order that falls with the function; beyond the plane */
+    bool grown;               /* whether it got to the end */
+    size_t n_holes;           /* of the grid's inside, in the plane */
     size_t n_inner_expansion; /* expansion edges between two triangles inside */
     icc_map_info map;
     map_shares shares;

@@ -85,14 +85,16 @@ static void print_shares(const info *x)
     const icc_chart_info *c = &x->chart;
     const icc_chart_measures *m = &x->measures;
     const char *measure = x->domain.dim == 2 ? "area" : "volume";
-    if (x->domain.dim == 2)
-        printf("edges       %zu, of which %zu compression, %zu expansion; %zu of these at triangles "
-               "inside\n",
-               c->n_edges, c->n_compression, c->n_expansion, x->n_inner_expansion);
+    if (c->n_edges > 0)
+        printf(
+            "edges       %zu, of which %zu compression, %zu expansion; %zu of these at triangles "
+            "inside\n",
+            c->n_edges, c->n_compression, c->n_expansion, x->n_inner_expansion);
     if (m->n_points == 0)
         return;
-    printf("unreachable %6.2f %% of the %s: no curve through it reaches both boundary and maximum\n",
-           100 * m->unreachable, measure);
+    printf(
+        "unreachable %6.2f %% of the %s: no curve through it reaches both boundary and maximum\n",
+        100 * m->unreachable, measure);
     printf("uncovered   %6.2f %% of the %s: no curve from the boundary enters it\n",
            100 * m->uncovered, measure);
     printf("collapsed   %6.2f %% of the coordinates: on lines where curves have merged\n",
@@ -119,9 +121,11 @@ static void print_field(const info *x)
     print_grid(x);
     printf("vectors     %zu of %zu vertices have none that points uphill all round\n",
            c->n_infeasible, c->n_inside);
-    printf("not inward  %6.2f %% (%zu of %zu contacts with the boundary): curves do not enter there\n",
-           c->n_contacts > 0 ? 100 * (double)c->n_not_inward / (double)c->n_contacts : 0,
-           c->n_not_inward, c->n_contacts);
+    printf(
+        "contacts    %6.2f %% (%zu of %zu with the boundary) are such that curves do not enter\n",
+        c->n_contacts > 0 ? 100 * (double)c->n_not_inward / (double)c->n_contacts : 0,
+        c->n_not_inward, c->n_contacts);
+    print_shares(x);
 }
 
 static void print_certified(const icc_chart_info *c)
@@ -156,7 +160,8 @@ static void print_map(const info *x)
     if (m->kind == ICC_MAP_MESH)
         print_mesh_map(m);
     printf("%-11s %6.2f %% collapses, %.2f %% inverts, %.2f %% has no image\n",
-           x->domain.dim == 2 ? "area" : "volume", 100 * s->collapsed, 100 * s->inverted, 100 * s->without_image);
+           x->domain.dim == 2 ? "area" : "volume", 100 * s->collapsed, 100 * s->inverted,
+           100 * s->without_image);
     printf(
         "distortion  mean %.4g, median %.4g, 99 %% below %.4g%s (symmetric Dirichlet; %d: none)\n",
         s->mean, s->median, s->nearly_all,

@@ -160,7 +160,7 @@ int info_report(const info *x)
         json_text(&r.json, "orientation", x->domain.orientation > 0 ? "outward" : "inward");
     json_number(&r.json, x->domain.dim == 2 ? "area" : "measure", x->domain.measure);
     report_chart(&r.json, x);
-    if (x->chart.method != ICC_METHOD_FIELD)
+    if (x->chart.method != ICC_METHOD_FIELD || x->measures.n_points > 0)
         report_shares(&r.json, &x->measures);
     if (x->shares.n > 0)
         report_map(&r.json, &x->map, &x->shares);

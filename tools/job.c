@@ -93,8 +93,8 @@ static int check_points(const job *j)
     } points[] = {{"maximum", a->n_maximum}, {"target-maximum", a->n_target_maximum}};
     for (size_t i = 0; i < 2; i++)
         if (points[i].n > 0 && points[i].n != job_dim(j))
-            return misused(a->command, "--%s has %zu coordinates, but the cage %zu",
-                           points[i].name, points[i].n, job_dim(j));
+            return misused(a->command, "--%s has %zu coordinates, but the cage %zu", points[i].name,
+                           points[i].n, job_dim(j));
     return DONE;
 }
 
@@ -144,12 +144,11 @@ static int make_domain(job *j, size_t side)
 {
     const cage *c = &j->cages[side];
     icc_error err = {.size = sizeof err, .index = -1};
-    icc_status status =
-        c->cells != NULL && c->n == 0
-            ? icc_domain_create_mask(&j->domains[side], (int32_t)c->dim, c->shape, c->cells,
-                                     &j->env, &err)
-            : icc_domain_create(&j->domains[side], (int32_t)c->dim, c->n, c->points, c->n_facets,
-                                c->facets, &j->env, &err);
+    icc_status status = c->cells != NULL && c->n == 0
+                            ? icc_domain_create_mask(&j->domains[side], (int32_t)c->dim, c->shape,
+                                                     c->cells, &j->env, &err)
+                            : icc_domain_create(&j->domains[side], (int32_t)c->dim, c->n, c->points,
+                                                c->n_facets, c->facets, &j->env, &err);
     if (status == ICC_OK)
         return DONE;
     err.side = (int32_t)side + 1;

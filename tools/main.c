@@ -31,12 +31,13 @@ static const command commands[] = {
      .run = run_encode,
      .usage = "--source FILE [OPTION]... < POINTS > COORDINATES",
      .summary = "Gives the integral curve coordinates of points",
-     .details = "Writes `facet b0 b1 t` per point `x y`: its curve starts on the edge from vertex "
-                "`facet`\n"
-                "(counted from 0), at b0 of that vertex plus b1 of the next; t is the share of the "
-                "curve's\n"
-                "length from there to the point. In space the facet is a face, with three numbers b, "
-                "and so on.\n"},
+     .details =
+         "Writes `facet b0 b1 t` per point `x y`: its curve starts on the edge from vertex "
+         "`facet`\n"
+         "(counted from 0), at b0 of that vertex plus b1 of the next; t is the share of the "
+         "curve's\n"
+         "length from there to the point. In space the facet is a face, with three numbers b, "
+         "and so on.\n"},
     {.name = "decode",
      .bit = FOR_DECODE,
      .run = run_decode,
@@ -67,9 +68,11 @@ static const command commands[] = {
      .details =
          "OBJ, OFF, Medit (.mesh) and legacy VTK as text. Says how many triangles (in space: "
          "tetrahedra)\n"
-         "keep their orientation, how many invert or collapse, and in the plane whether the mesh and "
+         "keep their orientation, how many invert or collapse, and in the plane whether the mesh "
+         "and "
          "its\n"
-         "image are one-to-one, with exact signs. A mesh that is sampled from a one-to-one map need "
+         "image are one-to-one, with exact signs. A mesh that is sampled from a one-to-one map "
+         "need "
          "not be.\n"},
     {.name = "check",
      .bit = FOR_CHECK,
@@ -79,9 +82,11 @@ static const command commands[] = {
      .details =
          "In the plane it lists every crossing, contact, spike and repeated vertex, one per line; "
          "elsewhere\n"
-         "the first defect is named. Exit code 0 means that the charts and the map are certified to "
+         "the first defect is named. Exit code 0 means that the charts and the map are certified "
+         "to "
          "be\n"
-         "one-to-one; the method gradient cannot be, so it gives 1. A mask by itself is only checked "
+         "one-to-one; the method gradient cannot be, so it gives 1. A mask by itself is only "
+         "checked "
          "to be\n"
          "one solid piece without holes; --boundary writes the vertices of its boundary, which, "
          "moved, are\n"
@@ -101,15 +106,16 @@ static const command commands[] = {
      .run = run_plot,
      .usage = "--source FILE [--target FILE] [OPTION]... OUT.svg|OUT.vtk",
      .summary = "Draws cage, integral curves, maximum and what they are made of",
-     .details = "With a target: both shapes side by side, and a u v map and a checkerboard that "
-                "the target\n"
-                "inherits. --function takes several names here, with commas between, and "
-                "each may end\n"
-                "in :constrained or :unconstrained; then there is a column for each.\n\n"
-                "OUT.vtk, for ParaView, has the source alone, in the plane or in space: grid, tree, "
-                "boundary and\n"
-                "curves (cell data `part`: 0 to 3), with the displacement to the target if there is "
-                "one.\n"},
+     .details =
+         "With a target: both shapes side by side, and a u v map and a checkerboard that "
+         "the target\n"
+         "inherits. --function takes several names here, with commas between, and "
+         "each may end\n"
+         "in :constrained or :unconstrained; then there is a column for each.\n\n"
+         "OUT.vtk, for ParaView, has the source alone, in the plane or in space: grid, tree, "
+         "boundary and\n"
+         "curves (cell data `part`: 0 to 3), with the displacement to the target if there is "
+         "one.\n"},
 };
 enum { N_COMMANDS = sizeof commands / sizeof *commands };
 

@@ -17,9 +17,9 @@ typedef struct mesh_file {
     size_t n_text;
     size_t dim;
     size_t n_vertices;
-    double *points;  /* n_vertices * dim */
-    size_t *spans;   /* n_vertices * 2: where the numbers of each begin and end in the text */
-    size_t type[2];  /* where the word stands that says how precise the numbers are (VTK), or 0, 0 */
+    double *points; /* n_vertices * dim */
+    size_t *spans;  /* n_vertices * 2: where the numbers of each begin and end in the text */
+    size_t type[2]; /* where the word stands that says how precise the numbers are (VTK), or 0, 0 */
     size_t n_triangles;
     uint32_t *triangles;    /* n_triangles * 3 */
     size_t *triangle_lines; /* of each triangle, from 1 */

@@ -107,8 +107,7 @@ void lines_corner(lines *r, uint32_t vertex)
 
 bool lines_end_face(lines *r)
 {
-    return r->n_corners >= 3 ||
-           spoilt(r->wrong, r->line, "the face has %zu corners", r->n_corners);
+    return r->n_corners >= 3 || spoilt(r->wrong, r->line, "the face has %zu corners", r->n_corners);
 }
 
 void lines_tetrahedron(lines *r, const uint32_t corners[4])

@@ -124,8 +124,7 @@ static void add_grid(vtk *v)
 static void facet_corners(const cage *c, size_t i, uint32_t *corners)
 {
     for (size_t k = 0; k < c->dim; k++)
-        corners[k] =
-            c->n_facets > 0 ? c->facets[i * c->dim + k] : (uint32_t)((i + k) % c->n);
+        corners[k] = c->n_facets > 0 ? c->facets[i * c->dim + k] : (uint32_t)((i + k) % c->n);
 }
 
 static size_t count_facets(const cage *c)
@@ -173,8 +172,8 @@ static double facet_measure(const cage *c, const uint32_t *corners)
 static void add_curve(vtk *v, const double *start, double **curve, size_t *room)
 {
     size_t n = 0, dim = v->dim;
-    icc_status status = icc_chart_trace(v->stages.chart, start, *room / dim, *curve, &n,
-                                        &v->job.env, NULL);
+    icc_status status =
+        icc_chart_trace(v->stages.chart, start, *room / dim, *curve, &n, &v->job.env, NULL);
     if (status == ICC_OK && n * dim > *room) {
         *curve = grow(*curve, room, n * dim, sizeof **curve);
         status = icc_chart_trace(v->stages.chart, start, n, *curve, &n, &v->job.env, NULL);
@@ -233,8 +232,8 @@ static int move_places(vtk *v)
     v->moved = need(v->n_places, v->dim * sizeof *v->moved);
     for (size_t i = 0; i < v->n_places; i++)
         memcpy(v->moved + v->dim * i, v->places[i].at, v->dim * sizeof *v->moved);
-    icc_status ran = icc_map_apply(v->job.map, v->n_places, v->moved, v->moved, NULL, NULL,
-                                   &v->job.env);
+    icc_status ran =
+        icc_map_apply(v->job.map, v->n_places, v->moved, v->moved, NULL, NULL, &v->job.env);
     return ran == ICC_OK ? DONE : job_failed_status(&v->job, ran);
 }
 

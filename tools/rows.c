@@ -5,14 +5,13 @@
 
 table_form rows_of_points(size_t dim)
 {
-    static const char *const forms[ICC_MAX_DIM + 1] = {
-        "",
-        "a point is `x`, one per line",
-        "a point is `x y`, one per line",
-        "a point is `x y z`, one per line",
-        "a point is 4 numbers, one point per line",
-        "a point is 5 numbers, one point per line",
-        "a point is 6 numbers, one point per line"};
+    static const char *const forms[ICC_MAX_DIM + 1] = {"",
+                                                       "a point is `x`, one per line",
+                                                       "a point is `x y`, one per line",
+                                                       "a point is `x y z`, one per line",
+                                                       "a point is 4 numbers, one point per line",
+                                                       "a point is 5 numbers, one point per line",
+                                                       "a point is 6 numbers, one point per line"};
     return (table_form){.columns = dim, .special = true, .what = forms[dim]};
 }
 

@@ -92,8 +92,7 @@ void stages_position(const stages *s, uint32_t vertex, double *out)
 {
     size_t rest = vertex;
     for (int32_t k = 0; k < s->lattice.dim; k++) {
-        out[k] = s->lattice.origin[k] +
-                 s->lattice.spacing * (double)(rest % s->lattice.shape[k]);
+        out[k] = s->lattice.origin[k] + s->lattice.spacing * (double)(rest % s->lattice.shape[k]);
         rest /= s->lattice.shape[k];
     }
 }

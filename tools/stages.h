@@ -21,8 +21,8 @@ typedef struct stages {
     const double *values; /* what is drawn of the function: its values, or their logarithms */
     bool logarithmic;
     double low, high; /* least and largest of them inside */
-    size_t n_edges; /* in the plane; else none */
-    uint32_t *edges; /* n_edges pairs: compression and expansion edges */
+    size_t n_edges;   /* in the plane; else none */
+    uint32_t *edges;  /* n_edges pairs: compression and expansion edges */
     int32_t *kinds;
     size_t n_inner_expansion; /* expansion edges whose two triangles are inside */
 } stages;

@@ -11,6 +11,12 @@ run 0 map -s cube.obj -t moved.obj -n 12 -p expected --inverse
 close_to out points.txt 1e-9
 run 0 map -s cube.obj -t moved.obj -n 12 -p corners.txt
 close_to out moved.txt 1e-12
+# Points on the planes and the diagonals of the grid are points like others.
+awk 'BEGIN { for (i = 1; i < 8; i++) for (j = 1; j < 8; j++) print i / 8, j / 8, (i + j) / 16 }' >planes.txt
+run 0 map -s cube.obj -t moved.obj -n 8 -p planes.txt -o there
+run 0 map -s cube.obj -t moved.obj -n 8 -p there -i
+close_to out planes.txt 1e-9
+
 {
     printf '\357\273\277# a comment\r\nOFF\r\n8 12 18 # sizes\r\n'
     sed 's/$/\r/' corners.txt
@@ -135,7 +141,7 @@ holds out '"valid": true'
 holds out '"infeasible_vertices":'
 run 0 info -s cube.obj -t moved.obj -n 12
 for word in 'cage        8 vertices, 12 facets, facing outward, volume 1' 'method      field' 'given up' \
-    'cousin violations' 'critical vertices in its order' 'order  ' 'vectors  ' 'not inward' 'distortion' 'seconds'; do
+    'cousin violations' 'critical vertices in its order' 'order  ' 'vectors  ' 'contacts  ' 'distortion' 'seconds'; do
     holds out "$word"
 done
 run 0 info -s cube.obj -n 12 --json
