@@ -719,21 +719,6 @@ START_TEST(nothing_leaks)
 }
 END_TEST
 
-START_TEST(maps_of_surfaces_are_refused)
-{
-    surface_octahedron(&s);
-    icc_domain *domain = make(&s);
-    icc_chart *chart;
-    icc_map *map;
-    icc_error err = {.size = sizeof err};
-    ck_assert_int_eq(icc_chart_create(&chart, domain, NULL, NULL, &err), ICC_ERR_UNSUPPORTED);
-    ck_assert_ptr_null(chart);
-    ck_assert_int_eq(icc_map_create(&map, domain, domain, NULL, NULL, &err), ICC_ERR_UNSUPPORTED);
-    ck_assert_ptr_null(map);
-    icc_domain_free(domain);
-}
-END_TEST
-
 /* ----------------------------------------------------------- other dimensions */
 
 /* The cross-polytope |x_1| + ... + |x_n| <= 1 with 2^n facets. */
@@ -1125,7 +1110,6 @@ int main(void)
     tcase_add_test(tests, frames_keep_surfaces);
     tcase_add_test(tests, unused_vertices_are_ignored);
     tcase_add_test(tests, nothing_leaks);
-    tcase_add_test(tests, maps_of_surfaces_are_refused);
     tcase_add_test(tests, polytopes_are_domains);
     tcase_add_test(tests, polytopes_are_checked);
     tcase_add_test(tests, polytopes_are_counted);
