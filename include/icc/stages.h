@@ -282,8 +282,8 @@ enum {
  * @param options  may be NULL
  * @param env      may be NULL
  * @param err      may be NULL
- * @return ::ICC_OK; ::ICC_ERR_SOLVER when a solver did not converge, which has only been seen with inequalities on
- *         bilaplace and clamped, where they ask for more than 1 at the root (as `leaf` and `eta` do of
+ * @return ::ICC_OK; ::ICC_ERR_SOLVER when a solver did not converge, which has only been seen with
+ *         inequalities on bilaplace and clamped, where they ask for more than 1 at the root (as `leaf` and `eta` do of
  *         deep trees) or `leaf` is 1e-2; ::ICC_ERR_RESOLUTION when the root is
  *         the only vertex inside (laplace, bilaplace, clamped); ::ICC_ERR_UNSUPPORTED for clamped, and
  *         for bilaplace under inequalities, in a build without AMD; ::ICC_ERR_ARGUMENT,
@@ -404,8 +404,12 @@ ICC_API icc_status icc_tree_grow(const icc_tree *tree, const double *values, uin
  * Counts the critical vertices of any order of the vertices inside that the tree reaches, as
  * icc_field_verify() does for functions: by looking at every link, whatever the order comes from.
  *
- * @param rank one number per grid vertex, smaller for higher vertices; equal ones count as
- *             icc_field_verify() says. Those of other vertices do not matter.
+ * @param tree        the tree
+ * @param rank        one number per grid vertex, smaller for higher vertices; equal ones count as
+ *                    icc_field_verify() says. Those of other vertices do not matter.
+ * @param[out] report its `size` is set by the caller
+ * @param env         may be NULL
+ * @param err         may be NULL
  */
 ICC_API icc_status icc_tree_verify_ranks(const icc_tree *tree, const uint32_t *rank,
                                          icc_field_report *report, const icc_env *env,

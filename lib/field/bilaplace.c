@@ -14,7 +14,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Of a component, in its own size: far above the 1e-15 of solutions that are right, far below the 1 of others. */
+/* Of a component, in its own size: far above the 1e-15 of solutions that are right, far below the 1 of
+ * others. */
 static const double MOST_RESIDUAL = 1e-6;
 
 /* The Laplacian of the rows, the root's included. */

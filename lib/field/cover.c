@@ -384,7 +384,8 @@ icc_status iccp_cover_create(iccp_cover *cover, const icc_domain *domain, const 
     s.count = iccp_alloc_zero(&env->memory, n, sizeof *s.count);
     s.outside = iccp_alloc_zero(&env->memory, n, sizeof *s.outside);
     icc_status status = ICC_ERR_MEMORY;
-    if (cover->bits != NULL && cover->faces != NULL && cover->first != NULL && cover->normal != NULL && orders != NULL &&
+    if (cover->bits != NULL && cover->faces != NULL && cover->first != NULL && cover->normal != NULL &&
+        orders != NULL &&
         s.seen != NULL && s.count != NULL && s.outside != NULL) {
         iccp_orders_init(orders, grid);
         status = fill(&s, env);

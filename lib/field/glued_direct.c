@@ -15,7 +15,8 @@
 /* Clusters between looks at the progress callback. */
 enum { CLUSTERS_PER_REPORT = 1 << 16 };
 
-/* Of a component, in its own size: far above the 1e-15 of solutions that are right, far below the 1 of others. */
+/* Of a component, in its own size: far above the 1e-15 of solutions that are right, far below the 1 of
+ * others. */
 static const double MOST_RESIDUAL = 1e-6;
 
 typedef struct assembly {

@@ -176,7 +176,8 @@ static icc_status place(const shells *s, shell *h)
     return status;
 }
 
-/* Scales the guess, of which q is P'LP x, so that its energy is least, and makes r its residual; the size of the load. */
+/* Scales the guess, of which q is P'LP x, so that its energy is least, and makes r its residual; returns
+ * the size of the load. */
 static double begin_with_guess(shell *h)
 {
     const size_t n = h->mg.level[0].n_entries;

@@ -16,7 +16,7 @@ enum {
     MAX_ITERATIONS = 200,
     MAX_CORRECTIONS = 8,
     MAX_SOFTENINGS = 4,
-    PATIENCE = 6 /* iterations that reduce the products by less than a tenth, and residuals by hardly more */
+    PATIENCE = 6 /* iterations that reduce the products by less than a tenth, and residuals hardly */
 };
 
 /* Share of the first residuals: the products do not fall before. */
@@ -229,7 +229,8 @@ icc_status iccp_interior_run(iccp_interior *interior, double target, bool *stuck
             return status;
         const double last = mean;
         mean = mean_product(interior);
-        const bool gets_feasible = interior->remaining > NEARLY_FEASIBLE && interior->remaining < 0.98 * remaining;
+        const bool gets_feasible =
+            interior->remaining > NEARLY_FEASIBLE && interior->remaining < 0.98 * remaining;
         patience = mean < 0.9 * last || gets_feasible ? PATIENCE : patience - 1;
         *stuck = status != ICC_OK || patience == 0 || interior->n_iterations >= MAX_ITERATIONS;
     }

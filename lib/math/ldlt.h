@@ -55,7 +55,8 @@ void iccp_ldlt_free(iccp_ldlt *factor);
 void iccp_ldlt_solve(const iccp_ldlt *factor, size_t n_rhs, double *b, double *work);
 
 /* The same for one right side of normalised numbers, without under- or overflow. `work` has room for
- * n of them. ICC_OK, or ICC_ERR_CANCELLED. The solution of an M-matrix with a right side that is not negative is right to the last
+ * n of them. ICC_OK, or ICC_ERR_CANCELLED. The solution of an M-matrix with a right side that is
+ * not negative is right to the last
  * few digits in every component, since nothing cancels, unless entries of L itself underflow: orders
  * that join rows directly whose numbers differ by 10^150 lose them. Orders by degree do that in long
  * rings, not where corridors end; an order by falling distance from the source never does. */
