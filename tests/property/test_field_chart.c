@@ -366,6 +366,60 @@ START_TEST(orientation_does_not_matter)
 END_TEST
 
 /* Three cells round a corner, in every dimension. */
+/* Bytes in use, and the most there have been. */
+typedef struct meter {
+    size_t now, most;
+} meter;
+
+enum { HEADER = 16 }; /* bytes before each block: its size, and what keeps it aligned */
+
+static void *meter_alloc(void *user, size_t size)
+{
+    meter *m = user;
+    char *block = malloc(size + HEADER);
+    if (block == NULL)
+        return NULL;
+    memcpy(block, &size, sizeof size);
+    m->now += size;
+    m->most = m->now > m->most ? m->now : m->most;
+    return block + HEADER;
+}
+
+static void meter_dealloc(void *user, void *memory)
+{
+    size_t size;
+    memcpy(&size, (char *)memory - HEADER, sizeof size);
+    ((meter *)user)->now -= size;
+    free((char *)memory - HEADER);
+}
+
+/* What icc_chart_create() says. */
+START_TEST(memory_is_as_stated)
+{
+    static surface s;
+    surface_octahedron(&s);
+    icc_domain *domain;
+    ck_assert_int_eq(icc_domain_create(&domain, 3, s.n_vertices, s.vertices, s.n_faces, s.faces, NULL,
+                                       NULL),
+                     ICC_OK);
+    meter m = {0};
+    const icc_env env = {
+        .size = sizeof env, .user = &m, .alloc = meter_alloc, .dealloc = meter_dealloc};
+    const icc_chart_options options = {
+        .size = sizeof options, .method = ICC_METHOD_FIELD, .cells = 64};
+    icc_chart_info info = {.size = sizeof info};
+    icc_chart *chart;
+    ck_assert_int_eq(icc_chart_create(&chart, domain, &options, &env, NULL), ICC_OK);
+    ck_assert_int_eq(icc_chart_get_info(chart, &info), ICC_OK);
+    const double vertices = (double)info.n_grid, rim = 150.0 * (double)info.n_contacts;
+    ck_assert_double_le((double)m.now, 70 * vertices);
+    ck_assert_double_le((double)m.most, 70 * vertices + rim);
+    icc_chart_free(chart);
+    ck_assert_uint_eq(m.now, 0);
+    icc_domain_free(domain);
+}
+END_TEST
+
 START_TEST(masks)
 {
     random_source r = {14};
@@ -512,6 +566,7 @@ int main(void)
     tcase_add_test(tests, certified_surfaces);
     tcase_add_test(tests, identity);
     tcase_add_test(tests, orientation_does_not_matter);
+    tcase_add_test(tests, memory_is_as_stated);
     tcase_add_test(tests, masks);
     tcase_add_test(tests, thin_gaps);
     tcase_add_test(tests, what_is_not_available_is_named);
