@@ -406,10 +406,10 @@ static bool agrees(double low, double at, double high, double step, double deriv
 START_TEST(jets_are_derivatives)
 {
     static const double STEP = 1e-7;
-    random_source r = {6};
     int n_encoded = 0, n_decoded = 0, n_tried = 0;
     for (int k = 0; k < 2 * N_SMALL; ++k) {
         subject s;
+        random_source r = {(uint64_t)(6 + k)}; /* whatever shapes are at hand */
         iccp_path path;
         if (!subject_init(&s, k / 2, k % 2 ? ICC_FUNCTION_LAPLACE : ICC_FUNCTION_DECAY))
             continue;
@@ -440,7 +440,7 @@ START_TEST(jets_are_derivatives)
             /* By t, and from the first corner of the facet to another. */
             for (int32_t b = 0; b < dim; ++b) {
                 start = c[1];
-                good = true;
+                good = b == 0 || fmin(start.bary[0], start.bary[b]) > STEP; /* there are two sides */
                 for (int n = 0; n < 3 && good; ++n) {
                     start = c[1];
                     start.t += b == 0 ? (n - 1) * STEP : 0;
