@@ -6,6 +6,7 @@
 #include "field/constrained.h"
 
 #include "base/clock.h"
+#include "base/random.h"
 #include "field/inequalities.h"
 
 #include <math.h>
@@ -40,15 +41,6 @@ typedef struct state {
     double *work;       /* 2 n, the multipliers among them: for the residual */
     uint64_t random;
 } state;
-
-/* SplitMix64: G. Steele, D. Lea, C. Flood, Fast splittable pseudorandom number generators, 2014. */
-static uint64_t next_random(state *s)
-{
-    uint64_t z = s->random += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-}
 
 /* False when the share of a row underflows. */
 static bool glue(state *s)
@@ -120,7 +112,7 @@ static void flip(state *s, int level)
         if (!s->wrong[k])
             continue;
         --n_left;
-        if ((next_random(s) & mask) != 0 && (n_left > 0 || n_flipped > 0))
+        if ((iccp_random(&s->random) & mask) != 0 && (n_left > 0 || n_flipped > 0))
             continue;
         s->active[k] = !s->active[k];
         ++n_flipped;

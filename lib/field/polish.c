@@ -10,6 +10,7 @@
 #include "field/polish.h"
 
 #include "base/clock.h"
+#include "base/random.h"
 #include "field/inequalities.h"
 
 #include <math.h>
@@ -47,16 +48,12 @@ typedef struct state {
     uint64_t random;
 } state;
 
-/* Whether to make a change. Making all of them may lead round in circles. SplitMix64 (G. Steele, D. Lea,
- * C. Flood, Fast splittable pseudorandom number generators, 2014). */
+/* Whether to make a change. Making all of them may lead round in circles. */
 static bool decide(state *s)
 {
     if (!s->hesitant)
         return true;
-    uint64_t z = s->random += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return (z ^ (z >> 31)) >> 63;
+    return iccp_random(&s->random) >> 63;
 }
 
 static uint8_t *leaf_active(const state *s, size_t j)

@@ -1,0 +1,17 @@
+/* A generator of pseudorandom numbers for decisions by chance that are the same every time. */
+#ifndef ICCP_RANDOM_H
+#define ICCP_RANDOM_H
+
+#include <stdint.h>
+
+/* SplitMix64: G. Steele, D. Lea, C. Flood, Fast splittable pseudorandom number generators, 2014. Any state
+ * will do to begin with. */
+static inline uint64_t iccp_random(uint64_t *state)
+{
+    uint64_t z = *state += 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+}
+
+#endif
