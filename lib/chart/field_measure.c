@@ -3,6 +3,7 @@
 #include "chart/field_measure.h"
 
 #include "base/threads.h"
+#include "chart/spread.h"
 
 #include <math.h>
 #include <string.h>
@@ -19,17 +20,6 @@ typedef struct samples {
 
 enum { INSIDE = 1, UNREACHABLE = 2, OUTWARD = 4 };
 
-/* Coordinate k of point i of an evenly spread sequence: multiples of a generalised golden ratio (M. Roberts,
- * The Unreasonable Effectiveness of Quasirandom Sequences, 2018). */
-static double spread(size_t i, int32_t k, int32_t dim)
-{
-    double ratio = 1.5;
-    for (int step = 0; step < 60; ++step)
-        ratio = pow(1 + ratio, 1.0 / (dim + 1));
-    const double x = 0.5 + (double)(i + 1) * pow(ratio, -(k + 1));
-    return x - floor(x);
-}
-
 static uint8_t judge_point(const samples *s, size_t i, iccp_path *path)
 {
     const icc_domain *domain = s->chart->domain;
@@ -37,7 +27,7 @@ static uint8_t judge_point(const samples *s, size_t i, iccp_path *path)
     iccp_coords coords;
     for (int32_t k = 0; k < domain->dim; ++k)
         point[k] = domain->lower[k] +
-                   (domain->upper[k] - domain->lower[k]) * spread(i, k, domain->dim);
+                   (domain->upper[k] - domain->lower[k]) * iccp_spread(domain->dim, k, i);
     const icc_status status = s->chart->ops->encode(s->chart, point, &coords, NULL, path);
     if (status == ICC_ERR_OUTSIDE)
         return 0;
@@ -68,7 +58,7 @@ static uint8_t judge_boundary(const samples *s, size_t i)
     cut[0] = 0;
     for (int32_t k = 1; k < dim; ++k) {
         int32_t at = k;
-        const double u = spread(i, k, dim);
+        const double u = iccp_spread(dim, k, i);
         for (; at > 1 && cut[at - 1] > u; --at)
             cut[at] = cut[at - 1];
         cut[at] = u;

@@ -4,6 +4,7 @@
 
 #include "base/threads.h"
 #include "chart/gradient_line.h"
+#include "chart/spread.h"
 
 #include <math.h>
 
@@ -18,25 +19,11 @@ typedef struct area_samples {
 /* Shapes that fill less of their bounding box than one part in this get fewer samples than wanted. */
 static const double MOST_CANDIDATES = 64;
 
-/* The sequence R_d (M. Roberts, 2018): multiples of the powers of 1/x, x^(d + 1) = x + 1. */
-static double sequence(int32_t dim, int32_t k, size_t index)
-{
-    static const double FIRST[ICC_MAX_DIM] = {0.61803398874989485, 0.75487766624669276,
-                                              0.81917251339616444, 0.85667488385450287,
-                                              0.88127146163356959, 0.89865371262869929};
-    double step = FIRST[dim - 1];
-    for (int32_t i = 0; i < k; ++i)
-        step *= FIRST[dim - 1];
-    const double x = 0.5 + step * (double)(index + 1);
-    return x - floor(x);
-}
-
-/* Its point 0 is the middle of the box, which is special in a symmetric shape: left out. */
 static void candidate(const icc_domain *domain, size_t index, double *p)
 {
     for (int32_t k = 0; k < domain->dim; ++k)
         p[k] = domain->lower[k] +
-               sequence(domain->dim, k, index) * (domain->upper[k] - domain->lower[k]);
+               iccp_spread(domain->dim, k, index) * (domain->upper[k] - domain->lower[k]);
 }
 
 static uint8_t judge_point(const iccp_gradient_state *state, const double *local)
@@ -123,7 +110,7 @@ static void place_on_facet(int32_t dim, double along, size_t index, double *bary
 {
     double cut[ICC_MAX_DIM] = {along};
     for (int32_t k = 1; k < dim - 1; ++k) {
-        const double x = sequence(dim - 2, k - 1, index);
+        const double x = iccp_spread(dim - 2, k - 1, index);
         int32_t i = k;
         for (; i > 0 && cut[i - 1] < x; --i)
             cut[i] = cut[i - 1];
