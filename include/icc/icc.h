@@ -132,6 +132,44 @@ ICC_API icc_status icc_domain_create_mask(icc_domain **out, int32_t dim, const s
                                           icc_error *err);
 
 /**
+ * Makes a domain from a conforming mesh of its inside: triangles in 2-D, tetrahedra in 3-D, simplices
+ * beyond. On such a domain ICC_METHOD_FOLIATION works in every dimension, with leaves that are straight
+ * in every simplex; everything else works as on a domain made of the boundary alone.
+ *
+ * The vertices of the domain are those of the mesh that lie on its boundary, in the order of the mesh.
+ * Two domains whose meshes differ inside correspond, as icc_map_create() asks, if these and the facets are
+ * the same. The facets may be given in an order of the caller's, such as that of the surface that the mesh
+ * was made for; if not, they are sorted by their vertices (the smallest index first, and so on) and
+ * listed as seen from outside.
+ *
+ * Checked exactly up to 3-D, to rounding beyond: what icc_domain_create() checks of the boundary; no
+ * simplex without volume; a facet belongs to at most two simplices, which lie on opposite sides of it;
+ * the mesh hangs together; its Euler characteristic is 1. So the simplices fill the domain and do not
+ * overlap. In which order a simplex lists its vertices does not matter.
+ *
+ * @param[out] out    the domain; owned by the caller
+ * @param dim         2..::ICC_MAX_DIM
+ * @param n_vertices  vertices of the mesh, fewer than 2^31
+ * @param vertices    n_vertices * dim coordinates
+ * @param n_simplices simplices; times dim + 1, fewer than 2^31
+ * @param simplices   n_simplices * (dim + 1) vertex indices
+ * @param n_facets    facets of the boundary; ignored when `facets` is NULL
+ * @param facets      n_facets * dim vertex indices: the boundary of the mesh, in the caller's order; or NULL
+ * @param env         may be NULL
+ * @param err         may be NULL; `index` names the simplex at fault, or as for icc_domain_create()
+ * @return ::ICC_OK; ::ICC_ERR_BOUNDARY (a simplex is flat or lists a vertex twice or one that is not there,
+ *         a facet has three simplices or two on one side, `facets` are not the mesh's); ::ICC_ERR_TOPOLOGY
+ *         (several pieces, holes); ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY, ::ICC_ERR_CANCELLED
+ *
+ * Cost: O(n log n) time, O(n) memory.
+ */
+ICC_API icc_status icc_domain_create_mesh(icc_domain **out, int32_t dim, size_t n_vertices,
+                                          const double *vertices, size_t n_simplices,
+                                          const uint32_t *simplices, size_t n_facets,
+                                          const uint32_t *facets, const icc_env *env,
+                                          icc_error *err);
+
+/**
  * Fills cells of a mask where others, or gaps, touch only along an edge or a corner, which
  * icc_domain_create_mask() refuses: one after the other, each time the one that leaves the fewest such
  * places around it. Whatever cannot be mended so, and all else that may be wrong, is left as it is.

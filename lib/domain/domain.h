@@ -13,6 +13,7 @@
 
 struct iccp_locator;
 struct iccp_mask;
+struct iccp_simplices;
 
 struct icc_domain {
     iccp_memory memory;
@@ -34,6 +35,7 @@ struct icc_domain {
     iccp_facet_tree tree; /* over local vertices; in 2-D a view of the locator's */
     struct iccp_locator *locator; /* 2-D only, else NULL: the polygon as a ring, and faster answers */
     struct iccp_mask *mask;       /* what the boundary was made from, or NULL */
+    struct iccp_simplices *mesh;  /* a mesh of the inside, or NULL */
 };
 
 /* See icc_domain_create(); arguments have been checked for NULL and the range of dim. Facets may be

@@ -1,0 +1,24 @@
+/* The best of several orders of a mesh. */
+#ifndef ICCP_CONTEST_H
+#define ICCP_CONTEST_H
+
+#include "shelling/circulation.h"
+#include "shelling/order.h"
+
+typedef struct iccp_contest_info {
+    int32_t peeled;      /* 1: the order that won was peeled, 0: grown */
+    double beta;         /* its weight of reversed flux */
+    double energy;       /* its flux, see iccp_circulation_energy() */
+    double divergence;   /* see iccp_circulation_divergence() */
+    size_t n_reversed;   /* facets where the reference flux runs the other way */
+    size_t n_finished;   /* orders that were complete, of eight */
+} iccp_contest_info;
+
+/* Grows and peels with four weights each, fits a flux to every complete order, and keeps the order with the
+ * least energy, whose flux is then fitted further. If none is complete, the simplices that were left are
+ * put off, a few times. ICC_ERR_TOPOLOGY when that does not help either. */
+icc_status iccp_contest(const iccp_simplices *mesh, uint32_t centre, const double *inflow,
+                        const double *reference, const double *potential, uint32_t *rank, double *flux,
+                        iccp_contest_info *info, const iccp_env *env, icc_error *err);
+
+#endif
