@@ -1,0 +1,1 @@
+#include "chart/shelling_certificate.h"

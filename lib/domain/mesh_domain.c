@@ -1,0 +1,1 @@
+#include "domain/mesh_domain.h"

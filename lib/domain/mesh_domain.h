@@ -1,0 +1,14 @@
+/* Domains made from conforming meshes. */
+#ifndef ICCP_MESH_DOMAIN_H
+#define ICCP_MESH_DOMAIN_H
+
+#include "domain/domain.h"
+#include "domain/simplices.h"
+
+/* See icc_domain_create_mesh(); arguments have been checked for NULL, the range of dim and of the counts. */
+icc_status iccp_domain_create_mesh(icc_domain **out, int32_t dim, size_t n_vertices,
+                                   const double *vertices, size_t n_simplices,
+                                   const uint32_t *simplices, size_t n_facets,
+                                   const uint32_t *facets, const iccp_env *env, icc_error *err);
+
+#endif

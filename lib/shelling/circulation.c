@@ -1,0 +1,1 @@
+#include "shelling/circulation.h"
