@@ -4,34 +4,42 @@
 #define ICCP_CIRCULATION_H
 
 #include "shelling/reference.h"
+#include "shelling/rings.h"
 
-/* What is being fitted. */
+/* What is being fitted, whatever the order. */
 typedef struct iccp_circulation {
-    const iccp_simplices *mesh;
+    const iccp_simplices *mesh; /* borrowed, as the next two arrays */
     uint32_t centre;
-    const uint32_t *rank;     /* see shelling/order.h; complete */
-    const double *inflow;     /* through each facet of the domain */
-    const double *reference;  /* flux through each side */
-    const double *weight;     /* of each side, the same for both sides of a facet: conductances */
+    const double *inflow;    /* through each facet of the domain */
+    const double *reference; /* flux through each side */
+    iccp_rings rings;
+    double *weight;          /* of each facet of the rings: area over the distance of the barycentres */
+    double *least;           /* flux that it should have at least: a share of what flows nearby */
 } iccp_circulation;
 
-/* The weights: area of the facet over the distance of its simplices' barycentres. */
-void iccp_conductances(const iccp_simplices *mesh, double *weight);
+icc_status iccp_circulation_create(iccp_circulation *circulation, const iccp_simplices *mesh,
+                                   uint32_t centre, const double *inflow, const double *reference,
+                                   const iccp_env *env);
+void iccp_circulation_free(iccp_circulation *circulation);
 
 /* From the boundary inwards, each simplex sends on what it receives through the facets to simplices of
  * smaller rank, in proportion to the reference flux there, but through each at least a small share. The flux
- * is positive from greater to smaller rank and without divergence. O(n). */
-icc_status iccp_circulation_greedy(const iccp_circulation *c, double *flux, const iccp_env *env);
+ * is positive from greater to smaller rank and without divergence. `rank` is complete, see
+ * shelling/order.h. O(n). */
+icc_status iccp_circulation_greedy(const iccp_circulation *c, const uint32_t *rank, double *flux,
+                                   const iccp_env *env);
 
-/* Brings the flux nearer to the reference: Gauss-Seidel sweeps over the interior (dim - 2)-faces, each with
- * the circulation round the face that lowers the energy most and leaves all fluxes positive. */
-icc_status iccp_circulation_relax(const iccp_circulation *c, size_t n_sweeps, double *flux,
-                                  const iccp_env *env);
+/* Brings such a flux nearer to the reference: Gauss-Seidel sweeps over the rings, each time with the
+ * circulation round the ring that lowers the energy most and leaves all fluxes positive. The energy never
+ * rises. O(n) a sweep. */
+icc_status iccp_circulation_relax(const iccp_circulation *c, const uint32_t *rank, size_t n_sweeps,
+                                  double *flux, const iccp_env *env);
 
-/* Sum over facets of (flux - reference)^2 / weight. */
+/* Sum over the facets of (flux - reference)^2 / weight. */
 double iccp_circulation_energy(const iccp_circulation *c, const double *flux);
 
-/* The largest relative divergence of a simplex outside the star. */
+/* The largest relative divergence of a simplex outside the star: the sum of its fluxes over the sum of what
+ * leaves. */
 double iccp_circulation_divergence(const iccp_circulation *c, const double *flux);
 
 #endif

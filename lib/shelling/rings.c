@@ -1,0 +1,1 @@
+#include "shelling/rings.h"
