@@ -12,7 +12,7 @@
 typedef struct args {
     const char *command;
     /* files */
-    const char *source, *target, *points, *coords, *output, *repair, *boundary, *json_file;
+    const char *source, *target, *mesh, *target_mesh, *points, *coords, *output, *repair, *boundary, *json_file;
     const char *operands[2];
     size_t n_operands;
     /* how charts and maps are made: 0 means the library's choice */

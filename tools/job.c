@@ -4,6 +4,7 @@
 
 #include "correspond.h"
 #include "defect.h"
+#include "fill.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -168,12 +169,14 @@ static int make_source(job *j)
 
 int job_make_domains(job *j)
 {
+    if (j->domains[0] != NULL)
+        return DONE;
     int result = job_read_cages(j);
-    if (result == DONE && j->domains[0] == NULL)
+    if (result == DONE)
         result = make_source(j);
-    if (result == DONE && j->args->target != NULL && j->domains[1] == NULL)
+    if (result == DONE && j->args->target != NULL)
         result = make_domain(j, 1);
-    return result;
+    return result == DONE ? fill_domains(j) : result;
 }
 
 static icc_chart_options chart_options(const job *j)

@@ -40,7 +40,7 @@ extern const choice methods[], maps[], functions[], solvers[], trees[];
 /* The name of a value that the library gave. */
 const char *choice_name(const choice *choices, int32_t value);
 
-enum { N_OPTIONS = 33 };
+enum { N_OPTIONS = 35 };
 extern const option options[N_OPTIONS];
 
 #endif

@@ -7,6 +7,8 @@
 
 #include "base/env.h"
 
+#include <stdbool.h>
+
 /* The mark of a side on the domain's boundary; the other bits are the number of the facet there. */
 #define ICCP_RIM 0x80000000u
 
@@ -34,5 +36,30 @@ static inline const double *iccp_corner_point(const iccp_simplices *mesh, size_t
 {
     return mesh->points + mesh->dim * mesh->corners[side];
 }
+
+/* What a simplex and a facet of one are called: "tetrahedron" and "face" in 3-D. */
+const char *iccp_simplices_name(size_t dim);
+const char *iccp_simplices_facet(size_t dim);
+
+/* ---- making one: dim, n_points, points, n_simplices and corners are given, by any numbers ---- */
+
+/* ICC_ERR_BOUNDARY unless every corner is a point and no simplex has one twice. */
+icc_status iccp_simplices_check_corners(const iccp_simplices *mesh, icc_error *err);
+
+/* Exchanges two corners of those simplices that are not positive. ICC_ERR_BOUNDARY if one is flat. */
+icc_status iccp_simplices_orient(iccp_simplices *mesh, icc_error *err);
+
+/* Fills in n_facets and `across` of a mesh that is oriented. When `facets` is not NULL, the n_facets facets,
+ * dim points each, must be those of the boundary; otherwise these are numbered in the order of their
+ * points. ICC_ERR_BOUNDARY unless every facet has one or two simplices, which lie on opposite sides. */
+icc_status iccp_simplices_join(iccp_simplices *mesh, size_t n_facets, const uint32_t *facets,
+                               icc_error *err);
+
+/* The points of a side, as seen from the other side of it: for the boundary, from outside. */
+void iccp_simplices_side(const iccp_simplices *mesh, size_t side, uint32_t *points);
+
+/* ICC_ERR_TOPOLOGY unless the simplices of a joined mesh hang together and their Euler characteristic is 1.
+ * Every point must belong to a simplex. */
+icc_status iccp_simplices_check_shape(const iccp_simplices *mesh, icc_error *err);
 
 #endif

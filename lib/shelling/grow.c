@@ -1,1 +1,0 @@
-#include "shelling/order.h"
