@@ -10,13 +10,13 @@
 #include <math.h>
 #include <string.h>
 
-typedef struct mesh {
+typedef struct test_mesh {
     int32_t dim;
     size_t n_vertices, n_simplices, n_facets;
     double *vertices;
     uint32_t *simplices;
     uint32_t *facets; /* NULL when the order of the library will do */
-} mesh;
+} test_mesh;
 
 static inline void *mesh_alloc(size_t n, size_t size)
 {
@@ -26,26 +26,26 @@ static inline void *mesh_alloc(size_t n, size_t size)
     return memory;
 }
 
-static inline mesh mesh_of(int32_t dim, size_t n_vertices, size_t n_simplices)
+static inline test_mesh mesh_of(int32_t dim, size_t n_vertices, size_t n_simplices)
 {
-    mesh m = {.dim = dim, .n_vertices = n_vertices, .n_simplices = n_simplices};
+    test_mesh m = {.dim = dim, .n_vertices = n_vertices, .n_simplices = n_simplices};
     m.vertices = mesh_alloc(n_vertices * (size_t)dim, sizeof *m.vertices);
     m.simplices = mesh_alloc(n_simplices * (size_t)(dim + 1), sizeof *m.simplices);
     return m;
 }
 
-static inline void mesh_free(mesh *m)
+static inline void mesh_free(test_mesh *m)
 {
     free(m->vertices);
     free(m->simplices);
     free(m->facets);
-    *m = (mesh){0};
+    *m = (test_mesh){0};
 }
 
-static inline mesh mesh_copy(const mesh *m)
+static inline test_mesh mesh_copy(const test_mesh *m)
 {
     const size_t dim = (size_t)m->dim;
-    mesh copy = mesh_of(m->dim, m->n_vertices, m->n_simplices);
+    test_mesh copy = mesh_of(m->dim, m->n_vertices, m->n_simplices);
     memcpy(copy.vertices, m->vertices, m->n_vertices * dim * sizeof *m->vertices);
     memcpy(copy.simplices, m->simplices, m->n_simplices * (dim + 1) * sizeof *m->simplices);
     copy.n_facets = m->n_facets;
@@ -57,15 +57,15 @@ static inline mesh mesh_copy(const mesh *m)
 }
 
 /* The same mesh with every vertex elsewhere. */
-static inline mesh mesh_moved(const mesh *m, void (*move)(int32_t dim, const double *x, double *y))
+static inline test_mesh mesh_moved(const test_mesh *m, void (*move)(int32_t dim, const double *x, double *y))
 {
-    mesh moved = mesh_copy(m);
+    test_mesh moved = mesh_copy(m);
     for (size_t v = 0; v < m->n_vertices; ++v)
         move(m->dim, m->vertices + (size_t)m->dim * v, moved.vertices + (size_t)m->dim * v);
     return moved;
 }
 
-static inline icc_status mesh_domain(icc_domain **out, const mesh *m, const icc_env *env,
+static inline icc_status mesh_domain(icc_domain **out, const test_mesh *m, const icc_env *env,
                                      icc_error *err)
 {
     return icc_domain_create_mesh(out, m->dim, m->n_vertices, m->vertices, m->n_simplices,
@@ -105,13 +105,13 @@ static inline void mesh_permutation(size_t which, int32_t dim, int32_t *order)
 
 /* Kuhn's simplices in the cells of [0, n]^dim for which keep() holds; NULL: all. All (n + 1)^dim lattice points
  * are vertices, the first axis fastest, whether or not a simplex has them. */
-static inline mesh mesh_cells(int32_t dim, size_t n, int (*keep)(int32_t dim, const size_t *cell))
+static inline test_mesh mesh_cells(int32_t dim, size_t n, int (*keep)(int32_t dim, const size_t *cell))
 {
     const size_t n_cells = mesh_power(n, dim);
     size_t n_cuts = 1, digits[ICC_MAX_DIM];
     for (int32_t k = 2; k <= dim; ++k)
         n_cuts *= (size_t)k;
-    mesh m = mesh_of(dim, mesh_power(n + 1, dim), n_cuts * n_cells);
+    test_mesh m = mesh_of(dim, mesh_power(n + 1, dim), n_cuts * n_cells);
     for (size_t v = 0; v < m.n_vertices; ++v) {
         mesh_digits(v, n + 1, dim, digits);
         for (int32_t k = 0; k < dim; ++k)
@@ -138,7 +138,7 @@ static inline mesh mesh_cells(int32_t dim, size_t n, int (*keep)(int32_t dim, co
 }
 
 /* Moves the vertices inside [0, n]^dim by up to `amount` along each axis; 0.1 keeps all simplices positive. */
-static inline void mesh_shake(mesh *m, size_t n, double amount, random_source *r)
+static inline void mesh_shake(test_mesh *m, size_t n, double amount, random_source *r)
 {
     const size_t dim = (size_t)m->dim;
     for (size_t v = 0; v < m->n_vertices; ++v) {
@@ -151,17 +151,17 @@ static inline void mesh_shake(mesh *m, size_t n, double amount, random_source *r
     }
 }
 
-static inline mesh mesh_cube(int32_t dim, size_t n, double amount, random_source *r)
+static inline test_mesh mesh_cube(int32_t dim, size_t n, double amount, random_source *r)
 {
-    mesh m = mesh_cells(dim, n, NULL);
+    test_mesh m = mesh_cells(dim, n, NULL);
     mesh_shake(&m, n, amount, r);
     return m;
 }
 
 /* The same blown up towards a ball round the origin with radius 1. */
-static inline mesh mesh_ball(int32_t dim, size_t n, double amount, random_source *r)
+static inline test_mesh mesh_ball(int32_t dim, size_t n, double amount, random_source *r)
 {
-    mesh m = mesh_cube(dim, n, amount, r);
+    test_mesh m = mesh_cube(dim, n, amount, r);
     for (size_t v = 0; v < m.n_vertices; ++v) {
         double *x = m.vertices + (size_t)dim * v, largest = 0, sum = 0;
         for (int32_t k = 0; k < dim; ++k) {
@@ -179,7 +179,7 @@ static inline mesh mesh_ball(int32_t dim, size_t n, double amount, random_source
 
 /* A counter-clockwise polygon with the points of a lattice of the given width that lie inside, away from
  * the boundary. */
-static inline mesh mesh_polygon(size_t n, const double *xy, double width)
+static inline test_mesh mesh_polygon(size_t n, const double *xy, double width)
 {
     icc_domain *domain;
     icc_domain_info info = {.size = sizeof info};
@@ -188,7 +188,7 @@ static inline mesh mesh_polygon(size_t n, const double *xy, double width)
     (void)icc_domain_get_info(domain, &info);
     const size_t columns = (size_t)((info.upper[0] - info.lower[0]) / width) + 1;
     const size_t rows = (size_t)((info.upper[1] - info.lower[1]) / width) + 1;
-    mesh m = mesh_of(2, n + rows * columns, 2 * (n + rows * columns));
+    test_mesh m = mesh_of(2, n + rows * columns, 2 * (n + rows * columns));
     memcpy(m.vertices, xy, 2 * n * sizeof *xy);
     m.n_vertices = n;
     for (size_t i = 0; i < rows * columns; ++i) {
@@ -237,7 +237,7 @@ static inline void mesh_write_surface(const char *path, size_t n_vertices, const
 
 /* Reads PATH.1.node and PATH.1.ele, numbered from 0. Numbers are read as text by strtod, so points that
  * tetgen was given in 17 digits come back as they were. */
-static inline int mesh_read_tetgen(mesh *m, const char *path)
+static inline int mesh_read_tetgen(test_mesh *m, const char *path)
 {
     char name[256];
     size_t n_vertices = 0, n_simplices = 0;
@@ -278,11 +278,11 @@ static inline void mesh_remove_files(const char *path)
 /* The inside of a surface by tetgen, which keeps the surface: its vertices come first and its faces are the
  * facets. Works in files whose names begin with `tag`, so tests that run at the same time need different
  * ones. False, with a message, when there is no tetgen. */
-static inline int mesh_tetgen(mesh *m, size_t n_vertices, const double *vertices, size_t n_faces,
+static inline int mesh_tetgen(test_mesh *m, size_t n_vertices, const double *vertices, size_t n_faces,
                               const uint32_t *faces, const char *tag)
 {
     char path[200], command[256];
-    *m = (mesh){0};
+    *m = (test_mesh){0};
     if (!mesh_has_tetgen()) {
         (void)printf("tetgen is not installed: %s skipped\n", tag);
         return 0;
@@ -308,11 +308,11 @@ static inline int mesh_tetgen(mesh *m, size_t n_vertices, const double *vertices
 #ifdef TEST_SHARED_DATA
 /* Of a surface of the data beside the tree, such as "t01_cube_bend" and "src". False, with a message, when
  * it or tetgen is missing. */
-static inline int mesh_of_data(mesh *m, const char *name, const char *side, const char *tag)
+static inline int mesh_of_data(test_mesh *m, const char *name, const char *side, const char *tag)
 {
     char path[512];
     obj o;
-    *m = (mesh){0};
+    *m = (test_mesh){0};
     (void)snprintf(path, sizeof path, "%s/3d/%s.%s.obj", TEST_SHARED_DATA, name, side);
     if (!obj_read(&o, path)) {
         (void)printf("%s is not there: %s skipped\n", path, tag);

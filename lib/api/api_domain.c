@@ -3,6 +3,7 @@
 #include "base/options.h"
 #include "base/threads.h"
 #include "domain/domain.h"
+#include "domain/mesh_domain.h"
 #include "domain/polygon.h"
 
 #include <math.h>
@@ -45,6 +46,39 @@ icc_status icc_domain_create(icc_domain **out, int32_t dim, size_t n_vertices,
     if (status != ICC_OK)
         return status;
     return iccp_domain_create(out, dim, n_vertices, vertices, n_facets, facets, &full, err);
+}
+
+static icc_status check_simplices(size_t n_simplices, const uint32_t *simplices, icc_error *err)
+{
+    if (simplices == NULL)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "simplices is NULL");
+    if (n_simplices == 0 || n_simplices > MAX_COUNT)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "%zu simplices; there must be 1 to %zu",
+                         n_simplices, MAX_COUNT);
+    return ICC_OK;
+}
+
+icc_status icc_domain_create_mesh(icc_domain **out, int32_t dim, size_t n_vertices,
+                                  const double *vertices, size_t n_simplices,
+                                  const uint32_t *simplices, size_t n_facets,
+                                  const uint32_t *facets, const icc_env *env, icc_error *err)
+{
+    if (out == NULL)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "out is NULL");
+    *out = NULL;
+    if (dim < 2 || dim > ICC_MAX_DIM)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "dim is %ld; it must lie in 2..%d", (long)dim,
+                         ICC_MAX_DIM);
+    iccp_env full;
+    icc_status status = iccp_env_read(&full, env, err);
+    if (status == ICC_OK)
+        status = check_counts(n_vertices, vertices, n_facets, facets, err);
+    if (status == ICC_OK)
+        status = check_simplices(n_simplices, simplices, err);
+    if (status != ICC_OK)
+        return status;
+    return iccp_domain_create_mesh(out, dim, n_vertices, vertices, n_simplices, simplices, n_facets,
+                                   facets, &full, err);
 }
 
 void icc_domain_free(icc_domain *domain)

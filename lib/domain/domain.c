@@ -4,6 +4,7 @@
 #include "domain/locate.h"
 #include "domain/mask.h"
 #include "domain/polygon.h"
+#include "domain/simplices.h"
 #include "domain/simplicial.h"
 
 #include <math.h>
@@ -142,7 +143,7 @@ static icc_status complete_simplicial(icc_domain *d, const iccp_env *env, icc_er
     iccp_complex c = {(size_t)d->dim, d->n_vertices, d->n_facets, d->facets, NULL};
     icc_status status = iccp_complex_check_indices(&c, err);
     if (status == ICC_OK)
-        status = iccp_simplicial_localise(&d->frame, d->vertices, &c, d->given, env, err);
+        status = iccp_simplicial_localise(&d->frame, d->vertices, c.dim, &c, d->given, env, err);
     if (status == ICC_OK && d->dim > 1)
         status = check_complex(&c, env, err);
     if (status != ICC_OK)
@@ -217,6 +218,7 @@ void iccp_domain_release(icc_domain *domain)
         iccp_facet_tree_free(&domain->tree, &memory);
     iccp_locator_free(domain->locator, &memory);
     iccp_mask_free(domain->mask);
+    iccp_simplices_free(domain->mesh);
     iccp_free(&memory, domain->given);
     iccp_free(&memory, domain->vertices);
     iccp_free(&memory, domain->facets);

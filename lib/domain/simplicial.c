@@ -17,11 +17,12 @@ static const double NO_VOLUME = 1e-12;
 
 /* ------------------------------------------------------------ coordinates */
 
-static icc_status check_finite(const iccp_complex *c, const double *vertices, icc_error *err)
+static icc_status check_finite(size_t dim, const iccp_complex *c, const double *vertices,
+                               icc_error *err)
 {
     for (size_t i = 0; i < c->dim * c->n_facets; ++i)
-        for (size_t k = 0; k < c->dim; ++k)
-            if (!isfinite(vertices[c->dim * c->facets[i] + k]))
+        for (size_t k = 0; k < dim; ++k)
+            if (!isfinite(vertices[dim * c->facets[i] + k]))
                 return iccp_fail(err, ICC_ERR_BOUNDARY, c->facets[i], "vertex %lu is not finite",
                                  (unsigned long)c->facets[i]);
     return ICC_OK;
@@ -39,23 +40,24 @@ static icc_status fail_too_small(icc_error *err, size_t vertex, size_t dim, cons
 }
 
 /* The frame of the vertices that are used, which `local` gathers. */
-static void fit(iccp_frame *frame, double *local, const iccp_complex *c, const double *vertices,
-                const bool *used)
+static void fit(iccp_frame *frame, double *local, size_t dim, size_t n_vertices,
+                const double *vertices, const bool *used)
 {
     size_t n = 0;
-    for (size_t v = 0; v < c->n_vertices; ++v)
+    for (size_t v = 0; v < n_vertices; ++v)
         if (used[v]) {
-            for (size_t k = 0; k < c->dim; ++k)
-                local[c->dim * n + k] = vertices[c->dim * v + k];
+            for (size_t k = 0; k < dim; ++k)
+                local[dim * n + k] = vertices[dim * v + k];
             ++n;
         }
-    iccp_frame_fit(frame, (int32_t)c->dim, n, local);
+    iccp_frame_fit(frame, (int32_t)dim, n, local);
 }
 
-icc_status iccp_simplicial_localise(iccp_frame *frame, double *local, const iccp_complex *c,
-                               const double *vertices, const iccp_env *env, icc_error *err)
+icc_status iccp_simplicial_localise(iccp_frame *frame, double *local, size_t dim,
+                                    const iccp_complex *c, const double *vertices,
+                                    const iccp_env *env, icc_error *err)
 {
-    icc_status status = check_finite(c, vertices, err);
+    icc_status status = check_finite(dim, c, vertices, err);
     if (status != ICC_OK)
         return status;
     bool *used = iccp_alloc_zero(&env->memory, c->n_vertices, sizeof *used);
@@ -63,12 +65,12 @@ icc_status iccp_simplicial_localise(iccp_frame *frame, double *local, const iccp
         return iccp_fail_memory(err);
     for (size_t i = 0; i < c->dim * c->n_facets; ++i)
         used[c->facets[i]] = true;
-    fit(frame, local, c, vertices, used);
+    fit(frame, local, dim, c->n_vertices, vertices, used);
     for (size_t v = 0; status == ICC_OK && v < c->n_vertices; ++v) {
-        const double *x = vertices + c->dim * (used[v] ? v : c->facets[0]);
-        if (!iccp_frame_holds(frame, (int32_t)c->dim, x))
-            status = fail_too_small(err, v, c->dim, x);
-        iccp_frame_in(frame, (int32_t)c->dim, x, local + c->dim * v);
+        const double *x = vertices + dim * (used[v] ? v : c->facets[0]);
+        if (!iccp_frame_holds(frame, (int32_t)dim, x))
+            status = fail_too_small(err, v, dim, x);
+        iccp_frame_in(frame, (int32_t)dim, x, local + dim * v);
     }
     iccp_free(&env->memory, used);
     return status;

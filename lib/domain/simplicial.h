@@ -6,11 +6,13 @@
 #include "domain/facet_tree.h"
 #include "domain/frame.h"
 
-/* Fits a frame to the vertices that belong to facets and writes their local coordinates; the others get
- * those of one that does, so that no loop over all vertices meets anything else. ICC_ERR_BOUNDARY for
- * a vertex that is not finite, or too near an axis of the local frame to work with exactly. */
-icc_status iccp_simplicial_localise(iccp_frame *frame, double *local, const iccp_complex *c,
-                               const double *vertices, const iccp_env *env, icc_error *err);
+/* Fits a frame to the vertices, of dim coordinates, that belong to facets of a complex (with any number of
+ * corners) and writes their local coordinates; the others get those of one that does, so that no loop
+ * over all vertices meets anything else. ICC_ERR_BOUNDARY for a vertex that is not finite, or too near an
+ * axis of the local frame to work with exactly. */
+icc_status iccp_simplicial_localise(iccp_frame *frame, double *local, size_t dim,
+                                    const iccp_complex *c, const double *vertices,
+                                    const iccp_env *env, icc_error *err);
 
 /* ICC_ERR_BOUNDARY for a facet without area, or if all vertices lie in one hyperplane. */
 icc_status iccp_simplicial_check_flat(const iccp_facet_tree *tree, icc_error *err);

@@ -12,7 +12,7 @@
 #include "domain/simplices.h"
 #include "math/orient.h"
 
-static icc_domain *make(const mesh *m)
+static icc_domain *make(const test_mesh *m)
 {
     icc_error err = {.size = sizeof err};
     icc_domain *domain;
@@ -38,7 +38,7 @@ static void sorted_side(const iccp_simplices *s, size_t side, uint32_t *v)
 }
 
 /* What lib/domain/simplices.h says, and that it is the caller's mesh. */
-static void check_mesh(const icc_domain *d, const mesh *m)
+static void check_mesh(const icc_domain *d, const test_mesh *m)
 {
     const iccp_simplices *s = d->mesh;
     const size_t dim = (size_t)m->dim;
@@ -89,7 +89,7 @@ START_TEST(cubes_of_every_dimension)
     random_source r = {1};
     for (int32_t dim = 2; dim <= 6; ++dim)
         for (size_t n = 1; n <= (dim < 4 ? 4u : dim < 6 ? 2u : 1u); ++n) {
-            mesh m = mesh_cube(dim, n, 0.1, &r);
+            test_mesh m = mesh_cube(dim, n, 0.1, &r);
             icc_domain *d = make(&m);
             icc_domain_info info = {.size = sizeof info};
             check_mesh(d, &m);
