@@ -1,0 +1,76 @@
+#!/bin/sh
+# Foliations of conforming meshes: --mesh, --target-mesh, and what is wrong with them.
+# shellcheck source-path=SCRIPTDIR source=lib.sh
+. "$(dirname "$0")/lib.sh"
+make_cubes
+
+# fill CORNERS CENTRE: tetrahedra from the centre to the faces, with the vertices in reverse order.
+fill() {
+    printf 'MeshVersionFormatted 2\nDimension 3\nVertices\n9\n'
+    { echo "$2" && tac "$1"; } | sed 's/$/ 0/'
+    printf 'Tetrahedra\n12\n'
+    sed 's/^f //' faces | while read -r a b c; do
+        echo "$((10 - a)) $((10 - b)) $((10 - c)) 1 0"
+    done
+    echo End
+}
+fill corners.txt '0.5 0.5 0.5' >in.mesh
+fill moved.txt '0.55 0.6 0.55' >out.mesh
+
+# All tetrahedra meet at the maximum, so the map is linear in each.
+printf '0.75 0.75 0.75\n0.5 0.5 0.5\n0.25 0.5 0.5\n0 0 0\n1 1 1\n' >points
+printf '1.025 0.925 0.775\n0.55 0.6 0.55\n0.275 0.6125 0.525\n0 0 0\n1.5 1.25 1\n' >expected
+run 0 map -s cube.obj -t moved.obj --mesh in.mesh --target-mesh out.mesh -p points -o images
+close_to images expected 1e-15
+run 0 map -s cube.obj -t moved.obj --mesh in.mesh --target-mesh out.mesh --inverse -p images -o back
+close_to back points 1e-15
+run 0 check -s cube.obj -t moved.obj --mesh in.mesh --target-mesh out.mesh
+holds out certified
+run 0 encode -s cube.obj --mesh in.mesh -p points -o coordinates
+run 0 decode -s cube.obj --mesh in.mesh --coords coordinates -o back
+close_to back points 1e-15
+
+sed 's/^0.5 0.5 0.5 0$/0 0.5 0.25 0/' in.mesh >flat.mesh
+run 1 map -s cube.obj -t moved.obj --mesh flat.mesh --target-mesh out.mesh -p points
+says 'libicc: flat.mesh: '
+sed 's/^0.5 0.5 0.5 0$/2 2 2 0/' in.mesh >folded.mesh
+run 1 map -s cube.obj -t moved.obj --mesh folded.mesh --target-mesh out.mesh -p points
+says 'libicc: folded.mesh: '
+sed 's/^1 1 1 0$/1 1 0.99 0/' in.mesh >other.mesh
+run 1 map -s cube.obj -t moved.obj --mesh other.mesh --target-mesh out.mesh -p points
+says 'no vertex of the mesh lies at vertex 7 of the cage'
+sed -e 's/^12$/11/' -e '/^9 8 7 1 0$/d' in.mesh >open.mesh
+run 1 map -s cube.obj -t moved.obj --mesh open.mesh --target-mesh out.mesh -p points
+says 'libicc: open.mesh: '
+run 1 map -s cube.obj -t moved.obj --mesh cube.obj --target-mesh out.mesh -p points
+says 'there are no tetrahedra'
+run 2 check -s cube.obj --mesh in.mesh --target-mesh out.mesh
+says '--target-mesh needs --target'
+
+# Without tetgen: said, and the grid; or an error where it will not do.
+run_without() {
+    real=$tool
+    printf '#!/bin/sh\nPATH=/nowhere exec "%s" "$@"\n' "$real" >bare
+    chmod +x bare
+    tool=./bare
+    run "$@"
+    tool=$real
+}
+run_without 0 map -s cube.obj -t moved.obj -p points -o images
+holds err 'tetgen is not installed; method field on a grid'
+run_without 1 map -s cube.obj -t moved.obj --method foliation -p points
+says 'no mesh of its inside: tetgen is not installed'
+
+# With it; the cube has no vertex inside, but tetgen may add some.
+if command -v tetgen >/dev/null; then
+    run 0 map -s cube.obj -t moved.obj -p points -o images
+    holds err 'cube.obj: filled with'
+    run 0 map -s cube.obj -t moved.obj --inverse -p images -o back
+    close_to back points 1e-12
+    run 0 map -q -s cube.obj -t moved.obj -p points -o again
+    same images again
+    [ ! -s err ] || complain "--quiet is not quiet: $(cat err)"
+else
+    echo "tetgen is not installed: meshes of its making are not tested"
+fi
+finish
