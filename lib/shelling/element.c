@@ -1,1 +1,126 @@
 #include "shelling/element.h"
+
+#include "icc/base.h"
+
+#include <math.h>
+
+/* Edges that leave the space of the ones before by a smaller share of the longest count as if it were that:
+ * what flat simplices do to a matrix stays finite. */
+static const double THINNEST = 1e-12;
+
+/* A matrix with the identity, or what became of it, to its right. */
+typedef double tableau[ICC_MAX_DIM][2 * ICC_MAX_DIM];
+
+static void swap_rows(double *a, double *b, size_t n)
+{
+    for (size_t k = 0; k < n; ++k) {
+        const double swap = a[k];
+        a[k] = b[k];
+        b[k] = swap;
+    }
+}
+
+/* Elimination as far as the inverse, with the greatest entry of each column for a pivot. Returns the modulus of
+ * the determinant. */
+static double invert(size_t n, tableau a, double size)
+{
+    double determinant = 1;
+    for (size_t c = 0; c < n; ++c) {
+        size_t best = c;
+        for (size_t r = c + 1; r < n; ++r)
+            best = fabs(a[r][c]) > fabs(a[best][c]) ? r : best;
+        swap_rows(a[c], a[best], best == c ? 0 : 2 * n);
+        const double pivot = copysign(fmax(fabs(a[c][c]), THINNEST * size), a[c][c]);
+        determinant *= fabs(pivot);
+        for (size_t k = 0; k < 2 * n; ++k)
+            a[c][k] /= pivot;
+        for (size_t r = 0; r < n; ++r) {
+            const double factor = r == c ? 0 : a[r][c];
+            for (size_t k = c; k < 2 * n; ++k)
+                a[r][k] -= factor * a[c][k];
+        }
+    }
+    return determinant;
+}
+
+double iccp_element_gradients(const iccp_simplices *mesh, size_t simplex, double *gradient)
+{
+    const size_t n = mesh->dim, side = (n + 1) * simplex;
+    const double *origin = iccp_corner_point(mesh, side);
+    tableau a;
+    double size = 0, volume = 1;
+    for (size_t i = 0; i < n; ++i) {
+        const double *corner = iccp_corner_point(mesh, side + i + 1);
+        for (size_t k = 0; k < n; ++k) {
+            a[k][i] = corner[k] - origin[k];
+            a[k][n + i] = k == i;
+            size = fmax(size, fabs(a[k][i]));
+        }
+    }
+    volume = invert(n, a, size);
+    for (size_t k = 0; k < n; ++k) {
+        volume /= (double)(k + 1);
+        gradient[k] = 0;
+        for (size_t i = 0; i < n; ++i) {
+            gradient[n * (i + 1) + k] = a[i][n + k];
+            gradient[k] -= a[i][n + k];
+        }
+    }
+    return volume;
+}
+
+double iccp_element_area(const iccp_simplices *mesh, size_t side)
+{
+    const size_t dim = mesh->dim, out = side % (dim + 1), first = side - out, base = out == 0;
+    const double *origin = iccp_corner_point(mesh, first + base);
+    double edge[ICC_MAX_DIM][ICC_MAX_DIM], area = 1;
+    size_t n = 0;
+    for (size_t i = base + 1; i <= dim; ++i) {
+        if (i == out)
+            continue;
+        double square = 0;
+        for (size_t k = 0; k < dim; ++k)
+            edge[n][k] = iccp_corner_point(mesh, first + i)[k] - origin[k];
+        for (size_t j = 0; j < n; ++j) {
+            double along = 0;
+            for (size_t k = 0; k < dim; ++k)
+                along += edge[n][k] * edge[j][k];
+            for (size_t k = 0; k < dim; ++k)
+                edge[n][k] -= along * edge[j][k];
+        }
+        for (size_t k = 0; k < dim; ++k)
+            square += edge[n][k] * edge[n][k];
+        const double height = sqrt(square);
+        for (size_t k = 0; k < dim; ++k)
+            edge[n][k] /= fmax(height, THINNEST);
+        area *= height / (double)++n;
+    }
+    return area;
+}
+
+/* The mean of the corners of a simplex, without the one opposite a side if that is given. */
+static void find_middle(const iccp_simplices *mesh, size_t simplex, size_t out, double *point)
+{
+    const size_t dim = mesh->dim, first = (dim + 1) * simplex;
+    const double n = (double)(dim + (out > dim));
+    for (size_t k = 0; k < dim; ++k)
+        point[k] = 0;
+    for (size_t i = 0; i <= dim; ++i)
+        for (size_t k = 0; k < dim && i != out; ++k)
+            point[k] += iccp_corner_point(mesh, first + i)[k] / n;
+}
+
+double iccp_element_conductance(const iccp_simplices *mesh, size_t side)
+{
+    const size_t dim = mesh->dim, simplex = side / (dim + 1), no_corner = SIZE_MAX;
+    const uint32_t other = mesh->across[side];
+    double here[ICC_MAX_DIM], there[ICC_MAX_DIM], square = 0;
+    find_middle(mesh, simplex, no_corner, here);
+    if ((other & ICCP_RIM) != 0)
+        find_middle(mesh, simplex, side % (dim + 1), there);
+    else
+        find_middle(mesh, iccp_simplex_of(mesh, other), no_corner, there);
+    for (size_t k = 0; k < dim; ++k)
+        square += (there[k] - here[k]) * (there[k] - here[k]);
+    return iccp_element_area(mesh, side) / fmax(sqrt(square), THINNEST);
+}

@@ -6,18 +6,16 @@
 
 #include <stdbool.h>
 
-/* The volume of a simplex, not less than a tiny positive number, and the gradients of its barycentric
- * coordinates: dim + 1 rows of dim numbers. The facet opposite corner i has dim * volume * |row i| for
- * its area. */
+/* The volume of a simplex, positive, and the gradients of its barycentric coordinates: dim + 1 rows of dim
+ * numbers. Simplices that are all but flat count as a little thicker. */
 double iccp_element_gradients(const iccp_simplices *mesh, size_t simplex, double *gradient);
 
-/* The area of the facet opposite a corner, from these. */
-double iccp_element_area(size_t dim, double volume, const double *gradient, size_t corner);
+/* The area of the facet at a side: length of an edge of a triangle, and so on. */
+double iccp_element_area(const iccp_simplices *mesh, size_t side);
 
-void iccp_element_barycentre(const iccp_simplices *mesh, size_t simplex, double *point);
-
-/* The distance between two points. */
-double iccp_element_distance(size_t dim, const double *a, const double *b);
+/* That over the distance of the barycentres of the simplices at the facet, or from the simplex to the domain's
+ * facet. The same from both sides but for rounding. */
+double iccp_element_conductance(const iccp_simplices *mesh, size_t side);
 
 /* Whether a simplex belongs to the star of a vertex. */
 static inline bool iccp_element_has(const iccp_simplices *mesh, size_t simplex, uint32_t vertex)

@@ -1,1 +1,214 @@
+/* Based on: M. Crouzeix, P.-A. Raviart, Conforming and nonconforming finite element methods for solving the
+ * stationary Stokes equations I, RAIRO 7, 1973: functions that are linear in each simplex and agree in the
+ * middles of the facets. The gradient is a constant vector in each simplex, without sources on the facets
+ * between them. */
 #include "shelling/reference.h"
+
+#include "math/spd.h"
+#include "shelling/element.h"
+
+#include <string.h>
+
+#define NONE UINT32_MAX
+
+/* Simplices between looks at the progress callback. */
+enum { SIMPLICES_PER_REPORT = 1 << 14 };
+
+/* The unknowns are the values in the middles of the facets outside the star of the centre. On its hull they are
+ * 0. */
+typedef struct equations {
+    const iccp_simplices *mesh;
+    uint32_t centre;
+    uint32_t *row;     /* of each side, or NONE */
+    size_t n;
+    size_t *first;     /* iccp_symmetric */
+    uint32_t *column;
+    double *value, *diagonal;
+    double *unknown;
+} equations;
+
+/* A matrix (dim + 1)^2: what a simplex adds for its facets. */
+typedef double element[(ICC_MAX_DIM + 1) * (ICC_MAX_DIM + 1)];
+
+static void find_element(const iccp_simplices *mesh, size_t simplex, element a)
+{
+    const size_t dim = mesh->dim;
+    double gradient[(ICC_MAX_DIM + 1) * ICC_MAX_DIM];
+    const double volume = iccp_element_gradients(mesh, simplex, gradient);
+    for (size_t i = 0; i <= dim; ++i)
+        for (size_t j = 0; j <= dim; ++j) {
+            double dot = 0;
+            for (size_t k = 0; k < dim; ++k)
+                dot += gradient[dim * i + k] * gradient[dim * j + k];
+            a[(dim + 1) * i + j] = (double)(dim * dim) * volume * dot;
+        }
+}
+
+static void number_rows(equations *e)
+{
+    const iccp_simplices *mesh = e->mesh;
+    const size_t n_corners = mesh->dim + 1;
+    for (size_t s = 0; s < n_corners * mesh->n_simplices; ++s)
+        e->row[s] = NONE;
+    for (size_t t = 0; t < mesh->n_simplices; ++t)
+        for (size_t s = n_corners * t; s < n_corners * (t + 1); ++s) {
+            const uint32_t other = mesh->across[s];
+            if (iccp_element_has(mesh, t, e->centre))
+                break;
+            if ((other & ICCP_RIM) != 0)
+                e->row[s] = (uint32_t)e->n++;
+            else if (other > s && !iccp_element_has(mesh, iccp_simplex_of(mesh, other), e->centre))
+                e->row[s] = e->row[other] = (uint32_t)e->n++;
+        }
+}
+
+/* Where the rows end; filling them moves that to where they begin. */
+static void count_entries(equations *e)
+{
+    const size_t n_corners = e->mesh->dim + 1;
+    for (size_t t = 0; t < e->mesh->n_simplices; ++t) {
+        const uint32_t *row = e->row + n_corners * t;
+        size_t n_rows = 0;
+        for (size_t i = 0; i < n_corners; ++i)
+            n_rows += row[i] != NONE;
+        for (size_t i = 0; i < n_corners; ++i)
+            if (row[i] != NONE)
+                e->first[row[i]] += n_rows - 1;
+    }
+    for (size_t r = 1; r <= e->n; ++r)
+        e->first[r] += e->first[r - 1];
+}
+
+static void add_element(equations *e, size_t simplex)
+{
+    const size_t n_corners = e->mesh->dim + 1;
+    const uint32_t *row = e->row + n_corners * simplex;
+    element a;
+    find_element(e->mesh, simplex, a);
+    for (size_t i = 0; i < n_corners; ++i) {
+        if (row[i] == NONE)
+            continue;
+        e->diagonal[row[i]] += a[n_corners * i + i];
+        for (size_t j = 0; j < n_corners; ++j)
+            if (j != i && row[j] != NONE) {
+                const size_t p = --e->first[row[i]];
+                e->column[p] = row[j];
+                e->value[p] = a[n_corners * i + j];
+            }
+    }
+}
+
+static icc_status add_elements(equations *e, const iccp_env *env)
+{
+    const iccp_simplices *mesh = e->mesh;
+    icc_status status = ICC_OK;
+    for (size_t t = 0; t < mesh->n_simplices && status == ICC_OK; ++t) {
+        if (t % SIMPLICES_PER_REPORT == 0)
+            status = iccp_progress(env, "flux", (double)t / (double)mesh->n_simplices);
+        if (!iccp_element_has(mesh, t, e->centre))
+            add_element(e, t);
+    }
+    return status;
+}
+
+static void free_equations(equations *e, const iccp_env *env)
+{
+    iccp_free(&env->memory, e->row);
+    iccp_free(&env->memory, e->first);
+    iccp_free(&env->memory, e->column);
+    iccp_free(&env->memory, e->value);
+    iccp_free(&env->memory, e->diagonal);
+    iccp_free(&env->memory, e->unknown);
+}
+
+static icc_status create_equations(equations *e, const iccp_simplices *mesh, uint32_t centre,
+                                   const iccp_env *env)
+{
+    *e = (equations){.mesh = mesh, .centre = centre};
+    e->row = iccp_alloc(&env->memory, (mesh->dim + 1) * mesh->n_simplices, sizeof *e->row);
+    if (e->row == NULL)
+        return ICC_ERR_MEMORY;
+    number_rows(e);
+    e->first = iccp_alloc_zero(&env->memory, e->n + 1, sizeof *e->first);
+    e->diagonal = iccp_alloc_zero(&env->memory, e->n, sizeof *e->diagonal);
+    e->unknown = iccp_alloc_zero(&env->memory, e->n, sizeof *e->unknown);
+    if (e->first == NULL || e->diagonal == NULL || e->unknown == NULL)
+        return ICC_ERR_MEMORY;
+    count_entries(e);
+    e->column = iccp_alloc(&env->memory, e->first[e->n], sizeof *e->column);
+    e->value = iccp_alloc(&env->memory, e->first[e->n], sizeof *e->value);
+    if (e->column == NULL || e->value == NULL)
+        return ICC_ERR_MEMORY;
+    return add_elements(e, env);
+}
+
+/* The loads are the inflow, since the function of a facet is 1 there on average and 0 on the others. */
+static icc_status solve(equations *e, const double *inflow, const iccp_env *env)
+{
+    const iccp_symmetric matrix = {e->n, e->first, e->column, e->value, e->diagonal};
+    const size_t n_sides = (e->mesh->dim + 1) * e->mesh->n_simplices;
+    iccp_spd solver;
+    for (size_t s = 0; s < n_sides; ++s)
+        if (e->row[s] != NONE && (e->mesh->across[s] & ICCP_RIM) != 0)
+            e->unknown[e->row[s]] = inflow[e->mesh->across[s] & ~ICCP_RIM];
+    icc_status status = iccp_spd_create(&solver, &matrix, false, env);
+    if (status == ICC_OK) {
+        status = iccp_spd_solve(&solver, 1, e->unknown, env);
+        iccp_spd_free(&solver);
+    }
+    return status;
+}
+
+/* What leaves a simplex through its sides: the gradient of a side's function is its outer normal times its area
+ * over the volume. */
+static void find_flux(const equations *e, size_t simplex, double *flux, double *potential)
+{
+    const size_t n_corners = e->mesh->dim + 1;
+    const uint32_t *row = e->row + n_corners * simplex;
+    element a;
+    find_element(e->mesh, simplex, a);
+    *potential = 0;
+    for (size_t i = 0; i < n_corners; ++i) {
+        const double value = row[i] != NONE ? e->unknown[row[i]] : 0;
+        *potential += value / (double)n_corners;
+        for (size_t j = 0; j < n_corners; ++j)
+            flux[j] -= a[n_corners * j + i] * value;
+    }
+}
+
+/* Both sides of a facet tell the same but for rounding. */
+static void settle_flux(const equations *e, const double *inflow, double *flux)
+{
+    const iccp_simplices *mesh = e->mesh;
+    for (uint32_t s = 0; s < (mesh->dim + 1) * mesh->n_simplices; ++s) {
+        const uint32_t other = mesh->across[s];
+        if ((other & ICCP_RIM) != 0) {
+            flux[s] = -inflow[other & ~ICCP_RIM];
+        } else if (other > s) {
+            const bool both = e->row[s] != NONE;
+            flux[s] = both ? 0.5 * (flux[s] - flux[other]) : flux[s] - flux[other];
+            flux[other] = -flux[s];
+        }
+    }
+}
+
+icc_status iccp_reference_flux(const iccp_simplices *mesh, uint32_t centre, const double *inflow,
+                               double *flux, double *potential, const iccp_env *env)
+{
+    const size_t n_corners = mesh->dim + 1;
+    equations e;
+    icc_status status = create_equations(&e, mesh, centre, env);
+    if (status == ICC_OK && e.n > 0)
+        status = solve(&e, inflow, env);
+    if (status == ICC_OK) {
+        for (size_t t = 0; t < mesh->n_simplices; ++t) {
+            memset(flux + n_corners * t, 0, n_corners * sizeof *flux);
+            potential[t] = 0;
+            if (!iccp_element_has(mesh, t, centre))
+                find_flux(&e, t, flux + n_corners * t, potential + t);
+        }
+        settle_flux(&e, inflow, flux);
+    }
+    free_equations(&e, env);
+    return status;
+}

@@ -1,1 +1,127 @@
 #include "shelling/rings.h"
+
+#include <stdbool.h>
+
+#define NONE UINT32_MAX
+
+/* Simplices between looks at the progress callback. */
+enum { SIMPLICES_PER_REPORT = 1 << 14 };
+
+typedef struct walk {
+    const iccp_simplices *mesh;
+    uint32_t *facet; /* of each side, or NONE */
+    uint32_t *gone;  /* of each simplex: bit (a, b) stands for its face without the corners a and b */
+} walk;
+
+static uint32_t pair_bit(size_t a, size_t b)
+{
+    return (uint32_t)1 << (a < b ? a + b * (b - 1) / 2 : b + a * (a - 1) / 2);
+}
+
+static bool touches(const iccp_simplices *mesh, size_t side, uint32_t vertex)
+{
+    const size_t first = side - side % (mesh->dim + 1);
+    for (size_t s = first; s <= first + mesh->dim; ++s)
+        if (s != side && mesh->corners[s] == vertex)
+            return true;
+    return false;
+}
+
+static void number_facets(iccp_rings *rings, const walk *w, uint32_t centre)
+{
+    const iccp_simplices *mesh = w->mesh;
+    for (uint32_t s = 0; s < (mesh->dim + 1) * mesh->n_simplices; ++s) {
+        const uint32_t other = mesh->across[s];
+        if ((other & ICCP_RIM) != 0 || (other > s && touches(mesh, s, centre))) {
+            w->facet[s] = NONE;
+        } else if (other > s) {
+            w->facet[s] = (uint32_t)rings->n_facets;
+            rings->side[rings->n_facets++] = s;
+        } else {
+            w->facet[s] = w->facet[other];
+        }
+    }
+}
+
+/* Writes the steps round the face of a simplex without the corners `out` and `in`, beginning through the side
+ * opposite `out`. Returns how many; 0 if the way does not come back, or has been gone before. */
+static size_t go_round(const walk *w, size_t simplex, size_t out, size_t in, uint32_t *step)
+{
+    const iccp_simplices *mesh = w->mesh;
+    const size_t start = simplex, n_corners = mesh->dim + 1;
+    size_t n = 0;
+    while ((w->gone[simplex] & pair_bit(out, in)) == 0) {
+        w->gone[simplex] |= pair_bit(out, in);
+        const uint32_t side = (uint32_t)(n_corners * simplex + out), other = mesh->across[side];
+        if ((other & ICCP_RIM) != 0)
+            return 0;
+        if (w->facet[side] != NONE)
+            step[n++] = 2 * w->facet[side] + (other < side);
+        const uint32_t behind = mesh->corners[n_corners * simplex + in];
+        simplex = iccp_simplex_of(mesh, other);
+        in = other % n_corners;
+        for (out = 0; mesh->corners[n_corners * simplex + out] != behind;)
+            ++out;
+    }
+    return simplex == start ? n : 0;
+}
+
+static icc_status find_rings(iccp_rings *rings, const walk *w, const iccp_env *env)
+{
+    const iccp_simplices *mesh = w->mesh;
+    icc_status status = ICC_OK;
+    rings->first[0] = 0;
+    for (size_t t = 0; t < mesh->n_simplices && status == ICC_OK; ++t) {
+        if (t % SIMPLICES_PER_REPORT == 0)
+            status = iccp_progress(env, "rings", (double)t / (double)mesh->n_simplices);
+        for (size_t b = 1; b <= mesh->dim; ++b)
+            for (size_t a = 0; a < b; ++a) {
+                const size_t end = rings->first[rings->n];
+                const size_t n_steps = go_round(w, t, a, b, rings->step + end);
+                if (n_steps > 0)
+                    rings->first[++rings->n] = end + n_steps;
+            }
+    }
+    return status;
+}
+
+/* At most as many steps as there are faces of simplices, and at least two in a ring. */
+static icc_status allocate(iccp_rings *rings, walk *w, const iccp_env *env)
+{
+    const iccp_simplices *mesh = w->mesh;
+    const size_t n_sides = (mesh->dim + 1) * mesh->n_simplices, n_steps = n_sides * mesh->dim / 2;
+    *rings = (iccp_rings){.memory = env->memory};
+    rings->side = iccp_alloc(&env->memory, n_sides / 2, sizeof *rings->side);
+    rings->first = iccp_alloc(&env->memory, n_steps / 2 + 1, sizeof *rings->first);
+    rings->step = iccp_alloc(&env->memory, n_steps, sizeof *rings->step);
+    w->facet = iccp_alloc(&env->memory, n_sides, sizeof *w->facet);
+    w->gone = iccp_alloc_zero(&env->memory, mesh->n_simplices, sizeof *w->gone);
+    return rings->side != NULL && rings->first != NULL && rings->step != NULL && w->facet != NULL &&
+                   w->gone != NULL
+               ? ICC_OK
+               : ICC_ERR_MEMORY;
+}
+
+icc_status iccp_rings_create(iccp_rings *rings, const iccp_simplices *mesh, uint32_t centre,
+                             const iccp_env *env)
+{
+    walk w = {.mesh = mesh};
+    icc_status status = allocate(rings, &w, env);
+    if (status == ICC_OK) {
+        number_facets(rings, &w, centre);
+        status = find_rings(rings, &w, env);
+    }
+    iccp_free(&env->memory, w.facet);
+    iccp_free(&env->memory, w.gone);
+    if (status != ICC_OK)
+        iccp_rings_free(rings);
+    return status;
+}
+
+void iccp_rings_free(iccp_rings *rings)
+{
+    iccp_free(&rings->memory, rings->side);
+    iccp_free(&rings->memory, rings->first);
+    iccp_free(&rings->memory, rings->step);
+    *rings = (iccp_rings){.memory = rings->memory};
+}
