@@ -7,25 +7,27 @@
 #ifndef ICCP_ORDER_H
 #define ICCP_ORDER_H
 
-#include "domain/simplices.h"
+#include "shelling/faces.h"
 
+/* What an order is made from. */
 typedef struct iccp_order_wish {
+    const iccp_simplices *mesh;
+    const iccp_faces *faces; /* of the mesh */
+    uint32_t centre;         /* not on the boundary */
     const double *flux;      /* that shall run from greater to smaller rank: see shelling/reference.h */
     const double *potential; /* simplices where it is small shall have small rank */
     double beta;             /* how much reversed flux weighs against the potential */
-    const double *bias;      /* added to the priority of each simplex, greater is later; or NULL */
+    const double *bias;      /* added to the potential of each simplex in the comparison; or NULL */
 } iccp_order_wish;
 
-/* Adds simplices to the star of the centre, one by one. `n_left` tells how many could not be added; if
- * there are any, their rank is UINT32_MAX. ICC_OK, ICC_ERR_MEMORY or ICC_ERR_CANCELLED.
- * O(n log n). */
-icc_status iccp_order_grow(const iccp_simplices *mesh, uint32_t centre, const iccp_order_wish *wish,
-                           uint32_t *rank, size_t *n_left, const iccp_env *env);
+/* Adds simplices to the star of the centre, one by one. `n_left` tells how many could not be added; their
+ * rank is UINT32_MAX. ICC_OK, ICC_ERR_MEMORY or ICC_ERR_CANCELLED. O(n log n). */
+icc_status iccp_order_grow(const iccp_order_wish *wish, uint32_t *rank, size_t *n_left,
+                           const iccp_env *env);
 
-/* The same from the other end: takes simplices with facets on the boundary away, one by one, as long as
- * a ball is left, until the star of the centre remains. Those that remain besides have rank 1 if
- * `n_left` is not 0. */
-icc_status iccp_order_peel(const iccp_simplices *mesh, uint32_t centre, const iccp_order_wish *wish,
-                           uint32_t *rank, size_t *n_left, const iccp_env *env);
+/* The same from the other end: takes simplices at the boundary away, one by one, as long as a ball is left,
+ * until the star of the centre remains. */
+icc_status iccp_order_peel(const iccp_order_wish *wish, uint32_t *rank, size_t *n_left,
+                           const iccp_env *env);
 
 #endif

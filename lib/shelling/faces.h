@@ -1,0 +1,37 @@
+/* Numbers for the faces of a mesh, the same from every simplex that has the face.
+ *
+ * A face of a simplex is a set of its corners, corner i being bit i. The faces numbered are those of
+ * dimension 0 to dim - 2: two simplices that have one need not have a facet in common. */
+#ifndef ICCP_FACES_H
+#define ICCP_FACES_H
+
+#include "domain/simplices.h"
+#include "icc/base.h"
+
+typedef struct iccp_faces {
+    iccp_memory memory;
+    size_t dim, n_faces;
+    size_t per_simplex;
+    uint8_t place[2 << ICC_MAX_DIM]; /* of a set of corners among the faces of its simplex */
+    uint32_t *number;                /* per_simplex for each simplex */
+} iccp_faces;
+
+/* ICC_ERR_MEMORY also when there are too many faces for 32 bits. O(n). */
+icc_status iccp_faces_create(iccp_faces *faces, const iccp_simplices *mesh, const iccp_env *env);
+void iccp_faces_free(iccp_faces *faces);
+
+static inline uint32_t iccp_face(const iccp_faces *faces, size_t simplex, unsigned corners)
+{
+    return faces->number[faces->per_simplex * simplex + faces->place[corners]];
+}
+
+/* The number of corners in a set. */
+static inline size_t iccp_set_size(unsigned set)
+{
+    size_t n = 0;
+    for (; set != 0; set &= set - 1)
+        ++n;
+    return n;
+}
+
+#endif

@@ -1,0 +1,179 @@
+/* Based on: G. M. Ziegler, Lectures on Polytopes, section 8.1, for shellings; M. Campen, C. Silva, D. Zorin,
+ * Bijective Maps from Simplicial Foliations, 2016, for what they are good for.
+ *
+ * Growing and peeling are one procedure. Simplices go over, one by one, to a set that is the star of the
+ * centre at first when growing, and the outside of the domain when peeling. A simplex may go if what it has
+ * in common with the set is nothing but its facets there: no face that lies in none of them. All these
+ * faces contain R, the corners opposite to the facets, so that R is the one to ask for. When growing, this
+ * is the rule itself. When peeling, R is the face of the remaining ball's inside that opens up; if it was on
+ * the boundary the ball would be pinched there, and if it was not, the rule holds for the way back: see
+ * docs/theory.md.
+ *
+ * Once a face touches the set it does so for good. So a simplex that may not go need not be looked at again
+ * before one of its neighbours went. */
+#include "shelling/order.h"
+
+#include "shelling/heap.h"
+
+#include <assert.h>
+#include <math.h>
+#include <string.h>
+
+enum { GONE = 0x80 }; /* beyond the bits of 7 corners */
+
+static const size_t STEPS_PER_REPORT = 1 << 14;
+
+typedef struct front {
+    const iccp_order_wish *wish;
+    const iccp_env *env;
+    bool peeling;
+    uint32_t *rank;
+    uint8_t *facing;  /* of each simplex: its corners opposite to the set; GONE: it is not to be taken (again) */
+    uint8_t *touched; /* whether a face belongs to the set */
+    size_t n_gone;
+    iccp_heap heap;
+} front;
+
+static bool may_go(const front *f, size_t s)
+{
+    const unsigned facing = f->facing[s];
+    const size_t size = iccp_set_size(facing);
+    return size <= f->wish->mesh->dim &&
+           (size == f->wish->mesh->dim || !f->touched[iccp_face(f->wish->faces, s, facing)]);
+}
+
+/* The potential, and a penalty: the share of the simplex's flux that would run from smaller to greater rank
+ * if it went now, times the greatest step of the potential to a neighbour. */
+static double key_of(const front *f, size_t s)
+{
+    const iccp_order_wish *w = f->wish;
+    const size_t n_sides = w->mesh->dim + 1;
+    double reversed = 0, total = 0, step = 0;
+    for (size_t i = 0; i < n_sides; ++i) {
+        const size_t side = n_sides * s + i;
+        const double flux = w->flux[side];
+        const bool leaves = (f->facing[s] >> i & 1) != f->peeling;
+        total += fabs(flux);
+        reversed += leaves == (flux < 0) ? fabs(flux) : 0;
+        if (w->mesh->across[side] < ICCP_RIM) {
+            const double there = w->potential[iccp_simplex_of(w->mesh, w->mesh->across[side])];
+            step = fmax(step, fabs(there - w->potential[s]));
+        }
+    }
+    const double potential = w->potential[s] + (w->bias != NULL ? w->bias[s] : 0);
+    const double penalty = total > 0 ? w->beta * reversed / total * step : 0;
+    return (f->peeling ? -potential : potential) + penalty;
+}
+
+/* The set has come to another side of a simplex. */
+static void approach(front *f, size_t s, size_t corner)
+{
+    f->facing[s] |= (uint8_t)(1u << corner);
+    if ((f->facing[s] & GONE) == 0 && may_go(f, s))
+        iccp_heap_put(&f->heap, (uint32_t)s, key_of(f, s));
+}
+
+/* Marks those faces of a simplex whose corners are among the given ones. */
+static void touch(front *f, size_t s, unsigned corners)
+{
+    for (unsigned set = corners; set != 0; set = (set - 1) & corners)
+        if (iccp_set_size(set) < f->wish->mesh->dim)
+            f->touched[iccp_face(f->wish->faces, s, set)] = 1;
+}
+
+static void join(front *f, size_t s)
+{
+    const iccp_simplices *mesh = f->wish->mesh;
+    const size_t n_sides = mesh->dim + 1;
+    f->facing[s] |= GONE;
+    touch(f, s, (1u << n_sides) - 1);
+    for (size_t i = 0; i < n_sides; ++i) {
+        const uint32_t across = mesh->across[n_sides * s + i];
+        if (across < ICCP_RIM)
+            approach(f, iccp_simplex_of(mesh, across), across % n_sides);
+    }
+}
+
+static bool is_at_centre(const front *f, size_t s)
+{
+    const size_t n_sides = f->wish->mesh->dim + 1;
+    for (size_t i = 0; i < n_sides; ++i)
+        if (f->wish->mesh->corners[n_sides * s + i] == f->wish->centre)
+            return true;
+    return false;
+}
+
+/* The set as it is at first. Only when it is complete can be told which simplices may go: the queue is
+ * checked again when it gives out one. */
+static void begin(front *f)
+{
+    const iccp_simplices *mesh = f->wish->mesh;
+    const size_t n_sides = mesh->dim + 1;
+    for (size_t s = 0; s < mesh->n_simplices; ++s) {
+        f->rank[s] = UINT32_MAX;
+        if (is_at_centre(f, s)) {
+            f->rank[s] = 0;
+            f->facing[s] |= GONE;
+            ++f->n_gone;
+        }
+    }
+    for (size_t side = 0; side < n_sides * mesh->n_simplices; ++side) {
+        const size_t s = side / n_sides, i = side % n_sides;
+        if (f->peeling && mesh->across[side] >= ICCP_RIM) {
+            touch(f, s, ((1u << n_sides) - 1) ^ 1u << i);
+            approach(f, s, i);
+        }
+        if (!f->peeling && i == 0 && f->rank[s] == 0)
+            join(f, s);
+    }
+}
+
+static icc_status advance(front *f)
+{
+    const size_t n = f->wish->mesh->n_simplices, n_centre = f->n_gone;
+    for (size_t step = 0; f->heap.n_entries > 0; ++step) {
+        if (step % STEPS_PER_REPORT == 0 &&
+            iccp_progress(f->env, f->peeling ? "peel" : "grow", (double)f->n_gone / (double)n) != ICC_OK)
+            return ICC_ERR_CANCELLED;
+        const uint32_t s = iccp_heap_pop(&f->heap);
+        if (!may_go(f, s))
+            continue;
+        f->rank[s] = (uint32_t)(f->peeling ? n - f->n_gone : f->n_gone - n_centre + 1);
+        ++f->n_gone;
+        join(f, s);
+    }
+    return ICC_OK;
+}
+
+static icc_status find_order(const iccp_order_wish *wish, bool peeling, uint32_t *rank, size_t *n_left,
+                             const iccp_env *env)
+{
+    const iccp_memory *memory = &env->memory;
+    front f = {.wish = wish, .env = env, .peeling = peeling, .rank = rank};
+    assert(wish->centre >= wish->mesh->n_rim && wish->centre < wish->mesh->n_points);
+    f.facing = iccp_alloc_zero(memory, wish->mesh->n_simplices, sizeof *f.facing);
+    f.touched = iccp_alloc_zero(memory, wish->faces->n_faces, sizeof *f.touched);
+    icc_status status = ICC_ERR_MEMORY;
+    if (iccp_heap_create(&f.heap, wish->mesh->n_simplices, memory) && f.facing != NULL &&
+        f.touched != NULL) {
+        begin(&f);
+        status = advance(&f);
+        *n_left = wish->mesh->n_simplices - f.n_gone;
+    }
+    iccp_heap_free(&f.heap, memory);
+    iccp_free(memory, f.touched);
+    iccp_free(memory, f.facing);
+    return status;
+}
+
+icc_status iccp_order_grow(const iccp_order_wish *wish, uint32_t *rank, size_t *n_left,
+                           const iccp_env *env)
+{
+    return find_order(wish, false, rank, n_left, env);
+}
+
+icc_status iccp_order_peel(const iccp_order_wish *wish, uint32_t *rank, size_t *n_left,
+                           const iccp_env *env)
+{
+    return find_order(wish, true, rank, n_left, env);
+}

@@ -1,0 +1,659 @@
+/* Orders of simplices: every complete one is checked against the definition, on cubes, boxes with wells and
+ * houses with two rooms, coarse and finer, in 2 to 6 dimensions. The checker knows the faces of a simplex as lists of
+ * vertices, and nothing of how orders are found. */
+#include "base/error.h"
+#include "shelling/heap.h"
+#include "shelling/order.h"
+
+#include "../faulty.h"
+#include "../random.h"
+
+#include <check.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#define NONE UINT32_MAX
+
+/* ------------------------------------------------------------------ meshes */
+
+typedef struct tuple {
+    uint32_t vertex[ICC_MAX_DIM + 1]; /* ascending, filled up with NONE */
+    uint32_t owner;
+} tuple;
+
+static int compare(const void *a, const void *b)
+{
+    const tuple *s = a, *t = b;
+    for (int i = 0; i <= ICC_MAX_DIM; ++i)
+        if (s->vertex[i] != t->vertex[i])
+            return s->vertex[i] < t->vertex[i] ? -1 : 1;
+    return 0;
+}
+
+/* The corners of a simplex that are in a set, as a tuple. */
+static tuple face_tuple(const iccp_simplices *m, size_t s, unsigned set, uint32_t owner)
+{
+    tuple t = {.owner = owner};
+    size_t n = 0;
+    for (size_t i = 0; i <= m->dim; ++i)
+        if (set >> i & 1) {
+            size_t at = n++;
+            const uint32_t v = m->corners[(m->dim + 1) * s + i];
+            for (; at > 0 && t.vertex[at - 1] > v; --at)
+                t.vertex[at] = t.vertex[at - 1];
+            t.vertex[at] = v;
+        }
+    for (; n <= ICC_MAX_DIM; ++n)
+        t.vertex[n] = NONE;
+    return t;
+}
+
+static void *room(size_t n, size_t size)
+{
+    void *memory = calloc(n + 1, size);
+    ck_assert_ptr_nonnull(memory);
+    return memory;
+}
+
+/* Finds the other side of each side. */
+static void join(iccp_simplices *m)
+{
+    const size_t n = (m->dim + 1) * m->n_simplices;
+    const unsigned all = (1u << (m->dim + 1)) - 1;
+    tuple *t = room(n, sizeof *t);
+    for (size_t side = 0; side < n; ++side)
+        t[side] = face_tuple(m, side / (m->dim + 1), all ^ 1u << side % (m->dim + 1), (uint32_t)side);
+    qsort(t, n, sizeof *t, compare);
+    m->n_facets = 0;
+    m->across = room(n, sizeof *m->across);
+    for (size_t i = 0; i < n;) {
+        const bool inner = i + 1 < n && compare(&t[i], &t[i + 1]) == 0;
+        m->across[t[i].owner] = inner ? t[i + 1].owner : ICCP_RIM | (uint32_t)m->n_facets++;
+        if (inner)
+            m->across[t[i + 1].owner] = t[i].owner;
+        i += inner ? 2 : 1;
+    }
+    free(t);
+}
+
+/* Numbers the points of the boundary first. */
+static void renumber(iccp_simplices *m)
+{
+    uint32_t *number = room(m->n_points, sizeof *number);
+    double *points = room(m->dim * m->n_points, sizeof *points);
+    for (size_t side = 0; side < (m->dim + 1) * m->n_simplices; ++side)
+        for (size_t i = 0; m->across[side] >= ICCP_RIM && i <= m->dim; ++i)
+            if (i != side % (m->dim + 1))
+                number[m->corners[side - side % (m->dim + 1) + i]] = 1;
+    uint32_t n = 0;
+    for (uint32_t rim = 2; rim-- > 0;) {
+        for (size_t v = 0; v < m->n_points; ++v)
+            if (number[v] == rim) {
+                memcpy(points + m->dim * n, m->points + m->dim * v, m->dim * sizeof *points);
+                number[v] = 2 + n++;
+            }
+        m->n_rim = rim == 1 ? n : m->n_rim;
+        for (size_t v = 0; rim == 1 && v < m->n_points; ++v)
+            ck_assert(number[v] == 0 || number[v] >= 2);
+    }
+    for (size_t i = 0; i < (m->dim + 1) * m->n_simplices; ++i)
+        m->corners[i] = number[m->corners[i]] - 2;
+    free(m->points);
+    free(number);
+    m->points = points;
+}
+
+static void free_mesh(iccp_simplices *m)
+{
+    free(m->points);
+    free(m->corners);
+    free(m->across);
+    *m = (iccp_simplices){0};
+}
+
+/* All simplices of Kuhn's kind of the solid cells of a box; the first axis is the fastest. */
+typedef bool (*solid)(size_t dim, const size_t *cell);
+
+static void add_cell(iccp_simplices *m, const uint32_t *at, const size_t *stride)
+{
+    size_t n_orders = 1;
+    for (size_t k = 2; k <= m->dim; ++k)
+        n_orders *= k;
+    for (size_t code = 0; code < n_orders; ++code) {
+        size_t axis[ICC_MAX_DIM], rest = code;
+        uint32_t *corner = m->corners + (m->dim + 1) * m->n_simplices++;
+        for (size_t k = 0; k < m->dim; rest /= ++k) { /* axis k comes in before the one at rest % (k + 1) */
+            const size_t place = rest % (k + 1);
+            memmove(axis + place + 1, axis + place, (k - place) * sizeof *axis);
+            axis[place] = k;
+        }
+        size_t v = *at;
+        corner[0] = (uint32_t)v;
+        for (size_t k = 0; k < m->dim; ++k)
+            corner[k + 1] = (uint32_t)(v += stride[axis[k]]);
+    }
+}
+
+/* The cells of a box with `n` in each direction, each cut into fine^dim. */
+static iccp_simplices cells(size_t dim, const size_t *n, size_t fine, solid has)
+{
+    iccp_simplices m = {.memory = iccp_memory_default, .dim = dim};
+    size_t stride[ICC_MAX_DIM], n_cells = 1, n_lattice = 1, factorial = 1;
+    for (size_t k = 0; k < dim; ++k) {
+        stride[k] = n_lattice;
+        n_lattice *= fine * n[k] + 1;
+        n_cells *= fine * n[k];
+        factorial *= k + 1;
+    }
+    m.corners = room(n_cells * factorial * (dim + 1), sizeof *m.corners);
+    for (size_t c = 0; c < n_cells; ++c) {
+        size_t cell[ICC_MAX_DIM], rest = c;
+        uint32_t at = 0;
+        for (size_t k = 0; k < dim; rest /= fine * n[k], ++k) {
+            at += (uint32_t)(rest % (fine * n[k]) * stride[k]);
+            cell[k] = rest % (fine * n[k]) / fine;
+        }
+        if (has(dim, cell))
+            add_cell(&m, &at, stride);
+    }
+    uint32_t *number = room(n_lattice, sizeof *number);
+    m.points = room(n_lattice * dim, sizeof *m.points);
+    for (size_t i = 0; i < (dim + 1) * m.n_simplices; ++i) {
+        const size_t v = m.corners[i];
+        if (number[v] == 0) {
+            number[v] = (uint32_t)++m.n_points;
+            for (size_t k = 0; k < dim; ++k)
+                m.points[dim * (m.n_points - 1) + k] = (double)(v / stride[k] % (fine * n[k] + 1));
+        }
+        m.corners[i] = number[v] - 1;
+    }
+    free(number);
+    join(&m);
+    renumber(&m);
+    return m;
+}
+
+static bool everywhere(size_t dim, const size_t *cell)
+{
+    return dim > 0 && cell != NULL;
+}
+
+static iccp_simplices cube(size_t dim, size_t n)
+{
+    const size_t shape[ICC_MAX_DIM] = {n, n, n, n, n, n};
+    return cells(dim, shape, 1, everywhere);
+}
+
+/* A box of 7^dim with a square well of width 1 down to the last layer. */
+static bool has_well(size_t dim, const size_t *cell)
+{
+    bool in_well = cell[dim - 1] > 0;
+    for (size_t k = 0; k + 1 < dim; ++k)
+        in_well = in_well && cell[k] == 2;
+    return !in_well;
+}
+
+/* Bing's house with two rooms: the room above is entered from below through a shaft in the room below, and
+ * the other way round; each shaft hangs on a wall. 11 x 11 x 5 cells. */
+static bool in_house(size_t dim, const size_t *cell)
+{
+    const int x = (int)cell[0], y = (int)cell[1], z = (int)cell[2];
+    const int shaft = z < 2 ? 3 : 7, wing = z < 2 ? 1 : 9; /* z == 2: both */
+    const bool hole = (z <= 2 && x == 3 && y == 5) || (z >= 2 && x == 7 && y == 5);
+    const bool shell = x % 10 == 0 || y % 10 == 0 || z % 2 == 0;
+    return dim == 3 && !hole && (shell || (abs(x - shaft) <= 1 && abs(y - 5) <= 1) || (x == wing && y == 5));
+}
+
+/* Cuts all simplices at an edge in two; the caller joins the mesh afterwards. */
+static void split_edge(iccp_simplices *m, uint32_t a, uint32_t b)
+{
+    const size_t n_corners = m->dim + 1, n_before = m->n_simplices;
+    m->points = realloc(m->points, (m->n_points + 1) * m->dim * sizeof *m->points);
+    ck_assert_ptr_nonnull(m->points);
+    for (size_t k = 0; k < m->dim; ++k)
+        m->points[m->dim * m->n_points + k] = (m->points[m->dim * a + k] + m->points[m->dim * b + k]) / 2;
+    for (size_t s = 0; s < n_before; ++s) {
+        size_t at_a = n_corners, at_b = n_corners;
+        for (size_t i = 0; i < n_corners; ++i) {
+            at_a = m->corners[n_corners * s + i] == a ? i : at_a;
+            at_b = m->corners[n_corners * s + i] == b ? i : at_b;
+        }
+        if (at_a == n_corners || at_b == n_corners)
+            continue;
+        m->corners = realloc(m->corners, (m->n_simplices + 1) * n_corners * sizeof *m->corners);
+        ck_assert_ptr_nonnull(m->corners);
+        uint32_t *first = m->corners + n_corners * s, *second = m->corners + n_corners * m->n_simplices++;
+        memcpy(second, first, n_corners * sizeof *first);
+        first[at_a] = second[at_b] = (uint32_t)m->n_points;
+    }
+    ++m->n_points;
+}
+
+static void split_edges(iccp_simplices *m, random_source *r, int n)
+{
+    free(m->across);
+    for (; n > 0; --n) {
+        const size_t s = (size_t)random_below(r, (int)m->n_simplices), n_corners = m->dim + 1;
+        const size_t i = (size_t)random_below(r, (int)n_corners);
+        const size_t j = (i + 1 + (size_t)random_below(r, (int)m->dim)) % n_corners;
+        split_edge(m, m->corners[n_corners * s + i], m->corners[n_corners * s + j]);
+    }
+    join(m);
+    renumber(m);
+}
+
+/* ----------------------------------------------------------------- checker */
+
+/* All faces of all simplices, numbered. */
+typedef struct catalogue {
+    size_t n_faces;
+    uint32_t *number; /* of each simplex and set of corners */
+    uint8_t *size;    /* of each face */
+} catalogue;
+
+static catalogue list_faces(const iccp_simplices *m)
+{
+    const size_t n_sets = (size_t)2 << m->dim;
+    tuple *t = room(n_sets * m->n_simplices, sizeof *t);
+    catalogue c = {0, room(n_sets * m->n_simplices, sizeof *c.number), NULL};
+    for (size_t k = 0; k < n_sets * m->n_simplices; ++k)
+        t[k] = face_tuple(m, k / n_sets, (unsigned)(k % n_sets), (uint32_t)k);
+    qsort(t, n_sets * m->n_simplices, sizeof *t, compare);
+    c.size = room(n_sets * m->n_simplices, sizeof *c.size);
+    for (size_t k = 0; k < n_sets * m->n_simplices; ++k) {
+        c.n_faces += k > 0 && compare(&t[k - 1], &t[k]) != 0;
+        c.number[t[k].owner] = (uint32_t)c.n_faces;
+        for (uint8_t i = 0; i <= m->dim && t[k].vertex[i] != NONE; ++i)
+            c.size[c.n_faces] = (uint8_t)(i + 1);
+    }
+    ++c.n_faces;
+    free(t);
+    return c;
+}
+
+static void free_catalogue(catalogue *c)
+{
+    free(c->number);
+    free(c->size);
+}
+
+/* Whether what simplex s has in common with the union are facets and their faces, one facet at least, but not
+ * all. Adds it, if `always` or if so, and to the Euler characteristic. */
+static bool add_simplex(const iccp_simplices *m, const catalogue *c, size_t s, uint8_t *in_union,
+                        bool always, int64_t *euler)
+{
+    const unsigned all = (2u << m->dim) - 1;
+    const uint32_t *number = c->number + ((size_t)all + 1) * s;
+    unsigned opposite = 0;
+    for (size_t i = 0; i <= m->dim; ++i)
+        opposite |= (unsigned)in_union[number[all ^ 1u << i]] << i;
+    bool fits = opposite != 0 && opposite != all;
+    for (unsigned set = 1; set < all; ++set) /* it lies in a shared facet if it lacks a corner opposite to one */
+        fits = fits && (in_union[number[set]] != 0) == ((opposite & ~set) != 0);
+    for (unsigned set = 1; (fits || always) && set <= all; ++set) {
+        *euler += in_union[number[set]] != 0 ? 0 : c->size[number[set]] % 2 != 0 ? 1 : -1;
+        in_union[number[set]] = 1;
+    }
+    return fits;
+}
+
+/* In 3-D, whether the facets with one simplex in the union form a sphere: each edge has two of them and the
+ * Euler characteristic is 2. (Vertices where the sphere touches itself have been seen by the above.) */
+static void check_sphere(const iccp_simplices *m, const catalogue *c, const uint32_t *rank, uint32_t limit)
+{
+    uint8_t *count = room(c->n_faces, 1);
+    int64_t euler = 0;
+    for (size_t side = 0; side < 4 * m->n_simplices; ++side) {
+        const size_t s = side / 4;
+        const uint32_t across = m->across[side];
+        if (rank[s] > limit || (across < ICCP_RIM && rank[across / 4] <= limit))
+            continue;
+        const unsigned facet = 15u ^ 1u << side % 4;
+        for (unsigned set = facet; set != 0; set = (set - 1) & facet) {
+            uint8_t *seen = &count[c->number[16 * s + set]];
+            euler += *seen == 0 ? (c->size[c->number[16 * s + set]] % 2 != 0 ? 1 : -1) : 0;
+            *seen = (uint8_t)(*seen < 3 ? *seen + 1 : 3);
+        }
+    }
+    for (size_t f = 0; f < c->n_faces; ++f)
+        ck_assert(c->size[f] != 2 || count[f] == 0 || count[f] == 2);
+    ck_assert_int_eq(euler, 2);
+    free(count);
+}
+
+/* A complete order satisfies the definition. */
+static void check_order(const iccp_simplices *m, const catalogue *c, uint32_t centre, const uint32_t *rank)
+{
+    uint32_t *at = room(m->n_simplices, sizeof *at);
+    uint8_t *in_union = room(c->n_faces, 1);
+    size_t n_centre = 0;
+    int64_t euler = 0;
+    memset(at, 0xff, (m->n_simplices + 1) * sizeof *at);
+    for (size_t s = 0; s < m->n_simplices; ++s) {
+        bool has_centre = false;
+        for (size_t i = 0; i <= m->dim; ++i)
+            has_centre = has_centre || m->corners[(m->dim + 1) * s + i] == centre;
+        ck_assert_int_eq(has_centre, rank[s] == 0);
+        n_centre += has_centre;
+        if (has_centre) {
+            add_simplex(m, c, s, in_union, true, &euler);
+        } else {
+            ck_assert_uint_le(rank[s], m->n_simplices);
+            ck_assert_uint_eq(at[rank[s]], NONE);
+            at[rank[s]] = (uint32_t)s;
+        }
+    }
+    ck_assert_int_eq(euler, 1);
+    const size_t n = m->n_simplices - n_centre;
+    for (uint32_t k = 1; k <= n; ++k) {
+        ck_assert_uint_ne(at[k], NONE);
+        ck_assert(add_simplex(m, c, at[k], in_union, false, &euler));
+        ck_assert_int_eq(euler, 1);
+        if (m->dim == 3 && k % (n / 3 + 1) == n / 4)
+            check_sphere(m, c, rank, k);
+    }
+    free(in_union);
+    free(at);
+}
+
+/* ------------------------------------------------------------------ wishes */
+
+/* Everything that an order is asked for with. */
+typedef struct problem {
+    iccp_simplices mesh;
+    iccp_faces faces;
+    catalogue catalogue;
+    double *potential, *flux;
+    uint32_t *rank;
+} problem;
+
+static iccp_env plain_env(void)
+{
+    iccp_env env;
+    ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
+    return env;
+}
+
+static problem begin(iccp_simplices mesh)
+{
+    const iccp_env env = plain_env();
+    problem p = {.mesh = mesh};
+    ck_assert_uint_gt(mesh.n_points, mesh.n_rim);
+    ck_assert_int_eq(iccp_faces_create(&p.faces, &mesh, &env), ICC_OK);
+    p.catalogue = list_faces(&mesh);
+    p.potential = room(mesh.n_simplices, sizeof *p.potential);
+    p.flux = room((mesh.dim + 1) * mesh.n_simplices, sizeof *p.flux);
+    p.rank = room(mesh.n_simplices, sizeof *p.rank);
+    return p;
+}
+
+static void end(problem *p)
+{
+    free(p->potential);
+    free(p->flux);
+    free(p->rank);
+    free_catalogue(&p->catalogue);
+    iccp_faces_free(&p->faces);
+    free_mesh(&p->mesh);
+}
+
+static uint32_t random_centre(const problem *p, random_source *r)
+{
+    return (uint32_t)p->mesh.n_rim + (uint32_t)random_below(r, (int)(p->mesh.n_points - p->mesh.n_rim));
+}
+
+/* Steps from the star across facets, and what flows down that: not without sources. */
+static void wish_near(problem *p, uint32_t centre)
+{
+    const iccp_simplices *m = &p->mesh;
+    const size_t n_sides = m->dim + 1;
+    uint32_t *queue = room(m->n_simplices, sizeof *queue);
+    size_t n = 0;
+    for (size_t s = 0; s < m->n_simplices; ++s) {
+        p->potential[s] = -1;
+        for (size_t i = 0; i < n_sides; ++i)
+            p->potential[s] = m->corners[n_sides * s + i] == centre ? 0 : p->potential[s];
+        if (p->potential[s] >= 0)
+            queue[n++] = (uint32_t)s;
+    }
+    for (size_t k = 0; k < n; ++k)
+        for (size_t i = 0; i < n_sides; ++i) {
+            const uint32_t across = m->across[n_sides * queue[k] + i];
+            const size_t there = across / n_sides;
+            if (across >= ICCP_RIM || p->potential[there] >= 0)
+                continue;
+            p->potential[there] = p->potential[queue[k]] + 1;
+            queue[n++] = (uint32_t)there;
+        }
+    ck_assert_uint_eq(n, m->n_simplices);
+    for (size_t side = 0; side < n_sides * m->n_simplices; ++side)
+        p->flux[side] = m->across[side] >= ICCP_RIM
+                            ? -1
+                            : p->potential[side / n_sides] - p->potential[m->across[side] / n_sides];
+    free(queue);
+}
+
+static void wish_anything(problem *p, random_source *r)
+{
+    for (size_t s = 0; s < p->mesh.n_simplices; ++s)
+        p->potential[s] = random_unit(r);
+    for (size_t side = 0; side < (p->mesh.dim + 1) * p->mesh.n_simplices; ++side)
+        p->flux[side] = p->mesh.across[side] >= ICCP_RIM ? -1 : random_unit(r) - 0.5;
+}
+
+/* How many simplices are left; none: the order has been checked. */
+static size_t left_by(problem *p, uint32_t centre, double beta, bool peel)
+{
+    const iccp_order_wish wish = {&p->mesh, &p->faces, centre, p->flux, p->potential, beta, NULL};
+    const iccp_env env = plain_env();
+    size_t n_left = 0, n_without = 0;
+    ck_assert_int_eq((peel ? iccp_order_peel : iccp_order_grow)(&wish, p->rank, &n_left, &env), ICC_OK);
+    for (size_t s = 0; s < p->mesh.n_simplices; ++s)
+        n_without += p->rank[s] == NONE;
+    ck_assert_uint_eq(n_left, n_without);
+    if (n_left == 0)
+        check_order(&p->mesh, &p->catalogue, centre, p->rank);
+    return n_left;
+}
+
+/* ------------------------------------------------------------------- tests */
+
+START_TEST(faces_are_numbered_by_their_vertices)
+{
+    random_source r = {1};
+    for (size_t dim = 2; dim <= ICC_MAX_DIM; ++dim) {
+        iccp_simplices mesh = cube(dim, dim < 5 ? 3 : 1);
+        split_edges(&mesh, &r, 10);
+        const iccp_env env = plain_env();
+        iccp_faces faces;
+        ck_assert_int_eq(iccp_faces_create(&faces, &mesh, &env), ICC_OK);
+        catalogue c = list_faces(&mesh);
+        uint32_t *other = room(c.n_faces, sizeof *other), *back = room(faces.n_faces, sizeof *back);
+        const unsigned n_sets = 2u << dim;
+        size_t n_faces = 0;
+        for (size_t s = 0; s < mesh.n_simplices; ++s)
+            for (unsigned set = 1; set < n_sets; ++set) {
+                if (iccp_set_size(set) >= dim)
+                    continue;
+                const uint32_t mine = iccp_face(&faces, s, set), its = c.number[n_sets * s + set];
+                ck_assert_uint_lt(mine, faces.n_faces);
+                n_faces += other[its] == 0;
+                ck_assert(other[its] == 0 || other[its] == mine + 1);
+                ck_assert(back[mine] == 0 || back[mine] == its + 1);
+                other[its] = mine + 1;
+                back[mine] = its + 1;
+            }
+        ck_assert_uint_eq(n_faces, faces.n_faces);
+        free(other);
+        free(back);
+        free_catalogue(&c);
+        iccp_faces_free(&faces);
+        free_mesh(&mesh);
+    }
+}
+END_TEST
+
+START_TEST(heap_gives_out_the_least)
+{
+    enum { N = 300 };
+    random_source r = {2};
+    double key[N];
+    bool in[N] = {false};
+    iccp_heap heap;
+    ck_assert(iccp_heap_create(&heap, N, &iccp_memory_default));
+    for (int step = 0; step < 20000; ++step) {
+        if (random_below(&r, 3) < 2) {
+            const int i = random_below(&r, N);
+            key[i] = random_below(&r, 50);
+            in[i] = true;
+            iccp_heap_put(&heap, (uint32_t)i, key[i]);
+        } else if (heap.n_entries > 0) {
+            int least = -1;
+            for (int i = 0; i < N; ++i)
+                if (in[i] && (least < 0 || key[i] < key[least]))
+                    least = i;
+            ck_assert_uint_eq(iccp_heap_pop(&heap), (uint32_t)least);
+            in[least] = false;
+        }
+    }
+    iccp_heap_free(&heap, &iccp_memory_default);
+}
+END_TEST
+
+/* Balls in the plane can be built up from anywhere in any order: nothing is ever left. */
+START_TEST(nothing_is_left_in_the_plane)
+{
+    random_source r = {3};
+    for (int trial = 0; trial < 40; ++trial) {
+        iccp_simplices mesh = cube(2, 3 + (size_t)trial % 5);
+        split_edges(&mesh, &r, 5 * trial);
+        problem p = begin(mesh);
+        const uint32_t centre = random_centre(&p, &r);
+        for (int k = 0; k < 4; ++k) {
+            if (k < 2)
+                wish_near(&p, centre);
+            else
+                wish_anything(&p, &r);
+            ck_assert_uint_eq(left_by(&p, centre, 8, k % 2 != 0), 0);
+        }
+        end(&p);
+    }
+}
+END_TEST
+
+/* Whatever is wished for: an order is what it should be, or says that it is not complete. */
+START_TEST(complete_orders_are_shellings)
+{
+    random_source r = {4};
+    size_t n_complete[ICC_MAX_DIM + 1] = {0}, n_near[ICC_MAX_DIM + 1] = {0};
+    for (size_t dim = 3; dim <= ICC_MAX_DIM; ++dim)
+        for (int trial = 0; trial < (dim < 5 ? 10 : 1); ++trial) {
+            iccp_simplices mesh = cube(dim, dim == 3 ? 4 : dim == 4 ? 3 : 2);
+            split_edges(&mesh, &r, dim < 5 ? 10 * trial : 3);
+            problem p = begin(mesh);
+            const uint32_t centre = random_centre(&p, &r);
+            for (int k = 0; k < 4; ++k) {
+                if (k < 2)
+                    wish_near(&p, centre);
+                else
+                    wish_anything(&p, &r);
+                const size_t n_left = left_by(&p, centre, 2, k % 2 != 0);
+                n_complete[dim] += n_left == 0;
+                n_near[dim] += k < 2 && n_left == 0;
+            }
+            end(&p);
+        }
+    for (size_t dim = 3; dim <= ICC_MAX_DIM; ++dim) {
+        printf("dim %zu: %zu complete, %zu near\n", dim, n_complete[dim], n_near[dim]);
+        ck_assert_uint_gt(n_near[dim], 0);
+    }
+}
+END_TEST
+
+START_TEST(houses)
+{
+    random_source r = {5};
+    const size_t shape[3] = {11, 11, 5};
+    for (size_t fine = 1; fine <= 3; ++fine) {
+        iccp_simplices mesh = cells(3, shape, fine, in_house);
+        printf("fine %zu: %zu points, %zu rim, %zu simplices\n", fine, mesh.n_points, mesh.n_rim, mesh.n_simplices);
+        if (mesh.n_points == mesh.n_rim)
+            split_edges(&mesh, &r, 2000);
+        problem p = begin(mesh);
+        for (int trial = 0; trial < 10; ++trial) {
+            const uint32_t centre = random_centre(&p, &r);
+            wish_near(&p, centre);
+            const size_t a = left_by(&p, centre, 8, false), b = left_by(&p, centre, 8, true);
+            printf("  grow left %zu peel left %zu\n", a, b);
+        }
+        end(&p);
+    }
+}
+END_TEST
+
+/* A vertex and its link: all have rank 0. */
+START_TEST(star_is_complete_at_once)
+{
+    for (size_t dim = 2; dim <= ICC_MAX_DIM; ++dim) {
+        iccp_simplices mesh = cube(dim, 1);
+        free(mesh.across);
+        split_edge(&mesh, mesh.corners[0], mesh.corners[dim]); /* the long diagonal, which all have */
+        join(&mesh);
+        renumber(&mesh);
+        problem p = begin(mesh);
+        ck_assert_uint_eq(p.mesh.n_points, p.mesh.n_rim + 1);
+        wish_near(&p, (uint32_t)p.mesh.n_rim);
+        ck_assert_uint_eq(left_by(&p, (uint32_t)p.mesh.n_rim, 8, false), 0);
+        ck_assert_uint_eq(left_by(&p, (uint32_t)p.mesh.n_rim, 8, true), 0);
+        for (size_t s = 0; s < p.mesh.n_simplices; ++s)
+            ck_assert_uint_eq(p.rank[s], 0);
+        end(&p);
+    }
+}
+END_TEST
+
+static icc_status call_order(const icc_env *given, icc_error *err, void *argument)
+{
+    problem *p = argument;
+    iccp_env env;
+    iccp_faces faces;
+    size_t n_left;
+    ck_assert_int_eq(iccp_env_read(&env, given, NULL), ICC_OK);
+    icc_status status = iccp_faces_create(&faces, &p->mesh, &env);
+    const iccp_order_wish wish = {&p->mesh, &faces, (uint32_t)p->mesh.n_rim, p->flux, p->potential, 2, NULL};
+    if (status == ICC_OK)
+        status = iccp_order_grow(&wish, p->rank, &n_left, &env);
+    if (status == ICC_OK)
+        status = iccp_order_peel(&wish, p->rank, &n_left, &env);
+    iccp_faces_free(&faces);
+    return iccp_explain(err, status);
+}
+
+START_TEST(every_failure_is_survived)
+{
+    problem p = begin(cube(3, 6));
+    wish_near(&p, (uint32_t)p.mesh.n_rim);
+    faulty_sweep(call_order, &p);
+    end(&p);
+}
+END_TEST
+
+int main(void)
+{
+    Suite *suite = suite_create("order");
+    TCase *tests = tcase_create("all");
+    suite_add_tcase(suite, tests);
+    tcase_add_test(tests, faces_are_numbered_by_their_vertices);
+    tcase_add_test(tests, heap_gives_out_the_least);
+    tcase_add_test(tests, nothing_is_left_in_the_plane);
+    tcase_add_test(tests, complete_orders_are_shellings);
+    tcase_add_test(tests, houses);
+    tcase_add_test(tests, star_is_complete_at_once);
+    tcase_add_test(tests, every_failure_is_survived);
+    SRunner *runner = srunner_create(suite);
+    srunner_run_all(runner, CK_NORMAL);
+    const int n_failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return n_failed != 0;
+}
