@@ -57,6 +57,7 @@ static void measure_box(icc_domain *d)
 static void view_tree(icc_domain *d)
 {
     d->tree = (iccp_facet_tree){.dim = 2,
+                                .n_corners = 2,
                                 .n = d->n_facets,
                                 .vertices = d->vertices,
                                 .facets = d->facets,

@@ -36,7 +36,7 @@ static ICCP_INLINE void search_leaf(const iccp_facet_tree *tree, size_t dim, siz
         const uint32_t facet = tree->order[place];
         const double *corners[ICC_MAX_DIM];
         double box[2 * ICC_MAX_DIM], bary[ICC_MAX_DIM];
-        iccp_facet_box_of(tree, dim, facet, box);
+        iccp_facet_box_of(tree, dim, dim, facet, box);
         if (box_distance2(dim, box, p) > best->distance2)
             continue;
         iccp_facet_corners(tree, facet, corners);

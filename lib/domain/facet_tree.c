@@ -109,11 +109,11 @@ static void fill_boxes(iccp_facet_tree *tree)
         include(dim, tree->boxes + 2 * dim * (node / 2), tree->boxes + 2 * dim * node);
 }
 
-void iccp_facet_tree_create(iccp_facet_tree *tree, size_t dim, const double *vertices, size_t n,
-                            const uint32_t *facets, const iccp_memory *memory)
+/* From dim, n_corners, n, vertices and facets. */
+static void make(iccp_facet_tree *tree, const iccp_memory *memory)
 {
-    *tree = (iccp_facet_tree){
-        .dim = dim, .n = n, .vertices = vertices, .facets = facets, .n_leaves = 1};
+    const size_t dim = tree->dim, n = tree->n;
+    tree->n_leaves = 1;
     while (tree->n_leaves * LEAF < n)
         tree->n_leaves *= 2;
     double *centres = iccp_alloc(memory, n, dim * sizeof *centres);
@@ -133,6 +133,22 @@ void iccp_facet_tree_create(iccp_facet_tree *tree, size_t dim, const double *ver
     arrange(tree, centres);
     fill_boxes(tree);
     iccp_free(memory, centres);
+}
+
+void iccp_facet_tree_create(iccp_facet_tree *tree, size_t dim, const double *vertices, size_t n,
+                            const uint32_t *facets, const iccp_memory *memory)
+{
+    *tree = (iccp_facet_tree){
+        .dim = dim, .n_corners = dim, .n = n, .vertices = vertices, .facets = facets};
+    make(tree, memory);
+}
+
+void iccp_facet_tree_create_solid(iccp_facet_tree *tree, size_t dim, const double *vertices,
+                                  size_t n, const uint32_t *simplices, const iccp_memory *memory)
+{
+    *tree = (iccp_facet_tree){
+        .dim = dim, .n_corners = dim + 1, .n = n, .vertices = vertices, .facets = simplices};
+    make(tree, memory);
 }
 
 void iccp_facet_tree_free(iccp_facet_tree *tree, const iccp_memory *memory)
@@ -210,13 +226,14 @@ static ICCP_INLINE bool descend(iccp_facet_query *query, size_t dim, size_t node
     return node != 0;
 }
 
-static ICCP_INLINE bool next_of(iccp_facet_query *query, size_t dim, uint32_t *facet)
+static ICCP_INLINE bool next_of(iccp_facet_query *query, size_t dim, size_t n_corners,
+                                uint32_t *facet)
 {
     do {
         while (query->next < query->end) {
             double box[2 * ICC_MAX_DIM];
             *facet = query->tree->order[query->next++];
-            iccp_facet_box_of(query->tree, dim, *facet, box);
+            iccp_facet_box_of(query->tree, dim, n_corners, *facet, box);
             if (wanted(query, dim, box))
                 return true;
         }
@@ -243,6 +260,8 @@ void iccp_facet_query_start_after(iccp_facet_query *query, const iccp_facet_tree
 
 bool iccp_facet_query_next(iccp_facet_query *query, uint32_t *facet)
 {
-    const size_t dim = query->tree->dim;
-    return dim == 3 ? next_of(query, 3, facet) : next_of(query, dim, facet);
+    const size_t dim = query->tree->dim, n_corners = query->tree->n_corners;
+    if (dim == 3)
+        return n_corners == 3 ? next_of(query, 3, 3, facet) : next_of(query, 3, 4, facet);
+    return next_of(query, dim, n_corners, facet);
 }

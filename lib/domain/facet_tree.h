@@ -1,4 +1,4 @@
-/* A tree of bounding boxes over the facets of a boundary in any dimension. */
+/* A tree of bounding boxes over the facets of a boundary, or the simplices of a mesh, in any dimension. */
 #ifndef ICCP_FACET_TREE_H
 #define ICCP_FACET_TREE_H
 
@@ -13,9 +13,9 @@ enum { ICCP_FACET_LEAF = 4 };
 /* A complete binary tree stored as a heap, as domain/boxtree.h has it for polygons: node 1 is the root,
  * leaf n_leaves + j holds places 4 j to 4 j + 3, and order[] says which facets stand there. */
 typedef struct iccp_facet_tree {
-    size_t dim, n;
+    size_t dim, n_corners, n;
     const double *vertices; /* borrowed: dim coordinates each */
-    const uint32_t *facets; /* borrowed: dim corners each */
+    const uint32_t *facets; /* borrowed: n_corners each, which is dim */
     size_t n_leaves;
     double *boxes; /* 2 dim numbers a node: lower, upper */
     uint32_t *order;
@@ -24,6 +24,10 @@ typedef struct iccp_facet_tree {
 /* tree->boxes is NULL if there is no memory. */
 void iccp_facet_tree_create(iccp_facet_tree *tree, size_t dim, const double *vertices,
                             size_t n_facets, const uint32_t *facets, const iccp_memory *memory);
+/* The same over simplices with dim + 1 corners each, which are then called facets as well. */
+void iccp_facet_tree_create_solid(iccp_facet_tree *tree, size_t dim, const double *vertices,
+                                  size_t n_simplices, const uint32_t *simplices,
+                                  const iccp_memory *memory);
 void iccp_facet_tree_free(iccp_facet_tree *tree, const iccp_memory *memory);
 
 /* The corners of a facet. */
@@ -34,15 +38,15 @@ static inline void iccp_facet_corners(const iccp_facet_tree *tree, uint32_t face
         corners[i] = tree->vertices + tree->dim * tree->facets[tree->dim * facet + i];
 }
 
-/* Its bounding box, lower and upper, for dim = tree->dim: where the compiler knows that it is 3 it need
- * not loop. */
-static ICCP_INLINE void iccp_facet_box_of(const iccp_facet_tree *tree, size_t dim, uint32_t facet,
-                                          double *box)
+/* Its bounding box, lower and upper, for dim = tree->dim and so on: where the compiler knows that it is 3
+ * it need not loop. */
+static ICCP_INLINE void iccp_facet_box_of(const iccp_facet_tree *tree, size_t dim,
+                                          size_t n_corners, uint32_t facet, double *box)
 {
-    const uint32_t *corner = tree->facets + dim * facet;
+    const uint32_t *corner = tree->facets + n_corners * facet;
     for (size_t k = 0; k < dim; ++k)
         box[k] = box[dim + k] = tree->vertices[dim * corner[0] + k];
-    for (size_t i = 1; i < dim; ++i)
+    for (size_t i = 1; i < n_corners; ++i)
         for (size_t k = 0; k < dim; ++k) {
             const double x = tree->vertices[dim * corner[i] + k];
             box[k] = x < box[k] ? x : box[k];
@@ -52,7 +56,7 @@ static ICCP_INLINE void iccp_facet_box_of(const iccp_facet_tree *tree, size_t di
 
 static inline void iccp_facet_box(const iccp_facet_tree *tree, uint32_t facet, double *box)
 {
-    iccp_facet_box_of(tree, tree->dim, facet, box);
+    iccp_facet_box_of(tree, tree->dim, tree->n_corners, facet, box);
 }
 
 /* Lists the facets whose boxes meet a given one, touching included. */

@@ -18,20 +18,25 @@ void iccp_path_clear(iccp_path *path)
     iccp_path_init(path, path->memory);
 }
 
+bool iccp_path_grow(iccp_path *path)
+{
+    const size_t capacity = path->capacity > 0 ? 2 * path->capacity : FIRST_CAPACITY;
+    double *points = iccp_grow(path->memory, path->points, (path->dim + 1) * path->n, capacity,
+                               sizeof *points);
+    if (points == NULL)
+        return false;
+    path->points = points;
+    path->capacity = capacity;
+    return true;
+}
+
 icc_status iccp_path_append(iccp_path *path, const double *point, double s)
 {
-    const size_t at = (path->dim + 1) * path->n;
-    if (at + path->dim + 1 > path->capacity) {
-        const size_t capacity = path->capacity > 0 ? 2 * path->capacity : FIRST_CAPACITY;
-        double *points = iccp_grow(path->memory, path->points, at, capacity, sizeof *points);
-        if (points == NULL)
-            return ICC_ERR_MEMORY;
-        path->points = points;
-        path->capacity = capacity;
-    }
-    memcpy(path->points + at, point, path->dim * sizeof *point);
-    path->points[at + path->dim] = s;
-    ++path->n;
+    double *row = iccp_path_extend(path);
+    if (row == NULL)
+        return ICC_ERR_MEMORY;
+    memcpy(row, point, path->dim * sizeof *point);
+    row[path->dim] = s;
     return ICC_OK;
 }
 

@@ -31,6 +31,19 @@ static inline void iccp_path_start(iccp_path *path, size_t dim)
 
 icc_status iccp_path_append(iccp_path *path, const double *point, double s);
 
+/* Makes room for more points; false if there is no memory. */
+bool iccp_path_grow(iccp_path *path);
+
+/* Appends a point that the caller fills in, dim + 1 numbers; NULL if there is no memory. */
+static inline double *iccp_path_extend(iccp_path *path)
+{
+    const size_t at = (path->dim + 1) * path->n;
+    if (at + path->dim + 1 > path->capacity && !iccp_path_grow(path))
+        return NULL;
+    ++path->n;
+    return path->points + at;
+}
+
 /* The position of point k; its arc length stands behind. */
 static inline const double *iccp_path_at(const iccp_path *path, size_t k)
 {
