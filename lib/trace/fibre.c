@@ -59,7 +59,7 @@ static ICCP_INLINE void advance(const iccp_fibre_word *record, size_t n, double 
 /* Takes the numbers of one side's corners to the other side, where a 0 is put in at corner `to`. */
 static ICCP_INLINE void carry(size_t n, size_t from, size_t to, double *bary)
 {
-    double shared[CORNERS];
+    double shared[CORNERS] = {0};
     for (size_t i = 0; i + 1 < n; ++i)
         shared[i] = i < from ? bary[i] : bary[i + 1];
     bary[0] = to > 0 ? shared[0] : 0;
@@ -120,8 +120,7 @@ static void from_corner(const iccp_fibres *fibres, const iccp_fibre_place *place
     const uint32_t *v = fibres->corners + n * place->simplex;
     const double *origin = fibres->points + dim * v[corner];
     const double sum = sum_of(place->bary, n);
-    for (size_t k = 0; k < dim; ++k)
-        offset[k] = 0;
+    memset(offset, 0, MAX * sizeof *offset);
     for (size_t i = 0; i < n; ++i)
         for (size_t k = 0; k < dim; ++k)
             offset[k] += place->bary[i] / sum * (fibres->points[dim * v[i] + k] - origin[k]);
