@@ -10,13 +10,13 @@
 
 typedef struct iccp_faces {
     iccp_memory memory;
-    size_t dim, n_faces;
+    size_t n_faces;
     size_t per_simplex;
     uint8_t place[2 << ICC_MAX_DIM]; /* of a set of corners among the faces of its simplex */
     uint32_t *number;                /* per_simplex for each simplex */
 } iccp_faces;
 
-/* ICC_ERR_MEMORY also when there are too many faces for 32 bits. O(n). */
+/* ICC_ERR_MEMORY also when there are too many faces for 32 bits; ICC_ERR_CANCELLED. O(n). */
 icc_status iccp_faces_create(iccp_faces *faces, const iccp_simplices *mesh, const iccp_env *env);
 void iccp_faces_free(iccp_faces *faces);
 

@@ -2,11 +2,12 @@
  * houses with two rooms, coarse and finer, in 2 to 6 dimensions. The checker knows the faces of a simplex as lists of
  * vertices, and nothing of how orders are found. */
 #include "base/error.h"
+#include "domain/domain.h"
 #include "shelling/heap.h"
 #include "shelling/order.h"
 
 #include "../faulty.h"
-#include "../random.h"
+#include "../meshes.h"
 
 #include <check.h>
 #include <math.h>
@@ -16,6 +17,103 @@
 #define NONE UINT32_MAX
 
 /* ------------------------------------------------------------------ meshes */
+
+static void *room(size_t n, size_t size)
+{
+    void *memory = calloc(n + 1, size);
+    ck_assert_ptr_nonnull(memory);
+    return memory;
+}
+
+/* A box with a square well of width 1 down to the last layer. */
+static int has_no_well(int32_t dim, const size_t *cell)
+{
+    bool in_well = cell[dim - 1] > 0;
+    for (int32_t k = 0; k + 1 < dim; ++k)
+        in_well = in_well && cell[k] == 2;
+    return !in_well;
+}
+
+/* Bing's house with two rooms: the room above is entered from below through a shaft in the room below, and
+ * the other way round; each shaft hangs on a wall. 11 x 11 x 5 cells. */
+static int in_house(const size_t *cell, size_t fine)
+{
+    const int x = (int)(cell[0] / fine), y = (int)(cell[1] / fine), z = (int)(cell[2] / fine);
+    const int shaft = z < 2 ? 3 : 7, wing = z < 2 ? 1 : 9; /* z == 2: both */
+    const bool hole = (z <= 2 && x == 3 && y == 5) || (z >= 2 && x == 7 && y == 5);
+    const bool shell = x % 10 == 0 || y % 10 == 0 || z % 2 == 0;
+    return z < 5 && !hole &&
+           (shell || (abs(x - shaft) <= 1 && abs(y - 5) <= 1) || (x == wing && y == 5));
+}
+
+static int in_house_1(int32_t dim, const size_t *cell)
+{
+    return dim == 3 && in_house(cell, 1);
+}
+
+static int in_house_2(int32_t dim, const size_t *cell)
+{
+    return dim == 3 && in_house(cell, 2);
+}
+
+static int in_house_3(int32_t dim, const size_t *cell)
+{
+    return dim == 3 && in_house(cell, 3);
+}
+
+/* Cuts all simplices at an edge in two at its middle, where a new vertex is. There is room for them. */
+static void split_edge(test_mesh *m, uint32_t a, uint32_t b)
+{
+    const size_t dim = (size_t)m->dim, n_corners = dim + 1, n_before = m->n_simplices;
+    for (size_t k = 0; k < dim; ++k)
+        m->vertices[dim * m->n_vertices + k] = (m->vertices[dim * a + k] + m->vertices[dim * b + k]) / 2;
+    for (size_t s = 0; s < n_before; ++s) {
+        uint32_t *first = m->simplices + n_corners * s;
+        size_t at_a = n_corners, at_b = n_corners;
+        for (size_t i = 0; i < n_corners; ++i) {
+            at_a = first[i] == a ? i : at_a;
+            at_b = first[i] == b ? i : at_b;
+        }
+        if (at_a == n_corners || at_b == n_corners)
+            continue;
+        uint32_t *second = m->simplices + n_corners * m->n_simplices++;
+        memcpy(second, first, n_corners * sizeof *first);
+        first[at_a] = second[at_b] = (uint32_t)m->n_vertices;
+    }
+    ++m->n_vertices;
+}
+
+/* Splits n edges by chance. The mesh is ended. */
+static test_mesh split_edges(test_mesh m, random_source *r, size_t n)
+{
+    const size_t n_corners = (size_t)m.dim + 1;
+    test_mesh out = mesh_of(m.dim, m.n_vertices + n, m.n_simplices);
+    memcpy(out.vertices, m.vertices, m.n_vertices * (size_t)m.dim * sizeof *m.vertices);
+    memcpy(out.simplices, m.simplices, m.n_simplices * n_corners * sizeof *m.simplices);
+    out.n_vertices = m.n_vertices;
+    mesh_free(&m);
+    for (size_t room_left = 0; n > 0; --n) {
+        if (room_left < out.n_simplices) {
+            room_left = 4 * out.n_simplices;
+            out.simplices =
+                realloc(out.simplices, (out.n_simplices + room_left) * n_corners * sizeof *out.simplices);
+            ck_assert_ptr_nonnull(out.simplices);
+        }
+        const size_t before = out.n_simplices, s = (size_t)random_below(r, (int)before);
+        const size_t i = (size_t)random_below(r, (int)n_corners);
+        const size_t j = (i + 1 + (size_t)random_below(r, out.dim)) % n_corners;
+        split_edge(&out, out.simplices[n_corners * s + i], out.simplices[n_corners * s + j]);
+        room_left -= out.n_simplices - before;
+    }
+    return out;
+}
+
+static test_mesh cube(int32_t dim, size_t n)
+{
+    return mesh_cells(dim, n, NULL);
+}
+
+/* ----------------------------------------------------------------- checker */
 
 typedef struct tuple {
     uint32_t vertex[ICC_MAX_DIM + 1]; /* ascending, filled up with NONE */
@@ -48,202 +146,6 @@ static tuple face_tuple(const iccp_simplices *m, size_t s, unsigned set, uint32_
         t.vertex[n] = NONE;
     return t;
 }
-
-static void *room(size_t n, size_t size)
-{
-    void *memory = calloc(n + 1, size);
-    ck_assert_ptr_nonnull(memory);
-    return memory;
-}
-
-/* Finds the other side of each side. */
-static void join(iccp_simplices *m)
-{
-    const size_t n = (m->dim + 1) * m->n_simplices;
-    const unsigned all = (1u << (m->dim + 1)) - 1;
-    tuple *t = room(n, sizeof *t);
-    for (size_t side = 0; side < n; ++side)
-        t[side] = face_tuple(m, side / (m->dim + 1), all ^ 1u << side % (m->dim + 1), (uint32_t)side);
-    qsort(t, n, sizeof *t, compare);
-    m->n_facets = 0;
-    m->across = room(n, sizeof *m->across);
-    for (size_t i = 0; i < n;) {
-        const bool inner = i + 1 < n && compare(&t[i], &t[i + 1]) == 0;
-        m->across[t[i].owner] = inner ? t[i + 1].owner : ICCP_RIM | (uint32_t)m->n_facets++;
-        if (inner)
-            m->across[t[i + 1].owner] = t[i].owner;
-        i += inner ? 2 : 1;
-    }
-    free(t);
-}
-
-/* Numbers the points of the boundary first. */
-static void renumber(iccp_simplices *m)
-{
-    uint32_t *number = room(m->n_points, sizeof *number);
-    double *points = room(m->dim * m->n_points, sizeof *points);
-    for (size_t side = 0; side < (m->dim + 1) * m->n_simplices; ++side)
-        for (size_t i = 0; m->across[side] >= ICCP_RIM && i <= m->dim; ++i)
-            if (i != side % (m->dim + 1))
-                number[m->corners[side - side % (m->dim + 1) + i]] = 1;
-    uint32_t n = 0;
-    for (uint32_t rim = 2; rim-- > 0;) {
-        for (size_t v = 0; v < m->n_points; ++v)
-            if (number[v] == rim) {
-                memcpy(points + m->dim * n, m->points + m->dim * v, m->dim * sizeof *points);
-                number[v] = 2 + n++;
-            }
-        m->n_rim = rim == 1 ? n : m->n_rim;
-        for (size_t v = 0; rim == 1 && v < m->n_points; ++v)
-            ck_assert(number[v] == 0 || number[v] >= 2);
-    }
-    for (size_t i = 0; i < (m->dim + 1) * m->n_simplices; ++i)
-        m->corners[i] = number[m->corners[i]] - 2;
-    free(m->points);
-    free(number);
-    m->points = points;
-}
-
-static void free_mesh(iccp_simplices *m)
-{
-    free(m->points);
-    free(m->corners);
-    free(m->across);
-    *m = (iccp_simplices){0};
-}
-
-/* All simplices of Kuhn's kind of the solid cells of a box; the first axis is the fastest. */
-typedef bool (*solid)(size_t dim, const size_t *cell);
-
-static void add_cell(iccp_simplices *m, const uint32_t *at, const size_t *stride)
-{
-    size_t n_orders = 1;
-    for (size_t k = 2; k <= m->dim; ++k)
-        n_orders *= k;
-    for (size_t code = 0; code < n_orders; ++code) {
-        size_t axis[ICC_MAX_DIM], rest = code;
-        uint32_t *corner = m->corners + (m->dim + 1) * m->n_simplices++;
-        for (size_t k = 0; k < m->dim; rest /= ++k) { /* axis k comes in before the one at rest % (k + 1) */
-            const size_t place = rest % (k + 1);
-            memmove(axis + place + 1, axis + place, (k - place) * sizeof *axis);
-            axis[place] = k;
-        }
-        size_t v = *at;
-        corner[0] = (uint32_t)v;
-        for (size_t k = 0; k < m->dim; ++k)
-            corner[k + 1] = (uint32_t)(v += stride[axis[k]]);
-    }
-}
-
-/* The cells of a box with `n` in each direction, each cut into fine^dim. */
-static iccp_simplices cells(size_t dim, const size_t *n, size_t fine, solid has)
-{
-    iccp_simplices m = {.memory = iccp_memory_default, .dim = dim};
-    size_t stride[ICC_MAX_DIM], n_cells = 1, n_lattice = 1, factorial = 1;
-    for (size_t k = 0; k < dim; ++k) {
-        stride[k] = n_lattice;
-        n_lattice *= fine * n[k] + 1;
-        n_cells *= fine * n[k];
-        factorial *= k + 1;
-    }
-    m.corners = room(n_cells * factorial * (dim + 1), sizeof *m.corners);
-    for (size_t c = 0; c < n_cells; ++c) {
-        size_t cell[ICC_MAX_DIM], rest = c;
-        uint32_t at = 0;
-        for (size_t k = 0; k < dim; rest /= fine * n[k], ++k) {
-            at += (uint32_t)(rest % (fine * n[k]) * stride[k]);
-            cell[k] = rest % (fine * n[k]) / fine;
-        }
-        if (has(dim, cell))
-            add_cell(&m, &at, stride);
-    }
-    uint32_t *number = room(n_lattice, sizeof *number);
-    m.points = room(n_lattice * dim, sizeof *m.points);
-    for (size_t i = 0; i < (dim + 1) * m.n_simplices; ++i) {
-        const size_t v = m.corners[i];
-        if (number[v] == 0) {
-            number[v] = (uint32_t)++m.n_points;
-            for (size_t k = 0; k < dim; ++k)
-                m.points[dim * (m.n_points - 1) + k] = (double)(v / stride[k] % (fine * n[k] + 1));
-        }
-        m.corners[i] = number[v] - 1;
-    }
-    free(number);
-    join(&m);
-    renumber(&m);
-    return m;
-}
-
-static bool everywhere(size_t dim, const size_t *cell)
-{
-    return dim > 0 && cell != NULL;
-}
-
-static iccp_simplices cube(size_t dim, size_t n)
-{
-    const size_t shape[ICC_MAX_DIM] = {n, n, n, n, n, n};
-    return cells(dim, shape, 1, everywhere);
-}
-
-/* A box of 7^dim with a square well of width 1 down to the last layer. */
-static bool has_well(size_t dim, const size_t *cell)
-{
-    bool in_well = cell[dim - 1] > 0;
-    for (size_t k = 0; k + 1 < dim; ++k)
-        in_well = in_well && cell[k] == 2;
-    return !in_well;
-}
-
-/* Bing's house with two rooms: the room above is entered from below through a shaft in the room below, and
- * the other way round; each shaft hangs on a wall. 11 x 11 x 5 cells. */
-static bool in_house(size_t dim, const size_t *cell)
-{
-    const int x = (int)cell[0], y = (int)cell[1], z = (int)cell[2];
-    const int shaft = z < 2 ? 3 : 7, wing = z < 2 ? 1 : 9; /* z == 2: both */
-    const bool hole = (z <= 2 && x == 3 && y == 5) || (z >= 2 && x == 7 && y == 5);
-    const bool shell = x % 10 == 0 || y % 10 == 0 || z % 2 == 0;
-    return dim == 3 && !hole && (shell || (abs(x - shaft) <= 1 && abs(y - 5) <= 1) || (x == wing && y == 5));
-}
-
-/* Cuts all simplices at an edge in two; the caller joins the mesh afterwards. */
-static void split_edge(iccp_simplices *m, uint32_t a, uint32_t b)
-{
-    const size_t n_corners = m->dim + 1, n_before = m->n_simplices;
-    m->points = realloc(m->points, (m->n_points + 1) * m->dim * sizeof *m->points);
-    ck_assert_ptr_nonnull(m->points);
-    for (size_t k = 0; k < m->dim; ++k)
-        m->points[m->dim * m->n_points + k] = (m->points[m->dim * a + k] + m->points[m->dim * b + k]) / 2;
-    for (size_t s = 0; s < n_before; ++s) {
-        size_t at_a = n_corners, at_b = n_corners;
-        for (size_t i = 0; i < n_corners; ++i) {
-            at_a = m->corners[n_corners * s + i] == a ? i : at_a;
-            at_b = m->corners[n_corners * s + i] == b ? i : at_b;
-        }
-        if (at_a == n_corners || at_b == n_corners)
-            continue;
-        m->corners = realloc(m->corners, (m->n_simplices + 1) * n_corners * sizeof *m->corners);
-        ck_assert_ptr_nonnull(m->corners);
-        uint32_t *first = m->corners + n_corners * s, *second = m->corners + n_corners * m->n_simplices++;
-        memcpy(second, first, n_corners * sizeof *first);
-        first[at_a] = second[at_b] = (uint32_t)m->n_points;
-    }
-    ++m->n_points;
-}
-
-static void split_edges(iccp_simplices *m, random_source *r, int n)
-{
-    free(m->across);
-    for (; n > 0; --n) {
-        const size_t s = (size_t)random_below(r, (int)m->n_simplices), n_corners = m->dim + 1;
-        const size_t i = (size_t)random_below(r, (int)n_corners);
-        const size_t j = (i + 1 + (size_t)random_below(r, (int)m->dim)) % n_corners;
-        split_edge(m, m->corners[n_corners * s + i], m->corners[n_corners * s + j]);
-    }
-    join(m);
-    renumber(m);
-}
-
-/* ----------------------------------------------------------------- checker */
 
 /* All faces of all simplices, numbered. */
 typedef struct catalogue {
@@ -361,7 +263,8 @@ static void check_order(const iccp_simplices *m, const catalogue *c, uint32_t ce
 
 /* Everything that an order is asked for with. */
 typedef struct problem {
-    iccp_simplices mesh;
+    icc_domain *domain;
+    const iccp_simplices *mesh;
     iccp_faces faces;
     catalogue catalogue;
     double *potential, *flux;
@@ -375,16 +278,21 @@ static iccp_env plain_env(void)
     return env;
 }
 
-static problem begin(iccp_simplices mesh)
+/* The mesh is ended. */
+static problem begin(test_mesh mesh)
 {
     const iccp_env env = plain_env();
-    problem p = {.mesh = mesh};
-    ck_assert_uint_gt(mesh.n_points, mesh.n_rim);
-    ck_assert_int_eq(iccp_faces_create(&p.faces, &mesh, &env), ICC_OK);
-    p.catalogue = list_faces(&mesh);
-    p.potential = room(mesh.n_simplices, sizeof *p.potential);
-    p.flux = room((mesh.dim + 1) * mesh.n_simplices, sizeof *p.flux);
-    p.rank = room(mesh.n_simplices, sizeof *p.rank);
+    icc_error err = {.size = sizeof err};
+    problem p = {.domain = NULL};
+    ck_assert_msg(mesh_domain(&p.domain, &mesh, NULL, &err) == ICC_OK, "%s", err.message);
+    mesh_free(&mesh);
+    p.mesh = p.domain->mesh;
+    ck_assert_uint_gt(p.mesh->n_points, p.mesh->n_rim);
+    ck_assert_int_eq(iccp_faces_create(&p.faces, p.mesh, &env), ICC_OK);
+    p.catalogue = list_faces(p.mesh);
+    p.potential = room(p.mesh->n_simplices, sizeof *p.potential);
+    p.flux = room((p.mesh->dim + 1) * p.mesh->n_simplices, sizeof *p.flux);
+    p.rank = room(p.mesh->n_simplices, sizeof *p.rank);
     return p;
 }
 
@@ -395,18 +303,18 @@ static void end(problem *p)
     free(p->rank);
     free_catalogue(&p->catalogue);
     iccp_faces_free(&p->faces);
-    free_mesh(&p->mesh);
+    icc_domain_free(p->domain);
 }
 
 static uint32_t random_centre(const problem *p, random_source *r)
 {
-    return (uint32_t)p->mesh.n_rim + (uint32_t)random_below(r, (int)(p->mesh.n_points - p->mesh.n_rim));
+    return (uint32_t)p->mesh->n_rim + (uint32_t)random_below(r, (int)(p->mesh->n_points - p->mesh->n_rim));
 }
 
 /* Steps from the star across facets, and what flows down that: not without sources. */
 static void wish_near(problem *p, uint32_t centre)
 {
-    const iccp_simplices *m = &p->mesh;
+    const iccp_simplices *m = p->mesh;
     const size_t n_sides = m->dim + 1;
     uint32_t *queue = room(m->n_simplices, sizeof *queue);
     size_t n = 0;
@@ -436,24 +344,24 @@ static void wish_near(problem *p, uint32_t centre)
 
 static void wish_anything(problem *p, random_source *r)
 {
-    for (size_t s = 0; s < p->mesh.n_simplices; ++s)
+    for (size_t s = 0; s < p->mesh->n_simplices; ++s)
         p->potential[s] = random_unit(r);
-    for (size_t side = 0; side < (p->mesh.dim + 1) * p->mesh.n_simplices; ++side)
-        p->flux[side] = p->mesh.across[side] >= ICCP_RIM ? -1 : random_unit(r) - 0.5;
+    for (size_t side = 0; side < (p->mesh->dim + 1) * p->mesh->n_simplices; ++side)
+        p->flux[side] = p->mesh->across[side] >= ICCP_RIM ? -1 : random_unit(r) - 0.5;
 }
 
 /* How many simplices are left; none: the order has been checked. */
 static size_t left_by(problem *p, uint32_t centre, double beta, bool peel)
 {
-    const iccp_order_wish wish = {&p->mesh, &p->faces, centre, p->flux, p->potential, beta, NULL};
+    const iccp_order_wish wish = {p->mesh, &p->faces, centre, p->flux, p->potential, beta, NULL};
     const iccp_env env = plain_env();
     size_t n_left = 0, n_without = 0;
     ck_assert_int_eq((peel ? iccp_order_peel : iccp_order_grow)(&wish, p->rank, &n_left, &env), ICC_OK);
-    for (size_t s = 0; s < p->mesh.n_simplices; ++s)
+    for (size_t s = 0; s < p->mesh->n_simplices; ++s)
         n_without += p->rank[s] == NONE;
     ck_assert_uint_eq(n_left, n_without);
     if (n_left == 0)
-        check_order(&p->mesh, &p->catalogue, centre, p->rank);
+        check_order(p->mesh, &p->catalogue, centre, p->rank);
     return n_left;
 }
 
@@ -462,34 +370,28 @@ static size_t left_by(problem *p, uint32_t centre, double beta, bool peel)
 START_TEST(faces_are_numbered_by_their_vertices)
 {
     random_source r = {1};
-    for (size_t dim = 2; dim <= ICC_MAX_DIM; ++dim) {
-        iccp_simplices mesh = cube(dim, dim < 5 ? 3 : 1);
-        split_edges(&mesh, &r, 10);
-        const iccp_env env = plain_env();
-        iccp_faces faces;
-        ck_assert_int_eq(iccp_faces_create(&faces, &mesh, &env), ICC_OK);
-        catalogue c = list_faces(&mesh);
-        uint32_t *other = room(c.n_faces, sizeof *other), *back = room(faces.n_faces, sizeof *back);
+    for (int32_t dim = 2; dim <= ICC_MAX_DIM; ++dim) {
+        problem p = begin(split_edges(cube(dim, dim < 5 ? 3 : 2), &r, 10));
+        const catalogue *c = &p.catalogue;
+        uint32_t *other = room(c->n_faces, sizeof *other), *back = room(p.faces.n_faces, sizeof *back);
         const unsigned n_sets = 2u << dim;
         size_t n_faces = 0;
-        for (size_t s = 0; s < mesh.n_simplices; ++s)
+        for (size_t s = 0; s < p.mesh->n_simplices; ++s)
             for (unsigned set = 1; set < n_sets; ++set) {
-                if (iccp_set_size(set) >= dim)
+                if (iccp_set_size(set) >= (size_t)dim)
                     continue;
-                const uint32_t mine = iccp_face(&faces, s, set), its = c.number[n_sets * s + set];
-                ck_assert_uint_lt(mine, faces.n_faces);
+                const uint32_t mine = iccp_face(&p.faces, s, set), its = c->number[n_sets * s + set];
+                ck_assert_uint_lt(mine, p.faces.n_faces);
                 n_faces += other[its] == 0;
                 ck_assert(other[its] == 0 || other[its] == mine + 1);
                 ck_assert(back[mine] == 0 || back[mine] == its + 1);
                 other[its] = mine + 1;
                 back[mine] = its + 1;
             }
-        ck_assert_uint_eq(n_faces, faces.n_faces);
+        ck_assert_uint_eq(n_faces, p.faces.n_faces);
         free(other);
         free(back);
-        free_catalogue(&c);
-        iccp_faces_free(&faces);
-        free_mesh(&mesh);
+        end(&p);
     }
 }
 END_TEST
@@ -526,9 +428,7 @@ START_TEST(nothing_is_left_in_the_plane)
 {
     random_source r = {3};
     for (int trial = 0; trial < 40; ++trial) {
-        iccp_simplices mesh = cube(2, 3 + (size_t)trial % 5);
-        split_edges(&mesh, &r, 5 * trial);
-        problem p = begin(mesh);
+        problem p = begin(split_edges(cube(2, 3 + (size_t)trial % 5), &r, 5 * (size_t)trial));
         const uint32_t centre = random_centre(&p, &r);
         for (int k = 0; k < 4; ++k) {
             if (k < 2)
@@ -547,11 +447,10 @@ START_TEST(complete_orders_are_shellings)
 {
     random_source r = {4};
     size_t n_complete[ICC_MAX_DIM + 1] = {0}, n_near[ICC_MAX_DIM + 1] = {0};
-    for (size_t dim = 3; dim <= ICC_MAX_DIM; ++dim)
-        for (int trial = 0; trial < (dim < 5 ? 10 : 1); ++trial) {
-            iccp_simplices mesh = cube(dim, dim == 3 ? 4 : dim == 4 ? 3 : 2);
-            split_edges(&mesh, &r, dim < 5 ? 10 * trial : 3);
-            problem p = begin(mesh);
+    for (int32_t dim = 3; dim <= ICC_MAX_DIM; ++dim)
+        for (size_t trial = 0; trial < (dim < 5 ? 10 : 1); ++trial) {
+            const test_mesh whole = cube(dim, dim == 3 ? 4 : dim == 4 ? 3 : 2);
+            problem p = begin(split_edges(whole, &r, dim < 5 ? 10 * trial : 3));
             const uint32_t centre = random_centre(&p, &r);
             for (int k = 0; k < 4; ++k) {
                 if (k < 2)
@@ -574,13 +473,12 @@ END_TEST
 START_TEST(houses)
 {
     random_source r = {5};
-    const size_t shape[3] = {11, 11, 5};
     for (size_t fine = 1; fine <= 3; ++fine) {
-        iccp_simplices mesh = cells(3, shape, fine, in_house);
-        printf("fine %zu: %zu points, %zu rim, %zu simplices\n", fine, mesh.n_points, mesh.n_rim, mesh.n_simplices);
-        if (mesh.n_points == mesh.n_rim)
-            split_edges(&mesh, &r, 2000);
+        test_mesh mesh = mesh_cells(3, 11 * fine, fine == 1 ? in_house_1 : fine == 2 ? in_house_2 : in_house_3);
+        if (fine == 1)
+            mesh = split_edges(mesh, &r, 2000);
         problem p = begin(mesh);
+        printf("fine %zu: %zu points, %zu rim, %zu simplices\n", fine, p.mesh->n_points, p.mesh->n_rim, p.mesh->n_simplices);
         for (int trial = 0; trial < 10; ++trial) {
             const uint32_t centre = random_centre(&p, &r);
             wish_near(&p, centre);
@@ -595,18 +493,19 @@ END_TEST
 /* A vertex and its link: all have rank 0. */
 START_TEST(star_is_complete_at_once)
 {
-    for (size_t dim = 2; dim <= ICC_MAX_DIM; ++dim) {
-        iccp_simplices mesh = cube(dim, 1);
-        free(mesh.across);
-        split_edge(&mesh, mesh.corners[0], mesh.corners[dim]); /* the long diagonal, which all have */
-        join(&mesh);
-        renumber(&mesh);
+    for (int32_t dim = 2; dim <= ICC_MAX_DIM; ++dim) {
+        test_mesh mesh = split_edges(cube(dim, 1), &(random_source){6}, 0);
+        mesh.vertices = realloc(mesh.vertices, (mesh.n_vertices + 1) * (size_t)dim * sizeof *mesh.vertices);
+        mesh.simplices =
+            realloc(mesh.simplices, 2 * mesh.n_simplices * (size_t)(dim + 1) * sizeof *mesh.simplices);
+        ck_assert(mesh.vertices != NULL && mesh.simplices != NULL);
+        split_edge(&mesh, mesh.simplices[0], mesh.simplices[dim]); /* the long diagonal, which all have */
         problem p = begin(mesh);
-        ck_assert_uint_eq(p.mesh.n_points, p.mesh.n_rim + 1);
-        wish_near(&p, (uint32_t)p.mesh.n_rim);
-        ck_assert_uint_eq(left_by(&p, (uint32_t)p.mesh.n_rim, 8, false), 0);
-        ck_assert_uint_eq(left_by(&p, (uint32_t)p.mesh.n_rim, 8, true), 0);
-        for (size_t s = 0; s < p.mesh.n_simplices; ++s)
+        ck_assert_uint_eq(p.mesh->n_points, p.mesh->n_rim + 1);
+        wish_near(&p, (uint32_t)p.mesh->n_rim);
+        ck_assert_uint_eq(left_by(&p, (uint32_t)p.mesh->n_rim, 8, false), 0);
+        ck_assert_uint_eq(left_by(&p, (uint32_t)p.mesh->n_rim, 8, true), 0);
+        for (size_t s = 0; s < p.mesh->n_simplices; ++s)
             ck_assert_uint_eq(p.rank[s], 0);
         end(&p);
     }
@@ -620,8 +519,8 @@ static icc_status call_order(const icc_env *given, icc_error *err, void *argumen
     iccp_faces faces;
     size_t n_left;
     ck_assert_int_eq(iccp_env_read(&env, given, NULL), ICC_OK);
-    icc_status status = iccp_faces_create(&faces, &p->mesh, &env);
-    const iccp_order_wish wish = {&p->mesh, &faces, (uint32_t)p->mesh.n_rim, p->flux, p->potential, 2, NULL};
+    icc_status status = iccp_faces_create(&faces, p->mesh, &env);
+    const iccp_order_wish wish = {p->mesh, &faces, (uint32_t)p->mesh->n_rim, p->flux, p->potential, 2, NULL};
     if (status == ICC_OK)
         status = iccp_order_grow(&wish, p->rank, &n_left, &env);
     if (status == ICC_OK)
@@ -633,7 +532,7 @@ static icc_status call_order(const icc_env *given, icc_error *err, void *argumen
 START_TEST(every_failure_is_survived)
 {
     problem p = begin(cube(3, 6));
-    wish_near(&p, (uint32_t)p.mesh.n_rim);
+    wish_near(&p, (uint32_t)p.mesh->n_rim);
     faulty_sweep(call_order, &p);
     end(&p);
 }
