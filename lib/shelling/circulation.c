@@ -1,10 +1,12 @@
+/* The sweeps are Gauss-Seidel relaxation (D. Young, Iterative Solution of Large Linear Systems, 1971) of the flux
+ * problem of networks in the space of cycles; the bounds are those of projected relaxation (C. Cryer, SIAM J.
+ * Control 9, 1971). */
 #include "shelling/circulation.h"
 
 #include "shelling/element.h"
 
-#include <float.h>
 #include <math.h>
-#include <string.h>
+#include <stdbool.h>
 
 /* Of what a simplex receives: the least that the greedy flux sends through each of its sides. */
 static const double LEAST_SHARE = 0.02;
@@ -22,16 +24,39 @@ static const double LEAST_FLUX = 1e-290;
 /* Rings between looks at the progress callback, and simplices. */
 enum { RINGS_PER_REPORT = 1 << 16, SIMPLICES_PER_REPORT = 1 << 16 };
 
-/* What flows through a simplex, by the reference, over the sum of the areas of its sides. */
-static double density(const iccp_circulation *c, size_t simplex)
+/* What flows through each simplex, by the reference, over the sum of the areas of its sides. */
+static void find_densities(const iccp_circulation *c, double *density)
 {
     const size_t n_corners = c->mesh->dim + 1;
-    double flux = 0, area = 0;
-    for (size_t s = n_corners * simplex; s < n_corners * (simplex + 1); ++s) {
-        flux += fabs(c->reference[s]);
-        area += iccp_element_area(c->mesh, s);
+    for (size_t t = 0; t < c->mesh->n_simplices; ++t) {
+        double flux = 0, area = 0;
+        for (size_t s = n_corners * t; s < n_corners * (t + 1); ++s) {
+            flux += fabs(c->reference[s]);
+            area += iccp_element_area(c->mesh, s);
+        }
+        density[t] = flux / area;
     }
-    return flux / area;
+}
+
+static icc_status weigh_facets(iccp_circulation *c, const iccp_env *env)
+{
+    const iccp_simplices *mesh = c->mesh;
+    const size_t n = c->rings.n_facets;
+    double *density = iccp_alloc(&env->memory, mesh->n_simplices, sizeof *density);
+    c->weight = iccp_alloc(&env->memory, n, sizeof *c->weight);
+    c->least = iccp_alloc(&env->memory, n, sizeof *c->least);
+    const bool good = density != NULL && c->weight != NULL && c->least != NULL;
+    if (good)
+        find_densities(c, density);
+    for (size_t f = 0; f < n && good; ++f) {
+        const uint32_t side = c->rings.side[f], other = mesh->across[side];
+        const double mean = 0.5 * (density[iccp_simplex_of(mesh, side)] +
+                                   density[iccp_simplex_of(mesh, other)]);
+        c->weight[f] = iccp_element_conductance(mesh, side);
+        c->least[f] = LEAST_DENSITY * mean * iccp_element_area(mesh, side);
+    }
+    iccp_free(&env->memory, density);
+    return good ? ICC_OK : ICC_ERR_MEMORY;
 }
 
 icc_status iccp_circulation_create(iccp_circulation *circulation, const iccp_simplices *mesh,
@@ -42,22 +67,11 @@ icc_status iccp_circulation_create(iccp_circulation *circulation, const iccp_sim
     *c = (iccp_circulation){
         .mesh = mesh, .centre = centre, .inflow = inflow, .reference = reference};
     icc_status status = iccp_rings_create(&c->rings, mesh, centre, env);
+    if (status == ICC_OK)
+        status = weigh_facets(c, env);
     if (status != ICC_OK)
-        return status;
-    c->weight = iccp_alloc(&env->memory, c->rings.n_facets, sizeof *c->weight);
-    c->least = iccp_alloc(&env->memory, c->rings.n_facets, sizeof *c->least);
-    if (c->weight == NULL || c->least == NULL) {
         iccp_circulation_free(c);
-        return ICC_ERR_MEMORY;
-    }
-    for (size_t f = 0; f < c->rings.n_facets; ++f) {
-        const uint32_t side = c->rings.side[f], other = mesh->across[side];
-        c->weight[f] = iccp_element_conductance(mesh, side);
-        c->least[f] = LEAST_DENSITY * iccp_element_area(mesh, side) * 0.5 *
-                      (density(c, iccp_simplex_of(mesh, side)) +
-                       density(c, iccp_simplex_of(mesh, other)));
-    }
-    return ICC_OK;
+    return status;
 }
 
 void iccp_circulation_free(iccp_circulation *circulation)
@@ -141,26 +155,28 @@ static void open_gates(const iccp_circulation *c, const double *flux, gate *gate
     }
 }
 
-/* The best circulation is a mean of the differences; it may go too far by some. */
+/* The best circulation is a mean of the differences; it may go too far by some. What runs along with it can take
+ * all of it in one direction, what runs against it in the other, until little is left. */
 static void relax_ring(gate *gates, const uint32_t *step, size_t n_steps)
 {
-    double sum = 0, weight = 0, low = -HUGE_VAL, high = HUGE_VAL;
+    double sum = 0, weight = 0, room_back = HUGE_VAL, room_on = HUGE_VAL;
     for (size_t k = 0; k < n_steps; ++k) {
         const gate *g = gates + step[k] / 2;
-        const double sign = step[k] % 2 == 0 ? 1 : -1, flux = sign * g->flux;
-        sum += g->weight * (sign * g->wish - flux);
+        const double sign = step[k] % 2 == 0 ? 1 : -1;
+        const double along = sign * g->flux, room = fabs(along) - g->least;
+        sum += g->weight * sign * (g->wish - g->flux);
         weight += g->weight;
-        if (flux > 0)
-            low = fmax(low, g->least - flux);
-        else
-            high = fmin(high, -g->least - flux);
+        room_back = along > 0 && room < room_back ? room : room_back;
+        room_on = !(along > 0) && room < room_on ? room : room_on;
     }
-    const double round = fmin(fmax(FACTOR * sum / weight, low), high);
+    const double best = FACTOR * sum / weight;
+    const double round = best < -room_back ? -room_back : best > room_on ? room_on : best;
     for (size_t k = 0; k < n_steps; ++k) {
         gate *g = gates + step[k] / 2;
         const double flux = g->flux + (step[k] % 2 == 0 ? round : -round);
+        const double size = g->flux > 0 ? flux : -flux;
         /* Rounding must not turn it round. */
-        g->flux = copysign(fmax(copysign(1, g->flux) * flux, g->least), g->flux);
+        g->flux = copysign(size > g->least ? size : g->least, g->flux);
     }
 }
 
