@@ -57,7 +57,8 @@ static inline test_mesh mesh_copy(const test_mesh *m)
 }
 
 /* The same mesh with every vertex elsewhere. */
-static inline test_mesh mesh_moved(const test_mesh *m, void (*move)(int32_t dim, const double *x, double *y))
+static inline test_mesh mesh_moved(const test_mesh *m,
+                                   void (*move)(int32_t dim, const double *x, double *y))
 {
     test_mesh moved = mesh_copy(m);
     for (size_t v = 0; v < m->n_vertices; ++v)
@@ -105,7 +106,8 @@ static inline void mesh_permutation(size_t which, int32_t dim, int32_t *order)
 
 /* Kuhn's simplices in the cells of [0, n]^dim for which keep() holds; NULL: all. All (n + 1)^dim lattice points
  * are vertices, the first axis fastest, whether or not a simplex has them. */
-static inline test_mesh mesh_cells(int32_t dim, size_t n, int (*keep)(int32_t dim, const size_t *cell))
+static inline test_mesh mesh_cells(int32_t dim, size_t n,
+                                   int (*keep)(int32_t dim, const size_t *cell))
 {
     const size_t n_cells = mesh_power(n, dim);
     size_t n_cuts = 1, digits[ICC_MAX_DIM];
@@ -267,7 +269,8 @@ static inline int mesh_read_tetgen(test_mesh *m, const char *path)
 
 static inline void mesh_remove_files(const char *path)
 {
-    static const char *const ENDS[] = {".smesh", ".1.node", ".1.ele", ".1.face", ".1.edge", ".1.smesh"};
+    static const char *const ENDS[] = {".smesh",  ".1.node", ".1.ele",
+                                       ".1.face", ".1.edge", ".1.smesh"};
     char name[256];
     for (size_t k = 0; k < sizeof ENDS / sizeof *ENDS; ++k) {
         (void)snprintf(name, sizeof name, "%s%s", path, ENDS[k]);
@@ -278,8 +281,8 @@ static inline void mesh_remove_files(const char *path)
 /* The inside of a surface by tetgen, which keeps the surface: its vertices come first and its faces are the
  * facets. Works in files whose names begin with `tag`, so tests that run at the same time need different
  * ones. False, with a message, when there is no tetgen. */
-static inline int mesh_tetgen(test_mesh *m, size_t n_vertices, const double *vertices, size_t n_faces,
-                              const uint32_t *faces, const char *tag)
+static inline int mesh_tetgen(test_mesh *m, size_t n_vertices, const double *vertices,
+                              size_t n_faces, const uint32_t *faces, const char *tag)
 {
     char path[200], command[256];
     *m = (test_mesh){0};

@@ -145,23 +145,26 @@ ICC_API icc_status icc_domain_create_mask(icc_domain **out, int32_t dim, const s
  * Checked exactly up to 3-D, to rounding beyond: what icc_domain_create() checks of the boundary; no
  * simplex without volume; a facet belongs to at most two simplices, which lie on opposite sides of it;
  * the mesh hangs together; its Euler characteristic is 1. So the simplices fill the domain and do not
- * overlap. In which order a simplex lists its vertices does not matter.
+ * overlap. In which order a simplex lists its vertices does not matter. Vertices that no simplex has are
+ * ignored.
  *
  * @param[out] out    the domain; owned by the caller
  * @param dim         2..::ICC_MAX_DIM
- * @param n_vertices  vertices of the mesh, fewer than 2^31
+ * @param n_vertices  vertices of the mesh, fewer than 2^26
  * @param vertices    n_vertices * dim coordinates
- * @param n_simplices simplices; times dim + 1, fewer than 2^31
+ * @param n_simplices simplices, from 1 to fewer than 2^26
  * @param simplices   n_simplices * (dim + 1) vertex indices
  * @param n_facets    facets of the boundary; ignored when `facets` is NULL
- * @param facets      n_facets * dim vertex indices: the boundary of the mesh, in the caller's order; or NULL
+ * @param facets      n_facets * dim vertex indices: the boundary of the mesh, in the caller's order and all
+ *                    seen from the same side; or NULL
  * @param env         may be NULL
- * @param err         may be NULL; `index` names the simplex at fault, or as for icc_domain_create()
+ * @param err         may be NULL; `index` names the simplex, the vertex or one of the `facets` at fault. When
+ *                    it is the boundary that is refused, vertices and facets are those of the domain
  * @return ::ICC_OK; ::ICC_ERR_BOUNDARY (a simplex is flat or lists a vertex twice or one that is not there,
  *         a facet has three simplices or two on one side, `facets` are not the mesh's); ::ICC_ERR_TOPOLOGY
  *         (several pieces, holes); ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY, ::ICC_ERR_CANCELLED
  *
- * Cost: O(n log n) time, O(n) memory.
+ * Cost: O(n) time and memory besides those of icc_domain_create(): 0.5 us a tetrahedron.
  */
 ICC_API icc_status icc_domain_create_mesh(icc_domain **out, int32_t dim, size_t n_vertices,
                                           const double *vertices, size_t n_simplices,

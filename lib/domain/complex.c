@@ -1,12 +1,10 @@
-/* Ridges are paired by sorting them: a counting sort on each of their vertices in turn (D. E. Knuth, The
- * Art of Computer Programming 3, section 5.2.5), which takes linear time whatever the input. */
 #include "domain/complex.h"
 
 #include "base/error.h"
+#include "domain/tuples.h"
 
 #include <stdbool.h>
 #include <stdio.h>
-#include <string.h>
 
 enum { MAX = ICC_MAX_DIM };
 
@@ -33,8 +31,8 @@ icc_status iccp_complex_check_indices(const iccp_complex *c, icc_error *err)
             const uint32_t v = corners(c, f)[i];
             if (v >= c->n_vertices)
                 return iccp_fail(err, ICC_ERR_BOUNDARY, (int64_t)f,
-                                 "%s %zu names vertex %lu, but there are only %zu vertices", name, f,
-                                 (unsigned long)v, c->n_vertices);
+                                 "%s %zu names vertex %lu, but there are only %zu vertices", name,
+                                 f, (unsigned long)v, c->n_vertices);
             for (size_t j = 0; j < i; ++j)
                 if (corners(c, f)[j] == v)
                     return iccp_fail(err, ICC_ERR_BOUNDARY, (int64_t)f,
@@ -49,66 +47,32 @@ icc_status iccp_complex_check_indices(const iccp_complex *c, icc_error *err)
  * runs along it in the odd direction: (-1)^i times the sign of the sorting permutation. */
 static bool read_ridge(const iccp_complex *c, size_t facet, size_t i, uint32_t *ridge)
 {
-    bool odd = i % 2 != 0;
-    size_t n = 0;
-    for (size_t j = 0; j < c->dim; ++j) {
-        const uint32_t v = corners(c, facet)[j];
-        if (j == i)
-            continue;
-        size_t k = n++;
-        for (; k > 0 && ridge[k - 1] > v; --k) {
-            ridge[k] = ridge[k - 1];
-            odd = !odd;
-        }
-        ridge[k] = v;
-    }
-    return odd;
+    for (size_t j = 0; j + 1 < c->dim; ++j)
+        ridge[j] = corners(c, facet)[j < i ? j : j + 1];
+    return iccp_sort_vertices(c->dim - 1, ridge) != (i % 2 != 0);
 }
 
 /* Ridge dim f + i of all is the one of facet f opposite its corner i. */
 typedef struct ridge_list {
     const iccp_complex *c;
-    size_t n, width; /* how many, and vertices of each */
-    uint32_t *vertices;
-    uint32_t *order, *work;
-    uint32_t *count; /* n_vertices + 1 */
+    iccp_tuples tuples;
 } ridge_list;
 
-static void sort_by(ridge_list *list, size_t column)
-{
-    const uint32_t *key = list->vertices + column;
-    memset(list->count, 0, (list->c->n_vertices + 1) * sizeof *list->count);
-    for (size_t r = 0; r < list->n; ++r)
-        ++list->count[key[list->width * r] + 1];
-    for (size_t v = 0; v < list->c->n_vertices; ++v)
-        list->count[v + 1] += list->count[v];
-    for (size_t k = 0; k < list->n; ++k) {
-        const uint32_t r = list->order[k];
-        list->work[list->count[key[list->width * r]]++] = r;
-    }
-    uint32_t *swap = list->order;
-    list->order = list->work;
-    list->work = swap;
-}
-
-static void sort_ridges(ridge_list *list)
+static void list_ridges(ridge_list *list)
 {
     const size_t dim = list->c->dim;
-    for (uint32_t r = 0; r < list->n; ++r) {
-        (void)read_ridge(list->c, r / dim, r % dim, list->vertices + list->width * r);
-        list->order[r] = r;
-    }
-    for (size_t column = list->width; column-- > 0;)
-        sort_by(list, column);
+    for (size_t r = 0; r < list->tuples.n; ++r)
+        (void)read_ridge(list->c, r / dim, r % dim, list->tuples.vertices + (dim - 1) * r);
 }
 
 /* "edge (3, 7)". */
 static void describe(const ridge_list *list, uint32_t r, char *text, size_t size)
 {
+    const size_t width = list->tuples.width;
     int n = snprintf(text, size, "%s (", iccp_complex_ridge(list->c->dim));
-    for (size_t k = 0; k < list->width; ++k)
+    for (size_t k = 0; k < width; ++k)
         n += snprintf(text + n, size - (size_t)n, k == 0 ? "%lu" : ", %lu",
-                      (unsigned long)list->vertices[list->width * r + k]);
+                      (unsigned long)list->tuples.vertices[width * r + k]);
     (void)snprintf(text + n, size - (size_t)n, ")");
 }
 
@@ -144,40 +108,33 @@ typedef struct fault {
 static icc_status fail_ridge(const ridge_list *list, int kind, const fault *found, icc_error *err)
 {
     const iccp_complex *c = list->c;
-    const uint32_t *at = list->order + found->place;
+    const uint32_t *at = list->tuples.order + found->place;
     const char *name = iccp_complex_facet(c->dim);
     const size_t f = at[0] / c->dim, g = kind == OPEN ? f : at[1] / c->dim;
     char ridge[96];
     describe(list, at[0], ridge, sizeof ridge);
     if (kind == CROWDED)
         return iccp_fail(err, ICC_ERR_BOUNDARY, (int64_t)(at[2] / c->dim),
-                         "%s belongs to %zu %ss, among them %zu, %zu and %zu, instead of two", ridge,
-                         found->n_sides, name, f, g, (size_t)(at[2] / c->dim));
+                         "%s belongs to %zu %ss, among them %zu, %zu and %zu, instead of two",
+                         ridge, found->n_sides, name, f, g, (size_t)(at[2] / c->dim));
     if (kind == OPEN)
         return iccp_fail(err, ICC_ERR_BOUNDARY, (int64_t)f,
                          "%s of %s %zu belongs to no other %s: the boundary is open (%zu such %ss)",
                          ridge, name, f, name, found->n, iccp_complex_ridge(c->dim));
     const size_t guilty = count_conflicts(c, f) > count_conflicts(c, g) ? f : g;
-    return iccp_fail(err, ICC_ERR_BOUNDARY, (int64_t)guilty,
-                     "%ss %zu and %zu run along %s in the same direction: one of them is turned over",
-                     name, f, g, ridge);
-}
-
-static bool same_ridge(const ridge_list *list, size_t a, size_t b)
-{
-    return memcmp(list->vertices + list->width * list->order[a],
-                  list->vertices + list->width * list->order[b],
-                  list->width * sizeof *list->vertices) == 0;
+    return iccp_fail(
+        err, ICC_ERR_BOUNDARY, (int64_t)guilty,
+        "%ss %zu and %zu run along %s in the same direction: one of them is turned over", name, f,
+        g, ridge);
 }
 
 /* Equal ridges stand next to each other, that of the smallest facet first. */
 static icc_status pair_ridges(iccp_complex *c, const ridge_list *list, icc_error *err)
 {
     fault faults[N_FAULTS] = {{0}};
-    for (size_t k = 0, end; k < list->n; k = end) {
-        const uint32_t *at = list->order + k;
-        for (end = k + 1; end < list->n && same_ridge(list, k, end);)
-            ++end;
+    for (size_t k = 0, end; k < list->tuples.n; k = end) {
+        const uint32_t *at = list->tuples.order + k;
+        end = iccp_tuples_end(&list->tuples, k);
         int kind = end - k == 1 ? OPEN : end - k > 2 ? CROWDED : N_FAULTS;
         if (kind == N_FAULTS) {
             c->across[at[0]] = at[1] / (uint32_t)c->dim;
@@ -199,22 +156,14 @@ static icc_status pair_ridges(iccp_complex *c, const ridge_list *list, icc_error
 
 icc_status iccp_complex_join(iccp_complex *c, const iccp_env *env, icc_error *err)
 {
-    const iccp_memory *memory = &env->memory;
-    ridge_list list = {.c = c, .n = c->n_facets * c->dim, .width = c->dim - 1};
-    list.vertices = iccp_alloc(memory, list.n, list.width * sizeof *list.vertices);
-    list.order = iccp_alloc(memory, list.n, sizeof *list.order);
-    list.work = iccp_alloc(memory, list.n, sizeof *list.work);
-    list.count = iccp_alloc(memory, c->n_vertices + 1, sizeof *list.count);
-    icc_status status;
-    if (list.vertices == NULL || list.order == NULL || list.work == NULL || list.count == NULL)
-        status = iccp_fail_memory(err);
-    else {
-        sort_ridges(&list);
-        status = pair_ridges(c, &list, err);
-    }
-    iccp_free(memory, list.count);
-    iccp_free(memory, list.work);
-    iccp_free(memory, list.order);
-    iccp_free(memory, list.vertices);
+    ridge_list list = {.c = c};
+    icc_status status = iccp_tuples_create(&list.tuples, c->n_facets * c->dim, c->dim - 1,
+                                           c->n_vertices, &env->memory);
+    if (status != ICC_OK)
+        return iccp_explain(err, status);
+    list_ridges(&list);
+    iccp_tuples_sort(&list.tuples);
+    status = pair_ridges(c, &list, err);
+    iccp_tuples_free(&list.tuples);
     return status;
 }

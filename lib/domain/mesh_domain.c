@@ -12,13 +12,13 @@
 static const uint32_t NONE = UINT32_MAX;
 
 typedef struct builder {
-    const double *given;     /* the caller's points */
+    const double *given; /* the caller's points */
     size_t n_given;
-    iccp_simplices *mesh;    /* in the caller's numbers, until renumber() */
+    iccp_simplices *mesh; /* in the caller's numbers, until renumber() */
     iccp_frame frame;
-    uint32_t *number;        /* of each of the caller's points: its new number, or NONE */
-    double *rim;             /* the boundary: points as given, */
-    uint32_t *facets;        /* and facets by new numbers */
+    uint32_t *number; /* of each of the caller's points: its new number, or NONE */
+    double *rim;      /* the boundary: points as given, */
+    uint32_t *facets; /* and facets by new numbers */
 } builder;
 
 static icc_status start(builder *b, size_t dim, size_t n_simplices, const uint32_t *simplices,
@@ -46,7 +46,8 @@ static icc_status check_mesh(builder *b, size_t n_facets, const uint32_t *facets
     const iccp_complex c = {mesh->dim + 1, mesh->n_points, mesh->n_simplices, mesh->corners, NULL};
     icc_status status = iccp_simplices_check_corners(mesh, err);
     if (status == ICC_OK)
-        status = iccp_simplicial_localise(&b->frame, mesh->points, mesh->dim, &c, b->given, env, err);
+        status =
+            iccp_simplicial_localise(&b->frame, mesh->points, mesh->dim, &c, b->given, env, err);
     if (status == ICC_OK)
         status = iccp_simplices_orient(mesh, err);
     if (status == ICC_OK)
@@ -161,8 +162,7 @@ icc_status iccp_domain_create_mesh(icc_domain **out, int32_t dim, size_t n_verti
                                    const uint32_t *facets, const iccp_env *env, icc_error *err)
 {
     builder b = {.given = vertices, .n_given = n_vertices};
-    icc_status status =
-        iccp_explain(err, start(&b, (size_t)dim, n_simplices, simplices, env));
+    icc_status status = iccp_explain(err, start(&b, (size_t)dim, n_simplices, simplices, env));
     if (status == ICC_OK)
         status = build(&b, n_facets, facets, env, err);
     if (status == ICC_OK)

@@ -41,13 +41,12 @@ icc_status iccp_simplices_check_corners(const iccp_simplices *mesh, icc_error *e
         for (size_t i = 0; i <= mesh->dim; ++i) {
             if (v[i] >= mesh->n_points)
                 return iccp_fail(err, ICC_ERR_BOUNDARY, (int64_t)s,
-                                 "%s %zu names vertex %lu, but there are only %zu vertices", name, s,
-                                 (unsigned long)v[i], mesh->n_points);
+                                 "%s %zu names vertex %lu, but there are only %zu vertices", name,
+                                 s, (unsigned long)v[i], mesh->n_points);
             for (size_t j = 0; j < i; ++j)
                 if (v[j] == v[i])
                     return iccp_fail(err, ICC_ERR_BOUNDARY, (int64_t)s,
-                                     "%s %zu names vertex %lu twice", name, s,
-                                     (unsigned long)v[i]);
+                                     "%s %zu names vertex %lu twice", name, s, (unsigned long)v[i]);
         }
     }
     return ICC_OK;
@@ -128,7 +127,8 @@ static icc_status fail_sides(const side_list *list, const uint32_t *at, size_t n
                          "%s belongs to %zu simplices, among them %zu, %zu and %zu", facet, n_sides,
                          s, t, (size_t)(at[2] / (dim + 1)));
     return iccp_fail(err, ICC_ERR_BOUNDARY, (int64_t)t,
-                     "simplices %zu and %zu lie on the same side of %s, so they overlap", s, t, facet);
+                     "simplices %zu and %zu lie on the same side of %s, so they overlap", s, t,
+                     facet);
 }
 
 /* The caller's facets at at[0], .., and how many sides they have. */

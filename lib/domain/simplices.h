@@ -16,12 +16,13 @@ typedef struct iccp_simplices {
     iccp_memory memory;
     size_t dim;
     size_t n_points;
-    size_t n_rim;       /* the first ones are the vertices of the domain, in its order */
+    size_t n_rim; /* the first ones are the vertices of the domain, in its order */
     size_t n_simplices;
-    size_t n_facets;    /* of the domain */
-    double *points;     /* dim each, in the domain's local coordinates */
-    uint32_t *corners;  /* dim + 1 each, so that iccp_orient() of them is 1 */
-    uint32_t *across;   /* of each side: the same side as seen from its other simplex, or ICCP_RIM and the
+    size_t n_facets;   /* of the domain */
+    double *points;    /* dim each, in the domain's local coordinates */
+    uint32_t *corners; /* dim + 1 each, so that iccp_orient() of them is 1 */
+    uint32_t
+        *across; /* of each side: the same side as seen from its other simplex, or ICCP_RIM and the
                            domain's facet */
 } iccp_simplices;
 

@@ -114,10 +114,11 @@ static icc_status check_euler(const iccp_simplices *mesh, icc_error *err)
     }
     if (sum == 1)
         return ICC_OK;
-    return iccp_fail(err, ICC_ERR_TOPOLOGY, -1,
-                     "the mesh has holes, voids or handles: its Euler characteristic is %ld, and that "
-                     "of a ball is 1",
-                     (long)sum);
+    return iccp_fail(
+        err, ICC_ERR_TOPOLOGY, -1,
+        "the mesh has holes, voids or handles: its Euler characteristic is %ld, and that "
+        "of a ball is 1",
+        (long)sum);
 }
 
 icc_status iccp_simplices_check_shape(const iccp_simplices *mesh, icc_error *err)

@@ -58,8 +58,8 @@ size_t iccp_tuples_end(const iccp_tuples *tuples, size_t begin)
     const size_t width = tuples->width;
     const uint32_t *first = tuples->vertices + width * tuples->order[begin];
     size_t end = begin + 1;
-    while (end < tuples->n && memcmp(first, tuples->vertices + width * tuples->order[end],
-                                     width * sizeof *first) == 0)
+    while (end < tuples->n &&
+           memcmp(first, tuples->vertices + width * tuples->order[end], width * sizeof *first) == 0)
         ++end;
     return end;
 }

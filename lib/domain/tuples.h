@@ -8,10 +8,10 @@
 
 typedef struct iccp_tuples {
     iccp_memory memory;
-    size_t n, width;     /* how many, and vertices of each */
-    size_t n_vertices;   /* all are smaller */
-    uint32_t *vertices;  /* n * width: filled in by the caller, ascending in each tuple */
-    uint32_t *order;     /* n: the tuples in the order of their vertices, the same ones by number */
+    size_t n, width;    /* how many, and vertices of each */
+    size_t n_vertices;  /* all are smaller */
+    uint32_t *vertices; /* n * width: filled in by the caller, ascending in each tuple */
+    uint32_t *order;    /* n: the tuples in the order of their vertices, the same ones by number */
     uint32_t *work, *count;
 } iccp_tuples;
 

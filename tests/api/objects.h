@@ -469,6 +469,23 @@ static inline icc_status call_domain_create_mask(const objects *o, outcome *out,
     return status;
 }
 
+static inline icc_status call_domain_create_mesh(const objects *o, outcome *out,
+                                                 const icc_env *env, icc_error *err)
+{
+    static const double POINTS[18] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1, .3, .3, .3};
+    static const uint32_t SIMPLICES[20] = {5, 0, 1, 2, 5, 0, 1, 3, 5, 0, 2, 3, 5, 1, 2, 3, 4, 1, 2, 3};
+    (void)o;
+    icc_domain *domain = (icc_domain *)&domain;
+    const icc_status status =
+        icc_domain_create_mesh(&domain, 3, 6, POINTS, 5, SIMPLICES, 0, NULL, env, err);
+    HANDED_OVER(status, domain);
+    icc_domain_info info = {.size = sizeof info};
+    if (status == ICC_OK && icc_domain_get_info(domain, &info) == ICC_OK)
+        out->count = info.n_facets;
+    icc_domain_free(domain);
+    return status;
+}
+
 static inline icc_status call_grid_refine(const objects *o, outcome *out, const icc_env *env,
                                           icc_error *err)
 {
@@ -521,6 +538,7 @@ static inline icc_status call_triangulate(const objects *o, outcome *out, const 
 static const call CALLS[] = {
     {"icc_domain_create", call_domain_create},
     {"icc_domain_create_mask", call_domain_create_mask},
+    {"icc_domain_create_mesh", call_domain_create_mesh},
     {"icc_domain_locate", call_domain_locate},
     {"icc_boundary_defects", call_boundary_defects},
     {"icc_chart_create", call_chart_create},

@@ -35,7 +35,8 @@ static void give_facets(test_mesh *m)
 
 static test_mesh read_mesh(const uint8_t *data, size_t size)
 {
-    static const double SCALES[4] = {1, 1e300, 1e-310, 0x1p-40}, OFFSETS[4] = {0, 1e9, -0x1p50, 12.7};
+    static const double SCALES[4] = {1, 1e300, 1e-310, 0x1p-40},
+                        OFFSETS[4] = {0, 1e9, -0x1p50, 12.7};
     const int32_t dim = 2 + (data[0] & 3) % 3;
     random_source r = {1};
     test_mesh m = mesh_cube(dim, dim == 4 ? 1 : 2, 0, &r);
@@ -49,7 +50,8 @@ static test_mesh read_mesh(const uint8_t *data, size_t size)
         m.vertices[i] = m.vertices[i] * SCALES[data[0] >> 4 & 3] + OFFSETS[data[0] >> 6];
     for (size_t i = 1 + n_moved; i + 1 < size; i += 2)
         if (m.facets != NULL && (data[i + 1] & 128) != 0)
-            m.facets[data[i] % (m.n_facets * (size_t)dim)] = (uint32_t)(data[i + 1] % (m.n_vertices + 1));
+            m.facets[data[i] % (m.n_facets * (size_t)dim)] =
+                (uint32_t)(data[i + 1] % (m.n_vertices + 1));
         else
             m.simplices[data[i] % (m.n_simplices * (size_t)(dim + 1))] =
                 (uint32_t)(data[i + 1] % (m.n_vertices + 1));

@@ -186,7 +186,8 @@ START_TEST(the_boundary_is_an_ordinary_one)
         test_mesh m = mesh_ball(dim, 4, 0.1, &r);
         icc_domain *d = make(&m), *alone;
         ck_assert_int_eq(icc_domain_create(&alone, dim, d->n_vertices, d->given, d->n_facets,
-                                           d->facets, NULL, NULL), ICC_OK);
+                                           d->facets, NULL, NULL),
+                         ICC_OK);
         check_mesh(d, &m);
         ck_assert_mem_eq(d->vertices, alone->vertices,
                          d->n_vertices * (size_t)dim * sizeof(double));
@@ -196,7 +197,8 @@ START_TEST(the_boundary_is_an_ordinary_one)
             uint32_t facet[2];
             for (int32_t k = 0; k < dim; ++k)
                 p[k] = random_between(&r, -1.1, 1.1);
-            ck_assert_int_eq(icc_domain_locate(d, 1, p, &where[0], &facet[0], bary[0], NULL), ICC_OK);
+            ck_assert_int_eq(icc_domain_locate(d, 1, p, &where[0], &facet[0], bary[0], NULL),
+                             ICC_OK);
             ck_assert_int_eq(icc_domain_locate(alone, 1, p, &where[1], &facet[1], bary[1], NULL),
                              ICC_OK);
             ck_assert(where[0] == where[1] && facet[0] == facet[1]);
@@ -210,8 +212,9 @@ END_TEST
 
 START_TEST(polygons)
 {
-    const shape shapes[] = {shape_square(), shape_l(), shape_dart(), shape_e(),
-                            shape_star(7, 0.3, 0.1), shape_worm(20, 0.3, 1)};
+    const shape shapes[] = {
+        shape_square(),        shape_l(), shape_dart(), shape_e(), shape_star(7, 0.3, 0.1),
+        shape_worm(20, 0.3, 1)};
     for (size_t k = 0; k < sizeof shapes / sizeof *shapes; ++k)
         for (double width = 0.1; width < 1; width *= 2) {
             test_mesh m = mesh_polygon(shapes[k].n, shapes[k].xy, width);
@@ -557,7 +560,8 @@ START_TEST(holes_and_pieces_are_refused)
             const icc_status status =
                 m.n_simplices > 0 ? mesh_domain(&domain, &m, NULL, &err) : ICC_ERR_TOPOLOGY;
             if (status != (good ? ICC_OK : ICC_ERR_TOPOLOGY))
-                ck_abort_msg("dimension %d, case %zu: %d %s", (int)dim, k, (int)status, err.message);
+                ck_abort_msg("dimension %d, case %zu: %d %s", (int)dim, k, (int)status,
+                             err.message);
             if (good)
                 icc_domain_free(domain);
             if (BAD[k] == in_halves || BAD[k] == in_corner_pair)
@@ -611,8 +615,9 @@ START_TEST(coverings_are_refused)
     }
     icc_error err = {.size = sizeof err};
     icc_domain *domain;
-    ck_assert_int_eq(icc_domain_create_mesh(&domain, 2, N + 1, xy, N, triangles, 0, NULL, NULL, &err),
-                     ICC_ERR_BOUNDARY);
+    ck_assert_int_eq(
+        icc_domain_create_mesh(&domain, 2, N + 1, xy, N, triangles, 0, NULL, NULL, &err),
+        ICC_ERR_BOUNDARY);
     ck_assert_ptr_nonnull(strstr(err.message, "cross"));
 }
 END_TEST
@@ -621,7 +626,8 @@ END_TEST
 
 START_TEST(any_position_and_size)
 {
-    static const double SCALES[] = {1, 1e-300, 1e-308, 1e300, 0x1p1020, 1}, FAR[] = {0, 0, 0, 0, 0, 1e9};
+    static const double SCALES[] = {1, 1e-300, 1e-308, 1e300, 0x1p1020, 1},
+                        FAR[] = {0, 0, 0, 0, 0, 1e9};
     for (int32_t dim = 2; dim <= 4; ++dim)
         for (size_t k = 0; k < sizeof SCALES / sizeof *SCALES; ++k) {
             random_source r = {7};
@@ -653,19 +659,18 @@ START_TEST(arguments_are_checked)
                {3, 8, 0, 0, 0, 0, 0, 0},        {3, 8, 6, SIZE_MAX, 0, 0, 0, 1}};
     for (size_t k = 0; k < sizeof BAD / sizeof *BAD; ++k) {
         d = (icc_domain *)&d;
-        ck_assert_int_eq(icc_domain_create_mesh(BAD[k].no_out ? NULL : &d, BAD[k].dim,
-                                                BAD[k].n_vertices,
-                                                BAD[k].no_vertices ? NULL : m.vertices,
-                                                BAD[k].n_simplices,
-                                                BAD[k].no_simplices ? NULL : m.simplices,
-                                                BAD[k].n_facets,
-                                                BAD[k].facets ? m.simplices : NULL, NULL, &err),
-                         ICC_ERR_ARGUMENT);
+        ck_assert_int_eq(
+            icc_domain_create_mesh(BAD[k].no_out ? NULL : &d, BAD[k].dim, BAD[k].n_vertices,
+                                   BAD[k].no_vertices ? NULL : m.vertices, BAD[k].n_simplices,
+                                   BAD[k].no_simplices ? NULL : m.simplices, BAD[k].n_facets,
+                                   BAD[k].facets ? m.simplices : NULL, NULL, &err),
+            ICC_ERR_ARGUMENT);
         ck_assert(BAD[k].no_out || d == NULL);
     }
     /* Their number does not matter without facets. */
-    ck_assert_int_eq(icc_domain_create_mesh(&d, 3, 8, m.vertices, 6, m.simplices, SIZE_MAX, NULL,
-                                            NULL, &err), ICC_OK);
+    ck_assert_int_eq(
+        icc_domain_create_mesh(&d, 3, 8, m.vertices, 6, m.simplices, SIZE_MAX, NULL, NULL, &err),
+        ICC_OK);
     icc_domain_free(d);
     ck_assert_int_eq(icc_domain_create_mesh(&d, 3, 0, NULL, 6, m.simplices, 0, NULL, NULL, &err),
                      ICC_ERR_BOUNDARY);
