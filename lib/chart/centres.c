@@ -17,6 +17,10 @@ enum { VERTICES_PER_REPORT = 1 << 10 };
  * or a negative one. Any positive weights put images between those of the neighbours. */
 static const double LEAST_WEIGHT = 0.02;
 
+/* How much deeper a vertex must be to be taken at some distance from where the image of the other centre lies: with
+ * 1.2 to 1.5, pairs of real bodies are a fifth to a half deeper than with the nearest vertex. */
+static const double DEPTH_PER_DISTANCE = 1.5;
+
 typedef struct search {
     const icc_domain *domain[2]; /* the second one: only with `image` */
     const iccp_simplices *mesh;
@@ -33,11 +37,11 @@ static double size_of(const icc_domain *domain)
     return pow(fabs(domain->measure), 1.0 / domain->dim);
 }
 
-static double distance(const iccp_simplices *mesh, uint32_t a, uint32_t b)
+static double distance(const iccp_simplices *mesh, size_t vertex, const double *point)
 {
     double square = 0;
     for (size_t k = 0; k < mesh->dim; ++k) {
-        const double d = mesh->points[mesh->dim * a + k] - mesh->points[mesh->dim * b + k];
+        const double d = mesh->points[mesh->dim * vertex + k] - point[k];
         square += d * d;
     }
     return sqrt(square);
@@ -64,11 +68,12 @@ static icc_status bound_depths(search *s, const iccp_env *env)
     }
     for (size_t n = 0; s->heap.n_entries > 0 && status == ICC_OK; ++n) {
         const uint32_t v = iccp_heap_pop(&s->heap);
+        const double *point = s->mesh->points + s->mesh->dim * v;
         if (n % VERTICES_PER_REPORT == 0)
             status = iccp_progress(env, "centre", 0);
         for (size_t p = s->edges->first[v]; p < s->edges->first[v + 1]; ++p) {
             const uint32_t w = s->edges->column[p];
-            const double length = s->bound[v] + distance(s->mesh, v, w);
+            const double length = s->bound[v] + distance(s->mesh, w, point);
             if (length < s->bound[w]) {
                 s->bound[w] = length;
                 iccp_heap_put(&s->heap, w, length);
@@ -85,7 +90,7 @@ static double measure(search *s, uint32_t v)
     const double depth = depth_of(s->domain[0], point);
     for (size_t p = s->edges->first[v]; p < s->edges->first[v + 1]; ++p) {
         const uint32_t w = s->edges->column[p];
-        const double bound = depth + distance(s->mesh, v, w);
+        const double bound = depth + distance(s->mesh, w, point);
         if (bound < s->bound[w] && s->heap.place[w] != NONE) {
             s->bound[w] = bound;
             iccp_heap_put(&s->heap, w, -bound);
@@ -150,19 +155,10 @@ icc_status iccp_deepest_centre(const icc_domain *domain, const iccp_simplices *m
 
 uint32_t iccp_nearest_centre(const iccp_simplices *mesh, const double *point)
 {
-    uint32_t nearest = NONE;
-    double least = HUGE_VAL;
-    for (size_t v = mesh->n_rim; v < mesh->n_points; ++v) {
-        double square = 0;
-        for (size_t k = 0; k < mesh->dim; ++k) {
-            const double d = mesh->points[mesh->dim * v + k] - point[k];
-            square += d * d;
-        }
-        if (square < least) {
-            least = square;
+    uint32_t nearest = (uint32_t)mesh->n_rim;
+    for (size_t v = mesh->n_rim; v < mesh->n_points; ++v)
+        if (distance(mesh, v, point) < distance(mesh, nearest, point))
             nearest = (uint32_t)v;
-        }
-    }
     return nearest;
 }
 
@@ -225,6 +221,27 @@ static icc_status find_images(iccp_gram *edges, const iccp_simplices *mesh, cons
     return status;
 }
 
+/* An inner vertex near a point, a deep one rather than the nearest. No depth is more than that of the point and the
+ * distance from it, so that few have to be measured. */
+static uint32_t find_partner(const icc_domain *domain, const iccp_simplices *mesh, const double *point)
+{
+    const double depth = depth_of(domain, point);
+    uint32_t partner = (uint32_t)mesh->n_rim;
+    double best = -HUGE_VAL;
+    for (size_t v = mesh->n_rim; v < mesh->n_points; ++v) {
+        const double away = distance(mesh, v, point);
+        if (depth + away - DEPTH_PER_DISTANCE * away <= best)
+            continue;
+        const double value =
+            depth_of(domain, mesh->points + mesh->dim * v) - DEPTH_PER_DISTANCE * away;
+        if (value > best) {
+            best = value;
+            partner = (uint32_t)v;
+        }
+    }
+    return partner;
+}
+
 static icc_status pair(search *s, const iccp_simplices *const mesh[2], const uint32_t *given,
                        uint32_t centre[2], const iccp_env *env)
 {
@@ -235,7 +252,8 @@ static icc_status pair(search *s, const iccp_simplices *const mesh[2], const uin
         s->best = *given;
     if (s->best != NONE) {
         centre[0] = s->best;
-        centre[1] = iccp_nearest_centre(mesh[1], s->image + mesh[0]->dim * (s->best - mesh[0]->n_rim));
+        centre[1] = find_partner(s->domain[1], mesh[1],
+                                 s->image + mesh[0]->dim * (s->best - mesh[0]->n_rim));
         return ICC_OK;
     }
     /* No image is inside. */
