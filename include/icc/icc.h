@@ -260,7 +260,8 @@ ICC_API icc_status icc_boundary_defects(size_t n_vertices, const double *vertice
 /** Coordinates of the inside of a domain: a boundary point and a share in [0,1]. */
 typedef struct icc_chart icc_chart;
 
-/** How coordinates are made. Gradient and field work in 2-D and beyond, the others in 2-D. */
+/** How coordinates are made. Gradient and field work in 2-D and beyond, foliation in 2-D and on domains with
+ *  a mesh, disc in 2-D. */
 enum {
     /** Integral Curve Coordinates as Huynh and Gingold published them: a regular grid, a cousin
      *  tree, a function on it, piecewise linear gradient lines; in any dimension, on the simplices of
@@ -274,7 +275,13 @@ enum {
      *  domain in exact arithmetic whenever its certificate holds, which is checked with integers
      *  and exact signs for every chart; otherwise there is no chart (::ICC_ERR_CERTIFICATE). The
      *  coordinates are continuous, piecewise smooth, and in doubles come back to about 1e-15 of the
-     *  domain's size. A mesh *sampled* from the map can still have inverted triangles. */
+     *  domain's size. A mesh *sampled* from the map can still have inverted triangles.
+     *
+     *  On a domain with a mesh, icc_domain_create_mesh(), in any dimension: leaves that are straight in
+     *  every simplex and pass the simplices in an order, a shelling; all end at an inner vertex of the
+     *  mesh, or at the middle of a simplex if there is none. The certificate looks at that order, and
+     *  promises the same (beyond 3-D the orientation of simplices is certain, but not exact). Not every
+     *  mesh has such an order: ::ICC_ERR_TOPOLOGY. A flat simplex makes for long leaves near it. */
     ICC_METHOD_FOLIATION = 2,
     /** Integral Curve Coordinates along a field that the curves cannot merge in, on a regular grid in any
      *  dimension: a vector for every grid vertex that points uphill in all simplices around it, for
@@ -323,14 +330,15 @@ enum {
 /** Options of icc_chart_create(). */
 typedef struct icc_chart_options {
     size_t size;           /**< set by the caller: `sizeof(icc_chart_options)` */
-    int32_t method;        /**< `ICC_METHOD_*`; 0: the best that there is: in 2-D foliation, else field */
+    int32_t method;        /**< `ICC_METHOD_*`; 0: the best that there is: foliation in 2-D and on domains with
+                                a mesh, else field */
     int32_t function;      /**< gradient: `ICC_FUNCTION_*`; 0: decay */
     int32_t tree;          /**< gradient: `ICC_TREE_*`; 0: thesis */
     int32_t cells;         /**< grid or mesh cells along the longest side, 2..16384; 0: 50, as in the
                                 papers; gradient on a mask: see icc_grid_create() */
     const double *maximum; /**< where the maximum shall be: the nearest vertex inside is taken. NULL:
-                                the grassfire's (gradient, field), the deepest vertex (foliation). Disc has
-                                its own, the point that goes to the centre: NULL only. */
+                                the grassfire's (gradient, field), the deepest vertex (foliation; of a
+                                mesh of the caller's, the deepest inside). Disc has its own, the point that goes to the centre: NULL only. */
     int32_t constraints;   /**< gradient: `ICC_CONSTRAINTS_*`; 0: needed */
     int32_t solver;        /**< gradient: `ICC_SOLVER_*`; 0: by the predicted work */
     double eta;            /**< gradient: least relative fall along tree edges, in (0, 0.01]; 0: 1e-6 */
@@ -362,7 +370,7 @@ typedef struct icc_chart_info {
     size_t n_expansion;          /**< edges where curves merge on the way down */
     size_t n_mesh_vertices;      /**< vertices of the mesh */
     size_t n_mesh_boundary;      /**< of them on the boundary */
-    size_t n_mesh_triangles;     /**< triangles of the mesh */
+    size_t n_mesh_triangles;     /**< triangles of the mesh, or simplices */
     size_t n_ties;               /**< mesh edges whose ends have the same label: ordered by index */
     double harmonic_share;       /**< share of the boundary flux that is harmonic (foliation) */
     double seconds_grid;         /**< time to make the grid and find the maximum */
@@ -377,6 +385,14 @@ typedef struct icc_chart_info {
     size_t n_contacts;           /**< field: pairs of a facet and a grid vertex of a simplex that it runs
                                       through */
     size_t n_not_inward;         /**< field: those of them where the vector does not point inward */
+    int32_t order_peeled;        /**< foliation on a mesh: 1: the order of the simplices was found from the
+                                      boundary inwards, 0: from the centre outwards */
+    int32_t n_orders;            /**< how many of eight such orders were complete; the best is used */
+    double order_beta;           /**< how much reversed flux weighed in it */
+    size_t n_reversed;           /**< facets that the harmonic flux runs through the other way */
+    double flux_energy;          /**< how far the flux along the leaves is from the harmonic one: sum of
+                                      the squared differences, weighted; 0 at best */
+    double flux_divergence;      /**< largest share of a simplex's flux that gets lost by rounding */
 } icc_chart_info;
 
 /** Shares that icc_chart_measure() estimates from evenly spread points. All lie in [0,1]. Area and length

@@ -1,1 +1,252 @@
+/* Based on: M. Campen, C. Silva, D. Zorin, Bijective Maps from Simplicial Foliations, ACM Transactions on
+ * Graphics 35, 2016; docs/theory.md, foliations of simplices. */
 #include "chart/chart_shelling.h"
+
+#include "base/clock.h"
+#include "base/error.h"
+#include "chart/centres.h"
+#include "chart/shelling_certificate.h"
+#include "chart/shelling_split.h"
+#include "chart/shelling_state.h"
+#include "shelling/contest.h"
+#include "shelling/reference.h"
+
+#include <string.h>
+
+/* Share of the flux through the boundary that is harmonic, the rest goes by area: the fairest
+ * (bench_tets). */
+static const double HARMONIC_SHARE = 0.5;
+
+/* One or two domains on their way to charts. */
+typedef struct job {
+    size_t n;
+    const icc_domain *const *domain;
+    const icc_chart_options *options;
+    iccp_simplices *split[2]; /* owned: meshes that got a vertex inside; or NULL */
+    const iccp_simplices *mesh[2];
+    uint32_t centre[2];
+    double seconds; /* to find the centres */
+} job;
+
+/* What the order of one mesh is made from and what comes out. */
+typedef struct work {
+    double *inflow, *reference, *potential, *flux;
+    uint32_t *rank;
+} work;
+
+/* Says which of two domains is at fault. */
+static icc_status blame(const job *j, size_t k, icc_status status, icc_error *err)
+{
+    (void)iccp_explain(err, status);
+    return j->n > 1 ? iccp_fail_side(err, status, (int32_t)k + 1) : status;
+}
+
+/* ---- centres ---- */
+
+static icc_status make_inner(job *j, size_t k, const iccp_env *env, icc_error *err)
+{
+    const icc_domain *domain = j->domain[k];
+    icc_status status = ICC_OK;
+    j->mesh[k] = domain->mesh;
+    if (domain->mesh->n_points == domain->mesh->n_rim) {
+        status = iccp_split_deepest(&j->split[k], domain, env, err);
+        j->mesh[k] = j->split[k];
+    }
+    return status == ICC_OK ? ICC_OK : blame(j, k, status, err);
+}
+
+static icc_status choose_given(job *j, size_t k, icc_error *err)
+{
+    double local[ICC_MAX_DIM];
+    const icc_domain *domain = j->domain[k];
+    iccp_frame_in(&domain->frame, domain->dim, j->options[k].maximum, local);
+    if (iccp_domain_locate(domain, local, true, NULL, NULL) != ICC_INSIDE) {
+        (void)iccp_fail(err, ICC_ERR_OUTSIDE, -1, "the maximum is not inside the domain");
+        return blame(j, k, ICC_ERR_OUTSIDE, err);
+    }
+    j->centre[k] = iccp_nearest_centre(j->mesh[k], local);
+    return ICC_OK;
+}
+
+/* Where only the target's is given, the pair is looked at the other way round. */
+static icc_status pair(job *j, const iccp_env *env)
+{
+    const bool given[2] = {j->options[0].maximum != NULL, j->options[1].maximum != NULL};
+    const size_t from = given[1] ? 1 : 0;
+    const icc_domain *const domain[2] = {j->domain[from], j->domain[1 - from]};
+    const iccp_simplices *const mesh[2] = {j->mesh[from], j->mesh[1 - from]};
+    uint32_t centre[2];
+    const icc_status status = iccp_paired_centres(
+        domain, mesh, given[from] ? &j->centre[from] : NULL, centre, env);
+    if (status == ICC_OK) {
+        j->centre[from] = centre[0];
+        j->centre[1 - from] = centre[1];
+    }
+    return status;
+}
+
+static icc_status choose_centres(job *j, const iccp_env *env, icc_error *err)
+{
+    const double start = iccp_seconds();
+    icc_status status = ICC_OK;
+    size_t n_given = 0;
+    for (size_t k = 0; status == ICC_OK && k < j->n; ++k) {
+        status = make_inner(j, k, env, err);
+        if (status == ICC_OK && j->options[k].maximum != NULL) {
+            status = choose_given(j, k, err);
+            ++n_given;
+        }
+    }
+    if (status == ICC_OK && n_given < j->n)
+        status = j->n == 1 ? iccp_deepest_centre(j->domain[0], j->mesh[0], &j->centre[0], env)
+                           : pair(j, env);
+    j->seconds = iccp_seconds() - start;
+    return iccp_explain(err, status);
+}
+
+/* ---- one chart ---- */
+
+static void work_free(work *w, const iccp_memory *memory)
+{
+    iccp_free(memory, w->inflow);
+    iccp_free(memory, w->reference);
+    iccp_free(memory, w->potential);
+    iccp_free(memory, w->flux);
+    iccp_free(memory, w->rank);
+}
+
+static icc_status find_order(work *w, const iccp_simplices *mesh, uint32_t centre,
+                             icc_chart_info *info, const iccp_env *env, icc_error *err)
+{
+    const size_t n = mesh->n_simplices;
+    iccp_contest_info contest = {0};
+    const double start = iccp_seconds();
+    w->inflow = iccp_alloc(&env->memory, mesh->n_facets, sizeof *w->inflow);
+    w->reference = iccp_alloc(&env->memory, n, (mesh->dim + 1) * sizeof *w->reference);
+    w->flux = iccp_alloc(&env->memory, n, (mesh->dim + 1) * sizeof *w->flux);
+    w->potential = iccp_alloc(&env->memory, n, sizeof *w->potential);
+    w->rank = iccp_alloc(&env->memory, n, sizeof *w->rank);
+    if (w->inflow == NULL || w->reference == NULL || w->flux == NULL || w->potential == NULL ||
+        w->rank == NULL)
+        return ICC_ERR_MEMORY;
+    icc_status status = iccp_inflow(mesh, centre, HARMONIC_SHARE, w->inflow, env);
+    if (status == ICC_OK)
+        status = iccp_reference_flux(mesh, centre, w->inflow, w->reference, w->potential, env);
+    const double solved = iccp_seconds();
+    if (status == ICC_OK)
+        status = iccp_contest(mesh, centre, w->inflow, w->reference, w->potential, w->rank, w->flux,
+                              &contest, env, err);
+    info->harmonic_share = HARMONIC_SHARE;
+    info->seconds_solve = solved - start;
+    info->seconds_tree = iccp_seconds() - solved;
+    info->order_peeled = contest.peeled;
+    info->n_orders = (int32_t)contest.n_finished;
+    info->order_beta = contest.beta;
+    info->n_reversed = contest.n_reversed;
+    info->flux_energy = contest.energy;
+    info->flux_divergence = contest.divergence;
+    return status;
+}
+
+/* In place of the fluxes: each side's share of what leaves the simplex, negative, or of what enters it. */
+static void find_directions(const iccp_simplices *mesh, double *flux)
+{
+    const size_t n = mesh->dim + 1;
+    for (size_t s = 0; s < mesh->n_simplices; ++s) {
+        double in = 0, out = 0;
+        for (size_t i = 0; i < n; ++i) {
+            in += flux[n * s + i] < 0 ? -flux[n * s + i] : 0;
+            out += flux[n * s + i] > 0 ? flux[n * s + i] : 0;
+        }
+        for (size_t i = 0; i < n; ++i)
+            flux[n * s + i] /= flux[n * s + i] > 0 ? -out : -in;
+    }
+}
+
+static icc_status certify(const icc_domain *domain, const iccp_simplices *mesh, uint32_t centre,
+                          const work *w, icc_chart_info *info, const iccp_env *env, icc_error *err)
+{
+    iccp_shelling_certificate found;
+    const double start = iccp_seconds();
+    const icc_status status = iccp_certify_shelling(&found, mesh, domain->facets, centre, w->rank,
+                                                    w->flux, env);
+    info->seconds_certify = iccp_seconds() - start;
+    if (status != ICC_OK)
+        return status;
+    info->certified = iccp_shelling_certificate_holds(&found);
+    if (info->certified)
+        return ICC_OK;
+    return iccp_fail(err, ICC_ERR_CERTIFICATE, -1,
+                     "the foliation cannot be certified: %zu inverted simplices, %zu faults of "
+                     "topology, %zu simplices out of order, %zu irregular faces, %zu directions "
+                     "against the order",
+                     found.n_inverted, found.n_topology, found.n_order, found.n_irregular,
+                     found.n_directions);
+}
+
+static icc_status make_fibres(iccp_shelling_state *state, const icc_domain *domain,
+                              const iccp_simplices *mesh, uint32_t centre, icc_chart_info *info,
+                              const iccp_env *env, icc_error *err)
+{
+    work w = {0};
+    icc_status status = find_order(&w, mesh, centre, info, env, err);
+    if (status == ICC_OK) {
+        find_directions(mesh, w.flux);
+        status = certify(domain, mesh, centre, &w, info, env, err);
+    }
+    const double start = iccp_seconds();
+    if (status == ICC_OK)
+        status = iccp_fibres_create(&state->fibres, mesh, centre, w.flux, domain->tolerance, env);
+    info->seconds_mesh = iccp_seconds() - start;
+    work_free(&w, &env->memory);
+    return status;
+}
+
+static icc_status make_chart(job *j, size_t k, icc_chart **out, const iccp_env *env, icc_error *err)
+{
+    const iccp_simplices *mesh = j->mesh[k];
+    icc_status status = iccp_chart_new(out, j->domain[k], env);
+    if (status != ICC_OK)
+        return status;
+    icc_chart_info *info = &(*out)->info;
+    (*out)->ops = &iccp_shelling_ops;
+    info->method = ICC_METHOD_FOLIATION;
+    info->n_mesh_vertices = mesh->n_points;
+    info->n_mesh_boundary = mesh->n_rim;
+    info->n_mesh_triangles = mesh->n_simplices;
+    info->seconds_grid = j->seconds / (double)j->n;
+    iccp_shelling_state *state = iccp_alloc_zero(&env->memory, 1, sizeof *state);
+    (*out)->state = state;
+    if (state == NULL)
+        return ICC_ERR_MEMORY;
+    state->mesh = j->split[k];
+    j->split[k] = NULL;
+    state->fibres.memory = env->memory;
+    memcpy(state->centre, mesh->points + mesh->dim * j->centre[k],
+           mesh->dim * sizeof *state->centre);
+    iccp_frame_out(&j->domain[k]->frame, (int32_t)mesh->dim, state->centre, info->maximum);
+    return make_fibres(state, j->domain[k], mesh, j->centre[k], info, env, err);
+}
+
+icc_status iccp_chart_shelling_create(size_t n, icc_chart **out, const icc_domain *const *domain,
+                                      const icc_chart_options *options, const iccp_env *env,
+                                      icc_error *err)
+{
+    job j = {.n = n, .domain = domain, .options = options};
+    for (size_t k = 0; k < n; ++k)
+        out[k] = NULL;
+    icc_status status = choose_centres(&j, env, err);
+    for (size_t k = 0; status == ICC_OK && k < n; ++k) {
+        status = make_chart(&j, k, &out[k], env, err);
+        if (status != ICC_OK)
+            (void)blame(&j, k, status, err);
+    }
+    for (size_t k = 0; k < n; ++k) {
+        iccp_simplices_free(j.split[k]);
+        if (status != ICC_OK) {
+            iccp_chart_release(out[k]);
+            out[k] = NULL;
+        }
+    }
+    return status;
+}

@@ -5,14 +5,16 @@
 #include "chart/chart_field.h"
 #include "chart/chart_foliation.h"
 #include "chart/chart_gradient.h"
+#include "chart/chart_shelling.h"
 #include "chart/pairing.h"
 
-static icc_status complete(icc_chart_options *options, int32_t dim, icc_error *err)
+/* `has_mesh`: the domain has one, and so has the other one of a pair. */
+static icc_status complete(icc_chart_options *options, int32_t dim, bool has_mesh, icc_error *err)
 {
     if (options->method == 0)
-        options->method = dim == 2 ? ICC_METHOD_FOLIATION : ICC_METHOD_FIELD;
-    const bool planar =
-        options->method == ICC_METHOD_FOLIATION || options->method == ICC_METHOD_DISC;
+        options->method = dim == 2 || has_mesh ? ICC_METHOD_FOLIATION : ICC_METHOD_FIELD;
+    const bool planar = (options->method == ICC_METHOD_FOLIATION && !has_mesh) ||
+                        options->method == ICC_METHOD_DISC;
     if (options->function == 0)
         options->function = ICC_FUNCTION_DECAY;
     if (options->tree == 0)
@@ -22,6 +24,11 @@ static icc_status complete(icc_chart_options *options, int32_t dim, icc_error *e
     if (options->method < ICC_METHOD_GRADIENT || options->method > ICC_METHOD_DISC)
         return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1, "method %ld is not available",
                          (long)options->method);
+    if (options->method == ICC_METHOD_FOLIATION && planar && dim > 2)
+        return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1,
+                         "method foliation needs a mesh of the inside in dimension %ld: make the "
+                         "domain by icc_domain_create_mesh()",
+                         (long)dim);
     if (planar ? dim != 2 : dim < 2)
         return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1,
                          "method %ld is not available for domains of dimension %ld",
@@ -226,13 +233,16 @@ icc_status iccp_chart_create(icc_chart **out, const icc_domain *domain,
 {
     icc_chart_options full = *options;
     *out = NULL;
-    const icc_status status = complete(&full, domain->dim, err);
+    const bool has_mesh = domain->mesh != NULL;
+    const icc_status status = complete(&full, domain->dim, has_mesh, err);
     if (status != ICC_OK)
         return status;
     if (full.method == ICC_METHOD_GRADIENT)
         return iccp_explain(err, iccp_chart_gradient_create(out, domain, &full, env, err));
     if (full.method == ICC_METHOD_FIELD)
         return create_field(out, domain, &full, NULL, env, err);
+    if (full.method == ICC_METHOD_FOLIATION && has_mesh)
+        return iccp_chart_shelling_create(1, out, &domain, &full, env, err);
     harmonic_job job = {.n = 1, .domain = &domain, .options = &full};
     return create_harmonic(&job, out, env, err);
 }
@@ -260,15 +270,18 @@ icc_status iccp_chart_create_pair(icc_chart *out[2], const icc_domain *const dom
 {
     icc_chart_options full[2] = {options[0], options[1]};
     out[0] = out[1] = NULL;
-    icc_status status = complete(&full[0], domain[0]->dim, err);
+    const bool has_mesh = domain[0]->mesh != NULL && domain[1]->mesh != NULL;
+    icc_status status = complete(&full[0], domain[0]->dim, has_mesh, err);
     if (status == ICC_OK)
-        status = complete(&full[1], domain[1]->dim, err);
+        status = complete(&full[1], domain[1]->dim, has_mesh, err);
     if (status != ICC_OK)
         return status;
     if (full[0].method == ICC_METHOD_GRADIENT)
         return create_gradient_pair(out, domain, full, env, err);
     if (full[0].method == ICC_METHOD_FIELD)
         return create_field_pair(out, domain, full, env, err);
+    if (full[0].method == ICC_METHOD_FOLIATION && has_mesh)
+        return iccp_chart_shelling_create(2, out, domain, full, env, err);
     harmonic_job job = {.n = 2, .domain = domain, .options = full};
     return create_harmonic(&job, out, env, err);
 }

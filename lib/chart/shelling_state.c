@@ -68,6 +68,18 @@ static void fill_encode_jet(const icc_chart *chart, const iccp_fibre_place *end,
     }
 }
 
+static void end_on_facet(const icc_chart *chart, const iccp_fibre_place *end, iccp_coords *coords)
+{
+    const iccp_shelling_state *state = chart->state;
+    const size_t dim = state->fibres.dim;
+    double sum = 0;
+    iccp_fibres_facet(&state->fibres, end, facet_of(chart, coords->facet), coords->bary);
+    for (size_t k = 0; k < dim; ++k)
+        sum += coords->bary[k];
+    for (size_t k = 0; k < dim; ++k)
+        coords->bary[k] /= sum;
+}
+
 static void encode_inside(const icc_chart *chart, const iccp_fibre_place *place,
                           iccp_coords *coords, iccp_encode_jet *jet)
 {
@@ -84,7 +96,7 @@ static void encode_inside(const icc_chart *chart, const iccp_fibre_place *place,
         p.up = iccp_fibres_rise_jet(&state->fibres, &high, &p.up_jet, UINT32_MAX, NULL);
         fill_encode_jet(chart, &low, coords->facet, &p, jet);
     }
-    iccp_fibres_facet(&state->fibres, &low, facet_of(chart, coords->facet), coords->bary);
+    end_on_facet(chart, &low, coords);
     coords->t = p.down / (p.down + p.up);
 }
 

@@ -136,12 +136,16 @@ static icc_status create_with(icc_map **out, const icc_domain *const domains[2],
 }
 
 /* The method that suits the kind, where the caller leaves it open: discs are the better start for a
- * mesh, unless a maximum is given, which they do not have. */
-static void complete(icc_chart_options chart_options[2], int32_t dim, int32_t kind)
+ * mesh, unless a maximum is given, which they do not have. Domains with meshes of the caller's are mapped along
+ * curves unless he says otherwise. */
+static void complete(icc_chart_options chart_options[2], const icc_domain *const domains[2],
+                     int32_t kind)
 {
     const bool has_maximum =
         chart_options[0].maximum != NULL || chart_options[1].maximum != NULL;
-    for (int k = 0; k < 2 && kind != ICC_MAP_CURVES && dim == 2; ++k) {
+    const bool has_mesh = domains[0]->mesh != NULL && domains[1]->mesh != NULL;
+    const bool curves = kind == ICC_MAP_CURVES || (kind == 0 && has_mesh);
+    for (int k = 0; k < 2 && !curves && domains[0]->dim == 2; ++k) {
         if (chart_options[k].method == 0)
             chart_options[k].method = has_maximum ? ICC_METHOD_FOLIATION : ICC_METHOD_DISC;
         if (chart_options[k].cells == 0 && chart_options[k].method != ICC_METHOD_GRADIENT &&
@@ -165,7 +169,7 @@ icc_status iccp_map_create(icc_map **out, const icc_domain *source, const icc_do
                            (long)source->dim);
     if (status != ICC_OK)
         return status;
-    complete(full, source->dim, options->kind);
+    complete(full, domains, options->kind);
     status = create_with(out, domains, options, full, env, err);
     /* Each start has shapes that it cannot be repaired from. */
     if (status == ICC_OK && (*out)->info.n_unrepaired > 0 && chart_options[0].method == 0 &&

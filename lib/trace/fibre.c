@@ -458,9 +458,8 @@ void iccp_fibres_facet(const iccp_fibres *fibres, const iccp_fibre_place *place,
 {
     const size_t dim = fibres->dim, n = dim + 1;
     const uint32_t *v = fibres->corners + n * place->simplex;
-    const double sum = sum_of(place->bary, n);
     for (size_t k = 0; k < dim; ++k)
         for (size_t i = 0; i < n; ++i)
             if (vertices[k] == v[i])
-                bary[k] = place->bary[i] / sum;
+                bary[k] = place->bary[i];
 }

@@ -63,7 +63,7 @@ bool iccp_fibres_find(const iccp_fibres *fibres, const double *point, double tol
 void iccp_fibres_enter(const iccp_fibres *fibres, uint32_t facet, const uint32_t *vertices,
                        const double *bary, iccp_fibre_place *place);
 
-/* The barycentric coordinates on the facet where a leaf that fell has ended. */
+/* The numbers of a place on the facet where a leaf that fell has ended, in the order of its vertices. */
 void iccp_fibres_facet(const iccp_fibres *fibres, const iccp_fibre_place *place,
                        const uint32_t *vertices, double *bary);
 

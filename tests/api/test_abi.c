@@ -113,7 +113,7 @@ AT(icc_chart_options, solver, 36);
 AT(icc_chart_options, eta, 40);
 AT(icc_chart_options, leaf, 48);
 
-SIZE(icc_chart_info, 296);
+SIZE(icc_chart_info, 336);
 AT(icc_chart_info, size, 0);
 AT(icc_chart_info, dim, 8);
 AT(icc_chart_info, method, 12);
@@ -149,6 +149,12 @@ AT(icc_chart_info, n_stray, 264);
 AT(icc_chart_info, n_infeasible, 272);
 AT(icc_chart_info, n_contacts, 280);
 AT(icc_chart_info, n_not_inward, 288);
+AT(icc_chart_info, order_peeled, 296);
+AT(icc_chart_info, n_orders, 300);
+AT(icc_chart_info, order_beta, 304);
+AT(icc_chart_info, n_reversed, 312);
+AT(icc_chart_info, flux_energy, 320);
+AT(icc_chart_info, flux_divergence, 328);
 
 SIZE(icc_chart_measures, 56);
 AT(icc_chart_measures, size, 0);
