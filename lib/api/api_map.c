@@ -184,25 +184,31 @@ icc_status icc_map_mesh(const icc_map *map, double *vertices, double *images, ui
     return ICC_OK;
 }
 
-static icc_status check_mesh(size_t n_vertices, size_t n_triangles, const uint32_t *triangles,
-                             icc_error *err)
+/* As for the meshes of domains. */
+static const size_t MAX_COUNT = UINT32_MAX / 64;
+
+static icc_status check_mesh(const icc_map *map, size_t n_vertices, size_t n_simplices,
+                             const uint32_t *simplices, icc_error *err)
 {
-    if (n_vertices < 3 || n_triangles < 1 || n_vertices > UINT32_MAX / 4 ||
-        n_triangles > UINT32_MAX / 4)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1,
-                         "icc_map_certify: %zu vertices and %zu triangles", n_vertices,
-                         n_triangles);
-    for (size_t k = 0; k < 3 * n_triangles; ++k)
-        if (triangles[k] >= n_vertices)
-            return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)(k / 3),
-                             "triangle %zu has vertex %lu of %zu", k / 3,
-                             (unsigned long)triangles[k], n_vertices);
+    const size_t dim = (size_t)map->source_domain->dim;
+    const char *name = dim == 2 ? "triangle" : "tetrahedron";
+    if (dim != 2 && dim != 3)
+        return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1,
+                         "dim is %zu; meshes are carried along in dimensions 2 and 3 only", dim);
+    if (n_vertices <= dim || n_simplices < 1 || n_vertices > MAX_COUNT || n_simplices > MAX_COUNT)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_map_certify: %zu vertices and %zu simplices",
+                         n_vertices, n_simplices);
+    for (size_t k = 0; k < (dim + 1) * n_simplices; ++k)
+        if (simplices[k] >= n_vertices)
+            return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)(k / (dim + 1)),
+                             "%s %zu has vertex %lu of %zu", name, k / (dim + 1),
+                             (unsigned long)simplices[k], n_vertices);
     return ICC_OK;
 }
 
 /* Both ways of carrying a caller's mesh along. */
 static icc_status carry_mesh(const icc_map *map, size_t n_vertices, const double *vertices,
-                             size_t n_triangles, const uint32_t *triangles, bool repaired,
+                             size_t n_simplices, const uint32_t *simplices, bool repaired,
                              double *images, icc_certificate *certificate, const icc_env *env,
                              icc_error *err)
 {
@@ -210,16 +216,14 @@ static icc_status carry_mesh(const icc_map *map, size_t n_vertices, const double
     icc_certificate full = {0};
     icc_status status = iccp_env_read(&full_env, env, err);
     if (status == ICC_OK)
-        status = iccp_check_planar(map->source_domain, err);
-    if (status == ICC_OK)
-        status = check_mesh(n_vertices, n_triangles, triangles, err);
+        status = check_mesh(map, n_vertices, n_simplices, simplices, err);
     if (status != ICC_OK)
         return status;
-    double *own = images != NULL ? NULL
-                                 : iccp_alloc(&full_env.memory, n_vertices, 2 * sizeof *own);
+    const size_t size = (size_t)map->source_domain->dim * sizeof *images;
+    double *own = images != NULL ? NULL : iccp_alloc(&full_env.memory, n_vertices, size);
     if (images == NULL && own == NULL)
         return iccp_fail_memory(err);
-    status = iccp_map_certify(map, n_vertices, vertices, n_triangles, triangles, repaired,
+    status = iccp_map_certify(map, n_vertices, vertices, n_simplices, simplices, repaired,
                               images != NULL ? images : own, &full, &full_env, err);
     iccp_free(&full_env.memory, own);
     return status == ICC_OK
@@ -228,22 +232,22 @@ static icc_status carry_mesh(const icc_map *map, size_t n_vertices, const double
 }
 
 icc_status icc_map_certify(const icc_map *map, size_t n_vertices, const double *vertices,
-                           size_t n_triangles, const uint32_t *triangles, double *images,
+                           size_t n_simplices, const uint32_t *simplices, double *images,
                            icc_certificate *certificate, const icc_env *env, icc_error *err)
 {
-    if (map == NULL || vertices == NULL || triangles == NULL || certificate == NULL)
+    if (map == NULL || vertices == NULL || simplices == NULL || certificate == NULL)
         return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_map_certify: an argument is NULL");
-    return carry_mesh(map, n_vertices, vertices, n_triangles, triangles, false, images,
+    return carry_mesh(map, n_vertices, vertices, n_simplices, simplices, false, images,
                       certificate, env, err);
 }
 
 icc_status icc_map_repair(const icc_map *map, size_t n_vertices, const double *vertices,
-                          size_t n_triangles, const uint32_t *triangles, double *images,
+                          size_t n_simplices, const uint32_t *simplices, double *images,
                           icc_certificate *certificate, const icc_env *env, icc_error *err)
 {
-    if (map == NULL || vertices == NULL || triangles == NULL || images == NULL ||
+    if (map == NULL || vertices == NULL || simplices == NULL || images == NULL ||
         certificate == NULL)
         return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_map_repair: an argument is NULL");
-    return carry_mesh(map, n_vertices, vertices, n_triangles, triangles, true, images, certificate,
+    return carry_mesh(map, n_vertices, vertices, n_simplices, simplices, true, images, certificate,
                       env, err);
 }

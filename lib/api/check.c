@@ -8,17 +8,6 @@
 static const int32_t MIN_CELLS = 2, MAX_CELLS = 16384;
 static const double MAX_SHARE = 0.01; /* of eta and leaf: functions still look like themselves */
 
-icc_status iccp_check_planar(const icc_domain *domain, icc_error *err)
-{
-    icc_domain_info info = {.size = sizeof info};
-    (void)icc_domain_get_info(domain, &info);
-    if (info.dim == 2)
-        return ICC_OK;
-    return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1,
-                     "dim is %ld; triangle meshes are carried along in dimension 2 only",
-                     (long)info.dim);
-}
-
 icc_status iccp_check_maximum(const double *maximum, int32_t dim, icc_error *err)
 {
     for (int32_t k = 0; maximum != NULL && k < dim; ++k)

@@ -11,9 +11,6 @@ icc_status iccp_read_chart_options(icc_chart_options *full, const icc_chart_opti
 /* How a function is made: by the options of a field and of a chart alike. `name`: of the struct. */
 icc_status iccp_check_function(const icc_field_options *options, const char *name, icc_error *err);
 
-/* Triangle meshes are carried along by maps of polygons only. */
-icc_status iccp_check_planar(const icc_domain *domain, icc_error *err);
-
 /* A maximum that the caller wants; NULL is fine. */
 icc_status iccp_check_maximum(const double *maximum, int32_t dim, icc_error *err);
 

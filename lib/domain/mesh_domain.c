@@ -84,16 +84,19 @@ static icc_status renumber(builder *b)
     const size_t size = mesh->dim * sizeof *mesh->points;
     number_points(b);
     double *points = iccp_alloc(&mesh->memory, mesh->n_points, size);
+    mesh->given = iccp_alloc(&mesh->memory, mesh->n_points, sizeof *mesh->given);
     b->rim = iccp_alloc(&mesh->memory, mesh->n_rim, size);
-    if (points == NULL || b->rim == NULL) {
+    if (points == NULL || mesh->given == NULL || b->rim == NULL) {
         iccp_free(&mesh->memory, points);
         return ICC_ERR_MEMORY;
     }
-    for (size_t v = 0; v < b->n_given; ++v) {
+    for (uint32_t v = 0; v < b->n_given; ++v) {
         const uint32_t to = b->number[v];
-        if (to != NONE)
-            memcpy(points + mesh->dim * to, mesh->points + mesh->dim * v, size);
-        if (to != NONE && to < mesh->n_rim)
+        if (to == NONE)
+            continue;
+        mesh->given[to] = v;
+        memcpy(points + mesh->dim * to, mesh->points + mesh->dim * v, size);
+        if (to < mesh->n_rim)
             memcpy(b->rim + mesh->dim * to, b->given + mesh->dim * v, size);
     }
     iccp_free(&mesh->memory, mesh->points);
@@ -162,6 +165,7 @@ icc_status iccp_domain_create_mesh(icc_domain **out, int32_t dim, size_t n_verti
                                    const uint32_t *facets, const iccp_env *env, icc_error *err)
 {
     builder b = {.given = vertices, .n_given = n_vertices};
+    *out = NULL;
     icc_status status = iccp_explain(err, start(&b, (size_t)dim, n_simplices, simplices, env));
     if (status == ICC_OK)
         status = build(&b, n_facets, facets, env, err);

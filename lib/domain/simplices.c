@@ -26,6 +26,7 @@ void iccp_simplices_free(iccp_simplices *mesh)
         return;
     const iccp_memory memory = mesh->memory;
     iccp_free(&memory, mesh->points);
+    iccp_free(&memory, mesh->given);
     iccp_free(&memory, mesh->corners);
     iccp_free(&memory, mesh->across);
     iccp_free(&memory, mesh);

@@ -20,6 +20,7 @@ typedef struct iccp_simplices {
     size_t n_simplices;
     size_t n_facets;   /* of the domain */
     double *points;    /* dim each, in the domain's local coordinates */
+    uint32_t *given;   /* of each point: the caller's number of it; ascending up to n_rim, and beyond */
     uint32_t *corners; /* dim + 1 each, so that iccp_orient() of them is 1 */
     uint32_t
         *across; /* of each side: the same side as seen from its other simplex, or ICCP_RIM and the

@@ -1,200 +1,229 @@
-/* A piecewise linear map of a mesh is one-to-one when every triangle keeps its orientation and the
- * boundary's image is a simple polygon (the degree of the map is then 1 inside it and 0 outside). */
+/* A piecewise linear map of a mesh is one-to-one when every simplex keeps its orientation and the image of
+ * the boundary is a simple polygon or surface (the degree of the map is then 1 inside it and 0
+ * outside). */
 #include "map/certify.h"
 
 #include "base/error.h"
-#include "domain/frame.h"
+#include "domain/mesh_domain.h"
 #include "map/apply.h"
-#include "map/outline.h"
 #include "map/repair.h"
+#include "map/tet_repair.h"
+#include "math/orient.h"
 #include "math/predicates.h"
 
 #include <math.h>
 #include <string.h>
 
+/* Coordinates of images that are closer to 0 than this share of the largest one become 0, so that there is
+ * room for exact signs. */
+static const double NEXT_TO_NOTHING = 1e-45;
+
 typedef struct mesh_check {
-    size_t n_vertices, n_triangles;
-    const uint32_t *triangles;
-    double *before, *after;   /* local copies of the vertices and of their images */
+    size_t dim, n_vertices, n_simplices;
+    const uint32_t *simplices;
+    double *before, *after; /* local copies of the vertices and of their images */
+    iccp_frame frame;       /* of the latter */
+    double *images;         /* as the caller gets them */
     icc_certificate *result;
 } mesh_check;
 
-static int orientation(const double *points, const uint32_t *v)
+static const uint32_t *corners_of(const mesh_check *m, size_t simplex)
 {
-    return iccp_orient2d(points + 2 * (size_t)v[0], points + 2 * (size_t)v[1],
-                         points + 2 * (size_t)v[2]);
+    return m->simplices + (m->dim + 1) * simplex;
 }
 
-/* Copies points into coordinates for exact signs. Those that are not finite become 0; their triangles
- * are not looked at. */
-static icc_status localise(double *local, iccp_frame *frame, size_t n, const double *points,
-                           icc_error *err)
+static int orientation(const mesh_check *m, const double *points, size_t simplex)
 {
-    for (size_t k = 0; k < 2 * n; ++k)
-        local[k] = isfinite(points[2 * (k / 2)]) && isfinite(points[2 * (k / 2) + 1]) ? points[k] : 0;
-    iccp_frame_fit(frame, 2, n, local);
-    for (size_t v = 0; v < n; ++v) {
-        if (!iccp_frame_holds(frame, 2, local + 2 * v))
+    const uint32_t *v = corners_of(m, simplex);
+    const double *corner[ICC_MAX_DIM + 1];
+    for (size_t k = 0; k <= m->dim; ++k)
+        corner[k] = points + m->dim * v[k];
+    return iccp_orient(m->dim, corner);
+}
+
+static bool is_finite(size_t dim, const double *point)
+{
+    for (size_t k = 0; k < dim; ++k)
+        if (!isfinite(point[k]))
+            return false;
+    return true;
+}
+
+/* Copies points into coordinates for exact signs. Those that are not finite become 0; their simplices are
+ * not looked at. */
+static icc_status localise(mesh_check *m, double *local, const double *points, icc_error *err)
+{
+    const size_t dim = m->dim;
+    iccp_frame *frame = &m->frame;
+    for (size_t v = 0; v < m->n_vertices; ++v)
+        for (size_t k = 0; k < dim; ++k)
+            local[dim * v + k] = is_finite(dim, points + dim * v) ? points[dim * v + k] : 0;
+    iccp_frame_fit(frame, (int32_t)dim, m->n_vertices, local);
+    for (size_t v = 0; v < m->n_vertices; ++v) {
+        if (!iccp_frame_holds(frame, (int32_t)dim, local + dim * v))
             return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)v,
                              "vertex %zu has a coordinate too small for exact signs", v);
-        iccp_frame_in(frame, 2, local + 2 * v, local + 2 * v);
+        iccp_frame_in(frame, (int32_t)dim, local + dim * v, local + dim * v);
     }
     return ICC_OK;
 }
 
-static bool has_image(const double *image)
-{
-    return isfinite(image[0]) && isfinite(image[1]);
-}
-
-static void check_triangles(const mesh_check *m, const double *images)
+static void check_simplices(const mesh_check *m)
 {
     icc_certificate *c = m->result;
     c->n_no_image = c->n_flat = c->n_inverted = 0;
     for (size_t v = 0; v < m->n_vertices; ++v)
-        c->n_no_image += !has_image(images + 2 * v);
+        c->n_no_image += !is_finite(m->dim, m->images + m->dim * v);
     c->first = -1;
-    for (size_t t = 0; t < m->n_triangles; ++t) {
-        const uint32_t *v = m->triangles + 3 * t;
+    for (size_t s = 0; s < m->n_simplices; ++s) {
         bool fault = false;
-        for (int k = 0; k < 3; ++k)
-            fault |= !has_image(images + 2 * (size_t)v[k]);
+        for (size_t k = 0; k <= m->dim; ++k)
+            fault |= !is_finite(m->dim, m->images + m->dim * corners_of(m, s)[k]);
         if (!fault) {
-            const int before = orientation(m->before, v), after = orientation(m->after, v);
+            const int before = orientation(m, m->before, s), after = orientation(m, m->after, s);
             c->n_flat += before == 0 || after == 0;
             c->n_inverted += before * after < 0;
             fault = before * after <= 0;
         }
         if (fault && c->first < 0)
-            c->first = (int64_t)t;
+            c->first = (int64_t)s;
     }
 }
 
-/* Turns every triangle counter-clockwise before the map and finds who is beside whom. */
-static icc_status build_corners(const mesh_check *m, iccp_corners *corners, bool *is_manifold,
-                                const iccp_env *env)
-{
-    *corners = (iccp_corners){.n_triangles = m->n_triangles};
-    corners->vertex = iccp_alloc(&env->memory, m->n_triangles, 3 * sizeof *corners->vertex);
-    corners->twin = iccp_alloc(&env->memory, m->n_triangles, 3 * sizeof *corners->twin);
-    if (corners->vertex == NULL || corners->twin == NULL)
-        return ICC_ERR_MEMORY;
-    memcpy(corners->vertex, m->triangles, 3 * m->n_triangles * sizeof *corners->vertex);
-    for (uint32_t *v = corners->vertex; v < corners->vertex + 3 * m->n_triangles; v += 3)
-        if (orientation(m->before, v) < 0) {
-            const uint32_t swap = v[1];
-            v[1] = v[2];
-            v[2] = swap;
-        }
-    return iccp_find_twins(corners, is_manifold, env);
-}
+/* ---- repair ---- */
 
-static void free_corners(iccp_corners *corners, const iccp_memory *memory)
-{
-    iccp_free(memory, corners->vertex);
-    iccp_free(memory, corners->twin);
-}
-
-/* Whether every vertex of the boundary has an image. */
-static bool boundary_has_images(const iccp_corners *corners, const double *images)
-{
-    for (uint32_t c = 0; c < 3 * corners->n_triangles; ++c)
-        if (corners->twin[c] == ICCP_NO_NEIGHBOUR &&
-            !has_image(images + 2 * (size_t)corners->vertex[iccp_after(c)]))
-            return false;
-    return true;
-}
-
-static double area_of(const mesh_check *m, const double *points)
+static double area_of(const iccp_simplices *mesh, const double *points)
 {
     double sum = 0;
-    for (size_t t = 0; t < m->n_triangles; ++t) {
-        const uint32_t *v = m->triangles + 3 * t;
+    for (size_t t = 0; t < mesh->n_simplices; ++t) {
+        const uint32_t *v = mesh->corners + 3 * t;
         sum += fabs(iccp_area2d(points + 2 * (size_t)v[0], points + 2 * (size_t)v[1],
                                 points + 2 * (size_t)v[2]));
     }
     return sum;
 }
 
-/* Moves the images of inner vertices until every triangle is positive, as far as that goes; the
- * triangles stay. */
-static icc_status repair(const mesh_check *m, const iccp_corners *corners, const iccp_env *env)
+/* Triangles: as a mesh map, all of whose triangles stay. */
+static icc_status repair_triangles(const iccp_simplices *mesh, double *images, const iccp_env *env)
 {
-    const double before = area_of(m, m->before), after = area_of(m, m->after);
-    uint8_t *fixed = iccp_alloc_zero(&env->memory, m->n_vertices, 1);
-    if (fixed == NULL)
-        return ICC_ERR_MEMORY;
-    for (uint32_t c = 0; c < 3 * m->n_triangles; ++c)
-        if (corners->twin[c] == ICCP_NO_NEIGHBOUR)
-            fixed[corners->vertex[iccp_after(c)]] = fixed[corners->vertex[iccp_before(c)]] = 1;
-    iccp_plmap pl = {.memory = env->memory,
-                     .corners = *corners,
-                     .n_vertices = m->n_vertices,
-                     .points = m->before,
-                     .images = m->after,
-                     .fixed = fixed,
-                     .stretch = before > 0 && after > 0 ? sqrt(after / before) : 1};
-    size_t n_left;
-    const icc_status status = iccp_repair(&pl, true, &n_left, env);
+    const size_t n = 3 * mesh->n_simplices;
+    const double before = area_of(mesh, mesh->points), after = area_of(mesh, images);
+    uint8_t *fixed = iccp_alloc(&env->memory, mesh->n_points, 1);
+    uint32_t *twin = iccp_alloc(&env->memory, n, sizeof *twin);
+    icc_status status = fixed != NULL && twin != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    if (status == ICC_OK) {
+        for (size_t v = 0; v < mesh->n_points; ++v)
+            fixed[v] = v < mesh->n_rim;
+        for (size_t c = 0; c < n; ++c)
+            twin[c] = (mesh->across[c] & ICCP_RIM) != 0 ? ICCP_NO_NEIGHBOUR : mesh->across[c];
+        iccp_plmap pl = {.memory = env->memory,
+                         .corners = {mesh->corners, twin, mesh->n_simplices},
+                         .n_vertices = mesh->n_points,
+                         .points = mesh->points,
+                         .images = images,
+                         .fixed = fixed,
+                         .stretch = before > 0 && after > 0 ? sqrt(after / before) : 1};
+        size_t n_left;
+        status = iccp_repair(&pl, true, &n_left, env);
+    }
+    iccp_free(&env->memory, twin);
     iccp_free(&env->memory, fixed);
     return status;
 }
 
-static bool has_flat(const mesh_check *m)
+static icc_status repair_mesh(const iccp_simplices *mesh, double *images, const iccp_env *env)
 {
-    for (size_t t = 0; t < m->n_triangles; ++t)
-        if (orientation(m->before, m->triangles + 3 * t) == 0)
-            return true;
-    return false;
+    size_t n_left;
+    return mesh->dim == 2 ? repair_triangles(mesh, images, env)
+                          : iccp_tet_repair(mesh, images, &n_left, env);
+}
+
+/* Moves the images of inner vertices until every simplex is positive, as far as that goes. What is judged
+ * afterwards is what the caller gets, rounded. */
+static icc_status repair(mesh_check *m, const iccp_simplices *mesh, const iccp_env *env)
+{
+    const size_t dim = m->dim, size = dim * sizeof(double);
+    double *images = iccp_alloc(&env->memory, mesh->n_points, size);
+    if (images == NULL)
+        return ICC_ERR_MEMORY;
+    for (size_t v = 0; v < mesh->n_points; ++v)
+        memcpy(images + dim * v, m->after + dim * mesh->given[v], size);
+    icc_status status = repair_mesh(mesh, images, env);
+    for (size_t i = dim * mesh->n_rim; i < dim * mesh->n_points; ++i)
+        images[i] = fabs(images[i]) < NEXT_TO_NOTHING ? 0 : images[i];
+    for (size_t v = mesh->n_rim; status == ICC_OK && v < mesh->n_points; ++v)
+        iccp_frame_out(&m->frame, (int32_t)dim, images + dim * v,
+                       m->images + dim * mesh->given[v]);
+    iccp_free(&env->memory, images);
+    return status == ICC_OK ? localise(m, m->after, m->images, NULL) : status;
+}
+
+/* ---- the boundary ---- */
+
+/* Whether the boundary's image is that of a domain. */
+static icc_status check_boundary(const mesh_check *m, const icc_domain *domain, const iccp_env *env)
+{
+    const size_t size = m->dim * sizeof(double);
+    double *images = iccp_alloc(&env->memory, domain->n_vertices, size);
+    if (images == NULL)
+        return ICC_ERR_MEMORY;
+    for (size_t v = 0; v < domain->n_vertices; ++v)
+        memcpy(images + m->dim * v, m->images + m->dim * domain->mesh->given[v], size);
+    icc_domain *image;
+    const icc_status status = iccp_domain_create(&image, domain->dim, domain->n_vertices, images,
+                                                 domain->n_facets, domain->facets, env, NULL);
+    iccp_domain_release(image);
+    iccp_free(&env->memory, images);
+    return status;
+}
+
+static bool is_about_shape(icc_status status)
+{
+    return status == ICC_ERR_BOUNDARY || status == ICC_ERR_TOPOLOGY;
 }
 
 /* Repairs if asked to and possible, and judges. */
-static icc_status judge(mesh_check *m, bool repaired, double *images, const iccp_frame *frame,
+static icc_status judge(mesh_check *m, bool repaired, const double *vertices,
                         const iccp_env *env)
 {
-    iccp_corners corners;
-    bool is_manifold = false;
-    check_triangles(m, images);
-    icc_status status = build_corners(m, &corners, &is_manifold, env);
-    if (status == ICC_OK && repaired && is_manifold && m->result->first >= 0 &&
-        m->result->n_no_image == 0 && !has_flat(m)) {
-        status = repair(m, &corners, env);
-        /* What is judged is what the caller gets, rounded. */
-        for (size_t v = 0; status == ICC_OK && v < m->n_vertices; ++v) {
-            iccp_frame_out(frame, 2, m->after + 2 * v, images + 2 * v);
-            iccp_frame_in(frame, 2, images + 2 * v, m->after + 2 * v);
-        }
-        if (status == ICC_OK)
-            check_triangles(m, images);
+    icc_domain *domain;
+    check_simplices(m);
+    icc_status status = iccp_domain_create_mesh(&domain, (int32_t)m->dim, m->n_vertices, vertices,
+                                                m->n_simplices, m->simplices, 0, NULL, env, NULL);
+    if (status == ICC_OK && repaired && m->result->first >= 0 && m->result->n_no_image == 0) {
+        status = repair(m, domain->mesh, env);
+        check_simplices(m);
     }
     if (status == ICC_OK)
-        status = is_manifold && boundary_has_images(&corners, images)
-                     ? iccp_outline_check(&corners, m->n_vertices, m->before, m->after, env)
-                     : ICC_ERR_BOUNDARY;
+        status = check_boundary(m, domain, env);
+    iccp_domain_release(domain);
     m->result->boundary_simple = status == ICC_OK;
     m->result->certified = status == ICC_OK && m->result->first < 0;
-    free_corners(&corners, &env->memory);
-    return status == ICC_ERR_BOUNDARY ? ICC_OK : status;
+    return is_about_shape(status) ? ICC_OK : status;
 }
 
 icc_status iccp_map_certify(const icc_map *map, size_t n_vertices, const double *vertices,
-                            size_t n_triangles, const uint32_t *triangles, bool repaired,
+                            size_t n_simplices, const uint32_t *simplices, bool repaired,
                             double *images, icc_certificate *certificate, const iccp_env *env,
                             icc_error *err)
 {
-    iccp_frame frame;
-    mesh_check m = {n_vertices, n_triangles, triangles, NULL, NULL, certificate};
-    m.before = iccp_alloc(&env->memory, n_vertices, 2 * sizeof(double));
-    m.after = iccp_alloc(&env->memory, n_vertices, 2 * sizeof(double));
+    mesh_check m = {.dim = (size_t)map->source_domain->dim,
+                    .n_vertices = n_vertices,
+                    .n_simplices = n_simplices,
+                    .simplices = simplices,
+                    .images = images,
+                    .result = certificate};
+    m.before = iccp_alloc(&env->memory, n_vertices, m.dim * sizeof(double));
+    m.after = iccp_alloc(&env->memory, n_vertices, m.dim * sizeof(double));
     icc_status status = m.before != NULL && m.after != NULL ? ICC_OK : ICC_ERR_MEMORY;
     if (status == ICC_OK)
         status = iccp_map_apply(map, false, n_vertices, vertices, images, NULL, NULL, env);
     if (status == ICC_OK)
-        status = localise(m.before, &frame, n_vertices, vertices, err);
+        status = localise(&m, m.before, vertices, err);
     if (status == ICC_OK)
-        status = localise(m.after, &frame, n_vertices, images, err);
+        status = localise(&m, m.after, images, err);
     if (status == ICC_OK)
-        status = judge(&m, repaired, images, &frame, env);
+        status = judge(&m, repaired, vertices, env);
     iccp_free(&env->memory, m.before);
     iccp_free(&env->memory, m.after);
     return iccp_explain(err, status);

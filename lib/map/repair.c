@@ -1,5 +1,5 @@
-/* V. Garanzha et al., Foldover-free maps in 50 lines of code, 2021, for the energy and the rule that
- * lowers epsilon; the rest: docs/theory.md, the mesh map. */
+/* V. Garanzha et al., Foldover-free maps in 50 lines of code, 2021; the rest: docs/theory.md, the mesh
+ * map. */
 #include "map/repair.h"
 
 #include "math/predicates.h"
@@ -21,10 +21,6 @@ enum { A_FEW = 10, MANY = 20, FEW = 50 };
 
 /* Where a few rounds multiply the triangles by more than this, refinement is not what is missing. */
 enum { MOST_GROWTH = 2 };
-
-/* Epsilon's lower bound falls by at least this share a step. Newton's method needs few steps for each
- * epsilon; Garanzha et al. take 0.1 with a slower one. */
-static const double SLOWEST = 0.3;
 
 /* A turned edge must not make triangles that are flatter than this, as points along one side of the
  * polygon would: their energy would never come down. */
@@ -108,14 +104,6 @@ static double smallest_determinant(const iccp_newton *newton, const iccp_plmap *
     return least;
 }
 
-/* Garanzha et al.: the faster the energy fell, the faster epsilon goes to zero. */
-static double next_epsilon(double epsilon, double least, double before, double after)
-{
-    const double sigma = fmax(1 - after / before, SLOWEST);
-    const double mu = (1 - sigma) * iccp_untangle_chi(epsilon, least);
-    return least < mu ? 2 * sqrt(mu * (mu - least)) : 1e-10;
-}
-
 static icc_status untangle(iccp_plmap *map, const uint8_t *movable, const iccp_env *env)
 {
     iccp_newton newton;
@@ -125,7 +113,7 @@ static icc_status untangle(iccp_plmap *map, const uint8_t *movable, const iccp_e
     size_t n_bad, fewest, since = 0;
     double least = smallest_determinant(&newton, map, &n_bad);
     fewest = n_bad;
-    double epsilon = least > 0 ? 1e-10 : sqrt(1e-12 + 0.04 * least * least);
+    double epsilon = iccp_untangle_start(least);
     for (int k = 0; status == ICC_OK && k < STEPS && since < PATIENCE && newton.n_free > 0; ++k) {
         double slope;
         const double before = iccp_newton_energy(&newton, map, ICCP_UNTANGLE, epsilon);
@@ -141,7 +129,7 @@ static icc_status untangle(iccp_plmap *map, const uint8_t *movable, const iccp_e
         fewest = n_bad < fewest ? n_bad : fewest;
         if (least > 0 && after >= 0.99 * before)
             break;
-        epsilon = next_epsilon(epsilon, least, before, after);
+        epsilon = iccp_untangle_next(epsilon, least, before, after);
     }
     iccp_newton_free(&newton);
     return status == ICC_ERR_SOLVER ? ICC_OK : status;
