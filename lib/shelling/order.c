@@ -13,6 +13,7 @@
  * before one of its neighbours went. */
 #include "shelling/order.h"
 
+#include "shelling/element.h"
 #include "shelling/heap.h"
 
 #include <assert.h>
@@ -30,7 +31,6 @@ typedef struct front {
     uint32_t *rank;
     uint8_t *facing;  /* of each simplex: its corners opposite to the set; GONE: it is not to be taken (again) */
     uint8_t *touched; /* whether a face belongs to the set */
-    size_t n_gone;
     iccp_heap heap;
 } front;
 
@@ -94,54 +94,54 @@ static void join(front *f, size_t s)
     }
 }
 
-static bool is_at_centre(const front *f, size_t s)
+/* The star of the centre has rank 0 and is not to be taken. Returns how many simplices there are besides. */
+static uint32_t rank_star(front *f)
 {
-    const size_t n_sides = f->wish->mesh->dim + 1;
-    for (size_t i = 0; i < n_sides; ++i)
-        if (f->wish->mesh->corners[n_sides * s + i] == f->wish->centre)
-            return true;
-    return false;
+    const iccp_simplices *mesh = f->wish->mesh;
+    uint32_t n = 0;
+    for (size_t s = 0; s < mesh->n_simplices; ++s) {
+        const bool in_star = iccp_element_has(mesh, s, f->wish->centre);
+        f->rank[s] = in_star ? 0 : UINT32_MAX;
+        f->facing[s] = in_star ? GONE : 0;
+        n += !in_star;
+    }
+    return n;
 }
 
-/* The set as it is at first. Only when it is complete can be told which simplices may go: the queue is
- * checked again when it gives out one. */
+/* The set as it is at first. Only when it is complete can be told which simplices may go: they are asked again
+ * when the queue gives them out. */
 static void begin(front *f)
 {
     const iccp_simplices *mesh = f->wish->mesh;
     const size_t n_sides = mesh->dim + 1;
     for (size_t s = 0; s < mesh->n_simplices; ++s) {
-        f->rank[s] = UINT32_MAX;
-        if (is_at_centre(f, s)) {
-            f->rank[s] = 0;
-            f->facing[s] |= GONE;
-            ++f->n_gone;
-        }
-    }
-    for (size_t side = 0; side < n_sides * mesh->n_simplices; ++side) {
-        const size_t s = side / n_sides, i = side % n_sides;
-        if (f->peeling && mesh->across[side] >= ICCP_RIM) {
-            touch(f, s, ((1u << n_sides) - 1) ^ 1u << i);
-            approach(f, s, i);
-        }
-        if (!f->peeling && i == 0 && f->rank[s] == 0)
+        if (!f->peeling && f->rank[s] == 0)
             join(f, s);
+        for (size_t i = 0; i < n_sides && f->peeling; ++i)
+            if (mesh->across[n_sides * s + i] >= ICCP_RIM) {
+                touch(f, s, ((1u << n_sides) - 1) ^ 1u << i);
+                approach(f, s, i);
+            }
     }
 }
 
-static icc_status advance(front *f)
+static icc_status advance(front *f, uint32_t n, size_t *n_left)
 {
-    const size_t n = f->wish->mesh->n_simplices, n_centre = f->n_gone;
+    uint32_t n_gone = 0;
     for (size_t step = 0; f->heap.n_entries > 0; ++step) {
-        if (step % STEPS_PER_REPORT == 0 &&
-            iccp_progress(f->env, f->peeling ? "peel" : "grow", (double)f->n_gone / (double)n) != ICC_OK)
-            return ICC_ERR_CANCELLED;
+        if (step % STEPS_PER_REPORT == 0) {
+            const icc_status status = iccp_progress(f->env, "order", (double)n_gone / (double)n);
+            if (status != ICC_OK)
+                return status;
+        }
         const uint32_t s = iccp_heap_pop(&f->heap);
         if (!may_go(f, s))
             continue;
-        f->rank[s] = (uint32_t)(f->peeling ? n - f->n_gone : f->n_gone - n_centre + 1);
-        ++f->n_gone;
+        f->rank[s] = f->peeling ? n - n_gone : n_gone + 1;
+        ++n_gone;
         join(f, s);
     }
+    *n_left = n - n_gone;
     return ICC_OK;
 }
 
@@ -151,14 +151,14 @@ static icc_status find_order(const iccp_order_wish *wish, bool peeling, uint32_t
     const iccp_memory *memory = &env->memory;
     front f = {.wish = wish, .env = env, .peeling = peeling, .rank = rank};
     assert(wish->centre >= wish->mesh->n_rim && wish->centre < wish->mesh->n_points);
-    f.facing = iccp_alloc_zero(memory, wish->mesh->n_simplices, sizeof *f.facing);
+    f.facing = iccp_alloc(memory, wish->mesh->n_simplices, sizeof *f.facing);
     f.touched = iccp_alloc_zero(memory, wish->faces->n_faces, sizeof *f.touched);
     icc_status status = ICC_ERR_MEMORY;
     if (iccp_heap_create(&f.heap, wish->mesh->n_simplices, memory) && f.facing != NULL &&
         f.touched != NULL) {
+        const uint32_t n = rank_star(&f);
         begin(&f);
-        status = advance(&f);
-        *n_left = wish->mesh->n_simplices - f.n_gone;
+        status = advance(&f, n, n_left);
     }
     iccp_heap_free(&f.heap, memory);
     iccp_free(memory, f.touched);
