@@ -387,7 +387,7 @@ typedef struct icc_chart_info {
     size_t n_not_inward;         /**< field: those of them where the vector does not point inward */
     int32_t order_peeled;        /**< foliation on a mesh: 1: the order of the simplices was found from the
                                       boundary inwards, 0: from the centre outwards */
-    int32_t n_orders;            /**< how many of eight such orders were complete; the best is used */
+    int32_t n_orders;            /**< how many such orders were complete; the best is used */
     double order_beta;           /**< how much reversed flux weighed in it */
     size_t n_reversed;           /**< facets that the harmonic flux runs through the other way */
     double flux_energy;          /**< how far the flux along the leaves is from the harmonic one: sum of

@@ -66,10 +66,12 @@ static icc_status copy(iccp_simplices **out, const iccp_simplices *mesh, const i
     *out = m;
     if (m == NULL)
         return ICC_ERR_MEMORY;
-    *m = *mesh;
-    m->memory = *memory;
-    ++m->n_points;
-    m->n_simplices += dim;
+    *m = (iccp_simplices){.memory = *memory,
+                          .dim = dim,
+                          .n_points = mesh->n_points + 1,
+                          .n_rim = mesh->n_rim,
+                          .n_simplices = mesh->n_simplices + dim,
+                          .n_facets = mesh->n_facets};
     m->points = iccp_alloc(memory, m->n_points, dim * sizeof *m->points);
     m->corners = iccp_alloc(memory, m->n_simplices, (dim + 1) * sizeof *m->corners);
     m->across = iccp_alloc(memory, m->n_simplices, (dim + 1) * sizeof *m->across);
