@@ -29,7 +29,7 @@ static void multiply(const iccp_symmetric *m, const double *x, double *y)
 }
 
 /* z = ((D + L) D^-1 (D + L^T))^-1 r */
-static void precondition(const iccp_symmetric *m, const double *r, double *z)
+static void sweep(const iccp_symmetric *m, const double *r, double *z)
 {
     for (size_t i = 0; i < m->n; ++i) {
         double sum = r[i];
@@ -47,25 +47,38 @@ static void precondition(const iccp_symmetric *m, const double *r, double *z)
     }
 }
 
-/* One right side: r holds it and becomes the residual; x becomes the solution. */
-static icc_status iterate(const iccp_symmetric *m, double *x, double *r, double *z, double *p,
-                          double *q, const iccp_env *env)
+typedef struct problem {
+    const iccp_symmetric *matrix;
+    iccp_pcg_part part;
+    void *argument;
+    const iccp_env *env;
+} problem;
+
+static icc_status precondition(const problem *s, const double *r, double *z)
 {
+    sweep(s->matrix, r, z);
+    return s->part != NULL ? s->part(s->argument, r, z) : ICC_OK;
+}
+
+/* One right side: r holds it and becomes the residual; x becomes the solution. */
+static icc_status iterate(const problem *s, double *x, double *r, double *z, double *p, double *q)
+{
+    const iccp_symmetric *m = s->matrix;
     const size_t n = m->n;
+    icc_status status;
     const double size = sqrt(dot(n, r, r));
     double least = size;
     memset(x, 0, n * sizeof *x);
     if (!(size > 0))
         return size >= 0 ? ICC_OK : ICC_ERR_SOLVER;
-    precondition(m, r, z);
+    status = precondition(s, r, z);
     memcpy(p, z, n * sizeof *p);
     double rz = dot(n, r, z);
     for (size_t since = 0; least > WANTED * size && since < PATIENCE; ++since) {
-        if (since % 16 == 0) {
-            const icc_status status = iccp_progress(env, "solve", 0);
-            if (status != ICC_OK)
-                return status;
-        }
+        if (since % 16 == 0 && status == ICC_OK)
+            status = iccp_progress(s->env, "solve", 0);
+        if (status != ICC_OK)
+            return status;
         multiply(m, p, q);
         const double curvature = dot(n, p, q);
         /* Otherwise the matrix is not positive definite, or the residual is rounding. */
@@ -81,28 +94,43 @@ static icc_status iterate(const iccp_symmetric *m, double *x, double *r, double 
             least = residual;
             since = 0;
         }
-        precondition(m, r, z);
+        status = precondition(s, r, z);
         const double next = dot(n, r, z), beta = next / rz;
         rz = next;
         for (size_t i = 0; i < n; ++i)
             p[i] = z[i] + beta * p[i];
     }
+    if (status != ICC_OK)
+        return status;
     return least <= ACCEPTED * size ? ICC_OK : ICC_ERR_SOLVER;
 }
 
-icc_status iccp_pcg_solve(const iccp_symmetric *matrix, size_t n_rhs, double *b, double *work,
-                          const iccp_env *env)
+static icc_status solve(const problem *s, size_t n_rhs, double *b, double *work)
 {
-    const size_t n = matrix->n;
+    const size_t n = s->matrix->n;
     double *x = work, *r = work + n, *z = work + 2 * n, *p = work + 3 * n, *q = work + 4 * n;
     for (size_t side = 0; side < n_rhs; ++side) {
         for (size_t i = 0; i < n; ++i)
             r[i] = b[i * n_rhs + side];
-        const icc_status status = iterate(matrix, x, r, z, p, q, env);
+        const icc_status status = iterate(s, x, r, z, p, q);
         if (status != ICC_OK)
             return status;
         for (size_t i = 0; i < n; ++i)
             b[i * n_rhs + side] = x[i];
     }
     return ICC_OK;
+}
+
+icc_status iccp_pcg_solve(const iccp_symmetric *matrix, size_t n_rhs, double *b, double *work,
+                          const iccp_env *env)
+{
+    const problem s = {matrix, NULL, NULL, env};
+    return solve(&s, n_rhs, b, work);
+}
+
+icc_status iccp_pcg_solve_with(const iccp_symmetric *matrix, iccp_pcg_part part, void *argument,
+                               double *b, double *work, const iccp_env *env)
+{
+    const problem s = {matrix, part, argument, env};
+    return solve(&s, 1, b, work);
 }

@@ -15,4 +15,11 @@ enum { ICCP_PCG_WORK = 5 };
 icc_status iccp_pcg_solve(const iccp_symmetric *matrix, size_t n_rhs, double *b, double *work,
                           const iccp_env *env);
 
+/* Adds to z what else shall precondition: a symmetric matrix without negative eigenvalues, times r. */
+typedef icc_status (*iccp_pcg_part)(void *argument, const double *r, double *z);
+
+/* The same for one right side, with one more part of the preconditioner, or NULL. */
+icc_status iccp_pcg_solve_with(const iccp_symmetric *matrix, iccp_pcg_part part, void *argument,
+                               double *b, double *work, const iccp_env *env);
+
 #endif

@@ -3,8 +3,8 @@
  * the star here, so that small ones, at the ends of limbs, keep all their digits. */
 #include "shelling/reference.h"
 
-#include "math/spd.h"
 #include "shelling/element.h"
+#include "shelling/solve.h"
 
 #include <math.h>
 
@@ -86,15 +86,37 @@ static icc_status create_network(network *w, const iccp_simplices *mesh, uint32_
     return status;
 }
 
+/* A simplex is like the mean over its corners; the boundary and the star are as given. */
+static void list_points(const network *w, uint32_t *point, bool *fixed)
+{
+    const iccp_simplices *mesh = w->mesh;
+    const size_t n_corners = mesh->dim + 1;
+    for (size_t v = 0; v < mesh->n_points; ++v)
+        fixed[v] = v < mesh->n_rim;
+    for (size_t t = 0; t < mesh->n_simplices; ++t)
+        for (size_t i = 0; i < n_corners; ++i) {
+            const uint32_t corner = mesh->corners[n_corners * t + i];
+            if (w->row[t] != NONE)
+                point[n_corners * w->row[t] + i] = corner;
+            else
+                fixed[corner] = true;
+        }
+}
+
 static icc_status solve(network *w, const iccp_env *env)
 {
+    const iccp_simplices *mesh = w->mesh;
     const iccp_symmetric matrix = {w->n, w->first, w->column, w->value, w->diagonal};
-    iccp_spd solver;
-    icc_status status = iccp_spd_create(&solver, &matrix, false, env);
-    if (status != ICC_OK)
-        return status;
-    status = iccp_spd_solve(&solver, 1, w->potential, env);
-    iccp_spd_free(&solver);
+    uint32_t *point = iccp_alloc(&env->memory, (mesh->dim + 1) * w->n, sizeof *point);
+    bool *fixed = iccp_alloc(&env->memory, mesh->n_points, sizeof *fixed);
+    icc_status status = ICC_ERR_MEMORY;
+    if (point != NULL && fixed != NULL) {
+        const iccp_unknowns unknowns = {mesh, fixed, mesh->dim + 1, point};
+        list_points(w, point, fixed);
+        status = iccp_shelling_solve(&matrix, &unknowns, w->potential, env);
+    }
+    iccp_free(&env->memory, point);
+    iccp_free(&env->memory, fixed);
     return status;
 }
 

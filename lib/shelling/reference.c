@@ -4,8 +4,8 @@
  * between them. */
 #include "shelling/reference.h"
 
-#include "math/spd.h"
 #include "shelling/element.h"
+#include "shelling/solve.h"
 
 #include <string.h>
 
@@ -142,20 +142,41 @@ static icc_status create_equations(equations *e, const iccp_simplices *mesh, uin
     return add_elements(e, env);
 }
 
+/* The function of a facet is the mean over its corners of one that is linear. */
+static void list_points(const equations *e, uint32_t *point, bool *fixed)
+{
+    const iccp_simplices *mesh = e->mesh;
+    const size_t n_corners = mesh->dim + 1;
+    for (size_t t = 0; t < mesh->n_simplices; ++t) {
+        const bool in_star = iccp_element_has(mesh, t, e->centre);
+        for (size_t i = 0; i < n_corners; ++i) {
+            const uint32_t row = e->row[n_corners * t + i];
+            if (in_star)
+                fixed[mesh->corners[n_corners * t + i]] = true;
+            for (size_t k = 0; k < mesh->dim && row != NONE; ++k)
+                point[mesh->dim * row + k] = mesh->corners[n_corners * t + k + (k >= i)];
+        }
+    }
+}
+
 /* The loads are the inflow, since the function of a facet is 1 there on average and 0 on the others. */
 static icc_status solve(equations *e, const double *inflow, const iccp_env *env)
 {
+    const iccp_simplices *mesh = e->mesh;
     const iccp_symmetric matrix = {e->n, e->first, e->column, e->value, e->diagonal};
-    const size_t n_sides = (e->mesh->dim + 1) * e->mesh->n_simplices;
-    iccp_spd solver;
-    for (size_t s = 0; s < n_sides; ++s)
-        if (e->row[s] != NONE && (e->mesh->across[s] & ICCP_RIM) != 0)
-            e->unknown[e->row[s]] = inflow[e->mesh->across[s] & ~ICCP_RIM];
-    icc_status status = iccp_spd_create(&solver, &matrix, false, env);
-    if (status == ICC_OK) {
-        status = iccp_spd_solve(&solver, 1, e->unknown, env);
-        iccp_spd_free(&solver);
+    uint32_t *point = iccp_alloc(&env->memory, mesh->dim * e->n, sizeof *point);
+    bool *fixed = iccp_alloc_zero(&env->memory, mesh->n_points, sizeof *fixed);
+    icc_status status = ICC_ERR_MEMORY;
+    for (size_t s = 0; s < (mesh->dim + 1) * mesh->n_simplices; ++s)
+        if (e->row[s] != NONE && (mesh->across[s] & ICCP_RIM) != 0)
+            e->unknown[e->row[s]] = inflow[mesh->across[s] & ~ICCP_RIM];
+    if (point != NULL && fixed != NULL) {
+        const iccp_unknowns unknowns = {mesh, fixed, mesh->dim, point};
+        list_points(e, point, fixed);
+        status = iccp_shelling_solve(&matrix, &unknowns, e->unknown, env);
     }
+    iccp_free(&env->memory, point);
+    iccp_free(&env->memory, fixed);
     return status;
 }
 

@@ -1,0 +1,20 @@
+/* Equations whose unknowns are values at the facets or in the simplices of a mesh. */
+#ifndef ICCP_SHELLING_SOLVE_H
+#define ICCP_SHELLING_SOLVE_H
+
+#include "domain/simplices.h"
+#include "math/symmetric.h"
+
+/* What the unknowns of a matrix like that of the Laplacian are to a mesh. */
+typedef struct iccp_unknowns {
+    const iccp_simplices *mesh;
+    const bool *fixed;     /* of each point: functions without sources are 0 there */
+    size_t n_points;       /* an unknown is about the mean of a function over so many points, */
+    const uint32_t *point; /* these ones */
+} iccp_unknowns;
+
+/* Solves for one right side, which becomes the solution. Direct where that is not too expensive. */
+icc_status iccp_shelling_solve(const iccp_symmetric *matrix, const iccp_unknowns *unknowns, double *b,
+                               const iccp_env *env);
+
+#endif
