@@ -113,8 +113,10 @@ icc_status iccp_shelling_solve(const iccp_symmetric *matrix, const iccp_unknowns
     if (status != ICC_OK)
         return status;
     const bool is_cheap = factor.work <= MOST_WORK * (double)matrix->first[matrix->n];
-    if (is_cheap)
+    status = is_cheap ? ICC_ERR_SOLVER : iterate(matrix, unknowns, b, env);
+    /* Iterations may take too long where simplices are flat. */
+    if (status == ICC_ERR_SOLVER)
         status = factorise(&factor, matrix, b, env);
     iccp_ldlt_free(&factor);
-    return status == ICC_OK && !is_cheap ? iterate(matrix, unknowns, b, env) : status;
+    return status;
 }
