@@ -31,20 +31,34 @@ static ICCP_INLINE uint32_t across(const iccp_fibre_word *record, size_t n, size
     return record[n + 2 + side / 2].side[side % 2];
 }
 
-/* The side that the leaf leaves by, and after how much of the rates. In the star there is none on the way
- * up. */
+/* As an integer: numbers that are not negative keep their order, and all negative ones come after them. */
+static ICCP_INLINE uint64_t bits_of(double x)
+{
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+
+/* The side that the leaf leaves by, and after how much of the rates; n where there is none, in the star on the way
+ * up. Which it is cannot be predicted, so there are no branches: sides that are entered have a negative
+ * reach, be it -0. Places never have a coordinate -0. */
 static ICCP_INLINE size_t find_exit(const iccp_fibre_word *record, size_t n, double way,
                                     const double *bary, double *share)
 {
-    size_t exit = n;
-    *share = HUGE_VAL;
+    double reach[CORNERS];
+    uint64_t least = UINT64_MAX;
     for (size_t i = 0; i < n; ++i) {
-        const double rate = way * record[i].number;
-        const double reach = rate < 0 ? bary[i] / -rate : HUGE_VAL;
-        exit = reach < *share ? i : exit;
-        *share = reach < *share ? reach : *share;
+        reach[i] = -bary[i] / (way * record[i].number);
+        least = bits_of(reach[i]) < least ? bits_of(reach[i]) : least;
     }
-    return exit;
+    size_t exit = 0;
+    bool before = true;
+    for (size_t i = 0; i + 1 < n; ++i) {
+        before = before & (bits_of(reach[i]) != least);
+        exit += before;
+    }
+    memcpy(share, &least, sizeof least);
+    return least >> 63 == 0 ? exit : n;
 }
 
 static ICCP_INLINE void advance(const iccp_fibre_word *record, size_t n, double way, double share,
@@ -52,7 +66,7 @@ static ICCP_INLINE void advance(const iccp_fibre_word *record, size_t n, double 
 {
     for (size_t i = 0; i < n; ++i) {
         const double next = bary[i] + share * (way * record[i].number);
-        bary[i] = next > 0 ? next : 0;
+        bary[i] = 0.5 * (next + fabs(next)); /* 0 if rounded below it */
     }
 }
 
@@ -61,11 +75,10 @@ static ICCP_INLINE void carry(size_t n, size_t from, size_t to, double *bary)
 {
     double shared[CORNERS] = {0};
     for (size_t i = 0; i + 1 < n; ++i)
-        shared[i] = i < from ? bary[i] : bary[i + 1];
-    bary[0] = to > 0 ? shared[0] : 0;
-    for (size_t i = 1; i + 1 < n; ++i)
-        bary[i] = i < to ? shared[i] : i > to ? shared[i - 1] : 0;
-    bary[n - 1] = to + 1 < n ? shared[n - 2] : 0;
+        shared[i] = bary[i + (i >= from)];
+    for (size_t i = 0; i + 1 < n; ++i)
+        bary[i + (i >= to)] = shared[i];
+    bary[to] = 0;
 }
 
 static void carry_jet(size_t n, size_t from, size_t to, iccp_fibre_jet *jet)
@@ -198,6 +211,12 @@ static ICCP_INLINE bool cross(const iccp_fibre_word *record, size_t n, size_t ex
     return true;
 }
 
+static ICCP_INLINE void prefetch(const iccp_fibres *fibres, const iccp_fibre_word *record, size_t n)
+{
+    for (size_t i = 0; i < n; ++i)
+        ICCP_PREFETCH(record_of(fibres, n, (across(record, n, i) & ~ICCP_RIM) / (uint32_t)n));
+}
+
 /* Through one simplex outside the star; false where the walk ends. */
 static ICCP_INLINE bool step(const iccp_fibres *fibres, size_t n, double way,
                              iccp_fibre_place *place, double *length, iccp_fibre_jet *jet,
@@ -205,6 +224,7 @@ static ICCP_INLINE bool step(const iccp_fibres *fibres, size_t n, double way,
 {
     const iccp_fibre_word *record = record_of(fibres, n, place->simplex);
     double share;
+    prefetch(fibres, record, n);
     const size_t exit = find_exit(record, n, way, place->bary, &share);
     if (exit == n)
         return false;
@@ -449,7 +469,7 @@ void iccp_fibres_enter(const iccp_fibres *fibres, uint32_t facet, const uint32_t
         place->bary[i] = 0;
         for (size_t k = 0; k < dim; ++k)
             if (vertices[k] == v[i])
-                place->bary[i] = bary[k];
+                place->bary[i] = bary[k] + 0.0; /* -0 becomes 0 */
     }
 }
 

@@ -31,7 +31,8 @@ typedef struct iccp_fibres {
     uint32_t centre;
     const double *points;     /* borrowed from the mesh */
     uint32_t *corners;        /* dim + 1 each */
-    iccp_fibre_word *records; /* see iccp_fibre_stride() */
+    iccp_fibre_word *records; /* see iccp_fibre_stride(); in 3-D one cache line each */
+    iccp_fibre_word *block;   /* that they are part of */
     uint32_t *rim;            /* of each facet of the domain: its side */
     iccp_facet_tree tree;     /* of the simplices */
 } iccp_fibres;

@@ -127,7 +127,7 @@ bool iccp_fibres_find(const iccp_fibres *fibres, const double *point, double tol
         memcpy(place->bary, bary, sizeof bary);
     }
     *inner = best > 1;
-    for (size_t i = 0; i <= dim && best < 0; ++i)
-        place->bary[i] = fmax(place->bary[i], 0);
+    for (size_t i = 0; i <= dim; ++i)
+        place->bary[i] = place->bary[i] > 0 ? place->bary[i] : 0;
     return best > -HUGE_VAL;
 }

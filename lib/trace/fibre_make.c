@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { CORNERS = ICCP_FIBRE_CORNERS };
+enum { CORNERS = ICCP_FIBRE_CORNERS, CACHE_LINE = 64 };
 
 typedef struct maker {
     iccp_fibres *fibres;
@@ -64,7 +64,7 @@ static double margin_of(const maker *m, uint32_t simplex)
     return 2 * m->tolerance * sqrt(steepest);
 }
 
-/* In the star the only rate is that of the centre. */
+/* In the star no side is left. */
 static void fill_record(const maker *m, uint32_t place)
 {
     const size_t n = m->fibres->dim + 1;
@@ -78,7 +78,7 @@ static void fill_record(const maker *m, uint32_t place)
     for (size_t i = 0; i < n; ++i) {
         const size_t given = n * simplex + i, k = m->side[given] % n;
         const uint32_t across = m->mesh->across[given];
-        rate[k] = in_star ? corners[k] == m->fibres->centre : m->direction[given];
+        rate[k] = in_star ? 1 : m->direction[given];
         record[n + 2 + k / 2].side[k % 2] =
             (across & ICCP_RIM) != 0 ? across : m->side[across];
         if ((across & ICCP_RIM) != 0)
@@ -98,13 +98,16 @@ static icc_status make(maker *m)
     iccp_facet_tree_create_solid(&fibres->tree, mesh->dim, mesh->points, n_simplices,
                                  mesh->corners, &fibres->memory);
     fibres->corners = iccp_alloc(&fibres->memory, n_simplices, n * sizeof *fibres->corners);
-    fibres->records = iccp_alloc(&fibres->memory, n_simplices,
-                                 iccp_fibre_stride(n) * sizeof *fibres->records);
+    fibres->block = iccp_alloc(&fibres->memory, n_simplices + 1,
+                               iccp_fibre_stride(n) * sizeof *fibres->records);
     fibres->rim = iccp_alloc(&fibres->memory, mesh->n_facets, sizeof *fibres->rim);
     m->side = iccp_alloc(&fibres->memory, n_simplices, n * sizeof *m->side);
-    if (fibres->tree.boxes == NULL || fibres->corners == NULL || fibres->records == NULL ||
+    if (fibres->tree.boxes == NULL || fibres->corners == NULL || fibres->block == NULL ||
         fibres->rim == NULL || m->side == NULL)
         return ICC_ERR_MEMORY;
+    fibres->records = fibres->block;
+    while ((uintptr_t)fibres->records % CACHE_LINE != 0 && fibres->records < fibres->block + iccp_fibre_stride(n))
+        ++fibres->records;
     number(m);
     for (uint32_t place = 0; place < n_simplices; ++place)
         fill_record(m, place);
@@ -135,7 +138,7 @@ void iccp_fibres_free(iccp_fibres *fibres)
 {
     iccp_facet_tree_free(&fibres->tree, &fibres->memory);
     iccp_free(&fibres->memory, fibres->corners);
-    iccp_free(&fibres->memory, fibres->records);
+    iccp_free(&fibres->memory, fibres->block);
     iccp_free(&fibres->memory, fibres->rim);
     *fibres = (iccp_fibres){.memory = fibres->memory};
 }
