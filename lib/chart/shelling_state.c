@@ -214,11 +214,14 @@ static icc_status decode(const icc_chart *chart, const iccp_coords *coords, doub
 
 /* ---- the whole curve ---- */
 
+/* Steps of length 0, at faces that a leaf meets, are left out. */
 static icc_status emit_note(const iccp_shelling_state *state, const iccp_path *path, size_t k,
                             iccp_emit emit, void *argument)
 {
     iccp_fibre_place place;
     double point[ICC_MAX_DIM];
+    if (k > 0 && !(iccp_path_length_at(path, k) > iccp_path_length_at(path, k - 1)))
+        return ICC_OK;
     iccp_fibres_noted(path, k, &place);
     iccp_fibres_point(&state->fibres, &place, point);
     return emit(argument, point);

@@ -405,6 +405,69 @@ START_TEST(ends)
 }
 END_TEST
 
+/* A million times thinner than wide, one way and then the other: an image is rounded to 1e-16 of its
+ * domain's size, 1e-10 of its thickness, which the way back makes 1e-10 of the size. */
+START_TEST(thin)
+{
+    random_source r = {10};
+    for (int32_t dim = 2; dim <= 3; ++dim) {
+        test_mesh source = mesh_cube(dim, 4, 0.1, &r), target = mesh_cube(dim, 4, 0.1, &r);
+        for (size_t v = 0; v < source.n_vertices; ++v) {
+            source.vertices[(size_t)dim * v] *= 1e-6;
+            target.vertices[(size_t)dim * v + 1] *= 1e-6;
+        }
+        pair p = pair_of(source, target);
+        icc_map *map = make_map(&p);
+        p.diagonal *= 1e4;
+        check_round_trip(&r, &p, map);
+        icc_map_free(map);
+        pair_free(&p);
+    }
+}
+END_TEST
+
+/* In the plane a chart with a mesh of the caller's and one with the library's go together. */
+START_TEST(two_kinds_of_mesh)
+{
+    random_source r = {11};
+    pair p = pair_of_cubes(2, 5, &r);
+    icc_domain_info info = {.size = sizeof info};
+    icc_error err = {.size = sizeof err};
+    ck_assert_int_eq(icc_domain_get_info(p.target, &info), ICC_OK);
+    double *vertices = mesh_alloc(2 * info.n_vertices, sizeof *vertices);
+    uint32_t *facets = mesh_alloc(2 * info.n_facets, sizeof *facets);
+    ck_assert_int_eq(icc_domain_get_boundary(p.target, vertices, facets), ICC_OK);
+    icc_domain_free(p.target);
+    ck_assert_int_eq(icc_domain_create(&p.target, 2, info.n_vertices, vertices, info.n_facets, facets,
+                                       NULL, NULL),
+                     ICC_OK);
+    icc_chart *charts[2];
+    ck_assert_int_eq(icc_chart_create(&charts[0], p.source, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_chart_create(&charts[1], p.target, NULL, NULL, NULL), ICC_OK);
+    for (int k = 0; k < 2; ++k) {
+        icc_map *map;
+        ck_assert_msg(icc_map_create_from_charts(&map, charts[k], charts[1 - k], NULL, NULL, &err) ==
+                          ICC_OK,
+                      "%s", err.message);
+        const pair way = {.dim = 2,
+                          .source = k == 0 ? p.source : p.target,
+                          .target = k == 0 ? p.target : p.source,
+                          .diagonal = p.diagonal};
+        check_round_trip(&r, &way, map);
+        icc_map_free(map);
+    }
+    icc_map *map;
+    ck_assert_msg(icc_map_create(&map, p.source, p.target, NULL, NULL, &err) == ICC_OK, "%s",
+                  err.message);
+    icc_map_free(map);
+    icc_chart_free(charts[0]);
+    icc_chart_free(charts[1]);
+    pair_free(&p);
+    free(vertices);
+    free(facets);
+}
+END_TEST
+
 /* Without a mesh there is no foliation in space, and the message says what would help. */
 START_TEST(without_a_mesh)
 {
@@ -490,6 +553,8 @@ int main(void)
     tcase_add_test(tests, identity);
     tcase_add_test(tests, faces_of_the_mesh);
     tcase_add_test(tests, ends);
+    tcase_add_test(tests, thin);
+    tcase_add_test(tests, two_kinds_of_mesh);
     tcase_add_test(tests, without_a_mesh);
     tcase_add_test(tests, failures);
     tcase_add_test(tests, threads);
