@@ -73,25 +73,29 @@ static void approach(front *f, size_t s, size_t corner)
         iccp_heap_put(&f->heap, (uint32_t)s, key_of(f, s));
 }
 
-/* Marks those faces of a simplex whose corners are among the given ones. */
-static void touch(front *f, size_t s, unsigned corners)
-{
-    for (unsigned set = corners; set != 0; set = (set - 1) & corners)
-        if (iccp_set_size(set) < f->wish->mesh->dim)
-            f->touched[iccp_face(f->wish->faces, s, set)] = 1;
-}
-
-static void join(front *f, size_t s)
+static void join_simplex(front *f, size_t s)
 {
     const iccp_simplices *mesh = f->wish->mesh;
     const size_t n_sides = mesh->dim + 1;
     f->facing[s] |= GONE;
-    touch(f, s, (1u << n_sides) - 1);
+    for (size_t k = 0; k < f->wish->faces->per_simplex; ++k)
+        f->touched[f->wish->faces->number[f->wish->faces->per_simplex * s + k]] = 1;
     for (size_t i = 0; i < n_sides; ++i) {
         const uint32_t across = mesh->across[n_sides * s + i];
         if (across < ICCP_RIM)
             approach(f, iccp_simplex_of(mesh, across), across % n_sides);
     }
+}
+
+/* A side to the outside, with its faces. */
+static void join_side(front *f, size_t s, size_t corner)
+{
+    const size_t dim = f->wish->mesh->dim;
+    const unsigned corners = ((2u << dim) - 1) ^ 1u << corner;
+    for (unsigned set = corners; set != 0; set = (set - 1) & corners)
+        if (iccp_set_size(set) < dim)
+            f->touched[iccp_face(f->wish->faces, s, set)] = 1;
+    approach(f, s, corner);
 }
 
 /* The star of the centre has rank 0 and is not to be taken. Returns how many simplices there are besides. */
@@ -116,12 +120,10 @@ static void begin(front *f)
     const size_t n_sides = mesh->dim + 1;
     for (size_t s = 0; s < mesh->n_simplices; ++s) {
         if (!f->peeling && f->rank[s] == 0)
-            join(f, s);
+            join_simplex(f, s);
         for (size_t i = 0; i < n_sides && f->peeling; ++i)
-            if (mesh->across[n_sides * s + i] >= ICCP_RIM) {
-                touch(f, s, ((1u << n_sides) - 1) ^ 1u << i);
-                approach(f, s, i);
-            }
+            if (mesh->across[n_sides * s + i] >= ICCP_RIM)
+                join_side(f, s, i);
     }
 }
 
@@ -139,7 +141,7 @@ static icc_status advance(front *f, uint32_t n, size_t *n_left)
             continue;
         f->rank[s] = f->peeling ? n - n_gone : n_gone + 1;
         ++n_gone;
-        join(f, s);
+        join_simplex(f, s);
     }
     *n_left = n - n_gone;
     return ICC_OK;

@@ -3,18 +3,24 @@
  * vertices, and nothing of how orders are found. */
 #include "base/error.h"
 #include "domain/domain.h"
+#include "shelling/contest.h"
 #include "shelling/heap.h"
-#include "shelling/order.h"
 
 #include "../faulty.h"
 #include "../meshes.h"
 
 #include <check.h>
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #define NONE UINT32_MAX
+
+/* For inner loops: Check writes a line for each of its own. */
+static void must(bool holds)
+{
+    if (!holds)
+        ck_abort();
+}
 
 /* ------------------------------------------------------------------ meshes */
 
@@ -46,19 +52,15 @@ static int in_house(const size_t *cell, size_t fine)
            (shell || (abs(x - shaft) <= 1 && abs(y - 5) <= 1) || (x == wing && y == 5));
 }
 
-static int in_house_1(int32_t dim, const size_t *cell)
+/* Along one side, then another, and so on. */
+static int is_snake(int32_t dim, const size_t *cell)
 {
-    return dim == 3 && in_house(cell, 1);
+    return dim == 3 && (cell[0] % 2 == 0 || cell[1] == (cell[0] % 4 == 1 ? 0 : 3)) && cell[2] < 2;
 }
 
 static int in_house_2(int32_t dim, const size_t *cell)
 {
     return dim == 3 && in_house(cell, 2);
-}
-
-static int in_house_3(int32_t dim, const size_t *cell)
-{
-    return dim == 3 && in_house(cell, 3);
 }
 
 /* Cuts all simplices at an edge in two at its middle, where a new vertex is. There is room for them. */
@@ -174,12 +176,6 @@ static catalogue list_faces(const iccp_simplices *m)
     return c;
 }
 
-static void free_catalogue(catalogue *c)
-{
-    free(c->number);
-    free(c->size);
-}
-
 /* Whether what simplex s has in common with the union are facets and their faces, one facet at least, but not
  * all. Adds it, if `always` or if so, and to the Euler characteristic. */
 static bool add_simplex(const iccp_simplices *m, const catalogue *c, size_t s, uint8_t *in_union,
@@ -219,7 +215,7 @@ static void check_sphere(const iccp_simplices *m, const catalogue *c, const uint
         }
     }
     for (size_t f = 0; f < c->n_faces; ++f)
-        ck_assert(c->size[f] != 2 || count[f] == 0 || count[f] == 2);
+        must(c->size[f] != 2 || count[f] == 0 || count[f] == 2);
     ck_assert_int_eq(euler, 2);
     free(count);
 }
@@ -236,22 +232,21 @@ static void check_order(const iccp_simplices *m, const catalogue *c, uint32_t ce
         bool has_centre = false;
         for (size_t i = 0; i <= m->dim; ++i)
             has_centre = has_centre || m->corners[(m->dim + 1) * s + i] == centre;
-        ck_assert_int_eq(has_centre, rank[s] == 0);
+        must(has_centre == (rank[s] == 0));
         n_centre += has_centre;
         if (has_centre) {
             add_simplex(m, c, s, in_union, true, &euler);
         } else {
-            ck_assert_uint_le(rank[s], m->n_simplices);
-            ck_assert_uint_eq(at[rank[s]], NONE);
+            must(rank[s] <= m->n_simplices && at[rank[s]] == NONE);
             at[rank[s]] = (uint32_t)s;
         }
     }
     ck_assert_int_eq(euler, 1);
     const size_t n = m->n_simplices - n_centre;
     for (uint32_t k = 1; k <= n; ++k) {
-        ck_assert_uint_ne(at[k], NONE);
-        ck_assert(add_simplex(m, c, at[k], in_union, false, &euler));
-        ck_assert_int_eq(euler, 1);
+        must(at[k] != NONE);
+        must(add_simplex(m, c, at[k], in_union, false, &euler));
+        must(euler == 1);
         if (m->dim == 3 && k % (n / 3 + 1) == n / 4)
             check_sphere(m, c, rank, k);
     }
@@ -266,8 +261,8 @@ typedef struct problem {
     icc_domain *domain;
     const iccp_simplices *mesh;
     iccp_faces faces;
-    catalogue catalogue;
-    double *potential, *flux;
+    catalogue catalogue; /* made when it is needed first */
+    double *potential, *flux, *inflow;
     uint32_t *rank;
 } problem;
 
@@ -289,9 +284,9 @@ static problem begin(test_mesh mesh)
     p.mesh = p.domain->mesh;
     ck_assert_uint_gt(p.mesh->n_points, p.mesh->n_rim);
     ck_assert_int_eq(iccp_faces_create(&p.faces, p.mesh, &env), ICC_OK);
-    p.catalogue = list_faces(p.mesh);
     p.potential = room(p.mesh->n_simplices, sizeof *p.potential);
     p.flux = room((p.mesh->dim + 1) * p.mesh->n_simplices, sizeof *p.flux);
+    p.inflow = room(p.mesh->n_facets, sizeof *p.inflow);
     p.rank = room(p.mesh->n_simplices, sizeof *p.rank);
     return p;
 }
@@ -300,10 +295,19 @@ static void end(problem *p)
 {
     free(p->potential);
     free(p->flux);
+    free(p->inflow);
     free(p->rank);
-    free_catalogue(&p->catalogue);
+    free(p->catalogue.number);
+    free(p->catalogue.size);
     iccp_faces_free(&p->faces);
     icc_domain_free(p->domain);
+}
+
+static const catalogue *faces_of(problem *p)
+{
+    if (p->catalogue.n_faces == 0)
+        p->catalogue = list_faces(p->mesh);
+    return &p->catalogue;
 }
 
 static uint32_t random_centre(const problem *p, random_source *r)
@@ -350,6 +354,15 @@ static void wish_anything(problem *p, random_source *r)
         p->flux[side] = p->mesh->across[side] >= ICCP_RIM ? -1 : random_unit(r) - 0.5;
 }
 
+/* What charts ask for. */
+static void wish_flux(problem *p, uint32_t centre)
+{
+    const iccp_env env = plain_env();
+    ck_assert_int_eq(iccp_inflow(p->mesh, centre, 0.5, p->inflow, &env), ICC_OK);
+    ck_assert_int_eq(
+        iccp_reference_flux(p->mesh, centre, p->inflow, p->flux, p->potential, &env), ICC_OK);
+}
+
 /* How many simplices are left; none: the order has been checked. */
 static size_t left_by(problem *p, uint32_t centre, double beta, bool peel)
 {
@@ -361,7 +374,7 @@ static size_t left_by(problem *p, uint32_t centre, double beta, bool peel)
         n_without += p->rank[s] == NONE;
     ck_assert_uint_eq(n_left, n_without);
     if (n_left == 0)
-        check_order(p->mesh, &p->catalogue, centre, p->rank);
+        check_order(p->mesh, faces_of(p), centre, p->rank);
     return n_left;
 }
 
@@ -372,7 +385,7 @@ START_TEST(faces_are_numbered_by_their_vertices)
     random_source r = {1};
     for (int32_t dim = 2; dim <= ICC_MAX_DIM; ++dim) {
         problem p = begin(split_edges(cube(dim, dim < 5 ? 3 : 2), &r, 10));
-        const catalogue *c = &p.catalogue;
+        const catalogue *c = faces_of(&p);
         uint32_t *other = room(c->n_faces, sizeof *other), *back = room(p.faces.n_faces, sizeof *back);
         const unsigned n_sets = 2u << dim;
         size_t n_faces = 0;
@@ -381,10 +394,10 @@ START_TEST(faces_are_numbered_by_their_vertices)
                 if (iccp_set_size(set) >= (size_t)dim)
                     continue;
                 const uint32_t mine = iccp_face(&p.faces, s, set), its = c->number[n_sets * s + set];
-                ck_assert_uint_lt(mine, p.faces.n_faces);
+                must(mine < p.faces.n_faces);
                 n_faces += other[its] == 0;
-                ck_assert(other[its] == 0 || other[its] == mine + 1);
-                ck_assert(back[mine] == 0 || back[mine] == its + 1);
+                must(other[its] == 0 || other[its] == mine + 1);
+                must(back[mine] == 0 || back[mine] == its + 1);
                 other[its] = mine + 1;
                 back[mine] = its + 1;
             }
@@ -415,7 +428,7 @@ START_TEST(heap_gives_out_the_least)
             for (int i = 0; i < N; ++i)
                 if (in[i] && (least < 0 || key[i] < key[least]))
                     least = i;
-            ck_assert_uint_eq(iccp_heap_pop(&heap), (uint32_t)least);
+            must(iccp_heap_pop(&heap) == (uint32_t)least);
             in[least] = false;
         }
     }
@@ -463,30 +476,155 @@ START_TEST(complete_orders_are_shellings)
             }
             end(&p);
         }
-    for (size_t dim = 3; dim <= ICC_MAX_DIM; ++dim) {
-        printf("dim %zu: %zu complete, %zu near\n", dim, n_complete[dim], n_near[dim]);
-        ck_assert_uint_gt(n_near[dim], 0);
+    for (size_t dim = 3; dim <= ICC_MAX_DIM; ++dim)
+        ck_assert(n_near[dim] > 0 && n_complete[dim] > n_near[dim]);
+}
+END_TEST
+
+/* Twelve meshes, twelve maxima each. */
+static problem mesh_by_number(int number, random_source *r)
+{
+    switch (number) {
+    case 0: return begin(mesh_cube(3, 5, 0.1, r));
+    case 1: return begin(mesh_ball(3, 6, 0.1, r));
+    case 2: return begin(mesh_cells(3, 6, has_no_well));
+    case 3: return begin(split_edges(mesh_cells(3, 5, has_no_well), r, 400));
+    case 4: return begin(split_edges(mesh_ball(3, 4, 0.1, r), r, 300));
+    case 5: return begin(split_edges(cube(3, 2), r, 300));
+    case 6: return begin(split_edges(cube(3, 1), r, 200));
+    case 7: return begin(split_edges(mesh_cells(3, 4, is_snake), r, 300));
+    case 8: return begin(mesh_cube(4, 3, 0.05, r));
+    case 9: return begin(split_edges(cube(4, 1), r, 60));
+    case 10: return begin(split_edges(mesh_cells(4, 4, has_no_well), r, 20));
+    default: return begin(split_edges(cube(2, 9), r, 300));
+    }
+}
+
+START_TEST(one_of_two_is_complete_for_any_maximum)
+{
+    random_source r = {7};
+    size_t n_grown = 0, n_peeled = 0;
+    for (int number = 0; number < 12; ++number) {
+        problem p = mesh_by_number(number, &r);
+        for (int trial = 0; trial < 12; ++trial) {
+            const uint32_t centre = random_centre(&p, &r);
+            wish_flux(&p, centre);
+            const bool grown = left_by(&p, centre, 8, false) == 0;
+            const bool peeled = left_by(&p, centre, 8, true) == 0;
+            ck_assert_msg(grown || peeled, "mesh %d, trial %d", number, trial);
+            n_grown += grown;
+            n_peeled += peeled;
+        }
+        end(&p);
+    }
+    ck_assert_uint_gt(n_grown, 120);
+    ck_assert_uint_gt(n_peeled, 120);
+}
+END_TEST
+
+/* The contest gives what it says, and nothing that a single order with its greedy flux has is better. */
+static void check_contest(problem *p, uint32_t centre, const iccp_contest_info *info, const double *flux)
+{
+    const iccp_env env = plain_env();
+    const size_t n_sides = p->mesh->dim + 1;
+    size_t n_reversed = 0;
+    iccp_circulation c;
+    check_order(p->mesh, faces_of(p), centre, p->rank);
+    for (size_t side = 0; side < n_sides * p->mesh->n_simplices; ++side) {
+        const uint32_t across = p->mesh->across[side];
+        if (across >= ICCP_RIM) {
+            must(flux[side] < 0);
+            continue;
+        }
+        const uint32_t here = p->rank[side / n_sides], there = p->rank[across / n_sides];
+        must(here == there ? flux[side] == 0 : (flux[side] > 0) == (here > there));
+        n_reversed += here > there && p->flux[side] < 0;
+    }
+    ck_assert_uint_eq(info->n_reversed, n_reversed);
+    ck_assert_uint_gt(info->n_finished, 0);
+    ck_assert_uint_le(info->n_finished, info->n_orders);
+    ck_assert_int_eq(
+        iccp_circulation_create(&c, p->mesh, centre, p->inflow, p->flux, &env), ICC_OK);
+    ck_assert_double_eq(iccp_circulation_energy(&c, flux), info->energy);
+    ck_assert_double_eq(iccp_circulation_divergence(&c, flux), info->divergence);
+    ck_assert_double_lt(info->divergence, 1e-12);
+    double *greedy = room(n_sides * p->mesh->n_simplices, sizeof *greedy);
+    for (int k = 0; k < 4; ++k) {
+        if (left_by(p, centre, k < 2 ? 8 : 32, k % 2 != 0) > 0)
+            continue;
+        ck_assert_int_eq(iccp_circulation_greedy(&c, p->rank, greedy, &env), ICC_OK);
+        ck_assert_double_le(info->energy, iccp_circulation_energy(&c, greedy) * (1 + 1e-9));
+    }
+    free(greedy);
+    iccp_circulation_free(&c);
+}
+
+static void backwards(void *user, size_t n_tasks, icc_task task, void *argument)
+{
+    (void)user;
+    while (n_tasks-- > 0)
+        task(argument, n_tasks);
+}
+
+START_TEST(contests_are_won_by_the_best)
+{
+    random_source r = {8};
+    for (int number = 0; number < 12; ++number) {
+        problem p = mesh_by_number(number, &r);
+        const uint32_t centre = random_centre(&p, &r);
+        const size_t n = p.mesh->n_simplices, n_sides = n * (p.mesh->dim + 1);
+        double *flux = room(n_sides, sizeof *flux), *again = room(n_sides, sizeof *again);
+        uint32_t *rank = room(n, sizeof *rank);
+        wish_flux(&p, centre);
+        iccp_contest_info info = {0}, other;
+        for (int way = 0; way < 3; ++way) {
+            iccp_env env = plain_env();
+            env.threads = way == 1 ? 3 : 1;
+            env.parallel_for = way == 2 ? backwards : NULL;
+            other = (iccp_contest_info){0};
+            ck_assert_int_eq(iccp_contest(p.mesh, centre, p.inflow, p.flux, p.potential,
+                                          way == 0 ? p.rank : rank, way == 0 ? flux : again,
+                                          way == 0 ? &info : &other, &env, NULL),
+                             ICC_OK);
+            if (way == 0)
+                continue;
+            ck_assert_mem_eq(p.rank, rank, n * sizeof *rank);
+            ck_assert_mem_eq(flux, again, n_sides * sizeof *flux);
+            ck_assert(info.energy == other.energy && info.n_finished == other.n_finished);
+        }
+        check_contest(&p, centre, &info, flux);
+        free(flux);
+        free(again);
+        free(rank);
+        end(&p);
     }
 }
 END_TEST
 
-START_TEST(houses)
+/* The adversary: walls so thin that neither way gets through; and, cut finer, sometimes. */
+START_TEST(houses_end_in_an_order_or_an_error)
 {
-    random_source r = {5};
-    for (size_t fine = 1; fine <= 3; ++fine) {
-        test_mesh mesh = mesh_cells(3, 11 * fine, fine == 1 ? in_house_1 : fine == 2 ? in_house_2 : in_house_3);
-        if (fine == 1)
-            mesh = split_edges(mesh, &r, 2000);
-        problem p = begin(mesh);
-        printf("fine %zu: %zu points, %zu rim, %zu simplices\n", fine, p.mesh->n_points, p.mesh->n_rim, p.mesh->n_simplices);
-        for (int trial = 0; trial < 10; ++trial) {
-            const uint32_t centre = random_centre(&p, &r);
-            wish_near(&p, centre);
-            const size_t a = left_by(&p, centre, 8, false), b = left_by(&p, centre, 8, true);
-            printf("  grow left %zu peel left %zu\n", a, b);
+    problem p = begin(mesh_cells(3, 22, in_house_2));
+    random_source r = {9};
+    const iccp_env env = plain_env();
+    double *flux = room(4 * p.mesh->n_simplices, sizeof *flux);
+    for (int trial = 0; trial < 2; ++trial) {
+        const uint32_t centre = random_centre(&p, &r);
+        icc_error err = {.size = sizeof err};
+        iccp_contest_info info;
+        wish_flux(&p, centre);
+        const icc_status status = iccp_contest(p.mesh, centre, p.inflow, p.flux, p.potential, p.rank,
+                                               flux, &info, &env, &err);
+        ck_assert(status == ICC_OK || status == ICC_ERR_TOPOLOGY);
+        if (status == ICC_OK) {
+            check_contest(&p, centre, &info, flux);
+            continue;
         }
-        end(&p);
+        ck_assert_int_eq(err.status, status);
+        ck_assert_ptr_nonnull(strstr(err.message, "are left"));
     }
+    free(flux);
+    end(&p);
 }
 END_TEST
 
@@ -506,11 +644,23 @@ START_TEST(star_is_complete_at_once)
         ck_assert_uint_eq(left_by(&p, (uint32_t)p.mesh->n_rim, 8, false), 0);
         ck_assert_uint_eq(left_by(&p, (uint32_t)p.mesh->n_rim, 8, true), 0);
         for (size_t s = 0; s < p.mesh->n_simplices; ++s)
-            ck_assert_uint_eq(p.rank[s], 0);
+            must(p.rank[s] == 0);
         end(&p);
     }
 }
 END_TEST
+
+static icc_status call_contest(const icc_env *given, icc_error *err, void *argument)
+{
+    problem *p = argument;
+    iccp_env env;
+    iccp_contest_info info;
+    static double flux[4 * 6 * 27];
+    ck_assert_int_eq(iccp_env_read(&env, given, NULL), ICC_OK);
+    ck_assert_uint_eq(p->mesh->n_simplices, 6 * 27);
+    return iccp_contest(p->mesh, (uint32_t)p->mesh->n_rim, p->inflow, p->flux, p->potential, p->rank,
+                        flux, &info, &env, err);
+}
 
 static icc_status call_order(const icc_env *given, icc_error *err, void *argument)
 {
@@ -535,6 +685,10 @@ START_TEST(every_failure_is_survived)
     wish_near(&p, (uint32_t)p.mesh->n_rim);
     faulty_sweep(call_order, &p);
     end(&p);
+    p = begin(cube(3, 3));
+    wish_flux(&p, (uint32_t)p.mesh->n_rim);
+    faulty_sweep(call_contest, &p);
+    end(&p);
 }
 END_TEST
 
@@ -547,7 +701,9 @@ int main(void)
     tcase_add_test(tests, heap_gives_out_the_least);
     tcase_add_test(tests, nothing_is_left_in_the_plane);
     tcase_add_test(tests, complete_orders_are_shellings);
-    tcase_add_test(tests, houses);
+    tcase_add_test(tests, one_of_two_is_complete_for_any_maximum);
+    tcase_add_test(tests, contests_are_won_by_the_best);
+    tcase_add_test(tests, houses_end_in_an_order_or_an_error);
     tcase_add_test(tests, star_is_complete_at_once);
     tcase_add_test(tests, every_failure_is_survived);
     SRunner *runner = srunner_create(suite);
