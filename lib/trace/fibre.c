@@ -117,33 +117,11 @@ static size_t corner_of_centre(const iccp_fibres *fibres, uint32_t simplex)
     return corner;
 }
 
-static double sum_of(const double *bary, size_t n)
-{
-    double sum = 0;
-    for (size_t i = 0; i < n; ++i)
-        sum += bary[i];
-    return sum;
-}
-
-/* From a corner to a place. */
-static void from_corner(const iccp_fibres *fibres, const iccp_fibre_place *place, size_t corner,
-                        double *offset)
-{
-    const size_t dim = fibres->dim, n = dim + 1;
-    const uint32_t *v = fibres->corners + n * place->simplex;
-    const double *origin = fibres->points + dim * v[corner];
-    const double sum = sum_of(place->bary, n);
-    memset(offset, 0, MAX * sizeof *offset);
-    for (size_t i = 0; i < n; ++i)
-        for (size_t k = 0; k < dim; ++k)
-            offset[k] += place->bary[i] / sum * (fibres->points[dim * v[i] + k] - origin[k]);
-}
-
 /* From the centre to a place in the star: the offset, and its length. */
 static double from_centre(const iccp_fibres *fibres, const iccp_fibre_place *place, double *offset)
 {
     double sum = 0;
-    from_corner(fibres, place, corner_of_centre(fibres, place->simplex), offset);
+    iccp_fibres_offset(fibres, place, corner_of_centre(fibres, place->simplex), offset);
     for (size_t k = 0; k < fibres->dim; ++k)
         sum += offset[k] * offset[k];
     return sqrt(sum);
@@ -171,7 +149,7 @@ static double fall_through_star(const iccp_fibres *fibres, iccp_fibre_place *pla
     double offset[MAX], slope[MAX];
     const double distance = from_centre(fibres, place, offset);
     const double own = place->bary[corner];
-    const double others = sum_of(place->bary, n) - own;
+    const double others = iccp_fibre_sum(place->bary, n) - own;
     if (jet != NULL) {
         distance_jet(fibres, place, jet, slope);
         for (size_t p = 0; p < jet->n; ++p) {
@@ -398,7 +376,7 @@ void iccp_fibres_ahead(const iccp_fibres *fibres, double length, double piece,
         return;
     }
     const size_t corner = corner_of_centre(fibres, place->simplex);
-    const double sum = sum_of(place->bary, n), share = piece > 0 ? length / piece : 1;
+    const double sum = iccp_fibre_sum(place->bary, n), share = piece > 0 ? length / piece : 1;
     for (size_t i = 0; i < n; ++i)
         place->bary[i] *= 1 - share;
     place->bary[corner] += share * sum;
@@ -412,7 +390,7 @@ void iccp_fibres_ahead_jet(const iccp_fibres *fibres, const iccp_fibre_place *pl
     const iccp_fibre_word *record = record_of(fibres, n, place->simplex);
     const bool star = in_star(record, n);
     const size_t corner = star ? corner_of_centre(fibres, place->simplex) : n;
-    const double sum = sum_of(place->bary, n), share = length / piece;
+    const double sum = iccp_fibre_sum(place->bary, n), share = length / piece;
     for (size_t p = 0; p < jet->n; ++p)
         for (size_t i = 0; i < n; ++i)
             if (star) {
@@ -422,64 +400,4 @@ void iccp_fibres_ahead_jet(const iccp_fibres *fibres, const iccp_fibre_place *pl
             } else {
                 jet->bary[i][p] += d_length[p] / record[n].number * record[i].number;
             }
-}
-
-/* ---- places in space ---- */
-
-/* From the corner that is nearest, as it were, so that corners come out exactly. */
-void iccp_fibres_point(const iccp_fibres *fibres, const iccp_fibre_place *place, double *point)
-{
-    const size_t dim = fibres->dim;
-    double offset[MAX];
-    size_t from = 0;
-    for (size_t i = 1; i <= dim; ++i)
-        from = place->bary[i] > place->bary[from] ? i : from;
-    from_corner(fibres, place, from, offset);
-    const double *origin =
-        fibres->points + dim * fibres->corners[(dim + 1) * place->simplex + from];
-    for (size_t k = 0; k < dim; ++k)
-        point[k] = origin[k] + offset[k];
-}
-
-/* The quotient rule, as the coordinates need not sum to 1. */
-void iccp_fibres_movement(const iccp_fibres *fibres, const iccp_fibre_place *place,
-                          const iccp_fibre_jet *jet, double movement[MAX][MAX])
-{
-    const size_t dim = fibres->dim, n = dim + 1;
-    const uint32_t *v = fibres->corners + n * place->simplex;
-    const double sum = sum_of(place->bary, n);
-    double point[MAX];
-    iccp_fibres_point(fibres, place, point);
-    memset(movement, 0, MAX * sizeof movement[0]);
-    for (size_t i = 0; i < n; ++i)
-        for (size_t k = 0; k < dim; ++k) {
-            const double arm = (fibres->points[dim * v[i] + k] - point[k]) / sum;
-            for (size_t p = 0; p < jet->n; ++p)
-                movement[k][p] += arm * jet->bary[i][p];
-        }
-}
-
-void iccp_fibres_enter(const iccp_fibres *fibres, uint32_t facet, const uint32_t *vertices,
-                       const double *bary, iccp_fibre_place *place)
-{
-    const size_t dim = fibres->dim, n = dim + 1;
-    place->simplex = fibres->rim[facet] / (uint32_t)n;
-    const uint32_t *v = fibres->corners + n * place->simplex;
-    for (size_t i = 0; i < n; ++i) {
-        place->bary[i] = 0;
-        for (size_t k = 0; k < dim; ++k)
-            if (vertices[k] == v[i])
-                place->bary[i] = bary[k] + 0.0; /* -0 becomes 0 */
-    }
-}
-
-void iccp_fibres_facet(const iccp_fibres *fibres, const iccp_fibre_place *place,
-                       const uint32_t *vertices, double *bary)
-{
-    const size_t dim = fibres->dim, n = dim + 1;
-    const uint32_t *v = fibres->corners + n * place->simplex;
-    for (size_t k = 0; k < dim; ++k)
-        for (size_t i = 0; i < n; ++i)
-            if (vertices[k] == v[i])
-                bary[k] = place->bary[i];
 }

@@ -70,6 +70,10 @@ void iccp_fibres_facet(const iccp_fibres *fibres, const iccp_fibre_place *place,
 
 void iccp_fibres_point(const iccp_fibres *fibres, const iccp_fibre_place *place, double *point);
 
+/* From a corner of its simplex to a place. */
+void iccp_fibres_offset(const iccp_fibres *fibres, const iccp_fibre_place *place, size_t corner,
+                        double *offset);
+
 /* Derivatives of the barycentric coordinates of a simplex by the point's coordinates. */
 void iccp_fibres_gradient(const iccp_fibres *fibres, uint32_t simplex, iccp_fibre_jet *jet);
 
@@ -108,6 +112,14 @@ void iccp_fibres_ahead(const iccp_fibres *fibres, double length, double piece,
 void iccp_fibres_ahead_jet(const iccp_fibres *fibres, const iccp_fibre_place *place, double length,
                            double piece, const double *d_length, const double *d_piece,
                            iccp_fibre_jet *jet);
+
+static inline double iccp_fibre_sum(const double *bary, size_t corners)
+{
+    double sum = 0;
+    for (size_t i = 0; i < corners; ++i)
+        sum += bary[i];
+    return sum;
+}
 
 static inline size_t iccp_fibre_stride(size_t corners)
 {
