@@ -152,8 +152,7 @@ static icc_status repair(mesh_check *m, const iccp_simplices *mesh, const iccp_e
     for (size_t i = dim * mesh->n_rim; i < dim * mesh->n_points; ++i)
         images[i] = fabs(images[i]) < NEXT_TO_NOTHING ? 0 : images[i];
     for (size_t v = mesh->n_rim; status == ICC_OK && v < mesh->n_points; ++v)
-        iccp_frame_out(&m->frame, (int32_t)dim, images + dim * v,
-                       m->images + dim * mesh->given[v]);
+        iccp_frame_out(&m->frame, (int32_t)dim, images + dim * v, m->images + dim * mesh->given[v]);
     iccp_free(&env->memory, images);
     return status == ICC_OK ? localise(m, m->after, m->images, NULL) : status;
 }
@@ -183,8 +182,7 @@ static bool is_about_shape(icc_status status)
 }
 
 /* Repairs if asked to and possible, and judges. */
-static icc_status judge(mesh_check *m, bool repaired, const double *vertices,
-                        const iccp_env *env)
+static icc_status judge(mesh_check *m, bool repaired, const double *vertices, const iccp_env *env)
 {
     icc_domain *domain;
     check_simplices(m);

@@ -10,10 +10,6 @@
 /* The share of the area term in the untangling energy: small, so that angles decide. */
 static const double AREA_SHARE = 1.0 / 128;
 
-/* Epsilon's lower bound falls by at least this share a step. Newton's method needs few steps for each
- * epsilon; Garanzha et al. take 0.1 with a slower one. */
-static const double SLOWEST = 0.3;
-
 void iccp_element_create(iccp_element *element, const double a[2], const double b[2],
                          const double c[2])
 {
@@ -202,10 +198,9 @@ double iccp_untangle_start(double least)
     return least > 0 ? 1e-10 : sqrt(1e-12 + 0.04 * least * least);
 }
 
-double iccp_untangle_next(double epsilon, double least, double before, double after)
+double iccp_untangle_next(double epsilon, double least, double fall)
 {
-    const double sigma = fmax(1 - after / before, SLOWEST);
-    const double mu = (1 - sigma) * iccp_untangle_chi(epsilon, least);
+    const double mu = (1 - fall) * iccp_untangle_chi(epsilon, least);
     return least < mu ? 2 * sqrt(mu * (mu - least)) : 1e-10;
 }
 

@@ -42,9 +42,9 @@ void iccp_untangle_local(const iccp_element *element, const double *const image[
 /* chi(det) = (det + sqrt(epsilon^2 + det^2)) / 2, which stands for the determinant above. */
 double iccp_untangle_chi(double epsilon, double det);
 
-/* Epsilon to begin with, when `least` is the smallest determinant; and the one for the next step, after one
- * that changed the energy as given: the faster that falls, the faster epsilon goes to zero. */
+/* Epsilon to begin with, when `least` is the smallest determinant; and the next one, whose lower bound is
+ * smaller by the share `fall`. */
 double iccp_untangle_start(double least);
-double iccp_untangle_next(double epsilon, double least, double before, double after);
+double iccp_untangle_next(double epsilon, double least, double fall);
 
 #endif

@@ -22,6 +22,10 @@ enum { A_FEW = 10, MANY = 20, FEW = 50 };
 /* Where a few rounds multiply the triangles by more than this, refinement is not what is missing. */
 enum { MOST_GROWTH = 2 };
 
+/* Epsilon's lower bound falls by at least this share a step. Newton's method needs few steps for each
+ * epsilon; Garanzha et al. take 0.1 with a slower one. */
+static const double SLOWEST = 0.3;
+
 /* A turned edge must not make triangles that are flatter than this, as points along one side of the
  * polygon would: their energy would never come down. */
 static const double LEAST_ROUNDNESS = 1e-4;
@@ -129,7 +133,8 @@ static icc_status untangle(iccp_plmap *map, const uint8_t *movable, const iccp_e
         fewest = n_bad < fewest ? n_bad : fewest;
         if (least > 0 && after >= 0.99 * before)
             break;
-        epsilon = iccp_untangle_next(epsilon, least, before, after);
+        /* Garanzha et al.: the faster the energy fell, the faster epsilon goes to zero. */
+        epsilon = iccp_untangle_next(epsilon, least, fmax(1 - after / before, SLOWEST));
     }
     iccp_newton_free(&newton);
     return status == ICC_ERR_SOLVER ? ICC_OK : status;

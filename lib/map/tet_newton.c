@@ -59,7 +59,8 @@ static icc_status list_parts(iccp_tet_newton *s, const uint8_t *movable)
 }
 
 /* Neighbours of each free point among the free ones, each once; `room` says where its list begins. */
-static void list_neighbours(iccp_tet_newton *s, const size_t *room, uint32_t *degree, uint32_t *list)
+static void list_neighbours(iccp_tet_newton *s, const size_t *room, uint32_t *degree,
+                            uint32_t *list)
 {
     memset(degree, 0, s->n_free * sizeof *degree);
     for (size_t e = 0; e < s->n_elements; ++e)
@@ -162,8 +163,9 @@ static void set_element(iccp_tet_newton *s, size_t e, double stretch)
     iccp_tet_create(&s->element[e], corner);
 }
 
-icc_status iccp_tet_newton_create(iccp_tet_newton *newton, const iccp_simplices *mesh, double *images,
-                                  const uint8_t *movable, double stretch, const iccp_env *env)
+icc_status iccp_tet_newton_create(iccp_tet_newton *newton, const iccp_simplices *mesh,
+                                  double *images, const uint8_t *movable, double stretch,
+                                  const iccp_env *env)
 {
     iccp_tet_newton *s = newton;
     *s = (iccp_tet_newton){.memory = env->memory, .mesh = mesh, .images = images};

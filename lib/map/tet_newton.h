@@ -10,14 +10,14 @@
 typedef struct iccp_tet_newton {
     iccp_memory memory;
     const iccp_simplices *mesh;
-    double *images;         /* 3 for each point of the mesh */
+    double *images; /* 3 for each point of the mesh */
     size_t n_free, n_elements;
-    uint32_t *free_point;   /* n_free */
-    uint32_t *slot;         /* of each point among the free ones, or UINT32_MAX */
-    uint32_t *simplex;      /* n_elements: simplices with a free corner */
-    iccp_tet *element;      /* n_elements */
-    uint32_t *neighbour;    /* 12 n_elements: which neighbour corner b is of corner a */
-    size_t *first;          /* the Hessian; rows 3 i to 3 i + 2 belong to free point i */
+    uint32_t *free_point; /* n_free */
+    uint32_t *slot;       /* of each point among the free ones, or UINT32_MAX */
+    uint32_t *simplex;    /* n_elements: simplices with a free corner */
+    iccp_tet *element;    /* n_elements */
+    uint32_t *neighbour;  /* 12 n_elements: which neighbour corner b is of corner a */
+    size_t *first;        /* the Hessian; rows 3 i to 3 i + 2 belong to free point i */
     uint32_t *column;
     double *value, *diagonal;
     double *gradient, *step; /* 3 n_free */
@@ -27,8 +27,9 @@ typedef struct iccp_tet_newton {
 
 /* For inner points with movable[v] != 0; all of them when `movable` is NULL. The mesh is multiplied by
  * `stretch`. */
-icc_status iccp_tet_newton_create(iccp_tet_newton *newton, const iccp_simplices *mesh, double *images,
-                                  const uint8_t *movable, double stretch, const iccp_env *env);
+icc_status iccp_tet_newton_create(iccp_tet_newton *newton, const iccp_simplices *mesh,
+                                  double *images, const uint8_t *movable, double stretch,
+                                  const iccp_env *env);
 void iccp_tet_newton_free(iccp_tet_newton *newton);
 
 double iccp_tet_newton_energy(const iccp_tet_newton *newton, double epsilon);

@@ -9,11 +9,20 @@
 #include <math.h>
 #include <string.h>
 
-/* Rings of neighbours round the inverted tetrahedra that are free to move, in turn; 0 means all. */
-static const int RINGS[] = {2, 5, 12, 0};
+/* Rings of neighbours round the inverted tetrahedra that are free to move, in turn, 0 means all; steps of the
+ * untangling, and steps without fewer inverted tetrahedra after which it is given up. From a start that has
+ * little to do with the map many steps go by before epsilon is small enough for anything to happen. */
+static const struct {
+    int rings, steps, patience;
+} ROUNDS[] = {{2, 60, 15}, {5, 60, 15}, {12, 60, 15}, {0, 150, 40}};
 
-/* Steps of one untangling, and steps without fewer inverted tetrahedra after which it is given up. */
-enum { STEPS = 60, PATIENCE = 15 };
+/* Where more than one tetrahedron in MANY is inverted, patches would cost more than all at once and leave the
+ * inverted ones beside them in worse places. */
+enum { MANY = 20 };
+
+/* V. Garanzha et al., Foldover-free maps in 50 lines of code, 2021: the faster the energy fell, the faster
+ * epsilon goes to zero. Its lower bound falls by at least this share a step. */
+static const double SLOWEST = 0.3;
 
 static bool is_positive(const iccp_simplices *mesh, const double *images, size_t simplex)
 {
@@ -31,7 +40,8 @@ static size_t count_inverted(const iccp_simplices *mesh, const double *images)
 }
 
 /* Marks the corners of inverted simplices and `rings` rings of neighbours. */
-static void mark_patch(const iccp_simplices *mesh, const double *images, int rings, uint8_t *movable)
+static void mark_patch(const iccp_simplices *mesh, const double *images, int rings,
+                       uint8_t *movable)
 {
     memset(movable, 0, mesh->n_points);
     for (size_t s = 0; s < mesh->n_simplices; ++s)
@@ -50,14 +60,15 @@ static void mark_patch(const iccp_simplices *mesh, const double *images, int rin
     }
 }
 
-static icc_status untangle(iccp_tet_newton *newton, const iccp_env *env)
+static icc_status untangle(iccp_tet_newton *newton, int steps, int patience, const iccp_env *env)
 {
-    size_t n_bad, fewest, since = 0;
+    size_t n_bad, fewest;
+    int since = 0;
     icc_status status = ICC_OK;
     double least = iccp_tet_newton_least(newton, &n_bad);
     double epsilon = iccp_untangle_start(least);
     fewest = n_bad;
-    for (int k = 0; k < STEPS && since < PATIENCE && newton->n_free > 0; ++k) {
+    for (int k = 0; k < steps && since < patience && newton->n_free > 0; ++k) {
         double slope;
         const double before = iccp_tet_newton_energy(newton, epsilon);
         status = iccp_tet_newton_solve(newton, epsilon, &slope, env);
@@ -69,7 +80,7 @@ static icc_status untangle(iccp_tet_newton *newton, const iccp_env *env)
         fewest = n_bad < fewest ? n_bad : fewest;
         if (least > 0 && after >= 0.99 * before)
             break;
-        epsilon = iccp_untangle_next(epsilon, least, before, after);
+        epsilon = iccp_untangle_next(epsilon, least, fmax(1 - after / before, SLOWEST));
     }
     return status;
 }
@@ -96,15 +107,16 @@ icc_status iccp_tet_repair(const iccp_simplices *mesh, double *images, size_t *n
     const double before = volume_of(mesh, mesh->points), after = volume_of(mesh, images);
     const double stretch = before > 0 && after > 0 ? cbrt(after / before) : 1;
     *n_left = count_inverted(mesh, images);
-    for (size_t k = 0; status == ICC_OK && *n_left > 0 && k < sizeof RINGS / sizeof *RINGS; ++k) {
+    for (size_t k = 0; status == ICC_OK && *n_left > 0 && k < sizeof ROUNDS / sizeof *ROUNDS; ++k) {
         iccp_tet_newton newton;
-        if (RINGS[k] > 0)
-            mark_patch(mesh, images, RINGS[k], movable);
-        status = iccp_tet_newton_create(&newton, mesh, images, RINGS[k] > 0 ? movable : NULL,
+        if (ROUNDS[k].rings > 0 && *n_left > mesh->n_simplices / MANY)
+            continue;
+        if (ROUNDS[k].rings > 0)
+            mark_patch(mesh, images, ROUNDS[k].rings, movable);
+        status = iccp_tet_newton_create(&newton, mesh, images, ROUNDS[k].rings > 0 ? movable : NULL,
                                         stretch, env);
-        if (status != ICC_OK)
-            break;
-        status = untangle(&newton, env);
+        if (status == ICC_OK)
+            status = untangle(&newton, ROUNDS[k].steps, ROUNDS[k].patience, env);
         iccp_tet_newton_free(&newton);
         *n_left = count_inverted(mesh, images);
     }
