@@ -35,7 +35,7 @@ static void rank_by_network(const flux_case *c, const double *wire, uint32_t *ra
     double change = 1;
     for (size_t t = 0; t < n; ++t)
         value[t] = flux_in_star(c, t) ? 0 : 1;
-    for (int pass = 0; pass < 3000 && change > 1e-15; ++pass) {
+    for (int pass = 0; pass < 400 && change > 1e-12; ++pass) {
         change = 0;
         for (size_t i = 0; i < n; ++i) {
             const size_t t = pass % 2 == 0 ? i : n - 1 - i;
