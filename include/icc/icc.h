@@ -668,54 +668,61 @@ ICC_API icc_status icc_map_mesh(const icc_map *map, double *vertices, double *im
 /** What icc_map_certify() found out about the image of a caller's mesh. */
 typedef struct icc_certificate {
     size_t size;             /**< set by the caller: `sizeof(icc_certificate)` */
-    int32_t certified;       /**< 1: every triangle keeps its orientation and both boundaries are simple,
+    int32_t certified;       /**< 1: every simplex keeps its orientation and both boundaries are simple,
                                   so the mesh and its image are one-to-one */
-    int32_t boundary_simple; /**< 1: the boundary edges form one closed polygon before and after, and both
-                                  are simple */
-    size_t n_inverted;       /**< triangles whose image has the other orientation */
-    size_t n_flat;           /**< triangles whose image, or which themselves, have no area */
+    int32_t boundary_simple; /**< 1: the mesh is one that icc_domain_create_mesh() takes, and the image of
+                                  its boundary is a simple polygon or surface */
+    size_t n_inverted;       /**< simplices whose image has the other orientation */
+    size_t n_flat;           /**< simplices whose image, or which themselves, have no volume */
     size_t n_no_image;       /**< vertices that have no image */
-    int64_t first;           /**< the first triangle at fault, or -1 */
+    int64_t first;           /**< the first simplex at fault, or -1 */
 } icc_certificate;
 
 /**
- * Maps the vertices of a caller's triangle mesh and checks, exactly, whether the image is a mesh too. A
- * mesh sampled from a one-to-one map need not be: its triangles are straight where the map is not.
+ * Maps the vertices of a caller's mesh of triangles (2-D) or tetrahedra (3-D) and checks, exactly, whether the
+ * image is a mesh too. A mesh sampled from a one-to-one map need not be: its simplices are straight where
+ * the map is not.
  *
- * @param map              a 2-D map
- * @param n_vertices       vertices of the mesh
- * @param vertices         n_vertices * 2 coordinates in the source
- * @param n_triangles      triangles
- * @param triangles        n_triangles * 3 vertex indices
- * @param[out] images      n_vertices * 2 coordinates, or NULL
+ * @param map              a map in 2-D or 3-D, else ::ICC_ERR_UNSUPPORTED
+ * @param n_vertices       vertices of the mesh, fewer than 2^26
+ * @param vertices         n_vertices * dim coordinates in the source
+ * @param n_simplices      simplices, fewer than 2^26
+ * @param simplices        n_simplices * (dim + 1) vertex indices; each may be listed in any order
+ * @param[out] images      n_vertices * dim coordinates, or NULL
  * @param[out] certificate its `size` is set by the caller
  * @param env              may be NULL
  * @param err              may be NULL
  * @return ::ICC_OK when the check ran, whatever it found; ::ICC_ERR_ARGUMENT, ...
  */
 ICC_API icc_status icc_map_certify(const icc_map *map, size_t n_vertices, const double *vertices,
-                                   size_t n_triangles, const uint32_t *triangles, double *images,
+                                   size_t n_simplices, const uint32_t *simplices, double *images,
                                    icc_certificate *certificate, const icc_env *env,
                                    icc_error *err);
 
 /**
- * Carries a caller's triangle mesh along so that no triangle inverts: maps the vertices, then moves the
- * images of inner ones until every triangle keeps its orientation. Triangles and the images of boundary
- * vertices stay, so it cannot always succeed; the certificate tells.
+ * Carries a caller's mesh of triangles (2-D) or tetrahedra (3-D) along so that no simplex inverts: maps the
+ * vertices, then moves the images of inner ones until every simplex keeps its orientation. Inner vertices
+ * that have no image get one. Simplices and the images of boundary vertices stay, so it cannot always
+ * succeed (a simplex with all its corners on the boundary is as the map makes it); the certificate tells.
+ * Where it does not, and where the mesh is not one that icc_domain_create_mesh() takes or a vertex of its
+ * boundary has no image, the images are the best that there are.
  *
- * @param map              a 2-D map
- * @param n_vertices       vertices of the mesh
- * @param vertices         n_vertices * 2 coordinates in the source
- * @param n_triangles      triangles
- * @param triangles        n_triangles * 3 vertex indices
- * @param[out] images      n_vertices * 2 coordinates
+ * @param map              a map in 2-D or 3-D, else ::ICC_ERR_UNSUPPORTED
+ * @param n_vertices       vertices of the mesh, fewer than 2^26
+ * @param vertices         n_vertices * dim coordinates in the source
+ * @param n_simplices      simplices, fewer than 2^26
+ * @param simplices        n_simplices * (dim + 1) vertex indices; each may be listed in any order
+ * @param[out] images      n_vertices * dim coordinates
  * @param[out] certificate of the images returned; its `size` is set by the caller
  * @param env              may be NULL
  * @param err              may be NULL
  * @return as icc_map_certify()
+ *
+ * Cost: proportional to what is inverted; where patches do not suffice, some hundred passes over the mesh.
+ * Deterministic: iterations are capped, clocks are not read.
  */
 ICC_API icc_status icc_map_repair(const icc_map *map, size_t n_vertices, const double *vertices,
-                                  size_t n_triangles, const uint32_t *triangles, double *images,
+                                  size_t n_simplices, const uint32_t *simplices, double *images,
                                   icc_certificate *certificate, const icc_env *env,
                                   icc_error *err);
 

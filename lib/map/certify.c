@@ -6,10 +6,8 @@
 #include "base/error.h"
 #include "domain/mesh_domain.h"
 #include "map/apply.h"
-#include "map/repair.h"
-#include "map/tet_repair.h"
+#include "map/mesh_repair.h"
 #include "math/orient.h"
-#include "math/predicates.h"
 
 #include <math.h>
 #include <string.h>
@@ -92,50 +90,13 @@ static void check_simplices(const mesh_check *m)
 
 /* ---- repair ---- */
 
-static double area_of(const iccp_simplices *mesh, const double *points)
+/* Without images on the boundary there is nothing to go by. */
+static bool can_repair(const mesh_check *m, const iccp_simplices *mesh)
 {
-    double sum = 0;
-    for (size_t t = 0; t < mesh->n_simplices; ++t) {
-        const uint32_t *v = mesh->corners + 3 * t;
-        sum += fabs(iccp_area2d(points + 2 * (size_t)v[0], points + 2 * (size_t)v[1],
-                                points + 2 * (size_t)v[2]));
-    }
-    return sum;
-}
-
-/* Triangles: as a mesh map, all of whose triangles stay. */
-static icc_status repair_triangles(const iccp_simplices *mesh, double *images, const iccp_env *env)
-{
-    const size_t n = 3 * mesh->n_simplices;
-    const double before = area_of(mesh, mesh->points), after = area_of(mesh, images);
-    uint8_t *fixed = iccp_alloc(&env->memory, mesh->n_points, 1);
-    uint32_t *twin = iccp_alloc(&env->memory, n, sizeof *twin);
-    icc_status status = fixed != NULL && twin != NULL ? ICC_OK : ICC_ERR_MEMORY;
-    if (status == ICC_OK) {
-        for (size_t v = 0; v < mesh->n_points; ++v)
-            fixed[v] = v < mesh->n_rim;
-        for (size_t c = 0; c < n; ++c)
-            twin[c] = (mesh->across[c] & ICCP_RIM) != 0 ? ICCP_NO_NEIGHBOUR : mesh->across[c];
-        iccp_plmap pl = {.memory = env->memory,
-                         .corners = {mesh->corners, twin, mesh->n_simplices},
-                         .n_vertices = mesh->n_points,
-                         .points = mesh->points,
-                         .images = images,
-                         .fixed = fixed,
-                         .stretch = before > 0 && after > 0 ? sqrt(after / before) : 1};
-        size_t n_left;
-        status = iccp_repair(&pl, true, &n_left, env);
-    }
-    iccp_free(&env->memory, twin);
-    iccp_free(&env->memory, fixed);
-    return status;
-}
-
-static icc_status repair_mesh(const iccp_simplices *mesh, double *images, const iccp_env *env)
-{
-    size_t n_left;
-    return mesh->dim == 2 ? repair_triangles(mesh, images, env)
-                          : iccp_tet_repair(mesh, images, &n_left, env);
+    for (size_t v = 0; v < mesh->n_rim; ++v)
+        if (!is_finite(m->dim, m->images + m->dim * mesh->given[v]))
+            return false;
+    return m->result->first >= 0;
 }
 
 /* Moves the images of inner vertices until every simplex is positive, as far as that goes. What is judged
@@ -146,9 +107,12 @@ static icc_status repair(mesh_check *m, const iccp_simplices *mesh, const iccp_e
     double *images = iccp_alloc(&env->memory, mesh->n_points, size);
     if (images == NULL)
         return ICC_ERR_MEMORY;
-    for (size_t v = 0; v < mesh->n_points; ++v)
-        memcpy(images + dim * v, m->after + dim * mesh->given[v], size);
-    icc_status status = repair_mesh(mesh, images, env);
+    for (size_t v = 0; v < mesh->n_points; ++v) {
+        const double *image = m->images + dim * mesh->given[v];
+        memcpy(images + dim * v, is_finite(dim, image) ? m->after + dim * mesh->given[v] : image,
+               size);
+    }
+    icc_status status = iccp_mesh_repair(mesh, images, env);
     for (size_t i = dim * mesh->n_rim; i < dim * mesh->n_points; ++i)
         images[i] = fabs(images[i]) < NEXT_TO_NOTHING ? 0 : images[i];
     for (size_t v = mesh->n_rim; status == ICC_OK && v < mesh->n_points; ++v)
@@ -188,7 +152,7 @@ static icc_status judge(mesh_check *m, bool repaired, const double *vertices, co
     check_simplices(m);
     icc_status status = iccp_domain_create_mesh(&domain, (int32_t)m->dim, m->n_vertices, vertices,
                                                 m->n_simplices, m->simplices, 0, NULL, env, NULL);
-    if (status == ICC_OK && repaired && m->result->first >= 0 && m->result->n_no_image == 0) {
+    if (status == ICC_OK && repaired && can_repair(m, domain->mesh)) {
         status = repair(m, domain->mesh, env);
         check_simplices(m);
     }

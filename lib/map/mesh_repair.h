@@ -1,0 +1,12 @@
+/* Repairing the image of a caller's mesh. */
+#ifndef ICCP_MESH_REPAIR_H
+#define ICCP_MESH_REPAIR_H
+
+#include "domain/simplices.h"
+
+/* Moves the images, dim coordinates each, of inner points of a mesh in 2-D or 3-D until the images of all
+ * simplices are positive, as far as that goes. Inner points that have none, but coordinates that are not
+ * finite, get one first. */
+icc_status iccp_mesh_repair(const iccp_simplices *mesh, double *images, const iccp_env *env);
+
+#endif
