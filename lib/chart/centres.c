@@ -24,12 +24,12 @@ static const double DEPTH_PER_DISTANCE = 1.5;
 typedef struct search {
     const icc_domain *domain[2]; /* the second one: only with `image` */
     const iccp_simplices *mesh;
-    const iccp_gram *edges;      /* whose pattern is the edges of the mesh */
-    const double *image;         /* of each inner vertex in the second domain; or NULL */
-    double *bound;               /* of each vertex: depth is not more, in local units */
+    const iccp_gram *edges; /* whose pattern is the edges of the mesh */
+    const double *image;    /* of each inner vertex in the second domain; or NULL */
+    double *bound;          /* of each vertex: depth is not more, in local units */
     iccp_heap heap;
     uint32_t best;
-    double depth;                /* of the best, relative */
+    double depth; /* of the best, relative */
 } search;
 
 static double size_of(const icc_domain *domain)
@@ -114,8 +114,9 @@ static icc_status find_deepest(search *s, const iccp_env *env)
             status = iccp_progress(env, "centre", 0.5);
         double depth = measure(s, v) / size;
         if (s->image != NULL && depth > s->depth)
-            depth = fmin(depth, depth_of(s->domain[1], s->image + s->mesh->dim * (v - s->mesh->n_rim)) /
-                                    size_of(s->domain[1]));
+            depth =
+                fmin(depth, depth_of(s->domain[1], s->image + s->mesh->dim * (v - s->mesh->n_rim)) /
+                                size_of(s->domain[1]));
         if (depth > s->depth) {
             s->depth = depth;
             s->best = v;
@@ -138,8 +139,8 @@ static icc_status run_search(search *s, const iccp_env *env)
     return status;
 }
 
-icc_status iccp_deepest_centre(const icc_domain *domain, const iccp_simplices *mesh, uint32_t *centre,
-                               const iccp_env *env)
+icc_status iccp_deepest_centre(const icc_domain *domain, const iccp_simplices *mesh,
+                               uint32_t *centre, const iccp_env *env)
 {
     iccp_gram edges;
     icc_status status = iccp_stiffness_create(&edges, mesh, env);
@@ -223,7 +224,8 @@ static icc_status find_images(iccp_gram *edges, const iccp_simplices *mesh, cons
 
 /* An inner vertex near a point, a deep one rather than the nearest. No depth is more than that of the point and the
  * distance from it, so that few have to be measured. */
-static uint32_t find_partner(const icc_domain *domain, const iccp_simplices *mesh, const double *point)
+static uint32_t find_partner(const icc_domain *domain, const iccp_simplices *mesh,
+                             const double *point)
 {
     const double depth = depth_of(domain, point);
     uint32_t partner = (uint32_t)mesh->n_rim;
@@ -261,8 +263,9 @@ static icc_status pair(search *s, const iccp_simplices *const mesh[2], const uin
     return status == ICC_OK ? iccp_deepest_centre(s->domain[1], mesh[1], &centre[1], env) : status;
 }
 
-icc_status iccp_paired_centres(const icc_domain *const domain[2], const iccp_simplices *const mesh[2],
-                               const uint32_t *given, uint32_t centre[2], const iccp_env *env)
+icc_status iccp_paired_centres(const icc_domain *const domain[2],
+                               const iccp_simplices *const mesh[2], const uint32_t *given,
+                               uint32_t centre[2], const iccp_env *env)
 {
     const size_t n_inner = mesh[0]->n_points - mesh[0]->n_rim;
     double *image = iccp_alloc_zero(&env->memory, mesh[0]->dim * n_inner, sizeof *image);
@@ -271,7 +274,8 @@ icc_status iccp_paired_centres(const icc_domain *const domain[2], const iccp_sim
         return ICC_ERR_MEMORY;
     icc_status status = iccp_stiffness_create(&edges, mesh[0], env);
     if (status == ICC_OK) {
-        search s = {.domain = {domain[0], domain[1]}, .mesh = mesh[0], .edges = &edges, .image = image};
+        search s = {
+            .domain = {domain[0], domain[1]}, .mesh = mesh[0], .edges = &edges, .image = image};
         status = find_images(&edges, mesh[0], domain[1], image, env);
         if (status == ICC_OK)
             status = pair(&s, mesh, given, centre, env);

@@ -50,8 +50,8 @@ static icc_status weigh_facets(iccp_circulation *c, const iccp_env *env)
         find_densities(c, density);
     for (size_t f = 0; f < n && good; ++f) {
         const uint32_t side = c->rings.side[f], other = mesh->across[side];
-        const double mean = 0.5 * (density[iccp_simplex_of(mesh, side)] +
-                                   density[iccp_simplex_of(mesh, other)]);
+        const double mean =
+            0.5 * (density[iccp_simplex_of(mesh, side)] + density[iccp_simplex_of(mesh, other)]);
         c->weight[f] = iccp_element_conductance(mesh, side);
         c->least[f] = LEAST_DENSITY * mean * iccp_element_area(mesh, side);
     }
@@ -86,16 +86,16 @@ void iccp_circulation_free(iccp_circulation *circulation)
 
 /* What a simplex receives leaves it through its sides to smaller rank as `wish` has it, but at least a share
  * of all through each. Flux here only ever is added up, so that rounding is all that is amiss. */
-static void send_on(const iccp_circulation *c, const uint32_t *rank, size_t simplex, const double *wish,
-                    double least, double *flux)
+static void send_on(const iccp_circulation *c, const uint32_t *rank, size_t simplex,
+                    const double *wish, double least, double *flux)
 {
     const size_t dim = c->mesh->dim, first = (dim + 1) * simplex;
     double received = 0, sum = 0, share[ICC_MAX_DIM + 1];
     bool leaves[ICC_MAX_DIM + 1];
     for (size_t i = 0; i <= dim; ++i) {
         const uint32_t other = c->mesh->across[first + i];
-        leaves[i] = (other & ICCP_RIM) == 0 &&
-                    rank[iccp_simplex_of(c->mesh, other)] < rank[simplex];
+        leaves[i] =
+            (other & ICCP_RIM) == 0 && rank[iccp_simplex_of(c->mesh, other)] < rank[simplex];
         received -= leaves[i] ? 0 : flux[first + i];
     }
     for (size_t i = 0; i <= dim; ++i) {

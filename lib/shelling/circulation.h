@@ -13,8 +13,8 @@ typedef struct iccp_circulation {
     const double *inflow;    /* through each facet of the domain */
     const double *reference; /* flux through each side */
     iccp_rings rings;
-    double *weight;          /* of each facet of the rings: area over the distance of the barycentres */
-    double *least;           /* flux that it should have at least: a share of what flows nearby */
+    double *weight; /* of each facet of the rings: area over the distance of the barycentres */
+    double *least;  /* flux that it should have at least: a share of what flows nearby */
 } iccp_circulation;
 
 icc_status iccp_circulation_create(iccp_circulation *circulation, const iccp_simplices *mesh,

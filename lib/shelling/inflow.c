@@ -16,9 +16,9 @@ enum { SIMPLICES_PER_REPORT = 1 << 14 };
 /* The unknowns are the potentials of the simplices outside the star. */
 typedef struct network {
     const iccp_simplices *mesh;
-    uint32_t *row;         /* of each simplex; NONE: in the star, where the potential is 1 */
+    uint32_t *row; /* of each simplex; NONE: in the star, where the potential is 1 */
     size_t n;
-    size_t *first;         /* an iccp_symmetric */
+    size_t *first; /* an iccp_symmetric */
     uint32_t *column;
     double *value, *diagonal;
     double *potential;

@@ -19,9 +19,9 @@ enum { SIMPLICES_PER_REPORT = 1 << 14 };
 typedef struct equations {
     const iccp_simplices *mesh;
     uint32_t centre;
-    uint32_t *row;     /* of each side, or NONE */
+    uint32_t *row; /* of each side, or NONE */
     size_t n;
-    size_t *first;     /* iccp_symmetric */
+    size_t *first; /* iccp_symmetric */
     uint32_t *column;
     double *value, *diagonal;
     double *unknown;

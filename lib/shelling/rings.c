@@ -10,7 +10,8 @@ enum { SIMPLICES_PER_REPORT = 1 << 14 };
 typedef struct walk {
     const iccp_simplices *mesh;
     uint32_t *facet; /* of each side, or NONE */
-    uint32_t *gone;  /* of each simplex: bit (a, b) stands for its face without the corners a and b */
+    uint32_t
+        *gone; /* of each simplex: bit (a, b) stands for its face without the corners a and b */
 } walk;
 
 static uint32_t pair_bit(size_t a, size_t b)

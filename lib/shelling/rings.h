@@ -10,9 +10,9 @@
 typedef struct iccp_rings {
     iccp_memory memory;
     size_t n_facets;
-    uint32_t *side;   /* the smaller of a facet's two sides */
+    uint32_t *side; /* the smaller of a facet's two sides */
     size_t n;
-    size_t *first;    /* n + 1 */
+    size_t *first; /* n + 1 */
     uint32_t *step;
 } iccp_rings;
 

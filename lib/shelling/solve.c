@@ -16,10 +16,10 @@ static const double MOST_WORK = 20000;
 
 typedef struct auxiliary {
     const iccp_unknowns *unknowns;
-    size_t n;          /* of them */
-    uint32_t *row;     /* of each point, or NONE */
+    size_t n;      /* of them */
+    uint32_t *row; /* of each point, or NONE */
     iccp_spd solver;
-    double *value;     /* of each row */
+    double *value; /* of each row */
     const iccp_env *env;
 } auxiliary;
 
@@ -61,7 +61,8 @@ static icc_status create_coarse(iccp_gram *coarse, auxiliary *a)
     return status;
 }
 
-static icc_status run(const iccp_symmetric *matrix, const iccp_gram *coarse, auxiliary *a, double *b)
+static icc_status run(const iccp_symmetric *matrix, const iccp_gram *coarse, auxiliary *a,
+                      double *b)
 {
     const iccp_env *env = a->env;
     icc_status status = iccp_spd_create(&a->solver, &coarse->matrix, false, env);
@@ -71,7 +72,8 @@ static icc_status run(const iccp_symmetric *matrix, const iccp_gram *coarse, aux
     a->value = iccp_alloc(&env->memory, coarse->matrix.n, sizeof *a->value);
     status = ICC_ERR_MEMORY;
     if (work != NULL && a->value != NULL)
-        status = iccp_pcg_solve_with(matrix, coarse->matrix.n > 0 ? add_part : NULL, a, b, work, env);
+        status =
+            iccp_pcg_solve_with(matrix, coarse->matrix.n > 0 ? add_part : NULL, a, b, work, env);
     iccp_free(&env->memory, work);
     iccp_free(&env->memory, a->value);
     iccp_spd_free(&a->solver);
@@ -103,8 +105,8 @@ static icc_status factorise(iccp_ldlt *factor, const iccp_symmetric *matrix, dou
     return status;
 }
 
-icc_status iccp_shelling_solve(const iccp_symmetric *matrix, const iccp_unknowns *unknowns, double *b,
-                               const iccp_env *env)
+icc_status iccp_shelling_solve(const iccp_symmetric *matrix, const iccp_unknowns *unknowns,
+                               double *b, const iccp_env *env)
 {
     iccp_ldlt factor;
     if (!iccp_ordering_available())

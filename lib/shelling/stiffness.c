@@ -63,7 +63,8 @@ icc_status iccp_stiffness_restrict(iccp_gram *part, const iccp_gram *gram, const
     part->column = iccp_alloc(&env->memory, n_entries, sizeof *part->column);
     part->value = iccp_alloc(&env->memory, n_entries, sizeof *part->value);
     part->diagonal = iccp_alloc(&env->memory, n, sizeof *part->diagonal);
-    if (part->first == NULL || part->column == NULL || part->value == NULL || part->diagonal == NULL) {
+    if (part->first == NULL || part->column == NULL || part->value == NULL ||
+        part->diagonal == NULL) {
         iccp_gram_free(part);
         return ICC_ERR_MEMORY;
     }

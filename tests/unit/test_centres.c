@@ -18,7 +18,8 @@ static double depth_of(const icc_domain *domain, uint32_t vertex)
         double bary[ICC_MAX_DIM];
         for (size_t i = 0; i < dim; ++i)
             corner[i] = domain->vertices + dim * domain->facets[dim * f + i];
-        least = fmin(least, iccp_simplex_nearest(dim, dim, corner, domain->mesh->points + dim * vertex, bary));
+        least = fmin(least, iccp_simplex_nearest(dim, dim, corner,
+                                                 domain->mesh->points + dim * vertex, bary));
     }
     return sqrt(least);
 }
@@ -89,7 +90,8 @@ START_TEST(pairs_are_deep)
             ck_assert_int_eq(iccp_paired_centres(domains, meshes, NULL, centre, &env), ICC_OK);
             for (int k = 0; k < 2; ++k) {
                 ck_assert(is_inner(domain[k], centre[k]));
-                ck_assert_double_ge(depth_of(domain[k], centre[k]), 0.5 * greatest_depth(domain[k]));
+                ck_assert_double_ge(depth_of(domain[k], centre[k]),
+                                    0.5 * greatest_depth(domain[k]));
                 icc_domain_free(domain[k]);
             }
             mesh_free(&a);
@@ -132,8 +134,10 @@ START_TEST(no_image_is_inside)
     const iccp_env env = flux_env();
     icc_domain *domain[2];
     uint32_t centre[2];
-    ck_assert_int_eq(icc_domain_create_mesh(&domain[0], 2, 5, SQUARE, 4, FAN, 0, NULL, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(icc_domain_create_mesh(&domain[1], 2, 5, DART, 4, FAN, 0, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_domain_create_mesh(&domain[0], 2, 5, SQUARE, 4, FAN, 0, NULL, NULL, NULL),
+                     ICC_OK);
+    ck_assert_int_eq(icc_domain_create_mesh(&domain[1], 2, 5, DART, 4, FAN, 0, NULL, NULL, NULL),
+                     ICC_OK);
     const icc_domain *const domains[2] = {domain[0], domain[1]};
     const iccp_simplices *const meshes[2] = {domain[0]->mesh, domain[1]->mesh};
     ck_assert_int_eq(iccp_paired_centres(domains, meshes, NULL, centre, &env), ICC_OK);

@@ -42,7 +42,8 @@ static void rank_by_network(const flux_case *c, const double *wire, uint32_t *ra
             double sum = 0, total = 0;
             for (size_t s = n_corners * t; s < n_corners * (t + 1); ++s) {
                 const uint32_t other = mesh->across[s];
-                sum += wire[s] * ((other & ICCP_RIM) != 0 ? 1 : value[iccp_simplex_of(mesh, other)]);
+                sum +=
+                    wire[s] * ((other & ICCP_RIM) != 0 ? 1 : value[iccp_simplex_of(mesh, other)]);
                 total += wire[s];
             }
             if (flux_in_star(c, t))
@@ -111,8 +112,9 @@ static setting set_up(int k)
     ck_assert_int_eq(iccp_inflow(mesh, s.c.centre, 0.5, s.inflow, &env), ICC_OK);
     ck_assert_int_eq(
         iccp_reference_flux(mesh, s.c.centre, s.inflow, s.reference, s.potential, &env), ICC_OK);
-    ck_assert_int_eq(iccp_circulation_create(&s.circulation, mesh, s.c.centre, s.inflow, s.reference, &env),
-                     ICC_OK);
+    ck_assert_int_eq(
+        iccp_circulation_create(&s.circulation, mesh, s.c.centre, s.inflow, s.reference, &env),
+        ICC_OK);
     return s;
 }
 
@@ -147,7 +149,7 @@ static void check_flux(const setting *s, const char *when)
         const uint32_t here = s->rank[iccp_simplex_of(mesh, side)];
         const uint32_t there = s->rank[iccp_simplex_of(mesh, other)];
         if (here > there)
-            ck_assert_msg(s->flux[side] > 0, "%s, %s: flux %g", s->c.name, when, s->flux[side]);
+            FLUX_ASSERT(s->flux[side] > 0, "%s, %s: flux %g", s->c.name, when, s->flux[side]);
     }
     const double divergence = iccp_circulation_divergence(&s->circulation, s->flux);
     ck_assert_msg(divergence <= 2e-15, "%s, %s: divergence %g", s->c.name, when, divergence);
@@ -235,26 +237,30 @@ START_TEST(rings_are_cycles)
         double *balance = calloc(c.mesh->n_simplices, sizeof *balance);
         ck_assert_ptr_nonnull(balance);
         ck_assert_int_eq(iccp_rings_create(&rings, c.mesh, c.centre, &env), ICC_OK);
-        ck_assert_msg(rings.n == count_rings(&c), "%s: %zu rings of %zu", c.name, rings.n, count_rings(&c));
+        ck_assert_msg(rings.n == count_rings(&c), "%s: %zu rings of %zu", c.name, rings.n,
+                      count_rings(&c));
         for (size_t r = 0; r < rings.n; ++r) {
             double star = 0;
-            ck_assert_uint_ge(rings.first[r + 1] - rings.first[r], 2);
+            FLUX_ASSERT(rings.first[r + 1] - rings.first[r] >= 2, "%s: ring %zu", c.name, r);
             for (int pass = 0; pass < 2; ++pass)
                 for (size_t p = rings.first[r]; p < rings.first[r + 1]; ++p) {
-                    const uint32_t side = rings.side[rings.step[p] / 2], other = c.mesh->across[side];
+                    const uint32_t side = rings.side[rings.step[p] / 2],
+                                   other = c.mesh->across[side];
                     const double on = rings.step[p] % 2 == 0 ? 1 : -1;
-                    const size_t t[2] = {iccp_simplex_of(c.mesh, side), iccp_simplex_of(c.mesh, other)};
-                    ck_assert_uint_lt(side, other);
+                    const size_t t[2] = {iccp_simplex_of(c.mesh, side),
+                                         iccp_simplex_of(c.mesh, other)};
+                    FLUX_ASSERT(side < other, "%s: ring %zu", c.name, r);
                     for (int i = 0; i < 2; ++i) {
                         const double amount = i == 0 ? on : -on;
                         if (pass == 1)
-                            ck_assert(!(fabs(balance[t[i]]) > 0) || flux_in_star(&c, t[i]));
+                            FLUX_ASSERT(!(fabs(balance[t[i]]) > 0) || flux_in_star(&c, t[i]),
+                                        "%s: ring %zu", c.name, r);
                         else
                             balance[t[i]] += amount;
                         star += pass == 0 && flux_in_star(&c, t[i]) ? amount : 0;
                     }
                 }
-            ck_assert(!(fabs(star) > 0));
+            FLUX_ASSERT(!(fabs(star) > 0), "%s: ring %zu", c.name, r);
             for (size_t p = rings.first[r]; p < rings.first[r + 1]; ++p) {
                 const uint32_t side = rings.side[rings.step[p] / 2];
                 balance[iccp_simplex_of(c.mesh, side)] = 0;
@@ -287,7 +293,8 @@ START_TEST(fluxes_are_positive_and_without_sources)
             ck_assert_int_eq(iccp_circulation_greedy(&s.circulation, s.rank, s.flux, &env), ICC_OK);
             check_flux(&s, "greedy");
             for (size_t n = 1; n <= 16; n *= 4) {
-                ck_assert_int_eq(iccp_circulation_relax(&s.circulation, s.rank, n, s.flux, &env), ICC_OK);
+                ck_assert_int_eq(iccp_circulation_relax(&s.circulation, s.rank, n, s.flux, &env),
+                                 ICC_OK);
                 check_flux(&s, "relaxed");
             }
         }
@@ -309,9 +316,11 @@ START_TEST(energy_never_rises)
             double before = iccp_circulation_energy(&s.circulation, s.flux);
             const double first = before;
             for (int i = 0; i < 12; ++i) {
-                ck_assert_int_eq(iccp_circulation_relax(&s.circulation, s.rank, 1, s.flux, &env), ICC_OK);
+                ck_assert_int_eq(iccp_circulation_relax(&s.circulation, s.rank, 1, s.flux, &env),
+                                 ICC_OK);
                 const double after = iccp_circulation_energy(&s.circulation, s.flux);
-                ck_assert_msg(after <= before * (1 + 1e-12), "%s: %.17g to %.17g", s.c.name, before, after);
+                ck_assert_msg(after <= before * (1 + 1e-12), "%s: %.17g to %.17g", s.c.name, before,
+                              after);
                 before = after;
             }
             fallen += first > 0 ? (first - before) / first : 0;
@@ -355,7 +364,8 @@ START_TEST(reference_is_found_again)
             double size = 0, off = 0, missing = 0;
             ck_assert_int_eq(iccp_circulation_greedy(&s.circulation, s.rank, s.flux, &env), ICC_OK);
             check_flux(&s, "greedy");
-            ck_assert_int_eq(iccp_circulation_relax(&s.circulation, s.rank, 400, s.flux, &env), ICC_OK);
+            ck_assert_int_eq(iccp_circulation_relax(&s.circulation, s.rank, 400, s.flux, &env),
+                             ICC_OK);
             check_flux(&s, "relaxed");
             for (size_t f = 0; f < s.circulation.rings.n_facets; ++f) {
                 const uint32_t side = s.circulation.rings.side[f];
@@ -363,8 +373,8 @@ START_TEST(reference_is_found_again)
                 off += fabs(s.flux[side] - s.reference[side]);
                 missing += fmax(s.circulation.least[f] - fabs(s.reference[side]), 0);
             }
-            ck_assert_msg(off <= 30 * missing + 1e-6 * size, "%s: off by %g, %g of %g cannot be had",
-                          s.c.name, off, missing, size);
+            ck_assert_msg(off <= 30 * missing + 1e-6 * size,
+                          "%s: off by %g, %g of %g cannot be had", s.c.name, off, missing, size);
             ++n_found;
         }
         take_down(&s);
@@ -376,7 +386,7 @@ END_TEST
 /* No circulation round a single ring is left that would lower the energy. */
 START_TEST(sweeps_end_at_the_least_energy)
 {
-    for (int k = 0; k < FLUX_CASES; k += FLUX_KINDS) {
+    for (int k = 0; k < 3 * FLUX_KINDS; k += FLUX_KINDS) {
         const iccp_env env = flux_env();
         setting s = set_up(k);
         random_source r = {3};
@@ -387,7 +397,8 @@ START_TEST(sweeps_end_at_the_least_energy)
         double *least = mesh_alloc(rings->n_facets, sizeof *least);
         for (size_t f = 0; f < rings->n_facets; ++f)
             least[f] = fmin(s.circulation.least[f], 0.5 * fabs(s.flux[rings->side[f]]));
-        ck_assert_int_eq(iccp_circulation_relax(&s.circulation, s.rank, 1000, s.flux, &env), ICC_OK);
+        ck_assert_int_eq(iccp_circulation_relax(&s.circulation, s.rank, 1000, s.flux, &env),
+                         ICC_OK);
         for (size_t q = 0; q < rings->n; ++q) {
             double sum = 0, weight = 0, low = -1, high = 1;
             for (size_t p = rings->first[q]; p < rings->first[q + 1]; ++p) {
