@@ -39,13 +39,30 @@ static size_t count_inverted(const iccp_simplices *mesh, const double *images)
     return n;
 }
 
-/* Marks the corners of inverted simplices and `rings` rings of neighbours. */
+/* Inverted, and not with all corners on the boundary, where nothing can be done. */
+static bool is_task(const iccp_simplices *mesh, const double *images, size_t simplex)
+{
+    bool is_free = false;
+    for (size_t c = 4 * simplex; c < 4 * simplex + 4; ++c)
+        is_free |= mesh->corners[c] >= mesh->n_rim;
+    return is_free && !is_positive(mesh, images, simplex);
+}
+
+static size_t count_tasks(const iccp_simplices *mesh, const double *images)
+{
+    size_t n = 0;
+    for (size_t s = 0; s < mesh->n_simplices; ++s)
+        n += is_task(mesh, images, s);
+    return n;
+}
+
+/* Marks the corners of simplices to be repaired and `rings` rings of neighbours. */
 static void mark_patch(const iccp_simplices *mesh, const double *images, int rings,
                        uint8_t *movable)
 {
     memset(movable, 0, mesh->n_points);
     for (size_t s = 0; s < mesh->n_simplices; ++s)
-        for (size_t c = 4 * s; c < 4 * s + 4 && !is_positive(mesh, images, s); ++c)
+        for (size_t c = 4 * s; c < 4 * s + 4 && is_task(mesh, images, s); ++c)
             movable[mesh->corners[c]] = 1;
     for (int ring = 1; ring < rings; ++ring) {
         const uint8_t old = (uint8_t)ring, fresh = (uint8_t)(ring + 1);
@@ -106,10 +123,10 @@ icc_status iccp_tet_repair(const iccp_simplices *mesh, double *images, size_t *n
     icc_status status = movable != NULL ? ICC_OK : ICC_ERR_MEMORY;
     const double before = volume_of(mesh, mesh->points), after = volume_of(mesh, images);
     const double stretch = before > 0 && after > 0 ? cbrt(after / before) : 1;
-    *n_left = count_inverted(mesh, images);
-    for (size_t k = 0; status == ICC_OK && *n_left > 0 && k < sizeof ROUNDS / sizeof *ROUNDS; ++k) {
+    size_t n_tasks = count_tasks(mesh, images);
+    for (size_t k = 0; status == ICC_OK && n_tasks > 0 && k < sizeof ROUNDS / sizeof *ROUNDS; ++k) {
         iccp_tet_newton newton;
-        if (ROUNDS[k].rings > 0 && *n_left > mesh->n_simplices / MANY)
+        if (ROUNDS[k].rings > 0 && n_tasks > mesh->n_simplices / MANY)
             continue;
         if (ROUNDS[k].rings > 0)
             mark_patch(mesh, images, ROUNDS[k].rings, movable);
@@ -118,8 +135,9 @@ icc_status iccp_tet_repair(const iccp_simplices *mesh, double *images, size_t *n
         if (status == ICC_OK)
             status = untangle(&newton, ROUNDS[k].steps, ROUNDS[k].patience, env);
         iccp_tet_newton_free(&newton);
-        *n_left = count_inverted(mesh, images);
+        n_tasks = count_tasks(mesh, images);
     }
+    *n_left = count_inverted(mesh, images);
     iccp_free(&env->memory, movable);
     return status;
 }
