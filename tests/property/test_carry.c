@@ -97,7 +97,7 @@ static size_t check_counts(const test_mesh *m, const double *images, const icc_c
     size_t n_inverted = 0, n_fixed = 0, n_no_image = 0;
     int64_t first = -1;
     for (size_t v = 0; v < m->n_vertices; ++v)
-        n_no_image += isnan(images[3 * v]);
+        n_no_image += isnan(images[3 * v]) != 0;
     for (size_t s = 0; s < m->n_simplices; ++s) {
         const uint32_t *v = m->simplices + 4 * s;
         const long double product = determinant(m->vertices, v) * determinant(images, v);
