@@ -361,32 +361,20 @@ END_TEST
 
 /* ---- real pairs ---- */
 
-static icc_domain *surface_of_data(const char *name, const char *side)
-{
-    char path[512];
-    obj o;
-    icc_domain *domain = NULL;
-    (void)snprintf(path, sizeof path, "%s/3d/%s.%s.obj", TEST_SHARED_DATA, name, side);
-    ck_assert(obj_read(&o, path));
-    ck_assert_int_eq(
-        icc_domain_create(&domain, 3, o.n_vertices, o.vertices, o.n_faces, o.faces, NULL, NULL),
-        ICC_OK);
-    obj_free(&o);
-    return domain;
-}
-
 /* Only what has all its corners on the boundary stays inverted. */
 START_TEST(real_pairs)
 {
     static const char *const NAMES[] = {"t08_fox", "t06_spikes_sphere", "t01_cube_bend"};
-    for (size_t k = 0; k < sizeof NAMES / sizeof *NAMES; ++k) {
-        test_mesh m;
-        if (!mesh_of_data(&m, NAMES[k], "src", "test_carry"))
+    static const int32_t METHODS[] = {ICC_METHOD_FIELD, ICC_METHOD_FOLIATION};
+    for (size_t k = 0; k < 2 * sizeof NAMES / sizeof *NAMES; ++k) {
+        test_mesh m, to;
+        if (!mesh_of_data(&m, NAMES[k / 2], "src", "test_carry"))
             continue;
-        icc_domain *source = domain_of(&m), *target = surface_of_data(NAMES[k], "tgt");
+        ck_assert(mesh_of_data(&to, NAMES[k / 2], "tgt", "test_carry"));
+        icc_domain *source = domain_of(&m), *target = domain_of(&to);
         icc_domain_info info = {.size = sizeof info};
         ck_assert_int_eq(icc_domain_get_info(target, &info), ICC_OK);
-        icc_map *map = map_between(source, target, ICC_METHOD_FIELD, 32);
+        icc_map *map = map_between(source, target, METHODS[k % 2], 0);
         bool *on_rim = mesh_alloc(m.n_vertices, sizeof *on_rim);
         for (size_t v = 0; v < m.n_vertices; ++v)
             on_rim[v] = v < info.n_vertices;
@@ -402,6 +390,7 @@ START_TEST(real_pairs)
         icc_domain_free(source);
         icc_domain_free(target);
         mesh_free(&m);
+        mesh_free(&to);
     }
 }
 END_TEST
