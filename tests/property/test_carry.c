@@ -399,7 +399,7 @@ int main(void)
 {
     Suite *suite = suite_create("carry");
     TCase *tests = tcase_create("all");
-    tcase_set_timeout(tests, 120);
+    tcase_set_timeout(tests, 300);
     tcase_add_test(tests, balls_are_certified_and_repaired);
     tcase_add_test(tests, listing_does_not_matter);
     tcase_add_test(tests, vertices_without_an_image);

@@ -366,7 +366,7 @@ int main(void)
 {
     Suite *suite = suite_create("untangle");
     TCase *tests = tcase_create("all");
-    tcase_set_timeout(tests, 120);
+    tcase_set_timeout(tests, 300);
     tcase_add_test(tests, gradients_and_hessians);
     tcase_add_test(tests, isometries);
     tcase_add_test(tests, degenerate_images);
