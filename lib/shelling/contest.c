@@ -1,11 +1,15 @@
 /* The reference flux tells a good order: the less of it an order turns round, the nearer to it a flux along
- * the order can come. Which rule and which weight do best differs from mesh to mesh, so all are tried. */
+ * the order can come. Which rule and which weight do best differs from mesh to mesh, so all are tried. The
+ * best one is then repeated with a bias against what went wrong, as in D. E. Joslin, D. P. Clements,
+ * Squeaky Wheel Optimization, 1999. */
 #include "shelling/contest.h"
 
 #include "base/error.h"
 #include "base/threads.h"
 
 #include <math.h>
+#include <stdbool.h>
+#include <string.h>
 
 enum { N_BETAS = 7, N_RUNS = 2 * N_BETAS };
 
@@ -16,10 +20,13 @@ static const double BETA[N_BETAS] = {4, 8, 16, 32, 64, 256, 1024};
 /* The energy was within 2 % then of what it was after 100. */
 static const size_t SWEEPS = 50;
 
-/* When no order is complete: how often those simplices that were left get ahead of others, and how far, of
- * the potential's range. Growth that stopped short on real meshes was complete after 2 to 4 times. */
-enum { N_ROUNDS = 12 };
-static const double ADVANCE = 0.01;
+/* Repetitions of an order, and how many in a row may be in vain. */
+enum { N_ROUNDS = 12, PATIENCE = 3 };
+
+/* The bias of a simplex all of whose flux was reversed, in steps of the potential: at 2 it takes more rounds, at
+ * 16 the orders do not get better on the whole. And of one that was left, of the potential's range: growth that
+ * stopped short on real meshes was complete after 2 to 4 rounds. */
+static const double BIAS_REVERSED = 4, BIAS_LEFT = 0.01;
 
 typedef struct contest {
     iccp_order_wish wish;
@@ -29,42 +36,50 @@ typedef struct contest {
     double energy[N_RUNS];   /* HUGE_VAL for an order that was not complete */
 } contest;
 
-typedef icc_status (*order_rule)(const iccp_order_wish *wish, uint32_t *rank, size_t *n_left,
-                                 const iccp_env *env);
+/* An order and the flux along it. */
+typedef struct attempt {
+    uint32_t *rank;
+    double *flux;
+    size_t n_left;
+    double energy;
+} attempt;
 
-static order_rule rule_of(size_t run)
+static bool is_peeling(size_t run)
 {
-    return run < N_BETAS ? iccp_order_peel : iccp_order_grow;
-}
-
-static iccp_order_wish wish_of(const contest *c, size_t run)
-{
-    iccp_order_wish wish = c->wish;
-    wish.beta = BETA[run % N_BETAS];
-    return wish;
+    return run < N_BETAS;
 }
 
 /* The greedy flux will do to compare: an order whose energy was least then was within 10 % of the least after
- * 100 sweeps, too. */
+ * 100 sweeps, too. HUGE_VAL if the order is not complete. */
+static icc_status try_order(const contest *c, size_t run, const double *bias, attempt *a,
+                            const iccp_env *env)
+{
+    iccp_order_wish wish = c->wish;
+    wish.beta = BETA[run % N_BETAS];
+    wish.bias = bias;
+    a->energy = HUGE_VAL;
+    icc_status status =
+        (is_peeling(run) ? iccp_order_peel : iccp_order_grow)(&wish, a->rank, &a->n_left, env);
+    if (status == ICC_OK && a->n_left == 0) {
+        status = iccp_circulation_greedy(&c->circulation, a->rank, a->flux, env);
+        if (status == ICC_OK)
+            a->energy = iccp_circulation_energy(&c->circulation, a->flux);
+    }
+    return status;
+}
+
 static icc_status compete(contest *c, size_t run)
 {
     const iccp_simplices *mesh = c->wish.mesh;
-    const iccp_env *env = &c->quiet;
-    const iccp_order_wish wish = wish_of(c, run);
-    uint32_t *rank = iccp_alloc(&env->memory, mesh->n_simplices, sizeof *rank);
-    double *flux = iccp_alloc(&env->memory, (mesh->dim + 1) * mesh->n_simplices, sizeof *flux);
-    size_t n_left = 0;
+    const iccp_memory *memory = &c->quiet.memory;
+    attempt a = {.rank = iccp_alloc(memory, mesh->n_simplices, sizeof *a.rank),
+                 .flux = iccp_alloc(memory, (mesh->dim + 1) * mesh->n_simplices, sizeof *a.flux)};
     icc_status status = ICC_ERR_MEMORY;
-    if (rank != NULL && flux != NULL)
-        status = rule_of(run)(&wish, rank, &n_left, env);
-    c->energy[run] = HUGE_VAL;
-    if (status == ICC_OK && n_left == 0) {
-        status = iccp_circulation_greedy(&c->circulation, rank, flux, env);
-        if (status == ICC_OK)
-            c->energy[run] = iccp_circulation_energy(&c->circulation, flux);
-    }
-    iccp_free(&env->memory, rank);
-    iccp_free(&env->memory, flux);
+    if (a.rank != NULL && a.flux != NULL)
+        status = try_order(c, run, NULL, &a, &c->quiet);
+    c->energy[run] = a.energy;
+    iccp_free(memory, a.rank);
+    iccp_free(memory, a.flux);
     return status;
 }
 
@@ -89,55 +104,80 @@ static size_t find_best(const contest *c, size_t *n_finished)
     return best;
 }
 
-/* Gives the simplices that were left a start over the others. */
-static void advance_left(const contest *c, bool peeling, const uint32_t *rank, double *bias)
+/* How much of a simplex's flux goes to greater rank, less what comes from smaller rank, as a share of it. */
+static double lag_of(const contest *c, const uint32_t *rank, size_t s)
+{
+    const iccp_simplices *mesh = c->wish.mesh;
+    const size_t first = (mesh->dim + 1) * s;
+    double lag = 0, total = 0;
+    for (size_t side = first; side <= first + mesh->dim; ++side) {
+        const double flux = c->wish.flux[side];
+        total += fabs(flux);
+        if (mesh->across[side] >= ICCP_RIM)
+            continue;
+        const uint32_t there = rank[iccp_simplex_of(mesh, mesh->across[side])];
+        lag += (flux > 0 ? there > rank[s] : there < rank[s]) ? flux : 0;
+    }
+    return total > 0 ? lag / total : 0;
+}
+
+/* What was amiss in an order is made good in the bias: the simplices that were left have their turn earlier, and
+ * those ahead of flux that should run from them to others later. */
+static void learn(const contest *c, bool peeling, const uint32_t *rank, double *bias)
 {
     const size_t n = c->wish.mesh->n_simplices;
     double range = 0;
     for (size_t s = 0; s < n; ++s)
         range = fmax(range, c->wish.potential[s]);
     for (size_t s = 0; s < n; ++s)
-        if (rank[s] == UINT32_MAX)
-            bias[s] += (peeling ? ADVANCE : -ADVANCE) * range;
+        if (rank[s] == UINT32_MAX) {
+            bias[s] += (peeling ? BIAS_LEFT : -BIAS_LEFT) * range;
+        } else {
+            const double lag = lag_of(c, rank, s);
+            bias[s] += lag < 0 || lag > 0 ? BIAS_REVERSED * lag * iccp_order_step(&c->wish, s) : 0;
+        }
 }
 
-/* One rule, again and again. */
-static icc_status insist(const contest *c, size_t run, uint32_t *rank, size_t *n_left,
-                         const iccp_env *env)
+/* Repeats an order and keeps the best one. */
+static icc_status practise(const contest *c, size_t run, attempt *next, double *bias, attempt *best,
+                           const iccp_env *env)
 {
-    iccp_order_wish wish = wish_of(c, run);
-    double *bias = iccp_alloc_zero(&env->memory, wish.mesh->n_simplices, sizeof *bias);
-    wish.bias = bias;
-    icc_status status = bias != NULL ? ICC_OK : ICC_ERR_MEMORY;
-    *n_left = 1;
-    for (int round = 0; round < N_ROUNDS && status == ICC_OK && *n_left > 0; ++round) {
-        status = rule_of(run)(&wish, rank, n_left, env);
-        if (status == ICC_OK)
-            advance_left(c, run < N_BETAS, rank, bias);
+    const size_t n = c->wish.mesh->n_simplices;
+    memset(bias, 0, n * sizeof *bias);
+    for (int round = 0, in_vain = 0; round < N_ROUNDS && in_vain < PATIENCE; ++round) {
+        const icc_status status = try_order(c, run, bias, next, env);
+        if (status != ICC_OK)
+            return status;
+        const bool is_better = next->n_left < best->n_left ||
+                               (next->n_left == best->n_left && next->energy < best->energy);
+        if (is_better) {
+            memcpy(best->rank, next->rank, n * sizeof *next->rank);
+            best->n_left = next->n_left;
+            best->energy = next->energy;
+        }
+        in_vain = is_better || best->n_left > 0 ? 0 : in_vain + 1;
+        learn(c, is_peeling(run), next->rank, bias);
     }
+    return ICC_OK;
+}
+
+/* From the winner, or from anything if there is none. */
+static icc_status improve(const contest *c, size_t *run, attempt *best, const iccp_env *env)
+{
+    const size_t n = c->wish.mesh->n_simplices;
+    attempt next = {.rank = iccp_alloc(&env->memory, n, sizeof *next.rank), .flux = best->flux};
+    double *bias = iccp_alloc(&env->memory, n, sizeof *bias);
+    icc_status status = next.rank != NULL && bias != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    const bool is_won = *run < N_RUNS;
+    for (size_t k = is_won ? *run : 0; status == ICC_OK && k < N_RUNS; k += N_BETAS) {
+        *run = k;
+        status = practise(c, k, &next, bias, best, env);
+        if (is_won || best->n_left == 0)
+            break;
+    }
+    iccp_free(&env->memory, next.rank);
     iccp_free(&env->memory, bias);
     return status;
-}
-
-/* Finds the best order again, or any with a good deal of patience. */
-static icc_status find_order(const contest *c, size_t *run, uint32_t *rank, const iccp_env *env,
-                             icc_error *err)
-{
-    size_t n_left = 0, n_least = SIZE_MAX;
-    if (*run < N_RUNS) {
-        const iccp_order_wish wish = wish_of(c, *run);
-        return rule_of(*run)(&wish, rank, &n_left, env);
-    }
-    for (*run = 0; *run < N_RUNS; *run += N_BETAS) {
-        const icc_status status = insist(c, *run, rank, &n_left, env);
-        if (status != ICC_OK || n_left == 0)
-            return status;
-        n_least = n_left < n_least ? n_left : n_least;
-    }
-    return iccp_fail(err, ICC_ERR_TOPOLOGY, -1,
-                     "no order was found that builds up the domain from the maximum: at best %zu of the "
-                     "%zu simplices are left; try another maximum or a finer mesh",
-                     n_least, c->wish.mesh->n_simplices);
 }
 
 static size_t count_reversed(const iccp_circulation *c, const uint32_t *rank)
@@ -152,26 +192,32 @@ static size_t count_reversed(const iccp_circulation *c, const uint32_t *rank)
     return n;
 }
 
-static icc_status hold(contest *c, uint32_t *rank, double *flux, iccp_contest_info *info,
-                       const iccp_env *env, icc_error *err)
+static icc_status hold(contest *c, attempt *best, iccp_contest_info *info, const iccp_env *env,
+                       icc_error *err)
 {
     icc_status status = iccp_for_chunks(env, "orders", N_RUNS, 1, compete_all, c);
     if (status != ICC_OK)
         return status;
     *info = (iccp_contest_info){.n_orders = N_RUNS};
     size_t run = find_best(c, &info->n_finished);
-    status = find_order(c, &run, rank, env, err);
-    if (status == ICC_OK)
-        status = iccp_circulation_greedy(&c->circulation, rank, flux, env);
-    if (status == ICC_OK)
-        status = iccp_circulation_relax(&c->circulation, rank, SWEEPS, flux, env);
+    status = improve(c, &run, best, env);
     if (status != ICC_OK)
         return status;
-    info->peeled = run < N_BETAS;
+    if (best->n_left > 0)
+        return iccp_fail(err, ICC_ERR_TOPOLOGY, -1,
+                         "no order was found that builds up the domain from the maximum: at best %zu of "
+                         "the %zu simplices are left; try another maximum or a finer mesh",
+                         best->n_left, c->wish.mesh->n_simplices);
+    status = iccp_circulation_greedy(&c->circulation, best->rank, best->flux, env);
+    if (status == ICC_OK)
+        status = iccp_circulation_relax(&c->circulation, best->rank, SWEEPS, best->flux, env);
+    if (status != ICC_OK)
+        return status;
+    info->peeled = is_peeling(run);
     info->beta = BETA[run % N_BETAS];
-    info->energy = iccp_circulation_energy(&c->circulation, flux);
-    info->divergence = iccp_circulation_divergence(&c->circulation, flux);
-    info->n_reversed = count_reversed(&c->circulation, rank);
+    info->energy = iccp_circulation_energy(&c->circulation, best->flux);
+    info->divergence = iccp_circulation_divergence(&c->circulation, best->flux);
+    info->n_reversed = count_reversed(&c->circulation, best->rank);
     return ICC_OK;
 }
 
@@ -179,6 +225,7 @@ icc_status iccp_contest(const iccp_simplices *mesh, uint32_t centre, const doubl
                         const double *reference, const double *potential, uint32_t *rank, double *flux,
                         iccp_contest_info *info, const iccp_env *env, icc_error *err)
 {
+    attempt best = {.rank = rank, .flux = flux, .n_left = SIZE_MAX, .energy = HUGE_VAL};
     contest c = {.quiet = *env, .circulation.rings.memory = env->memory};
     c.quiet.progress = NULL;
     c.wish = (iccp_order_wish){.mesh = mesh,
@@ -190,7 +237,7 @@ icc_status iccp_contest(const iccp_simplices *mesh, uint32_t centre, const doubl
     if (status == ICC_OK)
         status = iccp_circulation_create(&c.circulation, mesh, centre, inflow, reference, env);
     if (status == ICC_OK)
-        status = hold(&c, rank, flux, info, env, err);
+        status = hold(&c, &best, info, env, err);
     iccp_circulation_free(&c.circulation);
     iccp_faces_free(&c.faces);
     return iccp_explain(err, status);

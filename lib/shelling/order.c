@@ -42,26 +42,33 @@ static bool may_go(const front *f, size_t s)
            (size == f->wish->mesh->dim || !f->touched[iccp_face(f->wish->faces, s, facing)]);
 }
 
+double iccp_order_step(const iccp_order_wish *wish, size_t simplex)
+{
+    const iccp_simplices *mesh = wish->mesh;
+    const size_t first = (mesh->dim + 1) * simplex;
+    double step = 0;
+    for (size_t side = first; side <= first + mesh->dim; ++side)
+        if (mesh->across[side] < ICCP_RIM) {
+            const double there = wish->potential[iccp_simplex_of(mesh, mesh->across[side])];
+            step = fmax(step, fabs(there - wish->potential[simplex]));
+        }
+    return step;
+}
+
 /* The potential, and a penalty: the share of the simplex's flux that would run from smaller to greater rank
- * if it went now, times the greatest step of the potential to a neighbour. */
+ * if it went now, times a step of the potential. */
 static double key_of(const front *f, size_t s)
 {
     const iccp_order_wish *w = f->wish;
-    const size_t n_sides = w->mesh->dim + 1;
-    double reversed = 0, total = 0, step = 0;
-    for (size_t i = 0; i < n_sides; ++i) {
-        const size_t side = n_sides * s + i;
-        const double flux = w->flux[side];
+    const double *flux = w->flux + (w->mesh->dim + 1) * s;
+    double reversed = 0, total = 0;
+    for (size_t i = 0; i <= w->mesh->dim; ++i) {
         const bool leaves = (f->facing[s] >> i & 1) != f->peeling;
-        total += fabs(flux);
-        reversed += leaves == (flux < 0) ? fabs(flux) : 0;
-        if (w->mesh->across[side] < ICCP_RIM) {
-            const double there = w->potential[iccp_simplex_of(w->mesh, w->mesh->across[side])];
-            step = fmax(step, fabs(there - w->potential[s]));
-        }
+        total += fabs(flux[i]);
+        reversed += leaves == (flux[i] < 0) ? fabs(flux[i]) : 0;
     }
     const double potential = w->potential[s] + (w->bias != NULL ? w->bias[s] : 0);
-    const double penalty = total > 0 ? w->beta * reversed / total * step : 0;
+    const double penalty = reversed > 0 ? w->beta * (reversed / total) * iccp_order_step(w, s) : 0;
     return (f->peeling ? -potential : potential) + penalty;
 }
 
