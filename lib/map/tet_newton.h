@@ -7,6 +7,10 @@
 #include "map/tet_distortion.h"
 #include "math/symmetric.h"
 
+/* Doubles of work space per unknown: the residual, the preconditioned one, a direction and its product, and
+ * the factors of the point's block. */
+enum { ICCP_TET_WORK = 6 };
+
 typedef struct iccp_tet_newton {
     iccp_memory memory;
     const iccp_simplices *mesh;
@@ -24,6 +28,26 @@ typedef struct iccp_tet_newton {
     double *saved;           /* 3 n_free: images to come back to */
     double *work;
 } iccp_tet_newton;
+
+/* The number of a corner among the free points, or UINT32_MAX. */
+static inline uint32_t iccp_tet_slot(const iccp_tet_newton *s, uint32_t simplex, uint32_t corner)
+{
+    return s->slot[s->mesh->corners[4 * (size_t)simplex + corner]];
+}
+
+static inline void iccp_tet_images(const iccp_tet_newton *s, size_t element, const double *image[4])
+{
+    const uint32_t *v = s->mesh->corners + 4 * (size_t)s->simplex[element];
+    for (int k = 0; k < 4; ++k)
+        image[k] = s->images + 3 * (size_t)v[k];
+}
+
+/* Pair p = 0..11 of different corners. */
+static inline void iccp_tet_pair(uint32_t p, uint32_t *a, uint32_t *b)
+{
+    *a = p / 3;
+    *b = p % 3 + (p % 3 >= p / 3);
+}
 
 /* For inner points with movable[v] != 0; all of them when `movable` is NULL. The mesh is multiplied by
  * `stretch`. */
