@@ -10,8 +10,9 @@
 
 #define NONE UINT32_MAX
 
-/* Multiplications per entry of the matrix up to which the factorisation is faster than iterations
- * (tests/bench/bench_shelling.c). */
+/* Multiplications per entry of the matrix up to which the factorisation is chosen. A cube of 83,000 tetrahedra would
+ * take 66,000 and iterations a quarter of the time; the bodies of animals take 500 to 800, and iterations twenty
+ * times as long for the sake of their flat tetrahedra. */
 static const double MOST_WORK = 20000;
 
 typedef struct auxiliary {
