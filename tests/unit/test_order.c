@@ -559,6 +559,27 @@ static void check_contest(problem *p, uint32_t centre, const iccp_contest_info *
     iccp_circulation_free(&c);
 }
 
+/* Meshes of real surfaces, where there are any. */
+START_TEST(real_meshes)
+{
+    static const char *const NAMES[] = {"t08_fox", "t06_spikes_sphere"};
+    random_source r = {11};
+    for (int number = 0; number < 2; ++number) {
+        test_mesh mesh;
+        if (!mesh_of_data(&mesh, NAMES[number], "src", "test_order"))
+            continue;
+        problem p = begin(mesh);
+        for (int trial = 0; trial < 6; ++trial) {
+            const uint32_t centre = random_centre(&p, &r);
+            wish_flux(&p, centre);
+            const bool grown = left_by(&p, centre, 32, false) == 0;
+            ck_assert(left_by(&p, centre, 32, true) == 0 || grown);
+        }
+        end(&p);
+    }
+}
+END_TEST
+
 static void backwards(void *user, size_t n_tasks, icc_task task, void *argument)
 {
     (void)user;
@@ -702,6 +723,7 @@ int main(void)
     tcase_add_test(tests, nothing_is_left_in_the_plane);
     tcase_add_test(tests, complete_orders_are_shellings);
     tcase_add_test(tests, one_of_two_is_complete_for_any_maximum);
+    tcase_add_test(tests, real_meshes);
     tcase_add_test(tests, contests_are_won_by_the_best);
     tcase_add_test(tests, houses_end_in_an_order_or_an_error);
     tcase_add_test(tests, star_is_complete_at_once);
