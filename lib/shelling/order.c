@@ -32,7 +32,8 @@ typedef struct front {
     const iccp_env *env;
     bool peeling;
     uint32_t *rank;
-    uint8_t *facing;  /* of each simplex: its corners opposite to the set; GONE: it is not to be taken (again) */
+    uint8_t *
+        facing; /* of each simplex: its corners opposite to the set; GONE: it is not to be taken (again) */
     uint8_t *touched; /* whether a face belongs to the set */
     iccp_heap heap;
 } front;
@@ -157,8 +158,8 @@ static icc_status advance(front *f, uint32_t n, size_t *n_left)
     return ICC_OK;
 }
 
-static icc_status find_order(const iccp_order_wish *wish, bool peeling, uint32_t *rank, size_t *n_left,
-                             const iccp_env *env)
+static icc_status find_order(const iccp_order_wish *wish, bool peeling, uint32_t *rank,
+                             size_t *n_left, const iccp_env *env)
 {
     const iccp_memory *memory = &env->memory;
     front f = {.wish = wish, .env = env, .peeling = peeling, .rank = rank};
