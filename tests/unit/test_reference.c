@@ -70,7 +70,7 @@ END_TEST
 START_TEST(uniform_inflow_goes_by_area)
 {
     for (int32_t dim = 2; dim <= 5; ++dim) {
-        flux_case c = flux_number(FLUX_KINDS * (dim - 2));
+        flux_case c = flux_number(FLUX_KINDS * (dim - 2) + FLUX_CUBE);
         const iccp_env env = flux_env();
         fluxes f = room_for(c.mesh);
         ck_assert_int_eq(iccp_inflow(c.mesh, c.centre, 0, f.inflow, &env), ICC_OK);
@@ -117,7 +117,7 @@ END_TEST
 
 START_TEST(flux_has_no_sources)
 {
-    for (int k = 0; k < FLUX_CASES; ++k) {
+    for (int k = 0; k <= FLUX_CASES; ++k) {
         flux_case c = flux_number(k);
         fluxes f = solve(&c, 0.5);
         const size_t n_corners = c.mesh->dim + 1;
@@ -200,7 +200,7 @@ static double slope(const flux_case *c, const iccp_rings *rings, size_t ring, co
 START_TEST(flux_has_least_energy)
 {
     size_t n_rings = 0;
-    for (int k = 0; k < FLUX_CASES; ++k) {
+    for (int k = 0; k <= FLUX_CASES; ++k) {
         flux_case c = flux_number(k);
         fluxes f = solve(&c, 0.5);
         const iccp_env env = flux_env();
@@ -276,7 +276,7 @@ static icc_status both(const icc_env *given, icc_error *err, void *argument)
 
 START_TEST(failures_leave_nothing)
 {
-    flux_case c = flux_number(FLUX_KINDS);
+    flux_case c = flux_number(FLUX_KINDS + FLUX_CUBE);
     faulty_sweep(both, &c);
     flux_free(&c);
 }
