@@ -689,6 +689,15 @@ START_TEST(star_is_complete_at_once)
         ck_assert_uint_eq(left_by(&p, (uint32_t)p.mesh->n_rim, 8, true), 0);
         for (size_t s = 0; s < p.mesh->n_simplices; ++s)
             must(p.rank[s] == 0);
+        double *flux = room(p.mesh->n_simplices * (p.mesh->dim + 1), sizeof *flux);
+        const iccp_env env = plain_env();
+        iccp_contest_info info;
+        wish_flux(&p, (uint32_t)p.mesh->n_rim);
+        ck_assert_int_eq(iccp_contest(p.mesh, (uint32_t)p.mesh->n_rim, p.inflow, p.flux,
+                                      p.potential, p.rank, flux, &info, &env, NULL),
+                         ICC_OK);
+        check_contest(&p, (uint32_t)p.mesh->n_rim, &info, flux);
+        free(flux);
         end(&p);
     }
 }
