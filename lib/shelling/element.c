@@ -4,9 +4,12 @@
 
 #include <math.h>
 
-/* Edges that leave the space of the ones before by a smaller share of the longest count as if it were that:
- * what flat simplices do to a matrix stays finite. */
-static const double THINNEST = 1e-12;
+/* Of the longest edge: what an edge leaves the space of the ones before by counts as at least that much. So
+ * matrices can be factorised whatever there is in the mesh: a single simplex of 1e-9 is enough to spoil them. */
+static const double THINNEST = 1e-4;
+
+/* Local units, in which domains have the size 1: lengths that are divided by. */
+static const double LEAST_LENGTH = 1e-12;
 
 /* A matrix with the identity, or what became of it, to its right. */
 typedef double tableau[ICC_MAX_DIM][2 * ICC_MAX_DIM];
@@ -92,7 +95,7 @@ double iccp_element_area(const iccp_simplices *mesh, size_t side)
             square += edge[n][k] * edge[n][k];
         const double height = sqrt(square);
         for (size_t k = 0; k < dim; ++k)
-            edge[n][k] /= fmax(height, THINNEST);
+            edge[n][k] /= fmax(height, LEAST_LENGTH);
         area *= height / (double)++n;
     }
     return area;
@@ -122,5 +125,5 @@ double iccp_element_conductance(const iccp_simplices *mesh, size_t side)
         find_middle(mesh, iccp_simplex_of(mesh, other), no_corner, there);
     for (size_t k = 0; k < dim; ++k)
         square += (there[k] - here[k]) * (there[k] - here[k]);
-    return iccp_element_area(mesh, side) / fmax(sqrt(square), THINNEST);
+    return iccp_element_area(mesh, side) / fmax(sqrt(square), LEAST_LENGTH);
 }

@@ -302,6 +302,61 @@ START_TEST(potential_of_a_disc)
 }
 END_TEST
 
+/* Moves the first corner inside the cube of a simplex from the k-th on almost to the opposite facet. */
+static void flatten(test_mesh *m, size_t k, size_t n, double height)
+{
+    const size_t dim = (size_t)m->dim;
+    for (size_t s = (dim + 1) * k;; ++s) {
+        const size_t first = s - s % (dim + 1);
+        double *x = m->vertices + dim * m->simplices[s];
+        bool is_inner = true;
+        for (size_t d = 0; d < dim; ++d)
+            is_inner = is_inner && x[d] > 0 && x[d] < (double)n;
+        if (!is_inner)
+            continue;
+        for (size_t d = 0; d < dim; ++d) {
+            double mean = 0;
+            for (size_t i = first; i <= first + dim; ++i)
+                mean += i != s ? m->vertices[dim * m->simplices[i] + d] / (double)dim : 0;
+            x[d] = mean + height * (x[d] - mean);
+        }
+        return;
+    }
+}
+
+/* Whatever the mesh, there is a reference that is good enough. */
+START_TEST(flat_simplices_do_no_harm)
+{
+    static const size_t FINE[3] = {12, 6, 3};
+    int n_meshes = 0;
+    for (int32_t dim = 2; dim <= 4; ++dim)
+        for (double height = 1e-4; height > 1e-12; height /= 10) {
+            const size_t n = FINE[dim - 2];
+            const iccp_env env = flux_env();
+            flux_case c = {.name = "flat simplex"};
+            icc_status status = ICC_ERR_BOUNDARY;
+            /* Until no other is turned over. */
+            for (size_t k = 0; k < 64 && status != ICC_OK; ++k) {
+                random_source r = {(uint64_t)dim};
+                test_mesh m = mesh_cube(dim, n, 0.1, &r);
+                flatten(&m, m.n_simplices / 3 + k, n, height);
+                status = mesh_domain(&c.domain, &m, NULL, NULL);
+                mesh_free(&m);
+            }
+            if (status != ICC_OK)
+                continue;
+            c.mesh = c.domain->mesh;
+            ck_assert_int_eq(iccp_deepest_centre(c.domain, c.mesh, &c.centre, &env), ICC_OK);
+            fluxes f = solve(&c, 0.5);
+            flux_check(&c, f.inflow, f.flux);
+            fluxes_free(&f);
+            flux_free(&c);
+            ++n_meshes;
+        }
+    ck_assert_int_ge(n_meshes, 16);
+}
+END_TEST
+
 /* A factor would take a gigabyte. */
 static void *small_alloc(void *user, size_t size)
 {
@@ -363,6 +418,7 @@ int main(void)
     tcase_add_test(test, flux_has_no_sources);
     tcase_add_test(test, flux_has_least_energy);
     tcase_add_test(test, potential_of_a_disc);
+    tcase_add_test(test, flat_simplices_do_no_harm);
     tcase_add_test(test, iterations_take_little_memory);
     tcase_add_test(test, failures_leave_nothing);
     suite_add_tcase(suite, test);
