@@ -32,8 +32,8 @@ typedef struct contest {
     iccp_order_wish wish;
     iccp_faces faces;
     iccp_circulation circulation;
-    iccp_env quiet;          /* for other threads than the caller's */
-    double energy[N_RUNS];   /* HUGE_VAL for an order that was not complete */
+    iccp_env quiet;        /* for other threads than the caller's */
+    double energy[N_RUNS]; /* HUGE_VAL for an order that was not complete */
 } contest;
 
 /* An order and the flux along it. */
@@ -121,8 +121,8 @@ static double lag_of(const contest *c, const uint32_t *rank, size_t s)
     return total > 0 ? lag / total : 0;
 }
 
-/* What was amiss in an order is made good in the bias: the simplices that were left have their turn earlier, and
- * those ahead of flux that should run from them to others later. */
+/* What was amiss in an order goes into the bias. The simplices that were left have their turn earlier; those with
+ * flux to simplices of greater rank shall have a greater one, those with flux from smaller rank a smaller one. */
 static void learn(const contest *c, bool peeling, const uint32_t *rank, double *bias)
 {
     const size_t n = c->wish.mesh->n_simplices;
@@ -204,10 +204,11 @@ static icc_status hold(contest *c, attempt *best, iccp_contest_info *info, const
     if (status != ICC_OK)
         return status;
     if (best->n_left > 0)
-        return iccp_fail(err, ICC_ERR_TOPOLOGY, -1,
-                         "no order was found that builds up the domain from the maximum: at best %zu of "
-                         "the %zu simplices are left; try another maximum or a finer mesh",
-                         best->n_left, c->wish.mesh->n_simplices);
+        return iccp_fail(
+            err, ICC_ERR_TOPOLOGY, -1,
+            "no order was found that builds up the domain from the maximum: at best %zu of "
+            "the %zu simplices are left; try another maximum or a finer mesh",
+            best->n_left, c->wish.mesh->n_simplices);
     status = iccp_circulation_greedy(&c->circulation, best->rank, best->flux, env);
     if (status == ICC_OK)
         status = iccp_circulation_relax(&c->circulation, best->rank, SWEEPS, best->flux, env);
@@ -222,8 +223,8 @@ static icc_status hold(contest *c, attempt *best, iccp_contest_info *info, const
 }
 
 icc_status iccp_contest(const iccp_simplices *mesh, uint32_t centre, const double *inflow,
-                        const double *reference, const double *potential, uint32_t *rank, double *flux,
-                        iccp_contest_info *info, const iccp_env *env, icc_error *err)
+                        const double *reference, const double *potential, uint32_t *rank,
+                        double *flux, iccp_contest_info *info, const iccp_env *env, icc_error *err)
 {
     attempt best = {.rank = rank, .flux = flux, .n_left = SIZE_MAX, .energy = HUGE_VAL};
     contest c = {.quiet = *env, .circulation.rings.memory = env->memory};

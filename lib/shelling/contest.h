@@ -6,21 +6,22 @@
 #include "shelling/order.h"
 
 typedef struct iccp_contest_info {
-    int32_t peeled;      /* 1: the order that won was peeled, 0: grown */
-    double beta;         /* its weight of reversed flux */
-    double energy;       /* its flux, see iccp_circulation_energy() */
-    double divergence;   /* see iccp_circulation_divergence() */
-    size_t n_reversed;   /* facets where the reference flux runs the other way */
-    size_t n_orders;     /* that took part */
-    size_t n_finished;   /* of them, those that were complete */
+    int32_t peeled;    /* 1: the order that won was peeled, 0: grown */
+    double beta;       /* its weight of reversed flux */
+    double energy;     /* its flux, see iccp_circulation_energy() */
+    double divergence; /* see iccp_circulation_divergence() */
+    size_t n_reversed; /* facets where the reference flux runs the other way */
+    size_t n_orders;   /* that took part */
+    size_t n_finished; /* of them, those that were complete */
 } iccp_contest_info;
 
-/* Grows and peels with several weights, fits a flux to every complete order, and keeps the order with the
- * least energy, whose flux is then fitted further. If none is complete, the simplices that were left have
- * their turn earlier, a few times. ICC_ERR_TOPOLOGY when that does not help either, as with some meshes of
- * Bing's house with two rooms. The same for every number of threads. O(n log n). */
+/* Grows and peels with several weights and sends the flux along every complete order. The one with the least
+ * energy is repeated a few times with a bias against what it turned round; the flux along the best is
+ * fitted. If no order is complete, two are repeated in the same way, with a bias for the simplices that were
+ * left: ICC_ERR_TOPOLOGY when that does not help, as with some meshes of Bing's house with two rooms. The same
+ * for every number of threads. O(n log n). */
 icc_status iccp_contest(const iccp_simplices *mesh, uint32_t centre, const double *inflow,
-                        const double *reference, const double *potential, uint32_t *rank, double *flux,
-                        iccp_contest_info *info, const iccp_env *env, icc_error *err);
+                        const double *reference, const double *potential, uint32_t *rank,
+                        double *flux, iccp_contest_info *info, const iccp_env *env, icc_error *err);
 
 #endif

@@ -2,8 +2,6 @@
 
 #include "domain/tuples.h"
 
-
-
 /* The sets of so many of a simplex's corners. */
 static size_t list_sets(size_t dim, size_t size, unsigned *sets)
 {
@@ -24,13 +22,15 @@ static void copy_vertices(const uint32_t *corners, size_t size, unsigned set, ui
 }
 
 /* Faces with the same vertices get the same number. */
-static void number_sorted(iccp_faces *faces, const iccp_tuples *t, size_t n_sets, const unsigned *sets)
+static void number_sorted(iccp_faces *faces, const iccp_tuples *t, size_t n_sets,
+                          const unsigned *sets)
 {
     for (size_t begin = 0; begin < t->n; ++faces->n_faces) {
         const size_t end = iccp_tuples_end(t, begin);
         for (; begin < end; ++begin) {
             const size_t simplex = t->order[begin] / n_sets, set = sets[t->order[begin] % n_sets];
-            faces->number[faces->per_simplex * simplex + faces->place[set]] = (uint32_t)faces->n_faces;
+            faces->number[faces->per_simplex * simplex + faces->place[set]] =
+                (uint32_t)faces->n_faces;
         }
     }
 }
@@ -45,7 +45,8 @@ static icc_status number_size(iccp_faces *faces, const iccp_simplices *mesh, siz
         return ICC_ERR_MEMORY;
     icc_status status = iccp_progress(env, "faces", (double)(size - 1) / (double)mesh->dim);
     if (status == ICC_OK)
-        status = iccp_tuples_create(&t, n_sets * mesh->n_simplices, size, mesh->n_points, &env->memory);
+        status =
+            iccp_tuples_create(&t, n_sets * mesh->n_simplices, size, mesh->n_points, &env->memory);
     if (status != ICC_OK)
         return status;
     for (size_t i = 0; i < t.n; ++i)
@@ -63,7 +64,8 @@ icc_status iccp_faces_create(iccp_faces *faces, const iccp_simplices *mesh, cons
     for (unsigned set = 1; set < 2u << mesh->dim; ++set)
         if (iccp_set_size(set) < mesh->dim)
             faces->place[set] = (uint8_t)faces->per_simplex++;
-    faces->number = iccp_alloc(&env->memory, mesh->n_simplices, faces->per_simplex * sizeof(uint32_t));
+    faces->number =
+        iccp_alloc(&env->memory, mesh->n_simplices, faces->per_simplex * sizeof(uint32_t));
     icc_status status = faces->number != NULL ? ICC_OK : ICC_ERR_MEMORY;
     for (size_t size = 1; status == ICC_OK && size < mesh->dim; ++size)
         status = number_size(faces, mesh, size, env);

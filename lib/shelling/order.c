@@ -2,12 +2,15 @@
  * Bijective Maps from Simplicial Foliations, 2016, for what they are good for.
  *
  * Growing and peeling are one procedure. Simplices go over, one by one, to a set that is the star of the
- * centre at first when growing, and the outside of the domain when peeling. A simplex may go if what it has
- * in common with the set is nothing but its facets there: no face that lies in none of them. All these
- * faces contain R, the corners opposite to the facets, so that R is the one to ask for. When growing, this
- * is the rule itself. When peeling, R is the face of the remaining ball's inside that opens up; if it was on
- * the boundary the ball would be pinched there, and if it was not, the rule holds for the way back: see
- * docs/theory.md.
+ * centre at first when growing, and the outside of the domain when peeling. A simplex T may go if what it has
+ * in common with the set is nothing but its facets there: no face that lies in none of them. Such faces all
+ * contain R, the corners opposite to the facets, so that R is the one to ask for.
+ *
+ * When growing, this is the rule itself. When peeling, let U be what remains, a ball, and K the set R of T: the
+ * face K is not on the boundary of U, so U without T is a ball again. The rule for the way back is about the
+ * other corners, K'. The face K' lies in all facets of T on the boundary of U, and its facets there are these;
+ * so the link of K' in U is a ball whose boundary is that of the simplex K, with K as a member. It has no room
+ * for more: T is the only simplex of U with the face K'.
  *
  * Once a face touches the set it does so for good. So a simplex that may not go need not be looked at again
  * before one of its neighbours went. */
@@ -29,7 +32,8 @@ typedef struct front {
     const iccp_env *env;
     bool peeling;
     uint32_t *rank;
-    uint8_t *facing;  /* of each simplex: its corners opposite to the set; GONE: it is not to be taken (again) */
+    uint8_t *
+        facing; /* of each simplex: its corners opposite to the set; GONE: it is not to be taken (again) */
     uint8_t *touched; /* whether a face belongs to the set */
     iccp_heap heap;
 } front;
@@ -154,8 +158,8 @@ static icc_status advance(front *f, uint32_t n, size_t *n_left)
     return ICC_OK;
 }
 
-static icc_status find_order(const iccp_order_wish *wish, bool peeling, uint32_t *rank, size_t *n_left,
-                             const iccp_env *env)
+static icc_status find_order(const iccp_order_wish *wish, bool peeling, uint32_t *rank,
+                             size_t *n_left, const iccp_env *env)
 {
     const iccp_memory *memory = &env->memory;
     front f = {.wish = wish, .env = env, .peeling = peeling, .rank = rank};

@@ -10,12 +10,13 @@
 #include "domain/simplices.h"
 
 /* What enters through each facet of the domain, n_facets positive numbers that sum to 1: `harmonic`, in
- * [0,1], of it in proportion to the flux of the potential of the dual graph, the rest to the area. */
+ * [0,1), of it in proportion to the flux of the potential of the dual graph, the rest to the area. ICC_OK,
+ * ICC_ERR_MEMORY, ICC_ERR_CANCELLED or, when doubles cannot do it, ICC_ERR_SOLVER. */
 icc_status iccp_inflow(const iccp_simplices *mesh, uint32_t centre, double harmonic, double *inflow,
                        const iccp_env *env);
 
 /* The harmonic flux with that inflow by Crouzeix-Raviart elements, and the mean potential of each simplex,
- * 0 at the star and rising with the distance from it. */
+ * 0 at the star and rising with the distance from it. Fails as iccp_inflow() does. */
 icc_status iccp_reference_flux(const iccp_simplices *mesh, uint32_t centre, const double *inflow,
                                double *flux, double *potential, const iccp_env *env);
 

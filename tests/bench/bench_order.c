@@ -77,7 +77,8 @@ static double aim(subject *s, uint32_t centre)
 
 static size_t order(const subject *s, double beta, bool peel, double *seconds)
 {
-    const iccp_order_wish wish = {s->mesh, &s->faces, s->centre, s->reference, s->potential, beta, NULL};
+    const iccp_order_wish wish = {s->mesh,      &s->faces, s->centre, s->reference,
+                                  s->potential, beta,      NULL};
     const double start = bench_seconds();
     size_t n_left = 0;
     check((peel ? iccp_order_peel : iccp_order_grow)(&wish, s->rank, &n_left, &s->env));
@@ -104,7 +105,8 @@ static void reversed(const subject *s, double share[2])
 
 static void compare_orders(subject *s)
 {
-    check(iccp_circulation_create(&s->circulation, s->mesh, s->centre, s->inflow, s->reference, &s->env));
+    check(iccp_circulation_create(&s->circulation, s->mesh, s->centre, s->inflow, s->reference,
+                                  &s->env));
     for (int peel = 1; peel >= 0; --peel)
         for (double beta = 2; beta < 5000; beta *= 2) {
             double seconds, share[2];
@@ -116,8 +118,10 @@ static void compare_orders(subject *s)
                 continue;
             }
             reversed(s, share);
-            printf(", reversed %.3f %% of facets, %.4f %% of flux; energy after", share[0], share[1]);
-            for (size_t n_sweeps = 0; n_sweeps <= 100; n_sweeps = n_sweeps == 0 ? 1 : 10 * n_sweeps) {
+            printf(", reversed %.3f %% of facets, %.4f %% of flux; energy after", share[0],
+                   share[1]);
+            for (size_t n_sweeps = 0; n_sweeps <= 100;
+                 n_sweeps = n_sweeps == 0 ? 1 : 10 * n_sweeps) {
                 check(iccp_circulation_greedy(&s->circulation, s->rank, s->flux, &s->env));
                 check(iccp_circulation_relax(&s->circulation, s->rank, n_sweeps, s->flux, &s->env));
                 printf(" [%zu] %.2e", n_sweeps, iccp_circulation_energy(&s->circulation, s->flux));
@@ -132,15 +136,16 @@ static void compete(subject *s, double seconds_flux)
     iccp_contest_info i;
     icc_error err = {.size = sizeof err};
     const double start = bench_seconds();
-    bench_check(iccp_contest(s->mesh, s->centre, s->inflow, s->reference, s->potential, s->rank, s->flux, &i,
-                             &s->env, &err),
+    bench_check(iccp_contest(s->mesh, s->centre, s->inflow, s->reference, s->potential, s->rank,
+                             s->flux, &i, &s->env, &err),
                 &err);
     const double seconds = bench_seconds() - start;
-    printf("  contest: %.3f s, %.1f us a tetrahedron, beside %.3f s for the flux; %s %g, energy %.2e, "
-           "%zu reversed, divergence %.0e; %zu of %zu complete\n",
-           seconds, 1e6 * seconds / (double)s->mesh->n_simplices, seconds_flux,
-           i.peeled ? "peel" : "grow", i.beta, i.energy, i.n_reversed, i.divergence, i.n_finished,
-           i.n_orders);
+    printf(
+        "  contest: %.3f s, %.1f us a tetrahedron, beside %.3f s for the flux; %s %g, energy %.2e, "
+        "%zu reversed, divergence %.0e; %zu of %zu complete\n",
+        seconds, 1e6 * seconds / (double)s->mesh->n_simplices, seconds_flux,
+        i.peeled ? "peel" : "grow", i.beta, i.energy, i.n_reversed, i.divergence, i.n_finished,
+        i.n_orders);
 }
 
 static void try_maxima(subject *s)
@@ -151,13 +156,14 @@ static void try_maxima(subject *s)
         double seconds;
         (void)aim(s, (uint32_t)s->mesh->n_rim +
                          (uint32_t)random_below(&r, (int)(s->mesh->n_points - s->mesh->n_rim)));
-        const bool grown = order(s, 8, false, &seconds) == 0, peeled = order(s, 8, true, &seconds) == 0;
+        const bool grown = order(s, 8, false, &seconds) == 0,
+                   peeled = order(s, 8, true, &seconds) == 0;
         n_grown += grown;
         n_peeled += peeled;
         n_neither += !grown && !peeled;
     }
-    printf("  %d maxima by chance: %zu grown, %zu peeled, %zu neither\n", (int)N_MAXIMA, n_grown, n_peeled,
-           n_neither);
+    printf("  %d maxima by chance: %zu grown, %zu peeled, %zu neither\n", (int)N_MAXIMA, n_grown,
+           n_peeled, n_neither);
 }
 
 int main(int argc, char **argv)

@@ -165,7 +165,7 @@ static icc_status find(const icc_env *given, icc_error *err, void *argument)
 
 START_TEST(failures_leave_nothing)
 {
-    flux_case c = flux_number(FLUX_KINDS);
+    flux_case c = flux_number(FLUX_KINDS + FLUX_CUBE);
     faulty_sweep(find, &c);
     flux_free(&c);
 }

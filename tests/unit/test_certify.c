@@ -1,5 +1,6 @@
 /* Checking and repairing the image of a caller's mesh. */
 #include "../faulty.h"
+#include "../meshes.h"
 #include "../shapes.h"
 
 #include <check.h>
@@ -305,6 +306,36 @@ START_TEST(other_meshes_are_left_alone)
 }
 END_TEST
 
+/* The gradient method leaves much of thin arms without images. */
+START_TEST(inner_vertices_without_an_image_get_one)
+{
+    const shape from = shape_star(7, 0.2, 0.1), to = shape_star(7, 0.3, 0.3);
+    const icc_chart_options chart = {
+        .size = sizeof chart, .method = ICC_METHOD_GRADIENT, .cells = 12};
+    const icc_map_options options = {
+        .size = sizeof options, .kind = ICC_MAP_CURVES, .chart = &chart};
+    test_mesh m = mesh_polygon(from.n, from.xy, 0.05);
+    icc_domain *a, *b;
+    icc_map *map;
+    double *images = mesh_alloc(2 * m.n_vertices, sizeof *images);
+    icc_certificate before = {.size = sizeof before}, after = before;
+    ck_assert_int_eq(icc_domain_create(&a, 2, from.n, from.xy, 0, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_domain_create(&b, 2, to.n, to.xy, 0, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_map_create(&map, a, b, &options, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_map_certify(map, m.n_vertices, m.vertices, m.n_simplices, m.simplices, NULL,
+                                     &before, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_map_repair(map, m.n_vertices, m.vertices, m.n_simplices, m.simplices, images,
+                                    &after, NULL, NULL), ICC_OK);
+    ck_assert(before.n_no_image > 0 && before.certified == 0);
+    ck_assert(after.n_no_image == 0 && after.certified == 1);
+    free(images);
+    icc_map_free(map);
+    icc_domain_free(a);
+    icc_domain_free(b);
+    mesh_free(&m);
+}
+END_TEST
+
 /* ---- arguments and failures ---- */
 
 START_TEST(bad_meshes_are_refused)
@@ -383,6 +414,7 @@ int main(void)
     tcase_add_test(tests, every_kind_and_size);
     tcase_add_test(tests, meshes_are_repaired);
     tcase_add_test(tests, other_meshes_are_left_alone);
+    tcase_add_test(tests, inner_vertices_without_an_image_get_one);
     tcase_add_test(tests, bad_meshes_are_refused);
     tcase_add_test(tests, failures_leave_nothing_behind);
     suite_add_tcase(suite, tests);

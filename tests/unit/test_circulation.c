@@ -230,7 +230,7 @@ static size_t count_rings(const flux_case *c)
 START_TEST(rings_are_cycles)
 {
     size_t n_rings = 0;
-    for (int k = 0; k < FLUX_CASES; ++k) {
+    for (int k = 0; k <= FLUX_CASES; ++k) {
         flux_case c = flux_number(k);
         const iccp_env env = flux_env();
         iccp_rings rings;
@@ -386,7 +386,7 @@ END_TEST
 /* No circulation round a single ring is left that would lower the energy. */
 START_TEST(sweeps_end_at_the_least_energy)
 {
-    for (int k = 0; k < 3 * FLUX_KINDS; k += FLUX_KINDS) {
+    for (int k = FLUX_CUBE; k < FLUX_CASES; k += FLUX_KINDS) {
         const iccp_env env = flux_env();
         setting s = set_up(k);
         random_source r = {3};
@@ -443,7 +443,7 @@ static icc_status fit(const icc_env *given, icc_error *err, void *argument)
 
 START_TEST(failures_leave_nothing)
 {
-    setting s = set_up(FLUX_KINDS);
+    setting s = set_up(FLUX_KINDS + FLUX_CUBE);
     random_source r = {5};
     ck_assert(draw_order(&s, 1, &r));
     faulty_sweep(fit, &s);

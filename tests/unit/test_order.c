@@ -68,7 +68,8 @@ static void split_edge(test_mesh *m, uint32_t a, uint32_t b)
 {
     const size_t dim = (size_t)m->dim, n_corners = dim + 1, n_before = m->n_simplices;
     for (size_t k = 0; k < dim; ++k)
-        m->vertices[dim * m->n_vertices + k] = (m->vertices[dim * a + k] + m->vertices[dim * b + k]) / 2;
+        m->vertices[dim * m->n_vertices + k] =
+            (m->vertices[dim * a + k] + m->vertices[dim * b + k]) / 2;
     for (size_t s = 0; s < n_before; ++s) {
         uint32_t *first = m->simplices + n_corners * s;
         size_t at_a = n_corners, at_b = n_corners;
@@ -97,8 +98,8 @@ static test_mesh split_edges(test_mesh m, random_source *r, size_t n)
     for (size_t room_left = 0; n > 0; --n) {
         if (room_left < out.n_simplices) {
             room_left = 4 * out.n_simplices;
-            out.simplices =
-                realloc(out.simplices, (out.n_simplices + room_left) * n_corners * sizeof *out.simplices);
+            out.simplices = realloc(out.simplices, (out.n_simplices + room_left) * n_corners *
+                                                       sizeof *out.simplices);
             ck_assert_ptr_nonnull(out.simplices);
         }
         const size_t before = out.n_simplices, s = (size_t)random_below(r, (int)before);
@@ -187,7 +188,8 @@ static bool add_simplex(const iccp_simplices *m, const catalogue *c, size_t s, u
     for (size_t i = 0; i <= m->dim; ++i)
         opposite |= (unsigned)in_union[number[all ^ 1u << i]] << i;
     bool fits = opposite != 0 && opposite != all;
-    for (unsigned set = 1; set < all; ++set) /* it lies in a shared facet if it lacks a corner opposite to one */
+    for (unsigned set = 1; set < all;
+         ++set) /* it lies in a shared facet if it lacks a corner opposite to one */
         fits = fits && (in_union[number[set]] != 0) == ((opposite & ~set) != 0);
     for (unsigned set = 1; (fits || always) && set <= all; ++set) {
         *euler += in_union[number[set]] != 0 ? 0 : c->size[number[set]] % 2 != 0 ? 1 : -1;
@@ -198,7 +200,8 @@ static bool add_simplex(const iccp_simplices *m, const catalogue *c, size_t s, u
 
 /* In 3-D, whether the facets with one simplex in the union form a sphere: each edge has two of them and the
  * Euler characteristic is 2. (Vertices where the sphere touches itself have been seen by the above.) */
-static void check_sphere(const iccp_simplices *m, const catalogue *c, const uint32_t *rank, uint32_t limit)
+static void check_sphere(const iccp_simplices *m, const catalogue *c, const uint32_t *rank,
+                         uint32_t limit)
 {
     uint8_t *count = room(c->n_faces, 1);
     int64_t euler = 0;
@@ -221,7 +224,8 @@ static void check_sphere(const iccp_simplices *m, const catalogue *c, const uint
 }
 
 /* A complete order satisfies the definition. */
-static void check_order(const iccp_simplices *m, const catalogue *c, uint32_t centre, const uint32_t *rank)
+static void check_order(const iccp_simplices *m, const catalogue *c, uint32_t centre,
+                        const uint32_t *rank)
 {
     uint32_t *at = room(m->n_simplices, sizeof *at);
     uint8_t *in_union = room(c->n_faces, 1);
@@ -312,7 +316,8 @@ static const catalogue *faces_of(problem *p)
 
 static uint32_t random_centre(const problem *p, random_source *r)
 {
-    return (uint32_t)p->mesh->n_rim + (uint32_t)random_below(r, (int)(p->mesh->n_points - p->mesh->n_rim));
+    return (uint32_t)p->mesh->n_rim +
+           (uint32_t)random_below(r, (int)(p->mesh->n_points - p->mesh->n_rim));
 }
 
 /* Steps from the star across facets, and what flows down that: not without sources. */
@@ -340,9 +345,9 @@ static void wish_near(problem *p, uint32_t centre)
         }
     ck_assert_uint_eq(n, m->n_simplices);
     for (size_t side = 0; side < n_sides * m->n_simplices; ++side)
-        p->flux[side] = m->across[side] >= ICCP_RIM
-                            ? -1
-                            : p->potential[side / n_sides] - p->potential[m->across[side] / n_sides];
+        p->flux[side] = m->across[side] >= ICCP_RIM ? -1
+                                                    : p->potential[side / n_sides] -
+                                                          p->potential[m->across[side] / n_sides];
     free(queue);
 }
 
@@ -359,8 +364,8 @@ static void wish_flux(problem *p, uint32_t centre)
 {
     const iccp_env env = plain_env();
     ck_assert_int_eq(iccp_inflow(p->mesh, centre, 0.5, p->inflow, &env), ICC_OK);
-    ck_assert_int_eq(
-        iccp_reference_flux(p->mesh, centre, p->inflow, p->flux, p->potential, &env), ICC_OK);
+    ck_assert_int_eq(iccp_reference_flux(p->mesh, centre, p->inflow, p->flux, p->potential, &env),
+                     ICC_OK);
 }
 
 /* How many simplices are left; none: the order has been checked. */
@@ -369,7 +374,8 @@ static size_t left_by(problem *p, uint32_t centre, double beta, bool peel)
     const iccp_order_wish wish = {p->mesh, &p->faces, centre, p->flux, p->potential, beta, NULL};
     const iccp_env env = plain_env();
     size_t n_left = 0, n_without = 0;
-    ck_assert_int_eq((peel ? iccp_order_peel : iccp_order_grow)(&wish, p->rank, &n_left, &env), ICC_OK);
+    ck_assert_int_eq((peel ? iccp_order_peel : iccp_order_grow)(&wish, p->rank, &n_left, &env),
+                     ICC_OK);
     for (size_t s = 0; s < p->mesh->n_simplices; ++s)
         n_without += p->rank[s] == NONE;
     ck_assert_uint_eq(n_left, n_without);
@@ -386,14 +392,16 @@ START_TEST(faces_are_numbered_by_their_vertices)
     for (int32_t dim = 2; dim <= ICC_MAX_DIM; ++dim) {
         problem p = begin(split_edges(cube(dim, dim < 5 ? 3 : 2), &r, 10));
         const catalogue *c = faces_of(&p);
-        uint32_t *other = room(c->n_faces, sizeof *other), *back = room(p.faces.n_faces, sizeof *back);
+        uint32_t *other = room(c->n_faces, sizeof *other),
+                 *back = room(p.faces.n_faces, sizeof *back);
         const unsigned n_sets = 2u << dim;
         size_t n_faces = 0;
         for (size_t s = 0; s < p.mesh->n_simplices; ++s)
             for (unsigned set = 1; set < n_sets; ++set) {
                 if (iccp_set_size(set) >= (size_t)dim)
                     continue;
-                const uint32_t mine = iccp_face(&p.faces, s, set), its = c->number[n_sets * s + set];
+                const uint32_t mine = iccp_face(&p.faces, s, set),
+                               its = c->number[n_sets * s + set];
                 must(mine < p.faces.n_faces);
                 n_faces += other[its] == 0;
                 must(other[its] == 0 || other[its] == mine + 1);
@@ -485,18 +493,30 @@ END_TEST
 static problem mesh_by_number(int number, random_source *r)
 {
     switch (number) {
-    case 0: return begin(mesh_cube(3, 5, 0.1, r));
-    case 1: return begin(mesh_ball(3, 6, 0.1, r));
-    case 2: return begin(mesh_cells(3, 6, has_no_well));
-    case 3: return begin(split_edges(mesh_cells(3, 5, has_no_well), r, 400));
-    case 4: return begin(split_edges(mesh_ball(3, 4, 0.1, r), r, 300));
-    case 5: return begin(split_edges(cube(3, 2), r, 300));
-    case 6: return begin(split_edges(cube(3, 1), r, 200));
-    case 7: return begin(split_edges(mesh_cells(3, 4, is_snake), r, 300));
-    case 8: return begin(mesh_cube(4, 3, 0.05, r));
-    case 9: return begin(split_edges(cube(4, 1), r, 60));
-    case 10: return begin(split_edges(mesh_cells(4, 4, has_no_well), r, 20));
-    default: return begin(split_edges(cube(2, 9), r, 300));
+    case 0:
+        return begin(mesh_cube(3, 5, 0.1, r));
+    case 1:
+        return begin(mesh_ball(3, 6, 0.1, r));
+    case 2:
+        return begin(mesh_cells(3, 6, has_no_well));
+    case 3:
+        return begin(split_edges(mesh_cells(3, 5, has_no_well), r, 400));
+    case 4:
+        return begin(split_edges(mesh_ball(3, 4, 0.1, r), r, 300));
+    case 5:
+        return begin(split_edges(cube(3, 2), r, 300));
+    case 6:
+        return begin(split_edges(cube(3, 1), r, 200));
+    case 7:
+        return begin(split_edges(mesh_cells(3, 4, is_snake), r, 300));
+    case 8:
+        return begin(mesh_cube(4, 3, 0.05, r));
+    case 9:
+        return begin(split_edges(cube(4, 1), r, 60));
+    case 10:
+        return begin(split_edges(mesh_cells(4, 4, has_no_well), r, 20));
+    default:
+        return begin(split_edges(cube(2, 9), r, 300));
     }
 }
 
@@ -523,7 +543,8 @@ START_TEST(one_of_two_is_complete_for_any_maximum)
 END_TEST
 
 /* The contest gives what it says, and nothing that a single order with its greedy flux has is better. */
-static void check_contest(problem *p, uint32_t centre, const iccp_contest_info *info, const double *flux)
+static void check_contest(problem *p, uint32_t centre, const iccp_contest_info *info,
+                          const double *flux)
 {
     const iccp_env env = plain_env();
     const size_t n_sides = p->mesh->dim + 1;
@@ -543,8 +564,8 @@ static void check_contest(problem *p, uint32_t centre, const iccp_contest_info *
     ck_assert_uint_eq(info->n_reversed, n_reversed);
     ck_assert_uint_gt(info->n_finished, 0);
     ck_assert_uint_le(info->n_finished, info->n_orders);
-    ck_assert_int_eq(
-        iccp_circulation_create(&c, p->mesh, centre, p->inflow, p->flux, &env), ICC_OK);
+    ck_assert_int_eq(iccp_circulation_create(&c, p->mesh, centre, p->inflow, p->flux, &env),
+                     ICC_OK);
     ck_assert_double_eq(iccp_circulation_energy(&c, flux), info->energy);
     ck_assert_double_eq(iccp_circulation_divergence(&c, flux), info->divergence);
     ck_assert_double_lt(info->divergence, 1e-12);
@@ -558,6 +579,27 @@ static void check_contest(problem *p, uint32_t centre, const iccp_contest_info *
     free(greedy);
     iccp_circulation_free(&c);
 }
+
+/* Meshes of real surfaces, where there are any. */
+START_TEST(real_meshes)
+{
+    static const char *const NAMES[] = {"t08_fox", "t06_spikes_sphere"};
+    random_source r = {11};
+    for (int number = 0; number < 2; ++number) {
+        test_mesh mesh;
+        if (!mesh_of_data(&mesh, NAMES[number], "src", "test_order"))
+            continue;
+        problem p = begin(mesh);
+        for (int trial = 0; trial < 6; ++trial) {
+            const uint32_t centre = random_centre(&p, &r);
+            wish_flux(&p, centre);
+            const bool grown = left_by(&p, centre, 32, false) == 0;
+            ck_assert(left_by(&p, centre, 32, true) == 0 || grown);
+        }
+        end(&p);
+    }
+}
+END_TEST
 
 static void backwards(void *user, size_t n_tasks, icc_task task, void *argument)
 {
@@ -613,8 +655,8 @@ START_TEST(houses_end_in_an_order_or_an_error)
         icc_error err = {.size = sizeof err};
         iccp_contest_info info;
         wish_flux(&p, centre);
-        const icc_status status = iccp_contest(p.mesh, centre, p.inflow, p.flux, p.potential, p.rank,
-                                               flux, &info, &env, &err);
+        const icc_status status = iccp_contest(p.mesh, centre, p.inflow, p.flux, p.potential,
+                                               p.rank, flux, &info, &env, &err);
         ck_assert(status == ICC_OK || status == ICC_ERR_TOPOLOGY);
         if (status == ICC_OK) {
             check_contest(&p, centre, &info, flux);
@@ -633,11 +675,13 @@ START_TEST(star_is_complete_at_once)
 {
     for (int32_t dim = 2; dim <= ICC_MAX_DIM; ++dim) {
         test_mesh mesh = split_edges(cube(dim, 1), &(random_source){6}, 0);
-        mesh.vertices = realloc(mesh.vertices, (mesh.n_vertices + 1) * (size_t)dim * sizeof *mesh.vertices);
-        mesh.simplices =
-            realloc(mesh.simplices, 2 * mesh.n_simplices * (size_t)(dim + 1) * sizeof *mesh.simplices);
+        mesh.vertices =
+            realloc(mesh.vertices, (mesh.n_vertices + 1) * (size_t)dim * sizeof *mesh.vertices);
+        mesh.simplices = realloc(mesh.simplices,
+                                 2 * mesh.n_simplices * (size_t)(dim + 1) * sizeof *mesh.simplices);
         ck_assert(mesh.vertices != NULL && mesh.simplices != NULL);
-        split_edge(&mesh, mesh.simplices[0], mesh.simplices[dim]); /* the long diagonal, which all have */
+        split_edge(&mesh, mesh.simplices[0],
+                   mesh.simplices[dim]); /* the long diagonal, which all have */
         problem p = begin(mesh);
         ck_assert_uint_eq(p.mesh->n_points, p.mesh->n_rim + 1);
         wish_near(&p, (uint32_t)p.mesh->n_rim);
@@ -645,6 +689,15 @@ START_TEST(star_is_complete_at_once)
         ck_assert_uint_eq(left_by(&p, (uint32_t)p.mesh->n_rim, 8, true), 0);
         for (size_t s = 0; s < p.mesh->n_simplices; ++s)
             must(p.rank[s] == 0);
+        double *flux = room(p.mesh->n_simplices * (p.mesh->dim + 1), sizeof *flux);
+        const iccp_env env = plain_env();
+        iccp_contest_info info;
+        wish_flux(&p, (uint32_t)p.mesh->n_rim);
+        ck_assert_int_eq(iccp_contest(p.mesh, (uint32_t)p.mesh->n_rim, p.inflow, p.flux,
+                                      p.potential, p.rank, flux, &info, &env, NULL),
+                         ICC_OK);
+        check_contest(&p, (uint32_t)p.mesh->n_rim, &info, flux);
+        free(flux);
         end(&p);
     }
 }
@@ -658,8 +711,8 @@ static icc_status call_contest(const icc_env *given, icc_error *err, void *argum
     static double flux[4 * 6 * 27];
     ck_assert_int_eq(iccp_env_read(&env, given, NULL), ICC_OK);
     ck_assert_uint_eq(p->mesh->n_simplices, 6 * 27);
-    return iccp_contest(p->mesh, (uint32_t)p->mesh->n_rim, p->inflow, p->flux, p->potential, p->rank,
-                        flux, &info, &env, err);
+    return iccp_contest(p->mesh, (uint32_t)p->mesh->n_rim, p->inflow, p->flux, p->potential,
+                        p->rank, flux, &info, &env, err);
 }
 
 static icc_status call_order(const icc_env *given, icc_error *err, void *argument)
@@ -670,7 +723,8 @@ static icc_status call_order(const icc_env *given, icc_error *err, void *argumen
     size_t n_left;
     ck_assert_int_eq(iccp_env_read(&env, given, NULL), ICC_OK);
     icc_status status = iccp_faces_create(&faces, p->mesh, &env);
-    const iccp_order_wish wish = {p->mesh, &faces, (uint32_t)p->mesh->n_rim, p->flux, p->potential, 2, NULL};
+    const iccp_order_wish wish = {p->mesh, &faces, (uint32_t)p->mesh->n_rim, p->flux, p->potential,
+                                  2,       NULL};
     if (status == ICC_OK)
         status = iccp_order_grow(&wish, p->rank, &n_left, &env);
     if (status == ICC_OK)
@@ -702,6 +756,7 @@ int main(void)
     tcase_add_test(tests, nothing_is_left_in_the_plane);
     tcase_add_test(tests, complete_orders_are_shellings);
     tcase_add_test(tests, one_of_two_is_complete_for_any_maximum);
+    tcase_add_test(tests, real_meshes);
     tcase_add_test(tests, contests_are_won_by_the_best);
     tcase_add_test(tests, houses_end_in_an_order_or_an_error);
     tcase_add_test(tests, star_is_complete_at_once);
