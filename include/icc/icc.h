@@ -526,9 +526,11 @@ typedef struct icc_map icc_map;
 /** How a map works. */
 enum {
     ICC_MAP_CURVES = 1, /**< point by point through the two charts, as the papers do; any dimension */
-    /** An internal piecewise linear map (2-D): a triangle mesh of the source with an image for every
+    /** An internal piecewise linear map. In 2-D: a triangle mesh of the source with an image for every
      *  vertex, started from the charts, repaired until every triangle is positive, made fair, and
-     *  certified: every triangle exactly positive before and after, both boundaries exactly simple. The
+     *  certified: every triangle exactly positive before and after, both boundaries exactly simple. In 3-D,
+     *  between domains made by icc_domain_create_mesh(): the source's mesh with images that start from the charts,
+     *  repaired and certified likewise, but not made fair; the target's mesh serves its chart only. The
      *  fastest queries. On the boundary it agrees with the cages up to rounding (samples of a side lie
      *  on it to one unit in the last place). */
     ICC_MAP_MESH = 2
@@ -556,7 +558,7 @@ typedef struct icc_map_info {
     int32_t certified;       /**< 1: proved to be one-to-one, exactly; 0: not (gradient) */
     int32_t n_levels;        /**< mesh: refinements */
     size_t n_vertices;       /**< mesh: vertices */
-    size_t n_triangles;      /**< mesh: triangles */
+    size_t n_triangles;      /**< mesh: triangles; in 3-D tetrahedra, also in what follows */
     size_t n_inverted;       /**< mesh: triangles that were not positive before the repair */
     size_t n_unrepaired;     /**< triangles that the repair could not make positive; the map is then of
                                   kind curves */
@@ -631,7 +633,7 @@ typedef struct icc_improve_report {
  * to stop, the call succeeds with what it has and says so in the report.
  *
  * @param[out] out    the map; owned by the caller
- * @param map         a map of kind mesh, else ::ICC_ERR_UNSUPPORTED
+ * @param map         a map of kind mesh in 2-D, else ::ICC_ERR_UNSUPPORTED
  * @param options     may be NULL
  * @param[out] report may be NULL; its `size` is set by the caller
  * @param env         may be NULL
@@ -647,7 +649,7 @@ ICC_API icc_status icc_map_improve(icc_map **out, const icc_map *map,
  * from the one before; the mesh is not refined further.
  *
  * @param[out] out   the map; owned by the caller. It has no charts: icc_map_source_chart() gives NULL.
- * @param map        a map of kind mesh, else ::ICC_ERR_UNSUPPORTED
+ * @param map        a map of kind mesh in 2-D, else ::ICC_ERR_UNSUPPORTED
  * @param target     the new target, which must correspond as icc_map_create() asks
  * @param iterations steps of improvement at most; 0: 8; -1: none
  * @param env        may be NULL
@@ -662,9 +664,10 @@ ICC_API icc_status icc_map_follow(icc_map **out, const icc_map *map, const icc_d
  * the numbers inside).
  *
  * @param map            the map
- * @param[out] vertices  room for icc_map_info::n_vertices * 2 doubles, or NULL
+ * @param[out] vertices  room for icc_map_info::n_vertices * dim doubles, or NULL
  * @param[out] images    the same, or NULL
- * @param[out] triangles room for icc_map_info::n_triangles * 3 indices, counter-clockwise, or NULL
+ * @param[out] triangles room for icc_map_info::n_triangles * (dim + 1) indices, or NULL. Triangles are
+ *                       counter-clockwise, tetrahedra have positive determinants.
  * @return ::ICC_OK, ::ICC_ERR_ARGUMENT, ::ICC_ERR_UNSUPPORTED (not of kind mesh)
  */
 ICC_API icc_status icc_map_mesh(const icc_map *map, double *vertices, double *images,

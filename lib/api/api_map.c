@@ -167,10 +167,25 @@ icc_status icc_map_follow(icc_map **out, const icc_map *map, const icc_domain *t
                             : status;
 }
 
+static void hand_out_solid(const icc_map *map, double *vertices, double *images, uint32_t *corners)
+{
+    const iccp_simplices *mesh = map->solid->mesh;
+    for (size_t v = 0; vertices != NULL && v < mesh->n_points; ++v)
+        iccp_frame_out(&map->source_domain->frame, 3, mesh->points + 3 * v, vertices + 3 * v);
+    for (size_t v = 0; images != NULL && v < mesh->n_points; ++v)
+        iccp_frame_out(&map->target_domain->frame, 3, map->solid->images + 3 * v, images + 3 * v);
+    if (corners != NULL)
+        memcpy(corners, mesh->corners, 4 * mesh->n_simplices * sizeof *corners);
+}
+
 icc_status icc_map_mesh(const icc_map *map, double *vertices, double *images, uint32_t *triangles)
 {
     if (map == NULL)
         return ICC_ERR_ARGUMENT;
+    if (map->solid != NULL) {
+        hand_out_solid(map, vertices, images, triangles);
+        return ICC_OK;
+    }
     if (map->mesh == NULL)
         return ICC_ERR_UNSUPPORTED;
     const iccp_plmap *pl = &map->mesh->pl;

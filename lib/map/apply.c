@@ -20,17 +20,26 @@ typedef struct map_loop {
     atomic_size_t n_failed;
 } map_loop;
 
+static icc_status inner_point(const icc_map *map, bool inverse, const double *local, double *image,
+                              double *jacobian)
+{
+    return map->solid != NULL ? iccp_solid_map_point(map->solid, inverse, local, image, jacobian)
+                              : iccp_mesh_map_point(map->mesh, inverse, local, image, jacobian);
+}
+
 /* Through the mesh; on the boundary straight to the corresponding point of the other cage. */
 static icc_status mesh_point(const icc_map *map, bool inverse, const double *point, double *image,
                              double *jacobian)
 {
     const icc_domain *from = inverse ? map->target_domain : map->source_domain;
     const icc_domain *to = inverse ? map->source_domain : map->target_domain;
-    double local[2], local_image[2], bary[2];
+    const int32_t dim = from->dim;
+    double local[3], local_image[3], bary[3];
     uint32_t facet;
-    if (!isfinite(point[0]) || !isfinite(point[1]))
-        return ICC_ERR_ARGUMENT;
-    iccp_frame_in(&from->frame, 2, point, local);
+    for (int32_t k = 0; k < dim; ++k)
+        if (!isfinite(point[k]))
+            return ICC_ERR_ARGUMENT;
+    iccp_frame_in(&from->frame, dim, point, local);
     const int32_t where = iccp_domain_locate(from, local, true, &facet, bary);
     if (where == ICC_OUTSIDE)
         return ICC_ERR_OUTSIDE;
@@ -39,13 +48,12 @@ static icc_status mesh_point(const icc_map *map, bool inverse, const double *poi
             return ICC_ERR_TRACE;
         iccp_domain_facet_point(to, facet, bary, local_image);
     } else {
-        const icc_status status =
-            iccp_mesh_map_point(map->mesh, inverse, local, local_image, jacobian);
+        const icc_status status = inner_point(map, inverse, local, local_image, jacobian);
         if (status != ICC_OK)
             return status;
     }
-    iccp_frame_out(&to->frame, 2, local_image, image);
-    for (int k = 0; jacobian != NULL && k < 4; ++k)
+    iccp_frame_out(&to->frame, dim, local_image, image);
+    for (int32_t k = 0; jacobian != NULL && k < dim * dim; ++k)
         jacobian[k] *= (from->frame.in[0] * to->frame.out[0]) *
                        (from->frame.in[1] * to->frame.out[1]);
     return ICC_OK;
@@ -67,7 +75,7 @@ static icc_status map_point(map_loop *loop, size_t i, iccp_path *path)
     double own[ICC_MAX_DIM];
     double *image = loop->images != NULL ? loop->images + dim * i : own;
     double *jacobian = loop->jacobians != NULL ? loop->jacobians + dim * dim * i : NULL;
-    const icc_status status = map->mesh != NULL
+    const icc_status status = map->info.kind == ICC_MAP_MESH
                                   ? mesh_point(map, loop->inverse, point, image, jacobian)
                                   : iccp_curves_point(from, to, point, image, jacobian, path);
     if (status != ICC_OK) {

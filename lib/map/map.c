@@ -44,6 +44,12 @@ static icc_status check_correspondence(const icc_domain *source, const icc_domai
     return status == ICC_OK ? ICC_OK : iccp_fail_side(err, status, 2);
 }
 
+/* Foliations on meshes in space. */
+static bool is_solid(const icc_chart *chart)
+{
+    return chart->info.method == ICC_METHOD_FOLIATION && chart->domain->dim == 3;
+}
+
 /* Kind 0 is the best that the charts allow. */
 static icc_status choose_kind(int32_t *kind, const icc_chart *source, const icc_chart *target,
                               icc_error *err)
@@ -52,7 +58,7 @@ static icc_status choose_kind(int32_t *kind, const icc_chart *source, const icc_
         return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1,
                          "the charts use different methods (%ld and %ld)",
                          (long)source->info.method, (long)target->info.method);
-    const bool has_mesh = source->mesh != NULL;
+    const bool has_mesh = source->mesh != NULL || is_solid(source);
     if (*kind == 0)
         *kind = has_mesh ? ICC_MAP_MESH : ICC_MAP_CURVES;
     if (*kind == ICC_MAP_CURVES || (*kind == ICC_MAP_MESH && has_mesh))
@@ -86,13 +92,16 @@ static void add_charts(icc_map *map, const icc_chart *source, const icc_chart *t
 
 static icc_status add_mesh(icc_map *map, int32_t iterations, const iccp_env *env, icc_error *err)
 {
-    const icc_status status = iccp_mesh_map_create(&map->mesh, map->source, map->target,
-                                                   iterations, &map->info, env, err);
-    if (map->mesh != NULL)
+    const icc_status status =
+        is_solid(map->source)
+            ? iccp_solid_map_create(&map->solid, map->source, map->target, &map->info, env)
+            : iccp_mesh_map_create(&map->mesh, map->source, map->target, iterations, &map->info, env,
+                                   err);
+    if (map->mesh != NULL || map->solid != NULL)
         map->info.kind = ICC_MAP_MESH;
     else if (status == ICC_OK)
-        iccp_log(env, "%zu triangles could not be repaired: the map is of kind curves",
-                 map->info.n_unrepaired);
+        iccp_log(env, "%zu %s could not be repaired: the map is of kind curves",
+                 map->info.n_unrepaired, map->info.dim == 2 ? "triangles" : "tetrahedra");
     return status;
 }
 
@@ -135,6 +144,12 @@ static icc_status create_with(icc_map **out, const icc_domain *const domains[2],
     return status;
 }
 
+/* Whether kind mesh can work on the caller's meshes. */
+static bool are_filled(const icc_domain *const domains[2])
+{
+    return domains[0]->dim == 3 && domains[0]->mesh != NULL && domains[1]->mesh != NULL;
+}
+
 /* The method that suits the kind, where the caller leaves it open: discs are the better start for a
  * mesh, unless a maximum is given, which they do not have. Domains with meshes of the caller's are mapped along
  * curves unless he says otherwise. */
@@ -163,10 +178,11 @@ icc_status iccp_map_create(icc_map **out, const icc_domain *source, const icc_do
     const icc_domain *const domains[2] = {source, target};
     icc_chart_options full[2] = {chart_options[0], chart_options[1]};
     icc_status status = check_correspondence(source, target, err);
-    if (status == ICC_OK && options->kind == ICC_MAP_MESH && source->dim != 2)
+    if (status == ICC_OK && options->kind == ICC_MAP_MESH && source->dim != 2 && !are_filled(domains))
         status = iccp_fail(err, ICC_ERR_UNSUPPORTED, -1,
-                           "map kind mesh is not available for domains of dimension %ld",
-                           (long)source->dim);
+                           "map kind mesh is not available for domains of dimension %ld%s",
+                           (long)source->dim,
+                           source->dim == 3 ? " without meshes (icc_domain_create_mesh)" : "");
     if (status != ICC_OK)
         return status;
     complete(full, domains, options->kind);
@@ -200,7 +216,8 @@ icc_status iccp_map_improve(icc_map **out, const icc_map *map, const icc_improve
     const double start = iccp_seconds();
     icc_map *better = NULL;
     if (map->mesh == NULL)
-        return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1, "only maps of kind mesh can be improved");
+        return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1,
+                         "only maps of kind mesh in the plane can be improved");
     icc_status status = new_map(&better, map->source_domain, map->target_domain, env);
     if (status == ICC_OK && map->source != NULL)
         add_charts(better, map->source, map->target);
@@ -227,7 +244,8 @@ icc_status iccp_map_follow(icc_map **out, const icc_map *map, const icc_domain *
     const double start = iccp_seconds();
     icc_map *next = NULL;
     if (map->mesh == NULL)
-        return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1, "only maps of kind mesh can be followed");
+        return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1,
+                         "only maps of kind mesh in the plane can be followed");
     icc_status status = check_correspondence(map->source_domain, target, err);
     if (status == ICC_OK)
         status = new_map(&next, map->source_domain, target, env);
@@ -254,6 +272,7 @@ void iccp_map_release(icc_map *map)
     if (map == NULL)
         return;
     iccp_mesh_map_free(map->mesh, &map->memory);
+    iccp_solid_map_free(map->solid);
     iccp_chart_release(map->source);
     iccp_chart_release(map->target);
     iccp_domain_release(map->source_domain);

@@ -3,12 +3,14 @@
 #define ICCP_MAP_H
 
 #include "map/mesh_map.h"
+#include "map/solid_map.h"
 
 struct icc_map {
     iccp_memory memory;
     icc_domain *source_domain, *target_domain;
     icc_chart *source, *target; /* both NULL for maps that follow another */
-    iccp_mesh_map *mesh;        /* NULL for kind curves */
+    iccp_mesh_map *mesh;        /* kind mesh in the plane, or NULL */
+    iccp_solid_map *solid;      /* kind mesh in space, or NULL */
     icc_map_info info;
 };
 

@@ -1,0 +1,275 @@
+/* A map that is linear in every simplex of a mesh is a homeomorphism when it keeps all orientations and its
+ * restriction to the boundary is one onto the target's: Y. Lipman, Bijective Mappings of Meshes with Boundary and
+ * the Degree in Mesh Processing, SIAM J. Imaging Sci. 7, 2014. */
+#include "map/solid_map.h"
+
+#include "base/clock.h"
+#include "base/threads.h"
+#include "map/curves.h"
+#include "map/mesh_repair.h"
+#include "map/solid_chords.h"
+#include "map/tet_distortion.h"
+#include "math/orient.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Vertices per task. */
+enum { GRAIN = 64 };
+
+/* Coordinates of images that are closer to 0 than this share of the largest one become 0, so that there is room
+ * for exact signs. */
+static const double NEXT_TO_NOTHING = 1e-45;
+
+/* How far outside its tetrahedron, in barycentric coordinates, a point may seem to be by rounding. */
+static const double ROUNDING = 1e-9;
+
+typedef struct start {
+    const icc_chart *source, *target;
+    const iccp_simplices *mesh;
+    const iccp_memory *memory;
+    double *images;
+} start;
+
+/* NaN for a vertex without an image: the repair finds one. */
+static icc_status find_images(void *argument, size_t begin, size_t end)
+{
+    const start *s = argument;
+    const iccp_frame *from = &s->source->domain->frame, *to = &s->target->domain->frame;
+    icc_status status = ICC_OK;
+    iccp_path path;
+    iccp_path_init(&path, s->memory);
+    for (size_t i = begin; i < end && status != ICC_ERR_MEMORY; ++i) {
+        const size_t v = s->mesh->n_rim + i;
+        double point[3], image[3];
+        iccp_frame_out(from, 3, s->mesh->points + 3 * v, point);
+        status = iccp_curves_point(s->source, s->target, point, image, NULL, &path);
+        iccp_frame_in(to, 3, image, s->images + 3 * v);
+    }
+    iccp_path_clear(&path);
+    return status == ICC_ERR_MEMORY ? status : ICC_OK;
+}
+
+static bool is_positive(const iccp_simplices *mesh, const double *points, size_t t)
+{
+    const double *corner[4];
+    for (size_t k = 0; k < 4; ++k)
+        corner[k] = points + 3 * mesh->corners[4 * t + k];
+    return iccp_orient(3, corner) > 0;
+}
+
+/* Whatever is not finite counts, too. */
+static size_t count_inverted(const iccp_simplices *mesh, const double *images)
+{
+    size_t n = 0;
+    for (size_t t = 0; t < mesh->n_simplices; ++t) {
+        bool finite = true;
+        for (size_t k = 0; k < 12; ++k)
+            finite = finite && isfinite(images[3 * mesh->corners[4 * t + k / 3] + k % 3]);
+        n += !finite || !is_positive(mesh, images, t);
+    }
+    return n;
+}
+
+/* The mean of |J|^2 + |J^-1|^2, the target scaled to the source's volume: 6 for an isometry. */
+static double mean_energy(const iccp_simplices *mesh, const double *images, double ratio)
+{
+    const double scale = pow(ratio, -1.0 / 3);
+    double energy = 0, volume = 0;
+    for (size_t t = 0; t < mesh->n_simplices; ++t) {
+        const double *corner[4], *image[4];
+        double j[9], squares = 0, cofactors = 0;
+        iccp_tet tet;
+        for (size_t k = 0; k < 4; ++k) {
+            corner[k] = iccp_corner_point(mesh, 4 * t + k);
+            image[k] = images + 3 * mesh->corners[4 * t + k];
+        }
+        iccp_tet_create(&tet, corner);
+        const double det = iccp_tet_jacobian(&tet, image, j) * scale * scale * scale;
+        for (size_t r = 0; r < 3; ++r)
+            for (size_t c = 0; c < 3; ++c) {
+                const size_t r1 = (r + 1) % 3, r2 = (r + 2) % 3, c1 = (c + 1) % 3, c2 = (c + 2) % 3;
+                const double cofactor =
+                    j[3 * r1 + c1] * j[3 * r2 + c2] - j[3 * r1 + c2] * j[3 * r2 + c1];
+                squares += j[3 * r + c] * j[3 * r + c];
+                cofactors += cofactor * cofactor;
+            }
+        squares *= scale * scale;
+        cofactors *= scale * scale * scale * scale;
+        energy += tet.volume * (squares + cofactors / (det * det));
+        volume += tet.volume;
+    }
+    return energy / volume;
+}
+
+static icc_status begin(iccp_solid_map *map, const icc_chart *source, const icc_chart *target,
+                        const iccp_env *env)
+{
+    const iccp_simplices *mesh = map->mesh;
+    start s = {source, target, mesh, &env->memory, NULL};
+    map->images = iccp_alloc(&env->memory, mesh->n_points, 3 * sizeof *map->images);
+    if (map->images == NULL)
+        return ICC_ERR_MEMORY;
+    s.images = map->images;
+    memcpy(map->images, target->domain->vertices, 3 * mesh->n_rim * sizeof *map->images);
+    return iccp_for_chunks(env, "images", mesh->n_points - mesh->n_rim, GRAIN, find_images, &s);
+}
+
+static icc_status repair(iccp_solid_map *map, icc_map_info *info, const iccp_env *env)
+{
+    const iccp_simplices *mesh = map->mesh;
+    const double began = iccp_seconds();
+    info->n_inverted = count_inverted(mesh, map->images);
+    if (info->n_inverted > 0) {
+        const icc_status status = iccp_mesh_repair(mesh, map->images, env);
+        if (status != ICC_OK)
+            return status;
+    }
+    for (size_t i = 3 * mesh->n_rim; i < 3 * mesh->n_points; ++i)
+        if (fabs(map->images[i]) < NEXT_TO_NOTHING)
+            map->images[i] = 0;
+    const double repaired = iccp_seconds();
+    info->n_unrepaired = count_inverted(mesh, map->images);
+    info->seconds_certify += iccp_seconds() - repaired;
+    info->seconds_repair += repaired - began;
+    return ICC_OK;
+}
+
+static icc_status plant(iccp_solid_map *map, const iccp_env *env)
+{
+    const iccp_simplices *mesh = map->mesh;
+    iccp_facet_tree_create_solid(&map->before, 3, mesh->points, mesh->n_simplices, mesh->corners,
+                                 &env->memory);
+    iccp_facet_tree_create_solid(&map->after, 3, map->images, mesh->n_simplices, mesh->corners,
+                                 &env->memory);
+    return map->before.boxes != NULL && map->after.boxes != NULL ? ICC_OK : ICC_ERR_MEMORY;
+}
+
+static icc_status try_mesh(iccp_solid_map *map, const icc_chart *source, const icc_chart *target,
+                           icc_map_info *info, const iccp_env *env)
+{
+    const icc_status status = begin(map, source, target, env);
+    return status == ICC_OK ? repair(map, info, env) : status;
+}
+
+/* Once more from the charts' images, with points where boundary vertices alone could not be helped. */
+static icc_status try_without_chords(iccp_solid_map *map, const icc_chart *source,
+                                     const icc_chart *target, icc_map_info *info,
+                                     const iccp_env *env)
+{
+    const icc_status status = iccp_solid_cut_chords(&map->own, source->domain, env);
+    if (status != ICC_OK || map->own == NULL)
+        return status;
+    iccp_log(env, "%zu tetrahedra could not be repaired: trying again without chords", info->n_unrepaired);
+    map->mesh = map->own;
+    iccp_free(&env->memory, map->images);
+    return try_mesh(map, source, target, info, env);
+}
+
+icc_status iccp_solid_map_create(iccp_solid_map **out, const icc_chart *source,
+                                 const icc_chart *target, icc_map_info *info, const iccp_env *env)
+{
+    iccp_solid_map *map = iccp_alloc_zero(&env->memory, 1, sizeof *map);
+    *out = NULL;
+    if (map == NULL)
+        return ICC_ERR_MEMORY;
+    map->memory = env->memory;
+    map->mesh = source->domain->mesh;
+    icc_status status = try_mesh(map, source, target, info, env);
+    if (status == ICC_OK && info->n_unrepaired > 0)
+        status = try_without_chords(map, source, target, info, env);
+    if (status == ICC_OK && info->n_unrepaired == 0)
+        status = plant(map, env);
+    if (status != ICC_OK || info->n_unrepaired > 0) {
+        iccp_solid_map_free(map);
+        return status;
+    }
+    info->n_vertices = map->mesh->n_points;
+    info->n_triangles = map->mesh->n_simplices;
+    info->energy = info->energy_start =
+        mean_energy(map->mesh, map->images,
+                    fabs(target->domain->measure) / fabs(source->domain->measure));
+    *out = map;
+    return ICC_OK;
+}
+
+void iccp_solid_map_free(iccp_solid_map *map)
+{
+    if (map == NULL)
+        return;
+    const iccp_memory memory = map->memory;
+    iccp_facet_tree_free(&map->before, &memory);
+    iccp_facet_tree_free(&map->after, &memory);
+    iccp_simplices_free(map->own);
+    iccp_free(&memory, map->images);
+    iccp_free(&memory, map);
+}
+
+/* The corners of a simplex before or after. */
+static void set_corners(const iccp_solid_map *map, bool after, uint32_t t, const double *corner[4])
+{
+    const double *points = after ? map->images : map->mesh->points;
+    for (size_t k = 0; k < 4; ++k)
+        corner[k] = points + 3 * map->mesh->corners[4 * (size_t)t + k];
+}
+
+static double barycentric(const double *const corner[4], const double *point, double *bary)
+{
+    double least = HUGE_VAL, sum = 0;
+    for (size_t k = 0; k < 4; ++k) {
+        const double *with[4] = {corner[0], corner[1], corner[2], corner[3]};
+        with[k] = point;
+        bary[k] = iccp_orient_value(3, with);
+        sum += bary[k];
+    }
+    for (size_t k = 0; k < 4; ++k) {
+        bary[k] /= sum;
+        least = bary[k] < least ? bary[k] : least;
+    }
+    return least;
+}
+
+/* The simplex that holds a point, or the one that it is least outside of by rounding. */
+static bool find(const iccp_solid_map *map, bool inverse, const double *point, uint32_t *simplex,
+                 double *bary)
+{
+    double box[6] = {point[0], point[1], point[2], point[0], point[1], point[2]};
+    double best = -ROUNDING, tried[4];
+    iccp_facet_query query;
+    uint32_t t;
+    bool found = false;
+    iccp_facet_query_start(&query, inverse ? &map->after : &map->before, box);
+    while (best < 0 && iccp_facet_query_next(&query, &t)) {
+        const double *corner[4];
+        set_corners(map, inverse, t, corner);
+        const double least = barycentric(corner, point, tried);
+        if (!(least > best))
+            continue;
+        found = true;
+        best = least;
+        *simplex = t;
+        memcpy(bary, tried, sizeof tried);
+    }
+    return found;
+}
+
+icc_status iccp_solid_map_point(const iccp_solid_map *map, bool inverse, const double *point,
+                                double *image, double *jacobian)
+{
+    uint32_t simplex;
+    double bary[4];
+    const double *from[4], *to[4];
+    iccp_tet tet;
+    if (!find(map, inverse, point, &simplex, bary))
+        return ICC_ERR_TRACE;
+    set_corners(map, inverse, simplex, from);
+    set_corners(map, !inverse, simplex, to);
+    for (size_t k = 0; k < 3; ++k)
+        image[k] = to[0][k] + (bary[1] * (to[1][k] - to[0][k]) + bary[2] * (to[2][k] - to[0][k]) +
+                               bary[3] * (to[3][k] - to[0][k]));
+    if (jacobian != NULL) {
+        iccp_tet_create(&tet, from);
+        (void)iccp_tet_jacobian(&tet, to, jacobian);
+    }
+    return ICC_OK;
+}
