@@ -211,8 +211,10 @@ static contact plane_contact(const scan *s, const int32_t *cell, const int8_t *a
 static contact contact_with(scan *s, const int32_t *cell, const int8_t *axis)
 {
     const int32_t dim = s->domain->dim;
-    contact least = TOUCHES;
+    contact least = plane_contact(s, cell, axis); /* the cheaper part, which most fail */
     s->faces = s->reached = 0;
+    if (least == APART)
+        return APART;
     for (int32_t i = 0; i <= dim; ++i) {
         double highest = -HUGE_VAL, lowest = HUGE_VAL;
         for (int32_t j = 0; j < dim; ++j) {
@@ -227,8 +229,7 @@ static contact contact_with(scan *s, const int32_t *cell, const int8_t *axis)
         least = highest > CONTACT ? least : GRAZES;
         s->reached |= highest > CONTACT ? (uint32_t)1 << i : 0;
     }
-    const contact plane = plane_contact(s, cell, axis);
-    return plane < least ? plane : least;
+    return least;
 }
 
 /* The corners of a simplex in a cell, and whether one is inside. */

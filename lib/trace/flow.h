@@ -19,6 +19,10 @@ typedef struct iccp_flow {
     size_t most_steps;
 } iccp_flow;
 
+/* Lattice units. How far beyond a facet that it starts on a curve may be without having crossed it: curves that run
+ * along a facet do so for reasons of symmetry, up to rounding. */
+#define ICCP_FLOW_SLACK 1e-15
+
 /* A place in a simplex. */
 typedef struct iccp_flow_place {
     iccp_kuhn_simplex simplex;
@@ -33,11 +37,12 @@ typedef struct iccp_flow_walk {
     iccp_flow_place place;
     double length; /* of the pieces before */
     size_t n_steps;
-    /* The piece is the sum of term[j] s^j for 0 <= s <= end. */
     double corner[ICC_MAX_DIM + 1][ICC_MAX_DIM]; /* the vectors, times the sign */
+    /* The piece's parameter s goes from 0 to `end`. The place moves with the sum of term[j] (s / scale)^j. */
     int32_t n_terms;
-    double term[ICCP_FLOW_TERMS + 1][ICC_MAX_DIM];
-    double speed[ICCP_FLOW_TERMS + 1][ICC_MAX_DIM]; /* the derivative: n_terms - 1 terms */
+    double scale, term[ICCP_FLOW_TERMS][ICC_MAX_DIM];
+    double column[ICC_MAX_DIM][ICC_MAX_DIM]; /* by axis: how the vector changes along it */
+    bool radial; /* straight, in a simplex at the root; then `column` does not count */
     double end, end_length;
     double finish[ICC_MAX_DIM]; /* the place at the end */
     int32_t exit; /* the corner opposite to the facet where the piece ends, or ICCP_FLOW_WITHIN */
@@ -71,8 +76,9 @@ icc_status iccp_flow_next(iccp_flow_walk *walk);
 icc_status iccp_flow_note(const iccp_flow_walk *walk, iccp_path *path);
 icc_status iccp_flow_rewind(iccp_flow_walk *walk, const iccp_path *path, double length);
 
-/* The place within the cell at parameter s of the piece. */
+/* The place within the cell at parameter s of the piece, and the vector there, times the sign. */
 void iccp_flow_at(const iccp_flow_walk *walk, double s, double *at);
+void iccp_flow_velocity(const iccp_flow_walk *walk, double s, double *vector);
 
 /* The length of the piece from 0 to s, in lattice units; the other way round. */
 double iccp_flow_length(const iccp_flow_walk *walk, double s);

@@ -4,32 +4,6 @@
 
 #include <math.h>
 
-/* The place moves with the speed A y. */
-static void linear_part(const iccp_flow_walk *w, double a[ICC_MAX_DIM][ICC_MAX_DIM])
-{
-    const int32_t dim = w->flow->grid->dim;
-    const int8_t *axis = w->place.simplex.axis;
-    for (int32_t i = 0; i < dim; ++i)
-        for (int32_t k = 0; k < dim; ++k) {
-            if (w->n_terms > 2)
-                a[axis[i]][k] = w->corner[i + 1][k] - w->corner[i][k];
-            else
-                a[i][k] = i == k ? -w->sign : 0;
-        }
-}
-
-/* Of n terms, ICC_MAX_DIM numbers each. */
-static void polynomial(const iccp_flow_walk *w, int32_t n, const double *terms, double s,
-                       double *value)
-{
-    const int32_t dim = w->flow->grid->dim;
-    for (int32_t k = 0; k < dim; ++k)
-        value[k] = terms[(n - 1) * ICC_MAX_DIM + k];
-    for (int32_t j = n - 1; j-- > 0;)
-        for (int32_t k = 0; k < dim; ++k)
-            value[k] = value[k] * s + terms[j * ICC_MAX_DIM + k];
-}
-
 static double product(int32_t dim, const double *a, const double *b)
 {
     double sum = 0;
@@ -38,49 +12,75 @@ static double product(int32_t dim, const double *a, const double *b)
     return sum;
 }
 
-/* The derivative of the length: the integral of v . v' / |v|. */
-static double lengthen(const iccp_flow_walk *w, double s, const double *change)
+/* The derivative of the place moves with A y: the terms of that to parameter s, from y on. */
+static int32_t expand(const iccp_flow_walk *w, double s, const double *y,
+                      double change[ICCP_FLOW_TERMS][ICC_MAX_DIM])
 {
-    enum { PARTS = 2, NODES = 7 };
-    static const double node[NODES] = {-0.949107912342758524526, -0.741531185599394439864,
-                                       -0.405845151377397166907, 0,
-                                       0.405845151377397166907,  0.741531185599394439864,
-                                       0.949107912342758524526};
-    static const double weight[NODES] = {0.129484966168869693271, 0.279705391489276667901,
-                                         0.381830050505118944950, 0.417959183673469387755,
-                                         0.381830050505118944950, 0.279705391489276667901,
-                                         0.129484966168869693271};
-    const int32_t dim = w->flow->grid->dim, n = w->n_terms - 1;
-    double sum = 0, v[ICC_MAX_DIM], dv[ICC_MAX_DIM];
-    for (int p = 0; p < PARTS; ++p)
-        for (int i = 0; i < NODES; ++i) {
-            const double at = s * (2 * p + 1 + node[i]) / (2 * PARTS);
-            polynomial(w, n, w->speed[0], at, v);
-            polynomial(w, n, change, at, dv);
-            const double speed = sqrt(product(dim, v, v));
-            sum += speed > 0 ? weight[i] * product(dim, v, dv) / speed : 0;
+    static const double NEGLIGIBLE = 1e-17; /* of y */
+    const int32_t dim = w->flow->grid->dim;
+    const double *power = y;
+    double most = 0;
+    for (int32_t k = 0; k < dim; ++k)
+        most += fabs(y[k]);
+    for (int32_t j = 0; j < ICCP_FLOW_TERMS; ++j) {
+        double size = 0;
+        for (int32_t k = 0; k < dim; ++k) {
+            double sum = w->radial ? -w->sign * power[k] : 0;
+            for (int32_t i = 0; i < dim && !w->radial; ++i)
+                sum += power[i] * w->column[i][k];
+            change[j][k] = j > 0 ? sum * (s / j) : sum;
+            size += fabs(change[j][k]);
         }
-    return sum * s / (2 * PARTS);
+        if (w->radial || size * s <= NEGLIGIBLE * most)
+            return j + 1;
+        power = change[j];
+    }
+    return ICCP_FLOW_TERMS;
+}
+
+/* Gauss and Legendre's nodes on [-1, 1]. */
+enum { NODES = 7 };
+static const double NODE[NODES] = {-0.949107912342758524526, -0.741531185599394439864,
+                                   -0.405845151377397166907, 0,
+                                   0.405845151377397166907,  0.741531185599394439864,
+                                   0.949107912342758524526};
+static const double WEIGHT[NODES] = {0.129484966168869693271, 0.279705391489276667901,
+                                     0.381830050505118944950, 0.417959183673469387755,
+                                     0.381830050505118944950, 0.279705391489276667901,
+                                     0.129484966168869693271};
+
+/* The length changes by the integral of v . v' / |v|: that of s^j v / |v| for all j, to parameter s and in terms of
+ * it. */
+static void directions(const iccp_flow_walk *w, double s, double moment[ICCP_FLOW_TERMS][ICC_MAX_DIM])
+{
+    enum { PARTS = 2 };
+    const int32_t dim = w->flow->grid->dim;
+    for (int32_t j = 0; j < ICCP_FLOW_TERMS; ++j)
+        for (int32_t k = 0; k < dim; ++k)
+            moment[j][k] = 0;
+    for (int i = 0; i < PARTS * NODES; ++i) {
+        const double at = (2 * (i / NODES) + 1 + NODE[i % NODES]) / (2 * PARTS);
+        double v[ICC_MAX_DIM];
+        iccp_flow_velocity(w, s * at, v);
+        double factor = WEIGHT[i % NODES] / (2 * PARTS) / sqrt(product(dim, v, v));
+        for (int32_t j = 0; j < ICCP_FLOW_TERMS; ++j, factor *= at)
+            for (int32_t k = 0; k < dim; ++k)
+                moment[j][k] += factor * v[k];
+    }
 }
 
 void iccp_flow_jet_within(const iccp_flow_walk *walk, double s, iccp_flow_jet *jet)
 {
     const int32_t dim = walk->flow->grid->dim;
-    double a[ICC_MAX_DIM][ICC_MAX_DIM];
-    linear_part(walk, a);
+    double moment[ICCP_FLOW_TERMS][ICC_MAX_DIM], change[ICCP_FLOW_TERMS][ICC_MAX_DIM];
+    directions(walk, s, moment);
     for (int32_t c = 0; c < jet->n; ++c) {
-        double term[ICCP_FLOW_TERMS + 1][ICC_MAX_DIM], change[ICCP_FLOW_TERMS + 1][ICC_MAX_DIM];
-        for (int32_t k = 0; k < dim; ++k)
-            term[0][k] = jet->place[c][k];
-        for (int32_t j = 0; j + 1 < walk->n_terms; ++j)
-            for (int32_t k = 0; k < dim; ++k) {
-                change[j][k] = 0;
-                for (int32_t i = 0; i < dim; ++i)
-                    change[j][k] += term[j][i] * a[i][k];
-                term[j + 1][k] = change[j][k] / (j + 1);
-            }
-        jet->length[c] += lengthen(walk, s, change[0]);
-        polynomial(walk, walk->n_terms, term[0], s, jet->place[c]);
+        const int32_t n = expand(walk, s, jet->place[c], change);
+        for (int32_t j = 0; j < n; ++j) {
+            jet->length[c] += s * product(dim, change[j], moment[j]);
+            for (int32_t k = 0; k < dim; ++k)
+                jet->place[c][k] += change[j][k] * (s / (j + 1));
+        }
     }
 }
 
@@ -89,7 +89,7 @@ void iccp_flow_jet_advance(const iccp_flow_walk *walk, double s, const double *l
 {
     const int32_t dim = walk->flow->grid->dim;
     double v[ICC_MAX_DIM];
-    polynomial(walk, walk->n_terms - 1, walk->speed[0], s, v);
+    iccp_flow_velocity(walk, s, v);
     const double speed = sqrt(product(dim, v, v));
     for (int32_t c = 0; c < jet->n; ++c) {
         for (int32_t k = 0; k < dim; ++k)
@@ -103,7 +103,7 @@ bool iccp_flow_jet_onto(const iccp_flow_walk *walk, double s, const double *norm
 {
     const int32_t dim = walk->flow->grid->dim;
     double v[ICC_MAX_DIM], lengths[ICC_MAX_DIM];
-    polynomial(walk, walk->n_terms - 1, walk->speed[0], s, v);
+    iccp_flow_velocity(walk, s, v);
     const double speed = sqrt(product(dim, v, v)), across = product(dim, v, normal);
     if (!(fabs(across) > 0))
         return false;
