@@ -62,17 +62,18 @@ static tally count(const mesh_file *m, const double *images)
     return t;
 }
 
-/* What the library says of a triangle mesh as a whole, which may have its images repaired; from target
- * to source it has nothing to say. */
+/* What the library says of a mesh as a whole, which may have its images repaired; from target to source it has
+ * nothing to say. */
 static int certify(job *j, const mesh_file *m, double *images, icc_certificate *certificate)
 {
     icc_error err = {.size = sizeof err, .index = -1};
-    if (m->dim != 2 || j->args->inverse || m->n_triangles == 0)
+    size_t n = m->dim == 2 ? m->n_triangles : m->n_tetrahedra;
+    if (j->args->inverse || n == 0)
         return DONE;
     certificate->size = sizeof *certificate;
     icc_status ran = (j->args->repair_mesh ? icc_map_repair : icc_map_certify)(
-        j->map, m->n_vertices, m->points, m->n_triangles, m->triangles, images, certificate,
-        &j->env, &err);
+        j->map, m->n_vertices, m->points, n, m->dim == 2 ? m->triangles : m->tetrahedra, images,
+        certificate, &j->env, &err);
     progress_end(&j->bar);
     return ran == ICC_OK ? DONE : job_failed(j, &err);
 }
@@ -83,7 +84,7 @@ static void print_tally(const job *j, const char *text, const icc_certificate *c
                           : certificate->certified ? "; mesh and image are certified one-to-one"
                           : certificate->boundary_simple ? "; not certified"
                                                          : "; not certified, nor is the boundary "
-                                                           "one simple polygon before and after";
+                                                           "simple before and after";
     if (strcmp(j->args->operands[1], "-") == 0)
         note("%s%s", text, verdict);
     else
@@ -177,8 +178,6 @@ static int check_dimension(job *j)
     int result = job_read_cages(j);
     if (result == DONE && job_dim(j) != 2 && job_dim(j) != 3)
         return failed(j->args->source, 0, "%zu dimensions; meshes have 2 or 3", job_dim(j));
-    if (result == DONE && j->args->repair_mesh && job_dim(j) != 2)
-        return failed(j->args->source, 0, "3 dimensions; --repair needs cages in the plane");
     return result;
 }
 

@@ -54,7 +54,7 @@ static int find_filling(filling *out, job *j, size_t side)
     const char *name = job_file(j, (int)side + 1);
     problem wrong = {0, "tetgen is not installed"};
     if (job_dim(j) == 3 && filling_can_make() && filling_make(out, &j->cages[side], &wrong)) {
-        if (!j->args->quiet)
+        if (j->bar.wanted)
             note("%s: filled with %zu tetrahedra by tetgen", name, out->n);
         return DONE;
     }
@@ -62,7 +62,7 @@ static int find_filling(filling *out, job *j, size_t side)
         return failed(name, 0, "no mesh of its inside: %s; give one with --%smesh",
                       job_dim(j) == 3 ? wrong.text : "there is one of the other cage",
                       side == 0 ? "" : "target-");
-    if (!j->args->quiet)
+    if (j->bar.wanted)
         note("%s: %s; method field on a grid instead of foliation", name, wrong.text);
     return PARTIAL;
 }

@@ -122,7 +122,7 @@ holds out '; not certified'
 printf 'v 0 0\nv 5 0\nv 5 5\nv 0 5\nf 1 2 3\nf 1 2 4\n' >overlap.obj
 run 0 mesh -s source.txt -t target.txt overlap.obj out.obj
 holds out '2 keep their orientation'
-holds out 'not certified, nor is the boundary one simple polygon'
+holds out 'not certified, nor is the boundary simple'
 
 # A mesh that is sampled from a one-to-one map can invert; --repair moves its inner vertices.
 awk -v n=20 'BEGIN { h = 10 / n

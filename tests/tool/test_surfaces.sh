@@ -120,7 +120,7 @@ run 1 map -s source.txt -t moved.obj -p points.txt
 says 'libicc: moved.obj: 3 dimensions, but the source source.txt has 2'
 
 # What needs the plane says so.
-for command in "warp a.png b.png" "map --geojson a b" "plot a.svg" "check --repair a" "mesh --repair a b"; do
+for command in "warp a.png b.png" "map --geojson a b" "plot a.svg" "check --repair a"; do
     # shellcheck disable=SC2086 # options and operands
     run 1 $command -s cube.obj -t moved.obj
     says 'libicc: cube.obj: '
@@ -131,7 +131,7 @@ done
 run 1 check -s cube.obj -m gradient -n 8
 holds err 'the method gradient is not certifiable'
 holds out 'a closed surface that does not meet itself, 8 vertices, 12 faces, facing outward, volume 1'
-"${tool:?}" check -s cube.obj -t moved.obj -n 12 --json >out 2>err
+"${tool:?}" check -s cube.obj -t moved.obj -m field -n 12 --json >out 2>err
 case $? in
 0) holds out '"certified": true' ;;
 1) holds out '"certified": false' && holds err 'not certified' ;;
@@ -139,12 +139,12 @@ case $? in
 esac
 holds out '"valid": true'
 holds out '"infeasible_vertices":'
-run 0 info -s cube.obj -t moved.obj -n 12
+run 0 info -s cube.obj -t moved.obj -m field -n 12
 for word in 'cage        8 vertices, 12 facets, facing outward, volume 1' 'method      field' 'given up' \
     'cousin violations' 'critical vertices in its order' 'order  ' 'vectors  ' 'contacts  ' 'distortion' 'seconds'; do
     holds out "$word"
 done
-run 0 info -s cube.obj -n 12 --json
+run 0 info -s cube.obj -m field -n 12 --json
 holds out '"critical_in_tree_order":'
 holds out '"dimension": 3'
 awk '/^f/ { print $1, $2, $4, $3; next } { print }' cube.obj >inward.obj
@@ -152,7 +152,7 @@ run 0 info -s inward.obj -n 12
 holds out 'facing inward, volume 1'
 
 # The pieces for ParaView: every cell's corners are points, and each part is there.
-run 0 plot -s cube.obj -t moved.obj -n 12 --lines 20 cube.vtk
+run 0 plot -s cube.obj -t moved.obj -m field -n 12 --lines 20 cube.vtk
 awk '$1 == "POINTS" { points = $2 } $1 == "CELLS" { cells = $2; size = $3; at = NR }
      cells && NR > at && NR <= at + cells { used += NF; if (NF != $1 + 1) bad = 1
          for (i = 2; i <= NF; i++) if ($i >= points) bad = 1 }

@@ -87,4 +87,10 @@ sed 's/^5$/10/' in.vtk | rejects '' 'cell 3 has 3 corners, but type 10'
 sed 's/^0 4 8$/0 4 3/' new.vtk | rejects '' 'offset 2 is less than the one before'
 sed '/^CELL_TYPES/,$d' in.vtk | rejects '' 'the file ends early'
 printf '0.5 0.5 0.5\n' | rejects ' ' 'there are no vertices'
+
+# A mesh that the map turns partly inside out is mended.
+if command -v tetgen >/dev/null; then
+    run 0 mesh -s cube.obj -t moved.obj --repair in.mesh mended.mesh
+    holds out '0 inverted'
+fi
 finish
