@@ -189,7 +189,8 @@ static void run_pair(const char *source_path)
     bench_check(icc_domain_get_info(target, &info[1]), NULL);
     icc_map *map;
     const double start = seconds();
-    bench_check(icc_map_create(&map, source, target, NULL, NULL, &err), &err);
+    const icc_map_options options = {.size = sizeof options, .kind = ICC_MAP_CURVES};
+    bench_check(icc_map_create(&map, source, target, &options, NULL, &err), &err);
     f.build = seconds() - start;
     print_chart("source", icc_map_source_chart(map));
     print_chart("target", icc_map_target_chart(map));
