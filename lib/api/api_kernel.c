@@ -1,0 +1,1 @@
+#include "icc/kernel.h"

@@ -1,0 +1,6 @@
+#ifndef ICCP_SPECTRUM_H
+#define ICCP_SPECTRUM_H
+
+#include "kernel/sampling.h"
+
+#endif
