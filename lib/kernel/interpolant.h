@@ -6,6 +6,8 @@
 #include "kernel/gram.h"
 #include "math/ldlt.h"
 
+#include <stdbool.h>
+
 /* The matrix of the nodes, factorised: shared by all weights on the same nodes. */
 typedef struct iccp_collocation iccp_collocation;
 
