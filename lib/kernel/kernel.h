@@ -13,13 +13,15 @@ typedef struct iccp_layout {
     atomic_size_t references;
     icc_sampling *sampling;
     size_t dim, n, n_handles, n_edges, n_lines;
-    double centre[3], scale;   /* local = (x - centre) * scale */
+    iccp_frame frame;          /* between the caller's coordinates and local ones */
     double *points, *given;    /* local and the caller's */
     uint32_t *edge;            /* see iccp_nodes */
     double *share;
     uint32_t *edges;           /* n_edges * 2 handles */
     iccp_line_nodes *lines;
     int32_t *parallel;         /* of each line, see icc_line */
+    bool *held;                /* of each node: its weights are not optimised: handles, nodes on lines, nodes
+                                  on edges where these are held */
     iccp_handles *handles;
     iccp_collocation *collocation;
     double *initial;           /* n * n_handles */

@@ -5,12 +5,15 @@
 #include "kernel/interpolant.h"
 #include "kernel/weights.h"
 
-/* The weights of the `count` nodes from `first` on, which lie on a line one after the other, become linear between
- * those of its two ends. With `parallel` not NULL, the difference of the ends is that of the line given there,
- * per length and by direction, instead: first, count of that line. */
+/* A line: its ends, which may be handles or ends of earlier lines, and the nodes between them in order, `count` from
+ * `first` on (not all are there: those too near to a handle or to an earlier line are left out). */
 typedef struct iccp_line_nodes {
-    size_t first, count;
+    size_t from, to, first, count;
 } iccp_line_nodes;
+
+/* The weights of the nodes between the ends become linear between those of the ends (5.6). With `parallel` not NULL,
+ * those of the end `to` first become those of `from` and the difference of the ends of that line, per length and
+ * by direction (5.11). */
 void iccp_straighten(const iccp_nodes *nodes, const iccp_line_nodes *line,
                      const iccp_line_nodes *parallel, double *weights);
 
