@@ -19,6 +19,9 @@ iccp_collocation *iccp_collocation_retain(const iccp_collocation *collocation);
 void iccp_collocation_release(iccp_collocation *collocation);
 
 size_t iccp_collocation_entries(const iccp_collocation *collocation);
+const iccp_symmetric *iccp_collocation_matrix(const iccp_collocation *collocation);
+const iccp_radial *iccp_collocation_radial(const iccp_collocation *collocation);
+/* The least pivot over the greatest. */
 double iccp_collocation_definiteness(const iccp_collocation *collocation);
 
 /* Coefficients, n + dim + 1 rows of m (the last ones of the tail, 0 without), for n rows of m values. */
