@@ -40,9 +40,10 @@ typedef struct icc_shape icc_shape;
 /**
  * Makes a shape from regions and curves, which may be mixed.
  *
- * Regions are domains. Their boundaries must not cross. One may lie within another: the boundaries are walls
- * between them, and a point belongs to the innermost region around it. So a star in a square is a star and
- * its surroundings. Curves are segments between vertices; they may lie anywhere.
+ * Regions are domains. Their boundaries must not meet, which is checked exactly. One may lie within another: the
+ * boundaries are walls between them, and a point belongs to the innermost region around it, a point on a boundary
+ * to what that encloses. So a star in a square is a star and its surroundings. Curves are segments between
+ * vertices; they may lie anywhere, and are no walls.
  *
  * @param[out] out   the shape; owned by the caller. It keeps the regions alive.
  * @param dim        2 or 3
@@ -55,7 +56,8 @@ typedef struct icc_shape icc_shape;
  * @param env        may be NULL
  * @param err        may be NULL; `index` names the region, vertex or segment at fault
  * @return ::ICC_OK, ::ICC_ERR_ARGUMENT (no region and no segment, a vertex that is not finite or not there, a
- *         segment without length), ::ICC_ERR_MEMORY, ::ICC_ERR_BOUNDARY (boundaries cross)
+ *         segment without length), ::ICC_ERR_MEMORY, ::ICC_ERR_BOUNDARY (boundaries meet),
+ *         ::ICC_ERR_VERSION, ::ICC_ERR_CANCELLED
  */
 ICC_API icc_status icc_shape_create(icc_shape **out, int32_t dim, size_t n_regions,
                                     const icc_domain *const *regions, size_t n_vertices,

@@ -12,9 +12,15 @@ struct icc_shape {
     atomic_size_t references;
     size_t dim, n_regions, n_vertices, n_segments;
     icc_domain **regions;
-    double *vertices;
+    double *vertices;          /* of the curves */
     uint32_t *segments;
     double lower[3], upper[3]; /* box around everything */
+    iccp_frame frame;          /* of everything together: what follows is in its local coordinates */
+    double tolerance;          /* points this close to a wall are on it */
+    double *local;             /* vertices of all walls, region after region, then those of the curves */
+    uint32_t *facets, *owner;  /* all walls, and the region of each */
+    uint32_t *sticks;          /* the segments, as facets (3-D: with the second end twice) */
+    iccp_facet_tree walls, curves; /* empty (n == 0) without */
 };
 
 /* See icc_shape_create(); arguments have been checked for NULL and dim. */
@@ -25,14 +31,28 @@ icc_status iccp_shape_create(icc_shape **out, int32_t dim, size_t n_regions,
 icc_shape *iccp_shape_retain(const icc_shape *shape);
 void iccp_shape_release(icc_shape *shape);
 
+/* What is to be known of a point to see from it. */
+typedef struct iccp_spot {
+    double at[3];     /* local to the shape */
+    double clearance; /* local distance of the nearest wall */
+    uint32_t wall;    /* the nearest wall if the point is on it, else ICCP_NOWHERE */
+    uint32_t region;  /* the innermost that it is in, boundary included; ICCP_NOWHERE outside all */
+    uint32_t curve;   /* a segment that it is on, within 1e-9 of the box, or ICCP_NOWHERE */
+} iccp_spot;
+iccp_spot iccp_shape_spot(const icc_shape *shape, const double *point);
+
 /* The innermost region that a point is in, its boundary included; ICCP_NOWHERE outside all. */
 uint32_t iccp_shape_region(const icc_shape *shape, const double *point);
 
 /* Whether a point is in the shape: in a region or, within 1e-9 of the box, on a curve. */
 bool iccp_shape_holds(const icc_shape *shape, const double *point);
 
-/* Whether the segment between two points meets no wall but at its ends. Two points of a curve outside all regions
- * see each other if they lie on one segment or on two that meet. */
+/* Whether a takes part in what is at b: the segment between them runs through the region of a, its boundary
+ * included, and meets no wall but at its ends. A wall belongs to the region that it encloses. So what lies
+ * around a wall sees the points on it, but they do not see it: were it mutual, walls would conduct, and the
+ * surroundings of a shape lead from one of its limbs to another.
+ * Points on the same segment of the curves, or on two that meet, see each other, too. */
+bool iccp_spot_sees(const icc_shape *shape, const iccp_spot *a, const iccp_spot *b);
 bool iccp_shape_sees(const icc_shape *shape, const double *a, const double *b);
 
 #endif
