@@ -83,15 +83,21 @@ void iccp_cells_free(iccp_cells *cells)
     *cells = (iccp_cells){0};
 }
 
-/* The cells' box round the ball, an ulp wider: a point at the radius to rounding must not be missed. */
-static void reach(const iccp_cells *cells, const double *place, double radius, size_t *low,
-                  size_t *high)
+/* An ulp wider: a point at the radius to rounding must not be missed. */
+bool iccp_cells_box(const iccp_cells *cells, const double *place, double radius, iccp_cell_box *box)
 {
     const double wide = radius * (1 + 1e-15);
     for (size_t k = 0; k < 3; ++k) {
-        low[k] = k < cells->dim ? cell_along(cells, k, place[k] - wide) : 0;
-        high[k] = k < cells->dim ? cell_along(cells, k, place[k] + wide) : 0;
+        box->from[k] = box->to[k] = 0;
+        if (k >= cells->dim)
+            continue;
+        const double end = cells->lower[k] + (double)cells->shape[k] * cells->side;
+        if (place[k] + wide < cells->lower[k] || place[k] - wide > end)
+            return false;
+        box->from[k] = cell_along(cells, k, place[k] - wide);
+        box->to[k] = cell_along(cells, k, place[k] + wide);
     }
+    return cells->n > 0;
 }
 
 static double distance2(size_t dim, const double *a, const double *b)
@@ -105,14 +111,15 @@ static double distance2(size_t dim, const double *a, const double *b)
 size_t iccp_cells_near(const iccp_cells *cells, const double *place, double radius, size_t capacity,
                        uint32_t *near)
 {
-    size_t low[3], high[3], n = 0;
-    reach(cells, place, radius, low, high);
-    for (size_t z = low[2]; z <= high[2]; ++z)
-        for (size_t y = low[1]; y <= high[1]; ++y) {
-            /* Cells along x follow one another, and so do their points. */
+    iccp_cell_box box;
+    size_t n = 0;
+    if (!iccp_cells_box(cells, place, radius, &box))
+        return 0;
+    for (size_t z = box.from[2]; z <= box.to[2]; ++z)
+        for (size_t y = box.from[1]; y <= box.to[1]; ++y) {
             const size_t row = (z * cells->shape[1] + y) * cells->shape[0];
-            const uint32_t end = cells->first[row + high[0] + 1];
-            for (uint32_t at = cells->first[row + low[0]]; at < end; ++at) {
+            const uint32_t end = cells->first[row + box.to[0] + 1];
+            for (uint32_t at = cells->first[row + box.from[0]]; at < end; ++at) {
                 const uint32_t i = cells->order[at];
                 if (distance2(cells->dim, place, cells->points + cells->dim * i) > radius * radius)
                     continue;
