@@ -17,7 +17,8 @@ typedef struct iccp_nodes {
     const double *share;    /* and how far along it that is */
 } iccp_nodes;
 
-/* (4.10). Exact at the handles. */
+/* (4.10), with p a tenth of the longest side of the handles' box, as in the thesis' example. At the handles
+ * 1 and 0. */
 void iccp_initial_inverse(const iccp_nodes *nodes, double *weights);
 
 /* Diffusion by Markov steps: each node takes the mean of its neighbours within the reach, weighted by the kernel,
@@ -35,6 +36,9 @@ typedef struct iccp_handles iccp_handles;
 icc_status iccp_handles_create(iccp_handles **out, size_t dim, size_t m, const double *points,
                                const iccp_env *env, icc_error *err);
 void iccp_handles_free(iccp_handles *handles);
+
+/* Takes from m numbers, one for each handle, what would change sums or reproduction as a change of weights. */
+void iccp_handles_project(const iccp_handles *handles, double *change);
 
 /* Doubles of scratch memory that iccp_optimise() needs. */
 size_t iccp_optimise_work(const iccp_handles *handles);
