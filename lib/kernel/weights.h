@@ -21,11 +21,11 @@ typedef struct iccp_nodes {
  * 1 and 0. */
 void iccp_initial_inverse(const iccp_nodes *nodes, double *weights);
 
-/* Diffusion by Markov steps: each node takes the mean of its neighbours within the reach, weighted by the kernel,
- * itself included (4.11 to 4.13, with rows that sum to 1: the printed constant diverges on irregular samples).
+/* Diffusion by Markov steps: each node takes the mean of its neighbours, weighted by the kernel (`matrix` has its
+ * values between nodes), itself included (4.11 to 4.13, with rows that sum to 1: the printed constant diverges on irregular samples).
  * Handles are held, and nodes on edges if `edges`, at the values that they have in `weights`; the others
  * start from there. `visible`: only neighbours that see each other take part. */
-icc_status iccp_diffuse(const iccp_nodes *nodes, const iccp_radial *radial, int32_t steps, bool edges,
+icc_status iccp_diffuse(const iccp_nodes *nodes, const iccp_symmetric *matrix, int32_t steps, bool edges,
                         bool visible, double *weights, const iccp_env *env);
 
 /* Handles as the weights of one point are constrained by them: rows of A are the handles' coordinates and
