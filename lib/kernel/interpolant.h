@@ -28,6 +28,11 @@ double iccp_collocation_definiteness(const iccp_collocation *collocation);
 icc_status iccp_collocation_solve(const iccp_collocation *collocation, size_t m, const double *values,
                                   double *coefficients, const iccp_env *env);
 
+/* The same for the columns that `which` names; NULL: all. The others stay as they are. */
+icc_status iccp_collocation_solve_some(const iccp_collocation *collocation, size_t m,
+                                       const double *values, const bool *which, double *coefficients,
+                                       const iccp_env *env);
+
 /* m values at a point, and m * dim derivatives unless NULL. */
 void iccp_collocation_evaluate(const iccp_collocation *collocation, size_t m,
                                const double *coefficients, const double *point, double *values,
