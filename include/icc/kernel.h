@@ -74,8 +74,9 @@ typedef struct icc_sampling icc_sampling;
 
 /** How samples are spread. */
 enum {
-    ICC_SAMPLING_GRID = 1, /**< a regular grid; margins beyond the regions are part of it */
-    ICC_SAMPLING_BLUE = 2  /**< blue noise: random, yet evenly spaced; on the boundaries and curves, too */
+    ICC_SAMPLING_GRID = 1, /**< a regular grid from the lower corner of the regions' box, the first axis fastest */
+    ICC_SAMPLING_BLUE = 2, /**< blue noise: random, yet evenly spaced; on the boundaries and curves, too */
+    ICC_SAMPLING_POINTS = 3/**< the caller's points: icc_sampling_create_from_points() only */
 };
 
 /** Options of icc_sampling_create(). */
@@ -84,7 +85,7 @@ typedef struct icc_sampling_options {
     int32_t kind;       /**< `ICC_SAMPLING_*`; 0: blue */
     int32_t steps;      /**< blue: steps of relaxation (inverse mean shift); 0: 60; -1: none */
     double spacing;     /**< T, the distance of neighbours; 0: 1/100 of the longest side */
-    double margin;      /**< grid: how far it goes beyond the regions, in spacings; 0: none */
+    double margin;      /**< grid: how far from the regions it goes, in spacings; 0: not beyond them */
     uint64_t seed;      /**< blue: of the random numbers; equal seeds give equal samplings */
     size_t n_fixed;     /**< points that shall be samples */
     const double *fixed;/**< n_fixed * dim coordinates, or NULL. Blue only. */
@@ -96,24 +97,29 @@ typedef struct icc_sampling_info {
     int32_t dim;       /**< dimension */
     int32_t kind;      /**< `ICC_SAMPLING_*` */
     size_t n_samples;  /**< samples */
-    size_t n_edge;     /**< of them on boundaries and curves: the first ones */
-    double spacing;    /**< T as asked for */
+    size_t n_edge;     /**< of them on boundaries and curves; with blue noise the first ones */
+    double spacing;    /**< T as asked for; of the caller's points the mean distance of nearest neighbours */
     double nearest;    /**< the least distance of two samples, over T */
-    double sigma;      /**< suggested width of the kernel: from the samples' spectrum (figure 6.10), 3 T / pi
-                            for a grid (3.30) */
+    double sigma;      /**< suggested width of the kernel: from the samples' spectrum (figure 6.10); 3 T / pi
+                            for a grid (3.28) and the caller's points */
 } icc_sampling_info;
 
 /**
  * Spreads samples over a shape. No sample comes to lie on the wrong side of a wall.
+ *
+ * Blue noise: boundaries and curves get samples about T apart, at their ends, forks and corners first, and keep
+ * them. The rest starts from a shaken lattice and is relaxed (6.4), no nearer to a boundary than T / 2. Fixed
+ * points stay where they are; samples on boundaries make room for them.
  *
  * @param[out] out the sampling; owned by the caller. It keeps the shape alive.
  * @param shape    the shape
  * @param options  may be NULL
  * @param env      may be NULL
  * @param err      may be NULL
- * @return ::ICC_OK, ::ICC_ERR_RESOLUTION (no sample lies in some region, named, or there would be more than
- *         2^24), ::ICC_ERR_OUTSIDE (a fixed point is in no region), ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY,
- *         ::ICC_ERR_VERSION, ::ICC_ERR_CANCELLED
+ * @return ::ICC_OK, ::ICC_ERR_RESOLUTION (no sample lies inside some region, named, or there would be more
+ *         than 2^24), ::ICC_ERR_OUTSIDE (a fixed point is in no region), ::ICC_ERR_ARGUMENT (a grid for curves
+ *         alone, a fixed point that is not finite, ...), ::ICC_ERR_MEMORY, ::ICC_ERR_VERSION,
+ *         ::ICC_ERR_CANCELLED
  *
  * Cost: O(steps * n) time and O(n) memory: 10,000 samples take less than a second.
  */
@@ -122,7 +128,8 @@ ICC_API icc_status icc_sampling_create(icc_sampling **out, const icc_shape *shap
                                        icc_error *err);
 
 /**
- * A sampling from the caller's points. The suggested width follows from their mean spacing.
+ * A sampling from the caller's points, which keep their order. The suggested width follows from their mean
+ * spacing.
  *
  * @return ::ICC_OK, ::ICC_ERR_OUTSIDE (a point lies in no region and on no curve; `index` names it),
  *         ::ICC_ERR_ARGUMENT (not finite, or two points are the same), ::ICC_ERR_MEMORY

@@ -90,6 +90,7 @@ static void gather(icc_shape *shape)
         for (size_t i = 0; i < d->n_vertices; ++i)
             iccp_frame_out(&d->frame, d->dim, d->vertices + dim * i, shape->local + dim * n++);
     }
+    shape->n_walled = n;
     memcpy(shape->local + dim * n, shape->vertices, shape->n_vertices * dim * sizeof *shape->local);
     for (size_t s = 0; s < shape->n_segments; ++s)
         for (size_t i = 0; i < dim; ++i)
@@ -279,6 +280,14 @@ static uint32_t innermost(const icc_shape *shape, const double *point)
     return found;
 }
 
+static double distance(size_t dim, const double *a, const double *b)
+{
+    double sum = 0;
+    for (size_t k = 0; k < dim; ++k)
+        sum += (a[k] - b[k]) * (a[k] - b[k]);
+    return sqrt(sum);
+}
+
 iccp_spot iccp_shape_spot(const icc_shape *shape, const double *point)
 {
     double local[3], bary[3], distance2;
@@ -299,6 +308,21 @@ iccp_spot iccp_shape_spot(const icc_shape *shape, const double *point)
         if (sqrt(distance2) <= CURVE_TOLERANCE + shape->tolerance)
             spot.curve = s;
     }
+    return spot;
+}
+
+iccp_spot iccp_shape_spot_beside(const icc_shape *shape, const iccp_spot *other, const double *point,
+                                 double reach)
+{
+    iccp_spot spot = *other;
+    double local[3];
+    iccp_frame_in(&shape->frame, (int32_t)shape->dim, point, local);
+    iccp_inside_reach(shape->dim, local, spot.at);
+    spot.clearance = other->clearance - distance(shape->dim, spot.at, other->at);
+    if (!(spot.clearance > reach + shape->tolerance))
+        return iccp_shape_spot(shape, point);
+    spot.curve = ICCP_NOWHERE;
+    spot.beside = true;
     return spot;
 }
 
@@ -363,15 +387,11 @@ static uint32_t region_between(const icc_shape *shape, const iccp_spot *a, const
 
 static bool sees_through_region(const icc_shape *shape, const iccp_spot *a, const iccp_spot *b)
 {
-    double distance2 = 0;
     if (a->region == ICCP_NOWHERE)
         return false;
     if (a->wall != ICCP_NOWHERE && a->wall == b->wall)
         return true;
-    for (size_t k = 0; k < shape->dim; ++k)
-        distance2 += (a->at[k] - b->at[k]) * (a->at[k] - b->at[k]);
-    const double clear = fmax(a->clearance, b->clearance);
-    if (distance2 < clear * clear)
+    if (distance(shape->dim, a->at, b->at) < fmax(a->clearance, b->clearance))
         return true;
     return !blocked(shape, a, b) && region_between(shape, a, b) == a->region;
 }

@@ -17,6 +17,7 @@ struct icc_shape {
     double lower[3], upper[3]; /* box around everything */
     iccp_frame frame;          /* of everything together: what follows is in its local coordinates */
     double tolerance;          /* points this close to a wall are on it */
+    size_t n_walled;           /* vertices of walls */
     double *local;             /* vertices of all walls, region after region, then those of the curves */
     uint32_t *facets, *owner;  /* all walls, and the region of each */
     uint32_t *sticks;          /* the segments, as facets (3-D: with the second end twice) */
@@ -38,8 +39,14 @@ typedef struct iccp_spot {
     uint32_t wall;    /* the nearest wall if the point is on it, else ICCP_NOWHERE */
     uint32_t region;  /* the innermost that it is in, boundary included; ICCP_NOWHERE outside all */
     uint32_t curve;   /* a segment that it is on, within 1e-9 of the box, or ICCP_NOWHERE */
+    bool beside;      /* concluded from another spot */
 } iccp_spot;
 iccp_spot iccp_shape_spot(const icc_shape *shape, const double *point);
+
+/* The same for a point beside another one. If the other's clearance shows that no wall is within `reach`, nothing is
+ * looked up, curves are left out, and the clearance is a lower bound. */
+iccp_spot iccp_shape_spot_beside(const icc_shape *shape, const iccp_spot *other, const double *point,
+                                 double reach);
 
 /* The innermost region that a point is in, its boundary included; ICCP_NOWHERE outside all. */
 uint32_t iccp_shape_region(const icc_shape *shape, const double *point);

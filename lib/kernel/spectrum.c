@@ -1,1 +1,130 @@
+/* Thesis, sections 3.2 and 6.2.1, figure 6.10: the spectrum of blue noise is an impulse at the origin, a region with
+ * next to nothing, and then a rise to a ring. A kernel whose own spectrum stays within that region cannot tell the
+ * samples from a continuum. For a grid of spacing T the thesis puts the nearest impulses, at 2 pi / T, at six standard
+ * deviations of the Gaussian's spectrum (3.28); here the rise takes their place. */
 #include "kernel/spectrum.h"
+
+#include "base/memory.h"
+#include "base/threads.h"
+
+#include <math.h>
+
+enum { N_DIRECTIONS = 24 };
+
+/* Wave numbers up to here, in 2 pi / spacing: a hexagonal lattice has its ring at 1.15. */
+static const double HIGHEST = 1.5;
+/* The shape itself, of about sqrt(n) spacings, shows at the lowest. */
+static const double LOWEST = 0.4;
+/* The power of random points is 1: half of it is the rise. */
+static const double RISE = 0.5;
+static const double DEVIATIONS = 6;
+/* With fewer points the shape would drown the rise; more would only take longer. */
+static const size_t FEWEST = 200, MOST = 10000;
+
+static const double TWO_PI = 6.28318530717958648;
+
+/* Directions of half a circle, or half a sphere by a spiral of equal areas. */
+static void direction(size_t dim, size_t i, double *u)
+{
+    const double share = ((double)i + 0.5) / N_DIRECTIONS;
+    if (dim == 2) {
+        u[0] = cos(0.5 * TWO_PI * share);
+        u[1] = sin(0.5 * TWO_PI * share);
+        return;
+    }
+    const double flat = sqrt(1 - share * share), turn = 2.39996322972865332 * (double)i;
+    u[0] = flat * cos(turn);
+    u[1] = flat * sin(turn);
+    u[2] = share;
+}
+
+typedef struct transform {
+    size_t dim, n;
+    const double *points;
+    double step;
+    double power[N_DIRECTIONS][ICCP_SPECTRUM_BINS];
+} transform;
+
+/* Each point's phase turns by the same angle from bin to bin. */
+static void transform_along(const transform *t, const double *u, double *power)
+{
+    double re[ICCP_SPECTRUM_BINS] = {0}, im[ICCP_SPECTRUM_BINS] = {0};
+    for (size_t i = 0; i < t->n; ++i) {
+        double along = 0;
+        for (size_t k = 0; k < t->dim; ++k)
+            along += u[k] * (t->points[t->dim * i + k] - t->points[k]);
+        const double angle = TWO_PI * t->step * along, c = cos(angle), s = sin(angle);
+        double x = c, y = s;
+        for (size_t b = 0; b < ICCP_SPECTRUM_BINS; ++b) {
+            const double turned = x * c - y * s;
+            re[b] += x;
+            im[b] += y;
+            y = x * s + y * c;
+            x = turned;
+        }
+    }
+    for (size_t b = 0; b < ICCP_SPECTRUM_BINS; ++b)
+        power[b] = (re[b] * re[b] + im[b] * im[b]) / (double)t->n;
+}
+
+static icc_status transform_chunk(void *argument, size_t begin, size_t end)
+{
+    transform *t = argument;
+    for (size_t i = begin; i < end; ++i) {
+        double u[3];
+        direction(t->dim, i, u);
+        transform_along(t, u, t->power[i]);
+    }
+    return ICC_OK;
+}
+
+icc_status iccp_spectrum(size_t dim, size_t n, const double *points, double step,
+                         double power[ICCP_SPECTRUM_BINS], const iccp_env *env)
+{
+    transform *t = iccp_alloc(&env->memory, 1, sizeof *t);
+    if (t == NULL)
+        return ICC_ERR_MEMORY;
+    t->dim = dim;
+    t->n = n;
+    t->points = points;
+    t->step = step;
+    const icc_status status =
+        iccp_for_chunks(env, "measure spectrum", N_DIRECTIONS, 1, transform_chunk, t);
+    for (size_t b = 0; status == ICC_OK && b < ICCP_SPECTRUM_BINS; ++b) {
+        power[b] = 0;
+        for (size_t i = 0; i < N_DIRECTIONS; ++i)
+            power[b] += t->power[i][b] / N_DIRECTIONS;
+    }
+    iccp_free(&env->memory, t);
+    return status;
+}
+
+/* The wave number of the rise, in 2 pi over the spacing; 1, as for a grid, where none shows. */
+static double find_rise(const double *power)
+{
+    double before = 0;
+    for (size_t b = 1; b + 1 < ICCP_SPECTRUM_BINS; ++b) {
+        const double at = HIGHEST * (double)(b + 1) / ICCP_SPECTRUM_BINS;
+        const double smooth = (power[b - 1] + power[b] + power[b + 1]) / 3;
+        if (at >= LOWEST && smooth >= RISE)
+            return at - HIGHEST / ICCP_SPECTRUM_BINS *
+                            (before < RISE ? (smooth - RISE) / (smooth - before) : 0);
+        before = smooth;
+    }
+    return 1;
+}
+
+icc_status iccp_spectrum_sigma(size_t dim, size_t n, const double *points, double spacing,
+                               double *sigma, const iccp_env *env)
+{
+    double power[ICCP_SPECTRUM_BINS], rise = 1;
+    icc_status status = ICC_OK;
+    if (n >= FEWEST) {
+        n = n < MOST ? n : MOST;
+        status = iccp_spectrum(dim, n, points, HIGHEST / (spacing * ICCP_SPECTRUM_BINS), power, env);
+        if (status == ICC_OK)
+            rise = find_rise(power);
+    }
+    *sigma = DEVIATIONS / TWO_PI * spacing / rise;
+    return status;
+}
