@@ -202,9 +202,8 @@ icc_status iccp_optimise(const iccp_handles *handles, int32_t method, const doub
         return ICC_OK;
     }
     add_rows(handles, missing, weights);
-    if (method == ICC_WEIGHTS_EQUALITY || iccp_nonneg_solve(&problem, weights))
+    if (method == ICC_WEIGHTS_EQUALITY || iccp_nonneg_solve(&problem, weights, work))
         return ICC_OK;
-    problem.slope = SLOPE;
-    (void)iccp_nonneg_solve(&problem, weights);
+    (void)iccp_nonneg_relax(&problem, SLOPE, weights);
     return ICC_ERR_SOLVER;
 }

@@ -170,7 +170,7 @@ static void least_squares(const iccp_l1 *p, const basis *b, double *x, double *w
             columns[ICCP_ROWS * face.m + k] = x[j] * p->columns[ICCP_ROWS * j + k];
         ++face.m;
     }
-    if (iccp_nonneg_solve(&face, part)) {
+    if (iccp_nonneg_solve(&face, part, part + p->m)) {
         for (size_t j = 0, f = 0; j < p->m; ++j)
             if (x[j] > 0.5 || x[j] < -0.5)
                 x[j] *= part[f++];
@@ -184,7 +184,7 @@ static void least_squares(const iccp_l1 *p, const basis *b, double *x, double *w
 
 size_t iccp_l1_work(size_t m)
 {
-    return (ICCP_ROWS + 1) * m;
+    return (ICCP_ROWS + 1) * m + iccp_dual_work(m);
 }
 
 void iccp_l1_solve(const iccp_l1 *problem, double *x, double *work)
@@ -204,7 +204,7 @@ void iccp_l1_solve(const iccp_l1 *problem, double *x, double *work)
     iccp_nonneg positive = {.m = p.m, .columns = p.columns, .total = p.total};
     for (size_t k = 0; k < ICCP_ROWS; ++k)
         positive.target[k] = p.target[k];
-    if (!iccp_nonneg_solve(&positive, x)) {
+    if (!iccp_nonneg_solve(&positive, x, work)) {
         basis b;
         optimise(&p, &b);
         least_squares(&p, &b, x, work);

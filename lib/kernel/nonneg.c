@@ -8,18 +8,19 @@
  * a multiple of |g| is added to its diagonal, and steps that go too far are shortened. */
 #include "kernel/nonneg.h"
 
-#include <assert.h>
 #include <float.h>
 #include <math.h>
 
-/* Of |g|: added to the diagonal. From 1e-6 to 1e-2 there is little to choose (tests/unit/test_weights.c). */
-static const double DAMPING = 1e-4;
+/* Of |g|: added to the diagonal. */
+static const double DAMPING = 1e-6;
 /* Of the size of the numbers: g is rounding. */
 static const double TIGHT = 16 * DBL_EPSILON;
-/* The same, where it gets no smaller any more: large multipliers cancel. */
-static const double LOOSE = 1e-11;
-/* Random and degenerate problems take at most 20 steps. */
-enum { MOST_STEPS = 100, MOST_CUTS = 20 };
+/* The same: the target lies outside what the columns reach. */
+static const double OUTSIDE = 1e-11;
+/* Of the slope at the start of a step: at its end. */
+static const double STEEP = 0.5;
+/* Without a solution after so many, the sure way is taken. */
+enum { FEW_STEPS = 12, MOST_STEPS = 100, MOST_CUTS = 20 };
 
 typedef struct state {
     double y[ICCP_ROWS];
@@ -33,14 +34,14 @@ static double dot(const double *a, const double *b)
 }
 
 /* All at y: the columns pass once. */
-static void evaluate(const iccp_nonneg *p, const double *start, state *s)
+static void evaluate(const iccp_nonneg *p, double slope, const double *start, state *s)
 {
     double g[ICCP_ROWS], h[ICCP_ROWS][ICCP_ROWS] = {{0}};
     for (size_t k = 0; k < ICCP_ROWS; ++k)
         g[k] = -p->target[k];
     for (size_t j = 0; j < p->m; ++j) {
         const double *c = p->columns + ICCP_ROWS * j;
-        const double t = start[j] + dot(c, s->y), weight = t >= 0 ? 1 : p->slope;
+        const double t = start[j] + dot(c, s->y), weight = t >= 0 ? 1 : slope;
         for (size_t k = 0; k < ICCP_ROWS; ++k)
             g[k] += weight * t * c[k];
         for (size_t r = 0; r < ICCP_ROWS; ++r)
@@ -84,68 +85,78 @@ static void newton_step(const state *s, double shift, double *step)
 }
 
 /* Goes along the step to where the dual function rises no longer steeply: all of it, or less. */
-static void advance(const iccp_nonneg *p, const double *start, const double *step, state *s)
+static void advance(const iccp_nonneg *p, double slope, const double *start, const double *step,
+                    state *s)
 {
     const state from = *s;
     const double fall = dot(from.g, step);
-    double share = 1, low = 0, high = 1, low_slope = fall;
+    double share = 1, low = 0, high = 1, low_rise = fall;
     for (int cut = 0; cut < MOST_CUTS; ++cut) {
         for (size_t k = 0; k < ICCP_ROWS; ++k)
             s->y[k] = from.y[k] + share * step[k];
-        evaluate(p, start, s);
-        const double slope = dot(s->g, step);
-        if (slope <= -0.5 * fall && (share >= 1 || slope >= 0.5 * fall))
+        evaluate(p, slope, start, s);
+        const double rise = dot(s->g, step);
+        if (rise <= -STEEP * fall && (share >= 1 || rise >= STEEP * fall))
             return;
-        if (slope > 0) {
+        if (rise > 0) {
             high = share;
-            /* The zero of the slope if that were linear, but not too near to the ends. */
-            share = low + (high - low) * fmin(fmax(low_slope / (low_slope - slope), 0.1), 0.9);
+            /* Where the rise would be 0 if it were linear, but not too near to the ends. */
+            share = low + (high - low) * fmin(fmax(low_rise / (low_rise - rise), 0.1), 0.9);
         } else {
             low = share;
-            low_slope = slope;
+            low_rise = rise;
             share = 0.5 * (low + high);
         }
     }
 }
 
-/* Whether g shows that no x meets the equations: all columns, times the total, lie on one side of a plane and the
- * target on the other, farther than by rounding. */
-static bool separates(const iccp_nonneg *p, const double *g, double tolerance)
+/* Whether a direction shows that no x meets the equations: the target lies farther along it than all columns,
+ * times the total, by more than rounding. Where there is no solution, steps turn into such a direction: they become
+ * normal to the columns with positive x. */
+static bool separates(const iccp_nonneg *p, const double *step, double tolerance)
 {
-    double least = HUGE_VAL;
+    const double target = dot(step, p->target) - tolerance * sqrt(dot(step, step));
     for (size_t j = 0; j < p->m; ++j)
-        least = fmin(least, dot(g, p->columns + ICCP_ROWS * j));
-    return p->total * least > dot(g, p->target) + tolerance * sqrt(dot(g, g));
+        if (p->total * dot(step, p->columns + ICCP_ROWS * j) >= target)
+            return false;
+    return true;
 }
 
-static void finish(const iccp_nonneg *p, const double *y, double *x)
-{
-    for (size_t j = 0; j < p->m; ++j) {
-        const double t = x[j] + dot(p->columns + ICCP_ROWS * j, y);
-        x[j] = t >= 0 ? t : p->slope * t;
-    }
-}
+typedef enum outcome { SOLVED, UNSOLVED, UNSOLVABLE } outcome;
 
-bool iccp_nonneg_solve(const iccp_nonneg *problem, double *x)
+static outcome iterate(const iccp_nonneg *p, double slope, int steps, double *x)
 {
-    const bool may_fail = problem->slope <= 0 && problem->total < HUGE_VAL;
     state s = {.y = {0}};
-    double size = sqrt(dot(problem->target, problem->target)), before = HUGE_VAL;
-    for (size_t j = 0; j < problem->m; ++j)
+    double size = sqrt(dot(p->target, p->target));
+    for (size_t j = 0; j < p->m; ++j)
         size = fmax(size, fabs(x[j]));
-    evaluate(problem, x, &s);
-    for (int k = 0; k < MOST_STEPS; ++k) {
+    evaluate(p, slope, x, &s);
+    for (int k = 0; k <= steps; ++k) {
         double step[ICCP_ROWS];
         const double error = sqrt(dot(s.g, s.g));
-        if (error <= TIGHT * size || (error >= 0.5 * before && error <= LOOSE * size)) {
-            finish(problem, s.y, x);
-            return true;
+        const double multiplier = slope > 0 ? sqrt(dot(s.y, s.y)) : 0;
+        if (error <= TIGHT * fmax(size, multiplier)) {
+            for (size_t j = 0; j < p->m; ++j) {
+                const double t = x[j] + dot(p->columns + ICCP_ROWS * j, s.y);
+                x[j] = t >= 0 ? t : slope * t;
+            }
+            return SOLVED;
         }
-        if (may_fail && k > 1 && separates(problem, s.g, LOOSE * size))
-            return false;
         newton_step(&s, DAMPING * error, step);
-        advance(problem, x, step, &s);
-        before = error;
+        if (slope <= 0 && p->total < HUGE_VAL && separates(p, step, OUTSIDE * size))
+            return UNSOLVABLE;
+        advance(p, slope, x, step, &s);
     }
-    return false;
+    return UNSOLVED;
+}
+
+bool iccp_nonneg_solve(const iccp_nonneg *problem, double *x, double *work)
+{
+    const outcome end = iterate(problem, 0, FEW_STEPS, x);
+    return end == SOLVED || (end == UNSOLVED && iccp_dual_solve(problem, x, work));
+}
+
+bool iccp_nonneg_relax(const iccp_nonneg *problem, double slope, double *x)
+{
+    return iterate(problem, slope, MOST_STEPS, x) == SOLVED;
 }
