@@ -22,7 +22,7 @@ static const double LEAST_PIVOT = 1e-13;
 /* A pivot of P'Z below this share of its diagonal: the nodes lie on a line or in a plane. */
 static const double LEAST_SCHUR = 1e-13;
 /* Right sides in a task. */
-enum { SIDES = 8, MOST_TAIL = 4 };
+enum { SIDES = 16, MOST_TAIL = 4 };
 
 struct iccp_collocation {
     iccp_memory memory;
