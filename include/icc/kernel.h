@@ -108,7 +108,7 @@ typedef struct icc_sampling_info {
  * Spreads samples over a shape. No sample comes to lie on the wrong side of a wall.
  *
  * Blue noise: boundaries and curves get samples about T apart, at their ends, forks and corners first, and keep
- * them. The rest starts from a shaken lattice and is relaxed (6.4), no nearer to a boundary than T / 2. Fixed
+ * them. The rest starts from a shaken lattice and is relaxed (6.4), no nearer to a boundary than 0.4 T. Fixed
  * points stay where they are; samples on boundaries make room for them.
  *
  * @param[out] out the sampling; owned by the caller. It keeps the shape alive.

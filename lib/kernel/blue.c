@@ -13,12 +13,12 @@
 #include <string.h>
 
 /* All in spacings; tests/bench/bench_sampling.c shows what comes of them. */
-static const double SHAKE = 0.5;       /* points of the lattice are moved by up to this along each axis */
-static const double CLEARANCE = 0.5;  /* how far samples stay from walls */
-static const double SCALE = 0.5;      /* s of the Gaussian; the thesis has about 1/3, for small steps */
-static const double REACH = 3;        /* in s: beyond it the push is below 1 % of the largest */
-static const double GAIN = 0.5;        /* lambda / s^2 */
-static const double LONGEST_STEP = 0.2;
+static const double SHAKE = 0.3;       /* points of the lattice are moved by up to this along each axis */
+static const double CLEARANCE = 0.4;  /* how far samples stay from walls */
+static const double SCALE = 0.45;     /* s of the Gaussian; the thesis has about 1/3, for small steps */
+static const double REACH = 3;        /* in s: beyond it the push is below 6 % of the largest */
+static const double GAIN = 0.7;       /* lambda / s^2 */
+static const double LONGEST_STEP = 0.2; /* less than the clearance: no step leads through a wall */
 static const double TOO_NEAR = 0.55;  /* samples nearer than that are one too many */
 
 /* ----------------------------------------------------------------- lattice */
