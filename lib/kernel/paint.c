@@ -120,10 +120,10 @@ static icc_status stiffen(icc_kernel *copy, size_t n, const uint32_t *nodes, con
         return ICC_ERR_MEMORY;
     for (size_t i = 0; i < l->n; ++i)
         held[i] = l->held[i] || l->edge[i] != ICCP_NO_EDGE;
-    icc_status status = iccp_stiffen(&all, l->handles, l->collocation, n, nodes, rigidity, held,
-                                     copy->weights, energy, env);
+    const icc_status status = iccp_stiffen(&all, l->handles, l->collocation, n, nodes, rigidity, held,
+                                           copy->weights, copy->coefficients, energy, env);
     iccp_free(&env->memory, held);
-    return status == ICC_OK ? iccp_kernel_interpolate(copy, NULL, env) : status;
+    return status;
 }
 
 icc_status iccp_kernel_stiffen(icc_kernel **out, const icc_kernel *kernel, size_t n,
