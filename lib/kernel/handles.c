@@ -160,11 +160,20 @@ static void add_rows(const iccp_handles *h, const double *target, double *weight
     }
 }
 
+/* The nearest weights whose combinations are the target. */
+static void meet(const iccp_handles *h, const double *target, double *weights)
+{
+    double missing[ICCP_ROWS];
+    for (size_t r = 0; r < ICCP_ROWS; ++r)
+        missing[r] = target[r];
+    subtract_rows(h, weights, missing);
+    add_rows(h, missing, weights);
+}
+
 void iccp_handles_project(const iccp_handles *handles, double *change)
 {
-    double target[ICCP_ROWS] = {0};
-    subtract_rows(handles, change, target);
-    add_rows(handles, target, change);
+    static const double nothing[ICCP_ROWS] = {0};
+    meet(handles, nothing, change);
 }
 
 size_t iccp_optimise_work(const iccp_handles *handles)
@@ -172,12 +181,13 @@ size_t iccp_optimise_work(const iccp_handles *handles)
     return handles->m + iccp_l1_work(handles->m);
 }
 
-static void minimise_l1(const iccp_handles *h, const double *missing, double *weights, double *work)
+static void minimise_l1(const iccp_handles *h, const double *target, double *weights, double *work)
 {
     iccp_l1 problem = {.rows = h->dim + 1, .m = h->m, .columns = h->columns, .start = h->start};
-    problem.total = missing[0] * h->lower[0][0];
     for (size_t r = 0; r < ICCP_ROWS; ++r)
-        problem.target[r] = missing[r];
+        problem.target[r] = target[r];
+    subtract_rows(h, weights, problem.target);
+    problem.total = problem.target[0] * h->lower[0][0];
     iccp_l1_solve(&problem, work, work + h->m);
     for (size_t j = 0; j < h->m; ++j)
         weights[j] += work[j];
@@ -187,23 +197,22 @@ icc_status iccp_optimise(const iccp_handles *handles, int32_t method, const doub
                          double *weights, double *work)
 {
     iccp_nonneg problem = {.m = handles->m, .columns = handles->columns, .total = 1};
-    double missing[ICCP_ROWS];
     for (size_t r = 0; r <= handles->dim; ++r) {
         double right = r == 0 ? 1 : point[r - 1] - handles->centre[r - 1];
         for (size_t k = 0; k < r; ++k)
             right -= handles->lower[r][k] * problem.target[k];
         problem.target[r] = right / handles->lower[r][r];
     }
-    for (size_t r = 0; r < ICCP_ROWS; ++r)
-        missing[r] = problem.target[r];
-    subtract_rows(handles, weights, missing);
     if (method == ICC_WEIGHTS_L1) {
-        minimise_l1(handles, missing, weights, work);
+        minimise_l1(handles, problem.target, weights, work);
         return ICC_OK;
     }
-    add_rows(handles, missing, weights);
+    /* Twice, since large weights leave rounding errors of their size. */
+    meet(handles, problem.target, weights);
+    meet(handles, problem.target, weights);
     if (method == ICC_WEIGHTS_EQUALITY || iccp_nonneg_solve(&problem, weights, work))
         return ICC_OK;
     (void)iccp_nonneg_relax(&problem, SLOPE, weights);
+    meet(handles, problem.target, weights);
     return ICC_ERR_SOLVER;
 }

@@ -42,6 +42,8 @@ static void evaluate(const iccp_nonneg *p, double slope, const double *start, st
     for (size_t j = 0; j < p->m; ++j) {
         const double *c = p->columns + ICCP_ROWS * j;
         const double t = start[j] + dot(c, s->y), weight = t >= 0 ? 1 : slope;
+        if (!(weight > 0))
+            continue;
         for (size_t k = 0; k < ICCP_ROWS; ++k)
             g[k] += weight * t * c[k];
         for (size_t r = 0; r < ICCP_ROWS; ++r)
