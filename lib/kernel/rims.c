@@ -11,67 +11,32 @@ static const double CORNER_COSINE = 0.86602540378443865;
 static const double CORNER_GAP = 0.75;
 
 typedef struct rims {
-    size_t dim, n_vertices, n_segments;
-    const double *vertices;
-    const uint32_t *segments;
+    iccp_web web;
     double spacing;
-    uint32_t *first, *incident; /* segments at vertex v: incident[first[v]] up to first[v + 1] */
-    bool *followed;             /* of each segment */
-    bool *sampled;              /* of each vertex */
-    uint32_t *line;             /* the vertices of the line at hand */
-    double *arc;                /* and how far along it they are */
+    bool *followed; /* of each segment */
+    bool *sampled;  /* of each vertex */
+    uint32_t *line; /* the vertices of the line at hand */
+    double *arc;    /* and how far along it they are */
     size_t n_line;
 } rims;
 
-static const double *vertex(const rims *r, uint32_t v)
+static bool is_corner(const iccp_web *web, uint32_t a, uint32_t v, uint32_t b)
 {
-    return r->vertices + r->dim * v;
-}
-
-static size_t degree(const rims *r, uint32_t v)
-{
-    return r->first[v + 1] - r->first[v];
-}
-
-static double length(const rims *r, uint32_t a, uint32_t b)
-{
-    double sum = 0;
-    for (size_t k = 0; k < r->dim; ++k)
-        sum += (vertex(r, b)[k] - vertex(r, a)[k]) * (vertex(r, b)[k] - vertex(r, a)[k]);
-    return sqrt(sum);
-}
-
-static bool is_corner(const rims *r, uint32_t a, uint32_t v, uint32_t b)
-{
+    const double *p = iccp_web_vertex(web, a), *q = iccp_web_vertex(web, v);
+    const double *r = iccp_web_vertex(web, b);
     double dot = 0;
-    for (size_t k = 0; k < r->dim; ++k)
-        dot += (vertex(r, v)[k] - vertex(r, a)[k]) * (vertex(r, b)[k] - vertex(r, v)[k]);
-    return dot < CORNER_COSINE * length(r, a, v) * length(r, v, b);
-}
-
-static uint32_t other_end(const rims *r, uint32_t segment, uint32_t v)
-{
-    const uint32_t *ends = r->segments + 2 * (size_t)segment;
-    return ends[0] == v ? ends[1] : ends[0];
+    for (size_t k = 0; k < web->dim; ++k)
+        dot += (q[k] - p[k]) * (r[k] - q[k]);
+    return dot < CORNER_COSINE * iccp_web_length(web, a, v) * iccp_web_length(web, v, b);
 }
 
 /* Whether a line passes through: two segments, without a corner. */
-static bool is_smooth(const rims *r, uint32_t v)
+static bool is_smooth(const iccp_web *web, uint32_t v)
 {
-    if (degree(r, v) != 2)
+    if (iccp_web_degree(web, v) != 2)
         return false;
-    const uint32_t *at = r->incident + r->first[v];
-    return !is_corner(r, other_end(r, at[0], v), v, other_end(r, at[1], v));
-}
-
-static void connect(rims *r)
-{
-    for (size_t i = 0; i < 2 * r->n_segments; ++i)
-        ++r->first[r->segments[i]];
-    for (size_t v = 0; v < r->n_vertices; ++v)
-        r->first[v + 1] += r->first[v];
-    for (size_t i = 2 * r->n_segments; i-- > 0;)
-        r->incident[--r->first[r->segments[i]]] = (uint32_t)(i / 2);
+    const uint32_t *at = web->incident + web->first[v];
+    return !is_corner(web, iccp_web_other_end(web, at[0], v), v, iccp_web_other_end(web, at[1], v));
 }
 
 /* The line from a vertex along a segment, up to a vertex that is not passed through or back to the start. */
@@ -82,14 +47,14 @@ static void follow(rims *r, uint32_t v, uint32_t segment)
     r->line[r->n_line] = v;
     r->arc[r->n_line++] = 0;
     for (;;) {
-        const uint32_t next = other_end(r, segment, v);
+        const uint32_t next = iccp_web_other_end(&r->web, segment, v);
         r->followed[segment] = true;
-        r->arc[r->n_line] = r->arc[r->n_line - 1] + length(r, v, next);
+        r->arc[r->n_line] = r->arc[r->n_line - 1] + iccp_web_length(&r->web, v, next);
         r->line[r->n_line++] = next;
         v = next;
-        if (v == start || degree(r, v) != 2)
+        if (v == start || iccp_web_degree(&r->web, v) != 2)
             return;
-        const uint32_t *at = r->incident + r->first[v];
+        const uint32_t *at = r->web.incident + r->web.first[v];
         segment = at[0] == segment ? at[1] : at[0];
         if (r->followed[segment])
             return;
@@ -99,7 +64,7 @@ static void follow(rims *r, uint32_t v, uint32_t segment)
 static void add_vertex(rims *r, uint32_t v, iccp_places *places)
 {
     if (!r->sampled[v])
-        iccp_places_add(places, vertex(r, v));
+        iccp_places_add(places, iccp_web_vertex(&r->web, v));
     r->sampled[v] = true;
 }
 
@@ -114,9 +79,10 @@ static void divide(const rims *r, size_t i, size_t j, iccp_places *places)
         double point[3];
         while (at + 1 < j && r->arc[at + 1] < arc)
             ++at;
-        const double *a = vertex(r, r->line[at]), *b = vertex(r, r->line[at + 1]);
+        const double *a = iccp_web_vertex(&r->web, r->line[at]);
+        const double *b = iccp_web_vertex(&r->web, r->line[at + 1]);
         const double t = (arc - r->arc[at]) / (r->arc[at + 1] - r->arc[at]);
-        for (size_t c = 0; c < r->dim; ++c)
+        for (size_t c = 0; c < r->web.dim; ++c)
             point[c] = a[c] + t * (b[c] - a[c]);
         iccp_places_add(places, point);
     }
@@ -134,7 +100,7 @@ static void sample_line(rims *r, bool between, iccp_places *places)
     for (size_t i = 1; i <= last; ++i) {
         const bool end = i == last;
         if (!end && (r->arc[i] - r->arc[from] < gap || r->arc[last] - r->arc[i] < gap ||
-                     !is_corner(r, r->line[i - 1], r->line[i], r->line[i + 1])))
+                     !is_corner(&r->web, r->line[i - 1], r->line[i], r->line[i + 1])))
             continue;
         if (between)
             divide(r, from, i, places);
@@ -147,15 +113,15 @@ static void sample_line(rims *r, bool between, iccp_places *places)
 /* Lines from forks and ends first; what is left then are closed ones, from a corner if there is one. */
 static void sample_lines(rims *r, bool between, iccp_places *places)
 {
-    for (size_t s = 0; s < r->n_segments; ++s)
+    for (size_t s = 0; s < r->web.n_segments; ++s)
         r->followed[s] = false;
     for (int pass = 0; pass < 3; ++pass)
-        for (uint32_t v = 0; v < r->n_vertices; ++v) {
-            if ((pass == 0 && degree(r, v) == 2) || (pass == 1 && is_smooth(r, v)))
+        for (uint32_t v = 0; v < r->web.n_vertices; ++v) {
+            if ((pass == 0 && iccp_web_degree(&r->web, v) == 2) || (pass == 1 && is_smooth(&r->web, v)))
                 continue;
-            for (uint32_t i = r->first[v]; i < r->first[v + 1]; ++i)
-                if (!r->followed[r->incident[i]]) {
-                    follow(r, v, r->incident[i]);
+            for (uint32_t i = r->web.first[v]; i < r->web.first[v + 1]; ++i)
+                if (!r->followed[r->web.incident[i]]) {
+                    follow(r, v, r->web.incident[i]);
                     sample_line(r, between, places);
                 }
         }
@@ -166,30 +132,23 @@ icc_status iccp_rims_sample(iccp_places *places, const double *vertices, size_t 
                             const iccp_env *env)
 {
     const iccp_memory *memory = &env->memory;
-    rims r = {.dim = places->dim,
-              .n_vertices = n_vertices,
-              .n_segments = n_segments,
-              .vertices = vertices,
-              .segments = segments,
-              .spacing = spacing};
-    r.first = iccp_alloc_zero(memory, n_vertices + 1, sizeof *r.first);
-    r.incident = iccp_alloc(memory, n_segments, 2 * sizeof *r.incident);
+    rims r = {.spacing = spacing};
+    icc_status status = iccp_web_create(&r.web, places->dim, n_vertices, vertices, n_segments,
+                                        segments, memory);
     r.followed = iccp_alloc(memory, n_segments, sizeof *r.followed);
     r.sampled = iccp_alloc_zero(memory, n_vertices, sizeof *r.sampled);
     r.line = iccp_alloc(memory, n_segments + 1, sizeof *r.line);
     r.arc = iccp_alloc(memory, n_segments + 1, sizeof *r.arc);
-    const bool complete = r.first != NULL && r.incident != NULL && r.followed != NULL &&
-                          r.sampled != NULL && r.line != NULL && r.arc != NULL;
-    if (complete) {
-        connect(&r);
+    if (r.followed == NULL || r.sampled == NULL || r.line == NULL || r.arc == NULL)
+        status = ICC_ERR_MEMORY;
+    if (status == ICC_OK) {
         sample_lines(&r, false, places);
         sample_lines(&r, true, places);
     }
-    iccp_free(memory, r.first);
-    iccp_free(memory, r.incident);
+    iccp_web_free(&r.web);
     iccp_free(memory, r.followed);
     iccp_free(memory, r.sampled);
     iccp_free(memory, r.line);
     iccp_free(memory, r.arc);
-    return complete && !places->failed ? ICC_OK : ICC_ERR_MEMORY;
+    return status == ICC_OK && places->failed ? ICC_ERR_MEMORY : status;
 }

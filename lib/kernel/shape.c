@@ -2,9 +2,7 @@
 #include "kernel/shape.h"
 
 #include "base/error.h"
-#include "domain/inside.h"
 #include "domain/segment.h"
-#include "domain/simplex.h"
 #include "domain/triangles.h"
 
 #include <float.h>
@@ -13,12 +11,8 @@
 
 /* In longest sides of the box: rounding of input files, as for domains. */
 static const double WALL_TOLERANCE = 1e-14;
-/* Curves have no inside that points could be taken for: what was meant to be on one is. */
-static const double CURVE_TOLERANCE = 1e-9;
 /* Of the largest coordinate: a point between two vertices is off by so much. */
 static const double ROUNDING = 4 * DBL_EPSILON;
-
-/* ------------------------------------------------------------------ making */
 
 static icc_status check_curves(size_t dim, size_t n_vertices, const double *vertices,
                                size_t n_segments, const uint32_t *segments, icc_error *err)
@@ -192,6 +186,10 @@ static icc_status complete(icc_shape *shape, const double *vertices, const uint3
     status = plant(&shape->walls, shape, n_facets, shape->facets);
     if (status == ICC_OK)
         status = plant(&shape->curves, shape, shape->n_segments, shape->sticks);
+    if (status == ICC_OK)
+        status = iccp_web_create(&shape->web, shape->dim, shape->n_vertices,
+                                 shape->local + shape->dim * shape->n_walled, shape->n_segments,
+                                 shape->segments, &shape->memory);
     return status == ICC_OK ? check_walls(shape, env, err) : iccp_explain(err, status);
 }
 
@@ -246,6 +244,7 @@ void iccp_shape_release(icc_shape *shape)
         iccp_domain_release(shape->regions[r]);
     iccp_facet_tree_free(&shape->walls, &memory);
     iccp_facet_tree_free(&shape->curves, &memory);
+    iccp_web_free(&shape->web);
     iccp_free(&memory, shape->regions);
     iccp_free(&memory, shape->vertices);
     iccp_free(&memory, shape->segments);
@@ -254,164 +253,4 @@ void iccp_shape_release(icc_shape *shape)
     iccp_free(&memory, shape->owner);
     iccp_free(&memory, shape->sticks);
     iccp_free(&memory, shape);
-}
-
-/* ------------------------------------------------------------------ points */
-
-/* Of regions around a point that is on no wall, one within another, the smallest. */
-static uint32_t innermost(const icc_shape *shape, const double *point)
-{
-    uint32_t found = ICCP_NOWHERE;
-    double least = HUGE_VAL;
-    for (uint32_t r = 0; r < shape->n_regions; ++r) {
-        const icc_domain *d = shape->regions[r];
-        double local[3];
-        iccp_frame_in(&d->frame, d->dim, point, local);
-        if (iccp_domain_locate(d, local, true, NULL, NULL) == ICC_OUTSIDE)
-            continue;
-        double size = d->measure;
-        for (int32_t k = 0; k < d->dim; ++k)
-            size *= d->frame.out[0] * shape->frame.in[0] * (d->frame.out[1] * shape->frame.in[1]);
-        if (found == ICCP_NOWHERE || size < least) {
-            found = r;
-            least = size;
-        }
-    }
-    return found;
-}
-
-static double distance(size_t dim, const double *a, const double *b)
-{
-    double sum = 0;
-    for (size_t k = 0; k < dim; ++k)
-        sum += (a[k] - b[k]) * (a[k] - b[k]);
-    return sqrt(sum);
-}
-
-iccp_spot iccp_shape_spot(const icc_shape *shape, const double *point)
-{
-    double local[3], bary[3], distance2;
-    iccp_spot spot = {.clearance = HUGE_VAL,
-                      .wall = ICCP_NOWHERE,
-                      .region = ICCP_NOWHERE,
-                      .curve = ICCP_NOWHERE};
-    iccp_frame_in(&shape->frame, (int32_t)shape->dim, point, local);
-    iccp_inside_reach(shape->dim, local, spot.at);
-    if (shape->walls.n > 0) {
-        const uint32_t f = iccp_facet_tree_nearest(&shape->walls, spot.at, bary, &distance2);
-        spot.clearance = sqrt(distance2);
-        spot.wall = spot.clearance <= shape->tolerance ? f : ICCP_NOWHERE;
-        spot.region = spot.wall != ICCP_NOWHERE ? shape->owner[f] : innermost(shape, point);
-    }
-    if (shape->curves.n > 0) {
-        const uint32_t s = iccp_facet_tree_nearest(&shape->curves, spot.at, bary, &distance2);
-        if (sqrt(distance2) <= CURVE_TOLERANCE + shape->tolerance)
-            spot.curve = s;
-    }
-    return spot;
-}
-
-iccp_spot iccp_shape_spot_beside(const icc_shape *shape, const iccp_spot *other, const double *point,
-                                 double reach)
-{
-    iccp_spot spot = *other;
-    double local[3];
-    iccp_frame_in(&shape->frame, (int32_t)shape->dim, point, local);
-    iccp_inside_reach(shape->dim, local, spot.at);
-    spot.clearance = other->clearance - distance(shape->dim, spot.at, other->at);
-    if (!(spot.clearance > reach + shape->tolerance))
-        return iccp_shape_spot(shape, point);
-    spot.curve = ICCP_NOWHERE;
-    spot.beside = true;
-    return spot;
-}
-
-uint32_t iccp_shape_region(const icc_shape *shape, const double *point)
-{
-    return iccp_shape_spot(shape, point).region;
-}
-
-bool iccp_shape_holds(const icc_shape *shape, const double *point)
-{
-    const iccp_spot spot = iccp_shape_spot(shape, point);
-    return spot.region != ICCP_NOWHERE || spot.curve != ICCP_NOWHERE;
-}
-
-/* ------------------------------------------------------------------- sight */
-
-static bool stands_on(const icc_shape *shape, const iccp_spot *spot, uint32_t wall)
-{
-    const double *corners[3];
-    double bary[3];
-    if (spot->wall == ICCP_NOWHERE)
-        return false;
-    iccp_facet_corners(&shape->walls, wall, corners);
-    const double distance2 = iccp_simplex_nearest(shape->dim, shape->dim, corners, spot->at, bary);
-    return sqrt(distance2) <= shape->tolerance;
-}
-
-/* The plane of a wall that an end stands on is met there and nowhere else, but for rounding. */
-static bool blocked(const icc_shape *shape, const iccp_spot *a, const iccp_spot *b)
-{
-    const size_t dim = shape->dim;
-    double box[6], share;
-    iccp_facet_query query;
-    uint32_t wall;
-    for (size_t k = 0; k < dim; ++k) {
-        box[k] = fmin(a->at[k], b->at[k]);
-        box[dim + k] = fmax(a->at[k], b->at[k]);
-    }
-    iccp_facet_query_start(&query, &shape->walls, box);
-    query.from = a->at;
-    query.to = b->at;
-    while (iccp_facet_query_next(&query, &wall))
-        if (iccp_segment_meets(&shape->walls, wall, a->at, b->at, &share) &&
-            !stands_on(shape, a, wall) && !stands_on(shape, b, wall))
-            return true;
-    return false;
-}
-
-/* The region that a segment runs through which meets no wall between its ends. */
-static uint32_t region_between(const icc_shape *shape, const iccp_spot *a, const iccp_spot *b)
-{
-    double middle[3], point[3];
-    if (a->wall == ICCP_NOWHERE)
-        return a->region;
-    if (b->wall == ICCP_NOWHERE)
-        return b->region;
-    for (size_t k = 0; k < shape->dim; ++k)
-        middle[k] = 0.5 * (a->at[k] + b->at[k]);
-    iccp_frame_out(&shape->frame, (int32_t)shape->dim, middle, point);
-    return iccp_shape_region(shape, point);
-}
-
-static bool sees_through_region(const icc_shape *shape, const iccp_spot *a, const iccp_spot *b)
-{
-    if (a->region == ICCP_NOWHERE)
-        return false;
-    if (a->wall != ICCP_NOWHERE && a->wall == b->wall)
-        return true;
-    if (distance(shape->dim, a->at, b->at) < fmax(a->clearance, b->clearance))
-        return true;
-    return !blocked(shape, a, b) && region_between(shape, a, b) == a->region;
-}
-
-static bool sees_along_curve(const icc_shape *shape, const iccp_spot *a, const iccp_spot *b)
-{
-    if (a->curve == ICCP_NOWHERE || b->curve == ICCP_NOWHERE)
-        return false;
-    const uint32_t *s = shape->segments + 2 * (size_t)a->curve;
-    const uint32_t *t = shape->segments + 2 * (size_t)b->curve;
-    return s[0] == t[0] || s[0] == t[1] || s[1] == t[0] || s[1] == t[1];
-}
-
-bool iccp_spot_sees(const icc_shape *shape, const iccp_spot *a, const iccp_spot *b)
-{
-    return sees_through_region(shape, a, b) || sees_along_curve(shape, a, b);
-}
-
-bool iccp_shape_sees(const icc_shape *shape, const double *a, const double *b)
-{
-    const iccp_spot from = iccp_shape_spot(shape, a), to = iccp_shape_spot(shape, b);
-    return iccp_spot_sees(shape, &from, &to);
 }

@@ -4,6 +4,7 @@
 
 #include "domain/domain.h"
 #include "icc/kernel.h"
+#include "kernel/web.h"
 
 #define ICCP_NOWHERE UINT32_MAX
 
@@ -22,6 +23,7 @@ struct icc_shape {
     uint32_t *facets, *owner;  /* all walls, and the region of each */
     uint32_t *sticks;          /* the segments, as facets (3-D: with the second end twice) */
     iccp_facet_tree walls, curves; /* empty (n == 0) without */
+    iccp_web web;              /* of the segments */
 };
 
 /* See icc_shape_create(); arguments have been checked for NULL and dim. */
@@ -58,7 +60,7 @@ bool iccp_shape_holds(const icc_shape *shape, const double *point);
  * included, and meets no wall but at its ends. A wall belongs to the region that it encloses. So what lies
  * around a wall sees the points on it, but they do not see it: were it mutual, walls would conduct, and the
  * surroundings of a shape lead from one of its limbs to another.
- * Points on the same segment of the curves, or on two that meet, see each other, too. */
+ * Points of curves see each other, too, if the way along them is no more than twice as long as the straight one. */
 bool iccp_spot_sees(const icc_shape *shape, const iccp_spot *a, const iccp_spot *b);
 bool iccp_shape_sees(const icc_shape *shape, const double *a, const double *b);
 

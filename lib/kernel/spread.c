@@ -14,8 +14,8 @@ static const double DEFAULT_SPACING = 0.01;
 static const int32_t DEFAULT_STEPS = 60;
 /* Of the spacing: samples on walls and curves keep this distance, where lines of them meet at sharp angles. */
 static const double RIM_GAP = 0.55;
-/* On surfaces, where they are spread at random: such a limit leaves about as many as a lattice has. */
-static const double SKIN_GAP = 0.8;
+/* On surfaces, where they are spread at random: such a limit leaves about one a square of the spacing. */
+static const double SKIN_GAP = 0.75;
 /* Rounding of counts such as 10 / 0.1. */
 static const double COUNT_TOLERANCE = 1e-9;
 
@@ -119,19 +119,43 @@ static bool on_edge(const iccp_spot *spot)
     return spot->wall != ICCP_NOWHERE || spot->curve != ICCP_NOWHERE;
 }
 
+static icc_status check_fixed(const icc_shape *shape, const icc_sampling_options *options,
+                              const iccp_env *env, icc_error *err)
+{
+    iccp_places places;
+    iccp_places_start(&places, shape->dim, env);
+    double *distance = iccp_alloc(&env->memory, options->n_fixed, sizeof *distance);
+    icc_status status = distance == NULL ? iccp_fail_memory(err) : ICC_OK;
+    for (size_t i = 0; status == ICC_OK && i < options->n_fixed; ++i) {
+        const iccp_spot spot = iccp_shape_spot(shape, options->fixed + shape->dim * i);
+        if (!on_edge(&spot) && spot.region == ICCP_NOWHERE)
+            status = iccp_fail(err, ICC_ERR_OUTSIDE, (int64_t)i,
+                               "fixed point %zu lies in no region and on no curve", i);
+        iccp_places_add(&places, spot.at);
+    }
+    if (status == ICC_OK && places.failed)
+        status = iccp_fail_memory(err);
+    if (status == ICC_OK)
+        status = iccp_explain(
+            err, iccp_places_spacing(shape->dim, places.n, places.points, distance, env));
+    for (size_t i = 0; status == ICC_OK && i < options->n_fixed; ++i)
+        if (!(distance[i] > 0))
+            status = iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)i,
+                               "fixed point %zu is the same as another one", i);
+    iccp_places_free(&places);
+    iccp_free(&env->memory, distance);
+    return status;
+}
+
 /* The caller's points on walls and curves, or the others. */
-static icc_status add_fixed(iccp_places *places, const icc_shape *shape,
-                            const icc_sampling_options *options, bool edge, icc_error *err)
+static void add_fixed(iccp_places *places, const icc_shape *shape,
+                      const icc_sampling_options *options, bool edge)
 {
     for (size_t i = 0; i < options->n_fixed; ++i) {
         const iccp_spot spot = iccp_shape_spot(shape, options->fixed + shape->dim * i);
-        if (!on_edge(&spot) && spot.region == ICCP_NOWHERE)
-            return iccp_fail(err, ICC_ERR_OUTSIDE, (int64_t)i,
-                             "fixed point %zu lies in no region and on no curve", i);
         if (on_edge(&spot) == edge)
             iccp_places_add(places, spot.at);
     }
-    return places->failed ? iccp_fail_memory(err) : ICC_OK;
 }
 
 /* Lines first, then what is left of surfaces. */
@@ -159,25 +183,22 @@ static icc_status add_rims(iccp_places *places, const icc_shape *shape, double s
 /* All samples that stay where they are, those on walls and curves first. The caller's were first in the competition
  * for room. */
 static icc_status add_held(iccp_places *places, const icc_shape *shape,
-                           const icc_sampling_options *options, double spacing, const iccp_env *env,
-                           icc_error *err)
+                           const icc_sampling_options *options, double spacing, const iccp_env *env)
 {
     iccp_places rims;
     iccp_places_start(&rims, shape->dim, env);
-    icc_status status = add_fixed(&rims, shape, options, true, err);
+    add_fixed(&rims, shape, options, true);
     const size_t n_edge = rims.n;
-    if (status == ICC_OK)
-        status = add_fixed(&rims, shape, options, false, err);
+    add_fixed(&rims, shape, options, false);
     const size_t n_fixed = rims.n;
-    if (status == ICC_OK)
-        status = iccp_explain(err, add_rims(&rims, shape, spacing, options->seed, env));
+    const icc_status status = add_rims(&rims, shape, spacing, options->seed, env);
     for (size_t i = 0; status == ICC_OK && i < rims.n; ++i)
         if (i < n_edge || i >= n_fixed)
             iccp_places_add(places, rims.points + shape->dim * i);
     for (size_t i = n_edge; status == ICC_OK && i < n_fixed; ++i)
         iccp_places_add(places, rims.points + shape->dim * i);
     iccp_places_free(&rims);
-    return status == ICC_OK && places->failed ? iccp_fail_memory(err) : status;
+    return status == ICC_OK && places->failed ? ICC_ERR_MEMORY : status;
 }
 
 static icc_status spread_blue(iccp_places *places, const icc_shape *shape,
@@ -188,10 +209,12 @@ static icc_status spread_blue(iccp_places *places, const icc_shape *shape,
     const double spacing = options->spacing * shape->frame.in[0] * shape->frame.in[1];
     if (!(expect_samples(shape, spacing) + (double)options->n_fixed <= MAX_SAMPLES))
         return fail_many(err);
-    icc_status status = add_held(places, shape, options, spacing, env, err);
+    icc_status status = options->n_fixed > 0 ? check_fixed(shape, options, env, err) : ICC_OK;
     if (status != ICC_OK)
         return status;
-    status = iccp_blue_fill(places, shape, spacing, steps, options->seed, env);
+    status = add_held(places, shape, options, spacing, env);
+    if (status == ICC_OK)
+        status = iccp_blue_fill(places, shape, spacing, steps, options->seed, env);
     if (status == ICC_ERR_RESOLUTION || (status == ICC_OK && (double)places->n > MAX_SAMPLES))
         return fail_many(err);
     for (size_t i = 0; i < places->n; ++i) {
