@@ -144,6 +144,8 @@ icc_status iccp_kernel_start(icc_kernel *kernel, const iccp_env *env)
     icc_status status = optimise_ends(kernel, env);
     if (status == ICC_OK)
         status = iccp_kernel_optimise(kernel, l->n, NULL, env);
+    for (size_t k = 0; status == ICC_OK && k < l->n_lines; ++k)
+        status = iccp_kernel_follow(kernel, k, env);
     kernel->info.seconds_weights = iccp_seconds() - start;
     return status;
 }

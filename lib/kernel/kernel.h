@@ -32,6 +32,9 @@ icc_status iccp_kernel_optimise(icc_kernel *kernel, size_t n, const uint32_t *no
 /* Optimises all weights from the initial ones, and lines. */
 icc_status iccp_kernel_start(icc_kernel *kernel, const iccp_env *env);
 
+/* Lets the nodes near line k follow it. */
+icc_status iccp_kernel_follow(icc_kernel *kernel, size_t k, const iccp_env *env);
+
 /* Coefficients for the weights, of the handles whose weights at nodes are not those of `before`; NULL: of all. */
 icc_status iccp_kernel_interpolate(icc_kernel *kernel, const icc_kernel *before, const iccp_env *env);
 
