@@ -41,8 +41,8 @@ static icc_status find_shares(void *argument, size_t begin, size_t end)
         if (is_held(d, i))
             continue;
         for (size_t e = k->first[i]; e < k->first[i + 1]; ++e) {
-            const bool seen = d->spots == NULL || iccp_spot_sees(d->nodes->shape,
-                                                                 &d->spots[k->column[e]], &d->spots[i]);
+            const bool seen = d->spots == NULL || iccp_spot_sees(d->nodes->shape, &d->spots[i],
+                                                                 &d->spots[k->column[e]]);
             d->share[e] = seen ? k->value[e] : 0;
             sum += d->share[e];
         }

@@ -56,8 +56,8 @@ uint32_t iccp_shape_region(const icc_shape *shape, const double *point);
 /* Whether a point is in the shape: in a region or, within 1e-9 of the box, on a curve. */
 bool iccp_shape_holds(const icc_shape *shape, const double *point);
 
-/* Whether a takes part in what is at b: the segment between them runs through the region of a, its boundary
- * included, and meets no wall but at its ends. A wall belongs to the region that it encloses. So what lies
+/* Whether a sees b, so that what is at b may spread to a: the segment between them runs through the region of a, its
+ * boundary included, and meets no wall but at its ends. A wall belongs to the region that it encloses. So what lies
  * around a wall sees the points on it, but they do not see it: were it mutual, walls would conduct, and the
  * surroundings of a shape lead from one of its limbs to another.
  * Points of curves see each other, too, if the way along them is no more than twice as long as the straight one. */
