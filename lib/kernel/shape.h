@@ -60,6 +60,7 @@ bool iccp_shape_holds(const icc_shape *shape, const double *point);
  * boundary included, and meets no wall but at its ends. A wall belongs to the region that it encloses. So what lies
  * around a wall sees the points on it, but they do not see it: were it mutual, walls would conduct, and the
  * surroundings of a shape lead from one of its limbs to another.
+ * What is outside all regions is one region here, for samples beyond the shape, but for points of curves.
  * Points of curves see each other, too, if the way along them is no more than twice as long as the straight one. */
 bool iccp_spot_sees(const icc_shape *shape, const iccp_spot *a, const iccp_spot *b);
 bool iccp_shape_sees(const icc_shape *shape, const double *a, const double *b);

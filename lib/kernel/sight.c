@@ -140,7 +140,7 @@ static uint32_t region_between(const icc_shape *shape, const iccp_spot *a, const
 
 static bool sees_through_region(const icc_shape *shape, const iccp_spot *a, const iccp_spot *b)
 {
-    if (a->region == ICCP_NOWHERE)
+    if (a->region == ICCP_NOWHERE && a->curve != ICCP_NOWHERE)
         return false;
     if (a->wall != ICCP_NOWHERE && a->wall == b->wall)
         return true;

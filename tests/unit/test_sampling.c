@@ -1,6 +1,7 @@
 /* Samplings: grids, blue noise, the caller's points, bytes. */
 #include "base/blob.h"
 #include "faulty.h"
+#include "gaussians.h"
 #include "kernel/places.h"
 #include "kernel/sampling.h"
 #include "kernel/spectrum.h"
@@ -240,6 +241,29 @@ START_TEST(blue_noise_has_its_spectrum)
     ck_assert_msg(blue_power < 0.2, "blue noise: %g", blue_power);
     ck_assert_msg(high > 1, "no ring: %g", high);
     icc_sampling_free(sampling);
+    icc_shape_free(shape);
+}
+END_TEST
+
+/* Section 3.3.2: 1024 points in [-30, 30]^2, sigma = 2.5. There it was 2.3e5, 3.4e-4, 1.1e-2, 5.7e-9. */
+START_TEST(gaussians_on_blue_noise_do_as_well_as_in_the_thesis)
+{
+    icc_shape *shape = square_shape(30);
+    for (uint64_t seed = 1; seed <= 2; ++seed) {
+        const icc_sampling_options options = blue(2.08, seed);
+        icc_sampling *sampling = sample(shape, &options);
+        const icc_sampling_info info = info_of(sampling);
+        gaussians g;
+        ck_assert_msg(info.n_samples > 1004 && info.n_samples < 1044, "%zu", info.n_samples);
+        ck_assert(gaussians_create(&g, info.n_samples, sampling->points, 2.5));
+        const gaussians_report r = gaussians_measure(&g, 81, 15, HUGE_VAL);
+        ck_assert_msg(r.condition <= 5e5, "condition: %g", r.condition);
+        ck_assert_msg(r.unity <= 4e-4, "unity: %g", r.unity);
+        ck_assert_msg(r.reproduction <= 1.2e-2, "reproduction: %g", r.reproduction);
+        ck_assert_msg(r.lagrange <= 1e-8, "Lagrange: %g", r.lagrange);
+        gaussians_free(&g);
+        icc_sampling_free(sampling);
+    }
     icc_shape_free(shape);
 }
 END_TEST
@@ -699,6 +723,7 @@ int main(void)
     tcase_add_test(c, blue_noise_is_evenly_spaced_and_keeps_to_its_side);
     tcase_add_test(c, no_steps_and_many_steps_keep_to_their_side);
     tcase_add_test(c, blue_noise_has_its_spectrum);
+    tcase_add_test(c, gaussians_on_blue_noise_do_as_well_as_in_the_thesis);
     tcase_add_test(c, equal_seeds_give_equal_samplings);
     tcase_add_test(c, fixed_points_are_samples);
     tcase_add_test(c, curves_are_sampled_along);

@@ -198,6 +198,18 @@ START_TEST(a_wall_belongs_to_what_it_encloses)
 }
 END_TEST
 
+START_TEST(the_outside_is_a_region_of_its_own)
+{
+    icc_shape *shape = u_shape(0.2, 0);
+    const double gap[2] = {0, 2}, above[2] = {0, 3.5}, beyond[2] = {2, 2}, wall[2] = {0.1, 2};
+    const double limb[2] = {0.2, 2};
+    ck_assert(iccp_shape_sees(shape, gap, above) && iccp_shape_sees(shape, above, gap));
+    ck_assert(!iccp_shape_sees(shape, gap, beyond) && !iccp_shape_sees(shape, gap, limb));
+    ck_assert(iccp_shape_sees(shape, gap, wall) && !iccp_shape_sees(shape, wall, gap));
+    icc_shape_free(shape);
+}
+END_TEST
+
 START_TEST(boundaries_must_not_meet)
 {
     static const double OTHERS[][8] = {
@@ -410,6 +422,7 @@ int main(void)
     tcase_add_test(c, walls_hide_exactly_what_is_behind_them);
     tcase_add_test(c, limbs_do_not_see_each_other);
     tcase_add_test(c, a_wall_belongs_to_what_it_encloses);
+    tcase_add_test(c, the_outside_is_a_region_of_its_own);
     tcase_add_test(c, boundaries_must_not_meet);
     tcase_add_test(c, regions_of_very_different_size_nest);
     tcase_add_test(c, space_has_walls_too);
