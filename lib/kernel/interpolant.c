@@ -229,18 +229,20 @@ typedef struct solution {
 static void split_affine(const iccp_collocation *c, size_t n_sides, double *b, double *tail)
 {
     const size_t q = c->n_tail;
-    for (size_t r = 0; r < n_sides; ++r) {
-        double t[MOST_TAIL] = {0};
-        for (size_t i = 0; i < c->n; ++i)
+    double t[SIDES][MOST_TAIL] = {{0}};
+    for (size_t i = 0; i < c->n; ++i)
+        for (size_t r = 0; r < n_sides; ++r)
             for (size_t k = 0; k < q; ++k)
-                t[k] += c->z[q * i + k] * b[n_sides * i + r];
-        solve_schur(c, t);
-        for (size_t i = 0; i < c->n; ++i)
+                t[r][k] += c->z[q * i + k] * b[n_sides * i + r];
+    for (size_t r = 0; r < n_sides; ++r)
+        solve_schur(c, t[r]);
+    for (size_t i = 0; i < c->n; ++i)
+        for (size_t r = 0; r < n_sides; ++r)
             for (size_t k = 0; k < q; ++k)
-                b[n_sides * i + r] -= tail_entry(c, i, k) * t[k];
+                b[n_sides * i + r] -= tail_entry(c, i, k) * t[r][k];
+    for (size_t r = 0; r < n_sides; ++r)
         for (size_t k = 0; k < q; ++k)
-            tail[n_sides * k + r] = t[k];
-    }
+            tail[n_sides * k + r] = t[r][k];
 }
 
 static icc_status solve_sides(void *argument, size_t begin, size_t end)
