@@ -22,7 +22,8 @@ static const double COUNT_TOLERANCE = 1e-9;
 static icc_status fail_many(icc_error *err)
 {
     return iccp_fail(err, ICC_ERR_RESOLUTION, -1,
-                     "the spacing is too small: there would be more than 2^24 samples");
+                     "the spacing is too small: more than 2^24 samples, or 2^27 places for them in the "
+                     "shape's box");
 }
 
 static double default_spacing(const icc_shape *shape)
