@@ -140,7 +140,7 @@ static outcome iterate(const iccp_nonneg *p, double slope, int steps, double *x)
         if (error <= TIGHT * fmax(size, multiplier)) {
             for (size_t j = 0; j < p->m; ++j) {
                 const double t = x[j] + dot(p->columns + ICCP_ROWS * j, s.y);
-                x[j] = t >= 0 ? t : slope * t;
+                x[j] = t >= 0 ? t : slope > 0 ? slope * t : 0;
             }
             return SOLVED;
         }
