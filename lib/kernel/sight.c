@@ -3,6 +3,7 @@
 
 #include "domain/inside.h"
 #include "domain/simplex.h"
+#include "math/orient.h"
 
 #include <math.h>
 
@@ -103,7 +104,33 @@ static bool stands_on(const icc_shape *shape, const iccp_spot *spot, uint32_t wa
     return sqrt(distance2) <= shape->tolerance;
 }
 
-/* The plane of a wall that an end stands on is met there and nowhere else, but for rounding. */
+/* Whether a spot is in the plane of a wall, to the precision with which that is known at its distance. */
+static bool in_plane(const icc_shape *shape, const iccp_spot *spot, uint32_t wall)
+{
+    const size_t dim = shape->dim;
+    const double *c[4];
+    iccp_facet_corners(&shape->walls, wall, c);
+    c[dim] = spot->at;
+    double size = distance(dim, c[0], c[1]), area = size;
+    if (dim == 3) {
+        const double b = distance(3, c[1], c[2]), d = distance(3, c[2], c[0]), h = 0.5 * (size + b + d);
+        area = 2 * sqrt(fmax(h * (h - size) * (h - b) * (h - d), 0));
+        size = sqrt(area);
+    }
+    const double slack = shape->tolerance * (1 + distance(dim, c[0], spot->at) / size);
+    return fabs(iccp_orient_value(dim, c)) <= slack * area;
+}
+
+/* A wall that an end stands on is met there and nowhere else, but for rounding. Two points on walls may also have in
+ * between, to rounding, what continues theirs straight on. */
+static bool passes(const icc_shape *shape, const iccp_spot *a, const iccp_spot *b, uint32_t wall)
+{
+    if (stands_on(shape, a, wall) || stands_on(shape, b, wall))
+        return true;
+    return a->wall != ICCP_NOWHERE && b->wall != ICCP_NOWHERE && in_plane(shape, a, wall) &&
+           in_plane(shape, b, wall);
+}
+
 static bool blocked(const icc_shape *shape, const iccp_spot *a, const iccp_spot *b)
 {
     const size_t dim = shape->dim;
@@ -119,7 +146,7 @@ static bool blocked(const icc_shape *shape, const iccp_spot *a, const iccp_spot 
     query.to = b->at;
     while (iccp_facet_query_next(&query, &wall))
         if (iccp_segment_meets(&shape->walls, wall, a->at, b->at, &share) &&
-            !stands_on(shape, a, wall) && !stands_on(shape, b, wall))
+            !passes(shape, a, b, wall))
             return true;
     return false;
 }

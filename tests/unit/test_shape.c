@@ -198,6 +198,38 @@ START_TEST(a_wall_belongs_to_what_it_encloses)
 }
 END_TEST
 
+/* However often the sides of the star are divided, and however they are rounded, one sees along them. */
+START_TEST(divided_walls_are_still_straight)
+{
+    enum { MOST = 200 };
+    static double xy[20 * MOST];
+    double star[20];
+    star_outline(star);
+    for (int parts = 1; parts <= MOST; parts += parts < 7 ? 2 : 193) {
+        for (int i = 0; i < 10; ++i)
+            for (int k = 0; k < parts; ++k)
+                for (int c = 0; c < 2; ++c) {
+                    const double a = star[2 * i + c], b = star[(2 * i + 2 + c) % 20];
+                    xy[2 * (i * parts + k) + c] = a + k * (b - a) / parts;
+                }
+        icc_domain *const region = polygon_of((size_t)(10 * parts), xy);
+        icc_shape *shape = shape_of(2, 1, &region);
+        for (int i = 0; i < 10; ++i)
+            for (int j = 0; j <= 23; ++j)
+                for (int k = 0; k <= 23; ++k) {
+                    double p[2], q[2];
+                    for (int c = 0; c < 2; ++c) {
+                        const double a = star[2 * i + c], b = star[(2 * i + 2 + c) % 20];
+                        p[c] = a + (b - a) * (j / 23.0);
+                        q[c] = a + (b - a) * (k / 23.0);
+                    }
+                    ck_assert(iccp_shape_sees(shape, p, q));
+                }
+        icc_shape_free(shape);
+    }
+}
+END_TEST
+
 START_TEST(the_outside_is_a_region_of_its_own)
 {
     icc_shape *shape = u_shape(0.2, 0);
@@ -422,6 +454,7 @@ int main(void)
     tcase_add_test(c, walls_hide_exactly_what_is_behind_them);
     tcase_add_test(c, limbs_do_not_see_each_other);
     tcase_add_test(c, a_wall_belongs_to_what_it_encloses);
+    tcase_add_test(c, divided_walls_are_still_straight);
     tcase_add_test(c, the_outside_is_a_region_of_its_own);
     tcase_add_test(c, boundaries_must_not_meet);
     tcase_add_test(c, regions_of_very_different_size_nest);
