@@ -319,7 +319,8 @@ ICC_API icc_status icc_kernel_set_method(icc_kernel **out, const icc_kernel *ker
 /**
  * Makes weights vary as little as may be over a part of the shape, so that it moves as if it were rigid
  * (5.12 to 5.35, with the sign of 5.35a mended): least squared derivatives there, weighted by `rigidity`.
- * Sums and reproduction hold; handles, nodes on edges and on lines keep their weights.
+ * Sums and reproduction hold; handles, nodes on edges and on lines keep their weights. Nodes around the part,
+ * within the kernel's reach, give way. With QP no weight becomes negative at a node where none was.
  *
  * @param[out] out  a new kernel; owned by the caller
  * @param kernel    the kernel

@@ -121,7 +121,8 @@ static icc_status stiffen(icc_kernel *copy, size_t n, const uint32_t *nodes, con
     for (size_t i = 0; i < l->n; ++i)
         held[i] = l->held[i] || l->edge[i] != ICCP_NO_EDGE;
     const icc_status status = iccp_stiffen(&all, l->handles, l->collocation, n, nodes, rigidity, held,
-                                           copy->weights, copy->coefficients, energy, env);
+                                           copy->info.method == ICC_WEIGHTS_QP, copy->weights,
+                                           copy->coefficients, energy, env);
     iccp_free(&env->memory, held);
     return status;
 }

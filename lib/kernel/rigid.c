@@ -7,7 +7,7 @@
  * - The rigidity stands inside the sum 5.16 and may vary.
  * - Not only the part's coefficients change, but also those around it, lest the weights bend between the part and what
  *   is held; there, the derivatives of the change count instead of those of the weights.
- * Non-negativity, 5.35d, is not imposed. */
+ * Non-negativity, 5.35d, is restored node by node after minimising, which takes a quarter of the gain on the star. */
 #include "kernel/rigid_system.h"
 #include "kernel/structure.h"
 
@@ -20,6 +20,7 @@ typedef struct vectors {
     double *moved;        /* n: by it, the weights */
     double *right, *x, *left, *work; /* as many as the system has */
     double *values, *gradients;      /* 1; dim */
+    double *scratch;                 /* for iccp_optimise() */
 } vectors;
 
 /* The energy, and its negative derivatives by the area's coefficients. */
@@ -59,19 +60,39 @@ static void minimise(const iccp_rigid *r, const iccp_handles *handles, const vec
     iccp_collocation_multiply(r->collocation, m, v->change, v->moved);
 }
 
+static bool has_negative(size_t m, const double *weights)
+{
+    for (size_t j = 0; j < m; ++j)
+        if (weights[j] < 0)
+            return true;
+    return false;
+}
+
+/* Turns changes of weights into weights; with `positive`, where none was negative none becomes so. */
+static void add_weights(const iccp_rigid *r, const iccp_handles *handles, const bool *held, bool positive,
+                        const double *weights, const vectors *v)
+{
+    const size_t m = r->nodes->n_handles;
+    for (size_t i = 0; i < r->nodes->n; ++i) {
+        double *moved = v->moved + m * i;
+        const double *before = weights + m * i;
+        for (size_t j = 0; j < m; ++j)
+            moved[j] = before[j] + (held[i] ? 0 : moved[j]);
+        if (positive && has_negative(m, moved) && !has_negative(m, before))
+            (void)iccp_optimise(handles, ICC_WEIGHTS_QP, r->nodes->points + r->nodes->dim * i, moved,
+                                v->scratch);
+    }
+}
+
 /* The affine function changes a little with the values, and the energy with it: should that not fall, all stays. */
 static icc_status lower_energy(const iccp_rigid *r, const iccp_handles *handles, const bool *held,
-                               const vectors *v, double *weights, double *coefficients,
+                               bool positive, const vectors *v, double *weights, double *coefficients,
                                double energy[2], const iccp_env *env)
 {
     const size_t n = r->nodes->n, m = r->nodes->n_handles;
     energy[0] = energy[1] = find_energy(r, coefficients, v);
     minimise(r, handles, v);
-    for (size_t i = 0; i < n; ++i)
-        for (size_t j = 0; j < m; ++j) {
-            double *moved = v->moved + m * i + j;
-            *moved = weights[m * i + j] + (held[i] ? 0 : *moved);
-        }
+    add_weights(r, handles, held, positive, weights, v);
     const icc_status status =
         iccp_collocation_solve(r->collocation, m, v->moved, v->coefficients, env);
     if (status != ICC_OK)
@@ -85,14 +106,15 @@ static icc_status lower_energy(const iccp_rigid *r, const iccp_handles *handles,
     return ICC_OK;
 }
 
-static icc_status run(const iccp_rigid *r, const iccp_handles *handles, const bool *held,
+static icc_status run(const iccp_rigid *r, const iccp_handles *handles, const bool *held, bool positive,
                       double *weights, double *coefficients, double energy[2], const iccp_env *env)
 {
     const size_t n = r->nodes->n, m = r->nodes->n_handles, dim = r->nodes->dim, size = r->matrix.n;
-    const size_t rows[] = {n + dim + 1, n, n, size, size, size, size, 1, dim};
+    const size_t scratch = iccp_optimise_work(handles) / m + 1;
+    const size_t rows[] = {n + dim + 1, n, n, size, size, size, size, 1, dim, scratch};
     vectors v;
-    double **const arrays[] = {&v.coefficients, &v.change, &v.moved,  &v.right,    &v.x,
-                               &v.left,         &v.work,   &v.values, &v.gradients};
+    double **const arrays[] = {&v.coefficients, &v.change, &v.moved,  &v.right,     &v.x,
+                               &v.left,         &v.work,   &v.values, &v.gradients, &v.scratch};
     icc_status status = ICC_OK;
     for (size_t k = 0; k < sizeof rows / sizeof *rows; ++k) {
         *arrays[k] = iccp_alloc(&env->memory, rows[k], m * sizeof **arrays[k]);
@@ -100,7 +122,7 @@ static icc_status run(const iccp_rigid *r, const iccp_handles *handles, const bo
             status = ICC_ERR_MEMORY;
     }
     if (status == ICC_OK)
-        status = lower_energy(r, handles, held, &v, weights, coefficients, energy, env);
+        status = lower_energy(r, handles, held, positive, &v, weights, coefficients, energy, env);
     for (size_t k = 0; k < sizeof rows / sizeof *rows; ++k)
         iccp_free(&env->memory, *arrays[k]);
     return status;
@@ -108,7 +130,7 @@ static icc_status run(const iccp_rigid *r, const iccp_handles *handles, const bo
 
 icc_status iccp_stiffen(const iccp_nodes *nodes, const iccp_handles *handles,
                         const iccp_collocation *collocation, size_t n_part, const uint32_t *part,
-                        const double *rigidity, const bool *held, double *weights,
+                        const double *rigidity, const bool *held, bool positive, double *weights,
                         double *coefficients, double energy[2], const iccp_env *env)
 {
     iccp_rigid r;
@@ -117,7 +139,7 @@ icc_status iccp_stiffen(const iccp_nodes *nodes, const iccp_handles *handles,
         status = iccp_rigid_create(&r, nodes, collocation, n_part, part, rigidity, held, env);
     if (status != ICC_OK)
         return status;
-    status = run(&r, handles, held, weights, coefficients, energy, env);
+    status = run(&r, handles, held, positive, weights, coefficients, energy, env);
     iccp_rigid_free(&r);
     return status;
 }

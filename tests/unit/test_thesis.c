@@ -198,6 +198,8 @@ START_TEST(rigid_parts_lose_energy_and_edges_stay)
         ck_assert_double_le(fabs(energy[1] - energy_of(&after, n, part, NULL)), 1e-9 * energy[0]);
         for (size_t i = 0; i < before.info.n_nodes; ++i) {
             ck_assert_double_le(error_at(&after, star, i), 1e-10);
+            for (size_t j = 0; after.status[i] == ICC_OK && j < TIPS; ++j)
+                ck_assert_double_ge(after.weights[TIPS * i + j], 0);
             bool on_edge = i < TIPS;
             for (size_t e = 0; e < TIPS; ++e) {
                 const double *p = star + 2 * e, *q = star + 2 * ((e + 1) % TIPS);
