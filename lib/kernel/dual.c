@@ -26,7 +26,7 @@ typedef struct state {
     const double *start;
     double *held;        /* 1 for the components that are, 0 for free ones */
     double *columns;     /* of the combined equations */
-    double y[ICCP_ROWS]; /* x[j] is start[j] + column j * y, or the negative force where it is held */
+    double y[ICCP_ROWS]; /* x[j], or minus the force where it is held: start[j] + column j * y */
     size_t steps;        /* that may still be made */
 } state;
 

@@ -11,9 +11,11 @@ enum { ICCP_ROWS = 4 };
 /* Minimises |x - start|^2 where the sum of x[j] * column j is the target and no x[j] is negative. */
 typedef struct iccp_nonneg {
     size_t m;
-    const double *columns; /* ICCP_ROWS each, of length 1 at most; they span all rows that are not 0 */
+    const double
+        *columns; /* ICCP_ROWS each, of length 1 at most; they span all rows that are not 0 */
     double target[ICCP_ROWS];
-    double total; /* the sum of all x that meet the equations, or HUGE_VAL where they leave it open: then there must
+    double
+        total; /* the sum of all x that meet the equations, or HUGE_VAL where they leave it open: then there must
                      be a solution */
 } iccp_nonneg;
 

@@ -12,9 +12,9 @@ typedef struct diffusion {
     const iccp_nodes *nodes;
     const iccp_symmetric *matrix;
     bool edges;
-    double *share;     /* of the matrix' entries, in the mean of their row; 0 for those that are not seen */
-    double *own;       /* the node's own share */
-    iccp_spot *spots;  /* NULL: all see each other */
+    double *share;    /* of the matrix' entries in the mean of their row; 0: not seen */
+    double *own;      /* the node's own share */
+    iccp_spot *spots; /* NULL: all see each other */
     const double *from;
     double *to;
 } diffusion;
@@ -72,7 +72,8 @@ static icc_status take_means(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
-static icc_status run(diffusion *d, int32_t steps, double *weights, double *other, const iccp_env *env)
+static icc_status run(diffusion *d, int32_t steps, double *weights, double *other,
+                      const iccp_env *env)
 {
     const size_t n = d->nodes->n, m = d->nodes->n_handles;
     icc_status status = ICC_OK;

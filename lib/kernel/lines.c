@@ -19,7 +19,8 @@ static double share_of(const iccp_nodes *nodes, size_t from, size_t to, size_t n
 }
 
 /* The length of one line over that of another, negative when they point in opposite directions. */
-static double ratio_of(const iccp_nodes *nodes, const iccp_line_nodes *line, const iccp_line_nodes *other)
+static double ratio_of(const iccp_nodes *nodes, const iccp_line_nodes *line,
+                       const iccp_line_nodes *other)
 {
     double along = 0, length2 = 0, other2 = 0;
     for (size_t k = 0; k < nodes->dim; ++k) {
@@ -42,8 +43,8 @@ void iccp_straighten(const iccp_nodes *nodes, const iccp_line_nodes *line,
     if (parallel != NULL) {
         const double ratio = ratio_of(nodes, line, parallel);
         for (size_t j = 0; j < m; ++j)
-            to[j] = from[j] +
-                    ratio * (weights[m * parallel->to + j] - weights[m * parallel->from + j]);
+            to[j] =
+                from[j] + ratio * (weights[m * parallel->to + j] - weights[m * parallel->from + j]);
     }
     for (size_t i = line->first; i < line->first + line->count; ++i) {
         const double share = share_of(nodes, line->from, line->to, i);

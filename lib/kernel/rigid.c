@@ -15,9 +15,9 @@
 
 /* Arrays of m numbers a row. */
 typedef struct vectors {
-    double *coefficients; /* n + dim + 1 rows */
-    double *change;       /* n: of the coefficients */
-    double *moved;        /* n: by it, the weights */
+    double *coefficients;            /* n + dim + 1 rows */
+    double *change;                  /* n: of the coefficients */
+    double *moved;                   /* n: by it, the weights */
     double *right, *x, *left, *work; /* as many as the system has */
     double *values, *gradients;      /* 1; dim */
     double *scratch;                 /* for iccp_optimise() */
@@ -69,8 +69,8 @@ static bool has_negative(size_t m, const double *weights)
 }
 
 /* Turns changes of weights into weights; with `positive`, where none was negative none becomes so. */
-static void add_weights(const iccp_rigid *r, const iccp_handles *handles, const bool *held, bool positive,
-                        const double *weights, const vectors *v)
+static void add_weights(const iccp_rigid *r, const iccp_handles *handles, const bool *held,
+                        bool positive, const double *weights, const vectors *v)
 {
     const size_t m = r->nodes->n_handles;
     for (size_t i = 0; i < r->nodes->n; ++i) {
@@ -79,15 +79,15 @@ static void add_weights(const iccp_rigid *r, const iccp_handles *handles, const 
         for (size_t j = 0; j < m; ++j)
             moved[j] = before[j] + (held[i] ? 0 : moved[j]);
         if (positive && has_negative(m, moved) && !has_negative(m, before))
-            (void)iccp_optimise(handles, ICC_WEIGHTS_QP, r->nodes->points + r->nodes->dim * i, moved,
-                                v->scratch);
+            (void)iccp_optimise(handles, ICC_WEIGHTS_QP, r->nodes->points + r->nodes->dim * i,
+                                moved, v->scratch);
     }
 }
 
 /* The affine function changes a little with the values, and the energy with it: should that not fall, all stays. */
 static icc_status lower_energy(const iccp_rigid *r, const iccp_handles *handles, const bool *held,
-                               bool positive, const vectors *v, double *weights, double *coefficients,
-                               double energy[2], const iccp_env *env)
+                               bool positive, const vectors *v, double *weights,
+                               double *coefficients, double energy[2], const iccp_env *env)
 {
     const size_t n = r->nodes->n, m = r->nodes->n_handles;
     energy[0] = energy[1] = find_energy(r, coefficients, v);
@@ -106,8 +106,9 @@ static icc_status lower_energy(const iccp_rigid *r, const iccp_handles *handles,
     return ICC_OK;
 }
 
-static icc_status run(const iccp_rigid *r, const iccp_handles *handles, const bool *held, bool positive,
-                      double *weights, double *coefficients, double energy[2], const iccp_env *env)
+static icc_status run(const iccp_rigid *r, const iccp_handles *handles, const bool *held,
+                      bool positive, double *weights, double *coefficients, double energy[2],
+                      const iccp_env *env)
 {
     const size_t n = r->nodes->n, m = r->nodes->n_handles, dim = r->nodes->dim, size = r->matrix.n;
     const size_t scratch = iccp_optimise_work(handles) / m + 1;

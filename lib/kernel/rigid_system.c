@@ -52,8 +52,7 @@ static void set_weights(iccp_rigid *r, const double *rigidity)
         mean += rigidity[k] / (double)r->n_part;
     for (size_t row = 0; row < dim * r->n; ++row) {
         const size_t k = row / dim;
-        r->weight[row] =
-            k >= r->n_part ? SURROUNDINGS * mean : rigidity != NULL ? rigidity[k] : 1;
+        r->weight[row] = k >= r->n_part ? SURROUNDINGS * mean : rigidity != NULL ? rigidity[k] : 1;
     }
 }
 
@@ -74,8 +73,8 @@ static void fill_slopes(iccp_rigid *r)
             for (size_t k = 0; k < dim; ++k)
                 distance2 += (x[dim * i + k] - x[dim * j + k]) * (x[dim * i + k] - x[dim * j + k]);
             r->slopes.column[n] = r->number[j];
-            r->slopes.value[n++] = 2 * iccp_radial_slope(radial, distance2) *
-                                   (x[dim * i + axis] - x[dim * j + axis]);
+            r->slopes.value[n++] =
+                2 * iccp_radial_slope(radial, distance2) * (x[dim * i + axis] - x[dim * j + axis]);
         }
     }
     r->slopes.first[dim * r->n] = n;

@@ -377,7 +377,8 @@ START_TEST(l1_is_least)
         random_handles(&p, &r);
         /* On a lattice many sets of handles are as good as each other. */
         for (size_t k = 0; set % 3 == 0 && k < p.dim * p.m; ++k)
-            p.handles[k] = k / p.dim < 4 ? (double)(k / p.dim > k % p.dim) : random_below(&r, 3) - 1;
+            p.handles[k] =
+                k / p.dim < 4 ? (double)(k / p.dim > k % p.dim) : random_below(&r, 3) - 1;
         iccp_handles *handles = make_handles(&p);
         for (int k = 0; k < 40; ++k) {
             bool up = false, down = false;
@@ -387,7 +388,8 @@ START_TEST(l1_is_least)
             if (k % 2 == 0)
                 point_inside(&p, &r);
             else
-                point_between(&p, (size_t)random_below(&r, (int)p.m), (size_t)random_below(&r, (int)p.m), &r);
+                point_between(&p, (size_t)random_below(&r, (int)p.m),
+                              (size_t)random_below(&r, (int)p.m), &r);
             ck_assert_int_eq(run(handles, ICC_WEIGHTS_L1, &p), ICC_OK);
             const double least = least_by_force(&p);
             ck_assert_double_le(error_of(&p), 1e-10 * size_of(&p));
