@@ -25,7 +25,8 @@ static inline double gaussians_value(const gaussians *g, const double *p, size_t
 /* False if the matrix is not positive definite. */
 static inline bool gaussians_create(gaussians *g, size_t n, const double *points, double sigma)
 {
-    *g = (gaussians){n, points, sigma, malloc(n * n * sizeof(double)), malloc(n * n * sizeof(double))};
+    *g = (gaussians){n, points, sigma, malloc(n * n * sizeof(double)),
+                     malloc(n * n * sizeof(double))};
     for (size_t i = 0; i < n; ++i)
         for (size_t j = 0; j < n; ++j)
             g->matrix[n * i + j] = g->factor[n * i + j] = gaussians_value(g, points + 2 * i, j);
@@ -94,7 +95,8 @@ typedef struct gaussians_report {
 } gaussians_report;
 
 /* Deviations on a grid of count^2 points over the square of half-side `half`, in the maximum norm. */
-static inline void gaussians_deviations(const gaussians *g, int count, double half, gaussians_report *r)
+static inline void gaussians_deviations(const gaussians *g, int count, double half,
+                                        gaussians_report *r)
 {
     double *f[3];
     for (int c = 0; c < 3; ++c) {

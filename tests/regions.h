@@ -65,7 +65,8 @@ static inline icc_shape *star_shape(void)
 /* A U of width 3 whose limbs are `gap` apart, alone or in a square. */
 static inline icc_shape *u_shape(double gap, int surrounded)
 {
-    const double g = 0.5 * gap, xy[16] = {-1.5, 0, 1.5, 0, 1.5, 3, g, 3, g, 1, -g, 1, -g, 3, -1.5, 3};
+    const double g = 0.5 * gap,
+                 xy[16] = {-1.5, 0, 1.5, 0, 1.5, 3, g, 3, g, 1, -g, 1, -g, 3, -1.5, 3};
     const double square[8] = {-3, -3, 3, -3, 3, 5, -3, 5};
     icc_domain *const regions[2] = {polygon_of(8, xy), polygon_of(4, square)};
     if (surrounded)

@@ -23,7 +23,8 @@ static icc_status check_finite(size_t n, size_t dim, const double *points, const
     for (size_t i = 0; i < n; ++i)
         for (size_t k = 0; k < dim; ++k)
             if (!isfinite(points[dim * i + k]))
-                return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)i, "%s %zu is not finite", name, i);
+                return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)i, "%s %zu is not finite", name,
+                                 i);
     return ICC_OK;
 }
 
@@ -51,11 +52,11 @@ icc_status icc_shape_create(icc_shape **out, int32_t dim, size_t n_regions,
     if (out != NULL)
         *out = NULL;
     iccp_env full_env;
-    const char *missing = out == NULL                              ? "out"
-                          : n_regions > 0 && regions == NULL       ? "regions"
-                          : n_vertices > 0 && vertices == NULL     ? "vertices"
-                          : n_segments > 0 && segments == NULL     ? "segments"
-                                                                   : NULL;
+    const char *missing = out == NULL                          ? "out"
+                          : n_regions > 0 && regions == NULL   ? "regions"
+                          : n_vertices > 0 && vertices == NULL ? "vertices"
+                          : n_segments > 0 && segments == NULL ? "segments"
+                                                               : NULL;
     icc_status status = begin(&full_env, env, missing, err);
     if (status != ICC_OK)
         return status;
@@ -79,7 +80,8 @@ void icc_shape_free(icc_shape *shape)
 
 /* ---------------------------------------------------------------- sampling */
 
-static icc_status check_spread(const icc_sampling_options *o, const icc_shape *shape, icc_error *err)
+static icc_status check_spread(const icc_sampling_options *o, const icc_shape *shape,
+                               icc_error *err)
 {
     if (o->kind != ICC_SAMPLING_GRID && o->kind != ICC_SAMPLING_BLUE)
         return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_sampling_options.kind is %ld",

@@ -1,6 +1,7 @@
 /* Inverse mean shift (thesis, section 6.2.1, equation 6.4): every sample is pushed away from those around it, by a
- * Gaussian of their distance. The thesis starts from random points and takes 4,000 to 28,000 steps. Points of the densest
- * lattice (hexagonal, face-centred cubic in 3-D), shaken, are nearly there to begin with: some ten steps will do.
+ * Gaussian of their distance. The thesis starts from random points and takes 4,000 to 28,000 steps. Points of the
+ * densest lattice (hexagonal, face-centred cubic in 3-D), shaken, are nearly there to begin with: some ten steps
+ * will do.
  *
  * Containment: a sample that stays farther from all walls than the length of a step never crosses one. */
 #include "kernel/blue.h"
@@ -13,13 +14,13 @@
 #include <string.h>
 
 /* All in spacings; tests/bench/bench_sampling.c shows what comes of them. */
-static const double SHAKE = 0.3;       /* points of the lattice are moved by up to this along each axis */
-static const double CLEARANCE = 0.4;  /* how far samples stay from walls */
-static const double SCALE = 0.45;     /* s of the Gaussian; the thesis has about 1/3, for small steps */
-static const double REACH = 3;        /* in s: beyond it the push is below 6 % of the largest */
-static const double GAIN = 0.7;       /* lambda / s^2 */
+static const double SHAKE = 0.3; /* points of the lattice are moved by up to this along each axis */
+static const double CLEARANCE = 0.4; /* how far samples stay from walls */
+static const double SCALE = 0.45; /* s of the Gaussian; the thesis has about 1/3, for small steps */
+static const double REACH = 3;    /* in s: beyond it the push is below 6 % of the largest */
+static const double GAIN = 0.7;   /* lambda / s^2 */
 static const double LONGEST_STEP = 0.2; /* less than the clearance: no step leads through a wall */
-static const double TOO_NEAR = 0.55;  /* samples nearer than that are one too many */
+static const double TOO_NEAR = 0.55;    /* samples nearer than that are one too many */
 
 /* ----------------------------------------------------------------- lattice */
 
@@ -199,8 +200,7 @@ static icc_status relax_steps(relaxation *r, int32_t steps, const iccp_env *env)
 {
     const size_t n_free = r->n - r->n_held, n_numbers = r->dim * n_free;
     for (int32_t step = 0; step < steps; ++step) {
-        icc_status status =
-            iccp_cells_create(&r->cells, r->dim, r->n, r->points, r->spacing, env);
+        icc_status status = iccp_cells_create(&r->cells, r->dim, r->n, r->points, r->spacing, env);
         if (status == ICC_OK)
             status = iccp_for_chunks(env, "relax samples", n_free, 512, move_chunk, r);
         iccp_cells_free(&r->cells);
@@ -231,8 +231,8 @@ static icc_status relax(iccp_places *places, size_t n_held, const icc_shape *sha
     return status;
 }
 
-icc_status iccp_blue_fill(iccp_places *places, const icc_shape *shape, double spacing, int32_t steps,
-                          uint64_t seed, const iccp_env *env)
+icc_status iccp_blue_fill(iccp_places *places, const icc_shape *shape, double spacing,
+                          int32_t steps, uint64_t seed, const iccp_env *env)
 {
     const size_t n_held = places->n;
     icc_status status = add_lattice(places, shape, spacing, seed, env);

@@ -117,7 +117,8 @@ static void sample_lines(rims *r, bool between, iccp_places *places)
         r->followed[s] = false;
     for (int pass = 0; pass < 3; ++pass)
         for (uint32_t v = 0; v < r->web.n_vertices; ++v) {
-            if ((pass == 0 && iccp_web_degree(&r->web, v) == 2) || (pass == 1 && is_smooth(&r->web, v)))
+            if ((pass == 0 && iccp_web_degree(&r->web, v) == 2) ||
+                (pass == 1 && is_smooth(&r->web, v)))
                 continue;
             for (uint32_t i = r->web.first[v]; i < r->web.first[v + 1]; ++i)
                 if (!r->followed[r->web.incident[i]]) {
@@ -133,8 +134,8 @@ icc_status iccp_rims_sample(iccp_places *places, const double *vertices, size_t 
 {
     const iccp_memory *memory = &env->memory;
     rims r = {.spacing = spacing};
-    icc_status status = iccp_web_create(&r.web, places->dim, n_vertices, vertices, n_segments,
-                                        segments, memory);
+    icc_status status =
+        iccp_web_create(&r.web, places->dim, n_vertices, vertices, n_segments, segments, memory);
     r.followed = iccp_alloc(memory, n_segments, sizeof *r.followed);
     r.sampled = iccp_alloc_zero(memory, n_vertices, sizeof *r.sampled);
     r.line = iccp_alloc(memory, n_segments + 1, sizeof *r.line);

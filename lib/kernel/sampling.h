@@ -8,7 +8,8 @@ struct icc_sampling {
     iccp_memory memory;
     atomic_size_t references;
     icc_shape *shape;
-    double *points;         /* dim each, the caller's coordinates: edge samples first, but for a grid and the caller's
+    double *
+        points; /* dim each, the caller's coordinates: edge samples first, but for a grid and the caller's
                                own points, which keep their order */
     icc_sampling_info info; /* but for `size` */
 };

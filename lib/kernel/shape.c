@@ -199,8 +199,7 @@ icc_status iccp_shape_create(icc_shape **out, int32_t dim, size_t n_regions,
                              const iccp_env *env, icc_error *err)
 {
     *out = NULL;
-    icc_status status =
-        check_curves((size_t)dim, n_vertices, vertices, n_segments, segments, err);
+    icc_status status = check_curves((size_t)dim, n_vertices, vertices, n_segments, segments, err);
     if (status != ICC_OK)
         return status;
     icc_shape *shape = iccp_alloc_zero(&env->memory, 1, sizeof *shape);

@@ -13,17 +13,17 @@ struct icc_shape {
     atomic_size_t references;
     size_t dim, n_regions, n_vertices, n_segments;
     icc_domain **regions;
-    double *vertices;          /* of the curves */
+    double *vertices; /* of the curves */
     uint32_t *segments;
     double lower[3], upper[3]; /* box around everything */
-    iccp_frame frame;          /* of everything together: what follows is in its local coordinates */
-    double tolerance;          /* points this close to a wall are on it */
-    size_t n_walled;           /* vertices of walls */
-    double *local;             /* vertices of all walls, region after region, then those of the curves */
-    uint32_t *facets, *owner;  /* all walls, and the region of each */
-    uint32_t *sticks;          /* the segments, as facets (3-D: with the second end twice) */
+    iccp_frame frame; /* of everything together: what follows is in its local coordinates */
+    double tolerance; /* points this close to a wall are on it */
+    size_t n_walled;  /* vertices of walls */
+    double *local;    /* vertices of all walls, region after region, then those of the curves */
+    uint32_t *facets, *owner;      /* all walls, and the region of each */
+    uint32_t *sticks;              /* the segments, as facets (3-D: with the second end twice) */
     iccp_facet_tree walls, curves; /* empty (n == 0) without */
-    iccp_web web;              /* of the segments */
+    iccp_web web;                  /* of the segments */
 };
 
 /* See icc_shape_create(); arguments have been checked for NULL and dim. */
@@ -47,8 +47,8 @@ iccp_spot iccp_shape_spot(const icc_shape *shape, const double *point);
 
 /* The same for a point beside another one. If the other's clearance shows that no wall is within `reach`, nothing is
  * looked up, curves are left out, and the clearance is a lower bound. */
-iccp_spot iccp_shape_spot_beside(const icc_shape *shape, const iccp_spot *other, const double *point,
-                                 double reach);
+iccp_spot iccp_shape_spot_beside(const icc_shape *shape, const iccp_spot *other,
+                                 const double *point, double reach);
 
 /* The innermost region that a point is in, its boundary included; ICCP_NOWHERE outside all. */
 uint32_t iccp_shape_region(const icc_shape *shape, const double *point);

@@ -34,8 +34,8 @@ static icc_status fail_content(icc_error *err, icc_status status)
     return iccp_fail(err, ICC_ERR_FORMAT, -1, "the bytes do not describe a shape");
 }
 
-static icc_status read_region(icc_domain **out, int32_t dim, iccp_blob_reader *r, const iccp_env *env,
-                              icc_error *err)
+static icc_status read_region(icc_domain **out, int32_t dim, iccp_blob_reader *r,
+                              const iccp_env *env, icc_error *err)
 {
     const size_t d = (size_t)dim;
     const size_t n_vertices = iccp_blob_read_count(r, d * F64);
@@ -74,7 +74,8 @@ static icc_status read_curves(curves *c, size_t dim, iccp_blob_reader *r, const 
     return r->failed ? ICC_ERR_FORMAT : ICC_OK;
 }
 
-icc_status iccp_shape_read(icc_shape **out, iccp_blob_reader *r, const iccp_env *env, icc_error *err)
+icc_status iccp_shape_read(icc_shape **out, iccp_blob_reader *r, const iccp_env *env,
+                           icc_error *err)
 {
     const uint64_t dim = iccp_blob_read_u64(r);
     *out = NULL;

@@ -13,11 +13,13 @@ typedef void (*iccp_sieve_point)(const void *lattice, const size_t *at, double *
 
 typedef struct iccp_sieve {
     const icc_shape *shape;
-    size_t count[3]; /* points along each axis, 1 beyond dim; their product is at most ICCP_MAX_SIEVED */
+    size_t count
+        [3]; /* points along each axis, 1 beyond dim; their product is at most ICCP_MAX_SIEVED */
     iccp_sieve_point point;
     const void *lattice;
-    double clearance; /* inside, points nearer than this to a wall are dropped; outside, those farther from one */
-    double margin;    /* than this, in local units; 0 keeps what is on a wall */
+    double
+        clearance; /* inside, points nearer than this to a wall are dropped; outside, those farther from one */
+    double margin; /* than this, in local units; 0 keeps what is on a wall */
 } iccp_sieve;
 
 /* Adds the points that stay, the first axis fastest. */

@@ -45,10 +45,8 @@ static double distance(size_t dim, const double *a, const double *b)
 iccp_spot iccp_shape_spot(const icc_shape *shape, const double *point)
 {
     double local[3], bary[3], distance2;
-    iccp_spot spot = {.clearance = HUGE_VAL,
-                      .wall = ICCP_NOWHERE,
-                      .region = ICCP_NOWHERE,
-                      .curve = ICCP_NOWHERE};
+    iccp_spot spot = {
+        .clearance = HUGE_VAL, .wall = ICCP_NOWHERE, .region = ICCP_NOWHERE, .curve = ICCP_NOWHERE};
     iccp_frame_in(&shape->frame, (int32_t)shape->dim, point, local);
     iccp_inside_reach(shape->dim, local, spot.at);
     if (shape->walls.n > 0) {
@@ -65,8 +63,8 @@ iccp_spot iccp_shape_spot(const icc_shape *shape, const double *point)
     return spot;
 }
 
-iccp_spot iccp_shape_spot_beside(const icc_shape *shape, const iccp_spot *other, const double *point,
-                                 double reach)
+iccp_spot iccp_shape_spot_beside(const icc_shape *shape, const iccp_spot *other,
+                                 const double *point, double reach)
 {
     iccp_spot spot = *other;
     double local[3];
@@ -113,7 +111,8 @@ static bool in_plane(const icc_shape *shape, const iccp_spot *spot, uint32_t wal
     c[dim] = spot->at;
     double size = distance(dim, c[0], c[1]), area = size;
     if (dim == 3) {
-        const double b = distance(3, c[1], c[2]), d = distance(3, c[2], c[0]), h = 0.5 * (size + b + d);
+        const double b = distance(3, c[1], c[2]), d = distance(3, c[2], c[0]),
+                     h = 0.5 * (size + b + d);
         area = 2 * sqrt(fmax(h * (h - size) * (h - b) * (h - d), 0));
         size = sqrt(area);
     }
@@ -172,7 +171,8 @@ static bool sees_through_region(const icc_shape *shape, const iccp_spot *a, cons
     if (a->wall != ICCP_NOWHERE && a->wall == b->wall)
         return true;
     /* Well within a ball without walls. */
-    if (distance(shape->dim, a->at, b->at) < fmax(a->clearance, b->clearance) - 2 * shape->tolerance)
+    if (distance(shape->dim, a->at, b->at) <
+        fmax(a->clearance, b->clearance) - 2 * shape->tolerance)
         return true;
     return !blocked(shape, a, b) && region_between(shape, a, b) == a->region;
 }
@@ -195,8 +195,7 @@ static bool sees_along_curve(const icc_shape *shape, const iccp_spot *a, const i
     const double longest = LONGEST_DETOUR * distance(shape->dim, a->at, b->at);
     for (int i = 0; i < 2; ++i) {
         const uint32_t v = shape->segments[2 * (size_t)a->curve + (size_t)i];
-        open[n++] =
-            (step){a->curve, v, distance(shape->dim, a->at, iccp_web_vertex(web, v))};
+        open[n++] = (step){a->curve, v, distance(shape->dim, a->at, iccp_web_vertex(web, v))};
     }
     for (int steps = 0; n > 0 && steps < MOST_STEPS; ++steps) {
         const step at = open[--n];

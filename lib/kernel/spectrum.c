@@ -121,7 +121,8 @@ icc_status iccp_spectrum_sigma(size_t dim, size_t n, const double *points, doubl
     icc_status status = ICC_OK;
     if (n >= FEWEST) {
         n = n < MOST ? n : MOST;
-        status = iccp_spectrum(dim, n, points, HIGHEST / (spacing * ICCP_SPECTRUM_BINS), power, env);
+        status =
+            iccp_spectrum(dim, n, points, HIGHEST / (spacing * ICCP_SPECTRUM_BINS), power, env);
         if (status == ICC_OK)
             rise = find_rise(power);
     }

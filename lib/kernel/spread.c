@@ -21,9 +21,10 @@ static const double COUNT_TOLERANCE = 1e-9;
 
 static icc_status fail_many(icc_error *err)
 {
-    return iccp_fail(err, ICC_ERR_RESOLUTION, -1,
-                     "the spacing is too small: more than 2^24 samples, or 2^27 places for them in the "
-                     "shape's box");
+    return iccp_fail(
+        err, ICC_ERR_RESOLUTION, -1,
+        "the spacing is too small: more than 2^24 samples, or 2^27 places for them in the "
+        "shape's box");
 }
 
 static double default_spacing(const icc_shape *shape)
@@ -106,7 +107,8 @@ static double expect_samples(const icc_shape *shape, double spacing)
         n += facet_size(shape, &shape->walls, f) / pow(spacing, (double)shape->dim - 1);
     for (size_t s = 0; s < shape->n_segments; ++s) {
         const double *a = shape->local + shape->dim * (shape->n_walled + shape->segments[2 * s]);
-        const double *b = shape->local + shape->dim * (shape->n_walled + shape->segments[2 * s + 1]);
+        const double *b =
+            shape->local + shape->dim * (shape->n_walled + shape->segments[2 * s + 1]);
         double sum = 0;
         for (size_t k = 0; k < shape->dim; ++k)
             sum += (b[k] - a[k]) * (b[k] - a[k]);
@@ -160,8 +162,8 @@ static void add_fixed(iccp_places *places, const icc_shape *shape,
 }
 
 /* Lines first, then what is left of surfaces. */
-static icc_status add_rims(iccp_places *places, const icc_shape *shape, double spacing, uint64_t seed,
-                           const iccp_env *env)
+static icc_status add_rims(iccp_places *places, const icc_shape *shape, double spacing,
+                           uint64_t seed, const iccp_env *env)
 {
     const size_t n_fixed = places->n, dim = shape->dim;
     icc_status status =
@@ -238,8 +240,9 @@ icc_status iccp_sampling_create(icc_sampling **out, const icc_shape *shape,
         full.spacing = default_spacing(shape);
     const icc_sampling_info info = {.kind = full.kind, .spacing = full.spacing};
     iccp_places_start(&places, shape->dim, env);
-    icc_status status = full.kind == ICC_SAMPLING_GRID ? spread_grid(&places, shape, &full, env, err)
-                                                       : spread_blue(&places, shape, &full, env, err);
+    icc_status status = full.kind == ICC_SAMPLING_GRID
+                            ? spread_grid(&places, shape, &full, env, err)
+                            : spread_blue(&places, shape, &full, env, err);
     if (status == ICC_OK)
         status = iccp_sampling_finish(out, shape, places.n, places.points, &info, env, err);
     iccp_places_free(&places);

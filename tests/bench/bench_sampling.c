@@ -102,7 +102,8 @@ static void bench_square(void)
         icc_sampling_info info;
         double seconds;
         gaussians g;
-        const icc_sampling_options options = {.size = sizeof options, .spacing = 2.08, .seed = seed};
+        const icc_sampling_options options = {
+            .size = sizeof options, .spacing = 2.08, .seed = seed};
         icc_sampling *sampling = sample(shape, &options, &info, &seconds);
         title("blue noise in [-30, 30]^2, sigma 2.5");
         row("points", "1024", (double)info.n_samples, "");

@@ -64,7 +64,8 @@ static void check_binding(const uint8_t *bytes, size_t size)
     require(icc_binding_get_counts(binding, &n_points, &n_handles, &dim) == ICC_OK);
     require((dim == 2 || dim == 3) && n_handles > (size_t)dim);
     uint8_t *again = malloc(size);
-    require(again != NULL && icc_binding_save(binding, size, again, &n) == ICC_OK);
+    require(again != NULL);
+    require(icc_binding_save(binding, size, again, &n) == ICC_OK);
     require(n == size && memcmp(again, bytes, size) == 0);
     free(again);
     icc_binding_free(binding);

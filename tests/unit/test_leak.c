@@ -26,13 +26,13 @@ static double leak(int surrounded, int32_t visible, int32_t steps)
     icc_shape *shape = long_u(surrounded);
     const icc_sampling_options sampling_options = {.size = sizeof sampling_options,
                                                    .spacing = SPACING};
-    const icc_kernel_options options = {
-        .size = sizeof options, .visible = visible, .steps = steps};
+    const icc_kernel_options options = {.size = sizeof options, .visible = visible, .steps = steps};
     icc_sampling *sampling;
     icc_kernel *kernel;
     icc_kernel_info info = {.size = sizeof info};
     ck_assert_int_eq(icc_sampling_create(&sampling, shape, &sampling_options, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(icc_kernel_create(&kernel, sampling, 4, HANDLES, &options, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_kernel_create(&kernel, sampling, 4, HANDLES, &options, NULL, NULL),
+                     ICC_OK);
     ck_assert_int_eq(icc_kernel_get_info(kernel, &info), ICC_OK);
     double *points = malloc(info.n_nodes * 2 * sizeof *points), there = 0, all = 0;
     double *initial = malloc(info.n_nodes * 4 * sizeof *initial);
@@ -57,7 +57,8 @@ START_TEST(weights_do_not_cross_a_gap)
 {
     for (int surrounded = 0; surrounded < 2; ++surrounded)
         for (int32_t steps = 5; steps <= 100; steps += 95) {
-            const double visible = leak(surrounded, 1, steps), everywhere = leak(surrounded, -1, steps);
+            const double visible = leak(surrounded, 1, steps),
+                         everywhere = leak(surrounded, -1, steps);
             ck_assert_msg(visible <= 4e-9, "%g after %d steps", visible, (int)steps);
             /* As the thesis does it: the test sees the leak. */
             ck_assert_msg(everywhere > 1e-3, "%g after %d steps", everywhere, (int)steps);

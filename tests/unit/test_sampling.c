@@ -53,8 +53,7 @@ static bool same_samples(const icc_sampling *a, const icc_sampling *b)
 {
     const icc_sampling_info x = info_of(a), y = info_of(b);
     return x.n_samples == y.n_samples && memcmp(&x, &y, sizeof x) == 0 &&
-           memcmp(a->points, b->points,
-                  x.n_samples * (size_t)x.dim * sizeof(double)) == 0;
+           memcmp(a->points, b->points, x.n_samples * (size_t)x.dim * sizeof(double)) == 0;
 }
 
 /* -------------------------------------------------------------------- grid */
@@ -146,9 +145,8 @@ static double largest_hole(const icc_sampling *sampling)
     iccp_cells cells;
     uint32_t near[64];
     double largest = 0;
-    ck_assert_int_eq(iccp_cells_create(&cells, 2, info.n_samples, sampling->points, info.spacing,
-                                       &env),
-                     ICC_OK);
+    ck_assert_int_eq(
+        iccp_cells_create(&cells, 2, info.n_samples, sampling->points, info.spacing, &env), ICC_OK);
     for (int i = 0; i < 300; ++i)
         for (int j = 0; j < 300; ++j) {
             const double p[2] = {1.33 * (i - 149.5) / 150, 1.33 * (j - 149.5) / 150};
@@ -203,8 +201,8 @@ START_TEST(no_steps_and_many_steps_keep_to_their_side)
         for (size_t k = 0; k < info.n_samples; ++k) {
             const iccp_spot spot = iccp_shape_spot(shape, sampling->points + 2 * k);
             ck_assert_uint_ne(spot.region, ICCP_NOWHERE);
-            ck_assert(k < info.n_edge || spot.clearance >= 0.399 * 0.1 * shape->frame.in[0] *
-                                                                shape->frame.in[1]);
+            ck_assert(k < info.n_edge ||
+                      spot.clearance >= 0.399 * 0.1 * shape->frame.in[0] * shape->frame.in[1]);
         }
         icc_sampling_free(sampling);
     }
@@ -324,15 +322,12 @@ START_TEST(fixed_points_are_samples)
     ck_assert_int_eq(icc_sampling_create(&sampling, shape, &options, NULL, &err), ICC_ERR_OUTSIDE);
     ck_assert_int_eq(err.index, 1);
     options.fixed = twice;
-    ck_assert_int_eq(icc_sampling_create(&sampling, shape, &options, NULL, &err),
-                     ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_sampling_create(&sampling, shape, &options, NULL, &err), ICC_ERR_ARGUMENT);
     options.n_fixed = 1;
     options.fixed = nan;
-    ck_assert_int_eq(icc_sampling_create(&sampling, shape, &options, NULL, &err),
-                     ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_sampling_create(&sampling, shape, &options, NULL, &err), ICC_ERR_ARGUMENT);
     options.fixed = NULL;
-    ck_assert_int_eq(icc_sampling_create(&sampling, shape, &options, NULL, &err),
-                     ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_sampling_create(&sampling, shape, &options, NULL, &err), ICC_ERR_ARGUMENT);
     icc_shape_free(shape);
 }
 END_TEST
@@ -408,8 +403,7 @@ START_TEST(place_and_size_do_not_matter)
         icc_sampling *sampling = sample(shape, &options);
         const icc_sampling_info info = info_of(sampling);
         n[i] = info.n_samples;
-        ck_assert_msg(n[i] > 0.9 * (double)n[0] && n[i] < 1.1 * (double)n[0], "%zu, not %zu", n[i],
-                      n[0]);
+        ck_assert_msg(10 * n[i] > 9 * n[0] && 10 * n[i] < 11 * n[0], "%zu, not %zu", n[i], n[0]);
         ck_assert(info.nearest >= 0.55 && info.sigma > 0.7 * info.spacing &&
                   info.sigma < 1.3 * info.spacing);
         icc_sampling_free(sampling);
@@ -547,8 +541,8 @@ static icc_sampling *small_sampling(void)
     icc_domain *square = polygon_of(4, xy);
     const icc_domain *regions[1] = {square};
     icc_shape *shape;
-    ck_assert_int_eq(
-        icc_shape_create(&shape, 2, 1, regions, 3, STICK, 2, SEGMENTS, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_shape_create(&shape, 2, 1, regions, 3, STICK, 2, SEGMENTS, NULL, NULL),
+                     ICC_OK);
     icc_domain_free(square);
     const icc_sampling_options options = blue(0.5, 1);
     icc_sampling *sampling = sample(shape, &options);

@@ -42,9 +42,9 @@ START_TEST(cells_find_what_a_search_of_all_finds)
                 for (size_t k = 0; k < dim; ++k)
                     points[dim * i + k] = random_between(&r, -1, 1) * (k == 0 ? all : flat * all);
             iccp_cells cells;
-            ck_assert_int_eq(iccp_cells_create(&cells, dim, n, points,
-                                               pow(10, random_between(&r, -4, 1)), &env),
-                             ICC_OK);
+            ck_assert_int_eq(
+                iccp_cells_create(&cells, dim, n, points, pow(10, random_between(&r, -4, 1)), &env),
+                ICC_OK);
             ck_assert_uint_le(cells.shape[0] * cells.shape[1] * cells.shape[2], 4 * n + 1);
             for (int query = 0; query < 20; ++query) {
                 const double radius = query == 0 ? 0 : random_between(&r, 0, 1.5);
@@ -259,9 +259,8 @@ START_TEST(boundaries_must_not_meet)
         const icc_domain *regions[3] = {square, square, other};
         icc_shape *shape;
         icc_error err = {.size = sizeof err};
-        ck_assert_int_eq(
-            icc_shape_create(&shape, 2, 2, regions + 1, 0, NULL, 0, NULL, NULL, &err),
-            ICC_ERR_BOUNDARY);
+        ck_assert_int_eq(icc_shape_create(&shape, 2, 2, regions + 1, 0, NULL, 0, NULL, NULL, &err),
+                         ICC_ERR_BOUNDARY);
         ck_assert_ptr_null(shape);
         ck_assert_int_eq(err.index, 1);
         ck_assert_ptr_nonnull(strstr(err.message, "regions 0 and 1"));
@@ -371,8 +370,8 @@ START_TEST(fine_curves_are_seen_along)
         }
     }
     icc_shape *shape;
-    ck_assert_int_eq(
-        icc_shape_create(&shape, 2, 0, NULL, N, xy, N - 1, segments, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_shape_create(&shape, 2, 0, NULL, N, xy, N - 1, segments, NULL, NULL),
+                     ICC_OK);
     for (uint32_t i = 0; i + 800 < N; i += 7)
         for (uint32_t k = 1; k < 20; ++k) {
             ck_assert(iccp_shape_sees(shape, xy + 2 * i, xy + 2 * (i + k)));
