@@ -29,7 +29,8 @@ icc_status icc_binding_create(icc_binding **out, const icc_kernel *kernel, size_
     const icc_status status = iccp_env_read(&full_env, env, err);
     if (status != ICC_OK)
         return status;
-    return iccp_explain(err, iccp_binding_create(out, kernel, n, points, derivatives == 1, &full_env));
+    return iccp_explain(err,
+                        iccp_binding_create(out, kernel, n, points, derivatives == 1, &full_env));
 }
 
 void icc_binding_free(icc_binding *binding)
@@ -76,7 +77,8 @@ icc_status icc_binding_pose(const icc_binding *binding, const double *transforms
                             : status;
 }
 
-icc_status icc_binding_save(const icc_binding *binding, size_t capacity, void *data, size_t *n_bytes)
+icc_status icc_binding_save(const icc_binding *binding, size_t capacity, void *data,
+                            size_t *n_bytes)
 {
     if (binding == NULL || n_bytes == NULL || (capacity > 0 && data == NULL))
         return ICC_ERR_ARGUMENT;
@@ -110,7 +112,8 @@ icc_status icc_pose_reset(int32_t dim, size_t n_handles, double *transforms)
 
 icc_status icc_pose_move(int32_t dim, double *transform, const double *offset)
 {
-    if (dim < 2 || dim > 3 || transform == NULL || offset == NULL || !are_finite((size_t)dim, offset))
+    if (dim < 2 || dim > 3 || transform == NULL || offset == NULL ||
+        !are_finite((size_t)dim, offset))
         return ICC_ERR_ARGUMENT;
     iccp_pose_move((size_t)dim, transform, offset);
     return ICC_OK;

@@ -36,7 +36,8 @@ static icc_status check_choice(int32_t value, int32_t first, int32_t last, const
 {
     if (value >= first && value <= last)
         return ICC_OK;
-    return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_kernel_options.%s is %ld", member, (long)value);
+    return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_kernel_options.%s is %ld", member,
+                     (long)value);
 }
 
 static icc_status check_amount(double value, double most, const char *member, icc_error *err)
@@ -96,7 +97,8 @@ static icc_status check_lines(const icc_kernel_options *o, size_t dim, icc_error
         if (line->parallel < 0 || (size_t)line->parallel > k || line->reserved != 0)
             return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)k,
                              "line %zu: parallel is %ld, reserved is %ld; it may be parallel to an "
-                             "earlier line", k, (long)line->parallel, (long)line->reserved);
+                             "earlier line",
+                             k, (long)line->parallel, (long)line->reserved);
     }
     return ICC_OK;
 }
@@ -119,8 +121,8 @@ static icc_status check_handles(size_t dim, size_t n, const double *handles, icc
 {
     if (n < dim + 1 || n > MAX_HANDLES)
         return iccp_fail(err, ICC_ERR_ARGUMENT, -1,
-                         "there are %zu handles; there must be %zu at least, to reproduce points", n,
-                         dim + 1);
+                         "there are %zu handles; there must be %zu at least, to reproduce points",
+                         n, dim + 1);
     const size_t j = first_infinite(n, dim, handles);
     if (j == n)
         return ICC_OK;
@@ -175,7 +177,8 @@ icc_status icc_kernel_create(icc_kernel **out, const icc_sampling *sampling, siz
     if (status != ICC_OK)
         return status;
     complete(&full, sampling->info.sigma);
-    return iccp_explain(err, iccp_kernel_create(out, sampling, n_handles, handles, &full, &full_env, err));
+    return iccp_explain(
+        err, iccp_kernel_create(out, sampling, n_handles, handles, &full, &full_env, err));
 }
 
 void icc_kernel_free(icc_kernel *kernel)
@@ -244,8 +247,8 @@ icc_status icc_kernel_get_report(const icc_kernel *kernel, size_t n, const doubl
 /* ---- kernels from others ---- */
 
 /* Every function that makes a kernel from another one starts like this. */
-static icc_status begin(iccp_env *full, icc_kernel **out, const icc_kernel *kernel, bool complete_call,
-                        const char *name, const icc_env *env, icc_error *err)
+static icc_status begin(iccp_env *full, icc_kernel **out, const icc_kernel *kernel,
+                        bool complete_call, const char *name, const icc_env *env, icc_error *err)
 {
     if (out != NULL)
         *out = NULL;
@@ -270,7 +273,8 @@ icc_status icc_kernel_paint(icc_kernel **out, const icc_kernel *kernel, size_t h
         return iccp_fail(err, ICC_ERR_ARGUMENT, -1,
                          "icc_kernel_paint: radius %g, amount %g, or a centre that is not finite",
                          radius, amount);
-    return iccp_explain(err, iccp_kernel_paint(out, kernel, handle, centre, radius, amount, &full_env));
+    return iccp_explain(err,
+                        iccp_kernel_paint(out, kernel, handle, centre, radius, amount, &full_env));
 }
 
 icc_status icc_kernel_repaint(icc_kernel **out, const icc_kernel *kernel, size_t n,
@@ -278,8 +282,9 @@ icc_status icc_kernel_repaint(icc_kernel **out, const icc_kernel *kernel, size_t
                               icc_error *err)
 {
     iccp_env full_env;
-    const icc_status status = begin(&full_env, out, kernel, n == 0 || (nodes != NULL && weights != NULL),
-                                    "icc_kernel_repaint", env, err);
+    const icc_status status =
+        begin(&full_env, out, kernel, n == 0 || (nodes != NULL && weights != NULL),
+              "icc_kernel_repaint", env, err);
     if (status != ICC_OK)
         return status;
     const size_t k = first_infinite(n, kernel->layout->n_handles, weights);
@@ -293,7 +298,8 @@ icc_status icc_kernel_set_method(icc_kernel **out, const icc_kernel *kernel, int
                                  const icc_env *env, icc_error *err)
 {
     iccp_env full_env;
-    const icc_status status = begin(&full_env, out, kernel, true, "icc_kernel_set_method", env, err);
+    const icc_status status =
+        begin(&full_env, out, kernel, true, "icc_kernel_set_method", env, err);
     if (status != ICC_OK)
         return status;
     if (method < ICC_WEIGHTS_QP || method > ICC_WEIGHTS_L1)
@@ -314,6 +320,6 @@ icc_status icc_kernel_stiffen(icc_kernel **out, const icc_kernel *kernel, size_t
         if (!(rigidity[k] > 0) || !isfinite(rigidity[k]))
             return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)k, "the rigidity of node %lu is %g",
                              (unsigned long)nodes[k], rigidity[k]);
-    return iccp_explain(err,
-                        iccp_kernel_stiffen(out, kernel, n, nodes, rigidity, energy, &full_env, err));
+    return iccp_explain(
+        err, iccp_kernel_stiffen(out, kernel, n, nodes, rigidity, energy, &full_env, err));
 }

@@ -29,7 +29,8 @@ icc_status iccp_binding_create(icc_binding **out, const icc_kernel *kernel, size
                                const double *points, bool derivatives, const iccp_env *env)
 {
     const iccp_layout *l = kernel->layout;
-    icc_status status = iccp_binding_allocate(out, l->dim, n, l->n_handles, derivatives, &env->memory);
+    icc_status status =
+        iccp_binding_allocate(out, l->dim, n, l->n_handles, derivatives, &env->memory);
     if (status != ICC_OK)
         return status;
     icc_binding *b = *out;

@@ -24,7 +24,7 @@ void iccp_binding_release(icc_binding *binding);
 
 /* See icc_binding_save() and icc_binding_load(). */
 void iccp_binding_save(const icc_binding *binding, size_t capacity, void *data, size_t *n_bytes);
-icc_status iccp_binding_load(icc_binding **out, size_t n_bytes, const void *data, const iccp_env *env,
-                             icc_error *err);
+icc_status iccp_binding_load(icc_binding **out, size_t n_bytes, const void *data,
+                             const iccp_env *env, icc_error *err);
 
 #endif

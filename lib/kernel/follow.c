@@ -13,9 +13,9 @@ static const double REACH = 5;
 typedef struct change {
     const iccp_layout *layout;
     const iccp_line_nodes *line;
-    size_t n;         /* count + 2: the nodes of the line from end to end */
-    double *share;    /* how far along it they are */
-    double *change;   /* n * n_handles */
+    size_t n;       /* count + 2: the nodes of the line from end to end */
+    double *share;  /* how far along it they are */
+    double *change; /* n * n_handles */
 } change;
 
 static size_t node_of(const iccp_line_nodes *line, size_t k)
@@ -24,7 +24,8 @@ static size_t node_of(const iccp_line_nodes *line, size_t k)
 }
 
 /* The nearest point of the segment between the ends: its share, and the squared distance. */
-static double nearest(const iccp_layout *l, const iccp_line_nodes *line, const double *x, double *share)
+static double nearest(const iccp_layout *l, const iccp_line_nodes *line, const double *x,
+                      double *share)
 {
     const double *a = l->points + l->dim * line->from, *b = l->points + l->dim * line->to;
     double along = 0, length2 = 0, distance2 = 0;

@@ -30,12 +30,12 @@ struct iccp_collocation {
     size_t dim, n, n_tail; /* n_tail: dim + 1, or 0 */
     iccp_radial radial;
     double *points;
-    double *sorted;        /* the same in the order of the cells */
+    double *sorted; /* the same in the order of the cells */
     iccp_cells cells;
     iccp_kernel_matrix kernel;
     iccp_ldlt factor;
     double definiteness;
-    double *z;             /* n rows of n_tail */
+    double *z;                           /* n rows of n_tail */
     double schur[MOST_TAIL * MOST_TAIL]; /* lower triangle of the Cholesky factor of P'Z */
 };
 
@@ -100,8 +100,9 @@ static icc_status prepare_tail(iccp_collocation *c, const iccp_env *env, icc_err
                 c->z[q * i + k] = tail_entry(c, i, k);
         iccp_ldlt_solve(&c->factor, q, c->z, work);
         if (!factorise_schur(c))
-            status = iccp_fail(err, ICC_ERR_SOLVER, -1,
-                               "the nodes determine no affine function: they lie in a plane or line");
+            status =
+                iccp_fail(err, ICC_ERR_SOLVER, -1,
+                          "the nodes determine no affine function: they lie in a plane or line");
     }
     iccp_free(&env->memory, work);
     return status;
@@ -130,7 +131,8 @@ static icc_status factorise(iccp_collocation *c, const iccp_env *env, icc_error 
     return status;
 }
 
-static icc_status create(iccp_collocation *c, const double *points, const iccp_env *env, icc_error *err)
+static icc_status create(iccp_collocation *c, const double *points, const iccp_env *env,
+                         icc_error *err)
 {
     const size_t row = c->dim * sizeof *points;
     c->points = iccp_alloc(&c->memory, c->n, row);
@@ -148,9 +150,9 @@ static icc_status create(iccp_collocation *c, const double *points, const iccp_e
     return status == ICC_OK ? factorise(c, env, err) : status;
 }
 
-icc_status iccp_collocation_create(iccp_collocation **out, size_t dim, size_t n, const double *points,
-                                   const iccp_radial *radial, bool tail, const iccp_env *env,
-                                   icc_error *err)
+icc_status iccp_collocation_create(iccp_collocation **out, size_t dim, size_t n,
+                                   const double *points, const iccp_radial *radial, bool tail,
+                                   const iccp_env *env, icc_error *err)
 {
     iccp_collocation *c = iccp_alloc_zero(&env->memory, 1, sizeof *c);
     *out = NULL;
@@ -271,8 +273,8 @@ static icc_status solve_sides(void *argument, size_t begin, size_t end)
 }
 
 icc_status iccp_collocation_solve_some(const iccp_collocation *collocation, size_t m,
-                                       const double *values, const bool *which, double *coefficients,
-                                       const iccp_env *env)
+                                       const double *values, const bool *which,
+                                       double *coefficients, const iccp_env *env)
 {
     solution s = {collocation, &env->memory, m, values, coefficients, 0, NULL};
     s.sides = iccp_alloc(&env->memory, m, sizeof *s.sides);
@@ -286,8 +288,8 @@ icc_status iccp_collocation_solve_some(const iccp_collocation *collocation, size
     return status;
 }
 
-icc_status iccp_collocation_solve(const iccp_collocation *collocation, size_t m, const double *values,
-                                  double *coefficients, const iccp_env *env)
+icc_status iccp_collocation_solve(const iccp_collocation *collocation, size_t m,
+                                  const double *values, double *coefficients, const iccp_env *env)
 {
     return iccp_collocation_solve_some(collocation, m, values, NULL, coefficients, env);
 }
@@ -362,7 +364,8 @@ void iccp_collocation_evaluate(const iccp_collocation *collocation, size_t m,
         }
 }
 
-void iccp_collocation_multiply(const iccp_collocation *collocation, size_t m, const double *x, double *y)
+void iccp_collocation_multiply(const iccp_collocation *collocation, size_t m, const double *x,
+                               double *y)
 {
     const iccp_symmetric *k = &collocation->kernel.matrix;
     for (size_t i = 0; i < k->n; ++i) {

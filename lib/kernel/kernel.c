@@ -94,8 +94,9 @@ static icc_status optimise_some(void *argument, size_t begin, size_t end)
     for (size_t k = begin; k < end; ++k) {
         const size_t i = o->nodes != NULL ? o->nodes[k] : k;
         if (!l->held[i])
-            kernel->status[i] = iccp_optimise(l->handles, kernel->info.method, l->points + l->dim * i,
-                                              kernel->weights + l->n_handles * i, work);
+            kernel->status[i] =
+                iccp_optimise(l->handles, kernel->info.method, l->points + l->dim * i,
+                              kernel->weights + l->n_handles * i, work);
     }
     iccp_free(o->memory, work);
     return ICC_OK;
@@ -150,7 +151,8 @@ icc_status iccp_kernel_start(icc_kernel *kernel, const iccp_env *env)
     return status;
 }
 
-icc_status iccp_kernel_interpolate(icc_kernel *kernel, const icc_kernel *before, const iccp_env *env)
+icc_status iccp_kernel_interpolate(icc_kernel *kernel, const icc_kernel *before,
+                                   const iccp_env *env)
 {
     const iccp_layout *l = kernel->layout;
     const size_t m = l->n_handles;
@@ -159,9 +161,10 @@ icc_status iccp_kernel_interpolate(icc_kernel *kernel, const icc_kernel *before,
         return ICC_ERR_MEMORY;
     for (size_t i = 0; i < l->n; ++i)
         for (size_t j = 0; j < m; ++j)
-            changed[j] |= before == NULL || kernel->weights[m * i + j] != before->weights[m * i + j];
-    const icc_status status = iccp_collocation_solve_some(l->collocation, m, kernel->weights, changed,
-                                                          kernel->coefficients, env);
+            changed[j] |=
+                before == NULL || kernel->weights[m * i + j] != before->weights[m * i + j];
+    const icc_status status = iccp_collocation_solve_some(l->collocation, m, kernel->weights,
+                                                          changed, kernel->coefficients, env);
     iccp_free(&env->memory, changed);
     return status;
 }
@@ -225,7 +228,8 @@ icc_status iccp_kernel_create(icc_kernel **out, const icc_sampling *sampling, si
     iccp_layout *layout;
     const double start = iccp_seconds();
     *out = NULL;
-    icc_status status = iccp_layout_create(&layout, sampling, n_handles, handles, options, env, err);
+    icc_status status =
+        iccp_layout_create(&layout, sampling, n_handles, handles, options, env, err);
     const double seconds = iccp_seconds() - start;
     if (status == ICC_OK)
         status = finish(out, layout, options, env);

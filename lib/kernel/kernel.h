@@ -36,11 +36,13 @@ icc_status iccp_kernel_start(icc_kernel *kernel, const iccp_env *env);
 icc_status iccp_kernel_follow(icc_kernel *kernel, size_t k, const iccp_env *env);
 
 /* Coefficients for the weights, of the handles whose weights at nodes are not those of `before`; NULL: of all. */
-icc_status iccp_kernel_interpolate(icc_kernel *kernel, const icc_kernel *before, const iccp_env *env);
+icc_status iccp_kernel_interpolate(icc_kernel *kernel, const icc_kernel *before,
+                                   const iccp_env *env);
 
 /* See icc_kernel_paint() and the functions after it. */
 icc_status iccp_kernel_paint(icc_kernel **out, const icc_kernel *kernel, size_t handle,
-                             const double *centre, double radius, double amount, const iccp_env *env);
+                             const double *centre, double radius, double amount,
+                             const iccp_env *env);
 icc_status iccp_kernel_repaint(icc_kernel **out, const icc_kernel *kernel, size_t n,
                                const uint32_t *nodes, const double *weights, const iccp_env *env,
                                icc_error *err);

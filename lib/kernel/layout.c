@@ -42,8 +42,9 @@ const iccp_line_nodes *iccp_layout_parallel(const iccp_layout *layout, size_t k)
 
 iccp_nodes iccp_layout_nodes(const iccp_layout *layout)
 {
-    return (iccp_nodes){layout->dim,   layout->n,    layout->n_handles, layout->points,
-                        layout->given, layout->sampling->shape, layout->edge, layout->share};
+    return (iccp_nodes){layout->dim,    layout->n,     layout->n_handles,
+                        layout->points, layout->given, layout->sampling->shape,
+                        layout->edge,   layout->share};
 }
 
 /* ---- places ---- */
@@ -71,7 +72,8 @@ static icc_status place_handles(iccp_layout *l, size_t n, const double *handles,
     for (size_t j = 0; j < n; ++j) {
         const double *place = handles + l->dim * j;
         if (!iccp_shape_holds(l->sampling->shape, place))
-            return iccp_fail(err, ICC_ERR_OUTSIDE, (int64_t)j, "handle %zu is outside the shape", j);
+            return iccp_fail(err, ICC_ERR_OUTSIDE, (int64_t)j, "handle %zu is outside the shape",
+                             j);
         for (size_t i = 0; i < j; ++i)
             if (distance(l->dim, place, handles + l->dim * i) <= same)
                 return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)j,
@@ -104,7 +106,8 @@ static icc_status check_line(const iccp_layout *l, size_t k, const icc_line *lin
     const double length = distance(l->dim, line->from, line->to);
     if (!iccp_shape_holds(l->sampling->shape, line->from) ||
         !iccp_shape_holds(l->sampling->shape, line->to))
-        return iccp_fail(err, ICC_ERR_OUTSIDE, (int64_t)k, "an end of line %zu is outside the shape", k);
+        return iccp_fail(err, ICC_ERR_OUTSIDE, (int64_t)k,
+                         "an end of line %zu is outside the shape", k);
     if (!(length > TOO_NEAR * l->sampling->info.spacing))
         return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)k,
                          "line %zu is shorter than half the samples' spacing", k);
@@ -114,7 +117,8 @@ static icc_status check_line(const iccp_layout *l, size_t k, const icc_line *lin
     const double whole = distance(l->dim, other->from, other->to);
     double cosine = 0, off = 0;
     for (size_t d = 0; d < l->dim; ++d)
-        cosine += (line->to[d] - line->from[d]) / length * ((other->to[d] - other->from[d]) / whole);
+        cosine +=
+            (line->to[d] - line->from[d]) / length * ((other->to[d] - other->from[d]) / whole);
     for (size_t d = 0; d < l->dim; ++d)
         off = hypot(off, (line->to[d] - line->from[d]) / length -
                              cosine * ((other->to[d] - other->from[d]) / whole));
@@ -125,7 +129,8 @@ static icc_status check_line(const iccp_layout *l, size_t k, const icc_line *lin
                      (long)line->parallel - 1, off);
 }
 
-static void place_between(iccp_layout *l, const iccp_cells *before, const icc_line *line, size_t pieces)
+static void place_between(iccp_layout *l, const iccp_cells *before, const icc_line *line,
+                          size_t pieces)
 {
     for (size_t p = 1; p < pieces; ++p) {
         const double share = (double)p / (double)pieces;
@@ -163,9 +168,11 @@ static icc_status place_line(iccp_layout *l, size_t k, const icc_line *lines, co
     iccp_cells_free(&before);
     l->parallel[k] = lines[k].parallel;
     if (l->parallel[k] != 0 && nodes->to < n_before)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)k,
-                         "line %zu ends at a handle or at another line, which decides its direction: "
-                         "it cannot be made parallel", k);
+        return iccp_fail(
+            err, ICC_ERR_ARGUMENT, (int64_t)k,
+            "line %zu ends at a handle or at another line, which decides its direction: "
+            "it cannot be made parallel",
+            k);
     return ICC_OK;
 }
 
@@ -236,7 +243,8 @@ static icc_status make_room(iccp_layout *l, size_t n_handles, const icc_kernel_o
     for (size_t k = 0; k < options->n_lines; ++k)
         most += 2 + fmax(0, pieces_of(l, &options->lines[k]));
     if (!(most <= (double)MOST_NODES))
-        return iccp_fail(err, ICC_ERR_RESOLUTION, -1, "there would be more than %zu nodes", MOST_NODES);
+        return iccp_fail(err, ICC_ERR_RESOLUTION, -1, "there would be more than %zu nodes",
+                         MOST_NODES);
     const size_t n = (size_t)most, row = l->dim * sizeof(double);
     l->given = iccp_alloc(&l->memory, n, row);
     l->points = iccp_alloc(&l->memory, n, row);

@@ -15,17 +15,17 @@ typedef struct iccp_layout {
     atomic_size_t references;
     icc_sampling *sampling;
     size_t dim, n, n_handles, n_edges, n_lines, n_line_nodes;
-    double *points, *given;    /* local and the caller's */
-    uint32_t *sample;          /* of each node; UINT32_MAX for handles and nodes on lines */
-    uint32_t *edge;            /* see iccp_nodes */
+    double *points, *given; /* local and the caller's */
+    uint32_t *sample;       /* of each node; UINT32_MAX for handles and nodes on lines */
+    uint32_t *edge;         /* see iccp_nodes */
     double *share;
-    bool *held;                /* handles, nodes on lines, nodes on edges if those are held */
-    uint32_t *edges;           /* n_edges * 2 handles */
+    bool *held;      /* handles, nodes on lines, nodes on edges if those are held */
+    uint32_t *edges; /* n_edges * 2 handles */
     iccp_line_nodes *lines;
-    int32_t *parallel;         /* of each line, see icc_line */
+    int32_t *parallel; /* of each line, see icc_line */
     iccp_handles *handles;
     iccp_collocation *collocation;
-    double *initial;           /* n * n_handles, from iccp_kernel_create() */
+    double *initial; /* n * n_handles, from iccp_kernel_create() */
 } iccp_layout;
 
 /* Members of `options` that may be 0 have got their defaults. */

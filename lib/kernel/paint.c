@@ -13,8 +13,8 @@ static void give_up(icc_kernel **out)
 }
 
 /* Optimises some nodes of a copy, whose weights have been set to what is wished for. */
-static icc_status settle(icc_kernel *copy, const icc_kernel *before, size_t n, const uint32_t *nodes,
-                         const iccp_env *env)
+static icc_status settle(icc_kernel *copy, const icc_kernel *before, size_t n,
+                         const uint32_t *nodes, const iccp_env *env)
 {
     const icc_status status = iccp_kernel_optimise(copy, n, nodes, env);
     return status == ICC_OK ? iccp_kernel_interpolate(copy, before, env) : status;
@@ -31,7 +31,8 @@ static double brush(const iccp_layout *l, size_t node, const double *centre, dou
 }
 
 icc_status iccp_kernel_paint(icc_kernel **out, const icc_kernel *kernel, size_t handle,
-                             const double *centre, double radius, double amount, const iccp_env *env)
+                             const double *centre, double radius, double amount,
+                             const iccp_env *env)
 {
     const iccp_layout *l = kernel->layout;
     uint32_t *nodes = iccp_alloc(&env->memory, l->n, sizeof *nodes);
@@ -120,8 +121,8 @@ static icc_status stiffen(icc_kernel *copy, size_t n, const uint32_t *nodes, con
         return ICC_ERR_MEMORY;
     for (size_t i = 0; i < l->n; ++i)
         held[i] = l->held[i] || l->edge[i] != ICCP_NO_EDGE;
-    const icc_status status = iccp_stiffen(&all, l->handles, l->collocation, n, nodes, rigidity, held,
-                                           copy->info.method == ICC_WEIGHTS_QP, copy->weights,
+    const icc_status status = iccp_stiffen(&all, l->handles, l->collocation, n, nodes, rigidity,
+                                           held, copy->info.method == ICC_WEIGHTS_QP, copy->weights,
                                            copy->coefficients, energy, env);
     iccp_free(&env->memory, held);
     return status;

@@ -131,7 +131,8 @@ void iccp_pose_turn(size_t dim, double *transform, const double *handle, const d
         for (size_t c = 0; c <= dim; ++c) {
             double sum = c == dim ? at[r] : 0;
             for (size_t k = 0; k < dim; ++k)
-                sum += matrix[dim * r + k] * (transform[(dim + 1) * k + c] - (c == dim ? at[k] : 0));
+                sum +=
+                    matrix[dim * r + k] * (transform[(dim + 1) * k + c] - (c == dim ? at[k] : 0));
             turned[(dim + 1) * r + c] = sum;
         }
     memcpy(transform, turned, dim * (dim + 1) * sizeof *transform);

@@ -148,8 +148,8 @@ static void measure_handles(const icc_kernel *kernel, icc_kernel_report *report,
             double place[3];
             for (size_t k = 0; k < l->dim; ++k)
                 place[k] = a[k] + share * (b[k] - a[k]);
-            report->linearity = fmax(report->linearity,
-                                     deviation(kernel, place, l->edges + 2 * e, share, weights));
+            report->linearity =
+                fmax(report->linearity, deviation(kernel, place, l->edges + 2 * e, share, weights));
         }
     }
 }

@@ -8,7 +8,8 @@
 static const char *const METHODS[] = {"", "QP", "QEC", "l1"};
 static const double PI = 3.14159265358979323846;
 
-static void row(const char *what, const char *thesis, const char *demand, const char *format, double ours)
+static void row(const char *what, const char *thesis, const char *demand, const char *format,
+                double ours)
 {
     char text[40];
     snprintf(text, sizeof text, format, ours);
@@ -39,8 +40,9 @@ static void polygon_points(scene *s, size_t side)
     }
     s->points = bench_alloc(2 * side * side, sizeof *s->points);
     for (size_t i = 0; i < side * side; ++i) {
-        const double p[2] = {lower[0] + ((double)(i % side) + 0.5) / (double)side * (upper[0] - lower[0]),
-                             lower[1] + ((double)(i / side) + 0.5) / (double)side * (upper[1] - lower[1])};
+        const double p[2] = {
+            lower[0] + ((double)(i % side) + 0.5) / (double)side * (upper[0] - lower[0]),
+            lower[1] + ((double)(i / side) + 0.5) / (double)side * (upper[1] - lower[1])};
         icc_status where;
         (void)icc_domain_locate(s->domains[0], 1, p, &where, NULL, NULL, NULL);
         if (where == ICC_INSIDE)
@@ -60,8 +62,10 @@ static scene make_scene(size_t n, const double *polygon, double around, size_t n
     s.domains[0] = bench_domain(n, polygon);
     if (around > 0)
         s.domains[1] = bench_domain(4, square);
-    bench_check(icc_shape_create(&s.shape, 2, around > 0 ? 2 : 1, (const icc_domain *const *)s.domains,
-                                 n_vertices, vertices, n_segments, segments, NULL, &err), &err);
+    bench_check(icc_shape_create(&s.shape, 2, around > 0 ? 2 : 1,
+                                 (const icc_domain *const *)s.domains, n_vertices, vertices,
+                                 n_segments, segments, NULL, &err),
+                &err);
     bench_check(icc_sampling_create(&s.sampling, s.shape, options, NULL, &err), &err);
     s.info.size = sizeof s.info;
     bench_check(icc_sampling_get_info(s.sampling, &s.info), &err);
@@ -87,8 +91,9 @@ static void draw_star(double *xy)
 /* Four wings and 26 corners. */
 static void draw_butterfly(double *xy)
 {
-    static const double RADII[26] = {0.22, 0.5, 0.85, 1.05, 1, 0.72, 0.3, 0.72, 1, 1.05, 0.85, 0.5, 0.22,
-                                     0.3, 0.55, 0.7, 0.85, 0.8, 0.5, 0.25, 0.5, 0.8, 0.85, 0.7, 0.55, 0.3};
+    static const double RADII[26] = {0.22, 0.5,  0.85, 1.05, 1,    0.72, 0.3,  0.72, 1,
+                                     1.05, 0.85, 0.5,  0.22, 0.3,  0.55, 0.7,  0.85, 0.8,
+                                     0.5,  0.25, 0.5,  0.8,  0.85, 0.7,  0.55, 0.3};
     for (size_t i = 0; i < 26; ++i)
         bench_polar(xy + 2 * i, RADII[i], 360.0 * (double)i / 26);
 }
@@ -143,7 +148,8 @@ static double spectral_radius(const iccp_collocation *c, size_t n, bool inverse)
 static double lagrange_sum(const iccp_collocation *c, size_t n)
 {
     iccp_env env;
-    double *values = bench_alloc(n * n, sizeof *values), *a = bench_alloc((n + 3) * n, sizeof *a), sum = 0;
+    double *values = bench_alloc(n * n, sizeof *values), *a = bench_alloc((n + 3) * n, sizeof *a),
+           sum = 0;
     const iccp_symmetric *k = iccp_collocation_matrix(c);
     (void)iccp_env_read(&env, NULL, NULL);
     for (size_t i = 0; i < n; ++i) {
@@ -171,7 +177,8 @@ static void measure_blue(const iccp_collocation *c, size_t n, const double *poin
     }
     (void)iccp_collocation_solve(c, 3, values, a, &env);
     for (size_t i = 0; i < 160 * 160; ++i) {
-        const double x[2] = {-15 + 30.0 * (double)(i % 160) / 159, -15 + 30.0 * (double)(i / 160) / 159};
+        const double x[2] = {-15 + 30.0 * (double)(i % 160) / 159,
+                             -15 + 30.0 * (double)(i / 160) / 159};
         double at[3];
         iccp_collocation_evaluate(c, 3, a, x, at, NULL);
         const double off = fmax(fabs(at[1] - x[0]), fabs(at[2] - x[1]));
@@ -252,10 +259,12 @@ static void bench_table41(void)
     }
     for (int32_t method = ICC_WEIGHTS_QP; method <= ICC_WEIGHTS_L1; ++method) {
         char what[64];
-        const double four = optimise_grid(4, CORNERS, method), lot = optimise_grid(26, many, method);
+        const double four = optimise_grid(4, CORNERS, method),
+                     lot = optimise_grid(26, many, method);
         snprintf(what, sizeof what, "table 4.1, 101 x 101, 4 handles, %s: ms", METHODS[method]);
         row(what, THESIS[method], "", "%.2f", 1e3 * four);
-        row("  us a sample", "", method == ICC_WEIGHTS_QP ? "<= 0.2" : "", "%.3f", 1e6 * four / 10201);
+        row("  us a sample", "", method == ICC_WEIGHTS_QP ? "<= 0.2" : "", "%.3f",
+            1e6 * four / 10201);
         row("  us a sample, 26 handles", "", method == ICC_WEIGHTS_QP ? "<= 2" : "", "%.3f",
             1e6 * lot / 10201);
     }
@@ -264,14 +273,14 @@ static void bench_table41(void)
 /* ---- tables 6.1 to 6.6 ---- */
 
 /* `claims`: the thesis' table, three letters a property (reproduction, unity, Lagrange, linearity, non-negativity). */
-static void bench_table(const char *name, const char *claims, scene *s, size_t m, const double *handles,
-                        const icc_kernel_options *options)
+static void bench_table(const char *name, const char *claims, scene *s, size_t m,
+                        const double *handles, const icc_kernel_options *options)
 {
-    printf("\n%s: %zu samples, %zu of them on edges, sigma %g%s\n", name, s->info.n_samples, s->info.n_edge,
-           options->sigma > 0 ? options->sigma : s->info.sigma,
+    printf("\n%s: %zu samples, %zu of them on edges, sigma %g%s\n", name, s->info.n_samples,
+           s->info.n_edge, options->sigma > 0 ? options->sigma : s->info.sigma,
            options->tail < 0 ? ", the thesis' options" : "");
-    printf("  %-4s %-10s %-10s %-10s %-10s %-10s %-10s %s\n", "", "reproduct.", "unity", "Lagrange", "linear",
-           "least", "infeasible", "thesis: r u L l n");
+    printf("  %-4s %-10s %-10s %-10s %-10s %-10s %-10s %s\n", "", "reproduct.", "unity", "Lagrange",
+           "linear", "least", "infeasible", "thesis: r u L l n");
     for (int32_t method = ICC_WEIGHTS_QP; method <= ICC_WEIGHTS_L1; ++method) {
         icc_kernel_options full = *options;
         icc_kernel_report r = {.size = sizeof r};
@@ -294,8 +303,11 @@ static void bench_table(const char *name, const char *claims, scene *s, size_t m
 
 static icc_kernel_options thesis_options(double sigma)
 {
-    return (icc_kernel_options){.size = sizeof(icc_kernel_options), .kernel = ICC_KERNEL_GAUSS,
-                                .tail = -1, .visible = -1, .sigma = sigma};
+    return (icc_kernel_options){.size = sizeof(icc_kernel_options),
+                                .kernel = ICC_KERNEL_GAUSS,
+                                .tail = -1,
+                                .visible = -1,
+                                .sigma = sigma};
 }
 
 static void bench_star_tables(void)
@@ -312,7 +324,8 @@ static void bench_star_tables(void)
                        make_scene(10, star, 1.43, 0, NULL, 0, NULL, &coarse),
                        make_scene(10, star, 1.22, 0, NULL, 0, NULL, &fine)};
     static const char *const NAMES[] = {"table 6.1, grid", "table 6.2, blue noise inside",
-                                        "table 6.3, blue noise inside and around", "table 6.4, denser"};
+                                        "table 6.3, blue noise inside and around",
+                                        "table 6.4, denser"};
     static const char *const CLAIMS[] = {"YYYYYYNNNNNNNNY", "YYYYYYNYNNYNNNY", "YYYYYYYYYNNNNNN",
                                          "YYYYYYYYYNNNNNN"};
     for (int k = 0; k < 4; ++k) {
@@ -414,19 +427,25 @@ static void bench_interaction(void)
     row("  nearest neighbour, in spacings", "-", ">= .55", "%.3f", s.info.nearest);
     for (int k = 0; k < 4; ++k) {
         const size_t m = k % 2 ? 26 : 10;
-        icc_kernel_options o = {.size = sizeof o, .kernel = k < 2 ? ICC_KERNEL_WENDLAND : ICC_KERNEL_GAUSS};
+        icc_kernel_options o = {.size = sizeof o,
+                                .kernel = k < 2 ? ICC_KERNEL_WENDLAND : ICC_KERNEL_GAUSS};
         icc_kernel *kernel = make(s.sampling, m, k % 2 ? many : star, &o);
         icc_kernel_info info = {.size = sizeof info};
         size_t n_painted;
         (void)icc_kernel_get_info(kernel, &info);
-        printf("%zu handles, %s, %.1f entries a row; initial %.1f, weights %.1f, nodes and factor %.1f ms\n", m,
-               k < 2 ? "Wendland" : "Gauss", 2 * (double)info.n_entries / (double)info.n_nodes - 1,
-               1e3 * info.seconds_initial, 1e3 * info.seconds_weights, 1e3 * info.seconds_factor);
+        printf("%zu handles, %s, %.1f entries a row; initial %.1f, weights %.1f, nodes and factor "
+               "%.1f ms\n",
+               m, k < 2 ? "Wendland" : "Gauss",
+               2 * (double)info.n_entries / (double)info.n_nodes - 1, 1e3 * info.seconds_initial,
+               1e3 * info.seconds_weights, 1e3 * info.seconds_factor);
         const double milliseconds = paint_time(kernel, 0.48, &n_painted);
         row("  painted nodes", "-", "1000", "%.0f", (double)n_painted);
         row("  ms to paint them and solve", "-", k < 2 ? "<= 30" : "", "%.1f", milliseconds);
-        row("  us to evaluate a point", "-", k == 0 ? "1.3" : k == 2 ? "2.5" : "", "%.2f",
-            evaluation_time(kernel, m, false));
+        row("  us to evaluate a point", "-",
+            k == 0   ? "1.3"
+            : k == 2 ? "2.5"
+                     : "",
+            "%.2f", evaluation_time(kernel, m, false));
         row("  with gradients", "-", "", "%.2f", evaluation_time(kernel, m, true));
         icc_kernel_free(kernel);
     }
@@ -454,15 +473,18 @@ static void bench_butterfly(void)
         const double sampled = bench_seconds();
         icc_kernel *kernel = make(s.sampling, 26, cage, &o);
         const double made = bench_seconds();
-        bench_check(icc_binding_create(&binding, kernel, 65536, pixels, 0, NULL, NULL), &(icc_error){0});
+        bench_check(icc_binding_create(&binding, kernel, 65536, pixels, 0, NULL, NULL),
+                    &(icc_error){0});
         const double end = bench_seconds();
         (void)icc_kernel_get_info(kernel, &info);
         snprintf(what, sizeof what, "butterfly, 26 handles, %zu nodes, %s: seconds", info.n_nodes,
                  METHODS[method]);
         row(what, method == ICC_WEIGHTS_L1 ? "11.3, BBW 29.9" : "-", "<= 1", "%.2f", end - begin);
-        printf("  shape and samples %.2f, kernel %.2f (initial %.3f, weights %.3f, nodes and factor %.3f), "
-               "65536 pixels %.2f\n", sampled - begin, made - sampled, info.seconds_initial,
-               info.seconds_weights, info.seconds_factor, end - made);
+        printf("  shape and samples %.2f, kernel %.2f (initial %.3f, weights %.3f, nodes and "
+               "factor %.3f), "
+               "65536 pixels %.2f\n",
+               sampled - begin, made - sampled, info.seconds_initial, info.seconds_weights,
+               info.seconds_factor, end - made);
         icc_binding_free(binding);
         icc_kernel_free(kernel);
         free_scene(&s);
@@ -479,7 +501,8 @@ static double crookedness(const icc_kernel *kernel, size_t m, const icc_line *li
     double *points = bench_alloc(2 * (PLACES + 1), sizeof *points), worst = 0;
     double *w = bench_alloc(m * (PLACES + 1), sizeof *w);
     for (size_t i = 0; i < 2 * (PLACES + 1); ++i)
-        points[i] = line->from[i % 2] + (double)(i / 2) / PLACES * (line->to[i % 2] - line->from[i % 2]);
+        points[i] =
+            line->from[i % 2] + (double)(i / 2) / PLACES * (line->to[i % 2] - line->from[i % 2]);
     (void)icc_kernel_weights(kernel, PLACES + 1, points, w, NULL, NULL, NULL, NULL);
     for (size_t i = 0; i < m * (PLACES + 1); ++i) {
         const double share = (double)(i / m) / PLACES;
@@ -494,13 +517,15 @@ static double crookedness(const icc_kernel *kernel, size_t m, const icc_line *li
  * lines' nodes are fixed when samples are spread, as in section 5.3.3. */
 static void bench_structure(void)
 {
-    static const icc_line LINES[2] = {{.from = {-0.268, 0.1}, .to = {0.268, 0.1}},
-                                      {.from = {0.268, -0.15}, .to = {-0.268, -0.15}, .parallel = 1}};
+    static const icc_line LINES[2] = {
+        {.from = {-0.268, 0.1}, .to = {0.268, 0.1}},
+        {.from = {0.268, -0.15}, .to = {-0.268, -0.15}, .parallel = 1}};
     double star[20], energy[2], fixed[84];
     uint32_t *edges = ring(10);
     for (size_t i = 0; i < 84; ++i) {
         const icc_line *line = &LINES[i / 42];
-        fixed[i] = line->from[i % 2] + (double)(i % 42 / 2) / 20 * (line->to[i % 2] - line->from[i % 2]);
+        fixed[i] =
+            line->from[i % 2] + (double)(i % 42 / 2) / 20 * (line->to[i % 2] - line->from[i % 2]);
     }
     const icc_sampling_options sampling = {
         .size = sizeof sampling, .spacing = 0.0268, .n_fixed = 42, .fixed = fixed};
@@ -534,7 +559,8 @@ static void bench_structure(void)
         o.n_lines = k < 2 ? 1 : 2;
         o.kernel = k == 1 ? ICC_KERNEL_GAUSS : ICC_KERNEL_WENDLAND;
         icc_kernel *straight = make(s.sampling, 10, star, &o);
-        row(WHAT[k], "close", k < 2 ? "<= 1e-3" : "", "%.3g", crookedness(straight, 10, &LINES[k / 2]));
+        row(WHAT[k], "close", k < 2 ? "<= 1e-3" : "", "%.3g",
+            crookedness(straight, 10, &LINES[k / 2]));
         icc_kernel_free(straight);
     }
     icc_kernel_free(plain);

@@ -48,7 +48,8 @@ static double *make_jittered(size_t dim, size_t n, size_t *n_nodes)
     return points;
 }
 
-static iccp_collocation *make(size_t dim, size_t n, const double *points, iccp_radial radial, bool tail)
+static iccp_collocation *make(size_t dim, size_t n, const double *points, iccp_radial radial,
+                              bool tail)
 {
     const iccp_env env = plain_env();
     iccp_collocation *c;
@@ -126,7 +127,8 @@ static void measure_grid(const iccp_collocation *c, const double *coefficients, 
 }
 
 /* The sum over the nodes in the central quarter of |a_i(x_j) - delta_ij|. */
-static double lagrange_sum(const iccp_collocation *c, size_t n, const double *points, double spacing)
+static double lagrange_sum(const iccp_collocation *c, size_t n, const double *points,
+                           double spacing)
 {
     size_t inner[21 * 21], m = 0;
     for (size_t i = 0; i < n; ++i)
@@ -184,7 +186,8 @@ START_TEST(the_interpolant_has_a_minimum_where_the_thesis_finds_it)
         points[i] = i - 10;
         values[i] = i < 10 ? (10 - i) / 10.0 : 0;
     }
-    iccp_collocation *c = make(1, 21, points, iccp_radial_make(ICC_KERNEL_GAUSS, 3 / PI, UNCUT), false);
+    iccp_collocation *c =
+        make(1, 21, points, iccp_radial_make(ICC_KERNEL_GAUSS, 3 / PI, UNCUT), false);
     double *coefficients = solve(c, 23, 1, values);
     for (int i = 0; i <= 2000; ++i) {
         const double x = i / 2000.0;
@@ -214,7 +217,8 @@ START_TEST(kernels_and_their_slopes_agree)
         ck_assert(iccp_radial_value(&r, 0) == 1);
         ck_assert_double_le(iccp_radial_value(&r, end * (1 - 1e-12)), 4e-6);
         for (double d = 0.05; d < end; d += 0.05) {
-            const double ahead = iccp_radial_value(&r, d + h), behind = iccp_radial_value(&r, d - h);
+            const double ahead = iccp_radial_value(&r, d + h),
+                         behind = iccp_radial_value(&r, d - h);
             ck_assert_double_lt(ahead, behind);
             ck_assert_double_eq_tol((ahead - behind) / (2 * h), iccp_radial_slope(&r, d), 1e-8);
         }
@@ -314,7 +318,8 @@ START_TEST(affine_values_are_continued_exactly)
     const iccp_radial radial = radial_of(kind, dim == 2 ? 0.02 : 0.08);
     iccp_collocation *tail = make(dim, n, points, radial, true);
     iccp_collocation *bare = make(dim, n, points, radial, false);
-    double *a = solve(tail, n + dim + 1, dim + 1, values), *b = solve(bare, n + dim + 1, dim + 1, values);
+    double *a = solve(tail, n + dim + 1, dim + 1, values),
+           *b = solve(bare, n + dim + 1, dim + 1, values);
     random_source r = {4};
     for (int q = 0; q < 3000; ++q) {
         double x[3], at[4], bare_at[4];
@@ -398,10 +403,12 @@ START_TEST(nodes_that_determine_nothing_are_refused)
     const double line[10] = {0, 0, 1, 2, 2, 4, 3, 6, 4, 8}, twice[8] = {0, 0, 1, 0, 0, 1, 1, 0};
     iccp_collocation *c = NULL;
     icc_error err = {.size = sizeof err};
-    ck_assert_int_eq(iccp_collocation_create(&c, 2, 5, line, &radial, true, &env, &err), ICC_ERR_SOLVER);
+    ck_assert_int_eq(iccp_collocation_create(&c, 2, 5, line, &radial, true, &env, &err),
+                     ICC_ERR_SOLVER);
     ck_assert_ptr_nonnull(strstr(err.message, "affine"));
     ck_assert_ptr_null(c);
-    ck_assert_int_eq(iccp_collocation_create(&c, 2, 4, twice, &radial, true, &env, &err), ICC_ERR_SOLVER);
+    ck_assert_int_eq(iccp_collocation_create(&c, 2, 4, twice, &radial, true, &env, &err),
+                     ICC_ERR_SOLVER);
     ck_assert_ptr_nonnull(strstr(err.message, "positive definite"));
     ck_assert_ptr_null(c);
 }

@@ -15,7 +15,8 @@ static const double SQUARE[8] = {0, 0, 1, 0, 1, 1, 0, 1};
 static const uint32_t RING[8] = {0, 1, 1, 2, 2, 3, 3, 0};
 /* In the square, one of them beside the edges. */
 static const double HANDLES[10] = {0, 0, 1, 0, 1, 1, 0, 1, 0.3, 0.6};
-static const double CUBE[24] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1, 1, 1, 1};
+static const double CUBE[24] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0,
+                                0, 0, 1, 1, 0, 1, 0, 1, 1, 1, 1, 1};
 
 static void *allocate(size_t n, size_t size)
 {
@@ -167,7 +168,8 @@ END_TEST
 START_TEST(without_the_affine_function_sums_are_only_near_one)
 {
     icc_sampling *sampling = sample_square(0.05);
-    const icc_kernel_options options = {.size = sizeof options, .kernel = ICC_KERNEL_GAUSS, .tail = -1};
+    const icc_kernel_options options = {
+        .size = sizeof options, .kernel = ICC_KERNEL_GAUSS, .tail = -1};
     icc_kernel *kernel = make(sampling, 4, SQUARE, &options);
     const icc_kernel_report report = report_of(kernel);
     ck_assert_double_gt(report.unity, 1e-6);
@@ -193,7 +195,8 @@ START_TEST(edges_are_linear)
             if (points[2 * i + 1] <= 0) {
                 ck_assert_double_eq_tol(weights[5 * i], 1 - points[2 * i], 1e-15);
                 ck_assert_double_eq_tol(weights[5 * i + 1], points[2 * i], 1e-15);
-                ck_assert(weights[5 * i + 2] == 0 && weights[5 * i + 3] == 0 && weights[5 * i + 4] == 0);
+                ck_assert(weights[5 * i + 2] == 0 && weights[5 * i + 3] == 0 &&
+                          weights[5 * i + 4] == 0);
                 ++n_on_edge;
             }
         ck_assert_uint_gt(n_on_edge, 40);
@@ -292,15 +295,18 @@ START_TEST(weights_do_not_depend_on_the_unit)
         icc_sampling *scaled;
         ck_assert_int_eq(icc_domain_create(&domain, 2, 4, square, 0, NULL, NULL, NULL), ICC_OK);
         const icc_domain *regions[1] = {domain};
-        ck_assert_int_eq(icc_shape_create(&shape, 2, 1, regions, 0, NULL, 0, NULL, NULL, NULL), ICC_OK);
-        ck_assert_int_eq(icc_sampling_create_from_points(&scaled, shape, info.n_samples, points, NULL, NULL),
+        ck_assert_int_eq(icc_shape_create(&shape, 2, 1, regions, 0, NULL, 0, NULL, NULL, NULL),
                          ICC_OK);
+        ck_assert_int_eq(
+            icc_sampling_create_from_points(&scaled, shape, info.n_samples, points, NULL, NULL),
+            ICC_OK);
         icc_kernel *kernel = make(scaled, 5, handles, NULL);
         weights[u] = allocate(500 * 5, sizeof **weights);
         double *places = spread(2, 500);
         for (size_t i = 0; i < 1000; ++i)
             places[i] *= units[u];
-        ck_assert_int_eq(icc_kernel_weights(kernel, 500, places, weights[u], NULL, NULL, NULL, NULL), ICC_OK);
+        ck_assert_int_eq(
+            icc_kernel_weights(kernel, 500, places, weights[u], NULL, NULL, NULL, NULL), ICC_OK);
         icc_kernel_free(kernel);
         icc_sampling_free(scaled);
         icc_shape_free(shape);
@@ -324,13 +330,15 @@ START_TEST(any_point_may_be_asked)
     double weights[16], gradients[32];
     icc_status status[4];
     size_t n_failed;
-    ck_assert_int_eq(icc_kernel_weights(kernel, 4, points, weights, gradients, status, &n_failed, NULL),
-                     ICC_OK);
+    ck_assert_int_eq(
+        icc_kernel_weights(kernel, 4, points, weights, gradients, status, &n_failed, NULL), ICC_OK);
     ck_assert_uint_eq(n_failed, 2);
     for (int i = 0; i < 4; ++i) {
         ck_assert_int_eq(status[i], i % 2 == 0 ? ICC_OK : ICC_ERR_ARGUMENT);
-        const double sum = weights[4 * i] + weights[4 * i + 1] + weights[4 * i + 2] + weights[4 * i + 3];
-        ck_assert(i % 2 == 0 ? fabs(sum - 1) < 1e-6 : isnan(weights[4 * i]) && isnan(gradients[8 * i + 7]));
+        const double sum =
+            weights[4 * i] + weights[4 * i + 1] + weights[4 * i + 2] + weights[4 * i + 3];
+        ck_assert(i % 2 == 0 ? fabs(sum - 1) < 1e-6
+                             : isnan(weights[4 * i]) && isnan(gradients[8 * i + 7]));
     }
     ck_assert_int_eq(icc_kernel_weights(kernel, 0, NULL, NULL, NULL, NULL, NULL, NULL), ICC_OK);
     icc_kernel_free(kernel);
@@ -344,11 +352,13 @@ END_TEST
 static double crookedness(const icc_kernel *kernel, const double *from, const double *to, size_t n)
 {
     const size_t m = info_of(kernel).n_handles;
-    double *points = allocate(2 * (n + 1), sizeof *points), *weights = allocate(m * (n + 1), sizeof *weights);
+    double *points = allocate(2 * (n + 1), sizeof *points),
+           *weights = allocate(m * (n + 1), sizeof *weights);
     double worst = 0;
     for (size_t i = 0; i <= 2 * n + 1; ++i)
         points[i] = from[i % 2] + (double)(i / 2) / (double)n * (to[i % 2] - from[i % 2]);
-    ck_assert_int_eq(icc_kernel_weights(kernel, n + 1, points, weights, NULL, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_kernel_weights(kernel, n + 1, points, weights, NULL, NULL, NULL, NULL),
+                     ICC_OK);
     for (size_t i = 0; i < m * (n + 1); ++i) {
         const double share = (double)(i / m) / (double)n;
         const double line = (1 - share) * weights[i % m] + share * weights[m * n + i % m];
@@ -366,7 +376,8 @@ START_TEST(lines_stay_straight)
     icc_sampling *sampling = sample_square(0.02);
     const icc_line line = {.from = {0.3, 0.25}, .to = {0.62, 0.49}}; /* 20 spacings long */
     const icc_kernel_options with = {.size = sizeof with, .n_lines = 1, .lines = &line};
-    icc_kernel *plain = make(sampling, 5, HANDLES, NULL), *kernel = make(sampling, 5, HANDLES, &with);
+    icc_kernel *plain = make(sampling, 5, HANDLES, NULL),
+               *kernel = make(sampling, 5, HANDLES, &with);
     ck_assert_double_le(crookedness(kernel, line.from, line.to, 20), 1e-13);
     ck_assert_double_le(crookedness(kernel, line.from, line.to, 777), 1.5e-3);
     ck_assert_double_gt(crookedness(plain, line.from, line.to, 777), 1.5e-2);
@@ -385,12 +396,14 @@ START_TEST(lines_share_ends)
                                {.from = {0.7, 0.8}, .to = {0.8, 0.3}},
                                {.from = {0, 0}, .to = {1, 0}}};
     const icc_kernel_options options = {.size = sizeof options, .n_lines = 3, .lines = lines};
-    icc_kernel *kernel = make(sampling, 5, HANDLES, &options), *plain = make(sampling, 5, HANDLES, NULL);
+    icc_kernel *kernel = make(sampling, 5, HANDLES, &options),
+               *plain = make(sampling, 5, HANDLES, NULL);
     double *points = nodes_of(kernel), least = HUGE_VAL;
     const size_t n = info_of(kernel).n_nodes;
     for (size_t i = 0; i < n; ++i)
         for (size_t j = 0; j < i; ++j)
-            least = fmin(least, hypot(points[2 * i] - points[2 * j], points[2 * i + 1] - points[2 * j + 1]));
+            least = fmin(
+                least, hypot(points[2 * i] - points[2 * j], points[2 * i + 1] - points[2 * j + 1]));
     ck_assert_double_gt(least, 0.4 * 0.04);
     for (int k = 0; k < 3; ++k)
         ck_assert_double_le(crookedness(kernel, lines[k].from, lines[k].to, 600), 0.1);
@@ -443,7 +456,8 @@ static icc_kernel *paint(const icc_kernel *kernel, size_t handle, double x, doub
 {
     icc_kernel *painted;
     const double centre[2] = {x, y};
-    ck_assert_int_eq(icc_kernel_paint(&painted, kernel, handle, centre, radius, amount, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_kernel_paint(&painted, kernel, handle, centre, radius, amount, NULL, NULL),
+                     ICC_OK);
     return painted;
 }
 
@@ -452,7 +466,8 @@ START_TEST(paint_changes_what_is_under_the_brush)
     icc_sampling *sampling = sample_square(0.05);
     icc_kernel *kernel = make(sampling, 5, HANDLES, NULL);
     icc_sampling_free(sampling);
-    icc_kernel *painted = paint(kernel, 2, 0.5, 0.4, 0.2, 0.3), *same = paint(kernel, 2, 0.5, 0.4, 0.2, 0);
+    icc_kernel *painted = paint(kernel, 2, 0.5, 0.4, 0.2, 0.3),
+               *same = paint(kernel, 2, 0.5, 0.4, 0.2, 0);
     double *before = weights_of(kernel), *after = weights_of(painted), *still = weights_of(same);
     double *points = nodes_of(kernel), gain = 0;
     for (size_t i = 0; i < info_of(kernel).n_nodes; ++i) {
@@ -499,9 +514,11 @@ START_TEST(repainting_takes_wishes)
     ck_assert_int_eq(icc_kernel_weights(two, 2, points, at2, NULL, NULL, NULL, NULL), ICC_OK);
     ck_assert_mem_eq(at, at2, sizeof at);
     icc_kernel_free(two);
-    ck_assert_int_eq(icc_kernel_repaint(&two, kernel, 2, twice, wishes, NULL, &err), ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_kernel_repaint(&two, kernel, 2, twice, wishes, NULL, &err),
+                     ICC_ERR_ARGUMENT);
     ck_assert_ptr_nonnull(strstr(err.message, "twice"));
-    ck_assert_int_eq(icc_kernel_repaint(&two, kernel, 1, &none, wishes, NULL, &err), ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_kernel_repaint(&two, kernel, 1, &none, wishes, NULL, &err),
+                     ICC_ERR_ARGUMENT);
     ck_assert_ptr_null(two);
     free(a);
     free(b);
@@ -529,8 +546,10 @@ START_TEST(another_method_starts_afresh)
         direct = make(sampling, 5, HANDLES, &options);
         ck_assert_int_eq(icc_kernel_set_method(&switched, painted, method, NULL, NULL), ICC_OK);
         ck_assert_int_eq(info_of(switched).method, method);
-        ck_assert_int_eq(icc_kernel_weights(direct, 300, points, a, NULL, NULL, NULL, NULL), ICC_OK);
-        ck_assert_int_eq(icc_kernel_weights(switched, 300, points, b, NULL, NULL, NULL, NULL), ICC_OK);
+        ck_assert_int_eq(icc_kernel_weights(direct, 300, points, a, NULL, NULL, NULL, NULL),
+                         ICC_OK);
+        ck_assert_int_eq(icc_kernel_weights(switched, 300, points, b, NULL, NULL, NULL, NULL),
+                         ICC_OK);
         ck_assert_mem_eq(a, b, 1500 * sizeof *a);
         icc_kernel_free(switched);
         icc_kernel_free(direct);
@@ -550,8 +569,9 @@ static double gradient_energy(const icc_kernel *kernel, size_t n, const uint32_t
     double *points = nodes_of(kernel), *weights = allocate(m, sizeof *weights), sum = 0;
     double *gradients = allocate(2 * m, sizeof *gradients);
     for (size_t k = 0; k < n; ++k) {
-        ck_assert_int_eq(icc_kernel_weights(kernel, 1, points + 2 * nodes[k], weights, gradients, NULL,
-                                            NULL, NULL), ICC_OK);
+        ck_assert_int_eq(icc_kernel_weights(kernel, 1, points + 2 * nodes[k], weights, gradients,
+                                            NULL, NULL, NULL),
+                         ICC_OK);
         for (size_t j = 0; j < 2 * m; ++j)
             sum += 0.5 * gradients[j] * gradients[j];
     }
@@ -574,9 +594,11 @@ START_TEST(stiff_parts_vary_less)
     for (uint32_t i = 0; i < n; ++i)
         if (hypot(points[2 * i] - 0.25, points[2 * i + 1] - 0.5) < 0.2)
             part[n_part++] = i;
-    ck_assert_int_eq(icc_kernel_stiffen(&stiff, kernel, n_part, part, NULL, energy, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_kernel_stiffen(&stiff, kernel, n_part, part, NULL, energy, NULL, NULL),
+                     ICC_OK);
     ck_assert_double_lt(energy[1], 0.9 * energy[0]);
-    ck_assert_double_eq_tol(gradient_energy(stiff, n_part, part) / gradient_energy(kernel, n_part, part),
+    ck_assert_double_eq_tol(gradient_energy(stiff, n_part, part) /
+                                gradient_energy(kernel, n_part, part),
                             energy[1] / energy[0], 1e-6);
     const icc_kernel_report report = report_of(stiff);
     ck_assert_double_le(report.unity, 1e-11);
@@ -593,7 +615,8 @@ END_TEST
 /* ---- refusals ---- */
 
 static void refuse(const icc_sampling *sampling, size_t n, const double *handles,
-                   const icc_kernel_options *options, icc_status status, const char *text, int64_t index)
+                   const icc_kernel_options *options, icc_status status, const char *text,
+                   int64_t index)
 {
     icc_kernel *kernel = (icc_kernel *)&kernel;
     icc_error err = {.size = sizeof err};
@@ -609,7 +632,8 @@ START_TEST(impossible_handles_are_named)
 {
     icc_sampling *sampling = sample_square(0.1);
     const double outside[8] = {0, 0, 1, 0, 1, 1, 0, 1.01}, twice[8] = {0, 0, 1, 0, 1, 1, 1, 0};
-    const double collinear[8] = {0, 0, 1, 1, 0.5, 0.5, 0.25, 0.25}, wild[8] = {0, 0, 1, 0, 1, NAN, 0, 1};
+    const double collinear[8] = {0, 0, 1, 1, 0.5, 0.5, 0.25, 0.25},
+                 wild[8] = {0, 0, 1, 0, 1, NAN, 0, 1};
     refuse(sampling, 4, outside, NULL, ICC_ERR_OUTSIDE, "outside", 3);
     refuse(sampling, 4, twice, NULL, ICC_ERR_ARGUMENT, "one place", 3);
     refuse(sampling, 4, collinear, NULL, ICC_ERR_ARGUMENT, "reproduce", -1);
@@ -624,9 +648,10 @@ START_TEST(impossible_options_are_named)
     icc_sampling *sampling = sample_square(0.1);
     const uint32_t loop[4] = {0, 1, 2, 2}, far[2] = {0, 4};
     icc_kernel_options bad[14];
-    static const char *const TEXTS[14] = {"kernel",   "initial", "method",  "steps",  "tail",
-                                          "visible",  "sigma",   "sigma",   "cutoff", "edge 1 joins",
-                                          "edge 0 joins", "no", "initial_weights", "edges is NULL"};
+    static const char *const TEXTS[14] = {
+        "kernel",       "initial", "method",          "steps",        "tail",
+        "visible",      "sigma",   "sigma",           "cutoff",       "edge 1 joins",
+        "edge 0 joins", "no",      "initial_weights", "edges is NULL"};
     for (int k = 0; k < 14; ++k)
         bad[k] = (icc_kernel_options){.size = sizeof *bad};
     bad[0].kernel = 3;
@@ -646,7 +671,10 @@ START_TEST(impossible_options_are_named)
     bad[12].initial = ICC_INITIAL_GIVEN;
     bad[13].n_edges = 1;
     for (int k = 0; k < 14; ++k)
-        refuse(sampling, 4, SQUARE, &bad[k], ICC_ERR_ARGUMENT, TEXTS[k], k == 9 ? 1 : k == 10 ? 0 : -1);
+        refuse(sampling, 4, SQUARE, &bad[k], ICC_ERR_ARGUMENT, TEXTS[k],
+               k == 9    ? 1
+               : k == 10 ? 0
+                         : -1);
     icc_kernel_options wide = {.size = sizeof wide, .kernel = ICC_KERNEL_GAUSS, .sigma = 0.2};
     refuse(sampling, 4, SQUARE, &wide, ICC_ERR_SOLVER, "sigma is too large", -1);
     wide.kernel = ICC_KERNEL_WENDLAND;
@@ -664,22 +692,33 @@ START_TEST(impossible_lines_are_named)
         const char *text;
     } BAD[] = {
         {{{.from = {0.2, 0.2}, .to = {0.8, 0.2}}, {.from = {0.2, 0.4}, .to = {0.8, 1.2}}},
-         ICC_ERR_OUTSIDE, "outside"},
+         ICC_ERR_OUTSIDE,
+         "outside"},
         {{{.from = {0.2, 0.2}, .to = {0.8, 0.2}}, {.from = {0.2, 0.4}, .to = {0.21, 0.4}}},
-         ICC_ERR_ARGUMENT, "shorter"},
-        {{{.from = {0.2, 0.2}, .to = {0.8, 0.2}}, {.from = {0.2, 0.4}, .to = {0.8, 0.5}, .parallel = 1}},
-         ICC_ERR_ARGUMENT, "not parallel"},
-        {{{.from = {0.2, 0.2}, .to = {0.8, 0.2}}, {.from = {0.2, 0.4}, .to = {0.8, 0.4}, .parallel = 2}},
-         ICC_ERR_ARGUMENT, "parallel is 2"},
-        {{{.from = {0.2, 0.2}, .to = {0.8, 0.2}}, {.from = {0.2, 0.4}, .to = {0.8, 0.4}, .reserved = 1}},
-         ICC_ERR_ARGUMENT, "reserved is 1"},
+         ICC_ERR_ARGUMENT,
+         "shorter"},
+        {{{.from = {0.2, 0.2}, .to = {0.8, 0.2}},
+          {.from = {0.2, 0.4}, .to = {0.8, 0.5}, .parallel = 1}},
+         ICC_ERR_ARGUMENT,
+         "not parallel"},
+        {{{.from = {0.2, 0.2}, .to = {0.8, 0.2}},
+          {.from = {0.2, 0.4}, .to = {0.8, 0.4}, .parallel = 2}},
+         ICC_ERR_ARGUMENT,
+         "parallel is 2"},
+        {{{.from = {0.2, 0.2}, .to = {0.8, 0.2}},
+          {.from = {0.2, 0.4}, .to = {0.8, 0.4}, .reserved = 1}},
+         ICC_ERR_ARGUMENT,
+         "reserved is 1"},
         {{{.from = {0.2, 0.2}, .to = {0.8, 0.2}}, {.from = {0.4, 1}, .to = {0, 1}, .parallel = 1}},
-         ICC_ERR_ARGUMENT, "cannot be made parallel"},
+         ICC_ERR_ARGUMENT,
+         "cannot be made parallel"},
         {{{.from = {0.2, 0.2}, .to = {0.8, 0.2}}, {.from = {0.2, 0.4}, .to = {0.8, NAN}}},
-         ICC_ERR_ARGUMENT, "not finite"},
+         ICC_ERR_ARGUMENT,
+         "not finite"},
     };
     for (size_t k = 0; k < sizeof BAD / sizeof *BAD; ++k) {
-        const icc_kernel_options options = {.size = sizeof options, .n_lines = 2, .lines = BAD[k].lines};
+        const icc_kernel_options options = {
+            .size = sizeof options, .n_lines = 2, .lines = BAD[k].lines};
         refuse(sampling, 4, SQUARE, &options, BAD[k].status, BAD[k].text, 1);
     }
     icc_sampling_free(sampling);
@@ -690,31 +729,40 @@ START_TEST(impossible_calls_are_refused)
 {
     icc_sampling *sampling = sample_square(0.1);
     icc_kernel *kernel = make(sampling, 4, SQUARE, NULL), *other = (icc_kernel *)&other;
-    const double centre[2] = {0.5, 0.5}, nowhere[2] = {0.5, NAN}, rigidity[1] = {-1}, wish[4] = {NAN};
+    const double centre[2] = {0.5, 0.5}, nowhere[2] = {0.5, NAN}, rigidity[1] = {-1},
+                 wish[4] = {NAN};
     const uint32_t node = 9;
     double transforms[24], images[2], jacobians[4];
-    ck_assert_int_eq(icc_kernel_paint(&other, kernel, 4, centre, 1, 1, NULL, NULL), ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_kernel_paint(&other, kernel, 4, centre, 1, 1, NULL, NULL),
+                     ICC_ERR_ARGUMENT);
     ck_assert_ptr_null(other);
-    ck_assert_int_eq(icc_kernel_paint(&other, kernel, 0, centre, 0, 1, NULL, NULL), ICC_ERR_ARGUMENT);
-    ck_assert_int_eq(icc_kernel_paint(&other, kernel, 0, nowhere, 1, 1, NULL, NULL), ICC_ERR_ARGUMENT);
-    ck_assert_int_eq(icc_kernel_paint(&other, kernel, 0, centre, 1, NAN, NULL, NULL), ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_kernel_paint(&other, kernel, 0, centre, 0, 1, NULL, NULL),
+                     ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_kernel_paint(&other, kernel, 0, nowhere, 1, 1, NULL, NULL),
+                     ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_kernel_paint(&other, kernel, 0, centre, 1, NAN, NULL, NULL),
+                     ICC_ERR_ARGUMENT);
     ck_assert_int_eq(icc_kernel_paint(&other, kernel, 0, NULL, 1, 1, NULL, NULL), ICC_ERR_ARGUMENT);
     ck_assert_int_eq(icc_kernel_paint(NULL, kernel, 0, centre, 1, 1, NULL, NULL), ICC_ERR_ARGUMENT);
-    ck_assert_int_eq(icc_kernel_repaint(&other, kernel, 1, &node, wish, NULL, NULL), ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_kernel_repaint(&other, kernel, 1, &node, wish, NULL, NULL),
+                     ICC_ERR_ARGUMENT);
     ck_assert_int_eq(icc_kernel_set_method(&other, kernel, 4, NULL, NULL), ICC_ERR_ARGUMENT);
     ck_assert_int_eq(icc_kernel_stiffen(&other, kernel, 1, &node, rigidity, NULL, NULL, NULL),
                      ICC_ERR_ARGUMENT);
     icc_binding *binding = (icc_binding *)&binding;
-    ck_assert_int_eq(icc_binding_create(&binding, kernel, 1, nowhere, 0, NULL, NULL), ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_binding_create(&binding, kernel, 1, nowhere, 0, NULL, NULL),
+                     ICC_ERR_ARGUMENT);
     ck_assert_ptr_null(binding);
     ck_assert_int_eq(icc_binding_create(&binding, kernel, 1, centre, 0, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_pose_reset(2, 4, transforms), ICC_OK);
-    ck_assert_int_eq(icc_binding_pose(binding, transforms, images, jacobians, NULL), ICC_ERR_UNSUPPORTED);
+    ck_assert_int_eq(icc_binding_pose(binding, transforms, images, jacobians, NULL),
+                     ICC_ERR_UNSUPPORTED);
     transforms[7] = HUGE_VAL;
     ck_assert_int_eq(icc_binding_pose(binding, transforms, images, NULL, NULL), ICC_ERR_ARGUMENT);
     ck_assert_int_eq(icc_pose_reset(4, 4, transforms), ICC_ERR_ARGUMENT);
     ck_assert_int_eq(icc_pose_move(2, transforms, nowhere), ICC_ERR_ARGUMENT);
-    ck_assert_int_eq(icc_pose_turn(3, transforms, (double[3]){0}, (double[3]){0}, 1), ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_pose_turn(3, transforms, (double[3]){0}, (double[3]){0}, 1),
+                     ICC_ERR_ARGUMENT);
     icc_binding_free(binding);
     icc_kernel_free(kernel);
     icc_kernel_free(NULL);
@@ -735,7 +783,8 @@ static void pose(const icc_kernel *kernel, size_t n, const double *points, const
                  double *images, double *jacobians)
 {
     icc_binding *binding;
-    ck_assert_int_eq(icc_binding_create(&binding, kernel, n, points, jacobians != NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_binding_create(&binding, kernel, n, points, jacobians != NULL, NULL, NULL),
+                     ICC_OK);
     ck_assert_int_eq(icc_binding_pose(binding, transforms, images, jacobians, NULL), ICC_OK);
     icc_binding_free(binding);
 }
@@ -750,8 +799,10 @@ START_TEST(jacobians_are_derivatives)
                                         .cutoff = 7,
                                         .sigma = dim == 2 ? 0 : 0.1};
     icc_kernel *kernel = make(sampling, m, dim == 2 ? HANDLES : CUBE, &options);
-    double *points = spread(dim, n), *moved = allocate(n * dim, sizeof *moved), transforms[96], worst = 0;
-    double *images = allocate(n * dim, sizeof *images), *jacobians = allocate(n * dim * dim, sizeof *images);
+    double *points = spread(dim, n), *moved = allocate(n * dim, sizeof *moved), transforms[96],
+           worst = 0;
+    double *images = allocate(n * dim, sizeof *images),
+           *jacobians = allocate(n * dim * dim, sizeof *images);
     double *ahead = allocate(n * dim, sizeof *images), *behind = allocate(n * dim, sizeof *images);
     random_source r = {12};
     random_transforms(dim, m, transforms, &r);
@@ -815,7 +866,8 @@ END_TEST
 /* A turn keeps its handle where it is and lengths what they are, goes counter-clockwise, and adds up. */
 START_TEST(handles_turn_about_themselves)
 {
-    const double angle = 0.7, offset[3] = {2, -1, 0.5}, at[3] = {0.3, 0.8, -0.4}, axis[3] = {1, 2, -2};
+    const double angle = 0.7, offset[3] = {2, -1, 0.5}, at[3] = {0.3, 0.8, -0.4},
+                 axis[3] = {1, 2, -2};
     double flat[6], space[12], twice[12];
     ck_assert_int_eq(icc_pose_reset(2, 1, flat), ICC_OK);
     ck_assert_int_eq(icc_pose_move(2, flat, offset), ICC_OK);
@@ -875,12 +927,14 @@ START_TEST(bindings_come_back_bit_for_bit)
         icc_binding *binding, *loaded;
         size_t n_bytes, n_points, n_handles;
         int32_t dim;
-        ck_assert_int_eq(icc_binding_create(&binding, kernel, 50, points, derivatives, NULL, NULL), ICC_OK);
+        ck_assert_int_eq(icc_binding_create(&binding, kernel, 50, points, derivatives, NULL, NULL),
+                         ICC_OK);
         unsigned char *data = save(binding, &n_bytes);
         ck_assert_int_eq(icc_binding_load(&loaded, n_bytes, data, NULL, NULL), ICC_OK);
         ck_assert_int_eq(icc_binding_get_counts(loaded, &n_points, &n_handles, &dim), ICC_OK);
         ck_assert(n_points == 50 && n_handles == 5 && dim == 2);
-        double *wanted = derivatives ? jacobians[0] : NULL, *got = derivatives ? jacobians[1] : NULL;
+        double *wanted = derivatives ? jacobians[0] : NULL,
+               *got = derivatives ? jacobians[1] : NULL;
         ck_assert_int_eq(icc_binding_pose(binding, transforms, images[0], wanted, NULL), ICC_OK);
         ck_assert_int_eq(icc_binding_pose(loaded, transforms, images[1], got, NULL), ICC_OK);
         ck_assert_mem_eq(images[0], images[1], sizeof *images);
@@ -935,9 +989,15 @@ START_TEST(hostile_bytes_are_refused)
     }
     memcpy(lie, data, n_bytes);
     ck_assert_int_eq(try_load(n_bytes + 1, lie), ICC_ERR_FORMAT);
-    static const uint64_t HANDLES_AND_POINTS[][2] = {
-        {4, UINT64_MAX}, {UINT64_MAX, 3}, {4, UINT64_MAX / 8 + 2}, {UINT64_MAX / 16 + 1, 1}, {2, 3},
-        {0, 0},          {4, 4},          {4, 2},                  {1u << 31, 1u << 31}};
+    static const uint64_t HANDLES_AND_POINTS[][2] = {{4, UINT64_MAX},
+                                                     {UINT64_MAX, 3},
+                                                     {4, UINT64_MAX / 8 + 2},
+                                                     {UINT64_MAX / 16 + 1, 1},
+                                                     {2, 3},
+                                                     {0, 0},
+                                                     {4, 4},
+                                                     {4, 2},
+                                                     {1u << 31, 1u << 31}};
     for (size_t k = 0; k < sizeof HANDLES_AND_POINTS / sizeof *HANDLES_AND_POINTS + 4; ++k) {
         const bool counts = k >= 4;
         const uint32_t head[2] = {k == 0 ? 1 : k == 1 ? 4 : 2, k == 2 ? 2 : 1};
@@ -1005,14 +1065,15 @@ static icc_status look(icc_status status, icc_kernel *kernel, const everything *
 {
     ck_assert_int_eq(status == ICC_OK, kernel != NULL);
     if (status == ICC_OK && out != NULL)
-        ck_assert_int_eq(icc_kernel_weights(kernel, N_PLACES, e->points, out, NULL, NULL, NULL, NULL),
-                         ICC_OK);
+        ck_assert_int_eq(
+            icc_kernel_weights(kernel, N_PLACES, e->points, out, NULL, NULL, NULL, NULL), ICC_OK);
     icc_kernel_free(kernel);
     return status;
 }
 
 /* Call `which` of what there is; `out` has room for 15 numbers a place, or is NULL. */
-static icc_status run(int which, const everything *e, double *out, const icc_env *env, icc_error *err)
+static icc_status run(int which, const everything *e, double *out, const icc_env *env,
+                      icc_error *err)
 {
     static const uint32_t NODES[3] = {25, 26, 27};
     static const double WISHES[15] = {1, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 1}, CENTRE[2] = {0.4, 0.4};
@@ -1092,7 +1153,8 @@ END_TEST
 START_TEST(threads_change_no_bit)
 {
     everything e = make_everything(0.02);
-    double *one = allocate(15 * N_PLACES, sizeof *one), *many = allocate(15 * N_PLACES, sizeof *many);
+    double *one = allocate(15 * N_PLACES, sizeof *one),
+           *many = allocate(15 * N_PLACES, sizeof *many);
     for (int which = 0; which < N_CALLS; ++which) {
         memset(one, 0, 15 * N_PLACES * sizeof *one);
         ck_assert_int_eq(run(which, &e, one, NULL, NULL), ICC_OK);
@@ -1100,8 +1162,8 @@ START_TEST(threads_change_no_bit)
             const icc_env env = {.size = sizeof env, .threads = n};
             memset(many, 0, 15 * N_PLACES * sizeof *many);
             ck_assert_int_eq(run(which, &e, many, &env, NULL), ICC_OK);
-            ck_assert_msg(memcmp(one, many, 15 * N_PLACES * sizeof *one) == 0, "call %d, %d threads",
-                          which, (int)n);
+            ck_assert_msg(memcmp(one, many, 15 * N_PLACES * sizeof *one) == 0,
+                          "call %d, %d threads", which, (int)n);
         }
     }
     free(one);
