@@ -11,6 +11,7 @@
 #include "kernel/rigid_system.h"
 #include "kernel/structure.h"
 
+#include <math.h>
 #include <string.h>
 
 /* Arrays of m numbers a row. */
@@ -19,7 +20,8 @@ typedef struct vectors {
     double *change;                  /* n: of the coefficients */
     double *moved;                   /* n: by it, the weights */
     double *right, *x, *left, *work; /* as many as the system has */
-    double *values, *gradients;      /* 1; dim */
+    double *values;                  /* 1 */
+    double *gradients, *others;      /* dim */
     double *scratch;                 /* for iccp_optimise() */
 } vectors;
 
@@ -84,25 +86,45 @@ static void add_weights(const iccp_rigid *r, const iccp_handles *handles, const 
     }
 }
 
-/* The affine function changes a little with the values, and the energy with it: should that not fall, all stays. */
+/* The energy's bilinear form, of old and new coefficients or of new ones alone. */
+static double product_of(const iccp_rigid *r, const double *a, const double *b, const vectors *v)
+{
+    const size_t dim = r->nodes->dim, m = r->nodes->n_handles;
+    double product = 0;
+    for (size_t i = 0; i < r->n_part; ++i) {
+        const double *place = r->nodes->points + dim * r->area[i];
+        iccp_collocation_evaluate(r->collocation, m, a, place, v->values, v->gradients);
+        iccp_collocation_evaluate(r->collocation, m, b, place, v->values, v->others);
+        for (size_t k = 0; k < dim * m; ++k)
+            product += 0.5 * r->weight[dim * i] * v->gradients[k] * v->others[k];
+    }
+    return product;
+}
+
+/* The affine function of the interpolant changes with the values, and positive weights cost something, too. So the
+ * energy is minimised once more between the old weights and the new ones, where it is a parabola. */
 static icc_status lower_energy(const iccp_rigid *r, const iccp_handles *handles, const bool *held,
                                bool positive, const vectors *v, double *weights,
                                double *coefficients, double energy[2], const iccp_env *env)
 {
     const size_t n = r->nodes->n, m = r->nodes->n_handles;
-    energy[0] = energy[1] = find_energy(r, coefficients, v);
+    const double before = find_energy(r, coefficients, v);
     minimise(r, handles, v);
     add_weights(r, handles, held, positive, weights, v);
     const icc_status status =
         iccp_collocation_solve(r->collocation, m, v->moved, v->coefficients, env);
     if (status != ICC_OK)
         return status;
-    const double lower = find_energy(r, v->coefficients, v);
-    if (!(lower < energy[0]))
-        return ICC_OK;
-    energy[1] = lower;
-    memcpy(weights, v->moved, n * m * sizeof *weights);
-    memcpy(coefficients, v->coefficients, (n + r->nodes->dim + 1) * m * sizeof *coefficients);
+    const double mixed = product_of(r, coefficients, v->coefficients, v);
+    const double after = product_of(r, v->coefficients, v->coefficients, v);
+    const double curvature = before - 2 * mixed + after;
+    const double share = curvature > 0 ? fmin(fmax((before - mixed) / curvature, 0), 1) : 0;
+    energy[0] = before;
+    energy[1] = before - share * (2 * (before - mixed) - share * curvature);
+    for (size_t k = 0; k < n * m; ++k)
+        weights[k] += share * (v->moved[k] - weights[k]);
+    for (size_t k = 0; k < (n + r->nodes->dim + 1) * m; ++k)
+        coefficients[k] += share * (v->coefficients[k] - coefficients[k]);
     return ICC_OK;
 }
 
@@ -112,10 +134,11 @@ static icc_status run(const iccp_rigid *r, const iccp_handles *handles, const bo
 {
     const size_t n = r->nodes->n, m = r->nodes->n_handles, dim = r->nodes->dim, size = r->matrix.n;
     const size_t scratch = iccp_optimise_work(handles) / m + 1;
-    const size_t rows[] = {n + dim + 1, n, n, size, size, size, size, 1, dim, scratch};
+    const size_t rows[] = {n + dim + 1, n, n, size, size, size, size, 1, dim, dim, scratch};
     vectors v;
     double **const arrays[] = {&v.coefficients, &v.change, &v.moved,  &v.right,     &v.x,
-                               &v.left,         &v.work,   &v.values, &v.gradients, &v.scratch};
+                               &v.left,         &v.work,   &v.values, &v.gradients, &v.others,
+                               &v.scratch};
     icc_status status = ICC_OK;
     for (size_t k = 0; k < sizeof rows / sizeof *rows; ++k) {
         *arrays[k] = iccp_alloc(&env->memory, rows[k], m * sizeof **arrays[k]);

@@ -9,10 +9,11 @@
 /* Of the mean rigidity: how much derivatives around the part count. */
 static const double SURROUNDINGS = 0.1;
 /* Of the greatest diagonal entry: what is added and taken, so that coefficients may hardly matter to any derivative,
- * and equations may be too many. The least that factorises, which does not depend on rounding: */
-static const double LEAST_PIVOT = 1e-10, MOST_PIVOT = 1e-4, PIVOT_STEP = 100;
-/* Steps of refinement, which take what was taken from the equations out again. */
-enum { REFINEMENTS = 4 };
+ * and equations may be too many. Held values are off by as much; the caller sets them right. The least with which
+ * the matrix factorises: */
+static const double LEAST_PIVOT = 1e-9, MOST_PIVOT = 1e-4, PIVOT_STEP = 100;
+/* Steps of refinement; where the matrix is nearly singular more of them would diverge. */
+enum { REFINEMENTS = 1 };
 
 /* Entries of a node's row of the kernel's matrix, its own included, in the columns of the area. */
 static size_t count_entries(const iccp_rigid *r, size_t node)
@@ -242,14 +243,13 @@ void iccp_rigid_free(iccp_rigid *r)
     *r = (iccp_rigid){.memory = r->memory};
 }
 
-/* left = right - matrix * x, without what was taken from the equations. */
+/* left = right - matrix * x */
 static void find_residual(const iccp_rigid *r, size_t m, const double *right, const double *x,
                           double *left)
 {
     for (size_t i = 0; i < r->matrix.n; ++i) {
-        const double diagonal = r->diagonal[i] + (i < r->n ? 0 : r->pivot);
         for (size_t j = 0; j < m; ++j)
-            left[m * i + j] = right[m * i + j] - diagonal * x[m * i + j];
+            left[m * i + j] = right[m * i + j] - r->diagonal[i] * x[m * i + j];
         for (size_t p = r->first[i]; p < r->first[i + 1]; ++p)
             for (size_t j = 0; j < m; ++j)
                 left[m * i + j] -= r->value[p] * x[m * r->column[p] + j];
