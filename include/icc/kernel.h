@@ -181,7 +181,7 @@ enum {
 enum {
     ICC_INITIAL_HEAT = 1,    /**< diffusion of an impulse at each handle (4.11, 4.12) */
     ICC_INITIAL_EDGES = 2,   /**< diffusion, with weights that are linear along the edges held (4.7, 4.13) */
-    ICC_INITIAL_INVERSE = 3, /**< inverse squared distance to the handles (4.10) */
+    ICC_INITIAL_INVERSE = 3, /**< inverse squared distance to the handles (4.10), p a tenth of their extent */
     ICC_INITIAL_GIVEN = 4    /**< the caller's */
 };
 
