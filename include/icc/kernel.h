@@ -193,11 +193,19 @@ enum {
                                   least sum of squared changes */
 };
 
-/** A segment along which weights are linear: what lies on it stays straight (5.6). */
+/**
+ * A segment along which weights are linear: what lies on it stays straight (5.6). It has nodes at both ends and
+ * between them, one spacing apart or a little less; nodes beside it follow it, the nearer the more. Spread the
+ * samples with those places fixed for the best spacing.
+ *
+ * An end may be a handle, or an end of an earlier line. Lines should not cross: where they come near each other, or a
+ * handle, the earlier one and the handle prevail.
+ */
 typedef struct icc_line {
-    double from[3];    /**< an end of it, in the shape */
+    double from[3];    /**< an end of it, in the shape; at least half a spacing away from the other */
     double to[3];      /**< the other */
-    int32_t parallel;  /**< 0, or k to stay parallel to line k - 1, an earlier one (5.11) */
+    int32_t parallel;  /**< 0, or k to stay parallel to line k - 1, an earlier one (5.11), which it must be to
+                            1e-9 of its length; `to` must then be neither a handle nor on an earlier line */
     int32_t reserved;  /**< 0 */
 } icc_line;
 
@@ -229,9 +237,9 @@ typedef struct icc_kernel_info {
     int32_t initial;        /**< `ICC_INITIAL_*` */
     int32_t method;         /**< `ICC_WEIGHTS_*` */
     size_t n_handles;       /**< handles */
-    size_t n_nodes;         /**< samples that carry weights: the handles first, then those on lines, then the
-                                 sampling's, but for those that a handle or a line replaces */
-    size_t n_infeasible;    /**< nodes where no weights that are not negative reproduce the point (outside
+    size_t n_nodes;         /**< places that carry weights: the handles first, then those on lines, then the
+                                 samples, but for those within half a spacing of a handle or a line's node */
+    size_t n_infeasible;    /**< QP: nodes where no weights that are not negative reproduce the point (outside
                                  the handles' convex hull): QP is relaxed there, the sums still hold */
     size_t n_entries;       /**< kernel values of the matrix, diagonal included, one triangle */
     double sigma;           /**< width of the kernel */
@@ -239,7 +247,7 @@ typedef struct icc_kernel_info {
                                  the greatest */
     double seconds_initial; /**< time for the initial weights */
     double seconds_weights; /**< time to optimise */
-    double seconds_factor;  /**< time to factorise */
+    double seconds_factor;  /**< time to place the nodes and to factorise */
 } icc_kernel_info;
 
 /**
@@ -285,7 +293,8 @@ ICC_API icc_status icc_kernel_get_nodes(const icc_kernel *kernel, double *points
 
 /**
  * Paints: adds amount * brush to the weight of one handle at the nodes around a place, and optimises them
- * again from there. The brush falls smoothly from 1 at the centre to 0 at the radius.
+ * again from there. The brush falls smoothly from 1 at the centre to 0 at the radius. Handles, nodes on lines and
+ * nodes on edges that are held stay as they are.
  *
  * @param[out] out a new kernel with the same nodes; owned by the caller. The old one is not changed.
  * @param kernel   the kernel
@@ -305,14 +314,14 @@ ICC_API icc_status icc_kernel_paint(icc_kernel **out, const icc_kernel *kernel, 
 
 /**
  * The same with wishes of the caller's: at node nodes[i] the weights start from
- * weights[i * n_handles ...] and are optimised again. Handles and nodes on lines stay as they are.
+ * weights[i * n_handles ...] and are optimised again. No node may be named twice.
  */
 ICC_API icc_status icc_kernel_repaint(icc_kernel **out, const icc_kernel *kernel, size_t n,
                                       const uint32_t *nodes, const double *weights,
                                       const icc_env *env, icc_error *err);
 
-/** The same nodes and initial weights with another method (`ICC_WEIGHTS_*`): what was painted is gone, as in
- *  the thesis (6.3.1). */
+/** The same nodes and initial weights with another method (`ICC_WEIGHTS_*`): what was painted or stiffened is
+ *  gone, as in the thesis (6.3.1). */
 ICC_API icc_status icc_kernel_set_method(icc_kernel **out, const icc_kernel *kernel,
                                          int32_t method, const icc_env *env, icc_error *err);
 
@@ -402,7 +411,8 @@ ICC_API icc_status icc_binding_get_counts(const icc_binding *binding, size_t *n_
 ICC_API icc_status icc_binding_get(const icc_binding *binding, double *handles, double *weights);
 
 /**
- * Poses the points: x -> sum of w_j(x) (A_j x + b_j) (3.37).
+ * Poses the points: x -> sum of w_j(x) (A_j x + b_j) (3.37), computed as x + sum of w_j(x) (A_j x + b_j - x): the
+ * same where weights sum to 1, and the rest pose is exact.
  *
  * @param binding        the binding
  * @param transforms     n_handles * dim * (dim + 1): per handle the rows of (A | b)
