@@ -11,7 +11,7 @@
 
 /* In longest sides of the box: rounding of input files, as for domains. */
 static const double WALL_TOLERANCE = 1e-14;
-/* Of the largest coordinate: a point between two vertices is off by so much. */
+/* Of the largest coordinate: a point between two vertices is off by so much, or by that of denormal numbers. */
 static const double ROUNDING = 4 * DBL_EPSILON;
 
 static icc_status check_curves(size_t dim, size_t n_vertices, const double *vertices,
@@ -117,7 +117,8 @@ static icc_status localise(icc_shape *shape, size_t n, icc_error *err)
     const double *in = shape->frame.in;
     for (size_t k = 0; k < dim; ++k)
         longest = fmax(longest, shape->upper[k] * in[0] * in[1] - shape->lower[k] * in[0] * in[1]);
-    shape->tolerance = WALL_TOLERANCE * longest + ROUNDING * largest * in[0] * in[1];
+    shape->tolerance =
+        WALL_TOLERANCE * longest + fmax(ROUNDING * largest, 4 * DBL_TRUE_MIN) * in[0] * in[1];
     return ICC_OK;
 }
 

@@ -16,6 +16,8 @@ static const int32_t DEFAULT_STEPS = 60;
 static const double RIM_GAP = 0.55;
 /* On surfaces, where they are spread at random: such a limit leaves about one a square of the spacing. */
 static const double SKIN_GAP = 0.75;
+/* In distances at which a point is on a wall: what is inside must be told from what is on the edge. */
+static const double FINEST = 16;
 /* Rounding of counts such as 10 / 0.1. */
 static const double COUNT_TOLERANCE = 1e-9;
 
@@ -210,6 +212,9 @@ static icc_status spread_blue(iccp_places *places, const icc_shape *shape,
 {
     const int32_t steps = options->steps == 0 ? DEFAULT_STEPS : options->steps;
     const double spacing = options->spacing * shape->frame.in[0] * shape->frame.in[1];
+    if (!(spacing >= FINEST * shape->tolerance))
+        return iccp_fail(err, ICC_ERR_RESOLUTION, -1,
+                         "the spacing is lost in the rounding of the coordinates");
     if (!(expect_samples(shape, spacing) + (double)options->n_fixed <= MAX_SAMPLES))
         return fail_many(err);
     icc_status status = options->n_fixed > 0 ? check_fixed(shape, options, env, err) : ICC_OK;

@@ -390,9 +390,10 @@ END_TEST
 /* Wherever a shape lies and whatever its size, the same samples come out, up to rounding. */
 START_TEST(place_and_size_do_not_matter)
 {
-    static const double SHIFT[] = {0, 0, 0, 1e6, -3e3}, SCALE[] = {1, 1e-150, 1e150, 1, 1e-3};
-    size_t n[5];
-    for (int i = 0; i < 5; ++i) {
+    static const double SHIFT[] = {0, 0, 0, 1e6, -3e3, 0};
+    static const double SCALE[] = {1, 1e-150, 1e150, 1, 1e-3, 1e-310};
+    size_t n[6];
+    for (int i = 0; i < 6; ++i) {
         double xy[20];
         star_outline(xy);
         for (int k = 0; k < 20; ++k)
@@ -489,6 +490,14 @@ START_TEST(what_cannot_be_sampled_is_named)
                      ICC_ERR_RESOLUTION);
     ck_assert_int_eq(try_options(stick, (icc_sampling_options){.spacing = 9}, &err), ICC_OK);
     icc_shape_free(stick);
+    icc_shape_free(shape);
+    /* Coordinates near 1e15 are multiples of 1/8. */
+    const double far[8] = {1e15, 0, 1e15 + 10, 0, 1e15 + 10, 10, 1e15, 10};
+    icc_domain *const region = polygon_of(4, far);
+    shape = shape_of(2, 1, &region);
+    ck_assert_int_eq(try_options(shape, (icc_sampling_options){.spacing = 0.5}, &err),
+                     ICC_ERR_RESOLUTION);
+    ck_assert_ptr_nonnull(strstr(err.message, "rounding"));
     icc_shape_free(shape);
 }
 END_TEST
