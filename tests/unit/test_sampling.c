@@ -1,12 +1,12 @@
 /* Samplings: grids, blue noise, the caller's points, bytes. */
+#include "../faulty.h"
+#include "../gaussians.h"
+#include "../random.h"
+#include "../regions.h"
 #include "base/blob.h"
-#include "faulty.h"
-#include "gaussians.h"
 #include "kernel/places.h"
 #include "kernel/sampling.h"
 #include "kernel/spectrum.h"
-#include "random.h"
-#include "regions.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,10 +1,10 @@
 /* Shapes: regions, walls and curves; cells. */
+#include "../faulty.h"
+#include "../random.h"
+#include "../regions.h"
 #include "domain/segment.h"
-#include "faulty.h"
 #include "kernel/cells.h"
 #include "kernel/shape.h"
-#include "random.h"
-#include "regions.h"
 
 #include <stdlib.h>
 #include <string.h>
