@@ -1,5 +1,6 @@
 /* Weights of single points: every method against what defines its solution. */
 #include "kernel/dual.h"
+#include "kernel/structure.h"
 #include "kernel/weights.h"
 
 #include "../random.h"
@@ -446,6 +447,81 @@ START_TEST(l1_breaks_ties_by_squares)
 }
 END_TEST
 
+/* ---- table 4.1 ---- */
+
+/* The thesis' example: a grid of 101 x 101 samples over 10 x 10, handles at its corners, inverse distances. QP has no
+ * negative weights, equality only has them down to -0.106, l1 hardly any; along the diagonal weights fall with QP and
+ * l1 but for what a corner's own initial weight does beside it, and rise again with equality only. */
+START_TEST(the_example_of_chapter_4)
+{
+    enum { SIDE = 101, N = 4 + SIDE * SIDE };
+    static double points[2 * N], initial[4 * N];
+    static problem p = {.dim = 2, .m = 4, .handles = {0, 0, 10, 0, 10, 10, 0, 10}};
+    const iccp_nodes nodes = {.dim = 2, .n = N, .n_handles = 4, .points = points};
+    memcpy(points, p.handles, 8 * sizeof *points);
+    for (size_t i = 4; i < N; ++i) {
+        points[2 * i] = 0.1 * (double)((i - 4) % SIDE);
+        points[2 * i + 1] = 0.1 * (double)((i - 4) / SIDE);
+    }
+    iccp_initial_inverse(&nodes, initial);
+    ck_assert_double_eq(initial[0], 1);
+    ck_assert_double_eq(initial[1], 0);
+    ck_assert_double_le(fabs(initial[4 * (4 + 10)] - 0.5), 1e-12);
+    iccp_handles *handles = make_handles(&p);
+    for (int32_t method = ICC_WEIGHTS_QP; method <= ICC_WEIGHTS_L1; ++method) {
+        double least = 0, rise = 0, before = 2;
+        for (size_t i = 4; i < N; ++i) {
+            memcpy(p.point, points + 2 * i, 2 * sizeof *points);
+            memcpy(p.start, initial + 4 * i, 4 * sizeof *initial);
+            ck_assert_int_eq(run(handles, method, &p), ICC_OK);
+            for (size_t j = 0; j < 4; ++j)
+                least = fmin(least, p.weights[j]);
+            if ((i - 4) % (SIDE + 1) == 0) {
+                rise = fmax(rise, p.weights[0] - before);
+                before = p.weights[0];
+            }
+        }
+        if (method == ICC_WEIGHTS_EQUALITY) {
+            ck_assert_double_le(fabs(least + 0.106), 5e-4);
+            ck_assert_double_gt(rise, 0.01);
+        } else {
+            ck_assert_double_ge(least, method == ICC_WEIGHTS_QP ? 0 : -0.01);
+            ck_assert_double_le(rise, 2e-3);
+        }
+    }
+    iccp_handles_free(handles);
+}
+END_TEST
+
+/* ---- lines ---- */
+
+/* Weights are linear on a line, and change by the same vector per length on one that is parallel to it, whichever way
+ * that runs: the images under any translations of the handles are parallel. */
+START_TEST(lines_are_straight_and_parallel)
+{
+    enum { N = 10 };
+    const double points[2 * N] = {0,   0,   1,   1,    0.3, 0.3, 0.5, 0.5, 0.9, 0.9,
+                                  0.7, 0.2, 0.2, -0.3, 0.5, 0,   0,   0,   0,   0};
+    const iccp_nodes nodes = {.dim = 2, .n = N, .n_handles = 5, .points = points};
+    const iccp_line_nodes first = {.from = 0, .to = 1, .first = 2, .count = 3};
+    const iccp_line_nodes second = {.from = 5, .to = 6, .first = 7, .count = 1};
+    double w[5 * N];
+    random_source r = {19};
+    for (size_t k = 0; k < 5 * N; ++k)
+        w[k] = random_unit(&r);
+    iccp_straighten(&nodes, &first, NULL, w);
+    iccp_straighten(&nodes, &second, &first, w);
+    for (size_t j = 0; j < 5; ++j) {
+        for (size_t i = 2; i < 5; ++i) {
+            const double t = points[2 * i];
+            ck_assert_double_le(fabs(w[5 * i + j] - (1 - t) * w[j] - t * w[5 + j]), 1e-15);
+        }
+        ck_assert_double_le(fabs(w[35 + j] - w[25 + j] - 0.4 * (w[30 + j] - w[25 + j])), 1e-15);
+        ck_assert_double_le(fabs(w[30 + j] - w[25 + j] + 0.5 * (w[5 + j] - w[j])), 1e-15);
+    }
+}
+END_TEST
+
 /* ---- handles ---- */
 
 START_TEST(handles_on_a_line_are_refused)
@@ -507,6 +583,8 @@ int main(void)
     tcase_add_test(points, outside_is_said_and_equations_hold);
     tcase_add_test(points, l1_is_least);
     tcase_add_test(points, l1_breaks_ties_by_squares);
+    tcase_add_test(points, the_example_of_chapter_4);
+    tcase_add_test(points, lines_are_straight_and_parallel);
     tcase_add_test(points, handles_on_a_line_are_refused);
     tcase_add_test(points, place_and_size_do_not_matter);
     suite_add_tcase(suite, points);
