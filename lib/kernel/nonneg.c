@@ -19,7 +19,7 @@ static const double TIGHT = 16 * DBL_EPSILON;
 static const double OUTSIDE = 1e-11;
 /* Of the slope at the start of a step: at its end. */
 static const double STEEP = 0.5;
-/* Without a solution after so many, the sure way is taken. */
+/* Without a solution after so many steps, and half as many as there are components, the sure way is taken. */
 enum { FEW_STEPS = 12, MOST_STEPS = 100, MOST_CUTS = 20 };
 
 typedef struct state {
@@ -126,14 +126,14 @@ static bool separates(const iccp_nonneg *p, const double *step, double tolerance
 
 typedef enum outcome { SOLVED, UNSOLVED, UNSOLVABLE } outcome;
 
-static outcome iterate(const iccp_nonneg *p, double slope, int steps, double *x)
+static outcome iterate(const iccp_nonneg *p, double slope, size_t steps, double *x)
 {
     state s = {.y = {0}};
     double size = sqrt(dot(p->target, p->target));
     for (size_t j = 0; j < p->m; ++j)
         size = fmax(size, fabs(x[j]));
     evaluate(p, slope, x, &s);
-    for (int k = 0; k <= steps; ++k) {
+    for (size_t k = 0; k <= steps; ++k) {
         double step[ICCP_ROWS];
         const double error = sqrt(dot(s.g, s.g));
         const double multiplier = slope > 0 ? sqrt(dot(s.y, s.y)) : 0;
@@ -154,7 +154,7 @@ static outcome iterate(const iccp_nonneg *p, double slope, int steps, double *x)
 
 bool iccp_nonneg_solve(const iccp_nonneg *problem, double *x, double *work)
 {
-    const outcome end = iterate(problem, 0, FEW_STEPS, x);
+    const outcome end = iterate(problem, 0, FEW_STEPS + problem->m / 2, x);
     return end == SOLVED || (end == UNSOLVED && iccp_dual_solve(problem, x, work));
 }
 
