@@ -4,7 +4,7 @@
 #include "options.h"
 #include "say.h"
 
-#include <icc/icc.h>
+#include <icc/kernel.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -259,13 +259,21 @@ static void settle_functions(args *a)
                                                              : 0;
 }
 
+/* A binding has its points, so that `pose` needs no file with them. */
+static bool has_bound(const args *a, const command *c)
+{
+    return c->bit & FOR_POSE && a->binding != NULL;
+}
+
 static int check_operands(const args *a, const command *c)
 {
-    size_t n_operands = a->geojson ? c->n_operands_geojson : c->n_operands;
+    size_t n_operands = a->geojson ? c->n_operands_geojson : c->n_operands - has_bound(a, c);
     if (a->n_operands < n_operands && a->geojson)
         return misused(c->name, "--geojson needs two files, IN and OUT");
     if (a->n_operands < n_operands)
         return misused(c->name, "usage: libicc %s %s", c->name, c->usage);
+    if (a->n_operands > n_operands && has_bound(a, c))
+        return misused(c->name, "--binding has its points; it takes one file, OUT");
     if (a->n_operands > n_operands)
         return misused(c->name, "'%.60s' is one argument too many without --geojson",
                        a->operands[0]);
@@ -278,22 +286,44 @@ static int check_operands(const args *a, const command *c)
     return DONE;
 }
 
-/* What no single option can tell. */
-static int check_together(const args *a, const command *c)
+static int check_kernel(const args *a, const command *c)
+{
+    bool bound = has_bound(a, c);
+    if (c->bit & FOR_POSE && a->pose == NULL)
+        return misused(c->name, "--pose FILE is missing");
+    if (a->handles == NULL && !bound)
+        return misused(c->name, "--handles FILE is missing");
+    if (bound && (a->handles != NULL || a->source != NULL))
+        return misused(c->name, "--source and --handles do not go with --binding");
+    if (a->n_along > 0 && a->points != NULL)
+        return misused(c->name, "--points and --along exclude each other");
+    if (a->n_along > 0 && a->n_along != 4 && a->n_along != 6)
+        return misused(c->name, "--along must be X0,Y0,X1,Y1 or X0,Y0,Z0,X1,Y1,Z1");
+    if (a->picture == NULL && (a->logarithmic || a->handle > 0 || a->y_down))
+        return misused(c->name, "--log, --handle and --y-down go with --picture");
+    if (a->steps > 0 && a->initial == ICC_INITIAL_INVERSE)
+        return misused(c->name, "--steps does not go with --initial inverse");
+    if (a->seed > 0 && a->sampling == ICC_SAMPLING_GRID)
+        return misused(c->name, "--seed does not go with --sampling grid");
+    return DONE;
+}
+
+static int check_charts(const args *a, const command *c)
 {
     if (a->source == NULL)
         return misused(c->name, "--source FILE is missing");
     if (c->needs_target && a->target == NULL)
         return misused(c->name, "--target FILE is missing");
     int result = check_method(a, c);
-    if (result == DONE)
-        result = check_functions(a, c);
-    if (result == DONE)
-        result = check_operands(a, c);
-    if (result != DONE)
-        return result;
-    const char *inputs[] = {a->source, a->target, a->points ? a->points : a->coords,
-                            c->n_operands == 2 || a->geojson ? a->operands[0] : NULL};
+    return result == DONE ? check_functions(a, c) : result;
+}
+
+static int check_inputs(const args *a, const command *c)
+{
+    bool has_input = (c->n_operands == 2 || a->geojson) && !has_bound(a, c);
+    const char *inputs[] = {a->source,  a->target, a->points ? a->points : a->coords,
+                            a->handles, a->pose,   has_bound(a, c) ? a->binding : NULL,
+                            has_input ? a->operands[0] : NULL};
     size_t n_standard = 0;
     for (size_t i = 0; i < sizeof inputs / sizeof *inputs; i++)
         n_standard += inputs[i] != NULL && strcmp(inputs[i], "-") == 0;
@@ -302,18 +332,28 @@ static int check_together(const args *a, const command *c)
     return DONE;
 }
 
+/* What no single option can tell. */
+static int check_together(const args *a, const command *c)
+{
+    int result = c->bit & FOR_KERNEL ? check_kernel(a, c) : check_charts(a, c);
+    if (result == DONE)
+        result = check_operands(a, c);
+    return result == DONE ? check_inputs(a, c) : result;
+}
+
 /* Reads come by default from stdin, and results go by default to stdout. */
 static int settle_streams(args *a, const command *c)
 {
-    if (c->bit & (FOR_MAP | FOR_ENCODE) && a->points == NULL && !a->geojson)
+    bool draws = c->bit & FOR_WEIGHTS && (a->picture != NULL || a->n_along > 0);
+    if (c->bit & (FOR_MAP | FOR_ENCODE | FOR_WEIGHTS) && a->points == NULL && !a->geojson && !draws)
         a->points = "-";
     if (c->bit & FOR_DECODE && a->coords == NULL)
         a->coords = "-";
-    const char *result = a->output != NULL ? a->output : "-";
-    if (c->n_operands == 2 || a->geojson)
-        result = a->operands[1];
-    if (c->bit & FOR_PLOT)
-        result = a->operands[0];
+    if (c->bit & FOR_WEIGHTS && a->output == NULL && a->picture == NULL && a->binding == NULL)
+        a->output = "-";
+    const char *result = a->output != NULL || c->bit & FOR_WEIGHTS ? a->output : "-";
+    if (c->n_operands > 0 || a->geojson)
+        result = a->n_operands > 0 ? a->operands[a->n_operands - 1] : NULL;
     if (a->json && !(c->bit & (FOR_CHECK | FOR_INFO)) && strcmp(a->json_file, "-") == 0 &&
         result != NULL && strcmp(result, "-") == 0)
         return misused(c->name,

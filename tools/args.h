@@ -13,6 +13,7 @@ typedef struct args {
     const char *command;
     /* files */
     const char *source, *target, *points, *coords, *output, *repair, *boundary, *json_file;
+    const char *handles, *pose, *binding, *picture;
     const char *operands[2];
     size_t n_operands;
     /* how charts and maps are made: 0 means the library's choice */
@@ -25,6 +26,15 @@ typedef struct args {
     double maximum[ICC_MAX_DIM], target_maximum[ICC_MAX_DIM];
     size_t n_maximum, n_target_maximum; /* their coordinates; 0: not given */
     bool constrained, unconstrained;
+    /* how weights are made */
+    int32_t sampling, seed, weights, kernel, initial, steps;
+    double spacing, sigma;
+    bool thesis;
+    /* their figures */
+    int32_t handle;
+    double along[ICC_MAX_DIM];
+    size_t n_along;
+    bool logarithmic;
     /* what to do */
     bool inverse, repair_mesh, geojson, quiet, json, elevation, triangles, y_down, compression,
         has_background;
@@ -42,7 +52,11 @@ enum {
     FOR_CHECK = 32,
     FOR_INFO = 64,
     FOR_PLOT = 128,
-    FOR_ALL = 255
+    FOR_CHARTS = 255, /* all of the above */
+    FOR_WEIGHTS = 256,
+    FOR_POSE = 512,
+    FOR_KERNEL = FOR_WEIGHTS | FOR_POSE,
+    FOR_ALL = FOR_CHARTS | FOR_KERNEL
 };
 
 typedef struct command {

@@ -1,0 +1,32 @@
+/* What `weights` and `pose` do first: read shape and handles, spread samples, make weights. */
+#ifndef KERNEL_JOB_H
+#define KERNEL_JOB_H
+
+#include "handle_set.h"
+#include "job.h"
+
+#include <icc/kernel.h>
+
+typedef struct kernel_job {
+    job job;
+    handle_set set;
+    icc_domain **regions; /* those of the handles' file */
+    icc_sampling *sampling;
+    icc_kernel *kernel;
+    double energy[2]; /* of the rigid parts, before and after */
+    double seconds_samples, seconds_weights, seconds_rigid;
+} kernel_job;
+
+/* As job_start() and so on; kernel_job_make() does everything else. */
+void kernel_job_start(kernel_job *k, const args *a);
+int kernel_job_make(kernel_job *k);
+void kernel_job_end(kernel_job *k);
+
+/* Which of n points lie in a region of the shape or on its boundary. */
+int kernel_job_locate(kernel_job *k, size_t n, const double *points, bool *inside);
+
+/* The report of --json up to what the command itself has to add: what was made, and how good the weights are at
+ * n finite points. */
+int kernel_report_open(report *r, kernel_job *k, size_t n, const double *points);
+
+#endif
