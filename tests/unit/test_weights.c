@@ -302,6 +302,38 @@ START_TEST(outside_is_said_and_equations_hold)
 }
 END_TEST
 
+/* From one side of the hull to the other, weights hardly change. */
+START_TEST(weights_hardly_jump_at_the_hull)
+{
+    random_source r = {20};
+    static problem p, q;
+    p.dim = 2;
+    p.m = 10;
+    for (size_t j = 0; j < 10; ++j) {
+        const double radius = j % 2 == 0 ? 1 : 0.4, angle = 0.62831853071795865 * (double)j;
+        p.handles[2 * j] = radius * cos(angle);
+        p.handles[2 * j + 1] = radius * sin(angle);
+    }
+    iccp_handles *handles = make_handles(&p);
+    for (int k = 0; k < 1000; ++k) {
+        random_start(&p, &r);
+        for (size_t j = 0; j < p.m; ++j)
+            p.start[j] = fmin(1, fabs(p.start[j]));
+        point_between(&p, 0, 2, &r);
+        q = p;
+        for (size_t c = 0; c < 2; ++c) {
+            p.point[c] *= 1 - 1e-9;
+            q.point[c] *= 1 + 1e-9;
+        }
+        ck_assert_int_eq(run(handles, ICC_WEIGHTS_QP, &p), ICC_OK);
+        ck_assert_int_eq(run(handles, ICC_WEIGHTS_QP, &q), ICC_ERR_SOLVER);
+        for (size_t j = 0; j < p.m; ++j)
+            ck_assert_double_le(fabs(p.weights[j] - q.weights[j]), 1e-3);
+    }
+    iccp_handles_free(handles);
+}
+END_TEST
+
 /* ---- l1 ---- */
 
 static double solve_square(size_t n, double a[4][5], double *x)
@@ -581,6 +613,7 @@ int main(void)
     tcase_add_test(points, no_feasible_neighbour_is_better);
     tcase_add_test(points, nothing_fails);
     tcase_add_test(points, outside_is_said_and_equations_hold);
+    tcase_add_test(points, weights_hardly_jump_at_the_hull);
     tcase_add_test(points, l1_is_least);
     tcase_add_test(points, l1_breaks_ties_by_squares);
     tcase_add_test(points, the_example_of_chapter_4);
