@@ -10,8 +10,9 @@
 
 /* Wendland's function of this radius, in sigma, has about the width of the Gaussian. */
 static const double WENDLAND_REACH = 3;
-/* Entries, 12 bytes each; the default kernel has 26 a node in 2-D. */
-static const size_t MOST_ENTRIES = (size_t)1 << 29;
+/* Entries, 12 bytes each, whatever the number of nodes; and for each node, where the default kernel has 26
+ * in 2-D. The matrix may have the greater number of the two. */
+static const size_t MOST_ENTRIES = (size_t)1 << 27, MOST_NEAR = 256;
 /* Rows in a task. */
 enum { GRAIN = 1024 };
 
@@ -109,7 +110,7 @@ static icc_status fill(assembly *a, const iccp_env *env, icc_error *err)
     out->first[0] = 0;
     for (size_t i = 0; status == ICC_OK && i < n; ++i)
         out->first[i + 1] += out->first[i];
-    if (status == ICC_OK && out->first[n] > MOST_ENTRIES)
+    if (status == ICC_OK && out->first[n] > MOST_ENTRIES && out->first[n] / n > MOST_NEAR)
         return iccp_fail(err, ICC_ERR_SOLVER, -1,
                          "sigma is too large: within its reach each of %zu nodes has %zu others", n,
                          out->first[n] / n);

@@ -151,6 +151,7 @@ icc_status iccp_kernel_start(icc_kernel *kernel, const iccp_env *env)
     return status;
 }
 
+/* Columns that are the same bit for bit have the same coefficients. */
 icc_status iccp_kernel_interpolate(icc_kernel *kernel, const icc_kernel *before,
                                    const iccp_env *env)
 {

@@ -17,6 +17,8 @@ static const double SAME = 1e-6;
 static const double ON_EDGE = 1e-9;
 /* Sine of the angle between lines that are called parallel. */
 static const double PARALLEL = 1e-9;
+/* In spacings: kernels narrower than this would be needles at the nodes. */
+static const double LEAST_SIGMA = 1e-3;
 static const size_t MOST_NODES = (size_t)1 << 24;
 /* Nodes in a task. */
 enum { GRAIN = 4096 };
@@ -289,6 +291,9 @@ static icc_status connect(iccp_layout *l, const icc_kernel_options *options, con
 static icc_status create(iccp_layout *l, size_t n_handles, const double *handles,
                          const icc_kernel_options *options, const iccp_env *env, icc_error *err)
 {
+    if (!(options->sigma > LEAST_SIGMA * l->sampling->info.spacing))
+        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "sigma is %g where samples are %g apart",
+                         options->sigma, l->sampling->info.spacing);
     icc_status status = make_room(l, n_handles, options, err);
     if (status == ICC_OK)
         status = place_all(l, n_handles, handles, options, env, err);

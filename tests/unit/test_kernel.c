@@ -321,6 +321,29 @@ START_TEST(weights_do_not_depend_on_the_unit)
 }
 END_TEST
 
+/* A single sample is enough beside the handles. */
+START_TEST(one_sample_will_do)
+{
+    const double middle[2] = {0.5, 0.5};
+    icc_domain *domain;
+    icc_shape *shape;
+    icc_sampling *sampling;
+    ck_assert_int_eq(icc_domain_create(&domain, 2, 4, SQUARE, 0, NULL, NULL, NULL), ICC_OK);
+    const icc_domain *regions[1] = {domain};
+    ck_assert_int_eq(icc_shape_create(&shape, 2, 1, regions, 0, NULL, 0, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_sampling_create_from_points(&sampling, shape, 1, middle, NULL, NULL),
+                     ICC_OK);
+    const icc_kernel_options options = {.size = sizeof options, .sigma = 0.4};
+    icc_kernel *kernel = make(sampling, 4, SQUARE, &options);
+    ck_assert_double_le(report_of(kernel).reproduction, 1e-13);
+    ck_assert_double_le(report_of(kernel).lagrange, 1e-13);
+    icc_kernel_free(kernel);
+    icc_sampling_free(sampling);
+    icc_shape_free(shape);
+    icc_domain_free(domain);
+}
+END_TEST
+
 /* Points that are not finite are named, and points far away have affine weights. */
 START_TEST(any_point_may_be_asked)
 {
@@ -679,6 +702,8 @@ START_TEST(impossible_options_are_named)
     refuse(sampling, 4, SQUARE, &wide, ICC_ERR_SOLVER, "sigma is too large", -1);
     wide.kernel = ICC_KERNEL_WENDLAND;
     icc_kernel_free(make(sampling, 4, SQUARE, &wide));
+    const icc_kernel_options narrow = {.size = sizeof narrow, .sigma = 1e-9};
+    refuse(sampling, 4, SQUARE, &narrow, ICC_ERR_ARGUMENT, "sigma is 1e-09", -1);
     icc_sampling_free(sampling);
 }
 END_TEST
@@ -1182,6 +1207,7 @@ int main(void)
     tcase_add_test(tests, a_cube_works_like_a_square);
     tcase_add_test(tests, initial_weights_can_be_given);
     tcase_add_test(tests, weights_do_not_depend_on_the_unit);
+    tcase_add_test(tests, one_sample_will_do);
     tcase_add_test(tests, any_point_may_be_asked);
     tcase_add_test(tests, lines_stay_straight);
     tcase_add_test(tests, lines_share_ends);
