@@ -194,6 +194,22 @@ static void minimise_l1(const iccp_handles *h, const double *target, double *wei
         weights[j] += work[j];
 }
 
+static double least(size_t m, const double *x)
+{
+    double value = x[0];
+    for (size_t j = 1; j < m; ++j)
+        value = x[j] < value ? x[j] : value;
+    return value;
+}
+
+static double greatest(size_t m, const double *x)
+{
+    double value = fabs(x[0]);
+    for (size_t j = 1; j < m; ++j)
+        value = fabs(x[j]) > value ? fabs(x[j]) : value;
+    return value;
+}
+
 icc_status iccp_optimise(const iccp_handles *handles, int32_t method, const double *point,
                          double *weights, double *work)
 {
@@ -208,10 +224,13 @@ icc_status iccp_optimise(const iccp_handles *handles, int32_t method, const doub
         minimise_l1(handles, problem.target, weights, work);
         return ICC_OK;
     }
-    /* Twice, since large weights leave rounding errors of their size. */
+    const bool large = greatest(handles->m, weights) > 1;
     meet(handles, problem.target, weights);
-    meet(handles, problem.target, weights);
-    if (method == ICC_WEIGHTS_EQUALITY || iccp_nonneg_solve(&problem, weights, work))
+    /* Large weights leave rounding errors of their size. */
+    if (large)
+        meet(handles, problem.target, weights);
+    if (method == ICC_WEIGHTS_EQUALITY || least(handles->m, weights) >= 0 ||
+        iccp_nonneg_solve(&problem, weights, work))
         return ICC_OK;
     (void)iccp_nonneg_relax(&problem, SLOPE, weights);
     meet(handles, problem.target, weights);
