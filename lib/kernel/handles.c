@@ -224,10 +224,10 @@ icc_status iccp_optimise(const iccp_handles *handles, int32_t method, const doub
         minimise_l1(handles, problem.target, weights, work);
         return ICC_OK;
     }
-    const bool large = greatest(handles->m, weights) > 1;
+    const bool again = method == ICC_WEIGHTS_EQUALITY || greatest(handles->m, weights) > 1;
     meet(handles, problem.target, weights);
-    /* Large weights leave rounding errors of their size. */
-    if (large)
+    /* Large weights leave rounding errors of their size, and many their sum; the iteration sees to these, too. */
+    if (again)
         meet(handles, problem.target, weights);
     if (method == ICC_WEIGHTS_EQUALITY || least(handles->m, weights) >= 0 ||
         iccp_nonneg_solve(&problem, weights, work))
