@@ -144,9 +144,11 @@ int run_weights(const args *a)
     kernel_job k;
     table points = {0};
     kernel_job_start(&k, a);
-    int result = kernel_job_make(&k);
+    int result = kernel_job_read(&k);
     if (result == DONE)
         result = read_points(&k, &points);
+    if (result == DONE)
+        result = kernel_job_make(&k);
     if (result == DONE)
         result = weigh(&k, &points);
     table_free(&points);

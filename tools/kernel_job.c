@@ -215,14 +215,18 @@ static int stiffen(kernel_job *k)
     return result;
 }
 
-int kernel_job_make(kernel_job *k)
+int kernel_job_read(kernel_job *k)
 {
     int result = read_set(k);
     if (result == DONE)
         result = read_shape(k);
     k->job.seconds_read = seconds_now() - k->job.started;
-    if (result == DONE)
-        result = make_samples(k);
+    return result;
+}
+
+int kernel_job_make(kernel_job *k)
+{
+    int result = make_samples(k);
     if (result == DONE)
         result = make_weights(k);
     if (result == DONE && k->set.n_rigid > 0)

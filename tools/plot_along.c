@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { WIDTH = 640, HEIGHT = 360, LEFT = 56, TOP = 20, BOTTOM = 34, RIGHT = 24 };
+enum { WIDTH = 640, HEIGHT = 360, LEFT = 56, TOP = 20, BOTTOM = 34, COLUMN = 26, ROWS = 21 };
 
 /* What the axes show: levels from `low` to `high`. */
 typedef struct chart {
@@ -92,19 +92,16 @@ static void draw_curve(const chart *c, size_t handle)
     free(line);
 }
 
-/* The handle's number, where its weight is greatest. */
-static void draw_name(const chart *c, size_t handle)
+/* Numbers of handles in the colours of their curves, in columns. */
+static void draw_names(const chart *c)
 {
-    size_t best = 0;
-    char text[24];
-    for (size_t i = 1; i < c->n; i++)
-        if (c->weights[c->m * i + handle] > c->weights[c->m * best + handle])
-            best = i;
-    double level = weight_level(c->weights[c->m * best + handle], c->logarithmic);
-    if (level < 0.04)
-        return;
-    snprintf(text, sizeof text, "%zu", handle);
-    svg_label(c->svg, x_of(c, best), fmax(y_of(c, level) - 5, 13), text);
+    char colour[8];
+    for (size_t j = 0; j < c->m; j++)
+        fprintf(c->svg,
+                "<text x=\"%zu\" y=\"%zu\" font-family=\"Helvetica, Arial, sans-serif\" "
+                "font-size=\"13\" font-weight=\"bold\" fill=\"%s\">%zu</text>\n",
+                LEFT + WIDTH + 14 + COLUMN * (j / ROWS), TOP + 12 + 17 * (j % ROWS),
+                curve_colour(colour, j, c->m), j);
 }
 
 int plot_along(const kernel_job *k, size_t n, const double *weights)
@@ -116,12 +113,12 @@ int plot_along(const kernel_job *k, size_t n, const double *weights)
         return FAILED;
     c.svg = file.stream;
     find_range(&c);
-    svg_begin(c.svg, LEFT + WIDTH + RIGHT, TOP + HEIGHT + BOTTOM);
+    double names = 20.0 + COLUMN * (double)((c.m + ROWS - 1) / ROWS);
+    svg_begin(c.svg, LEFT + WIDTH + names, TOP + HEIGHT + BOTTOM);
     draw_axes(&c);
     for (size_t j = 0; j < c.m; j++)
         draw_curve(&c, j);
-    for (size_t j = 0; j < c.m; j++)
-        draw_name(&c, j);
+    draw_names(&c);
     svg_end(c.svg);
     return outfile_close(&file) ? DONE : FAILED;
 }

@@ -148,7 +148,7 @@ static double isoline(const sheet *s, double weight, const double gradient[2])
     double slope = steps * hypot(gradient[0], gradient[1]) / s->scale;
     if (s->logarithmic)
         slope /= DECADES * log(10) * fabs(weight);
-    if (line < 1 || line > steps - 1 || !(slope > 0))
+    if (weight < 0 || line < 1 || line > steps - 1 || !(slope > 0))
         return 0;
     return fmin(fmax(1 - fabs(level - line) / slope, 0), 1);
 }

@@ -26,15 +26,16 @@ double weight_level(double weight, bool logarithmic)
     return logarithmic ? fmax(1 + log10(fabs(weight)) / DECADES, 0) : weight;
 }
 
+/* In linear scale negative weights turn red by and by: -1/4 is plenty. */
 void weight_colour(double weight, bool logarithmic, double rgb[3])
 {
-    double level = fmin(weight_level(weight, logarithmic), 1);
-    if (weight < 0 && !logarithmic)
-        level = fmin(-4 * weight, 1); /* so little of it that a fourth is plenty */
-    if (weight < 0)
-        from_oklch(0.2 + 0.55 * level, 0.04 + 0.14 * level, 25, rgb);
-    else
-        from_oklch(0.2 + 0.75 * level, 0.08 + 0.06 * level, 290 - 185 * level, rgb);
+    double level = fmin(weight_level(weight, logarithmic), 1), red[3];
+    double share = weight >= 0 ? 0 : logarithmic ? 1 : fmin(-4 * weight, 1);
+    from_oklch(0.2 + 0.55 * (logarithmic ? level : share), 0.04 + 0.14 * fabs(level), 25, red);
+    level = fmax(level, 0);
+    from_oklch(0.2 + 0.75 * level, 0.08 + 0.06 * level, 290 - 185 * level, rgb);
+    for (int k = 0; k < 3; k++)
+        rgb[k] += share * (red[k] - rgb[k]);
 }
 
 const char *curve_colour(char out[8], size_t i, size_t n)
