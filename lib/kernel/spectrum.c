@@ -8,8 +8,9 @@
 #include "base/threads.h"
 
 #include <math.h>
+#include <stdbool.h>
 
-enum { N_DIRECTIONS = 24 };
+enum { N_DIRECTIONS = 96 };
 
 /* Wave numbers up to here, in 2 pi / spacing: a hexagonal lattice has its ring at 1.15. */
 static const double HIGHEST = 1.5;
@@ -18,8 +19,8 @@ static const double LOWEST = 0.4;
 /* The power of random points is 1: half of it is the rise. */
 static const double RISE = 0.5;
 static const double DEVIATIONS = 6;
-/* With fewer points the shape would drown the rise; more would only take longer. */
-static const size_t FEWEST = 200, MOST = 10000;
+/* With fewer points the shape would drown the rise; with more, peaks would slip through between the directions. */
+enum { FEWEST = 200, MOST = 1500 };
 
 static const double TWO_PI = 6.28318530717958648;
 
@@ -114,18 +115,39 @@ static double find_rise(const double *power)
     return 1;
 }
 
+/* Copies the points in a box around the one in the middle of the list, at most MOST of them: a piece of the shape as wide
+ * as it is high: the list would begin with a strip of it. */
+static size_t cut_out(size_t dim, size_t n, const double *points, double spacing, double *piece)
+{
+    const double half = 0.5 * spacing * pow((double)MOST, 1 / (double)dim);
+    const double *centre = points + dim * (n / 2);
+    size_t n_piece = 0;
+    for (size_t i = 0; i < n && n_piece < MOST; ++i) {
+        bool inside = true;
+        for (size_t k = 0; k < dim; ++k)
+            inside &= fabs(points[dim * i + k] - centre[k]) <= half;
+        for (size_t k = 0; inside && k < dim; ++k)
+            piece[dim * n_piece + k] = points[dim * i + k];
+        n_piece += inside;
+    }
+    return n_piece;
+}
+
 icc_status iccp_spectrum_sigma(size_t dim, size_t n, const double *points, double spacing,
                                double *sigma, const iccp_env *env)
 {
     double power[ICCP_SPECTRUM_BINS], rise = 1;
+    double *piece = iccp_alloc(&env->memory, MOST, dim * sizeof *piece);
+    if (piece == NULL)
+        return ICC_ERR_MEMORY;
+    const size_t n_piece = n > 0 ? cut_out(dim, n, points, spacing, piece) : 0;
     icc_status status = ICC_OK;
-    if (n >= FEWEST) {
-        n = n < MOST ? n : MOST;
-        status =
-            iccp_spectrum(dim, n, points, HIGHEST / (spacing * ICCP_SPECTRUM_BINS), power, env);
-        if (status == ICC_OK)
-            rise = find_rise(power);
-    }
+    if (n_piece >= FEWEST)
+        status = iccp_spectrum(dim, n_piece, piece, HIGHEST / (spacing * ICCP_SPECTRUM_BINS), power,
+                               env);
+    if (n_piece >= FEWEST && status == ICC_OK)
+        rise = find_rise(power);
+    iccp_free(&env->memory, piece);
     *sigma = DEVIATIONS / TWO_PI * spacing / rise;
     return status;
 }
