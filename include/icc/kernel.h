@@ -43,7 +43,8 @@ typedef struct icc_shape icc_shape;
  * Regions are domains. Their boundaries must not meet, which is checked exactly. One may lie within another: the
  * boundaries are walls between them, and a point belongs to the innermost region around it, a point on a boundary
  * to what that encloses. So a star in a square is a star and its surroundings. Curves are segments between
- * vertices; they may lie anywhere, and are no walls.
+ * vertices; they may lie anywhere, and are no walls. Weights spread over a boundary outward only, from what it
+ * encloses to what is around it: so they do not take the way through the surroundings from one limb to another.
  *
  * @param[out] out   the shape; owned by the caller. It keeps the regions alive.
  * @param dim        2 or 3
