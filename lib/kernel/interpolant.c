@@ -21,8 +21,8 @@ static const double CELLS_PER_REACH = 2;
 static const double LEAST_PIVOT = 1e-13;
 /* A pivot of P'Z below this share of its diagonal: the nodes lie on a line or in a plane. */
 static const double LEAST_SCHUR = 1e-13;
-/* Right sides in a task. */
-enum { SIDES = 16, MOST_TAIL = 4 };
+/* Most right sides in a task: the factor is read once for all of them. */
+enum { SIDES = 32, MOST_TAIL = 4 };
 
 struct iccp_collocation {
     iccp_memory memory;
@@ -283,7 +283,9 @@ icc_status iccp_collocation_solve_some(const iccp_collocation *collocation, size
     for (size_t j = 0; j < m; ++j)
         if (which == NULL || which[j])
             s.sides[s.n_sides++] = j;
-    const icc_status status = iccp_for_chunks(env, "solve", s.n_sides, SIDES, solve_sides, &s);
+    const size_t share = s.n_sides / (size_t)env->threads + 1;
+    const icc_status status =
+        iccp_for_chunks(env, "solve", s.n_sides, share < SIDES ? share : SIDES, solve_sides, &s);
     iccp_free(&env->memory, s.sides);
     return status;
 }
