@@ -119,7 +119,7 @@ static const command commands[] = {
     {.name = "weights",
      .bit = FOR_WEIGHTS,
      .run = run_weights,
-     .usage = "--handles FILE [--source FILE] [OPTION]... < POINTS > WEIGHTS",
+     .usage = "[--source FILE] --handles FILE [OPTION]... < POINTS > WEIGHTS",
      .summary = "Blends handles: kernel coordinates of points, or a figure of them",
      .details =
          "Reads one point per line and writes its weight for each handle. Weights sum to 1, "
@@ -141,13 +141,14 @@ static const command commands[] = {
      .bit = FOR_POSE,
      .n_operands = 2,
      .run = run_pose,
-     .usage = "--handles FILE [--source FILE] --pose FILE [OPTION]... IN OUT\n"
-              "       libicc pose --binding FILE --pose FILE [OPTION]... OUT",
+     .usage = "[--source FILE] --handles FILE --pose FILE [OPTION]... IN OUT",
      .summary = "Moves points, meshes and pictures with their handles",
      .details =
          "IN is a list of points, a mesh (OBJ, OFF, Medit, VTK) or a PNG picture, told by its "
          "content; see\n"
-         "'libicc weights --help' for the handles' file. The pose is JSON, one of\n\n"
+         "'libicc weights --help' for the handles' file. With --binding FILE there is only OUT: "
+         "the points are\n"
+         "in the binding, and no source and no handles are needed. The pose is JSON, one of\n\n"
          "  {\"moves\": [{\"handle\": 0, \"move\": [dx, dy], \"turn\": degrees, \"axis\": "
          "[x, y, z],\n"
          "              \"matrix\": [[a, b], [c, d]]}, ..]}       the others stay\n"
