@@ -145,6 +145,17 @@ static bool read_file(const pose_file *p, const cJSON *file)
     return transforms != NULL ? read_transforms(p, transforms) : read_moves(p, moves);
 }
 
+/* Large numbers may overflow on the way. */
+static bool check_finite(const pose_file *p)
+{
+    size_t n = p->dim * (p->dim + 1);
+    for (size_t i = 0; i < n * p->n_handles; i++)
+        if (!isfinite(p->transforms[i]))
+            return spoilt(p->wrong, 0, "the transform of handle %zu has numbers that are too large",
+                          i / n);
+    return true;
+}
+
 double *pose_read(size_t dim, size_t n_handles, const double *handles, const char *text, size_t n,
                   problem *wrong)
 {
@@ -153,7 +164,8 @@ double *pose_read(size_t dim, size_t n_handles, const double *handles, const cha
         return NULL;
     pose_file p = {.dim = dim, .n_handles = n_handles, .handles = handles, .wrong = wrong};
     p.transforms = need(n_handles, dim * (dim + 1) * sizeof *p.transforms);
-    bool good = icc_pose_reset((int32_t)dim, n_handles, p.transforms) == ICC_OK && read_file(&p, file);
+    bool good = icc_pose_reset((int32_t)dim, n_handles, p.transforms) == ICC_OK &&
+                read_file(&p, file) && check_finite(&p);
     cJSON_Delete(file);
     if (good)
         return p.transforms;
