@@ -14,8 +14,8 @@ enum { N_DIRECTIONS = 96 };
 
 /* Wave numbers up to here, in 2 pi / spacing: a hexagonal lattice has its ring at 1.15. */
 static const double HIGHEST = 1.5;
-/* The shape itself, of about sqrt(n) spacings, shows at the lowest. */
-static const double LOWEST = 0.4;
+/* The ring of evenly spread points lies above this. */
+static const double LOWEST = 0.7;
 /* The power of random points is 1: half of it is the rise. */
 static const double RISE = 0.5;
 static const double DEVIATIONS = 6;
@@ -100,19 +100,27 @@ icc_status iccp_spectrum(size_t dim, size_t n, const double *points, double step
     return status;
 }
 
-/* The wave number of the rise, in 2 pi over the spacing; 1, as for a grid, where none shows. */
+static double smooth(const double *power, size_t b)
+{
+    return (power[b - 1] + power[b] + power[b + 1]) / 3;
+}
+
+/* The wave number of the rise, in 2 pi over the spacing: downward from the ring, since far below it the shape itself
+ * shows where it is narrow. 1, as for a grid, if there is no ring. */
 static double find_rise(const double *power)
 {
-    double before = 0;
-    for (size_t b = 1; b + 1 < ICCP_SPECTRUM_BINS; ++b) {
-        const double at = HIGHEST * (double)(b + 1) / ICCP_SPECTRUM_BINS;
-        const double smooth = (power[b - 1] + power[b] + power[b + 1]) / 3;
-        if (at >= LOWEST && smooth >= RISE)
-            return at - HIGHEST / ICCP_SPECTRUM_BINS *
-                            (before < RISE ? (smooth - RISE) / (smooth - before) : 0);
-        before = smooth;
-    }
-    return 1;
+    const double bin = HIGHEST / ICCP_SPECTRUM_BINS;
+    const size_t lowest = (size_t)(LOWEST / bin);
+    size_t ring = lowest;
+    for (size_t b = lowest; b + 1 < ICCP_SPECTRUM_BINS; ++b)
+        ring = smooth(power, b) > smooth(power, ring) ? b : ring;
+    size_t b = ring;
+    while (b > lowest && smooth(power, b - 1) >= RISE)
+        --b;
+    if (b == lowest || smooth(power, ring) < RISE)
+        return 1;
+    const double above = smooth(power, b), below = smooth(power, b - 1);
+    return bin * ((double)(b + 1) - (above - RISE) / (above - below));
 }
 
 /* Copies the points in a box around the one in the middle of the list, at most MOST of them: a piece of the shape as wide
