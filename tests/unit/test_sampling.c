@@ -199,7 +199,7 @@ START_TEST(no_steps_and_many_steps_keep_to_their_side)
         icc_sampling *sampling = sample(shape, &options);
         const icc_sampling_info info = info_of(sampling);
         ck_assert(info.nearest >= 0.55);
-        ck_assert_msg(info.sigma > 0.75 * info.spacing && info.sigma < 1.2 * info.spacing, "%g",
+        ck_assert_msg(info.sigma > 0.75 * info.spacing && info.sigma < 1.4 * info.spacing, "%g",
                       info.sigma / info.spacing);
         for (size_t k = 0; k < info.n_samples; ++k) {
             const iccp_spot spot = iccp_shape_spot(shape, sampling->points + 2 * k);
