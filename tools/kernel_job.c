@@ -235,23 +235,6 @@ int kernel_job_make(kernel_job *k)
     return result;
 }
 
-int kernel_job_locate(kernel_job *k, size_t n, const double *points, bool *inside)
-{
-    int32_t *where = need(n, sizeof *where);
-    icc_status status = ICC_OK;
-    memset(inside, 0, n * sizeof *inside);
-    for (size_t r = 0; r <= k->set.n_regions && status == ICC_OK; r++) {
-        const icc_domain *region = r == 0 ? k->job.domains[0] : k->regions[r - 1];
-        if (region == NULL)
-            continue;
-        status = icc_domain_locate(region, n, points, where, NULL, NULL, &k->job.env);
-        for (size_t i = 0; status == ICC_OK && i < n; i++)
-            inside[i] = inside[i] || where[i] != ICC_OUTSIDE;
-    }
-    free(where);
-    return status == ICC_OK ? DONE : job_failed_status(&k->job, status);
-}
-
 static void report_sampling(json *out, const kernel_job *k)
 {
     icc_sampling_info info = {.size = sizeof info};

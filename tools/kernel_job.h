@@ -23,9 +23,6 @@ int kernel_job_read(kernel_job *k);
 int kernel_job_make(kernel_job *k);
 void kernel_job_end(kernel_job *k);
 
-/* Which of n points lie in a region of the shape or on its boundary. */
-int kernel_job_locate(kernel_job *k, size_t n, const double *points, bool *inside);
-
 /* The report of --json up to what the command itself has to add: what was made, and how good the weights are at
  * n finite points. */
 int kernel_report_open(report *r, kernel_job *k, size_t n, const double *points);

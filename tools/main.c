@@ -155,9 +155,7 @@ static const command commands[] = {
          "  {\"transforms\": [[[a, b, tx], [c, d, ty]], ..]}      one per handle\n\n"
          "A matrix and a turn are about the handle, and come before its move. A turn goes from x "
          "to y. Poses\n"
-         "can fold; in a picture what is the right way round then hides what is not, and after "
-         "that lower\n"
-         "rows of IN the upper ones.\n"},
+         "can fold; in a picture what is the right way round then hides what is not.\n"},
 };
 enum { N_COMMANDS = sizeof commands / sizeof *commands };
 

@@ -1,58 +1,130 @@
-/* Pictures are posed forwards: a grid over the shape is posed, and each of its triangles drawn where it has gone
- * to, with the colours from where it was. What turns over is drawn first, so that the rest hides it. */
+/* Pictures are posed forwards: the regions of the shape are cut into small triangles, which are posed, and each
+ * is drawn where it has gone to, with the colours from where it was. What turns over is drawn first, so that the
+ * rest hides it. */
 #include "pose.h"
 
 #include "memory.h"
 #include "orient.h"
 #include "picture.h"
 
+#include <icc/stages.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Pixels between vertices of the grid; pixels that wait to be looked up. */
-enum { STEP = 4, WAITING = 1 << 15 };
+/* Pixels between the vertices of the triangles inside; on the boundary they are twice as close. */
+enum { STEP = 4 };
+
+/* A region in triangles, each counter-clockwise. The first n_boundary vertices are its boundary. */
+typedef struct patch {
+    size_t n_boundary, n, room, n_triangles;
+    double *rest, *posed; /* n * 2 */
+    uint32_t *triangles;  /* n_triangles * 3 */
+} patch;
 
 typedef struct drawing {
     pose *pose;
     picture from, to;
-    size_t columns, rows; /* vertices of the grid */
-    double *rest, *posed; /* columns * rows * 2 */
-    size_t n_waiting;
-    size_t *pixels;  /* of the result */
-    double *sources; /* where they come from, 2 each */
-    bool *inside;
-    size_t n_triangles, n_inverted; /* with their middle in the shape */
+    size_t n_patches;
+    patch *patches;
+    double area, turned; /* of all triangles at rest, and of those that turn over */
 } drawing;
 
-static void make_grid(drawing *d)
+/* ---------------------------------------------------------------- triangles */
+
+static void add_vertex(patch *p, double x, double y)
 {
-    d->columns = (d->from.width + STEP - 1) / STEP + 1;
-    d->rows = (d->from.height + STEP - 1) / STEP + 1;
-    d->rest = need(d->columns * d->rows, 2 * sizeof *d->rest);
-    d->posed = need(d->columns * d->rows, 2 * sizeof *d->posed);
-    for (size_t i = 0; i < d->columns * d->rows; i++) {
-        d->rest[2 * i] = fmin((double)(i % d->columns * STEP), (double)d->from.width);
-        d->rest[2 * i + 1] = fmin((double)(i / d->columns * STEP), (double)d->from.height);
+    p->rest = grow(p->rest, &p->room, 2 * (p->n + 1), sizeof *p->rest);
+    p->rest[2 * p->n] = x;
+    p->rest[2 * p->n + 1] = y;
+    p->n++;
+}
+
+static double area_of(const double *a, const double *b, const double *c)
+{
+    return ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2;
+}
+
+static void add_boundary(patch *p, size_t n, const double *ring)
+{
+    for (size_t i = 0; i < n; i++) {
+        const double *a = ring + 2 * i, *b = ring + 2 * ((i + 1) % n);
+        double pieces = ceil(fmax(hypot(b[0] - a[0], b[1] - a[1]) * 2 / STEP, 1));
+        for (double k = 0; k < pieces; k++)
+            add_vertex(p, a[0] + (b[0] - a[0]) * k / pieces, a[1] + (b[1] - a[1]) * k / pieces);
     }
+    p->n_boundary = p->n;
 }
 
-/* Two triangles in a cell of the grid. */
-static void corners_of(const drawing *d, size_t triangle, size_t corners[3])
+/* Which vertices of a lattice over the picture are too close to the boundary: within half a step of one of its
+ * vertices, so that all others are more than rounding away from its edges. */
+static bool *find_close(const patch *p, size_t columns, size_t rows)
 {
-    size_t cell = triangle / 2, x = cell % (d->columns - 1), y = cell / (d->columns - 1);
-    size_t first = y * d->columns + x, last = first + d->columns + 1;
-    corners[0] = first;
-    corners[1] = triangle % 2 == 0 ? first + 1 : last;
-    corners[2] = triangle % 2 == 0 ? last : last - 1;
+    bool *close = need(columns * rows, sizeof *close);
+    for (size_t i = 0; i < p->n_boundary; i++) {
+        double x = floor(p->rest[2 * i] / STEP), y = floor(p->rest[2 * i + 1] / STEP);
+        for (size_t k = 0; k < 4; k++) {
+            double column = x + (double)(k % 2), row = y + (double)(k / 2);
+            if (column >= 0 && row >= 0 && column < (double)columns && row < (double)rows &&
+                hypot(column * STEP - p->rest[2 * i], row * STEP - p->rest[2 * i + 1]) <= STEP / 2.0)
+                close[(size_t)row * columns + (size_t)column] = true;
+        }
+    }
+    return close;
 }
 
-/* +1: as it was, -1: turned over, 0: flat. At rest y points down, which corners_of() knows: they are all
- * positive then. */
-static int sign_of(const drawing *d, const size_t corners[3])
+static icc_status add_inside(patch *p, const drawing *d, const icc_domain *region)
 {
-    return orientation(d->posed + 2 * corners[0], d->posed + 2 * corners[1],
-                       d->posed + 2 * corners[2]);
+    size_t columns = d->from.width / STEP + 1, rows = d->from.height / STEP + 1, n = columns * rows;
+    bool *close = find_close(p, columns, rows);
+    double *lattice = need(n, 2 * sizeof *lattice);
+    int32_t *where = need(n, sizeof *where);
+    for (size_t i = 0; i < n; i++) {
+        lattice[2 * i] = (double)(i % columns * STEP);
+        lattice[2 * i + 1] = (double)(i / columns * STEP);
+    }
+    icc_status status =
+        icc_domain_locate(region, n, lattice, where, NULL, NULL, &d->pose->kernel.job.env);
+    for (size_t i = 0; i < n && status == ICC_OK; i++)
+        if (where[i] == ICC_INSIDE && !close[i])
+            add_vertex(p, lattice[2 * i], lattice[2 * i + 1]);
+    free(close);
+    free(lattice);
+    free(where);
+    return status;
+}
+
+static int make_patch(drawing *d, const icc_domain *region, size_t n, const double *ring)
+{
+    patch *p = &d->patches[d->n_patches++];
+    job *j = &d->pose->kernel.job;
+    icc_error err = {.size = sizeof err, .index = -1};
+    add_boundary(p, n, ring);
+    err.status = add_inside(p, d, region);
+    p->n_triangles = 2 * p->n - p->n_boundary - 2;
+    p->triangles = need(p->n_triangles, 3 * sizeof *p->triangles);
+    if (err.status == ICC_OK)
+        err.status = icc_triangulate(p->n_boundary, p->n, p->rest, p->triangles, &j->env, &err);
+    if (err.status != ICC_OK) {
+        err.index = -1; /* of a vertex that no file has */
+        return job_failed(j, &err);
+    }
+    size_t n_failed;
+    p->posed = need(p->n, 2 * sizeof *p->posed);
+    return pose_points(d->pose, p->n, p->rest, p->posed, NULL, &n_failed);
+}
+
+static int make_patches(drawing *d)
+{
+    const kernel_job *k = &d->pose->kernel;
+    const cage *source = &k->job.cages[0];
+    d->patches = need(k->set.n_regions + 1, sizeof *d->patches);
+    int result = DONE;
+    if (k->job.domains[0] != NULL)
+        result = make_patch(d, k->job.domains[0], source->n, source->points);
+    for (size_t r = 0; r < k->set.n_regions && result == DONE; r++)
+        result = make_patch(d, k->regions[r], k->set.regions[r].n, k->set.regions[r].points);
+    return result;
 }
 
 /* ------------------------------------------------------------------ colours */
@@ -81,18 +153,7 @@ static void mix(const picture *p, const double at[2], uint16_t *to)
         to[n_colours] = (uint16_t)(alphas + 0.5);
 }
 
-/* Draws what waits and comes from inside the shape. */
-static int flush(drawing *d)
-{
-    int result = kernel_job_locate(&d->pose->kernel, d->n_waiting, d->sources, d->inside);
-    for (size_t i = 0; i < d->n_waiting && result == DONE; i++)
-        if (d->inside[i])
-            mix(&d->from, d->sources + 2 * i, d->to.samples + d->to.channels * d->pixels[i]);
-    d->n_waiting = 0;
-    return result;
-}
-
-/* ---------------------------------------------------------------- triangles */
+/* ------------------------------------------------------------------ drawing */
 
 /* Pixels from `low` to `high` whose centres may lie between a and b. */
 static void span(double a, double b, size_t n, size_t *low, size_t *high)
@@ -106,74 +167,60 @@ static void span(double a, double b, size_t n, size_t *low, size_t *high)
 /* 1e-9: what lies on an edge belongs to both sides, so that rounding opens no gaps. */
 static const double slack = 1e-9;
 
-static bool find_source(const drawing *d, const size_t corners[3], double x, double y, double out[2])
+/* Where (x, y) comes from, if it lies in the posed triangle. */
+static bool find_source(const patch *p, const uint32_t *corners, double x, double y, double out[2])
 {
-    const double *a = d->posed + 2 * corners[0], *b = d->posed + 2 * corners[1],
-                 *c = d->posed + 2 * corners[2];
-    double area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-    double v = ((x - a[0]) * (c[1] - a[1]) - (y - a[1]) * (c[0] - a[0])) / area;
-    double w = ((b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0])) / area;
+    const double *a = p->posed + 2 * corners[0], *b = p->posed + 2 * corners[1],
+                 *c = p->posed + 2 * corners[2], at[2] = {x, y};
+    double area = area_of(a, b, c), v = area_of(a, at, c) / area, w = area_of(a, b, at) / area;
     if (!(v >= -slack && w >= -slack && v + w <= 1 + slack))
         return false;
     for (size_t k = 0; k < 2; k++)
-        out[k] = (1 - v - w) * d->rest[2 * corners[0] + k] + v * d->rest[2 * corners[1] + k] +
-                 w * d->rest[2 * corners[2] + k];
+        out[k] = (1 - v - w) * p->rest[2 * corners[0] + k] + v * p->rest[2 * corners[1] + k] +
+                 w * p->rest[2 * corners[2] + k];
     return true;
 }
 
-static int draw_triangle(drawing *d, const size_t corners[3])
+static bool is_in_picture(const picture *p, const double at[2])
+{
+    return at[0] >= -slack && at[1] >= -slack && at[0] <= (double)p->width + slack &&
+           at[1] <= (double)p->height + slack;
+}
+
+static void draw_triangle(drawing *d, const patch *p, const uint32_t *corners)
 {
     size_t low[2], high[2];
-    const double *a = d->posed + 2 * corners[0], *b = d->posed + 2 * corners[1],
-                 *c = d->posed + 2 * corners[2];
+    const double *a = p->posed + 2 * corners[0], *b = p->posed + 2 * corners[1],
+                 *c = p->posed + 2 * corners[2];
     for (size_t k = 0; k < 2; k++)
         span(fmin(a[k], fmin(b[k], c[k])), fmax(a[k], fmax(b[k], c[k])),
              k == 0 ? d->to.width : d->to.height, &low[k], &high[k]);
-    int result = DONE;
     for (size_t y = low[1]; y < high[1]; y++)
-        for (size_t x = low[0]; x < high[0] && result == DONE; x++) {
-            double *source = d->sources + 2 * d->n_waiting;
-            if (!find_source(d, corners, (double)x + 0.5, (double)y + 0.5, source))
-                continue;
-            d->pixels[d->n_waiting++] = y * d->to.width + x;
-            if (d->n_waiting == WAITING)
-                result = flush(d);
+        for (size_t x = low[0]; x < high[0]; x++) {
+            double source[2];
+            if (find_source(p, corners, (double)x + 0.5, (double)y + 0.5, source) &&
+                is_in_picture(&d->from, source))
+                mix(&d->from, source, d->to.samples + d->to.channels * (y * d->to.width + x));
         }
-    return result;
 }
 
-static int draw_triangles(drawing *d, int sign)
+/* Draws the triangles whose images have this sign; at rest it is 1. */
+static void draw_triangles(drawing *d, int sign)
 {
-    size_t n = 2 * (d->columns - 1) * (d->rows - 1), corners[3];
-    int result = DONE;
-    for (size_t t = 0; t < n && result == DONE; t++) {
-        corners_of(d, t, corners);
-        if (sign_of(d, corners) == sign)
-            result = draw_triangle(d, corners);
+    for (size_t i = 0; i < d->n_patches; i++) {
+        const patch *p = &d->patches[i];
+        for (size_t t = 0; t < p->n_triangles; t++) {
+            const uint32_t *corners = p->triangles + 3 * t;
+            if (orientation(p->posed + 2 * corners[0], p->posed + 2 * corners[1],
+                            p->posed + 2 * corners[2]) != sign)
+                continue;
+            double area = area_of(p->rest + 2 * corners[0], p->rest + 2 * corners[1],
+                                  p->rest + 2 * corners[2]);
+            d->area += area;
+            d->turned += sign < 0 ? area : 0;
+            draw_triangle(d, p, corners);
+        }
     }
-    return result == DONE ? flush(d) : result;
-}
-
-/* Counts triangles by their middles. */
-static int count_triangles(drawing *d)
-{
-    size_t n = 2 * (d->columns - 1) * (d->rows - 1), corners[3];
-    double *middles = need(n, 2 * sizeof *middles);
-    bool *inside = need(n, sizeof *inside);
-    for (size_t t = 0; t < n; t++) {
-        corners_of(d, t, corners);
-        for (size_t k = 0; k < 6; k++)
-            middles[2 * t + k % 2] += d->rest[2 * corners[k / 2] + k % 2] / 3;
-    }
-    int result = kernel_job_locate(&d->pose->kernel, n, middles, inside);
-    for (size_t t = 0; t < n && result == DONE; t++) {
-        corners_of(d, t, corners);
-        d->n_triangles += inside[t];
-        d->n_inverted += inside[t] && sign_of(d, corners) < 0;
-    }
-    free(middles);
-    free(inside);
-    return result;
 }
 
 /* ------------------------------------------------------------------ results */
@@ -181,16 +228,17 @@ static int count_triangles(drawing *d)
 static int report_picture(drawing *d, double seconds)
 {
     pose *p = d->pose;
-    double folded = d->n_triangles > 0 ? (double)d->n_inverted / (double)d->n_triangles : 0;
+    double folded = d->area > 0 ? d->turned / d->area : 0;
     char text[80];
     report r;
     snprintf(text, sizeof text, "%.2g %% of the shape is turned over", 100 * folded);
     if (!p->kernel.job.args->json) {
-        if (d->n_inverted > 0)
+        if (folded > 0)
             pose_say(p, text);
         return DONE;
     }
-    if (pose_report_open(&r, p, d->columns * d->rows, d->rest, 0, seconds) != DONE)
+    const patch *first = &d->patches[0];
+    if (pose_report_open(&r, p, first->n, first->rest, 0, seconds) != DONE)
         return FAILED;
     json_number(&r.json, "folded", folded);
     return report_close(&r) ? DONE : FAILED;
@@ -198,24 +246,25 @@ static int report_picture(drawing *d, double seconds)
 
 static int draw(drawing *d)
 {
-    size_t n_failed;
     double began = seconds_now();
-    d->pixels = need(WAITING, sizeof *d->pixels);
-    d->sources = need(WAITING, 2 * sizeof *d->sources);
-    d->inside = need(WAITING, sizeof *d->inside);
-    make_grid(d);
-    int result = pose_points(d->pose, d->columns * d->rows, d->rest, d->posed, NULL, &n_failed);
-    if (result == DONE)
-        result = draw_triangles(d, -1);
-    if (result == DONE)
-        result = draw_triangles(d, 1);
-    if (result == DONE)
-        result = count_triangles(d);
+    int result = make_patches(d);
+    if (result != DONE)
+        return result;
+    draw_triangles(d, -1);
+    draw_triangles(d, 1);
     double seconds = seconds_now() - began;
-    progress_end(&d->pose->kernel.job.bar);
-    if (result == DONE)
-        result = picture_save(&d->to, d->from.keep, pose_output(d->pose));
+    result = picture_save(&d->to, d->from.keep, pose_output(d->pose));
     return result == DONE ? report_picture(d, seconds) : result;
+}
+
+static void free_patches(drawing *d)
+{
+    for (size_t i = 0; i < d->n_patches; i++) {
+        free(d->patches[i].rest);
+        free(d->patches[i].posed);
+        free(d->patches[i].triangles);
+    }
+    free(d->patches);
 }
 
 int pose_picture(pose *p, const char *bytes, size_t n)
@@ -233,10 +282,6 @@ int pose_picture(pose *p, const char *bytes, size_t n)
     }
     picture_free(&d.from);
     picture_free(&d.to);
-    free(d.rest);
-    free(d.posed);
-    free(d.pixels);
-    free(d.sources);
-    free(d.inside);
+    free_patches(&d);
     return result;
 }
