@@ -94,10 +94,24 @@ static icc_status add_inside(patch *p, const drawing *d, const icc_domain *regio
     return status;
 }
 
+/* Whether the region is far larger than the picture, so that its boundary would take too many pieces. */
+static bool is_huge(const drawing *d, size_t n, const double *ring)
+{
+    double length = 0;
+    for (size_t i = 0; i < n; i++) {
+        const double *a = ring + 2 * i, *b = ring + 2 * ((i + 1) % n);
+        length += hypot(b[0] - a[0], b[1] - a[1]);
+    }
+    return !(length < 1e3 * (double)(d->from.width + d->from.height) + 1e6);
+}
+
 static int make_patch(drawing *d, const icc_domain *region, size_t n, const double *ring)
 {
-    patch *p = &d->patches[d->n_patches++];
     job *j = &d->pose->kernel.job;
+    if (is_huge(d, n, ring))
+        return failed(job_file(j, 1), 0, "the shape is far larger than the picture, %zu x %zu pixels",
+                      d->from.width, d->from.height);
+    patch *p = &d->patches[d->n_patches++];
     icc_error err = {.size = sizeof err, .index = -1};
     add_boundary(p, n, ring);
     err.status = add_inside(p, d, region);
@@ -204,15 +218,24 @@ static void draw_triangle(drawing *d, const patch *p, const uint32_t *corners)
         }
 }
 
-/* Draws the triangles whose images have this sign; at rest it is 1. */
+/* The orientation of the image: 1 as at rest, 0 also if a pose with huge numbers has left the doubles. */
+static int image_sign(const patch *p, const uint32_t *corners)
+{
+    for (size_t k = 0; k < 6; k++)
+        if (!isfinite(p->posed[2 * corners[k / 2] + k % 2]))
+            return 0;
+    return orientation(p->posed + 2 * corners[0], p->posed + 2 * corners[1],
+                       p->posed + 2 * corners[2]);
+}
+
+/* Draws the triangles whose images have this sign. */
 static void draw_triangles(drawing *d, int sign)
 {
     for (size_t i = 0; i < d->n_patches; i++) {
         const patch *p = &d->patches[i];
         for (size_t t = 0; t < p->n_triangles; t++) {
             const uint32_t *corners = p->triangles + 3 * t;
-            if (orientation(p->posed + 2 * corners[0], p->posed + 2 * corners[1],
-                            p->posed + 2 * corners[2]) != sign)
+            if (image_sign(p, corners) != sign)
                 continue;
             double area = area_of(p->rest + 2 * corners[0], p->rest + 2 * corners[1],
                                   p->rest + 2 * corners[2]);

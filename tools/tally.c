@@ -11,8 +11,8 @@ static const char *elements_name(const mesh_file *m)
 
 static bool has_image(const mesh_file *m, const double *points, const uint32_t *corners)
 {
-    for (size_t k = 0; k <= m->dim; k++)
-        if (isnan(points[m->dim * corners[k]]))
+    for (size_t k = 0; k < m->dim * (m->dim + 1); k++)
+        if (!isfinite(points[m->dim * corners[k / m->dim] + k % m->dim]))
             return false;
     return true;
 }
