@@ -28,12 +28,12 @@ member() { # FILE NAME
 
 # Partition of unity, reproduction and the Lagrange property, whatever the options; one row a point, in order.
 for how in "" "-w equality" "-w l1" "-k gauss" "--initial inverse" "--initial heat --steps 9" "--sampling grid" \
-    "--spacing 0.5 --seed 7" "--sigma 0.2"; do
+    "--spacing 0.5 --seed 7" "--sigma 0.4"; do
     # shellcheck disable=SC2086 # options
-    run 0 weights -s cage.txt -a plain.json -p inside.txt -o w $how
+    run 0 weights -s cage.txt -a plain.json --spacing 0.2 -p inside.txt -o w $how
     below "$(sums inside.txt w)" 1e-9 "sums and reproduction, $how"
     # shellcheck disable=SC2086
-    run 0 weights -s cage.txt -a plain.json $how <handles.txt
+    run 0 weights -s cage.txt -a plain.json --spacing 0.2 $how <handles.txt
     awk '{ for (j = 1; j <= NF; j++) { d = $j - (j == NR); if (d * d > 1e-16) bad = 1 } } END { exit bad || NR != 5 }' out ||
         complain "not 1 and 0 at the handles, $how: $(cat out)"
 done
@@ -42,10 +42,10 @@ below "$(sums inside.txt w)" 1 "the thesis' settings"
 below 1e-7 "$(sums inside.txt w)" "the thesis' settings have no affine part"
 
 # The seed changes the samples, the threads change nothing.
-run 0 weights -s cage.txt -a plain.json -p inside.txt -o one -j 1
-run 0 weights -s cage.txt -a plain.json -p inside.txt -o three -j 3
+run 0 weights -s cage.txt -a plain.json --spacing 0.2 -p inside.txt -o one -j 1
+run 0 weights -s cage.txt -a plain.json --spacing 0.2 -p inside.txt -o three -j 3
 same one three "threads"
-run 0 weights -s cage.txt -a plain.json -p inside.txt -o other --seed 1
+run 0 weights -s cage.txt -a plain.json --spacing 0.2 -p inside.txt -o other --seed 1
 cmp -s one other && complain "the seed does nothing"
 
 # Edges: linear along them. Lines: straight, and parallel to another.
