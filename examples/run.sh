@@ -38,3 +38,9 @@ echo "warp_picture examples/data/chelsea.png"
 
 echo "functions.sh:"
 LIBICC=$stage/bin/libicc sh examples/functions.sh "$out"
+
+echo "kernel_pose:"
+"$programs/kernel_pose" "$out/kernel_pose.svg"
+
+echo "kernel.sh:"
+LIBICC=$stage/bin/libicc sh examples/kernel.sh "$out"

@@ -4,7 +4,6 @@
 #include "options.h"
 #include "say.h"
 
-#include <icc/icc.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -205,122 +204,6 @@ static int take_operand(reading *r, const char *text)
     return DONE;
 }
 
-/* Options that only some methods have. */
-static int check_method(const args *a, const command *c)
-{
-    const char *gradient_only = a->n_functions > 0 ? "function"
-                                : a->constrained   ? "constrained"
-                                : a->unconstrained ? "unconstrained"
-                                : a->eta > 0       ? "eta"
-                                : a->solver != 0   ? "solver"
-                                : a->tree != 0     ? "tree"
-                                : a->elevation     ? "elevation"
-                                : a->compression   ? "compression"
-                                                   : NULL;
-    if (gradient_only != NULL && a->method != ICC_METHOD_GRADIENT)
-        return misused(c->name, "--%s needs --method gradient", gradient_only);
-    if (a->map == ICC_MAP_MESH && a->method == ICC_METHOD_GRADIENT)
-        return misused(c->name, "--map mesh needs a method that can be certified, not gradient");
-    if (a->triangles &&
-        (a->target == NULL || a->map == ICC_MAP_CURVES || a->method == ICC_METHOD_GRADIENT))
-        return misused(c->name, "--triangles needs a map of kind mesh: --target FILE --map mesh");
-    if (a->method == ICC_METHOD_DISC && (a->n_maximum > 0 || a->n_target_maximum > 0))
-        return misused(c->name, "--method disc has no --maximum: it finds its own");
-    return DONE;
-}
-
-/* Options that only functions which solve an equation have. */
-static int check_functions(const args *a, const command *c)
-{
-    const char *solved_only = a->constrained     ? "constrained"
-                              : a->unconstrained ? "unconstrained"
-                              : a->eta > 0       ? "eta"
-                              : a->solver != 0   ? "solver"
-                                                 : NULL;
-    bool solves = false;
-    for (size_t i = 0; i < a->n_functions; i++)
-        solves = solves || function_solves(a->functions[i].function);
-    if (solved_only != NULL && !solves)
-        return misused(c->name, "--%s needs --function laplace, bilaplace or clamped", solved_only);
-    if (a->constrained && a->unconstrained)
-        return misused(c->name, "--constrained and --unconstrained exclude each other");
-    if (a->n_functions > 1 && !(c->bit & FOR_PLOT))
-        return misused(c->name, "--function takes one name here; only plot takes several");
-    return DONE;
-}
-
-/* The flags stand for the functions that say nothing themselves. */
-static void settle_functions(args *a)
-{
-    for (size_t i = 0; i < a->n_functions; i++)
-        if (a->functions[i].constraints == 0 && function_solves(a->functions[i].function))
-            a->functions[i].constraints = a->constrained     ? ICC_CONSTRAINTS_ALL
-                                          : a->unconstrained ? ICC_CONSTRAINTS_NONE
-                                                             : 0;
-}
-
-static int check_operands(const args *a, const command *c)
-{
-    size_t n_operands = a->geojson ? c->n_operands_geojson : c->n_operands;
-    if (a->n_operands < n_operands && a->geojson)
-        return misused(c->name, "--geojson needs two files, IN and OUT");
-    if (a->n_operands < n_operands)
-        return misused(c->name, "usage: libicc %s %s", c->name, c->usage);
-    if (a->n_operands > n_operands)
-        return misused(c->name, "'%.60s' is one argument too many without --geojson",
-                       a->operands[0]);
-    if (a->geojson && (a->points != NULL || a->output != NULL))
-        return misused(c->name, "--points and --output do not go with --geojson IN OUT");
-    if (a->repair_mesh && a->inverse)
-        return misused(c->name, "--repair does not go with --inverse");
-    if (a->tolerance > 0 && !a->geojson)
-        return misused(c->name, "--tolerance goes with --geojson only");
-    return DONE;
-}
-
-/* What no single option can tell. */
-static int check_together(const args *a, const command *c)
-{
-    if (a->source == NULL)
-        return misused(c->name, "--source FILE is missing");
-    if (c->needs_target && a->target == NULL)
-        return misused(c->name, "--target FILE is missing");
-    int result = check_method(a, c);
-    if (result == DONE)
-        result = check_functions(a, c);
-    if (result == DONE)
-        result = check_operands(a, c);
-    if (result != DONE)
-        return result;
-    const char *inputs[] = {a->source, a->target, a->points ? a->points : a->coords,
-                            c->n_operands == 2 || a->geojson ? a->operands[0] : NULL};
-    size_t n_standard = 0;
-    for (size_t i = 0; i < sizeof inputs / sizeof *inputs; i++)
-        n_standard += inputs[i] != NULL && strcmp(inputs[i], "-") == 0;
-    if (n_standard > 1)
-        return misused(c->name, "only one input can be standard input");
-    return DONE;
-}
-
-/* Reads come by default from stdin, and results go by default to stdout. */
-static int settle_streams(args *a, const command *c)
-{
-    if (c->bit & (FOR_MAP | FOR_ENCODE) && a->points == NULL && !a->geojson)
-        a->points = "-";
-    if (c->bit & FOR_DECODE && a->coords == NULL)
-        a->coords = "-";
-    const char *result = a->output != NULL ? a->output : "-";
-    if (c->n_operands == 2 || a->geojson)
-        result = a->operands[1];
-    if (c->bit & FOR_PLOT)
-        result = a->operands[0];
-    if (a->json && !(c->bit & (FOR_CHECK | FOR_INFO)) && strcmp(a->json_file, "-") == 0 &&
-        result != NULL && strcmp(result, "-") == 0)
-        return misused(c->name,
-                       "result and report cannot both go to standard output; use --json=FILE");
-    return DONE;
-}
-
 int args_parse(args *out, const command *c, int argc, char **argv, bool *help)
 {
     *out = (args){.command = c->name, .improve = -1};
@@ -339,9 +222,7 @@ int args_parse(args *out, const command *c, int argc, char **argv, bool *help)
     }
     if (result != DONE || *help)
         return result;
-    settle_functions(out);
-    result = settle_streams(out, c);
-    return result != DONE ? result : check_together(out, c);
+    return args_check(out, c);
 }
 
 void args_help(const command *c)

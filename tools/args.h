@@ -12,7 +12,8 @@
 typedef struct args {
     const char *command;
     /* files */
-    const char *source, *target, *mesh, *target_mesh, *points, *coords, *output, *repair, *boundary, *json_file;
+    const char *source, *target, *mesh, *target_mesh, *points, *coords, *output, *repair, *boundary;
+    const char *json_file, *handles, *pose, *binding, *picture;
     const char *operands[2];
     size_t n_operands;
     /* how charts and maps are made: 0 means the library's choice */
@@ -25,6 +26,15 @@ typedef struct args {
     double maximum[ICC_MAX_DIM], target_maximum[ICC_MAX_DIM];
     size_t n_maximum, n_target_maximum; /* their coordinates; 0: not given */
     bool constrained, unconstrained;
+    /* how weights are made */
+    int32_t sampling, seed, weights, kernel, initial, steps;
+    double spacing, sigma;
+    bool thesis;
+    /* their figures */
+    int32_t handle;
+    double along[ICC_MAX_DIM];
+    size_t n_along;
+    bool logarithmic;
     /* what to do */
     bool inverse, repair_mesh, geojson, quiet, json, elevation, triangles, y_down, compression,
         has_background;
@@ -42,7 +52,11 @@ enum {
     FOR_CHECK = 32,
     FOR_INFO = 64,
     FOR_PLOT = 128,
-    FOR_ALL = 255
+    FOR_CHARTS = 255, /* all of the above */
+    FOR_WEIGHTS = 256,
+    FOR_POSE = 512,
+    FOR_KERNEL = FOR_WEIGHTS | FOR_POSE,
+    FOR_ALL = FOR_CHARTS | FOR_KERNEL
 };
 
 typedef struct command {
@@ -60,6 +74,9 @@ typedef struct command {
 /* Reads argv[2..argc) for a command. Returns DONE, or MISUSED with a line on stderr. *help is set
  * when --help is among them; nothing else counts then. */
 int args_parse(args *out, const command *c, int argc, char **argv, bool *help);
+
+/* The last step of that: what no single option can tell. */
+int args_check(args *a, const command *c);
 
 /* Prints the help of a command on stdout. */
 void args_help(const command *c);

@@ -5,62 +5,10 @@
 #include "job.h"
 #include "memory.h"
 #include "mesh_file.h"
-#include "orient.h"
+#include "tally.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* Elements by what became of their orientation; those that had none before count by themselves. In the
- * plane they are triangles, in space tetrahedra. */
-typedef struct tally {
-    size_t all, kept, inverted, collapsed, flat_before, without_image;
-} tally;
-
-static const char *elements_name(const mesh_file *m)
-{
-    return m->dim == 2 ? "triangles" : "tetrahedra";
-}
-
-static bool has_image(const mesh_file *m, const double *points, const uint32_t *corners)
-{
-    for (size_t k = 0; k <= m->dim; k++)
-        if (isnan(points[m->dim * corners[k]]))
-            return false;
-    return true;
-}
-
-static int element_sign(const mesh_file *m, const double *points, const uint32_t *corners)
-{
-    const double *at[4] = {NULL, NULL, NULL, NULL};
-    for (size_t k = 0; k <= m->dim; k++)
-        at[k] = points + m->dim * corners[k];
-    return m->dim == 2 ? orientation(at[0], at[1], at[2])
-                       : orientation_3d(at[0], at[1], at[2], at[3]);
-}
-
-static tally count(const mesh_file *m, const double *images)
-{
-    tally t = {.all = m->dim == 2 ? m->n_triangles : m->n_tetrahedra};
-    const uint32_t *elements = m->dim == 2 ? m->triangles : m->tetrahedra;
-    for (size_t i = 0; i < t.all; i++) {
-        const uint32_t *corners = elements + (m->dim + 1) * i;
-        if (!has_image(m, images, corners)) {
-            t.without_image++;
-            continue;
-        }
-        int before = element_sign(m, m->points, corners), after = element_sign(m, images, corners);
-        if (before == 0)
-            t.flat_before++;
-        else if (after == 0)
-            t.collapsed++;
-        else if (after == before)
-            t.kept++;
-        else
-            t.inverted++;
-    }
-    return t;
-}
 
 /* What the library says of a mesh as a whole, which may have its images repaired; from target to source it has
  * nothing to say. */
@@ -95,11 +43,7 @@ static int report_tally(const job *j, const mesh_file *m, const tally *t, size_t
                         const icc_certificate *certificate)
 {
     char text[256];
-    snprintf(text, sizeof text,
-             "%zu %s: %zu keep their orientation, %zu inverted, %zu collapsed, %zu flat "
-             "before, %zu without image",
-             t->all, elements_name(m), t->kept, t->inverted, t->collapsed, t->flat_before,
-             t->without_image);
+    tally_print(t, m, text, sizeof text);
     if (!j->args->json) {
         print_tally(j, text, certificate);
         return DONE;
@@ -109,14 +53,7 @@ static int report_tally(const job *j, const mesh_file *m, const tally *t, size_t
         return FAILED;
     json_count(&r.json, "points", m->n_vertices);
     json_count(&r.json, "without_image", n_failed);
-    json_open(&r.json, elements_name(m), '{');
-    json_count(&r.json, "all", t->all);
-    json_count(&r.json, "kept", t->kept);
-    json_count(&r.json, "inverted", t->inverted);
-    json_count(&r.json, "collapsed", t->collapsed);
-    json_count(&r.json, "flat_before", t->flat_before);
-    json_count(&r.json, "without_image", t->without_image);
-    json_close(&r.json, '}');
+    tally_report(t, m, &r.json);
     if (certificate->size > 0) {
         json_flag(&r.json, "boundary_simple", certificate->boundary_simple != 0);
         json_flag(&r.json, "certified", certificate->certified != 0);
@@ -146,7 +83,7 @@ static int map_mesh(job *j, const mesh_file *m)
     if (result == DONE)
         result = write_mesh(j, m, images);
     if (result == DONE) {
-        tally t = count(m, images);
+        tally t = tally_count(m, images);
         result = report_tally(j, m, &t, n_failed, &certificate);
     }
     if (result == DONE)

@@ -20,36 +20,10 @@ static int read_picture(warp *w)
     char *bytes = file_read(a->operands[0], &n);
     if (bytes == NULL)
         return FAILED;
-    problem wrong;
-    bool good = picture_decode(&w->from, bytes, n, &wrong);
+    int result = picture_take(&w->from, a->operands[0], bytes, n);
     free(bytes);
-    if (!good)
-        return failed(a->operands[0], 0, "%s", wrong.text);
-    if (a->has_background)
-        picture_widen(&w->from,
-                      a->background[0] != a->background[1] || a->background[0] != a->background[2],
-                      a->background[3] < 255);
-    w->to = picture_copy(&w->from);
-    for (size_t i = 0; a->has_background && i < w->to.width * w->to.height; i++)
-        picture_set(&w->to, i, a->background);
-    return DONE;
-}
-
-static int write_picture(const warp *w)
-{
-    const char *name = w->job.args->operands[1];
-    problem wrong;
-    size_t n;
-    unsigned char *bytes = picture_encode(&w->to, w->from.keep, &n, &wrong);
-    if (bytes == NULL)
-        return failed(name, 0, "%s", wrong.text);
-    outfile file;
-    int result = outfile_open(&file, name) ? DONE : FAILED;
-    if (result == DONE) {
-        fwrite(bytes, 1, n, file.stream);
-        result = outfile_close(&file) ? DONE : FAILED;
-    }
-    free(bytes);
+    if (result == DONE)
+        w->to = picture_canvas(&w->from, a->has_background ? a->background : NULL);
     return result;
 }
 
@@ -91,7 +65,8 @@ static int warp_picture(warp *w)
     unpack(&w->to, &to);
     free(from.pixels);
     free(to.pixels);
-    int result = ran == ICC_OK ? write_picture(w) : job_failed(&w->job, &err);
+    int result = ran == ICC_OK ? picture_save(&w->to, w->from.keep, w->job.args->operands[1])
+                              : job_failed(&w->job, &err);
     if (result == DONE)
         result = report_points(&w->job, w->to.width * w->to.height, w->n_failed, seconds);
     if (result != DONE || w->n_failed == 0)

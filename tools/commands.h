@@ -13,6 +13,8 @@ int run_mesh(const args *a);
 int run_check(const args *a);
 int run_info(const args *a);
 int run_plot(const args *a);
+int run_weights(const args *a);
+int run_pose(const args *a);
 int run_plot_vtk(const args *a); /* plot to a file .vtk */
 
 #endif

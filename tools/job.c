@@ -35,7 +35,8 @@ void job_end(job *j)
 
 const char *job_file(const job *j, int side)
 {
-    return side == 2 && j->args->target != NULL ? j->args->target : j->args->source;
+    const args *a = j->args;
+    return side == 2 && a->target != NULL ? a->target : a->source != NULL ? a->source : a->handles;
 }
 
 /* In the plane edge i begins at vertex i. Beyond, the index is that of a facet, unless the message is
@@ -254,11 +255,16 @@ bool report_open(report *r, const job *j)
     json_open(&r->json, NULL, '{');
     json_text(&r->json, "command", j->args->command);
     json_text(&r->json, "version", icc_version());
-    json_text(&r->json, "source", j->args->source);
+    if (j->args->source != NULL)
+        json_text(&r->json, "source", j->args->source);
+    if (j->args->handles != NULL)
+        json_text(&r->json, "handles", j->args->handles);
     if (j->args->target != NULL)
         json_text(&r->json, "target", j->args->target);
-    json_count(&r->json, "dimension", job_dim(j));
-    json_count(&r->json, "vertices", j->cages[0].n);
+    if (job_dim(j) > 0) {
+        json_count(&r->json, "dimension", job_dim(j));
+        json_count(&r->json, "vertices", j->cages[0].n);
+    }
     if (j->cages[0].n_facets > 0)
         json_count(&r->json, "facets", j->cages[0].n_facets);
     return true;

@@ -116,6 +116,46 @@ static const command commands[] = {
          "boundary and\n"
          "curves (cell data `part`: 0 to 3), with the displacement to the target if there is "
          "one.\n"},
+    {.name = "weights",
+     .bit = FOR_WEIGHTS,
+     .run = run_weights,
+     .usage = "[--source FILE] --handles FILE [OPTION]... < POINTS > WEIGHTS",
+     .summary = "Blends handles: kernel coordinates of points, or a figure of them",
+     .details =
+         "Reads one point per line and writes its weight for each handle. Weights sum to 1, "
+         "reproduce the\n"
+         "point from the handles, and are 1 and 0 at the handles. The handles' file is JSON:\n\n"
+         "  {\"handles\": [[x, y], ..],         or [x, y, z]; all else may be left out\n"
+         "   \"edges\": [[0, 1], ..],           handles between which weights are linear at the "
+         "start\n"
+         "   \"lines\": [{\"from\": [x, y], \"to\": [x, y], \"parallel\": 0}, ..],\n"
+         "                                    stay straight, and parallel to an earlier line\n"
+         "   \"regions\": [[[x, y], ..], ..],   polygons that belong to the shape, too\n"
+         "   \"curves\": {\"vertices\": [[x, y], ..], \"segments\": [[0, 1], ..]},\n"
+         "   \"rigid\": [{\"region\": [[x, y], ..], \"rigidity\": 1}, ..]}\n"
+         "                                    or \"centre\" and \"radius\" for a region\n\n"
+         "The shape is the source, the regions and the curves. With --picture or --binding "
+         "the weights\n"
+         "are written only where -o asks for them.\n"},
+    {.name = "pose",
+     .bit = FOR_POSE,
+     .n_operands = 2,
+     .run = run_pose,
+     .usage = "[--source FILE] --handles FILE --pose FILE [OPTION]... IN OUT",
+     .summary = "Moves points, meshes and pictures with their handles",
+     .details =
+         "IN is a list of points, a mesh (OBJ, OFF, Medit, VTK) or a PNG picture, told by its "
+         "content; see\n"
+         "'libicc weights --help' for the handles' file. With --binding FILE there is only OUT: "
+         "the points are\n"
+         "in the binding, and no source and no handles are needed. The pose is JSON, one of\n\n"
+         "  {\"moves\": [{\"handle\": 0, \"move\": [dx, dy], \"turn\": degrees, \"axis\": "
+         "[x, y, z],\n"
+         "              \"matrix\": [[a, b], [c, d]]}, ..]}       the others stay\n"
+         "  {\"transforms\": [[[a, b, tx], [c, d, ty]], ..]}      one per handle\n\n"
+         "A matrix and a turn are about the handle, and come before its move. A turn goes from x "
+         "to y. Poses\n"
+         "can fold; in a picture what is the right way round then hides what is not.\n"},
 };
 enum { N_COMMANDS = sizeof commands / sizeof *commands };
 
@@ -156,7 +196,8 @@ int main(int argc, char **argv)
 {
     if (argc < 2)
         return misused(NULL,
-                       "which command? one of map, encode, decode, warp, mesh, check, info, plot");
+                       "which command? one of map, encode, decode, warp, mesh, check, info, plot, "
+                       "weights, pose");
     const char *name = argv[1];
     for (size_t i = 0; i < N_COMMANDS; i++)
         if (strcmp(name, commands[i].name) == 0)
@@ -165,8 +206,6 @@ int main(int argc, char **argv)
         printf("libicc %s\n", icc_version());
     else if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0 || strcmp(name, "help") == 0)
         print_help();
-    else if (strcmp(name, "weights") == 0 || strcmp(name, "pose") == 0)
-        return misused(NULL, "the command '%s' is not available in this version", name);
     else
         return misused(NULL, "there is no command '%.40s'", name);
     return flushed(DONE);

@@ -35,12 +35,13 @@ typedef struct option {
     const char *value, *help;
 } option;
 
-extern const choice methods[], maps[], functions[], solvers[], trees[];
+extern const choice methods[], maps[], functions[], solvers[], trees[], samplings[], weightings[], kernels[],
+    initials[];
 
 /* The name of a value that the library gave. */
 const char *choice_name(const choice *choices, int32_t value);
 
-enum { N_OPTIONS = 35 };
+enum { N_OPTIONS = 53 };
 extern const option options[N_OPTIONS];
 
 #endif

@@ -36,6 +36,14 @@ bool picture_decode(picture *out, const char *bytes, size_t n, problem *wrong);
 unsigned char *picture_encode(const picture *p, const struct png_keep *keep, size_t *n,
                               problem *wrong);
 
+/* picture_decode() of a file that has been read, and picture_encode() to a file: DONE, or FAILED with a line on
+ * stderr. */
+int picture_take(picture *out, const char *name, const char *bytes, size_t n);
+int picture_save(const picture *p, const struct png_keep *keep, const char *name);
+
+/* What is drawn on: a copy, or all background if that is not NULL. `from` is widened as that needs it. */
+picture picture_canvas(picture *from, const unsigned char *background);
+
 void png_keep_free(struct png_keep *keep);
 
 #endif

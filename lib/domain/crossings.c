@@ -172,8 +172,8 @@ static bool within_sides(const iccp_facet_tree *tree, const double *const *corne
     return !(seen[0] && seen[1]);
 }
 
-static bool meets(const iccp_facet_tree *tree, uint32_t facet, const double *from, const double *to,
-                  double *share)
+bool iccp_segment_meets(const iccp_facet_tree *tree, uint32_t facet, const double *from,
+                        const double *to, double *share)
 {
     const double *points[MAX + 1];
     iccp_facet_corners(tree, facet, points);
@@ -211,7 +211,7 @@ bool iccp_segment_crossing(const iccp_facet_tree *tree, const double *from, cons
     query.from = from;
     query.to = to;
     while (iccp_facet_query_next(&query, &next)) {
-        if (!meets(tree, next, from, to, &at))
+        if (!iccp_segment_meets(tree, next, from, to, &at))
             continue;
         if (!found || at < *share || (!(at > *share) && next < *facet)) {
             *share = at;

@@ -24,8 +24,13 @@ size_t iccp_line_crossings(const iccp_facet_tree *tree, size_t axis, const doubl
 /* Whether an odd number of facets is crossed on the way from p to infinity. */
 bool iccp_ray_parity(const iccp_facet_tree *tree, size_t axis, bool upwards, const double *p);
 
+/* Whether a closed segment meets a facet, and the share of the way to it. A segment that runs within a facet
+ * does not meet it. */
+bool iccp_segment_meets(const iccp_facet_tree *tree, uint32_t facet, const double *from,
+                        const double *to, double *share);
+
 /* The first facet that a closed segment meets (of several, the one with the smallest number) and the
- * share of the way to it. A segment that runs within a facet does not meet it. */
+ * share of the way to it. */
 bool iccp_segment_crossing(const iccp_facet_tree *tree, const double *from, const double *to,
                            double *share, uint32_t *facet);
 

@@ -4,6 +4,7 @@
 #define TESTS_API_OBJECTS_H
 
 #include <check.h>
+#include <icc/kernel.h>
 #include <icc/stages.h>
 #include <math.h>
 #include <stdlib.h>
@@ -17,6 +18,10 @@ static const double TARGET[2 * N_CORNERS] = {0, 0, 4, 0.5, 3.5, 2, 2, 2, 1.5, 3,
 /* A ring that crosses itself. */
 static const double BOWTIE[8] = {0, 0, 2, 2, 2, 0, 0, 1};
 static const uint32_t FACETS[2 * N_CORNERS] = {0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 0};
+
+/* In the L. */
+enum { N_HANDLES = 4 };
+static const double HANDLES[2 * N_HANDLES] = {0.1, 0.1, 2.9, 0.2, 2.9, 0.9, 0.2, 2.9};
 
 static const int32_t METHODS[] = {ICC_METHOD_GRADIENT, ICC_METHOD_FOLIATION, ICC_METHOD_FIELD,
                                   ICC_METHOD_DISC};
@@ -32,6 +37,10 @@ typedef struct objects {
     icc_tree *tree;
     icc_tree *bent; /* on an L, where the inequalities of functions matter */
     icc_field *field;
+    icc_shape *shape; /* the source, and a curve */
+    icc_sampling *sampling;
+    icc_kernel *kernel;
+    icc_binding *binding; /* of half the points, with derivatives */
     double points[2 * N_POINTS]; /* in the source */
     uint32_t facet[N_POINTS];
     double bary[2 * N_POINTS], t[N_POINTS];
@@ -64,6 +73,41 @@ static inline icc_tree *make_bent_tree(void)
     return tree;
 }
 
+static inline icc_status make_shape(const objects *o, icc_shape **shape, const icc_env *env, icc_error *err)
+{
+    static const double VERTICES[6] = {0.5, 0.5, 4, 0.5, 4, 2};
+    static const uint32_t SEGMENTS[4] = {0, 1, 1, 2};
+    const icc_domain *regions[1] = {o->source};
+    return icc_shape_create(shape, 2, 1, regions, 3, VERTICES, 2, SEGMENTS, env, err);
+}
+
+static inline icc_status make_sampling(const objects *o, icc_sampling **sampling, const icc_env *env,
+                                       icc_error *err)
+{
+    const icc_sampling_options options = {.size = sizeof options, .spacing = 0.25, .steps = 5};
+    return icc_sampling_create(sampling, o->shape, &options, env, err);
+}
+
+static inline icc_status make_kernel(const objects *o, icc_kernel **kernel, const icc_env *env,
+                                     icc_error *err)
+{
+    static const uint32_t EDGES[4] = {0, 1, 1, 2};
+    const icc_line line = {.from = {0.3, 0.4}, .to = {1.5, 0.4}};
+    const icc_kernel_options options = {
+        .size = sizeof options, .n_edges = 2, .edges = EDGES, .n_lines = 1, .lines = &line};
+    return icc_kernel_create(kernel, o->sampling, N_HANDLES, HANDLES, &options, env, err);
+}
+
+/* After the points. */
+static inline void make_coordinates(objects *o)
+{
+    ck_assert_int_eq(make_shape(o, &o->shape, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(make_sampling(o, &o->sampling, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(make_kernel(o, &o->kernel, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_binding_create(&o->binding, o->kernel, N_POINTS / 2, o->points, 1, NULL, NULL),
+                     ICC_OK);
+}
+
 /* With charts of the given method; 0: the default. */
 static inline void objects_init(objects *o, int32_t method)
 {
@@ -93,10 +137,15 @@ static inline void objects_init(objects *o, int32_t method)
     ck_assert_int_eq(
         icc_chart_encode(o->chart, N_POINTS, o->points, o->facet, o->bary, o->t, NULL, NULL, NULL),
         ICC_OK);
+    make_coordinates(o);
 }
 
 static inline void objects_clear(objects *o)
 {
+    icc_binding_free(o->binding);
+    icc_kernel_free(o->kernel);
+    icc_sampling_free(o->sampling);
+    icc_shape_free(o->shape);
     icc_field_free(o->field);
     icc_tree_free(o->tree);
     icc_tree_free(o->bent);
@@ -535,7 +584,142 @@ static inline icc_status call_triangulate(const objects *o, outcome *out, const 
     return icc_triangulate(N_CORNERS, N_CORNERS + 100, points, out->indices, env, err);
 }
 
+static inline icc_status call_shape_create(const objects *o, outcome *out, const icc_env *env,
+                                           icc_error *err)
+{
+    (void)out;
+    icc_shape *shape = (icc_shape *)&shape;
+    const icc_status status = make_shape(o, &shape, env, err);
+    HANDED_OVER(status, shape);
+    icc_shape_free(shape);
+    return status;
+}
+
+static inline icc_status call_sampling_create(const objects *o, outcome *out, const icc_env *env,
+                                              icc_error *err)
+{
+    icc_sampling *sampling = (icc_sampling *)&sampling;
+    const icc_status status = make_sampling(o, &sampling, env, err);
+    HANDED_OVER(status, sampling);
+    icc_sampling_info info = {.size = sizeof info};
+    if (status == ICC_OK) {
+        (void)icc_sampling_get_info(sampling, &info);
+        ck_assert_uint_le(info.n_samples, 2 * N_POINTS);
+        (void)icc_sampling_get_points(sampling, out->numbers);
+    }
+    out->count = info.n_samples;
+    icc_sampling_free(sampling);
+    return status;
+}
+
+/* Writes the weights at the points, and frees the kernel. */
+static inline icc_status tell_weights(icc_status status, const objects *o, icc_kernel *kernel, outcome *out)
+{
+    HANDED_OVER(status, kernel);
+    if (status == ICC_OK)
+        (void)icc_kernel_weights(kernel, N_POINTS, o->points, out->numbers, NULL, out->status, &out->count,
+                                 NULL);
+    icc_kernel_free(kernel);
+    return status;
+}
+
+static inline icc_status call_kernel_create(const objects *o, outcome *out, const icc_env *env,
+                                            icc_error *err)
+{
+    icc_kernel *kernel = (icc_kernel *)&kernel;
+    const icc_status status = make_kernel(o, &kernel, env, err);
+    return tell_weights(status, o, kernel, out);
+}
+
+static inline icc_status call_kernel_paint(const objects *o, outcome *out, const icc_env *env,
+                                           icc_error *err)
+{
+    static const double CENTRE[2] = {0.5, 0.6};
+    icc_kernel *kernel = (icc_kernel *)&kernel;
+    const icc_status status = icc_kernel_paint(&kernel, o->kernel, 3, CENTRE, 0.7, 0.5, env, err);
+    return tell_weights(status, o, kernel, out);
+}
+
+static inline icc_status call_kernel_repaint(const objects *o, outcome *out, const icc_env *env,
+                                             icc_error *err)
+{
+    static const uint32_t NODES[2] = {30, 40};
+    static const double WISHES[2 * N_HANDLES] = {1, 0, 0, 0, 0, 0, 1, 1};
+    icc_kernel *kernel = (icc_kernel *)&kernel;
+    const icc_status status = icc_kernel_repaint(&kernel, o->kernel, 2, NODES, WISHES, env, err);
+    return tell_weights(status, o, kernel, out);
+}
+
+static inline icc_status call_kernel_set_method(const objects *o, outcome *out, const icc_env *env,
+                                                icc_error *err)
+{
+    icc_kernel *kernel = (icc_kernel *)&kernel;
+    const icc_status status = icc_kernel_set_method(&kernel, o->kernel, ICC_WEIGHTS_L1, env, err);
+    return tell_weights(status, o, kernel, out);
+}
+
+static inline icc_status call_kernel_stiffen(const objects *o, outcome *out, const icc_env *env,
+                                             icc_error *err)
+{
+    static const uint32_t NODES[3] = {60, 61, 62};
+    icc_kernel *kernel = (icc_kernel *)&kernel;
+    const icc_status status =
+        icc_kernel_stiffen(&kernel, o->kernel, 3, NODES, NULL, NULL, env, err);
+    return tell_weights(status, o, kernel, out);
+}
+
+static inline icc_status call_kernel_weights(const objects *o, outcome *out, const icc_env *env,
+                                             icc_error *err)
+{
+    (void)err;
+    return icc_kernel_weights(o->kernel, N_POINTS, o->points, out->numbers, NULL, out->status,
+                              &out->count, env);
+}
+
+static inline icc_status call_kernel_get_report(const objects *o, outcome *out, const icc_env *env,
+                                                icc_error *err)
+{
+    icc_kernel_report report = {.size = sizeof report};
+    const icc_status status = icc_kernel_get_report(o->kernel, N_POINTS, o->points, &report, env, err);
+    memcpy(out->numbers, &report, sizeof report);
+    return status;
+}
+
+static inline icc_status call_binding_create(const objects *o, outcome *out, const icc_env *env,
+                                             icc_error *err)
+{
+    icc_binding *binding = (icc_binding *)&binding;
+    const icc_status status =
+        icc_binding_create(&binding, o->kernel, N_POINTS, o->points, 1, env, err);
+    HANDED_OVER(status, binding);
+    if (status == ICC_OK)
+        (void)icc_binding_get(binding, NULL, out->numbers);
+    icc_binding_free(binding);
+    return status;
+}
+
+static inline icc_status call_binding_pose(const objects *o, outcome *out, const icc_env *env,
+                                           icc_error *err)
+{
+    (void)err;
+    double transforms[6 * N_HANDLES];
+    for (int k = 0; k < 6 * N_HANDLES; ++k)
+        transforms[k] = sin((double)k);
+    return icc_binding_pose(o->binding, transforms, out->numbers, out->numbers + N_POINTS, env);
+}
+
 static const call CALLS[] = {
+    {"icc_shape_create", call_shape_create},
+    {"icc_sampling_create", call_sampling_create},
+    {"icc_kernel_create", call_kernel_create},
+    {"icc_kernel_paint", call_kernel_paint},
+    {"icc_kernel_repaint", call_kernel_repaint},
+    {"icc_kernel_set_method", call_kernel_set_method},
+    {"icc_kernel_stiffen", call_kernel_stiffen},
+    {"icc_kernel_weights", call_kernel_weights},
+    {"icc_kernel_get_report", call_kernel_get_report},
+    {"icc_binding_create", call_binding_create},
+    {"icc_binding_pose", call_binding_pose},
     {"icc_domain_create", call_domain_create},
     {"icc_domain_create_mask", call_domain_create_mask},
     {"icc_domain_create_mesh", call_domain_create_mesh},
@@ -578,7 +762,12 @@ enum { N_CALLS = sizeof CALLS / sizeof *CALLS };
 /* Whether the call has nothing to do with charts, and takes long: once is enough, whatever the methods. */
 static inline int is_once(const call *c)
 {
-    return strncmp(c->name, "icc_field_create:", 17) == 0;
+    static const char *const BEGINNINGS[] = {"icc_field_create:", "icc_shape_", "icc_sampling_",
+                                             "icc_kernel_", "icc_binding_"};
+    for (size_t i = 0; i < sizeof BEGINNINGS / sizeof *BEGINNINGS; ++i)
+        if (strncmp(c->name, BEGINNINGS[i], strlen(BEGINNINGS[i])) == 0)
+            return 1;
+    return 0;
 }
 
 /* Whether the call takes an icc_error, which must then tell what the status tells. */
@@ -586,7 +775,8 @@ static inline int has_error(const call *c)
 {
     static const char *const WITHOUT[] = {"icc_domain_locate",     "icc_chart_encode",
                                           "icc_chart_decode",      "icc_map_apply",
-                                          "icc_map_apply_inverse", "icc_map_jacobian"};
+                                          "icc_map_apply_inverse", "icc_map_jacobian",
+                                          "icc_kernel_weights",    "icc_binding_pose"};
     for (size_t i = 0; i < sizeof WITHOUT / sizeof *WITHOUT; ++i)
         if (strcmp(c->name, WITHOUT[i]) == 0)
             return 0;

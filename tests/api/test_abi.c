@@ -1,6 +1,7 @@
 /* What a program compiled against these headers relies on. A number that changes here breaks every
  * program that is not recompiled: see docs/abi.md. */
 #include <check.h>
+#include <icc/kernel.h>
 #include <icc/stages.h>
 #include <stddef.h>
 #include <stdlib.h>
@@ -68,6 +69,22 @@ IS(ICC_EDGE_EXPANSION, 2);
 IS(ICC_GROW_AS_WISHED, 1);
 IS(ICC_GROW_GROWN, 2);
 IS(ICC_GROW_THINNED, 3);
+
+IS(ICC_SAMPLING_GRID, 1);
+IS(ICC_SAMPLING_BLUE, 2);
+IS(ICC_SAMPLING_POINTS, 3);
+
+IS(ICC_KERNEL_WENDLAND, 1);
+IS(ICC_KERNEL_GAUSS, 2);
+
+IS(ICC_INITIAL_HEAT, 1);
+IS(ICC_INITIAL_EDGES, 2);
+IS(ICC_INITIAL_INVERSE, 3);
+IS(ICC_INITIAL_GIVEN, 4);
+
+IS(ICC_WEIGHTS_QP, 1);
+IS(ICC_WEIGHTS_EQUALITY, 2);
+IS(ICC_WEIGHTS_L1, 3);
 
 _Static_assert(sizeof(icc_status) == 4, "icc_status has changed");
 
@@ -301,6 +318,76 @@ AT(icc_grow_report, n_unplaced, 32);
 AT(icc_grow_report, n_left, 40);
 AT(icc_grow_report, n_turned, 48);
 AT(icc_grow_report, n_tests, 56);
+
+SIZE(icc_sampling_options, 56);
+AT(icc_sampling_options, size, 0);
+AT(icc_sampling_options, kind, 8);
+AT(icc_sampling_options, steps, 12);
+AT(icc_sampling_options, spacing, 16);
+AT(icc_sampling_options, margin, 24);
+AT(icc_sampling_options, seed, 32);
+AT(icc_sampling_options, n_fixed, 40);
+AT(icc_sampling_options, fixed, 48);
+
+SIZE(icc_sampling_info, 56);
+AT(icc_sampling_info, size, 0);
+AT(icc_sampling_info, dim, 8);
+AT(icc_sampling_info, kind, 12);
+AT(icc_sampling_info, n_samples, 16);
+AT(icc_sampling_info, n_edge, 24);
+AT(icc_sampling_info, spacing, 32);
+AT(icc_sampling_info, nearest, 40);
+AT(icc_sampling_info, sigma, 48);
+
+SIZE(icc_line, 56);
+AT(icc_line, from, 0);
+AT(icc_line, to, 24);
+AT(icc_line, parallel, 48);
+AT(icc_line, reserved, 52);
+
+SIZE(icc_kernel_options, 88);
+AT(icc_kernel_options, size, 0);
+AT(icc_kernel_options, kernel, 8);
+AT(icc_kernel_options, initial, 12);
+AT(icc_kernel_options, method, 16);
+AT(icc_kernel_options, steps, 20);
+AT(icc_kernel_options, tail, 24);
+AT(icc_kernel_options, visible, 28);
+AT(icc_kernel_options, sigma, 32);
+AT(icc_kernel_options, cutoff, 40);
+AT(icc_kernel_options, n_edges, 48);
+AT(icc_kernel_options, edges, 56);
+AT(icc_kernel_options, n_lines, 64);
+AT(icc_kernel_options, lines, 72);
+AT(icc_kernel_options, initial_weights, 80);
+
+SIZE(icc_kernel_info, 96);
+AT(icc_kernel_info, size, 0);
+AT(icc_kernel_info, dim, 8);
+AT(icc_kernel_info, kernel, 12);
+AT(icc_kernel_info, initial, 16);
+AT(icc_kernel_info, method, 20);
+AT(icc_kernel_info, n_handles, 24);
+AT(icc_kernel_info, n_nodes, 32);
+AT(icc_kernel_info, n_infeasible, 40);
+AT(icc_kernel_info, n_entries, 48);
+AT(icc_kernel_info, sigma, 56);
+AT(icc_kernel_info, definiteness, 64);
+AT(icc_kernel_info, seconds_initial, 72);
+AT(icc_kernel_info, seconds_weights, 80);
+AT(icc_kernel_info, seconds_factor, 88);
+
+SIZE(icc_kernel_report, 80);
+AT(icc_kernel_report, size, 0);
+AT(icc_kernel_report, n_infeasible, 8);
+AT(icc_kernel_report, n_negative, 16);
+AT(icc_kernel_report, unity, 24);
+AT(icc_kernel_report, reproduction, 32);
+AT(icc_kernel_report, reproduction_mean, 40);
+AT(icc_kernel_report, lagrange, 48);
+AT(icc_kernel_report, linearity, 56);
+AT(icc_kernel_report, least_weight, 64);
+AT(icc_kernel_report, definiteness, 72);
 
 #endif
 

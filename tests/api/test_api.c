@@ -475,8 +475,65 @@ START_TEST(edges_are_listed)
 }
 END_TEST
 
+START_TEST(kernels_refuse_bad_arguments)
+{
+    objects o;
+    objects_init(&o, 0);
+    icc_kernel *kernel;
+    icc_binding *binding;
+    icc_error err;
+    icc_kernel_report report = {.size = sizeof report};
+    icc_kernel_info info = {.size = sizeof info};
+    double weights[N_HANDLES], images[2], transforms[6 * N_HANDLES];
+    size_t n_bytes;
+    EXPLAINED(icc_kernel_create(NULL, o.sampling, N_HANDLES, HANDLES, NULL, NULL, &err));
+    EXPLAINED(icc_kernel_create(&kernel, NULL, N_HANDLES, HANDLES, NULL, NULL, &err));
+    EXPLAINED(icc_kernel_create(&kernel, o.sampling, N_HANDLES, NULL, NULL, NULL, &err));
+    EXPLAINED(icc_kernel_create(&kernel, o.sampling, 2, HANDLES, NULL, NULL, &err));
+    EXPLAINED(icc_kernel_paint(&kernel, NULL, 0, HANDLES, 1, 1, NULL, &err));
+    EXPLAINED(icc_kernel_paint(&kernel, o.kernel, 0, NULL, 1, 1, NULL, &err));
+    EXPLAINED(icc_kernel_repaint(&kernel, NULL, 0, NULL, NULL, NULL, &err));
+    EXPLAINED(icc_kernel_repaint(&kernel, o.kernel, 1, NULL, weights, NULL, &err));
+    EXPLAINED(icc_kernel_set_method(NULL, o.kernel, ICC_WEIGHTS_QP, NULL, &err));
+    EXPLAINED(icc_kernel_set_method(&kernel, o.kernel, 0, NULL, &err));
+    EXPLAINED(icc_kernel_stiffen(&kernel, o.kernel, 1, NULL, NULL, NULL, NULL, &err));
+    EXPLAINED(icc_kernel_get_report(o.kernel, 1, NULL, &report, NULL, &err));
+    EXPLAINED(icc_kernel_get_report(o.kernel, 0, NULL, NULL, NULL, &err));
+    REFUSED(icc_kernel_get_info(NULL, &info));
+    REFUSED(icc_kernel_get_info(o.kernel, NULL));
+    REFUSED(icc_kernel_get_nodes(NULL, NULL, NULL, NULL, NULL));
+    REFUSED(icc_kernel_weights(NULL, 1, HANDLES, weights, NULL, NULL, NULL, NULL));
+    REFUSED(icc_kernel_weights(o.kernel, 1, NULL, weights, NULL, NULL, NULL, NULL));
+    REFUSED(icc_kernel_weights(o.kernel, 1, HANDLES, NULL, NULL, NULL, NULL, NULL));
+    EXPLAINED(icc_binding_create(&binding, NULL, 1, HANDLES, 0, NULL, &err));
+    EXPLAINED(icc_binding_create(&binding, o.kernel, 1, NULL, 0, NULL, &err));
+    EXPLAINED(icc_binding_create(&binding, o.kernel, 1, HANDLES, 2, NULL, &err));
+    EXPLAINED(icc_binding_load(NULL, 1, HANDLES, NULL, &err));
+    EXPLAINED(icc_binding_load(&binding, 1, NULL, NULL, &err));
+    REFUSED(icc_binding_get_counts(NULL, NULL, NULL, NULL));
+    REFUSED(icc_binding_get(NULL, NULL, NULL));
+    REFUSED(icc_binding_pose(NULL, transforms, images, NULL, NULL));
+    REFUSED(icc_binding_pose(o.binding, NULL, images, NULL, NULL));
+    REFUSED(icc_binding_save(NULL, 0, NULL, &n_bytes));
+    REFUSED(icc_binding_save(o.binding, 0, NULL, NULL));
+    REFUSED(icc_binding_save(o.binding, 1, NULL, &n_bytes));
+    REFUSED(icc_pose_reset(1, N_HANDLES, transforms));
+    REFUSED(icc_pose_reset(2, N_HANDLES, NULL));
+    REFUSED(icc_pose_move(2, NULL, HANDLES));
+    REFUSED(icc_pose_move(4, transforms, HANDLES));
+    REFUSED(icc_pose_turn(2, transforms, NULL, NULL, 1));
+    REFUSED(icc_pose_turn(3, transforms, HANDLES, NULL, 1));
+    REFUSED(icc_pose_turn(2, transforms, HANDLES, NULL, NAN));
+    objects_clear(&o);
+}
+END_TEST
+
 START_TEST(freeing_nothing_does_nothing)
 {
+    icc_shape_free(NULL);
+    icc_sampling_free(NULL);
+    icc_kernel_free(NULL);
+    icc_binding_free(NULL);
     icc_domain_free(NULL);
     icc_chart_free(NULL);
     icc_map_free(NULL);
@@ -594,6 +651,23 @@ static icc_status read_field_options(const objects *o, const void *options, icc_
     return status;
 }
 
+static icc_status read_sampling_options(const objects *o, const void *options, icc_error *err)
+{
+    icc_sampling *sampling;
+    const icc_status status = icc_sampling_create(&sampling, o->shape, options, NULL, err);
+    icc_sampling_free(sampling);
+    return status;
+}
+
+static icc_status read_kernel_options(const objects *o, const void *options, icc_error *err)
+{
+    icc_kernel *kernel;
+    const icc_status status =
+        icc_kernel_create(&kernel, o->sampling, N_HANDLES, HANDLES, options, NULL, err);
+    icc_kernel_free(kernel);
+    return status;
+}
+
 START_TEST(options_may_be_older_or_newer)
 {
     static const struct {
@@ -605,7 +679,9 @@ START_TEST(options_may_be_older_or_newer)
                    {read_map_options_too, sizeof(icc_map_options)},
                    {read_improve_options, sizeof(icc_improve_options)},
                    {read_tree_options, sizeof(icc_tree_options)},
-                   {read_field_options, sizeof(icc_field_options)}};
+                   {read_field_options, sizeof(icc_field_options)},
+                   {read_sampling_options, sizeof(icc_sampling_options)},
+                   {read_kernel_options, sizeof(icc_kernel_options)}};
     objects o;
     objects_init(&o, 0);
     for (size_t k = 0; k < sizeof READERS / sizeof *READERS; ++k) {
@@ -699,6 +775,21 @@ static icc_status write_field_report(const objects *o, void *info)
     return icc_field_verify(o->field, info, NULL, NULL);
 }
 
+static icc_status write_sampling_info(const objects *o, void *info)
+{
+    return icc_sampling_get_info(o->sampling, info);
+}
+
+static icc_status write_kernel_info(const objects *o, void *info)
+{
+    return icc_kernel_get_info(o->kernel, info);
+}
+
+static icc_status write_kernel_report(const objects *o, void *info)
+{
+    return icc_kernel_get_report(o->kernel, 9, o->points, info, NULL, NULL);
+}
+
 START_TEST(infos_may_be_older_or_newer)
 {
     static const struct {
@@ -710,7 +801,9 @@ START_TEST(infos_may_be_older_or_newer)
         {write_improve_report, sizeof(icc_improve_report)},
         {write_certificate, sizeof(icc_certificate)},
         {write_grid_info, sizeof(icc_grid_info)},      {write_tree_report, sizeof(icc_tree_report)},
-        {write_field_info, sizeof(icc_field_info)},    {write_field_report, sizeof(icc_field_report)}};
+        {write_field_info, sizeof(icc_field_info)},    {write_field_report, sizeof(icc_field_report)},
+        {write_sampling_info, sizeof(icc_sampling_info)},
+        {write_kernel_info, sizeof(icc_kernel_info)},  {write_kernel_report, sizeof(icc_kernel_report)}};
     enum { ROOM = 512 };
     objects o;
     objects_init(&o, 0);
@@ -825,6 +918,7 @@ int main(void)
     tcase_add_test(tests, the_triangulation_refuses_bad_arguments);
     tcase_add_test(tests, the_triangulation_names_the_point);
     tcase_add_test(tests, edges_are_listed);
+    tcase_add_test(tests, kernels_refuse_bad_arguments);
     tcase_add_test(tests, freeing_nothing_does_nothing);
     tcase_add_test(tests, every_call_checks_its_env);
     tcase_add_test(tests, options_may_be_older_or_newer);

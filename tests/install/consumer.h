@@ -1,5 +1,6 @@
 /* A program that uses the installed library, in the common subset of C and C++. */
 #include <icc/icc.h>
+#include <icc/kernel.h>
 #include <icc/stages.h>
 
 #include <stdio.h>

@@ -7,7 +7,7 @@ make_cages
 run 0 --version
 grep -q '^libicc [0-9]*\.[0-9]*\.[0-9]*$' out || complain "no version: $(cat out)"
 run 0 --help
-for command in map encode decode warp mesh check info plot; do
+for command in map encode decode warp mesh check info plot weights pose; do
     run 0 --help
     holds out "  $command "
     run 0 "$command" --help
@@ -25,8 +25,8 @@ run 2
 says "which command?"
 run 2 frobnicate
 says "'frobnicate'"
-run 2 weights
-says "not available in this version"
+run 2 weights --target target.txt
+says "--target"
 run 2 map --source source.txt
 says "--target FILE is missing"
 run 2 map --target target.txt

@@ -1,0 +1,38 @@
+/* The kernel function, and the matrix of its values between nodes. */
+#ifndef ICCP_GRAM_KERNEL_H
+#define ICCP_GRAM_KERNEL_H
+
+#include "icc/kernel.h"
+#include "kernel/cells.h"
+#include "math/symmetric.h"
+
+/* A radial function of finite reach: `ICC_KERNEL_*`. Its value at 0 is 1. */
+typedef struct iccp_radial {
+    int32_t kind;
+    double sigma, reach;
+} iccp_radial;
+
+/* `cutoff` in sigma, for the Gaussian. */
+iccp_radial iccp_radial_make(int32_t kind, double sigma, double cutoff);
+
+/* The value at a squared distance below the squared reach, and the derivative by that square (for
+ * gradients: k(|x - y|^2) has the derivative 2 k' (x - y)). */
+double iccp_radial_value(const iccp_radial *radial, double distance2);
+double iccp_radial_slope(const iccp_radial *radial, double distance2);
+
+typedef struct iccp_kernel_matrix {
+    iccp_memory memory;
+    iccp_symmetric matrix; /* borrows the four arrays below */
+    size_t *first;
+    uint32_t *column;
+    double *value, *diagonal;
+} iccp_kernel_matrix;
+
+/* The values between all points of the cells that are nearer than the reach. ICC_ERR_SOLVER when so many are near
+ * each other that the matrix is all but full. */
+icc_status iccp_kernel_matrix_create(iccp_kernel_matrix *out, const iccp_cells *cells,
+                                     const iccp_radial *radial, const iccp_env *env,
+                                     icc_error *err);
+void iccp_kernel_matrix_free(iccp_kernel_matrix *matrix);
+
+#endif

@@ -1,0 +1,381 @@
+/* Based on: Sakaridis, Kernel Coordinates (ETH Zurich 2016), sections 3.5 and 6.1. The affine function beside the kernels
+ * is ours: coefficients a of the kernels and t of the function solve
+ *
+ *     K a + P t = w,  P' a = 0,    rows of P: (1, x),
+ *
+ * so that affine weights are reproduced exactly. With Z = K^-1 P, found once, t = (P' Z)^-1 Z' w comes first, and
+ * K a = w - P t then has a small right side where the weights are nearly affine: nothing cancels.
+ * H. Wendland, Scattered Data Approximation, 2005, section 8.5. */
+#include "kernel/interpolant.h"
+
+#include "base/error.h"
+#include "base/threads.h"
+
+#include <math.h>
+#include <stdatomic.h>
+#include <string.h>
+
+/* Cells of half the reach: half of the points in those that a ball reaches into are in the ball. */
+static const double CELLS_PER_REACH = 2;
+/* Pivots below this share of the greatest are rounding errors. */
+static const double LEAST_PIVOT = 1e-13;
+/* A pivot of P'Z below this share of its diagonal: the nodes lie on a line or in a plane. */
+static const double LEAST_SCHUR = 1e-13;
+/* Most right sides in a task: the factor is read once for all of them. */
+enum { SIDES = 32, MOST_TAIL = 4 };
+
+struct iccp_collocation {
+    iccp_memory memory;
+    atomic_size_t references;
+    size_t dim, n, n_tail; /* n_tail: dim + 1, or 0 */
+    iccp_radial radial;
+    double *points;
+    double *sorted; /* the same in the order of the cells */
+    iccp_cells cells;
+    iccp_kernel_matrix kernel;
+    iccp_ldlt factor;
+    double definiteness;
+    double *z;                           /* n rows of n_tail */
+    double schur[MOST_TAIL * MOST_TAIL]; /* lower triangle of the Cholesky factor of P'Z */
+};
+
+/* ---- the affine function ---- */
+
+static double tail_entry(const iccp_collocation *c, size_t i, size_t k)
+{
+    return k == 0 ? 1 : c->points[c->dim * i + k - 1];
+}
+
+static bool factorise_schur(iccp_collocation *c)
+{
+    const size_t q = c->n_tail;
+    double *s = c->schur;
+    for (size_t k = 0; k < q; ++k)
+        for (size_t l = 0; l <= k; ++l) {
+            double sum = 0;
+            for (size_t i = 0; i < c->n; ++i)
+                sum += tail_entry(c, i, k) * c->z[q * i + l];
+            s[q * k + l] = sum;
+        }
+    for (size_t k = 0; k < q; ++k) {
+        const double whole = s[q * k + k];
+        for (size_t l = 0; l <= k; ++l) {
+            for (size_t j = 0; j < l; ++j)
+                s[q * k + l] -= s[q * k + j] * s[q * l + j];
+            if (l < k)
+                s[q * k + l] /= s[q * l + l];
+        }
+        if (!(s[q * k + k] > LEAST_SCHUR * whole))
+            return false;
+        s[q * k + k] = sqrt(s[q * k + k]);
+    }
+    return true;
+}
+
+/* x, q numbers, becomes (P'Z)^-1 x. */
+static void solve_schur(const iccp_collocation *c, double *x)
+{
+    const size_t q = c->n_tail;
+    for (size_t k = 0; k < q; ++k) {
+        for (size_t l = 0; l < k; ++l)
+            x[k] -= c->schur[q * k + l] * x[l];
+        x[k] /= c->schur[q * k + k];
+    }
+    for (size_t k = q; k-- > 0;) {
+        for (size_t l = k + 1; l < q; ++l)
+            x[k] -= c->schur[q * l + k] * x[l];
+        x[k] /= c->schur[q * k + k];
+    }
+}
+
+static icc_status prepare_tail(iccp_collocation *c, const iccp_env *env, icc_error *err)
+{
+    const size_t q = c->n_tail = c->dim + 1;
+    c->z = iccp_alloc(&c->memory, c->n, q * sizeof *c->z);
+    double *work = iccp_alloc(&env->memory, c->n, q * sizeof *work);
+    icc_status status = c->z != NULL && work != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    if (status == ICC_OK) {
+        for (size_t i = 0; i < c->n; ++i)
+            for (size_t k = 0; k < q; ++k)
+                c->z[q * i + k] = tail_entry(c, i, k);
+        iccp_ldlt_solve(&c->factor, q, c->z, work);
+        if (!factorise_schur(c))
+            status =
+                iccp_fail(err, ICC_ERR_SOLVER, -1,
+                          "the nodes determine no affine function: they lie in a plane or line");
+    }
+    iccp_free(&env->memory, work);
+    return status;
+}
+
+/* ---- creation ---- */
+
+static icc_status factorise(iccp_collocation *c, const iccp_env *env, icc_error *err)
+{
+    icc_status status = iccp_ldlt_analyse(&c->factor, &c->kernel.matrix, 1, env);
+    if (status == ICC_OK)
+        status = iccp_ldlt_factorise(&c->factor, &c->kernel.matrix, env);
+    double least = HUGE_VAL, greatest = 0;
+    for (size_t k = 0; status == ICC_OK && k < c->n; ++k) {
+        least = fmin(least, c->factor.pivot[k]);
+        greatest = fmax(greatest, c->factor.pivot[k]);
+    }
+    c->definiteness = least / greatest;
+    if (status == ICC_ERR_SOLVER || (status == ICC_OK && !(c->definiteness > LEAST_PIVOT)))
+        return iccp_fail(err, ICC_ERR_SOLVER, -1,
+                         "sigma is too large: the matrix of the kernel is not positive definite%s",
+                         c->radial.kind == ICC_KERNEL_GAUSS ? " (Wendland's would be)"
+                                                            : " to working precision");
+    if (status == ICC_ERR_UNSUPPORTED)
+        return iccp_fail(err, status, -1, "this build has no ordering for sparse matrices");
+    return status;
+}
+
+static icc_status create(iccp_collocation *c, const double *points, const iccp_env *env,
+                         icc_error *err)
+{
+    const size_t row = c->dim * sizeof *points;
+    c->points = iccp_alloc(&c->memory, c->n, row);
+    c->sorted = iccp_alloc(&c->memory, c->n, row);
+    if (c->points == NULL || c->sorted == NULL)
+        return ICC_ERR_MEMORY;
+    memcpy(c->points, points, c->n * row);
+    icc_status status = iccp_cells_create(&c->cells, c->dim, c->n, c->points,
+                                          c->radial.reach / CELLS_PER_REACH, env);
+    if (status != ICC_OK)
+        return status;
+    for (size_t p = 0; p < c->n; ++p)
+        memcpy(c->sorted + c->dim * p, c->points + c->dim * c->cells.order[p], row);
+    status = iccp_kernel_matrix_create(&c->kernel, &c->cells, &c->radial, env, err);
+    return status == ICC_OK ? factorise(c, env, err) : status;
+}
+
+icc_status iccp_collocation_create(iccp_collocation **out, size_t dim, size_t n,
+                                   const double *points, const iccp_radial *radial, bool tail,
+                                   const iccp_env *env, icc_error *err)
+{
+    iccp_collocation *c = iccp_alloc_zero(&env->memory, 1, sizeof *c);
+    *out = NULL;
+    if (c == NULL)
+        return ICC_ERR_MEMORY;
+    c->memory = c->cells.memory = c->kernel.memory = c->factor.memory = env->memory;
+    atomic_init(&c->references, 1);
+    c->dim = dim;
+    c->n = n;
+    c->radial = *radial;
+    icc_status status = create(c, points, env, err);
+    if (status == ICC_OK && tail)
+        status = prepare_tail(c, env, err);
+    if (status == ICC_OK)
+        *out = c;
+    else
+        iccp_collocation_release(c);
+    return status;
+}
+
+iccp_collocation *iccp_collocation_retain(const iccp_collocation *collocation)
+{
+    iccp_collocation *c = (iccp_collocation *)collocation;
+    atomic_fetch_add(&c->references, 1);
+    return c;
+}
+
+void iccp_collocation_release(iccp_collocation *collocation)
+{
+    iccp_collocation *c = collocation;
+    if (c == NULL || atomic_fetch_sub(&c->references, 1) > 1)
+        return;
+    iccp_cells_free(&c->cells);
+    iccp_kernel_matrix_free(&c->kernel);
+    iccp_ldlt_free(&c->factor);
+    iccp_free(&c->memory, c->points);
+    iccp_free(&c->memory, c->sorted);
+    iccp_free(&c->memory, c->z);
+    const iccp_memory memory = c->memory;
+    iccp_free(&memory, c);
+}
+
+size_t iccp_collocation_entries(const iccp_collocation *collocation)
+{
+    return collocation->n + collocation->kernel.first[collocation->n] / 2;
+}
+
+const iccp_symmetric *iccp_collocation_matrix(const iccp_collocation *collocation)
+{
+    return &collocation->kernel.matrix;
+}
+
+const iccp_radial *iccp_collocation_radial(const iccp_collocation *collocation)
+{
+    return &collocation->radial;
+}
+
+double iccp_collocation_definiteness(const iccp_collocation *collocation)
+{
+    return collocation->definiteness;
+}
+
+/* ---- coefficients ---- */
+
+typedef struct solution {
+    const iccp_collocation *c;
+    const iccp_memory *memory;
+    size_t m;
+    const double *values;
+    double *coefficients;
+    size_t n_sides;
+    size_t *sides; /* the columns to solve for */
+} solution;
+
+/* t of `n_sides` columns, and b becomes what is left of them. */
+static void split_affine(const iccp_collocation *c, size_t n_sides, double *b, double *tail)
+{
+    const size_t q = c->n_tail;
+    double t[SIDES][MOST_TAIL] = {{0}};
+    for (size_t i = 0; i < c->n; ++i)
+        for (size_t r = 0; r < n_sides; ++r)
+            for (size_t k = 0; k < q; ++k)
+                t[r][k] += c->z[q * i + k] * b[n_sides * i + r];
+    for (size_t r = 0; r < n_sides; ++r)
+        solve_schur(c, t[r]);
+    for (size_t i = 0; i < c->n; ++i)
+        for (size_t r = 0; r < n_sides; ++r)
+            for (size_t k = 0; k < q; ++k)
+                b[n_sides * i + r] -= tail_entry(c, i, k) * t[r][k];
+    for (size_t r = 0; r < n_sides; ++r)
+        for (size_t k = 0; k < q; ++k)
+            tail[n_sides * k + r] = t[r][k];
+}
+
+static icc_status solve_sides(void *argument, size_t begin, size_t end)
+{
+    const solution *s = argument;
+    const iccp_collocation *c = s->c;
+    const size_t width = end - begin, n_rows = c->n + c->dim + 1;
+    const size_t *sides = s->sides + begin;
+    double *b = iccp_alloc_zero(s->memory, n_rows, width * sizeof *b);
+    double *work = iccp_alloc(s->memory, c->n, width * sizeof *work);
+    const icc_status status = b != NULL && work != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    if (status == ICC_OK) {
+        for (size_t i = 0; i < c->n; ++i)
+            for (size_t r = 0; r < width; ++r)
+                b[width * i + r] = s->values[s->m * i + sides[r]];
+        if (c->n_tail > 0)
+            split_affine(c, width, b, b + width * c->n);
+        iccp_ldlt_solve(&c->factor, width, b, work);
+        for (size_t i = 0; i < n_rows; ++i)
+            for (size_t r = 0; r < width; ++r)
+                s->coefficients[s->m * i + sides[r]] = b[width * i + r];
+    }
+    iccp_free(s->memory, b);
+    iccp_free(s->memory, work);
+    return status;
+}
+
+icc_status iccp_collocation_solve_some(const iccp_collocation *collocation, size_t m,
+                                       const double *values, const bool *which,
+                                       double *coefficients, const iccp_env *env)
+{
+    solution s = {collocation, &env->memory, m, values, coefficients, 0, NULL};
+    s.sides = iccp_alloc(&env->memory, m, sizeof *s.sides);
+    if (s.sides == NULL)
+        return ICC_ERR_MEMORY;
+    for (size_t j = 0; j < m; ++j)
+        if (which == NULL || which[j])
+            s.sides[s.n_sides++] = j;
+    const size_t share = s.n_sides / (size_t)env->threads + 1;
+    const icc_status status =
+        iccp_for_chunks(env, "solve", s.n_sides, share < SIDES ? share : SIDES, solve_sides, &s);
+    iccp_free(&env->memory, s.sides);
+    return status;
+}
+
+icc_status iccp_collocation_solve(const iccp_collocation *collocation, size_t m,
+                                  const double *values, double *coefficients, const iccp_env *env)
+{
+    return iccp_collocation_solve_some(collocation, m, values, NULL, coefficients, env);
+}
+
+/* ---- values ---- */
+
+typedef struct query {
+    const iccp_collocation *c;
+    size_t m;
+    const double *coefficients, *point;
+    double *values, *gradients;
+} query;
+
+static void add_tail(const query *q)
+{
+    const size_t dim = q->c->dim, m = q->m;
+    const double *t = q->coefficients + m * q->c->n;
+    for (size_t j = 0; j < m; ++j) {
+        q->values[j] = t[j];
+        for (size_t k = 0; k < dim; ++k)
+            q->values[j] += t[m * (k + 1) + j] * q->point[k];
+        for (size_t k = 0; q->gradients != NULL && k < dim; ++k)
+            q->gradients[dim * j + k] = t[m * (k + 1) + j];
+    }
+}
+
+static void add_node(const query *q, const double *a, const double *offset, double distance2)
+{
+    const double value = iccp_radial_value(&q->c->radial, distance2);
+    double *restrict values = q->values;
+    for (size_t j = 0; j < q->m; ++j)
+        values[j] += value * a[j];
+    if (q->gradients == NULL)
+        return;
+    const size_t dim = q->c->dim;
+    const double slope = 2 * iccp_radial_slope(&q->c->radial, distance2);
+    double *restrict gradients = q->gradients;
+    for (size_t j = 0; j < q->m; ++j)
+        for (size_t k = 0; k < dim; ++k)
+            gradients[dim * j + k] += slope * offset[k] * a[j];
+}
+
+static void add_run(const query *q, size_t begin, size_t end)
+{
+    const iccp_collocation *c = q->c;
+    const double reach2 = c->radial.reach * c->radial.reach;
+    for (size_t p = begin; p < end; ++p) {
+        double offset[3], distance2 = 0;
+        for (size_t k = 0; k < c->dim; ++k) {
+            offset[k] = q->point[k] - c->sorted[c->dim * p + k];
+            distance2 += offset[k] * offset[k];
+        }
+        if (distance2 < reach2)
+            add_node(q, q->coefficients + q->m * c->cells.order[p], offset, distance2);
+    }
+}
+
+void iccp_collocation_evaluate(const iccp_collocation *collocation, size_t m,
+                               const double *coefficients, const double *point, double *values,
+                               double *gradients)
+{
+    const iccp_cells *cells = &collocation->cells;
+    const query q = {collocation, m, coefficients, point, values, gradients};
+    iccp_cell_box box;
+    add_tail(&q);
+    if (!iccp_cells_box(cells, point, collocation->radial.reach, &box))
+        return;
+    for (size_t z = box.from[2]; z <= box.to[2]; ++z)
+        for (size_t y = box.from[1]; y <= box.to[1]; ++y) {
+            const uint32_t *run = cells->first + cells->shape[0] * (y + cells->shape[1] * z);
+            add_run(&q, run[box.from[0]], run[box.to[0] + 1]);
+        }
+}
+
+void iccp_collocation_multiply(const iccp_collocation *collocation, size_t m, const double *x,
+                               double *y)
+{
+    const iccp_symmetric *k = &collocation->kernel.matrix;
+    for (size_t i = 0; i < k->n; ++i) {
+        double *restrict sum = y + m * i;
+        for (size_t j = 0; j < m; ++j)
+            sum[j] = k->diagonal[i] * x[m * i + j];
+        for (size_t p = k->first[i]; p < k->first[i + 1]; ++p)
+            for (size_t j = 0; j < m; ++j)
+                sum[j] += k->value[p] * x[m * k->column[p] + j];
+    }
+}

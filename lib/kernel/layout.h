@@ -1,0 +1,46 @@
+/* Where the weights of a kernel are: its nodes, and what follows from their places alone. */
+#ifndef ICCP_LAYOUT_H
+#define ICCP_LAYOUT_H
+
+#include "kernel/interpolant.h"
+#include "kernel/sampling.h"
+#include "kernel/structure.h"
+#include "kernel/weights.h"
+
+#define ICCP_NO_EDGE UINT32_MAX
+
+/* What kernels on the same nodes share. Points in local coordinates are those of the shape's frame. */
+typedef struct iccp_layout {
+    iccp_memory memory;
+    atomic_size_t references;
+    icc_sampling *sampling;
+    size_t dim, n, n_handles, n_edges, n_lines, n_line_nodes;
+    double *points, *given; /* local and the caller's */
+    uint32_t *sample;       /* of each node; UINT32_MAX for handles and nodes on lines */
+    uint32_t *edge;         /* see iccp_nodes */
+    double *share;
+    bool *held;      /* handles, nodes on lines, nodes on edges if those are held */
+    uint32_t *edges; /* n_edges * 2 handles */
+    iccp_line_nodes *lines;
+    int32_t *parallel; /* of each line, see icc_line */
+    iccp_handles *handles;
+    iccp_collocation *collocation;
+    double *initial; /* n * n_handles, from iccp_kernel_create() */
+} iccp_layout;
+
+/* Members of `options` that may be 0 have got their defaults. */
+icc_status iccp_layout_create(iccp_layout **out, const icc_sampling *sampling, size_t n_handles,
+                              const double *handles, const icc_kernel_options *options,
+                              const iccp_env *env, icc_error *err);
+iccp_layout *iccp_layout_retain(const iccp_layout *layout);
+void iccp_layout_release(iccp_layout *layout);
+
+iccp_nodes iccp_layout_nodes(const iccp_layout *layout);
+
+/* Local lengths are the caller's times this. */
+double iccp_layout_scale(const iccp_layout *layout);
+
+/* The line that line k stays parallel to, or NULL. */
+const iccp_line_nodes *iccp_layout_parallel(const iccp_layout *layout, size_t k);
+
+#endif

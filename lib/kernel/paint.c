@@ -1,0 +1,150 @@
+/* Kernels from others on the same nodes: what the thesis' window offers (section 6.3.1), and rigid parts (5.4). */
+#include "kernel/kernel.h"
+
+#include "base/error.h"
+
+#include <math.h>
+#include <string.h>
+
+static void give_up(icc_kernel **out)
+{
+    iccp_kernel_release(*out);
+    *out = NULL;
+}
+
+/* Optimises some nodes of a copy, whose weights have been set to what is wished for. */
+static icc_status settle(icc_kernel *copy, const icc_kernel *before, size_t n,
+                         const uint32_t *nodes, const iccp_env *env)
+{
+    const icc_status status = iccp_kernel_optimise(copy, n, nodes, env);
+    return status == ICC_OK ? iccp_kernel_interpolate(copy, before, env) : status;
+}
+
+/* 1 at the centre, 0 at the radius, with no slope at either. */
+static double brush(const iccp_layout *l, size_t node, const double *centre, double radius)
+{
+    double d = 0;
+    for (size_t k = 0; k < l->dim; ++k)
+        d = hypot(d, l->given[l->dim * node + k] - centre[k]);
+    d /= radius;
+    return d < 1 ? (1 - d * d) * (1 - d * d) : 0;
+}
+
+icc_status iccp_kernel_paint(icc_kernel **out, const icc_kernel *kernel, size_t handle,
+                             const double *centre, double radius, double amount,
+                             const iccp_env *env)
+{
+    const iccp_layout *l = kernel->layout;
+    uint32_t *nodes = iccp_alloc(&env->memory, l->n, sizeof *nodes);
+    size_t n = 0;
+    *out = NULL;
+    icc_status status = nodes != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    if (status == ICC_OK)
+        status = iccp_kernel_copy(out, kernel, env);
+    for (uint32_t i = 0; status == ICC_OK && i < l->n; ++i) {
+        const double share = l->held[i] ? 0 : brush(l, i, centre, radius);
+        if (!(share > 0))
+            continue;
+        (*out)->weights[l->n_handles * i + handle] += amount * share;
+        nodes[n++] = i;
+    }
+    if (status == ICC_OK)
+        status = settle(*out, kernel, n, nodes, env);
+    if (status != ICC_OK)
+        give_up(out);
+    iccp_free(&env->memory, nodes);
+    return status;
+}
+
+/* Nodes that are named twice would be worked on by two threads. */
+static icc_status check_nodes(const iccp_layout *l, size_t n, const uint32_t *nodes,
+                              const iccp_env *env, icc_error *err)
+{
+    bool *seen = iccp_alloc_zero(&env->memory, l->n, sizeof *seen);
+    icc_status status = seen != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    for (size_t k = 0; status == ICC_OK && k < n; ++k) {
+        if (nodes[k] >= l->n)
+            status = iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)k, "node %lu does not exist",
+                               (unsigned long)nodes[k]);
+        else if (seen[nodes[k]])
+            status = iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)k, "node %lu is named twice",
+                               (unsigned long)nodes[k]);
+        else
+            seen[nodes[k]] = true;
+    }
+    iccp_free(&env->memory, seen);
+    return status;
+}
+
+icc_status iccp_kernel_repaint(icc_kernel **out, const icc_kernel *kernel, size_t n,
+                               const uint32_t *nodes, const double *weights, const iccp_env *env,
+                               icc_error *err)
+{
+    const iccp_layout *l = kernel->layout;
+    const size_t m = l->n_handles;
+    *out = NULL;
+    icc_status status = check_nodes(l, n, nodes, env, err);
+    if (status == ICC_OK)
+        status = iccp_kernel_copy(out, kernel, env);
+    for (size_t k = 0; status == ICC_OK && k < n; ++k)
+        if (!l->held[nodes[k]])
+            memcpy((*out)->weights + m * nodes[k], weights + m * k, m * sizeof *weights);
+    if (status == ICC_OK)
+        status = settle(*out, kernel, n, nodes, env);
+    if (status != ICC_OK)
+        give_up(out);
+    return status;
+}
+
+icc_status iccp_kernel_set_method(icc_kernel **out, const icc_kernel *kernel, int32_t method,
+                                  const iccp_env *env)
+{
+    icc_status status = iccp_kernel_copy(out, kernel, env);
+    if (status != ICC_OK)
+        return status;
+    (*out)->info.method = method;
+    status = iccp_kernel_start(*out, env);
+    if (status == ICC_OK)
+        status = iccp_kernel_interpolate(*out, NULL, env);
+    if (status != ICC_OK)
+        give_up(out);
+    return status;
+}
+
+static icc_status stiffen(icc_kernel *copy, size_t n, const uint32_t *nodes, const double *rigidity,
+                          double energy[2], const iccp_env *env)
+{
+    const iccp_layout *l = copy->layout;
+    const iccp_nodes all = iccp_layout_nodes(l);
+    bool *held = iccp_alloc(&env->memory, l->n, sizeof *held);
+    if (held == NULL)
+        return ICC_ERR_MEMORY;
+    for (size_t i = 0; i < l->n; ++i)
+        held[i] = l->held[i] || l->edge[i] != ICCP_NO_EDGE;
+    const icc_status status = iccp_stiffen(&all, l->handles, l->collocation, n, nodes, rigidity,
+                                           held, copy->info.method == ICC_WEIGHTS_QP, copy->weights,
+                                           copy->coefficients, energy, env);
+    iccp_free(&env->memory, held);
+    return status;
+}
+
+icc_status iccp_kernel_stiffen(icc_kernel **out, const icc_kernel *kernel, size_t n,
+                               const uint32_t *nodes, const double *rigidity, double energy[2],
+                               const iccp_env *env, icc_error *err)
+{
+    double local[2];
+    *out = NULL;
+    icc_status status = check_nodes(kernel->layout, n, nodes, env, err);
+    if (status == ICC_OK)
+        status = iccp_kernel_copy(out, kernel, env);
+    if (status == ICC_OK)
+        status = stiffen(*out, n, nodes, rigidity, local, env);
+    if (status != ICC_OK) {
+        give_up(out);
+        return status;
+    }
+    const double scale = iccp_layout_scale(kernel->layout);
+    for (int k = 0; energy != NULL && k < 2; ++k)
+        energy[k] = local[k] * scale * scale;
+    return ICC_OK;
+}

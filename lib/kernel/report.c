@@ -1,0 +1,188 @@
+/* Weights at points of the caller's, and how good they are. */
+#include "base/threads.h"
+#include "kernel/kernel.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Points in a task. */
+enum { GRAIN = 256 };
+/* Places along an edge where weights are compared with linear ones. */
+enum { EDGE_PLACES = 64 };
+/* Weights below this are negative, others may be so by rounding. */
+static const double NEGATIVE = -1e-9;
+
+void iccp_kernel_evaluate(const icc_kernel *kernel, const double *point, double *weights,
+                          double *gradients)
+{
+    const iccp_layout *l = kernel->layout;
+    double local[ICC_MAX_DIM];
+    iccp_frame_in(&l->sampling->shape->frame, (int32_t)l->dim, point, local);
+    iccp_collocation_evaluate(l->collocation, l->n_handles, kernel->coefficients, local, weights,
+                              gradients);
+    const double scale = iccp_layout_scale(l);
+    for (size_t k = 0; gradients != NULL && k < l->n_handles * l->dim; ++k)
+        gradients[k] *= scale;
+}
+
+static bool is_finite(size_t dim, const double *point)
+{
+    for (size_t k = 0; k < dim; ++k)
+        if (!isfinite(point[k]))
+            return false;
+    return true;
+}
+
+typedef struct evaluation {
+    const icc_kernel *kernel;
+    const double *points;
+    double *weights, *gradients;
+    icc_status *status;
+} evaluation;
+
+static icc_status evaluate_some(void *argument, size_t begin, size_t end)
+{
+    const evaluation *e = argument;
+    const size_t dim = e->kernel->layout->dim, m = e->kernel->layout->n_handles;
+    for (size_t i = begin; i < end; ++i) {
+        double *weights = e->weights + m * i;
+        double *gradients = e->gradients != NULL ? e->gradients + dim * m * i : NULL;
+        const bool finite = is_finite(dim, e->points + dim * i);
+        if (finite)
+            iccp_kernel_evaluate(e->kernel, e->points + dim * i, weights, gradients);
+        for (size_t k = 0; !finite && k < m; ++k)
+            weights[k] = NAN;
+        for (size_t k = 0; !finite && gradients != NULL && k < dim * m; ++k)
+            gradients[k] = NAN;
+        if (e->status != NULL)
+            e->status[i] = finite ? ICC_OK : ICC_ERR_ARGUMENT;
+    }
+    return ICC_OK;
+}
+
+icc_status iccp_kernel_weights(const icc_kernel *kernel, size_t n, const double *points,
+                               double *weights, double *gradients, icc_status *status,
+                               size_t *n_failed, const iccp_env *env)
+{
+    const size_t dim = kernel->layout->dim;
+    evaluation e = {kernel, points, weights, gradients, status};
+    size_t failed = 0;
+    for (size_t i = 0; i < n; ++i)
+        failed += !is_finite(dim, points + dim * i);
+    if (n_failed != NULL)
+        *n_failed = failed;
+    return iccp_for_chunks(env, "evaluate", n, GRAIN, evaluate_some, &e);
+}
+
+/* ---- report ---- */
+
+/* What is measured at one point. */
+typedef struct quality {
+    double unity, reproduction, least;
+} quality;
+
+typedef struct measurement {
+    const icc_kernel *kernel;
+    const iccp_memory *memory;
+    const double *points;
+    quality *quality; /* of each point */
+} measurement;
+
+static quality measure(const icc_kernel *kernel, const double *point, double *weights)
+{
+    const iccp_layout *l = kernel->layout;
+    quality q = {-1, 0, HUGE_VAL};
+    double local[ICC_MAX_DIM];
+    iccp_frame_in(&l->sampling->shape->frame, (int32_t)l->dim, point, local);
+    iccp_kernel_evaluate(kernel, point, weights, NULL);
+    for (size_t j = 0; j < l->n_handles; ++j) {
+        q.unity += weights[j];
+        q.least = fmin(q.least, weights[j]);
+        for (size_t k = 0; k < l->dim; ++k)
+            local[k] -= weights[j] * l->points[l->dim * j + k];
+    }
+    q.unity = fabs(q.unity);
+    for (size_t k = 0; k < l->dim; ++k)
+        q.reproduction = hypot(q.reproduction, local[k]);
+    q.reproduction /= iccp_layout_scale(l);
+    return q;
+}
+
+static icc_status measure_some(void *argument, size_t begin, size_t end)
+{
+    const measurement *m = argument;
+    const iccp_layout *l = m->kernel->layout;
+    double *weights = iccp_alloc(m->memory, l->n_handles, sizeof *weights);
+    if (weights == NULL)
+        return ICC_ERR_MEMORY;
+    for (size_t i = begin; i < end; ++i)
+        m->quality[i] = measure(m->kernel, m->points + l->dim * i, weights);
+    iccp_free(m->memory, weights);
+    return ICC_OK;
+}
+
+/* The greatest deviation at a place from weights 1 - share and share of two handles, and 0 of the others. */
+static double deviation(const icc_kernel *kernel, const double *place, const uint32_t ends[2],
+                        double share, double *weights)
+{
+    double worst = 0;
+    iccp_kernel_evaluate(kernel, place, weights, NULL);
+    for (size_t j = 0; j < kernel->layout->n_handles; ++j) {
+        const double wanted = j == ends[0] ? 1 - share : j == ends[1] ? share : 0;
+        worst = fmax(worst, fabs(weights[j] - wanted));
+    }
+    return worst;
+}
+
+static void measure_handles(const icc_kernel *kernel, icc_kernel_report *report, double *weights)
+{
+    const iccp_layout *l = kernel->layout;
+    for (uint32_t j = 0; j < l->n_handles; ++j)
+        report->lagrange = fmax(report->lagrange, deviation(kernel, l->given + l->dim * j,
+                                                            (uint32_t[2]){j, j}, 0, weights));
+    for (size_t e = 0; e < l->n_edges; ++e) {
+        const double *a = l->given + l->dim * l->edges[2 * e];
+        const double *b = l->given + l->dim * l->edges[2 * e + 1];
+        for (int p = 1; p < EDGE_PLACES; ++p) {
+            const double share = (double)p / EDGE_PLACES;
+            double place[3];
+            for (size_t k = 0; k < l->dim; ++k)
+                place[k] = a[k] + share * (b[k] - a[k]);
+            report->linearity =
+                fmax(report->linearity, deviation(kernel, place, l->edges + 2 * e, share, weights));
+        }
+    }
+}
+
+static void summarise(size_t n, const quality *q, icc_kernel_report *report)
+{
+    report->least_weight = n > 0 ? HUGE_VAL : 0;
+    for (size_t i = 0; i < n; ++i) {
+        report->unity = fmax(report->unity, q[i].unity);
+        report->reproduction = fmax(report->reproduction, q[i].reproduction);
+        report->reproduction_mean += q[i].reproduction / (double)n;
+        report->least_weight = fmin(report->least_weight, q[i].least);
+        report->n_negative += q[i].least < NEGATIVE;
+    }
+}
+
+icc_status iccp_kernel_measure(const icc_kernel *kernel, size_t n, const double *points,
+                               icc_kernel_report *report, const iccp_env *env)
+{
+    const iccp_memory *memory = &env->memory;
+    *report = (icc_kernel_report){.n_infeasible = kernel->info.n_infeasible,
+                                  .definiteness = kernel->info.definiteness};
+    quality *qualities = iccp_alloc(memory, n, sizeof *qualities);
+    double *weights = iccp_alloc(memory, kernel->layout->n_handles, sizeof *weights);
+    measurement m = {kernel, memory, points, qualities};
+    icc_status status = qualities != NULL && weights != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    if (status == ICC_OK)
+        status = iccp_for_chunks(env, "report", n, GRAIN, measure_some, &m);
+    if (status == ICC_OK) {
+        summarise(n, qualities, report);
+        measure_handles(kernel, report, weights);
+    }
+    iccp_free(memory, qualities);
+    iccp_free(memory, weights);
+    return status;
+}

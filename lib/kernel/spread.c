@@ -1,0 +1,255 @@
+/* Samples on a grid, or as blue noise. */
+#include "kernel/sampling.h"
+
+#include "base/error.h"
+#include "kernel/blue.h"
+#include "kernel/rims.h"
+#include "kernel/sieve.h"
+
+#include <math.h>
+
+static const double MAX_SAMPLES = 16777216; /* 2^24 */
+/* Without the caller's: this share of the longest side. */
+static const double DEFAULT_SPACING = 0.01;
+static const int32_t DEFAULT_STEPS = 60;
+/* Of the spacing: samples on walls and curves keep this distance, where lines of them meet at sharp angles. */
+static const double RIM_GAP = 0.55;
+/* On surfaces, where they are spread at random: such a limit leaves about one a square of the spacing. */
+static const double SKIN_GAP = 0.75;
+/* In distances at which a point is on a wall: what is inside must be told from what is on the edge. */
+static const double FINEST = 16;
+/* Rounding of counts such as 10 / 0.1. */
+static const double COUNT_TOLERANCE = 1e-9;
+
+static icc_status fail_many(icc_error *err)
+{
+    return iccp_fail(
+        err, ICC_ERR_RESOLUTION, -1,
+        "the spacing is too small: more than 2^24 samples, or 2^27 places for them in the "
+        "shape's box");
+}
+
+static double default_spacing(const icc_shape *shape)
+{
+    double longest = 0;
+    for (size_t k = 0; k < shape->dim; ++k)
+        longest = fmax(longest, shape->upper[k] - shape->lower[k]);
+    return DEFAULT_SPACING * longest;
+}
+
+/* -------------------------------------------------------------------- grid */
+
+typedef struct grid {
+    size_t dim;
+    double lower[3], spacing, border; /* points before the lower corner */
+} grid;
+
+static void grid_point(const void *lattice, const size_t *at, double *point)
+{
+    const grid *g = lattice;
+    for (size_t k = 0; k < g->dim; ++k)
+        point[k] = g->lower[k] + ((double)at[k] - g->border) * g->spacing;
+}
+
+static icc_status spread_grid(iccp_places *places, const icc_shape *shape,
+                              const icc_sampling_options *options, const iccp_env *env,
+                              icc_error *err)
+{
+    const double *in = shape->frame.in;
+    grid g = {.dim = shape->dim, .spacing = options->spacing, .border = floor(options->margin)};
+    iccp_sieve sieve = {.shape = shape, .count = {1, 1, 1}, .point = grid_point, .lattice = &g};
+    /* A point at the margin to rounding belongs to it. */
+    sieve.margin = options->margin * (1 + COUNT_TOLERANCE) * (options->spacing * in[0] * in[1]);
+    double all = 1;
+    for (size_t k = 0; k < shape->dim; ++k) {
+        const double side = (shape->upper[k] - shape->lower[k]) / g.spacing;
+        const double n = floor(side + COUNT_TOLERANCE) + 1 + 2 * g.border;
+        g.lower[k] = shape->lower[k];
+        all *= n;
+        if (!(all <= (double)ICCP_MAX_SIEVED))
+            return fail_many(err);
+        sieve.count[k] = (size_t)n;
+    }
+    const icc_status status = iccp_sieve_add(places, &sieve, env);
+    return status == ICC_OK && (double)places->n > MAX_SAMPLES ? fail_many(err)
+                                                               : iccp_explain(err, status);
+}
+
+/* -------------------------------------------------------------- blue noise */
+
+static double facet_size(const icc_shape *shape, const iccp_facet_tree *tree, uint32_t facet)
+{
+    const double *c[3];
+    double u[3] = {0, 0, 0}, v[3] = {0, 0, 0}, n[3];
+    iccp_facet_corners(tree, facet, c);
+    for (size_t k = 0; k < shape->dim; ++k) {
+        u[k] = c[1][k] - c[0][k];
+        v[k] = shape->dim == 3 ? c[2][k] - c[0][k] : 0;
+    }
+    if (shape->dim == 2)
+        return hypot(u[0], u[1]);
+    for (int k = 0; k < 3; ++k)
+        n[k] = u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3];
+    return 0.5 * sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+}
+
+/* How many samples there will be, roughly; spacing is local. */
+static double expect_samples(const icc_shape *shape, double spacing)
+{
+    double inside = 0, n = 0;
+    for (size_t r = 0; r < shape->n_regions; ++r) {
+        const icc_domain *d = shape->regions[r];
+        double size = d->measure;
+        for (int32_t k = 0; k < d->dim; ++k)
+            size *= d->frame.out[0] * shape->frame.in[0] * (d->frame.out[1] * shape->frame.in[1]) /
+                    spacing;
+        inside = fmax(inside, size);
+    }
+    for (uint32_t f = 0; f < shape->walls.n; ++f)
+        n += facet_size(shape, &shape->walls, f) / pow(spacing, (double)shape->dim - 1);
+    for (size_t s = 0; s < shape->n_segments; ++s) {
+        const double *a = shape->local + shape->dim * (shape->n_walled + shape->segments[2 * s]);
+        const double *b =
+            shape->local + shape->dim * (shape->n_walled + shape->segments[2 * s + 1]);
+        double sum = 0;
+        for (size_t k = 0; k < shape->dim; ++k)
+            sum += (b[k] - a[k]) * (b[k] - a[k]);
+        n += sqrt(sum) / spacing;
+    }
+    return n + inside;
+}
+
+static bool on_edge(const iccp_spot *spot)
+{
+    return spot->wall != ICCP_NOWHERE || spot->curve != ICCP_NOWHERE;
+}
+
+static icc_status check_fixed(const icc_shape *shape, const icc_sampling_options *options,
+                              const iccp_env *env, icc_error *err)
+{
+    iccp_places places;
+    iccp_places_start(&places, shape->dim, env);
+    double *distance = iccp_alloc(&env->memory, options->n_fixed, sizeof *distance);
+    icc_status status = distance == NULL ? iccp_fail_memory(err) : ICC_OK;
+    for (size_t i = 0; status == ICC_OK && i < options->n_fixed; ++i) {
+        const iccp_spot spot = iccp_shape_spot(shape, options->fixed + shape->dim * i);
+        if (!on_edge(&spot) && spot.region == ICCP_NOWHERE)
+            status = iccp_fail(err, ICC_ERR_OUTSIDE, (int64_t)i,
+                               "fixed point %zu lies in no region and on no curve", i);
+        iccp_places_add(&places, spot.at);
+    }
+    if (status == ICC_OK && places.failed)
+        status = iccp_fail_memory(err);
+    if (status == ICC_OK)
+        status = iccp_explain(
+            err, iccp_places_spacing(shape->dim, places.n, places.points, distance, env));
+    for (size_t i = 0; status == ICC_OK && i < options->n_fixed; ++i)
+        if (!(distance[i] > 0))
+            status = iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)i,
+                               "fixed point %zu is the same as another one", i);
+    iccp_places_free(&places);
+    iccp_free(&env->memory, distance);
+    return status;
+}
+
+/* The caller's points on walls and curves, or the others. */
+static void add_fixed(iccp_places *places, const icc_shape *shape,
+                      const icc_sampling_options *options, bool edge)
+{
+    for (size_t i = 0; i < options->n_fixed; ++i) {
+        const iccp_spot spot = iccp_shape_spot(shape, options->fixed + shape->dim * i);
+        if (on_edge(&spot) == edge)
+            iccp_places_add(places, spot.at);
+    }
+}
+
+/* Lines first, then what is left of surfaces. */
+static icc_status add_rims(iccp_places *places, const icc_shape *shape, double spacing,
+                           uint64_t seed, const iccp_env *env)
+{
+    const size_t n_fixed = places->n, dim = shape->dim;
+    icc_status status =
+        iccp_rims_sample(places, shape->local + dim * shape->n_walled, shape->n_vertices,
+                         shape->n_segments, shape->segments, spacing, env);
+    if (status == ICC_OK && dim == 2)
+        status = iccp_rims_sample(places, shape->local, shape->n_walled, shape->walls.n,
+                                  shape->facets, spacing, env);
+    if (status == ICC_OK && dim == 3 && shape->walls.n > 0)
+        status = iccp_creases_sample(places, shape, spacing, env);
+    if (status == ICC_OK)
+        status = iccp_places_thin(places, n_fixed, RIM_GAP * spacing, env);
+    if (status != ICC_OK || dim == 2 || shape->walls.n == 0)
+        return status;
+    const size_t n_lines = places->n;
+    status = iccp_skin_sample(places, shape, spacing, seed);
+    return status == ICC_OK ? iccp_places_thin(places, n_lines, SKIN_GAP * spacing, env) : status;
+}
+
+/* All samples that stay where they are, those on walls and curves first. The caller's were first in the competition
+ * for room. */
+static icc_status add_held(iccp_places *places, const icc_shape *shape,
+                           const icc_sampling_options *options, double spacing, const iccp_env *env)
+{
+    iccp_places rims;
+    iccp_places_start(&rims, shape->dim, env);
+    add_fixed(&rims, shape, options, true);
+    const size_t n_edge = rims.n;
+    add_fixed(&rims, shape, options, false);
+    const size_t n_fixed = rims.n;
+    const icc_status status = add_rims(&rims, shape, spacing, options->seed, env);
+    for (size_t i = 0; status == ICC_OK && i < rims.n; ++i)
+        if (i < n_edge || i >= n_fixed)
+            iccp_places_add(places, rims.points + shape->dim * i);
+    for (size_t i = n_edge; status == ICC_OK && i < n_fixed; ++i)
+        iccp_places_add(places, rims.points + shape->dim * i);
+    iccp_places_free(&rims);
+    return status == ICC_OK && places->failed ? ICC_ERR_MEMORY : status;
+}
+
+static icc_status spread_blue(iccp_places *places, const icc_shape *shape,
+                              const icc_sampling_options *options, const iccp_env *env,
+                              icc_error *err)
+{
+    const int32_t steps = options->steps == 0 ? DEFAULT_STEPS : options->steps;
+    const double spacing = options->spacing * shape->frame.in[0] * shape->frame.in[1];
+    if (!(spacing >= FINEST * shape->tolerance))
+        return iccp_fail(err, ICC_ERR_RESOLUTION, -1,
+                         "the spacing is lost in the rounding of the coordinates");
+    if (!(expect_samples(shape, spacing) + (double)options->n_fixed <= MAX_SAMPLES))
+        return fail_many(err);
+    icc_status status = options->n_fixed > 0 ? check_fixed(shape, options, env, err) : ICC_OK;
+    if (status != ICC_OK)
+        return status;
+    status = add_held(places, shape, options, spacing, env);
+    if (status == ICC_OK)
+        status = iccp_blue_fill(places, shape, spacing, steps, options->seed, env);
+    if (status == ICC_ERR_RESOLUTION || (status == ICC_OK && (double)places->n > MAX_SAMPLES))
+        return fail_many(err);
+    for (size_t i = 0; i < places->n; ++i) {
+        double *x = places->points + shape->dim * i;
+        iccp_frame_out(&shape->frame, (int32_t)shape->dim, x, x);
+    }
+    return iccp_explain(err, status);
+}
+
+/* ------------------------------------------------------------------ create */
+
+icc_status iccp_sampling_create(icc_sampling **out, const icc_shape *shape,
+                                const icc_sampling_options *options, const iccp_env *env,
+                                icc_error *err)
+{
+    icc_sampling_options full = *options;
+    iccp_places places;
+    *out = NULL;
+    if (!(full.spacing > 0))
+        full.spacing = default_spacing(shape);
+    const icc_sampling_info info = {.kind = full.kind, .spacing = full.spacing};
+    iccp_places_start(&places, shape->dim, env);
+    icc_status status = full.kind == ICC_SAMPLING_GRID
+                            ? spread_grid(&places, shape, &full, env, err)
+                            : spread_blue(&places, shape, &full, env, err);
+    if (status == ICC_OK)
+        status = iccp_sampling_finish(out, shape, places.n, places.points, &info, env, err);
+    iccp_places_free(&places);
+    return status;
+}

@@ -1,0 +1,619 @@
+/* Where Sakaridis' thesis is wrong or silent, and what happens here instead: one test for each point, with the thesis'
+ * own behaviour beside it where that can be asked for. */
+#include "icc/kernel.h"
+#include "kernel/gram.h"
+#include "kernel/sampling.h"
+
+#include <check.h>
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#ifdef __FAST_MATH__
+#error "the library must not be built with -ffast-math"
+#endif
+
+enum { TIPS = 10, SIDES = 26 };
+
+static void *allocate(size_t n, size_t size)
+{
+    void *memory = calloc(n, size);
+    ck_assert_ptr_nonnull(memory);
+    return memory;
+}
+
+static void draw_star(double *xy)
+{
+    for (size_t i = 0; i < TIPS; ++i) {
+        const double radius = i % 2 == 0 ? 1 : 0.4, angle = 0.62831853071795865 * ((double)i + 2.5);
+        xy[2 * i] = radius * cos(angle);
+        xy[2 * i + 1] = radius * sin(angle);
+    }
+}
+
+/* Two legs, the gap between them two spacings wide. */
+static const double GAP = 0.1;
+static const double U[16] = {-0.55, -1.2, 0.55,  -1.2, 0.55,  1.2, 0.05,  1.2,
+                             0.05,  -0.7, -0.05, -0.7, -0.05, 1.2, -0.55, 1.2};
+
+static void draw_ring(uint32_t *edges, uint32_t n)
+{
+    for (uint32_t i = 0; i < n; ++i) {
+        edges[2 * i] = i;
+        edges[2 * i + 1] = (i + 1) % n;
+    }
+}
+
+static icc_shape *make_shape(size_t n, const double *polygon, double around)
+{
+    const double square[8] = {-around, -around, around, -around, around, around, -around, around};
+    icc_domain *domains[2];
+    icc_shape *shape;
+    const size_t n_regions = around > 0 ? 2 : 1;
+    ck_assert_int_eq(icc_domain_create(&domains[0], 2, n, polygon, 0, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_domain_create(&domains[1], 2, 4, square, 0, NULL, NULL, NULL),
+                     around > 0 ? ICC_OK : ICC_ERR_BOUNDARY);
+    ck_assert_int_eq(icc_shape_create(&shape, 2, n_regions, (const icc_domain *const *)domains, 0,
+                                      NULL, 0, NULL, NULL, NULL),
+                     ICC_OK);
+    for (size_t k = 0; k < n_regions; ++k)
+        icc_domain_free(domains[k]);
+    return shape;
+}
+
+static icc_sampling *make_samples(size_t n, const double *polygon, double around, int32_t kind,
+                                  double spacing)
+{
+    icc_shape *shape = make_shape(n, polygon, around);
+    icc_sampling *sampling;
+    icc_error err = {.size = sizeof err};
+    const icc_sampling_options options = {
+        .size = sizeof options, .kind = kind, .spacing = spacing, .margin = 0};
+    if (icc_sampling_create(&sampling, shape, &options, NULL, &err) != ICC_OK)
+        ck_abort_msg("%s", err.message);
+    icc_shape_free(shape);
+    return sampling;
+}
+
+/* A kernel with its nodes. */
+typedef struct made {
+    icc_kernel *kernel;
+    icc_kernel_info info;
+    double *points, *initial, *weights;
+    icc_status *status;
+} made;
+
+static made take(icc_kernel *kernel)
+{
+    made m = {.kernel = kernel, .info = {.size = sizeof(icc_kernel_info)}};
+    ck_assert_int_eq(icc_kernel_get_info(kernel, &m.info), ICC_OK);
+    m.points = allocate(m.info.n_nodes, 2 * sizeof(double));
+    m.initial = allocate(m.info.n_nodes, m.info.n_handles * sizeof(double));
+    m.weights = allocate(m.info.n_nodes, m.info.n_handles * sizeof(double));
+    m.status = allocate(m.info.n_nodes, sizeof *m.status);
+    ck_assert_int_eq(icc_kernel_get_nodes(kernel, m.points, m.initial, m.weights, m.status),
+                     ICC_OK);
+    return m;
+}
+
+static made make(const icc_sampling *sampling, size_t n, const double *handles,
+                 const icc_kernel_options *options)
+{
+    icc_kernel *kernel;
+    icc_error err = {.size = sizeof err};
+    if (icc_kernel_create(&kernel, sampling, n, handles, options, NULL, &err) != ICC_OK)
+        ck_abort_msg("%s", err.message);
+    return take(kernel);
+}
+
+static void clear(made *m)
+{
+    icc_kernel_free(m->kernel);
+    free(m->points);
+    free(m->initial);
+    free(m->weights);
+    free(m->status);
+}
+
+/* How far the weights of node i are from summing to 1 and reproducing it. */
+static double error_at(const made *m, const double *handles, size_t i)
+{
+    double sum = -1, x = -m->points[2 * i], y = -m->points[2 * i + 1];
+    for (size_t j = 0; j < m->info.n_handles; ++j) {
+        const double w = m->weights[m->info.n_handles * i + j];
+        sum += w;
+        x += w * handles[2 * j];
+        y += w * handles[2 * j + 1];
+    }
+    return fmax(fabs(sum), hypot(x, y));
+}
+
+/* ---- 1: rigid parts ---- */
+
+/* Nodes in the leg below on the right, but not on its edges. */
+static size_t find_leg(const made *m, const double *star, uint32_t *part)
+{
+    const double *a = star + 2 * 5, *tip = star + 2 * 6, *b = star + 2 * 7;
+    const double corners[3][2] = {{a[0], a[1]}, {tip[0], tip[1]}, {b[0], b[1]}};
+    size_t n = 0;
+    for (uint32_t i = 0; i < m->info.n_nodes; ++i) {
+        bool inside = true;
+        for (size_t k = 0; k < 3; ++k) {
+            const double *p = corners[k], *q = corners[(k + 1) % 3];
+            const double area = (q[0] - p[0]) * (m->points[2 * i + 1] - p[1]) -
+                                (q[1] - p[1]) * (m->points[2 * i] - p[0]);
+            inside &= area > 0.02 * hypot(q[0] - p[0], q[1] - p[1]);
+        }
+        if (inside)
+            part[n++] = i;
+    }
+    return n;
+}
+
+/* Half the squared derivatives of all weights at some nodes. */
+static double energy_of(const made *m, size_t n, const uint32_t *part, const double *rigidity)
+{
+    const size_t k = 2 * m->info.n_handles;
+    double *points = allocate(n, 2 * sizeof *points),
+           *gradients = allocate(n, k * sizeof *gradients);
+    double *weights = allocate(n, k * sizeof *weights), energy = 0;
+    for (size_t i = 0; i < n; ++i)
+        memcpy(points + 2 * i, m->points + 2 * (size_t)part[i], 2 * sizeof *points);
+    ck_assert_int_eq(icc_kernel_weights(m->kernel, n, points, weights, gradients, NULL, NULL, NULL),
+                     ICC_OK);
+    for (size_t i = 0; i < n * k; ++i)
+        energy += 0.5 * (rigidity != NULL ? rigidity[i / k] : 1) * gradients[i] * gradients[i];
+    free(points);
+    free(gradients);
+    free(weights);
+    return energy;
+}
+
+static made stiffen(const made *m, size_t n, const uint32_t *part, const double *rigidity,
+                    double energy[2])
+{
+    icc_kernel *stiff;
+    ck_assert_int_eq(icc_kernel_stiffen(&stiff, m->kernel, n, part, rigidity, energy, NULL, NULL),
+                     ICC_OK);
+    return take(stiff);
+}
+
+/* With the printed sign the energy rises; without holding them, edge samples move by up to 0.73. */
+START_TEST(rigid_parts_lose_energy_and_edges_stay)
+{
+    double star[2 * TIPS], energy[2];
+    uint32_t edges[2 * TIPS];
+    draw_star(star);
+    draw_ring(edges, TIPS);
+    icc_sampling *sampling = make_samples(TIPS, star, 1.2, ICC_SAMPLING_BLUE, 0.035);
+    for (int32_t kind = ICC_KERNEL_WENDLAND; kind <= ICC_KERNEL_GAUSS; ++kind) {
+        const icc_kernel_options options = {
+            .size = sizeof options, .kernel = kind, .n_edges = TIPS, .edges = edges};
+        made before = make(sampling, TIPS, star, &options);
+        uint32_t *part = allocate(before.info.n_nodes, sizeof *part);
+        const size_t n = find_leg(&before, star, part);
+        ck_assert_uint_gt(n, 40);
+        made after = stiffen(&before, n, part, NULL, energy);
+        ck_assert_double_le(energy[1], energy[0] / 3);
+        ck_assert_double_le(fabs(energy[0] - energy_of(&before, n, part, NULL)), 1e-9 * energy[0]);
+        ck_assert_double_le(fabs(energy[1] - energy_of(&after, n, part, NULL)), 1e-9 * energy[0]);
+        for (size_t i = 0; i < before.info.n_nodes; ++i) {
+            ck_assert_double_le(error_at(&after, star, i), 1e-10);
+            for (size_t j = 0; after.status[i] == ICC_OK && j < TIPS; ++j)
+                ck_assert_double_ge(after.weights[TIPS * i + j], 0);
+            bool on_edge = i < TIPS;
+            for (size_t e = 0; e < TIPS; ++e) {
+                const double *p = star + 2 * e, *q = star + 2 * ((e + 1) % TIPS);
+                const double length = hypot(q[0] - p[0], q[1] - p[1]);
+                const double *x = before.points + 2 * i;
+                const double t =
+                    ((x[0] - p[0]) * (q[0] - p[0]) + (x[1] - p[1]) * (q[1] - p[1])) / length;
+                on_edge |=
+                    fabs((q[0] - p[0]) * (x[1] - p[1]) - (q[1] - p[1]) * (x[0] - p[0])) < 1e-9 &&
+                    t > 0 && t < length;
+            }
+            if (on_edge)
+                ck_assert_mem_eq(after.weights + TIPS * i, before.weights + TIPS * i,
+                                 TIPS * sizeof(double));
+        }
+        free(part);
+        clear(&before);
+        clear(&after);
+    }
+    icc_sampling_free(sampling);
+}
+END_TEST
+
+/* A rigidity that varies is no obstacle: it counts where it is large, and only its proportions do. */
+START_TEST(rigidity_may_vary)
+{
+    double star[2 * TIPS], energy[2];
+    draw_star(star);
+    icc_sampling *sampling = make_samples(TIPS, star, 1.2, ICC_SAMPLING_BLUE, 0.05);
+    made before = make(sampling, TIPS, star, NULL);
+    uint32_t *part = allocate(before.info.n_nodes, sizeof *part);
+    const size_t n = find_leg(&before, star, part), half = n / 2;
+    double *rigidity = allocate(n, sizeof *rigidity);
+    made even = stiffen(&before, n, part, NULL, energy);
+    for (size_t i = 0; i < n; ++i)
+        rigidity[i] = 1e-4;
+    made scaled = stiffen(&before, n, part, rigidity, energy);
+    for (size_t i = 0; i < TIPS * before.info.n_nodes; ++i)
+        ck_assert_double_le(fabs(scaled.weights[i] - even.weights[i]), 1e-6);
+    for (size_t i = 0; i < n; ++i)
+        rigidity[i] = i < half ? 100 : 1;
+    made uneven = stiffen(&before, n, part, rigidity, energy);
+    ck_assert_double_lt(energy_of(&uneven, half, part, NULL), energy_of(&even, half, part, NULL));
+    ck_assert_double_lt(energy_of(&uneven, n, part, rigidity), energy_of(&even, n, part, rigidity));
+    free(part);
+    free(rigidity);
+    clear(&before);
+    clear(&even);
+    clear(&scaled);
+    clear(&uneven);
+    icc_sampling_free(sampling);
+}
+END_TEST
+
+/* ---- 2 and 3: diffusion ---- */
+
+/* The printed step, on the same nodes: the greatest value that an impulse at a handle grows to. */
+static double grow_raw(const made *m, int steps)
+{
+    const size_t n = m->info.n_nodes;
+    iccp_env env;
+    iccp_cells cells;
+    iccp_kernel_matrix k;
+    const iccp_radial radial = iccp_radial_make(ICC_KERNEL_GAUSS, m->info.sigma, 5);
+    double *w = allocate(n, sizeof *w), *next = allocate(n, sizeof *next), most = 0;
+    ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(iccp_cells_create(&cells, 2, n, m->points, radial.reach, &env), ICC_OK);
+    ck_assert_int_eq(iccp_kernel_matrix_create(&k, &cells, &radial, &env, NULL), ICC_OK);
+    w[0] = 1;
+    for (int s = 0; s < steps; ++s) {
+        for (size_t i = 0; i < n; ++i) {
+            next[i] = i < m->info.n_handles ? w[i] : w[i] * k.diagonal[i];
+            for (size_t p = k.first[i]; i >= m->info.n_handles && p < k.first[i + 1]; ++p)
+                next[i] += k.value[p] * w[k.column[p]];
+        }
+        memcpy(w, next, n * sizeof *w);
+    }
+    for (size_t i = 0; i < n; ++i)
+        most = fmax(most, w[i]);
+    iccp_kernel_matrix_free(&k);
+    iccp_cells_free(&cells);
+    free(w);
+    free(next);
+    return most;
+}
+
+/* With rows that sum to 1, weights stay between those of the handles, which are held; raw, they grow without end. */
+START_TEST(diffusion_does_not_grow_and_handles_are_held)
+{
+    double star[2 * TIPS];
+    draw_star(star);
+    icc_sampling *sampling = make_samples(TIPS, star, 1.2, ICC_SAMPLING_BLUE, 0.05);
+    for (int32_t steps = 1; steps <= 100; steps = steps < 5 ? 5 : 20 * steps)
+        for (int32_t visible = -1; visible <= 1; visible += 2) {
+            const icc_kernel_options options = {.size = sizeof options,
+                                                .kernel = ICC_KERNEL_GAUSS,
+                                                .steps = steps,
+                                                .visible = visible};
+            made m = make(sampling, TIPS, star, &options);
+            for (size_t i = 0; i < m.info.n_nodes; ++i) {
+                double sum = 0;
+                for (size_t j = 0; j < TIPS; ++j) {
+                    const double w = m.initial[TIPS * i + j];
+                    sum += w;
+                    ck_assert_double_ge(w, 0);
+                    if (i < TIPS)
+                        ck_assert_double_eq(w, i == j ? 1 : 0);
+                }
+                ck_assert_double_le(sum, 1 + 1e-12);
+            }
+            if (steps >= 100)
+                ck_assert_double_gt(grow_raw(&m, steps), 1e3);
+            clear(&m);
+        }
+    icc_sampling_free(sampling);
+}
+END_TEST
+
+/* A step is a mean: where all that is held sums to 1 and all else did, it goes on doing so. Here every node is given a
+ * sum of 1 by many steps: the handles' hull fills up. */
+START_TEST(diffusion_fills_up_to_one)
+{
+    const double square[8] = {0, 0, 1, 0, 1, 1, 0, 1};
+    icc_sampling *sampling = make_samples(4, square, 0, ICC_SAMPLING_BLUE, 0.1);
+    const icc_kernel_options options = {.size = sizeof options, .steps = 20000};
+    made m = make(sampling, 4, square, &options);
+    for (size_t i = 0; i < m.info.n_nodes; ++i) {
+        const double *w = m.initial + 4 * i;
+        ck_assert_double_le(fabs(w[0] + w[1] + w[2] + w[3] - 1), 1e-9);
+    }
+    clear(&m);
+    icc_sampling_free(sampling);
+}
+END_TEST
+
+/* Because handles are held, Lagrange's property holds with every method and start (tables 6.1 and 6.2 say no). */
+START_TEST(handles_keep_their_weights)
+{
+    double star[2 * TIPS];
+    draw_star(star);
+    icc_sampling *sampling = make_samples(TIPS, star, 1.2, ICC_SAMPLING_BLUE, 0.05);
+    for (int32_t initial = ICC_INITIAL_HEAT; initial <= ICC_INITIAL_INVERSE; initial += 2)
+        for (int32_t method = ICC_WEIGHTS_QP; method <= ICC_WEIGHTS_L1; ++method) {
+            const icc_kernel_options options = {
+                .size = sizeof options, .initial = initial, .method = method};
+            double weights[TIPS * TIPS];
+            made m = make(sampling, TIPS, star, &options);
+            ck_assert_int_eq(
+                icc_kernel_weights(m.kernel, TIPS, star, weights, NULL, NULL, NULL, NULL), ICC_OK);
+            for (size_t k = 0; k < TIPS * TIPS; ++k)
+                ck_assert_double_le(fabs(weights[k] - (k / TIPS == k % TIPS ? 1 : 0)), 1e-11);
+            clear(&m);
+        }
+    icc_sampling_free(sampling);
+}
+END_TEST
+
+/* ---- 4: l1 ---- */
+
+/* On nine nodes of ten any weights that are not less than the initial ones are as good: we take those with the least
+ * squares. Had the solution been unique, at most three weights would have changed. */
+START_TEST(l1_ties_are_broken_by_squares)
+{
+    double star[2 * TIPS];
+    draw_star(star);
+    icc_sampling *sampling = make_samples(TIPS, star, 0, ICC_SAMPLING_BLUE, 0.05);
+    const icc_kernel_options l1 = {.size = sizeof l1, .method = ICC_WEIGHTS_L1};
+    made m = make(sampling, TIPS, star, &l1);
+    size_t tied = 0, inner = 0;
+    for (size_t i = TIPS; i < m.info.n_nodes; ++i) {
+        size_t changed = 0;
+        ck_assert_double_le(error_at(&m, star, i), 1e-11);
+        for (size_t j = 0; j < TIPS; ++j)
+            changed += fabs(m.weights[TIPS * i + j] - m.initial[TIPS * i + j]) > 1e-9;
+        tied += changed > 3;
+        ++inner;
+    }
+    ck_assert_double_gt((double)tied, 0.8 * (double)inner);
+    clear(&m);
+    icc_sampling_free(sampling);
+}
+END_TEST
+
+/* ---- 5: outside the handles' hull ---- */
+
+START_TEST(infeasible_nodes_are_counted_and_still_reproduce)
+{
+    double star[2 * TIPS];
+    size_t outside = 0, n_bad = 0;
+    draw_star(star);
+    icc_sampling *sampling = make_samples(TIPS, star, 1.4, ICC_SAMPLING_BLUE, 0.05);
+    made m = make(sampling, TIPS, star, NULL);
+    for (size_t i = 0; i < m.info.n_nodes; ++i) {
+        double least = 0, farthest = -1;
+        /* The hull is the pentagon of the tips. */
+        for (size_t e = 0; e < TIPS; e += 2) {
+            const double *p = star + 2 * e, *q = star + 2 * ((e + 2) % TIPS), *x = m.points + 2 * i;
+            const double area = (q[0] - p[0]) * (x[1] - p[1]) - (q[1] - p[1]) * (x[0] - p[0]);
+            farthest = fmax(farthest, -area);
+        }
+        for (size_t j = 0; j < TIPS; ++j)
+            least = fmin(least, m.weights[TIPS * i + j]);
+        ck_assert_double_le(error_at(&m, star, i), 1e-12);
+        if (fabs(farthest) > 1e-9)
+            ck_assert_int_eq(m.status[i], farthest > 0 ? ICC_ERR_SOLVER : ICC_OK);
+        if (m.status[i] == ICC_OK)
+            ck_assert_double_ge(least, 0);
+        outside += farthest > 1e-9;
+        n_bad += m.status[i] != ICC_OK;
+    }
+    ck_assert_uint_eq(m.info.n_infeasible, n_bad);
+    ck_assert_uint_ge(n_bad, outside);
+    ck_assert_uint_gt(3 * outside, m.info.n_nodes);
+    clear(&m);
+    icc_sampling_free(sampling);
+}
+END_TEST
+
+/* ---- 6: the kernel's reach ---- */
+
+/* The greatest second difference of a weight on the way across a shape, in steps so small that those of a smooth
+ * function vanish: a jump. */
+static double greatest_jump(const made *m)
+{
+    enum { STEPS = 20000 };
+    double *points = allocate(STEPS, 2 * sizeof *points);
+    double *weights = allocate(STEPS, 4 * sizeof *weights), jump = 0;
+    for (size_t k = 0; k < STEPS; ++k) {
+        points[2 * k] = 0.2 + 0.6 * (double)k / STEPS;
+        points[2 * k + 1] = 0.47;
+    }
+    ck_assert_int_eq(icc_kernel_weights(m->kernel, STEPS, points, weights, NULL, NULL, NULL, NULL),
+                     ICC_OK);
+    for (size_t k = 4; k + 4 < 4 * (size_t)STEPS; ++k)
+        jump = fmax(jump, fabs(weights[k + 4] - 2 * weights[k] + weights[k - 4]));
+    free(points);
+    free(weights);
+    return jump;
+}
+
+/* The Gaussian, cut off, jumps and may be indefinite; Wendland's function neither. */
+START_TEST(the_default_kernel_is_smooth_and_definite)
+{
+    const double square[8] = {0, 0, 1, 0, 1, 1, 0, 1}, spacing = 0.05;
+    icc_sampling *sampling = make_samples(4, square, 0, ICC_SAMPLING_GRID, spacing);
+    icc_kernel_options options = {.size = sizeof options, .sigma = 3 * spacing / 3.14159265358979};
+    double jump[3];
+    for (int32_t kind = ICC_KERNEL_WENDLAND; kind <= ICC_KERNEL_GAUSS; ++kind) {
+        options.kernel = kind;
+        options.cutoff = kind == ICC_KERNEL_GAUSS ? 3 : 0;
+        made m = make(sampling, 4, square, &options);
+        jump[kind] = greatest_jump(&m);
+        clear(&m);
+    }
+    ck_assert_double_lt(jump[ICC_KERNEL_WENDLAND], 1e-5);
+    ck_assert_double_gt(jump[ICC_KERNEL_GAUSS], 1e-4);
+    for (double width = 1.6; width < 7; width *= 2) {
+        icc_kernel *kernel;
+        icc_error err = {.size = sizeof err};
+        options = (icc_kernel_options){
+            .size = sizeof options, .kernel = ICC_KERNEL_GAUSS, .sigma = width * spacing};
+        ck_assert_int_eq(icc_kernel_create(&kernel, sampling, 4, square, &options, NULL, &err),
+                         ICC_ERR_SOLVER);
+        ck_assert_ptr_null(kernel);
+        ck_assert_ptr_nonnull(strstr(err.message, "sigma"));
+        options.kernel = ICC_KERNEL_WENDLAND;
+        made m = make(sampling, 4, square, &options);
+        ck_assert_double_gt(m.info.definiteness, 0);
+        clear(&m);
+    }
+    icc_sampling_free(sampling);
+}
+END_TEST
+
+/* ---- 7: leaks ---- */
+
+/* The greatest weight in the upper half of the right leg of a handle at the top of the left one. */
+static double leak(const icc_sampling *sampling, int32_t visible, int32_t steps)
+{
+    const double handles[8] = {-0.05, 1.1, -0.5, -1.1, 0.5, -1.1, 0.5, 1.1};
+    const icc_kernel_options options = {.size = sizeof options,
+                                        .kernel = ICC_KERNEL_GAUSS,
+                                        .initial = ICC_INITIAL_HEAT,
+                                        .visible = visible,
+                                        .steps = steps};
+    double most = 0;
+    made m = make(sampling, 4, handles, &options);
+    for (size_t i = 4; i < m.info.n_nodes; ++i) {
+        const double *x = m.points + 2 * i;
+        if (x[0] > 0.05 && x[0] < 0.55 && x[1] > 0 && x[1] < 1.2)
+            most = fmax(most, m.initial[4 * i]);
+    }
+    clear(&m);
+    return most;
+}
+
+/* Alone, and with samples around it, which the thesis recommends. */
+START_TEST(weights_do_not_leak_across_gaps)
+{
+    for (int around = 0; around < 2; ++around) {
+        icc_sampling *sampling =
+            make_samples(8, U, around > 0 ? 1.4 : 0, ICC_SAMPLING_BLUE, GAP / 2);
+        ck_assert_double_le(leak(sampling, 0, 5), 4e-9);
+        ck_assert_double_le(leak(sampling, 1, 100), 4e-9);
+        ck_assert_double_ge(leak(sampling, -1, 5), around > 0 ? 0.03 : 0.01);
+        ck_assert_double_ge(leak(sampling, -1, 100), 0.1);
+        icc_sampling_free(sampling);
+    }
+}
+END_TEST
+
+/* ---- 8: containment ---- */
+
+/* No sample but those on the boundaries is on a wall, none is outside, and each region has its share. */
+START_TEST(samples_stay_on_their_side)
+{
+    double star[2 * TIPS];
+    draw_star(star);
+    icc_sampling *sampling = make_samples(TIPS, star, 1.2, ICC_SAMPLING_BLUE, 0.03);
+    icc_sampling_info info = {.size = sizeof info};
+    size_t in_star = 0;
+    ck_assert_int_eq(icc_sampling_get_info(sampling, &info), ICC_OK);
+    ck_assert_double_ge(info.nearest, 0.55);
+    for (size_t i = info.n_edge; i < info.n_samples; ++i) {
+        const uint32_t region = iccp_shape_region(sampling->shape, sampling->points + 2 * i);
+        ck_assert_uint_ne(region, ICCP_NOWHERE);
+        in_star += region == 0;
+    }
+    /* The star is 1.1756 of 5.76; along boundaries there is a rim without inner samples. */
+    const double share = (double)in_star / (double)(info.n_samples - info.n_edge);
+    ck_assert_double_le(fabs(share - 1.1756 / 5.76), 0.03);
+    icc_sampling_free(sampling);
+}
+END_TEST
+
+/* ---- 9: quadratic programs on the hull ---- */
+
+/* A polygon with all its edges on the hull: Newton's method without damping fails there. */
+START_TEST(hull_edges_are_solved)
+{
+    double polygon[2 * SIDES];
+    size_t on_hull = 0;
+    for (size_t i = 0; i < SIDES; ++i) {
+        polygon[2 * i] = cos(6.283185307179586 * (double)i / SIDES);
+        polygon[2 * i + 1] = sin(6.283185307179586 * (double)i / SIDES);
+    }
+    icc_sampling *sampling = make_samples(SIDES, polygon, 0, ICC_SAMPLING_BLUE, 0.02);
+    for (int32_t initial = ICC_INITIAL_HEAT; initial <= ICC_INITIAL_INVERSE; initial += 2) {
+        const icc_kernel_options options = {.size = sizeof options, .initial = initial};
+        made m = make(sampling, SIDES, polygon, &options);
+        ck_assert_uint_eq(m.info.n_infeasible, 0);
+        for (size_t i = 0; i < m.info.n_nodes; ++i) {
+            size_t used = 0;
+            ck_assert_double_le(error_at(&m, polygon, i), 1e-12);
+            for (size_t j = 0; j < SIDES; ++j)
+                used += m.weights[SIDES * i + j] > 1e-9;
+            on_hull += used <= 2;
+        }
+        clear(&m);
+    }
+    ck_assert_uint_gt(on_hull, 500);
+    icc_sampling_free(sampling);
+}
+END_TEST
+
+/* ---- 10: arithmetic ---- */
+
+/* What -ffast-math would break, also in programs that only link the library: small numbers become 0, NaN is not
+ * noticed. */
+START_TEST(arithmetic_is_strict)
+{
+    volatile double small = DBL_MIN;
+    small /= 4;
+    ck_assert_double_gt(small, 0);
+    const double square[8] = {0, 0, 1, 0, 1, 1, 0, 1}, points[4] = {0.5, NAN, 0.5, 0.5};
+    double weights[8];
+    icc_status status[2];
+    size_t n_failed;
+    icc_sampling *sampling = make_samples(4, square, 0, ICC_SAMPLING_BLUE, 0.1);
+    made m = make(sampling, 4, square, NULL);
+    ck_assert_int_eq(
+        icc_kernel_weights(m.kernel, 2, points, weights, NULL, status, &n_failed, NULL), ICC_OK);
+    ck_assert_uint_eq(n_failed, 1);
+    ck_assert_int_eq(status[0], ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(status[1], ICC_OK);
+    ck_assert(isnan(weights[0]));
+    ck_assert_double_le(fabs(weights[4] + weights[5] + weights[6] + weights[7] - 1), 1e-11);
+    clear(&m);
+    icc_sampling_free(sampling);
+}
+END_TEST
+
+int main(void)
+{
+    Suite *suite = suite_create("thesis");
+    TCase *defects = tcase_create("defects");
+    tcase_add_test(defects, rigid_parts_lose_energy_and_edges_stay);
+    tcase_add_test(defects, rigidity_may_vary);
+    tcase_add_test(defects, diffusion_does_not_grow_and_handles_are_held);
+    tcase_add_test(defects, diffusion_fills_up_to_one);
+    tcase_add_test(defects, handles_keep_their_weights);
+    tcase_add_test(defects, l1_ties_are_broken_by_squares);
+    tcase_add_test(defects, infeasible_nodes_are_counted_and_still_reproduce);
+    tcase_add_test(defects, the_default_kernel_is_smooth_and_definite);
+    tcase_add_test(defects, weights_do_not_leak_across_gaps);
+    tcase_add_test(defects, samples_stay_on_their_side);
+    tcase_add_test(defects, hull_edges_are_solved);
+    tcase_add_test(defects, arithmetic_is_strict);
+    suite_add_tcase(suite, defects);
+    SRunner *runner = srunner_create(suite);
+    srunner_run_all(runner, CK_NORMAL);
+    const int failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed != 0;
+}
