@@ -95,7 +95,7 @@ done
 # In space.
 make_cubes
 echo '{"handles": [[0.1, 0.1, 0.1], [0.9, 0.1, 0.1], [0.1, 0.9, 0.1], [0.1, 0.1, 0.9], [0.9, 0.9, 0.9]]}' >cube.json
-printf '0.3 0.4 0.5\n0.9 0.1 0.1\n' | run 0 weights -s cube.obj -a cube.json --spacing 0.1
+printf '0.3 0.4 0.5\n0.9 0.1 0.1\n' | run 0 weights -s cube.obj -a cube.json
 awk '{ s = 0; for (j = 1; j <= NF; j++) s += $j; if (NF != 5 || (s - 1) ^ 2 > 1e-18) exit 1 }' out ||
     complain "no weights in space: $(cat out)"
 
