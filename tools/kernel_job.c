@@ -74,10 +74,10 @@ static int read_shape(kernel_job *k)
 }
 
 /* The library's choice, a hundredth of the longest side, would take minutes and gigabytes in space: the cost
- * of the weights grows with the square of the number of samples there. A thirtieth takes about a second. */
+ * of the weights grows with the square of the number of samples there. A twentieth takes about a second. */
 static double choose_spacing(const kernel_job *k)
 {
-    static const double share = 1.0 / 30;
+    static const double share = 1.0 / 20;
     const cage *source = &k->job.cages[0];
     const struct {
         size_t n;
