@@ -85,8 +85,10 @@ static icc_kernel *stiffen(icc_kernel *kernel, const scene *s)
         if (hypot(nodes[2 * i] - s->rigid[0], nodes[2 * i + 1] - s->rigid[1]) < s->rigid[2])
             stiff[n++] = (uint32_t)i;
     icc_kernel *stiffened;
-    check(icc_kernel_stiffen(&stiffened, kernel, n, stiff, NULL, energy, NULL, &err), s->name, &err);
-    printf("%s: the energy of the rigid part falls from %.3g to %.3g\n", s->name, energy[0], energy[1]);
+    check(icc_kernel_stiffen(&stiffened, kernel, n, stiff, NULL, energy, NULL, &err), s->name,
+          &err);
+    printf("%s: the energy of the rigid part falls from %.3g to %.3g\n", s->name, energy[0],
+           energy[1]);
     icc_kernel_free(kernel);
     free(nodes);
     free(stiff);
@@ -173,7 +175,8 @@ static void draw(const view *v, const strokes *s, const double *ends, const char
 {
     fprintf(v->svg, "<path fill=\"none\" stroke-linecap=\"round\" %s d=\"", style);
     for (size_t i = 0; i < 2 * s->n; ++i) {
-        const bool goes_on = i > 0 && memcmp(ends + 2 * i, ends + 2 * (i - 1), 2 * sizeof *ends) == 0;
+        const bool goes_on =
+            i > 0 && memcmp(ends + 2 * i, ends + 2 * (i - 1), 2 * sizeof *ends) == 0;
         if (i % 2 == 1 || !goes_on)
             fprintf(v->svg, "%c%.1f %.1f", i % 2 == 0 ? 'M' : 'L', v->x + v->scale * ends[2 * i],
                     v->y - v->scale * ends[2 * i + 1]);
@@ -189,7 +192,8 @@ static void draw_both(const view v[2], const icc_kernel *kernel, double (*transf
     if (s.n > 0) {
         icc_binding *binding;
         double *posed = allocate(s.n, 4 * sizeof *posed);
-        check(icc_binding_create(&binding, kernel, 2 * s.n, s.ends, 0, NULL, &err), "binding", &err);
+        check(icc_binding_create(&binding, kernel, 2 * s.n, s.ends, 0, NULL, &err), "binding",
+              &err);
         check(icc_binding_pose(binding, transforms[0], posed, NULL, NULL), "pose", NULL);
         draw(&v[0], &s, s.ends, style);
         draw(&v[1], &s, posed, style);
@@ -245,7 +249,11 @@ static void draw_scene(const scene *s, const view v[2])
 
 static scene make_star(void)
 {
-    scene s = {.name = "star", .n_ring = 10, .n_handles = 10, .n_edges = 10, .n_moves = 3,
+    scene s = {.name = "star",
+               .n_ring = 10,
+               .n_handles = 10,
+               .n_edges = 10,
+               .n_moves = 3,
                .moves = {{0, 40, {2.5, -1.5}}, {2, 0, {-1, -4}}, {8, -30, {1, 3}}}};
     for (uint32_t i = 0; i < 10; ++i) {
         double r = i % 2 == 0 ? 10 : 4.5, a = pi / 2 + i * pi / 5;
@@ -259,20 +267,59 @@ static scene make_star(void)
 
 static scene make_stick_figure(void)
 {
-    scene s = {.name = "stick figure", .n_ring = 5, .n_vertices = 13, .n_segments = 12,
-               .n_handles = 14, .n_edges = 12, .n_moves = 8,
+    scene s = {.name = "stick figure",
+               .n_ring = 5,
+               .n_vertices = 13,
+               .n_segments = 12,
+               .n_handles = 14,
+               .n_edges = 12,
+               .n_moves = 8,
                .ring = {{0, 5.2}, {0.8, 5.9}, {0.7, 7.3}, {-0.7, 7.3}, {-0.8, 5.9}},
-               .vertices = {{0, 5.2}, {0, 4.6}, {0, 1.6}, {-1.6, 3.4}, {-2.9, 2.4}, {1.6, 3.4},
-                            {2.9, 2.4}, {-1.1, -0.6}, {-1.5, -3}, {1.1, -0.6}, {1.5, -3},
-                            {-2.2, -3}, {2.2, -3}},
-               .segments = {{0, 1}, {1, 2}, {1, 3}, {3, 4}, {1, 5}, {5, 6}, {2, 7}, {7, 8},
-                            {2, 9}, {9, 10}, {8, 11}, {10, 12}},
+               .vertices = {{0, 5.2},
+                            {0, 4.6},
+                            {0, 1.6},
+                            {-1.6, 3.4},
+                            {-2.9, 2.4},
+                            {1.6, 3.4},
+                            {2.9, 2.4},
+                            {-1.1, -0.6},
+                            {-1.5, -3},
+                            {1.1, -0.6},
+                            {1.5, -3},
+                            {-2.2, -3},
+                            {2.2, -3}},
+               .segments = {{0, 1},
+                            {1, 2},
+                            {1, 3},
+                            {3, 4},
+                            {1, 5},
+                            {5, 6},
+                            {2, 7},
+                            {7, 8},
+                            {2, 9},
+                            {9, 10},
+                            {8, 11},
+                            {10, 12}},
                .handles = {{-0.7, 7.3}, {0.7, 7.3}},
-               .edges = {{0, 1}, {2, 3}, {2, 4}, {4, 5}, {2, 6}, {6, 7}, {3, 8}, {8, 9},
-                         {3, 10}, {10, 11}, {9, 12}, {11, 13}},
-               .moves = {{5, 0, {0.2, 3.4}}, {4, 0, {-0.1, 1.6}}, {0, -15, {0.57, 0.11}},
+               .edges = {{0, 1},
+                         {2, 3},
+                         {2, 4},
+                         {4, 5},
+                         {2, 6},
+                         {6, 7},
+                         {3, 8},
+                         {8, 9},
+                         {3, 10},
+                         {10, 11},
+                         {9, 12},
+                         {11, 13}},
+               .moves = {{5, 0, {0.2, 3.4}},
+                         {4, 0, {-0.1, 1.6}},
+                         {0, -15, {0.57, 0.11}},
                          {1, -15, {0.52, -0.25}},
-                         {10, 0, {0.9, 0.9}}, {11, 0, {1.6, 0.9}}, {13, 0, {1.7, 1.2}},
+                         {10, 0, {0.9, 0.9}},
+                         {11, 0, {1.6, 0.9}},
+                         {13, 0, {1.7, 1.2}},
                          {7, 0, {-1, -0.5}}}};
     memcpy(s.handles[2], s.vertices[1], 12 * sizeof s.handles[2]); /* all joints and ends */
     return s;
@@ -280,19 +327,34 @@ static scene make_stick_figure(void)
 
 static scene make_bar(void)
 {
-    return (scene){.name = "rigid part", .n_ring = 4, .n_handles = 8, .n_moves = 4,
+    return (scene){.name = "rigid part",
+                   .n_ring = 4,
+                   .n_handles = 8,
+                   .n_moves = 4,
                    .ring = {{0, 0}, {13, 0}, {13, 4}, {0, 4}},
-                   .handles = {{0.5, 0.5}, {0.5, 3.5}, {3, 0.3}, {3, 3.7}, {10, 0.3}, {10, 3.7},
-                               {12.5, 0.5}, {12.5, 3.5}},
+                   .handles = {{0.5, 0.5},
+                               {0.5, 3.5},
+                               {3, 0.3},
+                               {3, 3.7},
+                               {10, 0.3},
+                               {10, 3.7},
+                               {12.5, 0.5},
+                               {12.5, 3.5}},
                    .rigid = {6.5, 2, 1.9},
                    .method = ICC_WEIGHTS_L1,
-                   .moves = {{4, 30, {-0.2, 0.8}}, {5, 30, {-1.9, 0.3}}, {6, 45, {-0.8, 2.4}},
+                   .moves = {{4, 30, {-0.2, 0.8}},
+                             {5, 30, {-1.9, 0.3}},
+                             {6, 45, {-0.8, 2.4}},
                              {7, 45, {-2.9, 1.5}}}};
 }
 
 static scene make_square(void)
 {
-    return (scene){.name = "lines", .n_ring = 4, .n_handles = 6, .n_lines = 2, .n_moves = 3,
+    return (scene){.name = "lines",
+                   .n_ring = 4,
+                   .n_handles = 6,
+                   .n_lines = 2,
+                   .n_moves = 3,
                    .ring = {{0, 0}, {10, 0}, {10, 10}, {0, 10}},
                    .handles = {{0.5, 0.5}, {9.5, 0.5}, {9.5, 9.5}, {0.5, 9.5}, {5, 1.5}, {5, 8.5}},
                    .lines = {{.from = {2, 3.5}, .to = {8, 3.5}},

@@ -121,8 +121,12 @@ static int check_charts(const args *a, const command *c)
 static int check_inputs(const args *a, const command *c)
 {
     bool has_input = (c->n_operands == 2 || a->geojson) && !has_bound(a, c);
-    const char *inputs[] = {a->source,  a->target, a->points ? a->points : a->coords,
-                            a->handles, a->pose,   has_bound(a, c) ? a->binding : NULL,
+    const char *inputs[] = {a->source,
+                            a->target,
+                            a->points ? a->points : a->coords,
+                            a->handles,
+                            a->pose,
+                            has_bound(a, c) ? a->binding : NULL,
                             has_input ? a->operands[0] : NULL};
     size_t n_standard = 0;
     for (size_t i = 0; i < sizeof inputs / sizeof *inputs; i++)

@@ -66,7 +66,7 @@ static int warp_picture(warp *w)
     free(from.pixels);
     free(to.pixels);
     int result = ran == ICC_OK ? picture_save(&w->to, w->from.keep, w->job.args->operands[1])
-                              : job_failed(&w->job, &err);
+                               : job_failed(&w->job, &err);
     if (result == DONE)
         result = report_points(&w->job, w->to.width * w->to.height, w->n_failed, seconds);
     if (result != DONE || w->n_failed == 0)

@@ -69,10 +69,9 @@ static int write_binding(kernel_job *k, const table *points)
         return DONE;
     if (icc_binding_create(&binding, k->kernel, points->n, points->values, 0, &k->job.env, &err) !=
         ICC_OK)
-        return failed(k->job.args->points, err.index >= 0 && points->lines != NULL
-                                               ? points->lines[err.index]
-                                               : 0,
-                      "%s", err.message);
+        return failed(k->job.args->points,
+                      err.index >= 0 && points->lines != NULL ? points->lines[err.index] : 0, "%s",
+                      err.message);
     size_t n_bytes = 0;
     icc_binding_save(binding, 0, NULL, &n_bytes);
     void *bytes = need(n_bytes, 1);
@@ -120,14 +119,13 @@ static int weigh(kernel_job *k, const table *points)
     size_t n_failed = 0;
     double *weights = need(points->n, k->set.n_handles * sizeof *weights);
     double began = seconds_now();
-    icc_status status = icc_kernel_weights(k->kernel, points->n, points->values, weights, NULL, NULL,
-                                           &n_failed, &k->job.env);
+    icc_status status = icc_kernel_weights(k->kernel, points->n, points->values, weights, NULL,
+                                           NULL, &n_failed, &k->job.env);
     double seconds = seconds_now() - began;
     progress_end(&k->job.bar);
     int result = status == ICC_OK ? write_binding(k, points) : job_failed_status(&k->job, status);
     if (result == DONE && a->picture != NULL)
-        result = a->n_along > 0 ? plot_along(k, points->n, weights)
-                                : plot_weight(k);
+        result = a->n_along > 0 ? plot_along(k, points->n, weights) : plot_weight(k);
     if (result == DONE)
         result = write_rows(k, points->n, weights);
     free(weights);

@@ -132,9 +132,8 @@ static void draw_structure(const sheet *s)
     for (size_t i = 0; i < set->n_handles; i++) {
         double at[2];
         place(s, set->handles + 2 * i, at);
-        fprintf(s->svg,
-                "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"%g\" fill=\"%s\" stroke=\"#111\"/>\n", at[0],
-                at[1], i == s->handle ? 5.0 : 3.2, i == s->handle ? "#e8482c" : "white");
+        fprintf(s->svg, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"%g\" fill=\"%s\" stroke=\"#111\"/>\n",
+                at[0], at[1], i == s->handle ? 5.0 : 3.2, i == s->handle ? "#e8482c" : "white");
     }
 }
 
@@ -189,9 +188,8 @@ static int draw_raster(const sheet *s)
     picture image = picture_make((size_t)s->width, (size_t)s->height, 3, 8);
     icc_status status = fill(s, &image);
     progress_end(&s->job->job.bar);
-    fprintf(s->svg,
-            "<clipPath id=\"box\"><rect width=\"100%%\" height=\"100%%\"/></clipPath>\n"
-            "<g mask=\"url(#shape)\">\n");
+    fprintf(s->svg, "<clipPath id=\"box\"><rect width=\"100%%\" height=\"100%%\"/></clipPath>\n"
+                    "<g mask=\"url(#shape)\">\n");
     int result = status == ICC_OK
                      ? svg_picture(s->svg, MARGIN, MARGIN, s->width, s->height, "box", &image)
                      : job_failed_status(&s->job->job, status);
@@ -231,10 +229,11 @@ static int draw_legend(const sheet *s)
 int plot_weight(kernel_job *k)
 {
     const args *a = k->job.args;
-    sheet s = {.job = k, .handle = (size_t)a->handle, .y_down = a->y_down,
-               .logarithmic = a->logarithmic};
+    sheet s = {
+        .job = k, .handle = (size_t)a->handle, .y_down = a->y_down, .logarithmic = a->logarithmic};
     if (k->set.dim != 2)
-        return failed(a->handles, 0, "3 dimensions; --picture needs a shape in the plane, or --along");
+        return failed(a->handles, 0,
+                      "3 dimensions; --picture needs a shape in the plane, or --along");
     if (s.handle >= k->set.n_handles)
         return failed(a->handles, 0, "there is no handle %zu for --handle; the last is %zu",
                       s.handle, k->set.n_handles - 1);

@@ -66,7 +66,8 @@ static bool *find_close(const patch *p, size_t columns, size_t rows)
         for (size_t k = 0; k < 4; k++) {
             double column = x + (double)(k % 2), row = y + (double)(k / 2);
             if (column >= 0 && row >= 0 && column < (double)columns && row < (double)rows &&
-                hypot(column * STEP - p->rest[2 * i], row * STEP - p->rest[2 * i + 1]) <= STEP / 2.0)
+                hypot(column * STEP - p->rest[2 * i], row * STEP - p->rest[2 * i + 1]) <=
+                    STEP / 2.0)
                 close[(size_t)row * columns + (size_t)column] = true;
         }
     }
@@ -109,8 +110,9 @@ static int make_patch(drawing *d, const icc_domain *region, size_t n, const doub
 {
     job *j = &d->pose->kernel.job;
     if (is_huge(d, n, ring))
-        return failed(job_file(j, 1), 0, "the shape is far larger than the picture, %zu x %zu pixels",
-                      d->from.width, d->from.height);
+        return failed(job_file(j, 1), 0,
+                      "the shape is far larger than the picture, %zu x %zu pixels", d->from.width,
+                      d->from.height);
     patch *p = &d->patches[d->n_patches++];
     icc_error err = {.size = sizeof err, .index = -1};
     add_boundary(p, n, ring);

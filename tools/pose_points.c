@@ -61,9 +61,9 @@ int pose_points(pose *p, size_t n, const double *points, double *images, double 
     icc_status status = ICC_OK;
     *n_failed = 0;
     for (size_t i = 0; i < n && status == ICC_OK; i += BATCH)
-        status = pose_batch(p, n - i < BATCH ? n - i : BATCH, points + dim * i, images + dim * i,
-                            jacobians != NULL ? jacobians + dim * dim * i : NULL, work, n_failed,
-                            &err);
+        status =
+            pose_batch(p, n - i < BATCH ? n - i : BATCH, points + dim * i, images + dim * i,
+                       jacobians != NULL ? jacobians + dim * dim * i : NULL, work, n_failed, &err);
     free(work);
     progress_end(&p->kernel.job.bar);
     err.status = status;

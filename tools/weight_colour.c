@@ -31,7 +31,8 @@ void weight_colour(double weight, bool logarithmic, double rgb[3])
 {
     double level = fmin(weight_level(weight, logarithmic), 1), red[3];
     double share = weight >= 0 ? 0 : logarithmic ? 1 : fmin(-4 * weight, 1);
-    from_oklch(0.2 + 0.55 * (logarithmic ? level : share), 0.04 + 0.14 * fabs(level), 25, red);
+    double redness = logarithmic ? level : share;
+    from_oklch(0.2 + 0.45 * redness, 0.04 + 0.16 * redness, 25, red);
     level = fmax(level, 0);
     from_oklch(0.2 + 0.75 * level, 0.08 + 0.06 * level, 290 - 185 * level, rgb);
     for (int k = 0; k < 3; k++)

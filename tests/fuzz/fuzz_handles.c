@@ -58,7 +58,8 @@ static void try_handles(const char *text, size_t size)
         require_finite(2 * set.regions[i].n, set.regions[i].points);
     }
     for (size_t i = 0; i < set.n_rigid; i++)
-        require(set.rigid[i].rigidity > 0 && (set.rigid[i].region.n > 0 || set.rigid[i].radius > 0));
+        require(set.rigid[i].rigidity > 0 &&
+                (set.rigid[i].region.n > 0 || set.rigid[i].radius > 0));
     handle_set_free(&set);
 }
 

@@ -37,7 +37,7 @@ for how in "" "-w equality" "-w l1" "-k gauss" "--initial inverse" "--initial he
     awk '{ for (j = 1; j <= NF; j++) { d = $j - (j == NR); if (d * d > 1e-16) bad = 1 } } END { exit bad || NR != 5 }' out ||
         complain "not 1 and 0 at the handles, $how: $(cat out)"
 done
-run 0 weights -s cage.txt -a plain.json -p inside.txt -o w --thesis
+run 0 weights -s cage.txt -a plain.json --spacing 0.2 -p inside.txt -o w --thesis
 below "$(sums inside.txt w)" 1 "the thesis' settings"
 below 1e-7 "$(sums inside.txt w)" "the thesis' settings have no affine part"
 
@@ -52,20 +52,20 @@ cmp -s one other && complain "the seed does nothing"
 cat >edges.json <<END
 {"handles": $handles, "edges": [[0, 1], [1, 2], [3, 4]]}
 END
-run 0 weights -s cage.txt -a edges.json --json=report.json -p inside.txt -o w
+run 0 weights -s cage.txt -a edges.json --spacing 0.2 --json=report.json -p inside.txt -o w
 holds report.json '"initial": "edges"'
 below "$(member report.json linearity)" 0.05 "linearity along edges"
 cat >lines.json <<END
 {"handles": $handles,
  "lines": [{"from": [2, 2], "to": [2, 8]}, {"from": [3, 2], "to": [3, 5], "parallel": 0}]}
 END
-run 0 weights -s cage.txt -a lines.json --along 2,2,2,8
+run 0 weights -s cage.txt -a lines.json --spacing 0.2 --along 2,2,2,8
 awk '{ if (NF != 6) bad = 1; t[NR] = $1; for (j = 2; j <= NF; j++) w[NR, j] = $j }
      END { for (i = 1; i <= NR; i++) for (j = 2; j <= 6; j++) {
              d = w[i, j] - (w[1, j] * (1 - t[i]) + w[NR, j] * t[i]); if (d * d > 1e-4) bad = 1 }
            exit bad || NR != 401 || t[1] != 0 || t[NR] != 1 }' out || complain "a line does not stay straight"
 cp out first
-run 0 weights -s cage.txt -a lines.json --along 3,2,3,5
+run 0 weights -s cage.txt -a lines.json --spacing 0.2 --along 3,2,3,5
 paste -d ' ' first out | awk 'NR == 1 { for (j = 2; j <= 6; j++) { a[j] = $j; b[j] = $(j + 6) } }
      END { for (j = 2; j <= 6; j++) { d = ($j - a[j]) - 2 * ($(j + 6) - b[j]); if (d * d > 1e-12) exit 1 } }' ||
     complain "a line does not stay parallel"
@@ -81,12 +81,12 @@ printf '0 2\n-1 2.67\n' | run 0 weights -a stick.json
 cat >square.json <<END
 {"handles": $handles, "regions": [[[-5, -5], [15, -5], [15, 15], [-5, 15]]]}
 END
-run 0 weights -s cage.txt -a square.json -p inside.txt -o w
+run 0 weights -s cage.txt -a square.json --spacing 0.2 -p inside.txt -o w
 below "$(sums inside.txt w)" 1e-9 "a region around the source"
-run 0 weights -a square.json -p inside.txt -o w
+run 0 weights -a square.json --spacing 0.2 -p inside.txt -o w
 for part in '"region": [[6, 1], [8, 1], [8, 3], [6, 3]]' '"centre": [7, 2], "radius": 1, "rigidity": 2.5'; do
     echo "{\"handles\": $handles, \"rigid\": [{$part}]}" >rigid.json
-    run 0 weights -s cage.txt -a rigid.json -p inside.txt -o w --json=report.json
+    run 0 weights -s cage.txt -a rigid.json --spacing 0.2 -p inside.txt -o w --json=report.json
     below "$(sums inside.txt w)" 1e-9 "a rigid part"
     sed -n '/rigid_energy/{n;N;p;}' report.json | tr -d ' \n' | awk -F , '{ exit !($2 < $1 && $2 > 0) }' ||
         complain "the energy does not fall"
@@ -101,18 +101,18 @@ awk '{ s = 0; for (j = 1; j <= NF; j++) s += $j; if (NF != 5 || (s - 1) ^ 2 > 1e
 
 # Points without weights: nan, exit 4. Bindings have none.
 printf '1 2\nnan 1\n2 inf\n' >some.txt
-run 4 weights -s cage.txt -a plain.json -p some.txt
+run 4 weights -s cage.txt -a plain.json --spacing 0.2 -p some.txt
 holds err 'libicc: 2 of 3 points have no weights: they are not finite'
 [ "$(sed -n '2,3p' out | sort -u)" = "nan nan nan nan nan" ] || complain "not nan: $(cat out)"
-run 1 weights -s cage.txt -a plain.json -p some.txt -b bound
+run 1 weights -s cage.txt -a plain.json --spacing 0.2 -p some.txt -b bound
 says 'libicc: some.txt:2: point 1 is not finite'
 [ ! -e bound ] || complain "a binding is left behind"
-run 0 weights -s cage.txt -a plain.json -p inside.txt -b bound
+run 0 weights -s cage.txt -a plain.json --spacing 0.2 -p inside.txt -b bound
 [ ! -s out ] || complain "weights were written beside a binding"
 [ "$(head -c 8 bound)" = LICCBIND ] || complain "this is no binding"
 
 # The report.
-run 0 weights -s cage.txt -a plain.json -p inside.txt -o w --json
+run 0 weights -s cage.txt -a plain.json --spacing 0.2 -p inside.txt -o w --json
 for part in '"command": "weights"' '"handles": "plain.json"' '"kind": "blue"' '"weights": "qp"' '"infeasible": ' \
     '"definiteness": 0.' '"lagrange": ' '"least_weight": ' '"without_weights": 0' '"factor": '; do
     holds out "$part"
@@ -124,18 +124,18 @@ below "$(member out reproduction)" 1e-9 reproduction
 # Figures.
 for scale in "" --log; do
     # shellcheck disable=SC2086 # none or one
-    run 0 weights -s cage.txt -a edges.json --picture figure.svg --handle 2 $scale
+    run 0 weights -s cage.txt -a edges.json --spacing 0.2 --picture figure.svg --handle 2 $scale
     [ ! -s out ] || complain "a figure and weights"
     holds figure.svg '</svg>'
     holds figure.svg 'data:image/png;base64,'
     [ "$(grep -c '<circle' figure.svg)" -eq 5 ] || complain "handles are missing"
     # shellcheck disable=SC2086
-    run 0 weights -s cage.txt -a edges.json --along 1,1,9,1 --picture along.svg $scale
+    run 0 weights -s cage.txt -a edges.json --spacing 0.2 --along 1,1,9,1 --picture along.svg $scale
     holds along.svg '</svg>'
 done
-run 0 weights -a stick.json --picture - --y-down
+run 0 weights -a stick.json --spacing 0.2 --picture - --y-down
 holds out '</svg>'
-run 1 weights -s cage.txt -a plain.json --picture figure.svg --handle 5
+run 1 weights -s cage.txt -a plain.json --spacing 0.2 --picture figure.svg --handle 5
 says 'libicc: plain.json: there is no handle 5 for --handle; the last is 4'
 run 1 weights -s cube.obj -a cube.json --spacing 0.1 --picture figure.svg
 says 'needs a shape in the plane'
@@ -143,7 +143,7 @@ says 'needs a shape in the plane'
 # What is wrong with the handles' file, and where.
 wrong() { # JSON MESSAGE
     printf '%s\n' "$1" >bad.json
-    run 1 weights -s cage.txt -a bad.json -p inside.txt
+    run 1 weights -s cage.txt -a bad.json --spacing 0.2 -p inside.txt
     says "libicc: bad.json: $2"
 }
 wrong '[]' 'the file is not an object'
@@ -169,12 +169,12 @@ wrong '{"handles": [[1, 1], [9, 1], [8, 8]]}' 'handle 2 is outside the shape'
 wrong '{"handles": [[1, 1], [9, 1], [1, 4], [9, 1]]}' 'handle'
 wrong '{"handles": [[1, 1], [2, 1], [3, 1]]}' ''
 printf '{"handles":\n[[1, 1],\n [2, 2}' >bad.json
-run 1 weights -s cage.txt -a bad.json -p inside.txt
+run 1 weights -s cage.txt -a bad.json --spacing 0.2 -p inside.txt
 says 'libicc: bad.json:3: this is not valid JSON'
 printf '{"handles":\n[[1, 1],' >bad.json
-run 1 weights -s cage.txt -a bad.json -p inside.txt
+run 1 weights -s cage.txt -a bad.json --spacing 0.2 -p inside.txt
 says 'bad.json:2: the JSON ends early'
-run 1 weights -s cage.txt -a nowhere.json -p inside.txt
+run 1 weights -s cage.txt -a nowhere.json --spacing 0.2 -p inside.txt
 says 'libicc: nowhere.json: cannot be opened'
 run 1 weights -s cube.obj -a plain.json -p inside.txt
 says 'the handles have 2 coordinates, but the cage 3'
@@ -183,7 +183,7 @@ run 1 weights -s crossed.txt -a plain.json -p inside.txt
 says 'libicc: crossed.txt:1: '
 run 1 weights -s cage.txt -a plain.json -p inside.txt --spacing 50
 [ "$(wc -l <err)" -eq 1 ] || complain "stderr is not one line"
-run 1 weights -s cage.txt -a plain.json -p inside.txt --sampling grid --kernel gauss --sigma 9
+run 1 weights -s cage.txt -a plain.json -p inside.txt --sampling grid --kernel gauss --spacing 0.5 --sigma 9
 [ "$(wc -l <err)" -eq 1 ] || complain "stderr is not one line"
 
 # Wrong usage.
