@@ -117,7 +117,7 @@ static bool in_star(const foliation *f, size_t simplex)
     return false;
 }
 
-enum { N_SHAPES = 8 };
+enum { N_SHAPES = 7 };
 
 static foliation shape(int k)
 {
@@ -135,8 +135,6 @@ static foliation shape(int k)
         return make(mesh_ball(3, 3, 0.1, &r));
     case 5:
         return make(mesh_cube(4, 2, 0.1, &r));
-    case 6:
-        return make(mesh_cube(4, 3, 0.1, &r));
     default:
         return make(mesh_cube(5, 2, 0.05, &r));
     }
@@ -198,7 +196,7 @@ START_TEST(neighbours)
     for (int k = 0; k < N_SHAPES; ++k) {
         foliation f = shape(k);
         const size_t dim = f.n - 1;
-        for (int i = 0; i < 100; ++i) {
+        for (int i = 0; i < 40; ++i) {
             uint32_t *across = &f.mesh.across[random_below(&r, (int)f.n_sides)];
             const uint32_t keep = *across;
             *across = (uint32_t)random_below(&r, (int)f.n_sides);
@@ -269,7 +267,7 @@ START_TEST(holes)
         direct(&f);
         ck_assert_uint_eq(look(&f).n_topology, 0);
         ck_assert(!holds(&f));
-        for (int i = 0; i < 200; ++i) {
+        for (int i = 0; i < 60; ++i) {
             const size_t a = (size_t)random_below(&r, (int)f.mesh.n_simplices);
             const size_t b = (size_t)random_below(&r, (int)f.mesh.n_simplices);
             if (in_star(&f, a) || in_star(&f, b))
@@ -295,7 +293,7 @@ START_TEST(order)
         for (uint32_t side = 0; side < f.n_sides; ++side) {
             const uint32_t twin = f.mesh.across[side];
             const size_t a = side / f.n, b = (twin & ~ICCP_RIM) / f.n;
-            if ((twin & ICCP_RIM) != 0 || a > b || in_star(&f, a) || in_star(&f, b) || n_swaps > 200)
+            if ((twin & ICCP_RIM) != 0 || a > b || in_star(&f, a) || in_star(&f, b) || n_swaps > 60)
                 continue;
             const uint32_t rank_a = f.rank[a], rank_b = f.rank[b];
             f.rank[a] = rank_b;
@@ -327,7 +325,7 @@ START_TEST(any_order)
     random_source r = {4};
     for (int k = 0; k < N_SHAPES; ++k) {
         foliation f = shape(k);
-        for (int i = 0; i < 50; ++i) {
+        for (int i = 0; i < 20; ++i) {
             for (size_t s = f.mesh.n_simplices; s-- > 1;) {
                 const size_t t = (size_t)random_below(&r, (int)s + 1);
                 const uint32_t swap = f.rank[s];
@@ -350,7 +348,7 @@ START_TEST(directions)
     static const double WRONG[] = {0, -1, (double)NAN, HUGE_VAL, -HUGE_VAL};
     for (int k = 0; k < N_SHAPES; ++k) {
         foliation f = shape(k);
-        for (size_t side = 0; side < f.n_sides; side += 1 + f.n_sides / 300)
+        for (size_t side = 0; side < f.n_sides; side += 1 + f.n_sides / 60)
             for (size_t i = 0; i < sizeof WRONG / sizeof *WRONG; ++i) {
                 const double keep = f.direction[side];
                 f.direction[side] = i == 1 ? -keep : WRONG[i];
