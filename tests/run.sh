@@ -4,7 +4,8 @@
 set -eu
 cd "$(dirname "$0")/.."
 . cmake/deps.sh
-need gcc g++ libc6-dev make cmake pkg-config libpng-dev libcjson-dev check libgmp-dev libsuitesparse-dev
+need gcc g++ libc6-dev make cmake pkg-config libpng-dev libcjson-dev check libgmp-dev libsuitesparse-dev \
+    python3-numpy python3-pytest python3-cffi tetgen
 
 preset=${1:-release}
 [ $# -eq 0 ] || shift

@@ -1,0 +1,68 @@
+"""Carry everything inside a shape along when its boundary moves.
+
+    import libicc
+    mapping = libicc.Map(before, after)      # two polygons, (n, 2) arrays
+    images = mapping(points)                 # one-to-one, certified
+    points = mapping.inverse(images)
+
+`Domain` -> `Chart` -> `Map`; `libicc.stages` has the steps of the papers, `libicc.kernel` smooth weights for
+handles. Objects are immutable and may be shared between threads; calls release the interpreter lock.
+"""
+
+from ._abi import lib as _lib
+from ._core import (
+    ArgumentError,
+    BoundaryError,
+    Cancelled,
+    CertificateError,
+    Error,
+    FormatError,
+    OutOfMemoryError,
+    OutsideError,
+    Progress,
+    SolverError,
+    TopologyError,
+    UnsupportedError,
+)
+from ._geometry import (
+    BOUNDARY,
+    INSIDE,
+    OUTSIDE,
+    Chart,
+    Domain,
+    Map,
+    as_domain,
+    boundary_defects,
+    repair_mask,
+)
+from ._image import PixelTransform, picture_cage, warp_image
+
+__version__ = _lib.version().decode()
+"""The version of the C library that is in use."""
+
+__all__ = [
+    "ArgumentError",
+    "BOUNDARY",
+    "BoundaryError",
+    "Cancelled",
+    "CertificateError",
+    "Chart",
+    "Domain",
+    "Error",
+    "FormatError",
+    "INSIDE",
+    "Map",
+    "OUTSIDE",
+    "OutOfMemoryError",
+    "OutsideError",
+    "PixelTransform",
+    "Progress",
+    "SolverError",
+    "TopologyError",
+    "UnsupportedError",
+    "as_domain",
+    "boundary_defects",
+    "picture_cage",
+    "repair_mask",
+    "warp_image",
+]

@@ -1,0 +1,263 @@
+"""What every call needs: errors, threads, progress, arrays and handles."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+from types import SimpleNamespace
+from typing import Any, Callable, Optional, Sequence
+
+import numpy as np
+
+from ._abi import lib, new, structs
+
+Progress = Callable[[str, float], Any]
+"""Called with the name of a stage and the share done; to return true or to raise cancels."""
+
+_PROGRESS = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_char_p, ctypes.c_double)
+
+# Starting threads does not pay for fewer points.
+_FEW_POINTS = 2048
+
+
+class Error(Exception):
+    """What the library says about a call that failed.
+
+    Attributes:
+        status: the number of the status (``Error.ARGUMENT`` and so on)
+        index: the vertex, facet, cell or point at fault, or -1
+        side: 1 when the source is at fault, 2 for the target, 0 for neither
+    """
+
+    ARGUMENT, MEMORY, VERSION, BOUNDARY, RESOLUTION, TOPOLOGY, OUTSIDE = range(1, 8)
+    SOLVER, TRACE, CERTIFICATE, CANCELLED, UNSUPPORTED, FORMAT = range(8, 14)
+
+    def __init__(self, message: str, status: int = 0, index: int = -1, side: int = 0):
+        super().__init__(message)
+        self.status, self.index, self.side = status, index, side
+
+
+class ArgumentError(Error, ValueError):
+    """An argument is missing or out of range."""
+
+
+class BoundaryError(Error, ValueError):
+    """The boundary is not that of a simple, solid shape."""
+
+
+class TopologyError(Error, ValueError):
+    """The shape or the grid has the wrong topology."""
+
+
+class OutsideError(Error, ValueError):
+    """A point lies outside the domain."""
+
+
+class FormatError(Error, ValueError):
+    """Input data is malformed."""
+
+
+class UnsupportedError(Error, NotImplementedError):
+    """This combination is not available."""
+
+
+class CertificateError(Error, ArithmeticError):
+    """A result could not be certified."""
+
+
+class SolverError(Error, ArithmeticError):
+    """A numerical solver did not converge."""
+
+
+class OutOfMemoryError(Error, MemoryError):
+    """An allocation failed."""
+
+
+class Cancelled(Error):
+    """The progress callback asked to stop."""
+
+
+_ERRORS = {
+    Error.ARGUMENT: ArgumentError,
+    Error.MEMORY: OutOfMemoryError,
+    Error.BOUNDARY: BoundaryError,
+    Error.TOPOLOGY: TopologyError,
+    Error.OUTSIDE: OutsideError,
+    Error.SOLVER: SolverError,
+    Error.CERTIFICATE: CertificateError,
+    Error.CANCELLED: Cancelled,
+    Error.UNSUPPORTED: UnsupportedError,
+    Error.FORMAT: FormatError,
+}
+
+
+class Call:
+    """The `env` and the `err` of one call.
+
+    ``check`` raises what went wrong, and what a progress callback raised in place of that.
+    """
+
+    def __init__(self, progress: Optional[Progress] = None, threads: Optional[int] = None):
+        self.error = new("error", index=-1)
+        self.raised: Optional[BaseException] = None
+        self._env = new("env", threads=_threads(threads))
+        if progress is not None:
+            self._callback = _PROGRESS(self._report(progress))
+            self._env.progress = ctypes.cast(self._callback, ctypes.c_void_p)
+        self.env = ctypes.addressof(self._env)
+        self.err = ctypes.addressof(self.error)
+
+    def _report(self, progress: Progress):
+        def report(_user, stage: bytes, share: float) -> int:
+            if self.raised is not None:
+                return 1
+            try:
+                return 1 if progress(stage.decode(), share) else 0
+            except BaseException as raised:  # to be raised again by check()
+                self.raised = raised
+                return 1
+
+        return report
+
+    def check(self, status: int) -> None:
+        if self.raised is not None:
+            raise self.raised
+        if status != 0:
+            error = self.error
+            text = error.message.decode("utf-8", "replace") if error.status == status else ""
+            fail(status, text, error.index, error.side)
+
+
+def _threads(wanted: Optional[int]) -> int:
+    return len(os.sched_getaffinity(0)) if wanted is None else int(wanted)
+
+
+def fail(status: int, message: str = "", index: int = -1, side: int = 0) -> None:
+    name = lib.status_name(status).decode()
+    if side in (1, 2):
+        message = f"{('source', 'target')[side - 1]}: {message}"
+    raise _ERRORS.get(status, Error)(message or name, status, index, side)
+
+
+def bulk(n: int, progress: Optional[Progress], threads: Optional[int]):
+    """What a call for many points takes as `env`, and a function that checks its status."""
+    if progress is None and threads is None and n < _FEW_POINTS:
+        return None, check
+    call = Call(progress, threads)
+    return call.env, lambda status, call=call: call.check(status)
+
+
+def check(status: int) -> None:
+    if status != 0:
+        fail(status)
+
+
+def points_of(points, dim: int) -> np.ndarray:
+    """Points as a contiguous array of shape (n, dim); copied only if need be."""
+    array = np.ascontiguousarray(points, dtype=np.float64)
+    if array.ndim == 1 and array.shape[0] == dim:
+        array = array.reshape(1, dim)
+    if array.ndim != 2 or array.shape[1] != dim:
+        raise ValueError(f"points must have the shape (n, {dim}), not {array.shape}")
+    return array
+
+
+def floats(values, shape: Sequence[int], name: str) -> np.ndarray:
+    array = np.ascontiguousarray(values, dtype=np.float64)
+    if array.shape != tuple(shape):
+        raise ValueError(f"{name} must have the shape {tuple(shape)}, not {array.shape}")
+    return array
+
+
+def indices(values, width: int, name: str) -> np.ndarray:
+    """Vertex indices as a contiguous uint32 array of shape (n, width)."""
+    array = np.asarray(values)
+    if array.size and (array.dtype.kind not in "iu" or array.min() < 0 or array.max() >= 2**32 - 1):
+        raise ValueError(f"{name} must be vertex indices")
+    array = np.ascontiguousarray(array, dtype=np.uint32)
+    if array.ndim != 2 or array.shape[1] != width:
+        raise ValueError(f"{name} must have the shape (n, {width}), not {array.shape}")
+    return array
+
+
+def address(array: Optional[np.ndarray]):
+    """An array as an argument, which it keeps alive."""
+    return None if array is None else array.ctypes
+
+
+def fields(struct, dim: Optional[int] = None) -> SimpleNamespace:
+    """The members of a struct but for `size` and padding; arrays by dimension as NumPy arrays."""
+    members = {}
+    for name, kind in struct._fields_:
+        value = getattr(struct, name)
+        if name == "size" or name.startswith("reserved"):
+            continue
+        if isinstance(value, ctypes.Array):
+            value = np.array(value[:dim] if len(value) == 6 else value[:])
+        members[name] = value
+    return SimpleNamespace(**members)
+
+
+def choose(value, choices: dict, name: str) -> int:
+    """The number of a choice that is given by its name; None means the default."""
+    if value is None:
+        return 0
+    try:
+        return choices[value]
+    except (KeyError, TypeError):
+        raise ValueError(f"{name} must be one of {', '.join(choices)}, not {value!r}") from None
+
+
+def name_of(number: int, choices: dict) -> Optional[str]:
+    for name, value in choices.items():
+        if value == number:
+            return name
+    return None
+
+
+class Handle:
+    """An object of the library; immutable, shared freely between threads."""
+
+    _free = ""
+    _dim: Optional[int] = None
+
+    def __init__(self):
+        raise TypeError(f"{type(self).__name__} cannot be made this way")
+
+    def _take(self, handle: int, owner=None) -> None:
+        """Owns a handle, or borrows it from `owner`, which is kept alive."""
+        self._handle = handle
+        self._owned = owner
+
+    @classmethod
+    def _wrap(cls, handle: Optional[int], owner=None):
+        if not handle:
+            return None
+        self = cls.__new__(cls)
+        self._take(handle, owner)
+        return self
+
+    @property
+    def _as_parameter_(self) -> int:
+        """What ctypes passes on: objects are handed to the library themselves, so that they outlive the
+        call."""
+        return self._handle
+
+    def __del__(self):
+        if getattr(self, "_handle", None) and self._owned is None:
+            getattr(lib, self._free)(self._handle)
+
+    def _info(self, function, struct: str):
+        info = new(struct)
+        check(getattr(lib, function)(self, ctypes.addressof(info)))
+        return info
+
+
+def create(function, *arguments, progress=None, threads=None) -> int:
+    """Calls a creator: handle first, `env` and `err` last; returns the handle."""
+    call, out = Call(progress, threads), ctypes.c_void_p()
+    call.check(function(ctypes.addressof(out), *arguments, call.env, call.err))
+    return out.value
+
+
+__all__ = ["structs"]

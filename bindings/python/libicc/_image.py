@@ -1,0 +1,88 @@
+"""Pictures: warping them, and maps as scikit-image understands them."""
+
+from __future__ import annotations
+
+import ctypes
+from typing import Optional, Tuple
+
+import numpy as np
+
+from ._abi import lib, new
+from ._core import Call, Progress
+from ._geometry import Map
+
+
+def _picture(image: np.ndarray, alpha: bool):
+    height, width, channels = image.shape
+    return new("picture", width=width, height=height, channels=channels,
+               bytes=image.dtype.itemsize, alpha=int(alpha), stride=image.strides[0],
+               pixels=image.ctypes.data)
+
+
+def warp_image(image, mapping: Map, out=None, *, alpha: Optional[bool] = None,
+               progress: Optional[Progress] = None, threads: Optional[int] = None) -> np.ndarray:
+    """Carries a picture along a 2-D map.
+
+    Args:
+        image: (height, width) or (height, width, channels), uint8 or uint16, up to 4 channels. Pixel
+            [j, i] covers [i, i + 1] x [j, j + 1] in the coordinates of the map's domains.
+        mapping: from where things are in the picture to where they shall be
+        out: a picture to draw onto, with as many channels: its pixels outside the target stay. None: a
+            copy of `image`.
+        alpha: whether the last channel is opacity; None: if there are 2 or 4
+
+    Returns:
+        the picture drawn, a new array
+    """
+    image = np.asarray(image)
+    if image.dtype not in (np.uint8, np.uint16):
+        raise ValueError(f"pictures are uint8 or uint16, not {image.dtype}")
+    if image.ndim not in (2, 3):
+        raise ValueError(f"pictures have the shape (height, width[, channels]), not {image.shape}")
+    result = np.array(image if out is None else out, dtype=image.dtype, order="C")
+    flat = result if result.ndim == 3 else result[:, :, None]
+    source = np.ascontiguousarray(image if image.ndim == 3 else image[:, :, None])
+    if flat.shape[2] != source.shape[2]:
+        raise ValueError("both pictures must have the same channels")
+    if alpha is None:
+        alpha = source.shape[2] in (2, 4)
+    before, after = _picture(source, alpha), _picture(flat, alpha)
+    call = Call(progress, threads)
+    call.check(lib.map_warp(mapping, ctypes.addressof(before), ctypes.addressof(after), None,
+                            call.env, call.err))
+    return result
+
+
+class PixelTransform:
+    """A 2-D map as ``skimage.transform.warp`` takes one: from places in the result to places in the
+    picture, both as (column, row) with whole numbers at the centres of pixels.
+
+    ``skimage.transform.warp(image, PixelTransform(mapping))``; what is outside the target cage stays where
+    it is, or is left blank with ``outside="blank"``.
+    """
+
+    def __init__(self, mapping: Map, outside: str = "keep"):
+        if outside not in ("keep", "blank"):
+            raise ValueError("outside must be 'keep' or 'blank'")
+        self.map, self.outside = mapping, outside
+
+    def _through(self, function, coords) -> np.ndarray:
+        coords = np.asarray(coords, dtype=np.float64)
+        images = function(coords + 0.5) - 0.5
+        lost = np.isnan(images[:, 0])
+        images[lost] = coords[lost] if self.outside == "keep" else -1e6
+        return images
+
+    def __call__(self, coords) -> np.ndarray:
+        """Result -> picture, (n, 2)."""
+        return self._through(self.map.inverse, coords)
+
+    def inverse(self, coords) -> np.ndarray:
+        """Picture -> result, (n, 2)."""
+        return self._through(self.map, coords)
+
+
+def picture_cage(shape: Tuple[int, ...]) -> np.ndarray:
+    """The outline of a picture of the given shape as a cage, (4, 2)."""
+    height, width = shape[:2]
+    return np.array([[0, 0], [width, 0], [width, height], [0, height]], dtype=np.float64)

@@ -1,0 +1,349 @@
+"""Kernel coordinates: smooth blending weights for handles, without a mesh."""
+
+from __future__ import annotations
+
+import ctypes
+from types import SimpleNamespace
+from typing import Optional, Sequence, Tuple
+
+import numpy as np
+
+from ._abi import lib, new
+from ._core import (
+    Call,
+    Handle,
+    Progress,
+    address,
+    bulk,
+    check,
+    choose,
+    create,
+    fields,
+    floats,
+    indices,
+    name_of,
+    points_of,
+)
+from ._geometry import as_domain
+
+SAMPLINGS = {"grid": 1, "blue": 2, "points": 3}
+KERNELS = {"wendland": 1, "gauss": 2}
+INITIALS = {"heat": 1, "edges": 2, "inverse": 3, "given": 4}
+METHODS = {"qp": 1, "equality": 2, "l1": 3}
+
+
+class _Line(ctypes.Structure):
+    _fields_ = [("first", ctypes.c_double * 3), ("last", ctypes.c_double * 3),
+                ("parallel", ctypes.c_int32), ("reserved", ctypes.c_int32)]
+
+
+class _Saved(Handle):
+    """An object that can be written to bytes, and so be pickled."""
+
+    _name = ""
+
+    def save(self) -> bytes:
+        """The object as bytes, the same on every machine."""
+        function, n = getattr(lib, self._name + "_save"), ctypes.c_size_t()
+        check(function(self, 0, None, ctypes.addressof(n)))
+        data = ctypes.create_string_buffer(n.value)
+        check(function(self, n.value, ctypes.addressof(data), ctypes.addressof(n)))
+        return data.raw
+
+    @classmethod
+    def load(cls, data: bytes):
+        """The object that `save` wrote, bit for bit; FormatError for anything else."""
+        buffer = (ctypes.c_char * max(len(data), 1)).from_buffer_copy(data or b"\0")
+        function = getattr(lib, cls._name + "_load")
+        return cls._wrap(create(function, len(data), ctypes.addressof(buffer)))
+
+    def __reduce__(self):
+        return type(self).load, (self.save(),)
+
+
+class Shape(Handle):
+    """What is to be deformed: filled regions and curves, in 2-D or 3-D.
+
+    Args:
+        regions: Domains, or what `libicc.as_domain` takes; one may lie within another
+        vertices: (n, dim) of curves
+        segments: (m, 2) vertex indices
+    """
+
+    _free = "shape_free"
+
+    def __init__(self, regions: Sequence = (), vertices=None, segments=None):
+        domains = [as_domain(region) for region in regions]
+        if vertices is not None:
+            vertices = np.ascontiguousarray(vertices, dtype=np.float64)
+        dim = domains[0].dim if domains else 2 if vertices is None else vertices.shape[1]
+        vertices = None if vertices is None else points_of(vertices, dim)
+        segments = None if segments is None else indices(segments, 2, "segments")
+        handles = (ctypes.c_void_p * max(len(domains), 1))(*[d._handle for d in domains])
+        self._take(create(lib.shape_create, dim, len(domains), ctypes.addressof(handles),
+                          0 if vertices is None else len(vertices), address(vertices),
+                          0 if segments is None else len(segments), address(segments)))
+
+
+class Sampling(_Saved):
+    """Points spread over a shape.
+
+    Args:
+        shape: a Shape, or one region
+        kind: "blue" (default) or "grid"
+        spacing: distance of neighbours; None: 1/100 of the longest side
+        steps: of relaxation (blue); None: as many as suit
+        margin: how far a grid goes beyond the regions, in spacings
+        seed: of the random numbers
+        fixed: points (n, dim) that shall be samples (blue)
+    """
+
+    _free = "sampling_free"
+    _name = "sampling"
+
+    def __init__(self, shape, kind: Optional[str] = None, *, spacing: Optional[float] = None,
+                 steps: Optional[int] = None, margin: float = 0, seed: int = 0, fixed=None,
+                 progress: Optional[Progress] = None, threads: Optional[int] = None):
+        shape = shape if isinstance(shape, Shape) else Shape([shape])
+        options = new("sampling_options", kind=choose(kind, SAMPLINGS, "kind"), spacing=spacing or 0,
+                      steps=0 if steps is None else steps or -1, margin=margin, seed=seed)
+        if fixed is not None:
+            fixed = np.ascontiguousarray(fixed, dtype=np.float64)
+            options.n_fixed, options.fixed = len(fixed), fixed.ctypes.data
+        self._take(create(lib.sampling_create, shape, ctypes.addressof(options),
+                          progress=progress, threads=threads))
+
+    @classmethod
+    def from_points(cls, shape, points) -> "Sampling":
+        """A sampling from points (n, dim) of yours."""
+        shape = shape if isinstance(shape, Shape) else Shape([shape])
+        points = np.ascontiguousarray(points, dtype=np.float64)
+        return cls._wrap(create(lib.sampling_create_from_points, shape, len(points),
+                                address(points)))
+
+    @property
+    def info(self) -> SimpleNamespace:
+        result = fields(self._info("sampling_get_info", "sampling_info"))
+        result.kind = name_of(result.kind, SAMPLINGS)
+        return result
+
+    @property
+    def points(self) -> np.ndarray:
+        """The samples, (n, dim)."""
+        info = self._info("sampling_get_info", "sampling_info")
+        points = np.empty((info.n_samples, info.dim))
+        check(lib.sampling_get_points(self, address(points)))
+        return points
+
+
+def _lines(lines, dim: int):
+    """Each line is (from, to) or (from, to, number of an earlier line to stay parallel to)."""
+    array = (_Line * len(lines))()
+    for item, line in zip(array, lines):
+        first, last, *parallel = line
+        item.first[:dim], item.last[:dim] = list(map(float, first)), list(map(float, last))
+        item.parallel = parallel[0] + 1 if parallel and parallel[0] is not None else 0
+    return array
+
+
+class Kernel(Handle):
+    """Weights of handles over a shape.
+
+    Args:
+        sampling: a Sampling
+        handles: (n, dim)
+        edges: (m, 2) handle indices: along them weights are linear
+        lines: segments to keep straight: (from, to) or (from, to, k), parallel to the earlier line k
+        kernel: "wendland" or "gauss"; sigma: its width
+        initial: "heat", "edges", "inverse" or "given"; steps: of diffusion
+        method: "qp", "equality" or "l1"
+        tail: whether an affine function makes sums and reproduction exact
+        visible: whether diffusion stays inside the shape
+        initial_weights: (n_samples, n_handles), for initial "given"
+    """
+
+    _free = "kernel_free"
+
+    def __init__(self, sampling: Sampling, handles, *, edges=None, lines=(),
+                 kernel: Optional[str] = None, sigma: Optional[float] = None,
+                 cutoff: Optional[float] = None, initial: Optional[str] = None,
+                 steps: Optional[int] = None, method: Optional[str] = None, tail: bool = True,
+                 visible: bool = True, initial_weights=None, progress: Optional[Progress] = None,
+                 threads: Optional[int] = None):
+        handles = points_of(handles, sampling._info("sampling_get_info", "sampling_info").dim)
+        keep = [handles]
+        options = new("kernel_options", kernel=choose(kernel, KERNELS, "kernel"),
+                      initial=choose(initial, INITIALS, "initial"),
+                      method=choose(method, METHODS, "method"), steps=steps or 0,
+                      tail=1 if tail else -1, visible=1 if visible else -1, sigma=sigma or 0,
+                      cutoff=cutoff or 0)
+        if edges is not None:
+            keep.append(indices(edges, 2, "edges"))
+            options.n_edges, options.edges = len(keep[-1]), keep[-1].ctypes.data
+        if len(lines) > 0:
+            keep.append(_lines(lines, handles.shape[1]))
+            options.n_lines, options.lines = len(lines), ctypes.addressof(keep[-1])
+        if initial_weights is not None:
+            n = sampling._info("sampling_get_info", "sampling_info").n_samples
+            keep.append(floats(initial_weights, (n, len(handles)), "initial_weights"))
+            options.initial_weights = keep[-1].ctypes.data
+        self._take(create(lib.kernel_create, sampling, len(handles), address(handles),
+                          ctypes.addressof(options), progress=progress, threads=threads))
+
+    @property
+    def info(self) -> SimpleNamespace:
+        result = fields(self._info("kernel_get_info", "kernel_info"))
+        result.kernel = name_of(result.kernel, KERNELS)
+        result.initial = name_of(result.initial, INITIALS)
+        result.method = name_of(result.method, METHODS)
+        return result
+
+    def nodes(self) -> SimpleNamespace:
+        """points (n, dim), initial and weights (n, n_handles), status (n,) of the nodes."""
+        info = self._info("kernel_get_info", "kernel_info")
+        n, m = info.n_nodes, info.n_handles
+        points, initial, weights = np.empty((n, info.dim)), np.empty((n, m)), np.empty((n, m))
+        status = np.empty(n, dtype=np.int32)
+        check(lib.kernel_get_nodes(self, address(points), address(initial), address(weights),
+                                   address(status)))
+        return SimpleNamespace(points=points, initial=initial, weights=weights, status=status)
+
+    def paint(self, handle: int, centre, radius: float, amount: float, *,
+              progress: Optional[Progress] = None, threads: Optional[int] = None) -> "Kernel":
+        """A kernel with the weight of one handle raised around a place, and optimised again."""
+        centre = points_of(centre, self._info("kernel_get_info", "kernel_info").dim)
+        return Kernel._wrap(create(lib.kernel_paint, self, handle, address(centre), radius,
+                                   amount, progress=progress, threads=threads))
+
+    def repaint(self, nodes, weights, *, progress: Optional[Progress] = None,
+                threads: Optional[int] = None) -> "Kernel":
+        """A kernel whose weights at some nodes (n,) start from wishes (n, n_handles)."""
+        nodes = np.ascontiguousarray(nodes, dtype=np.uint32)
+        m = self._info("kernel_get_info", "kernel_info").n_handles
+        weights = floats(weights, (len(nodes), m), "weights")
+        return Kernel._wrap(create(lib.kernel_repaint, self, len(nodes), address(nodes),
+                                   address(weights), progress=progress, threads=threads))
+
+    def with_method(self, method: str, *, progress: Optional[Progress] = None,
+                    threads: Optional[int] = None) -> "Kernel":
+        """The same nodes and initial weights with another method; what was painted is gone."""
+        return Kernel._wrap(create(lib.kernel_set_method, self,
+                                   choose(method, METHODS, "method"), progress=progress,
+                                   threads=threads))
+
+    def stiffen(self, nodes, rigidity=None, *, progress: Optional[Progress] = None,
+                threads: Optional[int] = None) -> Tuple["Kernel", np.ndarray]:
+        """A kernel that is as rigid as may be at some nodes, and the energy before and after."""
+        nodes, energy = np.ascontiguousarray(nodes, dtype=np.uint32), np.empty(2)
+        if rigidity is not None:
+            rigidity = floats(rigidity, (len(nodes),), "rigidity")
+        kernel = create(lib.kernel_stiffen, self, len(nodes), address(nodes),
+                        address(rigidity), address(energy), progress=progress, threads=threads)
+        return Kernel._wrap(kernel), energy
+
+    def weights(self, points, *, gradients: bool = False, progress: Optional[Progress] = None,
+                threads: Optional[int] = None):
+        """Weights (n, n_handles) at points (n, dim), and with ``gradients`` their derivatives
+        (n, n_handles, dim)."""
+        info = self._info("kernel_get_info", "kernel_info")
+        points = points_of(points, info.dim)
+        n = len(points)
+        weights = np.empty((n, info.n_handles))
+        slopes = np.empty((n, info.n_handles, info.dim)) if gradients else None
+        env, done = bulk(n, progress, threads)
+        done(lib.kernel_weights(self, n, address(points), address(weights), address(slopes),
+                                None, None, env))
+        return (weights, slopes) if gradients else weights
+
+    def report(self, points, *, progress: Optional[Progress] = None,
+               threads: Optional[int] = None) -> SimpleNamespace:
+        """How well the weights do what they should, at points; see ``icc_kernel_report``."""
+        points = points_of(points, self._info("kernel_get_info", "kernel_info").dim)
+        call, report = Call(progress, threads), new("kernel_report")
+        call.check(lib.kernel_get_report(self, len(points), address(points),
+                                         ctypes.addressof(report), call.env, call.err))
+        return fields(report)
+
+    def bind(self, points, *, derivatives: bool = False, progress: Optional[Progress] = None,
+             threads: Optional[int] = None) -> "Binding":
+        """Points (n, dim) with their weights, for posing again and again."""
+        points = points_of(points, self._info("kernel_get_info", "kernel_info").dim)
+        return Binding._wrap(create(lib.binding_create, self, len(points), address(points),
+                                    int(derivatives), progress=progress, threads=threads))
+
+
+class Binding(_Saved):
+    """Points with their weights; made by `Kernel.bind`."""
+
+    _free = "binding_free"
+    _name = "binding"
+
+    def _counts(self) -> Tuple[int, int, int]:
+        n, m, dim = ctypes.c_size_t(), ctypes.c_size_t(), ctypes.c_int32()
+        check(lib.binding_get_counts(self, ctypes.addressof(n), ctypes.addressof(m),
+                                     ctypes.addressof(dim)))
+        return n.value, m.value, dim.value
+
+    @property
+    def handles(self) -> np.ndarray:
+        """The handles' positions, (n_handles, dim)."""
+        _, m, dim = self._counts()
+        handles = np.empty((m, dim))
+        check(lib.binding_get(self, address(handles), None))
+        return handles
+
+    @property
+    def weights(self) -> np.ndarray:
+        """The weights, (n, n_handles)."""
+        n, m, _ = self._counts()
+        weights = np.empty((n, m))
+        check(lib.binding_get(self, None, address(weights)))
+        return weights
+
+    def pose(self, transforms, *, jacobians: bool = False, progress: Optional[Progress] = None,
+             threads: Optional[int] = None):
+        """Images (n, dim) of the points under affine transforms (n_handles, dim, dim + 1), see `Pose`;
+        with ``jacobians`` also derivatives (n, dim, dim), if the binding has them."""
+        n, m, dim = self._counts()
+        transforms = floats(getattr(transforms, "transforms", transforms), (m, dim, dim + 1),
+                            "transforms")
+        images = np.empty((n, dim))
+        slopes = np.empty((n, dim, dim)) if jacobians else None
+        env, done = bulk(n, progress, threads)
+        done(lib.binding_pose(self, address(transforms), address(images), address(slopes),
+                              env))
+        return (images, slopes) if jacobians else images
+
+
+class Pose:
+    """An affine transform for every handle; starts at rest.
+
+    Attributes:
+        transforms: float array (n_handles, dim, dim + 1), to be changed as you like
+    """
+
+    def __init__(self, handles):
+        self.handles = np.array(handles, dtype=np.float64, order="C")
+        if self.handles.ndim != 2 or self.handles.shape[1] not in (2, 3):
+            raise ValueError(f"handles must have the shape (n, 2 or 3), not {self.handles.shape}")
+        n, dim = self.handles.shape
+        self.transforms = np.empty((n, dim, dim + 1))
+        self.reset()
+
+    def reset(self) -> None:
+        """Back to rest."""
+        n, dim = self.handles.shape
+        check(lib.pose_reset(dim, n, address(self.transforms)))
+
+    def move(self, handle: int, offset) -> None:
+        """Moves a handle by an offset (dim,)."""
+        dim = self.handles.shape[1]
+        offset = floats(offset, (dim,), "offset")
+        check(lib.pose_move(dim, address(self.transforms[handle]), address(offset)))
+
+    def turn(self, handle: int, angle: float, axis=None) -> None:
+        """Turns a handle about where it is, by an angle in radians; in 3-D about an axis (3,)."""
+        dim = self.handles.shape[1]
+        axis = None if axis is None else floats(axis, (3,), "axis")
+        check(lib.pose_turn(dim, address(self.transforms[handle]), address(self.handles[handle]),
+                            address(axis), angle))

@@ -1,0 +1,238 @@
+"""The stages of the papers by themselves: grid, tree, function, triangulation."""
+
+from __future__ import annotations
+
+import ctypes
+from types import SimpleNamespace
+from typing import Optional, Sequence, Tuple
+
+import numpy as np
+
+from ._abi import lib, new
+from ._core import Call, Handle, Progress, address, check, choose, create, fields, name_of, points_of
+from ._geometry import CONSTRAINTS, FUNCTIONS, SOLVERS, TREES, Chart, as_domain
+
+
+def _view(pointer: int, n: int, dtype, owner) -> np.ndarray:
+    """The library's own array, read-only; keeps its owner alive."""
+    if not pointer:
+        return None
+    dtype = np.dtype(dtype)
+    interface = {"shape": (n,), "typestr": dtype.str, "data": (pointer, True), "version": 3}
+    return np.asarray(SimpleNamespace(__array_interface__=interface, owner=owner))
+
+
+class Grid(Handle):
+    """A regular grid of vertices, each inside or outside of a shape.
+
+    Arrays over its vertices have the grid's shape: axis k of the array is coordinate k.
+
+    Args:
+        domain: a Domain, or what `libicc.as_domain` takes
+        cells: along the longest side; None: 50
+    """
+
+    _free = "grid_free"
+
+    def __init__(self, domain, cells: Optional[int] = None, *, progress: Optional[Progress] = None,
+                 threads: Optional[int] = None):
+        self._take(create(lib.grid_create, as_domain(domain), cells or 0, progress=progress,
+                          threads=threads))
+
+    @classmethod
+    def from_mask(cls, inside) -> "Grid":
+        """The grid whose vertices inside are the true ones of an array."""
+        inside = np.asfortranarray(np.asarray(inside) != 0).view(np.uint8)
+        shape = (ctypes.c_size_t * inside.ndim)(*inside.shape)
+        return cls._wrap(create(lib.grid_create_mask, inside.ndim, ctypes.addressof(shape),
+                                inside.ctypes.data))
+
+    def refine(self) -> "Grid":
+        """The grid with cells half as large."""
+        return Grid._wrap(create(lib.grid_refine, self))
+
+    def restrict(self, keep) -> "Grid":
+        """The grid without the vertices inside where `keep` is false."""
+        keep = np.asfortranarray(np.asarray(keep) != 0).view(np.uint8)
+        if keep.shape != self.shape:
+            raise ValueError(f"keep must have the shape {self.shape}, not {keep.shape}")
+        return Grid._wrap(create(lib.grid_restrict, self, keep.ctypes.data))
+
+    @property
+    def info(self) -> SimpleNamespace:
+        info = self._info("grid_get_info", "grid_info")
+        return fields(info, info.dim)
+
+    @property
+    def shape(self) -> Tuple[int, ...]:
+        info = self._info("grid_get_info", "grid_info")
+        return tuple(info.shape[: info.dim])
+
+    def _array(self, pointer, dtype, owner):
+        shape = self.shape
+        view = _view(pointer, int(np.prod(shape)), dtype, owner)
+        return None if view is None else view.reshape(shape, order="F")
+
+    @property
+    def inside(self) -> np.ndarray:
+        """Which vertices are inside: a read-only boolean array."""
+        return self._array(lib.grid_inside(self), np.bool_, self)
+
+    def maximum(self, *, progress: Optional[Progress] = None) -> Tuple[int, int]:
+        """The grassfire's maximum (Algorithm 1) as a vertex number, and the rounds it took."""
+        call, vertex, rounds = Call(progress, 1), ctypes.c_uint32(), ctypes.c_uint32()
+        call.check(lib.grid_maximum(self, ctypes.addressof(vertex), ctypes.addressof(rounds),
+                                    call.env, call.err))
+        return vertex.value, rounds.value
+
+    def nearest(self, point) -> int:
+        """The number of the vertex inside that is nearest to a point."""
+        point, vertex = points_of(point, len(self.shape)), ctypes.c_uint32()
+        check(lib.grid_nearest(self, address(point), ctypes.addressof(vertex)))
+        return vertex.value
+
+    def position(self, vertex) -> np.ndarray:
+        """Coordinates of vertices that are given by their numbers."""
+        info = self.info
+        at = np.unravel_index(np.asarray(vertex), self.shape, order="F")
+        return info.origin + info.spacing * np.stack(at, -1)
+
+
+class Tree(Handle):
+    """The tree of Algorithm 2, grown from a vertex inside (None: the grassfire's maximum)."""
+
+    _free = "tree_free"
+
+    def __init__(self, grid: Grid, root: Optional[int] = None, *, form: Optional[str] = None,
+                 axis_order: Optional[Sequence[int]] = None, progress: Optional[Progress] = None):
+        root = grid.maximum()[0] if root is None else root
+        options = new("tree_options", form=choose(form, TREES, "form"))
+        if axis_order is not None:
+            order = np.ascontiguousarray(axis_order, dtype=np.int32)
+            if sorted(order.tolist()) != list(range(len(grid.shape))):
+                raise ValueError("axis_order must be a permutation of the axes")
+            options.axis_order = order.ctypes.data
+        self._take(create(lib.tree_create, grid, root, ctypes.addressof(options),
+                          progress=progress))
+
+    @property
+    def grid(self) -> Grid:
+        return Grid._wrap(lib.tree_grid(self), owner=self)
+
+    @property
+    def root(self) -> int:
+        return lib.tree_root(self)
+
+    @property
+    def parents(self) -> np.ndarray:
+        """Vertex numbers, read-only; 2**32 - 1 where there is none."""
+        return self.grid._array(lib.tree_parents(self), np.uint32, self)
+
+    @property
+    def generations(self) -> np.ndarray:
+        """0 at the root, -1 where the tree does not reach, read-only."""
+        return self.grid._array(lib.tree_generations(self), np.int32, self)
+
+    def _report(self, function, struct, *arguments, progress=None):
+        call, report = Call(progress, None), new(struct)
+        call.check(function(self, *arguments, ctypes.addressof(report), call.env, call.err))
+        return fields(report)
+
+    def verify(self, *, progress: Optional[Progress] = None) -> SimpleNamespace:
+        """Checks the cousin rule; see ``icc_tree_report``."""
+        return self._report(lib.tree_verify, "tree_report", progress=progress)
+
+    def grow(self, values=None, *, progress: Optional[Progress] = None):
+        """An order of the vertices in which the root is the only critical one: ranks as an array, and
+        a report, see ``icc_grow_report``."""
+        shape = self.grid.shape
+        values = None if values is None else np.asfortranarray(_floats_of(values, shape))
+        rank = np.empty(shape, dtype=np.uint32, order="F")
+        report = self._report(lib.tree_grow, "grow_report",
+                              None if values is None else values.ctypes.data, rank.ctypes.data,
+                              progress=progress)
+        return rank, report
+
+    def verify_ranks(self, rank, *, progress: Optional[Progress] = None) -> SimpleNamespace:
+        """Counts the critical vertices of an order; see ``icc_field_report``."""
+        rank = np.asfortranarray(np.asarray(rank, dtype=np.uint32))
+        if rank.shape != self.grid.shape:
+            raise ValueError(f"rank must have the shape {self.grid.shape}, not {rank.shape}")
+        return self._report(lib.tree_verify_ranks, "field_report", rank.ctypes.data,
+                            progress=progress)
+
+
+def _floats_of(values, shape) -> np.ndarray:
+    array = np.asarray(values, dtype=np.float64)
+    if array.shape != tuple(shape):
+        raise ValueError(f"values must have the shape {tuple(shape)}, not {array.shape}")
+    return array
+
+
+class Field(Handle):
+    """A function on the vertices of a tree that falls from parent to child."""
+
+    _free = "field_free"
+
+    def __init__(self, tree: Tree, function: Optional[str] = None, *,
+                 constraints: Optional[str] = None, solver: Optional[str] = None,
+                 eta: Optional[float] = None, leaf: Optional[float] = None,
+                 progress: Optional[Progress] = None, threads: Optional[int] = None):
+        options = new("field_options", function=choose(function, FUNCTIONS, "function"),
+                      constraints=choose(constraints, CONSTRAINTS, "constraints"),
+                      solver=choose(solver, SOLVERS, "solver"), eta=eta or 0, leaf=leaf or 0)
+        self._take(create(lib.field_create, tree, ctypes.addressof(options),
+                          progress=progress, threads=threads))
+
+    @classmethod
+    def of(cls, chart: Chart) -> Optional["Field"]:
+        """The function of a chart of method gradient or field; None for others."""
+        return cls._wrap(lib.chart_field(chart), owner=chart)
+
+    @property
+    def tree(self) -> Tree:
+        return Tree._wrap(lib.field_tree(self), owner=self)
+
+    @property
+    def info(self) -> SimpleNamespace:
+        result = fields(self._info("field_get_info", "field_info"))
+        result.function = name_of(result.function, FUNCTIONS)
+        result.solver = name_of(result.solver, SOLVERS)
+        return result
+
+    @property
+    def values(self) -> np.ndarray:
+        """The values as an array of the grid's shape, read-only."""
+        return self.tree.grid._array(lib.field_values(self), np.float64, self)
+
+    @property
+    def logs(self) -> Optional[np.ndarray]:
+        """Logarithms of values that may be too small for doubles, or None; read-only."""
+        return self.tree.grid._array(lib.field_logs(self), np.float64, self)
+
+    def verify(self, *, progress: Optional[Progress] = None) -> SimpleNamespace:
+        """Counts the critical points; see ``icc_field_report``."""
+        call, report = Call(progress, None), new("field_report")
+        call.check(lib.field_verify(self, ctypes.addressof(report), call.env, call.err))
+        return fields(report)
+
+    def edges(self) -> Tuple[np.ndarray, np.ndarray]:
+        """Edges (n, 2) where gradient lines merge, and their kinds (n,): 1 on the way up
+        (compression), 2 on the way down (expansion). 2-D."""
+        n = ctypes.c_size_t()
+        check(lib.field_edges(self, 0, None, None, ctypes.addressof(n), None))
+        edges, kinds = np.empty((n.value, 2), np.uint32), np.empty(n.value, np.int32)
+        check(lib.field_edges(self, n.value, address(edges), address(kinds),
+                              ctypes.addressof(n), None))
+        return edges, kinds
+
+
+def triangulate(points, n_boundary: int, *, progress: Optional[Progress] = None) -> np.ndarray:
+    """The conforming Delaunay triangles (m, 3) of points (n, 2) of which the first `n_boundary` are a
+    simple polygon."""
+    points = points_of(points, 2)
+    triangles = np.empty((2 * len(points) - n_boundary - 2, 3), dtype=np.uint32)
+    call = Call(progress, 1)
+    call.check(lib.triangulate(n_boundary, len(points), address(points), address(triangles), call.env,
+                               call.err))
+    return triangles

@@ -1,0 +1,47 @@
+import libicc
+import numpy as np
+import pytest
+
+
+@pytest.fixture
+def picture():
+    y, x = np.mgrid[0:60, 0:80]
+    return np.stack([x * 3, y * 4, (x + y) % 256], -1).astype(np.uint8)
+
+
+def test_identity_copies(picture):
+    cage = libicc.picture_cage(picture.shape)
+    assert np.array_equal(libicc.warp_image(picture, libicc.Map(cage, cage)), picture)
+
+
+@pytest.mark.parametrize("dtype, channels", [(np.uint8, 1), (np.uint16, 2), (np.uint8, 4)])
+def test_kinds_of_pictures(picture, dtype, channels):
+    image = np.repeat(picture[:, :, :1], channels, axis=2).astype(dtype)
+    cage = libicc.picture_cage(image.shape)
+    target = cage * 0.5 + 10
+    result = libicc.warp_image(image, libicc.Map(cage, target), np.zeros_like(image))
+    assert result.dtype == dtype and result.shape == image.shape
+    assert (result[:9] == 0).all() and result[12:38, 12:48].any()
+    flat = libicc.warp_image(image[:, :, 0], libicc.Map(cage, cage))
+    assert np.array_equal(flat, image[:, :, 0])
+
+
+def test_wrong_pictures(picture):
+    cage = libicc.picture_cage(picture.shape)
+    with pytest.raises(ValueError, match="uint8"):
+        libicc.warp_image(picture.astype(float), libicc.Map(cage, cage))
+
+
+def test_scikit_image(picture):
+    transform = pytest.importorskip("skimage.transform")
+    cage = libicc.picture_cage(picture.shape)
+    moved = cage + [[3, 2], [-4, 5], [-2, -6], [7, -3]]
+    mapping = libicc.Map(cage, moved)
+    ours = libicc.warp_image(picture, mapping, np.zeros_like(picture))
+    pixels = libicc.PixelTransform(mapping, outside="blank")
+    theirs = transform.warp(picture, pixels, order=1, preserve_range=True)
+    solid = np.zeros(picture.shape[:2], bool)
+    solid[10:50, 10:70] = True
+    assert np.abs(ours.astype(float) - theirs)[solid].mean() < 3
+    points = np.array([[20.0, 20.0], [40.5, 30.25]])
+    assert np.abs(pixels(pixels.inverse(points)) - points).max() < 1e-9

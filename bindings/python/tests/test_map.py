@@ -1,0 +1,139 @@
+import gc
+import threading
+
+import libicc
+import numpy as np
+import pytest
+
+
+def test_map_and_back(before, after, inside):
+    mapping = libicc.Map(before, after)
+    assert mapping.certified and mapping.info.kind == "mesh"
+    images = mapping(inside)
+    assert np.abs(mapping.inverse(images) - inside).max() < 1e-12
+    assert np.abs(mapping(before) - after).max() < 1e-13
+    jacobians = mapping.jacobian(inside)
+    assert np.nanmin(np.linalg.det(jacobians)) > 0
+
+
+def test_points_outside_have_no_image(before, after):
+    mapping = libicc.Map(before, after)
+    images, status = mapping([[1.0, 1.0], [9.0, 9.0]], status=True)
+    assert status.tolist() == [0, libicc.Error.OUTSIDE]
+    assert np.isfinite(images[0]).all() and np.isnan(images[1]).all()
+
+
+@pytest.mark.parametrize("method", ["foliation", "disc", "gradient", "field"])
+def test_charts(before, inside, method):
+    chart = libicc.Chart(before, method, cells=40)
+    facet, bary, t, status = chart.encode(inside, status=True)
+    good = status == 0
+    assert good.mean() > 0.5 and chart.info.method == method
+    back = chart.decode(facet[good], bary[good], t[good])
+    close = np.abs(back - inside[good]).max(axis=1) < 1e-6
+    assert close.all() if method != "gradient" else close.any()
+    curve = chart.trace(inside[good][0])
+    assert np.abs(curve[-1] - chart.info.maximum).max() < 1e-12
+    assert chart.domain.dim == 2
+
+
+def test_borrowed_objects_keep_their_owner(before, after, inside):
+    chart = libicc.Map(before, after, "curves", method="foliation").source_chart
+    gc.collect()
+    assert len(chart.encode(inside)) == 3
+
+
+def test_errors(before):
+    with pytest.raises(libicc.BoundaryError) as caught:
+        libicc.Domain([[0, 0], [1, 1], [1, 0], [0, 1]])
+    assert caught.value.status == libicc.Error.BOUNDARY and caught.value.index >= 0
+    with pytest.raises(libicc.BoundaryError) as caught:
+        libicc.Map(before, before[:5])
+    assert "source" in str(caught.value) or "target" in str(caught.value) or caught.value.side == 0
+    with pytest.raises(ValueError, match="method must be one of"):
+        libicc.Chart(before, "folation")
+    with pytest.raises(ValueError, match="shape"):
+        libicc.Map(before, before)(np.zeros((3, 3)))
+    with pytest.raises(ValueError, match="indices"):
+        libicc.Domain(before, [[0.5, 1]])
+
+
+def test_progress(before, after):
+    stages = []
+    libicc.Map(before, after, progress=lambda stage, share: stages.append((stage, share)))
+    assert stages and all(0 <= share <= 1 for _, share in stages)
+    with pytest.raises(libicc.Cancelled):
+        libicc.Map(before, after, progress=lambda stage, share: True)
+
+    def complain(stage, share):
+        raise KeyError("mine")
+
+    with pytest.raises(KeyError, match="mine"):
+        libicc.Map(before, after, progress=complain)
+
+
+def test_threads_give_the_same_bits(before, after, inside):
+    mapping = libicc.Map(before, after)
+    many = np.tile(inside, (20, 1))
+    assert np.array_equal(mapping(many, threads=1), mapping(many, threads=4))
+    results = [None] * 4
+
+    def work(k):
+        results[k] = mapping(many)
+
+    workers = [threading.Thread(target=work, args=(k,)) for k in range(4)]
+    for worker in workers:
+        worker.start()
+    for worker in workers:
+        worker.join()
+    assert all(np.array_equal(result, results[0]) for result in results)
+
+
+def test_improve_follow_and_mesh(before, after, inside):
+    rough = libicc.Map(before, after, improve=0)
+    fair, report = rough.improve()
+    assert report.energy <= report.energy_start and fair.info.energy <= rough.info.energy
+    moved = fair.follow(after + [[0.1, 0]] * 6)
+    assert moved.certified and moved.source_chart is None
+    vertices, images, triangles = fair.mesh()
+    assert np.abs(fair(vertices) - images).max() < 1e-12
+    checked, certificate = fair.certify(vertices, triangles)
+    assert certificate.certified == 1 and np.abs(checked - images).max() < 1e-12
+
+
+def test_masks_and_surfaces(cube):
+    domain = libicc.Domain.from_mask(np.ones((2, 3, 4), bool))
+    assert domain.dim == 3 and domain.info.measure == 24
+    assert domain.info.upper.tolist() == [2, 3, 4]
+    mask = np.zeros((2, 2), bool)
+    mask[0, 0] = mask[1, 1] = True
+    repaired, n = libicc.repair_mask(mask)
+    assert n == 1 and repaired.sum() == 3
+    vertices, faces = cube
+    surface = libicc.Domain(vertices, faces)
+    where, facet, bary = surface.locate([[0.5, 0.5, 0.5], [2, 0, 0]], nearest=True)
+    assert where.tolist() == [libicc.INSIDE, libicc.OUTSIDE] and bary.shape == (2, 3)
+    assert np.array_equal(surface.facets, faces) and np.array_equal(surface.vertices, vertices)
+
+
+def test_defects():
+    assert libicc.boundary_defects([[0, 0], [1, 1], [1, 0], [0, 1]]) == [("crossing", 0, 2)]
+
+
+def test_neighbours(before, after, inside):
+    """Shapes of other packages."""
+    shapely = pytest.importorskip("shapely.geometry")
+    mapping = libicc.Map(shapely.Polygon(before), shapely.Polygon(after))
+    assert np.array_equal(mapping(inside), libicc.Map(before, after)(inside))
+    ring = shapely.Polygon(before, [[[1, 1], [2, 1], [2, 2]]])
+    with pytest.raises(ValueError, match="holes"):
+        libicc.Domain.info.fget(libicc.as_domain(ring))
+
+
+def test_calls_are_cheap(before, after):
+    """Not a timed test: prints what a call costs beside the work itself."""
+    import timeit
+
+    mapping, point = libicc.Map(before, after), np.array([[1.0, 1.0]])
+    per_call = min(timeit.repeat(lambda: mapping(point), number=2000, repeat=5)) / 2000
+    print(f"\na call with one point: {per_call * 1e6:.1f} us")

@@ -1,0 +1,79 @@
+"""Surfaces and conforming meshes."""
+
+import libicc
+import numpy as np
+import pytest
+
+
+def grid_mesh(n):
+    """The cube [0, n]^3 in Kuhn's tetrahedra."""
+    index = np.arange((n + 1) ** 3).reshape(n + 1, n + 1, n + 1)
+    points = np.stack(np.meshgrid(*[np.arange(n + 1.0)] * 3, indexing="ij"), -1).reshape(-1, 3)
+    cells = []
+    for order in [(0, 1, 2), (0, 2, 1), (1, 0, 2), (1, 2, 0), (2, 0, 1), (2, 1, 0)]:
+        corner, path = np.zeros(3, int), []
+        for axis in (None, *order):
+            if axis is not None:
+                corner = corner + np.eye(3, dtype=int)[axis]
+            i, j, k = corner
+            path.append(index[i:i + n, j:j + n, k:k + n].ravel())
+        cells.append(np.stack(path, -1))
+    return points, np.concatenate(cells)
+
+
+def bend(points):
+    x, y, z = points.T
+    return np.stack([x + 0.3 * np.sin(y), y + 0.1 * z * x, 1.5 * z - 0.1 * x * y], -1)
+
+
+@pytest.fixture
+def pair():
+    points, cells = grid_mesh(4)
+    return libicc.Domain.from_mesh(points, cells), libicc.Domain.from_mesh(bend(points), cells)
+
+
+@pytest.mark.parametrize("kind", ["mesh", "curves"])
+def test_meshes(pair, kind):
+    mapping = libicc.Map(*pair, kind)
+    assert mapping.certified and mapping.info.kind == kind
+    points = np.random.default_rng(1).uniform(0.01, 3.99, (3000, 3))
+    assert np.abs(mapping.inverse(mapping(points)) - points).max() < 1e-12
+    jacobians = mapping.jacobian(points)
+    good = np.isfinite(jacobians).all(axis=(1, 2))
+    assert good.mean() > 0.99 and (np.linalg.det(jacobians[good]) > 0).all()
+
+
+def test_mesh_of_a_map_in_space(pair):
+    vertices, images, cells = libicc.Map(*pair).mesh()
+    edges = images[cells[:, 1:]] - images[cells[:, :1]]
+    assert vertices.shape == images.shape and (np.linalg.det(edges) > 0).all()
+
+
+def test_certify_in_space(pair):
+    points, cells = grid_mesh(3)
+    images, certificate = libicc.Map(*pair).repair(points * 4 / 3, cells)
+    assert images.shape == points.shape and certificate.n_no_image == 0
+
+
+def test_surfaces_without_meshes(cube):
+    vertices, faces = cube
+    mapping = libicc.Map((vertices, faces), (vertices * [1, 2, 1], faces), cells=12)
+    assert mapping.source_chart.info.method == "field"
+    assert np.abs(mapping([[0.5, 0.5, 0.5]]) - [0.5, 1, 0.5]).max() < 0.1
+
+
+def test_errors_name_the_simplex():
+    points, cells = grid_mesh(2)
+    points[13] = points[12]
+    with pytest.raises(libicc.BoundaryError) as caught:
+        libicc.Domain.from_mesh(points, cells)
+    assert caught.value.index >= 0
+
+
+def test_meshio():
+    meshio = pytest.importorskip("meshio")
+    points, cells = grid_mesh(2)
+    domain = libicc.as_domain(meshio.Mesh(points, [("tetra", cells)]))
+    assert domain.dim == 3 and domain.info.measure == pytest.approx(8)
+    flat = meshio.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [("triangle", [[0, 1, 2], [0, 2, 3]])])
+    assert libicc.as_domain(flat).dim == 2

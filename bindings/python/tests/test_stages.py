@@ -1,0 +1,49 @@
+import libicc
+import numpy as np
+from libicc import stages
+
+
+def test_papers_pipeline(before):
+    grid = stages.Grid(before, 40)
+    inside = grid.inside
+    assert inside.sum() == grid.info.n_inside and inside.shape == grid.shape
+    tree = stages.Tree(grid)
+    assert tree.root == grid.maximum()[0] and tree.verify().n_cousin_violations == 0
+    assert tree.generations.max() > 10 and tree.parents.dtype == np.uint32
+    field = stages.Field(tree, "laplace")
+    assert field.info.function == "laplace"
+    report = field.verify()
+    assert (report.n_maxima, report.n_minima, report.n_saddles) == (1, 0, 0)
+    assert np.nanmax(field.values) == 1
+    edges, kinds = stages.Field(tree).edges()
+    assert len(edges) == len(kinds) and set(kinds.tolist()) <= {1, 2}
+    rank, report = tree.grow()
+    assert report.n_left == 0 and tree.verify_ranks(rank).n_maxima == 1
+    assert np.allclose(grid.position(grid.nearest([2, 3])), [2, 3], atol=grid.info.spacing)
+
+
+def test_views_keep_their_owner(before):
+    values = stages.Field(stages.Tree(stages.Grid(before, 30))).values
+    assert np.isfinite(values).any()
+
+
+def test_masks():
+    inside = np.zeros((5, 6, 7), bool)
+    inside[1:4, 1:5, 1:6] = True
+    grid = stages.Grid.from_mask(inside)
+    assert np.array_equal(grid.inside, inside)
+    assert stages.Tree(grid).grid.shape == (5, 6, 7)
+
+
+def test_chart_hands_out_its_field(before):
+    field = stages.Field.of(libicc.Chart(before, "gradient", function="laplace", cells=30))
+    assert field.info.function == "laplace"
+    assert stages.Field.of(libicc.Chart(before, "foliation")) is None
+
+
+def test_triangulate(before):
+    points = np.vstack([before, [[2, 2], [3, 7], [8, 3]]])
+    triangles = stages.triangulate(points, 6)
+    a, b, c = points[triangles].transpose(1, 0, 2)
+    areas = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]
+    assert (areas > 0).all() and np.isclose(areas.sum() / 2, 75)
