@@ -17,11 +17,6 @@ typedef struct tally {
     size_t all, kept, inverted, collapsed, flat_before, without_image;
 } tally;
 
-static const char *elements_name(const mesh_file *m)
-{
-    return m->dim == 2 ? "triangles" : "tetrahedra";
-}
-
 static bool has_image(const mesh_file *m, const double *points, const uint32_t *corners)
 {
     for (size_t k = 0; k <= m->dim; k++)
@@ -98,8 +93,8 @@ static int report_tally(const job *j, const mesh_file *m, const tally *t, size_t
     snprintf(text, sizeof text,
              "%zu %s: %zu keep their orientation, %zu inverted, %zu collapsed, %zu flat "
              "before, %zu without image",
-             t->all, elements_name(m), t->kept, t->inverted, t->collapsed, t->flat_before,
-             t->without_image);
+             t->all, elements_name((int32_t)m->dim), t->kept, t->inverted, t->collapsed,
+             t->flat_before, t->without_image);
     if (!j->args->json) {
         print_tally(j, text, certificate);
         return DONE;
@@ -109,7 +104,7 @@ static int report_tally(const job *j, const mesh_file *m, const tally *t, size_t
         return FAILED;
     json_count(&r.json, "points", m->n_vertices);
     json_count(&r.json, "without_image", n_failed);
-    json_open(&r.json, elements_name(m), '{');
+    json_open(&r.json, elements_name((int32_t)m->dim), '{');
     json_count(&r.json, "all", t->all);
     json_count(&r.json, "kept", t->kept);
     json_count(&r.json, "inverted", t->inverted);
