@@ -185,8 +185,8 @@ static icc_domain *make_domain(const mesh *m)
 }
 
 /* The map is one-to-one, but straight tetrahedra with the images of their corners need not be: those that invert
- * are repaired, which leaves the boundary where it is. A map of kind mesh, the default in space, is one of the
- * source's mesh to start with. */
+ * are repaired, which leaves the boundary where it is. (A map of kind mesh, the default in
+ * space, starts from the same images and is repaired when it is made.) */
 static void morph(const mesh *source, const mesh *target, double *images)
 {
     icc_domain *before = make_domain(source), *after = make_domain(target);
