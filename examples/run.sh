@@ -21,7 +21,7 @@ echo "building the examples against it"
 quietly "$build/configure.log" cmake -S examples -B "$programs" -DCMAKE_PREFIX_PATH="$stage"
 quietly "$build/build.log" cmake --build "$programs" --parallel "$(nproc)"
 
-for name in inspect_stages maximum_and_rotation sparse_points solid_through_time; do
+for name in inspect_stages maximum_and_rotation sparse_points solid_through_time mesh_4d; do
     "$programs/$name" >"$out/$name.txt"
     echo "$name"
     echo "the result is $out/$name.txt"
@@ -31,6 +31,9 @@ echo "l_to_square:"
 
 echo "animal_pose:"
 "$programs/animal_pose" "$out/animal.vtk"
+
+echo "mesh_morph examples/data/beam.mesh examples/data/bent.mesh"
+"$programs/mesh_morph" examples/data/beam.mesh examples/data/bent.mesh "$out/beam.mesh" "$out/beam.vtk"
 
 echo "warp_picture examples/data/chelsea.png"
 "$programs/warp_picture" examples/data/chelsea.src.txt examples/data/chelsea.tgt.txt \

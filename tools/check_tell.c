@@ -82,9 +82,11 @@ static void print_chart(const char *file, const icc_chart_info *chart)
             "enter all over the boundary",
             chart->n_inside);
     else
-        printf("%zu triangles, none of them inverted", chart->n_mesh_triangles);
+        printf("%zu %s, none of them inverted", chart->n_mesh_triangles, elements_name(chart->dim));
     if (chart->method == ICC_METHOD_FOLIATION)
-        printf("; every leaf runs from the boundary to the maximum (%zu ties)", chart->n_ties);
+        fputs("; every leaf runs from the boundary to the maximum", stdout);
+    if (chart->method == ICC_METHOD_FOLIATION && !(chart->order_beta > 0))
+        printf(" (%zu ties)", chart->n_ties);
     putchar('\n');
 }
 
@@ -110,15 +112,14 @@ void check_print_certificates(const check *c)
             print_field(file, &c->charts[side]);
     }
     if (c->map.n_unrepaired > 0)
-        printf("map: %zu triangles of the mesh could not be repaired, so it is of kind curves\n",
-               c->map.n_unrepaired);
+        printf("map: %zu %s of the mesh could not be repaired, so it is of kind curves\n",
+               c->map.n_unrepaired, elements_name(c->map.dim));
     if (!c->map.certified)
         return;
     printf("map: %s, certified one-to-one", choice_name(maps, c->map.kind));
     if (c->map.kind == ICC_MAP_MESH)
-        printf(
-            ": all %zu triangles keep their orientation, exactly, and both boundaries are simple",
-            c->map.n_triangles);
+        printf(": all %zu %s keep their orientation, exactly, and both boundaries are simple",
+               c->map.n_triangles, elements_name(c->map.dim));
     putchar('\n');
 }
 

@@ -128,22 +128,35 @@ static void print_field(const info *x)
     print_shares(x);
 }
 
-static void print_certified(const icc_chart_info *c)
+static void print_order(const icc_chart_info *c)
 {
+    printf("order       %s, weight %.4g; %d complete ones to choose from\n",
+           c->order_peeled ? "peeled from the boundary" : "grown from the maximum", c->order_beta,
+           (int)c->n_orders);
+    printf("flux        %zu facets reversed, %.3g away from the harmonic flux\n", c->n_reversed,
+           c->flux_energy);
+}
+
+static void print_certified(const info *x)
+{
+    const icc_chart_info *c = &x->chart;
     printf("method      %s, %s\n", choice_name(methods, c->method),
            c->certified ? "certified" : "not certified");
-    printf("mesh        %zu vertices, %zu of them on the boundary, %zu triangles, spacing %.17g\n",
-           c->n_mesh_vertices, c->n_mesh_boundary, c->n_mesh_triangles, c->spacing);
-    printf("maximum     %.17g %.17g\n", c->maximum[0], c->maximum[1]);
-    if (c->method == ICC_METHOD_FOLIATION)
+    printf("mesh        %zu vertices, %zu of them on the boundary, %zu %s, spacing %.17g\n",
+           c->n_mesh_vertices, c->n_mesh_boundary, c->n_mesh_triangles, elements_name(c->dim),
+           c->spacing);
+    print_point(x, "maximum     ", c->maximum, "\n");
+    if (c->order_beta > 0)
+        print_order(c);
+    else if (c->method == ICC_METHOD_FOLIATION)
         printf("leaves      %zu ties, flux through the boundary %.4g %% harmonic\n", c->n_ties,
                100 * c->harmonic_share);
 }
 
 static void print_mesh_map(const icc_map_info *m)
 {
-    printf("triangles   %zu, %zu vertices; %zu were not positive and have been repaired\n",
-           m->n_triangles, m->n_vertices, m->n_inverted);
+    printf("%-11s %zu, %zu vertices; %zu were not positive and have been repaired\n",
+           elements_name(m->dim), m->n_triangles, m->n_vertices, m->n_inverted);
     printf("energy      %.4g, improved to %.4g (steps: %zu, refinements: %d)\n", m->energy_start,
            m->energy, m->n_iterations, (int)m->n_levels);
 }
@@ -155,8 +168,8 @@ static void print_map(const info *x)
     printf("map         %s, %s\n", choice_name(maps, m->kind),
            m->certified ? "certified" : "not certified");
     if (m->n_unrepaired > 0)
-        printf("            of kind curves because %zu triangles could not be repaired\n",
-               m->n_unrepaired);
+        printf("            of kind curves because %zu %s could not be repaired\n", m->n_unrepaired,
+               elements_name(m->dim));
     if (m->kind == ICC_MAP_MESH)
         print_mesh_map(m);
     printf("%-11s %6.2f %% collapses, %.2f %% inverts, %.2f %% has no image\n",
@@ -183,6 +196,14 @@ static void print_grid_seconds(const info *x)
         printf(", vectors %.4f", c->seconds_solve);
 }
 
+static void print_mesh_seconds(const icc_chart_info *c)
+{
+    printf("mesh %.4f, solve %.4f, ", c->seconds_mesh, c->seconds_solve);
+    if (c->order_beta > 0)
+        printf("order %.4f, ", c->seconds_tree);
+    printf("certify %.4f", c->seconds_certify);
+}
+
 void info_print(const info *x)
 {
     const icc_chart_info *c = &x->chart;
@@ -192,15 +213,14 @@ void info_print(const info *x)
     else if (c->method == ICC_METHOD_FIELD)
         print_field(x);
     else
-        print_certified(c);
+        print_certified(x);
     if (x->shares.n > 0)
         print_map(x);
     printf("seconds     read %.4f, ", x->job.seconds_read);
     if (info_has_grid(x))
         print_grid_seconds(x);
     else
-        printf("mesh %.4f, solve %.4f, certify %.4f", c->seconds_mesh, c->seconds_solve,
-               c->seconds_certify);
+        print_mesh_seconds(c);
     if (x->map.kind == ICC_MAP_MESH)
         printf(", repair %.4f, improve %.4f, certify %.4f", x->map.seconds_repair,
                x->map.seconds_improve, x->map.seconds_certify);

@@ -59,6 +59,18 @@ static void report_grid(json *j, const info *x)
     json_count(j, "expansion_edges_inside", x->n_inner_expansion);
 }
 
+static void report_order(json *j, const icc_chart_info *c)
+{
+    json_open(j, "order", '{');
+    json_text(j, "found", c->order_peeled ? "peeled" : "grown");
+    json_number(j, "weight", c->order_beta);
+    json_count(j, "complete", (size_t)c->n_orders);
+    json_count(j, "reversed", c->n_reversed);
+    json_number(j, "energy", c->flux_energy);
+    json_number(j, "divergence", c->flux_divergence);
+    json_close(j, '}');
+}
+
 static void report_mesh(json *j, const icc_chart_info *c)
 {
     json_count(j, "mesh_vertices", c->n_mesh_vertices);
@@ -66,6 +78,8 @@ static void report_mesh(json *j, const icc_chart_info *c)
     json_count(j, "mesh_triangles", c->n_mesh_triangles);
     if (c->method != ICC_METHOD_FOLIATION)
         return;
+    if (c->order_beta > 0)
+        report_order(j, c);
     json_count(j, "ties", c->n_ties);
     json_number(j, "harmonic_share", c->harmonic_share);
 }
@@ -142,6 +156,8 @@ static void report_seconds(json *j, const info *x)
     } else {
         json_number(j, "mesh", c->seconds_mesh);
         json_number(j, "solve", c->seconds_solve);
+        if (c->order_beta > 0)
+            json_number(j, "order", c->seconds_tree);
         json_number(j, "certify", c->seconds_certify);
     }
     json_number(j, "all", seconds_now() - x->job.started);

@@ -68,12 +68,10 @@ static const command commands[] = {
      .details =
          "OBJ, OFF, Medit (.mesh) and legacy VTK as text. Says how many triangles (in space: "
          "tetrahedra)\n"
-         "keep their orientation, how many invert or collapse, and in the plane whether the mesh "
-         "and "
-         "its\n"
-         "image are one-to-one, with exact signs. A mesh that is sampled from a one-to-one map "
-         "need "
-         "not be.\n"},
+         "keep their orientation, how many invert or collapse, and whether the mesh and its image "
+         "are\n"
+         "one-to-one, with exact signs. A mesh that is sampled from a one-to-one map need not "
+         "be.\n"},
     {.name = "check",
      .bit = FOR_CHECK,
      .run = run_check,

@@ -72,3 +72,8 @@ const char *quoted(char out[32], const char *word)
     out[n] = '\0';
     return out;
 }
+
+const char *elements_name(int32_t dim)
+{
+    return dim == 2 ? "triangles" : dim == 3 ? "tetrahedra" : "simplices";
+}

@@ -4,6 +4,7 @@
 
 #include <stdarg.h>
 #include <stddef.h>
+#include <stdint.h>
 
 #if defined(__GNUC__)
 #define SAY_FORMAT(string, first) __attribute__((format(printf, string, first)))
@@ -40,5 +41,8 @@ void note(const char *format, ...) SAY_FORMAT(1, 2);
 /* Copies the word at `word` for use in a message: at most 24 characters, up to white space, with
  * anything unprintable shown as '?'. Returns `out`. */
 const char *quoted(char out[32], const char *word);
+
+/* What the elements of a mesh are called: "triangles", "tetrahedra", beyond space "simplices". */
+const char *elements_name(int32_t dim);
 
 #endif

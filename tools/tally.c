@@ -4,11 +4,6 @@
 
 #include <math.h>
 
-static const char *elements_name(const mesh_file *m)
-{
-    return m->dim == 2 ? "triangles" : "tetrahedra";
-}
-
 static bool has_image(const mesh_file *m, const double *points, const uint32_t *corners)
 {
     for (size_t k = 0; k < m->dim * (m->dim + 1); k++)
@@ -54,13 +49,13 @@ void tally_print(const tally *t, const mesh_file *m, char *text, size_t room)
     snprintf(text, room,
              "%zu %s: %zu keep their orientation, %zu inverted, %zu collapsed, %zu flat "
              "before, %zu without image",
-             t->all, elements_name(m), t->kept, t->inverted, t->collapsed, t->flat_before,
+             t->all, elements_name((int32_t)m->dim), t->kept, t->inverted, t->collapsed, t->flat_before,
              t->without_image);
 }
 
 void tally_report(const tally *t, const mesh_file *m, json *out)
 {
-    json_open(out, elements_name(m), '{');
+    json_open(out, elements_name((int32_t)m->dim), '{');
     json_count(out, "all", t->all);
     json_count(out, "kept", t->kept);
     json_count(out, "inverted", t->inverted);

@@ -387,7 +387,8 @@ typedef struct icc_chart_info {
     size_t n_not_inward;         /**< field: those of them where the vector does not point inward */
     int32_t order_peeled;        /**< foliation on a mesh: 1: the order of the simplices was found from the
                                       boundary inwards, 0: from the centre outwards */
-    int32_t n_orders;            /**< how many such orders were complete; the best is used */
+    int32_t n_orders;            /**< how many of the fourteen that are tried were complete at first; the
+                                      best is improved and used */
     double order_beta;           /**< how much reversed flux weighed in it */
     size_t n_reversed;           /**< facets that the harmonic flux runs through the other way */
     double flux_energy;          /**< how far the flux along the leaves is from the harmonic one: sum of
@@ -539,8 +540,9 @@ enum {
 /** Options of icc_map_create(). */
 typedef struct icc_map_options {
     size_t size;                    /**< set by the caller: `sizeof(icc_map_options)` */
-    int32_t kind;                   /**< `ICC_MAP_*`; 0: mesh for foliation and disc, else curves, also where
-                                         both domains have meshes of the caller's */
+    int32_t kind;                   /**< `ICC_MAP_*`; 0: mesh for foliation and disc in 2-D, unless both
+                                         domains have meshes of the caller's, and for foliation in 3-D; else
+                                         curves */
     int32_t iterations;             /**< mesh: steps of improvement on each level of refinement; 0: as
                                          many as pay, at most 60; -1: no improvement */
     const icc_chart_options *chart; /**< for both charts, or NULL; its `maximum` is the source's. For
