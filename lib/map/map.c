@@ -151,8 +151,7 @@ static bool are_filled(const icc_domain *const domains[2])
 }
 
 /* The method that suits the kind, where the caller leaves it open: discs are the better start for a
- * mesh, unless a maximum is given, which they do not have. Domains with meshes of the caller's are mapped along
- * curves unless he says otherwise. */
+ * mesh, unless a maximum is given, which they do not have. The caller's own meshes are for foliations. */
 static void complete(icc_chart_options chart_options[2], const icc_domain *const domains[2],
                      int32_t kind)
 {

@@ -145,25 +145,48 @@ static icc_status plant(iccp_solid_map *map, const iccp_env *env)
     return map->before.boxes != NULL && map->after.boxes != NULL ? ICC_OK : ICC_ERR_MEMORY;
 }
 
-static icc_status try_mesh(iccp_solid_map *map, const icc_chart *source, const icc_chart *target,
-                           icc_map_info *info, const iccp_env *env)
+/* Whether a tetrahedron is inverted whose corners are all on the boundary: no repair can help it. */
+static bool is_hopeless(const iccp_solid_map *map)
 {
-    const icc_status status = begin(map, source, target, env);
-    return status == ICC_OK ? repair(map, info, env) : status;
+    const iccp_simplices *mesh = map->mesh;
+    for (size_t t = 0; t < mesh->n_simplices; ++t) {
+        bool on_rim = true;
+        for (size_t k = 0; k < 4; ++k)
+            on_rim = on_rim && mesh->corners[4 * t + k] < mesh->n_rim;
+        if (on_rim && !is_positive(mesh, map->images, t))
+            return true;
+    }
+    return false;
 }
 
-/* Once more from the charts' images, with points where boundary vertices alone could not be helped. */
-static icc_status try_without_chords(iccp_solid_map *map, const icc_chart *source,
-                                     const icc_chart *target, icc_map_info *info,
-                                     const iccp_env *env)
+/* With points between boundary vertices; *done says whether there is room for any. */
+static icc_status begin_without_chords(iccp_solid_map *map, const icc_chart *source,
+                                       const icc_chart *target, bool *done, const iccp_env *env)
 {
-    const icc_status status = iccp_solid_cut_chords(&map->own, source->domain, env);
+    icc_status status = iccp_solid_cut_chords(&map->own, source->domain, env);
+    *done = map->own != NULL;
     if (status != ICC_OK || map->own == NULL)
         return status;
-    iccp_log(env, "%zu tetrahedra could not be repaired: trying again without chords", info->n_unrepaired);
+    iccp_log(env, "tetrahedra between boundary vertices cannot be repaired: points are added");
     map->mesh = map->own;
     iccp_free(&env->memory, map->images);
-    return try_mesh(map, source, target, info, env);
+    return begin(map, source, target, env);
+}
+
+/* On the source's mesh if that can be repaired, else without its chords. */
+static icc_status fit(iccp_solid_map *map, const icc_chart *source, const icc_chart *target,
+                      icc_map_info *info, const iccp_env *env)
+{
+    bool cut = false;
+    icc_status status = begin(map, source, target, env);
+    if (status == ICC_OK && is_hopeless(map))
+        status = begin_without_chords(map, source, target, &cut, env);
+    if (status == ICC_OK)
+        status = repair(map, info, env);
+    if (status != ICC_OK || info->n_unrepaired == 0 || cut)
+        return status;
+    status = begin_without_chords(map, source, target, &cut, env);
+    return status == ICC_OK && cut ? repair(map, info, env) : status;
 }
 
 icc_status iccp_solid_map_create(iccp_solid_map **out, const icc_chart *source,
@@ -175,9 +198,7 @@ icc_status iccp_solid_map_create(iccp_solid_map **out, const icc_chart *source,
         return ICC_ERR_MEMORY;
     map->memory = env->memory;
     map->mesh = source->domain->mesh;
-    icc_status status = try_mesh(map, source, target, info, env);
-    if (status == ICC_OK && info->n_unrepaired > 0)
-        status = try_without_chords(map, source, target, info, env);
+    icc_status status = fit(map, source, target, info, env);
     if (status == ICC_OK && info->n_unrepaired == 0)
         status = plant(map, env);
     if (status != ICC_OK || info->n_unrepaired > 0) {
