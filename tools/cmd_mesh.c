@@ -39,8 +39,8 @@ static void print_tally(const job *j, const char *text, const icc_certificate *c
         printf("%s%s\n", text, verdict);
 }
 
-static int report_tally(const job *j, const mesh_file *m, const tally *t, size_t n_failed,
-                        const icc_certificate *certificate)
+static int report_tally(const job *j, const mesh_file *m, const double *images, const tally *t,
+                        size_t n_failed, const icc_certificate *certificate)
 {
     char text[256];
     tally_print(t, m, text, sizeof text);
@@ -53,7 +53,7 @@ static int report_tally(const job *j, const mesh_file *m, const tally *t, size_t
         return FAILED;
     json_count(&r.json, "points", m->n_vertices);
     json_count(&r.json, "without_image", n_failed);
-    tally_report(t, m, &r.json);
+    tally_report(t, m, images, &r.json);
     if (certificate->size > 0) {
         json_flag(&r.json, "boundary_simple", certificate->boundary_simple != 0);
         json_flag(&r.json, "certified", certificate->certified != 0);
@@ -84,7 +84,7 @@ static int map_mesh(job *j, const mesh_file *m)
         result = write_mesh(j, m, images);
     if (result == DONE) {
         tally t = tally_count(m, images);
-        result = report_tally(j, m, &t, n_failed, &certificate);
+        result = report_tally(j, m, images, &t, n_failed, &certificate);
     }
     if (result == DONE)
         result = job_partial(j, n, status, "vertices");

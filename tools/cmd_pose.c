@@ -112,18 +112,20 @@ static int pose_rows(pose *p, const char *text, size_t n)
 
 /* ------------------------------------------------------------------- meshes */
 
-static int report_mesh(pose *p, const mesh_file *m, const tally *t, size_t n_failed, double seconds)
+static int report_mesh(pose *p, const mesh_file *m, const double *images, size_t n_failed,
+                       double seconds)
 {
     char text[256];
     report r;
+    tally t = tally_count(m, images);
     if (!p->kernel.job.args->json) {
-        tally_print(t, m, text, sizeof text);
+        tally_print(&t, m, text, sizeof text);
         pose_say(p, text);
         return DONE;
     }
     if (pose_report_open(&r, p, m->n_vertices, m->points, n_failed, seconds) != DONE)
         return FAILED;
-    tally_report(t, m, &r.json);
+    tally_report(&t, m, images, &r.json);
     return report_close(&r) ? DONE : FAILED;
 }
 
@@ -141,10 +143,8 @@ static int write_mesh(pose *p, const mesh_file *m)
         mesh_write(m, images, file.stream);
         result = outfile_close(&file) ? DONE : FAILED;
     }
-    if (result == DONE) {
-        tally t = tally_count(m, images);
-        result = report_mesh(p, m, &t, n_failed, seconds);
-    }
+    if (result == DONE)
+        result = report_mesh(p, m, images, n_failed, seconds);
     free(images);
     return result == DONE ? partial(n_failed, m->n_vertices, "vertices") : result;
 }

@@ -73,31 +73,6 @@ static int read_shape(kernel_job *k)
     return DONE;
 }
 
-/* The library's choice, a hundredth of the longest side, would take minutes and gigabytes in space: the cost
- * of the weights grows with the square of the number of samples there. A twentieth takes about a second. */
-static double choose_spacing(const kernel_job *k)
-{
-    static const double share = 1.0 / 20;
-    const cage *source = &k->job.cages[0];
-    const struct {
-        size_t n;
-        const double *points;
-    } parts[] = {{source->n, source->points}, {k->set.n_vertices, k->set.vertices}};
-    double longest = 0;
-    if (k->job.args->spacing > 0 || k->set.dim == 2)
-        return k->job.args->spacing;
-    for (size_t c = 0; c < 3; c++) {
-        double low = HUGE_VAL, high = -HUGE_VAL;
-        for (size_t i = 0; i < 2; i++)
-            for (size_t v = 0; v < parts[i].n; v++) {
-                low = fmin(low, parts[i].points[3 * v + c]);
-                high = fmax(high, parts[i].points[3 * v + c]);
-            }
-        longest = fmax(longest, high - low);
-    }
-    return share * longest;
-}
-
 static int make_samples(kernel_job *k)
 {
     const handle_set *set = &k->set;
@@ -115,7 +90,7 @@ static int make_samples(kernel_job *k)
                          set->vertices, set->n_segments, set->segments, &k->job.env, &err);
     icc_sampling_options spread = {.size = sizeof spread,
                                    .kind = a->sampling,
-                                   .spacing = choose_spacing(k),
+                                   .spacing = k->job.args->spacing,
                                    .seed = (uint64_t)a->seed};
     double began = seconds_now();
     if (status == ICC_OK)

@@ -13,8 +13,8 @@ typedef struct tally {
 
 tally tally_count(const mesh_file *m, const double *images);
 
-/* In one line, without its end; as an object of a report. */
+/* In one line, without its end; as an object of a report, which lists those that are inverted or collapsed. */
 void tally_print(const tally *t, const mesh_file *m, char *text, size_t room);
-void tally_report(const tally *t, const mesh_file *m, json *out);
+void tally_report(const tally *t, const mesh_file *m, const double *images, json *out);
 
 #endif

@@ -85,7 +85,8 @@ typedef struct icc_sampling_options {
     size_t size;        /**< set by the caller: `sizeof(icc_sampling_options)` */
     int32_t kind;       /**< `ICC_SAMPLING_*`; 0: blue */
     int32_t steps;      /**< blue: steps of relaxation (inverse mean shift); 0: 60; -1: none */
-    double spacing;     /**< T, the distance of neighbours; 0: 1/100 of the longest side */
+    double spacing;     /**< T, the distance of neighbours; 0: of the longest side 1/100, in
+                             3-D 1/20, where half of it costs 60 times as much */
     double margin;      /**< grid: how far from the regions it goes, in spacings; 0: not beyond them */
     uint64_t seed;      /**< blue: of the random numbers; equal seeds give equal samplings */
     size_t n_fixed;     /**< points that shall be samples */
@@ -200,7 +201,8 @@ enum {
  * samples with those places fixed for the best spacing.
  *
  * An end may be a handle, or an end of an earlier line. Lines should not cross: where they come near each other, or a
- * handle, the earlier one and the handle prevail.
+ * handle, the earlier one and the handle prevail. The weights of a parallel line follow from those of the other and can
+ * be negative; nodes beside it keep theirs, so that between its nodes it is straight only to a few hundredths then.
  */
 typedef struct icc_line {
     double from[3];    /**< an end of it, in the shape; at least half a spacing away from the other */

@@ -9,8 +9,9 @@
 #include <math.h>
 
 static const double MAX_SAMPLES = 16777216; /* 2^24 */
-/* Without the caller's: this share of the longest side. */
-static const double DEFAULT_SPACING = 0.01;
+/* Without the caller's: these shares of the longest side, in 2-D and in 3-D, where the cost of the weights grows with
+ * the square of the number of samples. */
+static const double DEFAULT_SPACING[] = {0.01, 0.05};
 static const int32_t DEFAULT_STEPS = 60;
 /* Of the spacing: samples on walls and curves keep this distance, where lines of them meet at sharp angles. */
 static const double RIM_GAP = 0.55;
@@ -34,7 +35,7 @@ static double default_spacing(const icc_shape *shape)
     double longest = 0;
     for (size_t k = 0; k < shape->dim; ++k)
         longest = fmax(longest, shape->upper[k] - shape->lower[k]);
-    return DEFAULT_SPACING * longest;
+    return DEFAULT_SPACING[shape->dim == 3] * longest;
 }
 
 /* -------------------------------------------------------------------- grid */

@@ -92,5 +92,7 @@ printf '0.5 0.5 0.5\n' | rejects ' ' 'there are no vertices'
 if command -v tetgen >/dev/null; then
     run 0 mesh -s cube.obj -t moved.obj --repair in.mesh mended.mesh
     holds out '0 inverted'
+    run 0 mesh -s cube.obj -t moved.obj --repair --json in.mesh mended.mesh
+    holds out '"turned": []'
 fi
 finish

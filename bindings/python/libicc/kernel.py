@@ -91,7 +91,7 @@ class Sampling(_Saved):
     Args:
         shape: a Shape, or one region
         kind: "blue" (default) or "grid"
-        spacing: distance of neighbours; None: 1/100 of the longest side
+        spacing: distance of neighbours; None: 1/100 of the longest side, in 3-D 1/20
         steps: of relaxation (blue); None: as many as suit
         margin: how far a grid goes beyond the regions, in spacings
         seed: of the random numbers
