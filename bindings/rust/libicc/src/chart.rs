@@ -1,0 +1,364 @@
+//! Coordinates of the inside of a shape.
+use crate::domain::{BoundaryPoints, Domain};
+use crate::env::Env;
+use crate::error::{Result, Status};
+use crate::field::Field;
+use crate::object::{object, Borrowed};
+use crate::slices::{count, exactly, int, pointer, pointer_mut};
+use crate::sys;
+
+pub use crate::sys::icc_chart_info as ChartInfo;
+pub use crate::sys::icc_chart_measures as ChartMeasures;
+
+object!(
+    /// Coordinates of the inside of a domain: a boundary point, and a share of the way from there to the maximum.
+    ///
+    /// ```
+    /// use libicc::{Chart, ChartOptions, Domain, Env};
+    /// let env = &mut Env::new();
+    /// let square = Domain::polygon(&[0.0, 0.0, 4.0, 0.0, 4.0, 4.0, 0.0, 4.0], env)?;
+    /// let chart = Chart::new(&square, &ChartOptions::default(), env)?;
+    /// assert_eq!(chart.info().certified, 1);
+    /// let codes = chart.encode(&[1.0, 2.5], env)?;
+    /// let back = chart.decode(&codes.start.facet, &codes.start.bary, &codes.t, env)?;
+    /// assert!((back.points[0] - 1.0).abs() < 1e-12 && (back.points[1] - 2.5).abs() < 1e-12);
+    /// # Ok::<(), libicc::Error>(())
+    /// ```
+    Chart,
+    icc_chart,
+    icc_chart_free
+);
+
+/// How coordinates are made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[repr(i32)]
+pub enum Method {
+    /// Integral Curve Coordinates as published: a grid, a cousin tree, a function; not one-to-one
+    Gradient = sys::ICC_METHOD_GRADIENT,
+    /// along leaves that cannot merge; certified
+    Foliation = sys::ICC_METHOD_FOLIATION,
+    /// along a field that curves cannot merge in, on a grid in any dimension
+    Field = sys::ICC_METHOD_FIELD,
+    /// polar coordinates of the harmonic map to a disc; certified
+    Disc = sys::ICC_METHOD_DISC,
+}
+
+/// The function whose gradient lines are followed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[repr(i32)]
+pub enum Function {
+    /// 10 at the maximum, times 0.95 from parent to child
+    Decay = sys::ICC_FUNCTION_DECAY,
+    /// minus the distance in the tree
+    Distance = sys::ICC_FUNCTION_DISTANCE,
+    /// discretely harmonic
+    Laplace = sys::ICC_FUNCTION_LAPLACE,
+    /// discretely biharmonic, simply supported
+    Bilaplace = sys::ICC_FUNCTION_BILAPLACE,
+    /// discretely biharmonic, clamped
+    Clamped = sys::ICC_FUNCTION_CLAMPED,
+}
+
+/// Whether a function is made to fall along the tree.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[repr(i32)]
+pub enum Constraints {
+    /// when it has other critical points than one maximum
+    Needed = sys::ICC_CONSTRAINTS_NEEDED,
+    /// never
+    None = sys::ICC_CONSTRAINTS_NONE,
+    /// always
+    All = sys::ICC_CONSTRAINTS_ALL,
+}
+
+/// How linear systems are solved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[repr(i32)]
+pub enum Solver {
+    /// sparse factorisation
+    Direct = sys::ICC_SOLVER_DIRECT,
+    /// conjugate gradients with a multigrid preconditioner
+    Iterative = sys::ICC_SOLVER_ITERATIVE,
+}
+
+/// The published forms of the tree.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[repr(i32)]
+pub enum TreeForm {
+    /// vertices just outside the boundary belong to the tree
+    Thesis = sys::ICC_TREE_THESIS,
+    /// vertices just outside are children of all their neighbours inside
+    Paper = sys::ICC_TREE_PAPER,
+}
+
+/// Options of [`Chart::new`]. `None` and 0 are the library's choice.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ChartOptions<'a> {
+    /// how coordinates are made
+    pub method: Option<Method>,
+    /// grid or mesh cells along the longest side; 0: 50
+    pub cells: usize,
+    /// where the maximum shall be, dim coordinates
+    pub maximum: Option<&'a [f64]>,
+    /// gradient: the function
+    pub function: Option<Function>,
+    /// gradient: the tree
+    pub tree: Option<TreeForm>,
+    /// gradient: whether the function is constrained
+    pub constraints: Option<Constraints>,
+    /// gradient: the solver
+    pub solver: Option<Solver>,
+    /// gradient: least relative fall along tree edges; 0: 1e-6
+    pub eta: f64,
+    /// gradient, constrained bi-Laplace: least value at the leaves; 0: 1e-9
+    pub leaf: f64,
+}
+
+impl ChartOptions<'_> {
+    /// As C takes them, for a domain of dimension `dim`. Valid as long as `maximum`.
+    pub(crate) fn raw(&self, dim: usize) -> Result<sys::icc_chart_options> {
+        if let Some(maximum) = self.maximum {
+            exactly(maximum, dim, "maximum")?;
+        }
+        Ok(sys::icc_chart_options {
+            method: self.method.map_or(0, |value| value as i32),
+            function: self.function.map_or(0, |value| value as i32),
+            tree: self.tree.map_or(0, |value| value as i32),
+            cells: int(self.cells),
+            maximum: pointer(self.maximum),
+            constraints: self.constraints.map_or(0, |value| value as i32),
+            solver: self.solver.map_or(0, |value| value as i32),
+            eta: self.eta,
+            leaf: self.leaf,
+            ..Default::default()
+        })
+    }
+}
+
+/// Integral curve coordinates of n points.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Codes {
+    /// where the curves start: `u32::MAX` and NaN for points that have no coordinates
+    pub start: BoundaryPoints,
+    /// shares of the curves' arc length from the boundary, in \[0,1\]
+    pub t: Vec<f64>,
+    /// what became of each point
+    pub status: Vec<Status>,
+    /// how many points have no coordinates
+    pub n_failed: usize,
+}
+
+/// Where points have gone.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Images {
+    /// n * dim coordinates; NaN where there is no point
+    pub points: Vec<f64>,
+    /// what became of each
+    pub status: Vec<Status>,
+    /// how many there are not
+    pub n_failed: usize,
+}
+
+impl Images {
+    pub(crate) fn new(n: usize, width: usize) -> Images {
+        Images { points: vec![0.0; n * width], status: vec![Status::OK; n], n_failed: 0 }
+    }
+}
+
+impl Chart {
+    /// Makes coordinates of a domain.
+    ///
+    /// # Errors
+    /// [`Status::CERTIFICATE`] when the chart could not be proved one-to-one, [`Status::RESOLUTION`],
+    /// [`Status::OUTSIDE`] (the maximum), [`Status::UNSUPPORTED`], [`Status::CANCELLED`], ...
+    pub fn new(domain: &Domain, options: &ChartOptions<'_>, env: &mut Env<'_>) -> Result<Chart> {
+        let raw = options.raw(domain.dim())?;
+        Chart::make(env, |out, env, err| {
+            // SAFETY: the options are valid during the call.
+            unsafe { sys::icc_chart_create(out, domain.as_ptr(), &raw, env, err) }
+        })
+    }
+
+    /// What the chart is made of, and whether it is certified.
+    pub fn info(&self) -> ChartInfo {
+        let mut info = ChartInfo::default();
+        // SAFETY: `size` is set. It cannot fail.
+        unsafe { sys::icc_chart_get_info(self.as_ptr(), &mut info) };
+        info
+    }
+
+    /// The dimension.
+    pub fn dim(&self) -> usize {
+        self.info().dim as usize
+    }
+
+    /// The domain that the chart was made on.
+    pub fn domain(&self) -> Borrowed<'_, Domain> {
+        // SAFETY: the chart keeps its domain, of which it always has one.
+        unsafe {
+            let raw = sys::icc_chart_domain(self.as_ptr());
+            Borrowed::new(Domain::found(raw).expect("libicc: a chart without a domain"))
+        }
+    }
+
+    /// The function of a gradient chart, `None` for others.
+    pub fn field(&self) -> Option<Borrowed<'_, Field>> {
+        // SAFETY: the chart keeps its field.
+        unsafe { Field::found(sys::icc_chart_field(self.as_ptr())).map(|field| Borrowed::new(field)) }
+    }
+
+    /// Estimates what the coordinates miss from `n_points` evenly spread points; 0: 4096.
+    pub fn measure(&self, n_points: usize, env: &mut Env<'_>) -> Result<ChartMeasures> {
+        let mut measures = ChartMeasures::default();
+        env.call(|env, err| {
+            // SAFETY: `size` is set.
+            unsafe { sys::icc_chart_measure(self.as_ptr(), n_points, &mut measures, env, err) }
+        })?;
+        Ok(measures)
+    }
+
+    /// Cartesian to integral curve coordinates: n * dim coordinates.
+    ///
+    /// Points that have no coordinates do not make the call fail: see [`Codes::status`].
+    pub fn encode(&self, points: &[f64], env: &mut Env<'_>) -> Result<Codes> {
+        let dim = self.dim();
+        let n = count(points, dim, "points")?;
+        let mut codes = Codes {
+            start: BoundaryPoints { facet: vec![0; n], bary: vec![0.0; n * dim] },
+            t: vec![0.0; n],
+            status: vec![Status::OK; n],
+            n_failed: 0,
+        };
+        let start = &mut codes.start;
+        codes.n_failed = self.encode_into(
+            points,
+            &mut start.facet,
+            &mut start.bary,
+            &mut codes.t,
+            Some(&mut codes.status),
+            env,
+        )?;
+        Ok(codes)
+    }
+
+    /// As [`encode`](Self::encode), written to slices of n, n * dim, n and n values. Returns how many points have
+    /// no coordinates.
+    pub fn encode_into(
+        &self,
+        points: &[f64],
+        facet: &mut [u32],
+        bary: &mut [f64],
+        t: &mut [f64],
+        status: Option<&mut [Status]>,
+        env: &mut Env<'_>,
+    ) -> Result<usize> {
+        let n = count(points, self.dim(), "points")?;
+        exactly(facet, n, "facet")?;
+        exactly(bary, points.len(), "bary")?;
+        exactly(t, n, "t")?;
+        let status = statuses(status, n)?;
+        let mut n_failed = 0;
+        env.call(|env, _| {
+            // SAFETY: every slice has room for n points.
+            unsafe {
+                sys::icc_chart_encode(
+                    self.as_ptr(),
+                    n,
+                    points.as_ptr(),
+                    facet.as_mut_ptr(),
+                    bary.as_mut_ptr(),
+                    t.as_mut_ptr(),
+                    status,
+                    &mut n_failed,
+                    env,
+                )
+            }
+        })?;
+        Ok(n_failed)
+    }
+
+    /// Integral curve coordinates to Cartesian: n facets, n * dim barycentric coordinates, n shares.
+    pub fn decode(&self, facet: &[u32], bary: &[f64], t: &[f64], env: &mut Env<'_>) -> Result<Images> {
+        let mut images = Images::new(t.len(), self.dim());
+        images.n_failed =
+            self.decode_into(facet, bary, t, &mut images.points, Some(&mut images.status), env)?;
+        Ok(images)
+    }
+
+    /// As [`decode`](Self::decode), written to slices of n * dim and n values. Returns how many coordinates have
+    /// no point.
+    pub fn decode_into(
+        &self,
+        facet: &[u32],
+        bary: &[f64],
+        t: &[f64],
+        points: &mut [f64],
+        status: Option<&mut [Status]>,
+        env: &mut Env<'_>,
+    ) -> Result<usize> {
+        let n = t.len();
+        exactly(facet, n, "facet")?;
+        exactly(bary, n * self.dim(), "bary")?;
+        exactly(points, n * self.dim(), "points")?;
+        let status = statuses(status, n)?;
+        let mut n_failed = 0;
+        env.call(|env, _| {
+            // SAFETY: every slice has n entries.
+            unsafe {
+                sys::icc_chart_decode(
+                    self.as_ptr(),
+                    n,
+                    facet.as_ptr(),
+                    bary.as_ptr(),
+                    t.as_ptr(),
+                    points.as_mut_ptr(),
+                    status,
+                    &mut n_failed,
+                    env,
+                )
+            }
+        })?;
+        Ok(n_failed)
+    }
+
+    /// The whole curve through a point, from the boundary to the maximum: rows of dim coordinates.
+    ///
+    /// # Errors
+    /// [`Status::OUTSIDE`], [`Status::TRACE`] (the curve does not reach both ends).
+    pub fn trace(&self, point: &[f64], env: &mut Env<'_>) -> Result<Vec<f64>> {
+        let dim = self.dim();
+        exactly(point, dim, "point")?;
+        let mut capacity = 256;
+        loop {
+            let mut curve = vec![0.0; capacity * dim];
+            let mut n = 0;
+            env.call(|env, err| {
+                // SAFETY: there is room for `capacity` points.
+                unsafe {
+                    sys::icc_chart_trace(
+                        self.as_ptr(),
+                        point.as_ptr(),
+                        capacity,
+                        curve.as_mut_ptr(),
+                        &mut n,
+                        env,
+                        err,
+                    )
+                }
+            })?;
+            if n <= capacity {
+                curve.truncate(n * dim);
+                return Ok(curve);
+            }
+            capacity = n;
+        }
+    }
+}
+
+/// Where the library may write n statuses.
+pub(crate) fn statuses(status: Option<&mut [Status]>, n: usize) -> Result<*mut sys::icc_status> {
+    if let Some(status) = &status {
+        exactly(status, n, "status")?;
+    }
+    Ok(pointer_mut(status).cast())
+}

@@ -1,0 +1,282 @@
+//! Shapes: a boundary, and what lies inside.
+use crate::env::Env;
+use crate::error::{check, Result};
+use crate::object::object;
+use crate::slices::{count, exactly, int, pointer, product};
+use crate::sys;
+use std::ptr;
+
+pub use crate::sys::icc_domain_info as DomainInfo;
+
+object!(
+    /// A shape: its boundary, and what lies inside.
+    ///
+    /// ```
+    /// use libicc::{Domain, Env, Place};
+    /// let square = Domain::polygon(&[0.0, 0.0, 4.0, 0.0, 4.0, 4.0, 0.0, 4.0], &mut Env::new())?;
+    /// assert_eq!(square.info().measure, 16.0);
+    /// let places = square.locate(&[1.0, 1.0, 4.0, 2.0, 9.0, 9.0], &mut Env::new())?;
+    /// assert_eq!(places, [Place::INSIDE, Place::BOUNDARY, Place::OUTSIDE]);
+    /// # Ok::<(), libicc::Error>(())
+    /// ```
+    Domain,
+    icc_domain,
+    icc_domain_free
+);
+
+/// Where a point lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[repr(transparent)]
+pub struct Place(pub i32);
+
+impl Place {
+    /// in the interior
+    pub const INSIDE: Place = Place(sys::ICC_INSIDE);
+    /// on the boundary, up to 1e-14 of the bounding box's longest side
+    pub const BOUNDARY: Place = Place(sys::ICC_BOUNDARY);
+    /// elsewhere
+    pub const OUTSIDE: Place = Place(sys::ICC_OUTSIDE);
+}
+
+/// Points of a boundary.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct BoundaryPoints {
+    /// n indices of facets
+    pub facet: Vec<u32>,
+    /// n * dim barycentric coordinates
+    pub bary: Vec<f64>,
+}
+
+/// Something that keeps a polygon from being the boundary of a domain.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Defect {
+    /// `ICC_DEFECT_*` of [`sys`]
+    pub kind: i32,
+    /// vertices or facets, as the kind says
+    pub items: [u32; 2],
+}
+
+impl Domain {
+    /// The inside of a simple polygon: n * 2 coordinates, in either direction; the last vertex joins the first.
+    ///
+    /// Checked exactly: no edge of length zero, no edges that cross or touch.
+    ///
+    /// # Errors
+    /// [`Status::BOUNDARY`](crate::Status::BOUNDARY), with the vertex or facet at fault as `index`.
+    pub fn polygon(vertices: &[f64], env: &mut Env<'_>) -> Result<Domain> {
+        let n = count(vertices, 2, "vertices")?;
+        Domain::make(env, |out, env, err| {
+            // SAFETY: n vertices in 2-D.
+            unsafe { sys::icc_domain_create(out, 2, n, vertices.as_ptr(), 0, ptr::null(), env, err) }
+        })
+    }
+
+    /// The inside of a closed boundary of facets: edges in 2-D, triangles in 3-D, simplices beyond.
+    ///
+    /// `vertices` has n * dim coordinates, `facets` as many rows of dim vertex indices.
+    ///
+    /// # Errors
+    /// [`Status::BOUNDARY`](crate::Status::BOUNDARY) or [`Status::TOPOLOGY`](crate::Status::TOPOLOGY), with the
+    /// vertex or facet at fault as `index`.
+    pub fn new(dim: usize, vertices: &[f64], facets: &[u32], env: &mut Env<'_>) -> Result<Domain> {
+        let n = count(vertices, dim, "vertices")?;
+        let n_facets = count(facets, dim, "facets")?;
+        Domain::make(env, |out, env, err| {
+            // SAFETY: the counts are those of the slices.
+            unsafe {
+                sys::icc_domain_create(
+                    out,
+                    int(dim),
+                    n,
+                    vertices.as_ptr(),
+                    n_facets,
+                    facets.as_ptr(),
+                    env,
+                    err,
+                )
+            }
+        })
+    }
+
+    /// The cells of a mask that are not 0, such as the voxels of a picture; the first axis runs fastest. Cell
+    /// (i, j, ..) covers \[i, i + 1\] x \[j, j + 1\] x ..
+    ///
+    /// # Errors
+    /// [`Status::TOPOLOGY`](crate::Status::TOPOLOGY), with a cell at fault as `index`: see [`repair_mask`].
+    pub fn from_mask(shape: &[usize], cells: &[u8], env: &mut Env<'_>) -> Result<Domain> {
+        exactly(cells, product(shape)?, "cells")?;
+        Domain::make(env, |out, env, err| {
+            // SAFETY: there are as many cells as `shape` says.
+            unsafe {
+                sys::icc_domain_create_mask(out, int(shape.len()), shape.as_ptr(), cells.as_ptr(), env, err)
+            }
+        })
+    }
+
+    /// A conforming mesh of the inside: triangles in 2-D, tetrahedra in 3-D, simplices beyond.
+    ///
+    /// `simplices` has rows of dim + 1 vertex indices. `facets`, rows of dim, is the boundary of the mesh in an
+    /// order of the caller's, or `None`.
+    ///
+    /// # Errors
+    /// [`Status::BOUNDARY`](crate::Status::BOUNDARY) or [`Status::TOPOLOGY`](crate::Status::TOPOLOGY), with the
+    /// simplex, vertex or facet at fault as `index`.
+    pub fn from_mesh(
+        dim: usize,
+        vertices: &[f64],
+        simplices: &[u32],
+        facets: Option<&[u32]>,
+        env: &mut Env<'_>,
+    ) -> Result<Domain> {
+        let n = count(vertices, dim, "vertices")?;
+        let n_simplices = count(simplices, dim.saturating_add(1), "simplices")?;
+        let n_facets = facets.map_or(Ok(0), |facets| count(facets, dim, "facets"))?;
+        Domain::make(env, |out, env, err| {
+            // SAFETY: the counts are those of the slices.
+            unsafe {
+                sys::icc_domain_create_mesh(
+                    out,
+                    int(dim),
+                    n,
+                    vertices.as_ptr(),
+                    n_simplices,
+                    simplices.as_ptr(),
+                    n_facets,
+                    pointer(facets),
+                    env,
+                    err,
+                )
+            }
+        })
+    }
+
+    /// Dimension, counts, bounding box, measure.
+    pub fn info(&self) -> DomainInfo {
+        let mut info = DomainInfo::default();
+        // SAFETY: `size` is set. It cannot fail.
+        unsafe { sys::icc_domain_get_info(self.as_ptr(), &mut info) };
+        info
+    }
+
+    /// The dimension.
+    pub fn dim(&self) -> usize {
+        self.info().dim as usize
+    }
+
+    /// The boundary as it was given: n_vertices * dim coordinates and n_facets * dim vertex indices.
+    pub fn boundary(&self) -> Result<(Vec<f64>, Vec<u32>)> {
+        let info = self.info();
+        let dim = info.dim as usize;
+        let mut vertices = vec![0.0; info.n_vertices * dim];
+        let mut facets = vec![0; info.n_facets * dim];
+        // SAFETY: there is room for all.
+        check(unsafe {
+            sys::icc_domain_get_boundary(self.as_ptr(), vertices.as_mut_ptr(), facets.as_mut_ptr())
+        })?;
+        Ok((vertices, facets))
+    }
+
+    /// Says where points lie: n * dim coordinates.
+    pub fn locate(&self, points: &[f64], env: &mut Env<'_>) -> Result<Vec<Place>> {
+        Ok(self.search(points, false, env)?.0)
+    }
+
+    /// Says where points lie, and finds the nearest point of the boundary for each.
+    pub fn nearest(&self, points: &[f64], env: &mut Env<'_>) -> Result<(Vec<Place>, BoundaryPoints)> {
+        self.search(points, true, env)
+    }
+
+    fn search(
+        &self,
+        points: &[f64],
+        nearest: bool,
+        env: &mut Env<'_>,
+    ) -> Result<(Vec<Place>, BoundaryPoints)> {
+        let dim = self.dim();
+        let n = count(points, dim, "points")?;
+        let mut places = vec![Place::OUTSIDE; n];
+        let mut found = BoundaryPoints::default();
+        if nearest {
+            found.facet = vec![0; n];
+            found.bary = vec![0.0; n * dim];
+        }
+        let (facet, bary) = match nearest {
+            true => (found.facet.as_mut_ptr(), found.bary.as_mut_ptr()),
+            false => (ptr::null_mut(), ptr::null_mut()),
+        };
+        env.call(|env, _| {
+            // SAFETY: there is room for n points.
+            unsafe {
+                sys::icc_domain_locate(
+                    self.as_ptr(),
+                    n,
+                    points.as_ptr(),
+                    places.as_mut_ptr().cast(),
+                    facet,
+                    bary,
+                    env,
+                )
+            }
+        })?;
+        Ok((places, found))
+    }
+}
+
+/// Fills cells of a mask where others touch only along an edge or a corner, which [`Domain::from_mask`] refuses.
+/// Returns how many; they become 1.
+pub fn repair_mask(shape: &[usize], cells: &mut [u8], env: &mut Env<'_>) -> Result<usize> {
+    exactly(cells, product(shape)?, "cells")?;
+    let mut n_filled = 0;
+    env.call(|env, err| {
+        // SAFETY: there are as many cells as `shape` says.
+        unsafe {
+            sys::icc_mask_repair(
+                int(shape.len()),
+                shape.as_ptr(),
+                cells.as_mut_ptr(),
+                &mut n_filled,
+                env,
+                err,
+            )
+        }
+    })?;
+    Ok(n_filled)
+}
+
+/// Everything that keeps a closed polygon, n * 2 coordinates, from being the boundary of a domain.
+///
+/// ```
+/// use libicc::{boundary_defects, sys, Env};
+/// let defects = boundary_defects(&[0.0, 0.0, 1.0, 1.0, 1.0, 0.0, 0.0, 1.0], &mut Env::new())?;
+/// assert_eq!((defects[0].kind, defects[0].items), (sys::ICC_DEFECT_CROSSING, [0, 2]));
+/// # Ok::<(), libicc::Error>(())
+/// ```
+pub fn boundary_defects(vertices: &[f64], env: &mut Env<'_>) -> Result<Vec<Defect>> {
+    let n = count(vertices, 2, "vertices")?;
+    let mut capacity = 16;
+    loop {
+        let mut kinds = vec![0; capacity];
+        let mut items = vec![[0; 2]; capacity];
+        let mut n_defects = 0;
+        env.call(|env, err| {
+            // SAFETY: there is room for `capacity` defects.
+            unsafe {
+                sys::icc_boundary_defects(
+                    n,
+                    vertices.as_ptr(),
+                    capacity,
+                    kinds.as_mut_ptr(),
+                    items.as_mut_ptr().cast(),
+                    &mut n_defects,
+                    env,
+                    err,
+                )
+            }
+        })?;
+        if n_defects <= capacity {
+            let all = kinds.into_iter().zip(items).take(n_defects);
+            return Ok(all.map(|(kind, items)| Defect { kind, items }).collect());
+        }
+        capacity = n_defects;
+    }
+}

@@ -1,0 +1,143 @@
+//! What went wrong.
+use crate::sys;
+use std::ffi::CStr;
+use std::fmt;
+
+/// The result of a call, or of one of its points: [`Status::OK`] or what went wrong.
+///
+/// A number, as in C, so that statuses of points need no conversion and later versions may have more of them.
+#[derive(Clone, Copy, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[repr(transparent)]
+pub struct Status(pub i32);
+
+impl Status {
+    /// the call did what it says
+    pub const OK: Status = Status(sys::ICC_OK);
+    /// an argument is missing or out of range
+    pub const ARGUMENT: Status = Status(sys::ICC_ERR_ARGUMENT);
+    /// an allocation failed
+    pub const MEMORY: Status = Status(sys::ICC_ERR_MEMORY);
+    /// the library is older than what it was given
+    pub const VERSION: Status = Status(sys::ICC_ERR_VERSION);
+    /// the boundary is not that of a simple, solid shape
+    pub const BOUNDARY: Status = Status(sys::ICC_ERR_BOUNDARY);
+    /// the grid is too coarse, or would be too large
+    pub const RESOLUTION: Status = Status(sys::ICC_ERR_RESOLUTION);
+    /// the shape or the grid has the wrong topology
+    pub const TOPOLOGY: Status = Status(sys::ICC_ERR_TOPOLOGY);
+    /// a point lies outside the domain
+    pub const OUTSIDE: Status = Status(sys::ICC_ERR_OUTSIDE);
+    /// a numerical solver did not converge
+    pub const SOLVER: Status = Status(sys::ICC_ERR_SOLVER);
+    /// an integral curve does not reach its end
+    pub const TRACE: Status = Status(sys::ICC_ERR_TRACE);
+    /// a result could not be certified
+    pub const CERTIFICATE: Status = Status(sys::ICC_ERR_CERTIFICATE);
+    /// the progress callback asked to stop
+    pub const CANCELLED: Status = Status(sys::ICC_ERR_CANCELLED);
+    /// this combination is not available
+    pub const UNSUPPORTED: Status = Status(sys::ICC_ERR_UNSUPPORTED);
+    /// input data is malformed
+    pub const FORMAT: Status = Status(sys::ICC_ERR_FORMAT);
+
+    /// Whether it is [`Status::OK`].
+    pub fn is_ok(self) -> bool {
+        self == Status::OK
+    }
+
+    /// The name in C, such as `ICC_ERR_MEMORY`, or `unknown status`.
+    pub fn name(self) -> &'static str {
+        // SAFETY: a static string for every number.
+        unsafe { CStr::from_ptr(sys::icc_status_name(self.0)) }.to_str().unwrap_or("unknown status")
+    }
+}
+
+impl fmt::Debug for Status {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// Which of two shapes is at fault.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Side {
+    /// the one before
+    Source,
+    /// the one after
+    Target,
+}
+
+/// Why a call failed.
+///
+/// ```
+/// use libicc::{Domain, Env, Status};
+/// let bow_tie = [0.0, 0.0, 1.0, 1.0, 1.0, 0.0, 0.0, 1.0];
+/// let error = Domain::polygon(&bow_tie, &mut Env::new()).unwrap_err();
+/// assert_eq!(error.status, Status::BOUNDARY);
+/// assert!(error.index.is_some());
+/// println!("{}", error);
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Error {
+    /// what kind of failure; never [`Status::OK`]
+    pub status: Status,
+    /// the vertex, facet, cell or point at fault
+    pub index: Option<usize>,
+    /// which of two shapes is at fault
+    pub side: Option<Side>,
+    /// one line of English
+    pub message: String,
+}
+
+/// What calls return.
+pub type Result<T> = std::result::Result<T, Error>;
+
+impl Error {
+    pub(crate) fn argument(message: impl Into<String>) -> Error {
+        Error { status: Status::ARGUMENT, index: None, side: None, message: message.into() }
+    }
+
+    /// For calls that fill in no `icc_error`.
+    pub(crate) fn bare(status: sys::icc_status) -> Error {
+        let status = Status(status);
+        Error { status, index: None, side: None, message: status.name().to_string() }
+    }
+
+    pub(crate) fn from_raw(status: sys::icc_status, raw: &sys::icc_error) -> Error {
+        if raw.status != status || raw.message[0] == 0 {
+            return Error::bare(status);
+        }
+        // SAFETY: the library terminates the message.
+        let message = unsafe { CStr::from_ptr(raw.message.as_ptr()) };
+        Error {
+            status: Status(status),
+            index: usize::try_from(raw.index).ok(),
+            side: match raw.side {
+                1 => Some(Side::Source),
+                2 => Some(Side::Target),
+                _ => None,
+            },
+            message: message.to_string_lossy().into_owned(),
+        }
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.side {
+            Some(Side::Source) => write!(f, "source: {}", self.message),
+            Some(Side::Target) => write!(f, "target: {}", self.message),
+            None => f.write_str(&self.message),
+        }
+    }
+}
+
+impl std::error::Error for Error {}
+
+pub(crate) fn check(status: sys::icc_status) -> Result<()> {
+    if status == sys::ICC_OK {
+        Ok(())
+    } else {
+        Err(Error::bare(status))
+    }
+}

@@ -1,0 +1,137 @@
+//! The third stage: a function that falls from parent to child.
+use crate::chart::{Constraints, Function, Solver};
+use crate::env::Env;
+use crate::error::{check, Result};
+use crate::object::{object, Borrowed};
+use crate::sys;
+use crate::tree::{FieldReport, Tree};
+use std::ptr;
+
+pub use crate::sys::icc_field_info as FieldInfo;
+
+object!(
+    /// A function on the vertices of a tree.
+    Field,
+    icc_field,
+    icc_field_free
+);
+
+/// Options of [`Field::new`]. `None` and 0 are the library's choice.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct FieldOptions {
+    /// `None`: decay
+    pub function: Option<Function>,
+    /// `None`: needed
+    pub constraints: Option<Constraints>,
+    /// `None`: by the predicted work
+    pub solver: Option<Solver>,
+    /// least relative fall from parent to child; 0: 1e-6
+    pub eta: f64,
+    /// constrained bi-Laplace: least value at the leaves; 0: 1e-9
+    pub leaf: f64,
+}
+
+/// An edge between two triangles whose gradients both point to it, or both away.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Edge {
+    /// its ends, grid vertices
+    pub vertices: [u32; 2],
+    /// true: curves merge on the way up (compression); false: on the way down (expansion)
+    pub compression: bool,
+}
+
+impl Field {
+    /// Gives values to the vertices of a tree.
+    pub fn new(tree: &Tree, options: &FieldOptions, env: &mut Env<'_>) -> Result<Field> {
+        let raw = sys::icc_field_options {
+            function: options.function.map_or(0, |value| value as i32),
+            constraints: options.constraints.map_or(0, |value| value as i32),
+            solver: options.solver.map_or(0, |value| value as i32),
+            eta: options.eta,
+            leaf: options.leaf,
+            ..Default::default()
+        };
+        Field::make(env, |out, env, err| {
+            // SAFETY: the options are valid during the call.
+            unsafe { sys::icc_field_create(out, tree.as_ptr(), &raw, env, err) }
+        })
+    }
+
+    /// The tree that the field was made on.
+    pub fn tree(&self) -> Borrowed<'_, Tree> {
+        // SAFETY: the field keeps its tree, of which it always has one.
+        unsafe {
+            let raw = sys::icc_field_tree(self.as_ptr());
+            Borrowed::new(Tree::found(raw).expect("libicc: a field without a tree"))
+        }
+    }
+
+    /// How the function was made.
+    pub fn info(&self) -> FieldInfo {
+        let mut info = FieldInfo::default();
+        // SAFETY: `size` is set. It cannot fail.
+        unsafe { sys::icc_field_get_info(self.as_ptr(), &mut info) };
+        info
+    }
+
+    fn n_vertices(&self) -> usize {
+        self.tree().grid().info().n_vertices
+    }
+
+    /// One value per grid vertex; NaN where the tree does not reach.
+    pub fn values(&self) -> &[f64] {
+        // SAFETY: borrowed from the field, one number per vertex.
+        unsafe { std::slice::from_raw_parts(sys::icc_field_values(self.as_ptr()), self.n_vertices()) }
+    }
+
+    /// The logarithm of every value, also where the values underflow. `None` for decay and distance, and when a
+    /// value inside is not positive.
+    pub fn logs(&self) -> Option<&[f64]> {
+        // SAFETY: borrowed from the field, one number per vertex unless NULL.
+        unsafe {
+            let logs = sys::icc_field_logs(self.as_ptr());
+            (!logs.is_null()).then(|| std::slice::from_raw_parts(logs, self.n_vertices()))
+        }
+    }
+
+    /// Counts critical points.
+    pub fn verify(&self, env: &mut Env<'_>) -> Result<FieldReport> {
+        let mut report = FieldReport::default();
+        env.call(|env, err| {
+            // SAFETY: `size` is set.
+            unsafe { sys::icc_field_verify(self.as_ptr(), &mut report, env, err) }
+        })?;
+        Ok(report)
+    }
+
+    /// Compression and expansion edges (2-D).
+    ///
+    /// # Errors
+    /// [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) in other dimensions.
+    pub fn edges(&self) -> Result<Vec<Edge>> {
+        let mut capacity = 256;
+        loop {
+            let mut edges = vec![[0; 2]; capacity];
+            let mut kinds = vec![0; capacity];
+            let mut n = 0;
+            // SAFETY: there is room for `capacity` edges.
+            check(unsafe {
+                sys::icc_field_edges(
+                    self.as_ptr(),
+                    capacity,
+                    edges.as_mut_ptr().cast(),
+                    kinds.as_mut_ptr(),
+                    &mut n,
+                    ptr::null_mut(),
+                )
+            })?;
+            if n <= capacity {
+                let all = edges.into_iter().zip(kinds).take(n);
+                return Ok(all
+                    .map(|(vertices, kind)| Edge { vertices, compression: kind == sys::ICC_EDGE_COMPRESSION })
+                    .collect());
+            }
+            capacity = n;
+        }
+    }
+}

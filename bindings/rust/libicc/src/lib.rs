@@ -1,0 +1,75 @@
+//! Carries everything inside a shape along, one-to-one, when its boundary moves.
+//!
+//! [`Domain`] (a boundary and what it encloses) -> [`Chart`] (coordinates of the inside: a boundary point and a share
+//! of the way to the maximum) -> [`Map`] (two charts, and the homeomorphism of their boundaries). [`stages`] has the
+//! steps of the method one by one, [`kernel`] has smooth blending weights for handles.
+//!
+//! ```
+//! use libicc::{flat, rows, Domain, Env, Map, MapOptions};
+//! let mut env = Env::new().threads(4);
+//! let before = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]];
+//! let after = [[0.0, 0.0], [4.0, 0.0], [6.0, 3.0], [0.0, 4.0]];
+//! let map = Map::new(
+//!     &Domain::polygon(flat(&before), &mut env)?,
+//!     &Domain::polygon(flat(&after), &mut env)?,
+//!     &MapOptions::default(),
+//!     &mut env,
+//! )?;
+//! let images = map.apply(flat(&[[1.0, 1.0], [2.0, 3.0]]), &mut env)?;
+//! println!("{:?}", rows::<2>(&images.points));
+//! # Ok::<(), libicc::Error>(())
+//! ```
+//!
+//! Points are slices of coordinates, `dim` numbers each: [`flat`] and [`rows`] turn arrays into them and back without
+//! a copy. Results are `Vec`s; calls that end in `_into` write to slices instead. Every call that works takes an
+//! [`Env`]: threads, and a callback that hears of progress and may cancel or panic.
+//!
+//! Objects never change. They are `Send` and `Sync`, and keep what they were made from alive. A slice of the wrong
+//! length gives an [`Error`] with [`Status::ARGUMENT`], as wrong arguments do; nothing panics but [`rows`].
+//!
+//! Information structs and reports are those of C, see `libicc-sys` for their members; their `size` is of no interest
+//! here. (Not related to ICC colour profiles.)
+#![warn(missing_docs, unsafe_op_in_unsafe_fn)]
+
+pub use libicc_sys as sys;
+
+mod binding;
+mod chart;
+mod domain;
+mod env;
+mod error;
+mod field;
+mod grid;
+pub mod kernel;
+mod map;
+mod object;
+mod picture;
+mod sampling;
+mod slices;
+pub mod stages;
+mod tree;
+mod triangulate;
+mod weights;
+
+pub use chart::{
+    Chart, ChartInfo, ChartMeasures, ChartOptions, Codes, Constraints, Function, Images, Method, Solver,
+    TreeForm,
+};
+pub use domain::{boundary_defects, repair_mask, BoundaryPoints, Defect, Domain, DomainInfo, Place};
+pub use env::Env;
+pub use error::{Error, Result, Side, Status};
+pub use map::{Certificate, ImproveOptions, ImproveReport, Map, MapInfo, MapKind, MapMesh, MapOptions};
+pub use object::Borrowed;
+pub use picture::{Layout, Picture, PictureMut};
+pub use slices::{flat, flat_mut, rows};
+
+/// The version of the library that is linked, such as "0.1.0".
+pub fn version() -> &'static str {
+    // SAFETY: a static string.
+    unsafe { std::ffi::CStr::from_ptr(sys::icc_version()) }.to_str().unwrap_or("")
+}
+
+/// Compiles and runs what the README shows.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+struct Readme;

@@ -1,0 +1,401 @@
+//! Maps from one shape to another.
+use crate::chart::{statuses, Chart, ChartOptions, Images};
+use crate::domain::Domain;
+use crate::env::Env;
+use crate::error::{check, Result, Status};
+use crate::object::{object, Borrowed};
+use crate::picture::{Picture, PictureMut};
+use crate::slices::{count, exactly, pointer};
+use crate::sys;
+
+pub use crate::sys::icc_certificate as Certificate;
+pub use crate::sys::icc_improve_report as ImproveReport;
+pub use crate::sys::icc_map_info as MapInfo;
+
+object!(
+    /// A map from one domain to another that agrees with the boundaries.
+    ///
+    /// ```
+    /// use libicc::{Domain, Env, Map, MapOptions};
+    /// let env = &mut Env::new();
+    /// let before = Domain::polygon(&[0.0, 0.0, 4.0, 0.0, 4.0, 4.0, 0.0, 4.0], env)?;
+    /// let after = Domain::polygon(&[0.0, 0.0, 4.0, 0.0, 6.0, 3.0, 0.0, 4.0], env)?;
+    /// let map = Map::new(&before, &after, &MapOptions::default(), env)?;
+    /// assert_eq!(map.info().certified, 1);
+    /// let images = map.apply(&[1.0, 1.0, 2.0, 3.0, 9.0, 9.0], env)?;
+    /// assert_eq!(images.n_failed, 1);
+    /// assert_eq!(images.status[2], libicc::Status::OUTSIDE);
+    /// # Ok::<(), libicc::Error>(())
+    /// ```
+    Map,
+    icc_map,
+    icc_map_free
+);
+
+/// How a map works.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[repr(i32)]
+pub enum MapKind {
+    /// point by point through two charts; any dimension
+    Curves = sys::ICC_MAP_CURVES,
+    /// a piecewise linear map, made fair in 2-D: the fastest queries
+    Mesh = sys::ICC_MAP_MESH,
+}
+
+/// Options of [`Map::new`]. `None` and 0 are the library's choice.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct MapOptions<'a> {
+    /// how the map works
+    pub kind: Option<MapKind>,
+    /// mesh: steps of improvement on each level; 0: as many as pay; -1: none
+    pub iterations: i32,
+    /// for both charts; its maximum is the source's
+    pub chart: ChartOptions<'a>,
+    /// where the target's maximum shall be, dim coordinates
+    pub target_maximum: Option<&'a [f64]>,
+}
+
+impl MapOptions<'_> {
+    /// As C takes them; `chart` must outlive them.
+    fn raw(&self, chart: &sys::icc_chart_options) -> sys::icc_map_options {
+        sys::icc_map_options {
+            kind: self.kind.map_or(0, |kind| kind as i32),
+            iterations: self.iterations,
+            chart,
+            target_maximum: pointer(self.target_maximum),
+            ..Default::default()
+        }
+    }
+}
+
+/// Options of [`Map::improve`]. 0 is the library's choice.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ImproveOptions {
+    /// steps at most on each level; 0: 60
+    pub iterations: i32,
+    /// refinements at most; 0: 4; -1: none
+    pub levels: i32,
+    /// a level ends with a step that gains less than this share of the energy; 0: 1e-4
+    pub tolerance: f64,
+}
+
+/// The mesh of a map of kind mesh.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MapMesh {
+    /// n_vertices * dim coordinates
+    pub vertices: Vec<f64>,
+    /// where they go
+    pub images: Vec<f64>,
+    /// rows of dim + 1 vertex indices, positively oriented
+    pub simplices: Vec<u32>,
+}
+
+type Transform = unsafe extern "C" fn(
+    *const sys::icc_map,
+    usize,
+    *const f64,
+    *mut f64,
+    *mut sys::icc_status,
+    *mut usize,
+    *const sys::icc_env,
+) -> sys::icc_status;
+
+type CarryMesh = unsafe extern "C" fn(
+    *const sys::icc_map,
+    usize,
+    *const f64,
+    usize,
+    *const u32,
+    *mut f64,
+    *mut sys::icc_certificate,
+    *const sys::icc_env,
+    *mut sys::icc_error,
+) -> sys::icc_status;
+
+impl Map {
+    /// Makes the map between two domains whose boundaries correspond, facet by facet.
+    ///
+    /// # Errors
+    /// Those of [`Chart::new`]; [`Status::BOUNDARY`] when the domains do not correspond.
+    /// [`Error::side`](crate::Error::side) tells which of the two is at fault.
+    pub fn new(source: &Domain, target: &Domain, options: &MapOptions<'_>, env: &mut Env<'_>) -> Result<Map> {
+        let chart = options.chart.raw(source.dim())?;
+        if let Some(maximum) = options.target_maximum {
+            exactly(maximum, target.dim(), "target_maximum")?;
+        }
+        let raw = options.raw(&chart);
+        Map::make(env, |out, env, err| {
+            // SAFETY: the options are valid during the call.
+            unsafe { sys::icc_map_create(out, source.as_ptr(), target.as_ptr(), &raw, env, err) }
+        })
+    }
+
+    /// Makes a map from two charts of the same method. Of the options `kind` and `iterations` are used.
+    pub fn from_charts(
+        source: &Chart,
+        target: &Chart,
+        options: &MapOptions<'_>,
+        env: &mut Env<'_>,
+    ) -> Result<Map> {
+        let chart = sys::icc_chart_options::default();
+        let raw = MapOptions { target_maximum: None, ..*options }.raw(&chart);
+        Map::make(env, |out, env, err| {
+            // SAFETY: the options are valid during the call.
+            unsafe { sys::icc_map_create_from_charts(out, source.as_ptr(), target.as_ptr(), &raw, env, err) }
+        })
+    }
+
+    /// Makes a fairer map from one of kind mesh. To cancel it ends it early, with what there is.
+    pub fn improve(&self, options: &ImproveOptions, env: &mut Env<'_>) -> Result<(Map, ImproveReport)> {
+        let raw = sys::icc_improve_options {
+            iterations: options.iterations,
+            levels: options.levels,
+            tolerance: options.tolerance,
+            ..Default::default()
+        };
+        let mut report = ImproveReport::default();
+        let map = Map::make(env, |out, env, err| {
+            // SAFETY: `size` is set.
+            unsafe { sys::icc_map_improve(out, self.as_ptr(), &raw, &mut report, env, err) }
+        })?;
+        Ok((map, report))
+    }
+
+    /// The map to a target that has moved: the mesh is taken over, repaired, and improved by at most `iterations`
+    /// steps (0: 8; -1: none). For dragging.
+    ///
+    /// # Errors
+    /// [`Status::CERTIFICATE`] when the target has moved too far.
+    pub fn follow(&self, target: &Domain, iterations: i32, env: &mut Env<'_>) -> Result<Map> {
+        Map::make(env, |out, env, err| {
+            // SAFETY: valid objects.
+            unsafe { sys::icc_map_follow(out, self.as_ptr(), target.as_ptr(), iterations, env, err) }
+        })
+    }
+
+    /// What the map is made of, and whether it is certified.
+    pub fn info(&self) -> MapInfo {
+        let mut info = MapInfo::default();
+        // SAFETY: `size` is set. It cannot fail.
+        unsafe { sys::icc_map_get_info(self.as_ptr(), &mut info) };
+        info
+    }
+
+    /// The dimension.
+    pub fn dim(&self) -> usize {
+        self.info().dim as usize
+    }
+
+    /// The chart of the source; `None` for maps made by [`follow`](Self::follow).
+    pub fn source_chart(&self) -> Option<Borrowed<'_, Chart>> {
+        // SAFETY: the map keeps its charts.
+        unsafe { Chart::found(sys::icc_map_source_chart(self.as_ptr())).map(|chart| Borrowed::new(chart)) }
+    }
+
+    /// The chart of the target; `None` for maps made by [`follow`](Self::follow).
+    pub fn target_chart(&self) -> Option<Borrowed<'_, Chart>> {
+        // SAFETY: the map keeps its charts.
+        unsafe { Chart::found(sys::icc_map_target_chart(self.as_ptr())).map(|chart| Borrowed::new(chart)) }
+    }
+
+    /// The mesh of a map of kind mesh.
+    ///
+    /// # Errors
+    /// [`Status::UNSUPPORTED`] for others.
+    pub fn mesh(&self) -> Result<MapMesh> {
+        let info = self.info();
+        let dim = info.dim as usize;
+        let mut mesh = MapMesh {
+            vertices: vec![0.0; info.n_vertices * dim],
+            images: vec![0.0; info.n_vertices * dim],
+            simplices: vec![0; info.n_triangles * (dim + 1)],
+        };
+        // SAFETY: there is room for all.
+        check(unsafe {
+            sys::icc_map_mesh(
+                self.as_ptr(),
+                mesh.vertices.as_mut_ptr(),
+                mesh.images.as_mut_ptr(),
+                mesh.simplices.as_mut_ptr(),
+            )
+        })?;
+        Ok(mesh)
+    }
+
+    /// Source to target: n * dim coordinates. Points that have no image do not make the call fail.
+    pub fn apply(&self, points: &[f64], env: &mut Env<'_>) -> Result<Images> {
+        self.carry(sys::icc_map_apply, points, env)
+    }
+
+    /// Target to source.
+    pub fn apply_inverse(&self, points: &[f64], env: &mut Env<'_>) -> Result<Images> {
+        self.carry(sys::icc_map_apply_inverse, points, env)
+    }
+
+    fn carry(&self, function: Transform, points: &[f64], env: &mut Env<'_>) -> Result<Images> {
+        let dim = self.dim();
+        let n = count(points, dim, "points")?;
+        let mut images = Images::new(n, dim);
+        let status = Some(&mut images.status[..]);
+        // SAFETY: both slices have n points.
+        images.n_failed =
+            unsafe { self.transform(function, n, points.as_ptr(), images.points.as_mut_ptr(), status, env) }?;
+        Ok(images)
+    }
+
+    /// As [`apply`](Self::apply), written to a slice of the same length, and n statuses. Returns how many points
+    /// have no image: NaN there.
+    pub fn apply_into(
+        &self,
+        points: &[f64],
+        images: &mut [f64],
+        status: Option<&mut [Status]>,
+        env: &mut Env<'_>,
+    ) -> Result<usize> {
+        let n = count(points, self.dim(), "points")?;
+        exactly(images, points.len(), "images")?;
+        // SAFETY: both slices have n points.
+        unsafe { self.transform(sys::icc_map_apply, n, points.as_ptr(), images.as_mut_ptr(), status, env) }
+    }
+
+    /// As [`apply_inverse`](Self::apply_inverse), written to slices.
+    pub fn apply_inverse_into(
+        &self,
+        points: &[f64],
+        images: &mut [f64],
+        status: Option<&mut [Status]>,
+        env: &mut Env<'_>,
+    ) -> Result<usize> {
+        let n = count(points, self.dim(), "points")?;
+        exactly(images, points.len(), "images")?;
+        let function = sys::icc_map_apply_inverse;
+        // SAFETY: both slices have n points.
+        unsafe { self.transform(function, n, points.as_ptr(), images.as_mut_ptr(), status, env) }
+    }
+
+    /// Replaces points by their images. Returns how many have none: NaN there.
+    pub fn apply_in_place(&self, points: &mut [f64], env: &mut Env<'_>) -> Result<usize> {
+        let n = count(points, self.dim(), "points")?;
+        let place = points.as_mut_ptr();
+        // SAFETY: the library allows images where the points are.
+        unsafe { self.transform(sys::icc_map_apply, n, place, place, None, env) }
+    }
+
+    /// # Safety
+    /// `points` and `images` must be good for n points.
+    unsafe fn transform(
+        &self,
+        function: Transform,
+        n: usize,
+        points: *const f64,
+        images: *mut f64,
+        status: Option<&mut [Status]>,
+        env: &mut Env<'_>,
+    ) -> Result<usize> {
+        let status = statuses(status, n)?;
+        let mut n_failed = 0;
+        env.call(|env, _| {
+            // SAFETY: the caller's promise, and as many statuses.
+            unsafe { function(self.as_ptr(), n, points, images, status, &mut n_failed, env) }
+        })?;
+        Ok(n_failed)
+    }
+
+    /// The derivative at points of the source's interior: rows of dim * dim numbers in
+    /// [`Images::points`], image coordinate by point coordinate.
+    pub fn jacobian(&self, points: &[f64], env: &mut Env<'_>) -> Result<Images> {
+        let dim = self.dim();
+        let n = count(points, dim, "points")?;
+        let mut images = Images::new(n, dim * dim);
+        let status = Some(&mut images.status[..]);
+        let function = sys::icc_map_jacobian;
+        // SAFETY: there is room for n matrices.
+        images.n_failed =
+            unsafe { self.transform(function, n, points.as_ptr(), images.points.as_mut_ptr(), status, env) }?;
+        Ok(images)
+    }
+
+    /// Maps the vertices of a mesh and checks, exactly, whether the image is a mesh, too. `simplices` has rows of
+    /// dim + 1 vertex indices.
+    pub fn certify(
+        &self,
+        vertices: &[f64],
+        simplices: &[u32],
+        env: &mut Env<'_>,
+    ) -> Result<(Vec<f64>, Certificate)> {
+        self.carry_mesh(sys::icc_map_certify, vertices, simplices, env)
+    }
+
+    /// Carries a mesh along so that no simplex inverts, if that can be: moves the images of inner vertices. The
+    /// certificate is that of the images returned.
+    pub fn repair(
+        &self,
+        vertices: &[f64],
+        simplices: &[u32],
+        env: &mut Env<'_>,
+    ) -> Result<(Vec<f64>, Certificate)> {
+        self.carry_mesh(sys::icc_map_repair, vertices, simplices, env)
+    }
+
+    fn carry_mesh(
+        &self,
+        function: CarryMesh,
+        vertices: &[f64],
+        simplices: &[u32],
+        env: &mut Env<'_>,
+    ) -> Result<(Vec<f64>, Certificate)> {
+        let dim = self.dim();
+        let n = count(vertices, dim, "vertices")?;
+        let n_simplices = count(simplices, dim + 1, "simplices")?;
+        let mut images = vec![0.0; vertices.len()];
+        let mut certificate = Certificate::default();
+        env.call(|env, err| {
+            // SAFETY: the counts are those of the slices.
+            unsafe {
+                function(
+                    self.as_ptr(),
+                    n,
+                    vertices.as_ptr(),
+                    n_simplices,
+                    simplices.as_ptr(),
+                    images.as_mut_ptr(),
+                    &mut certificate,
+                    env,
+                    err,
+                )
+            }
+        })?;
+        Ok((images, certificate))
+    }
+
+    /// Carries a picture along: each pixel of the target whose centre lies in the target domain gets its colour,
+    /// others are left alone. Returns how many pixels inside have no image.
+    ///
+    /// Pixel (i, j), column i of row j, covers \[i, i+1\] x \[j, j+1\] in the coordinates of the domains. Both
+    /// pictures need the same channels, bytes and alpha.
+    ///
+    /// ```
+    /// use libicc::{Domain, Env, Map, MapOptions, Picture, PictureMut};
+    /// let env = &mut Env::new();
+    /// let shape = Domain::polygon(&[1.0, 1.0, 7.0, 1.0, 7.0, 7.0, 1.0, 7.0], env)?;
+    /// let identity = Map::new(&shape, &shape, &MapOptions::default(), env)?;
+    /// let grey: Vec<u8> = (0..64).collect();
+    /// let mut result = vec![0; 64];
+    /// let failed = identity.warp(&Picture::new(8, 8, 1, &grey)?, &mut PictureMut::new(8, 8, 1, &mut result)?, env)?;
+    /// assert_eq!((failed, result[9], result[0]), (0, 9, 0));
+    /// # Ok::<(), libicc::Error>(())
+    /// ```
+    pub fn warp(
+        &self,
+        source: &Picture<'_>,
+        target: &mut PictureMut<'_>,
+        env: &mut Env<'_>,
+    ) -> Result<usize> {
+        let mut n_failed = 0;
+        env.call(|env, err| {
+            // SAFETY: pictures cover what their slices hold; borrows keep them apart.
+            unsafe { sys::icc_map_warp(self.as_ptr(), source.raw(), target.raw(), &mut n_failed, env, err) }
+        })?;
+        Ok(n_failed)
+    }
+}

@@ -1,0 +1,81 @@
+//! Handles of the library's objects.
+use std::marker::PhantomData;
+use std::mem::ManuallyDrop;
+use std::ops::Deref;
+
+/// An object that is owned by another one, for as long as that lives.
+#[derive(Debug)]
+pub struct Borrowed<'a, T> {
+    object: ManuallyDrop<T>,
+    owner: PhantomData<&'a T>,
+}
+
+impl<T> Borrowed<'_, T> {
+    /// # Safety
+    /// What `object` stands for must live as long as the borrow. It is not freed.
+    pub(crate) unsafe fn new(object: ManuallyDrop<T>) -> Self {
+        Borrowed { object, owner: PhantomData }
+    }
+}
+
+impl<T> Deref for Borrowed<'_, T> {
+    type Target = T;
+    fn deref(&self) -> &T {
+        &self.object
+    }
+}
+
+/// Declares the owner of an object, which frees it.
+macro_rules! object {
+    ($(#[$doc:meta])* $name:ident, $raw:ident, $free:ident) => {
+        $(#[$doc])*
+        #[derive(Debug)]
+        pub struct $name(std::ptr::NonNull<$crate::sys::$raw>);
+
+        // SAFETY: the library's objects never change once they are made, and count their owners atomically:
+        // any number of threads may use one, and any thread may free it.
+        unsafe impl Send for $name {}
+        unsafe impl Sync for $name {}
+
+        impl Drop for $name {
+            fn drop(&mut self) {
+                // SAFETY: made by the library, freed once.
+                unsafe { $crate::sys::$free(self.0.as_ptr()) }
+            }
+        }
+
+        impl $name {
+            /// The object as C knows it, for calls of `libicc-sys`. Valid as long as `self`.
+            pub fn as_ptr(&self) -> *const $crate::sys::$raw {
+                self.0.as_ptr()
+            }
+
+            /// Calls a creator. What it has made is freed when the progress callback panicked.
+            #[allow(dead_code)]
+            pub(crate) fn make(
+                env: &mut $crate::env::Env<'_>,
+                create: impl FnOnce(
+                    *mut *mut $crate::sys::$raw,
+                    *const $crate::sys::icc_env,
+                    *mut $crate::sys::icc_error,
+                ) -> $crate::sys::icc_status,
+            ) -> $crate::error::Result<Self> {
+                let mut made = None;
+                env.call(|env, err| {
+                    let mut out = std::ptr::null_mut();
+                    let status = create(&mut out, env, err);
+                    made = std::ptr::NonNull::new(out).map($name);
+                    status
+                })?;
+                Ok(made.expect("libicc: success without an object"))
+            }
+
+            /// An object that belongs to another one; it must not be dropped.
+            #[allow(dead_code)]
+            pub(crate) fn found(raw: *const $crate::sys::$raw) -> Option<std::mem::ManuallyDrop<Self>> {
+                std::ptr::NonNull::new(raw as *mut _).map(|raw| std::mem::ManuallyDrop::new($name(raw)))
+            }
+        }
+    };
+}
+pub(crate) use object;

@@ -1,0 +1,113 @@
+//! The stages one by one.
+use libicc::stages::{Field, FieldOptions, Grid, Stuck, Tree, TreeOptions};
+use libicc::{Chart, ChartOptions, Domain, Env, Function, Method, Status, TreeForm};
+
+const ELL: [f64; 12] = [0.0, 0.0, 4.0, 0.0, 4.0, 1.5, 1.5, 1.5, 1.5, 4.0, 0.0, 4.0];
+
+fn grid() -> Grid {
+    let env = &mut Env::new();
+    Grid::new(&Domain::polygon(&ELL, env).unwrap(), 40, env).unwrap()
+}
+
+#[test]
+fn grids() {
+    let env = &mut Env::new();
+    let grid = grid();
+    let info = grid.info();
+    assert_eq!(info.shape[0] * info.shape[1], info.n_vertices);
+    assert_eq!(grid.inside().len(), info.n_vertices);
+    assert_eq!(grid.inside().iter().filter(|&&inside| inside == 1).count(), info.n_inside);
+    let (vertex, rounds) = grid.maximum(env).unwrap();
+    assert!(grid.inside()[vertex as usize] == 1 && rounds > 0);
+    let fine = grid.refine(env).unwrap();
+    assert_eq!(fine.info().spacing, info.spacing / 2.0);
+    let mut keep = vec![1; info.n_vertices];
+    keep[vertex as usize] = 0;
+    assert_eq!(grid.restrict(&keep, env).unwrap().info().n_inside, info.n_inside - 1);
+    assert_eq!(grid.restrict(&keep[1..], env).unwrap_err().status, Status::ARGUMENT);
+    let at = |axis: usize, i: usize| info.origin[axis] + info.spacing * i as f64;
+    let (i, j) = (vertex as usize % info.shape[0], vertex as usize / info.shape[0]);
+    assert_eq!(grid.nearest(&[at(0, i), at(1, j)]).unwrap(), vertex);
+}
+
+#[test]
+fn trees_lead_to_the_root() {
+    let env = &mut Env::new();
+    let grid = grid();
+    let (root, _) = grid.maximum(env).unwrap();
+    let options = TreeOptions { form: Some(TreeForm::Paper), axis_order: Some(&[1, 0]) };
+    let tree = Tree::new(&grid, root, &options, env).unwrap();
+    drop(grid);
+    assert_eq!(tree.root(), root);
+    assert_eq!(tree.grid().info().dim, 2);
+    for (vertex, &parent) in tree.parents().iter().enumerate() {
+        if parent != u32::MAX {
+            assert_eq!(tree.generations()[vertex], tree.generations()[parent as usize] + 1);
+        }
+    }
+    let report = tree.verify(env).unwrap();
+    assert_eq!((report.n_cousin_violations, report.n_unreachable), (0, 0));
+    let wrong = TreeOptions { axis_order: Some(&[0]), ..options };
+    assert_eq!(Tree::new(&tree.grid(), root, &wrong, env).unwrap_err().status, Status::ARGUMENT);
+
+    let order = tree.grow(None, env).unwrap();
+    assert_eq!(order.rank[root as usize], 0);
+    let report = tree.verify_ranks(&order.rank, env).unwrap();
+    assert_eq!((report.n_maxima, report.n_minima, report.n_saddles), (1, 0, 0));
+}
+
+/// A ring is no disc: growth gets stuck, and the order comes with the error.
+#[test]
+fn growth_gets_stuck_on_rings() {
+    let env = &mut Env::new();
+    let inside: Vec<u8> = (0..81)
+        .map(|k| (k % 9, k / 9))
+        .map(|(i, j): (i32, i32)| u8::from((2..=3).contains(&(i - 4).abs().max((j - 4).abs()))))
+        .collect();
+    let grid = Grid::from_mask(&[9, 9], &inside, env).unwrap();
+    let (root, _) = grid.maximum(env).unwrap();
+    let tree = Tree::new(&grid, root, &TreeOptions::default(), env).unwrap();
+    let Stuck { error, order } = tree.grow(None, env).unwrap_err();
+    assert_eq!(error.status, Status::TOPOLOGY);
+    assert!(error.index.is_some());
+    assert_eq!(order.unwrap().rank[root as usize], 0);
+    let Stuck { error, order } = tree.grow(Some(&[0.0; 3]), env).unwrap_err();
+    assert_eq!((error.status, order.is_none()), (Status::ARGUMENT, true));
+}
+
+#[test]
+fn fields_fall_from_the_root() {
+    let env = &mut Env::new();
+    let grid = grid();
+    let (root, _) = grid.maximum(env).unwrap();
+    let tree = Tree::new(&grid, root, &TreeOptions::default(), env).unwrap();
+    for function in [Function::Decay, Function::Distance, Function::Laplace, Function::Bilaplace] {
+        let options = FieldOptions { function: Some(function), ..Default::default() };
+        let field = Field::new(&tree, &options, env).unwrap();
+        assert_eq!(field.info().function, function as i32);
+        let values = field.values();
+        let greatest = values.iter().copied().filter(|value| !value.is_nan()).fold(f64::MIN, f64::max);
+        assert_eq!(greatest, values[root as usize]);
+        assert_eq!(field.verify(env).unwrap().n_maxima, 1);
+        assert_eq!(field.tree().root(), root);
+        if let Some(logs) = field.logs() {
+            assert_eq!(logs[root as usize], 0.0);
+        }
+        assert!(field.edges().unwrap().iter().all(|edge| edge.vertices[0] != edge.vertices[1]));
+    }
+}
+
+#[test]
+fn charts_show_their_field() {
+    let env = &mut Env::new();
+    let shape = Domain::polygon(&ELL, env).unwrap();
+    let options = ChartOptions { method: Some(Method::Gradient), ..Default::default() };
+    let chart = Chart::new(&shape, &options, env).unwrap();
+    let field = chart.field().unwrap();
+    assert_eq!(field.values().len(), chart.info().n_grid);
+    let edges = field.edges().unwrap();
+    let merging = edges.iter().filter(|edge| edge.compression).count();
+    assert_eq!((merging, edges.len() - merging), (chart.info().n_compression, chart.info().n_expansion));
+    assert!(chart.measure(1000, env).unwrap().collapsed > 0.0);
+    assert!(Chart::new(&shape, &ChartOptions::default(), env).unwrap().field().is_none());
+}
