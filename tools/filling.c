@@ -34,7 +34,7 @@ void filling_take_facets(filling *out, const cage *c)
 
 /* With the cage's vertices first: vertex order[i] of the mesh becomes vertex i. */
 static void arrange(filling *out, const cage *c, size_t n_points, const double *points,
-                     const uint32_t *order, size_t n, const uint32_t *corners)
+                    const uint32_t *order, size_t n, const uint32_t *corners)
 {
     const size_t dim = c->dim;
     uint32_t *place = need(n_points, sizeof *place);
@@ -149,7 +149,7 @@ bool filling_read(filling *out, const cage *c, const char *text, size_t n, probl
         good = match(&m, c, order, wrong);
         if (good)
             arrange(out, c, m.n_vertices, m.points, order, n_elements,
-                            c->dim == 2 ? m.triangles : m.tetrahedra);
+                    c->dim == 2 ? m.triangles : m.tetrahedra);
         free(order);
     }
     mesh_free(&m);

@@ -58,8 +58,8 @@ void tally_print(const tally *t, const mesh_file *m, char *text, size_t room)
     snprintf(text, room,
              "%zu %s: %zu keep their orientation, %zu inverted, %zu collapsed, %zu flat "
              "before, %zu without image",
-             t->all, elements_name((int32_t)m->dim), t->kept, t->inverted, t->collapsed, t->flat_before,
-             t->without_image);
+             t->all, elements_name((int32_t)m->dim), t->kept, t->inverted, t->collapsed,
+             t->flat_before, t->without_image);
 }
 
 void tally_report(const tally *t, const mesh_file *m, const double *images, json *out)

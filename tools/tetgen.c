@@ -22,8 +22,8 @@ extern char **environ;
  * faces; -Q: quiet. */
 #define OPTIONS "-pYq1.4FQ"
 
-static const char *const leftovers[] = {"cage.off", "cage.1.node", "cage.1.ele", "cage.1.edge",
-                                        "cage.1.face", "cage.1.smesh"};
+static const char *const leftovers[] = {"cage.off",    "cage.1.node", "cage.1.ele",
+                                        "cage.1.edge", "cage.1.face", "cage.1.smesh"};
 
 bool filling_can_make(void)
 {

@@ -12,10 +12,6 @@
 #include <math.h>
 #include <string.h>
 
-/* Coordinates of images that are closer to 0 than this share of the largest one become 0, so that there is
- * room for exact signs. */
-static const double NEXT_TO_NOTHING = 1e-45;
-
 typedef struct mesh_check {
     size_t dim, n_vertices, n_simplices;
     const uint32_t *simplices;
@@ -113,8 +109,7 @@ static icc_status repair(mesh_check *m, const iccp_simplices *mesh, const iccp_e
                size);
     }
     icc_status status = iccp_mesh_repair(mesh, images, env);
-    for (size_t i = dim * mesh->n_rim; i < dim * mesh->n_points; ++i)
-        images[i] = fabs(images[i]) < NEXT_TO_NOTHING ? 0 : images[i];
+    iccp_mesh_round(mesh, images);
     for (size_t v = mesh->n_rim; status == ICC_OK && v < mesh->n_points; ++v)
         iccp_frame_out(&m->frame, (int32_t)dim, images + dim * v, m->images + dim * mesh->given[v]);
     iccp_free(&env->memory, images);

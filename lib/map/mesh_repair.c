@@ -7,6 +7,9 @@
 #include <math.h>
 #include <string.h>
 
+/* In units of the local coordinates, the largest of which is about 1. */
+static const double NEXT_TO_NOTHING = 1e-45;
+
 /* ---- points without an image ---- */
 
 static bool is_placed(const iccp_simplices *mesh, const double *images, uint32_t v)
@@ -105,4 +108,11 @@ icc_status iccp_mesh_repair(const iccp_simplices *mesh, double *images, const ic
         return status;
     return mesh->dim == 2 ? repair_triangles(mesh, images, env)
                           : iccp_tet_repair(mesh, images, &n_left, env);
+}
+
+void iccp_mesh_round(const iccp_simplices *mesh, double *images)
+{
+    for (size_t i = mesh->dim * mesh->n_rim; i < mesh->dim * mesh->n_points; ++i)
+        if (fabs(images[i]) < NEXT_TO_NOTHING)
+            images[i] = 0;
 }

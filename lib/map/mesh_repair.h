@@ -9,4 +9,8 @@
  * finite, get one first. */
 icc_status iccp_mesh_repair(const iccp_simplices *mesh, double *images, const iccp_env *env);
 
+/* Makes coordinates of the images of inner points 0 that are next to nothing beside the largest, so that there is
+ * room for exact signs. */
+void iccp_mesh_round(const iccp_simplices *mesh, double *images);
+
 #endif

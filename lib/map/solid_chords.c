@@ -22,13 +22,14 @@ typedef struct piece {
 typedef struct cutter {
     const icc_domain *domain;
     const iccp_simplices *mesh;
-    size_t n;               /* corners of a simplex */
-    iccp_tuples edges;      /* those of the facets, then those of the simplices between points of the boundary */
+    size_t n; /* corners of a simplex */
+    iccp_tuples
+        edges; /* those of the facets, then those of the simplices between points of the boundary */
     size_t n_facet_edges;
-    uint32_t *owner;        /* of the latter: simplex, and the corners i < j as n i + j */
-    uint32_t *chord;        /* of each edge in `edges`: its number, or NONE */
+    uint32_t *owner; /* of the latter: simplex, and the corners i < j as n i + j */
+    uint32_t *chord; /* of each edge in `edges`: its number, or NONE */
     size_t n_chords;
-    uint32_t *first;        /* n_simplices + 1: where the edges of each begin */
+    uint32_t *first; /* n_simplices + 1: where the edges of each begin */
     iccp_simplices *out;
 } cutter;
 
@@ -53,7 +54,8 @@ static void list_edges(cutter *c)
     for (size_t f = 0; f < c->mesh->n_facets; ++f)
         for (size_t i = 0; i < dim; ++i)
             for (size_t j = i + 1; j < dim; ++j)
-                put_edge(c, place++, c->domain->facets[dim * f + i], c->domain->facets[dim * f + j]);
+                put_edge(c, place++, c->domain->facets[dim * f + i],
+                         c->domain->facets[dim * f + j]);
     for (size_t s = 0; s < c->mesh->n_simplices; ++s) {
         const uint32_t *v = c->mesh->corners + c->n * s;
         for (size_t i = 0; i < c->n; ++i)

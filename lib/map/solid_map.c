@@ -17,10 +17,6 @@
 /* Vertices per task. */
 enum { GRAIN = 64 };
 
-/* Coordinates of images that are closer to 0 than this share of the largest one become 0, so that there is room
- * for exact signs. */
-static const double NEXT_TO_NOTHING = 1e-45;
-
 /* How far outside its tetrahedron, in barycentric coordinates, a point may seem to be by rounding. */
 static const double ROUNDING = 1e-9;
 
@@ -125,9 +121,7 @@ static icc_status repair(iccp_solid_map *map, icc_map_info *info, const iccp_env
         if (status != ICC_OK)
             return status;
     }
-    for (size_t i = 3 * mesh->n_rim; i < 3 * mesh->n_points; ++i)
-        if (fabs(map->images[i]) < NEXT_TO_NOTHING)
-            map->images[i] = 0;
+    iccp_mesh_round(mesh, map->images);
     const double repaired = iccp_seconds();
     info->n_unrepaired = count_inverted(mesh, map->images);
     info->seconds_certify += iccp_seconds() - repaired;
@@ -207,9 +201,8 @@ icc_status iccp_solid_map_create(iccp_solid_map **out, const icc_chart *source,
     }
     info->n_vertices = map->mesh->n_points;
     info->n_triangles = map->mesh->n_simplices;
-    info->energy = info->energy_start =
-        mean_energy(map->mesh, map->images,
-                    fabs(target->domain->measure) / fabs(source->domain->measure));
+    info->energy = info->energy_start = mean_energy(
+        map->mesh, map->images, fabs(target->domain->measure) / fabs(source->domain->measure));
     *out = map;
     return ICC_OK;
 }

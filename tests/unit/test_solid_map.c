@@ -110,8 +110,10 @@ START_TEST(mesh_is_the_map)
             ck_assert_double_eq_tol(image[k], y[k], 1e-13);
         for (size_t e = 0; e < 3; ++e)
             for (size_t i = 0; i < 3; ++i) {
-                const double *a = before + 3 * corners[4 * t], *b = before + 3 * corners[4 * t + e + 1];
-                edges[3 * i + e] = after[3 * corners[4 * t + e + 1] + i] - after[3 * corners[4 * t] + i];
+                const double *a = before + 3 * corners[4 * t],
+                             *b = before + 3 * corners[4 * t + e + 1];
+                edges[3 * i + e] =
+                    after[3 * corners[4 * t + e + 1] + i] - after[3 * corners[4 * t] + i];
                 double along = 0;
                 for (size_t k = 0; k < 3; ++k)
                     along += jacobian[3 * i + k] * (b[k] - a[k]);
@@ -176,9 +178,9 @@ START_TEST(kinds)
     double *vertices = calloc(info.n_vertices, 3 * sizeof *vertices);
     uint32_t *facets = calloc(info.n_facets, 3 * sizeof *facets);
     ck_assert_int_eq(icc_domain_get_boundary(p.target, vertices, facets), ICC_OK);
-    ck_assert_int_eq(icc_domain_create(&plain, 3, info.n_vertices, vertices, info.n_facets, facets,
-                                       NULL, NULL),
-                     ICC_OK);
+    ck_assert_int_eq(
+        icc_domain_create(&plain, 3, info.n_vertices, vertices, info.n_facets, facets, NULL, NULL),
+        ICC_OK);
     options.kind = ICC_MAP_MESH;
     ck_assert_int_eq(icc_map_create(&map, p.source, plain, &options, NULL, NULL),
                      ICC_ERR_UNSUPPORTED);
