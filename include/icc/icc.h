@@ -531,8 +531,9 @@ enum {
      *  vertex, started from the charts, repaired until every triangle is positive, made fair, and
      *  certified: every triangle exactly positive before and after, both boundaries exactly simple. In 3-D,
      *  between domains made by icc_domain_create_mesh(): the source's mesh with images that start from the charts,
-     *  repaired and certified likewise, but not made fair; the target's mesh serves its chart only. The
-     *  fastest queries. On the boundary it agrees with the cages up to rounding (samples of a side lie
+     *  repaired and certified likewise, but not made fair; the target's mesh serves its chart only, and edges of
+     *  the source's inside that join boundary vertices are cut where that is needed. The fastest queries: in 2-D
+     *  less than 0.1 us a point, in 3-D 1 to 5 us. On the boundary it agrees with the cages up to rounding (samples of a side lie
      *  on it to one unit in the last place). */
     ICC_MAP_MESH = 2
 };

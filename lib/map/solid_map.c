@@ -227,19 +227,36 @@ static void set_corners(const iccp_solid_map *map, bool after, uint32_t t, const
         corner[k] = points + 3 * map->mesh->corners[4 * (size_t)t + k];
 }
 
+static ICCP_INLINE void cross(const double *a, const double *b, double *n)
+{
+    n[0] = a[1] * b[2] - a[2] * b[1];
+    n[1] = a[2] * b[0] - a[0] * b[2];
+    n[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+static ICCP_INLINE double dot(const double *a, const double *b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* Returns the least. */
 static double barycentric(const double *const corner[4], const double *point, double *bary)
 {
-    double least = HUGE_VAL, sum = 0;
-    for (size_t k = 0; k < 4; ++k) {
-        const double *with[4] = {corner[0], corner[1], corner[2], corner[3]};
-        with[k] = point;
-        bary[k] = iccp_orient_value(3, with);
-        sum += bary[k];
+    double edge[3][3], normal[3], from[3], least = HUGE_VAL, det = 0;
+    for (size_t k = 0; k < 3; ++k) {
+        from[k] = point[k] - corner[0][k];
+        for (size_t e = 0; e < 3; ++e)
+            edge[e][k] = corner[e + 1][k] - corner[0][k];
     }
-    for (size_t k = 0; k < 4; ++k) {
-        bary[k] /= sum;
+    bary[0] = 1;
+    for (size_t e = 0; e < 3; ++e) {
+        cross(edge[(e + 1) % 3], edge[(e + 2) % 3], normal);
+        det = e == 0 ? dot(edge[0], normal) : det;
+        bary[e + 1] = dot(from, normal) / det;
+        bary[0] -= bary[e + 1];
+    }
+    for (size_t k = 0; k < 4; ++k)
         least = bary[k] < least ? bary[k] : least;
-    }
     return least;
 }
 
