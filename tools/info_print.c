@@ -142,9 +142,11 @@ static void print_certified(const info *x)
     const icc_chart_info *c = &x->chart;
     printf("method      %s, %s\n", choice_name(methods, c->method),
            c->certified ? "certified" : "not certified");
-    printf("mesh        %zu vertices, %zu of them on the boundary, %zu %s, spacing %.17g\n",
-           c->n_mesh_vertices, c->n_mesh_boundary, c->n_mesh_triangles, elements_name(c->dim),
-           c->spacing);
+    printf("mesh        %zu vertices, %zu of them on the boundary, %zu %s", c->n_mesh_vertices,
+           c->n_mesh_boundary, c->n_mesh_triangles, elements_name(c->dim));
+    if (c->spacing > 0)
+        printf(", spacing %.17g", c->spacing);
+    putchar('\n');
     print_point(x, "maximum     ", c->maximum, "\n");
     if (c->order_beta > 0)
         print_order(c);
