@@ -1,8 +1,10 @@
 #include "fill.h"
 
 #include "filling.h"
+#include "memory.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 static const char *mesh_name(const job *j, size_t side)
 {
@@ -33,7 +35,28 @@ static int check(const job *j)
     return DONE;
 }
 
-static int read_filling(filling *out, const job *j, size_t side)
+/* The cage without vertices that no facet has: a mesh need not have them either. To be freed. */
+static cage used_part(const cage *c)
+{
+    cage used = {.dim = c->dim, .n_facets = c->n_facets};
+    uint32_t *place = need(c->n, sizeof *place);
+    used.points = need(c->n, c->dim * sizeof *used.points);
+    used.facets = need(c->n_facets, c->dim * sizeof *used.facets);
+    for (size_t i = 0; i < c->n_facets * c->dim; i++)
+        place[c->facets[i]] = 1;
+    for (size_t v = 0; v < c->n; v++)
+        if (place[v] > 0 || c->n_facets == 0) {
+            memcpy(used.points + c->dim * used.n, c->points + c->dim * v,
+                   c->dim * sizeof *used.points);
+            place[v] = (uint32_t)used.n++;
+        }
+    for (size_t i = 0; i < c->n_facets * c->dim; i++)
+        used.facets[i] = place[c->facets[i]];
+    free(place);
+    return used;
+}
+
+static int read_filling(filling *out, const job *j, const cage *c, size_t side)
 {
     const char *name = mesh_name(j, side);
     size_t n;
@@ -41,19 +64,19 @@ static int read_filling(filling *out, const job *j, size_t side)
     if (text == NULL)
         return FAILED;
     problem wrong;
-    bool good = filling_read(out, &j->cages[side], text, n, &wrong);
+    bool good = filling_read(out, c, text, n, &wrong);
     free(text);
     return good ? DONE : failed(name, wrong.line, "%s", wrong.text);
 }
 
 /* PARTIAL: there is no mesh, and none can be made; another method will do. */
-static int find_filling(filling *out, job *j, size_t side)
+static int find_filling(filling *out, job *j, const cage *c, size_t side)
 {
     if (mesh_name(j, side) != NULL)
-        return read_filling(out, j, side);
+        return read_filling(out, j, c, side);
     const char *name = job_file(j, (int)side + 1);
     problem wrong = {0, "tetgen is not installed"};
-    if (job_dim(j) == 3 && filling_can_make() && filling_make(out, &j->cages[side], &wrong)) {
+    if (job_dim(j) == 3 && filling_can_make() && filling_make(out, c, &wrong)) {
         if (j->bar.wanted)
             note("%s: filled with %zu tetrahedra by tetgen", name, out->n);
         return DONE;
@@ -87,8 +110,11 @@ int fill_domains(job *j)
     if (!wanted(j))
         return DONE;
     int result = check(j);
-    for (size_t side = 0; result == DONE && side < n; side++)
-        result = find_filling(&fillings[side], j, side);
+    for (size_t side = 0; result == DONE && side < n; side++) {
+        cage used = used_part(&j->cages[side]);
+        result = find_filling(&fillings[side], j, &used, side);
+        cage_free(&used);
+    }
     for (size_t side = 0; result == DONE && side < n; side++)
         result = make_filled(&filled[side], j, side, &fillings[side]);
     for (size_t side = 0; side < 2; side++) {

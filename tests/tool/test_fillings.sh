@@ -41,6 +41,16 @@ run 0 encode -s cube.obj --mesh in.mesh -p points -o coordinates
 run 0 decode -s cube.obj --mesh in.mesh --coords coordinates -o back
 close_to back points 1e-15
 
+# Vertices that no face has need not be in the mesh.
+for name in cube moved; do
+    { echo 'v 7 7 7' && cat $name.obj; } | awk '$1 == "f" { print $1, $2 + 1, $3 + 1, $4 + 1; next } { print }' >$name-more.obj
+done
+run 0 map -s cube-more.obj -t moved-more.obj --mesh in.mesh --target-mesh out.mesh -p points -o images
+close_to images expected 1e-15
+if command -v tetgen >/dev/null; then
+    run 0 map -s cube-more.obj -t moved-more.obj -p points -o images
+fi
+
 sed 's/^0.5 0.5 0.5 0$/0 0.5 0.25 0/' in.mesh >flat.mesh
 run 1 map -s cube.obj -t moved.obj --mesh flat.mesh --target-mesh out.mesh -p points
 says 'libicc: flat.mesh: '
