@@ -30,3 +30,10 @@ void iccp_chart_release(icc_chart *chart)
     const iccp_memory memory = chart->memory;
     iccp_free(&memory, chart);
 }
+
+void iccp_coords_of_maximum(int32_t dim, iccp_coords *coords)
+{
+    *coords = (iccp_coords){.facet = 0, .t = 1};
+    for (int32_t k = 0; k < dim; ++k)
+        coords->bary[k] = 1.0 / dim;
+}

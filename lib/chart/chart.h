@@ -28,6 +28,9 @@ typedef struct iccp_decode_jet {
     double t[ICC_MAX_DIM];
 } iccp_decode_jet;
 
+/* The maximum has all boundary points: it stands with the middle of facet 0. */
+void iccp_coords_of_maximum(int32_t dim, iccp_coords *coords);
+
 /* A curve as a polyline of local points, from the boundary to the maximum; for icc_chart_trace(). */
 typedef icc_status (*iccp_emit)(void *argument, const double *local);
 

@@ -200,13 +200,6 @@ static icc_status find_entry(const icc_chart *chart, const double *point, iccp_f
 
 /* ---- Cartesian to coordinates ---- */
 
-static void coords_of_maximum(const icc_chart *chart, iccp_coords *coords)
-{
-    *coords = (iccp_coords){.facet = 0, .t = 1};
-    for (int32_t k = 0; k < chart->domain->dim; ++k)
-        coords->bary[k] = 1.0 / chart->domain->dim;
-}
-
 /* ICC_INSIDE and so on. A simplex that no facet runs through is inside with its vertices. */
 static int32_t locate(const icc_chart *chart, const double *point, iccp_flow_place *place,
                       iccp_coords *coords)
@@ -329,7 +322,7 @@ static icc_status encode(const icc_chart *chart, const double *point, iccp_coord
     if (where == ICC_BOUNDARY)
         return jet == NULL ? ICC_OK : ICC_ERR_TRACE;
     if (at_maximum(chart, point)) {
-        coords_of_maximum(chart, coords);
+        iccp_coords_of_maximum(chart->domain->dim, coords);
         return jet == NULL ? ICC_OK : ICC_ERR_TRACE;
     }
     double s_down = 0, s_up = 0;

@@ -118,13 +118,6 @@ static void place_maximum(iccp_gradient_state *state, icc_chart *chart)
 
 /* ---- Algorithm 7: Cartesian to ICC ---- */
 
-static void coords_of_maximum(int32_t dim, iccp_coords *coords)
-{
-    *coords = (iccp_coords){.facet = 0, .t = 1};
-    for (int32_t k = 0; k < dim; ++k)
-        coords->bary[k] = 1.0 / dim;
-}
-
 static bool at_maximum(const iccp_gradient_state *state, const double *p)
 {
     for (int32_t k = 0; k < state->tree->grid->dim; ++k)
@@ -149,7 +142,7 @@ static icc_status encode(const icc_chart *chart, const double *point, iccp_coord
     double p[ICC_MAX_DIM];
     iccp_gradient_to_lattice(state, point, p);
     if (at_maximum(state, p)) {
-        coords_of_maximum(dim, coords);
+        iccp_coords_of_maximum(dim, coords);
         return jet == NULL ? ICC_OK : ICC_ERR_TRACE;
     }
     iccp_jetn jets[2];

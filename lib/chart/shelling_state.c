@@ -19,13 +19,6 @@ static bool at_maximum(const icc_chart *chart, const double *point)
     return true;
 }
 
-static void coords_of_maximum(const icc_chart *chart, iccp_coords *coords)
-{
-    *coords = (iccp_coords){.facet = 0, .t = 1};
-    for (int32_t k = 0; k < chart->domain->dim; ++k)
-        coords->bary[k] = 1.0 / chart->domain->dim;
-}
-
 /* ICC_INSIDE and so on. The domain is asked only where the simplex cannot tell. */
 static int32_t locate(const icc_chart *chart, const double *point, iccp_fibre_place *place,
                       iccp_coords *coords)
@@ -112,7 +105,7 @@ static icc_status encode(const icc_chart *chart, const double *point, iccp_coord
     if (where == ICC_BOUNDARY)
         return jet == NULL ? ICC_OK : ICC_ERR_TRACE;
     if (at_maximum(chart, point)) {
-        coords_of_maximum(chart, coords);
+        iccp_coords_of_maximum(chart->domain->dim, coords);
         return jet == NULL ? ICC_OK : ICC_ERR_TRACE;
     }
     encode_inside(chart, &place, coords, jet);

@@ -9,7 +9,7 @@
 #include "map/mesh_repair.h"
 #include "map/solid_chords.h"
 #include "map/tet_distortion.h"
-#include "math/orient.h"
+#include "map/tet_repair.h"
 
 #include <math.h>
 #include <string.h>
@@ -46,14 +46,6 @@ static icc_status find_images(void *argument, size_t begin, size_t end)
     return status == ICC_ERR_MEMORY ? status : ICC_OK;
 }
 
-static bool is_positive(const iccp_simplices *mesh, const double *points, size_t t)
-{
-    const double *corner[4];
-    for (size_t k = 0; k < 4; ++k)
-        corner[k] = points + 3 * mesh->corners[4 * t + k];
-    return iccp_orient(3, corner) > 0;
-}
-
 /* Whatever is not finite counts, too. */
 static size_t count_inverted(const iccp_simplices *mesh, const double *images)
 {
@@ -62,7 +54,7 @@ static size_t count_inverted(const iccp_simplices *mesh, const double *images)
         bool finite = true;
         for (size_t k = 0; k < 12; ++k)
             finite = finite && isfinite(images[3 * mesh->corners[4 * t + k / 3] + k % 3]);
-        n += !finite || !is_positive(mesh, images, t);
+        n += !finite || !iccp_tet_is_positive(mesh, images, t);
     }
     return n;
 }
@@ -147,7 +139,7 @@ static bool is_hopeless(const iccp_solid_map *map)
         bool on_rim = true;
         for (size_t k = 0; k < 4; ++k)
             on_rim = on_rim && mesh->corners[4 * t + k] < mesh->n_rim;
-        if (on_rim && !is_positive(mesh, map->images, t))
+        if (on_rim && !iccp_tet_is_positive(mesh, map->images, t))
             return true;
     }
     return false;

@@ -26,18 +26,18 @@ enum { MANY = 20 };
  * epsilon goes to zero. Its lower bound falls by at least this share a step. */
 static const double SLOWEST = 0.3;
 
-static bool is_positive(const iccp_simplices *mesh, const double *images, size_t simplex)
+bool iccp_tet_is_positive(const iccp_simplices *mesh, const double *points, size_t simplex)
 {
     const uint32_t *v = mesh->corners + 4 * simplex;
-    return iccp_orient3d(images + 3 * (size_t)v[0], images + 3 * (size_t)v[1],
-                         images + 3 * (size_t)v[2], images + 3 * (size_t)v[3]) > 0;
+    return iccp_orient3d(points + 3 * (size_t)v[0], points + 3 * (size_t)v[1],
+                         points + 3 * (size_t)v[2], points + 3 * (size_t)v[3]) > 0;
 }
 
 static size_t count_inverted(const iccp_simplices *mesh, const double *images)
 {
     size_t n = 0;
     for (size_t s = 0; s < mesh->n_simplices; ++s)
-        n += !is_positive(mesh, images, s);
+        n += !iccp_tet_is_positive(mesh, images, s);
     return n;
 }
 
@@ -47,7 +47,7 @@ static bool is_task(const iccp_simplices *mesh, const double *images, size_t sim
     bool is_free = false;
     for (size_t c = 4 * simplex; c < 4 * simplex + 4; ++c)
         is_free |= mesh->corners[c] >= mesh->n_rim;
-    return is_free && !is_positive(mesh, images, simplex);
+    return is_free && !iccp_tet_is_positive(mesh, images, simplex);
 }
 
 static size_t count_tasks(const iccp_simplices *mesh, const double *images)

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../determinant.h"
 #include "../npy.h"
 #include "../obj.h"
 #include "../random.h"
@@ -214,29 +215,6 @@ static void check_curve(const icc_chart *chart, const double *point, int32_t dim
     }
     const icc_chart_info info = info_of(chart);
     ck_assert(largest_difference((size_t)dim, info.maximum, curve + (size_t)dim * (n - 1)) < 1e-12);
-}
-
-static double determinant(int32_t dim, const double *matrix)
-{
-    double a[ICC_MAX_DIM * ICC_MAX_DIM], value = 1;
-    memcpy(a, matrix, (size_t)(dim * dim) * sizeof *a);
-    for (int32_t c = 0; c < dim; ++c) {
-        int32_t pivot = c;
-        for (int32_t r = c + 1; r < dim; ++r)
-            pivot = fabs(a[r * dim + c]) > fabs(a[pivot * dim + c]) ? r : pivot;
-        for (int32_t k = 0; k < dim && pivot != c; ++k) {
-            const double swap = a[c * dim + k];
-            a[c * dim + k] = a[pivot * dim + k];
-            a[pivot * dim + k] = swap;
-        }
-        value *= pivot != c ? -a[c * dim + c] : a[c * dim + c];
-        for (int32_t r = c + 1; r < dim; ++r) {
-            const double factor = a[r * dim + c] / a[c * dim + c];
-            for (int32_t k = 0; k < dim; ++k)
-                a[r * dim + k] -= factor * a[c * dim + k];
-        }
-    }
-    return value;
 }
 
 /* Positive, and what differences say but where a kink lies between. */

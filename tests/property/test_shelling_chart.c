@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../determinant.h"
 #include "../faulty.h"
 #include "../meshes.h"
 #include "../random.h"
@@ -174,29 +175,6 @@ static void check_boundary(random_source *r, const pair *p, const icc_map *map)
     free(facets);
     free(vertices[0]);
     free(vertices[1]);
-}
-
-static double determinant(int32_t dim, const double *matrix)
-{
-    double a[MAX * MAX], value = 1;
-    memcpy(a, matrix, (size_t)(dim * dim) * sizeof *a);
-    for (int32_t c = 0; c < dim; ++c) {
-        int32_t pivot = c;
-        for (int32_t i = c + 1; i < dim; ++i)
-            pivot = fabs(a[i * dim + c]) > fabs(a[pivot * dim + c]) ? i : pivot;
-        for (int32_t k = 0; k < dim && pivot != c; ++k) {
-            const double swap = a[c * dim + k];
-            a[c * dim + k] = a[pivot * dim + k];
-            a[pivot * dim + k] = swap;
-        }
-        value *= pivot != c ? -a[c * dim + c] : a[c * dim + c];
-        for (int32_t i = c + 1; i < dim; ++i) {
-            const double factor = a[i * dim + c] / a[c * dim + c];
-            for (int32_t k = 0; k < dim; ++k)
-                a[i * dim + k] -= factor * a[c * dim + k];
-        }
-    }
-    return value;
 }
 
 /* Positive, and what differences say but where a kink lies between. */
