@@ -519,6 +519,42 @@ ICC_API icc_status icc_chart_trace(const icc_chart *chart, const double *point, 
                                    double *curve, size_t *n_curve, const icc_env *env,
                                    icc_error *err);
 
+/**
+ * Writes a chart to memory, its domain included, so that other processes and machines can use it. The format
+ * is described in docs/formats.md: versioned, the same on every machine, with a checksum.
+ *
+ * @param chart         the chart
+ * @param capacity      bytes that `data` has room for
+ * @param[out] data     NULL when capacity is 0
+ * @param[out] n_bytes  bytes that are needed, also beyond `capacity`: nothing useful is written then
+ * @return ::ICC_OK, ::ICC_ERR_ARGUMENT
+ */
+ICC_API icc_status icc_chart_save(const icc_chart *chart, size_t capacity, void *data,
+                                  size_t *n_bytes);
+
+/**
+ * Reads a chart back: it answers as the one that was saved does, bit for bit, with any number of threads. Its
+ * info is the same but for the seconds.
+ *
+ * Charts on a mesh (foliation, disc) are read with all their numbers, and certified anew: bytes that do not
+ * pass are refused, whoever made them. Charts on a grid (gradient, field) are made again from what they
+ * were made of, and compared with a checksum of the numbers of the first.
+ *
+ * @param[out] out the chart; owned by the caller
+ * @param n_bytes  bytes of `data`
+ * @param data     any bytes
+ * @param env      may be NULL
+ * @param err      may be NULL
+ * @return ::ICC_OK; ::ICC_ERR_FORMAT for anything that icc_chart_save() did not write; ::ICC_ERR_VERSION for
+ *         what a later version wrote, and for a chart on a grid that comes out otherwise here than where it was
+ *         saved; ::ICC_ERR_MEMORY, ::ICC_ERR_CANCELLED, ::ICC_ERR_ARGUMENT
+ *
+ * Cost: O(n log n) time and O(n) memory in the number of bytes for charts on a mesh; that of
+ * icc_chart_create() for charts on a grid.
+ */
+ICC_API icc_status icc_chart_load(icc_chart **out, size_t n_bytes, const void *data,
+                                  const icc_env *env, icc_error *err);
+
 /* --------------------------------------------------------------------- map */
 
 /** A map from one domain to another that agrees with the boundaries. */
@@ -789,6 +825,18 @@ ICC_API icc_status icc_map_apply_inverse(const icc_map *map, size_t n, const dou
 ICC_API icc_status icc_map_jacobian(const icc_map *map, size_t n, const double *points,
                                     double *jacobians, icc_status *status, size_t *n_failed,
                                     const icc_env *env);
+
+/**
+ * Writes a map to memory, with its domains and charts; otherwise as icc_chart_save().
+ */
+ICC_API icc_status icc_map_save(const icc_map *map, size_t capacity, void *data, size_t *n_bytes);
+
+/**
+ * Reads a map back, as icc_chart_load() does a chart. The mesh of a map of kind mesh is read with all its
+ * numbers, and certified anew.
+ */
+ICC_API icc_status icc_map_load(icc_map **out, size_t n_bytes, const void *data, const icc_env *env,
+                                icc_error *err);
 
 /** A picture in memory: rows from top to bottom, samples of a pixel side by side. */
 typedef struct icc_picture {
