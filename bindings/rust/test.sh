@@ -18,33 +18,48 @@ file=$(find "$prefix" -name libicc.pc | head -n 1)
 PKG_CONFIG_PATH=$(dirname "$file")
 libdir=$(dirname "$PKG_CONFIG_PATH")
 export PKG_CONFIG_PATH
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
 
 tell() { echo "== $*"; }
 
-# Does the program need the shared library?
-needs_shared() { readelf -d "$1" | grep -q 'NEEDED.*libicc\.so'; }
+# Does the example need the shared library?
+needs_shared() { readelf -d "$CARGO_TARGET_DIR/release/examples/warp_picture" | grep -q 'NEEDED.*libicc\.so'; }
+
+# A black picture in the cages of the example; the rest becomes white.
+data=../../examples/data
+{ printf 'P6\n324 270\n255\n' && head -c 262440 /dev/zero; } >"$work/in.ppm"
+warp() {
+    "$CARGO" run --offline --quiet --release --example warp_picture -- \
+        "$data/chelsea.src.txt" "$data/chelsea.tgt.txt" "$work/in.ppm" "$work/$1.ppm"
+    tail -c +16 "$work/$1.ppm" | od -A n -t u1 -v -w1 | sort | uniq -c >"$work/$1.bytes"
+    awk '{ n += $1; seen[$2 + 0] = $1 }
+         END { exit !(n == 262440 && NR == 2 && seen[0] > seen[255] && seen[255] > 0) }' "$work/$1.bytes"
+}
 
 tell "layout"
 sh check_layout.sh "$prefix"
 
 if [ -e "$libdir/libicc.so" ]; then
     tell "dynamic"
-    LD_LIBRARY_PATH=$libdir${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH} "$CARGO" test --offline --quiet
-    LD_LIBRARY_PATH=$libdir${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH} \
-        "$CARGO" run --offline --quiet --release --example warp
-    needs_shared "$CARGO_TARGET_DIR/release/examples/warp"
-    LIBICC_DIR=$libdir "$CARGO" build --offline --quiet --release --example warp
+    (
+        export LD_LIBRARY_PATH="$libdir${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}"
+        "$CARGO" test --offline --quiet
+        warp shared
+    )
+    needs_shared
+    LIBICC_DIR=$libdir "$CARGO" build --offline --quiet --release --example warp_picture
 fi
 
 if [ -e "$libdir/libicc.a" ]; then
     tell "static"
     "$CARGO" test --offline --quiet --features libicc/static
-    LIBICC_STATIC=1 "$CARGO" run --offline --quiet --release --example warp
-    if needs_shared "$CARGO_TARGET_DIR/release/examples/warp"; then
+    LIBICC_STATIC=1 warp static
+    if needs_shared; then
         echo "the static program needs libicc.so" >&2
         exit 1
     fi
-    LIBICC_DIR=$prefix LIBICC_STATIC=1 "$CARGO" build --offline --quiet --release --example warp
+    LIBICC_DIR=$prefix LIBICC_STATIC=1 "$CARGO" build --offline --quiet --release --example warp_picture
 fi
 
 # Comments are compiled, too.

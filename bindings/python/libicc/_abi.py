@@ -61,6 +61,8 @@ chart_measure chart* size chart_measures* env* error*
 chart_encode chart* size f64* u32* f64* f64* i32* size* env*
 chart_decode chart* size u32* f64* f64* f64* i32* size* env*
 chart_trace chart* f64* size f64* size* env* error*
+chart_save chart* size void* size*
+chart_load chart** size void* env* error*
 map_create map** domain* domain* map_options* env* error*
 map_create_from_charts map** chart* chart* map_options* env* error*
 map_improve map** map* improve_options* improve_report* env* error*
@@ -75,6 +77,8 @@ chart*:map_target_chart map*
 map_apply map* size f64* f64* i32* size* env*
 map_apply_inverse map* size f64* f64* i32* size* env*
 map_jacobian map* size f64* f64* i32* size* env*
+map_save map* size void* size*
+map_load map** size void* env* error*
 map_warp map* picture* picture* size* env* error*
 grid_create grid** domain* i32 env* error*
 grid_create_mask grid** i32 size* u8* env* error*

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import logging
 import os
 from types import SimpleNamespace
 from typing import Any, Callable, Optional, Sequence
@@ -15,6 +16,16 @@ Progress = Callable[[str, float], Any]
 """Called with the name of a stage and the share done; to return true or to raise cancels."""
 
 _PROGRESS = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_char_p, ctypes.c_double)
+
+_LOG = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_char_p)
+
+_logger = logging.getLogger("libicc")
+
+
+@_LOG
+def _log(_user, message: bytes) -> None:
+    _logger.info(message.decode("utf-8", "replace"))
+
 
 # Starting threads does not pay for fewer points.
 _FEW_POINTS = 2048
@@ -101,6 +112,8 @@ class Call:
         self.error = new("error", index=-1)
         self.raised: Optional[BaseException] = None
         self._env = new("env", threads=_threads(threads))
+        if _logger.isEnabledFor(logging.INFO):
+            self._env.log = ctypes.cast(_log, ctypes.c_void_p)
         if progress is not None:
             self._callback = _PROGRESS(self._report(progress))
             self._env.progress = ctypes.cast(self._callback, ctypes.c_void_p)
@@ -180,9 +193,9 @@ def indices(values, width: int, name: str) -> np.ndarray:
     return array
 
 
-def address(array: Optional[np.ndarray]):
-    """An array as an argument, which it keeps alive."""
-    return None if array is None else array.ctypes
+def address(array: Optional[np.ndarray]) -> Optional[int]:
+    """An array as an argument; a variable of the caller's keeps it alive."""
+    return None if array is None else array.ctypes.data
 
 
 def fields(struct, dim: Optional[int] = None) -> SimpleNamespace:
@@ -247,10 +260,47 @@ class Handle:
         if getattr(self, "_handle", None) and self._owned is None:
             getattr(lib, self._free)(self._handle)
 
+    def __copy__(self):
+        """The object itself: it never changes."""
+        return self
+
+    def __deepcopy__(self, memo):
+        return self
+
+    def __reduce__(self):
+        raise TypeError(f"a {type(self).__name__} cannot be pickled")
+
     def _info(self, function, struct: str):
         info = new(struct)
         check(getattr(lib, function)(self, ctypes.addressof(info)))
         return info
+
+
+class Saved(Handle):
+    """An object that can be written to bytes, and so be pickled and sent to other processes."""
+
+    _name = ""
+
+    def to_bytes(self) -> bytes:
+        """The object as bytes, the same on every machine."""
+        function, n = getattr(lib, self._name + "_save"), ctypes.c_size_t()
+        check(function(self, 0, None, ctypes.addressof(n)))
+        data = np.empty(n.value, dtype=np.uint8)
+        check(function(self, n.value, address(data), ctypes.addressof(n)))
+        return data.tobytes()
+
+    @classmethod
+    def from_bytes(cls, data, *, progress: Optional[Progress] = None, threads: Optional[int] = None):
+        """The object that `to_bytes` wrote, bit for bit; `FormatError` for anything else.
+
+        Args:
+            data: bytes, or what else has a buffer
+        """
+        function, data = getattr(lib, cls._name + "_load"), np.frombuffer(data, dtype=np.uint8)
+        return cls._wrap(create(function, len(data), address(data), progress=progress, threads=threads))
+
+    def __reduce__(self):
+        return type(self).from_bytes, (self.to_bytes(),)
 
 
 def create(function, *arguments, progress=None, threads=None) -> int:

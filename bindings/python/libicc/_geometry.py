@@ -13,6 +13,7 @@ from ._core import (
     Call,
     Handle,
     Progress,
+    Saved,
     address,
     bulk,
     check,
@@ -202,7 +203,7 @@ def _chart_options(method, cells, maximum, function, constraints, solver, tree, 
     return options
 
 
-class Chart(Handle):
+class Chart(Saved):
     """Coordinates of a domain's inside: a boundary point, and the share of the way to the maximum.
 
     Args:
@@ -214,6 +215,7 @@ class Chart(Handle):
     """
 
     _free = "chart_free"
+    _name = "chart"
     dim = _dimension("chart_get_info", "chart_info")
 
     def __init__(self, domain, method: Optional[str] = None, *, cells: Optional[int] = None,
@@ -307,7 +309,7 @@ class Chart(Handle):
         return f"<libicc.Chart: {info.method}, {info.dim}-D, {word}>"
 
 
-class Map(Handle):
+class Map(Saved):
     """A map from one domain to another that agrees with their boundaries.
 
     Facet i of the source goes to facet i of the target. Call it with points, or use `inverse`.
@@ -321,6 +323,7 @@ class Map(Handle):
     """
 
     _free = "map_free"
+    _name = "map"
     dim = _dimension("map_get_info", "map_info")
 
     def __init__(self, source, target, kind: Optional[str] = None, *, improve: Optional[int] = None,

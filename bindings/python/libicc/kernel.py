@@ -13,6 +13,7 @@ from ._core import (
     Call,
     Handle,
     Progress,
+    Saved,
     address,
     bulk,
     check,
@@ -35,30 +36,6 @@ METHODS = {"qp": 1, "equality": 2, "l1": 3}
 class _Line(ctypes.Structure):
     _fields_ = [("first", ctypes.c_double * 3), ("last", ctypes.c_double * 3),
                 ("parallel", ctypes.c_int32), ("reserved", ctypes.c_int32)]
-
-
-class _Saved(Handle):
-    """An object that can be written to bytes, and so be pickled."""
-
-    _name = ""
-
-    def save(self) -> bytes:
-        """The object as bytes, the same on every machine."""
-        function, n = getattr(lib, self._name + "_save"), ctypes.c_size_t()
-        check(function(self, 0, None, ctypes.addressof(n)))
-        data = ctypes.create_string_buffer(n.value)
-        check(function(self, n.value, ctypes.addressof(data), ctypes.addressof(n)))
-        return data.raw
-
-    @classmethod
-    def load(cls, data: bytes):
-        """The object that `save` wrote, bit for bit; FormatError for anything else."""
-        buffer = (ctypes.c_char * max(len(data), 1)).from_buffer_copy(data or b"\0")
-        function = getattr(lib, cls._name + "_load")
-        return cls._wrap(create(function, len(data), ctypes.addressof(buffer)))
-
-    def __reduce__(self):
-        return type(self).load, (self.save(),)
 
 
 class Shape(Handle):
@@ -85,7 +62,7 @@ class Shape(Handle):
                           0 if segments is None else len(segments), address(segments)))
 
 
-class Sampling(_Saved):
+class Sampling(Saved):
     """Points spread over a shape.
 
     Args:
@@ -272,7 +249,7 @@ class Kernel(Handle):
                                     int(derivatives), progress=progress, threads=threads))
 
 
-class Binding(_Saved):
+class Binding(Saved):
     """Points with their weights; made by `Kernel.bind`."""
 
     _free = "binding_free"
@@ -318,8 +295,8 @@ class Binding(_Saved):
 class Pose:
     """An affine transform for every handle; starts at rest.
 
-    Attributes:
-        transforms: float array (n_handles, dim, dim + 1), to be changed as you like
+    Args:
+        handles: positions (n_handles, dim), such as `Binding.handles`
     """
 
     def __init__(self, handles):
@@ -327,8 +304,14 @@ class Pose:
         if self.handles.ndim != 2 or self.handles.shape[1] not in (2, 3):
             raise ValueError(f"handles must have the shape (n, 2 or 3), not {self.handles.shape}")
         n, dim = self.handles.shape
-        self.transforms = np.empty((n, dim, dim + 1))
+        self._transforms = np.empty((n, dim, dim + 1))
         self.reset()
+
+    @property
+    def transforms(self) -> np.ndarray:
+        """The transforms, (n_handles, dim, dim + 1): per handle the rows of (A | b), which take x to A x + b. An
+        array to be written to."""
+        return self._transforms
 
     def reset(self) -> None:
         """Back to rest."""

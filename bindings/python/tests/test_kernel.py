@@ -45,7 +45,7 @@ def test_poses(weights, points):
     pose.reset()
     pose.turn(4, 0.5)
     assert np.abs(pose.transforms[4, :, :2] @ [5, 5] + pose.transforms[4, :, 2] - [5, 5]).max() < 1e-12
-    again = kernel.Binding.load(binding.save())
+    again = kernel.Binding.from_bytes(binding.to_bytes())
     assert np.array_equal(again.pose(pose), binding.pose(pose))
     assert np.array_equal(again.handles, HANDLES)
 
@@ -69,7 +69,7 @@ def test_samplings(weights):
     copy = pickle.loads(pickle.dumps(sampling))
     assert np.array_equal(copy.points, sampling.points)
     with pytest.raises(libicc.FormatError):
-        kernel.Sampling.load(b"nonsense")
+        kernel.Sampling.from_bytes(b"nonsense")
     own = kernel.Sampling.from_points(SQUARE, sampling.points)
     assert own.info.n_samples == sampling.info.n_samples
 

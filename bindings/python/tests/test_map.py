@@ -72,6 +72,18 @@ def test_progress(before, after):
         libicc.Map(before, after, progress=complain)
 
 
+def test_log(caplog):
+    """Stars so wild that the first attempt cannot be repaired, which is logged if anybody listens."""
+    angle = np.arange(16) * np.pi / 8
+    circle = np.stack([np.cos(angle), np.sin(angle)], -1)
+    before, after = (circle * np.resize(radii, 16)[:, None] for radii in ([1, 0.02], [0.02, 1, 0.02, 0.5]))
+    libicc.Map(before, after)
+    assert not caplog.records
+    with caplog.at_level("INFO", "libicc"):
+        libicc.Map(before, after)
+    assert any("could not be repaired" in message for message in caplog.messages)
+
+
 def test_threads_give_the_same_bits(before, after, inside):
     mapping = libicc.Map(before, after)
     many = np.tile(inside, (20, 1))
@@ -128,12 +140,3 @@ def test_neighbours(before, after, inside):
     ring = shapely.Polygon(before, [[[1, 1], [2, 1], [2, 2]]])
     with pytest.raises(ValueError, match="holes"):
         libicc.Domain.info.fget(libicc.as_domain(ring))
-
-
-def test_calls_are_cheap(before, after):
-    """Not a timed test: prints what a call costs beside the work itself."""
-    import timeit
-
-    mapping, point = libicc.Map(before, after), np.array([[1.0, 1.0]])
-    per_call = min(timeit.repeat(lambda: mapping(point), number=2000, repeat=5)) / 2000
-    print(f"\na call with one point: {per_call * 1e6:.1f} us")

@@ -961,6 +961,49 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
+    /// Writes a chart to memory, its domain included, so that other processes and machines can use it. The format
+    /// is described in docs/formats.md: versioned, the same on every machine, with a checksum.
+    ///
+    /// - `chart`: the chart
+    /// - `capacity`: bytes that `data` has room for
+    /// - `data` (out): NULL when capacity is 0
+    /// - `n_bytes` (out): bytes that are needed, also beyond `capacity`: nothing useful is written then
+    ///
+    /// Returns `ICC_OK`, `ICC_ERR_ARGUMENT`
+    pub fn icc_chart_save(
+        chart: *const icc_chart,
+        capacity: usize,
+        data: *mut c_void,
+        n_bytes: *mut usize,
+    ) -> icc_status;
+
+    /// Reads a chart back: it answers as the one that was saved does, bit for bit, with any number of threads. Its
+    /// info is the same but for the seconds.
+    ///
+    /// Charts on a mesh (foliation, disc) are read with all their numbers, and certified anew: bytes that do not
+    /// pass are refused, whoever made them. Charts on a grid (gradient, field) are made again from what they
+    /// were made of, and compared with a checksum of the numbers of the first.
+    ///
+    /// - `out` (out): the chart; owned by the caller
+    /// - `n_bytes`: bytes of `data`
+    /// - `data`: any bytes
+    /// - `env`: may be NULL
+    /// - `err`: may be NULL
+    ///
+    /// Returns `ICC_OK`; `ICC_ERR_FORMAT` for anything that `icc_chart_save()` did not write; `ICC_ERR_VERSION` for
+    /// what a later version wrote, and for a chart on a grid that comes out otherwise here than where it was
+    /// saved; `ICC_ERR_MEMORY`, `ICC_ERR_CANCELLED`, `ICC_ERR_ARGUMENT`
+    ///
+    /// Cost: O(n log n) time and O(n) memory in the number of bytes for charts on a mesh; that of
+    /// `icc_chart_create()` for charts on a grid.
+    pub fn icc_chart_load(
+        out: *mut *mut icc_chart,
+        n_bytes: usize,
+        data: *const c_void,
+        env: *const icc_env,
+        err: *mut icc_error,
+    ) -> icc_status;
+
     /// Makes the map between two domains whose boundaries correspond: facet i goes to facet i, with the
     /// same barycentric coordinates. Builds both charts together: foliation and disc cut both boundaries
     /// alike, and foliation pairs the maxima (the target's is where the disc maps take the source's), as
@@ -1186,6 +1229,24 @@ extern "C" {
         status: *mut icc_status,
         n_failed: *mut usize,
         env: *const icc_env,
+    ) -> icc_status;
+
+    /// Writes a map to memory, with its domains and charts; otherwise as `icc_chart_save()`.
+    pub fn icc_map_save(
+        map: *const icc_map,
+        capacity: usize,
+        data: *mut c_void,
+        n_bytes: *mut usize,
+    ) -> icc_status;
+
+    /// Reads a map back, as `icc_chart_load()` does a chart. The mesh of a map of kind mesh is read with all its
+    /// numbers, and certified anew.
+    pub fn icc_map_load(
+        out: *mut *mut icc_map,
+        n_bytes: usize,
+        data: *const c_void,
+        env: *const icc_env,
+        err: *mut icc_error,
     ) -> icc_status;
 
     /// Carries a picture along: every pixel of the target whose centre lies in the target domain or on its

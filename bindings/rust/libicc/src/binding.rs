@@ -1,8 +1,7 @@
 //! Points with their weights, and poses of the handles.
 use crate::env::Env;
 use crate::error::{check, Error, Result};
-use crate::object::object;
-use crate::sampling::save;
+use crate::object::{object, to_bytes};
 use crate::slices::{count, exactly, int, pointer_mut, product};
 use crate::sys;
 use crate::weights::Kernel;
@@ -109,8 +108,8 @@ impl Binding {
     }
 
     /// The binding as bytes: the same on every machine, with a checksum.
-    pub fn save(&self) -> Result<Vec<u8>> {
-        save(|capacity, data, n| {
+    pub fn to_bytes(&self) -> Result<Vec<u8>> {
+        to_bytes(|capacity, data, n| {
             // SAFETY: there is room for `capacity` bytes.
             unsafe { sys::icc_binding_save(self.as_ptr(), capacity, data, n) }
         })
@@ -121,7 +120,7 @@ impl Binding {
     /// # Errors
     /// [`Status::FORMAT`](crate::Status::FORMAT), or [`Status::VERSION`](crate::Status::VERSION) for what a later
     /// version wrote.
-    pub fn load(data: &[u8], env: &mut Env<'_>) -> Result<Binding> {
+    pub fn from_bytes(data: &[u8], env: &mut Env<'_>) -> Result<Binding> {
         Binding::make(env, |out, env, err| {
             // SAFETY: as many bytes.
             unsafe { sys::icc_binding_load(out, data.len(), data.as_ptr().cast(), env, err) }

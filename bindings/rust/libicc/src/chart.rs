@@ -3,7 +3,7 @@ use crate::domain::{BoundaryPoints, Domain};
 use crate::env::Env;
 use crate::error::{Result, Status};
 use crate::field::Field;
-use crate::object::{object, Borrowed};
+use crate::object::{object, to_bytes, Borrowed};
 use crate::slices::{count, exactly, int, pointer, pointer_mut};
 use crate::sys;
 
@@ -176,6 +176,28 @@ impl Chart {
         Chart::make(env, |out, env, err| {
             // SAFETY: the options are valid during the call.
             unsafe { sys::icc_chart_create(out, domain.as_ptr(), &raw, env, err) }
+        })
+    }
+
+    /// The chart as bytes, its domain included, for other processes: the same on every machine, with a
+    /// checksum.
+    pub fn to_bytes(&self) -> Result<Vec<u8>> {
+        to_bytes(|capacity, data, n| {
+            // SAFETY: there is room for `capacity` bytes.
+            unsafe { sys::icc_chart_save(self.as_ptr(), capacity, data, n) }
+        })
+    }
+
+    /// Reads a chart back; any bytes are safe to try. It answers as the one that was saved does, bit for bit. Charts
+    /// on a mesh are certified anew, those on a grid made again.
+    ///
+    /// # Errors
+    /// [`Status::FORMAT`]; [`Status::VERSION`] for what a later version wrote, and for a chart on a grid that comes
+    /// out otherwise here than where it was saved.
+    pub fn from_bytes(data: &[u8], env: &mut Env<'_>) -> Result<Chart> {
+        Chart::make(env, |out, env, err| {
+            // SAFETY: as many bytes.
+            unsafe { sys::icc_chart_load(out, data.len(), data.as_ptr().cast(), env, err) }
         })
     }
 

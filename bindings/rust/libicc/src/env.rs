@@ -1,4 +1,4 @@
-//! Threads and progress of a call.
+//! Threads, progress and diagnostics of a call.
 use crate::error::{Error, Result};
 use crate::sys;
 use std::any::Any;
@@ -7,10 +7,12 @@ use std::fmt;
 use std::ops::ControlFlow;
 use std::os::raw::{c_char, c_void};
 use std::panic::{catch_unwind, resume_unwind, AssertUnwindSafe};
+use std::sync::{Mutex, PoisonError};
 
 type Progress<'a> = dyn FnMut(&str, f64) -> ControlFlow<()> + 'a;
+type Log<'a> = dyn Fn(&str) + Sync + 'a;
 
-/// How a call runs: on how many threads, and who hears of its progress.
+/// How a call runs: on how many threads, and who hears of its progress and of what is remarkable.
 ///
 /// Results are bit-identical for every number of threads.
 ///
@@ -32,6 +34,7 @@ type Progress<'a> = dyn FnMut(&str, f64) -> ControlFlow<()> + 'a;
 pub struct Env<'a> {
     threads: i32,
     progress: Option<Box<Progress<'a>>>,
+    log: Option<Box<Log<'a>>>,
 }
 
 impl<'a> Env<'a> {
@@ -62,6 +65,12 @@ impl<'a> Env<'a> {
         self
     }
 
+    /// Called with lines of diagnostics, on any thread. A panic goes on as one in [`progress`](Self::progress) does.
+    pub fn log(mut self, callback: impl Fn(&str) + Sync + 'a) -> Self {
+        self.log = Some(Box::new(callback));
+        self
+    }
+
     /// Makes a call with a raw environment, and turns its status into a result.
     pub(crate) fn call(
         &mut self,
@@ -69,15 +78,21 @@ impl<'a> Env<'a> {
     ) -> Result<()> {
         let mut error = sys::icc_error { index: -1, ..Default::default() };
         let mut raw = sys::icc_env { threads: self.threads, ..Default::default() };
-        let progress = match &mut self.progress {
-            None => return finish(function(&raw, &mut error), &error),
-            Some(progress) => progress.as_mut(),
-        };
-        let mut listener = Listener { progress, panic: None };
-        raw.user = &mut listener as *mut Listener<'_, 'a> as *mut c_void;
+        if self.progress.is_none() && self.log.is_none() {
+            return finish(function(&raw, &mut error), &error);
+        }
         raw.progress = Some(report);
+        if self.log.is_some() {
+            raw.log = Some(tell);
+        }
+        let mut listener = Listener {
+            progress: self.progress.as_deref_mut(),
+            log: self.log.as_deref(),
+            panic: Mutex::new(None),
+        };
+        raw.user = &mut listener as *mut Listener<'_, 'a> as *mut c_void;
         let status = function(&raw, &mut error);
-        if let Some(payload) = listener.panic {
+        if let Some(payload) = listener.panic.into_inner().unwrap_or_else(PoisonError::into_inner) {
             resume_unwind(payload);
         }
         finish(status, &error)
@@ -89,6 +104,7 @@ impl fmt::Debug for Env<'_> {
         f.debug_struct("Env")
             .field("threads", &self.threads)
             .field("progress", &self.progress.is_some())
+            .field("log", &self.log.is_some())
             .finish()
     }
 }
@@ -101,28 +117,54 @@ fn finish(status: sys::icc_status, error: &sys::icc_error) -> Result<()> {
     }
 }
 
+/// Whom the callbacks talk to. No panic may unwind through C: the first one is kept until the call is over, which
+/// it cancels.
 struct Listener<'c, 'a> {
-    progress: &'c mut Progress<'a>,
-    panic: Option<Box<dyn Any + Send>>,
+    progress: Option<&'c mut Progress<'a>>,
+    log: Option<&'c Log<'a>>,
+    panic: Mutex<Option<Payload>>,
 }
 
-/// Hands the library's progress to the listener. No panic may unwind through C: it is kept until the call is
-/// over, and the callback is not run again.
-unsafe extern "C" fn report(user: *mut c_void, stage: *const c_char, share: f64) -> i32 {
-    // SAFETY: `user` is the listener in `Env::call`, which the library hands out on the calling thread only.
-    let listener = unsafe { &mut *(user as *mut Listener<'_, '_>) };
-    if listener.panic.is_some() {
-        return 1;
+type Payload = Box<dyn Any + Send>;
+
+/// Runs a callback unless one has panicked.
+fn guarded<T>(panic: &Mutex<Option<Payload>>, callback: impl FnOnce() -> T) -> Option<T> {
+    let kept = || panic.lock().unwrap_or_else(PoisonError::into_inner);
+    if kept().is_some() {
+        return None;
     }
+    match catch_unwind(AssertUnwindSafe(callback)) {
+        Ok(value) => Some(value),
+        Err(payload) => {
+            kept().get_or_insert(payload);
+            None
+        }
+    }
+}
+
+/// Hands the library's progress on.
+unsafe extern "C" fn report(user: *mut c_void, stage: *const c_char, share: f64) -> i32 {
+    let listener = user as *mut Listener<'_, '_>;
+    // SAFETY: `user` is the listener in `Env::call`; only this function, which the library calls on the calling
+    // thread, touches its progress.
+    let (progress, panic) = unsafe { (&mut (*listener).progress, &(*listener).panic) };
     // SAFETY: the names of stages are terminated strings.
     let stage = unsafe { CStr::from_ptr(stage) }.to_str().unwrap_or("");
-    let progress = &mut listener.progress;
-    match catch_unwind(AssertUnwindSafe(|| progress(stage, share))) {
-        Ok(ControlFlow::Continue(())) => 0,
-        Ok(ControlFlow::Break(())) => 1,
-        Err(payload) => {
-            listener.panic = Some(payload);
-            1
-        }
+    let answer = guarded(panic, || match progress {
+        Some(progress) => progress(stage, share),
+        None => ControlFlow::Continue(()),
+    });
+    i32::from(answer != Some(ControlFlow::Continue(())))
+}
+
+/// Hands a line of diagnostics on, on any thread.
+unsafe extern "C" fn tell(user: *mut c_void, message: *const c_char) {
+    let listener = user as *const Listener<'_, '_>;
+    // SAFETY: `user` is the listener in `Env::call`; these two members may be shared.
+    let (log, panic) = unsafe { (&(*listener).log, &(*listener).panic) };
+    // SAFETY: a terminated string.
+    let message = unsafe { CStr::from_ptr(message) }.to_string_lossy();
+    if let Some(log) = log {
+        guarded(panic, || log(&message));
     }
 }

@@ -3,7 +3,7 @@ use crate::chart::{statuses, Chart, ChartOptions, Images};
 use crate::domain::Domain;
 use crate::env::Env;
 use crate::error::{check, Result, Status};
-use crate::object::{object, Borrowed};
+use crate::object::{object, to_bytes, Borrowed};
 use crate::picture::{Picture, PictureMut};
 use crate::slices::{count, exactly, pointer};
 use crate::sys;
@@ -170,6 +170,27 @@ impl Map {
         Map::make(env, |out, env, err| {
             // SAFETY: valid objects.
             unsafe { sys::icc_map_follow(out, self.as_ptr(), target.as_ptr(), iterations, env, err) }
+        })
+    }
+
+    /// The map as bytes, its domains and charts included, for other processes: the same on every machine, with a
+    /// checksum.
+    pub fn to_bytes(&self) -> Result<Vec<u8>> {
+        to_bytes(|capacity, data, n| {
+            // SAFETY: there is room for `capacity` bytes.
+            unsafe { sys::icc_map_save(self.as_ptr(), capacity, data, n) }
+        })
+    }
+
+    /// Reads a map back, as [`Chart::from_bytes`] does a chart. A mesh is certified anew.
+    ///
+    /// # Errors
+    /// [`Status::FORMAT`]; [`Status::VERSION`] for what a later version wrote, and for a chart on a grid that comes
+    /// out otherwise here than where it was saved.
+    pub fn from_bytes(data: &[u8], env: &mut Env<'_>) -> Result<Map> {
+        Map::make(env, |out, env, err| {
+            // SAFETY: as many bytes.
+            unsafe { sys::icc_map_load(out, data.len(), data.as_ptr().cast(), env, err) }
         })
     }
 

@@ -1,7 +1,11 @@
-//! Handles of the library's objects.
+//! Handles of the library's objects, and objects as bytes.
+use crate::error::{check, Result};
+use crate::sys::icc_status;
 use std::marker::PhantomData;
 use std::mem::ManuallyDrop;
 use std::ops::Deref;
+use std::os::raw::c_void;
+use std::ptr;
 
 /// An object that is owned by another one, for as long as that lives.
 #[derive(Debug)]
@@ -79,3 +83,12 @@ macro_rules! object {
     };
 }
 pub(crate) use object;
+
+/// Asks how many bytes are needed, then for them.
+pub(crate) fn to_bytes(write: impl Fn(usize, *mut c_void, *mut usize) -> icc_status) -> Result<Vec<u8>> {
+    let mut n = 0;
+    check(write(0, ptr::null_mut(), &mut n))?;
+    let mut data = vec![0; n];
+    check(write(data.len(), data.as_mut_ptr().cast(), &mut n))?;
+    Ok(data)
+}

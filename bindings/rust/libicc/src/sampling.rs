@@ -2,10 +2,9 @@
 use crate::domain::Domain;
 use crate::env::Env;
 use crate::error::{check, Result};
-use crate::object::object;
+use crate::object::{object, to_bytes};
 use crate::slices::{count, int, pointer};
 use crate::sys;
-use std::ptr;
 
 pub use crate::sys::icc_sampling_info as SamplingInfo;
 
@@ -156,8 +155,8 @@ impl Sampling {
     }
 
     /// The sampling as bytes, its shape included: the same on every machine, with a checksum.
-    pub fn save(&self) -> Result<Vec<u8>> {
-        save(|capacity, data, n| {
+    pub fn to_bytes(&self) -> Result<Vec<u8>> {
+        to_bytes(|capacity, data, n| {
             // SAFETY: there is room for `capacity` bytes.
             unsafe { sys::icc_sampling_save(self.as_ptr(), capacity, data, n) }
         })
@@ -168,21 +167,10 @@ impl Sampling {
     /// # Errors
     /// [`Status::FORMAT`](crate::Status::FORMAT), or [`Status::VERSION`](crate::Status::VERSION) for what a later
     /// version wrote.
-    pub fn load(data: &[u8], env: &mut Env<'_>) -> Result<Sampling> {
+    pub fn from_bytes(data: &[u8], env: &mut Env<'_>) -> Result<Sampling> {
         Sampling::make(env, |out, env, err| {
             // SAFETY: as many bytes.
             unsafe { sys::icc_sampling_load(out, data.len(), data.as_ptr().cast(), env, err) }
         })
     }
-}
-
-/// Asks how many bytes are needed, then for them.
-pub(crate) fn save(
-    write: impl Fn(usize, *mut std::os::raw::c_void, *mut usize) -> sys::icc_status,
-) -> Result<Vec<u8>> {
-    let mut n = 0;
-    check(write(0, ptr::null_mut(), &mut n))?;
-    let mut data = vec![0; n];
-    check(write(data.len(), data.as_mut_ptr().cast(), &mut n))?;
-    Ok(data)
 }

@@ -29,12 +29,12 @@ fn samplings() {
     let sampling = sampling();
     let points = sampling.points().unwrap();
     assert_eq!(points.len(), 2 * sampling.info().n_samples);
-    let again = Sampling::load(&sampling.save().unwrap(), env).unwrap();
+    let again = Sampling::from_bytes(&sampling.to_bytes().unwrap(), env).unwrap();
     assert_eq!(again.points().unwrap(), points);
-    let mut damaged = sampling.save().unwrap();
+    let mut damaged = sampling.to_bytes().unwrap();
     damaged[40] ^= 1;
-    assert_eq!(Sampling::load(&damaged, env).unwrap_err().status, Status::FORMAT);
-    assert_eq!(Sampling::load(&[], env).unwrap_err().status, Status::FORMAT);
+    assert_eq!(Sampling::from_bytes(&damaged, env).unwrap_err().status, Status::FORMAT);
+    assert_eq!(Sampling::from_bytes(&[], env).unwrap_err().status, Status::FORMAT);
 
     let from = Sampling::from_points(&shape(), &[5.0, 5.0, 2.0, 2.0, 7.0, 2.0], env).unwrap();
     assert_eq!(from.info().n_samples, 3);
@@ -131,7 +131,7 @@ fn poses() {
     pose.set(0, &[1.0, 0.0, 0.0, 0.0, 1.0, 0.0]).unwrap();
     assert_eq!(binding.pose(&pose, env).unwrap(), POINTS);
 
-    let again = Binding::load(&binding.save().unwrap(), env).unwrap();
+    let again = Binding::from_bytes(&binding.to_bytes().unwrap(), env).unwrap();
     assert_eq!(again.weights().unwrap(), binding.weights().unwrap());
     assert_eq!(again.counts(), binding.counts());
     let mut images = [0.0; 5];

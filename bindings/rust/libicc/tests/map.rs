@@ -6,6 +6,7 @@ use libicc::{
 use std::cell::Cell;
 use std::ops::ControlFlow;
 use std::panic::{catch_unwind, resume_unwind, AssertUnwindSafe};
+use std::sync::Mutex;
 
 const BEFORE: [[f64; 2]; 6] = [[0.0, 0.0], [4.0, 0.0], [4.0, 1.5], [1.5, 1.5], [1.5, 4.0], [0.0, 4.0]];
 const AFTER: [[f64; 2]; 6] = [[0.0, 0.0], [4.0, -1.0], [5.0, 0.5], [1.5, 1.5], [2.5, 4.5], [0.5, 4.5]];
@@ -277,6 +278,32 @@ fn panics_in_progress_go_on_after_the_call() {
     let points = lattice(10);
     let images = |map: &Map| bits(&map.apply(&points, &mut Env::new()).unwrap().points);
     assert_eq!(images(&again), images(&whole));
+}
+
+/// Stars so wild that the first attempt cannot be repaired.
+fn stars() -> [Domain; 2] {
+    [[1.0, 0.02, 1.0, 0.02], [0.02, 1.0, 0.02, 0.5]].map(|radii| {
+        let corner = |k: usize| {
+            let (sin, cos) = (k as f64 * std::f64::consts::PI / 8.0).sin_cos();
+            [radii[k % 4] * cos, radii[k % 4] * sin]
+        };
+        domain(&(0..16).map(corner).collect::<Vec<_>>())
+    })
+}
+
+#[test]
+fn diagnostics_are_heard_and_may_panic() {
+    let [before, after] = stars();
+    let lines = Mutex::new(Vec::new());
+    let mut env = Env::new().log(|line| lines.lock().unwrap().push(line.to_string()));
+    Map::new(&before, &after, &MapOptions::default(), &mut env).unwrap();
+    drop(env);
+    let lines = lines.into_inner().unwrap();
+    assert!(lines.iter().any(|line| line.contains("could not be repaired")), "{:?}", lines);
+
+    let mut env = Env::new().log(|_| resume_unwind(Box::new("log")));
+    let call = AssertUnwindSafe(|| Map::new(&before, &after, &MapOptions::default(), &mut env));
+    assert_eq!(catch_unwind(call).unwrap_err().downcast_ref::<&str>(), Some(&"log"));
 }
 
 #[test]
