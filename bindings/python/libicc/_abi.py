@@ -190,11 +190,13 @@ class _Lazy:
 
 def _open() -> ctypes.CDLL:
     """The library named by LIBICC_LIBRARY, or beside this file, or the system's."""
-    named = os.environ.get("LIBICC_LIBRARY")
-    if named:
+    beside = pathlib.Path(__file__).with_name("libicc.so.0")
+    named = os.environ.get("LIBICC_LIBRARY") or (str(beside) if beside.exists() else "libicc.so.0")
+    try:
         return ctypes.CDLL(named)
-    bundled = pathlib.Path(__file__).with_name("libicc.so.0")
-    return ctypes.CDLL(str(bundled) if bundled.exists() else "libicc.so.0")
+    except OSError as error:
+        raise ImportError(f"the C library of libicc cannot be loaded: {error}; install libicc.so.0, or let "
+                          "the environment variable LIBICC_LIBRARY name it") from None
 
 
 _library = _open()
