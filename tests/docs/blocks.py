@@ -1,0 +1,65 @@
+"""The fenced blocks of a page of Markdown, and what invisible comments in front of them say.
+
+    <!-- output -->            what the block before prints; "..." stands for anything
+    <!-- file: NAME -->        the block is a file that later blocks use
+    <!-- in: NAME -->          the block is put into the frame tests/docs/NAME, in place of its line SNIPPET
+    <!-- needs: A, module B --> the block wants the command A and the Python module B
+    <!-- not run: REASON -->   the block cannot be run here
+"""
+
+import re
+from dataclasses import dataclass, field
+
+RUN = ("c", "cpp", "python", "rust", "sh", "cmake")
+SHOWN = ("text", "json")
+COMMENT = re.compile(r"<!-- (output|file|in|needs|not run)(?:: (.*?))? -->\s*$")
+# Commands in a block that is only indented would go untested.
+INDENTED = re.compile(r" {4}(sudo|apt|libicc|sh|cc|cmake|python3|cargo|PYTHONPATH)\b")
+
+
+class Mistake(Exception):
+    """What is wrong with a page, and in which line."""
+
+
+@dataclass
+class Block:
+    language: str
+    text: str
+    line: int
+    says: dict = field(default_factory=dict)
+
+
+def blocks_of(path):
+    """All blocks of a page in their order."""
+    blocks, says, lines = [], {}, None
+    for number, line in enumerate(path.read_text(encoding="utf-8").split("\n"), 1):
+        if lines is not None:
+            if line.rstrip() == "```":
+                block.text = "\n".join(lines) + "\n"
+                blocks.append(block)
+                lines = None
+            else:
+                lines.append(line)
+        elif line.startswith("```"):
+            block, lines, says = Block(line[3:].strip(), "", number, says), [], {}
+            _check(path, block)
+        elif COMMENT.match(line):
+            word, value = COMMENT.match(line).groups()
+            says[word] = value or ""
+        elif says and line.strip():
+            raise Mistake(f"{path}:{number}: the comment above belongs to no block")
+        elif INDENTED.match(line):
+            raise Mistake(f"{path}:{number}: commands belong into a block of ```sh")
+    if lines is not None:
+        raise Mistake(f"{path}:{block.line}: the block does not end")
+    return blocks
+
+
+def _check(path, block):
+    where = f"{path}:{block.line}"
+    if block.language not in RUN + SHOWN:
+        raise Mistake(f"{where}: '{block.language}' is none of {', '.join(RUN + SHOWN)}")
+    if "not run" in block.says and not block.says["not run"]:
+        raise Mistake(f"{where}: a block that is not run needs a reason")
+    if "output" in block.says and block.language not in SHOWN:
+        raise Mistake(f"{where}: output is text or json")

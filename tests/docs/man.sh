@@ -1,0 +1,40 @@
+#!/bin/sh
+# The manual pages are well-formed, and libicc.1 tells of every command and every option that --help lists, and of no
+# other.
+# usage: man.sh LIBICC MAN_FOLDER
+set -eu
+libicc=$1 folder=$2
+wrong=0
+
+complain() {
+    echo "$*"
+    wrong=1
+}
+
+commands=$("$libicc" --help | sed -n '/^Commands:/,/^$/s/^  \([a-z]*\) .*/\1/p')
+[ -n "$commands" ] || complain "--help lists no commands"
+page=$(sed 's/\\-/-/g; s/\\fB//g; s/\\fR//g' "$folder/libicc.1")
+told=
+for command in $commands; do
+    echo "$page" | grep -qx "\.B $command" || complain "libicc.1 does not describe the command $command"
+    told="$told $("$libicc" "$command" --help | grep -oE '^ +(-[a-z], )?--[a-z-]+' | grep -oE -- '--?[a-z-]+')"
+done
+for option in $told; do
+    echo "$page" | grep -qE -- "(^|[^a-z-])$option([^a-z-]|\$)" || complain "libicc.1 does not tell of $option"
+done
+for option in $(echo "$page" | grep -oE -- '--[a-z]+(-[a-z]+)*' | sort -u); do
+    case " $(echo "$told" | tr '\n' ' ') --version " in
+        *" $option "*) ;;
+        *) complain "libicc.1 tells of $option, which --help does not" ;;
+    esac
+done
+
+for file in "$folder"/*.[13]; do
+    if command -v mandoc >/dev/null; then
+        mandoc -T lint -W warning "$file" || complain "mandoc: $file"
+    fi
+    if command -v man >/dev/null; then
+        [ -z "$(LC_ALL=C.UTF-8 MANWIDTH=80 man --warnings -l "$file" 2>&1 >/dev/null)" ] || complain "man: $file"
+    fi
+done
+exit $wrong

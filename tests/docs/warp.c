@@ -1,0 +1,28 @@
+/* Around the lines of the front page: they turn a picture of one colour in a square. */
+#include <icc/icc.h>
+
+#include <stdio.h>
+#include <string.h>
+
+int main(void)
+{
+    enum { n = 4, SIDE = 8 };
+    static const double before[] = {0, 0, 8, 0, 8, 8, 0, 8}, after[] = {4, 0, 8, 4, 4, 8, 0, 4};
+    static unsigned char pixels[SIDE * SIDE], result[SIDE * SIDE];
+    icc_picture picture = {sizeof picture, SIDE, SIDE, 1, 1, 0, 0, SIDE, NULL}, warped;
+    icc_error err = {sizeof err, ICC_OK, 0, -1, ""};
+    icc_domain *source = NULL, *target = NULL;
+    icc_map *map = NULL;
+    picture.pixels = memset(pixels, 200, sizeof pixels);
+    warped = picture;
+    warped.pixels = result;
+
+    SNIPPET
+
+    if (result[4 * SIDE + 4] != 200 || result[0] != 0)
+        err.status = ICC_ERR_ARGUMENT;
+    icc_map_free(map);
+    icc_domain_free(target);
+    icc_domain_free(source);
+    return err.status != ICC_OK;
+}
