@@ -14,6 +14,8 @@ endforeach()
 
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/icc DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
   COMPONENT Development FILES_MATCHING PATTERN "*.h")
+install(FILES ${PROJECT_SOURCE_DIR}/docs/man/libicc.3 DESTINATION ${CMAKE_INSTALL_MANDIR}/man3
+  COMPONENT Development)
 
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/libiccConfig.cmake.in
   ${PROJECT_BINARY_DIR}/libiccConfig.cmake INSTALL_DESTINATION ${cmake_dir}
