@@ -6,6 +6,7 @@
 #include "chart/chart_field.h"
 #include "chart/create.h"
 #include "chart/gradient_state.h"
+#include "chart/load.h"
 
 #include <math.h>
 #include <string.h>
@@ -147,4 +148,25 @@ icc_status icc_chart_trace(const icc_chart *chart, const double *point, size_t c
         return iccp_fail_memory(err);
     *n_curve = line.n;
     return ICC_OK;
+}
+
+icc_status icc_chart_save(const icc_chart *chart, size_t capacity, void *data, size_t *n_bytes)
+{
+    if (chart == NULL || n_bytes == NULL || (capacity > 0 && data == NULL))
+        return ICC_ERR_ARGUMENT;
+    iccp_chart_save(chart, capacity, data, n_bytes);
+    return ICC_OK;
+}
+
+icc_status icc_chart_load(icc_chart **out, size_t n_bytes, const void *data, const icc_env *env,
+                          icc_error *err)
+{
+    if (out != NULL)
+        *out = NULL;
+    if (out == NULL || data == NULL)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_chart_load: %s is NULL",
+                         out == NULL ? "out" : "data");
+    iccp_env full_env;
+    const icc_status status = iccp_env_read(&full_env, env, err);
+    return status == ICC_OK ? iccp_chart_load(out, n_bytes, data, &full_env, err) : status;
 }

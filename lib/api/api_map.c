@@ -4,6 +4,7 @@
 #include "base/options.h"
 #include "map/apply.h"
 #include "map/certify.h"
+#include "map/map_file.h"
 
 #include <string.h>
 
@@ -265,4 +266,25 @@ icc_status icc_map_repair(const icc_map *map, size_t n_vertices, const double *v
         return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_map_repair: an argument is NULL");
     return carry_mesh(map, n_vertices, vertices, n_simplices, simplices, true, images, certificate,
                       env, err);
+}
+
+icc_status icc_map_save(const icc_map *map, size_t capacity, void *data, size_t *n_bytes)
+{
+    if (map == NULL || n_bytes == NULL || (capacity > 0 && data == NULL))
+        return ICC_ERR_ARGUMENT;
+    iccp_map_save(map, capacity, data, n_bytes);
+    return ICC_OK;
+}
+
+icc_status icc_map_load(icc_map **out, size_t n_bytes, const void *data, const icc_env *env,
+                        icc_error *err)
+{
+    if (out != NULL)
+        *out = NULL;
+    if (out == NULL || data == NULL)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_map_load: %s is NULL",
+                         out == NULL ? "out" : "data");
+    iccp_env full_env;
+    const icc_status status = iccp_env_read(&full_env, env, err);
+    return status == ICC_OK ? iccp_map_load(out, n_bytes, data, &full_env, err) : status;
 }

@@ -166,3 +166,12 @@ bool iccp_blob_done(const iccp_blob_reader *r)
 {
     return !r->failed && r->at == r->n;
 }
+
+icc_status iccp_blob_blame(icc_error *err, icc_status status, const char *what)
+{
+    if (status == ICC_OK || status == ICC_ERR_VERSION)
+        return status;
+    if (status == ICC_ERR_MEMORY || status == ICC_ERR_CANCELLED)
+        return iccp_explain(err, status);
+    return iccp_fail(err, ICC_ERR_FORMAT, -1, "the bytes do not describe a %s", what);
+}

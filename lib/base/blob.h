@@ -41,4 +41,8 @@ size_t iccp_blob_read_count(iccp_blob_reader *r, size_t size);
 /* Whether everything was read, and nothing failed. */
 bool iccp_blob_done(const iccp_blob_reader *r);
 
+/* What cannot be is malformed: ICC_ERR_FORMAT for all failures but those that say nothing about the bytes (no memory,
+ * no patience) or have been explained (ICC_ERR_VERSION). ICC_OK stays. `what` the bytes should be: "shape". */
+icc_status iccp_blob_blame(icc_error *err, icc_status status, const char *what);
+
 #endif

@@ -3,6 +3,7 @@
 #ifndef ICCP_CHART_H
 #define ICCP_CHART_H
 
+#include "base/blob.h"
 #include "domain/domain.h"
 #include "icc/icc.h"
 #include "mesh/planar.h"
@@ -46,6 +47,8 @@ typedef struct iccp_chart_ops {
     /* Fills in everything but `size`; n_points > 0. NULL for methods that miss nothing. */
     icc_status (*measure)(const icc_chart *chart, size_t n_points, icc_chart_measures *measures,
                           const iccp_env *env);
+    /* What the method's loader wants, without the domain (chart/load.h). */
+    void (*save)(const icc_chart *chart, iccp_blob_writer *w);
     void (*free_state)(icc_chart *chart);
 } iccp_chart_ops;
 

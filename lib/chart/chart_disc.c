@@ -5,6 +5,7 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "chart/certificate.h"
+#include "chart/harmonic_file.h"
 #include "math/predicates.h"
 
 #include <math.h>
@@ -267,7 +268,14 @@ static void free_state(icc_chart *chart)
     iccp_free(&chart->memory, state);
 }
 
-static const iccp_chart_ops OPS = {encode, decode, trace, NULL, free_state};
+static void save(const icc_chart *chart, iccp_blob_writer *w)
+{
+    const disc_state *state = chart->state;
+    iccp_harmonic_write(chart->info.cells, &state->mesh, chart->domain, w);
+    iccp_blob_f64(w, 2 * state->mesh.n_vertices, state->image);
+}
+
+static const iccp_chart_ops OPS = {encode, decode, trace, NULL, save, free_state};
 
 /* The image's rim goes once round the origin: every edge turns left round it and the angles grow from 0 to
  * one turn. So the rim is simple and every ray from the origin meets it once; it need not be convex,
@@ -347,4 +355,34 @@ icc_status iccp_chart_disc_create(icc_chart **out, const icc_domain *domain, icc
     *image = NULL;
     iccp_frame_out(&domain->frame, 2, state->maximum, chart->info.maximum);
     return ICC_OK;
+}
+
+static bool are_in_disc(size_t n, const double *numbers)
+{
+    for (size_t i = 0; i < n; ++i)
+        if (!(fabs(numbers[i]) <= 2))
+            return false;
+    return true;
+}
+
+icc_status iccp_chart_disc_read(icc_chart **out, const icc_domain *domain, iccp_blob_reader *r,
+                                const iccp_env *env)
+{
+    iccp_harmonic base;
+    *out = NULL;
+    icc_status status = iccp_harmonic_read(&base, domain, r, env);
+    if (status != ICC_OK)
+        return status;
+    const size_t n = 2 * base.mesh.n_vertices;
+    double *image = iccp_alloc(&env->memory, n, sizeof *image);
+    status = ICC_ERR_MEMORY;
+    if (image != NULL) {
+        iccp_blob_read_f64(r, n, image);
+        status = !r->failed && are_in_disc(n, image)
+                     ? iccp_chart_disc_create(out, domain, &base, &image, env, NULL)
+                     : ICC_ERR_FORMAT;
+    }
+    iccp_free(&env->memory, image);
+    iccp_harmonic_free(&base);
+    return status;
 }

@@ -6,6 +6,7 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "chart/field_measure.h"
+#include "chart/recipe.h"
 #include "field/cones.h"
 #include "field/create.h"
 #include "field/critical.h"
@@ -24,6 +25,7 @@ enum { SWEEPS = 2 };
 static const double MOST_LOST = 0.05;
 
 typedef struct field_state {
+    iccp_recipe recipe;
     icc_tree *tree;
     icc_field *field;
     iccp_cover cover;
@@ -526,7 +528,25 @@ static icc_status measure(const icc_chart *chart, size_t n_points, icc_chart_mea
     return iccp_field_measure(chart, &state->flow, n_points, measures, env);
 }
 
-static const iccp_chart_ops OPS = {encode, decode, trace, measure, free_state};
+/* The vectors, and the function that they come from. */
+static uint64_t digest_of(const icc_chart *chart)
+{
+    const field_state *state = chart->state;
+    const iccp_sides *sides = &state->cones.sides;
+    const size_t dim = (size_t)chart->domain->dim, n = state->tree->grid->n_vertices;
+    uint64_t digest = iccp_digest_field(state->field);
+    digest = iccp_digest_f32(digest, dim * n, state->cones.vector);
+    digest = iccp_digest_u32(digest, sides->n, sides->vertex);
+    return iccp_digest_f32(digest, dim * sides->n_vectors, sides->vector);
+}
+
+static void save(const icc_chart *chart, iccp_blob_writer *w)
+{
+    const field_state *state = chart->state;
+    iccp_recipe_write(&state->recipe, chart->domain->dim, digest_of(chart), w);
+}
+
+static const iccp_chart_ops OPS = {encode, decode, trace, measure, save, free_state};
 
 const icc_field *iccp_chart_field_function(const icc_chart *chart)
 {
@@ -559,9 +579,24 @@ icc_status iccp_chart_field_create(icc_chart **out, const icc_domain *domain,
         status = make_vectors(state, chart, env);
     if (status == ICC_OK) {
         finish(state, chart);
+        iccp_recipe_keep(&state->recipe, options, maximum, domain->dim);
         return ICC_OK;
     }
     iccp_chart_release(chart);
     *out = NULL;
     return status;
+}
+
+icc_status iccp_chart_field_read(icc_chart **out, const icc_domain *domain, iccp_blob_reader *r,
+                                 const iccp_env *env, icc_error *err)
+{
+    iccp_recipe recipe;
+    uint64_t wanted;
+    *out = NULL;
+    icc_status status = iccp_recipe_read(&recipe, domain->dim, &wanted, r);
+    if (status != ICC_OK)
+        return status;
+    status = iccp_chart_field_create(out, domain, &recipe.options, iccp_recipe_maximum(&recipe), env,
+                                     NULL);
+    return iccp_recipe_judge(out, status, wanted, status == ICC_OK ? digest_of(*out) : 0, err);
 }

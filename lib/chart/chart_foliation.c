@@ -6,7 +6,9 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "chart/certificate.h"
+#include "chart/harmonic_file.h"
 #include "trace/leaf.h"
+#include "trace/psi_file.h"
 
 #include <math.h>
 #include <string.h>
@@ -358,7 +360,17 @@ static void free_state(icc_chart *chart)
     iccp_free(&chart->memory, state);
 }
 
-static const iccp_chart_ops OPS = {encode, decode, trace, NULL, free_state};
+static void save(const icc_chart *chart, iccp_blob_writer *w)
+{
+    const foliation_state *state = chart->state;
+    iccp_harmonic_write(chart->info.cells, &state->mesh, chart->domain, w);
+    iccp_blob_f64(w, 1, &chart->info.harmonic_share);
+    iccp_psi_write(&state->psi, &state->mesh, w);
+}
+
+static const iccp_chart_ops OPS = {encode, decode, trace, NULL, save, free_state};
+
+/* ---- making it ---- */
 
 /* Shares of harmonic flux to try: one half is the fairest; less copes with sharper corners. */
 static const double HARMONIC_SHARES[] = {0.5, 0.25, 0.0};
@@ -394,20 +406,26 @@ static icc_status make_psi(foliation_state *state, const iccp_harmonic *base, ui
                      certificate.n_flat, certificate.n_irregular);
 }
 
-icc_status iccp_chart_foliation_create(icc_chart **out, const icc_domain *domain,
-                                       iccp_harmonic *base, uint32_t centre, const iccp_env *env,
-                                       icc_error *err)
+static icc_status begin(icc_chart **out, const icc_domain *domain, const iccp_harmonic *base,
+                        const iccp_env *env)
 {
-    icc_status status = iccp_chart_new(out, domain, env);
+    const icc_status status = iccp_chart_new(out, domain, env);
     if (status != ICC_OK)
         return status;
     icc_chart *chart = *out;
     chart->ops = &OPS;
     chart->info.method = ICC_METHOD_FOLIATION;
     iccp_harmonic_describe(base, domain, &chart->info);
-    foliation_state *state = iccp_alloc_zero(&env->memory, 1, sizeof *state);
-    chart->state = state;
-    status = state != NULL ? make_psi(state, base, centre, &chart->info, env, err) : ICC_ERR_MEMORY;
+    chart->state = iccp_alloc_zero(&env->memory, 1, sizeof(foliation_state));
+    return chart->state != NULL ? ICC_OK : ICC_ERR_MEMORY;
+}
+
+/* With a certified psi; or the end of a failure. */
+static icc_status finish(icc_chart **out, iccp_harmonic *base, icc_status status,
+                         const iccp_env *env)
+{
+    icc_chart *chart = *out;
+    foliation_state *state = chart != NULL ? chart->state : NULL;
     if (status == ICC_OK)
         status = iccp_finder_create(&state->finder, &base->mesh, base->mesh.points, env);
     if (status != ICC_OK) {
@@ -417,6 +435,53 @@ icc_status iccp_chart_foliation_create(icc_chart **out, const icc_domain *domain
     }
     state->mesh = iccp_harmonic_take_mesh(base);
     chart->mesh = &state->mesh;
-    iccp_frame_out(&domain->frame, 2, centre_of(state), chart->info.maximum);
+    iccp_frame_out(&chart->domain->frame, 2, centre_of(state), chart->info.maximum);
     return ICC_OK;
+}
+
+icc_status iccp_chart_foliation_create(icc_chart **out, const icc_domain *domain,
+                                       iccp_harmonic *base, uint32_t centre, const iccp_env *env,
+                                       icc_error *err)
+{
+    icc_status status = begin(out, domain, base, env);
+    if (status == ICC_OK)
+        status = make_psi((*out)->state, base, centre, &(*out)->info, env, err);
+    return finish(out, base, status, env);
+}
+
+/* ---- reading it ---- */
+
+static icc_status read_psi(icc_chart *chart, const iccp_planar *mesh, iccp_blob_reader *r,
+                           const iccp_env *env)
+{
+    foliation_state *state = chart->state;
+    iccp_certificate certificate = {0};
+    icc_status status = iccp_psi_read(&state->psi, mesh, r, env);
+    if (status == ICC_OK)
+        status = iccp_certify_psi(mesh, &state->psi, &certificate, &env->memory);
+    if (status != ICC_OK)
+        return status;
+    chart->info.certified = iccp_certificate_holds(&certificate);
+    chart->info.n_ties = certificate.n_ties;
+    return chart->info.certified ? ICC_OK : ICC_ERR_FORMAT;
+}
+
+icc_status iccp_chart_foliation_read(icc_chart **out, const icc_domain *domain, iccp_blob_reader *r,
+                                     const iccp_env *env)
+{
+    iccp_harmonic base;
+    double share;
+    *out = NULL;
+    icc_status status = iccp_harmonic_read(&base, domain, r, env);
+    if (status != ICC_OK)
+        return status;
+    iccp_blob_read_f64(r, 1, &share);
+    status = share >= 0 && share < 1 ? begin(out, domain, &base, env) : ICC_ERR_FORMAT;
+    if (status == ICC_OK) {
+        (*out)->info.harmonic_share = share;
+        status = read_psi(*out, &base.mesh, r, env);
+    }
+    status = finish(out, &base, status, env);
+    iccp_harmonic_free(&base);
+    return status;
 }

@@ -255,7 +255,13 @@ static void free_state(icc_chart *chart)
     iccp_free(&chart->memory, state);
 }
 
-static const iccp_chart_ops OPS = {encode, decode, trace, iccp_gradient_measure, free_state};
+static void save(const icc_chart *chart, iccp_blob_writer *w)
+{
+    const iccp_gradient_state *state = chart->state;
+    iccp_recipe_write(&state->recipe, chart->domain->dim, iccp_digest_field(state->field), w);
+}
+
+static const iccp_chart_ops OPS = {encode, decode, trace, iccp_gradient_measure, save, free_state};
 
 icc_status iccp_chart_gradient_create(icc_chart **out, const icc_domain *domain,
                                       const icc_chart_options *options, const iccp_env *env,
@@ -278,9 +284,28 @@ icc_status iccp_chart_gradient_create(icc_chart **out, const icc_domain *domain,
         status = make_boundary(state, domain, env);
     if (status == ICC_OK) {
         place_maximum(state, chart);
+        iccp_recipe_keep(&state->recipe, options, options->maximum, domain->dim);
         return ICC_OK;
     }
     iccp_chart_release(chart);
     *out = NULL;
     return status;
+}
+
+icc_status iccp_chart_gradient_read(icc_chart **out, const icc_domain *domain, iccp_blob_reader *r,
+                                    const iccp_env *env, icc_error *err)
+{
+    iccp_recipe recipe;
+    uint64_t wanted, digest = 0;
+    *out = NULL;
+    icc_status status = iccp_recipe_read(&recipe, domain->dim, &wanted, r);
+    if (status != ICC_OK)
+        return status;
+    recipe.options.maximum = iccp_recipe_maximum(&recipe);
+    status = iccp_chart_gradient_create(out, domain, &recipe.options, env, NULL);
+    if (status == ICC_OK) {
+        const iccp_gradient_state *state = (*out)->state;
+        digest = iccp_digest_field(state->field);
+    }
+    return iccp_recipe_judge(out, status, wanted, digest, err);
 }

@@ -11,8 +11,6 @@
 #include "shelling/contest.h"
 #include "shelling/reference.h"
 
-#include <string.h>
-
 /* Share of the flux through the boundary that is harmonic, the rest goes by area: the fairest
  * (bench_tets). */
 static const double HARMONIC_SHARE = 0.5;
@@ -204,28 +202,14 @@ static icc_status make_fibres(iccp_shelling_state *state, const icc_domain *doma
 
 static icc_status make_chart(job *j, size_t k, icc_chart **out, const iccp_env *env, icc_error *err)
 {
-    const iccp_simplices *mesh = j->mesh[k];
-    icc_status status = iccp_chart_new(out, j->domain[k], env);
+    iccp_simplices *own = j->split[k];
+    j->split[k] = NULL;
+    const icc_status status = iccp_shelling_begin(out, j->domain[k], own, j->centre[k], env);
     if (status != ICC_OK)
         return status;
-    icc_chart_info *info = &(*out)->info;
-    (*out)->ops = &iccp_shelling_ops;
-    info->method = ICC_METHOD_FOLIATION;
-    info->n_mesh_vertices = mesh->n_points;
-    info->n_mesh_boundary = mesh->n_rim;
-    info->n_mesh_triangles = mesh->n_simplices;
-    info->seconds_grid = j->seconds / (double)j->n;
-    iccp_shelling_state *state = iccp_alloc_zero(&env->memory, 1, sizeof *state);
-    (*out)->state = state;
-    if (state == NULL)
-        return ICC_ERR_MEMORY;
-    state->mesh = j->split[k];
-    j->split[k] = NULL;
-    state->fibres.memory = env->memory;
-    memcpy(state->centre, mesh->points + mesh->dim * j->centre[k],
-           mesh->dim * sizeof *state->centre);
-    iccp_frame_out(&j->domain[k]->frame, (int32_t)mesh->dim, state->centre, info->maximum);
-    return make_fibres(state, j->domain[k], mesh, j->centre[k], info, env, err);
+    (*out)->info.seconds_grid = j->seconds / (double)j->n;
+    return make_fibres((*out)->state, j->domain[k], j->mesh[k], j->centre[k], &(*out)->info, env,
+                       err);
 }
 
 icc_status iccp_chart_shelling_create(size_t n, icc_chart **out, const icc_domain *const *domain,

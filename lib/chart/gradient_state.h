@@ -2,11 +2,12 @@
 #ifndef ICCP_GRADIENT_STATE_H
 #define ICCP_GRADIENT_STATE_H
 
-#include "chart/chart.h"
+#include "chart/recipe.h"
 #include "trace/cage_cells.h"
 #include "trace/walk2.h"
 
 typedef struct iccp_gradient_state {
+    iccp_recipe recipe;
     icc_tree *tree;
     icc_field *field;
     iccp_fence fence;         /* the boundary as walks meet it: in the plane */

@@ -2,6 +2,8 @@
  * curves are the leaves of docs/theory.md, foliations of simplices. */
 #include "chart/shelling_state.h"
 
+#include "domain/domain_file.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -255,4 +257,53 @@ static void free_state(icc_chart *chart)
     iccp_free(&chart->memory, state);
 }
 
-const iccp_chart_ops iccp_shelling_ops = {encode, decode, trace, NULL, free_state};
+/* The order of the simplices follows from the directions. */
+static void save(const icc_chart *chart, iccp_blob_writer *w)
+{
+    const iccp_shelling_state *state = chart->state;
+    const iccp_simplices *mesh = state->mesh != NULL ? state->mesh : chart->domain->mesh;
+    const icc_chart_info *info = &chart->info;
+    const double measures[] = {info->harmonic_share, info->order_beta, info->flux_energy,
+                               info->flux_divergence};
+    iccp_blob_u64(w, (uint64_t)info->order_peeled);
+    iccp_blob_u64(w, (uint64_t)info->n_orders);
+    iccp_blob_u64(w, info->n_reversed);
+    iccp_blob_f64(w, 4, measures);
+    iccp_blob_u64(w, state->mesh != NULL);
+    if (state->mesh != NULL)
+        iccp_filling_write(state->mesh, w);
+    iccp_blob_u64(w, state->fibres.centre);
+    for (size_t s = 0; s < mesh->n_simplices; ++s) {
+        double direction[ICCP_FIBRE_CORNERS];
+        iccp_fibres_direction(&state->fibres, mesh, s, direction);
+        iccp_blob_f64(w, mesh->dim + 1, direction);
+    }
+}
+
+const iccp_chart_ops iccp_shelling_ops = {encode, decode, trace, NULL, save, free_state};
+
+icc_status iccp_shelling_begin(icc_chart **out, const icc_domain *domain, iccp_simplices *own,
+                               uint32_t centre, const iccp_env *env)
+{
+    const iccp_simplices *mesh = own != NULL ? own : domain->mesh;
+    iccp_shelling_state *state = NULL;
+    icc_status status = iccp_chart_new(out, domain, env);
+    if (status == ICC_OK) {
+        (*out)->ops = &iccp_shelling_ops;
+        state = (*out)->state = iccp_alloc_zero(&env->memory, 1, sizeof *state);
+    }
+    if (state == NULL) {
+        iccp_simplices_free(own);
+        return ICC_ERR_MEMORY;
+    }
+    icc_chart_info *info = &(*out)->info;
+    info->method = ICC_METHOD_FOLIATION;
+    info->n_mesh_vertices = mesh->n_points;
+    info->n_mesh_boundary = mesh->n_rim;
+    info->n_mesh_triangles = mesh->n_simplices;
+    state->mesh = own;
+    state->fibres.memory = env->memory;
+    memcpy(state->centre, mesh->points + mesh->dim * centre, mesh->dim * sizeof *state->centre);
+    iccp_frame_out(&domain->frame, domain->dim, state->centre, info->maximum);
+    return ICC_OK;
+}

@@ -7,6 +7,7 @@
 #include "math/predicates.h"
 
 #include <math.h>
+#include <string.h>
 
 static bool finite_point(const double *p)
 {
@@ -88,6 +89,29 @@ icc_status iccp_polygon_check(const iccp_ring *ring, const iccp_frame *frame, co
     if (status != ICC_OK)
         return iccp_explain(err, status);
     return fail_defect(err, first.kind != 0 ? &first : &any, ring, frame);
+}
+
+icc_status iccp_polygon_check_points(size_t n, const double *points, const uint32_t *ring,
+                                     const iccp_env *env)
+{
+    if (n < 3)
+        return ICC_ERR_BOUNDARY;
+    iccp_ring copy = {.n = n};
+    copy.points = iccp_alloc(&env->memory, n + 1, 2 * sizeof *copy.points);
+    copy.vertex = iccp_alloc(&env->memory, n, sizeof *copy.vertex);
+    copy.facet = iccp_alloc(&env->memory, n, sizeof *copy.facet);
+    icc_status status = ICC_ERR_MEMORY;
+    if (copy.points != NULL && copy.vertex != NULL && copy.facet != NULL) {
+        for (uint32_t k = 0; k < n; ++k) {
+            const size_t from = ring != NULL ? ring[k] : k;
+            memcpy(copy.points + 2 * (size_t)k, points + 2 * from, 2 * sizeof *points);
+            copy.vertex[k] = copy.facet[k] = k;
+        }
+        memcpy(copy.points + 2 * n, copy.points, 2 * sizeof *points);
+        status = iccp_polygon_check(&copy, &iccp_frame_identity, env, NULL);
+    }
+    iccp_ring_free(&copy, &env->memory);
+    return status;
 }
 
 int iccp_polygon_orientation(const iccp_ring *ring)

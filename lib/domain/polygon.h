@@ -14,6 +14,11 @@ icc_status iccp_polygon_localise(iccp_frame *frame, double *local, size_t n, con
 icc_status iccp_polygon_check(const iccp_ring *ring, const iccp_frame *frame, const iccp_env *env,
                               icc_error *err);
 
+/* The same for n local points by themselves: ring[0], ring[1], .. of `points`, or all in their order (NULL). ICC_ERR_BOUNDARY
+ * also when there are fewer than 3. */
+icc_status iccp_polygon_check_points(size_t n, const double *points, const uint32_t *ring,
+                                     const iccp_env *env);
+
 /* +1 counter-clockwise, -1 clockwise: exact for a simple polygon. */
 int iccp_polygon_orientation(const iccp_ring *ring);
 

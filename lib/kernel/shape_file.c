@@ -1,18 +1,10 @@
 #include "kernel/shape_file.h"
 
 #include "base/error.h"
+#include "domain/domain_file.h"
 
 /* A count is believed if the bytes for so many items are there. */
 enum { U32 = 4, F64 = 8 };
-
-static void write_region(const icc_domain *d, iccp_blob_writer *w)
-{
-    const size_t dim = (size_t)d->dim;
-    iccp_blob_u64(w, d->n_vertices);
-    iccp_blob_u64(w, d->n_facets);
-    iccp_blob_f64(w, d->n_vertices * dim, d->given);
-    iccp_blob_u32(w, d->n_facets * dim, d->facets);
-}
 
 void iccp_shape_write(const icc_shape *shape, iccp_blob_writer *w)
 {
@@ -21,40 +13,9 @@ void iccp_shape_write(const icc_shape *shape, iccp_blob_writer *w)
     iccp_blob_u64(w, shape->n_vertices);
     iccp_blob_u64(w, shape->n_segments);
     for (size_t r = 0; r < shape->n_regions; ++r)
-        write_region(shape->regions[r], w);
+        iccp_boundary_write(shape->regions[r], w);
     iccp_blob_f64(w, shape->n_vertices * shape->dim, shape->vertices);
     iccp_blob_u32(w, shape->n_segments * 2, shape->segments);
-}
-
-/* What cannot be is malformed; no memory, or no patience, is not. */
-static icc_status fail_content(icc_error *err, icc_status status)
-{
-    if (status == ICC_ERR_MEMORY || status == ICC_ERR_CANCELLED)
-        return iccp_explain(err, status);
-    return iccp_fail(err, ICC_ERR_FORMAT, -1, "the bytes do not describe a shape");
-}
-
-static icc_status read_region(icc_domain **out, int32_t dim, iccp_blob_reader *r,
-                              const iccp_env *env, icc_error *err)
-{
-    const size_t d = (size_t)dim;
-    const size_t n_vertices = iccp_blob_read_count(r, d * F64);
-    const size_t n_facets = iccp_blob_read_count(r, d * U32);
-    if (r->failed || n_vertices >= UINT32_MAX || n_facets >= UINT32_MAX)
-        return fail_content(err, ICC_ERR_FORMAT);
-    double *vertices = iccp_alloc(&env->memory, n_vertices, d * sizeof *vertices);
-    uint32_t *facets = iccp_alloc(&env->memory, n_facets, d * sizeof *facets);
-    icc_status status = ICC_ERR_MEMORY;
-    if (vertices != NULL && facets != NULL) {
-        iccp_blob_read_f64(r, n_vertices * d, vertices);
-        iccp_blob_read_u32(r, n_facets * d, facets);
-        status = r->failed ? ICC_ERR_FORMAT
-                           : iccp_domain_create(out, dim, n_vertices, vertices, n_facets, facets,
-                                                env, NULL);
-    }
-    iccp_free(&env->memory, vertices);
-    iccp_free(&env->memory, facets);
-    return status == ICC_OK ? ICC_OK : fail_content(err, status);
 }
 
 typedef struct curves {
@@ -80,16 +41,16 @@ icc_status iccp_shape_read(icc_shape **out, iccp_blob_reader *r, const iccp_env 
     const uint64_t dim = iccp_blob_read_u64(r);
     *out = NULL;
     if (dim != 2 && dim != 3)
-        return fail_content(err, ICC_ERR_FORMAT);
+        return iccp_blob_blame(err, ICC_ERR_FORMAT, "shape");
     const size_t n_regions = iccp_blob_read_count(r, 2 * F64);
     curves c = {.n_vertices = iccp_blob_read_count(r, (size_t)dim * F64)};
     c.n_segments = iccp_blob_read_count(r, 2 * U32);
     if (r->failed || n_regions + c.n_segments == 0 || n_regions >= ICCP_NOWHERE)
-        return fail_content(err, ICC_ERR_FORMAT);
+        return iccp_blob_blame(err, ICC_ERR_FORMAT, "shape");
     icc_domain **regions = iccp_alloc_zero(&env->memory, n_regions, sizeof *regions);
     icc_status status = regions != NULL ? ICC_OK : iccp_fail_memory(err);
     for (size_t i = 0; status == ICC_OK && i < n_regions; ++i)
-        status = read_region(&regions[i], (int32_t)dim, r, env, err);
+        status = iccp_boundary_read(&regions[i], (int32_t)dim, r, env);
     if (status == ICC_OK)
         status = read_curves(&c, (size_t)dim, r, env);
     if (status == ICC_OK)
@@ -100,5 +61,5 @@ icc_status iccp_shape_read(icc_shape **out, iccp_blob_reader *r, const iccp_env 
     iccp_free(&env->memory, regions);
     iccp_free(&env->memory, c.vertices);
     iccp_free(&env->memory, c.segments);
-    return status == ICC_OK ? ICC_OK : fail_content(err, status);
+    return iccp_blob_blame(err, status, "shape");
 }

@@ -50,9 +50,8 @@ static bool is_solid(const icc_chart *chart)
     return chart->info.method == ICC_METHOD_FOLIATION && chart->domain->dim == 3;
 }
 
-/* Kind 0 is the best that the charts allow. */
-static icc_status choose_kind(int32_t *kind, const icc_chart *source, const icc_chart *target,
-                              icc_error *err)
+icc_status iccp_map_choose_kind(int32_t *kind, const icc_chart *source, const icc_chart *target,
+                                icc_error *err)
 {
     if (source->info.method != target->info.method)
         return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1,
@@ -83,7 +82,15 @@ static icc_status new_map(icc_map **out, const icc_domain *source, const icc_dom
     return ICC_OK;
 }
 
-static void add_charts(icc_map *map, const icc_chart *source, const icc_chart *target)
+icc_status iccp_map_begin(icc_map **out, const icc_domain *source, const icc_domain *target,
+                          const iccp_env *env, icc_error *err)
+{
+    *out = NULL;
+    const icc_status status = check_correspondence(source, target, err);
+    return status == ICC_OK ? new_map(out, source, target, env) : status;
+}
+
+void iccp_map_add_charts(icc_map *map, const icc_chart *source, const icc_chart *target)
 {
     map->source = iccp_chart_retain(source);
     map->target = iccp_chart_retain(target);
@@ -112,13 +119,11 @@ icc_status iccp_map_create_from_charts(icc_map **out, const icc_chart *source,
     const double start = iccp_seconds();
     int32_t kind = options->kind;
     icc_map *map = NULL;
-    icc_status status = choose_kind(&kind, source, target, err);
+    icc_status status = iccp_map_choose_kind(&kind, source, target, err);
     if (status == ICC_OK)
-        status = check_correspondence(source->domain, target->domain, err);
+        status = iccp_map_begin(&map, source->domain, target->domain, env, err);
     if (status == ICC_OK)
-        status = new_map(&map, source->domain, target->domain, env);
-    if (status == ICC_OK)
-        add_charts(map, source, target);
+        iccp_map_add_charts(map, source, target);
     if (status == ICC_OK && kind == ICC_MAP_MESH)
         status = add_mesh(map, options->iterations, env, err);
     if (status != ICC_OK) {
@@ -219,7 +224,7 @@ icc_status iccp_map_improve(icc_map **out, const icc_map *map, const icc_improve
                          "only maps of kind mesh in the plane can be improved");
     icc_status status = new_map(&better, map->source_domain, map->target_domain, env);
     if (status == ICC_OK && map->source != NULL)
-        add_charts(better, map->source, map->target);
+        iccp_map_add_charts(better, map->source, map->target);
     if (status == ICC_OK)
         status = iccp_mesh_map_improve(&better->mesh, map->mesh, options, report, env, err);
     if (status != ICC_OK) {
@@ -245,9 +250,7 @@ icc_status iccp_map_follow(icc_map **out, const icc_map *map, const icc_domain *
     if (map->mesh == NULL)
         return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1,
                          "only maps of kind mesh in the plane can be followed");
-    icc_status status = check_correspondence(map->source_domain, target, err);
-    if (status == ICC_OK)
-        status = new_map(&next, map->source_domain, target, env);
+    icc_status status = iccp_map_begin(&next, map->source_domain, target, env, err);
     if (status == ICC_OK)
         status = iccp_mesh_map_follow(&next->mesh, map->mesh, map->source_domain,
                                       map->target_domain, target, iterations, &next->info, env, err);

@@ -34,4 +34,15 @@ icc_status iccp_map_follow(icc_map **out, const icc_map *map, const icc_domain *
                            int32_t iterations, const iccp_env *env, icc_error *err);
 void iccp_map_release(icc_map *map);
 
+/* ---- a map piece by piece ---- */
+
+/* Kind 0 becomes the best that the charts allow; ICC_ERR_UNSUPPORTED for others than they do. */
+icc_status iccp_map_choose_kind(int32_t *kind, const icc_chart *source, const icc_chart *target,
+                                icc_error *err);
+
+/* A map of kind curves, without charts yet. ICC_ERR_BOUNDARY unless the boundaries correspond. */
+icc_status iccp_map_begin(icc_map **out, const icc_domain *source, const icc_domain *target,
+                          const iccp_env *env, icc_error *err);
+void iccp_map_add_charts(icc_map *map, const icc_chart *source, const icc_chart *target);
+
 #endif

@@ -93,8 +93,8 @@ static icc_status certify(const iccp_plmap *pl, const iccp_env *env, icc_error *
 
 /* ---- all of it ---- */
 
-static icc_status finish(iccp_mesh_map *map, icc_map_info *info, const iccp_env *env,
-                         icc_error *err)
+icc_status iccp_mesh_map_finish(iccp_mesh_map *map, icc_map_info *info, const iccp_env *env,
+                                icc_error *err)
 {
     const double begin = iccp_seconds();
     icc_status status = certify(&map->pl, env, err);
@@ -148,7 +148,7 @@ static icc_status refit(iccp_mesh_map *map, const icc_improve_options *options, 
         info->n_levels = (int32_t)improvement.n_levels;
     }
     info->seconds_improve = iccp_seconds() - repaired;
-    return status == ICC_OK ? finish(map, info, env, err) : status;
+    return status == ICC_OK ? iccp_mesh_map_finish(map, info, env, err) : status;
 }
 
 static void swap_sides(iccp_plmap *pl)
@@ -243,7 +243,7 @@ icc_status iccp_mesh_map_improve(iccp_mesh_map **out, const iccp_mesh_map *map,
     iccp_env quiet = *env;
     quiet.progress = NULL;
     if (status == ICC_OK)
-        status = finish(better, &info, &quiet, err);
+        status = iccp_mesh_map_finish(better, &info, &quiet, err);
     if (status != ICC_OK) {
         iccp_mesh_map_free(better, &env->memory);
         return status;

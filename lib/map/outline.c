@@ -36,26 +36,6 @@ static size_t boundary_ring(const iccp_corners *corners, size_t n_vertices, uint
     return n > 0 && follow(next, first, n, ring) ? n : 0;
 }
 
-static icc_status check_ring(const double *points, const uint32_t *ring, size_t n,
-                             const iccp_env *env)
-{
-    iccp_ring copy = {.n = n};
-    copy.points = iccp_alloc(&env->memory, n + 1, 2 * sizeof *copy.points);
-    copy.vertex = iccp_alloc(&env->memory, n, sizeof *copy.vertex);
-    copy.facet = iccp_alloc(&env->memory, n, sizeof *copy.facet);
-    icc_status status = ICC_ERR_MEMORY;
-    if (copy.points != NULL && copy.vertex != NULL && copy.facet != NULL) {
-        for (uint32_t k = 0; k < n; ++k) {
-            memcpy(copy.points + 2 * (size_t)k, points + 2 * (size_t)ring[k], 2 * sizeof *points);
-            copy.vertex[k] = copy.facet[k] = k;
-        }
-        memcpy(copy.points + 2 * n, copy.points, 2 * sizeof *points);
-        status = iccp_polygon_check(&copy, &iccp_frame_identity, env, NULL);
-    }
-    iccp_ring_free(&copy, &env->memory);
-    return status;
-}
-
 icc_status iccp_outline_check(const iccp_corners *corners, size_t n_vertices, const double *before,
                               const double *after, const iccp_env *env)
 {
@@ -64,9 +44,9 @@ icc_status iccp_outline_check(const iccp_corners *corners, size_t n_vertices, co
     icc_status status = next != NULL && ring != NULL ? ICC_OK : ICC_ERR_MEMORY;
     if (status == ICC_OK) {
         const size_t n = boundary_ring(corners, n_vertices, next, ring);
-        status = n > 0 ? check_ring(before, ring, n, env) : ICC_ERR_BOUNDARY;
+        status = n > 0 ? iccp_polygon_check_points(n, before, ring, env) : ICC_ERR_BOUNDARY;
         if (status == ICC_OK)
-            status = check_ring(after, ring, n, env);
+            status = iccp_polygon_check_points(n, after, ring, env);
     }
     iccp_free(&env->memory, next);
     iccp_free(&env->memory, ring);

@@ -41,10 +41,10 @@ static icc_status make_room(iccp_plmap *map, size_t n_vertices, size_t n_triangl
     return status == ICC_OK ? ICC_OK : ICC_ERR_MEMORY;
 }
 
-static icc_status fill(iccp_plmap *map, size_t n_vertices, size_t n_triangles,
-                       const double *points, const double *images, const uint32_t *vertex,
-                       const uint32_t *twin)
+icc_status iccp_plmap_begin(iccp_plmap *map, size_t n_vertices, size_t n_triangles,
+                            int32_t orientation, double stretch, const iccp_memory *memory)
 {
+    *map = (iccp_plmap){.memory = *memory, .stretch = stretch, .orientation = orientation};
     const icc_status status = make_room(map, n_vertices, n_triangles);
     if (status != ICC_OK) {
         iccp_plmap_free(map);
@@ -52,19 +52,26 @@ static icc_status fill(iccp_plmap *map, size_t n_vertices, size_t n_triangles,
     }
     map->n_vertices = n_vertices;
     map->corners.n_triangles = n_triangles;
+    return ICC_OK;
+}
+
+static void fill(iccp_plmap *map, const double *points, const double *images,
+                 const uint32_t *vertex, const uint32_t *twin)
+{
+    const size_t n_vertices = map->n_vertices, n_triangles = map->corners.n_triangles;
     memcpy(map->points, points, 2 * n_vertices * sizeof *points);
     memcpy(map->images, images, 2 * n_vertices * sizeof *images);
     memcpy(map->corners.vertex, vertex, 3 * n_triangles * sizeof *vertex);
     memcpy(map->corners.twin, twin, 3 * n_triangles * sizeof *twin);
-    return ICC_OK;
 }
 
 icc_status iccp_plmap_create(iccp_plmap *map, const iccp_planar *mesh, const icc_domain *domain,
                              const double *images, double stretch, const iccp_memory *memory)
 {
-    *map = (iccp_plmap){.memory = *memory, .stretch = stretch, .orientation = domain->orientation};
-    const icc_status status = fill(map, mesh->n_vertices, mesh->n_triangles, mesh->points, images,
-                                   mesh->triangles, mesh->twins);
+    const icc_status status = iccp_plmap_begin(map, mesh->n_vertices, mesh->n_triangles,
+                                               domain->orientation, stretch, memory);
+    if (status == ICC_OK)
+        fill(map, mesh->points, images, mesh->triangles, mesh->twins);
     for (uint32_t v = 0; status == ICC_OK && v < mesh->n_vertices; ++v) {
         map->fixed[v] = v < mesh->n_boundary;
         map->facet[v] = map->fixed[v] ? mesh->facet[v] : 0;
@@ -75,12 +82,11 @@ icc_status iccp_plmap_create(iccp_plmap *map, const iccp_planar *mesh, const icc
 
 icc_status iccp_plmap_copy(iccp_plmap *map, const iccp_plmap *other, const iccp_memory *memory)
 {
-    *map = (iccp_plmap){
-        .memory = *memory, .stretch = other->stretch, .orientation = other->orientation};
     const icc_status status =
-        fill(map, other->n_vertices, other->corners.n_triangles, other->points, other->images,
-             other->corners.vertex, other->corners.twin);
+        iccp_plmap_begin(map, other->n_vertices, other->corners.n_triangles, other->orientation,
+                         other->stretch, memory);
     if (status == ICC_OK) {
+        fill(map, other->points, other->images, other->corners.vertex, other->corners.twin);
         memcpy(map->fixed, other->fixed, other->n_vertices * sizeof *map->fixed);
         memcpy(map->facet, other->facet, other->n_vertices * sizeof *map->facet);
         memcpy(map->along, other->along, other->n_vertices * sizeof *map->along);

@@ -21,6 +21,10 @@ typedef struct iccp_plmap {
                         are the same and energies are those of shape alone */
 } iccp_plmap;
 
+/* Room for so many vertices and triangles, which are still to be filled in. */
+icc_status iccp_plmap_begin(iccp_plmap *map, size_t n_vertices, size_t n_triangles,
+                            int32_t orientation, double stretch, const iccp_memory *memory);
+
 /* Copies the mesh of a domain. `images`: 2 n_vertices. */
 icc_status iccp_plmap_create(iccp_plmap *map, const iccp_planar *mesh, const icc_domain *domain,
                              const double *images, double stretch, const iccp_memory *memory);

@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "base/threads.h"
+#include "domain/domain_file.h"
 #include "map/curves.h"
 #include "map/mesh_repair.h"
 #include "map/solid_chords.h"
@@ -195,6 +196,63 @@ icc_status iccp_solid_map_create(iccp_solid_map **out, const icc_chart *source,
     info->n_triangles = map->mesh->n_simplices;
     info->energy = info->energy_start = mean_energy(
         map->mesh, map->images, fabs(target->domain->measure) / fabs(source->domain->measure));
+    *out = map;
+    return ICC_OK;
+}
+
+/* ---- as bytes ---- */
+
+void iccp_solid_map_write(const iccp_solid_map *map, iccp_blob_writer *w)
+{
+    const iccp_simplices *mesh = map->mesh;
+    iccp_blob_u64(w, map->own != NULL);
+    if (map->own != NULL)
+        iccp_filling_write(map->own, w);
+    iccp_blob_f64(w, 3 * (mesh->n_points - mesh->n_rim), map->images + 3 * mesh->n_rim);
+}
+
+/* Images of the boundary are the target's vertices. */
+static icc_status read_images(iccp_solid_map *map, const icc_domain *target, iccp_blob_reader *r)
+{
+    const size_t n_rim = map->mesh->n_rim, n = map->mesh->n_points - n_rim;
+    if (n > (r->n - r->at) / (3 * sizeof(double)))
+        return ICC_ERR_FORMAT;
+    map->images = iccp_alloc(&map->memory, map->mesh->n_points, 3 * sizeof *map->images);
+    if (map->images == NULL)
+        return ICC_ERR_MEMORY;
+    memcpy(map->images, target->vertices, 3 * n_rim * sizeof *map->images);
+    iccp_blob_read_f64(r, 3 * n, map->images + 3 * n_rim);
+    return iccp_are_local(3, 3 * n, map->images + 3 * n_rim) &&
+                   count_inverted(map->mesh, map->images) == 0
+               ? ICC_OK
+               : ICC_ERR_FORMAT;
+}
+
+icc_status iccp_solid_map_read(iccp_solid_map **out, const icc_domain *source,
+                               const icc_domain *target, icc_map_info *info, iccp_blob_reader *r,
+                               const iccp_env *env)
+{
+    const uint64_t has_own = iccp_blob_read_u64(r);
+    *out = NULL;
+    if (r->failed || has_own > 1 || source->mesh == NULL)
+        return ICC_ERR_FORMAT;
+    iccp_solid_map *map = iccp_alloc_zero(&env->memory, 1, sizeof *map);
+    if (map == NULL)
+        return ICC_ERR_MEMORY;
+    map->memory = env->memory;
+    icc_status status =
+        has_own == 1 ? iccp_filling_read(&map->own, source, r, env) : ICC_OK;
+    map->mesh = map->own != NULL ? map->own : source->mesh;
+    if (status == ICC_OK)
+        status = read_images(map, target, r);
+    if (status == ICC_OK)
+        status = plant(map, env);
+    if (status != ICC_OK) {
+        iccp_solid_map_free(map);
+        return status;
+    }
+    info->n_vertices = map->mesh->n_points;
+    info->n_triangles = map->mesh->n_simplices;
     *out = map;
     return ICC_OK;
 }

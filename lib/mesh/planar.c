@@ -160,7 +160,7 @@ static void split_chords(iccp_planar *mesh)
     mesh->n_triangles = corners.n_triangles;
 }
 
-static void list_rim(iccp_planar *mesh)
+void iccp_planar_list_rim(iccp_planar *mesh)
 {
     for (uint32_t c = 0; c < 3 * mesh->n_triangles; ++c)
         if (mesh->twins[c] == ICCP_NO_NEIGHBOUR)
@@ -183,22 +183,43 @@ static icc_status allocate_boundary(iccp_planar *mesh, const icc_domain *domain)
                : ICC_ERR_MEMORY;
 }
 
+static icc_status begin_boundary(iccp_planar *mesh, const icc_domain *domain,
+                                 const uint32_t *pieces)
+{
+    for (size_t f = 0; f < domain->n_facets; ++f)
+        mesh->n_boundary += pieces[f];
+    const icc_status status = allocate_boundary(mesh, domain);
+    if (status != ICC_OK)
+        return status;
+    memcpy(mesh->pieces, pieces, domain->n_facets * sizeof *pieces);
+    place_boundary(mesh, domain);
+    return ICC_OK;
+}
+
+/* Room for points after those of the boundary, and for triangles. */
+static icc_status allocate_rest(iccp_planar *mesh, size_t n_inner, size_t n_triangles)
+{
+    const size_t n = mesh->n_boundary;
+    double *points =
+        iccp_grow(&mesh->memory, mesh->points, 2 * n, 2 * (n + n_inner), sizeof *points);
+    if (points == NULL)
+        return ICC_ERR_MEMORY;
+    mesh->points = points;
+    mesh->triangles = iccp_alloc(&mesh->memory, n_triangles, 3 * sizeof(uint32_t));
+    mesh->twins = iccp_alloc(&mesh->memory, n_triangles, 3 * sizeof(uint32_t));
+    return mesh->triangles != NULL && mesh->twins != NULL ? ICC_OK : ICC_ERR_MEMORY;
+}
+
 /* Appends the inner points and makes room for a cut in every chord, of which there are at most as many
  * as boundary vertices. */
 static icc_status allocate_inside(iccp_planar *mesh, const double *inner, size_t n_inner)
 {
     const size_t most = 2 * mesh->n_boundary + n_inner;
-    double *points =
-        iccp_grow(&mesh->memory, mesh->points, 2 * mesh->n_boundary, 2 * most, sizeof *points);
-    if (points == NULL)
-        return ICC_ERR_MEMORY;
-    mesh->points = points;
-    if (n_inner > 0)
-        memcpy(points + 2 * mesh->n_boundary, inner, 2 * n_inner * sizeof *points);
+    const icc_status status = allocate_rest(mesh, most - mesh->n_boundary, 2 * most);
+    if (status == ICC_OK && n_inner > 0)
+        memcpy(mesh->points + 2 * mesh->n_boundary, inner, 2 * n_inner * sizeof *inner);
     mesh->n_vertices = mesh->n_boundary + n_inner;
-    mesh->triangles = iccp_alloc(&mesh->memory, 2 * most, 3 * sizeof(uint32_t));
-    mesh->twins = iccp_alloc(&mesh->memory, 2 * most, 3 * sizeof(uint32_t));
-    return mesh->triangles != NULL && mesh->twins != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    return status;
 }
 
 static icc_status fill_mesh(iccp_planar *mesh, const icc_domain *domain, const uint32_t *pieces,
@@ -206,12 +227,9 @@ static icc_status fill_mesh(iccp_planar *mesh, const icc_domain *domain, const u
 {
     double *inner = NULL;
     size_t n_inner = 0;
-    icc_status status = allocate_boundary(mesh, domain);
-    if (status == ICC_OK) {
-        memcpy(mesh->pieces, pieces, domain->n_facets * sizeof *pieces);
-        place_boundary(mesh, domain);
+    icc_status status = begin_boundary(mesh, domain, pieces);
+    if (status == ICC_OK)
         status = inner_points(mesh, domain, step, &inner, &n_inner, env);
-    }
     if (status == ICC_OK)
         status = allocate_inside(mesh, inner, n_inner);
     iccp_free(&mesh->memory, inner);
@@ -226,7 +244,7 @@ static icc_status fill_mesh(iccp_planar *mesh, const icc_domain *domain, const u
     if (status == ICC_OK) {
         mesh->n_triangles = 2 * mesh->n_vertices - mesh->n_boundary - 2;
         split_chords(mesh);
-        list_rim(mesh);
+        iccp_planar_list_rim(mesh);
     }
     return status;
 }
@@ -235,10 +253,22 @@ icc_status iccp_planar_create(iccp_planar *mesh, const icc_domain *domain, const
                               int32_t cells, const iccp_env *env, icc_error *err)
 {
     *mesh = (iccp_planar){.memory = env->memory};
-    for (size_t f = 0; f < domain->n_facets; ++f)
-        mesh->n_boundary += pieces[f];
     const icc_status status =
         fill_mesh(mesh, domain, pieces, iccp_planar_step(domain, cells), env, err);
+    if (status != ICC_OK)
+        iccp_planar_free(mesh);
+    return status;
+}
+
+icc_status iccp_planar_begin(iccp_planar *mesh, const icc_domain *domain, const uint32_t *pieces,
+                             size_t n_inner, size_t n_triangles, const iccp_env *env)
+{
+    *mesh = (iccp_planar){.memory = env->memory};
+    icc_status status = begin_boundary(mesh, domain, pieces);
+    if (status == ICC_OK)
+        status = allocate_rest(mesh, n_inner, n_triangles);
+    mesh->n_vertices = mesh->n_boundary + n_inner;
+    mesh->n_triangles = n_triangles;
     if (status != ICC_OK)
         iccp_planar_free(mesh);
     return status;

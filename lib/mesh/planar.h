@@ -39,6 +39,14 @@ icc_status iccp_planar_create(iccp_planar *mesh, const icc_domain *domain, const
                               int32_t cells, const iccp_env *env, icc_error *err);
 void iccp_planar_free(iccp_planar *mesh);
 
+/* A mesh with its boundary, cut into pieces, and room for what is still to be filled in: n_inner points after those of
+ * the boundary, n_triangles triangles and their twins, and the rim. */
+icc_status iccp_planar_begin(iccp_planar *mesh, const icc_domain *domain, const uint32_t *pieces,
+                             size_t n_inner, size_t n_triangles, const iccp_env *env);
+
+/* Fills in the rim of a mesh whose boundary is as it should be. */
+void iccp_planar_list_rim(iccp_planar *mesh);
+
 /* A point of boundary edge k, `lambda` of the way along it, as a share of its facet; and back. */
 double iccp_planar_along(const iccp_planar *mesh, const icc_domain *domain, uint32_t k,
                          double lambda);

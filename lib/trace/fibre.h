@@ -34,6 +34,7 @@ typedef struct iccp_fibres {
     iccp_fibre_word *records; /* see iccp_fibre_stride(); in 3-D one cache line each */
     iccp_fibre_word *block;   /* that they are part of */
     uint32_t *rim;            /* of each facet of the domain: its side */
+    uint32_t *place;          /* of each simplex of the mesh: its number here */
     iccp_facet_tree tree;     /* of the simplices */
 } iccp_fibres;
 
@@ -54,6 +55,10 @@ typedef struct iccp_fibre_jet {
 icc_status iccp_fibres_create(iccp_fibres *fibres, const iccp_simplices *mesh, uint32_t centre,
                               const double *direction, double tolerance, const iccp_env *env);
 void iccp_fibres_free(iccp_fibres *fibres);
+
+/* The direction in a simplex of the mesh, in the order of its corners there; all 1 in the star. */
+void iccp_fibres_direction(const iccp_fibres *fibres, const iccp_simplices *mesh, size_t simplex,
+                           double *direction);
 
 /* The simplex that holds a point up to rounding: false if there is none near. Whether the point is so far
  * from the simplex's sides that it is certainly not on the boundary goes to `inner`. */

@@ -23,6 +23,7 @@ static void number(const maker *m)
     const uint32_t *order = m->fibres->tree.order;
     for (uint32_t place = 0; place < mesh->n_simplices; ++place) {
         const uint32_t *given = mesh->corners + n * order[place];
+        m->fibres->place[order[place]] = place;
         uint32_t *sorted = m->fibres->corners + n * place;
         for (uint32_t i = 0; i < n; ++i) {
             uint32_t rank = 0;
@@ -101,9 +102,10 @@ static icc_status make(maker *m)
     fibres->block = iccp_alloc(&fibres->memory, n_simplices + 1,
                                iccp_fibre_stride(n) * sizeof *fibres->records);
     fibres->rim = iccp_alloc(&fibres->memory, mesh->n_facets, sizeof *fibres->rim);
+    fibres->place = iccp_alloc(&fibres->memory, n_simplices, sizeof *fibres->place);
     m->side = iccp_alloc(&fibres->memory, n_simplices, n * sizeof *m->side);
     if (fibres->tree.boxes == NULL || fibres->corners == NULL || fibres->block == NULL ||
-        fibres->rim == NULL || m->side == NULL)
+        fibres->rim == NULL || fibres->place == NULL || m->side == NULL)
         return ICC_ERR_MEMORY;
     fibres->records = fibres->block;
     while ((uintptr_t)fibres->records % CACHE_LINE != 0 && fibres->records < fibres->block + iccp_fibre_stride(n))
@@ -134,11 +136,24 @@ icc_status iccp_fibres_create(iccp_fibres *fibres, const iccp_simplices *mesh, u
     return status;
 }
 
+void iccp_fibres_direction(const iccp_fibres *fibres, const iccp_simplices *mesh, size_t simplex,
+                           double *direction)
+{
+    const size_t n = fibres->dim + 1, place = fibres->place[simplex];
+    const uint32_t *given = mesh->corners + n * simplex, *sorted = fibres->corners + n * place;
+    const iccp_fibre_word *record = iccp_fibre_record(fibres, (uint32_t)place);
+    for (size_t i = 0; i < n; ++i)
+        for (size_t k = 0; k < n; ++k)
+            if (sorted[k] == given[i])
+                direction[i] = record[k].number;
+}
+
 void iccp_fibres_free(iccp_fibres *fibres)
 {
     iccp_facet_tree_free(&fibres->tree, &fibres->memory);
     iccp_free(&fibres->memory, fibres->corners);
     iccp_free(&fibres->memory, fibres->block);
     iccp_free(&fibres->memory, fibres->rim);
+    iccp_free(&fibres->memory, fibres->place);
     *fibres = (iccp_fibres){.memory = fibres->memory};
 }

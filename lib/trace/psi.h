@@ -14,7 +14,8 @@
 typedef struct iccp_psi {
     iccp_memory memory;
     uint32_t centre;   /* an inner vertex */
-    int64_t *label;    /* n_vertices, in [0, ICCP_TURN); the centre's means nothing */
+    int64_t *label;    /* n_vertices, in [0, ICCP_TURN); the centre's means nothing. NULL in charts that were
+                          loaded */
     int64_t *rise;     /* 3 n_triangles: along the half-edge that a corner faces; 0 at the centre */
 } iccp_psi;
 

@@ -1,0 +1,70 @@
+#include "chart/load.h"
+
+#include "base/error.h"
+#include "chart/chart_disc.h"
+#include "chart/chart_field.h"
+#include "chart/chart_foliation.h"
+#include "chart/chart_gradient.h"
+#include "chart/shelling_file.h"
+#include "domain/domain_file.h"
+
+static const char KIND[] = "CHRT";
+static const uint32_t VERSION = 1;
+
+/* In place of ICC_METHOD_FOLIATION: on the domain's mesh. */
+enum { ON_MESH = ICC_METHOD_DISC + 1 };
+
+void iccp_chart_write(const icc_chart *chart, iccp_blob_writer *w)
+{
+    const bool on_mesh = chart->info.method == ICC_METHOD_FOLIATION && chart->mesh == NULL;
+    iccp_blob_u64(w, on_mesh ? ON_MESH : (uint64_t)chart->info.method);
+    chart->ops->save(chart, w);
+}
+
+icc_status iccp_chart_read(icc_chart **out, const icc_domain *domain, iccp_blob_reader *r,
+                           const iccp_env *env, icc_error *err)
+{
+    const uint64_t method = iccp_blob_read_u64(r);
+    *out = NULL;
+    if (method == ICC_METHOD_GRADIENT)
+        return iccp_chart_gradient_read(out, domain, r, env, err);
+    if (method == ICC_METHOD_FIELD)
+        return iccp_chart_field_read(out, domain, r, env, err);
+    if (method == ICC_METHOD_FOLIATION && domain->dim == 2)
+        return iccp_chart_foliation_read(out, domain, r, env);
+    if (method == ICC_METHOD_DISC && domain->dim == 2)
+        return iccp_chart_disc_read(out, domain, r, env);
+    if (method == ON_MESH && domain->mesh != NULL)
+        return iccp_chart_shelling_read(out, domain, r, env);
+    return ICC_ERR_FORMAT;
+}
+
+void iccp_chart_save(const icc_chart *chart, size_t capacity, void *data, size_t *n_bytes)
+{
+    iccp_blob_writer w;
+    iccp_blob_begin(&w, data, capacity, KIND, VERSION);
+    iccp_domain_write(chart->domain, &w);
+    iccp_chart_write(chart, &w);
+    iccp_blob_end(&w, n_bytes);
+}
+
+icc_status iccp_chart_load(icc_chart **out, size_t n_bytes, const void *data, const iccp_env *env,
+                           icc_error *err)
+{
+    iccp_blob_reader r;
+    icc_domain *domain = NULL;
+    *out = NULL;
+    icc_status status = iccp_blob_open(&r, data, n_bytes, KIND, VERSION, err);
+    if (status != ICC_OK)
+        return status;
+    status = iccp_domain_read(&domain, &r, env);
+    if (status == ICC_OK)
+        status = iccp_chart_read(out, domain, &r, env, err);
+    iccp_domain_release(domain);
+    if (status == ICC_OK && !iccp_blob_done(&r)) {
+        iccp_chart_release(*out);
+        *out = NULL;
+        status = ICC_ERR_FORMAT;
+    }
+    return iccp_blob_blame(err, status, "chart");
+}

@@ -1,0 +1,19 @@
+/* Charts as bytes; see docs/formats.md. */
+#ifndef ICCP_CHART_LOAD_H
+#define ICCP_CHART_LOAD_H
+
+#include "chart/chart.h"
+
+/* A chart as part of other bytes, without its domain. */
+void iccp_chart_write(const icc_chart *chart, iccp_blob_writer *w);
+
+/* ICC_ERR_VERSION, with its reason, for a chart that comes out otherwise here; without words for others. */
+icc_status iccp_chart_read(icc_chart **out, const icc_domain *domain, iccp_blob_reader *r,
+                           const iccp_env *env, icc_error *err);
+
+/* See icc_chart_save() and icc_chart_load(). */
+void iccp_chart_save(const icc_chart *chart, size_t capacity, void *data, size_t *n_bytes);
+icc_status iccp_chart_load(icc_chart **out, size_t n_bytes, const void *data, const iccp_env *env,
+                           icc_error *err);
+
+#endif

@@ -1,0 +1,183 @@
+/* The certificate wants an order of the simplices. Any order will do in which leaves come to simplices of smaller rank
+ * only, so it is made from the directions: A. B. Kahn, Topological Sorting of Large Networks, 1962. */
+#include "chart/shelling_file.h"
+
+#include "chart/shelling_certificate.h"
+#include "chart/shelling_state.h"
+#include "domain/domain_file.h"
+
+#include <math.h>
+
+/* Rates out of a simplex, and into it, sum up to 1 but for rounding. */
+static const double ROUNDING = 1e-9;
+
+typedef struct order {
+    const iccp_simplices *mesh;
+    const double *direction;
+    uint32_t *rank;
+    uint32_t *n_ahead; /* of each simplex: sides that leaves go out through, to simplices without a rank yet */
+    uint32_t *queue;
+} order;
+
+static bool in_star(const iccp_simplices *mesh, size_t s, uint32_t centre)
+{
+    for (size_t i = 0; i <= mesh->dim; ++i)
+        if (mesh->corners[(mesh->dim + 1) * s + i] == centre)
+            return true;
+    return false;
+}
+
+/* Ranks the simplices; false if leaves would go round. */
+static bool find_ranks(const order *o, uint32_t centre)
+{
+    const iccp_simplices *mesh = o->mesh;
+    const size_t n = mesh->dim + 1;
+    size_t n_queue = 0;
+    uint32_t n_ranks = 0;
+    for (uint32_t s = 0; s < mesh->n_simplices; ++s) {
+        o->n_ahead[s] = 0;
+        for (size_t i = 0; i < n; ++i)
+            o->n_ahead[s] += o->direction[n * s + i] < 0;
+        if (in_star(mesh, s, centre)) {
+            o->n_ahead[s] = 0;
+            o->rank[s] = 0;
+            o->queue[n_queue++] = s;
+        }
+    }
+    for (size_t done = 0; done < n_queue; ++done)
+        for (size_t i = 0; i < n; ++i) {
+            const uint32_t side = mesh->across[n * o->queue[done] + i];
+            const size_t s = (side & ICCP_RIM) != 0 ? SIZE_MAX : side / n;
+            if (s == SIZE_MAX || o->n_ahead[s] == 0 || !(o->direction[side] < 0) ||
+                --o->n_ahead[s] > 0)
+                continue;
+            o->rank[s] = ++n_ranks;
+            o->queue[n_queue++] = (uint32_t)s;
+        }
+    return n_queue == mesh->n_simplices;
+}
+
+/* In the star all are written as 1. */
+static bool are_ones(size_t n, const double *rate)
+{
+    for (size_t i = 0; i < n; ++i)
+        if (!(rate[i] >= 1 && rate[i] <= 1))
+            return false;
+    return true;
+}
+
+/* Of barycentric coordinates, per unit of what goes in and out. */
+static bool are_rates(size_t n, const double *rate)
+{
+    double in = 0, out = 0;
+    for (size_t i = 0; i < n; ++i) {
+        in += rate[i] > 0 ? rate[i] : 0;
+        out += rate[i] > 0 ? 0 : -rate[i];
+    }
+    return fabs(in - 1) <= ROUNDING && fabs(out - 1) <= ROUNDING;
+}
+
+static bool are_directions(const order *o, uint32_t centre)
+{
+    const size_t n = o->mesh->dim + 1;
+    for (size_t s = 0; s < o->mesh->n_simplices; ++s) {
+        const double *rate = o->direction + n * s;
+        if (!(in_star(o->mesh, s, centre) ? are_ones(n, rate) : are_rates(n, rate)))
+            return false;
+    }
+    return true;
+}
+
+static icc_status certify(const order *o, const icc_domain *domain, uint32_t centre,
+                          const iccp_env *env)
+{
+    iccp_shelling_certificate found;
+    if (!are_directions(o, centre) || !find_ranks(o, centre))
+        return ICC_ERR_FORMAT;
+    const icc_status status = iccp_certify_shelling(&found, o->mesh, domain->facets, centre, o->rank,
+                                                    o->direction, env);
+    return status != ICC_OK || iccp_shelling_certificate_holds(&found) ? status : ICC_ERR_FORMAT;
+}
+
+static icc_status read_fibres(icc_chart *chart, const iccp_simplices *mesh, uint32_t centre,
+                              iccp_blob_reader *r, const iccp_env *env)
+{
+    iccp_shelling_state *state = chart->state;
+    const size_t n = mesh->n_simplices, n_sides = (mesh->dim + 1) * n;
+    if (n_sides > (r->n - r->at) / sizeof(double))
+        return ICC_ERR_FORMAT;
+    double *direction = iccp_alloc(&env->memory, n_sides, sizeof *direction);
+    const order o = {mesh, direction, iccp_alloc(&env->memory, n, sizeof *o.rank),
+                     iccp_alloc(&env->memory, n, sizeof *o.n_ahead),
+                     iccp_alloc(&env->memory, n, sizeof *o.queue)};
+    icc_status status = ICC_ERR_MEMORY;
+    if (direction != NULL && o.rank != NULL && o.n_ahead != NULL && o.queue != NULL) {
+        iccp_blob_read_f64(r, n_sides, direction);
+        status = certify(&o, chart->domain, centre, env);
+    }
+    if (status == ICC_OK)
+        status = iccp_fibres_create(&state->fibres, mesh, centre, direction,
+                                    chart->domain->tolerance, env);
+    chart->info.certified = status == ICC_OK;
+    iccp_free(&env->memory, direction);
+    iccp_free(&env->memory, o.rank);
+    iccp_free(&env->memory, o.n_ahead);
+    iccp_free(&env->memory, o.queue);
+    return status;
+}
+
+/* What tells how the order was found; nothing depends on it. */
+static bool read_story(icc_chart_info *info, iccp_blob_reader *r)
+{
+    double measures[4];
+    const uint64_t peeled = iccp_blob_read_u64(r), n_orders = iccp_blob_read_u64(r);
+    const uint64_t n_reversed = iccp_blob_read_u64(r);
+    iccp_blob_read_f64(r, 4, measures);
+    if (r->failed || peeled > 1 || n_orders > INT32_MAX || n_reversed > UINT32_MAX)
+        return false;
+    info->order_peeled = (int32_t)peeled;
+    info->n_orders = (int32_t)n_orders;
+    info->n_reversed = (size_t)n_reversed;
+    info->harmonic_share = measures[0];
+    info->order_beta = measures[1];
+    info->flux_energy = measures[2];
+    info->flux_divergence = measures[3];
+    return true;
+}
+
+icc_status iccp_chart_shelling_read(icc_chart **out, const icc_domain *domain, iccp_blob_reader *r,
+                                    const iccp_env *env)
+{
+    icc_chart_info story = {0};
+    iccp_simplices *own = NULL;
+    *out = NULL;
+    icc_status status = read_story(&story, r) ? ICC_OK : ICC_ERR_FORMAT;
+    const uint64_t has_own = iccp_blob_read_u64(r);
+    if (status == ICC_OK && has_own == 1)
+        status = iccp_filling_read(&own, domain, r, env);
+    const iccp_simplices *mesh = own != NULL ? own : domain->mesh;
+    const uint64_t centre = iccp_blob_read_u64(r);
+    if (status == ICC_OK && (has_own > 1 || centre < mesh->n_rim || centre >= mesh->n_points))
+        status = ICC_ERR_FORMAT;
+    if (status == ICC_OK) {
+        status = iccp_shelling_begin(out, domain, own, (uint32_t)centre, env);
+        own = NULL;
+    }
+    if (status == ICC_OK) {
+        icc_chart_info *info = &(*out)->info;
+        info->order_peeled = story.order_peeled;
+        info->n_orders = story.n_orders;
+        info->n_reversed = story.n_reversed;
+        info->harmonic_share = story.harmonic_share;
+        info->order_beta = story.order_beta;
+        info->flux_energy = story.flux_energy;
+        info->flux_divergence = story.flux_divergence;
+        status = read_fibres(*out, mesh, (uint32_t)centre, r, env);
+    }
+    iccp_simplices_free(own);
+    if (status != ICC_OK) {
+        iccp_chart_release(*out);
+        *out = NULL;
+    }
+    return status;
+}

@@ -1,0 +1,132 @@
+#include "map/plmap_file.h"
+
+#include "domain/domain_file.h"
+
+#include <math.h>
+
+enum { U32 = 4, F64 = 8 };
+
+void iccp_plmap_write(const iccp_plmap *map, iccp_blob_writer *w)
+{
+    iccp_blob_u64(w, map->n_vertices);
+    iccp_blob_u64(w, map->corners.n_triangles);
+    iccp_blob_f64(w, 2 * map->n_vertices, map->points);
+    iccp_blob_f64(w, 2 * map->n_vertices, map->images);
+    iccp_blob_u32(w, 3 * map->corners.n_triangles, map->corners.vertex);
+    for (size_t v = 0; v < map->n_vertices; ++v)
+        if (map->fixed[v]) {
+            iccp_blob_u32(w, 1, &map->facet[v]);
+            iccp_blob_f64(w, 1, &map->along[v]);
+        }
+}
+
+/* Twins follow from the triangles. */
+static icc_status link_triangles(iccp_plmap *map, const iccp_env *env)
+{
+    bool is_manifold = false;
+    for (size_t c = 0; c < 3 * map->corners.n_triangles; ++c)
+        if (map->corners.vertex[c] >= map->n_vertices)
+            return ICC_ERR_FORMAT;
+    const icc_status status = iccp_find_twins(&map->corners, &is_manifold, env);
+    return status != ICC_OK || is_manifold ? status : ICC_ERR_FORMAT;
+}
+
+/* Fixed are the vertices of the boundary. */
+static bool read_boundary(iccp_plmap *map, size_t n_facets, iccp_blob_reader *r)
+{
+    bool sound = true;
+    for (size_t v = 0; v < map->n_vertices; ++v) {
+        map->fixed[v] = 0;
+        map->facet[v] = 0;
+        map->along[v] = 0;
+    }
+    for (uint32_t c = 0; c < 3 * map->corners.n_triangles; ++c)
+        if (map->corners.twin[c] == ICCP_NO_NEIGHBOUR)
+            map->fixed[map->corners.vertex[iccp_after(c)]] = 1;
+    for (size_t v = 0; v < map->n_vertices; ++v)
+        if (map->fixed[v]) {
+            iccp_blob_read_u32(r, 1, &map->facet[v]);
+            iccp_blob_read_f64(r, 1, &map->along[v]);
+            sound = sound && map->facet[v] < n_facets && map->along[v] >= 0 && map->along[v] <= 1;
+        }
+    return sound && !r->failed;
+}
+
+/* ---- where the boundary is ---- */
+
+static bool is_near(const icc_domain *domain, uint32_t facet, double along, const double *point)
+{
+    const double bary[2] = {1 - along, along};
+    double wanted[2];
+    iccp_domain_facet_point(domain, facet, bary, wanted);
+    return fabs(point[0] - wanted[0]) <= domain->tolerance &&
+           fabs(point[1] - wanted[1]) <= domain->tolerance;
+}
+
+/* Where facets start, counter-clockwise. */
+static bool starts_facet(const iccp_plmap *map, uint32_t v)
+{
+    return map->orientation > 0 ? !(map->along[v] > 0) : !(map->along[v] < 1);
+}
+
+/* Whether edge a b of the boundary goes on along a facet, or to the start of the next one. */
+static bool goes_on(const iccp_plmap *map, const icc_domain *domain, uint32_t a, uint32_t b)
+{
+    const size_t f = map->facet[a], g = map->facet[b], forward = map->orientation > 0;
+    if (starts_facet(map, b))
+        return domain->facets[2 * f + forward] == domain->facets[2 * g + 1 - forward];
+    return f == g && (map->along[b] - map->along[a]) * map->orientation >= 0;
+}
+
+/* That the boundary is one ring is seen by the certificate. */
+static bool follows_facets(const iccp_plmap *map, const icc_domain *source, const icc_domain *target)
+{
+    size_t n_starts = 0;
+    for (uint32_t c = 0; c < 3 * map->corners.n_triangles; ++c) {
+        const uint32_t a = map->corners.vertex[iccp_after(c)];
+        if (map->corners.twin[c] != ICCP_NO_NEIGHBOUR)
+            continue;
+        n_starts += starts_facet(map, a);
+        if (!goes_on(map, source, a, map->corners.vertex[iccp_before(c)]) ||
+            !is_near(source, map->facet[a], map->along[a], map->points + 2 * (size_t)a) ||
+            !is_near(target, map->facet[a], map->along[a], map->images + 2 * (size_t)a))
+            return false;
+    }
+    return n_starts == source->n_facets;
+}
+
+/* ---- all of it ---- */
+
+static icc_status fill(iccp_plmap *map, const icc_domain *source, const icc_domain *target,
+                       iccp_blob_reader *r, const iccp_env *env)
+{
+    const size_t n = 2 * map->n_vertices;
+    iccp_blob_read_f64(r, n, map->points);
+    iccp_blob_read_f64(r, n, map->images);
+    iccp_blob_read_u32(r, 3 * map->corners.n_triangles, map->corners.vertex);
+    if (r->failed || !iccp_are_local(2, n, map->points) || !iccp_are_local(2, n, map->images))
+        return ICC_ERR_FORMAT;
+    const icc_status status = link_triangles(map, env);
+    if (status != ICC_OK)
+        return status;
+    return read_boundary(map, source->n_facets, r) && follows_facets(map, source, target)
+               ? ICC_OK
+               : ICC_ERR_FORMAT;
+}
+
+icc_status iccp_plmap_read(iccp_plmap *map, const icc_domain *source, const icc_domain *target,
+                           iccp_blob_reader *r, const iccp_env *env)
+{
+    const size_t n_vertices = iccp_blob_read_count(r, 4 * F64);
+    const size_t n_triangles = iccp_blob_read_count(r, 3 * U32);
+    if (r->failed || n_triangles == 0 || 3 * (uint64_t)n_triangles >= UINT32_MAX)
+        return ICC_ERR_FORMAT;
+    icc_status status = iccp_plmap_begin(map, n_vertices, n_triangles, source->orientation,
+                                         sqrt(target->measure / source->measure), &env->memory);
+    if (status != ICC_OK)
+        return status;
+    status = fill(map, source, target, r, env);
+    if (status != ICC_OK)
+        iccp_plmap_free(map);
+    return status;
+}

@@ -1,0 +1,15 @@
+/* The mesh of a map in the plane as part of the bytes of maps; see docs/formats.md. */
+#ifndef ICCP_PLMAP_FILE_H
+#define ICCP_PLMAP_FILE_H
+
+#include "base/blob.h"
+#include "map/plmap.h"
+
+void iccp_plmap_write(const iccp_plmap *map, iccp_blob_writer *w);
+
+/* ICC_ERR_FORMAT unless the triangles are a manifold, and its boundary goes once along the facets of both domains. What
+ * is positive and simple is for the certificate (map/mesh_map.h). */
+icc_status iccp_plmap_read(iccp_plmap *map, const icc_domain *source, const icc_domain *target,
+                           iccp_blob_reader *r, const iccp_env *env);
+
+#endif
