@@ -8,6 +8,7 @@ from __future__ import annotations
 import ctypes
 import os
 import pathlib
+from typing import Any, Callable, Dict
 
 MAX_DIM = 6
 
@@ -139,7 +140,7 @@ pose_move i32 f64* f64*
 pose_turn i32 f64* f64* f64* f64
 """
 
-_SCALARS = {
+_SCALARS: Dict[str, Any] = {
     "i32": ctypes.c_int32,
     "u32": ctypes.c_uint32,
     "i64": ctypes.c_int64,
@@ -153,7 +154,7 @@ _SCALARS = {
 }
 
 
-def _type(word: str):
+def _type(word: str) -> Any:
     if word.endswith("]"):
         word, length = word[:-1].split("[")
         return _SCALARS[word] * int(length)
@@ -162,7 +163,7 @@ def _type(word: str):
     return _SCALARS[word]
 
 
-def _make_struct(line: str):
+def _make_struct(line: str) -> Any:
     name, *members = line.split()
     pairs = (member.split(":") for member in members)
     fields = [("size", ctypes.c_size_t)] + [(key, _type(word)) for key, word in pairs]
@@ -172,7 +173,7 @@ def _make_struct(line: str):
 class _Lazy:
     """Namespace whose members are made from a table when they are first asked for."""
 
-    def __init__(self, table: str, make):
+    def __init__(self, table: str, make: Callable[[str], Any]):
         self._lines = {}
         for line in table.split("\n"):
             if line:
@@ -180,7 +181,7 @@ class _Lazy:
                 self._lines[name] = line
         self._make = make
 
-    def __getattr__(self, name: str):
+    def __getattr__(self, name: str) -> Any:
         if name.startswith("_"):
             raise AttributeError(name)
         value = self._make(self._lines[name])
@@ -202,7 +203,7 @@ def _open() -> ctypes.CDLL:
 _library = _open()
 
 
-def _make_function(line: str):
+def _make_function(line: str) -> Any:
     name, *words = line.split()
     result, _, name = name.rpartition(":")
     function = getattr(_library, "icc_" + name)
@@ -218,7 +219,7 @@ lib = _Lazy(FUNCTIONS, _make_function)
 """Functions of the library: lib.version is icc_version()."""
 
 
-def new(name: str, **members):
+def new(name: str, **members: Any) -> Any:
     """A zeroed struct with its `size` set."""
     kind = getattr(structs, name)
     return kind(size=ctypes.sizeof(kind), **members)

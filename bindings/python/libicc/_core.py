@@ -6,11 +6,25 @@ import ctypes
 import logging
 import os
 from types import SimpleNamespace
-from typing import Any, Callable, Optional, Sequence
+from typing import (
+    TYPE_CHECKING,
+    Any,
+    Callable,
+    Dict,
+    NoReturn,
+    Optional,
+    Sequence,
+    Tuple,
+    Type,
+    TypeVar,
+)
 
 import numpy as np
 
-from ._abi import lib, new, structs
+from ._abi import lib, new
+
+if TYPE_CHECKING:
+    from ._types import Array, ArrayLike, Floats, Indices
 
 Progress = Callable[[str, float], Any]
 """Called with the name of a stage and the share done; to return true or to raise cancels."""
@@ -22,10 +36,11 @@ _LOG = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_char_p)
 _logger = logging.getLogger("libicc")
 
 
-@_LOG
-def _log(_user, message: bytes) -> None:
+def _tell(_user: Any, message: bytes) -> None:
     _logger.info(message.decode("utf-8", "replace"))
 
+
+_log = _LOG(_tell)
 
 # Starting threads does not pay for fewer points.
 _FEW_POINTS = 2048
@@ -120,8 +135,8 @@ class Call:
         self.env = ctypes.addressof(self._env)
         self.err = ctypes.addressof(self.error)
 
-    def _report(self, progress: Progress):
-        def report(_user, stage: bytes, share: float) -> int:
+    def _report(self, progress: Progress) -> Callable[[Any, bytes, float], int]:
+        def report(_user: Any, stage: bytes, share: float) -> int:
             if self.raised is not None:
                 return 1
             try:
@@ -145,19 +160,20 @@ def _threads(wanted: Optional[int]) -> int:
     return len(os.sched_getaffinity(0)) if wanted is None else int(wanted)
 
 
-def fail(status: int, message: str = "", index: int = -1, side: int = 0) -> None:
+def fail(status: int, message: str = "", index: int = -1, side: int = 0) -> NoReturn:
     name = lib.status_name(status).decode()
     if side in (1, 2):
         message = f"{('source', 'target')[side - 1]}: {message}"
     raise _ERRORS.get(status, Error)(message or name, status, index, side)
 
 
-def bulk(n: int, progress: Optional[Progress], threads: Optional[int]):
+def bulk(n: int, progress: Optional[Progress],
+         threads: Optional[int]) -> Tuple[Optional[int], Callable[[int], None]]:
     """What a call for many points takes as `env`, and a function that checks its status."""
     if progress is None and threads is None and n < _FEW_POINTS:
         return None, check
     call = Call(progress, threads)
-    return call.env, lambda status, call=call: call.check(status)
+    return call.env, call.check
 
 
 def check(status: int) -> None:
@@ -165,7 +181,7 @@ def check(status: int) -> None:
         fail(status)
 
 
-def points_of(points, dim: int) -> np.ndarray:
+def points_of(points: ArrayLike, dim: int) -> Floats:
     """Points as a contiguous array of shape (n, dim); copied only if need be."""
     array = np.ascontiguousarray(points, dtype=np.float64)
     if array.ndim == 1 and array.shape[0] == dim:
@@ -175,14 +191,14 @@ def points_of(points, dim: int) -> np.ndarray:
     return array
 
 
-def floats(values, shape: Sequence[int], name: str) -> np.ndarray:
+def floats(values: ArrayLike, shape: Sequence[int], name: str) -> Floats:
     array = np.ascontiguousarray(values, dtype=np.float64)
     if array.shape != tuple(shape):
         raise ValueError(f"{name} must have the shape {tuple(shape)}, not {array.shape}")
     return array
 
 
-def indices(values, width: int, name: str) -> np.ndarray:
+def indices(values: ArrayLike, width: int, name: str) -> Indices:
     """Vertex indices as a contiguous uint32 array of shape (n, width)."""
     array = np.asarray(values)
     if array.size and (array.dtype.kind not in "iu" or array.min() < 0 or array.max() >= 2**32 - 1):
@@ -193,12 +209,12 @@ def indices(values, width: int, name: str) -> np.ndarray:
     return array
 
 
-def address(array: Optional[np.ndarray]) -> Optional[int]:
+def address(array: Optional[Array]) -> Optional[int]:
     """An array as an argument; a variable of the caller's keeps it alive."""
     return None if array is None else array.ctypes.data
 
 
-def fields(struct, dim: Optional[int] = None) -> SimpleNamespace:
+def fields(struct: Any, dim: Optional[int] = None) -> SimpleNamespace:
     """The members of a struct but for `size` and padding; arrays by dimension as NumPy arrays."""
     members = {}
     for name, kind in struct._fields_:
@@ -211,7 +227,7 @@ def fields(struct, dim: Optional[int] = None) -> SimpleNamespace:
     return SimpleNamespace(**members)
 
 
-def choose(value, choices: dict, name: str) -> int:
+def choose(value: Optional[str], choices: Dict[str, int], name: str) -> int:
     """The number of a choice that is given by its name; None means the default."""
     if value is None:
         return 0
@@ -221,11 +237,15 @@ def choose(value, choices: dict, name: str) -> int:
         raise ValueError(f"{name} must be one of {', '.join(choices)}, not {value!r}") from None
 
 
-def name_of(number: int, choices: dict) -> Optional[str]:
+def name_of(number: int, choices: Dict[str, int]) -> Optional[str]:
     for name, value in choices.items():
         if value == number:
             return name
     return None
+
+
+_T = TypeVar("_T", bound="Handle")
+_S = TypeVar("_S", bound="Saved")
 
 
 class Handle:
@@ -234,21 +254,24 @@ class Handle:
     _free = ""
     _dim: Optional[int] = None
 
-    def __init__(self):
+    def __init__(self) -> None:
         raise TypeError(f"{type(self).__name__} cannot be made this way")
 
-    def _take(self, handle: int, owner=None) -> None:
+    def _take(self, handle: int, owner: Optional["Handle"] = None) -> None:
         """Owns a handle, or borrows it from `owner`, which is kept alive."""
         self._handle = handle
         self._owned = owner
 
     @classmethod
-    def _wrap(cls, handle: Optional[int], owner=None):
-        if not handle:
-            return None
+    def _wrap(cls: Type[_T], handle: int, owner: Optional["Handle"] = None) -> _T:
         self = cls.__new__(cls)
         self._take(handle, owner)
         return self
+
+    @classmethod
+    def _borrow(cls: Type[_T], handle: Optional[int], owner: "Handle") -> Optional[_T]:
+        """What belongs to `owner`, if it has it."""
+        return cls._wrap(handle, owner) if handle else None
 
     @property
     def _as_parameter_(self) -> int:
@@ -256,21 +279,21 @@ class Handle:
         call."""
         return self._handle
 
-    def __del__(self):
+    def __del__(self) -> None:
         if getattr(self, "_handle", None) and self._owned is None:
             getattr(lib, self._free)(self._handle)
 
-    def __copy__(self):
+    def __copy__(self: _T) -> _T:
         """The object itself: it never changes."""
         return self
 
-    def __deepcopy__(self, memo):
+    def __deepcopy__(self: _T, memo: Any) -> _T:
         return self
 
-    def __reduce__(self):
+    def __reduce__(self) -> Any:
         raise TypeError(f"a {type(self).__name__} cannot be pickled")
 
-    def _info(self, function, struct: str):
+    def _info(self, function: str, struct: str) -> Any:
         info = new(struct)
         check(getattr(lib, function)(self, ctypes.addressof(info)))
         return info
@@ -290,24 +313,24 @@ class Saved(Handle):
         return data.tobytes()
 
     @classmethod
-    def from_bytes(cls, data, *, progress: Optional[Progress] = None, threads: Optional[int] = None):
+    def from_bytes(cls: Type[_S], data: Any, *, progress: Optional[Progress] = None,
+                   threads: Optional[int] = None) -> _S:
         """The object that `to_bytes` wrote, bit for bit; `FormatError` for anything else.
 
         Args:
             data: bytes, or what else has a buffer
         """
-        function, data = getattr(lib, cls._name + "_load"), np.frombuffer(data, dtype=np.uint8)
-        return cls._wrap(create(function, len(data), address(data), progress=progress, threads=threads))
+        function, read = getattr(lib, cls._name + "_load"), np.frombuffer(data, dtype=np.uint8)
+        return cls._wrap(create(function, len(read), address(read), progress=progress, threads=threads))
 
-    def __reduce__(self):
+    def __reduce__(self) -> Any:
         return type(self).from_bytes, (self.to_bytes(),)
 
 
-def create(function, *arguments, progress=None, threads=None) -> int:
+def create(function: Any, *arguments: Any, progress: Optional[Progress] = None,
+           threads: Optional[int] = None) -> int:
     """Calls a creator: handle first, `env` and `err` last; returns the handle."""
     call, out = Call(progress, threads), ctypes.c_void_p()
     call.check(function(ctypes.addressof(out), *arguments, call.env, call.err))
+    assert out.value is not None
     return out.value
-
-
-__all__ = ["structs"]

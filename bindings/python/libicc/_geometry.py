@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 from types import SimpleNamespace
-from typing import Optional, Tuple
+from typing import TYPE_CHECKING, Any, List, Literal, Optional, Tuple, overload
 
 import numpy as np
 
@@ -26,6 +26,9 @@ from ._core import (
     points_of,
 )
 
+if TYPE_CHECKING:
+    from ._types import ArrayLike, Bools, Floats, Indices, Ints, ShapeLike
+
 METHODS = {"gradient": 1, "foliation": 2, "field": 3, "disc": 4}
 FUNCTIONS = {"decay": 1, "distance": 2, "laplace": 3, "bilaplace": 4, "clamped": 5}
 CONSTRAINTS = {"needed": 1, "none": 2, "all": 3}
@@ -41,9 +44,9 @@ INSIDE, BOUNDARY, OUTSIDE = 1, 2, 3
 def _dimension(function: str, struct: str) -> property:
     """A property that asks once."""
 
-    def dimension(self) -> int:
+    def dimension(self: Handle) -> int:
         if self._dim is None:
-            self._dim = self._info(function, struct).dim
+            self._dim = int(self._info(function, struct).dim)
         return self._dim
 
     return property(dimension, doc="How many coordinates points have.")
@@ -65,8 +68,8 @@ class Domain(Handle):
 
     _free = "domain_free"
 
-    def __init__(self, vertices, facets=None, *, progress: Optional[Progress] = None,
-                 threads: Optional[int] = None):
+    def __init__(self, vertices: ArrayLike, facets: Optional[ArrayLike] = None, *,
+                 progress: Optional[Progress] = None, threads: Optional[int] = None):
         vertices = np.ascontiguousarray(vertices, dtype=np.float64)
         if vertices.ndim != 2:
             raise ValueError(f"vertices must have the shape (n, dim), not {vertices.shape}")
@@ -77,7 +80,7 @@ class Domain(Handle):
                           progress=progress, threads=threads))
 
     @classmethod
-    def from_mask(cls, mask, *, progress: Optional[Progress] = None,
+    def from_mask(cls, mask: ArrayLike, *, progress: Optional[Progress] = None,
                   threads: Optional[int] = None) -> "Domain":
         """The solid of the cells of a mask that are true; cell (i, j, ..) covers
         [i, i + 1] x [j, j + 1] x .., so axis k of the array is coordinate k."""
@@ -88,8 +91,8 @@ class Domain(Handle):
                                 cells.ctypes.data, progress=progress, threads=threads))
 
     @classmethod
-    def from_mesh(cls, vertices, simplices, facets=None, *, progress: Optional[Progress] = None,
-                  threads: Optional[int] = None) -> "Domain":
+    def from_mesh(cls, vertices: ArrayLike, simplices: ArrayLike, facets: Optional[ArrayLike] = None, *,
+                  progress: Optional[Progress] = None, threads: Optional[int] = None) -> "Domain":
         """A domain with a conforming mesh of its inside, on which foliations work in every dimension.
 
         Args:
@@ -116,7 +119,7 @@ class Domain(Handle):
     dim = _dimension("domain_get_info", "domain_info")
 
     @property
-    def vertices(self) -> np.ndarray:
+    def vertices(self) -> Floats:
         """A copy of the vertices, (n, dim)."""
         info = self._info("domain_get_info", "domain_info")
         vertices = np.empty((info.n_vertices, info.dim))
@@ -124,15 +127,22 @@ class Domain(Handle):
         return vertices
 
     @property
-    def facets(self) -> np.ndarray:
+    def facets(self) -> Indices:
         """A copy of the facets, (m, dim) vertex indices."""
         info = self._info("domain_get_info", "domain_info")
         facets = np.empty((info.n_facets, info.dim), dtype=np.uint32)
         check(lib.domain_get_boundary(self, None, address(facets)))
         return facets
 
-    def locate(self, points, *, nearest: bool = False, progress: Optional[Progress] = None,
-               threads: Optional[int] = None):
+    @overload
+    def locate(self, points: ArrayLike, *, nearest: Literal[False] = ..., progress: Optional[Progress] = ...,
+               threads: Optional[int] = ...) -> Ints: ...
+    @overload
+    def locate(self, points: ArrayLike, *, nearest: Literal[True], progress: Optional[Progress] = ...,
+               threads: Optional[int] = ...) -> Tuple[Ints, Indices, Floats]: ...
+
+    def locate(self, points: ArrayLike, *, nearest: bool = False, progress: Optional[Progress] = None,
+               threads: Optional[int] = None) -> Any:
         """Where points lie: an int32 array of INSIDE, BOUNDARY and OUTSIDE.
 
         With ``nearest`` also the nearest facets (n,) and the barycentric coordinates (n, dim) of the
@@ -154,7 +164,7 @@ class Domain(Handle):
         return f"<libicc.Domain: {info.dim}-D, {info.n_vertices} vertices, {info.n_facets} facets>"
 
 
-def as_domain(shape) -> Domain:
+def as_domain(shape: ShapeLike) -> Domain:
     """A domain from whatever describes one.
 
     Takes a Domain; an array of polygon vertices; a pair (vertices, facets); a boolean mask; a shapely
@@ -173,13 +183,13 @@ def as_domain(shape) -> Domain:
     return Domain.from_mask(array) if array.dtype == bool else Domain(array)
 
 
-def _from_shapely(polygon) -> Domain:
+def _from_shapely(polygon: Any) -> Domain:
     if len(polygon.interiors) > 0:
         raise ValueError("the polygon has holes; make one map for each part without")
     return Domain(np.asarray(polygon.exterior.coords)[:-1, :2])
 
 
-def _from_meshio(mesh) -> Domain:
+def _from_meshio(mesh: Any) -> Domain:
     points, cells = np.asarray(mesh.points, dtype=np.float64), mesh.cells_dict
     if "tetra" in cells:
         return Domain.from_mesh(points, cells["tetra"])
@@ -190,7 +200,9 @@ def _from_meshio(mesh) -> Domain:
     return Domain(points, cells["triangle"])
 
 
-def _chart_options(method, cells, maximum, function, constraints, solver, tree, eta, leaf):
+def _chart_options(method: Optional[str], cells: Optional[int], maximum: Optional[ArrayLike],
+                   function: Optional[str], constraints: Optional[str], solver: Optional[str],
+                   tree: Optional[str], eta: Optional[float], leaf: Optional[float]) -> Any:
     options = new("chart_options", method=choose(method, METHODS, "method"), cells=cells or 0,
                   function=choose(function, FUNCTIONS, "function"),
                   constraints=choose(constraints, CONSTRAINTS, "constraints"),
@@ -218,10 +230,10 @@ class Chart(Saved):
     _name = "chart"
     dim = _dimension("chart_get_info", "chart_info")
 
-    def __init__(self, domain, method: Optional[str] = None, *, cells: Optional[int] = None,
-                 maximum=None, function: Optional[str] = None, constraints: Optional[str] = None,
-                 solver: Optional[str] = None, tree: Optional[str] = None,
-                 eta: Optional[float] = None, leaf: Optional[float] = None,
+    def __init__(self, domain: ShapeLike, method: Optional[str] = None, *, cells: Optional[int] = None,
+                 maximum: Optional[ArrayLike] = None, function: Optional[str] = None,
+                 constraints: Optional[str] = None, solver: Optional[str] = None,
+                 tree: Optional[str] = None, eta: Optional[float] = None, leaf: Optional[float] = None,
                  progress: Optional[Progress] = None, threads: Optional[int] = None):
         domain = as_domain(domain)
         options = _chart_options(method, cells, maximum, function, constraints, solver, tree, eta, leaf)
@@ -230,6 +242,7 @@ class Chart(Saved):
 
     @property
     def domain(self) -> Domain:
+        """The domain that the chart was made on."""
         return Domain._wrap(lib.chart_domain(self), owner=self)
 
     @property
@@ -255,8 +268,15 @@ class Chart(Saved):
                                      call.err))
         return fields(measures)
 
-    def encode(self, points, *, status: bool = False, progress: Optional[Progress] = None,
-               threads: Optional[int] = None):
+    @overload
+    def encode(self, points: ArrayLike, *, status: Literal[False] = ..., progress: Optional[Progress] = ...,
+               threads: Optional[int] = ...) -> Tuple[Indices, Floats, Floats]: ...
+    @overload
+    def encode(self, points: ArrayLike, *, status: Literal[True], progress: Optional[Progress] = ...,
+               threads: Optional[int] = ...) -> Tuple[Indices, Floats, Floats, Ints]: ...
+
+    def encode(self, points: ArrayLike, *, status: bool = False, progress: Optional[Progress] = None,
+               threads: Optional[int] = None) -> Any:
         """Cartesian -> integral curve coordinates.
 
         Args:
@@ -276,9 +296,26 @@ class Chart(Saved):
                               address(t), address(states), None, env))
         return (facet, bary, t, states) if status else (facet, bary, t)
 
-    def decode(self, facet, bary, t, *, status: bool = False, progress: Optional[Progress] = None,
-               threads: Optional[int] = None):
-        """Integral curve coordinates -> Cartesian; the inverse of `encode`. Returns points (n, dim)."""
+    @overload
+    def decode(self, facet: ArrayLike, bary: ArrayLike, t: ArrayLike, *, status: Literal[False] = ...,
+               progress: Optional[Progress] = ..., threads: Optional[int] = ...) -> Floats: ...
+    @overload
+    def decode(self, facet: ArrayLike, bary: ArrayLike, t: ArrayLike, *, status: Literal[True],
+               progress: Optional[Progress] = ..., threads: Optional[int] = ...) -> Tuple[Floats, Ints]: ...
+
+    def decode(self, facet: ArrayLike, bary: ArrayLike, t: ArrayLike, *, status: bool = False,
+               progress: Optional[Progress] = None, threads: Optional[int] = None) -> Any:
+        """Integral curve coordinates -> Cartesian; the inverse of `encode`.
+
+        Args:
+            facet: (n,) indices of boundary facets
+            bary: (n, dim) barycentric coordinates there: not negative, sum 1
+            t: (n,) shares of the curves' arc length from the boundary, in [0, 1]
+            status: whether to return the status of every point, too
+
+        Returns:
+            points (n, dim), NaN where there is none, and with ``status`` an int32 array (n,) as `encode`
+        """
         dim = self.dim
         facet = np.ascontiguousarray(facet, dtype=np.uint32)
         n = len(facet)
@@ -290,7 +327,7 @@ class Chart(Saved):
                               address(points), address(states), None, env))
         return (points, states) if status else points
 
-    def trace(self, point) -> np.ndarray:
+    def trace(self, point: ArrayLike) -> Floats:
         """The curve through a point, from the boundary to the maximum: a polyline, (m, dim)."""
         dim = self.dim
         point = points_of(point, dim)
@@ -326,9 +363,10 @@ class Map(Saved):
     _name = "map"
     dim = _dimension("map_get_info", "map_info")
 
-    def __init__(self, source, target, kind: Optional[str] = None, *, improve: Optional[int] = None,
-                 method: Optional[str] = None, cells: Optional[int] = None, maximum=None,
-                 target_maximum=None, function: Optional[str] = None,
+    def __init__(self, source: ShapeLike, target: ShapeLike, kind: Optional[str] = None, *,
+                 improve: Optional[int] = None, method: Optional[str] = None,
+                 cells: Optional[int] = None, maximum: Optional[ArrayLike] = None,
+                 target_maximum: Optional[ArrayLike] = None, function: Optional[str] = None,
                  constraints: Optional[str] = None, solver: Optional[str] = None,
                  tree: Optional[str] = None, eta: Optional[float] = None,
                  leaf: Optional[float] = None, progress: Optional[Progress] = None,
@@ -365,13 +403,16 @@ class Map(Saved):
 
     @property
     def source_chart(self) -> Optional[Chart]:
-        return Chart._wrap(lib.map_source_chart(self), owner=self)
+        """The chart of the source; None for maps made by `follow`."""
+        return Chart._borrow(lib.map_source_chart(self), owner=self)
 
     @property
     def target_chart(self) -> Optional[Chart]:
-        return Chart._wrap(lib.map_target_chart(self), owner=self)
+        """The chart of the target; None for maps made by `follow`."""
+        return Chart._borrow(lib.map_target_chart(self), owner=self)
 
-    def _apply(self, function, points, status, progress, threads):
+    def _apply(self, function: Any, points: ArrayLike, status: bool, progress: Optional[Progress],
+               threads: Optional[int]) -> Any:
         points = points_of(points, self.dim)
         n = len(points)
         images = np.empty_like(points)
@@ -380,20 +421,35 @@ class Map(Saved):
         done(function(self, n, address(points), address(images), address(states), None, env))
         return (images, states) if status else images
 
-    def __call__(self, points, *, status: bool = False, progress: Optional[Progress] = None,
-                 threads: Optional[int] = None):
+    @overload
+    def __call__(self, points: ArrayLike, *, status: Literal[False] = ..., progress: Optional[Progress] = ...,
+                 threads: Optional[int] = ...) -> Floats: ...
+    @overload
+    def __call__(self, points: ArrayLike, *, status: Literal[True], progress: Optional[Progress] = ...,
+                 threads: Optional[int] = ...) -> Tuple[Floats, Ints]: ...
+
+    def __call__(self, points: ArrayLike, *, status: bool = False, progress: Optional[Progress] = None,
+                 threads: Optional[int] = None) -> Any:
         """Source -> target: points (n, dim) -> images (n, dim), NaN where there is none. With
         ``status`` also an int32 array (n,): 0, or the number of an `Error`."""
         return self._apply(lib.map_apply, points, status, progress, threads)
 
-    def inverse(self, points, *, status: bool = False, progress: Optional[Progress] = None,
-                threads: Optional[int] = None):
+    @overload
+    def inverse(self, points: ArrayLike, *, status: Literal[False] = ..., progress: Optional[Progress] = ...,
+                threads: Optional[int] = ...) -> Floats: ...
+    @overload
+    def inverse(self, points: ArrayLike, *, status: Literal[True], progress: Optional[Progress] = ...,
+                threads: Optional[int] = ...) -> Tuple[Floats, Ints]: ...
+
+    def inverse(self, points: ArrayLike, *, status: bool = False, progress: Optional[Progress] = None,
+                threads: Optional[int] = None) -> Any:
         """Target -> source; otherwise as calling the map."""
         return self._apply(lib.map_apply_inverse, points, status, progress, threads)
 
-    def jacobian(self, points, *, progress: Optional[Progress] = None,
-                 threads: Optional[int] = None) -> np.ndarray:
-        """Derivatives (n, dim, dim) at points of the source; NaN where there is none."""
+    def jacobian(self, points: ArrayLike, *, progress: Optional[Progress] = None,
+                 threads: Optional[int] = None) -> Floats:
+        """Derivatives (n, dim, dim) at points (n, dim) of the source's inside: entry [k, i, j] is that of
+        image coordinate i by point coordinate j; NaN where there is none."""
         points = points_of(points, self.dim)
         n, dim = points.shape
         result = np.empty((n, dim, dim))
@@ -410,15 +466,16 @@ class Map(Saved):
         call, out, report = Call(progress, threads), ctypes.c_void_p(), new("improve_report")
         call.check(lib.map_improve(ctypes.addressof(out), self, ctypes.addressof(options),
                                    ctypes.addressof(report), call.env, call.err))
+        assert out.value is not None
         return type(self)._wrap(out.value), fields(report)
 
-    def follow(self, target, iterations: int = 0, *, progress: Optional[Progress] = None,
+    def follow(self, target: ShapeLike, iterations: int = 0, *, progress: Optional[Progress] = None,
                threads: Optional[int] = None) -> "Map":
         """The map to a target that has moved a little, starting from this one (kind mesh)."""
         return type(self)._wrap(create(lib.map_follow, self, as_domain(target),
                                        iterations, progress=progress, threads=threads))
 
-    def mesh(self) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def mesh(self) -> Tuple[Floats, Floats, Indices]:
         """The mesh of a map of kind mesh: vertices (n, dim), images (n, dim), simplices (m, dim + 1)."""
         info = self._info("map_get_info", "map_info")
         vertices = np.empty((info.n_vertices, info.dim))
@@ -427,7 +484,8 @@ class Map(Saved):
         check(lib.map_mesh(self, address(vertices), address(images), address(triangles)))
         return vertices, images, triangles
 
-    def _carry(self, function, vertices, simplices, progress, threads):
+    def _carry(self, function: Any, vertices: ArrayLike, simplices: ArrayLike, progress: Optional[Progress],
+               threads: Optional[int]) -> Tuple[Floats, SimpleNamespace]:
         dim = self.dim
         vertices, simplices = points_of(vertices, dim), indices(simplices, dim + 1, "simplices")
         images, certificate = np.empty_like(vertices), new("certificate")
@@ -437,14 +495,14 @@ class Map(Saved):
                             call.env, call.err))
         return images, fields(certificate)
 
-    def certify(self, vertices, simplices, *, progress: Optional[Progress] = None,
-                threads: Optional[int] = None) -> Tuple[np.ndarray, SimpleNamespace]:
+    def certify(self, vertices: ArrayLike, simplices: ArrayLike, *, progress: Optional[Progress] = None,
+                threads: Optional[int] = None) -> Tuple[Floats, SimpleNamespace]:
         """Maps the vertices of a mesh of yours and checks exactly what became of its simplices:
         images (n, dim) and a certificate, see ``icc_certificate``."""
         return self._carry(lib.map_certify, vertices, simplices, progress, threads)
 
-    def repair(self, vertices, simplices, *, progress: Optional[Progress] = None,
-               threads: Optional[int] = None) -> Tuple[np.ndarray, SimpleNamespace]:
+    def repair(self, vertices: ArrayLike, simplices: ArrayLike, *, progress: Optional[Progress] = None,
+               threads: Optional[int] = None) -> Tuple[Floats, SimpleNamespace]:
         """As `certify`, but moves images of inner vertices until no simplex is inverted, where that
         is possible."""
         return self._carry(lib.map_repair, vertices, simplices, progress, threads)
@@ -455,7 +513,7 @@ class Map(Saved):
         return f"<libicc.Map: {info.kind}, {info.dim}-D, {word}>"
 
 
-def boundary_defects(vertices) -> list:
+def boundary_defects(vertices: ArrayLike) -> List[Tuple[str, int, int]]:
     """Everything that keeps a closed polygon (n, 2) from being a boundary: a list of (kind, a, b)."""
     vertices = points_of(vertices, 2)
     call, n, capacity = Call(threads=1), ctypes.c_size_t(), 64
@@ -466,10 +524,10 @@ def boundary_defects(vertices) -> list:
         if n.value <= capacity:
             break
         capacity = n.value
-    return [(name_of(kinds[i], DEFECTS), int(items[i, 0]), int(items[i, 1])) for i in range(n.value)]
+    return [(name_of(kinds[i], DEFECTS) or "", int(items[i, 0]), int(items[i, 1])) for i in range(n.value)]
 
 
-def repair_mask(mask) -> Tuple[np.ndarray, int]:
+def repair_mask(mask: ArrayLike) -> Tuple[Bools, int]:
     """A mask without cells that touch only along an edge or a corner, and how many cells were
     filled for that."""
     mask = np.asarray(mask)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ctypes
-from typing import Optional, Tuple
+from typing import TYPE_CHECKING, Any, Optional, Tuple
 
 import numpy as np
 
@@ -11,16 +11,20 @@ from ._abi import lib, new
 from ._core import Call, Progress
 from ._geometry import Map
 
+if TYPE_CHECKING:
+    from ._types import Array, ArrayLike, Floats
 
-def _picture(image: np.ndarray, alpha: bool):
+
+def _picture(image: Array, alpha: bool) -> Any:
     height, width, channels = image.shape
     return new("picture", width=width, height=height, channels=channels,
                bytes=image.dtype.itemsize, alpha=int(alpha), stride=image.strides[0],
                pixels=image.ctypes.data)
 
 
-def warp_image(image, mapping: Map, out=None, *, alpha: Optional[bool] = None,
-               progress: Optional[Progress] = None, threads: Optional[int] = None) -> np.ndarray:
+def warp_image(image: ArrayLike, mapping: Map, out: Optional[ArrayLike] = None, *,
+               alpha: Optional[bool] = None, progress: Optional[Progress] = None,
+               threads: Optional[int] = None) -> Array:
     """Carries a picture along a 2-D map.
 
     Args:
@@ -66,23 +70,23 @@ class PixelTransform:
             raise ValueError("outside must be 'keep' or 'blank'")
         self.map, self.outside = mapping, outside
 
-    def _through(self, function, coords) -> np.ndarray:
+    def _through(self, function: Any, coords: ArrayLike) -> Floats:
         coords = np.asarray(coords, dtype=np.float64)
         images = function(coords + 0.5) - 0.5
         lost = np.isnan(images[:, 0])
         images[lost] = coords[lost] if self.outside == "keep" else -1e6
         return images
 
-    def __call__(self, coords) -> np.ndarray:
+    def __call__(self, coords: ArrayLike) -> Floats:
         """Result -> picture, (n, 2)."""
         return self._through(self.map.inverse, coords)
 
-    def inverse(self, coords) -> np.ndarray:
+    def inverse(self, coords: ArrayLike) -> Floats:
         """Picture -> result, (n, 2)."""
         return self._through(self.map, coords)
 
 
-def picture_cage(shape: Tuple[int, ...]) -> np.ndarray:
+def picture_cage(shape: Tuple[int, ...]) -> Floats:
     """The outline of a picture of the given shape as a cage, (4, 2)."""
     height, width = shape[:2]
     return np.array([[0, 0], [width, 0], [width, height], [0, height]], dtype=np.float64)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 from types import SimpleNamespace
-from typing import Optional, Sequence, Tuple
+from typing import TYPE_CHECKING, Any, List, Literal, Optional, Sequence, Tuple, Union, overload
 
 import numpy as np
 
@@ -26,6 +26,9 @@ from ._core import (
     points_of,
 )
 from ._geometry import as_domain
+
+if TYPE_CHECKING:
+    from ._types import ArrayLike, Floats, ShapeLike
 
 SAMPLINGS = {"grid": 1, "blue": 2, "points": 3}
 KERNELS = {"wendland": 1, "gauss": 2}
@@ -49,7 +52,8 @@ class Shape(Handle):
 
     _free = "shape_free"
 
-    def __init__(self, regions: Sequence = (), vertices=None, segments=None):
+    def __init__(self, regions: Sequence[ShapeLike] = (), vertices: Optional[ArrayLike] = None,
+                 segments: Optional[ArrayLike] = None):
         domains = [as_domain(region) for region in regions]
         if vertices is not None:
             vertices = np.ascontiguousarray(vertices, dtype=np.float64)
@@ -78,8 +82,9 @@ class Sampling(Saved):
     _free = "sampling_free"
     _name = "sampling"
 
-    def __init__(self, shape, kind: Optional[str] = None, *, spacing: Optional[float] = None,
-                 steps: Optional[int] = None, margin: float = 0, seed: int = 0, fixed=None,
+    def __init__(self, shape: Union[Shape, ShapeLike], kind: Optional[str] = None, *,
+                 spacing: Optional[float] = None, steps: Optional[int] = None, margin: float = 0,
+                 seed: int = 0, fixed: Optional[ArrayLike] = None,
                  progress: Optional[Progress] = None, threads: Optional[int] = None):
         shape = shape if isinstance(shape, Shape) else Shape([shape])
         options = new("sampling_options", kind=choose(kind, SAMPLINGS, "kind"), spacing=spacing or 0,
@@ -91,7 +96,7 @@ class Sampling(Saved):
                           progress=progress, threads=threads))
 
     @classmethod
-    def from_points(cls, shape, points) -> "Sampling":
+    def from_points(cls, shape: Union[Shape, ShapeLike], points: ArrayLike) -> "Sampling":
         """A sampling from points (n, dim) of yours."""
         shape = shape if isinstance(shape, Shape) else Shape([shape])
         points = np.ascontiguousarray(points, dtype=np.float64)
@@ -100,12 +105,13 @@ class Sampling(Saved):
 
     @property
     def info(self) -> SimpleNamespace:
+        """The members of ``icc_sampling_info``; the kind by its name."""
         result = fields(self._info("sampling_get_info", "sampling_info"))
         result.kind = name_of(result.kind, SAMPLINGS)
         return result
 
     @property
-    def points(self) -> np.ndarray:
+    def points(self) -> Floats:
         """The samples, (n, dim)."""
         info = self._info("sampling_get_info", "sampling_info")
         points = np.empty((info.n_samples, info.dim))
@@ -113,7 +119,7 @@ class Sampling(Saved):
         return points
 
 
-def _lines(lines, dim: int):
+def _lines(lines: Sequence[Any], dim: int) -> Any:
     """Each line is (from, to) or (from, to, number of an earlier line to stay parallel to)."""
     array = (_Line * len(lines))()
     for item, line in zip(array, lines):
@@ -141,14 +147,14 @@ class Kernel(Handle):
 
     _free = "kernel_free"
 
-    def __init__(self, sampling: Sampling, handles, *, edges=None, lines=(),
-                 kernel: Optional[str] = None, sigma: Optional[float] = None,
+    def __init__(self, sampling: Sampling, handles: ArrayLike, *, edges: Optional[ArrayLike] = None,
+                 lines: Sequence[Any] = (), kernel: Optional[str] = None, sigma: Optional[float] = None,
                  cutoff: Optional[float] = None, initial: Optional[str] = None,
                  steps: Optional[int] = None, method: Optional[str] = None, tail: bool = True,
-                 visible: bool = True, initial_weights=None, progress: Optional[Progress] = None,
-                 threads: Optional[int] = None):
+                 visible: bool = True, initial_weights: Optional[ArrayLike] = None,
+                 progress: Optional[Progress] = None, threads: Optional[int] = None):
         handles = points_of(handles, sampling._info("sampling_get_info", "sampling_info").dim)
-        keep = [handles]
+        keep: List[Any] = [handles]
         options = new("kernel_options", kernel=choose(kernel, KERNELS, "kernel"),
                       initial=choose(initial, INITIALS, "initial"),
                       method=choose(method, METHODS, "method"), steps=steps or 0,
@@ -169,6 +175,7 @@ class Kernel(Handle):
 
     @property
     def info(self) -> SimpleNamespace:
+        """The members of ``icc_kernel_info``; kernel, initial and method by their names."""
         result = fields(self._info("kernel_get_info", "kernel_info"))
         result.kernel = name_of(result.kernel, KERNELS)
         result.initial = name_of(result.initial, INITIALS)
@@ -185,14 +192,14 @@ class Kernel(Handle):
                                    address(status)))
         return SimpleNamespace(points=points, initial=initial, weights=weights, status=status)
 
-    def paint(self, handle: int, centre, radius: float, amount: float, *,
+    def paint(self, handle: int, centre: ArrayLike, radius: float, amount: float, *,
               progress: Optional[Progress] = None, threads: Optional[int] = None) -> "Kernel":
         """A kernel with the weight of one handle raised around a place, and optimised again."""
         centre = points_of(centre, self._info("kernel_get_info", "kernel_info").dim)
         return Kernel._wrap(create(lib.kernel_paint, self, handle, address(centre), radius,
                                    amount, progress=progress, threads=threads))
 
-    def repaint(self, nodes, weights, *, progress: Optional[Progress] = None,
+    def repaint(self, nodes: ArrayLike, weights: ArrayLike, *, progress: Optional[Progress] = None,
                 threads: Optional[int] = None) -> "Kernel":
         """A kernel whose weights at some nodes (n,) start from wishes (n, n_handles)."""
         nodes = np.ascontiguousarray(nodes, dtype=np.uint32)
@@ -208,8 +215,9 @@ class Kernel(Handle):
                                    choose(method, METHODS, "method"), progress=progress,
                                    threads=threads))
 
-    def stiffen(self, nodes, rigidity=None, *, progress: Optional[Progress] = None,
-                threads: Optional[int] = None) -> Tuple["Kernel", np.ndarray]:
+    def stiffen(self, nodes: ArrayLike, rigidity: Optional[ArrayLike] = None, *,
+                progress: Optional[Progress] = None,
+                threads: Optional[int] = None) -> Tuple["Kernel", Floats]:
         """A kernel that is as rigid as may be at some nodes, and the energy before and after."""
         nodes, energy = np.ascontiguousarray(nodes, dtype=np.uint32), np.empty(2)
         if rigidity is not None:
@@ -218,8 +226,15 @@ class Kernel(Handle):
                         address(rigidity), address(energy), progress=progress, threads=threads)
         return Kernel._wrap(kernel), energy
 
-    def weights(self, points, *, gradients: bool = False, progress: Optional[Progress] = None,
-                threads: Optional[int] = None):
+    @overload
+    def weights(self, points: ArrayLike, *, gradients: Literal[False] = ...,
+                progress: Optional[Progress] = ..., threads: Optional[int] = ...) -> Floats: ...
+    @overload
+    def weights(self, points: ArrayLike, *, gradients: Literal[True], progress: Optional[Progress] = ...,
+                threads: Optional[int] = ...) -> Tuple[Floats, Floats]: ...
+
+    def weights(self, points: ArrayLike, *, gradients: bool = False, progress: Optional[Progress] = None,
+                threads: Optional[int] = None) -> Any:
         """Weights (n, n_handles) at points (n, dim), and with ``gradients`` their derivatives
         (n, n_handles, dim)."""
         info = self._info("kernel_get_info", "kernel_info")
@@ -232,7 +247,7 @@ class Kernel(Handle):
                                 None, None, env))
         return (weights, slopes) if gradients else weights
 
-    def report(self, points, *, progress: Optional[Progress] = None,
+    def report(self, points: ArrayLike, *, progress: Optional[Progress] = None,
                threads: Optional[int] = None) -> SimpleNamespace:
         """How well the weights do what they should, at points; see ``icc_kernel_report``."""
         points = points_of(points, self._info("kernel_get_info", "kernel_info").dim)
@@ -241,7 +256,7 @@ class Kernel(Handle):
                                          ctypes.addressof(report), call.env, call.err))
         return fields(report)
 
-    def bind(self, points, *, derivatives: bool = False, progress: Optional[Progress] = None,
+    def bind(self, points: ArrayLike, *, derivatives: bool = False, progress: Optional[Progress] = None,
              threads: Optional[int] = None) -> "Binding":
         """Points (n, dim) with their weights, for posing again and again."""
         points = points_of(points, self._info("kernel_get_info", "kernel_info").dim)
@@ -262,7 +277,7 @@ class Binding(Saved):
         return n.value, m.value, dim.value
 
     @property
-    def handles(self) -> np.ndarray:
+    def handles(self) -> Floats:
         """The handles' positions, (n_handles, dim)."""
         _, m, dim = self._counts()
         handles = np.empty((m, dim))
@@ -270,20 +285,28 @@ class Binding(Saved):
         return handles
 
     @property
-    def weights(self) -> np.ndarray:
+    def weights(self) -> Floats:
         """The weights, (n, n_handles)."""
         n, m, _ = self._counts()
         weights = np.empty((n, m))
         check(lib.binding_get(self, None, address(weights)))
         return weights
 
-    def pose(self, transforms, *, jacobians: bool = False, progress: Optional[Progress] = None,
-             threads: Optional[int] = None):
+    @overload
+    def pose(self, transforms: Union["Pose", ArrayLike], *, jacobians: Literal[False] = ...,
+             progress: Optional[Progress] = ..., threads: Optional[int] = ...) -> Floats: ...
+    @overload
+    def pose(self, transforms: Union["Pose", ArrayLike], *, jacobians: Literal[True],
+             progress: Optional[Progress] = ..., threads: Optional[int] = ...) -> Tuple[Floats, Floats]: ...
+
+    def pose(self, transforms: Union["Pose", ArrayLike], *, jacobians: bool = False,
+             progress: Optional[Progress] = None, threads: Optional[int] = None) -> Any:
         """Images (n, dim) of the points under affine transforms (n_handles, dim, dim + 1), see `Pose`;
         with ``jacobians`` also derivatives (n, dim, dim), if the binding has them."""
         n, m, dim = self._counts()
-        transforms = floats(getattr(transforms, "transforms", transforms), (m, dim, dim + 1),
-                            "transforms")
+        if isinstance(transforms, Pose):
+            transforms = transforms.transforms
+        transforms = floats(transforms, (m, dim, dim + 1), "transforms")
         images = np.empty((n, dim))
         slopes = np.empty((n, dim, dim)) if jacobians else None
         env, done = bulk(n, progress, threads)
@@ -299,7 +322,7 @@ class Pose:
         handles: positions (n_handles, dim), such as `Binding.handles`
     """
 
-    def __init__(self, handles):
+    def __init__(self, handles: ArrayLike):
         self.handles = np.array(handles, dtype=np.float64, order="C")
         if self.handles.ndim != 2 or self.handles.shape[1] not in (2, 3):
             raise ValueError(f"handles must have the shape (n, 2 or 3), not {self.handles.shape}")
@@ -308,9 +331,9 @@ class Pose:
         self.reset()
 
     @property
-    def transforms(self) -> np.ndarray:
-        """The transforms, (n_handles, dim, dim + 1): per handle the rows of (A | b), which take x to A x + b. An
-        array to be written to."""
+    def transforms(self) -> Floats:
+        """The transforms, (n_handles, dim, dim + 1): per handle the rows of (A | b), which take x to A x + b.
+        An array to be written to."""
         return self._transforms
 
     def reset(self) -> None:
@@ -318,13 +341,13 @@ class Pose:
         n, dim = self.handles.shape
         check(lib.pose_reset(dim, n, address(self.transforms)))
 
-    def move(self, handle: int, offset) -> None:
+    def move(self, handle: int, offset: ArrayLike) -> None:
         """Moves a handle by an offset (dim,)."""
         dim = self.handles.shape[1]
         offset = floats(offset, (dim,), "offset")
         check(lib.pose_move(dim, address(self.transforms[handle]), address(offset)))
 
-    def turn(self, handle: int, angle: float, axis=None) -> None:
+    def turn(self, handle: int, angle: float, axis: Optional[ArrayLike] = None) -> None:
         """Turns a handle about where it is, by an angle in radians; in 3-D about an axis (3,)."""
         dim = self.handles.shape[1]
         axis = None if axis is None else floats(axis, (3,), "axis")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 from types import SimpleNamespace
-from typing import Optional, Sequence, Tuple
+from typing import TYPE_CHECKING, Any, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -12,8 +12,11 @@ from ._abi import lib, new
 from ._core import Call, Handle, Progress, address, check, choose, create, fields, name_of, points_of
 from ._geometry import CONSTRAINTS, FUNCTIONS, SOLVERS, TREES, Chart, as_domain
 
+if TYPE_CHECKING:
+    from ._types import Array, ArrayLike, Bools, Floats, Indices, Ints, ShapeLike
 
-def _view(pointer: int, n: int, dtype, owner) -> np.ndarray:
+
+def _view(pointer: Optional[int], n: int, dtype: Any, owner: Handle) -> Optional[Array]:
     """The library's own array, read-only; keeps its owner alive."""
     if not pointer:
         return None
@@ -34,13 +37,13 @@ class Grid(Handle):
 
     _free = "grid_free"
 
-    def __init__(self, domain, cells: Optional[int] = None, *, progress: Optional[Progress] = None,
-                 threads: Optional[int] = None):
+    def __init__(self, domain: ShapeLike, cells: Optional[int] = None, *,
+                 progress: Optional[Progress] = None, threads: Optional[int] = None):
         self._take(create(lib.grid_create, as_domain(domain), cells or 0, progress=progress,
                           threads=threads))
 
     @classmethod
-    def from_mask(cls, inside) -> "Grid":
+    def from_mask(cls, inside: ArrayLike) -> "Grid":
         """The grid whose vertices inside are the true ones of an array."""
         inside = np.asfortranarray(np.asarray(inside) != 0).view(np.uint8)
         shape = (ctypes.c_size_t * inside.ndim)(*inside.shape)
@@ -51,7 +54,7 @@ class Grid(Handle):
         """The grid with cells half as large."""
         return Grid._wrap(create(lib.grid_refine, self))
 
-    def restrict(self, keep) -> "Grid":
+    def restrict(self, keep: ArrayLike) -> "Grid":
         """The grid without the vertices inside where `keep` is false."""
         keep = np.asfortranarray(np.asarray(keep) != 0).view(np.uint8)
         if keep.shape != self.shape:
@@ -68,13 +71,13 @@ class Grid(Handle):
         info = self._info("grid_get_info", "grid_info")
         return tuple(info.shape[: info.dim])
 
-    def _array(self, pointer, dtype, owner):
+    def _array(self, pointer: Optional[int], dtype: Any, owner: Handle) -> Any:
         shape = self.shape
         view = _view(pointer, int(np.prod(shape)), dtype, owner)
         return None if view is None else view.reshape(shape, order="F")
 
     @property
-    def inside(self) -> np.ndarray:
+    def inside(self) -> Bools:
         """Which vertices are inside: a read-only boolean array."""
         return self._array(lib.grid_inside(self), np.bool_, self)
 
@@ -85,13 +88,13 @@ class Grid(Handle):
                                     call.env, call.err))
         return vertex.value, rounds.value
 
-    def nearest(self, point) -> int:
+    def nearest(self, point: ArrayLike) -> int:
         """The number of the vertex inside that is nearest to a point."""
         point, vertex = points_of(point, len(self.shape)), ctypes.c_uint32()
         check(lib.grid_nearest(self, address(point), ctypes.addressof(vertex)))
         return vertex.value
 
-    def position(self, vertex) -> np.ndarray:
+    def position(self, vertex: ArrayLike) -> Floats:
         """Coordinates of vertices that are given by their numbers."""
         info = self.info
         at = np.unravel_index(np.asarray(vertex), self.shape, order="F")
@@ -124,16 +127,17 @@ class Tree(Handle):
         return lib.tree_root(self)
 
     @property
-    def parents(self) -> np.ndarray:
+    def parents(self) -> Indices:
         """Vertex numbers, read-only; 2**32 - 1 where there is none."""
         return self.grid._array(lib.tree_parents(self), np.uint32, self)
 
     @property
-    def generations(self) -> np.ndarray:
+    def generations(self) -> Ints:
         """0 at the root, -1 where the tree does not reach, read-only."""
         return self.grid._array(lib.tree_generations(self), np.int32, self)
 
-    def _report(self, function, struct, *arguments, progress=None):
+    def _report(self, function: Any, struct: str, *arguments: Any,
+                progress: Optional[Progress] = None) -> SimpleNamespace:
         call, report = Call(progress, None), new(struct)
         call.check(function(self, *arguments, ctypes.addressof(report), call.env, call.err))
         return fields(report)
@@ -142,7 +146,8 @@ class Tree(Handle):
         """Checks the cousin rule; see ``icc_tree_report``."""
         return self._report(lib.tree_verify, "tree_report", progress=progress)
 
-    def grow(self, values=None, *, progress: Optional[Progress] = None):
+    def grow(self, values: Optional[ArrayLike] = None, *,
+             progress: Optional[Progress] = None) -> Tuple[Indices, SimpleNamespace]:
         """An order of the vertices in which the root is the only critical one: ranks as an array, and
         a report, see ``icc_grow_report``."""
         shape = self.grid.shape
@@ -153,7 +158,7 @@ class Tree(Handle):
                               progress=progress)
         return rank, report
 
-    def verify_ranks(self, rank, *, progress: Optional[Progress] = None) -> SimpleNamespace:
+    def verify_ranks(self, rank: ArrayLike, *, progress: Optional[Progress] = None) -> SimpleNamespace:
         """Counts the critical vertices of an order; see ``icc_field_report``."""
         rank = np.asfortranarray(np.asarray(rank, dtype=np.uint32))
         if rank.shape != self.grid.shape:
@@ -162,7 +167,7 @@ class Tree(Handle):
                             progress=progress)
 
 
-def _floats_of(values, shape) -> np.ndarray:
+def _floats_of(values: ArrayLike, shape: Tuple[int, ...]) -> Floats:
     array = np.asarray(values, dtype=np.float64)
     if array.shape != tuple(shape):
         raise ValueError(f"values must have the shape {tuple(shape)}, not {array.shape}")
@@ -187,7 +192,7 @@ class Field(Handle):
     @classmethod
     def of(cls, chart: Chart) -> Optional["Field"]:
         """The function of a chart of method gradient or field; None for others."""
-        return cls._wrap(lib.chart_field(chart), owner=chart)
+        return cls._borrow(lib.chart_field(chart), owner=chart)
 
     @property
     def tree(self) -> Tree:
@@ -201,12 +206,12 @@ class Field(Handle):
         return result
 
     @property
-    def values(self) -> np.ndarray:
+    def values(self) -> Floats:
         """The values as an array of the grid's shape, read-only."""
         return self.tree.grid._array(lib.field_values(self), np.float64, self)
 
     @property
-    def logs(self) -> Optional[np.ndarray]:
+    def logs(self) -> Optional[Floats]:
         """Logarithms of values that may be too small for doubles, or None; read-only."""
         return self.tree.grid._array(lib.field_logs(self), np.float64, self)
 
@@ -216,7 +221,7 @@ class Field(Handle):
         call.check(lib.field_verify(self, ctypes.addressof(report), call.env, call.err))
         return fields(report)
 
-    def edges(self) -> Tuple[np.ndarray, np.ndarray]:
+    def edges(self) -> Tuple[Indices, Ints]:
         """Edges (n, 2) where gradient lines merge, and their kinds (n,): 1 on the way up
         (compression), 2 on the way down (expansion). 2-D."""
         n = ctypes.c_size_t()
@@ -227,7 +232,8 @@ class Field(Handle):
         return edges, kinds
 
 
-def triangulate(points, n_boundary: int, *, progress: Optional[Progress] = None) -> np.ndarray:
+def triangulate(points: ArrayLike, n_boundary: int, *,
+                progress: Optional[Progress] = None) -> Indices:
     """The conforming Delaunay triangles (m, 3) of points (n, 2) of which the first `n_boundary` are a
     simple polygon."""
     points = points_of(points, 2)

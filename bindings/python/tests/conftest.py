@@ -1,3 +1,5 @@
+import importlib
+import importlib.util
 import pathlib
 import sys
 
@@ -5,6 +7,17 @@ import numpy as np
 import pytest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parents[1]))
+
+
+@pytest.fixture
+def neighbour():
+    """Imports another package. The test is skipped only where that is not installed, not where it is broken."""
+    def load(name):
+        if importlib.util.find_spec(name.partition(".")[0]) is None:
+            pytest.skip(f"{name} is not installed")
+        return importlib.import_module(name)
+
+    return load
 
 
 @pytest.fixture

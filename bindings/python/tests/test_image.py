@@ -32,8 +32,8 @@ def test_wrong_pictures(picture):
         libicc.warp_image(picture.astype(float), libicc.Map(cage, cage))
 
 
-def test_scikit_image(picture):
-    transform = pytest.importorskip("skimage.transform")
+def test_scikit_image(picture, neighbour):
+    transform = neighbour("skimage.transform")
     cage = libicc.picture_cage(picture.shape)
     moved = cage + [[3, 2], [-4, 5], [-2, -6], [7, -3]]
     mapping = libicc.Map(cage, moved)

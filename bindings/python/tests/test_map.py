@@ -132,9 +132,8 @@ def test_defects():
     assert libicc.boundary_defects([[0, 0], [1, 1], [1, 0], [0, 1]]) == [("crossing", 0, 2)]
 
 
-def test_neighbours(before, after, inside):
-    """Shapes of other packages."""
-    shapely = pytest.importorskip("shapely.geometry")
+def test_shapely(before, after, inside, neighbour):
+    shapely = neighbour("shapely.geometry")
     mapping = libicc.Map(shapely.Polygon(before), shapely.Polygon(after))
     assert np.array_equal(mapping(inside), libicc.Map(before, after)(inside))
     ring = shapely.Polygon(before, [[[1, 1], [2, 1], [2, 2]]])

@@ -70,8 +70,8 @@ def test_errors_name_the_simplex():
     assert caught.value.index >= 0
 
 
-def test_meshio():
-    meshio = pytest.importorskip("meshio")
+def test_meshio(neighbour):
+    meshio = neighbour("meshio")
     points, cells = grid_mesh(2)
     domain = libicc.as_domain(meshio.Mesh(points, [("tetra", cells)]))
     assert domain.dim == 3 and domain.info.measure == pytest.approx(8)

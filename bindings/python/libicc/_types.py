@@ -1,0 +1,19 @@
+"""Types in annotations; only type checkers import them, since numpy.typing takes longer than libicc itself."""
+
+from typing import Any, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ._geometry import Domain
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int32]
+Indices = NDArray[np.uint32]
+Bools = NDArray[np.bool_]
+Array = NDArray[Any]
+
+ShapeLike = Union[Domain, ArrayLike, Any]
+"""What `as_domain` takes: also polygons of shapely and meshes of meshio."""
+
+__all__ = ["Array", "ArrayLike", "Bools", "Floats", "Indices", "Ints", "ShapeLike"]
