@@ -3,12 +3,13 @@
 
     python3 examples/distributed.py [--points N] [--workers N] [--shards N] [--kind mesh|curves]
 
-Needs libicc for Python, NumPy and Dask's distributed scheduler (Debian: python3-numpy python3-distributed). A map is
-made once and sent to every worker as bytes; it answers there as it does here, on any machine. The points lie in a
-file that all workers see, and so do their images: a worker reads its shard of the one and fills its part of the other.
+Needs libicc for Python, NumPy and Dask's distributed scheduler (Debian: python3-numpy and
+python3-distributed). The map is made once and sent to every worker as bytes; it answers there as it does
+here, on any machine. The points lie in a file that all workers see, and so do their images: a worker reads
+its shard of the one and fills its part of the other.
 
-Sharing pays when points are expensive (kind curves: some microseconds each, most of all in space) or more than one
-machine can hold. The default map, kind mesh, takes a tenth of a microsecond: there the files take longer than the map.
+Sharing pays when points are expensive (kind curves: some microseconds each, more in space) or too many for
+one machine. With the default, kind mesh, a point takes a tenth of a microsecond: less than to read and write it.
 """
 
 import argparse
@@ -25,6 +26,12 @@ sys.path[:] = [place for place in sys.path if pathlib.Path(place).resolve() != H
 import libicc
 import numpy as np
 from distributed import Client, LocalCluster
+
+
+def start_workers(n, folder):
+    """Processes on this machine; to use others, give Client the address of your scheduler instead."""
+    return LocalCluster(n_workers=n, threads_per_worker=1, processes=True, dashboard_address=None,
+                        local_directory=folder)
 
 
 def map_shard(mapping, points_file, images_file, first, last):
@@ -71,8 +78,7 @@ def main():
         np.save(points_file, points)
         np.lib.format.open_memmap(images_file, "w+", points.dtype, points.shape).flush()
 
-        with LocalCluster(n_workers=wanted.workers, threads_per_worker=1, processes=True,
-                          dashboard_address=None, local_directory=folder) as cluster, Client(cluster) as client:
+        with start_workers(wanted.workers, folder) as cluster, Client(cluster) as client:
             start = time.perf_counter()
             done = map_in_workers(client, mapping, points_file, images_file, wanted.points, wanted.shards)
             print(f"{wanted.workers} workers: {done} points in {time.perf_counter() - start:.2f} s")

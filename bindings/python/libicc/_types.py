@@ -1,4 +1,4 @@
-"""Types in annotations; only type checkers import them, since numpy.typing takes longer than libicc itself."""
+"""Types in annotations. Only type checkers import them: numpy.typing is slow to import."""
 
 from typing import Any, Union
 

@@ -11,7 +11,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).parents[1]))
 
 @pytest.fixture
 def neighbour():
-    """Imports another package. The test is skipped only where that is not installed, not where it is broken."""
+    """Imports another package. Skips the test only where that is not installed, not where it is broken."""
     def load(name):
         if importlib.util.find_spec(name.partition(".")[0]) is None:
             pytest.skip(f"{name} is not installed")
