@@ -62,18 +62,25 @@ static inline void ck_assert_same(const void *a, const void *b, size_t size, con
     ck_assert_msg(memcmp(a, b, size) == 0, "%s differs", what);
 }
 
-/* Random points in the box of a domain and around it. */
+/* Random points in the box of a domain and around it, some of its vertices, and middles of two. */
 static inline void saved_points(const icc_domain *domain, uint64_t seed, double *points)
 {
     icc_domain_info info = {.size = sizeof info};
     random_source r = {seed};
     ck_assert_int_eq(icc_domain_get_info(domain, &info), ICC_OK);
-    for (int i = 0; i < SAVED_POINTS; ++i)
-        for (int k = 0; k < info.dim; ++k) {
+    const size_t dim = (size_t)info.dim;
+    double *vertices = saved_alloc(info.n_vertices * dim * sizeof *vertices);
+    ck_assert_int_eq(icc_domain_get_boundary(domain, vertices, NULL), ICC_OK);
+    for (size_t i = 0; i < SAVED_POINTS; ++i) {
+        const double *a = vertices + dim * (size_t)random_below(&r, (int)info.n_vertices);
+        const double *b = vertices + dim * (size_t)random_below(&r, (int)info.n_vertices);
+        for (size_t k = 0; k < dim; ++k) {
             const double more = 0.05 * (info.upper[k] - info.lower[k]);
-            points[info.dim * i + k] =
-                random_between(&r, info.lower[k] - more, info.upper[k] + more);
+            const double x = random_between(&r, info.lower[k] - more, info.upper[k] + more);
+            points[dim * i + k] = i % 8 == 0 ? a[k] : i % 8 == 1 ? 0.5 * a[k] + 0.5 * b[k] : x;
         }
+    }
+    free(vertices);
 }
 
 static inline void same_domain(const icc_domain *a, const icc_domain *b)
