@@ -1,6 +1,6 @@
 #!/bin/sh
 # Each public header compiles by itself as C and C++ of every age, and is plain C for those who parse
-# headers instead of compiling them.
+# headers instead of compiling them. That for C++ compiles as C++17 and later, by itself and in use.
 # usage: check_headers.sh INCLUDE_DIR
 set -eu
 include=$1
@@ -8,12 +8,12 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 failed=0
 
-# check COMPILER LANGUAGE STANDARD FLAG...
+# check COMPILER LANGUAGE STANDARD FLAG... compiles $file.
 check() {
     compiler=$1 language=$2 standard=$3
     shift 3
     if ! "$compiler" -x "$language" -std="$standard" -pedantic -Wall -Wextra -Werror "$@" \
-        -I"$include" -fsyntax-only "$work/one.c" 2>"$work/log"; then
+        -I"$include" -fsyntax-only "$file" 2>"$work/log"; then
         echo "icc/$name does not compile with $compiler -std=$standard $*:"
         cat "$work/log"
         failed=1
@@ -22,6 +22,7 @@ check() {
 
 for compiler in gcc clang; do
     command -v "$compiler" >/dev/null || continue
+    file=$work/one.c
     for header in "$include"/icc/*.h; do
         name=${header##*/}
         printf '#include <icc/%s>\n#include <icc/%s>\nextern int icc_self_contained;\n' \
@@ -39,6 +40,14 @@ for compiler in gcc clang; do
             echo "icc/$name is not plain C with -DICC_STATIC"
             failed=1
         fi
+    done
+    name=icc.hpp
+    printf '#include <icc/icc.hpp>\n#include <icc/icc.hpp>\nint main() {}\n' >"$work/one.cpp"
+    for file in "$work/one.cpp" "$(dirname "$0")/install/wrapper.cpp"; do
+        for standard in c++17 c++20 c++2b; do
+            check "$compiler" c++ "$standard" -Wundef -Wshadow -Wconversion -Wsign-conversion \
+                -Wold-style-cast -Wnon-virtual-dtor
+        done
     done
 done
 exit $failed

@@ -1,8 +1,8 @@
 #!/bin/sh
 # find_package(libicc): C and C++, shared and static. It fails where libicc is not installed.
-# usage: find_package.sh CMAKE STAGE WORK_DIR CC C_FLAGS
+# usage: find_package.sh CMAKE STAGE WORK_DIR CC C_FLAGS CXX
 set -eu
-cmake=$1 stage=$2 work=$3 cc=$4 flags=$5
+cmake=$1 stage=$2 work=$3 cc=$4 flags=$5 cxx=$6
 here=$(cd "$(dirname "$0")" && pwd)
 rm -rf "$work"
 mkdir -p "$work"
@@ -10,7 +10,7 @@ version=$(sed -n 's/^Version: //p' "$(find "$stage" -name libicc.pc)")
 
 configure() {
     "$cmake" -S "$here/find_package" -B "$1" -DCMAKE_PREFIX_PATH="$2" -DCMAKE_C_COMPILER="$cc" \
-        -DCMAKE_C_FLAGS="$flags" -DCMAKE_CXX_FLAGS="$flags" >"$1.log" 2>&1
+        -DCMAKE_CXX_COMPILER="$cxx" -DCMAKE_C_FLAGS="$flags" -DCMAKE_CXX_FLAGS="$flags" >"$1.log" 2>&1
 }
 
 if configure "$work/without" "$work/nowhere"; then
@@ -24,15 +24,15 @@ grep -q 'configuration file provided by "libicc"' "$work/without.log" || {
 
 configure "$work/build" "$stage" || { cat "$work/build.log"; exit 1; }
 "$cmake" --build "$work/build" >"$work/build.log" 2>&1 || { cat "$work/build.log"; exit 1; }
-for program in shared_c shared_cpp static_c static_cpp; do
+for program in shared_c shared_cpp shared_wrapper static_c static_cpp static_wrapper; do
     "$work/build/$program" "$version"
 done
 
 # The shared programs need the library at run time, the static ones do not.
-for program in shared_c shared_cpp; do
+for program in shared_c shared_cpp shared_wrapper; do
     objdump -p "$work/build/$program" | grep -q 'NEEDED *libicc.so.0'
 done
-for program in static_c static_cpp; do
+for program in static_c static_cpp static_wrapper; do
     if objdump -p "$work/build/$program" | grep -q 'NEEDED *libicc'; then
         echo "$program is not static"
         exit 1

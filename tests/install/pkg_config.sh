@@ -1,8 +1,8 @@
 #!/bin/sh
 # pkg-config libicc, shared and --static. It fails where libicc is not installed.
-# usage: pkg_config.sh CMAKE STAGE WORK_DIR CC C_FLAGS
+# usage: pkg_config.sh CMAKE STAGE WORK_DIR CC C_FLAGS CXX
 set -eu
-stage=$2 work=$3 cc=$4 flags=$5
+stage=$2 work=$3 cc=$4 flags=$5 cxx=$6
 here=$(cd "$(dirname "$0")" && pwd)
 rm -rf "$work"
 mkdir -p "$work"
@@ -30,6 +30,11 @@ if "$work/shared" "$version" 2>/dev/null; then
     echo "runs without the shared library"
     exit 1
 fi
+
+# shellcheck disable=SC2046,SC2086
+"$cxx" -std=c++17 $flags $(pkg-config --cflags libicc) "$here/wrapper.cpp" -o "$work/wrapper" \
+    $(pkg-config --libs libicc)
+LD_LIBRARY_PATH=$lib "$work/wrapper"
 
 # The linker takes the first folder that has any libicc, here one without libicc.so.
 mkdir "$work/only_static"

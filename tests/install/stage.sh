@@ -11,7 +11,7 @@ for file in libicc.so libicc.so.0 libicc.a pkgconfig/libicc.pc cmake/libicc/libi
     cmake/libicc/libiccConfigVersion.cmake; do
     [ -e "$lib/$file" ] || { echo "not installed: $file"; exit 1; }
 done
-for header in "$(dirname "$0")"/../../include/icc/*.h; do
+for header in "$(dirname "$0")"/../../include/icc/*; do
     cmp "$header" "$stage/include/icc/${header##*/}"
 done
 
