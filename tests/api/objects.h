@@ -708,6 +708,41 @@ static inline icc_status call_binding_pose(const objects *o, outcome *out, const
     return icc_binding_pose(o->binding, transforms, out->numbers, out->numbers + N_POINTS, env);
 }
 
+static inline icc_status call_chart_load(const objects *o, outcome *out, const icc_env *env,
+                                         icc_error *err)
+{
+    size_t n;
+    ck_assert_int_eq(icc_chart_save(o->chart, 0, NULL, &n), ICC_OK);
+    void *data = malloc(n);
+    ck_assert_int_eq(icc_chart_save(o->chart, n, data, &n), ICC_OK);
+    icc_chart *chart = (icc_chart *)&chart;
+    const icc_status status = icc_chart_load(&chart, n, data, env, err);
+    HANDED_OVER(status, chart);
+    if (status == ICC_OK)
+        (void)icc_chart_encode(chart, N_POINTS, o->points, out->indices, out->numbers,
+                               out->numbers + 2 * N_POINTS, out->status, &out->count, NULL);
+    icc_chart_free(chart);
+    free(data);
+    return status;
+}
+
+static inline icc_status call_map_load(const objects *o, outcome *out, const icc_env *env,
+                                       icc_error *err)
+{
+    size_t n;
+    ck_assert_int_eq(icc_map_save(o->mesh_map, 0, NULL, &n), ICC_OK);
+    void *data = malloc(n);
+    ck_assert_int_eq(icc_map_save(o->mesh_map, n, data, &n), ICC_OK);
+    icc_map *map = (icc_map *)&map;
+    const icc_status status = icc_map_load(&map, n, data, env, err);
+    HANDED_OVER(status, map);
+    if (status == ICC_OK)
+        (void)icc_map_apply(map, N_POINTS, o->points, out->numbers, out->status, &out->count, NULL);
+    icc_map_free(map);
+    free(data);
+    return status;
+}
+
 static const call CALLS[] = {
     {"icc_shape_create", call_shape_create},
     {"icc_sampling_create", call_sampling_create},
@@ -730,6 +765,7 @@ static const call CALLS[] = {
     {"icc_chart_encode", call_chart_encode},
     {"icc_chart_decode", call_chart_decode},
     {"icc_chart_trace", call_chart_trace},
+    {"icc_chart_load", call_chart_load},
     {"icc_map_create", call_map_create},
     {"icc_map_create_from_charts", call_map_create_from_charts},
     {"icc_map_apply", call_map_apply},
@@ -739,6 +775,7 @@ static const call CALLS[] = {
     {"icc_map_follow", call_map_follow},
     {"icc_map_certify", call_map_certify},
     {"icc_map_repair", call_map_repair},
+    {"icc_map_load", call_map_load},
     {"icc_grid_create", call_grid_create},
     {"icc_grid_create_mask", call_grid_create_mask},
     {"icc_grid_refine", call_grid_refine},

@@ -138,6 +138,11 @@ START_TEST(charts_refuse_bad_arguments)
     REFUSED(icc_chart_decode(o.chart, 1, o.facet, o.bary, NULL, p, NULL, NULL, NULL));
     REFUSED(icc_chart_decode(o.chart, 1, o.facet, o.bary, o.t, NULL, NULL, NULL, NULL));
     ck_assert_int_eq(icc_chart_decode(o.chart, 0, NULL, NULL, NULL, NULL, NULL, &n, NULL), ICC_OK);
+    REFUSED(icc_chart_save(NULL, 0, NULL, &n));
+    REFUSED(icc_chart_save(o.chart, 0, NULL, NULL));
+    REFUSED(icc_chart_save(o.chart, 1, NULL, &n));
+    EXPLAINED(icc_chart_load(NULL, 1, p, NULL, &err));
+    NOT_MADE(c, icc_chart_load(&c, 1, NULL, NULL, &err));
     EXPLAINED(icc_chart_trace(NULL, p, 0, NULL, &n, NULL, &err));
     EXPLAINED(icc_chart_trace(o.chart, NULL, 0, NULL, &n, NULL, &err));
     EXPLAINED(icc_chart_trace(o.chart, p, 0, NULL, NULL, NULL, &err));
@@ -179,6 +184,11 @@ START_TEST(maps_refuse_bad_arguments)
               icc_map_target_chart(o.map) == o.target_chart);
     double p[2] = {0.5, 0.5}, j[4];
     size_t n = 7;
+    REFUSED(icc_map_save(NULL, 0, NULL, &n));
+    REFUSED(icc_map_save(o.map, 0, NULL, NULL));
+    REFUSED(icc_map_save(o.map, 1, NULL, &n));
+    EXPLAINED(icc_map_load(NULL, 1, p, NULL, &err));
+    NOT_MADE(m, icc_map_load(&m, 1, NULL, NULL, &err));
     REFUSED(icc_map_apply(NULL, 1, p, p, NULL, NULL, NULL));
     REFUSED(icc_map_apply(o.map, 1, NULL, p, NULL, NULL, NULL));
     REFUSED(icc_map_apply(o.map, 1, p, NULL, NULL, NULL, NULL));

@@ -1,0 +1,142 @@
+/* Any bytes as a saved chart or map. The first byte says which; with its lowest bit the header is put right, so that the
+ * content is looked at. What is accepted answers, and saved again it is the same. There is little memory and patience: made-up
+ * options of a chart on a grid cost what they cost when it is made. */
+#include "base/blob.h"
+#include "icc/icc.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+enum { HEADER = 24, LARGEST = 1 << 16, N_POINTS = 24 };
+
+static void require(int holds)
+{
+    if (!holds)
+        abort();
+}
+
+static void put_right(uint8_t *bytes, size_t size, const char *kind)
+{
+    iccp_blob_writer w;
+    size_t n;
+    iccp_blob_begin(&w, bytes, size, kind, 1);
+    w.n = size;
+    iccp_blob_end(&w, &n);
+}
+
+/* The steps that a chart on a grid takes when it is made again end here. */
+static int32_t lose_patience(void *user, const char *stage, double share)
+{
+    (void)stage;
+    require(share >= 0 && share <= 1);
+    return ++*(size_t *)user > 400;
+}
+
+/* Memory for small things only. */
+static void *alloc_little(void *user, size_t size)
+{
+    (void)user;
+    return size < (size_t)1 << 24 ? malloc(size) : NULL;
+}
+
+static void dealloc(void *user, void *memory)
+{
+    (void)user;
+    free(memory);
+}
+
+static void find_points(const icc_domain *domain, double *points)
+{
+    icc_domain_info info = {.size = sizeof info};
+    require(icc_domain_get_info(domain, &info) == ICC_OK);
+    double share = 0.5;
+    for (int i = 0; i < N_POINTS; ++i)
+        for (int k = 0; k < info.dim; ++k) {
+            share = fmod(share + 0.6180339887498949, 1);
+            points[info.dim * i + k] = info.lower[k] + share * (info.upper[k] - info.lower[k]);
+        }
+}
+
+static void check_answers(const icc_chart *chart)
+{
+    double points[N_POINTS * ICC_MAX_DIM], bary[N_POINTS * ICC_MAX_DIM], t[N_POINTS];
+    uint32_t facet[N_POINTS];
+    icc_status status[N_POINTS];
+    find_points(icc_chart_domain(chart), points);
+    require(icc_chart_encode(chart, N_POINTS, points, facet, bary, t, status, NULL, NULL) == ICC_OK);
+    for (int i = 0; i < N_POINTS; ++i)
+        require(status[i] != ICC_OK || (t[i] >= 0 && t[i] <= 1));
+    require(icc_chart_decode(chart, N_POINTS, facet, bary, t, points, NULL, NULL, NULL) == ICC_OK);
+}
+
+static void check_status(icc_status status, const void *made)
+{
+    require(status == ICC_OK || status == ICC_ERR_FORMAT || status == ICC_ERR_VERSION ||
+            status == ICC_ERR_MEMORY || status == ICC_ERR_CANCELLED);
+    require((made != NULL) == (status == ICC_OK));
+}
+
+static void check_chart(const uint8_t *bytes, size_t size, const icc_env *env)
+{
+    icc_chart *chart;
+    size_t n;
+    const icc_status status = icc_chart_load(&chart, size, bytes, env, NULL);
+    check_status(status, chart);
+    if (chart == NULL)
+        return;
+    uint8_t *again = malloc(size);
+    require(again != NULL && icc_chart_save(chart, size, again, &n) == ICC_OK);
+    require(n == size && memcmp(again, bytes, size) == 0);
+    check_answers(chart);
+    free(again);
+    icc_chart_free(chart);
+}
+
+static void check_map(const uint8_t *bytes, size_t size, const icc_env *env)
+{
+    icc_map *map;
+    size_t n;
+    icc_map_info info = {.size = sizeof info};
+    const icc_status status = icc_map_load(&map, size, bytes, env, NULL);
+    check_status(status, map);
+    if (map == NULL)
+        return;
+    uint8_t *again = malloc(size);
+    require(again != NULL && icc_map_save(map, size, again, &n) == ICC_OK);
+    require(n == size && memcmp(again, bytes, size) == 0);
+    require(icc_map_get_info(map, &info) == ICC_OK);
+    if (icc_map_source_chart(map) != NULL) {
+        double points[N_POINTS * ICC_MAX_DIM];
+        check_answers(icc_map_source_chart(map));
+        check_answers(icc_map_target_chart(map));
+        find_points(icc_chart_domain(icc_map_source_chart(map)), points);
+        require(icc_map_apply(map, N_POINTS, points, points, NULL, NULL, NULL) == ICC_OK);
+    }
+    free(again);
+    icc_map_free(map);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    static uint8_t bytes[LARGEST];
+    size_t n_reports = 0;
+    const icc_env env = {.size = sizeof env,
+                         .user = &n_reports,
+                         .alloc = alloc_little,
+                         .dealloc = dealloc,
+                         .progress = lose_patience};
+    if (size < 1 + HEADER || size - 1 > LARGEST)
+        return 0;
+    const int is_map = data[0] & 2;
+    memcpy(bytes, data + 1, size - 1);
+    if (data[0] & 1)
+        put_right(bytes, size - 1, is_map ? "MAP_" : "CHRT");
+    if (is_map)
+        check_map(bytes, size - 1, &env);
+    else
+        check_chart(bytes, size - 1, &env);
+    return 0;
+}
