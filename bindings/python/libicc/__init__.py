@@ -6,9 +6,13 @@
     points = mapping.inverse(images)
 
 `Domain` -> `Chart` -> `Map`; `libicc.stages` has the steps of the papers, `libicc.kernel` smooth weights for
-handles. Objects are immutable and may be shared between threads; calls release the interpreter lock.
+handles. Points are arrays (n, dim) of float64 in your coordinates, angles are radians.
+
+Objects are immutable and may be shared between threads; calls release the interpreter lock. Charts and maps
+can be pickled, and so sent to other processes and machines. Diagnostics go to the logger "libicc", level INFO.
 """
 
+from . import kernel, stages
 from ._abi import lib as _lib
 from ._core import (
     ArgumentError,
@@ -20,9 +24,12 @@ from ._core import (
     OutOfMemoryError,
     OutsideError,
     Progress,
+    ResolutionError,
     SolverError,
     TopologyError,
+    TraceError,
     UnsupportedError,
+    VersionError,
 )
 from ._geometry import (
     BOUNDARY,
@@ -57,12 +64,17 @@ __all__ = [
     "OutsideError",
     "PixelTransform",
     "Progress",
+    "ResolutionError",
     "SolverError",
     "TopologyError",
+    "TraceError",
     "UnsupportedError",
+    "VersionError",
     "as_domain",
     "boundary_defects",
+    "kernel",
     "picture_cage",
     "repair_mask",
+    "stages",
     "warp_image",
 ]

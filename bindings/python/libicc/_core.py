@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import ctypes
-import logging
 import os
+import sys
 from types import SimpleNamespace
 from typing import (
     TYPE_CHECKING,
@@ -27,17 +27,27 @@ if TYPE_CHECKING:
     from ._types import Array, ArrayLike, Floats, Indices
 
 Progress = Callable[[str, float], Any]
-"""Called with the name of a stage and the share done; to return true or to raise cancels."""
+"""Called with the name of a stage and the share done, in [0, 1]; to return true or to raise cancels the call.
+Every call that takes long takes one, and `threads`: how many it may use; None: one per processor."""
 
 _PROGRESS = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_char_p, ctypes.c_double)
 
 _LOG = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_char_p)
 
-_logger = logging.getLogger("libicc")
+
+def _listener() -> Optional[Any]:
+    """The logger of diagnostics, if anybody listens: nobody does who has not imported `logging`."""
+    logging = sys.modules.get("logging")
+    if logging is None:
+        return None
+    logger = logging.getLogger("libicc")
+    return logger if logger.isEnabledFor(logging.INFO) else None
 
 
 def _tell(_user: Any, message: bytes) -> None:
-    _logger.info(message.decode("utf-8", "replace"))
+    logger = _listener()
+    if logger:
+        logger.info(message.decode("utf-8", "replace"))
 
 
 _log = _LOG(_tell)
@@ -87,6 +97,18 @@ class UnsupportedError(Error, NotImplementedError):
     """This combination is not available."""
 
 
+class ResolutionError(Error, ValueError):
+    """The grid is too coarse, or would be too large."""
+
+
+class TraceError(Error, ArithmeticError):
+    """An integral curve does not reach its end."""
+
+
+class VersionError(Error):
+    """A later version wrote this, or the library is older than what it was given."""
+
+
 class CertificateError(Error, ArithmeticError):
     """A result could not be certified."""
 
@@ -106,10 +128,13 @@ class Cancelled(Error):
 _ERRORS = {
     Error.ARGUMENT: ArgumentError,
     Error.MEMORY: OutOfMemoryError,
+    Error.VERSION: VersionError,
     Error.BOUNDARY: BoundaryError,
+    Error.RESOLUTION: ResolutionError,
     Error.TOPOLOGY: TopologyError,
     Error.OUTSIDE: OutsideError,
     Error.SOLVER: SolverError,
+    Error.TRACE: TraceError,
     Error.CERTIFICATE: CertificateError,
     Error.CANCELLED: Cancelled,
     Error.UNSUPPORTED: UnsupportedError,
@@ -127,7 +152,7 @@ class Call:
         self.error = new("error", index=-1)
         self.raised: Optional[BaseException] = None
         self._env = new("env", threads=_threads(threads))
-        if _logger.isEnabledFor(logging.INFO):
+        if _listener():
             self._env.log = ctypes.cast(_log, ctypes.c_void_p)
         if progress is not None:
             self._callback = _PROGRESS(self._report(progress))
@@ -315,10 +340,13 @@ class Saved(Handle):
     @classmethod
     def from_bytes(cls: Type[_S], data: Any, *, progress: Optional[Progress] = None,
                    threads: Optional[int] = None) -> _S:
-        """The object that `to_bytes` wrote, bit for bit; `FormatError` for anything else.
+        """The object that `to_bytes` wrote: it answers as that does, bit for bit.
 
         Args:
-            data: bytes, or what else has a buffer
+            data: bytes, or what else has a buffer; any bytes are safe to try
+
+        Raises:
+            FormatError: for anything else; VersionError: for what a later version wrote
         """
         function, read = getattr(lib, cls._name + "_load"), np.frombuffer(data, dtype=np.uint8)
         return cls._wrap(create(function, len(read), address(read), progress=progress, threads=threads))

@@ -200,7 +200,7 @@ def _from_meshio(mesh: Any) -> Domain:
     return Domain(points, cells["triangle"])
 
 
-def _chart_options(method: Optional[str], cells: Optional[int], maximum: Optional[ArrayLike],
+def _chart_options(dim: int, method: Optional[str], cells: Optional[int], maximum: Optional[ArrayLike],
                    function: Optional[str], constraints: Optional[str], solver: Optional[str],
                    tree: Optional[str], eta: Optional[float], leaf: Optional[float]) -> Any:
     options = new("chart_options", method=choose(method, METHODS, "method"), cells=cells or 0,
@@ -209,9 +209,8 @@ def _chart_options(method: Optional[str], cells: Optional[int], maximum: Optiona
                   solver=choose(solver, SOLVERS, "solver"), tree=choose(tree, TREES, "tree"),
                   eta=eta or 0, leaf=leaf or 0)
     if maximum is not None:
-        point = np.ascontiguousarray(maximum, dtype=np.float64)
-        options.maximum = point.ctypes.data
-        options.keep = point
+        options.keep = floats(maximum, (dim,), "maximum")
+        options.maximum = address(options.keep)
     return options
 
 
@@ -223,7 +222,15 @@ class Chart(Saved):
         method: "foliation", "disc" (2-D), "field" or "gradient"; None: the best that there is
         cells: grid or mesh cells along the longest side; None: as many as suit
         maximum: where the curves shall end, (dim,), or None
-        function, constraints, solver, tree, eta, leaf: of the method gradient, see ``icc_chart_options``
+        function: of the method gradient: "decay", "distance", "laplace", "bilaplace" or "clamped"
+        constraints: whether it is made to fall along the tree: "needed", "none" or "all"
+        solver: "direct" or "iterative"
+        tree: "thesis" or "paper"
+        eta, leaf: least relative fall and least value, see ``icc_chart_options``
+        progress, threads: as for `Domain`
+
+    Raises:
+        CertificateError, ResolutionError, OutsideError (the maximum), UnsupportedError, SolverError
     """
 
     _free = "chart_free"
@@ -236,7 +243,8 @@ class Chart(Saved):
                  tree: Optional[str] = None, eta: Optional[float] = None, leaf: Optional[float] = None,
                  progress: Optional[Progress] = None, threads: Optional[int] = None):
         domain = as_domain(domain)
-        options = _chart_options(method, cells, maximum, function, constraints, solver, tree, eta, leaf)
+        options = _chart_options(domain.dim, method, cells, maximum, function, constraints, solver, tree,
+                                 eta, leaf)
         self._take(create(lib.chart_create, domain, ctypes.addressof(options),
                           progress=progress, threads=threads))
 
@@ -262,7 +270,8 @@ class Chart(Saved):
 
     def measure(self, n_points: int = 0, *, progress: Optional[Progress] = None,
                 threads: Optional[int] = None) -> SimpleNamespace:
-        """Estimates what the coordinates miss; see ``icc_chart_measures``."""
+        """Estimates what the coordinates miss from `n_points` evenly spread points (0: 4096): the members of
+        ``icc_chart_measures``, shares in [0, 1]."""
         call, measures = Call(progress, threads), new("chart_measures")
         call.check(lib.chart_measure(self, n_points, ctypes.addressof(measures), call.env,
                                      call.err))
@@ -328,7 +337,7 @@ class Chart(Saved):
         return (points, states) if status else points
 
     def trace(self, point: ArrayLike) -> Floats:
-        """The curve through a point, from the boundary to the maximum: a polyline, (m, dim)."""
+        """The curve through a point (dim,), from the boundary to the maximum: a polyline, (m, dim)."""
         dim = self.dim
         point = points_of(point, dim)
         call, n = Call(threads=1), ctypes.c_size_t()
@@ -353,10 +362,14 @@ class Map(Saved):
 
     Args:
         source, target: Domains, or what `as_domain` takes
-        kind: "mesh" (2-D) or "curves"; None: the best that there is
+        kind: "mesh" (2-D, and 3-D between domains with meshes) or "curves"; None: the best that there is
         improve: steps of improvement on each level for kind mesh; None: as many as pay, 0: none
         method, cells, maximum, ...: of the charts, see `Chart`; the maximum is the source's
-        target_maximum: where the target's maximum shall be
+        target_maximum: where the target's maximum shall be, (dim,), or None
+        progress, threads: as for `Domain`
+
+    Raises:
+        as `Chart`; BoundaryError if the domains do not correspond. ``side`` tells which is at fault.
     """
 
     _free = "map_free"
@@ -372,19 +385,20 @@ class Map(Saved):
                  leaf: Optional[float] = None, progress: Optional[Progress] = None,
                  threads: Optional[int] = None):
         source, target = as_domain(source), as_domain(target)
-        chart = _chart_options(method, cells, maximum, function, constraints, solver, tree, eta, leaf)
+        chart = _chart_options(source.dim, method, cells, maximum, function, constraints, solver, tree,
+                               eta, leaf)
         options = new("map_options", kind=choose(kind, KINDS, "kind"), chart=ctypes.addressof(chart),
                       iterations=0 if improve is None else improve or -1)
         if target_maximum is not None:
-            point = np.ascontiguousarray(target_maximum, dtype=np.float64)
-            options.target_maximum = point.ctypes.data
+            point = floats(target_maximum, (target.dim,), "target_maximum")
+            options.target_maximum = address(point)
         self._take(create(lib.map_create, source, target,
                           ctypes.addressof(options), progress=progress, threads=threads))
 
     @classmethod
     def from_charts(cls, source: Chart, target: Chart, kind: Optional[str] = None, *,
                     progress: Optional[Progress] = None, threads: Optional[int] = None) -> "Map":
-        """The map between two charts that were made with the same method."""
+        """The map between two charts that were made with the same method, of a kind as for `Map`."""
         options = new("map_options", kind=choose(kind, KINDS, "kind"))
         return cls._wrap(create(lib.map_create_from_charts, source, target,
                                 ctypes.addressof(options), progress=progress, threads=threads))
@@ -460,8 +474,17 @@ class Map(Saved):
     def improve(self, iterations: int = 0, levels: int = 0, tolerance: float = 0, *,
                 progress: Optional[Progress] = None,
                 threads: Optional[int] = None) -> Tuple["Map", SimpleNamespace]:
-        """A fairer map, and a report (kind mesh). A progress callback that asks to stop ends it early,
-        without loss."""
+        """A fairer map, and a report (kind mesh in 2-D). A progress callback that asks to stop ends it early,
+        without loss.
+
+        Args:
+            iterations: steps at most on each level; 0: 60
+            levels: refinements at most; 0: 4; -1: none
+            tolerance: a level ends with a step that gains less than this share of the energy; 0: 1e-4
+
+        Returns:
+            the map, and the members of ``icc_improve_report``
+        """
         options = new("improve_options", iterations=iterations, levels=levels, tolerance=tolerance)
         call, out, report = Call(progress, threads), ctypes.c_void_p(), new("improve_report")
         call.check(lib.map_improve(ctypes.addressof(out), self, ctypes.addressof(options),
@@ -471,7 +494,8 @@ class Map(Saved):
 
     def follow(self, target: ShapeLike, iterations: int = 0, *, progress: Optional[Progress] = None,
                threads: Optional[int] = None) -> "Map":
-        """The map to a target that has moved a little, starting from this one (kind mesh)."""
+        """The map to a target that has moved a little, starting from this one (kind mesh in 2-D), improved by
+        at most `iterations` steps (0: 8; -1: none). CertificateError if it has moved too far."""
         return type(self)._wrap(create(lib.map_follow, self, as_domain(target),
                                        iterations, progress=progress, threads=threads))
 
@@ -498,7 +522,12 @@ class Map(Saved):
     def certify(self, vertices: ArrayLike, simplices: ArrayLike, *, progress: Optional[Progress] = None,
                 threads: Optional[int] = None) -> Tuple[Floats, SimpleNamespace]:
         """Maps the vertices of a mesh of yours and checks exactly what became of its simplices:
-        images (n, dim) and a certificate, see ``icc_certificate``."""
+        images (n, dim) and the members of ``icc_certificate``. 2-D and 3-D.
+
+        Args:
+            vertices: (n, dim)
+            simplices: (m, dim + 1) vertex indices
+        """
         return self._carry(lib.map_certify, vertices, simplices, progress, threads)
 
     def repair(self, vertices: ArrayLike, simplices: ArrayLike, *, progress: Optional[Progress] = None,

@@ -17,8 +17,9 @@ if TYPE_CHECKING:
 
 def _picture(image: Array, alpha: bool) -> Any:
     height, width, channels = image.shape
-    return new("picture", width=width, height=height, channels=channels,
-               bytes=image.dtype.itemsize, alpha=int(alpha), stride=image.strides[0],
+    size = image.dtype.itemsize
+    return new("picture", width=width, height=height, channels=channels, bytes=size,
+               alpha=int(alpha), stride=width * channels * size,
                pixels=image.ctypes.data)
 
 
@@ -31,12 +32,13 @@ def warp_image(image: ArrayLike, mapping: Map, out: Optional[ArrayLike] = None, 
         image: (height, width) or (height, width, channels), uint8 or uint16, up to 4 channels. Pixel
             [j, i] covers [i, i + 1] x [j, j + 1] in the coordinates of the map's domains.
         mapping: from where things are in the picture to where they shall be
-        out: a picture to draw onto, with as many channels: its pixels outside the target stay. None: a
-            copy of `image`.
+        out: a picture to draw onto, with as many channels, of any size: its pixels outside the target
+            stay. None: a copy of `image`.
         alpha: whether the last channel is opacity; None: if there are 2 or 4
+        progress, threads: see `libicc.Progress`
 
     Returns:
-        the picture drawn, a new array
+        the picture drawn, a new array of the shape of `out`
     """
     image = np.asarray(image)
     if image.dtype not in (np.uint8, np.uint16):

@@ -30,6 +30,8 @@ from ._geometry import as_domain
 if TYPE_CHECKING:
     from ._types import ArrayLike, Floats, ShapeLike
 
+__all__ = ["Binding", "Kernel", "Pose", "Sampling", "Shape"]
+
 SAMPLINGS = {"grid": 1, "blue": 2, "points": 3}
 KERNELS = {"wendland": 1, "gauss": 2}
 INITIALS = {"heat": 1, "edges": 2, "inverse": 3, "given": 4}
@@ -51,6 +53,7 @@ class Shape(Handle):
     """
 
     _free = "shape_free"
+    _dim: int
 
     def __init__(self, regions: Sequence[ShapeLike] = (), vertices: Optional[ArrayLike] = None,
                  segments: Optional[ArrayLike] = None):
@@ -60,6 +63,7 @@ class Shape(Handle):
         dim = domains[0].dim if domains else 2 if vertices is None else vertices.shape[1]
         vertices = None if vertices is None else points_of(vertices, dim)
         segments = None if segments is None else indices(segments, 2, "segments")
+        self._dim = dim
         handles = (ctypes.c_void_p * max(len(domains), 1))(*[d._handle for d in domains])
         self._take(create(lib.shape_create, dim, len(domains), ctypes.addressof(handles),
                           0 if vertices is None else len(vertices), address(vertices),
@@ -77,6 +81,7 @@ class Sampling(Saved):
         margin: how far a grid goes beyond the regions, in spacings
         seed: of the random numbers
         fixed: points (n, dim) that shall be samples (blue)
+        progress, threads: as for `libicc.Domain`
     """
 
     _free = "sampling_free"
@@ -90,7 +95,7 @@ class Sampling(Saved):
         options = new("sampling_options", kind=choose(kind, SAMPLINGS, "kind"), spacing=spacing or 0,
                       steps=0 if steps is None else steps or -1, margin=margin, seed=seed)
         if fixed is not None:
-            fixed = np.ascontiguousarray(fixed, dtype=np.float64)
+            fixed = points_of(fixed, shape._dim)
             options.n_fixed, options.fixed = len(fixed), fixed.ctypes.data
         self._take(create(lib.sampling_create, shape, ctypes.addressof(options),
                           progress=progress, threads=threads))
@@ -99,7 +104,7 @@ class Sampling(Saved):
     def from_points(cls, shape: Union[Shape, ShapeLike], points: ArrayLike) -> "Sampling":
         """A sampling from points (n, dim) of yours."""
         shape = shape if isinstance(shape, Shape) else Shape([shape])
-        points = np.ascontiguousarray(points, dtype=np.float64)
+        points = points_of(points, shape._dim)
         return cls._wrap(create(lib.sampling_create_from_points, shape, len(points),
                                 address(points)))
 
@@ -134,15 +139,23 @@ class Kernel(Handle):
 
     Args:
         sampling: a Sampling
-        handles: (n, dim)
+        handles: (n, dim), at least dim + 1, in the shape
         edges: (m, 2) handle indices: along them weights are linear
         lines: segments to keep straight: (from, to) or (from, to, k), parallel to the earlier line k
-        kernel: "wendland" or "gauss"; sigma: its width
-        initial: "heat", "edges", "inverse" or "given"; steps: of diffusion
-        method: "qp", "equality" or "l1"
-        tail: whether an affine function makes sums and reproduction exact
+        kernel: "wendland" (default) or "gauss"
+        sigma: width of the kernel; None: as the sampling suggests
+        cutoff: where a Gauss kernel ends, in sigma; None: 5
+        initial: "heat", "edges", "inverse" or "given"; None: "edges" if there are any, else "heat"
+        steps: of diffusion; None: 5
+        method: "qp" (default), "equality" or "l1"
+        tail: whether an affine function makes sums and reproduction exact between the samples
         visible: whether diffusion stays inside the shape
         initial_weights: (n_samples, n_handles), for initial "given"
+        progress, threads: as for `libicc.Domain`
+
+    Raises:
+        OutsideError: a handle or line is outside; ArgumentError: handles that cannot reproduce points;
+        SolverError: sigma is too large
     """
 
     _free = "kernel_free"
@@ -194,7 +207,8 @@ class Kernel(Handle):
 
     def paint(self, handle: int, centre: ArrayLike, radius: float, amount: float, *,
               progress: Optional[Progress] = None, threads: Optional[int] = None) -> "Kernel":
-        """A kernel with the weight of one handle raised around a place, and optimised again."""
+        """A kernel with the weight of one handle raised around a place (dim,), by `amount` at the centre and
+        smoothly less up to the radius, and optimised again."""
         centre = points_of(centre, self._info("kernel_get_info", "kernel_info").dim)
         return Kernel._wrap(create(lib.kernel_paint, self, handle, address(centre), radius,
                                    amount, progress=progress, threads=threads))
@@ -218,7 +232,8 @@ class Kernel(Handle):
     def stiffen(self, nodes: ArrayLike, rigidity: Optional[ArrayLike] = None, *,
                 progress: Optional[Progress] = None,
                 threads: Optional[int] = None) -> Tuple["Kernel", Floats]:
-        """A kernel that is as rigid as may be at some nodes, and the energy before and after."""
+        """A kernel that is as rigid as may be at some nodes (n,), each of which may have its own rigidity (n,),
+        positive; and the energy before and after, (2,)."""
         nodes, energy = np.ascontiguousarray(nodes, dtype=np.uint32), np.empty(2)
         if rigidity is not None:
             rigidity = floats(rigidity, (len(nodes),), "rigidity")

@@ -15,6 +15,8 @@ from ._geometry import CONSTRAINTS, FUNCTIONS, SOLVERS, TREES, Chart, as_domain
 if TYPE_CHECKING:
     from ._types import Array, ArrayLike, Bools, Floats, Indices, Ints, ShapeLike
 
+__all__ = ["Field", "Grid", "Tree", "triangulate"]
+
 
 def _view(pointer: Optional[int], n: int, dtype: Any, owner: Handle) -> Optional[Array]:
     """The library's own array, read-only; keeps its owner alive."""
@@ -63,11 +65,13 @@ class Grid(Handle):
 
     @property
     def info(self) -> SimpleNamespace:
+        """The members of ``icc_grid_info``."""
         info = self._info("grid_get_info", "grid_info")
         return fields(info, info.dim)
 
     @property
     def shape(self) -> Tuple[int, ...]:
+        """How many vertices there are along each axis."""
         info = self._info("grid_get_info", "grid_info")
         return tuple(info.shape[: info.dim])
 
@@ -89,20 +93,27 @@ class Grid(Handle):
         return vertex.value, rounds.value
 
     def nearest(self, point: ArrayLike) -> int:
-        """The number of the vertex inside that is nearest to a point."""
+        """The number of the vertex inside that is nearest to a point (dim,)."""
         point, vertex = points_of(point, len(self.shape)), ctypes.c_uint32()
         check(lib.grid_nearest(self, address(point), ctypes.addressof(vertex)))
         return vertex.value
 
     def position(self, vertex: ArrayLike) -> Floats:
-        """Coordinates of vertices that are given by their numbers."""
+        """Coordinates (n, dim) of vertices that are given by their numbers (n,)."""
         info = self.info
         at = np.unravel_index(np.asarray(vertex), self.shape, order="F")
         return info.origin + info.spacing * np.stack(at, -1)
 
 
 class Tree(Handle):
-    """The tree of Algorithm 2, grown from a vertex inside (None: the grassfire's maximum)."""
+    """The tree of Algorithm 2.
+
+    Args:
+        grid: a Grid
+        root: the number of a vertex inside; None: the grassfire's maximum
+        form: "thesis" (default) or "paper"
+        axis_order: in which order the axes are looked at, a permutation
+    """
 
     _free = "tree_free"
 
@@ -120,10 +131,12 @@ class Tree(Handle):
 
     @property
     def grid(self) -> Grid:
+        """The grid that the tree grows on."""
         return Grid._wrap(lib.tree_grid(self), owner=self)
 
     @property
     def root(self) -> int:
+        """The number of the vertex that it grows from."""
         return lib.tree_root(self)
 
     @property
@@ -175,7 +188,12 @@ def _floats_of(values: ArrayLike, shape: Tuple[int, ...]) -> Floats:
 
 
 class Field(Handle):
-    """A function on the vertices of a tree that falls from parent to child."""
+    """A function on the vertices of a tree that falls from parent to child.
+
+    Args:
+        tree: a Tree
+        function, constraints, solver, eta, leaf: as for `libicc.Chart`
+    """
 
     _free = "field_free"
 
@@ -196,10 +214,12 @@ class Field(Handle):
 
     @property
     def tree(self) -> Tree:
+        """The tree that the function was made on."""
         return Tree._wrap(lib.field_tree(self), owner=self)
 
     @property
     def info(self) -> SimpleNamespace:
+        """The members of ``icc_field_info``; function and solver by their names."""
         result = fields(self._info("field_get_info", "field_info"))
         result.function = name_of(result.function, FUNCTIONS)
         result.solver = name_of(result.solver, SOLVERS)

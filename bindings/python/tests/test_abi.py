@@ -104,3 +104,6 @@ def test_choices(header):
 
     errors = {k: v for k, v in vars(Error).items() if k.isupper()}
     assert errors == {k[4:]: v for k, v in numbers.items() if k.startswith("ERR_")}
+    from libicc._core import _ERRORS
+
+    assert sorted(_ERRORS) == sorted(errors.values())

@@ -26,6 +26,13 @@ def test_kinds_of_pictures(picture, dtype, channels):
     assert np.array_equal(flat, image[:, :, 0])
 
 
+def test_one_row():
+    """A slice that NumPy calls contiguous though its rows are far apart."""
+    image = np.arange(12, dtype=np.uint8).reshape(3, 4)[::3]
+    cage = libicc.picture_cage(image.shape)
+    assert np.array_equal(libicc.warp_image(image, libicc.Map(cage, cage)), image)
+
+
 def test_wrong_pictures(picture):
     cage = libicc.picture_cage(picture.shape)
     with pytest.raises(ValueError, match="uint8"):

@@ -93,3 +93,11 @@ def test_errors():
         kernel.Kernel(sampling, [[1, 1], [2, 2], [3, 3]])
     with pytest.raises(libicc.SolverError):
         kernel.Kernel(kernel.Sampling(SQUARE, "grid", spacing=0.5), HANDLES, kernel="gauss", sigma=1.5)
+
+
+def test_points_of_the_wrong_dimension():
+    """Refused before the library reads beyond them."""
+    with pytest.raises(ValueError, match="shape"):
+        kernel.Sampling(SQUARE, spacing=1.0, fixed=np.ones((4, 3)))
+    with pytest.raises(ValueError, match="shape"):
+        kernel.Sampling.from_points(SQUARE, np.ones(5))

@@ -54,6 +54,12 @@ def test_errors(before):
         libicc.Chart(before, "folation")
     with pytest.raises(ValueError, match="shape"):
         libicc.Map(before, before)(np.zeros((3, 3)))
+    with pytest.raises(ValueError, match="maximum"):
+        libicc.Chart(before, maximum=[1])
+    with pytest.raises(ValueError, match="target_maximum"):
+        libicc.Map(before, before, target_maximum=[1, 2, 3])
+    with pytest.raises(libicc.ResolutionError):
+        libicc.Chart([[0, 0], [1, 0], [1, 1], [0, 1]], "gradient", cells=16384)
     with pytest.raises(ValueError, match="indices"):
         libicc.Domain(before, [[0.5, 1]])
 
