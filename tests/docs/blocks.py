@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 
 RUN = ("c", "cpp", "python", "rust", "sh", "cmake")
 SHOWN = ("text", "json")
-COMMENT = re.compile(r"<!-- (output|file|in|needs|not run)(?:: (.*?))? -->\s*$")
+COMMENT = re.compile(r"<!-- (?:(output)|(file|in|needs|not run): (\S.*?)) -->\s*$")
 # Commands in a block that is only indented would go untested.
 INDENTED = re.compile(r" {4}(sudo|apt|libicc|sh|cc|cmake|python3|cargo|PYTHONPATH)\b")
 
@@ -43,9 +43,9 @@ def blocks_of(path):
         elif line.startswith("```"):
             block, lines, says = Block(line[3:].strip(), "", number, says), [], {}
             _check(path, block)
-        elif COMMENT.match(line):
-            word, value = COMMENT.match(line).groups()
-            says[word] = value or ""
+        elif line.startswith("<!--"):
+            word, value = _comment(path, number, line)
+            says[word] = value
         elif says and line.strip():
             raise Mistake(f"{path}:{number}: the comment above belongs to no block")
         elif INDENTED.match(line):
@@ -55,11 +55,18 @@ def blocks_of(path):
     return blocks
 
 
+def _comment(path, number, line):
+    found = COMMENT.match(line)
+    if not found:
+        raise Mistake(f"{path}:{number}: the comment must be output, file, in, needs or not run, with what that takes")
+    return found[1] or found[2], found[3] or ""
+
+
 def _check(path, block):
     where = f"{path}:{block.line}"
     if block.language not in RUN + SHOWN:
         raise Mistake(f"{where}: '{block.language}' is none of {', '.join(RUN + SHOWN)}")
-    if "not run" in block.says and not block.says["not run"]:
-        raise Mistake(f"{where}: a block that is not run needs a reason")
+    if block.language in SHOWN and not {"output", "file"} & set(block.says):
+        raise Mistake(f"{where}: is this output, or a file?")
     if "output" in block.says and block.language not in SHOWN:
         raise Mistake(f"{where}: output is text or json")

@@ -190,7 +190,9 @@ def main():
         n_run, left_out = run_page(Page(*sys.argv[1:7]), path)
     except Mistake as mistake:
         sys.exit(str(mistake))
-    print(*left_out, f"{path.name}: {n_run} blocks run, {len(left_out)} left out", sep="\n")
+    n_missing = sum(line.endswith("is missing") for line in left_out)
+    print(*left_out, f"{path.name}: {n_run} blocks run, {len(left_out) - n_missing} cannot be run here, "
+          f"{n_missing} want what is missing", sep="\n")
 
 
 if __name__ == "__main__":
