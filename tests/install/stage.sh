@@ -15,6 +15,18 @@ for header in "$(dirname "$0")"/../../include/icc/*; do
     cmp "$header" "$stage/include/icc/${header##*/}"
 done
 
+# Nothing belongs to another component, or to none.
+parts=$stage.parts
+rm -rf "$parts"
+for component in Runtime Development Tools; do
+    "$cmake" --install "$build" --prefix "$parts" --component "$component" >"$stage.log"
+done
+files() {
+    find "$1" ! -type d -printf '%P\n' | sort
+}
+files "$stage" >"$stage.all"
+files "$parts" | diff "$stage.all" -
+
 soname=$(objdump -p "$lib/libicc.so" | awk '$1 == "SONAME" { print $2 }')
 [ "$soname" = libicc.so.0 ] || { echo "the soname is $soname"; exit 1; }
 if grep -rn "$build" "$stage/include" "$lib/pkgconfig" "$lib/cmake" |
