@@ -13,6 +13,9 @@
  */
 #ifndef ICC_ICC_HPP
 #define ICC_ICC_HPP
+#if __cplusplus < 201703L
+#error "icc/icc.hpp needs C++17; icc/icc.h does not"
+#endif
 
 #include <icc/icc.h>
 
@@ -20,10 +23,9 @@
 #include <cstdint>
 #include <exception>
 #include <functional>
-#include <initializer_list>
-#include <iterator>
 #include <memory>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 /** libicc for C++. */
@@ -116,7 +118,7 @@ template <class F> void call(const env &e, F &&f)
 }
 
 /** How many points, facets or simplices of `each` numbers a list has. */
-template <class T> std::size_t count(view<T> list, std::int32_t each)
+template <class T> std::size_t count(view<T> list, std::int64_t each)
 {
     const auto n = static_cast<std::size_t>(each > 0 ? each : 1);
     if (list.size() % n != 0)
@@ -124,8 +126,8 @@ template <class T> std::size_t count(view<T> list, std::int32_t each)
     return list.size() / n;
 }
 
-/** An object of the C interface that frees itself, such as `icc::handle<icc_grid, icc_grid_free>`. Moving
- *  leaves an empty one behind, which calls refuse. */
+/** An object of the C interface that frees itself: `icc::handle<icc_grid, icc_grid_free>`. Calls refuse an
+ *  empty one, which moving leaves behind. */
 template <class T, void (*Free)(T *)> class handle {
 public:
     /** What f(T **out, const icc_env *, icc_error *) makes. Throws as icc::call() does. */
@@ -190,7 +192,7 @@ public:
     {
         return domain(e, [&](auto out, auto... rest) {
             return icc_domain_create_mesh(out, dim, count(vertices, dim), vertices.data(),
-                                          count(simplices, dim + 1), simplices.data(),
+                                          count(simplices, std::int64_t{dim} + 1), simplices.data(),
                                           count(facets, dim), facets.data(), rest...);
         });
     }
@@ -294,5 +296,4 @@ private:
 };
 
 } // namespace icc
-
 #endif
