@@ -17,8 +17,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let map = Map::new(&before, &after, &MapOptions::default(), env)?;
     let (point, mut image) = ([1.0, 1.0], [0.0; 2]);
 
-    // SAFETY: it takes nothing.
-    let empty = nanoseconds(|| unsafe { libicc::sys::icc_version_number() });
+    let empty = nanoseconds(libicc::version_number);
     let safe = nanoseconds(|| map.apply_into(&point, &mut image, None, env));
     println!(
         "rust: {:.2} us a call for one point, {:.2} us an empty call, beyond C",

@@ -22,7 +22,7 @@
 //!
 //! Points are slices of coordinates, `dim` numbers each: [`flat`] and [`rows`] turn arrays into them and back without
 //! a copy. Results are `Vec`s; calls that end in `_into` write to slices instead. Every call that works takes an
-//! [`Env`]: threads, and a callback that hears of progress and may cancel or panic.
+//! [`Env`]: threads, and callbacks that hear of progress and diagnostics and may cancel or panic. Angles are radians.
 //!
 //! Objects never change. They are `Send` and `Sync`, and keep what they were made from alive. A slice of the wrong
 //! length gives an [`Error`] with [`Status::ARGUMENT`], as wrong arguments do; nothing panics but [`rows`].
@@ -67,6 +67,12 @@ pub use slices::{flat, flat_mut, rows};
 pub fn version() -> &'static str {
     // SAFETY: a static string.
     unsafe { std::ffi::CStr::from_ptr(sys::icc_version()) }.to_str().unwrap_or("")
+}
+
+/// The version as 10000 major + 100 minor + patch.
+pub fn version_number() -> i32 {
+    // SAFETY: it takes nothing.
+    unsafe { sys::icc_version_number() }
 }
 
 /// Compiles and runs what the README shows.
