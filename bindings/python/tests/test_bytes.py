@@ -9,6 +9,7 @@ import libicc
 import numpy as np
 import pytest
 from libicc import kernel
+from meshes import bend, grid_mesh
 
 
 def same(one, two):
@@ -60,6 +61,17 @@ def test_space(cube):
     again = pickle.loads(pickle.dumps(chart))
     points = np.random.default_rng(3).uniform(0.1, 0.9, (200, 3))
     assert all(map(same, answers(chart, points), answers(again, points)))
+
+
+@pytest.mark.parametrize("kind", ["mesh", "curves"])
+def test_meshes_in_space(kind):
+    points, cells = grid_mesh(3)
+    pair = [libicc.Domain.from_mesh(corners, cells) for corners in (points, bend(points))]
+    mapping = libicc.Map(*pair, kind)
+    again = pickle.loads(pickle.dumps(mapping))
+    assert again.certified and again.info.kind == kind
+    inside = np.random.default_rng(4).uniform(0.1, 2.9, (300, 3))
+    assert same(again(inside), mapping(inside)) and same(again.inverse(inside), mapping.inverse(inside))
 
 
 def test_another_process(before, after, inside, tmp_path):
