@@ -27,8 +27,8 @@ def test_kinds_of_pictures(picture, dtype, channels):
 
 
 def test_one_row():
-    """A slice that NumPy calls contiguous though its rows are far apart."""
-    image = np.arange(12, dtype=np.uint8).reshape(3, 4)[::3]
+    """What NumPy calls contiguous though rows are no bytes apart."""
+    image = np.broadcast_to(np.arange(4, dtype=np.uint8), (1, 4))
     cage = libicc.picture_cage(image.shape)
     assert np.array_equal(libicc.warp_image(image, libicc.Map(cage, cage)), image)
 

@@ -54,9 +54,9 @@ def test_errors(before):
         libicc.Chart(before, "folation")
     with pytest.raises(ValueError, match="shape"):
         libicc.Map(before, before)(np.zeros((3, 3)))
-    with pytest.raises(ValueError, match="maximum"):
+    with pytest.raises(ValueError, match="^maximum must have the shape"):
         libicc.Chart(before, maximum=[1])
-    with pytest.raises(ValueError, match="target_maximum"):
+    with pytest.raises(ValueError, match="^target_maximum must have the shape"):
         libicc.Map(before, before, target_maximum=[1, 2, 3])
     with pytest.raises(libicc.ResolutionError):
         libicc.Chart([[0, 0], [1, 0], [1, 1], [0, 1]], "gradient", cells=16384)
