@@ -21,7 +21,7 @@ from blocks import RUN, Mistake, blocks_of
 HERE = Path(__file__).resolve().parent
 STRICT = ["-Wall", "-Wextra", "-Wpedantic", "-Werror"]
 CARGO_TOML = """[package]
-name = "snippets"
+name = "{1}"
 version = "0.1.0"
 edition = "2021"
 
@@ -135,10 +135,11 @@ class Page:
         return output.getvalue()
 
     def run_rust(self, text):
+        # What is built goes to one folder for all pages, so names tell of which page it is.
         self.n_programs += 1
-        crate, name = self.work / "crate", f"snippet{self.n_programs}"
+        crate, name = self.work / "crate", f"{self.work.name}-{self.n_programs}"
         (crate / "src/bin").mkdir(parents=True, exist_ok=True)
-        (crate / "Cargo.toml").write_text(CARGO_TOML.format(self.root))
+        (crate / "Cargo.toml").write_text(CARGO_TOML.format(self.root, self.work.name))
         (crate / "src/bin" / (name + ".rs")).write_text(text, encoding="utf-8")
         return self.command(self.tools["rust"], "run", "--offline", "--quiet", "--manifest-path",
                             crate / "Cargo.toml", "--bin", name)
