@@ -31,7 +31,7 @@ class Block:
 
 def blocks_of(path):
     """All blocks of a page in their order."""
-    blocks, says, lines = [], {}, None
+    blocks, block, says, lines = [], None, {}, None
     for number, line in enumerate(path.read_text(encoding="utf-8").split("\n"), 1):
         if lines is not None:
             if line.rstrip() == "```":

@@ -32,9 +32,14 @@ done
 for file in "$folder"/*.[13]; do
     if command -v mandoc >/dev/null; then
         mandoc -T lint -W warning "$file" || complain "mandoc: $file"
+    else
+        echo "$file: left out: mandoc is missing"
     fi
     if command -v man >/dev/null; then
-        [ -z "$(LC_ALL=C.UTF-8 MANWIDTH=80 man --warnings -l "$file" 2>&1 >/dev/null)" ] || complain "man: $file"
+        said=$(LC_ALL=C.UTF-8 MANWIDTH=80 man --warnings -l "$file" 2>&1 >/dev/null) || said="man fails: $said"
+        [ -z "$said" ] || complain "man: $file: $said"
+    else
+        echo "$file: left out: man is missing"
     fi
 done
 exit $wrong
