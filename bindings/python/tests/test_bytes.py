@@ -99,6 +99,13 @@ def test_damage(before, after):
         libicc.Map.from_bytes("text")
 
 
+def test_progress(before):
+    """A chart on a grid is made again, which takes its time."""
+    data = libicc.Chart(before, "gradient", cells=200, function="laplace").to_bytes()
+    with pytest.raises(libicc.Cancelled):
+        libicc.Chart.from_bytes(data, progress=lambda stage, share: True)
+
+
 def test_copies(before, after):
     """Objects never change, so that a copy is the object itself."""
     for thing in (libicc.Domain(before), libicc.Map(before, after), kernel.Sampling(before, "grid")):
