@@ -1,0 +1,145 @@
+#!/bin/sh
+# Builds the Debian packages in a fresh chroot, checks them with lintian, and tests them installed in
+# another one that has only what they depend on. Needs root and a mirror of Debian bookworm; without
+# root it exits with 77. Prints the seconds that each step took.
+# usage: debian.sh BUILD_FOLDER         logs and packages go to BUILD_FOLDER/debian
+#        ICC_DEBIAN_BASE=BASE.tar       the chroots begin as this; it is made if it is not there
+set -eu
+cd "$(dirname "$0")/.."
+. cmake/deps.sh
+
+if [ "$(id -u)" -ne 0 ]; then
+    echo "Debian packages are not tested: that needs root, to make chroots"
+    exit 77
+fi
+need mmdebstrap autopkgtest
+if ! command -v mmdebstrap autopkgtest >/dev/null; then
+    echo "Debian packages are not tested: that needs mmdebstrap and autopkgtest"
+    exit 77
+fi
+
+mkdir -p "$1"
+work=$(cd "$1" && pwd)/debian
+build_root=$work/build-root
+test_root=$work/test-root
+version=$(sed -n '1s/.*(\(.*\)).*/\1/p' debian/changelog)
+source=libicc-${version%-*}
+
+# Mounts are made in namespaces of their own, so nothing is mounted here.
+remove_roots() {
+    rm -rf --one-file-system "$build_root" "$test_root"
+}
+trap remove_roots EXIT
+trap 'exit 1' HUP INT TERM
+remove_roots
+rm -rf "$work"
+mkdir -p "$work"
+
+# step NAME COMMAND... stops at the first command in it that fails; so it is not called in a condition.
+step() {
+    name=$1
+    shift
+    begin=$(date +%s)
+    set +e
+    (
+        set -e
+        "$@"
+    ) >"$work/$name.log" 2>&1 </dev/null
+    status=$?
+    set -e
+    if [ "$status" -ne 0 ]; then
+        tail -n 60 "$work/$name.log" >&2
+        echo "debian: $name failed (all of its output is in $work/$name.log)" >&2
+        exit 1
+    fi
+    printf 'debian: %-13s %4d s\n' "$name" $(($(date +%s) - begin))
+}
+
+# within ROOT COMMAND...: with /proc and /dev of the chroot there, but not in it.
+within() {
+    # shellcheck disable=SC2016 # for the shell inside
+    unshare --mount --pid --fork sh -eu -c '
+        mount -t proc proc "$1/proc"
+        mount --rbind /dev "$1/dev"
+        shift
+        exec "$@"' within "$@"
+}
+
+# The mirror that apt uses here.
+mirror() {
+    # shellcheck disable=SC2016 # for apt-get
+    found=$(apt-get indextargets --format '$(RELEASE) $(REPO_URI)' 'Created-By: Packages' |
+        sed -n '/^bookworm /{s///p;q}')
+    if [ -z "$found" ]; then
+        echo "the sources of apt have no mirror of Debian bookworm" >&2
+        return 1
+    fi
+    echo "$found"
+}
+
+make_base() {
+    base=${ICC_DEBIAN_BASE:-$work/base.tar}
+    if ! [ -e "$base" ]; then
+        uri=$(mirror)
+        mmdebstrap --mode=root --variant=apt --dpkgopt=force-unsafe-io \
+            --aptopt='APT::Install-Recommends "false"' bookworm "$base" "$uri"
+    fi
+    for root in "$build_root" "$test_root"; do
+        mkdir "$root"
+        tar -C "$root" -xf "$base"
+        cp /etc/resolv.conf "$root/etc"
+        chroot "$root" apt-get -q update
+    done
+    [ -n "${ICC_DEBIAN_BASE:-}" ] || rm "$base"
+}
+
+# The tree as it is, without what is built in it, and the upstream archive that Debian wants of it.
+unpack_source() {
+    tree=$build_root/build/$source
+    mkdir -p "$tree"
+    tar -c --exclude-vcs --exclude=./debian --exclude=./build --exclude='./build-*' --exclude=./out \
+        --exclude=./bindings/rust/target --exclude='.*_cache' --exclude=__pycache__ . | tar -C "$tree" -x
+    tar -C "$build_root/build" -cJf "$build_root/build/libicc_${version%-*}.orig.tar.xz" "$source"
+    cp -r debian "$tree"
+    chown -R 1000:1000 "$build_root/build"
+}
+
+in_build_root() {
+    within "$build_root" env DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 HOME=/build \
+        "$@"
+}
+
+install_build_dependencies() {
+    unpack_source
+    in_build_root chroot "$build_root" apt-get -qy build-dep "/build/$source"
+}
+
+# As an ordinary user and without a network.
+build() {
+    in_build_root unshare --net chroot --userspec=1000:1000 "$build_root" \
+        sh -c "cd /build/$source && dpkg-buildpackage -us -uc"
+    find "$build_root/build" -maxdepth 1 -type f -exec cp {} "$work" \;
+}
+
+lint() {
+    in_build_root chroot "$build_root" apt-get -qy install lintian
+    in_build_root chroot --userspec=1000:1000 "$build_root" sh -c 'cd /build &&
+        lintian --pedantic --display-info --display-experimental \
+            --fail-on error,warning,info,pedantic,experimental *.changes'
+}
+
+test_installed() {
+    within "$test_root" autopkgtest "$work"/*.changes -- chroot "$test_root"
+}
+
+step chroots make_base
+step dependencies install_build_dependencies
+step build build
+step lintian lint &
+lintian=$!
+step autopkgtest test_installed &
+autopkgtest=$!
+status=0
+wait $lintian || status=1
+wait $autopkgtest || status=1
+[ "$status" -eq 0 ]
