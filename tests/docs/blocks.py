@@ -5,14 +5,17 @@
     <!-- in: NAME -->          the block is put into the frame tests/docs/NAME, in place of its line SNIPPET
     <!-- needs: A, module B --> the block wants the command A and the Python module B
     <!-- not run: REASON -->   the block cannot be run here
+    <!-- check: NAME -->       by itself: what has been made so far passes the Python program tests/docs/NAME
 """
 
 import re
 from dataclasses import dataclass, field
+from pathlib import Path
 
+HERE = Path(__file__).resolve().parent
 RUN = ("c", "cpp", "python", "rust", "sh", "cmake")
 SHOWN = ("text", "json")
-COMMENT = re.compile(r"<!-- (?:(output)|(file|in|needs|not run): (\S.*?)) -->\s*$")
+COMMENT = re.compile(r"<!-- (?:(output)|(file|in|needs|not run|check): (\S.*?)) -->\s*$")
 # Commands in a block that is only indented would go untested.
 INDENTED = re.compile(r" {4}(sudo|apt|libicc|sh|cc|cmake|python3|cargo|PYTHONPATH)\b")
 
@@ -46,6 +49,9 @@ def blocks_of(path):
         elif line.startswith("<!--"):
             word, value = _comment(path, number, line)
             says[word] = value
+            if word == "check":
+                blocks.append(Block("python", (HERE / value).read_text(encoding="utf-8"), number, says))
+                says = {}
         elif says and line.strip():
             raise Mistake(f"{path}:{number}: the comment above belongs to no block")
         elif INDENTED.match(line):
@@ -58,7 +64,7 @@ def blocks_of(path):
 def _comment(path, number, line):
     found = COMMENT.match(line)
     if not found:
-        raise Mistake(f"{path}:{number}: the comment must be output, file, in, needs or not run, with what that takes")
+        raise Mistake(f"{path}:{number}: the comment must be output, file, in, needs, not run or check, with what that takes")
     return found[1] or found[2], found[3] or ""
 
 

@@ -16,9 +16,8 @@ import traceback
 import types
 from pathlib import Path
 
-from blocks import RUN, Mistake, blocks_of
+from blocks import HERE, RUN, Mistake, blocks_of
 
-HERE = Path(__file__).resolve().parent
 STRICT = ["-Wall", "-Wextra", "-Wpedantic", "-Werror"]
 CARGO_TOML = """[package]
 name = "{1}"
