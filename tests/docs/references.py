@@ -1,5 +1,5 @@
 """Everything that the pages point to is there: links and their anchors, pictures, files of the tree, and
-functions, types and members of the public headers.
+functions, types and members of the public headers; and the pages that comments in the sources name.
 
 usage: references.py ROOT PAGE...
 """
@@ -54,6 +54,16 @@ def unknown_names(words, structs, text):
             yield f"{struct} has no member {member}"
 
 
+def lost_pages(root):
+    """Pages that comments of the sources name."""
+    for folder in "lib", "include", "tools", "examples", "bindings", "cmake":
+        for path in (root / folder).rglob("*"):
+            if path.suffix in (".c", ".h", ".hpp", ".py", ".rs", ".sh", ".cmake") and "target" not in path.parts:
+                for page in re.findall(r"\bdocs/[\w/-]+\.md\b", path.read_text(encoding="utf-8")):
+                    if not (root / page).exists():
+                        yield f"{path.relative_to(root)}: there is no {page}"
+
+
 def names_in(root):
     """The names of all files of the tree; what was built is none of it."""
     names = set()
@@ -71,7 +81,7 @@ def main():
     words = set(re.findall(r"\w+", sources)) | PLACEHOLDERS
     structs = {name: body for body, name in re.findall(r"typedef struct icc_\w+ \{(.*?)^\} (icc_\w+);", sources,
                                                         re.M | re.S)}
-    wrong = []
+    wrong = list(lost_pages(root))
     for page in sys.argv[2:]:
         path = root / page
         text = path.read_text(encoding="utf-8")
