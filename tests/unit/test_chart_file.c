@@ -136,7 +136,7 @@ START_TEST(masks)
     uint8_t cells[140];
     icc_domain *domain;
     for (int i = 0; i < 72; ++i)
-        cells[i] = i % 9 < 4 || i / 9 < 3 ? (uint8_t)(1 + i % 3) : 0;
+        cells[i] = (uint8_t)(i % 9 < 4 || i / 9 < 3 ? 1 + i % 3 : 0);
     for (int m = 0; m < N_METHODS; ++m) {
         ck_assert_int_eq(icc_domain_create_mask(&domain, 2, PLANE, cells, NULL, NULL), ICC_OK);
         check_chart(chart_with(domain, METHODS[m], METHODS[m] == ICC_METHOD_FIELD ? 0 : 4 * (m % 3)));
