@@ -14,7 +14,10 @@ can be pickled, and so sent to other processes and machines. Diagnostics go to t
 
 from . import kernel, stages
 from ._abi import lib as _lib
-from ._core import (
+from ._chart import Chart
+from ._core import Progress
+from ._domain import BOUNDARY, INSIDE, OUTSIDE, Domain, as_domain, boundary_defects, repair_mask
+from ._errors import (
     ArgumentError,
     BoundaryError,
     Cancelled,
@@ -23,7 +26,6 @@ from ._core import (
     FormatError,
     OutOfMemoryError,
     OutsideError,
-    Progress,
     ResolutionError,
     SolverError,
     TopologyError,
@@ -31,18 +33,8 @@ from ._core import (
     UnsupportedError,
     VersionError,
 )
-from ._geometry import (
-    BOUNDARY,
-    INSIDE,
-    OUTSIDE,
-    Chart,
-    Domain,
-    Map,
-    as_domain,
-    boundary_defects,
-    repair_mask,
-)
 from ._image import PixelTransform, picture_cage, warp_image
+from ._map import Map
 
 __version__ = _lib.version().decode()
 """The version of the C library that is in use."""

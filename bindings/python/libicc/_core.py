@@ -1,4 +1,4 @@
-"""What every call needs: errors, threads, progress, arrays and handles."""
+"""What every call needs: threads, progress, arrays and handles."""
 
 from __future__ import annotations
 
@@ -6,22 +6,12 @@ import ctypes
 import os
 import sys
 from types import SimpleNamespace
-from typing import (
-    TYPE_CHECKING,
-    Any,
-    Callable,
-    Dict,
-    NoReturn,
-    Optional,
-    Sequence,
-    Tuple,
-    Type,
-    TypeVar,
-)
+from typing import TYPE_CHECKING, Any, Callable, Dict, Optional, Sequence, Tuple, Type, TypeVar
 
 import numpy as np
 
 from ._abi import lib, new
+from ._errors import check, fail
 
 if TYPE_CHECKING:
     from ._types import Array, ArrayLike, Floats, Indices
@@ -54,92 +44,6 @@ _log = _LOG(_tell)
 
 # Starting threads does not pay for fewer points.
 _FEW_POINTS = 2048
-
-
-class Error(Exception):
-    """What the library says about a call that failed.
-
-    Attributes:
-        status: the number of the status (``Error.ARGUMENT`` and so on)
-        index: the vertex, facet, cell or point at fault, or -1
-        side: 1 when the source is at fault, 2 for the target, 0 for neither
-    """
-
-    ARGUMENT, MEMORY, VERSION, BOUNDARY, RESOLUTION, TOPOLOGY, OUTSIDE = range(1, 8)
-    SOLVER, TRACE, CERTIFICATE, CANCELLED, UNSUPPORTED, FORMAT = range(8, 14)
-
-    def __init__(self, message: str, status: int = 0, index: int = -1, side: int = 0):
-        super().__init__(message)
-        self.status, self.index, self.side = status, index, side
-
-
-class ArgumentError(Error, ValueError):
-    """An argument is missing or out of range."""
-
-
-class BoundaryError(Error, ValueError):
-    """The boundary is not that of a simple, solid shape."""
-
-
-class TopologyError(Error, ValueError):
-    """The shape or the grid has the wrong topology."""
-
-
-class OutsideError(Error, ValueError):
-    """A point lies outside the domain."""
-
-
-class FormatError(Error, ValueError):
-    """Input data is malformed."""
-
-
-class UnsupportedError(Error, NotImplementedError):
-    """This combination is not available."""
-
-
-class ResolutionError(Error, ValueError):
-    """The grid is too coarse, or would be too large."""
-
-
-class TraceError(Error, ArithmeticError):
-    """An integral curve does not reach its end."""
-
-
-class VersionError(Error):
-    """A later version wrote this, or the library is older than what it was given."""
-
-
-class CertificateError(Error, ArithmeticError):
-    """A result could not be certified."""
-
-
-class SolverError(Error, ArithmeticError):
-    """A numerical solver did not converge."""
-
-
-class OutOfMemoryError(Error, MemoryError):
-    """An allocation failed."""
-
-
-class Cancelled(Error):
-    """The progress callback asked to stop."""
-
-
-_ERRORS = {
-    Error.ARGUMENT: ArgumentError,
-    Error.MEMORY: OutOfMemoryError,
-    Error.VERSION: VersionError,
-    Error.BOUNDARY: BoundaryError,
-    Error.RESOLUTION: ResolutionError,
-    Error.TOPOLOGY: TopologyError,
-    Error.OUTSIDE: OutsideError,
-    Error.SOLVER: SolverError,
-    Error.TRACE: TraceError,
-    Error.CERTIFICATE: CertificateError,
-    Error.CANCELLED: Cancelled,
-    Error.UNSUPPORTED: UnsupportedError,
-    Error.FORMAT: FormatError,
-}
 
 
 class Call:
@@ -185,13 +89,6 @@ def _threads(wanted: Optional[int]) -> int:
     return len(os.sched_getaffinity(0)) if wanted is None else int(wanted)
 
 
-def fail(status: int, message: str = "", index: int = -1, side: int = 0) -> NoReturn:
-    name = lib.status_name(status).decode()
-    if side in (1, 2):
-        message = f"{('source', 'target')[side - 1]}: {message}"
-    raise _ERRORS.get(status, Error)(message or name, status, index, side)
-
-
 def bulk(n: int, progress: Optional[Progress],
          threads: Optional[int]) -> Tuple[Optional[int], Callable[[int], None]]:
     """What a call for many points takes as `env`, and a function that checks its status."""
@@ -199,11 +96,6 @@ def bulk(n: int, progress: Optional[Progress],
         return None, check
     call = Call(progress, threads)
     return call.env, call.check
-
-
-def check(status: int) -> None:
-    if status != 0:
-        fail(status)
 
 
 def points_of(points: ArrayLike, dim: int) -> Floats:
@@ -353,6 +245,17 @@ class Saved(Handle):
 
     def __reduce__(self) -> Any:
         return type(self).from_bytes, (self.to_bytes(),)
+
+
+def dimension(function: str, struct: str) -> property:
+    """A property that asks once."""
+
+    def ask(self: Handle) -> int:
+        if self._dim is None:
+            self._dim = int(self._info(function, struct).dim)
+        return self._dim
+
+    return property(ask, doc="How many coordinates points have.")
 
 
 def create(function: Any, *arguments: Any, progress: Optional[Progress] = None,

@@ -9,7 +9,7 @@ import numpy as np
 
 from ._abi import lib, new
 from ._core import Call, Progress
-from ._geometry import Map
+from ._map import Map
 
 if TYPE_CHECKING:
     from ._types import Array, ArrayLike, Floats

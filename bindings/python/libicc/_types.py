@@ -5,7 +5,7 @@ from typing import Any, Union
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._geometry import Domain
+from ._domain import Domain
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]

@@ -16,7 +16,6 @@ from ._core import (
     Saved,
     address,
     bulk,
-    check,
     choose,
     create,
     fields,
@@ -25,7 +24,8 @@ from ._core import (
     name_of,
     points_of,
 )
-from ._geometry import as_domain
+from ._domain import as_domain
+from ._errors import check
 
 if TYPE_CHECKING:
     from ._types import ArrayLike, Floats, ShapeLike

@@ -9,8 +9,10 @@ from typing import TYPE_CHECKING, Any, Optional, Sequence, Tuple
 import numpy as np
 
 from ._abi import lib, new
-from ._core import Call, Handle, Progress, address, check, choose, create, fields, name_of, points_of
-from ._geometry import CONSTRAINTS, FUNCTIONS, SOLVERS, TREES, Chart, as_domain
+from ._chart import CONSTRAINTS, FUNCTIONS, SOLVERS, TREES, Chart
+from ._core import Call, Handle, Progress, address, choose, create, fields, name_of, points_of
+from ._domain import as_domain
+from ._errors import check
 
 if TYPE_CHECKING:
     from ._types import Array, ArrayLike, Bools, Floats, Indices, Ints, ShapeLike

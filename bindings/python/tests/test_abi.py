@@ -88,14 +88,14 @@ def test_line_struct(header):
 
 def test_choices(header):
     """Numbers of enumerators."""
-    from libicc import _geometry, kernel
+    from libicc import _chart, _domain, _map, kernel
 
     text = header[1]
     numbers = {name: int(value) for name, value in re.findall(r"ICC_(\w+) = (\d+)", text)}
-    for prefix, choices in [("METHOD_", _geometry.METHODS), ("FUNCTION_", _geometry.FUNCTIONS),
-                            ("CONSTRAINTS_", _geometry.CONSTRAINTS), ("SOLVER_", _geometry.SOLVERS),
-                            ("TREE_", _geometry.TREES), ("MAP_", _geometry.KINDS),
-                            ("DEFECT_", _geometry.DEFECTS), ("SAMPLING_", kernel.SAMPLINGS),
+    for prefix, choices in [("METHOD_", _chart.METHODS), ("FUNCTION_", _chart.FUNCTIONS),
+                            ("CONSTRAINTS_", _chart.CONSTRAINTS), ("SOLVER_", _chart.SOLVERS),
+                            ("TREE_", _chart.TREES), ("MAP_", _map.KINDS),
+                            ("DEFECT_", _domain.DEFECTS), ("SAMPLING_", kernel.SAMPLINGS),
                             ("KERNEL_", kernel.KERNELS), ("INITIAL_", kernel.INITIALS),
                             ("WEIGHTS_", kernel.METHODS)]:
         ours = {prefix + name.upper().replace(" ", "_"): value for name, value in choices.items()}
@@ -104,6 +104,6 @@ def test_choices(header):
 
     errors = {k: v for k, v in vars(Error).items() if k.isupper()}
     assert errors == {k[4:]: v for k, v in numbers.items() if k.startswith("ERR_")}
-    from libicc._core import _ERRORS
+    from libicc._errors import _ERRORS
 
     assert sorted(_ERRORS) == sorted(errors.values())

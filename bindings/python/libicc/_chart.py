@@ -1,0 +1,190 @@
+"""Charts: coordinates of the inside of a domain."""
+
+from __future__ import annotations
+
+import ctypes
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any, Literal, Optional, Tuple, overload
+
+import numpy as np
+
+from ._abi import lib, new
+from ._core import (
+    Call,
+    Progress,
+    Saved,
+    address,
+    bulk,
+    choose,
+    create,
+    dimension,
+    fields,
+    floats,
+    name_of,
+    points_of,
+)
+from ._domain import Domain, as_domain
+
+if TYPE_CHECKING:
+    from ._types import ArrayLike, Floats, Indices, Ints, ShapeLike
+
+METHODS = {"gradient": 1, "foliation": 2, "field": 3, "disc": 4}
+FUNCTIONS = {"decay": 1, "distance": 2, "laplace": 3, "bilaplace": 4, "clamped": 5}
+CONSTRAINTS = {"needed": 1, "none": 2, "all": 3}
+SOLVERS = {"direct": 1, "iterative": 2}
+TREES = {"thesis": 1, "paper": 2}
+
+
+def chart_options(dim: int, method: Optional[str], cells: Optional[int], maximum: Optional[ArrayLike],
+                  function: Optional[str], constraints: Optional[str], solver: Optional[str],
+                  tree: Optional[str], eta: Optional[float], leaf: Optional[float]) -> Any:
+    options = new("chart_options", method=choose(method, METHODS, "method"), cells=cells or 0,
+                  function=choose(function, FUNCTIONS, "function"),
+                  constraints=choose(constraints, CONSTRAINTS, "constraints"),
+                  solver=choose(solver, SOLVERS, "solver"), tree=choose(tree, TREES, "tree"),
+                  eta=eta or 0, leaf=leaf or 0)
+    if maximum is not None:
+        options.keep = floats(maximum, (dim,), "maximum")
+        options.maximum = address(options.keep)
+    return options
+
+
+class Chart(Saved):
+    """Coordinates of a domain's inside: a boundary point, and the share of the way to the maximum.
+
+    Args:
+        domain: a Domain, or what `as_domain` takes
+        method: "foliation", "disc" (2-D), "field" or "gradient"; None: the best that there is
+        cells: grid or mesh cells along the longest side; None: as many as suit
+        maximum: where the curves shall end, (dim,), or None
+        function: of the method gradient: "decay", "distance", "laplace", "bilaplace" or "clamped"
+        constraints: whether it is made to fall along the tree: "needed", "none" or "all"
+        solver: "direct" or "iterative"
+        tree: "thesis" or "paper"
+        eta, leaf: least relative fall and least value, see ``icc_chart_options``
+        progress, threads: as for `Domain`
+
+    Raises:
+        CertificateError, ResolutionError, OutsideError (the maximum), UnsupportedError, SolverError
+    """
+
+    _free = "chart_free"
+    _name = "chart"
+    dim = dimension("chart_get_info", "chart_info")
+
+    def __init__(self, domain: ShapeLike, method: Optional[str] = None, *, cells: Optional[int] = None,
+                 maximum: Optional[ArrayLike] = None, function: Optional[str] = None,
+                 constraints: Optional[str] = None, solver: Optional[str] = None,
+                 tree: Optional[str] = None, eta: Optional[float] = None, leaf: Optional[float] = None,
+                 progress: Optional[Progress] = None, threads: Optional[int] = None):
+        domain = as_domain(domain)
+        options = chart_options(domain.dim, method, cells, maximum, function, constraints, solver, tree,
+                                eta, leaf)
+        self._take(create(lib.chart_create, domain, ctypes.addressof(options),
+                          progress=progress, threads=threads))
+
+    @property
+    def domain(self) -> Domain:
+        """The domain that the chart was made on."""
+        return Domain._wrap(lib.chart_domain(self), owner=self)
+
+    @property
+    def info(self) -> SimpleNamespace:
+        """The members of ``icc_chart_info``; method and function by their names."""
+        info = self._info("chart_get_info", "chart_info")
+        result = fields(info, info.dim)
+        result.method = name_of(info.method, METHODS)
+        result.function = name_of(info.function, FUNCTIONS)
+        result.tree = name_of(info.tree, TREES)
+        return result
+
+    @property
+    def certified(self) -> bool:
+        """Whether the chart is proved to be one-to-one."""
+        return bool(self._info("chart_get_info", "chart_info").certified)
+
+    def measure(self, n_points: int = 0, *, progress: Optional[Progress] = None,
+                threads: Optional[int] = None) -> SimpleNamespace:
+        """Estimates what the coordinates miss from `n_points` evenly spread points (0: 4096): the members of
+        ``icc_chart_measures``, shares in [0, 1]."""
+        call, measures = Call(progress, threads), new("chart_measures")
+        call.check(lib.chart_measure(self, n_points, ctypes.addressof(measures), call.env,
+                                     call.err))
+        return fields(measures)
+
+    @overload
+    def encode(self, points: ArrayLike, *, status: Literal[False] = ..., progress: Optional[Progress] = ...,
+               threads: Optional[int] = ...) -> Tuple[Indices, Floats, Floats]: ...
+    @overload
+    def encode(self, points: ArrayLike, *, status: Literal[True], progress: Optional[Progress] = ...,
+               threads: Optional[int] = ...) -> Tuple[Indices, Floats, Floats, Ints]: ...
+
+    def encode(self, points: ArrayLike, *, status: bool = False, progress: Optional[Progress] = None,
+               threads: Optional[int] = None) -> Any:
+        """Cartesian -> integral curve coordinates.
+
+        Args:
+            points: (n, dim)
+            status: whether to return the status of every point, too
+
+        Returns:
+            facet (n,) uint32, bary (n, dim), t (n,), and with ``status`` an int32 array (n,): 0, or the
+            number of an `Error`. A point without coordinates has NaN in bary and t.
+        """
+        points = points_of(points, self.dim)
+        n, dim = points.shape
+        facet, bary, t = np.empty(n, dtype=np.uint32), np.empty((n, dim)), np.empty(n)
+        states = np.empty(n, dtype=np.int32) if status else None
+        env, done = bulk(n, progress, threads)
+        done(lib.chart_encode(self, n, address(points), address(facet), address(bary),
+                              address(t), address(states), None, env))
+        return (facet, bary, t, states) if status else (facet, bary, t)
+
+    @overload
+    def decode(self, facet: ArrayLike, bary: ArrayLike, t: ArrayLike, *, status: Literal[False] = ...,
+               progress: Optional[Progress] = ..., threads: Optional[int] = ...) -> Floats: ...
+    @overload
+    def decode(self, facet: ArrayLike, bary: ArrayLike, t: ArrayLike, *, status: Literal[True],
+               progress: Optional[Progress] = ..., threads: Optional[int] = ...) -> Tuple[Floats, Ints]: ...
+
+    def decode(self, facet: ArrayLike, bary: ArrayLike, t: ArrayLike, *, status: bool = False,
+               progress: Optional[Progress] = None, threads: Optional[int] = None) -> Any:
+        """Integral curve coordinates -> Cartesian; the inverse of `encode`.
+
+        Args:
+            facet: (n,) indices of boundary facets
+            bary: (n, dim) barycentric coordinates there: not negative, sum 1
+            t: (n,) shares of the curves' arc length from the boundary, in [0, 1]
+            status: whether to return the status of every point, too
+
+        Returns:
+            points (n, dim), NaN where there is none, and with ``status`` an int32 array (n,) as `encode`
+        """
+        dim = self.dim
+        facet = np.ascontiguousarray(facet, dtype=np.uint32)
+        n = len(facet)
+        bary, t = floats(bary, (n, dim), "bary"), floats(t, (n,), "t")
+        points = np.empty((n, dim))
+        states = np.empty(n, dtype=np.int32) if status else None
+        env, done = bulk(n, progress, threads)
+        done(lib.chart_decode(self, n, address(facet), address(bary), address(t),
+                              address(points), address(states), None, env))
+        return (points, states) if status else points
+
+    def trace(self, point: ArrayLike) -> Floats:
+        """The curve through a point (dim,), from the boundary to the maximum: a polyline, (m, dim)."""
+        dim = self.dim
+        point = points_of(point, dim)
+        call, n = Call(threads=1), ctypes.c_size_t()
+        curve = np.empty((256, dim))
+        while True:
+            call.check(lib.chart_trace(self, address(point), len(curve), address(curve),
+                                       ctypes.addressof(n), call.env, call.err))
+            if n.value <= len(curve):
+                return curve[: n.value].copy()
+            curve = np.empty((n.value, dim))
+
+    def __repr__(self) -> str:
+        info = self.info
+        word = "certified" if info.certified else "not certified"
+        return f"<libicc.Chart: {info.method}, {info.dim}-D, {word}>"

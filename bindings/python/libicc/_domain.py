@@ -1,0 +1,207 @@
+"""Domains: shapes, from whatever describes one."""
+
+from __future__ import annotations
+
+import ctypes
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any, List, Literal, Optional, Tuple, overload
+
+import numpy as np
+
+from ._abi import lib
+from ._core import (
+    Call,
+    Handle,
+    Progress,
+    address,
+    bulk,
+    create,
+    dimension,
+    fields,
+    indices,
+    name_of,
+    points_of,
+)
+from ._errors import check
+
+if TYPE_CHECKING:
+    from ._types import ArrayLike, Bools, Floats, Indices, Ints, ShapeLike
+
+DEFECTS = {"not finite": 1, "repeated": 2, "spike": 3, "crossing": 4, "touch": 5, "flat": 6}
+
+INSIDE, BOUNDARY, OUTSIDE = 1, 2, 3
+"""Where a point lies: see `Domain.locate`."""
+
+
+class Domain(Handle):
+    """A shape: its boundary, and what lies inside.
+
+    Args:
+        vertices: float array of shape (n, dim)
+        facets: int array of shape (m, dim): vertex indices of the boundary's edges (2-D), triangles
+            (3-D) and so on. May be left out in 2-D: a polygon through the vertices in their order.
+        progress, threads: see `libicc.Progress`; threads default to one per processor, results are
+            the same for every number
+
+    Raises:
+        BoundaryError, TopologyError: with the vertex or facet at fault as ``index``
+    """
+
+    _free = "domain_free"
+
+    def __init__(self, vertices: ArrayLike, facets: Optional[ArrayLike] = None, *,
+                 progress: Optional[Progress] = None, threads: Optional[int] = None):
+        vertices = np.ascontiguousarray(vertices, dtype=np.float64)
+        if vertices.ndim != 2:
+            raise ValueError(f"vertices must have the shape (n, dim), not {vertices.shape}")
+        n, dim = vertices.shape
+        facets = None if facets is None else indices(facets, dim, "facets")
+        self._take(create(lib.domain_create, dim, n, address(vertices),
+                          0 if facets is None else len(facets), address(facets),
+                          progress=progress, threads=threads))
+
+    @classmethod
+    def from_mask(cls, mask: ArrayLike, *, progress: Optional[Progress] = None,
+                  threads: Optional[int] = None) -> "Domain":
+        """The solid of the cells of a mask that are true; cell (i, j, ..) covers
+        [i, i + 1] x [j, j + 1] x .., so axis k of the array is coordinate k."""
+        mask = np.asarray(mask)
+        cells = np.asfortranarray(mask != 0).view(np.uint8)
+        shape = (ctypes.c_size_t * mask.ndim)(*mask.shape)
+        return cls._wrap(create(lib.domain_create_mask, mask.ndim, ctypes.addressof(shape),
+                                cells.ctypes.data, progress=progress, threads=threads))
+
+    @classmethod
+    def from_mesh(cls, vertices: ArrayLike, simplices: ArrayLike, facets: Optional[ArrayLike] = None, *,
+                  progress: Optional[Progress] = None, threads: Optional[int] = None) -> "Domain":
+        """A domain with a conforming mesh of its inside, on which foliations work in every dimension.
+
+        Args:
+            vertices: (n, dim)
+            simplices: (m, dim + 1) vertex indices
+            facets: (k, dim) vertex indices of the boundary, in an order of yours; or None
+        """
+        vertices = np.ascontiguousarray(vertices, dtype=np.float64)
+        if vertices.ndim != 2:
+            raise ValueError(f"vertices must have the shape (n, dim), not {vertices.shape}")
+        n, dim = vertices.shape
+        simplices = indices(simplices, dim + 1, "simplices")
+        facets = None if facets is None else indices(facets, dim, "facets")
+        return cls._wrap(create(lib.domain_create_mesh, dim, n, address(vertices), len(simplices),
+                                address(simplices), 0 if facets is None else len(facets),
+                                address(facets), progress=progress, threads=threads))
+
+    @property
+    def info(self) -> SimpleNamespace:
+        """dim, orientation, n_vertices, n_facets, lower, upper, measure."""
+        info = self._info("domain_get_info", "domain_info")
+        return fields(info, info.dim)
+
+    dim = dimension("domain_get_info", "domain_info")
+
+    @property
+    def vertices(self) -> Floats:
+        """A copy of the vertices, (n, dim)."""
+        info = self._info("domain_get_info", "domain_info")
+        vertices = np.empty((info.n_vertices, info.dim))
+        check(lib.domain_get_boundary(self, address(vertices), None))
+        return vertices
+
+    @property
+    def facets(self) -> Indices:
+        """A copy of the facets, (m, dim) vertex indices."""
+        info = self._info("domain_get_info", "domain_info")
+        facets = np.empty((info.n_facets, info.dim), dtype=np.uint32)
+        check(lib.domain_get_boundary(self, None, address(facets)))
+        return facets
+
+    @overload
+    def locate(self, points: ArrayLike, *, nearest: Literal[False] = ..., progress: Optional[Progress] = ...,
+               threads: Optional[int] = ...) -> Ints: ...
+    @overload
+    def locate(self, points: ArrayLike, *, nearest: Literal[True], progress: Optional[Progress] = ...,
+               threads: Optional[int] = ...) -> Tuple[Ints, Indices, Floats]: ...
+
+    def locate(self, points: ArrayLike, *, nearest: bool = False, progress: Optional[Progress] = None,
+               threads: Optional[int] = None) -> Any:
+        """Where points lie: an int32 array of INSIDE, BOUNDARY and OUTSIDE.
+
+        With ``nearest`` also the nearest facets (n,) and the barycentric coordinates (n, dim) of the
+        nearest boundary points.
+        """
+        dim = self.dim
+        points = points_of(points, dim)
+        n = len(points)
+        where = np.empty(n, dtype=np.int32)
+        facet = np.empty(n, dtype=np.uint32) if nearest else None
+        bary = np.empty((n, dim)) if nearest else None
+        env, done = bulk(n, progress, threads)
+        done(lib.domain_locate(self, n, address(points), address(where), address(facet),
+                               address(bary), env))
+        return (where, facet, bary) if nearest else where
+
+    def __repr__(self) -> str:
+        info = self.info
+        return f"<libicc.Domain: {info.dim}-D, {info.n_vertices} vertices, {info.n_facets} facets>"
+
+
+def as_domain(shape: ShapeLike) -> Domain:
+    """A domain from whatever describes one.
+
+    Takes a Domain; an array of polygon vertices; a pair (vertices, facets); a boolean mask; a shapely
+    Polygon without holes; a meshio Mesh of triangles in space (a surface), of triangles in the plane or
+    of tetrahedra (a conforming mesh).
+    """
+    if isinstance(shape, Domain):
+        return shape
+    if hasattr(shape, "exterior"):
+        return _from_shapely(shape)
+    if hasattr(shape, "cells_dict"):
+        return _from_meshio(shape)
+    if isinstance(shape, tuple) and len(shape) == 2 and np.ndim(shape[0]) == 2:
+        return Domain(*shape)
+    array = np.asarray(shape)
+    return Domain.from_mask(array) if array.dtype == bool else Domain(array)
+
+
+def _from_shapely(polygon: Any) -> Domain:
+    if len(polygon.interiors) > 0:
+        raise ValueError("the polygon has holes; make one map for each part without")
+    return Domain(np.asarray(polygon.exterior.coords)[:-1, :2])
+
+
+def _from_meshio(mesh: Any) -> Domain:
+    points, cells = np.asarray(mesh.points, dtype=np.float64), mesh.cells_dict
+    if "tetra" in cells:
+        return Domain.from_mesh(points, cells["tetra"])
+    if "triangle" not in cells:
+        raise ValueError("the mesh has neither tetrahedra nor triangles")
+    if points.shape[1] == 2 or not points[:, 2].any():
+        return Domain.from_mesh(points[:, :2], cells["triangle"])
+    return Domain(points, cells["triangle"])
+
+
+def boundary_defects(vertices: ArrayLike) -> List[Tuple[str, int, int]]:
+    """Everything that keeps a closed polygon (n, 2) from being a boundary: a list of (kind, a, b)."""
+    vertices = points_of(vertices, 2)
+    call, n, capacity = Call(threads=1), ctypes.c_size_t(), 64
+    while True:
+        kinds, items = np.empty(capacity, np.int32), np.empty((capacity, 2), np.uint32)
+        call.check(lib.boundary_defects(len(vertices), address(vertices), capacity, address(kinds),
+                                        address(items), ctypes.addressof(n), call.env, call.err))
+        if n.value <= capacity:
+            break
+        capacity = n.value
+    return [(name_of(kinds[i], DEFECTS) or "", int(items[i, 0]), int(items[i, 1])) for i in range(n.value)]
+
+
+def repair_mask(mask: ArrayLike) -> Tuple[Bools, int]:
+    """A mask without cells that touch only along an edge or a corner, and how many cells were
+    filled for that."""
+    mask = np.asarray(mask)
+    cells = np.array(mask != 0, order="F").view(np.uint8)
+    shape = (ctypes.c_size_t * mask.ndim)(*mask.shape)
+    call, n = Call(threads=1), ctypes.c_size_t()
+    call.check(lib.mask_repair(mask.ndim, ctypes.addressof(shape), cells.ctypes.data,
+                               ctypes.addressof(n), call.env, call.err))
+    return cells.view(bool), n.value

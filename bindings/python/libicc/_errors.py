@@ -1,0 +1,103 @@
+"""What a call that failed raises."""
+
+from typing import NoReturn
+
+from ._abi import lib
+
+
+class Error(Exception):
+    """What the library says about a call that failed.
+
+    Attributes:
+        status: the number of the status (``Error.ARGUMENT`` and so on)
+        index: the vertex, facet, cell or point at fault, or -1
+        side: 1 when the source is at fault, 2 for the target, 0 for neither
+    """
+
+    ARGUMENT, MEMORY, VERSION, BOUNDARY, RESOLUTION, TOPOLOGY, OUTSIDE = range(1, 8)
+    SOLVER, TRACE, CERTIFICATE, CANCELLED, UNSUPPORTED, FORMAT = range(8, 14)
+
+    def __init__(self, message: str, status: int = 0, index: int = -1, side: int = 0):
+        super().__init__(message)
+        self.status, self.index, self.side = status, index, side
+
+
+class ArgumentError(Error, ValueError):
+    """An argument is missing or out of range."""
+
+
+class BoundaryError(Error, ValueError):
+    """The boundary is not that of a simple, solid shape."""
+
+
+class TopologyError(Error, ValueError):
+    """The shape or the grid has the wrong topology."""
+
+
+class OutsideError(Error, ValueError):
+    """A point lies outside the domain."""
+
+
+class FormatError(Error, ValueError):
+    """Input data is malformed."""
+
+
+class UnsupportedError(Error, NotImplementedError):
+    """This combination is not available."""
+
+
+class ResolutionError(Error, ValueError):
+    """The grid is too coarse, or would be too large."""
+
+
+class TraceError(Error, ArithmeticError):
+    """An integral curve does not reach its end."""
+
+
+class VersionError(Error):
+    """A later version wrote this, or the library is older than what it was given."""
+
+
+class CertificateError(Error, ArithmeticError):
+    """A result could not be certified."""
+
+
+class SolverError(Error, ArithmeticError):
+    """A numerical solver did not converge."""
+
+
+class OutOfMemoryError(Error, MemoryError):
+    """An allocation failed."""
+
+
+class Cancelled(Error):
+    """The progress callback asked to stop."""
+
+
+_ERRORS = {
+    Error.ARGUMENT: ArgumentError,
+    Error.MEMORY: OutOfMemoryError,
+    Error.VERSION: VersionError,
+    Error.BOUNDARY: BoundaryError,
+    Error.RESOLUTION: ResolutionError,
+    Error.TOPOLOGY: TopologyError,
+    Error.OUTSIDE: OutsideError,
+    Error.SOLVER: SolverError,
+    Error.TRACE: TraceError,
+    Error.CERTIFICATE: CertificateError,
+    Error.CANCELLED: Cancelled,
+    Error.UNSUPPORTED: UnsupportedError,
+    Error.FORMAT: FormatError,
+}
+
+
+def fail(status: int, message: str = "", index: int = -1, side: int = 0) -> NoReturn:
+    name = lib.status_name(status).decode()
+    if side in (1, 2):
+        message = f"{('source', 'target')[side - 1]}: {message}"
+    raise _ERRORS.get(status, Error)(message or name, status, index, side)
+
+
+def check(status: int) -> None:
+    if status != 0:
+        fail(status)

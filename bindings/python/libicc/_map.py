@@ -1,0 +1,221 @@
+"""Maps from one domain to another."""
+
+from __future__ import annotations
+
+import ctypes
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any, Literal, Optional, Tuple, overload
+
+import numpy as np
+
+from ._abi import lib, new
+from ._chart import Chart, chart_options
+from ._core import (
+    Call,
+    Progress,
+    Saved,
+    address,
+    bulk,
+    choose,
+    create,
+    dimension,
+    fields,
+    floats,
+    indices,
+    name_of,
+    points_of,
+)
+from ._domain import as_domain
+from ._errors import check
+
+if TYPE_CHECKING:
+    from ._types import ArrayLike, Floats, Indices, Ints, ShapeLike
+
+KINDS = {"curves": 1, "mesh": 2}
+
+
+class Map(Saved):
+    """A map from one domain to another that agrees with their boundaries.
+
+    Facet i of the source goes to facet i of the target. Call it with points, or use `inverse`.
+
+    Args:
+        source, target: Domains, or what `as_domain` takes
+        kind: "mesh" (2-D, and 3-D between domains with meshes) or "curves"; None: the best that there is
+        improve: steps of improvement on each level for kind mesh; None: as many as pay, 0: none
+        method, cells, maximum, ...: of the charts, see `Chart`; the maximum is the source's
+        target_maximum: where the target's maximum shall be, (dim,), or None
+        progress, threads: as for `Domain`
+
+    Raises:
+        as `Chart`; BoundaryError if the domains do not correspond. ``side`` tells which is at fault.
+    """
+
+    _free = "map_free"
+    _name = "map"
+    dim = dimension("map_get_info", "map_info")
+
+    def __init__(self, source: ShapeLike, target: ShapeLike, kind: Optional[str] = None, *,
+                 improve: Optional[int] = None, method: Optional[str] = None,
+                 cells: Optional[int] = None, maximum: Optional[ArrayLike] = None,
+                 target_maximum: Optional[ArrayLike] = None, function: Optional[str] = None,
+                 constraints: Optional[str] = None, solver: Optional[str] = None,
+                 tree: Optional[str] = None, eta: Optional[float] = None,
+                 leaf: Optional[float] = None, progress: Optional[Progress] = None,
+                 threads: Optional[int] = None):
+        source, target = as_domain(source), as_domain(target)
+        chart = chart_options(source.dim, method, cells, maximum, function, constraints, solver, tree,
+                              eta, leaf)
+        options = new("map_options", kind=choose(kind, KINDS, "kind"), chart=ctypes.addressof(chart),
+                      iterations=0 if improve is None else improve or -1)
+        if target_maximum is not None:
+            point = floats(target_maximum, (target.dim,), "target_maximum")
+            options.target_maximum = address(point)
+        self._take(create(lib.map_create, source, target,
+                          ctypes.addressof(options), progress=progress, threads=threads))
+
+    @classmethod
+    def from_charts(cls, source: Chart, target: Chart, kind: Optional[str] = None, *,
+                    progress: Optional[Progress] = None, threads: Optional[int] = None) -> "Map":
+        """The map between two charts that were made with the same method, of a kind as for `Map`."""
+        options = new("map_options", kind=choose(kind, KINDS, "kind"))
+        return cls._wrap(create(lib.map_create_from_charts, source, target,
+                                ctypes.addressof(options), progress=progress, threads=threads))
+
+    @property
+    def info(self) -> SimpleNamespace:
+        """The members of ``icc_map_info``; the kind by its name."""
+        result = fields(self._info("map_get_info", "map_info"))
+        result.kind = name_of(result.kind, KINDS)
+        return result
+
+    @property
+    def certified(self) -> bool:
+        """Whether the map is proved to be one-to-one."""
+        return bool(self._info("map_get_info", "map_info").certified)
+
+    @property
+    def source_chart(self) -> Optional[Chart]:
+        """The chart of the source; None for maps made by `follow`."""
+        return Chart._borrow(lib.map_source_chart(self), owner=self)
+
+    @property
+    def target_chart(self) -> Optional[Chart]:
+        """The chart of the target; None for maps made by `follow`."""
+        return Chart._borrow(lib.map_target_chart(self), owner=self)
+
+    def _apply(self, function: Any, points: ArrayLike, status: bool, progress: Optional[Progress],
+               threads: Optional[int]) -> Any:
+        points = points_of(points, self.dim)
+        n = len(points)
+        images = np.empty_like(points)
+        states = np.empty(n, dtype=np.int32) if status else None
+        env, done = bulk(n, progress, threads)
+        done(function(self, n, address(points), address(images), address(states), None, env))
+        return (images, states) if status else images
+
+    @overload
+    def __call__(self, points: ArrayLike, *, status: Literal[False] = ..., progress: Optional[Progress] = ...,
+                 threads: Optional[int] = ...) -> Floats: ...
+    @overload
+    def __call__(self, points: ArrayLike, *, status: Literal[True], progress: Optional[Progress] = ...,
+                 threads: Optional[int] = ...) -> Tuple[Floats, Ints]: ...
+
+    def __call__(self, points: ArrayLike, *, status: bool = False, progress: Optional[Progress] = None,
+                 threads: Optional[int] = None) -> Any:
+        """Source -> target: points (n, dim) -> images (n, dim), NaN where there is none. With
+        ``status`` also an int32 array (n,): 0, or the number of an `Error`."""
+        return self._apply(lib.map_apply, points, status, progress, threads)
+
+    @overload
+    def inverse(self, points: ArrayLike, *, status: Literal[False] = ..., progress: Optional[Progress] = ...,
+                threads: Optional[int] = ...) -> Floats: ...
+    @overload
+    def inverse(self, points: ArrayLike, *, status: Literal[True], progress: Optional[Progress] = ...,
+                threads: Optional[int] = ...) -> Tuple[Floats, Ints]: ...
+
+    def inverse(self, points: ArrayLike, *, status: bool = False, progress: Optional[Progress] = None,
+                threads: Optional[int] = None) -> Any:
+        """Target -> source; otherwise as calling the map."""
+        return self._apply(lib.map_apply_inverse, points, status, progress, threads)
+
+    def jacobian(self, points: ArrayLike, *, progress: Optional[Progress] = None,
+                 threads: Optional[int] = None) -> Floats:
+        """Derivatives (n, dim, dim) at points (n, dim) of the source's inside: entry [k, i, j] is that of
+        image coordinate i by point coordinate j; NaN where there is none."""
+        points = points_of(points, self.dim)
+        n, dim = points.shape
+        result = np.empty((n, dim, dim))
+        env, done = bulk(n, progress, threads)
+        done(lib.map_jacobian(self, n, address(points), address(result), None, None, env))
+        return result
+
+    def improve(self, iterations: int = 0, levels: int = 0, tolerance: float = 0, *,
+                progress: Optional[Progress] = None,
+                threads: Optional[int] = None) -> Tuple["Map", SimpleNamespace]:
+        """A fairer map, and a report (kind mesh in 2-D). A progress callback that asks to stop ends it early,
+        without loss.
+
+        Args:
+            iterations: steps at most on each level; 0: 60
+            levels: refinements at most; 0: 4; -1: none
+            tolerance: a level ends with a step that gains less than this share of the energy; 0: 1e-4
+
+        Returns:
+            the map, and the members of ``icc_improve_report``
+        """
+        options = new("improve_options", iterations=iterations, levels=levels, tolerance=tolerance)
+        call, out, report = Call(progress, threads), ctypes.c_void_p(), new("improve_report")
+        call.check(lib.map_improve(ctypes.addressof(out), self, ctypes.addressof(options),
+                                   ctypes.addressof(report), call.env, call.err))
+        assert out.value is not None
+        return type(self)._wrap(out.value), fields(report)
+
+    def follow(self, target: ShapeLike, iterations: int = 0, *, progress: Optional[Progress] = None,
+               threads: Optional[int] = None) -> "Map":
+        """The map to a target that has moved a little, starting from this one (kind mesh in 2-D), improved by
+        at most `iterations` steps (0: 8; -1: none). CertificateError if it has moved too far."""
+        return type(self)._wrap(create(lib.map_follow, self, as_domain(target),
+                                       iterations, progress=progress, threads=threads))
+
+    def mesh(self) -> Tuple[Floats, Floats, Indices]:
+        """The mesh of a map of kind mesh: vertices (n, dim), images (n, dim), simplices (m, dim + 1)."""
+        info = self._info("map_get_info", "map_info")
+        vertices = np.empty((info.n_vertices, info.dim))
+        images = np.empty((info.n_vertices, info.dim))
+        triangles = np.empty((info.n_triangles, info.dim + 1), dtype=np.uint32)
+        check(lib.map_mesh(self, address(vertices), address(images), address(triangles)))
+        return vertices, images, triangles
+
+    def _carry(self, function: Any, vertices: ArrayLike, simplices: ArrayLike, progress: Optional[Progress],
+               threads: Optional[int]) -> Tuple[Floats, SimpleNamespace]:
+        dim = self.dim
+        vertices, simplices = points_of(vertices, dim), indices(simplices, dim + 1, "simplices")
+        images, certificate = np.empty_like(vertices), new("certificate")
+        call = Call(progress, threads)
+        call.check(function(self, len(vertices), address(vertices), len(simplices),
+                            address(simplices), address(images), ctypes.addressof(certificate),
+                            call.env, call.err))
+        return images, fields(certificate)
+
+    def certify(self, vertices: ArrayLike, simplices: ArrayLike, *, progress: Optional[Progress] = None,
+                threads: Optional[int] = None) -> Tuple[Floats, SimpleNamespace]:
+        """Maps the vertices of a mesh of yours and checks exactly what became of its simplices:
+        images (n, dim) and the members of ``icc_certificate``. 2-D and 3-D.
+
+        Args:
+            vertices: (n, dim)
+            simplices: (m, dim + 1) vertex indices
+        """
+        return self._carry(lib.map_certify, vertices, simplices, progress, threads)
+
+    def repair(self, vertices: ArrayLike, simplices: ArrayLike, *, progress: Optional[Progress] = None,
+               threads: Optional[int] = None) -> Tuple[Floats, SimpleNamespace]:
+        """As `certify`, but moves images of inner vertices until no simplex is inverted, where that
+        is possible."""
+        return self._carry(lib.map_repair, vertices, simplices, progress, threads)
+
+    def __repr__(self) -> str:
+        info = self.info
+        word = "certified" if info.certified else "not certified"
+        return f"<libicc.Map: {info.kind}, {info.dim}-D, {word}>"
