@@ -2,8 +2,8 @@
 # Builds the Debian packages in a fresh chroot, checks them with lintian, and tests them installed in
 # another one that has only what they depend on. Needs root and a mirror of Debian bookworm; without
 # root it exits with 77. Prints the seconds that each step took.
-# usage: debian.sh BUILD_FOLDER         logs and packages go to BUILD_FOLDER/debian
-#        ICC_DEBIAN_BASE=BASE.tar       the chroots begin as this; it is made if it is not there
+# usage: debian.sh BUILD_FOLDER             logs and packages go to BUILD_FOLDER/debian
+#        LIBICC_DEBIAN_BASE=BASE.tar        the chroots begin as this; it is made if it is not there
 set -eu
 cd "$(dirname "$0")/.."
 . cmake/deps.sh
@@ -78,7 +78,7 @@ mirror() {
 }
 
 make_base() {
-    base=${ICC_DEBIAN_BASE:-$work/base.tar}
+    base=${LIBICC_DEBIAN_BASE:-$work/base.tar}
     if ! [ -e "$base" ]; then
         uri=$(mirror)
         mmdebstrap --mode=root --variant=apt --dpkgopt=force-unsafe-io \
@@ -90,7 +90,7 @@ make_base() {
         cp /etc/resolv.conf "$root/etc"
         chroot "$root" apt-get -q update
     done
-    [ -n "${ICC_DEBIAN_BASE:-}" ] || rm "$base"
+    [ -n "${LIBICC_DEBIAN_BASE:-}" ] || rm "$base"
 }
 
 # The tree as it is, without what is built in it, and the upstream archive that Debian wants of it.
