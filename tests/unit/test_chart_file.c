@@ -394,6 +394,74 @@ START_TEST(false_foliations_are_refused)
 }
 END_TEST
 
+/* The image of each vertex inside is moved out of the disc. */
+START_TEST(false_discs_are_refused)
+{
+    icc_chart *chart = small_chart(1), *loaded;
+    bytes b = chart_bytes(chart);
+    const size_t n = chart_story(chart).n_mesh_vertices;
+    for (size_t v = chart_story(chart).n_mesh_boundary; v < n; ++v) {
+        unsigned char *image = b.data + b.n - 16 * (n - v), old[16];
+        memcpy(old, image, 16);
+        memset(image, 0, 16);
+        image[7] = image[15] = 0x40;
+        repair_bytes(&b, "CHRT");
+        ck_assert_int_eq(icc_chart_load(&loaded, b.n, b.data, NULL, NULL), ICC_ERR_FORMAT);
+        memcpy(image, old, 16);
+    }
+    free(b.data);
+    icc_chart_free(chart);
+}
+END_TEST
+
+/* Leaves go back through one simplex, or leave it through fewer sides than they could. */
+START_TEST(false_directions_are_refused)
+{
+    for (int k = 4; k < N_SMALL; ++k) {
+        icc_chart *chart = small_chart(k), *loaded;
+        bytes b = chart_bytes(chart), changed = {b.n, saved_alloc(b.n)};
+        const size_t n = chart_story(chart).n_mesh_triangles;
+        for (size_t side = 0; side < 4 * n; ++side) {
+            const size_t at = b.n - 8 * (4 * n - side);
+            memcpy(changed.data, b.data, b.n);
+            for (size_t i = 0; i < 4 && side % 4 == 0; ++i)
+                changed.data[at + 8 * i + 7] ^= 0x80;
+            if (side % 4 != 0)
+                memset(changed.data + at, 0, 8);
+            repair_bytes(&changed, "CHRT");
+            ck_assert_int_eq(icc_chart_load(&loaded, b.n, changed.data, NULL, NULL), ICC_ERR_FORMAT);
+        }
+        free(changed.data);
+        free(b.data);
+        icc_chart_free(chart);
+    }
+}
+END_TEST
+
+/* The chart's own mesh, of a domain without vertices inside: each simplex with two corners exchanged, or one corner of another. */
+START_TEST(false_fillings_are_refused)
+{
+    icc_chart *chart = small_chart(5), *loaded;
+    bytes b = chart_bytes(chart), changed = {b.n, saved_alloc(b.n)};
+    const size_t n = chart_story(chart).n_mesh_triangles, corners = b.n - 8 - (32 + 16) * n;
+    for (size_t s = 0; s < n; ++s)
+        for (int other = 0; other < 2; ++other) {
+            const size_t at = corners + 16 * s;
+            memcpy(changed.data, b.data, b.n);
+            memcpy(changed.data + at, b.data + (other ? corners + 16 * ((s + 1) % n) : at + 4), 4);
+            if (!other)
+                memcpy(changed.data + at + 4, b.data + at, 4);
+            if (memcmp(changed.data, b.data, b.n) == 0)
+                continue;
+            repair_bytes(&changed, "CHRT");
+            ck_assert_int_eq(icc_chart_load(&loaded, b.n, changed.data, NULL, NULL), ICC_ERR_FORMAT);
+        }
+    free(changed.data);
+    free(b.data);
+    icc_chart_free(chart);
+}
+END_TEST
+
 /* A chart on a grid that comes out otherwise is not passed off as the first one. */
 START_TEST(another_digest_is_another_version)
 {
@@ -469,6 +537,9 @@ int main(void)
     tcase_add_test(c, later_versions);
     tcase_add_test(c, content_is_checked);
     tcase_add_test(c, false_foliations_are_refused);
+    tcase_add_test(c, false_discs_are_refused);
+    tcase_add_test(c, false_directions_are_refused);
+    tcase_add_test(c, false_fillings_are_refused);
     tcase_add_test(c, another_digest_is_another_version);
     tcase_add_test(c, no_memory_and_no_patience);
     tcase_add_test(c, arguments);
