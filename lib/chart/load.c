@@ -11,8 +11,8 @@
 static const char KIND[] = "CHRT";
 static const uint32_t VERSION = 1;
 
-/* In place of ICC_METHOD_FOLIATION: on the domain's mesh. */
-enum { ON_MESH = ICC_METHOD_DISC + 1 };
+/* The format's own number for ICC_METHOD_FOLIATION on the domain's mesh. */
+enum { ON_MESH = 5 };
 
 void iccp_chart_write(const icc_chart *chart, iccp_blob_writer *w)
 {

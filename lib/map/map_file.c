@@ -1,6 +1,7 @@
 #include "map/map_file.h"
 
 #include "base/blob.h"
+#include "base/clock.h"
 #include "chart/load.h"
 #include "domain/domain_file.h"
 #include "map/plmap_file.h"
@@ -128,15 +129,18 @@ static icc_status read_map(icc_map **out, iccp_blob_reader *r, const iccp_env *e
 icc_status iccp_map_load(icc_map **out, size_t n_bytes, const void *data, const iccp_env *env,
                          icc_error *err)
 {
+    const double start = iccp_seconds();
     iccp_blob_reader r;
     *out = NULL;
     icc_status status = iccp_blob_open(&r, data, n_bytes, KIND, VERSION, err);
     if (status != ICC_OK)
         return status;
     status = read_map(out, &r, env, err);
-    if (status != ICC_OK) {
-        iccp_map_release(*out);
-        *out = NULL;
+    if (status == ICC_OK) {
+        (*out)->info.seconds = iccp_seconds() - start;
+        return ICC_OK;
     }
+    iccp_map_release(*out);
+    *out = NULL;
     return iccp_blob_blame(err, status, "map");
 }
