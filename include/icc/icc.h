@@ -387,8 +387,8 @@ typedef struct icc_chart_info {
     size_t n_not_inward;         /**< field: those of them where the vector does not point inward */
     int32_t order_peeled;        /**< foliation on a mesh: 1: the order of the simplices was found from the
                                       boundary inwards, 0: from the centre outwards */
-    int32_t n_orders;            /**< how many of the fourteen that are tried were complete at first; the
-                                      best is improved and used */
+    int32_t n_orders;            /**< how many of those that are tried were complete at first; the best is
+                                      used */
     double order_beta;           /**< how much reversed flux weighed in it */
     size_t n_reversed;           /**< facets that the harmonic flux runs through the other way */
     double flux_energy;          /**< how far the flux along the leaves is from the harmonic one: sum of

@@ -1,32 +1,33 @@
 /* The reference flux tells a good order: the less of it an order turns round, the nearer to it a flux along
- * the order can come. Which rule and which weight do best differs from mesh to mesh, so all are tried. The
- * best one is then repeated with a bias against what went wrong, as in D. E. Joslin, D. P. Clements,
- * Squeaky Wheel Optimization, 1999. */
+ * the order can come. Which rule and which weight do best differs from mesh to mesh, so some are tried, each with
+ * its facets turned. Where all get stuck, they are repeated with a bias for the simplices that were left, as in
+ * D. E. Joslin, D. P. Clements, Squeaky Wheel Optimization, 1999. */
 #include "shelling/contest.h"
 
 #include "base/error.h"
 #include "base/threads.h"
+#include "shelling/turn.h"
 
 #include <math.h>
 #include <stdbool.h>
 #include <string.h>
 
-enum { N_BETAS = 7, N_RUNS = 2 * N_BETAS };
+enum { N_BETAS = 2, N_RUNS = 2 * N_BETAS };
 
-/* On 16 meshes the best one was one of 16 to 1024: the greater, the less flux is reversed, until, the earlier
- * the more simplices there are, simplices that had to wait for long are closed in. */
-static const double BETA[N_BETAS] = {4, 8, 16, 32, 64, 256, 1024};
+/* On 16 meshes the best one, before facets were turned, was one of 16 to 1024: the greater, the less flux is reversed,
+ * until, the earlier the more simplices there are, simplices that had to wait for long are closed in. Once
+ * facets are turned small ones do as well where there are few simplices, and better where there are many. */
+static const double BETA[N_BETAS] = {8, 32};
 
-/* The energy was within 2 % then of what it was after 100. */
-static const size_t SWEEPS = 50;
+/* The energy was within 5 % then of what it was after 100. */
+static const size_t SWEEPS = 20;
 
-/* Repetitions of an order, and how many in a row may be in vain. */
-enum { N_ROUNDS = 12, PATIENCE = 3 };
+/* Repetitions of an order that is not complete. */
+enum { N_ROUNDS = 12 };
 
-/* The bias of a simplex all of whose flux was reversed, in steps of the potential: at 2 it takes more rounds, at
- * 16 the orders do not get better on the whole. And of one that was left, of the potential's range: growth that
- * stopped short on real meshes was complete after 2 to 4 rounds. */
-static const double BIAS_REVERSED = 4, BIAS_LEFT = 0.01;
+/* The bias of a simplex that was left, of the potential's range: growth that stopped short on real meshes was
+ * complete after 2 to 4 rounds. */
+static const double BIAS_LEFT = 0.01;
 
 typedef struct contest {
     iccp_order_wish wish;
@@ -54,12 +55,15 @@ static bool is_peeling(size_t run)
 static icc_status try_order(const contest *c, size_t run, const double *bias, attempt *a,
                             const iccp_env *env)
 {
+    size_t n_turned;
     iccp_order_wish wish = c->wish;
     wish.beta = BETA[run % N_BETAS];
     wish.bias = bias;
     a->energy = HUGE_VAL;
     icc_status status =
         (is_peeling(run) ? iccp_order_peel : iccp_order_grow)(&wish, a->rank, &a->n_left, env);
+    if (status == ICC_OK && a->n_left == 0)
+        status = iccp_order_turn(&wish, a->rank, &n_turned, env);
     if (status == ICC_OK && a->n_left == 0) {
         status = iccp_circulation_greedy(&c->circulation, a->rank, a->flux, env);
         if (status == ICC_OK)
@@ -104,25 +108,7 @@ static size_t find_best(const contest *c, size_t *n_finished)
     return best;
 }
 
-/* How much of a simplex's flux goes to greater rank, less what comes from smaller rank, as a share of it. */
-static double lag_of(const contest *c, const uint32_t *rank, size_t s)
-{
-    const iccp_simplices *mesh = c->wish.mesh;
-    const size_t first = (mesh->dim + 1) * s;
-    double lag = 0, total = 0;
-    for (size_t side = first; side <= first + mesh->dim; ++side) {
-        const double flux = c->wish.flux[side];
-        total += fabs(flux);
-        if (mesh->across[side] >= ICCP_RIM)
-            continue;
-        const uint32_t there = rank[iccp_simplex_of(mesh, mesh->across[side])];
-        lag += (flux > 0 ? there > rank[s] : there < rank[s]) ? flux : 0;
-    }
-    return total > 0 ? lag / total : 0;
-}
-
-/* What was amiss in an order goes into the bias. The simplices that were left have their turn earlier; those with
- * flux to simplices of greater rank shall have a greater one, those with flux from smaller rank a smaller one. */
+/* The simplices that were left have their turn earlier. */
 static void learn(const contest *c, bool peeling, const uint32_t *rank, double *bias)
 {
     const size_t n = c->wish.mesh->n_simplices;
@@ -130,52 +116,40 @@ static void learn(const contest *c, bool peeling, const uint32_t *rank, double *
     for (size_t s = 0; s < n; ++s)
         range = fmax(range, c->wish.potential[s]);
     for (size_t s = 0; s < n; ++s)
-        if (rank[s] == UINT32_MAX) {
+        if (rank[s] == UINT32_MAX)
             bias[s] += (peeling ? BIAS_LEFT : -BIAS_LEFT) * range;
-        } else {
-            const double lag = lag_of(c, rank, s);
-            bias[s] += lag < 0 || lag > 0 ? BIAS_REVERSED * lag * iccp_order_step(&c->wish, s) : 0;
-        }
 }
 
-/* Repeats an order and keeps the best one. */
-static icc_status practise(const contest *c, size_t run, attempt *next, double *bias, attempt *best,
+/* Repeats an order until it is complete. `n_least` is the least that was left. */
+static icc_status practise(const contest *c, size_t run, double *bias, attempt *a, size_t *n_least,
                            const iccp_env *env)
 {
-    const size_t n = c->wish.mesh->n_simplices;
-    memset(bias, 0, n * sizeof *bias);
-    for (int round = 0, in_vain = 0; round < N_ROUNDS && in_vain < PATIENCE; ++round) {
-        const icc_status status = try_order(c, run, bias, next, env);
+    memset(bias, 0, c->wish.mesh->n_simplices * sizeof *bias);
+    for (int round = 0; round < N_ROUNDS && *n_least > 0; ++round) {
+        const icc_status status = try_order(c, run, bias, a, env);
         if (status != ICC_OK)
             return status;
-        const bool is_better = next->n_left < best->n_left ||
-                               (next->n_left == best->n_left && next->energy < best->energy);
-        if (is_better) {
-            memcpy(best->rank, next->rank, n * sizeof *next->rank);
-            best->n_left = next->n_left;
-            best->energy = next->energy;
-        }
-        in_vain = is_better || best->n_left > 0 ? 0 : in_vain + 1;
-        learn(c, is_peeling(run), next->rank, bias);
+        *n_least = a->n_left < *n_least ? a->n_left : *n_least;
+        learn(c, is_peeling(run), a->rank, bias);
     }
     return ICC_OK;
 }
 
-/* From the winner, or from anything if there is none. */
-static icc_status improve(const contest *c, size_t *run, attempt *best, const iccp_env *env)
+/* The winner once more; or anything that is complete in the end, if there is none. */
+static icc_status repeat(const contest *c, size_t *run, attempt *a, size_t *n_least,
+                         const iccp_env *env)
 {
-    const size_t n = c->wish.mesh->n_simplices;
-    attempt next = {.rank = iccp_alloc(&env->memory, n, sizeof *next.rank), .flux = best->flux};
-    double *bias = iccp_alloc(&env->memory, n, sizeof *bias);
-    icc_status status = next.rank != NULL && bias != NULL ? ICC_OK : ICC_ERR_MEMORY;
-    const bool is_won = *run < N_RUNS;
-    for (size_t k = is_won ? *run : 0; status == ICC_OK && k < N_RUNS; k += N_BETAS) {
-        *run = k;
-        status = practise(c, k, &next, bias, best, env);
-        if (is_won || best->n_left == 0)
-            break;
+    if (*run < N_RUNS) {
+        *n_least = 0;
+        return try_order(c, *run, NULL, a, env);
     }
-    iccp_free(&env->memory, next.rank);
+    double *bias = iccp_alloc(&env->memory, c->wish.mesh->n_simplices, sizeof *bias);
+    icc_status status = bias != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    *n_least = SIZE_MAX;
+    for (size_t k = 0; status == ICC_OK && *n_least > 0 && k < N_RUNS; k += N_BETAS) {
+        *run = k;
+        status = practise(c, k, bias, a, n_least, env);
+    }
     iccp_free(&env->memory, bias);
     return status;
 }
@@ -199,19 +173,17 @@ static icc_status hold(contest *c, attempt *best, iccp_contest_info *info, const
     if (status != ICC_OK)
         return status;
     *info = (iccp_contest_info){.n_orders = N_RUNS};
-    size_t run = find_best(c, &info->n_finished);
-    status = improve(c, &run, best, env);
+    size_t n_least, run = find_best(c, &info->n_finished);
+    status = repeat(c, &run, best, &n_least, env);
     if (status != ICC_OK)
         return status;
-    if (best->n_left > 0)
+    if (n_least > 0)
         return iccp_fail(
             err, ICC_ERR_TOPOLOGY, -1,
             "no order was found that builds up the domain from the maximum: at best %zu of "
             "the %zu simplices are left; try another maximum or a finer mesh",
-            best->n_left, c->wish.mesh->n_simplices);
-    status = iccp_circulation_greedy(&c->circulation, best->rank, best->flux, env);
-    if (status == ICC_OK)
-        status = iccp_circulation_relax(&c->circulation, best->rank, SWEEPS, best->flux, env);
+            n_least, c->wish.mesh->n_simplices);
+    status = iccp_circulation_relax(&c->circulation, best->rank, SWEEPS, best->flux, env);
     if (status != ICC_OK)
         return status;
     info->peeled = is_peeling(run);
@@ -226,7 +198,7 @@ icc_status iccp_contest(const iccp_simplices *mesh, uint32_t centre, const doubl
                         const double *reference, const double *potential, uint32_t *rank,
                         double *flux, iccp_contest_info *info, const iccp_env *env, icc_error *err)
 {
-    attempt best = {.rank = rank, .flux = flux, .n_left = SIZE_MAX, .energy = HUGE_VAL};
+    attempt best = {.rank = rank, .flux = flux};
     contest c = {.quiet = *env, .circulation.rings.memory = env->memory};
     c.quiet.progress = NULL;
     c.wish = (iccp_order_wish){.mesh = mesh,

@@ -46,7 +46,8 @@ static bool may_go(const front *f, size_t s)
            (size == f->wish->mesh->dim || !f->touched[iccp_face(f->wish->faces, s, facing)]);
 }
 
-double iccp_order_step(const iccp_order_wish *wish, size_t simplex)
+/* How much the potential of a simplex differs from that of a neighbour, at most. */
+static double step_of(const iccp_order_wish *wish, size_t simplex)
 {
     const iccp_simplices *mesh = wish->mesh;
     const size_t first = (mesh->dim + 1) * simplex;
@@ -72,7 +73,7 @@ static double key_of(const front *f, size_t s)
         reversed += leaves == (flux[i] < 0) ? fabs(flux[i]) : 0;
     }
     const double potential = w->potential[s] + (w->bias != NULL ? w->bias[s] : 0);
-    const double penalty = reversed > 0 ? w->beta * (reversed / total) * iccp_order_step(w, s) : 0;
+    const double penalty = reversed > 0 ? w->beta * (reversed / total) * step_of(w, s) : 0;
     return (f->peeling ? -potential : potential) + penalty;
 }
 

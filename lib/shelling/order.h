@@ -30,7 +30,4 @@ icc_status iccp_order_grow(const iccp_order_wish *wish, uint32_t *rank, size_t *
 icc_status iccp_order_peel(const iccp_order_wish *wish, uint32_t *rank, size_t *n_left,
                            const iccp_env *env);
 
-/* How much the potential of a simplex differs from that of a neighbour, at most. */
-double iccp_order_step(const iccp_order_wish *wish, size_t simplex);
-
 #endif

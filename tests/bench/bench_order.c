@@ -1,10 +1,11 @@
 /* Orders of tetrahedra: usage: bench_order SURFACE.obj ..., with the program tetgen installed. What growing and
- * peeling take, how much of the harmonic flux they turn round, the energy of the flux that is fitted, what
- * the contest takes, and how often each way is complete for maxima by chance. Run by hand on a quiet
+ * peeling take, how much of the harmonic flux they reverse before and after facets are turned, the energy of the flux
+ * that is fitted, what the contest takes, and how often each way is complete for maxima by chance. Run by hand on a quiet
  * machine. */
 #include "base/error.h"
 #include "chart/centres.h"
 #include "shelling/contest.h"
+#include "shelling/turn.h"
 
 #include "../meshes.h"
 #include "bench.h"
@@ -103,13 +104,38 @@ static void reversed(const subject *s, double share[2])
         share[k] = 100 * turned[k] / all[k];
 }
 
+/* What an order is worth. */
+static void tell(subject *s)
+{
+    double share[2];
+    reversed(s, share);
+    printf(", reversed %.3f %% of facets, %.4f %% of flux; energy after", share[0], share[1]);
+    for (size_t n_sweeps = 0; n_sweeps <= 100; n_sweeps = n_sweeps == 0 ? 1 : 10 * n_sweeps) {
+        check(iccp_circulation_greedy(&s->circulation, s->rank, s->flux, &s->env));
+        check(iccp_circulation_relax(&s->circulation, s->rank, n_sweeps, s->flux, &s->env));
+        printf(" [%zu] %.2e", n_sweeps, iccp_circulation_energy(&s->circulation, s->flux));
+    }
+    printf("\n");
+}
+
+static void turn(subject *s)
+{
+    const iccp_order_wish wish = {s->mesh, &s->faces, s->centre, s->reference, s->potential, 0, NULL};
+    size_t n_turned;
+    const double start = bench_seconds();
+    check(iccp_order_turn(&wish, s->rank, &n_turned, &s->env));
+    printf("       turned %zu: %.2f us a tetrahedron", n_turned,
+           1e6 * (bench_seconds() - start) / (double)s->mesh->n_simplices);
+    tell(s);
+}
+
 static void compare_orders(subject *s)
 {
     check(iccp_circulation_create(&s->circulation, s->mesh, s->centre, s->inflow, s->reference,
                                   &s->env));
     for (int peel = 1; peel >= 0; --peel)
         for (double beta = 2; beta < 5000; beta *= 2) {
-            double seconds, share[2];
+            double seconds;
             const size_t n_left = order(s, beta, peel != 0, &seconds);
             printf("  %s %4g: %.2f us a tetrahedron", peel ? "peel" : "grow", beta,
                    1e6 * seconds / (double)s->mesh->n_simplices);
@@ -117,16 +143,8 @@ static void compare_orders(subject *s)
                 printf(", %zu left\n", n_left);
                 continue;
             }
-            reversed(s, share);
-            printf(", reversed %.3f %% of facets, %.4f %% of flux; energy after", share[0],
-                   share[1]);
-            for (size_t n_sweeps = 0; n_sweeps <= 100;
-                 n_sweeps = n_sweeps == 0 ? 1 : 10 * n_sweeps) {
-                check(iccp_circulation_greedy(&s->circulation, s->rank, s->flux, &s->env));
-                check(iccp_circulation_relax(&s->circulation, s->rank, n_sweeps, s->flux, &s->env));
-                printf(" [%zu] %.2e", n_sweeps, iccp_circulation_energy(&s->circulation, s->flux));
-            }
-            printf("\n");
+            tell(s);
+            turn(s);
         }
     iccp_circulation_free(&s->circulation);
 }

@@ -5,6 +5,7 @@
 #include "domain/domain.h"
 #include "shelling/contest.h"
 #include "shelling/heap.h"
+#include "shelling/turn.h"
 
 #include "../faulty.h"
 #include "../meshes.h"
@@ -355,8 +356,12 @@ static void wish_anything(problem *p, random_source *r)
 {
     for (size_t s = 0; s < p->mesh->n_simplices; ++s)
         p->potential[s] = random_unit(r);
-    for (size_t side = 0; side < (p->mesh->dim + 1) * p->mesh->n_simplices; ++side)
-        p->flux[side] = p->mesh->across[side] >= ICCP_RIM ? -1 : random_unit(r) - 0.5;
+    for (size_t side = 0; side < (p->mesh->dim + 1) * p->mesh->n_simplices; ++side) {
+        const uint32_t across = p->mesh->across[side];
+        p->flux[side] = across >= ICCP_RIM ? -1
+                        : across < side    ? -p->flux[across]
+                                           : random_unit(r) - 0.5;
+    }
 }
 
 /* What charts ask for. */
@@ -539,6 +544,56 @@ START_TEST(one_of_two_is_complete_for_any_maximum)
     }
     ck_assert_uint_gt(n_grown, 120);
     ck_assert_uint_gt(n_peeled, 120);
+}
+END_TEST
+
+/* Turns the order's facets and checks what becomes of it: a shelling as before, and what is turned was amiss.
+ * Returns how many facets that were are left so. */
+static size_t turn_order(problem *p, uint32_t centre, size_t *n_turned)
+{
+    const iccp_order_wish wish = {p->mesh, &p->faces, centre, p->flux, p->potential, 8, NULL};
+    const iccp_env env = plain_env();
+    const iccp_simplices *m = p->mesh;
+    uint32_t *before = room(m->n_simplices, sizeof *before);
+    size_t n_changed = 0, n_left = 0, said;
+    memcpy(before, p->rank, m->n_simplices * sizeof *before);
+    ck_assert_int_eq(iccp_order_turn(&wish, p->rank, &said, &env), ICC_OK);
+    check_order(m, faces_of(p), centre, p->rank);
+    for (size_t side = 0; side < (m->dim + 1) * m->n_simplices; ++side) {
+        if (m->across[side] >= ICCP_RIM)
+            continue;
+        const size_t here = iccp_simplex_of(m, (uint32_t)side);
+        const size_t there = iccp_simplex_of(m, m->across[side]);
+        const bool left_by = before[here] > before[there], is_left_by = p->rank[here] > p->rank[there];
+        must(!left_by || is_left_by || p->flux[side] < 0);
+        n_changed += left_by && !is_left_by;
+        n_left += is_left_by && p->flux[side] < 0;
+    }
+    ck_assert_uint_eq(said, n_changed);
+    *n_turned += n_changed;
+    free(before);
+    return n_left;
+}
+
+START_TEST(turned_orders_are_shellings)
+{
+    random_source r = {12};
+    size_t n_turned = 0, n_left = 0, n_forced = 0;
+    for (int number = 0; number < 12; ++number) {
+        problem p = mesh_by_number(number, &r);
+        const uint32_t centre = random_centre(&p, &r);
+        for (int k = 0; k < 4; ++k) {
+            wish_flux(&p, centre);
+            if (left_by(&p, centre, k < 2 ? 2 : 32, k % 2 != 0) > 0)
+                continue;
+            n_left += turn_order(&p, centre, &n_turned);
+            wish_anything(&p, &r);
+            (void)turn_order(&p, centre, &n_forced);
+        }
+        end(&p);
+    }
+    ck_assert_uint_gt(n_turned, 2 * n_left);
+    ck_assert_uint_gt(n_forced, n_turned);
 }
 END_TEST
 
@@ -756,6 +811,7 @@ int main(void)
     tcase_add_test(tests, nothing_is_left_in_the_plane);
     tcase_add_test(tests, complete_orders_are_shellings);
     tcase_add_test(tests, one_of_two_is_complete_for_any_maximum);
+    tcase_add_test(tests, turned_orders_are_shellings);
     tcase_add_test(tests, real_meshes);
     tcase_add_test(tests, contests_are_won_by_the_best);
     tcase_add_test(tests, houses_end_in_an_order_or_an_error);
