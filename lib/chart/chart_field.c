@@ -23,6 +23,9 @@ enum { SWEEPS = 2 };
 /* Share of the vertices inside that may be given up so that the others form a ball. */
 static const double MOST_LOST = 0.05;
 
+/* Vertices that a grid of half the spacing may have: 1 GB or so in 3-D. */
+static const size_t MOST_REFINED = (size_t)1 << 24;
+
 typedef struct field_state {
     icc_tree *tree;
     icc_field *field;
@@ -64,20 +67,21 @@ static icc_status choose_root(const icc_grid *grid, const double *maximum, uint3
     return ICC_OK;
 }
 
-static icc_status make_tree(field_state *state, icc_chart *chart, const icc_chart_options *options,
-                            const double *maximum, const iccp_env *env, icc_error *err)
+static icc_status make_tree_on(field_state *state, icc_chart *chart, int32_t cells,
+                               const double *maximum, const iccp_env *env, icc_error *err)
 {
     icc_grid *grid;
     uint32_t root = 0;
     icc_grow_report grown = {0};
     icc_tree_report report = {0};
     double start = iccp_seconds();
-    const int32_t cells = choose_cells(chart->domain, options->cells);
     icc_status status = iccp_grid_create(&grid, chart->domain, cells, env, err);
     if (status != ICC_OK)
         return status;
+    chart->info.n_grid = grid->n_vertices;
+    chart->info.cells = grid->cells;
     status = choose_root(grid, maximum, &root, env, err);
-    chart->info.seconds_grid = iccp_seconds() - start;
+    chart->info.seconds_grid += iccp_seconds() - start;
     start = iccp_seconds();
     uint32_t *rank = iccp_alloc(&env->memory, grid->n_vertices, sizeof *rank);
     if (status == ICC_OK && rank == NULL)
@@ -89,11 +93,25 @@ static icc_status make_tree(field_state *state, icc_chart *chart, const icc_char
         status = iccp_tree_verify(state->tree, &report, env);
     iccp_free(&env->memory, rank);
     iccp_grid_release(grid);
-    chart->info.seconds_tree = iccp_seconds() - start;
+    chart->info.seconds_tree += iccp_seconds() - start;
     chart->info.n_tree = report.n_inside + report.n_outside;
     chart->info.n_unreachable = report.n_unreachable;
     chart->info.n_cousin_violations = report.n_cousin_violations;
     return status;
+}
+
+/* Where the vertices inside are no ball, mostly because gaps are thinner than the grid, it is refined once. */
+static icc_status make_tree(field_state *state, icc_chart *chart, const icc_chart_options *options,
+                            const double *maximum, const iccp_env *env, icc_error *err)
+{
+    const icc_chart_info *info = &chart->info;
+    const int32_t cells = choose_cells(chart->domain, options->cells);
+    const icc_status status = make_tree_on(state, chart, cells, maximum, env, err);
+    if (status != ICC_ERR_TOPOLOGY || info->n_grid > MOST_REFINED >> chart->domain->dim)
+        return status;
+    iccp_log(env, "field: no order of the vertices of %d cells has one critical vertex; %d are tried",
+             (int)info->cells, (int)(2 * info->cells));
+    return make_tree_on(state, chart, 2 * info->cells, maximum, env, err);
 }
 
 static icc_status make_field(field_state *state, icc_chart *chart, const icc_chart_options *options,
@@ -148,8 +166,6 @@ static void finish(field_state *state, icc_chart *chart)
                               .most_steps = steps};
     iccp_frame_out(&chart->domain->frame, dim, state->root, info->maximum);
     info->spacing = grid->spacing * chart->domain->frame.out[0] * chart->domain->frame.out[1];
-    info->cells = grid->cells;
-    info->n_grid = grid->n_vertices;
     info->n_inside = grid->n_inside;
     info->n_infeasible = state->cones.n_infeasible;
     info->n_contacts = state->cones.n_contacts;
