@@ -267,7 +267,7 @@ static void free_state(icc_chart *chart)
     iccp_free(&chart->memory, state);
 }
 
-static const iccp_chart_ops OPS = {encode, decode, trace, NULL, free_state};
+static const iccp_chart_ops OPS = {encode, decode, NULL, NULL, trace, NULL, free_state};
 
 /* The image's rim goes once round the origin: every edge turns left round it and the angles grow from 0 to
  * one turn. So the rim is simple and every ray from the origin meets it once; it need not be convex,

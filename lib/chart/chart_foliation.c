@@ -358,7 +358,7 @@ static void free_state(icc_chart *chart)
     iccp_free(&chart->memory, state);
 }
 
-static const iccp_chart_ops OPS = {encode, decode, trace, NULL, free_state};
+static const iccp_chart_ops OPS = {encode, decode, NULL, NULL, trace, NULL, free_state};
 
 /* Shares of harmonic flux to try: one half is the fairest; less copes with sharper corners. */
 static const double HARMONIC_SHARES[] = {0.5, 0.25, 0.0};

@@ -255,7 +255,7 @@ static void free_state(icc_chart *chart)
     iccp_free(&chart->memory, state);
 }
 
-static const iccp_chart_ops OPS = {encode, decode, trace, iccp_gradient_measure, free_state};
+static const iccp_chart_ops OPS = {encode, decode, NULL, NULL, trace, iccp_gradient_measure, free_state};
 
 icc_status iccp_chart_gradient_create(icc_chart **out, const icc_domain *domain,
                                       const icc_chart_options *options, const iccp_env *env,

@@ -255,4 +255,4 @@ static void free_state(icc_chart *chart)
     iccp_free(&chart->memory, state);
 }
 
-const iccp_chart_ops iccp_shelling_ops = {encode, decode, trace, NULL, free_state};
+const iccp_chart_ops iccp_shelling_ops = {encode, decode, NULL, NULL, trace, NULL, free_state};
