@@ -354,7 +354,8 @@ typedef struct icc_chart_info {
     int32_t function;            /**< `ICC_FUNCTION_*` */
     int32_t tree;                /**< `ICC_TREE_*` */
     int32_t certified;           /**< 1: proved to be one-to-one, exactly; 0: not (gradient) */
-    int32_t cells;               /**< cells along the longest side that were used */
+    int32_t cells;               /**< cells along the longest side that were used; method field in
+                                      thin shapes: twice those asked for, where those do not do */
     double maximum[ICC_MAX_DIM]; /**< the point that every curve ends at */
     double spacing;              /**< distance of grid or lattice neighbours */
     size_t n_grid;               /**< grid vertices */

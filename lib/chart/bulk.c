@@ -5,22 +5,25 @@
 #include <math.h>
 #include <string.h>
 
-/* Points per task: long enough to outweigh the handing out, short enough to cancel quickly. */
-enum { GRAIN = 128 };
-
 /* How far barycentric coordinates may miss a sum of 1: a text file with nine digits will do. */
 static const double SUM_TOLERANCE = 1e-9;
 
-icc_status iccp_encode_point(const icc_chart *chart, const double *point, iccp_coords *coords,
-                             iccp_encode_jet *jet, iccp_path *path)
+static icc_status to_local(const icc_chart *chart, const double *point, double *local)
 {
     const int32_t dim = chart->domain->dim;
-    double local[ICC_MAX_DIM];
     for (int32_t k = 0; k < dim; ++k)
         if (!isfinite(point[k]))
             return ICC_ERR_ARGUMENT;
     iccp_frame_in(&chart->domain->frame, dim, point, local);
-    return chart->ops->encode(chart, local, coords, jet, path);
+    return ICC_OK;
+}
+
+icc_status iccp_encode_point(const icc_chart *chart, const double *point, iccp_coords *coords,
+                             iccp_encode_jet *jet, iccp_path *path)
+{
+    double local[ICC_MAX_DIM];
+    const icc_status status = to_local(chart, point, local);
+    return status == ICC_OK ? chart->ops->encode(chart, local, coords, jet, path) : status;
 }
 
 /* Range checks in the form that NaN fails. Scales a sum that is off within tolerance to 1. */
@@ -40,21 +43,65 @@ static bool normalise(const icc_domain *domain, iccp_coords *coords)
     return true;
 }
 
-icc_status iccp_decode_point(const icc_chart *chart, const iccp_coords *coords, double *point,
-                             iccp_decode_jet *jet, iccp_path *path)
+/* Back to the caller's coordinates. */
+static void from_local(const icc_chart *chart, icc_status status, const double *local,
+                       double *point)
 {
     const int32_t dim = chart->domain->dim;
-    iccp_coords checked = *coords;
-    double local[ICC_MAX_DIM];
-    icc_status status = ICC_ERR_ARGUMENT;
-    if (normalise(chart->domain, &checked))
-        status = chart->ops->decode(chart, &checked, local, jet, path);
     if (status == ICC_OK)
         iccp_frame_out(&chart->domain->frame, dim, local, point);
     else
         for (int32_t k = 0; k < dim; ++k)
             point[k] = NAN;
+}
+
+icc_status iccp_decode_point(const icc_chart *chart, const iccp_coords *coords, double *point,
+                             iccp_decode_jet *jet, iccp_path *path)
+{
+    iccp_coords checked = *coords;
+    double local[ICC_MAX_DIM];
+    icc_status status = ICC_ERR_ARGUMENT;
+    if (normalise(chart->domain, &checked))
+        status = chart->ops->decode(chart, &checked, local, jet, path);
+    from_local(chart, status, local, point);
     return status;
+}
+
+/* ---- many points ---- */
+
+icc_status iccp_encode_points(const icc_chart *chart, size_t n, const double *points,
+                              iccp_coords *coords, icc_status *status, iccp_path *path)
+{
+    const size_t dim = (size_t)chart->domain->dim;
+    double local[ICCP_CHART_MANY * ICC_MAX_DIM];
+    icc_status all = ICC_OK;
+    for (size_t i = 0; i < n; ++i)
+        status[i] = to_local(chart, points + dim * i, local + dim * i);
+    if (chart->ops->encode_many != NULL)
+        return chart->ops->encode_many(chart, n, local, coords, status, path);
+    for (size_t i = 0; i < n && iccp_is_point_status(all); ++i)
+        if (status[i] == ICC_OK)
+            all = status[i] = chart->ops->encode(chart, local + dim * i, &coords[i], NULL, path);
+    return iccp_is_point_status(all) ? ICC_OK : all;
+}
+
+icc_status iccp_decode_points(const icc_chart *chart, size_t n, iccp_coords *coords, double *points,
+                              icc_status *status, iccp_path *path)
+{
+    const size_t dim = (size_t)chart->domain->dim;
+    double local[ICCP_CHART_MANY * ICC_MAX_DIM];
+    icc_status all = ICC_OK;
+    for (size_t i = 0; i < n; ++i)
+        if (status[i] == ICC_OK && !normalise(chart->domain, &coords[i]))
+            status[i] = ICC_ERR_ARGUMENT;
+    if (chart->ops->decode_many != NULL)
+        all = chart->ops->decode_many(chart, n, coords, local, status, path);
+    for (size_t i = 0; i < n && iccp_is_point_status(all); ++i) {
+        if (chart->ops->decode_many == NULL && status[i] == ICC_OK)
+            all = status[i] = chart->ops->decode(chart, &coords[i], local + dim * i, NULL, path);
+        from_local(chart, status[i], local + dim * i, points + dim * i);
+    }
+    return iccp_is_point_status(all) ? ICC_OK : all;
 }
 
 typedef struct bulk {
@@ -67,60 +114,70 @@ typedef struct bulk {
     atomic_size_t n_failed;
 } bulk;
 
-static void note(bulk *b, size_t i, icc_status status)
+static void note(bulk *b, size_t begin, size_t end, const icc_status *status)
 {
-    if (b->status != NULL)
-        b->status[i] = status;
-    if (status != ICC_OK)
-        atomic_fetch_add(&b->n_failed, 1);
+    size_t n_failed = 0;
+    for (size_t i = begin; i < end; ++i) {
+        if (b->status != NULL)
+            b->status[i] = status[i - begin];
+        n_failed += status[i - begin] != ICC_OK;
+    }
+    atomic_fetch_add(&b->n_failed, n_failed);
+}
+
+static void write_coords(bulk *b, size_t i, const iccp_coords *coords, icc_status status)
+{
+    const size_t dim = (size_t)b->chart->domain->dim;
+    b->facet[i] = status == ICC_OK ? coords->facet : UINT32_MAX;
+    b->t[i] = status == ICC_OK ? coords->t : NAN;
+    for (size_t k = 0; k < dim; ++k)
+        b->bary[dim * i + k] = status == ICC_OK ? coords->bary[k] : NAN;
 }
 
 static icc_status encode_chunk(void *argument, size_t begin, size_t end)
 {
     bulk *b = argument;
-    const size_t dim = (size_t)b->chart->domain->dim;
-    icc_status status = ICC_OK;
+    const size_t dim = (size_t)b->chart->domain->dim, n = end - begin;
+    iccp_coords coords[ICCP_CHART_MANY];
+    icc_status status[ICCP_CHART_MANY];
     iccp_path path;
     iccp_path_init(&path, b->memory);
-    for (size_t i = begin; i < end && iccp_is_point_status(status); ++i) {
-        iccp_coords coords = {0};
-        status = iccp_encode_point(b->chart, b->points + dim * i, &coords, NULL, &path);
-        if (status != ICC_OK) {
-            coords.facet = UINT32_MAX;
-            coords.t = NAN;
-            for (size_t k = 0; k < dim; ++k)
-                coords.bary[k] = NAN;
-        }
-        b->facet[i] = coords.facet;
-        b->t[i] = coords.t;
-        memcpy(b->bary + dim * i, coords.bary, dim * sizeof(double));
-        note(b, i, status);
-    }
+    const icc_status all =
+        iccp_encode_points(b->chart, n, b->points + dim * begin, coords, status, &path);
     iccp_path_clear(&path);
-    return iccp_is_point_status(status) ? ICC_OK : status;
+    if (all != ICC_OK)
+        return all;
+    for (size_t i = 0; i < n; ++i)
+        write_coords(b, begin + i, &coords[i], status[i]);
+    note(b, begin, end, status);
+    return ICC_OK;
 }
 
 static icc_status decode_chunk(void *argument, size_t begin, size_t end)
 {
     bulk *b = argument;
-    const size_t dim = (size_t)b->chart->domain->dim;
-    icc_status status = ICC_OK;
+    const size_t dim = (size_t)b->chart->domain->dim, n = end - begin;
+    iccp_coords coords[ICCP_CHART_MANY];
+    icc_status status[ICCP_CHART_MANY] = {ICC_OK};
     iccp_path path;
-    iccp_path_init(&path, b->memory);
-    for (size_t i = begin; i < end && iccp_is_point_status(status); ++i) {
-        iccp_coords coords = {.facet = b->facet[i], .t = b->t[i]};
-        memcpy(coords.bary, b->bary + dim * i, dim * sizeof(double));
-        status = iccp_decode_point(b->chart, &coords, b->points + dim * i, NULL, &path);
-        note(b, i, status);
+    for (size_t i = 0; i < n; ++i) {
+        coords[i].facet = b->facet[begin + i];
+        coords[i].t = b->t[begin + i];
+        memcpy(coords[i].bary, b->bary + dim * (begin + i), dim * sizeof(double));
     }
+    iccp_path_init(&path, b->memory);
+    const icc_status all =
+        iccp_decode_points(b->chart, n, coords, b->points + dim * begin, status, &path);
     iccp_path_clear(&path);
-    return iccp_is_point_status(status) ? ICC_OK : status;
+    if (all == ICC_OK)
+        note(b, begin, end, status);
+    return all;
 }
 
 static icc_status run(bulk *b, const char *stage, size_t n, iccp_chunk chunk, size_t *n_failed,
                       const iccp_env *env)
 {
-    const icc_status status = iccp_for_chunks(env, stage, n, GRAIN, chunk, b);
+    const icc_status status = iccp_for_chunks(env, stage, n, ICCP_CHART_MANY, chunk, b);
     if (n_failed != NULL)
         *n_failed = atomic_load(&b->n_failed);
     return status;
@@ -136,10 +193,11 @@ icc_status iccp_encode_all(const icc_chart *chart, size_t n, const double *point
 }
 
 icc_status iccp_decode_all(const icc_chart *chart, size_t n, const uint32_t *facet,
-                           const double *bary, const double *t, double *points,
-                           icc_status *status, size_t *n_failed, const iccp_env *env)
+                           const double *bary, const double *t, double *points, icc_status *status,
+                           size_t *n_failed, const iccp_env *env)
 {
     /* decode_chunk only reads the coordinates. */
-    bulk b = {chart, &env->memory, points, (uint32_t *)facet, (double *)bary, (double *)t, status, 0};
+    bulk b = {chart,          &env->memory, points, (uint32_t *)facet,
+              (double *)bary, (double *)t,  status, 0};
     return run(&b, "decode", n, decode_chunk, n_failed, env);
 }

@@ -12,6 +12,15 @@ icc_status iccp_encode_point(const icc_chart *chart, const double *point, iccp_c
 icc_status iccp_decode_point(const icc_chart *chart, const iccp_coords *coords, double *point,
                              iccp_decode_jet *jet, iccp_path *path);
 
+/* The same without derivatives for at most ICCP_CHART_MANY points, whose own outcomes are `status`; returned is
+ * what concerns all. Coordinates of points that fail are undefined. */
+icc_status iccp_encode_points(const icc_chart *chart, size_t n, const double *points,
+                              iccp_coords *coords, icc_status *status, iccp_path *path);
+
+/* Points whose status is not ICC_OK already fail. Scales the barycentric coordinates to a sum of 1. */
+icc_status iccp_decode_points(const icc_chart *chart, size_t n, iccp_coords *coords, double *points,
+                              icc_status *status, iccp_path *path);
+
 /* Whether an outcome concerns one point only, so that the call goes on. */
 static inline bool iccp_is_point_status(icc_status status)
 {
@@ -24,7 +33,7 @@ icc_status iccp_encode_all(const icc_chart *chart, size_t n, const double *point
                            double *bary, double *t, icc_status *status, size_t *n_failed,
                            const iccp_env *env);
 icc_status iccp_decode_all(const icc_chart *chart, size_t n, const uint32_t *facet,
-                           const double *bary, const double *t, double *points,
-                           icc_status *status, size_t *n_failed, const iccp_env *env);
+                           const double *bary, const double *t, double *points, icc_status *status,
+                           size_t *n_failed, const iccp_env *env);
 
 #endif

@@ -35,6 +35,9 @@ void iccp_coords_of_maximum(int32_t dim, iccp_coords *coords);
 /* A curve as a polyline of local points, from the boundary to the maximum; for icc_chart_trace(). */
 typedef icc_status (*iccp_emit)(void *argument, const double *local);
 
+/* Points that are handled at once: long enough to outweigh the handing out, short enough to cancel quickly. */
+enum { ICCP_CHART_MANY = 128 };
+
 typedef struct iccp_chart_ops {
     /* The point is inside or on the boundary. `jet` may be NULL; it is refused (ICC_ERR_TRACE) where there
      * is no derivative. `path` is scratch. */
@@ -42,6 +45,13 @@ typedef struct iccp_chart_ops {
                          iccp_encode_jet *jet, iccp_path *path);
     icc_status (*decode)(const icc_chart *chart, const iccp_coords *coords, double *point,
                          iccp_decode_jet *jet, iccp_path *path);
+    /* The same for at most ICCP_CHART_MANY points, without derivatives, bit for bit; NULL where that is not
+     * faster. Points whose status is not ICC_OK are left out, and what happens to one is its status;
+     * returned is what concerns all. */
+    icc_status (*encode_many)(const icc_chart *chart, size_t n, const double *points,
+                              iccp_coords *coords, icc_status *status, iccp_path *path);
+    icc_status (*decode_many)(const icc_chart *chart, size_t n, const iccp_coords *coords,
+                              double *points, icc_status *status, iccp_path *path);
     icc_status (*trace)(const icc_chart *chart, const double *point, iccp_path *path,
                         iccp_emit emit, void *argument);
     /* Fills in everything but `size`; n_points > 0. NULL for methods that miss nothing. */

@@ -275,7 +275,13 @@ static void save(const icc_chart *chart, iccp_blob_writer *w)
     iccp_blob_f64(w, 2 * state->mesh.n_vertices, state->image);
 }
 
-static const iccp_chart_ops OPS = {encode, decode, trace, NULL, save, free_state};
+static const iccp_chart_ops OPS = {
+    .encode = encode,
+    .decode = decode,
+    .trace = trace,
+    .save = save,
+    .free_state = free_state,
+};
 
 /* The image's rim goes once round the origin: every edge turns left round it and the angles grow from 0 to
  * one turn. So the rim is simple and every ray from the origin meets it once; it need not be convex,

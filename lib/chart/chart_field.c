@@ -12,6 +12,7 @@
 #include "field/critical.h"
 #include "grid/grassfire.h"
 #include "grid/rasterise.h"
+#include "trace/flow_follow.h"
 #include "trace/flow_jet.h"
 #include "tree/settle.h"
 #include "tree/verify.h"
@@ -23,6 +24,9 @@ enum { SWEEPS = 2 };
 
 /* Share of the vertices inside that may be given up so that the others form a ball. */
 static const double MOST_LOST = 0.05;
+
+/* Vertices that a grid of half the spacing may have: 1 GB or so in 3-D. */
+static const size_t MOST_REFINED = (size_t)1 << 24;
 
 typedef struct field_state {
     iccp_recipe recipe;
@@ -66,20 +70,21 @@ static icc_status choose_root(const icc_grid *grid, const double *maximum, uint3
     return ICC_OK;
 }
 
-static icc_status make_tree(field_state *state, icc_chart *chart, const icc_chart_options *options,
-                            const double *maximum, const iccp_env *env, icc_error *err)
+static icc_status make_tree_on(field_state *state, icc_chart *chart, int32_t cells,
+                               const double *maximum, const iccp_env *env, icc_error *err)
 {
     icc_grid *grid;
     uint32_t root = 0;
     icc_grow_report grown = {0};
     icc_tree_report report = {0};
     double start = iccp_seconds();
-    const int32_t cells = choose_cells(chart->domain, options->cells);
     icc_status status = iccp_grid_create(&grid, chart->domain, cells, env, err);
     if (status != ICC_OK)
         return status;
+    chart->info.n_grid = grid->n_vertices;
+    chart->info.cells = grid->cells;
     status = choose_root(grid, maximum, &root, env, err);
-    chart->info.seconds_grid = iccp_seconds() - start;
+    chart->info.seconds_grid += iccp_seconds() - start;
     start = iccp_seconds();
     uint32_t *rank = iccp_alloc(&env->memory, grid->n_vertices, sizeof *rank);
     if (status == ICC_OK && rank == NULL)
@@ -91,11 +96,25 @@ static icc_status make_tree(field_state *state, icc_chart *chart, const icc_char
         status = iccp_tree_verify(state->tree, &report, env);
     iccp_free(&env->memory, rank);
     iccp_grid_release(grid);
-    chart->info.seconds_tree = iccp_seconds() - start;
+    chart->info.seconds_tree += iccp_seconds() - start;
     chart->info.n_tree = report.n_inside + report.n_outside;
     chart->info.n_unreachable = report.n_unreachable;
     chart->info.n_cousin_violations = report.n_cousin_violations;
     return status;
+}
+
+/* Where the vertices inside are no ball, mostly because gaps are thinner than the grid, it is refined once. */
+static icc_status make_tree(field_state *state, icc_chart *chart, const icc_chart_options *options,
+                            const double *maximum, const iccp_env *env, icc_error *err)
+{
+    const icc_chart_info *info = &chart->info;
+    const int32_t cells = choose_cells(chart->domain, options->cells);
+    const icc_status status = make_tree_on(state, chart, cells, maximum, env, err);
+    if (status != ICC_ERR_TOPOLOGY || info->n_grid > MOST_REFINED >> chart->domain->dim)
+        return status;
+    iccp_log(env, "field: no order of the vertices of %d cells has one critical vertex; %d are tried",
+             (int)info->cells, (int)(2 * info->cells));
+    return make_tree_on(state, chart, 2 * info->cells, maximum, env, err);
 }
 
 static icc_status make_field(field_state *state, icc_chart *chart, const icc_chart_options *options,
@@ -150,8 +169,6 @@ static void finish(field_state *state, icc_chart *chart)
                               .most_steps = steps};
     iccp_frame_out(&chart->domain->frame, dim, state->root, info->maximum);
     info->spacing = grid->spacing * chart->domain->frame.out[0] * chart->domain->frame.out[1];
-    info->cells = grid->cells;
-    info->n_grid = grid->n_vertices;
     info->n_inside = grid->n_inside;
     info->n_infeasible = state->cones.n_infeasible;
     info->n_contacts = state->cones.n_contacts;
@@ -311,29 +328,38 @@ static void fill_encode_jet(const icc_chart *chart, uint32_t facet, const iccp_f
     }
 }
 
+/* Whether the coordinates are known without a curve, or the point has none: then *status says which. Else
+ * the place is where the curve starts. */
+static bool is_settled(const icc_chart *chart, const double *point, iccp_flow_place *place,
+                       iccp_coords *coords, icc_status *status)
+{
+    const int32_t where = locate(chart, point, place, coords);
+    coords->t = 0;
+    *status = where == ICC_OUTSIDE ? ICC_ERR_OUTSIDE : ICC_OK;
+    if (where != ICC_INSIDE)
+        return true;
+    if (!at_maximum(chart, point))
+        return false;
+    iccp_coords_of_maximum(chart->domain->dim, coords);
+    return true;
+}
+
 static icc_status encode(const icc_chart *chart, const double *point, iccp_coords *coords,
                          iccp_encode_jet *jet, iccp_path *path)
 {
     (void)path;
     const field_state *state = chart->state;
     iccp_flow_place place;
-    const int32_t where = locate(chart, point, &place, coords);
-    coords->t = 0;
-    if (where == ICC_OUTSIDE)
-        return ICC_ERR_OUTSIDE;
-    if (where == ICC_BOUNDARY)
-        return jet == NULL ? ICC_OK : ICC_ERR_TRACE;
-    if (at_maximum(chart, point)) {
-        iccp_coords_of_maximum(chart->domain->dim, coords);
-        return jet == NULL ? ICC_OK : ICC_ERR_TRACE;
-    }
+    icc_status status;
+    if (is_settled(chart, point, &place, coords, &status))
+        return status == ICC_OK && jet != NULL ? ICC_ERR_TRACE : status;
     double s_down = 0, s_up = 0;
     iccp_flow_jet down, up;
     if (jet != NULL) {
         unit_jet(&down, chart->domain->dim);
         unit_jet(&up, chart->domain->dim);
     }
-    icc_status status = walk_down(state, &place, coords, &s_down, jet != NULL ? &down : NULL);
+    status = walk_down(state, &place, coords, &s_down, jet != NULL ? &down : NULL);
     if (status == ICC_OK)
         status = walk_up(state, &place, &s_up, jet != NULL ? &up : NULL);
     if (status != ICC_OK)
@@ -342,6 +368,51 @@ static icc_status encode(const icc_chart *chart, const double *point, iccp_coord
     if (jet != NULL)
         fill_encode_jet(chart, coords->facet, &down, s_down, &up, s_up, jet);
     return ICC_OK;
+}
+
+/* The curves of points that need some, and whose they are. */
+typedef struct many {
+    iccp_flow_curve *curves;
+    size_t n, point[ICCP_CHART_MANY];
+} many;
+
+static bool begin_many(many *m, size_t n_curves, const iccp_path *path)
+{
+    m->n = 0;
+    m->curves = iccp_alloc(path->memory, n_curves, sizeof *m->curves);
+    return m->curves != NULL;
+}
+
+/* Two curves for each point, the one downhill first. */
+static icc_status encode_many(const icc_chart *chart, size_t n, const double *points,
+                              iccp_coords *coords, icc_status *status, iccp_path *path)
+{
+    const field_state *state = chart->state;
+    const size_t dim = (size_t)chart->domain->dim;
+    many m;
+    if (!begin_many(&m, 2 * n, path))
+        return ICC_ERR_MEMORY;
+    for (size_t i = 0; i < n; ++i) {
+        iccp_flow_curve *down = m.curves + 2 * m.n, *up = down + 1;
+        if (status[i] != ICC_OK ||
+            is_settled(chart, points + dim * i, &down->start, &coords[i], &status[i]))
+            continue;
+        *up = (iccp_flow_curve){.start = down->start, .sign = +1};
+        down->sign = -1;
+        down->share = 0;
+        m.point[m.n++] = i;
+    }
+    const icc_status all = iccp_flow_follow(&state->flow, 2 * m.n, m.curves, path->memory);
+    for (size_t j = 0; all == ICC_OK && j < m.n; ++j) {
+        const iccp_flow_curve *down = m.curves + 2 * j, *up = down + 1;
+        iccp_coords *own = coords + m.point[j];
+        own->facet = down->facet;
+        memcpy(own->bary, down->bary, dim * sizeof *own->bary);
+        own->t = down->length / (down->length + up->length);
+        status[m.point[j]] = down->status != ICC_OK ? down->status : up->status;
+    }
+    iccp_free(path->memory, m.curves);
+    return all;
 }
 
 /* ---- and back ---- */
@@ -412,21 +483,25 @@ static icc_status fill_decode_jet(const icc_chart *chart, const iccp_coords *coo
     return ICC_OK;
 }
 
+/* The point where its curve starts, or the point itself; then returns true. */
+static bool is_at_end(const icc_chart *chart, const iccp_coords *coords, double *point)
+{
+    const field_state *state = chart->state;
+    if (coords->t >= 1)
+        memcpy(point, state->root, (size_t)chart->domain->dim * sizeof *point);
+    else
+        iccp_domain_facet_point(chart->domain, coords->facet, coords->bary, point);
+    return coords->t <= 0 || coords->t >= 1;
+}
+
 static icc_status decode(const icc_chart *chart, const iccp_coords *coords, double *point,
                          iccp_decode_jet *jet, iccp_path *path)
 {
     const field_state *state = chart->state;
     iccp_flow_walk walk;
     double at[ICC_MAX_DIM];
-    if (jet != NULL && (coords->t <= 0 || coords->t >= 1))
-        return ICC_ERR_TRACE;
-    if (coords->t >= 1) {
-        memcpy(point, state->root, (size_t)chart->domain->dim * sizeof *point);
-        return ICC_OK;
-    }
-    iccp_domain_facet_point(chart->domain, coords->facet, coords->bary, point);
-    if (coords->t <= 0)
-        return ICC_OK;
+    if (is_at_end(chart, coords, point))
+        return jet == NULL ? ICC_OK : ICC_ERR_TRACE;
     icc_status status = climb(chart, point, &walk, path);
     if (status != ICC_OK)
         return status;
@@ -439,6 +514,33 @@ static icc_status decode(const icc_chart *chart, const iccp_coords *coords, doub
     to_local(state, &walk.place, at, point);
     return jet == NULL ? ICC_OK
                        : fill_decode_jet(chart, coords, path, &walk, s, total, jet);
+}
+
+static icc_status decode_many(const icc_chart *chart, size_t n, const iccp_coords *coords,
+                              double *points, icc_status *status, iccp_path *path)
+{
+    const field_state *state = chart->state;
+    const size_t dim = (size_t)chart->domain->dim;
+    many m;
+    if (!begin_many(&m, n, path))
+        return ICC_ERR_MEMORY;
+    for (size_t i = 0; i < n; ++i) {
+        double *point = points + dim * i;
+        if (status[i] != ICC_OK || is_at_end(chart, &coords[i], point))
+            continue;
+        m.curves[m.n] = (iccp_flow_curve){.sign = +1, .share = coords[i].t};
+        status[i] = find_entry(chart, point, &m.curves[m.n].start);
+        m.point[m.n] = i;
+        m.n += status[i] == ICC_OK;
+    }
+    const icc_status all = iccp_flow_follow(&state->flow, m.n, m.curves, path->memory);
+    for (size_t j = 0; all == ICC_OK && j < m.n; ++j) {
+        const iccp_flow_place *place = &m.curves[j].place;
+        to_local(state, place, place->at, points + dim * m.point[j]);
+        status[m.point[j]] = m.curves[j].status;
+    }
+    iccp_free(path->memory, m.curves);
+    return all;
 }
 
 /* ---- the whole curve ---- */
@@ -546,7 +648,16 @@ static void save(const icc_chart *chart, iccp_blob_writer *w)
     iccp_recipe_write(&state->recipe, chart->domain->dim, digest_of(chart), w);
 }
 
-static const iccp_chart_ops OPS = {encode, decode, trace, measure, save, free_state};
+static const iccp_chart_ops OPS = {
+    .encode = encode,
+    .decode = decode,
+    .encode_many = encode_many,
+    .decode_many = decode_many,
+    .trace = trace,
+    .measure = measure,
+    .save = save,
+    .free_state = free_state,
+};
 
 const icc_field *iccp_chart_field_function(const icc_chart *chart)
 {

@@ -368,7 +368,13 @@ static void save(const icc_chart *chart, iccp_blob_writer *w)
     iccp_psi_write(&state->psi, &state->mesh, w);
 }
 
-static const iccp_chart_ops OPS = {encode, decode, trace, NULL, save, free_state};
+static const iccp_chart_ops OPS = {
+    .encode = encode,
+    .decode = decode,
+    .trace = trace,
+    .save = save,
+    .free_state = free_state,
+};
 
 /* ---- making it ---- */
 

@@ -261,7 +261,14 @@ static void save(const icc_chart *chart, iccp_blob_writer *w)
     iccp_recipe_write(&state->recipe, chart->domain->dim, iccp_digest_field(state->field), w);
 }
 
-static const iccp_chart_ops OPS = {encode, decode, trace, iccp_gradient_measure, save, free_state};
+static const iccp_chart_ops OPS = {
+    .encode = encode,
+    .decode = decode,
+    .trace = trace,
+    .measure = iccp_gradient_measure,
+    .save = save,
+    .free_state = free_state,
+};
 
 icc_status iccp_chart_gradient_create(icc_chart **out, const icc_domain *domain,
                                       const icc_chart_options *options, const iccp_env *env,

@@ -280,7 +280,13 @@ static void save(const icc_chart *chart, iccp_blob_writer *w)
     }
 }
 
-const iccp_chart_ops iccp_shelling_ops = {encode, decode, trace, NULL, save, free_state};
+const iccp_chart_ops iccp_shelling_ops = {
+    .encode = encode,
+    .decode = decode,
+    .trace = trace,
+    .save = save,
+    .free_state = free_state,
+};
 
 icc_status iccp_shelling_begin(icc_chart **out, const icc_domain *domain, iccp_simplices *own,
                                uint32_t centre, const iccp_env *env)

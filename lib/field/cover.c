@@ -3,6 +3,8 @@
  * touch although they do not; none is missed. */
 #include "field/cover.h"
 
+#include "field/cover_mask.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -76,8 +78,13 @@ typedef struct scan {
     double level;                            /* of the facet's plane */
     uint32_t faces;                          /* of the simplex looked at: met by the facet */
     uint32_t reached;                        /* its corners that count where the facet is */
+    int32_t settled;                         /* how many axes of its order settle that it is apart */
+    bool second;                             /* pass: all bits are known */
     uint32_t *seen;                          /* by vertex: the last facet noted there, + 1 */
-    uint32_t *count;                         /* by vertex: how many facets, in the first pass */
+    uint32_t *count;                         /* by vertex: how many facets, in the second pass */
+    uint32_t *noted;                         /* the vertices of one facet after the other */
+    size_t n_noted, room;
+    size_t *end;                             /* by facet: of its vertices in `noted` */
     uint32_t *outside;                       /* by cell: simplices found outside, up to 4-D */
 } scan;
 
@@ -213,6 +220,7 @@ static contact contact_with(scan *s, const int32_t *cell, const int8_t *axis)
     const int32_t dim = s->domain->dim;
     contact least = plane_contact(s, cell, axis); /* the cheaper part, which most fail */
     s->faces = s->reached = 0;
+    s->settled = dim;
     if (least == APART)
         return APART;
     for (int32_t i = 0; i <= dim; ++i) {
@@ -223,8 +231,10 @@ static contact contact_with(scan *s, const int32_t *cell, const int8_t *axis)
             highest = above - below > highest ? above - below : highest;
             lowest = above - below < lowest ? above - below : lowest;
         }
-        if (highest < -CONTACT)
+        if (highest < -CONTACT) {
+            s->settled = i < dim ? i + 1 : dim;
             return APART;
+        }
         s->faces |= lowest <= CONTACT ? (uint32_t)1 << i : 0;
         least = highest > CONTACT ? least : GRAZES;
         s->reached |= highest > CONTACT ? (uint32_t)1 << i : 0;
@@ -263,47 +273,74 @@ static bool middle_is_inside(const scan *s, const int32_t *cell, uint32_t lowest
     return false;
 }
 
-/* A facet that only touches a face of a simplex does not meet the vectors of the other corners. */
-static void note(scan *s, const uint32_t *corner, bool second)
+static bool reserve(scan *s)
 {
+    const size_t room = 2 * s->room + 1024, most = (size_t)s->domain->dim + 1;
+    if (s->n_noted + most <= s->room)
+        return true;
+    uint32_t *noted = iccp_grow(&s->cover->memory, s->noted, s->n_noted, room, sizeof *noted);
+    if (noted == NULL)
+        return false;
+    s->noted = noted;
+    s->room = room;
+    return true;
+}
+
+/* A facet that only touches a face of a simplex does not meet the vectors of the other corners. */
+static bool note(scan *s, const uint32_t *corner)
+{
+    if (!reserve(s))
+        return false;
     for (int32_t k = 0; k <= s->domain->dim; ++k) {
         const uint32_t v = corner[k];
         if (!(s->reached >> k & 1) || s->seen[v] == s->facet + 1)
             continue;
         s->seen[v] = s->facet + 1;
-        if (second)
-            s->cover->facet[s->count[v]++] = s->facet;
-        else
-            ++s->count[v];
+        s->noted[s->n_noted++] = v;
+        ++s->count[v];
     }
+    return true;
 }
 
-static void visit_cell(scan *s, const int32_t *cell, bool second)
+static bool visit_simplex(scan *s, const int32_t *cell, uint32_t lowest, int32_t r)
+{
+    const icc_grid *grid = s->cover->grid;
+    const int8_t *axis = s->orders->axis[r];
+    uint32_t corner[ICC_MAX_DIM + 1];
+    const contact c = contact_with(s, cell, axis);
+    if (c == APART)
+        return true;
+    const bool any_inside = corners_of(s, lowest, axis, corner);
+    const bool has = iccp_cover_has(s->cover, lowest, r);
+    /* What is grazed from outside belongs to nobody, unless another facet runs through it. */
+    if (c == GRAZES && !any_inside && !has && !middle_is_inside(s, cell, lowest, r))
+        return true;
+    s->cover->bits[lowest] |= (uint32_t)1 << (r % 32);
+    for (int32_t i = 0; i <= grid->dim; ++i)
+        if (s->faces >> i & 1)
+            s->cover->faces[lowest] |= iccp_cover_face_bit(grid->dim, r, i);
+    return s->second ? note(s, corner) : true;
+}
+
+/* Orders that begin alike follow each other, and what the beginning settles need not be asked again. */
+static bool visit_cell(scan *s, const int32_t *cell)
 {
     const icc_grid *grid = s->cover->grid;
     uint32_t lowest = 0;
     for (int32_t k = 0; k < grid->dim; ++k)
         lowest += (uint32_t)cell[k] * (uint32_t)grid->stride[k];
-    for (int32_t r = 0; r < s->orders->n; ++r) {
-        const int8_t *axis = s->orders->axis[r];
-        const contact c = contact_with(s, cell, axis);
-        uint32_t corner[ICC_MAX_DIM + 1];
-        if (c == APART)
-            continue;
-        const bool any_inside = corners_of(s, lowest, axis, corner);
-        const bool has = iccp_cover_has(s->cover, lowest, r);
-        /* What is grazed from outside belongs to nobody. */
-        if (c == GRAZES && !any_inside && !has && !middle_is_inside(s, cell, lowest, r))
-            continue;
-        s->cover->bits[lowest] |= (uint32_t)1 << (r % 32);
-        for (int32_t i = 0; i <= grid->dim; ++i)
-            if (s->faces >> i & 1)
-                s->cover->faces[lowest] |= iccp_cover_face_bit(grid->dim, r, i);
-        note(s, corner, second);
+    for (int32_t r = 0; r < s->orders->n;) {
+        if (!visit_simplex(s, cell, lowest, r))
+            return false;
+        int32_t n_alike = 1;
+        for (int32_t free = grid->dim - s->settled; free > 1; --free)
+            n_alike *= free;
+        r += n_alike - r % n_alike;
     }
+    return true;
 }
 
-static void visit_facet(scan *s, uint32_t facet, bool second)
+static bool visit_facet(scan *s, uint32_t facet)
 {
     const int32_t dim = s->domain->dim;
     const icc_grid *grid = s->cover->grid;
@@ -324,49 +361,82 @@ static void visit_facet(scan *s, uint32_t facet, bool second)
             centre += s->normal[i] * (cell[i] + 0.5);
             reach += 0.5 * fabs(s->normal[i]);
         }
-        if (fabs(centre) <= reach)
-            visit_cell(s, cell, second);
+        if (fabs(centre) <= reach && !visit_cell(s, cell))
+            return false;
         for (k = 0; k < dim && ++cell[k] > last[k]; ++k)
             cell[k] = first[k];
     }
+    return true;
 }
 
-static icc_status visit_all(scan *s, bool second, const iccp_env *env)
+static icc_status visit_all(scan *s, const iccp_env *env)
 {
-    memset(s->seen, 0, s->cover->grid->n_vertices * sizeof *s->seen);
+    const size_t n = s->domain->n_facets;
     icc_status status = ICC_OK;
-    for (size_t f = 0; status == ICC_OK && f < s->domain->n_facets; ++f) {
+    for (size_t f = 0; status == ICC_OK && f < n; ++f) {
         if (f % FACETS_PER_REPORT == 0)
-            status = iccp_progress(env, "cover",
-                                   (0.5 * (double)f) / (double)s->domain->n_facets + 0.5 * second);
-        visit_facet(s, (uint32_t)f, second);
+            status = iccp_progress(env, "cover", 0.5 * (double)f / (double)n + 0.5 * s->second);
+        if (status == ICC_OK && !visit_facet(s, (uint32_t)f))
+            status = ICC_ERR_MEMORY;
+        s->end[f] = s->n_noted;
     }
     return status;
 }
 
-/* From counts to the place of each vertex' first facet. */
-static icc_status make_room(scan *s)
+icc_status iccp_cover_make_room(iccp_cover *cover, uint32_t *count)
 {
-    const size_t n = s->cover->grid->n_vertices;
+    const size_t n = cover->grid->n_vertices;
     size_t sum = 0;
     for (size_t v = 0; v < n; ++v) {
-        s->cover->first[v] = (uint32_t)sum;
-        sum += s->count[v];
-        s->count[v] = s->cover->first[v];
+        const size_t own = count[v];
+        count[v] = cover->first[v] = (uint32_t)sum;
+        sum += own;
+        if (sum > UINT32_MAX)
+            return ICC_ERR_RESOLUTION;
     }
-    s->cover->first[n] = (uint32_t)sum;
-    if (sum > UINT32_MAX)
-        return ICC_ERR_RESOLUTION;
-    s->cover->facet = iccp_alloc(&s->cover->memory, sum, sizeof *s->cover->facet);
-    return s->cover->facet != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    cover->first[n] = (uint32_t)sum;
+    cover->facet = iccp_alloc(&cover->memory, sum, sizeof *cover->facet);
+    return cover->facet != NULL ? ICC_OK : ICC_ERR_MEMORY;
 }
 
-static icc_status fill(scan *s, const iccp_env *env)
+/* From the vertices of each facet to the facets at each vertex. */
+static icc_status turn_round(scan *s)
 {
-    icc_status status = visit_all(s, false, env);
+    const icc_status status = iccp_cover_make_room(s->cover, s->count);
+    size_t i = 0;
+    for (size_t f = 0; status == ICC_OK && f < s->domain->n_facets; ++f)
+        for (; i < s->end[f]; ++i)
+            s->cover->facet[s->count[s->noted[i]]++] = (uint32_t)f;
+    return status;
+}
+
+/* Which simplices the boundary meets may be known of one facet only after another: so there are two passes. */
+static icc_status visit_twice(scan *s, const iccp_env *env)
+{
+    icc_status status = visit_all(s, env);
+    s->second = true;
     if (status == ICC_OK)
-        status = make_room(s);
-    return status == ICC_OK ? visit_all(s, true, env) : status;
+        status = visit_all(s, env);
+    return status == ICC_OK ? turn_round(s) : status;
+}
+
+static icc_status fill(iccp_cover *cover, const iccp_orders *orders, const iccp_env *env)
+{
+    const size_t n = cover->grid->n_vertices;
+    scan s = {.cover = cover, .domain = cover->domain, .orders = orders};
+    s.seen = iccp_alloc_zero(&env->memory, n, sizeof *s.seen);
+    s.count = iccp_alloc_zero(&env->memory, n, sizeof *s.count);
+    s.outside = iccp_alloc_zero(&env->memory, n, sizeof *s.outside);
+    s.end = iccp_alloc(&env->memory, cover->domain->n_facets, sizeof *s.end);
+    icc_status status = ICC_ERR_MEMORY;
+    if (s.seen != NULL && s.count != NULL && s.outside != NULL && s.end != NULL)
+        status = visit_twice(&s, env);
+    iccp_free(&env->memory, s.seen);
+    iccp_free(&env->memory, s.count);
+    iccp_free(&env->memory, s.outside);
+    iccp_free(&env->memory, s.end);
+    iccp_free(&env->memory, s.noted);
+    return status;
 }
 
 icc_status iccp_cover_create(iccp_cover *cover, const icc_domain *domain, const icc_grid *grid,
@@ -380,21 +450,14 @@ icc_status iccp_cover_create(iccp_cover *cover, const icc_domain *domain, const 
     cover->normal = iccp_alloc(&env->memory, domain->n_facets * (size_t)domain->dim,
                                sizeof *cover->normal);
     iccp_orders *orders = iccp_alloc(&env->memory, 1, sizeof *orders);
-    scan s = {.cover = cover, .domain = domain, .orders = orders};
-    s.seen = iccp_alloc(&env->memory, n, sizeof *s.seen);
-    s.count = iccp_alloc_zero(&env->memory, n, sizeof *s.count);
-    s.outside = iccp_alloc_zero(&env->memory, n, sizeof *s.outside);
     icc_status status = ICC_ERR_MEMORY;
-    if (cover->bits != NULL && cover->faces != NULL && cover->first != NULL && cover->normal != NULL &&
-        orders != NULL &&
-        s.seen != NULL && s.count != NULL && s.outside != NULL) {
+    if (cover->bits != NULL && cover->faces != NULL && cover->first != NULL &&
+        cover->normal != NULL && orders != NULL) {
         iccp_orders_init(orders, grid);
-        status = fill(&s, env);
+        status = iccp_cover_fits_mask(cover) ? iccp_cover_mask(cover, orders, env)
+                                             : fill(cover, orders, env);
     }
     iccp_free(&env->memory, orders);
-    iccp_free(&env->memory, s.seen);
-    iccp_free(&env->memory, s.count);
-    iccp_free(&env->memory, s.outside);
     return status;
 }
 

@@ -39,6 +39,9 @@ icc_status iccp_cover_create(iccp_cover *cover, const icc_domain *domain, const 
                              const iccp_env *env);
 void iccp_cover_free(iccp_cover *cover);
 
+/* From how many facets to note at each vertex, to where its first is noted, in `count` too. */
+icc_status iccp_cover_make_room(iccp_cover *cover, uint32_t *count);
+
 /* Whether a facet runs through a simplex, or may do so. */
 static inline bool iccp_cover_has(const iccp_cover *cover, uint32_t lowest, int32_t rank)
 {

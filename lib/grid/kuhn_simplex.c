@@ -43,49 +43,10 @@ bool iccp_kuhn_simplex_at(iccp_kuhn_simplex *simplex, const icc_grid *grid, cons
     return true;
 }
 
-/* The facet opposite to the lowest corner: on to the cell in which the old highest corner goes on. */
-static bool cross_up(iccp_kuhn_simplex *s, const icc_grid *grid)
-{
-    const int32_t dim = grid->dim;
-    const int8_t axis = s->axis[0];
-    const uint32_t corner = iccp_grid_neighbour(grid, s->corner[dim], axis, +1);
-    if (corner == ICCP_NONE)
-        return false;
-    memmove(s->corner, s->corner + 1, (size_t)dim * sizeof *s->corner);
-    memmove(s->axis, s->axis + 1, (size_t)(dim - 1) * sizeof *s->axis);
-    s->corner[dim] = corner;
-    s->axis[dim - 1] = axis;
-    return true;
-}
-
-static bool cross_down(iccp_kuhn_simplex *s, const icc_grid *grid)
-{
-    const int32_t dim = grid->dim;
-    const int8_t axis = s->axis[dim - 1];
-    const uint32_t corner = iccp_grid_neighbour(grid, s->corner[0], axis, -1);
-    if (corner == ICCP_NONE)
-        return false;
-    memmove(s->corner + 1, s->corner, (size_t)dim * sizeof *s->corner);
-    memmove(s->axis + 1, s->axis, (size_t)(dim - 1) * sizeof *s->axis);
-    s->corner[0] = corner;
-    s->axis[0] = axis;
-    return true;
-}
-
 bool iccp_kuhn_simplex_cross(iccp_kuhn_simplex *simplex, const icc_grid *grid, int32_t i,
                              int32_t *fresh)
 {
-    const int32_t dim = grid->dim;
-    *fresh = i == 0 ? dim : i == dim ? 0 : i;
-    if (i == 0)
-        return cross_up(simplex, grid);
-    if (i == dim)
-        return cross_down(simplex, grid);
-    const int8_t axis = simplex->axis[i];
-    simplex->axis[i] = simplex->axis[i - 1];
-    simplex->axis[i - 1] = axis;
-    simplex->corner[i] = simplex->corner[i - 1] + (uint32_t)grid->stride[axis];
-    return true;
+    return iccp_kuhn_simplex_cross_in(simplex, grid->dim, grid, i, fresh);
 }
 
 void iccp_kuhn_simplex_carry(int32_t dim, int32_t i, double *lambda)

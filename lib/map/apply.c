@@ -6,9 +6,6 @@
 
 #include <math.h>
 
-/* Points per task: long enough to outweigh the handing out, short enough to cancel quickly. */
-enum { GRAIN = 128 };
-
 typedef struct map_loop {
     const icc_map *map;
     bool inverse;
@@ -54,8 +51,8 @@ static icc_status mesh_point(const icc_map *map, bool inverse, const double *poi
     }
     iccp_frame_out(&to->frame, dim, local_image, image);
     for (int32_t k = 0; jacobian != NULL && k < dim * dim; ++k)
-        jacobian[k] *= (from->frame.in[0] * to->frame.out[0]) *
-                       (from->frame.in[1] * to->frame.out[1]);
+        jacobian[k] *=
+            (from->frame.in[0] * to->frame.out[0]) * (from->frame.in[1] * to->frame.out[1]);
     return ICC_OK;
 }
 
@@ -86,36 +83,52 @@ static icc_status map_point(map_loop *loop, size_t i, iccp_path *path)
     return status;
 }
 
+static icc_status map_points(map_loop *loop, size_t begin, size_t n, icc_status *status,
+                             iccp_path *path)
+{
+    const icc_map *map = loop->map;
+    const size_t dim = (size_t)map->info.dim;
+    icc_status all = ICC_OK;
+    if (map->info.kind != ICC_MAP_MESH && loop->jacobians == NULL)
+        return iccp_curves_points(
+            loop->inverse ? map->target : map->source, loop->inverse ? map->source : map->target, n,
+            loop->points + dim * begin, loop->images + dim * begin, status, path);
+    for (size_t i = 0; i < n && iccp_is_point_status(all); ++i)
+        all = status[i] = map_point(loop, begin + i, path);
+    return iccp_is_point_status(all) ? ICC_OK : all;
+}
+
 static icc_status map_chunk(void *argument, size_t begin, size_t end)
 {
     map_loop *loop = argument;
-    icc_status status = ICC_OK;
+    icc_status status[ICCP_CHART_MANY];
     size_t n_failed = 0;
     iccp_path path;
     iccp_path_init(&path, loop->memory);
-    for (size_t i = begin; i < end && iccp_is_point_status(status); ++i) {
-        status = map_point(loop, i, &path);
-        n_failed += status != ICC_OK;
-        if (loop->status != NULL)
-            loop->status[i] = status;
-    }
+    const icc_status all = map_points(loop, begin, end - begin, status, &path);
     iccp_path_clear(&path);
+    if (all != ICC_OK)
+        return all;
+    for (size_t i = begin; i < end; ++i) {
+        n_failed += status[i - begin] != ICC_OK;
+        if (loop->status != NULL)
+            loop->status[i] = status[i - begin];
+    }
     atomic_fetch_add(&loop->n_failed, n_failed);
-    return iccp_is_point_status(status) ? ICC_OK : status;
+    return ICC_OK;
 }
 
 static icc_status run(map_loop *loop, const char *stage, size_t n, size_t *n_failed,
                       const iccp_env *env)
 {
-    const icc_status status = iccp_for_chunks(env, stage, n, GRAIN, map_chunk, loop);
+    const icc_status status = iccp_for_chunks(env, stage, n, ICCP_CHART_MANY, map_chunk, loop);
     if (n_failed != NULL)
         *n_failed = atomic_load(&loop->n_failed);
     return status;
 }
 
 icc_status iccp_map_apply(const icc_map *map, bool inverse, size_t n, const double *points,
-                          double *images, icc_status *status, size_t *n_failed,
-                          const iccp_env *env)
+                          double *images, icc_status *status, size_t *n_failed, const iccp_env *env)
 {
     map_loop loop = {map, inverse, &env->memory, points, images, NULL, status, 0};
     return run(&loop, "map", n, n_failed, env);

@@ -38,3 +38,12 @@ icc_status iccp_curves_point(const icc_chart *from, const icc_chart *to, const d
         multiply(from, to, &outer, &inner, jacobian);
     return status;
 }
+
+icc_status iccp_curves_points(const icc_chart *from, const icc_chart *to, size_t n,
+                              const double *points, double *images, icc_status *status,
+                              iccp_path *path)
+{
+    iccp_coords coords[ICCP_CHART_MANY];
+    const icc_status all = iccp_encode_points(from, n, points, coords, status, path);
+    return all == ICC_OK ? iccp_decode_points(to, n, coords, images, status, path) : all;
+}

@@ -60,61 +60,16 @@ bool iccp_flow_near_boundary(const iccp_flow *flow, const iccp_flow_place *place
                           iccp_order_rank(flow->grid->dim, place->simplex.axis));
 }
 
-static ICCP_INLINE void load_corner(iccp_flow_walk *w, int32_t dim, int32_t i)
-{
-    const uint32_t v = w->place.simplex.corner[i];
-    const float *x = w->flow->cones->vector + (size_t)dim * v;
-    if (ICCP_UNLIKELY(x[0] >= ICCP_SEVERAL))
-        x = iccp_cones_vector(w->flow->cones, v, iccp_order_rank(dim, w->place.simplex.axis), i);
-    for (int32_t k = 0; k < dim; ++k)
-        w->corner[i][k] = w->sign * (double)x[k];
-}
-
 /* ---- walking ---- */
 
-/* Onto the facet, exactly, and no corner's weight negative; then across. */
-static ICCP_INLINE icc_status cross(iccp_flow_walk *w, int32_t dim)
+icc_status iccp_flow_cross(iccp_flow_walk *walk)
 {
-    iccp_flow_place *p = &w->place;
-    const int32_t i = w->exit;
-    const int8_t *axis = p->simplex.axis;
-    double above = 1, *at = w->finish;
-    if (i > 0 && i < dim)
-        at[axis[i - 1]] = at[axis[i]] = 0.5 * (at[axis[i - 1]] + at[axis[i]]);
-    for (int32_t k = 0; k < dim; ++k) {
-        double x = at[axis[k]];
-        x = x > above ? above : x;
-        x = x < 0 ? 0 : x;
-        p->at[axis[k]] = above = x;
-    }
-    p->entry = ICCP_FLOW_WITHIN;
-    if (i == ICCP_FLOW_WITHIN)
-        return ICC_OK;
-    if (i == 0)
-        p->at[axis[0]] = 0;
-    if (i == dim)
-        p->at[axis[dim - 1]] = 1;
-    if (!iccp_kuhn_simplex_cross(&p->simplex, w->flow->grid, i, &p->entry))
-        return ICC_ERR_TRACE;
-    for (int32_t c = 0; i == 0 && c < dim; ++c)
-        for (int32_t k = 0; k < dim; ++k)
-            w->corner[c][k] = w->corner[c + 1][k];
-    for (int32_t c = dim; i == dim && c > 0; --c)
-        for (int32_t k = 0; k < dim; ++k)
-            w->corner[c][k] = w->corner[c - 1][k];
-    load_corner(w, dim, p->entry);
-    return ICC_OK;
+    return walk->flow->grid->dim == 3 ? iccp_flow_cross_in(walk, 3)
+                                      : iccp_flow_cross_in(walk, walk->flow->grid->dim);
 }
 
-static ICCP_INLINE icc_status start(iccp_flow_walk *w, int32_t dim)
-{
-    for (int32_t i = 0; i <= dim; ++i)
-        load_corner(w, dim, i);
-    return iccp_flow_find_piece(w);
-}
-
-icc_status iccp_flow_start(iccp_flow_walk *walk, const iccp_flow *flow, int32_t sign,
-                           const iccp_flow_place *place)
+void iccp_flow_begin(iccp_flow_walk *walk, const iccp_flow *flow, int32_t sign,
+                     const iccp_flow_place *place)
 {
     walk->flow = flow;
     walk->sign = sign;
@@ -122,21 +77,19 @@ icc_status iccp_flow_start(iccp_flow_walk *walk, const iccp_flow *flow, int32_t 
     walk->length = 0;
     walk->n_steps = 0;
     walk->ends = false;
-    return flow->grid->dim == 3 ? start(walk, 3) : start(walk, flow->grid->dim);
 }
 
-static ICCP_INLINE icc_status go_on(iccp_flow_walk *w, int32_t dim)
+icc_status iccp_flow_start(iccp_flow_walk *walk, const iccp_flow *flow, int32_t sign,
+                           const iccp_flow_place *place)
 {
-    w->length += w->end_length;
-    if (++w->n_steps > w->flow->most_steps)
-        return ICC_ERR_TRACE;
-    const icc_status status = cross(w, dim);
-    return status == ICC_OK ? iccp_flow_find_piece(w) : status;
+    iccp_flow_begin(walk, flow, sign, place);
+    return iccp_flow_find_piece(walk);
 }
 
 icc_status iccp_flow_next(iccp_flow_walk *walk)
 {
-    return walk->flow->grid->dim == 3 ? go_on(walk, 3) : go_on(walk, walk->flow->grid->dim);
+    const icc_status status = iccp_flow_cross(walk);
+    return status == ICC_OK ? iccp_flow_find_piece(walk) : status;
 }
 
 icc_status iccp_flow_note(const iccp_flow_walk *walk, iccp_path *path)

@@ -6,7 +6,7 @@
 #include "trace/path.h"
 
 enum {
-    ICCP_FLOW_TERMS = 24, /* of a Taylor series at most */
+    ICCP_FLOW_TERMS = 25, /* of a Taylor series at most */
     ICCP_FLOW_WITHIN = -1 /* instead of a corner: the piece ends within its simplex, or at the root */
 };
 
@@ -37,7 +37,6 @@ typedef struct iccp_flow_walk {
     iccp_flow_place place;
     double length; /* of the pieces before */
     size_t n_steps;
-    double corner[ICC_MAX_DIM + 1][ICC_MAX_DIM]; /* the vectors, times the sign */
     /* The piece's parameter s goes from 0 to `end`. The place moves with the sum of term[j] (s / scale)^j. */
     int32_t n_terms;
     double scale, term[ICCP_FLOW_TERMS][ICC_MAX_DIM];
@@ -64,6 +63,10 @@ bool iccp_flow_find(const iccp_flow *flow, const double *x, const double *ahead,
 void iccp_flow_vector(const iccp_flow *flow, const iccp_flow_place *place, double *vector);
 void iccp_flow_position(const iccp_flow *flow, const iccp_flow_place *place, const double *at,
                         double *x);
+
+/* A walk that has not found its first piece yet. */
+void iccp_flow_begin(iccp_flow_walk *walk, const iccp_flow *flow, int32_t sign,
+                     const iccp_flow_place *place);
 
 /* Starts a walk, and finds its first piece. ICC_ERR_TRACE when there is no way to go. */
 icc_status iccp_flow_start(iccp_flow_walk *walk, const iccp_flow *flow, int32_t sign,

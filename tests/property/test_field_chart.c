@@ -499,6 +499,75 @@ START_TEST(what_is_not_available_is_named)
 }
 END_TEST
 
+/* A ring about a hole, cut through by a slit that coarse grids do not see. */
+static int in_ring_of_5(int x, int y, int z)
+{
+    const int hole = x == 2 && y == 2, slit = x == 2 && y > 2;
+    return x >= 0 && x < 5 && y >= 0 && y < 5 && z >= 0 && z < 2 && !hole && !slit;
+}
+
+static int in_ring_of_3(int x, int y, int z)
+{
+    return x >= 0 && x < 3 && y >= 0 && y < 3 && z >= 0 && z < 1 && (x != 1 || y == 0);
+}
+
+/* Moves the walls of the slit, from x to x + 1 above y, to x + 0.55 and so much further. */
+static icc_domain *narrow_slit(int (*in)(int x, int y, int z), double x, double y, double width)
+{
+    icc_domain *domain;
+    surface_cells(&shape, 8, in);
+    for (size_t v = 0; v < shape.n_vertices; ++v) {
+        double *p = shape.vertices + 3 * v;
+        if (p[1] > y && p[0] >= x && p[0] <= x + 1)
+            p[0] = x + 0.55 + width * (p[0] - x);
+    }
+    ck_assert_int_eq(icc_domain_create(&domain, 3, shape.n_vertices, shape.vertices, shape.n_faces,
+                                       shape.faces, NULL, NULL),
+                     ICC_OK);
+    return domain;
+}
+
+typedef struct listener {
+    size_t n_lines;
+    char line[200];
+} listener;
+
+static void listen(void *user, const char *message)
+{
+    listener *l = user;
+    ++l->n_lines;
+    snprintf(l->line, sizeof l->line, "%s", message);
+}
+
+/* The grid is refined where its vertices inside are no ball, and once only. */
+START_TEST(slits_thinner_than_the_grid)
+{
+    listener heard = {0};
+    const icc_env env = {.size = sizeof env, .user = &heard, .log = listen};
+    const icc_chart_options options = {.size = sizeof options, .method = ICC_METHOD_FIELD, .cells = 5};
+    const icc_chart_options coarse = {.size = sizeof options, .method = ICC_METHOD_FIELD, .cells = 3};
+    icc_chart_info info = {.size = sizeof info};
+    icc_error err = {.size = sizeof err};
+    icc_chart *chart;
+    icc_domain *domain = narrow_slit(in_ring_of_5, 2, 2.9, 0.8);
+    ck_assert_int_eq(icc_chart_create(&chart, domain, &options, &env, &err), ICC_OK);
+    ck_assert_int_eq(icc_chart_get_info(chart, &info), ICC_OK);
+    ck_assert_int_eq(info.cells, 10);
+    ck_assert_uint_eq(info.n_stray, 0);
+    ck_assert_uint_eq(heard.n_lines, 1);
+    ck_assert(strstr(heard.line, "10 are tried") != NULL);
+    icc_chart_free(chart);
+    icc_domain_free(domain);
+
+    domain = narrow_slit(in_ring_of_3, 1, 1.9, 0.01);
+    heard.n_lines = 0;
+    ck_assert_int_eq(icc_chart_create(&chart, domain, &coarse, &env, &err), ICC_ERR_TOPOLOGY);
+    ck_assert_ptr_null(chart);
+    ck_assert_uint_eq(heard.n_lines, 1);
+    icc_domain_free(domain);
+}
+END_TEST
+
 /* Real surfaces and masks, where they lie beside this tree. */
 START_TEST(real_shapes)
 {
@@ -547,6 +616,7 @@ int main(void)
     tcase_add_test(tests, memory_is_as_stated);
     tcase_add_test(tests, masks);
     tcase_add_test(tests, thin_gaps);
+    tcase_add_test(tests, slits_thinner_than_the_grid);
     tcase_add_test(tests, what_is_not_available_is_named);
     tcase_add_test(tests, real_shapes);
     suite_add_tcase(suite, tests);

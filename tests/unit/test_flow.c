@@ -1,6 +1,7 @@
 /* Simplices of the grid, nearest points of hulls, and curves of fields that can be solved by hand. */
 #include "field/minnorm.h"
 #include "grid/rasterise.h"
+#include "trace/flow_follow.h"
 #include "trace/flow_jet.h"
 
 #include "../random.h"
@@ -436,6 +437,99 @@ START_TEST(hopeless_walks_end)
 }
 END_TEST
 
+/* To the middle, with a twist and much noise, so that pieces are of every kind. */
+static void whirl(const double *x, double *v)
+{
+    for (int k = 0; k < 3; ++k)
+        v[k] = 8 - x[k] + 2 * sin(7 * x[0] + 11 * x[1] + 13 * x[2] + k);
+    v[0] -= 1.5 * (x[1] - 8);
+    v[1] += 1.5 * (x[0] - 8);
+}
+
+/* By itself, as far as a curve of many goes. */
+static void follow_alone(const iccp_flow *flow, iccp_flow_curve *curve, iccp_path *path)
+{
+    iccp_flow_walk walk;
+    double s = 0;
+    path->n_marks = 0;
+    curve->status = iccp_flow_start(&walk, flow, curve->sign, &curve->start);
+    while (curve->status == ICC_OK && !walk.ends) {
+        ck_assert_int_eq(iccp_flow_note(&walk, path), ICC_OK);
+        if (curve->sign < 0 && iccp_flow_leaves(&walk, &s, &curve->facet, curve->bary))
+            break;
+        curve->status = iccp_flow_next(&walk);
+    }
+    if (curve->status != ICC_OK)
+        return;
+    if (curve->sign < 0) {
+        curve->length = walk.length + iccp_flow_length(&walk, s);
+        return;
+    }
+    curve->length = walk.length + walk.end_length;
+    const double length = curve->share * curve->length;
+    ck_assert_int_eq(iccp_flow_note(&walk, path), ICC_OK);
+    ck_assert_int_eq(iccp_flow_rewind(&walk, path, length), ICC_OK);
+    curve->place = walk.place;
+    iccp_flow_at(&walk, iccp_flow_at_length(&walk, length - walk.length), curve->place.at);
+}
+
+static void check_same(const iccp_flow_curve *a, const iccp_flow_curve *b)
+{
+    ck_assert_int_eq(a->status, b->status);
+    if (a->status != ICC_OK)
+        return;
+    ck_assert_mem_eq(&a->length, &b->length, sizeof a->length);
+    if (a->sign < 0) {
+        ck_assert_uint_eq(a->facet, b->facet);
+        ck_assert_mem_eq(a->bary, b->bary, 3 * sizeof *a->bary);
+    } else if (a->share > 0) {
+        ck_assert_mem_eq(a->place.at, b->place.at, 3 * sizeof *a->place.at);
+        ck_assert_mem_eq(a->place.simplex.corner, b->place.simplex.corner, 4 * sizeof(uint32_t));
+    }
+}
+
+/* However many run side by side. Also with hopeless ones among them. */
+START_TEST(many_curves_are_as_if_alone)
+{
+    enum { N = 300 };
+    static iccp_flow_curve alone[N], together[N];
+    world w;
+    iccp_path path;
+    random_source r = {8};
+    size_t n_lost = 0, n_curves = 0;
+    world_init(&w);
+    set_vectors(&w, whirl);
+    w.flow.most_steps = 300;
+    w.flow.root = 8 * (uint32_t)(1 + w.grid->stride[1] + w.grid->stride[2]);
+    memset(w.cones.vector + 3 * (w.flow.root - 2), 0, 3 * sizeof(float));
+    iccp_path_init(&path, &w.env.memory);
+    for (size_t i = 0; i < N; ++i) {
+        double x[3];
+        for (int k = 0; k < 3; ++k)
+            x[k] = random_between(&r, 4, 12);
+        alone[i].sign = random_below(&r, 2) ? 1 : -1;
+        alone[i].share = alone[i].sign > 0 && random_below(&r, 3) > 0 ? random_unit(&r) : 0;
+        ck_assert(iccp_flow_find(&w.flow, x, NULL, &alone[i].start));
+        together[i] = alone[i];
+        follow_alone(&w.flow, &alone[i], &path);
+        n_lost += alone[i].status != ICC_OK;
+    }
+    ck_assert(n_lost > 0 && n_lost < N / 2);
+    for (size_t n = 1, from = 0; from < N; from += n, n += 7) {
+        n = from + n < N ? n : N - from;
+        for (int kind = 0; kind < iccp_flow_kinds(); ++kind) {
+            ck_assert_int_eq(iccp_flow_follow_as(kind, &w.flow, n, together + from, &w.env.memory),
+                             ICC_OK);
+            for (size_t i = from; i < from + n; ++i, ++n_curves)
+                check_same(&alone[i], &together[i]);
+        }
+    }
+    ck_assert_uint_ge(n_curves, N);
+    iccp_path_clear(&path);
+    world_free(&w);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("flow");
@@ -449,6 +543,7 @@ int main(void)
     tcase_add_test(tests, the_boundary_is_met_where_it_is);
     tcase_add_test(tests, the_root_is_reached_straight);
     tcase_add_test(tests, hopeless_walks_end);
+    tcase_add_test(tests, many_curves_are_as_if_alone);
     suite_add_tcase(suite, tests);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_NORMAL);
