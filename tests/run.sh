@@ -15,7 +15,8 @@ need gcc g++ libc6-dev make cmake pkg-config libpng-dev libcjson-dev check libgm
     abigail-tools python3-numpy python3-pytest python3-cffi tetgen
 if [ "$all" = yes ]; then
     need cargo rustc python3-distributed python3-shapely python3-skimage python3-meshio python3-pil python3-matplotlib \
-        python3-setuptools python3-wheel python3-pip python3-venv mypy netpbm librsvg2-bin doxygen
+        python3-setuptools python3-wheel python3-pip python3-venv mypy netpbm librsvg2-bin doxygen \
+        mandoc man-db
 fi
 
 preset=${1:-release}
