@@ -438,6 +438,54 @@ START_TEST(false_directions_are_refused)
 }
 END_TEST
 
+static double get_number(const bytes *b, size_t at)
+{
+    const uint64_t bits = get64(b, at);
+    double number;
+    memcpy(&number, &bits, sizeof number);
+    return number;
+}
+
+static void put_number(bytes *b, size_t at, double number)
+{
+    uint64_t bits;
+    memcpy(&bits, &number, sizeof bits);
+    put64(b, at, bits);
+}
+
+/* Where leaves go out through two sides, they go out through one: nothing goes round, but what enters the simplex behind the
+ * other one comes from nowhere. */
+START_TEST(leaves_from_nowhere_are_refused)
+{
+    random_source r = {8};
+    icc_chart *chart = chart_with(filled(mesh_cube(3, 3, 0.1, &r)), 0, 0), *loaded;
+    bytes b = chart_bytes(chart), changed = {b.n, saved_alloc(b.n)};
+    const size_t n = chart_story(chart).n_mesh_triangles;
+    int n_tried = 0;
+    for (size_t s = 0; s < n; ++s) {
+        const size_t at = b.n - 32 * (n - s);
+        size_t out[4], n_out = 0;
+        for (size_t i = 0; i < 4; ++i)
+            if (get_number(&b, at + 8 * i) < 0)
+                out[n_out++] = at + 8 * i;
+        if (n_out != 2)
+            continue;
+        memcpy(changed.data, b.data, b.n);
+        for (size_t i = 0; i < 4; ++i)
+            put_number(&changed, at + 8 * i, 0.5 * get_number(&b, at + 8 * i));
+        put_number(&changed, out[0], -1);
+        put_number(&changed, out[1], 0.5);
+        repair_bytes(&changed, "CHRT");
+        ck_assert_int_eq(icc_chart_load(&loaded, b.n, changed.data, NULL, NULL), ICC_ERR_FORMAT);
+        ++n_tried;
+    }
+    ck_assert_int_gt(n_tried, 0);
+    free(changed.data);
+    free(b.data);
+    icc_chart_free(chart);
+}
+END_TEST
+
 /* The chart's own mesh, of a domain without vertices inside: each simplex with two corners exchanged, or one corner of another. */
 START_TEST(false_fillings_are_refused)
 {
@@ -539,6 +587,7 @@ int main(void)
     tcase_add_test(c, false_foliations_are_refused);
     tcase_add_test(c, false_discs_are_refused);
     tcase_add_test(c, false_directions_are_refused);
+    tcase_add_test(c, leaves_from_nowhere_are_refused);
     tcase_add_test(c, false_fillings_are_refused);
     tcase_add_test(c, another_digest_is_another_version);
     tcase_add_test(c, no_memory_and_no_patience);

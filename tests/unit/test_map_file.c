@@ -251,6 +251,17 @@ START_TEST(cut_chords)
     ck_assert_int_eq(map_story(map).kind, ICC_MAP_MESH);
     ck_assert_uint_gt(map_story(map).n_triangles, cube.n_simplices);
     check_map(map, p.source);
+    /* A point of that mesh outside of the source, its image where it was: bytes end with points, corners and images. */
+    const icc_map_info info = map_story(map);
+    const size_t n_inner = info.n_vertices - 8;
+    bytes b = map_bytes(map);
+    icc_map *loaded;
+    unsigned char *point = b.data + b.n - 48 * n_inner - 16 * info.n_triangles;
+    memset(point, 0, 8);
+    point[7] = 0x40;
+    repair_bytes(&b, "MAP_");
+    ck_assert_int_eq(icc_map_load(&loaded, b.n, b.data, NULL, NULL), ICC_ERR_FORMAT);
+    free(b.data);
     icc_map_free(map);
     free_pair(&p);
     mesh_free(&cube);
