@@ -189,6 +189,28 @@ START_TEST(meshes)
 }
 END_TEST
 
+/* Of a vertex inside, not even the sign of a zero is lost on the way to local coordinates and back. */
+START_TEST(signs_of_zeros)
+{
+    test_mesh m = mesh_cells(2, 2, NULL);
+    for (int i = 0; i < 18; ++i)
+        m.vertices[i] -= 1;
+    m.vertices[8] = -0.0; /* the vertex in the middle, the last one in the bytes */
+    icc_chart *chart = chart_with(filled(m), 0, 0), *loaded;
+    bytes b = chart_bytes(chart);
+    const size_t at = 24 + 8 + 24 + 16 * 8;
+    ck_assert_int_eq(b.data[at + 7], 0x80);
+    ck_assert_int_eq(b.data[at + 15], 0);
+    ck_assert_int_eq(icc_chart_load(&loaded, b.n, b.data, NULL, NULL), ICC_OK);
+    bytes again = chart_bytes(loaded);
+    ck_assert_same(b.data, again.data, b.n, "what is saved again");
+    free(b.data);
+    free(again.data);
+    icc_chart_free(loaded);
+    icc_chart_free(chart);
+}
+END_TEST
+
 /* A foliation of the library's own mesh, although the domain has one of the caller's: the other of the pair has none. */
 START_TEST(mesh_beside_polygon)
 {
@@ -579,6 +601,7 @@ int main(void)
     tcase_add_test(c, masks);
     tcase_add_test(c, surfaces);
     tcase_add_test(c, meshes);
+    tcase_add_test(c, signs_of_zeros);
     tcase_add_test(c, mesh_beside_polygon);
     tcase_add_test(c, damage_is_noticed);
     tcase_add_test(c, capacity);
