@@ -79,7 +79,8 @@ static bool goes_on(const iccp_plmap *map, const icc_domain *domain, uint32_t a,
 }
 
 /* Once, since to the certificate it must be one ring, and simple. */
-static bool follows_facets(const iccp_plmap *map, const icc_domain *source, const icc_domain *target)
+static bool follows_facets(const iccp_plmap *map, const icc_domain *source,
+                           const icc_domain *target)
 {
     for (uint32_t c = 0; c < 3 * map->corners.n_triangles; ++c) {
         const uint32_t a = map->corners.vertex[iccp_after(c)];

@@ -20,7 +20,8 @@ static icc_chart *chart_of(const icc_domain *domain, const icc_chart_options *op
 {
     icc_chart *chart;
     icc_error err = {.size = sizeof err};
-    ck_assert_msg(icc_chart_create(&chart, domain, options, NULL, &err) == ICC_OK, "%s", err.message);
+    ck_assert_msg(icc_chart_create(&chart, domain, options, NULL, &err) == ICC_OK, "%s",
+                  err.message);
     return chart;
 }
 
@@ -40,7 +41,8 @@ static void check_chart(icc_chart *chart)
     icc_error err = {.size = sizeof err};
     const icc_env threads = {.size = sizeof threads, .threads = 3};
     bytes b = chart_bytes(chart);
-    ck_assert_msg(icc_chart_load(&loaded, b.n, b.data, &threads, &err) == ICC_OK, "%s", err.message);
+    ck_assert_msg(icc_chart_load(&loaded, b.n, b.data, &threads, &err) == ICC_OK, "%s",
+                  err.message);
     same_chart(chart, loaded);
     bytes again = chart_bytes(loaded);
     ck_assert_uint_eq(again.n, b.n);
@@ -57,7 +59,8 @@ START_TEST(polygons)
 {
     for (int k = 0; k < N_SHAPES; ++k)
         for (int m = 0; m < N_METHODS; ++m) {
-            const shape s = shape_number(k), r = shape_reversed(&s), far = shape_moved(&s, 10, 1e9, -1e9);
+            const shape s = shape_number(k), r = shape_reversed(&s),
+                        far = shape_moved(&s, 10, 1e9, -1e9);
             check_chart(chart_with(polygon(&s), METHODS[m], 24));
             check_chart(chart_with(polygon(&r), METHODS[m], 17));
             check_chart(chart_with(polygon(&far), METHODS[m], 20));
@@ -139,7 +142,8 @@ START_TEST(masks)
         cells[i] = (uint8_t)(i % 9 < 4 || i / 9 < 3 ? 1 + i % 3 : 0);
     for (int m = 0; m < N_METHODS; ++m) {
         ck_assert_int_eq(icc_domain_create_mask(&domain, 2, PLANE, cells, NULL, NULL), ICC_OK);
-        check_chart(chart_with(domain, METHODS[m], METHODS[m] == ICC_METHOD_FIELD ? 0 : 4 * (m % 3)));
+        check_chart(
+            chart_with(domain, METHODS[m], METHODS[m] == ICC_METHOD_FIELD ? 0 : 4 * (m % 3)));
     }
     for (int i = 0; i < 140; ++i)
         cells[i] = i % 5 < 3 || i / 20 < 3;
@@ -158,7 +162,9 @@ START_TEST(surfaces)
     for (int m = 2; m < N_METHODS; ++m) {
         surface_octahedron(&s);
         surface_star(&s, 2, 0.3, &r);
-        ck_assert_int_eq(icc_domain_create(&domain, 3, s.n_vertices, s.vertices, s.n_faces, s.faces, NULL, NULL), ICC_OK);
+        ck_assert_int_eq(
+            icc_domain_create(&domain, 3, s.n_vertices, s.vertices, s.n_faces, s.faces, NULL, NULL),
+            ICC_OK);
         check_chart(chart_with(domain, METHODS[m], 12));
     }
 }
@@ -216,7 +222,8 @@ START_TEST(mesh_beside_polygon)
 {
     const shape s = shape_l();
     const icc_chart_options foliation = {.size = sizeof foliation, .method = ICC_METHOD_FOLIATION};
-    const icc_map_options options = {.size = sizeof options, .chart = &foliation, .kind = ICC_MAP_CURVES};
+    const icc_map_options options = {
+        .size = sizeof options, .chart = &foliation, .kind = ICC_MAP_CURVES};
     icc_domain *source = filled(mesh_polygon(s.n, s.xy, 0.3)), *target;
     uint32_t facets[12];
     icc_map *map;
@@ -348,8 +355,16 @@ static void put64(bytes *b, size_t at, uint64_t value)
 /* Content that has been made up, with the checksum put right. */
 START_TEST(content_is_checked)
 {
-    static const uint64_t VALUES[] = {0, 1, UINT64_MAX, (uint64_t)1 << 32, (uint64_t)1 << 63, 0x7ff8000000000000u,
-                                      0x7ff0000000000000u, 0x7fefffffffffffffu, 0x3ff0000000000000u, 1000000};
+    static const uint64_t VALUES[] = {0,
+                                      1,
+                                      UINT64_MAX,
+                                      (uint64_t)1 << 32,
+                                      (uint64_t)1 << 63,
+                                      0x7ff8000000000000u,
+                                      0x7ff0000000000000u,
+                                      0x7fefffffffffffffu,
+                                      0x3ff0000000000000u,
+                                      1000000};
     random_source r = {6};
     for (int k = 0; k < N_SMALL; ++k) {
         icc_chart *chart = small_chart(k);
@@ -361,7 +376,8 @@ START_TEST(content_is_checked)
             if (i % 2 == 0)
                 put64(&changed, at, VALUES[random_below(&r, 10)]);
             else
-                changed.data[at + (size_t)random_below(&r, 4)] ^= (unsigned char)(1 << random_below(&r, 8));
+                changed.data[at + (size_t)random_below(&r, 4)] ^=
+                    (unsigned char)(1 << random_below(&r, 8));
             repair_bytes(&changed, "CHRT");
             check_harmless(&changed);
         }
@@ -373,7 +389,12 @@ START_TEST(content_is_checked)
 END_TEST
 
 /* Of the first chart: head, domain, method, cells, counts and pieces come before the points. */
-enum { N_CORNERS = 6, DOMAIN = 24 + 8, COUNTS = DOMAIN + 16 + 24 * N_CORNERS + 8 + 8, PIECES = COUNTS + 16 };
+enum {
+    N_CORNERS = 6,
+    DOMAIN = 24 + 8,
+    COUNTS = DOMAIN + 16 + 24 * N_CORNERS + 8 + 8,
+    PIECES = COUNTS + 16
+};
 
 static size_t get64(const bytes *b, size_t at)
 {
@@ -451,7 +472,8 @@ START_TEST(false_directions_are_refused)
             if (side % 4 != 0)
                 memset(changed.data + at, 0, 8);
             repair_bytes(&changed, "CHRT");
-            ck_assert_int_eq(icc_chart_load(&loaded, b.n, changed.data, NULL, NULL), ICC_ERR_FORMAT);
+            ck_assert_int_eq(icc_chart_load(&loaded, b.n, changed.data, NULL, NULL),
+                             ICC_ERR_FORMAT);
         }
         free(changed.data);
         free(b.data);
@@ -524,7 +546,8 @@ START_TEST(false_fillings_are_refused)
             if (memcmp(changed.data, b.data, b.n) == 0)
                 continue;
             repair_bytes(&changed, "CHRT");
-            ck_assert_int_eq(icc_chart_load(&loaded, b.n, changed.data, NULL, NULL), ICC_ERR_FORMAT);
+            ck_assert_int_eq(icc_chart_load(&loaded, b.n, changed.data, NULL, NULL),
+                             ICC_ERR_FORMAT);
         }
     free(changed.data);
     free(b.data);
