@@ -121,11 +121,13 @@ build() {
     find "$build_root/build" -maxdepth 1 -type f -exec cp {} "$work" \;
 }
 
+# Anything that lintian says is too much.
 lint() {
-    in_build_root chroot "$build_root" apt-get -qy install lintian
+    in_build_root chroot "$build_root" apt-get -qy install lintian >"$work/lintian-install.log"
     in_build_root chroot --userspec=1000:1000 "$build_root" sh -c 'cd /build &&
-        lintian --pedantic --display-info --display-experimental \
-            --fail-on error,warning,info,pedantic,experimental *.changes'
+        lintian --pedantic --display-info --display-experimental --fail-on none *.changes' >"$work/tags"
+    cat "$work/tags"
+    [ ! -s "$work/tags" ]
 }
 
 test_installed() {

@@ -102,8 +102,10 @@ static inline void same_domain(const icc_domain *a, const icc_domain *b)
     int32_t where[2][SAVED_POINTS];
     uint32_t facet[2][SAVED_POINTS];
     saved_points(a, 7, points);
-    ck_assert_int_eq(icc_domain_locate(a, SAVED_POINTS, points, where[0], facet[0], bary[0], NULL), ICC_OK);
-    ck_assert_int_eq(icc_domain_locate(b, SAVED_POINTS, points, where[1], facet[1], bary[1], NULL), ICC_OK);
+    ck_assert_int_eq(icc_domain_locate(a, SAVED_POINTS, points, where[0], facet[0], bary[0], NULL),
+                     ICC_OK);
+    ck_assert_int_eq(icc_domain_locate(b, SAVED_POINTS, points, where[1], facet[1], bary[1], NULL),
+                     ICC_OK);
     ck_assert_same(where[0], where[1], sizeof where[0], "where");
     ck_assert_same(facet[0], facet[1], sizeof facet[0], "nearest facet");
     ck_assert_same(bary[0], bary[1], sizeof bary[0], "nearest point");
@@ -137,8 +139,12 @@ static inline void find_coordinates(const icc_chart *chart, const double *points
     double bary[SAVED_POINTS * ICC_MAX_DIM], t[SAVED_POINTS];
     memset(c, 0, sizeof *c);
     ck_assert_int_eq(icc_domain_get_info(icc_chart_domain(chart), &info), ICC_OK);
-    ck_assert_int_eq(icc_chart_encode(chart, SAVED_POINTS, points, c->facet, c->bary, c->t, c->status, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(icc_chart_decode(chart, SAVED_POINTS, c->facet, c->bary, c->t, c->back, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_chart_encode(chart, SAVED_POINTS, points, c->facet, c->bary, c->t,
+                                      c->status, NULL, NULL),
+                     ICC_OK);
+    ck_assert_int_eq(
+        icc_chart_decode(chart, SAVED_POINTS, c->facet, c->bary, c->t, c->back, NULL, NULL, NULL),
+        ICC_OK);
     for (int i = 0; i < SAVED_POINTS; ++i) {
         double sum = 0;
         facet[i] = (uint32_t)random_below(&r, (int)info.n_facets);
@@ -148,19 +154,26 @@ static inline void find_coordinates(const icc_chart *chart, const double *points
         for (int k = 0; k < info.dim; ++k)
             bary[info.dim * i + k] /= sum;
     }
-    ck_assert_int_eq(icc_chart_decode(chart, SAVED_POINTS, facet, bary, t, c->elsewhere, NULL, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(icc_chart_encode(chart, SAVED_POINTS, c->elsewhere, c->facet_back, c->bary_back, c->t_back, NULL, &c->n_failed, NULL), ICC_OK);
+    ck_assert_int_eq(
+        icc_chart_decode(chart, SAVED_POINTS, facet, bary, t, c->elsewhere, NULL, NULL, NULL),
+        ICC_OK);
+    ck_assert_int_eq(icc_chart_encode(chart, SAVED_POINTS, c->elsewhere, c->facet_back,
+                                      c->bary_back, c->t_back, NULL, &c->n_failed, NULL),
+                     ICC_OK);
 }
 
-static inline void same_curves(const icc_chart *a, const icc_chart *b, const double *points, int dim)
+static inline void same_curves(const icc_chart *a, const icc_chart *b, const double *points,
+                               int dim)
 {
     enum { LONGEST = 4096 };
     double *curves = saved_alloc(2 * LONGEST * ICC_MAX_DIM * sizeof *curves);
     for (int i = 0; i < SAVED_POINTS; i += 8) {
         size_t n = 0, m = 0;
         double *other = curves + LONGEST * ICC_MAX_DIM;
-        const icc_status status = icc_chart_trace(a, points + dim * i, LONGEST, curves, &n, NULL, NULL);
-        ck_assert_int_eq(icc_chart_trace(b, points + dim * i, LONGEST, other, &m, NULL, NULL), status);
+        const icc_status status =
+            icc_chart_trace(a, points + dim * i, LONGEST, curves, &n, NULL, NULL);
+        ck_assert_int_eq(icc_chart_trace(b, points + dim * i, LONGEST, other, &m, NULL, NULL),
+                         status);
         ck_assert_uint_eq(n, m);
         ck_assert_uint_le(n, LONGEST);
         ck_assert_same(curves, other, n * (size_t)dim * sizeof *curves, "curve");
@@ -203,14 +216,21 @@ typedef struct images {
 static inline void find_images(const icc_map *map, const double *points, images *i)
 {
     memset(i, 0, sizeof *i);
-    ck_assert_int_eq(icc_map_apply(map, SAVED_POINTS, points, i->there, i->status[0], &i->n_failed, NULL), ICC_OK);
-    ck_assert_int_eq(icc_map_apply_inverse(map, SAVED_POINTS, points, i->back, i->status[1], NULL, NULL), ICC_OK);
-    ck_assert_int_eq(icc_map_jacobian(map, SAVED_POINTS, points, i->jacobians, i->status[2], NULL, NULL), ICC_OK);
+    ck_assert_int_eq(
+        icc_map_apply(map, SAVED_POINTS, points, i->there, i->status[0], &i->n_failed, NULL),
+        ICC_OK);
+    ck_assert_int_eq(
+        icc_map_apply_inverse(map, SAVED_POINTS, points, i->back, i->status[1], NULL, NULL),
+        ICC_OK);
+    ck_assert_int_eq(
+        icc_map_jacobian(map, SAVED_POINTS, points, i->jacobians, i->status[2], NULL, NULL),
+        ICC_OK);
 }
 
 static inline void same_mesh(const icc_map *a, const icc_map *b, const icc_map_info *info)
 {
-    const size_t dim = (size_t)info->dim, n = info->n_vertices * dim, n_ends = (dim + 1) * info->n_triangles;
+    const size_t dim = (size_t)info->dim, n = info->n_vertices * dim,
+                 n_ends = (dim + 1) * info->n_triangles;
     double *numbers = saved_alloc(4 * n * sizeof *numbers);
     uint32_t *corners = saved_alloc(2 * n_ends * sizeof *corners);
     ck_assert_int_eq(icc_map_mesh(a, numbers, numbers + n, corners), ICC_OK);

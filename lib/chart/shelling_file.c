@@ -15,7 +15,7 @@ typedef struct order {
     const iccp_simplices *mesh;
     const double *direction;
     uint32_t *rank;
-    uint32_t *n_ahead; /* of each simplex: sides that leaves go out through, to simplices without a rank yet */
+    uint32_t *n_ahead; /* of each: sides that leaves go out through to simplices without a rank */
     uint32_t *queue;
 } order;
 
@@ -94,8 +94,8 @@ static icc_status certify(const order *o, const icc_domain *domain, uint32_t cen
     iccp_shelling_certificate found;
     if (!are_directions(o, centre) || !find_ranks(o, centre))
         return ICC_ERR_FORMAT;
-    const icc_status status = iccp_certify_shelling(&found, o->mesh, domain->facets, centre, o->rank,
-                                                    o->direction, env);
+    const icc_status status =
+        iccp_certify_shelling(&found, o->mesh, domain->facets, centre, o->rank, o->direction, env);
     return status != ICC_OK || iccp_shelling_certificate_holds(&found) ? status : ICC_ERR_FORMAT;
 }
 

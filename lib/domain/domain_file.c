@@ -46,7 +46,8 @@ void iccp_boundary_write(const icc_domain *d, iccp_blob_writer *w)
     iccp_blob_u32(w, d->n_facets * dim, d->facets);
 }
 
-icc_status iccp_boundary_read(icc_domain **out, int32_t dim, iccp_blob_reader *r, const iccp_env *env)
+icc_status iccp_boundary_read(icc_domain **out, int32_t dim, iccp_blob_reader *r,
+                              const iccp_env *env)
 {
     const size_t d = (size_t)dim;
     const size_t n_vertices = read_count(r, d * F64), n_facets = read_count(r, d * U32);
@@ -141,8 +142,9 @@ static icc_status read_mask(icc_domain **out, int32_t dim, iccp_blob_reader *r, 
     uint8_t *cells = iccp_alloc(&env->memory, n, 1);
     icc_status status = ICC_ERR_MEMORY;
     if (cells != NULL)
-        status = read_cells(r, n, cells) ? iccp_domain_create_mask(out, dim, shape, cells, env, NULL)
-                                         : ICC_ERR_FORMAT;
+        status = read_cells(r, n, cells)
+                     ? iccp_domain_create_mask(out, dim, shape, cells, env, NULL)
+                     : ICC_ERR_FORMAT;
     iccp_free(&env->memory, cells);
     return status;
 }

@@ -9,7 +9,8 @@
 
 /* The boundary alone; its dimension is written elsewhere. */
 void iccp_boundary_write(const icc_domain *domain, iccp_blob_writer *w);
-icc_status iccp_boundary_read(icc_domain **out, int32_t dim, iccp_blob_reader *r, const iccp_env *env);
+icc_status iccp_boundary_read(icc_domain **out, int32_t dim, iccp_blob_reader *r,
+                              const iccp_env *env);
 
 /* Whatever it was made from: a boundary, a mask or a mesh. Points of a mesh that is read have the numbers that the
  * domain gave them, not the first caller's. */

@@ -20,7 +20,8 @@ static icc_chart *chart_of(const icc_domain *domain, const icc_chart_options *op
 {
     icc_chart *chart;
     icc_error err = {.size = sizeof err};
-    ck_assert_msg(icc_chart_create(&chart, domain, options, NULL, &err) == ICC_OK, "%s", err.message);
+    ck_assert_msg(icc_chart_create(&chart, domain, options, NULL, &err) == ICC_OK, "%s",
+                  err.message);
     return chart;
 }
 
@@ -40,7 +41,8 @@ static void check_chart(icc_chart *chart)
     icc_error err = {.size = sizeof err};
     const icc_env threads = {.size = sizeof threads, .threads = 3};
     bytes b = chart_bytes(chart);
-    ck_assert_msg(icc_chart_load(&loaded, b.n, b.data, &threads, &err) == ICC_OK, "%s", err.message);
+    ck_assert_msg(icc_chart_load(&loaded, b.n, b.data, &threads, &err) == ICC_OK, "%s",
+                  err.message);
     same_chart(chart, loaded);
     bytes again = chart_bytes(loaded);
     ck_assert_uint_eq(again.n, b.n);
@@ -57,7 +59,8 @@ START_TEST(polygons)
 {
     for (int k = 0; k < N_SHAPES; ++k)
         for (int m = 0; m < N_METHODS; ++m) {
-            const shape s = shape_number(k), r = shape_reversed(&s), far = shape_moved(&s, 10, 1e9, -1e9);
+            const shape s = shape_number(k), r = shape_reversed(&s),
+                        far = shape_moved(&s, 10, 1e9, -1e9);
             check_chart(chart_with(polygon(&s), METHODS[m], 24));
             check_chart(chart_with(polygon(&r), METHODS[m], 17));
             check_chart(chart_with(polygon(&far), METHODS[m], 20));
@@ -139,7 +142,8 @@ START_TEST(masks)
         cells[i] = (uint8_t)(i % 9 < 4 || i / 9 < 3 ? 1 + i % 3 : 0);
     for (int m = 0; m < N_METHODS; ++m) {
         ck_assert_int_eq(icc_domain_create_mask(&domain, 2, PLANE, cells, NULL, NULL), ICC_OK);
-        check_chart(chart_with(domain, METHODS[m], METHODS[m] == ICC_METHOD_FIELD ? 0 : 4 * (m % 3)));
+        check_chart(
+            chart_with(domain, METHODS[m], METHODS[m] == ICC_METHOD_FIELD ? 0 : 4 * (m % 3)));
     }
     for (int i = 0; i < 140; ++i)
         cells[i] = i % 5 < 3 || i / 20 < 3;
@@ -158,7 +162,9 @@ START_TEST(surfaces)
     for (int m = 2; m < N_METHODS; ++m) {
         surface_octahedron(&s);
         surface_star(&s, 2, 0.3, &r);
-        ck_assert_int_eq(icc_domain_create(&domain, 3, s.n_vertices, s.vertices, s.n_faces, s.faces, NULL, NULL), ICC_OK);
+        ck_assert_int_eq(
+            icc_domain_create(&domain, 3, s.n_vertices, s.vertices, s.n_faces, s.faces, NULL, NULL),
+            ICC_OK);
         check_chart(chart_with(domain, METHODS[m], 12));
     }
 }
@@ -189,12 +195,35 @@ START_TEST(meshes)
 }
 END_TEST
 
+/* Of a vertex inside, not even the sign of a zero is lost on the way to local coordinates and back. */
+START_TEST(signs_of_zeros)
+{
+    test_mesh m = mesh_cells(2, 2, NULL);
+    for (int i = 0; i < 18; ++i)
+        m.vertices[i] -= 1;
+    m.vertices[8] = -0.0; /* the vertex in the middle, the last one in the bytes */
+    icc_chart *chart = chart_with(filled(m), 0, 0), *loaded;
+    bytes b = chart_bytes(chart);
+    const size_t at = 24 + 8 + 24 + 16 * 8;
+    ck_assert_int_eq(b.data[at + 7], 0x80);
+    ck_assert_int_eq(b.data[at + 15], 0);
+    ck_assert_int_eq(icc_chart_load(&loaded, b.n, b.data, NULL, NULL), ICC_OK);
+    bytes again = chart_bytes(loaded);
+    ck_assert_same(b.data, again.data, b.n, "what is saved again");
+    free(b.data);
+    free(again.data);
+    icc_chart_free(loaded);
+    icc_chart_free(chart);
+}
+END_TEST
+
 /* A foliation of the library's own mesh, although the domain has one of the caller's: the other of the pair has none. */
 START_TEST(mesh_beside_polygon)
 {
     const shape s = shape_l();
     const icc_chart_options foliation = {.size = sizeof foliation, .method = ICC_METHOD_FOLIATION};
-    const icc_map_options options = {.size = sizeof options, .chart = &foliation, .kind = ICC_MAP_CURVES};
+    const icc_map_options options = {
+        .size = sizeof options, .chart = &foliation, .kind = ICC_MAP_CURVES};
     icc_domain *source = filled(mesh_polygon(s.n, s.xy, 0.3)), *target;
     uint32_t facets[12];
     icc_map *map;
@@ -326,8 +355,16 @@ static void put64(bytes *b, size_t at, uint64_t value)
 /* Content that has been made up, with the checksum put right. */
 START_TEST(content_is_checked)
 {
-    static const uint64_t VALUES[] = {0, 1, UINT64_MAX, (uint64_t)1 << 32, (uint64_t)1 << 63, 0x7ff8000000000000u,
-                                      0x7ff0000000000000u, 0x7fefffffffffffffu, 0x3ff0000000000000u, 1000000};
+    static const uint64_t VALUES[] = {0,
+                                      1,
+                                      UINT64_MAX,
+                                      (uint64_t)1 << 32,
+                                      (uint64_t)1 << 63,
+                                      0x7ff8000000000000u,
+                                      0x7ff0000000000000u,
+                                      0x7fefffffffffffffu,
+                                      0x3ff0000000000000u,
+                                      1000000};
     random_source r = {6};
     for (int k = 0; k < N_SMALL; ++k) {
         icc_chart *chart = small_chart(k);
@@ -339,7 +376,8 @@ START_TEST(content_is_checked)
             if (i % 2 == 0)
                 put64(&changed, at, VALUES[random_below(&r, 10)]);
             else
-                changed.data[at + (size_t)random_below(&r, 4)] ^= (unsigned char)(1 << random_below(&r, 8));
+                changed.data[at + (size_t)random_below(&r, 4)] ^=
+                    (unsigned char)(1 << random_below(&r, 8));
             repair_bytes(&changed, "CHRT");
             check_harmless(&changed);
         }
@@ -351,7 +389,12 @@ START_TEST(content_is_checked)
 END_TEST
 
 /* Of the first chart: head, domain, method, cells, counts and pieces come before the points. */
-enum { N_CORNERS = 6, DOMAIN = 24 + 8, COUNTS = DOMAIN + 16 + 24 * N_CORNERS + 8 + 8, PIECES = COUNTS + 16 };
+enum {
+    N_CORNERS = 6,
+    DOMAIN = 24 + 8,
+    COUNTS = DOMAIN + 16 + 24 * N_CORNERS + 8 + 8,
+    PIECES = COUNTS + 16
+};
 
 static size_t get64(const bytes *b, size_t at)
 {
@@ -429,12 +472,61 @@ START_TEST(false_directions_are_refused)
             if (side % 4 != 0)
                 memset(changed.data + at, 0, 8);
             repair_bytes(&changed, "CHRT");
-            ck_assert_int_eq(icc_chart_load(&loaded, b.n, changed.data, NULL, NULL), ICC_ERR_FORMAT);
+            ck_assert_int_eq(icc_chart_load(&loaded, b.n, changed.data, NULL, NULL),
+                             ICC_ERR_FORMAT);
         }
         free(changed.data);
         free(b.data);
         icc_chart_free(chart);
     }
+}
+END_TEST
+
+static double get_number(const bytes *b, size_t at)
+{
+    const uint64_t bits = get64(b, at);
+    double number;
+    memcpy(&number, &bits, sizeof number);
+    return number;
+}
+
+static void put_number(bytes *b, size_t at, double number)
+{
+    uint64_t bits;
+    memcpy(&bits, &number, sizeof bits);
+    put64(b, at, bits);
+}
+
+/* Where leaves go out through two sides, they go out through one: nothing goes round, but what enters the simplex behind the
+ * other one comes from nowhere. */
+START_TEST(leaves_from_nowhere_are_refused)
+{
+    random_source r = {8};
+    icc_chart *chart = chart_with(filled(mesh_cube(3, 3, 0.1, &r)), 0, 0), *loaded;
+    bytes b = chart_bytes(chart), changed = {b.n, saved_alloc(b.n)};
+    const size_t n = chart_story(chart).n_mesh_triangles;
+    int n_tried = 0;
+    for (size_t s = 0; s < n; ++s) {
+        const size_t at = b.n - 32 * (n - s);
+        size_t out[4], n_out = 0;
+        for (size_t i = 0; i < 4; ++i)
+            if (get_number(&b, at + 8 * i) < 0)
+                out[n_out++] = at + 8 * i;
+        if (n_out != 2)
+            continue;
+        memcpy(changed.data, b.data, b.n);
+        for (size_t i = 0; i < 4; ++i)
+            put_number(&changed, at + 8 * i, 0.5 * get_number(&b, at + 8 * i));
+        put_number(&changed, out[0], -1);
+        put_number(&changed, out[1], 0.5);
+        repair_bytes(&changed, "CHRT");
+        ck_assert_int_eq(icc_chart_load(&loaded, b.n, changed.data, NULL, NULL), ICC_ERR_FORMAT);
+        ++n_tried;
+    }
+    ck_assert_int_gt(n_tried, 0);
+    free(changed.data);
+    free(b.data);
+    icc_chart_free(chart);
 }
 END_TEST
 
@@ -454,7 +546,8 @@ START_TEST(false_fillings_are_refused)
             if (memcmp(changed.data, b.data, b.n) == 0)
                 continue;
             repair_bytes(&changed, "CHRT");
-            ck_assert_int_eq(icc_chart_load(&loaded, b.n, changed.data, NULL, NULL), ICC_ERR_FORMAT);
+            ck_assert_int_eq(icc_chart_load(&loaded, b.n, changed.data, NULL, NULL),
+                             ICC_ERR_FORMAT);
         }
     free(changed.data);
     free(b.data);
@@ -531,6 +624,7 @@ int main(void)
     tcase_add_test(c, masks);
     tcase_add_test(c, surfaces);
     tcase_add_test(c, meshes);
+    tcase_add_test(c, signs_of_zeros);
     tcase_add_test(c, mesh_beside_polygon);
     tcase_add_test(c, damage_is_noticed);
     tcase_add_test(c, capacity);
@@ -539,6 +633,7 @@ int main(void)
     tcase_add_test(c, false_foliations_are_refused);
     tcase_add_test(c, false_discs_are_refused);
     tcase_add_test(c, false_directions_are_refused);
+    tcase_add_test(c, leaves_from_nowhere_are_refused);
     tcase_add_test(c, false_fillings_are_refused);
     tcase_add_test(c, another_digest_is_another_version);
     tcase_add_test(c, no_memory_and_no_patience);

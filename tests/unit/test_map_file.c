@@ -44,14 +44,16 @@ static pair bent_pair(const shape *s)
     return (pair){polygon(s), polygon(&moved)};
 }
 
-static icc_map *map_of(const pair *p, int32_t kind, int32_t method, int32_t cells, int32_t iterations)
+static icc_map *map_of(const pair *p, int32_t kind, int32_t method, int32_t cells,
+                       int32_t iterations)
 {
     const icc_chart_options chart = {.size = sizeof chart, .method = method, .cells = cells};
     const icc_map_options options = {
         .size = sizeof options, .kind = kind, .iterations = iterations, .chart = &chart};
     icc_map *map;
     icc_error err = {.size = sizeof err};
-    ck_assert_msg(icc_map_create(&map, p->source, p->target, &options, NULL, &err) == ICC_OK, "%s", err.message);
+    ck_assert_msg(icc_map_create(&map, p->source, p->target, &options, NULL, &err) == ICC_OK, "%s",
+                  err.message);
     return map;
 }
 
@@ -60,7 +62,8 @@ static icc_map *load(const bytes *b)
     icc_map *loaded;
     icc_error err = {.size = sizeof err};
     const icc_env threads = {.size = sizeof threads, .threads = 3};
-    ck_assert_msg(icc_map_load(&loaded, b->n, b->data, &threads, &err) == ICC_OK, "%s", err.message);
+    ck_assert_msg(icc_map_load(&loaded, b->n, b->data, &threads, &err) == ICC_OK, "%s",
+                  err.message);
     return loaded;
 }
 
@@ -114,7 +117,8 @@ START_TEST(hard_meshes)
     int n = 0;
     for (int k = 0; k < N_HARD_SHAPES; ++k) {
         const shape s = shape_hard(k);
-        const icc_map_options options = {.size = sizeof options, .kind = ICC_MAP_MESH, .iterations = 2};
+        const icc_map_options options = {
+            .size = sizeof options, .kind = ICC_MAP_MESH, .iterations = 2};
         pair p = {polygon(&s), NULL};
         icc_map *map = NULL;
         shape moved = shape_moved(&s, 3, 1, 2);
@@ -227,9 +231,9 @@ END_TEST
  * own. The target is filled from one point inside. */
 static icc_domain *dented_cube(const icc_domain *cube)
 {
-    static const double VERTICES[27] = {0.28, 0.26, -0.18, 0.56, 0.42, 0.48, 0.11, 1.17, -0.09,
+    static const double VERTICES[27] = {0.28, 0.26, -0.18, 0.56,  0.42, 0.48, 0.11, 1.17, -0.09,
                                         0.74, 0.80, -0.17, -0.02, 0.21, 1.19, 1.30, 0.09, 0.86,
-                                        0.14, 0.76, 0.99, 0.95, 1.21, 1.23, 0.37, 0.40, 0.69};
+                                        0.14, 0.76, 0.99,  0.95,  1.21, 1.23, 0.37, 0.40, 0.69};
     uint32_t facets[36], simplices[48];
     icc_domain *domain;
     ck_assert_int_eq(icc_domain_get_boundary(cube, NULL, facets), ICC_OK);
@@ -237,7 +241,9 @@ static icc_domain *dented_cube(const icc_domain *cube)
         memcpy(simplices + 4 * f, facets + 3 * f, 3 * sizeof *facets);
         simplices[4 * f + 3] = 8;
     }
-    ck_assert_int_eq(icc_domain_create_mesh(&domain, 3, 9, VERTICES, 12, simplices, 12, facets, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(
+        icc_domain_create_mesh(&domain, 3, 9, VERTICES, 12, simplices, 12, facets, NULL, NULL),
+        ICC_OK);
     return domain;
 }
 
@@ -251,6 +257,17 @@ START_TEST(cut_chords)
     ck_assert_int_eq(map_story(map).kind, ICC_MAP_MESH);
     ck_assert_uint_gt(map_story(map).n_triangles, cube.n_simplices);
     check_map(map, p.source);
+    /* A point of that mesh outside of the source, its image where it was: bytes end with points, corners and images. */
+    const icc_map_info info = map_story(map);
+    const size_t n_inner = info.n_vertices - 8;
+    bytes b = map_bytes(map);
+    icc_map *loaded;
+    unsigned char *point = b.data + b.n - 48 * n_inner - 16 * info.n_triangles;
+    memset(point, 0, 8);
+    point[7] = 0x40;
+    repair_bytes(&b, "MAP_");
+    ck_assert_int_eq(icc_map_load(&loaded, b.n, b.data, NULL, NULL), ICC_ERR_FORMAT);
+    free(b.data);
     icc_map_free(map);
     free_pair(&p);
     mesh_free(&cube);
@@ -265,10 +282,14 @@ START_TEST(surfaces)
     surface_octahedron(&s);
     surface_star(&s, 1, 0.2, &r);
     for (int m = 2; m < N_METHODS; ++m) {
-        ck_assert_int_eq(icc_domain_create(&p.source, 3, s.n_vertices, s.vertices, s.n_faces, s.faces, NULL, NULL), ICC_OK);
+        ck_assert_int_eq(icc_domain_create(&p.source, 3, s.n_vertices, s.vertices, s.n_faces,
+                                           s.faces, NULL, NULL),
+                         ICC_OK);
         for (size_t v = 0; v < s.n_vertices; ++v)
             s.vertices[3 * v] *= 1.25;
-        ck_assert_int_eq(icc_domain_create(&p.target, 3, s.n_vertices, s.vertices, s.n_faces, s.faces, NULL, NULL), ICC_OK);
+        ck_assert_int_eq(icc_domain_create(&p.target, 3, s.n_vertices, s.vertices, s.n_faces,
+                                           s.faces, NULL, NULL),
+                         ICC_OK);
         icc_map *map = map_of(&p, 0, METHODS[m], 10, 0);
         check_map(map, p.source);
         icc_map_free(map);
@@ -342,8 +363,16 @@ static void check_harmless(const bytes *b, const icc_domain *source)
 
 START_TEST(content_is_checked)
 {
-    static const uint64_t VALUES[] = {0, 1, UINT64_MAX, (uint64_t)1 << 32, (uint64_t)1 << 63, 0x7ff8000000000000u,
-                                      0x7ff0000000000000u, 0x7fefffffffffffffu, 0x3ff0000000000000u, 1000000};
+    static const uint64_t VALUES[] = {0,
+                                      1,
+                                      UINT64_MAX,
+                                      (uint64_t)1 << 32,
+                                      (uint64_t)1 << 63,
+                                      0x7ff8000000000000u,
+                                      0x7ff0000000000000u,
+                                      0x7fefffffffffffffu,
+                                      0x3ff0000000000000u,
+                                      1000000};
     random_source r = {6};
     for (int k = 0; k < N_SMALL; ++k) {
         pair p;
@@ -356,7 +385,8 @@ START_TEST(content_is_checked)
                 for (size_t j = 0; j < 8; ++j)
                     changed.data[at + j] = (unsigned char)(VALUES[i / 2 % 10] >> 8 * j);
             else
-                changed.data[at + (size_t)random_below(&r, 8)] ^= (unsigned char)(1 << random_below(&r, 8));
+                changed.data[at + (size_t)random_below(&r, 8)] ^=
+                    (unsigned char)(1 << random_below(&r, 8));
             repair_bytes(&changed, "MAP_");
             check_harmless(&changed, p.source);
         }
