@@ -1,5 +1,6 @@
-/* An attempt to find the end of a piece, on LANES curves side by side: what includes this file says how many.
- * Each lane gets the bits that it would get alone.
+/* An attempt to find the end of a piece, on LANES curves side by side: what includes this file says how many, and
+ * for which processor (TARGET). Nothing here branches on one lane only, and each gets the bits that it would get
+ * alone.
  *
  * In a simplex the field is linear in position, so its curves are solutions of x' = A x + b, power series that
  * converge everywhere: the terms of x' are A^j x'(0) s^j / j!. The column of A for an axis is the difference of

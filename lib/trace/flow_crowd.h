@@ -1,5 +1,6 @@
 /* LANES curves side by side, each at its own place: a lane whose curve has ended takes the next one. What includes
- * this file says how many, and for which processor the arithmetic is compiled (TARGET). */
+ * this file says how many, and for which processor the arithmetic is compiled (TARGET).
+ * A lane whose attempt was not the last for its piece tries again while the others go on to their next. */
 #ifndef ICCP_FLOW_CROWD_H
 #define ICCP_FLOW_CROWD_H
 

@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "map/curves.h"
+
 #include "../determinant.h"
 #include "../npy.h"
 #include "../obj.h"
@@ -260,6 +262,38 @@ static void check_certified_map(random_source *r, const pair *p, const icc_map *
     }
 }
 
+/* Points that are mapped together get the bits of points that are mapped one by one, failures included. */
+static void check_bulk(random_source *r, const pair *p, const icc_map *map)
+{
+    static double points[N_POINTS * ICC_MAX_DIM], images[N_POINTS * ICC_MAX_DIM];
+    static icc_status statuses[N_POINTS];
+    const size_t dim = (size_t)p->dim;
+    iccp_env env;
+    iccp_path path;
+    for (size_t i = 0; i < N_POINTS; ++i)
+        random_inside(r, p->source, points + dim * i);
+    points[dim * 20] = NAN;
+    points[dim * 30] = 1e3;
+    memcpy(points + dim * 40, p->from, dim * sizeof *points);
+    ck_assert_int_eq(icc_map_apply(map, N_POINTS, points, images, statuses, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
+    iccp_path_init(&path, &env.memory);
+    for (size_t i = 0; i < N_POINTS; ++i) {
+        double image[ICC_MAX_DIM];
+        const icc_status status =
+            iccp_curves_point(icc_map_source_chart(map), icc_map_target_chart(map),
+                              points + dim * i, image, NULL, &path);
+        ck_assert_int_eq(statuses[i], status);
+        if (status == ICC_OK)
+            ck_assert_mem_eq(images + dim * i, image, dim * sizeof *image);
+        else
+            ck_assert(isnan(images[dim * i]));
+    }
+    ck_assert_int_eq(statuses[20], ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(statuses[30], ICC_ERR_OUTSIDE);
+    iccp_path_clear(&path);
+}
+
 static surface shape;
 
 START_TEST(certified_surfaces)
@@ -419,6 +453,7 @@ START_TEST(masks)
             ck_assert_uint_eq(lost, 0);
         ck_assert_uint_le(lost, N_POINTS / 20);
         check_boundary(&r, &p, map);
+        check_bulk(&r, &p, map);
         icc_map_free(map);
         pair_free(&p);
     }
