@@ -1,7 +1,7 @@
 #!/bin/sh
 # Builds the Debian packages in a fresh chroot, checks them with lintian, and tests them installed in
-# another one that has only what they depend on. Needs root and a mirror of Debian bookworm; without
-# root it exits with 77. Prints the seconds that each step took.
+# another one that has only what they depend on. Needs root and a mirror of Debian bookworm; where chroots
+# are not allowed it exits with 77. Prints the seconds that each step took.
 # usage: debian.sh BUILD_FOLDER             logs and packages go to BUILD_FOLDER/debian
 #        LIBICC_DEBIAN_BASE=BASE.tar        the chroots begin as this; it is made if it is not there
 set -eu
@@ -10,6 +10,10 @@ cd "$(dirname "$0")/.."
 
 if [ "$(id -u)" -ne 0 ]; then
     echo "Debian packages are not tested: that needs root, to make chroots"
+    exit 77
+fi
+if ! unshare --mount --pid --fork true 2>/dev/null; then
+    echo "Debian packages are not tested: namespaces cannot be made here"
     exit 77
 fi
 need mmdebstrap autopkgtest
