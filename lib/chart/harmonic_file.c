@@ -64,7 +64,7 @@ static icc_status fill(iccp_planar *mesh, iccp_blob_reader *r, const iccp_env *e
     if (r->failed || !iccp_are_local(2, 2 * n_inner, inner) || !names_vertices(mesh))
         return ICC_ERR_FORMAT;
     iccp_corners corners = {mesh->triangles, mesh->twins, mesh->n_triangles};
-    icc_status status = iccp_find_twins(&corners, &is_manifold, env);
+    icc_status status = iccp_find_twins(&corners, mesh->n_vertices, &is_manifold, env);
     if (status == ICC_OK)
         status = is_manifold ? certify(mesh, env) : ICC_ERR_FORMAT;
     if (status == ICC_OK)

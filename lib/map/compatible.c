@@ -8,7 +8,8 @@
  * pieces that run through it. */
 #include "map/compatible.h"
 
-#include <stdlib.h>
+#include "base/sort.h"
+
 #include <string.h>
 
 enum { MOST_CROSSINGS = 1 << 20, CHORDS_PER_REPORT = 1024 };
@@ -39,13 +40,6 @@ typedef struct overlay {
     uint32_t *border;
     iccp_corners result;
 } overlay;
-
-/* qsort() takes no NULL, not even for nothing. */
-static void sort(void *items, size_t n, size_t size, int (*compare)(const void *, const void *))
-{
-    if (n > 1)
-        qsort(items, n, size, compare);
-}
 
 /* Whether x comes after a and before b on the way round. */
 static bool is_between(const overlay *o, uint32_t a, uint32_t x, uint32_t b)
@@ -192,7 +186,7 @@ static icc_status place_images(overlay *o)
     o->first = iccp_alloc_zero(o->memory, n_corners + 1, sizeof *o->first);
     if (o->first == NULL)
         return ICC_ERR_MEMORY;
-    sort(o->crossings, o->n_crossings, sizeof *o->crossings, by_edge);
+    iccp_sort(o->crossings, o->n_crossings, sizeof *o->crossings, by_edge);
     for (size_t k = 0; k < o->n_crossings; ++k)
         ++o->first[o->crossings[k].edge + 1];
     for (size_t c = 0; c < n_corners; ++c)
@@ -262,7 +256,7 @@ static void cut_triangle(overlay *o, uint32_t triangle, piece *pieces, size_t n)
         pieces[k].to = a < b ? b : a;
         pieces[k].span = pieces[k].to - pieces[k].from;
     }
-    sort(pieces, n, sizeof *pieces, by_span);
+    iccp_sort(pieces, n, sizeof *pieces, by_span);
     for (size_t k = 0; k < n; ++k)
         emit_cell(o, pieces[k].from, pieces[k].to);
     emit_cell(o, 0, n_border - 1);
@@ -280,7 +274,7 @@ static icc_status cut_all(overlay *o, const iccp_env *env)
     if (o->place == NULL || o->next == NULL || o->border == NULL || o->result.vertex == NULL ||
         o->result.twin == NULL)
         return ICC_ERR_MEMORY;
-    sort(o->pieces, o->n_pieces, sizeof *o->pieces, by_triangle);
+    iccp_sort(o->pieces, o->n_pieces, sizeof *o->pieces, by_triangle);
     size_t p = 0;
     for (uint32_t t = 0; t < o->n - 2; ++t) {
         const size_t begin = p;
@@ -289,7 +283,7 @@ static icc_status cut_all(overlay *o, const iccp_env *env)
         cut_triangle(o, t, o->n_pieces > 0 ? o->pieces + begin : NULL, p - begin);
     }
     bool is_manifold;
-    const icc_status status = iccp_find_twins(&o->result, &is_manifold, env);
+    const icc_status status = iccp_find_twins(&o->result, n_vertices, &is_manifold, env);
     return status == ICC_OK && !is_manifold ? ICC_ERR_TOPOLOGY : status;
 }
 

@@ -1,7 +1,7 @@
 /* docs/theory.md, the mesh map; energies and their derivatives: map/distortion.c. */
 #include "map/improve.h"
 
-#include <stdlib.h>
+#include "base/sort.h"
 
 /* First steps with SLIM's model, which gets far from a bad start; then Newton's, which converges. */
 enum { MAJORISED_STEPS = 3 };
@@ -96,7 +96,7 @@ static icc_status refine(iccp_plmap *map, size_t *n_cut, const iccp_env *env)
         list[t] = (ranked){iccp_dirichlet_energy(&element, image) - 4 * element.area, t};
         excess += list[t].excess;
     }
-    qsort(list, n, sizeof *list, by_excess);
+    iccp_sort(list, n, sizeof *list, by_excess);
     for (size_t k = 0; status == ICC_OK && k < n && (double)k < MOST_CUT * (double)n &&
                        reached < EXCESS_SHARE * excess;
          ++k) {

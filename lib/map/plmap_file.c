@@ -27,7 +27,7 @@ static icc_status link_triangles(iccp_plmap *map, const iccp_env *env)
     for (size_t c = 0; c < 3 * map->corners.n_triangles; ++c)
         if (map->corners.vertex[c] >= map->n_vertices)
             return ICC_ERR_FORMAT;
-    const icc_status status = iccp_find_twins(&map->corners, &is_manifold, env);
+    const icc_status status = iccp_find_twins(&map->corners, map->n_vertices, &is_manifold, env);
     return status != ICC_OK || is_manifold ? status : ICC_ERR_FORMAT;
 }
 

@@ -1,6 +1,6 @@
 #include "mesh/corners.h"
 
-#include <stdlib.h>
+#include "domain/tuples.h"
 
 static void link_twins(iccp_corners *c, uint32_t a, uint32_t b)
 {
@@ -56,53 +56,39 @@ void iccp_turn_edge(iccp_corners *corners, uint32_t corner)
     link_twins(c, after, twin_after);
 }
 
-/* A half-edge by its lower and its higher vertex; `corner` faces it. */
-typedef struct half_edge {
-    uint32_t low, high, corner;
-} half_edge;
-
-static int by_ends(const void *a, const void *b)
+/* Links the half-edges with the same ends, from `begin` to `end`: one, or two in opposite directions. */
+static bool link_equal(iccp_corners *c, const iccp_tuples *edges, size_t begin, size_t end)
 {
-    const half_edge *p = a, *q = b;
-    if (p->low != q->low)
-        return p->low < q->low ? -1 : 1;
-    if (p->high != q->high)
-        return p->high < q->high ? -1 : 1;
-    return (p->corner > q->corner) - (p->corner < q->corner);
-}
-
-/* Links the half-edges [begin, end), which have the same ends: one, or two in opposite directions. */
-static bool link_equal(iccp_corners *c, const half_edge *edges, size_t begin, size_t end)
-{
-    const uint32_t a = edges[begin].corner;
+    const uint32_t a = edges->order[begin], *ends = edges->vertices + 2 * (size_t)a;
     c->twin[a] = ICCP_NO_NEIGHBOUR;
-    if (edges[begin].low == edges[begin].high || end - begin > 2)
+    if (ends[0] == ends[1] || end - begin > 2)
         return false;
     if (end - begin == 1)
         return true;
-    const uint32_t b = edges[begin + 1].corner;
+    const uint32_t b = edges->order[begin + 1];
     link_twins(c, a, b);
     return c->vertex[iccp_after(a)] == c->vertex[iccp_before(b)];
 }
 
-icc_status iccp_find_twins(iccp_corners *corners, bool *is_manifold, const iccp_env *env)
+icc_status iccp_find_twins(iccp_corners *corners, size_t n_vertices, bool *is_manifold,
+                           const iccp_env *env)
 {
     const size_t n = 3 * corners->n_triangles;
-    half_edge *edges = iccp_alloc(&env->memory, n, sizeof *edges);
-    if (edges == NULL)
-        return ICC_ERR_MEMORY;
+    iccp_tuples edges;
+    icc_status status = iccp_tuples_create(&edges, n, 2, n_vertices, &env->memory);
+    if (status != ICC_OK)
+        return status;
     for (uint32_t c = 0; c < n; ++c) {
         const uint32_t a = corners->vertex[iccp_after(c)], b = corners->vertex[iccp_before(c)];
-        edges[c] = (half_edge){a < b ? a : b, a < b ? b : a, c};
+        edges.vertices[2 * (size_t)c] = a < b ? a : b;
+        edges.vertices[2 * (size_t)c + 1] = a < b ? b : a;
     }
-    qsort(edges, n, sizeof *edges, by_ends);
+    iccp_tuples_sort(&edges);
     *is_manifold = true;
     for (size_t begin = 0, end; begin < n; begin = end) {
-        end = begin + 1;
-        while (end < n && edges[end].low == edges[begin].low && edges[end].high == edges[begin].high)
-            ++end;
-        *is_manifold &= link_equal(corners, edges, begin, end);
+        end = iccp_tuples_end(&edges, begin);
+        *is_manifold &= link_equal(corners, &edges, begin, end);
     }
-    iccp_free(&env->memory, edges);
+    iccp_tuples_free(&edges);
     return ICC_OK;
 }

@@ -19,9 +19,10 @@ void iccp_cut_edge(iccp_corners *corners, uint32_t corner, uint32_t m);
 /* Replaces the edge, which is not on the boundary, by the other diagonal of its two triangles. */
 void iccp_turn_edge(iccp_corners *corners, uint32_t corner);
 
-/* Finds the twins of the corners of triangles that are all counter-clockwise, from their vertices alone.
- * False when an edge belongs to two triangles on the same side, or a corner's three vertices are not
- * different: `corners->twin` is then of no use. O(n log n). */
-icc_status iccp_find_twins(iccp_corners *corners, bool *is_manifold, const iccp_env *env);
+/* Finds the twins of the corners of triangles that are all counter-clockwise, from their vertices alone, which
+ * are smaller than n_vertices. False when an edge belongs to two triangles on the same side, or a corner's
+ * three vertices are not different: `corners->twin` is then of no use. O(n). */
+icc_status iccp_find_twins(iccp_corners *corners, size_t n_vertices, bool *is_manifold,
+                           const iccp_env *env);
 
 #endif

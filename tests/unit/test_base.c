@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/options.h"
+#include "base/sort.h"
 #include "base/threads.h"
 #include "base/version.h"
 
@@ -467,11 +468,43 @@ START_TEST(loops_can_be_cancelled)
 }
 END_TEST
 
+static int by_value(const void *a, const void *b)
+{
+    const uint32_t *p = a, *q = b;
+    return (p[0] > q[0]) - (p[0] < q[0]);
+}
+
+/* Pairs of a value and a number: in order, and each still there. */
+START_TEST(sorting_keeps_everything)
+{
+    enum { MOST = 300 };
+    uint32_t pairs[2 * MOST];
+    iccp_sort(NULL, 0, sizeof *pairs, by_value);
+    for (size_t n = 0; n < MOST; ++n)
+        for (uint32_t values = 1; values < 1000; values *= 30) {
+            bool seen[MOST] = {false};
+            for (size_t i = 0; i < n; ++i) {
+                pairs[2 * i] = (uint32_t)(i * 2654435761u >> 5) % values;
+                pairs[2 * i + 1] = (uint32_t)i;
+            }
+            iccp_sort(pairs, n, 2 * sizeof *pairs, by_value);
+            for (size_t i = 0; i < n; ++i) {
+                const uint32_t number = pairs[2 * i + 1];
+                ck_assert(i == 0 || pairs[2 * i - 2] <= pairs[2 * i]);
+                ck_assert(number < n && !seen[number]);
+                ck_assert_uint_eq(pairs[2 * i], (uint32_t)(number * (size_t)2654435761u >> 5) % values);
+                seen[number] = true;
+            }
+        }
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("base");
     TCase *tests = tcase_create("base");
     tcase_add_test(tests, version_is_written_down_once);
+    tcase_add_test(tests, sorting_keeps_everything);
     tcase_add_test(tests, every_status_has_its_name);
     tcase_add_test(tests, reading_a_struct);
     tcase_add_test(tests, writing_a_struct);

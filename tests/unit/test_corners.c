@@ -160,20 +160,20 @@ START_TEST(twins_are_found)
             iccp_cut_edge(&c, (uint32_t)random_below(&r, 3 * (int)c.n_triangles), v);
         memcpy(own, c.twin, 3 * c.n_triangles * sizeof *own);
         memset(c.twin, 0, 3 * c.n_triangles * sizeof *own);
-        ck_assert_int_eq(iccp_find_twins(&c, &is_manifold, &env), ICC_OK);
+        ck_assert_int_eq(iccp_find_twins(&c, 500, &is_manifold, &env), ICC_OK);
         ck_assert(is_manifold);
         ck_assert_mem_eq(own, c.twin, 3 * c.n_triangles * sizeof *own);
         /* One triangle the other way round, twice the same, or with an edge of no length. */
         const uint32_t first = c.vertex[0];
         c.vertex[0] = c.vertex[1];
         c.vertex[1] = first;
-        ck_assert_int_eq(iccp_find_twins(&c, &is_manifold, &env), ICC_OK);
+        ck_assert_int_eq(iccp_find_twins(&c, 500, &is_manifold, &env), ICC_OK);
         ck_assert(!is_manifold);
         memcpy(c.vertex, c.vertex + 3, 3 * sizeof *c.vertex);
-        ck_assert_int_eq(iccp_find_twins(&c, &is_manifold, &env), ICC_OK);
+        ck_assert_int_eq(iccp_find_twins(&c, 500, &is_manifold, &env), ICC_OK);
         ck_assert(!is_manifold);
         c.vertex[0] = c.vertex[1];
-        ck_assert_int_eq(iccp_find_twins(&c, &is_manifold, &env), ICC_OK);
+        ck_assert_int_eq(iccp_find_twins(&c, 500, &is_manifold, &env), ICC_OK);
         ck_assert(!is_manifold);
     }
 }
