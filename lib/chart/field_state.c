@@ -1,0 +1,61 @@
+/* Places of points in the grid of a chart of method field. */
+#include "chart/field_state.h"
+
+#include <math.h>
+
+static void to_lattice(const iccp_field_state *state, const double *local, double *x)
+{
+    const icc_grid *grid = state->tree->grid;
+    for (int32_t k = 0; k < grid->dim; ++k)
+        x[k] = (local[k] - grid->origin[k]) / grid->spacing;
+}
+
+void iccp_field_place_out(const iccp_field_state *state, const iccp_flow_place *place,
+                          const double *at, double *local)
+{
+    const icc_grid *grid = state->tree->grid;
+    iccp_flow_position(&state->flow, place, at, local);
+    for (int32_t k = 0; k < grid->dim; ++k)
+        local[k] = grid->origin[k] + grid->spacing * local[k];
+}
+
+bool iccp_field_at_maximum(const icc_chart *chart, const double *point)
+{
+    const iccp_field_state *state = chart->state;
+    for (int32_t k = 0; k < chart->domain->dim; ++k)
+        if (fabs(point[k] - state->root[k]) > chart->domain->tolerance)
+            return false;
+    return true;
+}
+
+icc_status iccp_field_entry(const icc_chart *chart, const double *point, iccp_flow_place *place)
+{
+    const iccp_field_state *state = chart->state;
+    double x[ICC_MAX_DIM], ahead[ICC_MAX_DIM];
+    to_lattice(state, point, x);
+    if (!iccp_flow_find(&state->flow, x, NULL, place))
+        return ICC_ERR_TRACE;
+    iccp_flow_vector(&state->flow, place, ahead);
+    return iccp_flow_find(&state->flow, x, ahead, place) ? ICC_OK : ICC_ERR_TRACE;
+}
+
+int32_t iccp_field_locate(const icc_chart *chart, const double *point, iccp_flow_place *place,
+                          iccp_coords *coords)
+{
+    const iccp_field_state *state = chart->state;
+    double x[ICC_MAX_DIM];
+    to_lattice(state, point, x);
+    if (!iccp_flow_find(&state->flow, x, NULL, place))
+        return ICC_OUTSIDE;
+    const uint32_t lowest = place->simplex.corner[0];
+    if (state->cover.bits[lowest] == 0 && state->tree->grid->inside[lowest])
+        return ICC_INSIDE;
+    return iccp_domain_locate(chart->domain, point, true, &coords->facet, coords->bary);
+}
+
+bool iccp_field_many_begin(iccp_field_many *many, size_t n_curves, const iccp_path *path)
+{
+    many->n = 0;
+    many->curves = iccp_alloc(path->memory, n_curves, sizeof *many->curves);
+    return many->curves != NULL;
+}

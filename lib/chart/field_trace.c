@@ -1,0 +1,68 @@
+/* The whole curve of a point. */
+#include "chart/field_state.h"
+
+static icc_status emit_marks(const iccp_field_state *state, const iccp_path *path, bool reversed,
+                             iccp_emit emit, void *argument)
+{
+    icc_status status = ICC_OK;
+    for (size_t i = 0; status == ICC_OK && i < path->n_marks; ++i) {
+        const iccp_flow_mark *mark = path->marks + (reversed ? path->n_marks - 1 - i : i);
+        double local[ICC_MAX_DIM];
+        iccp_field_place_out(state, &mark->place, mark->place.at, local);
+        status = emit(argument, local);
+    }
+    return status;
+}
+
+/* From the boundary up to the point, which is the last mark and left out. */
+static icc_status trace_below(const icc_chart *chart, const iccp_flow_place *place, iccp_path *path,
+                              iccp_emit emit, void *argument)
+{
+    const iccp_field_state *state = chart->state;
+    iccp_flow_walk walk;
+    iccp_coords coords;
+    double s, local[ICC_MAX_DIM];
+    path->n_marks = 0;
+    icc_status status = iccp_flow_start(&walk, &state->flow, -1, place);
+    while (status == ICC_OK && !iccp_flow_leaves(&walk, &s, &coords.facet, coords.bary)) {
+        status = iccp_flow_next(&walk);
+        if (status == ICC_OK)
+            status = iccp_flow_note(&walk, path);
+    }
+    if (status != ICC_OK)
+        return status;
+    iccp_domain_facet_point(chart->domain, coords.facet, coords.bary, local);
+    status = emit(argument, local);
+    return status == ICC_OK ? emit_marks(state, path, true, emit, argument) : status;
+}
+
+icc_status iccp_field_trace(const icc_chart *chart, const double *point, iccp_path *path,
+                            iccp_emit emit, void *argument)
+{
+    const iccp_field_state *state = chart->state;
+    iccp_flow_place place;
+    iccp_flow_walk walk;
+    iccp_coords coords;
+    const int32_t where = iccp_field_locate(chart, point, &place, &coords);
+    icc_status status = ICC_OK;
+    if (where == ICC_OUTSIDE)
+        return ICC_ERR_OUTSIDE;
+    if (iccp_field_at_maximum(chart, point))
+        return emit(argument, point);
+    if (where == ICC_INSIDE)
+        status = trace_below(chart, &place, path, emit, argument);
+    else
+        status = iccp_field_entry(chart, point, &place);
+    path->n_marks = 0;
+    if (status == ICC_OK)
+        status = iccp_flow_start(&walk, &state->flow, +1, &place);
+    for (bool more = true; status == ICC_OK && more;) {
+        status = iccp_flow_note(&walk, path);
+        more = !walk.ends;
+        if (status == ICC_OK && more)
+            status = iccp_flow_next(&walk);
+    }
+    if (status == ICC_OK)
+        status = emit_marks(state, path, false, emit, argument);
+    return status == ICC_OK ? emit(argument, state->root) : status;
+}
