@@ -427,11 +427,11 @@ typedef struct icc_chart_measures {
  *
  * Cost with n vertices and N cells along the longest side: gradient O(N^2 + n N) time and memory at
  * most in 2-D, about 1 ms at N = 50, and O(N^dim) beyond: in 3-D at N = 64 from 0.1 s, and 15 us a point
- * and way. Field the same: in 3-D at N = 64 0.05 to 0.5 s, 20 us a point and way; at most 70 bytes a grid
+ * and way. Field the same: in 3-D at N = 64 0.05 to 0.5 s, 10 us a point and way (15 without AVX2); at most 70 bytes a grid
  * vertex, and 150 for each of icc_chart_info::n_contacts while it is made. Foliation and disc mesh
  * the domain with at most 2 n + 4 N^2 vertices (far fewer in practice) and factorise its Laplacian:
  * about 5 ms at N = 50 and n < 100, 0.1 s at n = 15,000; 500 bytes a vertex. Foliation on a domain with a
- * mesh: in 3-D about 25 us a tetrahedron, 40 us from 80,000 on, of which the certificate takes 2 %, then 1 to 2 us
+ * mesh: in 3-D about 12 us a tetrahedron, 20 us from 80,000 on, of which the certificate takes 2 to 4 %, then 1 to 2 us
  * a point and way at 20,000 tetrahedra, 3 to 4 us at 80,000; 130 bytes a tetrahedron, 1.4 kB while it is made.
  */
 ICC_API icc_status icc_chart_create(icc_chart **out, const icc_domain *domain,
