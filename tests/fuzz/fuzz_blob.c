@@ -1,30 +1,13 @@
 /* Any bytes as a saved sampling or binding. The first byte says which; with its lowest bit the header is put right, so
  * that the content is looked at. What is accepted is sound, and saved again it is the same. */
-#include "base/blob.h"
 #include "icc/kernel.h"
 
+#include "blobs.h"
+
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-enum { HEADER = 24, LARGEST = 1 << 16 };
-
-static void require(int holds)
-{
-    if (!holds)
-        abort();
-}
-
-static void put_right(uint8_t *bytes, size_t size, const char *kind)
-{
-    iccp_blob_writer w;
-    size_t n;
-    iccp_blob_begin(&w, bytes, size, kind, 1);
-    w.n = size;
-    iccp_blob_end(&w, &n);
-}
 
 static void check_sampling(const uint8_t *bytes, size_t size)
 {

@@ -1,31 +1,16 @@
 /* Any bytes as a saved chart or map. The first byte says which; with its lowest bit the header is put right, so that the
  * content is looked at. What is accepted answers, and saved again it is the same. There is little memory and patience: made-up
  * options of a chart on a grid cost what they cost when it is made. */
-#include "base/blob.h"
 #include "icc/icc.h"
 
+#include "blobs.h"
+
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-enum { HEADER = 24, LARGEST = 1 << 16, N_POINTS = 24 };
-
-static void require(int holds)
-{
-    if (!holds)
-        abort();
-}
-
-static void put_right(uint8_t *bytes, size_t size, const char *kind)
-{
-    iccp_blob_writer w;
-    size_t n;
-    iccp_blob_begin(&w, bytes, size, kind, 1);
-    w.n = size;
-    iccp_blob_end(&w, &n);
-}
+enum { N_POINTS = 24 };
 
 /* The steps that a chart on a grid takes when it is made again end here. */
 static int32_t lose_patience(void *user, const char *stage, double share)

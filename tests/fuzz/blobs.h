@@ -1,0 +1,28 @@
+/* What fuzzers of saved objects share. */
+#ifndef FUZZ_BLOBS_H
+#define FUZZ_BLOBS_H
+
+#include "base/blob.h"
+
+#include <stdlib.h>
+
+enum { HEADER = 24, LARGEST = 1 << 16 };
+
+/* assert() is off in release builds. */
+static inline void require(int holds)
+{
+    if (!holds)
+        abort();
+}
+
+/* Makes the header of bytes fit their content. */
+static inline void put_right(uint8_t *bytes, size_t size, const char *kind)
+{
+    iccp_blob_writer w;
+    size_t n;
+    iccp_blob_begin(&w, bytes, size, kind, 1);
+    w.n = size;
+    iccp_blob_end(&w, &n);
+}
+
+#endif
