@@ -9,20 +9,17 @@
 #include <math.h>
 #include <string.h>
 
-/* Whatever is counted per edge is counted in 32 bits; domain/buckets.c has up to about 20 of it. */
-static const size_t MAX_COUNT = UINT32_MAX / 64;
-
 static icc_status check_counts(size_t n_vertices, const double *vertices, size_t n_facets,
                                const uint32_t *facets, icc_error *err)
 {
     if (vertices == NULL && n_vertices > 0)
         return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "vertices is NULL");
-    if (n_vertices > MAX_COUNT)
+    if (n_vertices > ICCP_MAX_COUNT)
         return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "%zu vertices are too many; at most %zu",
-                         n_vertices, MAX_COUNT);
-    if (facets != NULL && n_facets > MAX_COUNT)
+                         n_vertices, ICCP_MAX_COUNT);
+    if (facets != NULL && n_facets > ICCP_MAX_COUNT)
         return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "%zu facets are too many; at most %zu",
-                         n_facets, MAX_COUNT);
+                         n_facets, ICCP_MAX_COUNT);
     return ICC_OK;
 }
 
@@ -52,9 +49,9 @@ static icc_status check_simplices(size_t n_simplices, const uint32_t *simplices,
 {
     if (simplices == NULL)
         return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "simplices is NULL");
-    if (n_simplices == 0 || n_simplices > MAX_COUNT)
+    if (n_simplices == 0 || n_simplices > ICCP_MAX_COUNT)
         return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "%zu simplices; there must be 1 to %zu",
-                         n_simplices, MAX_COUNT);
+                         n_simplices, ICCP_MAX_COUNT);
     return ICC_OK;
 }
 

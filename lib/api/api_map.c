@@ -200,9 +200,6 @@ icc_status icc_map_mesh(const icc_map *map, double *vertices, double *images, ui
     return ICC_OK;
 }
 
-/* As for the meshes of domains. */
-static const size_t MAX_COUNT = UINT32_MAX / 64;
-
 static icc_status check_mesh(const icc_map *map, size_t n_vertices, size_t n_simplices,
                              const uint32_t *simplices, icc_error *err)
 {
@@ -211,7 +208,8 @@ static icc_status check_mesh(const icc_map *map, size_t n_vertices, size_t n_sim
     if (dim != 2 && dim != 3)
         return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1,
                          "dim is %zu; meshes are carried along in dimensions 2 and 3 only", dim);
-    if (n_vertices <= dim || n_simplices < 1 || n_vertices > MAX_COUNT || n_simplices > MAX_COUNT)
+    if (n_vertices <= dim || n_simplices < 1 || n_vertices > ICCP_MAX_COUNT ||
+        n_simplices > ICCP_MAX_COUNT)
         return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_map_certify: %zu vertices and %zu simplices",
                          n_vertices, n_simplices);
     for (size_t k = 0; k < (dim + 1) * n_simplices; ++k)

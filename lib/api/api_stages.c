@@ -20,7 +20,6 @@
 #include <math.h>
 
 static const int32_t DEFAULT_CELLS = 50; /* the papers' */
-static const int32_t MAX_CELLS = 16384;
 static const size_t MAX_POINTS = UINT32_MAX / 16; /* corners of triangles are numbered too */
 
 /* Every creator starts like this. `missing` names the first input that is NULL, or is NULL itself. */
@@ -45,9 +44,9 @@ icc_status icc_grid_create(icc_grid **out, const icc_domain *domain, int32_t cel
         return status;
     if (cells == 0)
         cells = domain->mask == NULL ? DEFAULT_CELLS : 2;
-    if (cells < 2 || cells > MAX_CELLS)
+    if (cells < ICCP_MIN_CELLS || cells > ICCP_MAX_CELLS)
         return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "cells is %ld; it must lie in 2..%ld",
-                         (long)cells, (long)MAX_CELLS);
+                         (long)cells, (long)ICCP_MAX_CELLS);
     return iccp_explain(err, iccp_grid_create(out, domain, cells, &full_env, err));
 }
 

@@ -2,11 +2,9 @@
 
 #include "base/error.h"
 #include "base/options.h"
+#include "chart/recipe.h"
 
 #include <math.h>
-
-static const int32_t MIN_CELLS = 2, MAX_CELLS = 16384;
-static const double MAX_SHARE = 0.01; /* of eta and leaf: functions still look like themselves */
 
 icc_status iccp_check_maximum(const double *maximum, int32_t dim, icc_error *err)
 {
@@ -27,10 +25,10 @@ static icc_status check_choice(int32_t value, int32_t last, const char *name, co
 /* Small relative amounts; 0 stands for a default. Refuses NaN. */
 static icc_status check_share(double value, const char *name, const char *member, icc_error *err)
 {
-    if (value >= 0 && value <= MAX_SHARE)
+    if (value >= 0 && value <= ICCP_MAX_SHARE)
         return ICC_OK;
     return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "%s.%s is %g; it must lie in (0, %g], or be 0", name,
-                     member, value, MAX_SHARE);
+                     member, value, ICCP_MAX_SHARE);
 }
 
 icc_status iccp_check_function(const icc_field_options *options, const char *name, icc_error *err)
@@ -63,10 +61,10 @@ icc_status iccp_read_chart_options(icc_chart_options *full, const icc_chart_opti
     if (full->tree < 0 || full->tree > ICC_TREE_PAPER)
         return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_chart_options.tree is %ld",
                          (long)full->tree);
-    if (full->cells != 0 && (full->cells < MIN_CELLS || full->cells > MAX_CELLS))
+    if (full->cells != 0 && (full->cells < ICCP_MIN_CELLS || full->cells > ICCP_MAX_CELLS))
         return iccp_fail(err, ICC_ERR_ARGUMENT, -1,
                          "icc_chart_options.cells is %ld; it must lie in %ld..%ld",
-                         (long)full->cells, (long)MIN_CELLS, (long)MAX_CELLS);
+                         (long)full->cells, (long)ICCP_MIN_CELLS, (long)ICCP_MAX_CELLS);
     if (full->method == ICC_METHOD_DISC && full->maximum != NULL)
         return iccp_fail(err, ICC_ERR_ARGUMENT, -1,
                          "method disc has its own maximum: icc_chart_options.maximum must be NULL");

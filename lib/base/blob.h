@@ -7,6 +7,9 @@
 
 #include <stdbool.h>
 
+/* Bytes of a number. */
+enum { ICCP_U32 = 4, ICCP_F64 = 8 };
+
 /* A writer counts always, and writes what fits into its capacity. */
 typedef struct iccp_blob_writer {
     unsigned char *data;

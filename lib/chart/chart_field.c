@@ -31,7 +31,7 @@ static const double PLANE_BUDGET = 16384, INSIDE_BUDGET = 65536, BUDGET = 419430
 
 static int32_t choose_cells(const icc_domain *domain, int32_t cells)
 {
-    enum { FEWEST = 8, MOST = 16384 };
+    enum { FEWEST = 8 };
     if (cells > 0 || domain->mask != NULL)
         return cells;
     double longest = 0, box = 1;
@@ -43,7 +43,7 @@ static int32_t choose_cells(const icc_domain *domain, int32_t cells)
     const double inside = domain->dim == 2 ? PLANE_BUDGET : INSIDE_BUDGET;
     const double n =
         fmin(pow(inside / share, 1.0 / domain->dim), pow(BUDGET / box, 1.0 / domain->dim));
-    return (int32_t)fmin(fmax(ceil(n), FEWEST), MOST);
+    return (int32_t)fmin(fmax(ceil(n), FEWEST), ICCP_MAX_CELLS);
 }
 
 static icc_status choose_root(const icc_grid *grid, const double *maximum, uint32_t *root,

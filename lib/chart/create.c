@@ -37,7 +37,7 @@ static icc_status complete(icc_chart_options *options, int32_t dim, bool has_mes
 }
 
 /* How often a chart that cannot be certified is tried again on a mesh with cells half as large. */
-enum { REFINEMENTS = 2, MOST_CELLS = 16384 };
+enum { REFINEMENTS = 2 };
 
 /* One or two domains on their way to harmonic charts. */
 typedef struct harmonic_job {
@@ -164,7 +164,7 @@ static icc_status create_harmonic(harmonic_job *job, icc_chart **out, const iccp
 {
     job->cells = job->options[0].cells;
     icc_status status = try_harmonic(job, out, env, err);
-    for (int k = 0; k < REFINEMENTS && status == ICC_ERR_CERTIFICATE && job->cells <= MOST_CELLS / 2; ++k) {
+    for (int k = 0; k < REFINEMENTS && status == ICC_ERR_CERTIFICATE && job->cells <= ICCP_MAX_CELLS / 2; ++k) {
         job->cells *= 2;
         iccp_log(env, "the chart cannot be certified: trying %ld cells", (long)job->cells);
         status = try_harmonic(job, out, env, err);

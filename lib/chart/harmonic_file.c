@@ -7,8 +7,6 @@
 
 #include <string.h>
 
-enum { U32 = 4, F64 = 8, MOST_CELLS = 16384 };
-
 /* Points on the boundary follow from how its facets are cut, twins from the triangles. */
 void iccp_harmonic_write(int32_t cells, const iccp_planar *mesh, const icc_domain *domain,
                          iccp_blob_writer *w)
@@ -75,8 +73,8 @@ static icc_status fill(iccp_planar *mesh, iccp_blob_reader *r, const iccp_env *e
 static icc_status read_mesh(iccp_planar *mesh, const icc_domain *domain, iccp_blob_reader *r,
                             const iccp_env *env)
 {
-    const size_t n_inner = iccp_blob_read_count(r, 2 * F64);
-    const size_t n_triangles = iccp_blob_read_count(r, 3 * U32);
+    const size_t n_inner = iccp_blob_read_count(r, 2 * ICCP_F64);
+    const size_t n_triangles = iccp_blob_read_count(r, 3 * ICCP_U32);
     uint32_t *pieces = iccp_alloc(&env->memory, domain->n_facets, sizeof *pieces);
     if (pieces == NULL)
         return ICC_ERR_MEMORY;
@@ -93,7 +91,7 @@ icc_status iccp_harmonic_read(iccp_harmonic *base, const icc_domain *domain, icc
     const uint64_t cells = iccp_blob_read_u64(r);
     memset(base, 0, sizeof *base);
     base->mesh.memory = env->memory;
-    if (cells < 1 || cells > MOST_CELLS)
+    if (cells < 1 || cells > ICCP_MAX_CELLS)
         return ICC_ERR_FORMAT;
     base->cells = (int32_t)cells;
     const icc_status status = read_mesh(&base->mesh, domain, r, env);

@@ -5,10 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-/* As in api/check.c. */
-enum { MIN_CELLS = 2, MAX_CELLS = 16384 };
-static const double MAX_SHARE = 0.01;
-
 void iccp_recipe_keep(iccp_recipe *recipe, const icc_chart_options *options, const double *maximum,
                       int32_t dim)
 {
@@ -52,11 +48,11 @@ icc_status iccp_recipe_read(iccp_recipe *recipe, int32_t dim, uint64_t *digest, 
     *digest = iccp_blob_read_u64(r);
     bool sound = !r->failed && is_choice(c[0], ICC_FUNCTION_DECAY, ICC_FUNCTION_CLAMPED) &&
                  is_choice(c[1], ICC_TREE_THESIS, ICC_TREE_PAPER) &&
-                 (c[2] == 0 || is_choice(c[2], MIN_CELLS, MAX_CELLS)) &&
+                 (c[2] == 0 || is_choice(c[2], ICCP_MIN_CELLS, ICCP_MAX_CELLS)) &&
                  is_choice(c[3], 0, ICC_CONSTRAINTS_ALL) &&
                  is_choice(c[4], 0, ICC_SOLVER_ITERATIVE) && c[5] <= 1;
     for (int k = 0; k < 2; ++k)
-        sound = sound && shares[k] >= 0 && shares[k] <= MAX_SHARE;
+        sound = sound && shares[k] >= 0 && shares[k] <= ICCP_MAX_SHARE;
     for (int32_t k = 0; k < dim; ++k)
         sound = sound && isfinite(recipe->maximum[k]) && (c[5] == 1 || is_zero(recipe->maximum[k]));
     if (!sound)

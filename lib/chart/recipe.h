@@ -5,6 +5,9 @@
 #include "chart/chart.h"
 #include "field/field.h"
 
+/* Of eta and leaf: functions still look like themselves. */
+#define ICCP_MAX_SHARE 0.01
+
 typedef struct iccp_recipe {
     icc_chart_options options; /* without the maximum: */
     bool has_maximum;          /* the grassfire's if not */

@@ -5,6 +5,7 @@
 #include "chart/shelling_certificate.h"
 #include "chart/shelling_state.h"
 #include "domain/domain_file.h"
+#include "shelling/element.h"
 
 #include <math.h>
 
@@ -19,14 +20,6 @@ typedef struct order {
     uint32_t *queue;
 } order;
 
-static bool in_star(const iccp_simplices *mesh, size_t s, uint32_t centre)
-{
-    for (size_t i = 0; i <= mesh->dim; ++i)
-        if (mesh->corners[(mesh->dim + 1) * s + i] == centre)
-            return true;
-    return false;
-}
-
 /* Ranks the simplices; false if leaves would go round. */
 static bool find_ranks(const order *o, uint32_t centre)
 {
@@ -38,7 +31,7 @@ static bool find_ranks(const order *o, uint32_t centre)
         o->n_ahead[s] = 0;
         for (size_t i = 0; i < n; ++i)
             o->n_ahead[s] += o->direction[n * s + i] < 0;
-        if (in_star(mesh, s, centre)) {
+        if (iccp_element_has(mesh, s, centre)) {
             o->n_ahead[s] = 0;
             o->rank[s] = 0;
             o->queue[n_queue++] = s;
@@ -82,7 +75,7 @@ static bool are_directions(const order *o, uint32_t centre)
     const size_t n = o->mesh->dim + 1;
     for (size_t s = 0; s < o->mesh->n_simplices; ++s) {
         const double *rate = o->direction + n * s;
-        if (!(in_star(o->mesh, s, centre) ? are_ones(n, rate) : are_rates(n, rate)))
+        if (!(iccp_element_has(o->mesh, s, centre) ? are_ones(n, rate) : are_rates(n, rate)))
             return false;
     }
     return true;

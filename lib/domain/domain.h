@@ -11,6 +11,13 @@
 #include <stdatomic.h>
 #include <stdbool.h>
 
+/* Of vertices, facets and simplices of a domain. Whatever is counted per edge is counted in 32 bits;
+ * domain/buckets.c has up to about 20 of it. */
+#define ICCP_MAX_COUNT ((size_t)UINT32_MAX / 64)
+
+/* Cells of a grid or mesh along the longest side of a domain. */
+enum { ICCP_MIN_CELLS = 2, ICCP_MAX_CELLS = 16384 };
+
 struct iccp_locator;
 struct iccp_mask;
 struct iccp_simplices;

@@ -8,18 +8,12 @@
 #include <math.h>
 #include <string.h>
 
-/* A count is believed if the bytes for so many items are there. */
-enum { U32 = 4, F64 = 8 };
-
 enum { BOUNDARY = 1, MASK = 2, MESH = 3 };
-
-/* What a domain may have of anything (api/api_domain.c). */
-static const size_t MAX_COUNT = UINT32_MAX / 64;
 
 static size_t read_count(iccp_blob_reader *r, size_t size)
 {
     const size_t count = iccp_blob_read_count(r, size);
-    r->failed = r->failed || count > MAX_COUNT;
+    r->failed = r->failed || count > ICCP_MAX_COUNT;
     return r->failed ? 0 : count;
 }
 
@@ -50,7 +44,7 @@ icc_status iccp_boundary_read(icc_domain **out, int32_t dim, iccp_blob_reader *r
                               const iccp_env *env)
 {
     const size_t d = (size_t)dim;
-    const size_t n_vertices = read_count(r, d * F64), n_facets = read_count(r, d * U32);
+    const size_t n_vertices = read_count(r, d * ICCP_F64), n_facets = read_count(r, d * ICCP_U32);
     *out = NULL;
     if (r->failed)
         return ICC_ERR_FORMAT;
@@ -118,7 +112,7 @@ static size_t read_shape(iccp_blob_reader *r, int32_t dim, size_t *shape)
         shape[k] = (size_t)side;
         n *= side;
     }
-    return (n + 31) / 32 <= (r->n - r->at) / U32 ? (size_t)n : 0;
+    return (n + 31) / 32 <= (r->n - r->at) / ICCP_U32 ? (size_t)n : 0;
 }
 
 static bool read_cells(iccp_blob_reader *r, size_t n, uint8_t *cells)
@@ -187,8 +181,8 @@ static bool keeps_order(const iccp_simplices *mesh, size_t n_points, const uint3
 
 static icc_status read_mesh(icc_domain **out, int32_t dim, iccp_blob_reader *r, const iccp_env *env)
 {
-    const size_t d = (size_t)dim, n_points = read_count(r, d * F64);
-    const size_t n_simplices = read_count(r, (d + 1) * U32), n_facets = read_count(r, d * U32);
+    const size_t d = (size_t)dim, n_points = read_count(r, d * ICCP_F64);
+    const size_t n_simplices = read_count(r, (d + 1) * ICCP_U32), n_facets = read_count(r, d * ICCP_U32);
     if (r->failed || n_simplices == 0)
         return ICC_ERR_FORMAT;
     double *points = iccp_alloc(&env->memory, n_points, d * sizeof *points);
@@ -317,7 +311,7 @@ icc_status iccp_filling_read(iccp_simplices **out, const icc_domain *domain, icc
                              const iccp_env *env)
 {
     const size_t dim = (size_t)domain->dim;
-    const size_t n_inner = read_count(r, dim * F64), n_simplices = read_count(r, (dim + 1) * U32);
+    const size_t n_inner = read_count(r, dim * ICCP_F64), n_simplices = read_count(r, (dim + 1) * ICCP_U32);
     *out = NULL;
     if (r->failed || n_simplices == 0)
         return ICC_ERR_FORMAT;

@@ -3,9 +3,6 @@
 #include "base/error.h"
 #include "domain/domain_file.h"
 
-/* A count is believed if the bytes for so many items are there. */
-enum { U32 = 4, F64 = 8 };
-
 void iccp_shape_write(const icc_shape *shape, iccp_blob_writer *w)
 {
     iccp_blob_u64(w, shape->dim);
@@ -42,9 +39,9 @@ icc_status iccp_shape_read(icc_shape **out, iccp_blob_reader *r, const iccp_env 
     *out = NULL;
     if (dim != 2 && dim != 3)
         return iccp_blob_blame(err, ICC_ERR_FORMAT, "shape");
-    const size_t n_regions = iccp_blob_read_count(r, 2 * F64);
-    curves c = {.n_vertices = iccp_blob_read_count(r, (size_t)dim * F64)};
-    c.n_segments = iccp_blob_read_count(r, 2 * U32);
+    const size_t n_regions = iccp_blob_read_count(r, 2 * ICCP_F64);
+    curves c = {.n_vertices = iccp_blob_read_count(r, (size_t)dim * ICCP_F64)};
+    c.n_segments = iccp_blob_read_count(r, 2 * ICCP_U32);
     if (r->failed || n_regions + c.n_segments == 0 || n_regions >= ICCP_NOWHERE)
         return iccp_blob_blame(err, ICC_ERR_FORMAT, "shape");
     icc_domain **regions = iccp_alloc_zero(&env->memory, n_regions, sizeof *regions);

@@ -4,8 +4,6 @@
 
 #include <math.h>
 
-enum { U32 = 4, F64 = 8 };
-
 void iccp_plmap_write(const iccp_plmap *map, iccp_blob_writer *w)
 {
     iccp_blob_u64(w, map->n_vertices);
@@ -116,8 +114,8 @@ static icc_status fill(iccp_plmap *map, const icc_domain *source, const icc_doma
 icc_status iccp_plmap_read(iccp_plmap *map, const icc_domain *source, const icc_domain *target,
                            iccp_blob_reader *r, const iccp_env *env)
 {
-    const size_t n_vertices = iccp_blob_read_count(r, 4 * F64);
-    const size_t n_triangles = iccp_blob_read_count(r, 3 * U32);
+    const size_t n_vertices = iccp_blob_read_count(r, 4 * ICCP_F64);
+    const size_t n_triangles = iccp_blob_read_count(r, 3 * ICCP_U32);
     if (r->failed || n_triangles == 0 || 3 * (uint64_t)n_triangles >= UINT32_MAX)
         return ICC_ERR_FORMAT;
     icc_status status = iccp_plmap_begin(map, n_vertices, n_triangles, source->orientation,

@@ -62,13 +62,13 @@ static icc_status try_order(const contest *c, size_t run, const double *bias, at
     a->energy = HUGE_VAL;
     icc_status status =
         (is_peeling(run) ? iccp_order_peel : iccp_order_grow)(&wish, a->rank, &a->n_left, env);
-    if (status == ICC_OK && a->n_left == 0)
-        status = iccp_order_turn(&wish, a->rank, &n_turned, env);
-    if (status == ICC_OK && a->n_left == 0) {
+    if (status != ICC_OK || a->n_left > 0)
+        return status;
+    status = iccp_order_turn(&wish, a->rank, &n_turned, env);
+    if (status == ICC_OK)
         status = iccp_circulation_greedy(&c->circulation, a->rank, a->flux, env);
-        if (status == ICC_OK)
-            a->energy = iccp_circulation_energy(&c->circulation, a->flux);
-    }
+    if (status == ICC_OK)
+        a->energy = iccp_circulation_energy(&c->circulation, a->flux);
     return status;
 }
 
@@ -125,7 +125,7 @@ static icc_status practise(const contest *c, size_t run, double *bias, attempt *
                            const iccp_env *env)
 {
     memset(bias, 0, c->wish.mesh->n_simplices * sizeof *bias);
-    for (int round = 0; round < N_ROUNDS && *n_least > 0; ++round) {
+    for (int round = 0; round<N_ROUNDS && * n_least> 0; ++round) {
         const icc_status status = try_order(c, run, bias, a, env);
         if (status != ICC_OK)
             return status;

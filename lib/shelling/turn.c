@@ -2,13 +2,12 @@
  * inside, that leaves come to it in one simplex and go from it in one (docs/theory.md, foliations of simplices).
  * Whether a facet can be crossed the other way is a question to the two simplices at it: each still has sides of
  * both kinds, and at each face of the facet the simplices whose sides there are all entered, and those
- * whose sides are all left, are as many as before. That leaves do not run in circles must be seen to besides; when
- * they do after a pass, which no mesh has been seen to do, the pass is taken back. */
+ * whose sides are all left, are as many as before. That leaves do not run in circles must be seen to besides: when
+ * they do after a pass, what it turned there is turned back. */
 #include "shelling/turn.h"
 
 #include "shelling/heap.h"
 
-#include <math.h>
 #include <stdbool.h>
 #include <string.h>
 
@@ -16,8 +15,8 @@ enum { MOST_PASSES = 20 };
 
 typedef struct turner {
     const iccp_order_wish *wish;
-    uint8_t *entered;  /* of each simplex: the sides that leaves enter by, side i being bit i */
-    uint32_t *turned;  /* in this pass, each as seen from the simplex that was of greater rank */
+    uint8_t *entered; /* of each simplex: the sides that leaves enter by, side i being bit i */
+    uint32_t *turned; /* in this pass, each as seen from the simplex that was of greater rank */
     size_t n_turned;
     iccp_heap heap;    /* of sides */
     uint8_t *barred;   /* of each side: 1: it has been turned back */
@@ -122,8 +121,8 @@ static icc_status pass(turner *t, const uint32_t *rank, const iccp_env *env)
     for (size_t side = 0; side < n * mesh->n_simplices; ++side) {
         const uint32_t across = mesh->across[side];
         const bool leaves = (t->entered[side / n] >> side % n & 1) == 0;
-        if (across < ICCP_RIM && leaves && t->wish->flux[side] < 0 && !t->barred[side] && !in_star(rank, side / n) &&
-            !in_star(rank, across / n))
+        if (across < ICCP_RIM && leaves && t->wish->flux[side] < 0 && !t->barred[side] &&
+            !in_star(rank, side / n) && !in_star(rank, across / n))
             iccp_heap_put(&t->heap, (uint32_t)side, t->wish->flux[side]);
     }
     t->n_turned = 0;
