@@ -2,7 +2,7 @@
 #ifndef TESTS_FLUXES_H
 #define TESTS_FLUXES_H
 
-#include "chart/centres.h"
+#include "shelling/centres.h"
 #include "domain/domain.h"
 
 #include "faulty.h"

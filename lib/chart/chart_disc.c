@@ -1,11 +1,11 @@
-/* The map is Tutte's (chart/harmonic.h). Its image is a polygon round the origin; a point's
+/* The map is Tutte's (foliation/harmonic.h). Its image is a polygon round the origin; a point's
  * curve is the ray from the boundary of that polygon to the origin. */
 #include "chart/chart_disc.h"
 
 #include "base/clock.h"
 #include "base/error.h"
-#include "chart/certificate.h"
-#include "chart/harmonic_file.h"
+#include "foliation/certificate.h"
+#include "foliation/harmonic_file.h"
 #include "math/predicates.h"
 
 #include <math.h>

@@ -3,7 +3,7 @@
 #define ICCP_CHART_DISC_H
 
 #include "chart/chart.h"
-#include "chart/harmonic.h"
+#include "foliation/harmonic.h"
 
 /* Makes the chart from the base's map to the disc (`image`, as iccp_harmonic_disc() gives it), and takes
  * the mesh and the image over on success. ICC_ERR_CERTIFICATE when the map is not one-to-one. */

@@ -5,10 +5,10 @@
 
 #include "base/clock.h"
 #include "base/error.h"
-#include "chart/certificate.h"
-#include "chart/harmonic_file.h"
-#include "trace/leaf.h"
-#include "trace/psi_file.h"
+#include "foliation/certificate.h"
+#include "foliation/harmonic_file.h"
+#include "foliation/leaf.h"
+#include "foliation/psi_file.h"
 
 #include <math.h>
 #include <string.h>

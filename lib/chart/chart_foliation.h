@@ -3,7 +3,7 @@
 #define ICCP_CHART_FOLIATION_H
 
 #include "chart/chart.h"
-#include "chart/harmonic.h"
+#include "foliation/harmonic.h"
 
 /* Makes the chart with the given vertex of the base's mesh as its maximum, and takes the mesh over on
  * success. ICC_ERR_CERTIFICATE when it cannot be certified, with the reason. */

@@ -4,9 +4,9 @@
 
 #include "base/clock.h"
 #include "base/error.h"
-#include "chart/centres.h"
-#include "chart/shelling_certificate.h"
-#include "chart/shelling_split.h"
+#include "shelling/centres.h"
+#include "shelling/shelling_certificate.h"
+#include "shelling/shelling_split.h"
 #include "chart/shelling_state.h"
 #include "shelling/contest.h"
 #include "shelling/reference.h"

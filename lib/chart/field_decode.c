@@ -1,6 +1,6 @@
 /* From coordinates to the point: the curve from the boundary, as far as t says. */
 #include "chart/field_state.h"
-#include "trace/flow_jet.h"
+#include "field/flow_jet.h"
 
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /* From a point of the domain to its coordinates: its curve downhill to the boundary, and uphill to the maximum. */
 #include "chart/field_state.h"
-#include "trace/flow_jet.h"
+#include "field/flow_jet.h"
 
 #include <string.h>
 

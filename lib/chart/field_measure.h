@@ -3,7 +3,7 @@
 #define ICCP_FIELD_MEASURE_H
 
 #include "chart/chart.h"
-#include "trace/flow.h"
+#include "field/flow.h"
 
 /* See icc_chart_measure(); `encode` is the chart's. */
 icc_status iccp_field_measure(const icc_chart *chart, const iccp_flow *flow, size_t n_points,

@@ -4,7 +4,7 @@
 
 #include "chart/recipe.h"
 #include "field/cones.h"
-#include "trace/flow_follow.h"
+#include "field/flow_follow.h"
 
 typedef struct iccp_field_state {
     iccp_recipe recipe;

@@ -3,7 +3,7 @@
 #define ICCP_RECIPE_H
 
 #include "chart/chart.h"
-#include "field/field.h"
+#include "function/field.h"
 
 /* Of eta and leaf: functions still look like themselves. */
 #define ICCP_MAX_SHARE 0.01

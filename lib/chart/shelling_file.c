@@ -2,7 +2,7 @@
  * only, so it is made from the directions: A. B. Kahn, Topological Sorting of Large Networks, 1962. */
 #include "chart/shelling_file.h"
 
-#include "chart/shelling_certificate.h"
+#include "shelling/shelling_certificate.h"
 #include "chart/shelling_state.h"
 #include "domain/domain_file.h"
 #include "shelling/element.h"

@@ -3,7 +3,7 @@
 #define ICCP_SHELLING_STATE_H
 
 #include "chart/chart.h"
-#include "trace/fibre.h"
+#include "shelling/fibre.h"
 
 typedef struct iccp_shelling_state {
     iccp_simplices *mesh; /* the chart's own, where the domain's has no vertex inside; or NULL */

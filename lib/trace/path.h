@@ -14,7 +14,7 @@ typedef struct iccp_path {
     size_t n;        /* points */
     size_t capacity; /* doubles */
     double *points;  /* dim + 1 each: the position, and the arc length from the start */
-    struct iccp_flow_mark *marks; /* for walks along a vector field: see trace/flow.h */
+    struct iccp_flow_mark *marks; /* for walks along a vector field: see field/flow.h */
     size_t n_marks, mark_capacity;
 } iccp_path;
 

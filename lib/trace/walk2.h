@@ -6,7 +6,7 @@
 #ifndef ICCP_WALK2_H
 #define ICCP_WALK2_H
 
-#include "field/field.h"
+#include "function/field.h"
 #include "trace/fence.h"
 #include "trace/path.h"
 

@@ -2,7 +2,7 @@
 #ifndef ICCP_WALKN_STAR_H
 #define ICCP_WALKN_STAR_H
 
-#include "field/field.h"
+#include "function/field.h"
 #include "grid/kuhn_simplex.h"
 
 /* A point of the grid: in a simplex, and in the interior of one of its faces.

@@ -2,8 +2,8 @@
  * without any, small ones. One thread. */
 #include "bench.h"
 
-#include "field/bilaplace.h"
-#include "field/critical.h"
+#include "solver/bilaplace.h"
+#include "function/critical.h"
 
 #include "../hard_masks.h"
 

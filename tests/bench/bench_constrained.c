@@ -1,7 +1,7 @@
 /* Laplace's function under the tree's inequalities, beside the figures of a prototype on the same
  * masks: A with CHOLMOD, B with conjugate gradients and multigrid. Processor time of one thread. */
-#include "field/constrained.h"
-#include "field/inequalities.h"
+#include "solver/constrained.h"
+#include "solver/inequalities.h"
 #include "grid/grassfire.h"
 
 #include "../hard_masks.h"

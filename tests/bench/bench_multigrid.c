@@ -3,7 +3,7 @@
  * prototype's figures beside ours where it had the mask. Arguments: parts of the names of masks to run. */
 #include "bench.h"
 
-#include "field/mg_cg.h"
+#include "solver/mg_cg.h"
 
 #include "../hard_masks.h"
 

@@ -3,7 +3,7 @@
  * that is fitted, what the contest takes, and how often each way is complete for maxima by chance. Run by hand on a quiet
  * machine. */
 #include "base/error.h"
-#include "chart/centres.h"
+#include "shelling/centres.h"
 #include "shelling/contest.h"
 #include "shelling/turn.h"
 

@@ -1,6 +1,6 @@
 /* What the stages of foliations of simplices cost, on cubes in 3 to 5 dimensions and on tetrahedra in surfaces:
  * usage: bench_shelling [NAME.obj ...], with the program tetgen installed for these. */
-#include "chart/centres.h"
+#include "shelling/centres.h"
 #include "domain/domain.h"
 #include "shelling/circulation.h"
 #include "shelling/order.h"

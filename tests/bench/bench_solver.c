@@ -3,7 +3,7 @@
  * minutes; none: all others. One thread, the least processor time of up to five runs. */
 #include "bench.h"
 
-#include "field/field.h"
+#include "function/field.h"
 
 #include "../functions.h"
 

@@ -4,7 +4,7 @@
  * own: other programs disturb them less. */
 #include "bench.h"
 
-#include "field/dissection.h"
+#include "solver/dissection.h"
 #include "grid/grassfire.h"
 #include "math/ldlt.h"
 #include "math/ordering.h"

@@ -1,5 +1,5 @@
 /* Any bytes as a polygon: its mesh is a triangulated disc, exactly, and every point of it is found. */
-#include "chart/certificate.h"
+#include "foliation/certificate.h"
 #include "domain/locate.h"
 #include "mesh/finder.h"
 

@@ -1,11 +1,11 @@
 /* The map of a foliation is one-to-one, without a "nearly": computed in rational numbers every point comes
  * back as itself, bit by bit. The library's own meshes and labels are taken as they are; the share of
  * the way is measured in |dx| + |dy|, which needs no square root; every decision is that of
- * trace/leaf.c. With arc length in place of it, the library's doubles are compared as well. */
-#include "chart/harmonic.h"
+ * foliation/leaf.c. With arc length in place of it, the library's doubles are compared as well. */
+#include "foliation/harmonic.h"
 #include "domain/locate.h"
 #include "icc/icc.h"
-#include "trace/psi.h"
+#include "foliation/psi.h"
 
 #include "../hard_shapes.h"
 
@@ -123,7 +123,7 @@ static void foliation_clear(foliation *f)
     iccp_harmonic_free(&f->base);
 }
 
-/* Where a leaf crosses the half-edge that a corner faces; see trace/leaf.h. */
+/* Where a leaf crosses the half-edge that a corner faces; see foliation/leaf.h. */
 typedef struct crossing {
     uint32_t corner;
     mpq_t below, above;

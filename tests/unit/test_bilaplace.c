@@ -1,10 +1,10 @@
 /* Bi-Laplace functions against dense references. */
 #include "base/error.h"
-#include "field/bilaplace.h"
-#include "field/critical.h"
-#include "field/energy.h"
-#include "field/interior.h"
-#include "field/polish.h"
+#include "solver/bilaplace.h"
+#include "function/critical.h"
+#include "solver/energy.h"
+#include "solver/interior.h"
+#include "solver/polish.h"
 
 #include "../faulty.h"
 #include "../hard_masks.h"

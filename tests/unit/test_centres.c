@@ -1,6 +1,6 @@
 /* Centres of meshes, against looking at all vertices. */
 #include "base/error.h"
-#include "chart/centres.h"
+#include "shelling/centres.h"
 #include "domain/simplex.h"
 
 #include "../fluxes.h"

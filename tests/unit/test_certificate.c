@@ -1,6 +1,6 @@
 /* Certificates hold for what the library makes, and refuse it once anything in it is wrong. */
-#include "chart/certificate.h"
-#include "chart/harmonic.h"
+#include "foliation/certificate.h"
+#include "foliation/harmonic.h"
 
 #include "../hard_shapes.h"
 

@@ -1,6 +1,6 @@
 /* Values along the tree, edges where gradients meet or part, and critical points. */
-#include "field/critical.h"
-#include "field/edges.h"
+#include "function/critical.h"
+#include "function/edges.h"
 #include "icc/stages.h"
 
 #include "../faulty.h"

@@ -1,8 +1,8 @@
 /* Simplices of the grid, nearest points of hulls, and curves of fields that can be solved by hand. */
 #include "field/minnorm.h"
 #include "grid/rasterise.h"
-#include "trace/flow_follow.h"
-#include "trace/flow_jet.h"
+#include "field/flow_follow.h"
+#include "field/flow_jet.h"
 
 #include "../random.h"
 

@@ -1,8 +1,8 @@
 /* The V-cycle as a preconditioner, and the iterative solver of the glued problem against dense elimination
  * and the direct one. */
 #include "base/error.h"
-#include "field/glued.h"
-#include "field/mg_cg.h"
+#include "solver/glued.h"
+#include "solver/mg_cg.h"
 
 #include "../faulty.h"
 #include "../hard_masks.h"

@@ -1,5 +1,5 @@
 /* Domain meshes, and finding points in them. */
-#include "chart/certificate.h"
+#include "foliation/certificate.h"
 #include "domain/locate.h"
 #include "math/predicates.h"
 #include "mesh/finder.h"

@@ -1,7 +1,7 @@
 /* The certificate of foliations of simplices holds for orders that the library finds, and for nothing that is
  * corrupted. */
-#include "chart/centres.h"
-#include "chart/shelling_certificate.h"
+#include "shelling/centres.h"
+#include "shelling/shelling_certificate.h"
 #include "shelling/contest.h"
 #include "shelling/reference.h"
 

@@ -1,0 +1,186 @@
+/* LANES curves side by side, each at its own place: a lane whose curve has ended takes the next one. What includes
+ * this file says how many, and for which processor the arithmetic is compiled (TARGET).
+ * A lane whose attempt was not the last for its piece tries again while the others go on to their next. */
+#ifndef ICCP_FLOW_CROWD_H
+#define ICCP_FLOW_CROWD_H
+
+#include "field/flow_attempt.h"
+#include "field/flow_follow.h"
+#include "field/flow_piece.h"
+
+typedef struct lane {
+    iccp_flow_walk walk;
+    iccp_flow_curve *curve; /* NULL: there is none left */
+    int n_attempts;
+    iccp_path path;
+} lane;
+
+/* Lanes that make an attempt together. */
+typedef struct group {
+    lane lane[LANES];
+    attempt attempt;
+} group;
+
+/* While one group is busy the vectors for the other come from memory. */
+enum { GROUPS = 2 };
+
+typedef struct crowd {
+    const iccp_flow *flow;
+    iccp_flow_curve *next, *end; /* curves to come */
+    size_t n_busy;
+    icc_status status;
+    group group[GROUPS];
+} crowd;
+
+TARGET static void try_exits(attempt *a, int32_t dim)
+{
+    if (dim == 3)
+        try_exit(a, 3);
+    else if (dim == 2)
+        try_exit(a, 2);
+    else
+        try_exit(a, dim > 4 ? dim : 4);
+}
+
+/* The next curve, if any. */
+TARGET static void take(crowd *c, lane *x)
+{
+    x->curve = NULL;
+    if (c->next == c->end) {
+        --c->n_busy;
+        return;
+    }
+    x->curve = c->next++;
+    iccp_flow_begin(&x->walk, c->flow, x->curve->sign, &x->curve->start);
+    x->path.n_marks = 0;
+}
+
+TARGET static void finish(lane *x, icc_status status)
+{
+    iccp_flow_curve *curve = x->curve;
+    iccp_flow_walk *w = &x->walk;
+    const double length = curve->length * curve->share;
+    if (status == ICC_OK && curve->share > 0) {
+        status = iccp_flow_rewind(w, &x->path, length);
+        if (status == ICC_OK) {
+            curve->place = w->place;
+            iccp_flow_at(w, iccp_flow_at_length(w, length - w->length), curve->place.at);
+        }
+    }
+    curve->status = status;
+}
+
+/* Whether the curve goes on after the piece that has been found; `a` if its series is there. */
+TARGET static ICCP_INLINE bool goes_on(lane *x, int32_t dim, const attempt *a, int l)
+{
+    iccp_flow_walk *w = &x->walk;
+    iccp_flow_curve *curve = x->curve;
+    double s;
+    if (w->ends) {
+        curve->length = w->length + w->end_length;
+        return false;
+    }
+    if (w->sign > 0 || !iccp_flow_near_boundary(w->flow, &w->place))
+        return true;
+    if (a != NULL)
+        store_series(a, dim, l, w);
+    if (!iccp_flow_leaves(w, &s, &curve->facet, curve->bary))
+        return true;
+    curve->length = w->length + iccp_flow_length(w, s);
+    return false;
+}
+
+/* After a piece: into the next simplex, or to the next curve. */
+TARGET static ICCP_INLINE void move_on(crowd *c, lane *x, int32_t dim, const attempt *a, int l,
+                                       icc_status status)
+{
+    const bool more = status == ICC_OK && goes_on(x, dim, a, l);
+    if (more)
+        status = iccp_flow_cross_in(&x->walk, dim);
+    if (more && status == ICC_OK)
+        return;
+    finish(x, status);
+    take(c, x);
+}
+
+/* To where there is an exit to be found. */
+TARGET static ICCP_INLINE void advance(crowd *c, lane *x, int32_t dim)
+{
+    int32_t corner;
+    while (x->curve != NULL) {
+        if (x->curve->share > 0 && iccp_flow_note(&x->walk, &x->path) != ICC_OK) {
+            c->status = ICC_ERR_MEMORY;
+            return;
+        }
+        corner = iccp_flow_root_corner(&x->walk, dim);
+        if (corner == ICCP_FLOW_WITHIN) {
+            x->n_attempts = 0;
+            return;
+        }
+        move_on(c, x, dim, NULL, 0, iccp_flow_find_radial(&x->walk, corner));
+    }
+}
+
+/* After an attempt. */
+TARGET static ICCP_INLINE void evaluate(crowd *c, group *g, int l, int32_t dim)
+{
+    lane *x = &g->lane[l];
+    attempt *a = &g->attempt;
+    icc_status status = ICC_OK;
+    const bool found = (int)LANE(a->outcome, l) == FOUND;
+    if (!found && ++x->n_attempts < MOST_ATTEMPTS && again(a, l))
+        return;
+    if (found)
+        store_end(a, dim, l, &x->walk);
+    else
+        status = iccp_flow_find_piece_slowly(&x->walk, LANE(a->end, l));
+    move_on(c, x, dim, found ? a : NULL, l, status);
+    advance(c, x, dim);
+}
+
+TARGET static ICCP_INLINE void load_group(group *g, int32_t dim)
+{
+    for (int l = 0; l < LANES; ++l)
+        if (g->lane[l].curve != NULL && g->lane[l].n_attempts == 0)
+            load(&g->attempt, dim, l, &g->lane[l].walk);
+}
+
+TARGET static ICCP_INLINE void run_in(crowd *c, int32_t dim)
+{
+    for (int g = 0; g < GROUPS; ++g)
+        for (int l = 0; l < LANES; ++l) {
+            take(c, &c->group[g].lane[l]);
+            advance(c, &c->group[g].lane[l], dim);
+        }
+    load_group(&c->group[0], dim);
+    for (int g = 0; c->n_busy > 0 && c->status == ICC_OK; g = (g + 1) % GROUPS) {
+        group *this = &c->group[g];
+        try_exits(&this->attempt, dim);
+        load_group(&c->group[(g + 1) % GROUPS], dim);
+        for (int l = 0; l < LANES; ++l)
+            if (this->lane[l].curve != NULL)
+                evaluate(c, this, l, dim);
+    }
+}
+
+TARGET static void run(crowd *c, int32_t dim)
+{
+    if (dim == 3)
+        run_in(c, 3);
+    else
+        run_in(c, dim);
+}
+
+TARGET static icc_status follow(const iccp_flow *flow, size_t n, iccp_flow_curve *curves,
+                                const iccp_memory *memory)
+{
+    crowd c = {.flow = flow, .next = curves, .end = curves + n, .n_busy = GROUPS * LANES};
+    for (int l = 0; l < GROUPS * LANES; ++l)
+        iccp_path_init(&c.group[l / LANES].lane[l % LANES].path, memory);
+    run(&c, flow->grid->dim);
+    for (int l = 0; l < GROUPS * LANES; ++l)
+        iccp_path_clear(&c.group[l / LANES].lane[l % LANES].path);
+    return c.status;
+}
+
+#endif

@@ -1,0 +1,37 @@
+/* Many curves at once, several side by side: faster by far than one after another, and the same bits. */
+#ifndef ICCP_FLOW_FOLLOW_H
+#define ICCP_FLOW_FOLLOW_H
+
+#include "field/flow.h"
+
+typedef struct iccp_flow_curve {
+    iccp_flow_place start;
+    int32_t sign; /* +1: to the root; -1: to the boundary */
+    double share; /* of the length, where `place` is wanted: of a curve uphill; else 0 */
+    /* Found. ICC_OK, or ICC_ERR_TRACE when there is no way to go on. */
+    icc_status status;
+    double length;
+    iccp_flow_place place;
+    uint32_t facet; /* where a curve downhill leaves the domain */
+    double bary[ICC_MAX_DIM];
+} iccp_flow_curve;
+
+/* ICC_ERR_MEMORY or ICC_OK. */
+icc_status iccp_flow_follow(const iccp_flow *flow, size_t n, iccp_flow_curve *curves,
+                            const iccp_memory *memory);
+
+/* Ways to do that, of which the processor has so many: the last is the fastest. */
+int iccp_flow_kinds(void);
+icc_status iccp_flow_follow_as(int kind, const iccp_flow *flow, size_t n, iccp_flow_curve *curves,
+                               const iccp_memory *memory);
+
+#if defined(__GNUC__) && defined(__x86_64__)
+#define ICCP_FLOW_HAS_LANES
+#endif
+
+icc_status iccp_flow_follow2(const iccp_flow *flow, size_t n, iccp_flow_curve *curves,
+                             const iccp_memory *memory);
+icc_status iccp_flow_follow4(const iccp_flow *flow, size_t n, iccp_flow_curve *curves,
+                             const iccp_memory *memory);
+
+#endif

@@ -1,0 +1,16 @@
+/* Two curves side by side, with SSE 4.2. */
+#include "field/flow_follow.h"
+
+#ifdef ICCP_FLOW_HAS_LANES
+
+#define LANES 2
+#define TARGET __attribute__((target("sse4.2")))
+#include "field/flow_crowd.h"
+
+TARGET icc_status iccp_flow_follow2(const iccp_flow *flow, size_t n, iccp_flow_curve *curves,
+                                    const iccp_memory *memory)
+{
+    return follow(flow, n, curves, memory);
+}
+
+#endif

@@ -1,0 +1,16 @@
+/* Four curves side by side, with AVX2. */
+#include "field/flow_follow.h"
+
+#ifdef ICCP_FLOW_HAS_LANES
+
+#define LANES 4
+#define TARGET __attribute__((target("avx2")))
+#include "field/flow_crowd.h"
+
+TARGET icc_status iccp_flow_follow4(const iccp_flow *flow, size_t n, iccp_flow_curve *curves,
+                                    const iccp_memory *memory)
+{
+    return follow(flow, n, curves, memory);
+}
+
+#endif

@@ -1,0 +1,129 @@
+/* The variational equation of x' = A x + b is y' = A y, solved by the same power series. Where a curve ends
+ * on a plane, it does so sooner or later as it moves. */
+#include "field/flow_jet.h"
+
+#include <math.h>
+
+static double product(int32_t dim, const double *a, const double *b)
+{
+    double sum = 0;
+    for (int32_t k = 0; k < dim; ++k)
+        sum += a[k] * b[k];
+    return sum;
+}
+
+/* The derivative of the place moves with A y: the terms of that to parameter s, from y on. */
+static int32_t expand(const iccp_flow_walk *w, double s, const double *y,
+                      double change[ICCP_FLOW_TERMS][ICC_MAX_DIM])
+{
+    static const double NEGLIGIBLE = 1e-17; /* of y */
+    const int32_t dim = w->flow->grid->dim;
+    const double *power = y;
+    double most = 0;
+    for (int32_t k = 0; k < dim; ++k)
+        most += fabs(y[k]);
+    for (int32_t j = 0; j < ICCP_FLOW_TERMS; ++j) {
+        double size = 0;
+        for (int32_t k = 0; k < dim; ++k) {
+            double sum = w->radial ? -w->sign * power[k] : 0;
+            for (int32_t i = 0; i < dim && !w->radial; ++i)
+                sum += power[i] * w->column[i][k];
+            change[j][k] = j > 0 ? sum * (s / j) : sum;
+            size += fabs(change[j][k]);
+        }
+        if (w->radial || size * s <= NEGLIGIBLE * most)
+            return j + 1;
+        power = change[j];
+    }
+    return ICCP_FLOW_TERMS;
+}
+
+/* Gauss and Legendre's nodes on [-1, 1]. */
+enum { NODES = 7 };
+static const double NODE[NODES] = {-0.949107912342758524526, -0.741531185599394439864,
+                                   -0.405845151377397166907, 0,
+                                   0.405845151377397166907,  0.741531185599394439864,
+                                   0.949107912342758524526};
+static const double WEIGHT[NODES] = {0.129484966168869693271, 0.279705391489276667901,
+                                     0.381830050505118944950, 0.417959183673469387755,
+                                     0.381830050505118944950, 0.279705391489276667901,
+                                     0.129484966168869693271};
+
+/* The length changes by the integral of v . v' / |v|: that of s^j v / |v| for all j, to parameter s and in terms of
+ * it. */
+static void directions(const iccp_flow_walk *w, double s, double moment[ICCP_FLOW_TERMS][ICC_MAX_DIM])
+{
+    enum { PARTS = 2 };
+    const int32_t dim = w->flow->grid->dim;
+    for (int32_t j = 0; j < ICCP_FLOW_TERMS; ++j)
+        for (int32_t k = 0; k < dim; ++k)
+            moment[j][k] = 0;
+    for (int i = 0; i < PARTS * NODES; ++i) {
+        const double at = (2 * (i / NODES) + 1 + NODE[i % NODES]) / (2 * PARTS);
+        double v[ICC_MAX_DIM];
+        iccp_flow_velocity(w, s * at, v);
+        double factor = WEIGHT[i % NODES] / (2 * PARTS) / sqrt(product(dim, v, v));
+        for (int32_t j = 0; j < ICCP_FLOW_TERMS; ++j, factor *= at)
+            for (int32_t k = 0; k < dim; ++k)
+                moment[j][k] += factor * v[k];
+    }
+}
+
+void iccp_flow_jet_within(const iccp_flow_walk *walk, double s, iccp_flow_jet *jet)
+{
+    const int32_t dim = walk->flow->grid->dim;
+    double moment[ICCP_FLOW_TERMS][ICC_MAX_DIM], change[ICCP_FLOW_TERMS][ICC_MAX_DIM];
+    directions(walk, s, moment);
+    for (int32_t c = 0; c < jet->n; ++c) {
+        const int32_t n = expand(walk, s, jet->place[c], change);
+        for (int32_t j = 0; j < n; ++j) {
+            jet->length[c] += s * product(dim, change[j], moment[j]);
+            for (int32_t k = 0; k < dim; ++k)
+                jet->place[c][k] += change[j][k] * (s / (j + 1));
+        }
+    }
+}
+
+void iccp_flow_jet_advance(const iccp_flow_walk *walk, double s, const double *lengths,
+                           iccp_flow_jet *jet)
+{
+    const int32_t dim = walk->flow->grid->dim;
+    double v[ICC_MAX_DIM];
+    iccp_flow_velocity(walk, s, v);
+    const double speed = sqrt(product(dim, v, v));
+    for (int32_t c = 0; c < jet->n; ++c) {
+        for (int32_t k = 0; k < dim; ++k)
+            jet->place[c][k] += v[k] / speed * lengths[c];
+        jet->length[c] += lengths[c];
+    }
+}
+
+bool iccp_flow_jet_onto(const iccp_flow_walk *walk, double s, const double *normal,
+                        iccp_flow_jet *jet)
+{
+    const int32_t dim = walk->flow->grid->dim;
+    double v[ICC_MAX_DIM], lengths[ICC_MAX_DIM];
+    iccp_flow_velocity(walk, s, v);
+    const double speed = sqrt(product(dim, v, v)), across = product(dim, v, normal);
+    if (!(fabs(across) > 0))
+        return false;
+    for (int32_t c = 0; c < jet->n; ++c)
+        lengths[c] = -product(dim, jet->place[c], normal) / across * speed;
+    iccp_flow_jet_advance(walk, s, lengths, jet);
+    return true;
+}
+
+bool iccp_flow_jet_pass(const iccp_flow_walk *walk, iccp_flow_jet *jet)
+{
+    const int8_t *axis = walk->place.simplex.axis;
+    const int32_t dim = walk->flow->grid->dim, i = walk->exit;
+    double normal[ICC_MAX_DIM] = {0};
+    iccp_flow_jet_within(walk, walk->end, jet);
+    if (i == ICCP_FLOW_WITHIN)
+        return true;
+    if (i > 0)
+        normal[axis[i - 1]] = 1;
+    if (i < dim)
+        normal[axis[i]] = -1;
+    return iccp_flow_jet_onto(walk, walk->end, normal, jet);
+}

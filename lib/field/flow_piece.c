@@ -1,0 +1,182 @@
+/* The pieces of one curve. What they are: flow_attempt.h; what is unusual is left to flow_exit.c. */
+#include "field/flow_piece.h"
+
+#include "field/flow_exit.h"
+
+#include <float.h>
+
+#define LANES 1
+#define TARGET
+#include "field/flow_attempt.h"
+
+/* ---- within a piece ---- */
+
+static void load_series(const iccp_flow_walk *w, int32_t dim, series *x)
+{
+    x->n = w->n_terms;
+    x->scale = w->scale;
+    for (int32_t j = 0; j < x->n; ++j)
+        for (int32_t k = 0; k < dim; ++k)
+            x->term[j][k] = w->term[j][k];
+}
+
+void iccp_flow_at(const iccp_flow_walk *walk, double s, double *at)
+{
+    const int32_t dim = walk->flow->grid->dim;
+    const double share = s / walk->scale;
+    double sum[ICC_MAX_DIM] = {0};
+    for (int32_t j = walk->n_terms; j-- > 0;)
+        for (int32_t k = 0; k < dim; ++k)
+            sum[k] = sum[k] * share + walk->term[j][k] * INVERSE[j + 1];
+    for (int32_t k = 0; k < dim; ++k)
+        at[k] = walk->place.at[k] + s * sum[k];
+}
+
+void iccp_flow_velocity(const iccp_flow_walk *walk, double s, double *vector)
+{
+    series x;
+    const int32_t dim = walk->flow->grid->dim;
+    const double share = s / walk->scale;
+    load_series(walk, dim, &x);
+    vector_at(&x, dim, &share, vector);
+}
+
+static void motion_at(const iccp_flow_walk *w, int32_t dim, const series *x, double share,
+                      motion *m)
+{
+    vector_at(x, dim, &share, m->vector);
+    for (int32_t k = 0; k < dim; ++k) {
+        m->change[k] = 0;
+        for (int32_t i = 0; i < dim; ++i)
+            m->change[k] += m->vector[i] * w->column[i][k] * w->scale;
+    }
+}
+
+double iccp_flow_length(const iccp_flow_walk *walk, double s)
+{
+    enum { MOST_PARTS = 16 };
+    const int32_t dim = walk->flow->grid->dim;
+    const double most = RULES[N_RULES - 1].most * RULES[N_RULES - 1].most;
+    const double to = s / walk->scale;
+    series x;
+    motion first = {{0}, {0}}, last;
+    double change, length = 0;
+    int parts = 1;
+    if (walk->radial)
+        return walk->end_length * (s / walk->end);
+    load_series(walk, dim, &x);
+    find_change(&x, dim, &first, &change);
+    change *= to * to;
+    for (; parts < MOST_PARTS && change > most; parts *= 2)
+        change *= 0.25;
+    const double share = to / parts;
+    for (int p = 0; p < parts; ++p) {
+        const double from = to * p / parts;
+        double part;
+        motion_at(walk, dim, &x, to * (p + 1) / parts, &last);
+        integrate(&x, dim, &change, &from, &share, &first, &last, &part);
+        length += part;
+        first = last;
+    }
+    return length;
+}
+
+double iccp_flow_at_length(const iccp_flow_walk *walk, double length)
+{
+    enum { MOST = 50 };
+    const int32_t dim = walk->flow->grid->dim;
+    double low = 0, high = walk->end;
+    double s = walk->end_length > 0 ? walk->end * fmin(length / walk->end_length, 1) : 0;
+    for (int k = 0; k < MOST && !walk->radial; ++k) {
+        double vector[ICC_MAX_DIM], speed2;
+        const double miss = iccp_flow_length(walk, s) - length;
+        if (miss < 0)
+            low = s;
+        else
+            high = s;
+        iccp_flow_velocity(walk, s, vector);
+        product(dim, vector, vector, &speed2);
+        double next = s - miss / sqrt(speed2);
+        if (!(next >= low && next <= high))
+            next = 0.5 * (low + high);
+        if (fabs(next - s) <= 2 * DBL_EPSILON * walk->end)
+            return next;
+        s = next;
+    }
+    return s;
+}
+
+/* ---- pieces ---- */
+
+/* With all safeguards, as far as somewhat beyond the last guess. */
+icc_status iccp_flow_find_piece_slowly(iccp_flow_walk *walk, double end)
+{
+    static const double BEYOND = 1e-6; /* besides a tenth: a curve may start on the facet */
+    const int32_t dim = walk->flow->grid->dim;
+    attempt a;
+    double first[3][ICC_MAX_DIM], size = 0;
+    load(&a, dim, 0, walk);
+    first_terms(&a, dim, first);
+    add_size(dim, first[0], &size);
+    const double reach = fmin(end > 0 ? 1.1 * end + BEYOND : HUGE_VAL, FARTHEST / a.norm);
+    if (!(size > 0 && reach < HUGE_VAL))
+        return ICC_ERR_TRACE;
+    expand(&a, dim, first, &reach);
+    store_series(&a, dim, 0, walk);
+    iccp_flow_find_exit(walk);
+    iccp_flow_at(walk, walk->end, walk->finish);
+    walk->end_length = iccp_flow_length(walk, walk->end);
+    return ICC_OK;
+}
+
+static ICCP_INLINE icc_status curved_piece(iccp_flow_walk *w, int32_t dim)
+{
+    attempt a;
+    load(&a, dim, 0, w);
+    try_exit(&a, dim);
+    for (int n = 1; n < MOST_ATTEMPTS && again(&a, 0); ++n)
+        try_exit(&a, dim);
+    if (ICCP_UNLIKELY(a.outcome > FOUND))
+        return iccp_flow_find_piece_slowly(w, a.end);
+    store_end(&a, dim, 0, w);
+    store_series(&a, dim, 0, w);
+    return ICC_OK;
+}
+
+icc_status iccp_flow_find_radial(iccp_flow_walk *w, int32_t corner)
+{
+    const int32_t dim = w->flow->grid->dim;
+    const int8_t *axis = w->place.simplex.axis;
+    const double *at = w->place.at;
+    double size2;
+    const double weight =
+        (corner > 0 ? at[axis[corner - 1]] : 1) - (corner < dim ? at[axis[corner]] : 0);
+    w->radial = true;
+    w->ends = w->sign > 0;
+    w->exit = w->ends ? ICCP_FLOW_WITHIN : corner;
+    w->end = w->scale = w->ends ? 1 : weight / (1 - weight);
+    w->n_terms = 1;
+    for (int32_t i = 0; i < dim; ++i)
+        w->term[0][axis[i]] = w->sign * ((i < corner ? 1.0 : 0.0) - at[axis[i]]);
+    product(dim, w->term[0], w->term[0], &size2);
+    w->end_length = w->end * sqrt(size2);
+    for (int32_t k = 0; k < dim; ++k)
+        w->finish[k] = at[k] + w->end * w->term[0][k];
+    return weight < 1 || w->ends ? ICC_OK : ICC_ERR_TRACE;
+}
+
+icc_status iccp_flow_find_piece(iccp_flow_walk *walk)
+{
+    const int32_t dim = walk->flow->grid->dim;
+    const int32_t corner = iccp_flow_root_corner(walk, dim);
+    if (ICCP_UNLIKELY(corner != ICCP_FLOW_WITHIN))
+        return iccp_flow_find_radial(walk, corner);
+    switch (dim) {
+    case 2:
+        return curved_piece(walk, 2);
+    case 3:
+        return curved_piece(walk, 3);
+    default:
+        return curved_piece(walk, dim > 4 ? dim : 4);
+    }
+}

@@ -1,0 +1,59 @@
+/* One piece of a curve: from where it is in a simplex to where it leaves it. */
+#ifndef ICCP_FLOW_PIECE_H
+#define ICCP_FLOW_PIECE_H
+
+#include "field/flow.h"
+
+/* From walk->place. */
+icc_status iccp_flow_find_piece(iccp_flow_walk *walk);
+
+/* The same with all safeguards; end: a guess of walk->end if positive. */
+icc_status iccp_flow_find_piece_slowly(iccp_flow_walk *walk, double end);
+
+/* The corner that is the root, or ICCP_FLOW_WITHIN. */
+static inline int32_t iccp_flow_root_corner(const iccp_flow_walk *walk, int32_t dim)
+{
+    int32_t corner = ICCP_FLOW_WITHIN;
+    for (int32_t i = 0; i <= dim; ++i)
+        corner = walk->place.simplex.corner[i] == walk->flow->root ? i : corner;
+    return corner;
+}
+
+/* There, straight to the root, or away from it to the facet opposite. */
+icc_status iccp_flow_find_radial(iccp_flow_walk *walk, int32_t corner);
+
+/* Onto the facet, exactly, and no corner's weight negative; then across. */
+static ICCP_INLINE icc_status iccp_flow_cross_in(iccp_flow_walk *w, int32_t dim)
+{
+    w->length += w->end_length;
+    if (++w->n_steps > w->flow->most_steps)
+        return ICC_ERR_TRACE;
+    iccp_flow_place *p = &w->place;
+    const int32_t i = w->exit;
+    const int8_t *axis = p->simplex.axis;
+    double above = 1, *at = w->finish;
+    if (i > 0 && i < dim)
+        at[axis[i - 1]] = at[axis[i]] = 0.5 * (at[axis[i - 1]] + at[axis[i]]);
+    for (int32_t k = 0; k < dim; ++k) {
+        double x = at[axis[k]];
+        x = x > above ? above : x;
+        x = x < 0 ? 0 : x;
+        p->at[axis[k]] = above = x;
+    }
+    p->entry = ICCP_FLOW_WITHIN;
+    if (i == ICCP_FLOW_WITHIN)
+        return ICC_OK;
+    if (i == 0)
+        p->at[axis[0]] = 0;
+    if (i == dim)
+        p->at[axis[dim - 1]] = 1;
+    if (!iccp_kuhn_simplex_cross_in(&p->simplex, dim, w->flow->grid, i, &p->entry))
+        return ICC_ERR_TRACE;
+    ICCP_PREFETCH(w->flow->cones->vector + (size_t)dim * p->simplex.corner[p->entry]);
+    return ICC_OK;
+}
+
+/* From the end of a piece into the next simplex. */
+icc_status iccp_flow_cross(iccp_flow_walk *walk);
+
+#endif

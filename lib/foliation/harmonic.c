@@ -1,0 +1,132 @@
+/* W. Tutte, How to draw a graph, 1963; M. Floater, Parametrization and smooth approximation of surface
+ * triangulations, 1997: with positive weights and a convex boundary the map is one-to-one. */
+#include "foliation/harmonic.h"
+
+#include "base/clock.h"
+#include "base/error.h"
+#include "domain/locate.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double TWO_PI = 6.28318530717958647693;
+
+icc_status iccp_harmonic_create(iccp_harmonic *base, const icc_domain *domain,
+                                const uint32_t *pieces, int32_t cells, const iccp_env *env,
+                                icc_error *err)
+{
+    const double start = iccp_seconds();
+    memset(base, 0, sizeof *base);
+    base->cells = cells;
+    icc_status status = iccp_planar_create(&base->mesh, domain, pieces, cells, env, err);
+    if (status != ICC_OK)
+        return status;
+    const double meshed = iccp_seconds();
+    base->seconds_mesh = meshed - start;
+    if (base->mesh.n_vertices == base->mesh.n_boundary)
+        status = iccp_fail(err, ICC_ERR_RESOLUTION, -1,
+                           "the mesh has no vertex inside: use more cells");
+    if (status == ICC_OK) {
+        status = iccp_laplacian_create(&base->laplacian, &base->mesh, ICCP_NO_NEIGHBOUR, env);
+        if (status == ICC_OK)
+            status = iccp_spd_create(&base->solver, &base->laplacian.matrix, false, env);
+        if (status == ICC_ERR_SOLVER)
+            (void)iccp_fail(err, status, -1, "the mesh's equations cannot be factorised");
+    }
+    base->seconds_solve = iccp_seconds() - meshed;
+    if (status != ICC_OK)
+        iccp_harmonic_free(base);
+    return status;
+}
+
+void iccp_harmonic_describe(const iccp_harmonic *base, const icc_domain *domain,
+                            icc_chart_info *info)
+{
+    const double *scale = domain->frame.out;
+    info->cells = base->cells;
+    info->spacing = iccp_planar_step(domain, base->cells) * scale[0] * scale[1];
+    info->n_mesh_vertices = base->mesh.n_vertices;
+    info->n_mesh_boundary = base->mesh.n_boundary;
+    info->n_mesh_triangles = base->mesh.n_triangles;
+    info->seconds_mesh = base->seconds_mesh;
+    info->seconds_solve = base->seconds_solve;
+}
+
+void iccp_harmonic_free(iccp_harmonic *base)
+{
+    iccp_spd_free(&base->solver);
+    iccp_laplacian_free(&base->laplacian);
+    iccp_planar_free(&base->mesh);
+}
+
+iccp_planar iccp_harmonic_take_mesh(iccp_harmonic *base)
+{
+    const iccp_planar mesh = base->mesh;
+    base->mesh = (iccp_planar){.memory = mesh.memory};
+    return mesh;
+}
+
+icc_status iccp_harmonic_disc(const iccp_harmonic *base, const double *turns, double *image,
+                              const iccp_env *env)
+{
+    const iccp_laplacian *l = &base->laplacian;
+    const size_t n_boundary = base->mesh.n_boundary;
+    double *inner = image + 2 * n_boundary;
+    for (size_t k = 0; k < n_boundary; ++k) {
+        image[2 * k] = cos(TWO_PI * turns[k]);
+        image[2 * k + 1] = sin(TWO_PI * turns[k]);
+    }
+    for (size_t i = 0; i < l->matrix.n; ++i) {
+        inner[2 * i] = inner[2 * i + 1] = 0;
+        for (size_t p = l->rim_first[i]; p < l->rim_first[i + 1]; ++p)
+            for (size_t d = 0; d < 2; ++d)
+                inner[2 * i + d] += l->rim_weight[p] * image[2 * (size_t)l->rim_vertex[p] + d];
+    }
+    return iccp_spd_solve(&base->solver, 2, inner, env);
+}
+
+void iccp_add_arc_length(const iccp_planar *mesh, double weight, double *turns)
+{
+    const size_t n = mesh->n_boundary;
+    double total = 0, before = 0;
+    for (int pass = 0; pass < 2; ++pass)
+        for (size_t k = 0; k < n; ++k) {
+            const double *p = mesh->points + 2 * k, *q = mesh->points + 2 * ((k + 1) % n);
+            const double length = hypot(q[0] - p[0], q[1] - p[1]);
+            if (pass == 0) {
+                total += length;
+            } else {
+                turns[k] += weight * before / total;
+                before += length;
+            }
+        }
+}
+
+uint32_t iccp_deepest_vertex(const iccp_planar *mesh, const icc_domain *domain)
+{
+    uint32_t best = ICCP_NO_NEIGHBOUR;
+    double depth = -1;
+    for (size_t v = mesh->n_boundary; v < mesh->n_vertices; ++v) {
+        double t, distance2;
+        (void)iccp_boxtree_nearest(&domain->locator->tree, mesh->points + 2 * v, &t, &distance2);
+        if (distance2 > depth) {
+            depth = distance2;
+            best = (uint32_t)v;
+        }
+    }
+    return best;
+}
+
+uint32_t iccp_nearest_vertex(const iccp_planar *mesh, const double *points, const double p[2])
+{
+    uint32_t best = ICCP_NO_NEIGHBOUR;
+    double least = HUGE_VAL;
+    for (size_t v = mesh->n_boundary; v < mesh->n_vertices; ++v) {
+        const double dx = points[2 * v] - p[0], dy = points[2 * v + 1] - p[1];
+        if (dx * dx + dy * dy < least) {
+            least = dx * dx + dy * dy;
+            best = (uint32_t)v;
+        }
+    }
+    return best;
+}

@@ -1,0 +1,40 @@
+#include "function/create.h"
+
+#include "base/error.h"
+#include "function/distance.h"
+#include "function/laplace.h"
+
+static icc_field_options complete(const icc_field_options *options)
+{
+    icc_field_options full = *options;
+    if (full.function == 0)
+        full.function = ICC_FUNCTION_DECAY;
+    if (full.constraints == 0)
+        full.constraints = ICC_CONSTRAINTS_NEEDED;
+    if (!(full.eta > 0))
+        full.eta = 1e-6; /* gradients keep 10 digits; 1e-12 to 1e-3 give the same active set */
+    if (!(full.leaf > 0))
+        full.leaf = 1e-9;
+    return full;
+}
+
+icc_status iccp_field_create(icc_field **out, const icc_tree *tree,
+                             const icc_field_options *options, const iccp_env *env, icc_error *err)
+{
+    icc_field *field;
+    *out = NULL;
+    icc_status status = iccp_field_new(&field, tree, env);
+    if (status != ICC_OK)
+        return iccp_explain(err, status);
+    const icc_field_options full = complete(options);
+    field->info.function = full.function;
+    if (full.function == ICC_FUNCTION_DECAY || full.function == ICC_FUNCTION_DISTANCE)
+        status = iccp_distance(field, full.function, env);
+    else
+        status = iccp_laplace(field, &full, env, err);
+    if (status == ICC_OK)
+        *out = field;
+    else
+        iccp_field_release(field);
+    return iccp_explain(err, status);
+}

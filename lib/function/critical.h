@@ -1,0 +1,12 @@
+/* Critical points of a piecewise linear function on the Kuhn triangulation of a grid. */
+#ifndef ICCP_CRITICAL_H
+#define ICCP_CRITICAL_H
+
+#include "function/field.h"
+
+/* See icc_field_verify(). Only vertices inside that have a value are judged; vertices outside count as
+ * lower than they are, whatever their value. Fills in everything but `size`; ICC_ERR_MEMORY or
+ * ICC_ERR_CANCELLED leave the report as it was. */
+icc_status iccp_field_verify(const icc_field *field, icc_field_report *report, const iccp_env *env);
+
+#endif

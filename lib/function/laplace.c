@@ -1,0 +1,205 @@
+/* Based on: L. Huynh and Y. Gingold, Bijective Deformations in R^n via Integral Curve Coordinates,
+ * section 5.2: solutions to the Laplace and bi-Laplace equations, with and without the inequalities of
+ * the cousin tree. */
+#include "function/laplace.h"
+
+#include "base/clock.h"
+#include "base/error.h"
+#include "solver/bilaplace.h"
+#include "solver/constrained.h"
+#include "function/critical.h"
+#include "solver/glued.h"
+#include "solver/inequalities.h"
+
+/* A function on its way: everything here is borrowed but for the arrays. */
+typedef struct job {
+    icc_field *field;
+    const icc_field_options *options;
+    iccp_rows rows;
+    iccp_scaled f;
+    uint32_t *top; /* the gluing of nothing */
+    double *share;
+    uint32_t *order; /* as in iccp_gluing */
+} job;
+
+/* Most multiplications of a factorisation that are preferred to conjugate gradients. */
+static const double MOST_WORK_IN_2D = 2e10, MOST_WORK_BEYOND = 2e9;
+
+/* About how many multiplications a factorisation takes whose separators are the generations of the tree:
+ * along a limb of breadth w, blocks of w^dim vertices cost w^(3 (dim - 1)) each, which is
+ * w^(3 dim - 4) per generation of w^(dim - 1) vertices. The factors were found from exact counts on squares
+ * and boxes (tests/bench/bench_spd). */
+static double predict_work(const icc_tree *tree)
+{
+    const double dim = tree->grid->dim;
+    const double power = dim > 1 ? (3 * dim - 4) / (dim - 1) : 1;
+    const double factor = dim < 3 ? 8 : 50;
+    double work = 0;
+    for (size_t begin = 0, end; begin < tree->n_inside; begin = end) {
+        const int32_t generation = tree->generation[tree->order[begin]];
+        for (end = begin + 1; end < tree->n_inside; ++end)
+            if (tree->generation[tree->order[end]] != generation)
+                break;
+        work += factor * pow((double)(end - begin), power);
+    }
+    return work;
+}
+
+static int32_t choose_solver(const job *j)
+{
+    if (j->options->function == ICC_FUNCTION_CLAMPED)
+        return ICC_SOLVER_DIRECT;
+    if (j->options->solver != 0)
+        return j->options->solver;
+    const icc_tree *tree = j->field->tree;
+    const double most = tree->grid->dim < 3 ? MOST_WORK_IN_2D : MOST_WORK_BEYOND;
+    return predict_work(tree) <= most ? ICC_SOLVER_DIRECT : ICC_SOLVER_ITERATIVE;
+}
+
+static icc_status begin(job *j, const iccp_env *env)
+{
+    icc_status status = iccp_rows_create(&j->rows, j->field->tree, env);
+    if (status != ICC_OK)
+        return status;
+    const size_t n = j->rows.n;
+    j->f.fraction = iccp_alloc(&env->memory, n, sizeof *j->f.fraction);
+    j->f.exponent = iccp_alloc(&env->memory, n, sizeof *j->f.exponent);
+    j->top = iccp_alloc(&env->memory, n, sizeof *j->top);
+    j->share = iccp_alloc(&env->memory, n, sizeof *j->share);
+    j->order = iccp_alloc(&env->memory, n, sizeof *j->order);
+    if (j->f.fraction == NULL || j->f.exponent == NULL || j->top == NULL || j->share == NULL ||
+        j->order == NULL)
+        return ICC_ERR_MEMORY;
+    j->order[0] = ICCP_NONE;
+    for (uint32_t k = 0; k < n; ++k) {
+        iccp_scaled_set(&j->f, k, 1, 0);
+        j->top[k] = k;
+        j->share[k] = 1;
+    }
+    return ICC_OK;
+}
+
+static void end(job *j, const iccp_env *env)
+{
+    iccp_rows_free(&j->rows);
+    iccp_free(&env->memory, j->f.fraction);
+    iccp_free(&env->memory, j->f.exponent);
+    iccp_free(&env->memory, j->top);
+    iccp_free(&env->memory, j->share);
+    iccp_free(&env->memory, j->order);
+}
+
+/* By factorisation where that works, else by iteration; `info` tells. */
+static icc_status solve_directly(const iccp_rows *rows, const iccp_gluing *gluing,
+                                 const iccp_scaled *f, icc_field_info *info, const iccp_env *env)
+{
+    const icc_status status = iccp_glued_direct(rows, gluing, f, info, env);
+    if (status != ICC_ERR_SOLVER)
+        return status;
+    iccp_log(env, "the factorisation loses values far from the maximum: iterating instead");
+    info->solver = ICC_SOLVER_ITERATIVE;
+    for (size_t k = 0; k < rows->n; ++k)
+        iccp_scaled_set(f, k, 1, 0);
+    return iccp_glued_iterative(rows, gluing, f, info, env);
+}
+
+static iccp_glued_solver glued_solver(const job *j)
+{
+    return j->field->info.solver == ICC_SOLVER_DIRECT ? solve_directly : iccp_glued_iterative;
+}
+
+static icc_status solve_laplace(job *j, const iccp_env *env)
+{
+    icc_field_info *info = &j->field->info;
+    const iccp_gluing none = {j->top, j->share, j->order};
+    const icc_status status = glued_solver(j)(&j->rows, &none, &j->f, info, env);
+    if (status != ICC_OK)
+        return status;
+    for (size_t k = 1; k < j->rows.n; ++k)
+        info->residual = fmax(info->residual, fabs(iccp_laplacian_row(&j->rows, &j->f, k, 0)));
+    info->residual_before = info->residual;
+    return ICC_OK;
+}
+
+static icc_status solve(job *j, const iccp_env *env)
+{
+    icc_field_info *info = &j->field->info;
+    const int32_t function = j->options->function;
+    const icc_status status =
+        function == ICC_FUNCTION_LAPLACE
+            ? solve_laplace(j, env)
+            : iccp_bilaplace(&j->rows, function, info->solver, &j->f, info, env);
+    if (status != ICC_OK)
+        return status;
+    const double clock = iccp_seconds();
+    info->n_violated = iccp_inequalities_violated(&j->rows, j->options->eta, &j->f);
+    info->seconds_verify += iccp_seconds() - clock;
+    return ICC_OK;
+}
+
+static icc_status constrain(job *j, const iccp_env *env)
+{
+    icc_field_info *info = &j->field->info;
+    const int32_t function = j->options->function;
+    const double eta = j->options->eta;
+    info->constrained = 1;
+    if (function == ICC_FUNCTION_LAPLACE)
+        return iccp_constrained_laplace(&j->rows, eta, glued_solver(j), j->order, &j->f, info, env);
+    info->solver = ICC_SOLVER_DIRECT;
+    return iccp_bilaplace_constrained(&j->rows, function, eta, j->options->leaf, &j->f, info, env);
+}
+
+/* Whether there are no more critical points than the shape asks for: a maximum at the root, no minimum, and
+ * no saddle, but for those that 2-D shapes with holes cannot do without. (The indices of the critical points
+ * add up to the Euler characteristic: with one maximum and no minimum, the saddles are those of the holes.) */
+static icc_status is_regular(const icc_field *field, bool *regular, const iccp_env *env)
+{
+    const icc_tree *tree = field->tree;
+    icc_field_report report = {0};
+    const icc_status status = iccp_field_verify(field, &report, env);
+    *regular = report.n_maxima == 1 && report.n_minima == 0 &&
+               (report.n_saddles == 0 || tree->grid->dim == 2);
+    for (size_t i = 1; i < tree->n_inside && *regular; ++i)
+        *regular = iccp_field_compare(field, tree->order[i], tree->root) < 0;
+    return status;
+}
+
+static icc_status make(job *j, const iccp_env *env)
+{
+    icc_field *field = j->field;
+    const int32_t constraints = j->options->constraints;
+    icc_status status = begin(j, env);
+    if (status == ICC_OK)
+        status = solve(j, env);
+    bool enough = constraints == ICC_CONSTRAINTS_NONE;
+    if (status == ICC_OK && constraints == ICC_CONSTRAINTS_NEEDED) {
+        const double clock = iccp_seconds();
+        status = iccp_field_assign(field, &j->rows, &j->f);
+        if (status == ICC_OK)
+            status = is_regular(field, &enough, env);
+        field->info.seconds_verify += iccp_seconds() - clock;
+    }
+    if (status == ICC_OK && !enough)
+        status = constrain(j, env);
+    return status == ICC_OK ? iccp_field_assign(field, &j->rows, &j->f) : status;
+}
+
+icc_status iccp_laplace(icc_field *field, const icc_field_options *options, const iccp_env *env,
+                        icc_error *err)
+{
+    job j = {.field = field, .options = options};
+    const icc_tree *tree = field->tree;
+    if (tree->n_inside < 2)
+        return iccp_fail(err, ICC_ERR_RESOLUTION, tree->root,
+                         "the grid is too coarse: vertex %lu is the only one inside that the tree "
+                         "reaches",
+                         (unsigned long)tree->root);
+    field->info.n_unknowns = tree->n_inside - 1;
+    field->info.solver = choose_solver(&j);
+    const icc_status status = make(&j, env);
+    end(&j, env);
+    if (status == ICC_ERR_SOLVER)
+        return iccp_fail(err, status, -1, "the %s solver did not converge",
+                         field->info.solver == ICC_SOLVER_DIRECT ? "direct" : "iterative");
+    return status;
+}

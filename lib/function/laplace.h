@@ -1,0 +1,11 @@
+/* Laplace and bi-Laplace functions, with and without the tree's inequalities. */
+#ifndef ICCP_LAPLACE_H
+#define ICCP_LAPLACE_H
+
+#include "function/field.h"
+
+/* Gives values to a new field: ICC_FUNCTION_LAPLACE, _BILAPLACE or _CLAMPED. See icc_field_create(). */
+icc_status iccp_laplace(icc_field *field, const icc_field_options *options, const iccp_env *env,
+                        icc_error *err);
+
+#endif

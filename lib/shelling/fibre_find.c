@@ -1,0 +1,133 @@
+/* Barycentric coordinates by elimination with pivoting, which is backward stable: they give the point back to
+ * rounding however flat the simplex is. */
+#include "shelling/fibre.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { CORNERS = ICCP_FIBRE_CORNERS, MAX = ICC_MAX_DIM };
+
+/* Edges from the first corner as columns, and to their right n_right columns. */
+typedef double system[MAX][2 * MAX];
+
+static ICCP_INLINE void swap_rows(system a, size_t i, size_t j, size_t n)
+{
+    for (size_t k = 0; k < n; ++k) {
+        const double swap = a[i][k];
+        a[i][k] = a[j][k];
+        a[j][k] = swap;
+    }
+}
+
+/* Puts the solutions in place of the right columns; false if the matrix is singular. */
+static ICCP_INLINE bool solve(system a, size_t dim, size_t n_right)
+{
+    const size_t n = dim + n_right;
+    for (size_t c = 0; c < dim; ++c) {
+        size_t pivot = c;
+        for (size_t i = c + 1; i < dim; ++i)
+            pivot = fabs(a[i][c]) > fabs(a[pivot][c]) ? i : pivot;
+        if (!(fabs(a[pivot][c]) > 0))
+            return false;
+        if (pivot != c)
+            swap_rows(a, pivot, c, n);
+        for (size_t i = c + 1; i < dim; ++i) {
+            const double factor = a[i][c] / a[c][c];
+            for (size_t k = c + 1; k < n; ++k)
+                a[i][k] -= factor * a[c][k];
+        }
+    }
+    for (size_t c = dim; c-- > 0;)
+        for (size_t k = dim; k < n; ++k) {
+            for (size_t j = c + 1; j < dim; ++j)
+                a[c][k] -= a[c][j] * a[j][k];
+            a[c][k] /= a[c][c];
+        }
+    return true;
+}
+
+static ICCP_INLINE const double *set_edges(const iccp_fibres *fibres, size_t dim, uint32_t simplex,
+                                           system a)
+{
+    const uint32_t *v = fibres->corners + (dim + 1) * simplex;
+    const double *origin = fibres->points + dim * v[0];
+    for (size_t j = 0; j < dim; ++j)
+        for (size_t k = 0; k < dim; ++k)
+            a[k][j] = fibres->points[dim * v[j + 1] + k] - origin[k];
+    return origin;
+}
+
+/* Barycentric coordinates; returns the least, or -HUGE_VAL for a flat simplex. */
+static ICCP_INLINE double coordinates(const iccp_fibres *fibres, size_t dim, uint32_t simplex,
+                                      const double *point, double *bary)
+{
+    system a;
+    const double *origin = set_edges(fibres, dim, simplex, a);
+    for (size_t k = 0; k < dim; ++k)
+        a[k][dim] = point[k] - origin[k];
+    if (!solve(a, dim, 1))
+        return -HUGE_VAL;
+    double sum = 0, least = HUGE_VAL;
+    for (size_t i = 0; i < dim; ++i) {
+        bary[i + 1] = a[i][dim];
+        sum += a[i][dim];
+        least = fmin(least, a[i][dim]);
+    }
+    bary[0] = 1 - sum;
+    return fmin(least, bary[0]);
+}
+
+static double coordinates_in(const iccp_fibres *fibres, uint32_t simplex, const double *point,
+                             double *bary)
+{
+    return fibres->dim == 3 ? coordinates(fibres, 3, simplex, point, bary)
+                            : coordinates(fibres, fibres->dim, simplex, point, bary);
+}
+
+void iccp_fibres_gradient(const iccp_fibres *fibres, uint32_t simplex, iccp_fibre_jet *jet)
+{
+    const size_t dim = fibres->dim;
+    system a;
+    memset(jet, 0, sizeof *jet);
+    jet->n = dim;
+    (void)set_edges(fibres, dim, simplex, a);
+    for (size_t k = 0; k < dim; ++k)
+        for (size_t j = 0; j < dim; ++j)
+            a[k][dim + j] = k == j;
+    if (!solve(a, dim, dim))
+        return;
+    for (size_t i = 0; i < dim; ++i)
+        for (size_t j = 0; j < dim; ++j) {
+            jet->bary[i + 1][j] = a[i][dim + j];
+            jet->bary[0][j] -= a[i][dim + j];
+        }
+}
+
+/* If rounding leaves the point outside all simplices, the one that it is least outside of, by about its
+ * distance. */
+bool iccp_fibres_find(const iccp_fibres *fibres, const double *point, double tolerance,
+                      iccp_fibre_place *place, bool *inner)
+{
+    const size_t dim = fibres->dim;
+    double box[2 * MAX], bary[CORNERS], best = -HUGE_VAL;
+    iccp_facet_query query;
+    uint32_t simplex;
+    for (size_t k = 0; k < dim; ++k) {
+        box[k] = point[k] - tolerance;
+        box[dim + k] = point[k] + tolerance;
+    }
+    iccp_facet_query_start(&query, &fibres->tree, box);
+    while (best < 0 && iccp_facet_query_next(&query, &simplex)) {
+        const double margin = iccp_fibre_record(fibres, simplex)[dim + 2].number;
+        const double depth = coordinates_in(fibres, simplex, point, bary) / margin;
+        if (!(depth > best))
+            continue;
+        best = depth;
+        place->simplex = simplex;
+        memcpy(place->bary, bary, sizeof bary);
+    }
+    *inner = best > 1;
+    for (size_t i = 0; i <= dim; ++i)
+        place->bary[i] = place->bary[i] > 0 ? place->bary[i] : 0;
+    return best > -HUGE_VAL;
+}

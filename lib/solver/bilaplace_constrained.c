@@ -1,0 +1,137 @@
+/* An active set iteration is fast when it converges, and then exact up to rounding. When it does not, an
+ * interior point method, which is slower and always converges, tells it where to begin. Far from the
+ * root f is as small as the leaves' bounds, and what is active there shows only in the last iterates of
+ * the latter; so the two take turns. */
+#include "base/clock.h"
+#include "solver/bilaplace.h"
+#include "solver/inequalities.h"
+#include "solver/interior.h"
+#include "solver/polish.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Residuals, for a maximum of 1: no better one is looked for; no other method is tried; a worse one is not
+ * handed out. */
+static const double ENOUGH = 1e-12, GOOD = 1e-11, ACCEPTABLE = 1e-8;
+
+/* Means of slack * multiplier where the active set is tried. The last one is never reached. */
+static const double TARGETS[] = {1e-12, 1e-14, 1e-16, 1e-18, 0};
+
+/* A slack below this, relative to the parent or the bound, is equality. */
+static const double EQUAL = 1e-12;
+
+static icc_status take_turns(const iccp_program *program, uint8_t *active, iccp_candidate *candidate,
+                             icc_field_info *info, const iccp_env *env)
+{
+    iccp_interior interior;
+    bool stuck = false;
+    icc_status status = iccp_interior_create(&interior, program, info, env);
+    if (status != ICC_OK)
+        return status;
+    for (size_t t = 0; status == ICC_OK && !stuck && candidate->residual > ENOUGH; ++t) {
+        status = iccp_interior_run(&interior, TARGETS[t], &stuck, info, env);
+        for (size_t i = 0; i < iccp_program_inequalities(program); ++i)
+            active[i] = interior.multiplier[i] > interior.slack[i];
+        if (status == ICC_OK)
+            status = iccp_polish(program, active, ENOUGH, candidate, info, env);
+    }
+    info->n_iterations += interior.n_iterations;
+    iccp_interior_free(&interior);
+    return status;
+}
+
+static icc_status optimise(const iccp_program *program, iccp_candidate *candidate,
+                           icc_field_info *info, const iccp_env *env)
+{
+    const size_t m = iccp_program_inequalities(program);
+    uint8_t *active = iccp_alloc_zero(&env->memory, m, sizeof *active);
+    if (active == NULL)
+        return ICC_ERR_MEMORY;
+    icc_status status = iccp_polish(program, active, ENOUGH, candidate, info, env);
+    if (status == ICC_OK && candidate->residual > GOOD)
+        status = take_turns(program, active, candidate, info, env);
+    iccp_free(&env->memory, active);
+    if (status != ICC_OK || candidate->residual <= ACCEPTABLE)
+        return status;
+    iccp_log(env, "bi-Laplace: the residual is still %.1e after %lu iterations", candidate->residual,
+             (unsigned long)info->n_iterations);
+    return ICC_ERR_SOLVER;
+}
+
+/* Raises what is below the least value that the leaves' bounds allow, then sweeps from the root. `f` as
+ * doubles follows. work: n */
+static void sweep(const iccp_program *program, double *f, const iccp_scaled *scaled, double *work)
+{
+    const size_t n = program->rows->n;
+    (void)iccp_program_least_root(program, work);
+    for (size_t k = 0; k < n; ++k)
+        iccp_scaled_set(scaled, k, k == 0 ? 1 : fmax(f[k], work[k]), 0);
+    iccp_inequalities_sweep(program->rows, program->sigma - 1, scaled);
+    for (size_t k = 0; k < n; ++k)
+        f[k] = iccp_scaled_get(scaled, k, 0);
+}
+
+static size_t count_active(const iccp_program *program, const double *f)
+{
+    const uint32_t *parent = program->rows->parent;
+    size_t n_active = 0;
+    for (size_t k = 1; k < program->rows->n; ++k)
+        n_active += f[parent[k]] * (1 - EQUAL) <= program->sigma * f[k];
+    for (size_t j = 0; j < program->n_leaves; ++j)
+        n_active += f[program->leaf_row[j]] * (1 - EQUAL) <= program->leaf;
+    return n_active;
+}
+
+static icc_status finish(const iccp_program *program, const iccp_candidate *candidate,
+                         const iccp_scaled *f, icc_field_info *info, const iccp_env *env)
+{
+    const size_t n = program->rows->n;
+    const double start = iccp_seconds();
+    double *work = iccp_alloc(&env->memory, program->a.n_rows + 2 * n, sizeof *work);
+    if (work == NULL)
+        return ICC_ERR_MEMORY;
+    double *gradient = work + program->a.n_rows + n;
+    const iccp_scaled plain = {candidate->f, NULL}, force = {gradient, NULL};
+    sweep(program, candidate->f, f, work);
+    iccp_energy_gradient(&program->a, candidate->f, work, gradient);
+    info->residual_before = candidate->residual;
+    info->residual = iccp_inequalities_residual(program->rows, program->sigma - 1, program->leaf,
+                                                &plain, &force, work);
+    info->n_active = count_active(program, candidate->f);
+    info->seconds_verify += iccp_seconds() - start;
+    iccp_free(&env->memory, work);
+    return ICC_OK;
+}
+
+/* Whether the bounds of the leaves leave room below the root. */
+static icc_status check_room(const iccp_program *program, double *work, const iccp_env *env)
+{
+    const double least = iccp_program_least_root(program, work);
+    if (least < 1)
+        return ICC_OK;
+    iccp_log(env, "bi-Laplace: the inequalities ask for %g at the root, where the function is 1", least);
+    return ICC_ERR_SOLVER;
+}
+
+icc_status iccp_bilaplace_constrained(const iccp_rows *rows, int32_t function, double eta, double leaf,
+                                      const iccp_scaled *f, icc_field_info *info,
+                                      const iccp_env *env)
+{
+    const double start = iccp_seconds();
+    iccp_program program;
+    info->n_iterations = 0;
+    icc_status status = iccp_program_create(&program, rows, function, eta, leaf, env);
+    if (status != ICC_OK)
+        return status;
+    info->seconds_setup += iccp_seconds() - start;
+    iccp_candidate candidate = {iccp_alloc(&env->memory, rows->n, sizeof *candidate.f), HUGE_VAL};
+    status = candidate.f != NULL ? check_room(&program, candidate.f, env) : ICC_ERR_MEMORY;
+    if (status == ICC_OK)
+        status = optimise(&program, &candidate, info, env);
+    if (status == ICC_OK)
+        status = finish(&program, &candidate, f, info, env);
+    iccp_free(&env->memory, candidate.f);
+    iccp_program_free(&program);
+    return status;
+}

@@ -1,0 +1,205 @@
+/* The finest level from a list of vertices, and what all levels have in common: rows, windows, runs. */
+#include "solver/mg_level.h"
+
+#include <string.h>
+
+size_t iccp_mg_row_of(const iccp_mg_level *level, const icc_grid *grid, uint32_t vertex, uint32_t *x)
+{
+    size_t row = 0;
+    uint32_t rest = vertex / (uint32_t)grid->shape[0];
+    *x = vertex - rest * (uint32_t)grid->shape[0] - level->corner[0] + 1;
+    for (int32_t k = 1; k < grid->dim; ++k) {
+        const uint32_t next = rest / (uint32_t)grid->shape[k];
+        row += level->stride[k] * (rest - next * (uint32_t)grid->shape[k] - level->corner[k] + 1);
+        rest = next;
+    }
+    return row;
+}
+
+/* The rows of the box, their strides, parities and empty ranges. */
+icc_status iccp_mg_make_rows(iccp_mg_level *level, const iccp_memory *memory)
+{
+    const int32_t last = level->dim - 1;
+    size_t n = 1;
+    level->stride[0] = 0;
+    for (int32_t k = 1; k < level->dim; ++k) {
+        level->stride[k] = n;
+        n *= level->extent[k] + 2;
+    }
+    level->n_rows = n;
+    level->n_slabs = last > 0 ? level->extent[last] + 2 : 1;
+    level->row = iccp_alloc_zero(memory, n + 1, sizeof *level->row);
+    level->range = iccp_alloc(memory, 2 * n, sizeof *level->range);
+    if (level->row == NULL || level->range == NULL)
+        return ICC_ERR_MEMORY;
+    for (size_t r = 0; r < n; ++r) {
+        level->range[2 * r] = UINT32_MAX;
+        level->range[2 * r + 1] = 0;
+    }
+    for (int32_t k = 1; k < level->dim; ++k)
+        for (size_t r = 0; r < n; ++r)
+            level->row[r].parity ^= (uint32_t)(r / level->stride[k] % (level->extent[k] + 2)) & 1;
+    return ICC_OK;
+}
+
+/* Windows: the ranges of a row and of all rows round it (axis by axis), and one vertex more to both sides.
+ * Where they are stored follows. `wide`: 2 n_rows numbers of work space. */
+static void place_windows(iccp_mg_level *level, uint32_t *wide)
+{
+    const size_t n = level->n_rows;
+    memcpy(wide, level->range, 2 * n * sizeof *wide);
+    for (int32_t k = 1; k < level->dim; ++k) {
+        for (size_t r = 0; r < n; ++r) {
+            level->row[r].first = wide[2 * r];
+            level->row[r].last = wide[2 * r + 1];
+        }
+        for (size_t r = 0; r < n; ++r) {
+            if (r >= level->stride[k])
+                iccp_mg_widen(wide + 2 * r, level->row[r - level->stride[k]].first,
+                      level->row[r - level->stride[k]].last);
+            if (r + level->stride[k] < n)
+                iccp_mg_widen(wide + 2 * r, level->row[r + level->stride[k]].first,
+                      level->row[r + level->stride[k]].last);
+        }
+    }
+    size_t at = 0;
+    for (size_t r = 0; r < n; ++r) {
+        iccp_mg_row *row = level->row + r;
+        row->first = wide[2 * r] > wide[2 * r + 1] ? 1 : (wide[2 * r] - 1) / 2 * 2;
+        row->last = wide[2 * r] > wide[2 * r + 1] ? 0 : (wide[2 * r + 1] + 1) | 1;
+        const size_t half = (row->last + 1 - row->first) / 2;
+        for (size_t h = 0; h < 2; ++h)
+            row->base[h] = (ptrdiff_t)(at + h * half) - (ptrdiff_t)(row->first / 2);
+        at += 2 * half;
+    }
+    level->n_entries = at;
+}
+
+icc_status iccp_mg_make_windows(iccp_mg_level *level, const iccp_memory *memory)
+{
+    uint32_t *wide = iccp_alloc(memory, 2 * level->n_rows, sizeof *wide);
+    if (wide == NULL)
+        return ICC_ERR_MEMORY;
+    place_windows(level, wide);
+    iccp_free(memory, wide);
+    level->inside = iccp_alloc_zero(memory, level->n_entries, 1);
+    level->x = iccp_alloc_zero(memory, level->n_entries, sizeof *level->x);
+    level->b = iccp_alloc_zero(memory, level->n_entries, sizeof *level->b);
+    return level->inside != NULL && level->x != NULL && level->b != NULL ? ICC_OK : ICC_ERR_MEMORY;
+}
+
+/* Lists the runs of every half, or counts them if there is no list yet. */
+static size_t list_runs(iccp_mg_level *level)
+{
+    size_t n_runs = 0;
+    for (size_t r = 0; r < level->n_rows; ++r) {
+        iccp_mg_row *row = level->row + r;
+        for (uint32_t h = 0; h < 2; ++h) {
+            row->run[h] = (uint32_t)n_runs;
+            for (uint32_t k = row->first / 2; 2 * k < row->last; ++k) {
+                if (!level->inside[iccp_mg_position(level, r, 2 * k + h)])
+                    continue;
+                const uint32_t begin = k;
+                while (2 * k < row->last && level->inside[iccp_mg_position(level, r, 2 * k + h)])
+                    ++k;
+                if (level->run != NULL)
+                    level->run[n_runs] = (iccp_mg_run){begin, k};
+                ++n_runs;
+                level->n_inside += level->run != NULL ? k - begin : 0;
+            }
+        }
+    }
+    level->row[level->n_rows].run[0] = (uint32_t)n_runs;
+    return n_runs;
+}
+
+icc_status iccp_mg_make_runs(iccp_mg_level *level, const iccp_memory *memory)
+{
+    level->run = iccp_alloc(memory, list_runs(level), sizeof *level->run);
+    if (level->run == NULL)
+        return ICC_ERR_MEMORY;
+    list_runs(level);
+    return ICC_OK;
+}
+
+static void find_extent(iccp_mg_level *level, const icc_grid *grid, size_t n, const uint32_t *vertex)
+{
+    uint32_t high[ICC_MAX_DIM] = {0};
+    for (int32_t k = 0; k < grid->dim; ++k)
+        level->corner[k] = UINT32_MAX;
+    for (size_t i = 0; i < n; ++i) {
+        uint32_t rest = vertex[i];
+        for (int32_t k = 0; k < grid->dim; ++k) {
+            const uint32_t next = rest / (uint32_t)grid->shape[k];
+            const uint32_t c = rest - next * (uint32_t)grid->shape[k];
+            level->corner[k] = c < level->corner[k] ? c : level->corner[k];
+            high[k] = c > high[k] ? c : high[k];
+            rest = next;
+        }
+    }
+    for (int32_t k = 0; k < grid->dim; ++k)
+        level->extent[k] = high[k] - level->corner[k] + 1;
+}
+
+static icc_status find_ranges(iccp_mg_level *level, const icc_grid *grid, size_t n,
+                              const uint32_t *vertex, const iccp_env *env)
+{
+    icc_status status = ICC_OK;
+    for (size_t i = 0; i < n && status == ICC_OK; ++i) {
+        uint32_t x;
+        const size_t r = iccp_mg_row_of(level, grid, vertex[i], &x);
+        iccp_mg_widen(level->range + 2 * r, x, x);
+        if (i % ICCP_VERTICES_PER_REPORT == 0)
+            status = iccp_progress(env, "multigrid", 0);
+    }
+    return status;
+}
+
+static icc_status mark_inside(iccp_mg_level *level, const icc_grid *grid, size_t n,
+                              const uint32_t *vertex, const iccp_env *env)
+{
+    icc_status status = ICC_OK;
+    for (size_t i = 0; i < n && status == ICC_OK; ++i) {
+        uint32_t x;
+        const size_t r = iccp_mg_row_of(level, grid, vertex[i], &x);
+        level->inside[iccp_mg_position(level, r, x)] = 1;
+        if (i % ICCP_VERTICES_PER_REPORT == 0)
+            status = iccp_progress(env, "multigrid", 0);
+    }
+    return status;
+}
+
+icc_status iccp_mg_level_fine(iccp_mg_level *level, const icc_grid *grid, size_t n,
+                              const uint32_t *vertex, const iccp_env *env)
+{
+    *level = (iccp_mg_level){.dim = grid->dim,
+                             .kernels = iccp_mg_kernels_choose(2 * grid->dim, false)};
+    find_extent(level, grid, n, vertex);
+    icc_status status = iccp_mg_make_rows(level, &env->memory);
+    if (status == ICC_OK)
+        status = find_ranges(level, grid, n, vertex, env);
+    if (status == ICC_OK)
+        status = iccp_mg_make_windows(level, &env->memory);
+    if (status == ICC_OK)
+        status = mark_inside(level, grid, n, vertex, env);
+    return status == ICC_OK ? iccp_mg_make_runs(level, &env->memory) : status;
+}
+
+void iccp_mg_level_drop_scaffold(iccp_mg_level *level, const iccp_memory *memory)
+{
+    iccp_free(memory, level->inside);
+    iccp_free(memory, level->range);
+    level->inside = NULL;
+    level->range = NULL;
+}
+
+void iccp_mg_level_free(iccp_mg_level *level, const iccp_memory *memory)
+{
+    iccp_mg_level_drop_scaffold(level, memory);
+    iccp_free(memory, level->row);
+    iccp_free(memory, level->run);
+    iccp_free(memory, level->inverse);
+    iccp_free(memory, level->x);
+    iccp_free(memory, level->b);
+    *level = (iccp_mg_level){.dim = level->dim};
+}

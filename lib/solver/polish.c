@@ -1,0 +1,257 @@
+/* Primal-dual active set: M. Hintermueller, K. Ito, K. Kunisch, The primal-dual active set strategy as a
+ * semismooth Newton method, SIAM J. Optim. 13, 2002. A'A is no M-matrix, and nothing says that the
+ * iteration converges: it does so nearly always from the empty set, at one generation or so a step
+ * where f gets as small as the bounds, and within a few steps from the last iterates of an interior
+ * point method.
+ *
+ * Active edges glue children to parents. A cluster in which leaves are active is held: its values are the
+ * highest that one of these leaves asks for. The others are then above their bounds, as a rule by no more
+ * than eta times the bound, which is nothing; if it is more than `enough`, they are inactive. */
+#include "solver/polish.h"
+
+#include "base/clock.h"
+#include "base/random.h"
+#include "solver/inequalities.h"
+
+#include <math.h>
+#include <string.h>
+
+enum {
+    PATIENCE = 20, /* corrections with neither a smaller residual nor fewer changes */
+    TRUST = 3,    /* of these are made in full */
+    MAX_CORRECTIONS = 1000
+};
+
+/* Slacks and multipliers are wrong below minus this part of `enough`. With all of it, a contact moves by one
+ * row a step where the function is tiny; with a hundredth, rounding errors get active. */
+static const double WRONG = 0.1;
+
+enum { LIFTED = 1, RISES = 2, STAYS = 4 };
+
+typedef struct state {
+    const iccp_program *program;
+    size_t n;
+    double enough, tolerance;
+    uint8_t *active;   /* per inequality */
+    uint8_t *open;     /* per row: an active leaf is reached from here by active edges, downwards */
+    uint8_t *mark;     /* LIFTED: such a leaf bears what would be a negative multiplier of the row's edge;
+                          RISES: the cluster of this top pulls at its leaves; STAYS: but not here */
+    uint32_t *top;     /* of each row's cluster */
+    uint32_t *unknown; /* of its cluster, or ICCP_NONE if it is held */
+    double *share;     /* of the value of the top */
+    double *held;      /* per top: its value, or 0 */
+    double *f, *gradient;
+    double *sum;       /* of the multipliers of the children's edges */
+    double *work;
+    double *room;      /* what the arrays of doubles lie in */
+    bool hesitant;     /* only every other change is made, by chance */
+    uint64_t random;
+} state;
+
+/* Whether to make a change. Making all of them may lead round in circles. */
+static bool decide(state *s)
+{
+    if (!s->hesitant)
+        return true;
+    return iccp_random(&s->random) >> 63;
+}
+
+static uint8_t *leaf_active(const state *s, size_t j)
+{
+    return &s->active[s->n - 1 + j];
+}
+
+static void find_clusters(state *s)
+{
+    const uint32_t *parent = s->program->rows->parent;
+    for (uint32_t k = 0; k < s->n; ++k) {
+        const bool glued = k > 0 && s->active[k - 1];
+        s->top[k] = glued ? s->top[parent[k]] : k;
+        s->share[k] = glued ? s->share[parent[k]] / s->program->sigma : 1;
+        s->held[k] = k == 0;
+    }
+}
+
+/* The root holds its cluster, whatever the leaves ask for. */
+static void hold_clusters(state *s)
+{
+    const iccp_program *p = s->program;
+    for (size_t j = 0; j < p->n_leaves; ++j) {
+        const uint32_t k = p->leaf_row[j], t = s->top[k];
+        if (*leaf_active(s, j) && t > 0)
+            s->held[t] = fmax(s->held[t], p->leaf / s->share[k]);
+    }
+    for (size_t j = 0; j < p->n_leaves; ++j) {
+        const uint32_t k = p->leaf_row[j];
+        if (s->held[s->top[k]] * s->share[k] > p->leaf + s->enough)
+            *leaf_active(s, j) = 0;
+    }
+}
+
+static iccp_reduction reduce(state *s)
+{
+    size_t n_unknowns = 0;
+    find_clusters(s);
+    hold_clusters(s);
+    for (uint32_t k = 0; k < s->n; ++k) {
+        const uint32_t t = s->top[k];
+        if (t != k)
+            s->unknown[k] = s->unknown[t];
+        else
+            s->unknown[k] = s->held[k] > 0 ? ICCP_NONE : (uint32_t)n_unknowns++;
+        if (s->unknown[k] == ICCP_NONE)
+            s->f[k] = s->held[t] * s->share[k];
+    }
+    return (iccp_reduction){n_unknowns, s->unknown, s->share};
+}
+
+static icc_status solve(state *s, double *residual, icc_field_info *info, const iccp_env *env)
+{
+    const iccp_program *p = s->program;
+    const iccp_reduction reduction = reduce(s);
+    const icc_status status = iccp_energy_minimise(&p->a, &reduction, s->f, info, env);
+    if (status != ICC_OK)
+        return status;
+    const double start = iccp_seconds();
+    const iccp_scaled f = {s->f, NULL}, gradient = {s->gradient, NULL};
+    iccp_energy_gradient(&p->a, s->f, s->work, s->gradient);
+    *residual =
+        iccp_inequalities_residual(p->rows, p->sigma - 1, p->leaf, &f, &gradient, s->work);
+    info->seconds_verify += iccp_seconds() - start;
+    return ICC_OK;
+}
+
+/* Returns how many leaves fell below their bound, which makes them active. */
+static size_t correct_leaves(state *s)
+{
+    const iccp_program *p = s->program;
+    size_t n_wrong = 0;
+    memset(s->open, 0, s->n);
+    for (size_t j = 0; j < p->n_leaves; ++j) {
+        const uint32_t k = p->leaf_row[j];
+        s->open[k] = *leaf_active(s, j);
+        if (!*leaf_active(s, j) && s->f[k] < p->leaf - s->tolerance) {
+            *leaf_active(s, j) = decide(s);
+            ++n_wrong;
+        }
+    }
+    return n_wrong;
+}
+
+/* Makes violated edges active and those with a negative multiplier inactive; returns how many. Multipliers
+ * follow from the gradient from the leaves to the root. Leaves of a held cluster have multipliers of
+ * their own, as many as are needed for the edges above them not to get negative; what is
+ * then left over at the top must not be positive, or the cluster rises. */
+static size_t correct_edges(state *s)
+{
+    const iccp_program *p = s->program;
+    size_t n_wrong = 0;
+    memset(s->sum, 0, s->n * sizeof *s->sum);
+    memset(s->mark, 0, s->n);
+    for (size_t k = s->n; k-- > 1;) {
+        const uint32_t q = p->rows->parent[k];
+        double multiplier = (s->sum[k] - s->gradient[k]) / p->sigma;
+        uint8_t *active = &s->active[k - 1];
+        if (!*active) {
+            const bool rises = s->open[k] && multiplier > s->tolerance;
+            const bool violated = s->f[q] - p->sigma * s->f[k] < -s->tolerance;
+            s->mark[k] |= rises && decide(s) ? RISES : 0;
+            *active = violated && decide(s);
+            n_wrong += (size_t)rises + violated;
+            continue;
+        }
+        if (s->open[k] && multiplier < 0) {
+            s->mark[k] |= LIFTED;
+            multiplier = 0;
+        }
+        s->open[q] |= s->open[k];
+        s->sum[q] += multiplier;
+        if (multiplier < -s->tolerance) {
+            *active = !decide(s);
+            ++n_wrong;
+        }
+    }
+    return n_wrong;
+}
+
+/* The parts of a rising cluster that are lifted stay, each by itself; the leaves of the rest are
+ * inactive from now on. */
+static void let_rise(state *s)
+{
+    const iccp_program *p = s->program;
+    for (uint32_t k = 1; k < s->n; ++k) {
+        const uint32_t t = s->top[k];
+        if (t == k || !(s->mark[t] & RISES))
+            continue;
+        if (s->mark[k] & LIFTED) {
+            s->mark[k] |= STAYS;
+            s->active[k - 1] = 0;
+        } else
+            s->mark[k] |= s->mark[p->rows->parent[k]] & STAYS;
+    }
+    for (size_t j = 0; j < p->n_leaves; ++j) {
+        const uint32_t k = p->leaf_row[j];
+        if ((s->mark[s->top[k]] & RISES) && !(s->mark[k] & STAYS))
+            *leaf_active(s, j) = 0;
+    }
+}
+
+static icc_status iterate(state *s, iccp_candidate *candidate, icc_field_info *info,
+                          const iccp_env *env)
+{
+    int patience = PATIENCE;
+    size_t fewest = SIZE_MAX;
+    for (int k = 0; k < MAX_CORRECTIONS && patience > 0; ++k) {
+        double residual;
+        const icc_status status = solve(s, &residual, info, env);
+        if (status == ICC_ERR_SOLVER)
+            return ICC_OK; /* what there is so far may do */
+        if (status != ICC_OK)
+            return status;
+        ++info->n_iterations;
+        --patience;
+        if (residual < candidate->residual) {
+            memcpy(candidate->f, s->f, s->n * sizeof *s->f);
+            candidate->residual = residual;
+            patience = PATIENCE;
+        }
+        s->hesitant = patience <= PATIENCE - TRUST;
+        const size_t n_wrong = correct_leaves(s) + correct_edges(s);
+        let_rise(s);
+        if (residual <= s->enough || n_wrong == 0)
+            break;
+        if (n_wrong < fewest) {
+            fewest = n_wrong;
+            patience = PATIENCE;
+        }
+    }
+    return ICC_OK;
+}
+
+icc_status iccp_polish(const iccp_program *program, uint8_t *active, double enough,
+                       iccp_candidate *candidate, icc_field_info *info, const iccp_env *env)
+{
+    const size_t n = program->rows->n, n_work = program->a.n_rows + n; /* at least 2 n */
+    state s = {.program = program, .n = n, .active = active};
+    s.enough = enough;
+    s.tolerance = WRONG * enough;
+    s.top = iccp_alloc(&env->memory, n, 2 * sizeof *s.top);
+    s.open = iccp_alloc(&env->memory, n, 2 * sizeof *s.open);
+    s.room = iccp_alloc(&env->memory, 5 * n + n_work, sizeof *s.room);
+    icc_status status = ICC_ERR_MEMORY;
+    if (s.top != NULL && s.open != NULL && s.room != NULL) {
+        s.unknown = s.top + n;
+        s.mark = s.open + n;
+        s.share = s.room;
+        s.held = s.room + n;
+        s.f = s.room + 2 * n;
+        s.gradient = s.room + 3 * n;
+        s.sum = s.room + 4 * n;
+        s.work = s.room + 5 * n;
+        status = iterate(&s, candidate, info, env);
+    }
+    iccp_free(&env->memory, s.top);
+    iccp_free(&env->memory, s.open);
+    iccp_free(&env->memory, s.room);
+    return status;
+}
