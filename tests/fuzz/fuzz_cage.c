@@ -1,5 +1,5 @@
 /* Any bytes at all must give a cage of finite-sized arrays or a reason, and leak nothing. */
-#include "cage.h"
+#include "cage/cage.h"
 
 #include <stdint.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* Any bytes at all must give handles or a pose with numbers that are finite and in range, or a reason; and leak
  * nothing. */
-#include "handle_set.h"
+#include "kernel/handle_set.h"
 
 #include <math.h>
 #include <stdint.h>

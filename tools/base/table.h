@@ -1,0 +1,31 @@
+/* Lines of numbers: text cages, points, coordinates. */
+#ifndef TABLE_H
+#define TABLE_H
+
+#include "base/say.h"
+
+#include <stdbool.h>
+
+typedef struct table {
+    size_t n;       /* rows */
+    size_t columns; /* numbers in a row */
+    double *values; /* n * columns */
+    size_t *lines;  /* line of each row, from 1 */
+    size_t room_values, room_lines;
+} table;
+
+/* What the rows must be. */
+typedef struct table_form {
+    size_t columns;
+    bool special;     /* nan and inf are legal (a point that has no image already) */
+    const char *what; /* for messages: "a point is `x y`" */
+} table_form;
+
+/* Reads rows of white-space separated numbers from text[0..n), with text[n] == '\0'. A byte order
+ * mark, CR LF, blank lines and lines that begin with '#' are fine. False: see `wrong`. The table is
+ * to be freed in either case. */
+bool table_read(table *out, const char *text, size_t n, const table_form *form, problem *wrong);
+
+void table_free(table *t);
+
+#endif

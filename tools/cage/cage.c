@@ -1,0 +1,162 @@
+/* What the readers of cages share, and which of them a file is for. */
+#include "cage/cage.h"
+
+#include "base/allocate.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void cage_add_point(cage *c, const double *at, size_t line)
+{
+    c->points = grow(c->points, &c->room_points, c->dim * (c->n + 1), sizeof *c->points);
+    c->lines = grow(c->lines, &c->room_lines, c->n + 1, sizeof *c->lines);
+    memcpy(c->points + c->dim * c->n, at, c->dim * sizeof *at);
+    c->lines[c->n++] = line;
+}
+
+void cage_add(cage *c, double x, double y, size_t line)
+{
+    cage_add_point(c, (const double[2]){x, y}, line);
+}
+
+static void add_triangle(cage *c, const uint32_t corners[3], size_t line)
+{
+    c->facets = grow(c->facets, &c->room_facets, 3 * (c->n_facets + 1), sizeof *c->facets);
+    c->facet_lines =
+        grow(c->facet_lines, &c->room_facet_lines, c->n_facets + 1, sizeof *c->facet_lines);
+    memcpy(c->facets + 3 * c->n_facets, corners, 3 * sizeof *corners);
+    c->facet_lines[c->n_facets++] = line;
+}
+
+void cage_add_corner(cage *c, size_t k, uint32_t vertex, size_t line)
+{
+    c->fan[k < 2 ? k : 2] = vertex;
+    if (k < 2)
+        return;
+    add_triangle(c, c->fan, line);
+    c->fan[1] = vertex;
+}
+
+void cage_open_ring(cage *c)
+{
+    if (c->n < 2)
+        return;
+    const double *last = c->points + 2 * (c->n - 1);
+    if (last[0] == c->points[0] && last[1] == c->points[1])
+        c->n--;
+}
+
+void cage_free(cage *c)
+{
+    free(c->points);
+    free(c->lines);
+    free(c->facets);
+    free(c->facet_lines);
+    free(c->cells);
+    *c = (cage){0};
+}
+
+const char *cage_role_name(cage_role role)
+{
+    return role == CAGE_SOURCE ? "source" : "target";
+}
+
+size_t cage_line(const char *text, const char *at)
+{
+    size_t line = 1;
+    for (const char *p = text; p < at; p++)
+        line += *p == '\n';
+    return line;
+}
+
+static bool begins_with(const char *text, const char *word)
+{
+    for (; *word != '\0'; text++, word++)
+        if ((*text >= 'a' && *text <= 'z' ? *text - 32 : *text) != *word)
+            return false;
+    return true;
+}
+
+static bool is_wkt(const char *text)
+{
+    static const char *const words[] = {"SRID=", "POLYGON", "MULTIPOLYGON",       "POINT",
+                                        "LINES", "MULTILI", "GEOMETRYCOLLECTION", "CURVEPOLYGON"};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (begins_with(text, words[i]))
+            return true;
+    return false;
+}
+
+/* OBJ has no mark of its own, but its lines begin with words. */
+static bool is_obj(const char *text)
+{
+    static const char *const words[] = {"v", "vt", "vn", "vp", "f",      "o",
+                                        "g", "s",  "l",  "p",  "mtllib", "usemtl"};
+    size_t n = strcspn(text, " \t\r\n");
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strlen(words[i]) == n && strncmp(text, words[i], n) == 0)
+            return true;
+    return false;
+}
+
+static const char *skip_comments(const char *text)
+{
+    while (*text == '#') {
+        text += strcspn(text, "\n");
+        text += strspn(text, " \t\r\n");
+    }
+    return text;
+}
+
+static bool is_word(const char *text, const char *word)
+{
+    size_t n = strlen(word);
+    return strncmp(text, word, n) == 0 && strchr(" \t\r\n#", text[n]) != NULL;
+}
+
+static bool has_faces(const cage *c, problem *wrong)
+{
+    return c->n_facets > 0 ||
+           spoilt(wrong, 0, "there are no faces; a cage in space is a closed surface");
+}
+
+static bool read_any(cage *out, cage_role role, size_t dim, const char *text, size_t n,
+                     problem *wrong)
+{
+    const char *p = text;
+    if (n >= 3 && memcmp(p, "\xef\xbb\xbf", 3) == 0)
+        p += 3;
+    p += strspn(p, " \t\r\n");
+    out->dim = 3;
+    if (is_word(p, "ply"))
+        return cage_read_ply(out, text, n, wrong) && has_faces(out, wrong);
+    const char *first = skip_comments(p);
+    if (is_word(first, "OFF") || is_obj(first))
+        return cage_read_surface(out, text, n, wrong) && has_faces(out, wrong);
+    if (n >= 6 && memcmp(text, "\x93NUMPY", 6) == 0)
+        return cage_read_npy(out, text, n, wrong);
+    out->dim = 2;
+    if (*p == '{' || *p == '[')
+        return cage_read_geojson(out, role, text, n, wrong);
+    if (*p == '<')
+        return cage_read_svg(out, role, text, n, wrong);
+    if (is_wkt(p))
+        return cage_read_wkt(out, text, n, wrong);
+    if (begins_with(p, "\x89PNG"))
+        return spoilt(wrong, 0, "this is a PNG picture, not a cage");
+    out->dim = dim;
+    return cage_read_text(out, dim, text, n, wrong);
+}
+
+bool cage_read(cage *out, cage_role role, size_t dim, const char *text, size_t n, problem *wrong)
+{
+    *out = (cage){0};
+    bool good = read_any(out, role, dim, text, n, wrong);
+    size_t least = out->dim + 1;
+    if (good && out->cells == NULL && out->n < least)
+        good = spoilt(wrong, 0, "%zu %s; a cage has at least %zu", out->n,
+                      out->n == 1 ? "vertex" : "vertices", least);
+    if (!good)
+        cage_free(out);
+    return good;
+}

@@ -1,0 +1,182 @@
+/* The data of an SVG path: one subpath of M L H V C S Q T Z, absolute or relative.
+ *
+ * Each curve becomes CURVE_SEGMENTS edges at equal steps of its parameter, whatever its size: so
+ * the same path with moved points gives the same number of vertices, and they correspond. */
+#include "cage/cage.h"
+
+#include "base/number.h"
+
+#include <string.h>
+
+enum { CURVE_SEGMENTS = 16 };
+
+typedef struct pen {
+    cage *out;
+    const char *at, *end;
+    size_t line;
+    double x, y;               /* where the pen is */
+    double handle_x, handle_y; /* the last control point of a curve, else where the pen is */
+    problem *wrong;
+} pen;
+
+static void skip_separators(pen *p)
+{
+    while (p->at < p->end && strchr(" \t\r\n,", *p->at) != NULL) {
+        p->line += *p->at == '\n';
+        p->at++;
+    }
+}
+
+static bool read_numbers(pen *p, size_t n, double *values)
+{
+    for (size_t i = 0; i < n; i++) {
+        skip_separators(p);
+        char shown[32];
+        const char *word = p->at;
+        if (p->at >= p->end || number_read(&p->at, &values[i]) != NUMBER_OK)
+            return spoilt(p->wrong, p->line, "'%s' in the path where a finite number is expected",
+                          quoted(shown, word));
+    }
+    return true;
+}
+
+static void line_to(pen *p, double x, double y)
+{
+    cage_add(p->out, x, y, p->line);
+    p->x = p->handle_x = x;
+    p->y = p->handle_y = y;
+}
+
+/* A cubic from the pen over (a, b), (c, d) to (x, y). */
+static void curve_to(pen *p, const double *abcdxy)
+{
+    double x0 = p->x, y0 = p->y;
+    for (int i = 1; i < CURVE_SEGMENTS; i++) {
+        double t = (double)i / CURVE_SEGMENTS, s = 1 - t;
+        double w[4] = {s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t};
+        cage_add(p->out, w[0] * x0 + w[1] * abcdxy[0] + w[2] * abcdxy[2] + w[3] * abcdxy[4],
+                 w[0] * y0 + w[1] * abcdxy[1] + w[2] * abcdxy[3] + w[3] * abcdxy[5], p->line);
+    }
+    line_to(p, abcdxy[4], abcdxy[5]);
+    p->handle_x = abcdxy[2];
+    p->handle_y = abcdxy[3];
+}
+
+/* A quadratic over (a, b), raised to a cubic. */
+static void quadratic_to(pen *p, double a, double b, double x, double y)
+{
+    curve_to(p, (double[]){p->x + (a - p->x) * 2 / 3, p->y + (b - p->y) * 2 / 3,
+                           x + (a - x) * 2 / 3, y + (b - y) * 2 / 3, x, y});
+    p->handle_x = a;
+    p->handle_y = b;
+}
+
+static size_t numbers_of(char command)
+{
+    switch (command) {
+    case 'M':
+    case 'L':
+    case 'T':
+        return 2;
+    case 'H':
+    case 'V':
+        return 1;
+    case 'C':
+        return 6;
+    case 'S':
+    case 'Q':
+        return 4;
+    default:
+        return 0;
+    }
+}
+
+/* Draws one step. `previous` tells whether the mirrored handle of S and T counts. */
+static void draw(pen *p, char command, char previous, const double *v)
+{
+    bool after_cubic = previous == 'C' || previous == 'S';
+    bool after_quadratic = previous == 'Q' || previous == 'T';
+    double mx = 2 * p->x - p->handle_x, my = 2 * p->y - p->handle_y;
+    switch (command) {
+    case 'M':
+    case 'L':
+        line_to(p, v[0], v[1]);
+        break;
+    case 'H':
+        line_to(p, v[0], p->y);
+        break;
+    case 'V':
+        line_to(p, p->x, v[0]);
+        break;
+    case 'C':
+        curve_to(p, v);
+        break;
+    case 'S':
+        curve_to(p, (double[]){after_cubic ? mx : p->x, after_cubic ? my : p->y, v[0], v[1], v[2],
+                               v[3]});
+        break;
+    case 'Q':
+        quadratic_to(p, v[0], v[1], v[2], v[3]);
+        break;
+    default:
+        quadratic_to(p, after_quadratic ? mx : p->x, after_quadratic ? my : p->y, v[0], v[1]);
+    }
+}
+
+/* Lower-case commands count from the pen. */
+static void make_absolute(const pen *p, char command, size_t n, double *v)
+{
+    for (size_t i = 0; i < n; i++)
+        v[i] += command == 'V' || (command != 'H' && i % 2 == 1) ? p->y : p->x;
+}
+
+/* One command with all the groups of numbers that follow it. */
+static bool read_command(pen *p, char letter, char *previous)
+{
+    char command = (char)(letter & ~0x20);
+    size_t n = numbers_of(command);
+    if (command == 'A')
+        return spoilt(p->wrong, p->line,
+                      "the path has an arc; convert it to lines or curves first");
+    if (n == 0)
+        return spoilt(p->wrong, p->line, "'%c' is not a command of a path",
+                      letter > 32 && letter < 127 ? letter : '?');
+    if ((command == 'M') != (p->out->n == 0))
+        return spoilt(p->wrong, p->line,
+                      p->out->n == 0
+                          ? "the path does not begin with M"
+                          : "the path has several parts; a cage is one outline without holes");
+    bool relative = letter >= 'a';
+    do {
+        double v[6];
+        if (!read_numbers(p, n, v))
+            return false;
+        if (relative)
+            make_absolute(p, command, n, v);
+        draw(p, command, *previous, v);
+        *previous = command;
+        command = command == 'M' ? 'L' : command;
+        skip_separators(p);
+    } while (p->at < p->end && strchr("+-.0123456789", *p->at) != NULL);
+    return true;
+}
+
+bool cage_read_path(cage *out, const char *data, const char *end, size_t line, problem *wrong)
+{
+    pen p = {.out = out, .at = data, .end = end, .line = line, .wrong = wrong};
+    char previous = '\0';
+    for (skip_separators(&p); p.at < p.end; skip_separators(&p)) {
+        char letter = *p.at++;
+        if (letter != 'Z' && letter != 'z') {
+            if (!read_command(&p, letter, &previous))
+                return false;
+            continue;
+        }
+        skip_separators(&p);
+        if (p.at < p.end)
+            return spoilt(wrong, p.line,
+                          "the path goes on after Z; a cage is one outline without holes");
+    }
+    cage_open_ring(out);
+    return true;
+}

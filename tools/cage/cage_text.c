@@ -1,0 +1,25 @@
+/* Cages as text: one vertex per line. */
+#include "cage/cage.h"
+
+#include "base/table.h"
+
+bool cage_read_text(cage *out, size_t dim, const char *text, size_t n, problem *wrong)
+{
+    static const char *const forms[ICC_MAX_DIM + 1] = {
+        "",
+        "a vertex is `x`, one per line",
+        "a vertex is `x y`, one per line",
+        "a vertex is `x y z`, one per line",
+        "a vertex is 4 numbers, one vertex per line",
+        "a vertex is 5 numbers, one vertex per line",
+        "a vertex is 6 numbers, one vertex per line"};
+    const table_form form = {.columns = dim, .what = forms[dim]};
+    table rows;
+    bool good = table_read(&rows, text, n, &form, wrong);
+    for (size_t i = 0; good && i < rows.n; i++)
+        cage_add_point(out, rows.values + dim * i, rows.lines[i]);
+    table_free(&rows);
+    if (dim == 2)
+        cage_open_ring(out);
+    return good;
+}

@@ -1,0 +1,24 @@
+/* What is wrong with a cage, in words that point into its file. */
+#ifndef DEFECT_H
+#define DEFECT_H
+
+#include "cage/cage.h"
+
+#include <icc/icc.h>
+
+typedef struct defect_list {
+    size_t n;
+    int32_t *kinds;  /* n kinds, ICC_DEFECT_* */
+    uint32_t *items; /* n pairs */
+} defect_list;
+
+/* Lists at most `limit` defects (0: all); `n_all`, if wanted, tells how many there are. */
+icc_status defects_find(defect_list *out, const cage *c, size_t limit, size_t *n_all,
+                        const icc_env *env, icc_error *err);
+
+void defects_free(defect_list *list);
+
+/* Says what defect i is; its place is vertex items[2 i]. Returns `out`. */
+const char *defect_text(char out[200], const defect_list *list, size_t i, const cage *c);
+
+#endif

@@ -1,0 +1,131 @@
+/* libicc check: are the cages boundaries, and can the map between them be certified?
+ *
+ * Defects go to stdout, one per line; the verdict goes to stderr. --repair writes the cages without
+ * the vertices that a defect names as superfluous. */
+#include "cmd/commands.h"
+
+#include "report/check.h"
+
+static bool in_plane(const check *c)
+{
+    return job_dim(&c->job) == 2 && c->job.cages[0].cells == NULL;
+}
+
+bool check_mask_only(const check *c)
+{
+    return c->job.cages[0].cells != NULL && c->job.args->target == NULL;
+}
+
+int check_find_defects(check *c)
+{
+    c->n_defects = 0;
+    for (size_t side = 0; side < 2; side++) {
+        icc_error err = {.size = sizeof err, .index = -1, .side = (int32_t)side + 1};
+        defects_free(&c->defects[side]);
+        if (c->job.cages[side].dim != 2 || c->job.cages[side].cells != NULL)
+            continue;
+        if (defects_find(&c->defects[side], &c->job.cages[side], 0, NULL, &c->job.env, &err) !=
+            ICC_OK)
+            return job_failed(&c->job, &err);
+        c->n_defects += c->defects[side].n;
+    }
+    progress_end(&c->job.bar);
+    return DONE;
+}
+
+static int verdict_on_defects(check *c)
+{
+    if (c->job.args->json && check_report(c) != DONE)
+        return FAILED;
+    bool first = c->defects[0].n > 0;
+    return failed(job_file(&c->job, first ? 1 : 2), 0, "%zu defect%s%s; see the list", c->n_defects,
+                  c->n_defects == 1 ? "" : "s",
+                  first && c->defects[1].n > 0 ? " in both cages" : "");
+}
+
+/* Makes the chart, or both charts and the map; the library certifies what it can. */
+static int certify(check *c)
+{
+    bool pair = c->job.args->target != NULL;
+    int result = pair ? job_make_map(&c->job) : job_make_chart(&c->job);
+    progress_end(&c->job.bar);
+    if (result != DONE)
+        return result;
+    c->certified = true;
+    for (size_t side = 0; side < (pair ? 2 : 1); side++) {
+        c->charts[side].size = sizeof c->charts[side];
+        icc_chart_get_info(!pair       ? c->job.chart
+                           : side == 0 ? icc_map_source_chart(c->job.map)
+                                       : icc_map_target_chart(c->job.map),
+                           &c->charts[side]);
+        c->certified = c->certified && c->charts[side].certified;
+    }
+    if (!pair)
+        return DONE;
+    c->map.size = sizeof c->map;
+    icc_map_get_info(c->job.map, &c->map);
+    c->certified = c->certified && c->map.certified;
+    return DONE;
+}
+
+static int verdict_on_method(check *c)
+{
+    int result = check_mask_only(c) ? job_make_domains(&c->job) : certify(c);
+    progress_end(&c->job.bar);
+    if (result == DONE && c->job.args->boundary != NULL)
+        result = check_write_boundary(c);
+    if (result != DONE)
+        return result;
+    if (c->job.args->json && check_report(c) != DONE)
+        return FAILED;
+    if (!c->job.args->json) {
+        check_print_domains(c);
+        check_print_certificates(c);
+    }
+    char text[240];
+    return c->certified || check_mask_only(c)
+               ? DONE
+               : failed(c->job.args->source, 0, "%s", check_reason(text, c));
+}
+
+/* What the cages must be for the options. */
+static int check_options(const check *c)
+{
+    const args *a = c->job.args;
+    bool mask = c->job.cages[0].cells != NULL;
+    if (a->boundary != NULL && !mask)
+        return failed(a->source, 0, "this is no mask; --boundary needs one");
+    if (a->repair != NULL && !in_plane(c) && !check_mask_only(c))
+        return failed(a->source, 0,
+                      "--repair is for cages in the plane, and for masks without a target");
+    return DONE;
+}
+
+static int run(check *c)
+{
+    int result = job_read_cages(&c->job);
+    if (result == DONE)
+        result = check_options(c);
+    if (result == DONE)
+        result = check_find_defects(c);
+    if (result != DONE)
+        return result;
+    if (!c->job.args->json)
+        check_print_defects(c);
+    if (c->n_defects > 0 && c->job.args->repair == NULL)
+        return verdict_on_defects(c);
+    if (c->job.args->repair != NULL)
+        result = in_plane(c) ? check_repair(c) : check_repair_mask(c);
+    return result == DONE ? verdict_on_method(c) : result;
+}
+
+int run_check(const args *a)
+{
+    check c = {0};
+    job_start(&c.job, a);
+    int result = run(&c);
+    for (size_t side = 0; side < 2; side++)
+        defects_free(&c.defects[side]);
+    job_end(&c.job);
+    return result;
+}

@@ -1,0 +1,138 @@
+/* libicc info: what a chart is made of, and what it misses. */
+#include "cmd/commands.h"
+
+#include "report/info.h"
+#include "base/allocate.h"
+#include "plot/stages.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The critical vertices of the order in which the tree was grown, and, beyond the plane, what it takes
+ * to have an order with none but the maximum. */
+static int examine_order(info *x, const stages *s)
+{
+    icc_field_report found = {.size = sizeof found};
+    icc_error err = {.size = sizeof err, .index = -1};
+    x->grid = s->lattice;
+    uint32_t *rank = need(s->lattice.n_vertices, sizeof *rank);
+    const int32_t *generations = icc_tree_generations(s->tree);
+    for (size_t i = 0; i < s->lattice.n_vertices; i++)
+        rank[i] = generations[i] < 0 ? UINT32_MAX : (uint32_t)generations[i];
+    icc_status status = icc_tree_verify_ranks(s->tree, rank, &found, &x->job.env, &err);
+    x->n_order_critical = found.n_maxima + found.n_minima + found.n_saddles - 1;
+    if (status == ICC_OK && s->lattice.dim > 2) {
+        x->growth.size = sizeof x->growth;
+        status = icc_tree_grow(s->tree, s->values, rank, &x->growth, &x->job.env, &err);
+        x->grown = status == ICC_OK;
+    }
+    free(rank);
+    return status == ICC_OK || status == ICC_ERR_TOPOLOGY ? DONE : job_failed(&x->job, &err);
+}
+
+/* How the function was made, and where the first critical point lies that should not be there. */
+static int examine_function(info *x, const stages *s)
+{
+    icc_field_report found = {.size = sizeof found};
+    icc_error err = {.size = sizeof err, .index = -1};
+    x->field = s->field_info;
+    if (s->field == NULL)
+        return DONE;
+    if (icc_field_verify(s->field, &found, &x->job.env, &err) != ICC_OK)
+        return job_failed(&x->job, &err);
+    x->n_inner_expansion = s->n_inner_expansion;
+    x->n_holes = s->lattice.dim == 2 ? stages_holes(s) : 0;
+    x->has_critical = found.critical != UINT32_MAX;
+    if (x->has_critical)
+        stages_position(s, found.critical, x->critical);
+    return examine_order(x, s);
+}
+
+/* Euler's formula: a hole brings a saddle, whatever the function; further critical points are its own. */
+static const char *own_reason(const info *x)
+{
+    if (x->chart.n_maxima == 1 && x->chart.n_minima == 0 && x->chart.n_saddles <= x->n_holes)
+        return NULL;
+    if (x->domain.dim > 2)
+        return "beyond the plane the inequalities of a tree would not exclude them";
+    if (function_solves(x->field.function) && !x->field.constrained)
+        return "the inequalities that keep such points away were not imposed";
+    if (x->chart.n_cousin_violations > 0)
+        return "the tree breaks the cousin rule, so falling along it does not exclude them";
+    return "the function keeps to the inequalities only up to its residual";
+}
+
+const char *info_reason(char text[240], const info *x)
+{
+    const char *own = own_reason(x);
+    text[0] = '\0';
+    if (x->n_holes > 0)
+        snprintf(
+            text, 240,
+            "gaps narrower than a cell make %zu hole%s in the shape, each with a saddle, until "
+            "--cells resolves them%s",
+            x->n_holes, x->n_holes == 1 ? "" : "s", own != NULL ? "; and " : "");
+    size_t used = strlen(text);
+    snprintf(text + used, 240 - used, "%s", own != NULL ? own : "");
+    return text;
+}
+
+bool info_has_grid(const info *x)
+{
+    return x->chart.method == ICC_METHOD_GRADIENT || x->chart.method == ICC_METHOD_FIELD;
+}
+
+const char *info_growth(char text[160], const info *x)
+{
+    const icc_grow_report *g = &x->growth;
+    if (g->method == ICC_GROW_AS_WISHED)
+        snprintf(text, 160, "the order of the function has no critical vertex but the maximum");
+    else if (!x->grown)
+        snprintf(text, 160, "stuck: %zu vertices cannot be placed, %zu are left by thinning",
+                 g->n_unplaced, g->n_left);
+    else
+        snprintf(text, 160, "%s, %zu vertices had to wait, %zu edges against the function",
+                 g->method == ICC_GROW_GROWN ? "grown" : "thinned", g->n_postponed, g->n_turned);
+    return text;
+}
+
+static int gather(info *x)
+{
+    job *j = &x->job;
+    bool pair = j->args->target != NULL;
+    int result = pair ? job_make_map(j) : job_make_chart(j);
+    if (result != DONE)
+        return result;
+    const icc_chart *chart = pair ? icc_map_source_chart(j->map) : j->chart;
+    icc_error err = {.size = sizeof err, .index = -1};
+    icc_domain_get_info(j->domains[0], &x->domain);
+    icc_chart_get_info(chart, &x->chart);
+    if (info_has_grid(x) && icc_chart_measure(chart, 0, &x->measures, &j->env, &err) != ICC_OK)
+        return job_failed(j, &err);
+    stages parts;
+    result = stages_make(&parts, j, 1);
+    if (result == DONE)
+        result = examine_function(x, &parts);
+    stages_free(&parts);
+    if (result == DONE && pair)
+        result = info_measure_map(x);
+    progress_end(&j->bar);
+    return result;
+}
+
+int run_info(const args *a)
+{
+    info x = {.domain = {.size = sizeof x.domain},
+              .chart = {.size = sizeof x.chart},
+              .measures = {.size = sizeof x.measures},
+              .map = {.size = sizeof x.map}};
+    job_start(&x.job, a);
+    int result = gather(&x);
+    if (result == DONE && a->json)
+        result = info_report(&x);
+    else if (result == DONE)
+        info_print(&x);
+    job_end(&x.job);
+    return result;
+}

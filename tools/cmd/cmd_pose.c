@@ -1,0 +1,255 @@
+/* libicc pose: points, meshes and pictures follow their handles. */
+#include "cmd/commands.h"
+
+#include "base/allocate.h"
+#include "mesh/mesh_file.h"
+#include "base/number.h"
+#include "kernel/pose.h"
+#include "job/point_file.h"
+#include "mesh/tally.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+const char *pose_output(const pose *p)
+{
+    const args *a = p->kernel.job.args;
+    return a->operands[a->n_operands - 1];
+}
+
+void pose_say(const pose *p, const char *text)
+{
+    if (strcmp(pose_output(p), "-") == 0)
+        note("%s", text);
+    else
+        printf("%s\n", text);
+}
+
+int pose_report_open(report *r, pose *p, size_t n, const double *points, size_t n_failed,
+                     double seconds)
+{
+    size_t dim = p->kernel.set.dim, n_finite = 0;
+    double *finite = need(n, dim * sizeof *finite);
+    for (size_t i = 0; i < n; i++) {
+        double sum = 0;
+        for (size_t c = 0; c < dim; c++)
+            sum += 0 * points[dim * i + c];
+        if (!isnan(sum))
+            memcpy(finite + dim * n_finite++, points + dim * i, dim * sizeof *finite);
+    }
+    int result = kernel_report_open(r, &p->kernel, n_finite, finite);
+    free(finite);
+    if (result != DONE)
+        return result;
+    json_count(&r->json, "points", n);
+    json_count(&r->json, "without_image", n_failed);
+    json_number(&r->json, "seconds_pose", seconds);
+    return DONE;
+}
+
+static int partial(size_t n_failed, size_t n, const char *what)
+{
+    if (n_failed == 0)
+        return DONE;
+    note("%zu of %zu %s have no image: they are not finite", n_failed, n, what);
+    return PARTIAL;
+}
+
+static int read_pose(pose *p, size_t dim, size_t n_handles, const double *handles)
+{
+    const char *name = p->kernel.job.args->pose;
+    size_t n;
+    char *text = file_read(name, &n);
+    if (text == NULL)
+        return FAILED;
+    problem wrong;
+    p->transforms = pose_read(dim, n_handles, handles, text, n, &wrong);
+    free(text);
+    return p->transforms != NULL ? DONE : failed(name, wrong.line, "%s", wrong.text);
+}
+
+/* ------------------------------------------------------------------- points */
+
+static int write_points(pose *p, const table *points)
+{
+    size_t dim = p->kernel.set.dim, n_failed;
+    bool counts = p->kernel.job.args->json;
+    double *images = need(points->n, dim * sizeof *images);
+    double *jacobians = counts ? need(points->n, dim * dim * sizeof *jacobians) : NULL;
+    double began = seconds_now();
+    int result = pose_points(p, points->n, points->values, images, jacobians, &n_failed);
+    double seconds = seconds_now() - began;
+    if (result == DONE)
+        result = rows_write(pose_output(p), points->n, dim, images);
+    if (result == DONE && counts) {
+        report r;
+        turned t = pose_count_turned(dim, points->n, jacobians);
+        result = pose_report_open(&r, p, points->n, points->values, n_failed, seconds);
+        if (result == DONE) {
+            json_count(&r.json, "orientation_kept", t.kept);
+            json_count(&r.json, "inverted", t.inverted);
+            json_count(&r.json, "collapsed", t.collapsed);
+            result = report_close(&r) ? DONE : FAILED;
+        }
+    }
+    free(images);
+    free(jacobians);
+    return result == DONE ? partial(n_failed, points->n, "points") : result;
+}
+
+static int pose_rows(pose *p, const char *text, size_t n)
+{
+    table points;
+    problem wrong;
+    table_form form = rows_of_points(p->kernel.set.dim);
+    int result = table_read(&points, text, n, &form, &wrong)
+                     ? write_points(p, &points)
+                     : failed(p->kernel.job.args->operands[0], wrong.line, "%s", wrong.text);
+    table_free(&points);
+    return result;
+}
+
+/* ------------------------------------------------------------------- meshes */
+
+static int report_mesh(pose *p, const mesh_file *m, const double *images, size_t n_failed,
+                       double seconds)
+{
+    char text[256];
+    report r;
+    tally t = tally_count(m, images);
+    if (!p->kernel.job.args->json) {
+        tally_print(&t, m, text, sizeof text);
+        pose_say(p, text);
+        return DONE;
+    }
+    if (pose_report_open(&r, p, m->n_vertices, m->points, n_failed, seconds) != DONE)
+        return FAILED;
+    tally_report(&t, m, images, &r.json);
+    return report_close(&r) ? DONE : FAILED;
+}
+
+static int write_mesh(pose *p, const mesh_file *m)
+{
+    size_t n_failed;
+    double *images = need(m->n_vertices, m->dim * sizeof *images);
+    double began = seconds_now();
+    int result = pose_points(p, m->n_vertices, m->points, images, NULL, &n_failed);
+    double seconds = seconds_now() - began;
+    outfile file;
+    if (result == DONE)
+        result = outfile_open(&file, pose_output(p)) ? DONE : FAILED;
+    if (result == DONE) {
+        mesh_write(m, images, file.stream);
+        result = outfile_close(&file) ? DONE : FAILED;
+    }
+    if (result == DONE)
+        result = report_mesh(p, m, images, n_failed, seconds);
+    free(images);
+    return result == DONE ? partial(n_failed, m->n_vertices, "vertices") : result;
+}
+
+static int pose_mesh(pose *p, const char *text, size_t n)
+{
+    mesh_file m;
+    problem wrong;
+    int result = mesh_read(&m, p->kernel.set.dim, text, n, &wrong)
+                     ? write_mesh(p, &m)
+                     : failed(p->kernel.job.args->operands[0], wrong.line, "%s", wrong.text);
+    mesh_free(&m);
+    return result;
+}
+
+/* ------------------------------------------------------------------ command */
+
+/* Points begin with a number, or there are none. */
+static bool is_points(const char *text)
+{
+    double number;
+    if (strncmp(text, "\xef\xbb\xbf", 3) == 0)
+        text += 3;
+    text += strspn(text, " \t\r\n");
+    while (*text == '#' && strncmp(text, "# vtk", 5) != 0) {
+        text += strcspn(text, "\n");
+        text += strspn(text, " \t\r\n");
+    }
+    return *text == '\0' || number_read(&text, &number) != NUMBER_BAD;
+}
+
+static int pose_input(pose *p)
+{
+    size_t n;
+    char *text = file_read(p->kernel.job.args->operands[0], &n);
+    if (text == NULL)
+        return FAILED;
+    int result = n >= 4 && memcmp(text, "\x89PNG", 4) == 0 ? pose_picture(p, text, n)
+                 : is_points(text)                         ? pose_rows(p, text, n)
+                                                           : pose_mesh(p, text, n);
+    free(text);
+    return result;
+}
+
+/* What is read is read first, so that a mistake is told at once. */
+static int pose_shape(pose *p)
+{
+    int result = kernel_job_read(&p->kernel);
+    const handle_set *set = &p->kernel.set;
+    if (result == DONE)
+        result = read_pose(p, set->dim, set->n_handles, set->handles);
+    if (result == DONE)
+        result = kernel_job_make(&p->kernel);
+    return result == DONE ? pose_input(p) : result;
+}
+
+static int write_bound(pose *p, const icc_binding *binding)
+{
+    job *j = &p->kernel.job;
+    size_t n, n_handles;
+    int32_t dim;
+    icc_binding_get_counts(binding, &n, &n_handles, &dim);
+    double *handles = need(n_handles, (size_t)dim * sizeof *handles),
+           *images = need(n, (size_t)dim * sizeof *images);
+    icc_binding_get(binding, handles, NULL);
+    int result = read_pose(p, (size_t)dim, n_handles, handles);
+    double began = seconds_now();
+    icc_status status = ICC_OK;
+    if (result == DONE)
+        status = icc_binding_pose(binding, p->transforms, images, NULL, &j->env);
+    double seconds = seconds_now() - began;
+    progress_end(&j->bar);
+    if (status != ICC_OK)
+        result = failed(j->args->binding, 0, "%s", icc_status_name(status));
+    if (result == DONE)
+        result = rows_write(pose_output(p), n, (size_t)dim, images);
+    if (result == DONE)
+        result = report_points(j, n, 0, seconds);
+    free(handles);
+    free(images);
+    return result;
+}
+
+static int pose_binding(pose *p)
+{
+    const char *name = p->kernel.job.args->binding;
+    size_t n;
+    char *bytes = file_read(name, &n);
+    if (bytes == NULL)
+        return FAILED;
+    icc_error err = {.size = sizeof err, .index = -1};
+    icc_binding *binding;
+    icc_status status = icc_binding_load(&binding, n, bytes, &p->kernel.job.env, &err);
+    free(bytes);
+    int result = status == ICC_OK ? write_bound(p, binding) : failed(name, 0, "%s", err.message);
+    icc_binding_free(binding);
+    return result;
+}
+
+int run_pose(const args *a)
+{
+    pose p = {.transforms = NULL};
+    kernel_job_start(&p.kernel, a);
+    int result = a->binding != NULL ? pose_binding(&p) : pose_shape(&p);
+    free(p.transforms);
+    kernel_job_end(&p.kernel);
+    return result;
+}

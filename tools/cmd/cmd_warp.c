@@ -1,0 +1,94 @@
+/* libicc warp: a picture inside a cage follows it. */
+#include "cmd/commands.h"
+
+#include "job/job.h"
+#include "base/allocate.h"
+#include "plot/picture.h"
+
+#include <stdlib.h>
+
+typedef struct warp {
+    job job;
+    picture from, to;
+    size_t n_failed;
+} warp;
+
+static int read_picture(warp *w)
+{
+    const args *a = w->job.args;
+    size_t n;
+    char *bytes = file_read(a->operands[0], &n);
+    if (bytes == NULL)
+        return FAILED;
+    int result = picture_take(&w->from, a->operands[0], bytes, n);
+    free(bytes);
+    if (result == DONE)
+        w->to = picture_canvas(&w->from, a->has_background ? a->background : NULL);
+    return result;
+}
+
+/* The samples as the library takes them; free() the pixels. */
+static icc_picture pack(const picture *p)
+{
+    size_t n = p->width * p->height * p->channels;
+    icc_picture packed = {.size = sizeof packed,
+                          .width = (int32_t)p->width,
+                          .height = (int32_t)p->height,
+                          .channels = (int32_t)p->channels,
+                          .bytes = (int32_t)p->depth / 8,
+                          .alpha = p->channels % 2 == 0};
+    packed.stride = p->width * p->channels * p->depth / 8;
+    packed.pixels = need(n, p->depth / 8);
+    for (size_t i = 0; i < n; i++)
+        if (p->depth == 8)
+            ((uint8_t *)packed.pixels)[i] = (uint8_t)p->samples[i];
+        else
+            ((uint16_t *)packed.pixels)[i] = p->samples[i];
+    return packed;
+}
+
+static void unpack(picture *p, const icc_picture *packed)
+{
+    for (size_t i = 0; i < p->width * p->height * p->channels; i++)
+        p->samples[i] = p->depth == 8 ? ((const uint8_t *)packed->pixels)[i]
+                                      : ((const uint16_t *)packed->pixels)[i];
+}
+
+static int warp_picture(warp *w)
+{
+    icc_error err = {.size = sizeof err, .index = -1};
+    icc_picture from = pack(&w->from), to = pack(&w->to);
+    double began = seconds_now();
+    icc_status ran = icc_map_warp(w->job.map, &from, &to, &w->n_failed, &w->job.env, &err);
+    double seconds = seconds_now() - began;
+    progress_end(&w->job.bar);
+    unpack(&w->to, &to);
+    free(from.pixels);
+    free(to.pixels);
+    int result = ran == ICC_OK ? picture_save(&w->to, w->from.keep, w->job.args->operands[1])
+                               : job_failed(&w->job, &err);
+    if (result == DONE)
+        result = report_points(&w->job, w->to.width * w->to.height, w->n_failed, seconds);
+    if (result != DONE || w->n_failed == 0)
+        return result;
+    note("%zu of %zu pixels have no image in the source: the curves do not reach them", w->n_failed,
+         w->to.width * w->to.height);
+    return PARTIAL;
+}
+
+int run_warp(const args *a)
+{
+    warp w = {0};
+    job_start(&w.job, a);
+    int result = job_read_plane(&w.job, "warp");
+    if (result == DONE)
+        result = job_make_map(&w.job);
+    if (result == DONE)
+        result = read_picture(&w);
+    if (result == DONE)
+        result = warp_picture(&w);
+    picture_free(&w.from);
+    picture_free(&w.to);
+    job_end(&w.job);
+    return result;
+}

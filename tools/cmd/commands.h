@@ -1,0 +1,20 @@
+/* The commands; each returns the exit code of the program. */
+#ifndef COMMANDS_H
+#define COMMANDS_H
+
+#include "job/args.h"
+
+int run_map(const args *a);
+int run_geojson(const args *a); /* map with --geojson */
+int run_encode(const args *a);
+int run_decode(const args *a);
+int run_warp(const args *a);
+int run_mesh(const args *a);
+int run_check(const args *a);
+int run_info(const args *a);
+int run_plot(const args *a);
+int run_weights(const args *a);
+int run_pose(const args *a);
+int run_plot_vtk(const args *a); /* plot to a file .vtk */
+
+#endif

@@ -1,0 +1,210 @@
+/* libicc: shapes and what is inside them follow their boundary.
+ *
+ * setlocale() is never called, so numbers are read and written the same way everywhere. */
+#include "cmd/commands.h"
+#include "base/say.h"
+
+#include <icc/icc.h>
+#include <stdio.h>
+#include <string.h>
+
+static const command commands[] = {
+    {.name = "map",
+     .bit = FOR_MAP,
+     .n_operands_geojson = 2,
+     .needs_target = true,
+     .run = run_map,
+     .usage = "--source FILE --target FILE [OPTION]... < POINTS > IMAGES\n"
+              "       libicc map --source FILE --target FILE --geojson [OPTION]... IN OUT",
+     .summary = "Carries points along with their cage",
+     .details =
+         "Reads one point per line, `x y` in the plane and `x y z` in space, and writes its image "
+         "per\n"
+         "line, in the same order. A point without an image gives `nan nan`; the exit code is then "
+         "4.\n"
+         "Blank lines and lines that begin with # are left out.\n\n"
+         "With --geojson it carries the points, lines and polygons of a GeoJSON file, with more\n"
+         "vertices where the map bends lines. Points and polygons without an image become empty,\n"
+         "lines are cut, and the exit code is then 4.\n"},
+    {.name = "encode",
+     .bit = FOR_ENCODE,
+     .run = run_encode,
+     .usage = "--source FILE [OPTION]... < POINTS > COORDINATES",
+     .summary = "Gives the integral curve coordinates of points",
+     .details =
+         "Writes `facet b0 b1 t` per point `x y`: its curve starts on the edge from vertex "
+         "`facet`\n"
+         "(counted from 0), at b0 of that vertex plus b1 of the next; t is the share of the "
+         "curve's\n"
+         "length from there to the point. In space the facet is a face, with three numbers b, "
+         "and so on.\n"},
+    {.name = "decode",
+     .bit = FOR_DECODE,
+     .run = run_decode,
+     .usage = "--source FILE [OPTION]... < COORDINATES > POINTS",
+     .summary = "Gives the points of integral curve coordinates",
+     .details = "The inverse of `libicc encode`.\n"},
+    {.name = "warp",
+     .bit = FOR_WARP,
+     .n_operands = 2,
+     .needs_target = true,
+     .run = run_warp,
+     .usage = "--source FILE --target FILE [OPTION]... IN.png OUT.png",
+     .summary = "Warps a picture inside a cage",
+     .details = "Cages are in pixels: x to the right, y down, pixel (i, j) covers [i, i+1] x [j, "
+                "j+1]. A pixel\n"
+                "whose centre lies in the target cage gets the colour that the map brings there; "
+                "all others\n"
+                "stay as they are. PNG of any kind goes in; grey or RGB, with or without alpha, 8 "
+                "or 16 bits\n"
+                "comes out.\n"},
+    {.name = "mesh",
+     .bit = FOR_MESH,
+     .n_operands = 2,
+     .needs_target = true,
+     .run = run_mesh,
+     .usage = "--source FILE --target FILE [OPTION]... IN OUT",
+     .summary = "Carries the vertices of a mesh along",
+     .details =
+         "OBJ, OFF, Medit (.mesh) and legacy VTK as text. Says how many triangles (in space: "
+         "tetrahedra)\n"
+         "keep their orientation, how many invert or collapse, and whether the mesh and its image "
+         "are\n"
+         "one-to-one, with exact signs. A mesh that is sampled from a one-to-one map need not "
+         "be.\n"},
+    {.name = "check",
+     .bit = FOR_CHECK,
+     .run = run_check,
+     .usage = "--source FILE [--target FILE] [OPTION]...",
+     .summary = "Checks cages and certifies the map between them",
+     .details =
+         "In the plane it lists every crossing, contact, spike and repeated vertex, one per line; "
+         "elsewhere\n"
+         "the first defect is named. Exit code 0 means that the charts and the map are certified "
+         "to "
+         "be\n"
+         "one-to-one; the method gradient cannot be, so it gives 1. A mask by itself is only "
+         "checked "
+         "to be\n"
+         "one solid piece without holes; --boundary writes the vertices of its boundary, which, "
+         "moved, are\n"
+         "a target.\n"},
+    {.name = "info",
+     .bit = FOR_INFO,
+     .run = run_info,
+     .usage = "--source FILE [--target FILE] [OPTION]...",
+     .summary = "Tells what a chart is made of, and what it misses",
+     .details =
+         "With a target it also tells how the map was made, what share of the inside collapses "
+         "or inverts,\n"
+         "and how much the rest is distorted.\n"},
+    {.name = "plot",
+     .bit = FOR_PLOT,
+     .n_operands = 1,
+     .run = run_plot,
+     .usage = "--source FILE [--target FILE] [OPTION]... OUT.svg|OUT.vtk",
+     .summary = "Draws cage, integral curves, maximum and what they are made of",
+     .details =
+         "With a target: both shapes side by side, and a u v map and a checkerboard that "
+         "the target\n"
+         "inherits. --function takes several names here, with commas between, and "
+         "each may end\n"
+         "in :constrained or :unconstrained; then there is a column for each.\n\n"
+         "OUT.vtk, for ParaView, has the source alone, in the plane or in space: grid, tree, "
+         "boundary and\n"
+         "curves (cell data `part`: 0 to 3), with the displacement to the target if there is "
+         "one.\n"},
+    {.name = "weights",
+     .bit = FOR_WEIGHTS,
+     .run = run_weights,
+     .usage = "[--source FILE] --handles FILE [OPTION]... < POINTS > WEIGHTS",
+     .summary = "Blends handles: kernel coordinates of points, or a figure of them",
+     .details =
+         "Reads one point per line and writes its weight for each handle. Weights sum to 1, "
+         "reproduce the\n"
+         "point from the handles, and are 1 and 0 at the handles. The handles' file is JSON:\n\n"
+         "  {\"handles\": [[x, y], ..],         or [x, y, z]; all else may be left out\n"
+         "   \"edges\": [[0, 1], ..],           handles between which weights are linear at the "
+         "start\n"
+         "   \"lines\": [{\"from\": [x, y], \"to\": [x, y], \"parallel\": 0}, ..],\n"
+         "                                    stay straight, and parallel to an earlier line\n"
+         "   \"regions\": [[[x, y], ..], ..],   polygons that belong to the shape, too\n"
+         "   \"curves\": {\"vertices\": [[x, y], ..], \"segments\": [[0, 1], ..]},\n"
+         "   \"rigid\": [{\"region\": [[x, y], ..], \"rigidity\": 1}, ..]}\n"
+         "                                    or \"centre\" and \"radius\" for a region\n\n"
+         "The shape is the source, the regions and the curves. With --picture or --binding "
+         "the weights\n"
+         "are written only where -o asks for them.\n"},
+    {.name = "pose",
+     .bit = FOR_POSE,
+     .n_operands = 2,
+     .run = run_pose,
+     .usage = "[--source FILE] --handles FILE --pose FILE [OPTION]... IN OUT",
+     .summary = "Moves points, meshes and pictures with their handles",
+     .details =
+         "IN is a list of points, a mesh (OBJ, OFF, Medit, VTK) or a PNG picture, told by its "
+         "content; see\n"
+         "'libicc weights --help' for the handles' file. With --binding FILE there is only OUT: "
+         "the points are\n"
+         "in the binding, and no source and no handles are needed. The pose is JSON, one of\n\n"
+         "  {\"moves\": [{\"handle\": 0, \"move\": [dx, dy], \"turn\": degrees, \"axis\": "
+         "[x, y, z],\n"
+         "              \"matrix\": [[a, b], [c, d]]}, ..]}       the others stay\n"
+         "  {\"transforms\": [[[a, b, tx], [c, d, ty]], ..]}      one per handle\n\n"
+         "A matrix and a turn are about the handle, and come before its move. A turn goes from x "
+         "to y. Poses\n"
+         "can fold; in a picture what is the right way round then hides what is not.\n"},
+};
+enum { N_COMMANDS = sizeof commands / sizeof *commands };
+
+static void print_help(void)
+{
+    puts("Usage: libicc COMMAND [OPTION]...\n\n"
+         "Carries everything inside a shape along when its boundary moves.\n\nCommands:");
+    for (size_t i = 0; i < N_COMMANDS; i++)
+        printf("  %-8s %s\n", commands[i].name, commands[i].summary);
+    puts("\n'libicc COMMAND --help' tells about a command; 'libicc --version' prints the version.\n"
+         "Exit codes: 0 done; 1 the input or the computation failed; 2 wrong usage; 4 done, but "
+         "some\n"
+         "points have no image.\n(Not related to ICC colour profiles.)");
+}
+
+static int run_command(const command *c, int argc, char **argv)
+{
+    args a;
+    bool help;
+    int result = args_parse(&a, c, argc, argv, &help);
+    if (result == DONE && help)
+        args_help(c);
+    else if (result == DONE)
+        result = c->run(&a);
+    return result;
+}
+
+/* Whatever was printed must have arrived. */
+static int flushed(int result)
+{
+    if (fflush(stdout) != 0 || ferror(stdout))
+        return result == DONE || result == PARTIAL ? failed("-", 0, "output cannot be written")
+                                                   : result;
+    return result;
+}
+
+int main(int argc, char **argv)
+{
+    if (argc < 2)
+        return misused(NULL,
+                       "which command? one of map, encode, decode, warp, mesh, check, info, plot, "
+                       "weights, pose");
+    const char *name = argv[1];
+    for (size_t i = 0; i < N_COMMANDS; i++)
+        if (strcmp(name, commands[i].name) == 0)
+            return flushed(run_command(&commands[i], argc, argv));
+    if (strcmp(name, "--version") == 0)
+        printf("libicc %s\n", icc_version());
+    else if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0 || strcmp(name, "help") == 0)
+        print_help();
+    else
+        return misused(NULL, "there is no command '%.40s'", name);
+    return flushed(DONE);
+}

@@ -1,0 +1,84 @@
+/* The command line: which command, with which options. */
+#ifndef ARGS_H
+#define ARGS_H
+
+#include "job/function.h"
+
+#include <icc/base.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct args {
+    const char *command;
+    /* files */
+    const char *source, *target, *mesh, *target_mesh, *points, *coords, *output, *repair, *boundary;
+    const char *json_file, *handles, *pose, *binding, *picture;
+    const char *operands[2];
+    size_t n_operands;
+    /* how charts and maps are made: 0 means the library's choice */
+    int32_t method, map, tree, solver, cells, threads;
+    function_choice functions[MAX_FUNCTIONS];
+    size_t n_functions;
+    int32_t improve; /* steps at most; -1: the library's choice */
+    double eta;
+    double tolerance; /* 0: the command's choice */
+    double maximum[ICC_MAX_DIM], target_maximum[ICC_MAX_DIM];
+    size_t n_maximum, n_target_maximum; /* their coordinates; 0: not given */
+    bool constrained, unconstrained;
+    /* how weights are made */
+    int32_t sampling, seed, weights, kernel, initial, steps;
+    double spacing, sigma;
+    bool thesis;
+    /* their figures */
+    int32_t handle;
+    double along[ICC_MAX_DIM];
+    size_t n_along;
+    bool logarithmic;
+    /* what to do */
+    bool inverse, repair_mesh, geojson, quiet, json, elevation, triangles, y_down, compression,
+        has_background;
+    unsigned char background[4];
+    int32_t lines;
+} args;
+
+/* Bits of the commands. */
+enum {
+    FOR_MAP = 1,
+    FOR_ENCODE = 2,
+    FOR_DECODE = 4,
+    FOR_WARP = 8,
+    FOR_MESH = 16,
+    FOR_CHECK = 32,
+    FOR_INFO = 64,
+    FOR_PLOT = 128,
+    FOR_CHARTS = 255, /* all of the above */
+    FOR_WEIGHTS = 256,
+    FOR_POSE = 512,
+    FOR_KERNEL = FOR_WEIGHTS | FOR_POSE,
+    FOR_ALL = FOR_CHARTS | FOR_KERNEL
+};
+
+typedef struct command {
+    const char *name;
+    unsigned bit;
+    size_t n_operands;
+    size_t n_operands_geojson; /* with --geojson */
+    bool needs_target;
+    int (*run)(const args *a);
+    const char *usage;   /* what follows the name */
+    const char *summary; /* one line */
+    const char *details; /* paragraphs for --help */
+} command;
+
+/* Reads argv[2..argc) for a command. Returns DONE, or MISUSED with a line on stderr. *help is set
+ * when --help is among them; nothing else counts then. */
+int args_parse(args *out, const command *c, int argc, char **argv, bool *help);
+
+/* The last step of that: what no single option can tell. */
+int args_check(args *a, const command *c);
+
+/* Prints the help of a command on stdout. */
+void args_help(const command *c);
+
+#endif

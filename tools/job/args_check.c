@@ -1,0 +1,173 @@
+/* Options that need or exclude each other, and what they stand for. */
+#include "job/args.h"
+#include "base/say.h"
+
+#include <icc/kernel.h>
+#include <string.h>
+
+/* Options that only some methods have. */
+static int check_method(const args *a, const command *c)
+{
+    const char *gradient_only = a->n_functions > 0 ? "function"
+                                : a->constrained   ? "constrained"
+                                : a->unconstrained ? "unconstrained"
+                                : a->eta > 0       ? "eta"
+                                : a->solver != 0   ? "solver"
+                                : a->tree != 0     ? "tree"
+                                : a->elevation     ? "elevation"
+                                : a->compression   ? "compression"
+                                                   : NULL;
+    if (gradient_only != NULL && a->method != ICC_METHOD_GRADIENT)
+        return misused(c->name, "--%s needs --method gradient", gradient_only);
+    if (a->map == ICC_MAP_MESH && a->method == ICC_METHOD_GRADIENT)
+        return misused(c->name, "--map mesh needs a method that can be certified, not gradient");
+    if (a->triangles &&
+        (a->target == NULL || a->map == ICC_MAP_CURVES || a->method == ICC_METHOD_GRADIENT))
+        return misused(c->name, "--triangles needs a map of kind mesh: --target FILE --map mesh");
+    if (a->method == ICC_METHOD_DISC && (a->n_maximum > 0 || a->n_target_maximum > 0))
+        return misused(c->name, "--method disc has no --maximum: it finds its own");
+    return DONE;
+}
+
+/* Options that only functions which solve an equation have. */
+static int check_functions(const args *a, const command *c)
+{
+    const char *solved_only = a->constrained     ? "constrained"
+                              : a->unconstrained ? "unconstrained"
+                              : a->eta > 0       ? "eta"
+                              : a->solver != 0   ? "solver"
+                                                 : NULL;
+    bool solves = false;
+    for (size_t i = 0; i < a->n_functions; i++)
+        solves = solves || function_solves(a->functions[i].function);
+    if (solved_only != NULL && !solves)
+        return misused(c->name, "--%s needs --function laplace, bilaplace or clamped", solved_only);
+    if (a->constrained && a->unconstrained)
+        return misused(c->name, "--constrained and --unconstrained exclude each other");
+    if (a->n_functions > 1 && !(c->bit & FOR_PLOT))
+        return misused(c->name, "--function takes one name here; only plot takes several");
+    return DONE;
+}
+
+/* The flags stand for the functions that say nothing themselves. */
+static void settle_functions(args *a)
+{
+    for (size_t i = 0; i < a->n_functions; i++)
+        if (a->functions[i].constraints == 0 && function_solves(a->functions[i].function))
+            a->functions[i].constraints = a->constrained     ? ICC_CONSTRAINTS_ALL
+                                          : a->unconstrained ? ICC_CONSTRAINTS_NONE
+                                                             : 0;
+}
+
+/* A binding has its points, so that `pose` needs no file with them. */
+static bool has_bound(const args *a, const command *c)
+{
+    return c->bit & FOR_POSE && a->binding != NULL;
+}
+
+static int check_operands(const args *a, const command *c)
+{
+    size_t n_operands = a->geojson ? c->n_operands_geojson : c->n_operands - has_bound(a, c);
+    if (a->n_operands < n_operands && a->geojson)
+        return misused(c->name, "--geojson needs two files, IN and OUT");
+    if (a->n_operands < n_operands)
+        return misused(c->name, "usage: libicc %s %s", c->name, c->usage);
+    if (a->n_operands > n_operands && has_bound(a, c))
+        return misused(c->name, "--binding has its points; it takes one file, OUT");
+    if (a->n_operands > n_operands)
+        return misused(c->name, "'%.60s' is one argument too many without --geojson",
+                       a->operands[0]);
+    if (a->geojson && (a->points != NULL || a->output != NULL))
+        return misused(c->name, "--points and --output do not go with --geojson IN OUT");
+    if (a->repair_mesh && a->inverse)
+        return misused(c->name, "--repair does not go with --inverse");
+    if (a->tolerance > 0 && !a->geojson)
+        return misused(c->name, "--tolerance goes with --geojson only");
+    return DONE;
+}
+
+static int check_kernel(const args *a, const command *c)
+{
+    bool bound = has_bound(a, c);
+    if (c->bit & FOR_POSE && a->pose == NULL)
+        return misused(c->name, "--pose FILE is missing");
+    if (a->handles == NULL && !bound)
+        return misused(c->name, "--handles FILE is missing");
+    if (bound && (a->handles != NULL || a->source != NULL))
+        return misused(c->name, "--source and --handles do not go with --binding");
+    if (a->n_along > 0 && a->points != NULL)
+        return misused(c->name, "--points and --along exclude each other");
+    if (a->n_along > 0 && a->n_along != 4 && a->n_along != 6)
+        return misused(c->name, "--along must be X0,Y0,X1,Y1 or X0,Y0,Z0,X1,Y1,Z1");
+    if (a->picture == NULL && (a->logarithmic || a->handle > 0 || a->y_down))
+        return misused(c->name, "--log, --handle and --y-down go with --picture");
+    if (a->steps > 0 && a->initial == ICC_INITIAL_INVERSE)
+        return misused(c->name, "--steps does not go with --initial inverse");
+    if (a->seed > 0 && a->sampling == ICC_SAMPLING_GRID)
+        return misused(c->name, "--seed does not go with --sampling grid");
+    return DONE;
+}
+
+static int check_charts(const args *a, const command *c)
+{
+    if (a->source == NULL)
+        return misused(c->name, "--source FILE is missing");
+    if (c->needs_target && a->target == NULL)
+        return misused(c->name, "--target FILE is missing");
+    int result = check_method(a, c);
+    return result == DONE ? check_functions(a, c) : result;
+}
+
+static int check_inputs(const args *a, const command *c)
+{
+    bool has_input = (c->n_operands == 2 || a->geojson) && !has_bound(a, c);
+    const char *inputs[] = {a->source,
+                            a->target,
+                            a->points ? a->points : a->coords,
+                            a->handles,
+                            a->pose,
+                            has_bound(a, c) ? a->binding : NULL,
+                            has_input ? a->operands[0] : NULL};
+    size_t n_standard = 0;
+    for (size_t i = 0; i < sizeof inputs / sizeof *inputs; i++)
+        n_standard += inputs[i] != NULL && strcmp(inputs[i], "-") == 0;
+    if (n_standard > 1)
+        return misused(c->name, "only one input can be standard input");
+    return DONE;
+}
+
+/* What no single option can tell. */
+static int check_together(const args *a, const command *c)
+{
+    int result = c->bit & FOR_KERNEL ? check_kernel(a, c) : check_charts(a, c);
+    if (result == DONE)
+        result = check_operands(a, c);
+    return result == DONE ? check_inputs(a, c) : result;
+}
+
+/* Reads come by default from stdin, and results go by default to stdout. */
+static int settle_streams(args *a, const command *c)
+{
+    bool draws = c->bit & FOR_WEIGHTS && (a->picture != NULL || a->n_along > 0);
+    if (c->bit & (FOR_MAP | FOR_ENCODE | FOR_WEIGHTS) && a->points == NULL && !a->geojson && !draws)
+        a->points = "-";
+    if (c->bit & FOR_DECODE && a->coords == NULL)
+        a->coords = "-";
+    if (c->bit & FOR_WEIGHTS && a->output == NULL && a->picture == NULL && a->binding == NULL)
+        a->output = "-";
+    const char *result = a->output != NULL || c->bit & FOR_WEIGHTS ? a->output : "-";
+    if (c->n_operands > 0 || a->geojson)
+        result = a->n_operands > 0 ? a->operands[a->n_operands - 1] : NULL;
+    if (a->json && !(c->bit & (FOR_CHECK | FOR_INFO)) && strcmp(a->json_file, "-") == 0 &&
+        result != NULL && strcmp(result, "-") == 0)
+        return misused(c->name,
+                       "result and report cannot both go to standard output; use --json=FILE");
+    return DONE;
+}
+
+int args_check(args *a, const command *c)
+{
+    settle_functions(a);
+    int result = settle_streams(a, c);
+    return result != DONE ? result : check_together(a, c);
+}

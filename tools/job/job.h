@@ -1,0 +1,77 @@
+/* What every command does first: read the cages, make domains, a chart or a map. */
+#ifndef JOB_H
+#define JOB_H
+
+#include "job/args.h"
+#include "cage/cage.h"
+#include "base/file.h"
+#include "base/json.h"
+#include "base/progress.h"
+#include "base/say.h"
+
+#include <icc/icc.h>
+
+typedef struct job {
+    const args *args;
+    progress bar;
+    icc_env env;
+    cage cages[2]; /* source, target */
+    icc_domain *domains[2];
+    size_t function;  /* which of args->functions; the first unless there are several */
+    icc_chart *chart; /* of the source */
+    icc_map *map;
+    double started, seconds_read, seconds_made;
+} job;
+
+/* The functions below return DONE, or FAILED with a line on stderr. Each does what it needs unless
+ * it has been done. A job is to be ended in any case. */
+void job_start(job *j, const args *a);
+void job_end(job *j);
+
+/* Reads the source, and the target if there is one; they then correspond, unless the source is a
+ * mask. */
+int job_read_cages(job *j);
+
+/* Coordinates of a point, once the cages have been read. */
+size_t job_dim(const job *j);
+
+/* Reads the cages and makes their domains. A mask then has the vertices and facets of its boundary. */
+int job_make_domains(job *j);
+
+/* Reads the cages, which must be in the plane for `what`. */
+int job_read_plane(job *j, const char *what);
+
+/* All that, and the chart of the source. */
+int job_make_chart(job *j);
+
+/* All that, and the map from source to target. */
+int job_make_map(job *j);
+
+/* Says what the library said, with the file and the line at fault; returns FAILED. */
+int job_failed(job *j, const icc_error *err);
+
+/* The same for a call that has no icc_error. */
+int job_failed_status(job *j, icc_status status);
+
+/* The name of the source's or the target's file. */
+const char *job_file(const job *j, int side);
+
+/* Says how many points have no image, and returns PARTIAL; returns DONE when all have. */
+int job_partial(job *j, size_t n, const icc_status *status, const char *what);
+
+/* ---- the report of --json ---- */
+
+typedef struct report {
+    outfile file;
+    json json;
+} report;
+
+/* Begins a report with what is known of every job. False: said why. */
+bool report_open(report *r, const job *j);
+bool report_close(report *r);
+
+/* Most commands report how many points they mapped, how many of these failed, and how long it took.
+ * Does nothing without --json. */
+int report_points(const job *j, size_t n, size_t n_failed, double seconds);
+
+#endif

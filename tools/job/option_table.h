@@ -1,0 +1,47 @@
+/* The options of the command: one table for reading them and for telling about them. */
+#ifndef OPTION_TABLE_H
+#define OPTION_TABLE_H
+
+#include "job/args.h"
+
+typedef enum option_kind {
+    OPTION_FLAG,   /* bool */
+    OPTION_TEXT,   /* const char * */
+    OPTION_COUNT,  /* int32_t between low and high */
+    OPTION_LENGTH, /* double above 0, and at most `most` unless that is 0 */
+    OPTION_CHOICE, /* int32_t, by name */
+    OPTION_FUNCTIONS,
+    OPTION_POINT,  /* double[ICC_MAX_DIM], and a size_t: how many there are */
+    OPTION_COLOUR, /* unsigned char[4], and a bool that it is there */
+    OPTION_REPORT, /* bool, and a const char * when =FILE follows */
+    OPTION_HELP
+} option_kind;
+
+/* A name that an option takes; value 0: known, but not in this version. */
+typedef struct choice {
+    const char *name;
+    int32_t value;
+} choice;
+
+typedef struct option {
+    const char *name;
+    char letter;
+    option_kind kind;
+    unsigned commands;
+    size_t offset, present; /* in args */
+    int32_t low, high;
+    double most;
+    const choice *choices;
+    const char *value, *help;
+} option;
+
+extern const choice methods[], maps[], functions[], solvers[], trees[], samplings[], weightings[], kernels[],
+    initials[];
+
+/* The name of a value that the library gave. */
+const char *choice_name(const choice *choices, int32_t value);
+
+enum { N_OPTIONS = 53 };
+extern const option options[N_OPTIONS];
+
+#endif

@@ -1,0 +1,188 @@
+#include "kernel/handle_set.h"
+
+#include "base/json_in.h"
+#include "base/allocate.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+/* The first handle tells whether this is the plane or space. */
+static bool read_handles(handle_set *set, const cJSON *list, problem *wrong)
+{
+    int n_coordinates = cJSON_GetArraySize(cJSON_GetArrayItem(list, 0));
+    if (!cJSON_IsArray(list) || cJSON_GetArraySize(list) == 0)
+        return spoilt(wrong, 0, "there is no list \"handles\" of points [x, y] or [x, y, z]");
+    if (n_coordinates != 2 && n_coordinates != 3)
+        return spoilt(wrong, 0, "handles[0] is not a point [x, y] or [x, y, z]");
+    set->dim = (size_t)n_coordinates;
+    return json_points(list, "handles", set->dim, &set->n_handles, &set->handles, wrong);
+}
+
+static bool read_line(handle_set *set, size_t i, const cJSON *item, problem *wrong)
+{
+    static const char *const members[] = {"from", "to", "parallel", NULL};
+    icc_line *line = &set->lines[i];
+    char where[48], from[64], to[64], parallel[64];
+    snprintf(where, sizeof where, "lines[%zu]", i);
+    snprintf(from, sizeof from, "%s.from", where);
+    snprintf(to, sizeof to, "%s.to", where);
+    snprintf(parallel, sizeof parallel, "%s.parallel", where);
+    if (!json_is_object(item, where, members, wrong) ||
+        !json_reals(json_get(item, "from"), from, set->dim, line->from, wrong) ||
+        !json_reals(json_get(item, "to"), to, set->dim, line->to, wrong))
+        return false;
+    const cJSON *other = json_get(item, "parallel");
+    uint32_t earlier;
+    if (other == NULL)
+        return true;
+    if (!json_index(other, parallel, "line before it", i, &earlier, wrong))
+        return false;
+    line->parallel = (int32_t)earlier + 1;
+    return true;
+}
+
+static bool read_lines(handle_set *set, const cJSON *list, problem *wrong)
+{
+    if (!json_list(list, "lines", &set->n_lines, wrong))
+        return false;
+    set->lines = need(set->n_lines, sizeof *set->lines);
+    size_t i = 0;
+    const cJSON *item;
+    cJSON_ArrayForEach(item, list)
+    {
+        if (!read_line(set, i++, item, wrong))
+            return false;
+    }
+    return true;
+}
+
+static bool read_outline(outline *out, const cJSON *list, const char *where, size_t dim,
+                         problem *wrong)
+{
+    if (dim != 2)
+        return spoilt(wrong, 0, "%s is a polygon, but the handles are in space", where);
+    if (!json_points(list, where, 2, &out->n, &out->points, wrong))
+        return false;
+    const double *last = out->points + 2 * (out->n - (out->n > 0));
+    if (out->n > 1 && last[0] == out->points[0] && last[1] == out->points[1])
+        out->n--;
+    return out->n >= 3 || spoilt(wrong, 0, "%s has %zu vert%s; a polygon has at least 3", where,
+                                 out->n, out->n == 1 ? "ex" : "ices");
+}
+
+static bool read_regions(handle_set *set, const cJSON *list, problem *wrong)
+{
+    if (!json_list(list, "regions", &set->n_regions, wrong))
+        return false;
+    set->regions = need(set->n_regions, sizeof *set->regions);
+    size_t i = 0;
+    const cJSON *item;
+    cJSON_ArrayForEach(item, list)
+    {
+        char where[48];
+        snprintf(where, sizeof where, "regions[%zu]", i);
+        if (!read_outline(&set->regions[i++], item, where, set->dim, wrong))
+            return false;
+    }
+    return true;
+}
+
+static bool read_curves(handle_set *set, const cJSON *curves, problem *wrong)
+{
+    static const char *const members[] = {"vertices", "segments", NULL};
+    return curves == NULL ||
+           (json_is_object(curves, "curves", members, wrong) &&
+            json_points(json_get(curves, "vertices"), "curves.vertices", set->dim, &set->n_vertices,
+                        &set->vertices, wrong) &&
+            json_pairs(json_get(curves, "segments"), "curves.segments", "vertex of the curves",
+                       set->n_vertices, &set->n_segments, &set->segments, wrong));
+}
+
+static bool read_ball(rigid_part *part, const cJSON *item, const char *where, size_t dim,
+                      problem *wrong)
+{
+    char centre[64], radius[64];
+    snprintf(centre, sizeof centre, "%s.centre", where);
+    snprintf(radius, sizeof radius, "%s.radius", where);
+    return json_reals(json_get(item, "centre"), centre, dim, part->centre, wrong) &&
+           json_real(json_get(item, "radius"), radius, &part->radius, wrong) &&
+           (part->radius > 0 || spoilt(wrong, 0, "%s must be above 0", radius));
+}
+
+static bool read_part(rigid_part *part, const cJSON *item, const char *where, size_t dim,
+                      problem *wrong)
+{
+    static const char *const members[] = {"region", "centre", "radius", "rigidity", NULL};
+    char region[64], rigidity[64];
+    snprintf(region, sizeof region, "%s.region", where);
+    snprintf(rigidity, sizeof rigidity, "%s.rigidity", where);
+    part->rigidity = 1;
+    if (!json_is_object(item, where, members, wrong))
+        return false;
+    if (json_get(item, "rigidity") != NULL &&
+        !json_real(json_get(item, "rigidity"), rigidity, &part->rigidity, wrong))
+        return false;
+    if (!(part->rigidity > 0))
+        return spoilt(wrong, 0, "%s must be above 0", rigidity);
+    if ((json_get(item, "region") == NULL) == (json_get(item, "centre") == NULL))
+        return spoilt(wrong, 0, "%s must have either a \"region\" or \"centre\" and \"radius\"",
+                      where);
+    return json_get(item, "region") != NULL
+               ? read_outline(&part->region, json_get(item, "region"), region, dim, wrong)
+               : read_ball(part, item, where, dim, wrong);
+}
+
+static bool read_rigid(handle_set *set, const cJSON *list, problem *wrong)
+{
+    if (!json_list(list, "rigid", &set->n_rigid, wrong))
+        return false;
+    set->rigid = need(set->n_rigid, sizeof *set->rigid);
+    size_t i = 0;
+    const cJSON *item;
+    cJSON_ArrayForEach(item, list)
+    {
+        char where[48];
+        snprintf(where, sizeof where, "rigid[%zu]", i);
+        if (!read_part(&set->rigid[i++], item, where, set->dim, wrong))
+            return false;
+    }
+    return true;
+}
+
+bool handle_set_read(handle_set *out, const char *text, size_t n, problem *wrong)
+{
+    static const char *const members[] = {"handles", "edges", "lines", "regions",
+                                          "curves",  "rigid", NULL};
+    *out = (handle_set){0};
+    cJSON *file = json_parse(text, n, wrong);
+    if (file == NULL)
+        return false;
+    bool good = json_is_object(file, "the file", members, wrong) &&
+                read_handles(out, json_get(file, "handles"), wrong) &&
+                json_pairs(json_get(file, "edges"), "edges", "handle", out->n_handles,
+                           &out->n_edges, &out->edges, wrong) &&
+                read_lines(out, json_get(file, "lines"), wrong) &&
+                read_regions(out, json_get(file, "regions"), wrong) &&
+                read_curves(out, json_get(file, "curves"), wrong) &&
+                read_rigid(out, json_get(file, "rigid"), wrong);
+    cJSON_Delete(file);
+    if (!good)
+        handle_set_free(out);
+    return good;
+}
+
+void handle_set_free(handle_set *set)
+{
+    for (size_t i = 0; set->regions != NULL && i < set->n_regions; i++)
+        free(set->regions[i].points);
+    for (size_t i = 0; set->rigid != NULL && i < set->n_rigid; i++)
+        free(set->rigid[i].region.points);
+    free(set->handles);
+    free(set->edges);
+    free(set->lines);
+    free(set->regions);
+    free(set->vertices);
+    free(set->segments);
+    free(set->rigid);
+    *set = (handle_set){0};
+}

@@ -1,0 +1,235 @@
+#include "kernel/kernel_job.h"
+
+#include "base/allocate.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void kernel_job_start(kernel_job *k, const args *a)
+{
+    *k = (kernel_job){.energy = {0, 0}};
+    job_start(&k->job, a);
+}
+
+void kernel_job_end(kernel_job *k)
+{
+    icc_kernel_free(k->kernel);
+    icc_sampling_free(k->sampling);
+    for (size_t i = 0; k->regions != NULL && i < k->set.n_regions; i++)
+        icc_domain_free(k->regions[i]);
+    free(k->regions);
+    handle_set_free(&k->set);
+    job_end(&k->job);
+}
+
+/* What the library says of something in the handles' file, called `what` if the message does not. */
+static int failed_set(kernel_job *k, const char *what, const icc_error *err)
+{
+    const char *message = err->message[0] != '\0' ? err->message : icc_status_name(err->status);
+    progress_end(&k->job.bar);
+    return failed(k->job.args->handles, 0, "%s%s%s", what, *what != '\0' ? ": " : "", message);
+}
+
+static int read_set(kernel_job *k)
+{
+    const char *name = k->job.args->handles;
+    size_t n;
+    char *text = file_read(name, &n);
+    if (text == NULL)
+        return FAILED;
+    problem wrong;
+    bool good = handle_set_read(&k->set, text, n, &wrong);
+    free(text);
+    return good ? DONE : failed(name, wrong.line, "%s", wrong.text);
+}
+
+/* The source may be missing where the handles' file has a shape. */
+static int read_shape(kernel_job *k)
+{
+    const handle_set *set = &k->set;
+    job *j = &k->job;
+    if (j->args->source == NULL && set->n_regions + set->n_segments == 0)
+        return misused(j->args->command,
+                       "--source FILE is missing, and the handles' file has no regions or curves");
+    if (j->args->source != NULL) {
+        int result = job_make_domains(j);
+        if (result != DONE)
+            return result;
+        if (job_dim(j) != set->dim)
+            return failed(j->args->handles, 0, "the handles have %zu coordinates, but the cage %zu",
+                          set->dim, job_dim(j));
+    }
+    k->regions = need(set->n_regions, sizeof(icc_domain *));
+    for (size_t i = 0; i < set->n_regions; i++) {
+        char what[48];
+        icc_error err = {.size = sizeof err, .index = -1};
+        const outline *region = &set->regions[i];
+        snprintf(what, sizeof what, "regions[%zu]", i);
+        if (icc_domain_create(&k->regions[i], 2, region->n, region->points, 0, NULL, &j->env,
+                              &err) != ICC_OK)
+            return failed_set(k, what, &err);
+    }
+    return DONE;
+}
+
+static int make_samples(kernel_job *k)
+{
+    const handle_set *set = &k->set;
+    const args *a = k->job.args;
+    size_t n_source = k->job.domains[0] != NULL, n_regions = n_source + set->n_regions;
+    const icc_domain **regions = need(n_regions, sizeof *regions);
+    if (n_source > 0)
+        regions[0] = k->job.domains[0];
+    for (size_t i = 0; i < set->n_regions; i++)
+        regions[n_source + i] = k->regions[i];
+    icc_error err = {.size = sizeof err, .index = -1};
+    icc_shape *shape;
+    icc_status status =
+        icc_shape_create(&shape, (int32_t)set->dim, n_regions, regions, set->n_vertices,
+                         set->vertices, set->n_segments, set->segments, &k->job.env, &err);
+    icc_sampling_options spread = {.size = sizeof spread,
+                                   .kind = a->sampling,
+                                   .spacing = k->job.args->spacing,
+                                   .seed = (uint64_t)a->seed};
+    double began = seconds_now();
+    if (status == ICC_OK)
+        status = icc_sampling_create(&k->sampling, shape, &spread, &k->job.env, &err);
+    k->seconds_samples = seconds_now() - began;
+    icc_shape_free(shape);
+    free(regions);
+    if (status == ICC_OK)
+        return DONE;
+    return n_source == n_regions && set->n_segments == 0 ? job_failed(&k->job, &err)
+                                                         : failed_set(k, "", &err);
+}
+
+static int make_weights(kernel_job *k)
+{
+    const handle_set *set = &k->set;
+    const args *a = k->job.args;
+    icc_kernel_options how = {.size = sizeof how,
+                              .kernel = a->kernel,
+                              .initial = a->initial,
+                              .method = a->weights,
+                              .steps = a->steps,
+                              .sigma = a->sigma,
+                              .n_edges = set->n_edges,
+                              .edges = set->edges,
+                              .n_lines = set->n_lines,
+                              .lines = set->lines};
+    if (a->thesis) {
+        how.kernel = a->kernel != 0 ? a->kernel : ICC_KERNEL_GAUSS;
+        how.tail = -1;
+        how.visible = -1;
+    }
+    icc_error err = {.size = sizeof err, .index = -1};
+    double began = seconds_now();
+    icc_status status = icc_kernel_create(&k->kernel, k->sampling, set->n_handles, set->handles,
+                                          &how, &k->job.env, &err);
+    k->seconds_weights = seconds_now() - began;
+    return status == ICC_OK ? DONE : failed_set(k, "", &err);
+}
+
+/* Which of n nodes a rigid part holds. */
+static icc_status find_part(const kernel_job *k, const rigid_part *part, size_t n,
+                            const double *nodes, bool *inside, icc_error *err)
+{
+    size_t dim = k->set.dim;
+    for (size_t i = 0; part->region.n == 0 && i < n; i++) {
+        double squared = 0;
+        for (size_t c = 0; c < dim; c++)
+            squared += pow(nodes[dim * i + c] - part->centre[c], 2);
+        inside[i] = squared <= part->radius * part->radius;
+    }
+    if (part->region.n == 0)
+        return ICC_OK;
+    icc_domain *domain;
+    int32_t *where = need(n, sizeof *where);
+    icc_status status = icc_domain_create(&domain, 2, part->region.n, part->region.points, 0, NULL,
+                                          &k->job.env, err);
+    if (status == ICC_OK)
+        status = icc_domain_locate(domain, n, nodes, where, NULL, NULL, &k->job.env);
+    for (size_t i = 0; status == ICC_OK && i < n; i++)
+        inside[i] = where[i] != ICC_OUTSIDE;
+    icc_domain_free(domain);
+    free(where);
+    return status;
+}
+
+/* The rigidity of each node, 0 where it is in no part; of several parts the greatest counts. */
+static int find_rigidity(kernel_job *k, size_t n, const double *nodes, double *rigidity)
+{
+    bool *inside = need(n, sizeof *inside);
+    int result = DONE;
+    for (size_t p = 0; p < k->set.n_rigid && result == DONE; p++) {
+        const rigid_part *part = &k->set.rigid[p];
+        icc_error err = {.size = sizeof err, .index = -1};
+        size_t n_inside = 0;
+        char what[48];
+        snprintf(what, sizeof what, "rigid[%zu]", p);
+        err.status = find_part(k, part, n, nodes, inside, &err);
+        for (size_t i = 0; err.status == ICC_OK && i < n; i++) {
+            n_inside += inside[i];
+            if (inside[i])
+                rigidity[i] = fmax(rigidity[i], part->rigidity);
+        }
+        if (err.status != ICC_OK)
+            result = failed_set(k, what, &err);
+        else if (n_inside == 0)
+            result = failed(k->job.args->handles, 0, "%s holds no sample", what);
+    }
+    free(inside);
+    return result;
+}
+
+static int stiffen(kernel_job *k)
+{
+    icc_kernel_info info = {.size = sizeof info};
+    icc_kernel_get_info(k->kernel, &info);
+    size_t n = info.n_nodes, n_stiff = 0;
+    double *nodes = need(n, k->set.dim * sizeof *nodes), *rigidity = need(n, sizeof *rigidity);
+    uint32_t *stiff = need(n, sizeof *stiff);
+    icc_kernel_get_nodes(k->kernel, nodes, NULL, NULL, NULL);
+    double began = seconds_now();
+    int result = find_rigidity(k, n, nodes, rigidity);
+    for (size_t i = 0; i < n; i++)
+        if (rigidity[i] > 0) {
+            rigidity[n_stiff] = rigidity[i];
+            stiff[n_stiff++] = (uint32_t)i;
+        }
+    icc_kernel *stiffened = NULL;
+    icc_error err = {.size = sizeof err, .index = -1};
+    if (result == DONE && icc_kernel_stiffen(&stiffened, k->kernel, n_stiff, stiff, rigidity,
+                                             k->energy, &k->job.env, &err) != ICC_OK)
+        result = failed_set(k, "rigid", &err);
+    if (result == DONE) {
+        icc_kernel_free(k->kernel);
+        k->kernel = stiffened;
+    }
+    k->seconds_rigid = seconds_now() - began;
+    free(nodes);
+    free(rigidity);
+    free(stiff);
+    return result;
+}
+
+int kernel_job_read(kernel_job *k)
+{
+    int result = read_set(k);
+    if (result == DONE)
+        result = read_shape(k);
+    k->job.seconds_read = seconds_now() - k->job.started;
+    return result;
+}
+
+int kernel_job_make(kernel_job *k)
+{
+    int result = make_samples(k);
+    if (result == DONE)
+        result = make_weights(k);
+    if (result == DONE && k->set.n_rigid > 0)
+        result = stiffen(k);
+    progress_end(&k->job.bar);
+    return result;
+}

@@ -1,0 +1,30 @@
+/* What `weights` and `pose` do first: read shape and handles, spread samples, make weights. */
+#ifndef KERNEL_JOB_H
+#define KERNEL_JOB_H
+
+#include "kernel/handle_set.h"
+#include "job/job.h"
+
+#include <icc/kernel.h>
+
+typedef struct kernel_job {
+    job job;
+    handle_set set;
+    icc_domain **regions; /* those of the handles' file */
+    icc_sampling *sampling;
+    icc_kernel *kernel;
+    double energy[2]; /* of the rigid parts, before and after */
+    double seconds_samples, seconds_weights, seconds_rigid;
+} kernel_job;
+
+/* As job_start() and so on. Reading comes first, so that a mistake in a file is told at once. */
+void kernel_job_start(kernel_job *k, const args *a);
+int kernel_job_read(kernel_job *k);
+int kernel_job_make(kernel_job *k);
+void kernel_job_end(kernel_job *k);
+
+/* The report of --json up to what the command itself has to add: what was made, and how good the weights are at
+ * n finite points. */
+int kernel_report_open(report *r, kernel_job *k, size_t n, const double *points);
+
+#endif

@@ -1,0 +1,39 @@
+/* Meshes in the plane and in space: OBJ, OFF, Medit (.mesh) and legacy VTK, as text.
+ *
+ * The file is kept as it is; only the first coordinates of each vertex, as many as the mesh has
+ * dimensions, are looked at and, on writing, replaced. Faces with more than three corners are looked
+ * at as fans of triangles. Other elements than triangles and tetrahedra are carried along unseen. */
+#ifndef MESH_FILE_H
+#define MESH_FILE_H
+
+#include "base/say.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+
+typedef struct mesh_file {
+    const char *text; /* borrowed */
+    size_t n_text;
+    size_t dim;
+    size_t n_vertices;
+    double *points; /* n_vertices * dim */
+    size_t *spans;  /* n_vertices * 2: where the numbers of each begin and end in the text */
+    size_t type[2]; /* where the word stands that says how precise the numbers are (VTK), or 0, 0 */
+    size_t n_triangles;
+    uint32_t *triangles;    /* n_triangles * 3 */
+    size_t *triangle_lines; /* of each triangle, from 1 */
+    size_t n_tetrahedra;
+    uint32_t *tetrahedra; /* n_tetrahedra * 4 */
+    size_t room_points, room_spans, room_triangles, room_triangle_lines, room_tetrahedra;
+} mesh_file;
+
+/* Reads text[0..n), with text[n] == '\0', as a mesh of dimension 2 or 3. False: see `wrong`. Free the
+ * mesh in either case. */
+bool mesh_read(mesh_file *out, size_t dim, const char *text, size_t n, problem *wrong);
+void mesh_free(mesh_file *m);
+
+/* Writes the file with other coordinates. */
+void mesh_write(const mesh_file *m, const double *points, FILE *stream);
+
+#endif

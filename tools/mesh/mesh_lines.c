@@ -1,0 +1,119 @@
+#include "mesh/mesh_lines.h"
+
+#include "base/allocate.h"
+#include "base/number.h"
+
+#include <math.h>
+#include <string.h>
+
+bool lines_next(lines *r)
+{
+    if (*r->end == '\0')
+        return false;
+    r->at = r->end + 1;
+    r->end = r->at + strcspn(r->at, "\n");
+    r->line++;
+    return *r->at != '\0';
+}
+
+void lines_skip_blanks(lines *r)
+{
+    r->at += strspn(r->at, " \t\r");
+    if (*r->at == '#')
+        r->at = r->end;
+}
+
+bool lines_take(lines *r, const char *word)
+{
+    size_t n = strlen(word);
+    lines_skip_blanks(r);
+    if (strncmp(r->at, word, n) != 0 || strchr(" \t\r\n#", r->at[n]) == NULL)
+        return false;
+    r->at += n;
+    return true;
+}
+
+bool lines_word(lines *r)
+{
+    for (lines_skip_blanks(r); r->at >= r->end; lines_skip_blanks(r))
+        if (!lines_next(r))
+            return spoilt(r->wrong, r->line, "the file ends early");
+    return true;
+}
+
+bool lines_number(lines *r, double *value)
+{
+    lines_skip_blanks(r);
+    char shown[32];
+    const char *word = r->at;
+    if (r->at < r->end && number_read(&r->at, value) == NUMBER_OK &&
+        strchr(" \t\r\n", *r->at) != NULL)
+        return true;
+    return spoilt(r->wrong, r->line, "'%s' is not a finite number", quoted(shown, word));
+}
+
+bool lines_count(lines *r, double limit, uint32_t *count)
+{
+    double value;
+    if (!lines_number(r, &value))
+        return false;
+    if (!(value >= 0 && value < limit && floor(value) == value))
+        return spoilt(r->wrong, r->line, "%.17g where a whole number below %.17g is expected",
+                      value, limit);
+    *count = (uint32_t)value;
+    return true;
+}
+
+bool lines_next_count(lines *r, double limit, uint32_t *count)
+{
+    return lines_word(r) && lines_count(r, limit, count);
+}
+
+bool lines_vertex(lines *r)
+{
+    mesh_file *m = r->mesh;
+    size_t i = m->n_vertices;
+    m->points = grow(m->points, &m->room_points, m->dim * (i + 1), sizeof *m->points);
+    m->spans = grow(m->spans, &m->room_spans, 2 * (i + 1), sizeof *m->spans);
+    lines_skip_blanks(r);
+    m->spans[2 * i] = (size_t)(r->at - m->text);
+    for (size_t k = 0; k < m->dim; k++)
+        if ((r->wraps && !lines_word(r)) || !lines_number(r, m->points + m->dim * i + k))
+            return false;
+    m->spans[2 * i + 1] = (size_t)(r->at - m->text);
+    m->n_vertices++;
+    return true;
+}
+
+void lines_begin_face(lines *r)
+{
+    r->n_corners = 0;
+}
+
+void lines_corner(lines *r, uint32_t vertex)
+{
+    mesh_file *m = r->mesh;
+    r->corners[r->n_corners < 2 ? r->n_corners : 2] = vertex;
+    if (++r->n_corners < 3)
+        return;
+    m->triangles =
+        grow(m->triangles, &m->room_triangles, 3 * (m->n_triangles + 1), sizeof *m->triangles);
+    m->triangle_lines = grow(m->triangle_lines, &m->room_triangle_lines, m->n_triangles + 1,
+                             sizeof *m->triangle_lines);
+    memcpy(m->triangles + 3 * m->n_triangles, r->corners, sizeof r->corners);
+    m->triangle_lines[m->n_triangles++] = r->line;
+    r->corners[1] = vertex;
+}
+
+bool lines_end_face(lines *r)
+{
+    return r->n_corners >= 3 || spoilt(r->wrong, r->line, "the face has %zu corners", r->n_corners);
+}
+
+void lines_tetrahedron(lines *r, const uint32_t corners[4])
+{
+    mesh_file *m = r->mesh;
+    m->tetrahedra =
+        grow(m->tetrahedra, &m->room_tetrahedra, 4 * (m->n_tetrahedra + 1), sizeof *m->tetrahedra);
+    memcpy(m->tetrahedra + 4 * m->n_tetrahedra++, corners, 4 * sizeof *corners);
+}

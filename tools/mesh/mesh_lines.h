@@ -1,0 +1,53 @@
+/* Reading a mesh as text: what the formats share. Each takes one line or one word at a time; blanks
+ * and comments (from # on) are left out. Whatever returns false has said why. */
+#ifndef MESH_LINES_H
+#define MESH_LINES_H
+
+#include "mesh/mesh_file.h"
+
+typedef struct lines {
+    mesh_file *mesh;
+    const char *at, *end; /* of the current line */
+    size_t line;
+    problem *wrong;
+    bool wraps;          /* a vertex may go on in the next line */
+    uint32_t corners[3]; /* of the fan of the current face */
+    size_t n_corners;
+} lines;
+
+/* The line behind this one; false at the end of the file, which is no failure. */
+bool lines_next(lines *r);
+
+void lines_skip_blanks(lines *r);
+
+/* Whether `word` stands here; moves behind it if so. */
+bool lines_take(lines *r, const char *word);
+
+/* Moves to the next word of the file, whatever line it is on. */
+bool lines_word(lines *r);
+
+/* A number in this line. */
+bool lines_number(lines *r, double *value);
+
+/* A whole number from 0 to below `limit` in this line, or as the next word of the file. */
+bool lines_count(lines *r, double limit, uint32_t *count);
+bool lines_next_count(lines *r, double limit, uint32_t *count);
+
+/* The coordinates of the next vertex, which begin in this line. */
+bool lines_vertex(lines *r);
+
+/* Faces, corner by corner. */
+void lines_begin_face(lines *r);
+void lines_corner(lines *r, uint32_t vertex);
+bool lines_end_face(lines *r);
+
+void lines_tetrahedron(lines *r, const uint32_t corners[4]);
+
+/* ---- the formats ---- */
+
+bool mesh_read_obj(lines *r);
+bool mesh_read_off(lines *r);
+bool mesh_read_medit(lines *r);
+bool mesh_read_vtk(lines *r);
+
+#endif

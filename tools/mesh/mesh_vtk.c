@@ -1,0 +1,164 @@
+/* Legacy VTK as text: an unstructured grid, with the cells of version 2 (each begins with the number
+ * of its corners) or 5 (OFFSETS and CONNECTIVITY). */
+#include "mesh/mesh_lines.h"
+
+#include "base/allocate.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { VTK_TRIANGLE = 5, VTK_TETRA = 10 };
+
+/* The corners of all cells: cell i has corners[starts[i] .. starts[i + 1]). */
+typedef struct cells {
+    uint32_t n, n_corners;
+    uint32_t *starts, *corners;
+} cells;
+
+static bool starts_with(lines *r, const char *word)
+{
+    char shown[32];
+    if (!lines_word(r))
+        return false;
+    return lines_take(r, word) ||
+           spoilt(r->wrong, r->line, "'%s' where %s is expected", quoted(shown, r->at), word);
+}
+
+/* Two lines that mean nothing here, then ASCII and the kind of data. */
+static bool read_head(lines *r)
+{
+    char shown[32];
+    for (int i = 0; i < 2; i++)
+        if (!lines_next(r))
+            return spoilt(r->wrong, r->line, "the file ends early");
+    if (!lines_word(r))
+        return false;
+    if (lines_take(r, "BINARY"))
+        return spoilt(r->wrong, r->line, "the file is binary; save it as text (ASCII)");
+    if (!starts_with(r, "ASCII") || !starts_with(r, "DATASET") || !lines_word(r))
+        return false;
+    return lines_take(r, "UNSTRUCTURED_GRID") ||
+           spoilt(r->wrong, r->line, "'%s': an UNSTRUCTURED_GRID is read", quoted(shown, r->at));
+}
+
+/* In the plane a third coordinate is left alone. */
+static bool skip_rest(lines *r)
+{
+    double value;
+    return r->mesh->dim == 3 || (lines_word(r) && lines_number(r, &value));
+}
+
+static bool read_points(lines *r)
+{
+    uint32_t n;
+    if (!lines_next_count(r, 4e9, &n) || !lines_word(r))
+        return false;
+    r->mesh->type[0] = (size_t)(r->at - r->mesh->text);
+    r->at += strcspn(r->at, " \t\r\n");
+    r->mesh->type[1] = (size_t)(r->at - r->mesh->text);
+    for (uint32_t i = 0; i < n; i++)
+        if (!lines_word(r) || !lines_vertex(r) || !skip_rest(r))
+            return false;
+    return true;
+}
+
+/* `n` numbers below `limit` behind a word and the name of a type. */
+static bool read_array(lines *r, const char *word, uint32_t n, double limit, uint32_t *out)
+{
+    if (!starts_with(r, word))
+        return false;
+    r->at = r->end;
+    for (uint32_t i = 0; i < n; i++)
+        if (!lines_next_count(r, limit, &out[i]))
+            return false;
+    return true;
+}
+
+static bool read_old_cells(lines *r, cells *c)
+{
+    uint32_t used = 0, k = 0;
+    for (uint32_t i = 0; i < c->n; i++) {
+        if (!lines_next_count(r, (double)(c->n_corners - used) + 1, &k))
+            return false;
+        for (; k > 0; k--)
+            if (!lines_next_count(r, (double)r->mesh->n_vertices, &c->corners[used++]))
+                return false;
+        c->starts[i + 1] = used;
+    }
+    return true;
+}
+
+static bool read_cells(lines *r, cells *c)
+{
+    uint32_t n, size;
+    if (!lines_next_count(r, 4e9, &n) || !lines_next_count(r, 4e9, &size) || !lines_word(r))
+        return false;
+    if ((double)n + size > (double)r->mesh->n_text || c->starts != NULL)
+        return spoilt(r->wrong, r->line, "the file has no room for so many cells");
+    *c = (cells){.n = n, .n_corners = size};
+    c->starts = need((size_t)n + 1, sizeof *c->starts);
+    c->corners = need(size, sizeof *c->corners);
+    if (strncmp(r->at, "OFFSETS", 7) != 0)
+        return read_old_cells(r, c);
+    c->n = n > 0 ? n - 1 : 0;
+    if (!read_array(r, "OFFSETS", n, (double)size + 1, c->starts) ||
+        !read_array(r, "CONNECTIVITY", size, (double)r->mesh->n_vertices, c->corners))
+        return false;
+    for (uint32_t i = 0; i < c->n; i++)
+        if (c->starts[i + 1] < c->starts[i])
+            return spoilt(r->wrong, r->line, "offset %u is less than the one before",
+                          (unsigned)i + 1);
+    return true;
+}
+
+static bool read_types(lines *r, const cells *c)
+{
+    uint32_t n, type = 0;
+    if (!lines_next_count(r, 4e9, &n))
+        return false;
+    if (n != c->n)
+        return spoilt(r->wrong, r->line, "%u types for %u cells", (unsigned)n, (unsigned)c->n);
+    for (uint32_t i = 0; i < n; i++) {
+        const uint32_t *corners = c->corners + c->starts[i];
+        uint32_t n_corners = c->starts[i + 1] - c->starts[i];
+        if (!lines_next_count(r, 256, &type))
+            return false;
+        if ((type == VTK_TRIANGLE && n_corners != 3) || (type == VTK_TETRA && n_corners != 4))
+            return spoilt(r->wrong, r->line, "cell %u has %u corners, but type %u", (unsigned)i,
+                          (unsigned)n_corners, (unsigned)type);
+        lines_begin_face(r);
+        for (uint32_t k = 0; type == VTK_TRIANGLE && k < 3; k++)
+            lines_corner(r, corners[k]);
+        if (type == VTK_TETRA)
+            lines_tetrahedron(r, corners);
+    }
+    return true;
+}
+
+/* What follows the cells (CELL_DATA, POINT_DATA) is carried along. */
+static bool read_sections(lines *r, cells *c)
+{
+    while (lines_word(r)) {
+        if (lines_take(r, "POINTS")) {
+            if (!read_points(r))
+                return false;
+        } else if (lines_take(r, "CELLS")) {
+            if (!read_cells(r, c))
+                return false;
+        } else if (lines_take(r, "CELL_TYPES"))
+            return read_types(r, c);
+        else
+            r->at = r->end; /* METADATA, FIELD and such */
+    }
+    return false;
+}
+
+bool mesh_read_vtk(lines *r)
+{
+    cells c = {0};
+    r->wraps = true;
+    bool good = read_head(r) && read_sections(r, &c);
+    free(c.starts);
+    free(c.corners);
+    return good;
+}

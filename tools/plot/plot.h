@@ -1,0 +1,59 @@
+/* The parts of `libicc plot`. */
+#ifndef PLOT_H
+#define PLOT_H
+
+#include "plot/stages.h"
+#include "plot/svg.h"
+
+/* Where a shape is drawn: its bounding box, stretched over a box of the drawing. */
+typedef struct panel {
+    FILE *svg;
+    const stages *stages;
+    int side;      /* 1 source, 2 target */
+    char clip[48]; /* id of the shape's clip path */
+    double left, top, width, height, scale;
+    bool y_down;
+} panel;
+
+/* What the checkerboard and the u v map paint: a colour by place in the source. */
+typedef enum pattern { PATTERN_CHECKERBOARD, PATTERN_UV } pattern;
+
+/* A position of the shape in the drawing, and back. */
+void panel_place(const panel *p, const double at[2], double out[2]);
+void panel_locate(const panel *p, double x, double y, double out[2]);
+
+/* Defines the clip path of the shape. */
+void plot_clip(const panel *p, const cage *c);
+
+/* The outline, drawn last. */
+void plot_cage(const panel *p, const cage *c);
+
+/* Function as shades, tree, expansion edges, integral curves, maximum. */
+int plot_shape(const panel *p, job *j);
+
+/* The function as a surface, with the outline and the curves on it. */
+int plot_surface(const panel *p, job *j);
+
+/* Where in the source the samples of a raster over a panel come from; both patterns need it. */
+typedef struct places {
+    size_t width, height; /* of the picture, in pixels; each has several samples */
+    double *points;       /* NaN: nowhere */
+} places;
+
+int places_make(places *out, const panel *p, job *j);
+void places_free(places *s);
+
+/* A pattern painted on the source, as the shape of the panel inherits it. */
+int plot_pattern(const panel *p, job *j, const places *from, pattern what);
+
+/* Integral curves from points spread evenly along the boundary. */
+typedef struct curves {
+    size_t n;
+    size_t *starts; /* n + 1: curve i has the points starts[i] .. starts[i + 1] */
+    double *points;
+} curves;
+
+int curves_make(curves *out, const panel *p, job *j);
+void curves_free(curves *c);
+
+#endif

@@ -1,0 +1,274 @@
+/* A shape with everything that is known of it, as in figure 6 of the paper, third row: function
+ * values (background lightness), maximum (red circle), integral lines (blue), the cousin tree,
+ * expansion edges (purple). */
+#include "plot/plot.h"
+
+#include "base/allocate.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MIN_TREE_SPACING = 5, MAX_HANDLES = 64, DEFAULT_LINES = 120 };
+
+void panel_place(const panel *p, const double at[2], double out[2])
+{
+    const icc_domain_info *box = &p->stages->box;
+    out[0] = p->left + p->scale * (at[0] - box->lower[0]);
+    out[1] = p->top + p->scale * (p->y_down ? at[1] - box->lower[1] : box->upper[1] - at[1]);
+}
+
+void panel_locate(const panel *p, double x, double y, double out[2])
+{
+    const icc_domain_info *box = &p->stages->box;
+    out[0] = box->lower[0] + (x - p->left) / p->scale;
+    out[1] = p->y_down ? box->lower[1] + (y - p->top) / p->scale
+                       : box->upper[1] - (y - p->top) / p->scale;
+}
+
+static void write_ring(const panel *p, const cage *c)
+{
+    double *ring = need(c->n, 2 * sizeof *ring);
+    for (size_t i = 0; i < c->n; i++)
+        panel_place(p, c->points + 2 * i, ring + 2 * i);
+    svg_polyline(p->svg, c->n, ring);
+    fputc('Z', p->svg);
+    free(ring);
+}
+
+void plot_clip(const panel *p, const cage *c)
+{
+    fprintf(p->svg, "<clipPath id=\"%s\"><path d=\"", p->clip);
+    write_ring(p, c);
+    fputs("\"/></clipPath>\n", p->svg);
+}
+
+void plot_cage(const panel *p, const cage *c)
+{
+    fputs("<path fill=\"none\" stroke=\"#111\" stroke-width=\"1.5\" stroke-linejoin=\"round\" d=\"",
+          p->svg);
+    write_ring(p, c);
+    fputs("\"/>\n", p->svg);
+    for (size_t i = 0; c->n <= MAX_HANDLES && i < c->n; i++) {
+        double at[2];
+        panel_place(p, c->points + 2 * i, at);
+        fprintf(p->svg, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"2.4\" fill=\"#111\"/>\n", at[0],
+                at[1]);
+    }
+}
+
+/* ------------------------------------------------------------------ curves */
+
+/* Points spread evenly over the length of the boundary. */
+static double *spread(const cage *c, size_t n)
+{
+    double *points = need(n, 2 * sizeof *points), total = 0, walked = 0;
+    for (size_t i = 0; i < c->n; i++) {
+        const double *a = c->points + 2 * i, *b = c->points + 2 * ((i + 1) % c->n);
+        total += hypot(b[0] - a[0], b[1] - a[1]);
+    }
+    size_t k = 0;
+    for (size_t i = 0; i < c->n && k < n; i++) {
+        const double *a = c->points + 2 * i, *b = c->points + 2 * ((i + 1) % c->n);
+        double length = hypot(b[0] - a[0], b[1] - a[1]);
+        for (; k < n && ((double)k + 0.5) * total / (double)n <= walked + length; k++) {
+            double t = (((double)k + 0.5) * total / (double)n - walked) / length;
+            points[2 * k] = a[0] * (1 - t) + b[0] * t;
+            points[2 * k + 1] = a[1] * (1 - t) + b[1] * t;
+        }
+        walked += length;
+    }
+    for (; k < n; k++) /* rounding may leave the last one over */
+        memcpy(points + 2 * k, c->points, 2 * sizeof *points);
+    return points;
+}
+
+int curves_make(curves *out, const panel *p, job *j)
+{
+    size_t n = j->args->lines > 0 ? (size_t)j->args->lines : DEFAULT_LINES, room = 4096, used = 0;
+    double *starts = spread(&j->cages[p->side == 2], n);
+    *out = (curves){.starts = need(n + 1, sizeof *out->starts),
+                    .points = need(room, 2 * sizeof *out->points)};
+    icc_status status = ICC_OK;
+    for (size_t i = 0; i < n && status != ICC_ERR_MEMORY; i++) {
+        size_t length = 0;
+        status = icc_chart_trace(p->stages->chart, starts + 2 * i, room - used,
+                                 out->points + 2 * used, &length, &j->env, NULL);
+        if (status == ICC_OK && length > room - used) {
+            room = 2 * (used + length);
+            size_t bytes = 2 * used * sizeof *out->points;
+            double *longer = need(room, 2 * sizeof *longer);
+            memcpy(longer, out->points, bytes);
+            free(out->points);
+            out->points = longer;
+            status = icc_chart_trace(p->stages->chart, starts + 2 * i, length, longer + 2 * used,
+                                     &length, &j->env, NULL);
+        }
+        if (status == ICC_OK) {
+            used += length;
+            out->starts[++out->n] = used;
+        }
+    }
+    free(starts);
+    return status == ICC_ERR_MEMORY ? job_failed_status(j, status) : DONE;
+}
+
+void curves_free(curves *c)
+{
+    free(c->starts);
+    free(c->points);
+}
+
+static int draw_curves(const panel *p, job *j)
+{
+    curves c;
+    int result = curves_make(&c, p, j);
+    fputs("<path fill=\"none\" stroke=\"#1d4ed8\" stroke-width=\"0.9\" stroke-linejoin=\"round\" "
+          "stroke-opacity=\"0.85\" d=\"",
+          p->svg);
+    for (size_t i = 0; i < c.n; i++) {
+        for (size_t k = c.starts[i]; k < c.starts[i + 1]; k++)
+            panel_place(p, c.points + 2 * k, c.points + 2 * k);
+        svg_polyline(p->svg, c.starts[i + 1] - c.starts[i], c.points + 2 * c.starts[i]);
+    }
+    fputs("\"/>\n", p->svg);
+    curves_free(&c);
+    return result;
+}
+
+/* ------------------------------------------------------------------ shades */
+
+/* From slate at the lowest value to white at the maximum; rose where no value is. */
+static void shade(const stages *s, double value, unsigned char rgba[4])
+{
+    static const double low[3] = {148, 163, 184}, high[3] = {255, 255, 255};
+    static const unsigned char none[4] = {253, 205, 211, 255};
+    memcpy(rgba, none, 4);
+    if (isnan(value))
+        return;
+    double t = s->high > s->low ? fmin(fmax((value - s->low) / (s->high - s->low), 0), 1) : 1;
+    for (int k = 0; k < 3; k++)
+        rgba[k] = (unsigned char)(low[k] + t * (high[k] - low[k]) + 0.5);
+}
+
+static int draw_shades(const panel *p, job *j)
+{
+    picture image = picture_make((size_t)ceil(p->width), (size_t)ceil(p->height), 3, 8);
+    size_t n = image.width * image.height;
+    double *points = need(n, 2 * sizeof *points), *values = need(n, sizeof *values);
+    for (size_t i = 0; i < n; i++)
+        panel_locate(p,
+                     p->left + ((double)(i % image.width) + 0.5) * p->width / (double)image.width,
+                     p->top + ((double)(i / image.width) + 0.5) * p->height / (double)image.height,
+                     points + 2 * i);
+    int result = stages_values(p->stages, j, n, points, values);
+    for (size_t i = 0; i < n && result == DONE; i++) {
+        unsigned char rgba[4];
+        shade(p->stages, values[i], rgba);
+        picture_set(&image, i, rgba);
+    }
+    if (result == DONE)
+        result = svg_picture(p->svg, p->left, p->top, p->width, p->height, p->clip, &image);
+    picture_free(&image);
+    free(points);
+    free(values);
+    return result;
+}
+
+/* ---------------------------------------------------------- tree and edges */
+
+static void draw_segment(const panel *p, uint32_t a, uint32_t b)
+{
+    double ends[4];
+    stages_position(p->stages, a, ends);
+    stages_position(p->stages, b, ends + 2);
+    panel_place(p, ends, ends);
+    panel_place(p, ends + 2, ends + 2);
+    svg_polyline(p->svg, 2, ends);
+}
+
+/* The tree where a vertex inside is the parent; left out where it would be a grey mush. */
+static void draw_tree(const panel *p)
+{
+    const uint32_t *parents = icc_tree_parents(p->stages->tree);
+    const uint8_t *inside = icc_grid_inside(p->stages->grid);
+    if (p->stages->lattice.spacing * p->scale < MIN_TREE_SPACING)
+        return;
+    fputs(
+        "<path fill=\"none\" stroke=\"#64748b\" stroke-width=\"0.7\" stroke-opacity=\"0.75\" d=\"",
+        p->svg);
+    for (size_t i = 0; i < p->stages->lattice.n_vertices; i++)
+        if (parents[i] != UINT32_MAX && inside[parents[i]])
+            draw_segment(p, parents[i], (uint32_t)i);
+    fputs("\"/>\n", p->svg);
+}
+
+static void draw_edges(const panel *p, int32_t kind, const char *colour)
+{
+    fprintf(p->svg,
+            "<path fill=\"none\" stroke=\"%s\" stroke-width=\"2\" stroke-linecap=\"round\" d=\"",
+            colour);
+    for (size_t i = 0; i < p->stages->n_edges; i++)
+        if (p->stages->kinds[i] == kind)
+            draw_segment(p, p->stages->edges[2 * i], p->stages->edges[2 * i + 1]);
+    fputs("\"/>\n", p->svg);
+}
+
+static void draw_maximum(const panel *p)
+{
+    double at[2];
+    panel_place(p, p->stages->chart_info.maximum, at);
+    fprintf(p->svg,
+            "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"5.5\" fill=\"#dc2626\" stroke=\"white\" "
+            "stroke-width=\"1.5\"/>\n",
+            at[0], at[1]);
+}
+
+/* The mesh of the map, every edge once. */
+static int draw_triangles(const panel *p)
+{
+    icc_map_info info = {.size = sizeof info};
+    const icc_map *map = p->stages->map;
+    icc_map_get_info(map, &info);
+    if (info.kind != ICC_MAP_MESH)
+        return failed(NULL, 0,
+                      "the map is not of kind mesh: its repair failed; plot without "
+                      "--triangles");
+    double *points = need(info.n_vertices, 2 * sizeof *points);
+    uint32_t *triangles = need(info.n_triangles, 3 * sizeof *triangles);
+    icc_map_mesh(map, p->side == 1 ? points : NULL, p->side == 2 ? points : NULL, triangles);
+    for (size_t i = 0; i < info.n_vertices; i++)
+        panel_place(p, points + 2 * i, points + 2 * i);
+    fputs("<path fill=\"none\" stroke=\"#334155\" stroke-width=\"0.4\" d=\"", p->svg);
+    for (size_t i = 0; i < 3 * info.n_triangles; i++) {
+        uint32_t a = triangles[i], b = triangles[i % 3 == 2 ? i - 2 : i + 1];
+        double ends[4] = {points[2 * a], points[2 * a + 1], points[2 * b], points[2 * b + 1]};
+        /* The triangle on the other side runs from b to a; where there is none, the outline is. */
+        if (a < b)
+            svg_polyline(p->svg, 2, ends);
+    }
+    fputs("\"/>\n", p->svg);
+    free(points);
+    free(triangles);
+    return DONE;
+}
+
+int plot_shape(const panel *p, job *j)
+{
+    bool has_tree = p->stages->tree != NULL;
+    int result = j->args->triangles ? DONE : draw_shades(p, j);
+    fprintf(p->svg, "<g clip-path=\"url(#%s)\">\n", p->clip);
+    if (has_tree)
+        draw_tree(p);
+    if (result == DONE)
+        result = j->args->triangles ? draw_triangles(p) : draw_curves(p, j);
+    if (j->args->compression)
+        draw_edges(p, ICC_EDGE_COMPRESSION, "#f59e0b");
+    if (has_tree)
+        draw_edges(p, ICC_EDGE_EXPANSION, "#a21caf");
+    fputs("</g>\n", p->svg);
+    plot_cage(p, &j->cages[p->side == 2]);
+    if (!j->args->triangles)
+        draw_maximum(p);
+    return result;
+}

@@ -1,0 +1,196 @@
+/* PNG through libpng. Colours are neither interpreted nor changed: what the file says about them
+ * (gAMA, cHRM, sRGB, iCCP) and about the size of pixels (pHYs) is carried over as it is. */
+#include "plot/picture.h"
+
+#include "base/allocate.h"
+
+#include <png.h>
+#include <setjmp.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The reader stays open, so that its notes can be asked for when a picture is written. */
+typedef struct png_keep {
+    png_structp png;
+    png_infop info;
+    const png_byte *bytes; /* what is left to read */
+    size_t n;
+    char message[160];
+} png_keep;
+
+typedef struct writer {
+    png_structp png;
+    png_infop info;
+    unsigned char *bytes;
+    size_t n, room;
+    char message[160];
+} writer;
+
+/* Both structs end the same way: a message of 160 bytes, handed over as libpng's error pointer. */
+static void stop(png_structp png, png_const_charp message)
+{
+    snprintf(png_get_error_ptr(png), 160, "%s", message);
+    longjmp(png_jmpbuf(png), 1);
+}
+
+static void ignore(png_structp png, png_const_charp message)
+{
+    (void)png;
+    (void)message;
+}
+
+static void take_bytes(png_structp png, png_bytep to, size_t n)
+{
+    png_keep *k = png_get_io_ptr(png);
+    if (n > k->n)
+        png_error(png, "the file ends early");
+    memcpy(to, k->bytes, n);
+    k->bytes += n;
+    k->n -= n;
+}
+
+static void give_bytes(png_structp png, png_bytep from, size_t n)
+{
+    writer *w = png_get_io_ptr(png);
+    w->bytes = grow(w->bytes, &w->room, w->n + n, 1);
+    memcpy(w->bytes + w->n, from, n);
+    w->n += n;
+}
+
+static void no_flush(png_structp png)
+{
+    (void)png;
+}
+
+void png_keep_free(struct png_keep *keep)
+{
+    if (keep != NULL)
+        png_destroy_read_struct(&keep->png, &keep->info, NULL);
+    free(keep);
+}
+
+/* Rows as libpng gives them, most significant byte first, to samples. */
+static void unpack(picture *p, const png_byte *row, size_t y)
+{
+    size_t n = p->width * p->channels;
+    uint16_t *to = p->samples + y * n;
+    for (size_t i = 0; i < n; i++)
+        to[i] = p->depth == 8 ? row[i] : (uint16_t)(row[2 * i] << 8 | row[2 * i + 1]);
+}
+
+static void pack(const picture *p, png_byte *row, size_t y)
+{
+    size_t n = p->width * p->channels;
+    const uint16_t *from = p->samples + y * n;
+    for (size_t i = 0; i < n; i++) {
+        if (p->depth == 16)
+            *row++ = (png_byte)(from[i] >> 8);
+        *row++ = (png_byte)(from[i] & 255);
+    }
+}
+
+/* Everything that libpng may jump out of. `rows` is freed by the caller. */
+static bool decode(png_keep *k, picture *out, png_byte **rows)
+{
+    if (setjmp(png_jmpbuf(k->png)))
+        return false;
+    png_set_read_fn(k->png, k, take_bytes);
+    png_read_info(k->png, k->info);
+    png_set_expand(k->png);
+    png_set_interlace_handling(k->png);
+    png_read_update_info(k->png, k->info);
+    size_t row_bytes = png_get_rowbytes(k->png, k->info);
+    *out = picture_make(png_get_image_width(k->png, k->info), png_get_image_height(k->png, k->info),
+                        png_get_channels(k->png, k->info), png_get_bit_depth(k->png, k->info));
+    *rows = need(out->height, row_bytes + sizeof(png_bytep));
+    png_bytep *starts = (png_bytep *)(void *)*rows;
+    for (size_t y = 0; y < out->height; y++)
+        starts[y] = *rows + out->height * sizeof(png_bytep) + y * row_bytes;
+    png_read_image(k->png, starts);
+    png_read_end(k->png, k->info);
+    for (size_t y = 0; y < out->height; y++)
+        unpack(out, starts[y], y);
+    return true;
+}
+
+bool picture_decode(picture *out, const char *bytes, size_t n, problem *wrong)
+{
+    *out = (picture){0};
+    if (n < 8 || png_sig_cmp((png_const_bytep)bytes, 0, 8) != 0)
+        return spoilt(wrong, 0, "this is not a PNG picture; convert it to PNG first");
+    png_keep *k = need(1, sizeof *k);
+    k->bytes = (const png_byte *)bytes;
+    k->n = n;
+    k->png = png_create_read_struct(PNG_LIBPNG_VER_STRING, k->message, stop, ignore);
+    k->info = k->png != NULL ? png_create_info_struct(k->png) : NULL;
+    png_byte *rows = NULL;
+    bool good = k->info != NULL && decode(k, out, &rows);
+    free(rows);
+    if (!good) {
+        spoilt(wrong, 0, "the PNG picture is damaged: %.120s", k->message);
+        picture_free(out);
+        png_keep_free(k);
+        return false;
+    }
+    out->keep = k;
+    return true;
+}
+
+static void carry_over(writer *w, const png_keep *k)
+{
+    png_fixed_point v[8];
+    png_uint_32 x, y, length;
+    png_charp name;
+    png_bytep profile;
+    int unit;
+    if (png_get_gAMA_fixed(k->png, k->info, v))
+        png_set_gAMA_fixed(w->png, w->info, v[0]);
+    if (png_get_cHRM_fixed(k->png, k->info, v, v + 1, v + 2, v + 3, v + 4, v + 5, v + 6, v + 7))
+        png_set_cHRM_fixed(w->png, w->info, v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7]);
+    if (png_get_sRGB(k->png, k->info, &unit))
+        png_set_sRGB(w->png, w->info, unit);
+    if (png_get_iCCP(k->png, k->info, &name, &unit, &profile, &length))
+        png_set_iCCP(w->png, w->info, name, unit, profile, length);
+    if (png_get_pHYs(k->png, k->info, &x, &y, &unit))
+        png_set_pHYs(w->png, w->info, x, y, unit);
+}
+
+static bool encode(writer *w, const picture *p, const png_keep *keep, png_byte *row)
+{
+    static const int colour_types[] = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA,
+                                       PNG_COLOR_TYPE_RGB, PNG_COLOR_TYPE_RGB_ALPHA};
+    if (setjmp(png_jmpbuf(w->png)))
+        return false;
+    png_set_write_fn(w->png, w, give_bytes, no_flush);
+    png_set_benign_errors(w->png, 1); /* a strange colour profile came in, it may go out */
+    png_set_IHDR(w->png, w->info, (png_uint_32)p->width, (png_uint_32)p->height, (int)p->depth,
+                 colour_types[p->channels - 1], PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+                 PNG_FILTER_TYPE_DEFAULT);
+    if (keep != NULL)
+        carry_over(w, keep);
+    png_write_info(w->png, w->info);
+    for (size_t y = 0; y < p->height; y++) {
+        pack(p, row, y);
+        png_write_row(w->png, row);
+    }
+    png_write_end(w->png, w->info);
+    return true;
+}
+
+unsigned char *picture_encode(const picture *p, const struct png_keep *keep, size_t *n,
+                              problem *wrong)
+{
+    writer w = {0};
+    w.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, w.message, stop, ignore);
+    w.info = w.png != NULL ? png_create_info_struct(w.png) : NULL;
+    png_byte *row = need(p->width, 2 * (size_t)p->channels);
+    bool good = w.info != NULL && encode(&w, p, keep, row);
+    free(row);
+    png_destroy_write_struct(&w.png, &w.info);
+    *n = w.n;
+    if (good)
+        return w.bytes;
+    free(w.bytes);
+    spoilt(wrong, 0, "the PNG picture cannot be written: %.120s", w.message);
+    return NULL;
+}

@@ -1,0 +1,49 @@
+/* The parts of `libicc check`. */
+#ifndef CHECK_H
+#define CHECK_H
+
+#include "cage/defect.h"
+#include "job/job.h"
+
+typedef struct check {
+    job job;
+    defect_list defects[2]; /* in the plane; elsewhere the first defect is all that there is */
+    size_t n_defects;
+    size_t n_dropped; /* by --repair: vertices */
+    size_t n_filled;  /* by --repair: cells of a mask */
+    icc_chart_info charts[2];
+    icc_map_info map; /* of kind 0 without a target */
+    bool certified;   /* all there is */
+} check;
+
+/* Lists the defects of cages in the plane. */
+int check_find_defects(check *c);
+
+/* Whether the source is a mask that is checked by itself. */
+bool check_mask_only(const check *c);
+
+/* ---- telling ---- */
+
+void check_print_defects(const check *c);
+void check_print_domains(const check *c);
+void check_print_certificates(const check *c);
+
+/* Why not all is certified, in one line. */
+const char *check_reason(char text[240], const check *c);
+
+/* The report of --json. */
+int check_report(const check *c);
+
+/* ---- writing ---- */
+
+/* --repair in the plane: drops vertices of both cages alike until none is superfluous, and writes what
+ * is left. */
+int check_repair(check *c);
+
+/* --repair of a mask: fills cells where others touch only along edges or corners, and writes it. */
+int check_repair_mask(check *c);
+
+/* --boundary: the vertices of a mask's boundary, to be moved. */
+int check_write_boundary(check *c);
+
+#endif

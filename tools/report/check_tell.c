@@ -1,0 +1,185 @@
+/* What `libicc check` found, in words and as a report. */
+#include "report/check.h"
+
+#include "job/option_table.h"
+
+#include <stdio.h>
+
+static const char *kind_name(int32_t kind)
+{
+    static const char *const names[] = {"unknown",  "not_finite", "repeated", "spike",
+                                        "crossing", "touch",      "flat"};
+    return kind >= ICC_DEFECT_NOT_FINITE && kind <= ICC_DEFECT_FLAT ? names[kind] : names[0];
+}
+
+void check_print_defects(const check *c)
+{
+    for (size_t side = 0; side < 2; side++)
+        for (size_t i = 0; i < c->defects[side].n; i++) {
+            const cage *at = &c->job.cages[side];
+            size_t line = at->lines[c->defects[side].items[2 * i]];
+            char text[200];
+            printf("%s:", job_file(&c->job, (int)side + 1));
+            if (line > 0)
+                printf("%zu:", line);
+            printf(" %s\n", defect_text(text, &c->defects[side], i, at));
+        }
+}
+
+static void print_mask(const cage *mask, const icc_domain_info *info)
+{
+    size_t n = 1, n_inside = 0;
+    printf("a mask of ");
+    for (size_t k = 0; k < mask->dim; k++) {
+        printf("%s%zu", k > 0 ? " x " : "", mask->shape[k]);
+        n *= mask->shape[k];
+    }
+    for (size_t i = 0; i < n; i++)
+        n_inside += mask->cells[i];
+    printf(
+        " cells, %zu of them inside, in one piece without holes; its boundary: %zu vertices, %zu "
+        "facets\n",
+        n_inside, info->n_vertices, info->n_facets);
+}
+
+static void print_domain(const cage *c, const icc_domain_info *info)
+{
+    if (c->cells != NULL)
+        print_mask(c, info);
+    else if (info->dim == 2)
+        printf("a simple polygon, %zu vertices, %s, area %.17g\n", info->n_vertices,
+               info->orientation > 0 ? "counter-clockwise" : "clockwise", info->measure);
+    else if (info->dim == 3)
+        printf("a closed surface that does not meet itself, %zu vertices, %zu faces, %s, volume "
+               "%.17g\n",
+               info->n_vertices, info->n_facets,
+               info->orientation > 0 ? "facing outward" : "facing inward", info->measure);
+    else
+        printf("a closed boundary, %zu vertices, %zu facets, measure %.17g%s\n", info->n_vertices,
+               info->n_facets, info->measure,
+               info->dim > 3 ? " (whether it meets itself is not checked beyond 3 dimensions)"
+                             : "");
+}
+
+void check_print_domains(const check *c)
+{
+    for (size_t side = 0; side < 2; side++) {
+        icc_domain_info info = {.size = sizeof info};
+        if (c->job.domains[side] == NULL ||
+            icc_domain_get_info(c->job.domains[side], &info) != ICC_OK)
+            continue;
+        printf("%s: ", job_file(&c->job, (int)side + 1));
+        print_domain(&c->job.cages[side], &info);
+    }
+}
+
+static void print_chart(const char *file, const icc_chart_info *chart)
+{
+    printf("%s: %s chart certified: ", file, choice_name(methods, chart->method));
+    if (chart->method == ICC_METHOD_FIELD)
+        printf(
+            "every one of %zu grid vertices has a vector that points uphill all round, and curves "
+            "enter all over the boundary",
+            chart->n_inside);
+    else
+        printf("%zu %s, none of them inverted", chart->n_mesh_triangles, elements_name(chart->dim));
+    if (chart->method == ICC_METHOD_FOLIATION)
+        fputs("; every leaf runs from the boundary to the maximum", stdout);
+    if (chart->method == ICC_METHOD_FOLIATION && !(chart->order_beta > 0))
+        printf(" (%zu ties)", chart->n_ties);
+    putchar('\n');
+}
+
+/* What keeps a field from its certificate. */
+static void print_field(const char *file, const icc_chart_info *chart)
+{
+    printf(
+        "%s: field chart not certified: %zu of %zu grid vertices have no vector that points uphill "
+        "all round, %zu were given up; at %zu of %zu contacts with the boundary the curves do not "
+        "enter (%.3g %%)\n",
+        file, chart->n_infeasible, chart->n_inside, chart->n_stray, chart->n_not_inward,
+        chart->n_contacts,
+        chart->n_contacts > 0 ? 100 * (double)chart->n_not_inward / (double)chart->n_contacts : 0);
+}
+
+void check_print_certificates(const check *c)
+{
+    for (size_t side = 0; side < 2; side++) {
+        const char *file = job_file(&c->job, (int)side + 1);
+        if (c->charts[side].certified)
+            print_chart(file, &c->charts[side]);
+        else if (c->charts[side].method == ICC_METHOD_FIELD)
+            print_field(file, &c->charts[side]);
+    }
+    if (c->map.n_unrepaired > 0)
+        printf("map: %zu %s of the mesh could not be repaired, so it is of kind curves\n",
+               c->map.n_unrepaired, elements_name(c->map.dim));
+    if (!c->map.certified)
+        return;
+    printf("map: %s, certified one-to-one", choice_name(maps, c->map.kind));
+    if (c->map.kind == ICC_MAP_MESH)
+        printf(": all %zu %s keep their orientation, exactly, and both boundaries are simple",
+               c->map.n_triangles, elements_name(c->map.dim));
+    putchar('\n');
+}
+
+const char *check_reason(char text[240], const check *c)
+{
+    bool pair = c->map.kind != 0;
+    if (c->charts[0].method == ICC_METHOD_GRADIENT)
+        snprintf(text, 240,
+                 "%s valid, but the method gradient is not certifiable: its curves merge ('libicc "
+                 "info' tells how much)",
+                 pair ? "the cages are" : "the cage is");
+    else
+        snprintf(text, 240, "%s valid, but %s not certified; see the list",
+                 pair ? "the cages are" : "the cage is", pair ? "the map is" : "the chart is");
+    return text;
+}
+
+static void report_certificates(const check *c, json *j)
+{
+    if (c->charts[0].method != 0)
+        json_text(j, "method", choice_name(methods, c->charts[0].method));
+    if (c->map.kind != 0)
+        json_text(j, "map", choice_name(maps, c->map.kind));
+    if (c->charts[0].method == ICC_METHOD_FIELD)
+        for (size_t side = 0; side < (c->map.kind != 0 ? 2 : 1); side++) {
+            json_open(j, cage_role_name(side == 0 ? CAGE_SOURCE : CAGE_TARGET), '{');
+            json_count(j, "inside_vertices", c->charts[side].n_inside);
+            json_count(j, "stray_vertices", c->charts[side].n_stray);
+            json_count(j, "infeasible_vertices", c->charts[side].n_infeasible);
+            json_count(j, "contacts", c->charts[side].n_contacts);
+            json_count(j, "not_inward", c->charts[side].n_not_inward);
+            json_close(j, '}');
+        }
+    if (!check_mask_only(c))
+        json_flag(j, "certified", c->certified);
+}
+
+int check_report(const check *c)
+{
+    report r;
+    if (!report_open(&r, &c->job))
+        return FAILED;
+    json_open(&r.json, "defects", '[');
+    for (size_t side = 0; side < 2; side++)
+        for (size_t i = 0; i < c->defects[side].n; i++) {
+            const uint32_t *item = c->defects[side].items + 2 * i;
+            json_open(&r.json, NULL, '{');
+            json_text(&r.json, "cage", cage_role_name(side == 0 ? CAGE_SOURCE : CAGE_TARGET));
+            json_text(&r.json, "kind", kind_name(c->defects[side].kinds[i]));
+            json_count(&r.json, "a", item[0]);
+            json_count(&r.json, "b", item[1]);
+            if (c->job.cages[side].lines[item[0]] > 0)
+                json_count(&r.json, "line", c->job.cages[side].lines[item[0]]);
+            json_close(&r.json, '}');
+        }
+    json_close(&r.json, ']');
+    if (c->job.args->repair != NULL)
+        json_count(&r.json, c->job.cages[0].cells != NULL ? "filled_cells" : "dropped_vertices",
+                   c->job.cages[0].cells != NULL ? c->n_filled : c->n_dropped);
+    json_flag(&r.json, "valid", c->job.domains[0] != NULL);
+    report_certificates(c, &r.json);
+    return report_close(&r) ? DONE : FAILED;
+}

@@ -1,0 +1,185 @@
+/* What `libicc check` writes: mended cages, and the boundaries of masks. */
+#include "report/check.h"
+
+#include "base/allocate.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Marks the vertices that repeat another or end a spike. */
+static size_t mark_superfluous(const check *c, unsigned char *drop)
+{
+    size_t n = 0;
+    for (size_t side = 0; side < 2; side++)
+        for (size_t i = 0; i < c->defects[side].n; i++) {
+            int32_t kind = c->defects[side].kinds[i];
+            if (kind != ICC_DEFECT_REPEATED && kind != ICC_DEFECT_SPIKE)
+                continue;
+            uint32_t vertex =
+                c->defects[side].items[2 * i + 1]; /* of two repeated ones the later */
+            n += drop[vertex] == 0;
+            drop[vertex] = 1;
+        }
+    return n;
+}
+
+static void drop_vertices(cage *c, const unsigned char *drop)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < c->n; i++) {
+        if (drop[i])
+            continue;
+        memmove(c->points + 2 * kept, c->points + 2 * i, 2 * sizeof *c->points);
+        c->lines[kept++] = c->lines[i];
+    }
+    c->n = kept;
+}
+
+/* Drops vertices in both cages alike, so that they go on to correspond, until none is superfluous:
+ * a spike whose tip is gone may leave a repeated vertex behind. */
+static int drop_superfluous(check *c)
+{
+    for (;;) {
+        size_t n = c->job.cages[0].n;
+        unsigned char *drop = need(n, 1);
+        size_t n_marked = mark_superfluous(c, drop);
+        bool enough = n >= n_marked + 3;
+        for (size_t side = 0; side < 2 && enough; side++)
+            if (c->job.cages[side].n > 0)
+                drop_vertices(&c->job.cages[side], drop);
+        free(drop);
+        if (!enough)
+            return failed(c->job.args->source, 0,
+                          "fewer than 3 vertices would be left after the repair");
+        c->n_dropped += n_marked;
+        if (n_marked == 0)
+            return DONE;
+        if (check_find_defects(c) != DONE)
+            return FAILED;
+    }
+}
+
+static void write_feature(FILE *stream, const cage *c, cage_role role)
+{
+    fprintf(stream,
+            "{\"type\": \"Feature\", \"properties\": {\"role\": \"%s\"},\n \"geometry\": "
+            "{\"type\": \"Polygon\", "
+            "\"coordinates\": [[",
+            cage_role_name(role));
+    for (size_t i = 0; i <= c->n; i++) {
+        const double *p = c->points + 2 * (i % c->n);
+        fprintf(stream, "%s\n  [%.17g, %.17g]", i > 0 ? "," : "", p[0], p[1]);
+    }
+    fputs("]]}}", stream);
+}
+
+static bool ends_with(const char *name, const char *end)
+{
+    size_t n = strlen(name), m = strlen(end);
+    return n >= m && strcmp(name + n - m, end) == 0;
+}
+
+/* One cage as text; two, or a name that ends in .geojson or .json, as a FeatureCollection. */
+static int write_cages(const check *c)
+{
+    const cage *cages = c->job.cages;
+    const char *name = c->job.args->repair;
+    bool geojson = cages[1].n > 0 || ends_with(name, ".geojson") || ends_with(name, ".json");
+    outfile file;
+    if (!outfile_open(&file, name))
+        return FAILED;
+    for (size_t i = 0; !geojson && i < cages[0].n; i++)
+        fprintf(file.stream, "%.17g %.17g\n", cages[0].points[2 * i], cages[0].points[2 * i + 1]);
+    if (geojson) {
+        fputs("{\"type\": \"FeatureCollection\", \"features\": [\n", file.stream);
+        write_feature(file.stream, &cages[0], CAGE_SOURCE);
+        if (cages[1].n > 0) {
+            fputs(",\n", file.stream);
+            write_feature(file.stream, &cages[1], CAGE_TARGET);
+        }
+        fputs("\n]}\n", file.stream);
+    }
+    return outfile_close(&file) ? DONE : FAILED;
+}
+
+int check_repair(check *c)
+{
+    size_t n_found = c->n_defects;
+    int result = drop_superfluous(c);
+    if (result != DONE)
+        return result;
+    if (c->n_defects > 0)
+        return failed(c->job.args->source, 0,
+                      "%zu of %zu defects remain when %zu vertices are dropped, so nothing was "
+                      "written; mend the crossings by hand",
+                      c->n_defects, n_found, c->n_dropped);
+    return write_cages(c);
+}
+
+/* Version 1 of the format: the header is padded so that the data begin at a multiple of 64 bytes. */
+static void write_npy(FILE *stream, const cage *c)
+{
+    char header[256];
+    int used =
+        snprintf(header, sizeof header, "{'descr': '|u1', 'fortran_order': True, 'shape': (");
+    size_t n = 1;
+    for (size_t k = 0; k < c->dim; k++) {
+        used += snprintf(header + used, sizeof header - (size_t)used, "%zu,%s", c->shape[k],
+                         k + 1 < c->dim ? " " : "");
+        n *= c->shape[k];
+    }
+    used += snprintf(header + used, sizeof header - (size_t)used, "), }");
+    while ((used + 11) % 64 != 0)
+        header[used++] = ' ';
+    header[used++] = '\n';
+    fwrite("\x93NUMPY\1\0", 1, 8, stream);
+    fputc(used % 256, stream);
+    fputc(used / 256, stream);
+    fwrite(header, 1, (size_t)used, stream);
+    fwrite(c->cells, 1, n, stream);
+}
+
+int check_repair_mask(check *c)
+{
+    cage *mask = &c->job.cages[0];
+    icc_error err = {.size = sizeof err, .index = -1};
+    outfile file;
+    if (icc_mask_repair((int32_t)mask->dim, mask->shape, mask->cells, &c->n_filled, &c->job.env,
+                        &err) != ICC_OK)
+        return job_failed(&c->job, &err);
+    int result = job_make_domains(&c->job);
+    progress_end(&c->job.bar);
+    if (result != DONE || !outfile_open(&file, c->job.args->repair))
+        return FAILED;
+    write_npy(file.stream, mask);
+    return outfile_close(&file) ? DONE : FAILED;
+}
+
+static void write_row(FILE *stream, size_t dim, const double *at)
+{
+    for (size_t k = 0; k < dim; k++)
+        fprintf(stream, "%s%.17g", k > 0 ? " " : "", at[k]);
+    fputc('\n', stream);
+}
+
+/* OBJ when the name says so, else one vertex per line. */
+int check_write_boundary(check *c)
+{
+    const cage *mask = &c->job.cages[0];
+    const char *name = c->job.args->boundary;
+    bool obj = mask->dim == 3 && ends_with(name, ".obj");
+    outfile file;
+    if (!outfile_open(&file, name))
+        return FAILED;
+    for (size_t i = 0; i < mask->n; i++) {
+        fputs(obj ? "v " : "", file.stream);
+        write_row(file.stream, mask->dim, mask->points + i * mask->dim);
+    }
+    for (size_t i = 0; obj && i < mask->n_facets; i++) {
+        const uint32_t *f = mask->facets + 3 * i;
+        fprintf(file.stream, "f %u %u %u\n", (unsigned)f[0] + 1, (unsigned)f[1] + 1,
+                (unsigned)f[2] + 1);
+    }
+    return outfile_close(&file) ? DONE : FAILED;
+}

@@ -1,0 +1,54 @@
+/* What `libicc info` found out, and the two ways to tell it. */
+#ifndef INFO_H
+#define INFO_H
+
+#include "job/job.h"
+
+#include <icc/stages.h>
+
+/* What becomes of the area or volume under the map, by its derivative at evenly spread points. */
+typedef struct map_shares {
+    size_t n; /* points; 0: there is no map */
+    double without_image, collapsed, inverted;
+    /* The symmetric Dirichlet energy |J|^2 + |J^-1|^2 where neither is the case, both shapes scaled to
+     * the same measure: twice the dimension where the shape of things is kept. */
+    double mean, median, nearly_all; /* 99 % are below the last one */
+} map_shares;
+
+typedef struct info {
+    job job;
+    icc_domain_info domain;
+    icc_chart_info chart;
+    icc_chart_measures measures;
+    /* Methods gradient and field. */
+    icc_grid_info grid;
+    icc_field_info field;
+    bool has_critical; /* besides the maximum there are others, the first one here */
+    double critical[ICC_MAX_DIM];
+    size_t n_order_critical;  /* critical vertices of the tree's own order, besides the maximum */
+    icc_grow_report growth;   /* of an order that falls with the function; beyond the plane */
+    bool grown;               /* whether it got to the end */
+    size_t n_holes;           /* of the grid's inside, in the plane */
+    size_t n_inner_expansion; /* expansion edges between two triangles inside */
+    icc_map_info map;
+    map_shares shares;
+} info;
+
+/* Samples the map's derivative. */
+int info_measure_map(info *x);
+
+/* Why the function has other critical points than one maximum, for those that have. */
+const char *info_reason(char text[240], const info *x);
+
+/* How the order of the vertices was found, in words. */
+const char *info_growth(char text[160], const info *x);
+
+/* Whether the chart was made on a grid (methods gradient and field). */
+bool info_has_grid(const info *x);
+
+void info_print(const info *x);
+
+/* Writes the report of --json. */
+int info_report(const info *x);
+
+#endif

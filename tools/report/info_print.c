@@ -1,0 +1,230 @@
+#include "report/info.h"
+
+#include "job/option_table.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static void print_point(const info *x, const char *before, const double *at, const char *behind)
+{
+    fputs(before, stdout);
+    for (int32_t k = 0; k < x->domain.dim; k++)
+        printf("%s%.17g", k > 0 ? " " : "", at[k]);
+    fputs(behind, stdout);
+}
+
+static void print_domain(const info *x)
+{
+    const icc_domain_info *d = &x->domain;
+    const char *const measures[] = {"measure", "length", "area", "volume"};
+    const char *const turns[] = {"facing inward", "facing outward", "clockwise",
+                                 "counter-clockwise"};
+    printf("cage        %zu vertices, ", d->n_vertices);
+    if (d->dim != 2)
+        printf("%zu facets, ", d->n_facets);
+    printf("%s, %s %.17g\n", turns[(d->dim == 2 ? 2 : 0) + (d->orientation > 0)],
+           measures[d->dim > 3 ? 0 : d->dim], d->measure);
+    print_point(x, "box         ", d->lower, " to ");
+    print_point(x, "", d->upper, "\n");
+}
+
+static void print_solution(const icc_field_info *f)
+{
+    printf("solution    %zu unknowns, solver %s", f->n_unknowns, choice_name(solvers, f->solver));
+    if (f->solver == ICC_SOLVER_ITERATIVE)
+        printf(" in %zu steps", f->n_inner);
+    if (f->least_log < 0)
+        printf(", least value 10^%.1f of the greatest\n", f->least_log / log(10));
+    else
+        printf(", some values are not positive\n");
+    if (f->constrained)
+        printf("tree edges  %zu broke the inequality without constraints; %zu hold with equality, "
+               "found "
+               "in %zu iterations\n",
+               f->n_violated, f->n_active, f->n_iterations);
+    else
+        printf("tree edges  %zu break the inequality, which was not imposed\n", f->n_violated);
+    printf("residual    %.2g, and %.2g before the last sweep along the tree\n", f->residual,
+           f->residual_before);
+}
+
+static void print_critical(const info *x)
+{
+    const icc_chart_info *c = &x->chart;
+    printf("critical    %zu maxima, %zu minima, %zu saddles\n", c->n_maxima, c->n_minima,
+           c->n_saddles);
+    char reason[240];
+    if (!x->has_critical)
+        return;
+    print_point(x, "            the first besides the maximum lies at ", x->critical, ":\n");
+    printf("            %s\n", info_reason(reason, x));
+}
+
+static void print_grid(const info *x)
+{
+    const icc_chart_info *c = &x->chart;
+    char text[160];
+    printf("grid        %zu vertices, %zu inside, ", c->n_grid, c->n_inside);
+    if (x->domain.dim > 2)
+        printf("%zu given up, ", x->grid.n_stray);
+    printf("spacing %.17g\n", c->spacing);
+    print_point(x, "maximum     ", c->maximum, "\n");
+    printf("tree        %zu vertices, %zu unreachable, %zu cousin violations", c->n_tree,
+           c->n_unreachable, c->n_cousin_violations);
+    if (x->domain.dim > 2)
+        printf(", %zu critical vertices in its order\norder       %s", x->n_order_critical,
+               info_growth(text, x));
+    putchar('\n');
+    if (function_solves(c->function))
+        print_solution(&x->field);
+    print_critical(x);
+}
+
+static void print_shares(const info *x)
+{
+    const icc_chart_info *c = &x->chart;
+    const icc_chart_measures *m = &x->measures;
+    const char *measure = x->domain.dim == 2 ? "area" : "volume";
+    if (c->n_edges > 0)
+        printf(
+            "edges       %zu, of which %zu compression, %zu expansion; %zu of these at triangles "
+            "inside\n",
+            c->n_edges, c->n_compression, c->n_expansion, x->n_inner_expansion);
+    if (m->n_points == 0)
+        return;
+    printf(
+        "unreachable %6.2f %% of the %s: no curve through it reaches both boundary and maximum\n",
+        100 * m->unreachable, measure);
+    printf("uncovered   %6.2f %% of the %s: no curve from the boundary enters it\n",
+           100 * m->uncovered, measure);
+    printf("collapsed   %6.2f %% of the coordinates: on lines where curves have merged\n",
+           100 * m->collapsed);
+    printf("not inward  %6.2f %% of the boundary: the gradient does not point inward\n",
+           100 * m->not_inward);
+}
+
+static void print_gradient(const info *x)
+{
+    char label[48];
+    printf("method      gradient, function %s, tree %s, not certifiable\n",
+           function_label(label, &x->field), choice_name(trees, x->chart.tree));
+    print_grid(x);
+    print_shares(x);
+}
+
+static void print_field(const info *x)
+{
+    const icc_chart_info *c = &x->chart;
+    char label[48];
+    printf("method      field, function %s, %s\n", function_label(label, &x->field),
+           c->certified ? "certified" : "not certified");
+    print_grid(x);
+    printf("vectors     %zu of %zu vertices have none that points uphill all round\n",
+           c->n_infeasible, c->n_inside);
+    printf(
+        "contacts    %6.2f %% (%zu of %zu with the boundary) are such that curves do not enter\n",
+        c->n_contacts > 0 ? 100 * (double)c->n_not_inward / (double)c->n_contacts : 0,
+        c->n_not_inward, c->n_contacts);
+    print_shares(x);
+}
+
+static void print_order(const icc_chart_info *c)
+{
+    printf("order       %s, weight %.4g; %d complete ones to choose from\n",
+           c->order_peeled ? "peeled from the boundary" : "grown from the maximum", c->order_beta,
+           (int)c->n_orders);
+    printf("flux        %zu facets reversed, %.3g away from the harmonic flux\n", c->n_reversed,
+           c->flux_energy);
+}
+
+static void print_certified(const info *x)
+{
+    const icc_chart_info *c = &x->chart;
+    printf("method      %s, %s\n", choice_name(methods, c->method),
+           c->certified ? "certified" : "not certified");
+    printf("mesh        %zu vertices, %zu of them on the boundary, %zu %s", c->n_mesh_vertices,
+           c->n_mesh_boundary, c->n_mesh_triangles, elements_name(c->dim));
+    if (c->spacing > 0)
+        printf(", spacing %.17g", c->spacing);
+    putchar('\n');
+    print_point(x, "maximum     ", c->maximum, "\n");
+    if (c->order_beta > 0)
+        print_order(c);
+    else if (c->method == ICC_METHOD_FOLIATION)
+        printf("leaves      %zu ties, flux through the boundary %.4g %% harmonic\n", c->n_ties,
+               100 * c->harmonic_share);
+}
+
+static void print_mesh_map(const icc_map_info *m)
+{
+    printf("%-11s %zu, %zu vertices; %zu were not positive and have been repaired\n",
+           elements_name(m->dim), m->n_triangles, m->n_vertices, m->n_inverted);
+    printf("energy      %.4g, improved to %.4g (steps: %zu, refinements: %d)\n", m->energy_start,
+           m->energy, m->n_iterations, (int)m->n_levels);
+}
+
+static void print_map(const info *x)
+{
+    const icc_map_info *m = &x->map;
+    const map_shares *s = &x->shares;
+    printf("map         %s, %s\n", choice_name(maps, m->kind),
+           m->certified ? "certified" : "not certified");
+    if (m->n_unrepaired > 0)
+        printf("            of kind curves because %zu %s could not be repaired\n", m->n_unrepaired,
+               elements_name(m->dim));
+    if (m->kind == ICC_MAP_MESH)
+        print_mesh_map(m);
+    printf("%-11s %6.2f %% collapses, %.2f %% inverts, %.2f %% has no image\n",
+           x->domain.dim == 2 ? "area" : "volume", 100 * s->collapsed, 100 * s->inverted,
+           100 * s->without_image);
+    printf(
+        "distortion  mean %.4g, median %.4g, 99 %% below %.4g%s (symmetric Dirichlet; %d: none)\n",
+        s->mean, s->median, s->nearly_all,
+        s->collapsed + s->inverted + s->without_image > 0 ? " for the rest" : "",
+        2 * (int)x->domain.dim);
+}
+
+static void print_grid_seconds(const info *x)
+{
+    const icc_chart_info *c = &x->chart;
+    const icc_field_info *f = &x->field;
+    printf("grid %.4f, tree %.4f, function %.4f", c->seconds_grid, c->seconds_tree,
+           c->seconds_field);
+    if (function_solves(c->function))
+        printf(" (set up %.4f, order %.4f, factorise %.4f, solve %.4f, verify %.4f)",
+               f->seconds_setup, f->seconds_order, f->seconds_factor, f->seconds_solve,
+               f->seconds_verify);
+    if (c->method == ICC_METHOD_FIELD)
+        printf(", vectors %.4f", c->seconds_solve);
+}
+
+static void print_mesh_seconds(const icc_chart_info *c)
+{
+    printf("mesh %.4f, solve %.4f, ", c->seconds_mesh, c->seconds_solve);
+    if (c->order_beta > 0)
+        printf("order %.4f, ", c->seconds_tree);
+    printf("certify %.4f", c->seconds_certify);
+}
+
+void info_print(const info *x)
+{
+    const icc_chart_info *c = &x->chart;
+    print_domain(x);
+    if (c->method == ICC_METHOD_GRADIENT)
+        print_gradient(x);
+    else if (c->method == ICC_METHOD_FIELD)
+        print_field(x);
+    else
+        print_certified(x);
+    if (x->shares.n > 0)
+        print_map(x);
+    printf("seconds     read %.4f, ", x->job.seconds_read);
+    if (info_has_grid(x))
+        print_grid_seconds(x);
+    else
+        print_mesh_seconds(c);
+    if (x->map.kind == ICC_MAP_MESH)
+        printf(", repair %.4f, improve %.4f, certify %.4f", x->map.seconds_repair,
+               x->map.seconds_improve, x->map.seconds_certify);
+    printf(", all %.4f\n", seconds_now() - x->job.started);
+}

@@ -1,0 +1,185 @@
+#include "report/info.h"
+
+#include "job/option_table.h"
+
+static void report_point(json *j, const char *name, size_t dim, const double *point)
+{
+    json_open(j, name, '[');
+    for (size_t k = 0; k < dim; k++)
+        json_number(j, NULL, point[k]);
+    json_close(j, ']');
+}
+
+static void report_growth(json *j, const info *x)
+{
+    static const char *const methods_of_growth[] = {"stuck", "as wished", "grown", "thinned"};
+    const icc_grow_report *g = &x->growth;
+    json_count(j, "given_up_vertices", x->grid.n_stray);
+    json_count(j, "critical_in_tree_order", x->n_order_critical);
+    json_open(j, "order", '{');
+    json_text(j, "found", methods_of_growth[x->grown ? g->method : 0]);
+    json_count(j, "postponed", g->n_postponed);
+    json_count(j, "unplaced", g->n_unplaced);
+    json_count(j, "left", g->n_left);
+    json_count(j, "turned_edges", g->n_turned);
+    json_close(j, '}');
+}
+
+static void report_grid(json *j, const info *x)
+{
+    const icc_chart_info *c = &x->chart;
+    function_report(j, &x->field);
+    json_text(j, "tree_form", choice_name(trees, c->tree));
+    json_count(j, "grid_vertices", c->n_grid);
+    json_count(j, "inside_vertices", c->n_inside);
+    json_count(j, "tree_vertices", c->n_tree);
+    json_count(j, "unreachable_vertices", c->n_unreachable);
+    json_count(j, "cousin_violations", c->n_cousin_violations);
+    json_count(j, "maxima", c->n_maxima);
+    json_count(j, "minima", c->n_minima);
+    json_count(j, "saddles", c->n_saddles);
+    json_count(j, "holes", x->n_holes);
+    if (x->has_critical) {
+        char reason[240];
+        report_point(j, "first_critical", (size_t)x->domain.dim, x->critical);
+        json_text(j, "reason", info_reason(reason, x));
+    }
+    if (x->domain.dim > 2)
+        report_growth(j, x);
+    if (c->method == ICC_METHOD_FIELD) {
+        json_count(j, "infeasible_vertices", c->n_infeasible);
+        json_count(j, "contacts", c->n_contacts);
+        json_count(j, "contacts_not_inward", c->n_not_inward);
+    }
+    if (x->domain.dim > 2)
+        return;
+    json_count(j, "edges", c->n_edges);
+    json_count(j, "compression_edges", c->n_compression);
+    json_count(j, "expansion_edges", c->n_expansion);
+    json_count(j, "expansion_edges_inside", x->n_inner_expansion);
+}
+
+static void report_order(json *j, const icc_chart_info *c)
+{
+    json_open(j, "order", '{');
+    json_text(j, "found", c->order_peeled ? "peeled" : "grown");
+    json_number(j, "weight", c->order_beta);
+    json_count(j, "complete", (size_t)c->n_orders);
+    json_count(j, "reversed", c->n_reversed);
+    json_number(j, "energy", c->flux_energy);
+    json_number(j, "divergence", c->flux_divergence);
+    json_close(j, '}');
+}
+
+static void report_mesh(json *j, const icc_chart_info *c)
+{
+    json_count(j, "mesh_vertices", c->n_mesh_vertices);
+    json_count(j, "mesh_boundary", c->n_mesh_boundary);
+    json_count(j, "mesh_triangles", c->n_mesh_triangles);
+    if (c->method != ICC_METHOD_FOLIATION)
+        return;
+    if (c->order_beta > 0)
+        report_order(j, c);
+    json_count(j, "ties", c->n_ties);
+    json_number(j, "harmonic_share", c->harmonic_share);
+}
+
+static void report_chart(json *j, const info *x)
+{
+    const icc_chart_info *c = &x->chart;
+    json_text(j, "method", choice_name(methods, c->method));
+    json_flag(j, "certified", c->certified != 0);
+    report_point(j, "maximum", (size_t)x->domain.dim, c->maximum);
+    json_number(j, "spacing", c->spacing);
+    if (info_has_grid(x))
+        report_grid(j, x);
+    else
+        report_mesh(j, c);
+}
+
+static void report_shares(json *j, const icc_chart_measures *m)
+{
+    json_open(j, "shares", '{');
+    json_number(j, "unreachable", m->unreachable);
+    json_number(j, "uncovered", m->uncovered);
+    json_number(j, "collapsed", m->collapsed);
+    json_number(j, "not_inward", m->not_inward);
+    json_close(j, '}');
+}
+
+static void report_mesh_map(json *j, const icc_map_info *m)
+{
+    json_count(j, "triangles", m->n_triangles);
+    json_count(j, "vertices", m->n_vertices);
+    json_count(j, "repaired", m->n_inverted);
+    json_count(j, "steps", m->n_iterations);
+    json_count(j, "refinements", (size_t)m->n_levels);
+    json_number(j, "energy_before", m->energy_start);
+    json_number(j, "energy", m->energy);
+    json_open(j, "seconds", '{');
+    json_number(j, "repair", m->seconds_repair);
+    json_number(j, "improve", m->seconds_improve);
+    json_number(j, "certify", m->seconds_certify);
+    json_number(j, "all", m->seconds);
+    json_close(j, '}');
+}
+
+static void report_map(json *j, const icc_map_info *m, const map_shares *s)
+{
+    json_open(j, "map", '{');
+    json_text(j, "kind", choice_name(maps, m->kind));
+    json_flag(j, "certified", m->certified != 0);
+    json_count(j, "unrepaired", m->n_unrepaired);
+    if (m->kind == ICC_MAP_MESH)
+        report_mesh_map(j, m);
+    json_count(j, "samples", s->n);
+    json_number(j, "collapsed", s->collapsed);
+    json_number(j, "inverted", s->inverted);
+    json_number(j, "without_image", s->without_image);
+    json_open(j, "distortion", '{');
+    json_number(j, "mean", s->mean);
+    json_number(j, "median", s->median);
+    json_number(j, "share_99", s->nearly_all);
+    json_close(j, '}');
+    json_close(j, '}');
+}
+
+static void report_seconds(json *j, const info *x)
+{
+    const icc_chart_info *c = &x->chart;
+    json_open(j, "seconds", '{');
+    json_number(j, "read", x->job.seconds_read);
+    if (info_has_grid(x)) {
+        json_number(j, "grid", c->seconds_grid);
+        json_number(j, "tree", c->seconds_tree);
+        json_number(j, "function", c->seconds_field);
+    } else {
+        json_number(j, "mesh", c->seconds_mesh);
+        json_number(j, "solve", c->seconds_solve);
+        if (c->order_beta > 0)
+            json_number(j, "order", c->seconds_tree);
+        json_number(j, "certify", c->seconds_certify);
+    }
+    json_number(j, "all", seconds_now() - x->job.started);
+    json_close(j, '}');
+}
+
+int info_report(const info *x)
+{
+    report r;
+    if (!report_open(&r, &x->job))
+        return FAILED;
+    if (x->domain.dim == 2)
+        json_text(&r.json, "orientation",
+                  x->domain.orientation > 0 ? "counter-clockwise" : "clockwise");
+    else
+        json_text(&r.json, "orientation", x->domain.orientation > 0 ? "outward" : "inward");
+    json_number(&r.json, x->domain.dim == 2 ? "area" : "measure", x->domain.measure);
+    report_chart(&r.json, x);
+    if (x->chart.method != ICC_METHOD_FIELD || x->measures.n_points > 0)
+        report_shares(&r.json, &x->measures);
+    if (x->shares.n > 0)
+        report_map(&r.json, &x->map, &x->shares);
+    report_seconds(&r.json, x);
+    return report_close(&r) ? DONE : FAILED;
+}
