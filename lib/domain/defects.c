@@ -8,7 +8,7 @@
 #include "math/predicates.h"
 
 /* Pairs of edges per edge that iccp_defects_first() looks at before it gives up. Outlines need less
- * than 2; the diagonal comb of tests/unit/test_domain.c, all of whose boxes overlap, n / 2. */
+ * than 2; the diagonal comb of tests/unit/domain/test_domain.c, all of whose boxes overlap, n / 2. */
 enum { PATIENCE = 64 };
 
 static const uint32_t NONE = UINT32_MAX;

@@ -1,0 +1,534 @@
+/* Maps as bytes: what is loaded is what was saved, goes on as that would, and nothing else is loaded. */
+#include "../../faulty.h"
+#include "../../hard_shapes.h"
+#include "../../meshes.h"
+#include "../../saved.h"
+#include "../../surfaces.h"
+
+static const int32_t METHODS[] = {ICC_METHOD_FOLIATION, ICC_METHOD_DISC, ICC_METHOD_GRADIENT,
+                                  ICC_METHOD_FIELD};
+enum { N_METHODS = 4 };
+
+typedef struct pair {
+    icc_domain *source, *target;
+} pair;
+
+static void free_pair(pair *p)
+{
+    icc_domain_free(p->source);
+    icc_domain_free(p->target);
+}
+
+/* Somewhat bent, by an amount. */
+static void bend(shape *s, double amount)
+{
+    for (size_t k = 0; k < s->n; ++k) {
+        double *p = s->xy + 2 * k;
+        const double x = p[0], y = p[1];
+        p[0] = x + amount * sin(y);
+        p[1] = 0.8 * y - amount * x * x / 4;
+    }
+}
+
+static icc_domain *polygon(const shape *s)
+{
+    icc_domain *domain;
+    ck_assert_int_eq(icc_domain_create(&domain, 2, s->n, s->xy, 0, NULL, NULL, NULL), ICC_OK);
+    return domain;
+}
+
+static pair bent_pair(const shape *s)
+{
+    shape moved = *s;
+    bend(&moved, 0.2);
+    return (pair){polygon(s), polygon(&moved)};
+}
+
+static icc_map *map_of(const pair *p, int32_t kind, int32_t method, int32_t cells,
+                       int32_t iterations)
+{
+    const icc_chart_options chart = {.size = sizeof chart, .method = method, .cells = cells};
+    const icc_map_options options = {
+        .size = sizeof options, .kind = kind, .iterations = iterations, .chart = &chart};
+    icc_map *map;
+    icc_error err = {.size = sizeof err};
+    ck_assert_msg(icc_map_create(&map, p->source, p->target, &options, NULL, &err) == ICC_OK, "%s",
+                  err.message);
+    return map;
+}
+
+static icc_map *load(const bytes *b)
+{
+    icc_map *loaded;
+    icc_error err = {.size = sizeof err};
+    const icc_env threads = {.size = sizeof threads, .threads = 3};
+    ck_assert_msg(icc_map_load(&loaded, b->n, b->data, &threads, &err) == ICC_OK, "%s",
+                  err.message);
+    return loaded;
+}
+
+static void check_map(const icc_map *map, const icc_domain *source)
+{
+    bytes b = map_bytes(map);
+    icc_map *loaded = load(&b);
+    same_map(map, loaded, source);
+    bytes again = map_bytes(loaded);
+    ck_assert_uint_eq(again.n, b.n);
+    ck_assert_same(again.data, b.data, b.n, "what is saved again");
+    free(b.data);
+    free(again.data);
+    icc_map_free(loaded);
+}
+
+/* ---- every kind ---- */
+
+START_TEST(curves)
+{
+    for (int turn = 0; turn < 2; ++turn)
+        for (int m = 0; m < N_METHODS; ++m) {
+            const shape l = shape_l(), other = shape_reversed(&l);
+            pair p = bent_pair(turn == 0 ? &l : &other);
+            icc_map *map = map_of(&p, ICC_MAP_CURVES, METHODS[m], 14, 0);
+            ck_assert_int_eq(map_story(map).kind, ICC_MAP_CURVES);
+            check_map(map, p.source);
+            icc_map_free(map);
+            free_pair(&p);
+        }
+}
+END_TEST
+
+START_TEST(plane_meshes)
+{
+    for (int k = 0; k < N_SHAPES - 1; ++k)
+        for (int m = 0; m < 2; ++m) {
+            const shape s = shape_number(k), r = shape_reversed(&s);
+            pair p = bent_pair(k % 2 == 0 ? &s : &r);
+            icc_map *map = map_of(&p, ICC_MAP_MESH, METHODS[m], 0, k % 3 == 0 ? -1 : 3);
+            check_map(map, p.source);
+            icc_map_free(map);
+            free_pair(&p);
+        }
+}
+END_TEST
+
+/* Where boundaries are so near each other that places on them can hardly be told apart. */
+START_TEST(hard_meshes)
+{
+    int n = 0;
+    for (int k = 0; k < N_HARD_SHAPES; ++k) {
+        const shape s = shape_hard(k);
+        const icc_map_options options = {
+            .size = sizeof options, .kind = ICC_MAP_MESH, .iterations = 2};
+        pair p = {polygon(&s), NULL};
+        icc_map *map = NULL;
+        shape moved = shape_moved(&s, 3, 1, 2);
+        if (k % 2 == 1)
+            bend(&moved, 0.02);
+        if (icc_domain_create(&p.target, 2, moved.n, moved.xy, 0, NULL, NULL, NULL) == ICC_OK &&
+            icc_map_create(&map, p.source, p.target, &options, NULL, NULL) == ICC_OK) {
+            check_map(map, p.source);
+            n += map_story(map).kind == ICC_MAP_MESH;
+            icc_map_free(map);
+        }
+        free_pair(&p);
+    }
+    ck_assert_int_gt(n, 8);
+}
+END_TEST
+
+/* Shapes so different that only compatible triangulations are a start. */
+START_TEST(far_meshes)
+{
+    const shape s = shape_spiral(40, 2.5);
+    shape round = s;
+    for (size_t k = 0; k < s.n; ++k) {
+        round.xy[2 * k] = cos(6.283185307179586 * (double)k / (double)s.n);
+        round.xy[2 * k + 1] = sin(6.283185307179586 * (double)k / (double)s.n);
+    }
+    pair p = {polygon(&s), polygon(&round)};
+    icc_map *map = map_of(&p, ICC_MAP_MESH, 0, 0, 2);
+    ck_assert_int_eq(map_story(map).kind, ICC_MAP_MESH);
+    check_map(map, p.source);
+    icc_map_free(map);
+    free_pair(&p);
+}
+END_TEST
+
+/* A loaded map is improved, follows and derives as the first one does. */
+START_TEST(it_goes_on)
+{
+    for (int turn = 0; turn < 2; ++turn) {
+        const shape e = shape_e(), back = shape_reversed(&e);
+        shape further = turn == 0 ? e : back;
+        pair p = bent_pair(&further);
+        bend(&further, 0.23);
+        icc_domain *target = polygon(&further);
+        icc_map *map = map_of(&p, ICC_MAP_MESH, 0, 8, -1), *next[2], *better[2];
+        bytes b = map_bytes(map);
+        icc_map *loaded = load(&b);
+        const icc_improve_options options = {.size = sizeof options, .iterations = 3, .levels = 2};
+        ck_assert_int_eq(icc_map_improve(&better[0], map, &options, NULL, NULL, NULL), ICC_OK);
+        ck_assert_int_eq(icc_map_improve(&better[1], loaded, &options, NULL, NULL, NULL), ICC_OK);
+        ck_assert(map_story(better[0]).n_vertices > map_story(map).n_vertices);
+        same_map(better[0], better[1], p.source);
+        check_map(better[0], p.source);
+        for (int k = 0; k < 2; ++k)
+            ck_assert_int_eq(icc_map_follow(&next[k], better[k], target, 2, NULL, NULL), ICC_OK);
+        same_map(next[0], next[1], p.source);
+        ck_assert_ptr_null(icc_map_source_chart(next[0]));
+        check_map(next[0], p.source);
+        for (int k = 0; k < 2; ++k) {
+            icc_map_free(next[k]);
+            icc_map_free(better[k]);
+        }
+        free(b.data);
+        icc_map_free(loaded);
+        icc_map_free(map);
+        icc_domain_free(target);
+        free_pair(&p);
+    }
+}
+END_TEST
+
+/* ---- space ---- */
+
+static void twist(int32_t dim, const double *x, double *y)
+{
+    y[0] = x[0] + 0.3 * sin(x[1]);
+    y[1] = x[1] + 0.2 * x[0];
+    for (int32_t k = 2; k < dim; ++k)
+        y[k] = 1.5 * x[k] - 0.07 * x[0] * x[1];
+}
+
+static pair filled_pair(int32_t dim, size_t n)
+{
+    random_source r = {1};
+    test_mesh before = mesh_cube(dim, n, 0.1, &r), other = mesh_cube(dim, n, 0.1, &r);
+    test_mesh after = mesh_moved(&other, twist);
+    pair p;
+    ck_assert_int_eq(mesh_domain(&p.source, &before, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(mesh_domain(&p.target, &after, NULL, NULL), ICC_OK);
+    mesh_free(&before);
+    mesh_free(&other);
+    mesh_free(&after);
+    return p;
+}
+
+START_TEST(filled)
+{
+    for (int32_t dim = 2; dim <= 4; ++dim) {
+        pair p = filled_pair(dim, 3);
+        icc_map *map = map_of(&p, 0, 0, 0, 0);
+        ck_assert_int_eq(map_story(map).kind, dim == 3 ? ICC_MAP_MESH : ICC_MAP_CURVES);
+        check_map(map, p.source);
+        icc_map_free(map);
+        free_pair(&p);
+    }
+}
+END_TEST
+
+/* A corner of the cube pressed in beyond the diagonal that all tetrahedra of the source share: its map has a mesh of its
+ * own. The target is filled from one point inside. */
+static icc_domain *dented_cube(const icc_domain *cube)
+{
+    static const double VERTICES[27] = {0.28, 0.26, -0.18, 0.56,  0.42, 0.48, 0.11, 1.17, -0.09,
+                                        0.74, 0.80, -0.17, -0.02, 0.21, 1.19, 1.30, 0.09, 0.86,
+                                        0.14, 0.76, 0.99,  0.95,  1.21, 1.23, 0.37, 0.40, 0.69};
+    uint32_t facets[36], simplices[48];
+    icc_domain *domain;
+    ck_assert_int_eq(icc_domain_get_boundary(cube, NULL, facets), ICC_OK);
+    for (size_t f = 0; f < 12; ++f) {
+        memcpy(simplices + 4 * f, facets + 3 * f, 3 * sizeof *facets);
+        simplices[4 * f + 3] = 8;
+    }
+    ck_assert_int_eq(
+        icc_domain_create_mesh(&domain, 3, 9, VERTICES, 12, simplices, 12, facets, NULL, NULL),
+        ICC_OK);
+    return domain;
+}
+
+START_TEST(cut_chords)
+{
+    test_mesh cube = mesh_cells(3, 1, NULL);
+    pair p;
+    ck_assert_int_eq(mesh_domain(&p.source, &cube, NULL, NULL), ICC_OK);
+    p.target = dented_cube(p.source);
+    icc_map *map = map_of(&p, ICC_MAP_MESH, 0, 0, 0);
+    ck_assert_int_eq(map_story(map).kind, ICC_MAP_MESH);
+    ck_assert_uint_gt(map_story(map).n_triangles, cube.n_simplices);
+    check_map(map, p.source);
+    /* A point of that mesh outside of the source, its image where it was: bytes end with points, corners and images. */
+    const icc_map_info info = map_story(map);
+    const size_t n_inner = info.n_vertices - 8;
+    bytes b = map_bytes(map);
+    icc_map *loaded;
+    unsigned char *point = b.data + b.n - 48 * n_inner - 16 * info.n_triangles;
+    memset(point, 0, 8);
+    point[7] = 0x40;
+    repair_bytes(&b, "MAP_");
+    ck_assert_int_eq(icc_map_load(&loaded, b.n, b.data, NULL, NULL), ICC_ERR_FORMAT);
+    free(b.data);
+    icc_map_free(map);
+    free_pair(&p);
+    mesh_free(&cube);
+}
+END_TEST
+
+START_TEST(surfaces)
+{
+    static surface s;
+    random_source r = {3};
+    pair p;
+    surface_octahedron(&s);
+    surface_star(&s, 1, 0.2, &r);
+    for (int m = 2; m < N_METHODS; ++m) {
+        ck_assert_int_eq(icc_domain_create(&p.source, 3, s.n_vertices, s.vertices, s.n_faces,
+                                           s.faces, NULL, NULL),
+                         ICC_OK);
+        for (size_t v = 0; v < s.n_vertices; ++v)
+            s.vertices[3 * v] *= 1.25;
+        ck_assert_int_eq(icc_domain_create(&p.target, 3, s.n_vertices, s.vertices, s.n_faces,
+                                           s.faces, NULL, NULL),
+                         ICC_OK);
+        icc_map *map = map_of(&p, 0, METHODS[m], 10, 0);
+        check_map(map, p.source);
+        icc_map_free(map);
+        free_pair(&p);
+    }
+}
+END_TEST
+
+/* ---- bytes that are not those of a map ---- */
+
+enum { N_SMALL = 4 };
+
+static icc_map *small_map(int k, pair *p)
+{
+    const shape s = shape_dart();
+    if (k == 3) {
+        *p = filled_pair(3, 2);
+        return map_of(p, ICC_MAP_MESH, 0, 0, 0);
+    }
+    *p = bent_pair(&s);
+    if (k == 0)
+        return map_of(p, ICC_MAP_MESH, ICC_METHOD_DISC, 4, -1);
+    if (k == 1)
+        return map_of(p, ICC_MAP_CURVES, ICC_METHOD_FIELD, 6, 0);
+    icc_map *map = map_of(p, ICC_MAP_MESH, 0, 4, -1), *next;
+    ck_assert_int_eq(icc_map_follow(&next, map, p->target, -1, NULL, NULL), ICC_OK);
+    icc_map_free(map);
+    return next;
+}
+
+START_TEST(damage_is_noticed)
+{
+    icc_map *loaded;
+    for (int k = 0; k < N_SMALL; ++k) {
+        pair p;
+        icc_map *map = small_map(k, &p);
+        bytes b = map_bytes(map);
+        for (size_t n = 0; n < b.n; n += n < 100 ? 1 : 37)
+            ck_assert_int_eq(icc_map_load(&loaded, n, b.data, NULL, NULL), ICC_ERR_FORMAT);
+        for (size_t i = 0; i < b.n; ++i) {
+            b.data[i] ^= 0x10;
+            ck_assert_int_eq(icc_map_load(&loaded, b.n, b.data, NULL, NULL), ICC_ERR_FORMAT);
+            ck_assert_ptr_null(loaded);
+            b.data[i] ^= 0x10;
+        }
+        free(b.data);
+        icc_map_free(map);
+        free_pair(&p);
+    }
+}
+END_TEST
+
+static void check_harmless(const bytes *b, const icc_domain *source)
+{
+    static images found;
+    double points[SAVED_POINTS * ICC_MAX_DIM];
+    icc_map *loaded;
+    const icc_status status = icc_map_load(&loaded, b->n, b->data, NULL, NULL);
+    ck_assert(status == ICC_OK || status == ICC_ERR_FORMAT || status == ICC_ERR_VERSION);
+    ck_assert((loaded != NULL) == (status == ICC_OK));
+    if (loaded == NULL)
+        return;
+    saved_points(source, 5, points);
+    find_images(loaded, points, &found);
+    bytes again = map_bytes(loaded);
+    ck_assert_uint_eq(again.n, b->n);
+    ck_assert_same(again.data, b->data, b->n, "what is saved again");
+    free(again.data);
+    icc_map_free(loaded);
+}
+
+START_TEST(content_is_checked)
+{
+    static const uint64_t VALUES[] = {0,
+                                      1,
+                                      UINT64_MAX,
+                                      (uint64_t)1 << 32,
+                                      (uint64_t)1 << 63,
+                                      0x7ff8000000000000u,
+                                      0x7ff0000000000000u,
+                                      0x7fefffffffffffffu,
+                                      0x3ff0000000000000u,
+                                      1000000};
+    random_source r = {6};
+    for (int k = 0; k < N_SMALL; ++k) {
+        pair p;
+        icc_map *map = small_map(k, &p);
+        bytes b = map_bytes(map), changed = {b.n, saved_alloc(b.n)};
+        for (int i = 0; i < (k == 1 ? 200 : 3000); ++i) {
+            const size_t at = 24 + 4 * (size_t)random_below(&r, (int)(b.n - 32) / 4);
+            memcpy(changed.data, b.data, b.n);
+            if (i % 2 == 0)
+                for (size_t j = 0; j < 8; ++j)
+                    changed.data[at + j] = (unsigned char)(VALUES[i / 2 % 10] >> 8 * j);
+            else
+                changed.data[at + (size_t)random_below(&r, 8)] ^=
+                    (unsigned char)(1 << random_below(&r, 8));
+            repair_bytes(&changed, "MAP_");
+            check_harmless(&changed, p.source);
+        }
+        free(b.data);
+        free(changed.data);
+        icc_map_free(map);
+        free_pair(&p);
+    }
+}
+END_TEST
+
+/* The last bytes of a map of kind mesh say where its boundary vertices lie; before them are the triangles. */
+START_TEST(false_meshes_are_refused)
+{
+    pair p;
+    icc_map *map = small_map(0, &p), *loaded;
+    const icc_map_info info = map_story(map);
+    const size_t n_boundary = 2 * info.n_vertices - info.n_triangles - 2;
+    bytes b = map_bytes(map), changed = {b.n, saved_alloc(b.n)};
+    const size_t boundary = b.n - 12 * n_boundary, triangles = boundary - 12 * info.n_triangles;
+    const size_t image = triangles - 16 * info.n_vertices;
+    for (size_t at = boundary; at < b.n; ++at) {
+        memcpy(changed.data, b.data, b.n);
+        changed.data[at] ^= (at - boundary) % 12 < 4 ? 1 : 0x40;
+        repair_bytes(&changed, "MAP_");
+        const icc_status status = icc_map_load(&loaded, b.n, changed.data, NULL, NULL);
+        /* The lowest bits of where on its facet a vertex lies are lost in the tolerance. */
+        if ((at - boundary) % 12 < 4 || (at - boundary) % 12 > 5)
+            ck_assert_int_eq(status, ICC_ERR_FORMAT);
+        icc_map_free(loaded);
+    }
+    for (size_t t = triangles; t < boundary; t += 12) {
+        memcpy(changed.data, b.data, b.n);
+        memcpy(changed.data + t, b.data + t + 4, 4);
+        memcpy(changed.data + t + 4, b.data + t, 4);
+        repair_bytes(&changed, "MAP_");
+        ck_assert_int_eq(icc_map_load(&loaded, b.n, changed.data, NULL, NULL), ICC_ERR_FORMAT);
+    }
+    /* Vertex 0 is on the boundary. */
+    memcpy(changed.data, b.data, b.n);
+    changed.data[image + 5] ^= 0x10;
+    repair_bytes(&changed, "MAP_");
+    ck_assert_int_eq(icc_map_load(&loaded, b.n, changed.data, NULL, NULL), ICC_ERR_FORMAT);
+    free(changed.data);
+    free(b.data);
+    icc_map_free(map);
+    free_pair(&p);
+}
+END_TEST
+
+/* The last image is moved out of the target: tetrahedra are inverted. */
+START_TEST(false_images_in_space_are_refused)
+{
+    pair p;
+    icc_map *map = small_map(3, &p), *loaded;
+    bytes b = map_bytes(map);
+    for (size_t i = 0; i < 3; ++i) {
+        unsigned char *x = b.data + b.n - 8 * (i + 1), old[8];
+        memcpy(old, x, 8);
+        memset(x, 0, 7);
+        x[7] = 0x40;
+        repair_bytes(&b, "MAP_");
+        ck_assert_int_eq(icc_map_load(&loaded, b.n, b.data, NULL, NULL), ICC_ERR_FORMAT);
+        memcpy(x, old, 8);
+    }
+    repair_bytes(&b, "MAP_");
+    ck_assert_int_eq(icc_map_load(&loaded, b.n, b.data, NULL, NULL), ICC_OK);
+    icc_map_free(loaded);
+    free(b.data);
+    icc_map_free(map);
+    free_pair(&p);
+}
+END_TEST
+
+/* ---- failures ---- */
+
+static icc_status load_bytes(const icc_env *env, icc_error *err, void *argument)
+{
+    const bytes *b = argument;
+    icc_map *map;
+    const icc_status status = icc_map_load(&map, b->n, b->data, env, err);
+    ck_assert((map != NULL) == (status == ICC_OK));
+    icc_map_free(map);
+    return status;
+}
+
+START_TEST(no_memory_and_no_patience)
+{
+    for (int k = 0; k < N_SMALL; ++k) {
+        pair p;
+        icc_map *map = small_map(k, &p);
+        bytes b = map_bytes(map);
+        faulty_sweep(load_bytes, &b);
+        free(b.data);
+        icc_map_free(map);
+        free_pair(&p);
+    }
+}
+END_TEST
+
+START_TEST(arguments)
+{
+    pair p;
+    icc_map *map = small_map(0, &p), *loaded = map;
+    bytes b = map_bytes(map);
+    size_t n;
+    ck_assert_int_eq(icc_map_save(NULL, 0, NULL, &n), ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_map_save(map, 0, NULL, NULL), ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_map_save(map, 1, NULL, &n), ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_map_save(map, b.n - 1, b.data, &n), ICC_OK);
+    ck_assert_uint_eq(n, b.n);
+    ck_assert_int_eq(icc_map_load(NULL, b.n, b.data, NULL, NULL), ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_map_load(&loaded, b.n, NULL, NULL, NULL), ICC_ERR_ARGUMENT);
+    ck_assert_ptr_null(loaded);
+    free(b.data);
+    icc_map_free(map);
+    free_pair(&p);
+}
+END_TEST
+
+int main(void)
+{
+    Suite *suite = suite_create("map file");
+    TCase *c = tcase_create("map file");
+    tcase_add_test(c, curves);
+    tcase_add_test(c, plane_meshes);
+    tcase_add_test(c, hard_meshes);
+    tcase_add_test(c, far_meshes);
+    tcase_add_test(c, it_goes_on);
+    tcase_add_test(c, filled);
+    tcase_add_test(c, cut_chords);
+    tcase_add_test(c, surfaces);
+    tcase_add_test(c, damage_is_noticed);
+    tcase_add_test(c, content_is_checked);
+    tcase_add_test(c, false_meshes_are_refused);
+    tcase_add_test(c, false_images_in_space_are_refused);
+    tcase_add_test(c, no_memory_and_no_patience);
+    tcase_add_test(c, arguments);
+    suite_add_tcase(suite, c);
+    SRunner *runner = srunner_create(suite);
+    srunner_run_all(runner, CK_NORMAL);
+    const int failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}

@@ -1,0 +1,596 @@
+/* Piecewise linear maps: refining, untangling and improving them. */
+#include "base/error.h"
+#include "map/improve.h"
+#include "map/repair.h"
+#include "mesh/planar.h"
+
+#include "../../faulty.h"
+#include "../../hard_shapes.h"
+
+#include <check.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+static iccp_env default_env(void)
+{
+    iccp_env env;
+    ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
+    return env;
+}
+
+typedef void image_function(const double p[2], double image[2]);
+
+static void identity(const double p[2], double image[2])
+{
+    memcpy(image, p, 2 * sizeof *p);
+}
+
+/* One-to-one, and not affine. */
+static void wave(const double p[2], double image[2])
+{
+    image[0] = p[0] + 0.2 * sin(3 * p[1]);
+    image[1] = 1.5 * p[1] + 0.2 * sin(2 * p[0]);
+}
+
+static iccp_plmap map_of(const shape *s, int32_t cells, image_function *f, double stretch)
+{
+    icc_domain *domain;
+    iccp_planar mesh;
+    iccp_plmap map;
+    const iccp_env env = default_env();
+    uint32_t pieces[SHAPE_MAX];
+    ck_assert_int_eq(icc_domain_create(&domain, 2, s->n, s->xy, 0, NULL, NULL, NULL), ICC_OK);
+    iccp_planar_pieces(pieces, domain, NULL, cells);
+    ck_assert_int_eq(iccp_planar_create(&mesh, domain, pieces, cells, &env, NULL), ICC_OK);
+    double *images = malloc(2 * mesh.n_vertices * sizeof *images);
+    ck_assert_ptr_nonnull(images);
+    for (size_t v = 0; v < mesh.n_vertices; ++v)
+        f(mesh.points + 2 * v, images + 2 * v);
+    ck_assert_int_eq(iccp_plmap_create(&map, &mesh, domain, images, stretch, &env.memory),
+                     ICC_OK);
+    free(images);
+    iccp_planar_free(&mesh);
+    icc_domain_free(domain);
+    return map;
+}
+
+static bool is_same(const iccp_plmap *a, const iccp_plmap *b)
+{
+    const size_t n = 3 * a->corners.n_triangles * sizeof(uint32_t);
+    return a->n_vertices == b->n_vertices && a->corners.n_triangles == b->corners.n_triangles &&
+           memcmp(a->points, b->points, 2 * a->n_vertices * sizeof *a->points) == 0 &&
+           memcmp(a->images, b->images, 2 * a->n_vertices * sizeof *a->images) == 0 &&
+           memcmp(a->fixed, b->fixed, a->n_vertices) == 0 &&
+           memcmp(a->corners.vertex, b->corners.vertex, n) == 0 &&
+           memcmp(a->corners.twin, b->corners.twin, n) == 0;
+}
+
+/* A disc of triangles that are positive in the source, its boundary vertices and no others fixed. */
+static void check_mesh(const iccp_plmap *map)
+{
+    const iccp_corners *c = &map->corners;
+    uint8_t *on_boundary = calloc(map->n_vertices, 1);
+    ck_assert_ptr_nonnull(on_boundary);
+    size_t n_open = 0, n_faults = 0;
+    for (uint32_t t = 0; t < c->n_triangles; ++t)
+        n_faults += !iccp_plmap_positive_point(map, t);
+    for (uint32_t k = 0; k < 3 * c->n_triangles; ++k) {
+        const uint32_t twin = c->twin[k];
+        if (twin == ICCP_NO_NEIGHBOUR) {
+            ++n_open;
+            on_boundary[c->vertex[iccp_after(k)]] = on_boundary[c->vertex[iccp_before(k)]] = 1;
+        } else
+            n_faults += twin >= 3 * c->n_triangles || c->twin[twin] != k ||
+                        c->vertex[iccp_after(twin)] != c->vertex[iccp_before(k)] ||
+                        c->vertex[iccp_before(twin)] != c->vertex[iccp_after(k)];
+    }
+    n_faults += memcmp(on_boundary, map->fixed, map->n_vertices) != 0;
+    n_faults += 2 * map->n_vertices != c->n_triangles + n_open + 2;
+    ck_assert_uint_eq(n_faults, 0);
+    free(on_boundary);
+}
+
+/* The image of a point, through any triangle that holds it. */
+static bool image_of(const iccp_plmap *map, const double p[2], double image[2])
+{
+    for (uint32_t c = 0; c < 3 * map->corners.n_triangles; c += 3) {
+        const double *a = iccp_plmap_point(map, c), *b = iccp_plmap_point(map, c + 1);
+        const double *d = iccp_plmap_point(map, c + 2);
+        const double all = (b[0] - a[0]) * (d[1] - a[1]) - (b[1] - a[1]) * (d[0] - a[0]);
+        const double s = ((p[0] - a[0]) * (d[1] - a[1]) - (p[1] - a[1]) * (d[0] - a[0])) / all;
+        const double t = ((b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])) / all;
+        if (s < 0 || t < 0 || s + t > 1)
+            continue;
+        for (int i = 0; i < 2; ++i)
+            image[i] = (1 - s - t) * iccp_plmap_image(map, c)[i] +
+                       s * iccp_plmap_image(map, c + 1)[i] + t * iccp_plmap_image(map, c + 2)[i];
+        return true;
+    }
+    return false;
+}
+
+static double area_of(const iccp_plmap *map)
+{
+    double sum = 0;
+    for (uint32_t t = 0; t < map->corners.n_triangles; ++t) {
+        iccp_element element;
+        iccp_plmap_element(map, t, &element);
+        sum += element.area;
+    }
+    return sum;
+}
+
+/* ---- cutting ---- */
+
+START_TEST(cuts_change_the_mesh_and_not_the_map)
+{
+    enum { N = 300 };
+    const shape s = shape_l();
+    iccp_plmap map = map_of(&s, 8, wave, 0.7);
+    random_source r = {1};
+    double points[2 * N], before[2 * N];
+    const double energy = iccp_plmap_energy(&map), area = area_of(&map);
+    for (int i = 0; i < N; ++i)
+        do {
+            points[2 * i] = random_unit(&r);
+            points[2 * i + 1] = random_unit(&r);
+        } while (!image_of(&map, points + 2 * i, before + 2 * i));
+    for (int k = 0; k < 3000; ++k) {
+        bool done;
+        const size_t n = map.n_vertices;
+        const uint32_t c = (uint32_t)random_below(&r, 3 * (int)map.corners.n_triangles);
+        ck_assert_int_eq(iccp_plmap_cut(&map, c, &done), ICC_OK);
+        ck_assert_uint_eq(map.n_vertices, n + done);
+    }
+    check_mesh(&map);
+    ck_assert_uint_gt(map.n_vertices, 2500);
+    ck_assert_uint_eq(iccp_plmap_count_inverted(&map), 0);
+    double worst = 0;
+    for (int i = 0; i < N; ++i) {
+        double image[2];
+        ck_assert(image_of(&map, points + 2 * i, image));
+        worst = fmax(worst, hypot(image[0] - before[2 * i], image[1] - before[2 * i + 1]));
+    }
+    ck_assert_double_le(worst, 1e-13);
+    ck_assert_double_eq_tol(iccp_plmap_energy(&map) / energy, 1, 1e-12);
+    ck_assert_double_eq_tol(area_of(&map) / area, 1, 1e-12);
+    iccp_plmap_free(&map);
+}
+END_TEST
+
+/* The middle of two neighbouring doubles is one of them: no cut, and no change. */
+START_TEST(edges_that_rounding_would_spoil_stay)
+{
+    double points[6] = {0.5, 0, 0.5 + 0x1p-53, 0, 0.75, 1}, images[6] = {0, 0, 1, 0, 0, 1};
+    uint32_t triangles[3] = {0, 1, 2};
+    uint32_t twins[3] = {ICCP_NO_NEIGHBOUR, ICCP_NO_NEIGHBOUR, ICCP_NO_NEIGHBOUR};
+    uint32_t facets[3] = {0, 1, 2}, pieces[3] = {1, 1, 1};
+    const iccp_env env = default_env();
+    icc_domain *domain;
+    ck_assert_int_eq(icc_domain_create(&domain, 2, 3, images, 0, NULL, NULL, NULL), ICC_OK);
+    for (int swapped = 0; swapped < 2; ++swapped) {
+        const iccp_planar mesh = {.n_vertices = 3, .n_boundary = 3, .n_triangles = 1,
+                                  .points = swapped ? images : points, .triangles = triangles,
+                                  .twins = twins, .facet = facets, .first = facets,
+                                  .pieces = pieces};
+        iccp_plmap map, copy;
+        bool done = true;
+        ck_assert_int_eq(iccp_plmap_create(&map, &mesh, domain, swapped ? points : images, 1,
+                                           &env.memory),
+                         ICC_OK);
+        ck_assert_int_eq(iccp_plmap_copy(&copy, &map, &env.memory), ICC_OK);
+        ck_assert_int_eq(iccp_plmap_cut(&map, 2, &done), ICC_OK);
+        ck_assert(!done && is_same(&map, &copy));
+        ck_assert_int_eq(iccp_plmap_cut(&map, 1, &done), ICC_OK);
+        ck_assert(done && !is_same(&map, &copy));
+        iccp_plmap_free(&map);
+        iccp_plmap_free(&copy);
+    }
+    icc_domain_free(domain);
+}
+END_TEST
+
+START_TEST(energies_of_simple_maps)
+{
+    for (int k = 0; k < N_SHAPES; ++k) {
+        const shape s = shape_number(k);
+        iccp_plmap map = map_of(&s, 12, identity, 1);
+        ck_assert_double_eq_tol(iccp_plmap_energy(&map), 4, 1e-11);
+        for (size_t v = 0; v < map.n_vertices; ++v)
+            map.images[2 * v] *= 2;
+        ck_assert_double_eq_tol(iccp_plmap_energy(&map), 4 + 1 + 1 + 0.25, 1e-11);
+        /* A stretch that makes the areas alike: half the squeeze each way. */
+        map.stretch = sqrt(2);
+        ck_assert_double_eq_tol(iccp_plmap_energy(&map), 2 * (2 + 0.5), 1e-11);
+        for (size_t v = 0; v < map.n_vertices; ++v)
+            map.images[2 * v] *= -1;
+        ck_assert(isinf(iccp_plmap_energy(&map)));
+        ck_assert_uint_eq(iccp_plmap_count_inverted(&map), map.corners.n_triangles);
+        iccp_plmap_free(&map);
+    }
+}
+END_TEST
+
+/* ---- Newton steps ---- */
+
+/* Moves vertices inside at random as long as their triangles stay positive. */
+static void shake(iccp_plmap *map, uint64_t seed, double amount)
+{
+    random_source r = {seed};
+    for (int round = 0; round < 3; ++round)
+        for (size_t v = 0; v < map->n_vertices; ++v) {
+            double *image = map->images + 2 * v;
+            const double old[2] = {image[0], image[1]};
+            if (map->fixed[v])
+                continue;
+            image[0] += random_between(&r, -amount, amount);
+            image[1] += random_between(&r, -amount, amount);
+            bool positive = true;
+            for (uint32_t c = 0; positive && c < 3 * map->corners.n_triangles; ++c)
+                positive = map->corners.vertex[c] != v || iccp_plmap_positive_image(map, c / 3);
+            if (!positive)
+                memcpy(image, old, sizeof old);
+        }
+}
+
+/* Energy and slope against differences along the step. */
+START_TEST(steps_go_down)
+{
+    const shape s = shape_star(5, 0.4, 0.1);
+    const iccp_env env = default_env();
+    for (int kind = ICCP_DIRICHLET; kind <= ICCP_UNTANGLE; ++kind) {
+        iccp_plmap map = map_of(&s, 8, wave, 1);
+        iccp_newton newton;
+        double slope;
+        shake(&map, 3, 0.05);
+        ck_assert_int_eq(iccp_newton_create(&newton, &map, NULL, &env), ICC_OK);
+        ck_assert_int_eq(iccp_newton_solve(&newton, &map, (iccp_energy)kind, 0.1, &slope, &env), ICC_OK);
+        ck_assert_double_lt(slope, 0);
+        double energy[2];
+        for (int k = 0; k < 2; ++k) {
+            for (size_t i = 0; i < 2 * newton.n_free; ++i)
+                map.images[2 * (size_t)newton.free_vertex[i / 2] + i % 2] +=
+                    (k == 0 ? -1e-6 : 2e-6) * newton.step[i];
+            energy[k] = iccp_newton_energy(&newton, &map, (iccp_energy)kind, 0.1);
+        }
+        ck_assert_double_eq_tol((energy[1] - energy[0]) / 2e-6 / slope, 1, 1e-4);
+        iccp_newton_free(&newton);
+        iccp_plmap_free(&map);
+    }
+}
+END_TEST
+
+/* Every accepted step lowers the energy; Dirichlet's keeps every triangle positive. Vertices that are
+ * not movable stay. */
+START_TEST(every_step_is_monotone_and_positive)
+{
+    const iccp_env env = default_env();
+    for (int k = 0; k < N_SHAPES; ++k) {
+        const shape s = shape_number(k);
+        iccp_plmap map = map_of(&s, 10, identity, 1), start;
+        shake(&map, 5 + (uint64_t)k, 0.2);
+        ck_assert_int_eq(iccp_plmap_copy(&start, &map, &env.memory), ICC_OK);
+        uint8_t *movable = calloc(map.n_vertices, 1);
+        ck_assert_ptr_nonnull(movable);
+        for (size_t v = 0; v < map.n_vertices; ++v)
+            movable[v] = v % 5 != 0;
+        iccp_newton newton;
+        ck_assert_int_eq(iccp_newton_create(&newton, &map, k % 2 ? movable : NULL, &env), ICC_OK);
+        double energy = iccp_newton_energy(&newton, &map, ICCP_DIRICHLET, 0);
+        for (int step = 0; step < 25 && newton.n_free > 0; ++step) {
+            const iccp_energy model = step % 3 == 0 ? ICCP_DIRICHLET_MAJORISED : ICCP_DIRICHLET;
+            double slope;
+            ck_assert_int_eq(iccp_newton_solve(&newton, &map, model, 0, &slope, &env), ICC_OK);
+            const double after = iccp_newton_move(&newton, &map, model, 0, energy, slope);
+            ck_assert_double_le(after, energy);
+            ck_assert_uint_eq(iccp_plmap_count_inverted(&map), 0);
+            energy = after;
+        }
+        size_t n_moved = 0;
+        for (size_t v = 0; v < map.n_vertices; ++v)
+            n_moved += (map.fixed[v] || (k % 2 && !movable[v])) &&
+                       memcmp(map.images + 2 * v, start.images + 2 * v, 2 * sizeof(double)) != 0;
+        ck_assert_uint_eq(n_moved, 0);
+        if (k % 2 == 0)
+            ck_assert_double_eq_tol(iccp_plmap_energy(&map), 4, 1e-6);
+        iccp_newton_free(&newton);
+        iccp_plmap_free(&map);
+        iccp_plmap_free(&start);
+        free(movable);
+    }
+}
+END_TEST
+
+/* ---- repair ---- */
+
+enum { N_REPAIRABLE = 2, N_BREAKS = 6 };
+
+/* The first kinds of damage can be repaired always; the others need luck. */
+static void break_map(iccp_plmap *map, int how, random_source *r)
+{
+    double centre[2] = {0, 0};
+    for (size_t v = 0; v < map->n_vertices; ++v)
+        for (size_t d = 0; d < 2; ++d)
+            centre[d] += map->images[2 * v + d] / (double)map->n_vertices;
+    for (size_t v = 0; v < map->n_vertices; ++v) {
+        double *image = map->images + 2 * v;
+        if (map->fixed[v])
+            continue;
+        switch (how) {
+        case 0: /* a little disorder */
+            image[0] += random_between(r, -0.1, 0.1);
+            image[1] += random_between(r, -0.1, 0.1);
+            break;
+        case 2: /* anywhere in the box */
+            image[0] = random_between(r, -1, 1);
+            image[1] = random_between(r, -1, 1);
+            break;
+        case 1: /* inside out */
+            image[0] = 2 * centre[0] - image[0];
+            break;
+        case 3: /* all in one point */
+            memcpy(image, centre, sizeof centre);
+            break;
+        case 4: /* one vertex far outside */
+            if (v + 1 == map->n_vertices)
+                image[0] += 10;
+            break;
+        default: /* all far outside */
+            image[0] += 100;
+        }
+    }
+}
+
+/* The boundary's images stay where they were. */
+static void check_boundary(const iccp_plmap *map, const iccp_plmap *broken)
+{
+    size_t n_faults = 0;
+    for (size_t v = 0; v < broken->n_vertices; ++v)
+        n_faults += map->fixed[v] != broken->fixed[v] ||
+                    memcmp(map->points + 2 * v, broken->points + 2 * v, 2 * sizeof(double)) != 0 ||
+                    (map->fixed[v] &&
+                     memcmp(map->images + 2 * v, broken->images + 2 * v, 2 * sizeof(double)) != 0);
+    ck_assert_uint_eq(n_faults, 0);
+}
+
+static size_t repair_and_check(iccp_plmap *map, bool twice)
+{
+    const iccp_env env = default_env();
+    iccp_plmap broken, again;
+    size_t n_left = 12345, n_again = 0;
+    ck_assert_int_eq(iccp_plmap_copy(&broken, map, &env.memory), ICC_OK);
+    ck_assert_int_eq(iccp_plmap_copy(&again, map, &env.memory), ICC_OK);
+    ck_assert_int_eq(iccp_repair(map, false, &n_left, &env), ICC_OK);
+    check_mesh(map);
+    check_boundary(map, &broken);
+    ck_assert_uint_eq(iccp_plmap_count_inverted(map), n_left);
+    if (twice)
+        ck_assert_int_eq(iccp_repair(&again, false, &n_again, &env), ICC_OK);
+    ck_assert(!twice || (is_same(map, &again) && n_again == n_left));
+    iccp_plmap_free(&broken);
+    iccp_plmap_free(&again);
+    return n_left;
+}
+
+START_TEST(broken_maps_are_repaired_or_counted)
+{
+    size_t n_failed = 0;
+    for (int k = 0; k < N_SHAPES; ++k)
+        for (int how = 0; how < N_BREAKS; ++how) {
+            const shape s = shape_number(k);
+            random_source r = {(uint64_t)(10 * k + how)};
+            iccp_plmap map = map_of(&s, 6, identity, 1);
+            break_map(&map, how, &r);
+            const size_t n_left = repair_and_check(&map, k < 2);
+            n_failed += n_left > 0;
+            if (n_left > 0 && how < N_REPAIRABLE)
+                ck_abort_msg("shape %d broken in way %d: %zu triangles left", k, how, n_left);
+            iccp_plmap_free(&map);
+        }
+    ck_assert_uint_le(n_failed, 2 * N_SHAPES);
+}
+END_TEST
+
+/* A boundary that runs clockwise cannot be filled with positive triangles; the number is told. */
+START_TEST(what_cannot_be_repaired_is_counted)
+{
+    const shape s = shape_square();
+    iccp_plmap map = map_of(&s, 6, identity, 1);
+    for (size_t v = 0; v < map.n_vertices; ++v)
+        map.images[2 * v] *= -1;
+    ck_assert_uint_gt(repair_and_check(&map, true), 0);
+    iccp_plmap_free(&map);
+}
+END_TEST
+
+/* A good map stays as it is. */
+START_TEST(there_is_nothing_to_repair)
+{
+    const shape s = shape_star(5, 0.4, 0.1);
+    const iccp_env env = default_env();
+    iccp_plmap map = map_of(&s, 10, wave, 1), copy;
+    size_t n_left;
+    ck_assert_int_eq(iccp_plmap_copy(&copy, &map, &env.memory), ICC_OK);
+    ck_assert_int_eq(iccp_repair(&map, false, &n_left, &env), ICC_OK);
+    ck_assert_uint_eq(n_left, 0);
+    ck_assert(is_same(&map, &copy));
+    iccp_plmap_free(&map);
+    iccp_plmap_free(&copy);
+}
+END_TEST
+
+/* ---- improvement ---- */
+
+static void check_certified(const iccp_plmap *map)
+{
+    check_mesh(map);
+    ck_assert_uint_eq(iccp_plmap_count_inverted(map), 0);
+}
+
+START_TEST(more_steps_are_no_worse)
+{
+    const iccp_env env = default_env();
+    for (int k = 0; k < N_SHAPES; ++k) {
+        const shape s = shape_number(k);
+        iccp_plmap start = map_of(&s, 8, wave, 1);
+        shake(&start, (uint64_t)k, 0.1);
+        double last = iccp_plmap_energy(&start);
+        for (size_t n = 1; n < 8; ++n) {
+            iccp_plmap map;
+            iccp_improvement improvement;
+            ck_assert_int_eq(iccp_plmap_copy(&map, &start, &env.memory), ICC_OK);
+            ck_assert_int_eq(iccp_improve(&map, n, 1e-12, 0, &improvement, &env), ICC_OK);
+            check_certified(&map);
+            ck_assert_uint_le(improvement.n_iterations, n);
+            ck_assert_uint_eq(improvement.n_levels, 0);
+            ck_assert_uint_eq(map.n_vertices, start.n_vertices);
+            ck_assert_double_eq(improvement.energy, iccp_plmap_energy(&map));
+            ck_assert_double_le(improvement.energy, last * (1 + 1e-14));
+            last = improvement.energy;
+            iccp_plmap_free(&map);
+        }
+        iccp_plmap_free(&start);
+    }
+}
+END_TEST
+
+START_TEST(levels_refine_and_lower_the_energy)
+{
+    const iccp_env env = default_env();
+    const shape s = shape_l();
+    iccp_plmap start = map_of(&s, 6, wave, 1);
+    shake(&start, 4, 0.1);
+    double last = iccp_plmap_energy(&start);
+    size_t n_vertices = 0;
+    for (size_t levels = 0; levels < 4; ++levels) {
+        iccp_plmap map;
+        iccp_improvement improvement;
+        ck_assert_int_eq(iccp_plmap_copy(&map, &start, &env.memory), ICC_OK);
+        ck_assert_int_eq(iccp_improve(&map, 60, 1e-6, levels, &improvement, &env), ICC_OK);
+        check_certified(&map);
+        ck_assert_uint_le(improvement.n_levels, levels);
+        ck_assert_uint_ge(map.n_vertices, n_vertices);
+        ck_assert(improvement.n_levels == 0 || map.n_vertices > start.n_vertices);
+        ck_assert_double_le(improvement.energy, last * (1 + 1e-14));
+        last = improvement.energy;
+        n_vertices = map.n_vertices;
+        iccp_plmap_free(&map);
+    }
+    ck_assert_uint_gt(n_vertices, start.n_vertices);
+    iccp_plmap_free(&start);
+}
+END_TEST
+
+/* ---- failures ---- */
+
+/* Cancelled or out of memory at any moment: the map is valid and no worse. */
+static icc_status improve_copy(const icc_env *env, icc_error *err, void *argument)
+{
+    const iccp_plmap *start = argument;
+    iccp_env full;
+    iccp_plmap map;
+    iccp_improvement improvement;
+    ck_assert_int_eq(iccp_env_read(&full, env, NULL), ICC_OK);
+    icc_status status = iccp_plmap_copy(&map, start, &full.memory);
+    if (status == ICC_OK) {
+        status = iccp_improve(&map, 4, 1e-6, 2, &improvement, &full);
+        check_certified(&map);
+        ck_assert_double_le(iccp_plmap_energy(&map), iccp_plmap_energy(start) * (1 + 1e-14));
+    }
+    iccp_plmap_free(&map);
+    return iccp_explain(err, status);
+}
+
+static icc_status repair_copy(const icc_env *env, icc_error *err, void *argument)
+{
+    const iccp_plmap *start = argument;
+    iccp_env full;
+    iccp_plmap map;
+    size_t n_left;
+    ck_assert_int_eq(iccp_env_read(&full, env, NULL), ICC_OK);
+    icc_status status = iccp_plmap_copy(&map, start, &full.memory);
+    if (status == ICC_OK) {
+        random_source r = {3};
+        break_map(&map, 2, &r);
+        status = iccp_repair(&map, false, &n_left, &full);
+        ck_assert(status != ICC_OK || n_left == iccp_plmap_count_inverted(&map));
+    }
+    iccp_plmap_free(&map);
+    return iccp_explain(err, status);
+}
+
+/* A map that cannot be repaired goes through every round of refinement. */
+static icc_status repair_in_vain(const icc_env *env, icc_error *err, void *argument)
+{
+    const iccp_plmap *start = argument;
+    iccp_env full;
+    iccp_plmap map;
+    size_t n_left = 1;
+    ck_assert_int_eq(iccp_env_read(&full, env, NULL), ICC_OK);
+    icc_status status = iccp_plmap_copy(&map, start, &full.memory);
+    if (status == ICC_OK) {
+        for (size_t v = 0; v < map.n_vertices; ++v)
+            map.images[2 * v] *= -1;
+        status = iccp_repair(&map, false, &n_left, &full);
+        ck_assert_uint_gt(n_left, 0);
+    }
+    iccp_plmap_free(&map);
+    return iccp_explain(err, status);
+}
+
+static icc_status cut_often(const icc_env *env, icc_error *err, void *argument)
+{
+    iccp_env full;
+    iccp_plmap map;
+    bool done;
+    ck_assert_int_eq(iccp_env_read(&full, env, NULL), ICC_OK);
+    icc_status status = iccp_plmap_copy(&map, argument, &full.memory);
+    if (status == ICC_OK)
+        status = iccp_progress(&full, "cut", 0);
+    for (uint32_t c = 0; status == ICC_OK && c < 3 * map.corners.n_triangles && c < 300; ++c) {
+        status = iccp_plmap_cut(&map, c, &done);
+        if (status != ICC_OK)
+            check_certified(&map);
+    }
+    iccp_plmap_free(&map);
+    return iccp_explain(err, status);
+}
+
+START_TEST(failures_leave_valid_maps)
+{
+    const shape l = shape_l(), square = shape_square();
+    iccp_plmap start = map_of(&l, 3, wave, 1), small = map_of(&square, 2, identity, 1);
+    faulty_sweep(cut_often, &start);
+    faulty_sweep(improve_copy, &start);
+    faulty_sweep(repair_copy, &start);
+    iccp_plmap_free(&start);
+    faulty_sweep(repair_in_vain, &small);
+    iccp_plmap_free(&small);
+}
+END_TEST
+
+int main(void)
+{
+    Suite *suite = suite_create("plmap");
+    TCase *tests = tcase_create("all");
+    tcase_set_timeout(tests, 120);
+    tcase_add_test(tests, cuts_change_the_mesh_and_not_the_map);
+    tcase_add_test(tests, edges_that_rounding_would_spoil_stay);
+    tcase_add_test(tests, energies_of_simple_maps);
+    tcase_add_test(tests, steps_go_down);
+    tcase_add_test(tests, every_step_is_monotone_and_positive);
+    tcase_add_test(tests, broken_maps_are_repaired_or_counted);
+    tcase_add_test(tests, what_cannot_be_repaired_is_counted);
+    tcase_add_test(tests, there_is_nothing_to_repair);
+    tcase_add_test(tests, more_steps_are_no_worse);
+    tcase_add_test(tests, levels_refine_and_lower_the_energy);
+    tcase_add_test(tests, failures_leave_valid_maps);
+    suite_add_tcase(suite, tests);
+    SRunner *runner = srunner_create(suite);
+    srunner_run_all(runner, CK_NORMAL);
+    const int n_failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}

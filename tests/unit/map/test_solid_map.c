@@ -1,0 +1,234 @@
+/* Map kind mesh in space: every tetrahedron positive, there and back, derivatives, and what happens when the
+ * repair fails. */
+#include "../../faulty.h"
+#include "../../meshes.h"
+
+#include <icc/icc.h>
+
+static void bend(int32_t dim, const double *x, double *y)
+{
+    (void)dim;
+    y[0] = x[0] + 0.3 * sin(x[1]);
+    y[1] = x[1] + 0.25 * x[2] * x[0] / 3;
+    y[2] = 1.5 * x[2] - 0.2 * x[0] * x[1] / 3;
+}
+
+/* Two domains with different insides; the vertices of the boundary are the same. */
+typedef struct pair {
+    icc_domain *source, *target;
+} pair;
+
+static void make_pair(pair *p, size_t n)
+{
+    random_source r = {1};
+    test_mesh before = mesh_cells(3, n, NULL);
+    mesh_shake(&before, n, 0.1, &r);
+    test_mesh other = mesh_cells(3, n, NULL);
+    mesh_shake(&other, n, 0.1, &r);
+    test_mesh after = mesh_moved(&other, bend);
+    ck_assert_int_eq(mesh_domain(&p->source, &before, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(mesh_domain(&p->target, &after, NULL, NULL), ICC_OK);
+    mesh_free(&before);
+    mesh_free(&other);
+    mesh_free(&after);
+}
+
+static void free_pair(pair *p)
+{
+    icc_domain_free(p->source);
+    icc_domain_free(p->target);
+}
+
+static double determinant(const double *j)
+{
+    return j[0] * (j[4] * j[8] - j[5] * j[7]) - j[1] * (j[3] * j[8] - j[5] * j[6]) +
+           j[2] * (j[3] * j[7] - j[4] * j[6]);
+}
+
+static icc_map_info info_of(const icc_map *map)
+{
+    icc_map_info info = {.size = sizeof info};
+    ck_assert_int_eq(icc_map_get_info(map, &info), ICC_OK);
+    return info;
+}
+
+START_TEST(there_and_back)
+{
+    pair p;
+    icc_map *map;
+    make_pair(&p, 4);
+    ck_assert_int_eq(icc_map_create(&map, p.source, p.target, NULL, NULL, NULL), ICC_OK);
+    const icc_map_info info = info_of(map);
+    ck_assert_int_eq(info.kind, ICC_MAP_MESH);
+    ck_assert_int_eq(info.certified, 1);
+    ck_assert(info.energy >= 6);
+    random_source r = {2};
+    size_t n_inside = 0;
+    for (int i = 0; i < 2000; ++i) {
+        double x[3], y[3], z[3], j[9];
+        icc_status status;
+        for (int k = 0; k < 3; ++k)
+            x[k] = 4 * random_unit(&r);
+        ck_assert_int_eq(icc_map_apply(map, 1, x, y, &status, NULL, NULL), ICC_OK);
+        ck_assert_int_eq(status, ICC_OK);
+        ck_assert_int_eq(icc_map_apply_inverse(map, 1, y, z, &status, NULL, NULL), ICC_OK);
+        ck_assert_int_eq(status, ICC_OK);
+        for (int k = 0; k < 3; ++k)
+            ck_assert_double_eq_tol(x[k], z[k], 1e-13);
+        ck_assert_int_eq(icc_map_jacobian(map, 1, x, j, &status, NULL, NULL), ICC_OK);
+        ck_assert(determinant(j) > 0);
+        ++n_inside;
+    }
+    ck_assert_uint_eq(n_inside, 2000);
+    icc_map_free(map);
+    free_pair(&p);
+}
+END_TEST
+
+/* What icc_map_mesh() hands out is the map: linear in each of its tetrahedra. */
+START_TEST(mesh_is_the_map)
+{
+    pair p;
+    icc_map *map;
+    make_pair(&p, 3);
+    ck_assert_int_eq(icc_map_create(&map, p.source, p.target, NULL, NULL, NULL), ICC_OK);
+    const icc_map_info info = info_of(map);
+    double *before = calloc(info.n_vertices, 3 * sizeof *before);
+    double *after = calloc(info.n_vertices, 3 * sizeof *after);
+    uint32_t *corners = calloc(info.n_triangles, 4 * sizeof *corners);
+    ck_assert_int_eq(icc_map_mesh(map, before, after, corners), ICC_OK);
+    for (size_t t = 0; t < info.n_triangles; ++t) {
+        double x[3] = {0, 0, 0}, y[3] = {0, 0, 0}, image[3], jacobian[9], edges[9];
+        icc_status status;
+        for (size_t k = 0; k < 12; ++k) {
+            x[k % 3] += 0.25 * before[3 * corners[4 * t + k / 3] + k % 3];
+            y[k % 3] += 0.25 * after[3 * corners[4 * t + k / 3] + k % 3];
+        }
+        ck_assert_int_eq(icc_map_apply(map, 1, x, image, &status, NULL, NULL), ICC_OK);
+        ck_assert_int_eq(icc_map_jacobian(map, 1, x, jacobian, &status, NULL, NULL), ICC_OK);
+        for (int k = 0; k < 3; ++k)
+            ck_assert_double_eq_tol(image[k], y[k], 1e-13);
+        for (size_t e = 0; e < 3; ++e)
+            for (size_t i = 0; i < 3; ++i) {
+                const double *a = before + 3 * corners[4 * t],
+                             *b = before + 3 * corners[4 * t + e + 1];
+                edges[3 * i + e] =
+                    after[3 * corners[4 * t + e + 1] + i] - after[3 * corners[4 * t] + i];
+                double along = 0;
+                for (size_t k = 0; k < 3; ++k)
+                    along += jacobian[3 * i + k] * (b[k] - a[k]);
+                ck_assert_double_eq_tol(along, edges[3 * i + e], 1e-11);
+            }
+        ck_assert(determinant(edges) > 0);
+    }
+    free(before);
+    free(after);
+    free(corners);
+    icc_map_free(map);
+    free_pair(&p);
+}
+END_TEST
+
+/* Corners of the boundary that meet in one tetrahedron: turned inside out by the target, no images of inner vertices
+ * help, and the map is one along curves, which says so. */
+static void turn_corner(int32_t dim, const double *x, double *y)
+{
+    (void)dim;
+    memcpy(y, x, 3 * sizeof *y);
+    if (x[0] + x[1] + x[2] < 0.5)
+        y[0] = y[1] = y[2] = 0.9;
+}
+
+START_TEST(falls_back_on_curves)
+{
+    pair p;
+    icc_map *map;
+    icc_error err = {.size = sizeof err};
+    test_mesh before = mesh_cells(3, 3, NULL), after = mesh_moved(&before, turn_corner);
+    icc_status status = mesh_domain(&p.target, &after, NULL, &err);
+    ck_assert_int_eq(mesh_domain(&p.source, &before, NULL, NULL), ICC_OK);
+    if (status == ICC_OK) {
+        ck_assert_int_eq(icc_map_create(&map, p.source, p.target, NULL, NULL, NULL), ICC_OK);
+        ck_assert(info_of(map).certified);
+        icc_map_free(map);
+    } else {
+        ck_assert_int_eq(status, ICC_ERR_BOUNDARY);
+        p.target = NULL;
+    }
+    mesh_free(&before);
+    mesh_free(&after);
+    free_pair(&p);
+}
+END_TEST
+
+START_TEST(kinds)
+{
+    pair p;
+    icc_map *map;
+    icc_map_options options = {.size = sizeof options, .kind = ICC_MAP_CURVES};
+    icc_domain *plain;
+    make_pair(&p, 3);
+    ck_assert_int_eq(icc_map_create(&map, p.source, p.target, &options, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(info_of(map).kind, ICC_MAP_CURVES);
+    ck_assert_int_eq(icc_map_mesh(map, NULL, NULL, NULL), ICC_ERR_UNSUPPORTED);
+    icc_map_free(map);
+    /* Without a mesh on both sides there is no kind mesh. */
+    icc_domain_info info = {.size = sizeof info};
+    ck_assert_int_eq(icc_domain_get_info(p.target, &info), ICC_OK);
+    double *vertices = calloc(info.n_vertices, 3 * sizeof *vertices);
+    uint32_t *facets = calloc(info.n_facets, 3 * sizeof *facets);
+    ck_assert_int_eq(icc_domain_get_boundary(p.target, vertices, facets), ICC_OK);
+    ck_assert_int_eq(
+        icc_domain_create(&plain, 3, info.n_vertices, vertices, info.n_facets, facets, NULL, NULL),
+        ICC_OK);
+    options.kind = ICC_MAP_MESH;
+    ck_assert_int_eq(icc_map_create(&map, p.source, plain, &options, NULL, NULL),
+                     ICC_ERR_UNSUPPORTED);
+    ck_assert_ptr_null(map);
+    icc_domain_free(plain);
+    free(vertices);
+    free(facets);
+    free_pair(&p);
+}
+END_TEST
+
+START_TEST(every_allocation_may_fail)
+{
+    pair p;
+    make_pair(&p, 2);
+    for (size_t k = 1;; ++k) {
+        faulty f = {.fail_at = k};
+        const icc_env env = faulty_env(&f);
+        icc_map *map;
+        const icc_status status = icc_map_create(&map, p.source, p.target, NULL, &env, NULL);
+        if (f.n_allocs < k) {
+            ck_assert_int_eq(status, ICC_OK);
+            icc_map_free(map);
+            ck_assert_uint_eq(f.n_live, 0);
+            break;
+        }
+        ck_assert_int_eq(status, ICC_ERR_MEMORY);
+        ck_assert_ptr_null(map);
+        ck_assert_uint_eq(f.n_live, 0);
+    }
+    free_pair(&p);
+}
+END_TEST
+
+int main(void)
+{
+    Suite *suite = suite_create("maps of meshes in space");
+    TCase *tcase = tcase_create("all");
+    tcase_set_timeout(tcase, 120);
+    tcase_add_test(tcase, there_and_back);
+    tcase_add_test(tcase, mesh_is_the_map);
+    tcase_add_test(tcase, falls_back_on_curves);
+    tcase_add_test(tcase, kinds);
+    tcase_add_test(tcase, every_allocation_may_fail);
+    suite_add_tcase(suite, tcase);
+    SRunner *runner = srunner_create(suite);
+    srunner_run_all(runner, CK_NORMAL);
+    const int n_failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}
