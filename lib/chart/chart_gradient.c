@@ -74,12 +74,12 @@ static icc_status make_field(iccp_gradient_state *state, icc_chart *chart,
                              icc_error *err)
 {
     const double start = iccp_seconds();
-    icc_field_report report = {0};
-    const icc_field_options function = {.function = options->function,
+    icc_function_report report = {0};
+    const icc_function_options function = {.function = options->function,
                                         .constraints = options->constraints,
                                         .solver = options->solver,
-                                        .eta = options->eta,
-                                        .leaf = options->leaf};
+                                        .min_fall = options->min_fall,
+                                        .leaf_min = options->leaf_min};
     icc_status status = iccp_field_create(&state->field, state->tree, &function, env, err);
     if (status == ICC_OK)
         status = iccp_field_verify(state->field, &report, env);
@@ -92,7 +92,7 @@ static icc_status make_field(iccp_gradient_state *state, icc_chart *chart,
         iccp_field_count_edges(state->field, &chart->info.n_edges, &chart->info.n_compression,
                                &chart->info.n_expansion);
     status = iccp_gradient_extend(state->field, env);
-    chart->info.seconds_field = iccp_seconds() - start;
+    chart->info.seconds_function = iccp_seconds() - start;
     return status;
 }
 

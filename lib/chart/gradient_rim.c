@@ -1,7 +1,7 @@
 #include "chart/gradient_rim.h"
 
 /* The neighbour in a layer with the highest or the lowest value, or ICCP_NONE. */
-static uint32_t extreme(const icc_field *field, const uint8_t *layer, uint32_t v, int wanted,
+static uint32_t extreme(const icc_function *field, const uint8_t *layer, uint32_t v, int wanted,
                         int sign)
 {
     const icc_grid *grid = field->tree->grid;
@@ -16,7 +16,7 @@ static uint32_t extreme(const icc_field *field, const uint8_t *layer, uint32_t v
 }
 
 /* f(v) = f(u) + (f(u) - f(t)). */
-static void go_on(icc_field *field, uint32_t v, uint32_t u, uint32_t t)
+static void go_on(icc_function *field, uint32_t v, uint32_t u, uint32_t t)
 {
     if (field->plain != NULL)
         field->plain[v] = 2 * field->plain[u] - field->plain[t];
@@ -45,7 +45,7 @@ static void mark_layers(const icc_tree *tree, uint8_t *layer)
     }
 }
 
-icc_status iccp_gradient_extend(icc_field *field, const iccp_env *env)
+icc_status iccp_gradient_extend(icc_function *field, const iccp_env *env)
 {
     const icc_grid *grid = field->tree->grid;
     if (grid->dim <= 2)

@@ -6,7 +6,7 @@
 
 static bool is_ranked(const void *context, uint32_t v)
 {
-    const icc_field *field = context;
+    const icc_function *field = context;
     return field->tree->grid->inside[v] && !isnan(field->values[v]);
 }
 
@@ -21,7 +21,7 @@ static icc_status judge_chunk(void *argument, size_t begin, size_t end)
     return iccp_critical_chunk(argument, begin, end, is_ranked, is_higher);
 }
 
-icc_status iccp_field_verify(const icc_field *field, icc_field_report *report, const iccp_env *env)
+icc_status iccp_field_verify(const icc_function *field, icc_function_report *report, const iccp_env *env)
 {
     const icc_tree *tree = field->tree;
     return iccp_critical_count(tree->grid, field, tree->n_inside, tree->root, judge_chunk, report,

@@ -29,7 +29,7 @@ static icc_status tabulate(double **out, const icc_tree *tree, int32_t function,
     return ICC_OK;
 }
 
-icc_status iccp_distance(icc_field *field, int32_t function, const iccp_env *env)
+icc_status iccp_distance(icc_function *field, int32_t function, const iccp_env *env)
 {
     const icc_tree *tree = field->tree;
     double *of_generation;

@@ -7,6 +7,6 @@
 /* Gives values to a new field: ICC_FUNCTION_DECAY or ICC_FUNCTION_DISTANCE. The decay would underflow from
  * some 13,850 generations on (cells = 16384 get there); from there on the values are -1, -2, .., so
  * that they always fall from one generation to the next. */
-icc_status iccp_distance(icc_field *field, int32_t function, const iccp_env *env);
+icc_status iccp_distance(icc_function *field, int32_t function, const iccp_env *env);
 
 #endif

@@ -49,7 +49,7 @@ static bool edge_at(edge *out, const icc_grid *grid, size_t i, size_t j, int kin
     return true;
 }
 
-static bool is_tested(const icc_field *field, edge *e)
+static bool is_tested(const icc_function *field, edge *e)
 {
     const uint8_t *inside = field->tree->grid->inside;
     bool any_inside = false;
@@ -95,7 +95,7 @@ static int32_t judge(const edge *e)
     return first > 0 ? ICC_EDGE_COMPRESSION : ICC_EDGE_EXPANSION;
 }
 
-iccp_edge_count iccp_field_edges(const icc_field *field, size_t capacity, uint32_t *edges,
+iccp_edge_count iccp_field_edges(const icc_function *field, size_t capacity, uint32_t *edges,
                                  int32_t *kinds)
 {
     const icc_grid *grid = field->tree->grid;
@@ -123,7 +123,7 @@ iccp_edge_count iccp_field_edges(const icc_field *field, size_t capacity, uint32
     return count;
 }
 
-void iccp_field_count_edges(const icc_field *field, size_t *n_tested, size_t *n_compression,
+void iccp_field_count_edges(const icc_function *field, size_t *n_tested, size_t *n_compression,
                             size_t *n_expansion)
 {
     const iccp_edge_count count = iccp_field_edges(field, 0, NULL, NULL);

@@ -5,10 +5,10 @@
 /* Below 2^LEAST_EXPONENT differences of neighbouring values would lose bits. */
 enum { LEAST_EXPONENT = -900 };
 
-icc_status iccp_field_new(icc_field **out, const icc_tree *tree, const iccp_env *env)
+icc_status iccp_field_new(icc_function **out, const icc_tree *tree, const iccp_env *env)
 {
     *out = NULL;
-    icc_field *field = iccp_alloc_zero(&env->memory, 1, sizeof *field);
+    icc_function *field = iccp_alloc_zero(&env->memory, 1, sizeof *field);
     if (field == NULL)
         return ICC_ERR_MEMORY;
     field->memory = env->memory;
@@ -25,7 +25,7 @@ icc_status iccp_field_new(icc_field **out, const icc_tree *tree, const iccp_env 
     return ICC_OK;
 }
 
-static icc_status assign_logs(icc_field *field, const iccp_rows *rows, const iccp_scaled *f)
+static icc_status assign_logs(icc_function *field, const iccp_rows *rows, const iccp_scaled *f)
 {
     static const double LN_2 = 0.69314718055994530942;
     const icc_tree *tree = field->tree;
@@ -43,7 +43,7 @@ static icc_status assign_logs(icc_field *field, const iccp_rows *rows, const icc
 }
 
 /* Fractions in place of the values, which are kept for those who want plain numbers. */
-static icc_status assign_exponents(icc_field *field, const iccp_rows *rows, const iccp_scaled *f)
+static icc_status assign_exponents(icc_function *field, const iccp_rows *rows, const iccp_scaled *f)
 {
     const size_t n = field->tree->grid->n_vertices;
     field->plain = field->values;
@@ -63,7 +63,7 @@ static icc_status assign_exponents(icc_field *field, const iccp_rows *rows, cons
 }
 
 /* The highest inside vertex two steps from an outside vertex, or ICCP_NONE if that is next to the inside. */
-static uint32_t highest_behind(const icc_field *field, uint32_t v)
+static uint32_t highest_behind(const icc_function *field, uint32_t v)
 {
     const icc_grid *grid = field->tree->grid;
     uint32_t best = ICCP_NONE;
@@ -86,7 +86,7 @@ static uint32_t highest_behind(const icc_field *field, uint32_t v)
 /* The layer beyond the zeros mirrors the one before them: with zeros there too, a boundary that cuts
  * the corner of a cell would see a level triangle (tests/bench/bench_collapse: a third less area uncovered,
  * fewer boundary points where the gradient does not point inward). */
-static void mirror(icc_field *field)
+static void mirror(icc_function *field)
 {
     const icc_tree *tree = field->tree;
     for (size_t i = tree->n_inside; i < tree->n_reached; ++i) {
@@ -102,7 +102,7 @@ static void mirror(icc_field *field)
 }
 
 /* What an earlier assignment has left. */
-static void forget(icc_field *field)
+static void forget(icc_function *field)
 {
     if (field->plain != NULL) {
         iccp_free(&field->memory, field->values);
@@ -115,7 +115,7 @@ static void forget(icc_field *field)
     field->info.least_log = 0;
 }
 
-icc_status iccp_field_assign(icc_field *field, const iccp_rows *rows, const iccp_scaled *f)
+icc_status iccp_field_assign(icc_function *field, const iccp_rows *rows, const iccp_scaled *f)
 {
     const icc_tree *tree = field->tree;
     bool positive = true;
@@ -136,7 +136,7 @@ icc_status iccp_field_assign(icc_field *field, const iccp_rows *rows, const iccp
     return status;
 }
 
-void iccp_field_release(icc_field *field)
+void iccp_field_release(icc_function *field)
 {
     if (field == NULL)
         return;

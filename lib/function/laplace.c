@@ -13,8 +13,8 @@
 
 /* A function on its way: everything here is borrowed but for the arrays. */
 typedef struct job {
-    icc_field *field;
-    const icc_field_options *options;
+    icc_function *field;
+    const icc_function_options *options;
     iccp_rows rows;
     iccp_scaled f;
     uint32_t *top; /* the gluing of nothing */
@@ -91,7 +91,7 @@ static void end(job *j, const iccp_env *env)
 
 /* By factorisation where that works, else by iteration; `info` tells. */
 static icc_status solve_directly(const iccp_rows *rows, const iccp_gluing *gluing,
-                                 const iccp_scaled *f, icc_field_info *info, const iccp_env *env)
+                                 const iccp_scaled *f, icc_function_info *info, const iccp_env *env)
 {
     const icc_status status = iccp_glued_direct(rows, gluing, f, info, env);
     if (status != ICC_ERR_SOLVER)
@@ -110,7 +110,7 @@ static iccp_glued_solver glued_solver(const job *j)
 
 static icc_status solve_laplace(job *j, const iccp_env *env)
 {
-    icc_field_info *info = &j->field->info;
+    icc_function_info *info = &j->field->info;
     const iccp_gluing none = {j->top, j->share, j->order};
     const icc_status status = glued_solver(j)(&j->rows, &none, &j->f, info, env);
     if (status != ICC_OK)
@@ -123,7 +123,7 @@ static icc_status solve_laplace(job *j, const iccp_env *env)
 
 static icc_status solve(job *j, const iccp_env *env)
 {
-    icc_field_info *info = &j->field->info;
+    icc_function_info *info = &j->field->info;
     const int32_t function = j->options->function;
     const icc_status status =
         function == ICC_FUNCTION_LAPLACE
@@ -132,30 +132,30 @@ static icc_status solve(job *j, const iccp_env *env)
     if (status != ICC_OK)
         return status;
     const double clock = iccp_seconds();
-    info->n_violated = iccp_inequalities_violated(&j->rows, j->options->eta, &j->f);
+    info->n_violated = iccp_inequalities_violated(&j->rows, j->options->min_fall, &j->f);
     info->seconds_verify += iccp_seconds() - clock;
     return ICC_OK;
 }
 
 static icc_status constrain(job *j, const iccp_env *env)
 {
-    icc_field_info *info = &j->field->info;
+    icc_function_info *info = &j->field->info;
     const int32_t function = j->options->function;
-    const double eta = j->options->eta;
+    const double eta = j->options->min_fall;
     info->constrained = 1;
     if (function == ICC_FUNCTION_LAPLACE)
         return iccp_constrained_laplace(&j->rows, eta, glued_solver(j), j->order, &j->f, info, env);
     info->solver = ICC_SOLVER_DIRECT;
-    return iccp_bilaplace_constrained(&j->rows, function, eta, j->options->leaf, &j->f, info, env);
+    return iccp_bilaplace_constrained(&j->rows, function, eta, j->options->leaf_min, &j->f, info, env);
 }
 
 /* Whether there are no more critical points than the shape asks for: a maximum at the root, no minimum, and
  * no saddle, but for those that 2-D shapes with holes cannot do without. (The indices of the critical points
  * add up to the Euler characteristic: with one maximum and no minimum, the saddles are those of the holes.) */
-static icc_status is_regular(const icc_field *field, bool *regular, const iccp_env *env)
+static icc_status is_regular(const icc_function *field, bool *regular, const iccp_env *env)
 {
     const icc_tree *tree = field->tree;
-    icc_field_report report = {0};
+    icc_function_report report = {0};
     const icc_status status = iccp_field_verify(field, &report, env);
     *regular = report.n_maxima == 1 && report.n_minima == 0 &&
                (report.n_saddles == 0 || tree->grid->dim == 2);
@@ -166,7 +166,7 @@ static icc_status is_regular(const icc_field *field, bool *regular, const iccp_e
 
 static icc_status make(job *j, const iccp_env *env)
 {
-    icc_field *field = j->field;
+    icc_function *field = j->field;
     const int32_t constraints = j->options->constraints;
     icc_status status = begin(j, env);
     if (status == ICC_OK)
@@ -184,7 +184,7 @@ static icc_status make(job *j, const iccp_env *env)
     return status == ICC_OK ? iccp_field_assign(field, &j->rows, &j->f) : status;
 }
 
-icc_status iccp_laplace(icc_field *field, const icc_field_options *options, const iccp_env *env,
+icc_status iccp_laplace(icc_function *field, const icc_function_options *options, const iccp_env *env,
                         icc_error *err)
 {
     job j = {.field = field, .options = options};

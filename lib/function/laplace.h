@@ -4,8 +4,8 @@
 
 #include "function/field.h"
 
-/* Gives values to a new field: ICC_FUNCTION_LAPLACE, _BILAPLACE or _CLAMPED. See icc_field_create(). */
-icc_status iccp_laplace(icc_field *field, const icc_field_options *options, const iccp_env *env,
+/* Gives values to a new field: ICC_FUNCTION_LAPLACE, _BILAPLACE or _CLAMPED. See icc_function_create(). */
+icc_status iccp_laplace(icc_function *field, const icc_function_options *options, const iccp_env *env,
                         icc_error *err);
 
 #endif

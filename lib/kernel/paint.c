@@ -6,14 +6,14 @@
 #include <math.h>
 #include <string.h>
 
-static void give_up(icc_kernel **out)
+static void give_up(icc_weights **out)
 {
     iccp_kernel_release(*out);
     *out = NULL;
 }
 
 /* Optimises some nodes of a copy, whose weights have been set to what is wished for. */
-static icc_status settle(icc_kernel *copy, const icc_kernel *before, size_t n,
+static icc_status settle(icc_weights *copy, const icc_weights *before, size_t n,
                          const uint32_t *nodes, const iccp_env *env)
 {
     const icc_status status = iccp_kernel_optimise(copy, n, nodes, env);
@@ -30,7 +30,7 @@ static double brush(const iccp_layout *l, size_t node, const double *centre, dou
     return d < 1 ? (1 - d * d) * (1 - d * d) : 0;
 }
 
-icc_status iccp_kernel_paint(icc_kernel **out, const icc_kernel *kernel, size_t handle,
+icc_status iccp_kernel_paint(icc_weights **out, const icc_weights *kernel, size_t handle,
                              const double *centre, double radius, double amount,
                              const iccp_env *env)
 {
@@ -76,7 +76,7 @@ static icc_status check_nodes(const iccp_layout *l, size_t n, const uint32_t *no
     return status;
 }
 
-icc_status iccp_kernel_repaint(icc_kernel **out, const icc_kernel *kernel, size_t n,
+icc_status iccp_kernel_repaint(icc_weights **out, const icc_weights *kernel, size_t n,
                                const uint32_t *nodes, const double *weights, const iccp_env *env,
                                icc_error *err)
 {
@@ -96,7 +96,7 @@ icc_status iccp_kernel_repaint(icc_kernel **out, const icc_kernel *kernel, size_
     return status;
 }
 
-icc_status iccp_kernel_set_method(icc_kernel **out, const icc_kernel *kernel, int32_t method,
+icc_status iccp_weights_with_method(icc_weights **out, const icc_weights *kernel, int32_t method,
                                   const iccp_env *env)
 {
     icc_status status = iccp_kernel_copy(out, kernel, env);
@@ -111,7 +111,7 @@ icc_status iccp_kernel_set_method(icc_kernel **out, const icc_kernel *kernel, in
     return status;
 }
 
-static icc_status stiffen(icc_kernel *copy, size_t n, const uint32_t *nodes, const double *rigidity,
+static icc_status stiffen(icc_weights *copy, size_t n, const uint32_t *nodes, const double *rigidity,
                           double energy[2], const iccp_env *env)
 {
     const iccp_layout *l = copy->layout;
@@ -128,7 +128,7 @@ static icc_status stiffen(icc_kernel *copy, size_t n, const uint32_t *nodes, con
     return status;
 }
 
-icc_status iccp_kernel_stiffen(icc_kernel **out, const icc_kernel *kernel, size_t n,
+icc_status iccp_kernel_stiffen(icc_weights **out, const icc_weights *kernel, size_t n,
                                const uint32_t *nodes, const double *rigidity, double energy[2],
                                const iccp_env *env, icc_error *err)
 {

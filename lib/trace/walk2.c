@@ -379,7 +379,7 @@ static bool change_sides(iccp_walk2 *w, const int side[2])
     return true;
 }
 
-icc_status iccp_walk2_start(iccp_walk2 *walk, const icc_field *field, int direction, double x,
+icc_status iccp_walk2_start(iccp_walk2 *walk, const icc_function *field, int direction, double x,
                             double y, iccp_jet2 *jet)
 {
     const icc_grid *grid = field->tree->grid;
@@ -519,7 +519,7 @@ icc_status iccp_trace_downhill(iccp_walk2 *walk, const iccp_fence *fence, iccp_p
     return hit_fence ? ICC_OK : status;
 }
 
-int iccp_slope_sign(const icc_field *field, const double p[2], const double direction[2])
+int iccp_slope_sign(const icc_function *field, const double p[2], const double direction[2])
 {
     iccp_walk2 walk;
     gradient g;

@@ -205,7 +205,7 @@ static bool settle(iccp_walkn *w, const double *x, const double *ahead)
     return true;
 }
 
-icc_status iccp_walkn_start(iccp_walkn *walk, const icc_field *field, int direction,
+icc_status iccp_walkn_start(iccp_walkn *walk, const icc_function *field, int direction,
                             const double *x, const double *ahead, iccp_jetn *jet)
 {
     static const double NOWHERE[ICC_MAX_DIM] = {0};
@@ -227,7 +227,7 @@ icc_status iccp_walkn_start(iccp_walkn *walk, const icc_field *field, int direct
     return ICC_OK;
 }
 
-int iccp_walkn_slope_sign(const icc_field *field, const double *x, const double *direction)
+int iccp_walkn_slope_sign(const icc_function *field, const double *x, const double *direction)
 {
     iccp_walkn w = {.slope = {field, 1, false}};
     double f[ICC_MAX_DIM + 1], rise = 0;

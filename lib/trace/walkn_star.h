@@ -21,7 +21,7 @@ typedef struct iccp_place {
 /* The values that a walk climbs: f, or -f downhill. Where f is level, the vertex index takes its place, as
  * if f were perturbed by an infinitesimal amount. */
 typedef struct iccp_slope {
-    const icc_field *field;
+    const icc_function *field;
     int direction; /* 1 or -1 */
     bool level;
 } iccp_slope;

@@ -60,12 +60,12 @@ class Map(Saved):
                  cells: Optional[int] = None, maximum: Optional[ArrayLike] = None,
                  target_maximum: Optional[ArrayLike] = None, function: Optional[str] = None,
                  constraints: Optional[str] = None, solver: Optional[str] = None,
-                 tree: Optional[str] = None, eta: Optional[float] = None,
-                 leaf: Optional[float] = None, progress: Optional[Progress] = None,
+                 tree: Optional[str] = None, min_fall: Optional[float] = None,
+                 leaf_min: Optional[float] = None, progress: Optional[Progress] = None,
                  threads: Optional[int] = None):
         source, target = as_domain(source), as_domain(target)
         chart = chart_options(source.dim, method, cells, maximum, function, constraints, solver, tree,
-                              eta, leaf)
+                              min_fall, leaf_min)
         options = new("map_options", kind=choose(kind, KINDS, "kind"), chart=ctypes.addressof(chart),
                       iterations=0 if improve is None else improve or -1)
         if target_maximum is not None:
@@ -171,11 +171,11 @@ class Map(Saved):
         assert out.value is not None
         return type(self)._wrap(out.value), fields(report)
 
-    def follow(self, target: ShapeLike, iterations: int = 0, *, progress: Optional[Progress] = None,
+    def retarget(self, target: ShapeLike, iterations: int = 0, *, progress: Optional[Progress] = None,
                threads: Optional[int] = None) -> "Map":
         """The map to a target that has moved a little, starting from this one (kind mesh in 2-D), improved by
         at most `iterations` steps (0: 8; -1: none). CertificateError if it has moved too far."""
-        return type(self)._wrap(create(lib.map_follow, self, as_domain(target),
+        return type(self)._wrap(create(lib.map_retarget, self, as_domain(target),
                                        iterations, progress=progress, threads=threads))
 
     def mesh(self) -> Tuple[Floats, Floats, Indices]:
@@ -183,8 +183,8 @@ class Map(Saved):
         info = self._info("map_get_info", "map_info")
         vertices = np.empty((info.n_vertices, info.dim))
         images = np.empty((info.n_vertices, info.dim))
-        triangles = np.empty((info.n_triangles, info.dim + 1), dtype=np.uint32)
-        check(lib.map_mesh(self, address(vertices), address(images), address(triangles)))
+        triangles = np.empty((info.n_simplices, info.dim + 1), dtype=np.uint32)
+        check(lib.map_get_mesh(self, address(vertices), address(images), address(triangles)))
         return vertices, images, triangles
 
     def _carry(self, function: Any, vertices: ArrayLike, simplices: ArrayLike, progress: Optional[Progress],

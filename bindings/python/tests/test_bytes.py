@@ -50,7 +50,7 @@ def test_charts_of_a_map(before, after, inside):
 
 
 def test_maps_that_follow(before, after, inside):
-    moved = libicc.Map(before, after).follow(after * 1.01)
+    moved = libicc.Map(before, after).retarget(after * 1.01)
     again = pickle.loads(pickle.dumps(moved))
     assert same(again(inside), moved(inside)) and again.source_chart is None
 

@@ -52,7 +52,7 @@ impl Binding {
         let counts = self.counts();
         let mut handles = vec![0.0; counts.n_handles * counts.dim];
         // SAFETY: there is room for all.
-        check(unsafe { sys::icc_binding_get(self.as_ptr(), handles.as_mut_ptr(), ptr::null_mut()) })?;
+        check(unsafe { sys::icc_binding_get_weights(self.as_ptr(), handles.as_mut_ptr(), ptr::null_mut()) })?;
         Ok(handles)
     }
 
@@ -61,7 +61,7 @@ impl Binding {
         let counts = self.counts();
         let mut weights = vec![0.0; product(&[counts.n_points, counts.n_handles])?];
         // SAFETY: there is room for all.
-        check(unsafe { sys::icc_binding_get(self.as_ptr(), ptr::null_mut(), weights.as_mut_ptr()) })?;
+        check(unsafe { sys::icc_binding_get_weights(self.as_ptr(), ptr::null_mut(), weights.as_mut_ptr()) })?;
         Ok(weights)
     }
 

@@ -8,7 +8,7 @@ use crate::slices::{count, exactly, int, pointer, pointer_mut};
 use crate::sys;
 
 pub use crate::sys::icc_chart_info as ChartInfo;
-pub use crate::sys::icc_chart_measures as ChartMeasures;
+pub use crate::sys::icc_chart_report as ChartMeasures;
 
 object!(
     /// Coordinates of the inside of a domain: a boundary point, and a share of the way from there to the maximum.
@@ -226,7 +226,7 @@ impl Chart {
     /// The function of a gradient chart, `None` for others.
     pub fn field(&self) -> Option<Borrowed<'_, Field>> {
         // SAFETY: the chart keeps its field.
-        unsafe { Field::found(sys::icc_chart_field(self.as_ptr())).map(|field| Borrowed::new(field)) }
+        unsafe { Field::found(sys::icc_chart_function(self.as_ptr())).map(|field| Borrowed::new(field)) }
     }
 
     /// Estimates what the coordinates miss from `n_points` evenly spread points; 0: 4096.
@@ -234,7 +234,7 @@ impl Chart {
         let mut measures = ChartMeasures::default();
         env.call(|env, err| {
             // SAFETY: `size` is set.
-            unsafe { sys::icc_chart_measure(self.as_ptr(), n_points, &mut measures, env, err) }
+            unsafe { sys::icc_chart_get_report(self.as_ptr(), n_points, &mut measures, env, err) }
         })?;
         Ok(measures)
     }

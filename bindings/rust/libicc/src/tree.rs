@@ -8,7 +8,7 @@ use crate::slices::{exactly, int, pointer};
 use crate::sys;
 use std::fmt;
 
-pub use crate::sys::icc_field_report as FieldReport;
+pub use crate::sys::icc_function_report as FieldReport;
 pub use crate::sys::icc_grow_report as GrowReport;
 pub use crate::sys::icc_tree_report as TreeReport;
 
@@ -115,7 +115,7 @@ impl Tree {
         let mut report = TreeReport::default();
         env.call(|env, err| {
             // SAFETY: `size` is set.
-            unsafe { sys::icc_tree_verify(self.as_ptr(), &mut report, env, err) }
+            unsafe { sys::icc_tree_get_report(self.as_ptr(), &mut report, env, err) }
         })?;
         Ok(report)
     }
@@ -152,7 +152,7 @@ impl Tree {
         let mut report = FieldReport::default();
         env.call(|env, err| {
             // SAFETY: one rank per vertex; `size` is set.
-            unsafe { sys::icc_tree_verify_ranks(self.as_ptr(), rank.as_ptr(), &mut report, env, err) }
+            unsafe { sys::icc_tree_get_rank_report(self.as_ptr(), rank.as_ptr(), &mut report, env, err) }
         })?;
         Ok(report)
     }

@@ -7,15 +7,15 @@ use crate::slices::{count, exactly, pointer, product};
 use crate::sys;
 use std::ptr;
 
-pub use crate::sys::icc_kernel_info as KernelInfo;
-pub use crate::sys::icc_kernel_report as KernelReport;
+pub use crate::sys::icc_weights_info as KernelInfo;
+pub use crate::sys::icc_weights_report as KernelReport;
 
 object!(
     /// Handles, and the weight of each at every place of a shape. Changes give new kernels that share what is the
     /// same.
     Kernel,
-    icc_kernel,
-    icc_kernel_free
+    icc_weights,
+    icc_weights_free
 );
 
 /// The kernel that is summed up.
@@ -154,7 +154,7 @@ impl Kernel {
         Kernel::make(env, |out, env, err| {
             // SAFETY: the options are valid during the call.
             unsafe {
-                sys::icc_kernel_create(out, sampling.as_ptr(), n_handles, handles.as_ptr(), &raw, env, err)
+                sys::icc_weights_create(out, sampling.as_ptr(), n_handles, handles.as_ptr(), &raw, env, err)
             }
         })
     }
@@ -163,7 +163,7 @@ impl Kernel {
     pub fn info(&self) -> KernelInfo {
         let mut info = KernelInfo::default();
         // SAFETY: `size` is set. It cannot fail.
-        unsafe { sys::icc_kernel_get_info(self.as_ptr(), &mut info) };
+        unsafe { sys::icc_weights_get_info(self.as_ptr(), &mut info) };
         info
     }
 
@@ -179,7 +179,7 @@ impl Kernel {
         };
         // SAFETY: there is room for all.
         check(unsafe {
-            sys::icc_kernel_get_nodes(
+            sys::icc_weights_get_nodes(
                 self.as_ptr(),
                 nodes.points.as_mut_ptr(),
                 nodes.initial.as_mut_ptr(),
@@ -204,7 +204,7 @@ impl Kernel {
         Kernel::make(env, |out, env, err| {
             let centre = centre.as_ptr();
             // SAFETY: dim coordinates.
-            unsafe { sys::icc_kernel_paint(out, self.as_ptr(), handle, centre, radius, amount, env, err) }
+            unsafe { sys::icc_weights_paint(out, self.as_ptr(), handle, centre, radius, amount, env, err) }
         })
     }
 
@@ -214,7 +214,7 @@ impl Kernel {
         Kernel::make(env, |out, env, err| {
             let (n, nodes) = (nodes.len(), nodes.as_ptr());
             // SAFETY: n nodes and rows.
-            unsafe { sys::icc_kernel_repaint(out, self.as_ptr(), n, nodes, weights.as_ptr(), env, err) }
+            unsafe { sys::icc_weights_repaint(out, self.as_ptr(), n, nodes, weights.as_ptr(), env, err) }
         })
     }
 
@@ -222,7 +222,7 @@ impl Kernel {
     pub fn with_method(&self, method: WeightsMethod, env: &mut Env<'_>) -> Result<Kernel> {
         Kernel::make(env, |out, env, err| {
             // SAFETY: a valid object.
-            unsafe { sys::icc_kernel_set_method(out, self.as_ptr(), method as i32, env, err) }
+            unsafe { sys::icc_weights_with_method(out, self.as_ptr(), method as i32, env, err) }
         })
     }
 
@@ -241,7 +241,7 @@ impl Kernel {
         let kernel = Kernel::make(env, |out, env, err| {
             // SAFETY: as many nodes as numbers.
             unsafe {
-                sys::icc_kernel_stiffen(
+                sys::icc_weights_stiffen(
                     out,
                     self.as_ptr(),
                     nodes.len(),
@@ -273,7 +273,7 @@ impl Kernel {
         env.call(|env, _| {
             // SAFETY: there is room for n points.
             unsafe {
-                sys::icc_kernel_weights(
+                sys::icc_weights_evaluate(
                     self.as_ptr(),
                     n,
                     points.as_ptr(),
@@ -294,7 +294,7 @@ impl Kernel {
         let mut report = KernelReport::default();
         env.call(|env, err| {
             // SAFETY: n points; `size` is set.
-            unsafe { sys::icc_kernel_get_report(self.as_ptr(), n, points.as_ptr(), &mut report, env, err) }
+            unsafe { sys::icc_weights_get_report(self.as_ptr(), n, points.as_ptr(), &mut report, env, err) }
         })?;
         Ok(report)
     }
@@ -302,7 +302,7 @@ impl Kernel {
 
 impl KernelOptions<'_> {
     /// As C takes them; `lines` must outlive them.
-    fn raw(&self, lines: &[sys::icc_line]) -> sys::icc_kernel_options {
+    fn raw(&self, lines: &[sys::icc_line]) -> sys::icc_weights_options {
         let (initial, given) = match self.initial {
             None => (0, ptr::null()),
             Some(InitialWeights::Heat) => (sys::ICC_INITIAL_HEAT, ptr::null()),
@@ -310,7 +310,7 @@ impl KernelOptions<'_> {
             Some(InitialWeights::Inverse) => (sys::ICC_INITIAL_INVERSE, ptr::null()),
             Some(InitialWeights::Given(weights)) => (sys::ICC_INITIAL_GIVEN, weights.as_ptr()),
         };
-        sys::icc_kernel_options {
+        sys::icc_weights_options {
             kernel: self.kernel.map_or(0, |kernel| kernel as i32),
             initial,
             method: self.method.map_or(0, |method| method as i32),

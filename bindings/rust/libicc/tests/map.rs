@@ -324,7 +324,7 @@ fn meshes_are_carried_and_certified() {
     let mesh = map.mesh().unwrap();
     let info = map.info();
     assert_eq!(mesh.vertices.len(), 2 * info.n_vertices);
-    assert_eq!(mesh.simplices.len(), 3 * info.n_triangles);
+    assert_eq!(mesh.simplices.len(), 3 * info.n_simplices);
     let mut points = flat(&BEFORE).to_vec();
     points.extend([0.7, 0.7, 2.5, 0.7, 0.7, 2.5]);
     let triangles = libicc::stages::triangulate(6, &points, &mut Env::new()).unwrap();
