@@ -304,7 +304,7 @@ enum {
     ICC_FUNCTION_CLAMPED = 5   /**< discretely biharmonic, clamped: changes its sign unless constrained */
 };
 
-/** Whether f(parent) >= (1 + eta) f(child) is imposed on the edges of the tree inside (Laplace and
+/** Whether f(parent) >= (1 + min_fall) f(child) is imposed on the edges of the tree inside (Laplace and
  *  bi-Laplace; decay and distance fulfil it anyway). */
 enum {
     ICC_CONSTRAINTS_NEEDED = 1, /**< only when the function without has other critical points than one

@@ -192,7 +192,7 @@ ICC_API const int32_t *icc_tree_generations(const icc_tree *tree);
 ICC_API icc_status icc_tree_get_report(const icc_tree *tree, icc_tree_report *report,
                                    const icc_env *env, icc_error *err);
 
-/* ------------------------------------------------------------------- field */
+/* ------------------------------------------------------------------- function */
 
 /** A function on the vertices of a tree that falls from parent to child. */
 typedef struct icc_function icc_function;
@@ -266,19 +266,19 @@ enum {
  * inside, which is f = c L^-2 e_root (simply supported, Navier); clamped: over the vertices next to them
  * outside, too. Laplace and bilaplace are positive inside, however far from the root; clamped changes its
  * sign unless it is constrained. With constraints, the least energy among the functions that fall by
- * eta along every tree edge inside and, for bilaplace and clamped, are at least `leaf` at the leaves.
+ * `min_fall` along every tree edge inside and, for bilaplace and clamped, are at least `leaf_min` at the leaves.
  *
  * Nothing is assumed about critical points: see icc_function_get_report(). Inequalities on a tree that is not a
  * cousin tree, as in 3-D, do not rule out others than the maximum.
  *
- * @param[out] out the field; owned by the caller; keeps the tree alive
+ * @param[out] out the function; owned by the caller; keeps the tree alive
  * @param tree     the tree
  * @param options  may be NULL
  * @param env      may be NULL
  * @param err      may be NULL
  * @return ::ICC_OK; ::ICC_ERR_SOLVER when a solver did not converge, which has only been seen with
- *         inequalities on bilaplace and clamped, where they ask for more than 1 at the root (as `leaf` and `eta` do of
- *         deep trees) or `leaf` is 1e-2; ::ICC_ERR_RESOLUTION when the root is
+ *         inequalities on bilaplace and clamped, where they ask for more than 1 at the root (as `leaf_min` and `min_fall` do of
+ *         deep trees) or `leaf_min` is 1e-2; ::ICC_ERR_RESOLUTION when the root is
  *         the only vertex inside (laplace, bilaplace, clamped); ::ICC_ERR_UNSUPPORTED for clamped, and
  *         for bilaplace under inequalities, in a build without AMD; ::ICC_ERR_ARGUMENT,
  *         ::ICC_ERR_MEMORY, ::ICC_ERR_CANCELLED, ::ICC_ERR_VERSION
@@ -290,8 +290,8 @@ ICC_API icc_status icc_function_create(icc_function **out, const icc_tree *tree,
 /** The function of a gradient chart, or NULL for other charts; borrowed, as is what hangs on it. */
 ICC_API const icc_function *icc_chart_function(const icc_chart *chart);
 
-/** The tree that a field was made on; borrowed. */
-ICC_API const icc_tree *icc_function_tree(const icc_function *field);
+/** The tree that a function was made on; borrowed. */
+ICC_API const icc_tree *icc_function_tree(const icc_function *function);
 
 /** The grid that a tree was grown on; borrowed. */
 ICC_API const icc_grid *icc_tree_grid(const icc_tree *tree);
@@ -299,35 +299,35 @@ ICC_API const icc_grid *icc_tree_grid(const icc_tree *tree);
 /** The vertex that a tree was grown from; UINT32_MAX for NULL. */
 ICC_API uint32_t icc_tree_root(const icc_tree *tree);
 
-/** Frees a field. */
-ICC_API void icc_function_free(icc_function *field);
+/** Frees a function. */
+ICC_API void icc_function_free(icc_function *function);
 
 /** Fills in `info`, whose `size` the caller has set. ::ICC_OK or ::ICC_ERR_ARGUMENT. */
-ICC_API icc_status icc_function_get_info(const icc_function *field, icc_function_info *info);
+ICC_API icc_status icc_function_get_info(const icc_function *function, icc_function_info *info);
 
 /** One value per grid vertex; NaN where the tree does not reach; borrowed. (Beyond 2-D the function of a
  *  gradient chart goes on to some vertices outside.) Laplace and bilaplace decay exponentially in long
  *  limbs: values below 2^-1022 are 0 here, see icc_function_logs(). */
-ICC_API const double *icc_function_values(const icc_function *field);
+ICC_API const double *icc_function_values(const icc_function *function);
 
 /** The natural logarithm of every value, accurate also where the values underflow; -HUGE_VAL outside, NaN
  *  where the tree does not reach; borrowed. NULL for decay and distance, and when some value
  *  inside is not positive. */
-ICC_API const double *icc_function_logs(const icc_function *field);
+ICC_API const double *icc_function_logs(const icc_function *function);
 
 /**
  * Counts critical points. Vertices outside or without a value count as lower than all others, equal
  * values are ordered by vertex index. About 10 ns a vertex in 2-D and 3-D; up to 1, 4 and 10 us in
  * 4-D, 5-D and 6-D.
  */
-ICC_API icc_status icc_function_get_report(const icc_function *field, icc_function_report *report,
+ICC_API icc_status icc_function_get_report(const icc_function *function, icc_function_report *report,
                                     const icc_env *env, icc_error *err);
 
 /**
  * Lists compression and expansion edges (2-D): edges between two triangles with a value at every
  * corner, at least one of whose corners is inside (thesis, sections 5 and 6.4).
  *
- * @param field        the field
+ * @param function        the function
  * @param capacity     how many edges the arrays have room for
  * @param[out] edges   `capacity` pairs of vertices
  * @param[out] kinds   `capacity` kinds, `ICC_EDGE_*`
@@ -335,7 +335,7 @@ ICC_API icc_status icc_function_get_report(const icc_function *field, icc_functi
  * @param[out] n_tested how many edges were looked at, or NULL
  * @return ::ICC_OK, ::ICC_ERR_ARGUMENT, ::ICC_ERR_UNSUPPORTED (not 2-D)
  */
-ICC_API icc_status icc_function_get_edges(const icc_function *field, size_t capacity, uint32_t *edges,
+ICC_API icc_status icc_function_get_edges(const icc_function *function, size_t capacity, uint32_t *edges,
                                    int32_t *kinds, size_t *n_edges, size_t *n_tested);
 
 /* ------------------------------------------------------------------- order */

@@ -177,12 +177,12 @@ icc_status icc_weights_create(icc_weights **out, const icc_sampling *sampling, s
         return status;
     complete(&full, sampling->info.sigma);
     return iccp_explain(
-        err, iccp_kernel_create(out, sampling, n_handles, handles, &full, &full_env, err));
+        err, iccp_weights_create(out, sampling, n_handles, handles, &full, &full_env, err));
 }
 
 void icc_weights_free(icc_weights *kernel)
 {
-    iccp_kernel_release(kernel);
+    iccp_weights_release(kernel);
 }
 
 /* ---- what is known ---- */
@@ -237,7 +237,7 @@ icc_status icc_weights_get_report(const icc_weights *kernel, size_t n, const dou
         return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)i, "point %zu is not finite", i);
     icc_status status = iccp_env_read(&full_env, env, err);
     if (status == ICC_OK)
-        status = iccp_kernel_measure(kernel, n, points, &full, &full_env);
+        status = iccp_weights_measure(kernel, n, points, &full, &full_env);
     if (status == ICC_OK)
         return iccp_write_struct(report, &full, sizeof full, "icc_weights_report", err);
     return iccp_explain(err, status);
@@ -273,7 +273,7 @@ icc_status icc_weights_paint(icc_weights **out, const icc_weights *kernel, size_
                          "icc_weights_paint: radius %g, amount %g, or a centre that is not finite",
                          radius, amount);
     return iccp_explain(err,
-                        iccp_kernel_paint(out, kernel, handle, centre, radius, amount, &full_env));
+                        iccp_weights_paint(out, kernel, handle, centre, radius, amount, &full_env));
 }
 
 icc_status icc_weights_repaint(icc_weights **out, const icc_weights *kernel, size_t n,
@@ -290,7 +290,7 @@ icc_status icc_weights_repaint(icc_weights **out, const icc_weights *kernel, siz
     if (k < n)
         return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)k, "a weight for node %lu is not finite",
                          (unsigned long)nodes[k]);
-    return iccp_explain(err, iccp_kernel_repaint(out, kernel, n, nodes, weights, &full_env, err));
+    return iccp_explain(err, iccp_weights_repaint(out, kernel, n, nodes, weights, &full_env, err));
 }
 
 icc_status icc_weights_with_method(icc_weights **out, const icc_weights *kernel, int32_t method,
@@ -320,5 +320,5 @@ icc_status icc_weights_stiffen(icc_weights **out, const icc_weights *kernel, siz
             return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)k, "the rigidity of node %lu is %g",
                              (unsigned long)nodes[k], rigidity[k]);
     return iccp_explain(
-        err, iccp_kernel_stiffen(out, kernel, n, nodes, rigidity, energy, &full_env, err));
+        err, iccp_weights_stiffen(out, kernel, n, nodes, rigidity, energy, &full_env, err));
 }

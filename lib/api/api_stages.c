@@ -289,7 +289,7 @@ icc_status icc_tree_get_rank_report(const icc_tree *tree, const uint32_t *rank,
     return iccp_write_struct(report, &full, sizeof full, "icc_function_report", err);
 }
 
-/* ------------------------------------------------------------------- field */
+/* ------------------------------------------------------------------- function */
 
 icc_status icc_function_create(icc_function **out, const icc_tree *tree, const icc_function_options *options,
                             const icc_env *env, icc_error *err)
@@ -306,61 +306,61 @@ icc_status icc_function_create(icc_function **out, const icc_tree *tree, const i
     if (status != ICC_OK)
         return status;
     status = iccp_check_function(&full, "icc_function_options", err);
-    return status == ICC_OK ? iccp_field_create(out, tree, &full, &full_env, err) : status;
+    return status == ICC_OK ? iccp_function_create(out, tree, &full, &full_env, err) : status;
 }
 
-void icc_function_free(icc_function *field)
+void icc_function_free(icc_function *function)
 {
-    iccp_field_release(field);
+    iccp_function_release(function);
 }
 
-const double *icc_function_values(const icc_function *field)
+const double *icc_function_values(const icc_function *function)
 {
-    if (field == NULL)
+    if (function == NULL)
         return NULL;
-    return field->plain != NULL ? field->plain : field->values;
+    return function->plain != NULL ? function->plain : function->values;
 }
 
-const double *icc_function_logs(const icc_function *field)
+const double *icc_function_logs(const icc_function *function)
 {
-    return field != NULL ? field->logs : NULL;
+    return function != NULL ? function->logs : NULL;
 }
 
-icc_status icc_function_get_info(const icc_function *field, icc_function_info *info)
+icc_status icc_function_get_info(const icc_function *function, icc_function_info *info)
 {
-    if (field == NULL || info == NULL)
+    if (function == NULL || info == NULL)
         return ICC_ERR_ARGUMENT;
-    return iccp_write_struct(info, &field->info, sizeof field->info, "icc_function_info", NULL);
+    return iccp_write_struct(info, &function->info, sizeof function->info, "icc_function_info", NULL);
 }
 
-const icc_tree *icc_function_tree(const icc_function *field)
+const icc_tree *icc_function_tree(const icc_function *function)
 {
-    return field != NULL ? field->tree : NULL;
+    return function != NULL ? function->tree : NULL;
 }
 
-icc_status icc_function_get_report(const icc_function *field, icc_function_report *report, const icc_env *env,
+icc_status icc_function_get_report(const icc_function *function, icc_function_report *report, const icc_env *env,
                             icc_error *err)
 {
     iccp_env full_env;
-    const char *missing = field == NULL ? "field" : report == NULL ? "report" : NULL;
+    const char *missing = function == NULL ? "function" : report == NULL ? "report" : NULL;
     icc_status status = begin(&full_env, env, missing, err);
     if (status != ICC_OK)
         return status;
     icc_function_report full;
-    status = iccp_explain(err, iccp_field_verify(field, &full, &full_env));
+    status = iccp_explain(err, iccp_function_verify(function, &full, &full_env));
     if (status != ICC_OK)
         return status;
     return iccp_write_struct(report, &full, sizeof full, "icc_function_report", err);
 }
 
-icc_status icc_function_get_edges(const icc_function *field, size_t capacity, uint32_t *edges, int32_t *kinds,
+icc_status icc_function_get_edges(const icc_function *function, size_t capacity, uint32_t *edges, int32_t *kinds,
                            size_t *n_edges, size_t *n_tested)
 {
-    if (field == NULL || n_edges == NULL || (capacity > 0 && (edges == NULL || kinds == NULL)))
+    if (function == NULL || n_edges == NULL || (capacity > 0 && (edges == NULL || kinds == NULL)))
         return ICC_ERR_ARGUMENT;
-    if (field->tree->grid->dim != 2)
+    if (function->tree->grid->dim != 2)
         return ICC_ERR_UNSUPPORTED;
-    const iccp_edge_count count = iccp_field_edges(field, capacity, edges, kinds);
+    const iccp_edge_count count = iccp_function_edges(function, capacity, edges, kinds);
     *n_edges = count.n_compression + count.n_expansion;
     if (n_tested != NULL)
         *n_tested = count.n_tested;

@@ -112,9 +112,9 @@ static icc_status make_field(iccp_field_state *state, icc_chart *chart,
     const icc_function_options function = {.function = ICC_FUNCTION_LAPLACE,
                                         .constraints = ICC_CONSTRAINTS_NONE,
                                         .solver = options->solver};
-    icc_status status = iccp_field_create(&state->field, state->tree, &function, env, err);
+    icc_status status = iccp_function_create(&state->field, state->tree, &function, env, err);
     if (status == ICC_OK)
-        status = iccp_field_verify(state->field, &report, env);
+        status = iccp_function_verify(state->field, &report, env);
     chart->info.n_maxima = report.n_maxima;
     chart->info.n_minima = report.n_minima;
     chart->info.n_saddles = report.n_saddles;
@@ -168,7 +168,7 @@ static void free_state(icc_chart *chart)
     iccp_field_state *state = chart->state;
     iccp_cones_free(&state->cones);
     iccp_cover_free(&state->cover);
-    iccp_field_release(state->field);
+    iccp_function_release(state->field);
     iccp_tree_release(state->tree);
     iccp_free(&chart->memory, state);
 }

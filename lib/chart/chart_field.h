@@ -3,7 +3,7 @@
 #define ICCP_CHART_FIELD_H
 
 #include "chart/chart.h"
-#include "function/field.h"
+#include "function/function.h"
 
 /* `options` is complete. `maximum` (local coordinates) is where the maximum shall be, whatever the options
  * say, or NULL. */

@@ -80,9 +80,9 @@ static icc_status make_field(iccp_gradient_state *state, icc_chart *chart,
                                         .solver = options->solver,
                                         .min_fall = options->min_fall,
                                         .leaf_min = options->leaf_min};
-    icc_status status = iccp_field_create(&state->field, state->tree, &function, env, err);
+    icc_status status = iccp_function_create(&state->field, state->tree, &function, env, err);
     if (status == ICC_OK)
-        status = iccp_field_verify(state->field, &report, env);
+        status = iccp_function_verify(state->field, &report, env);
     if (status != ICC_OK)
         return status;
     chart->info.n_maxima = report.n_maxima;
@@ -250,7 +250,7 @@ static void free_state(icc_chart *chart)
         iccp_fence_free(&state->fence);
     else
         iccp_cage_cells_free(&state->cage);
-    iccp_field_release(state->field);
+    iccp_function_release(state->field);
     iccp_tree_release(state->tree);
     iccp_free(&chart->memory, state);
 }

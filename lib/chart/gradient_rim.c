@@ -9,7 +9,7 @@ static uint32_t extreme(const icc_function *field, const uint8_t *layer, uint32_
     for (int32_t i = 0; i < 2 * grid->dim; ++i) {
         const uint32_t u = iccp_grid_neighbour(grid, v, i / 2, i % 2 * 2 - 1);
         if (u != ICCP_NONE && layer[u] == wanted &&
-            (best == ICCP_NONE || sign * iccp_field_compare(field, u, best) > 0))
+            (best == ICCP_NONE || sign * iccp_function_compare(field, u, best) > 0))
             best = u;
     }
     return best;
@@ -26,7 +26,7 @@ static void go_on(icc_function *field, uint32_t v, uint32_t u, uint32_t t)
     }
     const uint32_t both[2] = {u, t};
     double f[2];
-    iccp_field_local(field, 2, both, f);
+    iccp_function_local(field, 2, both, f);
     field->values[v] = 2 * f[0] - f[1];
     field->exponent[v] =
         field->exponent[u] > field->exponent[t] ? field->exponent[u] : field->exponent[t];

@@ -3,7 +3,7 @@
 #define ICCP_RECIPE_H
 
 #include "chart/chart.h"
-#include "function/field.h"
+#include "function/function.h"
 
 /* Of eta and leaf: functions still look like themselves. */
 #define ICCP_MAX_SHARE 0.01

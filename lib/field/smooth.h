@@ -3,7 +3,7 @@
 #define ICCP_SMOOTH_H
 
 #include "field/cover.h"
-#include "function/field.h"
+#include "function/function.h"
 
 typedef struct iccp_smooth {
     iccp_memory memory;

@@ -18,23 +18,23 @@ static icc_function_options complete(const icc_function_options *options)
     return full;
 }
 
-icc_status iccp_field_create(icc_function **out, const icc_tree *tree,
+icc_status iccp_function_create(icc_function **out, const icc_tree *tree,
                              const icc_function_options *options, const iccp_env *env, icc_error *err)
 {
-    icc_function *field;
+    icc_function *function;
     *out = NULL;
-    icc_status status = iccp_field_new(&field, tree, env);
+    icc_status status = iccp_function_new(&function, tree, env);
     if (status != ICC_OK)
         return iccp_explain(err, status);
     const icc_function_options full = complete(options);
-    field->info.function = full.function;
+    function->info.function = full.function;
     if (full.function == ICC_FUNCTION_DECAY || full.function == ICC_FUNCTION_DISTANCE)
-        status = iccp_distance(field, full.function, env);
+        status = iccp_distance(function, full.function, env);
     else
-        status = iccp_laplace(field, &full, env, err);
+        status = iccp_laplace(function, &full, env, err);
     if (status == ICC_OK)
-        *out = field;
+        *out = function;
     else
-        iccp_field_release(field);
+        iccp_function_release(function);
     return iccp_explain(err, status);
 }

@@ -91,7 +91,7 @@ static void bend(icc_weights *kernel, const change *c, double *row)
     }
 }
 
-icc_status iccp_kernel_follow(icc_weights *kernel, size_t k, const iccp_env *env)
+icc_status iccp_weights_follow(icc_weights *kernel, size_t k, const iccp_env *env)
 {
     const iccp_layout *l = kernel->layout;
     const iccp_memory *memory = &env->memory;

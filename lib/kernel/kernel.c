@@ -102,7 +102,7 @@ static icc_status optimise_some(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
-icc_status iccp_kernel_optimise(icc_weights *kernel, size_t n, const uint32_t *nodes,
+icc_status iccp_weights_optimise(icc_weights *kernel, size_t n, const uint32_t *nodes,
                                 const iccp_env *env)
 {
     optimisation o = {kernel, nodes, &env->memory};
@@ -135,7 +135,7 @@ static icc_status optimise_ends(icc_weights *kernel, const iccp_env *env)
     return ICC_OK;
 }
 
-icc_status iccp_kernel_start(icc_weights *kernel, const iccp_env *env)
+icc_status iccp_weights_start(icc_weights *kernel, const iccp_env *env)
 {
     const iccp_layout *l = kernel->layout;
     const double start = iccp_seconds();
@@ -144,15 +144,15 @@ icc_status iccp_kernel_start(icc_weights *kernel, const iccp_env *env)
         kernel->status[i] = ICC_OK;
     icc_status status = optimise_ends(kernel, env);
     if (status == ICC_OK)
-        status = iccp_kernel_optimise(kernel, l->n, NULL, env);
+        status = iccp_weights_optimise(kernel, l->n, NULL, env);
     for (size_t k = 0; status == ICC_OK && k < l->n_lines; ++k)
-        status = iccp_kernel_follow(kernel, k, env);
+        status = iccp_weights_follow(kernel, k, env);
     kernel->info.seconds_weights = iccp_seconds() - start;
     return status;
 }
 
 /* Columns that are the same bit for bit have the same coefficients. */
-icc_status iccp_kernel_interpolate(icc_weights *kernel, const icc_weights *before,
+icc_status iccp_weights_interpolate(icc_weights *kernel, const icc_weights *before,
                                    const iccp_env *env)
 {
     const iccp_layout *l = kernel->layout;
@@ -218,11 +218,11 @@ static icc_status finish(icc_weights **out, iccp_layout *layout, const icc_weigh
         return status;
     describe(*out, options);
     (*out)->info.seconds_initial = seconds;
-    status = iccp_kernel_start(*out, env);
-    return status == ICC_OK ? iccp_kernel_interpolate(*out, NULL, env) : status;
+    status = iccp_weights_start(*out, env);
+    return status == ICC_OK ? iccp_weights_interpolate(*out, NULL, env) : status;
 }
 
-icc_status iccp_kernel_create(icc_weights **out, const icc_sampling *sampling, size_t n_handles,
+icc_status iccp_weights_create(icc_weights **out, const icc_sampling *sampling, size_t n_handles,
                               const double *handles, const icc_weights_options *options,
                               const iccp_env *env, icc_error *err)
 {
@@ -239,17 +239,17 @@ icc_status iccp_kernel_create(icc_weights **out, const icc_sampling *sampling, s
         (*out)->info.seconds_factor = seconds;
     if (status == ICC_OK)
         return ICC_OK;
-    iccp_kernel_release(*out);
+    iccp_weights_release(*out);
     *out = NULL;
     return status;
 }
 
-icc_status iccp_kernel_copy(icc_weights **out, const icc_weights *from, const iccp_env *env)
+icc_status iccp_weights_copy(icc_weights **out, const icc_weights *from, const iccp_env *env)
 {
     const iccp_layout *l = from->layout;
     const icc_status status = allocate(out, l, env);
     if (status != ICC_OK) {
-        iccp_kernel_release(*out);
+        iccp_weights_release(*out);
         *out = NULL;
         return status;
     }
@@ -262,14 +262,14 @@ icc_status iccp_kernel_copy(icc_weights **out, const icc_weights *from, const ic
     return ICC_OK;
 }
 
-icc_weights *iccp_kernel_retain(const icc_weights *kernel)
+icc_weights *iccp_weights_retain(const icc_weights *kernel)
 {
     icc_weights *k = (icc_weights *)kernel;
     atomic_fetch_add(&k->references, 1);
     return k;
 }
 
-void iccp_kernel_release(icc_weights *kernel)
+void iccp_weights_release(icc_weights *kernel)
 {
     if (kernel == NULL || atomic_fetch_sub(&kernel->references, 1) > 1)
         return;

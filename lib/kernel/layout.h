@@ -25,7 +25,7 @@ typedef struct iccp_layout {
     int32_t *parallel; /* of each line, see icc_line */
     iccp_handles *handles;
     iccp_collocation *collocation;
-    double *initial; /* n * n_handles, from iccp_kernel_create() */
+    double *initial; /* n * n_handles, from iccp_weights_create() */
 } iccp_layout;
 
 /* Members of `options` that may be 0 have got their defaults. */

@@ -12,7 +12,7 @@ enum { EDGE_PLACES = 64 };
 /* Weights below this are negative, others may be so by rounding. */
 static const double NEGATIVE = -1e-9;
 
-void iccp_kernel_evaluate(const icc_weights *kernel, const double *point, double *weights,
+void iccp_weights_at(const icc_weights *kernel, const double *point, double *weights,
                           double *gradients)
 {
     const iccp_layout *l = kernel->layout;
@@ -49,7 +49,7 @@ static icc_status evaluate_some(void *argument, size_t begin, size_t end)
         double *gradients = e->gradients != NULL ? e->gradients + dim * m * i : NULL;
         const bool finite = is_finite(dim, e->points + dim * i);
         if (finite)
-            iccp_kernel_evaluate(e->kernel, e->points + dim * i, weights, gradients);
+            iccp_weights_at(e->kernel, e->points + dim * i, weights, gradients);
         for (size_t k = 0; !finite && k < m; ++k)
             weights[k] = NAN;
         for (size_t k = 0; !finite && gradients != NULL && k < dim * m; ++k)
@@ -94,7 +94,7 @@ static quality measure(const icc_weights *kernel, const double *point, double *w
     quality q = {-1, 0, HUGE_VAL};
     double local[ICC_MAX_DIM];
     iccp_frame_in(&l->sampling->shape->frame, (int32_t)l->dim, point, local);
-    iccp_kernel_evaluate(kernel, point, weights, NULL);
+    iccp_weights_at(kernel, point, weights, NULL);
     for (size_t j = 0; j < l->n_handles; ++j) {
         q.unity += weights[j];
         q.least = fmin(q.least, weights[j]);
@@ -126,7 +126,7 @@ static double deviation(const icc_weights *kernel, const double *place, const ui
                         double share, double *weights)
 {
     double worst = 0;
-    iccp_kernel_evaluate(kernel, place, weights, NULL);
+    iccp_weights_at(kernel, place, weights, NULL);
     for (size_t j = 0; j < kernel->layout->n_handles; ++j) {
         const double wanted = j == ends[0] ? 1 - share : j == ends[1] ? share : 0;
         worst = fmax(worst, fabs(weights[j] - wanted));
@@ -166,7 +166,7 @@ static void summarise(size_t n, const quality *q, icc_weights_report *report)
     }
 }
 
-icc_status iccp_kernel_measure(const icc_weights *kernel, size_t n, const double *points,
+icc_status iccp_weights_measure(const icc_weights *kernel, size_t n, const double *points,
                                icc_weights_report *report, const iccp_env *env)
 {
     const iccp_memory *memory = &env->memory;

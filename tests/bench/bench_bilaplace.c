@@ -44,10 +44,10 @@ static void print_points(const icc_tree *tree, const iccp_rows *rows, const iccp
 {
     icc_function *field;
     icc_function_report report = {.size = sizeof report};
-    if (iccp_field_new(&field, tree, env) == ICC_OK && iccp_field_assign(field, rows, f) == ICC_OK &&
-        iccp_field_verify(field, &report, env) == ICC_OK)
+    if (iccp_function_new(&field, tree, env) == ICC_OK && iccp_function_assign(field, rows, f) == ICC_OK &&
+        iccp_function_verify(field, &report, env) == ICC_OK)
         printf(" %4zu %4zu %4zu", report.n_maxima, report.n_minima, report.n_saddles);
-    iccp_field_release(field);
+    iccp_function_release(field);
 }
 
 static void measure(const bench_case *c, int32_t function, bool constrained)

@@ -3,7 +3,7 @@
  * minutes; none: all others. One thread, the least processor time of up to five runs. */
 #include "bench.h"
 
-#include "function/field.h"
+#include "function/function.h"
 
 #include "../functions.h"
 
@@ -164,7 +164,7 @@ static double find_imbalance(const ground *g, const icc_function *field)
             if (u != UINT32_MAX && ground_holds(g, u))
                 around[n++] = u;
         }
-        iccp_field_local(field, n, around, f);
+        iccp_function_local(field, n, around, f);
         for (size_t k = 1; k < n; ++k)
             sum += f[k];
         worst = fmax(worst, fabs(sum / (2 * g->info.dim * f[0]) - 1));

@@ -317,6 +317,7 @@ const option options[N_OPTIONS] = {
      .offset = AT(unconstrained),
      .help = "do not (default: only when there are false extrema or saddles without)"},
     {.name = "min-fall",
+     .former = "eta",
      .kind = OPTION_LENGTH,
      .commands = FOR_CHARTS,
      .offset = AT(min_fall),

@@ -21,17 +21,17 @@ chart_options method:i32 function:i32 tree:i32 cells:i32 maximum:ptr constraints
 chart_info dim:i32 method:i32 function:i32 tree:i32 certified:i32 cells:i32 maximum:f64[6] spacing:f64 n_grid:size n_inside:size n_tree:size n_unreachable:size n_cousin_violations:size n_maxima:size n_minima:size n_saddles:size n_edges:size n_compression:size n_expansion:size n_mesh_vertices:size n_mesh_boundary:size n_mesh_simplices:size n_ties:size harmonic_share:f64 seconds_grid:f64 seconds_tree:f64 seconds_function:f64 seconds_mesh:f64 seconds_solve:f64 seconds_certify:f64 n_stray:size n_infeasible:size n_contacts:size n_not_inward:size order_peeled:i32 n_orders:i32 order_beta:f64 n_reversed:size flux_energy:f64 flux_divergence:f64
 chart_report n_points:size n_boundary:size unreachable:f64 uncovered:f64 collapsed:f64 not_inward:f64
 map_options kind:i32 iterations:i32 chart:ptr target_maximum:ptr
-map_info dim:i32 kind:i32 certified:i32 n_levels:i32 n_vertices:size n_triangles:size n_inverted:size n_unrepaired:size n_iterations:size energy_start:f64 energy:f64 seconds:f64 seconds_repair:f64 seconds_improve:f64 seconds_certify:f64
+map_info dim:i32 kind:i32 certified:i32 n_levels:i32 n_vertices:size n_simplices:size n_inverted:size n_unrepaired:size n_iterations:size energy_start:f64 energy:f64 seconds:f64 seconds_repair:f64 seconds_improve:f64 seconds_certify:f64
 improve_options iterations:i32 levels:i32 tolerance:f64
-improve_report energy_start:f64 energy:f64 n_iterations:size n_triangles:size n_levels:i32 cancelled:i32
+improve_report energy_start:f64 energy:f64 n_iterations:size n_simplices:size n_levels:i32 cancelled:i32
 certificate certified:i32 boundary_simple:i32 n_inverted:size n_flat:size n_no_image:size first:i64
-picture width:i32 height:i32 channels:i32 bytes:i32 alpha:i32 reserved:i32 stride:size pixels:ptr
-grid_info dim:i32 reserved:i32 shape:size[6] origin:f64[6] spacing:f64 n_vertices:size n_inside:size n_stray:size cells:i32 reserved2:i32
-tree_options form:i32 reserved:i32 axis_order:ptr
+picture width:i32 height:i32 channels:i32 bytes:i32 alpha:i32 stride:size pixels:ptr
+grid_info dim:i32 shape:size[6] origin:f64[6] spacing:f64 n_vertices:size n_inside:size n_stray:size cells:i32
+tree_options form:i32 axis_order:ptr
 tree_report n_inside:size n_outside:size n_unreachable:size n_pairs:size n_cousin_violations:size violation:u32[2]
-function_options function:i32 constraints:i32 solver:i32 reserved:i32 min_fall:f64 leaf_min:f64
-function_info function:i32 constrained:i32 solver:i32 reserved:i32 n_unknowns:size n_violated:size n_active:size n_iterations:size n_inner:size work:f64 residual_before:f64 residual:f64 least_log:f64 seconds_setup:f64 seconds_order:f64 seconds_factor:f64 seconds_solve:f64 seconds_verify:f64
-function_report n_maxima:size n_minima:size n_saddles:size critical:u32 reserved:u32
+function_options function:i32 constraints:i32 solver:i32 min_fall:f64 leaf_min:f64
+function_info function:i32 constrained:i32 solver:i32 n_unknowns:size n_violated:size n_active:size n_iterations:size n_inner:size work:f64 residual_before:f64 residual:f64 least_log:f64 seconds_setup:f64 seconds_order:f64 seconds_factor:f64 seconds_solve:f64 seconds_verify:f64
+function_report n_maxima:size n_minima:size n_saddles:size critical:u32
 grow_report method:i32 vertex:u32 n_vertices:size n_deferred:size n_unplaced:size n_remaining:size n_reversed:size n_tests:size
 sampling_options kind:i32 steps:i32 spacing:f64 margin:f64 seed:u64 n_fixed:size fixed:ptr
 sampling_info dim:i32 kind:i32 n_samples:size n_edge:size spacing:f64 nearest:f64 sigma:f64

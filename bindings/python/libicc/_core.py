@@ -136,7 +136,7 @@ def fields(struct: Any, dim: Optional[int] = None) -> SimpleNamespace:
     members = {}
     for name, kind in struct._fields_:
         value = getattr(struct, name)
-        if name == "size" or name.startswith("reserved"):
+        if name == "size":
             continue
         if isinstance(value, ctypes.Array):
             value = np.array(value[:dim] if len(value) == 6 else value[:])

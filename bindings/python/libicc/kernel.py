@@ -40,7 +40,7 @@ METHODS = {"qp": 1, "equality": 2, "l1": 3}
 
 class _Line(ctypes.Structure):
     _fields_ = [("first", ctypes.c_double * 3), ("last", ctypes.c_double * 3),
-                ("parallel", ctypes.c_int32), ("reserved", ctypes.c_int32)]
+                ("parallel", ctypes.c_int32)]
 
 
 class Shape(Handle):

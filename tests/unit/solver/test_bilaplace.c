@@ -501,12 +501,12 @@ START_TEST(a_letter_c_has_one_critical_point)
     free(f);
     icc_function *field;
     icc_function_report report = {.size = sizeof report};
-    ck_assert_int_eq(iccp_field_new(&field, p.tree, &env), ICC_OK);
-    ck_assert_int_eq(iccp_field_assign(field, &p.rows, &p.f), ICC_OK);
-    ck_assert_int_eq(iccp_field_verify(field, &report, &env), ICC_OK);
+    ck_assert_int_eq(iccp_function_new(&field, p.tree, &env), ICC_OK);
+    ck_assert_int_eq(iccp_function_assign(field, &p.rows, &p.f), ICC_OK);
+    ck_assert_int_eq(iccp_function_verify(field, &report, &env), ICC_OK);
     ck_assert_uint_eq(report.n_maxima, 1);
     ck_assert_uint_eq(report.n_minima + report.n_saddles, 0);
-    iccp_field_release(field);
+    iccp_function_release(field);
     problem_clear(&p);
 }
 END_TEST

@@ -265,7 +265,7 @@ pub const ICC_FUNCTION_BILAPLACE: i32 = 4;
 /// discretely biharmonic, clamped: changes its sign unless constrained
 pub const ICC_FUNCTION_CLAMPED: i32 = 5;
 
-// Whether f(parent) >= (1 + eta) f(child) is imposed on the edges of the tree inside (Laplace and bi-Laplace;
+// Whether f(parent) >= (1 + min_fall) f(child) is imposed on the edges of the tree inside (Laplace and bi-Laplace;
 // decay and distance fulfil it anyway).
 /// only when the function without has other critical points than one
 /// maximum at the root (and, in 2-D, the saddles of holes, which no
@@ -314,10 +314,10 @@ pub struct icc_chart_options {
     /// gradient: `ICC_SOLVER_*`; 0: by the predicted work
     pub solver: i32,
     /// gradient: least relative fall along tree edges, in (0, 0.01\]; 0: 1e-6
-    pub eta: f64,
+    pub min_fall: f64,
     /// gradient, constrained bi-Laplace: least value at the leaves, in
     /// (0, 0.01\]; 0: 1e-9
-    pub leaf: f64,
+    pub leaf_min: f64,
 }
 sized!(icc_chart_options);
 
@@ -494,7 +494,7 @@ pub struct icc_map_info {
     /// mesh: vertices
     pub n_vertices: usize,
     /// mesh: triangles; in 3-D tetrahedra, also in what follows
-    pub n_triangles: usize,
+    pub n_simplices: usize,
     /// mesh: triangles that were not positive before the repair
     pub n_inverted: usize,
     /// triangles that the repair could not make positive; the map is then of
@@ -547,7 +547,7 @@ pub struct icc_improve_report {
     /// steps
     pub n_iterations: usize,
     /// triangles in the end
-    pub n_triangles: usize,
+    pub n_simplices: usize,
     /// refinements
     pub n_levels: i32,
     /// 1: the progress callback ended it early
@@ -595,8 +595,6 @@ pub struct icc_picture {
     /// 1: the last of at least two channels is opacity, and the others are not
     /// multiplied by it; 0: there is none
     pub alpha: i32,
-    /// 0
-    pub reserved: i32,
     /// bytes from a row to the next
     pub stride: usize,
     /// the first row; any alignment. Only read in a source.
@@ -1091,7 +1089,7 @@ extern "C" {
     /// - `map`: the map
     /// - `vertices` (out): room for `icc_map_info.n_vertices` * dim doubles, or NULL
     /// - `images` (out): the same, or NULL
-    /// - `triangles` (out): room for `icc_map_info.n_triangles` * (dim + 1) indices, or NULL. Triangles are
+    /// - `triangles` (out): room for `icc_map_info.n_simplices` * (dim + 1) indices, or NULL. Triangles are
     ///   counter-clockwise, tetrahedra have positive determinants.
     ///
     /// Returns `ICC_OK`, `ICC_ERR_ARGUMENT`, `ICC_ERR_UNSUPPORTED` (not of kind mesh)
@@ -1099,7 +1097,7 @@ extern "C" {
         map: *const icc_map,
         vertices: *mut f64,
         images: *mut f64,
-        triangles: *mut u32,
+        simplices: *mut u32,
     ) -> icc_status;
 
     /// Maps the vertices of a caller's mesh of triangles (2-D) or tetrahedra (3-D) and checks, exactly, whether the
@@ -1296,8 +1294,6 @@ pub struct icc_grid_info {
     pub size: usize,
     /// dimension, 1..`ICC_MAX_DIM`
     pub dim: i32,
-    /// 0
-    pub reserved: i32,
     /// vertices along each axis
     pub shape: [usize; ICC_MAX_DIM],
     /// position of vertex 0
@@ -1315,8 +1311,6 @@ pub struct icc_grid_info {
     /// grid cells along the longest side of the domain; 0 for a grid from
     /// a mask of vertices
     pub cells: i32,
-    /// 0
-    pub reserved2: i32,
 }
 sized!(icc_grid_info);
 
@@ -1333,8 +1327,6 @@ pub struct icc_tree_options {
     pub size: usize,
     /// `ICC_TREE_*`; 0: thesis
     pub form: i32,
-    /// 0
-    pub reserved: i32,
     /// the order in which a generation expands along the axes, a
     /// permutation of 0..dim-1; NULL: 0, 1, ..
     pub axis_order: *const i32,
@@ -1381,13 +1373,11 @@ pub struct icc_function_options {
     /// constrained bi-Laplace are always factorised; Laplace is iterated
     /// where a factorisation loses small values, as in long thin rings
     pub solver: i32,
-    /// 0
-    pub reserved: i32,
     /// least relative fall from parent to child, in (0, 0.01\]; 0: 1e-6
-    pub eta: f64,
+    pub min_fall: f64,
     /// constrained bi-Laplace: least value at vertices without children, in
     /// (0, 0.01\]; 0: 1e-9
-    pub leaf: f64,
+    pub leaf_min: f64,
 }
 sized!(icc_function_options);
 
@@ -1403,8 +1393,6 @@ pub struct icc_function_info {
     pub constrained: i32,
     /// `ICC_SOLVER_*`
     pub solver: i32,
-    /// 0
-    pub reserved: i32,
     /// vertices inside that the tree reaches, but for the root
     pub n_unknowns: usize,
     /// tree edges where the function without constraints breaks the
@@ -1456,8 +1444,6 @@ pub struct icc_function_report {
     /// the first critical vertex in index order other than the root, or
     /// UINT32_MAX
     pub critical: u32,
-    /// 0
-    pub reserved: u32,
 }
 sized!(icc_function_report);
 
@@ -1494,9 +1480,9 @@ pub struct icc_grow_report {
     /// vertices left when growth got stuck
     pub n_unplaced: usize,
     /// vertices left, but for the root, when thinning got stuck, too
-    pub n_left: usize,
+    pub n_remaining: usize,
     /// edges of the Kuhn triangulation along which the order is not as wished
-    pub n_turned: usize,
+    pub n_reversed: usize,
     /// links that were looked at: less than 2^(dim+3) a vertex
     pub n_tests: usize,
 }
@@ -1667,7 +1653,7 @@ extern "C" {
     /// inside, which is f = c L^-2 e_root (simply supported, Navier); clamped: over the vertices next to them
     /// outside, too. Laplace and bilaplace are positive inside, however far from the root; clamped changes its
     /// sign unless it is constrained. With constraints, the least energy among the functions that fall by
-    /// eta along every tree edge inside and, for bilaplace and clamped, are at least `leaf` at the leaves.
+    /// `min_fall` along every tree edge inside and, for bilaplace and clamped, are at least `leaf_min` at the leaves.
     ///
     /// Nothing is assumed about critical points: see `icc_function_get_report()`. Inequalities on a tree that is not a
     /// cousin tree, as in 3-D, do not rule out others than the maximum.
@@ -1679,8 +1665,8 @@ extern "C" {
     /// - `err`: may be NULL
     ///
     /// Returns `ICC_OK`; `ICC_ERR_SOLVER` when a solver did not converge, which has only been seen with
-    /// inequalities on bilaplace and clamped, where they ask for more than 1 at the root (as `leaf` and `eta` do of
-    /// deep trees) or `leaf` is 1e-2; `ICC_ERR_RESOLUTION` when the root is
+    /// inequalities on bilaplace and clamped, where they ask for more than 1 at the root (as `leaf_min` and `min_fall` do of
+    /// deep trees) or `leaf_min` is 1e-2; `ICC_ERR_RESOLUTION` when the root is
     /// the only vertex inside (laplace, bilaplace, clamped); `ICC_ERR_UNSUPPORTED` for clamped, and
     /// for bilaplace under inequalities, in a build without AMD; `ICC_ERR_ARGUMENT`,
     /// `ICC_ERR_MEMORY`, `ICC_ERR_CANCELLED`, `ICC_ERR_VERSION`
@@ -1945,8 +1931,6 @@ pub struct icc_line {
     /// 0, or k to stay parallel to line k - 1, an earlier one (5.11), which it must be to
     /// 1e-9 of its length; `to` must then be neither a handle nor on an earlier line
     pub parallel: i32,
-    /// 0
-    pub reserved: i32,
 }
 zeroed!(icc_line);
 
@@ -1966,10 +1950,10 @@ pub struct icc_weights_options {
     pub steps: i32,
     /// an affine function beside the kernels, which makes sums and reproduction
     /// exact between the samples: 0 or 1 with, -1 without (the thesis)
-    pub tail: i32,
+    pub affine_tail: i32,
     /// diffusion between samples that see each other inside the shape: 0 or 1; -1
     /// through walls, too (the thesis)
-    pub visible: i32,
+    pub within_shape: i32,
     /// width of the kernel; 0: `icc_sampling_info.sigma`
     pub sigma: f64,
     /// Gauss: in sigma; 0: 5

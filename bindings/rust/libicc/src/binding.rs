@@ -4,7 +4,7 @@ use crate::error::{check, Error, Result};
 use crate::object::{object, to_bytes};
 use crate::slices::{count, exactly, int, pointer_mut, product};
 use crate::sys;
-use crate::weights::Kernel;
+use crate::weights::Weights;
 use std::ptr;
 
 object!(
@@ -30,7 +30,7 @@ impl Binding {
     ///
     /// # Errors
     /// [`Status::ARGUMENT`](crate::Status::ARGUMENT), with the point that is not finite as `index`.
-    pub fn new(kernel: &Kernel, points: &[f64], derivatives: bool, env: &mut Env<'_>) -> Result<Binding> {
+    pub fn new(kernel: &Weights, points: &[f64], derivatives: bool, env: &mut Env<'_>) -> Result<Binding> {
         let n = count(points, kernel.info().dim as usize, "points")?;
         Binding::make(env, |out, env, err| {
             let (kernel, points, derivatives) = (kernel.as_ptr(), points.as_ptr(), i32::from(derivatives));

@@ -127,11 +127,11 @@ static icc_function *steep_field(size_t n)
     int32_t exponent[MAX_VERTICES];
     const iccp_scaled f = {fraction, exponent};
     ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(iccp_field_new(&field, tree, &env), ICC_OK);
+    ck_assert_int_eq(iccp_function_new(&field, tree, &env), ICC_OK);
     ck_assert_int_eq(iccp_rows_create(&rows, tree, &env), ICC_OK);
     for (size_t k = 0; k < n; ++k)
         iccp_scaled_set(&f, k, 1 + 0.5 * (double)(k % 2), -20 * (int32_t)k);
-    ck_assert_int_eq(iccp_field_assign(field, &rows, &f), ICC_OK);
+    ck_assert_int_eq(iccp_function_assign(field, &rows, &f), ICC_OK);
     iccp_rows_free(&rows);
     icc_tree_free(tree);
     return field;
@@ -149,12 +149,12 @@ START_TEST(values_go_on_beyond_doubles)
         ck_assert_double_eq_tol(u[v], log(1 + 0.5 * (k % 2)) - 20 * k * log(2), 1e-11);
         uint32_t both[2] = {v, v + 1};
         double local[2];
-        iccp_field_local(field, 2, both, local);
+        iccp_function_local(field, 2, both, local);
         const double expected = k == N - 1 ? 0 : (k % 2 ? 1 / 1.5 : 1.5) * 0x1p-20;
         ck_assert_double_eq_tol(local[1] / local[0], expected, 1e-20);
-        ck_assert_int_eq(iccp_field_compare(field, v, v + 1), 1);
-        ck_assert_int_eq(iccp_field_compare(field, v + 1, v), -1);
-        ck_assert_int_eq(iccp_field_compare(field, v, v), 0);
+        ck_assert_int_eq(iccp_function_compare(field, v, v + 1), 1);
+        ck_assert_int_eq(iccp_function_compare(field, v + 1, v), -1);
+        ck_assert_int_eq(iccp_function_compare(field, v, v), 0);
     }
     ck_assert(f[N + 1] == 0 && f[1] == 0 && u[1] == -HUGE_VAL); /* 2^-3980 */
     ck_assert(f[0] == -f[2]); /* beyond the zero: mirrored */

@@ -1,34 +1,34 @@
 //! The third stage: a function that falls from parent to child.
-use crate::chart::{Constraints, Function, Solver};
+use crate::chart::{Constraints, FunctionKind, Solver};
 use crate::env::Env;
 use crate::error::{check, Result};
 use crate::object::{object, Borrowed};
 use crate::sys;
-use crate::tree::{FieldReport, Tree};
+use crate::tree::{FunctionReport, Tree};
 use std::ptr;
 
-pub use crate::sys::icc_function_info as FieldInfo;
+pub use crate::sys::icc_function_info as FunctionInfo;
 
 object!(
     /// A function on the vertices of a tree.
-    Field,
+    Function,
     icc_function,
     icc_function_free
 );
 
-/// Options of [`Field::new`]. `None` and 0 are the library's choice.
+/// Options of [`Function::new`]. `None` and 0 are the library's choice.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct FieldOptions {
+pub struct FunctionOptions {
     /// `None`: decay
-    pub function: Option<Function>,
+    pub function: Option<FunctionKind>,
     /// `None`: needed
     pub constraints: Option<Constraints>,
     /// `None`: by the predicted work
     pub solver: Option<Solver>,
     /// least relative fall from parent to child; 0: 1e-6
-    pub eta: f64,
+    pub min_fall: f64,
     /// constrained bi-Laplace: least value at the leaves; 0: 1e-9
-    pub leaf: f64,
+    pub leaf_min: f64,
 }
 
 /// An edge between two triangles whose gradients both point to it, or both away.
@@ -40,18 +40,18 @@ pub struct Edge {
     pub compression: bool,
 }
 
-impl Field {
+impl Function {
     /// Gives values to the vertices of a tree.
-    pub fn new(tree: &Tree, options: &FieldOptions, env: &mut Env<'_>) -> Result<Field> {
+    pub fn new(tree: &Tree, options: &FunctionOptions, env: &mut Env<'_>) -> Result<Function> {
         let raw = sys::icc_function_options {
             function: options.function.map_or(0, |value| value as i32),
             constraints: options.constraints.map_or(0, |value| value as i32),
             solver: options.solver.map_or(0, |value| value as i32),
-            eta: options.eta,
-            leaf: options.leaf,
+            min_fall: options.min_fall,
+            leaf_min: options.leaf_min,
             ..Default::default()
         };
-        Field::make(env, |out, env, err| {
+        Function::make(env, |out, env, err| {
             // SAFETY: the options are valid during the call.
             unsafe { sys::icc_function_create(out, tree.as_ptr(), &raw, env, err) }
         })
@@ -67,8 +67,8 @@ impl Field {
     }
 
     /// How the function was made.
-    pub fn info(&self) -> FieldInfo {
-        let mut info = FieldInfo::default();
+    pub fn info(&self) -> FunctionInfo {
+        let mut info = FunctionInfo::default();
         // SAFETY: `size` is set. It cannot fail.
         unsafe { sys::icc_function_get_info(self.as_ptr(), &mut info) };
         info
@@ -95,8 +95,8 @@ impl Field {
     }
 
     /// Counts critical points.
-    pub fn verify(&self, env: &mut Env<'_>) -> Result<FieldReport> {
-        let mut report = FieldReport::default();
+    pub fn report(&self, env: &mut Env<'_>) -> Result<FunctionReport> {
+        let mut report = FunctionReport::default();
         env.call(|env, err| {
             // SAFETY: `size` is set.
             unsafe { sys::icc_function_get_report(self.as_ptr(), &mut report, env, err) }
