@@ -18,7 +18,7 @@ def test_papers_pipeline(before):
     edges, kinds = stages.Function(tree).edges()
     assert len(edges) == len(kinds) and set(kinds.tolist()) <= {1, 2}
     rank, report = tree.grow()
-    assert report.n_left == 0 and tree.rank_report(rank).n_maxima == 1
+    assert report.n_remaining == 0 and tree.rank_report(rank).n_maxima == 1
     assert np.allclose(grid.position(grid.nearest([2, 3])), [2, 3], atol=grid.info.spacing)
 
 
