@@ -1,7 +1,7 @@
 /* Argument checks of kernel coordinates: kernels. */
 #include "base/error.h"
 #include "base/options.h"
-#include "kernel/kernel.h"
+#include "kernel/handle_weights.h"
 
 #include <math.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 #ifndef ICCP_BINDING_H
 #define ICCP_BINDING_H
 
-#include "kernel/kernel.h"
+#include "kernel/handle_weights.h"
 
 struct icc_binding {
     iccp_memory memory;

@@ -2,7 +2,7 @@
  * saying how. Weights on a line are not those that would have been optimised there. This change keeps sums and
  * reproduction, so any multiple of it may be added to the weights of a node near by: all of it on the line,
  * nothing at some distance, and no more than keeps weights from becoming negative. */
-#include "kernel/kernel.h"
+#include "kernel/handle_weights.h"
 
 #include <math.h>
 #include <string.h>

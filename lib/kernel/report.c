@@ -1,6 +1,6 @@
 /* Weights at points of the caller's, and how good they are. */
 #include "base/threads.h"
-#include "kernel/kernel.h"
+#include "kernel/handle_weights.h"
 
 #include <math.h>
 #include <string.h>

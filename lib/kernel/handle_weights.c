@@ -1,5 +1,5 @@
 /* From nodes to weights everywhere: Sakaridis, Kernel Coordinates (ETH Zurich 2016), chapters 4 and 6. */
-#include "kernel/kernel.h"
+#include "kernel/handle_weights.h"
 
 #include "base/clock.h"
 #include "base/error.h"

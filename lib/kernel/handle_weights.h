@@ -1,6 +1,6 @@
 /* The kernel object: weights at nodes, and their interpolant. */
-#ifndef ICCP_KERNEL_H
-#define ICCP_KERNEL_H
+#ifndef ICCP_HANDLE_WEIGHTS_H
+#define ICCP_HANDLE_WEIGHTS_H
 
 #include "kernel/layout.h"
 
