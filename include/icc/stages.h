@@ -230,7 +230,7 @@ typedef struct icc_field_info {
     double work;            /**< multiplications of the largest factorisation */
     double residual_before; /**< KKT residual before the final sweep from the root to the leaves: the largest
                                  |min(slack, multiplier)| of an inequality, or |row of the equation| if
-                                 there are none; the maximum of f is 1 */
+                                 there are none; f is 1 at the root */
     double residual;        /**< the same after the sweep: for the function that is handed out */
     double least_log;       /**< the smallest of icc_field_logs() inside; 0 if there are none */
     double seconds_setup;   /**< time to number the rows and to build the matrices */
@@ -238,6 +238,11 @@ typedef struct icc_field_info {
     double seconds_factor;  /**< time for factorisations */
     double seconds_solve;   /**< time for triangular solves and conjugate gradients */
     double seconds_verify;  /**< time to count critical points, sweep and find the residuals */
+    double excess;          /**< by what share of its value at the root the function is greater at `highest`;
+                                 0 when that is the root */
+    uint32_t highest;       /**< the vertex inside with the greatest value */
+    int32_t beside;         /**< 1: that is not the root, where curves are to end. Only seen for bilaplace
+                                 and clamped without inequalities; icc_chart_create() then moves the root */
 } icc_field_info;
 
 /** Critical points of a function on the vertices inside, by the links of the Kuhn triangulation. */
@@ -271,7 +276,10 @@ enum {
  * the value two steps back.) bilaplace: that with the least sum of squared Laplacians over the vertices
  * inside, which is f = c L^-2 e_root (simply supported, Navier); clamped: over the vertices next to them
  * outside, too. Laplace and bilaplace are positive inside, however far from the root; clamped changes its
- * sign unless it is constrained. With constraints, the least energy among the functions that fall by
+ * sign unless it is constrained. Both are shapes of a plate that is loaded at the root, and a plate is highest
+ * beside a load that is not in its middle: without constraints the maximum may be another vertex, see
+ * icc_field_info::highest and icc_field_info::beside. (On a tree that grows from the maximum of such a
+ * function the function is another one; icc_chart_create() moves the root until the two agree.) With constraints, the least energy among the functions that fall by
  * eta along every tree edge inside and, for bilaplace and clamped, are at least `leaf` at the leaves.
  *
  * Nothing is assumed about critical points: see icc_field_verify(). Inequalities on a tree that is not a

@@ -4,6 +4,8 @@
 #include "function/distance.h"
 #include "function/laplace.h"
 
+#include <math.h>
+
 static icc_field_options complete(const icc_field_options *options)
 {
     icc_field_options full = *options;
@@ -16,6 +18,23 @@ static icc_field_options complete(const icc_field_options *options)
     if (!(full.leaf > 0))
         full.leaf = 1e-9;
     return full;
+}
+
+/* The root, unless the function is greater elsewhere: the greatest vertex that the tree reaches first. */
+static void find_highest(icc_field *field)
+{
+    const icc_tree *tree = field->tree;
+    uint32_t ends[2] = {tree->root, tree->root};
+    double local[2];
+    for (size_t i = 1; i < tree->n_inside; ++i)
+        if (iccp_field_compare(field, tree->order[i], ends[1]) > 0)
+            ends[1] = tree->order[i];
+    field->info.highest = ends[1];
+    field->info.beside = ends[1] != tree->root;
+    if (field->info.beside) {
+        iccp_field_local(field, 2, ends, local);
+        field->info.excess = (local[1] - local[0]) / fabs(local[0]);
+    }
 }
 
 icc_status iccp_field_create(icc_field **out, const icc_tree *tree,
@@ -32,9 +51,11 @@ icc_status iccp_field_create(icc_field **out, const icc_tree *tree,
         status = iccp_distance(field, full.function, env);
     else
         status = iccp_laplace(field, &full, env, err);
-    if (status == ICC_OK)
+    if (status == ICC_OK) {
+        find_highest(field);
         *out = field;
-    else
+    } else {
         iccp_field_release(field);
+    }
     return iccp_explain(err, status);
 }

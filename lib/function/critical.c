@@ -27,3 +27,15 @@ icc_status iccp_field_verify(const icc_field *field, icc_field_report *report, c
     return iccp_critical_count(tree->grid, field, tree->n_inside, tree->root, judge_chunk, report,
                                env);
 }
+
+icc_status iccp_field_is_regular(const icc_field *field, bool *regular, const iccp_env *env)
+{
+    const icc_tree *tree = field->tree;
+    icc_field_report report = {0};
+    const icc_status status = iccp_field_verify(field, &report, env);
+    *regular = report.n_maxima == 1 && report.n_minima == 0 &&
+               (report.n_saddles == 0 || tree->grid->dim == 2);
+    for (size_t i = 1; i < tree->n_inside && *regular; ++i)
+        *regular = iccp_field_compare(field, tree->order[i], tree->root) < 0;
+    return status;
+}

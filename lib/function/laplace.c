@@ -149,21 +149,6 @@ static icc_status constrain(job *j, const iccp_env *env)
     return iccp_bilaplace_constrained(&j->rows, function, eta, j->options->leaf, &j->f, info, env);
 }
 
-/* Whether there are no more critical points than the shape asks for: a maximum at the root, no minimum, and
- * no saddle, but for those that 2-D shapes with holes cannot do without. (The indices of the critical points
- * add up to the Euler characteristic: with one maximum and no minimum, the saddles are those of the holes.) */
-static icc_status is_regular(const icc_field *field, bool *regular, const iccp_env *env)
-{
-    const icc_tree *tree = field->tree;
-    icc_field_report report = {0};
-    const icc_status status = iccp_field_verify(field, &report, env);
-    *regular = report.n_maxima == 1 && report.n_minima == 0 &&
-               (report.n_saddles == 0 || tree->grid->dim == 2);
-    for (size_t i = 1; i < tree->n_inside && *regular; ++i)
-        *regular = iccp_field_compare(field, tree->order[i], tree->root) < 0;
-    return status;
-}
-
 static icc_status make(job *j, const iccp_env *env)
 {
     icc_field *field = j->field;
@@ -176,7 +161,7 @@ static icc_status make(job *j, const iccp_env *env)
         const double clock = iccp_seconds();
         status = iccp_field_assign(field, &j->rows, &j->f);
         if (status == ICC_OK)
-            status = is_regular(field, &enough, env);
+            status = iccp_field_is_regular(field, &enough, env);
         field->info.seconds_verify += iccp_seconds() - clock;
     }
     if (status == ICC_OK && !enough)

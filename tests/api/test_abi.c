@@ -130,7 +130,7 @@ AT(icc_chart_options, solver, 36);
 AT(icc_chart_options, eta, 40);
 AT(icc_chart_options, leaf, 48);
 
-SIZE(icc_chart_info, 336);
+SIZE(icc_chart_info, 344);
 AT(icc_chart_info, size, 0);
 AT(icc_chart_info, dim, 8);
 AT(icc_chart_info, method, 12);
@@ -172,6 +172,7 @@ AT(icc_chart_info, order_beta, 304);
 AT(icc_chart_info, n_reversed, 312);
 AT(icc_chart_info, flux_energy, 320);
 AT(icc_chart_info, flux_divergence, 328);
+AT(icc_chart_info, moved, 336);
 
 SIZE(icc_chart_measures, 56);
 AT(icc_chart_measures, size, 0);
@@ -279,7 +280,7 @@ AT(icc_field_options, reserved, 20);
 AT(icc_field_options, eta, 24);
 AT(icc_field_options, leaf, 32);
 
-SIZE(icc_field_info, 136);
+SIZE(icc_field_info, 152);
 AT(icc_field_info, size, 0);
 AT(icc_field_info, function, 8);
 AT(icc_field_info, constrained, 12);
@@ -299,6 +300,9 @@ AT(icc_field_info, seconds_order, 104);
 AT(icc_field_info, seconds_factor, 112);
 AT(icc_field_info, seconds_solve, 120);
 AT(icc_field_info, seconds_verify, 128);
+AT(icc_field_info, excess, 136);
+AT(icc_field_info, highest, 144);
+AT(icc_field_info, beside, 148);
 
 SIZE(icc_field_report, 40);
 AT(icc_field_report, size, 0);

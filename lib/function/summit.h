@@ -1,0 +1,13 @@
+/* Where a plate is highest that is loaded there. */
+#ifndef ICCP_SUMMIT_H
+#define ICCP_SUMMIT_H
+
+#include "function/field.h"
+
+/* Finds a root that the function has its greatest value at: from field->info.highest, moves the load to
+ * the greatest value until it stays. `field` is ICC_FUNCTION_BILAPLACE or ICC_FUNCTION_CLAMPED without
+ * inequalities. One factorisation, then one solution a move; gives up after 1,000 moves, and `summit`
+ * is where they have led. */
+icc_status iccp_field_summit(const icc_field *field, uint32_t *summit, const iccp_env *env);
+
+#endif
