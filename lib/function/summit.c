@@ -1,7 +1,7 @@
 /* Bi-Laplace functions are the shapes of a plate under a load: f = c G e_root, with G the inverse of a
  * symmetric positive definite matrix, L L or A'A. A plate is highest beside a load that is not in the
  * middle. With G(t, r) > G(r, r) the inequality G(t, r)^2 <= G(t, t) G(r, r) gives G(t, t) > G(r, r): a load
- * that moves to the greatest value never comes back to where it was. */
+ * that moves to the greatest value, or beyond it as long as G(r, r) grows, never comes back to where it was. */
 #include "function/summit.h"
 
 #include "solver/bilaplace.h"
@@ -10,8 +10,8 @@
 
 #include <string.h>
 
-/* Far beyond what it takes (56 in the longest limbs tried): for rounding, which knows no proof. */
-enum { MOST_MOVES = 1000 };
+/* Far beyond what it takes: for rounding, which knows no proof. */
+enum { MOST_LOADS = 1000 };
 
 typedef struct plate {
     iccp_rows rows;
@@ -82,7 +82,6 @@ static void load_clamped(plate *p, size_t loaded)
 {
     enum { CORRECTIONS = 2 };
     const size_t n = p->rows.n;
-    p->f[loaded] = 1;
     iccp_ldlt_solve(&p->factor, 1, p->f, p->work);
     for (int i = 0; i < CORRECTIONS; ++i) {
         iccp_energy_gradient(&p->a, p->f, p->wide, p->residual);
@@ -93,26 +92,28 @@ static void load_clamped(plate *p, size_t loaded)
     }
 }
 
-/* f under a load on one row. What doubles do not hold is far below the greatest value. */
+/* f under a load on one row, 1 there. What doubles do not hold is far below the greatest value. */
 static icc_status load(plate *p, size_t loaded, const iccp_env *env)
 {
     const size_t n = p->rows.n;
-    memset(p->f, 0, n * sizeof *p->f);
-    if (p->function == ICC_FUNCTION_CLAMPED) {
-        load_clamped(p, loaded);
-        return ICC_OK;
+    if (p->function != ICC_FUNCTION_CLAMPED && p->solver == ICC_SOLVER_ITERATIVE) {
+        const iccp_scaled f = {p->work, p->exponent};
+        const icc_status status = iccp_bilaplace_iterative(&p->rows, loaded, &f, &p->info, env);
+        for (size_t k = 0; k < n && status == ICC_OK; ++k)
+            p->f[k] = iccp_scaled_get(&f, k, 0);
+        return status;
     }
-    if (p->solver == ICC_SOLVER_DIRECT) {
-        p->f[loaded] = 1;
+    memset(p->f, 0, n * sizeof *p->f);
+    p->f[loaded] = 1;
+    if (p->function == ICC_FUNCTION_CLAMPED)
+        load_clamped(p, loaded);
+    else
         for (int pass = 0; pass < 2; ++pass)
             iccp_ldlt_solve(&p->laplacian.factor, 1, p->f, p->work);
-        return ICC_OK;
-    }
-    const iccp_scaled scaled = {p->work, p->exponent};
-    const icc_status status = iccp_bilaplace_iterative(&p->rows, loaded, &scaled, &p->info, env);
-    for (size_t k = 0; k < n && status == ICC_OK; ++k)
-        p->f[k] = iccp_scaled_get(&scaled, k, 0);
-    return status;
+    const double unit = p->f[loaded];
+    for (size_t k = 0; k < n; ++k)
+        p->f[k] /= unit;
+    return ICC_OK;
 }
 
 /* Of several that are greatest, the first; `loaded` if that is one of them. */
@@ -125,19 +126,59 @@ static size_t find_highest(const plate *p, size_t loaded)
     return highest;
 }
 
+static size_t find_row(const plate *p, uint32_t vertex)
+{
+    size_t row = 0;
+    while (row < p->rows.n && p->rows.vertex[row] != vertex)
+        ++row;
+    return row;
+}
+
+/* The row `stride` times as far from `from` as `to` is, in its direction; `to` where there is none. */
+static size_t find_beyond(const plate *p, size_t from, size_t to, int64_t stride)
+{
+    const icc_grid *grid = p->rows.tree->grid;
+    uint32_t vertex = 0;
+    for (int32_t k = 0; k < grid->dim; ++k) {
+        const int64_t x = iccp_grid_coordinate(grid, p->rows.vertex[from], k);
+        const int64_t y = iccp_grid_coordinate(grid, p->rows.vertex[to], k);
+        const int64_t z = x + stride * (y - x);
+        if (z < 0 || z >= (int64_t)grid->shape[k])
+            return to;
+        vertex += (uint32_t)z * (uint32_t)grid->stride[k];
+    }
+    const size_t row = find_row(p, vertex);
+    return row < p->rows.n ? row : to;
+}
+
+/* Steps grow as long as G(r, r), of the row r that is loaded, does: in a limb that widens slowly the greatest
+ * value is always near the load. With f = 1 at each load, G(s, s) / G(r, r) = f_r(s) / f_s(r). */
 static icc_status climb(plate *p, size_t *row, const iccp_env *env)
 {
-    icc_status status = ICC_OK;
-    size_t last = p->rows.n;
-    for (int moves = 0; moves < MOST_MOVES && *row != last && status == ICC_OK; ++moves) {
-        status = iccp_progress(env, "summit", (double)moves / (moves + 1));
+    size_t at = *row, next = at, top = at;
+    double before = 1; /* f at `next` under the load that was accepted last */
+    int64_t stride = 1;
+    for (int n = 0; n < MOST_LOADS; ++n) {
+        icc_status status = iccp_progress(env, "summit", (double)n / (n + 1));
         if (status == ICC_OK)
-            status = load(p, *row, env);
-        last = *row;
-        if (status == ICC_OK)
-            *row = find_highest(p, last);
+            status = load(p, next, env);
+        if (status != ICC_OK)
+            return status;
+        if (next == top || before > p->f[at]) {
+            stride = next == at ? 1 : 2 * stride;
+            at = next;
+            top = find_highest(p, at);
+            *row = top;
+            if (top == at)
+                break;
+            next = find_beyond(p, at, top, stride);
+            before = p->f[next];
+        } else {
+            next = top;
+            stride = 1;
+        }
     }
-    return status;
+    return ICC_OK;
 }
 
 icc_status iccp_field_summit(const icc_field *field, uint32_t *summit, const iccp_env *env)
@@ -145,9 +186,7 @@ icc_status iccp_field_summit(const icc_field *field, uint32_t *summit, const icc
     plate p;
     icc_status status = prepare(&p, field, env);
     if (status == ICC_OK) {
-        size_t row = 0;
-        while (p.rows.vertex[row] != field->info.highest)
-            ++row;
+        size_t row = find_row(&p, field->info.highest);
         status = climb(&p, &row, env);
         *summit = p.rows.vertex[row];
     }

@@ -71,4 +71,5 @@ void iccp_laplacian_factor_free(iccp_laplacian_factor *l)
     iccp_free(&l->memory, l->value);
     iccp_free(&l->memory, l->diagonal);
     iccp_ldlt_free(&l->factor);
+    *l = (iccp_laplacian_factor){.memory = l->memory, .factor = {.memory = l->memory}};
 }

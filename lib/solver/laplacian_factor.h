@@ -19,6 +19,8 @@ typedef struct iccp_laplacian_factor {
  * left allocated. */
 icc_status iccp_laplacian_factorise(iccp_laplacian_factor *l, const iccp_rows *rows,
                                     icc_field_info *info, const iccp_env *env);
+
+/* Accepts what has only its memories and what has been freed. */
 void iccp_laplacian_factor_free(iccp_laplacian_factor *l);
 
 #endif

@@ -1,5 +1,6 @@
 /* Bi-Laplace functions without inequalities are highest beside a root that is not in the middle: charts move
  * their maximum there, functions on a given tree say so. */
+#include "../faulty.h"
 #include "../random.h"
 #include "../saved.h"
 #include "../shapes.h"
@@ -331,6 +332,34 @@ START_TEST(both_charts_of_a_map_move_theirs)
 }
 END_TEST
 
+/* A chart that moves its maximum, each of its allocations failing once and each report answered with "stop". */
+START_TEST(failures_leave_nothing_behind)
+{
+    const shape outline = shape_l();
+    const double asked[2] = {2.6, 0.3};
+    icc_domain *domain = polygon(&outline);
+    for (int i = 0; i < 3; ++i) {
+        icc_chart_options options = options_of(PLATES[i / 2], ICC_CONSTRAINTS_NEEDED, 12, asked);
+        options.solver = i == 1 ? ICC_SOLVER_ITERATIVE : ICC_SOLVER_DIRECT;
+        for (int cancel = 0; cancel < 2; ++cancel) {
+            icc_status status = ICC_ERR_MEMORY;
+            for (size_t k = 1; status != ICC_OK; ++k) {
+                faulty f = {.fail_at = cancel ? 0 : k, .cancel_at = cancel ? k : 0};
+                const icc_env env = faulty_env(&f);
+                icc_chart *chart;
+                status = icc_chart_create(&chart, domain, &options, &env, NULL);
+                ck_assert(status == ICC_OK || status == (cancel ? ICC_ERR_CANCELLED : ICC_ERR_MEMORY));
+                ck_assert_int_eq(chart == NULL, status != ICC_OK);
+                icc_chart_free(chart);
+                ck_assert_uint_eq(f.n_live, 0);
+                ck_assert(k > 1 || status != ICC_OK);
+            }
+        }
+    }
+    icc_domain_free(domain);
+}
+END_TEST
+
 static size_t read_points(const char *path, double xy[2 * MOST_VERTICES])
 {
     size_t n = 0;
@@ -383,6 +412,7 @@ int main(void)
     tcase_add_test(tests, saved_charts_have_the_same_maximum);
     tcase_add_test(tests, it_is_so_for_masks_and_in_space);
     tcase_add_test(tests, both_charts_of_a_map_move_theirs);
+    tcase_add_test(tests, failures_leave_nothing_behind);
     tcase_add_test(tests, it_is_so_for_real_outlines);
     suite_add_tcase(suite, tests);
     SRunner *runner = srunner_create(suite);
