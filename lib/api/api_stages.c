@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "base/options.h"
 #include "domain/domain.h"
-#include "function/create.h"
+#include "function/make_function.h"
 #include "function/critical.h"
 #include "function/edges.h"
 #include "grid/grassfire.h"

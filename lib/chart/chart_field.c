@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "chart/field_measure.h"
 #include "chart/field_state.h"
-#include "function/create.h"
+#include "function/make_function.h"
 #include "function/critical.h"
 #include "grid/grassfire.h"
 #include "grid/rasterise.h"

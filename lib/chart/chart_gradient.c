@@ -7,7 +7,7 @@
 #include "chart/gradient_jet.h"
 #include "chart/gradient_measure.h"
 #include "chart/gradient_rim.h"
-#include "function/create.h"
+#include "function/make_function.h"
 #include "function/critical.h"
 #include "function/edges.h"
 #include "function/summit.h"

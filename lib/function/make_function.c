@@ -1,4 +1,4 @@
-#include "function/create.h"
+#include "function/make_function.h"
 
 #include "base/error.h"
 #include "function/distance.h"
