@@ -1,6 +1,6 @@
 #include "function/critical.h"
 
-#include "grid/critical.h"
+#include "grid/critical_count.h"
 
 #include <math.h>
 

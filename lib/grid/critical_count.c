@@ -1,4 +1,4 @@
-#include "grid/critical.h"
+#include "grid/critical_count.h"
 
 static const size_t GRAIN = 1 << 12; /* vertices per chunk: at most 0.4 s, in 6-D */
 
