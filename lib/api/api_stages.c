@@ -4,7 +4,7 @@
 #include "base/options.h"
 #include "domain/domain.h"
 #include "function/make_function.h"
-#include "function/critical.h"
+#include "function/critical_points.h"
 #include "function/edges.h"
 #include "grid/grassfire.h"
 #include "grid/lattice.h"

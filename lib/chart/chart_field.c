@@ -8,7 +8,7 @@
 #include "chart/field_measure.h"
 #include "chart/field_state.h"
 #include "function/make_function.h"
-#include "function/critical.h"
+#include "function/critical_points.h"
 #include "grid/grassfire.h"
 #include "grid/rasterise.h"
 #include "tree/settle.h"

@@ -8,7 +8,7 @@
 #include "chart/gradient_measure.h"
 #include "chart/gradient_rim.h"
 #include "function/make_function.h"
-#include "function/critical.h"
+#include "function/critical_points.h"
 #include "function/edges.h"
 #include "function/summit.h"
 #include "grid/grassfire.h"

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "solver/bilaplace.h"
 #include "solver/constrained.h"
-#include "function/critical.h"
+#include "function/critical_points.h"
 #include "solver/glued.h"
 #include "solver/inequalities.h"
 

@@ -1,5 +1,5 @@
 /* Values along the tree, edges where gradients meet or part, and critical points. */
-#include "function/critical.h"
+#include "function/critical_points.h"
 #include "function/edges.h"
 #include "icc/stages.h"
 

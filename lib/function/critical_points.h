@@ -1,6 +1,6 @@
 /* Critical points of a piecewise linear function on the Kuhn triangulation of a grid. */
-#ifndef ICCP_CRITICAL_H
-#define ICCP_CRITICAL_H
+#ifndef ICCP_CRITICAL_POINTS_H
+#define ICCP_CRITICAL_POINTS_H
 
 #include "function/field.h"
 

@@ -1,4 +1,4 @@
-#include "function/critical.h"
+#include "function/critical_points.h"
 
 #include "grid/critical_count.h"
 
