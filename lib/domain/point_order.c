@@ -1,6 +1,6 @@
 /* Merge sort from the bottom up (D. E. Knuth, The Art of Computer Programming 3, section 5.2.4).
  * Needs no memory of its own, which qsort() may. */
-#include "domain/order.h"
+#include "domain/point_order.h"
 
 #include "domain/segment.h"
 
