@@ -238,11 +238,12 @@ typedef struct icc_field_info {
     double seconds_factor;  /**< time for factorisations */
     double seconds_solve;   /**< time for triangular solves and conjugate gradients */
     double seconds_verify;  /**< time to count critical points, sweep and find the residuals */
-    double excess;          /**< by what share of its value at the root the function is greater at `highest`;
-                                 0 when that is the root */
+    double excess;          /**< by what share of its value at the root the function is greater at
+                                 `highest`; 0 when that is the root */
     uint32_t highest;       /**< the vertex inside with the greatest value */
-    int32_t beside;         /**< 1: that is not the root, where curves are to end. Only seen for bilaplace
-                                 and clamped without inequalities; icc_chart_create() then moves the root */
+    int32_t beside;         /**< 1: that is not the root, where curves are to end. Only seen for
+                                 bilaplace and clamped without inequalities; icc_chart_create()
+                                 then moves the root */
 } icc_field_info;
 
 /** Critical points of a function on the vertices inside, by the links of the Kuhn triangulation. */
@@ -276,11 +277,13 @@ enum {
  * the value two steps back.) bilaplace: that with the least sum of squared Laplacians over the vertices
  * inside, which is f = c L^-2 e_root (simply supported, Navier); clamped: over the vertices next to them
  * outside, too. Laplace and bilaplace are positive inside, however far from the root; clamped changes its
- * sign unless it is constrained. Both are shapes of a plate that is loaded at the root, and a plate is highest
- * beside a load that is not in its middle: without constraints the maximum may be another vertex, see
- * icc_field_info::highest and icc_field_info::beside. (On a tree that grows from the maximum of such a
- * function the function is another one; icc_chart_create() moves the root until the two agree.) With constraints, the least energy among the functions that fall by
+ * sign unless it is constrained. With constraints, the least energy among the functions that fall by
  * eta along every tree edge inside and, for bilaplace and clamped, are at least `leaf` at the leaves.
+ *
+ * Bilaplace and clamped are shapes of a plate that is loaded at the root, and a plate is highest beside
+ * a load that is not in its middle: without constraints the maximum may be another vertex, see
+ * icc_field_info::highest and icc_field_info::beside. (On a tree that grows from there the function is
+ * another one; icc_chart_create() moves the root until the two agree.)
  *
  * Nothing is assumed about critical points: see icc_field_verify(). Inequalities on a tree that is not a
  * cousin tree, as in 3-D, do not rule out others than the maximum.

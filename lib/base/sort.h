@@ -15,10 +15,10 @@ void iccp_sort(void *items, size_t n, size_t size, int (*compare)(const void *, 
 /* Whether index a belongs before index b. */
 typedef bool (*iccp_is_less)(const void *context, uint32_t a, uint32_t b);
 
-/* Merges in[0..n_left) and in[n_left..n) into out. Outlines come in long monotone runs, so two halves are
- * often in order already. */
-static ICCP_INLINE void iccp_merge_indices(uint32_t *out, const uint32_t *in, size_t n_left, size_t n,
-                                           const void *context, iccp_is_less is_less)
+/* Merges in[0..n_left) and in[n_left..n) into out. Outlines come in long monotone runs, so two
+ * halves are often in order already. */
+static ICCP_INLINE void iccp_merge_indices(uint32_t *out, const uint32_t *in, size_t n_left,
+                                           size_t n, const void *context, iccp_is_less is_less)
 {
     size_t left = 0, right = n_left;
     if (right == n || !is_less(context, in[right], in[right - 1])) {
@@ -32,9 +32,9 @@ static ICCP_INLINE void iccp_merge_indices(uint32_t *out, const uint32_t *in, si
             out[k] = in[right++];
 }
 
-/* Sorts n indices; equal ones stay in their order. `work` has room for n. Merge sort from the bottom up
- * (D. E. Knuth, The Art of Computer Programming 3, section 5.2.4), inlined so that comparisons cost no
- * calls. */
+/* Sorts n indices; equal ones stay in their order. `work` has room for n. Merge sort from the
+ * bottom up (D. E. Knuth, The Art of Computer Programming 3, section 5.2.4), inlined so that
+ * comparisons cost no calls. */
 static ICCP_INLINE void iccp_sort_indices(uint32_t *indices, uint32_t *work, size_t n,
                                           const void *context, iccp_is_less is_less)
 {

@@ -1,5 +1,5 @@
-/* Based on: L. Huynh, thesis, 2013, section 5.1, Algorithms 6-8 (Huynh and Gingold, section 4): the same in
- * any dimension, on top of gradient_line.h. */
+/* Based on: L. Huynh, thesis, 2013, section 5.1, Algorithms 6-8 (Huynh and Gingold, section 4):
+ * the same in any dimension, on top of gradient_line.h. */
 #include "chart/chart_gradient.h"
 
 #include "base/clock.h"
@@ -92,9 +92,10 @@ static icc_status move_root(iccp_gradient_state *state, icc_chart *chart, uint32
                             : status;
 }
 
-/* A plate is highest beside a load that is not in its middle, and curves would end there rather than at
- * the root. Without inequalities the root moves to where it is the maximum; where that does not give a
- * function without false critical points, inequalities are imposed at the root that was asked for. */
+/* A plate is highest beside a load that is not in its middle, and curves would end there rather
+ * than at the root. Without inequalities the root moves to where it is the maximum; where that does
+ * not give a function without false critical points, inequalities are imposed at the root that was
+ * asked for. */
 static icc_status make_plate(iccp_gradient_state *state, icc_chart *chart,
                              const icc_field_options *options, const iccp_env *env, icc_error *err)
 {

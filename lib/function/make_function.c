@@ -20,7 +20,8 @@ static icc_field_options complete(const icc_field_options *options)
     return full;
 }
 
-/* The root, unless the function is greater elsewhere: the greatest vertex that the tree reaches first. */
+/* The root, unless the function is greater elsewhere: the greatest vertex that the tree reaches
+ * first. */
 static void find_highest(icc_field *field)
 {
     const icc_tree *tree = field->tree;

@@ -1,7 +1,8 @@
-/* Bi-Laplace functions are the shapes of a plate under a load: f = c G e_root, with G the inverse of a
- * symmetric positive definite matrix, L L or A'A. A plate is highest beside a load that is not in the
- * middle. With G(t, r) > G(r, r) the inequality G(t, r)^2 <= G(t, t) G(r, r) gives G(t, t) > G(r, r): a load
- * that moves to the greatest value, or beyond it as long as G(r, r) grows, never comes back to where it was. */
+/* Bi-Laplace functions are the shapes of a plate under a load: f = c G e_root, with G the
+ * inverse of a symmetric positive definite matrix, L L or A'A. A plate is highest beside a load
+ * that is not in the middle. With G(t, r) > G(r, r) the inequality G(t, r)^2 <= G(t, t) G(r, r)
+ * gives G(t, t) > G(r, r): a load that moves to the greatest value, or beyond it as long as G(r, r)
+ * grows, never comes back to where it was. */
 #include "function/summit.h"
 
 #include "solver/bilaplace.h"
@@ -34,8 +35,8 @@ static icc_status prepare_clamped(plate *p, const iccp_env *env)
         return status;
     iccp_gram_fill(&p->gram, &p->a, NULL);
     p->wide = iccp_alloc(&env->memory, p->a.n_rows, sizeof *p->wide);
-    status = p->wide != NULL ? iccp_ldlt_analyse(&p->factor, &p->gram.matrix, 1, env)
-                             : ICC_ERR_MEMORY;
+    status =
+        p->wide != NULL ? iccp_ldlt_analyse(&p->factor, &p->gram.matrix, 1, env) : ICC_ERR_MEMORY;
     return status == ICC_OK ? iccp_ldlt_factorise(&p->factor, &p->gram.matrix, env) : status;
 }
 
@@ -134,7 +135,8 @@ static size_t find_row(const plate *p, uint32_t vertex)
     return row;
 }
 
-/* The row `stride` times as far from `from` as `to` is, in its direction; `to` where there is none. */
+/* The row `stride` times as far from `from` as `to` is, in its direction; `to` where there is
+ * none. */
 static size_t find_beyond(const plate *p, size_t from, size_t to, int64_t stride)
 {
     const icc_grid *grid = p->rows.tree->grid;
@@ -151,8 +153,9 @@ static size_t find_beyond(const plate *p, size_t from, size_t to, int64_t stride
     return row < p->rows.n ? row : to;
 }
 
-/* Steps grow as long as G(r, r), of the row r that is loaded, does: in a limb that widens slowly the greatest
- * value is always near the load. With f = 1 at each load, G(s, s) / G(r, r) = f_r(s) / f_s(r). */
+/* Steps grow as long as G(r, r), of the row r that is loaded, does: in a limb that widens slowly
+ * the greatest value is always near the load. With f = 1 at each load, G(s, s) / G(r, r) = f_r(s) /
+ * f_s(r). */
 static icc_status climb(plate *p, size_t *row, const iccp_env *env)
 {
     size_t at = *row, next = at, top = at;

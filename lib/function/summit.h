@@ -4,10 +4,10 @@
 
 #include "function/field.h"
 
-/* Finds a root that the function has its greatest value at: from field->info.highest, moves the load to
- * the greatest value until it stays. `field` is ICC_FUNCTION_BILAPLACE or ICC_FUNCTION_CLAMPED without
- * inequalities. One factorisation, then one solution a move, or two; gives up after 1,000 solutions, and
- * `summit` is where they have led. */
+/* Finds a root that the function has its greatest value at: from field->info.highest, moves the
+ * load to the greatest value until it stays. `field` is ICC_FUNCTION_BILAPLACE or
+ * ICC_FUNCTION_CLAMPED without inequalities. One factorisation, then one solution a move, or two;
+ * gives up after 1,000 solutions, and `summit` is where they have led. */
 icc_status iccp_field_summit(const icc_field *field, uint32_t *summit, const iccp_env *env);
 
 #endif

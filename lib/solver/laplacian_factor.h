@@ -15,8 +15,8 @@ typedef struct iccp_laplacian_factor {
     iccp_ldlt factor;
 } iccp_laplacian_factor;
 
-/* Eliminates in the order of nested dissection. Adds to `info` (work, seconds_*). On failure nothing is
- * left allocated. */
+/* Eliminates in the order of nested dissection. Adds to `info` (work, seconds_*). On failure
+ * nothing is left allocated. */
 icc_status iccp_laplacian_factorise(iccp_laplacian_factor *l, const iccp_rows *rows,
                                     icc_field_info *info, const iccp_env *env);
 

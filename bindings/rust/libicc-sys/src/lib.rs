@@ -269,8 +269,9 @@ pub const ICC_FUNCTION_CLAMPED: i32 = 5;
 // decay and distance fulfil it anyway).
 /// only when the function without has other critical points than one
 /// maximum at the root (and, in 2-D, the saddles of holes, which no
-/// function can avoid); in charts, also after the root has moved as for
-/// `ICC_CONSTRAINTS_NONE`. If they are imposed it does not move
+/// function can avoid); in charts, only when that is so after the
+/// root has moved, too, as for `ICC_CONSTRAINTS_NONE`. If they are
+/// imposed it does not move
 pub const ICC_CONSTRAINTS_NEEDED: i32 = 1;
 /// never. Charts of bi-Laplace functions have the maximum where the
 /// function puts it, which may be beside the place asked for:
@@ -1682,11 +1683,13 @@ extern "C" {
     /// the value two steps back.) bilaplace: that with the least sum of squared Laplacians over the vertices
     /// inside, which is f = c L^-2 e_root (simply supported, Navier); clamped: over the vertices next to them
     /// outside, too. Laplace and bilaplace are positive inside, however far from the root; clamped changes its
-    /// sign unless it is constrained. Both are shapes of a plate that is loaded at the root, and a plate is highest
-    /// beside a load that is not in its middle: without constraints the maximum may be another vertex, see
-    /// `icc_field_info::highest` and `icc_field_info::beside`. (On a tree that grows from the maximum of such a
-    /// function the function is another one; `icc_chart_create()` moves the root until the two agree.) With constraints, the least energy among the functions that fall by
+    /// sign unless it is constrained. With constraints, the least energy among the functions that fall by
     /// eta along every tree edge inside and, for bilaplace and clamped, are at least `leaf` at the leaves.
+    ///
+    /// Bilaplace and clamped are shapes of a plate that is loaded at the root, and a plate is highest beside
+    /// a load that is not in its middle: without constraints the maximum may be another vertex, see
+    /// `icc_field_info::highest` and `icc_field_info::beside`. (On a tree that grows from there the function is
+    /// another one; `icc_chart_create()` moves the root until the two agree.)
     ///
     /// Nothing is assumed about critical points: see `icc_field_verify()`. Inequalities on a tree that is not a
     /// cousin tree, as in 3-D, do not rule out others than the maximum.
