@@ -309,9 +309,13 @@ enum {
 enum {
     ICC_CONSTRAINTS_NEEDED = 1, /**< only when the function without has other critical points than one
                                      maximum at the root (and, in 2-D, the saddles of holes, which no
-                                     function can avoid) */
-    ICC_CONSTRAINTS_NONE = 2,   /**< never */
-    ICC_CONSTRAINTS_ALL = 3     /**< always */
+                                     function can avoid); in charts, only when that is so after the
+                                     root has moved, too, as for ::ICC_CONSTRAINTS_NONE. If they are
+                                     imposed it does not move */
+    ICC_CONSTRAINTS_NONE = 2,   /**< never. Charts of bi-Laplace functions have the maximum where the
+                                     function puts it, which may be beside the place asked for:
+                                     icc_chart_info::moved */
+    ICC_CONSTRAINTS_ALL = 3     /**< always: the maximum stays where it is asked for */
 };
 
 /** How the linear systems of Laplace and bi-Laplace are solved. */
@@ -338,7 +342,9 @@ typedef struct icc_chart_options {
                                 papers; gradient on a mask: see icc_grid_create() */
     const double *maximum; /**< where the maximum shall be: the nearest vertex inside is taken. NULL:
                                 the grassfire's (gradient, field), the deepest vertex (foliation; of a
-                                mesh of the caller's, the deepest inside). Disc has its own, the point that goes to the centre: NULL only. */
+                                mesh of the caller's, the deepest inside). Disc has its own, the point that goes to the centre: NULL only.
+                                Bi-Laplace functions without constraints may move it:
+                                icc_chart_info::moved */
     int32_t constraints;   /**< gradient: `ICC_CONSTRAINTS_*`; 0: needed */
     int32_t solver;        /**< gradient: `ICC_SOLVER_*`; 0: by the predicted work */
     double min_fall;       /**< gradient: least relative fall along tree edges, in (0, 0.01]; 0: 1e-6 */
@@ -395,6 +401,9 @@ typedef struct icc_chart_info {
     double flux_energy;          /**< how far the flux along the leaves is from the harmonic one: sum of
                                       the squared differences, weighted; 0 at best */
     double flux_divergence;      /**< largest share of a simplex's flux that gets lost by rounding */
+    double moved;                /**< gradient, bi-Laplace functions without constraints: how far
+                                      `maximum` lies from the vertex that was asked for (or the
+                                      grassfire's), because the function is greatest beside it; else 0 */
 } icc_chart_info;
 
 /** Shares that icc_chart_get_report() estimates from evenly spread points. All lie in [0,1]. Area and length

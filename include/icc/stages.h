@@ -225,7 +225,7 @@ typedef struct icc_function_info {
     double work;            /**< multiplications of the largest factorisation */
     double residual_before; /**< KKT residual before the final sweep from the root to the leaves: the largest
                                  |min(slack, multiplier)| of an inequality, or |row of the equation| if
-                                 there are none; the maximum of f is 1 */
+                                 there are none; f is 1 at the root */
     double residual;        /**< the same after the sweep: for the function that is handed out */
     double least_log;       /**< the smallest of icc_function_logs() inside; 0 if there are none */
     double seconds_setup;   /**< time to number the rows and to build the matrices */
@@ -233,6 +233,12 @@ typedef struct icc_function_info {
     double seconds_factor;  /**< time for factorisations */
     double seconds_solve;   /**< time for triangular solves and conjugate gradients */
     double seconds_verify;  /**< time to count critical points, sweep and find the residuals */
+    double excess;          /**< by what share of its value at the root the function is greater at
+                                 `highest`; 0 when that is the root */
+    uint32_t highest;       /**< the vertex inside with the greatest value */
+    int32_t beside;         /**< 1: that is not the root, where curves are to end. Only seen for
+                                 bilaplace and clamped without inequalities; icc_chart_create()
+                                 then moves the root */
 } icc_function_info;
 
 /** Critical points of a function on the vertices inside, by the links of the Kuhn triangulation. */
@@ -267,6 +273,11 @@ enum {
  * outside, too. Laplace and bilaplace are positive inside, however far from the root; clamped changes its
  * sign unless it is constrained. With constraints, the least energy among the functions that fall by
  * `min_fall` along every tree edge inside and, for bilaplace and clamped, are at least `leaf_min` at the leaves.
+ *
+ * Bilaplace and clamped are shapes of a plate that is loaded at the root, and a plate is highest beside
+ * a load that is not in its middle: without constraints the maximum may be another vertex, see
+ * icc_function_info::highest and icc_function_info::beside. (On a tree that grows from there the function is
+ * another one; icc_chart_create() moves the root until the two agree.)
  *
  * Nothing is assumed about critical points: see icc_function_get_report(). Inequalities on a tree that is not a
  * cousin tree, as in 3-D, do not rule out others than the maximum.

@@ -4,7 +4,7 @@
 #include "base/options.h"
 #include "chart/bulk.h"
 #include "chart/chart_field.h"
-#include "chart/create.h"
+#include "chart/chart_create.h"
 #include "chart/gradient_state.h"
 #include "chart/load.h"
 

@@ -123,7 +123,7 @@ iccp_edge_count iccp_function_edges(const icc_function *function, size_t capacit
     return count;
 }
 
-void iccp_field_count_edges(const icc_function *function, size_t *n_tested, size_t *n_compression,
+void iccp_function_count_edges(const icc_function *function, size_t *n_tested, size_t *n_compression,
                             size_t *n_expansion)
 {
     const iccp_edge_count count = iccp_function_edges(function, 0, NULL, NULL);

@@ -17,7 +17,7 @@ iccp_edge_count iccp_function_edges(const icc_function *function, size_t capacit
                                  int32_t *kinds);
 
 /* How many there are. The grid is 2-D. */
-void iccp_field_count_edges(const icc_function *function, size_t *n_tested, size_t *n_compression,
+void iccp_function_count_edges(const icc_function *function, size_t *n_tested, size_t *n_compression,
                             size_t *n_expansion);
 
 #endif

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "solver/bilaplace.h"
 #include "solver/constrained.h"
-#include "function/critical.h"
+#include "function/critical_points.h"
 #include "solver/glued.h"
 #include "solver/inequalities.h"
 
@@ -149,21 +149,6 @@ static icc_status constrain(job *j, const iccp_env *env)
     return iccp_bilaplace_constrained(&j->rows, function, eta, j->options->leaf_min, &j->f, info, env);
 }
 
-/* Whether there are no more critical points than the shape asks for: a maximum at the root, no minimum, and
- * no saddle, but for those that 2-D shapes with holes cannot do without. (The indices of the critical points
- * add up to the Euler characteristic: with one maximum and no minimum, the saddles are those of the holes.) */
-static icc_status is_regular(const icc_function *function, bool *regular, const iccp_env *env)
-{
-    const icc_tree *tree = function->tree;
-    icc_function_report report = {0};
-    const icc_status status = iccp_function_verify(function, &report, env);
-    *regular = report.n_maxima == 1 && report.n_minima == 0 &&
-               (report.n_saddles == 0 || tree->grid->dim == 2);
-    for (size_t i = 1; i < tree->n_inside && *regular; ++i)
-        *regular = iccp_function_compare(function, tree->order[i], tree->root) < 0;
-    return status;
-}
-
 static icc_status make(job *j, const iccp_env *env)
 {
     icc_function *function = j->function;
@@ -176,7 +161,7 @@ static icc_status make(job *j, const iccp_env *env)
         const double clock = iccp_seconds();
         status = iccp_function_assign(function, &j->rows, &j->f);
         if (status == ICC_OK)
-            status = is_regular(function, &enough, env);
+            status = iccp_function_is_regular(function, &enough, env);
         function->info.seconds_verify += iccp_seconds() - clock;
     }
     if (status == ICC_OK && !enough)

@@ -1,6 +1,6 @@
 /* Based on: C. L. Lawson, Software for C1 surface interpolation, 1977: points one by one, located by
  * walking, each followed by the flips that make the triangulation Delaunay again. The order of
- * insertion is that of mesh/order.c.
+ * insertion is that of mesh/insertion_order.c.
  *
  * A point on an edge needs no case of its own: the triangle without area that it leaves behind lies
  * inside the circle on the other side, and is flipped at once. Neither does a point outside the hull:
@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "math/predicates.h"
-#include "mesh/order.h"
+#include "mesh/insertion_order.h"
 
 #include <assert.h>
 

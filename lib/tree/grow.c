@@ -14,9 +14,9 @@
 #include "tree/grow.h"
 
 #include "base/error.h"
+#include "base/sort.h"
 #include "grid/star.h"
 #include "tree/queue.h"
-#include "tree/sort.h"
 
 #include <assert.h>
 #include <inttypes.h>
@@ -147,6 +147,12 @@ static icc_status thin(growth *g)
 
 /* ------------------------------------------------------------------ set-up */
 
+static bool is_higher(const void *context, uint32_t u, uint32_t v)
+{
+    const double *values = context;
+    return values[u] > values[v];
+}
+
 static icc_status make_wish(growth *g, const double *values)
 {
     g->wish = g->tree->order;
@@ -156,7 +162,7 @@ static icc_status make_wish(growth *g, const double *values)
     g->sorted = iccp_alloc(&g->env->memory, g->n, sizeof *g->sorted);
     if (work != NULL && g->sorted != NULL) {
         memcpy(g->sorted, g->tree->order, g->n * sizeof *g->sorted);
-        iccp_sort_falling(g->sorted, work, g->n, values);
+        iccp_sort_indices(g->sorted, work, g->n, values, is_higher);
     }
     const bool done = work != NULL && g->sorted != NULL;
     iccp_free(&g->env->memory, work);

@@ -1,6 +1,6 @@
 #include "tree/ranks.h"
 
-#include "grid/critical.h"
+#include "grid/critical_count.h"
 
 typedef struct ranks {
     const icc_tree *tree;

@@ -145,7 +145,7 @@ AT(icc_chart_options, solver, 36);
 AT(icc_chart_options, min_fall, 40);
 AT(icc_chart_options, leaf_min, 48);
 
-SIZE(icc_chart_info, 336);
+SIZE(icc_chart_info, 344);
 AT(icc_chart_info, size, 0);
 AT(icc_chart_info, dim, 8);
 AT(icc_chart_info, method, 12);
@@ -187,6 +187,7 @@ AT(icc_chart_info, order_beta, 304);
 AT(icc_chart_info, n_reversed, 312);
 AT(icc_chart_info, flux_energy, 320);
 AT(icc_chart_info, flux_divergence, 328);
+AT(icc_chart_info, moved, 336);
 
 SIZE(icc_chart_report, 56);
 AT(icc_chart_report, size, 0);
@@ -289,7 +290,7 @@ AT(icc_function_options, solver, 16);
 AT(icc_function_options, min_fall, 24);
 AT(icc_function_options, leaf_min, 32);
 
-SIZE(icc_function_info, 136);
+SIZE(icc_function_info, 152);
 AT(icc_function_info, size, 0);
 AT(icc_function_info, function, 8);
 AT(icc_function_info, constrained, 12);
@@ -308,6 +309,9 @@ AT(icc_function_info, seconds_order, 104);
 AT(icc_function_info, seconds_factor, 112);
 AT(icc_function_info, seconds_solve, 120);
 AT(icc_function_info, seconds_verify, 128);
+AT(icc_function_info, excess, 136);
+AT(icc_function_info, highest, 144);
+AT(icc_function_info, beside, 148);
 
 SIZE(icc_function_report, 40);
 AT(icc_function_report, size, 0);

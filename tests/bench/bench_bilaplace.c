@@ -3,7 +3,7 @@
 #include "bench.h"
 
 #include "solver/bilaplace.h"
-#include "function/critical.h"
+#include "function/critical_points.h"
 
 #include "../hard_masks.h"
 

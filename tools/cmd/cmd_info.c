@@ -52,6 +52,8 @@ static int examine_function(info *x, const stages *s)
 /* Euler's formula: a hole brings a saddle, whatever the function; further critical points are its own. */
 static const char *own_reason(const info *x)
 {
+    if (x->field.beside && x->chart.n_maxima == 1)
+        return "the function is greatest there, beside the root, where curves are to end";
     if (x->chart.n_maxima == 1 && x->chart.n_minima == 0 && x->chart.n_saddles <= x->n_holes)
         return NULL;
     if (x->domain.dim > 2)

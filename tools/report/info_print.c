@@ -69,6 +69,8 @@ static void print_grid(const info *x)
         printf("%zu given up, ", x->grid.n_stray);
     printf("spacing %.17g\n", c->spacing);
     print_point(x, "maximum     ", c->maximum, "\n");
+    if (c->moved > 0)
+        printf("            %.4g from the place chosen: the function is greatest here\n", c->moved);
     printf("tree        %zu vertices, %zu unreachable, %zu cousin violations", c->n_tree,
            c->n_unreachable, c->n_cousin_violations);
     if (x->domain.dim > 2)

@@ -90,6 +90,8 @@ static void report_chart(json *j, const info *x)
     json_text(j, "method", choice_name(methods, c->method));
     json_flag(j, "certified", c->certified != 0);
     report_point(j, "maximum", (size_t)x->domain.dim, c->maximum);
+    if (c->moved > 0)
+        json_number(j, "maximum_moved", c->moved);
     json_number(j, "spacing", c->spacing);
     if (info_has_grid(x))
         report_grid(j, x);

@@ -18,7 +18,7 @@ error status:i32 side:i32 index:i64 item:i32 message:char[252]
 env user:ptr alloc:ptr dealloc:ptr log:ptr progress:ptr parallel_for:ptr threads:i32
 domain_info dim:i32 orientation:i32 n_vertices:size n_facets:size lower:f64[6] upper:f64[6] measure:f64
 chart_options method:i32 function:i32 tree:i32 cells:i32 maximum:ptr constraints:i32 solver:i32 min_fall:f64 leaf_min:f64
-chart_info dim:i32 method:i32 function:i32 tree:i32 certified:i32 cells:i32 maximum:f64[6] spacing:f64 n_grid:size n_inside:size n_tree:size n_unreachable:size n_cousin_violations:size n_maxima:size n_minima:size n_saddles:size n_edges:size n_compression:size n_expansion:size n_mesh_vertices:size n_mesh_boundary:size n_mesh_simplices:size n_ties:size harmonic_share:f64 seconds_grid:f64 seconds_tree:f64 seconds_function:f64 seconds_mesh:f64 seconds_solve:f64 seconds_certify:f64 n_stray:size n_infeasible:size n_contacts:size n_not_inward:size order_peeled:i32 n_orders:i32 order_beta:f64 n_reversed:size flux_energy:f64 flux_divergence:f64
+chart_info dim:i32 method:i32 function:i32 tree:i32 certified:i32 cells:i32 maximum:f64[6] spacing:f64 n_grid:size n_inside:size n_tree:size n_unreachable:size n_cousin_violations:size n_maxima:size n_minima:size n_saddles:size n_edges:size n_compression:size n_expansion:size n_mesh_vertices:size n_mesh_boundary:size n_mesh_simplices:size n_ties:size harmonic_share:f64 seconds_grid:f64 seconds_tree:f64 seconds_function:f64 seconds_mesh:f64 seconds_solve:f64 seconds_certify:f64 n_stray:size n_infeasible:size n_contacts:size n_not_inward:size order_peeled:i32 n_orders:i32 order_beta:f64 n_reversed:size flux_energy:f64 flux_divergence:f64 moved:f64
 chart_report n_points:size n_boundary:size unreachable:f64 uncovered:f64 collapsed:f64 not_inward:f64
 map_options kind:i32 iterations:i32 chart:ptr target_maximum:ptr
 map_info dim:i32 kind:i32 certified:i32 n_levels:i32 n_vertices:size n_simplices:size n_inverted:size n_unrepaired:size n_iterations:size energy_start:f64 energy:f64 seconds:f64 seconds_repair:f64 seconds_improve:f64 seconds_certify:f64
@@ -30,7 +30,7 @@ grid_info dim:i32 shape:size[6] origin:f64[6] spacing:f64 n_vertices:size n_insi
 tree_options form:i32 axis_order:ptr
 tree_report n_inside:size n_outside:size n_unreachable:size n_pairs:size n_cousin_violations:size violation:u32[2]
 function_options function:i32 constraints:i32 solver:i32 min_fall:f64 leaf_min:f64
-function_info function:i32 constrained:i32 solver:i32 n_unknowns:size n_violated:size n_active:size n_iterations:size n_inner:size work:f64 residual_before:f64 residual:f64 least_log:f64 seconds_setup:f64 seconds_order:f64 seconds_factor:f64 seconds_solve:f64 seconds_verify:f64
+function_info function:i32 constrained:i32 solver:i32 n_unknowns:size n_violated:size n_active:size n_iterations:size n_inner:size work:f64 residual_before:f64 residual:f64 least_log:f64 seconds_setup:f64 seconds_order:f64 seconds_factor:f64 seconds_solve:f64 seconds_verify:f64 excess:f64 highest:u32 beside:i32
 function_report n_maxima:size n_minima:size n_saddles:size critical:u32
 grow_report method:i32 vertex:u32 n_vertices:size n_deferred:size n_unplaced:size n_remaining:size n_reversed:size n_tests:size
 sampling_options kind:i32 steps:i32 spacing:f64 margin:f64 seed:u64 n_fixed:size fixed:ptr

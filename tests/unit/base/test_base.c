@@ -502,12 +502,43 @@ START_TEST(sorting_keeps_everything)
 }
 END_TEST
 
+static bool is_below(const void *context, uint32_t a, uint32_t b)
+{
+    const uint32_t *values = context;
+    return values[a] < values[b];
+}
+
+START_TEST(sorted_indices_keep_their_order_where_values_are_equal)
+{
+    enum { MOST = 300 };
+    uint32_t values[MOST], order[MOST], work[MOST];
+    for (size_t n = 0; n < MOST; ++n)
+        for (uint32_t different = 1; different < 1000; different *= 30) {
+            bool seen[MOST] = {false};
+            for (size_t i = 0; i < n; ++i) {
+                values[i] = (uint32_t)(i * 2654435761u >> 5) % different;
+                order[i] = (uint32_t)i;
+            }
+            iccp_sort_indices(order, work, n, values, is_below);
+            for (size_t i = 0; i < n; ++i) {
+                ck_assert(order[i] < n && !seen[order[i]]);
+                seen[order[i]] = true;
+                if (i == 0)
+                    continue;
+                const uint32_t a = order[i - 1], b = order[i];
+                ck_assert(values[a] < values[b] || (values[a] == values[b] && a < b));
+            }
+        }
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("base");
     TCase *tests = tcase_create("base");
     tcase_add_test(tests, version_is_written_down_once);
     tcase_add_test(tests, sorting_keeps_everything);
+    tcase_add_test(tests, sorted_indices_keep_their_order_where_values_are_equal);
     tcase_add_test(tests, every_status_has_its_name);
     tcase_add_test(tests, reading_a_struct);
     tcase_add_test(tests, writing_a_struct);

@@ -1,5 +1,5 @@
 /* Values along the tree, edges where gradients meet or part, and critical points. */
-#include "function/critical.h"
+#include "function/critical_points.h"
 #include "function/edges.h"
 #include "icc/stages.h"
 
@@ -313,7 +313,7 @@ START_TEST(edges_are_counted_beyond_capacity)
     ck_assert_int_eq(icc_function_get_edges(field, 9, edges, kinds, &n_again, &n_tested), ICC_OK);
     ck_assert_uint_eq(n_again, n_all);
     ck_assert(edges[17] != UINT32_MAX && edges[18] == UINT32_MAX);
-    iccp_field_count_edges(field, &n_again, &n_compression, &n_expansion);
+    iccp_function_count_edges(field, &n_again, &n_compression, &n_expansion);
     ck_assert_uint_eq(n_again, n_tested);
     ck_assert_uint_eq(n_compression + n_expansion, n_all);
     ck_assert_uint_eq(n_tested, 29 * 29 + 2 * 29 * 28); /* all but those of the rim */

@@ -1,7 +1,7 @@
 /* Where Sakaridis' thesis is wrong or silent, and what happens here instead: one test for each point, with the thesis'
  * own behaviour beside it where that can be asked for. */
 #include "icc/kernel.h"
-#include "kernel/gram.h"
+#include "kernel/kernel_matrix.h"
 #include "kernel/sampling.h"
 
 #include <check.h>

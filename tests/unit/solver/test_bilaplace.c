@@ -1,7 +1,7 @@
 /* Bi-Laplace functions against dense references. */
 #include "base/error.h"
 #include "solver/bilaplace.h"
-#include "function/critical.h"
+#include "function/critical_points.h"
 #include "solver/energy.h"
 #include "solver/interior.h"
 #include "solver/polish.h"

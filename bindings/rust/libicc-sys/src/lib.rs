@@ -303,11 +303,15 @@ pub const ICC_FUNCTION_CLAMPED: i32 = 5;
 // decay and distance fulfil it anyway).
 /// only when the function without has other critical points than one
 /// maximum at the root (and, in 2-D, the saddles of holes, which no
-/// function can avoid)
+/// function can avoid); in charts, only when that is so after the
+/// root has moved, too, as for `ICC_CONSTRAINTS_NONE`. If they are
+/// imposed it does not move
 pub const ICC_CONSTRAINTS_NEEDED: i32 = 1;
-/// never
+/// never. Charts of bi-Laplace functions have the maximum where the
+/// function puts it, which may be beside the place asked for:
+/// `icc_chart_info::moved`
 pub const ICC_CONSTRAINTS_NONE: i32 = 2;
-/// always
+/// always: the maximum stays where it is asked for
 pub const ICC_CONSTRAINTS_ALL: i32 = 3;
 
 // How the linear systems of Laplace and bi-Laplace are solved.
@@ -342,6 +346,7 @@ pub struct icc_chart_options {
     /// where the maximum shall be: the nearest vertex inside is taken. NULL:
     /// the grassfire's (gradient, field), the deepest vertex (foliation; of a
     /// mesh of the caller's, the deepest inside). Disc has its own, the point that goes to the centre: NULL only.
+    /// Bi-Laplace functions without constraints may move it: `icc_chart_info::moved`
     pub maximum: *const f64,
     /// gradient: `ICC_CONSTRAINTS_*`; 0: needed
     pub constraints: i32,
@@ -445,6 +450,10 @@ pub struct icc_chart_info {
     pub flux_energy: f64,
     /// largest share of a simplex's flux that gets lost by rounding
     pub flux_divergence: f64,
+    /// gradient, bi-Laplace functions without constraints: how far `maximum`
+    /// lies from the vertex that was asked for (or the grassfire's), because
+    /// the function is greatest beside it; else 0
+    pub moved: f64,
 }
 sized!(icc_chart_info);
 
@@ -1442,7 +1451,7 @@ pub struct icc_function_info {
     pub work: f64,
     /// KKT residual before the final sweep from the root to the leaves: the largest
     /// |min(slack, multiplier)| of an inequality, or |row of the equation| if
-    /// there are none; the maximum of f is 1
+    /// there are none; f is 1 at the root
     pub residual_before: f64,
     /// the same after the sweep: for the function that is handed out
     pub residual: f64,
@@ -1458,6 +1467,14 @@ pub struct icc_function_info {
     pub seconds_solve: f64,
     /// time to count critical points, sweep and find the residuals
     pub seconds_verify: f64,
+    /// by what share of its value at the root the function is greater at `highest`;
+    /// 0 when that is the root
+    pub excess: f64,
+    /// the vertex inside with the greatest value
+    pub highest: u32,
+    /// 1: that is not the root, where curves are to end. Only seen for bilaplace
+    /// and clamped without inequalities; `icc_chart_create()` then moves the root
+    pub beside: i32,
 }
 sized!(icc_function_info);
 
@@ -1688,6 +1705,11 @@ extern "C" {
     /// outside, too. Laplace and bilaplace are positive inside, however far from the root; clamped changes its
     /// sign unless it is constrained. With constraints, the least energy among the functions that fall by
     /// `min_fall` along every tree edge inside and, for bilaplace and clamped, are at least `leaf_min` at the leaves.
+    ///
+    /// Bilaplace and clamped are shapes of a plate that is loaded at the root, and a plate is highest beside
+    /// a load that is not in its middle: without constraints the maximum may be another vertex, see
+    /// `icc_function_info::highest` and `icc_function_info::beside`. (On a tree that grows from there the function is
+    /// another one; `icc_chart_create()` moves the root until the two agree.)
     ///
     /// Nothing is assumed about critical points: see `icc_function_get_report()`. Inequalities on a tree that is not a
     /// cousin tree, as in 3-D, do not rule out others than the maximum.

@@ -1,6 +1,6 @@
-/* Making a field, whatever its function. */
-#ifndef ICCP_FIELD_CREATE_H
-#define ICCP_FIELD_CREATE_H
+/* Making a function, whatever its function. */
+#ifndef ICCP_MAKE_FUNCTION_H
+#define ICCP_MAKE_FUNCTION_H
 
 #include "function/function.h"
 

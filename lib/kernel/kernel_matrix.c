@@ -1,7 +1,7 @@
 /* Based on: Sakaridis, Kernel Coordinates (ETH Zurich 2016), sections 3.1 and 6.1; H. Wendland, Piecewise polynomial,
  * positive definite and compactly supported radial functions of minimal degree, 1995: the function of smoothness C2
  * for dimensions up to 3. */
-#include "kernel/gram.h"
+#include "kernel/kernel_matrix.h"
 
 #include "base/error.h"
 #include "base/threads.h"

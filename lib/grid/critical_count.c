@@ -1,4 +1,4 @@
-#include "grid/critical.h"
+#include "grid/critical_count.h"
 
 #include <string.h>
 

@@ -1,4 +1,4 @@
-#include "chart/create.h"
+#include "chart/chart_create.h"
 
 #include "base/error.h"
 #include "chart/chart_disc.h"

@@ -3,8 +3,8 @@
  * Based on: T. Banchoff, Critical Points and Curvature for Embedded Polyhedra, Journal of Differential
  * Geometry 1, 1967: what a piecewise linear function does at a vertex can be read off the neighbours
  * that are higher and those that are lower. */
-#ifndef ICCP_GRID_CRITICAL_H
-#define ICCP_GRID_CRITICAL_H
+#ifndef ICCP_CRITICAL_COUNT_H
+#define ICCP_CRITICAL_COUNT_H
 
 #include "base/threads.h"
 #include "grid/star.h"
