@@ -5,6 +5,8 @@
 #include "domain/locate.h"
 #include "icc/icc.h"
 
+#include "../../share.h"
+
 #include <check.h>
 #include <math.h>
 #include <stdbool.h>
@@ -310,7 +312,7 @@ START_TEST(test_random_integers)
 {
     static shape s;
     int n_simple = 0;
-    for (int round = 0; round < 60000; ++round) {
+    for (int round = 0; round < share_of(60000); ++round) {
         s.n = 1 + below(round % 100 == 0 ? 60 : 9);
         const int32_t side = 2 + below(round % 100 == 0 ? 40 : 5);
         for (int i = 0; i < s.n; ++i)
@@ -456,7 +458,7 @@ START_TEST(test_shapes)
     static shape s;
     int n_simple = 0, n_spoilt = 0;
     defects d;
-    for (int round = 0; round < 600; ++round) {
+    for (int round = 0; round < share_of(600); ++round) {
         make_any(&s, round);
         slow_defects(&d, &s);
         ck_assert_msg(round % 6 == 5 || d.n == 0, "round %d is not simple", round);
@@ -630,7 +632,7 @@ START_TEST(test_locate_exactly)
     static shape s, fine;
     static double points[2 * MAX_N];
     int n_points[4] = {0};
-    for (int round = 0; round < 300; ++round) {
+    for (int round = 0; round < share_of(300); ++round) {
         make_any(&s, round % 6 == 5 ? 4 : round);
         to_doubles(&s, 1, 0, 0, points);
         fine.n = s.n;
@@ -675,7 +677,7 @@ START_TEST(test_clustered_vertices)
 {
     double points[2 * 12];
     int n_simple = 0;
-    for (int round = 0; round < 20000; ++round) {
+    for (int round = 0; round < share_of(20000); ++round) {
         const size_t n = 3 + (size_t)below(round % 2 == 0 ? 2 : 6);
         for (size_t i = 0; i < 2 * n; ++i)
             points[i] = (unit() - 0.5) * ldexp(1, -below(120));
@@ -703,7 +705,7 @@ END_TEST
 START_TEST(test_vertex_near_edge)
 {
     int n_simple = 0;
-    for (int round = 0; round < 20000; ++round) {
+    for (int round = 0; round < share_of(20000); ++round) {
         const double slope = unit(), t = unit();
         double points[] = {0, 0, 1, slope, 1, 2, t, t * slope, 0, 2};
         icc_domain *domain;
@@ -732,7 +734,7 @@ START_TEST(test_sides_of_cells)
 {
     static shape s;
     static double points[2 * MAX_N];
-    for (int round = 0; round < 60; ++round) {
+    for (int round = 0; round < share_of(60); ++round) {
         make_any(&s, round);
         to_doubles(&s, 1.0 / 7, 0.3, 1000, points);
         icc_domain *domain;
@@ -805,7 +807,7 @@ START_TEST(test_invariance)
     enum { PLACES = sizeof places / sizeof places[0] };
     static shape s;
     static double points[2 * MAX_N];
-    for (int round = 0; round < 120; ++round) {
+    for (int round = 0; round < share_of(120); ++round) {
         make_any(&s, round);
         icc_domain *domains[PLACES];
         icc_error err;
@@ -909,7 +911,7 @@ START_TEST(test_info)
 {
     static shape s;
     static double points[2 * MAX_N];
-    for (int round = 0; round < 60; ++round) {
+    for (int round = 0; round < share_of(60); ++round) {
         make_any(&s, round % 6 == 5 ? 0 : round);
         static const double places[][3] = {{1, 0, 0}, {0.125, 1e9, -1e9}, {0x1p20, 0x1p60, 0}};
         const double *place = places[round % 3];
@@ -945,7 +947,7 @@ END_TEST
 /* Triangles a few units thin, whose products have more bits than a double. */
 START_TEST(test_area_of_slivers)
 {
-    for (int round = 0; round < 20000; ++round) {
+    for (int round = 0; round < share_of(20000); ++round) {
         const int64_t x = (1 << 30) + below(1 << 30), y = (1 << 30) + below(1 << 30);
         const int64_t u = x + below(9) - 4, v = y + below(9) - 4;
         const double points[] = {0, 0, (double)x, (double)y, (double)u, (double)v};
@@ -1161,7 +1163,7 @@ START_TEST(test_tree)
     int n = 0;
     iccp_avl_create(&tree, N, &iccp_memory_default);
     ck_assert_ptr_nonnull(tree.nodes);
-    for (int round = 0; round < 6000; ++round) {
+    for (int round = 0; round < share_of(6000); ++round) {
         const bool grow = n == 0 || (n < N && below(100) < (round / 1500 % 2 == 0 ? 70 : 30));
         const int at = below(grow ? n + 1 : n);
         if (grow) {
