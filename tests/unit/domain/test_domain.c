@@ -335,7 +335,7 @@ START_TEST(test_random_integers)
             break;
         }
     }
-    ck_assert_int_gt(n_simple, 1000);
+    ck_assert_int_gt(n_simple, share_of(1000));
 }
 END_TEST
 
@@ -480,8 +480,8 @@ START_TEST(test_shapes)
         n_spoilt += d.n > 0;
         check_shape(&s, 1, 0, 0);
     }
-    ck_assert_int_gt(n_simple, 500);
-    ck_assert_int_gt(n_spoilt, 300);
+    ck_assert_int_gt(n_simple, share_of(500));
+    ck_assert_int_gt(n_spoilt, share_of(300));
 }
 END_TEST
 
@@ -667,8 +667,8 @@ START_TEST(test_locate_exactly)
         }
         icc_domain_free(domain);
     }
-    REQUIRE(n_points[ICC_INSIDE] > 5000 && n_points[ICC_BOUNDARY] > 30000 &&
-            n_points[ICC_OUTSIDE] > 20000);
+    REQUIRE(n_points[ICC_INSIDE] > share_of(5000) && n_points[ICC_BOUNDARY] > share_of(30000) &&
+            n_points[ICC_OUTSIDE] > share_of(20000));
 }
 END_TEST
 
@@ -697,7 +697,7 @@ START_TEST(test_clustered_vertices)
             }
         icc_domain_free(domain);
     }
-    ck_assert_int_gt(n_simple, 5000);
+    ck_assert_int_gt(n_simple, share_of(5000));
 }
 END_TEST
 
@@ -724,7 +724,7 @@ START_TEST(test_vertex_near_edge)
         REQUIRE((facet == 2 && bary[1] == 1) || (facet == 3 && bary[0] == 1));
         icc_domain_free(domain);
     }
-    ck_assert_int_gt(n_simple, 15000);
+    ck_assert_int_gt(n_simple, share_of(15000));
 }
 END_TEST
 

@@ -160,7 +160,7 @@ START_TEST(octants_beyond_4d)
             ++n_found;
             ck_assert(euler(any, n) == 1 || euler(all & ~any, n) == 1);
         }
-        ck_assert(n == 6 || (n_found > 10 && n_found < 290));
+        ck_assert(n == 6 || (n_found > (size_t)share_of(10) && n_found < (size_t)share_of(290)));
     }
 }
 END_TEST
@@ -322,8 +322,8 @@ START_TEST(random_masks)
             m.cells[i] = (uint8_t)(random_below(&r, 12) > 0 ? 1 + random_below(&r, 255) : 0);
         n_solid += try_mask(&m);
     }
-    ck_assert_uint_gt(n_solid, 100);
-    ck_assert_uint_lt(n_solid, 1400);
+    ck_assert_uint_gt(n_solid, (size_t)share_of(100));
+    ck_assert_uint_lt(n_solid, (size_t)share_of(1400));
 }
 END_TEST
 
@@ -738,7 +738,7 @@ START_TEST(contacts_are_filled)
         n_mended += had && !has_contacts(&mended);
         n_left += has_contacts(&mended);
     }
-    ck_assert_uint_gt(n_mended, 300);
+    ck_assert_uint_gt(n_mended, (size_t)share_of(300));
     ck_assert_uint_lt(n_left, 10);
     ck_assert_int_eq(icc_mask_repair(2, NULL, NULL, NULL, NULL, NULL), ICC_ERR_ARGUMENT);
 }

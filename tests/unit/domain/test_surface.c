@@ -410,7 +410,7 @@ START_TEST(soups_are_searched)
         iccp_facet_tree_free(&tree, &env.memory);
         n_found += met;
     }
-    ck_assert(n_found > 50 && n_found < 350);
+    ck_assert(n_found > share_of(50) && n_found < share_of(350));
 }
 END_TEST
 
@@ -560,7 +560,7 @@ START_TEST(orientation_is_exact)
         icc_domain_free(domain);
         ++n_made;
     }
-    ck_assert_int_gt(n_made, 100);
+    ck_assert_int_gt(n_made, share_of(100));
 }
 END_TEST
 
@@ -898,7 +898,7 @@ START_TEST(nearest_points_are_nearest)
             n_inner += product > -1e-13;
         }
     }
-    ck_assert_int_gt(n_inner, 100000);
+    ck_assert_int_gt(n_inner, share_of(100000));
 }
 END_TEST
 

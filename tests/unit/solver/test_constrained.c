@@ -445,7 +445,7 @@ START_TEST(energy_is_the_least)
     random_source r = {5};
     const double etas[] = {1e-6, 0.01, 0.3};
     size_t n_active = 0;
-    for (int round = 0; round < share_of(300); ++round) {
+    for (int round = 0; round < 300; ++round) {
         problem p = round % 2 == 0 ? coarse_problem(&r) : random_problem(&r, 2 + round % 3);
         const double eta = etas[random_below(&r, 3)];
         long double best[MAX_DENSE];

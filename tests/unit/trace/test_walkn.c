@@ -306,7 +306,7 @@ START_TEST(walks_rise_the_steepest_way)
             }
         }
     }
-    ck_assert(n_slides > 5000 && n_crossings > 5000 && n_peaks > 2000);
+    ck_assert(n_slides > share_of(5000) && n_crossings > share_of(5000) && n_peaks > share_of(2000));
 }
 END_TEST
 
@@ -618,7 +618,7 @@ START_TEST(crossing_a_facet_twice_comes_back)
         ck_assert_mem_eq(other.corner, s.corner, sizeof *s.corner * (size_t)(dim + 1));
         ck_assert_mem_eq(other.axis, s.axis, sizeof *s.axis * (size_t)dim);
     }
-    ck_assert_int_gt(n_border, 100);
+    ck_assert_int_gt(n_border, share_of(100));
 }
 END_TEST
 
