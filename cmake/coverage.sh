@@ -11,7 +11,7 @@ root=$PWD
 if [ -d "$build" ]; then
     find "$build" -name '*.gcda' -delete
 fi
-sh tests/run.sh coverage >"$build.log" 2>&1 || { tail -n 40 "$build.log"; exit 1; }
+ICC_TEST_SHARE=100 sh tests/run.sh coverage >"$build.log" 2>&1 || { tail -n 40 "$build.log"; exit 1; }
 tail -n 1 "$build.log"
 
 rm -rf "$build/gcov"

@@ -4,6 +4,8 @@
 
 #include "icc/base.h"
 
+#include "share.h"
+
 #include <check.h>
 #include <stdlib.h>
 
@@ -49,15 +51,15 @@ static inline icc_env faulty_env(faulty *f)
 /* Makes something and frees it again; its status. */
 typedef icc_status (*faulty_call)(const icc_env *env, icc_error *err, void *argument);
 
-/* Lets every allocation and every progress report fail in turn: each gives its status and a text, and
- * nothing is left behind. */
+/* Lets every allocation and every progress report fail in turn, or a share of them: each gives its status and a
+ * text, and nothing is left behind. */
 static inline void faulty_sweep(faulty_call call, void *argument)
 {
     for (int cancels = 0; cancels < 2; ++cancels) {
         icc_status status = -1;
         size_t k = 0;
         while (status != ICC_OK) {
-            ++k;
+            k = share_next(k);
             faulty f = {.fail_at = cancels ? 0 : k, .cancel_at = cancels ? k : 0};
             icc_error err = {.size = sizeof err};
             const icc_env env = faulty_env(&f);

@@ -1,22 +1,31 @@
 #!/bin/sh
-# Installs what is missing, builds everything and runs every test.
-# usage: sh tests/run.sh [--all] [PRESET [CMAKE ARGUMENT ...]]      (presets: see CMakePresets.json)
-# With --all also what needs heavy packages: Rust, Dask, scikit-image and others, the reference documentation, and
-# the Debian packages, built and tested in a system of their own.
+# Installs what is missing, builds the library with its tests and runs them, in one of three tiers:
+# usage: sh tests/run.sh [--all | --long] [PRESET [CMAKE ARGUMENT ...]]      (presets: see CMakePresets.json)
+# Without a tier: the tests of less than ten seconds each, with a share of the cases of long sweeps. A few minutes.
+# Without a tier: what takes less than ten seconds, with a share of the cases of long sweeps. A few minutes.
+#        sources, the reference documentation, and the Debian packages, built and tested in a system of their own.
+# --long: the same with all cases of every sweep, tests labelled `long`, a hundred times the variations of fuzzers'
+#         inputs (10^6 where one takes microseconds), and all of it under the sanitizers. Hours.
+# ICC_TEST_SHARE=PERCENT in the environment sets the share of the cases.
 set -eu
 cd "$(dirname "$0")/.."
 . cmake/deps.sh
-all=no
-if [ "${1:-}" = --all ]; then
-    all=yes
-    shift
-fi
+tier=plain
+case ${1:-} in
+    --all | --long)
+        tier=${1#--}
+        shift
+        ;;
+esac
 need gcc g++ libc6-dev make cmake pkg-config libpng-dev libcjson-dev check libgmp-dev libsuitesparse-dev \
     abigail-tools python3-numpy python3-pytest python3-cffi tetgen
-if [ "$all" = yes ]; then
+if [ "$tier" = long ]; then
+    need clang libclang-rt-dev llvm
+fi
+if [ "$tier" != plain ]; then
     need cargo rustc python3-distributed python3-shapely python3-skimage python3-meshio python3-pil python3-matplotlib \
         python3-setuptools python3-wheel python3-pip python3-venv mypy netpbm librsvg2-bin doxygen \
-        mandoc man-db
+        mandoc man-db clang-format
 fi
 
 preset=${1:-release}
@@ -24,25 +33,27 @@ preset=${1:-release}
 build=build/$preset
 jobs=$(nproc)
 mkdir -p "$build"
+sanitized=no
+case $preset in
+    asan | tsan) sanitized=yes ;;
+esac
+
+# What of the sweeps is run, which tests there are, and whether benchmarks are compiled.
+benchmarks=OFF
+[ "$tier" = plain ] || [ "$sanitized" = yes ] || benchmarks=ON
+case $tier in
+    plain) share=20 left_to_others='all|long' ;;
+    all) share=20 left_to_others=long ;;
+    long) share=100 left_to_others=none ;;
+esac
+[ "$tier-$sanitized" = long-yes ] || [ "$sanitized" = no ] || share=4
+ICC_TEST_SHARE=${ICC_TEST_SHARE:-$share}
+export ICC_TEST_SHARE
 
 echo "building in $build"
-quietly "$build/configure.log" cmake --preset "$preset" "$@"
+quietly "$build/configure.log" cmake --preset "$preset" -DICC_BUILD_BENCHMARKS=$benchmarks "$@"
 quietly "$build/build.log" cmake --build "$build" --parallel "$jobs"
 grep -A 4 'warning:' "$build/build.log" || true
-
-status=0
-ctest --test-dir "$build" --output-on-failure --parallel "$jobs" --output-log "$build/ctest.log" \
-    </dev/null || status=$?
-counts=$(awk '/tests? passed, .* tests? failed out of/ { print $NF - $4, $4 }' "$build/ctest.log")
-counts=${counts:-0 1}
-passed=${counts% *}
-failed=${counts#* }
-
-# Tests that CMake did not register for want of packages, and parts of tests that were skipped.
-left_out() {
-    sed -n 's/^-- \(.* missing: .*\)/\1/p' "$build/configure.log"
-    grep -e '^SKIPPED' -e ' left out: .* is missing$' "$build/Testing/Temporary/LastTest.log" || true
-}
 
 # also NAME COMMAND... counts as one more test; exit code 77 means that it cannot run here, and says why.
 also() {
@@ -58,19 +69,67 @@ also() {
     esac
 }
 
+# The packages are made while the tests run: on machines with several processors neither uses all of them.
+packages=
+if [ "$tier" != plain ] && [ "$sanitized" = no ]; then
+    check=nocheck
+    [ "$tier" != long ] || check=
+    DEB_BUILD_OPTIONS=$check sh tests/debian.sh "$build" >"$build/debian.log" 2>&1 </dev/null &
+    packages=$!
+fi
+
+# A program that never ends is stopped by the time that it has used itself, however busy the machine is.
+most_seconds=1200
+[ "$tier" != long ] || most_seconds=36000
+status=0
+(
+    # shellcheck disable=SC3045 # dash and bash have it
+    ulimit -t $most_seconds
+    ctest --test-dir "$build" --label-exclude "^($left_to_others)\$" --output-on-failure --parallel "$jobs" \
+        --output-log "$build/ctest.log" </dev/null
+) || status=$?
+counts=$(awk '/tests? passed, .* tests? failed out of/ { print $NF - $4, $4 }' "$build/ctest.log")
+counts=${counts:-0 1}
+passed=${counts% *}
+failed=${counts#* }
+
+# Tests that CMake did not register for want of packages, and parts of tests that were skipped.
+left_out() {
+    sed -n 's/^-- \(.* missing: .*\)/\1/p' "$build/configure.log"
+    grep -e '^SKIPPED' -e ' left out: .* is missing$' "$build/Testing/Temporary/LastTest.log" || true
+}
+
 reference() (
     quietly build/docs.log cmake --preset docs
     quietly build/docs.log cmake --build --preset docs
 )
 
+packages() {
+    result=0
+    wait "$packages" || result=$?
+    cat "$build/debian.log"
+    return $result
+}
+
+fuzz() (
+    # shellcheck disable=SC3045 # dash and bash have it
+    ulimit -t 36000
+    ICC_FUZZ_TIMES=100 ctest --test-dir "$build" --tests-regex ^fuzz/ --output-on-failure --parallel "$jobs" </dev/null
+)
+
 left_out=$(left_out)
 [ -z "$left_out" ] || printf 'left out, for want of packages:\n%s\n' "$left_out"
-if [ "$all" = no ]; then
+if [ "$tier" = plain ]; then
     [ -z "$left_out" ] || echo "sh tests/run.sh --all has them"
-else
+elif [ "$sanitized" = no ]; then
     also "nothing is left out" test -z "$left_out"
     also "reference documentation" reference
-    also "Debian packages" sh tests/debian.sh "$build"
+    also "Debian packages" packages
+fi
+if [ "$tier-$sanitized" = long-no ]; then
+    also "a hundred times the fuzzers' variations" fuzz
+    also "address and undefined-behaviour sanitizers" env CC=clang sh tests/run.sh --long asan
+    also "thread sanitizer" env CC=clang sh tests/run.sh --long tsan
 fi
 [ ! -e "$build/overhead.txt" ] || cat "$build/overhead.txt"
 printf '%d passed, %d failed\n' "$passed" "$failed"

@@ -1,4 +1,5 @@
 /* Every function that allocates, with every one of its allocations failing once. */
+#include "../share.h"
 #include "objects.h"
 
 typedef struct counter {
@@ -29,7 +30,7 @@ static size_t fail_each(const objects *o, const call *c)
     static outcome plain, out;
     memset(&plain, 0, sizeof plain);
     ck_assert_int_eq(c->run(o, &plain, NULL, NULL), ICC_OK);
-    for (size_t k = 0;; ++k) {
+    for (size_t k = 0;; k = share_next(k)) {
         counter count = {.fail_at = k};
         const icc_env env = {
             .size = sizeof env, .user = &count, .alloc = count_alloc, .dealloc = count_dealloc};

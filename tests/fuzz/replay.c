@@ -1,6 +1,8 @@
 /* Runs a fuzzer without libFuzzer: on every file of its corpus, and on a fixed number of random
- * variations of them. usage: replay CORPUS_DIR [ROUNDS] */
+ * variations of them: a share of these, times ICC_FUZZ_TIMES. usage: replay CORPUS_DIR [ROUNDS] */
 #define _POSIX_C_SOURCE 200809L
+
+#include "../share.h"
 
 #include <dirent.h>
 #include <stdint.h>
@@ -108,7 +110,9 @@ int main(int argc, char **argv)
         (void)fprintf(stderr, "usage: replay CORPUS_DIR [ROUNDS]\n");
         return 2;
     }
-    const long rounds = argc > 2 ? strtol(argv[2], NULL, 10) : 10000;
+    const char *times = getenv("ICC_FUZZ_TIMES");
+    const long rounds = share_of(argc > 2 ? (int)strtol(argv[2], NULL, 10) : 10000) *
+                        (times != NULL ? strtol(times, NULL, 10) : 1);
     const size_t n = read_corpus(argv[1], corpus);
     for (size_t i = 0; i < n; ++i)
         run(corpus[i].data, corpus[i].size);

@@ -4,6 +4,7 @@
 
 #include "../random.h"
 #include "../shapes.h"
+#include "../share.h"
 
 #include <check.h>
 #include <stdlib.h>
@@ -185,7 +186,7 @@ static double random_number(void *source)
 START_TEST(random_shapes_have_charts)
 {
     random_source r = {2};
-    for (int k = 0; k < 150; ++k) {
+    for (int k = 0; k < share_of(150); ++k) {
         shape outline = shape_blob(5 + (size_t)random_below(&r, 40), random_number, &r);
         if (k % 3 == 0)
             outline = shape_reversed(&outline);

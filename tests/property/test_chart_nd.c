@@ -7,6 +7,7 @@
 #include "../npy.h"
 #include "../obj.h"
 #include "../random.h"
+#include "../share.h"
 #include "../surfaces.h"
 
 #include <check.h>
@@ -235,7 +236,7 @@ START_TEST(points_come_back_where_lines_do_not_merge)
         int n_failed = 0, n_alone = 0;
         if (!subject_init(&s, k / 3, ICC_FUNCTION_DECAY + k % 3))
             continue;
-        for (int i = 0; i < 300; ++i) {
+        for (int i = 0; i < share_of(300); ++i) {
             double p[ICC_MAX_DIM], back[ICC_MAX_DIM];
             pick_inside(&s, &r, p);
             const code c = encode(&s, p);
@@ -251,7 +252,7 @@ START_TEST(points_come_back_where_lines_do_not_merge)
         }
         /* The fox is thinner than a cell here and there. */
         ck_assert_int_le(n_failed, k / 3 == FOX ? 6 : 0);
-        ck_assert_int_gt(n_alone, 100);
+        ck_assert_int_gt(n_alone, share_of(300) / 3);
         subject_clear(&s);
     }
 }
@@ -266,7 +267,7 @@ START_TEST(coordinates_give_points)
         int n_failed = 0;
         if (!subject_init(&s, k, ICC_FUNCTION_LAPLACE))
             continue;
-        for (int i = 0; i < 200; ++i) {
+        for (int i = 0; i < share_of(200); ++i) {
             double p[ICC_MAX_DIM], q[ICC_MAX_DIM], rest = 1;
             int32_t where;
             code c = {.facet = (uint32_t)random_below(&r, (int)s.shape.n_facets)};
@@ -416,7 +417,7 @@ START_TEST(jets_are_derivatives)
         iccp_path_init(&path, &s.chart->memory);
         const int32_t dim = s.shape.dim, i = k % dim;
         const iccp_chart_ops *ops = s.chart->ops;
-        for (int m = 0; m < 100; ++m) {
+        for (int m = 0; m < share_of(100); ++m) {
             double p[ICC_MAX_DIM], q[3][ICC_MAX_DIM];
             iccp_coords c[3], start;
             iccp_encode_jet encoded;

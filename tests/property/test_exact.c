@@ -8,6 +8,7 @@
 #include "foliation/psi.h"
 
 #include "../hard_shapes.h"
+#include "../share.h"
 
 #include <check.h>
 #include <gmp.h>
@@ -539,13 +540,13 @@ START_TEST(points_come_back_exactly)
     const shape star = shape_star(5, 0.4, 0.1), twisted = shape_star(5, 0.5, 0.7);
     switch (_i) {
     case 0:
-        check_pair(&l, &square6, 20, 200);
+        check_pair(&l, &square6, 20, share_of(200));
         break;
     case 1:
-        check_pair(&square, &dart, 20, 200);
+        check_pair(&square, &dart, 20, share_of(200));
         break;
     default:
-        check_pair(&star, &twisted, 20, 200);
+        check_pair(&star, &twisted, 20, share_of(200));
     }
 }
 END_TEST

@@ -5,6 +5,7 @@
 #include "../faulty.h"
 #include "../random.h"
 #include "../shapes.h"
+#include "../share.h"
 
 #include <check.h>
 #include <float.h>
@@ -245,7 +246,7 @@ static void check_all_choices(const ground *g)
 START_TEST(every_choice_on_random_masks)
 {
     random_source r = {1};
-    for (int round = 0; round < 120; ++round) {
+    for (int round = 0; round < share_of(120); ++round) {
         ground g = random_ground(&r, 1 + round % 4, round % 4 == 3 ? 3 : 8);
         check_all_choices(&g);
         ground_free(&g);
@@ -698,7 +699,7 @@ static double bound_energy(dense *q)
             g[i][j] = dot(q->n, q->a[i], column);
         d[j] = q->b[j] - dot(q->n, q->a[j], x);
     }
-    for (int round = 0; round < 20000; ++round) {
+    for (int round = 0; round < share_of(20000); ++round) {
         double change = 0;
         for (size_t i = 0; i < q->m; ++i) {
             const double slope = d[i] - dot(q->m, g[i], multiplier);
@@ -720,7 +721,7 @@ START_TEST(no_function_has_less_energy)
     static dense q;
     random_source r = {4};
     size_t n_active[ICC_FUNCTION_CLAMPED + 1] = {0};
-    for (int round = 0; round < 480; ++round) {
+    for (int round = 0; round < share_of(480); ++round) {
         ground g = random_ground(&r, 2 + round / 3 % 2, round / 3 % 2 ? 4 : 7);
         const int32_t function = ICC_FUNCTION_LAPLACE + round % 3;
         if (g.n <= MOST_UNKNOWNS) {
@@ -740,7 +741,7 @@ START_TEST(no_function_has_less_energy)
         ground_free(&g);
     }
     for (int32_t function = ICC_FUNCTION_LAPLACE; function <= ICC_FUNCTION_CLAMPED; ++function)
-        ck_assert_uint_gt(n_active[function], 5);
+        ck_assert_uint_gt(n_active[function], (size_t)share_of(5));
 }
 END_TEST
 
@@ -824,7 +825,7 @@ static double least_slope(const ground *g, int32_t function, const double *f, ra
     double *h = room_for(g), *gradient = room_for(g), least = 0;
     for (size_t i = 1; i < g->n; ++i)
         gradient[g->order[i]] = ground_gradient(g, function, f, g->order[i]);
-    for (int round = 0; round < 200; ++round) {
+    for (int round = 0; round < share_of(200); ++round) {
         const double step = pow(10, -random_between(r, 0, 8));
         double slope = 0, size = 0;
         h[g->root] = 1;

@@ -4,6 +4,7 @@
 
 #include "../random.h"
 #include "../shapes.h"
+#include "../share.h"
 
 #include <check.h>
 #include <stdlib.h>
@@ -215,7 +216,7 @@ START_TEST(the_inverse_undoes_the_map)
             target = shape_reversed(&target);
         }
         icc_map *map = map_of(&source, &target, 30, k % 2 ? ICC_FUNCTION_DISTANCE : 0);
-        for (int i = 0; i < 300; ++i) {
+        for (int i = 0; i < share_of(300); ++i) {
             double p[2], q[2], back[2];
             icc_status status;
             pick_inside(icc_map_source_chart(map), &r, p);
@@ -280,7 +281,7 @@ START_TEST(facets_may_come_in_any_order)
         icc_map *map, *plain = map_of(&s[0], &s[1], 25, 0);
         ck_assert_int_eq(icc_map_create(&map, domain[0], domain[1], &options, NULL, NULL), ICC_OK);
         check_boundary(map, &s[0], &s[1], &r);
-        for (int i = 0; i < 100; ++i) {
+        for (int i = 0; i < share_of(100); ++i) {
             double p[2], q[2][2];
             uint32_t facet[2];
             double bary[2][2], t[2];
@@ -441,7 +442,7 @@ START_TEST(jacobians_are_derivatives)
         const bool positive =
             transversal(icc_map_source_chart(map)) && transversal(icc_map_target_chart(map));
         n_transversal += positive;
-        for (int i = 0; i < 400; ++i) {
+        for (int i = 0; i < share_of(400); ++i) {
             double p[2], j[4], column[2];
             icc_status status, mapped;
             pick_inside(icc_map_source_chart(map), &r, p);

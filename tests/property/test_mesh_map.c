@@ -3,6 +3,7 @@
 #include "math/predicates.h"
 
 #include "../hard_shapes.h"
+#include "../share.h"
 
 #include <check.h>
 #include <stdbool.h>
@@ -301,7 +302,7 @@ START_TEST(points_come_back)
         icc_map *map = map_number(k, 0, NULL);
         random_source r = {(uint64_t)k};
         double worst = 0;
-        for (int i = 0; i < 2000; ++i) {
+        for (int i = 0; i < share_of(2000); ++i) {
             double p[2], q[2], back[2];
             icc_status status[2];
             if (i % 2)
@@ -455,7 +456,7 @@ START_TEST(a_shape_maps_to_itself)
         ck_assert_double_eq_tol(info_of(map).energy, 4, 1e-9);
         random_source r = {(uint64_t)k};
         double worst = 0;
-        for (int i = 0; i < 500; ++i) {
+        for (int i = 0; i < share_of(500); ++i) {
             double p[2], q[2];
             pick_inside(map->source_domain, &r, p);
             (void)icc_map_apply(map, 1, p, q, NULL, NULL, NULL);

@@ -10,6 +10,7 @@
 #include "../faulty.h"
 #include "../meshes.h"
 #include "../random.h"
+#include "../share.h"
 
 enum { N_POINTS = 300, MAX = ICC_MAX_DIM };
 
@@ -327,7 +328,7 @@ START_TEST(faces_of_the_mesh)
         test_mesh kept = mesh_copy(&source);
         pair p = pair_of(source, target);
         icc_map *map = make_map(&p);
-        for (int i = 0; i < 3000; ++i) {
+        for (int i = 0; i < share_of(3000); ++i) {
             const uint32_t *corner = kept.simplices + n * (size_t)random_below(&r, (int)kept.n_simplices);
             double x[MAX] = {0}, y[MAX], z[MAX], sum = 0, bary[MAX + 1];
             icc_status status[2];

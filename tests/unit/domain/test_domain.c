@@ -5,6 +5,8 @@
 #include "domain/locate.h"
 #include "icc/icc.h"
 
+#include "../../share.h"
+
 #include <check.h>
 #include <math.h>
 #include <stdbool.h>
@@ -313,7 +315,7 @@ START_TEST(test_random_integers)
 {
     static shape s;
     int n_simple = 0;
-    for (int round = 0; round < 60000; ++round) {
+    for (int round = 0; round < share_of(60000); ++round) {
         s.n = 1 + below(round % 100 == 0 ? 60 : 9);
         const int32_t side = 2 + below(round % 100 == 0 ? 40 : 5);
         for (int i = 0; i < s.n; ++i)
@@ -336,7 +338,7 @@ START_TEST(test_random_integers)
             break;
         }
     }
-    ck_assert_int_gt(n_simple, 1000);
+    ck_assert_int_gt(n_simple, share_of(1000));
 }
 END_TEST
 
@@ -459,7 +461,7 @@ START_TEST(test_shapes)
     static shape s;
     int n_simple = 0, n_spoilt = 0;
     defects d;
-    for (int round = 0; round < 600; ++round) {
+    for (int round = 0; round < share_of(600); ++round) {
         make_any(&s, round);
         slow_defects(&d, &s);
         ck_assert_msg(round % 6 == 5 || d.n == 0, "round %d is not simple", round);
@@ -481,8 +483,8 @@ START_TEST(test_shapes)
         n_spoilt += d.n > 0;
         check_shape(&s, 1, 0, 0);
     }
-    ck_assert_int_gt(n_simple, 500);
-    ck_assert_int_gt(n_spoilt, 300);
+    ck_assert_int_gt(n_simple, share_of(500));
+    ck_assert_int_gt(n_spoilt, share_of(300));
 }
 END_TEST
 
@@ -633,7 +635,7 @@ START_TEST(test_locate_exactly)
     static shape s, fine;
     static double points[2 * MAX_N];
     int n_points[4] = {0};
-    for (int round = 0; round < 300; ++round) {
+    for (int round = 0; round < share_of(300); ++round) {
         make_any(&s, round % 6 == 5 ? 4 : round);
         to_doubles(&s, 1, 0, 0, points);
         fine.n = s.n;
@@ -668,8 +670,8 @@ START_TEST(test_locate_exactly)
         }
         icc_domain_free(domain);
     }
-    REQUIRE(n_points[ICC_INSIDE] > 5000 && n_points[ICC_BOUNDARY] > 30000 &&
-            n_points[ICC_OUTSIDE] > 20000);
+    REQUIRE(n_points[ICC_INSIDE] > share_of(5000) && n_points[ICC_BOUNDARY] > share_of(30000) &&
+            n_points[ICC_OUTSIDE] > share_of(20000));
 }
 END_TEST
 
@@ -678,7 +680,7 @@ START_TEST(test_clustered_vertices)
 {
     double points[2 * 12];
     int n_simple = 0;
-    for (int round = 0; round < 20000; ++round) {
+    for (int round = 0; round < share_of(20000); ++round) {
         const size_t n = 3 + (size_t)below(round % 2 == 0 ? 2 : 6);
         for (size_t i = 0; i < 2 * n; ++i)
             points[i] = (unit() - 0.5) * ldexp(1, -below(120));
@@ -698,7 +700,7 @@ START_TEST(test_clustered_vertices)
             }
         icc_domain_free(domain);
     }
-    ck_assert_int_gt(n_simple, 5000);
+    ck_assert_int_gt(n_simple, share_of(5000));
 }
 END_TEST
 
@@ -706,7 +708,7 @@ END_TEST
 START_TEST(test_vertex_near_edge)
 {
     int n_simple = 0;
-    for (int round = 0; round < 20000; ++round) {
+    for (int round = 0; round < share_of(20000); ++round) {
         const double slope = unit(), t = unit();
         double points[] = {0, 0, 1, slope, 1, 2, t, t * slope, 0, 2};
         icc_domain *domain;
@@ -725,7 +727,7 @@ START_TEST(test_vertex_near_edge)
         REQUIRE((facet == 2 && bary[1] == 1) || (facet == 3 && bary[0] == 1));
         icc_domain_free(domain);
     }
-    ck_assert_int_gt(n_simple, 15000);
+    ck_assert_int_gt(n_simple, share_of(15000));
 }
 END_TEST
 
@@ -735,7 +737,7 @@ START_TEST(test_sides_of_cells)
 {
     static shape s;
     static double points[2 * MAX_N];
-    for (int round = 0; round < 60; ++round) {
+    for (int round = 0; round < share_of(60); ++round) {
         make_any(&s, round);
         to_doubles(&s, 1.0 / 7, 0.3, 1000, points);
         icc_domain *domain;
@@ -808,7 +810,7 @@ START_TEST(test_invariance)
     enum { PLACES = sizeof places / sizeof places[0] };
     static shape s;
     static double points[2 * MAX_N];
-    for (int round = 0; round < 120; ++round) {
+    for (int round = 0; round < share_of(120); ++round) {
         make_any(&s, round);
         icc_domain *domains[PLACES];
         icc_error err;
@@ -912,7 +914,7 @@ START_TEST(test_info)
 {
     static shape s;
     static double points[2 * MAX_N];
-    for (int round = 0; round < 60; ++round) {
+    for (int round = 0; round < share_of(60); ++round) {
         make_any(&s, round % 6 == 5 ? 0 : round);
         static const double places[][3] = {{1, 0, 0}, {0.125, 1e9, -1e9}, {0x1p20, 0x1p60, 0}};
         const double *place = places[round % 3];
@@ -948,7 +950,7 @@ END_TEST
 /* Triangles a few units thin, whose products have more bits than a double. */
 START_TEST(test_area_of_slivers)
 {
-    for (int round = 0; round < 20000; ++round) {
+    for (int round = 0; round < share_of(20000); ++round) {
         const int64_t x = (1 << 30) + below(1 << 30), y = (1 << 30) + below(1 << 30);
         const int64_t u = x + below(9) - 4, v = y + below(9) - 4;
         const double points[] = {0, 0, (double)x, (double)y, (double)u, (double)v};
@@ -1164,7 +1166,7 @@ START_TEST(test_tree)
     int n = 0;
     iccp_avl_create(&tree, N, &iccp_memory_default);
     ck_assert_ptr_nonnull(tree.nodes);
-    for (int round = 0; round < 6000; ++round) {
+    for (int round = 0; round < share_of(6000); ++round) {
         const bool grow = n == 0 || (n < N && below(100) < (round / 1500 % 2 == 0 ? 70 : 30));
         const int at = below(grow ? n + 1 : n);
         if (grow) {

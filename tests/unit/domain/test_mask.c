@@ -7,6 +7,7 @@
 #include "../../faulty.h"
 #include "../../npy.h"
 #include "../../random.h"
+#include "../../share.h"
 
 #include <check.h>
 #include <math.h>
@@ -143,7 +144,7 @@ START_TEST(octants_beyond_4d)
     random_source r = {1};
     for (int n = 5; n <= 6; ++n) {
         size_t n_found = 0;
-        for (int round = 0; round < 300; ++round) {
+        for (int round = 0; round < share_of(300); ++round) {
             uint64_t set = (uint64_t)1 << random_below(&r, 1 << n); /* grown at random */
             for (int i = 0; i < round % 40; ++i) {
                 const uint64_t more = set | (uint64_t)1 << random_below(&r, 1 << n);
@@ -159,7 +160,7 @@ START_TEST(octants_beyond_4d)
             ++n_found;
             ck_assert(euler(any, n) == 1 || euler(all & ~any, n) == 1);
         }
-        ck_assert(n == 6 || (n_found > 10 && n_found < 290));
+        ck_assert(n == 6 || (n_found > (size_t)share_of(10) && n_found < (size_t)share_of(290)));
     }
 }
 END_TEST
@@ -313,7 +314,7 @@ START_TEST(random_masks)
 {
     random_source r = {2};
     size_t n_solid = 0;
-    for (int round = 0; round < 1500; ++round) {
+    for (int round = 0; round < share_of(1500); ++round) {
         mask m = {.dim = 2 + round % 2, .shape = {4, 4, 4}};
         for (int32_t k = 0; k < m.dim; ++k)
             m.shape[k] = (size_t)(2 + random_below(&r, 4));
@@ -321,8 +322,8 @@ START_TEST(random_masks)
             m.cells[i] = (uint8_t)(random_below(&r, 12) > 0 ? 1 + random_below(&r, 255) : 0);
         n_solid += try_mask(&m);
     }
-    ck_assert_uint_gt(n_solid, 100);
-    ck_assert_uint_lt(n_solid, 1400);
+    ck_assert_uint_gt(n_solid, (size_t)share_of(100));
+    ck_assert_uint_lt(n_solid, (size_t)share_of(1400));
 }
 END_TEST
 
@@ -718,7 +719,7 @@ START_TEST(contacts_are_filled)
 {
     random_source r = {8};
     size_t n_mended = 0, n_left = 0;
-    for (int round = 0; round < 400; ++round) {
+    for (int round = 0; round < share_of(400); ++round) {
         mask m = {.dim = 2 + round % 2, .shape = {6, 5, 4}};
         for (size_t i = 0; i < count(&m); ++i)
             m.cells[i] = random_below(&r, 10) < 3 + round % 6 ? 7 : 0;
@@ -737,7 +738,7 @@ START_TEST(contacts_are_filled)
         n_mended += had && !has_contacts(&mended);
         n_left += has_contacts(&mended);
     }
-    ck_assert_uint_gt(n_mended, 300);
+    ck_assert_uint_gt(n_mended, (size_t)share_of(300));
     ck_assert_uint_lt(n_left, 10);
     ck_assert_int_eq(icc_mask_repair(2, NULL, NULL, NULL, NULL, NULL), ICC_ERR_ARGUMENT);
 }

@@ -2,6 +2,7 @@
  * and where points and lines meet them, against brute force. */
 #include "../../faulty.h"
 #include "../../obj.h"
+#include "../../share.h"
 #include "../../surfaces.h"
 #include "domain/crossings.h"
 #include "domain/domain.h"
@@ -341,7 +342,7 @@ START_TEST(triangles_agree_with_integers)
 {
     random_source r = {2};
     int n_met[4] = {0}, n_all[4] = {0};
-    for (int round = 0; round < 400000; ++round) {
+    for (int round = 0; round < share_of(400000); ++round) {
         const int n_shared = random_below(&r, 3), size = 1 + random_below(&r, 4);
         const int flatness = random_below(&r, 4) == 0;
         spot a[3], b[3];
@@ -383,7 +384,7 @@ START_TEST(soups_are_searched)
     random_source r = {3};
     int n_found = 0;
     const iccp_env env = {.memory = iccp_memory_default};
-    for (int round = 0; round < 400; ++round) {
+    for (int round = 0; round < share_of(400); ++round) {
         const double size = 0.02 + 0.2 * random_unit(&r);
         double vertices[9 * N];
         uint32_t faces[3 * N], pair[2];
@@ -409,7 +410,7 @@ START_TEST(soups_are_searched)
         iccp_facet_tree_free(&tree, &env.memory);
         n_found += met;
     }
-    ck_assert(n_found > 50 && n_found < 350);
+    ck_assert(n_found > share_of(50) && n_found < share_of(350));
 }
 END_TEST
 
@@ -518,7 +519,7 @@ static void check_own_points(const icc_domain *domain, const surface *of, random
 START_TEST(stars_are_domains)
 {
     random_source r = {4};
-    for (int round = 0; round < 60; ++round) {
+    for (int round = 0; round < share_of(60); ++round) {
         surface_star(&s, round % 5, 0.9 * random_unit(&r), &r);
         const int orientation = round % 2 ? -1 : 1;
         if (orientation < 0)
@@ -543,7 +544,7 @@ START_TEST(orientation_is_exact)
 {
     random_source r = {5};
     int n_made = 0;
-    for (int round = 0; round < 40000; ++round) {
+    for (int round = 0; round < share_of(40000); ++round) {
         surface_octahedron(&s);
         for (size_t i = 0; i < 18; ++i)
             s.vertices[i] = random_below(&r, 4);
@@ -559,7 +560,7 @@ START_TEST(orientation_is_exact)
         icc_domain_free(domain);
         ++n_made;
     }
-    ck_assert_int_gt(n_made, 100);
+    ck_assert_int_gt(n_made, share_of(100));
 }
 END_TEST
 
@@ -863,7 +864,7 @@ START_TEST(nearest_points_are_nearest)
 {
     random_source r = {13};
     int n_inner = 0;
-    for (int round = 0; round < 200000; ++round) {
+    for (int round = 0; round < share_of(200000); ++round) {
         const size_t dim = 1 + (size_t)random_below(&r, 6), n = 1 + (size_t)random_below(&r, (int)dim);
         const double thin = random_below(&r, 3) == 0 ? ldexp(1, -random_below(&r, 70)) : 1;
         double v[6][6], p[6], x[6] = {0}, bary[6], sum = 0, away2 = 0;
@@ -897,7 +898,7 @@ START_TEST(nearest_points_are_nearest)
             n_inner += product > -1e-13;
         }
     }
-    ck_assert_int_gt(n_inner, 100000);
+    ck_assert_int_gt(n_inner, share_of(100000));
 }
 END_TEST
 

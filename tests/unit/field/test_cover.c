@@ -3,6 +3,7 @@
 #include "grid/rasterise.h"
 
 #include "../../random.h"
+#include "../../share.h"
 
 #include <check.h>
 #include <math.h>
@@ -274,7 +275,7 @@ START_TEST(the_order_of_the_facets_does_not_matter)
 {
     static const uint32_t ORDERS[2][4] = {{0, 1, 2, 3}, {3, 2, 1, 0}};
     const iccp_env env = plain_env();
-    for (uint64_t seed = 0; seed < 2000; ++seed) {
+    for (uint64_t seed = 0; seed < (uint64_t)share_of(2000); ++seed) {
         iccp_cover cover[2];
         icc_domain *domain[2];
         icc_grid *grid[2];

@@ -3,6 +3,7 @@
 #include "foliation/harmonic.h"
 
 #include "../../hard_shapes.h"
+#include "../../share.h"
 
 #include <check.h>
 #include <stdlib.h>
@@ -70,7 +71,7 @@ START_TEST(twins_must_fit)
     subject x = subject_of(&s, 12);
     random_source r = {1};
     ck_assert(holds(&x));
-    for (int k = 0; k < 500; ++k) {
+    for (int k = 0; k < share_of(500); ++k) {
         const uint32_t c = random_corner(&x, &r), old = x.base.mesh.twins[c];
         const uint32_t other = k % 7 == 0 ? ICCP_NO_NEIGHBOUR : random_corner(&x, &r);
         x.base.mesh.twins[c] = other;
@@ -88,7 +89,7 @@ START_TEST(triangles_must_fit)
     subject x = subject_of(&s, 12);
     random_source r = {2};
     iccp_planar *mesh = &x.base.mesh;
-    for (int k = 0; k < 500; ++k) {
+    for (int k = 0; k < share_of(500); ++k) {
         const uint32_t c = random_corner(&x, &r), old = mesh->triangles[c];
         mesh->triangles[c] = (uint32_t)random_below(&r, (int)mesh->n_vertices);
         ck_assert(mesh->triangles[c] == old || certify(&x).n_topology > 0);
@@ -118,7 +119,7 @@ START_TEST(triangles_must_be_positive)
     subject x = subject_of(&s, 20);
     random_source r = {3};
     iccp_planar *mesh = &x.base.mesh;
-    for (int k = 0; k < 300; ++k) {
+    for (int k = 0; k < share_of(300); ++k) {
         const uint32_t c = random_corner(&x, &r);
         double *p = mesh->points + 2 * (size_t)mesh->triangles[c];
         const double old[2] = {p[0], p[1]};
@@ -142,7 +143,7 @@ START_TEST(rises_must_close)
     const shape s = shape_dart();
     subject x = subject_of(&s, 15);
     random_source r = {4};
-    for (int k = 0; k < 500; ++k) {
+    for (int k = 0; k < share_of(500); ++k) {
         const uint32_t c = random_outer_corner(&x, &r), d = iccp_after(c);
         const int64_t old[2] = {x.psi.rise[c], x.psi.rise[d]};
         x.psi.rise[c] += k % 2 ? 1 : -1;

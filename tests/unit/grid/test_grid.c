@@ -8,6 +8,7 @@
 #include "../../faulty.h"
 #include "../../random.h"
 #include "../../shapes.h"
+#include "../../share.h"
 #include "../../surfaces.h"
 
 #include <check.h>
@@ -48,7 +49,7 @@ static icc_grid *random_grid(random_source *r, int density)
 START_TEST(neighbours_differ_by_one_step)
 {
     random_source r = {1};
-    for (int round = 0; round < 200; ++round) {
+    for (int round = 0; round < share_of(200); ++round) {
         icc_grid *grid = random_grid(&r, 5);
         for (uint32_t v = 0; v < grid->n_vertices; ++v)
             for (int32_t k = 0; k < grid->dim; ++k)
@@ -106,7 +107,7 @@ END_TEST
 START_TEST(nearest_is_the_first_of_the_nearest)
 {
     random_source r = {2};
-    for (int round = 0; round < 300; ++round) {
+    for (int round = 0; round < share_of(300); ++round) {
         icc_grid *grid = random_grid(&r, 3);
         double point[ICC_MAX_DIM];
         for (int32_t k = 0; k < grid->dim; ++k)
@@ -218,7 +219,7 @@ static double unit(void *source)
 START_TEST(polygons_of_every_kind)
 {
     random_source r = {3};
-    for (int round = 0; round < 400; ++round) {
+    for (int round = 0; round < share_of(400); ++round) {
         shape s = round < N_SHAPES ? shape_number(round)
                                    : shape_blob((size_t)(3 + random_below(&r, 40)), unit, &r);
         if (round % 3 == 1)
@@ -276,7 +277,7 @@ START_TEST(boundaries_through_grid_vertices)
 {
     random_source r = {4};
     size_t n_on = 0;
-    for (int round = 0; round < 300; ++round) {
+    for (int round = 0; round < share_of(300); ++round) {
         const int cells = 4 + random_below(&r, 20);
         shape s = random_skyline(&r, 2 * cells, 2 * cells - 2 * random_below(&r, 3));
         if (round % 2 == 1)
@@ -290,7 +291,7 @@ START_TEST(boundaries_through_grid_vertices)
         icc_grid_free(grid);
         icc_domain_free(domain);
     }
-    ck_assert_uint_gt(n_on, 5000);
+    ck_assert_uint_gt(n_on, (size_t)share_of(5000));
 }
 END_TEST
 

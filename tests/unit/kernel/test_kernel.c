@@ -3,6 +3,7 @@
 
 #include "../../faulty.h"
 #include "../../random.h"
+#include "../../share.h"
 #include "base/blob.h"
 #include "base/env.h"
 
@@ -1160,7 +1161,7 @@ START_TEST(failures_are_reported_and_nothing_is_left)
     for (int which = 0; which < N_CALLS - 1; ++which)
         faulty_sweep(fail_once, &(fault){&e, which});
     icc_status status = ICC_ERR_MEMORY;
-    for (size_t k = 1; status != ICC_OK; ++k) {
+    for (size_t k = 1; status != ICC_OK; k = share_next(k)) {
         faulty f = {.fail_at = k};
         const icc_env env = faulty_env(&f);
         status = run(N_CALLS - 1, &e, NULL, &env, NULL);

@@ -3,6 +3,7 @@
 #include "../../hard_shapes.h"
 #include "../../meshes.h"
 #include "../../saved.h"
+#include "../../share.h"
 #include "../../surfaces.h"
 
 static const int32_t METHODS[] = {ICC_METHOD_FOLIATION, ICC_METHOD_DISC, ICC_METHOD_GRADIENT,
@@ -378,7 +379,7 @@ START_TEST(content_is_checked)
         pair p;
         icc_map *map = small_map(k, &p);
         bytes b = map_bytes(map), changed = {b.n, saved_alloc(b.n)};
-        for (int i = 0; i < (k == 1 ? 200 : 3000); ++i) {
+        for (int i = 0; i < share_of(k == 1 ? 200 : 3000); ++i) {
             const size_t at = 24 + 4 * (size_t)random_below(&r, (int)(b.n - 32) / 4);
             memcpy(changed.data, b.data, b.n);
             if (i % 2 == 0)

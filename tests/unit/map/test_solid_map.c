@@ -2,6 +2,7 @@
  * repair fails. */
 #include "../../faulty.h"
 #include "../../meshes.h"
+#include "../../share.h"
 
 #include <icc/icc.h>
 
@@ -196,7 +197,7 @@ START_TEST(every_allocation_may_fail)
 {
     pair p;
     make_pair(&p, 2);
-    for (size_t k = 1;; ++k) {
+    for (size_t k = 1;; k = share_next(k)) {
         faulty f = {.fail_at = k};
         const icc_env env = faulty_env(&f);
         icc_map *map;

@@ -5,6 +5,7 @@
 
 #include "../../faulty.h"
 #include "../../random.h"
+#include "../../share.h"
 
 #include <check.h>
 #include <math.h>
@@ -625,7 +626,7 @@ START_TEST(failures_leave_nothing_behind)
         icc_status status = -1;
         size_t k = 0;
         while (status != ICC_OK) {
-            ++k;
+            k = share_next(k);
             faulty f = {.fail_at = cancels ? 0 : k, .cancel_at = cancels ? k : 0};
             const icc_env outer = faulty_env(&f);
             iccp_env env;

@@ -1,5 +1,6 @@
 /* The exact predicates against GMP's rationals on inputs made to be degenerate or nearly so. */
 #include "../../random.h"
+#include "../../share.h"
 #include "math/expansion.h"
 #include "math/predicates.h"
 
@@ -190,7 +191,7 @@ START_TEST(orientation_is_exact)
     exact_init(&q);
     random_source r = {1};
     int n_zero = 0;
-    for (int i = 0; i < N; ++i) {
+    for (int i = 0; i < share_of(N); ++i) {
         double p[3][2];
         void (*const make[3])(random_source *, double[3][2]) = {nearly_collinear, last_bits,
                                                                spread};
@@ -199,8 +200,8 @@ START_TEST(orientation_is_exact)
         n_zero += iccp_orient2d(p[0], p[1], p[2]) == 0;
     }
     /* The inputs are what they claim to be: many degenerate, many not. */
-    ck_assert_int_gt(n_zero, N / 100);
-    ck_assert_int_lt(n_zero, N / 2);
+    ck_assert_int_gt(n_zero, share_of(N) / 100);
+    ck_assert_int_lt(n_zero, share_of(N) / 2);
     exact_clear(&q);
 }
 END_TEST
@@ -225,7 +226,7 @@ START_TEST(cross_sign_is_exact)
     exact_init(&q);
     random_source r = {2};
     int n_zero = 0;
-    for (int i = 0; i < N; ++i) {
+    for (int i = 0; i < share_of(N); ++i) {
         double v[8];
         make_cross(&r, v);
         const int s = exact_cross_sign(&q, v);
@@ -234,8 +235,8 @@ START_TEST(cross_sign_is_exact)
         ck_assert_int_eq(cross_sign(swapped), -s);
         n_zero += s == 0;
     }
-    ck_assert_int_gt(n_zero, N / 100);
-    ck_assert_int_lt(n_zero, N / 2);
+    ck_assert_int_gt(n_zero, share_of(N) / 100);
+    ck_assert_int_lt(n_zero, share_of(N) / 2);
     exact_clear(&q);
 }
 END_TEST
@@ -325,7 +326,7 @@ START_TEST(incircle_is_exact)
     exact_init(&q);
     random_source r = {3};
     int n_zero = 0;
-    for (int i = 0; i < N; ++i) {
+    for (int i = 0; i < share_of(N); ++i) {
         double p[4][2];
         void (*const make[5])(random_source *, double[4][2]) = {nearly_cocircular, small_lattice,
                                                                integers, rectangle, wild};
@@ -336,8 +337,8 @@ START_TEST(incircle_is_exact)
             check_all_orders(p, s);
         n_zero += s == 0;
     }
-    ck_assert_int_gt(n_zero, N / 100);
-    ck_assert_int_lt(n_zero, N * 3 / 4);
+    ck_assert_int_gt(n_zero, share_of(N) / 100);
+    ck_assert_int_lt(n_zero, share_of(N) * 3 / 4);
     exact_clear(&q);
 }
 END_TEST
@@ -399,7 +400,7 @@ START_TEST(orientation_in_space_is_exact)
     exact_init(&q);
     random_source r = {5};
     int n_zero = 0;
-    for (int i = 0; i < N; ++i) {
+    for (int i = 0; i < share_of(N); ++i) {
         double p[4][3];
         void (*const make[4])(random_source *, double[4][3]) = {nearly_coplanar, parallelogram,
                                                                lattice3, wild3};
@@ -412,8 +413,8 @@ START_TEST(orientation_in_space_is_exact)
         ck_assert_int_eq(iccp_orient3d(p[2], p[3], p[0], p[1]), s);
         n_zero += s == 0;
     }
-    ck_assert_int_gt(n_zero, N / 20);
-    ck_assert_int_lt(n_zero, N * 3 / 4);
+    ck_assert_int_gt(n_zero, share_of(N) / 20);
+    ck_assert_int_lt(n_zero, share_of(N) * 3 / 4);
     exact_clear(&q);
 }
 END_TEST
@@ -452,7 +453,7 @@ START_TEST(expansions_keep_their_value)
     mpq_init(a);
     mpq_init(b);
     mpq_init(c);
-    for (int i = 0; i < N / 10; ++i) {
+    for (int i = 0; i < share_of(N) / 10; ++i) {
         double e[4], f[4], sum[8], scaled[16];
         const size_t m = iccp_expansion_cross(e, random_unit(&r), random_unit(&r), any(&r), random_unit(&r));
         const size_t n = iccp_expansion_cross(f, any(&r), random_unit(&r), random_unit(&r), random_unit(&r));

@@ -7,6 +7,7 @@
 
 #include "../../faulty.h"
 #include "../../hard_shapes.h"
+#include "../../share.h"
 
 #include <check.h>
 #include <stdlib.h>
@@ -471,7 +472,7 @@ START_TEST(failures_leave_nothing_behind)
             icc_status status = -1;
             size_t k = 0;
             while (status != ICC_OK) {
-                ++k;
+                k = share_next(k);
                 faulty f = {.fail_at = cancels ? 0 : k, .cancel_at = cancels ? k : 0};
                 status = sweep_solve(&s.m, iterative, &f);
                 ck_assert(status == ICC_OK ||

@@ -5,6 +5,7 @@
 #include "mesh/finder.h"
 
 #include "../../hard_shapes.h"
+#include "../../share.h"
 
 #include <check.h>
 #include <stdlib.h>
@@ -97,7 +98,7 @@ static void check_finder(const meshed *m, random_source *r)
     const iccp_planar *mesh = &m->mesh;
     iccp_finder finder;
     ck_assert_int_eq(iccp_finder_create(&finder, mesh, mesh->points, &m->env), ICC_OK);
-    for (size_t i = 0; i < 2000; ++i) {
+    for (int i = 0; i < share_of(2000); ++i) {
         const size_t t = (size_t)random_below(r, (int)mesh->n_triangles);
         double w[3] = {random_unit(r), random_unit(r), i % 3 == 0 ? 0 : random_unit(r)};
         if (i % 5 == 0)
@@ -208,7 +209,7 @@ END_TEST
 
 START_TEST(random_shapes_are_meshed)
 {
-    for (uint64_t k = 0; k < 300; ++k) {
+    for (uint64_t k = 0; k < (uint64_t)share_of(300); ++k) {
         const shape s = shape_wild(5 + (size_t)(k % 100), k);
         ck_assert_uint_eq(check_mesh(s.n, s.xy, 2 + (int32_t)(k % 40)), 0);
     }

@@ -7,6 +7,7 @@
 
 #include "../../faulty.h"
 #include "../../meshes.h"
+#include "../../share.h"
 
 #include <check.h>
 #include <stdlib.h>
@@ -157,7 +158,7 @@ START_TEST(mesh)
     for (int k = 0; k < N_SHAPES; ++k) {
         foliation f = shape(k);
         const size_t dim = f.n - 1;
-        for (int i = 0; i < 30; ++i) {
+        for (int i = 0; i < share_of(30); ++i) {
             uint32_t *v = f.mesh.corners + f.n * (size_t)random_below(&r, (int)f.mesh.n_simplices);
             double *x = f.mesh.points + dim * v[0], keep[ICC_MAX_DIM];
             memcpy(keep, x, dim * sizeof *x);
@@ -196,7 +197,7 @@ START_TEST(neighbours)
     for (int k = 0; k < N_SHAPES; ++k) {
         foliation f = shape(k);
         const size_t dim = f.n - 1;
-        for (int i = 0; i < 40; ++i) {
+        for (int i = 0; i < share_of(40); ++i) {
             uint32_t *across = &f.mesh.across[random_below(&r, (int)f.n_sides)];
             const uint32_t keep = *across;
             *across = (uint32_t)random_below(&r, (int)f.n_sides);
@@ -267,7 +268,7 @@ START_TEST(holes)
         direct(&f);
         ck_assert_uint_eq(look(&f).n_topology, 0);
         ck_assert(!holds(&f));
-        for (int i = 0; i < 60; ++i) {
+        for (int i = 0; i < share_of(60); ++i) {
             const size_t a = (size_t)random_below(&r, (int)f.mesh.n_simplices);
             const size_t b = (size_t)random_below(&r, (int)f.mesh.n_simplices);
             if (in_star(&f, a) || in_star(&f, b))

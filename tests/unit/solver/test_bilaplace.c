@@ -9,6 +9,7 @@
 #include "../../faulty.h"
 #include "../../hard_masks.h"
 #include "../../random.h"
+#include "../../share.h"
 
 #include <check.h>
 #include <math.h>
@@ -186,7 +187,7 @@ START_TEST(small_minima_are_those_of_a_dense_solver)
 {
     random_source r = {1};
     const iccp_env env = plain_env();
-    for (int round = 0; round < 200; ++round) {
+    for (int round = 0; round < share_of(200); ++round) {
         problem p = random_problem(&r, 1 + round % 4);
         for (int k = 0; k < 2; ++k) {
             icc_function_info info = {.size = sizeof info};
@@ -414,7 +415,7 @@ START_TEST(small_constrained_minima_have_the_least_energy)
     static const double ETAS[] = {1e-6, 1e-3, 0.01}, LEAVES[] = {1e-9, 1e-4, 0.01};
     random_source r = {2};
     const iccp_env env = plain_env();
-    for (int round = 0; round < 120; ++round) {
+    for (int round = 0; round < share_of(120); ++round) {
         problem p = random_problem(&r, 1 + round % 4);
         const double eta = ETAS[random_below(&r, 3)], leaf = LEAVES[random_below(&r, 3)];
         for (int k = 0; k < 2 && p.n > 1 && p.n < 40; ++k) {

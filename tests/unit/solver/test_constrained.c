@@ -8,6 +8,7 @@
 #include "../../faulty.h"
 #include "../../hard_masks.h"
 #include "../../random.h"
+#include "../../share.h"
 
 #include <check.h>
 #include <stdlib.h>
@@ -236,7 +237,7 @@ START_TEST(factorisation_agrees_with_dense_elimination)
 {
     random_source r = {1};
     long double f[MAX_DENSE];
-    for (int round = 0; round < 800; ++round) {
+    for (int round = 0; round < share_of(800); ++round) {
         problem p = random_problem(&r, 1 + round % 4);
         const bool ordered = random_below(&r, 2);
         const double work = ordered ? solve(&p).work : HUGE_VAL;
@@ -294,7 +295,7 @@ START_TEST(nothing_is_violated_after_a_sweep)
 {
     random_source r = {2};
     const double etas[] = {1e-12, 1e-6, 1e-3, 0.01};
-    for (int round = 0; round < 1000; ++round) {
+    for (int round = 0; round < share_of(1000); ++round) {
         problem p = random_problem(&r, 1 + round % 4);
         const double eta = etas[random_below(&r, 4)];
         scatter(&p, &r, round % 2 == 0 ? 1 : 3000);
@@ -336,7 +337,7 @@ static long double residual(const problem *p, const long double *f, long double 
 START_TEST(residual_is_that_of_the_definition)
 {
     random_source r = {3};
-    for (int round = 0; round < 500; ++round) {
+    for (int round = 0; round < share_of(500); ++round) {
         problem p = random_problem(&r, 1 + round % 4);
         const double eta = random_between(&r, 1e-6, 0.01);
         scatter(&p, &r, 3);
@@ -363,7 +364,7 @@ START_TEST(residual_with_bounds_at_leaves)
 {
     random_source r = {4};
     const double sigma = 1.01, leaf = 1e-3;
-    for (int round = 0; round < 2000; ++round) {
+    for (int round = 0; round < share_of(2000); ++round) {
         problem p = random_problem(&r, 1 + round % 4);
         const size_t n = p.rows.n;
         double f[MAX_DENSE], gradient[MAX_DENSE] = {0}, work[2 * MAX_DENSE];

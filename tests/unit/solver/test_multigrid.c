@@ -7,6 +7,7 @@
 #include "../../faulty.h"
 #include "../../hard_masks.h"
 #include "../../random.h"
+#include "../../share.h"
 
 #include <check.h>
 #include <string.h>
@@ -430,7 +431,7 @@ START_TEST(glued_agrees_with_elimination)
 {
     random_source r = {3};
     for (int32_t dim = 1; dim <= 4; ++dim)
-        for (int trial = 0; trial < 60; ++trial) {
+        for (int trial = 0; trial < share_of(60); ++trial) {
             problem p = scattered(&r, dim);
             const int percent[4] = {5, 30, 60, 100};
             glue(&p, &r, percent[trial % 4], trial % 3 == 0 ? 0.999999 : 0.5);

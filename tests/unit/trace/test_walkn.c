@@ -4,6 +4,7 @@
 #include "trace/walkn.h"
 
 #include "../../random.h"
+#include "../../share.h"
 #include "../../surfaces.h"
 
 #include <check.h>
@@ -138,7 +139,7 @@ static double off_line(int32_t dim, const double *p, const double *from, const d
 START_TEST(a_linear_function_gives_straight_lines)
 {
     random_source r = {1};
-    for (int round = 0; round < 10000; ++round) {
+    for (int round = 0; round < share_of(10000); ++round) {
         const int32_t dim = 1 + round % ICC_MAX_DIM;
         double d[ICC_MAX_DIM], ahead[ICC_MAX_DIM], p[ICC_MAX_DIM];
         cube_init(&W, dim, 0);
@@ -185,7 +186,7 @@ START_TEST(in_the_plane_walks_are_those_of_walk2)
 {
     random_source r = {2};
     size_t n_steps = 0, n_ends = 0;
-    for (int round = 0; round < 500; ++round) {
+    for (int round = 0; round < share_of(500); ++round) {
         cube_init(&W, 2, 0);
         set_random(&W, &r);
         for (int k = 0; k < 100; ++k) {
@@ -273,7 +274,7 @@ START_TEST(walks_rise_the_steepest_way)
 {
     random_source r = {3};
     int n_slides = 0, n_crossings = 0, n_peaks = 0;
-    for (int round = 0; round < 1500; ++round) {
+    for (int round = 0; round < share_of(1500); ++round) {
         const int32_t dim = 1 + round % 5;
         cube_init(&W, dim, UINT32_MAX);
         set_random(&W, &r);
@@ -305,7 +306,7 @@ START_TEST(walks_rise_the_steepest_way)
             }
         }
     }
-    ck_assert(n_slides > 5000 && n_crossings > 5000 && n_peaks > 2000);
+    ck_assert(n_slides > share_of(5000) && n_crossings > share_of(5000) && n_peaks > share_of(2000));
 }
 END_TEST
 
@@ -359,7 +360,7 @@ static void set_one_maximum(world *w, random_source *r, bool levels)
 START_TEST(every_ascent_ends_at_the_only_maximum)
 {
     random_source r = {4};
-    for (int round = 0; round < 1200; ++round) {
+    for (int round = 0; round < share_of(1200); ++round) {
         const bool levels = round / 6 % 2;
         const int32_t dim = 1 + round % ICC_MAX_DIM;
         cube_init(&W, dim, 0);
@@ -383,7 +384,7 @@ END_TEST
 START_TEST(level_functions_end)
 {
     random_source r = {5};
-    for (int round = 0; round < 1500; ++round) {
+    for (int round = 0; round < share_of(1500); ++round) {
         const int32_t dim = 1 + round % ICC_MAX_DIM;
         const int n_values = 1 + round / 6 % 4;
         cube_init(&W, dim, UINT32_MAX);
@@ -415,7 +416,7 @@ END_TEST
 START_TEST(lines_merge_in_lower_and_lower_faces)
 {
     random_source r = {6};
-    for (int round = 0; round < 3000; ++round) {
+    for (int round = 0; round < share_of(3000); ++round) {
         const int32_t dim = 2 + round % 5;
         const size_t shape[ICC_MAX_DIM] = {5, 5, 5, 5, 5, 5};
         size_t sides[ICC_MAX_DIM];
@@ -463,7 +464,7 @@ END_TEST
 START_TEST(starts_go_ahead)
 {
     random_source r = {7};
-    for (int round = 0; round < 2000; ++round) {
+    for (int round = 0; round < share_of(2000); ++round) {
         const int32_t dim = 1 + round % ICC_MAX_DIM, axis = random_below(&r, dim);
         const size_t shape[ICC_MAX_DIM] = {5, 5, 5, 5, 5, 5};
         double p[ICC_MAX_DIM], x[ICC_MAX_DIM], ahead[ICC_MAX_DIM];
@@ -510,7 +511,7 @@ START_TEST(only_ratios_of_values_count)
     static double tiny[MAX_VERTICES], fractions[MAX_VERTICES];
     static int32_t exponents[MAX_VERTICES];
     random_source r = {8};
-    for (int round = 0; round < 300; ++round) {
+    for (int round = 0; round < share_of(300); ++round) {
         const int32_t dim = 1 + round % 5;
         cube_init(&W, dim, UINT32_MAX);
         set_random(&W, &r);
@@ -587,7 +588,7 @@ START_TEST(crossing_a_facet_twice_comes_back)
 {
     random_source r = {12};
     int n_border = 0;
-    for (int round = 0; round < 6000; ++round) {
+    for (int round = 0; round < share_of(6000); ++round) {
         const int32_t dim = 1 + round % ICC_MAX_DIM, i = random_below(&r, dim + 1);
         double x[ICC_MAX_DIM], back[ICC_MAX_DIM], lambda[ICC_MAX_DIM + 1];
         iccp_kuhn_simplex s, other;
@@ -617,7 +618,7 @@ START_TEST(crossing_a_facet_twice_comes_back)
         ck_assert_mem_eq(other.corner, s.corner, sizeof *s.corner * (size_t)(dim + 1));
         ck_assert_mem_eq(other.axis, s.axis, sizeof *s.axis * (size_t)dim);
     }
-    ck_assert_int_gt(n_border, 100);
+    ck_assert_int_gt(n_border, share_of(100));
 }
 END_TEST
 

@@ -10,6 +10,7 @@
 
 #include "../../faulty.h"
 #include "../../random.h"
+#include "../../share.h"
 
 #include <check.h>
 #include <math.h>
@@ -247,7 +248,7 @@ START_TEST(the_queue_gives_out_the_smallest)
         iccp_queue queue;
         iccp_queue_create(&queue, sizes[i], &iccp_memory_default);
         memset(in, 0, sizeof in);
-        for (int round = 0; round < 20000; ++round) {
+        for (int round = 0; round < share_of(20000); ++round) {
             if (random_below(&r, 2) == 0) {
                 const uint32_t number = (uint32_t)random_below(&r, (int)sizes[i]);
                 iccp_queue_push(&queue, number);
