@@ -59,7 +59,7 @@ sed -n '1,6p;$a\0 0' target.txt >expected
 close_to got expected 1e-12
 point='{"type":"Point","coordinates":[10,5]}'
 echo '{"type":"FeatureCollection","bbox":[0,0,-5,10,5,1.50],"features":[{"type":"Feature","geometry":{"type":"Point","bbox":[1,2,3,4], "coordinates":[0,10]}},
-    {"type":"Feature","bbox":[1,2,3,4],"geometry":null},{"type":"Feature","geometry":null,"bbox":[1,2,3,4]},{"type":"Feature","geometry":'$point'}]}' | carry 0
+    {"type":"Feature","bbox":[1,2,3,4],"geometry":null},{"type":"Feature","geometry":null,"bbox":[1,2,3,4]},{"type":"Feature","geometry":'"$point"'}]}' | carry 0
 gives '{"type":"FeatureCollection","bbox":[-1,6,-5,12,10,1.50],"features":[{"type":"Feature","geometry":{"type":"Point","bbox":[-1,10,-1,10], "coordinates":[-1,10]}},
     {"type":"Feature","geometry":null},{"type":"Feature","geometry":null},{"type":"Feature","geometry":{"type":"Point","coordinates":[12,6]}}]}'
 
@@ -110,7 +110,7 @@ run 1 map -s source.txt -t source.txt --outside fail --geojson three.geojson -
 [ ! -s out ] || complain "half a result on standard output"
 printf '{"type":"Point","coordinates":[2,2]}' | stay 0 --outside fail
 : >many
-for i in 1 2 3 4 5 6 7 8 9 10 11 12; do printf '%s\n' "$outside," >>many; done
+for _ in 1 2 3 4 5 6 7 8 9 10 11 12; do printf '%s\n' "$outside," >>many; done
 printf '{"type":"FeatureCollection","features":[%s{"type":"Feature","geometry":null}]}' "$(cat many)" | stay 4
 says 'feature 9 (line 10): null and 2 more, which --json=FILE lists'
 
@@ -185,6 +185,7 @@ for to in three.geojson ./three.geojson folder/link folder/../three.geojson fold
         same three.geojson expected "$to"
     done
 done
+# shellcheck disable=SC2094 # that is the point
 run 1 map -s source.txt -t target.txt --geojson - three.geojson <three.geojson
 same three.geojson expected "through standard input"
 echo "$point" >one.geojson

@@ -8,7 +8,8 @@
 #include <string.h>
 
 /* Points without an image stay where they are, or become nan. */
-static void settle_outside(const job *j, const table *points, double *images, const icc_status *status)
+static void settle_outside(const job *j, const table *points, double *images,
+                           const icc_status *status)
 {
     size_t dim = points->columns;
     for (size_t i = 0; i < points->n && j->args->outside == OUTSIDE_KEEP; i++)
@@ -25,8 +26,8 @@ static int refuse(const job *j, const table *points, const icc_status *status, s
     const char *why = status[i] == ICC_ERR_OUTSIDE ? "lies outside the cage" : "has no image";
     if (j->args->outside == OUTSIDE_FAIL)
         return failed(j->args->points, points->lines[i],
-                      "this point %s (%zu of %zu have no image), so nothing is written", why, n_failed,
-                      points->n);
+                      "this point %s (%zu of %zu have no image), so nothing is written", why,
+                      n_failed, points->n);
     return failed(j->args->points, points->lines[i],
                   "this point %s (%zu of %zu have no image), and the result would overwrite it; "
                   "write to another file",
@@ -40,8 +41,7 @@ static int write_points(job *j, const table *points, double *images, const icc_s
     size_t n_failed = 0;
     for (size_t i = 0; i < points->n; i++)
         n_failed += status[i] != ICC_OK;
-    if (n_failed > 0 &&
-        (j->args->outside == OUTSIDE_FAIL || file_is_same(j->args->points, out)))
+    if (n_failed > 0 && (j->args->outside == OUTSIDE_FAIL || file_is_same(j->args->points, out)))
         return refuse(j, points, status, n_failed);
     settle_outside(j, points, images, status);
     int result = rows_write(out, points->n, points->columns, images);
