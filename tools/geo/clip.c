@@ -12,8 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { NONE = UINT32_MAX };
-
 /* From node to node, with the inside on the left. */
 typedef struct piece {
     uint32_t from, to;
@@ -97,7 +95,8 @@ static void unite_nodes(clipper *c)
     for (size_t i = 0; i < c->n_nodes; i++)
         for (size_t k = 0; k < 2; k++)
             c->nodes[i].at[k] += 0.0;
-    qsort(c->nodes, c->n_nodes, sizeof *c->nodes, by_place);
+    if (c->n_nodes > 0)
+        qsort(c->nodes, c->n_nodes, sizeof *c->nodes, by_place);
     for (size_t i = 0; i < c->n_nodes; i++) {
         if (n > 0 && same_place(&c->nodes[n - 1], &c->nodes[i])) {
             geo_node *kept = &c->nodes[n - 1];
@@ -220,7 +219,8 @@ static piece *find_piece(const pieces *p, uint32_t from, uint32_t to)
 static void cancel_spikes(pieces *own)
 {
     size_t n = 0;
-    qsort(own->list, own->n, sizeof *own->list, by_ends);
+    if (own->n > 0)
+        qsort(own->list, own->n, sizeof *own->list, by_ends);
     for (size_t i = 0; i < own->n; i++) {
         piece *back = find_piece(own, own->list[i].to, own->list[i].from);
         if (back != NULL && !back->used && !own->list[i].used)
@@ -253,7 +253,8 @@ static bool is_within(const clipper *c, size_t n, const piece *list, const doubl
 static void keep(clipper *c)
 {
     double middle[2];
-    qsort(c->cage.list, c->cage.n, sizeof *c->cage.list, by_ends);
+    if (c->cage.n > 0)
+        qsort(c->cage.list, c->cage.n, sizeof *c->cage.list, by_ends);
     for (size_t i = 0; i < c->own.n; i++) {
         const piece *own = &c->own.list[i];
         piece *same = find_piece(&c->cage, own->from, own->to);
@@ -276,7 +277,8 @@ static void keep(clipper *c)
         if (!c->cage.list[i].used && is_within(c, c->own.n, c->own.list, middle))
             add_piece(&c->kept, c->cage.list[i].from, c->cage.list[i].to, false);
     }
-    qsort(c->kept.list, c->kept.n, sizeof *c->kept.list, by_ends);
+    if (c->kept.n > 0)
+        qsort(c->kept.list, c->kept.n, sizeof *c->kept.list, by_ends);
 }
 
 /* ---- the rings ---- */
@@ -359,11 +361,11 @@ static bool trace_rings(clipper *c, clipped *out)
             p->used = true;
             at[p->from] = (uint32_t)n;
             stack[n++] = p->from;
-            if (at[p->to] != NONE) {
+            if (at[p->to] != GEO_NOWHERE) {
                 size_t first = at[p->to];
                 add_ring(c, out, n - first, stack + first);
                 while (n > first)
-                    at[stack[--n]] = NONE;
+                    at[stack[--n]] = GEO_NOWHERE;
             }
             p = next_piece(c, p, start);
         } while (p != NULL && p != start);
@@ -461,7 +463,8 @@ bool clip_polygon(clipped *out, noding *x, const geo_shape *shape, size_t first,
     size_t *starts = collect(&c, shape, first, n_rings, status, snapped);
     size_t n = c.n_nodes, n_on = 0;
     geo_node *all = need(n, sizeof *all), *on = need(n, sizeof *on);
-    memcpy(all, c.nodes, n * sizeof *all);
+    if (n > 0)
+        memcpy(all, c.nodes, n * sizeof *all);
     for (size_t i = 0; i < n; i++)
         if (all[i].place == GEO_ON_CAGE && all[i].share > 0 && all[i].share < 1)
             on[n_on++] = all[i];

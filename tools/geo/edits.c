@@ -13,6 +13,8 @@ void edits_replace(edits *e, size_t begin, size_t end)
 
 void edits_put(edits *e, size_t n, const char *bytes)
 {
+    if (n == 0)
+        return;
     e->bytes = grow(e->bytes, &e->room_bytes, e->n_bytes + n, 1);
     memcpy(e->bytes + e->n_bytes, bytes, n);
     e->n_bytes += n;
@@ -43,7 +45,8 @@ static int by_begin(const void *a, const void *b)
 void edits_write(edits *e, const char *text, size_t n, FILE *stream)
 {
     size_t at = 0;
-    qsort(e->list, e->n, sizeof *e->list, by_begin);
+    if (e->n > 0)
+        qsort(e->list, e->n, sizeof *e->list, by_begin);
     for (size_t i = 0; i < e->n; i++) {
         const edit *one = &e->list[i];
         if (one->begin < at)

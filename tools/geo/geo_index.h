@@ -8,7 +8,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { GEO_NOWHERE = UINT32_MAX };
+/* The index of no object, and of no edge. */
+#define GEO_NOWHERE UINT32_MAX
 
 /* Geometries with coordinates come first. */
 typedef enum geo_type {
