@@ -120,6 +120,7 @@ static double choose_tolerance(const job *j)
     return j->args->tolerance > 0 ? j->args->tolerance : size / 1000;
 }
 
+/* Reads the text, carries it with the job's map, and writes what has become of it. */
 static int carry_file(job *j)
 {
     const char *name = j->args->operands[0];

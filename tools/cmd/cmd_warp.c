@@ -55,6 +55,7 @@ static void unpack(picture *p, const icc_picture *packed)
                                       : ((const uint16_t *)packed->pixels)[i];
 }
 
+/* Warps and writes, unless every pixel must have an image and some have none. */
 static int warp_picture(warp *w)
 {
     icc_error err = {.size = sizeof err, .index = -1};

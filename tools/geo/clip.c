@@ -1,25 +1,18 @@
 /* Based on: K. Weiler, P. Atherton, Hidden Surface Removal Using Polygon Area Sorting, 1977, for two polygons whose
  * boundaries have been cut where they meet. Of the polygon's pieces those in the cage are kept, of the cage's those
- * in the polygon; a piece that both have is kept once if they are on the same side of it. What is kept has as many
- * pieces into each node as out of it, unless the polygon crosses itself or rounding has misplaced a piece,
- * and then falls into rings. */
+ * in the polygon; a piece that both have is kept once if they are on the same side of it. */
 #include "geo/clip.h"
 
 #include "base/allocate.h"
 #include "base/orientation.h"
+#include "geo/clip_rings.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* From node to node, with the inside on the left. */
-typedef struct piece {
-    uint32_t from, to;
-    bool used;
-} piece;
-
 typedef struct pieces {
-    piece *list;
+    clip_piece *list;
     size_t n, room;
 } pieces;
 
@@ -29,25 +22,14 @@ typedef struct clipper {
     size_t n_nodes, room_nodes;
     pieces own, cage, kept;
     double lower[2], upper[2];
-    uint32_t *starts; /* of the nodes in `kept` */
 } clipper;
-
-double ring_area(size_t n, const double *points, size_t stride)
-{
-    double sum = 0;
-    for (size_t i = 1; i + 1 < n; i++) {
-        const double *a = points, *b = points + stride * i, *c = points + stride * (i + 1);
-        sum += (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-    }
-    return sum;
-}
 
 static void add_piece(pieces *p, uint32_t from, uint32_t to, bool reversed)
 {
     if (from == to)
         return;
     p->list = grow(p->list, &p->room, p->n + 1, sizeof *p->list);
-    p->list[p->n++] = reversed ? (piece){to, from, false} : (piece){from, to, false};
+    p->list[p->n++] = reversed ? (clip_piece){to, from, false} : (clip_piece){from, to, false};
 }
 
 static void add_node(clipper *c, const geo_node *node)
@@ -55,8 +37,6 @@ static void add_node(clipper *c, const geo_node *node)
     c->nodes = grow(c->nodes, &c->room_nodes, c->n_nodes + 1, sizeof *c->nodes);
     c->nodes[c->n_nodes++] = *node;
 }
-
-/* ---- the nodes ---- */
 
 static int by_place(const void *a, const void *b)
 {
@@ -88,6 +68,7 @@ static uint32_t find_node(const clipper *c, const double at[2])
     return (uint32_t)low;
 }
 
+/* Sorts the nodes, and keeps one at each place: what is on the cage stays known to be. */
 static void unite_nodes(clipper *c)
 {
     size_t n = 0;
@@ -110,8 +91,6 @@ static void unite_nodes(clipper *c)
     }
     c->n_nodes = n;
 }
-
-/* ---- the pieces ---- */
 
 static bool meets_box(const clipper *c, uint32_t facet)
 {
@@ -205,13 +184,13 @@ static void add_own(clipper *c, const geo_node *a, const geo_node *b, bool rever
 
 static int by_ends(const void *a, const void *b)
 {
-    const piece *p = a, *q = b;
+    const clip_piece *p = a, *q = b;
     return p->from != q->from ? (p->from < q->from ? -1 : 1) : p->to < q->to ? -1 : p->to > q->to;
 }
 
-static piece *find_piece(const pieces *p, uint32_t from, uint32_t to)
+static clip_piece *find_piece(const pieces *p, uint32_t from, uint32_t to)
 {
-    piece key = {from, to, false};
+    clip_piece key = {from, to, false};
     return p->n > 0 ? bsearch(&key, p->list, p->n, sizeof *p->list, by_ends) : NULL;
 }
 
@@ -222,7 +201,7 @@ static void cancel_spikes(pieces *own)
     if (own->n > 0)
         qsort(own->list, own->n, sizeof *own->list, by_ends);
     for (size_t i = 0; i < own->n; i++) {
-        piece *back = find_piece(own, own->list[i].to, own->list[i].from);
+        clip_piece *back = find_piece(own, own->list[i].to, own->list[i].from);
         if (back != NULL && !back->used && !own->list[i].used)
             back->used = own->list[i].used = true;
     }
@@ -232,14 +211,14 @@ static void cancel_spikes(pieces *own)
     own->n = n;
 }
 
-static void middle_of(const clipper *c, const piece *p, double out[2])
+static void middle_of(const clipper *c, const clip_piece *p, double out[2])
 {
     for (size_t k = 0; k < 2; k++)
         out[k] = c->nodes[p->from].at[k] / 2 + c->nodes[p->to].at[k] / 2;
 }
 
 /* Whether a ray to the right of p meets an odd number of pieces. */
-static bool is_within(const clipper *c, size_t n, const piece *list, const double p[2])
+static bool is_within(const clipper *c, size_t n, const clip_piece *list, const double p[2])
 {
     bool odd = false;
     for (size_t i = 0; i < n; i++) {
@@ -250,15 +229,16 @@ static bool is_within(const clipper *c, size_t n, const piece *list, const doubl
     return odd;
 }
 
+/* Chooses the pieces that bound what both have: see above. */
 static void keep(clipper *c)
 {
     double middle[2];
     if (c->cage.n > 0)
         qsort(c->cage.list, c->cage.n, sizeof *c->cage.list, by_ends);
     for (size_t i = 0; i < c->own.n; i++) {
-        const piece *own = &c->own.list[i];
-        piece *same = find_piece(&c->cage, own->from, own->to);
-        piece *opposite = find_piece(&c->cage, own->to, own->from);
+        const clip_piece *own = &c->own.list[i];
+        clip_piece *same = find_piece(&c->cage, own->from, own->to);
+        clip_piece *opposite = find_piece(&c->cage, own->to, own->from);
         const geo_node *a = &c->nodes[own->from], *b = &c->nodes[own->to];
         bool kept = same != NULL;
         if (same != NULL || opposite != NULL)
@@ -279,158 +259,6 @@ static void keep(clipper *c)
     }
     if (c->kept.n > 0)
         qsort(c->kept.list, c->kept.n, sizeof *c->kept.list, by_ends);
-}
-
-/* ---- the rings ---- */
-
-/* Where the pieces from each node begin. False: into some node there come more or fewer than go out. */
-static bool balance(clipper *c)
-{
-    uint32_t *into = need(c->n_nodes + 1, sizeof *into);
-    bool good = true;
-    c->starts = need(c->n_nodes + 1, sizeof *c->starts);
-    for (size_t i = 0; i < c->kept.n; i++) {
-        c->starts[c->kept.list[i].from + 1]++;
-        into[c->kept.list[i].to]++;
-    }
-    for (size_t i = 0; i < c->n_nodes; i++) {
-        good = good && c->starts[i + 1] == into[i];
-        c->starts[i + 1] += c->starts[i];
-    }
-    free(into);
-    return good;
-}
-
-/* How far b is turned clockwise from a, in full turns: 0 < turn <= 1. */
-static double clockwise(const double a[2], const double b[2])
-{
-    const double full = 6.283185307179586;
-    double turn = (atan2(a[1], a[0]) - atan2(b[1], b[0])) / full;
-    return turn > 0 ? turn : turn + 1;
-}
-
-/* The piece that goes on along the same face: of those that leave the node the first clockwise from where we come
- * from. */
-static piece *next_piece(const clipper *c, const piece *p, const piece *start)
-{
-    const double *at = c->nodes[p->to].at, *from = c->nodes[p->from].at;
-    double back[2] = {from[0] - at[0], from[1] - at[1]}, best = 2;
-    piece *next = NULL;
-    for (uint32_t i = c->starts[p->to]; i < c->starts[p->to + 1]; i++) {
-        piece *q = &c->kept.list[i];
-        const double *to = c->nodes[q->to].at;
-        double turn = clockwise(back, (double[2]){to[0] - at[0], to[1] - at[1]});
-        if ((!q->used || q == start) && turn < best) {
-            best = turn;
-            next = q;
-        }
-    }
-    return next;
-}
-
-static void add_ring(clipper *c, clipped *out, size_t n, const uint32_t *ring)
-{
-    if (n < 3)
-        return;
-    clip_ring *r = &out->rings[out->n_rings];
-    *r = (clip_ring){out->n_nodes, n, 0};
-    for (size_t i = 0; i < n; i++)
-        out->nodes[out->n_nodes + i] = c->nodes[ring[i]];
-    double area = ring_area(n, out->nodes[r->first].at, sizeof(geo_node) / sizeof(double));
-    if (area < 0 || area > 0) {
-        out->n_nodes += n;
-        out->n_rings++;
-    }
-}
-
-/* Follows the pieces round. A ring that comes back to a node before its end is split there, so that each is
- * simple. */
-static bool trace_rings(clipper *c, clipped *out)
-{
-    size_t n = 0;
-    uint32_t *stack = need(c->kept.n + 1, sizeof *stack), *at = need(c->n_nodes, sizeof *at);
-    bool good = true;
-    out->nodes = need(c->kept.n, sizeof *out->nodes);
-    out->rings = need(c->kept.n, sizeof *out->rings);
-    memset(at, 0xff, c->n_nodes * sizeof *at);
-    for (size_t i = 0; i < c->kept.n && good; i++) {
-        piece *start = &c->kept.list[i], *p = start;
-        if (p->used)
-            continue;
-        do {
-            p->used = true;
-            at[p->from] = (uint32_t)n;
-            stack[n++] = p->from;
-            if (at[p->to] != GEO_NOWHERE) {
-                size_t first = at[p->to];
-                add_ring(c, out, n - first, stack + first);
-                while (n > first)
-                    at[stack[--n]] = GEO_NOWHERE;
-            }
-            p = next_piece(c, p, start);
-        } while (p != NULL && p != start);
-        good = p == start && n == 0;
-    }
-    free(stack);
-    free(at);
-    return good;
-}
-
-static bool ring_holds(const clipped *r, const clip_ring *ring, const double p[2])
-{
-    bool odd = false;
-    for (size_t i = 0; i < ring->n; i++) {
-        const double *a = r->nodes[ring->first + i].at;
-        const double *b = r->nodes[ring->first + (i + 1) % ring->n].at;
-        if ((a[1] > p[1]) != (b[1] > p[1]))
-            odd ^= orientation(a, b, p) * (b[1] > a[1] ? 1 : -1) > 0;
-    }
-    return odd;
-}
-
-static double area_of(const clipped *r, const clip_ring *ring)
-{
-    return ring_area(ring->n, r->nodes[ring->first].at, sizeof(geo_node) / sizeof(double));
-}
-
-static int by_part(const void *a, const void *b)
-{
-    const clip_ring *p = a, *q = b;
-    return p->part != q->part    ? (p->part < q->part ? -1 : 1)
-           : p->first < q->first ? -1
-                                 : p->first > q->first;
-}
-
-/* Gives each hole to the smallest ring around it, and sorts the rings. */
-static bool assign_holes(clipped *r)
-{
-    size_t n_parts = 0;
-    for (size_t i = 0; i < r->n_rings; i++)
-        r->rings[i].part = area_of(r, &r->rings[i]) > 0 ? 2 * n_parts++ : SIZE_MAX;
-    for (size_t i = 0; i < r->n_rings; i++) {
-        clip_ring *hole = &r->rings[i];
-        double best = HUGE_VAL, middle[2];
-        const double *a = r->nodes[hole->first].at, *b = r->nodes[hole->first + 1].at;
-        if (hole->part != SIZE_MAX)
-            continue;
-        for (size_t k = 0; k < 2; k++)
-            middle[k] = a[k] / 2 + b[k] / 2;
-        for (size_t k = 0; k < r->n_rings; k++) {
-            const clip_ring *outer = &r->rings[k];
-            double area = area_of(r, outer);
-            if (area > 0 && area < best && ring_holds(r, outer, middle)) {
-                best = area;
-                hole->part = outer->part + 1;
-            }
-        }
-        if (hole->part == SIZE_MAX)
-            return false;
-    }
-    qsort(r->rings, r->n_rings, sizeof *r->rings, by_part);
-    for (size_t i = 0; i < r->n_rings; i++)
-        r->rings[i].part /= 2;
-    r->n_parts = n_parts;
-    return true;
 }
 
 /* The nodes of the rings, each ring behind the other, with where they begin; false if one is not in order. */
@@ -481,7 +309,7 @@ bool clip_polygon(clipped *out, noding *x, const geo_shape *shape, size_t first,
     cancel_spikes(&c.own);
     cut_cage(&c, n_on, on);
     keep(&c);
-    bool good = balance(&c) && trace_rings(&c, out) && assign_holes(out);
+    bool good = clip_rings(out, c.n_nodes, c.nodes, c.kept.n, c.kept.list);
     free(starts);
     free(all);
     free(on);
@@ -489,13 +317,5 @@ bool clip_polygon(clipped *out, noding *x, const geo_shape *shape, size_t first,
     free(c.own.list);
     free(c.cage.list);
     free(c.kept.list);
-    free(c.starts);
     return good;
-}
-
-void clipped_free(clipped *c)
-{
-    free(c->nodes);
-    free(c->rings);
-    *c = (clipped){0};
 }

@@ -71,6 +71,7 @@ static void put_at_nearest(noding *x, geo_node *node)
     put_on(x, node, facet, shares[1]);
 }
 
+/* Adds a vertex, which is on the cage if it has been snapped or is near. */
 static void add_vertex(noding *x, const double at[2], size_t from, icc_status status, bool snapped)
 {
     x->nodes = grow(x->nodes, &x->room, x->n + 1, sizeof *x->nodes);
