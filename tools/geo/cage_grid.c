@@ -95,25 +95,42 @@ static bool misses_box(const cage_grid *g, const double a[2], const double b[2])
     return false;
 }
 
-void cage_grid_ask(cage_grid *g, const double a[2], const double b[2])
+static void begin_question(cage_grid *g)
 {
     g->n_found = 0;
-    if (misses_box(g, a, b))
-        return;
     if (++g->question == 0) {
         memset(g->asked, 0, g->cage->n_facets * sizeof *g->asked);
         g->question = 1;
     }
+}
+
+/* Answers with the edges in some cells of a row that have not been among the answers yet. */
+static void answer(cage_grid *g, size_t row, range columns)
+{
+    for (size_t cell = row * g->n[0] + columns.first; cell <= row * g->n[0] + columns.last; cell++)
+        for (size_t k = g->starts[cell]; k < g->starts[cell + 1]; k++) {
+            uint32_t edge = g->edges[k];
+            if (g->asked[edge] != g->question)
+                g->found[g->n_found++] = edge;
+            g->asked[edge] = g->question;
+        }
+}
+
+void cage_grid_ask(cage_grid *g, const double a[2], const double b[2])
+{
+    begin_question(g);
+    if (misses_box(g, a, b))
+        return;
     range rows = cells_between(g, 1, fmin(a[1], b[1]), fmax(a[1], b[1]));
-    for (size_t row = rows.first; row <= rows.last; row++) {
-        range columns = cells_of_row(g, row, a, b);
-        for (size_t cell = row * g->n[0] + columns.first; cell <= row * g->n[0] + columns.last;
-             cell++)
-            for (size_t k = g->starts[cell]; k < g->starts[cell + 1]; k++) {
-                uint32_t edge = g->edges[k];
-                if (g->asked[edge] != g->question)
-                    g->found[g->n_found++] = edge;
-                g->asked[edge] = g->question;
-            }
-    }
+    for (size_t row = rows.first; row <= rows.last; row++)
+        answer(g, row, cells_of_row(g, row, a, b));
+}
+
+void cage_grid_ask_box(cage_grid *g, const double lower[2], const double upper[2])
+{
+    begin_question(g);
+    range rows = cells_between(g, 1, lower[1], upper[1]);
+    range columns = cells_between(g, 0, lower[0], upper[0]);
+    for (size_t row = rows.first; row <= rows.last; row++)
+        answer(g, row, columns);
 }

@@ -23,6 +23,9 @@ void cage_grid_free(cage_grid *grid);
 /* Fills in grid->found. */
 void cage_grid_ask(cage_grid *grid, const double a[2], const double b[2]);
 
+/* The same for a box; a box that is far off has all edges near its nearest cells. */
+void cage_grid_ask_box(cage_grid *grid, const double lower[2], const double upper[2]);
+
 /* The ends of an edge of the cage. */
 static inline const double *cage_end(const carrier *c, uint32_t edge, size_t end)
 {

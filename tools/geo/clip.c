@@ -21,7 +21,8 @@ typedef struct clipper {
     geo_node *nodes; /* each place once */
     size_t n_nodes, room_nodes;
     pieces own, cage, kept;
-    double lower[2], upper[2];
+    uint32_t *facets; /* of the cage, near the polygon, in their order */
+    size_t n_facets;
 } clipper;
 
 static void add_piece(pieces *p, uint32_t from, uint32_t to, bool reversed)
@@ -92,13 +93,31 @@ static void unite_nodes(clipper *c)
     c->n_nodes = n;
 }
 
-static bool meets_box(const clipper *c, uint32_t facet)
+static int by_number(const void *a, const void *b)
 {
-    const double *a = cage_end(c->noding->cage, facet, 0), *b = cage_end(c->noding->cage, facet, 1);
-    for (size_t k = 0; k < 2; k++)
-        if (fmax(a[k], b[k]) < c->lower[k] || fmin(a[k], b[k]) > c->upper[k])
-            return false;
-    return true;
+    const uint32_t *p = a, *q = b;
+    return *p < *q ? -1 : *p > *q;
+}
+
+/* The edges of the cage near the box of the nodes. */
+static void find_facets(clipper *c)
+{
+    cage_grid *grid = &c->noding->grid;
+    double lower[2] = {HUGE_VAL, HUGE_VAL}, upper[2] = {-HUGE_VAL, -HUGE_VAL};
+    for (size_t i = 0; i < c->n_nodes; i++)
+        for (size_t k = 0; k < 2; k++) {
+            lower[k] = fmin(lower[k], c->nodes[i].at[k]);
+            upper[k] = fmax(upper[k], c->nodes[i].at[k]);
+        }
+    if (c->n_nodes == 0)
+        return;
+    cage_grid_ask_box(grid, lower, upper);
+    c->n_facets = grid->n_found;
+    c->facets = need(c->n_facets, sizeof *c->facets);
+    if (c->n_facets > 0) {
+        memcpy(c->facets, grid->found, c->n_facets * sizeof *c->facets);
+        qsort(c->facets, c->n_facets, sizeof *c->facets, by_number);
+    }
 }
 
 static int by_share(const void *a, const void *b)
@@ -114,9 +133,8 @@ static void cut_cage(clipper *c, size_t n_on, const geo_node *on)
 {
     const carrier *cage = c->noding->cage;
     size_t k = 0;
-    for (uint32_t facet = 0; facet < cage->n_facets; facet++) {
-        if (!meets_box(c, facet))
-            continue;
+    for (size_t i = 0; i < c->n_facets; i++) {
+        uint32_t facet = c->facets[i];
         while (k < n_on && on[k].facet < facet)
             k++;
         uint32_t last = find_node(c, cage_end(cage, facet, 0));
@@ -132,8 +150,9 @@ static void cut_cage(clipper *c, size_t n_on, const geo_node *on)
 static void add_corners(clipper *c)
 {
     const carrier *cage = c->noding->cage;
-    for (uint32_t facet = 0; facet < cage->n_facets; facet++)
-        for (size_t end = 0; end < 2 && meets_box(c, facet); end++) {
+    for (size_t i = 0; i < c->n_facets; i++)
+        for (size_t end = 0; end < 2; end++) {
+            uint32_t facet = c->facets[i];
             const double *at = cage_end(cage, facet, end);
             add_node(c, &(geo_node){.at = {at[0], at[1]},
                                     .place = GEO_ON_CAGE,
@@ -272,14 +291,7 @@ static size_t *collect(clipper *c, const geo_shape *shape, size_t first, size_t 
             add_node(c, &c->noding->nodes[i]);
         starts[r + 1] = c->n_nodes;
     }
-    for (size_t k = 0; k < 2; k++) {
-        c->lower[k] = HUGE_VAL;
-        c->upper[k] = -HUGE_VAL;
-        for (size_t i = 0; i < c->n_nodes; i++) {
-            c->lower[k] = fmin(c->lower[k], c->nodes[i].at[k]);
-            c->upper[k] = fmax(c->upper[k], c->nodes[i].at[k]);
-        }
-    }
+    find_facets(c);
     return starts;
 }
 
@@ -314,6 +326,7 @@ bool clip_polygon(clipped *out, noding *x, const geo_shape *shape, size_t first,
     free(all);
     free(on);
     free(c.nodes);
+    free(c.facets);
     free(c.own.list);
     free(c.cage.list);
     free(c.kept.list);
