@@ -1,6 +1,5 @@
 #include "base/json_in.h"
 
-#include "cage/cage.h"
 #include "base/allocate.h"
 
 #include <math.h>
@@ -13,7 +12,7 @@ cJSON *json_parse(const char *text, size_t n, problem *wrong)
     size_t mark = n >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
     cJSON *object = cJSON_ParseWithLengthOpts(text + mark, n + 1 - mark, &end, 1);
     if (object == NULL)
-        spoilt(wrong, cage_line(text, end),
+        spoilt(wrong, line_of(text, end),
                end >= text + n ? "the JSON ends early" : "this is not valid JSON");
     return object;
 }

@@ -29,12 +29,6 @@ typedef struct cage {
     uint32_t fan[3]; /* of the face that is being read */
 } cage;
 
-/* Reads a cage from text[0..n), with text[n] == '\0'; the format is told by the content. `role`
- * chooses among several shapes: the GeoJSON feature with the property `role` "source" or "target",
- * the SVG element with that id. A text file has `dim` numbers on a line; beyond 2 they are vertices
- * without facets. False: see `wrong`, and `out` is empty. */
-bool cage_read(cage *out, cage_role role, size_t dim, const char *text, size_t n, problem *wrong);
-
 void cage_free(cage *c);
 
 /* ---- for the readers ---- */
@@ -51,21 +45,5 @@ void cage_open_ring(cage *c);
 
 /* The name of a role: "source" or "target". */
 const char *cage_role_name(cage_role role);
-
-/* The line that `at` stands on, from 1. */
-size_t cage_line(const char *text, const char *at);
-
-bool cage_read_text(cage *out, size_t dim, const char *text, size_t n, problem *wrong);
-bool cage_read_geojson(cage *out, cage_role role, const char *text, size_t n, problem *wrong);
-bool cage_read_wkt(cage *out, const char *text, size_t n, problem *wrong);
-bool cage_read_svg(cage *out, cage_role role, const char *text, size_t n, problem *wrong);
-bool cage_read_ply(cage *out, const char *text, size_t n, problem *wrong);
-bool cage_read_npy(cage *out, const char *text, size_t n, problem *wrong);
-
-/* OBJ and OFF. Faces with more than three corners become fans of triangles. */
-bool cage_read_surface(cage *out, const char *text, size_t n, problem *wrong);
-
-/* The data of an SVG path that stands at `line` of its file, ended by `end` or '\0'. */
-bool cage_read_path(cage *out, const char *data, const char *end, size_t line, problem *wrong);
 
 #endif

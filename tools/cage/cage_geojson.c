@@ -1,7 +1,7 @@
 /* Cages as GeoJSON (RFC 7946): a Polygon, a Feature or a FeatureCollection.
  *
  * A ring that is not closed is taken as it is, like one in text. */
-#include "cage/cage.h"
+#include "cage/cage_readers.h"
 
 #include <cjson/cJSON.h>
 #include <math.h>
@@ -110,7 +110,7 @@ bool cage_read_geojson(cage *out, cage_role role, const char *text, size_t n, pr
     const char *end = NULL;
     cJSON *object = cJSON_ParseWithLengthOpts(text, n + 1, &end, 1);
     if (object == NULL)
-        return spoilt(wrong, cage_line(text, end),
+        return spoilt(wrong, line_of(text, end),
                       end >= text + n ? "the JSON ends early" : "this is not valid JSON");
     bool good = read_object(out, role, object, wrong);
     cJSON_Delete(object);

@@ -1,6 +1,6 @@
 /* PLY surfaces, as text or binary: G. Turk, The PLY Polygon File Format, 1994. Of the vertices x, y
  * and z are taken, of the faces the list vertex_indices; all else is skipped. */
-#include "cage/cage.h"
+#include "cage/cage_readers.h"
 #include "base/allocate.h"
 #include "base/number.h"
 

@@ -1,5 +1,5 @@
 /* Surfaces from the files that meshes come in, too. */
-#include "cage/cage.h"
+#include "cage/cage_readers.h"
 #include "base/allocate.h"
 #include "mesh/mesh_file.h"
 

@@ -3,7 +3,7 @@
  * Coordinates are taken as they are written, y downwards as in every picture. An element with the
  * id "source" or "target" is chosen by the role of the cage; else the file must have one shape only. A
  * transform on the shape or around it is refused, since reading on would misplace the cage. */
-#include "cage/cage.h"
+#include "cage/cage_readers.h"
 
 #include "base/number.h"
 
@@ -173,7 +173,7 @@ bool cage_read_svg(cage *out, cage_role role, const char *text, size_t n, proble
                       found.n_chosen, found.n_all, id);
     bool polygon = is_named(&found.tag, "polygon");
     const char *data = attribute(&found.tag, polygon ? "points" : "d", &end);
-    size_t line = cage_line(text, data != NULL ? data : found.tag.name);
+    size_t line = line_of(text, data != NULL ? data : found.tag.name);
     if (found.transformed)
         return spoilt(wrong, line, "the shape has a transform; apply it to the coordinates first");
     if (data == NULL)

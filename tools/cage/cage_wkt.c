@@ -1,5 +1,5 @@
 /* Cages as well-known text: POLYGON ((x y, x y, ...)), with or without SRID=...; in front. */
-#include "cage/cage.h"
+#include "cage/cage_readers.h"
 
 #include "base/number.h"
 
@@ -42,9 +42,9 @@ static bool expect(reader *r, char c)
     if (next_is(r, c))
         return true;
     if (*r->at == '\0')
-        return spoilt(r->wrong, cage_line(r->text, r->at), "the text ends early; '%c' is missing",
+        return spoilt(r->wrong, line_of(r->text, r->at), "the text ends early; '%c' is missing",
                       c);
-    return spoilt(r->wrong, cage_line(r->text, r->at), "'%s' where '%c' is expected",
+    return spoilt(r->wrong, line_of(r->text, r->at), "'%s' where '%c' is expected",
                   quoted(shown, r->at), c);
 }
 
@@ -56,7 +56,7 @@ static bool read_number(reader *r, double *value)
     number_kind kind = number_read(&r->at, value);
     if (kind == NUMBER_OK && strchr(" \t\r\n,()", *r->at) != NULL)
         return true;
-    return spoilt(r->wrong, cage_line(r->text, word), "'%s' is not a %s", quoted(shown, word),
+    return spoilt(r->wrong, line_of(r->text, word), "'%s' is not a %s", quoted(shown, word),
                   kind == NUMBER_NOT_FINITE ? "finite number" : "number");
 }
 
@@ -70,7 +70,7 @@ static bool read_ring(reader *r, cage *out)
         double x, y;
         if (!read_number(r, &x) || !read_number(r, &y))
             return false;
-        line += cage_line(counted, r->at) - 1;
+        line += line_of(counted, r->at) - 1;
         counted = r->at;
         cage_add(out, x, y, line);
     } while (next_is(r, ','));
@@ -79,7 +79,7 @@ static bool read_ring(reader *r, cage *out)
 
 static bool read_type(reader *r)
 {
-    size_t line = cage_line(r->text, r->at);
+    size_t line = line_of(r->text, r->at);
     if (next_word(r, "SRID")) {
         r->at += strcspn(r->at, ";");
         r->at += *r->at == ';';
@@ -104,7 +104,7 @@ bool cage_read_wkt(cage *out, const char *text, size_t n, problem *wrong)
     if (!read_type(&r) || !expect(&r, '(') || !read_ring(&r, out))
         return false;
     if (next_is(&r, ','))
-        return spoilt(wrong, cage_line(text, r.at),
+        return spoilt(wrong, line_of(text, r.at),
                       "the polygon has a hole; cut it open into parts "
                       "without holes and make one map per part");
     if (!expect(&r, ')'))
@@ -112,7 +112,7 @@ bool cage_read_wkt(cage *out, const char *text, size_t n, problem *wrong)
     next_is(&r, ';');
     r.at += strspn(r.at, blanks);
     if (r.at != text + n)
-        return spoilt(wrong, cage_line(text, r.at), "there is more text behind the polygon");
+        return spoilt(wrong, line_of(text, r.at), "there is more text behind the polygon");
     cage_open_ring(out);
     return true;
 }

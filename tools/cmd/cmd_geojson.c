@@ -289,7 +289,7 @@ static cJSON *read_file(const char *name)
         return NULL;
     cJSON *root = cJSON_ParseWithLengthOpts(text, n + 1, &end, 1);
     if (root == NULL)
-        failed(name, cage_line(text, end),
+        failed(name, line_of(text, end),
                end >= text + n ? "the JSON ends early" : "this is not valid JSON");
     free(text);
     return root;

@@ -3,7 +3,8 @@
 #include "job/job.h"
 
 #include "job/correspond.h"
-#include "cage/defect.h"
+#include "cage/cage_read.h"
+#include "cage/cage_defects.h"
 #include "job/fill.h"
 
 #include <stdio.h>

@@ -1,5 +1,5 @@
 /* What `libicc check` found, in words and as a report. */
-#include "report/check.h"
+#include "report/check_job.h"
 
 #include "job/option_table.h"
 

@@ -1,5 +1,5 @@
 /* What `libicc check` writes: mended cages, and the boundaries of masks. */
-#include "report/check.h"
+#include "report/check_job.h"
 
 #include "base/allocate.h"
 

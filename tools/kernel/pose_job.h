@@ -1,6 +1,6 @@
 /* The parts of `libicc pose`. */
-#ifndef POSE_H
-#define POSE_H
+#ifndef POSE_JOB_H
+#define POSE_JOB_H
 
 #include "kernel/kernel_job.h"
 

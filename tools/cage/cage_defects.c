@@ -1,4 +1,4 @@
-#include "cage/defect.h"
+#include "cage/cage_defects.h"
 
 #include "base/allocate.h"
 

@@ -1,8 +1,8 @@
 /* The parts of `libicc check`. */
-#ifndef CHECK_H
-#define CHECK_H
+#ifndef CHECK_JOB_H
+#define CHECK_JOB_H
 
-#include "cage/defect.h"
+#include "cage/cage_defects.h"
 #include "job/job.h"
 
 typedef struct check {
