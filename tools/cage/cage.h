@@ -25,6 +25,7 @@ typedef struct cage {
     size_t *facet_lines;       /* as `lines` */
     uint8_t *cells;            /* of a mask: one byte each, the first axis fastest; else NULL */
     size_t shape[ICC_MAX_DIM]; /* of a mask: cells along each axis */
+    size_t n_heights;          /* vertices of a polygon whose further coordinates were left out */
     size_t room_points, room_lines, room_facets, room_facet_lines;
     uint32_t fan[3]; /* of the face that is being read */
 } cage;

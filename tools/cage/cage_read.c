@@ -1,6 +1,7 @@
 /* Which reader a file is for, told by how it begins. */
 #include "cage/cage_read.h"
 
+#include "base/foreign.h"
 #include "cage/cage_readers.h"
 
 #include <string.h>
@@ -63,11 +64,13 @@ static bool read_any(cage *out, cage_role role, size_t dim, const char *text, si
     if (n >= 3 && memcmp(p, "\xef\xbb\xbf", 3) == 0)
         p += 3;
     p += strspn(p, " \t\r\n");
+    if (foreign_told(text, n, wrong))
+        return false;
+    if (strncmp(p, "# vtk DataFile", 14) == 0 || strncmp(p, "MeshVersion", 11) == 0)
+        return foreign_surface(wrong, 0, *p == '#' ? "a VTK mesh" : "a Medit mesh");
     out->dim = 3;
-    if (is_word(p, "ply"))
-        return cage_read_ply(out, text, n, wrong) && has_faces(out, wrong);
     const char *first = skip_comments(p);
-    if (is_word(first, "OFF") || is_obj(first))
+    if (is_word(p, "ply") || is_word(first, "OFF") || is_obj(first))
         return cage_read_surface(out, text, n, wrong) && has_faces(out, wrong);
     if (n >= 6 && memcmp(text, "\x93NUMPY", 6) == 0)
         return cage_read_npy(out, text, n, wrong);
@@ -78,8 +81,6 @@ static bool read_any(cage *out, cage_role role, size_t dim, const char *text, si
         return cage_read_svg(out, role, text, n, wrong);
     if (is_wkt(p))
         return cage_read_wkt(out, text, n, wrong);
-    if (begins_with(p, "\x89PNG"))
-        return spoilt(wrong, 0, "this is a PNG picture, not a cage");
     out->dim = dim;
     return cage_read_text(out, dim, text, n, wrong);
 }

@@ -8,10 +8,9 @@ bool cage_read_text(cage *out, size_t dim, const char *text, size_t n, problem *
 bool cage_read_geojson(cage *out, cage_role role, const char *text, size_t n, problem *wrong);
 bool cage_read_wkt(cage *out, const char *text, size_t n, problem *wrong);
 bool cage_read_svg(cage *out, cage_role role, const char *text, size_t n, problem *wrong);
-bool cage_read_ply(cage *out, const char *text, size_t n, problem *wrong);
 bool cage_read_npy(cage *out, const char *text, size_t n, problem *wrong);
 
-/* OBJ and OFF. Faces with more than three corners become fans of triangles. */
+/* OBJ, OFF and PLY. Faces with more than three corners become fans of triangles. */
 bool cage_read_surface(cage *out, const char *text, size_t n, problem *wrong);
 
 /* The data of an SVG path that stands at `line` of its file, ended by `end` or '\0'. */

@@ -169,6 +169,15 @@ static int make_source(job *j)
     return correspond(j);
 }
 
+/* What has been left out is told once all is well, so that an error is one line. */
+static void note_heights(const job *j)
+{
+    for (size_t side = 0; side < 2; side++)
+        if (j->cages[side].n_heights > 0)
+            note("%s: heights are left out; a cage in the plane has x and y",
+                 job_file(j, (int)side + 1));
+}
+
 int job_make_domains(job *j)
 {
     if (j->domains[0] != NULL)
@@ -178,7 +187,11 @@ int job_make_domains(job *j)
         result = make_source(j);
     if (result == DONE && j->args->target != NULL)
         result = make_domain(j, 1);
-    return result == DONE ? fill_domains(j) : result;
+    if (result == DONE)
+        result = fill_domains(j);
+    if (result == DONE)
+        note_heights(j);
+    return result;
 }
 
 static icc_chart_options chart_options(const job *j)
