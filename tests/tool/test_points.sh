@@ -83,10 +83,30 @@ run 1 map -s source.txt -t target.txt -p points.txt -o nowhere/images
 says 'libicc: nowhere/images: cannot be written'
 ls ./*.part 2>/dev/null && complain "a temporary file was left behind"
 if [ -w /dev/full ]; then
-    "${tool:?}" map -s source.txt -t target.txt -p points.txt >/dev/full 2>err
-    [ $? -eq 1 ] || complain "a full disk was not noticed"
-    [ "$(wc -l <err)" -eq 1 ] || complain "stderr is not one line: $(cat err)"
+    awk 'BEGIN { for (i = 0; i < 3000; i++) print 1, 1 }' >long.txt
+    for full in "map -s source.txt -t target.txt -p points.txt" "map -s source.txt -t target.txt -p long.txt" \
+        "encode -s source.txt -p long.txt" "check -s source.txt -t target.txt" "check -s source.txt --json" \
+        "info -s source.txt" "plot -s source.txt -" "--help" "map --help" "--version"; do
+        # shellcheck disable=SC2086 # words
+        "${tool:?}" $full >/dev/full 2>err
+        [ $? -eq 1 ] || complain "a full disk was not noticed: $full"
+        : >out
+        says 'libicc: standard output: cannot be written: '
+    done
+    run 1 map -s source.txt -t target.txt -p points.txt -o /dev/full
+    says 'libicc: /dev/full: cannot be written: '
 fi
+
+# A link goes on being one, and its file is written whole or not at all.
+mkdir -p kept && printf 'old\n' >kept/images && ln -s kept/images link
+run 0 map -s source.txt -t target.txt -p points.txt -o link
+run 0 map -s source.txt -t target.txt -p points.txt
+[ -L link ] || complain "the link was replaced by a file"
+same kept/images out "through a link"
+ln -s kept/later nowhere.txt
+run 0 map -s source.txt -t target.txt -p points.txt -o nowhere.txt
+[ -L nowhere.txt ] || complain "the link to nowhere was replaced"
+same kept/later kept/images "through a link to nowhere"
 
 # Threads and locale do not change a bit.
 awk 'BEGIN { for (i = 0; i < 3000; i++) printf "%.6f %.6f\n", (i * 0.618034) % 1 * 10, (i * 0.754878) % 1 * 10 }' >many.txt

@@ -56,6 +56,18 @@ run 2 mesh -s source.txt -t target.txt --repair --inverse in out
 says "--repair does not go with --inverse"
 run 2 map -s source.txt -t target.txt --tolerance 1
 says "--tolerance goes with --geojson only"
+run 2 map -s source.txt -t target.txt --outside clip
+says "--outside clip goes with --geojson only"
+run 2 map -s source.txt -t target.txt --outside nowhere
+says "it may be: keep, null, clip, fail"
+run 2 mesh -s source.txt -t target.txt --outside null in.obj out.obj
+says "--outside null would leave vertices without a place"
+run 2 warp -s source.txt -t target.txt --outside keep --background 00ff00 in.png out.png
+says "--background clears what --outside keep would not"
+for value in -1 nan inf x; do
+    run 2 map -s source.txt -t target.txt --snap "$value"
+    says "--snap '$value' must be a number of at least 0"
+done
 run 2 map -s source.txt -t - --geojson - out
 says "only one input can be standard input"
 for value in 0 -1 nan inf x ''; do

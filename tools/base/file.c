@@ -1,4 +1,4 @@
-#define _POSIX_C_SOURCE 200809L
+#define _XOPEN_SOURCE 700
 
 #include "base/file.h"
 
@@ -47,18 +47,32 @@ char *file_read(const char *name, size_t *n)
     return text;
 }
 
-/* A rename would turn a device or a link into a plain file, so those are written directly. */
-static bool is_plain_or_absent(const char *name)
+bool file_is_same(const char *input, const char *output)
 {
-    struct stat info;
-    return lstat(name, &info) != 0 || S_ISREG(info.st_mode);
+    struct stat in, out;
+    bool known = (strcmp(input, "-") == 0 ? fstat(STDIN_FILENO, &in) : stat(input, &in)) == 0 &&
+                 (strcmp(output, "-") == 0 ? fstat(STDOUT_FILENO, &out) : stat(output, &out)) == 0;
+    return known && S_ISREG(in.st_mode) && in.st_dev == out.st_dev && in.st_ino == out.st_ino;
 }
 
-static FILE *open_beside(const char *name, char **temporary)
+/* Where a plain file of this name is or will be, with links followed: a rename onto a link would cut it off
+ * from its file. NULL for devices, pipes and links to nowhere, which are written directly. */
+static char *find_place(const char *name)
 {
-    size_t n = strlen(name) + 32;
+    struct stat info;
+    if (stat(name, &info) == 0)
+        return S_ISREG(info.st_mode) ? realpath(name, NULL) : NULL;
+    if (lstat(name, &info) == 0)
+        return NULL;
+    char *place = need(strlen(name) + 1, 1);
+    return strcpy(place, name);
+}
+
+static FILE *open_beside(const char *place, char **temporary)
+{
+    size_t n = strlen(place) + 32;
     char *path = need(n, 1);
-    snprintf(path, n, "%s.%ld.part", name, (long)getpid());
+    snprintf(path, n, "%s.%ld.part", place, (long)getpid());
     int descriptor = open(path, O_WRONLY | O_CREAT | O_TRUNC, 0666);
     FILE *stream = descriptor >= 0 ? fdopen(descriptor, "wb") : NULL;
     if (stream == NULL && descriptor >= 0)
@@ -69,38 +83,48 @@ static FILE *open_beside(const char *name, char **temporary)
 
 bool outfile_open(outfile *out, const char *name)
 {
-    *out = (outfile){.name = name};
-    if (strcmp(name, "-") == 0)
+    bool standard = strcmp(name, "-") == 0;
+    *out = (outfile){.name = standard ? STANDARD_OUTPUT : name};
+    out->place = standard ? NULL : find_place(name);
+    if (standard)
         out->stream = stdout;
-    else if (is_plain_or_absent(name))
-        out->stream = open_beside(name, &out->temporary);
+    else if (out->place != NULL)
+        out->stream = open_beside(out->place, &out->temporary);
     else
         out->stream = fopen(name, "wb");
     if (out->stream != NULL)
         return true;
-    failed(name, 0, "cannot be written: %s", strerror(errno));
+    failed(out->name, 0, "cannot be written: %s", strerror(errno));
     free(out->temporary);
+    free(out->place);
     return false;
+}
+
+const char *file_write_error(int why)
+{
+    return why != 0 ? strerror(why) : "an earlier write failed";
 }
 
 bool outfile_close(outfile *out)
 {
+    errno = 0;
     bool good = fflush(out->stream) == 0 && !ferror(out->stream);
     int why = errno;
     if (out->stream != stdout && fclose(out->stream) != 0 && good) {
         good = false;
         why = errno;
     }
-    if (good && out->temporary != NULL && rename(out->temporary, out->name) != 0) {
+    if (good && out->temporary != NULL && rename(out->temporary, out->place) != 0) {
         good = false;
         why = errno;
     }
     if (!good) {
-        failed(out->name, 0, "cannot be written: %s", strerror(why));
+        failed(out->name, 0, "cannot be written: %s", file_write_error(why));
         if (out->temporary != NULL)
             remove(out->temporary);
     }
     free(out->temporary);
+    free(out->place);
     return good;
 }
 
@@ -111,4 +135,5 @@ void outfile_abandon(outfile *out)
     if (out->temporary != NULL)
         remove(out->temporary);
     free(out->temporary);
+    free(out->place);
 }

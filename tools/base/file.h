@@ -6,15 +6,26 @@
 #include <stddef.h>
 #include <stdio.h>
 
+/* What "-" is called in messages about output; say.h calls it standard input. */
+#define STANDARD_OUTPUT "standard output"
+
 /* The content of a file and a '\0' behind it; free() it. NULL: said why on stderr. */
 char *file_read(const char *name, size_t *n);
 
-/* A file that is written beside its final name and takes its place only when all is well. */
+/* Whether two names, "-" for the input being standard input, for the output standard output, are those of
+ * one plain file, be it through a link. */
+bool file_is_same(const char *input, const char *output);
+
+/* A file that is written beside its final place and takes that only when all is well. */
 typedef struct outfile {
     FILE *stream;
-    const char *name;
-    char *temporary; /* NULL: written directly (standard output, devices) */
+    const char *name; /* for messages */
+    char *temporary;  /* NULL: written directly (standard output, devices) */
+    char *place;      /* where the temporary file goes: `name` with its links followed */
 } outfile;
+
+/* What errno says of a failed flush; it says nothing (0) when the stream had failed before. */
+const char *file_write_error(int why);
 
 /* False: said why on stderr. */
 bool outfile_open(outfile *out, const char *name);
@@ -22,7 +33,7 @@ bool outfile_open(outfile *out, const char *name);
 /* Ends the file and puts it in place. False: said why, and nothing is left behind. */
 bool outfile_close(outfile *out);
 
-/* Gives the file up; whatever stood at its name is untouched. */
+/* Gives the file up; whatever stood at its name is untouched, unless it is written directly. */
 void outfile_abandon(outfile *out);
 
 #endif

@@ -2,8 +2,10 @@
  *
  * setlocale() is never called, so numbers are read and written the same way everywhere. */
 #include "cmd/commands.h"
+#include "base/file.h"
 #include "base/say.h"
 
+#include <errno.h>
 #include <icc/icc.h>
 #include <stdio.h>
 #include <string.h>
@@ -184,10 +186,11 @@ static int run_command(const command *c, int argc, char **argv)
 /* Whatever was printed must have arrived. */
 static int flushed(int result)
 {
-    if (fflush(stdout) != 0 || ferror(stdout))
-        return result == DONE || result == PARTIAL ? failed("-", 0, "output cannot be written")
-                                                   : result;
-    return result;
+    errno = 0;
+    bool good = fflush(stdout) == 0 && !ferror(stdout);
+    if (good || (result != DONE && result != PARTIAL))
+        return result;
+    return failed(STANDARD_OUTPUT, 0, "cannot be written: %s", file_write_error(errno));
 }
 
 int main(int argc, char **argv)

@@ -57,10 +57,10 @@ static int set_length(reading *r, const option *o, const char *value)
     char most[32] = "";
     if (o->most > 0)
         snprintf(most, sizeof most, " and at most %g", o->most);
-    if (number_parse(value, length) != NUMBER_OK || !(*length > 0) ||
+    if (number_parse(value, length) != NUMBER_OK || *length < 0 || (*length <= 0 && !o->zero) ||
         (o->most > 0 && *length > o->most))
-        return misused(r->command->name, "--%s '%.40s' must be a number above 0%s", o->name, value,
-                       most);
+        return misused(r->command->name, "--%s '%.40s' must be a number %s 0%s", o->name, value,
+                       o->zero ? "of at least" : "above", most);
     return DONE;
 }
 
@@ -206,7 +206,7 @@ static int take_operand(reading *r, const char *text)
 
 int args_parse(args *out, const command *c, int argc, char **argv, bool *help)
 {
-    *out = (args){.command = c->name, .improve = -1};
+    *out = (args){.command = c->name, .improve = -1, .snap = -1};
     *help = false;
     reading r = {.out = out, .command = c, .argc = argc, .at = 2, .argv = argv, .help = help};
     bool only_operands = false;

@@ -23,6 +23,8 @@ typedef struct args {
     int32_t improve; /* steps at most; -1: the library's choice */
     double eta;
     double tolerance; /* 0: the command's choice */
+    int32_t outside;  /* one of the policies below; 0: the command's choice */
+    double snap;      /* below 0: the command's choice */
     double maximum[ICC_MAX_DIM], target_maximum[ICC_MAX_DIM];
     size_t n_maximum, n_target_maximum; /* their coordinates; 0: not given */
     bool constrained, unconstrained;
@@ -41,6 +43,9 @@ typedef struct args {
     unsigned char background[4];
     int32_t lines;
 } args;
+
+/* What becomes of what lies outside the cage. */
+enum { OUTSIDE_KEEP = 1, OUTSIDE_NULL, OUTSIDE_CLIP, OUTSIDE_FAIL };
 
 /* Bits of the commands. */
 enum {

@@ -8,7 +8,7 @@ typedef enum option_kind {
     OPTION_FLAG,   /* bool */
     OPTION_TEXT,   /* const char * */
     OPTION_COUNT,  /* int32_t between low and high */
-    OPTION_LENGTH, /* double above 0, and at most `most` unless that is 0 */
+    OPTION_LENGTH, /* double above 0 (or 0 with `zero`), and at most `most` unless that is 0 */
     OPTION_CHOICE, /* int32_t, by name */
     OPTION_FUNCTIONS,
     OPTION_POINT,  /* double[ICC_MAX_DIM], and a size_t: how many there are */
@@ -31,17 +31,18 @@ typedef struct option {
     size_t offset, present; /* in args */
     int32_t low, high;
     double most;
+    bool zero;
     const choice *choices;
     const char *value, *help;
 } option;
 
 extern const choice methods[], maps[], functions[], solvers[], trees[], samplings[], weightings[], kernels[],
-    initials[];
+    initials[], outsides[];
 
 /* The name of a value that the library gave. */
 const char *choice_name(const choice *choices, int32_t value);
 
-enum { N_OPTIONS = 53 };
+enum { N_OPTIONS = 57 };
 extern const option options[N_OPTIONS];
 
 #endif
