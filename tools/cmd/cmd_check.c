@@ -4,6 +4,7 @@
  * the vertices that a defect names as superfluous. */
 #include "cmd/commands.h"
 
+#include "job/output_name.h"
 #include "report/check_job.h"
 
 static bool in_plane(const check *c)
@@ -66,6 +67,20 @@ static int verdict_on_method(check *c)
                : failed(c->job.args->source, 0, "%s", check_reason(text, c));
 }
 
+static bool is_surface_only(const check *c)
+{
+    return job_dim(&c->job) == 3 && c->job.cages[0].cells == NULL && c->job.args->target == NULL;
+}
+
+/* The formats in which --repair writes. */
+static const char *repaired_formats(const check *c)
+{
+    return c->job.cages[0].cells != NULL   ? "NumPy"
+           : !in_plane(c)                  ? "OBJ"
+           : c->job.args->target != NULL   ? "GeoJSON, JSON"
+                                           : "text, GeoJSON, JSON";
+}
+
 /* What the cages must be for the options. */
 static int check_options(const check *c)
 {
@@ -73,10 +88,14 @@ static int check_options(const check *c)
     bool mask = c->job.cages[0].cells != NULL;
     if (a->boundary != NULL && !mask)
         return failed(a->source, 0, "this is no mask; --boundary needs one");
-    if (a->repair != NULL && !in_plane(c) && !check_mask_only(c))
+    if (a->repair != NULL && !in_plane(c) && !check_mask_only(c) && !is_surface_only(c))
         return failed(a->source, 0,
-                      "--repair is for cages in the plane, and for masks without a target");
-    return DONE;
+                      "--repair is for cages in the plane, and for surfaces and masks without a "
+                      "target");
+    return output_fits(a->command, a->boundary,
+                       job_dim(&c->job) == 3 ? "text, OBJ" : "text") == DONE
+               ? output_fits(a->command, a->repair, repaired_formats(c))
+               : MISUSED;
 }
 
 static int run(check *c)
@@ -93,7 +112,9 @@ static int run(check *c)
     if (c->n_defects > 0 && c->job.args->repair == NULL)
         return verdict_on_defects(c);
     if (c->job.args->repair != NULL)
-        result = in_plane(c) ? check_repair(c) : check_repair_mask(c);
+        result = in_plane(c)          ? check_repair(c)
+                 : is_surface_only(c) ? check_repair_surface(c)
+                                      : check_repair_mask(c);
     return result == DONE ? verdict_on_method(c) : result;
 }
 

@@ -5,6 +5,7 @@
 #include "job/correspond.h"
 #include "cage/cage_read.h"
 #include "cage/cage_defects.h"
+#include "cage/weld.h"
 #include "job/fill.h"
 
 #include <stdio.h>
@@ -53,12 +54,17 @@ static size_t line_at_fault(const cage *c, const icc_error *err)
     return (of_face ? c->facet_lines : c->lines)[err->index];
 }
 
-int job_failed(job *j, const icc_error *err)
+static int failed_with(job *j, const icc_error *err, const char *hint)
 {
     progress_end(&j->bar);
     size_t line = line_at_fault(&j->cages[err->side == 2], err);
     const char *message = err->message[0] != '\0' ? err->message : icc_status_name(err->status);
-    return failed(job_file(j, err->side), line, "%s", message);
+    return failed(job_file(j, err->side), line, "%s%s", message, hint);
+}
+
+int job_failed(job *j, const icc_error *err)
+{
+    return failed_with(j, err, "");
 }
 
 int job_failed_status(job *j, icc_status status)
@@ -143,6 +149,18 @@ static int failed_boundary(job *j, size_t side, const icc_error *err)
     return FAILED;
 }
 
+/* A surface that is none: perhaps only because its faces do not share their vertices. */
+static int failed_surface(job *j, size_t side, const icc_error *err)
+{
+    char hint[120] = "";
+    size_t n = weld_count(&j->cages[side]);
+    if (n > 0)
+        snprintf(hint, sizeof hint,
+                 "; %zu vertices coincide with others: 'libicc check --repair OUT.obj' joins them",
+                 n);
+    return failed_with(j, err, hint);
+}
+
 static int make_domain(job *j, size_t side)
 {
     const cage *c = &j->cages[side];
@@ -156,6 +174,7 @@ static int make_domain(job *j, size_t side)
         return DONE;
     err.side = (int32_t)side + 1;
     return status == ICC_ERR_BOUNDARY && c->dim == 2 ? failed_boundary(j, side, &err)
+           : c->cells == NULL && c->n_facets > 0     ? failed_surface(j, side, &err)
                                                      : job_failed(j, &err);
 }
 

@@ -32,6 +32,9 @@ typedef struct option {
     int32_t low, high;
     double most;
     bool zero;
+    bool quiet_letter; /* the letter works, but is not told about */
+    bool hidden; /* works, but there is another spelling to tell about */
+    bool papers; /* of the papers' method alone, and told about behind the others */
     const choice *choices;
     const char *value, *help;
 } option;
@@ -42,7 +45,7 @@ extern const choice methods[], maps[], functions[], solvers[], trees[], sampling
 /* The name of a value that the library gave. */
 const char *choice_name(const choice *choices, int32_t value);
 
-enum { N_OPTIONS = 57 };
+enum { N_OPTIONS = 58 };
 extern const option options[N_OPTIONS];
 
 #endif

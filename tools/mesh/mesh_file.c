@@ -6,43 +6,52 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool read_any(lines *r)
+typedef struct format {
+    const char *name, *begin; /* what its files begin with */
+    bool word;                /* which is a word */
+    bool (*read)(lines *r);
+} format;
+
+/* OBJ has no mark of its own. */
+static const format formats[] = {{"VTK", "# vtk DataFile", false, mesh_read_vtk},
+                                 {"PLY", "ply", true, mesh_read_ply},
+                                 {"Medit", "MeshVersion", false, mesh_read_medit},
+                                 {"OFF", "OFF", true, mesh_read_off},
+                                 {"OBJ", "", false, mesh_read_obj}};
+
+/* The format of the file, and in `r` where it begins, behind comments. */
+static const format *find_format(lines *r)
 {
-    static const struct {
-        const char *begin, *name;
-        bool (*read)(lines *r);
-    } formats[] = {{"# vtk DataFile", "VTK", mesh_read_vtk},
-                   {"MeshVersion", "Medit", mesh_read_medit},
-                   {"OFF", "OFF", mesh_read_off}};
-    size_t i = 0, n = sizeof formats / sizeof *formats;
-    if (strncmp(r->at, formats[0].begin, strlen(formats[0].begin)) != 0)
-        while (lines_skip_blanks(r), r->at == r->end && lines_next(r))
-            ;
-    while (i < n && strncmp(r->at, formats[i].begin, strlen(formats[i].begin)) != 0)
-        i++;
-    if (i == n || (formats[i].read == mesh_read_off && strchr(" \t\r\n#", r->at[3]) == NULL)) {
-        r->mesh->format = "OBJ";
-        return mesh_read_obj(r);
+    if (strncmp(r->at, "\xef\xbb\xbf", 3) == 0)
+        r->at += 3;
+    r->end = r->at + strcspn(r->at, "\n");
+    if (strncmp(r->at, formats[0].begin, strlen(formats[0].begin)) == 0)
+        return &formats[0];
+    while (lines_skip_blanks(r), r->at == r->end && lines_next(r))
+        ;
+    for (const format *f = formats + 1;; f++) {
+        size_t n = strlen(f->begin);
+        if (strncmp(r->at, f->begin, n) == 0 && (!f->word || strchr(" \t\r\n#", r->at[n]) != NULL))
+            return f;
     }
-    r->mesh->format = formats[i].name;
-    return formats[i].read(r);
+}
+
+const char *mesh_format(const char *text)
+{
+    lines r = {.at = text};
+    return find_format(&r)->name;
 }
 
 /* PLY may be binary; the others are text from end to end. */
 static bool read_bytes(lines *r)
 {
-    const mesh_file *m = r->mesh;
-    if (strncmp(r->at, "\xef\xbb\xbf", 3) == 0)
-        r->at += 3;
-    r->end = r->at + strcspn(r->at, "\n");
-    if (strncmp(r->at, "ply", 3) == 0 && strchr(" \t\r\n", r->at[3]) != NULL) {
-        r->mesh->format = "PLY";
-        return mesh_read_ply(r);
-    }
-    if (strlen(m->text) != m->n_text)
+    mesh_file *m = r->mesh;
+    const format *f = find_format(r);
+    m->format = f->name;
+    if (f->read != mesh_read_ply && strlen(m->text) != m->n_text)
         return spoilt(r->wrong, 0,
                       "this is not a text file; OBJ, OFF, Medit and VTK are read as text");
-    return read_any(r);
+    return f->read(r);
 }
 
 bool mesh_read(mesh_file *out, size_t dim, const char *text, size_t n, problem *wrong)

@@ -36,6 +36,9 @@ typedef struct mesh_file {
     size_t room_points, room_spans, room_triangles, room_triangle_lines, room_tetrahedra;
 } mesh_file;
 
+/* The name of the format that a mesh of this text, which ends with a '\0', has: VTK, PLY, Medit, OFF; else OBJ. */
+const char *mesh_format(const char *text);
+
 /* Reads text[0..n), with text[n] == '\0', as a mesh of dimension 2 or 3. False: see `wrong`. Free the
  * mesh in either case. */
 bool mesh_read(mesh_file *out, size_t dim, const char *text, size_t n, problem *wrong);

@@ -3,6 +3,7 @@
 #include "plot/picture.h"
 
 #include "base/allocate.h"
+#include "base/foreign.h"
 
 #include <png.h>
 #include <setjmp.h>
@@ -117,7 +118,10 @@ bool picture_decode(picture *out, const char *bytes, size_t n, problem *wrong)
 {
     *out = (picture){0};
     if (n < 8 || png_sig_cmp((png_const_bytep)bytes, 0, 8) != 0)
-        return spoilt(wrong, 0, "this is not a PNG picture; convert it to PNG first");
+        return n >= 4 && memcmp(bytes, "\x89PNG", 4) == 0
+                   ? spoilt(wrong, 0, "the PNG picture is damaged: its first bytes are wrong")
+                   : !foreign_told(bytes, n, wrong) &&
+                         spoilt(wrong, 0, "this is not a PNG picture; convert it to PNG first");
     png_keep *k = need(1, sizeof *k);
     k->bytes = (const png_byte *)bytes;
     k->n = n;
