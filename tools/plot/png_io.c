@@ -97,6 +97,10 @@ static bool decode(png_keep *k, picture *out, png_byte **rows)
         return false;
     png_set_read_fn(k->png, k, take_bytes);
     png_read_info(k->png, k->info);
+    /* A byte of deflated data gives at most 1032: what is announced beyond that is not there. */
+    uint64_t row_size = png_get_rowbytes(k->png, k->info);
+    if (row_size * png_get_image_height(k->png, k->info) / 1032 > k->n)
+        png_error(k->png, "the file ends early");
     png_set_expand(k->png);
     png_set_interlace_handling(k->png);
     png_read_update_info(k->png, k->info);
