@@ -14,12 +14,10 @@ static icc_status read_picture(icc_picture *full, const icc_picture *given, cons
         return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "the %s picture has %ld x %ld pixels", name,
                          (long)full->width, (long)full->height);
     if (full->channels < 1 || full->channels > 4 || full->bytes < 1 || full->bytes > 2 ||
-        full->alpha < 0 || full->alpha > 1 || full->alpha >= full->channels ||
-        full->reserved != 0)
+        full->alpha < 0 || full->alpha > 1 || full->alpha >= full->channels)
         return iccp_fail(err, ICC_ERR_ARGUMENT, -1,
-                         "icc_picture: %ld channels, %ld bytes, alpha %ld, reserved %ld",
-                         (long)full->channels, (long)full->bytes, (long)full->alpha,
-                         (long)full->reserved);
+                         "icc_picture: %ld channels, %ld bytes, alpha %ld",
+                         (long)full->channels, (long)full->bytes, (long)full->alpha);
     const size_t pixel = (size_t)(full->channels * full->bytes);
     if (full->pixels == NULL || full->stride / pixel < (size_t)full->width ||
         full->stride > PTRDIFF_MAX / (size_t)full->height)

@@ -2,7 +2,7 @@
 #ifndef ARGS_H
 #define ARGS_H
 
-#include "job/function.h"
+#include "job/function_choice.h"
 
 #include <icc/base.h>
 #include <stdbool.h>
@@ -21,7 +21,7 @@ typedef struct args {
     function_choice functions[MAX_FUNCTIONS];
     size_t n_functions;
     int32_t improve; /* steps at most; -1: the library's choice */
-    double eta;
+    double min_fall;
     double tolerance; /* 0: the command's choice */
     int32_t outside;  /* one of the policies below; 0: the command's choice */
     double snap;      /* below 0: the command's choice */

@@ -24,7 +24,7 @@ typedef struct choice {
 } choice;
 
 typedef struct option {
-    const char *name;
+    const char *name, *former; /* former: a spelling that is still taken, or NULL */
     char letter;
     option_kind kind;
     unsigned commands;
@@ -33,7 +33,6 @@ typedef struct option {
     double most;
     bool zero;
     bool quiet_letter; /* the letter works, but is not told about */
-    bool hidden; /* works, but there is another spelling to tell about */
     bool papers; /* of the papers' method alone, and told about behind the others */
     const choice *choices;
     const char *value, *help;
@@ -45,7 +44,7 @@ extern const choice methods[], maps[], functions[], solvers[], trees[], sampling
 /* The name of a value that the library gave. */
 const char *choice_name(const choice *choices, int32_t value);
 
-enum { N_OPTIONS = 58 };
+enum { N_OPTIONS = 57 };
 extern const option options[N_OPTIONS];
 
 #endif

@@ -41,13 +41,13 @@ bool info_has_grid(const info *x)
 const char *info_growth(char text[160], const info *x)
 {
     const icc_grow_report *g = &x->growth;
-    if (g->method == ICC_GROW_AS_WISHED)
+    if (g->method == ICC_GROW_AS_GIVEN)
         snprintf(text, 160, "the order of the function has no critical vertex but the maximum");
     else if (!x->grown)
         snprintf(text, 160, "stuck: %zu vertices cannot be placed, %zu are left by thinning",
-                 g->n_unplaced, g->n_left);
+                 g->n_unplaced, g->n_remaining);
     else
         snprintf(text, 160, "%s, %zu vertices had to wait, %zu edges against the function",
-                 g->method == ICC_GROW_GROWN ? "grown" : "thinned", g->n_postponed, g->n_turned);
+                 g->method == ICC_GROW_GROWN ? "grown" : "thinned", g->n_deferred, g->n_reversed);
     return text;
 }

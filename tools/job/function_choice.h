@@ -1,6 +1,6 @@
 /* The functions of method gradient: what --function asks for, and what the library made of it. */
-#ifndef FUNCTION_H
-#define FUNCTION_H
+#ifndef FUNCTION_CHOICE_H
+#define FUNCTION_CHOICE_H
 
 #include "base/json.h"
 #include "base/say.h"
@@ -23,9 +23,9 @@ size_t functions_parse(function_choice out[MAX_FUNCTIONS], const char *text, pro
 bool function_solves(int32_t function);
 
 /* Its name, as in "laplace, unconstrained". */
-const char *function_label(char text[48], const icc_field_info *info);
+const char *function_label(char text[48], const icc_function_info *info);
 
 /* The members of the report that tell how it was made. */
-void function_report(json *j, const icc_field_info *info);
+void function_report(json *j, const icc_function_info *info);
 
 #endif
