@@ -113,9 +113,9 @@ holds out 'Usage: libicc COMMAND'
 run 2 help nothing
 says "there is no command 'nothing'"
 run 0 help warp
-[ "$(sed -n '/^Options of the papers/,$p' out | grep -c -- '--eta\|--tree\|--function')" = 3 ] ||
+[ "$(sed -n '/^Options of the papers/,$p' out | grep -c -- '--min-fall\|--tree\|--function')" = 3 ] ||
     complain "the papers' options are not in a group of their own"
-sed '/^Options of the papers/,$d' out | grep -q -- '--eta' && complain "--eta stands among the usual options"
+sed '/^Options of the papers/,$d' out | grep -q -- '--min-fall' && complain "--min-fall stands among the usual options"
 # Second meanings have long names; what was spelt before works.
 run 0 help pose
 if grep -q -- '-t, ' out; then complain "help tells of pose -t"; fi
