@@ -1,6 +1,6 @@
-/* Any bytes at all must give a mesh whose numbers stand in the text one behind the other, or a reason; what is
- * written must read back as the same mesh, and writing that gives the same bytes. Nothing is leaked, and
- * nothing beyond the text is read. */
+/* Any bytes at all must give a mesh whose numbers stand in the text one behind the other, or a
+ * reason; what is written must read back as the same mesh, and writing that gives the same bytes.
+ * Nothing is leaked, and nothing beyond the text is read. */
 #define _POSIX_C_SOURCE 200809L
 
 #include "mesh/mesh_file.h"

@@ -1,6 +1,6 @@
-/* Any bytes at all must give a picture or a reason, and what is written of a picture must read back as the same.
- * Each input is tried as it is, and with the checksums of its chunks put right, behind which most of the reader
- * lies. */
+/* Any bytes at all must give a picture or a reason, and what is written of a picture must read back
+ * as the same. Each input is tried as it is, and with the checksums of its chunks put right, behind
+ * which most of the reader lies. */
 #include "plot/picture.h"
 
 #include <stdint.h>

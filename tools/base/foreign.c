@@ -70,8 +70,9 @@ static const magic magics[] = {
     {0, 4, "%!PS", "a PostScript document", MAKE_PNG},
     {0, 4, "\x89PNG", "a PNG picture, which only warp and pose take", NO_REMEDY},
     {0, 2, "\x1f\x8b", "a gzip archive ('gunzip')", UNPACK},
-    {0, 6, "\xfd"
-           "7zXZ\0",
+    {0, 6,
+     "\xfd"
+     "7zXZ\0",
      "an xz archive ('unxz')", UNPACK},
     {0, 3, "BZh", "a bzip2 archive ('bunzip2')", UNPACK},
     {0, 4, "\x28\xb5\x2f\xfd", "a Zstandard archive ('unzstd')", UNPACK},
@@ -211,7 +212,8 @@ static bool is_bitmap(const char *text, size_t n)
     return n > 26 && has(text, n, 0, "BM", 2) && has(text, n, 6, "\0\0\0\0", 4);
 }
 
-/* Well-known binary as PostGIS prints it: hexadecimal digits, 01 or 00 and a polygon's or several's type. */
+/* Well-known binary as PostGIS prints it: hexadecimal digits, 01 or 00 and a polygon's or several's
+ * type. */
 static bool is_hexadecimal(const char *p)
 {
     bool little = strncmp(p, "0103000", 7) == 0 || strncmp(p, "0106000", 7) == 0;

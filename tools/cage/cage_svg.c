@@ -1,8 +1,9 @@
 /* Cages as SVG: the outline of a <path> or a <polygon>.
  *
  * Coordinates are taken as they are written, y downwards as in every picture. An element with the
- * id, or the inkscape:label, "source" or "target" is chosen by the role of the cage; else the file must have one shape only. A
- * transform on the shape or around it is refused, since reading on would misplace the cage. */
+ * id, or the inkscape:label, "source" or "target" is chosen by the role of the cage; else the file
+ * must have one shape only. A transform on the shape or around it is refused, since reading on
+ * would misplace the cage. */
 #include "cage/cage_readers.h"
 
 #include "base/number.h"

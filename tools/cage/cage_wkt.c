@@ -1,5 +1,6 @@
-/* Cages as well-known text: POLYGON ((x y, x y, ...)), or a MULTIPOLYGON of one part, with or without
- * SRID=...; in front. Heights and measures (Z, M, ZM, or just more numbers) are left out. */
+/* Cages as well-known text: POLYGON ((x y, x y, ...)), or a MULTIPOLYGON of one part, with or
+ * without SRID=...; in front. Heights and measures (Z, M, ZM, or just more numbers) are left out.
+ */
 #include "cage/cage_readers.h"
 
 #include "base/number.h"
@@ -45,8 +46,7 @@ static bool expect(reader *r, char c)
     if (next_is(r, c))
         return true;
     if (*r->at == '\0')
-        return spoilt(r->wrong, line_of(r->text, r->at), "the text ends early; '%c' is missing",
-                      c);
+        return spoilt(r->wrong, line_of(r->text, r->at), "the text ends early; '%c' is missing", c);
     return spoilt(r->wrong, line_of(r->text, r->at), "'%s' where '%c' is expected",
                   quoted(shown, r->at), c);
 }

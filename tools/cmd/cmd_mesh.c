@@ -2,17 +2,17 @@
  * tetrahedra. What lies outside the cage stays where it is, or nothing is written. */
 #include "cmd/commands.h"
 
+#include "base/allocate.h"
 #include "job/job.h"
 #include "job/output_name.h"
-#include "base/allocate.h"
 #include "mesh/mesh_file.h"
 #include "mesh/tally.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* What the library says of a mesh as a whole, which may have its images repaired; from target to source it has
- * nothing to say. */
+/* What the library says of a mesh as a whole, which may have its images repaired; from target to
+ * source it has nothing to say. */
 static int certify(job *j, const mesh_file *m, double *images, icc_certificate *certificate)
 {
     icc_error err = {.size = sizeof err, .index = -1};

@@ -2,10 +2,10 @@
 
 #include "job/job.h"
 
-#include "job/correspond.h"
-#include "cage/cage_read.h"
 #include "cage/cage_defects.h"
+#include "cage/cage_read.h"
 #include "cage/weld.h"
+#include "job/correspond.h"
 #include "job/fill.h"
 
 #include <stdio.h>

@@ -5,7 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Formats, and the extensions of their files with blanks between. Of most of them none is ever written. */
+/* Formats, and the extensions of their files with blanks between. Of most of them none is ever
+ * written. */
 static const struct {
     const char *name, *extensions;
 } formats[] = {
@@ -124,20 +125,19 @@ int output_fits(const char *of, const char *name, const char *list)
             return DONE;
         p += n;
     }
-    return misused(of, "'%.200s' is a name for %s, but what is written is %s", name, found,
-                   list);
+    return misused(of, "'%.200s' is a name for %s, but what is written is %s", name, found, list);
 }
 
 /* What the last operand may be, before its input has been looked at. */
 static const char *formats_of_operand(const args *a, const command *c)
 {
-    return a->geojson                             ? "GeoJSON, JSON"
-           : c->bit & FOR_WARP                    ? "PNG"
-           : c->bit & FOR_MESH                    ? "OBJ, OFF, PLY, Medit, VTK"
-           : c->bit & FOR_PLOT                    ? "SVG, VTK"
-           : c->bit & FOR_POSE && a->binding      ? "text"
-           : c->bit & FOR_POSE                    ? "text, OBJ, OFF, PLY, Medit, VTK, PNG"
-                                                  : NULL;
+    return a->geojson                        ? "GeoJSON, JSON"
+           : c->bit & FOR_WARP               ? "PNG"
+           : c->bit & FOR_MESH               ? "OBJ, OFF, PLY, Medit, VTK"
+           : c->bit & FOR_PLOT               ? "SVG, VTK"
+           : c->bit & FOR_POSE && a->binding ? "text"
+           : c->bit & FOR_POSE               ? "text, OBJ, OFF, PLY, Medit, VTK, PNG"
+                                             : NULL;
 }
 
 int output_names_check(const args *a, const command *c)

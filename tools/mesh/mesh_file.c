@@ -63,8 +63,9 @@ bool mesh_read(mesh_file *out, size_t dim, const char *text, size_t n, problem *
     if (foreign_told(text, n, wrong) || !read_bytes(&r))
         return false;
     if (out->n_vertices == 0)
-        return spoilt(wrong, 0,
-                      "there are no vertices; the file must be OBJ, OFF, PLY, Medit (.mesh) or VTK");
+        return spoilt(
+            wrong, 0,
+            "there are no vertices; the file must be OBJ, OFF, PLY, Medit (.mesh) or VTK");
     return true;
 }
 

@@ -1,5 +1,5 @@
-/* PLY, as text or binary: G. Turk, The PLY Polygon File Format, 1994. Of the vertices x, y and z are
- * looked at, of the faces the list vertex_indices; all else is carried along. */
+/* PLY, as text or binary: G. Turk, The PLY Polygon File Format, 1994. Of the vertices x, y and z
+ * are looked at, of the faces the list vertex_indices; all else is carried along. */
 #include "mesh/mesh_lines.h"
 
 #include "base/allocate.h"
@@ -40,7 +40,7 @@ typedef struct element {
 typedef struct ply {
     lines *r; /* its line counts on in text only; `end` is that of the file */
     const char *end;
-    const char *word; /* of text: where the last number began */
+    const char *word;    /* of text: where the last number began */
     bool used[PLY_SKIP]; /* which properties have been declared */
     size_t n_vertices;   /* that the header announces */
     size_t n_elements;
@@ -217,8 +217,9 @@ static bool read_text_value(ply *p, double *value)
     if (p->r->at < p->end && number_read(&p->r->at, value) != NUMBER_BAD &&
         (p->r->at == p->end || strchr(" \t\r\n", *p->r->at) != NULL))
         return true;
-    return p->r->at == p->end ? spoilt(p->r->wrong, p->r->line, "the file ends early")
-                           : spoilt(p->r->wrong, p->r->line, "'%s' is not a number", quoted(shown, word));
+    return p->r->at == p->end
+               ? spoilt(p->r->wrong, p->r->line, "the file ends early")
+               : spoilt(p->r->wrong, p->r->line, "'%s' is not a number", quoted(shown, word));
 }
 
 static double to_double(uint64_t bits, const ply_type *type)
@@ -260,8 +261,8 @@ static bool read_corner(ply *p, const ply_type *type)
     if (!read_value(p, type, &index))
         return false;
     if (!(index >= 0 && index < (double)p->n_vertices && floor(index) == index))
-        return spoilt(p->r->wrong, p->r->line, "the face has the vertex %.17g; there are %zu", index,
-                      p->n_vertices);
+        return spoilt(p->r->wrong, p->r->line, "the face has the vertex %.17g; there are %zu",
+                      index, p->n_vertices);
     lines_corner(p->r, (uint32_t)index);
     return true;
 }

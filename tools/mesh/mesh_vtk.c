@@ -1,5 +1,5 @@
-/* Legacy VTK as text: an unstructured grid, with the cells of version 2 (each begins with the number
- * of its corners) or 5 (OFFSETS and CONNECTIVITY). */
+/* Legacy VTK as text: an unstructured grid, with the cells of version 2 (each begins with the
+ * number of its corners) or 5 (OFFSETS and CONNECTIVITY). */
 #include "mesh/mesh_lines.h"
 
 #include "base/allocate.h"
@@ -154,8 +154,8 @@ static bool is_letter(char c)
     return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
 }
 
-/* Whether this line announces an array of data: four words, a name, two numbers and a type. Such an array
- * may be called like a section. */
+/* Whether this line announces an array of data: four words, a name, two numbers and a type. Such an
+ * array may be called like a section. */
 static bool is_array(const lines *r)
 {
     size_t n = 0;

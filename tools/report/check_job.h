@@ -37,8 +37,8 @@ int check_report(const check *c);
 
 /* ---- writing ---- */
 
-/* --repair in the plane: drops vertices of both cages alike until none is superfluous, and writes what
- * is left. */
+/* --repair in the plane: drops vertices of both cages alike until none is superfluous, and writes
+ * what is left. */
 int check_repair(check *c);
 
 /* --repair of a surface: joins vertices at one place, and writes it if it is closed then. */

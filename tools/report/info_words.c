@@ -4,7 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Euler's formula: a hole brings a saddle, whatever the function; further critical points are its own. */
+/* Euler's formula: a hole brings a saddle, whatever the function; further critical points are its
+ * own. */
 static const char *own_reason(const info *x)
 {
     if (x->chart.n_maxima == 1 && x->chart.n_minima == 0 && x->chart.n_saddles <= x->n_holes)
