@@ -36,7 +36,7 @@ static icc_status check_choice(int32_t value, int32_t first, int32_t last, const
 {
     if (value >= first && value <= last)
         return ICC_OK;
-    return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_weights_options.%s is %ld", member,
+    return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_weights_options.%s is %ld", member,
                      (long)value);
 }
 
@@ -44,7 +44,7 @@ static icc_status check_amount(double value, double most, const char *member, ic
 {
     if (value >= 0 && value <= most && isfinite(value))
         return ICC_OK;
-    return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_weights_options.%s is %g", member, value);
+    return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_weights_options.%s is %g", member, value);
 }
 
 static icc_status check_choices(const icc_weights_options *o, icc_error *err)
@@ -68,18 +68,18 @@ static icc_status check_choices(const icc_weights_options *o, icc_error *err)
 static icc_status check_edges(const icc_weights_options *o, size_t n_handles, icc_error *err)
 {
     if (o->n_edges > 0 && o->edges == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_weights_options.edges is NULL");
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_weights_options.edges is NULL");
     if (o->n_edges > UINT32_MAX / 2)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "there are too many edges: %zu", o->n_edges);
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "there are too many edges: %zu", o->n_edges);
     for (size_t e = 0; e < o->n_edges; ++e) {
         const uint32_t *ends = o->edges + 2 * e;
         if (ends[0] >= n_handles || ends[1] >= n_handles || ends[0] == ends[1])
-            return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)e,
+            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_EDGE, (int64_t)e,
                              "edge %zu joins handles %lu and %lu of %zu", e, (unsigned long)ends[0],
                              (unsigned long)ends[1], n_handles);
     }
     if (o->initial == ICC_INITIAL_EDGES && o->n_edges == 0)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1,
+        return iccp_fail(err, ICC_ERR_ARGUMENT,
                          "icc_weights_options.initial holds edges, but there are none");
     return ICC_OK;
 }
@@ -87,15 +87,15 @@ static icc_status check_edges(const icc_weights_options *o, size_t n_handles, ic
 static icc_status check_lines(const icc_weights_options *o, size_t dim, icc_error *err)
 {
     if (o->n_lines > 0 && o->lines == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_weights_options.lines is NULL");
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_weights_options.lines is NULL");
     if (o->n_lines > INT32_MAX)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "there are too many lines: %zu", o->n_lines);
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "there are too many lines: %zu", o->n_lines);
     for (size_t k = 0; k < o->n_lines; ++k) {
         const icc_line *line = &o->lines[k];
         if (!are_finite(dim, line->from) || !are_finite(dim, line->to))
-            return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)k, "line %zu is not finite", k);
+            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_LINE, (int64_t)k, "line %zu is not finite", k);
         if (line->parallel < 0 || (size_t)line->parallel > k)
-            return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)k,
+            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_LINE, (int64_t)k,
                              "line %zu: parallel is %ld; it may be parallel to an earlier line", k,
                              (long)line->parallel);
     }
@@ -108,24 +108,24 @@ static icc_status check_weights(const icc_weights_options *o, size_t n_samples, 
     if (o->initial != ICC_INITIAL_GIVEN)
         return ICC_OK;
     if (o->initial_weights == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_weights_options.initial_weights is NULL");
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_weights_options.initial_weights is NULL");
     const size_t i = first_infinite(n_samples, n_handles, o->initial_weights);
     if (i == n_samples)
         return ICC_OK;
-    return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)i,
+    return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_SAMPLE, (int64_t)i,
                      "an initial weight of sample %zu is not finite", i);
 }
 
 static icc_status check_handles(size_t dim, size_t n, const double *handles, icc_error *err)
 {
     if (n < dim + 1 || n > MAX_HANDLES)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1,
+        return iccp_fail(err, ICC_ERR_ARGUMENT,
                          "there are %zu handles; there must be %zu at least, to reproduce points",
                          n, dim + 1);
     const size_t j = first_infinite(n, dim, handles);
     if (j == n)
         return ICC_OK;
-    return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)j, "handle %zu is not finite", j);
+    return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_HANDLE, (int64_t)j, "handle %zu is not finite", j);
 }
 
 static void complete(icc_weights_options *o, double sigma)
@@ -165,7 +165,7 @@ icc_status icc_weights_create(icc_weights **out, const icc_sampling *sampling, s
     if (out != NULL)
         *out = NULL;
     if (out == NULL || sampling == NULL || handles == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_weights_create: an argument is NULL");
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_weights_create: an argument is NULL");
     iccp_env full_env;
     icc_weights_options full;
     icc_status status = iccp_env_read(&full_env, env, err);
@@ -229,12 +229,12 @@ icc_status icc_weights_get_report(const icc_weights *kernel, size_t n, const dou
                                  icc_weights_report *report, const icc_env *env, icc_error *err)
 {
     if (kernel == NULL || report == NULL || (n > 0 && points == NULL))
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_weights_get_report: an argument is NULL");
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_weights_get_report: an argument is NULL");
     iccp_env full_env;
     icc_weights_report full;
     const size_t i = first_infinite(n, kernel->layout->dim, points);
     if (i < n)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)i, "point %zu is not finite", i);
+        return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)i, "point %zu is not finite", i);
     icc_status status = iccp_env_read(&full_env, env, err);
     if (status == ICC_OK)
         status = iccp_weights_measure(kernel, n, points, &full, &full_env);
@@ -252,7 +252,7 @@ static icc_status begin(iccp_env *full, icc_weights **out, const icc_weights *ke
     if (out != NULL)
         *out = NULL;
     if (out == NULL || kernel == NULL || !complete_call)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "%s: an argument is NULL", name);
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "%s: an argument is NULL", name);
     return iccp_env_read(full, env, err);
 }
 
@@ -266,10 +266,10 @@ icc_status icc_weights_paint(icc_weights **out, const icc_weights *kernel, size_
     if (status != ICC_OK)
         return status;
     if (handle >= kernel->layout->n_handles)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "handle %zu does not exist", handle);
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "handle %zu does not exist", handle);
     if (!are_finite(kernel->layout->dim, centre) || !(radius > 0) || !isfinite(radius) ||
         !isfinite(amount))
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1,
+        return iccp_fail(err, ICC_ERR_ARGUMENT,
                          "icc_weights_paint: radius %g, amount %g, or a centre that is not finite",
                          radius, amount);
     return iccp_explain(err,
@@ -288,7 +288,7 @@ icc_status icc_weights_repaint(icc_weights **out, const icc_weights *kernel, siz
         return status;
     const size_t k = first_infinite(n, kernel->layout->n_handles, weights);
     if (k < n)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)k, "a weight for node %lu is not finite",
+        return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_NODE, (int64_t)k, "a weight for node %lu is not finite",
                          (unsigned long)nodes[k]);
     return iccp_explain(err, iccp_weights_repaint(out, kernel, n, nodes, weights, &full_env, err));
 }
@@ -302,7 +302,7 @@ icc_status icc_weights_with_method(icc_weights **out, const icc_weights *kernel,
     if (status != ICC_OK)
         return status;
     if (method < ICC_WEIGHTS_QP || method > ICC_WEIGHTS_L1)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "method is %ld", (long)method);
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "method is %ld", (long)method);
     return iccp_explain(err, iccp_weights_with_method(out, kernel, method, &full_env));
 }
 
@@ -317,7 +317,7 @@ icc_status icc_weights_stiffen(icc_weights **out, const icc_weights *kernel, siz
         return status;
     for (size_t k = 0; rigidity != NULL && k < n; ++k)
         if (!(rigidity[k] > 0) || !isfinite(rigidity[k]))
-            return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)k, "the rigidity of node %lu is %g",
+            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_NODE, (int64_t)k, "the rigidity of node %lu is %g",
                              (unsigned long)nodes[k], rigidity[k]);
     return iccp_explain(
         err, iccp_weights_stiffen(out, kernel, n, nodes, rigidity, energy, &full_env, err));

@@ -26,7 +26,7 @@ static const size_t MAX_POINTS = UINT32_MAX / 16; /* corners of triangles are nu
 static icc_status begin(iccp_env *full, const icc_env *env, const char *missing, icc_error *err)
 {
     if (missing != NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "%s is NULL", missing);
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "%s is NULL", missing);
     return iccp_env_read(full, env, err);
 }
 
@@ -45,7 +45,7 @@ icc_status icc_grid_create(icc_grid **out, const icc_domain *domain, int32_t cel
     if (cells == 0)
         cells = domain->mask == NULL ? DEFAULT_CELLS : 2;
     if (cells < ICCP_MIN_CELLS || cells > ICCP_MAX_CELLS)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "cells is %ld; it must lie in 2..%ld",
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "cells is %ld; it must lie in 2..%ld",
                          (long)cells, (long)ICCP_MAX_CELLS);
     return iccp_explain(err, iccp_grid_create(out, domain, cells, &full_env, err));
 }
@@ -64,11 +64,11 @@ icc_status icc_grid_create_mask(icc_grid **out, int32_t dim, const size_t *shape
     if (status != ICC_OK)
         return status;
     if (dim < 1 || dim > ICC_MAX_DIM)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "dim is %ld; it must lie in 1..%d", (long)dim,
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "dim is %ld; it must lie in 1..%d", (long)dim,
                          ICC_MAX_DIM);
     for (int32_t k = 0; k < dim; ++k)
         if (shape[k] == 0)
-            return iccp_fail(err, ICC_ERR_ARGUMENT, k, "shape[%ld] is 0", (long)k);
+            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_AXIS, k, "shape[%ld] is 0", (long)k);
     return iccp_explain(err, iccp_grid_create_mask(out, dim, shape, inside, &full_env, err));
 }
 
@@ -159,7 +159,7 @@ static icc_status check_axis_order(const int32_t *order, int32_t dim, icc_error 
     uint32_t seen = 0;
     for (int32_t k = 0; k < dim; ++k) {
         if (order[k] < 0 || order[k] >= dim || (seen >> order[k] & 1) != 0)
-            return iccp_fail(err, ICC_ERR_ARGUMENT, k,
+            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_AXIS, k,
                              "axis_order is not a permutation of 0..%ld: entry %ld is %ld",
                              (long)dim - 1, (long)k, (long)order[k]);
         seen |= (uint32_t)1 << order[k];
@@ -177,7 +177,7 @@ static icc_status read_tree_options(icc_tree_options *full, const icc_tree_optio
     if (full->form == 0)
         full->form = ICC_TREE_THESIS;
     if (full->form != ICC_TREE_THESIS && full->form != ICC_TREE_PAPER)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_tree_options.form is %ld",
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_tree_options.form is %ld",
                          (long)full->form);
     return check_axis_order(full->axis_order, dim, err);
 }
@@ -197,7 +197,7 @@ icc_status icc_tree_create(icc_tree **out, const icc_grid *grid, uint32_t root,
     if (status != ICC_OK)
         return status;
     if (root >= grid->n_vertices || !grid->inside[root])
-        return iccp_fail(err, ICC_ERR_ARGUMENT, root, "the root, vertex %lu, is not inside",
+        return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_GRID_VERTEX, root, "the root, vertex %lu, is not inside",
                          (unsigned long)root);
     return iccp_explain(
         err, iccp_tree_create(out, grid, root, full.form, full.axis_order, &full_env, err));
@@ -247,7 +247,7 @@ static icc_status check_wish(const icc_tree *tree, const double *values, icc_err
 {
     for (size_t i = 0; values != NULL && i < tree->n_inside; ++i)
         if (isnan(values[tree->order[i]]))
-            return iccp_fail(err, ICC_ERR_ARGUMENT, tree->order[i],
+            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_GRID_VERTEX, tree->order[i],
                              "the value of vertex %lu is NaN", (unsigned long)tree->order[i]);
     return ICC_OK;
 }
@@ -377,16 +377,16 @@ static icc_status localise(double *local, const icc_domain *polygon, size_t n_po
     for (size_t i = polygon->n_vertices; i < n_points; ++i) {
         const double *p = points + 2 * i;
         if (!isfinite(p[0]) || !isfinite(p[1]))
-            return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)i, "point %zu is not finite", i);
+            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)i, "point %zu is not finite", i);
         iccp_frame_in(&polygon->frame, 2, p, local + 2 * i);
         for (int k = 0; k < 2; ++k)
             if (local[2 * i + (size_t)k] < polygon->lower[k] ||
                 local[2 * i + (size_t)k] > polygon->upper[k])
-                return iccp_fail(err, ICC_ERR_OUTSIDE, (int64_t)i,
+                return iccp_fail_at(err, ICC_ERR_OUTSIDE, ICC_ITEM_POINT, (int64_t)i,
                                  "point %zu (%.17g, %.17g) is not inside the polygon", i, p[0],
                                  p[1]);
         if (!iccp_frame_holds(&polygon->frame, 2, p))
-            return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)i,
+            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)i,
                              "point %zu (%.17g, %.17g): a coordinate is not 0, but less than "
                              "2^-200 of the largest one",
                              i, p[0], p[1]);
@@ -418,7 +418,7 @@ icc_status icc_triangulate(size_t n_boundary, size_t n_points, const double *poi
     if (status != ICC_OK)
         return status;
     if (n_boundary < 3 || n_points < n_boundary || n_points > MAX_POINTS)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1,
+        return iccp_fail(err, ICC_ERR_ARGUMENT,
                          "a polygon of %zu vertices among %zu points: at least 3 vertices, and at "
                          "most %zu points",
                          n_boundary, n_points, MAX_POINTS);

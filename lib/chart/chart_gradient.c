@@ -27,7 +27,7 @@ static icc_status choose_root(const icc_grid *grid, const icc_domain *domain, co
     double local[ICC_MAX_DIM];
     iccp_frame_in(&domain->frame, domain->dim, maximum, local);
     if (iccp_domain_locate(domain, local, true, NULL, NULL) != ICC_INSIDE)
-        return iccp_fail(err, ICC_ERR_OUTSIDE, -1, "the maximum is not inside the domain");
+        return iccp_fail(err, ICC_ERR_OUTSIDE, "the maximum is not inside the domain");
     *root = iccp_grid_nearest(grid, local);
     return ICC_OK;
 }

@@ -128,7 +128,7 @@ icc_status iccp_recipe_judge(icc_chart **chart, icc_status status, uint64_t want
         return status;
     iccp_chart_release(*chart);
     *chart = NULL;
-    return iccp_fail(err, ICC_ERR_VERSION, -1,
+    return iccp_fail(err, ICC_ERR_VERSION,
                      status == ICC_OK
                          ? "the chart comes out otherwise here than where it was saved"
                          : "the chart cannot be made here as it was where it was saved");

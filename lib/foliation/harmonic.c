@@ -24,14 +24,14 @@ icc_status iccp_harmonic_create(iccp_harmonic *base, const icc_domain *domain,
     const double meshed = iccp_seconds();
     base->seconds_mesh = meshed - start;
     if (base->mesh.n_vertices == base->mesh.n_boundary)
-        status = iccp_fail(err, ICC_ERR_RESOLUTION, -1,
+        status = iccp_fail(err, ICC_ERR_RESOLUTION,
                            "the mesh has no vertex inside: use more cells");
     if (status == ICC_OK) {
         status = iccp_laplacian_create(&base->laplacian, &base->mesh, ICCP_NO_NEIGHBOUR, env);
         if (status == ICC_OK)
             status = iccp_spd_create(&base->solver, &base->laplacian.matrix, false, env);
         if (status == ICC_ERR_SOLVER)
-            (void)iccp_fail(err, status, -1, "the mesh's equations cannot be factorised");
+            (void)iccp_fail(err, status, "the mesh's equations cannot be factorised");
     }
     base->seconds_solve = iccp_seconds() - meshed;
     if (status != ICC_OK)

@@ -190,7 +190,7 @@ icc_status iccp_laplace(icc_function *function, const icc_function_options *opti
     job j = {.function = function, .options = options};
     const icc_tree *tree = function->tree;
     if (tree->n_inside < 2)
-        return iccp_fail(err, ICC_ERR_RESOLUTION, tree->root,
+        return iccp_fail_at(err, ICC_ERR_RESOLUTION, ICC_ITEM_GRID_VERTEX, tree->root,
                          "the grid is too coarse: vertex %lu is the only one inside that the tree "
                          "reaches",
                          (unsigned long)tree->root);
@@ -199,7 +199,7 @@ icc_status iccp_laplace(icc_function *function, const icc_function_options *opti
     const icc_status status = make(&j, env);
     end(&j, env);
     if (status == ICC_ERR_SOLVER)
-        return iccp_fail(err, status, -1, "the %s solver did not converge",
+        return iccp_fail(err, status, "the %s solver did not converge",
                          function->info.solver == ICC_SOLVER_DIRECT ? "direct" : "iterative");
     return status;
 }

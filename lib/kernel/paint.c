@@ -64,10 +64,10 @@ static icc_status check_nodes(const iccp_layout *l, size_t n, const uint32_t *no
     icc_status status = seen != NULL ? ICC_OK : ICC_ERR_MEMORY;
     for (size_t k = 0; status == ICC_OK && k < n; ++k) {
         if (nodes[k] >= l->n)
-            status = iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)k, "node %lu does not exist",
+            status = iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_NODE, (int64_t)k, "node %lu does not exist",
                                (unsigned long)nodes[k]);
         else if (seen[nodes[k]])
-            status = iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)k, "node %lu is named twice",
+            status = iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_NODE, (int64_t)k, "node %lu is named twice",
                                (unsigned long)nodes[k]);
         else
             seen[nodes[k]] = true;

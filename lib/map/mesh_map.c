@@ -81,12 +81,12 @@ static icc_status certify(const iccp_plmap *pl, const iccp_env *env, icc_error *
                         pl->corners.vertex[iccp_before(twin)] != pl->corners.vertex[iccp_after(c)];
     }
     if (n_faults > 0 || 2 * pl->n_vertices != n_triangles + n_open + 2)
-        return iccp_fail(err, ICC_ERR_CERTIFICATE, -1,
+        return iccp_fail(err, ICC_ERR_CERTIFICATE,
                          "the mesh map cannot be certified: %zu faults", n_faults);
     const icc_status status =
         iccp_outline_check(&pl->corners, pl->n_vertices, pl->points, pl->images, env);
     return status == ICC_ERR_BOUNDARY
-               ? iccp_fail(err, ICC_ERR_CERTIFICATE, -1,
+               ? iccp_fail(err, ICC_ERR_CERTIFICATE,
                            "the boundary of the mesh or of its image is not simple")
                : status;
 }

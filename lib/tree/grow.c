@@ -230,7 +230,7 @@ static icc_status fail_stuck(const growth *g, const icc_grow_report *report, icc
     for (int32_t k = 0; k < g->tree->grid->dim; ++k)
         used += snprintf(at + used, sizeof at - (size_t)used, "%s%" PRIu32, k == 0 ? "" : ", ",
                          iccp_grid_coordinate(g->tree->grid, report->vertex, k));
-    return iccp_fail(err, ICC_ERR_TOPOLOGY, report->vertex,
+    return iccp_fail_at(err, ICC_ERR_TOPOLOGY, ICC_ITEM_GRID_VERTEX, report->vertex,
                      "no order with one critical vertex was found: growth stops before vertex "
                      "%" PRIu32 " (%s), %zu of %zu left, thinning leaves %zu; try a finer grid",
                      report->vertex, at, report->n_unplaced, g->n, report->n_remaining);

@@ -29,6 +29,22 @@ IS(ICC_ERR_FORMAT, 13);
 
 IS(ICC_MAX_DIM, 6);
 
+IS(ICC_ITEM_NONE, 0);
+IS(ICC_ITEM_VERTEX, 1);
+IS(ICC_ITEM_FACET, 2);
+IS(ICC_ITEM_SIMPLEX, 3);
+IS(ICC_ITEM_CELL, 4);
+IS(ICC_ITEM_GRID_VERTEX, 5);
+IS(ICC_ITEM_AXIS, 6);
+IS(ICC_ITEM_POINT, 7);
+IS(ICC_ITEM_REGION, 8);
+IS(ICC_ITEM_SEGMENT, 9);
+IS(ICC_ITEM_SAMPLE, 10);
+IS(ICC_ITEM_HANDLE, 11);
+IS(ICC_ITEM_EDGE, 12);
+IS(ICC_ITEM_LINE, 13);
+IS(ICC_ITEM_NODE, 14);
+
 IS(ICC_INSIDE, 1);
 IS(ICC_BOUNDARY, 2);
 IS(ICC_OUTSIDE, 3);
@@ -89,12 +105,13 @@ IS(ICC_WEIGHTS_L1, 3);
 
 #if defined(__LP64__)
 
-SIZE(icc_error, 264);
+SIZE(icc_error, 280);
 AT(icc_error, size, 0);
 AT(icc_error, status, 8);
 AT(icc_error, side, 12);
 AT(icc_error, index, 16);
-AT(icc_error, message, 24);
+AT(icc_error, item, 24);
+AT(icc_error, message, 28);
 
 SIZE(icc_env, 64);
 AT(icc_env, size, 0);

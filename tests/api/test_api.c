@@ -279,6 +279,7 @@ START_TEST(certificates_refuse_bad_arguments)
         t[7] = N_CORNERS;
         EXPLAINED(f(o.map, N_CORNERS, SOURCE, 4, t, images, &c, NULL, &err));
         ck_assert_int_eq(err.index, 2);
+        ck_assert_int_eq(err.item, ICC_ITEM_SIMPLEX);
         t[7] = TRIANGLES[7];
         c.size = 7;
         EXPLAINED(f(o.map, N_CORNERS, SOURCE, 4, t, images, &c, NULL, &err));
@@ -408,15 +409,18 @@ START_TEST(the_triangulation_refuses_bad_arguments)
     points[2 * N_CORNERS] = NAN;
     EXPLAINED(icc_triangulate(N_CORNERS, N_CORNERS + 1, points, triangles, NULL, &err));
     ck_assert_int_eq(err.index, N_CORNERS);
+    ck_assert_int_eq(err.item, ICC_ITEM_POINT);
     points[2 * N_CORNERS] = 2.5;
     points[2 * N_CORNERS + 1] = 2.5;
     ck_assert_int_eq(icc_triangulate(N_CORNERS, N_CORNERS + 1, points, triangles, NULL, &err),
                      ICC_ERR_OUTSIDE);
     ck_assert_int_eq(err.index, N_CORNERS);
+    ck_assert_int_eq(err.item, ICC_ITEM_POINT);
     points[0] = NAN;
     ck_assert_int_eq(icc_triangulate(N_CORNERS, N_CORNERS + 1, points, triangles, NULL, &err),
                      ICC_ERR_BOUNDARY);
     ck_assert_int_eq(err.index, 0);
+    ck_assert_int_eq(err.item, ICC_ITEM_VERTEX);
 }
 END_TEST
 
@@ -428,9 +432,11 @@ START_TEST(the_triangulation_names_the_point)
     const double tiny[12] = {-1, -1, 1, -1, 1, 1, -1, 1, 0.5, 0.5, 1e-70, 0.25};
     ck_assert_int_eq(icc_triangulate(4, 6, tiny, triangles, NULL, &err), ICC_ERR_ARGUMENT);
     ck_assert_int_eq(err.index, 5);
+    ck_assert_int_eq(err.item, ICC_ITEM_POINT);
     const double far[12] = {-1, -1, 1, -1, 1, 1, -1, 1, 0.5, 0.5, 1e300, 0.25};
     ck_assert_int_eq(icc_triangulate(4, 6, far, triangles, NULL, &err), ICC_ERR_OUTSIDE);
     ck_assert_int_eq(err.index, 5);
+    ck_assert_int_eq(err.item, ICC_ITEM_POINT);
 }
 END_TEST
 

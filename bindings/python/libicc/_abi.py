@@ -14,7 +14,7 @@ MAX_DIM = 6
 
 # Every struct begins with `size`. Each line: name, then member:type.
 STRUCTS = """
-error status:i32 side:i32 index:i64 message:char[240]
+error status:i32 side:i32 index:i64 item:i32 message:char[252]
 env user:ptr alloc:ptr dealloc:ptr log:ptr progress:ptr parallel_for:ptr threads:i32
 domain_info dim:i32 orientation:i32 n_vertices:size n_facets:size lower:f64[6] upper:f64[6] measure:f64
 chart_options method:i32 function:i32 tree:i32 cells:i32 maximum:ptr constraints:i32 solver:i32 min_fall:f64 leaf_min:f64

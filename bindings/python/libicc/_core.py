@@ -82,7 +82,7 @@ class Call:
         if status != 0:
             error = self.error
             text = error.message.decode("utf-8", "replace") if error.status == status else ""
-            fail(status, text, error.index, error.side)
+            fail(status, text, error.index, error.side, error.item)
 
 
 def _threads(wanted: Optional[int]) -> int:

@@ -86,6 +86,38 @@ pub const ICC_ERR_FORMAT: i32 = 13;
 /// largest dimension of a domain or grid
 pub const ICC_MAX_DIM: usize = 6;
 
+// What `icc_error.index` counts.
+/// nothing: index is -1
+pub const ICC_ITEM_NONE: i32 = 0;
+/// vertices of a boundary, a mesh or the curves of a shape
+pub const ICC_ITEM_VERTEX: i32 = 1;
+/// facets of a boundary; edges of a polygon
+pub const ICC_ITEM_FACET: i32 = 2;
+/// simplices of a mesh
+pub const ICC_ITEM_SIMPLEX: i32 = 3;
+/// cells of a mask, the first axis fastest
+pub const ICC_ITEM_CELL: i32 = 4;
+/// vertices of a grid
+pub const ICC_ITEM_GRID_VERTEX: i32 = 5;
+/// axes
+pub const ICC_ITEM_AXIS: i32 = 6;
+/// points of a list
+pub const ICC_ITEM_POINT: i32 = 7;
+/// regions of a shape
+pub const ICC_ITEM_REGION: i32 = 8;
+/// segments of a shape's curves
+pub const ICC_ITEM_SEGMENT: i32 = 9;
+/// samples of a sampling
+pub const ICC_ITEM_SAMPLE: i32 = 10;
+/// handles
+pub const ICC_ITEM_HANDLE: i32 = 11;
+/// edges between handles
+pub const ICC_ITEM_EDGE: i32 = 12;
+/// lines to keep straight
+pub const ICC_ITEM_LINE: i32 = 13;
+/// entries of a list of nodes
+pub const ICC_ITEM_NODE: i32 = 14;
+
 /// What went wrong, filled in by the call that failed.
 ///
 /// Owned by the caller, who sets `size` to `sizeof(icc_error)` before the call;
@@ -100,10 +132,12 @@ pub struct icc_error {
     pub status: icc_status,
     /// 0: neither; 1: the source; 2: the target
     pub side: i32,
-    /// the vertex, facet, cell or point at fault, or -1
+    /// which item is at fault, from 0, or -1
     pub index: i64,
+    /// what it is: `ICC_ITEM_*`
+    pub item: i32,
     /// one line of English, always terminated
-    pub message: [c_char; 240],
+    pub message: [c_char; 252],
 }
 sized!(icc_error);
 

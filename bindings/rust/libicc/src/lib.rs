@@ -57,7 +57,7 @@ pub use chart::{
 };
 pub use domain::{boundary_defects, repair_mask, BoundaryPoints, Defect, Domain, DomainInfo, Place};
 pub use env::Env;
-pub use error::{Error, Result, Side, Status};
+pub use error::{Error, Item, Result, Side, Status};
 pub use map::{Certificate, ImproveOptions, ImproveReport, Map, MapInfo, MapKind, MapMesh, MapOptions};
 pub use object::Borrowed;
 pub use picture::{Layout, Picture, PictureMut};
