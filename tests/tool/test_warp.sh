@@ -98,6 +98,16 @@ printf '2 2\n62 2\n62 20\n40 2.5\n30 2.5\n20 60\n2 60\n' >thin.txt
 run 4 warp -s thin.txt -t thin.txt -m gradient --cells 8 in.png out.png
 grep -q '^libicc: [0-9]* of 4096 pixels have no image' err || complain "not counted: $(cat err)"
 same_picture in.png out.png "without an image"
+echo old >kept.png
+run 1 warp -s thin.txt -t thin.txt -m gradient --cells 8 --outside fail in.png kept.png
+says 'pixels have no image in the source, so nothing is written'
+holds kept.png old
+run 0 warp -s thin.txt -t thin.txt --outside keep in.png out.png
+run 0 warp -s thin.txt -t thin.txt in.png kept.png
+same_picture kept.png out.png "pixels outside are kept"
+run 0 warp -s thin.txt -t thin.txt --outside null in.png out.png
+run 0 warp -s thin.txt -t thin.txt --background 00000000 in.png kept.png
+same_picture kept.png out.png "pixels outside are cleared"
 for method in foliation disc; do
     for map in mesh curves; do
         run 0 warp -s thin.txt -t thin.txt -m "$method" --map "$map" --cells 8 in.png out.png

@@ -52,6 +52,12 @@ void json_text(json *j, const char *name, const char *value)
     json_string(j->stream, value);
 }
 
+void json_raw(json *j, const char *name, const char *text, size_t n)
+{
+    begin(j, name);
+    fwrite(text, 1, n, j->stream);
+}
+
 void json_count(json *j, const char *name, size_t value)
 {
     begin(j, name);

@@ -19,6 +19,8 @@ void json_text(json *j, const char *name, const char *value);
 void json_count(json *j, const char *name, size_t value);
 void json_flag(json *j, const char *name, bool value);
 void json_number(json *j, const char *name, double value); /* null when it is not finite */
+/* A value that is JSON already. */
+void json_raw(json *j, const char *name, const char *text, size_t n);
 
 /* A string by itself. */
 void json_string(FILE *stream, const char *text);

@@ -1,307 +1,113 @@
-/* libicc map --geojson: carries the geometries of a GeoJSON file (RFC 7946) along.
- *
- * Everything but coordinates stays as it is, except that bounding boxes are dropped, since they would
- * be wrong. So is what has no image: points and polygons become empty, which readers take for none,
- * and lines are cut. */
+/* libicc map --geojson: carries the geometries of a GeoJSON file (RFC 7946) along. */
 #include "cmd/commands.h"
 
-#include "cmd/densify.h"
 #include "base/allocate.h"
+#include "geo/geo_carry.h"
+#include "job/job.h"
 
-#include <cjson/cJSON.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct carriage {
-    job job;
-    double tolerance;
-    int result;                          /* DONE until something fails */
-    const char *type;                    /* of the geometry at hand */
-    bool curtailed;                      /* a part of it has no image */
-    size_t n_positions, n_without_image; /* of those in the file */
-    size_t n_curtailed;                  /* geometries */
-} carriage;
+enum { MAX_NAMED = 10, NAME_ROOM = 128 };
 
-/* ------------------------------------------------------------- coordinates */
-
-static void read_position(carriage *c, const cJSON *position, polyline *line)
+static geo_policy policy_of(const args *a)
 {
-    double point[3];
-    for (int k = 0; k < 3; k++) {
-        const cJSON *item = cJSON_IsArray(position) ? cJSON_GetArrayItem(position, k) : NULL;
-        point[k] = cJSON_IsNumber(item) ? item->valuedouble : NAN;
-        if ((k < 2 || item != NULL) && !isfinite(point[k]) && c->result == DONE)
-            c->result = failed(c->job.args->operands[0], 0,
-                               "position %zu, in a %s, is not two or three finite numbers",
-                               c->n_positions, c->type);
-    }
-    polyline_add(line, point);
-    c->n_positions++;
+    return a->outside == OUTSIDE_KEEP   ? GEO_KEEP
+           : a->outside == OUTSIDE_CLIP ? GEO_CLIP
+           : a->outside == OUTSIDE_FAIL ? GEO_FAIL
+                                        : GEO_NULL;
 }
 
-static size_t count_missing(const polyline *line)
+/* Ids of people's own making are cut short, between characters of UTF-8. */
+static void name_fault(char out[NAME_ROOM], const geo_fault *fault, const char *text)
 {
-    size_t n = 0;
-    for (size_t i = 0; i < line->n; i++)
-        n += isnan(line->images[2 * i]) ? 1 : 0;
-    return n;
-}
-
-/* Maps a list of positions. With a tolerance they are a line. */
-static polyline carry_positions(carriage *c, const cJSON *positions, double tolerance)
-{
-    polyline line = {0};
-    const cJSON *position;
-    cJSON_ArrayForEach(position, positions) read_position(c, position, &line);
-    if (c->result == DONE)
-        c->result = polyline_map(&line, &c->job);
-    if (c->result == DONE)
-        c->n_without_image += count_missing(&line);
-    if (c->result == DONE && tolerance > 0)
-        c->result = polyline_densify(&line, &c->job, tolerance);
-    if (c->result != DONE)
-        polyline_free(&line);
-    c->curtailed = c->curtailed || count_missing(&line) > 0;
-    return line;
-}
-
-static cJSON *position_item(const polyline *line, size_t i)
-{
-    double z = line->points[3 * i + 2],
-           numbers[3] = {line->images[2 * i], line->images[2 * i + 1], z};
-    return cJSON_CreateDoubleArray(numbers, isnan(z) ? 2 : 3);
-}
-
-/* The vertices from `first` up to `end` that have an image. */
-static cJSON *list_item(const polyline *line, size_t first, size_t end)
-{
-    cJSON *list = cJSON_CreateArray();
-    for (size_t i = first; i < end; i++)
-        if (!isnan(line->images[2 * i]))
-            cJSON_AddItemToArray(list, position_item(line, i));
-    return list;
-}
-
-static cJSON *carry_point(carriage *c, const cJSON *position)
-{
-    polyline line = {0};
-    read_position(c, position, &line);
-    if (c->result == DONE)
-        c->result = polyline_map(&line, &c->job);
-    c->curtailed = c->result == DONE && count_missing(&line) > 0;
-    c->n_without_image += c->curtailed;
-    cJSON *item =
-        c->result == DONE && !c->curtailed ? position_item(&line, 0) : cJSON_CreateArray();
-    polyline_free(&line);
-    return item;
-}
-
-static cJSON *carry_points(carriage *c, const cJSON *positions)
-{
-    polyline line = carry_positions(c, positions, 0);
-    cJSON *item = list_item(&line, 0, line.n);
-    polyline_free(&line);
-    return item;
-}
-
-/* Adds the parts of a line that have an image to a list. */
-static void carry_line(carriage *c, const cJSON *positions, cJSON *parts)
-{
-    polyline line = carry_positions(c, positions, c->tolerance);
-    for (size_t i = 0, end; i < line.n; i = end + 1) {
-        for (end = i; end < line.n && !isnan(line.images[2 * end]);)
-            end++;
-        if (end > i + 1)
-            cJSON_AddItemToArray(parts, list_item(&line, i, end));
-    }
-    polyline_free(&line);
-}
-
-/* Empty when a part of any ring has no image. */
-static cJSON *carry_polygon(carriage *c, const cJSON *rings)
-{
-    cJSON *list = cJSON_CreateArray();
-    const cJSON *ring;
-    bool whole = true;
-    cJSON_ArrayForEach(ring, rings)
-    {
-        polyline line = carry_positions(c, ring, c->tolerance);
-        whole = whole && count_missing(&line) == 0;
-        cJSON_AddItemToArray(list, list_item(&line, 0, line.n));
-        polyline_free(&line);
-    }
-    if (whole)
-        return list;
-    cJSON_Delete(list);
-    return cJSON_CreateArray();
-}
-
-/* -------------------------------------------------------------- geometries */
-
-static void replace(cJSON *object, const char *name, cJSON *item)
-{
-    cJSON_ReplaceItemInObjectCaseSensitive(object, name, item);
-}
-
-/* A line that falls apart becomes several. */
-static void carry_line_string(carriage *c, cJSON *geometry, const cJSON *positions)
-{
-    cJSON *parts = cJSON_CreateArray();
-    carry_line(c, positions, parts);
-    if (cJSON_GetArraySize(parts) > 1) {
-        replace(geometry, "type", cJSON_CreateString("MultiLineString"));
-        replace(geometry, "coordinates", parts);
-        return;
-    }
-    cJSON *only = cJSON_DetachItemFromArray(parts, 0);
-    replace(geometry, "coordinates", only != NULL ? only : cJSON_CreateArray());
-    cJSON_Delete(parts);
-}
-
-static void carry_parts(carriage *c, cJSON *geometry, const cJSON *coordinates, bool polygons)
-{
-    cJSON *parts = cJSON_CreateArray();
-    const cJSON *part;
-    cJSON_ArrayForEach(part, coordinates)
-    {
-        cJSON *polygon = polygons ? carry_polygon(c, part) : NULL;
-        if (!polygons)
-            carry_line(c, part, parts);
-        else if (cJSON_GetArraySize(polygon) > 0)
-            cJSON_AddItemToArray(parts, polygon);
-        else
-            cJSON_Delete(polygon);
-    }
-    replace(geometry, "coordinates", parts);
-}
-
-static bool is_type(const char *type, const char *name)
-{
-    return strcmp(type, name) == 0;
-}
-
-static void carry_geometry(carriage *c, cJSON *geometry, const char *type)
-{
-    const cJSON *coordinates = cJSON_GetObjectItemCaseSensitive(geometry, "coordinates");
-    char shown[32];
-    c->type = type;
-    c->curtailed = false;
-    if (!cJSON_IsArray(coordinates))
-        c->result =
-            failed(c->job.args->operands[0], 0, "a '%s' has no coordinates", quoted(shown, type));
-    else if (cJSON_GetArraySize(coordinates) == 0)
-        return;
-    else if (is_type(type, "Point"))
-        replace(geometry, "coordinates", carry_point(c, coordinates));
-    else if (is_type(type, "MultiPoint"))
-        replace(geometry, "coordinates", carry_points(c, coordinates));
-    else if (is_type(type, "LineString"))
-        carry_line_string(c, geometry, coordinates);
-    else if (is_type(type, "MultiLineString"))
-        carry_parts(c, geometry, coordinates, false);
-    else if (is_type(type, "Polygon"))
-        replace(geometry, "coordinates", carry_polygon(c, coordinates));
-    else if (is_type(type, "MultiPolygon"))
-        carry_parts(c, geometry, coordinates, true);
+    size_t n = fault->id.end - fault->id.begin;
+    const char *id = text + fault->id.begin, *dots = n > 48 ? ".." : "";
+    n = n > 48 ? 48 : n;
+    while (n > 0 && ((unsigned char)id[n] & 0xc0) == 0x80)
+        n--;
+    if (!fault->feature)
+        snprintf(out, NAME_ROOM, "the geometry in line %zu", fault->line);
+    else if (n == 0)
+        snprintf(out, NAME_ROOM, "feature %u (line %zu)", (unsigned)fault->number, fault->line);
     else
-        c->result =
-            failed(c->job.args->operands[0], 0, "'%s' is no type of GeoJSON", quoted(shown, type));
-    c->n_curtailed += c->curtailed;
+        snprintf(out, NAME_ROOM, "feature %u (id %.*s%s)", (unsigned)fault->number, (int)n, id,
+                 dots);
 }
 
-/* An object of any type. cJSON reads at most 1000 levels, so the recursion is bounded. */
-static void carry_object(carriage *c, cJSON *object)
+/* One line with the first of those that are not carried. */
+static void name_faults(const geo_result *r, const char *text, char *out, size_t room)
 {
-    static const char *const lists[] = {"features", "geometries"};
-    const char *type = cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(object, "type"));
-    cJSON_DeleteItemFromObjectCaseSensitive(object, "bbox");
-    if (type == NULL)
-        c->result = failed(c->job.args->operands[0], 0, "this is not GeoJSON: a type is missing");
-    else if (is_type(type, "FeatureCollection") || is_type(type, "GeometryCollection")) {
-        cJSON *list = cJSON_GetObjectItemCaseSensitive(object, lists[*type == 'G']), *item;
-        cJSON_ArrayForEach(item, list) if (c->result == DONE) carry_object(c, item);
-    } else if (is_type(type, "Feature")) {
-        cJSON *geometry = cJSON_GetObjectItemCaseSensitive(object, "geometry");
-        if (cJSON_IsObject(geometry))
-            carry_object(c, geometry);
-    } else
-        carry_geometry(c, object, type);
-}
-
-/* ------------------------------------------------------------ file to file */
-
-/* As few digits as give the same double again. */
-static void write_number(FILE *stream, double value)
-{
-    char text[32];
-    snprintf(text, sizeof text, "%.15g", value);
-    if (strtod(text, NULL) < value || strtod(text, NULL) > value)
-        snprintf(text, sizeof text, "%.17g", value);
-    fputs(isfinite(value) ? text : "null", stream);
-}
-
-/* In one line, but for the members of lists of objects. */
-static void write_item(FILE *stream, const cJSON *item)
-{
-    if (cJSON_IsString(item))
-        json_string(stream, item->valuestring);
-    else if (cJSON_IsNumber(item))
-        write_number(stream, item->valuedouble);
-    else if (!cJSON_IsArray(item) && !cJSON_IsObject(item))
-        fputs(cJSON_IsTrue(item) ? "true" : cJSON_IsFalse(item) ? "false" : "null", stream);
-    else {
-        bool object = cJSON_IsObject(item);
-        const cJSON *child;
-        fputc(object ? '{' : '[', stream);
-        cJSON_ArrayForEach(child, item)
-        {
-            if (child != item->child)
-                fputs(", ", stream);
-            if (cJSON_IsObject(child) && !object)
-                fputc('\n', stream);
-            if (object) {
-                json_string(stream, child->string);
-                fputs(": ", stream);
-            }
-            write_item(stream, child);
-        }
-        fputc(object ? '}' : ']', stream);
+    size_t used = 0;
+    for (size_t i = 0; i < r->n_faults && i < MAX_NAMED; i++) {
+        char name[NAME_ROOM];
+        name_fault(name, &r->faults[i], text);
+        used += (size_t)snprintf(out + used, room - used, "%s%s: %s", i > 0 ? ", " : "", name,
+                                 r->faults[i].fate);
     }
+    if (r->n_faults > MAX_NAMED)
+        snprintf(out + used, room - used, " and %zu more, which --json=FILE lists",
+                 r->n_faults - MAX_NAMED);
 }
 
-static int write_file(const carriage *c, const cJSON *root)
+static void report_fault(json *j, const geo_fault *fault, const char *text)
 {
-    outfile file;
-    if (!outfile_open(&file, c->job.args->operands[1]))
+    json_open(j, NULL, '{');
+    if (fault->feature)
+        json_count(j, "feature", fault->number);
+    if (geo_has(fault->id))
+        json_raw(j, "id", text + fault->id.begin, fault->id.end - fault->id.begin);
+    json_count(j, "line", fault->line);
+    json_count(j, "without_image", fault->n_without);
+    json_text(j, "result", fault->fate);
+    json_close(j, '}');
+}
+
+static int report_all(const job *j, const geo_result *r, const char *text, double seconds)
+{
+    report out;
+    if (!j->args->json)
+        return DONE;
+    if (!report_open(&out, j))
         return FAILED;
-    write_item(file.stream, root);
-    fputc('\n', file.stream);
-    return outfile_close(&file) ? DONE : FAILED;
+    json_count(&out.json, "points", r->n_positions);
+    json_count(&out.json, "without_image", r->n_without);
+    json_count(&out.json, "features", r->n_features);
+    json_open(&out.json, "not_carried", '[');
+    for (size_t i = 0; i < r->n_faults; i++)
+        report_fault(&out.json, &r->faults[i], text);
+    json_close(&out.json, ']');
+    report_times(&out, j, seconds);
+    return report_close(&out) ? DONE : FAILED;
 }
 
-static cJSON *read_file(const char *name)
+/* Writes the result, unless that is not wanted or would cost the only copy of what is not carried. The report comes
+ * first, so that whatever fails leaves the file as it was. */
+static int finish(const job *j, geo_result *r, const char *text, size_t n, double seconds)
 {
-    size_t n;
-    const char *end = NULL;
-    char *text = file_read(name, &n);
-    if (text == NULL)
-        return NULL;
-    cJSON *root = cJSON_ParseWithLengthOpts(text, n + 1, &end, 1);
-    if (root == NULL)
-        failed(name, line_of(text, end),
-               end >= text + n ? "the JSON ends early" : "this is not valid JSON");
-    free(text);
-    return root;
-}
-
-static int verdict(carriage *c, double began)
-{
-    int result = report_points(&c->job, c->n_positions, c->n_without_image, seconds_now() - began);
-    if (result != DONE || c->n_curtailed == 0)
-        return result;
-    note("%zu of %zu positions have no image; %zu geometries are cut or empty", c->n_without_image,
-         c->n_positions, c->n_curtailed);
+    const char *in = j->args->operands[0], *to = j->args->operands[1];
+    char names[MAX_NAMED * (NAME_ROOM + 16) + 64] = "";
+    bool lost = r->n_faults > 0, over = lost && file_is_same(in, to);
+    name_faults(r, text, names, sizeof names);
+    int result = report_all(j, r, text, seconds);
+    if (result == DONE && lost && j->args->outside == OUTSIDE_FAIL)
+        return failed(in, 0, "not all of it lies in the cage, so nothing is written: %s", names);
+    if (result == DONE && over)
+        return failed(
+            in, 0,
+            "would be overwritten, and not all of it can be carried: %s; write to another file",
+            names);
+    outfile file;
+    if (result != DONE || !outfile_open(&file, to))
+        return FAILED;
+    edits_write(&r->edits, text, n, file.stream);
+    if (!outfile_close(&file))
+        return FAILED;
+    if (!lost)
+        return DONE;
+    note("%zu of %zu features are not carried as they were, %zu of %zu positions have no image: %s",
+         r->n_faults, r->n_features, r->n_without, r->n_positions, names);
     return PARTIAL;
 }
 
@@ -314,33 +120,42 @@ static double choose_tolerance(const job *j)
     return j->args->tolerance > 0 ? j->args->tolerance : size / 1000;
 }
 
-static void *allocate(size_t n)
+/* Reads the text, carries it with the job's map, and writes what has become of it. */
+static int carry_file(job *j)
 {
-    return need(n, 1);
+    const char *name = j->args->operands[0];
+    size_t n;
+    char *text = file_read(name, &n);
+    if (text == NULL)
+        return FAILED;
+    carrier c;
+    geo_result r = {0};
+    problem wrong;
+    double began = seconds_now();
+    int result = job_start_carrier(j, &c);
+    if (result == DONE &&
+        !geo_carry(&r, &c, policy_of(j->args), choose_tolerance(j), text, n, &wrong)) {
+        progress_end(&j->bar);
+        result = failed(name, wrong.line, "%s", wrong.text);
+    }
+    progress_end(&j->bar);
+    if (result == DONE)
+        result = finish(j, &r, text, n, seconds_now() - began);
+    geo_result_free(&r);
+    carrier_free(&c);
+    free(text);
+    return result;
 }
 
 int run_geojson(const args *a)
 {
-    cJSON_Hooks hooks = {.malloc_fn = allocate, .free_fn = free};
-    cJSON_InitHooks(&hooks);
-    carriage c = {0};
-    job_start(&c.job, a);
-    c.result = job_read_plane(&c.job, "--geojson");
-    if (c.result == DONE)
-        c.result = job_make_map(&c.job);
-    cJSON *root = c.result == DONE ? read_file(a->operands[0]) : NULL;
-    if (root != NULL) {
-        double began = seconds_now();
-        c.tolerance = choose_tolerance(&c.job);
-        carry_object(&c, root);
-        progress_end(&c.job.bar);
-        if (c.result == DONE)
-            c.result = write_file(&c, root);
-        if (c.result == DONE)
-            c.result = verdict(&c, began);
-    } else if (c.result == DONE)
-        c.result = FAILED;
-    cJSON_Delete(root);
-    job_end(&c.job);
-    return c.result;
+    job j;
+    job_start(&j, a);
+    int result = job_read_plane(&j, "--geojson");
+    if (result == DONE)
+        result = job_make_map(&j);
+    if (result == DONE)
+        result = carry_file(&j);
+    job_end(&j);
+    return result;
 }

@@ -5,24 +5,67 @@
 #include "job/point_file.h"
 
 #include <stdlib.h>
+#include <string.h>
 
-static int map_points(job *j, table *points)
+/* Points without an image stay where they are, or become nan. */
+static void settle_outside(const job *j, const table *points, double *images,
+                           const icc_status *status)
 {
+    size_t dim = points->columns;
+    for (size_t i = 0; i < points->n && j->args->outside == OUTSIDE_KEEP; i++)
+        if (status[i] != ICC_OK)
+            memcpy(images + dim * i, points->values + dim * i, dim * sizeof *images);
+}
+
+/* Names the first point that has no image, by its line, when all must have one or the input would be lost. */
+static int refuse(const job *j, const table *points, const icc_status *status, size_t n_failed)
+{
+    size_t i = 0;
+    while (status[i] == ICC_OK)
+        i++;
+    const char *why = status[i] == ICC_ERR_OUTSIDE ? "lies outside the cage" : "has no image";
+    if (j->args->outside == OUTSIDE_FAIL)
+        return failed(j->args->points, points->lines[i],
+                      "this point %s (%zu of %zu have no image), so nothing is written", why,
+                      n_failed, points->n);
+    return failed(j->args->points, points->lines[i],
+                  "this point %s (%zu of %zu have no image), and the result would overwrite it; "
+                  "write to another file",
+                  why, n_failed, points->n);
+}
+
+static int write_points(job *j, const table *points, double *images, const icc_status *status,
+                        double seconds)
+{
+    const char *out = j->args->output ? j->args->output : "-";
     size_t n_failed = 0;
-    icc_status *status = need(points->n, sizeof *status);
-    double began = seconds_now();
-    icc_status ran = (j->args->inverse ? icc_map_apply_inverse : icc_map_apply)(
-        j->map, points->n, points->values, points->values, status, &n_failed, &j->env);
-    double seconds = seconds_now() - began;
-    progress_end(&j->bar);
-    int result = ran == ICC_OK ? DONE : job_failed_status(j, ran);
-    if (result == DONE)
-        result = rows_write(j->args->output ? j->args->output : "-", points->n, points->columns,
-                            points->values);
+    for (size_t i = 0; i < points->n; i++)
+        n_failed += status[i] != ICC_OK;
+    if (n_failed > 0 && (j->args->outside == OUTSIDE_FAIL || file_is_same(j->args->points, out)))
+        return refuse(j, points, status, n_failed);
+    settle_outside(j, points, images, status);
+    int result = rows_write(out, points->n, points->columns, images);
     if (result == DONE)
         result = report_points(j, points->n, n_failed, seconds);
-    if (result == DONE)
-        result = job_partial(j, points->n, status, "points");
+    return result == DONE ? job_partial(j, points->n, status, "points") : result;
+}
+
+static int map_points(job *j, const table *points)
+{
+    icc_status *status = need(points->n, sizeof *status);
+    double *images = need(points->n, points->columns * sizeof *images);
+    carrier c;
+    double began = seconds_now();
+    int result = job_start_carrier(j, &c);
+    if (result == DONE) {
+        icc_status ran = carrier_map(&c, points->n, points->values, images, status, NULL);
+        double seconds = seconds_now() - began;
+        progress_end(&j->bar);
+        result = ran == ICC_OK ? write_points(j, points, images, status, seconds)
+                               : job_failed_status(j, ran);
+    }
+    carrier_free(&c);
+    free(images);
     free(status);
     return result;
 }

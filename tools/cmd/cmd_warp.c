@@ -21,10 +21,11 @@ static int read_picture(warp *w)
     char *bytes = file_read(a->operands[0], &n);
     if (bytes == NULL)
         return FAILED;
+    bool clears = a->has_background || a->outside == OUTSIDE_NULL;
     int result = picture_take(&w->from, a->operands[0], bytes, n);
     free(bytes);
     if (result == DONE)
-        w->to = picture_canvas(&w->from, a->has_background ? a->background : NULL);
+        w->to = picture_canvas(&w->from, clears ? a->background : NULL);
     return result;
 }
 
@@ -55,6 +56,7 @@ static void unpack(picture *p, const icc_picture *packed)
                                       : ((const uint16_t *)packed->pixels)[i];
 }
 
+/* Warps and writes, unless every pixel must have an image and some have none. */
 static int warp_picture(warp *w)
 {
     icc_error err = {.size = sizeof err, .index = -1};
@@ -66,7 +68,12 @@ static int warp_picture(warp *w)
     unpack(&w->to, &to);
     free(from.pixels);
     free(to.pixels);
-    int result = ran == ICC_OK ? picture_save(&w->to, w->from.keep, w->job.args->operands[1])
+    const args *a = w->job.args;
+    if (ran == ICC_OK && w->n_failed > 0 && a->outside == OUTSIDE_FAIL)
+        return failed(a->operands[0], 0,
+                      "%zu of %zu pixels have no image in the source, so nothing is written",
+                      w->n_failed, w->to.width * w->to.height);
+    int result = ran == ICC_OK ? picture_save(&w->to, w->from.keep, a->operands[1])
                                : job_failed(&w->job, &err);
     if (result == DONE)
         result = report_points(&w->job, w->to.width * w->to.height, w->n_failed, seconds);

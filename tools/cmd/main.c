@@ -26,8 +26,8 @@ static const command commands[] = {
          "4.\n"
          "Blank lines and lines that begin with # are left out.\n\n"
          "With --geojson it carries the points, lines and polygons of a GeoJSON file, with more\n"
-         "vertices where the map bends lines. Points and polygons without an image become empty,\n"
-         "lines are cut, and the exit code is then 4.\n"},
+         "vertices where the map bends lines; all but coordinates stays byte for byte. Features that\n"
+         "lie outside, be it in part, are named, and the exit code is then 4; see --outside.\n"},
     {.name = "encode",
      .bit = FOR_ENCODE,
      .run = run_encode,

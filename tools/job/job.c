@@ -261,6 +261,14 @@ int job_make_map(job *j)
     return DONE;
 }
 
+int job_start_carrier(job *j, carrier *c)
+{
+    bool inverse = j->args->inverse;
+    icc_status ran = carrier_start(c, j->map, j->domains[inverse], j->domains[!inverse], inverse,
+                                   j->args->snap, &j->env);
+    return ran == ICC_OK ? DONE : job_failed_status(j, ran);
+}
+
 int job_partial(job *j, size_t n, const icc_status *status, const char *what)
 {
     size_t n_failed = 0, n_outside = 0, n_illegal = 0;
@@ -309,6 +317,15 @@ bool report_close(report *r)
     return outfile_close(&r->file);
 }
 
+void report_times(report *r, const job *j, double apply)
+{
+    json_open(&r->json, "seconds", '{');
+    json_number(&r->json, "read", j->seconds_read);
+    json_number(&r->json, "make", j->seconds_made);
+    json_number(&r->json, "apply", apply);
+    json_close(&r->json, '}');
+}
+
 int report_points(const job *j, size_t n, size_t n_failed, double seconds)
 {
     report r;
@@ -318,10 +335,6 @@ int report_points(const job *j, size_t n, size_t n_failed, double seconds)
         return FAILED;
     json_count(&r.json, "points", n);
     json_count(&r.json, "without_image", n_failed);
-    json_open(&r.json, "seconds", '{');
-    json_number(&r.json, "read", j->seconds_read);
-    json_number(&r.json, "make", j->seconds_made);
-    json_number(&r.json, "apply", seconds);
-    json_close(&r.json, '}');
+    report_times(&r, j, seconds);
     return report_close(&r) ? DONE : FAILED;
 }

@@ -8,6 +8,7 @@
 #include "base/json.h"
 #include "base/progress.h"
 #include "base/say.h"
+#include "geo/carrier.h"
 
 #include <icc/icc.h>
 
@@ -47,6 +48,9 @@ int job_make_chart(job *j);
 /* All that, and the map from source to target. */
 int job_make_map(job *j);
 
+/* A carrier from the side whose points are read to the other, once there is a map; to be freed in any case. */
+int job_start_carrier(job *j, carrier *c);
+
 /* Says what the library said, with the file and the line at fault; returns FAILED. */
 int job_failed(job *j, const icc_error *err);
 
@@ -69,6 +73,9 @@ typedef struct report {
 /* Begins a report with what is known of every job. False: said why. */
 bool report_open(report *r, const job *j);
 bool report_close(report *r);
+
+/* How long it took to read, to make a map, and to map. */
+void report_times(report *r, const job *j, double apply);
 
 /* Most commands report how many points they mapped, how many of these failed, and how long it took.
  * Does nothing without --json. */

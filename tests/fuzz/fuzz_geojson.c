@@ -1,0 +1,89 @@
+/* Any bytes at all must be refused with a reason, or become GeoJSON of which all is as it was but coordinates and
+ * bounding boxes; under each policy; and leak nothing. */
+#define _POSIX_C_SOURCE 200809L
+
+#include "geo/geo_carry.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+/* assert() is off in release builds. */
+static void require(bool fact)
+{
+    if (!fact)
+        abort();
+}
+
+/* An L with a slanted image; made once and kept to the end of the program. */
+typedef struct cages {
+    icc_domain *domains[2];
+    icc_map *map;
+    carrier carrier;
+} cages;
+
+static const cages *make_cages(void)
+{
+    static const double corners[2][12] = {{0, 0, 10, 0, 10, 5, 5, 5, 5, 10, 0, 10},
+                                          {0, 0, 12, 1, 12, 6, 6.5, 7, 5, 12, -1, 10}};
+    static cages c;
+    if (c.map != NULL)
+        return &c;
+    for (size_t side = 0; side < 2; side++)
+        require(icc_domain_create(&c.domains[side], 2, 6, corners[side], 0, NULL, NULL, NULL) == ICC_OK);
+    require(icc_map_create(&c.map, c.domains[0], c.domains[1], NULL, NULL, NULL) == ICC_OK);
+    require(carrier_start(&c.carrier, c.map, c.domains[0], c.domains[1], false, -1, NULL) == ICC_OK);
+    return &c;
+}
+
+static char *write_result(geo_result *r, const char *text, size_t n, size_t *n_out)
+{
+    char *bytes = NULL;
+    FILE *stream = open_memstream(&bytes, n_out);
+    require(stream != NULL);
+    edits_write(&r->edits, text, n, stream);
+    require(fclose(stream) == 0);
+    return bytes;
+}
+
+/* The objects are the same as before, less those that became null; whatever is carried again is GeoJSON. */
+static void check_result(geo_result *r, const char *text, size_t n)
+{
+    size_t n_out;
+    char *out = write_result(r, text, n, &n_out);
+    geo_index before, after;
+    problem wrong = {.text = ""};
+    require(geo_index_read(&before, text, n, &wrong));
+    require(geo_index_read(&after, out, n_out, &wrong));
+    require(after.n <= before.n && (r->n_faults > 0 || after.n == before.n));
+    require(r->n_without <= r->n_positions);
+    for (size_t i = 0; i < r->n_faults; i++)
+        require(r->faults[i].n_without <= r->n_positions && r->faults[i].line > 0);
+    geo_index_free(&before);
+    geo_index_free(&after);
+    free(out);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    const cages *c = make_cages();
+    char *text = malloc(size + 1);
+    if (text == NULL)
+        return 0;
+    memcpy(text, data, size);
+    text[size] = '\0';
+    for (int policy = GEO_KEEP; policy <= GEO_FAIL; policy++) {
+        geo_result r;
+        problem wrong = {.text = ""};
+        if (geo_carry(&r, &c->carrier, (geo_policy)policy, 0.5, text, size, &wrong))
+            check_result(&r, text, size);
+        else
+            require(wrong.text[0] != '\0' && strpbrk(wrong.text, "\r\n") == NULL);
+        geo_result_free(&r);
+    }
+    free(text);
+    return 0;
+}

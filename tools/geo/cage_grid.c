@@ -1,0 +1,119 @@
+/* A regular grid of about as many cells as the cage has edges. A segment is in the cells that it passes in each
+ * row, so that n edges are in O(n sqrt n) cells, however long they are. */
+#include "geo/cage_grid.h"
+
+#include "base/allocate.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The cells first..last of one row, or of all rows. */
+typedef struct range {
+    size_t first, last;
+} range;
+
+/* The cells along axis k that lie between two coordinates. */
+static range cells_between(const cage_grid *g, size_t k, double low, double high)
+{
+    double last = (double)g->n[k] - 1;
+    double from = floor((low - g->near - g->corner[k]) / g->cell[k]),
+           to = floor((high + g->near - g->corner[k]) / g->cell[k]);
+    return (range){from > 0 ? (size_t)fmin(from, last) : 0, to > 0 ? (size_t)fmin(to, last) : 0};
+}
+
+/* The cells that a segment passes in a row. One that reaches far beyond the cage is in all of them between its
+ * ends: where exactly it passes would drown in rounding. */
+static range cells_of_row(const cage_grid *g, size_t row, const double a[2], const double b[2])
+{
+    double dx = b[0] - a[0], dy = b[1] - a[1], low = fmin(a[0], b[0]), high = fmax(a[0], b[0]);
+    double far = 1e3 * (g->cage->size + g->near);
+    if (fabs(dy) > 0 && fabs(dx) < far && fabs(dy) < far) {
+        double y = g->corner[1] + (double)row * g->cell[1];
+        double s = (y - 2 * g->near - a[1]) / dy, t = (y + g->cell[1] + 2 * g->near - a[1]) / dy;
+        double x = a[0] + fmin(fmax(s, 0), 1) * dx, z = a[0] + fmin(fmax(t, 0), 1) * dx;
+        low = fmin(x, z);
+        high = fmax(x, z);
+    }
+    return cells_between(g, 0, low, high);
+}
+
+/* Counts the edge in its cells (edges == NULL), or lists it there. */
+static void enter_edge(cage_grid *g, uint32_t edge, size_t *fill)
+{
+    const double *a = cage_end(g->cage, edge, 0), *b = cage_end(g->cage, edge, 1);
+    range rows = cells_between(g, 1, fmin(a[1], b[1]), fmax(a[1], b[1]));
+    for (size_t row = rows.first; row <= rows.last; row++) {
+        range columns = cells_of_row(g, row, a, b);
+        for (size_t i = columns.first; i <= columns.last; i++) {
+            size_t at = fill[row * g->n[0] + i]++;
+            if (g->edges != NULL)
+                g->edges[at] = edge;
+        }
+    }
+}
+
+void cage_grid_make(cage_grid *out, const carrier *cage, double near)
+{
+    size_t n_edges = cage->n_facets, side = (size_t)ceil(sqrt((double)n_edges));
+    *out = (cage_grid){.cage = cage, .near = near, .n = {side, side}};
+    for (size_t k = 0; k < 2; k++) {
+        out->corner[k] = cage->lower[k];
+        out->cell[k] = fmax(cage->upper[k] - cage->lower[k], near) / (double)side;
+    }
+    size_t n_cells = side * side;
+    out->starts = need(n_cells + 1, sizeof *out->starts);
+    size_t *fill = need(n_cells + 1, sizeof *fill);
+    for (size_t e = 0; e < n_edges; e++)
+        enter_edge(out, (uint32_t)e, fill);
+    for (size_t i = 0; i < n_cells; i++)
+        out->starts[i + 1] = out->starts[i] + fill[i];
+    memcpy(fill, out->starts, n_cells * sizeof *fill);
+    out->edges = need(out->starts[n_cells], sizeof *out->edges);
+    for (size_t e = 0; e < n_edges; e++)
+        enter_edge(out, (uint32_t)e, fill);
+    free(fill);
+    out->asked = need(n_edges, sizeof *out->asked);
+    out->found = need(n_edges, sizeof *out->found);
+}
+
+void cage_grid_free(cage_grid *grid)
+{
+    free(grid->starts);
+    free(grid->edges);
+    free(grid->asked);
+    free(grid->found);
+    *grid = (cage_grid){0};
+}
+
+static bool misses_box(const cage_grid *g, const double a[2], const double b[2])
+{
+    for (size_t k = 0; k < 2; k++)
+        if (fmax(a[k], b[k]) < g->cage->lower[k] - g->near ||
+            fmin(a[k], b[k]) > g->cage->upper[k] + g->near)
+            return true;
+    return false;
+}
+
+void cage_grid_ask(cage_grid *g, const double a[2], const double b[2])
+{
+    g->n_found = 0;
+    if (misses_box(g, a, b))
+        return;
+    if (++g->question == 0) {
+        memset(g->asked, 0, g->cage->n_facets * sizeof *g->asked);
+        g->question = 1;
+    }
+    range rows = cells_between(g, 1, fmin(a[1], b[1]), fmax(a[1], b[1]));
+    for (size_t row = rows.first; row <= rows.last; row++) {
+        range columns = cells_of_row(g, row, a, b);
+        for (size_t cell = row * g->n[0] + columns.first; cell <= row * g->n[0] + columns.last;
+             cell++)
+            for (size_t k = g->starts[cell]; k < g->starts[cell + 1]; k++) {
+                uint32_t edge = g->edges[k];
+                if (g->asked[edge] != g->question)
+                    g->found[g->n_found++] = edge;
+                g->asked[edge] = g->question;
+            }
+    }
+}

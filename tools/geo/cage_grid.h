@@ -1,0 +1,32 @@
+/* Which edges of a cage in the plane come near a segment. */
+#ifndef CAGE_GRID_H
+#define CAGE_GRID_H
+
+#include "geo/carrier.h"
+
+typedef struct cage_grid {
+    const carrier *cage;
+    double corner[2], cell[2],
+        near; /* `near`: how close an edge must come to be listed for certain */
+    size_t n[2];
+    size_t *starts; /* n[0] * n[1] + 1, into the lists of edges of the cells */
+    uint32_t *edges;
+    uint32_t *asked; /* for each edge the last question that it was an answer to */
+    uint32_t question;
+    uint32_t *found; /* the answers to it */
+    size_t n_found;
+} cage_grid;
+
+void cage_grid_make(cage_grid *out, const carrier *cage, double near);
+void cage_grid_free(cage_grid *grid);
+
+/* Fills in grid->found. */
+void cage_grid_ask(cage_grid *grid, const double a[2], const double b[2]);
+
+/* The ends of an edge of the cage. */
+static inline const double *cage_end(const carrier *c, uint32_t edge, size_t end)
+{
+    return c->vertices[0] + 2 * (size_t)c->facets[0][2 * edge + end];
+}
+
+#endif

@@ -1,0 +1,67 @@
+#include "geo/edits.h"
+
+#include "base/allocate.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void edits_replace(edits *e, size_t begin, size_t end)
+{
+    e->list = grow(e->list, &e->room, e->n + 1, sizeof *e->list);
+    e->list[e->n++] = (edit){begin, end, e->n_bytes, e->n_bytes};
+}
+
+void edits_put(edits *e, size_t n, const char *bytes)
+{
+    if (n == 0)
+        return;
+    e->bytes = grow(e->bytes, &e->room_bytes, e->n_bytes + n, 1);
+    memcpy(e->bytes + e->n_bytes, bytes, n);
+    e->n_bytes += n;
+    e->list[e->n - 1].to = e->n_bytes;
+}
+
+void edits_put_text(edits *e, const char *text)
+{
+    edits_put(e, strlen(text), text);
+}
+
+void edits_put_number(edits *e, double value)
+{
+    char text[32];
+    snprintf(text, sizeof text, "%.15g", value);
+    double read = strtod(text, NULL);
+    if (read < value || read > value)
+        snprintf(text, sizeof text, "%.17g", value);
+    edits_put_text(e, text);
+}
+
+static int by_begin(const void *a, const void *b)
+{
+    const edit *p = a, *q = b;
+    return p->begin != q->begin ? (p->begin < q->begin ? -1 : 1) : p->end < q->end ? 1 : -1;
+}
+
+void edits_write(edits *e, const char *text, size_t n, FILE *stream)
+{
+    size_t at = 0;
+    if (e->n > 0)
+        qsort(e->list, e->n, sizeof *e->list, by_begin);
+    for (size_t i = 0; i < e->n; i++) {
+        const edit *one = &e->list[i];
+        if (one->begin < at)
+            continue;
+        fwrite(text + at, 1, one->begin - at, stream);
+        if (one->to > one->from)
+            fwrite(e->bytes + one->from, 1, one->to - one->from, stream);
+        at = one->end;
+    }
+    fwrite(text + at, 1, n - at, stream);
+}
+
+void edits_free(edits *e)
+{
+    free(e->list);
+    free(e->bytes);
+    *e = (edits){0};
+}

@@ -1,0 +1,120 @@
+#include "geo/geo_shape.h"
+
+#include "base/allocate.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static const char *skip_blanks(const char *p)
+{
+    while (*p == ' ' || *p == '\n' || *p == '\r' || *p == '\t')
+        p++;
+    return p;
+}
+
+const char *geo_next_number(const char *p, const char **end)
+{
+    p = skip_blanks(p);
+    p = *p == ',' || *p == '[' ? skip_blanks(p + 1) : p;
+    if (*p != '-' && !(*p >= '0' && *p <= '9'))
+        return NULL;
+    const char *e = p + 1;
+    while ((*e >= '0' && *e <= '9') || *e == '.' || *e == 'e' || *e == 'E' || *e == '+' ||
+           *e == '-')
+        e++;
+    *end = e;
+    return p;
+}
+
+/* A position at *cursor: two finite numbers, and any numbers behind them. */
+static bool read_position(geo_shape *out, const char *text, const char **cursor)
+{
+    const char *p = skip_blanks(*cursor), *begin = p, *number, *end;
+    double xy[2] = {NAN, NAN};
+    if (*p != '[')
+        return false;
+    for (size_t k = 0; (number = geo_next_number(p, &end)) != NULL; k++, p = end)
+        if (k < 2)
+            xy[k] = strtod(number, NULL);
+    p = skip_blanks(p);
+    if (*p != ']' || !isfinite(xy[0]) || !isfinite(xy[1]))
+        return false;
+    *cursor = p + 1;
+    out->spans = grow(out->spans, &out->room_spans, out->n + 1, sizeof *out->spans);
+    out->points = grow(out->points, &out->room_points, 2 * (out->n + 1), sizeof *out->points);
+    out->spans[out->n] = (geo_span){(size_t)(begin - text), (size_t)(p + 1 - text)};
+    out->points[2 * out->n] = xy[0];
+    out->points[2 * out->n++ + 1] = xy[1];
+    return true;
+}
+
+static void open_path(geo_shape *out)
+{
+    out->paths = grow(out->paths, &out->room_paths, out->n_paths + 1, sizeof *out->paths);
+    out->paths[out->n_paths++] = (geo_path){out->n, 0, out->n_parts};
+}
+
+/* Lists of lists of positions, `levels` deep; goes down and up through them without recursion. */
+static bool read_lists(geo_shape *out, const char *text, const char **cursor, int levels)
+{
+    int level = levels;
+    const char *p = *cursor;
+    do {
+        p = skip_blanks(p);
+        if (*p == ',')
+            p++;
+        else if (*p == ']') {
+            p++;
+            out->n_parts += level == 1 && levels == 3;
+            level++;
+        } else if (level > 0) {
+            if (*p != '[') {
+                *cursor = p;
+                return false;
+            }
+            p++;
+            if (--level == 0)
+                open_path(out);
+        } else {
+            *cursor = p;
+            if (!read_position(out, text, cursor))
+                return false;
+            p = *cursor;
+            out->paths[out->n_paths - 1].n++;
+        }
+    } while (level < levels);
+    *cursor = p;
+    return true;
+}
+
+bool geo_shape_read(geo_shape *out, const geo_object *object, const char *text, problem *wrong)
+{
+    static const int levels[] = {0, 1, 1, 2, 2, 3};
+    const char *p = text + object->coordinates.begin;
+    out->type = object->type;
+    out->n = out->n_paths = out->n_parts = 0;
+    bool list = *p == '[';
+    bool empty = list && *skip_blanks(p + 1) == ']';
+    if (!list)
+        return spoilt(wrong, line_of(text, p), "a '%s' has no coordinates",
+                      geo_type_names[object->type]);
+    if (empty)
+        return true;
+    if (object->type == GEO_POINT)
+        open_path(out);
+    bool good = object->type == GEO_POINT ? read_position(out, text, &p)
+                                          : read_lists(out, text, &p, levels[object->type]);
+    if (object->type == GEO_POINT)
+        out->paths[0].n = out->n;
+    return good || spoilt(wrong, line_of(text, p),
+                          "position %zu, in a %s, is not a list of finite numbers, at least two",
+                          out->n, geo_type_names[object->type]);
+}
+
+void geo_shape_free(geo_shape *shape)
+{
+    free(shape->spans);
+    free(shape->points);
+    free(shape->paths);
+    *shape = (geo_shape){0};
+}

@@ -1,0 +1,30 @@
+/* The coordinates of a geometry: where its positions stand in the text, and how they make up lines and rings. */
+#ifndef GEO_SHAPE_H
+#define GEO_SHAPE_H
+
+#include "geo/geo_index.h"
+
+/* Positions in a row: a line, a ring, the points of a MultiPoint, or one point. */
+typedef struct geo_path {
+    size_t first, n;
+    size_t part; /* which polygon of a MultiPolygon */
+} geo_path;
+
+typedef struct geo_shape {
+    geo_type type;
+    size_t n, n_paths, n_parts;
+    geo_span *spans; /* n: each with its brackets */
+    double *points;  /* 2 n */
+    geo_path *paths;
+    size_t room_spans, room_points, room_paths;
+} geo_shape;
+
+/* Reads the coordinates of a geometry, which have been checked to be JSON; the shape may have been used before,
+ * or be all zero. False: see `wrong`. */
+bool geo_shape_read(geo_shape *out, const geo_object *object, const char *text, problem *wrong);
+void geo_shape_free(geo_shape *shape);
+
+/* The next number behind p in checked JSON, with where it ends: NULL before a closing bracket. */
+const char *geo_next_number(const char *p, const char **end);
+
+#endif

@@ -1,0 +1,31 @@
+/* The coordinates of a geometry that has been carried, as text in the manner of the old. */
+#ifndef GEO_WRITE_H
+#define GEO_WRITE_H
+
+#include "geo/densify.h"
+#include "geo/edits.h"
+#include "geo/geo_shape.h"
+
+/* A rectangle around images; empty while lower > upper. */
+typedef struct geo_box {
+    double lower[2], upper[2];
+} geo_box;
+
+geo_box geo_box_empty(void);
+void geo_box_add(geo_box *box, const double lower[2], const double upper[2]);
+
+typedef struct geo_writer {
+    edits *edits;
+    const char *text;
+    const geo_shape *shape;
+    geo_box *box; /* grows by what is written */
+} geo_writer;
+
+/* Replaces the coordinates by the images of lines that have every position of the shape in its order; what
+ * stands between positions stays. */
+void geo_write_in_place(geo_writer *w, geo_span coordinates, size_t n_lines, const polyline *lines);
+
+/* Adds the vertices first .. end - 1 of a line as a list of positions. */
+void geo_write_list(geo_writer *w, const polyline *line, size_t first, size_t end);
+
+#endif
