@@ -1,5 +1,5 @@
 /* Any bytes at all must give a cage of finite-sized arrays or a reason, and leak nothing. */
-#include "cage/cage.h"
+#include "cage/cage_read.h"
 
 #include <stdint.h>
 #include <stdlib.h>

@@ -22,6 +22,16 @@ grep -q 'configuration file provided by "libicc"' "$work/without.log" || {
     exit 1
 }
 
+# A component that there is not is named.
+mkdir "$work/odd"
+printf 'cmake_minimum_required(VERSION 3.16)\nproject(odd C)\nfind_package(libicc REQUIRED COMPONENTS cpp)\n' \
+    >"$work/odd/CMakeLists.txt"
+if "$cmake" -S "$work/odd" -B "$work/odd/build" -DCMAKE_PREFIX_PATH="$stage" -DCMAKE_C_COMPILER="$cc" >"$work/odd.log" 2>&1; then
+    echo "configured with a component that does not exist"
+    exit 1
+fi
+grep -q 'libicc has no component cpp; it has shared and static' "$work/odd.log" || { cat "$work/odd.log"; exit 1; }
+
 configure "$work/build" "$stage" || { cat "$work/build.log"; exit 1; }
 "$cmake" --build "$work/build" >"$work/build.log" 2>&1 || { cat "$work/build.log"; exit 1; }
 for program in shared_c shared_cpp shared_wrapper static_c static_cpp static_wrapper; do

@@ -57,8 +57,15 @@ says 'libicc: source.txt:'
 printf 'POLYGON ((0 0, 1 0, 1 1' | rejects 1: "')' is missing"
 printf 'POLYGON ((0 0,\n 1 zero, 1 1))' | rejects 2: "'zero,' is not a number"
 printf 'POLYGON ((0 0, 9 0, 9 9), (1 1, 2 1, 2 2))' | rejects 1: 'has a hole'
-printf 'MULTIPOLYGON (((0 0, 9 0, 9 9)))' | rejects 1: 'several parts'
-printf 'POLYGON Z ((0 0 0, 9 0 0, 9 9 0))' | rejects 1: 'more than two coordinates'
+printf 'MULTIPOLYGON (((0 0, 9 0, 9 9)), ((0 0, 9 0, 9 9), (1 1, 2 1, 2 2)),\n((0 0, 1 1, 1 0)))' | rejects 1: '3 parts'
+printf 'MULTIPOLYGON (((0 0, 9 0, 9 9), (1 1, 2 1, 2 2)))' | rejects 1: 'has a hole'
+printf 'MULTIPOLYGON (((0 0, 9 0, 9 9))' | rejects 1: "')' is missing"
+printf 'MULTIPOLYGON EMPTY' | rejects 1: 'is empty'
+printf 'MULTILINESTRING ((0 0, 1 1))' | rejects 1: 'a cage is a POLYGON'
+printf 'POLYGON Z ((0 0 0,\n9 0, 9 9 0))' | rejects 2: '2 numbers where a vertex has 3'
+printf 'POLYGON ZM ((0 0 0, 9 0 0, 9 9 0))' | rejects 1: '3 numbers where a vertex has 4'
+printf 'POLYGON ((0, 9 0, 9 9))' | rejects 1: '1 number where a vertex has 2'
+printf 'POLYGON ((0 0 1 2 3, 9 0, 9 9))' | rejects 1: "'3,' where ')' is expected"
 printf 'POLYGON EMPTY' | rejects 1: 'is empty'
 printf 'LINESTRING (0 0, 1 1)' | rejects 1: 'a cage is a POLYGON'
 printf 'POLYGON ((0 0, 1 0, 1 1)) POINT (1 1)' | rejects 1: 'more text behind'
@@ -68,7 +75,6 @@ printf '{"type":"Polygon",\n"coordinates":[[[0,0],' | rejects 2: 'the JSON ends 
 printf '{"type":"Polygon",\n"coordinates":[[[0,0] [1,1]]]}' | rejects 2: 'not valid JSON'
 printf '{"type":"Polygon","coordinates":[[[0,0],[1,0],[1,1]],[[0,0],[1,0],[1,1]]]}' | rejects ' ' '1 hole;'
 printf '{"type":"MultiPolygon","coordinates":[[[[0,0],[1,0],[1,1]]],[[[0,0],[1,0],[1,1]]]]}' | rejects ' ' '2 parts'
-printf '{"type":"Polygon","coordinates":[[[0,0],[1,0,7],[1,1]]]}' | rejects ' ' 'vertex 1 has more than two'
 printf '{"type":"Polygon","coordinates":[[[0,0],[1,"a"],[1,1]]]}' | rejects ' ' 'vertex 1 is not a pair'
 printf '{"type":"Polygon","coordinates":[[[0,0],[1e999,0],[1,1]]]}' | rejects ' ' 'vertex 1 is not finite'
 printf '{"type":"Polygon"}' | rejects ' ' 'no coordinates'
@@ -76,6 +82,49 @@ printf '{"type":"Point","coordinates":[0,0]}' | rejects ' ' "'Point'"
 printf '{"type":"FeatureCollection","features":[]}' | rejects ' ' 'none of the 0 features'
 printf '{"type":"FeatureCollection","features":[{},{}]}' | rejects ' ' 'none of the 2 features'
 printf '[1,2,3]' | rejects ' ' 'a cage is a Polygon'
+
+# Other formats: what they are, and what makes a readable file of them.
+names() {
+    cat >bad
+    run 1 check -s bad
+    says "this is $1"
+    says "${2:-ogr2ogr -f GeoJSON}"
+    run 1 map -s source.txt -t target.txt -p bad
+    says "libicc: bad: this is $1"
+}
+printf '<?xml version="1.0"?>\n<!-- a > b -->\n<kml xmlns="x"><Placemark/></kml>' | names 'a KML file'
+printf '<gpx/>' | names 'a GPX file'
+printf '<wfs:FeatureCollection xmlns:gml="x">\n</wfs:FeatureCollection>' | names 'a GML file'
+printf '<COLLADA version="1"/>' | names 'a COLLADA file' 'OBJ, OFF or PLY'
+printf 'SQLite format 3\000%052dGPKG' 0 | names 'a GeoPackage'
+printf 'SQLite format 3\000%052dxxxx' 0 | names 'an SQLite database'
+printf 'PK\003\004%022d\007\000\000\000doc.kml' 0 | names 'a KMZ file'
+printf 'PK\003\004%022d\007\000\000\000a/b.txt' 0 | names 'a zip archive' 'unpack it first'
+printf '\000\000\047\012\000\000' | names 'a shapefile'
+printf 'fgb\003fgb\000' | names 'a FlatGeobuf file'
+printf '999\r\na comment\r\n  0\r\nSECTION\r\n' | names 'a DXF drawing'
+printf 'solid cube\n facet normal 0 0 1\n' | names 'an STL file' 'OBJ, OFF or PLY'
+printf 'solid\nendsolid\n' | names 'an STL file' 'OBJ, OFF or PLY'
+printf 'solid of a binary file %57d\001\000\000\000%50d' 0 0 | names 'a binary STL file' 'OBJ, OFF or PLY'
+printf 'glTF\002\000\000\000' | names 'a binary glTF file' 'OBJ, OFF or PLY'
+printf '\377\330\377\340' | names 'a JPEG picture' 'makes a PNG'
+printf 'II*\000' | names 'a TIFF picture' 'makes a PNG'
+printf 'RIFF\000\000\000\000WEBP' | names 'a WebP picture' 'makes a PNG'
+printf 'P3\n1 1\n255\n0 0 0\n' | names 'a PNM picture' 'makes a PNG'
+printf 'BM%04d\000\000\000\000%020d' 0 0 | names 'a BMP picture' 'makes a PNG'
+printf '\037\213\010' | names 'a gzip archive' 'unpack it first'
+printf '\3757zXZ\000' | names 'an xz archive' 'unpack it first'
+printf 'BZh9' | names 'a bzip2 archive' 'unpack it first'
+printf '\377\3760\000' | names 'a text in UTF-16' 'UTF-8'
+printf '0106000020E6100000010000000103000000' | names 'well-known binary' 'ST_AsText'
+printf '\036{"type":"Feature"}\n' | names 'a GeoJSON text sequence'
+one='{"type":"Feature","geometry":{"type":"Polygon","coordinates":[[[0,0],[9,0],[9,9]]]}}'
+printf '%s\n%s\n' "$one" "$one" | rejects 2: 'GeoJSONSeq'
+printf '{"type":"Topology","arcs":[]}' | rejects ' ' 'this is a TopoJSON file'
+printf '{"asset":{"version":"2.0"}}' | rejects ' ' 'this is a glTF file'
+printf '{"rings":[[[0,0],[1,0],[1,1]]]}' | rejects ' ' 'this is an Esri JSON file'
+printf '# vtk DataFile Version 3.0\n' | rejects ' ' 'this is a VTK mesh'
+printf 'MeshVersionFormatted 2\n' | rejects ' ' 'this is a Medit mesh'
 
 # SVG.
 printf '<svg></svg>' | rejects ' ' 'no complete <path> or <polygon>'

@@ -115,9 +115,11 @@ printf 'OFF # plane\n4 2 0\n5 0 0\n10 0 0\n10 2.5 0\n7.5 5 0\n3 0 1 2 255 0 0\n4
 run 0 mesh -s source.txt -t target.txt mesh.off out.off
 holds out '3 triangles: 3 keep their orientation'
 printf 'v 5 0\nv 10 0\nv 10 0\nv 8 8\nf 1 2 3\nf 1 2 4\n' >flat.obj
-run 4 mesh -s source.txt -t target.txt flat.obj out.obj
+run 4 mesh -s source.txt -t target.txt --outside keep flat.obj out.obj
 holds out '0 keep their orientation, 0 inverted, 0 collapsed, 1 flat before, 1 without image'
 holds out '; not certified'
+holds err '1 of 4 vertices have no image and stay where they are; the first is vertex 3 (from 0), outside'
+[ "$(sed -n 4p out.obj)" = 'v 8 8' ] || complain "the vertex outside has moved"
 # Two triangles beside each other on the cage are fine one by one, but overlap together.
 printf 'v 0 0\nv 5 0\nv 5 5\nv 0 5\nf 1 2 3\nf 1 2 4\n' >overlap.obj
 run 0 mesh -s source.txt -t target.txt overlap.obj out.obj

@@ -30,14 +30,27 @@ printf "<svg><path d='m0,0 h10v5l-5 0 0,5-5-0z'/></svg>" >relative.svg
 printf '<svg><path d="M0,0H10V5H5V10H0V0z"/></svg>' >axes.svg
 printf '<svg><path id="other" d="M0 0L1 0 1 1z"/><path id="source" d="M0,0H10V5H5V10H0z"/><g transform="scale(2)">
     <path id="none" d="M0 0L1 0 1 1z"/></g><polygon id="target" points="0 0 12 1 12 6 6.5 7 5 12 -1 10"/></svg>' >roles.svg
+printf 'MULTIPOLYGON(((0 0, 10 0, 10 5, 5 5, 5 10, 0 10, 0 0)));' >one.wkt
+printf '<svg><path id="p" d="M0 0L1 0 1 1z"/><path id="q" inkscape:label="source" d="M0,0H10V5H5V10H0z"/></svg>' >label.svg
 
 for file in crlf.txt bom.txt odd.txt a.wkt b.wkt polygon.json multi.json feature.json collection.json roles.json \
-    polygon.svg path.svg relative.svg axes.svg roles.svg; do
+    polygon.svg path.svg relative.svg axes.svg roles.svg one.wkt label.svg; do
     same_domain "$file"
 done
 for file in roles.json roles.svg; do
     run 0 map -s "$file" -t "$file" -p points.txt
     same out expected "both cages from $file"
+done
+
+# Heights and measures are left out, and this is told.
+printf 'POLYGON Z ((0 0 1, 10 0 1, 10 5 1, 5 5 1, 5 10 1, 0 10 1, 0 0 1))' >z.wkt
+printf 'Polygonzm((0 0 1 2,10 0 1 2,10 5 1 2,5 5 1 2,5 10 1 2,0 10 1 2))' >zm.wkt
+printf 'SRID=1;MULTIPOLYGON M (((0 0 9, 10 0 9, 10 5 9, 5 5 9, 5 10 9, 0 10 9, 0 0 9)))' >m.wkt
+printf 'POLYGON((0 0 1, 10 0 1, 10 5 1, 5 5 1, 5 10 1, 0 10 1))' >plain.wkt
+printf '{"type":"Polygon","coordinates":[[[0,0,1],[10,0],[10,5,1],[5,5],[5,10],[0,10],[0,0,1]]]}' >z.json
+for file in z.wkt zm.wkt m.wkt plain.wkt z.json; do
+    same_domain "$file"
+    holds err "libicc: $file: heights are left out"
 done
 run 0 map -s - -t target.txt -p points.txt <source.txt
 same out expected "source from standard input"

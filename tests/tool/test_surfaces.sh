@@ -101,6 +101,35 @@ sed 's/^3 0 1 2$/2 0 1/' cube.ply | rejects 22: 'the face has 2 corners'
 sed '14s/.*/0 0 inf 7/' cube.ply | rejects 14: 'vertex 0 is not finite'
 head -c 300 little.ply | rejects ' ' 'the file ends early'
 printf 'ply\n' | rejects 2: 'the file ends early'
+sed 's/^property float y$/property float x/' cube.ply | rejects 6: 'the property x is declared twice'
+sed '/^property float y$/d' cube.ply | rejects 12: 'the vertices have no property y'
+sed 's/^end_header/element vertex 1\n&/' cube.ply | rejects 13: 'the element vertex is declared twice'
+sed 's/^end_header/format ascii 1.0\n&/' cube.ply | rejects 13: 'the format is named twice'
+printf '3 0 1 2\n' | cat cube.ply - | rejects 34: 'there is more behind the last element'
+printf 'x' | cat little.ply - | rejects ' ' 'there is more behind the last element'
+
+# Faces that do not share their vertices: the hint, and what it says mends them.
+awk '/^v/ { v[++n] = $0 } /^f/ { for (i = 2; i <= 4; i++) print v[$i]; m += 3; print "f", m - 2, m - 1, m }' cube.obj >loose.obj
+run 1 check -s loose.obj --method field -n 8
+says "28 vertices coincide with others: 'libicc check --repair OUT.obj' joins them"
+run 1 map -s loose.obj -t loose.obj -p points.txt
+says '28 vertices coincide'
+"$tool" check -s loose.obj --method field -n 8 --json=report.json --repair joined.obj >out 2>err
+holds report.json '"joined_vertices": 28'
+[ "$(grep -c '^v' joined.obj)" = 8 ] || complain "the vertices are not joined"
+run 0 info -s joined.obj --method field -n 8
+holds out 'cage        8 vertices, 12 facets'
+# A face that collapses goes; a surface that is still open is not written.
+printf 'v 0 0 0\nv 0 0 0\nf 1 2 3\n' | sed '3s/.*/f 1 37 5/' >>loose.obj
+"$tool" check -s loose.obj --method field -n 8 --repair joined.obj >out 2>err
+[ "$(grep -c '^f' joined.obj)" = 12 ] || complain "the collapsed face has stayed"
+rm joined.obj
+sed '/^f/{x;s/^/x/;/^x\{3\}$/{x;d;};x;}' loose.obj >open.obj
+run 1 check -s open.obj --method field --repair joined.obj
+says 'the boundary is open'
+[ ! -e joined.obj ] || complain "an open surface was written"
+run 1 check -s loose.obj -t loose.obj --repair joined.obj
+says '--repair is for'
 
 # Source and target belong together.
 sed 's/^f 1 2 3$/f 2 3 1/' moved.obj >bad

@@ -53,7 +53,76 @@ says "'in' is one argument too many without --geojson"
 run 2 map -s source.txt -t target.txt --geojson in out -p points.txt
 says "--points and --output do not go with --geojson"
 run 2 mesh -s source.txt -t target.txt --repair --inverse in out
-says "--repair does not go with --inverse"
+says "--untangle does not go with --inverse"
+run 2 mesh -s source.txt -t target.txt --untangle --inverse in out
+says "--untangle does not go with --inverse"
+
+# A name with another format's extension is refused before anything is read, and what stands there stays.
+misnamed() { # NAME ARGUMENT...
+    echo kept >"$1"
+    name=$1
+    shift
+    run 2 "$@"
+    says "'$name' is a name for"
+    [ "$(cat "$name")" = kept ] || complain "$name was written"
+}
+for name in o.jpg o.TIF o.webp o.svg o.txt o.png.gz; do
+    misnamed $name warp -s nowhere -t nowhere nowhere.png $name
+done
+for name in o.png o.pdf o.obj o.json; do
+    misnamed $name plot -s nowhere $name
+    misnamed $name weights -s nowhere -a nowhere --picture $name
+done
+for name in o.stl o.gltf o.txt o.png o.msh; do misnamed $name mesh -s nowhere -t nowhere nowhere.obj $name; done
+for name in o.geojson o.csv o.xlsx o.npy; do
+    misnamed $name map -s nowhere -t nowhere -o $name
+    misnamed $name encode -s nowhere -o $name
+    misnamed $name decode -s nowhere -o $name
+    misnamed $name weights -s nowhere -a nowhere -o $name
+done
+for name in o.kml o.gpkg o.shp o.txt o.geojsonl; do
+    misnamed $name map -s nowhere -t nowhere --geojson nowhere $name
+done
+for name in o.shp o.svg o.ply; do
+    misnamed $name check -s nowhere --repair $name
+    misnamed $name check -s nowhere --boundary $name
+done
+misnamed o.txt info -s nowhere --json=o.txt
+misnamed o.svg weights -s nowhere -a nowhere --binding o.svg
+# What depends on the input is refused when that is known.
+misnamed o.obj check -s source.txt --repair o.obj
+misnamed o.txt check -s source.txt -t target.txt --repair o.txt
+printf 'v 1 1\nv 2 1\nv 2 2\nf 1 2 3\n' >t.obj
+misnamed o.ply mesh -s source.txt -t target.txt t.obj o.ply
+misnamed o.vtk mesh -s source.txt -t target.txt t.obj o.vtk
+printf '{"handles": [[1, 1], [9, 1], [1, 9]]}' >h.json
+printf '{"moves": []}' >p.json
+misnamed o.png pose -s source.txt -a h.json --pose p.json t.obj o.png
+misnamed o.txt pose -s source.txt -a h.json --pose p.json t.obj o.txt
+misnamed o.obj pose -s source.txt -a h.json --pose p.json points.txt o.obj
+misnamed o.png pose --binding nowhere --pose nowhere o.png
+for name in o o.dat .png; do run 0 map -s source.txt -t target.txt -p points.txt -o $name; done
+
+# Help of a command, in two ways; the papers' options come behind the usual ones.
+run 0 map --help
+cp out expected
+run 0 help map
+same out expected "help map"
+run 0 help
+holds out 'Usage: libicc COMMAND'
+run 2 help nothing
+says "there is no command 'nothing'"
+run 0 help warp
+[ "$(sed -n '/^Options of the papers/,$p' out | grep -c -- '--min-fall\|--tree\|--function')" = 3 ] ||
+    complain "the papers' options are not in a group of their own"
+sed '/^Options of the papers/,$d' out | grep -q -- '--min-fall' && complain "--min-fall stands among the usual options"
+# Second meanings have long names; what was spelt before works.
+run 0 help pose
+if grep -q -- '-t, ' out; then complain "help tells of pose -t"; fi
+run 0 pose -s source.txt -a h.json -t p.json points.txt -
+cp out expected
+run 0 pose -s source.txt -a h.json --pose p.json points.txt -
+same out expected "pose -t"
 run 2 map -s source.txt -t target.txt --tolerance 1
 says "--tolerance goes with --geojson only"
 run 2 map -s source.txt -t target.txt --outside clip

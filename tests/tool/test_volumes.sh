@@ -41,9 +41,16 @@ done
 
 # Vertices outside have no image, nor have their tetrahedra; the count is exact.
 sed '6s/.*/5 5 5 7/' in.mesh >far.mesh
+rm -f out.mesh
 run 4 mesh -s cube.obj -t moved.obj -n 12 far.mesh out.mesh
+says 'far.mesh: 1 of 6 vertices have no image, so nothing was written; the first is vertex 0'
+[ ! -e out.mesh ] || complain "a mesh with vertices outside was written"
+run 4 mesh -s cube.obj -t moved.obj -n 12 --outside fail --json far.mesh out.mesh
+holds out '"without_image": 1'
+[ ! -e out.mesh ] || complain "a mesh with vertices outside was written with a report"
+run 4 mesh -s cube.obj -t moved.obj -n 12 --outside keep far.mesh out.mesh
 holds out '4 tetrahedra: 1 keep their orientation, 0 inverted, 0 collapsed, 0 flat before, 3 without image'
-holds out.mesh 'nan nan nan 7'
+holds out.mesh '5 5 5 7'
 run 0 mesh -s cube.obj -t moved.obj -n 12 --json=report.json in.mesh out.mesh
 holds report.json '"tetrahedra":'
 holds report.json '"kept": 3'
@@ -54,7 +61,7 @@ same out out.mesh
 # The vertices of a surface go along, too.
 printf 'v 0.26 0.31 0.29\nv 0.51 0.27 0.22\nv 0.24 0.52 0.23\nf 1 2 3\n' >surface.obj
 run 0 mesh -s cube.obj -t moved.obj -n 12 surface.obj out.obj
-holds out '0 tetrahedra'
+holds out '1 face carried; only tetrahedra can be certified'
 holds out.obj 'f 1 2 3'
 
 # Back again.

@@ -22,6 +22,29 @@ square 2 14 >half.txt
 square 4 12 >small.txt
 square 8 24 >big.txt
 
+# Cages that have nothing to do with the picture.
+"$pictures" make in.png 32 30 3 8 ramp
+square 100 200 >far.txt
+run 0 warp -s far.txt -t far.txt in.png out.png
+holds err 'far.txt: the source cage covers 0 pixels of the picture of 32 x 30; cages are in pixels'
+holds err 'far.txt: the target cage covers 0 pixels'
+same_picture in.png out.png "cage off the picture"
+square 0 1 >unit.txt
+run 0 warp -s unit.txt -t unit.txt in.png out.png
+holds err 'the target cage covers 1 pixel of'
+square -9 -2 >left.txt
+run 0 warp -s cage.txt -t left.txt in.png out.png
+holds err 'left.txt: the target cage covers 0 pixels'
+square 4 40 >beyond.txt
+run 0 warp -s cage.txt -t beyond.txt in.png out.png
+holds err 'beyond.txt: the target cage reaches beyond the picture of 32 x 30; what comes to lie there is cut off'
+printf '0 0\n32 0\n32 30\n0 30\n' >frame.txt
+run 0 warp -s frame.txt -t frame.txt in.png out.png
+[ ! -s err ] || complain "a cage on the picture: $(cat err)"
+printf '\377\330\377\340JFIF' >photo.png
+run 1 warp -s cage.txt -t cage.txt photo.png out.png
+says 'photo.png: this is a JPEG picture'
+
 # The same cage twice changes nothing, whatever the kind of picture.
 for kind in "1 8" "2 8" "3 8" "4 8" "1 16" "2 16" "3 16" "4 16"; do
     # shellcheck disable=SC2086

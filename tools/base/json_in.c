@@ -1,7 +1,7 @@
 #include "base/json_in.h"
 
-#include "cage/cage.h"
 #include "base/allocate.h"
+#include "base/foreign.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -10,12 +10,20 @@
 cJSON *json_parse(const char *text, size_t n, problem *wrong)
 {
     const char *end = text;
+    if (foreign_told(text, n, wrong))
+        return NULL;
     size_t mark = n >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
-    cJSON *object = cJSON_ParseWithLengthOpts(text + mark, n + 1 - mark, &end, 1);
-    if (object == NULL)
-        spoilt(wrong, cage_line(text, end),
-               end >= text + n ? "the JSON ends early" : "this is not valid JSON");
-    return object;
+    cJSON *object = cJSON_ParseWithLengthOpts(text + mark, n + 1 - mark, &end, 0);
+    const char *rest = end + (object != NULL ? strspn(end, " \t\r\n\x1e") : 0);
+    if (object != NULL && rest == text + n)
+        return object;
+    if (object != NULL && *rest == '{')
+        foreign_vector(wrong, line_of(text, rest), "a second object, as in GeoJSONSeq");
+    else
+        spoilt(wrong, line_of(text, rest),
+               rest >= text + n ? "the JSON ends early" : "this is not valid JSON");
+    cJSON_Delete(object);
+    return NULL;
 }
 
 const cJSON *json_get(const cJSON *object, const char *name)

@@ -73,6 +73,14 @@ const char *quoted(char out[32], const char *word)
     return out;
 }
 
+size_t line_of(const char *text, const char *at)
+{
+    size_t line = 1;
+    for (const char *p = text; p < at; p++)
+        line += *p == '\n';
+    return line;
+}
+
 const char *elements_name(int32_t dim)
 {
     return dim == 2 ? "triangles" : dim == 3 ? "tetrahedra" : "simplices";

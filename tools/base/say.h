@@ -42,6 +42,9 @@ void note(const char *format, ...) SAY_FORMAT(1, 2);
  * anything unprintable shown as '?'. Returns `out`. */
 const char *quoted(char out[32], const char *word);
 
+/* The line that `at` stands on, from 1. */
+size_t line_of(const char *text, const char *at);
+
 /* What the elements of a mesh are called: "triangles", "tetrahedra", beyond space "simplices". */
 const char *elements_name(int32_t dim);
 

@@ -1,6 +1,7 @@
 #include "base/table.h"
 
 #include "base/allocate.h"
+#include "base/foreign.h"
 #include "base/number.h"
 
 #include <stdlib.h>
@@ -69,6 +70,8 @@ bool table_read(table *out, const char *text, size_t n, const table_form *form, 
 {
     *out = (table){.columns = form->columns};
     const char *end = text + n, *p = text;
+    if (foreign_told(text, n, wrong))
+        return false;
     if (n >= 3 && memcmp(p, "\xef\xbb\xbf", 3) == 0)
         p += 3;
     for (size_t line = 1; p < end; line++) {

@@ -1,8 +1,9 @@
 /* Cages: boundaries of shapes, read from files.
  *
- * In the plane a ring of vertices (text, GeoJSON, WKT, SVG), in space a closed surface (OBJ, OFF, PLY);
- * in 1 to 6 dimensions the mask of a solid (.npy). Nothing is re-wound or sorted, because source and
- * target correspond by index. In a ring a last vertex that repeats the first closes it and is dropped. */
+ * In the plane a ring of vertices (text, GeoJSON, WKT, SVG), in space a closed surface (OBJ, OFF,
+ * PLY); in 1 to 6 dimensions the mask of a solid (.npy). Nothing is re-wound or sorted, because
+ * source and target correspond by index. In a ring a last vertex that repeats the first closes it
+ * and is dropped. */
 #ifndef CAGE_H
 #define CAGE_H
 
@@ -25,15 +26,10 @@ typedef struct cage {
     size_t *facet_lines;       /* as `lines` */
     uint8_t *cells;            /* of a mask: one byte each, the first axis fastest; else NULL */
     size_t shape[ICC_MAX_DIM]; /* of a mask: cells along each axis */
+    size_t n_heights;          /* vertices of a polygon whose further coordinates were left out */
     size_t room_points, room_lines, room_facets, room_facet_lines;
     uint32_t fan[3]; /* of the face that is being read */
 } cage;
-
-/* Reads a cage from text[0..n), with text[n] == '\0'; the format is told by the content. `role`
- * chooses among several shapes: the GeoJSON feature with the property `role` "source" or "target",
- * the SVG element with that id. A text file has `dim` numbers on a line; beyond 2 they are vertices
- * without facets. False: see `wrong`, and `out` is empty. */
-bool cage_read(cage *out, cage_role role, size_t dim, const char *text, size_t n, problem *wrong);
 
 void cage_free(cage *c);
 
@@ -51,21 +47,5 @@ void cage_open_ring(cage *c);
 
 /* The name of a role: "source" or "target". */
 const char *cage_role_name(cage_role role);
-
-/* The line that `at` stands on, from 1. */
-size_t cage_line(const char *text, const char *at);
-
-bool cage_read_text(cage *out, size_t dim, const char *text, size_t n, problem *wrong);
-bool cage_read_geojson(cage *out, cage_role role, const char *text, size_t n, problem *wrong);
-bool cage_read_wkt(cage *out, const char *text, size_t n, problem *wrong);
-bool cage_read_svg(cage *out, cage_role role, const char *text, size_t n, problem *wrong);
-bool cage_read_ply(cage *out, const char *text, size_t n, problem *wrong);
-bool cage_read_npy(cage *out, const char *text, size_t n, problem *wrong);
-
-/* OBJ and OFF. Faces with more than three corners become fans of triangles. */
-bool cage_read_surface(cage *out, const char *text, size_t n, problem *wrong);
-
-/* The data of an SVG path that stands at `line` of its file, ended by `end` or '\0'. */
-bool cage_read_path(cage *out, const char *data, const char *end, size_t line, problem *wrong);
 
 #endif

@@ -2,7 +2,7 @@
  *
  * Each curve becomes CURVE_SEGMENTS edges at equal steps of its parameter, whatever its size: so
  * the same path with moved points gives the same number of vertices, and they correspond. */
-#include "cage/cage.h"
+#include "cage/cage_readers.h"
 
 #include "base/number.h"
 

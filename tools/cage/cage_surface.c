@@ -1,5 +1,5 @@
 /* Surfaces from the files that meshes come in, too. */
-#include "cage/cage.h"
+#include "cage/cage_readers.h"
 #include "base/allocate.h"
 #include "mesh/mesh_file.h"
 
@@ -10,9 +10,9 @@ static size_t *vertex_lines(const mesh_file *m)
 {
     size_t *lines = need(m->n_vertices, sizeof *lines), line = 1, at = 0;
     for (size_t i = 0; i < m->n_vertices; i++) {
-        for (; at < m->spans[2 * i]; at++)
+        for (; at < m->spans[2 * m->n_spans * i]; at++)
             line += m->text[at] == '\n';
-        lines[i] = line;
+        lines[i] = m->form == MESH_TEXT ? line : 0;
     }
     return lines;
 }

@@ -1,9 +1,10 @@
 /* Cages as SVG: the outline of a <path> or a <polygon>.
  *
  * Coordinates are taken as they are written, y downwards as in every picture. An element with the
- * id "source" or "target" is chosen by the role of the cage; else the file must have one shape only. A
- * transform on the shape or around it is refused, since reading on would misplace the cage. */
-#include "cage/cage.h"
+ * id, or the inkscape:label, "source" or "target" is chosen by the role of the cage; else the file
+ * must have one shape only. A transform on the shape or around it is refused, since reading on
+ * would misplace the cage. */
+#include "cage/cage_readers.h"
 
 #include "base/number.h"
 
@@ -101,11 +102,17 @@ static const char *attribute(const tag *t, const char *name, const char **end)
     return NULL;
 }
 
-static bool has_id(const tag *t, const char *id)
+static bool is_attribute(const tag *t, const char *name, const char *wanted)
 {
-    const char *end, *value = attribute(t, "id", &end);
-    return value != NULL && (size_t)(end - value) == strlen(id) &&
-           strncmp(value, id, strlen(id)) == 0;
+    const char *end, *value = attribute(t, name, &end);
+    return value != NULL && (size_t)(end - value) == strlen(wanted) &&
+           strncmp(value, wanted, strlen(wanted)) == 0;
+}
+
+/* By its id, or by what Inkscape's panel of objects shows. */
+static bool is_called(const tag *t, const char *name)
+{
+    return is_attribute(t, "id", name) || is_attribute(t, "inkscape:label", name);
 }
 
 /* Finds the shape to read. Tags nest; `outer` is the depth of the outermost open transform. */
@@ -123,7 +130,7 @@ static shape find_shape(const char *text, cage_role role)
         }
         bool moved = attribute(&t, "transform", &end) != NULL;
         if (is_named(&t, "path") || is_named(&t, "polygon")) {
-            bool chosen = has_id(&t, cage_role_name(role));
+            bool chosen = is_called(&t, cage_role_name(role));
             if (chosen || found.n_all == 0) {
                 found.tag = t;
                 found.transformed = moved || outer > 0;
@@ -169,11 +176,11 @@ bool cage_read_svg(cage *out, cage_role role, const char *text, size_t n, proble
     if (found.n_all == 0)
         return spoilt(wrong, 0, "there is no complete <path> or <polygon> in this SVG");
     if (found.n_chosen > 1 || (found.n_chosen == 0 && found.n_all > 1))
-        return spoilt(wrong, 0, "%zu of the %zu shapes have the id \"%s\"; exactly one must",
+        return spoilt(wrong, 0, "%zu of the %zu shapes have the id or label \"%s\"; exactly one must",
                       found.n_chosen, found.n_all, id);
     bool polygon = is_named(&found.tag, "polygon");
     const char *data = attribute(&found.tag, polygon ? "points" : "d", &end);
-    size_t line = cage_line(text, data != NULL ? data : found.tag.name);
+    size_t line = line_of(text, data != NULL ? data : found.tag.name);
     if (found.transformed)
         return spoilt(wrong, line, "the shape has a transform; apply it to the coordinates first");
     if (data == NULL)

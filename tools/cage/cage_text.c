@@ -1,5 +1,5 @@
 /* Cages as text: one vertex per line. */
-#include "cage/cage.h"
+#include "cage/cage_readers.h"
 
 #include "base/table.h"
 

@@ -1,5 +1,7 @@
-/* Cages as well-known text: POLYGON ((x y, x y, ...)), with or without SRID=...; in front. */
-#include "cage/cage.h"
+/* Cages as well-known text: POLYGON ((x y, x y, ...)), or a MULTIPOLYGON of one part, with or
+ * without SRID=...; in front. Heights and measures (Z, M, ZM, or just more numbers) are left out.
+ */
+#include "cage/cage_readers.h"
 
 #include "base/number.h"
 
@@ -9,6 +11,8 @@ typedef struct reader {
     const char *text; /* the whole file, for line numbers */
     const char *at;
     problem *wrong;
+    size_t n_numbers; /* of each vertex; 0: as many as the first has */
+    bool several;     /* a MULTIPOLYGON */
 } reader;
 
 static const char blanks[] = " \t\r\n";
@@ -42,9 +46,8 @@ static bool expect(reader *r, char c)
     if (next_is(r, c))
         return true;
     if (*r->at == '\0')
-        return spoilt(r->wrong, cage_line(r->text, r->at), "the text ends early; '%c' is missing",
-                      c);
-    return spoilt(r->wrong, cage_line(r->text, r->at), "'%s' where '%c' is expected",
+        return spoilt(r->wrong, line_of(r->text, r->at), "the text ends early; '%c' is missing", c);
+    return spoilt(r->wrong, line_of(r->text, r->at), "'%s' where '%c' is expected",
                   quoted(shown, r->at), c);
 }
 
@@ -56,8 +59,29 @@ static bool read_number(reader *r, double *value)
     number_kind kind = number_read(&r->at, value);
     if (kind == NUMBER_OK && strchr(" \t\r\n,()", *r->at) != NULL)
         return true;
-    return spoilt(r->wrong, cage_line(r->text, word), "'%s' is not a %s", quoted(shown, word),
+    return spoilt(r->wrong, line_of(r->text, word), "'%s' is not a %s", quoted(shown, word),
                   kind == NUMBER_NOT_FINITE ? "finite number" : "number");
+}
+
+/* x and y, and what else the vertex has, up to four numbers in all. */
+static bool read_vertex(reader *r, double xy[2])
+{
+    double number;
+    size_t n = 0;
+    r->at += strspn(r->at, blanks);
+    const char *begin = r->at;
+    do {
+        if (!read_number(r, n < 2 ? &xy[n] : &number))
+            return false;
+        n++;
+        r->at += strspn(r->at, blanks);
+    } while (strchr(",()", *r->at) == NULL && n < 4);
+    if (r->n_numbers == 0)
+        r->n_numbers = n;
+    if (n >= 2 && n == r->n_numbers)
+        return true;
+    return spoilt(r->wrong, line_of(r->text, begin), "%zu number%s where a vertex has %zu", n,
+                  n == 1 ? "" : "s", r->n_numbers > 2 ? r->n_numbers : 2);
 }
 
 static bool read_ring(reader *r, cage *out)
@@ -67,32 +91,66 @@ static bool read_ring(reader *r, cage *out)
     size_t line = 1;
     const char *counted = r->text;
     do {
-        double x, y;
-        if (!read_number(r, &x) || !read_number(r, &y))
+        double xy[2];
+        if (!read_vertex(r, xy))
             return false;
-        line += cage_line(counted, r->at) - 1;
+        line += line_of(counted, r->at) - 1;
         counted = r->at;
-        cage_add(out, x, y, line);
+        cage_add(out, xy[0], xy[1], line);
+        out->n_heights += r->n_numbers > 2;
     } while (next_is(r, ','));
     return expect(r, ')');
 }
 
 static bool read_type(reader *r)
 {
-    size_t line = cage_line(r->text, r->at);
+    static const struct {
+        const char *tag, *joined;
+        size_t n_numbers;
+    } tags[] = {{"Z", "POLYGONZ", 3}, {"M", "POLYGONM", 3}, {"ZM", "POLYGONZM", 4}};
+    size_t line = line_of(r->text, r->at);
     if (next_word(r, "SRID")) {
         r->at += strcspn(r->at, ";");
         r->at += *r->at == ';';
     }
-    if (next_word(r, "MULTIPOLYGON"))
-        return spoilt(r->wrong, line, "a MULTIPOLYGON has several parts; make one map per part");
-    if (!next_word(r, "POLYGON"))
+    r->at += strspn(r->at, blanks);
+    r->several = (*r->at | 0x20) == 'm' && strlen(r->at) > 5;
+    r->at += r->several ? 5 : 0; /* MULTI */
+    bool known = next_word(r, "POLYGON");
+    for (size_t i = 0; i < sizeof tags / sizeof *tags; i++)
+        if (known ? next_word(r, tags[i].tag) : next_word(r, tags[i].joined)) {
+            r->n_numbers = tags[i].n_numbers;
+            known = true;
+            break;
+        }
+    if (!known)
         return spoilt(r->wrong, line, "a cage is a POLYGON");
-    if (next_word(r, "Z") || next_word(r, "M") || next_word(r, "ZM"))
-        return spoilt(r->wrong, line, "the polygon has more than two coordinates a vertex");
     if (next_word(r, "EMPTY"))
         return spoilt(r->wrong, line, "the polygon is empty");
     return true;
+}
+
+/* Where several parts are open: how many there are, from the first on. */
+static size_t count_parts(const char *p)
+{
+    size_t n = 1, depth = 1;
+    for (; *p != '\0' && depth > 0; p++) {
+        depth += *p == '(';
+        depth -= *p == ')';
+        n += *p == ',' && depth == 1;
+    }
+    return n;
+}
+
+static bool read_polygon(reader *r, cage *out)
+{
+    if (!expect(r, '(') || !read_ring(r, out))
+        return false;
+    if (next_is(r, ','))
+        return spoilt(r->wrong, line_of(r->text, r->at),
+                      "the polygon has a hole; cut it open into parts "
+                      "without holes and make one map per part");
+    return expect(r, ')');
 }
 
 bool cage_read_wkt(cage *out, const char *text, size_t n, problem *wrong)
@@ -101,18 +159,19 @@ bool cage_read_wkt(cage *out, const char *text, size_t n, problem *wrong)
     if (n >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0)
         r.at += 3;
     r.at += strspn(r.at, blanks);
-    if (!read_type(&r) || !expect(&r, '(') || !read_ring(&r, out))
+    if (!read_type(&r) || (r.several && !expect(&r, '(')))
         return false;
-    if (next_is(&r, ','))
-        return spoilt(wrong, cage_line(text, r.at),
-                      "the polygon has a hole; cut it open into parts "
-                      "without holes and make one map per part");
-    if (!expect(&r, ')'))
+    const char *first = r.at;
+    size_t n_parts = r.several ? count_parts(first) : 1;
+    if (n_parts > 1)
+        return spoilt(wrong, line_of(text, first),
+                      "the MULTIPOLYGON has %zu parts; make one map per part", n_parts);
+    if (!read_polygon(&r, out) || (r.several && !expect(&r, ')')))
         return false;
     next_is(&r, ';');
     r.at += strspn(r.at, blanks);
     if (r.at != text + n)
-        return spoilt(wrong, cage_line(text, r.at), "there is more text behind the polygon");
+        return spoilt(wrong, line_of(text, r.at), "there is more text behind the polygon");
     cage_open_ring(out);
     return true;
 }

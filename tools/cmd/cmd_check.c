@@ -4,33 +4,12 @@
  * the vertices that a defect names as superfluous. */
 #include "cmd/commands.h"
 
-#include "report/check.h"
+#include "job/output_name.h"
+#include "report/check_job.h"
 
 static bool in_plane(const check *c)
 {
     return job_dim(&c->job) == 2 && c->job.cages[0].cells == NULL;
-}
-
-bool check_mask_only(const check *c)
-{
-    return c->job.cages[0].cells != NULL && c->job.args->target == NULL;
-}
-
-int check_find_defects(check *c)
-{
-    c->n_defects = 0;
-    for (size_t side = 0; side < 2; side++) {
-        icc_error err = {.size = sizeof err, .index = -1, .side = (int32_t)side + 1};
-        defects_free(&c->defects[side]);
-        if (c->job.cages[side].dim != 2 || c->job.cages[side].cells != NULL)
-            continue;
-        if (defects_find(&c->defects[side], &c->job.cages[side], 0, NULL, &c->job.env, &err) !=
-            ICC_OK)
-            return job_failed(&c->job, &err);
-        c->n_defects += c->defects[side].n;
-    }
-    progress_end(&c->job.bar);
-    return DONE;
 }
 
 static int verdict_on_defects(check *c)
@@ -88,6 +67,20 @@ static int verdict_on_method(check *c)
                : failed(c->job.args->source, 0, "%s", check_reason(text, c));
 }
 
+static bool is_surface_only(const check *c)
+{
+    return job_dim(&c->job) == 3 && c->job.cages[0].cells == NULL && c->job.args->target == NULL;
+}
+
+/* The formats in which --repair writes. */
+static const char *repaired_formats(const check *c)
+{
+    return c->job.cages[0].cells != NULL   ? "NumPy"
+           : !in_plane(c)                  ? "OBJ"
+           : c->job.args->target != NULL   ? "GeoJSON, JSON"
+                                           : "text, GeoJSON, JSON";
+}
+
 /* What the cages must be for the options. */
 static int check_options(const check *c)
 {
@@ -95,10 +88,14 @@ static int check_options(const check *c)
     bool mask = c->job.cages[0].cells != NULL;
     if (a->boundary != NULL && !mask)
         return failed(a->source, 0, "this is no mask; --boundary needs one");
-    if (a->repair != NULL && !in_plane(c) && !check_mask_only(c))
+    if (a->repair != NULL && !in_plane(c) && !check_mask_only(c) && !is_surface_only(c))
         return failed(a->source, 0,
-                      "--repair is for cages in the plane, and for masks without a target");
-    return DONE;
+                      "--repair is for cages in the plane, and for surfaces and masks without a "
+                      "target");
+    return output_fits(a->command, a->boundary,
+                       job_dim(&c->job) == 3 ? "text, OBJ" : "text") == DONE
+               ? output_fits(a->command, a->repair, repaired_formats(c))
+               : MISUSED;
 }
 
 static int run(check *c)
@@ -115,7 +112,9 @@ static int run(check *c)
     if (c->n_defects > 0 && c->job.args->repair == NULL)
         return verdict_on_defects(c);
     if (c->job.args->repair != NULL)
-        result = in_plane(c) ? check_repair(c) : check_repair_mask(c);
+        result = in_plane(c)          ? check_repair(c)
+                 : is_surface_only(c) ? check_repair_surface(c)
+                                      : check_repair_mask(c);
     return result == DONE ? verdict_on_method(c) : result;
 }
 

@@ -5,9 +5,7 @@
 #include "base/allocate.h"
 #include "plot/stages.h"
 
-#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* The critical vertices of the order in which the tree was grown, and, beyond the plane, what it takes
  * to have an order with none but the maximum. */
@@ -47,56 +45,6 @@ static int examine_function(info *x, const stages *s)
     if (x->has_critical)
         stages_position(s, found.critical, x->critical);
     return examine_order(x, s);
-}
-
-/* Euler's formula: a hole brings a saddle, whatever the function; further critical points are its own. */
-static const char *own_reason(const info *x)
-{
-    if (x->field.beside && x->chart.n_maxima == 1)
-        return "the function is greatest there, beside the root, where curves are to end";
-    if (x->chart.n_maxima == 1 && x->chart.n_minima == 0 && x->chart.n_saddles <= x->n_holes)
-        return NULL;
-    if (x->domain.dim > 2)
-        return "beyond the plane the inequalities of a tree would not exclude them";
-    if (function_solves(x->field.function) && !x->field.constrained)
-        return "the inequalities that keep such points away were not imposed";
-    if (x->chart.n_cousin_violations > 0)
-        return "the tree breaks the cousin rule, so falling along it does not exclude them";
-    return "the function keeps to the inequalities only up to its residual";
-}
-
-const char *info_reason(char text[240], const info *x)
-{
-    const char *own = own_reason(x);
-    text[0] = '\0';
-    if (x->n_holes > 0)
-        snprintf(
-            text, 240,
-            "gaps narrower than a cell make %zu hole%s in the shape, each with a saddle, until "
-            "--cells resolves them%s",
-            x->n_holes, x->n_holes == 1 ? "" : "s", own != NULL ? "; and " : "");
-    size_t used = strlen(text);
-    snprintf(text + used, 240 - used, "%s", own != NULL ? own : "");
-    return text;
-}
-
-bool info_has_grid(const info *x)
-{
-    return x->chart.method == ICC_METHOD_GRADIENT || x->chart.method == ICC_METHOD_FIELD;
-}
-
-const char *info_growth(char text[160], const info *x)
-{
-    const icc_grow_report *g = &x->growth;
-    if (g->method == ICC_GROW_AS_GIVEN)
-        snprintf(text, 160, "the order of the function has no critical vertex but the maximum");
-    else if (!x->grown)
-        snprintf(text, 160, "stuck: %zu vertices cannot be placed, %zu are left by thinning",
-                 g->n_unplaced, g->n_remaining);
-    else
-        snprintf(text, 160, "%s, %zu vertices had to wait, %zu edges against the function",
-                 g->method == ICC_GROW_GROWN ? "grown" : "thinned", g->n_deferred, g->n_reversed);
-    return text;
 }
 
 static int gather(info *x)

@@ -1,17 +1,18 @@
 /* libicc mesh: carries the vertices of a mesh along, and tells what became of its triangles or
- * tetrahedra. */
+ * tetrahedra. What lies outside the cage stays where it is, or nothing is written. */
 #include "cmd/commands.h"
 
-#include "job/job.h"
 #include "base/allocate.h"
+#include "job/job.h"
+#include "job/output_name.h"
 #include "mesh/mesh_file.h"
 #include "mesh/tally.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* What the library says of a mesh as a whole, which may have its images repaired; from target to source it has
- * nothing to say. */
+/* What the library says of a mesh as a whole, which may have its images repaired; from target to
+ * source it has nothing to say. */
 static int certify(job *j, const mesh_file *m, double *images, icc_certificate *certificate)
 {
     icc_error err = {.size = sizeof err, .index = -1};
@@ -53,6 +54,8 @@ static int report_tally(const job *j, const mesh_file *m, const double *images, 
         return FAILED;
     json_count(&r.json, "points", m->n_vertices);
     json_count(&r.json, "without_image", n_failed);
+    if (m->dim == 3)
+        json_count(&r.json, "faces", m->n_faces);
     tally_report(t, m, images, &r.json);
     if (certificate->size > 0) {
         json_flag(&r.json, "boundary_simple", certificate->boundary_simple != 0);
@@ -61,38 +64,75 @@ static int report_tally(const job *j, const mesh_file *m, const double *images, 
     return report_close(&r) ? DONE : FAILED;
 }
 
-static int write_mesh(const job *j, const mesh_file *m, const double *images)
+/* Vertices without an image stay where they are. */
+static int write_mesh(const job *j, const mesh_file *m, const double *images,
+                      const icc_status *status)
 {
     outfile file;
     if (!outfile_open(&file, j->args->operands[1]))
         return FAILED;
-    mesh_write(m, images, file.stream);
+    double *places = need(m->n_vertices, m->dim * sizeof *places);
+    for (size_t i = 0; i < m->n_vertices; i++)
+        memcpy(places + m->dim * i, (status[i] == ICC_OK ? images : m->points) + m->dim * i,
+               m->dim * sizeof *places);
+    mesh_write(m, places, file.stream);
+    free(places);
     return outfile_close(&file) ? DONE : FAILED;
+}
+
+/* How many vertices have no image, which is the first, and what has been done about it. */
+static int tell_outside(job *j, const mesh_file *m, const icc_status *status, size_t n_failed)
+{
+    size_t first = 0;
+    while (first < m->n_vertices && status[first] == ICC_OK)
+        first++;
+    progress_end(&j->bar);
+    if (n_failed == 0)
+        return DONE;
+    note(j->args->outside == OUTSIDE_KEEP
+             ? "%s: %zu of %zu vertices have no image and stay where they are; the first is vertex "
+               "%zu (from 0), %s"
+             : "%s: %zu of %zu vertices have no image, so nothing was written; the first is vertex "
+               "%zu (from 0), %s; --outside keep leaves them where they are",
+         j->args->operands[0], n_failed, m->n_vertices, first,
+         status[first] == ICC_ERR_OUTSIDE ? "outside the cage" : "where the curves do not reach");
+    return PARTIAL;
 }
 
 static int map_mesh(job *j, const mesh_file *m)
 {
-    size_t n = m->n_vertices, n_failed;
+    size_t n = m->n_vertices, n_failed = 0;
     double *images = need(n, m->dim * sizeof *images);
     icc_status *status = need(n, sizeof *status);
     icc_status ran = (j->args->inverse ? icc_map_apply_inverse : icc_map_apply)(
         j->map, n, m->points, images, status, &n_failed, &j->env);
     icc_certificate certificate = {0};
     int result = ran == ICC_OK ? certify(j, m, images, &certificate) : job_failed_status(j, ran);
+    bool writes = n_failed == 0 || j->args->outside == OUTSIDE_KEEP;
     progress_end(&j->bar);
-    if (result == DONE)
-        result = write_mesh(j, m, images);
-    if (result == DONE) {
+    if (result == DONE && writes)
+        result = write_mesh(j, m, images, status);
+    if (result == DONE && (writes || j->args->json)) {
         tally t = tally_count(m, images);
         result = report_tally(j, m, images, &t, n_failed, &certificate);
     }
     if (result == DONE)
-        result = job_partial(j, n, status, "vertices");
+        result = tell_outside(j, m, status, n_failed);
     free(images);
     free(status);
     return result;
 }
 
+/* What is written has the format of what is read, and its name must not say otherwise. */
+static int make_and_map(job *j, const mesh_file *m)
+{
+    int result = output_fits(j->args->command, j->args->operands[1], m->format);
+    if (result == DONE)
+        result = job_make_map(j);
+    return result == DONE ? map_mesh(j, m) : result;
+}
+
+/* The mesh is read before the map is made, so that a mistake is told at once. */
 static int read_and_map(job *j)
 {
     const char *name = j->args->operands[0];
@@ -103,7 +143,7 @@ static int read_and_map(job *j)
     mesh_file m;
     problem wrong;
     int result = mesh_read(&m, job_dim(j), text, n, &wrong)
-                     ? map_mesh(j, &m)
+                     ? make_and_map(j, &m)
                      : failed(name, wrong.line, "%s", wrong.text);
     mesh_free(&m);
     free(text);
@@ -123,8 +163,6 @@ int run_mesh(const args *a)
     job j;
     job_start(&j, a);
     int result = check_dimension(&j);
-    if (result == DONE)
-        result = job_make_map(&j);
     if (result == DONE)
         result = read_and_map(&j);
     job_end(&j);

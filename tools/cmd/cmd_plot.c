@@ -241,7 +241,7 @@ int run_plot(const args *a)
 {
     const char *dot = strrchr(a->operands[0], '.');
     if (dot != NULL && strcmp(dot, ".vtk") == 0)
-        return run_plot_vtk(a);
+        return plot_vtk(a);
     plot x = {0};
     double began = seconds_now();
     job_start(&x.job, a);

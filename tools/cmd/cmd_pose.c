@@ -4,49 +4,14 @@
 #include "base/allocate.h"
 #include "mesh/mesh_file.h"
 #include "base/number.h"
-#include "kernel/pose.h"
+#include "kernel/pose_job.h"
+#include "job/output_name.h"
 #include "job/point_file.h"
 #include "mesh/tally.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-const char *pose_output(const pose *p)
-{
-    const args *a = p->kernel.job.args;
-    return a->operands[a->n_operands - 1];
-}
-
-void pose_say(const pose *p, const char *text)
-{
-    if (strcmp(pose_output(p), "-") == 0)
-        note("%s", text);
-    else
-        printf("%s\n", text);
-}
-
-int pose_report_open(report *r, pose *p, size_t n, const double *points, size_t n_failed,
-                     double seconds)
-{
-    size_t dim = p->kernel.set.dim, n_finite = 0;
-    double *finite = need(n, dim * sizeof *finite);
-    for (size_t i = 0; i < n; i++) {
-        double sum = 0;
-        for (size_t c = 0; c < dim; c++)
-            sum += 0 * points[dim * i + c];
-        if (!isnan(sum))
-            memcpy(finite + dim * n_finite++, points + dim * i, dim * sizeof *finite);
-    }
-    int result = kernel_report_open(r, &p->kernel, n_finite, finite);
-    free(finite);
-    if (result != DONE)
-        return result;
-    json_count(&r->json, "points", n);
-    json_count(&r->json, "without_image", n_failed);
-    json_number(&r->json, "seconds_pose", seconds);
-    return DONE;
-}
 
 static int partial(size_t n_failed, size_t n, const char *what)
 {
@@ -112,6 +77,17 @@ static int pose_rows(pose *p, const char *text, size_t n)
 
 /* ------------------------------------------------------------------- meshes */
 
+/* Of a mesh every vertex was finite, but its image may not be. */
+static int check_images(pose *p, const mesh_file *m, const double *images)
+{
+    for (size_t i = 0; i < m->n_vertices * m->dim; i++)
+        if (!isfinite(images[i]))
+            return failed(p->kernel.job.args->operands[0], 0,
+                          "vertex %zu goes beyond the range of numbers, so nothing was written",
+                          i / m->dim);
+    return DONE;
+}
+
 static int report_mesh(pose *p, const mesh_file *m, const double *images, size_t n_failed,
                        double seconds)
 {
@@ -137,6 +113,8 @@ static int write_mesh(pose *p, const mesh_file *m)
     int result = pose_points(p, m->n_vertices, m->points, images, NULL, &n_failed);
     double seconds = seconds_now() - began;
     outfile file;
+    if (result == DONE)
+        result = check_images(p, m, images);
     if (result == DONE)
         result = outfile_open(&file, pose_output(p)) ? DONE : FAILED;
     if (result == DONE) {
@@ -176,29 +154,42 @@ static bool is_points(const char *text)
     return *text == '\0' || number_read(&text, &number) != NUMBER_BAD;
 }
 
-static int pose_input(pose *p)
+static bool is_picture(const char *bytes, size_t n)
 {
-    size_t n;
-    char *text = file_read(p->kernel.job.args->operands[0], &n);
-    if (text == NULL)
-        return FAILED;
-    int result = n >= 4 && memcmp(text, "\x89PNG", 4) == 0 ? pose_picture(p, text, n)
-                 : is_points(text)                         ? pose_rows(p, text, n)
-                                                           : pose_mesh(p, text, n);
-    free(text);
-    return result;
+    return n >= 4 && memcmp(bytes, "\x89PNG", 4) == 0;
 }
 
-/* What is read is read first, so that a mistake is told at once. */
+static int pose_input(pose *p, const char *text, size_t n)
+{
+    return is_picture(text, n) ? pose_picture(p, text, n)
+           : is_points(text)   ? pose_rows(p, text, n)
+                               : pose_mesh(p, text, n);
+}
+
+/* What is read is read first, so that a mistake is told at once; as is a result's name that says
+ * something else than what it will be. */
 static int pose_shape(pose *p)
 {
-    int result = kernel_job_read(&p->kernel);
     const handle_set *set = &p->kernel.set;
+    size_t n = 0;
+    char *text = NULL;
+    int result = kernel_job_read(&p->kernel);
     if (result == DONE)
         result = read_pose(p, set->dim, set->n_handles, set->handles);
+    if (result == DONE) {
+        text = file_read(p->kernel.job.args->operands[0], &n);
+        result = text == NULL ? FAILED
+                              : output_fits("pose", pose_output(p),
+                                            is_picture(text, n) ? "PNG"
+                                            : is_points(text)   ? "text"
+                                                                : mesh_format(text));
+    }
     if (result == DONE)
         result = kernel_job_make(&p->kernel);
-    return result == DONE ? pose_input(p) : result;
+    if (result == DONE)
+        result = pose_input(p, text, n);
+    free(text);
+    return result;
 }
 
 static int write_bound(pose *p, const icc_binding *binding)

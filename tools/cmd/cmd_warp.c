@@ -3,6 +3,7 @@
 
 #include "job/job.h"
 #include "base/allocate.h"
+#include "plot/coverage.h"
 #include "plot/picture.h"
 
 #include <stdlib.h>
@@ -89,9 +90,11 @@ int run_warp(const args *a)
     job_start(&w.job, a);
     int result = job_read_plane(&w.job, "warp");
     if (result == DONE)
+        result = read_picture(&w);
+    if (result == DONE)
         result = job_make_map(&w.job);
     if (result == DONE)
-        result = read_picture(&w);
+        coverage_tell(&w.job, w.from.width, w.from.height);
     if (result == DONE)
         result = warp_picture(&w);
     picture_free(&w.from);

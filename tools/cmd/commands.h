@@ -15,6 +15,5 @@ int run_info(const args *a);
 int run_plot(const args *a);
 int run_weights(const args *a);
 int run_pose(const args *a);
-int run_plot_vtk(const args *a); /* plot to a file .vtk */
 
 #endif

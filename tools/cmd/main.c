@@ -68,8 +68,11 @@ static const command commands[] = {
      .usage = "--source FILE --target FILE [OPTION]... IN OUT",
      .summary = "Carries the vertices of a mesh along",
      .details =
-         "OBJ, OFF, Medit (.mesh) and legacy VTK as text. Says how many triangles (in space: "
-         "tetrahedra)\n"
+         "OBJ, OFF, Medit (.mesh) and legacy VTK as text, PLY also as binary; OUT has the format of "
+         "IN.\n"
+         "Nothing is written when a vertex lies outside the cage, unless --outside keep leaves it "
+         "where it is.\n"
+         "Says how many triangles (in space: tetrahedra)\n"
          "keep their orientation, how many invert or collapse, and whether the mesh and its image "
          "are\n"
          "one-to-one, with exact signs. A mesh that is sampled from a one-to-one map need not "
@@ -144,7 +147,7 @@ static const command commands[] = {
      .usage = "[--source FILE] --handles FILE --pose FILE [OPTION]... IN OUT",
      .summary = "Moves points, meshes and pictures with their handles",
      .details =
-         "IN is a list of points, a mesh (OBJ, OFF, Medit, VTK) or a PNG picture, told by its "
+         "IN is a list of points, a mesh (OBJ, OFF, PLY, Medit, VTK) or a PNG picture, told by its "
          "content; see\n"
          "'libicc weights --help' for the handles' file. With --binding FILE there is only OUT: "
          "the points are\n"
@@ -165,7 +168,7 @@ static void print_help(void)
          "Carries everything inside a shape along when its boundary moves.\n\nCommands:");
     for (size_t i = 0; i < N_COMMANDS; i++)
         printf("  %-8s %s\n", commands[i].name, commands[i].summary);
-    puts("\n'libicc COMMAND --help' tells about a command; 'libicc --version' prints the version.\n"
+    puts("\n'libicc help COMMAND' tells about a command; 'libicc --version' prints the version.\n"
          "Exit codes: 0 done; 1 the input or the computation failed; 2 wrong usage; 4 done, but "
          "some\n"
          "points have no image.\n(Not related to ICC colour profiles.)");
@@ -193,6 +196,27 @@ static int flushed(int result)
     return failed(STANDARD_OUTPUT, 0, "cannot be written: %s", file_write_error(errno));
 }
 
+static const command *find_command(const char *name)
+{
+    for (size_t i = 0; i < N_COMMANDS; i++)
+        if (strcmp(name, commands[i].name) == 0)
+            return &commands[i];
+    return NULL;
+}
+
+/* `libicc help` and `libicc help COMMAND`. */
+static int help_with(const char *name)
+{
+    const command *c = name != NULL ? find_command(name) : NULL;
+    if (name != NULL && c == NULL)
+        return misused(NULL, "there is no command '%.40s'", name);
+    if (c != NULL)
+        args_help(c);
+    else
+        print_help();
+    return DONE;
+}
+
 int main(int argc, char **argv)
 {
     if (argc < 2)
@@ -200,13 +224,15 @@ int main(int argc, char **argv)
                        "which command? one of map, encode, decode, warp, mesh, check, info, plot, "
                        "weights, pose");
     const char *name = argv[1];
-    for (size_t i = 0; i < N_COMMANDS; i++)
-        if (strcmp(name, commands[i].name) == 0)
-            return flushed(run_command(&commands[i], argc, argv));
+    const command *c = find_command(name);
+    if (c != NULL)
+        return flushed(run_command(c, argc, argv));
     if (strcmp(name, "--version") == 0)
         printf("libicc %s\n", icc_version());
-    else if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0 || strcmp(name, "help") == 0)
+    else if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0)
         print_help();
+    else if (strcmp(name, "help") == 0)
+        return flushed(help_with(argc > 2 ? argv[2] : NULL));
     else
         return misused(NULL, "there is no command '%.40s'", name);
     return flushed(DONE);

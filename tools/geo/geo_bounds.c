@@ -1,5 +1,4 @@
 /* Bounding boxes of what has been carried. */
-#include "cage/cage.h"
 #include "geo/geo_carriage.h"
 
 #include <string.h>
@@ -39,7 +38,7 @@ static bool set_box(carriage *c, geo_span span, const geo_box *box)
     }
     const char *last = n > 0 ? end + strspn(end, " \t\r\n") : p;
     if (*last != ']' || n < 4 || n % 2 != 0)
-        return spoilt(c->wrong, cage_line(c->text, p),
+        return spoilt(c->wrong, line_of(c->text, p),
                       "this bbox is not a list of 4 numbers, or 6");
     if (box->lower[0] > box->upper[0]) {
         drop_member(c, span);

@@ -5,7 +5,6 @@
 
 #include "base/allocate.h"
 #include "base/json_scan.h"
-#include "cage/cage.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -158,7 +157,7 @@ static unsigned needed(geo_type type)
 static bool misses(const geo_object *o, const char *text, size_t at, const char *format,
                    const char *name, problem *wrong)
 {
-    return spoilt(wrong, cage_line(text, text + at), format, geo_type_names[o->type], name);
+    return spoilt(wrong, line_of(text, text + at), format, geo_type_names[o->type], name);
 }
 
 /* Members that mean something must be there, once, and be lists or objects where these are expected. */
@@ -186,7 +185,7 @@ static bool check_type(const geo_object *o, const char *text, problem *wrong)
     bool geometry = o->route == GEO_IN_GEOMETRY || o->route == GEO_IN_GEOMETRIES;
     if (o->type != GEO_UNKNOWN && !(geometry && o->type >= GEO_FEATURE))
         return true;
-    size_t line = cage_line(text, text + o->all.begin);
+    size_t line = line_of(text, text + o->all.begin);
     if (!geo_has(o->type_name))
         return spoilt(wrong, line, "this is not GeoJSON: a type is missing");
     char shown[32], word[32];
@@ -231,7 +230,7 @@ bool geo_index_read(geo_index *out, const char *text, size_t n, problem *wrong)
         kind = json_scan_next(&x.scan);
     bool good = kind == JSON_END;
     if (kind == JSON_BAD)
-        spoilt(wrong, cage_line(text, text + x.scan.begin), "%s", x.scan.why);
+        spoilt(wrong, line_of(text, text + x.scan.begin), "%s", x.scan.why);
     else if (!good)
         spoilt(wrong, 0, "this GeoJSON has too many objects");
     else if (!object)

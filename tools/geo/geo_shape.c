@@ -1,7 +1,6 @@
 #include "geo/geo_shape.h"
 
 #include "base/allocate.h"
-#include "cage/cage.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -97,7 +96,7 @@ bool geo_shape_read(geo_shape *out, const geo_object *object, const char *text, 
     bool list = *p == '[';
     bool empty = list && *skip_blanks(p + 1) == ']';
     if (!list)
-        return spoilt(wrong, cage_line(text, p), "a '%s' has no coordinates",
+        return spoilt(wrong, line_of(text, p), "a '%s' has no coordinates",
                       geo_type_names[object->type]);
     if (empty)
         return true;
@@ -107,7 +106,7 @@ bool geo_shape_read(geo_shape *out, const geo_object *object, const char *text, 
                                           : read_lists(out, text, &p, levels[object->type]);
     if (object->type == GEO_POINT)
         out->paths[0].n = out->n;
-    return good || spoilt(wrong, cage_line(text, p),
+    return good || spoilt(wrong, line_of(text, p),
                           "position %zu, in a %s, is not a list of finite numbers, at least two",
                           out->n, geo_type_names[object->type]);
 }

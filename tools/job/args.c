@@ -230,18 +230,34 @@ int args_parse(args *out, const command *c, int argc, char **argv, bool *help)
     return args_check(out, c);
 }
 
-void args_help(const command *c)
+static void print_option(const option *o)
 {
-    printf("Usage: libicc %s %s\n%s.\n\n%s\nOptions:\n", c->name, c->usage, c->summary, c->details);
+    char left[64], letter[8] = "    ";
+    if (o->letter != '\0' && !o->quiet_letter)
+        snprintf(letter, sizeof letter, "-%c, ", o->letter);
+    snprintf(left, sizeof left, "%s--%s%s%s", letter, o->name,
+             o->value != NULL && o->kind != OPTION_REPORT ? " " : "", o->value ? o->value : "");
+    printf("  %-30s %s\n", left, o->help);
+}
+
+/* One group of a command's options; nothing if it has none of them. */
+static void print_group(const command *c, bool papers, const char *heading)
+{
     for (size_t i = 0; i < N_OPTIONS; i++) {
         const option *o = &options[i];
-        if (!(o->commands & c->bit))
+        if (!(o->commands & c->bit) || o->papers != papers)
             continue;
-        char left[64], letter[8] = "    ";
-        if (o->letter != '\0')
-            snprintf(letter, sizeof letter, "-%c, ", o->letter);
-        snprintf(left, sizeof left, "%s--%s%s%s", letter, o->name,
-                 o->value != NULL && o->kind != OPTION_REPORT ? " " : "", o->value ? o->value : "");
-        printf("  %-30s %s\n", left, o->help);
+        printf("%s", heading);
+        heading = "";
+        print_option(o);
     }
+}
+
+void args_help(const command *c)
+{
+    printf("Usage: libicc %s %s\n%s.\n\n%s", c->name, c->usage, c->summary, c->details);
+    print_group(c, false, "\nOptions:\n");
+    print_group(c, true,
+                c->bit & FOR_KERNEL ? "\nOptions of the thesis' method:\n"
+                                    : "\nOptions of the papers' method (--method gradient):\n");
 }

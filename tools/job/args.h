@@ -2,7 +2,7 @@
 #ifndef ARGS_H
 #define ARGS_H
 
-#include "job/function.h"
+#include "job/function_choice.h"
 
 #include <icc/base.h>
 #include <stdbool.h>

@@ -1,6 +1,7 @@
 /* Options that need or exclude each other, and what they stand for. */
 #include "job/args.h"
 #include "job/option_table.h"
+#include "job/output_name.h"
 #include "base/say.h"
 
 #include <icc/kernel.h>
@@ -81,7 +82,7 @@ static int check_operands(const args *a, const command *c)
     if (a->geojson && (a->points != NULL || a->output != NULL))
         return misused(c->name, "--points and --output do not go with --geojson IN OUT");
     if (a->repair_mesh && a->inverse)
-        return misused(c->name, "--repair does not go with --inverse");
+        return misused(c->name, "--untangle does not go with --inverse");
     if (a->tolerance > 0 && !a->geojson)
         return misused(c->name, "--tolerance goes with --geojson only");
     if (a->outside == OUTSIDE_CLIP && !a->geojson)
@@ -150,7 +151,9 @@ static int check_together(const args *a, const command *c)
     int result = c->bit & FOR_KERNEL ? check_kernel(a, c) : check_charts(a, c);
     if (result == DONE)
         result = check_operands(a, c);
-    return result == DONE ? check_inputs(a, c) : result;
+    if (result == DONE)
+        result = check_inputs(a, c);
+    return result == DONE ? output_names_check(a, c) : result;
 }
 
 /* Reads come by default from stdin, and results go by default to stdout. */

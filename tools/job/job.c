@@ -2,8 +2,10 @@
 
 #include "job/job.h"
 
+#include "cage/cage_defects.h"
+#include "cage/cage_read.h"
+#include "cage/weld.h"
 #include "job/correspond.h"
-#include "cage/defect.h"
 #include "job/fill.h"
 
 #include <stdio.h>
@@ -52,12 +54,17 @@ static size_t line_at_fault(const cage *c, const icc_error *err)
     return (of_face ? c->facet_lines : c->lines)[err->index];
 }
 
-int job_failed(job *j, const icc_error *err)
+static int failed_with(job *j, const icc_error *err, const char *hint)
 {
     progress_end(&j->bar);
     size_t line = line_at_fault(&j->cages[err->side == 2], err);
     const char *message = err->message[0] != '\0' ? err->message : icc_status_name(err->status);
-    return failed(job_file(j, err->side), line, "%s", message);
+    return failed(job_file(j, err->side), line, "%s%s", message, hint);
+}
+
+int job_failed(job *j, const icc_error *err)
+{
+    return failed_with(j, err, "");
 }
 
 int job_failed_status(job *j, icc_status status)
@@ -142,6 +149,18 @@ static int failed_boundary(job *j, size_t side, const icc_error *err)
     return FAILED;
 }
 
+/* A surface that is none: perhaps only because its faces do not share their vertices. */
+static int failed_surface(job *j, size_t side, const icc_error *err)
+{
+    char hint[120] = "";
+    size_t n = weld_count(&j->cages[side]);
+    if (n > 0)
+        snprintf(hint, sizeof hint,
+                 "; %zu vertices coincide with others: 'libicc check --repair OUT.obj' joins them",
+                 n);
+    return failed_with(j, err, hint);
+}
+
 static int make_domain(job *j, size_t side)
 {
     const cage *c = &j->cages[side];
@@ -155,6 +174,7 @@ static int make_domain(job *j, size_t side)
         return DONE;
     err.side = (int32_t)side + 1;
     return status == ICC_ERR_BOUNDARY && c->dim == 2 ? failed_boundary(j, side, &err)
+           : c->cells == NULL && c->n_facets > 0     ? failed_surface(j, side, &err)
                                                      : job_failed(j, &err);
 }
 
@@ -168,6 +188,15 @@ static int make_source(job *j)
     return correspond(j);
 }
 
+/* What has been left out is told once all is well, so that an error is one line. */
+static void note_heights(const job *j)
+{
+    for (size_t side = 0; side < 2; side++)
+        if (j->cages[side].n_heights > 0)
+            note("%s: heights are left out; a cage in the plane has x and y",
+                 job_file(j, (int)side + 1));
+}
+
 int job_make_domains(job *j)
 {
     if (j->domains[0] != NULL)
@@ -177,7 +206,11 @@ int job_make_domains(job *j)
         result = make_source(j);
     if (result == DONE && j->args->target != NULL)
         result = make_domain(j, 1);
-    return result == DONE ? fill_domains(j) : result;
+    if (result == DONE)
+        result = fill_domains(j);
+    if (result == DONE)
+        note_heights(j);
+    return result;
 }
 
 static icc_chart_options chart_options(const job *j)

@@ -32,12 +32,14 @@ typedef struct option {
     int32_t low, high;
     double most;
     bool zero;
+    bool quiet_letter; /* the letter works, but is not told about */
+    bool papers;       /* of the papers' method alone, and told about behind the others */
     const choice *choices;
     const char *value, *help;
 } option;
 
-extern const choice methods[], maps[], functions[], solvers[], trees[], samplings[], weightings[], kernels[],
-    initials[], outsides[];
+extern const choice methods[], maps[], functions[], solvers[], trees[], samplings[], weightings[],
+    kernels[], initials[], outsides[];
 
 /* The name of a value that the library gave. */
 const char *choice_name(const choice *choices, int32_t value);

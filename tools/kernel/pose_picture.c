@@ -1,7 +1,7 @@
 /* Pictures are posed forwards: the regions of the shape are cut into small triangles, which are posed, and each
  * is drawn where it has gone to, with the colours from where it was. What turns over is drawn first, so that the
  * rest hides it. */
-#include "kernel/pose.h"
+#include "kernel/pose_job.h"
 
 #include "base/allocate.h"
 #include "base/orientation.h"

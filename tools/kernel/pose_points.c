@@ -1,4 +1,4 @@
-#include "kernel/pose.h"
+#include "kernel/pose_job.h"
 
 #include "base/allocate.h"
 

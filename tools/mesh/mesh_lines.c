@@ -69,12 +69,18 @@ bool lines_next_count(lines *r, double limit, uint32_t *count)
     return lines_word(r) && lines_count(r, limit, count);
 }
 
+void mesh_make_room(mesh_file *m)
+{
+    size_t n = m->n_vertices + 1;
+    m->points = grow(m->points, &m->room_points, m->dim * n, sizeof *m->points);
+    m->spans = grow(m->spans, &m->room_spans, 2 * m->n_spans * n, sizeof *m->spans);
+}
+
 bool lines_vertex(lines *r)
 {
     mesh_file *m = r->mesh;
     size_t i = m->n_vertices;
-    m->points = grow(m->points, &m->room_points, m->dim * (i + 1), sizeof *m->points);
-    m->spans = grow(m->spans, &m->room_spans, 2 * (i + 1), sizeof *m->spans);
+    mesh_make_room(m);
     lines_skip_blanks(r);
     m->spans[2 * i] = (size_t)(r->at - m->text);
     for (size_t k = 0; k < m->dim; k++)
@@ -96,6 +102,7 @@ void lines_corner(lines *r, uint32_t vertex)
     r->corners[r->n_corners < 2 ? r->n_corners : 2] = vertex;
     if (++r->n_corners < 3)
         return;
+    m->n_faces += r->n_corners == 3;
     m->triangles =
         grow(m->triangles, &m->room_triangles, 3 * (m->n_triangles + 1), sizeof *m->triangles);
     m->triangle_lines = grow(m->triangle_lines, &m->room_triangle_lines, m->n_triangles + 1,

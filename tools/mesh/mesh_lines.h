@@ -33,6 +33,9 @@ bool lines_number(lines *r, double *value);
 bool lines_count(lines *r, double limit, uint32_t *count);
 bool lines_next_count(lines *r, double limit, uint32_t *count);
 
+/* Room for one more vertex. */
+void mesh_make_room(mesh_file *m);
+
 /* The coordinates of the next vertex, which begin in this line. */
 bool lines_vertex(lines *r);
 
@@ -49,5 +52,6 @@ bool mesh_read_obj(lines *r);
 bool mesh_read_off(lines *r);
 bool mesh_read_medit(lines *r);
 bool mesh_read_vtk(lines *r);
+bool mesh_read_ply(lines *r);
 
 #endif

@@ -55,18 +55,28 @@ static bool read_items(lines *r, size_t n_corners)
     return true;
 }
 
-static bool read_section(lines *r)
+/* What each section may be given once. */
+enum { DIMENSION, VERTICES, TRIANGLES, TETRAHEDRA, N_SECTIONS };
+
+static bool read_section(lines *r, bool seen[N_SECTIONS])
 {
-    if (lines_take(r, "Dimension"))
-        return read_dimension(r);
-    if (lines_take(r, "Vertices"))
-        return read_vertices(r);
-    if (lines_take(r, "Triangles"))
-        return read_items(r, 3);
-    if (lines_take(r, "Tetrahedra"))
-        return read_items(r, 4);
-    r->at += strcspn(r->at, " \t\r\n"); /* another section, or a number in one */
-    return true;
+    static const char *const names[N_SECTIONS] = {"Dimension", "Vertices", "Triangles",
+                                                  "Tetrahedra"};
+    int which = 0;
+    while (which < N_SECTIONS && !lines_take(r, names[which]))
+        which++;
+    if (which == N_SECTIONS) { /* another section, or a number in one */
+        r->at += strcspn(r->at, " \t\r\n");
+        return true;
+    }
+    if (seen[which])
+        return spoilt(r->wrong, r->line, "a second section %s; a mesh has one", names[which]);
+    seen[which] = true;
+    if (which >= TRIANGLES && !seen[VERTICES])
+        return spoilt(r->wrong, r->line, "the section %s comes before Vertices", names[which]);
+    return which == DIMENSION  ? read_dimension(r)
+           : which == VERTICES ? read_vertices(r)
+                               : read_items(r, which == TRIANGLES ? 3 : 4);
 }
 
 /* Moves to the next section; false at the end of the file. */
@@ -85,10 +95,11 @@ static bool find_section(lines *r)
 
 bool mesh_read_medit(lines *r)
 {
+    bool seen[N_SECTIONS] = {false};
     while (find_section(r)) {
         if (lines_take(r, "End"))
             return true;
-        if (!read_section(r))
+        if (!read_section(r, seen))
             return false;
     }
     return true;

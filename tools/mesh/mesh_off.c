@@ -32,5 +32,8 @@ bool mesh_read_off(lines *r)
     for (uint32_t i = 0; i < n_faces; i++)
         if (!read_face(r))
             return false;
-    return true;
+    while (lines_skip_blanks(r), r->at == r->end && lines_next(r))
+        ;
+    return r->at == r->end || spoilt(r->wrong, r->line, "there is more behind the last of %u faces",
+                                     (unsigned)n_faces);
 }

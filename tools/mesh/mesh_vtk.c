@@ -1,5 +1,5 @@
-/* Legacy VTK as text: an unstructured grid, with the cells of version 2 (each begins with the number
- * of its corners) or 5 (OFFSETS and CONNECTIVITY). */
+/* Legacy VTK as text: an unstructured grid, with the cells of version 2 (each begins with the
+ * number of its corners) or 5 (OFFSETS and CONNECTIVITY). */
 #include "mesh/mesh_lines.h"
 
 #include "base/allocate.h"
@@ -13,6 +13,7 @@ enum { VTK_TRIANGLE = 5, VTK_TETRA = 10 };
 typedef struct cells {
     uint32_t n, n_corners;
     uint32_t *starts, *corners;
+    bool typed; /* their types have been read */
 } cells;
 
 static bool starts_with(lines *r, const char *word)
@@ -51,11 +52,15 @@ static bool skip_rest(lines *r)
 static bool read_points(lines *r)
 {
     uint32_t n;
+    mesh_file *m = r->mesh;
+    if (m->n_types > 0)
+        return spoilt(r->wrong, r->line, "a second section POINTS; a mesh has one");
     if (!lines_next_count(r, 4e9, &n) || !lines_word(r))
         return false;
-    r->mesh->type[0] = (size_t)(r->at - r->mesh->text);
+    m->types[0][0] = (size_t)(r->at - m->text);
     r->at += strcspn(r->at, " \t\r\n");
-    r->mesh->type[1] = (size_t)(r->at - r->mesh->text);
+    m->types[0][1] = (size_t)(r->at - m->text);
+    m->n_types = 1;
     for (uint32_t i = 0; i < n; i++)
         if (!lines_word(r) || !lines_vertex(r) || !skip_rest(r))
             return false;
@@ -91,9 +96,13 @@ static bool read_old_cells(lines *r, cells *c)
 static bool read_cells(lines *r, cells *c)
 {
     uint32_t n, size;
+    if (c->starts != NULL)
+        return spoilt(r->wrong, r->line, "a second section CELLS; a mesh has one");
+    if (r->mesh->n_types == 0)
+        return spoilt(r->wrong, r->line, "the section CELLS comes before POINTS");
     if (!lines_next_count(r, 4e9, &n) || !lines_next_count(r, 4e9, &size) || !lines_word(r))
         return false;
-    if ((double)n + size > (double)r->mesh->n_text || c->starts != NULL)
+    if ((double)n + size > (double)r->mesh->n_text)
         return spoilt(r->wrong, r->line, "the file has no room for so many cells");
     *c = (cells){.n = n, .n_corners = size};
     c->starts = need((size_t)n + 1, sizeof *c->starts);
@@ -111,9 +120,14 @@ static bool read_cells(lines *r, cells *c)
     return true;
 }
 
-static bool read_types(lines *r, const cells *c)
+static bool read_types(lines *r, cells *c)
 {
     uint32_t n, type = 0;
+    if (c->typed || c->starts == NULL)
+        return spoilt(r->wrong, r->line,
+                      c->typed ? "a second section CELL_TYPES; a mesh has one"
+                               : "the section CELL_TYPES comes before CELLS");
+    c->typed = true;
     if (!lines_next_count(r, 4e9, &n))
         return false;
     if (n != c->n)
@@ -135,22 +149,51 @@ static bool read_types(lines *r, const cells *c)
     return true;
 }
 
-/* What follows the cells (CELL_DATA, POINT_DATA) is carried along. */
+static bool is_letter(char c)
+{
+    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+}
+
+/* Whether this line announces an array of data: four words, a name, two numbers and a type. Such an
+ * array may be called like a section. */
+static bool is_array(const lines *r)
+{
+    size_t n = 0;
+    char third = ' ', fourth = ' ';
+    for (const char *p = r->at + strspn(r->at, " \t\r"); p < r->end; p += strspn(p, " \t\r")) {
+        n++;
+        third = n == 3 ? *p : third;
+        fourth = n == 4 ? *p : fourth;
+        p += strcspn(p, " \t\r\n");
+    }
+    return n == 4 && third >= '0' && third <= '9' && is_letter(fourth);
+}
+
+static bool begins_section(lines *r, const char *name)
+{
+    lines_skip_blanks(r);
+    return !is_array(r) && lines_take(r, name);
+}
+
+/* What else there is (METADATA, CELL_DATA, POINT_DATA) is carried along. */
 static bool read_sections(lines *r, cells *c)
 {
-    while (lines_word(r)) {
-        if (lines_take(r, "POINTS")) {
-            if (!read_points(r))
-                return false;
-        } else if (lines_take(r, "CELLS")) {
-            if (!read_cells(r, c))
-                return false;
-        } else if (lines_take(r, "CELL_TYPES"))
-            return read_types(r, c);
+    for (lines_skip_blanks(r); r->at < r->end || lines_next(r); lines_skip_blanks(r)) {
+        bool good = true;
+        if (begins_section(r, "POINTS"))
+            good = read_points(r);
+        else if (begins_section(r, "CELLS"))
+            good = read_cells(r, c);
+        else if (begins_section(r, "CELL_TYPES"))
+            good = read_types(r, c);
+        else if (begins_section(r, "DATASET"))
+            good = spoilt(r->wrong, r->line, "a second DATASET; a mesh has one");
         else
-            r->at = r->end; /* METADATA, FIELD and such */
+            r->at = r->end;
+        if (!good)
+            return false;
     }
-    return false;
+    return c->typed || spoilt(r->wrong, r->line, "the file ends early");
 }
 
 bool mesh_read_vtk(lines *r)

@@ -55,6 +55,11 @@ tally tally_count(const mesh_file *m, const double *images)
 
 void tally_print(const tally *t, const mesh_file *m, char *text, size_t room)
 {
+    if (m->dim == 3 && t->all == 0) {
+        snprintf(text, room, "%zu face%s carried; only tetrahedra can be certified", m->n_faces,
+                 m->n_faces == 1 ? "" : "s");
+        return;
+    }
     snprintf(text, room,
              "%zu %s: %zu keep their orientation, %zu inverted, %zu collapsed, %zu flat "
              "before, %zu without image",

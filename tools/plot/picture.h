@@ -29,7 +29,7 @@ void picture_widen(picture *p, bool colour, bool alpha);
 /* Sets a pixel to 8-bit RGBA. The picture must have room for what the colour needs. */
 void picture_set(picture *p, size_t pixel, const unsigned char rgba[4]);
 
-/* Decodes a PNG. Palettes and small depths are widened. False: see `wrong`. */
+/* Decodes a PNG, bytes[0..n) with bytes[n] == '\0'. Palettes and small depths are widened. False: see `wrong`. */
 bool picture_decode(picture *out, const char *bytes, size_t n, problem *wrong);
 
 /* Encodes a PNG with what `keep` tells, which may come from another picture. NULL: see `wrong`. */

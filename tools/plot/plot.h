@@ -46,6 +46,10 @@ void places_free(places *s);
 /* A pattern painted on the source, as the shape of the panel inherits it. */
 int plot_pattern(const panel *p, job *j, const places *from, pattern what);
 
+/* The whole command when the figure is a file .vtk: the source for ParaView, in the plane or in
+ * space. */
+int plot_vtk(const args *a);
+
 /* Integral curves from points spread evenly along the boundary. */
 typedef struct curves {
     size_t n;

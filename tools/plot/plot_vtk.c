@@ -3,10 +3,9 @@
  * One unstructured grid of four parts, told apart by the cell data `part`: 0 the cells of the grid
  * (methods gradient and field), 1 the tree's edges, 2 the boundary, 3 integral curves. A target makes
  * the point data `displacement`, which ParaView's filter Warp By Vector turns into the target. */
-#include "cmd/commands.h"
+#include "plot/plot.h"
 
 #include "base/allocate.h"
-#include "plot/stages.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -308,7 +307,7 @@ static int make(vtk *v)
     return result;
 }
 
-int run_plot_vtk(const args *a)
+int plot_vtk(const args *a)
 {
     vtk v = {.dim = 0};
     outfile file;

@@ -3,6 +3,7 @@
 #include "plot/picture.h"
 
 #include "base/allocate.h"
+#include "base/foreign.h"
 
 #include <png.h>
 #include <setjmp.h>
@@ -17,6 +18,9 @@ typedef struct png_keep {
     size_t n;
     char message[160];
 } png_keep;
+
+/* Bytes of a colour profile; a few bytes of a file can announce 2^32 of them. */
+enum { MOST_NOTES = 1 << 24 };
 
 typedef struct writer {
     png_structp png;
@@ -95,7 +99,12 @@ static bool decode(png_keep *k, picture *out, png_byte **rows)
     if (setjmp(png_jmpbuf(k->png)))
         return false;
     png_set_read_fn(k->png, k, take_bytes);
+    png_set_chunk_malloc_max(k->png, MOST_NOTES);
     png_read_info(k->png, k->info);
+    /* A byte of deflated data gives at most 1032: what is announced beyond that is not there. */
+    uint64_t row_size = png_get_rowbytes(k->png, k->info);
+    if (row_size * png_get_image_height(k->png, k->info) / 1032 > k->n)
+        png_error(k->png, "the file ends early");
     png_set_expand(k->png);
     png_set_interlace_handling(k->png);
     png_read_update_info(k->png, k->info);
@@ -113,11 +122,32 @@ static bool decode(png_keep *k, picture *out, png_byte **rows)
     return true;
 }
 
+/* Whether every chunk ends within the file; libpng makes room for what a chunk announces before it reads. */
+static bool is_whole(const unsigned char *bytes, size_t n)
+{
+    size_t at = 8;
+    while (n - at >= 8) {
+        const unsigned char *p = bytes + at;
+        size_t length = (size_t)p[0] << 24 | (size_t)p[1] << 16 | (size_t)p[2] << 8 | p[3];
+        if (n - at < 12 || length > n - at - 12)
+            return false;
+        if (memcmp(p + 4, "IEND", 4) == 0)
+            return true;
+        at += length + 12;
+    }
+    return false;
+}
+
 bool picture_decode(picture *out, const char *bytes, size_t n, problem *wrong)
 {
     *out = (picture){0};
     if (n < 8 || png_sig_cmp((png_const_bytep)bytes, 0, 8) != 0)
-        return spoilt(wrong, 0, "this is not a PNG picture; convert it to PNG first");
+        return n >= 4 && memcmp(bytes, "\x89PNG", 4) == 0
+                   ? spoilt(wrong, 0, "the PNG picture is damaged: its first bytes are wrong")
+                   : !foreign_told(bytes, n, wrong) &&
+                         spoilt(wrong, 0, "this is not a PNG picture; convert it to PNG first");
+    if (!is_whole((const unsigned char *)bytes, n))
+        return spoilt(wrong, 0, "the PNG picture is damaged: the file ends early");
     png_keep *k = need(1, sizeof *k);
     k->bytes = (const png_byte *)bytes;
     k->n = n;

@@ -1,5 +1,5 @@
 /* What `libicc check` found, in words and as a report. */
-#include "report/check.h"
+#include "report/check_job.h"
 
 #include "job/option_table.h"
 
@@ -47,15 +47,15 @@ static void print_domain(const cage *c, const icc_domain_info *info)
     if (c->cells != NULL)
         print_mask(c, info);
     else if (info->dim == 2)
-        printf("a simple polygon, %zu vertices, %s, area %.17g\n", info->n_vertices,
+        printf("a simple polygon, %zu vertices, %s, area %.12g\n", info->n_vertices,
                info->orientation > 0 ? "counter-clockwise" : "clockwise", info->measure);
     else if (info->dim == 3)
         printf("a closed surface that does not meet itself, %zu vertices, %zu faces, %s, volume "
-               "%.17g\n",
+               "%.12g\n",
                info->n_vertices, info->n_facets,
                info->orientation > 0 ? "facing outward" : "facing inward", info->measure);
     else
-        printf("a closed boundary, %zu vertices, %zu facets, measure %.17g%s\n", info->n_vertices,
+        printf("a closed boundary, %zu vertices, %zu facets, measure %.12g%s\n", info->n_vertices,
                info->n_facets, info->measure,
                info->dim > 3 ? " (whether it meets itself is not checked beyond 3 dimensions)"
                              : "");
@@ -157,6 +157,16 @@ static void report_certificates(const check *c, json *j)
         json_flag(j, "certified", c->certified);
 }
 
+static void report_repair(const check *c, json *j)
+{
+    if (c->job.cages[0].cells != NULL)
+        json_count(j, "filled_cells", c->n_filled);
+    else if (c->job.cages[0].dim == 3)
+        json_count(j, "joined_vertices", c->n_joined);
+    else
+        json_count(j, "dropped_vertices", c->n_dropped);
+}
+
 int check_report(const check *c)
 {
     report r;
@@ -177,8 +187,7 @@ int check_report(const check *c)
         }
     json_close(&r.json, ']');
     if (c->job.args->repair != NULL)
-        json_count(&r.json, c->job.cages[0].cells != NULL ? "filled_cells" : "dropped_vertices",
-                   c->job.cages[0].cells != NULL ? c->n_filled : c->n_dropped);
+        report_repair(c, &r.json);
     json_flag(&r.json, "valid", c->job.domains[0] != NULL);
     report_certificates(c, &r.json);
     return report_close(&r) ? DONE : FAILED;

@@ -1,7 +1,9 @@
 /* What `libicc check` writes: mended cages, and the boundaries of masks. */
-#include "report/check.h"
+#include "report/check_job.h"
 
 #include "base/allocate.h"
+#include "cage/weld.h"
+#include "job/output_name.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -74,10 +76,10 @@ static void write_feature(FILE *stream, const cage *c, cage_role role)
     fputs("]]}}", stream);
 }
 
-static bool ends_with(const char *name, const char *end)
+static bool is_named(const char *name, const char *format)
 {
-    size_t n = strlen(name), m = strlen(end);
-    return n >= m && strcmp(name + n - m, end) == 0;
+    const char *found = output_format(name);
+    return found != NULL && strcmp(found, format) == 0;
 }
 
 /* One cage as text; two, or a name that ends in .geojson or .json, as a FeatureCollection. */
@@ -85,7 +87,7 @@ static int write_cages(const check *c)
 {
     const cage *cages = c->job.cages;
     const char *name = c->job.args->repair;
-    bool geojson = cages[1].n > 0 || ends_with(name, ".geojson") || ends_with(name, ".json");
+    bool geojson = cages[1].n > 0 || is_named(name, "GeoJSON") || is_named(name, "JSON");
     outfile file;
     if (!outfile_open(&file, name))
         return FAILED;
@@ -163,23 +165,35 @@ static void write_row(FILE *stream, size_t dim, const double *at)
     fputc('\n', stream);
 }
 
+static int write_boundary(const cage *c, const char *name, bool obj)
+{
+    outfile file;
+    if (!outfile_open(&file, name))
+        return FAILED;
+    for (size_t i = 0; i < c->n; i++) {
+        fputs(obj ? "v " : "", file.stream);
+        write_row(file.stream, c->dim, c->points + i * c->dim);
+    }
+    for (size_t i = 0; obj && i < c->n_facets; i++) {
+        const uint32_t *f = c->facets + 3 * i;
+        fprintf(file.stream, "f %u %u %u\n", (unsigned)f[0] + 1, (unsigned)f[1] + 1,
+                (unsigned)f[2] + 1);
+    }
+    return outfile_close(&file) ? DONE : FAILED;
+}
+
 /* OBJ when the name says so, else one vertex per line. */
 int check_write_boundary(check *c)
 {
     const cage *mask = &c->job.cages[0];
     const char *name = c->job.args->boundary;
-    bool obj = mask->dim == 3 && ends_with(name, ".obj");
-    outfile file;
-    if (!outfile_open(&file, name))
-        return FAILED;
-    for (size_t i = 0; i < mask->n; i++) {
-        fputs(obj ? "v " : "", file.stream);
-        write_row(file.stream, mask->dim, mask->points + i * mask->dim);
-    }
-    for (size_t i = 0; obj && i < mask->n_facets; i++) {
-        const uint32_t *f = mask->facets + 3 * i;
-        fprintf(file.stream, "f %u %u %u\n", (unsigned)f[0] + 1, (unsigned)f[1] + 1,
-                (unsigned)f[2] + 1);
-    }
-    return outfile_close(&file) ? DONE : FAILED;
+    return write_boundary(mask, name, mask->dim == 3 && is_named(name, "OBJ"));
+}
+
+int check_repair_surface(check *c)
+{
+    c->n_joined = weld(&c->job.cages[0]);
+    int result = job_make_domains(&c->job);
+    progress_end(&c->job.bar);
+    return result == DONE ? write_boundary(&c->job.cages[0], c->job.args->repair, true) : result;
 }

@@ -9,7 +9,7 @@ static void print_point(const info *x, const char *before, const double *at, con
 {
     fputs(before, stdout);
     for (int32_t k = 0; k < x->domain.dim; k++)
-        printf("%s%.17g", k > 0 ? " " : "", at[k]);
+        printf("%s%.12g", k > 0 ? " " : "", at[k]);
     fputs(behind, stdout);
 }
 
@@ -22,7 +22,7 @@ static void print_domain(const info *x)
     printf("cage        %zu vertices, ", d->n_vertices);
     if (d->dim != 2)
         printf("%zu facets, ", d->n_facets);
-    printf("%s, %s %.17g\n", turns[(d->dim == 2 ? 2 : 0) + (d->orientation > 0)],
+    printf("%s, %s %.12g\n", turns[(d->dim == 2 ? 2 : 0) + (d->orientation > 0)],
            measures[d->dim > 3 ? 0 : d->dim], d->measure);
     print_point(x, "box         ", d->lower, " to ");
     print_point(x, "", d->upper, "\n");
@@ -67,7 +67,7 @@ static void print_grid(const info *x)
     printf("grid        %zu vertices, %zu inside, ", c->n_grid, c->n_inside);
     if (x->domain.dim > 2)
         printf("%zu given up, ", x->grid.n_stray);
-    printf("spacing %.17g\n", c->spacing);
+    printf("spacing %.12g\n", c->spacing);
     print_point(x, "maximum     ", c->maximum, "\n");
     if (c->moved > 0)
         printf("            %.4g from the place chosen: the function is greatest here\n", c->moved);
@@ -147,7 +147,7 @@ static void print_certified(const info *x)
     printf("mesh        %zu vertices, %zu of them on the boundary, %zu %s", c->n_mesh_vertices,
            c->n_mesh_boundary, c->n_mesh_simplices, elements_name(c->dim));
     if (c->spacing > 0)
-        printf(", spacing %.17g", c->spacing);
+        printf(", spacing %.12g", c->spacing);
     putchar('\n');
     print_point(x, "maximum     ", c->maximum, "\n");
     if (c->order_beta > 0)

@@ -1,6 +1,6 @@
 /* The functions of method gradient: what --function asks for, and what the library made of it. */
-#ifndef FUNCTION_H
-#define FUNCTION_H
+#ifndef FUNCTION_CHOICE_H
+#define FUNCTION_CHOICE_H
 
 #include "base/json.h"
 #include "base/say.h"

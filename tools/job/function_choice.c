@@ -1,4 +1,4 @@
-#include "job/function.h"
+#include "job/function_choice.h"
 
 #include "job/option_table.h"
 

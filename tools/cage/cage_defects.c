@@ -1,4 +1,4 @@
-#include "cage/defect.h"
+#include "cage/cage_defects.h"
 
 #include "base/allocate.h"
 
@@ -50,10 +50,16 @@ const char *defect_text(char out[200], const defect_list *list, size_t i, const 
         snprintf(out, 200, "vertex %u is not finite", a);
         break;
     case ICC_DEFECT_REPEATED:
-        snprintf(out, 200, "vertex %u coincides with vertex %s; drop one of them", a, other);
+        snprintf(out, 200,
+                 "vertex %u coincides with vertex %s; drop one of them; 'libicc check --repair "
+                 "FILE' does",
+                 a, other);
         break;
     case ICC_DEFECT_SPIKE:
-        snprintf(out, 200, "at vertex %u the boundary runs back over itself; drop the vertex", a);
+        snprintf(out, 200,
+                 "at vertex %u the boundary runs back over itself; drop the vertex; 'libicc check "
+                 "--repair FILE' does",
+                 a);
         break;
     case ICC_DEFECT_CROSSING:
         snprintf(out, 200, "the edge from vertex %u crosses the edge from vertex %s; move one", a,

@@ -1,6 +1,6 @@
 /* What is wrong with a cage, in words that point into its file. */
-#ifndef DEFECT_H
-#define DEFECT_H
+#ifndef CAGE_DEFECTS_H
+#define CAGE_DEFECTS_H
 
 #include "cage/cage.h"
 

@@ -1,8 +1,8 @@
 /* The parts of `libicc check`. */
-#ifndef CHECK_H
-#define CHECK_H
+#ifndef CHECK_JOB_H
+#define CHECK_JOB_H
 
-#include "cage/defect.h"
+#include "cage/cage_defects.h"
 #include "job/job.h"
 
 typedef struct check {
@@ -11,6 +11,7 @@ typedef struct check {
     size_t n_defects;
     size_t n_dropped; /* by --repair: vertices */
     size_t n_filled;  /* by --repair: cells of a mask */
+    size_t n_joined;  /* by --repair: vertices of a surface */
     icc_chart_info charts[2];
     icc_map_info map; /* of kind 0 without a target */
     bool certified;   /* all there is */
@@ -36,9 +37,12 @@ int check_report(const check *c);
 
 /* ---- writing ---- */
 
-/* --repair in the plane: drops vertices of both cages alike until none is superfluous, and writes what
- * is left. */
+/* --repair in the plane: drops vertices of both cages alike until none is superfluous, and writes
+ * what is left. */
 int check_repair(check *c);
+
+/* --repair of a surface: joins vertices at one place, and writes it if it is closed then. */
+int check_repair_surface(check *c);
 
 /* --repair of a mask: fills cells where others touch only along edges or corners, and writes it. */
 int check_repair_mask(check *c);

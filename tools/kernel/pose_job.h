@@ -1,6 +1,6 @@
 /* The parts of `libicc pose`. */
-#ifndef POSE_H
-#define POSE_H
+#ifndef POSE_JOB_H
+#define POSE_JOB_H
 
 #include "kernel/kernel_job.h"
 
@@ -15,8 +15,8 @@ const char *pose_output(const pose *p);
 /* Says something on stdout, or on stderr when the result goes to stdout. */
 void pose_say(const pose *p, const char *text);
 
-/* Images of n points, and their dim * dim derivatives unless that is NULL. Points that are not finite have none:
- * NaN, and *n_failed of them. */
+/* Images of n points, and their dim * dim derivatives unless that is NULL. Points that are not
+ * finite have none: NaN, and *n_failed of them. */
 int pose_points(pose *p, size_t n, const double *points, double *images, double *jacobians,
                 size_t *n_failed);
 
@@ -30,8 +30,8 @@ turned pose_count_turned(size_t dim, size_t n, const double *jacobians);
 /* Reads a picture from bytes[0..n), and writes it as posed. */
 int pose_picture(pose *p, const char *bytes, size_t n);
 
-/* The report up to what is special: points (those of `points` that are finite tell how good the weights are),
- * how many have no image. */
+/* The report up to what is special: points (those of `points` that are finite tell how good the
+ * weights are), how many have no image. */
 int pose_report_open(report *r, pose *p, size_t n, const double *points, size_t n_failed,
                      double seconds);
 

@@ -1,0 +1,109 @@
+/* Any bytes at all must give a mesh whose numbers stand in the text one behind the other, or a
+ * reason; what is written must read back as the same mesh, and writing that gives the same bytes.
+ * Nothing is leaked, and nothing beyond the text is read. */
+#define _POSIX_C_SOURCE 200809L
+
+#include "mesh/mesh_file.h"
+#include "mesh/tally.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+/* assert() is off in release builds. */
+static void require(bool fact)
+{
+    if (!fact)
+        abort();
+}
+
+/* The types, then the spans: each begins where the one before has ended, or later. */
+static void require_ascending(const mesh_file *m)
+{
+    size_t done = 0;
+    for (size_t i = 0; i < m->n_types; i++) {
+        require(done <= m->types[i][0] && m->types[i][0] <= m->types[i][1]);
+        done = m->types[i][1];
+    }
+    for (size_t i = 0; i < m->n_vertices * m->n_spans; i++) {
+        require(done <= m->spans[2 * i] && m->spans[2 * i] < m->spans[2 * i + 1]);
+        done = m->spans[2 * i + 1];
+    }
+    require(done <= m->n_text);
+}
+
+static void require_sound(const mesh_file *m)
+{
+    require(m->n_vertices > 0 && (m->n_spans == 1 || m->n_spans == m->dim));
+    require_ascending(m);
+    for (size_t i = 0; i < m->n_vertices * m->dim; i++)
+        require(isfinite(m->points[i]) != 0);
+    for (size_t i = 0; i < 3 * m->n_triangles; i++)
+        require(m->triangles[i] < m->n_vertices && m->triangle_lines[i / 3] <= m->n_text + 1);
+    for (size_t i = 0; i < 4 * m->n_tetrahedra; i++)
+        require(m->tetrahedra[i] < m->n_vertices);
+    require(m->n_faces <= m->n_triangles);
+    tally t = tally_count(m, m->points);
+    require(t.kept + t.flat_before == t.all && t.inverted + t.collapsed + t.without_image == 0);
+}
+
+/* What mesh_write() writes, of exactly n bytes and a '\0'. */
+static char *write_mesh(const mesh_file *m, size_t *n)
+{
+    char *text = NULL;
+    FILE *stream = open_memstream(&text, n);
+    if (stream == NULL)
+        exit(0);
+    mesh_write(m, m->points, stream);
+    require(fclose(stream) == 0);
+    char *exact = malloc(*n + 1);
+    if (exact == NULL)
+        exit(0);
+    memcpy(exact, text, *n + 1);
+    free(text);
+    return exact;
+}
+
+static void require_written(const mesh_file *m, problem *wrong)
+{
+    size_t n, n_again;
+    char *text = write_mesh(m, &n);
+    mesh_file back;
+    require(mesh_read(&back, m->dim, text, n, wrong));
+    require_sound(&back);
+    require(back.n_vertices == m->n_vertices && back.n_triangles == m->n_triangles &&
+            back.n_tetrahedra == m->n_tetrahedra && strcmp(back.format, m->format) == 0);
+    for (size_t i = 0; i < m->n_vertices * m->dim; i++)
+        require(back.points[i] <= m->points[i] && back.points[i] >= m->points[i]);
+    char *again = write_mesh(&back, &n_again);
+    require(n_again == n && memcmp(again, text, n) == 0);
+    mesh_free(&back);
+    free(again);
+    free(text);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    char *text = malloc(size + 1);
+    if (text == NULL)
+        return 0;
+    memcpy(text, data, size);
+    text[size] = '\0';
+    for (size_t dim = 2; dim <= 3; dim++) {
+        mesh_file m;
+        problem wrong = {.text = ""};
+        if (mesh_read(&m, dim, text, size, &wrong)) {
+            require_sound(&m);
+            require_written(&m, &wrong);
+        } else {
+            require(wrong.text[0] != '\0' && strpbrk(wrong.text, "\r\n") == NULL);
+            require(strlen(wrong.text) < sizeof wrong.text);
+        }
+        mesh_free(&m);
+    }
+    free(text);
+    return 0;
+}

@@ -1,0 +1,19 @@
+/* Files of formats that are not read here: what they are, and what makes a file of them that is. */
+#ifndef FOREIGN_H
+#define FOREIGN_H
+
+#include "base/say.h"
+
+#include <stdbool.h>
+
+/* Whether text[0..n), with text[n] == '\0', begins like a file of a known format that no reader of
+ * this program takes, or that only the reader of pictures or of masks takes; `wrong` then says so,
+ * with the remedy. */
+bool foreign_told(const char *text, size_t n, problem *wrong);
+
+/* Fills in `wrong` with what a file is, beginning with its article, and the remedy for vector data
+ * or for surfaces. Returns false. */
+int foreign_vector(problem *wrong, size_t line, const char *what);
+int foreign_surface(problem *wrong, size_t line, const char *what);
+
+#endif

@@ -1,0 +1,99 @@
+/* Which reader a file is for, told by how it begins. */
+#include "cage/cage_read.h"
+
+#include "base/foreign.h"
+#include "cage/cage_readers.h"
+
+#include <string.h>
+
+static bool begins_with(const char *text, const char *word)
+{
+    for (; *word != '\0'; text++, word++)
+        if ((*text >= 'a' && *text <= 'z' ? *text - 32 : *text) != *word)
+            return false;
+    return true;
+}
+
+static bool is_wkt(const char *text)
+{
+    static const char *const words[] = {"SRID=", "POLYGON", "MULTIPOLYGON",       "POINT",
+                                        "LINES", "MULTILI", "GEOMETRYCOLLECTION", "CURVEPOLYGON"};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (begins_with(text, words[i]))
+            return true;
+    return false;
+}
+
+/* OBJ has no mark of its own, but its lines begin with words. */
+static bool is_obj(const char *text)
+{
+    static const char *const words[] = {"v", "vt", "vn", "vp", "f",      "o",
+                                        "g", "s",  "l",  "p",  "mtllib", "usemtl"};
+    size_t n = strcspn(text, " \t\r\n");
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strlen(words[i]) == n && strncmp(text, words[i], n) == 0)
+            return true;
+    return false;
+}
+
+static const char *skip_comments(const char *text)
+{
+    while (*text == '#') {
+        text += strcspn(text, "\n");
+        text += strspn(text, " \t\r\n");
+    }
+    return text;
+}
+
+static bool is_word(const char *text, const char *word)
+{
+    size_t n = strlen(word);
+    return strncmp(text, word, n) == 0 && strchr(" \t\r\n#", text[n]) != NULL;
+}
+
+static bool has_faces(const cage *c, problem *wrong)
+{
+    return c->n_facets > 0 ||
+           spoilt(wrong, 0, "there are no faces; a cage in space is a closed surface");
+}
+
+static bool read_any(cage *out, cage_role role, size_t dim, const char *text, size_t n,
+                     problem *wrong)
+{
+    const char *p = text;
+    if (n >= 3 && memcmp(p, "\xef\xbb\xbf", 3) == 0)
+        p += 3;
+    p += strspn(p, " \t\r\n");
+    if (foreign_told(text, n, wrong))
+        return false;
+    if (strncmp(p, "# vtk DataFile", 14) == 0 || strncmp(p, "MeshVersion", 11) == 0)
+        return foreign_surface(wrong, 0, *p == '#' ? "a VTK mesh" : "a Medit mesh");
+    out->dim = 3;
+    const char *first = skip_comments(p);
+    if (is_word(p, "ply") || is_word(first, "OFF") || is_obj(first))
+        return cage_read_surface(out, text, n, wrong) && has_faces(out, wrong);
+    if (n >= 6 && memcmp(text, "\x93NUMPY", 6) == 0)
+        return cage_read_npy(out, text, n, wrong);
+    out->dim = 2;
+    if (*p == '{' || *p == '[')
+        return cage_read_geojson(out, role, text, n, wrong);
+    if (*p == '<')
+        return cage_read_svg(out, role, text, n, wrong);
+    if (is_wkt(p))
+        return cage_read_wkt(out, text, n, wrong);
+    out->dim = dim;
+    return cage_read_text(out, dim, text, n, wrong);
+}
+
+bool cage_read(cage *out, cage_role role, size_t dim, const char *text, size_t n, problem *wrong)
+{
+    *out = (cage){0};
+    bool good = read_any(out, role, dim, text, n, wrong);
+    size_t least = out->dim + 1;
+    if (good && out->cells == NULL && out->n < least)
+        good = spoilt(wrong, 0, "%zu %s; a cage has at least %zu", out->n,
+                      out->n == 1 ? "vertex" : "vertices", least);
+    if (!good)
+        cage_free(out);
+    return good;
+}

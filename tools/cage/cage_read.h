@@ -1,0 +1,13 @@
+/* Reading a cage, whatever format its file has. */
+#ifndef CAGE_READ_H
+#define CAGE_READ_H
+
+#include "cage/cage.h"
+
+/* Reads a cage from text[0..n), with text[n] == '\0'; the format is told by the content. `role`
+ * chooses among several shapes: the GeoJSON feature with the property `role` "source" or "target",
+ * the SVG element with that id or inkscape:label. A text file has `dim` numbers on a line; beyond 2
+ * they are vertices without facets. False: see `wrong`, and `out` is empty. */
+bool cage_read(cage *out, cage_role role, size_t dim, const char *text, size_t n, problem *wrong);
+
+#endif

@@ -1,0 +1,19 @@
+/* The readers of cages, one for each format. */
+#ifndef CAGE_READERS_H
+#define CAGE_READERS_H
+
+#include "cage/cage.h"
+
+bool cage_read_text(cage *out, size_t dim, const char *text, size_t n, problem *wrong);
+bool cage_read_geojson(cage *out, cage_role role, const char *text, size_t n, problem *wrong);
+bool cage_read_wkt(cage *out, const char *text, size_t n, problem *wrong);
+bool cage_read_svg(cage *out, cage_role role, const char *text, size_t n, problem *wrong);
+bool cage_read_npy(cage *out, const char *text, size_t n, problem *wrong);
+
+/* OBJ, OFF and PLY. Faces with more than three corners become fans of triangles. */
+bool cage_read_surface(cage *out, const char *text, size_t n, problem *wrong);
+
+/* The data of an SVG path that stands at `line` of its file, ended by `end` or '\0'. */
+bool cage_read_path(cage *out, const char *data, const char *end, size_t line, problem *wrong);
+
+#endif

@@ -1,0 +1,160 @@
+#include "job/output_name.h"
+
+#include "base/say.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* Formats, and the extensions of their files with blanks between. Of most of them none is ever
+ * written. */
+static const struct {
+    const char *name, *extensions;
+} formats[] = {
+    {"text", "txt"},
+    {"JSON", "json"},
+    {"GeoJSON", "geojson"},
+    {"GeoJSONSeq", "geojsonl geojsons geojsonseq jsonl ndjson"},
+    {"TopoJSON", "topojson"},
+    {"KML", "kml kmz"},
+    {"GML", "gml"},
+    {"GPX", "gpx"},
+    {"GeoPackage", "gpkg"},
+    {"SQLite", "sqlite sqlite3 db"},
+    {"shapefile", "shp shx dbf shz"},
+    {"FlatGeobuf", "fgb"},
+    {"Parquet", "parquet geoparquet"},
+    {"WKT", "wkt"},
+    {"WKB", "wkb"},
+    {"CSV", "csv"},
+    {"TSV", "tsv"},
+    {"spreadsheet", "xls xlsx ods"},
+    {"PNG", "png"},
+    {"JPEG", "jpg jpeg jpe jfif"},
+    {"TIFF", "tif tiff"},
+    {"GIF", "gif"},
+    {"BMP", "bmp dib"},
+    {"WebP", "webp"},
+    {"PNM", "pnm ppm pgm pbm pam pfm"},
+    {"OpenEXR", "exr"},
+    {"Radiance", "hdr"},
+    {"JPEG 2000", "jp2 j2k"},
+    {"JPEG XL", "jxl"},
+    {"HEIC", "heic heif"},
+    {"AVIF", "avif"},
+    {"Photoshop", "psd"},
+    {"GIMP", "xcf"},
+    {"icon", "ico"},
+    {"TGA", "tga"},
+    {"QOI", "qoi"},
+    {"video", "mp4 mov avi webm mkv"},
+    {"SVG", "svg"},
+    {"compressed SVG", "svgz"},
+    {"PDF", "pdf"},
+    {"PostScript", "ps eps"},
+    {"DXF", "dxf"},
+    {"DWG", "dwg"},
+    {"HTML", "html htm"},
+    {"XML", "xml"},
+    {"OBJ", "obj"},
+    {"OFF", "off"},
+    {"PLY", "ply"},
+    {"Medit", "mesh"},
+    {"binary Medit", "meshb"},
+    {"VTK", "vtk"},
+    {"VTK in XML", "vtu vtp vti vtr vts vtm"},
+    {"STL", "stl"},
+    {"glTF", "gltf glb"},
+    {"FBX", "fbx"},
+    {"COLLADA", "dae"},
+    {"3DS", "3ds"},
+    {"3MF", "3mf"},
+    {"X3D", "x3d wrl"},
+    {"USD", "usd usda usdc usdz"},
+    {"Blender", "blend"},
+    {"Gmsh", "msh"},
+    {"STEP", "step stp"},
+    {"IGES", "iges igs"},
+    {"tetgen", "node ele face poly smesh"},
+    {"NumPy", "npy"},
+    {".npz", "npz"},
+    {"MATLAB", "mat"},
+    {"HDF5", "h5 hdf5 hdf"},
+    {"NetCDF", "nc"},
+    {"archive", "zip gz tgz bz2 xz zst lz4 7z rar tar"},
+};
+
+static bool is_same_letter(char a, char b)
+{
+    return (a >= 'A' && a <= 'Z' ? a | 0x20 : a) == b;
+}
+
+/* Whether one of the words of `list` is `word`, in capitals or not. */
+static bool is_listed(const char *word, const char *list)
+{
+    while (*list != '\0') {
+        size_t n = strcspn(list, " "), k = 0;
+        while (k < n && is_same_letter(word[k], list[k]))
+            k++;
+        if (k == n && word[k] == '\0')
+            return true;
+        list += n + (list[n] == ' ');
+    }
+    return false;
+}
+
+const char *output_format(const char *name)
+{
+    const char *slash = strrchr(name, '/'), *base = slash != NULL ? slash + 1 : name;
+    const char *dot = strrchr(base, '.');
+    if (dot == NULL || dot == base || dot[1] == '\0')
+        return NULL;
+    for (size_t i = 0; i < sizeof formats / sizeof *formats; i++)
+        if (is_listed(dot + 1, formats[i].extensions))
+            return formats[i].name;
+    return NULL;
+}
+
+int output_fits(const char *of, const char *name, const char *list)
+{
+    const char *found = name != NULL ? output_format(name) : NULL;
+    if (found == NULL)
+        return DONE;
+    for (const char *p = list; *p != '\0'; p += strspn(p, ", ")) {
+        size_t n = strcspn(p, ",");
+        if (strlen(found) == n && strncmp(p, found, n) == 0)
+            return DONE;
+        p += n;
+    }
+    return misused(of, "'%.200s' is a name for %s, but what is written is %s", name, found, list);
+}
+
+/* What the last operand may be, before its input has been looked at. */
+static const char *formats_of_operand(const args *a, const command *c)
+{
+    return a->geojson                        ? "GeoJSON, JSON"
+           : c->bit & FOR_WARP               ? "PNG"
+           : c->bit & FOR_MESH               ? "OBJ, OFF, PLY, Medit, VTK"
+           : c->bit & FOR_PLOT               ? "SVG, VTK"
+           : c->bit & FOR_POSE && a->binding ? "text"
+           : c->bit & FOR_POSE               ? "text, OBJ, OFF, PLY, Medit, VTK, PNG"
+                                             : NULL;
+}
+
+int output_names_check(const args *a, const command *c)
+{
+    const struct {
+        const char *name, *formats;
+    } outputs[] = {{a->output, "text"},
+                   {a->repair, "text, GeoJSON, JSON, OBJ, NumPy"},
+                   {a->boundary, "text, OBJ"},
+                   {a->picture, "SVG"},
+                   {c->bit & FOR_WEIGHTS ? a->binding : NULL, "libicc's own"},
+                   {a->json ? a->json_file : NULL, "JSON"}};
+    int result = DONE;
+    for (size_t i = 0; i < sizeof outputs / sizeof *outputs && result == DONE; i++)
+        result = output_fits(c->name, outputs[i].name, outputs[i].formats);
+    const char *of_operand = formats_of_operand(a, c);
+    if (result == DONE && of_operand != NULL && a->n_operands > 0)
+        result = output_fits(c->name, a->operands[a->n_operands - 1], of_operand);
+    return result;
+}

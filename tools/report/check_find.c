@@ -1,0 +1,24 @@
+/* The defects of the cages that `libicc check` is given. */
+#include "report/check_job.h"
+
+bool check_mask_only(const check *c)
+{
+    return c->job.cages[0].cells != NULL && c->job.args->target == NULL;
+}
+
+int check_find_defects(check *c)
+{
+    c->n_defects = 0;
+    for (size_t side = 0; side < 2; side++) {
+        icc_error err = {.size = sizeof err, .index = -1, .side = (int32_t)side + 1};
+        defects_free(&c->defects[side]);
+        if (c->job.cages[side].dim != 2 || c->job.cages[side].cells != NULL)
+            continue;
+        if (defects_find(&c->defects[side], &c->job.cages[side], 0, NULL, &c->job.env, &err) !=
+            ICC_OK)
+            return job_failed(&c->job, &err);
+        c->n_defects += c->defects[side].n;
+    }
+    progress_end(&c->job.bar);
+    return DONE;
+}
