@@ -1,10 +1,13 @@
 /* Argument checks of kernel coordinates: kernels. */
+#include "api/check.h"
 #include "base/error.h"
 #include "base/options.h"
 #include "kernel/kernel.h"
 
 #include <math.h>
 #include <string.h>
+
+ICCP_END(kernel)
 
 static const int32_t DEFAULT_STEPS = 5; /* the thesis', section 4.7 */
 static const int32_t MAX_STEPS = 100000;
@@ -177,8 +180,9 @@ icc_status icc_kernel_create(icc_kernel **out, const icc_sampling *sampling, siz
     if (status != ICC_OK)
         return status;
     complete(&full, sampling->info.sigma);
-    return iccp_explain(
-        err, iccp_kernel_create(out, sampling, n_handles, handles, &full, &full_env, err));
+    return iccp_end_kernel(iccp_explain(err, iccp_kernel_create(out, sampling, n_handles, handles,
+                                                                &full, &full_env, err)),
+                           out, &full_env, err);
 }
 
 void icc_kernel_free(icc_kernel *kernel)
@@ -221,9 +225,10 @@ icc_status icc_kernel_weights(const icc_kernel *kernel, size_t n, const double *
         return ICC_ERR_ARGUMENT;
     iccp_env full_env;
     const icc_status read = iccp_env_read(&full_env, env, NULL);
-    return read == ICC_OK ? iccp_kernel_weights(kernel, n, points, weights, gradients, status,
-                                                n_failed, &full_env)
-                          : read;
+    return read == ICC_OK
+               ? iccp_finish(&full_env, iccp_kernel_weights(kernel, n, points, weights, gradients,
+                                                            status, n_failed, &full_env))
+               : read;
 }
 
 icc_status icc_kernel_get_report(const icc_kernel *kernel, size_t n, const double *points,
@@ -238,7 +243,7 @@ icc_status icc_kernel_get_report(const icc_kernel *kernel, size_t n, const doubl
         return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)i, "point %zu is not finite", i);
     icc_status status = iccp_env_read(&full_env, env, err);
     if (status == ICC_OK)
-        status = iccp_kernel_measure(kernel, n, points, &full, &full_env);
+        status = iccp_finish(&full_env, iccp_kernel_measure(kernel, n, points, &full, &full_env));
     if (status == ICC_OK)
         return iccp_write_struct(report, &full, sizeof full, "icc_kernel_report", err);
     return iccp_explain(err, status);
@@ -273,8 +278,9 @@ icc_status icc_kernel_paint(icc_kernel **out, const icc_kernel *kernel, size_t h
         return iccp_fail(err, ICC_ERR_ARGUMENT, -1,
                          "icc_kernel_paint: radius %g, amount %g, or a centre that is not finite",
                          radius, amount);
-    return iccp_explain(err,
-                        iccp_kernel_paint(out, kernel, handle, centre, radius, amount, &full_env));
+    return iccp_end_kernel(iccp_explain(err, iccp_kernel_paint(out, kernel, handle, centre, radius,
+                                                               amount, &full_env)),
+                           out, &full_env, err);
 }
 
 icc_status icc_kernel_repaint(icc_kernel **out, const icc_kernel *kernel, size_t n,
@@ -291,7 +297,9 @@ icc_status icc_kernel_repaint(icc_kernel **out, const icc_kernel *kernel, size_t
     if (k < n)
         return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)k, "a weight for node %lu is not finite",
                          (unsigned long)nodes[k]);
-    return iccp_explain(err, iccp_kernel_repaint(out, kernel, n, nodes, weights, &full_env, err));
+    return iccp_end_kernel(
+        iccp_explain(err, iccp_kernel_repaint(out, kernel, n, nodes, weights, &full_env, err)), out,
+        &full_env, err);
 }
 
 icc_status icc_kernel_set_method(icc_kernel **out, const icc_kernel *kernel, int32_t method,
@@ -304,7 +312,9 @@ icc_status icc_kernel_set_method(icc_kernel **out, const icc_kernel *kernel, int
         return status;
     if (method < ICC_WEIGHTS_QP || method > ICC_WEIGHTS_L1)
         return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "method is %ld", (long)method);
-    return iccp_explain(err, iccp_kernel_set_method(out, kernel, method, &full_env));
+    return iccp_end_kernel(
+        iccp_explain(err, iccp_kernel_set_method(out, kernel, method, &full_env)), out, &full_env,
+        err);
 }
 
 icc_status icc_kernel_stiffen(icc_kernel **out, const icc_kernel *kernel, size_t n,
@@ -320,6 +330,7 @@ icc_status icc_kernel_stiffen(icc_kernel **out, const icc_kernel *kernel, size_t
         if (!(rigidity[k] > 0) || !isfinite(rigidity[k]))
             return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)k, "the rigidity of node %lu is %g",
                              (unsigned long)nodes[k], rigidity[k]);
-    return iccp_explain(
-        err, iccp_kernel_stiffen(out, kernel, n, nodes, rigidity, energy, &full_env, err));
+    return iccp_end_kernel(iccp_explain(err, iccp_kernel_stiffen(out, kernel, n, nodes, rigidity,
+                                                                 energy, &full_env, err)),
+                           out, &full_env, err);
 }

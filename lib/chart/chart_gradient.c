@@ -46,18 +46,20 @@ static icc_status make_tree(iccp_gradient_state *state, icc_chart *chart,
     icc_grid *grid = NULL;
     const double start = iccp_seconds();
     const int32_t cells = choose_cells(chart->domain, options->cells);
-    icc_status status = iccp_grid_create(&grid, chart->domain, cells, env, err);
+    iccp_env part[4];
+    iccp_split(part, 4, (const double[]){3, 1, 4, 1}, env);
+    icc_status status = iccp_grid_create(&grid, chart->domain, cells, &part[0], err);
     if (status != ICC_OK)
         return status;
     uint32_t root;
-    status = choose_root(grid, chart->domain, options->maximum, &root, env, err);
+    status = choose_root(grid, chart->domain, options->maximum, &root, &part[1], err);
     const double middle = iccp_seconds();
     chart->info.seconds_grid = middle - start;
     icc_tree_report report = {0};
     if (status == ICC_OK)
-        status = iccp_tree_create(&state->tree, grid, root, options->tree, NULL, env, err);
+        status = iccp_tree_create(&state->tree, grid, root, options->tree, NULL, &part[2], err);
     if (status == ICC_OK)
-        status = iccp_tree_verify(state->tree, &report, env);
+        status = iccp_tree_verify(state->tree, &report, &part[3]);
     chart->info.seconds_tree = iccp_seconds() - middle;
     chart->info.cells = grid->cells;
     chart->info.n_grid = grid->n_vertices;
@@ -80,9 +82,11 @@ static icc_status make_field(iccp_gradient_state *state, icc_chart *chart,
                                         .solver = options->solver,
                                         .eta = options->eta,
                                         .leaf = options->leaf};
-    icc_status status = iccp_field_create(&state->field, state->tree, &function, env, err);
+    iccp_env part[3];
+    iccp_split(part, 3, (const double[]){8, 2, 1}, env);
+    icc_status status = iccp_field_create(&state->field, state->tree, &function, &part[0], err);
     if (status == ICC_OK)
-        status = iccp_field_verify(state->field, &report, env);
+        status = iccp_field_verify(state->field, &report, &part[1]);
     if (status != ICC_OK)
         return status;
     chart->info.n_maxima = report.n_maxima;
@@ -91,7 +95,7 @@ static icc_status make_field(iccp_gradient_state *state, icc_chart *chart,
     if (chart->domain->dim == 2)
         iccp_field_count_edges(state->field, &chart->info.n_edges, &chart->info.n_compression,
                                &chart->info.n_expansion);
-    status = iccp_gradient_extend(state->field, env);
+    status = iccp_gradient_extend(state->field, &part[2]);
     chart->info.seconds_field = iccp_seconds() - start;
     return status;
 }
@@ -284,11 +288,13 @@ icc_status iccp_chart_gradient_create(icc_chart **out, const icc_domain *domain,
     chart->info.tree = options->tree;
     iccp_gradient_state *state = iccp_alloc_zero(&env->memory, 1, sizeof *state);
     chart->state = state;
-    status = state != NULL ? make_tree(state, chart, options, env, err) : ICC_ERR_MEMORY;
+    iccp_env part[3];
+    iccp_split(part, 3, (const double[]){2, 2, 1}, env);
+    status = state != NULL ? make_tree(state, chart, options, &part[0], err) : ICC_ERR_MEMORY;
     if (status == ICC_OK)
-        status = make_field(state, chart, options, env, err);
+        status = make_field(state, chart, options, &part[1], err);
     if (status == ICC_OK)
-        status = make_boundary(state, domain, env);
+        status = make_boundary(state, domain, &part[2]);
     if (status == ICC_OK) {
         place_maximum(state, chart);
         iccp_recipe_keep(&state->recipe, options, options->maximum, domain->dim);

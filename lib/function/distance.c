@@ -36,7 +36,7 @@ icc_status iccp_distance(icc_field *field, int32_t function, const iccp_env *env
     icc_status status = tabulate(&of_generation, tree, function, env);
     for (size_t i = 0; i < tree->n_reached && status == ICC_OK; ++i) {
         if (i % ICCP_VERTICES_PER_REPORT == 0)
-            status = iccp_progress(env, "function", (double)i / (double)tree->n_reached);
+            status = iccp_progress(env, "solve", (double)i / (double)tree->n_reached);
         const uint32_t v = tree->order[i];
         field->values[v] = of_generation[tree->generation[v]];
     }

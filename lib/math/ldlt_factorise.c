@@ -164,7 +164,7 @@ static double labour_of(const iccp_supernodes *nodes)
 static icc_status run(factorisation *f)
 {
     const iccp_supernodes *nodes = &f->l->nodes;
-    icc_status status = iccp_progress(f->labour.env, "factorise", 0);
+    icc_status status = iccp_progress(f->labour.env, "solve", 0);
     f->labour.all = labour_of(nodes);
     for (uint32_t s = 0; s < nodes->n; ++s)
         f->waiting[s] = NONE;

@@ -154,7 +154,7 @@ static icc_status iterate(solver *s, double size, const iccp_mg_goal *goal, size
         least = fmin(rr, least);
         if (!isfinite(rr) || since > PATIENCE)
             return ICC_ERR_SOLVER;
-        icc_status status = iccp_progress(env, "multigrid", 0);
+        icc_status status = iccp_progress(env, "solve", 0);
         if (status != ICC_OK)
             return status;
         precondition(s);

@@ -88,7 +88,7 @@ static void measure(solver *s, const stretch *t)
 static icc_status report(const solver *s, size_t slab, const iccp_env *env)
 {
     const size_t slabs = ENTRIES_PER_REPORT / (s->level->n_entries / s->level->n_slabs + 1) + 1;
-    return slab % slabs == 0 ? iccp_progress(env, "multigrid", 0) : ICC_OK;
+    return slab % slabs == 0 ? iccp_progress(env, "solve", 0) : ICC_OK;
 }
 
 static icc_status pass_down(solver *s, const iccp_env *env)

@@ -11,6 +11,7 @@ static int map_points(job *j, table *points)
     size_t n_failed = 0;
     icc_status *status = need(points->n, sizeof *status);
     double began = seconds_now();
+    progress_expect(&j->bar, 1);
     icc_status ran = (j->args->inverse ? icc_map_apply_inverse : icc_map_apply)(
         j->map, points->n, points->values, points->values, status, &n_failed, &j->env);
     double seconds = seconds_now() - began;

@@ -17,7 +17,8 @@ if TYPE_CHECKING:
     from ._types import Array, ArrayLike, Floats, Indices
 
 Progress = Callable[[str, float], Any]
-"""Called with the name of a stage and the share done, in [0, 1]; to return true or to raise cancels the call.
+"""Called with the name of a stage and the share of the whole call that is done, which goes from 0 to 1 and never
+falls; to return true or to raise cancels the call. `icc/base.h` lists the stages.
 Every call that takes long takes one, and `threads`: how many it may use; None: one per processor."""
 
 _PROGRESS = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_char_p, ctypes.c_double)
