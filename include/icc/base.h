@@ -116,6 +116,13 @@ typedef struct icc_env {
     /** Threads that a call may use, the calling one included; 0 and 1 mean one. Further
      *  threads live only during the call. If one cannot be started, the others do its work. */
     int32_t threads;
+    /** Bytes that loading an object may take beyond 64 for each byte that it is read from; 0 means
+     *  256,000,000. Charts of methods gradient and field, and domains made of masks, are rebuilt
+     *  from a few bytes and may need more: loading refuses them with ::ICC_ERR_FORMAT and a
+     *  message that names this member, before it asks for the memory. Time is limited
+     *  with it: to some ten seconds for the default, and in proportion. UINT64_MAX lifts both
+     *  limits, for bytes that are trusted. */
+    uint64_t load_limit;
 } icc_env;
 
 /** The library's version, such as "0.1.0". Static; never NULL. */

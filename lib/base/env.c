@@ -27,6 +27,7 @@ icc_status iccp_env_read(iccp_env *out, const icc_env *env, icc_error *err)
     out->progress = full.progress;
     out->parallel_for = full.parallel_for;
     out->threads = full.threads > 0 ? full.threads : 1;
+    out->load_limit = full.load_limit;
     return ICC_OK;
 }
 

@@ -3,6 +3,7 @@
  * function's gradient, whose curves merge. */
 #include "chart/chart_field.h"
 
+#include "base/budget.h"
 #include "base/clock.h"
 #include "base/error.h"
 #include "chart/field_measure.h"
@@ -127,6 +128,9 @@ static icc_status make_field(iccp_field_state *state, icc_chart *chart,
     return status;
 }
 
+/* Multiplications for each simplex at a vertex, about. */
+static const double VECTOR_WORK = 20;
+
 static icc_status make_vectors(iccp_field_state *state, icc_chart *chart, const iccp_env *env)
 {
     const double start = iccp_seconds();
@@ -248,6 +252,9 @@ icc_status iccp_chart_field_create(icc_chart **out, const icc_domain *domain,
     }
     if (status == ICC_OK)
         status = make_field(state, chart, options, &part[1], err);
+    if (status == ICC_OK)
+        status = iccp_budget_work(env, VECTOR_WORK * (double)chart->info.n_grid *
+                                           iccp_simplices_at_vertex(domain->dim));
     if (status == ICC_OK)
         status = make_vectors(state, chart, &part[2]);
     if (status == ICC_OK) {

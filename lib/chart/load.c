@@ -1,6 +1,6 @@
 #include "chart/load.h"
 
-#include "base/error.h"
+#include "base/budget.h"
 #include "chart/chart_disc.h"
 #include "chart/chart_field.h"
 #include "chart/chart_foliation.h"
@@ -57,7 +57,9 @@ icc_status iccp_chart_load(icc_chart **out, size_t n_bytes, const void *data, co
     icc_status status = iccp_blob_open(&r, data, n_bytes, KIND, VERSION, err);
     if (status != ICC_OK)
         return status;
-    const iccp_env whole = iccp_part(env, "load", 0, 1);
+    iccp_budget budget;
+    const iccp_env limited = iccp_budget_begin(&budget, env);
+    const iccp_env whole = iccp_part(&limited, "load", 0, 1);
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){1, 6}, &whole);
     status = iccp_domain_read(&domain, &r, &part[0]);
@@ -69,5 +71,5 @@ icc_status iccp_chart_load(icc_chart **out, size_t n_bytes, const void *data, co
         *out = NULL;
         status = ICC_ERR_FORMAT;
     }
-    return iccp_blob_blame(err, status, "chart");
+    return iccp_budget_end(&budget, iccp_blob_blame(err, status, "chart"), err);
 }

@@ -7,6 +7,7 @@
  * outwards two vertices change places. */
 #include "domain/mask_boundary.h"
 
+#include "base/budget.h"
 #include "base/error.h"
 #include "domain/solid.h"
 
@@ -161,6 +162,12 @@ static icc_status fail_size(icc_error *err)
                      MAX_COUNT);
 }
 
+/* Of a boundary and the domain that it becomes, with its tree: vertices are fewer than facets, about. */
+static double bytes_per_facet(size_t dim)
+{
+    return 100 + 60 * (double)dim;
+}
+
 /* Counts first, then makes the arrays and fills them. */
 static icc_status cut_boundary(boundary *b, icc_error *err)
 {
@@ -174,6 +181,9 @@ static icc_status cut_boundary(boundary *b, icc_error *err)
     const size_t per_face = ((size_t)1 << (dim - 1)) * (size_t)b->n_orders;
     if (n_faces > MAX_COUNT / per_face)
         return fail_size(err);
+    status = iccp_budget_keep(b->env, (double)(n_faces * per_face) * bytes_per_facet(dim));
+    if (status != ICC_OK)
+        return status;
     b->number = iccp_alloc(memory, count_lattice(b->mask), sizeof *b->number);
     if (b->number == NULL)
         return ICC_ERR_MEMORY;

@@ -1,6 +1,7 @@
 #include "map/map_file.h"
 
 #include "base/blob.h"
+#include "base/budget.h"
 #include "base/clock.h"
 #include "chart/load.h"
 #include "domain/domain_file.h"
@@ -142,12 +143,14 @@ icc_status iccp_map_load(icc_map **out, size_t n_bytes, const void *data, const 
     icc_status status = iccp_blob_open(&r, data, n_bytes, KIND, VERSION, err);
     if (status != ICC_OK)
         return status;
-    status = read_map(out, &r, env, err);
+    iccp_budget budget;
+    const iccp_env limited = iccp_budget_begin(&budget, env);
+    status = read_map(out, &r, &limited, err);
     if (status == ICC_OK) {
         (*out)->info.seconds = iccp_seconds() - start;
         return ICC_OK;
     }
     iccp_map_release(*out);
     *out = NULL;
-    return iccp_blob_blame(err, status, "map");
+    return iccp_budget_end(&budget, iccp_blob_blame(err, status, "map"), err);
 }
