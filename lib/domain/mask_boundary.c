@@ -162,7 +162,8 @@ static icc_status fail_size(icc_error *err)
                      MAX_COUNT);
 }
 
-/* Of a boundary and the domain that it becomes, with its tree: vertices are fewer than facets, about. */
+/* Of a boundary and the domain that it becomes, with its tree: vertices are fewer than facets,
+ * about. */
 static double bytes_per_facet(size_t dim)
 {
     return 100 + 60 * (double)dim;

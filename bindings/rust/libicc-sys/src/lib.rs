@@ -1019,7 +1019,7 @@ extern "C" {
     /// saved; `ICC_ERR_MEMORY`, `ICC_ERR_CANCELLED`, `ICC_ERR_ARGUMENT`
     ///
     /// Cost: O(n log n) time and O(n) memory in the number of bytes for charts on a mesh; that of
-    /// `icc_chart_create()` for charts on a grid.
+    /// `icc_chart_create()` for charts on a grid, up to `icc_env.load_limit`.
     pub fn icc_chart_load(
         out: *mut *mut icc_chart,
         n_bytes: usize,
