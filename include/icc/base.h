@@ -109,9 +109,26 @@ typedef struct icc_env {
     void (*dealloc)(void *user, void *memory);
     /** Takes one line of diagnostics, without a line end. Default: none. */
     void (*log)(void *user, const char *message);
-    /** Called on the calling thread now and then during long work, with the name of the
-     *  stage and the share done in [0,1]. Non-zero cancels: the call gives up as soon as
-     *  it can and returns ::ICC_ERR_CANCELLED. Default: none. */
+    /** Called on the calling thread now and then during long work, with what is being done and
+     *  the share of the whole call that is done: in [0,1], never less than before, and 1 in the
+     *  last report of a call that succeeds. Shares are guesses; they go by what the parts of a
+     *  call usually cost. Non-zero cancels: the call gives up as soon as it can and returns
+     *  ::ICC_ERR_CANCELLED. A call that is done at once may report nothing. Default: none.
+     *
+     *  `stage` is one of these names (more may come), and may come back later in the call:
+     *  - "check": boundaries, masks, meshes and results are checked and measured
+     *  - "repair": what is not one-to-one yet is mended
+     *  - "mesh": a domain is triangulated
+     *  - "grid": a grid is laid over a domain
+     *  - "tree": the vertices of a grid are put in order
+     *  - "order": the simplices of a mesh are put in order
+     *  - "solve": equations are solved
+     *  - "trace": points are carried along curves, or looked up
+     *  - "improve": a map is made fairer
+     *  - "warp": pictures or poses are carried along
+     *  - "sample": samples are spread
+     *  - "weights": kernel coordinates are computed
+     *  - "load": an object is read back */
     int32_t (*progress)(void *user, const char *stage, double share);
     /** Runs task(argument, i) for every i in [0, n_tasks), in any order and on any
      *  threads, and returns when all are done. Replaces the library's own threads. */
@@ -119,6 +136,13 @@ typedef struct icc_env {
     /** Threads that a call may use, the calling one included; 0 and 1 mean one. Further
      *  threads live only during the call. If one cannot be started, the others do its work. */
     int32_t threads;
+    /** Bytes that loading an object may take beyond 64 for each byte that it is read from; 0 means
+     *  256,000,000. Charts of methods gradient and field, and domains made of masks, are rebuilt
+     *  from a few bytes and may need more: loading refuses them with ::ICC_ERR_FORMAT and a
+     *  message that names this member, before it asks for the memory. Time is limited
+     *  with it: to some ten seconds for the default, and in proportion. UINT64_MAX lifts both
+     *  limits, for bytes that are trusted. */
+    uint64_t load_limit;
 } icc_env;
 
 /** The library's version, such as "0.1.0". Static; never NULL. */

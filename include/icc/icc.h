@@ -560,7 +560,8 @@ ICC_API icc_status icc_chart_save(const icc_chart *chart, size_t capacity, void 
  *         saved; ::ICC_ERR_MEMORY, ::ICC_ERR_CANCELLED, ::ICC_ERR_ARGUMENT
  *
  * Cost: O(n log n) time and O(n) memory in the number of bytes for charts on a mesh; for charts on a grid that
- * of icc_chart_create() with the options that the bytes tell, also if somebody has made them up.
+ * of icc_chart_create() with the options that the bytes tell, up to icc_env::load_limit: beyond it
+ * the bytes are refused (::ICC_ERR_FORMAT) before the work begins.
  */
 ICC_API icc_status icc_chart_load(icc_chart **out, size_t n_bytes, const void *data,
                                   const icc_env *env, icc_error *err);

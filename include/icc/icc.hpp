@@ -75,9 +75,12 @@ public:
 /** How a call runs. */
 struct env {
     std::int32_t threads = 1; /**< that it may use; results are the same */
-    /** Called now and then on the calling thread with the name of the stage and the share done. True cancels:
-     *  icc::error with ::ICC_ERR_CANCELLED. What it throws cancels, too, and comes out of the call. */
+    /** Called now and then on the calling thread with the name of the stage and the share of the whole
+     *  call that is done, which never falls. True cancels: icc::error with ::ICC_ERR_CANCELLED. What it
+     *  throws cancels, too, and comes out of the call. */
     std::function<bool(const char *stage, double share)> progress = {};
+    /** Bytes for objects that are read back, as icc_env::load_limit; 0: the default. */
+    std::uint64_t load_limit = 0;
 };
 
 /** A struct of the C interface with its `size` set; all else is 0, which means the default. */
@@ -98,6 +101,7 @@ template <class F> void call(const env &e, F &&f)
     } now{e, nullptr};
     auto c_env = sized<icc_env>();
     c_env.threads = e.threads;
+    c_env.load_limit = e.load_limit;
     c_env.user = &now;
     if (e.progress)
         c_env.progress = [](void *user, const char *stage, double share) -> std::int32_t {

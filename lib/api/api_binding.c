@@ -1,8 +1,11 @@
 /* Argument checks of kernel coordinates: bindings and poses. */
+#include "api/check.h"
 #include "base/error.h"
 #include "kernel/pose.h"
 
 #include <math.h>
+
+ICCP_END(binding)
 
 static bool are_finite(size_t n, const double *values)
 {
@@ -29,8 +32,9 @@ icc_status icc_binding_create(icc_binding **out, const icc_weights *kernel, size
     const icc_status status = iccp_env_read(&full_env, env, err);
     if (status != ICC_OK)
         return status;
-    return iccp_explain(err,
-                        iccp_binding_create(out, kernel, n, points, derivatives == 1, &full_env));
+    return iccp_end_binding(
+        iccp_explain(err, iccp_binding_create(out, kernel, n, points, derivatives == 1, &full_env)),
+        out, &full_env, err);
 }
 
 void icc_binding_free(icc_binding *binding)
@@ -73,7 +77,8 @@ icc_status icc_binding_pose(const icc_binding *binding, const double *transforms
         return ICC_ERR_UNSUPPORTED;
     iccp_env full_env;
     const icc_status status = iccp_env_read(&full_env, env, NULL);
-    return status == ICC_OK ? iccp_binding_pose(binding, transforms, images, jacobians, &full_env)
+    return status == ICC_OK ? iccp_finish(&full_env, iccp_binding_pose(binding, transforms, images,
+                                                                       jacobians, &full_env))
                             : status;
 }
 
@@ -97,7 +102,9 @@ icc_status icc_binding_load(icc_binding **out, size_t n_bytes, const void *data,
     const icc_status status = iccp_env_read(&full_env, env, err);
     if (status != ICC_OK)
         return status;
-    return iccp_explain(err, iccp_binding_load(out, n_bytes, data, &full_env, err));
+    return iccp_end_binding(
+        iccp_explain(err, iccp_binding_load(out, n_bytes, data, &full_env, err)), out, &full_env,
+        err);
 }
 
 /* ---- poses ---- */

@@ -11,6 +11,8 @@
 #include <math.h>
 #include <string.h>
 
+ICCP_END(chart)
+
 icc_status icc_chart_create(icc_chart **out, const icc_domain *domain,
                             const icc_chart_options *options, const icc_env *env, icc_error *err)
 {
@@ -24,7 +26,9 @@ icc_status icc_chart_create(icc_chart **out, const icc_domain *domain,
     icc_status status = iccp_env_read(&full_env, env, err);
     if (status == ICC_OK)
         status = iccp_read_chart_options(&full, options, domain->dim, err);
-    return status == ICC_OK ? iccp_chart_create(out, domain, &full, &full_env, err) : status;
+    return status == ICC_OK ? iccp_end_chart(iccp_chart_create(out, domain, &full, &full_env, err),
+                                             out, &full_env, err)
+                            : status;
 }
 
 void icc_chart_free(icc_chart *chart)
@@ -67,7 +71,8 @@ icc_status icc_chart_get_report(const icc_chart *chart, size_t n_points, icc_cha
     icc_chart_report full = {0};
     icc_status status = iccp_env_read(&full_env, env, err);
     if (status == ICC_OK && chart->ops->measure != NULL)
-        status = chart->ops->measure(chart, n_points > 0 ? n_points : 4096, &full, &full_env);
+        status = iccp_finish(&full_env, chart->ops->measure(chart, n_points > 0 ? n_points : 4096,
+                                                            &full, &full_env));
     return status == ICC_OK
                ? iccp_write_struct(measures, &full, sizeof full, "icc_chart_report", err)
                : iccp_explain(err, status);
@@ -82,9 +87,9 @@ icc_status icc_chart_encode(const icc_chart *chart, size_t n, const double *poin
         return ICC_ERR_ARGUMENT;
     iccp_env full_env;
     const icc_status read = iccp_env_read(&full_env, env, NULL);
-    return read == ICC_OK
-               ? iccp_encode_all(chart, n, points, facet, bary, t, status, n_failed, &full_env)
-               : read;
+    return read == ICC_OK ? iccp_finish(&full_env, iccp_encode_all(chart, n, points, facet, bary, t,
+                                                                   status, n_failed, &full_env))
+                          : read;
 }
 
 icc_status icc_chart_decode(const icc_chart *chart, size_t n, const uint32_t *facet,
@@ -96,9 +101,9 @@ icc_status icc_chart_decode(const icc_chart *chart, size_t n, const uint32_t *fa
         return ICC_ERR_ARGUMENT;
     iccp_env full_env;
     const icc_status read = iccp_env_read(&full_env, env, NULL);
-    return read == ICC_OK
-               ? iccp_decode_all(chart, n, facet, bary, t, points, status, n_failed, &full_env)
-               : read;
+    return read == ICC_OK ? iccp_finish(&full_env, iccp_decode_all(chart, n, facet, bary, t, points,
+                                                                   status, n_failed, &full_env))
+                          : read;
 }
 
 typedef struct polyline {
@@ -168,5 +173,7 @@ icc_status icc_chart_load(icc_chart **out, size_t n_bytes, const void *data, con
                          out == NULL ? "out" : "data");
     iccp_env full_env;
     const icc_status status = iccp_env_read(&full_env, env, err);
-    return status == ICC_OK ? iccp_chart_load(out, n_bytes, data, &full_env, err) : status;
+    return status == ICC_OK ? iccp_end_chart(iccp_chart_load(out, n_bytes, data, &full_env, err),
+                                             out, &full_env, err)
+                            : status;
 }

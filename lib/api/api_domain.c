@@ -1,3 +1,4 @@
+#include "api/check.h"
 #include "base/env.h"
 #include "base/error.h"
 #include "base/options.h"
@@ -8,6 +9,8 @@
 
 #include <math.h>
 #include <string.h>
+
+ICCP_END(domain)
 
 static icc_status check_counts(size_t n_vertices, const double *vertices, size_t n_facets,
                                const uint32_t *facets, icc_error *err)
@@ -42,7 +45,9 @@ icc_status icc_domain_create(icc_domain **out, int32_t dim, size_t n_vertices,
         status = check_counts(n_vertices, vertices, n_facets, facets, err);
     if (status != ICC_OK)
         return status;
-    return iccp_domain_create(out, dim, n_vertices, vertices, n_facets, facets, &full, err);
+    return iccp_end_domain(
+        iccp_domain_create(out, dim, n_vertices, vertices, n_facets, facets, &full, err), out,
+        &full, err);
 }
 
 static icc_status check_simplices(size_t n_simplices, const uint32_t *simplices, icc_error *err)
@@ -74,8 +79,9 @@ icc_status icc_domain_create_mesh(icc_domain **out, int32_t dim, size_t n_vertic
         status = check_simplices(n_simplices, simplices, err);
     if (status != ICC_OK)
         return status;
-    return iccp_domain_create_mesh(out, dim, n_vertices, vertices, n_simplices, simplices, n_facets,
-                                   facets, &full, err);
+    return iccp_end_domain(iccp_domain_create_mesh(out, dim, n_vertices, vertices, n_simplices,
+                                                   simplices, n_facets, facets, &full, err),
+                           out, &full, err);
 }
 
 void icc_domain_free(icc_domain *domain)
@@ -153,7 +159,7 @@ icc_status icc_domain_locate(const icc_domain *domain, size_t n, const double *p
     if (status != ICC_OK)
         return status;
     locate_call call = {domain, points, where, facet, bary};
-    return iccp_for_chunks(&full, "locate", n, 1024, locate_chunk, &call);
+    return iccp_finish(&full, iccp_for_chunks(&full, "trace", n, 1024, locate_chunk, &call));
 }
 
 icc_status icc_boundary_defects(size_t n_vertices, const double *vertices, size_t capacity,
@@ -171,6 +177,7 @@ icc_status icc_boundary_defects(size_t n_vertices, const double *vertices, size_
         status = check_counts(n_vertices, vertices, 0, NULL, err);
     if (status != ICC_OK)
         return status;
-    return iccp_boundary_defects(n_vertices, vertices, capacity, kinds, items, n_defects, &full,
-                                 err);
+    status =
+        iccp_boundary_defects(n_vertices, vertices, capacity, kinds, items, n_defects, &full, err);
+    return status == ICC_OK ? iccp_explain(err, iccp_finish(&full, ICC_OK)) : status;
 }

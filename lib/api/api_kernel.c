@@ -1,10 +1,13 @@
 /* Argument checks of kernel coordinates: kernels. */
+#include "api/check.h"
 #include "base/error.h"
 #include "base/options.h"
 #include "kernel/handle_weights.h"
 
 #include <math.h>
 #include <string.h>
+
+ICCP_END(weights)
 
 static const int32_t DEFAULT_STEPS = 5; /* the thesis', section 4.7 */
 static const int32_t MAX_STEPS = 100000;
@@ -176,8 +179,9 @@ icc_status icc_weights_create(icc_weights **out, const icc_sampling *sampling, s
     if (status != ICC_OK)
         return status;
     complete(&full, sampling->info.sigma);
-    return iccp_explain(
-        err, iccp_weights_create(out, sampling, n_handles, handles, &full, &full_env, err));
+    return iccp_end_weights(iccp_explain(err, iccp_weights_create(out, sampling, n_handles, handles,
+                                                                &full, &full_env, err)),
+                           out, &full_env, err);
 }
 
 void icc_weights_free(icc_weights *kernel)
@@ -220,9 +224,10 @@ icc_status icc_weights_evaluate(const icc_weights *kernel, size_t n, const doubl
         return ICC_ERR_ARGUMENT;
     iccp_env full_env;
     const icc_status read = iccp_env_read(&full_env, env, NULL);
-    return read == ICC_OK ? iccp_weights_evaluate(kernel, n, points, weights, gradients, status,
-                                                n_failed, &full_env)
-                          : read;
+    return read == ICC_OK
+               ? iccp_finish(&full_env, iccp_weights_evaluate(kernel, n, points, weights, gradients,
+                                                            status, n_failed, &full_env))
+               : read;
 }
 
 icc_status icc_weights_get_report(const icc_weights *kernel, size_t n, const double *points,
@@ -237,7 +242,7 @@ icc_status icc_weights_get_report(const icc_weights *kernel, size_t n, const dou
         return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)i, "point %zu is not finite", i);
     icc_status status = iccp_env_read(&full_env, env, err);
     if (status == ICC_OK)
-        status = iccp_weights_measure(kernel, n, points, &full, &full_env);
+        status = iccp_finish(&full_env, iccp_weights_measure(kernel, n, points, &full, &full_env));
     if (status == ICC_OK)
         return iccp_write_struct(report, &full, sizeof full, "icc_weights_report", err);
     return iccp_explain(err, status);
@@ -272,8 +277,9 @@ icc_status icc_weights_paint(icc_weights **out, const icc_weights *kernel, size_
         return iccp_fail(err, ICC_ERR_ARGUMENT,
                          "icc_weights_paint: radius %g, amount %g, or a centre that is not finite",
                          radius, amount);
-    return iccp_explain(err,
-                        iccp_weights_paint(out, kernel, handle, centre, radius, amount, &full_env));
+    return iccp_end_weights(iccp_explain(err, iccp_weights_paint(out, kernel, handle, centre, radius,
+                                                               amount, &full_env)),
+                           out, &full_env, err);
 }
 
 icc_status icc_weights_repaint(icc_weights **out, const icc_weights *kernel, size_t n,
@@ -290,7 +296,9 @@ icc_status icc_weights_repaint(icc_weights **out, const icc_weights *kernel, siz
     if (k < n)
         return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_NODE, (int64_t)k, "a weight for node %lu is not finite",
                          (unsigned long)nodes[k]);
-    return iccp_explain(err, iccp_weights_repaint(out, kernel, n, nodes, weights, &full_env, err));
+    return iccp_end_weights(
+        iccp_explain(err, iccp_weights_repaint(out, kernel, n, nodes, weights, &full_env, err)), out,
+        &full_env, err);
 }
 
 icc_status icc_weights_with_method(icc_weights **out, const icc_weights *kernel, int32_t method,
@@ -303,7 +311,9 @@ icc_status icc_weights_with_method(icc_weights **out, const icc_weights *kernel,
         return status;
     if (method < ICC_WEIGHTS_QP || method > ICC_WEIGHTS_L1)
         return iccp_fail(err, ICC_ERR_ARGUMENT, "method is %ld", (long)method);
-    return iccp_explain(err, iccp_weights_with_method(out, kernel, method, &full_env));
+    return iccp_end_weights(
+        iccp_explain(err, iccp_weights_with_method(out, kernel, method, &full_env)), out, &full_env,
+        err);
 }
 
 icc_status icc_weights_stiffen(icc_weights **out, const icc_weights *kernel, size_t n,
@@ -319,6 +329,7 @@ icc_status icc_weights_stiffen(icc_weights **out, const icc_weights *kernel, siz
         if (!(rigidity[k] > 0) || !isfinite(rigidity[k]))
             return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_NODE, (int64_t)k, "the rigidity of node %lu is %g",
                              (unsigned long)nodes[k], rigidity[k]);
-    return iccp_explain(
-        err, iccp_weights_stiffen(out, kernel, n, nodes, rigidity, energy, &full_env, err));
+    return iccp_end_weights(iccp_explain(err, iccp_weights_stiffen(out, kernel, n, nodes, rigidity,
+                                                                 energy, &full_env, err)),
+                           out, &full_env, err);
 }

@@ -8,6 +8,8 @@
 
 #include <string.h>
 
+ICCP_END(map)
+
 static icc_status read_options(icc_map_options *full, const icc_map_options *options, icc_error *err)
 {
     const icc_status status =
@@ -43,7 +45,8 @@ icc_status icc_map_create(icc_map **out, const icc_domain *source, const icc_dom
         return status;
     icc_chart_options charts[2] = {chart, chart};
     charts[1].maximum = full.target_maximum;
-    return iccp_map_create(out, source, target, &full, charts, &full_env, err);
+    return iccp_end_map(iccp_map_create(out, source, target, &full, charts, &full_env, err), out,
+                        &full_env, err);
 }
 
 icc_status icc_map_create_from_charts(icc_map **out, const icc_chart *source,
@@ -60,8 +63,9 @@ icc_status icc_map_create_from_charts(icc_map **out, const icc_chart *source,
     icc_status status = iccp_env_read(&full_env, env, err);
     if (status == ICC_OK)
         status = read_options(&full, options, err);
-    return status == ICC_OK ? iccp_map_create_from_charts(out, source, target, &full,
-                                                          &full_env, err)
+    return status == ICC_OK ? iccp_end_map(iccp_map_create_from_charts(out, source, target, &full,
+                                                                       &full_env, err),
+                                           out, &full_env, err)
                             : status;
 }
 
@@ -94,9 +98,9 @@ static icc_status apply(const icc_map *map, bool inverse, size_t n, const double
         return ICC_ERR_ARGUMENT;
     iccp_env full_env;
     const icc_status read = iccp_env_read(&full_env, env, NULL);
-    return read == ICC_OK
-               ? iccp_map_apply(map, inverse, n, points, images, status, n_failed, &full_env)
-               : read;
+    return read == ICC_OK ? iccp_finish(&full_env, iccp_map_apply(map, inverse, n, points, images,
+                                                                  status, n_failed, &full_env))
+                          : read;
 }
 
 icc_status icc_map_apply(const icc_map *map, size_t n, const double *points, double *images,
@@ -119,7 +123,8 @@ icc_status icc_map_jacobian(const icc_map *map, size_t n, const double *points, 
         return ICC_ERR_ARGUMENT;
     iccp_env full_env;
     const icc_status read = iccp_env_read(&full_env, env, NULL);
-    return read == ICC_OK ? iccp_map_jacobian(map, n, points, jacobians, status, n_failed, &full_env)
+    return read == ICC_OK ? iccp_finish(&full_env, iccp_map_jacobian(map, n, points, jacobians,
+                                                                     status, n_failed, &full_env))
                           : read;
 }
 
@@ -142,6 +147,8 @@ icc_status icc_map_improve(icc_map **out, const icc_map *map, const icc_improve_
                            "icc_improve_options: a member is out of range");
     if (status == ICC_OK)
         status = iccp_map_improve(out, map, &full, &full_report, &full_env, err);
+    if (status == ICC_OK && full_report.cancelled == 0)
+        full_report.cancelled = iccp_finish(&full_env, ICC_OK) != ICC_OK;
     if (status != ICC_OK || report == NULL)
         return status;
     status = iccp_write_struct(report, &full_report, sizeof full_report, "icc_improve_report", err);
@@ -164,8 +171,10 @@ icc_status icc_map_retarget(icc_map **out, const icc_map *map, const icc_domain 
                          (long)iterations);
     iccp_env full_env;
     const icc_status status = iccp_env_read(&full_env, env, err);
-    return status == ICC_OK ? iccp_map_retarget(out, map, target, iterations, &full_env, err)
-                            : status;
+    return status == ICC_OK
+               ? iccp_end_map(iccp_map_retarget(out, map, target, iterations, &full_env, err), out,
+                              &full_env, err)
+               : status;
 }
 
 static void hand_out_solid(const icc_map *map, double *vertices, double *images, uint32_t *corners)
@@ -240,6 +249,8 @@ static icc_status carry_mesh(const icc_map *map, size_t n_vertices, const double
     status = iccp_map_certify(map, n_vertices, vertices, n_simplices, simplices, repaired,
                               images != NULL ? images : own, &full, &full_env, err);
     iccp_free(&full_env.memory, own);
+    if (status == ICC_OK)
+        status = iccp_explain(err, iccp_finish(&full_env, ICC_OK));
     return status == ICC_OK
                ? iccp_write_struct(certificate, &full, sizeof full, "icc_certificate", err)
                : status;
@@ -284,5 +295,7 @@ icc_status icc_map_load(icc_map **out, size_t n_bytes, const void *data, const i
                          out == NULL ? "out" : "data");
     iccp_env full_env;
     const icc_status status = iccp_env_read(&full_env, env, err);
-    return status == ICC_OK ? iccp_map_load(out, n_bytes, data, &full_env, err) : status;
+    return status == ICC_OK ? iccp_end_map(iccp_map_load(out, n_bytes, data, &full_env, err), out,
+                                           &full_env, err)
+                            : status;
 }

@@ -1,9 +1,12 @@
 /* Argument checks of masks of cells. */
+#include "api/check.h"
 #include "base/env.h"
 #include "base/error.h"
 #include "domain/mask_boundary.h"
 #include "domain/mask_repair.h"
 #include "icc/icc.h"
+
+ICCP_END(domain)
 
 static icc_status check_mask(int32_t dim, const size_t *shape, const uint8_t *cells, icc_error *err)
 {
@@ -31,7 +34,8 @@ icc_status icc_domain_create_mask(icc_domain **out, int32_t dim, const size_t *s
         status = iccp_env_read(&full, env, err);
     if (status != ICC_OK)
         return status;
-    return iccp_domain_create_mask(out, dim, shape, cells, &full, err);
+    return iccp_end_domain(iccp_domain_create_mask(out, dim, shape, cells, &full, err), out, &full,
+                           err);
 }
 
 static void fill(uint8_t *cells, const iccp_mask *mask)
@@ -58,7 +62,7 @@ icc_status icc_mask_repair(int32_t dim, const size_t *shape, uint8_t *cells, siz
     if (status == ICC_OK)
         status = iccp_mask_create(&mask, dim, shape, cells, &full, err);
     if (status == ICC_OK)
-        status = iccp_explain(err, iccp_mask_repair(mask, &n, &full));
+        status = iccp_explain(err, iccp_finish(&full, iccp_mask_repair(mask, &n, &full)));
     if (status == ICC_OK)
         fill(cells, mask);
     if (n_filled != NULL)

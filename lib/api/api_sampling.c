@@ -1,4 +1,5 @@
 /* Argument checks of shapes and samplings. */
+#include "api/check.h"
 #include "base/error.h"
 #include "base/options.h"
 #include "icc/kernel.h"
@@ -6,6 +7,9 @@
 #include "kernel/sampling_file.h"
 
 #include <math.h>
+
+ICCP_END(shape)
+ICCP_END(sampling)
 
 static const int32_t MAX_STEPS = 100000;
 
@@ -69,8 +73,9 @@ icc_status icc_shape_create(icc_shape **out, int32_t dim, size_t n_regions,
     status = check_regions(dim, n_regions, regions, err);
     if (status != ICC_OK)
         return status;
-    return iccp_shape_create(out, dim, n_regions, regions, n_vertices, vertices, n_segments,
-                             segments, &full_env, err);
+    return iccp_end_shape(iccp_shape_create(out, dim, n_regions, regions, n_vertices, vertices,
+                                            n_segments, segments, &full_env, err),
+                          out, &full_env, err);
 }
 
 void icc_shape_free(icc_shape *shape)
@@ -130,7 +135,10 @@ icc_status icc_sampling_create(icc_sampling **out, const icc_shape *shape,
     icc_status status = begin(&full_env, env, missing, err);
     if (status == ICC_OK)
         status = read_options(&full, options, shape, err);
-    return status == ICC_OK ? iccp_sampling_create(out, shape, &full, &full_env, err) : status;
+    return status == ICC_OK
+               ? iccp_end_sampling(iccp_sampling_create(out, shape, &full, &full_env, err), out,
+                                   &full_env, err)
+               : status;
 }
 
 icc_status icc_sampling_create_from_points(icc_sampling **out, const icc_shape *shape, size_t n,
@@ -153,7 +161,9 @@ icc_status icc_sampling_create_from_points(icc_sampling **out, const icc_shape *
     status = check_finite(n, shape->dim, points, "point", err);
     if (status != ICC_OK)
         return status;
-    return iccp_sampling_create_from_points(out, shape, n, points, &full_env, err);
+    return iccp_end_sampling(
+        iccp_sampling_create_from_points(out, shape, n, points, &full_env, err), out, &full_env,
+        err);
 }
 
 void icc_sampling_free(icc_sampling *sampling)
@@ -196,5 +206,8 @@ icc_status icc_sampling_load(icc_sampling **out, size_t n_bytes, const void *dat
     iccp_env full_env;
     const char *missing = out == NULL ? "out" : data == NULL ? "data" : NULL;
     const icc_status status = begin(&full_env, env, missing, err);
-    return status == ICC_OK ? iccp_sampling_load(out, n_bytes, data, &full_env, err) : status;
+    return status == ICC_OK
+               ? iccp_end_sampling(iccp_sampling_load(out, n_bytes, data, &full_env, err), out,
+                                   &full_env, err)
+               : status;
 }

@@ -19,6 +19,10 @@
 
 #include <math.h>
 
+ICCP_END(grid)
+ICCP_END(tree)
+ICCP_END(function)
+
 static const int32_t DEFAULT_CELLS = 50; /* the papers' */
 static const size_t MAX_POINTS = UINT32_MAX / 16; /* corners of triangles are numbered too */
 
@@ -47,7 +51,8 @@ icc_status icc_grid_create(icc_grid **out, const icc_domain *domain, int32_t cel
     if (cells < ICCP_MIN_CELLS || cells > ICCP_MAX_CELLS)
         return iccp_fail(err, ICC_ERR_ARGUMENT, "cells is %ld; it must lie in 2..%ld",
                          (long)cells, (long)ICCP_MAX_CELLS);
-    return iccp_explain(err, iccp_grid_create(out, domain, cells, &full_env, err));
+    return iccp_end_grid(iccp_explain(err, iccp_grid_create(out, domain, cells, &full_env, err)),
+                         out, &full_env, err);
 }
 
 icc_status icc_grid_create_mask(icc_grid **out, int32_t dim, const size_t *shape,
@@ -69,7 +74,9 @@ icc_status icc_grid_create_mask(icc_grid **out, int32_t dim, const size_t *shape
     for (int32_t k = 0; k < dim; ++k)
         if (shape[k] == 0)
             return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_AXIS, k, "shape[%ld] is 0", (long)k);
-    return iccp_explain(err, iccp_grid_create_mask(out, dim, shape, inside, &full_env, err));
+    return iccp_end_grid(
+        iccp_explain(err, iccp_grid_create_mask(out, dim, shape, inside, &full_env, err)), out,
+        &full_env, err);
 }
 
 icc_status icc_grid_refine(icc_grid **out, const icc_grid *grid, const icc_env *env, icc_error *err)
@@ -81,7 +88,8 @@ icc_status icc_grid_refine(icc_grid **out, const icc_grid *grid, const icc_env *
     const icc_status status = begin(&full_env, env, missing, err);
     if (status != ICC_OK)
         return status;
-    return iccp_explain(err, iccp_grid_refine(out, grid, &full_env, err));
+    return iccp_end_grid(iccp_explain(err, iccp_grid_refine(out, grid, &full_env, err)), out,
+                         &full_env, err);
 }
 
 icc_status icc_grid_restrict(icc_grid **out, const icc_grid *grid, const uint8_t *keep,
@@ -97,7 +105,8 @@ icc_status icc_grid_restrict(icc_grid **out, const icc_grid *grid, const uint8_t
     const icc_status status = begin(&full_env, env, missing, err);
     if (status != ICC_OK)
         return status;
-    return iccp_explain(err, iccp_grid_restrict(out, grid, keep, &full_env, err));
+    return iccp_end_grid(iccp_explain(err, iccp_grid_restrict(out, grid, keep, &full_env, err)),
+                         out, &full_env, err);
 }
 
 void icc_grid_free(icc_grid *grid)
@@ -134,7 +143,8 @@ icc_status icc_grid_find_maximum(const icc_grid *grid, uint32_t *vertex, uint32_
     const icc_status status = begin(&full_env, env, missing, err);
     if (status != ICC_OK)
         return status;
-    return iccp_explain(err, iccp_grassfire(grid, vertex, rounds, &full_env, err));
+    return iccp_explain(
+        err, iccp_finish(&full_env, iccp_grassfire(grid, vertex, rounds, &full_env, err)));
 }
 
 icc_status icc_grid_find_nearest(const icc_grid *grid, const double *point, uint32_t *vertex)
@@ -199,8 +209,9 @@ icc_status icc_tree_create(icc_tree **out, const icc_grid *grid, uint32_t root,
     if (root >= grid->n_vertices || !grid->inside[root])
         return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_GRID_VERTEX, root, "the root, vertex %lu, is not inside",
                          (unsigned long)root);
-    return iccp_explain(
-        err, iccp_tree_create(out, grid, root, full.form, full.axis_order, &full_env, err));
+    return iccp_end_tree(iccp_explain(err, iccp_tree_create(out, grid, root, full.form,
+                                                            full.axis_order, &full_env, err)),
+                         out, &full_env, err);
 }
 
 void icc_tree_free(icc_tree *tree)
@@ -237,7 +248,7 @@ icc_status icc_tree_get_report(const icc_tree *tree, icc_tree_report *report, co
     if (status != ICC_OK)
         return status;
     icc_tree_report full;
-    status = iccp_explain(err, iccp_tree_verify(tree, &full, &full_env));
+    status = iccp_explain(err, iccp_finish(&full_env, iccp_tree_verify(tree, &full, &full_env)));
     if (status != ICC_OK)
         return status;
     return iccp_write_struct(report, &full, sizeof full, "icc_tree_report", err);
@@ -264,6 +275,8 @@ icc_status icc_tree_grow(const icc_tree *tree, const double *values, uint32_t *r
         return status;
     icc_grow_report full;
     status = iccp_tree_grow(tree, values, rank, &full, &full_env, err);
+    if (status == ICC_OK)
+        status = iccp_explain(err, iccp_finish(&full_env, ICC_OK));
     if (report == NULL || (status != ICC_OK && status != ICC_ERR_TOPOLOGY))
         return status;
     const icc_status written =
@@ -283,7 +296,8 @@ icc_status icc_tree_get_rank_report(const icc_tree *tree, const uint32_t *rank,
     if (status != ICC_OK)
         return status;
     icc_function_report full;
-    status = iccp_explain(err, iccp_tree_verify_ranks(tree, rank, &full, &full_env));
+    status = iccp_explain(
+        err, iccp_finish(&full_env, iccp_tree_verify_ranks(tree, rank, &full, &full_env)));
     if (status != ICC_OK)
         return status;
     return iccp_write_struct(report, &full, sizeof full, "icc_function_report", err);
@@ -306,7 +320,9 @@ icc_status icc_function_create(icc_function **out, const icc_tree *tree, const i
     if (status != ICC_OK)
         return status;
     status = iccp_check_function(&full, "icc_function_options", err);
-    return status == ICC_OK ? iccp_function_create(out, tree, &full, &full_env, err) : status;
+    return status == ICC_OK ? iccp_end_function(iccp_function_create(out, tree, &full, &full_env, err),
+                                             out, &full_env, err)
+                            : status;
 }
 
 void icc_function_free(icc_function *function)
@@ -347,7 +363,7 @@ icc_status icc_function_get_report(const icc_function *function, icc_function_re
     if (status != ICC_OK)
         return status;
     icc_function_report full;
-    status = iccp_explain(err, iccp_function_verify(function, &full, &full_env));
+    status = iccp_explain(err, iccp_finish(&full_env, iccp_function_verify(function, &full, &full_env)));
     if (status != ICC_OK)
         return status;
     return iccp_write_struct(report, &full, sizeof full, "icc_function_report", err);
@@ -427,5 +443,5 @@ icc_status icc_triangulate(size_t n_boundary, size_t n_points, const double *poi
     if (status == ICC_OK)
         status = triangulate(polygon, n_points, points, triangles, &full_env, err);
     iccp_domain_release(polygon);
-    return iccp_explain(err, status);
+    return iccp_explain(err, iccp_finish(&full_env, status));
 }

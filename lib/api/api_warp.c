@@ -48,5 +48,6 @@ icc_status icc_map_warp(const icc_map *map, const icc_picture *source, const icc
                            (long)map->info.dim);
     if (status != ICC_OK)
         return status;
-    return iccp_explain(err, iccp_map_warp(map, &from, &to, n_failed, &full_env));
+    return iccp_explain(
+        err, iccp_finish(&full_env, iccp_map_warp(map, &from, &to, n_failed, &full_env)));
 }

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/options.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 
@@ -18,7 +19,7 @@ icc_status iccp_env_read(iccp_env *out, const icc_env *env, icc_error *err)
     if (full.threads < 0 || full.threads > 1024)
         return iccp_fail(err, ICC_ERR_ARGUMENT,
                          "icc_env.threads is %ld; it must lie in 0..1024", (long)full.threads);
-    out->memory = iccp_memory_default;
+    *out = (iccp_env){.memory = iccp_memory_default, .reported = &out->own};
     if (full.alloc != NULL)
         out->memory = (iccp_memory){full.user, full.alloc, full.dealloc};
     out->user = full.user;
@@ -26,14 +27,55 @@ icc_status iccp_env_read(iccp_env *out, const icc_env *env, icc_error *err)
     out->progress = full.progress;
     out->parallel_for = full.parallel_for;
     out->threads = full.threads > 0 ? full.threads : 1;
+    out->load_limit = full.load_limit;
     return ICC_OK;
+}
+
+iccp_env iccp_part(const iccp_env *env, const char *stage, double from, double to)
+{
+    iccp_env part = *env;
+    const double width = 1 - env->before - env->after;
+    part.before += from * width;
+    part.after += (1 - to) * width;
+    if (part.stage == NULL)
+        part.stage = stage;
+    return part;
+}
+
+void iccp_split(iccp_env *parts, size_t n, const double *cost, const iccp_env *env)
+{
+    double all = 0, before = 0;
+    for (size_t k = 0; k < n; ++k)
+        all += cost[k];
+    for (size_t k = 0; k < n; before += cost[k++])
+        parts[k] = iccp_part(env, NULL, before / all, (before + cost[k]) / all);
+}
+
+iccp_env iccp_round(const iccp_env *env, size_t k, double typical)
+{
+    const double from = (double)k, to = from + 1;
+    return iccp_part(env, NULL, from / (from + typical), to / (to + typical));
 }
 
 icc_status iccp_progress(const iccp_env *env, const char *stage, double share)
 {
-    if (env->progress != NULL && env->progress(env->user, stage, share) != 0)
-        return ICC_ERR_CANCELLED;
-    return ICC_OK;
+    if (env->progress == NULL)
+        return ICC_OK;
+    iccp_reported now = {env->stage != NULL ? env->stage : stage,
+                         env->before + share * (1 - env->before - env->after)};
+    if (env->reported != NULL) {
+        now.share = fmin(fmax(now.share, env->reported->share), 1);
+        *env->reported = now;
+    }
+    return env->progress(env->user, now.stage, now.share) != 0 ? ICC_ERR_CANCELLED : ICC_OK;
+}
+
+icc_status iccp_finish(const iccp_env *env, icc_status status)
+{
+    const iccp_reported *last = env->reported;
+    return status == ICC_OK && last->stage != NULL && last->share < 1
+               ? iccp_progress(env, last->stage, 1)
+               : status;
 }
 
 void iccp_log(const iccp_env *env, const char *format, ...)

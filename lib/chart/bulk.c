@@ -174,10 +174,9 @@ static icc_status decode_chunk(void *argument, size_t begin, size_t end)
     return all;
 }
 
-static icc_status run(bulk *b, const char *stage, size_t n, iccp_chunk chunk, size_t *n_failed,
-                      const iccp_env *env)
+static icc_status run(bulk *b, size_t n, iccp_chunk chunk, size_t *n_failed, const iccp_env *env)
 {
-    const icc_status status = iccp_for_chunks(env, stage, n, ICCP_CHART_MANY, chunk, b);
+    const icc_status status = iccp_for_chunks(env, "trace", n, ICCP_CHART_MANY, chunk, b);
     if (n_failed != NULL)
         *n_failed = atomic_load(&b->n_failed);
     return status;
@@ -189,7 +188,7 @@ icc_status iccp_encode_all(const icc_chart *chart, size_t n, const double *point
 {
     /* encode_chunk only reads the points. */
     bulk b = {chart, &env->memory, (double *)points, facet, bary, t, status, 0};
-    return run(&b, "encode", n, encode_chunk, n_failed, env);
+    return run(&b, n, encode_chunk, n_failed, env);
 }
 
 icc_status iccp_decode_all(const icc_chart *chart, size_t n, const uint32_t *facet,
@@ -199,5 +198,5 @@ icc_status iccp_decode_all(const icc_chart *chart, size_t n, const uint32_t *fac
     /* decode_chunk only reads the coordinates. */
     bulk b = {chart,          &env->memory, points, (uint32_t *)facet,
               (double *)bary, (double *)t,  status, 0};
-    return run(&b, "decode", n, decode_chunk, n_failed, env);
+    return run(&b, n, decode_chunk, n_failed, env);
 }

@@ -64,9 +64,11 @@ static icc_status make_bases(harmonic_job *job, const iccp_env *env, icc_error *
         return ICC_ERR_MEMORY;
     iccp_planar_pieces(pieces, job->domain[0], other, job->cells);
     icc_status status = ICC_OK;
+    iccp_env part[2];
+    iccp_split(part, job->n, (const double[]){1, 1}, env);
     for (size_t k = 0; status == ICC_OK && k < job->n; ++k) {
-        status = iccp_harmonic_create(&job->base[k], job->domain[k], pieces, job->cells, env,
-                                      err);
+        status =
+            iccp_harmonic_create(&job->base[k], job->domain[k], pieces, job->cells, &part[k], err);
         if (status != ICC_OK)
             (void)blame(job, k, status, err);
     }
@@ -141,12 +143,14 @@ static icc_status finish(harmonic_job *job, size_t k, icc_chart **out, const icc
 static icc_status try_harmonic(harmonic_job *job, icc_chart **out, const iccp_env *env,
                                icc_error *err)
 {
-    icc_status status = make_bases(job, env, err);
+    iccp_env part[4];
+    iccp_split(part, 4, (const double[]){6, 1, 1, 1}, env);
+    icc_status status = make_bases(job, &part[0], err);
     if (status == ICC_OK)
-        status = job->options[0].method == ICC_METHOD_DISC ? make_images(job, env)
-                                                           : choose_centres(job, env, err);
+        status = job->options[0].method == ICC_METHOD_DISC ? make_images(job, &part[1])
+                                                           : choose_centres(job, &part[1], err);
     for (size_t k = 0; status == ICC_OK && k < job->n; ++k)
-        status = finish(job, k, &out[k], env, err);
+        status = finish(job, k, &out[k], &part[2 + k], err);
     for (size_t k = 0; k < job->n; ++k) {
         iccp_harmonic_free(&job->base[k]);
         iccp_free(&env->memory, job->image[k]);
@@ -162,12 +166,15 @@ static icc_status try_harmonic(harmonic_job *job, icc_chart **out, const iccp_en
 static icc_status create_harmonic(harmonic_job *job, icc_chart **out, const iccp_env *env,
                                   icc_error *err)
 {
+    static const double COST[REFINEMENTS + 1] = {8, 1, 1};
+    iccp_env part[REFINEMENTS + 1];
+    iccp_split(part, REFINEMENTS + 1, COST, env);
     job->cells = job->options[0].cells;
-    icc_status status = try_harmonic(job, out, env, err);
+    icc_status status = try_harmonic(job, out, &part[0], err);
     for (int k = 0; k < REFINEMENTS && status == ICC_ERR_CERTIFICATE && job->cells <= ICCP_MAX_CELLS / 2; ++k) {
         job->cells *= 2;
         iccp_log(env, "the chart cannot be certified: trying %ld cells", (long)job->cells);
-        status = try_harmonic(job, out, env, err);
+        status = try_harmonic(job, out, &part[k + 1], err);
     }
     return iccp_explain(err, status);
 }
@@ -204,11 +211,13 @@ static icc_status create_field_pair(icc_chart *out[2], const icc_domain *const d
 {
     double image[ICC_MAX_DIM];
     int32_t side = 1;
-    icc_status status = create_field(&out[0], domain[0], &options[0], NULL, env, err);
+    iccp_env part[3];
+    iccp_split(part, 3, (const double[]){4, 4, 1}, env);
+    icc_status status = create_field(&out[0], domain[0], &options[0], NULL, &part[0], err);
     if (status == ICC_OK) {
         const double *wish = guess_maximum(out[0], domain[1], image);
         side = 2;
-        status = create_field(&out[1], domain[1], &options[1], wish, env, err);
+        status = create_field(&out[1], domain[1], &options[1], wish, &part[1], err);
         if (status == ICC_OK && wish == NULL && options[0].maximum == NULL)
             wish = guess_maximum(out[1], domain[0], image);
         else
@@ -216,7 +225,7 @@ static icc_status create_field_pair(icc_chart *out[2], const icc_domain *const d
         if (wish != NULL) {
             iccp_chart_release(out[0]);
             side = 1;
-            status = create_field(&out[0], domain[0], &options[0], wish, env, err);
+            status = create_field(&out[0], domain[0], &options[0], wish, &part[2], err);
         }
     }
     if (status == ICC_OK)
@@ -251,9 +260,11 @@ static icc_status create_gradient_pair(icc_chart *out[2], const icc_domain *cons
                                        const icc_chart_options options[2], const iccp_env *env,
                                        icc_error *err)
 {
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){1, 1}, env);
     for (size_t k = 0; k < 2; ++k) {
-        const icc_status status =
-            iccp_explain(err, iccp_chart_gradient_create(&out[k], domain[k], &options[k], env, err));
+        const icc_status status = iccp_explain(
+            err, iccp_chart_gradient_create(&out[k], domain[k], &options[k], &part[k], err));
         if (status != ICC_OK) {
             if (k == 1)
                 iccp_chart_release(out[0]);

@@ -3,6 +3,7 @@
  * function's gradient, whose curves merge. */
 #include "chart/chart_field.h"
 
+#include "base/budget.h"
 #include "base/clock.h"
 #include "base/error.h"
 #include "chart/field_measure.h"
@@ -63,12 +64,14 @@ static icc_status make_tree_on(iccp_field_state *state, icc_chart *chart, int32_
     icc_grow_report grown = {0};
     icc_tree_report report = {0};
     double start = iccp_seconds();
-    icc_status status = iccp_grid_create(&grid, chart->domain, cells, env, err);
+    iccp_env part[4];
+    iccp_split(part, 4, (const double[]){2, 1, 4, 1}, env);
+    icc_status status = iccp_grid_create(&grid, chart->domain, cells, &part[0], err);
     if (status != ICC_OK)
         return status;
     chart->info.n_grid = grid->n_vertices;
     chart->info.cells = grid->cells;
-    status = choose_root(grid, maximum, &root, env, err);
+    status = choose_root(grid, maximum, &root, &part[1], err);
     chart->info.seconds_grid += iccp_seconds() - start;
     start = iccp_seconds();
     uint32_t *rank = iccp_alloc(&env->memory, grid->n_vertices, sizeof *rank);
@@ -76,9 +79,9 @@ static icc_status make_tree_on(iccp_field_state *state, icc_chart *chart, int32_
         status = ICC_ERR_MEMORY;
     if (status == ICC_OK)
         status = iccp_tree_settle(&state->tree, grid, root, ICC_TREE_THESIS, NULL, MOST_LOST, rank,
-                                  &grown, env, err);
+                                  &grown, &part[2], err);
     if (status == ICC_OK)
-        status = iccp_tree_verify(state->tree, &report, env);
+        status = iccp_tree_verify(state->tree, &report, &part[3]);
     iccp_free(&env->memory, rank);
     iccp_grid_release(grid);
     chart->info.seconds_tree += iccp_seconds() - start;
@@ -95,13 +98,14 @@ static icc_status make_tree(iccp_field_state *state, icc_chart *chart,
 {
     const icc_chart_info *info = &chart->info;
     const int32_t cells = choose_cells(chart->domain, options->cells);
-    const icc_status status = make_tree_on(state, chart, cells, maximum, env, err);
+    const iccp_env first = iccp_part(env, NULL, 0, 0.8), again = iccp_part(env, NULL, 0.8, 1);
+    const icc_status status = make_tree_on(state, chart, cells, maximum, &first, err);
     if (status != ICC_ERR_TOPOLOGY || info->n_grid > MOST_REFINED >> chart->domain->dim)
         return status;
     iccp_log(env,
              "field: no order of the vertices of %d cells has one critical vertex; %d are tried",
              (int)info->cells, (int)(2 * info->cells));
-    return make_tree_on(state, chart, 2 * info->cells, maximum, env, err);
+    return make_tree_on(state, chart, 2 * info->cells, maximum, &again, err);
 }
 
 static icc_status make_field(iccp_field_state *state, icc_chart *chart,
@@ -112,9 +116,11 @@ static icc_status make_field(iccp_field_state *state, icc_chart *chart,
     const icc_function_options function = {.function = ICC_FUNCTION_LAPLACE,
                                         .constraints = ICC_CONSTRAINTS_NONE,
                                         .solver = options->solver};
-    icc_status status = iccp_function_create(&state->field, state->tree, &function, env, err);
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){5, 1}, env);
+    icc_status status = iccp_function_create(&state->field, state->tree, &function, &part[0], err);
     if (status == ICC_OK)
-        status = iccp_function_verify(state->field, &report, env);
+        status = iccp_function_verify(state->field, &report, &part[1]);
     chart->info.n_maxima = report.n_maxima;
     chart->info.n_minima = report.n_minima;
     chart->info.n_saddles = report.n_saddles;
@@ -122,15 +128,21 @@ static icc_status make_field(iccp_field_state *state, icc_chart *chart,
     return status;
 }
 
+/* Multiplications for each simplex at a vertex, about. */
+static const double VECTOR_WORK = 20;
+
 static icc_status make_vectors(iccp_field_state *state, icc_chart *chart, const iccp_env *env)
 {
     const double start = iccp_seconds();
     iccp_smooth smooth = {.memory = env->memory};
-    icc_status status = iccp_cover_create(&state->cover, chart->domain, state->tree->grid, env);
+    iccp_env part[3];
+    iccp_split(part, 3, (const double[]){1, 2, 4}, env);
+    icc_status status =
+        iccp_cover_create(&state->cover, chart->domain, state->tree->grid, &part[0]);
     if (status == ICC_OK)
-        status = iccp_smooth_create(&smooth, state->field, &state->cover, SWEEPS, env);
+        status = iccp_smooth_create(&smooth, state->field, &state->cover, SWEEPS, &part[1]);
     if (status == ICC_OK)
-        status = iccp_cones_create(&state->cones, &smooth, &state->cover, env);
+        status = iccp_cones_create(&state->cones, &smooth, &state->cover, &part[2]);
     iccp_smooth_free(&smooth);
     chart->info.seconds_solve = iccp_seconds() - start;
     return status;
@@ -232,14 +244,19 @@ icc_status iccp_chart_field_create(icc_chart **out, const icc_domain *domain,
     iccp_field_state *state = iccp_alloc_zero(&env->memory, 1, sizeof *state);
     chart->state = state;
     status = ICC_ERR_MEMORY;
+    iccp_env part[3];
+    iccp_split(part, 3, (const double[]){2, 3, 3}, env);
     if (state != NULL) {
         state->cover.memory = state->cones.memory = state->cones.sides.memory = env->memory;
-        status = make_tree(state, chart, options, maximum, env, err);
+        status = make_tree(state, chart, options, maximum, &part[0], err);
     }
     if (status == ICC_OK)
-        status = make_field(state, chart, options, env, err);
+        status = make_field(state, chart, options, &part[1], err);
     if (status == ICC_OK)
-        status = make_vectors(state, chart, env);
+        status = iccp_budget_work(env, VECTOR_WORK * (double)chart->info.n_grid *
+                                           iccp_simplices_at_vertex(domain->dim));
+    if (status == ICC_OK)
+        status = make_vectors(state, chart, &part[2]);
     if (status == ICC_OK) {
         finish(state, chart);
         iccp_recipe_keep(&state->recipe, options, maximum, domain->dim);

@@ -48,12 +48,14 @@ static icc_status grow_tree(iccp_gradient_state *state, icc_chart *chart, const 
     const double start = iccp_seconds();
     icc_tree_report report = {0};
     icc_tree *tree = NULL;
-    icc_status status = iccp_tree_create(&tree, grid, root, chart->info.tree, NULL, env, err);
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){4, 1}, env);
+    icc_status status = iccp_tree_create(&tree, grid, root, chart->info.tree, NULL, &part[0], err);
     if (status != ICC_OK)
         return status;
     iccp_tree_release(state->tree);
     state->tree = tree;
-    status = iccp_tree_verify(tree, &report, env);
+    status = iccp_tree_verify(tree, &report, &part[1]);
     chart->info.seconds_tree += iccp_seconds() - start;
     chart->info.n_tree = report.n_inside + report.n_outside;
     chart->info.n_unreachable = report.n_unreachable;
@@ -67,13 +69,15 @@ static icc_status make_tree(iccp_gradient_state *state, icc_chart *chart,
     icc_grid *grid = NULL;
     const double start = iccp_seconds();
     const int32_t cells = choose_cells(chart->domain, options->cells);
-    icc_status status = iccp_grid_create(&grid, chart->domain, cells, env, err);
+    iccp_env part[3];
+    iccp_split(part, 3, (const double[]){3, 1, 5}, env);
+    icc_status status = iccp_grid_create(&grid, chart->domain, cells, &part[0], err);
     if (status != ICC_OK)
         return status;
-    status = choose_root(grid, chart->domain, options->maximum, &state->chosen, env, err);
+    status = choose_root(grid, chart->domain, options->maximum, &state->chosen, &part[1], err);
     chart->info.seconds_grid = iccp_seconds() - start;
     if (status == ICC_OK)
-        status = grow_tree(state, chart, grid, state->chosen, env, err);
+        status = grow_tree(state, chart, grid, state->chosen, &part[2], err);
     chart->info.cells = grid->cells;
     chart->info.n_grid = grid->n_vertices;
     chart->info.n_inside = grid->n_inside;
@@ -85,10 +89,12 @@ static icc_status make_tree(iccp_gradient_state *state, icc_chart *chart,
 static icc_status move_root(iccp_gradient_state *state, icc_chart *chart, uint32_t root,
                             const icc_function_options *function, const iccp_env *env, icc_error *err)
 {
-    const icc_status status = grow_tree(state, chart, state->tree->grid, root, env, err);
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){1, 4}, env);
+    const icc_status status = grow_tree(state, chart, state->tree->grid, root, &part[0], err);
     iccp_function_release(state->field);
     state->field = NULL;
-    return status == ICC_OK ? iccp_function_create(&state->field, state->tree, function, env, err)
+    return status == ICC_OK ? iccp_function_create(&state->field, state->tree, function, &part[1], err)
                             : status;
 }
 
@@ -102,19 +108,21 @@ static icc_status make_plate(iccp_gradient_state *state, icc_chart *chart,
     icc_function_options function = *options;
     bool enough = options->constraints == ICC_CONSTRAINTS_NONE;
     function.constraints = ICC_CONSTRAINTS_NONE;
-    icc_status status = iccp_function_create(&state->field, state->tree, &function, env, err);
+    iccp_env part[5];
+    iccp_split(part, 5, (const double[]){4, 4, 3, 1, enough ? 0 : 8}, env);
+    icc_status status = iccp_function_create(&state->field, state->tree, &function, &part[0], err);
     if (status == ICC_OK && state->field->info.beside) {
         uint32_t summit = 0;
-        status = iccp_function_summit(state->field, &summit, env);
+        status = iccp_function_summit(state->field, &summit, &part[1]);
         if (status == ICC_OK)
-            status = move_root(state, chart, summit, &function, env, err);
+            status = move_root(state, chart, summit, &function, &part[2], err);
     }
     if (status == ICC_OK && !enough)
-        status = iccp_function_is_regular(state->field, &enough, env);
+        status = iccp_function_is_regular(state->field, &enough, &part[3]);
     if (status != ICC_OK || enough)
         return status;
     function.constraints = ICC_CONSTRAINTS_ALL;
-    return move_root(state, chart, state->chosen, &function, env, err);
+    return move_root(state, chart, state->chosen, &function, &part[4], err);
 }
 
 static icc_status make_field(iccp_gradient_state *state, icc_chart *chart,
@@ -128,14 +136,16 @@ static icc_status make_field(iccp_gradient_state *state, icc_chart *chart,
                                         .solver = options->solver,
                                         .min_fall = options->min_fall,
                                         .leaf_min = options->leaf_min};
+    iccp_env part[3];
+    iccp_split(part, 3, (const double[]){8, 2, 1}, env);
     const bool is_plate = options->function == ICC_FUNCTION_BILAPLACE ||
                           options->function == ICC_FUNCTION_CLAMPED;
     icc_status status =
         is_plate && options->constraints != ICC_CONSTRAINTS_ALL
-            ? make_plate(state, chart, &function, env, err)
-            : iccp_function_create(&state->field, state->tree, &function, env, err);
+            ? make_plate(state, chart, &function, &part[0], err)
+            : iccp_function_create(&state->field, state->tree, &function, &part[0], err);
     if (status == ICC_OK)
-        status = iccp_function_verify(state->field, &report, env);
+        status = iccp_function_verify(state->field, &report, &part[1]);
     if (status != ICC_OK)
         return status;
     chart->info.n_maxima = report.n_maxima;
@@ -144,7 +154,7 @@ static icc_status make_field(iccp_gradient_state *state, icc_chart *chart,
     if (chart->domain->dim == 2)
         iccp_function_count_edges(state->field, &chart->info.n_edges, &chart->info.n_compression,
                                &chart->info.n_expansion);
-    status = iccp_gradient_extend(state->field, env);
+    status = iccp_gradient_extend(state->field, &part[2]);
     chart->info.seconds_function = iccp_seconds() - start - (chart->info.seconds_tree - grown);
     return status;
 }
@@ -341,11 +351,13 @@ icc_status iccp_chart_gradient_create(icc_chart **out, const icc_domain *domain,
     chart->info.tree = options->tree;
     iccp_gradient_state *state = iccp_alloc_zero(&env->memory, 1, sizeof *state);
     chart->state = state;
-    status = state != NULL ? make_tree(state, chart, options, env, err) : ICC_ERR_MEMORY;
+    iccp_env part[3];
+    iccp_split(part, 3, (const double[]){2, 2, 1}, env);
+    status = state != NULL ? make_tree(state, chart, options, &part[0], err) : ICC_ERR_MEMORY;
     if (status == ICC_OK)
-        status = make_field(state, chart, options, env, err);
+        status = make_field(state, chart, options, &part[1], err);
     if (status == ICC_OK)
-        status = make_boundary(state, domain, env);
+        status = make_boundary(state, domain, &part[2]);
     if (status == ICC_OK) {
         place_maximum(state, chart);
         iccp_recipe_keep(&state->recipe, options, options->maximum, domain->dim);

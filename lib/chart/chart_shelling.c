@@ -127,13 +127,15 @@ static icc_status find_order(work *w, const iccp_simplices *mesh, uint32_t centr
     if (w->inflow == NULL || w->reference == NULL || w->flux == NULL || w->potential == NULL ||
         w->rank == NULL)
         return ICC_ERR_MEMORY;
-    icc_status status = iccp_inflow(mesh, centre, HARMONIC_SHARE, w->inflow, env);
+    iccp_env part[3];
+    iccp_split(part, 3, (const double[]){1, 4, 6}, env);
+    icc_status status = iccp_inflow(mesh, centre, HARMONIC_SHARE, w->inflow, &part[0]);
     if (status == ICC_OK)
-        status = iccp_reference_flux(mesh, centre, w->inflow, w->reference, w->potential, env);
+        status = iccp_reference_flux(mesh, centre, w->inflow, w->reference, w->potential, &part[1]);
     const double solved = iccp_seconds();
     if (status == ICC_OK)
         status = iccp_contest(mesh, centre, w->inflow, w->reference, w->potential, w->rank, w->flux,
-                              &contest, env, err);
+                              &contest, &part[2], err);
     info->harmonic_share = HARMONIC_SHARE;
     info->seconds_solve = solved - start;
     info->seconds_tree = iccp_seconds() - solved;
@@ -187,14 +189,17 @@ static icc_status make_fibres(iccp_shelling_state *state, const icc_domain *doma
                               const iccp_env *env, icc_error *err)
 {
     work w = {0};
-    icc_status status = find_order(&w, mesh, centre, info, env, err);
+    iccp_env part[3];
+    iccp_split(part, 3, (const double[]){8, 2, 1}, env);
+    icc_status status = find_order(&w, mesh, centre, info, &part[0], err);
     if (status == ICC_OK) {
         find_directions(mesh, w.flux);
-        status = certify(domain, mesh, centre, &w, info, env, err);
+        status = certify(domain, mesh, centre, &w, info, &part[1], err);
     }
     const double start = iccp_seconds();
     if (status == ICC_OK)
-        status = iccp_fibres_create(&state->fibres, mesh, centre, w.flux, domain->tolerance, env);
+        status =
+            iccp_fibres_create(&state->fibres, mesh, centre, w.flux, domain->tolerance, &part[2]);
     info->seconds_mesh = iccp_seconds() - start;
     work_free(&w, &env->memory);
     return status;
@@ -219,9 +224,11 @@ icc_status iccp_chart_shelling_create(size_t n, icc_chart **out, const icc_domai
     job j = {.n = n, .domain = domain, .options = options};
     for (size_t k = 0; k < n; ++k)
         out[k] = NULL;
-    icc_status status = choose_centres(&j, env, err);
+    iccp_env part[3];
+    iccp_split(part, n + 1, (const double[]){1, 2, 2}, env);
+    icc_status status = choose_centres(&j, &part[0], err);
     for (size_t k = 0; status == ICC_OK && k < n; ++k) {
-        status = make_chart(&j, k, &out[k], env, err);
+        status = make_chart(&j, k, &out[k], &part[k + 1], err);
         if (status != ICC_OK)
             (void)blame(&j, k, status, err);
     }

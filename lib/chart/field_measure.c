@@ -120,7 +120,7 @@ icc_status iccp_field_measure(const icc_chart *chart, const iccp_flow *flow, siz
     icc_status status = cumulated != NULL && result != NULL ? ICC_OK : ICC_ERR_MEMORY;
     if (status == ICC_OK) {
         cumulate(chart->domain, cumulated);
-        status = iccp_for_chunks(env, "measure", n_points, GRAIN, judge_chunk, &s);
+        status = iccp_for_chunks(env, "check", n_points, GRAIN, judge_chunk, &s);
     }
     for (size_t i = 0; status == ICC_OK && i < n_points; ++i) {
         measures->n_points += (result[i] & INSIDE) != 0;

@@ -68,7 +68,7 @@ static icc_status measure_area(const icc_chart *chart, size_t n_points,
     area_samples samples = {chart, iccp_alloc(&env->memory, n, 1)};
     if (samples.verdict == NULL)
         return ICC_ERR_MEMORY;
-    const icc_status status = iccp_for_chunks(env, "measure area", n, 64, judge_chunk, &samples);
+    const icc_status status = iccp_for_chunks(env, "check", n, 64, judge_chunk, &samples);
     if (status == ICC_OK) {
         size_t count[4] = {0};
         for (size_t i = 0; i < n; ++i)
@@ -191,8 +191,7 @@ static icc_status measure_boundary(const icc_chart *chart, size_t n_points,
     if (extent != NULL && collapsed != NULL && inward != NULL) {
         sum_extents(domain, extent);
         boundary_samples samples = {chart, extent, n_points, collapsed, inward};
-        status =
-            iccp_for_chunks(env, "measure boundary", n_points, 64, judge_boundary_chunk, &samples);
+        status = iccp_for_chunks(env, "check", n_points, 64, judge_boundary_chunk, &samples);
         if (status == ICC_OK)
             sum_boundary(&samples, measures);
     }
@@ -205,6 +204,8 @@ static icc_status measure_boundary(const icc_chart *chart, size_t n_points,
 icc_status iccp_gradient_measure(const icc_chart *chart, size_t n_points,
                                  icc_chart_report *measures, const iccp_env *env)
 {
-    const icc_status status = measure_area(chart, n_points, measures, env);
-    return status == ICC_OK ? measure_boundary(chart, n_points, measures, env) : status;
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){1, 1}, env);
+    const icc_status status = measure_area(chart, n_points, measures, &part[0]);
+    return status == ICC_OK ? measure_boundary(chart, n_points, measures, &part[1]) : status;
 }

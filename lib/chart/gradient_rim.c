@@ -56,7 +56,7 @@ icc_status iccp_gradient_extend(icc_function *field, const iccp_env *env)
     mark_layers(field->tree, layer);
     icc_status status = ICC_OK;
     for (int l = 3; l <= grid->dim && status == ICC_OK; ++l) {
-        status = iccp_progress(env, "rim", (double)(l - 3) / grid->dim);
+        status = iccp_progress(env, "grid", (double)(l - 3) / grid->dim);
         for (uint32_t v = 0; v < grid->n_vertices; ++v) {
             if (layer[v] != 0 || grid->inside[v])
                 continue;

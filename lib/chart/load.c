@@ -1,6 +1,6 @@
 #include "chart/load.h"
 
-#include "base/error.h"
+#include "base/budget.h"
 #include "chart/chart_disc.h"
 #include "chart/chart_field.h"
 #include "chart/chart_foliation.h"
@@ -57,14 +57,19 @@ icc_status iccp_chart_load(icc_chart **out, size_t n_bytes, const void *data, co
     icc_status status = iccp_blob_open(&r, data, n_bytes, KIND, VERSION, err);
     if (status != ICC_OK)
         return status;
-    status = iccp_domain_read(&domain, &r, env);
+    iccp_budget budget;
+    const iccp_env limited = iccp_budget_begin(&budget, env);
+    const iccp_env whole = iccp_part(&limited, "load", 0, 1);
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){1, 6}, &whole);
+    status = iccp_domain_read(&domain, &r, &part[0]);
     if (status == ICC_OK)
-        status = iccp_chart_read(out, domain, &r, env, err);
+        status = iccp_chart_read(out, domain, &r, &part[1], err);
     iccp_domain_release(domain);
     if (status == ICC_OK && !iccp_blob_done(&r)) {
         iccp_chart_release(*out);
         *out = NULL;
         status = ICC_ERR_FORMAT;
     }
-    return iccp_blob_blame(err, status, "chart");
+    return iccp_budget_end(&budget, iccp_blob_blame(err, status, "chart"), err);
 }

@@ -144,8 +144,7 @@ static icc_status run(walk *w, const iccp_env *env)
         emit(w, ICC_DEFECT_FLAT, 0, 0);
     for (uint32_t a = 0; a < w->ring->n && !done(w); ++a) {
         if (a % 64 == 0) {
-            const icc_status status =
-                iccp_progress(env, "list defects", (double)a / (double)w->ring->n);
+            const icc_status status = iccp_progress(env, "check", (double)a / (double)w->ring->n);
             if (status != ICC_OK)
                 return status;
         }

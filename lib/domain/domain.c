@@ -120,7 +120,7 @@ static icc_status check_complex(iccp_complex *c, const iccp_env *env, icc_error 
     c->across = iccp_alloc(&env->memory, c->n_facets, c->dim * sizeof *c->across);
     if (c->across == NULL)
         return iccp_fail_memory(err);
-    icc_status status = iccp_explain(err, iccp_progress(env, "check boundary", 0));
+    icc_status status = iccp_explain(err, iccp_progress(env, "check", 0));
     if (status == ICC_OK)
         status = iccp_complex_join(c, env, err);
     if (status == ICC_OK)
@@ -149,7 +149,7 @@ static icc_status complete_simplicial(icc_domain *d, const iccp_env *env, icc_er
         status = check_complex(&c, env, err);
     if (status != ICC_OK)
         return status;
-    if (iccp_progress(env, "check boundary", 0.5) != ICC_OK)
+    if (iccp_progress(env, "check", 0.5) != ICC_OK)
         return iccp_explain(err, ICC_ERR_CANCELLED);
     measure_box(d);
     iccp_facet_tree_create(&d->tree, c.dim, d->vertices, d->n_facets, d->facets, &d->memory);

@@ -1,5 +1,6 @@
 #include "domain/mask.h"
 
+#include "base/budget.h"
 #include "base/error.h"
 
 #include <assert.h>
@@ -33,6 +34,9 @@ static void copy_cells(iccp_mask *mask, const uint8_t *cells)
     }
 }
 
+/* Of the cut lattice, while a mask is checked and its boundary is made. */
+static const double BYTES_PER_POINT = 6;
+
 icc_status iccp_mask_create(iccp_mask **out, int32_t dim, const size_t *shape, const uint8_t *cells,
                             const iccp_env *env, icc_error *err)
 {
@@ -43,6 +47,11 @@ icc_status iccp_mask_create(iccp_mask **out, int32_t dim, const size_t *shape, c
                          "the mask is too large: its cells, cut in two along each axis, have more "
                          "than %zu vertices",
                          ICCP_MAX_LATTICE);
+    icc_status status = iccp_budget_keep(env, BYTES_PER_POINT * (double)count_lattice(dim, shape));
+    if (status == ICC_OK)
+        status = iccp_budget_work(env, (double)count_lattice(dim, shape) * (double)(8 << dim));
+    if (status != ICC_OK)
+        return iccp_explain(err, status);
     iccp_mask *mask = iccp_alloc_zero(&env->memory, 1, sizeof *mask);
     if (mask == NULL)
         return iccp_fail_memory(err);

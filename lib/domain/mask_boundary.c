@@ -7,6 +7,7 @@
  * outwards two vertices change places. */
 #include "domain/mask_boundary.h"
 
+#include "base/budget.h"
 #include "base/error.h"
 #include "domain/solid.h"
 
@@ -63,7 +64,7 @@ static icc_status number_vertices(boundary *b)
     size_t at[ICC_MAX_DIM] = {0}, index = 0;
     b->n_vertices = 0;
     do {
-        if (index % CELLS_PER_REPORT == 0 && iccp_progress(b->env, "boundary", 0) != ICC_OK)
+        if (index % CELLS_PER_REPORT == 0 && iccp_progress(b->env, "check", 0) != ICC_OK)
             return ICC_ERR_CANCELLED;
         int n_axes;
         const uint64_t block = iccp_mask_block(mask, at, &n_axes);
@@ -127,7 +128,7 @@ static icc_status find_faces(boundary *b, size_t *n_faces)
     *n_faces = 0;
     for (size_t i = 0; i < mask->n_padded; ++i) {
         if (i % CELLS_PER_REPORT == 0 &&
-            iccp_progress(b->env, "boundary", (double)i / (double)mask->n_padded) != ICC_OK)
+            iccp_progress(b->env, "check", (double)i / (double)mask->n_padded) != ICC_OK)
             return ICC_ERR_CANCELLED;
         if (!mask->cells[i])
             continue;
@@ -161,6 +162,13 @@ static icc_status fail_size(icc_error *err)
                      MAX_COUNT);
 }
 
+/* Of a boundary and the domain that it becomes, with its tree: vertices are fewer than facets,
+ * about. */
+static double bytes_per_facet(size_t dim)
+{
+    return 100 + 60 * (double)dim;
+}
+
 /* Counts first, then makes the arrays and fills them. */
 static icc_status cut_boundary(boundary *b, icc_error *err)
 {
@@ -174,6 +182,9 @@ static icc_status cut_boundary(boundary *b, icc_error *err)
     const size_t per_face = ((size_t)1 << (dim - 1)) * (size_t)b->n_orders;
     if (n_faces > MAX_COUNT / per_face)
         return fail_size(err);
+    status = iccp_budget_keep(b->env, (double)(n_faces * per_face) * bytes_per_facet(dim));
+    if (status != ICC_OK)
+        return status;
     b->number = iccp_alloc(memory, count_lattice(b->mask), sizeof *b->number);
     if (b->number == NULL)
         return ICC_ERR_MEMORY;
@@ -213,13 +224,15 @@ static icc_status follow_ring(boundary *b)
 static icc_status create(icc_domain **out, const iccp_mask *mask, const iccp_env *env,
                          icc_error *err)
 {
-    boundary b = {.mask = mask, .env = env};
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){1, 1}, env);
+    boundary b = {.mask = mask, .env = &part[0]};
     icc_status status = cut_boundary(&b, err);
     if (status == ICC_OK && mask->dim == 2)
         status = follow_ring(&b);
     if (status == ICC_OK)
         status = iccp_domain_create(out, mask->dim, b.n_vertices, b.vertices, b.n_facets, b.facets,
-                                    env, err);
+                                    &part[1], err);
     iccp_free(&env->memory, b.number);
     iccp_free(&env->memory, b.vertices);
     iccp_free(&env->memory, b.facets);
@@ -231,11 +244,13 @@ icc_status iccp_domain_create_mask(icc_domain **out, int32_t dim, const size_t *
 {
     *out = NULL;
     iccp_mask *mask;
-    icc_status status = iccp_mask_create(&mask, dim, shape, cells, env, err);
+    iccp_env part[3];
+    iccp_split(part, 3, (const double[]){1, 2, 4}, env);
+    icc_status status = iccp_mask_create(&mask, dim, shape, cells, &part[0], err);
     if (status == ICC_OK)
-        status = iccp_mask_check(mask, env, err);
+        status = iccp_mask_check(mask, &part[1], err);
     if (status == ICC_OK)
-        status = create(out, mask, env, err);
+        status = create(out, mask, &part[2], err);
     if (status == ICC_OK)
         (*out)->mask = mask;
     else

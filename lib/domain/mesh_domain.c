@@ -51,7 +51,7 @@ static icc_status check_mesh(builder *b, size_t n_facets, const uint32_t *facets
     if (status == ICC_OK)
         status = iccp_simplices_orient(mesh, err);
     if (status == ICC_OK)
-        status = iccp_explain(err, iccp_progress(env, "check mesh", 0.2));
+        status = iccp_explain(err, iccp_progress(env, "check", 0.2));
     return status == ICC_OK ? iccp_simplices_join(mesh, n_facets, facets, err) : status;
 }
 
@@ -140,7 +140,7 @@ static icc_status build(builder *b, size_t n_facets, const uint32_t *facets, con
     icc_status status = check_mesh(b, n_facets, facets, env, err);
     if (status != ICC_OK)
         return status;
-    status = iccp_progress(env, "check mesh", 0.6);
+    status = iccp_progress(env, "check", 0.6);
     if (status == ICC_OK)
         status = renumber(b);
     if (status == ICC_OK)
@@ -165,13 +165,15 @@ icc_status iccp_domain_create_mesh(icc_domain **out, int32_t dim, size_t n_verti
                                    const uint32_t *facets, const iccp_env *env, icc_error *err)
 {
     builder b = {.given = vertices, .n_given = n_vertices};
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){2, 1}, env);
     *out = NULL;
     icc_status status = iccp_explain(err, start(&b, (size_t)dim, n_simplices, simplices, env));
     if (status == ICC_OK)
-        status = build(&b, n_facets, facets, env, err);
+        status = build(&b, n_facets, facets, &part[0], err);
     if (status == ICC_OK)
-        status = iccp_domain_create(out, dim, b.mesh->n_rim, b.rim, b.mesh->n_facets, b.facets, env,
-                                    err);
+        status = iccp_domain_create(out, dim, b.mesh->n_rim, b.rim, b.mesh->n_facets, b.facets,
+                                    &part[1], err);
     if (status == ICC_OK)
         status = check_frame(&b, *out, err);
     if (status == ICC_OK) {

@@ -70,7 +70,7 @@ static icc_status spread(flood *f, size_t start, const iccp_env *env)
     reach(f, start);
     for (; next < f->n_reached; ++next) {
         if (next % CELLS_PER_REPORT == 0 &&
-            iccp_progress(env, "mask", (double)next / (double)mask->n_padded) != ICC_OK)
+            iccp_progress(env, "check", (double)next / (double)mask->n_padded) != ICC_OK)
             return ICC_ERR_CANCELLED;
         const size_t cell = f->queue[next];
         for (int32_t k = 0; k < mask->dim; ++k) {
@@ -160,7 +160,7 @@ static icc_status check_corners(const iccp_mask *mask, int64_t *euler, const icc
         if (n_done++ % CELLS_PER_REPORT == 0) {
             const double share =
                 (double)at[mask->dim - 1] / (2.0 * (double)mask->shape[mask->dim - 1]);
-            if (iccp_progress(env, "mask", share) != ICC_OK)
+            if (iccp_progress(env, "check", share) != ICC_OK)
                 return ICC_ERR_CANCELLED;
         }
         if (block == 0)

@@ -130,7 +130,7 @@ static icc_status run(sweep *s, uint32_t *order, uint32_t *work, const iccp_env 
     check_points(s, order);
     for (size_t i = 0; i < n && s->found.kind == 0; ++i) {
         if (i % 4096 == 0) {
-            const icc_status status = iccp_progress(env, "check boundary", (double)i / (double)n);
+            const icc_status status = iccp_progress(env, "check", (double)i / (double)n);
             if (status != ICC_OK)
                 return status;
         }

@@ -168,8 +168,7 @@ icc_status iccp_triangles_find(const iccp_facet_tree *tree, uint32_t pair[2], co
     pair[0] = pair[1] = 0;
     for (size_t place = 0; place < tree->n; ++place) {
         if (place % 256 == 0) {
-            const icc_status status =
-                iccp_progress(env, "check surface", (double)place / (double)tree->n);
+            const icc_status status = iccp_progress(env, "check", (double)place / (double)tree->n);
             if (status != ICC_OK)
                 return status;
         }

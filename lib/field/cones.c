@@ -17,7 +17,7 @@
 #include <float.h>
 #include <string.h>
 
-enum { MOST_NORMALS = 64, FIRM_ROUNDS = 20, MOST_ROUNDS = 40 };
+enum { MOST_NORMALS = 64, FIRM_ROUNDS = 20, MOST_ROUNDS = 40, TYPICAL_ROUNDS = 4 };
 
 static const size_t GRAIN = 1 << 10; /* vertices per chunk */
 
@@ -485,10 +485,10 @@ static void adjust(work *w, star *s, uint32_t v)
     soil(w, v);
 }
 
-static icc_status choose_all(work *w, const char *stage, const iccp_env *env)
+static icc_status choose_all(work *w, const iccp_env *env)
 {
     const icc_status status =
-        iccp_for_chunks(env, stage, w->smooth->grid->n_vertices, GRAIN, choose_chunk, w);
+        iccp_for_chunks(env, "solve", w->smooth->grid->n_vertices, GRAIN, choose_chunk, w);
     w->cones->n_infeasible = 0;
     for (size_t v = 0; v < w->smooth->grid->n_vertices; ++v)
         w->cones->n_infeasible += (w->state[v] & FAILS) != 0;
@@ -506,7 +506,8 @@ static icc_status adjust_all(work *w, const iccp_env *env)
                 w->state[v] |= round >= FIRM_ROUNDS ? GRADIENTS_FIRST : 0;
                 adjust(w, &s, (uint32_t)v);
             }
-        status = choose_all(w, round % 2 == 0 ? "adjust" : "adjust again", env);
+        const iccp_env part = iccp_round(env, (size_t)round, TYPICAL_ROUNDS);
+        status = choose_all(w, &part);
     }
     iccp_free(&w->cones->memory, s.direction);
     return status;
@@ -563,13 +564,15 @@ static icc_status fill(work *w, const iccp_env *env)
         w->state[v] = w->smooth->needed[v] && v != w->smooth->root ? DIRTY : 0;
         w->cones->n_vertices += w->state[v];
     }
-    icc_status status = choose_all(w, "vectors", env);
+    iccp_env part[3];
+    iccp_split(part, 3, (const double[]){4, 1, 3}, env);
+    icc_status status = choose_all(w, &part[0]);
     if (status == ICC_OK)
         status = split_torn(w);
     if (status == ICC_OK)
-        status = choose_all(w, "vectors of sides", env);
+        status = choose_all(w, &part[1]);
     if (status == ICC_OK)
-        status = adjust_all(w, env);
+        status = adjust_all(w, &part[2]);
     return status == ICC_OK ? check_inward(w) : status;
 }
 

@@ -375,7 +375,7 @@ static icc_status visit_all(scan *s, const iccp_env *env)
     icc_status status = ICC_OK;
     for (size_t f = 0; status == ICC_OK && f < n; ++f) {
         if (f % FACETS_PER_REPORT == 0)
-            status = iccp_progress(env, "cover", 0.5 * (double)f / (double)n + 0.5 * s->second);
+            status = iccp_progress(env, "grid", 0.5 * (double)f / (double)n + 0.5 * s->second);
         if (status == ICC_OK && !visit_facet(s, (uint32_t)f))
             status = ICC_ERR_MEMORY;
         s->end[f] = s->n_noted;

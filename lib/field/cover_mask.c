@@ -191,7 +191,7 @@ static icc_status visit(layout *l, void (*visit_facet)(layout *l, uint32_t facet
     icc_status status = ICC_OK;
     for (size_t f = 0; status == ICC_OK && f < n; ++f) {
         if (f % FACETS_PER_REPORT == 0)
-            status = iccp_progress(env, "cover", 0.5 * (double)f / (double)n + share);
+            status = iccp_progress(env, "grid", 0.5 * (double)f / (double)n + share);
         visit_facet(l, (uint32_t)f);
     }
     return status;

@@ -188,8 +188,7 @@ static icc_status sweep_chunk(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
-static icc_status run_sweep(iccp_smooth *s, const iccp_orders *orders, const char *stage,
-                            const iccp_env *env)
+static icc_status run_sweep(iccp_smooth *s, const iccp_orders *orders, const iccp_env *env)
 {
     const size_t n = s->grid->n_vertices;
     sweep w = {.from = s, .orders = orders};
@@ -200,7 +199,7 @@ static icc_status run_sweep(iccp_smooth *s, const iccp_orders *orders, const cha
                             ? ICC_OK
                             : ICC_ERR_MEMORY;
     if (status == ICC_OK)
-        status = iccp_for_chunks(env, stage, n, GRAIN, sweep_chunk, &w);
+        status = iccp_for_chunks(env, "solve", n, GRAIN, sweep_chunk, &w);
     if (status == ICC_OK) {
         double *value = s->value;
         int32_t *exponent = s->exponent;
@@ -261,8 +260,10 @@ icc_status iccp_smooth_create(iccp_smooth *smooth, const icc_function *field, co
         iccp_orders_init(orders, smooth->grid);
         status = extend_all(smooth, orders, cover);
     }
-    for (int k = 0; status == ICC_OK && k < sweeps; ++k)
-        status = run_sweep(smooth, orders, k % 2 == 0 ? "smooth" : "smooth again", env);
+    for (int k = 0; status == ICC_OK && k < sweeps; ++k) {
+        const iccp_env part = iccp_part(env, NULL, (double)k / sweeps, (k + 1.0) / sweeps);
+        status = run_sweep(smooth, orders, &part);
+    }
     iccp_free(&env->memory, orders);
     return status;
 }

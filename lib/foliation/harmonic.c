@@ -18,7 +18,9 @@ icc_status iccp_harmonic_create(iccp_harmonic *base, const icc_domain *domain,
     const double start = iccp_seconds();
     memset(base, 0, sizeof *base);
     base->cells = cells;
-    icc_status status = iccp_planar_create(&base->mesh, domain, pieces, cells, env, err);
+    iccp_env part[3];
+    iccp_split(part, 3, (const double[]){4, 1, 4}, env);
+    icc_status status = iccp_planar_create(&base->mesh, domain, pieces, cells, &part[0], err);
     if (status != ICC_OK)
         return status;
     const double meshed = iccp_seconds();
@@ -27,9 +29,9 @@ icc_status iccp_harmonic_create(iccp_harmonic *base, const icc_domain *domain,
         status = iccp_fail(err, ICC_ERR_RESOLUTION,
                            "the mesh has no vertex inside: use more cells");
     if (status == ICC_OK) {
-        status = iccp_laplacian_create(&base->laplacian, &base->mesh, ICCP_NO_NEIGHBOUR, env);
+        status = iccp_laplacian_create(&base->laplacian, &base->mesh, ICCP_NO_NEIGHBOUR, &part[1]);
         if (status == ICC_OK)
-            status = iccp_spd_create(&base->solver, &base->laplacian.matrix, false, env);
+            status = iccp_spd_create(&base->solver, &base->laplacian.matrix, false, &part[2]);
         if (status == ICC_ERR_SOLVER)
             (void)iccp_fail(err, status, "the mesh's equations cannot be factorised");
     }

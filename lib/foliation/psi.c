@@ -92,7 +92,7 @@ static icc_status solve_phi(double *phi, const iccp_planar *mesh, uint32_t centr
 {
     iccp_laplacian open;
     iccp_spd solver;
-    icc_status status = iccp_progress(env, "foliation", 0);
+    icc_status status = iccp_progress(env, "solve", 0);
     if (status == ICC_OK)
         status = iccp_laplacian_create(&open, mesh, centre, env);
     if (status != ICC_OK)

@@ -36,7 +36,7 @@ icc_status iccp_distance(icc_function *function, int32_t kind, const iccp_env *e
     icc_status status = tabulate(&of_generation, tree, kind, env);
     for (size_t i = 0; i < tree->n_reached && status == ICC_OK; ++i) {
         if (i % ICCP_VERTICES_PER_REPORT == 0)
-            status = iccp_progress(env, "function", (double)i / (double)tree->n_reached);
+            status = iccp_progress(env, "solve", (double)i / (double)tree->n_reached);
         const uint32_t v = tree->order[i];
         function->values[v] = of_generation[tree->generation[v]];
     }

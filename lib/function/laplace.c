@@ -153,19 +153,22 @@ static icc_status make(job *j, const iccp_env *env)
 {
     icc_function *function = j->function;
     const int32_t constraints = j->options->constraints;
-    icc_status status = begin(j, env);
+    iccp_env part[4];
+    iccp_split(part, 4, (const double[]){1, 6, 1, constraints == ICC_CONSTRAINTS_NONE ? 0 : 8},
+               env);
+    icc_status status = begin(j, &part[0]);
     if (status == ICC_OK)
-        status = solve(j, env);
+        status = solve(j, &part[1]);
     bool enough = constraints == ICC_CONSTRAINTS_NONE;
     if (status == ICC_OK && constraints == ICC_CONSTRAINTS_NEEDED) {
         const double clock = iccp_seconds();
         status = iccp_function_assign(function, &j->rows, &j->f);
         if (status == ICC_OK)
-            status = iccp_function_is_regular(function, &enough, env);
+            status = iccp_function_is_regular(function, &enough, &part[2]);
         function->info.seconds_verify += iccp_seconds() - clock;
     }
     if (status == ICC_OK && !enough)
-        status = constrain(j, env);
+        status = constrain(j, &part[3]);
     return status == ICC_OK ? iccp_function_assign(function, &j->rows, &j->f) : status;
 }
 

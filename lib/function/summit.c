@@ -162,7 +162,7 @@ static icc_status climb(plate *p, size_t *row, const iccp_env *env)
     double before = 1; /* f at `next` under the load that was accepted last */
     int64_t stride = 1;
     for (int n = 0; n < MOST_LOADS; ++n) {
-        icc_status status = iccp_progress(env, "summit", (double)n / (n + 1));
+        icc_status status = iccp_progress(env, "solve", (double)n / (n + 1));
         if (status == ICC_OK)
             status = load(p, next, env);
         if (status != ICC_OK)

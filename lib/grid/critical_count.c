@@ -19,8 +19,7 @@ icc_status iccp_critical_count(const icc_grid *grid, const void *context, size_t
     if (count.partial == NULL)
         return ICC_ERR_MEMORY;
     iccp_star_init(&count.star, grid, n_ranked);
-    const icc_status status =
-        iccp_for_chunks(env, "critical points", grid->n_vertices, GRAIN, chunk, &count);
+    const icc_status status = iccp_for_chunks(env, "check", grid->n_vertices, GRAIN, chunk, &count);
     if (status == ICC_OK) {
         memset(report, 0, sizeof *report); /* its padding too: equal reports have equal bytes */
         report->critical = ICCP_NONE;

@@ -26,7 +26,7 @@ static icc_status sweep(const icc_grid *grid, uint32_t *distance, int32_t step, 
     for (size_t i = 0; i < n; ++i) {
         if (i % ICCP_VERTICES_PER_REPORT == 0) {
             const double share = (double)i / (double)n;
-            if (iccp_progress(env, "maximum", 0.5 * (step > 0 ? 1.0 + share : share)) != ICC_OK)
+            if (iccp_progress(env, "grid", 0.5 * (step > 0 ? 1.0 + share : share)) != ICC_OK)
                 return ICC_ERR_CANCELLED;
         }
         const size_t v = step < 0 ? i : n - 1 - i;

@@ -70,4 +70,13 @@ static inline uint32_t iccp_grid_neighbour(const icc_grid *grid, uint32_t vertex
     return within >= block - stride ? ICCP_NONE : vertex + stride;
 }
 
+/* Of the Kuhn triangulation: (dim + 1)!. */
+static inline double iccp_simplices_at_vertex(int32_t dim)
+{
+    double n = 1;
+    for (int32_t k = 2; k <= dim + 1; ++k)
+        n *= k;
+    return n;
+}
+
 #endif

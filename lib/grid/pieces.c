@@ -21,7 +21,7 @@ static icc_status spread(flood *f, uint32_t vertex)
     reach(f, vertex);
     for (; next < f->n_reached; ++next) {
         if (next % ICCP_VERTICES_PER_REPORT == 0 &&
-            iccp_progress(f->env, "pieces", (double)next / (double)f->grid->n_inside) != ICC_OK)
+            iccp_progress(f->env, "grid", (double)next / (double)f->grid->n_inside) != ICC_OK)
             return ICC_ERR_CANCELLED;
         for (int32_t k = 0; k < f->grid->dim; ++k)
             for (int32_t step = -1; step <= 1; step += 2) {

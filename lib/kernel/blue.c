@@ -200,9 +200,10 @@ static icc_status relax_steps(relaxation *r, int32_t steps, const iccp_env *env)
 {
     const size_t n_free = r->n - r->n_held, n_numbers = r->dim * n_free;
     for (int32_t step = 0; step < steps; ++step) {
+        const iccp_env part = iccp_part(env, NULL, (double)step / steps, (step + 1.0) / steps);
         icc_status status = iccp_cells_create(&r->cells, r->dim, r->n, r->points, r->spacing, env);
         if (status == ICC_OK)
-            status = iccp_for_chunks(env, "relax samples", n_free, 512, move_chunk, r);
+            status = iccp_for_chunks(&part, "sample", n_free, 512, move_chunk, r);
         iccp_cells_free(&r->cells);
         if (status != ICC_OK)
             return status;
@@ -235,11 +236,13 @@ icc_status iccp_blue_fill(iccp_places *places, const icc_shape *shape, double sp
                           int32_t steps, uint64_t seed, const iccp_env *env)
 {
     const size_t n_held = places->n;
-    icc_status status = add_lattice(places, shape, spacing, seed, env);
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){1, 4}, env);
+    icc_status status = add_lattice(places, shape, spacing, seed, &part[0]);
     if (status == ICC_OK)
         status = iccp_places_thin(places, n_held, 0.5 * TOO_NEAR * spacing, env);
     if (status == ICC_OK && places->n > n_held)
-        status = relax(places, n_held, shape, spacing, steps, env);
+        status = relax(places, n_held, shape, spacing, steps, &part[1]);
     if (status == ICC_OK)
         status = iccp_places_thin(places, n_held, TOO_NEAR * spacing, env);
     return status;

@@ -210,7 +210,9 @@ static icc_status finish(icc_weights **out, iccp_layout *layout, const icc_weigh
                          const iccp_env *env)
 {
     const double start = iccp_seconds();
-    icc_status status = initialise(layout, options, env);
+    iccp_env part[3];
+    iccp_split(part, 3, (const double[]){1, 4, 2}, env);
+    icc_status status = initialise(layout, options, &part[0]);
     const double seconds = iccp_seconds() - start;
     if (status == ICC_OK)
         status = allocate(out, layout, env);
@@ -218,8 +220,8 @@ static icc_status finish(icc_weights **out, iccp_layout *layout, const icc_weigh
         return status;
     describe(*out, options);
     (*out)->info.seconds_initial = seconds;
-    status = iccp_weights_start(*out, env);
-    return status == ICC_OK ? iccp_weights_interpolate(*out, NULL, env) : status;
+    status = iccp_weights_start(*out, &part[1]);
+    return status == ICC_OK ? iccp_weights_interpolate(*out, NULL, &part[2]) : status;
 }
 
 icc_status iccp_weights_create(icc_weights **out, const icc_sampling *sampling, size_t n_handles,
@@ -229,11 +231,14 @@ icc_status iccp_weights_create(icc_weights **out, const icc_sampling *sampling, 
     iccp_layout *layout;
     const double start = iccp_seconds();
     *out = NULL;
+    const iccp_env weights = iccp_part(env, "weights", 0, 1);
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){1, 2}, &weights);
     icc_status status =
-        iccp_layout_create(&layout, sampling, n_handles, handles, options, env, err);
+        iccp_layout_create(&layout, sampling, n_handles, handles, options, &part[0], err);
     const double seconds = iccp_seconds() - start;
     if (status == ICC_OK)
-        status = finish(out, layout, options, env);
+        status = finish(out, layout, options, &part[1]);
     iccp_layout_release(layout);
     if (status == ICC_OK)
         (*out)->info.seconds_factor = seconds;

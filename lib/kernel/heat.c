@@ -78,13 +78,13 @@ static icc_status run(diffusion *d, int32_t steps, double *weights, double *othe
     const size_t n = d->nodes->n, m = d->nodes->n_handles;
     icc_status status = ICC_OK;
     if (d->spots != NULL)
-        status = iccp_for_chunks(env, "sight", n, GRAIN, find_spots, d);
+        status = iccp_for_chunks(env, "weights", n, GRAIN, find_spots, d);
     if (status == ICC_OK)
-        status = iccp_for_chunks(env, "sight", n, GRAIN, find_shares, d);
+        status = iccp_for_chunks(env, "weights", n, GRAIN, find_shares, d);
     d->from = weights;
     d->to = other;
     for (int32_t s = 0; status == ICC_OK && s < steps; ++s) {
-        status = iccp_for_chunks(env, "diffusion", n, GRAIN, take_means, d);
+        status = iccp_for_chunks(env, "weights", n, GRAIN, take_means, d);
         const double *from = d->from;
         d->from = d->to;
         d->to = from == weights ? weights : other;

@@ -285,7 +285,7 @@ icc_status iccp_collocation_solve_some(const iccp_collocation *collocation, size
             s.sides[s.n_sides++] = j;
     const size_t share = s.n_sides / (size_t)env->threads + 1;
     const icc_status status =
-        iccp_for_chunks(env, "solve", s.n_sides, share < SIDES ? share : SIDES, solve_sides, &s);
+        iccp_for_chunks(env, "weights", s.n_sides, share < SIDES ? share : SIDES, solve_sides, &s);
     iccp_free(&env->memory, s.sides);
     return status;
 }

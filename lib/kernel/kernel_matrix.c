@@ -106,7 +106,7 @@ static icc_status fill(assembly *a, const iccp_env *env, icc_error *err)
 {
     iccp_kernel_matrix *out = a->out;
     const size_t n = a->cells->n;
-    icc_status status = iccp_for_chunks(env, "kernel", n, GRAIN, count_rows, a);
+    icc_status status = iccp_for_chunks(env, "weights", n, GRAIN, count_rows, a);
     out->first[0] = 0;
     for (size_t i = 0; status == ICC_OK && i < n; ++i)
         out->first[i + 1] += out->first[i];
@@ -121,7 +121,7 @@ static icc_status fill(assembly *a, const iccp_env *env, icc_error *err)
     if (out->column == NULL || out->value == NULL)
         return ICC_ERR_MEMORY;
     a->count_only = false;
-    return iccp_for_chunks(env, "kernel", n, GRAIN, fill_rows, a);
+    return iccp_for_chunks(env, "weights", n, GRAIN, fill_rows, a);
 }
 
 icc_status iccp_kernel_matrix_create(iccp_kernel_matrix *out, const iccp_cells *cells,

@@ -281,7 +281,7 @@ static icc_status connect(iccp_layout *l, const icc_weights_options *options, co
     l->n_edges = options->n_edges;
     if (l->n_edges > 0)
         memcpy(l->edges, options->edges, 2 * l->n_edges * sizeof *l->edges);
-    const icc_status status = iccp_for_chunks(env, "nodes", l->n, GRAIN, find_edges, l);
+    const icc_status status = iccp_for_chunks(env, "weights", l->n, GRAIN, find_edges, l);
     for (size_t i = 0; status == ICC_OK && i < l->n; ++i)
         l->held[i] = i < l->n_handles + l->n_line_nodes ||
                      (options->initial == ICC_INITIAL_EDGES && l->edge[i] != ICCP_NO_EDGE);
@@ -295,17 +295,19 @@ static icc_status create(iccp_layout *l, size_t n_handles, const double *handles
         return iccp_fail(err, ICC_ERR_ARGUMENT, "sigma is %g where samples are %g apart",
                          options->sigma, l->sampling->info.spacing);
     icc_status status = make_room(l, n_handles, options, err);
+    iccp_env part[3];
+    iccp_split(part, 3, (const double[]){1, 1, 8}, env);
     if (status == ICC_OK)
-        status = place_all(l, n_handles, handles, options, env, err);
+        status = place_all(l, n_handles, handles, options, &part[0], err);
     if (status == ICC_OK)
-        status = iccp_handles_create(&l->handles, l->dim, n_handles, l->points, env, err);
+        status = iccp_handles_create(&l->handles, l->dim, n_handles, l->points, &part[0], err);
     if (status == ICC_OK)
-        status = connect(l, options, env);
+        status = connect(l, options, &part[1]);
     const iccp_radial radial =
         iccp_radial_make(options->kernel, options->sigma * iccp_layout_scale(l), options->cutoff);
     if (status == ICC_OK)
         status = iccp_collocation_create(&l->collocation, l->dim, l->n, l->points, &radial,
-                                         options->affine_tail >= 0, env, err);
+                                         options->affine_tail >= 0, &part[2], err);
     return status;
 }
 

@@ -124,7 +124,7 @@ icc_status iccp_places_spacing(size_t dim, size_t n, const double *points, doubl
     /* So small that the number of cells decides. */
     icc_status status = iccp_cells_create(&m.cells, dim, n, points, DBL_MIN, env);
     if (status == ICC_OK)
-        status = iccp_for_chunks(env, "measure spacing", n, 1024, measure_chunk, &m);
+        status = iccp_for_chunks(env, "check", n, 1024, measure_chunk, &m);
     iccp_cells_free(&m.cells);
     return status;
 }

@@ -81,7 +81,7 @@ icc_status iccp_binding_pose(const icc_binding *binding, const double *transform
                              double *jacobians, const iccp_env *env)
 {
     posing p = {binding, transforms, images, jacobians};
-    return iccp_for_chunks(env, "pose", binding->n, GRAIN, pose_some, &p);
+    return iccp_for_chunks(env, "warp", binding->n, GRAIN, pose_some, &p);
 }
 
 /* ---- transforms of handles ---- */

@@ -71,7 +71,7 @@ icc_status iccp_weights_evaluate(const icc_weights *kernel, size_t n, const doub
         failed += !is_finite(dim, points + dim * i);
     if (n_failed != NULL)
         *n_failed = failed;
-    return iccp_for_chunks(env, "evaluate", n, GRAIN, evaluate_some, &e);
+    return iccp_for_chunks(env, "check", n, GRAIN, evaluate_some, &e);
 }
 
 /* ---- report ---- */
@@ -177,7 +177,7 @@ icc_status iccp_weights_measure(const icc_weights *kernel, size_t n, const doubl
     measurement m = {kernel, memory, points, qualities};
     icc_status status = qualities != NULL && weights != NULL ? ICC_OK : ICC_ERR_MEMORY;
     if (status == ICC_OK)
-        status = iccp_for_chunks(env, "report", n, GRAIN, measure_some, &m);
+        status = iccp_for_chunks(env, "check", n, GRAIN, measure_some, &m);
     if (status == ICC_OK) {
         summarise(n, qualities, report);
         measure_handles(kernel, report, weights);

@@ -158,7 +158,7 @@ icc_status iccp_stiffen(const iccp_nodes *nodes, const iccp_handles *handles,
                         double *coefficients, double energy[2], const iccp_env *env)
 {
     iccp_rigid r;
-    icc_status status = iccp_progress(env, "rigid part", 0);
+    icc_status status = iccp_progress(env, "weights", 0);
     if (status == ICC_OK)
         status = iccp_rigid_create(&r, nodes, collocation, n_part, part, rigidity, held, env);
     if (status != ICC_OK)

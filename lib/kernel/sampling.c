@@ -73,7 +73,7 @@ static icc_status survey_create(survey *s, const iccp_env *env)
     s->where = iccp_alloc(memory, s->n, sizeof *s->where);
     if (s->local == NULL || s->spacing == NULL || s->region == NULL || s->where == NULL)
         return ICC_ERR_MEMORY;
-    const icc_status status = iccp_for_chunks(env, "look at samples", s->n, 256, look_chunk, s);
+    const icc_status status = iccp_for_chunks(env, "sample", s->n, 256, look_chunk, s);
     if (status != ICC_OK)
         return status;
     return iccp_places_spacing(s->shape->dim, s->n, s->local, s->spacing, env);
@@ -177,13 +177,15 @@ icc_status iccp_sampling_finish(icc_sampling **out, const icc_shape *shape, size
     icc_sampling_info full = *info;
     survey s = {.shape = shape, .n = n, .points = points};
     full.dim = (int32_t)shape->dim;
-    icc_status status = iccp_explain(err, survey_create(&s, env));
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){1, 2}, env);
+    icc_status status = iccp_explain(err, survey_create(&s, &part[0]));
     if (status == ICC_OK)
         status = given ? check_inside(&s, err) : check_regions(&s, env, err);
     if (status == ICC_OK)
         status = check_distinct(&s, given, err);
     if (status == ICC_OK)
-        status = iccp_explain(err, measure(&s, &full, env));
+        status = iccp_explain(err, measure(&s, &full, &part[1]));
     if (status == ICC_OK)
         status = iccp_explain(err, make(out, shape, &full, points, env));
     survey_free(&s, &env->memory);

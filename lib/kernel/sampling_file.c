@@ -92,8 +92,9 @@ icc_status iccp_sampling_load(icc_sampling **out, size_t n_bytes, const void *da
     iccp_blob_reader r;
     *out = NULL;
     icc_status status = iccp_blob_open(&r, data, n_bytes, KIND, VERSION, err);
+    const iccp_env whole = iccp_part(env, "load", 0, 1);
     if (status == ICC_OK)
-        status = iccp_sampling_read(out, &r, env, err);
+        status = iccp_sampling_read(out, &r, &whole, err);
     if (status != ICC_OK || iccp_blob_done(&r))
         return status;
     iccp_sampling_release(*out);

@@ -138,7 +138,7 @@ static icc_status check_walls(const icc_shape *shape, const iccp_env *env, icc_e
     for (size_t place = 0; shape->n_regions > 1 && place < shape->walls.n; ++place) {
         if (place % 1024 == 0) {
             const icc_status status = iccp_explain(
-                err, iccp_progress(env, "check walls", (double)place / (double)shape->walls.n));
+                err, iccp_progress(env, "check", (double)place / (double)shape->walls.n));
             if (status != ICC_OK)
                 return status;
         }

@@ -48,7 +48,7 @@ icc_status iccp_sieve_add(iccp_places *places, const iccp_sieve *sieve, const ic
     sifting s = {sieve, iccp_alloc(&env->memory, n_rows, sieve->count[0])};
     if (s.stays == NULL)
         return ICC_ERR_MEMORY;
-    const icc_status status = iccp_for_chunks(env, "spread samples", n_rows, 16, sift_rows, &s);
+    const icc_status status = iccp_for_chunks(env, "sample", n_rows, 16, sift_rows, &s);
     for (size_t row = 0; status == ICC_OK && row < n_rows; ++row) {
         size_t at[3];
         for (row_start(sieve, row, at); at[0] < sieve->count[0]; ++at[0]) {

@@ -89,8 +89,7 @@ icc_status iccp_spectrum(size_t dim, size_t n, const double *points, double step
     t->n = n;
     t->points = points;
     t->step = step;
-    const icc_status status =
-        iccp_for_chunks(env, "measure spectrum", N_DIRECTIONS, 1, transform_chunk, t);
+    const icc_status status = iccp_for_chunks(env, "check", N_DIRECTIONS, 1, transform_chunk, t);
     for (size_t b = 0; status == ICC_OK && b < ICCP_SPECTRUM_BINS; ++b) {
         power[b] = 0;
         for (size_t i = 0; i < N_DIRECTIONS; ++i)

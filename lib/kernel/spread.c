@@ -245,12 +245,15 @@ icc_status iccp_sampling_create(icc_sampling **out, const icc_shape *shape,
     if (!(full.spacing > 0))
         full.spacing = default_spacing(shape);
     const icc_sampling_info info = {.kind = full.kind, .spacing = full.spacing};
+    const iccp_env whole = iccp_part(env, "sample", 0, 1);
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){3, 1}, &whole);
     iccp_places_start(&places, shape->dim, env);
     icc_status status = full.kind == ICC_SAMPLING_GRID
-                            ? spread_grid(&places, shape, &full, env, err)
-                            : spread_blue(&places, shape, &full, env, err);
+                            ? spread_grid(&places, shape, &full, &part[0], err)
+                            : spread_blue(&places, shape, &full, &part[0], err);
     if (status == ICC_OK)
-        status = iccp_sampling_finish(out, shape, places.n, places.points, &info, env, err);
+        status = iccp_sampling_finish(out, shape, places.n, places.points, &info, &part[1], err);
     iccp_places_free(&places);
     return status;
 }

@@ -144,15 +144,18 @@ static bool is_about_shape(icc_status status)
 static icc_status judge(mesh_check *m, bool repaired, const double *vertices, const iccp_env *env)
 {
     icc_domain *domain;
+    iccp_env part[3];
+    iccp_split(part, 3, (const double[]){1, 3, 1}, env);
     check_simplices(m);
-    icc_status status = iccp_domain_create_mesh(&domain, (int32_t)m->dim, m->n_vertices, vertices,
-                                                m->n_simplices, m->simplices, 0, NULL, env, NULL);
+    icc_status status =
+        iccp_domain_create_mesh(&domain, (int32_t)m->dim, m->n_vertices, vertices, m->n_simplices,
+                                m->simplices, 0, NULL, &part[0], NULL);
     if (status == ICC_OK && repaired && can_repair(m, domain->mesh)) {
-        status = repair(m, domain->mesh, env);
+        status = repair(m, domain->mesh, &part[1]);
         check_simplices(m);
     }
     if (status == ICC_OK)
-        status = check_boundary(m, domain, env);
+        status = check_boundary(m, domain, &part[2]);
     iccp_domain_release(domain);
     m->result->boundary_simple = status == ICC_OK;
     m->result->certified = status == ICC_OK && m->result->first < 0;
@@ -172,15 +175,17 @@ icc_status iccp_map_certify(const icc_map *map, size_t n_vertices, const double 
                     .result = certificate};
     m.before = iccp_alloc(&env->memory, n_vertices, m.dim * sizeof(double));
     m.after = iccp_alloc(&env->memory, n_vertices, m.dim * sizeof(double));
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){1, 1}, env);
     icc_status status = m.before != NULL && m.after != NULL ? ICC_OK : ICC_ERR_MEMORY;
     if (status == ICC_OK)
-        status = iccp_map_apply(map, false, n_vertices, vertices, images, NULL, NULL, env);
+        status = iccp_map_apply(map, false, n_vertices, vertices, images, NULL, NULL, &part[0]);
     if (status == ICC_OK)
         status = localise(&m, m.before, vertices, err);
     if (status == ICC_OK)
         status = localise(&m, m.after, images, err);
     if (status == ICC_OK)
-        status = judge(&m, repaired, vertices, env);
+        status = judge(&m, repaired, vertices, &part[1]);
     iccp_free(&env->memory, m.before);
     iccp_free(&env->memory, m.after);
     return iccp_explain(err, status);

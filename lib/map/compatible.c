@@ -144,7 +144,7 @@ static icc_status walk_all(overlay *o, const iccp_env *env)
         if (o->twins[0][c] == ICCP_NO_NEIGHBOUR || o->twins[0][c] < c)
             continue;
         if (c % CHORDS_PER_REPORT == 0)
-            status = iccp_progress(env, "overlay", (double)c / (3.0 * o->n));
+            status = iccp_progress(env, "mesh", (double)c / (3.0 * o->n));
         if (status == ICC_OK)
             status = walk(o, o->triangles[0][iccp_after(c)], o->triangles[0][iccp_before(c)]);
     }

@@ -6,6 +6,9 @@
 /* First steps with SLIM's model, which gets far from a bad start; then Newton's, which converges. */
 enum { MAJORISED_STEPS = 3 };
 
+/* Shares of progress: half of a descent, and half of all descents. */
+static const double TYPICAL_STEPS = 8, TYPICAL_LEVELS = 2;
+
 /* A refinement cuts the triangles that carry this share of the energy above an isometry's, but no more
  * than this share of all. */
 static const double EXCESS_SHARE = 0.7, MOST_CUT = 0.2;
@@ -18,16 +21,18 @@ static icc_status descend(iccp_plmap *map, size_t majorised, size_t iterations, 
                           iccp_improvement *improvement, const iccp_env *env)
 {
     iccp_newton newton;
-    icc_status status = iccp_newton_create(&newton, map, NULL, env);
+    iccp_env part = iccp_round(env, 0, TYPICAL_STEPS);
+    icc_status status = iccp_newton_create(&newton, map, NULL, &part);
     if (status != ICC_OK)
         return status;
     double energy = iccp_newton_energy(&newton, map, ICCP_DIRICHLET, 0);
     for (size_t k = 0; status == ICC_OK && k < iterations && newton.n_free > 0; ++k) {
         const iccp_energy model = k < majorised ? ICCP_DIRICHLET_MAJORISED : ICCP_DIRICHLET;
         double slope;
-        status = iccp_progress(env, "improve", (double)k / (double)iterations);
+        part = iccp_round(env, k + 1, TYPICAL_STEPS);
+        status = iccp_progress(&part, "improve", 0);
         if (status == ICC_OK)
-            status = iccp_newton_solve(&newton, map, model, 0, &slope, env);
+            status = iccp_newton_solve(&newton, map, model, 0, &slope, &part);
         if (status != ICC_OK)
             break;
         const double after = iccp_newton_move(&newton, map, model, 0, energy, slope);
@@ -113,8 +118,8 @@ icc_status iccp_improve(iccp_plmap *map, size_t iterations, double tolerance, si
                         iccp_improvement *improvement, const iccp_env *env)
 {
     *improvement = (iccp_improvement){0};
-    icc_status status =
-        descend(map, MAJORISED_STEPS, iterations, tolerance, improvement, env);
+    iccp_env part = iccp_round(env, 0, TYPICAL_LEVELS);
+    icc_status status = descend(map, MAJORISED_STEPS, iterations, tolerance, improvement, &part);
     improvement->energy = iccp_plmap_energy(map);
     for (size_t level = 0; status == ICC_OK && level < levels; ++level) {
         const double before = improvement->energy;
@@ -122,7 +127,8 @@ icc_status iccp_improve(iccp_plmap *map, size_t iterations, double tolerance, si
         status = refine(map, &n_cut, env);
         if (status != ICC_OK || n_cut == 0)
             break;
-        status = descend(map, 0, iterations, tolerance, improvement, env);
+        part = iccp_round(env, level + 1, TYPICAL_LEVELS);
+        status = descend(map, 0, iterations, tolerance, improvement, &part);
         improvement->energy = iccp_plmap_energy(map);
         ++improvement->n_levels;
         if (before - improvement->energy < LEAST_GAIN * before)

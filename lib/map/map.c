@@ -141,9 +141,11 @@ static icc_status create_with(icc_map **out, const icc_domain *const domains[2],
                               icc_error *err)
 {
     icc_chart *charts[2] = {NULL, NULL};
-    icc_status status = iccp_chart_create_pair(charts, domains, chart_options, env, err);
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){1, 2}, env);
+    icc_status status = iccp_chart_create_pair(charts, domains, chart_options, &part[0], err);
     if (status == ICC_OK)
-        status = iccp_map_create_from_charts(out, charts[0], charts[1], options, env, err);
+        status = iccp_map_create_from_charts(out, charts[0], charts[1], options, &part[1], err);
     iccp_chart_release(charts[0]);
     iccp_chart_release(charts[1]);
     return status;
@@ -190,13 +192,14 @@ icc_status iccp_map_create(icc_map **out, const icc_domain *source, const icc_do
     if (status != ICC_OK)
         return status;
     complete(full, domains, options->kind);
-    status = create_with(out, domains, options, full, env, err);
+    const iccp_env first = iccp_part(env, NULL, 0, 0.9), second_part = iccp_part(env, NULL, 0.9, 1);
+    status = create_with(out, domains, options, full, &first, err);
     /* Each start has shapes that it cannot be repaired from. */
     if (status == ICC_OK && (*out)->info.n_unrepaired > 0 && chart_options[0].method == 0 &&
         full[0].method == ICC_METHOD_DISC) {
         icc_map *second = NULL;
         full[0].method = full[1].method = ICC_METHOD_FOLIATION;
-        status = create_with(&second, domains, options, full, env, err);
+        status = create_with(&second, domains, options, full, &second_part, err);
         if (status == ICC_OK && second->info.n_unrepaired == 0) {
             iccp_map_release(*out);
             *out = second;

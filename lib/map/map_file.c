@@ -1,6 +1,7 @@
 #include "map/map_file.h"
 
 #include "base/blob.h"
+#include "base/budget.h"
 #include "base/clock.h"
 #include "chart/load.h"
 #include "domain/domain_file.h"
@@ -41,9 +42,11 @@ void iccp_map_save(const icc_map *map, size_t capacity, void *data, size_t *n_by
 static icc_status read_domains(icc_map **out, iccp_blob_reader *r, const iccp_env *env)
 {
     icc_domain *source = NULL, *target = NULL;
-    icc_status status = iccp_domain_read(&source, r, env);
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){1, 1}, env);
+    icc_status status = iccp_domain_read(&source, r, &part[0]);
     if (status == ICC_OK)
-        status = iccp_domain_read(&target, r, env);
+        status = iccp_domain_read(&target, r, &part[1]);
     if (status == ICC_OK)
         status = iccp_map_begin(out, source, target, env, NULL);
     iccp_domain_release(source);
@@ -55,9 +58,11 @@ static icc_status read_charts(icc_map *map, int32_t kind, iccp_blob_reader *r, c
                               icc_error *err)
 {
     icc_chart *source = NULL, *target = NULL;
-    icc_status status = iccp_chart_read(&source, map->source_domain, r, env, err);
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){1, 1}, env);
+    icc_status status = iccp_chart_read(&source, map->source_domain, r, &part[0], err);
     if (status == ICC_OK)
-        status = iccp_chart_read(&target, map->target_domain, r, env, err);
+        status = iccp_chart_read(&target, map->target_domain, r, &part[1], err);
     if (status == ICC_OK)
         status = iccp_map_choose_kind(&kind, source, target, NULL);
     if (status == ICC_OK)
@@ -112,17 +117,20 @@ static icc_status read_mesh(icc_map *map, iccp_blob_reader *r, const iccp_env *e
 static icc_status read_map(icc_map **out, iccp_blob_reader *r, const iccp_env *env, icc_error *err)
 {
     uint32_t head[2];
+    const iccp_env whole = iccp_part(env, "load", 0, 1);
+    iccp_env part[3];
+    iccp_split(part, 3, (const double[]){1, 6, 2}, &whole);
     iccp_blob_read_u32(r, 2, head);
     const bool has_mesh = head[0] == ICC_MAP_MESH, has_charts = head[1] == 1;
     if (!(has_mesh || head[0] == ICC_MAP_CURVES) || head[1] > 1 || !(has_mesh || has_charts))
         return ICC_ERR_FORMAT;
-    icc_status status = read_domains(out, r, env);
+    icc_status status = read_domains(out, r, &part[0]);
     if (status == ICC_OK && has_charts)
-        status = read_charts(*out, (int32_t)head[0], r, env, err);
+        status = read_charts(*out, (int32_t)head[0], r, &part[1], err);
     if (status == ICC_OK)
         status = read_story(&(*out)->info, r) ? ICC_OK : ICC_ERR_FORMAT;
     if (status == ICC_OK && has_mesh)
-        status = read_mesh(*out, r, env);
+        status = read_mesh(*out, r, &part[2]);
     return status == ICC_OK && !iccp_blob_done(r) ? ICC_ERR_FORMAT : status;
 }
 
@@ -135,12 +143,14 @@ icc_status iccp_map_load(icc_map **out, size_t n_bytes, const void *data, const 
     icc_status status = iccp_blob_open(&r, data, n_bytes, KIND, VERSION, err);
     if (status != ICC_OK)
         return status;
-    status = read_map(out, &r, env, err);
+    iccp_budget budget;
+    const iccp_env limited = iccp_budget_begin(&budget, env);
+    status = read_map(out, &r, &limited, err);
     if (status == ICC_OK) {
         (*out)->info.seconds = iccp_seconds() - start;
         return ICC_OK;
     }
     iccp_map_release(*out);
     *out = NULL;
-    return iccp_blob_blame(err, status, "map");
+    return iccp_budget_end(&budget, iccp_blob_blame(err, status, "map"), err);
 }

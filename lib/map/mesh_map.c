@@ -49,7 +49,7 @@ static icc_status start(iccp_plmap *pl, const icc_chart *source, const icc_chart
     icc_status status = images != NULL ? ICC_OK : ICC_ERR_MEMORY;
     for (size_t v = 0; status == ICC_OK && v < mesh->n_vertices; ++v) {
         if (v % 1024 == 0)
-            status = iccp_progress(env, "start", (double)v / (double)mesh->n_vertices);
+            status = iccp_progress(env, "trace", (double)v / (double)mesh->n_vertices);
         if (status == ICC_OK)
             status = vertex_image(source, target, mesh, v, images + 2 * v, &path);
     }
@@ -97,7 +97,9 @@ icc_status iccp_mesh_map_finish(iccp_mesh_map *map, icc_map_info *info, const ic
                                 icc_error *err)
 {
     const double begin = iccp_seconds();
-    icc_status status = certify(&map->pl, env, err);
+    icc_status status = iccp_progress(env, "check", 0);
+    if (status == ICC_OK)
+        status = certify(&map->pl, env, err);
     const iccp_planar mesh = {.n_vertices = map->pl.n_vertices,
                               .n_triangles = map->pl.corners.n_triangles,
                               .triangles = map->pl.corners.vertex};
@@ -120,7 +122,8 @@ static icc_status improve(iccp_plmap *pl, const icc_improve_options *options, bo
                           : options->levels == 0 ? LEVELS
                                                  : (size_t)options->levels;
     const double tolerance = options->tolerance > 0 ? options->tolerance : TOLERANCE;
-    const icc_status status = iccp_improve(pl, iterations, tolerance, levels, improvement, env);
+    const iccp_env part = iccp_part(env, "improve", 0, 1);
+    const icc_status status = iccp_improve(pl, iterations, tolerance, levels, improvement, &part);
     *cancelled = status == ICC_ERR_CANCELLED;
     return *cancelled ? ICC_OK : status;
 }
@@ -130,8 +133,10 @@ static icc_status refit(iccp_mesh_map *map, const icc_improve_options *options, 
                         const iccp_env *env, icc_error *err)
 {
     const double begin = iccp_seconds();
+    iccp_env part[3];
+    iccp_split(part, 3, (const double[]){1, 4, 1}, env);
     info->n_inverted = iccp_plmap_count_inverted(&map->pl);
-    icc_status status = iccp_repair(&map->pl, false, &info->n_unrepaired, env);
+    icc_status status = iccp_repair(&map->pl, false, &info->n_unrepaired, &part[0]);
     const double repaired = iccp_seconds();
     info->seconds_repair = repaired - begin;
     if (status != ICC_OK || info->n_unrepaired > 0)
@@ -140,7 +145,7 @@ static icc_status refit(iccp_mesh_map *map, const icc_improve_options *options, 
     if (options->iterations >= 0) {
         iccp_improvement improvement;
         bool cancelled;
-        status = improve(&map->pl, options, &cancelled, &improvement, env);
+        status = improve(&map->pl, options, &cancelled, &improvement, &part[1]);
         if (status == ICC_OK && cancelled)
             status = ICC_ERR_CANCELLED;
         info->energy = improvement.energy;
@@ -148,7 +153,7 @@ static icc_status refit(iccp_mesh_map *map, const icc_improve_options *options, 
         info->n_levels = (int32_t)improvement.n_levels;
     }
     info->seconds_improve = iccp_seconds() - repaired;
-    return status == ICC_OK ? iccp_mesh_map_finish(map, info, env, err) : status;
+    return status == ICC_OK ? iccp_mesh_map_finish(map, info, &part[2], err) : status;
 }
 
 static void swap_sides(iccp_plmap *pl)
@@ -193,9 +198,11 @@ static icc_status try_compatible(iccp_mesh_map *map, const icc_chart *source,
     iccp_log(env, "%zu triangles could not be repaired: trying compatible triangulations",
              info->n_unrepaired);
     iccp_plmap_free(&map->pl);
-    icc_status status = start_compatible(&map->pl, source, target, env);
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){1, 2}, env);
+    icc_status status = start_compatible(&map->pl, source, target, &part[0]);
     if (status == ICC_OK)
-        status = refit(map, options, &own, env, NULL);
+        status = refit(map, options, &own, &part[1], NULL);
     own.n_inverted = info->n_inverted;
     own.seconds_repair += info->seconds_repair;
     if (status == ICC_OK)
@@ -212,11 +219,13 @@ icc_status iccp_mesh_map_create(iccp_mesh_map **out, const icc_chart *source,
     if (map == NULL)
         return ICC_ERR_MEMORY;
     const icc_improve_options options = {.iterations = iterations};
-    icc_status status = start(&map->pl, source, target, env);
+    iccp_env part[3];
+    iccp_split(part, 3, (const double[]){1, 7, 1}, env);
+    icc_status status = start(&map->pl, source, target, &part[0]);
     if (status == ICC_OK)
-        status = refit(map, &options, info, env, err);
+        status = refit(map, &options, info, &part[1], err);
     if (status == ICC_OK && info->n_unrepaired > 0)
-        status = try_compatible(map, source, target, &options, info, env);
+        status = try_compatible(map, source, target, &options, info, &part[2]);
     if (status == ICC_OK && info->n_unrepaired == 0)
         *out = map;
     else

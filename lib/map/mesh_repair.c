@@ -54,7 +54,7 @@ static icc_status place(const iccp_simplices *mesh, double *images, const iccp_e
     double *sum = iccp_alloc(&env->memory, mesh->n_points, (mesh->dim + 1) * sizeof *sum);
     icc_status status = sum != NULL ? ICC_OK : ICC_ERR_MEMORY;
     while (status == ICC_OK && place_ring(mesh, images, sum))
-        status = iccp_progress(env, "place vertices", 0);
+        status = iccp_progress(env, "repair", 0);
     iccp_free(&env->memory, sum);
     return status;
 }

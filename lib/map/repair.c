@@ -14,6 +14,9 @@ static const int RINGS[] = {2, 5, 12, 0};
  * of refinement. */
 enum { STEPS = 60, PATIENCE = 15, ROUNDS = 4 };
 
+/* Half of them, as far as progress goes. */
+static const double TYPICAL_STEPS = 10;
+
 /* Where more than A_FEW and one triangle in MANY are inverted still after a first untangling, larger
  * patches have never helped on random pairs of shapes: another start is called for. And refinement
  * helps where A_FEW and one in FEW are stuck, at most. */
@@ -111,7 +114,8 @@ static double smallest_determinant(const iccp_newton *newton, const iccp_plmap *
 static icc_status untangle(iccp_plmap *map, const uint8_t *movable, const iccp_env *env)
 {
     iccp_newton newton;
-    icc_status status = iccp_newton_create(&newton, map, movable, env);
+    iccp_env part = iccp_round(env, 0, TYPICAL_STEPS);
+    icc_status status = iccp_newton_create(&newton, map, movable, &part);
     if (status != ICC_OK)
         return status;
     size_t n_bad, fewest, since = 0;
@@ -121,9 +125,10 @@ static icc_status untangle(iccp_plmap *map, const uint8_t *movable, const iccp_e
     for (int k = 0; status == ICC_OK && k < STEPS && since < PATIENCE && newton.n_free > 0; ++k) {
         double slope;
         const double before = iccp_newton_energy(&newton, map, ICCP_UNTANGLE, epsilon);
-        status = iccp_progress(env, "untangle", (double)k / STEPS);
+        part = iccp_round(env, (size_t)k + 1, TYPICAL_STEPS);
+        status = iccp_progress(&part, "repair", 0);
         if (status == ICC_OK)
-            status = iccp_newton_solve(&newton, map, ICCP_UNTANGLE, epsilon, &slope, env);
+            status = iccp_newton_solve(&newton, map, ICCP_UNTANGLE, epsilon, &slope, &part);
         if (status != ICC_OK)
             break;
         const double after =
@@ -173,7 +178,8 @@ static icc_status untangle_patches(iccp_plmap *map, bool keep_mesh, size_t *n_le
     for (size_t k = 0; status == ICC_OK && *n_left > 0 && k < sizeof RINGS / sizeof *RINGS; ++k) {
         if (RINGS[k] > 0)
             mark_patch(map, RINGS[k], movable);
-        status = untangle(map, RINGS[k] > 0 ? movable : NULL, env);
+        const iccp_env part = iccp_round(env, (size_t)k, 1);
+        status = untangle(map, RINGS[k] > 0 ? movable : NULL, &part);
         if (status == ICC_OK) {
             if (!keep_mesh)
                 turn_edges(map);
@@ -229,7 +235,8 @@ icc_status iccp_repair(iccp_plmap *map, bool keep_mesh, size_t *n_left, const ic
     icc_status status = iccp_plmap_copy(&start, map, &env->memory);
     if (status != ICC_OK)
         return status;
-    status = untangle_patches(map, false, n_left, env);
+    const iccp_env first = iccp_round(env, 0, 1);
+    status = untangle_patches(map, false, n_left, &first);
     for (int round = 0; status == ICC_OK && *n_left > 0 && round < ROUNDS &&
                         *n_left <= A_FEW + map->corners.n_triangles / FEW &&
                         start.corners.n_triangles <= most;
@@ -239,8 +246,9 @@ icc_status iccp_repair(iccp_plmap *map, bool keep_mesh, size_t *n_left, const ic
             iccp_plmap_free(map);
             status = iccp_plmap_copy(map, &start, &env->memory);
         }
+        const iccp_env part = iccp_round(env, (size_t)round + 1, 1);
         if (status == ICC_OK)
-            status = untangle_patches(map, false, n_left, env);
+            status = untangle_patches(map, false, n_left, &part);
     }
     iccp_plmap_free(&start);
     return status == ICC_OK && *n_left == 0 ? cut_chords(map) : status;

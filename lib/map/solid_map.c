@@ -101,7 +101,7 @@ static icc_status begin(iccp_solid_map *map, const icc_chart *source, const icc_
         return ICC_ERR_MEMORY;
     s.images = map->images;
     memcpy(map->images, target->domain->vertices, 3 * mesh->n_rim * sizeof *map->images);
-    return iccp_for_chunks(env, "images", mesh->n_points - mesh->n_rim, GRAIN, find_images, &s);
+    return iccp_for_chunks(env, "trace", mesh->n_points - mesh->n_rim, GRAIN, find_images, &s);
 }
 
 static icc_status repair(iccp_solid_map *map, icc_map_info *info, const iccp_env *env)
@@ -165,15 +165,17 @@ static icc_status fit(iccp_solid_map *map, const icc_chart *source, const icc_ch
                       icc_map_info *info, const iccp_env *env)
 {
     bool cut = false;
-    icc_status status = begin(map, source, target, env);
+    iccp_env part[4];
+    iccp_split(part, 4, (const double[]){3, 1, 3, 1}, env);
+    icc_status status = begin(map, source, target, &part[0]);
     if (status == ICC_OK && is_hopeless(map))
-        status = begin_without_chords(map, source, target, &cut, env);
+        status = begin_without_chords(map, source, target, &cut, &part[1]);
     if (status == ICC_OK)
-        status = repair(map, info, env);
+        status = repair(map, info, &part[2]);
     if (status != ICC_OK || info->n_unrepaired == 0 || cut)
         return status;
-    status = begin_without_chords(map, source, target, &cut, env);
-    return status == ICC_OK && cut ? repair(map, info, env) : status;
+    status = begin_without_chords(map, source, target, &cut, &part[3]);
+    return status == ICC_OK && cut ? repair(map, info, &part[3]) : status;
 }
 
 icc_status iccp_solid_map_create(iccp_solid_map **out, const icc_chart *source,

@@ -79,6 +79,9 @@ static void mark_patch(const iccp_simplices *mesh, const double *images, int rin
     }
 }
 
+/* Half of the steps of a round, as far as progress goes. */
+static const double TYPICAL_STEPS = 10;
+
 static icc_status untangle(iccp_tet_newton *newton, int steps, int patience, const iccp_env *env)
 {
     size_t n_bad, fewest;
@@ -90,7 +93,8 @@ static icc_status untangle(iccp_tet_newton *newton, int steps, int patience, con
     for (int k = 0; k < steps && since < patience && newton->n_free > 0; ++k) {
         double slope;
         const double before = iccp_tet_newton_energy(newton, epsilon);
-        status = iccp_tet_newton_solve(newton, epsilon, &slope, env);
+        const iccp_env part = iccp_round(env, (size_t)k, TYPICAL_STEPS);
+        status = iccp_tet_newton_solve(newton, epsilon, &slope, &part);
         if (status != ICC_OK)
             break;
         const double after = iccp_tet_newton_move(newton, epsilon, before, slope);
@@ -128,6 +132,7 @@ icc_status iccp_tet_repair(const iccp_simplices *mesh, double *images, size_t *n
     size_t n_tasks = count_tasks(mesh, images);
     for (size_t k = 0; status == ICC_OK && n_tasks > 0 && k < sizeof ROUNDS / sizeof *ROUNDS; ++k) {
         iccp_tet_newton newton;
+        const iccp_env part = iccp_round(env, k, 1);
         if (ROUNDS[k].rings > 0 && n_tasks > mesh->n_simplices / MANY)
             continue;
         if (ROUNDS[k].rings > 0)
@@ -135,7 +140,7 @@ icc_status iccp_tet_repair(const iccp_simplices *mesh, double *images, size_t *n
         status = iccp_tet_newton_create(&newton, mesh, images, ROUNDS[k].rings > 0 ? movable : NULL,
                                         stretch, env);
         if (status == ICC_OK)
-            status = untangle(&newton, ROUNDS[k].steps, ROUNDS[k].patience, env);
+            status = untangle(&newton, ROUNDS[k].steps, ROUNDS[k].patience, &part);
         iccp_tet_newton_free(&newton);
         n_tasks = count_tasks(mesh, images);
     }

@@ -137,7 +137,7 @@ static icc_status solve(iccp_tet_newton *s, const iccp_env *env)
     double rho = product(n, r, z);
     const double enough = RESIDUAL * RESIDUAL * rho;
     for (int k = 0; k < MAX_DIRECTIONS && rho > enough; ++k) {
-        if (iccp_progress(env, "untangle", (double)k / MAX_DIRECTIONS) != ICC_OK)
+        if (iccp_progress(env, "repair", (double)k / MAX_DIRECTIONS) != ICC_OK)
             return ICC_ERR_CANCELLED;
         apply_hessian(s, p, q);
         const double curvature = product(n, p, q);

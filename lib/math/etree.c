@@ -15,7 +15,8 @@ icc_status iccp_etree_progress(const iccp_etree *tree, int pass, size_t k, const
 {
     if (k % COLUMNS_PER_REPORT != 0)
         return ICC_OK;
-    return iccp_progress(env, "analyse", (pass + (double)k / (double)tree->matrix->n) / ICCP_N_PASSES);
+    return iccp_progress(env, "solve",
+                         (pass + (double)k / (double)tree->matrix->n) / ICCP_N_PASSES);
 }
 
 static void number(const iccp_etree *t)

@@ -99,7 +99,7 @@ static icc_status find_rows(iccp_gram *g, const iccp_sparse *b, uint32_t *mark, 
     g->first[0] = 0;
     for (uint32_t j = 0; j < n && status == ICC_OK; ++j) {
         if (j % COLUMNS_PER_REPORT == 0)
-            status = iccp_progress(env, "matrix", (double)j / (double)n);
+            status = iccp_progress(env, "solve", (double)j / (double)n);
         uint32_t *column = counts ? NULL : g->column + g->first[j];
         g->first[j + 1] = g->first[j] + find_row(g, b, j, mark, column);
     }

@@ -2,6 +2,7 @@
  * Systems, 2006, chapter 4 and section 7.1. */
 #include "math/ldlt.h"
 
+#include "base/budget.h"
 #include "math/ordering.h"
 
 #include <string.h>
@@ -51,6 +52,9 @@ static void predict(iccp_ldlt *l, const uint32_t *count)
     }
 }
 
+/* Of the vectors and the matrix that go with a factor; generous. */
+static const double BYTES_PER_ROW = 200;
+
 /* From the order on. */
 static icc_status analyse(iccp_ldlt *l, const iccp_symmetric *matrix, const iccp_env *env)
 {
@@ -64,8 +68,10 @@ static icc_status analyse(iccp_ldlt *l, const iccp_symmetric *matrix, const iccp
         status = iccp_etree_count(&tree, count, env);
     if (status == ICC_OK)
         status = iccp_supernodes_create(&l->nodes, &tree, count, env);
-    if (status == ICC_OK)
+    if (status == ICC_OK) {
         predict(l, count);
+        status = iccp_budget_borrow(env, iccp_ldlt_bytes(l) + BYTES_PER_ROW * (double)l->n);
+    }
     iccp_free(&env->memory, parent);
     iccp_free(&env->memory, count);
     return status;

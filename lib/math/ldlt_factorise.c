@@ -5,6 +5,8 @@
 #include "math/ldlt.h"
 #include "math/panel.h"
 
+#include "base/budget.h"
+
 #include <string.h>
 
 #define NONE ICCP_NO_PARENT
@@ -164,8 +166,10 @@ static double labour_of(const iccp_supernodes *nodes)
 static icc_status run(factorisation *f)
 {
     const iccp_supernodes *nodes = &f->l->nodes;
-    icc_status status = iccp_progress(f->labour.env, "factorise", 0);
     f->labour.all = labour_of(nodes);
+    icc_status status = iccp_progress(f->labour.env, "solve", 0);
+    if (status == ICC_OK)
+        status = iccp_budget_work(f->labour.env, f->labour.all);
     for (uint32_t s = 0; s < nodes->n; ++s)
         f->waiting[s] = NONE;
     for (uint32_t s = 0; status == ICC_OK && s < nodes->n; ++s) {

@@ -22,7 +22,7 @@ icc_status iccp_labour_add(iccp_labour *labour, double multiplications)
     if (labour->done - labour->reported < PER_REPORT)
         return ICC_OK;
     labour->reported = labour->done;
-    return iccp_progress(labour->env, "factorise", fmin(1, labour->done / labour->all));
+    return iccp_progress(labour->env, "solve", fmin(1, labour->done / labour->all));
 }
 
 typedef struct shifted {
@@ -47,7 +47,7 @@ icc_status iccp_labour_strips(iccp_labour *labour, size_t begin, size_t end, dou
     for (size_t n; status == ICC_OK && begin < end; begin += n) {
         n = end - begin < most ? end - begin : most;
         if (has_threads && n > GRAIN && cost * (double)n > PER_THREADS)
-            status = iccp_for_chunks(quiet, "factorise", n, GRAIN, run_shifted,
+            status = iccp_for_chunks(quiet, "solve", n, GRAIN, run_shifted,
                                      &(shifted){chunk, argument, begin});
         else
             status = chunk(argument, begin, begin + n);

@@ -1,6 +1,8 @@
 /* Y. Saad, Iterative Methods for Sparse Linear Systems, 2nd edition, 2003, sections 9.2 and 10.2. */
 #include "math/pcg.h"
 
+#include "base/budget.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -77,6 +79,8 @@ static icc_status iterate(const problem *s, double *x, double *r, double *z, dou
     for (size_t since = 0; least > WANTED * size && since < PATIENCE; ++since) {
         if (since % 16 == 0 && status == ICC_OK)
             status = iccp_progress(s->env, "solve", 0);
+        if (status == ICC_OK)
+            status = iccp_budget_work(s->env, (double)(n + m->first[n]));
         if (status != ICC_OK)
             return status;
         multiply(m, p, q);

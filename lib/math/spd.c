@@ -8,10 +8,12 @@ icc_status iccp_spd_create(iccp_spd *solver, const iccp_symmetric *matrix, bool 
     *solver = (iccp_spd){.matrix = *matrix, .direct = iccp_ordering_available() && !iterative};
     if (!solver->direct)
         return ICC_OK;
-    icc_status status = iccp_ldlt_analyse(&solver->factor, matrix, 1, env);
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){1, 2}, env);
+    icc_status status = iccp_ldlt_analyse(&solver->factor, matrix, 1, &part[0]);
     if (status != ICC_OK)
         return status;
-    status = iccp_ldlt_factorise(&solver->factor, matrix, env);
+    status = iccp_ldlt_factorise(&solver->factor, matrix, &part[1]);
     if (status != ICC_OK)
         iccp_ldlt_free(&solver->factor);
     return status;

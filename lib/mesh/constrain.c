@@ -343,7 +343,7 @@ static icc_status insert_all(cutter *k, const iccp_env *env)
             k->corner_of[vertex_at(k, corner)] = corner;
     for (uint32_t i = 0; i < k->mesh->n_boundary; ++i) {
         if (i % REPORT == 0 &&
-            iccp_progress(env, "constrain", (double)i / (double)k->mesh->n_boundary) != ICC_OK)
+            iccp_progress(env, "mesh", (double)i / (double)k->mesh->n_boundary) != ICC_OK)
             return ICC_ERR_CANCELLED;
         k->from = i;
         k->to = i + 1 < k->mesh->n_boundary ? i + 1 : 0;

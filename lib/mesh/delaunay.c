@@ -165,7 +165,7 @@ static icc_status insert_all(iccp_trimesh *mesh, const uint32_t *order, const ic
     uint32_t corner = 0;
     for (uint32_t i = 3; i < mesh->n_points; ++i) {
         if (i % REPORT == 0 &&
-            iccp_progress(env, "triangulate", (double)i / (double)mesh->n_points) != ICC_OK)
+            iccp_progress(env, "mesh", (double)i / (double)mesh->n_points) != ICC_OK)
             return ICC_ERR_CANCELLED;
         const double *p = iccp_point(mesh, i);
         corner = locate(mesh, corner, p);

@@ -1,5 +1,6 @@
 #include "mesh/finder.h"
 
+#include "base/budget.h"
 #include "math/predicates.h"
 
 #include <math.h>
@@ -44,7 +45,8 @@ static void clip_to_row(const double a[2], const double b[2], double bottom, dou
     *high = fmax(*high, fmax(x[0], x[1]));
 }
 
-static void visit_triangle(iccp_finder *f, uint32_t triangle, bool fill)
+/* Returns the number of cells. */
+static size_t visit_triangle(iccp_finder *f, uint32_t triangle, bool fill)
 {
     double q[3][2];
     for (int k = 0; k < 3; ++k)
@@ -52,6 +54,7 @@ static void visit_triangle(iccp_finder *f, uint32_t triangle, bool fill)
     const double bottom = fmin(fmin(q[0][1], q[1][1]), q[2][1]);
     const double top = fmax(fmax(q[0][1], q[1][1]), q[2][1]);
     const size_t last = cell_of(top + SLACK, f->size[1]);
+    size_t n = 0;
     for (size_t j = cell_of(bottom - SLACK, f->size[1]); j <= last; ++j) {
         double low = HUGE_VAL, high = -HUGE_VAL;
         for (int k = 0; k < 3; ++k)
@@ -59,7 +62,7 @@ static void visit_triangle(iccp_finder *f, uint32_t triangle, bool fill)
         if (low > high)
             continue;
         const size_t i_last = cell_of(high + SLACK, f->size[0]);
-        for (size_t i = cell_of(low - SLACK, f->size[0]); i <= i_last; ++i) {
+        for (size_t i = cell_of(low - SLACK, f->size[0]); i <= i_last; ++i, ++n) {
             const size_t cell = i + f->size[0] * j;
             if (fill)
                 f->entries[--f->first[cell]] = triangle;
@@ -67,10 +70,14 @@ static void visit_triangle(iccp_finder *f, uint32_t triangle, bool fill)
                 ++f->first[cell];
         }
     }
+    return n;
 }
 
 /* Cells per triangle: more make queries faster and the finder larger. */
 static const double DENSITY = 4;
+
+/* Entries per triangle that need no budget: two to five times what there are in fair meshes. */
+enum { PLENTY = 64 };
 
 static void choose_cells(iccp_finder *f, const iccp_planar *mesh)
 {
@@ -100,8 +107,17 @@ icc_status iccp_finder_create(iccp_finder *finder, const iccp_planar *mesh, cons
     f->first = iccp_alloc_zero(&f->memory, n_cells + 1, sizeof *f->first);
     if (f->first == NULL)
         return ICC_ERR_MEMORY;
-    for (uint32_t t = 0; t < mesh->n_triangles; ++t)
-        visit_triangle(f, t, false);
+    size_t n_entries = 0;
+    icc_status status = ICC_OK;
+    for (uint32_t t = 0; t < mesh->n_triangles && status == ICC_OK; ++t) {
+        n_entries += visit_triangle(f, t, false);
+        if (n_entries > PLENTY * mesh->n_triangles)
+            status = iccp_budget_borrow(env, (double)n_entries * sizeof *f->entries);
+    }
+    if (status != ICC_OK) {
+        iccp_finder_free(f);
+        return status;
+    }
     for (size_t c = 1; c <= n_cells; ++c)
         f->first[c] += f->first[c - 1];
     f->entries = iccp_alloc(&f->memory, f->first[n_cells], sizeof *f->entries);
@@ -110,7 +126,7 @@ icc_status iccp_finder_create(iccp_finder *finder, const iccp_planar *mesh, cons
         return ICC_ERR_MEMORY;
     }
     for (uint32_t t = (uint32_t)mesh->n_triangles; t-- > 0;)
-        visit_triangle(f, t, true);
+        (void)visit_triangle(f, t, true);
     return ICC_OK;
 }
 

@@ -172,7 +172,7 @@ icc_status iccp_graded_points(const icc_domain *domain, const iccp_samples *samp
         level *from = &levels[k % 2], *to = &levels[(k + 1) % 2];
         to->n_cells = to->n_entries = 0;
         to->width = 0.5 * from->width;
-        status = iccp_progress(env, "mesh", 0);
+        status = iccp_progress(env, "mesh", (double)k / (MAX_LEVELS + 1));
         if (status == ICC_OK)
             status = descend(&b, from, to, k == MAX_LEVELS);
     }

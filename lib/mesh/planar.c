@@ -227,15 +227,17 @@ static icc_status fill_mesh(iccp_planar *mesh, const icc_domain *domain, const u
 {
     double *inner = NULL;
     size_t n_inner = 0;
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){1, 3}, env);
     icc_status status = begin_boundary(mesh, domain, pieces);
     if (status == ICC_OK)
-        status = inner_points(mesh, domain, step, &inner, &n_inner, env);
+        status = inner_points(mesh, domain, step, &inner, &n_inner, &part[0]);
     if (status == ICC_OK)
         status = allocate_inside(mesh, inner, n_inner);
     iccp_free(&mesh->memory, inner);
     if (status == ICC_OK)
         status = iccp_triangulate_mesh(mesh->n_boundary, mesh->n_vertices, mesh->points,
-                                       mesh->triangles, mesh->twins, env, err);
+                                       mesh->triangles, mesh->twins, &part[1], err);
     /* The domain is simple, but points along its facets are rounded. */
     if (status == ICC_ERR_BOUNDARY || status == ICC_ERR_OUTSIDE)
         status = iccp_fail(err, ICC_ERR_CERTIFICATE,

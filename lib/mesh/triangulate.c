@@ -112,9 +112,11 @@ icc_status iccp_triangulate_mesh(size_t n_boundary, size_t n_points, const doubl
     mesh.corners = iccp_alloc(&env->memory, 2 * n_points - 2, 3 * sizeof *mesh.corners);
     if (mesh.corners == NULL)
         return iccp_fail_memory(err);
-    icc_status status = iccp_delaunay(&mesh, env, err);
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){3, 1}, env);
+    icc_status status = iccp_delaunay(&mesh, &part[0], err);
     if (status == ICC_OK)
-        status = iccp_constrain(&mesh, env, err);
+        status = iccp_constrain(&mesh, &part[1], err);
     if (status == ICC_OK)
         status = extract(&mesh, triangles, neighbours, env, err);
     iccp_free(&env->memory, mesh.corners);

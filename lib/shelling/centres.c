@@ -70,7 +70,7 @@ static icc_status bound_depths(search *s, const iccp_env *env)
         const uint32_t v = iccp_heap_pop(&s->heap);
         const double *point = s->mesh->points + s->mesh->dim * v;
         if (n % VERTICES_PER_REPORT == 0)
-            status = iccp_progress(env, "centre", 0);
+            status = iccp_progress(env, "order", 0);
         for (size_t p = s->edges->first[v]; p < s->edges->first[v + 1]; ++p) {
             const uint32_t w = s->edges->column[p];
             const double length = s->bound[v] + distance(s->mesh, w, point);
@@ -111,7 +111,7 @@ static icc_status find_deepest(search *s, const iccp_env *env)
         if (s->bound[v] <= s->depth * size)
             break;
         if (n % VERTICES_PER_REPORT == 0)
-            status = iccp_progress(env, "centre", 0.5);
+            status = iccp_progress(env, "order", 0.5);
         double depth = measure(s, v) / size;
         if (s->image != NULL && depth > s->depth)
             depth =

@@ -123,7 +123,7 @@ static icc_status send_all(const iccp_circulation *c, const uint32_t *rank, cons
     }
     for (uint32_t r = last; r > 0 && status == ICC_OK; --r) {
         if (r % SIMPLICES_PER_REPORT == 0)
-            status = iccp_progress(env, "fluxes", 1 - (double)r / (double)last);
+            status = iccp_progress(env, "order", 1 - (double)r / (double)last);
         send_on(c, rank, order[r], wish, least, flux);
     }
     iccp_free(&env->memory, order);
@@ -184,7 +184,7 @@ static icc_status sweep(const iccp_rings *rings, gate *gates, const iccp_env *en
 {
     for (size_t r = 0; r < rings->n; ++r) {
         if (r % RINGS_PER_REPORT == 0) {
-            const icc_status status = iccp_progress(env, "fluxes", (double)r / (double)rings->n);
+            const icc_status status = iccp_progress(env, "order", (double)r / (double)rings->n);
             if (status != ICC_OK)
                 return status;
         }
@@ -201,8 +201,11 @@ icc_status iccp_circulation_relax(const iccp_circulation *c, const uint32_t *ran
         return ICC_ERR_MEMORY;
     icc_status status = ICC_OK;
     open_gates(c, flux, gates);
-    for (size_t k = 0; k < n_sweeps && status == ICC_OK; ++k)
-        status = sweep(&c->rings, gates, env);
+    for (size_t k = 0; k < n_sweeps && status == ICC_OK; ++k) {
+        const iccp_env part =
+            iccp_part(env, NULL, (double)k / (double)n_sweeps, (double)(k + 1) / (double)n_sweeps);
+        status = sweep(&c->rings, gates, &part);
+    }
     for (size_t f = 0; f < c->rings.n_facets; ++f)
         flux[c->rings.side[f]] = gates[f].flux;
     iccp_free(&env->memory, gates);

@@ -169,12 +169,14 @@ static size_t count_reversed(const iccp_circulation *c, const uint32_t *rank)
 static icc_status hold(contest *c, attempt *best, iccp_contest_info *info, const iccp_env *env,
                        icc_error *err)
 {
-    icc_status status = iccp_for_chunks(env, "orders", N_RUNS, 1, compete_all, c);
+    iccp_env part[3];
+    iccp_split(part, 3, (const double[]){4, 2, 2}, env);
+    icc_status status = iccp_for_chunks(&part[0], "order", N_RUNS, 1, compete_all, c);
     if (status != ICC_OK)
         return status;
     *info = (iccp_contest_info){.n_orders = N_RUNS};
     size_t n_least, run = find_best(c, &info->n_finished);
-    status = repeat(c, &run, best, &n_least, env);
+    status = repeat(c, &run, best, &n_least, &part[1]);
     if (status != ICC_OK)
         return status;
     if (n_least > 0)
@@ -183,7 +185,7 @@ static icc_status hold(contest *c, attempt *best, iccp_contest_info *info, const
             "no order was found that builds up the domain from the maximum: at best %zu of "
             "the %zu simplices are left; try another maximum or a finer mesh",
             n_least, c->wish.mesh->n_simplices);
-    status = iccp_circulation_relax(&c->circulation, best->rank, SWEEPS, best->flux, env);
+    status = iccp_circulation_relax(&c->circulation, best->rank, SWEEPS, best->flux, &part[2]);
     if (status != ICC_OK)
         return status;
     info->peeled = is_peeling(run);
@@ -206,11 +208,13 @@ icc_status iccp_contest(const iccp_simplices *mesh, uint32_t centre, const doubl
                                .centre = centre,
                                .flux = reference,
                                .potential = potential};
-    icc_status status = iccp_faces_create(&c.faces, mesh, env);
+    iccp_env part[3];
+    iccp_split(part, 3, (const double[]){1, 1, 6}, env);
+    icc_status status = iccp_faces_create(&c.faces, mesh, &part[0]);
     if (status == ICC_OK)
-        status = iccp_circulation_create(&c.circulation, mesh, centre, inflow, reference, env);
+        status = iccp_circulation_create(&c.circulation, mesh, centre, inflow, reference, &part[1]);
     if (status == ICC_OK)
-        status = hold(&c, &best, info, env, err);
+        status = hold(&c, &best, info, &part[2], err);
     iccp_circulation_free(&c.circulation);
     iccp_faces_free(&c.faces);
     return iccp_explain(err, status);

@@ -43,7 +43,7 @@ static icc_status number_size(iccp_faces *faces, const iccp_simplices *mesh, siz
     iccp_tuples t;
     if (mesh->n_simplices > (UINT32_MAX - faces->n_faces) / n_sets)
         return ICC_ERR_MEMORY;
-    icc_status status = iccp_progress(env, "faces", (double)(size - 1) / (double)mesh->dim);
+    icc_status status = iccp_progress(env, "order", (double)(size - 1) / (double)mesh->dim);
     if (status == ICC_OK)
         status =
             iccp_tuples_create(&t, n_sets * mesh->n_simplices, size, mesh->n_points, &env->memory);

@@ -79,7 +79,7 @@ static icc_status create_network(network *w, const iccp_simplices *mesh, uint32_
     icc_status status = ICC_OK;
     for (size_t t = 0; t < mesh->n_simplices && status == ICC_OK; ++t) {
         if (t % SIMPLICES_PER_REPORT == 0)
-            status = iccp_progress(env, "inflow", (double)t / (double)mesh->n_simplices);
+            status = iccp_progress(env, "order", (double)t / (double)mesh->n_simplices);
         if (w->row[t] != NONE)
             add_row(w, t);
     }

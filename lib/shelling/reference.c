@@ -104,7 +104,7 @@ static icc_status add_elements(equations *e, const iccp_env *env)
     icc_status status = ICC_OK;
     for (size_t t = 0; t < mesh->n_simplices && status == ICC_OK; ++t) {
         if (t % SIMPLICES_PER_REPORT == 0)
-            status = iccp_progress(env, "flux", (double)t / (double)mesh->n_simplices);
+            status = iccp_progress(env, "order", (double)t / (double)mesh->n_simplices);
         if (!iccp_element_has(mesh, t, e->centre))
             add_element(e, t);
     }

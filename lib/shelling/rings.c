@@ -74,7 +74,7 @@ static icc_status find_rings(iccp_rings *rings, const walk *w, const iccp_env *e
     rings->first[0] = 0;
     for (size_t t = 0; t < mesh->n_simplices && status == ICC_OK; ++t) {
         if (t % SIMPLICES_PER_REPORT == 0)
-            status = iccp_progress(env, "rings", (double)t / (double)mesh->n_simplices);
+            status = iccp_progress(env, "order", (double)t / (double)mesh->n_simplices);
         for (size_t b = 1; b <= mesh->dim; ++b)
             for (size_t a = 0; a < b; ++a) {
                 const size_t end = rings->first[rings->n];

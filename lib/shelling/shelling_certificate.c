@@ -302,7 +302,7 @@ static icc_status check(checker *c, uint8_t *met, const iccp_env *env)
     icc_status status = list_around(c, &env->memory);
     for (uint32_t v = 0; status == ICC_OK && v < c->mesh->n_points; ++v) {
         if (v % REPORT == 0)
-            status = iccp_progress(env, "certify", (double)v / (double)c->mesh->n_points);
+            status = iccp_progress(env, "check", (double)v / (double)c->mesh->n_points);
         if (status == ICC_OK && v != c->centre)
             check_faces_at(c, v);
     }

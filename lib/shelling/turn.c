@@ -133,7 +133,7 @@ static icc_status pass(turner *t, const uint32_t *rank, const iccp_env *env)
             t->turned[t->n_turned++] = side;
         }
     }
-    return iccp_progress(env, "turn", 0);
+    return iccp_progress(env, "order", 0);
 }
 
 /* A. B. Kahn, Topological sorting of large networks, 1962: takes out, one after the other, the simplices that are

@@ -35,7 +35,7 @@ static icc_status check_solution(const iccp_rows *rows, const iccp_scaled *x, co
     for (size_t k = 0; k < rows->n && status == ICC_OK; ++k) {
         const int32_t unit = x->exponent[k];
         if (k % ICCP_VERTICES_PER_REPORT == 0)
-            status = iccp_progress(env, "check", (double)k / (double)rows->n);
+            status = iccp_progress(env, "solve", (double)k / (double)rows->n);
         const double r = iccp_laplacian_row(rows, x, k, unit) - iccp_scaled_get(b, k, unit);
         if (!(fabs(r) <= MOST_RESIDUAL * rows->n_neighbours * x->fraction[k]))
             return ICC_ERR_SOLVER;
@@ -71,7 +71,7 @@ static icc_status solve_twice(const iccp_rows *rows, const iccp_ldlt *factor, co
     for (size_t k = 0; k < n && status == ICC_OK; ++k)
         iccp_scaled_set(&b, k, k == 0, 0);
     for (int pass = 0; pass < 2 && status == ICC_OK; ++pass) {
-        status = iccp_progress(env, "bi-Laplace", 0.5 * pass);
+        status = iccp_progress(env, "solve", 0.5 * pass);
         const iccp_scaled work = {fraction + n, exponent + n};
         if (status == ICC_OK)
             status = solve(rows, factor, &b, f, &work, env);

@@ -26,15 +26,18 @@ static icc_status take_turns(const iccp_program *program, uint8_t *active, iccp_
 {
     iccp_interior interior;
     bool stuck = false;
-    icc_status status = iccp_interior_create(&interior, program, info, env);
+    iccp_env part = iccp_part(env, NULL, 0, 0.1);
+    icc_status status = iccp_interior_create(&interior, program, info, &part);
     if (status != ICC_OK)
         return status;
+    part = iccp_part(env, NULL, 0.1, 1);
     for (size_t t = 0; status == ICC_OK && !stuck && candidate->residual > ENOUGH; ++t) {
-        status = iccp_interior_run(&interior, TARGETS[t], &stuck, info, env);
+        status = iccp_interior_run(&interior, TARGETS[t], &stuck, info, &part);
         for (size_t i = 0; i < iccp_program_inequalities(program); ++i)
             active[i] = interior.multiplier[i] > interior.slack[i];
+        const iccp_env polishing = iccp_round(&part, interior.n_iterations, ICCP_INTERIOR_TYPICAL);
         if (status == ICC_OK)
-            status = iccp_polish(program, active, ENOUGH, candidate, info, env);
+            status = iccp_polish(program, active, ENOUGH, candidate, info, &polishing);
     }
     info->n_iterations += interior.n_iterations;
     iccp_interior_free(&interior);
@@ -48,9 +51,11 @@ static icc_status optimise(const iccp_program *program, iccp_candidate *candidat
     uint8_t *active = iccp_alloc_zero(&env->memory, m, sizeof *active);
     if (active == NULL)
         return ICC_ERR_MEMORY;
-    icc_status status = iccp_polish(program, active, ENOUGH, candidate, info, env);
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){1, 4}, env);
+    icc_status status = iccp_polish(program, active, ENOUGH, candidate, info, &part[0]);
     if (status == ICC_OK && candidate->residual > GOOD)
-        status = take_turns(program, active, candidate, info, env);
+        status = take_turns(program, active, candidate, info, &part[1]);
     iccp_free(&env->memory, active);
     if (status != ICC_OK || candidate->residual <= ACCEPTABLE)
         return status;

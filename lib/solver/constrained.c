@@ -18,6 +18,9 @@ enum {
     MOST_LEVELS = 60 /* single changes, unless there are 2^60 candidates */
 };
 
+/* Half of the rounds, as far as progress goes. */
+static const double TYPICAL_ROUNDS = 8;
+
 /* Slacks and multipliers in units of f are rounding errors up to the first: with a factorisation
  * they were 3e-14 at most (700,000 rows). Up to the second they are within what an iterative solver
  * can do. */
@@ -126,15 +129,15 @@ static icc_status iterate(state *s, iccp_glued_solver solve, icc_function_info *
     int stalled = 0;
     glue(s);
     judge(s);
-    const size_t first = s->n_wrong;
-    for (size_t least = first; s->n_wrong > 0;) {
-        icc_status status = iccp_progress(env, "inequalities", 1 - (double)least / (double)first);
+    for (size_t n_rounds = 0, least = s->n_wrong; s->n_wrong > 0;) {
+        const iccp_env part = iccp_round(env, n_rounds++, TYPICAL_ROUNDS);
+        icc_status status = iccp_progress(&part, "solve", 0);
         const int level = stalled / PATIENCE;
         flip(s, level < MOST_LEVELS ? level : MOST_LEVELS);
         if (status == ICC_OK && (!glue(s) || info->n_iterations == MOST_ITERATIONS))
             status = ICC_ERR_SOLVER;
         if (status == ICC_OK)
-            status = solve(s->rows, &gluing, s->f, info, env);
+            status = solve(s->rows, &gluing, s->f, info, &part);
         if (status != ICC_OK)
             return status;
         ++info->n_iterations;

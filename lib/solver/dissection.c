@@ -58,7 +58,7 @@ static icc_status visit(dissection *d, size_t n_rows)
     d->n_visited += n_rows;
     if (d->n_visited / ICCP_VERTICES_PER_REPORT == reports)
         return ICC_OK;
-    return iccp_progress(d->env, "order", (double)d->n_done / (double)d->rows->n);
+    return iccp_progress(d->env, "solve", (double)d->n_done / (double)d->rows->n);
 }
 
 /* ------------------------------------------------------------------- bands */

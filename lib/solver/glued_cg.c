@@ -4,6 +4,8 @@
  * (A Jacobi step for each top, added to it, costs more of them.) */
 #include "solver/glued_cg.h"
 
+#include "base/budget.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -144,6 +146,9 @@ static double dot_float(size_t n, const double *a, const float *b)
     return sum;
 }
 
+/* Of an iteration, with all levels. */
+static const double WORK_PER_ENTRY = 60;
+
 static icc_status iterate(solver *s, double size, const iccp_mg_goal *goal, size_t *n_iterations,
                           const iccp_env *env)
 {
@@ -154,7 +159,9 @@ static icc_status iterate(solver *s, double size, const iccp_mg_goal *goal, size
         least = fmin(rr, least);
         if (!isfinite(rr) || since > PATIENCE)
             return ICC_ERR_SOLVER;
-        icc_status status = iccp_progress(env, "multigrid", 0);
+        icc_status status = iccp_progress(env, "solve", 0);
+        if (status == ICC_OK)
+            status = iccp_budget_work(env, WORK_PER_ENTRY * (double)s->level->n_entries);
         if (status != ICC_OK)
             return status;
         precondition(s);

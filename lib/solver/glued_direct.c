@@ -136,7 +136,7 @@ static icc_status assemble(assembly *a, const iccp_env *env)
     icc_status status = ICC_OK;
     for (size_t u = 0; u < a->n && status == ICC_OK; ++u) {
         if (u % CLUSTERS_PER_REPORT == 0)
-            status = iccp_progress(env, "matrix", (double)u / (double)a->n);
+            status = iccp_progress(env, "solve", (double)u / (double)a->n);
         assemble_row(a, u);
     }
     return status;
@@ -160,11 +160,11 @@ static void expand(const assembly *a, const iccp_scaled *x, const iccp_scaled *f
 static icc_status find_residual(const assembly *a, const iccp_scaled *x, const iccp_scaled *f,
                                 const iccp_scaled *residual, const iccp_env *env)
 {
-    icc_status status = iccp_progress(env, "check", 0);
+    icc_status status = iccp_progress(env, "solve", 0);
     for (size_t u = 0; u < a->n && status == ICC_OK; ++u) {
         double sum = 0;
         if ((u + 1) % CLUSTERS_PER_REPORT == 0)
-            status = iccp_progress(env, "check", (double)u / (double)a->n);
+            status = iccp_progress(env, "solve", (double)u / (double)a->n);
         for (uint32_t k = a->last[u]; k != ICCP_NONE; k = a->previous[k])
             sum -= a->gluing->share[k] * iccp_laplacian_row(a->rows, f, k, x->exponent[u]);
         iccp_scaled_set(residual, u, sum, x->exponent[u]);
@@ -190,17 +190,19 @@ static icc_status solve_twice(const assembly *a, const iccp_ldlt *factor, const 
                               const iccp_scaled *d, const iccp_scaled *work, const iccp_scaled *f,
                               const iccp_env *env)
 {
+    iccp_env part[3];
+    iccp_split(part, 3, (const double[]){2, 1, 2}, env);
     for (size_t u = 0; u < a->n; ++u)
         iccp_scaled_set(x, u, a->known[u], 0);
-    icc_status status = iccp_ldlt_solve_scaled(factor, x, work, env);
+    icc_status status = iccp_ldlt_solve_scaled(factor, x, work, &part[0]);
     if (status != ICC_OK)
         return status;
     expand(a, x, f);
-    status = find_residual(a, x, f, d, env);
+    status = find_residual(a, x, f, d, &part[1]);
     if (status == ICC_OK && !is_accurate(a, x, d))
         status = ICC_ERR_SOLVER;
     if (status == ICC_OK)
-        status = iccp_ldlt_solve_scaled(factor, d, work, env);
+        status = iccp_ldlt_solve_scaled(factor, d, work, &part[2]);
     if (status != ICC_OK)
         return status;
     for (size_t u = 0; u < a->n; ++u)
@@ -247,11 +249,13 @@ static icc_status analyse(const assembly *a, iccp_ldlt *factor, const iccp_symme
     uint32_t *order = iccp_alloc(&env->memory, a->n, sizeof *order);
     uint32_t *rows = iccp_alloc(&env->memory, kept == NULL ? a->rows->n : 0, sizeof *rows);
     icc_status status = order != NULL && rows != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){3, 1}, env);
     if (status == ICC_OK && (kept == NULL || kept[0] == ICCP_NONE))
-        status = iccp_dissection(a->rows, kept == NULL ? rows : kept, env);
+        status = iccp_dissection(a->rows, kept == NULL ? rows : kept, &part[0]);
     if (status == ICC_OK) {
         contract_order(a, kept == NULL ? rows : kept, order);
-        status = iccp_ldlt_analyse_ordered(factor, matrix, order, env);
+        status = iccp_ldlt_analyse_ordered(factor, matrix, order, &part[1]);
     }
     iccp_free(&env->memory, order);
     iccp_free(&env->memory, rows);
@@ -272,18 +276,20 @@ icc_status iccp_glued_direct(const iccp_rows *rows, const iccp_gluing *gluing, c
     assembly a = {.rows = rows, .gluing = gluing};
     iccp_ldlt factor = {.memory = env->memory};
     double clock = iccp_seconds();
-    icc_status status = assemble(&a, env);
+    iccp_env part[4];
+    iccp_split(part, 4, (const double[]){1, 4, 8, 2}, env);
+    icc_status status = assemble(&a, &part[0]);
     info->seconds_setup += lap(&clock);
     const iccp_symmetric matrix = {a.n, a.first, a.column, a.value, a.diagonal};
     if (status == ICC_OK)
-        status = analyse(&a, &factor, &matrix, env);
+        status = analyse(&a, &factor, &matrix, &part[1]);
     info->work = fmax(info->work, factor.work);
     info->seconds_order += lap(&clock);
     if (status == ICC_OK)
-        status = iccp_ldlt_factorise(&factor, &matrix, env);
+        status = iccp_ldlt_factorise(&factor, &matrix, &part[2]);
     info->seconds_factor += lap(&clock);
     if (status == ICC_OK)
-        status = solve(&a, &factor, f, env);
+        status = solve(&a, &factor, f, &part[3]);
     info->seconds_solve += lap(&clock);
     iccp_ldlt_free(&factor);
     release(&a, env);

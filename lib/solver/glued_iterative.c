@@ -77,7 +77,7 @@ static void add_cluster(shells *s, uint32_t top)
 
 static icc_status report(const shells *s, size_t i)
 {
-    return i % ICCP_VERTICES_PER_REPORT == 0 ? iccp_progress(s->env, "multigrid", 0) : ICC_OK;
+    return i % ICCP_VERTICES_PER_REPORT == 0 ? iccp_progress(s->env, "solve", 0) : ICC_OK;
 }
 
 /* The first shell. */
@@ -409,7 +409,7 @@ icc_status iccp_glued_iterative(const iccp_rows *rows, const iccp_gluing *gluing
         status = add_all(&s);
     }
     while (status == ICC_OK && s.n > 0) {
-        status = iccp_progress(env, "multigrid", 1 - (double)(s.n + s.n_left) / (double)rows->n);
+        status = iccp_progress(env, "solve", 1 - (double)(s.n + s.n_left) / (double)rows->n);
         if (status == ICC_OK)
             status = next_shell(&s);
     }

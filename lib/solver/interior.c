@@ -222,9 +222,10 @@ icc_status iccp_interior_run(iccp_interior *interior, double target, bool *stuck
     *stuck = false;
     while (mean > target && !*stuck) {
         const double remaining = interior->remaining;
-        icc_status status = iccp_progress(env, "interior point", fmin(1, target / mean));
+        const iccp_env part = iccp_round(env, interior->n_iterations, ICCP_INTERIOR_TYPICAL);
+        icc_status status = iccp_progress(&part, "solve", 0);
         if (status == ICC_OK)
-            status = iterate(interior, info, env);
+            status = iterate(interior, info, &part);
         if (status != ICC_OK && status != ICC_ERR_SOLVER)
             return status;
         const double last = mean;
@@ -337,19 +338,21 @@ icc_status iccp_interior_create(iccp_interior *interior, const iccp_program *pro
     *p = (iccp_interior){.memory = env->memory, .program = program, .softness = SOFTNESS, .remaining = 1};
     p->b.memory = p->gram.memory = p->factor.memory = env->memory;
     double clock = iccp_seconds();
+    iccp_env part[3];
+    iccp_split(part, 3, (const double[]){1, 1, 1}, env);
     icc_status status = allocate(p, env);
     if (status == ICC_OK)
         status = stack(p, env);
     if (status == ICC_OK)
-        status = iccp_gram_create(&p->gram, &p->b, env);
+        status = iccp_gram_create(&p->gram, &p->b, &part[0]);
     info->seconds_setup += iccp_seconds() - clock;
     clock = iccp_seconds();
     if (status == ICC_OK)
-        status = iccp_ldlt_analyse(&p->factor, &p->gram.matrix, 1, env);
+        status = iccp_ldlt_analyse(&p->factor, &p->gram.matrix, 1, &part[1]);
     info->seconds_order += iccp_seconds() - clock;
     info->work = fmax(info->work, p->factor.work);
     if (status == ICC_OK)
-        status = start(p, info, env);
+        status = start(p, info, &part[2]);
     if (status != ICC_OK)
         iccp_interior_free(p);
     return status;

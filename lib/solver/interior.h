@@ -30,6 +30,9 @@ icc_status iccp_interior_create(iccp_interior *interior, const iccp_program *pro
                                 icc_function_info *info, const iccp_env *env);
 void iccp_interior_free(iccp_interior *interior);
 
+/* Half of the iterations, as far as progress goes. */
+#define ICCP_INTERIOR_TYPICAL 15.0
+
 /* Iterates until the mean of slack * multiplier is below `target`. *stuck: rounding errors do not let it
  * get there; the iterate is then the last good one. Adds to `info` (work, seconds_*). */
 icc_status iccp_interior_run(iccp_interior *interior, double target, bool *stuck,

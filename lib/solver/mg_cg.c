@@ -7,6 +7,8 @@
  * the residual to double precision. A p is never stored. */
 #include "solver/mg_cg.h"
 
+#include "base/budget.h"
+
 #include <math.h>
 
 /* Iterations without a smaller residual after which it will not get smaller. */
@@ -88,13 +90,16 @@ static void measure(solver *s, const stretch *t)
 static icc_status report(const solver *s, size_t slab, const iccp_env *env)
 {
     const size_t slabs = ENTRIES_PER_REPORT / (s->level->n_entries / s->level->n_slabs + 1) + 1;
-    return slab % slabs == 0 ? iccp_progress(env, "multigrid", 0) : ICC_OK;
+    return slab % slabs == 0 ? iccp_progress(env, "solve", 0) : ICC_OK;
 }
+
+/* Of an iteration, with all levels. */
+static const double WORK_PER_ENTRY = 60;
 
 static icc_status pass_down(solver *s, const iccp_env *env)
 {
     const size_t n = s->level->n_slabs;
-    icc_status status = ICC_OK;
+    icc_status status = iccp_budget_work(env, WORK_PER_ENTRY * (double)s->level->n_entries);
     s->down = (iccp_mg_downward){{0}, {0}, {0}};
     for (int j = 0; j < ICCP_MG_LANES; ++j)
         s->down.excess[j] = -HUGE_VAL;

@@ -155,7 +155,7 @@ static icc_status for_rows(const coarsening *c, void (*act)(const coarsening *, 
     for (size_t r = 0; r < c->level->n_rows && status == ICC_OK; ++r) {
         act(c, r);
         if (r % rows_per_report == 0)
-            status = iccp_progress(env, "multigrid", 0);
+            status = iccp_progress(env, "solve", 0);
     }
     return status;
 }

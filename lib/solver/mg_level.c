@@ -150,7 +150,7 @@ static icc_status find_ranges(iccp_mg_level *level, const icc_grid *grid, size_t
         const size_t r = iccp_mg_row_of(level, grid, vertex[i], &x);
         iccp_mg_widen(level->range + 2 * r, x, x);
         if (i % ICCP_VERTICES_PER_REPORT == 0)
-            status = iccp_progress(env, "multigrid", 0);
+            status = iccp_progress(env, "solve", 0);
     }
     return status;
 }
@@ -164,7 +164,7 @@ static icc_status mark_inside(iccp_mg_level *level, const icc_grid *grid, size_t
         const size_t r = iccp_mg_row_of(level, grid, vertex[i], &x);
         level->inside[iccp_mg_position(level, r, x)] = 1;
         if (i % ICCP_VERTICES_PER_REPORT == 0)
-            status = iccp_progress(env, "multigrid", 0);
+            status = iccp_progress(env, "solve", 0);
     }
     return status;
 }

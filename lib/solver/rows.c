@@ -36,7 +36,7 @@ icc_status iccp_rows_create(iccp_rows *rows, const icc_tree *tree, const iccp_en
     }
     for (uint32_t k = 0; k < n && status == ICC_OK; ++k) {
         if (k % ICCP_VERTICES_PER_REPORT == 0)
-            status = iccp_progress(env, "rows", (double)k / (double)n);
+            status = iccp_progress(env, "solve", (double)k / (double)n);
         find_neighbours(rows, row_of, k);
     }
     iccp_free(&env->memory, row_of);

@@ -126,7 +126,7 @@ icc_status iccp_cage_cells_create(iccp_cage_cells *cage, const icc_domain *domai
     icc_status status = ICC_OK;
     for (size_t f = 0; status == ICC_OK && f < domain->n_facets; ++f) {
         if (f % FACETS_PER_REPORT == 0)
-            status = iccp_progress(env, "cage", (double)f / (double)domain->n_facets);
+            status = iccp_progress(env, "grid", (double)f / (double)domain->n_facets);
         mark_facet(cage, (uint32_t)f);
     }
     return status;

@@ -98,13 +98,12 @@ static void take(growth *g, uint32_t v)
  * that is taken, at most. */
 static icc_status take_all(growth *g)
 {
-    const char *stage = g->thinning ? "thin" : "grow";
     for (;;) {
         const uint32_t key = iccp_queue_pop(&g->queue);
         if (key == UINT32_MAX)
             return ICC_OK;
         if (g->n_tests++ % TESTS_PER_REPORT == 0 &&
-            iccp_progress(g->env, stage, (double)g->n_taken / (double)g->n) != ICC_OK)
+            iccp_progress(g->env, "tree", (double)g->n_taken / (double)g->n) != ICC_OK)
             return ICC_ERR_CANCELLED;
         const uint32_t v = g->wish[g->thinning ? (uint32_t)g->n - 1 - key : key];
         const iccp_link_set set = neighbours_in_set(g, v);

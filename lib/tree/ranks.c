@@ -57,7 +57,7 @@ icc_status iccp_tree_lower(const icc_tree *tree, const uint32_t *rank, double ga
     icc_status status = ICC_OK;
     for (size_t i = 0; i < tree->n_inside && status == ICC_OK; ++i) {
         if (i % ICCP_VERTICES_PER_REPORT == 0)
-            status = iccp_progress(env, "lower", (double)i / (double)tree->n_inside);
+            status = iccp_progress(env, "tree", (double)i / (double)tree->n_inside);
         lower(&star, rank, order[i], gap, values);
     }
     iccp_free(&env->memory, order);

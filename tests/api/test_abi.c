@@ -113,7 +113,7 @@ AT(icc_error, index, 16);
 AT(icc_error, item, 24);
 AT(icc_error, message, 28);
 
-SIZE(icc_env, 64);
+SIZE(icc_env, 72);
 AT(icc_env, size, 0);
 AT(icc_env, user, 8);
 AT(icc_env, alloc, 16);
@@ -122,6 +122,7 @@ AT(icc_env, log, 32);
 AT(icc_env, progress, 40);
 AT(icc_env, parallel_for, 48);
 AT(icc_env, threads, 56);
+AT(icc_env, load_limit, 64);
 
 SIZE(icc_domain_info, 136);
 AT(icc_domain_info, size, 0);

@@ -58,6 +58,7 @@ static int map_points(job *j, const table *points)
     double began = seconds_now();
     int result = job_start_carrier(j, &c);
     if (result == DONE) {
+        progress_expect(&j->bar, 1);
         icc_status ran = carrier_map(&c, points->n, points->values, images, status, NULL);
         double seconds = seconds_now() - began;
         progress_end(&j->bar);

@@ -62,6 +62,7 @@ static int warp_picture(warp *w)
     icc_error err = {.size = sizeof err, .index = -1};
     icc_picture from = pack(&w->from), to = pack(&w->to);
     double began = seconds_now();
+    progress_expect(&w->job.bar, 0.9);
     icc_status ran = icc_map_warp(w->job.map, &from, &to, &w->n_failed, &w->job.env, &err);
     double seconds = seconds_now() - began;
     progress_end(&w->job.bar);

@@ -13,6 +13,9 @@
 #include <string.h>
 #include <unistd.h>
 
+/* What making a chart or a map takes of the time that is left then. */
+static const double MADE = 0.8;
+
 void job_start(job *j, const args *a)
 {
     long processors = sysconf(_SC_NPROCESSORS_ONLN);
@@ -237,6 +240,7 @@ int job_make_chart(job *j)
     double began = seconds_now();
     icc_chart_options options = chart_options(j);
     icc_error err = {.size = sizeof err, .index = -1};
+    progress_expect(&j->bar, MADE);
     if (icc_chart_create(&j->chart, j->domains[0], &options, &j->env, &err) != ICC_OK)
         return job_failed(j, &err);
     j->seconds_made = seconds_now() - began;
@@ -255,6 +259,7 @@ int job_make_map(job *j)
     if (j->args->n_target_maximum > 0)
         options.target_maximum = j->args->target_maximum;
     icc_error err = {.size = sizeof err, .index = -1};
+    progress_expect(&j->bar, MADE);
     if (icc_map_create(&j->map, j->domains[0], j->domains[1], &options, &j->env, &err) != ICC_OK)
         return job_failed(j, &err);
     j->seconds_made = seconds_now() - began;

@@ -93,6 +93,7 @@ static int make_samples(kernel_job *k)
                                    .spacing = k->job.args->spacing,
                                    .seed = (uint64_t)a->seed};
     double began = seconds_now();
+    progress_expect(&k->job.bar, 0.3);
     if (status == ICC_OK)
         status = icc_sampling_create(&k->sampling, shape, &spread, &k->job.env, &err);
     k->seconds_samples = seconds_now() - began;
@@ -125,6 +126,7 @@ static int make_weights(kernel_job *k)
     }
     icc_error err = {.size = sizeof err, .index = -1};
     double began = seconds_now();
+    progress_expect(&k->job.bar, 0.8);
     icc_status status = icc_weights_create(&k->kernel, k->sampling, set->n_handles, set->handles,
                                           &how, &k->job.env, &err);
     k->seconds_weights = seconds_now() - began;

@@ -15,7 +15,7 @@ MAX_DIM = 6
 # Every struct begins with `size`. Each line: name, then member:type.
 STRUCTS = """
 error status:i32 side:i32 index:i64 item:i32 message:char[252]
-env user:ptr alloc:ptr dealloc:ptr log:ptr progress:ptr parallel_for:ptr threads:i32
+env user:ptr alloc:ptr dealloc:ptr log:ptr progress:ptr parallel_for:ptr threads:i32 load_limit:u64
 domain_info dim:i32 orientation:i32 n_vertices:size n_facets:size lower:f64[6] upper:f64[6] measure:f64
 chart_options method:i32 function:i32 tree:i32 cells:i32 maximum:ptr constraints:i32 solver:i32 min_fall:f64 leaf_min:f64
 chart_info dim:i32 method:i32 function:i32 tree:i32 certified:i32 cells:i32 maximum:f64[6] spacing:f64 n_grid:size n_inside:size n_tree:size n_unreachable:size n_cousin_violations:size n_maxima:size n_minima:size n_saddles:size n_edges:size n_compression:size n_expansion:size n_mesh_vertices:size n_mesh_boundary:size n_mesh_simplices:size n_ties:size harmonic_share:f64 seconds_grid:f64 seconds_tree:f64 seconds_function:f64 seconds_mesh:f64 seconds_solve:f64 seconds_certify:f64 n_stray:size n_infeasible:size n_contacts:size n_not_inward:size order_peeled:i32 n_orders:i32 order_beta:f64 n_reversed:size flux_energy:f64 flux_divergence:f64 moved:f64

@@ -17,7 +17,8 @@ if TYPE_CHECKING:
     from ._types import Array, ArrayLike, Floats, Indices
 
 Progress = Callable[[str, float], Any]
-"""Called with the name of a stage and the share done, in [0, 1]; to return true or to raise cancels the call.
+"""Called with the name of a stage and the share of the whole call that is done, which goes from 0 to 1 and never
+falls; to return true or to raise cancels the call. `icc/base.h` lists the stages.
 Every call that takes long takes one, and `threads`: how many it may use; None: one per processor."""
 
 _PROGRESS = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_char_p, ctypes.c_double)
@@ -52,10 +53,11 @@ class Call:
     ``check`` raises what went wrong, and what a progress callback raised in place of that.
     """
 
-    def __init__(self, progress: Optional[Progress] = None, threads: Optional[int] = None):
+    def __init__(self, progress: Optional[Progress] = None, threads: Optional[int] = None,
+                 limit: int = 0):
         self.error = new("error", index=-1)
         self.raised: Optional[BaseException] = None
-        self._env = new("env", threads=_threads(threads))
+        self._env = new("env", threads=_threads(threads), load_limit=limit)
         if _listener():
             self._env.log = ctypes.cast(_log, ctypes.c_void_p)
         if progress is not None:
@@ -216,6 +218,9 @@ class Handle:
         return info
 
 
+_NO_LIMIT = 2**64 - 1
+
+
 class Saved(Handle):
     """An object that can be written to bytes, and so be pickled and sent to other processes."""
 
@@ -230,18 +235,30 @@ class Saved(Handle):
         return data.tobytes()
 
     @classmethod
-    def from_bytes(cls: Type[_S], data: Any, *, progress: Optional[Progress] = None,
-                   threads: Optional[int] = None) -> _S:
+    def from_bytes(cls: Type[_S], data: Any, *, limit: Optional[int] = None,
+                   progress: Optional[Progress] = None, threads: Optional[int] = None) -> _S:
         """The object that `to_bytes` wrote: it answers as that does, bit for bit.
 
         Args:
             data: bytes, or what else has a buffer; any bytes are safe to try
+            limit: bytes of memory that it may take beyond 64 for each of `data`; None: 256,000,000.
+                Time is limited in proportion. Charts on fine grids are rebuilt, and may need more; the error
+                message then names this as `icc_env.load_limit`.
 
         Raises:
-            FormatError: for anything else; VersionError: for what a later version wrote
+            FormatError: for anything else, and where the limit is too low; VersionError: for what a later
+                version wrote
         """
+        if limit is not None and not 0 < limit <= _NO_LIMIT:
+            raise ValueError(f"limit is {limit}; it must lie in 1..2**64 - 1")
         function, read = getattr(lib, cls._name + "_load"), np.frombuffer(data, dtype=np.uint8)
-        return cls._wrap(create(function, len(read), address(read), progress=progress, threads=threads))
+        return cls._wrap(create(function, len(read), address(read), progress=progress, threads=threads,
+                                limit=limit or 0))
+
+    @classmethod
+    def _unpickle(cls: Type[_S], data: bytes) -> _S:
+        # Whoever unpickles trusts the bytes anyway.
+        return cls.from_bytes(data, limit=_NO_LIMIT)
 
     def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
         """Writes `to_bytes` to a file."""
@@ -257,7 +274,7 @@ class Saved(Handle):
             return cls.from_bytes(file.read(), progress=progress, threads=threads)
 
     def __reduce__(self) -> Any:
-        return type(self).from_bytes, (self.to_bytes(),)
+        return type(self)._unpickle, (self.to_bytes(),)
 
 
 def dimension(function: str, struct: str) -> property:
@@ -272,9 +289,9 @@ def dimension(function: str, struct: str) -> property:
 
 
 def create(function: Any, *arguments: Any, progress: Optional[Progress] = None,
-           threads: Optional[int] = None) -> int:
+           threads: Optional[int] = None, limit: int = 0) -> int:
     """Calls a creator: handle first, `env` and `err` last; returns the handle."""
-    call, out = Call(progress, threads), ctypes.c_void_p()
+    call, out = Call(progress, threads, limit), ctypes.c_void_p()
     call.check(function(ctypes.addressof(out), *arguments, call.env, call.err))
     assert out.value is not None
     return out.value

@@ -128,3 +128,16 @@ def test_copies(before, after):
 def test_what_cannot_be_pickled(before):
     with pytest.raises(TypeError, match="Domain cannot be pickled"):
         pickle.dumps(libicc.Domain(before))
+
+
+def test_what_loading_may_cost(before):
+    chart = libicc.Chart(before, "gradient", cells=200)
+    data = chart.to_bytes()
+    with pytest.raises(libicc.FormatError, match="icc_env.load_limit"):
+        libicc.Chart.from_bytes(data, limit=1_000_000)
+    assert libicc.Chart.from_bytes(data, limit=100_000_000).to_bytes() == data
+    assert libicc.Chart.from_bytes(data).to_bytes() == data
+    assert pickle.loads(pickle.dumps(chart)).to_bytes() == data
+    for limit in (0, -1, 2**64):
+        with pytest.raises(ValueError, match="limit"):
+            libicc.Chart.from_bytes(data, limit=limit)

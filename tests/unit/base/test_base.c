@@ -275,6 +275,53 @@ START_TEST(environments_are_completed)
 }
 END_TEST
 
+static int32_t keep_share(void *user, const char *stage, double share)
+{
+    iccp_reported *last = user;
+    ck_assert_double_ge(share, last->share);
+    *last = (iccp_reported){stage, share};
+    return 0;
+}
+
+START_TEST(parts_report_for_the_whole_call)
+{
+    iccp_env env, part[3];
+    iccp_reported last = {0};
+    const icc_env given = {.size = sizeof given, .user = &last, .progress = keep_share};
+    ck_assert_int_eq(iccp_env_read(&env, &given, NULL), ICC_OK);
+    /* A call that reports nothing ends without a report. */
+    ck_assert_int_eq(iccp_finish(&env, ICC_OK), ICC_OK);
+    ck_assert_ptr_null(last.stage);
+
+    iccp_split(part, 3, (const double[]){1, 2, 1}, &env);
+    ck_assert_int_eq(iccp_progress(&part[0], "mesh", 0.5), ICC_OK);
+    ck_assert_double_eq_tol(last.share, 0.125, 1e-15);
+    const iccp_env second = iccp_part(&part[1], "improve", 0.5, 1);
+    ck_assert_int_eq(iccp_progress(&second, "solve", 0), ICC_OK);
+    ck_assert_str_eq(last.stage, "improve");
+    ck_assert_double_eq_tol(last.share, 0.5, 1e-15);
+    /* A part of a part keeps the outer name, and shares that fall are held back. */
+    const iccp_env inner = iccp_part(&second, "repair", 0, 0.1);
+    ck_assert_int_eq(iccp_progress(&inner, "solve", 1), ICC_OK);
+    ck_assert_str_eq(last.stage, "improve");
+    const double before = last.share;
+    ck_assert_int_eq(iccp_progress(&part[0], "mesh", 1), ICC_OK);
+    ck_assert_str_eq(last.stage, "mesh");
+    ck_assert_double_eq(last.share, before);
+    /* Rounds without end stay below the end of their part. */
+    for (size_t k = 0; k < 1000; ++k) {
+        const iccp_env round = iccp_round(&part[2], k, 3);
+        ck_assert_int_eq(iccp_progress(&round, "solve", 1), ICC_OK);
+        ck_assert_double_lt(last.share, 1);
+        ck_assert(k != 2 || fabs(last.share - 0.875) < 1e-15);
+    }
+    ck_assert_int_eq(iccp_finish(&env, ICC_ERR_SOLVER), ICC_ERR_SOLVER);
+    ck_assert_double_lt(last.share, 1);
+    ck_assert_int_eq(iccp_finish(&env, ICC_OK), ICC_OK);
+    ck_assert_double_eq(last.share, 1);
+}
+END_TEST
+
 START_TEST(environments_that_make_no_sense)
 {
     iccp_env env;
@@ -547,6 +594,7 @@ int main(void)
     tcase_add_test(tests, sizes_that_overflow_are_refused);
     tcase_add_test(tests, memory_comes_from_the_caller);
     tcase_add_test(tests, environments_are_completed);
+    tcase_add_test(tests, parts_report_for_the_whole_call);
     tcase_add_test(tests, environments_that_make_no_sense);
     tcase_add_test(tests, loops_do_everything_once);
     tcase_add_test(tests, the_first_failure_wins);

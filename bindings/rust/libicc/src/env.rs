@@ -33,6 +33,7 @@ type Log<'a> = dyn Fn(&str) + Sync + 'a;
 #[derive(Default)]
 pub struct Env<'a> {
     threads: i32,
+    load_limit: u64,
     progress: Option<Box<Progress<'a>>>,
     log: Option<Box<Log<'a>>>,
 }
@@ -56,8 +57,17 @@ impl<'a> Env<'a> {
         self.threads(threads)
     }
 
+    /// How many bytes loading an object may take beyond 64 for each byte that it is read from; 0 means
+    /// 256,000,000. Time is limited in proportion. Charts on fine grids are rebuilt and may need more;
+    /// `u64::MAX` is for bytes that are trusted.
+    pub fn load_limit(mut self, bytes: u64) -> Self {
+        self.load_limit = bytes;
+        self
+    }
+
     /// Called on the calling thread now and then during long work, with the name of the stage and the share
-    /// done, in \[0,1\]. [`ControlFlow::Break`] cancels the call, which then fails with
+    /// of the whole call that is done, which goes from 0 to 1 and never falls. [`ControlFlow::Break`] cancels
+    /// the call, which then fails with
     /// [`Status::CANCELLED`](crate::Status::CANCELLED) as soon as it can. A panic cancels it, too, and goes on
     /// when the library has cleaned up.
     pub fn progress(mut self, callback: impl FnMut(&str, f64) -> ControlFlow<()> + 'a) -> Self {
@@ -77,7 +87,11 @@ impl<'a> Env<'a> {
         function: impl FnOnce(*const sys::icc_env, *mut sys::icc_error) -> sys::icc_status,
     ) -> Result<()> {
         let mut error = sys::icc_error { index: -1, ..Default::default() };
-        let mut raw = sys::icc_env { threads: self.threads, ..Default::default() };
+        let mut raw = sys::icc_env {
+            threads: self.threads,
+            load_limit: self.load_limit,
+            ..Default::default()
+        };
         if self.progress.is_none() && self.log.is_none() {
             return finish(function(&raw, &mut error), &error);
         }
