@@ -134,8 +134,8 @@ static void measure_leaf(const foliation_state *state, const iccp_leaf *leaf,
 static bool at_maximum(const icc_chart *chart, const double p[2])
 {
     const double *m = centre_of(chart->state);
-    return fabs(p[0] - m[0]) <= chart->domain->tolerance &&
-           fabs(p[1] - m[1]) <= chart->domain->tolerance;
+    return fabs(p[0] - m[0]) <= chart->domain->band.tolerance &&
+           fabs(p[1] - m[1]) <= chart->domain->band.tolerance;
 }
 
 static void fill_encode_jet(const icc_chart *chart, uint32_t triangle, const double bary[3],

@@ -110,7 +110,7 @@ static void place_maximum(iccp_gradient_state *state, icc_chart *chart)
     double local[ICC_MAX_DIM];
     for (int32_t k = 0; k < grid->dim; ++k)
         state->root[k] = iccp_grid_coordinate(grid, state->tree->root, k);
-    state->root_reach = chart->domain->tolerance / grid->spacing;
+    state->root_reach = chart->domain->band.tolerance / grid->spacing;
     iccp_gradient_to_local(state, state->root, local);
     iccp_frame_out(&chart->domain->frame, grid->dim, local, chart->info.maximum);
     chart->info.spacing = grid->spacing * chart->domain->frame.out[0] * chart->domain->frame.out[1];

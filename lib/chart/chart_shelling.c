@@ -194,7 +194,7 @@ static icc_status make_fibres(iccp_shelling_state *state, const icc_domain *doma
     }
     const double start = iccp_seconds();
     if (status == ICC_OK)
-        status = iccp_fibres_create(&state->fibres, mesh, centre, w.flux, domain->tolerance, env);
+        status = iccp_fibres_create(&state->fibres, mesh, centre, w.flux, domain->band.reach, env);
     info->seconds_mesh = iccp_seconds() - start;
     work_free(&w, &env->memory);
     return status;

@@ -7,8 +7,8 @@
 #include <math.h>
 #include <string.h>
 
-/* In units of the largest coordinate. Domains count points up to 1e-14 outside as boundary, and crossings
- * of rows are off by a few units in the last place, 1e-16. */
+/* In units of the largest coordinate. Domains count points up to 1e-14 outside as boundary, which is far more than
+ * rounding of the coordinates, and crossings of rows are off by a few units in the last place, 1e-16. */
 static const double CLOSE = 1e-13;
 
 /* ---- listing ---- */
