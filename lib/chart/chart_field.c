@@ -122,11 +122,14 @@ static icc_status make_field(iccp_field_state *state, icc_chart *chart,
     return status;
 }
 
-static icc_status make_vectors(iccp_field_state *state, icc_chart *chart, const iccp_env *env)
+static icc_status make_vectors(iccp_field_state *state, icc_chart *chart, const iccp_env *env,
+                               icc_error *err)
 {
     const double start = iccp_seconds();
     iccp_smooth smooth = {.memory = env->memory};
     icc_status status = iccp_cover_create(&state->cover, chart->domain, state->tree->grid, env);
+    if (status == ICC_ERR_RESOLUTION)
+        (void)iccp_fail(err, status, -1, "the facets meet too many cells of the grid: use fewer");
     if (status == ICC_OK)
         status = iccp_smooth_create(&smooth, state->field, &state->cover, SWEEPS, env);
     if (status == ICC_OK)
@@ -239,7 +242,7 @@ icc_status iccp_chart_field_create(icc_chart **out, const icc_domain *domain,
     if (status == ICC_OK)
         status = make_field(state, chart, options, env, err);
     if (status == ICC_OK)
-        status = make_vectors(state, chart, env);
+        status = make_vectors(state, chart, env, err);
     if (status == ICC_OK) {
         finish(state, chart);
         iccp_recipe_keep(&state->recipe, options, maximum, domain->dim);

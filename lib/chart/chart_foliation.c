@@ -391,6 +391,8 @@ static icc_status make_psi(foliation_state *state, const iccp_harmonic *base, ui
         icc_status status = iccp_psi_create(&state->psi, &base->mesh, &base->laplacian,
                                             &base->solver, centre, HARMONIC_SHARES[k], env);
         const double solved = iccp_seconds();
+        if (status != ICC_OK)
+            (void)iccp_fail(err, status, -1, "the foliation's equations cannot be factorised");
         if (status == ICC_OK)
             status = iccp_certify_psi(&base->mesh, &state->psi, &certificate, &env->memory);
         if (status != ICC_OK)
