@@ -12,7 +12,7 @@ static bool are_finite(size_t n, const double *values)
     return true;
 }
 
-icc_status icc_binding_create(icc_binding **out, const icc_kernel *kernel, size_t n,
+icc_status icc_binding_create(icc_binding **out, const icc_weights *kernel, size_t n,
                               const double *points, int32_t derivatives, const icc_env *env,
                               icc_error *err)
 {
@@ -52,7 +52,7 @@ icc_status icc_binding_get_counts(const icc_binding *binding, size_t *n_points, 
     return ICC_OK;
 }
 
-icc_status icc_binding_get(const icc_binding *binding, double *handles, double *weights)
+icc_status icc_binding_get_weights(const icc_binding *binding, double *handles, double *weights)
 {
     if (binding == NULL)
         return ICC_ERR_ARGUMENT;

@@ -44,7 +44,7 @@ const icc_domain *icc_chart_domain(const icc_chart *chart)
     return chart != NULL ? chart->domain : NULL;
 }
 
-const icc_field *icc_chart_field(const icc_chart *chart)
+const icc_function *icc_chart_function(const icc_chart *chart)
 {
     if (chart != NULL && chart->info.method == ICC_METHOD_FIELD)
         return iccp_chart_field_function(chart);
@@ -54,22 +54,22 @@ const icc_field *icc_chart_field(const icc_chart *chart)
     return state->field;
 }
 
-icc_status icc_chart_measure(const icc_chart *chart, size_t n_points, icc_chart_measures *measures,
+icc_status icc_chart_get_report(const icc_chart *chart, size_t n_points, icc_chart_report *measures,
                              const icc_env *env, icc_error *err)
 {
     if (chart == NULL || measures == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_chart_measure: %s is NULL",
+        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_chart_get_report: %s is NULL",
                          chart == NULL ? "chart" : "measures");
     if (n_points > UINT32_MAX)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_chart_measure: %zu points are too many",
+        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_chart_get_report: %zu points are too many",
                          n_points);
     iccp_env full_env;
-    icc_chart_measures full = {0};
+    icc_chart_report full = {0};
     icc_status status = iccp_env_read(&full_env, env, err);
     if (status == ICC_OK && chart->ops->measure != NULL)
         status = chart->ops->measure(chart, n_points > 0 ? n_points : 4096, &full, &full_env);
     return status == ICC_OK
-               ? iccp_write_struct(measures, &full, sizeof full, "icc_chart_measures", err)
+               ? iccp_write_struct(measures, &full, sizeof full, "icc_chart_report", err)
                : iccp_explain(err, status);
 }
 

@@ -152,19 +152,19 @@ icc_status icc_map_improve(icc_map **out, const icc_map *map, const icc_improve_
     return status;
 }
 
-icc_status icc_map_follow(icc_map **out, const icc_map *map, const icc_domain *target,
+icc_status icc_map_retarget(icc_map **out, const icc_map *map, const icc_domain *target,
                           int32_t iterations, const icc_env *env, icc_error *err)
 {
     if (out != NULL)
         *out = NULL;
     if (out == NULL || map == NULL || target == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_map_follow: an argument is NULL");
+        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_map_retarget: an argument is NULL");
     if (iterations < -1)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_map_follow: iterations is %ld",
+        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_map_retarget: iterations is %ld",
                          (long)iterations);
     iccp_env full_env;
     const icc_status status = iccp_env_read(&full_env, env, err);
-    return status == ICC_OK ? iccp_map_follow(out, map, target, iterations, &full_env, err)
+    return status == ICC_OK ? iccp_map_retarget(out, map, target, iterations, &full_env, err)
                             : status;
 }
 
@@ -179,7 +179,7 @@ static void hand_out_solid(const icc_map *map, double *vertices, double *images,
         memcpy(corners, mesh->corners, 4 * mesh->n_simplices * sizeof *corners);
 }
 
-icc_status icc_map_mesh(const icc_map *map, double *vertices, double *images, uint32_t *triangles)
+icc_status icc_map_get_mesh(const icc_map *map, double *vertices, double *images, uint32_t *triangles)
 {
     if (map == NULL)
         return ICC_ERR_ARGUMENT;

@@ -126,7 +126,7 @@ const uint8_t *icc_grid_inside(const icc_grid *grid)
     return grid != NULL ? grid->inside : NULL;
 }
 
-icc_status icc_grid_maximum(const icc_grid *grid, uint32_t *vertex, uint32_t *rounds,
+icc_status icc_grid_find_maximum(const icc_grid *grid, uint32_t *vertex, uint32_t *rounds,
                             const icc_env *env, icc_error *err)
 {
     iccp_env full_env;
@@ -137,7 +137,7 @@ icc_status icc_grid_maximum(const icc_grid *grid, uint32_t *vertex, uint32_t *ro
     return iccp_explain(err, iccp_grassfire(grid, vertex, rounds, &full_env, err));
 }
 
-icc_status icc_grid_nearest(const icc_grid *grid, const double *point, uint32_t *vertex)
+icc_status icc_grid_find_nearest(const icc_grid *grid, const double *point, uint32_t *vertex)
 {
     if (grid == NULL || point == NULL || vertex == NULL)
         return ICC_ERR_ARGUMENT;
@@ -179,8 +179,6 @@ static icc_status read_tree_options(icc_tree_options *full, const icc_tree_optio
     if (full->form != ICC_TREE_THESIS && full->form != ICC_TREE_PAPER)
         return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_tree_options.form is %ld",
                          (long)full->form);
-    if (full->reserved != 0)
-        return iccp_fail(err, ICC_ERR_VERSION, -1, "icc_tree_options.reserved is not 0");
     return check_axis_order(full->axis_order, dim, err);
 }
 
@@ -230,7 +228,7 @@ const int32_t *icc_tree_generations(const icc_tree *tree)
     return tree != NULL ? tree->generation : NULL;
 }
 
-icc_status icc_tree_verify(const icc_tree *tree, icc_tree_report *report, const icc_env *env,
+icc_status icc_tree_get_report(const icc_tree *tree, icc_tree_report *report, const icc_env *env,
                            icc_error *err)
 {
     iccp_env full_env;
@@ -273,8 +271,8 @@ icc_status icc_tree_grow(const icc_tree *tree, const double *values, uint32_t *r
     return written != ICC_OK ? written : status;
 }
 
-icc_status icc_tree_verify_ranks(const icc_tree *tree, const uint32_t *rank,
-                                 icc_field_report *report, const icc_env *env, icc_error *err)
+icc_status icc_tree_get_rank_report(const icc_tree *tree, const uint32_t *rank,
+                                 icc_function_report *report, const icc_env *env, icc_error *err)
 {
     iccp_env full_env;
     const char *missing = tree == NULL     ? "tree"
@@ -284,16 +282,16 @@ icc_status icc_tree_verify_ranks(const icc_tree *tree, const uint32_t *rank,
     icc_status status = begin(&full_env, env, missing, err);
     if (status != ICC_OK)
         return status;
-    icc_field_report full;
+    icc_function_report full;
     status = iccp_explain(err, iccp_tree_verify_ranks(tree, rank, &full, &full_env));
     if (status != ICC_OK)
         return status;
-    return iccp_write_struct(report, &full, sizeof full, "icc_field_report", err);
+    return iccp_write_struct(report, &full, sizeof full, "icc_function_report", err);
 }
 
-/* ------------------------------------------------------------------- field */
+/* ------------------------------------------------------------------- function */
 
-icc_status icc_field_create(icc_field **out, const icc_tree *tree, const icc_field_options *options,
+icc_status icc_function_create(icc_function **out, const icc_tree *tree, const icc_function_options *options,
                             const icc_env *env, icc_error *err)
 {
     if (out != NULL)
@@ -303,68 +301,66 @@ icc_status icc_field_create(icc_field **out, const icc_tree *tree, const icc_fie
     icc_status status = begin(&full_env, env, missing, err);
     if (status != ICC_OK)
         return status;
-    icc_field_options full;
-    status = iccp_read_struct(&full, sizeof full, options, "icc_field_options", err);
+    icc_function_options full;
+    status = iccp_read_struct(&full, sizeof full, options, "icc_function_options", err);
     if (status != ICC_OK)
         return status;
-    if (full.reserved != 0)
-        return iccp_fail(err, ICC_ERR_VERSION, -1, "icc_field_options.reserved is not 0");
-    status = iccp_check_function(&full, "icc_field_options", err);
-    return status == ICC_OK ? iccp_field_create(out, tree, &full, &full_env, err) : status;
+    status = iccp_check_function(&full, "icc_function_options", err);
+    return status == ICC_OK ? iccp_function_create(out, tree, &full, &full_env, err) : status;
 }
 
-void icc_field_free(icc_field *field)
+void icc_function_free(icc_function *function)
 {
-    iccp_field_release(field);
+    iccp_function_release(function);
 }
 
-const double *icc_field_values(const icc_field *field)
+const double *icc_function_values(const icc_function *function)
 {
-    if (field == NULL)
+    if (function == NULL)
         return NULL;
-    return field->plain != NULL ? field->plain : field->values;
+    return function->plain != NULL ? function->plain : function->values;
 }
 
-const double *icc_field_logs(const icc_field *field)
+const double *icc_function_logs(const icc_function *function)
 {
-    return field != NULL ? field->logs : NULL;
+    return function != NULL ? function->logs : NULL;
 }
 
-icc_status icc_field_get_info(const icc_field *field, icc_field_info *info)
+icc_status icc_function_get_info(const icc_function *function, icc_function_info *info)
 {
-    if (field == NULL || info == NULL)
+    if (function == NULL || info == NULL)
         return ICC_ERR_ARGUMENT;
-    return iccp_write_struct(info, &field->info, sizeof field->info, "icc_field_info", NULL);
+    return iccp_write_struct(info, &function->info, sizeof function->info, "icc_function_info", NULL);
 }
 
-const icc_tree *icc_field_tree(const icc_field *field)
+const icc_tree *icc_function_tree(const icc_function *function)
 {
-    return field != NULL ? field->tree : NULL;
+    return function != NULL ? function->tree : NULL;
 }
 
-icc_status icc_field_verify(const icc_field *field, icc_field_report *report, const icc_env *env,
+icc_status icc_function_get_report(const icc_function *function, icc_function_report *report, const icc_env *env,
                             icc_error *err)
 {
     iccp_env full_env;
-    const char *missing = field == NULL ? "field" : report == NULL ? "report" : NULL;
+    const char *missing = function == NULL ? "function" : report == NULL ? "report" : NULL;
     icc_status status = begin(&full_env, env, missing, err);
     if (status != ICC_OK)
         return status;
-    icc_field_report full;
-    status = iccp_explain(err, iccp_field_verify(field, &full, &full_env));
+    icc_function_report full;
+    status = iccp_explain(err, iccp_function_verify(function, &full, &full_env));
     if (status != ICC_OK)
         return status;
-    return iccp_write_struct(report, &full, sizeof full, "icc_field_report", err);
+    return iccp_write_struct(report, &full, sizeof full, "icc_function_report", err);
 }
 
-icc_status icc_field_edges(const icc_field *field, size_t capacity, uint32_t *edges, int32_t *kinds,
+icc_status icc_function_get_edges(const icc_function *function, size_t capacity, uint32_t *edges, int32_t *kinds,
                            size_t *n_edges, size_t *n_tested)
 {
-    if (field == NULL || n_edges == NULL || (capacity > 0 && (edges == NULL || kinds == NULL)))
+    if (function == NULL || n_edges == NULL || (capacity > 0 && (edges == NULL || kinds == NULL)))
         return ICC_ERR_ARGUMENT;
-    if (field->tree->grid->dim != 2)
+    if (function->tree->grid->dim != 2)
         return ICC_ERR_UNSUPPORTED;
-    const iccp_edge_count count = iccp_field_edges(field, capacity, edges, kinds);
+    const iccp_edge_count count = iccp_function_edges(function, capacity, edges, kinds);
     *n_edges = count.n_compression + count.n_expansion;
     if (n_tested != NULL)
         *n_tested = count.n_tested;

@@ -21,11 +21,11 @@ static icc_status read_picture(icc_picture *full, const icc_picture *given, cons
         return iccp_fail(err, ICC_ERR_ARGUMENT, -1,
                          "a sample of the %s picture has %ld bytes; it must have 1 or 2", name,
                          (long)full->bytes);
-    if (full->alpha < 0 || full->alpha > 1 || full->alpha >= full->channels || full->reserved != 0)
+    if (full->alpha < 0 || full->alpha > 1 || full->alpha >= full->channels)
         return iccp_fail(err, ICC_ERR_ARGUMENT, -1,
-                         "icc_picture: alpha is %ld with %ld channels, reserved %ld; alpha must be "
-                         "0, or 1 with at least two channels, reserved 0",
-                         (long)full->alpha, (long)full->channels, (long)full->reserved);
+                         "icc_picture: alpha is %ld with %ld channels; it must be 0, or 1 with at "
+                         "least two channels",
+                         (long)full->alpha, (long)full->channels);
     const size_t pixel = (size_t)(full->channels * full->bytes);
     if (full->pixels == NULL || full->stride / pixel < (size_t)full->width ||
         full->stride > PTRDIFF_MAX / (size_t)full->height)

@@ -31,7 +31,7 @@ static icc_status check_share(double value, const char *name, const char *member
                      member, value, ICCP_MAX_SHARE);
 }
 
-icc_status iccp_check_function(const icc_field_options *options, const char *name, icc_error *err)
+icc_status iccp_check_function(const icc_function_options *options, const char *name, icc_error *err)
 {
     icc_status status =
         check_choice(options->function, ICC_FUNCTION_CLAMPED, name, "function", err);
@@ -40,8 +40,8 @@ icc_status iccp_check_function(const icc_field_options *options, const char *nam
     if (status == ICC_OK)
         status = check_choice(options->solver, ICC_SOLVER_ITERATIVE, name, "solver", err);
     if (status == ICC_OK)
-        status = check_share(options->eta, name, "eta", err);
-    return status == ICC_OK ? check_share(options->leaf, name, "leaf", err) : status;
+        status = check_share(options->min_fall, name, "eta", err);
+    return status == ICC_OK ? check_share(options->leaf_min, name, "leaf", err) : status;
 }
 
 icc_status iccp_read_chart_options(icc_chart_options *full, const icc_chart_options *options,
@@ -51,11 +51,11 @@ icc_status iccp_read_chart_options(icc_chart_options *full, const icc_chart_opti
         iccp_read_struct(full, sizeof *full, options, "icc_chart_options", err);
     if (status != ICC_OK)
         return status;
-    const icc_field_options function = {.function = full->function,
+    const icc_function_options function = {.function = full->function,
                                         .constraints = full->constraints,
                                         .solver = full->solver,
-                                        .eta = full->eta,
-                                        .leaf = full->leaf};
+                                        .min_fall = full->min_fall,
+                                        .leaf_min = full->leaf_min};
     if (iccp_check_function(&function, "icc_chart_options", err) != ICC_OK)
         return ICC_ERR_ARGUMENT;
     if (full->tree < 0 || full->tree > ICC_TREE_PAPER)

@@ -74,15 +74,15 @@ static icc_status make_field(iccp_gradient_state *state, icc_chart *chart,
                              icc_error *err)
 {
     const double start = iccp_seconds();
-    icc_field_report report = {0};
-    const icc_field_options function = {.function = options->function,
+    icc_function_report report = {0};
+    const icc_function_options function = {.function = options->function,
                                         .constraints = options->constraints,
                                         .solver = options->solver,
-                                        .eta = options->eta,
-                                        .leaf = options->leaf};
-    icc_status status = iccp_field_create(&state->field, state->tree, &function, env, err);
+                                        .min_fall = options->min_fall,
+                                        .leaf_min = options->leaf_min};
+    icc_status status = iccp_function_create(&state->field, state->tree, &function, env, err);
     if (status == ICC_OK)
-        status = iccp_field_verify(state->field, &report, env);
+        status = iccp_function_verify(state->field, &report, env);
     if (status != ICC_OK)
         return status;
     chart->info.n_maxima = report.n_maxima;
@@ -92,7 +92,7 @@ static icc_status make_field(iccp_gradient_state *state, icc_chart *chart,
         iccp_field_count_edges(state->field, &chart->info.n_edges, &chart->info.n_compression,
                                &chart->info.n_expansion);
     status = iccp_gradient_extend(state->field, env);
-    chart->info.seconds_field = iccp_seconds() - start;
+    chart->info.seconds_function = iccp_seconds() - start;
     return status;
 }
 
@@ -250,7 +250,7 @@ static void free_state(icc_chart *chart)
         iccp_fence_free(&state->fence);
     else
         iccp_cage_cells_free(&state->cage);
-    iccp_field_release(state->field);
+    iccp_function_release(state->field);
     iccp_tree_release(state->tree);
     iccp_free(&chart->memory, state);
 }

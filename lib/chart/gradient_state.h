@@ -9,7 +9,7 @@
 typedef struct iccp_gradient_state {
     iccp_recipe recipe;
     icc_tree *tree;
-    icc_field *field;
+    icc_function *field;
     iccp_fence fence;         /* the boundary as walks meet it: in the plane */
     iccp_cage_cells cage;     /* and elsewhere */
     double root[ICC_MAX_DIM]; /* the maximum in lattice coordinates */

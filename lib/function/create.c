@@ -4,37 +4,37 @@
 #include "function/distance.h"
 #include "function/laplace.h"
 
-static icc_field_options complete(const icc_field_options *options)
+static icc_function_options complete(const icc_function_options *options)
 {
-    icc_field_options full = *options;
+    icc_function_options full = *options;
     if (full.function == 0)
         full.function = ICC_FUNCTION_DECAY;
     if (full.constraints == 0)
         full.constraints = ICC_CONSTRAINTS_NEEDED;
-    if (!(full.eta > 0))
-        full.eta = 1e-6; /* gradients keep 10 digits; 1e-12 to 1e-3 give the same active set */
-    if (!(full.leaf > 0))
-        full.leaf = 1e-9;
+    if (!(full.min_fall > 0))
+        full.min_fall = 1e-6; /* gradients keep 10 digits; 1e-12 to 1e-3 give the same active set */
+    if (!(full.leaf_min > 0))
+        full.leaf_min = 1e-9;
     return full;
 }
 
-icc_status iccp_field_create(icc_field **out, const icc_tree *tree,
-                             const icc_field_options *options, const iccp_env *env, icc_error *err)
+icc_status iccp_function_create(icc_function **out, const icc_tree *tree,
+                             const icc_function_options *options, const iccp_env *env, icc_error *err)
 {
-    icc_field *field;
+    icc_function *function;
     *out = NULL;
-    icc_status status = iccp_field_new(&field, tree, env);
+    icc_status status = iccp_function_new(&function, tree, env);
     if (status != ICC_OK)
         return iccp_explain(err, status);
-    const icc_field_options full = complete(options);
-    field->info.function = full.function;
+    const icc_function_options full = complete(options);
+    function->info.function = full.function;
     if (full.function == ICC_FUNCTION_DECAY || full.function == ICC_FUNCTION_DISTANCE)
-        status = iccp_distance(field, full.function, env);
+        status = iccp_distance(function, full.function, env);
     else
-        status = iccp_laplace(field, &full, env, err);
+        status = iccp_laplace(function, &full, env, err);
     if (status == ICC_OK)
-        *out = field;
+        *out = function;
     else
-        iccp_field_release(field);
+        iccp_function_release(function);
     return iccp_explain(err, status);
 }

@@ -2,10 +2,10 @@
 #ifndef ICCP_FIELD_CREATE_H
 #define ICCP_FIELD_CREATE_H
 
-#include "function/field.h"
+#include "function/function.h"
 
-/* See icc_field_create(); the options are checked; zeros are completed here. */
-icc_status iccp_field_create(icc_field **out, const icc_tree *tree,
-                             const icc_field_options *options, const iccp_env *env, icc_error *err);
+/* See icc_function_create(); the options are checked; zeros are completed here. */
+icc_status iccp_function_create(icc_function **out, const icc_tree *tree,
+                             const icc_function_options *options, const iccp_env *env, icc_error *err);
 
 #endif

@@ -6,13 +6,13 @@
 
 static bool is_ranked(const void *context, uint32_t v)
 {
-    const icc_field *field = context;
-    return field->tree->grid->inside[v] && !isnan(field->values[v]);
+    const icc_function *function = context;
+    return function->tree->grid->inside[v] && !isnan(function->values[v]);
 }
 
 static bool is_higher(const void *context, uint32_t u, uint32_t v)
 {
-    const int order = iccp_field_compare(context, u, v);
+    const int order = iccp_function_compare(context, u, v);
     return order > 0 || (order == 0 && u > v);
 }
 
@@ -21,9 +21,9 @@ static icc_status judge_chunk(void *argument, size_t begin, size_t end)
     return iccp_critical_chunk(argument, begin, end, is_ranked, is_higher);
 }
 
-icc_status iccp_field_verify(const icc_field *field, icc_field_report *report, const iccp_env *env)
+icc_status iccp_function_verify(const icc_function *function, icc_function_report *report, const iccp_env *env)
 {
-    const icc_tree *tree = field->tree;
-    return iccp_critical_count(tree->grid, field, tree->n_inside, tree->root, judge_chunk, report,
+    const icc_tree *tree = function->tree;
+    return iccp_critical_count(tree->grid, function, tree->n_inside, tree->root, judge_chunk, report,
                                env);
 }

@@ -238,7 +238,7 @@ static icc_status find_edges(void *argument, size_t begin, size_t end)
 /* ---- the object ---- */
 
 /* Room for all nodes that there can be. */
-static icc_status make_room(iccp_layout *l, size_t n_handles, const icc_kernel_options *options,
+static icc_status make_room(iccp_layout *l, size_t n_handles, const icc_weights_options *options,
                             icc_error *err)
 {
     double most = (double)n_handles + (double)l->sampling->info.n_samples;
@@ -265,7 +265,7 @@ static icc_status make_room(iccp_layout *l, size_t n_handles, const icc_kernel_o
 }
 
 static icc_status place_all(iccp_layout *l, size_t n_handles, const double *handles,
-                            const icc_kernel_options *options, const iccp_env *env, icc_error *err)
+                            const icc_weights_options *options, const iccp_env *env, icc_error *err)
 {
     icc_status status = place_handles(l, n_handles, handles, err);
     for (size_t k = 0; status == ICC_OK && k < options->n_lines; ++k)
@@ -276,7 +276,7 @@ static icc_status place_all(iccp_layout *l, size_t n_handles, const double *hand
     return status == ICC_OK ? place_samples(l, env) : status;
 }
 
-static icc_status connect(iccp_layout *l, const icc_kernel_options *options, const iccp_env *env)
+static icc_status connect(iccp_layout *l, const icc_weights_options *options, const iccp_env *env)
 {
     l->n_edges = options->n_edges;
     if (l->n_edges > 0)
@@ -289,7 +289,7 @@ static icc_status connect(iccp_layout *l, const icc_kernel_options *options, con
 }
 
 static icc_status create(iccp_layout *l, size_t n_handles, const double *handles,
-                         const icc_kernel_options *options, const iccp_env *env, icc_error *err)
+                         const icc_weights_options *options, const iccp_env *env, icc_error *err)
 {
     if (!(options->sigma > LEAST_SIGMA * l->sampling->info.spacing))
         return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "sigma is %g where samples are %g apart",
@@ -305,12 +305,12 @@ static icc_status create(iccp_layout *l, size_t n_handles, const double *handles
         iccp_radial_make(options->kernel, options->sigma * iccp_layout_scale(l), options->cutoff);
     if (status == ICC_OK)
         status = iccp_collocation_create(&l->collocation, l->dim, l->n, l->points, &radial,
-                                         options->tail >= 0, env, err);
+                                         options->affine_tail >= 0, env, err);
     return status;
 }
 
 icc_status iccp_layout_create(iccp_layout **out, const icc_sampling *sampling, size_t n_handles,
-                              const double *handles, const icc_kernel_options *options,
+                              const double *handles, const icc_weights_options *options,
                               const iccp_env *env, icc_error *err)
 {
     iccp_layout *l = iccp_alloc_zero(&env->memory, 1, sizeof *l);

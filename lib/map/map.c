@@ -233,7 +233,7 @@ icc_status iccp_map_improve(icc_map **out, const icc_map *map, const icc_improve
     }
     better->info = map->info;
     better->info.n_vertices = better->mesh->pl.n_vertices;
-    better->info.n_triangles = better->mesh->pl.corners.n_triangles;
+    better->info.n_simplices = better->mesh->pl.corners.n_triangles;
     better->info.energy = report->energy;
     better->info.n_iterations += report->n_iterations;
     better->info.n_levels += report->n_levels;
@@ -242,7 +242,7 @@ icc_status iccp_map_improve(icc_map **out, const icc_map *map, const icc_improve
     return ICC_OK;
 }
 
-icc_status iccp_map_follow(icc_map **out, const icc_map *map, const icc_domain *target,
+icc_status iccp_map_retarget(icc_map **out, const icc_map *map, const icc_domain *target,
                            int32_t iterations, const iccp_env *env, icc_error *err)
 {
     const double start = iccp_seconds();

@@ -193,7 +193,7 @@ icc_status iccp_solid_map_create(iccp_solid_map **out, const icc_chart *source,
         return status;
     }
     info->n_vertices = map->mesh->n_points;
-    info->n_triangles = map->mesh->n_simplices;
+    info->n_simplices = map->mesh->n_simplices;
     info->energy = info->energy_start = mean_energy(
         map->mesh, map->images, fabs(target->domain->measure) / fabs(source->domain->measure));
     *out = map;
@@ -252,7 +252,7 @@ icc_status iccp_solid_map_read(iccp_solid_map **out, const icc_domain *source,
         return status;
     }
     info->n_vertices = map->mesh->n_points;
-    info->n_triangles = map->mesh->n_simplices;
+    info->n_simplices = map->mesh->n_simplices;
     *out = map;
     return ICC_OK;
 }

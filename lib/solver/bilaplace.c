@@ -74,7 +74,7 @@ static icc_status analyse(iccp_ldlt *factor, const iccp_symmetric *matrix, const
 }
 
 static icc_status factorise(iccp_ldlt *factor, const iccp_symmetric *matrix, const iccp_rows *rows,
-                            icc_field_info *info, const iccp_env *env)
+                            icc_function_info *info, const iccp_env *env)
 {
     double start = iccp_seconds();
     icc_status status = analyse(factor, matrix, rows, env);
@@ -154,7 +154,7 @@ static icc_status solve_twice(const iccp_rows *rows, const iccp_ldlt *factor, co
     return status;
 }
 
-static icc_status navier_direct(const iccp_rows *rows, const iccp_scaled *f, icc_field_info *info,
+static icc_status navier_direct(const iccp_rows *rows, const iccp_scaled *f, icc_function_info *info,
                                 const iccp_env *env)
 {
     double start = iccp_seconds();
@@ -178,7 +178,7 @@ static icc_status navier_direct(const iccp_rows *rows, const iccp_scaled *f, icc
 }
 
 /* Unknowns: all rows but the root. */
-static icc_status clamped(const iccp_rows *rows, const iccp_sparse *a, double *f, icc_field_info *info,
+static icc_status clamped(const iccp_rows *rows, const iccp_sparse *a, double *f, icc_function_info *info,
                           const iccp_env *env)
 {
     const size_t n = rows->n;
@@ -200,7 +200,7 @@ static icc_status clamped(const iccp_rows *rows, const iccp_sparse *a, double *f
 }
 
 /* The largest |A'A f| but for the root's. */
-static icc_status find_residual(const iccp_sparse *a, const double *f, icc_field_info *info,
+static icc_status find_residual(const iccp_sparse *a, const double *f, icc_function_info *info,
                                 const iccp_env *env)
 {
     double *work = iccp_alloc(&env->memory, a->n_rows, sizeof *work);
@@ -219,7 +219,7 @@ static icc_status find_residual(const iccp_sparse *a, const double *f, icc_field
 }
 
 icc_status iccp_bilaplace(const iccp_rows *rows, int32_t function, int32_t solver,
-                          const iccp_scaled *f, icc_field_info *info, const iccp_env *env)
+                          const iccp_scaled *f, icc_function_info *info, const iccp_env *env)
 {
     const size_t n = rows->n;
     double start = iccp_seconds();

@@ -48,7 +48,7 @@ static void poisson_free(poisson *p, const iccp_env *env)
 }
 
 /* x = L^-1 r, divided by its value at the root. */
-static icc_status solve(poisson *p, icc_field_info *info, const iccp_env *env)
+static icc_status solve(poisson *p, icc_function_info *info, const iccp_env *env)
 {
     const size_t n = p->mg.level[0].n_entries;
     double size = 0;
@@ -73,7 +73,7 @@ static bool is_positive(const poisson *p)
     return true;
 }
 
-icc_status iccp_bilaplace_iterative(const iccp_rows *rows, const iccp_scaled *f, icc_field_info *info,
+icc_status iccp_bilaplace_iterative(const iccp_rows *rows, const iccp_scaled *f, icc_function_info *info,
                                     const iccp_env *env)
 {
     const double begin = iccp_seconds();

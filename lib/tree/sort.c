@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-/* Merges in[0..n_left) and in[n_left..n) into out. */
+/* Merges in[0..n_remaining) and in[n_left..n) into out. */
 static void merge(uint32_t *out, const uint32_t *in, size_t n_left, size_t n, const double *values)
 {
     size_t left = 0, right = n_left;

@@ -61,7 +61,7 @@ run 0 info -s source.txt -m gradient -f laplace --constrained --json=report.json
 expect violated "$violated" "constrained"
 below 0 "$(member active)" || complain "nothing is active in an L"
 below 0 "$(member iterations)" || complain "no iterations in an L"
-run 0 info -s source.txt -m gradient -f laplace --constrained --eta 0.01 --json=report.json
+run 0 info -s source.txt -m gradient -f laplace --constrained --min-fall 0.01 --json=report.json
 below "$violated" "$(member violated)" || complain "a larger eta does not break more inequalities"
 
 # What there is by default: inequalities only where they are needed.

@@ -38,7 +38,7 @@ mod chart;
 mod domain;
 mod env;
 mod error;
-mod field;
+mod function;
 mod grid;
 pub mod kernel;
 mod map;
@@ -52,7 +52,7 @@ mod triangulate;
 mod weights;
 
 pub use chart::{
-    Chart, ChartInfo, ChartMeasures, ChartOptions, Codes, Constraints, Function, Images, Method, Solver,
+    Chart, ChartInfo, ChartReport, ChartOptions, Codes, Constraints, FunctionKind, Images, Method, Solver,
     TreeForm,
 };
 pub use domain::{boundary_defects, repair_mask, BoundaryPoints, Defect, Domain, DomainInfo, Place};
