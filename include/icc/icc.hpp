@@ -384,11 +384,11 @@ public:
     const icc_domain *get_domain() const noexcept { return icc_chart_domain(get()); }
 
     /** What the coordinates miss, estimated from so many points; 0: 4096. */
-    icc_chart_measures measure(std::size_t n_points = 0, const env &e = {}) const
+    icc_chart_report report(std::size_t n_points = 0, const env &e = {}) const
     {
-        auto measures = sized<icc_chart_measures>();
-        call(e, [&](auto... rest) { return icc_chart_measure(get(), n_points, &measures, rest...); });
-        return measures;
+        auto result = sized<icc_chart_report>();
+        call(e, [&](auto... rest) { return icc_chart_get_report(get(), n_points, &result, rest...); });
+        return result;
     }
 
     /** Coordinates of points. */
@@ -447,7 +447,7 @@ public:
     }
 };
 
-/** The mesh of a map of kind mesh: icc_map_mesh(). */
+/** The mesh of a map of kind mesh: icc_map_get_mesh(). */
 struct map_mesh {
     std::vector<double> vertices, images; /**< `dim` coordinates each */
     std::vector<std::uint32_t> simplices; /**< `dim` + 1 vertices each */
@@ -523,11 +523,11 @@ public:
         });
     }
 
-    /** The map to a target that has moved: icc_map_follow(). */
+    /** The map to a target that has moved: icc_map_retarget(). */
     map retarget(const domain &target, std::int32_t iterations = 0, const env &e = {}) const
     {
         return map(e, [&](auto out, auto... rest) {
-            return icc_map_follow(out, get(), target.get(), iterations, rest...);
+            return icc_map_retarget(out, get(), target.get(), iterations, rest...);
         });
     }
 
@@ -538,9 +538,9 @@ public:
         const auto width = static_cast<std::size_t>(about.dim);
         map_mesh m{std::vector<double>(about.n_vertices * width),
                    std::vector<double>(about.n_vertices * width),
-                   std::vector<std::uint32_t>(about.n_triangles * (width + 1))};
+                   std::vector<std::uint32_t>(about.n_simplices * (width + 1))};
         call({}, [&](auto...) {
-            return icc_map_mesh(get(), m.vertices.data(), m.images.data(), m.simplices.data());
+            return icc_map_get_mesh(get(), m.vertices.data(), m.images.data(), m.simplices.data());
         });
         return m;
     }

@@ -12,19 +12,32 @@ enum { MOST = 6, N_POINTS = 7, N_MANY = 1500 };
 
 /* ---- domains ---- */
 
-enum { POLYGON, RING, TRIANGLES, PIXELS, SURFACE, TETRAHEDRA, VOXELS, PENTATOPE, INTERVAL, N_SHAPES };
+enum {
+    POLYGON,
+    RING,
+    TRIANGLES,
+    PIXELS,
+    SURFACE,
+    TETRAHEDRA,
+    VOXELS,
+    PENTATOPE,
+    INTERVAL,
+    N_SHAPES
+};
 
-static const char *const SHAPES[] = {"polygon",    "polygon with facets", "triangles",
-                                     "pixels",     "surface",             "tetrahedra",
-                                     "voxels",     "pentatope",           "interval"};
+static const char *const SHAPES[] = {"polygon", "polygon with facets", "triangles", "pixels",
+                                     "surface", "tetrahedra",          "voxels",    "pentatope",
+                                     "interval"};
 
 static const double SQUARE[10] = {0, 0, 8, 0, 8, 8, 4, 8, 0, 8};
 static const uint32_t SIDES[10] = {3, 4, 4, 0, 0, 1, 1, 2, 2, 3};
 static const uint32_t FAN[9] = {0, 1, 2, 0, 2, 3, 0, 3, 4};
-static const double CUBE[24] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1, 1, 1, 1};
+static const double CUBE[24] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0,
+                                0, 0, 1, 1, 0, 1, 0, 1, 1, 1, 1, 1};
 static const uint32_t FACES[36] = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
                                    2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
-static const uint32_t CELLS[24] = {0, 1, 3, 7, 0, 3, 2, 7, 0, 2, 6, 7, 0, 6, 4, 7, 0, 4, 5, 7, 0, 5, 1, 7};
+static const uint32_t CELLS[24] = {0, 1, 3, 7, 0, 3, 2, 7, 0, 2, 6, 7,
+                                   0, 6, 4, 7, 0, 4, 5, 7, 0, 5, 1, 7};
 static const double CORNERS[20] = {0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 /* Facet i faces corner i; every other one is turned round. */
 static const uint32_t FACETS[20] = {1, 2, 3, 4, 2, 0, 3, 4, 0, 1, 3, 4, 1, 0, 2, 4, 0, 1, 2, 3};
@@ -37,8 +50,9 @@ static const double *bent(double *to, int32_t dim, size_t n, const double *from,
     for (size_t i = 0; i < n; ++i)
         for (int32_t k = 0; k < dim; ++k)
             to[i * (size_t)dim + (size_t)k] =
-                factor * (from[i * (size_t)dim + (size_t)k] +
-                          (factor == 1 ? 0 : 0.1 * from[i * (size_t)dim + (size_t)((k + 1) % dim)]));
+                factor *
+                (from[i * (size_t)dim + (size_t)k] +
+                 (factor == 1 ? 0 : 0.1 * from[i * (size_t)dim + (size_t)((k + 1) % dim)]));
     return to;
 }
 
@@ -59,21 +73,22 @@ static icc_domain *make_domain(int shape, double factor)
         status = icc_domain_create(&d, 2, 5, bent(v, 2, 5, SQUARE, factor), 5, SIDES, NULL, NULL);
         break;
     case TRIANGLES:
-        status = icc_domain_create_mesh(&d, 2, 5, bent(v, 2, 5, SQUARE, factor), 3, FAN, 0, NULL, NULL,
-                                        NULL);
+        status = icc_domain_create_mesh(&d, 2, 5, bent(v, 2, 5, SQUARE, factor), 3, FAN, 0, NULL,
+                                        NULL, NULL);
         break;
     case SURFACE:
         status = icc_domain_create(&d, 3, 8, bent(v, 3, 8, CUBE, factor), 12, FACES, NULL, NULL);
         break;
     case TETRAHEDRA:
-        status = icc_domain_create_mesh(&d, 3, 8, bent(v, 3, 8, CUBE, factor), 6, CELLS, 0, NULL, NULL,
-                                        NULL);
+        status = icc_domain_create_mesh(&d, 3, 8, bent(v, 3, 8, CUBE, factor), 6, CELLS, 0, NULL,
+                                        NULL, NULL);
         break;
     case PENTATOPE:
         status = icc_domain_create(&d, 4, 5, bent(v, 4, 5, CORNERS, factor), 5, FACETS, NULL, NULL);
         break;
     case INTERVAL:
-        status = icc_domain_create(&d, 1, 2, bent(v, 1, 2, ENDS, factor), 2, END_FACETS, NULL, NULL);
+        status =
+            icc_domain_create(&d, 1, 2, bent(v, 1, 2, ENDS, factor), 2, END_FACETS, NULL, NULL);
         break;
     default:
         status = icc_domain_create_mask(&d, shape == PIXELS ? 2 : 3, CUBED, ones, NULL, NULL);
@@ -93,7 +108,8 @@ static void spread(const icc_domain *domain, size_t n, double *points)
             points[i * (size_t)info.dim + (size_t)k] =
                 info.lower[k] + (info.upper[k] - info.lower[k]) *
                                     (low + width * fmod(0.5 + 0.7548776662466927 * (double)i +
-                                                            0.3819660112501051 * k, 1));
+                                                            0.3819660112501051 * k,
+                                                        1));
 }
 
 /* ---- what came about ---- */
@@ -115,11 +131,12 @@ static bool sound(const subject *s, const char *operation, icc_status status, co
     ++n_pairs;
     if (status == ICC_OK)
         return true;
-    ck_assert_msg(strcmp(icc_status_name(status), "unknown status") != 0, "%s / %s: status %d", s->name,
-                  operation, (int)status);
+    ck_assert_msg(strcmp(icc_status_name(status), "unknown status") != 0, "%s / %s: status %d",
+                  s->name, operation, (int)status);
     ck_assert_msg(err->status == status && err->message[0] != '\0', "%s / %s: %s without a message",
                   s->name, operation, icc_status_name(status));
-    ck_assert_msg(status != ICC_ERR_MEMORY && status != ICC_ERR_VERSION && status != ICC_ERR_CANCELLED,
+    ck_assert_msg(status != ICC_ERR_MEMORY && status != ICC_ERR_VERSION &&
+                      status != ICC_ERR_CANCELLED,
                   "%s / %s: %s", s->name, operation, err->message);
     return false;
 }
@@ -131,7 +148,8 @@ static icc_error fresh(void)
 
 /* Of statuses of points and their number: as many as failed, and no number where there is none. */
 static void check_points(const subject *s, const char *operation, icc_status called, size_t n,
-                         const icc_status *status, size_t n_failed, size_t width, const double *numbers)
+                         const icc_status *status, size_t n_failed, size_t width,
+                         const double *numbers)
 {
     size_t n_bad = 0;
     ++n_pairs;
@@ -143,14 +161,14 @@ static void check_points(const subject *s, const char *operation, icc_status cal
                           "%s / %s: point %zu is %g with status %s", s->name, operation, i,
                           numbers[i * width + k], icc_status_name(status[i]));
     }
-    ck_assert_msg(n_bad == n_failed, "%s / %s: %zu of %zu failures told", s->name, operation, n_failed,
-                  n_bad);
+    ck_assert_msg(n_bad == n_failed, "%s / %s: %zu of %zu failures told", s->name, operation,
+                  n_failed, n_bad);
 }
 
 /* ---- operations on maps ---- */
 
-typedef icc_status point_call(const icc_map *, size_t, const double *, double *, icc_status *, size_t *,
-                              const icc_env *);
+typedef icc_status point_call(const icc_map *, size_t, const double *, double *, icc_status *,
+                              size_t *, const icc_env *);
 
 static void ask_points(const subject *s, const char *name, point_call *call, const double *points,
                        size_t width)
@@ -197,7 +215,8 @@ static void map_threads(const subject *s, const icc_domain *source)
     ++n_pairs;
     ck_assert_int_eq(icc_map_apply(s->map, n, points, one, NULL, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_map_apply(s->map, n, points, four, NULL, NULL, &env), ICC_OK);
-    ck_assert_msg(memcmp(one, four, n * (size_t)s->dim * sizeof *one) == 0, "%s / threads", s->name);
+    ck_assert_msg(memcmp(one, four, n * (size_t)s->dim * sizeof *one) == 0, "%s / threads",
+                  s->name);
 }
 
 static void map_info(const subject *s)
@@ -216,13 +235,13 @@ static void map_info(const subject *s)
     }
     double *vertices = malloc((info.n_vertices + 1) * MOST * sizeof *vertices);
     double *images = malloc((info.n_vertices + 1) * MOST * sizeof *images);
-    uint32_t *corners = malloc((info.n_triangles + 1) * (MOST + 1) * sizeof *corners);
-    const icc_status status = icc_map_mesh(s->map, vertices, images, corners);
+    uint32_t *corners = malloc((info.n_simplices + 1) * (MOST + 1) * sizeof *corners);
+    const icc_status status = icc_map_get_mesh(s->map, vertices, images, corners);
     ck_assert_msg(status == (info.kind == ICC_MAP_MESH ? ICC_OK : ICC_ERR_UNSUPPORTED), "%s / mesh",
                   s->name);
-    for (size_t k = 0; status == ICC_OK && k < info.n_triangles * (size_t)(s->dim + 1); ++k)
+    for (size_t k = 0; status == ICC_OK && k < info.n_simplices * (size_t)(s->dim + 1); ++k)
         ck_assert_uint_lt(corners[k], info.n_vertices);
-    ck_assert_int_eq(icc_map_mesh(s->map, NULL, NULL, NULL), status);
+    ck_assert_int_eq(icc_map_get_mesh(s->map, NULL, NULL, NULL), status);
     free(vertices);
     free(images);
     free(corners);
@@ -242,7 +261,8 @@ static void map_certify(const subject *s, const icc_domain *source)
                   s->name);
     err = fresh();
     status = icc_map_repair(s->map, n, vertices, 1, SIMPLEX, images, &c, NULL, &err);
-    ck_assert_msg(sound(s, "repair", status, &err) == (s->dim == 2 || s->dim == 3), "%s / repair", s->name);
+    ck_assert_msg(sound(s, "repair", status, &err) == (s->dim == 2 || s->dim == 3), "%s / repair",
+                  s->name);
 }
 
 static void map_warp(const subject *s)
@@ -254,13 +274,23 @@ static void map_warp(const subject *s)
     for (size_t k = 0; k < sizeof from; ++k)
         from[k] = (uint8_t)(k * 37);
     memset(to, 0, sizeof to);
-    icc_picture a = {.size = sizeof a, .width = 8, .height = 8, .channels = 3, .bytes = 1, .stride = 24,
+    icc_picture a = {.size = sizeof a,
+                     .width = 8,
+                     .height = 8,
+                     .channels = 3,
+                     .bytes = 1,
+                     .stride = 24,
                      .pixels = from};
     icc_picture b = a;
     b.pixels = to;
     icc_status status = icc_map_warp(s->map, &a, &b, &n_failed, NULL, &err);
     ck_assert_msg(sound(s, "warp", status, &err) == (s->dim == 2), "%s / warp", s->name);
-    a = (icc_picture){.size = sizeof a, .width = 1, .height = 1, .channels = 1, .bytes = 2, .stride = 2,
+    a = (icc_picture){.size = sizeof a,
+                      .width = 1,
+                      .height = 1,
+                      .channels = 1,
+                      .bytes = 2,
+                      .stride = 2,
                       .pixels = deep};
     b = a;
     b.pixels = deep + 1;
@@ -290,7 +320,8 @@ static void map_save(const subject *s, const icc_domain *source)
     spread(source, N_POINTS, points);
     ck_assert_int_eq(icc_map_apply(s->map, N_POINTS, points, one, NULL, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_map_apply(again, N_POINTS, points, two, NULL, NULL, NULL), ICC_OK);
-    ck_assert_msg(memcmp(one, two, N_POINTS * (size_t)s->dim * sizeof *one) == 0, "%s / save", s->name);
+    ck_assert_msg(memcmp(one, two, N_POINTS * (size_t)s->dim * sizeof *one) == 0, "%s / save",
+                  s->name);
     icc_map_free(again);
 }
 
@@ -302,7 +333,7 @@ static icc_map *derived(const subject *s, char how, const icc_domain *target)
     if (how == 's')
         return reloaded(s, s->map);
     if (how == 'f') {
-        (void)sound(s, "follow", icc_map_follow(&map, s->map, target, 2, NULL, &err), &err);
+        (void)sound(s, "retarget", icc_map_retarget(&map, s->map, target, 2, NULL, &err), &err);
         return map;
     }
     const icc_improve_options options = {.size = sizeof options, .iterations = 2, .levels = 1};
@@ -326,7 +357,7 @@ static void ask_map(const subject *s)
     icc_domain_free(target);
 }
 
-/* The map, and what follows from it step by step: i improved, f followed, s saved and loaded. Only meshes
+/* The map, and what follows from it step by step: i improved, f retargeted, s saved and loaded. Only meshes
  * in the plane have more than the first two; ask_map() sees the others refuse. */
 static void ask_family(const subject *first)
 {
@@ -355,23 +386,27 @@ static void ask_family(const subject *first)
 
 /* ---- operations on charts ---- */
 
-static void chart_field(const subject *s)
+static void chart_function(const subject *s)
 {
-    const icc_field *field = icc_chart_field(s->chart);
+    const icc_function *field = icc_chart_function(s->chart);
     icc_error err = fresh();
-    icc_field_info info = {.size = sizeof info};
-    icc_field_report report = {.size = sizeof report};
+    icc_function_info info = {.size = sizeof info};
+    icc_function_report report = {.size = sizeof report};
     size_t n_edges = 0;
     ++n_pairs;
-    ck_assert_int_eq(icc_field_get_info(field, &info), field != NULL ? ICC_OK : ICC_ERR_ARGUMENT);
-    ck_assert_int_eq(icc_field_values(field) == NULL, field == NULL);
-    ck_assert_int_eq(icc_field_tree(field) == NULL, field == NULL);
-    ck_assert_int_eq(icc_tree_grid(icc_field_tree(field)) == NULL, field == NULL);
-    ck_assert_int_eq(icc_tree_root(icc_field_tree(field)) == UINT32_MAX, field == NULL);
-    (void)icc_field_logs(field);
-    ck_assert_int_eq(sound(s, "verify", icc_field_verify(field, &report, NULL, &err), &err), field != NULL);
-    const icc_status status = icc_field_edges(field, 0, NULL, NULL, &n_edges, NULL);
-    ck_assert_int_eq(status, field == NULL ? ICC_ERR_ARGUMENT : s->dim == 2 ? ICC_OK : ICC_ERR_UNSUPPORTED);
+    ck_assert_int_eq(icc_function_get_info(field, &info),
+                     field != NULL ? ICC_OK : ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_function_values(field) == NULL, field == NULL);
+    ck_assert_int_eq(icc_function_tree(field) == NULL, field == NULL);
+    ck_assert_int_eq(icc_tree_grid(icc_function_tree(field)) == NULL, field == NULL);
+    ck_assert_int_eq(icc_tree_root(icc_function_tree(field)) == UINT32_MAX, field == NULL);
+    (void)icc_function_logs(field);
+    ck_assert_int_eq(sound(s, "verify", icc_function_get_report(field, &report, NULL, &err), &err),
+                     field != NULL);
+    const icc_status status = icc_function_get_edges(field, 0, NULL, NULL, &n_edges, NULL);
+    ck_assert_int_eq(status, field == NULL ? ICC_ERR_ARGUMENT
+                             : s->dim == 2 ? ICC_OK
+                                           : ICC_ERR_UNSUPPORTED);
 }
 
 static void chart_points(const subject *s, const icc_domain *domain)
@@ -389,9 +424,11 @@ static void chart_points(const subject *s, const icc_domain *domain)
         icc_status called =
             icc_chart_encode(s->chart, N_POINTS, points, facet, bary, t, status, &n_failed, NULL);
         check_points(s, "encode", called, N_POINTS, status, n_failed, dim, bary);
-        called = icc_chart_decode(s->chart, N_POINTS, facet, bary, t, back, status, &n_failed, NULL);
+        called =
+            icc_chart_decode(s->chart, N_POINTS, facet, bary, t, back, status, &n_failed, NULL);
         check_points(s, "decode", called, N_POINTS, status, n_failed, dim, back);
-        (void)sound(s, "trace", icc_chart_trace(s->chart, points, 0, NULL, &n_curve, NULL, &err), &err);
+        (void)sound(s, "trace", icc_chart_trace(s->chart, points, 0, NULL, &n_curve, NULL, &err),
+                    &err);
     }
     for (size_t i = 0; i < N_POINTS; ++i) {
         facet[i] = i == 6 ? 1u << 30 : 0;
@@ -413,14 +450,14 @@ static void ask_chart(const subject *s)
 {
     icc_domain *domain = make_domain(s->shape, 1);
     icc_chart_info info = {.size = sizeof info};
-    icc_chart_measures measures = {.size = sizeof measures};
+    icc_chart_report measures = {.size = sizeof measures};
     icc_error err = fresh();
     ++n_pairs;
     ck_assert_int_eq(icc_chart_get_info(s->chart, &info), ICC_OK);
     ck_assert_int_eq(info.dim, s->dim);
     ck_assert_ptr_nonnull(icc_chart_domain(s->chart));
-    ck_assert(sound(s, "measure", icc_chart_measure(s->chart, 50, &measures, NULL, &err), &err));
-    chart_field(s);
+    ck_assert(sound(s, "measure", icc_chart_get_report(s->chart, 50, &measures, NULL, &err), &err));
+    chart_function(s);
     chart_points(s, domain);
     icc_domain_free(domain);
 }
@@ -446,7 +483,9 @@ static icc_chart_options chart_options(int32_t method, int32_t dim, const double
 {
     return (icc_chart_options){.size = sizeof(icc_chart_options),
                                .method = method,
-                               .cells = dim < 3 ? 8 : dim < 4 ? 6 : 4,
+                               .cells = dim < 3   ? 8
+                                        : dim < 4 ? 6
+                                                  : 4,
                                .maximum = maximum};
 }
 
@@ -489,9 +528,11 @@ static void maps_of_charts(const subject *source, const icc_chart *target)
         icc_error err = fresh();
         subject s = *source;
         s.chart = NULL;
-        (void)snprintf(s.name, sizeof s.name, "map kind %d from charts: %.150s", (int)kind, source->name);
+        (void)snprintf(s.name, sizeof s.name, "map kind %d from charts: %.150s", (int)kind,
+                       source->name);
         if (sound(&s, "create",
-                  icc_map_create_from_charts(&s.map, source->chart, target, &options, NULL, &err), &err))
+                  icc_map_create_from_charts(&s.map, source->chart, target, &options, NULL, &err),
+                  &err))
             ask_map(&s);
         icc_map_free(s.map);
     }
@@ -509,7 +550,8 @@ static void charts_of(int shape, int32_t method, bool given)
         icc_error err = fresh();
         spread(domains[k], 1, maximum);
         const icc_chart_options options = chart_options(method, s.dim, given ? maximum : NULL);
-        (void)sound(&s, "create", icc_chart_create(&charts[k], domains[k], &options, NULL, &err), &err);
+        (void)sound(&s, "create", icc_chart_create(&charts[k], domains[k], &options, NULL, &err),
+                    &err);
         icc_domain_free(domains[k]);
     }
     ck_assert_int_eq(charts[0] == NULL, charts[1] == NULL);

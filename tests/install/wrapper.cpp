@@ -248,7 +248,7 @@ void makes_maps_of_maps()
 
     const icc::map_mesh mesh = next.mesh();
     check(mesh.vertices.size() == 2 * next.info().n_vertices && mesh.images.size() == mesh.vertices.size() &&
-              mesh.simplices.size() == 3 * next.info().n_triangles,
+              mesh.simplices.size() == 3 * next.info().n_simplices,
           "its mesh");
     check(is_times(next.apply(mesh.vertices), 1, mesh.images), "which is the map");
     const icc::carried_mesh own = next.certify(mesh.vertices, mesh.simplices);
@@ -294,7 +294,7 @@ void asks_charts_and_domains()
     check(curve.size() >= 4 && curve.size() % 2 == 0, "a curve");
     check(thrown([&] { chart.trace({9, 9}); }, none).status == ICC_ERR_OUTSIDE, "no curve");
     check(thrown([&] { chart.trace({1, 1, 1}); }, none).status == ICC_ERR_ARGUMENT, "no point");
-    check(chart.measure(100).unreachable <= 0 && chart.get_domain() == source.get(), "measures");
+    check(chart.report(100).unreachable <= 0 && chart.get_domain() == source.get(), "a report");
     check(icc::map(chart, other).info().certified == 1, "a map of charts");
     check(icc::chart::load(chart.save()).save() == chart.save(), "saved and loaded");
 

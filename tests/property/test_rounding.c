@@ -74,16 +74,18 @@ static icc_domain *domain_of(const pair *p, int side)
     icc_error err = {.size = sizeof err};
     const icc_status status =
         p->simplices != NULL
-            ? icc_domain_create_mesh(&domain, p->dim, p->n_vertices, p->vertices[side], p->n_simplices,
-                                     p->simplices, p->n_facets, p->facets, NULL, &err)
-            : icc_domain_create(&domain, p->dim, p->n_vertices, p->vertices[side], p->n_facets, p->facets,
-                                NULL, &err);
+            ? icc_domain_create_mesh(&domain, p->dim, p->n_vertices, p->vertices[side],
+                                     p->n_simplices, p->simplices, p->n_facets, p->facets, NULL,
+                                     &err)
+            : icc_domain_create(&domain, p->dim, p->n_vertices, p->vertices[side], p->n_facets,
+                                p->facets, NULL, &err);
     ck_assert_msg(status == ICC_OK, "%s: %s", p->name, err.message);
     return domain;
 }
 
 /* Means of a facet's vertices by three formulas that differ by rounding. */
-static void mean(size_t dim, const double *const *v, const double *weight, int formula, double *point)
+static void mean(size_t dim, const double *const *v, const double *weight, int formula,
+                 double *point)
 {
     for (size_t k = 0; k < dim; ++k) {
         double x = formula == 0 ? v[0][k] : 0;
@@ -138,8 +140,8 @@ static void check_way(const pair *p, const char *what, const icc_map *map, bool 
     double images[N_SAMPLES * MOST], worst = 0;
     icc_status status[N_SAMPLES];
     size_t n_failed;
-    ck_assert_int_eq((inverse ? icc_map_apply_inverse : icc_map_apply)(map, N_SAMPLES, points, images,
-                                                                      status, &n_failed, NULL),
+    ck_assert_int_eq((inverse ? icc_map_apply_inverse : icc_map_apply)(
+                         map, N_SAMPLES, points, images, status, &n_failed, NULL),
                      ICC_OK);
     ck_assert_msg(n_failed == 0, "%s, %s%s: %zu of %d have no image", p->name, what,
                   inverse ? ", back" : "", n_failed, (int)N_SAMPLES);
@@ -167,7 +169,8 @@ static void check_pair(const pair *p, int32_t method, int32_t kind, const char *
                                            side == 0 ? before : after, where, NULL, NULL, NULL),
                          ICC_OK);
         for (size_t i = 0; i < N_SAMPLES; ++i)
-            ck_assert_msg(where[i] == ICC_BOUNDARY, "%s: sample %zu is %d", p->name, i, (int)where[i]);
+            ck_assert_msg(where[i] == ICC_BOUNDARY, "%s: sample %zu is %d", p->name, i,
+                          (int)where[i]);
     }
     const icc_status status = icc_map_create(&map, source, target, &options, NULL, &err);
     ck_assert_msg(status == ICC_OK, "%s, %s: %s", p->name, what, err.message);
@@ -244,7 +247,8 @@ END_TEST
 
 /* ---- space, and meshes ---- */
 
-static void check_mesh(const test_mesh *m, const char *name, size_t n_facets, const uint32_t *facets)
+static void check_mesh(const test_mesh *m, const char *name, size_t n_facets,
+                       const uint32_t *facets)
 {
     for (int k = 0; k < N_PLACES; ++k) {
         char what[100];
@@ -277,7 +281,8 @@ START_TEST(facets_of_meshes)
     static const uint32_t FACES[36] = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
                                        2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
     static uint32_t fan[12] = {4, 0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0};
-    static uint32_t cells[24] = {0, 1, 3, 7, 0, 3, 2, 7, 0, 2, 6, 7, 0, 6, 4, 7, 0, 4, 5, 7, 0, 5, 1, 7};
+    static uint32_t cells[24] = {0, 1, 3, 7, 0, 3, 2, 7, 0, 2, 6, 7,
+                                 0, 6, 4, 7, 0, 4, 5, 7, 0, 5, 1, 7};
     double square[10] = {0, 0, 1.1, 0.2, 1, 1.3, -0.1, 0.9, 0.4, 0.6};
     double cube[24] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1, 1, 1, 1};
     const test_mesh plane = {
