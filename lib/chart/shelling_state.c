@@ -27,8 +27,8 @@ static int32_t locate(const icc_chart *chart, const double *point, iccp_fibre_pl
 {
     const iccp_shelling_state *state = chart->state;
     bool inner;
-    const bool found = iccp_fibres_find(&state->fibres, point, chart->domain->band.reach, place,
-                                        &inner);
+    const bool found =
+        iccp_fibres_find(&state->fibres, point, chart->domain->band.reach, place, &inner);
     if (found && inner)
         return ICC_INSIDE;
     const int32_t where =

@@ -174,7 +174,8 @@ static void explore_row(iccp_buckets *b, uint32_t row)
 }
 
 icc_status iccp_buckets_create(iccp_buckets *buckets, const iccp_ring *ring, const double *lower,
-                               const double *upper, const iccp_band *band, const iccp_memory *memory)
+                               const double *upper, const iccp_band *band,
+                               const iccp_memory *memory)
 {
     iccp_buckets *const b = buckets;
     *b = (iccp_buckets){.points = ring->points, .band = *band};

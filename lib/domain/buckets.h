@@ -33,7 +33,8 @@ typedef struct iccp_place {
 
 /* For a simple ring in a box; points in the band count as on it. */
 icc_status iccp_buckets_create(iccp_buckets *buckets, const iccp_ring *ring, const double *lower,
-                               const double *upper, const iccp_band *band, const iccp_memory *memory);
+                               const double *upper, const iccp_band *band,
+                               const iccp_memory *memory);
 void iccp_buckets_free(iccp_buckets *buckets, const iccp_memory *memory);
 
 /* Exact but for the band. A point that is not finite is outside. */

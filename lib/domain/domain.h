@@ -37,7 +37,8 @@ struct icc_domain {
     iccp_frame frame;
     double lower[ICC_MAX_DIM]; /* local bounding box */
     double upper[ICC_MAX_DIM];
-    iccp_band band;   /* points this close to the boundary are on it; `tolerance` apart, points are the
+    iccp_band
+        band; /* points this close to the boundary are on it; `tolerance` apart, points are the
                          same */
     double measure;   /* local length, area, volume, ... */
     iccp_facet_tree tree; /* over local vertices; in 2-D a view of the locator's */

@@ -54,7 +54,8 @@ static icc_status start(iccp_plmap *pl, const icc_chart *source, const icc_chart
         if (status == ICC_OK)
             status = vertex_image(source, target, mesh, v, images + 2 * v, &path);
         if (iccp_is_point_status(status) && status != ICC_OK)
-            (void)iccp_fail(err, status, -1, "vertex %zu of the mesh has no image by the charts", v);
+            (void)iccp_fail(err, status, -1, "vertex %zu of the mesh has no image by the charts",
+                            v);
     }
     if (status == ICC_OK)
         status = iccp_plmap_create(pl, mesh, source->domain, images,
