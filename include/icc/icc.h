@@ -32,9 +32,12 @@ typedef struct icc_domain icc_domain;
 
 /** Where a point lies. */
 enum {
-    ICC_INSIDE = 1,   /**< in the interior */
-    ICC_BOUNDARY = 2, /**< on the boundary, up to 1e-14 of the bounding box's longest side */
-    ICC_OUTSIDE = 3   /**< elsewhere */
+    ICC_INSIDE = 1, /**< in the interior */
+    /** On the boundary: up to 1e-14 of the bounding box's longest side, or up to `dim` * 2^-52 of the
+     *  largest coordinate along each axis, whichever is more. So a point of a facet that is computed in
+     *  doubles, as a mean of its vertices, is on the boundary wherever the shape lies. */
+    ICC_BOUNDARY = 2,
+    ICC_OUTSIDE = 3 /**< elsewhere */
 };
 
 /** What icc_domain_get_info() tells. */

@@ -19,6 +19,7 @@
 
 #include <icc/icc.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -31,26 +32,56 @@
 /** libicc for C++. */
 namespace icc {
 
-/** Elements in a row that belong to someone else: a vector, an array, a `std::span`, or a list in braces. */
+template <class T> class view;
+
+/** Whether C is a view of something. */
+template <class C> inline constexpr bool is_view = false;
+template <class T> inline constexpr bool is_view<view<T>> = true;
+
+/** Whether E is a `std::array` of T: a point, the vertices of a facet. */
+template <class E, class T> inline constexpr bool is_row = false;
+template <class T, std::size_t N> inline constexpr bool is_row<std::array<T, N>, T> = true;
+
+/** Elements in a row that belong to someone else: a vector, an array, a `std::span`, or a list in braces;
+ *  also of `std::array`, such as `std::vector<std::array<double, 2>>` for points. */
 template <class T> class view {
+    using value = std::remove_const_t<T>;
+    template <class C> using element = std::remove_pointer_t<decltype(std::data(std::declval<C &>()))>;
+    template <class E>
+    static constexpr bool holds = is_row<std::remove_const_t<E>, value> &&
+                                  (std::is_const_v<T> || !std::is_const_v<E>);
+
 public:
     constexpr view() noexcept = default; /**< none */
     /** `size` elements from `data` on. */
     constexpr view(T *data, std::size_t size) noexcept
         : data_(size != 0 ? data : nullptr), size_(size) {}
     /** All of what `std::data` and `std::size` understand. */
-    template <class C, class = std::enable_if_t<std::is_convertible_v<
-                           decltype(std::data(std::declval<C &>())), T *>>>
+    template <class C, class = std::enable_if_t<
+                           !is_view<std::decay_t<C>> &&
+                           std::is_convertible_v<decltype(std::data(std::declval<C &>())), T *>>>
     constexpr view(C &&all) noexcept : view(std::data(all), std::size(all)) {}
+    /** The same to read. */
+    template <class U, class = std::enable_if_t<std::is_convertible_v<U *, T *>>>
+    constexpr view(const view<U> &other) noexcept
+        : data_(other.data()), size_(other.size()), width_(other.width()) {}
+    /** The numbers of all rows. */
+    template <class C, std::enable_if_t<holds<element<C>>, int> = 0>
+    view(C &&rows) noexcept
+        : view(reinterpret_cast<T *>(std::data(rows)), std::size(rows) * (sizeof(element<C>) / sizeof(T)))
+    {
+        width_ = sizeof(element<C>) / sizeof(T);
+    }
     /** A list in braces, which lasts as long as the call. */
-    constexpr view(std::initializer_list<std::remove_const_t<T>> list) noexcept
+    constexpr view(std::initializer_list<value> list) noexcept
         : view(std::data(list), list.size()) {}
-    constexpr T *data() const noexcept { return data_; }          /**< NULL if there are none */
-    constexpr std::size_t size() const noexcept { return size_; } /**< how many */
+    constexpr T *data() const noexcept { return data_; }            /**< NULL if there are none */
+    constexpr std::size_t size() const noexcept { return size_; }   /**< how many */
+    constexpr std::size_t width() const noexcept { return width_; } /**< of a row; 0 if there are no rows */
 
 private:
     T *data_ = nullptr;
-    std::size_t size_ = 0;
+    std::size_t size_ = 0, width_ = 0;
 };
 
 /** The coordinates of points of a type of yours that holds doubles and nothing else, such as
@@ -127,7 +158,16 @@ template <class T> std::size_t count(view<T> list, std::int64_t each)
     const auto n = static_cast<std::size_t>(each > 0 ? each : 1);
     if (list.size() % n != 0)
         throw error({sizeof(icc_error), ICC_ERR_ARGUMENT, 0, -1, "a list ends amid a point or simplex"});
+    if (list.width() != 0 && list.width() != n)
+        throw error({sizeof(icc_error), ICC_ERR_ARGUMENT, 0, -1, "points are of another dimension"});
     return list.size() / n;
+}
+
+/** Throws icc::error unless a list that the caller provides has room for exactly so many. */
+template <class T> void expect(view<T> list, std::size_t n)
+{
+    if (list.size() != n)
+        throw error({sizeof(icc_error), ICC_ERR_ARGUMENT, 0, -1, "a list for results has another length"});
 }
 
 /** An object of the C interface that frees itself: `icc::handle<icc_grid, icc_grid_free>`. Calls refuse an
@@ -170,6 +210,13 @@ private:
     std::unique_ptr<T, std::integral_constant<void (*)(T *), Free>> owned_;
 };
 
+/** Where points lie, and the nearest points of the boundary. */
+struct places {
+    std::vector<std::int32_t> where;  /**< ::ICC_INSIDE, ::ICC_BOUNDARY or ::ICC_OUTSIDE */
+    std::vector<std::uint32_t> facet; /**< the nearest facet of each point */
+    std::vector<double> bary;         /**< `dim` barycentric coordinates on it for each */
+};
+
 /** A shape: its boundary, and what lies inside. */
 class domain : public handle<icc_domain, icc_domain_free> {
 public:
@@ -201,7 +248,117 @@ public:
         });
     }
 
+    /** Of the cells of a mask, as many along each axis as `shape` says, the first axis fastest:
+     *  icc_domain_create_mask(). */
+    static domain from_mask(view<const std::size_t> shape, view<const std::uint8_t> cells,
+                            const env &e = {})
+    {
+        expect(cells, product(shape));
+        return domain(e, [&](auto out, auto... rest) {
+            return icc_domain_create_mask(out, static_cast<std::int32_t>(shape.size()), shape.data(),
+                                          cells.data(), rest...);
+        });
+    }
+
+    /** How many cells a mask has. */
+    static std::size_t product(view<const std::size_t> shape) noexcept
+    {
+        std::size_t n = 1;
+        for (std::size_t k = 0; k < shape.size(); ++k)
+            n *= shape.data()[k];
+        return n;
+    }
+
     icc_domain_info info() const { return tell(icc_domain_get_info); } /**< dimension, counts, .. */
+
+    /** A copy of the boundary's vertices. */
+    std::vector<double> vertices() const
+    {
+        const auto about = info();
+        std::vector<double> result(about.n_vertices * static_cast<std::size_t>(about.dim));
+        call({}, [&](auto...) { return icc_domain_get_boundary(get(), result.data(), nullptr); });
+        return result;
+    }
+
+    /** A copy of its facets, `dim` vertices each. */
+    std::vector<std::uint32_t> facets() const
+    {
+        const auto about = info();
+        std::vector<std::uint32_t> result(about.n_facets * static_cast<std::size_t>(about.dim));
+        call({}, [&](auto...) { return icc_domain_get_boundary(get(), nullptr, result.data()); });
+        return result;
+    }
+
+    /** Where points lie: ::ICC_INSIDE, ::ICC_BOUNDARY or ::ICC_OUTSIDE. */
+    std::vector<std::int32_t> locate(view<const double> points, const env &e = {}) const
+    {
+        std::vector<std::int32_t> where(count(points, info().dim));
+        call(e, [&](auto c_env, auto) {
+            return icc_domain_locate(get(), where.size(), points.data(), where.data(), nullptr, nullptr,
+                                     c_env);
+        });
+        return where;
+    }
+
+    /** The same with the nearest points of the boundary. */
+    places locate_nearest(view<const double> points, const env &e = {}) const
+    {
+        const std::size_t n = count(points, info().dim);
+        places found{std::vector<std::int32_t>(n), std::vector<std::uint32_t>(n),
+                     std::vector<double>(points.size())};
+        call(e, [&](auto c_env, auto) {
+            return icc_domain_locate(get(), n, points.data(), found.where.data(), found.facet.data(),
+                                     found.bary.data(), c_env);
+        });
+        return found;
+    }
+};
+
+/** What keeps a polygon from being a boundary: icc_boundary_defects(). */
+struct defect {
+    std::int32_t kind;  /**< `ICC_DEFECT_*`, */
+    std::uint32_t a, b; /**< which says what they are */
+};
+
+/** All defects of a closed polygon. */
+inline std::vector<defect> defects(view<const double> polygon, const env &e = {})
+{
+    std::vector<std::int32_t> kinds;
+    std::vector<std::uint32_t> items;
+    std::size_t n = 0;
+    do {
+        kinds.resize(n);
+        items.resize(2 * n);
+        call(e, [&](auto... rest) {
+            return icc_boundary_defects(count(polygon, 2), polygon.data(), kinds.size(), kinds.data(),
+                                        items.data(), &n, rest...);
+        });
+    } while (n > kinds.size());
+    std::vector<defect> result(n);
+    for (std::size_t i = 0; i < n; ++i)
+        result[i] = {kinds[i], items[2 * i], items[2 * i + 1]};
+    return result;
+}
+
+/** Fills cells of a mask until no others touch only along an edge or a corner: icc_mask_repair(). Returns how
+ *  many. */
+inline std::size_t repair_mask(view<const std::size_t> shape, view<std::uint8_t> cells, const env &e = {})
+{
+    std::size_t n = 0;
+    expect(cells, domain::product(shape));
+    call(e, [&](auto... rest) {
+        return icc_mask_repair(static_cast<std::int32_t>(shape.size()), shape.data(), cells.data(), &n,
+                               rest...);
+    });
+    return n;
+}
+
+/** Coordinates of points in a chart: icc_chart_encode(). */
+struct coordinates {
+    std::vector<std::uint32_t> facet; /**< where the curve of each point starts, */
+    std::vector<double> bary;         /**< `dim` barycentric coordinates there, */
+    std::vector<double> t;            /**< and the share of its length */
+    std::vector<icc_status> status;   /**< ::ICC_OK for points that have coordinates; not read by decode() */
 };
 
 /** Coordinates of the inside of a domain. */
@@ -222,9 +379,109 @@ public:
               return icc_chart_load(out, saved.size(), saved.data(), rest...);
           }) {}
 
+    /** The same by its name. */
+    static chart load(view<const std::byte> saved, const env &e = {}) { return chart(saved, e); }
+
     std::vector<std::byte> save() const { return bytes(icc_chart_save); } /**< with the domain */
     icc_chart_info info() const { return tell(icc_chart_get_info); }      /**< certificate, counts, .. */
+    /** The domain, for calls of the C interface; borrowed. */
+    const icc_domain *get_domain() const noexcept { return icc_chart_domain(get()); }
+
+    /** What the coordinates miss, estimated from so many points; 0: 4096. */
+    icc_chart_report report(std::size_t n_points = 0, const env &e = {}) const
+    {
+        auto result = sized<icc_chart_report>();
+        call(e, [&](auto... rest) { return icc_chart_get_report(get(), n_points, &result, rest...); });
+        return result;
+    }
+
+    /** Coordinates of points. */
+    coordinates encode(view<const double> points, const env &e = {}) const
+    {
+        const std::size_t n = count(points, info().dim);
+        coordinates c{std::vector<std::uint32_t>(n), std::vector<double>(points.size()),
+                      std::vector<double>(n), std::vector<icc_status>(n)};
+        call(e, [&](auto c_env, auto) {
+            return icc_chart_encode(get(), n, points.data(), c.facet.data(), c.bary.data(), c.t.data(),
+                                    c.status.data(), nullptr, c_env);
+        });
+        return c;
+    }
+
+    /** And back, into memory of the caller's; statuses may be left out. Returns how many have no point. */
+    std::size_t decode(const coordinates &c, view<double> points, view<icc_status> statuses = {},
+                       const env &e = {}) const
+    {
+        const std::size_t n = c.facet.size(), width = static_cast<std::size_t>(info().dim);
+        std::size_t n_failed = 0;
+        expect(view<const double>(c.t), n);
+        expect(view<const double>(c.bary), n * width);
+        expect(points, n * width);
+        if (statuses.size() != 0)
+            expect(statuses, n);
+        call(e, [&](auto c_env, auto) {
+            return icc_chart_decode(get(), n, c.facet.data(), c.bary.data(), c.t.data(), points.data(),
+                                    statuses.data(), &n_failed, c_env);
+        });
+        return n_failed;
+    }
+
+    /** The same into a vector; NaN where there is no point. */
+    std::vector<double> decode(const coordinates &c, const env &e = {}) const
+    {
+        std::vector<double> points(c.bary.size());
+        decode(c, points, {}, e);
+        return points;
+    }
+
+    /** The whole curve through a point: `dim` numbers for each of its points. */
+    std::vector<double> trace(view<const double> point, const env &e = {}) const
+    {
+        const auto width = static_cast<std::size_t>(info().dim);
+        std::vector<double> curve;
+        std::size_t n = 0;
+        expect(point, width);
+        do {
+            curve.resize(n * width);
+            call(e, [&](auto... rest) {
+                return icc_chart_trace(get(), point.data(), curve.size() / width, curve.data(), &n, rest...);
+            });
+        } while (n * width > curve.size());
+        return curve;
+    }
 };
+
+/** The mesh of a map of kind mesh: icc_map_get_mesh(). */
+struct map_mesh {
+    std::vector<double> vertices, images; /**< `dim` coordinates each */
+    std::vector<std::uint32_t> simplices; /**< `dim` + 1 vertices each */
+};
+
+/** A mesh of the caller's, carried along. */
+struct carried_mesh {
+    std::vector<double> images;  /**< of its vertices */
+    icc_certificate certificate; /**< whether it is a mesh still */
+};
+
+/** A picture in memory whose rows follow each other: `Sample` is `std::uint8_t` or `std::uint16_t`;
+ *  `alpha`: the last channel is opacity. */
+template <class Sample>
+icc_picture picture(view<Sample> samples, std::int32_t width, std::int32_t height, std::int32_t channels,
+                    bool alpha = false)
+{
+    using value = std::remove_const_t<Sample>;
+    static_assert(std::is_same_v<value, std::uint8_t> || std::is_same_v<value, std::uint16_t>);
+    auto result = sized<icc_picture>();
+    result.width = width;
+    result.height = height;
+    result.channels = channels;
+    result.bytes = sizeof(Sample);
+    result.alpha = alpha;
+    result.stride = static_cast<std::size_t>(width) * static_cast<std::size_t>(channels) * sizeof(Sample);
+    result.pixels = const_cast<value *>(samples.data()); // only read in a source
+    expect(samples, result.stride / sizeof(Sample) * static_cast<std::size_t>(height));
+    return result;
+}
 
 /** A map from one domain to another that agrees with the boundaries. */
 class map : public handle<icc_map, icc_map_free> {
@@ -238,20 +495,86 @@ public:
               return icc_map_create(out, source.get(), target.get(), &options, rest...);
           }) {}
 
+    /** From chart to chart: icc_map_create_from_charts(). */
+    map(const chart &source, const chart &target,
+        const icc_map_options &options = sized<icc_map_options>(), const env &e = {})
+        : handle(e, [&](auto out, auto... rest) {
+              return icc_map_create_from_charts(out, source.get(), target.get(), &options, rest...);
+          }) {}
+
     /** Of what save() has made. */
     explicit map(view<const std::byte> saved, const env &e = {})
         : handle(e, [&](auto out, auto... rest) {
               return icc_map_load(out, saved.size(), saved.data(), rest...);
           }) {}
 
+    /** The same by its name. */
+    static map load(view<const std::byte> saved, const env &e = {}) { return map(saved, e); }
+
     std::vector<std::byte> save() const { return bytes(icc_map_save); } /**< with domains and charts */
     icc_map_info info() const { return tell(icc_map_get_info); }        /**< certificate, energy, .. */
+    /** The charts, for calls of the C interface; borrowed. NULL after retarget(). */
+    const icc_chart *get_source_chart() const noexcept { return icc_map_source_chart(get()); }
+    const icc_chart *get_target_chart() const noexcept { return icc_map_target_chart(get()); } /**< too */
+
+    /** A fairer map from one of kind mesh: icc_map_improve(). The report may be NULL, else its `size` is
+     *  set. */
+    map improve(const icc_improve_options &options = sized<icc_improve_options>(),
+                icc_improve_report *report = nullptr, const env &e = {}) const
+    {
+        return map(e, [&](auto out, auto... rest) {
+            return icc_map_improve(out, get(), &options, report, rest...);
+        });
+    }
+
+    /** The map to a target that has moved: icc_map_retarget(). */
+    map retarget(const domain &target, std::int32_t iterations = 0, const env &e = {}) const
+    {
+        return map(e, [&](auto out, auto... rest) {
+            return icc_map_retarget(out, get(), target.get(), iterations, rest...);
+        });
+    }
+
+    /** A copy of the mesh of a map of kind mesh. */
+    map_mesh mesh() const
+    {
+        const auto about = info();
+        const auto width = static_cast<std::size_t>(about.dim);
+        map_mesh m{std::vector<double>(about.n_vertices * width),
+                   std::vector<double>(about.n_vertices * width),
+                   std::vector<std::uint32_t>(about.n_simplices * (width + 1))};
+        call({}, [&](auto...) {
+            return icc_map_get_mesh(get(), m.vertices.data(), m.images.data(), m.simplices.data());
+        });
+        return m;
+    }
+
+    /** Carries a mesh along and checks it: icc_map_certify(). */
+    carried_mesh certify(view<const double> vertices, view<const std::uint32_t> simplices,
+                         const env &e = {}) const
+    {
+        return carry_mesh(icc_map_certify, vertices, simplices, e);
+    }
+
+    /** The same, and repairs it: icc_map_repair(). */
+    carried_mesh repair(view<const double> vertices, view<const std::uint32_t> simplices,
+                        const env &e = {}) const
+    {
+        return carry_mesh(icc_map_repair, vertices, simplices, e);
+    }
 
     /** Source to target, into memory of the caller's, which may be that of the points. Points that have no
      *  image get NaN; returns how many. */
     std::size_t apply(view<const double> points, view<double> images, const env &e = {}) const
     {
-        return carry(icc_map_apply, points, images, e);
+        return carry(icc_map_apply, points, images, {}, e);
+    }
+
+    /** The same with a status for each point. */
+    std::size_t apply(view<const double> points, view<double> images, view<icc_status> statuses,
+                      const env &e = {}) const
+    {
+        return carry(icc_map_apply, points, images, statuses, e);
     }
 
     /** The same into a vector. */
@@ -262,10 +585,27 @@ public:
         return images;
     }
 
+    /** The same point by point. */
+    template <std::size_t N>
+    std::vector<std::array<double, N>> apply(const std::vector<std::array<double, N>> &points,
+                                             const env &e = {}) const
+    {
+        std::vector<std::array<double, N>> images(points.size());
+        apply(points, images, e);
+        return images;
+    }
+
     /** Target to source, as apply(). */
     std::size_t apply_inverse(view<const double> points, view<double> images, const env &e = {}) const
     {
-        return carry(icc_map_apply_inverse, points, images, e);
+        return carry(icc_map_apply_inverse, points, images, {}, e);
+    }
+
+    /** The same with a status for each point. */
+    std::size_t apply_inverse(view<const double> points, view<double> images,
+                              view<icc_status> statuses, const env &e = {}) const
+    {
+        return carry(icc_map_apply_inverse, points, images, statuses, e);
     }
 
     /** The same into a vector. */
@@ -274,6 +614,33 @@ public:
         std::vector<double> images(points.size());
         apply_inverse(points, images, e);
         return images;
+    }
+
+    /** The same point by point. */
+    template <std::size_t N>
+    std::vector<std::array<double, N>>
+    apply_inverse(const std::vector<std::array<double, N>> &points, const env &e = {}) const
+    {
+        std::vector<std::array<double, N>> images(points.size());
+        apply_inverse(points, images, e);
+        return images;
+    }
+
+    /** The derivative at points of the source, `dim` x `dim` numbers each, row by row: icc_map_jacobian().
+     *  Statuses may be left out. Returns how many points have none. */
+    std::size_t jacobian(view<const double> points, view<double> jacobians,
+                         view<icc_status> statuses = {}, const env &e = {}) const
+    {
+        const auto width = static_cast<std::size_t>(info().dim);
+        return run(icc_map_jacobian, points, jacobians, points.size() * width, statuses, e);
+    }
+
+    /** The same into a vector. */
+    std::vector<double> jacobian(view<const double> points, const env &e = {}) const
+    {
+        std::vector<double> jacobians(points.size() * static_cast<std::size_t>(info().dim));
+        jacobian(points, jacobians, {}, e);
+        return jacobians;
     }
 
     /** Carries a picture along: icc_map_warp(). Returns how many pixels have no image. */
@@ -286,16 +653,39 @@ public:
 
 private:
     template <class F>
-    std::size_t carry(F f, view<const double> points, view<double> images, const env &e) const
+    std::size_t run(F f, view<const double> points, view<double> results, std::size_t n_results,
+                    view<icc_status> statuses, const env &e) const
     {
         const std::size_t n = count(points, info().dim);
-        if (images.size() != points.size())
-            throw error({sizeof(icc_error), ICC_ERR_ARGUMENT, 0, -1, "images are not as many as points"});
         std::size_t n_failed = 0;
+        expect(results, n_results);
+        if (statuses.size() != 0)
+            expect(statuses, n);
         call(e, [&](auto c_env, auto) {
-            return f(get(), n, points.data(), images.data(), nullptr, &n_failed, c_env);
+            return f(get(), n, points.data(), results.data(), statuses.data(), &n_failed, c_env);
         });
         return n_failed;
+    }
+
+    template <class F>
+    std::size_t carry(F f, view<const double> points, view<double> images, view<icc_status> statuses,
+                      const env &e) const
+    {
+        (void)count(images, info().dim);
+        return run(f, points, images, points.size(), statuses, e);
+    }
+
+    template <class F>
+    carried_mesh carry_mesh(F f, view<const double> vertices, view<const std::uint32_t> simplices,
+                            const env &e) const
+    {
+        const std::int32_t dim = info().dim;
+        carried_mesh result{std::vector<double>(vertices.size()), sized<icc_certificate>()};
+        call(e, [&](auto... rest) {
+            return f(get(), count(vertices, dim), vertices.data(), count(simplices, std::int64_t{dim} + 1),
+                     simplices.data(), result.images.data(), &result.certificate, rest...);
+        });
+        return result;
     }
 };
 

@@ -13,11 +13,19 @@ static icc_status read_picture(icc_picture *full, const icc_picture *given, cons
     if (full->width < 1 || full->height < 1)
         return iccp_fail(err, ICC_ERR_ARGUMENT, "the %s picture has %ld x %ld pixels", name,
                          (long)full->width, (long)full->height);
-    if (full->channels < 1 || full->channels > 4 || full->bytes < 1 || full->bytes > 2 ||
-        full->alpha < 0 || full->alpha > 1 || full->alpha >= full->channels)
+    if (full->channels < 1 || full->channels > 4)
         return iccp_fail(err, ICC_ERR_ARGUMENT,
-                         "icc_picture: %ld channels, %ld bytes, alpha %ld",
-                         (long)full->channels, (long)full->bytes, (long)full->alpha);
+                         "the %s picture has %ld channels; there must be 1 to 4", name,
+                         (long)full->channels);
+    if (full->bytes < 1 || full->bytes > 2)
+        return iccp_fail(err, ICC_ERR_ARGUMENT,
+                         "a sample of the %s picture has %ld bytes; it must have 1 or 2", name,
+                         (long)full->bytes);
+    if (full->alpha < 0 || full->alpha > 1 || full->alpha >= full->channels)
+        return iccp_fail(err, ICC_ERR_ARGUMENT,
+                         "icc_picture: alpha is %ld with %ld channels; it must be 0, or 1 with at "
+                         "least two channels",
+                         (long)full->alpha, (long)full->channels);
     const size_t pixel = (size_t)(full->channels * full->bytes);
     if (full->pixels == NULL || full->stride / pixel < (size_t)full->width ||
         full->stride > PTRDIFF_MAX / (size_t)full->height)

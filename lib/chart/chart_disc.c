@@ -111,8 +111,8 @@ static void interpolate(const iccp_planar *mesh, uint32_t triangle, const double
 static bool at_maximum(const icc_chart *chart, const double p[2])
 {
     const disc_state *state = chart->state;
-    return fabs(p[0] - state->maximum[0]) <= chart->domain->tolerance &&
-           fabs(p[1] - state->maximum[1]) <= chart->domain->tolerance;
+    return fabs(p[0] - state->maximum[0]) <= chart->domain->band.tolerance &&
+           fabs(p[1] - state->maximum[1]) <= chart->domain->band.tolerance;
 }
 
 static icc_status encode_inside(const icc_chart *chart, const double *point, iccp_coords *coords,

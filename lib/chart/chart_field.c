@@ -131,7 +131,8 @@ static icc_status make_field(iccp_field_state *state, icc_chart *chart,
 /* Multiplications for each simplex at a vertex, about. */
 static const double VECTOR_WORK = 20;
 
-static icc_status make_vectors(iccp_field_state *state, icc_chart *chart, const iccp_env *env)
+static icc_status make_vectors(iccp_field_state *state, icc_chart *chart, const iccp_env *env,
+                               icc_error *err)
 {
     const double start = iccp_seconds();
     iccp_smooth smooth = {.memory = env->memory};
@@ -139,6 +140,8 @@ static icc_status make_vectors(iccp_field_state *state, icc_chart *chart, const 
     iccp_split(part, 3, (const double[]){1, 2, 4}, env);
     icc_status status =
         iccp_cover_create(&state->cover, chart->domain, state->tree->grid, &part[0]);
+    if (status == ICC_ERR_RESOLUTION)
+        (void)iccp_fail(err, status, "the facets meet too many cells of the grid: use fewer");
     if (status == ICC_OK)
         status = iccp_smooth_create(&smooth, state->field, &state->cover, SWEEPS, &part[1]);
     if (status == ICC_OK)
@@ -256,7 +259,7 @@ icc_status iccp_chart_field_create(icc_chart **out, const icc_domain *domain,
         status = iccp_budget_work(env, VECTOR_WORK * (double)chart->info.n_grid *
                                            iccp_simplices_at_vertex(domain->dim));
     if (status == ICC_OK)
-        status = make_vectors(state, chart, &part[2]);
+        status = make_vectors(state, chart, &part[2], err);
     if (status == ICC_OK) {
         finish(state, chart);
         iccp_recipe_keep(&state->recipe, options, maximum, domain->dim);

@@ -134,8 +134,8 @@ static void measure_leaf(const foliation_state *state, const iccp_leaf *leaf,
 static bool at_maximum(const icc_chart *chart, const double p[2])
 {
     const double *m = centre_of(chart->state);
-    return fabs(p[0] - m[0]) <= chart->domain->tolerance &&
-           fabs(p[1] - m[1]) <= chart->domain->tolerance;
+    return fabs(p[0] - m[0]) <= chart->domain->band.tolerance &&
+           fabs(p[1] - m[1]) <= chart->domain->band.tolerance;
 }
 
 static void fill_encode_jet(const icc_chart *chart, uint32_t triangle, const double bary[3],
@@ -391,6 +391,8 @@ static icc_status make_psi(foliation_state *state, const iccp_harmonic *base, ui
         icc_status status = iccp_psi_create(&state->psi, &base->mesh, &base->laplacian,
                                             &base->solver, centre, HARMONIC_SHARES[k], env);
         const double solved = iccp_seconds();
+        if (status != ICC_OK)
+            (void)iccp_fail(err, status, "the foliation's equations cannot be factorised");
         if (status == ICC_OK)
             status = iccp_certify_psi(&base->mesh, &state->psi, &certificate, &env->memory);
         if (status != ICC_OK)

@@ -176,7 +176,7 @@ static void place_maximum(iccp_gradient_state *state, icc_chart *chart)
         const double step = state->root[k] - iccp_grid_coordinate(grid, state->chosen, k);
         squared += step * step;
     }
-    state->root_reach = chart->domain->tolerance / grid->spacing;
+    state->root_reach = chart->domain->band.tolerance / grid->spacing;
     iccp_gradient_to_local(state, state->root, local);
     iccp_frame_out(&chart->domain->frame, grid->dim, local, chart->info.maximum);
     chart->info.spacing = grid->spacing * chart->domain->frame.out[0] * chart->domain->frame.out[1];

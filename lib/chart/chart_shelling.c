@@ -95,9 +95,12 @@ static icc_status choose_centres(job *j, const iccp_env *env, icc_error *err)
             ++n_given;
         }
     }
-    if (status == ICC_OK && n_given < j->n)
+    if (status == ICC_OK && n_given < j->n) {
         status = j->n == 1 ? iccp_deepest_centre(j->domain[0], j->mesh[0], &j->centre[0], env)
                            : pair(j, env);
+        if (status != ICC_OK)
+            (void)iccp_fail(err, status, "the equations of the harmonic map cannot be solved");
+    }
     j->seconds = iccp_seconds() - start;
     return iccp_explain(err, status);
 }
@@ -133,6 +136,8 @@ static icc_status find_order(work *w, const iccp_simplices *mesh, uint32_t centr
     if (status == ICC_OK)
         status = iccp_reference_flux(mesh, centre, w->inflow, w->reference, w->potential, &part[1]);
     const double solved = iccp_seconds();
+    if (status != ICC_OK)
+        (void)iccp_fail(err, status, "the equations of the harmonic flux cannot be solved");
     if (status == ICC_OK)
         status = iccp_contest(mesh, centre, w->inflow, w->reference, w->potential, w->rank, w->flux,
                               &contest, &part[2], err);
@@ -199,7 +204,7 @@ static icc_status make_fibres(iccp_shelling_state *state, const icc_domain *doma
     const double start = iccp_seconds();
     if (status == ICC_OK)
         status =
-            iccp_fibres_create(&state->fibres, mesh, centre, w.flux, domain->tolerance, &part[2]);
+            iccp_fibres_create(&state->fibres, mesh, centre, w.flux, domain->band.reach, &part[2]);
     info->seconds_mesh = iccp_seconds() - start;
     work_free(&w, &env->memory);
     return status;

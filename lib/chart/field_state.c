@@ -23,7 +23,7 @@ bool iccp_field_at_maximum(const icc_chart *chart, const double *point)
 {
     const iccp_field_state *state = chart->state;
     for (int32_t k = 0; k < chart->domain->dim; ++k)
-        if (fabs(point[k] - state->root[k]) > chart->domain->tolerance)
+        if (fabs(point[k] - state->root[k]) > chart->domain->band.tolerance)
             return false;
     return true;
 }
@@ -45,12 +45,14 @@ int32_t iccp_field_locate(const icc_chart *chart, const double *point, iccp_flow
     const iccp_field_state *state = chart->state;
     double x[ICC_MAX_DIM];
     to_lattice(state, point, x);
-    if (!iccp_flow_find(&state->flow, x, NULL, place))
-        return ICC_OUTSIDE;
-    const uint32_t lowest = place->simplex.corner[0];
-    if (state->cover.bits[lowest] == 0 && state->tree->grid->inside[lowest])
+    const bool found = iccp_flow_find(&state->flow, x, NULL, place);
+    const uint32_t lowest = found ? place->simplex.corner[0] : 0;
+    if (found && !iccp_band_is_wide(&chart->domain->band) && state->cover.bits[lowest] == 0 &&
+        state->tree->grid->inside[lowest])
         return ICC_INSIDE;
-    return iccp_domain_locate(chart->domain, point, true, &coords->facet, coords->bary);
+    const int32_t where =
+        iccp_domain_locate(chart->domain, point, true, &coords->facet, coords->bary);
+    return where == ICC_INSIDE && !found ? ICC_OUTSIDE : where;
 }
 
 bool iccp_field_many_begin(iccp_field_many *many, size_t n_curves, const iccp_path *path)

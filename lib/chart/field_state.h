@@ -18,8 +18,8 @@ typedef struct iccp_field_state {
 
 /* ---- places ---- */
 
-/* ICC_INSIDE and so on for a local point, with its place if it is inside or on the boundary, and its facet and
- * barycentric coordinates on the boundary. A simplex that no facet runs through is inside with its vertices. */
+/* ICC_INSIDE and so on for a local point, with its place if it is inside, or its facet and barycentric
+ * coordinates on the boundary. A simplex that no facet runs through is inside with its vertices. */
 int32_t iccp_field_locate(const icc_chart *chart, const double *point, iccp_flow_place *place,
                           iccp_coords *coords);
 

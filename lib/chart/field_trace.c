@@ -51,8 +51,14 @@ icc_status iccp_field_trace(const icc_chart *chart, const double *point, iccp_pa
         return emit(argument, point);
     if (where == ICC_INSIDE)
         status = trace_below(chart, &place, path, emit, argument);
-    else
+    else {
+        double local[ICC_MAX_DIM];
         status = iccp_field_entry(chart, point, &place);
+        /* The band of the boundary may be wider than the grid goes beyond it. */
+        iccp_domain_facet_point(chart->domain, coords.facet, coords.bary, local);
+        if (status == ICC_ERR_TRACE)
+            status = iccp_field_entry(chart, local, &place);
+    }
     path->n_marks = 0;
     if (status == ICC_OK)
         status = iccp_flow_start(&walk, &state->flow, +1, &place);

@@ -110,7 +110,7 @@ static icc_status read_fibres(icc_chart *chart, const iccp_simplices *mesh, uint
     }
     if (status == ICC_OK)
         status = iccp_fibres_create(&state->fibres, mesh, centre, direction,
-                                    chart->domain->tolerance, env);
+                                    chart->domain->band.reach, env);
     chart->info.certified = status == ICC_OK;
     iccp_free(&env->memory, direction);
     iccp_free(&env->memory, o.rank);

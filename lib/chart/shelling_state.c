@@ -16,7 +16,7 @@ static bool at_maximum(const icc_chart *chart, const double *point)
 {
     const iccp_shelling_state *state = chart->state;
     for (int32_t k = 0; k < chart->domain->dim; ++k)
-        if (!(fabs(point[k] - state->centre[k]) <= chart->domain->tolerance))
+        if (!(fabs(point[k] - state->centre[k]) <= chart->domain->band.tolerance))
             return false;
     return true;
 }
@@ -26,9 +26,9 @@ static int32_t locate(const icc_chart *chart, const double *point, iccp_fibre_pl
                       iccp_coords *coords)
 {
     const iccp_shelling_state *state = chart->state;
-    const double tolerance = chart->domain->tolerance;
     bool inner;
-    const bool found = iccp_fibres_find(&state->fibres, point, tolerance, place, &inner);
+    const bool found =
+        iccp_fibres_find(&state->fibres, point, chart->domain->band.reach, place, &inner);
     if (found && inner)
         return ICC_INSIDE;
     const int32_t where =

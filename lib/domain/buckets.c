@@ -22,8 +22,8 @@ enum {
     ENTRIES_PER_EDGE = 16 /* at most, about */
 };
 
-/* An edge belongs to all cells that it comes this near to, in tolerances. The tolerance itself is
- * about 20 units in the last place of the coordinates (frame.h: the box is at least 1/4 long); the
+/* An edge belongs to all cells that it comes this near to, in reaches of the band. The reach itself is
+ * at least about 20 units in the last place of the coordinates (frame.h: the box is at least 1/4 long); the
  * rest absorbs what is lost in computing cells. */
 static const double SLACK = 4;
 
@@ -45,7 +45,7 @@ static uint32_t slot(const iccp_buckets *b, int axis, double x)
  * cells is least when hx / hy = Lx / Ly. Column 0 lies outside the box, so each row starts outside. */
 static void choose_cells(iccp_buckets *b, const iccp_ring *ring)
 {
-    const double slack = SLACK * b->tolerance, n = (double)ring->n;
+    const double slack = SLACK * b->band.reach, n = (double)ring->n;
     double length[2] = {0, 0}, side[2], count[2];
     for (size_t k = 0; k < ring->n; ++k)
         for (int axis = 0; axis < 2; ++axis)
@@ -85,7 +85,7 @@ static double x_at(const double *a, const double *b, double y)
 /* Counts an edge in its cells, or, when `edges` is there, enters it into them from their ends. */
 static void enter(iccp_buckets *b, uint32_t edge, uint32_t *edges)
 {
-    const double slack = SLACK * b->tolerance;
+    const double slack = SLACK * b->band.reach;
     const double *low = edge_start(b, edge), *high = low + 2;
     if (low[1] > high[1]) {
         low = high;
@@ -174,13 +174,14 @@ static void explore_row(iccp_buckets *b, uint32_t row)
 }
 
 icc_status iccp_buckets_create(iccp_buckets *buckets, const iccp_ring *ring, const double *lower,
-                               const double *upper, double tolerance, const iccp_memory *memory)
+                               const double *upper, const iccp_band *band,
+                               const iccp_memory *memory)
 {
     iccp_buckets *const b = buckets;
-    *b = (iccp_buckets){.points = ring->points, .tolerance = tolerance};
+    *b = (iccp_buckets){.points = ring->points, .band = *band};
     for (int axis = 0; axis < 2; ++axis) {
-        b->lower[axis] = lower[axis] - tolerance;
-        b->upper[axis] = upper[axis] + tolerance;
+        b->lower[axis] = lower[axis] - band->reach;
+        b->upper[axis] = upper[axis] + band->reach;
     }
     choose_cells(b, ring);
     const size_t n_cells = (size_t)b->size[0] * b->size[1];
@@ -226,6 +227,13 @@ static double digestible(double x)
     return fabs(x) < ICCP_FRAME_SMALLEST ? 0 : x;
 }
 
+/* Whether p belongs to the band of the edge from a, at share t of the way. */
+static bool in_band(const iccp_buckets *b, const double *a, double t, const double *p)
+{
+    const double gap[2] = {a[0] + t * (a[2] - a[0]) - p[0], a[1] + t * (a[3] - a[1]) - p[1]};
+    return !iccp_band_is_wide(&b->band) || iccp_band_holds(&b->band, 2, gap);
+}
+
 iccp_place iccp_buckets_find(const iccp_buckets *buckets, const double *point)
 {
     const iccp_buckets *const b = buckets;
@@ -241,15 +249,16 @@ iccp_place iccp_buckets_find(const iccp_buckets *buckets, const double *point)
         return place;
     }
     const double p[2] = {digestible(point[0]), digestible(point[1])};
-    double q[2], best = b->tolerance * b->tolerance;
+    double q[2], best = b->band.reach * b->band.reach;
     candidate(b, row, column, cell->state / 2, q);
     for (uint32_t i = cell->first; i < cell[1].first; ++i) {
         const uint32_t edge = b->edges[i];
         const double *a = edge_start(b, edge);
         double t;
-        if (!far_from(a, p, b->tolerance)) {
+        if (!far_from(a, p, b->band.reach)) {
             const double distance2 = iccp_segment_nearest(a, a + 2, p, &t);
-            if (distance2 < best || (distance2 == best && place.where != ICC_BOUNDARY)) {
+            if ((distance2 < best || (distance2 == best && place.where != ICC_BOUNDARY)) &&
+                in_band(b, a, t, p)) {
                 best = distance2;
                 place = (iccp_place){ICC_BOUNDARY, edge, t};
             }

@@ -4,6 +4,7 @@
 #ifndef ICCP_BUCKETS_H
 #define ICCP_BUCKETS_H
 
+#include "domain/band.h"
 #include "domain/ring.h"
 #include "icc/icc.h"
 
@@ -18,7 +19,7 @@ typedef struct iccp_buckets {
     double origin[2];
     double step[2], rate[2]; /* size of a cell, and 1 / size */
     uint32_t size[2];        /* cells along x and y */
-    double tolerance;
+    iccp_band band;
     iccp_bucket *cells; /* one more than there are cells */
     uint32_t *edges;
 } iccp_buckets;
@@ -30,12 +31,13 @@ typedef struct iccp_place {
     double t;      /* and the share of the way along it */
 } iccp_place;
 
-/* For a simple ring in a box; points up to `tolerance` from it count as on it. */
+/* For a simple ring in a box; points in the band count as on it. */
 icc_status iccp_buckets_create(iccp_buckets *buckets, const iccp_ring *ring, const double *lower,
-                               const double *upper, double tolerance, const iccp_memory *memory);
+                               const double *upper, const iccp_band *band,
+                               const iccp_memory *memory);
 void iccp_buckets_free(iccp_buckets *buckets, const iccp_memory *memory);
 
-/* Exact but for the tolerance. A point that is not finite is outside. */
+/* Exact but for the band. A point that is not finite is outside. */
 iccp_place iccp_buckets_find(const iccp_buckets *buckets, const double *p);
 
 #endif

@@ -7,11 +7,9 @@
 #include "domain/simplices.h"
 #include "domain/simplicial.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
-
-/* What icc.h promises: rounding of input files is of this order. In longest sides of the box. */
-static const double BOUNDARY_TOLERANCE = 1e-14;
 
 static icc_status copy_boundary(icc_domain *d, const double *vertices, const uint32_t *facets,
                                 icc_error *err)
@@ -37,7 +35,7 @@ static icc_status copy_boundary(icc_domain *d, const double *vertices, const uin
 static void measure_box(icc_domain *d)
 {
     const size_t dim = (size_t)d->dim;
-    double longest = 0;
+    double longest = 0, given[2][ICC_MAX_DIM], largest[ICC_MAX_DIM];
     for (size_t k = 0; k < dim; ++k) {
         d->lower[k] = d->upper[k] = d->vertices[k];
         for (size_t i = 1; i < d->n_vertices; ++i) {
@@ -48,7 +46,12 @@ static void measure_box(icc_domain *d)
         const double side = d->upper[k] - d->lower[k];
         longest = side > longest ? side : longest;
     }
-    d->tolerance = BOUNDARY_TOLERANCE * longest;
+    iccp_frame_out(&d->frame, d->dim, d->lower, given[0]);
+    iccp_frame_out(&d->frame, d->dim, d->upper, given[1]);
+    for (size_t k = 0; k < dim; ++k)
+        largest[k] = fmax(fmax(fabs(given[0][k]), fabs(given[1][k])), DBL_MIN) * d->frame.in[0] *
+                     d->frame.in[1];
+    d->band = iccp_band_of(dim, longest, largest);
 }
 
 /* ---------------------------------------------------------------- polygons */
@@ -83,7 +86,7 @@ static icc_status complete_polygon(icc_domain *d, const iccp_env *env, icc_error
     measure_box(d);
     d->orientation = iccp_polygon_orientation(&ring);
     d->measure = iccp_polygon_area(&ring);
-    d->locator = iccp_locator_create(&ring, d->lower, d->upper, d->tolerance, &d->memory);
+    d->locator = iccp_locator_create(&ring, d->lower, d->upper, &d->band, &d->memory);
     if (d->locator == NULL)
         return iccp_fail_memory(err);
     view_tree(d);

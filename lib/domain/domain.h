@@ -3,6 +3,7 @@
 #define ICCP_DOMAIN_H
 
 #include "base/env.h"
+#include "domain/band.h"
 #include "domain/crossings.h"
 #include "domain/facet_tree.h"
 #include "domain/frame.h"
@@ -36,8 +37,9 @@ struct icc_domain {
     iccp_frame frame;
     double lower[ICC_MAX_DIM]; /* local bounding box */
     double upper[ICC_MAX_DIM];
-    double tolerance; /* local: 1e-14 of the longest side of the bounding box; points this close to the
-                         boundary are on it */
+    iccp_band
+        band; /* points this close to the boundary are on it; `tolerance` apart, points are the
+                         same */
     double measure;   /* local length, area, volume, ... */
     iccp_facet_tree tree; /* over local vertices; in 2-D a view of the locator's */
     struct iccp_locator *locator; /* 2-D only, else NULL: the polygon as a ring, and faster answers */

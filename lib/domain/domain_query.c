@@ -40,7 +40,7 @@ int32_t iccp_domain_locate(const icc_domain *domain, const double *point, bool b
     int32_t where = ICC_OUTSIDE;
     iccp_inside_reach(dim, point, p);
     if (finite(dim, point))
-        where = iccp_inside_find(&domain->tree, domain->tolerance, p, &at, share);
+        where = iccp_inside_find(&domain->tree, &domain->band, p, &at, share);
     if (nearest && where != ICC_BOUNDARY)
         at = iccp_facet_tree_nearest(&domain->tree, p, share, &distance2);
     if (facet != NULL && (nearest || where == ICC_BOUNDARY)) {

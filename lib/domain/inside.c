@@ -22,16 +22,32 @@ void iccp_inside_reach(size_t dim, const double *p, double *reachable)
     }
 }
 
-static bool on_boundary(const iccp_facet_tree *tree, double tolerance, const double *p,
+/* Whether p belongs to the band of a facet at the given place on it. */
+static bool in_band(const iccp_band *band, size_t dim, const double *const *corners,
+                    const double *share, const double *p)
+{
+    double gap[MAX];
+    if (!iccp_band_is_wide(band))
+        return true;
+    for (size_t k = 0; k < dim; ++k) {
+        gap[k] = corners[0][k] - p[k];
+        for (size_t i = 1; i < dim; ++i)
+            gap[k] += share[i] * (corners[i][k] - corners[0][k]);
+    }
+    return iccp_band_holds(band, dim, gap);
+}
+
+/* The nearest facet among those whose band holds p; the smallest number of several. */
+static bool on_boundary(const iccp_facet_tree *tree, const iccp_band *band, const double *p,
                         uint32_t *facet, double *bary)
 {
-    double box[2 * MAX], best = tolerance * tolerance;
+    double box[2 * MAX], best = band->reach * band->reach;
     iccp_facet_query query;
     uint32_t next;
     bool found = false;
     for (size_t k = 0; k < tree->dim; ++k) {
-        box[k] = p[k] - tolerance;
-        box[tree->dim + k] = p[k] + tolerance;
+        box[k] = p[k] - band->reach;
+        box[tree->dim + k] = p[k] + band->reach;
     }
     iccp_facet_query_start(&query, tree, box);
     while (iccp_facet_query_next(&query, &next)) {
@@ -39,7 +55,8 @@ static bool on_boundary(const iccp_facet_tree *tree, double tolerance, const dou
         double share[MAX];
         iccp_facet_corners(tree, next, corners);
         const double distance2 = iccp_simplex_nearest(tree->dim, tree->dim, corners, p, share);
-        if (distance2 > best || (found && !(distance2 < best) && next > *facet))
+        if (distance2 > best || (found && !(distance2 < best) && next > *facet) ||
+            !in_band(band, tree->dim, corners, share, p))
             continue;
         found = true;
         best = distance2;
@@ -69,12 +86,12 @@ static bool way_out(const iccp_facet_tree *tree, const double *p, size_t *axis, 
     return true;
 }
 
-int32_t iccp_inside_find(const iccp_facet_tree *tree, double tolerance, const double *p,
+int32_t iccp_inside_find(const iccp_facet_tree *tree, const iccp_band *band, const double *p,
                          uint32_t *facet, double *bary)
 {
     size_t axis = 0;
     bool upwards = true;
-    if (on_boundary(tree, tolerance, p, facet, bary))
+    if (on_boundary(tree, band, p, facet, bary))
         return ICC_BOUNDARY;
     if (!way_out(tree, p, &axis, &upwards))
         return ICC_OUTSIDE;

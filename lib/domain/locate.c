@@ -3,7 +3,7 @@
 #include <math.h>
 
 iccp_locator *iccp_locator_create(iccp_ring *ring, const double *lower, const double *upper,
-                                  double tolerance, const iccp_memory *memory)
+                                  const iccp_band *band, const iccp_memory *memory)
 {
     iccp_locator *locator = iccp_alloc_zero(memory, 1, sizeof *locator);
     if (locator == NULL) {
@@ -14,7 +14,7 @@ iccp_locator *iccp_locator_create(iccp_ring *ring, const double *lower, const do
     *ring = (iccp_ring){0};
     iccp_boxtree_create(&locator->tree, locator->ring.points, locator->ring.n, memory);
     if (locator->tree.boxes == NULL || iccp_buckets_create(&locator->buckets, &locator->ring, lower,
-                                                           upper, tolerance, memory) != ICC_OK) {
+                                                           upper, band, memory) != ICC_OK) {
         iccp_locator_free(locator, memory);
         return NULL;
     }

@@ -32,7 +32,7 @@ icc_status iccp_harmonic_create(iccp_harmonic *base, const icc_domain *domain,
         status = iccp_laplacian_create(&base->laplacian, &base->mesh, ICCP_NO_NEIGHBOUR, &part[1]);
         if (status == ICC_OK)
             status = iccp_spd_create(&base->solver, &base->laplacian.matrix, false, &part[2]);
-        if (status == ICC_ERR_SOLVER)
+        if (status != ICC_OK)
             (void)iccp_fail(err, status, "the mesh's equations cannot be factorised");
     }
     base->seconds_solve = iccp_seconds() - meshed;

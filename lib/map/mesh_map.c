@@ -4,6 +4,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "chart/bulk.h"
 #include "map/compatible.h"
 #include "map/outline.h"
 #include "map/repair.h"
@@ -40,7 +41,7 @@ static icc_status vertex_image(const icc_chart *source, const icc_chart *target,
 }
 
 static icc_status start(iccp_plmap *pl, const icc_chart *source, const icc_chart *target,
-                        const iccp_env *env)
+                        const iccp_env *env, icc_error *err)
 {
     const iccp_planar *mesh = source->mesh;
     double *images = iccp_alloc(&env->memory, mesh->n_vertices, 2 * sizeof *images);
@@ -52,6 +53,9 @@ static icc_status start(iccp_plmap *pl, const icc_chart *source, const icc_chart
             status = iccp_progress(env, "trace", (double)v / (double)mesh->n_vertices);
         if (status == ICC_OK)
             status = vertex_image(source, target, mesh, v, images + 2 * v, &path);
+        if (iccp_is_point_status(status) && status != ICC_OK)
+            (void)iccp_fail(err, status, "vertex %zu of the mesh has no image by the charts",
+                            v);
     }
     if (status == ICC_OK)
         status = iccp_plmap_create(pl, mesh, source->domain, images,
@@ -221,7 +225,7 @@ icc_status iccp_mesh_map_create(iccp_mesh_map **out, const icc_chart *source,
     const icc_improve_options options = {.iterations = iterations};
     iccp_env part[3];
     iccp_split(part, 3, (const double[]){1, 7, 1}, env);
-    icc_status status = start(&map->pl, source, target, &part[0]);
+    icc_status status = start(&map->pl, source, target, &part[0], err);
     if (status == ICC_OK)
         status = refit(map, &options, info, &part[1], err);
     if (status == ICC_OK && info->n_unrepaired > 0)

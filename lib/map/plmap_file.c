@@ -57,8 +57,8 @@ static bool is_near(const icc_domain *domain, uint32_t facet, double along, cons
     const double bary[2] = {1 - along, along};
     double wanted[2];
     iccp_domain_facet_point(domain, facet, bary, wanted);
-    return fabs(point[0] - wanted[0]) <= domain->tolerance &&
-           fabs(point[1] - wanted[1]) <= domain->tolerance;
+    return fabs(point[0] - wanted[0]) <= domain->band.tolerance &&
+           fabs(point[1] - wanted[1]) <= domain->band.tolerance;
 }
 
 /* Where facets start, counter-clockwise. */

@@ -7,8 +7,8 @@
 #include <math.h>
 #include <string.h>
 
-/* In units of the largest coordinate. Domains count points up to 1e-14 outside as boundary, and crossings
- * of rows are off by a few units in the last place, 1e-16. */
+/* In units of the largest coordinate. Domains count points up to 1e-14 outside as boundary, which is far more than
+ * rounding of the coordinates, and crossings of rows are off by a few units in the last place, 1e-16. */
 static const double CLOSE = 1e-13;
 
 /* ---- listing ---- */
@@ -101,7 +101,7 @@ void iccp_rim_free(iccp_rim *rim)
  * within rounding of the boundary. */
 static bool origin(const icc_map *map, const double centre[2], double place[2])
 {
-    const icc_domain *from = map->target->domain, *to = map->source->domain;
+    const icc_domain *from = map->target_domain, *to = map->source_domain;
     double local[2], image[2], bary[2];
     uint32_t facet;
     iccp_frame_in(&from->frame, 2, centre, local);

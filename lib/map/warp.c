@@ -34,8 +34,8 @@ static void place_vertices(warp *w)
     const iccp_plmap *pl = &w->map->mesh->pl;
     for (size_t v = 0; v < pl->n_vertices; ++v) {
         double from[2], to[2];
-        iccp_frame_out(&w->map->source->domain->frame, 2, pl->points + 2 * v, from);
-        iccp_frame_out(&w->map->target->domain->frame, 2, pl->images + 2 * v, to);
+        iccp_frame_out(&w->map->source_domain->frame, 2, pl->points + 2 * v, from);
+        iccp_frame_out(&w->map->target_domain->frame, 2, pl->images + 2 * v, to);
         w->places[v] = (iccp_place){to[0], to[1], from[0] - 0.5, from[1] - 0.5};
     }
 }
@@ -152,10 +152,10 @@ static void gather(const warp *w, const iccp_scan *scan, row *r)
 static void paint_centre(const warp *w, const row *r, size_t column, uint8_t *to)
 {
     double place[2] = {(double)column + 0.5, r->number + 0.5}, local[2], image[2];
-    iccp_frame_in(&w->map->target->domain->frame, 2, place, local);
+    iccp_frame_in(&w->map->target_domain->frame, 2, place, local);
     if (iccp_mesh_map_point(w->map->mesh, true, local, image, NULL) != ICC_OK)
         return;
-    iccp_frame_out(&w->map->source->domain->frame, 2, image, place);
+    iccp_frame_out(&w->map->source_domain->frame, 2, image, place);
     const iccp_line line = {place[0] - 0.5, place[1] - 0.5, 0, 0, 1};
     iccp_sampler_paint(w->source, &line, to);
 }
@@ -222,7 +222,7 @@ static icc_status warp_mesh(const icc_map *map, const icc_picture *source,
 {
     warp w = {.map = map, .source = source, .target = target, .memory = &env->memory};
     iccp_rim rim;
-    icc_status status = iccp_rim_create(&rim, map->target->domain, target, env);
+    icc_status status = iccp_rim_create(&rim, map->target_domain, target, env);
     if (status != ICC_OK)
         return status;
     status = prepare(&w);

@@ -182,6 +182,138 @@ void warps()
     check(to.front() == 7 && to.back() == 7, "all of it");
 }
 
+using points2 = std::vector<std::array<double, 2>>;
+
+bool are_equal(const std::vector<double> &a, const std::vector<double> &b)
+{
+    return is_times(a, 1, b);
+}
+
+void takes_rows()
+{
+    const points2 square{{0, 0}, {4, 0}, {4, 3}, {0, 3}};
+    const std::vector<std::array<std::uint32_t, 2>> sides{{0, 1}, {1, 2}, {2, 3}, {3, 0}};
+    const icc::domain ring(2, square, sides);
+    check(ring.vertices() == source.vertices() && ring.facets().size() == 8, "a boundary of rows");
+    const icc::map map(icc::domain::polygon(square), target);
+    const points2 images = map.apply(points2{{1, 1}, {2, 1.5}});
+    check(images.size() == 2 && std::fabs(images[1][0] - 4) < 1e-9, "images by rows");
+    const points2 back = map.apply_inverse(images);
+    check(std::fabs(back[0][1] - 1) < 1e-9, "and back");
+    std::array<std::array<double, 2>, 1> one{{{1, 1}}};
+    check(map.apply(one, one) == 0 && std::fabs(one[0][0] - 2) < 1e-9, "rows in place");
+    const std::vector<std::array<double, 3>> high{{1, 1, 1}, {2, 2, 2}};
+    check(thrown([&] { map.apply(high); }, none).status == ICC_ERR_ARGUMENT, "rows of another length");
+    check(thrown([&] { icc::domain::polygon(high); }, none).status == ICC_ERR_ARGUMENT,
+          "a polygon of rows of another length");
+}
+
+void tells_statuses()
+{
+    const icc::map map(source, target);
+    const std::vector<double> points{1, 1, 9, 9, NAN, 0};
+    std::vector<double> images(6), jacobians(12);
+    std::vector<icc_status> status(3);
+    check(map.apply(points, images, status) == 2 && status[0] == ICC_OK &&
+              status[1] == ICC_ERR_OUTSIDE && status[2] == ICC_ERR_ARGUMENT,
+          "statuses of points");
+    check(map.apply_inverse(points, images, status, icc::env{}) == 2 && status[1] == ICC_ERR_OUTSIDE,
+          "statuses of points back");
+    check(map.jacobian(points, jacobians, status) == 2 && status[1] == ICC_ERR_OUTSIDE,
+          "statuses of derivatives");
+    check(are_equal(map.jacobian({1, 1.2}), {2, 0, 0, 2}), "a derivative");
+    std::vector<icc_status> few(2);
+    check(thrown([&] { map.apply(points, images, few); }, none).status == ICC_ERR_ARGUMENT,
+          "too few statuses");
+    check(thrown([&] { map.jacobian(points, images); }, none).status == ICC_ERR_ARGUMENT,
+          "too little room for derivatives");
+}
+
+void makes_maps_of_maps()
+{
+    const icc::map first(source, target);
+    const icc::domain moved = icc::domain::polygon({0, 0, 9, 0, 8, 6, 0, 6});
+    const icc::map next = first.retarget(moved);
+    check(next.info().certified == 1 && next.get_source_chart() == nullptr, "a map that follows");
+    check(first.get_source_chart() != nullptr && first.get_target_chart() != nullptr, "charts of a map");
+    check(is_times(next.apply({0, 0, 4, 0}), 1, {0, 0, 9, 0}), "and where it goes");
+    check(first.retarget(moved, -1).info().n_iterations == 0, "without steps");
+
+    auto report = icc::sized<icc_improve_report>();
+    auto options = icc::sized<icc_improve_options>();
+    options.iterations = 3;
+    const icc::map better = next.improve(options, &report);
+    check(report.energy <= report.energy_start && better.info().certified == 1, "a fairer map");
+    check(next.improve().info().energy <= next.info().energy, "by the defaults");
+
+    const icc::map_mesh mesh = next.mesh();
+    check(mesh.vertices.size() == 2 * next.info().n_vertices && mesh.images.size() == mesh.vertices.size() &&
+              mesh.simplices.size() == 3 * next.info().n_simplices,
+          "its mesh");
+    check(is_times(next.apply(mesh.vertices), 1, mesh.images), "which is the map");
+    const icc::carried_mesh own = next.certify(mesh.vertices, mesh.simplices);
+    check(own.images.size() == mesh.images.size() && own.certificate.n_inverted + own.certificate.n_no_image == 0,
+          "a mesh that is carried along");
+    const std::vector<std::array<std::uint32_t, 3>> one{{0, 1, 2}};
+    check(next.repair({1, 1, 2, 1, 1, 2}, one).certificate.certified == 1, "and repaired");
+    check(icc::map::load(next.save()).apply({1, 1}) == next.apply({1, 1}), "saved and loaded");
+
+    std::vector<std::uint8_t> from(8 * 6, 9);
+    std::vector<std::uint16_t> to(8 * 6, 0);
+    const icc::view<const std::uint8_t> read(from);
+    check(next.warp(icc::picture(read, 8, 6, 1), icc::picture(icc::view<std::uint8_t>(from), 8, 6, 1)) == 0,
+          "a picture after following");
+    check(thrown([&] { icc::picture(icc::view<std::uint16_t>(to), 8, 7, 1); }, none).status ==
+              ICC_ERR_ARGUMENT,
+          "a picture with too few samples");
+    check(icc::picture(icc::view<std::uint16_t>(to), 3, 4, 4, true).stride == 24, "a picture's rows");
+    auto curves = icc::sized<icc_map_options>();
+    curves.kind = ICC_MAP_CURVES;
+    const icc::map by_curves(source, target, curves);
+    check(thrown([&] { by_curves.mesh(); }, none).status == ICC_ERR_UNSUPPORTED, "curves have no mesh");
+    check(thrown([&] { by_curves.retarget(moved); }, none).status == ICC_ERR_UNSUPPORTED,
+          "nor can they be followed");
+}
+
+void asks_charts_and_domains()
+{
+    const icc::chart chart(source), other(target);
+    const std::vector<double> points{1, 1, 2, 1.4, 3.5, 0.5};
+    const icc::coordinates c = chart.encode(points);
+    check(c.facet.size() == 3 && c.status[2] == ICC_OK && are_equal(chart.decode(c), points),
+          "coordinates there and back");
+    points2 rows(3);
+    std::vector<icc_status> status(3, -1);
+    check(chart.decode(c, rows, status) == 0 && status[1] == ICC_OK && std::fabs(rows[1][1] - 1.4) < 1e-9,
+          "into rows");
+    icc::coordinates half = c;
+    half.t.pop_back();
+    check(thrown([&] { chart.decode(half); }, none).status == ICC_ERR_ARGUMENT, "coordinates amiss");
+    check(chart.encode({9, 9}).status[0] == ICC_ERR_OUTSIDE, "a point outside");
+    const std::vector<double> curve = chart.trace({1, 1});
+    check(curve.size() >= 4 && curve.size() % 2 == 0, "a curve");
+    check(thrown([&] { chart.trace({9, 9}); }, none).status == ICC_ERR_OUTSIDE, "no curve");
+    check(thrown([&] { chart.trace({1, 1, 1}); }, none).status == ICC_ERR_ARGUMENT, "no point");
+    check(chart.report(100).unreachable <= 0 && chart.get_domain() == source.get(), "a report");
+    check(icc::map(chart, other).info().certified == 1, "a map of charts");
+    check(icc::chart::load(chart.save()).save() == chart.save(), "saved and loaded");
+
+    check(source.locate({1, 1, 0, 1, 9, 9}) == std::vector<std::int32_t>{ICC_INSIDE, ICC_BOUNDARY, ICC_OUTSIDE},
+          "places");
+    const icc::places near = source.locate_nearest({1, 0.25});
+    check(near.where[0] == ICC_INSIDE && near.facet[0] == 0 && are_equal(near.bary, {0.75, 0.25}),
+          "and the nearest");
+    const std::vector<icc::defect> found = icc::defects({0, 0, 1, 1, 1, 0, 0, 1});
+    check(found.size() == 1 && found[0].kind == ICC_DEFECT_CROSSING && found[0].a == 0 && found[0].b == 2,
+          "defects");
+    check(icc::defects({0, 0, 1, 0, 0, 1}).empty(), "none");
+    std::vector<std::uint8_t> cells{1, 0, 0, 1};
+    check(icc::repair_mask({2, 2}, cells) == 1, "a mask that is repaired");
+    check(icc::domain::from_mask({2, 2}, cells).info().measure > 2.9, "a mask");
+    check(thrown([&] { icc::domain::from_mask({2, 3}, cells); }, none).status == ICC_ERR_ARGUMENT,
+          "too few cells");
+}
+
 void saves()
 {
     const icc::map map(source, target);
@@ -205,5 +337,9 @@ int main()
     carries_exceptions();
     warps();
     saves();
+    takes_rows();
+    tells_statuses();
+    makes_maps_of_maps();
+    asks_charts_and_domains();
     return n_failed != 0;
 }

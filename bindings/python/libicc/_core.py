@@ -6,7 +6,7 @@ import ctypes
 import os
 import sys
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any, Callable, Dict, Optional, Sequence, Tuple, Type, TypeVar, Union
+from typing import TYPE_CHECKING, Any, Callable, Dict, List, Optional, Sequence, Tuple, Type, TypeVar, Union
 
 import numpy as np
 
@@ -100,8 +100,29 @@ def bulk(n: int, progress: Optional[Progress],
     return call.env, call.check
 
 
+def is_geometry(shape: Any) -> bool:
+    """Whether something is one of shapely's geometries, or looks like one."""
+    return any(hasattr(shape, name) for name in ("geom_type", "geoms", "exterior", "coords"))
+
+
+def parts_of(shape: Any) -> List[Any]:
+    """The parts of a geometry: itself unless it has several."""
+    return list(getattr(shape, "geoms", (shape,)))
+
+
+def coordinates(shapes: Any) -> Floats:
+    """The coordinates of points and lines one after the other."""
+    arrays = [np.asarray(part.coords, dtype=np.float64) for part in shapes if len(part.coords) > 0]
+    return np.concatenate(arrays) if arrays else np.empty((0, 2))
+
+
 def points_of(points: ArrayLike, dim: int) -> Floats:
-    """Points as a contiguous array of shape (n, dim); copied only if need be."""
+    """Points as a contiguous array of shape (n, dim); copied only if need be. Of shapely geometries the
+    coordinates, heights left out in 2-D."""
+    if is_geometry(points):
+        points = coordinates(parts_of(points))[:, :dim]
+    elif isinstance(points, (list, tuple)) and len(points) > 0 and is_geometry(points[0]):
+        points = coordinates(points)[:, :dim]
     array = np.ascontiguousarray(points, dtype=np.float64)
     if array.ndim == 1 and array.shape[0] == dim:
         array = array.reshape(1, dim)
@@ -175,6 +196,13 @@ class Handle:
 
     def __init__(self) -> None:
         raise TypeError(f"{type(self).__name__} cannot be made this way")
+
+    def __init_subclass__(cls, **options: Any) -> None:
+        """`help(Map.__init__)` says what `help(Map)` does: arguments are described with the class."""
+        super().__init_subclass__(**options)
+        own = cls.__dict__.get("__init__")
+        if own is not None and own.__doc__ is None:
+            own.__doc__ = cls.__doc__
 
     def _take(self, handle: int, owner: Optional["Handle"] = None) -> None:
         """Owns a handle, or borrows it from `owner`, which is kept alive."""

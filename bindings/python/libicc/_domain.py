@@ -15,11 +15,14 @@ from ._core import (
     Progress,
     address,
     bulk,
+    coordinates,
     create,
     dimension,
     fields,
     indices,
+    is_geometry,
     name_of,
+    parts_of,
     points_of,
 )
 from ._errors import check
@@ -37,7 +40,9 @@ class Domain(Handle):
     """A shape: its boundary, and what lies inside.
 
     Args:
-        vertices: float array of shape (n, dim)
+        vertices: float array of shape (n, dim). A polygon without facets may be a closed ring, whose last
+            vertex is the first one again; or a shapely Polygon, LinearRing or MultiPolygon of one part
+            (without holes; heights are left out).
         facets: int array of shape (m, dim): vertex indices of the boundary's edges (2-D), triangles
             (3-D) and so on. May be left out in 2-D: a polygon through the vertices in their order.
         progress, threads: see `libicc.Progress`; threads default to one per processor, results are
@@ -51,7 +56,7 @@ class Domain(Handle):
 
     def __init__(self, vertices: ArrayLike, facets: Optional[ArrayLike] = None, *,
                  progress: Optional[Progress] = None, threads: Optional[int] = None):
-        vertices = np.ascontiguousarray(vertices, dtype=np.float64)
+        vertices = _outline(vertices) if facets is None else np.ascontiguousarray(vertices, dtype=np.float64)
         if vertices.ndim != 2:
             raise ValueError(f"vertices must have the shape (n, dim), not {vertices.shape}")
         n, dim = vertices.shape
@@ -148,14 +153,14 @@ class Domain(Handle):
 def as_domain(shape: ShapeLike) -> Domain:
     """A domain from whatever describes one.
 
-    Takes a Domain; an array of polygon vertices; a pair (vertices, facets); a boolean mask; a shapely
-    Polygon without holes; a meshio Mesh of triangles in space (a surface), of triangles in the plane or
+    Takes a Domain; what `Domain` takes: an array of polygon vertices, a shapely polygon without holes; a
+    pair (vertices, facets); a boolean mask; a meshio Mesh of triangles in space (a surface), of triangles in the plane or
     of tetrahedra (a conforming mesh).
     """
     if isinstance(shape, Domain):
         return shape
-    if hasattr(shape, "exterior"):
-        return _from_shapely(shape)
+    if is_geometry(shape):
+        return Domain(shape)
     if hasattr(shape, "cells_dict"):
         return _from_meshio(shape)
     if isinstance(shape, tuple) and len(shape) == 2 and np.ndim(shape[0]) == 2:
@@ -164,10 +169,30 @@ def as_domain(shape: ShapeLike) -> Domain:
     return Domain.from_mask(array) if array.dtype == bool else Domain(array)
 
 
-def _from_shapely(polygon: Any) -> Domain:
-    if len(polygon.interiors) > 0:
+def _outline(shape: ArrayLike) -> Floats:
+    """The vertices of a polygon, each once."""
+    if is_geometry(shape):
+        shape = _ring_of(shape)
+    vertices = np.ascontiguousarray(shape, dtype=np.float64)
+    is_closed = vertices.ndim == 2 and len(vertices) > 3 and (vertices[0] == vertices[-1]).all()
+    return vertices[:-1] if is_closed else vertices
+
+
+def _ring_of(shape: Any) -> Floats:
+    """The outline of a shapely geometry, without heights."""
+    parts = parts_of(shape)
+    if len(parts) != 1:
+        raise ValueError(f"the {_kind_of(shape)} has {len(parts)} parts; make one map for each part")
+    part = parts[0]
+    if len(getattr(part, "interiors", ())) > 0:
         raise ValueError("the polygon has holes; make one map for each part without")
-    return Domain(np.asarray(polygon.exterior.coords)[:-1, :2])
+    if _kind_of(part) in ("Point", "MultiPoint", "MultiLineString"):
+        raise ValueError(f"a {_kind_of(part)} is no outline; a domain is made of a Polygon")
+    return coordinates([getattr(part, "exterior", part)])[:, :2]
+
+
+def _kind_of(shape: Any) -> str:
+    return getattr(shape, "geom_type", type(shape).__name__)
 
 
 def _from_meshio(mesh: Any) -> Domain:
@@ -183,7 +208,7 @@ def _from_meshio(mesh: Any) -> Domain:
 
 def boundary_defects(vertices: ArrayLike) -> List[Tuple[str, int, int]]:
     """Everything that keeps a closed polygon (n, 2) from being a boundary: a list of (kind, a, b)."""
-    vertices = points_of(vertices, 2)
+    vertices = points_of(_outline(vertices), 2)
     call, n, capacity = Call(threads=1), ctypes.c_size_t(), 64
     while True:
         kinds, items = np.empty(capacity, np.int32), np.empty((capacity, 2), np.uint32)

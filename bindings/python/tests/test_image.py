@@ -35,6 +35,10 @@ def test_one_row():
 
 def test_wrong_pictures(picture):
     cage = libicc.picture_cage(picture.shape)
+    with pytest.raises(ValueError, match="5 channels; there must be 1 to 4"):
+        libicc.warp_image(np.zeros((9, 9, 5), np.uint8), libicc.Map(cage, cage))
+    with pytest.raises(ValueError, match="it must be 0, or 1 with at least two channels"):
+        libicc.warp_image(picture[:, :, 0], libicc.Map(cage, cage), alpha=True)
     with pytest.raises(ValueError, match="uint8"):
         libicc.warp_image(picture.astype(float), libicc.Map(cage, cage))
 

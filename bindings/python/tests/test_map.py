@@ -145,3 +145,52 @@ def test_shapely(before, after, inside, neighbour):
     ring = shapely.Polygon(before, [[[1, 1], [2, 1], [2, 2]]])
     with pytest.raises(ValueError, match="holes"):
         libicc.Domain.info.fget(libicc.as_domain(ring))
+
+
+def test_closed_rings(before, after, inside):
+    """The first vertex once more at the end, as files and shapely have it."""
+    close = lambda ring: np.concatenate([ring, ring[:1]])  # noqa: E731
+    assert len(libicc.Domain(close(before)).vertices) == len(before)
+    assert libicc.boundary_defects(close(before)) == []
+    mapping = libicc.Map(close(before), close(after).tolist())
+    assert np.array_equal(mapping(inside), libicc.Map(before, after)(inside))
+    with pytest.raises(libicc.BoundaryError):
+        libicc.Domain(np.concatenate([before, before[1:2]]))
+    with pytest.raises(libicc.BoundaryError, match="at least 3"):
+        libicc.Domain([[0, 0], [1, 1]])
+
+
+def test_geometries(before, after, inside, neighbour):
+    shapely = neighbour("shapely.geometry")
+    high = np.column_stack([before, np.arange(len(before))])
+    wanted = libicc.Map(before, after)(inside)
+    for shape in (shapely.Polygon(high), shapely.LinearRing(before), shapely.MultiPolygon([shapely.Polygon(before)]),
+                  shapely.GeometryCollection([shapely.Polygon(high)])):
+        assert np.array_equal(libicc.Map(shape, after)(inside), wanted)
+        assert np.array_equal(libicc.Domain(shape).vertices, before)
+    two = shapely.MultiPolygon([shapely.Polygon(before), shapely.Polygon(before + 20)])
+    for make in (libicc.Domain, libicc.as_domain, libicc.Chart):
+        with pytest.raises(ValueError, match="2 parts"):
+            make(two)
+        with pytest.raises(ValueError, match="Point is no outline"):
+            make(shapely.Point(1, 2))
+        with pytest.raises(ValueError, match="0 parts"):
+            make(shapely.MultiPolygon())
+    with pytest.raises(ValueError):
+        libicc.Domain(shapely.Polygon())
+
+
+def test_geometries_as_points(before, after, inside, neighbour):
+    shapely = neighbour("shapely.geometry")
+    mapping, few = libicc.Map(before, after), inside[:3]
+    wanted = mapping(few)
+    assert np.array_equal(mapping(shapely.Point(few[0])), wanted[:1])
+    assert np.array_equal(mapping(shapely.Point(*few[0], 7)), wanted[:1])
+    assert np.array_equal(mapping([shapely.Point(p) for p in few]), wanted)
+    assert np.array_equal(mapping(shapely.MultiPoint(few)), wanted)
+    assert np.array_equal(mapping.inverse(shapely.LineString(few)), mapping.inverse(few))
+
+
+@pytest.mark.parametrize("kind", [libicc.Domain, libicc.Chart, libicc.Map])
+def test_help(kind):
+    assert kind.__init__.__doc__ == kind.__doc__ and "Args:" in kind.__doc__

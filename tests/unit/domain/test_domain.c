@@ -756,7 +756,7 @@ START_TEST(test_sides_of_cells)
             const double t = (side - p[axis]) / (q[axis] - p[axis]);
             if (!(t > 0.01 && t < 0.99))
                 continue;
-            const double off = 1.8 * (unit() - 0.5) * domain->tolerance,
+            const double off = 1.8 * (unit() - 0.5) * domain->band.tolerance,
                          along = 1e-15 * (unit() - 0.5);
             double x[2] = {p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])};
             x[axis] = side;
@@ -805,8 +805,8 @@ START_TEST(test_invariance)
 {
     static const struct {
         double scale, x, y;
-    } places[] = {{1, 0, 0},         {0x1p-1060, 0, 0}, {0x1p990, 0, 0}, {0x1p-10, 1e9, -1e9},
-                  {1, 1e12, 0x1p40}, {4, 0, 1e15},      {0x1p-1, -7, 3}};
+    } places[] = {{1, 0, 0},         {0x1p-1060, 0, 0},  {0x1p990, 0, 0}, {0x1p-10, 1e8, -1e8},
+                  {1, 1e11, 0x1p36}, {0x1p14, 0, 1e15}, {0x1p-1, -7, 3}};
     enum { PLACES = sizeof places / sizeof places[0] };
     static shape s;
     static double points[2 * MAX_N];

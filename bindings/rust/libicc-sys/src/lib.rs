@@ -227,7 +227,8 @@ opaque!(
 // Where a point lies.
 /// in the interior
 pub const ICC_INSIDE: i32 = 1;
-/// on the boundary, up to 1e-14 of the bounding box's longest side
+/// on the boundary: up to 1e-14 of the bounding box's longest side, or up to `dim` * 2^-52 of the largest
+/// coordinate along each axis, whichever is more
 pub const ICC_BOUNDARY: i32 = 2;
 /// elsewhere
 pub const ICC_OUTSIDE: i32 = 3;

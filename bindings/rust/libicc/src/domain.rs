@@ -32,7 +32,8 @@ pub struct Place(pub i32);
 impl Place {
     /// in the interior
     pub const INSIDE: Place = Place(sys::ICC_INSIDE);
-    /// on the boundary, up to 1e-14 of the bounding box's longest side
+    /// on the boundary: up to 1e-14 of the bounding box's longest side, or up to `dim` * 2^-52 of the largest
+    /// coordinate along each axis, whichever is more
     pub const BOUNDARY: Place = Place(sys::ICC_BOUNDARY);
     /// elsewhere
     pub const OUTSIDE: Place = Place(sys::ICC_OUTSIDE);
