@@ -4,6 +4,7 @@
 #include "base/sort.h"
 #include "map/dirichlet.h"
 #include "map/newton.h"
+#include "math/vec.h"
 
 /* First steps with SLIM's model, which gets far from a bad start; then Newton's, which
  * converges. */
@@ -68,11 +69,6 @@ static int by_excess(const void *a, const void *b)
     return (p->triangle > q->triangle) - (p->triangle < q->triangle);
 }
 
-static double squared_distance(const double *p, const double *q)
-{
-    return (p[0] - q[0]) * (p[0] - q[0]) + (p[1] - q[1]) * (p[1] - q[1]);
-}
-
 /* The corner that faces the edge which is longest, before and after the map taken together. */
 static uint32_t longest_edge(const iccp_plmap *map, uint32_t triangle)
 {
@@ -82,8 +78,8 @@ static uint32_t longest_edge(const iccp_plmap *map, uint32_t triangle)
         const uint32_t a = iccp_after(c), b = iccp_before(c);
         const double own =
             map->stretch * map->stretch *
-                squared_distance(iccp_plmap_point(map, a), iccp_plmap_point(map, b)) +
-            squared_distance(iccp_plmap_image(map, a), iccp_plmap_image(map, b));
+                iccp_vec_distance2(2, iccp_plmap_point(map, a), iccp_plmap_point(map, b)) +
+            iccp_vec_distance2(2, iccp_plmap_image(map, a), iccp_plmap_image(map, b));
         if (own > length) {
             length = own;
             best = c;

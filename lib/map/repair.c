@@ -3,6 +3,7 @@
 
 #include "map/untangle.h"
 #include "math/predicates.h"
+#include "math/vec.h"
 
 #include <math.h>
 
@@ -24,17 +25,13 @@ static const double LEAST_ROUNDNESS = 1e-4;
 
 /* ---- turning edges ---- */
 
-static double squared_length(const double *a, const double *b)
-{
-    return (b[0] - a[0]) * (b[0] - a[0]) + (b[1] - a[1]) * (b[1] - a[1]);
-}
-
 /* Twice the area over the square of the longest edge: 0.87 for an equilateral triangle, 0 for a
  * flat one, negative for an inverted one. */
 static double roundness(const double *a, const double *b, const double *c)
 {
     const double twice = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-    return twice / fmax(squared_length(a, b), fmax(squared_length(b, c), squared_length(c, a)));
+    return twice / fmax(iccp_vec_distance2(2, a, b),
+                        fmax(iccp_vec_distance2(2, b, c), iccp_vec_distance2(2, c, a)));
 }
 
 static int sign_of(const double *a, const double *b, const double *c)

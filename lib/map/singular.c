@@ -3,6 +3,7 @@
 #include "map/singular.h"
 
 #include "math/jacobi.h"
+#include "math/vec.h"
 
 #include <string.h>
 
@@ -38,21 +39,9 @@ static void find2(const double *j, iccp_singular *s)
 
 /* ---- in space ---- */
 
-static void cross(const double *a, const double *b, double *c)
-{
-    c[0] = a[1] * b[2] - a[2] * b[1];
-    c[1] = a[2] * b[0] - a[0] * b[2];
-    c[2] = a[0] * b[1] - a[1] * b[0];
-}
-
-static double dot(const double *a, const double *b)
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 static void normalise(double *a)
 {
-    const double length = sqrt(dot(a, a));
+    const double length = iccp_vec_norm(3, a);
     for (int k = 0; k < 3; ++k)
         a[k] /= length;
 }
@@ -62,14 +51,14 @@ static void set_beside(const double *u, double *w)
 {
     const int k = fabs(u[0]) < 0.6 ? 0 : 1;
     const double axis[3] = {k == 0, k == 1, 0};
-    cross(u, axis, w);
+    iccp_vec_cross(u, axis, w);
     normalise(w);
 }
 
 static void multiply(const double *j, const double *a, double *b)
 {
     for (int r = 0; r < 3; ++r)
-        b[r] = dot(j + 3 * r, a);
+        b[r] = iccp_vec_dot(3, j + 3 * r, a);
 }
 
 /* The eigenvectors of J^T J by falling eigenvalues, the last one turned so that they are a
@@ -90,7 +79,7 @@ static void set_right(const double *j, iccp_singular *s)
     const int middle = most != least ? 3 - most - least : (most + 1) % 3;
     memcpy(s->v[0], v[most], sizeof s->v[0]);
     memcpy(s->v[1], v[middle], sizeof s->v[1]);
-    cross(s->v[0], s->v[1], s->v[2]);
+    iccp_vec_cross(s->v[0], s->v[1], s->v[2]);
 }
 
 /* Gram-Schmidt on J v; where that vanishes, as for a flat image, any directions do. */
@@ -99,23 +88,23 @@ static void find3(const double *j, iccp_singular *s)
     double image[3];
     set_right(j, s);
     multiply(j, s->v[0], s->u[0]);
-    s->sigma[0] = sqrt(dot(s->u[0], s->u[0]));
+    s->sigma[0] = iccp_vec_norm(3, s->u[0]);
     if (s->sigma[0] > 0)
         normalise(s->u[0]);
     else
         memcpy(s->u[0], (double[3]){1, 0, 0}, sizeof s->u[0]);
     multiply(j, s->v[1], image);
-    const double along = dot(image, s->u[0]);
+    const double along = iccp_vec_dot(3, image, s->u[0]);
     for (int k = 0; k < 3; ++k)
         s->u[1][k] = image[k] - along * s->u[0][k];
-    s->sigma[1] = sqrt(dot(s->u[1], s->u[1]));
+    s->sigma[1] = iccp_vec_norm(3, s->u[1]);
     if (s->sigma[1] > 1e-14 * s->sigma[0])
         normalise(s->u[1]);
     else
         set_beside(s->u[0], s->u[1]);
-    cross(s->u[0], s->u[1], s->u[2]);
+    iccp_vec_cross(s->u[0], s->u[1], s->u[2]);
     multiply(j, s->v[2], image);
-    s->sigma[2] = dot(image, s->u[2]);
+    s->sigma[2] = iccp_vec_dot(3, image, s->u[2]);
 }
 
 void iccp_singular_find(size_t dim, const double *j, iccp_singular *s)

@@ -10,6 +10,7 @@
 #include "map/mesh_repair.h"
 #include "map/simplicial_map.h"
 #include "map/solid_chords.h"
+#include "math/vec.h"
 
 #include <math.h>
 #include <string.h>
@@ -238,18 +239,6 @@ static void set_corners(const iccp_solid_map *map, bool after, uint32_t t, const
         corner[k] = points + 3 * map->mesh->corners[4 * (size_t)t + k];
 }
 
-static ICCP_INLINE void cross(const double *a, const double *b, double *n)
-{
-    n[0] = a[1] * b[2] - a[2] * b[1];
-    n[1] = a[2] * b[0] - a[0] * b[2];
-    n[2] = a[0] * b[1] - a[1] * b[0];
-}
-
-static ICCP_INLINE double dot(const double *a, const double *b)
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 /* Returns the least. */
 static double barycentric(const double *const corner[4], const double *point, double *bary)
 {
@@ -261,9 +250,9 @@ static double barycentric(const double *const corner[4], const double *point, do
     }
     bary[0] = 1;
     for (size_t e = 0; e < 3; ++e) {
-        cross(edge[(e + 1) % 3], edge[(e + 2) % 3], normal);
-        det = e == 0 ? dot(edge[0], normal) : det;
-        bary[e + 1] = dot(from, normal) / det;
+        iccp_vec_cross(edge[(e + 1) % 3], edge[(e + 2) % 3], normal);
+        det = e == 0 ? iccp_vec_dot(3, edge[0], normal) : det;
+        bary[e + 1] = iccp_vec_dot(3, from, normal) / det;
         bary[0] -= bary[e + 1];
     }
     for (size_t k = 0; k < 4; ++k)

@@ -2,6 +2,8 @@
  * points: factors of space fill up too much for a mesh as a whole. */
 #include "map/truncated_cg.h"
 
+#include "math/vec.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -39,14 +41,6 @@ static void precondition(size_t n, const double *factor, const double *r, double
     }
 }
 
-static double product(size_t n, const double *a, const double *b)
-{
-    double sum = 0;
-    for (size_t i = 0; i < n; ++i)
-        sum += a[i] * b[i];
-    return sum;
-}
-
 static void apply(const iccp_symmetric *h, const double *x, double *y)
 {
     for (size_t i = 0; i < h->n; ++i) {
@@ -71,13 +65,13 @@ icc_status iccp_truncated_cg(const iccp_symmetric *hessian, const double *gradie
     }
     precondition(n, factor, r, z);
     memcpy(p, z, n * sizeof *p);
-    double rho = product(n, r, z);
+    double rho = iccp_vec_dot(n, r, z);
     const double enough = RESIDUAL * RESIDUAL * rho;
     for (int k = 0; k < MAX_DIRECTIONS && rho > enough; ++k) {
         if (iccp_progress(env, stage, (double)k / MAX_DIRECTIONS) != ICC_OK)
             return ICC_ERR_CANCELLED;
         apply(hessian, p, q);
-        const double curvature = product(n, p, q);
+        const double curvature = iccp_vec_dot(n, p, q);
         if (!(curvature > 0))
             break;
         const double length = rho / curvature;
@@ -86,7 +80,7 @@ icc_status iccp_truncated_cg(const iccp_symmetric *hessian, const double *gradie
             r[i] -= length * q[i];
         }
         precondition(n, factor, r, z);
-        const double next = product(n, r, z), share = next / rho;
+        const double next = iccp_vec_dot(n, r, z), share = next / rho;
         rho = next;
         for (size_t i = 0; i < n; ++i)
             p[i] = z[i] + share * p[i];
