@@ -86,7 +86,7 @@ int main(void)
     uint32_t rounds;
     check(icc_grid_create(&grid, domain, 16, NULL, &error), &error);
     check(icc_grid_get_info(grid, &s.grid), &error);
-    check(icc_grid_maximum(grid, &s.maximum, &rounds, NULL, &error), &error);
+    check(icc_grid_find_maximum(grid, &s.maximum, &rounds, NULL, &error), &error);
     s.inside = icc_grid_inside(grid);
     draw("the grid: o inside, M the maximum", &s, grid_mark);
     printf("%zu vertices, %zu inside; the fire takes %u rounds to the maximum\n", s.grid.n_vertices,
@@ -95,7 +95,7 @@ int main(void)
     icc_tree *tree;
     icc_tree_report report = {.size = sizeof report};
     check(icc_tree_create(&tree, grid, s.maximum, NULL, NULL, &error), &error);
-    check(icc_tree_verify(tree, &report, NULL, &error), &error);
+    check(icc_tree_get_report(tree, &report, NULL, &error), &error);
     s.parents = icc_tree_parents(tree);
     s.generations = icc_tree_generations(tree);
     draw("the tree: arrows to the parents", &s, tree_mark);
@@ -103,25 +103,25 @@ int main(void)
     printf("%zu pairs of neighbours inside, %zu break the cousin rule; %zu vertices unreachable\n",
            report.n_pairs, report.n_cousin_violations, report.n_unreachable);
 
-    icc_field *field;
-    icc_field_report critical = {.size = sizeof critical};
+    icc_function *field;
+    icc_function_report critical = {.size = sizeof critical};
     size_t n_edges, n_tested;
-    check(icc_field_create(&field, tree, NULL, NULL, &error), &error);
-    check(icc_field_verify(field, &critical, NULL, &error), &error);
-    check(icc_field_edges(field, 0, NULL, NULL, &n_edges, &n_tested), &error);
-    s.values = icc_field_values(field);
+    check(icc_function_create(&field, tree, NULL, NULL, &error), &error);
+    check(icc_function_get_report(field, &critical, NULL, &error), &error);
+    check(icc_function_get_edges(field, 0, NULL, NULL, &n_edges, &n_tested), &error);
+    s.values = icc_function_values(field);
     draw("the function: 10 at the maximum, times 0.95 from parent to child", &s, value_mark);
     printf("%zu maximum, %zu minima, %zu saddles; curves merge at %zu of %zu edges\n",
            critical.n_maxima, critical.n_minima, critical.n_saddles, n_edges, n_tested);
 
-    icc_field_free(field);
+    icc_function_free(field);
 
-    icc_field_options laplace = {.size = sizeof laplace, .function = ICC_FUNCTION_LAPLACE};
-    icc_field_info info = {.size = sizeof info};
-    check(icc_field_create(&field, tree, &laplace, NULL, &error), &error);
-    check(icc_field_get_info(field, &info), &error);
-    check(icc_field_verify(field, &critical, NULL, &error), &error);
-    s.logs = icc_field_logs(field);
+    icc_function_options laplace = {.size = sizeof laplace, .function = ICC_FUNCTION_LAPLACE};
+    icc_function_info info = {.size = sizeof info};
+    check(icc_function_create(&field, tree, &laplace, NULL, &error), &error);
+    check(icc_function_get_info(field, &info), &error);
+    check(icc_function_get_report(field, &critical, NULL, &error), &error);
+    s.logs = icc_function_logs(field);
     draw("another function, discretely harmonic: 1 at the maximum, 0 outside; minus its logarithm",
          &s, log_mark);
     printf("%zu maximum, %zu minima, %zu saddles; the least value is %.2g\n", critical.n_maxima,
@@ -129,7 +129,7 @@ int main(void)
     printf("it breaks the inequality of %zu tree edges; equations hold to %.1g\n", info.n_violated,
            info.residual);
 
-    icc_field_free(field);
+    icc_function_free(field);
     icc_tree_free(tree);
     icc_grid_free(grid);
     icc_domain_free(domain);

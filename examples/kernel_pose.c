@@ -72,41 +72,41 @@ static icc_sampling *spread(const scene *s, icc_domain **region)
 }
 
 /* Makes the part around a centre as rigid as can be. */
-static icc_kernel *stiffen(icc_kernel *kernel, const scene *s)
+static icc_weights *stiffen(icc_weights *kernel, const scene *s)
 {
     icc_error err = {.size = sizeof err};
-    icc_kernel_info info = {.size = sizeof info};
-    check(icc_kernel_get_info(kernel, &info), s->name, NULL);
+    icc_weights_info info = {.size = sizeof info};
+    check(icc_weights_get_info(kernel, &info), s->name, NULL);
     double *nodes = allocate(info.n_nodes, 2 * sizeof *nodes), energy[2];
     uint32_t *stiff = allocate(info.n_nodes, sizeof *stiff);
     size_t n = 0;
-    check(icc_kernel_get_nodes(kernel, nodes, NULL, NULL, NULL), s->name, NULL);
+    check(icc_weights_get_nodes(kernel, nodes, NULL, NULL, NULL), s->name, NULL);
     for (size_t i = 0; i < info.n_nodes; ++i)
         if (hypot(nodes[2 * i] - s->rigid[0], nodes[2 * i + 1] - s->rigid[1]) < s->rigid[2])
             stiff[n++] = (uint32_t)i;
-    icc_kernel *stiffened;
-    check(icc_kernel_stiffen(&stiffened, kernel, n, stiff, NULL, energy, NULL, &err), s->name,
+    icc_weights *stiffened;
+    check(icc_weights_stiffen(&stiffened, kernel, n, stiff, NULL, energy, NULL, &err), s->name,
           &err);
     printf("%s: the energy of the rigid part falls from %.3g to %.3g\n", s->name, energy[0],
            energy[1]);
-    icc_kernel_free(kernel);
+    icc_weights_free(kernel);
     free(nodes);
     free(stiff);
     return stiffened;
 }
 
-static icc_kernel *weigh(const scene *s, const icc_sampling *sampling)
+static icc_weights *weigh(const scene *s, const icc_sampling *sampling)
 {
     icc_error err = {.size = sizeof err};
-    const icc_kernel_options options = {.size = sizeof options,
+    const icc_weights_options options = {.size = sizeof options,
                                         .method = s->method,
                                         .steps = 40,
                                         .n_edges = s->n_edges,
                                         .edges = s->edges[0],
                                         .n_lines = s->n_lines,
                                         .lines = s->lines};
-    icc_kernel *kernel;
-    check(icc_kernel_create(&kernel, sampling, s->n_handles, s->handles[0], &options, NULL, &err),
+    icc_weights *kernel;
+    check(icc_weights_create(&kernel, sampling, s->n_handles, s->handles[0], &options, NULL, &err),
           s->name, &err);
     return s->rigid[2] > 0 ? stiffen(kernel, s) : kernel;
 }
@@ -185,7 +185,7 @@ static void draw(const view *v, const strokes *s, const double *ends, const char
 }
 
 /* Draws strokes at rest and posed. */
-static void draw_both(const view v[2], const icc_kernel *kernel, double (*transforms)[6], strokes s,
+static void draw_both(const view v[2], const icc_weights *kernel, double (*transforms)[6], strokes s,
                       const char *style)
 {
     icc_error err = {.size = sizeof err};
@@ -219,7 +219,7 @@ static void draw_scene(const scene *s, const view v[2])
 {
     icc_domain *region;
     icc_sampling *sampling = spread(s, &region);
-    icc_kernel *kernel = weigh(s, sampling);
+    icc_weights *kernel = weigh(s, sampling);
     double transforms[MOST][6];
     strokes outline = {0, NULL}, lines = {0, NULL}, circle = {0, NULL};
     make_pose(s, transforms);
@@ -240,7 +240,7 @@ static void draw_scene(const scene *s, const view v[2])
     draw_both(v, kernel, transforms, outline, "stroke=\"#222\" stroke-width=\"2\"");
     draw_both(v, kernel, transforms, lines, "stroke=\"#d08a00\" stroke-width=\"3\"");
     draw_handles(v, s, transforms);
-    icc_kernel_free(kernel);
+    icc_weights_free(kernel);
     icc_sampling_free(sampling);
     icc_domain_free(region);
 }

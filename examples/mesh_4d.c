@@ -95,7 +95,7 @@ static void describe(const char *name, const icc_chart *chart)
     check(icc_chart_get_info(chart, &info), NULL);
     printf(
         "%s: %zu simplices, %d complete orders, maximum at (%.2f, %.2f, %.2f, %.2f): %scertified\n",
-        name, info.n_mesh_triangles, (int)info.n_orders, info.maximum[0], info.maximum[1],
+        name, info.n_mesh_simplices, (int)info.n_orders, info.maximum[0], info.maximum[1],
         info.maximum[2], info.maximum[3], info.certified ? "" : "not ");
 }
 

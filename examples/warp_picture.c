@@ -88,7 +88,7 @@ static void describe(const icc_map *map)
     print_time("  of that, repairing it", info.seconds_repair);
     print_time("  making it fair", info.seconds_improve);
     print_time("  certifying it", info.seconds_certify);
-    printf("  the map has %zu triangles and is %s\n", info.n_triangles,
+    printf("  the map has %zu triangles and is %s\n", info.n_simplices,
            info.certified ? "certified to be one-to-one" : "not certified");
 }
 

@@ -75,7 +75,7 @@ static inline icc_status ground_create(ground *g, const mask *m, uint32_t root, 
     icc_status status =
         icc_grid_create_mask(&g->grid, m->dim, m->shape, m->inside, NULL, NULL);
     if (status == ICC_OK && root == UINT32_MAX)
-        status = icc_grid_maximum(g->grid, &g->root, NULL, NULL, NULL);
+        status = icc_grid_find_maximum(g->grid, &g->root, NULL, NULL, NULL);
     if (status == ICC_OK)
         status = icc_tree_create(&g->tree, g->grid, g->root, &options, NULL, NULL);
     if (status == ICC_OK)

@@ -115,7 +115,7 @@ static inline icc_chart_info chart_story(const icc_chart *chart)
 {
     icc_chart_info info = {.size = sizeof info};
     ck_assert_int_eq(icc_chart_get_info(chart, &info), ICC_OK);
-    info.seconds_grid = info.seconds_tree = info.seconds_field = info.seconds_mesh = 0;
+    info.seconds_grid = info.seconds_tree = info.seconds_function = info.seconds_mesh = 0;
     info.seconds_solve = info.seconds_certify = 0;
     return info;
 }
@@ -230,11 +230,11 @@ static inline void find_images(const icc_map *map, const double *points, images 
 static inline void same_mesh(const icc_map *a, const icc_map *b, const icc_map_info *info)
 {
     const size_t dim = (size_t)info->dim, n = info->n_vertices * dim,
-                 n_ends = (dim + 1) * info->n_triangles;
+                 n_ends = (dim + 1) * info->n_simplices;
     double *numbers = saved_alloc(4 * n * sizeof *numbers);
     uint32_t *corners = saved_alloc(2 * n_ends * sizeof *corners);
-    ck_assert_int_eq(icc_map_mesh(a, numbers, numbers + n, corners), ICC_OK);
-    ck_assert_int_eq(icc_map_mesh(b, numbers + 2 * n, numbers + 3 * n, corners + n_ends), ICC_OK);
+    ck_assert_int_eq(icc_map_get_mesh(a, numbers, numbers + n, corners), ICC_OK);
+    ck_assert_int_eq(icc_map_get_mesh(b, numbers + 2 * n, numbers + 3 * n, corners + n_ends), ICC_OK);
     ck_assert_same(numbers, numbers + 2 * n, 2 * n * sizeof *numbers, "mesh of the map");
     ck_assert_same(corners, corners + n_ends, n_ends * sizeof *corners, "corners of the map");
     free(numbers);

@@ -50,6 +50,25 @@ enum {
     ICC_MAX_DIM = 6          /**< largest dimension of a domain or grid */
 };
 
+/** What icc_error::index counts. */
+enum {
+    ICC_ITEM_NONE = 0,       /**< nothing: index is -1 */
+    ICC_ITEM_VERTEX = 1,     /**< vertices of a boundary, a mesh or the curves of a shape */
+    ICC_ITEM_FACET = 2,      /**< facets of a boundary; edges of a polygon */
+    ICC_ITEM_SIMPLEX = 3,    /**< simplices of a mesh */
+    ICC_ITEM_CELL = 4,       /**< cells of a mask, the first axis fastest */
+    ICC_ITEM_GRID_VERTEX = 5,/**< vertices of a grid */
+    ICC_ITEM_AXIS = 6,       /**< axes */
+    ICC_ITEM_POINT = 7,      /**< points of a list */
+    ICC_ITEM_REGION = 8,     /**< regions of a shape */
+    ICC_ITEM_SEGMENT = 9,    /**< segments of a shape's curves */
+    ICC_ITEM_SAMPLE = 10,    /**< samples of a sampling */
+    ICC_ITEM_HANDLE = 11,    /**< handles */
+    ICC_ITEM_EDGE = 12,      /**< edges between handles */
+    ICC_ITEM_LINE = 13,      /**< lines to keep straight */
+    ICC_ITEM_NODE = 14       /**< entries of a list of nodes */
+};
+
 /**
  * What went wrong, filled in by the call that failed.
  *
@@ -61,8 +80,9 @@ typedef struct icc_error {
     size_t size;         /**< set by the caller: `sizeof(icc_error)` */
     icc_status status;   /**< the status that the call returned */
     int32_t side;        /**< 0: neither; 1: the source; 2: the target */
-    int64_t index;       /**< the vertex, facet, cell or point at fault, or -1 */
-    char message[240];   /**< one line of English, always terminated */
+    int64_t index;       /**< which item is at fault, from 0, or -1 */
+    int32_t item;        /**< what it is: `ICC_ITEM_*` */
+    char message[252];   /**< one line of English, always terminated */
 } icc_error;
 
 /** One unit of work handed to icc_env::parallel_for. */

@@ -267,7 +267,7 @@ enum {
      *  tree, a function on it, piecewise linear gradient lines; in any dimension, on the simplices of
      *  the Kuhn triangulation and their faces. Not one-to-one: lines merge, so that an open share of
      *  the area collapses (in 3-D and beyond, most of it), and thin parts of a shape between grid
-     *  vertices are not reached. icc_chart_measure() tells how much. Beyond 2-D the function may have
+     *  vertices are not reached. icc_chart_get_report() tells how much. Beyond 2-D the function may have
      *  several maxima, too, and lines that end at them: icc_chart_info::n_maxima. Never certified. */
     ICC_METHOD_GRADIENT = 1,
     /** Integral Curve Coordinates along leaves that cannot merge: level lines of an angle-valued,
@@ -304,14 +304,18 @@ enum {
     ICC_FUNCTION_CLAMPED = 5   /**< discretely biharmonic, clamped: changes its sign unless constrained */
 };
 
-/** Whether f(parent) >= (1 + eta) f(child) is imposed on the edges of the tree inside (Laplace and
+/** Whether f(parent) >= (1 + min_fall) f(child) is imposed on the edges of the tree inside (Laplace and
  *  bi-Laplace; decay and distance fulfil it anyway). */
 enum {
     ICC_CONSTRAINTS_NEEDED = 1, /**< only when the function without has other critical points than one
                                      maximum at the root (and, in 2-D, the saddles of holes, which no
-                                     function can avoid) */
-    ICC_CONSTRAINTS_NONE = 2,   /**< never */
-    ICC_CONSTRAINTS_ALL = 3     /**< always */
+                                     function can avoid); in charts, only when that is so after the
+                                     root has moved, too, as for ::ICC_CONSTRAINTS_NONE. If they are
+                                     imposed it does not move */
+    ICC_CONSTRAINTS_NONE = 2,   /**< never. Charts of bi-Laplace functions have the maximum where the
+                                     function puts it, which may be beside the place asked for:
+                                     icc_chart_info::moved */
+    ICC_CONSTRAINTS_ALL = 3     /**< always: the maximum stays where it is asked for */
 };
 
 /** How the linear systems of Laplace and bi-Laplace are solved. */
@@ -338,11 +342,13 @@ typedef struct icc_chart_options {
                                 papers; gradient on a mask: see icc_grid_create() */
     const double *maximum; /**< where the maximum shall be: the nearest vertex inside is taken. NULL:
                                 the grassfire's (gradient, field), the deepest vertex (foliation; of a
-                                mesh of the caller's, the deepest inside). Disc has its own, the point that goes to the centre: NULL only. */
+                                mesh of the caller's, the deepest inside). Disc has its own, the point that goes to the centre: NULL only.
+                                Bi-Laplace functions without constraints may move it:
+                                icc_chart_info::moved */
     int32_t constraints;   /**< gradient: `ICC_CONSTRAINTS_*`; 0: needed */
     int32_t solver;        /**< gradient: `ICC_SOLVER_*`; 0: by the predicted work */
-    double eta;            /**< gradient: least relative fall along tree edges, in (0, 0.01]; 0: 1e-6 */
-    double leaf;           /**< gradient, constrained bi-Laplace: least value at the leaves, in
+    double min_fall;       /**< gradient: least relative fall along tree edges, in (0, 0.01]; 0: 1e-6 */
+    double leaf_min;       /**< gradient, constrained bi-Laplace: least value at the leaves, in
                                 (0, 0.01]; 0: 1e-9 */
 } icc_chart_options;
 
@@ -371,12 +377,12 @@ typedef struct icc_chart_info {
     size_t n_expansion;          /**< edges where curves merge on the way down */
     size_t n_mesh_vertices;      /**< vertices of the mesh */
     size_t n_mesh_boundary;      /**< of them on the boundary */
-    size_t n_mesh_triangles;     /**< triangles of the mesh, or simplices */
+    size_t n_mesh_simplices;     /**< triangles of the mesh, or simplices */
     size_t n_ties;               /**< mesh edges whose ends have the same label: ordered by index */
     double harmonic_share;       /**< share of the boundary flux that is harmonic (foliation) */
     double seconds_grid;         /**< time to make the grid and find the maximum */
     double seconds_tree;         /**< time to make and verify the tree */
-    double seconds_field;        /**< time to make and verify the function */
+    double seconds_function;        /**< time to make and verify the function */
     double seconds_mesh;         /**< time to make the mesh */
     double seconds_solve;        /**< time to solve for the function or the map */
     double seconds_certify;      /**< time to certify it */
@@ -395,13 +401,16 @@ typedef struct icc_chart_info {
     double flux_energy;          /**< how far the flux along the leaves is from the harmonic one: sum of
                                       the squared differences, weighted; 0 at best */
     double flux_divergence;      /**< largest share of a simplex's flux that gets lost by rounding */
+    double moved;                /**< gradient, bi-Laplace functions without constraints: how far
+                                      `maximum` lies from the vertex that was asked for (or the
+                                      grassfire's), because the function is greatest beside it; else 0 */
 } icc_chart_info;
 
-/** Shares that icc_chart_measure() estimates from evenly spread points. All lie in [0,1]. Area and length
+/** Shares that icc_chart_get_report() estimates from evenly spread points. All lie in [0,1]. Area and length
  *  are those of 2-D; beyond, read volume and area, and so on. For a certified chart all are 0 without
  *  looking, and so are the counts. */
-typedef struct icc_chart_measures {
-    size_t size;             /**< set by the caller: `sizeof(icc_chart_measures)` */
+typedef struct icc_chart_report {
+    size_t size;             /**< set by the caller: `sizeof(icc_chart_report)` */
     size_t n_points;         /**< points of the area that were used */
     size_t n_boundary;       /**< points of the boundary that were used */
     double unreachable;      /**< area from which no curve reaches both the boundary and the maximum */
@@ -409,7 +418,7 @@ typedef struct icc_chart_measures {
     double collapsed;        /**< coordinates (boundary length times share of the way) whose point
                                   lies on a line where curves have merged (compression edges) */
     double not_inward;       /**< boundary length where the gradient does not point inward */
-} icc_chart_measures;
+} icc_chart_report;
 
 /**
  * Makes coordinates of a domain.
@@ -456,8 +465,8 @@ ICC_API const icc_domain *icc_chart_domain(const icc_chart *chart);
  * @param env           may be NULL
  * @param err           may be NULL
  */
-ICC_API icc_status icc_chart_measure(const icc_chart *chart, size_t n_points,
-                                     icc_chart_measures *measures, const icc_env *env,
+ICC_API icc_status icc_chart_get_report(const icc_chart *chart, size_t n_points,
+                                     icc_chart_report *measures, const icc_env *env,
                                      icc_error *err);
 
 /**
@@ -598,7 +607,7 @@ typedef struct icc_map_info {
     int32_t certified;       /**< 1: proved to be one-to-one, exactly; 0: not (gradient) */
     int32_t n_levels;        /**< mesh: refinements */
     size_t n_vertices;       /**< mesh: vertices */
-    size_t n_triangles;      /**< mesh: triangles; in 3-D tetrahedra, also in what follows */
+    size_t n_simplices;      /**< mesh: triangles; in 3-D tetrahedra, also in what follows */
     size_t n_inverted;       /**< mesh: triangles that were not positive before the repair */
     size_t n_unrepaired;     /**< triangles that the repair could not make positive; the map is then of
                                   kind curves */
@@ -662,7 +671,7 @@ typedef struct icc_improve_report {
     double energy_start; /**< as icc_map_info::energy, before */
     double energy;       /**< and after; never more */
     size_t n_iterations; /**< steps */
-    size_t n_triangles;  /**< triangles in the end */
+    size_t n_simplices;  /**< triangles in the end */
     int32_t n_levels;    /**< refinements */
     int32_t cancelled;   /**< 1: the progress callback ended it early */
 } icc_improve_report;
@@ -696,7 +705,7 @@ ICC_API icc_status icc_map_improve(icc_map **out, const icc_map *map,
  * @param err        may be NULL
  * @return as icc_map_create(); ::ICC_ERR_CERTIFICATE when the target has moved too far: make a new map
  */
-ICC_API icc_status icc_map_follow(icc_map **out, const icc_map *map, const icc_domain *target,
+ICC_API icc_status icc_map_retarget(icc_map **out, const icc_map *map, const icc_domain *target,
                                   int32_t iterations, const icc_env *env, icc_error *err);
 
 /**
@@ -706,12 +715,12 @@ ICC_API icc_status icc_map_follow(icc_map **out, const icc_map *map, const icc_d
  * @param map            the map
  * @param[out] vertices  room for icc_map_info::n_vertices * dim doubles, or NULL
  * @param[out] images    the same, or NULL
- * @param[out] triangles room for icc_map_info::n_triangles * (dim + 1) indices, or NULL. Triangles are
+ * @param[out] simplices room for icc_map_info::n_simplices * (dim + 1) indices, or NULL. Triangles are
  *                       counter-clockwise, tetrahedra have positive determinants.
  * @return ::ICC_OK, ::ICC_ERR_ARGUMENT, ::ICC_ERR_UNSUPPORTED (not of kind mesh)
  */
-ICC_API icc_status icc_map_mesh(const icc_map *map, double *vertices, double *images,
-                                uint32_t *triangles);
+ICC_API icc_status icc_map_get_mesh(const icc_map *map, double *vertices, double *images,
+                                uint32_t *simplices);
 
 /** What icc_map_certify() found out about the image of a caller's mesh. */
 typedef struct icc_certificate {
@@ -780,10 +789,10 @@ ICC_API void icc_map_free(icc_map *map);
 /** Fills in `info`, whose `size` the caller has set. ::ICC_OK or ::ICC_ERR_ARGUMENT. */
 ICC_API icc_status icc_map_get_info(const icc_map *map, icc_map_info *info);
 
-/** The chart of the source; borrowed. NULL for maps made by icc_map_follow(). */
+/** The chart of the source; borrowed. NULL for maps made by icc_map_retarget(). */
 ICC_API const icc_chart *icc_map_source_chart(const icc_map *map);
 
-/** The chart of the target; borrowed. NULL for maps made by icc_map_follow(). */
+/** The chart of the target; borrowed. NULL for maps made by icc_map_retarget(). */
 ICC_API const icc_chart *icc_map_target_chart(const icc_map *map);
 
 /**
@@ -848,7 +857,6 @@ typedef struct icc_picture {
     int32_t bytes;    /**< of a sample: 1, or 2 in the machine's order; unsigned, all values used */
     int32_t alpha;    /**< 1: the last of at least two channels is opacity, and the others are not
                            multiplied by it; 0: there is none */
-    int32_t reserved; /**< 0 */
     size_t stride;    /**< bytes from a row to the next */
     void *pixels;     /**< the first row; any alignment. Only read in a source. */
 } icc_picture;

@@ -4,7 +4,7 @@
  *
  *     icc_shape (filled regions and curves, in 2-D or 3-D)
  *       -> icc_sampling (points spread over it)
- *         -> icc_kernel (handles, and a weight of every handle at every sample)
+ *         -> icc_weights (handles, and a weight of every handle at every sample)
  *           -> icc_binding (the same at points of the caller's, kept for posing again and again)
  *
  * The weights are optimised at each sample on its own: they sum to 1 and reproduce the sample from the
@@ -13,7 +13,7 @@
  * (linear blend skinning).
  *
  * Nothing here is certified to be one-to-one, and weights between samples can be slightly negative:
- * icc_kernel_get_report() measures how much. For maps that are one-to-one see icc/icc.h.
+ * icc_weights_get_report() measures how much. For maps that are one-to-one see icc/icc.h.
  *
  * Objects are immutable: painting, new handles and other methods give new objects that share what has not
  * changed. The rules of icc/icc.h hold: `*out` is NULL on failure, `env` and `err` may be NULL, zero in an
@@ -169,7 +169,7 @@ ICC_API icc_status icc_sampling_load(icc_sampling **out, size_t n_bytes, const v
 /* ------------------------------------------------------------------ kernel */
 
 /** Handles, and the weight of each at every place of a shape. */
-typedef struct icc_kernel icc_kernel;
+typedef struct icc_weights icc_weights;
 
 /** The kernel that is summed up. */
 enum {
@@ -209,19 +209,18 @@ typedef struct icc_line {
     double to[3];      /**< the other */
     int32_t parallel;  /**< 0, or k to stay parallel to line k - 1, an earlier one (5.11), which it must be to
                             1e-9 of its length; `to` must then be neither a handle nor on an earlier line */
-    int32_t reserved;  /**< 0 */
 } icc_line;
 
-/** Options of icc_kernel_create(). */
-typedef struct icc_kernel_options {
-    size_t size;             /**< set by the caller: `sizeof(icc_kernel_options)` */
+/** Options of icc_weights_create(). */
+typedef struct icc_weights_options {
+    size_t size;             /**< set by the caller: `sizeof(icc_weights_options)` */
     int32_t kernel;          /**< `ICC_KERNEL_*`; 0: Wendland */
     int32_t initial;         /**< `ICC_INITIAL_*`; 0: edges if there are any, else heat */
     int32_t method;          /**< `ICC_WEIGHTS_*`; 0: QP */
     int32_t steps;           /**< of diffusion; 0: 5 */
-    int32_t tail;            /**< an affine function beside the kernels, which makes sums and reproduction
+    int32_t affine_tail;     /**< an affine function beside the kernels, which makes sums and reproduction
                                   exact between the samples: 0 or 1 with, -1 without (the thesis) */
-    int32_t visible;         /**< diffusion between samples that see each other inside the shape: 0 or 1; -1
+    int32_t within_shape;    /**< diffusion between samples that see each other inside the shape: 0 or 1; -1
                                   through walls, too (the thesis) */
     double sigma;            /**< width of the kernel; 0: icc_sampling_info::sigma */
     double cutoff;           /**< Gauss: in sigma; 0: 5 */
@@ -230,11 +229,11 @@ typedef struct icc_kernel_options {
     size_t n_lines;          /**< lines to keep straight */
     const icc_line *lines;   /**< or NULL */
     const double *initial_weights; /**< n_samples * n_handles, sample after sample; for initial given */
-} icc_kernel_options;
+} icc_weights_options;
 
-/** What icc_kernel_get_info() tells. */
-typedef struct icc_kernel_info {
-    size_t size;            /**< set by the caller: `sizeof(icc_kernel_info)` */
+/** What icc_weights_get_info() tells. */
+typedef struct icc_weights_info {
+    size_t size;            /**< set by the caller: `sizeof(icc_weights_info)` */
     int32_t dim;            /**< dimension */
     int32_t kernel;         /**< `ICC_KERNEL_*` */
     int32_t initial;        /**< `ICC_INITIAL_*` */
@@ -251,7 +250,7 @@ typedef struct icc_kernel_info {
     double seconds_initial; /**< time for the initial weights */
     double seconds_weights; /**< time to optimise */
     double seconds_factor;  /**< time to place the nodes and to factorise */
-} icc_kernel_info;
+} icc_weights_info;
 
 /**
  * Makes weights for handles.
@@ -271,16 +270,16 @@ typedef struct icc_kernel_info {
  * Cost with n nodes, m handles and k neighbours within the kernel's reach: O(steps n k m) for diffusion,
  * O(n m) for the weights, and a sparse factorisation, O(n^1.5) in 2-D.
  */
-ICC_API icc_status icc_kernel_create(icc_kernel **out, const icc_sampling *sampling,
+ICC_API icc_status icc_weights_create(icc_weights **out, const icc_sampling *sampling,
                                      size_t n_handles, const double *handles,
-                                     const icc_kernel_options *options, const icc_env *env,
+                                     const icc_weights_options *options, const icc_env *env,
                                      icc_error *err);
 
 /** Frees a kernel. */
-ICC_API void icc_kernel_free(icc_kernel *kernel);
+ICC_API void icc_weights_free(icc_weights *kernel);
 
 /** Fills in `info`, whose `size` the caller has set. ::ICC_OK or ::ICC_ERR_ARGUMENT. */
-ICC_API icc_status icc_kernel_get_info(const icc_kernel *kernel, icc_kernel_info *info);
+ICC_API icc_status icc_weights_get_info(const icc_weights *kernel, icc_weights_info *info);
 
 /**
  * Copies the nodes.
@@ -291,7 +290,7 @@ ICC_API icc_status icc_kernel_get_info(const icc_kernel *kernel, icc_kernel_info
  * @param[out] weights n_nodes * n_handles weights, or NULL
  * @param[out] status  n_nodes statuses: ::ICC_OK, or ::ICC_ERR_SOLVER where QP was relaxed; or NULL
  */
-ICC_API icc_status icc_kernel_get_nodes(const icc_kernel *kernel, double *points, double *initial,
+ICC_API icc_status icc_weights_get_nodes(const icc_weights *kernel, double *points, double *initial,
                                         double *weights, icc_status *status);
 
 /**
@@ -311,7 +310,7 @@ ICC_API icc_status icc_kernel_get_nodes(const icc_kernel *kernel, double *points
  * Cost: as many weights are optimised as there are nodes within the radius, and one solution with the
  * factor that there is.
  */
-ICC_API icc_status icc_kernel_paint(icc_kernel **out, const icc_kernel *kernel, size_t handle,
+ICC_API icc_status icc_weights_paint(icc_weights **out, const icc_weights *kernel, size_t handle,
                                     const double *centre, double radius, double amount,
                                     const icc_env *env, icc_error *err);
 
@@ -319,13 +318,13 @@ ICC_API icc_status icc_kernel_paint(icc_kernel **out, const icc_kernel *kernel, 
  * The same with wishes of the caller's: at node nodes[i] the weights start from
  * weights[i * n_handles ...] and are optimised again. No node may be named twice.
  */
-ICC_API icc_status icc_kernel_repaint(icc_kernel **out, const icc_kernel *kernel, size_t n,
+ICC_API icc_status icc_weights_repaint(icc_weights **out, const icc_weights *kernel, size_t n,
                                       const uint32_t *nodes, const double *weights,
                                       const icc_env *env, icc_error *err);
 
 /** The same nodes and initial weights with another method (`ICC_WEIGHTS_*`): what was painted or stiffened is
  *  gone, as in the thesis (6.3.1). */
-ICC_API icc_status icc_kernel_set_method(icc_kernel **out, const icc_kernel *kernel,
+ICC_API icc_status icc_weights_with_method(icc_weights **out, const icc_weights *kernel,
                                          int32_t method, const icc_env *env, icc_error *err);
 
 /**
@@ -343,7 +342,7 @@ ICC_API icc_status icc_kernel_set_method(icc_kernel **out, const icc_kernel *ker
  * @param env       may be NULL
  * @param err       may be NULL
  */
-ICC_API icc_status icc_kernel_stiffen(icc_kernel **out, const icc_kernel *kernel, size_t n,
+ICC_API icc_status icc_weights_stiffen(icc_weights **out, const icc_weights *kernel, size_t n,
                                       const uint32_t *nodes, const double *rigidity,
                                       double energy[2], const icc_env *env, icc_error *err);
 
@@ -360,14 +359,14 @@ ICC_API icc_status icc_kernel_stiffen(icc_kernel **out, const icc_kernel *kernel
  * @param[out] n_failed  how many points have none, or NULL
  * @param env            may be NULL
  */
-ICC_API icc_status icc_kernel_weights(const icc_kernel *kernel, size_t n, const double *points,
+ICC_API icc_status icc_weights_evaluate(const icc_weights *kernel, size_t n, const double *points,
                                       double *weights, double *gradients, icc_status *status,
                                       size_t *n_failed, const icc_env *env);
 
 /** How well weights do what they should, at points of the caller's choice. */
-typedef struct icc_kernel_report {
-    size_t size;               /**< set by the caller: `sizeof(icc_kernel_report)` */
-    size_t n_infeasible;       /**< see icc_kernel_info::n_infeasible */
+typedef struct icc_weights_report {
+    size_t size;               /**< set by the caller: `sizeof(icc_weights_report)` */
+    size_t n_infeasible;       /**< see icc_weights_info::n_infeasible */
     size_t n_negative;         /**< points where a weight is below -1e-9 */
     double unity;              /**< the greatest deviation of the sum of weights from 1 */
     double reproduction;       /**< the greatest distance of a point from what its weights make of the handles */
@@ -375,12 +374,12 @@ typedef struct icc_kernel_report {
     double lagrange;           /**< the greatest deviation from 1 and 0 at the handles */
     double linearity;          /**< the greatest deviation from linear weights along the edges */
     double least_weight;       /**< the least weight */
-    double definiteness;       /**< see icc_kernel_info::definiteness */
-} icc_kernel_report;
+    double definiteness;       /**< see icc_weights_info::definiteness */
+} icc_weights_report;
 
 /** Measures the weights at n points (n * dim coordinates). The report's `size` is set by the caller. */
-ICC_API icc_status icc_kernel_get_report(const icc_kernel *kernel, size_t n, const double *points,
-                                         icc_kernel_report *report, const icc_env *env,
+ICC_API icc_status icc_weights_get_report(const icc_weights *kernel, size_t n, const double *points,
+                                         icc_weights_report *report, const icc_env *env,
                                          icc_error *err);
 
 /* ----------------------------------------------------------------- binding */
@@ -399,7 +398,7 @@ typedef struct icc_binding icc_binding;
  * @param env         may be NULL
  * @param err         may be NULL
  */
-ICC_API icc_status icc_binding_create(icc_binding **out, const icc_kernel *kernel, size_t n,
+ICC_API icc_status icc_binding_create(icc_binding **out, const icc_weights *kernel, size_t n,
                                       const double *points, int32_t derivatives, const icc_env *env,
                                       icc_error *err);
 
@@ -411,7 +410,7 @@ ICC_API icc_status icc_binding_get_counts(const icc_binding *binding, size_t *n_
                                           size_t *n_handles, int32_t *dim);
 
 /** Copies the handles' positions, n_handles * dim, and the weights, n_points * n_handles; each may be NULL. */
-ICC_API icc_status icc_binding_get(const icc_binding *binding, double *handles, double *weights);
+ICC_API icc_status icc_binding_get_weights(const icc_binding *binding, double *handles, double *weights);
 
 /**
  * Poses the points: x -> sum of w_j(x) (A_j x + b_j) (3.37), computed as x + sum of w_j(x) (A_j x + b_j - x): the

@@ -28,7 +28,6 @@ typedef struct icc_grid icc_grid;
 typedef struct icc_grid_info {
     size_t size;                /**< set by the caller: `sizeof(icc_grid_info)` */
     int32_t dim;                /**< dimension, 1..::ICC_MAX_DIM */
-    int32_t reserved;           /**< 0 */
     size_t shape[ICC_MAX_DIM];  /**< vertices along each axis */
     double origin[ICC_MAX_DIM]; /**< position of vertex 0 */
     double spacing;             /**< distance of neighbours, the same along every axis */
@@ -39,7 +38,6 @@ typedef struct icc_grid_info {
                                      icc_grid_restrict() took */
     int32_t cells;              /**< grid cells along the longest side of the domain; 0 for a grid from
                                      a mask of vertices */
-    int32_t reserved2;          /**< 0 */
 } icc_grid_info;
 
 /**
@@ -125,11 +123,11 @@ ICC_API const uint8_t *icc_grid_inside(const icc_grid *grid);
  *
  * Cost: O(vertices) time and memory.
  */
-ICC_API icc_status icc_grid_maximum(const icc_grid *grid, uint32_t *vertex, uint32_t *rounds,
+ICC_API icc_status icc_grid_find_maximum(const icc_grid *grid, uint32_t *vertex, uint32_t *rounds,
                                     const icc_env *env, icc_error *err);
 
 /** The inside vertex nearest to a point (the smallest index of several). O(vertices). */
-ICC_API icc_status icc_grid_nearest(const icc_grid *grid, const double *point, uint32_t *vertex);
+ICC_API icc_status icc_grid_find_nearest(const icc_grid *grid, const double *point, uint32_t *vertex);
 
 /* -------------------------------------------------------------------- tree */
 
@@ -140,12 +138,11 @@ typedef struct icc_tree icc_tree;
 typedef struct icc_tree_options {
     size_t size;               /**< set by the caller: `sizeof(icc_tree_options)` */
     int32_t form;              /**< `ICC_TREE_*`; 0: thesis */
-    int32_t reserved;          /**< 0 */
     const int32_t *axis_order; /**< the order in which a generation expands along the axes, a
                                     permutation of 0..dim-1; NULL: 0, 1, .. */
 } icc_tree_options;
 
-/** What icc_tree_verify() found. */
+/** What icc_tree_get_report() found. */
 typedef struct icc_tree_report {
     size_t size;                 /**< set by the caller: `sizeof(icc_tree_report)` */
     size_t n_inside;             /**< vertices inside that the tree reaches */
@@ -166,7 +163,7 @@ typedef struct icc_tree_report {
  * mask may end at its last vertex, and layers beyond it are then absent.
  *
  * Theorem 2 of the paper (the result is a cousin tree) held in every 2-D case tried; it is false in
- * 3-D and beyond. Nothing is assumed here: see icc_tree_verify(), and icc_tree_grow() for an order
+ * 3-D and beyond. Nothing is assumed here: see icc_tree_get_report(), and icc_tree_grow() for an order
  * that serves the purpose there.
  *
  * @param[out] out the tree; owned by the caller; keeps the grid alive
@@ -192,35 +189,33 @@ ICC_API const uint32_t *icc_tree_parents(const icc_tree *tree);
 ICC_API const int32_t *icc_tree_generations(const icc_tree *tree);
 
 /** Checks the cousin rule (Definition 2) on every pair of neighbours inside. O(vertices * dim). */
-ICC_API icc_status icc_tree_verify(const icc_tree *tree, icc_tree_report *report,
+ICC_API icc_status icc_tree_get_report(const icc_tree *tree, icc_tree_report *report,
                                    const icc_env *env, icc_error *err);
 
-/* ------------------------------------------------------------------- field */
+/* ------------------------------------------------------------------- function */
 
 /** A function on the vertices of a tree that falls from parent to child. */
-typedef struct icc_field icc_field;
+typedef struct icc_function icc_function;
 
-/** Options of icc_field_create(). */
-typedef struct icc_field_options {
-    size_t size;         /**< set by the caller: `sizeof(icc_field_options)` */
+/** Options of icc_function_create(). */
+typedef struct icc_function_options {
+    size_t size;         /**< set by the caller: `sizeof(icc_function_options)` */
     int32_t function;    /**< `ICC_FUNCTION_*`; 0: decay */
     int32_t constraints; /**< `ICC_CONSTRAINTS_*`; 0: needed */
     int32_t solver;      /**< `ICC_SOLVER_*`; 0: by the predicted work of a factorisation. Clamped and
                               constrained bi-Laplace are always factorised; Laplace is iterated
                               where a factorisation loses small values, as in long thin rings */
-    int32_t reserved;    /**< 0 */
-    double eta;          /**< least relative fall from parent to child, in (0, 0.01]; 0: 1e-6 */
-    double leaf;         /**< constrained bi-Laplace: least value at vertices without children, in
+    double min_fall;     /**< least relative fall from parent to child, in (0, 0.01]; 0: 1e-6 */
+    double leaf_min;     /**< constrained bi-Laplace: least value at vertices without children, in
                               (0, 0.01]; 0: 1e-9 */
-} icc_field_options;
+} icc_function_options;
 
-/** What icc_field_get_info() tells. Members that the function does not have are 0. */
-typedef struct icc_field_info {
-    size_t size;            /**< set by the caller: `sizeof(icc_field_info)` */
+/** What icc_function_get_info() tells. Members that the function does not have are 0. */
+typedef struct icc_function_info {
+    size_t size;            /**< set by the caller: `sizeof(icc_function_info)` */
     int32_t function;       /**< `ICC_FUNCTION_*` */
     int32_t constrained;    /**< 1: the tree's inequalities were imposed */
     int32_t solver;         /**< `ICC_SOLVER_*` */
-    int32_t reserved;       /**< 0 */
     size_t n_unknowns;      /**< vertices inside that the tree reaches, but for the root */
     size_t n_violated;      /**< tree edges where the function without constraints breaks the
                                  inequality; of those here, if it was not constrained */
@@ -230,19 +225,25 @@ typedef struct icc_field_info {
     double work;            /**< multiplications of the largest factorisation */
     double residual_before; /**< KKT residual before the final sweep from the root to the leaves: the largest
                                  |min(slack, multiplier)| of an inequality, or |row of the equation| if
-                                 there are none; the maximum of f is 1 */
+                                 there are none; f is 1 at the root */
     double residual;        /**< the same after the sweep: for the function that is handed out */
-    double least_log;       /**< the smallest of icc_field_logs() inside; 0 if there are none */
+    double least_log;       /**< the smallest of icc_function_logs() inside; 0 if there are none */
     double seconds_setup;   /**< time to number the rows and to build the matrices */
     double seconds_order;   /**< time for orderings and symbolic factorisations */
     double seconds_factor;  /**< time for factorisations */
     double seconds_solve;   /**< time for triangular solves and conjugate gradients */
     double seconds_verify;  /**< time to count critical points, sweep and find the residuals */
-} icc_field_info;
+    double excess;          /**< by what share of its value at the root the function is greater at
+                                 `highest`; 0 when that is the root */
+    uint32_t highest;       /**< the vertex inside with the greatest value */
+    int32_t beside;         /**< 1: that is not the root, where curves are to end. Only seen for
+                                 bilaplace and clamped without inequalities; icc_chart_create()
+                                 then moves the root */
+} icc_function_info;
 
 /** Critical points of a function on the vertices inside, by the links of the Kuhn triangulation. */
-typedef struct icc_field_report {
-    size_t size;         /**< set by the caller: `sizeof(icc_field_report)` */
+typedef struct icc_function_report {
+    size_t size;         /**< set by the caller: `sizeof(icc_function_report)` */
     size_t n_maxima;     /**< vertices with no higher neighbour */
     size_t n_minima;     /**< vertices with no lower neighbour */
     size_t n_saddles;    /**< other vertices where the higher or the lower neighbours do not form a
@@ -250,10 +251,9 @@ typedef struct icc_field_report {
                               collapses, and a vertex where neither set collapses counts. */
     uint32_t critical;   /**< the first critical vertex in index order other than the root, or
                               UINT32_MAX */
-    uint32_t reserved;   /**< 0 */
-} icc_field_report;
+} icc_function_report;
 
-/** Kinds of edges in icc_field_edges(). */
+/** Kinds of edges in icc_function_get_edges(). */
 enum {
     ICC_EDGE_COMPRESSION = 1, /**< the gradients on both sides point to the edge */
     ICC_EDGE_EXPANSION = 2    /**< the gradients on both sides point away from it */
@@ -272,32 +272,37 @@ enum {
  * inside, which is f = c L^-2 e_root (simply supported, Navier); clamped: over the vertices next to them
  * outside, too. Laplace and bilaplace are positive inside, however far from the root; clamped changes its
  * sign unless it is constrained. With constraints, the least energy among the functions that fall by
- * eta along every tree edge inside and, for bilaplace and clamped, are at least `leaf` at the leaves.
+ * `min_fall` along every tree edge inside and, for bilaplace and clamped, are at least `leaf_min` at the leaves.
  *
- * Nothing is assumed about critical points: see icc_field_verify(). Inequalities on a tree that is not a
+ * Bilaplace and clamped are shapes of a plate that is loaded at the root, and a plate is highest beside
+ * a load that is not in its middle: without constraints the maximum may be another vertex, see
+ * icc_function_info::highest and icc_function_info::beside. (On a tree that grows from there the function is
+ * another one; icc_chart_create() moves the root until the two agree.)
+ *
+ * Nothing is assumed about critical points: see icc_function_get_report(). Inequalities on a tree that is not a
  * cousin tree, as in 3-D, do not rule out others than the maximum.
  *
- * @param[out] out the field; owned by the caller; keeps the tree alive
+ * @param[out] out the function; owned by the caller; keeps the tree alive
  * @param tree     the tree
  * @param options  may be NULL
  * @param env      may be NULL
  * @param err      may be NULL
  * @return ::ICC_OK; ::ICC_ERR_SOLVER when a solver did not converge, which has only been seen with
- *         inequalities on bilaplace and clamped, where they ask for more than 1 at the root (as `leaf` and `eta` do of
- *         deep trees) or `leaf` is 1e-2; ::ICC_ERR_RESOLUTION when the root is
+ *         inequalities on bilaplace and clamped, where they ask for more than 1 at the root (as `leaf_min` and `min_fall` do of
+ *         deep trees) or `leaf_min` is 1e-2; ::ICC_ERR_RESOLUTION when the root is
  *         the only vertex inside (laplace, bilaplace, clamped); ::ICC_ERR_UNSUPPORTED for clamped, and
  *         for bilaplace under inequalities, in a build without AMD; ::ICC_ERR_ARGUMENT,
  *         ::ICC_ERR_MEMORY, ::ICC_ERR_CANCELLED, ::ICC_ERR_VERSION
  */
-ICC_API icc_status icc_field_create(icc_field **out, const icc_tree *tree,
-                                    const icc_field_options *options, const icc_env *env,
+ICC_API icc_status icc_function_create(icc_function **out, const icc_tree *tree,
+                                    const icc_function_options *options, const icc_env *env,
                                     icc_error *err);
 
 /** The function of a gradient chart, or NULL for other charts; borrowed, as is what hangs on it. */
-ICC_API const icc_field *icc_chart_field(const icc_chart *chart);
+ICC_API const icc_function *icc_chart_function(const icc_chart *chart);
 
-/** The tree that a field was made on; borrowed. */
-ICC_API const icc_tree *icc_field_tree(const icc_field *field);
+/** The tree that a function was made on; borrowed. */
+ICC_API const icc_tree *icc_function_tree(const icc_function *function);
 
 /** The grid that a tree was grown on; borrowed. */
 ICC_API const icc_grid *icc_tree_grid(const icc_tree *tree);
@@ -305,35 +310,35 @@ ICC_API const icc_grid *icc_tree_grid(const icc_tree *tree);
 /** The vertex that a tree was grown from; UINT32_MAX for NULL. */
 ICC_API uint32_t icc_tree_root(const icc_tree *tree);
 
-/** Frees a field. */
-ICC_API void icc_field_free(icc_field *field);
+/** Frees a function. */
+ICC_API void icc_function_free(icc_function *function);
 
 /** Fills in `info`, whose `size` the caller has set. ::ICC_OK or ::ICC_ERR_ARGUMENT. */
-ICC_API icc_status icc_field_get_info(const icc_field *field, icc_field_info *info);
+ICC_API icc_status icc_function_get_info(const icc_function *function, icc_function_info *info);
 
 /** One value per grid vertex; NaN where the tree does not reach; borrowed. (Beyond 2-D the function of a
  *  gradient chart goes on to some vertices outside.) Laplace and bilaplace decay exponentially in long
- *  limbs: values below 2^-1022 are 0 here, see icc_field_logs(). */
-ICC_API const double *icc_field_values(const icc_field *field);
+ *  limbs: values below 2^-1022 are 0 here, see icc_function_logs(). */
+ICC_API const double *icc_function_values(const icc_function *function);
 
 /** The natural logarithm of every value, accurate also where the values underflow; -HUGE_VAL outside, NaN
  *  where the tree does not reach; borrowed. NULL for decay and distance, and when some value
  *  inside is not positive. */
-ICC_API const double *icc_field_logs(const icc_field *field);
+ICC_API const double *icc_function_logs(const icc_function *function);
 
 /**
  * Counts critical points. Vertices outside or without a value count as lower than all others, equal
  * values are ordered by vertex index. About 10 ns a vertex in 2-D and 3-D; up to 1, 4 and 10 us in
  * 4-D, 5-D and 6-D.
  */
-ICC_API icc_status icc_field_verify(const icc_field *field, icc_field_report *report,
+ICC_API icc_status icc_function_get_report(const icc_function *function, icc_function_report *report,
                                     const icc_env *env, icc_error *err);
 
 /**
  * Lists compression and expansion edges (2-D): edges between two triangles with a value at every
  * corner, at least one of whose corners is inside (thesis, sections 5 and 6.4).
  *
- * @param field        the field
+ * @param function        the function
  * @param capacity     how many edges the arrays have room for
  * @param[out] edges   `capacity` pairs of vertices
  * @param[out] kinds   `capacity` kinds, `ICC_EDGE_*`
@@ -341,14 +346,14 @@ ICC_API icc_status icc_field_verify(const icc_field *field, icc_field_report *re
  * @param[out] n_tested how many edges were looked at, or NULL
  * @return ::ICC_OK, ::ICC_ERR_ARGUMENT, ::ICC_ERR_UNSUPPORTED (not 2-D)
  */
-ICC_API icc_status icc_field_edges(const icc_field *field, size_t capacity, uint32_t *edges,
+ICC_API icc_status icc_function_get_edges(const icc_function *function, size_t capacity, uint32_t *edges,
                                    int32_t *kinds, size_t *n_edges, size_t *n_tested);
 
 /* ------------------------------------------------------------------- order */
 
 /** How icc_tree_grow() found an order. */
 enum {
-    ICC_GROW_AS_WISHED = 1, /**< the order wished for is regular */
+    ICC_GROW_AS_GIVEN = 1, /**< the order wished for is regular */
     ICC_GROW_GROWN = 2,     /**< some vertices had to wait for others */
     ICC_GROW_THINNED = 3    /**< growth got stuck; the vertices were removed one by one instead, and the
                                  order read backwards */
@@ -361,10 +366,10 @@ typedef struct icc_grow_report {
     uint32_t vertex;    /**< the first vertex in the order wished for that growth could not place, or
                              UINT32_MAX */
     size_t n_vertices;  /**< vertices inside that the tree reaches */
-    size_t n_postponed; /**< vertices that had to wait while growing */
+    size_t n_deferred; /**< vertices that had to wait while growing */
     size_t n_unplaced;  /**< vertices left when growth got stuck */
-    size_t n_left;      /**< vertices left, but for the root, when thinning got stuck, too */
-    size_t n_turned;    /**< edges of the Kuhn triangulation along which the order is not as wished */
+    size_t n_remaining; /**< vertices left, but for the root, when thinning got stuck, too */
+    size_t n_reversed;  /**< edges of the Kuhn triangulation along which the order is not as wished */
     size_t n_tests;     /**< links that were looked at: less than 2^(dim+3) a vertex */
 } icc_grow_report;
 
@@ -374,7 +379,7 @@ typedef struct icc_grow_report {
  * In 2-D the tree's own order has been so in every case tried; beyond, it is often not (see
  * icc_tree_create()). Here a set grows from the root and takes, in the order wished for, each vertex
  * whose neighbours in the set are a contractible part of its link; others wait until they are. (Links
- * are those of the Kuhn triangulation, decided as for icc_field_report::n_saddles.) If growth gets
+ * are those of the Kuhn triangulation, decided as for icc_function_report::n_saddles.) If growth gets
  * stuck, the set of all vertices is thinned down to the root instead. A function that falls with the
  * rank has one critical point, the maximum, in any dimension. There are shapes where both fail, such as
  * Bing's house with two rooms: a finer grid may help. Nothing helps a shape that is not a ball, as the
@@ -402,17 +407,17 @@ ICC_API icc_status icc_tree_grow(const icc_tree *tree, const double *values, uin
 
 /**
  * Counts the critical vertices of any order of the vertices inside that the tree reaches, as
- * icc_field_verify() does for functions: by looking at every link, whatever the order comes from.
+ * icc_function_get_report() does for functions: by looking at every link, whatever the order comes from.
  *
  * @param tree        the tree
  * @param rank        one number per grid vertex, smaller for higher vertices; equal ones count as
- *                    icc_field_verify() says. Those of other vertices do not matter.
+ *                    icc_function_get_report() says. Those of other vertices do not matter.
  * @param[out] report its `size` is set by the caller
  * @param env         may be NULL
  * @param err         may be NULL
  */
-ICC_API icc_status icc_tree_verify_ranks(const icc_tree *tree, const uint32_t *rank,
-                                         icc_field_report *report, const icc_env *env,
+ICC_API icc_status icc_tree_get_rank_report(const icc_tree *tree, const uint32_t *rank,
+                                         icc_function_report *report, const icc_env *env,
                                          icc_error *err);
 
 /* ----------------------------------------------------------- triangulation */

@@ -12,19 +12,19 @@ static bool are_finite(size_t n, const double *values)
     return true;
 }
 
-icc_status icc_binding_create(icc_binding **out, const icc_kernel *kernel, size_t n,
+icc_status icc_binding_create(icc_binding **out, const icc_weights *kernel, size_t n,
                               const double *points, int32_t derivatives, const icc_env *env,
                               icc_error *err)
 {
     if (out != NULL)
         *out = NULL;
     if (out == NULL || kernel == NULL || (n > 0 && points == NULL))
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_binding_create: an argument is NULL");
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_binding_create: an argument is NULL");
     if (derivatives < 0 || derivatives > 1)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "derivatives is %ld", (long)derivatives);
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "derivatives is %ld", (long)derivatives);
     for (size_t i = 0, dim = kernel->layout->dim; i < n; ++i)
         if (!are_finite(dim, points + dim * i))
-            return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)i, "point %zu is not finite", i);
+            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)i, "point %zu is not finite", i);
     iccp_env full_env;
     const icc_status status = iccp_env_read(&full_env, env, err);
     if (status != ICC_OK)
@@ -52,7 +52,7 @@ icc_status icc_binding_get_counts(const icc_binding *binding, size_t *n_points, 
     return ICC_OK;
 }
 
-icc_status icc_binding_get(const icc_binding *binding, double *handles, double *weights)
+icc_status icc_binding_get_weights(const icc_binding *binding, double *handles, double *weights)
 {
     if (binding == NULL)
         return ICC_ERR_ARGUMENT;
@@ -92,7 +92,7 @@ icc_status icc_binding_load(icc_binding **out, size_t n_bytes, const void *data,
     if (out != NULL)
         *out = NULL;
     if (out == NULL || (n_bytes > 0 && data == NULL))
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_binding_load: an argument is NULL");
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_binding_load: an argument is NULL");
     iccp_env full_env;
     const icc_status status = iccp_env_read(&full_env, env, err);
     if (status != ICC_OK)

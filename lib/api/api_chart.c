@@ -4,7 +4,7 @@
 #include "base/options.h"
 #include "chart/bulk.h"
 #include "chart/chart_field.h"
-#include "chart/create.h"
+#include "chart/chart_create.h"
 #include "chart/gradient_state.h"
 #include "chart/load.h"
 
@@ -17,7 +17,7 @@ icc_status icc_chart_create(icc_chart **out, const icc_domain *domain,
     if (out != NULL)
         *out = NULL;
     if (out == NULL || domain == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_chart_create: %s is NULL",
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_chart_create: %s is NULL",
                          out == NULL ? "out" : "domain");
     iccp_env full_env;
     icc_chart_options full;
@@ -44,7 +44,7 @@ const icc_domain *icc_chart_domain(const icc_chart *chart)
     return chart != NULL ? chart->domain : NULL;
 }
 
-const icc_field *icc_chart_field(const icc_chart *chart)
+const icc_function *icc_chart_function(const icc_chart *chart)
 {
     if (chart != NULL && chart->info.method == ICC_METHOD_FIELD)
         return iccp_chart_field_function(chart);
@@ -54,22 +54,22 @@ const icc_field *icc_chart_field(const icc_chart *chart)
     return state->field;
 }
 
-icc_status icc_chart_measure(const icc_chart *chart, size_t n_points, icc_chart_measures *measures,
+icc_status icc_chart_get_report(const icc_chart *chart, size_t n_points, icc_chart_report *measures,
                              const icc_env *env, icc_error *err)
 {
     if (chart == NULL || measures == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_chart_measure: %s is NULL",
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_chart_get_report: %s is NULL",
                          chart == NULL ? "chart" : "measures");
     if (n_points > UINT32_MAX)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_chart_measure: %zu points are too many",
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_chart_get_report: %zu points are too many",
                          n_points);
     iccp_env full_env;
-    icc_chart_measures full = {0};
+    icc_chart_report full = {0};
     icc_status status = iccp_env_read(&full_env, env, err);
     if (status == ICC_OK && chart->ops->measure != NULL)
         status = chart->ops->measure(chart, n_points > 0 ? n_points : 4096, &full, &full_env);
     return status == ICC_OK
-               ? iccp_write_struct(measures, &full, sizeof full, "icc_chart_measures", err)
+               ? iccp_write_struct(measures, &full, sizeof full, "icc_chart_report", err)
                : iccp_explain(err, status);
 }
 
@@ -123,11 +123,11 @@ icc_status icc_chart_trace(const icc_chart *chart, const double *point, size_t c
     if (n_curve != NULL)
         *n_curve = 0;
     if (chart == NULL || point == NULL || n_curve == NULL || (capacity > 0 && curve == NULL))
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_chart_trace: an argument is NULL");
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_chart_trace: an argument is NULL");
     const int32_t dim = chart->domain->dim;
     for (int32_t k = 0; k < dim; ++k)
         if (!isfinite(point[k]))
-            return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_chart_trace: the point is not finite");
+            return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_chart_trace: the point is not finite");
     iccp_env full_env;
     icc_status status = iccp_env_read(&full_env, env, err);
     if (status != ICC_OK)
@@ -140,9 +140,9 @@ icc_status icc_chart_trace(const icc_chart *chart, const double *point, size_t c
     status = chart->ops->trace(chart, local, &path, append, &line);
     iccp_path_clear(&path);
     if (status == ICC_ERR_OUTSIDE)
-        return iccp_fail(err, status, -1, "the point is outside the domain");
+        return iccp_fail(err, status, "the point is outside the domain");
     if (status == ICC_ERR_TRACE)
-        return iccp_fail(err, status, -1,
+        return iccp_fail(err, status,
                          "the curve through the point does not reach the boundary and the maximum");
     if (status != ICC_OK)
         return iccp_fail_memory(err);
@@ -164,7 +164,7 @@ icc_status icc_chart_load(icc_chart **out, size_t n_bytes, const void *data, con
     if (out != NULL)
         *out = NULL;
     if (out == NULL || data == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_chart_load: %s is NULL",
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_chart_load: %s is NULL",
                          out == NULL ? "out" : "data");
     iccp_env full_env;
     const icc_status status = iccp_env_read(&full_env, env, err);

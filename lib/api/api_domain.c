@@ -13,12 +13,12 @@ static icc_status check_counts(size_t n_vertices, const double *vertices, size_t
                                const uint32_t *facets, icc_error *err)
 {
     if (vertices == NULL && n_vertices > 0)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "vertices is NULL");
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "vertices is NULL");
     if (n_vertices > ICCP_MAX_COUNT)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "%zu vertices are too many; at most %zu",
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "%zu vertices are too many; at most %zu",
                          n_vertices, ICCP_MAX_COUNT);
     if (facets != NULL && n_facets > ICCP_MAX_COUNT)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "%zu facets are too many; at most %zu",
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "%zu facets are too many; at most %zu",
                          n_facets, ICCP_MAX_COUNT);
     return ICC_OK;
 }
@@ -28,13 +28,13 @@ icc_status icc_domain_create(icc_domain **out, int32_t dim, size_t n_vertices,
                              const icc_env *env, icc_error *err)
 {
     if (out == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "out is NULL");
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "out is NULL");
     *out = NULL;
     if (dim < 1 || dim > ICC_MAX_DIM)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "dim is %ld; it must lie in 1..%d", (long)dim,
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "dim is %ld; it must lie in 1..%d", (long)dim,
                          ICC_MAX_DIM);
     if (dim != 2 && facets == NULL && n_facets > 0)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1,
+        return iccp_fail(err, ICC_ERR_ARGUMENT,
                          "facets is NULL; only those of a polygon can be left out");
     iccp_env full;
     icc_status status = iccp_env_read(&full, env, err);
@@ -48,9 +48,9 @@ icc_status icc_domain_create(icc_domain **out, int32_t dim, size_t n_vertices,
 static icc_status check_simplices(size_t n_simplices, const uint32_t *simplices, icc_error *err)
 {
     if (simplices == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "simplices is NULL");
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "simplices is NULL");
     if (n_simplices == 0 || n_simplices > ICCP_MAX_COUNT)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "%zu simplices; there must be 1 to %zu",
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "%zu simplices; there must be 1 to %zu",
                          n_simplices, ICCP_MAX_COUNT);
     return ICC_OK;
 }
@@ -61,10 +61,10 @@ icc_status icc_domain_create_mesh(icc_domain **out, int32_t dim, size_t n_vertic
                                   const uint32_t *facets, const icc_env *env, icc_error *err)
 {
     if (out == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "out is NULL");
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "out is NULL");
     *out = NULL;
     if (dim < 2 || dim > ICC_MAX_DIM)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "dim is %ld; it must lie in 2..%d", (long)dim,
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "dim is %ld; it must lie in 2..%d", (long)dim,
                          ICC_MAX_DIM);
     iccp_env full;
     icc_status status = iccp_env_read(&full, env, err);
@@ -161,10 +161,10 @@ icc_status icc_boundary_defects(size_t n_vertices, const double *vertices, size_
                                 const icc_env *env, icc_error *err)
 {
     if (n_defects == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "n_defects is NULL");
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "n_defects is NULL");
     *n_defects = 0;
     if (capacity > 0 && (kinds == NULL || items == NULL))
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "kinds or items is NULL");
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "kinds or items is NULL");
     iccp_env full;
     icc_status status = iccp_env_read(&full, env, err);
     if (status == ICC_OK)

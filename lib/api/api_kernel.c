@@ -1,7 +1,7 @@
 /* Argument checks of kernel coordinates: kernels. */
 #include "base/error.h"
 #include "base/options.h"
-#include "kernel/kernel.h"
+#include "kernel/handle_weights.h"
 
 #include <math.h>
 #include <string.h>
@@ -36,7 +36,7 @@ static icc_status check_choice(int32_t value, int32_t first, int32_t last, const
 {
     if (value >= first && value <= last)
         return ICC_OK;
-    return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_kernel_options.%s is %ld", member,
+    return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_weights_options.%s is %ld", member,
                      (long)value);
 }
 
@@ -44,10 +44,10 @@ static icc_status check_amount(double value, double most, const char *member, ic
 {
     if (value >= 0 && value <= most && isfinite(value))
         return ICC_OK;
-    return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_kernel_options.%s is %g", member, value);
+    return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_weights_options.%s is %g", member, value);
 }
 
-static icc_status check_choices(const icc_kernel_options *o, icc_error *err)
+static icc_status check_choices(const icc_weights_options *o, icc_error *err)
 {
     icc_status status = check_choice(o->kernel, 0, ICC_KERNEL_GAUSS, "kernel", err);
     if (status == ICC_OK)
@@ -57,79 +57,78 @@ static icc_status check_choices(const icc_kernel_options *o, icc_error *err)
     if (status == ICC_OK)
         status = check_choice(o->steps, 0, MAX_STEPS, "steps", err);
     if (status == ICC_OK)
-        status = check_choice(o->tail, -1, 1, "tail", err);
+        status = check_choice(o->affine_tail, -1, 1, "tail", err);
     if (status == ICC_OK)
-        status = check_choice(o->visible, -1, 1, "visible", err);
+        status = check_choice(o->within_shape, -1, 1, "visible", err);
     if (status == ICC_OK)
         status = check_amount(o->sigma, HUGE_VAL, "sigma", err);
     return status == ICC_OK ? check_amount(o->cutoff, MAX_CUTOFF, "cutoff", err) : status;
 }
 
-static icc_status check_edges(const icc_kernel_options *o, size_t n_handles, icc_error *err)
+static icc_status check_edges(const icc_weights_options *o, size_t n_handles, icc_error *err)
 {
     if (o->n_edges > 0 && o->edges == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_kernel_options.edges is NULL");
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_weights_options.edges is NULL");
     if (o->n_edges > UINT32_MAX / 2)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "there are too many edges: %zu", o->n_edges);
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "there are too many edges: %zu", o->n_edges);
     for (size_t e = 0; e < o->n_edges; ++e) {
         const uint32_t *ends = o->edges + 2 * e;
         if (ends[0] >= n_handles || ends[1] >= n_handles || ends[0] == ends[1])
-            return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)e,
+            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_EDGE, (int64_t)e,
                              "edge %zu joins handles %lu and %lu of %zu", e, (unsigned long)ends[0],
                              (unsigned long)ends[1], n_handles);
     }
     if (o->initial == ICC_INITIAL_EDGES && o->n_edges == 0)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1,
-                         "icc_kernel_options.initial holds edges, but there are none");
+        return iccp_fail(err, ICC_ERR_ARGUMENT,
+                         "icc_weights_options.initial holds edges, but there are none");
     return ICC_OK;
 }
 
-static icc_status check_lines(const icc_kernel_options *o, size_t dim, icc_error *err)
+static icc_status check_lines(const icc_weights_options *o, size_t dim, icc_error *err)
 {
     if (o->n_lines > 0 && o->lines == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_kernel_options.lines is NULL");
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_weights_options.lines is NULL");
     if (o->n_lines > INT32_MAX)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "there are too many lines: %zu", o->n_lines);
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "there are too many lines: %zu", o->n_lines);
     for (size_t k = 0; k < o->n_lines; ++k) {
         const icc_line *line = &o->lines[k];
         if (!are_finite(dim, line->from) || !are_finite(dim, line->to))
-            return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)k, "line %zu is not finite", k);
-        if (line->parallel < 0 || (size_t)line->parallel > k || line->reserved != 0)
-            return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)k,
-                             "line %zu: parallel is %ld, reserved is %ld; it may be parallel to an "
-                             "earlier line",
-                             k, (long)line->parallel, (long)line->reserved);
+            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_LINE, (int64_t)k, "line %zu is not finite", k);
+        if (line->parallel < 0 || (size_t)line->parallel > k)
+            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_LINE, (int64_t)k,
+                             "line %zu: parallel is %ld; it may be parallel to an earlier line", k,
+                             (long)line->parallel);
     }
     return ICC_OK;
 }
 
-static icc_status check_weights(const icc_kernel_options *o, size_t n_samples, size_t n_handles,
+static icc_status check_weights(const icc_weights_options *o, size_t n_samples, size_t n_handles,
                                 icc_error *err)
 {
     if (o->initial != ICC_INITIAL_GIVEN)
         return ICC_OK;
     if (o->initial_weights == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_kernel_options.initial_weights is NULL");
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_weights_options.initial_weights is NULL");
     const size_t i = first_infinite(n_samples, n_handles, o->initial_weights);
     if (i == n_samples)
         return ICC_OK;
-    return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)i,
+    return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_SAMPLE, (int64_t)i,
                      "an initial weight of sample %zu is not finite", i);
 }
 
 static icc_status check_handles(size_t dim, size_t n, const double *handles, icc_error *err)
 {
     if (n < dim + 1 || n > MAX_HANDLES)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1,
+        return iccp_fail(err, ICC_ERR_ARGUMENT,
                          "there are %zu handles; there must be %zu at least, to reproduce points",
                          n, dim + 1);
     const size_t j = first_infinite(n, dim, handles);
     if (j == n)
         return ICC_OK;
-    return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)j, "handle %zu is not finite", j);
+    return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_HANDLE, (int64_t)j, "handle %zu is not finite", j);
 }
 
-static void complete(icc_kernel_options *o, double sigma)
+static void complete(icc_weights_options *o, double sigma)
 {
     if (o->kernel == 0)
         o->kernel = ICC_KERNEL_WENDLAND;
@@ -145,7 +144,7 @@ static void complete(icc_kernel_options *o, double sigma)
         o->cutoff = DEFAULT_CUTOFF;
 }
 
-static icc_status check_all(const icc_kernel_options *o, const icc_sampling *sampling,
+static icc_status check_all(const icc_weights_options *o, const icc_sampling *sampling,
                             size_t n_handles, const double *handles, icc_error *err)
 {
     const size_t dim = sampling->shape->dim;
@@ -159,43 +158,43 @@ static icc_status check_all(const icc_kernel_options *o, const icc_sampling *sam
     return status == ICC_OK ? check_weights(o, sampling->info.n_samples, n_handles, err) : status;
 }
 
-icc_status icc_kernel_create(icc_kernel **out, const icc_sampling *sampling, size_t n_handles,
-                             const double *handles, const icc_kernel_options *options,
+icc_status icc_weights_create(icc_weights **out, const icc_sampling *sampling, size_t n_handles,
+                             const double *handles, const icc_weights_options *options,
                              const icc_env *env, icc_error *err)
 {
     if (out != NULL)
         *out = NULL;
     if (out == NULL || sampling == NULL || handles == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_kernel_create: an argument is NULL");
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_weights_create: an argument is NULL");
     iccp_env full_env;
-    icc_kernel_options full;
+    icc_weights_options full;
     icc_status status = iccp_env_read(&full_env, env, err);
     if (status == ICC_OK)
-        status = iccp_read_struct(&full, sizeof full, options, "icc_kernel_options", err);
+        status = iccp_read_struct(&full, sizeof full, options, "icc_weights_options", err);
     if (status == ICC_OK)
         status = check_all(&full, sampling, n_handles, handles, err);
     if (status != ICC_OK)
         return status;
     complete(&full, sampling->info.sigma);
     return iccp_explain(
-        err, iccp_kernel_create(out, sampling, n_handles, handles, &full, &full_env, err));
+        err, iccp_weights_create(out, sampling, n_handles, handles, &full, &full_env, err));
 }
 
-void icc_kernel_free(icc_kernel *kernel)
+void icc_weights_free(icc_weights *kernel)
 {
-    iccp_kernel_release(kernel);
+    iccp_weights_release(kernel);
 }
 
 /* ---- what is known ---- */
 
-icc_status icc_kernel_get_info(const icc_kernel *kernel, icc_kernel_info *info)
+icc_status icc_weights_get_info(const icc_weights *kernel, icc_weights_info *info)
 {
     if (kernel == NULL || info == NULL)
         return ICC_ERR_ARGUMENT;
-    return iccp_write_struct(info, &kernel->info, sizeof kernel->info, "icc_kernel_info", NULL);
+    return iccp_write_struct(info, &kernel->info, sizeof kernel->info, "icc_weights_info", NULL);
 }
 
-icc_status icc_kernel_get_nodes(const icc_kernel *kernel, double *points, double *initial,
+icc_status icc_weights_get_nodes(const icc_weights *kernel, double *points, double *initial,
                                 double *weights, icc_status *status)
 {
     if (kernel == NULL)
@@ -213,7 +212,7 @@ icc_status icc_kernel_get_nodes(const icc_kernel *kernel, double *points, double
     return ICC_OK;
 }
 
-icc_status icc_kernel_weights(const icc_kernel *kernel, size_t n, const double *points,
+icc_status icc_weights_evaluate(const icc_weights *kernel, size_t n, const double *points,
                               double *weights, double *gradients, icc_status *status,
                               size_t *n_failed, const icc_env *env)
 {
@@ -221,105 +220,105 @@ icc_status icc_kernel_weights(const icc_kernel *kernel, size_t n, const double *
         return ICC_ERR_ARGUMENT;
     iccp_env full_env;
     const icc_status read = iccp_env_read(&full_env, env, NULL);
-    return read == ICC_OK ? iccp_kernel_weights(kernel, n, points, weights, gradients, status,
+    return read == ICC_OK ? iccp_weights_evaluate(kernel, n, points, weights, gradients, status,
                                                 n_failed, &full_env)
                           : read;
 }
 
-icc_status icc_kernel_get_report(const icc_kernel *kernel, size_t n, const double *points,
-                                 icc_kernel_report *report, const icc_env *env, icc_error *err)
+icc_status icc_weights_get_report(const icc_weights *kernel, size_t n, const double *points,
+                                 icc_weights_report *report, const icc_env *env, icc_error *err)
 {
     if (kernel == NULL || report == NULL || (n > 0 && points == NULL))
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_kernel_get_report: an argument is NULL");
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_weights_get_report: an argument is NULL");
     iccp_env full_env;
-    icc_kernel_report full;
+    icc_weights_report full;
     const size_t i = first_infinite(n, kernel->layout->dim, points);
     if (i < n)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)i, "point %zu is not finite", i);
+        return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)i, "point %zu is not finite", i);
     icc_status status = iccp_env_read(&full_env, env, err);
     if (status == ICC_OK)
-        status = iccp_kernel_measure(kernel, n, points, &full, &full_env);
+        status = iccp_weights_measure(kernel, n, points, &full, &full_env);
     if (status == ICC_OK)
-        return iccp_write_struct(report, &full, sizeof full, "icc_kernel_report", err);
+        return iccp_write_struct(report, &full, sizeof full, "icc_weights_report", err);
     return iccp_explain(err, status);
 }
 
 /* ---- kernels from others ---- */
 
 /* Every function that makes a kernel from another one starts like this. */
-static icc_status begin(iccp_env *full, icc_kernel **out, const icc_kernel *kernel,
+static icc_status begin(iccp_env *full, icc_weights **out, const icc_weights *kernel,
                         bool complete_call, const char *name, const icc_env *env, icc_error *err)
 {
     if (out != NULL)
         *out = NULL;
     if (out == NULL || kernel == NULL || !complete_call)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "%s: an argument is NULL", name);
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "%s: an argument is NULL", name);
     return iccp_env_read(full, env, err);
 }
 
-icc_status icc_kernel_paint(icc_kernel **out, const icc_kernel *kernel, size_t handle,
+icc_status icc_weights_paint(icc_weights **out, const icc_weights *kernel, size_t handle,
                             const double *centre, double radius, double amount, const icc_env *env,
                             icc_error *err)
 {
     iccp_env full_env;
     const icc_status status =
-        begin(&full_env, out, kernel, centre != NULL, "icc_kernel_paint", env, err);
+        begin(&full_env, out, kernel, centre != NULL, "icc_weights_paint", env, err);
     if (status != ICC_OK)
         return status;
     if (handle >= kernel->layout->n_handles)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "handle %zu does not exist", handle);
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "handle %zu does not exist", handle);
     if (!are_finite(kernel->layout->dim, centre) || !(radius > 0) || !isfinite(radius) ||
         !isfinite(amount))
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1,
-                         "icc_kernel_paint: radius %g, amount %g, or a centre that is not finite",
+        return iccp_fail(err, ICC_ERR_ARGUMENT,
+                         "icc_weights_paint: radius %g, amount %g, or a centre that is not finite",
                          radius, amount);
     return iccp_explain(err,
-                        iccp_kernel_paint(out, kernel, handle, centre, radius, amount, &full_env));
+                        iccp_weights_paint(out, kernel, handle, centre, radius, amount, &full_env));
 }
 
-icc_status icc_kernel_repaint(icc_kernel **out, const icc_kernel *kernel, size_t n,
+icc_status icc_weights_repaint(icc_weights **out, const icc_weights *kernel, size_t n,
                               const uint32_t *nodes, const double *weights, const icc_env *env,
                               icc_error *err)
 {
     iccp_env full_env;
     const icc_status status =
         begin(&full_env, out, kernel, n == 0 || (nodes != NULL && weights != NULL),
-              "icc_kernel_repaint", env, err);
+              "icc_weights_repaint", env, err);
     if (status != ICC_OK)
         return status;
     const size_t k = first_infinite(n, kernel->layout->n_handles, weights);
     if (k < n)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)k, "a weight for node %lu is not finite",
+        return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_NODE, (int64_t)k, "a weight for node %lu is not finite",
                          (unsigned long)nodes[k]);
-    return iccp_explain(err, iccp_kernel_repaint(out, kernel, n, nodes, weights, &full_env, err));
+    return iccp_explain(err, iccp_weights_repaint(out, kernel, n, nodes, weights, &full_env, err));
 }
 
-icc_status icc_kernel_set_method(icc_kernel **out, const icc_kernel *kernel, int32_t method,
+icc_status icc_weights_with_method(icc_weights **out, const icc_weights *kernel, int32_t method,
                                  const icc_env *env, icc_error *err)
 {
     iccp_env full_env;
     const icc_status status =
-        begin(&full_env, out, kernel, true, "icc_kernel_set_method", env, err);
+        begin(&full_env, out, kernel, true, "icc_weights_with_method", env, err);
     if (status != ICC_OK)
         return status;
     if (method < ICC_WEIGHTS_QP || method > ICC_WEIGHTS_L1)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "method is %ld", (long)method);
-    return iccp_explain(err, iccp_kernel_set_method(out, kernel, method, &full_env));
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "method is %ld", (long)method);
+    return iccp_explain(err, iccp_weights_with_method(out, kernel, method, &full_env));
 }
 
-icc_status icc_kernel_stiffen(icc_kernel **out, const icc_kernel *kernel, size_t n,
+icc_status icc_weights_stiffen(icc_weights **out, const icc_weights *kernel, size_t n,
                               const uint32_t *nodes, const double *rigidity, double energy[2],
                               const icc_env *env, icc_error *err)
 {
     iccp_env full_env;
     const icc_status status =
-        begin(&full_env, out, kernel, n == 0 || nodes != NULL, "icc_kernel_stiffen", env, err);
+        begin(&full_env, out, kernel, n == 0 || nodes != NULL, "icc_weights_stiffen", env, err);
     if (status != ICC_OK)
         return status;
     for (size_t k = 0; rigidity != NULL && k < n; ++k)
         if (!(rigidity[k] > 0) || !isfinite(rigidity[k]))
-            return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)k, "the rigidity of node %lu is %g",
+            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_NODE, (int64_t)k, "the rigidity of node %lu is %g",
                              (unsigned long)nodes[k], rigidity[k]);
     return iccp_explain(
-        err, iccp_kernel_stiffen(out, kernel, n, nodes, rigidity, energy, &full_env, err));
+        err, iccp_weights_stiffen(out, kernel, n, nodes, rigidity, energy, &full_env, err));
 }

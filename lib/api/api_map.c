@@ -13,7 +13,7 @@ static icc_status read_options(icc_map_options *full, const icc_map_options *opt
     const icc_status status =
         iccp_read_struct(full, sizeof *full, options, "icc_map_options", err);
     if (status == ICC_OK && full->iterations < -1)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_map_options.iterations is %ld",
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_map_options.iterations is %ld",
                          (long)full->iterations);
     return status;
 }
@@ -24,7 +24,7 @@ icc_status icc_map_create(icc_map **out, const icc_domain *source, const icc_dom
     if (out != NULL)
         *out = NULL;
     if (out == NULL || source == NULL || target == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_map_create: an argument is NULL");
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_map_create: an argument is NULL");
     iccp_env full_env;
     icc_map_options full;
     icc_chart_options chart;
@@ -36,7 +36,7 @@ icc_status icc_map_create(icc_map **out, const icc_domain *source, const icc_dom
     if (status == ICC_OK)
         status = iccp_check_maximum(full.target_maximum, target->dim, err);
     if (status == ICC_OK && chart.method == ICC_METHOD_DISC && full.target_maximum != NULL)
-        status = iccp_fail(err, ICC_ERR_ARGUMENT, -1,
+        status = iccp_fail(err, ICC_ERR_ARGUMENT,
                            "method disc has its own maximum: icc_map_options.target_maximum must "
                            "be NULL");
     if (status != ICC_OK)
@@ -53,7 +53,7 @@ icc_status icc_map_create_from_charts(icc_map **out, const icc_chart *source,
     if (out != NULL)
         *out = NULL;
     if (out == NULL || source == NULL || target == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1,
+        return iccp_fail(err, ICC_ERR_ARGUMENT,
                          "icc_map_create_from_charts: an argument is NULL");
     iccp_env full_env;
     icc_map_options full;
@@ -129,7 +129,7 @@ icc_status icc_map_improve(icc_map **out, const icc_map *map, const icc_improve_
     if (out != NULL)
         *out = NULL;
     if (out == NULL || map == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_map_improve: an argument is NULL");
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_map_improve: an argument is NULL");
     iccp_env full_env;
     icc_improve_options full;
     icc_improve_report full_report = {0};
@@ -138,7 +138,7 @@ icc_status icc_map_improve(icc_map **out, const icc_map *map, const icc_improve_
         status = iccp_read_struct(&full, sizeof full, options, "icc_improve_options", err);
     if (status == ICC_OK && (full.iterations < 0 || full.levels < -1 ||
                              !(full.tolerance >= 0 && full.tolerance < 1)))
-        status = iccp_fail(err, ICC_ERR_ARGUMENT, -1,
+        status = iccp_fail(err, ICC_ERR_ARGUMENT,
                            "icc_improve_options: a member is out of range");
     if (status == ICC_OK)
         status = iccp_map_improve(out, map, &full, &full_report, &full_env, err);
@@ -152,19 +152,19 @@ icc_status icc_map_improve(icc_map **out, const icc_map *map, const icc_improve_
     return status;
 }
 
-icc_status icc_map_follow(icc_map **out, const icc_map *map, const icc_domain *target,
+icc_status icc_map_retarget(icc_map **out, const icc_map *map, const icc_domain *target,
                           int32_t iterations, const icc_env *env, icc_error *err)
 {
     if (out != NULL)
         *out = NULL;
     if (out == NULL || map == NULL || target == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_map_follow: an argument is NULL");
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_map_retarget: an argument is NULL");
     if (iterations < -1)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_map_follow: iterations is %ld",
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_map_retarget: iterations is %ld",
                          (long)iterations);
     iccp_env full_env;
     const icc_status status = iccp_env_read(&full_env, env, err);
-    return status == ICC_OK ? iccp_map_follow(out, map, target, iterations, &full_env, err)
+    return status == ICC_OK ? iccp_map_retarget(out, map, target, iterations, &full_env, err)
                             : status;
 }
 
@@ -179,7 +179,7 @@ static void hand_out_solid(const icc_map *map, double *vertices, double *images,
         memcpy(corners, mesh->corners, 4 * mesh->n_simplices * sizeof *corners);
 }
 
-icc_status icc_map_mesh(const icc_map *map, double *vertices, double *images, uint32_t *triangles)
+icc_status icc_map_get_mesh(const icc_map *map, double *vertices, double *images, uint32_t *triangles)
 {
     if (map == NULL)
         return ICC_ERR_ARGUMENT;
@@ -206,15 +206,15 @@ static icc_status check_mesh(const icc_map *map, size_t n_vertices, size_t n_sim
     const size_t dim = (size_t)map->source_domain->dim;
     const char *name = dim == 2 ? "triangle" : "tetrahedron";
     if (dim != 2 && dim != 3)
-        return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1,
+        return iccp_fail(err, ICC_ERR_UNSUPPORTED,
                          "dim is %zu; meshes are carried along in dimensions 2 and 3 only", dim);
     if (n_vertices <= dim || n_simplices < 1 || n_vertices > ICCP_MAX_COUNT ||
         n_simplices > ICCP_MAX_COUNT)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_map_certify: %zu vertices and %zu simplices",
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_map_certify: %zu vertices and %zu simplices",
                          n_vertices, n_simplices);
     for (size_t k = 0; k < (dim + 1) * n_simplices; ++k)
         if (simplices[k] >= n_vertices)
-            return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)(k / (dim + 1)),
+            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_SIMPLEX, (int64_t)(k / (dim + 1)),
                              "%s %zu has vertex %lu of %zu", name, k / (dim + 1),
                              (unsigned long)simplices[k], n_vertices);
     return ICC_OK;
@@ -250,7 +250,7 @@ icc_status icc_map_certify(const icc_map *map, size_t n_vertices, const double *
                            icc_certificate *certificate, const icc_env *env, icc_error *err)
 {
     if (map == NULL || vertices == NULL || simplices == NULL || certificate == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_map_certify: an argument is NULL");
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_map_certify: an argument is NULL");
     return carry_mesh(map, n_vertices, vertices, n_simplices, simplices, false, images,
                       certificate, env, err);
 }
@@ -261,7 +261,7 @@ icc_status icc_map_repair(const icc_map *map, size_t n_vertices, const double *v
 {
     if (map == NULL || vertices == NULL || simplices == NULL || images == NULL ||
         certificate == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_map_repair: an argument is NULL");
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_map_repair: an argument is NULL");
     return carry_mesh(map, n_vertices, vertices, n_simplices, simplices, true, images, certificate,
                       env, err);
 }
@@ -280,7 +280,7 @@ icc_status icc_map_load(icc_map **out, size_t n_bytes, const void *data, const i
     if (out != NULL)
         *out = NULL;
     if (out == NULL || data == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_map_load: %s is NULL",
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_map_load: %s is NULL",
                          out == NULL ? "out" : "data");
     iccp_env full_env;
     const icc_status status = iccp_env_read(&full_env, env, err);

@@ -8,14 +8,14 @@
 static icc_status check_mask(int32_t dim, const size_t *shape, const uint8_t *cells, icc_error *err)
 {
     if (dim < 1 || dim > ICC_MAX_DIM)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "dim is %ld; it must lie in 1..%d", (long)dim,
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "dim is %ld; it must lie in 1..%d", (long)dim,
                          ICC_MAX_DIM);
     if (shape == NULL || cells == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "%s is NULL",
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "%s is NULL",
                          shape == NULL ? "shape" : "cells");
     for (int32_t k = 0; k < dim; ++k)
         if (shape[k] == 0)
-            return iccp_fail(err, ICC_ERR_ARGUMENT, k, "shape[%ld] is 0", (long)k);
+            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_AXIS, k, "shape[%ld] is 0", (long)k);
     return ICC_OK;
 }
 
@@ -23,7 +23,7 @@ icc_status icc_domain_create_mask(icc_domain **out, int32_t dim, const size_t *s
                                   const uint8_t *cells, const icc_env *env, icc_error *err)
 {
     if (out == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "out is NULL");
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "out is NULL");
     *out = NULL;
     iccp_env full;
     icc_status status = check_mask(dim, shape, cells, err);

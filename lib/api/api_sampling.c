@@ -13,7 +13,7 @@ static const int32_t MAX_STEPS = 100000;
 static icc_status begin(iccp_env *full, const icc_env *env, const char *missing, icc_error *err)
 {
     if (missing != NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "%s is NULL", missing);
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "%s is NULL", missing);
     return iccp_env_read(full, env, err);
 }
 
@@ -23,7 +23,7 @@ static icc_status check_finite(size_t n, size_t dim, const double *points, const
     for (size_t i = 0; i < n; ++i)
         for (size_t k = 0; k < dim; ++k)
             if (!isfinite(points[dim * i + k]))
-                return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)i, "%s %zu is not finite", name,
+                return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)i, "%s %zu is not finite", name,
                                  i);
     return ICC_OK;
 }
@@ -35,9 +35,9 @@ static icc_status check_regions(int32_t dim, size_t n_regions, const icc_domain 
 {
     for (size_t r = 0; r < n_regions; ++r) {
         if (regions[r] == NULL)
-            return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)r, "regions[%zu] is NULL", r);
+            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_REGION, (int64_t)r, "regions[%zu] is NULL", r);
         if (regions[r]->dim != dim)
-            return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)r,
+            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_REGION, (int64_t)r,
                              "region %zu has dimension %ld instead of %ld", r,
                              (long)regions[r]->dim, (long)dim);
     }
@@ -61,11 +61,11 @@ icc_status icc_shape_create(icc_shape **out, int32_t dim, size_t n_regions,
     if (status != ICC_OK)
         return status;
     if (dim != 2 && dim != 3)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "dim is %ld; it must be 2 or 3", (long)dim);
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "dim is %ld; it must be 2 or 3", (long)dim);
     if (n_regions == 0 && n_segments == 0)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "the shape is empty: no region and no segment");
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "the shape is empty: no region and no segment");
     if (n_regions >= ICCP_NOWHERE)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "there are 2^32 regions or more");
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "there are 2^32 regions or more");
     status = check_regions(dim, n_regions, regions, err);
     if (status != ICC_OK)
         return status;
@@ -84,19 +84,19 @@ static icc_status check_spread(const icc_sampling_options *o, const icc_shape *s
                                icc_error *err)
 {
     if (o->kind != ICC_SAMPLING_GRID && o->kind != ICC_SAMPLING_BLUE)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_sampling_options.kind is %ld",
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_sampling_options.kind is %ld",
                          (long)o->kind);
     if (o->kind == ICC_SAMPLING_GRID && shape->n_regions == 0)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "a grid samples regions, but there are none");
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "a grid samples regions, but there are none");
     if (o->steps < -1 || o->steps > MAX_STEPS)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1,
+        return iccp_fail(err, ICC_ERR_ARGUMENT,
                          "icc_sampling_options.steps is %ld; it must lie in -1..%ld",
                          (long)o->steps, (long)MAX_STEPS);
     if (!(o->spacing >= 0 && isfinite(o->spacing)))
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1,
+        return iccp_fail(err, ICC_ERR_ARGUMENT,
                          "icc_sampling_options.spacing is %g; it must be positive", o->spacing);
     if (!(o->margin >= 0 && isfinite(o->margin)))
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1,
+        return iccp_fail(err, ICC_ERR_ARGUMENT,
                          "icc_sampling_options.margin is %g; it must not be negative", o->margin);
     return ICC_OK;
 }
@@ -112,9 +112,9 @@ static icc_status read_options(icc_sampling_options *full, const icc_sampling_op
     if (status != ICC_OK)
         return status;
     if (full->n_fixed > 0 && full->fixed == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_sampling_options.fixed is NULL");
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_sampling_options.fixed is NULL");
     if (full->n_fixed > 0 && full->kind == ICC_SAMPLING_GRID)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "a grid has no fixed points");
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "a grid has no fixed points");
     return check_finite(full->n_fixed, shape->dim, full->fixed, "fixed point", err);
 }
 
@@ -147,9 +147,9 @@ icc_status icc_sampling_create_from_points(icc_sampling **out, const icc_shape *
     if (status != ICC_OK)
         return status;
     if (n == 0)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "there is no point");
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "there is no point");
     if (n > (size_t)1 << 24)
-        return iccp_fail(err, ICC_ERR_RESOLUTION, -1, "there are more than 2^24 points");
+        return iccp_fail(err, ICC_ERR_RESOLUTION, "there are more than 2^24 points");
     status = check_finite(n, shape->dim, points, "point", err);
     if (status != ICC_OK)
         return status;

@@ -3,8 +3,8 @@
 #include "base/error.h"
 #include "base/options.h"
 #include "domain/domain.h"
-#include "function/create.h"
-#include "function/critical.h"
+#include "function/make_function.h"
+#include "function/critical_points.h"
 #include "function/edges.h"
 #include "grid/grassfire.h"
 #include "grid/lattice.h"
@@ -26,7 +26,7 @@ static const size_t MAX_POINTS = UINT32_MAX / 16; /* corners of triangles are nu
 static icc_status begin(iccp_env *full, const icc_env *env, const char *missing, icc_error *err)
 {
     if (missing != NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "%s is NULL", missing);
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "%s is NULL", missing);
     return iccp_env_read(full, env, err);
 }
 
@@ -45,7 +45,7 @@ icc_status icc_grid_create(icc_grid **out, const icc_domain *domain, int32_t cel
     if (cells == 0)
         cells = domain->mask == NULL ? DEFAULT_CELLS : 2;
     if (cells < ICCP_MIN_CELLS || cells > ICCP_MAX_CELLS)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "cells is %ld; it must lie in 2..%ld",
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "cells is %ld; it must lie in 2..%ld",
                          (long)cells, (long)ICCP_MAX_CELLS);
     return iccp_explain(err, iccp_grid_create(out, domain, cells, &full_env, err));
 }
@@ -64,11 +64,11 @@ icc_status icc_grid_create_mask(icc_grid **out, int32_t dim, const size_t *shape
     if (status != ICC_OK)
         return status;
     if (dim < 1 || dim > ICC_MAX_DIM)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "dim is %ld; it must lie in 1..%d", (long)dim,
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "dim is %ld; it must lie in 1..%d", (long)dim,
                          ICC_MAX_DIM);
     for (int32_t k = 0; k < dim; ++k)
         if (shape[k] == 0)
-            return iccp_fail(err, ICC_ERR_ARGUMENT, k, "shape[%ld] is 0", (long)k);
+            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_AXIS, k, "shape[%ld] is 0", (long)k);
     return iccp_explain(err, iccp_grid_create_mask(out, dim, shape, inside, &full_env, err));
 }
 
@@ -126,7 +126,7 @@ const uint8_t *icc_grid_inside(const icc_grid *grid)
     return grid != NULL ? grid->inside : NULL;
 }
 
-icc_status icc_grid_maximum(const icc_grid *grid, uint32_t *vertex, uint32_t *rounds,
+icc_status icc_grid_find_maximum(const icc_grid *grid, uint32_t *vertex, uint32_t *rounds,
                             const icc_env *env, icc_error *err)
 {
     iccp_env full_env;
@@ -137,7 +137,7 @@ icc_status icc_grid_maximum(const icc_grid *grid, uint32_t *vertex, uint32_t *ro
     return iccp_explain(err, iccp_grassfire(grid, vertex, rounds, &full_env, err));
 }
 
-icc_status icc_grid_nearest(const icc_grid *grid, const double *point, uint32_t *vertex)
+icc_status icc_grid_find_nearest(const icc_grid *grid, const double *point, uint32_t *vertex)
 {
     if (grid == NULL || point == NULL || vertex == NULL)
         return ICC_ERR_ARGUMENT;
@@ -159,7 +159,7 @@ static icc_status check_axis_order(const int32_t *order, int32_t dim, icc_error 
     uint32_t seen = 0;
     for (int32_t k = 0; k < dim; ++k) {
         if (order[k] < 0 || order[k] >= dim || (seen >> order[k] & 1) != 0)
-            return iccp_fail(err, ICC_ERR_ARGUMENT, k,
+            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_AXIS, k,
                              "axis_order is not a permutation of 0..%ld: entry %ld is %ld",
                              (long)dim - 1, (long)k, (long)order[k]);
         seen |= (uint32_t)1 << order[k];
@@ -177,10 +177,8 @@ static icc_status read_tree_options(icc_tree_options *full, const icc_tree_optio
     if (full->form == 0)
         full->form = ICC_TREE_THESIS;
     if (full->form != ICC_TREE_THESIS && full->form != ICC_TREE_PAPER)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_tree_options.form is %ld",
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_tree_options.form is %ld",
                          (long)full->form);
-    if (full->reserved != 0)
-        return iccp_fail(err, ICC_ERR_VERSION, -1, "icc_tree_options.reserved is not 0");
     return check_axis_order(full->axis_order, dim, err);
 }
 
@@ -199,7 +197,7 @@ icc_status icc_tree_create(icc_tree **out, const icc_grid *grid, uint32_t root,
     if (status != ICC_OK)
         return status;
     if (root >= grid->n_vertices || !grid->inside[root])
-        return iccp_fail(err, ICC_ERR_ARGUMENT, root, "the root, vertex %lu, is not inside",
+        return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_GRID_VERTEX, root, "the root, vertex %lu, is not inside",
                          (unsigned long)root);
     return iccp_explain(
         err, iccp_tree_create(out, grid, root, full.form, full.axis_order, &full_env, err));
@@ -230,7 +228,7 @@ const int32_t *icc_tree_generations(const icc_tree *tree)
     return tree != NULL ? tree->generation : NULL;
 }
 
-icc_status icc_tree_verify(const icc_tree *tree, icc_tree_report *report, const icc_env *env,
+icc_status icc_tree_get_report(const icc_tree *tree, icc_tree_report *report, const icc_env *env,
                            icc_error *err)
 {
     iccp_env full_env;
@@ -249,7 +247,7 @@ static icc_status check_wish(const icc_tree *tree, const double *values, icc_err
 {
     for (size_t i = 0; values != NULL && i < tree->n_inside; ++i)
         if (isnan(values[tree->order[i]]))
-            return iccp_fail(err, ICC_ERR_ARGUMENT, tree->order[i],
+            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_GRID_VERTEX, tree->order[i],
                              "the value of vertex %lu is NaN", (unsigned long)tree->order[i]);
     return ICC_OK;
 }
@@ -273,8 +271,8 @@ icc_status icc_tree_grow(const icc_tree *tree, const double *values, uint32_t *r
     return written != ICC_OK ? written : status;
 }
 
-icc_status icc_tree_verify_ranks(const icc_tree *tree, const uint32_t *rank,
-                                 icc_field_report *report, const icc_env *env, icc_error *err)
+icc_status icc_tree_get_rank_report(const icc_tree *tree, const uint32_t *rank,
+                                 icc_function_report *report, const icc_env *env, icc_error *err)
 {
     iccp_env full_env;
     const char *missing = tree == NULL     ? "tree"
@@ -284,16 +282,16 @@ icc_status icc_tree_verify_ranks(const icc_tree *tree, const uint32_t *rank,
     icc_status status = begin(&full_env, env, missing, err);
     if (status != ICC_OK)
         return status;
-    icc_field_report full;
+    icc_function_report full;
     status = iccp_explain(err, iccp_tree_verify_ranks(tree, rank, &full, &full_env));
     if (status != ICC_OK)
         return status;
-    return iccp_write_struct(report, &full, sizeof full, "icc_field_report", err);
+    return iccp_write_struct(report, &full, sizeof full, "icc_function_report", err);
 }
 
-/* ------------------------------------------------------------------- field */
+/* ------------------------------------------------------------------- function */
 
-icc_status icc_field_create(icc_field **out, const icc_tree *tree, const icc_field_options *options,
+icc_status icc_function_create(icc_function **out, const icc_tree *tree, const icc_function_options *options,
                             const icc_env *env, icc_error *err)
 {
     if (out != NULL)
@@ -303,68 +301,66 @@ icc_status icc_field_create(icc_field **out, const icc_tree *tree, const icc_fie
     icc_status status = begin(&full_env, env, missing, err);
     if (status != ICC_OK)
         return status;
-    icc_field_options full;
-    status = iccp_read_struct(&full, sizeof full, options, "icc_field_options", err);
+    icc_function_options full;
+    status = iccp_read_struct(&full, sizeof full, options, "icc_function_options", err);
     if (status != ICC_OK)
         return status;
-    if (full.reserved != 0)
-        return iccp_fail(err, ICC_ERR_VERSION, -1, "icc_field_options.reserved is not 0");
-    status = iccp_check_function(&full, "icc_field_options", err);
-    return status == ICC_OK ? iccp_field_create(out, tree, &full, &full_env, err) : status;
+    status = iccp_check_function(&full, "icc_function_options", err);
+    return status == ICC_OK ? iccp_function_create(out, tree, &full, &full_env, err) : status;
 }
 
-void icc_field_free(icc_field *field)
+void icc_function_free(icc_function *function)
 {
-    iccp_field_release(field);
+    iccp_function_release(function);
 }
 
-const double *icc_field_values(const icc_field *field)
+const double *icc_function_values(const icc_function *function)
 {
-    if (field == NULL)
+    if (function == NULL)
         return NULL;
-    return field->plain != NULL ? field->plain : field->values;
+    return function->plain != NULL ? function->plain : function->values;
 }
 
-const double *icc_field_logs(const icc_field *field)
+const double *icc_function_logs(const icc_function *function)
 {
-    return field != NULL ? field->logs : NULL;
+    return function != NULL ? function->logs : NULL;
 }
 
-icc_status icc_field_get_info(const icc_field *field, icc_field_info *info)
+icc_status icc_function_get_info(const icc_function *function, icc_function_info *info)
 {
-    if (field == NULL || info == NULL)
+    if (function == NULL || info == NULL)
         return ICC_ERR_ARGUMENT;
-    return iccp_write_struct(info, &field->info, sizeof field->info, "icc_field_info", NULL);
+    return iccp_write_struct(info, &function->info, sizeof function->info, "icc_function_info", NULL);
 }
 
-const icc_tree *icc_field_tree(const icc_field *field)
+const icc_tree *icc_function_tree(const icc_function *function)
 {
-    return field != NULL ? field->tree : NULL;
+    return function != NULL ? function->tree : NULL;
 }
 
-icc_status icc_field_verify(const icc_field *field, icc_field_report *report, const icc_env *env,
+icc_status icc_function_get_report(const icc_function *function, icc_function_report *report, const icc_env *env,
                             icc_error *err)
 {
     iccp_env full_env;
-    const char *missing = field == NULL ? "field" : report == NULL ? "report" : NULL;
+    const char *missing = function == NULL ? "function" : report == NULL ? "report" : NULL;
     icc_status status = begin(&full_env, env, missing, err);
     if (status != ICC_OK)
         return status;
-    icc_field_report full;
-    status = iccp_explain(err, iccp_field_verify(field, &full, &full_env));
+    icc_function_report full;
+    status = iccp_explain(err, iccp_function_verify(function, &full, &full_env));
     if (status != ICC_OK)
         return status;
-    return iccp_write_struct(report, &full, sizeof full, "icc_field_report", err);
+    return iccp_write_struct(report, &full, sizeof full, "icc_function_report", err);
 }
 
-icc_status icc_field_edges(const icc_field *field, size_t capacity, uint32_t *edges, int32_t *kinds,
+icc_status icc_function_get_edges(const icc_function *function, size_t capacity, uint32_t *edges, int32_t *kinds,
                            size_t *n_edges, size_t *n_tested)
 {
-    if (field == NULL || n_edges == NULL || (capacity > 0 && (edges == NULL || kinds == NULL)))
+    if (function == NULL || n_edges == NULL || (capacity > 0 && (edges == NULL || kinds == NULL)))
         return ICC_ERR_ARGUMENT;
-    if (field->tree->grid->dim != 2)
+    if (function->tree->grid->dim != 2)
         return ICC_ERR_UNSUPPORTED;
-    const iccp_edge_count count = iccp_field_edges(field, capacity, edges, kinds);
+    const iccp_edge_count count = iccp_function_edges(function, capacity, edges, kinds);
     *n_edges = count.n_compression + count.n_expansion;
     if (n_tested != NULL)
         *n_tested = count.n_tested;
@@ -381,16 +377,16 @@ static icc_status localise(double *local, const icc_domain *polygon, size_t n_po
     for (size_t i = polygon->n_vertices; i < n_points; ++i) {
         const double *p = points + 2 * i;
         if (!isfinite(p[0]) || !isfinite(p[1]))
-            return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)i, "point %zu is not finite", i);
+            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)i, "point %zu is not finite", i);
         iccp_frame_in(&polygon->frame, 2, p, local + 2 * i);
         for (int k = 0; k < 2; ++k)
             if (local[2 * i + (size_t)k] < polygon->lower[k] ||
                 local[2 * i + (size_t)k] > polygon->upper[k])
-                return iccp_fail(err, ICC_ERR_OUTSIDE, (int64_t)i,
+                return iccp_fail_at(err, ICC_ERR_OUTSIDE, ICC_ITEM_POINT, (int64_t)i,
                                  "point %zu (%.17g, %.17g) is not inside the polygon", i, p[0],
                                  p[1]);
         if (!iccp_frame_holds(&polygon->frame, 2, p))
-            return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)i,
+            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)i,
                              "point %zu (%.17g, %.17g): a coordinate is not 0, but less than "
                              "2^-200 of the largest one",
                              i, p[0], p[1]);
@@ -422,7 +418,7 @@ icc_status icc_triangulate(size_t n_boundary, size_t n_points, const double *poi
     if (status != ICC_OK)
         return status;
     if (n_boundary < 3 || n_points < n_boundary || n_points > MAX_POINTS)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1,
+        return iccp_fail(err, ICC_ERR_ARGUMENT,
                          "a polygon of %zu vertices among %zu points: at least 3 vertices, and at "
                          "most %zu points",
                          n_boundary, n_points, MAX_POINTS);

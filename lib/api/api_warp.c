@@ -11,19 +11,17 @@ static icc_status read_picture(icc_picture *full, const icc_picture *given, cons
     if (status != ICC_OK)
         return status;
     if (full->width < 1 || full->height < 1)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "the %s picture has %ld x %ld pixels", name,
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "the %s picture has %ld x %ld pixels", name,
                          (long)full->width, (long)full->height);
     if (full->channels < 1 || full->channels > 4 || full->bytes < 1 || full->bytes > 2 ||
-        full->alpha < 0 || full->alpha > 1 || full->alpha >= full->channels ||
-        full->reserved != 0)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1,
-                         "icc_picture: %ld channels, %ld bytes, alpha %ld, reserved %ld",
-                         (long)full->channels, (long)full->bytes, (long)full->alpha,
-                         (long)full->reserved);
+        full->alpha < 0 || full->alpha > 1 || full->alpha >= full->channels)
+        return iccp_fail(err, ICC_ERR_ARGUMENT,
+                         "icc_picture: %ld channels, %ld bytes, alpha %ld",
+                         (long)full->channels, (long)full->bytes, (long)full->alpha);
     const size_t pixel = (size_t)(full->channels * full->bytes);
     if (full->pixels == NULL || full->stride / pixel < (size_t)full->width ||
         full->stride > PTRDIFF_MAX / (size_t)full->height)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1,
+        return iccp_fail(err, ICC_ERR_ARGUMENT,
                          "the %s picture has no pixels, or a stride of %zu bytes does not fit",
                          name, full->stride);
     return ICC_OK;
@@ -33,7 +31,7 @@ icc_status icc_map_warp(const icc_map *map, const icc_picture *source, const icc
                         size_t *n_failed, const icc_env *env, icc_error *err)
 {
     if (map == NULL || source == NULL || target == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_map_warp: an argument is NULL");
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_map_warp: an argument is NULL");
     iccp_env full_env;
     icc_picture from, to;
     icc_status status = iccp_env_read(&full_env, env, err);
@@ -43,10 +41,10 @@ icc_status icc_map_warp(const icc_map *map, const icc_picture *source, const icc
         status = read_picture(&to, target, "target", err);
     if (status == ICC_OK && (from.channels != to.channels || from.bytes != to.bytes ||
                              from.alpha != to.alpha))
-        status = iccp_fail(err, ICC_ERR_ARGUMENT, -1,
+        status = iccp_fail(err, ICC_ERR_ARGUMENT,
                            "the pictures differ in channels, bytes or alpha");
     if (status == ICC_OK && map->info.dim != 2)
-        status = iccp_fail(err, ICC_ERR_UNSUPPORTED, -1, "a map of dimension %ld takes no picture",
+        status = iccp_fail(err, ICC_ERR_UNSUPPORTED, "a map of dimension %ld takes no picture",
                            (long)map->info.dim);
     if (status != ICC_OK)
         return status;

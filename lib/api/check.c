@@ -10,7 +10,7 @@ icc_status iccp_check_maximum(const double *maximum, int32_t dim, icc_error *err
 {
     for (int32_t k = 0; maximum != NULL && k < dim; ++k)
         if (!isfinite(maximum[k]))
-            return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "the maximum is not finite");
+            return iccp_fail(err, ICC_ERR_ARGUMENT, "the maximum is not finite");
     return ICC_OK;
 }
 
@@ -19,7 +19,7 @@ static icc_status check_choice(int32_t value, int32_t last, const char *name, co
 {
     if (value >= 0 && value <= last)
         return ICC_OK;
-    return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "%s.%s is %ld", name, member, (long)value);
+    return iccp_fail(err, ICC_ERR_ARGUMENT, "%s.%s is %ld", name, member, (long)value);
 }
 
 /* Small relative amounts; 0 stands for a default. Refuses NaN. */
@@ -27,11 +27,11 @@ static icc_status check_share(double value, const char *name, const char *member
 {
     if (value >= 0 && value <= ICCP_MAX_SHARE)
         return ICC_OK;
-    return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "%s.%s is %g; it must lie in (0, %g], or be 0", name,
+    return iccp_fail(err, ICC_ERR_ARGUMENT, "%s.%s is %g; it must lie in (0, %g], or be 0", name,
                      member, value, ICCP_MAX_SHARE);
 }
 
-icc_status iccp_check_function(const icc_field_options *options, const char *name, icc_error *err)
+icc_status iccp_check_function(const icc_function_options *options, const char *name, icc_error *err)
 {
     icc_status status =
         check_choice(options->function, ICC_FUNCTION_CLAMPED, name, "function", err);
@@ -40,8 +40,8 @@ icc_status iccp_check_function(const icc_field_options *options, const char *nam
     if (status == ICC_OK)
         status = check_choice(options->solver, ICC_SOLVER_ITERATIVE, name, "solver", err);
     if (status == ICC_OK)
-        status = check_share(options->eta, name, "eta", err);
-    return status == ICC_OK ? check_share(options->leaf, name, "leaf", err) : status;
+        status = check_share(options->min_fall, name, "eta", err);
+    return status == ICC_OK ? check_share(options->leaf_min, name, "leaf", err) : status;
 }
 
 icc_status iccp_read_chart_options(icc_chart_options *full, const icc_chart_options *options,
@@ -51,22 +51,22 @@ icc_status iccp_read_chart_options(icc_chart_options *full, const icc_chart_opti
         iccp_read_struct(full, sizeof *full, options, "icc_chart_options", err);
     if (status != ICC_OK)
         return status;
-    const icc_field_options function = {.function = full->function,
+    const icc_function_options function = {.function = full->function,
                                         .constraints = full->constraints,
                                         .solver = full->solver,
-                                        .eta = full->eta,
-                                        .leaf = full->leaf};
+                                        .min_fall = full->min_fall,
+                                        .leaf_min = full->leaf_min};
     if (iccp_check_function(&function, "icc_chart_options", err) != ICC_OK)
         return ICC_ERR_ARGUMENT;
     if (full->tree < 0 || full->tree > ICC_TREE_PAPER)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "icc_chart_options.tree is %ld",
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_chart_options.tree is %ld",
                          (long)full->tree);
     if (full->cells != 0 && (full->cells < ICCP_MIN_CELLS || full->cells > ICCP_MAX_CELLS))
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1,
+        return iccp_fail(err, ICC_ERR_ARGUMENT,
                          "icc_chart_options.cells is %ld; it must lie in %ld..%ld",
                          (long)full->cells, (long)ICCP_MIN_CELLS, (long)ICCP_MAX_CELLS);
     if (full->method == ICC_METHOD_DISC && full->maximum != NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1,
+        return iccp_fail(err, ICC_ERR_ARGUMENT,
                          "method disc has its own maximum: icc_chart_options.maximum must be NULL");
     return iccp_check_maximum(full->maximum, dim, err);
 }

@@ -104,21 +104,21 @@ icc_status iccp_blob_open(iccp_blob_reader *r, const void *data, size_t n_bytes,
     const unsigned char *bytes = data;
     *r = (iccp_blob_reader){.data = bytes, .n = n_bytes, .at = HEADER};
     if (n_bytes < HEADER || memcmp(bytes, MAGIC, sizeof MAGIC) != 0)
-        return iccp_fail(err, ICC_ERR_FORMAT, -1, "these bytes are none of libicc's");
+        return iccp_fail(err, ICC_ERR_FORMAT, "these bytes are none of libicc's");
     if (memcmp(bytes + KIND_AT, kind, 4) != 0)
-        return iccp_fail(err, ICC_ERR_FORMAT, -1, "these bytes are not of the kind \"%.4s\"", kind);
+        return iccp_fail(err, ICC_ERR_FORMAT, "these bytes are not of the kind \"%.4s\"", kind);
     if (get(bytes + LENGTH_AT, 8) != n_bytes)
-        return iccp_fail(err, ICC_ERR_FORMAT, -1, "%zu bytes instead of those that were written",
+        return iccp_fail(err, ICC_ERR_FORMAT, "%zu bytes instead of those that were written",
                          n_bytes);
     if (get(bytes + CHECKSUM_AT, 4) != checksum(bytes, n_bytes))
-        return iccp_fail(err, ICC_ERR_FORMAT, -1, "the bytes have changed: the checksum is wrong");
+        return iccp_fail(err, ICC_ERR_FORMAT, "the bytes have changed: the checksum is wrong");
     const uint32_t written = (uint32_t)get(bytes + VERSION_AT, 4);
     if (written > version)
-        return iccp_fail(err, ICC_ERR_VERSION, -1,
+        return iccp_fail(err, ICC_ERR_VERSION,
                          "version %lu of the format; this library knows up to %lu",
                          (unsigned long)written, (unsigned long)version);
     if (written == 0)
-        return iccp_fail(err, ICC_ERR_FORMAT, -1, "version 0 of the format does not exist");
+        return iccp_fail(err, ICC_ERR_FORMAT, "version 0 of the format does not exist");
     return ICC_OK;
 }
 
@@ -173,5 +173,5 @@ icc_status iccp_blob_blame(icc_error *err, icc_status status, const char *what)
         return status;
     if (status == ICC_ERR_MEMORY || status == ICC_ERR_CANCELLED)
         return iccp_explain(err, status);
-    return iccp_fail(err, ICC_ERR_FORMAT, -1, "the bytes do not describe a %s", what);
+    return iccp_fail(err, ICC_ERR_FORMAT, "the bytes do not describe a %s", what);
 }

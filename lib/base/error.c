@@ -19,24 +19,38 @@ static void hand_over(icc_error *err, icc_error *full)
         ((char *)err)[size - 1] = '\0';
 }
 
-icc_status iccp_fail(icc_error *err, icc_status status, int64_t index, const char *format, ...)
+static void describe(icc_error *err, icc_status status, int32_t item, int64_t index,
+                     const char *format, va_list args)
 {
-    if (err == NULL)
-        return status;
-    icc_error full = {0};
-    full.status = status;
-    full.index = index;
+    icc_error full = {.status = status, .index = index, .item = item};
+    (void)vsnprintf(full.message, sizeof full.message, format, args);
+    hand_over(err, &full);
+}
+
+icc_status iccp_fail(icc_error *err, icc_status status, const char *format, ...)
+{
     va_list args;
     va_start(args, format);
-    (void)vsnprintf(full.message, sizeof full.message, format, args);
+    if (err != NULL)
+        describe(err, status, ICC_ITEM_NONE, -1, format, args);
     va_end(args);
-    hand_over(err, &full);
+    return status;
+}
+
+icc_status iccp_fail_at(icc_error *err, icc_status status, int32_t item, int64_t index,
+                        const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    if (err != NULL)
+        describe(err, status, item, index, format, args);
+    va_end(args);
     return status;
 }
 
 icc_status iccp_fail_memory(icc_error *err)
 {
-    return iccp_fail(err, ICC_ERR_MEMORY, -1, "out of memory");
+    return iccp_fail(err, ICC_ERR_MEMORY, "out of memory");
 }
 
 icc_status iccp_explain(icc_error *err, icc_status status)
@@ -44,7 +58,7 @@ icc_status iccp_explain(icc_error *err, icc_status status)
     if (status == ICC_ERR_MEMORY)
         return iccp_fail_memory(err);
     if (status == ICC_ERR_CANCELLED)
-        return iccp_fail(err, status, -1, "cancelled by the progress callback");
+        return iccp_fail(err, status, "cancelled by the progress callback");
     return status;
 }
 

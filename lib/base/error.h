@@ -6,9 +6,12 @@
 #include "icc/base.h"
 
 /* Describes a failure in the caller's struct (which may be NULL) and returns `status`, so that a
- * function can end with it. Index -1 means that no single item is at fault. */
-icc_status iccp_fail(icc_error *err, icc_status status, int64_t index, const char *format, ...)
-    ICCP_PRINTF(4, 5);
+ * function can end with it. */
+icc_status iccp_fail(icc_error *err, icc_status status, const char *format, ...) ICCP_PRINTF(3, 4);
+
+/* The same where one item (`ICC_ITEM_*`) is at fault. */
+icc_status iccp_fail_at(icc_error *err, icc_status status, int32_t item, int64_t index,
+                        const char *format, ...) ICCP_PRINTF(5, 6);
 
 /* ICC_ERR_MEMORY with the usual text. */
 icc_status iccp_fail_memory(icc_error *err);

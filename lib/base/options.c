@@ -7,7 +7,7 @@
 static icc_status check_size(size_t size, const char *name, icc_error *err)
 {
     if (size < sizeof(size_t) || size > 1u << 16)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "%s.size is not set (it is %zu)", name, size);
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "%s.size is not set (it is %zu)", name, size);
     return ICC_OK;
 }
 
@@ -25,7 +25,7 @@ icc_status iccp_read_struct(void *full, size_t full_size, const void *given, con
     const unsigned char *bytes = given;
     for (size_t i = full_size; i < size; ++i)
         if (bytes[i] != 0)
-            return iccp_fail(err, ICC_ERR_VERSION, -1,
+            return iccp_fail(err, ICC_ERR_VERSION,
                              "%s has a member that this version of the library does not know",
                              name);
     memcpy(full, given, size < full_size ? size : full_size);

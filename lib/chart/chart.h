@@ -55,7 +55,7 @@ typedef struct iccp_chart_ops {
     icc_status (*trace)(const icc_chart *chart, const double *point, iccp_path *path,
                         iccp_emit emit, void *argument);
     /* Fills in everything but `size`; n_points > 0. NULL for methods that miss nothing. */
-    icc_status (*measure)(const icc_chart *chart, size_t n_points, icc_chart_measures *measures,
+    icc_status (*measure)(const icc_chart *chart, size_t n_points, icc_chart_report *measures,
                           const iccp_env *env);
     /* What the method's loader wants, without the domain (chart/load.h). */
     void (*save)(const icc_chart *chart, iccp_blob_writer *w);

@@ -306,7 +306,7 @@ static icc_status certify(const iccp_planar *mesh, const double *image, icc_erro
     const size_t n_rim = count_rim_faults(mesh, image);
     if (iccp_certificate_holds(&domain) && iccp_certificate_holds(&disc) && n_rim == 0)
         return ICC_OK;
-    return iccp_fail(err, ICC_ERR_CERTIFICATE, -1,
+    return iccp_fail(err, ICC_ERR_CERTIFICATE,
                      "the map to the disc cannot be certified: %zu triangles inverted in the domain "
                      "and %zu in the disc, %zu faults of topology, %zu of the rim",
                      domain.n_inverted, disc.n_inverted, domain.n_topology, n_rim);
@@ -352,7 +352,7 @@ icc_status iccp_chart_disc_create(icc_chart **out, const icc_domain *domain, icc
         iccp_chart_release(chart);
         *out = NULL;
         if (status == ICC_ERR_CERTIFICATE)
-            (void)iccp_fail(err, status, -1, "the disc's centre lies in no triangle");
+            (void)iccp_fail(err, status, "the disc's centre lies in no triangle");
         return status;
     }
     state->mesh = iccp_harmonic_take_mesh(base);

@@ -7,8 +7,8 @@
 #include "base/error.h"
 #include "chart/field_measure.h"
 #include "chart/field_state.h"
-#include "function/create.h"
-#include "function/critical.h"
+#include "function/make_function.h"
+#include "function/critical_points.h"
 #include "grid/grassfire.h"
 #include "grid/rasterise.h"
 #include "tree/settle.h"
@@ -108,17 +108,17 @@ static icc_status make_field(iccp_field_state *state, icc_chart *chart,
                              const icc_chart_options *options, const iccp_env *env, icc_error *err)
 {
     const double start = iccp_seconds();
-    icc_field_report report = {0};
-    const icc_field_options function = {.function = ICC_FUNCTION_LAPLACE,
+    icc_function_report report = {0};
+    const icc_function_options function = {.function = ICC_FUNCTION_LAPLACE,
                                         .constraints = ICC_CONSTRAINTS_NONE,
                                         .solver = options->solver};
-    icc_status status = iccp_field_create(&state->field, state->tree, &function, env, err);
+    icc_status status = iccp_function_create(&state->field, state->tree, &function, env, err);
     if (status == ICC_OK)
-        status = iccp_field_verify(state->field, &report, env);
+        status = iccp_function_verify(state->field, &report, env);
     chart->info.n_maxima = report.n_maxima;
     chart->info.n_minima = report.n_minima;
     chart->info.n_saddles = report.n_saddles;
-    chart->info.seconds_field = iccp_seconds() - start;
+    chart->info.seconds_function = iccp_seconds() - start;
     return status;
 }
 
@@ -168,12 +168,12 @@ static void free_state(icc_chart *chart)
     iccp_field_state *state = chart->state;
     iccp_cones_free(&state->cones);
     iccp_cover_free(&state->cover);
-    iccp_field_release(state->field);
+    iccp_function_release(state->field);
     iccp_tree_release(state->tree);
     iccp_free(&chart->memory, state);
 }
 
-static icc_status measure(const icc_chart *chart, size_t n_points, icc_chart_measures *measures,
+static icc_status measure(const icc_chart *chart, size_t n_points, icc_chart_report *measures,
                           const iccp_env *env)
 {
     const iccp_field_state *state = chart->state;
@@ -211,7 +211,7 @@ static const iccp_chart_ops OPS = {
     .free_state = free_state,
 };
 
-const icc_field *iccp_chart_field_function(const icc_chart *chart)
+const icc_function *iccp_chart_field_function(const icc_chart *chart)
 {
     const iccp_field_state *state = chart->state;
     return state->field;

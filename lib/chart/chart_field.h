@@ -3,7 +3,7 @@
 #define ICCP_CHART_FIELD_H
 
 #include "chart/chart.h"
-#include "function/field.h"
+#include "function/function.h"
 
 /* `options` is complete. `maximum` (local coordinates) is where the maximum shall be, whatever the options
  * say, or NULL. */
@@ -12,7 +12,7 @@ icc_status iccp_chart_field_create(icc_chart **out, const icc_domain *domain,
                                    const iccp_env *env, icc_error *err);
 
 /* The function of a chart of this method. */
-const icc_field *iccp_chart_field_function(const icc_chart *chart);
+const icc_function *iccp_chart_field_function(const icc_chart *chart);
 
 /* Makes again what the chart has saved: ICC_ERR_FORMAT for what no chart saves, ICC_ERR_VERSION, with its reason, if it
  * comes out otherwise. */

@@ -400,7 +400,7 @@ static icc_status make_psi(foliation_state *state, const iccp_harmonic *base, ui
         }
         iccp_psi_free(&state->psi);
     }
-    return iccp_fail(err, ICC_ERR_CERTIFICATE, -1,
+    return iccp_fail(err, ICC_ERR_CERTIFICATE,
                      "the foliation cannot be certified: %zu inverted triangles, %zu faults of "
                      "topology, %zu open and %zu flat triangles, %zu irregular vertices",
                      certificate.n_inverted, certificate.n_topology, certificate.n_open,

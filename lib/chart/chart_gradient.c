@@ -1,5 +1,5 @@
-/* Based on: L. Huynh, thesis, 2013, section 5.1, Algorithms 6-8 (Huynh and Gingold, section 4): the same in
- * any dimension, on top of gradient_line.h. */
+/* Based on: L. Huynh, thesis, 2013, section 5.1, Algorithms 6-8 (Huynh and Gingold, section 4):
+ * the same in any dimension, on top of gradient_line.h. */
 #include "chart/chart_gradient.h"
 
 #include "base/clock.h"
@@ -7,9 +7,10 @@
 #include "chart/gradient_jet.h"
 #include "chart/gradient_measure.h"
 #include "chart/gradient_rim.h"
-#include "function/create.h"
-#include "function/critical.h"
+#include "function/make_function.h"
+#include "function/critical_points.h"
 #include "function/edges.h"
+#include "function/summit.h"
 #include "grid/grassfire.h"
 #include "grid/rasterise.h"
 #include "tree/verify.h"
@@ -27,7 +28,7 @@ static icc_status choose_root(const icc_grid *grid, const icc_domain *domain, co
     double local[ICC_MAX_DIM];
     iccp_frame_in(&domain->frame, domain->dim, maximum, local);
     if (iccp_domain_locate(domain, local, true, NULL, NULL) != ICC_INSIDE)
-        return iccp_fail(err, ICC_ERR_OUTSIDE, -1, "the maximum is not inside the domain");
+        return iccp_fail(err, ICC_ERR_OUTSIDE, "the maximum is not inside the domain");
     *root = iccp_grid_nearest(grid, local);
     return ICC_OK;
 }
@@ -40,6 +41,26 @@ static int32_t choose_cells(const icc_domain *domain, int32_t cells)
     return cells > 0 || domain->mask != NULL ? cells : PAPERS_CELLS;
 }
 
+/* In place of the tree that there may be. */
+static icc_status grow_tree(iccp_gradient_state *state, icc_chart *chart, const icc_grid *grid,
+                            uint32_t root, const iccp_env *env, icc_error *err)
+{
+    const double start = iccp_seconds();
+    icc_tree_report report = {0};
+    icc_tree *tree = NULL;
+    icc_status status = iccp_tree_create(&tree, grid, root, chart->info.tree, NULL, env, err);
+    if (status != ICC_OK)
+        return status;
+    iccp_tree_release(state->tree);
+    state->tree = tree;
+    status = iccp_tree_verify(tree, &report, env);
+    chart->info.seconds_tree += iccp_seconds() - start;
+    chart->info.n_tree = report.n_inside + report.n_outside;
+    chart->info.n_unreachable = report.n_unreachable;
+    chart->info.n_cousin_violations = report.n_cousin_violations;
+    return status;
+}
+
 static icc_status make_tree(iccp_gradient_state *state, icc_chart *chart,
                             const icc_chart_options *options, const iccp_env *env, icc_error *err)
 {
@@ -49,50 +70,82 @@ static icc_status make_tree(iccp_gradient_state *state, icc_chart *chart,
     icc_status status = iccp_grid_create(&grid, chart->domain, cells, env, err);
     if (status != ICC_OK)
         return status;
-    uint32_t root;
-    status = choose_root(grid, chart->domain, options->maximum, &root, env, err);
-    const double middle = iccp_seconds();
-    chart->info.seconds_grid = middle - start;
-    icc_tree_report report = {0};
+    status = choose_root(grid, chart->domain, options->maximum, &state->chosen, env, err);
+    chart->info.seconds_grid = iccp_seconds() - start;
     if (status == ICC_OK)
-        status = iccp_tree_create(&state->tree, grid, root, options->tree, NULL, env, err);
-    if (status == ICC_OK)
-        status = iccp_tree_verify(state->tree, &report, env);
-    chart->info.seconds_tree = iccp_seconds() - middle;
+        status = grow_tree(state, chart, grid, state->chosen, env, err);
     chart->info.cells = grid->cells;
     chart->info.n_grid = grid->n_vertices;
     chart->info.n_inside = grid->n_inside;
-    chart->info.n_tree = report.n_inside + report.n_outside;
-    chart->info.n_unreachable = report.n_unreachable;
-    chart->info.n_cousin_violations = report.n_cousin_violations;
     iccp_grid_release(grid);
     return status;
+}
+
+/* A function without inequalities on a tree with another root. */
+static icc_status move_root(iccp_gradient_state *state, icc_chart *chart, uint32_t root,
+                            const icc_function_options *function, const iccp_env *env, icc_error *err)
+{
+    const icc_status status = grow_tree(state, chart, state->tree->grid, root, env, err);
+    iccp_function_release(state->field);
+    state->field = NULL;
+    return status == ICC_OK ? iccp_function_create(&state->field, state->tree, function, env, err)
+                            : status;
+}
+
+/* A plate is highest beside a load that is not in its middle, and curves would end there rather
+ * than at the root. Without inequalities the root moves to where it is the maximum; where that does
+ * not give a function without false critical points, inequalities are imposed at the root that was
+ * asked for. */
+static icc_status make_plate(iccp_gradient_state *state, icc_chart *chart,
+                             const icc_function_options *options, const iccp_env *env, icc_error *err)
+{
+    icc_function_options function = *options;
+    bool enough = options->constraints == ICC_CONSTRAINTS_NONE;
+    function.constraints = ICC_CONSTRAINTS_NONE;
+    icc_status status = iccp_function_create(&state->field, state->tree, &function, env, err);
+    if (status == ICC_OK && state->field->info.beside) {
+        uint32_t summit = 0;
+        status = iccp_function_summit(state->field, &summit, env);
+        if (status == ICC_OK)
+            status = move_root(state, chart, summit, &function, env, err);
+    }
+    if (status == ICC_OK && !enough)
+        status = iccp_function_is_regular(state->field, &enough, env);
+    if (status != ICC_OK || enough)
+        return status;
+    function.constraints = ICC_CONSTRAINTS_ALL;
+    return move_root(state, chart, state->chosen, &function, env, err);
 }
 
 static icc_status make_field(iccp_gradient_state *state, icc_chart *chart,
                              const icc_chart_options *options, const iccp_env *env,
                              icc_error *err)
 {
-    const double start = iccp_seconds();
-    icc_field_report report = {0};
-    const icc_field_options function = {.function = options->function,
+    const double start = iccp_seconds(), grown = chart->info.seconds_tree;
+    icc_function_report report = {0};
+    const icc_function_options function = {.function = options->function,
                                         .constraints = options->constraints,
                                         .solver = options->solver,
-                                        .eta = options->eta,
-                                        .leaf = options->leaf};
-    icc_status status = iccp_field_create(&state->field, state->tree, &function, env, err);
+                                        .min_fall = options->min_fall,
+                                        .leaf_min = options->leaf_min};
+    const bool is_plate = options->function == ICC_FUNCTION_BILAPLACE ||
+                          options->function == ICC_FUNCTION_CLAMPED;
+    icc_status status =
+        is_plate && options->constraints != ICC_CONSTRAINTS_ALL
+            ? make_plate(state, chart, &function, env, err)
+            : iccp_function_create(&state->field, state->tree, &function, env, err);
     if (status == ICC_OK)
-        status = iccp_field_verify(state->field, &report, env);
+        status = iccp_function_verify(state->field, &report, env);
     if (status != ICC_OK)
         return status;
     chart->info.n_maxima = report.n_maxima;
     chart->info.n_minima = report.n_minima;
     chart->info.n_saddles = report.n_saddles;
     if (chart->domain->dim == 2)
-        iccp_field_count_edges(state->field, &chart->info.n_edges, &chart->info.n_compression,
+        iccp_function_count_edges(state->field, &chart->info.n_edges, &chart->info.n_compression,
                                &chart->info.n_expansion);
     status = iccp_gradient_extend(state->field, env);
-    chart->info.seconds_field = iccp_seconds() - start;
+    chart->info.seconds_function = iccp_seconds() - start - (chart->info.seconds_tree - grown);
     return status;
 }
 
@@ -107,13 +160,17 @@ static icc_status make_boundary(iccp_gradient_state *state, const icc_domain *do
 static void place_maximum(iccp_gradient_state *state, icc_chart *chart)
 {
     const icc_grid *grid = state->tree->grid;
-    double local[ICC_MAX_DIM];
-    for (int32_t k = 0; k < grid->dim; ++k)
+    double local[ICC_MAX_DIM], squared = 0;
+    for (int32_t k = 0; k < grid->dim; ++k) {
         state->root[k] = iccp_grid_coordinate(grid, state->tree->root, k);
+        const double step = state->root[k] - iccp_grid_coordinate(grid, state->chosen, k);
+        squared += step * step;
+    }
     state->root_reach = chart->domain->tolerance / grid->spacing;
     iccp_gradient_to_local(state, state->root, local);
     iccp_frame_out(&chart->domain->frame, grid->dim, local, chart->info.maximum);
     chart->info.spacing = grid->spacing * chart->domain->frame.out[0] * chart->domain->frame.out[1];
+    chart->info.moved = sqrt(squared) * chart->info.spacing;
 }
 
 /* ---- Algorithm 7: Cartesian to ICC ---- */
@@ -250,7 +307,7 @@ static void free_state(icc_chart *chart)
         iccp_fence_free(&state->fence);
     else
         iccp_cage_cells_free(&state->cage);
-    iccp_field_release(state->field);
+    iccp_function_release(state->field);
     iccp_tree_release(state->tree);
     iccp_free(&chart->memory, state);
 }

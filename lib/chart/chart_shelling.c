@@ -59,7 +59,7 @@ static icc_status choose_given(job *j, size_t k, icc_error *err)
     const icc_domain *domain = j->domain[k];
     iccp_frame_in(&domain->frame, domain->dim, j->options[k].maximum, local);
     if (iccp_domain_locate(domain, local, true, NULL, NULL) != ICC_INSIDE) {
-        (void)iccp_fail(err, ICC_ERR_OUTSIDE, -1, "the maximum is not inside the domain");
+        (void)iccp_fail(err, ICC_ERR_OUTSIDE, "the maximum is not inside the domain");
         return blame(j, k, ICC_ERR_OUTSIDE, err);
     }
     j->centre[k] = iccp_nearest_centre(j->mesh[k], local);
@@ -174,7 +174,7 @@ static icc_status certify(const icc_domain *domain, const iccp_simplices *mesh, 
     info->certified = iccp_shelling_certificate_holds(&found);
     if (info->certified)
         return ICC_OK;
-    return iccp_fail(err, ICC_ERR_CERTIFICATE, -1,
+    return iccp_fail(err, ICC_ERR_CERTIFICATE,
                      "the foliation cannot be certified: %zu inverted simplices, %zu faults of "
                      "topology, %zu simplices out of order, %zu irregular faces, %zu directions "
                      "against the order",

@@ -111,7 +111,7 @@ static void cumulate(const icc_domain *domain, double *cumulated)
 }
 
 icc_status iccp_field_measure(const icc_chart *chart, const iccp_flow *flow, size_t n_points,
-                              icc_chart_measures *measures, const iccp_env *env)
+                              icc_chart_report *measures, const iccp_env *env)
 {
     size_t n_unreachable = 0, n_outward = 0;
     double *cumulated = iccp_alloc(&env->memory, chart->domain->n_facets, sizeof *cumulated);

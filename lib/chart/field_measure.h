@@ -5,8 +5,8 @@
 #include "chart/chart.h"
 #include "field/flow.h"
 
-/* See icc_chart_measure(); `encode` is the chart's. */
+/* See icc_chart_get_report(); `encode` is the chart's. */
 icc_status iccp_field_measure(const icc_chart *chart, const iccp_flow *flow, size_t n_points,
-                              icc_chart_measures *measures, const iccp_env *env);
+                              icc_chart_report *measures, const iccp_env *env);
 
 #endif

@@ -9,7 +9,7 @@
 typedef struct iccp_field_state {
     iccp_recipe recipe;
     icc_tree *tree;
-    icc_field *field;
+    icc_function *field;
     iccp_cover cover;
     iccp_cones cones;
     iccp_flow flow;

@@ -62,7 +62,7 @@ static size_t count_candidates(const icc_domain *domain, size_t n)
 }
 
 static icc_status measure_area(const icc_chart *chart, size_t n_points,
-                               icc_chart_measures *measures, const iccp_env *env)
+                               icc_chart_report *measures, const iccp_env *env)
 {
     const size_t n = count_candidates(chart->domain, n_points);
     area_samples samples = {chart, iccp_alloc(&env->memory, n, 1)};
@@ -151,7 +151,7 @@ static icc_status judge_boundary_chunk(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
-static void sum_boundary(const boundary_samples *samples, icc_chart_measures *measures)
+static void sum_boundary(const boundary_samples *samples, icc_chart_report *measures)
 {
     double collapsed = 0;
     size_t n_curves = 0, n_inward = 0;
@@ -181,7 +181,7 @@ static void sum_extents(const icc_domain *domain, double *extent)
 }
 
 static icc_status measure_boundary(const icc_chart *chart, size_t n_points,
-                                   icc_chart_measures *measures, const iccp_env *env)
+                                   icc_chart_report *measures, const iccp_env *env)
 {
     const icc_domain *domain = chart->domain;
     double *extent = iccp_alloc(&env->memory, domain->n_facets + 1, sizeof *extent);
@@ -203,7 +203,7 @@ static icc_status measure_boundary(const icc_chart *chart, size_t n_points,
 }
 
 icc_status iccp_gradient_measure(const icc_chart *chart, size_t n_points,
-                                 icc_chart_measures *measures, const iccp_env *env)
+                                 icc_chart_report *measures, const iccp_env *env)
 {
     const icc_status status = measure_area(chart, n_points, measures, env);
     return status == ICC_OK ? measure_boundary(chart, n_points, measures, env) : status;

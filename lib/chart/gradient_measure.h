@@ -7,6 +7,6 @@
 
 /* See iccp_chart_ops::measure. */
 icc_status iccp_gradient_measure(const icc_chart *chart, size_t n_points,
-                                 icc_chart_measures *measures, const iccp_env *env);
+                                 icc_chart_report *measures, const iccp_env *env);
 
 #endif

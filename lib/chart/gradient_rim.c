@@ -1,7 +1,7 @@
 #include "chart/gradient_rim.h"
 
 /* The neighbour in a layer with the highest or the lowest value, or ICCP_NONE. */
-static uint32_t extreme(const icc_field *field, const uint8_t *layer, uint32_t v, int wanted,
+static uint32_t extreme(const icc_function *field, const uint8_t *layer, uint32_t v, int wanted,
                         int sign)
 {
     const icc_grid *grid = field->tree->grid;
@@ -9,14 +9,14 @@ static uint32_t extreme(const icc_field *field, const uint8_t *layer, uint32_t v
     for (int32_t i = 0; i < 2 * grid->dim; ++i) {
         const uint32_t u = iccp_grid_neighbour(grid, v, i / 2, i % 2 * 2 - 1);
         if (u != ICCP_NONE && layer[u] == wanted &&
-            (best == ICCP_NONE || sign * iccp_field_compare(field, u, best) > 0))
+            (best == ICCP_NONE || sign * iccp_function_compare(field, u, best) > 0))
             best = u;
     }
     return best;
 }
 
 /* f(v) = f(u) + (f(u) - f(t)). */
-static void go_on(icc_field *field, uint32_t v, uint32_t u, uint32_t t)
+static void go_on(icc_function *field, uint32_t v, uint32_t u, uint32_t t)
 {
     if (field->plain != NULL)
         field->plain[v] = 2 * field->plain[u] - field->plain[t];
@@ -26,7 +26,7 @@ static void go_on(icc_field *field, uint32_t v, uint32_t u, uint32_t t)
     }
     const uint32_t both[2] = {u, t};
     double f[2];
-    iccp_field_local(field, 2, both, f);
+    iccp_function_local(field, 2, both, f);
     field->values[v] = 2 * f[0] - f[1];
     field->exponent[v] =
         field->exponent[u] > field->exponent[t] ? field->exponent[u] : field->exponent[t];
@@ -45,7 +45,7 @@ static void mark_layers(const icc_tree *tree, uint8_t *layer)
     }
 }
 
-icc_status iccp_gradient_extend(icc_field *field, const iccp_env *env)
+icc_status iccp_gradient_extend(icc_function *field, const iccp_env *env)
 {
     const icc_grid *grid = field->tree->grid;
     if (grid->dim <= 2)

@@ -20,7 +20,7 @@ void iccp_recipe_write(const iccp_recipe *recipe, int32_t dim, uint64_t digest, 
     const uint32_t choices[6] = {(uint32_t)o->function, (uint32_t)o->tree,
                                  (uint32_t)o->cells,    (uint32_t)o->constraints,
                                  (uint32_t)o->solver,   recipe->has_maximum};
-    const double shares[2] = {o->eta, o->leaf};
+    const double shares[2] = {o->min_fall, o->leaf_min};
     iccp_blob_u32(w, 6, choices);
     iccp_blob_f64(w, 2, shares);
     iccp_blob_f64(w, (size_t)dim, recipe->maximum);
@@ -64,8 +64,8 @@ icc_status iccp_recipe_read(iccp_recipe *recipe, int32_t dim, uint64_t *digest, 
                                           .cells = (int32_t)c[2],
                                           .constraints = (int32_t)c[3],
                                           .solver = (int32_t)c[4],
-                                          .eta = shares[0],
-                                          .leaf = shares[1]};
+                                          .min_fall = shares[0],
+                                          .leaf_min = shares[1]};
     return ICC_OK;
 }
 
@@ -108,7 +108,7 @@ uint64_t iccp_digest_u32(uint64_t digest, size_t n, const uint32_t *values)
 }
 
 /* Logarithms differ between mathematical libraries, so they count as well. */
-uint64_t iccp_digest_field(const icc_field *field)
+uint64_t iccp_digest_field(const icc_function *field)
 {
     const size_t n = field->tree->grid->n_vertices;
     uint64_t digest = iccp_digest_u32(ICCP_DIGEST_START, 1, &field->tree->root);
@@ -128,7 +128,7 @@ icc_status iccp_recipe_judge(icc_chart **chart, icc_status status, uint64_t want
         return status;
     iccp_chart_release(*chart);
     *chart = NULL;
-    return iccp_fail(err, ICC_ERR_VERSION, -1,
+    return iccp_fail(err, ICC_ERR_VERSION,
                      status == ICC_OK
                          ? "the chart comes out otherwise here than where it was saved"
                          : "the chart cannot be made here as it was where it was saved");

@@ -3,7 +3,7 @@
 #define ICCP_RECIPE_H
 
 #include "chart/chart.h"
-#include "function/field.h"
+#include "function/function.h"
 
 /* Of eta and leaf: functions still look like themselves. */
 #define ICCP_MAX_SHARE 0.01
@@ -37,7 +37,7 @@ uint64_t iccp_digest_f32(uint64_t digest, size_t n, const float *values);
 uint64_t iccp_digest_u32(uint64_t digest, size_t n, const uint32_t *values);
 
 /* Of the function, and where its maximum is. */
-uint64_t iccp_digest_field(const icc_field *field);
+uint64_t iccp_digest_field(const icc_function *field);
 
 /* After the chart has been made again: ICC_ERR_VERSION if it could not be, or has another digest; it is then released. */
 icc_status iccp_recipe_judge(icc_chart **chart, icc_status status, uint64_t wanted, uint64_t digest,

@@ -306,7 +306,7 @@ icc_status iccp_shelling_begin(icc_chart **out, const icc_domain *domain, iccp_s
     info->method = ICC_METHOD_FOLIATION;
     info->n_mesh_vertices = mesh->n_points;
     info->n_mesh_boundary = mesh->n_rim;
-    info->n_mesh_triangles = mesh->n_simplices;
+    info->n_mesh_simplices = mesh->n_simplices;
     state->mesh = own;
     state->fibres.memory = env->memory;
     memcpy(state->centre, mesh->points + mesh->dim * centre, mesh->dim * sizeof *state->centre);

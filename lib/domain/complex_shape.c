@@ -63,7 +63,7 @@ static icc_status check_vertices(flood *f, icc_error *err)
         const uint32_t v = c->facets[corner], facet = corner / (uint32_t)c->dim;
         const char *name = iccp_complex_facet(c->dim);
         if (f->at[v] != NONE)
-            return iccp_fail(err, ICC_ERR_BOUNDARY, v,
+            return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_VERTEX, v,
                              "two surfaces share vertex %lu: %ss %lu and %lu there are not "
                              "connected round it",
                              (unsigned long)v, name, (unsigned long)f->at[v],
@@ -105,7 +105,7 @@ static icc_status check_connected(flood *f, icc_error *err)
         ++other;
     if (other == c->n_facets)
         return ICC_OK;
-    return iccp_fail(err, ICC_ERR_TOPOLOGY, (int64_t)other,
+    return iccp_fail_at(err, ICC_ERR_TOPOLOGY, ICC_ITEM_FACET, (int64_t)other,
                      "the boundary has more than one component, or the shape an inner void: %s %zu "
                      "is not connected to %s 0 (%zu %ss are)",
                      name, other, name, n, name);
@@ -121,7 +121,7 @@ static icc_status check_genus(const flood *f, icc_error *err)
     const size_t genus = (2 + c->n_facets / 2 - n) / 2;
     if (genus == 0)
         return ICC_OK;
-    return iccp_fail(err, ICC_ERR_TOPOLOGY, -1,
+    return iccp_fail(err, ICC_ERR_TOPOLOGY,
                      "the surface has genus %zu: it must be a sphere, without handles", genus);
 }
 

@@ -3,7 +3,7 @@
 #include "domain/defects.h"
 
 #include "domain/boxtree.h"
-#include "domain/order.h"
+#include "domain/point_order.h"
 #include "domain/segment.h"
 #include "math/predicates.h"
 

@@ -94,10 +94,10 @@ static icc_status check_polygon_counts(size_t n_vertices, size_t n_facets, const
                                        icc_error *err)
 {
     if (n_vertices < 3)
-        return iccp_fail(err, ICC_ERR_BOUNDARY, -1, "a polygon needs at least 3 vertices, not %zu",
+        return iccp_fail(err, ICC_ERR_BOUNDARY, "a polygon needs at least 3 vertices, not %zu",
                          n_vertices);
     if (facets != NULL && n_facets != n_vertices)
-        return iccp_fail(err, ICC_ERR_BOUNDARY, -1,
+        return iccp_fail(err, ICC_ERR_BOUNDARY,
                          "a closed ring through %zu vertices has as many facets, not %zu",
                          n_vertices, n_facets);
     return ICC_OK;
@@ -109,7 +109,7 @@ static icc_status check_interval(icc_domain *d, icc_error *err)
 {
     const double a = d->vertices[d->facets[0]], b = d->vertices[d->facets[1]];
     if (a == b)
-        return iccp_fail(err, ICC_ERR_BOUNDARY, 1, "the interval has no length");
+        return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_VERTEX, 1, "the interval has no length");
     d->orientation = a < b ? 1 : -1;
     d->measure = fabs(b - a);
     return ICC_OK;
@@ -161,13 +161,13 @@ static icc_status complete_simplicial(icc_domain *d, const iccp_env *env, icc_er
 static icc_status check_counts(size_t dim, size_t n_vertices, size_t n_facets, icc_error *err)
 {
     if (dim == 1 && n_facets != 2)
-        return iccp_fail(err, ICC_ERR_BOUNDARY, -1, "an interval has 2 facets, not %zu", n_facets);
+        return iccp_fail(err, ICC_ERR_BOUNDARY, "an interval has 2 facets, not %zu", n_facets);
     if (n_facets <= dim)
-        return iccp_fail(err, ICC_ERR_BOUNDARY, -1,
+        return iccp_fail(err, ICC_ERR_BOUNDARY,
                          "a closed boundary in %zu dimensions has at least %zu facets, not %zu", dim,
                          dim + 1, n_facets);
     if (n_vertices <= dim)
-        return iccp_fail(err, ICC_ERR_BOUNDARY, -1,
+        return iccp_fail(err, ICC_ERR_BOUNDARY,
                          "a closed boundary in %zu dimensions has at least %zu vertices, not %zu",
                          dim, dim + 1, n_vertices);
     return ICC_OK;

@@ -39,7 +39,7 @@ icc_status iccp_mask_create(iccp_mask **out, int32_t dim, const size_t *shape, c
     assert(dim >= 1 && dim <= ICC_MAX_DIM);
     *out = NULL;
     if (count_lattice(dim, shape) > ICCP_MAX_LATTICE)
-        return iccp_fail(err, ICC_ERR_RESOLUTION, -1,
+        return iccp_fail(err, ICC_ERR_RESOLUTION,
                          "the mask is too large: its cells, cut in two along each axis, have more "
                          "than %zu vertices",
                          ICCP_MAX_LATTICE);

@@ -156,7 +156,7 @@ static size_t count_lattice(const iccp_mask *mask)
 
 static icc_status fail_size(icc_error *err)
 {
-    return iccp_fail(err, ICC_ERR_RESOLUTION, -1,
+    return iccp_fail(err, ICC_ERR_RESOLUTION,
                      "the mask is too large: its boundary would have more than %zu facets",
                      MAX_COUNT);
 }

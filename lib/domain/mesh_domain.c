@@ -156,7 +156,7 @@ static icc_status check_frame(const builder *b, const icc_domain *domain, icc_er
 {
     if (memcmp(&b->frame, &domain->frame, sizeof b->frame) == 0)
         return ICC_OK;
-    return iccp_fail(err, ICC_ERR_BOUNDARY, -1, "a vertex lies outside the boundary of the mesh");
+    return iccp_fail(err, ICC_ERR_BOUNDARY, "a vertex lies outside the boundary of the mesh");
 }
 
 icc_status iccp_domain_create_mesh(icc_domain **out, int32_t dim, size_t n_vertices,

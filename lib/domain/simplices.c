@@ -41,12 +41,12 @@ icc_status iccp_simplices_check_corners(const iccp_simplices *mesh, icc_error *e
         const uint32_t *v = mesh->corners + (mesh->dim + 1) * s;
         for (size_t i = 0; i <= mesh->dim; ++i) {
             if (v[i] >= mesh->n_points)
-                return iccp_fail(err, ICC_ERR_BOUNDARY, (int64_t)s,
+                return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_SIMPLEX, (int64_t)s,
                                  "%s %zu names vertex %lu, but there are only %zu vertices", name,
                                  s, (unsigned long)v[i], mesh->n_points);
             for (size_t j = 0; j < i; ++j)
                 if (v[j] == v[i])
-                    return iccp_fail(err, ICC_ERR_BOUNDARY, (int64_t)s,
+                    return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_SIMPLEX, (int64_t)s,
                                      "%s %zu names vertex %lu twice", name, s, (unsigned long)v[i]);
         }
     }
@@ -63,7 +63,7 @@ icc_status iccp_simplices_orient(iccp_simplices *mesh, icc_error *err)
             points[i] = iccp_corner_point(mesh, n * s + i);
         const int sign = iccp_orient(mesh->dim, points);
         if (sign == 0)
-            return iccp_fail(err, ICC_ERR_BOUNDARY, (int64_t)s, "%s %zu is flat",
+            return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_SIMPLEX, (int64_t)s, "%s %zu is flat",
                              iccp_simplices_name(mesh->dim), s);
         if (sign < 0) {
             const uint32_t swap = v[n - 2];
@@ -124,10 +124,10 @@ static icc_status fail_sides(const side_list *list, const uint32_t *at, size_t n
     char facet[96];
     describe(list, at[0], facet, sizeof facet);
     if (n_sides > 2)
-        return iccp_fail(err, ICC_ERR_BOUNDARY, (int64_t)(at[2] / (dim + 1)),
+        return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_SIMPLEX, (int64_t)(at[2] / (dim + 1)),
                          "%s belongs to %zu simplices, among them %zu, %zu and %zu", facet, n_sides,
                          s, t, (size_t)(at[2] / (dim + 1)));
-    return iccp_fail(err, ICC_ERR_BOUNDARY, (int64_t)t,
+    return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_SIMPLEX, (int64_t)t,
                      "simplices %zu and %zu lie on the same side of %s, so they overlap", s, t,
                      facet);
 }
@@ -140,15 +140,15 @@ static icc_status fail_facets(const side_list *list, const uint32_t *at, size_t 
     if (n_facets == 0) {
         char facet[96];
         describe(list, at[0], facet, sizeof facet);
-        return iccp_fail(err, ICC_ERR_BOUNDARY, (int64_t)(at[0] / (list->mesh->dim + 1)),
+        return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_SIMPLEX, (int64_t)(at[0] / (list->mesh->dim + 1)),
                          "%s of simplex %zu is on the boundary, but not among the facets given",
                          facet, (size_t)at[0] / (list->mesh->dim + 1));
     }
     const size_t f = at[n_sides] - list->n_sides;
     if (n_facets > 1)
-        return iccp_fail(err, ICC_ERR_BOUNDARY, (int64_t)f, "%ss %zu and %zu are the same", name, f,
+        return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_FACET, (int64_t)f, "%ss %zu and %zu are the same", name, f,
                          (size_t)at[n_sides + 1] - list->n_sides);
-    return iccp_fail(err, ICC_ERR_BOUNDARY, (int64_t)f,
+    return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_FACET, (int64_t)f,
                      n_sides == 0 ? "%s %zu is not one of the mesh"
                                   : "%s %zu is not on the boundary of the mesh",
                      name, f);
@@ -183,7 +183,7 @@ static icc_status check_facets(const iccp_simplices *mesh, size_t n_facets, cons
     const char *name = iccp_simplices_facet(mesh->dim);
     for (size_t i = 0; i < mesh->dim * n_facets; ++i)
         if (facets[i] >= mesh->n_points)
-            return iccp_fail(err, ICC_ERR_BOUNDARY, (int64_t)(i / mesh->dim),
+            return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_FACET, (int64_t)(i / mesh->dim),
                              "%s %zu names vertex %lu, but there are only %zu vertices", name,
                              i / mesh->dim, (unsigned long)facets[i], mesh->n_points);
     return ICC_OK;

@@ -42,7 +42,7 @@ static icc_status check_pieces(const iccp_simplices *mesh, icc_error *err)
         while (other < mesh->n_simplices && reached[other])
             ++other;
         if (other < mesh->n_simplices)
-            status = iccp_fail(err, ICC_ERR_TOPOLOGY, (int64_t)other,
+            status = iccp_fail_at(err, ICC_ERR_TOPOLOGY, ICC_ITEM_SIMPLEX, (int64_t)other,
                                "the mesh is in several pieces: simplex %zu is not connected to "
                                "simplex 0 across facets (%zu are)",
                                other, n);
@@ -115,7 +115,7 @@ static icc_status check_euler(const iccp_simplices *mesh, icc_error *err)
     if (sum == 1)
         return ICC_OK;
     return iccp_fail(
-        err, ICC_ERR_TOPOLOGY, -1,
+        err, ICC_ERR_TOPOLOGY,
         "the mesh has holes, voids or handles: its Euler characteristic is %ld, and that "
         "of a ball is 1",
         (long)sum);

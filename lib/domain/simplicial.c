@@ -23,7 +23,7 @@ static icc_status check_finite(size_t dim, const iccp_complex *c, const double *
     for (size_t i = 0; i < c->dim * c->n_facets; ++i)
         for (size_t k = 0; k < dim; ++k)
             if (!isfinite(vertices[dim * c->facets[i] + k]))
-                return iccp_fail(err, ICC_ERR_BOUNDARY, c->facets[i], "vertex %lu is not finite",
+                return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_VERTEX, c->facets[i], "vertex %lu is not finite",
                                  (unsigned long)c->facets[i]);
     return ICC_OK;
 }
@@ -34,7 +34,7 @@ static icc_status fail_too_small(icc_error *err, size_t vertex, size_t dim, cons
     int n = 0;
     for (size_t k = 0; k < dim; ++k)
         n += snprintf(text + n, sizeof text - (size_t)n, k == 0 ? "%.9g" : ", %.9g", x[k]);
-    return iccp_fail(err, ICC_ERR_BOUNDARY, (int64_t)vertex,
+    return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_VERTEX, (int64_t)vertex,
                      "vertex %zu (%s): a coordinate is not 0, but less than 2^-200 of the largest one",
                      vertex, text);
 }
@@ -103,7 +103,7 @@ icc_status iccp_simplicial_check_flat(const iccp_facet_tree *tree, icc_error *er
     const double *points[MAX + 1];
     for (uint32_t f = 0; f < tree->n; ++f)
         if (!has_area(tree, f))
-            return iccp_fail(err, ICC_ERR_BOUNDARY, f,
+            return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_FACET, f,
                              dim == 3 ? "face %lu has area 0: its corners lie on one line"
                                       : "facet %lu is flat: its corners do not span it",
                              (unsigned long)f);
@@ -113,7 +113,7 @@ icc_status iccp_simplicial_check_flat(const iccp_facet_tree *tree, icc_error *er
         if (iccp_orient(dim, points) != 0)
             return ICC_OK;
     }
-    return iccp_fail(err, ICC_ERR_BOUNDARY, -1,
+    return iccp_fail(err, ICC_ERR_BOUNDARY,
                      "all vertices lie in one %s: the shape has no volume",
                      dim == 3 ? "plane" : "hyperplane");
 }
@@ -133,7 +133,7 @@ icc_status iccp_simplicial_check_simple(const iccp_facet_tree *tree, const iccp_
     for (int k = 0; k < 3; ++k)
         middle[k] = 0.5 * (fmax(a[k], b[k]) + fmin(a[3 + k], b[3 + k]));
     iccp_frame_out(frame, 3, middle, middle);
-    return iccp_fail(err, ICC_ERR_BOUNDARY, pair[0],
+    return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_FACET, pair[0],
                      "the surface meets itself: faces %lu and %lu intersect near (%.9g, %.9g, %.9g)",
                      (unsigned long)pair[0], (unsigned long)pair[1], middle[0], middle[1],
                      middle[2]);
@@ -206,7 +206,7 @@ icc_status iccp_simplicial_measure(const iccp_facet_tree *tree, int32_t *orienta
     if (dim == 3)
         *orientation = surface_orientation(tree);
     else if (!(fabs(sum) > NO_VOLUME * size))
-        return iccp_fail(err, ICC_ERR_BOUNDARY, -1, "the shape has no volume that doubles can tell");
+        return iccp_fail(err, ICC_ERR_BOUNDARY, "the shape has no volume that doubles can tell");
     assert(*orientation != 0);
     *volume = fabs(sum);
     for (size_t k = 2; k <= dim; ++k)

@@ -99,7 +99,7 @@ static icc_status check_inside(flood *f, const iccp_env *env, icc_error *err)
     const iccp_mask *mask = f->mask;
     const size_t first = first_left(f, 1);
     if (first == mask->n_padded)
-        return iccp_fail(err, ICC_ERR_TOPOLOGY, -1, "the mask is empty: no cell is inside");
+        return iccp_fail(err, ICC_ERR_TOPOLOGY, "the mask is empty: no cell is inside");
     if (spread(f, first, env) != ICC_OK)
         return ICC_ERR_CANCELLED;
     const size_t other = first_left(f, 1);
@@ -108,7 +108,7 @@ static icc_status check_inside(flood *f, const iccp_env *env, icc_error *err)
     char from[TEXT_SIZE], to[TEXT_SIZE];
     (void)describe(mask, first, from);
     const int64_t index = describe(mask, other, to);
-    return iccp_fail(err, ICC_ERR_TOPOLOGY, index,
+    return iccp_fail_at(err, ICC_ERR_TOPOLOGY, ICC_ITEM_CELL, index,
                      "the mask is not one piece: no way through cells with common faces leads from "
                      "%s to %s",
                      from, to);
@@ -127,8 +127,8 @@ static icc_status check_outside(flood *f, const iccp_env *env, icc_error *err)
         return ICC_OK;
     char text[TEXT_SIZE];
     const int64_t index = describe(mask, other, text);
-    return iccp_fail(
-        err, ICC_ERR_TOPOLOGY, index,
+    return iccp_fail_at(
+        err, ICC_ERR_TOPOLOGY, ICC_ITEM_CELL, index,
         "the mask encloses a hole: %s, outside, is cut off from the rest of the outside", text);
 }
 
@@ -142,7 +142,7 @@ static icc_status fail_contact(const iccp_mask *mask, const size_t *at, uint64_t
         ++bit;
     char text[TEXT_SIZE];
     const int64_t index = describe(mask, iccp_mask_cell(mask, at, bit), text);
-    return iccp_fail(err, ICC_ERR_TOPOLOGY, index,
+    return iccp_fail_at(err, ICC_ERR_TOPOLOGY, ICC_ITEM_CELL, index,
                      "at %s the boundary of the mask touches itself: cells, or gaps between cells, "
                      "meet there only along an edge or a corner",
                      text);
@@ -176,7 +176,7 @@ static icc_status check_euler(int64_t euler, icc_error *err)
 {
     if (euler == 1)
         return ICC_OK;
-    return iccp_fail(err, ICC_ERR_TOPOLOGY, -1,
+    return iccp_fail(err, ICC_ERR_TOPOLOGY,
                      "the mask has a tunnel or another hole: its Euler characteristic is %" PRId64
                      ", not 1",
                      euler);

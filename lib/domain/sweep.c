@@ -8,7 +8,7 @@
 #include "domain/sweep.h"
 
 #include "domain/avl.h"
-#include "domain/order.h"
+#include "domain/point_order.h"
 #include "domain/segment.h"
 #include "math/predicates.h"
 

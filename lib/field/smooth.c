@@ -214,7 +214,7 @@ static icc_status run_sweep(iccp_smooth *s, const iccp_orders *orders, const cha
     return status;
 }
 
-static icc_status allocate(iccp_smooth *s, const icc_field *field)
+static icc_status allocate(iccp_smooth *s, const icc_function *field)
 {
     const size_t n = s->grid->n_vertices;
     s->needed = iccp_alloc_zero(&s->memory, n, sizeof *s->needed);
@@ -250,7 +250,7 @@ static icc_status extend_all(iccp_smooth *s, const iccp_orders *orders, const ic
     return has_memory ? ICC_OK : ICC_ERR_MEMORY;
 }
 
-icc_status iccp_smooth_create(iccp_smooth *smooth, const icc_field *field, const iccp_cover *cover,
+icc_status iccp_smooth_create(iccp_smooth *smooth, const icc_function *field, const iccp_cover *cover,
                               int sweeps, const iccp_env *env)
 {
     *smooth = (iccp_smooth){

@@ -3,7 +3,7 @@
 #define ICCP_SMOOTH_H
 
 #include "field/cover.h"
-#include "function/field.h"
+#include "function/function.h"
 
 typedef struct iccp_smooth {
     iccp_memory memory;
@@ -18,7 +18,7 @@ typedef struct iccp_smooth {
  * vertices of the grid, less and less with every step. Then `sweeps` times the mean of each value and
  * the mean of its neighbours, the root's kept: that rids steps of the grid of nearly all vertices from
  * which not all simplices' gradients point to one side (bench_field). Free it in any case. */
-icc_status iccp_smooth_create(iccp_smooth *smooth, const icc_field *field, const iccp_cover *cover,
+icc_status iccp_smooth_create(iccp_smooth *smooth, const icc_function *field, const iccp_cover *cover,
                               int sweeps, const iccp_env *env);
 void iccp_smooth_free(iccp_smooth *smooth);
 

@@ -24,14 +24,14 @@ icc_status iccp_harmonic_create(iccp_harmonic *base, const icc_domain *domain,
     const double meshed = iccp_seconds();
     base->seconds_mesh = meshed - start;
     if (base->mesh.n_vertices == base->mesh.n_boundary)
-        status = iccp_fail(err, ICC_ERR_RESOLUTION, -1,
+        status = iccp_fail(err, ICC_ERR_RESOLUTION,
                            "the mesh has no vertex inside: use more cells");
     if (status == ICC_OK) {
         status = iccp_laplacian_create(&base->laplacian, &base->mesh, ICCP_NO_NEIGHBOUR, env);
         if (status == ICC_OK)
             status = iccp_spd_create(&base->solver, &base->laplacian.matrix, false, env);
         if (status == ICC_ERR_SOLVER)
-            (void)iccp_fail(err, status, -1, "the mesh's equations cannot be factorised");
+            (void)iccp_fail(err, status, "the mesh's equations cannot be factorised");
     }
     base->seconds_solve = iccp_seconds() - meshed;
     if (status != ICC_OK)
@@ -47,7 +47,7 @@ void iccp_harmonic_describe(const iccp_harmonic *base, const icc_domain *domain,
     info->spacing = iccp_planar_step(domain, base->cells) * scale[0] * scale[1];
     info->n_mesh_vertices = base->mesh.n_vertices;
     info->n_mesh_boundary = base->mesh.n_boundary;
-    info->n_mesh_triangles = base->mesh.n_triangles;
+    info->n_mesh_simplices = base->mesh.n_triangles;
     info->seconds_mesh = base->seconds_mesh;
     info->seconds_solve = base->seconds_solve;
 }

@@ -29,16 +29,16 @@ static icc_status tabulate(double **out, const icc_tree *tree, int32_t function,
     return ICC_OK;
 }
 
-icc_status iccp_distance(icc_field *field, int32_t function, const iccp_env *env)
+icc_status iccp_distance(icc_function *function, int32_t kind, const iccp_env *env)
 {
-    const icc_tree *tree = field->tree;
+    const icc_tree *tree = function->tree;
     double *of_generation;
-    icc_status status = tabulate(&of_generation, tree, function, env);
+    icc_status status = tabulate(&of_generation, tree, kind, env);
     for (size_t i = 0; i < tree->n_reached && status == ICC_OK; ++i) {
         if (i % ICCP_VERTICES_PER_REPORT == 0)
             status = iccp_progress(env, "function", (double)i / (double)tree->n_reached);
         const uint32_t v = tree->order[i];
-        field->values[v] = of_generation[tree->generation[v]];
+        function->values[v] = of_generation[tree->generation[v]];
     }
     iccp_free(&env->memory, of_generation);
     return status;

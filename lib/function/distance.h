@@ -2,11 +2,11 @@
 #ifndef ICCP_DISTANCE_H
 #define ICCP_DISTANCE_H
 
-#include "function/field.h"
+#include "function/function.h"
 
-/* Gives values to a new field: ICC_FUNCTION_DECAY or ICC_FUNCTION_DISTANCE. The decay would underflow from
+/* Gives values to a new function: ICC_FUNCTION_DECAY or ICC_FUNCTION_DISTANCE. The decay would underflow from
  * some 13,850 generations on (cells = 16384 get there); from there on the values are -1, -2, .., so
  * that they always fall from one generation to the next. */
-icc_status iccp_distance(icc_field *field, int32_t function, const iccp_env *env);
+icc_status iccp_distance(icc_function *function, int32_t kind, const iccp_env *env);
 
 #endif

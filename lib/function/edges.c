@@ -49,11 +49,11 @@ static bool edge_at(edge *out, const icc_grid *grid, size_t i, size_t j, int kin
     return true;
 }
 
-static bool is_tested(const icc_field *field, edge *e)
+static bool is_tested(const icc_function *function, edge *e)
 {
-    const uint8_t *inside = field->tree->grid->inside;
+    const uint8_t *inside = function->tree->grid->inside;
     bool any_inside = false;
-    iccp_field_local(field, 4, e->vertex, e->f);
+    iccp_function_local(function, 4, e->vertex, e->f);
     for (int c = 0; c < 4; ++c) {
         if (isnan(e->f[c]))
             return false;
@@ -95,17 +95,17 @@ static int32_t judge(const edge *e)
     return first > 0 ? ICC_EDGE_COMPRESSION : ICC_EDGE_EXPANSION;
 }
 
-iccp_edge_count iccp_field_edges(const icc_field *field, size_t capacity, uint32_t *edges,
+iccp_edge_count iccp_function_edges(const icc_function *function, size_t capacity, uint32_t *edges,
                                  int32_t *kinds)
 {
-    const icc_grid *grid = field->tree->grid;
+    const icc_grid *grid = function->tree->grid;
     assert(grid->dim == 2);
     iccp_edge_count count = {0};
     edge e;
     for (size_t j = 0; j < grid->shape[1]; ++j)
         for (size_t i = 0; i < grid->shape[0]; ++i)
             for (int kind = 0; kind < 3; ++kind) {
-                if (!edge_at(&e, grid, i, j, kind) || !is_tested(field, &e))
+                if (!edge_at(&e, grid, i, j, kind) || !is_tested(function, &e))
                     continue;
                 ++count.n_tested;
                 const int32_t found = judge(&e);
@@ -123,10 +123,10 @@ iccp_edge_count iccp_field_edges(const icc_field *field, size_t capacity, uint32
     return count;
 }
 
-void iccp_field_count_edges(const icc_field *field, size_t *n_tested, size_t *n_compression,
+void iccp_function_count_edges(const icc_function *function, size_t *n_tested, size_t *n_compression,
                             size_t *n_expansion)
 {
-    const iccp_edge_count count = iccp_field_edges(field, 0, NULL, NULL);
+    const iccp_edge_count count = iccp_function_edges(function, 0, NULL, NULL);
     *n_tested = count.n_tested;
     *n_compression = count.n_compression;
     *n_expansion = count.n_expansion;

@@ -7,14 +7,14 @@
 #include "base/error.h"
 #include "solver/bilaplace.h"
 #include "solver/constrained.h"
-#include "function/critical.h"
+#include "function/critical_points.h"
 #include "solver/glued.h"
 #include "solver/inequalities.h"
 
 /* A function on its way: everything here is borrowed but for the arrays. */
 typedef struct job {
-    icc_field *field;
-    const icc_field_options *options;
+    icc_function *function;
+    const icc_function_options *options;
     iccp_rows rows;
     iccp_scaled f;
     uint32_t *top; /* the gluing of nothing */
@@ -51,14 +51,14 @@ static int32_t choose_solver(const job *j)
         return ICC_SOLVER_DIRECT;
     if (j->options->solver != 0)
         return j->options->solver;
-    const icc_tree *tree = j->field->tree;
+    const icc_tree *tree = j->function->tree;
     const double most = tree->grid->dim < 3 ? MOST_WORK_IN_2D : MOST_WORK_BEYOND;
     return predict_work(tree) <= most ? ICC_SOLVER_DIRECT : ICC_SOLVER_ITERATIVE;
 }
 
 static icc_status begin(job *j, const iccp_env *env)
 {
-    icc_status status = iccp_rows_create(&j->rows, j->field->tree, env);
+    icc_status status = iccp_rows_create(&j->rows, j->function->tree, env);
     if (status != ICC_OK)
         return status;
     const size_t n = j->rows.n;
@@ -91,7 +91,7 @@ static void end(job *j, const iccp_env *env)
 
 /* By factorisation where that works, else by iteration; `info` tells. */
 static icc_status solve_directly(const iccp_rows *rows, const iccp_gluing *gluing,
-                                 const iccp_scaled *f, icc_field_info *info, const iccp_env *env)
+                                 const iccp_scaled *f, icc_function_info *info, const iccp_env *env)
 {
     const icc_status status = iccp_glued_direct(rows, gluing, f, info, env);
     if (status != ICC_ERR_SOLVER)
@@ -105,12 +105,12 @@ static icc_status solve_directly(const iccp_rows *rows, const iccp_gluing *gluin
 
 static iccp_glued_solver glued_solver(const job *j)
 {
-    return j->field->info.solver == ICC_SOLVER_DIRECT ? solve_directly : iccp_glued_iterative;
+    return j->function->info.solver == ICC_SOLVER_DIRECT ? solve_directly : iccp_glued_iterative;
 }
 
 static icc_status solve_laplace(job *j, const iccp_env *env)
 {
-    icc_field_info *info = &j->field->info;
+    icc_function_info *info = &j->function->info;
     const iccp_gluing none = {j->top, j->share, j->order};
     const icc_status status = glued_solver(j)(&j->rows, &none, &j->f, info, env);
     if (status != ICC_OK)
@@ -123,7 +123,7 @@ static icc_status solve_laplace(job *j, const iccp_env *env)
 
 static icc_status solve(job *j, const iccp_env *env)
 {
-    icc_field_info *info = &j->field->info;
+    icc_function_info *info = &j->function->info;
     const int32_t function = j->options->function;
     const icc_status status =
         function == ICC_FUNCTION_LAPLACE
@@ -132,41 +132,26 @@ static icc_status solve(job *j, const iccp_env *env)
     if (status != ICC_OK)
         return status;
     const double clock = iccp_seconds();
-    info->n_violated = iccp_inequalities_violated(&j->rows, j->options->eta, &j->f);
+    info->n_violated = iccp_inequalities_violated(&j->rows, j->options->min_fall, &j->f);
     info->seconds_verify += iccp_seconds() - clock;
     return ICC_OK;
 }
 
 static icc_status constrain(job *j, const iccp_env *env)
 {
-    icc_field_info *info = &j->field->info;
+    icc_function_info *info = &j->function->info;
     const int32_t function = j->options->function;
-    const double eta = j->options->eta;
+    const double eta = j->options->min_fall;
     info->constrained = 1;
     if (function == ICC_FUNCTION_LAPLACE)
         return iccp_constrained_laplace(&j->rows, eta, glued_solver(j), j->order, &j->f, info, env);
     info->solver = ICC_SOLVER_DIRECT;
-    return iccp_bilaplace_constrained(&j->rows, function, eta, j->options->leaf, &j->f, info, env);
-}
-
-/* Whether there are no more critical points than the shape asks for: a maximum at the root, no minimum, and
- * no saddle, but for those that 2-D shapes with holes cannot do without. (The indices of the critical points
- * add up to the Euler characteristic: with one maximum and no minimum, the saddles are those of the holes.) */
-static icc_status is_regular(const icc_field *field, bool *regular, const iccp_env *env)
-{
-    const icc_tree *tree = field->tree;
-    icc_field_report report = {0};
-    const icc_status status = iccp_field_verify(field, &report, env);
-    *regular = report.n_maxima == 1 && report.n_minima == 0 &&
-               (report.n_saddles == 0 || tree->grid->dim == 2);
-    for (size_t i = 1; i < tree->n_inside && *regular; ++i)
-        *regular = iccp_field_compare(field, tree->order[i], tree->root) < 0;
-    return status;
+    return iccp_bilaplace_constrained(&j->rows, function, eta, j->options->leaf_min, &j->f, info, env);
 }
 
 static icc_status make(job *j, const iccp_env *env)
 {
-    icc_field *field = j->field;
+    icc_function *function = j->function;
     const int32_t constraints = j->options->constraints;
     icc_status status = begin(j, env);
     if (status == ICC_OK)
@@ -174,32 +159,32 @@ static icc_status make(job *j, const iccp_env *env)
     bool enough = constraints == ICC_CONSTRAINTS_NONE;
     if (status == ICC_OK && constraints == ICC_CONSTRAINTS_NEEDED) {
         const double clock = iccp_seconds();
-        status = iccp_field_assign(field, &j->rows, &j->f);
+        status = iccp_function_assign(function, &j->rows, &j->f);
         if (status == ICC_OK)
-            status = is_regular(field, &enough, env);
-        field->info.seconds_verify += iccp_seconds() - clock;
+            status = iccp_function_is_regular(function, &enough, env);
+        function->info.seconds_verify += iccp_seconds() - clock;
     }
     if (status == ICC_OK && !enough)
         status = constrain(j, env);
-    return status == ICC_OK ? iccp_field_assign(field, &j->rows, &j->f) : status;
+    return status == ICC_OK ? iccp_function_assign(function, &j->rows, &j->f) : status;
 }
 
-icc_status iccp_laplace(icc_field *field, const icc_field_options *options, const iccp_env *env,
+icc_status iccp_laplace(icc_function *function, const icc_function_options *options, const iccp_env *env,
                         icc_error *err)
 {
-    job j = {.field = field, .options = options};
-    const icc_tree *tree = field->tree;
+    job j = {.function = function, .options = options};
+    const icc_tree *tree = function->tree;
     if (tree->n_inside < 2)
-        return iccp_fail(err, ICC_ERR_RESOLUTION, tree->root,
+        return iccp_fail_at(err, ICC_ERR_RESOLUTION, ICC_ITEM_GRID_VERTEX, tree->root,
                          "the grid is too coarse: vertex %lu is the only one inside that the tree "
                          "reaches",
                          (unsigned long)tree->root);
-    field->info.n_unknowns = tree->n_inside - 1;
-    field->info.solver = choose_solver(&j);
+    function->info.n_unknowns = tree->n_inside - 1;
+    function->info.solver = choose_solver(&j);
     const icc_status status = make(&j, env);
     end(&j, env);
     if (status == ICC_ERR_SOLVER)
-        return iccp_fail(err, status, -1, "the %s solver did not converge",
-                         field->info.solver == ICC_SOLVER_DIRECT ? "direct" : "iterative");
+        return iccp_fail(err, status, "the %s solver did not converge",
+                         function->info.solver == ICC_SOLVER_DIRECT ? "direct" : "iterative");
     return status;
 }

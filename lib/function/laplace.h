@@ -2,10 +2,10 @@
 #ifndef ICCP_LAPLACE_H
 #define ICCP_LAPLACE_H
 
-#include "function/field.h"
+#include "function/function.h"
 
-/* Gives values to a new field: ICC_FUNCTION_LAPLACE, _BILAPLACE or _CLAMPED. See icc_field_create(). */
-icc_status iccp_laplace(icc_field *field, const icc_field_options *options, const iccp_env *env,
+/* Gives values to a new function: ICC_FUNCTION_LAPLACE, _BILAPLACE or _CLAMPED. See icc_function_create(). */
+icc_status iccp_laplace(icc_function *function, const icc_function_options *options, const iccp_env *env,
                         icc_error *err);
 
 #endif

@@ -76,7 +76,7 @@ icc_status iccp_grassfire(const icc_grid *grid, uint32_t *vertex, uint32_t *roun
                           const iccp_env *env, icc_error *err)
 {
     if (grid->n_inside == 0)
-        return iccp_fail(err, ICC_ERR_RESOLUTION, -1, "no grid vertex lies inside");
+        return iccp_fail(err, ICC_ERR_RESOLUTION, "no grid vertex lies inside");
     uint32_t *distance = iccp_alloc(&env->memory, grid->n_vertices, sizeof *distance);
     if (distance == NULL)
         return iccp_fail_memory(err);

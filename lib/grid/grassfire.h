@@ -4,7 +4,7 @@
 
 #include "grid/lattice.h"
 
-/* See icc_grid_maximum(). `rounds` may be NULL. Beyond the last vertices of a mask everything is
+/* See icc_grid_find_maximum(). `rounds` may be NULL. Beyond the last vertices of a mask everything is
  * outside. ICC_ERR_RESOLUTION when no vertex is inside. */
 icc_status iccp_grassfire(const icc_grid *grid, uint32_t *vertex, uint32_t *rounds,
                           const iccp_env *env, icc_error *err);

@@ -24,7 +24,7 @@ icc_status iccp_grid_new(icc_grid **out, int32_t dim, const size_t *shape, const
     *out = NULL;
     const size_t n = count_vertices(dim, shape);
     if (n > ICCP_MAX_VERTICES)
-        return iccp_fail(err, ICC_ERR_RESOLUTION, -1, "the grid would have more than %zu vertices",
+        return iccp_fail(err, ICC_ERR_RESOLUTION, "the grid would have more than %zu vertices",
                          ICCP_MAX_VERTICES);
     icc_grid *grid = iccp_alloc_zero(&env->memory, 1, sizeof *grid);
     if (grid == NULL)

@@ -96,7 +96,7 @@ icc_status iccp_grid_create(icc_grid **out, const icc_domain *domain, int32_t ce
     icc_status status = domain->mask != NULL ? create_in_mask(out, domain, cells, env, err)
                                              : create_in_boundary(out, domain, cells, env, err);
     if (status == ICC_OK && (*out)->n_inside == 0)
-        status = iccp_fail(err, ICC_ERR_RESOLUTION, -1,
+        status = iccp_fail(err, ICC_ERR_RESOLUTION,
                            "no grid vertex lies inside: use more than %d cells", (int)cells);
     if (status == ICC_OK) {
         (*out)->frame = domain->frame;

@@ -61,13 +61,13 @@ icc_status iccp_binding_load(icc_binding **out, size_t n_bytes, const void *data
     iccp_blob_read_u32(&r, 2, head);
     const size_t dim = head[0], number = sizeof(double);
     if (dim < 2 || dim > 3 || head[1] > 1)
-        return iccp_fail(err, ICC_ERR_FORMAT, -1, "the binding has dimension %zu or unknown parts",
+        return iccp_fail(err, ICC_ERR_FORMAT, "the binding has dimension %zu or unknown parts",
                          dim);
     const size_t n_handles = iccp_blob_read_count(&r, dim * number);
     const size_t row = n_handles * (head[1] == 1 ? dim + 1 : 1) + dim;
     const size_t n = iccp_blob_read_count(&r, row * number);
     if (r.failed || n_handles <= dim)
-        return iccp_fail(err, ICC_ERR_FORMAT, -1,
+        return iccp_fail(err, ICC_ERR_FORMAT,
                          "the binding has impossible numbers of handles or points");
     status = iccp_binding_allocate(out, dim, n, n_handles, head[1] == 1, &env->memory);
     if (status != ICC_OK)
@@ -77,6 +77,6 @@ icc_status iccp_binding_load(icc_binding **out, size_t n_bytes, const void *data
         return ICC_OK;
     iccp_binding_release(*out);
     *out = NULL;
-    return iccp_fail(err, ICC_ERR_FORMAT, -1,
+    return iccp_fail(err, ICC_ERR_FORMAT,
                      "the binding is not whole, or has a number that is not finite");
 }

@@ -2,7 +2,7 @@
  * saying how. Weights on a line are not those that would have been optimised there. This change keeps sums and
  * reproduction, so any multiple of it may be added to the weights of a node near by: all of it on the line,
  * nothing at some distance, and no more than keeps weights from becoming negative. */
-#include "kernel/kernel.h"
+#include "kernel/handle_weights.h"
 
 #include <math.h>
 #include <string.h>
@@ -42,7 +42,7 @@ static double nearest(const iccp_layout *l, const iccp_line_nodes *line, const d
 }
 
 /* What the line changes, node by node: what its weights are minus what they would be without it. */
-static void find_change(const icc_kernel *kernel, const change *c, double *work)
+static void find_change(const icc_weights *kernel, const change *c, double *work)
 {
     const iccp_layout *l = c->layout;
     const size_t m = l->n_handles;
@@ -77,7 +77,7 @@ static void add_change(const change *c, double share, double strength, double *w
         weights[j] += strength * row[j];
 }
 
-static void bend(icc_kernel *kernel, const change *c, double *row)
+static void bend(icc_weights *kernel, const change *c, double *row)
 {
     const iccp_layout *l = c->layout;
     const double reach = REACH * kernel->info.sigma * iccp_layout_scale(l);
@@ -91,7 +91,7 @@ static void bend(icc_kernel *kernel, const change *c, double *row)
     }
 }
 
-icc_status iccp_kernel_follow(icc_kernel *kernel, size_t k, const iccp_env *env)
+icc_status iccp_weights_follow(icc_weights *kernel, size_t k, const iccp_env *env)
 {
     const iccp_layout *l = kernel->layout;
     const iccp_memory *memory = &env->memory;

@@ -126,7 +126,7 @@ icc_status iccp_handles_create(iccp_handles **out, size_t dim, size_t m, const d
     }
     if (!make_rows(h, points)) {
         iccp_handles_free(h);
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1,
+        return iccp_fail(err, ICC_ERR_ARGUMENT,
                          "all handles lie %s: their weights cannot reproduce points beside it",
                          dim == 2 ? "on a line" : "in a plane");
     }

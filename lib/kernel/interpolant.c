@@ -101,7 +101,7 @@ static icc_status prepare_tail(iccp_collocation *c, const iccp_env *env, icc_err
         iccp_ldlt_solve(&c->factor, q, c->z, work);
         if (!factorise_schur(c))
             status =
-                iccp_fail(err, ICC_ERR_SOLVER, -1,
+                iccp_fail(err, ICC_ERR_SOLVER,
                           "the nodes determine no affine function: they lie in a plane or line");
     }
     iccp_free(&env->memory, work);
@@ -122,12 +122,12 @@ static icc_status factorise(iccp_collocation *c, const iccp_env *env, icc_error 
     }
     c->definiteness = least / greatest;
     if (status == ICC_ERR_SOLVER || (status == ICC_OK && !(c->definiteness > LEAST_PIVOT)))
-        return iccp_fail(err, ICC_ERR_SOLVER, -1,
+        return iccp_fail(err, ICC_ERR_SOLVER,
                          "sigma is too large: the matrix of the kernel is not positive definite%s",
                          c->radial.kind == ICC_KERNEL_GAUSS ? " (Wendland's would be)"
                                                             : " to working precision");
     if (status == ICC_ERR_UNSUPPORTED)
-        return iccp_fail(err, status, -1, "this build has no ordering for sparse matrices");
+        return iccp_fail(err, status, "this build has no ordering for sparse matrices");
     return status;
 }
 

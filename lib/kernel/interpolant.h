@@ -3,7 +3,7 @@
 #ifndef ICCP_INTERPOLANT_H
 #define ICCP_INTERPOLANT_H
 
-#include "kernel/gram.h"
+#include "kernel/kernel_matrix.h"
 #include "math/ldlt.h"
 
 #include <stdbool.h>

@@ -74,11 +74,11 @@ static icc_status place_handles(iccp_layout *l, size_t n, const double *handles,
     for (size_t j = 0; j < n; ++j) {
         const double *place = handles + l->dim * j;
         if (!iccp_shape_holds(l->sampling->shape, place))
-            return iccp_fail(err, ICC_ERR_OUTSIDE, (int64_t)j, "handle %zu is outside the shape",
+            return iccp_fail_at(err, ICC_ERR_OUTSIDE, ICC_ITEM_HANDLE, (int64_t)j, "handle %zu is outside the shape",
                              j);
         for (size_t i = 0; i < j; ++i)
             if (distance(l->dim, place, handles + l->dim * i) <= same)
-                return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)j,
+                return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_HANDLE, (int64_t)j,
                                  "handles %zu and %zu are at one place", i, j);
         append(l, place, UINT32_MAX);
     }
@@ -108,10 +108,10 @@ static icc_status check_line(const iccp_layout *l, size_t k, const icc_line *lin
     const double length = distance(l->dim, line->from, line->to);
     if (!iccp_shape_holds(l->sampling->shape, line->from) ||
         !iccp_shape_holds(l->sampling->shape, line->to))
-        return iccp_fail(err, ICC_ERR_OUTSIDE, (int64_t)k,
+        return iccp_fail_at(err, ICC_ERR_OUTSIDE, ICC_ITEM_LINE, (int64_t)k,
                          "an end of line %zu is outside the shape", k);
     if (!(length > TOO_NEAR * l->sampling->info.spacing))
-        return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)k,
+        return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_LINE, (int64_t)k,
                          "line %zu is shorter than half the samples' spacing", k);
     if (line->parallel == 0)
         return ICC_OK;
@@ -126,7 +126,7 @@ static icc_status check_line(const iccp_layout *l, size_t k, const icc_line *lin
                              cosine * ((other->to[d] - other->from[d]) / whole));
     if (off <= PARALLEL)
         return ICC_OK;
-    return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)k,
+    return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_LINE, (int64_t)k,
                      "lines %zu and %ld are not parallel: they differ by an angle of sine %.2g", k,
                      (long)line->parallel - 1, off);
 }
@@ -170,8 +170,8 @@ static icc_status place_line(iccp_layout *l, size_t k, const icc_line *lines, co
     iccp_cells_free(&before);
     l->parallel[k] = lines[k].parallel;
     if (l->parallel[k] != 0 && nodes->to < n_before)
-        return iccp_fail(
-            err, ICC_ERR_ARGUMENT, (int64_t)k,
+        return iccp_fail_at(
+            err, ICC_ERR_ARGUMENT, ICC_ITEM_LINE, (int64_t)k,
             "line %zu ends at a handle or at another line, which decides its direction: "
             "it cannot be made parallel",
             k);
@@ -238,14 +238,14 @@ static icc_status find_edges(void *argument, size_t begin, size_t end)
 /* ---- the object ---- */
 
 /* Room for all nodes that there can be. */
-static icc_status make_room(iccp_layout *l, size_t n_handles, const icc_kernel_options *options,
+static icc_status make_room(iccp_layout *l, size_t n_handles, const icc_weights_options *options,
                             icc_error *err)
 {
     double most = (double)n_handles + (double)l->sampling->info.n_samples;
     for (size_t k = 0; k < options->n_lines; ++k)
         most += 2 + fmax(0, pieces_of(l, &options->lines[k]));
     if (!(most <= (double)MOST_NODES))
-        return iccp_fail(err, ICC_ERR_RESOLUTION, -1, "there would be more than %zu nodes",
+        return iccp_fail(err, ICC_ERR_RESOLUTION, "there would be more than %zu nodes",
                          MOST_NODES);
     const size_t n = (size_t)most, row = l->dim * sizeof(double);
     l->given = iccp_alloc(&l->memory, n, row);
@@ -265,7 +265,7 @@ static icc_status make_room(iccp_layout *l, size_t n_handles, const icc_kernel_o
 }
 
 static icc_status place_all(iccp_layout *l, size_t n_handles, const double *handles,
-                            const icc_kernel_options *options, const iccp_env *env, icc_error *err)
+                            const icc_weights_options *options, const iccp_env *env, icc_error *err)
 {
     icc_status status = place_handles(l, n_handles, handles, err);
     for (size_t k = 0; status == ICC_OK && k < options->n_lines; ++k)
@@ -276,7 +276,7 @@ static icc_status place_all(iccp_layout *l, size_t n_handles, const double *hand
     return status == ICC_OK ? place_samples(l, env) : status;
 }
 
-static icc_status connect(iccp_layout *l, const icc_kernel_options *options, const iccp_env *env)
+static icc_status connect(iccp_layout *l, const icc_weights_options *options, const iccp_env *env)
 {
     l->n_edges = options->n_edges;
     if (l->n_edges > 0)
@@ -289,10 +289,10 @@ static icc_status connect(iccp_layout *l, const icc_kernel_options *options, con
 }
 
 static icc_status create(iccp_layout *l, size_t n_handles, const double *handles,
-                         const icc_kernel_options *options, const iccp_env *env, icc_error *err)
+                         const icc_weights_options *options, const iccp_env *env, icc_error *err)
 {
     if (!(options->sigma > LEAST_SIGMA * l->sampling->info.spacing))
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "sigma is %g where samples are %g apart",
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "sigma is %g where samples are %g apart",
                          options->sigma, l->sampling->info.spacing);
     icc_status status = make_room(l, n_handles, options, err);
     if (status == ICC_OK)
@@ -305,12 +305,12 @@ static icc_status create(iccp_layout *l, size_t n_handles, const double *handles
         iccp_radial_make(options->kernel, options->sigma * iccp_layout_scale(l), options->cutoff);
     if (status == ICC_OK)
         status = iccp_collocation_create(&l->collocation, l->dim, l->n, l->points, &radial,
-                                         options->tail >= 0, env, err);
+                                         options->affine_tail >= 0, env, err);
     return status;
 }
 
 icc_status iccp_layout_create(iccp_layout **out, const icc_sampling *sampling, size_t n_handles,
-                              const double *handles, const icc_kernel_options *options,
+                              const double *handles, const icc_weights_options *options,
                               const iccp_env *env, icc_error *err)
 {
     iccp_layout *l = iccp_alloc_zero(&env->memory, 1, sizeof *l);

@@ -25,12 +25,12 @@ typedef struct iccp_layout {
     int32_t *parallel; /* of each line, see icc_line */
     iccp_handles *handles;
     iccp_collocation *collocation;
-    double *initial; /* n * n_handles, from iccp_kernel_create() */
+    double *initial; /* n * n_handles, from iccp_weights_create() */
 } iccp_layout;
 
 /* Members of `options` that may be 0 have got their defaults. */
 icc_status iccp_layout_create(iccp_layout **out, const icc_sampling *sampling, size_t n_handles,
-                              const double *handles, const icc_kernel_options *options,
+                              const double *handles, const icc_weights_options *options,
                               const iccp_env *env, icc_error *err);
 iccp_layout *iccp_layout_retain(const iccp_layout *layout);
 void iccp_layout_release(iccp_layout *layout);

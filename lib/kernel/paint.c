@@ -1,23 +1,23 @@
 /* Kernels from others on the same nodes: what the thesis' window offers (section 6.3.1), and rigid parts (5.4). */
-#include "kernel/kernel.h"
+#include "kernel/handle_weights.h"
 
 #include "base/error.h"
 
 #include <math.h>
 #include <string.h>
 
-static void give_up(icc_kernel **out)
+static void give_up(icc_weights **out)
 {
-    iccp_kernel_release(*out);
+    iccp_weights_release(*out);
     *out = NULL;
 }
 
 /* Optimises some nodes of a copy, whose weights have been set to what is wished for. */
-static icc_status settle(icc_kernel *copy, const icc_kernel *before, size_t n,
+static icc_status settle(icc_weights *copy, const icc_weights *before, size_t n,
                          const uint32_t *nodes, const iccp_env *env)
 {
-    const icc_status status = iccp_kernel_optimise(copy, n, nodes, env);
-    return status == ICC_OK ? iccp_kernel_interpolate(copy, before, env) : status;
+    const icc_status status = iccp_weights_optimise(copy, n, nodes, env);
+    return status == ICC_OK ? iccp_weights_interpolate(copy, before, env) : status;
 }
 
 /* 1 at the centre, 0 at the radius, with no slope at either. */
@@ -30,7 +30,7 @@ static double brush(const iccp_layout *l, size_t node, const double *centre, dou
     return d < 1 ? (1 - d * d) * (1 - d * d) : 0;
 }
 
-icc_status iccp_kernel_paint(icc_kernel **out, const icc_kernel *kernel, size_t handle,
+icc_status iccp_weights_paint(icc_weights **out, const icc_weights *kernel, size_t handle,
                              const double *centre, double radius, double amount,
                              const iccp_env *env)
 {
@@ -40,7 +40,7 @@ icc_status iccp_kernel_paint(icc_kernel **out, const icc_kernel *kernel, size_t 
     *out = NULL;
     icc_status status = nodes != NULL ? ICC_OK : ICC_ERR_MEMORY;
     if (status == ICC_OK)
-        status = iccp_kernel_copy(out, kernel, env);
+        status = iccp_weights_copy(out, kernel, env);
     for (uint32_t i = 0; status == ICC_OK && i < l->n; ++i) {
         const double share = l->held[i] ? 0 : brush(l, i, centre, radius);
         if (!(share > 0))
@@ -64,10 +64,10 @@ static icc_status check_nodes(const iccp_layout *l, size_t n, const uint32_t *no
     icc_status status = seen != NULL ? ICC_OK : ICC_ERR_MEMORY;
     for (size_t k = 0; status == ICC_OK && k < n; ++k) {
         if (nodes[k] >= l->n)
-            status = iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)k, "node %lu does not exist",
+            status = iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_NODE, (int64_t)k, "node %lu does not exist",
                                (unsigned long)nodes[k]);
         else if (seen[nodes[k]])
-            status = iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)k, "node %lu is named twice",
+            status = iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_NODE, (int64_t)k, "node %lu is named twice",
                                (unsigned long)nodes[k]);
         else
             seen[nodes[k]] = true;
@@ -76,7 +76,7 @@ static icc_status check_nodes(const iccp_layout *l, size_t n, const uint32_t *no
     return status;
 }
 
-icc_status iccp_kernel_repaint(icc_kernel **out, const icc_kernel *kernel, size_t n,
+icc_status iccp_weights_repaint(icc_weights **out, const icc_weights *kernel, size_t n,
                                const uint32_t *nodes, const double *weights, const iccp_env *env,
                                icc_error *err)
 {
@@ -85,7 +85,7 @@ icc_status iccp_kernel_repaint(icc_kernel **out, const icc_kernel *kernel, size_
     *out = NULL;
     icc_status status = check_nodes(l, n, nodes, env, err);
     if (status == ICC_OK)
-        status = iccp_kernel_copy(out, kernel, env);
+        status = iccp_weights_copy(out, kernel, env);
     for (size_t k = 0; status == ICC_OK && k < n; ++k)
         if (!l->held[nodes[k]])
             memcpy((*out)->weights + m * nodes[k], weights + m * k, m * sizeof *weights);
@@ -96,22 +96,22 @@ icc_status iccp_kernel_repaint(icc_kernel **out, const icc_kernel *kernel, size_
     return status;
 }
 
-icc_status iccp_kernel_set_method(icc_kernel **out, const icc_kernel *kernel, int32_t method,
+icc_status iccp_weights_with_method(icc_weights **out, const icc_weights *kernel, int32_t method,
                                   const iccp_env *env)
 {
-    icc_status status = iccp_kernel_copy(out, kernel, env);
+    icc_status status = iccp_weights_copy(out, kernel, env);
     if (status != ICC_OK)
         return status;
     (*out)->info.method = method;
-    status = iccp_kernel_start(*out, env);
+    status = iccp_weights_start(*out, env);
     if (status == ICC_OK)
-        status = iccp_kernel_interpolate(*out, NULL, env);
+        status = iccp_weights_interpolate(*out, NULL, env);
     if (status != ICC_OK)
         give_up(out);
     return status;
 }
 
-static icc_status stiffen(icc_kernel *copy, size_t n, const uint32_t *nodes, const double *rigidity,
+static icc_status stiffen(icc_weights *copy, size_t n, const uint32_t *nodes, const double *rigidity,
                           double energy[2], const iccp_env *env)
 {
     const iccp_layout *l = copy->layout;
@@ -128,7 +128,7 @@ static icc_status stiffen(icc_kernel *copy, size_t n, const uint32_t *nodes, con
     return status;
 }
 
-icc_status iccp_kernel_stiffen(icc_kernel **out, const icc_kernel *kernel, size_t n,
+icc_status iccp_weights_stiffen(icc_weights **out, const icc_weights *kernel, size_t n,
                                const uint32_t *nodes, const double *rigidity, double energy[2],
                                const iccp_env *env, icc_error *err)
 {
@@ -136,7 +136,7 @@ icc_status iccp_kernel_stiffen(icc_kernel **out, const icc_kernel *kernel, size_
     *out = NULL;
     icc_status status = check_nodes(kernel->layout, n, nodes, env, err);
     if (status == ICC_OK)
-        status = iccp_kernel_copy(out, kernel, env);
+        status = iccp_weights_copy(out, kernel, env);
     if (status == ICC_OK)
         status = stiffen(*out, n, nodes, rigidity, local, env);
     if (status != ICC_OK) {

@@ -1,6 +1,6 @@
 /* Weights at points of the caller's, and how good they are. */
 #include "base/threads.h"
-#include "kernel/kernel.h"
+#include "kernel/handle_weights.h"
 
 #include <math.h>
 #include <string.h>
@@ -12,7 +12,7 @@ enum { EDGE_PLACES = 64 };
 /* Weights below this are negative, others may be so by rounding. */
 static const double NEGATIVE = -1e-9;
 
-void iccp_kernel_evaluate(const icc_kernel *kernel, const double *point, double *weights,
+void iccp_weights_at(const icc_weights *kernel, const double *point, double *weights,
                           double *gradients)
 {
     const iccp_layout *l = kernel->layout;
@@ -34,7 +34,7 @@ static bool is_finite(size_t dim, const double *point)
 }
 
 typedef struct evaluation {
-    const icc_kernel *kernel;
+    const icc_weights *kernel;
     const double *points;
     double *weights, *gradients;
     icc_status *status;
@@ -49,7 +49,7 @@ static icc_status evaluate_some(void *argument, size_t begin, size_t end)
         double *gradients = e->gradients != NULL ? e->gradients + dim * m * i : NULL;
         const bool finite = is_finite(dim, e->points + dim * i);
         if (finite)
-            iccp_kernel_evaluate(e->kernel, e->points + dim * i, weights, gradients);
+            iccp_weights_at(e->kernel, e->points + dim * i, weights, gradients);
         for (size_t k = 0; !finite && k < m; ++k)
             weights[k] = NAN;
         for (size_t k = 0; !finite && gradients != NULL && k < dim * m; ++k)
@@ -60,7 +60,7 @@ static icc_status evaluate_some(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
-icc_status iccp_kernel_weights(const icc_kernel *kernel, size_t n, const double *points,
+icc_status iccp_weights_evaluate(const icc_weights *kernel, size_t n, const double *points,
                                double *weights, double *gradients, icc_status *status,
                                size_t *n_failed, const iccp_env *env)
 {
@@ -82,19 +82,19 @@ typedef struct quality {
 } quality;
 
 typedef struct measurement {
-    const icc_kernel *kernel;
+    const icc_weights *kernel;
     const iccp_memory *memory;
     const double *points;
     quality *quality; /* of each point */
 } measurement;
 
-static quality measure(const icc_kernel *kernel, const double *point, double *weights)
+static quality measure(const icc_weights *kernel, const double *point, double *weights)
 {
     const iccp_layout *l = kernel->layout;
     quality q = {-1, 0, HUGE_VAL};
     double local[ICC_MAX_DIM];
     iccp_frame_in(&l->sampling->shape->frame, (int32_t)l->dim, point, local);
-    iccp_kernel_evaluate(kernel, point, weights, NULL);
+    iccp_weights_at(kernel, point, weights, NULL);
     for (size_t j = 0; j < l->n_handles; ++j) {
         q.unity += weights[j];
         q.least = fmin(q.least, weights[j]);
@@ -122,11 +122,11 @@ static icc_status measure_some(void *argument, size_t begin, size_t end)
 }
 
 /* The greatest deviation at a place from weights 1 - share and share of two handles, and 0 of the others. */
-static double deviation(const icc_kernel *kernel, const double *place, const uint32_t ends[2],
+static double deviation(const icc_weights *kernel, const double *place, const uint32_t ends[2],
                         double share, double *weights)
 {
     double worst = 0;
-    iccp_kernel_evaluate(kernel, place, weights, NULL);
+    iccp_weights_at(kernel, place, weights, NULL);
     for (size_t j = 0; j < kernel->layout->n_handles; ++j) {
         const double wanted = j == ends[0] ? 1 - share : j == ends[1] ? share : 0;
         worst = fmax(worst, fabs(weights[j] - wanted));
@@ -134,7 +134,7 @@ static double deviation(const icc_kernel *kernel, const double *place, const uin
     return worst;
 }
 
-static void measure_handles(const icc_kernel *kernel, icc_kernel_report *report, double *weights)
+static void measure_handles(const icc_weights *kernel, icc_weights_report *report, double *weights)
 {
     const iccp_layout *l = kernel->layout;
     for (uint32_t j = 0; j < l->n_handles; ++j)
@@ -154,7 +154,7 @@ static void measure_handles(const icc_kernel *kernel, icc_kernel_report *report,
     }
 }
 
-static void summarise(size_t n, const quality *q, icc_kernel_report *report)
+static void summarise(size_t n, const quality *q, icc_weights_report *report)
 {
     report->least_weight = n > 0 ? HUGE_VAL : 0;
     for (size_t i = 0; i < n; ++i) {
@@ -166,11 +166,11 @@ static void summarise(size_t n, const quality *q, icc_kernel_report *report)
     }
 }
 
-icc_status iccp_kernel_measure(const icc_kernel *kernel, size_t n, const double *points,
-                               icc_kernel_report *report, const iccp_env *env)
+icc_status iccp_weights_measure(const icc_weights *kernel, size_t n, const double *points,
+                               icc_weights_report *report, const iccp_env *env)
 {
     const iccp_memory *memory = &env->memory;
-    *report = (icc_kernel_report){.n_infeasible = kernel->info.n_infeasible,
+    *report = (icc_weights_report){.n_infeasible = kernel->info.n_infeasible,
                                   .definiteness = kernel->info.definiteness};
     quality *qualities = iccp_alloc(memory, n, sizeof *qualities);
     double *weights = iccp_alloc(memory, kernel->layout->n_handles, sizeof *weights);

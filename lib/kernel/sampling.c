@@ -85,7 +85,7 @@ static icc_status check_inside(const survey *s, icc_error *err)
 {
     for (size_t i = 0; i < s->n; ++i)
         if (s->where[i] == OUTSIDE)
-            return iccp_fail(err, ICC_ERR_OUTSIDE, (int64_t)i,
+            return iccp_fail_at(err, ICC_ERR_OUTSIDE, ICC_ITEM_POINT, (int64_t)i,
                              "point %zu lies in no region and on no curve", i);
     return ICC_OK;
 }
@@ -104,7 +104,7 @@ static icc_status check_regions(const survey *s, const iccp_env *env, icc_error 
         ++r;
     iccp_free(&env->memory, count);
     if (r < n_regions)
-        return iccp_fail(err, ICC_ERR_RESOLUTION, (int64_t)r,
+        return iccp_fail_at(err, ICC_ERR_RESOLUTION, ICC_ITEM_REGION, (int64_t)r,
                          "no sample lies inside region %zu: the spacing is too large for it", r);
     return ICC_OK;
 }
@@ -113,9 +113,9 @@ static icc_status check_distinct(const survey *s, bool given, icc_error *err)
 {
     for (size_t i = 0; i < s->n; ++i)
         if (!(s->spacing[i] > 0))
-            return given ? iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)i,
+            return given ? iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)i,
                                      "point %zu is the same as another one", i)
-                         : iccp_fail(err, ICC_ERR_RESOLUTION, -1,
+                         : iccp_fail(err, ICC_ERR_RESOLUTION,
                                      "the spacing is lost in the rounding of the coordinates");
     return ICC_OK;
 }

@@ -67,7 +67,7 @@ icc_status iccp_sampling_read(icc_sampling **out, iccp_blob_reader *r, const icc
     if (status == ICC_OK) {
         status = read_samples(s, r);
         if (status == ICC_ERR_FORMAT)
-            status = iccp_fail(err, status, -1, "the bytes do not describe samples");
+            status = iccp_fail(err, status, "the bytes do not describe samples");
         status = iccp_explain(err, status);
     }
     if (status != ICC_OK) {
@@ -98,5 +98,5 @@ icc_status iccp_sampling_load(icc_sampling **out, size_t n_bytes, const void *da
         return status;
     iccp_sampling_release(*out);
     *out = NULL;
-    return iccp_fail(err, ICC_ERR_FORMAT, -1, "bytes are left over");
+    return iccp_fail(err, ICC_ERR_FORMAT, "bytes are left over");
 }

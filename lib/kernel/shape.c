@@ -20,20 +20,20 @@ static icc_status check_curves(size_t dim, size_t n_vertices, const double *vert
     for (size_t i = 0; i < n_vertices; ++i)
         for (size_t k = 0; k < dim; ++k)
             if (!isfinite(vertices[dim * i + k]))
-                return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)i,
+                return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_VERTEX, (int64_t)i,
                                  "vertex %zu of the curves is not finite", i);
     for (size_t s = 0; s < n_segments; ++s) {
         const uint32_t *ends = segments + 2 * s;
         for (int i = 0; i < 2; ++i)
             if (ends[i] >= n_vertices)
-                return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)s,
+                return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_SEGMENT, (int64_t)s,
                                  "segment %zu has vertex %lu of %zu", s, (unsigned long)ends[i],
                                  n_vertices);
         bool same = true;
         for (size_t k = 0; k < dim; ++k)
             same &= vertices[dim * ends[0] + k] == vertices[dim * ends[1] + k];
         if (same)
-            return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)s, "segment %zu has no length", s);
+            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_SEGMENT, (int64_t)s, "segment %zu has no length", s);
     }
     return ICC_OK;
 }
@@ -110,7 +110,7 @@ static icc_status localise(icc_shape *shape, size_t n, icc_error *err)
     for (size_t i = 0; i < n; ++i) {
         double *x = shape->local + dim * i;
         if (!iccp_frame_holds(&shape->frame, (int32_t)dim, x))
-            return iccp_fail(err, ICC_ERR_BOUNDARY, -1,
+            return iccp_fail(err, ICC_ERR_BOUNDARY,
                              "a vertex is nearer to an axis than 2^-200 of the shape's size");
         iccp_frame_in(&shape->frame, (int32_t)dim, x, x);
     }
@@ -149,7 +149,7 @@ static icc_status check_walls(const icc_shape *shape, const iccp_env *env, icc_e
         while (iccp_facet_query_next(&query, &g)) {
             const uint32_t r = shape->owner[f], s = shape->owner[g];
             if (r != s && facets_meet(shape, f, g))
-                return iccp_fail(err, ICC_ERR_BOUNDARY, r > s ? r : s,
+                return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_REGION, r > s ? r : s,
                                  "the boundaries of regions %lu and %lu meet",
                                  (unsigned long)(r < s ? r : s), (unsigned long)(r < s ? s : r));
         }
@@ -172,7 +172,7 @@ static icc_status complete(icc_shape *shape, const double *vertices, const uint3
 {
     const size_t n = count_vertices(shape), n_facets = count_facets(shape);
     if (n > UINT32_MAX / 4 || n_facets > UINT32_MAX / 4 || shape->n_segments > UINT32_MAX / 4)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, -1, "more than 2^30 vertices or facets");
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "more than 2^30 vertices or facets");
     icc_status status = allocate(shape, n, n_facets);
     if (status != ICC_OK)
         return iccp_fail_memory(err);

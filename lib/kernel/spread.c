@@ -26,7 +26,7 @@ static const double COUNT_TOLERANCE = 1e-9;
 static icc_status fail_many(icc_error *err)
 {
     return iccp_fail(
-        err, ICC_ERR_RESOLUTION, -1,
+        err, ICC_ERR_RESOLUTION,
         "the spacing is too small: more than 2^24 samples, or 2^27 places for them in the "
         "shape's box");
 }
@@ -133,7 +133,7 @@ static icc_status check_fixed(const icc_shape *shape, const icc_sampling_options
     for (size_t i = 0; status == ICC_OK && i < options->n_fixed; ++i) {
         const iccp_spot spot = iccp_shape_spot(shape, options->fixed + shape->dim * i);
         if (!on_edge(&spot) && spot.region == ICCP_NOWHERE)
-            status = iccp_fail(err, ICC_ERR_OUTSIDE, (int64_t)i,
+            status = iccp_fail_at(err, ICC_ERR_OUTSIDE, ICC_ITEM_POINT, (int64_t)i,
                                "fixed point %zu lies in no region and on no curve", i);
         iccp_places_add(&places, spot.at);
     }
@@ -144,7 +144,7 @@ static icc_status check_fixed(const icc_shape *shape, const icc_sampling_options
             err, iccp_places_spacing(shape->dim, places.n, places.points, distance, env));
     for (size_t i = 0; status == ICC_OK && i < options->n_fixed; ++i)
         if (!(distance[i] > 0))
-            status = iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)i,
+            status = iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)i,
                                "fixed point %zu is the same as another one", i);
     iccp_places_free(&places);
     iccp_free(&env->memory, distance);
@@ -212,7 +212,7 @@ static icc_status spread_blue(iccp_places *places, const icc_shape *shape,
     const int32_t steps = options->steps == 0 ? DEFAULT_STEPS : options->steps;
     const double spacing = options->spacing * shape->frame.in[0] * shape->frame.in[1];
     if (!(spacing >= FINEST * shape->tolerance))
-        return iccp_fail(err, ICC_ERR_RESOLUTION, -1,
+        return iccp_fail(err, ICC_ERR_RESOLUTION,
                          "the spacing is lost in the rounding of the coordinates");
     if (!(expect_samples(shape, spacing) + (double)options->n_fixed <= MAX_SAMPLES))
         return fail_many(err);

@@ -3,7 +3,7 @@
 #ifndef ICCP_WEIGHTS_H
 #define ICCP_WEIGHTS_H
 
-#include "kernel/gram.h"
+#include "kernel/kernel_matrix.h"
 #include "kernel/shape.h"
 
 /* Nodes: the handles first, then those on lines, then samples. Points are in local coordinates, which the

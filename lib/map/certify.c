@@ -55,7 +55,7 @@ static icc_status localise(mesh_check *m, double *local, const double *points, i
     iccp_frame_fit(frame, (int32_t)dim, m->n_vertices, local);
     for (size_t v = 0; v < m->n_vertices; ++v) {
         if (!iccp_frame_holds(frame, (int32_t)dim, local + dim * v))
-            return iccp_fail(err, ICC_ERR_ARGUMENT, (int64_t)v,
+            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_VERTEX, (int64_t)v,
                              "vertex %zu has a coordinate too small for exact signs", v);
         iccp_frame_in(frame, (int32_t)dim, local + dim * v, local + dim * v);
     }

@@ -2,7 +2,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
-#include "chart/create.h"
+#include "chart/chart_create.h"
 
 /* Cells of a mesh along the longest side: where the boundary is no finer, coarse is fair enough. */
 enum { MESH_CELLS = 20 };
@@ -21,24 +21,24 @@ static icc_status check_correspondence(const icc_domain *source, const icc_domai
     icc_status status = ICC_OK;
     const size_t n_ends = source->n_facets * (size_t)source->dim;
     if (source->dim != target->dim)
-        status = iccp_fail(err, ICC_ERR_BOUNDARY, -1,
+        status = iccp_fail(err, ICC_ERR_BOUNDARY,
                            "the source has dimension %ld, the target %ld", (long)source->dim,
                            (long)target->dim);
     else if (source->n_vertices != target->n_vertices)
-        status = iccp_fail(err, ICC_ERR_BOUNDARY, -1,
+        status = iccp_fail(err, ICC_ERR_BOUNDARY,
                            "the source has %zu vertices, the target %zu: vertex i must "
                            "correspond to vertex i",
                            source->n_vertices, target->n_vertices);
     else if (source->n_facets != target->n_facets)
-        status = iccp_fail(err, ICC_ERR_BOUNDARY, -1, "the source has %zu facets, the target %zu",
+        status = iccp_fail(err, ICC_ERR_BOUNDARY, "the source has %zu facets, the target %zu",
                            source->n_facets, target->n_facets);
     else if (source->orientation != target->orientation)
-        status = iccp_fail(err, ICC_ERR_BOUNDARY, -1,
+        status = iccp_fail(err, ICC_ERR_BOUNDARY,
                            "the source is %s, the target %s: both must turn the same way",
                            turn_of(source), turn_of(target));
     for (size_t i = 0; status == ICC_OK && i < n_ends; ++i)
         if (source->facets[i] != target->facets[i])
-            status = iccp_fail(err, ICC_ERR_BOUNDARY, (int64_t)(i / (size_t)source->dim),
+            status = iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_FACET, (int64_t)(i / (size_t)source->dim),
                                "facet %zu does not join the same vertices in the target",
                                i / (size_t)source->dim);
     return status == ICC_OK ? ICC_OK : iccp_fail_side(err, status, 2);
@@ -54,7 +54,7 @@ icc_status iccp_map_choose_kind(int32_t *kind, const icc_chart *source, const ic
                                 icc_error *err)
 {
     if (source->info.method != target->info.method)
-        return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1,
+        return iccp_fail(err, ICC_ERR_UNSUPPORTED,
                          "the charts use different methods (%ld and %ld)",
                          (long)source->info.method, (long)target->info.method);
     const bool has_mesh = source->mesh != NULL || is_solid(source);
@@ -62,7 +62,7 @@ icc_status iccp_map_choose_kind(int32_t *kind, const icc_chart *source, const ic
         *kind = has_mesh ? ICC_MAP_MESH : ICC_MAP_CURVES;
     if (*kind == ICC_MAP_CURVES || (*kind == ICC_MAP_MESH && has_mesh))
         return ICC_OK;
-    return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1,
+    return iccp_fail(err, ICC_ERR_UNSUPPORTED,
                      "map kind %ld is not available for charts of method %ld", (long)*kind,
                      (long)source->info.method);
 }
@@ -183,7 +183,7 @@ icc_status iccp_map_create(icc_map **out, const icc_domain *source, const icc_do
     icc_chart_options full[2] = {chart_options[0], chart_options[1]};
     icc_status status = check_correspondence(source, target, err);
     if (status == ICC_OK && options->kind == ICC_MAP_MESH && source->dim != 2 && !are_filled(domains))
-        status = iccp_fail(err, ICC_ERR_UNSUPPORTED, -1,
+        status = iccp_fail(err, ICC_ERR_UNSUPPORTED,
                            "map kind mesh is not available for domains of dimension %ld%s",
                            (long)source->dim,
                            source->dim == 3 ? " without meshes (icc_domain_create_mesh)" : "");
@@ -220,7 +220,7 @@ icc_status iccp_map_improve(icc_map **out, const icc_map *map, const icc_improve
     const double start = iccp_seconds();
     icc_map *better = NULL;
     if (map->mesh == NULL)
-        return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1,
+        return iccp_fail(err, ICC_ERR_UNSUPPORTED,
                          "only maps of kind mesh in the plane can be improved");
     icc_status status = new_map(&better, map->source_domain, map->target_domain, env);
     if (status == ICC_OK && map->source != NULL)
@@ -233,7 +233,7 @@ icc_status iccp_map_improve(icc_map **out, const icc_map *map, const icc_improve
     }
     better->info = map->info;
     better->info.n_vertices = better->mesh->pl.n_vertices;
-    better->info.n_triangles = better->mesh->pl.corners.n_triangles;
+    better->info.n_simplices = better->mesh->pl.corners.n_triangles;
     better->info.energy = report->energy;
     better->info.n_iterations += report->n_iterations;
     better->info.n_levels += report->n_levels;
@@ -242,20 +242,20 @@ icc_status iccp_map_improve(icc_map **out, const icc_map *map, const icc_improve
     return ICC_OK;
 }
 
-icc_status iccp_map_follow(icc_map **out, const icc_map *map, const icc_domain *target,
+icc_status iccp_map_retarget(icc_map **out, const icc_map *map, const icc_domain *target,
                            int32_t iterations, const iccp_env *env, icc_error *err)
 {
     const double start = iccp_seconds();
     icc_map *next = NULL;
     if (map->mesh == NULL)
-        return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1,
+        return iccp_fail(err, ICC_ERR_UNSUPPORTED,
                          "only maps of kind mesh in the plane can be followed");
     icc_status status = iccp_map_begin(&next, map->source_domain, target, env, err);
     if (status == ICC_OK)
         status = iccp_mesh_map_follow(&next->mesh, map->mesh, map->source_domain,
                                       map->target_domain, target, iterations, &next->info, env, err);
     if (status == ICC_OK && next->mesh == NULL)
-        status = iccp_fail(err, ICC_ERR_CERTIFICATE, -1,
+        status = iccp_fail(err, ICC_ERR_CERTIFICATE,
                            "%zu triangles could not be repaired: the target has moved too far",
                            next->info.n_unrepaired);
     if (status != ICC_OK) {

@@ -29,8 +29,8 @@ icc_status iccp_map_create_from_charts(icc_map **out, const icc_chart *source,
 icc_status iccp_map_improve(icc_map **out, const icc_map *map, const icc_improve_options *options,
                             icc_improve_report *report, const iccp_env *env, icc_error *err);
 
-/* See icc_map_follow(). */
-icc_status iccp_map_follow(icc_map **out, const icc_map *map, const icc_domain *target,
+/* See icc_map_retarget(). */
+icc_status iccp_map_retarget(icc_map **out, const icc_map *map, const icc_domain *target,
                            int32_t iterations, const iccp_env *env, icc_error *err);
 void iccp_map_release(icc_map *map);
 

@@ -77,7 +77,7 @@ icc_status iccp_mesh_map_finish(iccp_mesh_map *map, icc_map_info *info, const ic
     if (status == ICC_OK)
         status = iccp_finder_create(&map->after, &mesh, map->pl.images, env);
     info->n_vertices = map->pl.n_vertices;
-    info->n_triangles = map->pl.corners.n_triangles;
+    info->n_simplices = map->pl.corners.n_triangles;
     info->seconds_certify = iccp_seconds() - begin;
     return status;
 }
@@ -223,7 +223,7 @@ icc_status iccp_mesh_map_improve(iccp_mesh_map **out, const iccp_mesh_map *map,
     }
     report->energy = improvement.energy;
     report->n_iterations = improvement.n_iterations;
-    report->n_triangles = info.n_triangles;
+    report->n_simplices = info.n_simplices;
     report->n_levels = (int32_t)improvement.n_levels;
     report->cancelled = cancelled;
     *out = better;

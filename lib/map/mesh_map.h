@@ -24,7 +24,7 @@ icc_status iccp_mesh_map_create(iccp_mesh_map **out, const icc_chart *source,
 icc_status iccp_mesh_map_improve(iccp_mesh_map **out, const iccp_mesh_map *map,
                                  const icc_improve_options *options, icc_improve_report *report,
                                  const iccp_env *env, icc_error *err);
-/* The map to another target from the one to `old_target`; see icc_map_follow(). Otherwise as
+/* The map to another target from the one to `old_target`; see icc_map_retarget(). Otherwise as
  * iccp_mesh_map_create(). */
 icc_status iccp_mesh_map_follow(iccp_mesh_map **out, const iccp_mesh_map *map,
                                 const icc_domain *source, const icc_domain *old_target,

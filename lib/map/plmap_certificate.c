@@ -73,11 +73,11 @@ icc_status iccp_plmap_certify(const iccp_plmap *map, const iccp_env *env, icc_er
                 map->corners.vertex[iccp_before(twin)] != map->corners.vertex[iccp_after(c)];
     }
     if (n_faults > 0 || 2 * map->n_vertices != n_triangles + n_open + 2)
-        return iccp_fail(err, ICC_ERR_CERTIFICATE, -1,
-                         "the mesh map cannot be certified: %zu faults", n_faults);
+        return iccp_fail(err, ICC_ERR_CERTIFICATE, "the mesh map cannot be certified: %zu faults",
+                         n_faults);
     const icc_status status = check_outline(map, env);
     return status == ICC_ERR_BOUNDARY
-               ? iccp_fail(err, ICC_ERR_CERTIFICATE, -1,
+               ? iccp_fail(err, ICC_ERR_CERTIFICATE,
                            "the boundary of the mesh or of its image is not simple")
                : status;
 }

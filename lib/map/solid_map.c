@@ -154,7 +154,7 @@ icc_status iccp_solid_map_create(iccp_solid_map **out, const icc_chart *source,
         return status;
     }
     info->n_vertices = map->mesh->n_points;
-    info->n_triangles = map->mesh->n_simplices;
+    info->n_simplices = map->mesh->n_simplices;
     iccp_simplicial_map simplicial = iccp_simplicial_map_of(map->mesh, map->images);
     simplicial.stretch = cbrt(fabs(target->domain->measure) / fabs(source->domain->measure));
     info->energy = info->energy_start = iccp_simplicial_energy(&simplicial);
@@ -214,7 +214,7 @@ icc_status iccp_solid_map_read(iccp_solid_map **out, const icc_domain *source,
         return status;
     }
     info->n_vertices = map->mesh->n_points;
-    info->n_triangles = map->mesh->n_simplices;
+    info->n_simplices = map->mesh->n_simplices;
     *out = map;
     return ICC_OK;
 }

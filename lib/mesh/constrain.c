@@ -66,17 +66,17 @@ static icc_status fail_touch(const cutter *k, uint32_t vertex)
 {
     const unsigned long from = k->from, to = k->to, point = vertex;
     if (vertex < k->mesh->n_boundary)
-        return iccp_fail(k->err, ICC_ERR_BOUNDARY, vertex,
+        return iccp_fail_at(k->err, ICC_ERR_BOUNDARY, ICC_ITEM_POINT, vertex,
                          "vertex %lu lies on the polygon's edge from vertex %lu to %lu", point,
                          from, to);
-    return iccp_fail(k->err, ICC_ERR_OUTSIDE, vertex,
+    return iccp_fail_at(k->err, ICC_ERR_OUTSIDE, ICC_ITEM_POINT, vertex,
                      "point %lu is not inside the polygon: it lies on the edge from vertex %lu to %lu",
                      point, from, to);
 }
 
 static icc_status fail_cross(const cutter *k, uint32_t a, uint32_t b)
 {
-    return iccp_fail(k->err, ICC_ERR_BOUNDARY, k->from,
+    return iccp_fail_at(k->err, ICC_ERR_BOUNDARY, ICC_ITEM_POINT, k->from,
                      "the polygon crosses itself: its edges %lu-%lu and %lu-%lu",
                      (unsigned long)k->from, (unsigned long)k->to, (unsigned long)a,
                      (unsigned long)b);

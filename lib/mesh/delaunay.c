@@ -1,6 +1,6 @@
 /* Based on: C. L. Lawson, Software for C1 surface interpolation, 1977: points one by one, located by
  * walking, each followed by the flips that make the triangulation Delaunay again. The order of
- * insertion is that of mesh/order.c.
+ * insertion is that of mesh/insertion_order.c.
  *
  * A point on an edge needs no case of its own: the triangle without area that it leaves behind lies
  * inside the circle on the other side, and is flipped at once. Neither does a point outside the hull:
@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "math/predicates.h"
-#include "mesh/order.h"
+#include "mesh/insertion_order.h"
 
 #include <assert.h>
 
@@ -147,13 +147,13 @@ static icc_status fail_repeated(uint32_t n_boundary, uint32_t a, uint32_t b, icc
 {
     const uint32_t point = a > b ? a : b, other = a > b ? b : a;
     if (point < n_boundary)
-        return iccp_fail(err, ICC_ERR_BOUNDARY, point, "vertex %lu repeats vertex %lu",
+        return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_POINT, point, "vertex %lu repeats vertex %lu",
                          (unsigned long)point, (unsigned long)other);
     if (other < n_boundary)
-        return iccp_fail(err, ICC_ERR_OUTSIDE, point,
+        return iccp_fail_at(err, ICC_ERR_OUTSIDE, ICC_ITEM_POINT, point,
                          "point %lu is not inside the polygon: it repeats vertex %lu",
                          (unsigned long)point, (unsigned long)other);
-    return iccp_fail(err, ICC_ERR_ARGUMENT, point, "point %lu repeats point %lu",
+    return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, point, "point %lu repeats point %lu",
                      (unsigned long)point, (unsigned long)other);
 }
 
@@ -202,7 +202,7 @@ static icc_status pick_start(uint32_t *order, const iccp_trimesh *mesh, icc_erro
             swap(&order[0], &order[1]);
         return ICC_OK;
     }
-    return iccp_fail(err, ICC_ERR_BOUNDARY, -1, "all vertices of the polygon lie on one line");
+    return iccp_fail(err, ICC_ERR_BOUNDARY, "all vertices of the polygon lie on one line");
 }
 
 /* Builds on a copy of the points in the order of insertion, where neighbours are close in memory,

@@ -238,7 +238,7 @@ static icc_status fill_mesh(iccp_planar *mesh, const icc_domain *domain, const u
                                        mesh->triangles, mesh->twins, env, err);
     /* The domain is simple, but points along its facets are rounded. */
     if (status == ICC_ERR_BOUNDARY || status == ICC_ERR_OUTSIDE)
-        status = iccp_fail(err, ICC_ERR_CERTIFICATE, -1,
+        status = iccp_fail(err, ICC_ERR_CERTIFICATE,
                            "the domain cannot be meshed: two of its sides are closer than rounding "
                            "errors of points on them");
     if (status == ICC_OK) {

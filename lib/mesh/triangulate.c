@@ -87,7 +87,7 @@ static icc_status extract(const iccp_trimesh *mesh, uint32_t *triangles, uint32_
     mark_outside(mesh, number, stack);
     const uint32_t outsider = find_outsider(mesh, number);
     if (outsider < mesh->n_points) {
-        status = iccp_fail(err, ICC_ERR_OUTSIDE, outsider, "point %lu lies outside the polygon",
+        status = iccp_fail_at(err, ICC_ERR_OUTSIDE, ICC_ITEM_POINT, outsider, "point %lu lies outside the polygon",
                            (unsigned long)outsider);
         goto done;
     }

@@ -12,7 +12,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* So that a corner has a bit to spare and an index fits into the sort key of mesh/order.c. */
+/* So that a corner has a bit to spare and an index fits into the sort key of mesh/insertion_order.c. */
 #define ICCP_TRIMESH_MAX_POINTS ((size_t)1 << 28)
 
 typedef struct iccp_corner {

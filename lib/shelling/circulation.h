@@ -25,7 +25,7 @@ void iccp_circulation_free(iccp_circulation *circulation);
 /* From the boundary inwards, each simplex sends on what it receives through the facets to simplices of
  * smaller rank, in proportion to the reference flux there, but through each at least a small share. The flux
  * is positive from greater to smaller rank and without divergence. `rank` is complete, see
- * shelling/order.h. O(n). */
+ * shelling/shelling_order.h. O(n). */
 icc_status iccp_circulation_greedy(const iccp_circulation *c, const uint32_t *rank, double *flux,
                                    const iccp_env *env);
 

@@ -179,7 +179,7 @@ static icc_status hold(contest *c, attempt *best, iccp_contest_info *info, const
         return status;
     if (n_least > 0)
         return iccp_fail(
-            err, ICC_ERR_TOPOLOGY, -1,
+            err, ICC_ERR_TOPOLOGY,
             "no order was found that builds up the domain from the maximum: at best %zu of "
             "the %zu simplices are left; try another maximum or a finer mesh",
             n_least, c->wish.mesh->n_simplices);

@@ -3,7 +3,7 @@
 #define ICCP_CONTEST_H
 
 #include "shelling/circulation.h"
-#include "shelling/order.h"
+#include "shelling/shelling_order.h"
 
 typedef struct iccp_contest_info {
     int32_t peeled;    /* 1: the order that won was peeled, 0: grown */

@@ -5,10 +5,9 @@
 #include "solver/bilaplace.h"
 
 #include "base/clock.h"
-#include "solver/dissection.h"
 #include "solver/energy.h"
 #include "solver/inequalities.h"
-#include "math/ldlt.h"
+#include "solver/laplacian_factor.h"
 
 #include <assert.h>
 #include <math.h>
@@ -17,78 +16,6 @@
 /* Of a component, in its own size: far above the 1e-15 of solutions that are right, far below the 1 of
  * others. */
 static const double MOST_RESIDUAL = 1e-6;
-
-/* The Laplacian of the rows, the root's included. */
-typedef struct laplacian {
-    iccp_symmetric matrix;
-    size_t *first;
-    uint32_t *column;
-    double *value, *diagonal;
-} laplacian;
-
-static void laplacian_free(laplacian *l, const iccp_env *env)
-{
-    iccp_free(&env->memory, l->first);
-    iccp_free(&env->memory, l->column);
-    iccp_free(&env->memory, l->value);
-    iccp_free(&env->memory, l->diagonal);
-}
-
-static icc_status laplacian_create(laplacian *l, const iccp_rows *rows, const iccp_env *env)
-{
-    const size_t n = rows->n, degree = (size_t)rows->n_neighbours;
-    l->first = iccp_alloc(&env->memory, n + 1, sizeof *l->first);
-    l->column = iccp_alloc(&env->memory, n, degree * sizeof *l->column);
-    l->value = iccp_alloc(&env->memory, n, degree * sizeof *l->value);
-    l->diagonal = iccp_alloc(&env->memory, n, sizeof *l->diagonal);
-    if (l->first == NULL || l->column == NULL || l->value == NULL || l->diagonal == NULL) {
-        laplacian_free(l, env);
-        return ICC_ERR_MEMORY;
-    }
-    size_t p = 0;
-    for (size_t k = 0; k < n; ++k) {
-        l->first[k] = p;
-        l->diagonal[k] = (double)degree;
-        for (size_t d = 0; d < degree; ++d)
-            if (rows->neighbour[k * degree + d] != ICCP_NONE) {
-                l->column[p] = rows->neighbour[k * degree + d];
-                l->value[p++] = -1;
-            }
-    }
-    l->first[n] = p;
-    l->matrix = (iccp_symmetric){n, l->first, l->column, l->value, l->diagonal};
-    return ICC_OK;
-}
-
-static icc_status analyse(iccp_ldlt *factor, const iccp_symmetric *matrix, const iccp_rows *rows,
-                          const iccp_env *env)
-{
-    uint32_t *order = iccp_alloc(&env->memory, matrix->n, sizeof *order);
-    if (order == NULL)
-        return ICC_ERR_MEMORY;
-    icc_status status = iccp_dissection(rows, order, env);
-    if (status == ICC_OK)
-        status = iccp_ldlt_analyse_ordered(factor, matrix, order, env);
-    iccp_free(&env->memory, order);
-    return status;
-}
-
-static icc_status factorise(iccp_ldlt *factor, const iccp_symmetric *matrix, const iccp_rows *rows,
-                            icc_field_info *info, const iccp_env *env)
-{
-    double start = iccp_seconds();
-    icc_status status = analyse(factor, matrix, rows, env);
-    info->seconds_order += iccp_seconds() - start;
-    if (status != ICC_OK)
-        return status;
-    info->work = fmax(info->work, factor->work);
-    start = iccp_seconds();
-    status = iccp_ldlt_factorise(factor, matrix, env);
-    info->seconds_factor += iccp_seconds() - start;
-    if (status != ICC_OK)
-        iccp_ldlt_free(factor);
-    return status;
-}
 
 /* Divides by the value of the root, which becomes 1. */
 static void scale(const iccp_scaled *f, size_t n)
@@ -154,31 +81,24 @@ static icc_status solve_twice(const iccp_rows *rows, const iccp_ldlt *factor, co
     return status;
 }
 
-static icc_status navier_direct(const iccp_rows *rows, const iccp_scaled *f, icc_field_info *info,
+static icc_status navier_direct(const iccp_rows *rows, const iccp_scaled *f, icc_function_info *info,
                                 const iccp_env *env)
 {
-    double start = iccp_seconds();
-    laplacian l;
-    iccp_ldlt factor;
-    icc_status status = laplacian_create(&l, rows, env);
-    if (status != ICC_OK)
-        return status;
-    info->seconds_setup += iccp_seconds() - start;
-    status = factorise(&factor, &l.matrix, rows, info, env);
-    if (status == ICC_OK) {
-        start = iccp_seconds();
-        status = solve_twice(rows, &factor, f, env);
-        info->seconds_solve += iccp_seconds() - start;
-        iccp_ldlt_free(&factor);
-    }
-    laplacian_free(&l, env);
+    iccp_laplacian_factor l;
+    const icc_status created = iccp_laplacian_factorise(&l, rows, info, env);
+    if (created != ICC_OK)
+        return created;
+    const double start = iccp_seconds();
+    const icc_status status = solve_twice(rows, &l.factor, f, env);
+    info->seconds_solve += iccp_seconds() - start;
+    iccp_laplacian_factor_free(&l);
     if (status == ICC_OK)
         scale(f, rows->n);
     return status;
 }
 
 /* Unknowns: all rows but the root. */
-static icc_status clamped(const iccp_rows *rows, const iccp_sparse *a, double *f, icc_field_info *info,
+static icc_status clamped(const iccp_rows *rows, const iccp_sparse *a, double *f, icc_function_info *info,
                           const iccp_env *env)
 {
     const size_t n = rows->n;
@@ -200,7 +120,7 @@ static icc_status clamped(const iccp_rows *rows, const iccp_sparse *a, double *f
 }
 
 /* The largest |A'A f| but for the root's. */
-static icc_status find_residual(const iccp_sparse *a, const double *f, icc_field_info *info,
+static icc_status find_residual(const iccp_sparse *a, const double *f, icc_function_info *info,
                                 const iccp_env *env)
 {
     double *work = iccp_alloc(&env->memory, a->n_rows, sizeof *work);
@@ -219,7 +139,7 @@ static icc_status find_residual(const iccp_sparse *a, const double *f, icc_field
 }
 
 icc_status iccp_bilaplace(const iccp_rows *rows, int32_t function, int32_t solver,
-                          const iccp_scaled *f, icc_field_info *info, const iccp_env *env)
+                          const iccp_scaled *f, icc_function_info *info, const iccp_env *env)
 {
     const size_t n = rows->n;
     double start = iccp_seconds();
@@ -234,7 +154,7 @@ icc_status iccp_bilaplace(const iccp_rows *rows, int32_t function, int32_t solve
     else if (function == ICC_FUNCTION_CLAMPED)
         status = clamped(rows, &a, plain, info, env);
     else if (solver == ICC_SOLVER_ITERATIVE)
-        status = iccp_bilaplace_iterative(rows, f, info, env);
+        status = iccp_bilaplace_iterative(rows, 0, f, info, env);
     else
         status = navier_direct(rows, f, info, env);
     start = iccp_seconds();

@@ -22,7 +22,7 @@ static const double TARGETS[] = {1e-12, 1e-14, 1e-16, 1e-18, 0};
 static const double EQUAL = 1e-12;
 
 static icc_status take_turns(const iccp_program *program, uint8_t *active, iccp_candidate *candidate,
-                             icc_field_info *info, const iccp_env *env)
+                             icc_function_info *info, const iccp_env *env)
 {
     iccp_interior interior;
     bool stuck = false;
@@ -42,7 +42,7 @@ static icc_status take_turns(const iccp_program *program, uint8_t *active, iccp_
 }
 
 static icc_status optimise(const iccp_program *program, iccp_candidate *candidate,
-                           icc_field_info *info, const iccp_env *env)
+                           icc_function_info *info, const iccp_env *env)
 {
     const size_t m = iccp_program_inequalities(program);
     uint8_t *active = iccp_alloc_zero(&env->memory, m, sizeof *active);
@@ -84,7 +84,7 @@ static size_t count_active(const iccp_program *program, const double *f)
 }
 
 static icc_status finish(const iccp_program *program, const iccp_candidate *candidate,
-                         const iccp_scaled *f, icc_field_info *info, const iccp_env *env)
+                         const iccp_scaled *f, icc_function_info *info, const iccp_env *env)
 {
     const size_t n = program->rows->n;
     const double start = iccp_seconds();
@@ -115,7 +115,7 @@ static icc_status check_room(const iccp_program *program, double *work, const ic
 }
 
 icc_status iccp_bilaplace_constrained(const iccp_rows *rows, int32_t function, double eta, double leaf,
-                                      const iccp_scaled *f, icc_field_info *info,
+                                      const iccp_scaled *f, icc_function_info *info,
                                       const iccp_env *env)
 {
     const double start = iccp_seconds();

@@ -47,8 +47,8 @@ static void poisson_free(poisson *p, const iccp_env *env)
     iccp_free(&env->memory, p->r);
 }
 
-/* x = L^-1 r, divided by its value at the root. */
-static icc_status solve(poisson *p, icc_field_info *info, const iccp_env *env)
+/* x = L^-1 r, divided by its value at the row that is loaded. */
+static icc_status solve(poisson *p, size_t loaded, icc_function_info *info, const iccp_env *env)
 {
     const size_t n = p->mg.level[0].n_entries;
     double size = 0;
@@ -57,11 +57,11 @@ static icc_status solve(poisson *p, icc_field_info *info, const iccp_env *env)
         size += p->r[i] * p->r[i];
     }
     const icc_status status = iccp_mg_cg(&p->mg, p->x, p->r, sqrt(size), &GOAL, &info->n_inner, env);
-    const double root = p->x[p->position[0]];
-    if (status != ICC_OK || !(root > 0))
+    const double unit = p->x[p->position[loaded]];
+    if (status != ICC_OK || !(unit > 0))
         return status != ICC_OK ? status : ICC_ERR_SOLVER;
     for (size_t k = 0; k < p->rows->n; ++k)
-        p->x[p->position[k]] /= root;
+        p->x[p->position[k]] /= unit;
     return ICC_OK;
 }
 
@@ -73,8 +73,8 @@ static bool is_positive(const poisson *p)
     return true;
 }
 
-icc_status iccp_bilaplace_iterative(const iccp_rows *rows, const iccp_scaled *f, icc_field_info *info,
-                                    const iccp_env *env)
+icc_status iccp_bilaplace_iterative(const iccp_rows *rows, size_t loaded, const iccp_scaled *f,
+                                    icc_function_info *info, const iccp_env *env)
 {
     const double begin = iccp_seconds();
     poisson p;
@@ -82,13 +82,13 @@ icc_status iccp_bilaplace_iterative(const iccp_rows *rows, const iccp_scaled *f,
     const double middle = iccp_seconds();
     info->seconds_setup += middle - begin;
     if (status == ICC_OK) {
-        p.r[p.position[0]] = 1;
-        status = solve(&p, info, env);
+        p.r[p.position[loaded]] = 1;
+        status = solve(&p, loaded, info, env);
     }
     if (status == ICC_OK) {
         for (size_t i = 0; i < p.mg.level[0].n_entries; ++i)
             p.r[i] = p.x[i];
-        status = solve(&p, info, env);
+        status = solve(&p, loaded, info, env);
     }
     if (status == ICC_OK && !is_positive(&p))
         status = ICC_ERR_SOLVER;

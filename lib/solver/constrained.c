@@ -119,7 +119,7 @@ static void flip(state *s, int level)
     }
 }
 
-static icc_status iterate(state *s, iccp_glued_solver solve, icc_field_info *info,
+static icc_status iterate(state *s, iccp_glued_solver solve, icc_function_info *info,
                           const iccp_env *env)
 {
     const iccp_gluing gluing = {s->top, s->share, s->order};
@@ -156,7 +156,7 @@ static double residual(const state *s)
     return iccp_inequalities_residual(s->rows, s->sigma - 1, 0, s->f, &row, s->work);
 }
 
-static void finish(state *s, icc_field_info *info)
+static void finish(state *s, icc_function_info *info)
 {
     const double start = iccp_seconds();
     info->n_active = 0;
@@ -169,7 +169,7 @@ static void finish(state *s, icc_field_info *info)
 }
 
 icc_status iccp_constrained_laplace(const iccp_rows *rows, double eta, iccp_glued_solver solve,
-                                    uint32_t *order, const iccp_scaled *f, icc_field_info *info,
+                                    uint32_t *order, const iccp_scaled *f, icc_function_info *info,
                                     const iccp_env *env)
 {
     const iccp_memory *m = &env->memory;

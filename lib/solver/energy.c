@@ -209,7 +209,7 @@ static icc_status solve(const least_squares *s, double *f, const iccp_env *env)
     return ICC_ERR_SOLVER;
 }
 
-static icc_status factorise(least_squares *s, icc_field_info *info, const iccp_env *env)
+static icc_status factorise(least_squares *s, icc_function_info *info, const iccp_env *env)
 {
     double start = iccp_seconds();
     icc_status status = reduce(&s->b, s->a, s->reduction, env);
@@ -232,7 +232,7 @@ static icc_status factorise(least_squares *s, icc_field_info *info, const iccp_e
 }
 
 icc_status iccp_energy_minimise(const iccp_sparse *a, const iccp_reduction *reduction, double *f,
-                                icc_field_info *info, const iccp_env *env)
+                                icc_function_info *info, const iccp_env *env)
 {
     least_squares s = {.a = a, .reduction = reduction};
     const size_t n = reduction->n_unknowns;

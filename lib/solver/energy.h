@@ -28,6 +28,6 @@ typedef struct iccp_reduction {
  * of A, not of A'A. ICC_ERR_SOLVER when that does not get below 1e-6. Adds to `info` (work,
  * seconds_*). */
 icc_status iccp_energy_minimise(const iccp_sparse *a, const iccp_reduction *reduction, double *f,
-                                icc_field_info *info, const iccp_env *env);
+                                icc_function_info *info, const iccp_env *env);
 
 #endif

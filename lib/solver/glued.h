@@ -26,11 +26,11 @@ typedef struct iccp_gluing {
 /* By factorisation (math/ldlt): every entry to about 1e-12 of itself, however small. ICC_ERR_SOLVER when some are
  * not, by their residuals: then f is meaningless. */
 icc_status iccp_glued_direct(const iccp_rows *rows, const iccp_gluing *gluing,
-                             const iccp_scaled *f, icc_field_info *info, const iccp_env *env);
+                             const iccp_scaled *f, icc_function_info *info, const iccp_env *env);
 
 /* By conjugate gradients with a multigrid preconditioner, in shells: where f has become small
  * compared with what is already known, it is rescaled and solved for anew. */
 icc_status iccp_glued_iterative(const iccp_rows *rows, const iccp_gluing *gluing,
-                                const iccp_scaled *f, icc_field_info *info, const iccp_env *env);
+                                const iccp_scaled *f, icc_function_info *info, const iccp_env *env);
 
 #endif

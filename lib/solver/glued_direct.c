@@ -267,7 +267,7 @@ static double lap(double *clock)
 }
 
 icc_status iccp_glued_direct(const iccp_rows *rows, const iccp_gluing *gluing, const iccp_scaled *f,
-                             icc_field_info *info, const iccp_env *env)
+                             icc_function_info *info, const iccp_env *env)
 {
     assembly a = {.rows = rows, .gluing = gluing};
     iccp_ldlt factor = {.memory = env->memory};

@@ -31,7 +31,7 @@ typedef struct shells {
     const iccp_rows *rows;
     const iccp_gluing *gluing;
     const iccp_scaled *f;
-    icc_field_info *info;
+    icc_function_info *info;
     const iccp_env *env;
     uint32_t *order;   /* n rows, by their tops: members behind their top */
     uint32_t *cluster; /* n + 1: where the rows with that top begin in `order` */
@@ -395,7 +395,7 @@ static icc_status next_shell(shells *s)
 }
 
 icc_status iccp_glued_iterative(const iccp_rows *rows, const iccp_gluing *gluing,
-                                const iccp_scaled *f, icc_field_info *info, const iccp_env *env)
+                                const iccp_scaled *f, icc_function_info *info, const iccp_env *env)
 {
     const iccp_memory *m = &env->memory;
     shells s = {.rows = rows, .gluing = gluing, .f = f, .info = info, .env = env, .first = true};

@@ -75,7 +75,7 @@ static void find_residuals(iccp_interior *p)
 }
 
 /* ICC_ERR_SOLVER when the matrix is not positive definite however soft it gets. */
-static icc_status factorise(iccp_interior *p, icc_field_info *info, const iccp_env *env)
+static icc_status factorise(iccp_interior *p, icc_function_info *info, const iccp_env *env)
 {
     const double start = iccp_seconds();
     double *w = p->weight + p->program->a.n_rows;
@@ -196,7 +196,7 @@ static void take_step(iccp_interior *p, double length)
 }
 
 /* ICC_ERR_SOLVER when the step leads nowhere. */
-static icc_status iterate(iccp_interior *p, icc_field_info *info, const iccp_env *env)
+static icc_status iterate(iccp_interior *p, icc_function_info *info, const iccp_env *env)
 {
     find_residuals(p);
     const icc_status status = factorise(p, info, env);
@@ -215,7 +215,7 @@ static icc_status iterate(iccp_interior *p, icc_field_info *info, const iccp_env
 }
 
 icc_status iccp_interior_run(iccp_interior *interior, double target, bool *stuck,
-                             icc_field_info *info, const iccp_env *env)
+                             icc_function_info *info, const iccp_env *env)
 {
     int patience = PATIENCE;
     double mean = mean_product(interior);
@@ -300,7 +300,7 @@ static icc_status allocate(iccp_interior *p, const iccp_env *env)
 
 /* Slacks and multipliers of the function with the least energy and sum of squared slacks, where they
  * are positive and large enough. */
-static icc_status start(iccp_interior *p, icc_field_info *info, const iccp_env *env)
+static icc_status start(iccp_interior *p, icc_function_info *info, const iccp_env *env)
 {
     const size_t n = n_rows(p), m = n_pairs(p), n_energy = p->program->a.n_rows;
     for (size_t i = 0; i < n_energy; ++i)
@@ -331,7 +331,7 @@ static icc_status start(iccp_interior *p, icc_field_info *info, const iccp_env *
 }
 
 icc_status iccp_interior_create(iccp_interior *interior, const iccp_program *program,
-                                icc_field_info *info, const iccp_env *env)
+                                icc_function_info *info, const iccp_env *env)
 {
     iccp_interior *p = interior;
     *p = (iccp_interior){.memory = env->memory, .program = program, .softness = SOFTNESS, .remaining = 1};

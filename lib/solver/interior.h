@@ -27,12 +27,12 @@ typedef struct iccp_interior {
 /* Analyses the systems and finds a point to start from. Memory: that of the factor, about 20 doubles per
  * row and 12 per inequality. */
 icc_status iccp_interior_create(iccp_interior *interior, const iccp_program *program,
-                                icc_field_info *info, const iccp_env *env);
+                                icc_function_info *info, const iccp_env *env);
 void iccp_interior_free(iccp_interior *interior);
 
 /* Iterates until the mean of slack * multiplier is below `target`. *stuck: rounding errors do not let it
  * get there; the iterate is then the last good one. Adds to `info` (work, seconds_*). */
 icc_status iccp_interior_run(iccp_interior *interior, double target, bool *stuck,
-                             icc_field_info *info, const iccp_env *env);
+                             icc_function_info *info, const iccp_env *env);
 
 #endif

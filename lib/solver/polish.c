@@ -105,7 +105,7 @@ static iccp_reduction reduce(state *s)
     return (iccp_reduction){n_unknowns, s->unknown, s->share};
 }
 
-static icc_status solve(state *s, double *residual, icc_field_info *info, const iccp_env *env)
+static icc_status solve(state *s, double *residual, icc_function_info *info, const iccp_env *env)
 {
     const iccp_program *p = s->program;
     const iccp_reduction reduction = reduce(s);
@@ -196,7 +196,7 @@ static void let_rise(state *s)
     }
 }
 
-static icc_status iterate(state *s, iccp_candidate *candidate, icc_field_info *info,
+static icc_status iterate(state *s, iccp_candidate *candidate, icc_function_info *info,
                           const iccp_env *env)
 {
     int patience = PATIENCE;
@@ -229,7 +229,7 @@ static icc_status iterate(state *s, iccp_candidate *candidate, icc_field_info *i
 }
 
 icc_status iccp_polish(const iccp_program *program, uint8_t *active, double enough,
-                       iccp_candidate *candidate, icc_field_info *info, const iccp_env *env)
+                       iccp_candidate *candidate, icc_function_info *info, const iccp_env *env)
 {
     const size_t n = program->rows->n, n_work = program->a.n_rows + n; /* at least 2 n */
     state s = {.program = program, .n = n, .active = active};

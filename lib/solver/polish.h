@@ -14,6 +14,6 @@ typedef struct iccp_candidate {
  * overwritten, until nothing is wrong by more than `enough` or several corrections in a row have not
  * helped. Replaces the candidate by what is better. Adds to `info` (n_iterations, work, seconds_*). */
 icc_status iccp_polish(const iccp_program *program, uint8_t *active, double enough,
-                       iccp_candidate *candidate, icc_field_info *info, const iccp_env *env);
+                       iccp_candidate *candidate, icc_function_info *info, const iccp_env *env);
 
 #endif

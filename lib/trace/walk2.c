@@ -66,7 +66,7 @@ static bool triangle_gradient(const iccp_walk2 *w, size_t i, size_t j, int upper
     const uint32_t v = vertex_at(w, i, j), up = (uint32_t)w->nx;
     const uint32_t corners[3] = {v, v + 1 + up, upper ? v + up : v + 1};
     double f[3];
-    iccp_field_local(w->field, 3, corners, f);
+    iccp_function_local(w->function, 3, corners, f);
     const double f00 = f[0], f11 = f[1], other = f[2];
     *g = upper ? (gradient){.ua = f11, .ub = other, .va = other, .vb = f00}
                : (gradient){.ua = other, .ub = f00, .va = f11, .vb = other};
@@ -214,7 +214,7 @@ static icc_status follow_edge(iccp_walk2 *w, int k)
     const int *a = CORNER[w->upper][(k + 1) % 3], *b = CORNER[w->upper][(k + 2) % 3];
     const uint32_t ia = vertex_at(w, w->i + (size_t)a[0], w->j + (size_t)a[1]);
     const uint32_t ib = vertex_at(w, w->i + (size_t)b[0], w->j + (size_t)b[1]);
-    const int by_value = iccp_field_compare(w->field, ib, ia);
+    const int by_value = iccp_function_compare(w->function, ib, ia);
     const int order = w->direction * (by_value != 0 ? by_value : ib > ia ? 1 : -1);
     const int *end = order > 0 ? b : a;
     go_to_corner(w, end[0], end[1]);
@@ -270,7 +270,7 @@ static void find_rises(const iccp_walk2 *w, double rise[6])
         const size_t i = w->i + (size_t)AROUND[m][0], j = w->j + (size_t)AROUND[m][1];
         star[m] = i < w->nx && j < w->ny ? vertex_at(w, i, j) : here;
     }
-    iccp_field_local(w->field, 7, star, f);
+    iccp_function_local(w->function, 7, star, f);
     for (int m = 0; m < 6; ++m) {
         rise[m] = star[m] != here ? w->direction * (f[m] - f[6]) : NAN;
         if (rise[m] > largest)
@@ -379,15 +379,15 @@ static bool change_sides(iccp_walk2 *w, const int side[2])
     return true;
 }
 
-icc_status iccp_walk2_start(iccp_walk2 *walk, const icc_field *field, int direction, double x,
+icc_status iccp_walk2_start(iccp_walk2 *walk, const icc_function *function, int direction, double x,
                             double y, iccp_jet2 *jet)
 {
-    const icc_grid *grid = field->tree->grid;
+    const icc_grid *grid = function->tree->grid;
     assert(grid->dim == 2);
-    *walk = (iccp_walk2){.field = field, .direction = direction, .jet = jet, .edge = -1};
+    *walk = (iccp_walk2){.function = function, .direction = direction, .jet = jet, .edge = -1};
     walk->nx = grid->shape[0];
     walk->ny = grid->shape[1];
-    walk->root = field->tree->root;
+    walk->root = function->tree->root;
     /* A line meets each triangle's edges and corners at most once. */
     walk->steps_left = 8 * grid->n_vertices + 64;
     if (!(x >= 0 && y >= 0 && x < (double)(walk->nx - 1) && y < (double)(walk->ny - 1)))
@@ -399,7 +399,7 @@ icc_status iccp_walk2_start(iccp_walk2 *walk, const icc_field *field, int direct
     walk->upper = walk->v > walk->u;
     if (walk->u <= 0 && walk->v <= 0) {
         walk->at_vertex = true;
-        return isnan(field->values[vertex_at(walk, walk->i, walk->j)]) ? ICC_ERR_TRACE : ICC_OK;
+        return isnan(function->values[vertex_at(walk, walk->i, walk->j)]) ? ICC_ERR_TRACE : ICC_OK;
     }
     gradient g;
     int side[2];
@@ -519,11 +519,11 @@ icc_status iccp_trace_downhill(iccp_walk2 *walk, const iccp_fence *fence, iccp_p
     return hit_fence ? ICC_OK : status;
 }
 
-int iccp_slope_sign(const icc_field *field, const double p[2], const double direction[2])
+int iccp_slope_sign(const icc_function *function, const double p[2], const double direction[2])
 {
     iccp_walk2 walk;
     gradient g;
-    if (iccp_walk2_start(&walk, field, ICCP_UPHILL, p[0], p[1], NULL) != ICC_OK ||
+    if (iccp_walk2_start(&walk, function, ICCP_UPHILL, p[0], p[1], NULL) != ICC_OK ||
         !triangle_gradient(&walk, walk.i, walk.j, walk.upper, &g))
         return 0;
     return sign(g.gu * direction[0] + g.gv * direction[1]);

@@ -6,7 +6,7 @@
 #ifndef ICCP_WALK2_H
 #define ICCP_WALK2_H
 
-#include "function/field.h"
+#include "function/function.h"
 #include "trace/fence.h"
 #include "trace/path.h"
 
@@ -20,7 +20,7 @@ typedef struct iccp_jet2 {
 enum { ICCP_UPHILL = 1, ICCP_DOWNHILL = -1 };
 
 typedef struct iccp_walk2 {
-    const icc_field *field;
+    const icc_function *function;
     size_t nx, ny;         /* vertices along the axes */
     uint32_t root;         /* the maximum */
     int direction;         /* ICCP_UPHILL or ICCP_DOWNHILL */
@@ -39,7 +39,7 @@ typedef struct iccp_walk2 {
 
 /* Stands at a point in lattice coordinates. When `jet` is not NULL it holds the derivative of the
  * point and is carried along. ICC_ERR_TRACE when the point is not in a cell with values. */
-icc_status iccp_walk2_start(iccp_walk2 *walk, const icc_field *field, int direction, double x,
+icc_status iccp_walk2_start(iccp_walk2 *walk, const icc_function *function, int direction, double x,
                             double y, iccp_jet2 *jet);
 
 /* Called after a start that lies on an edge, has it go into the triangle on the side to which `ahead`
@@ -67,6 +67,6 @@ icc_status iccp_trace_downhill(iccp_walk2 *walk, const iccp_fence *fence, iccp_p
 
 /* Sign of the derivative of f at a point along a direction, by the triangle that holds it: -1, 0, +1,
  * or 0 where there are no values. For judging transversality; not exact. */
-int iccp_slope_sign(const icc_field *field, const double p[2], const double direction[2]);
+int iccp_slope_sign(const icc_function *function, const double p[2], const double direction[2]);
 
 #endif

@@ -19,7 +19,7 @@ static const double PARALLEL = 1e-12;
 
 static const icc_grid *grid_of(const iccp_walkn *w)
 {
-    return w->slope.field->tree->grid;
+    return w->slope.function->tree->grid;
 }
 
 static unsigned all_corners(const iccp_walkn *w)
@@ -153,7 +153,7 @@ bool iccp_walkn_at_root(const iccp_walkn *walk)
         return false;
     while (!(face >> i & 1))
         ++i;
-    return walk->place.simplex.corner[i] == walk->slope.field->tree->root;
+    return walk->place.simplex.corner[i] == walk->slope.function->tree->root;
 }
 
 /* ---- the start ---- */
@@ -198,13 +198,13 @@ static bool settle(iccp_walkn *w, const double *x, const double *ahead)
     return true;
 }
 
-icc_status iccp_walkn_start(iccp_walkn *walk, const icc_field *field, int direction,
+icc_status iccp_walkn_start(iccp_walkn *walk, const icc_function *function, int direction,
                             const double *x, const double *ahead, iccp_jetn *jet)
 {
     static const double NOWHERE[ICC_MAX_DIM] = {0};
-    const icc_grid *grid = field->tree->grid;
+    const icc_grid *grid = function->tree->grid;
     double f[ICC_MAX_DIM + 1];
-    *walk = (iccp_walkn){.slope = {field, direction, false}, .jet = jet};
+    *walk = (iccp_walkn){.slope = {function, direction, false}, .jet = jet};
     if (!settle(walk, x, ahead != NULL ? ahead : NOWHERE))
         return ICC_ERR_TRACE;
     memcpy(walk->to, x, (size_t)grid->dim * sizeof *x);
@@ -215,18 +215,18 @@ icc_status iccp_walkn_start(iccp_walkn *walk, const icc_field *field, int direct
         per_cell *= (size_t)k;
     walk->steps_left = per_cell * grid->n_vertices;
     for (int i = 0; i <= grid->dim; ++i)
-        if ((walk->place.face >> i & 1) && isnan(field->values[walk->place.simplex.corner[i]]))
+        if ((walk->place.face >> i & 1) && isnan(function->values[walk->place.simplex.corner[i]]))
             return ICC_ERR_TRACE;
     return ICC_OK;
 }
 
-int iccp_walkn_slope_sign(const icc_field *field, const double *x, const double *direction)
+int iccp_walkn_slope_sign(const icc_function *function, const double *x, const double *direction)
 {
-    iccp_walkn w = {.slope = {field, 1, false}};
+    iccp_walkn w = {.slope = {function, 1, false}};
     double f[ICC_MAX_DIM + 1], rise = 0;
     if (!settle(&w, x, direction) || !has_values(&w, f))
         return 0;
-    for (int k = 0; k < field->tree->grid->dim; ++k)
+    for (int k = 0; k < function->tree->grid->dim; ++k)
         rise += (f[k + 1] - f[k]) * direction[w.place.simplex.axis[k]];
     return (rise > 0) - (rise < 0);
 }

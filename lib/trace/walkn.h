@@ -29,7 +29,7 @@ typedef struct iccp_walkn {
  * face, the walk goes into the simplex to which `ahead` points, if the gradient there does not lead out of
  * it again; NULL: the steepest way. When `jet` is not NULL it holds the derivative of the point and is
  * carried along. ICC_ERR_TRACE when the point is not in a simplex with values. */
-icc_status iccp_walkn_start(iccp_walkn *walk, const icc_field *field, int direction,
+icc_status iccp_walkn_start(iccp_walkn *walk, const icc_function *function, int direction,
                             const double *x, const double *ahead, iccp_jetn *jet);
 
 /* Goes on to the next face (Algorithm 3). ICC_ERR_TRACE when there is no way on. */
@@ -50,6 +50,6 @@ icc_status iccp_walkn_downhill(iccp_walkn *walk, const iccp_cage_cells *cage, ic
 
 /* Sign of the derivative of f at a point along a direction, by the simplex that lies there: -1, 0, +1, or 0
  * where there are no values. For judging transversality; not exact. */
-int iccp_walkn_slope_sign(const icc_field *field, const double *x, const double *direction);
+int iccp_walkn_slope_sign(const icc_function *function, const double *x, const double *direction);
 
 #endif

@@ -13,7 +13,7 @@ static const double SAME_TIME = 8 * DBL_EPSILON;
 void iccp_motion_find(iccp_motion *m, const iccp_place *place, const iccp_slope *slope,
                       unsigned corners)
 {
-    const int dim = slope->field->tree->grid->dim;
+    const int dim = slope->function->tree->grid->dim;
     uint32_t vertices[ICC_MAX_DIM + 1];
     double f[ICC_MAX_DIM + 1];
     m->n = 0;

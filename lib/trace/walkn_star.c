@@ -70,7 +70,7 @@ void iccp_slope_values(const iccp_slope *slope, size_t n, const uint32_t *vertic
         for (size_t i = 0; i < n; ++i)
             values[i] = (double)vertices[i];
     else
-        iccp_field_local(slope->field, n, vertices, values);
+        iccp_function_local(slope->function, n, vertices, values);
     for (size_t i = 0; i < n && slope->direction < 0; ++i)
         values[i] = -values[i];
 }
@@ -171,7 +171,7 @@ static uint64_t list(const hinge *h, const fan *way, bool down, uint32_t corner,
  * counts. */
 static void load(const iccp_slope *slope, size_t n, const uint32_t *vertices, double *f)
 {
-    const iccp_slope plain = {slope->field, slope->direction, false};
+    const iccp_slope plain = {slope->function, slope->direction, false};
     iccp_slope_values(&plain, n, vertices, f);
     const double base = f[0];
     for (size_t i = 0; i < n && slope->level; ++i)
@@ -328,7 +328,7 @@ static void assemble(assembly *a, const hinge *h)
 
 icc_status iccp_place_turn(iccp_place *place, iccp_slope *slope, unsigned *corners)
 {
-    const icc_grid *grid = slope->field->tree->grid;
+    const icc_grid *grid = slope->function->tree->grid;
     hinge h;
     assembly a = {.place = place};
     take_apart(&h, place, grid);

@@ -2,7 +2,7 @@
 #ifndef ICCP_WALKN_STAR_H
 #define ICCP_WALKN_STAR_H
 
-#include "function/field.h"
+#include "function/function.h"
 #include "grid/kuhn_simplex.h"
 
 /* A point of the grid: in a simplex, and in the interior of one of its faces.
@@ -21,7 +21,7 @@ typedef struct iccp_place {
 /* The values that a walk climbs: f, or -f downhill. Where f is level, the vertex index takes its place, as
  * if f were perturbed by an infinitesimal amount. */
 typedef struct iccp_slope {
-    const icc_field *field;
+    const icc_function *function;
     int direction; /* 1 or -1 */
     bool level;
 } iccp_slope;

@@ -14,9 +14,9 @@
 #include "tree/grow.h"
 
 #include "base/error.h"
+#include "base/sort.h"
 #include "grid/star.h"
 #include "tree/queue.h"
-#include "tree/sort.h"
 
 #include <assert.h>
 #include <inttypes.h>
@@ -147,6 +147,12 @@ static icc_status thin(growth *g)
 
 /* ------------------------------------------------------------------ set-up */
 
+static bool is_higher(const void *context, uint32_t u, uint32_t v)
+{
+    const double *values = context;
+    return values[u] > values[v];
+}
+
 static icc_status make_wish(growth *g, const double *values)
 {
     g->wish = g->tree->order;
@@ -156,7 +162,7 @@ static icc_status make_wish(growth *g, const double *values)
     g->sorted = iccp_alloc(&g->env->memory, g->n, sizeof *g->sorted);
     if (work != NULL && g->sorted != NULL) {
         memcpy(g->sorted, g->tree->order, g->n * sizeof *g->sorted);
-        iccp_sort_falling(g->sorted, work, g->n, values);
+        iccp_sort_indices(g->sorted, work, g->n, values, is_higher);
     }
     const bool done = work != NULL && g->sorted != NULL;
     iccp_free(&g->env->memory, work);
@@ -230,10 +236,10 @@ static icc_status fail_stuck(const growth *g, const icc_grow_report *report, icc
     for (int32_t k = 0; k < g->tree->grid->dim; ++k)
         used += snprintf(at + used, sizeof at - (size_t)used, "%s%" PRIu32, k == 0 ? "" : ", ",
                          iccp_grid_coordinate(g->tree->grid, report->vertex, k));
-    return iccp_fail(err, ICC_ERR_TOPOLOGY, report->vertex,
+    return iccp_fail_at(err, ICC_ERR_TOPOLOGY, ICC_ITEM_GRID_VERTEX, report->vertex,
                      "no order with one critical vertex was found: growth stops before vertex "
                      "%" PRIu32 " (%s), %zu of %zu left, thinning leaves %zu; try a finer grid",
-                     report->vertex, at, report->n_unplaced, g->n, report->n_left);
+                     report->vertex, at, report->n_unplaced, g->n, report->n_remaining);
 }
 
 /* Grows and, if that is not enough, thins. When both get stuck it grows once more, since the ranks that
@@ -243,24 +249,24 @@ static icc_status find_order(growth *g, icc_grow_report *report, icc_error *err)
     icc_status status = grow(g);
     if (status != ICC_OK)
         return status;
-    report->n_postponed = g->n_waited;
+    report->n_deferred = g->n_waited;
     report->n_unplaced = g->n - g->n_taken;
     report->vertex = first_without_rank(g);
-    report->method = g->n_waited > 0 ? ICC_GROW_GROWN : ICC_GROW_AS_WISHED;
+    report->method = g->n_waited > 0 ? ICC_GROW_GROWN : ICC_GROW_AS_GIVEN;
     if (report->n_unplaced > 0) {
         status = thin(g);
         report->method = ICC_GROW_THINNED;
-        report->n_left = g->n - g->n_taken;
+        report->n_remaining = g->n - g->n_taken;
     }
-    if (status == ICC_OK && report->n_left > 0)
+    if (status == ICC_OK && report->n_remaining > 0)
         status = grow(g);
     if (status != ICC_OK)
         return status;
     report->n_tests = g->n_tests;
-    if (report->n_left > 0)
+    if (report->n_remaining > 0)
         return fail_stuck(g, report, err);
-    if (report->method != ICC_GROW_AS_WISHED)
-        report->n_turned = count_turned(g);
+    if (report->method != ICC_GROW_AS_GIVEN)
+        report->n_reversed = count_turned(g);
     return ICC_OK;
 }
 

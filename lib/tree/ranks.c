@@ -1,6 +1,6 @@
 #include "tree/ranks.h"
 
-#include "grid/critical.h"
+#include "grid/critical_count.h"
 
 typedef struct ranks {
     const icc_tree *tree;
@@ -25,7 +25,7 @@ static icc_status judge_chunk(void *argument, size_t begin, size_t end)
 }
 
 icc_status iccp_tree_verify_ranks(const icc_tree *tree, const uint32_t *rank,
-                                  icc_field_report *report, const iccp_env *env)
+                                  icc_function_report *report, const iccp_env *env)
 {
     const ranks context = {tree, rank};
     return iccp_critical_count(tree->grid, &context, tree->n_inside, tree->root, judge_chunk, report,

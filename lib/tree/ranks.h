@@ -5,9 +5,9 @@
 
 #include "tree/cousin.h"
 
-/* See icc_tree_verify_ranks(). Fills in everything but `size`. */
+/* See icc_tree_get_rank_report(). Fills in everything but `size`. */
 icc_status iccp_tree_verify_ranks(const icc_tree *tree, const uint32_t *rank,
-                                  icc_field_report *report, const iccp_env *env);
+                                  icc_function_report *report, const iccp_env *env);
 
 /* Lowers values, one per grid vertex, as little as makes the function fall with the ranks: by at least
  * `gap` along every edge of the Kuhn triangulation between two vertices that have one. (Logarithms

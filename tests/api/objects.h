@@ -36,10 +36,10 @@ typedef struct objects {
     icc_grid *grid, *mask;
     icc_tree *tree;
     icc_tree *bent; /* on an L, where the inequalities of functions matter */
-    icc_field *field;
+    icc_function *field;
     icc_shape *shape; /* the source, and a curve */
     icc_sampling *sampling;
-    icc_kernel *kernel;
+    icc_weights *kernel;
     icc_binding *binding; /* of half the points, with derivatives */
     double points[2 * N_POINTS]; /* in the source */
     uint32_t facet[N_POINTS];
@@ -67,7 +67,7 @@ static inline icc_tree *make_bent_tree(void)
         inside[v] = v % 17 > 1 && v % 17 < 15 && v / 17 > 1 && v / 17 < 15 &&
                     (v % 17 < 7 || v / 17 < 7);
     ck_assert_int_eq(icc_grid_create_mask(&grid, 2, SHAPE, inside, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(icc_grid_maximum(grid, &root, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_grid_find_maximum(grid, &root, NULL, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_tree_create(&tree, grid, root, NULL, NULL, NULL), ICC_OK);
     icc_grid_free(grid);
     return tree;
@@ -88,14 +88,14 @@ static inline icc_status make_sampling(const objects *o, icc_sampling **sampling
     return icc_sampling_create(sampling, o->shape, &options, env, err);
 }
 
-static inline icc_status make_kernel(const objects *o, icc_kernel **kernel, const icc_env *env,
+static inline icc_status make_kernel(const objects *o, icc_weights **kernel, const icc_env *env,
                                      icc_error *err)
 {
     static const uint32_t EDGES[4] = {0, 1, 1, 2};
     const icc_line line = {.from = {0.3, 0.4}, .to = {1.5, 0.4}};
-    const icc_kernel_options options = {
+    const icc_weights_options options = {
         .size = sizeof options, .n_edges = 2, .edges = EDGES, .n_lines = 1, .lines = &line};
-    return icc_kernel_create(kernel, o->sampling, N_HANDLES, HANDLES, &options, env, err);
+    return icc_weights_create(kernel, o->sampling, N_HANDLES, HANDLES, &options, env, err);
 }
 
 /* After the points. */
@@ -127,7 +127,7 @@ static inline void objects_init(objects *o, int32_t method)
     ck_assert_int_eq(icc_grid_create_mask(&o->mask, 3, SHAPE, inside, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_tree_create(&o->tree, o->mask, 62, NULL, NULL, NULL), ICC_OK);
     o->bent = make_bent_tree();
-    ck_assert_int_eq(icc_field_create(&o->field, o->tree, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_function_create(&o->field, o->tree, NULL, NULL, NULL), ICC_OK);
     for (size_t i = 0; i < N_POINTS; ++i) {
         const double a = fmod(0.5 + 0.7548776662466927 * (double)i, 1);
         const double b = fmod(0.5 + 0.5698402909980532 * (double)i, 1);
@@ -143,10 +143,10 @@ static inline void objects_init(objects *o, int32_t method)
 static inline void objects_clear(objects *o)
 {
     icc_binding_free(o->binding);
-    icc_kernel_free(o->kernel);
+    icc_weights_free(o->kernel);
     icc_sampling_free(o->sampling);
     icc_shape_free(o->shape);
-    icc_field_free(o->field);
+    icc_function_free(o->field);
     icc_tree_free(o->tree);
     icc_tree_free(o->bent);
     icc_grid_free(o->mask);
@@ -215,7 +215,7 @@ static inline icc_status call_chart_create(const objects *o, outcome *out, const
     icc_chart_info info = {.size = sizeof info};
     if (status == ICC_OK)
         (void)icc_chart_get_info(chart, &info);
-    out->count = info.n_tree + info.n_mesh_triangles;
+    out->count = info.n_tree + info.n_mesh_simplices;
     memcpy(out->numbers, info.maximum, sizeof info.maximum);
     icc_chart_free(chart);
     return status;
@@ -224,8 +224,8 @@ static inline icc_status call_chart_create(const objects *o, outcome *out, const
 static inline icc_status call_chart_measure(const objects *o, outcome *out, const icc_env *env,
                                             icc_error *err)
 {
-    icc_chart_measures m = {.size = sizeof m};
-    const icc_status status = icc_chart_measure(o->chart, 3000, &m, env, err);
+    icc_chart_report m = {.size = sizeof m};
+    const icc_status status = icc_chart_get_report(o->chart, 3000, &m, env, err);
     memcpy(out->numbers, &m, sizeof m);
     return status;
 }
@@ -330,7 +330,7 @@ static inline icc_status call_map_follow(const objects *o, outcome *out, const i
     moved[2] += 0.25;
     ck_assert_int_eq(icc_domain_create(&target, 2, N_CORNERS, moved, 0, NULL, NULL, NULL), ICC_OK);
     icc_map *map = (icc_map *)&map;
-    const icc_status status = icc_map_follow(&map, o->mesh_map, target, 2, env, err);
+    const icc_status status = icc_map_retarget(&map, o->mesh_map, target, 2, env, err);
     HANDED_OVER(status, map);
     icc_domain_free(target);
     if (status == ICC_OK)
@@ -399,7 +399,7 @@ static inline icc_status call_grid_create_mask(const objects *o, outcome *out, c
 static inline icc_status call_grid_maximum(const objects *o, outcome *out, const icc_env *env,
                                            icc_error *err)
 {
-    return icc_grid_maximum(o->grid, out->indices, out->indices + 1, env, err);
+    return icc_grid_find_maximum(o->grid, out->indices, out->indices + 1, env, err);
 }
 
 static inline icc_status call_tree_create(const objects *o, outcome *out, const icc_env *env,
@@ -418,7 +418,7 @@ static inline icc_status call_tree_verify(const objects *o, outcome *out, const 
                                           icc_error *err)
 {
     icc_tree_report report = {.size = sizeof report};
-    const icc_status status = icc_tree_verify(o->tree, &report, env, err);
+    const icc_status status = icc_tree_get_report(o->tree, &report, env, err);
     memcpy(out->indices, &report, sizeof report);
     return status;
 }
@@ -426,12 +426,12 @@ static inline icc_status call_tree_verify(const objects *o, outcome *out, const 
 static inline icc_status call_field_create(const objects *o, outcome *out, const icc_env *env,
                                            icc_error *err)
 {
-    icc_field *field = (icc_field *)&field;
-    const icc_status status = icc_field_create(&field, o->tree, NULL, env, err);
+    icc_function *field = (icc_function *)&field;
+    const icc_status status = icc_function_create(&field, o->tree, NULL, env, err);
     HANDED_OVER(status, field);
     if (status == ICC_OK)
-        memcpy(out->numbers, icc_field_values(field), 125 * sizeof *out->numbers);
-    icc_field_free(field);
+        memcpy(out->numbers, icc_function_values(field), 125 * sizeof *out->numbers);
+    icc_function_free(field);
     return status;
 }
 
@@ -440,22 +440,22 @@ static inline icc_status make_function(const objects *o, int32_t function, int32
                                        int32_t solver, outcome *out, const icc_env *env,
                                        icc_error *err)
 {
-    icc_field *field = (icc_field *)&field;
-    const icc_field_options options = {.size = sizeof options,
+    icc_function *field = (icc_function *)&field;
+    const icc_function_options options = {.size = sizeof options,
                                        .function = function,
                                        .constraints = constraints,
                                        .solver = solver};
-    const icc_status status = icc_field_create(&field, o->bent, &options, env, err);
+    const icc_status status = icc_function_create(&field, o->bent, &options, env, err);
     HANDED_OVER(status, field);
-    icc_field_info info = {.size = sizeof info};
+    icc_function_info info = {.size = sizeof info};
     if (status == ICC_OK) {
-        ck_assert_int_eq(icc_field_get_info(field, &info), ICC_OK);
-        memcpy(out->numbers, icc_field_values(field), 17 * 17 * sizeof *out->numbers);
-        if (icc_field_logs(field) != NULL)
-            memcpy(out->numbers + 17 * 17, icc_field_logs(field), 17 * 17 * sizeof *out->numbers);
+        ck_assert_int_eq(icc_function_get_info(field, &info), ICC_OK);
+        memcpy(out->numbers, icc_function_values(field), 17 * 17 * sizeof *out->numbers);
+        if (icc_function_logs(field) != NULL)
+            memcpy(out->numbers + 17 * 17, icc_function_logs(field), 17 * 17 * sizeof *out->numbers);
     }
-    memcpy(out->indices, &info, offsetof(icc_field_info, seconds_setup));
-    icc_field_free(field);
+    memcpy(out->indices, &info, offsetof(icc_function_info, seconds_setup));
+    icc_function_free(field);
     return status;
 }
 
@@ -497,8 +497,8 @@ static inline icc_status call_clamped(const objects *o, outcome *out, const icc_
 static inline icc_status call_field_verify(const objects *o, outcome *out, const icc_env *env,
                                            icc_error *err)
 {
-    icc_field_report report = {.size = sizeof report};
-    const icc_status status = icc_field_verify(o->field, &report, env, err);
+    icc_function_report report = {.size = sizeof report};
+    const icc_status status = icc_function_get_report(o->field, &report, env, err);
     memcpy(out->indices, &report, sizeof report);
     return status;
 }
@@ -568,9 +568,9 @@ static inline icc_status call_tree_grow(const objects *o, outcome *out, const ic
 static inline icc_status call_tree_verify_ranks(const objects *o, outcome *out, const icc_env *env,
                                                 icc_error *err)
 {
-    icc_field_report report = {.size = sizeof report};
+    icc_function_report report = {.size = sizeof report};
     const icc_status status =
-        icc_tree_verify_ranks(o->tree, icc_tree_parents(o->tree), &report, env, err);
+        icc_tree_get_rank_report(o->tree, icc_tree_parents(o->tree), &report, env, err);
     memcpy(out->indices, &report, sizeof report);
     return status;
 }
@@ -613,20 +613,20 @@ static inline icc_status call_sampling_create(const objects *o, outcome *out, co
 }
 
 /* Writes the weights at the points, and frees the kernel. */
-static inline icc_status tell_weights(icc_status status, const objects *o, icc_kernel *kernel, outcome *out)
+static inline icc_status tell_weights(icc_status status, const objects *o, icc_weights *kernel, outcome *out)
 {
     HANDED_OVER(status, kernel);
     if (status == ICC_OK)
-        (void)icc_kernel_weights(kernel, N_POINTS, o->points, out->numbers, NULL, out->status, &out->count,
+        (void)icc_weights_evaluate(kernel, N_POINTS, o->points, out->numbers, NULL, out->status, &out->count,
                                  NULL);
-    icc_kernel_free(kernel);
+    icc_weights_free(kernel);
     return status;
 }
 
 static inline icc_status call_kernel_create(const objects *o, outcome *out, const icc_env *env,
                                             icc_error *err)
 {
-    icc_kernel *kernel = (icc_kernel *)&kernel;
+    icc_weights *kernel = (icc_weights *)&kernel;
     const icc_status status = make_kernel(o, &kernel, env, err);
     return tell_weights(status, o, kernel, out);
 }
@@ -635,8 +635,8 @@ static inline icc_status call_kernel_paint(const objects *o, outcome *out, const
                                            icc_error *err)
 {
     static const double CENTRE[2] = {0.5, 0.6};
-    icc_kernel *kernel = (icc_kernel *)&kernel;
-    const icc_status status = icc_kernel_paint(&kernel, o->kernel, 3, CENTRE, 0.7, 0.5, env, err);
+    icc_weights *kernel = (icc_weights *)&kernel;
+    const icc_status status = icc_weights_paint(&kernel, o->kernel, 3, CENTRE, 0.7, 0.5, env, err);
     return tell_weights(status, o, kernel, out);
 }
 
@@ -645,16 +645,16 @@ static inline icc_status call_kernel_repaint(const objects *o, outcome *out, con
 {
     static const uint32_t NODES[2] = {30, 40};
     static const double WISHES[2 * N_HANDLES] = {1, 0, 0, 0, 0, 0, 1, 1};
-    icc_kernel *kernel = (icc_kernel *)&kernel;
-    const icc_status status = icc_kernel_repaint(&kernel, o->kernel, 2, NODES, WISHES, env, err);
+    icc_weights *kernel = (icc_weights *)&kernel;
+    const icc_status status = icc_weights_repaint(&kernel, o->kernel, 2, NODES, WISHES, env, err);
     return tell_weights(status, o, kernel, out);
 }
 
 static inline icc_status call_kernel_set_method(const objects *o, outcome *out, const icc_env *env,
                                                 icc_error *err)
 {
-    icc_kernel *kernel = (icc_kernel *)&kernel;
-    const icc_status status = icc_kernel_set_method(&kernel, o->kernel, ICC_WEIGHTS_L1, env, err);
+    icc_weights *kernel = (icc_weights *)&kernel;
+    const icc_status status = icc_weights_with_method(&kernel, o->kernel, ICC_WEIGHTS_L1, env, err);
     return tell_weights(status, o, kernel, out);
 }
 
@@ -662,9 +662,9 @@ static inline icc_status call_kernel_stiffen(const objects *o, outcome *out, con
                                              icc_error *err)
 {
     static const uint32_t NODES[3] = {60, 61, 62};
-    icc_kernel *kernel = (icc_kernel *)&kernel;
+    icc_weights *kernel = (icc_weights *)&kernel;
     const icc_status status =
-        icc_kernel_stiffen(&kernel, o->kernel, 3, NODES, NULL, NULL, env, err);
+        icc_weights_stiffen(&kernel, o->kernel, 3, NODES, NULL, NULL, env, err);
     return tell_weights(status, o, kernel, out);
 }
 
@@ -672,15 +672,15 @@ static inline icc_status call_kernel_weights(const objects *o, outcome *out, con
                                              icc_error *err)
 {
     (void)err;
-    return icc_kernel_weights(o->kernel, N_POINTS, o->points, out->numbers, NULL, out->status,
+    return icc_weights_evaluate(o->kernel, N_POINTS, o->points, out->numbers, NULL, out->status,
                               &out->count, env);
 }
 
 static inline icc_status call_kernel_get_report(const objects *o, outcome *out, const icc_env *env,
                                                 icc_error *err)
 {
-    icc_kernel_report report = {.size = sizeof report};
-    const icc_status status = icc_kernel_get_report(o->kernel, N_POINTS, o->points, &report, env, err);
+    icc_weights_report report = {.size = sizeof report};
+    const icc_status status = icc_weights_get_report(o->kernel, N_POINTS, o->points, &report, env, err);
     memcpy(out->numbers, &report, sizeof report);
     return status;
 }
@@ -693,7 +693,7 @@ static inline icc_status call_binding_create(const objects *o, outcome *out, con
         icc_binding_create(&binding, o->kernel, N_POINTS, o->points, 1, env, err);
     HANDED_OVER(status, binding);
     if (status == ICC_OK)
-        (void)icc_binding_get(binding, NULL, out->numbers);
+        (void)icc_binding_get_weights(binding, NULL, out->numbers);
     icc_binding_free(binding);
     return status;
 }
@@ -746,13 +746,13 @@ static inline icc_status call_map_load(const objects *o, outcome *out, const icc
 static const call CALLS[] = {
     {"icc_shape_create", call_shape_create},
     {"icc_sampling_create", call_sampling_create},
-    {"icc_kernel_create", call_kernel_create},
-    {"icc_kernel_paint", call_kernel_paint},
-    {"icc_kernel_repaint", call_kernel_repaint},
-    {"icc_kernel_set_method", call_kernel_set_method},
-    {"icc_kernel_stiffen", call_kernel_stiffen},
-    {"icc_kernel_weights", call_kernel_weights},
-    {"icc_kernel_get_report", call_kernel_get_report},
+    {"icc_weights_create", call_kernel_create},
+    {"icc_weights_paint", call_kernel_paint},
+    {"icc_weights_repaint", call_kernel_repaint},
+    {"icc_weights_with_method", call_kernel_set_method},
+    {"icc_weights_stiffen", call_kernel_stiffen},
+    {"icc_weights_evaluate", call_kernel_weights},
+    {"icc_weights_get_report", call_kernel_get_report},
     {"icc_binding_create", call_binding_create},
     {"icc_binding_pose", call_binding_pose},
     {"icc_domain_create", call_domain_create},
@@ -761,7 +761,7 @@ static const call CALLS[] = {
     {"icc_domain_locate", call_domain_locate},
     {"icc_boundary_defects", call_boundary_defects},
     {"icc_chart_create", call_chart_create},
-    {"icc_chart_measure", call_chart_measure},
+    {"icc_chart_get_report", call_chart_measure},
     {"icc_chart_encode", call_chart_encode},
     {"icc_chart_decode", call_chart_decode},
     {"icc_chart_trace", call_chart_trace},
@@ -772,7 +772,7 @@ static const call CALLS[] = {
     {"icc_map_apply_inverse", call_map_apply_inverse},
     {"icc_map_jacobian", call_map_jacobian},
     {"icc_map_improve", call_map_improve},
-    {"icc_map_follow", call_map_follow},
+    {"icc_map_retarget", call_map_follow},
     {"icc_map_certify", call_map_certify},
     {"icc_map_repair", call_map_repair},
     {"icc_map_load", call_map_load},
@@ -780,18 +780,18 @@ static const call CALLS[] = {
     {"icc_grid_create_mask", call_grid_create_mask},
     {"icc_grid_refine", call_grid_refine},
     {"icc_grid_restrict", call_grid_restrict},
-    {"icc_grid_maximum", call_grid_maximum},
+    {"icc_grid_find_maximum", call_grid_maximum},
     {"icc_tree_create", call_tree_create},
-    {"icc_tree_verify", call_tree_verify},
+    {"icc_tree_get_report", call_tree_verify},
     {"icc_tree_grow", call_tree_grow},
-    {"icc_tree_verify_ranks", call_tree_verify_ranks},
-    {"icc_field_create", call_field_create},
-    {"icc_field_create: Laplace", call_laplace},
-    {"icc_field_create: Laplace, constrained", call_laplace_constrained},
-    {"icc_field_create: Laplace, iterative", call_laplace_iterative},
-    {"icc_field_create: bi-Laplace", call_bilaplace},
-    {"icc_field_create: clamped", call_clamped},
-    {"icc_field_verify", call_field_verify},
+    {"icc_tree_get_rank_report", call_tree_verify_ranks},
+    {"icc_function_create", call_field_create},
+    {"icc_function_create: Laplace", call_laplace},
+    {"icc_function_create: Laplace, constrained", call_laplace_constrained},
+    {"icc_function_create: Laplace, iterative", call_laplace_iterative},
+    {"icc_function_create: bi-Laplace", call_bilaplace},
+    {"icc_function_create: clamped", call_clamped},
+    {"icc_function_get_report", call_field_verify},
     {"icc_triangulate", call_triangulate},
 };
 enum { N_CALLS = sizeof CALLS / sizeof *CALLS };
@@ -799,7 +799,7 @@ enum { N_CALLS = sizeof CALLS / sizeof *CALLS };
 /* Whether the call has nothing to do with charts, and takes long: once is enough, whatever the methods. */
 static inline int is_once(const call *c)
 {
-    static const char *const BEGINNINGS[] = {"icc_field_create:", "icc_shape_", "icc_sampling_",
+    static const char *const BEGINNINGS[] = {"icc_function_create:", "icc_shape_", "icc_sampling_",
                                              "icc_kernel_", "icc_binding_"};
     for (size_t i = 0; i < sizeof BEGINNINGS / sizeof *BEGINNINGS; ++i)
         if (strncmp(c->name, BEGINNINGS[i], strlen(BEGINNINGS[i])) == 0)
@@ -813,7 +813,7 @@ static inline int has_error(const call *c)
     static const char *const WITHOUT[] = {"icc_domain_locate",     "icc_chart_encode",
                                           "icc_chart_decode",      "icc_map_apply",
                                           "icc_map_apply_inverse", "icc_map_jacobian",
-                                          "icc_kernel_weights",    "icc_binding_pose"};
+                                          "icc_weights_evaluate",    "icc_binding_pose"};
     for (size_t i = 0; i < sizeof WITHOUT / sizeof *WITHOUT; ++i)
         if (strcmp(c->name, WITHOUT[i]) == 0)
             return 0;

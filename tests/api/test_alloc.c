@@ -65,9 +65,9 @@ START_TEST(failed_allocations_are_reported)
             /* The calls that only read need none, nor do measures that are 0 without looking. */
             if (strcmp(CALLS[i].name, "icc_domain_locate") != 0 &&
                 strcmp(CALLS[i].name, "icc_chart_encode") != 0 &&
-                strcmp(CALLS[i].name, "icc_tree_verify") != 0 &&
-                strcmp(CALLS[i].name, "icc_field_verify") != 0 &&
-                strcmp(CALLS[i].name, "icc_kernel_weights") != 0 &&
+                strcmp(CALLS[i].name, "icc_tree_get_report") != 0 &&
+                strcmp(CALLS[i].name, "icc_function_get_report") != 0 &&
+                strcmp(CALLS[i].name, "icc_weights_evaluate") != 0 &&
                 strcmp(CALLS[i].name, "icc_binding_pose") != 0 && n == 0 &&
                 METHODS[m] == ICC_METHOD_GRADIENT)
                 ck_abort_msg("%s: the allocator was not used", CALLS[i].name);
@@ -88,10 +88,10 @@ START_TEST(objects_are_freed_in_any_order)
     icc_map *map;
     icc_grid *grid;
     icc_tree *tree;
-    icc_field *field;
+    icc_function *field;
     icc_shape *shape;
     icc_sampling *sampling;
-    icc_kernel *kernel, *painted;
+    icc_weights *kernel, *painted;
     icc_binding *binding;
     uint32_t root;
     const icc_sampling_options coarse = {.size = sizeof coarse, .spacing = 0.5, .steps = -1};
@@ -99,20 +99,20 @@ START_TEST(objects_are_freed_in_any_order)
     const icc_domain *regions[1] = {domain};
     ck_assert_int_eq(icc_shape_create(&shape, 2, 1, regions, 0, NULL, 0, NULL, &env, NULL), ICC_OK);
     ck_assert_int_eq(icc_sampling_create(&sampling, shape, &coarse, &env, NULL), ICC_OK);
-    ck_assert_int_eq(icc_kernel_create(&kernel, sampling, N_HANDLES, HANDLES, NULL, &env, NULL), ICC_OK);
+    ck_assert_int_eq(icc_weights_create(&kernel, sampling, N_HANDLES, HANDLES, NULL, &env, NULL), ICC_OK);
     icc_shape_free(shape);
     icc_sampling_free(sampling);
-    ck_assert_int_eq(icc_kernel_set_method(&painted, kernel, ICC_WEIGHTS_EQUALITY, &env, NULL), ICC_OK);
-    icc_kernel_free(kernel);
+    ck_assert_int_eq(icc_weights_with_method(&painted, kernel, ICC_WEIGHTS_EQUALITY, &env, NULL), ICC_OK);
+    icc_weights_free(kernel);
     ck_assert_int_eq(icc_binding_create(&binding, painted, 1, SOURCE, 1, &env, NULL), ICC_OK);
-    icc_kernel_free(painted);
+    icc_weights_free(painted);
     icc_binding_free(binding);
     ck_assert_int_eq(icc_chart_create(&chart, domain, NULL, &env, NULL), ICC_OK);
     ck_assert_int_eq(icc_map_create_from_charts(&map, chart, chart, NULL, &env, NULL), ICC_OK);
     ck_assert_int_eq(icc_grid_create(&grid, domain, 10, &env, NULL), ICC_OK);
-    ck_assert_int_eq(icc_grid_maximum(grid, &root, NULL, &env, NULL), ICC_OK);
+    ck_assert_int_eq(icc_grid_find_maximum(grid, &root, NULL, &env, NULL), ICC_OK);
     ck_assert_int_eq(icc_tree_create(&tree, grid, root, NULL, &env, NULL), ICC_OK);
-    ck_assert_int_eq(icc_field_create(&field, tree, NULL, &env, NULL), ICC_OK);
+    ck_assert_int_eq(icc_function_create(&field, tree, NULL, &env, NULL), ICC_OK);
     icc_domain_free(domain);
     icc_chart_free(chart);
     icc_grid_free(grid);
@@ -123,12 +123,12 @@ START_TEST(objects_are_freed_in_any_order)
     icc_status status;
     ck_assert_int_eq(icc_map_apply(map, 1, p, q, &status, NULL, NULL), ICC_OK);
     ck_assert_int_eq(status, ICC_OK);
-    ck_assert_double_eq(icc_field_values(field)[root], 10);
-    icc_field_report report = {.size = sizeof report};
-    ck_assert_int_eq(icc_field_verify(field, &report, NULL, NULL), ICC_OK);
+    ck_assert_double_eq(icc_function_values(field)[root], 10);
+    icc_function_report report = {.size = sizeof report};
+    ck_assert_int_eq(icc_function_get_report(field, &report, NULL, NULL), ICC_OK);
     ck_assert_uint_eq(report.n_maxima, 1);
     icc_map_free(map);
-    icc_field_free(field);
+    icc_function_free(field);
     ck_assert_uint_eq(count.n_live, 0);
 }
 END_TEST

@@ -91,8 +91,8 @@ START_TEST(charts_refuse_bad_arguments)
         {.size = sizeof *bad, .cells = 1},     {.size = sizeof *bad, .cells = -50},
         {.size = sizeof *bad, .cells = 16385}, {.size = sizeof *bad, .maximum = NOT_FINITE},
         {.size = sizeof *bad, .constraints = 4}, {.size = sizeof *bad, .solver = 3},
-        {.size = sizeof *bad, .eta = 0.02},    {.size = sizeof *bad, .eta = NAN},
-        {.size = sizeof *bad, .leaf = -1e-9},
+        {.size = sizeof *bad, .min_fall = 0.02},    {.size = sizeof *bad, .min_fall = NAN},
+        {.size = sizeof *bad, .leaf_min = -1e-9},
         {.size = sizeof *bad, .method = ICC_METHOD_DISC, .maximum = INSIDE},
     };
     for (size_t k = 0; k < sizeof bad / sizeof *bad; ++k) {
@@ -114,14 +114,14 @@ START_TEST(charts_refuse_bad_arguments)
     icc_chart_info info = {.size = sizeof info};
     REFUSED(icc_chart_get_info(NULL, &info));
     REFUSED(icc_chart_get_info(o.chart, NULL));
-    ck_assert(icc_chart_field(NULL) == NULL && icc_chart_field(o.chart) == NULL); /* a foliation */
+    ck_assert(icc_chart_function(NULL) == NULL && icc_chart_function(o.chart) == NULL); /* a foliation */
     ck_assert_ptr_null(icc_chart_domain(NULL));
     ck_assert_ptr_eq(icc_chart_domain(o.chart), o.source);
-    icc_chart_measures m = {.size = sizeof m};
-    EXPLAINED(icc_chart_measure(NULL, 0, &m, NULL, &err));
-    EXPLAINED(icc_chart_measure(o.chart, 0, NULL, NULL, &err));
-    EXPLAINED(icc_chart_measure(o.chart, SIZE_MAX, &m, NULL, &err));
-    ck_assert_int_eq(icc_chart_measure(o.chart, 1, &m, NULL, NULL), ICC_OK);
+    icc_chart_report m = {.size = sizeof m};
+    EXPLAINED(icc_chart_get_report(NULL, 0, &m, NULL, &err));
+    EXPLAINED(icc_chart_get_report(o.chart, 0, NULL, NULL, &err));
+    EXPLAINED(icc_chart_get_report(o.chart, SIZE_MAX, &m, NULL, &err));
+    ck_assert_int_eq(icc_chart_get_report(o.chart, 1, &m, NULL, NULL), ICC_OK);
     uint32_t f;
     double b[2], t, p[2] = {0.5, 0.5};
     REFUSED(icc_chart_encode(NULL, 1, p, &f, b, &t, NULL, NULL, NULL));
@@ -224,11 +224,11 @@ START_TEST(mesh_maps_refuse_bad_arguments)
         NOT_MADE(m, icc_map_improve(&m, o.mesh_map, &options[k], NULL, NULL, &err));
     icc_improve_report report = {.size = 0};
     NOT_MADE(m, icc_map_improve(&m, o.mesh_map, NULL, &report, NULL, &err));
-    EXPLAINED(icc_map_follow(NULL, o.mesh_map, o.target, 0, NULL, &err));
-    NOT_MADE(m, icc_map_follow(&m, NULL, o.target, 0, NULL, &err));
-    NOT_MADE(m, icc_map_follow(&m, o.mesh_map, NULL, 0, NULL, &err));
-    NOT_MADE(m, icc_map_follow(&m, o.mesh_map, o.target, -2, NULL, &err));
-    REFUSED(icc_map_mesh(NULL, NULL, NULL, NULL));
+    EXPLAINED(icc_map_retarget(NULL, o.mesh_map, o.target, 0, NULL, &err));
+    NOT_MADE(m, icc_map_retarget(&m, NULL, o.target, 0, NULL, &err));
+    NOT_MADE(m, icc_map_retarget(&m, o.mesh_map, NULL, 0, NULL, &err));
+    NOT_MADE(m, icc_map_retarget(&m, o.mesh_map, o.target, -2, NULL, &err));
+    REFUSED(icc_map_get_mesh(NULL, NULL, NULL, NULL));
     objects_clear(&o);
 }
 END_TEST
@@ -244,9 +244,9 @@ START_TEST(only_mesh_maps_can_be_improved)
     ck_assert(m == NULL && err.status == ICC_ERR_UNSUPPORTED && err.message[0] != '\0');
     m = (icc_map *)&m;
     err.status = 0;
-    ck_assert_int_eq(icc_map_follow(&m, o.map, o.target, 0, NULL, &err), ICC_ERR_UNSUPPORTED);
+    ck_assert_int_eq(icc_map_retarget(&m, o.map, o.target, 0, NULL, &err), ICC_ERR_UNSUPPORTED);
     ck_assert(m == NULL && err.status == ICC_ERR_UNSUPPORTED);
-    ck_assert_int_eq(icc_map_mesh(o.map, NULL, NULL, NULL), ICC_ERR_UNSUPPORTED);
+    ck_assert_int_eq(icc_map_get_mesh(o.map, NULL, NULL, NULL), ICC_ERR_UNSUPPORTED);
     const icc_map_options mesh = {.size = sizeof mesh, .kind = ICC_MAP_MESH};
     ck_assert_int_eq(icc_map_create_from_charts(&m, o.chart, o.target_chart, &mesh, NULL, &err),
                      ICC_ERR_UNSUPPORTED);
@@ -279,6 +279,7 @@ START_TEST(certificates_refuse_bad_arguments)
         t[7] = N_CORNERS;
         EXPLAINED(f(o.map, N_CORNERS, SOURCE, 4, t, images, &c, NULL, &err));
         ck_assert_int_eq(err.index, 2);
+        ck_assert_int_eq(err.item, ICC_ITEM_SIMPLEX);
         t[7] = TRIANGLES[7];
         c.size = 7;
         EXPLAINED(f(o.map, N_CORNERS, SOURCE, 4, t, images, &c, NULL, &err));
@@ -314,16 +315,16 @@ START_TEST(stages_refuse_bad_arguments)
     REFUSED(icc_grid_get_info(o.grid, NULL));
     ck_assert_ptr_null(icc_grid_inside(NULL));
     uint32_t v;
-    EXPLAINED(icc_grid_maximum(NULL, &v, NULL, NULL, &err));
-    EXPLAINED(icc_grid_maximum(o.grid, NULL, NULL, NULL, &err));
+    EXPLAINED(icc_grid_find_maximum(NULL, &v, NULL, NULL, &err));
+    EXPLAINED(icc_grid_find_maximum(o.grid, NULL, NULL, NULL, &err));
     const double p[3] = {1, 1, 1}, not_finite[3] = {1, NAN, 1};
-    REFUSED(icc_grid_nearest(NULL, p, &v));
-    REFUSED(icc_grid_nearest(o.grid, NULL, &v));
-    REFUSED(icc_grid_nearest(o.grid, p, NULL));
-    REFUSED(icc_grid_nearest(o.grid, not_finite, &v));
+    REFUSED(icc_grid_find_nearest(NULL, p, &v));
+    REFUSED(icc_grid_find_nearest(o.grid, NULL, &v));
+    REFUSED(icc_grid_find_nearest(o.grid, p, NULL));
+    REFUSED(icc_grid_find_nearest(o.grid, not_finite, &v));
     ck_assert_int_eq(icc_grid_create_mask(&g, 2, SHAPE, NOTHING, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(icc_grid_nearest(g, p, &v), ICC_ERR_RESOLUTION);
-    ck_assert_int_eq(icc_grid_maximum(g, &v, NULL, NULL, &err), ICC_ERR_RESOLUTION);
+    ck_assert_int_eq(icc_grid_find_nearest(g, p, &v), ICC_ERR_RESOLUTION);
+    ck_assert_int_eq(icc_grid_find_maximum(g, &v, NULL, NULL, &err), ICC_ERR_RESOLUTION);
     icc_tree *t;
     NOT_MADE(t, icc_tree_create(&t, g, 4, NULL, NULL, &err));
     icc_grid_free(g);
@@ -342,55 +343,50 @@ START_TEST(stages_refuse_bad_arguments)
     }
     ck_assert(icc_tree_parents(NULL) == NULL && icc_tree_generations(NULL) == NULL);
     icc_tree_report tree_report = {.size = sizeof tree_report};
-    EXPLAINED(icc_tree_verify(NULL, &tree_report, NULL, &err));
-    EXPLAINED(icc_tree_verify(o.tree, NULL, NULL, &err));
-    icc_field *f;
-    EXPLAINED(icc_field_create(NULL, o.tree, NULL, NULL, &err));
-    NOT_MADE(f, icc_field_create(&f, NULL, NULL, NULL, &err));
-    const icc_field_options bad[] = {
+    EXPLAINED(icc_tree_get_report(NULL, &tree_report, NULL, &err));
+    EXPLAINED(icc_tree_get_report(o.tree, NULL, NULL, &err));
+    icc_function *f;
+    EXPLAINED(icc_function_create(NULL, o.tree, NULL, NULL, &err));
+    NOT_MADE(f, icc_function_create(&f, NULL, NULL, NULL, &err));
+    const icc_function_options bad[] = {
         {.size = sizeof *bad, .function = 6},        {.size = sizeof *bad, .function = -1},
         {.size = sizeof *bad, .constraints = 4},     {.size = sizeof *bad, .constraints = -1},
         {.size = sizeof *bad, .solver = 3},          {.size = sizeof *bad, .solver = -1},
-        {.size = sizeof *bad, .eta = -1e-6},         {.size = sizeof *bad, .eta = 0.0100001},
-        {.size = sizeof *bad, .eta = NAN},           {.size = sizeof *bad, .leaf = -1e-9},
-        {.size = sizeof *bad, .leaf = HUGE_VAL},     {.size = sizeof *bad, .leaf = NAN},
+        {.size = sizeof *bad, .min_fall = -1e-6},         {.size = sizeof *bad, .min_fall = 0.0100001},
+        {.size = sizeof *bad, .min_fall = NAN},           {.size = sizeof *bad, .leaf_min = -1e-9},
+        {.size = sizeof *bad, .leaf_min = HUGE_VAL},     {.size = sizeof *bad, .leaf_min = NAN},
     };
     static const char *const NAMED[] = {"function", "function", "constraints", "constraints",
                                         "solver",   "solver",   "eta",         "eta",
                                         "eta",      "leaf",     "leaf",        "leaf"};
     for (size_t k = 0; k < sizeof bad / sizeof *bad; ++k) {
-        NOT_MADE(f, icc_field_create(&f, o.tree, &bad[k], NULL, &err));
+        NOT_MADE(f, icc_function_create(&f, o.tree, &bad[k], NULL, &err));
         ck_assert_ptr_nonnull(strstr(err.message, NAMED[k]));
     }
-    ck_assert_ptr_null(icc_field_values(NULL));
-    ck_assert_ptr_null(icc_field_logs(NULL));
-    ck_assert_ptr_null(icc_field_logs(o.field)); /* of the decay */
-    ck_assert(icc_field_tree(NULL) == NULL && icc_tree_grid(NULL) == NULL);
-    ck_assert(icc_field_tree(o.field) == o.tree && icc_tree_grid(o.tree) != NULL);
+    ck_assert_ptr_null(icc_function_values(NULL));
+    ck_assert_ptr_null(icc_function_logs(NULL));
+    ck_assert_ptr_null(icc_function_logs(o.field)); /* of the decay */
+    ck_assert(icc_function_tree(NULL) == NULL && icc_tree_grid(NULL) == NULL);
+    ck_assert(icc_function_tree(o.field) == o.tree && icc_tree_grid(o.tree) != NULL);
     ck_assert(icc_tree_root(NULL) == UINT32_MAX && icc_tree_root(o.tree) == 62);
-    icc_field_info field_info = {.size = sizeof field_info};
-    REFUSED(icc_field_get_info(NULL, &field_info));
-    REFUSED(icc_field_get_info(o.field, NULL));
-    icc_field_report report = {.size = sizeof report};
-    EXPLAINED(icc_field_verify(NULL, &report, NULL, &err));
-    EXPLAINED(icc_field_verify(o.field, NULL, NULL, &err));
+    icc_function_info field_info = {.size = sizeof field_info};
+    REFUSED(icc_function_get_info(NULL, &field_info));
+    REFUSED(icc_function_get_info(o.field, NULL));
+    icc_function_report report = {.size = sizeof report};
+    EXPLAINED(icc_function_get_report(NULL, &report, NULL, &err));
+    EXPLAINED(icc_function_get_report(o.field, NULL, NULL, &err));
     size_t n;
     uint32_t edges[2];
     int32_t kinds[1];
-    REFUSED(icc_field_edges(NULL, 0, NULL, NULL, &n, NULL));
-    REFUSED(icc_field_edges(o.field, 0, NULL, NULL, NULL, NULL));
-    REFUSED(icc_field_edges(o.field, 1, NULL, kinds, &n, NULL));
-    REFUSED(icc_field_edges(o.field, 1, edges, NULL, &n, NULL));
-    ck_assert_int_eq(icc_field_edges(o.field, 1, edges, kinds, &n, NULL), ICC_ERR_UNSUPPORTED);
+    REFUSED(icc_function_get_edges(NULL, 0, NULL, NULL, &n, NULL));
+    REFUSED(icc_function_get_edges(o.field, 0, NULL, NULL, NULL, NULL));
+    REFUSED(icc_function_get_edges(o.field, 1, NULL, kinds, &n, NULL));
+    REFUSED(icc_function_get_edges(o.field, 1, edges, NULL, &n, NULL));
+    ck_assert_int_eq(icc_function_get_edges(o.field, 1, edges, kinds, &n, NULL), ICC_ERR_UNSUPPORTED);
     static const int32_t ORDER[3] = {2, 0, 1};
     const icc_tree_options good = {.size = sizeof good, .axis_order = ORDER};
     ck_assert_int_eq(icc_tree_create(&t, o.mask, 62, &good, NULL, &err), ICC_OK);
     icc_tree_free(t);
-    /* Numbers that another version may give a meaning. */
-    const icc_tree_options later_tree = {.size = sizeof later_tree, .reserved = 1};
-    const icc_field_options later_field = {.size = sizeof later_field, .reserved = 1};
-    ck_assert_int_eq(icc_tree_create(&t, o.mask, 62, &later_tree, NULL, NULL), ICC_ERR_VERSION);
-    ck_assert_int_eq(icc_field_create(&f, o.tree, &later_field, NULL, NULL), ICC_ERR_VERSION);
     objects_clear(&o);
 }
 END_TEST
@@ -413,15 +409,18 @@ START_TEST(the_triangulation_refuses_bad_arguments)
     points[2 * N_CORNERS] = NAN;
     EXPLAINED(icc_triangulate(N_CORNERS, N_CORNERS + 1, points, triangles, NULL, &err));
     ck_assert_int_eq(err.index, N_CORNERS);
+    ck_assert_int_eq(err.item, ICC_ITEM_POINT);
     points[2 * N_CORNERS] = 2.5;
     points[2 * N_CORNERS + 1] = 2.5;
     ck_assert_int_eq(icc_triangulate(N_CORNERS, N_CORNERS + 1, points, triangles, NULL, &err),
                      ICC_ERR_OUTSIDE);
     ck_assert_int_eq(err.index, N_CORNERS);
+    ck_assert_int_eq(err.item, ICC_ITEM_POINT);
     points[0] = NAN;
     ck_assert_int_eq(icc_triangulate(N_CORNERS, N_CORNERS + 1, points, triangles, NULL, &err),
                      ICC_ERR_BOUNDARY);
     ck_assert_int_eq(err.index, 0);
+    ck_assert_int_eq(err.item, ICC_ITEM_VERTEX);
 }
 END_TEST
 
@@ -433,9 +432,11 @@ START_TEST(the_triangulation_names_the_point)
     const double tiny[12] = {-1, -1, 1, -1, 1, 1, -1, 1, 0.5, 0.5, 1e-70, 0.25};
     ck_assert_int_eq(icc_triangulate(4, 6, tiny, triangles, NULL, &err), ICC_ERR_ARGUMENT);
     ck_assert_int_eq(err.index, 5);
+    ck_assert_int_eq(err.item, ICC_ITEM_POINT);
     const double far[12] = {-1, -1, 1, -1, 1, 1, -1, 1, 0.5, 0.5, 1e300, 0.25};
     ck_assert_int_eq(icc_triangulate(4, 6, far, triangles, NULL, &err), ICC_ERR_OUTSIDE);
     ck_assert_int_eq(err.index, 5);
+    ck_assert_int_eq(err.item, ICC_ITEM_POINT);
 }
 END_TEST
 
@@ -445,16 +446,16 @@ START_TEST(edges_are_listed)
     icc_domain *domain;
     icc_grid *grid;
     icc_tree *tree;
-    icc_field *field;
+    icc_function *field;
     uint32_t root, edges[2 * N_POINTS];
     int32_t kinds[N_POINTS];
     size_t n, again, n_tested;
     ck_assert_int_eq(icc_domain_create(&domain, 2, N_CORNERS, SOURCE, 0, NULL, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_grid_create(&grid, domain, 12, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(icc_grid_maximum(grid, &root, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_grid_find_maximum(grid, &root, NULL, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_tree_create(&tree, grid, root, NULL, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(icc_field_create(&field, tree, NULL, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(icc_field_edges(field, N_POINTS, edges, kinds, &n, &n_tested), ICC_OK);
+    ck_assert_int_eq(icc_function_create(&field, tree, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_function_get_edges(field, N_POINTS, edges, kinds, &n, &n_tested), ICC_OK);
     ck_assert(n > 10 && n <= N_POINTS && n < n_tested);
     size_t n_compression = 0;
     icc_grid_info info = {.size = sizeof info};
@@ -466,7 +467,7 @@ START_TEST(edges_are_listed)
         const uint32_t step = edges[2 * k] + edges[2 * k + 1] - 2 * low;
         ck_assert(step == 1 || step == info.shape[0] || step == info.shape[0] + 1);
     }
-    ck_assert_int_eq(icc_field_edges(field, 3, edges, kinds, &again, NULL), ICC_OK);
+    ck_assert_int_eq(icc_function_get_edges(field, 3, edges, kinds, &again, NULL), ICC_OK);
     ck_assert_uint_eq(again, n);
     const icc_chart_options options = {
         .size = sizeof options, .method = ICC_METHOD_GRADIENT, .cells = 12};
@@ -478,7 +479,7 @@ START_TEST(edges_are_listed)
     ck_assert_uint_eq(counted.n_compression, n_compression);
     ck_assert_uint_eq(counted.n_expansion, n - n_compression);
     icc_chart_free(chart);
-    icc_field_free(field);
+    icc_function_free(field);
     icc_tree_free(tree);
     icc_grid_free(grid);
     icc_domain_free(domain);
@@ -489,39 +490,39 @@ START_TEST(kernels_refuse_bad_arguments)
 {
     objects o;
     objects_init(&o, 0);
-    icc_kernel *kernel;
+    icc_weights *kernel;
     icc_binding *binding;
     icc_error err;
-    icc_kernel_report report = {.size = sizeof report};
-    icc_kernel_info info = {.size = sizeof info};
+    icc_weights_report report = {.size = sizeof report};
+    icc_weights_info info = {.size = sizeof info};
     double weights[N_HANDLES], images[2], transforms[6 * N_HANDLES];
     size_t n_bytes;
-    EXPLAINED(icc_kernel_create(NULL, o.sampling, N_HANDLES, HANDLES, NULL, NULL, &err));
-    EXPLAINED(icc_kernel_create(&kernel, NULL, N_HANDLES, HANDLES, NULL, NULL, &err));
-    EXPLAINED(icc_kernel_create(&kernel, o.sampling, N_HANDLES, NULL, NULL, NULL, &err));
-    EXPLAINED(icc_kernel_create(&kernel, o.sampling, 2, HANDLES, NULL, NULL, &err));
-    EXPLAINED(icc_kernel_paint(&kernel, NULL, 0, HANDLES, 1, 1, NULL, &err));
-    EXPLAINED(icc_kernel_paint(&kernel, o.kernel, 0, NULL, 1, 1, NULL, &err));
-    EXPLAINED(icc_kernel_repaint(&kernel, NULL, 0, NULL, NULL, NULL, &err));
-    EXPLAINED(icc_kernel_repaint(&kernel, o.kernel, 1, NULL, weights, NULL, &err));
-    EXPLAINED(icc_kernel_set_method(NULL, o.kernel, ICC_WEIGHTS_QP, NULL, &err));
-    EXPLAINED(icc_kernel_set_method(&kernel, o.kernel, 0, NULL, &err));
-    EXPLAINED(icc_kernel_stiffen(&kernel, o.kernel, 1, NULL, NULL, NULL, NULL, &err));
-    EXPLAINED(icc_kernel_get_report(o.kernel, 1, NULL, &report, NULL, &err));
-    EXPLAINED(icc_kernel_get_report(o.kernel, 0, NULL, NULL, NULL, &err));
-    REFUSED(icc_kernel_get_info(NULL, &info));
-    REFUSED(icc_kernel_get_info(o.kernel, NULL));
-    REFUSED(icc_kernel_get_nodes(NULL, NULL, NULL, NULL, NULL));
-    REFUSED(icc_kernel_weights(NULL, 1, HANDLES, weights, NULL, NULL, NULL, NULL));
-    REFUSED(icc_kernel_weights(o.kernel, 1, NULL, weights, NULL, NULL, NULL, NULL));
-    REFUSED(icc_kernel_weights(o.kernel, 1, HANDLES, NULL, NULL, NULL, NULL, NULL));
+    EXPLAINED(icc_weights_create(NULL, o.sampling, N_HANDLES, HANDLES, NULL, NULL, &err));
+    EXPLAINED(icc_weights_create(&kernel, NULL, N_HANDLES, HANDLES, NULL, NULL, &err));
+    EXPLAINED(icc_weights_create(&kernel, o.sampling, N_HANDLES, NULL, NULL, NULL, &err));
+    EXPLAINED(icc_weights_create(&kernel, o.sampling, 2, HANDLES, NULL, NULL, &err));
+    EXPLAINED(icc_weights_paint(&kernel, NULL, 0, HANDLES, 1, 1, NULL, &err));
+    EXPLAINED(icc_weights_paint(&kernel, o.kernel, 0, NULL, 1, 1, NULL, &err));
+    EXPLAINED(icc_weights_repaint(&kernel, NULL, 0, NULL, NULL, NULL, &err));
+    EXPLAINED(icc_weights_repaint(&kernel, o.kernel, 1, NULL, weights, NULL, &err));
+    EXPLAINED(icc_weights_with_method(NULL, o.kernel, ICC_WEIGHTS_QP, NULL, &err));
+    EXPLAINED(icc_weights_with_method(&kernel, o.kernel, 0, NULL, &err));
+    EXPLAINED(icc_weights_stiffen(&kernel, o.kernel, 1, NULL, NULL, NULL, NULL, &err));
+    EXPLAINED(icc_weights_get_report(o.kernel, 1, NULL, &report, NULL, &err));
+    EXPLAINED(icc_weights_get_report(o.kernel, 0, NULL, NULL, NULL, &err));
+    REFUSED(icc_weights_get_info(NULL, &info));
+    REFUSED(icc_weights_get_info(o.kernel, NULL));
+    REFUSED(icc_weights_get_nodes(NULL, NULL, NULL, NULL, NULL));
+    REFUSED(icc_weights_evaluate(NULL, 1, HANDLES, weights, NULL, NULL, NULL, NULL));
+    REFUSED(icc_weights_evaluate(o.kernel, 1, NULL, weights, NULL, NULL, NULL, NULL));
+    REFUSED(icc_weights_evaluate(o.kernel, 1, HANDLES, NULL, NULL, NULL, NULL, NULL));
     EXPLAINED(icc_binding_create(&binding, NULL, 1, HANDLES, 0, NULL, &err));
     EXPLAINED(icc_binding_create(&binding, o.kernel, 1, NULL, 0, NULL, &err));
     EXPLAINED(icc_binding_create(&binding, o.kernel, 1, HANDLES, 2, NULL, &err));
     EXPLAINED(icc_binding_load(NULL, 1, HANDLES, NULL, &err));
     EXPLAINED(icc_binding_load(&binding, 1, NULL, NULL, &err));
     REFUSED(icc_binding_get_counts(NULL, NULL, NULL, NULL));
-    REFUSED(icc_binding_get(NULL, NULL, NULL));
+    REFUSED(icc_binding_get_weights(NULL, NULL, NULL));
     REFUSED(icc_binding_pose(NULL, transforms, images, NULL, NULL));
     REFUSED(icc_binding_pose(o.binding, NULL, images, NULL, NULL));
     REFUSED(icc_binding_save(NULL, 0, NULL, &n_bytes));
@@ -542,14 +543,14 @@ START_TEST(freeing_nothing_does_nothing)
 {
     icc_shape_free(NULL);
     icc_sampling_free(NULL);
-    icc_kernel_free(NULL);
+    icc_weights_free(NULL);
     icc_binding_free(NULL);
     icc_domain_free(NULL);
     icc_chart_free(NULL);
     icc_map_free(NULL);
     icc_grid_free(NULL);
     icc_tree_free(NULL);
-    icc_field_free(NULL);
+    icc_function_free(NULL);
 }
 END_TEST
 
@@ -655,9 +656,9 @@ static icc_status read_tree_options(const objects *o, const void *options, icc_e
 
 static icc_status read_field_options(const objects *o, const void *options, icc_error *err)
 {
-    icc_field *field;
-    const icc_status status = icc_field_create(&field, o->tree, options, NULL, err);
-    icc_field_free(field);
+    icc_function *field;
+    const icc_status status = icc_function_create(&field, o->tree, options, NULL, err);
+    icc_function_free(field);
     return status;
 }
 
@@ -671,10 +672,10 @@ static icc_status read_sampling_options(const objects *o, const void *options, i
 
 static icc_status read_kernel_options(const objects *o, const void *options, icc_error *err)
 {
-    icc_kernel *kernel;
+    icc_weights *kernel;
     const icc_status status =
-        icc_kernel_create(&kernel, o->sampling, N_HANDLES, HANDLES, options, NULL, err);
-    icc_kernel_free(kernel);
+        icc_weights_create(&kernel, o->sampling, N_HANDLES, HANDLES, options, NULL, err);
+    icc_weights_free(kernel);
     return status;
 }
 
@@ -689,9 +690,9 @@ START_TEST(options_may_be_older_or_newer)
                    {read_map_options_too, sizeof(icc_map_options)},
                    {read_improve_options, sizeof(icc_improve_options)},
                    {read_tree_options, sizeof(icc_tree_options)},
-                   {read_field_options, sizeof(icc_field_options)},
+                   {read_field_options, sizeof(icc_function_options)},
                    {read_sampling_options, sizeof(icc_sampling_options)},
-                   {read_kernel_options, sizeof(icc_kernel_options)}};
+                   {read_kernel_options, sizeof(icc_weights_options)}};
     objects o;
     objects_init(&o, 0);
     for (size_t k = 0; k < sizeof READERS / sizeof *READERS; ++k) {
@@ -743,7 +744,7 @@ static icc_status write_chart_info(const objects *o, void *info)
 
 static icc_status write_measures(const objects *o, void *info)
 {
-    return icc_chart_measure(o->chart, 10, info, NULL, NULL);
+    return icc_chart_get_report(o->chart, 10, info, NULL, NULL);
 }
 
 static icc_status write_map_info(const objects *o, void *info)
@@ -772,17 +773,17 @@ static icc_status write_grid_info(const objects *o, void *info)
 
 static icc_status write_tree_report(const objects *o, void *info)
 {
-    return icc_tree_verify(o->tree, info, NULL, NULL);
+    return icc_tree_get_report(o->tree, info, NULL, NULL);
 }
 
 static icc_status write_field_info(const objects *o, void *info)
 {
-    return icc_field_get_info(o->field, info);
+    return icc_function_get_info(o->field, info);
 }
 
 static icc_status write_field_report(const objects *o, void *info)
 {
-    return icc_field_verify(o->field, info, NULL, NULL);
+    return icc_function_get_report(o->field, info, NULL, NULL);
 }
 
 static icc_status write_sampling_info(const objects *o, void *info)
@@ -792,12 +793,12 @@ static icc_status write_sampling_info(const objects *o, void *info)
 
 static icc_status write_kernel_info(const objects *o, void *info)
 {
-    return icc_kernel_get_info(o->kernel, info);
+    return icc_weights_get_info(o->kernel, info);
 }
 
 static icc_status write_kernel_report(const objects *o, void *info)
 {
-    return icc_kernel_get_report(o->kernel, 9, o->points, info, NULL, NULL);
+    return icc_weights_get_report(o->kernel, 9, o->points, info, NULL, NULL);
 }
 
 START_TEST(infos_may_be_older_or_newer)
@@ -807,13 +808,13 @@ START_TEST(infos_may_be_older_or_newer)
         size_t size;
     } WRITERS[] = {
         {write_domain_info, sizeof(icc_domain_info)},  {write_chart_info, sizeof(icc_chart_info)},
-        {write_measures, sizeof(icc_chart_measures)},  {write_map_info, sizeof(icc_map_info)},
+        {write_measures, sizeof(icc_chart_report)},  {write_map_info, sizeof(icc_map_info)},
         {write_improve_report, sizeof(icc_improve_report)},
         {write_certificate, sizeof(icc_certificate)},
         {write_grid_info, sizeof(icc_grid_info)},      {write_tree_report, sizeof(icc_tree_report)},
-        {write_field_info, sizeof(icc_field_info)},    {write_field_report, sizeof(icc_field_report)},
+        {write_field_info, sizeof(icc_function_info)},    {write_field_report, sizeof(icc_function_report)},
         {write_sampling_info, sizeof(icc_sampling_info)},
-        {write_kernel_info, sizeof(icc_kernel_info)},  {write_kernel_report, sizeof(icc_kernel_report)}};
+        {write_kernel_info, sizeof(icc_weights_info)},  {write_kernel_report, sizeof(icc_weights_report)}};
     enum { ROOM = 512 };
     objects o;
     objects_init(&o, 0);

@@ -130,33 +130,33 @@ static icc_tree *large_tree(bool ball)
     ck_assert_int_eq(icc_grid_create_mask(&grid, ball ? 3 : 2, (size_t[]){side, side, side}, inside,
                                           NULL, NULL),
                      ICC_OK);
-    ck_assert_int_eq(icc_grid_maximum(grid, &root, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_grid_find_maximum(grid, &root, NULL, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_tree_create(&tree, grid, root, NULL, NULL, NULL), ICC_OK);
     icc_grid_free(grid);
     free(inside);
     return tree;
 }
 
-static icc_field *large_field(const icc_tree *tree, int32_t function, int32_t solver,
+static icc_function *large_field(const icc_tree *tree, int32_t function, int32_t solver,
                               const icc_env *env)
 {
-    const icc_field_options options = {.size = sizeof options,
+    const icc_function_options options = {.size = sizeof options,
                                        .function = function,
                                        .constraints = ICC_CONSTRAINTS_ALL,
                                        .solver = solver};
-    icc_field *field;
-    ck_assert_int_eq(icc_field_create(&field, tree, &options, env, NULL), ICC_OK);
+    icc_function *field;
+    ck_assert_int_eq(icc_function_create(&field, tree, &options, env, NULL), ICC_OK);
     return field;
 }
 
-static void check_same(const icc_field *a, const icc_field *b, size_t n)
+static void check_same(const icc_function *a, const icc_function *b, size_t n)
 {
-    icc_field_info of_a = {.size = sizeof of_a}, of_b = {.size = sizeof of_b};
-    ck_assert_int_eq(icc_field_get_info(a, &of_a), ICC_OK);
-    ck_assert_int_eq(icc_field_get_info(b, &of_b), ICC_OK);
-    ck_assert_mem_eq(&of_a, &of_b, offsetof(icc_field_info, seconds_setup));
-    ck_assert_mem_eq(icc_field_values(a), icc_field_values(b), n * sizeof(double));
-    ck_assert_mem_eq(icc_field_logs(a), icc_field_logs(b), n * sizeof(double));
+    icc_function_info of_a = {.size = sizeof of_a}, of_b = {.size = sizeof of_b};
+    ck_assert_int_eq(icc_function_get_info(a, &of_a), ICC_OK);
+    ck_assert_int_eq(icc_function_get_info(b, &of_b), ICC_OK);
+    ck_assert_mem_eq(&of_a, &of_b, offsetof(icc_function_info, seconds_setup));
+    ck_assert_mem_eq(icc_function_values(a), icc_function_values(b), n * sizeof(double));
+    ck_assert_mem_eq(icc_function_logs(a), icc_function_logs(b), n * sizeof(double));
 }
 
 static const struct {
@@ -174,18 +174,18 @@ START_TEST(functions_do_not_depend_on_the_number_of_threads)
     icc_grid_info info = {.size = sizeof info};
     ck_assert_int_eq(icc_grid_get_info(icc_tree_grid(tree), &info), ICC_OK);
     const int32_t function = LARGE[_i].function, solver = LARGE[_i].solver;
-    icc_field *plain = large_field(tree, function, solver, NULL);
+    icc_function *plain = large_field(tree, function, solver, NULL);
     for (int32_t n = 2; n <= 4; ++n) {
         crew c = {.n_tasks = 0};
         const icc_env env = {.size = sizeof env,
                              .user = &c,
                              .parallel_for = n == 4 ? crew_run : NULL,
                              .threads = n};
-        icc_field *field = large_field(tree, function, solver, &env);
+        icc_function *field = large_field(tree, function, solver, &env);
         check_same(plain, field, info.n_vertices);
-        icc_field_free(field);
+        icc_function_free(field);
     }
-    icc_field_free(plain);
+    icc_function_free(plain);
     icc_tree_free(tree);
 }
 END_TEST

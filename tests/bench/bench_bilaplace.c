@@ -3,7 +3,7 @@
 #include "bench.h"
 
 #include "solver/bilaplace.h"
-#include "function/critical.h"
+#include "function/critical_points.h"
 
 #include "../hard_masks.h"
 
@@ -32,7 +32,7 @@ static icc_tree *grow(const bench_case *c)
     uint32_t root;
     mask m = draw(c);
     bench_check(icc_grid_create_mask(&grid, m.dim, m.shape, m.inside, NULL, &error), &error);
-    bench_check(icc_grid_maximum(grid, &root, NULL, NULL, &error), &error);
+    bench_check(icc_grid_find_maximum(grid, &root, NULL, NULL, &error), &error);
     bench_check(icc_tree_create(&tree, grid, root, NULL, NULL, &error), &error);
     icc_grid_free(grid);
     mask_free(&m);
@@ -42,19 +42,19 @@ static icc_tree *grow(const bench_case *c)
 static void print_points(const icc_tree *tree, const iccp_rows *rows, const iccp_scaled *f,
                          const iccp_env *env)
 {
-    icc_field *field;
-    icc_field_report report = {.size = sizeof report};
-    if (iccp_field_new(&field, tree, env) == ICC_OK && iccp_field_assign(field, rows, f) == ICC_OK &&
-        iccp_field_verify(field, &report, env) == ICC_OK)
+    icc_function *field;
+    icc_function_report report = {.size = sizeof report};
+    if (iccp_function_new(&field, tree, env) == ICC_OK && iccp_function_assign(field, rows, f) == ICC_OK &&
+        iccp_function_verify(field, &report, env) == ICC_OK)
         printf(" %4zu %4zu %4zu", report.n_maxima, report.n_minima, report.n_saddles);
-    iccp_field_release(field);
+    iccp_function_release(field);
 }
 
 static void measure(const bench_case *c, int32_t function, bool constrained)
 {
     iccp_env env;
     iccp_rows rows;
-    icc_field_info info = {.size = sizeof info};
+    icc_function_info info = {.size = sizeof info};
     icc_error error = {.size = sizeof error};
     icc_tree *tree = grow(c);
     bench_check(iccp_env_read(&env, NULL, &error), &error);

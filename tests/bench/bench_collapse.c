@@ -109,8 +109,8 @@ static void measure(const char *name, const icc_domain *source, const icc_domain
     printf(" %7.2f %6.2f %6.2f ", 100 * s.collapsed, 100 * s.inverted, 100 * s.failed);
     const icc_chart *charts[2] = {icc_map_source_chart(map), icc_map_target_chart(map)};
     for (int c = 0; c < 2; ++c) {
-        icc_chart_measures m = {.size = sizeof m};
-        bench_check(icc_chart_measure(charts[c], POINTS, &m, NULL, &error), &error);
+        icc_chart_report m = {.size = sizeof m};
+        bench_check(icc_chart_get_report(charts[c], POINTS, &m, NULL, &error), &error);
         printf(" %7.2f %6.2f %6.2f %6.2f", 100 * m.unreachable, 100 * m.uncovered,
                100 * m.collapsed, 100 * m.not_inward);
     }
@@ -157,9 +157,9 @@ static bool measure_cage(const icc_domain *domain, int k, int32_t cells, result 
     }
     *seconds += bench_seconds() - start;
     icc_chart_info info = {.size = sizeof info};
-    icc_chart_measures m = {.size = sizeof m};
+    icc_chart_report m = {.size = sizeof m};
     bench_check(icc_chart_get_info(chart, &info), &error);
-    bench_check(icc_chart_measure(chart, POINTS, &m, NULL, &error), &error);
+    bench_check(icc_chart_get_report(chart, POINTS, &m, NULL, &error), &error);
     memcpy(r->critical[k], (size_t[]){info.n_maxima, info.n_minima, info.n_saddles},
            sizeof r->critical[k]);
     memcpy(r->share[k], (double[]){m.unreachable, m.uncovered, m.collapsed, m.not_inward},

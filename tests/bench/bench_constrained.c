@@ -22,7 +22,7 @@ static double processor_seconds(void)
 }
 
 static void print_result(const one *c, const iccp_rows *rows, const iccp_scaled *f,
-                         const icc_field_info *info, const double seconds[2])
+                         const icc_function_info *info, const double seconds[2])
 {
     printf("%-10s %4zu^%d %8zu %7.3f %8.3f %4zu %5zu %6.1f %% %9.1e %9.1e %5zu   %s\n", c->name,
            c->cells, (int)c->dim, rows->n, seconds[0], seconds[1], info->n_iterations,
@@ -49,12 +49,12 @@ static void measure(const one *c, const iccp_rows *rows, const iccp_env *env)
     order[0] = ICCP_NONE;
     const iccp_gluing gluing = {top, share, order};
     const iccp_glued_solver solve = c->iterative ? iccp_glued_iterative : iccp_glued_direct;
-    icc_field_info info = {.size = sizeof info};
+    icc_function_info info = {.size = sizeof info};
     const icc_error error = {.message = "no result"};
     double seconds[2], start = processor_seconds();
     bench_check(solve(rows, &gluing, &f, &info, env), &error);
     seconds[0] = processor_seconds() - start;
-    info = (icc_field_info){.size = sizeof info};
+    info = (icc_function_info){.size = sizeof info};
     start = processor_seconds();
     const icc_status status = iccp_constrained_laplace(rows, 1e-6, solve, order, &f, &info, env);
     seconds[1] = processor_seconds() - start;

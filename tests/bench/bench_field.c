@@ -34,7 +34,7 @@ static void print_chart(const char *name, const icc_chart *chart)
            "infeasible %zu, not inward %zu of %zu%s; s: grid %.2f tree %.2f function %.2f vectors %.2f\n",
            name, (long)i.cells, i.n_inside, i.n_grid, i.n_stray, i.n_maxima, i.n_minima, i.n_saddles,
            i.n_infeasible, i.n_not_inward, i.n_contacts, i.certified ? ", certified" : "",
-           i.seconds_grid, i.seconds_tree, i.seconds_field, i.seconds_solve);
+           i.seconds_grid, i.seconds_tree, i.seconds_function, i.seconds_solve);
 }
 
 static double points[3 * N_POINTS], images[3 * N_POINTS], back[3 * N_POINTS], jacobians[9 * N_POINTS];

@@ -40,7 +40,7 @@ static void run(const char *name, mask_shape shape, int32_t dim, size_t cells, b
     icc_grow_report report = {.size = sizeof report};
     icc_error err = {.size = sizeof err};
     bench_check(icc_grid_create_mask(&grid, dim, m.shape, m.inside, NULL, &err), &err);
-    bench_check(icc_grid_maximum(grid, &root, NULL, NULL, &err), &err);
+    bench_check(icc_grid_find_maximum(grid, &root, NULL, NULL, &err), &err);
     for (int i = 0; i < N_RUNS; ++i) {
         icc_tree *tree;
         const double begin = bench_seconds();
@@ -55,8 +55,8 @@ static void run(const char *name, mask_shape shape, int32_t dim, size_t cells, b
     }
     const double n = (double)report.n_vertices;
     printf("%-22s %9zu %7.0f %7.0f %6.2f %9zu %9zu %9zu\n", name, report.n_vertices,
-           1e9 * tree_time / n, 1e9 * grow_time / n, (double)report.n_tests / n, report.n_postponed,
-           report.n_unplaced, report.n_left);
+           1e9 * tree_time / n, 1e9 * grow_time / n, (double)report.n_tests / n, report.n_deferred,
+           report.n_unplaced, report.n_remaining);
     icc_grid_free(grid);
     mask_free(&m);
     free(values);

@@ -41,27 +41,27 @@ static icc_sampling *sample_star(const double *star)
     return sampling;
 }
 
-static size_t count_painted(const icc_kernel *kernel, size_t n)
+static size_t count_painted(const icc_weights *kernel, size_t n)
 {
     double *points = bench_alloc(2 * n, sizeof *points);
     size_t n_painted = 0;
-    (void)icc_kernel_get_nodes(kernel, points, NULL, NULL, NULL);
+    (void)icc_weights_get_nodes(kernel, points, NULL, NULL, NULL);
     for (size_t i = 0; i < n; ++i)
         n_painted += hypot(points[2 * i] - CENTRE[0], points[2 * i + 1] - CENTRE[1]) < RADIUS;
     free(points);
     return n_painted;
 }
 
-static void time_paint(const icc_kernel *kernel, size_t n_nodes)
+static void time_paint(const icc_weights *kernel, size_t n_nodes)
 {
     double best = HUGE_VAL;
     for (int k = 0; k < REPEATS; ++k) {
-        icc_kernel *painted;
+        icc_weights *painted;
         icc_error err = {.size = sizeof err};
         const double begin = bench_seconds();
-        bench_check(icc_kernel_paint(&painted, kernel, 0, CENTRE, RADIUS, 0.2, NULL, &err), &err);
+        bench_check(icc_weights_paint(&painted, kernel, 0, CENTRE, RADIUS, 0.2, NULL, &err), &err);
         best = fmin(best, bench_seconds() - begin);
-        icc_kernel_free(painted);
+        icc_weights_free(painted);
     }
     char what[60];
     snprintf(what, sizeof what, "paint %zu nodes of %zu: ms", count_painted(kernel, n_nodes),
@@ -69,7 +69,7 @@ static void time_paint(const icc_kernel *kernel, size_t n_nodes)
     row(what, 1e3 * best, "<= 30 with the default kernel");
 }
 
-static void time_points(const icc_kernel *kernel, size_t m)
+static void time_points(const icc_weights *kernel, size_t m)
 {
     double *points = bench_alloc(2 * PIXELS, sizeof *points), best[2] = {HUGE_VAL, HUGE_VAL};
     double *weights = bench_alloc(PIXELS * m, sizeof *weights);
@@ -80,7 +80,7 @@ static void time_points(const icc_kernel *kernel, size_t m)
     }
     for (int k = 0; k < 2 * REPEATS; ++k) {
         const double begin = bench_seconds();
-        (void)icc_kernel_weights(kernel, PIXELS, points, weights, k % 2 ? gradients : NULL, NULL,
+        (void)icc_weights_evaluate(kernel, PIXELS, points, weights, k % 2 ? gradients : NULL, NULL,
                                  NULL, NULL);
         best[k % 2] = fmin(best[k % 2], bench_seconds() - begin);
     }
@@ -91,7 +91,7 @@ static void time_points(const icc_kernel *kernel, size_t m)
     free(gradients);
 }
 
-static void time_poses(const icc_kernel *kernel, size_t m)
+static void time_poses(const icc_weights *kernel, size_t m)
 {
     double *points = bench_alloc(2 * PIXELS, sizeof *points), best[2] = {HUGE_VAL, HUGE_VAL};
     double *jacobians = bench_alloc(4 * PIXELS, sizeof *jacobians), transforms[6 * MANY];
@@ -118,14 +118,14 @@ static void time_poses(const icc_kernel *kernel, size_t m)
 
 static void time_all(const icc_sampling *sampling, size_t m, const double *handles, int32_t kind)
 {
-    const icc_kernel_options options = {.size = sizeof options, .kernel = kind};
-    icc_kernel *kernel;
-    icc_kernel_info info = {.size = sizeof info};
+    const icc_weights_options options = {.size = sizeof options, .kernel = kind};
+    icc_weights *kernel;
+    icc_weights_info info = {.size = sizeof info};
     icc_error err = {.size = sizeof err};
     const double begin = bench_seconds();
-    bench_check(icc_kernel_create(&kernel, sampling, m, handles, &options, NULL, &err), &err);
+    bench_check(icc_weights_create(&kernel, sampling, m, handles, &options, NULL, &err), &err);
     const double seconds = bench_seconds() - begin;
-    (void)icc_kernel_get_info(kernel, &info);
+    (void)icc_weights_get_info(kernel, &info);
     printf("%zu handles, %s, %.1f kernel values a row\n", m,
            kind == ICC_KERNEL_GAUSS ? "Gauss" : "Wendland",
            2 * (double)info.n_entries / (double)info.n_nodes - 1);
@@ -136,7 +136,7 @@ static void time_all(const icc_sampling *sampling, size_t m, const double *handl
     time_paint(kernel, info.n_nodes);
     time_points(kernel, m);
     time_poses(kernel, m);
-    icc_kernel_free(kernel);
+    icc_weights_free(kernel);
 }
 
 int main(void)

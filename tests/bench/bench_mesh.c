@@ -98,7 +98,7 @@ static void print_points(const icc_map *map, const icc_domain *source)
 static void print_map(const icc_map_info *info, const char *name)
 {
     const double reference = reference_of(name);
-    printf(" %6zu %5zu %5zu  %9.4g %8.4g %6.4g %+6.1f  %3zu %2d", info->n_triangles,
+    printf(" %6zu %5zu %5zu  %9.4g %8.4g %6.4g %+6.1f  %3zu %2d", info->n_simplices,
            info->n_inverted, info->n_unrepaired, info->energy_start, info->energy, reference,
            100 * (info->energy / reference - 1), info->n_iterations, (int)info->n_levels);
 }
@@ -200,7 +200,7 @@ static void try_pair(tally t[POLYGON_KINDS], uint64_t seed, int32_t iterations, 
                 printf("%s\n", error.message);
             else
                 printf("kind %d, %zu of %zu triangles inverted, %zu left, %.0f ms\n",
-                       (int)info.kind, info.n_inverted, info.n_triangles, info.n_unrepaired,
+                       (int)info.kind, info.n_inverted, info.n_simplices, info.n_unrepaired,
                        1e3 * info.seconds);
             fflush(stdout);
             if (verbose)

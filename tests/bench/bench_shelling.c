@@ -3,7 +3,7 @@
 #include "shelling/centres.h"
 #include "domain/domain.h"
 #include "shelling/circulation.h"
-#include "shelling/order.h"
+#include "shelling/shelling_order.h"
 
 #include "../meshes.h"
 #include "bench.h"

@@ -3,7 +3,7 @@
  * minutes; none: all others. One thread, the least processor time of up to five runs. */
 #include "bench.h"
 
-#include "function/field.h"
+#include "function/function.h"
 
 #include "../functions.h"
 
@@ -129,8 +129,8 @@ static int32_t meter_progress(void *user, const char *stage, double share)
 }
 
 typedef struct figures {
-    icc_field_info info;
-    icc_field_report report;
+    icc_function_info info;
+    icc_function_report report;
     double cpu, wall, imbalance, longest;
     char worst[32];
     size_t n, n_violated, most;
@@ -152,7 +152,7 @@ static ground ground_of(const row *r)
 }
 
 /* As ground_imbalance(), without the rounding of logarithms, which are as large as 8,000. */
-static double find_imbalance(const ground *g, const icc_field *field)
+static double find_imbalance(const ground *g, const icc_function *field)
 {
     double worst = 0;
     for (size_t i = 1; i < g->n; ++i) {
@@ -164,7 +164,7 @@ static double find_imbalance(const ground *g, const icc_field *field)
             if (u != UINT32_MAX && ground_holds(g, u))
                 around[n++] = u;
         }
-        iccp_field_local(field, n, around, f);
+        iccp_function_local(field, n, around, f);
         for (size_t k = 1; k < n; ++k)
             sum += f[k];
         worst = fmax(worst, fabs(sum / (2 * g->info.dim * f[0]) - 1));
@@ -173,12 +173,12 @@ static double find_imbalance(const ground *g, const icc_field *field)
 }
 
 /* Edges where the logarithms say that the inequality does not hold; it may be tight up to rounding. */
-static size_t count_violated(const ground *g, const icc_field *field)
+static size_t count_violated(const ground *g, const icc_function *field)
 {
-    const double *u = icc_field_logs(field);
+    const double *u = icc_function_logs(field);
     size_t n_violated = 0;
     if (u == NULL)
-        return ground_violated(g, 1e-6, icc_field_values(field));
+        return ground_violated(g, 1e-6, icc_function_values(field));
     for (size_t i = 1; i < g->n; ++i) {
         const uint32_t v = g->order[i];
         n_violated += u[g->parent[v]] - u[v] < log1p(1e-6) - 1e-15 * (4 - u[v]);
@@ -186,9 +186,9 @@ static size_t count_violated(const ground *g, const icc_field *field)
     return n_violated;
 }
 
-static icc_field *run(const row *r, const ground *g, figures *out)
+static icc_function *run(const row *r, const ground *g, figures *out)
 {
-    const icc_field_options options = {.size = sizeof options,
+    const icc_function_options options = {.size = sizeof options,
                                        .function = r->function,
                                        .constraints = r->constraints,
                                        .solver = r->solver};
@@ -200,10 +200,10 @@ static icc_field *run(const row *r, const ground *g, figures *out)
                          .dealloc = meter_dealloc,
                          .progress = meter_progress};
     icc_error error = {.size = sizeof error};
-    icc_field *field;
+    icc_function *field;
     const double start = bench_seconds();
     const clock_t ticks = clock();
-    const icc_status status = icc_field_create(&field, g->tree, &options, &env, &error);
+    const icc_status status = icc_function_create(&field, g->tree, &options, &env, &error);
     const double cpu = (double)(clock() - ticks) / CLOCKS_PER_SEC;
     const double wall = bench_seconds() - start;
     if (status != ICC_OK) {
@@ -216,7 +216,7 @@ static icc_field *run(const row *r, const ground *g, figures *out)
         out->wall = wall;
         out->longest = m.longest;
         memcpy(out->worst, m.worst, sizeof m.worst);
-        (void)icc_field_get_info(field, &out->info);
+        (void)icc_function_get_info(field, &out->info);
     }
     out->most = m.most;
     return field;
@@ -234,7 +234,7 @@ static bool is_reached(const row *r, const figures *f)
 
 static void print(const row *r, const figures *f)
 {
-    const icc_field_info *i = &f->info;
+    const icc_function_info *i = &f->info;
     printf("%-26s %7zu %8.4f %6.3g %8.4f %7.3f %7.3f %7.3f %7.3f %7.3f %4zu %5zu %5.1f %5.1f %8.1e %8.1e "
            "%4zu %2zu/%zu/%zu %8.1e %6.0f %6.0f %-10.10s %s\n",
            r->name, f->n, f->cpu, r->seconds, f->wall, i->seconds_setup, i->seconds_order,
@@ -258,22 +258,22 @@ static void measure(const row *r)
     f.cpu = HUGE_VAL;
     f.n = g.n;
     const double start = bench_seconds();
-    icc_field *field = NULL;
+    icc_function *field = NULL;
     for (int k = 0; k == 0 || (k < RUNS && bench_seconds() - start < LONG); ++k) {
-        icc_field_free(field);
+        icc_function_free(field);
         field = run(r, &g, &f);
         if (field == NULL)
             break;
     }
     if (field != NULL) {
-        bench_check(icc_field_verify(field, &f.report, NULL, &error), &error);
+        bench_check(icc_function_get_report(field, &f.report, NULL, &error), &error);
         f.imbalance = r->function == LAPLACE && !f.info.constrained
                           ? find_imbalance(&g, field)
                           : NAN;
         f.n_violated = f.info.constrained ? count_violated(&g, field) : 0;
         print(r, &f);
     }
-    icc_field_free(field);
+    icc_function_free(field);
     ground_free(&g);
 }
 

@@ -56,25 +56,25 @@ static void run(const char *name, const icc_domain *domain, int32_t cells, int32
     const double stop = now() + 1.5;
     for (int i = 0; i < 3 || now() < stop; ++i) {
         icc_tree *tree;
-        icc_field *field;
+        icc_function *field;
         uint32_t root;
         icc_tree_report tree_report = {.size = sizeof tree_report};
-        icc_field_report field_report = {.size = sizeof field_report};
+        icc_function_report field_report = {.size = sizeof field_report};
         double since = now();
         icc_grid *grid = make(domain, cells, dim, shape, inside);
         keep_least(seconds, GRID, &since);
-        require(icc_grid_maximum(grid, &root, NULL, NULL, NULL));
+        require(icc_grid_find_maximum(grid, &root, NULL, NULL, NULL));
         keep_least(seconds, MAXIMUM, &since);
         require(icc_tree_create(&tree, grid, root, NULL, NULL, NULL));
         keep_least(seconds, TREE, &since);
-        require(icc_tree_verify(tree, &tree_report, NULL, NULL));
+        require(icc_tree_get_report(tree, &tree_report, NULL, NULL));
         keep_least(seconds, VERIFY, &since);
-        require(icc_field_create(&field, tree, NULL, NULL, NULL));
+        require(icc_function_create(&field, tree, NULL, NULL, NULL));
         keep_least(seconds, FIELD, &since);
-        require(icc_field_verify(field, &field_report, NULL, NULL));
+        require(icc_function_get_report(field, &field_report, NULL, NULL));
         keep_least(seconds, CRITICAL, &since);
         require(icc_grid_get_info(grid, &info));
-        icc_field_free(field);
+        icc_function_free(field);
         icc_tree_free(tree);
         icc_grid_free(grid);
     }

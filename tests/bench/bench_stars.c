@@ -102,12 +102,12 @@ static void clear(stage *s)
     free(s->points);
 }
 
-static icc_kernel *kernel_of(const stage *s, icc_kernel_options options, double *seconds)
+static icc_weights *kernel_of(const stage *s, icc_weights_options options, double *seconds)
 {
-    icc_kernel *kernel;
+    icc_weights *kernel;
     icc_error error = {.size = sizeof error};
     const double start = bench_seconds();
-    if (icc_kernel_create(&kernel, s->sampling, s->n_handles, s->handles, &options, NULL, &error) !=
+    if (icc_weights_create(&kernel, s->sampling, s->n_handles, s->handles, &options, NULL, &error) !=
         ICC_OK) {
         printf("  %s: %s\n", icc_status_name(error.status), error.message);
         return NULL;
@@ -122,19 +122,19 @@ typedef struct table {
     const char *said[4];
 } table;
 
-static void print_line(const char *kind, const icc_kernel *kernel, const stage *s, double seconds)
+static void print_line(const char *kind, const icc_weights *kernel, const stage *s, double seconds)
 {
     icc_error error = {.size = sizeof error};
-    icc_kernel_report r = {.size = sizeof r};
-    icc_kernel_info info = {.size = sizeof info};
-    bench_check(icc_kernel_get_report(kernel, s->n_points, s->points, &r, NULL, &error), &error);
-    bench_check(icc_kernel_get_info(kernel, &info), &error);
+    icc_weights_report r = {.size = sizeof r};
+    icc_weights_info info = {.size = sizeof info};
+    bench_check(icc_weights_get_report(kernel, s->n_points, s->points, &r, NULL, &error), &error);
+    bench_check(icc_weights_get_info(kernel, &info), &error);
     printf("  %-22s | %8.1e | %8.1e | %8.1e | %8.1e | %9.2e | %6zu | %.3f (%.4f)\n", kind,
            r.reproduction, r.unity, r.lagrange, r.linearity, r.least_weight, r.n_infeasible,
            seconds, info.seconds_weights);
 }
 
-static void judge(const stage *s, const table *t, icc_kernel_options options)
+static void judge(const stage *s, const table *t, icc_weights_options options)
 {
     printf("%s: %zu samples, %zu on edges, T %.4g, sampled in %.2f s\n", t->name, s->info.n_samples,
            s->info.n_edge, s->info.spacing, s->seconds);
@@ -142,23 +142,23 @@ static void judge(const stage *s, const table *t, icc_kernel_options options)
            "Lagrange", "linear", "least", "infeas", "s (weights)");
     options.size = sizeof options;
     for (int32_t method = ICC_WEIGHTS_QP; method <= ICC_WEIGHTS_L1; ++method) {
-        icc_kernel_options theirs = options, ours = options;
+        icc_weights_options theirs = options, ours = options;
         double seconds;
         char kind[40];
         printf("  %-22s | %s\n", METHOD[method], t->said[method]);
         theirs.method = ours.method = method;
         theirs.kernel = ICC_KERNEL_GAUSS;
-        theirs.tail = theirs.visible = -1;
+        theirs.affine_tail = theirs.within_shape = -1;
         ours.sigma = 0;
-        icc_kernel *kernel = kernel_of(s, theirs, &seconds);
+        icc_weights *kernel = kernel_of(s, theirs, &seconds);
         snprintf(kind, sizeof kind, "  thesis' options");
         if (kernel != NULL)
             print_line(kind, kernel, s, seconds);
-        icc_kernel_free(kernel);
+        icc_weights_free(kernel);
         kernel = kernel_of(s, ours, &seconds);
         if (kernel != NULL)
             print_line("  ours", kernel, s, seconds);
-        icc_kernel_free(kernel);
+        icc_weights_free(kernel);
     }
 }
 
@@ -200,23 +200,23 @@ static void stars(void)
     stage s = star_of(
         0, (icc_sampling_options){.kind = ICC_SAMPLING_GRID, .spacing = 0.0286, .margin = 4});
     judge(&s, &tables[0],
-          (icc_kernel_options){.initial = ICC_INITIAL_HEAT,
+          (icc_weights_options){.initial = ICC_INITIAL_HEAT,
                                .n_edges = s.n_edges,
                                .edges = s.edges,
                                .sigma = 3 * 0.0286 / 3.14159265});
     clear(&s);
     s = star_of(0, (icc_sampling_options){.spacing = 0.0897});
     judge(&s, &tables[1],
-          (icc_kernel_options){
+          (icc_weights_options){
               .initial = ICC_INITIAL_HEAT, .n_edges = s.n_edges, .edges = s.edges, .sigma = 0.09});
     clear(&s);
     s = star_of(1.43, (icc_sampling_options){.spacing = 0.0897});
     judge(&s, &tables[2],
-          (icc_kernel_options){.n_edges = s.n_edges, .edges = s.edges, .sigma = 0.09});
+          (icc_weights_options){.n_edges = s.n_edges, .edges = s.edges, .sigma = 0.09});
     clear(&s);
     s = star_of(1.22, (icc_sampling_options){.spacing = 0.0265});
     judge(&s, &tables[3],
-          (icc_kernel_options){.n_edges = s.n_edges, .edges = s.edges, .sigma = 0.025});
+          (icc_weights_options){.n_edges = s.n_edges, .edges = s.edges, .sigma = 0.025});
     clear(&s);
 }
 
@@ -238,29 +238,29 @@ static size_t find_leg(const double *star, size_t n, const double *points, uint3
     return found;
 }
 
-static void stiffen(const icc_kernel *kernel, const stage *s, const char *kind)
+static void stiffen(const icc_weights *kernel, const stage *s, const char *kind)
 {
     icc_error error = {.size = sizeof error};
-    icc_kernel_info info = {.size = sizeof info};
-    icc_kernel *stiff;
+    icc_weights_info info = {.size = sizeof info};
+    icc_weights *stiff;
     double energy[2], least = 0;
-    bench_check(icc_kernel_get_info(kernel, &info), &error);
+    bench_check(icc_weights_get_info(kernel, &info), &error);
     double *points = bench_alloc(info.n_nodes, 2 * sizeof *points);
     double *weights = bench_alloc(info.n_nodes, TIPS * sizeof *weights);
     uint32_t *part = bench_alloc(info.n_nodes, sizeof *part);
-    bench_check(icc_kernel_get_nodes(kernel, points, NULL, NULL, NULL), &error);
+    bench_check(icc_weights_get_nodes(kernel, points, NULL, NULL, NULL), &error);
     const size_t n = find_leg(s->handles, info.n_nodes, points, part);
     const double start = bench_seconds();
-    bench_check(icc_kernel_stiffen(&stiff, kernel, n, part, NULL, energy, NULL, &error), &error);
+    bench_check(icc_weights_stiffen(&stiff, kernel, n, part, NULL, energy, NULL, &error), &error);
     const double seconds = bench_seconds() - start;
-    bench_check(icc_kernel_get_nodes(stiff, NULL, NULL, weights, NULL), &error);
+    bench_check(icc_weights_get_nodes(stiff, NULL, NULL, weights, NULL), &error);
     for (size_t i = 0; i < n; ++i)
         for (size_t j = 0; j < TIPS; ++j)
             least = fmin(least, weights[TIPS * part[i] + j]);
     printf("rigid leg, %s | thesis q 141, ~2 s | q %zu: energy / %.2f, %.3f s, least weight there "
            "%.1e | energy / >= 3, <= 0.2 s\n",
            kind, n, energy[0] / energy[1], seconds, least);
-    icc_kernel_free(stiff);
+    icc_weights_free(stiff);
     free(points);
     free(weights);
     free(part);
@@ -271,18 +271,18 @@ static double bend_of(const stage *s, int32_t kind, const icc_line *line)
 {
     enum { STEPS = 1000 };
     static double points[2 * (STEPS + 1)], weights[TIPS * (STEPS + 1)];
-    const icc_kernel_options options = {.size = sizeof options,
+    const icc_weights_options options = {.size = sizeof options,
                                         .kernel = kind,
                                         .n_edges = s->n_edges,
                                         .edges = s->edges,
                                         .n_lines = 1,
                                         .lines = line};
     double seconds, off = 0;
-    icc_kernel *kernel = kernel_of(s, options, &seconds);
+    icc_weights *kernel = kernel_of(s, options, &seconds);
     for (size_t i = 0; i <= STEPS; ++i)
         for (size_t k = 0; k < 2; ++k)
             points[2 * i + k] = line->from[k] + (double)i / STEPS * (line->to[k] - line->from[k]);
-    bench_check(icc_kernel_weights(kernel, STEPS + 1, points, weights, NULL, NULL, NULL, NULL),
+    bench_check(icc_weights_evaluate(kernel, STEPS + 1, points, weights, NULL, NULL, NULL, NULL),
                 NULL);
     for (size_t i = 0; i <= STEPS; ++i)
         for (size_t j = 0; j < TIPS; ++j) {
@@ -290,7 +290,7 @@ static double bend_of(const stage *s, int32_t kind, const icc_line *line)
             off = fmax(off, fabs(weights[TIPS * i + j] - (1 - t) * weights[j] -
                                  t * weights[TIPS * STEPS + j]));
         }
-    icc_kernel_free(kernel);
+    icc_weights_free(kernel);
     return off;
 }
 
@@ -299,14 +299,14 @@ static double turn_of(const stage *s)
 {
     const icc_line lines[2] = {{.from = {-0.25, -0.1}, .to = {0.25, 0.2}},
                                {.from = {0.2, -0.1}, .to = {-0.2, -0.34}, .parallel = 1}};
-    const icc_kernel_options options = {.size = sizeof options, .n_lines = 2, .lines = lines};
+    const icc_weights_options options = {.size = sizeof options, .n_lines = 2, .lines = lines};
     double weights[4 * TIPS], points[8], seconds, turn = 0;
-    icc_kernel *kernel = kernel_of(s, options, &seconds);
+    icc_weights *kernel = kernel_of(s, options, &seconds);
     for (size_t k = 0; k < 2; ++k) {
         memcpy(points + 4 * k, lines[k].from, 2 * sizeof *points);
         memcpy(points + 4 * k + 2, lines[k].to, 2 * sizeof *points);
     }
-    bench_check(icc_kernel_weights(kernel, 4, points, weights, NULL, NULL, NULL, NULL), NULL);
+    bench_check(icc_weights_evaluate(kernel, 4, points, weights, NULL, NULL, NULL, NULL), NULL);
     for (size_t k = 0; k < 100; ++k) {
         double a[2] = {0}, b[2] = {0};
         for (size_t j = 0; j < TIPS; ++j)
@@ -318,7 +318,7 @@ static double turn_of(const stage *s)
         turn =
             fmax(turn, fabs(a[0] * b[1] - a[1] * b[0]) / (hypot(a[0], a[1]) * hypot(b[0], b[1])));
     }
-    icc_kernel_free(kernel);
+    icc_weights_free(kernel);
     return turn;
 }
 
@@ -342,13 +342,13 @@ static void keep_lines(const stage *s)
 static void structure(void)
 {
     stage s = star_of(1.22, (icc_sampling_options){.spacing = 0.0265});
-    icc_kernel_options options = {.size = sizeof options, .n_edges = s.n_edges, .edges = s.edges};
+    icc_weights_options options = {.size = sizeof options, .n_edges = s.n_edges, .edges = s.edges};
     double seconds;
     for (int32_t kind = ICC_KERNEL_WENDLAND; kind <= ICC_KERNEL_GAUSS; ++kind) {
         options.kernel = kind;
-        icc_kernel *kernel = kernel_of(&s, options, &seconds);
+        icc_weights *kernel = kernel_of(&s, options, &seconds);
         stiffen(kernel, &s, kind == ICC_KERNEL_GAUSS ? "Gaussian" : "Wendland");
-        icc_kernel_free(kernel);
+        icc_weights_free(kernel);
     }
     keep_lines(&s);
     clear(&s);
@@ -359,23 +359,23 @@ static void structure(void)
 /* Two legs, two spacings apart: the greatest initial weight, in the upper half of one, of a handle on the other. */
 static double leak(const stage *s, int32_t visible, int32_t steps)
 {
-    icc_kernel_info info = {.size = sizeof info};
+    icc_weights_info info = {.size = sizeof info};
     double seconds, most = 0;
-    icc_kernel *kernel = kernel_of(s,
-                                   (icc_kernel_options){.size = sizeof(icc_kernel_options),
+    icc_weights *kernel = kernel_of(s,
+                                   (icc_weights_options){.size = sizeof(icc_weights_options),
                                                         .kernel = ICC_KERNEL_GAUSS,
-                                                        .visible = visible,
+                                                        .within_shape = visible,
                                                         .steps = steps},
                                    &seconds);
-    bench_check(icc_kernel_get_info(kernel, &info), NULL);
+    bench_check(icc_weights_get_info(kernel, &info), NULL);
     double *points = bench_alloc(info.n_nodes, 2 * sizeof *points);
     double *weights = bench_alloc(info.n_nodes, info.n_handles * sizeof *weights);
-    bench_check(icc_kernel_get_nodes(kernel, points, weights, NULL, NULL), NULL);
+    bench_check(icc_weights_get_nodes(kernel, points, weights, NULL, NULL), NULL);
     for (size_t i = 0; i < info.n_nodes; ++i)
         if (points[2 * i] > 0.05 && points[2 * i] < 0.55 && points[2 * i + 1] > 0 &&
             points[2 * i + 1] < 1.2)
             most = fmax(most, weights[info.n_handles * i]);
-    icc_kernel_free(kernel);
+    icc_weights_free(kernel);
     free(points);
     free(weights);
     return most;
@@ -426,7 +426,7 @@ static void stick_figure(void)
     sample(&s, shape_of(2, regions, MEN, s.handles, 6, limbs),
            (icc_sampling_options){.size = sizeof(icc_sampling_options), .spacing = 0.0345});
     judge_at(&s, CORNERS, head);
-    judge(&s, &t, (icc_kernel_options){.n_edges = s.n_edges, .edges = s.edges, .sigma = 0.035});
+    judge(&s, &t, (icc_weights_options){.n_edges = s.n_edges, .edges = s.edges, .sigma = 0.035});
     clear(&s);
 }
 
@@ -450,8 +450,8 @@ static void butterfly(void)
         icc_domain *regions[2] = {bench_domain(CAGE, s.handles), square(1.25)};
         sample(&s, shape_of(2, regions, 0, NULL, 0, NULL),
                (icc_sampling_options){.size = sizeof(icc_sampling_options), .spacing = 0.041});
-        icc_kernel *kernel = kernel_of(&s,
-                                       (icc_kernel_options){.size = sizeof(icc_kernel_options),
+        icc_weights *kernel = kernel_of(&s,
+                                       (icc_weights_options){.size = sizeof(icc_weights_options),
                                                             .n_edges = CAGE,
                                                             .edges = s.edges,
                                                             .method = method},
@@ -460,8 +460,8 @@ static void butterfly(void)
         bench_check(icc_binding_create(&binding, kernel, s.n_points, s.points, 0, NULL, &error),
                     &error);
         const double all = bench_seconds() - start;
-        icc_kernel_info info = {.size = sizeof info};
-        bench_check(icc_kernel_get_info(kernel, &info), &error);
+        icc_weights_info info = {.size = sizeof info};
+        bench_check(icc_weights_get_info(kernel, &info), &error);
         printf(
             "butterfly, 26 handles, %s: all steps, s | thesis 11.3 (l1), bounded biharmonic "
             "weights "
@@ -470,7 +470,7 @@ static void butterfly(void)
             METHOD[method], all, info.n_nodes, s.seconds, seconds, info.seconds_weights,
             s.n_points);
         icc_binding_free(binding);
-        icc_kernel_free(kernel);
+        icc_weights_free(kernel);
         clear(&s);
     }
 }

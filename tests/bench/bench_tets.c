@@ -59,7 +59,7 @@ static void print_chart(const char *name, const icc_chart *chart)
     const double sum = i.seconds_grid + i.seconds_solve + i.seconds_tree + i.seconds_mesh + i.seconds_certify;
     printf("  %s: %zu tetrahedra, %zu vertices; %s beta %g of %ld, %zu reversed, energy %.1e, divergence "
            "%.0e%s\n    ms: centre %.0f flux %.0f order %.0f certificate %.1f (%.1f %%) leaves %.0f\n",
-           name, i.n_mesh_triangles, i.n_mesh_vertices, i.order_peeled ? "peeled" : "grown", i.order_beta,
+           name, i.n_mesh_simplices, i.n_mesh_vertices, i.order_peeled ? "peeled" : "grown", i.order_beta,
            (long)i.n_orders, i.n_reversed, i.flux_energy, i.flux_divergence,
            i.certified ? ", certified" : "", 1e3 * i.seconds_grid, 1e3 * i.seconds_solve,
            1e3 * i.seconds_tree, 1e3 * i.seconds_certify, 100 * i.seconds_certify / sum,

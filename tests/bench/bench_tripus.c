@@ -56,21 +56,21 @@ static void run_stages(const icc_domain *domain, int32_t cells, times *t)
 {
     icc_grid *grid;
     icc_tree *tree;
-    icc_field *field;
+    icc_function *field;
     uint32_t maximum;
     size_t n_edges;
     icc_error error = {.size = sizeof error};
     double since = bench_seconds();
     bench_check(icc_grid_create(&grid, domain, cells, NULL, &error), &error);
     lap(&t->other, &since);
-    bench_check(icc_grid_maximum(grid, &maximum, NULL, NULL, &error), &error);
+    bench_check(icc_grid_find_maximum(grid, &maximum, NULL, NULL, &error), &error);
     lap(&t->maxima, &since);
     bench_check(icc_tree_create(&tree, grid, maximum, NULL, NULL, &error), &error);
     lap(&t->bfs, &since);
-    bench_check(icc_field_create(&field, tree, NULL, NULL, &error), &error);
-    bench_check(icc_field_edges(field, 0, NULL, NULL, &n_edges, NULL), &error);
+    bench_check(icc_function_create(&field, tree, NULL, NULL, &error), &error);
+    bench_check(icc_function_get_edges(field, 0, NULL, NULL, &n_edges, NULL), &error);
     lap(&t->gradient, &since);
-    icc_field_free(field);
+    icc_function_free(field);
     icc_tree_free(tree);
     icc_grid_free(grid);
 }

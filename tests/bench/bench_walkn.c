@@ -40,7 +40,7 @@ static void pick(const icc_grid *grid, random_source *r, double *p)
     } while (!grid->inside[nearest]);
 }
 
-static tally climb(const icc_field *field)
+static tally climb(const icc_function *field)
 {
     tally t = {0};
     random_source r = {1};
@@ -69,7 +69,7 @@ static tally climb(const icc_field *field)
     return t;
 }
 
-static tally climb_plane(const icc_field *field)
+static tally climb_plane(const icc_function *field)
 {
     tally t = {0};
     random_source r = {1};
@@ -104,21 +104,21 @@ static void run(const char *name, mask_shape shape, int32_t dim, size_t cells)
     icc_tree *tree;
     icc_error err = {.size = sizeof err};
     bench_check(icc_grid_create_mask(&grid, dim, m.shape, m.inside, NULL, &err), &err);
-    bench_check(icc_grid_maximum(grid, &root, NULL, NULL, &err), &err);
+    bench_check(icc_grid_find_maximum(grid, &root, NULL, NULL, &err), &err);
     bench_check(icc_tree_create(&tree, grid, root, NULL, NULL, &err), &err);
     for (int i = 0; i < 3; ++i) {
-        icc_field *field;
-        const icc_field_options options = {.size = sizeof options,
+        icc_function *field;
+        const icc_function_options options = {.size = sizeof options,
                                            .function = FUNCTION[i].function,
                                            .constraints = ICC_CONSTRAINTS_NONE};
-        bench_check(icc_field_create(&field, tree, &options, NULL, &err), &err);
+        bench_check(icc_function_create(&field, tree, &options, NULL, &err), &err);
         const tally t = climb(field);
         print(name, FUNCTION[i].name, &t);
         if (dim == 2) {
             const tally plane = climb_plane(field);
             print("  walk2", FUNCTION[i].name, &plane);
         }
-        icc_field_free(field);
+        icc_function_free(field);
     }
     icc_tree_free(tree);
     icc_grid_free(grid);
@@ -163,7 +163,7 @@ static void run_chart(int32_t cells)
         printf("ball, %3ld cells %-9s %8zu inside %7.2f s, of these %5.2f for f %7.1f us there "
                "%7.1f us "
                "back %5zu %5zu astray\n",
-               (long)cells, FUNCTION[i].name, info.n_inside, made - begin, info.seconds_field,
+               (long)cells, FUNCTION[i].name, info.n_inside, made - begin, info.seconds_function,
                1e6 * (there - ready) / N_WALKS, 1e6 * (back - there) / N_WALKS, down, up);
         icc_chart_free(chart);
     }

@@ -88,7 +88,7 @@ static stages once(const cages *c, const icc_picture *from, const icc_picture *t
     icc_map_free(map);
     icc_domain_free(source);
     icc_domain_free(target);
-    return (stages){made - begin, mapped - made, end - mapped, end - begin, info.n_triangles};
+    return (stages){made - begin, mapped - made, end - mapped, end - begin, info.n_simplices};
 }
 
 static void measure(const char *name, const cages *c, const icc_picture *from,

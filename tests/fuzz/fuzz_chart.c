@@ -60,8 +60,8 @@ static void check_certified(const icc_chart *chart, size_t n, const double *poin
 
 static void check_measures(const icc_chart *chart)
 {
-    icc_chart_measures m = {.size = sizeof m};
-    require(icc_chart_measure(chart, 64, &m, NULL, NULL) == ICC_OK);
+    icc_chart_report m = {.size = sizeof m};
+    require(icc_chart_get_report(chart, 64, &m, NULL, NULL) == ICC_OK);
     require(m.unreachable >= 0 && m.uncovered >= 0 && m.unreachable + m.uncovered <= 1 + 1e-12);
     require(m.collapsed >= 0 && m.collapsed <= 1 && m.not_inward >= 0 && m.not_inward <= 1);
 }

@@ -76,13 +76,13 @@ static void check_order(const icc_grid *grid, size_t n_vertices)
     icc_tree *tree;
     uint32_t root, *rank = calloc(n_vertices, sizeof *rank);
     icc_grow_report report = {.size = sizeof report};
-    icc_field_report found = {.size = sizeof found};
+    icc_function_report found = {.size = sizeof found};
     require(rank != NULL);
-    require(icc_grid_maximum(grid, &root, NULL, NULL, NULL) == ICC_OK);
+    require(icc_grid_find_maximum(grid, &root, NULL, NULL, NULL) == ICC_OK);
     require(icc_tree_create(&tree, grid, root, NULL, NULL, NULL) == ICC_OK);
     const icc_status status = icc_tree_grow(tree, NULL, rank, &report, NULL, NULL);
     require(status == ICC_OK || status == ICC_ERR_TOPOLOGY);
-    require(icc_tree_verify_ranks(tree, rank, &found, NULL, NULL) == ICC_OK);
+    require(icc_tree_get_rank_report(tree, rank, &found, NULL, NULL) == ICC_OK);
     require(status != ICC_OK || (found.critical == UINT32_MAX && found.n_maxima == 1));
     icc_tree_free(tree);
     free(rank);

@@ -88,7 +88,7 @@ static void check_report(const icc_tree *tree, const icc_grid *grid)
 {
     icc_tree_report report = {.size = sizeof report};
     icc_grid_info info = {.size = sizeof info};
-    require(icc_tree_verify(tree, &report, NULL, NULL) == ICC_OK);
+    require(icc_tree_get_report(tree, &report, NULL, NULL) == ICC_OK);
     require(icc_grid_get_info(grid, &info) == ICC_OK);
     require(report.n_inside >= 1 && report.n_inside + report.n_unreachable == info.n_inside);
     require(report.n_cousin_violations <= report.n_pairs);
@@ -97,42 +97,42 @@ static void check_report(const icc_tree *tree, const icc_grid *grid)
 
 static void check_field(const icc_tree *tree, const shape *s, int32_t function)
 {
-    const icc_field_options options = {.size = sizeof options, .function = function};
-    icc_field *field;
-    icc_field_report report = {.size = sizeof report};
-    require(icc_field_create(&field, tree, &options, NULL, NULL) == ICC_OK);
-    const double *f = icc_field_values(field);
+    const icc_function_options options = {.size = sizeof options, .function = function};
+    icc_function *field;
+    icc_function_report report = {.size = sizeof report};
+    require(icc_function_create(&field, tree, &options, NULL, NULL) == ICC_OK);
+    const double *f = icc_function_values(field);
     for (size_t v = 0; v < s->n; ++v) {
         const uint32_t parent = icc_tree_parents(tree)[v];
         require(isnan(f[v]) == (icc_tree_generations(tree)[v] < 0));
         require(parent == UINT32_MAX || f[v] < f[parent]);
     }
-    require(icc_field_verify(field, &report, NULL, NULL) == ICC_OK);
+    require(icc_function_get_report(field, &report, NULL, NULL) == ICC_OK);
     require(report.n_maxima >= 1);
     size_t n_edges = 0, n_tested = 0;
-    const icc_status status = icc_field_edges(field, 0, NULL, NULL, &n_edges, &n_tested);
+    const icc_status status = icc_function_get_edges(field, 0, NULL, NULL, &n_edges, &n_tested);
     require(status == (s->dim == 2 ? ICC_OK : ICC_ERR_UNSUPPORTED) && n_edges <= n_tested);
-    icc_field_free(field);
+    icc_function_free(field);
 }
 
 /* Two bytes: what to solve for and how, and how large the falls and the bounds shall be. */
-static icc_field_options read_options(reader *in)
+static icc_function_options read_options(reader *in)
 {
     static const double ETAS[4] = {0, 1e-12, 1e-3, 1e-2}, LEAVES[4] = {0, 1e-15, 1e-4, 1e-2};
     const unsigned what = next_byte(in), sizes = next_byte(in);
-    return (icc_field_options){.size = sizeof(icc_field_options),
+    return (icc_function_options){.size = sizeof(icc_function_options),
                                .function = ICC_FUNCTION_LAPLACE + (int32_t)(what % 3),
                                .constraints = (int32_t)(what / 3 % 4),
                                .solver = (int32_t)(what / 12 % 3),
-                               .eta = ETAS[sizes % 4],
-                               .leaf = LEAVES[sizes / 4 % 4]};
+                               .min_fall = ETAS[sizes % 4],
+                               .leaf_min = LEAVES[sizes / 4 % 4]};
 }
 
 /* Whether the tree is so deep that falls and bounds cannot both be kept. */
-static bool is_infeasible(const icc_tree *tree, const shape *s, const icc_field_options *options)
+static bool is_infeasible(const icc_tree *tree, const shape *s, const icc_function_options *options)
 {
-    const double eta = options->eta > 0 ? options->eta : 1e-6;
-    const double leaf = options->leaf > 0 ? options->leaf : 1e-9;
+    const double eta = options->min_fall > 0 ? options->min_fall : 1e-6;
+    const double leaf = options->leaf_min > 0 ? options->leaf_min : 1e-9;
     int32_t deepest = 0;
     for (size_t v = 0; v < s->n; ++v)
         if (s->inside[v] && icc_tree_generations(tree)[v] > deepest)
@@ -140,16 +140,16 @@ static bool is_infeasible(const icc_tree *tree, const shape *s, const icc_field_
     return options->function != ICC_FUNCTION_LAPLACE && leaf * pow(1 + eta, deepest) > 1;
 }
 
-static void check_values(const icc_field *field, const shape *s, const icc_field_options *options)
+static void check_values(const icc_function *field, const shape *s, const icc_function_options *options)
 {
-    const double *f = icc_field_values(field), *u = icc_field_logs(field);
-    const double eta = options->eta > 0 ? options->eta : 1e-6;
+    const double *f = icc_function_values(field), *u = icc_function_logs(field);
+    const double eta = options->min_fall > 0 ? options->min_fall : 1e-6;
     const double leaf = options->function == ICC_FUNCTION_LAPLACE ? 0
-                        : options->leaf > 0                       ? options->leaf
+                        : options->leaf_min > 0                       ? options->leaf_min
                                                                   : 1e-9;
-    const icc_tree *tree = icc_field_tree(field);
-    icc_field_info info = {.size = sizeof info};
-    require(icc_field_get_info(field, &info) == ICC_OK);
+    const icc_tree *tree = icc_function_tree(field);
+    icc_function_info info = {.size = sizeof info};
+    require(icc_function_get_info(field, &info) == ICC_OK);
     require(info.constrained || options->constraints != ICC_CONSTRAINTS_ALL);
     for (size_t v = 0; v < s->n; ++v) {
         const uint32_t parent = icc_tree_parents(tree)[v];
@@ -165,17 +165,17 @@ static void check_values(const icc_field *field, const shape *s, const icc_field
 }
 
 /* The header says so of bounds that are large beside the falls. */
-static bool may_give_up(const icc_field_options *options)
+static bool may_give_up(const icc_function_options *options)
 {
-    return options->function != ICC_FUNCTION_LAPLACE && options->leaf > 1e-3;
+    return options->function != ICC_FUNCTION_LAPLACE && options->leaf_min > 1e-3;
 }
 
-static void check_solution(const icc_tree *tree, const shape *s, const icc_field_options *options)
+static void check_solution(const icc_tree *tree, const shape *s, const icc_function_options *options)
 {
-    icc_field *field;
+    icc_function *field;
     icc_tree_report report = {.size = sizeof report};
-    require(icc_tree_verify(tree, &report, NULL, NULL) == ICC_OK);
-    const icc_status status = icc_field_create(&field, tree, options, NULL, NULL);
+    require(icc_tree_get_report(tree, &report, NULL, NULL) == ICC_OK);
+    const icc_status status = icc_function_create(&field, tree, options, NULL, NULL);
     if (report.n_inside == 1)
         require(status == ICC_ERR_RESOLUTION);
     else if (status == ICC_ERR_UNSUPPORTED) /* only Laplacians have an order of their own */
@@ -186,7 +186,7 @@ static void check_solution(const icc_tree *tree, const shape *s, const icc_field
         require(status == ICC_OK || (status == ICC_ERR_SOLVER && may_give_up(options)));
     if (status == ICC_OK)
         check_values(field, s, options);
-    icc_field_free(field);
+    icc_function_free(field);
 }
 
 /* Most masks are no balls. What growth places is regular by itself all the same. */
@@ -194,15 +194,15 @@ static void check_order(const icc_tree *tree, const shape *s)
 {
     static uint32_t rank[MAX_VERTICES];
     icc_grow_report report = {.size = sizeof report};
-    icc_field_report found = {.size = sizeof found};
+    icc_function_report found = {.size = sizeof found};
     const icc_status status = icc_tree_grow(tree, NULL, rank, &report, NULL, NULL);
-    require(status == ICC_OK || (status == ICC_ERR_TOPOLOGY && report.n_left > 0));
+    require(status == ICC_OK || (status == ICC_ERR_TOPOLOGY && report.n_remaining > 0));
     require(report.n_tests <= report.n_vertices << (s->dim + 3));
     size_t n_ranked = 0;
     for (size_t v = 0; v < s->n; ++v)
         n_ranked += rank[v] != UINT32_MAX;
     require(n_ranked == report.n_vertices - (status == ICC_OK ? 0 : report.n_unplaced));
-    require(icc_tree_verify_ranks(tree, rank, &found, NULL, NULL) == ICC_OK);
+    require(icc_tree_get_rank_report(tree, rank, &found, NULL, NULL) == ICC_OK);
     require(status != ICC_OK || (found.critical == UINT32_MAX && found.n_maxima == 1));
 }
 
@@ -215,12 +215,12 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     icc_grid *grid;
     require(icc_grid_create_mask(&grid, s.dim, s.sides, s.inside, NULL, NULL) == ICC_OK);
     uint32_t maximum, rounds, root = next_byte(&in) % (uint32_t)s.n;
-    const icc_status status = icc_grid_maximum(grid, &maximum, &rounds, NULL, NULL);
+    const icc_status status = icc_grid_find_maximum(grid, &maximum, &rounds, NULL, NULL);
     if (status == ICC_OK) {
         require(s.inside[maximum]);
         if (!s.inside[root])
             root = maximum;
-        const icc_field_options options = read_options(&in);
+        const icc_function_options options = read_options(&in);
         icc_tree *trees[2];
         for (int32_t form = ICC_TREE_THESIS; form <= ICC_TREE_PAPER; ++form) {
             icc_tree *tree = make_tree(grid, root, form, s.dim, choice / 2);

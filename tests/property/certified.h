@@ -42,7 +42,7 @@ static inline subject subject_of(const shape *outline, const icc_chart_options *
     (void)icc_domain_get_info(s.domain, &s.shape);
     (void)icc_chart_get_info(s.chart, &s.info);
     s.width = fmax(s.shape.upper[0] - s.shape.lower[0], s.shape.upper[1] - s.shape.lower[1]);
-    ck_assert(s.info.method == METHOD && s.info.certified == 1 && s.info.n_mesh_triangles > 0);
+    ck_assert(s.info.method == METHOD && s.info.certified == 1 && s.info.n_mesh_simplices > 0);
     return s;
 }
 
@@ -129,7 +129,7 @@ static inline iccp_planar mesh_of(const subject *s)
     ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
     iccp_planar_pieces(pieces, s->domain, NULL, s->info.cells);
     ck_assert_int_eq(iccp_planar_create(&mesh, s->domain, pieces, s->info.cells, &env, NULL), ICC_OK);
-    ck_assert_uint_eq(mesh.n_triangles, s->info.n_mesh_triangles);
+    ck_assert_uint_eq(mesh.n_triangles, s->info.n_mesh_simplices);
     free(pieces);
     return mesh;
 }

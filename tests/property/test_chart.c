@@ -541,9 +541,9 @@ START_TEST(measures_are_shares)
         const icc_chart_options options = options_number(k % N_OPTIONS);
         subject s;
         if (subject_init(&s, &outline, &options)) {
-            icc_chart_measures m = {.size = sizeof m}, again = {.size = sizeof again};
-            ck_assert_int_eq(icc_chart_measure(s.chart, 500, &m, NULL, NULL), ICC_OK);
-            ck_assert_int_eq(icc_chart_measure(s.chart, 500, &again, NULL, NULL), ICC_OK);
+            icc_chart_report m = {.size = sizeof m}, again = {.size = sizeof again};
+            ck_assert_int_eq(icc_chart_get_report(s.chart, 500, &m, NULL, NULL), ICC_OK);
+            ck_assert_int_eq(icc_chart_get_report(s.chart, 500, &again, NULL, NULL), ICC_OK);
             ck_assert_mem_eq(&m, &again, sizeof m);
             ck_assert_uint_eq(m.n_boundary, 500);
             ck_assert(m.n_points > 400 && m.n_points < 600);

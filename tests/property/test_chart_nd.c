@@ -467,10 +467,10 @@ START_TEST(measures_are_shares)
 {
     for (int k = 0; k < N_SHAPES; ++k) {
         subject s;
-        icc_chart_measures m = {.size = sizeof m};
+        icc_chart_report m = {.size = sizeof m};
         if (!subject_init(&s, k, ICC_FUNCTION_LAPLACE))
             continue;
-        ck_assert_int_eq(icc_chart_measure(s.chart, 500, &m, NULL, NULL), ICC_OK);
+        ck_assert_int_eq(icc_chart_get_report(s.chart, 500, &m, NULL, NULL), ICC_OK);
         ck_assert_uint_eq(m.n_boundary, 500);
         ck_assert(m.n_points > 300 && m.n_points < 700);
         /* Lines merge a lot; but from nearly everywhere they reach both ends, and nearly everywhere they start
@@ -491,7 +491,7 @@ typedef struct answers {
     uint32_t facet[N_POINTS];
     double bary[3 * N_POINTS], t[N_POINTS], points[3 * N_POINTS];
     icc_status encoded[N_POINTS], decoded[N_POINTS];
-    icc_chart_measures measures;
+    icc_chart_report measures;
 } answers;
 
 static icc_status ask(answers *a, const icc_domain *domain, const icc_env *env, icc_error *err)
@@ -501,7 +501,7 @@ static icc_status ask(answers *a, const icc_domain *domain, const icc_env *env, 
     random_source r = {4};
     for (int i = 0; i < 3 * N_POINTS; ++i)
         a->points[i] = random_between(&r, -0.7, 0.7);
-    a->measures = (icc_chart_measures){.size = sizeof a->measures};
+    a->measures = (icc_chart_report){.size = sizeof a->measures};
     icc_status status = icc_chart_create(&chart, domain, &options, env, err);
     if (status == ICC_OK)
         status = icc_chart_encode(chart, N_POINTS, a->points, a->facet, a->bary, a->t, a->encoded,
@@ -510,7 +510,7 @@ static icc_status ask(answers *a, const icc_domain *domain, const icc_env *env, 
         status = icc_chart_decode(chart, N_POINTS, a->facet, a->bary, a->t, a->points, a->decoded,
                                   NULL, env);
     if (status == ICC_OK)
-        status = icc_chart_measure(chart, 200, &a->measures, env, err);
+        status = icc_chart_get_report(chart, 200, &a->measures, env, err);
     icc_chart_free(chart);
     return status;
 }
@@ -534,12 +534,12 @@ END_TEST
 static icc_status create_chart(const icc_env *env, icc_error *err, void *domain)
 {
     icc_chart *chart = NULL;
-    icc_chart_measures measures = {.size = sizeof measures};
+    icc_chart_report measures = {.size = sizeof measures};
     const icc_chart_options options = options_of(ICC_FUNCTION_DISTANCE, 5);
     icc_status status = icc_chart_create(&chart, domain, &options, env, err);
     ck_assert((chart != NULL) == (status == ICC_OK));
     if (status == ICC_OK)
-        status = icc_chart_measure(chart, 64, &measures, env, err);
+        status = icc_chart_get_report(chart, 64, &measures, env, err);
     icc_chart_free(chart);
     return status;
 }

@@ -26,14 +26,14 @@ static bool try_growth(const icc_tree *tree, tally *sum)
 {
     static uint32_t rank[MAX_VERTICES];
     icc_grow_report report = {.size = sizeof report};
-    icc_field_report found = {.size = sizeof found};
+    icc_function_report found = {.size = sizeof found};
     const icc_status status = icc_tree_grow(tree, NULL, rank, &report, NULL, NULL);
-    sum->n_waited += report.n_postponed > 0;
+    sum->n_waited += report.n_deferred > 0;
     sum->n_stuck += report.n_unplaced > 0;
     sum->n_failed += status != ICC_OK;
     if (status != ICC_OK)
         return status == ICC_ERR_TOPOLOGY;
-    return icc_tree_verify_ranks(tree, rank, &found, NULL, NULL) == ICC_OK &&
+    return icc_tree_get_rank_report(tree, rank, &found, NULL, NULL) == ICC_OK &&
            found.critical == UINT32_MAX && found.n_maxima == 1;
 }
 
@@ -41,19 +41,19 @@ static void try_root(const icc_grid *grid, uint32_t root, int32_t form, tally *s
 {
     const icc_tree_options options = {.size = sizeof options, .form = form};
     icc_tree *tree = NULL;
-    icc_field *field = NULL;
+    icc_function *field = NULL;
     icc_tree_report tree_report = {.size = sizeof tree_report};
-    icc_field_report field_report = {.size = sizeof field_report};
+    icc_function_report field_report = {.size = sizeof field_report};
     const bool works = icc_tree_create(&tree, grid, root, &options, NULL, NULL) == ICC_OK &&
-                       icc_tree_verify(tree, &tree_report, NULL, NULL) == ICC_OK &&
-                       icc_field_create(&field, tree, NULL, NULL, NULL) == ICC_OK &&
-                       icc_field_verify(field, &field_report, NULL, NULL) == ICC_OK &&
+                       icc_tree_get_report(tree, &tree_report, NULL, NULL) == ICC_OK &&
+                       icc_function_create(&field, tree, NULL, NULL, NULL) == ICC_OK &&
+                       icc_function_get_report(field, &field_report, NULL, NULL) == ICC_OK &&
                        try_growth(tree, sum);
     ++sum->n_pairs;
     sum->n_broken += !works || tree_report.n_unreachable > 0;
     sum->n_violated += tree_report.n_cousin_violations > 0;
     sum->n_critical += field_report.critical != UINT32_MAX || field_report.n_maxima != 1;
-    icc_field_free(field);
+    icc_function_free(field);
     icc_tree_free(tree);
 }
 

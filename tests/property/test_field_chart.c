@@ -482,8 +482,8 @@ START_TEST(thin_gaps)
     icc_map *map = make_map(&p, 60);
     ck_assert_uint_le(count_lost(&r, &p, map, 1e-8), N_POINTS / 50);
     const icc_chart *chart = icc_map_target_chart(map);
-    icc_chart_measures measures = {.size = sizeof measures};
-    ck_assert_int_eq(icc_chart_measure(chart, 1000, &measures, NULL, NULL), ICC_OK);
+    icc_chart_report measures = {.size = sizeof measures};
+    ck_assert_int_eq(icc_chart_get_report(chart, 1000, &measures, NULL, NULL), ICC_OK);
     ck_assert(measures.unreachable <= 0.02 && measures.not_inward <= 0.05);
     ck_assert(info_of(chart).certified || (measures.n_points > 100 && measures.n_boundary == 1000));
     ck_assert(measures.uncovered <= 0 && measures.collapsed <= 0);
@@ -517,7 +517,7 @@ START_TEST(what_is_not_available_is_named)
     ck_assert_int_eq(icc_chart_create(&chart, p.source, &right, NULL, &err), ICC_OK);
     const icc_chart_info info = info_of(chart);
     ck_assert(largest_difference(3, info.maximum, inside) <= 0.5 * info.spacing + 1e-12);
-    ck_assert_ptr_nonnull(icc_chart_field(chart));
+    ck_assert_ptr_nonnull(icc_chart_function(chart));
     icc_chart_free(chart);
     /* The first facet that differs. */
     const uint32_t first = p.facets[3 * 5];

@@ -14,49 +14,49 @@
 
 static const double ETA = 1e-6, LEAF = 1e-9; /* the defaults */
 
-static icc_field_options choice(int32_t function, int32_t constraints, int32_t solver)
+static icc_function_options choice(int32_t function, int32_t constraints, int32_t solver)
 {
-    return (icc_field_options){.size = sizeof(icc_field_options),
+    return (icc_function_options){.size = sizeof(icc_function_options),
                                .function = function,
                                .constraints = constraints,
                                .solver = solver};
 }
 
-static icc_field *field_with(const ground *g, const icc_field_options *options)
+static icc_function *field_with(const ground *g, const icc_function_options *options)
 {
-    icc_field *field;
+    icc_function *field;
     icc_error err = {.size = sizeof err, .message = "no message"};
-    const icc_status status = icc_field_create(&field, g->tree, options, NULL, &err);
+    const icc_status status = icc_function_create(&field, g->tree, options, NULL, &err);
     if (status != ICC_OK)
         ck_abort_msg("function %d, constraints %d, solver %d, eta %g, leaf %g, %zu vertices: %s",
                      (int)options->function, (int)options->constraints, (int)options->solver,
-                     options->eta, options->leaf, g->n, err.message);
+                     options->min_fall, options->leaf_min, g->n, err.message);
     return field;
 }
 
-static icc_field *field_of(const ground *g, int32_t function, int32_t constraints, int32_t solver)
+static icc_function *field_of(const ground *g, int32_t function, int32_t constraints, int32_t solver)
 {
-    const icc_field_options options = choice(function, constraints, solver);
+    const icc_function_options options = choice(function, constraints, solver);
     return field_with(g, &options);
 }
 
-static icc_field_info info_of(const icc_field *field)
+static icc_function_info info_of(const icc_function *field)
 {
-    icc_field_info info = {.size = sizeof info};
-    ck_assert_int_eq(icc_field_get_info(field, &info), ICC_OK);
+    icc_function_info info = {.size = sizeof info};
+    ck_assert_int_eq(icc_function_get_info(field, &info), ICC_OK);
     return info;
 }
 
-static icc_field_report report_of(const icc_field *field)
+static icc_function_report report_of(const icc_function *field)
 {
-    icc_field_report report = {.size = sizeof report};
-    ck_assert_int_eq(icc_field_verify(field, &report, NULL, NULL), ICC_OK);
+    icc_function_report report = {.size = sizeof report};
+    ck_assert_int_eq(icc_function_get_report(field, &report, NULL, NULL), ICC_OK);
     return report;
 }
 
-static void check_regular(const icc_field *field)
+static void check_regular(const icc_function *field)
 {
-    const icc_field_report report = report_of(field);
+    const icc_function_report report = report_of(field);
     ck_assert_uint_eq(report.n_maxima, 1);
     ck_assert_uint_eq(report.n_minima, 0);
     ck_assert_uint_eq(report.n_saddles, 0);
@@ -134,9 +134,9 @@ static double value_outside(const ground *g, const double *f, uint32_t v)
 }
 
 /* Where there are values, and that logarithms say the same as far as doubles go. */
-static void check_values(const ground *g, const icc_field *field, const icc_field_info *info)
+static void check_values(const ground *g, const icc_function *field, const icc_function_info *info)
 {
-    const double *f = icc_field_values(field), *u = icc_field_logs(field);
+    const double *f = icc_function_values(field), *u = icc_function_logs(field);
     double least = 0, lowest = 1;
     for (uint32_t v = 0; v < g->info.n_vertices; ++v) {
         ck_assert(isnan(f[v]) == (g->generation[v] < 0));
@@ -164,7 +164,7 @@ static void check_values(const ground *g, const icc_field *field, const icc_fiel
     ck_assert_double_eq(info->least_log, least);
 }
 
-static void check_info(const ground *g, const icc_field_info *info, const icc_field_options *options)
+static void check_info(const ground *g, const icc_function_info *info, const icc_function_options *options)
 {
     ck_assert_int_eq(info->function, options->function);
     ck_assert(info->solver == ICC_SOLVER_DIRECT || info->solver == ICC_SOLVER_ITERATIVE);
@@ -179,13 +179,13 @@ static void check_info(const ground *g, const icc_field_info *info, const icc_fi
 }
 
 /* Bounds of the bi-Laplace functions, too. */
-static void check_inequalities(const ground *g, const icc_field *field, int32_t function)
+static void check_inequalities(const ground *g, const icc_function *field, int32_t function)
 {
-    const double *f = icc_field_values(field);
+    const double *f = icc_function_values(field);
     ck_assert_uint_eq(ground_violated(g, ETA, f), 0);
     for (size_t i = 1; i < g->n && function != ICC_FUNCTION_LAPLACE; ++i)
         ck_assert_double_ge(f[g->order[i]], LEAF);
-    ck_assert_ptr_nonnull(icc_field_logs(field));
+    ck_assert_ptr_nonnull(icc_function_logs(field));
 }
 
 /* Vertices less edges plus triangles of the inside of a grid in the plane: 1 less the number of holes. */
@@ -203,33 +203,33 @@ static long euler_characteristic(const ground *g)
 }
 
 /* No critical points that constraints could remove. */
-static void check_not_needed(const ground *g, const icc_field *field)
+static void check_not_needed(const ground *g, const icc_function *field)
 {
-    const icc_field_report report = report_of(field);
+    const icc_function_report report = report_of(field);
     const long holes = g->info.dim == 2 ? 1 - euler_characteristic(g) : 0;
     ck_assert_uint_eq(report.n_maxima, 1);
     ck_assert_uint_eq(report.n_minima, 0);
     ck_assert_int_le((long)report.n_saddles, holes);
     ck_assert(holes == 0 || report.n_saddles > 0);
     for (size_t i = 1; i < g->n; ++i)
-        ck_assert(icc_field_values(field)[g->order[i]] <= 1);
+        ck_assert(icc_function_values(field)[g->order[i]] <= 1);
 }
 
-static void check_choice(const ground *g, const icc_field_options *options)
+static void check_choice(const ground *g, const icc_function_options *options)
 {
-    icc_field *field = field_with(g, options);
-    const icc_field_info info = info_of(field);
+    icc_function *field = field_with(g, options);
+    const icc_function_info info = info_of(field);
     check_values(g, field, &info);
     check_info(g, &info, options);
     if (info.constrained)
         check_inequalities(g, field, options->function);
     else
-        ck_assert(options->function == ICC_FUNCTION_CLAMPED || icc_field_logs(field) != NULL);
-    const icc_field_report report = report_of(field);
+        ck_assert(options->function == ICC_FUNCTION_CLAMPED || icc_function_logs(field) != NULL);
+    const icc_function_report report = report_of(field);
     ck_assert_uint_ge(report.n_maxima, 1);
     if (options->constraints == ICC_CONSTRAINTS_NEEDED && !info.constrained)
         check_not_needed(g, field);
-    icc_field_free(field);
+    icc_function_free(field);
 }
 
 static void check_all_choices(const ground *g)
@@ -237,7 +237,7 @@ static void check_all_choices(const ground *g)
     for (int32_t function = ICC_FUNCTION_LAPLACE; function <= ICC_FUNCTION_CLAMPED; ++function)
         for (int32_t constraints = 0; constraints <= ICC_CONSTRAINTS_ALL; ++constraints)
             for (int32_t solver = 0; solver <= ICC_SOLVER_ITERATIVE; ++solver) {
-                const icc_field_options options = choice(function, constraints, solver);
+                const icc_function_options options = choice(function, constraints, solver);
                 check_choice(g, &options);
             }
 }
@@ -269,20 +269,20 @@ START_TEST(laplace_is_the_mean_of_its_neighbours)
     for (int round = 0; round < N_MASKS + 60; ++round) {
         ground g = round < N_MASKS ? ground_number(round, 40)
                                    : random_ground(&r, 1 + round % 4, round % 4 == 3 ? 4 : 9);
-        icc_field *field =
+        icc_function *field =
             field_of(&g, ICC_FUNCTION_LAPLACE, ICC_CONSTRAINTS_NONE, ICC_SOLVER_DIRECT);
-        const double *f = icc_field_values(field), *u = icc_field_logs(field);
+        const double *f = icc_function_values(field), *u = icc_function_logs(field);
         for (size_t i = 1; i < g.n; ++i)
             ck_assert(u[g.order[i]] < 0 && f[g.order[i]] < 1 && f[g.order[i]] > 0);
         ck_assert_double_le(ground_imbalance(&g, u), 1e-12);
         double residual = 0;
         for (size_t i = 1; i < g.n; ++i)
             residual = fmax(residual, fabs(ground_laplacian(&g, f, g.order[i])));
-        const icc_field_info info = info_of(field);
+        const icc_function_info info = info_of(field);
         ck_assert_double_le(fabs(info.residual - residual), 1e-15);
         ck_assert_double_eq(info.residual_before, info.residual);
         ck_assert_uint_eq(info.n_violated, ground_violated(&g, ETA, f));
-        icc_field_free(field);
+        icc_function_free(field);
         ground_free(&g);
     }
 }
@@ -293,21 +293,21 @@ START_TEST(both_solvers_give_the_same_function)
 {
     for (int k = 0; k < N_MASKS; ++k) {
         ground g = ground_number(k, 40);
-        icc_field *direct =
+        icc_function *direct =
             field_of(&g, ICC_FUNCTION_LAPLACE, ICC_CONSTRAINTS_NONE, ICC_SOLVER_DIRECT);
-        icc_field *iterative =
+        icc_function *iterative =
             field_of(&g, ICC_FUNCTION_LAPLACE, ICC_CONSTRAINTS_NONE, ICC_SOLVER_ITERATIVE);
         ck_assert_int_eq(info_of(direct).solver, ICC_SOLVER_DIRECT);
         ck_assert_int_eq(info_of(iterative).solver, ICC_SOLVER_ITERATIVE);
         ck_assert_uint_gt(info_of(iterative).n_inner, 0);
         double worst = 0;
         for (size_t i = 0; i < g.n; ++i)
-            worst = fmax(worst, fabs(icc_field_logs(direct)[g.order[i]] -
-                                     icc_field_logs(iterative)[g.order[i]]));
+            worst = fmax(worst, fabs(icc_function_logs(direct)[g.order[i]] -
+                                     icc_function_logs(iterative)[g.order[i]]));
         if (worst > 1e-6)
             ck_abort_msg("%s: relative difference %g", mask_number(k).name, worst);
-        icc_field_free(direct);
-        icc_field_free(iterative);
+        icc_function_free(direct);
+        icc_function_free(iterative);
         ground_free(&g);
     }
 }
@@ -371,16 +371,16 @@ static void count_lines(void *user, const char *message)
 }
 
 /* In both ways round, values fall by up to 10^500: no factor may join rows across that. */
-static icc_field *ring_field(const ground *g, int32_t function)
+static icc_function *ring_field(const ground *g, int32_t function)
 {
-    const icc_field_options options = choice(function, ICC_CONSTRAINTS_NONE, ICC_SOLVER_DIRECT);
+    const icc_function_options options = choice(function, ICC_CONSTRAINTS_NONE, ICC_SOLVER_DIRECT);
     int n_lines = 0;
     const icc_env env = {.size = sizeof env, .user = &n_lines, .log = count_lines};
-    icc_field *field;
-    ck_assert_int_eq(icc_field_create(&field, g->tree, &options, &env, NULL), ICC_OK);
+    icc_function *field;
+    ck_assert_int_eq(icc_function_create(&field, g->tree, &options, &env, NULL), ICC_OK);
     ck_assert_int_eq(info_of(field).solver, ICC_SOLVER_DIRECT);
     ck_assert_int_eq(n_lines, 0); /* it would tell of a change of the solver */
-    const icc_field_report report = report_of(field);
+    const icc_function_report report = report_of(field);
     ck_assert_uint_eq(report.n_maxima, 1);
     ck_assert_uint_eq(report.n_minima, 0);
     ck_assert_uint_eq(report.n_saddles, 1);
@@ -392,19 +392,19 @@ START_TEST(long_thin_rings)
     static const size_t WIDTHS[4] = {1, 2, 3, 6};
     for (int k = 0; k < 4; ++k) {
         ground g = ring_of(WIDTHS[k]);
-        icc_field *direct = ring_field(&g, ICC_FUNCTION_LAPLACE);
-        icc_field *bilaplace = ring_field(&g, ICC_FUNCTION_BILAPLACE);
-        icc_field *iterative =
+        icc_function *direct = ring_field(&g, ICC_FUNCTION_LAPLACE);
+        icc_function *bilaplace = ring_field(&g, ICC_FUNCTION_BILAPLACE);
+        icc_function *iterative =
             field_of(&g, ICC_FUNCTION_LAPLACE, ICC_CONSTRAINTS_NONE, ICC_SOLVER_ITERATIVE);
-        const double *u = icc_field_logs(direct), *v = icc_field_logs(iterative);
+        const double *u = icc_function_logs(direct), *v = icc_function_logs(iterative);
         ck_assert_double_lt(info_of(direct).least_log, -300);
         ck_assert_double_le(ground_imbalance(&g, u), 1e-11);
-        ck_assert_double_le(imbalance_of_laplacian(&g, icc_field_logs(bilaplace)), 1e-6);
+        ck_assert_double_le(imbalance_of_laplacian(&g, icc_function_logs(bilaplace)), 1e-6);
         for (size_t i = 0; i < g.n; ++i)
             ck_assert_double_le(fabs(u[g.order[i]] - v[g.order[i]]), 1e-6);
-        icc_field_free(direct);
-        icc_field_free(bilaplace);
-        icc_field_free(iterative);
+        icc_function_free(direct);
+        icc_function_free(bilaplace);
+        icc_function_free(iterative);
         ground_free(&g);
     }
 }
@@ -425,8 +425,8 @@ START_TEST(rooms_far_apart)
     ck_assert_int_eq(ground_create(&g, &m, NX * (NY / 2) + ROOM / 2, 0), ICC_OK);
     mask_free(&m);
     for (int32_t function = ICC_FUNCTION_LAPLACE; function <= ICC_FUNCTION_BILAPLACE; ++function) {
-        icc_field *field = field_of(&g, function, ICC_CONSTRAINTS_NONE, ICC_SOLVER_DIRECT);
-        const double *u = icc_field_logs(field);
+        icc_function *field = field_of(&g, function, ICC_CONSTRAINTS_NONE, ICC_SOLVER_DIRECT);
+        const double *u = icc_function_logs(field);
         ck_assert_int_eq(info_of(field).solver, ICC_SOLVER_DIRECT);
         ck_assert_double_lt(info_of(field).least_log, -1000);
         check_regular(field);
@@ -434,7 +434,7 @@ START_TEST(rooms_far_apart)
             ck_assert_double_le(ground_imbalance(&g, u), 1e-11);
         else
             ck_assert_double_le(imbalance_of_laplacian(&g, u), 1e-6);
-        icc_field_free(field);
+        icc_function_free(field);
     }
     ground_free(&g);
 }
@@ -456,13 +456,13 @@ START_TEST(nothing_underflows_in_the_serpentine)
     mask m = mask_draw(mask_serpentine, 2, CELLS);
     ck_assert_int_eq(ground_create(&g, &m, MASK_MARGIN + 8 + SIDE * (MASK_MARGIN + 8), 0), ICC_OK);
     mask_free(&m);
-    icc_field *field = field_of(&g, ICC_FUNCTION_LAPLACE, 0, 0);
-    const icc_field_info info = info_of(field);
+    icc_function *field = field_of(&g, ICC_FUNCTION_LAPLACE, 0, 0);
+    const icc_function_info info = info_of(field);
     ck_assert_int_eq(info.solver, ICC_SOLVER_DIRECT);
     ck_assert_int_eq(info.constrained, 0);
     check_values(&g, field, &info);
     check_regular(field);
-    const double *u = icc_field_logs(field);
+    const double *u = icc_function_logs(field);
     ck_assert_double_le(ground_imbalance(&g, u), 1e-11); /* logarithms of 8e3 end at 1e-12 */
     /* Far from the turns, along each corridor, it falls at the rate of its slowest mode. */
     for (size_t corridor = 0; corridor < 50; ++corridor) {
@@ -471,7 +471,7 @@ START_TEST(nothing_underflows_in_the_serpentine)
         ck_assert_double_le(fabs(rate / decay_in_corridor(18) - 1), 1e-9);
     }
     ck_assert(info.least_log < -8000 && info.least_log > -8300);
-    icc_field_free(field);
+    icc_function_free(field);
     ground_free(&g);
 }
 END_TEST
@@ -484,10 +484,10 @@ START_TEST(inequalities_far_below_the_range_of_doubles)
     ck_assert_int_eq(ground_create(&g, &m, 10 + 164 * 10, 0), ICC_OK);
     mask_free(&m);
     for (int k = 0; k < 2; ++k) {
-        icc_field *field =
+        icc_function *field =
             field_of(&g, ICC_FUNCTION_LAPLACE, ICC_CONSTRAINTS_ALL, SOLVERS[k]);
-        const icc_field_info info = info_of(field);
-        const double *u = icc_field_logs(field);
+        const icc_function_info info = info_of(field);
+        const double *u = icc_function_logs(field);
         ck_assert(info.least_log < -150);
         for (size_t i = 1; i < g.n; ++i) {
             const uint32_t v = g.order[i];
@@ -495,7 +495,7 @@ START_TEST(inequalities_far_below_the_range_of_doubles)
                 ck_abort_msg("solver %d: violated at u = %g", k, u[v]);
         }
         check_regular(field);
-        icc_field_free(field);
+        icc_function_free(field);
     }
     ground_free(&g);
 }
@@ -506,10 +506,10 @@ END_TEST
 /* Optimal by conditions found anew; `tolerance` in units of the maximum. */
 static void check_optimal(const ground *g, int32_t solver, double tolerance)
 {
-    icc_field *field = field_of(g, ICC_FUNCTION_LAPLACE, ICC_CONSTRAINTS_ALL, solver);
-    icc_field *free_field = field_of(g, ICC_FUNCTION_LAPLACE, ICC_CONSTRAINTS_NONE, solver);
-    const icc_field_info info = info_of(field), free_info = info_of(free_field);
-    const double *f = icc_field_values(field), *h = icc_field_values(free_field);
+    icc_function *field = field_of(g, ICC_FUNCTION_LAPLACE, ICC_CONSTRAINTS_ALL, solver);
+    icc_function *free_field = field_of(g, ICC_FUNCTION_LAPLACE, ICC_CONSTRAINTS_NONE, solver);
+    const icc_function_info info = info_of(field), free_info = info_of(free_field);
+    const double *f = icc_function_values(field), *h = icc_function_values(free_field);
     double *sum = room_for(g);
     ck_assert_uint_eq(ground_violated(g, ETA, f), 0);
     ck_assert_double_le(info.residual_before, tolerance);
@@ -529,8 +529,8 @@ static void check_optimal(const ground *g, int32_t solver, double tolerance)
     }
     ck_assert_uint_le(info.n_iterations, 100);
     free(sum);
-    icc_field_free(field);
-    icc_field_free(free_field);
+    icc_function_free(field);
+    icc_function_free(free_field);
 }
 
 START_TEST(constrained_laplace_is_optimal)
@@ -541,9 +541,9 @@ START_TEST(constrained_laplace_is_optimal)
         ground g = round < N_MASKS ? ground_number(round, 40)
                                    : random_ground(&r, 2 + round % 2, round % 2 ? 6 : 12);
         check_optimal(&g, ICC_SOLVER_DIRECT, 1e-12);
-        icc_field *field = field_of(&g, ICC_FUNCTION_LAPLACE, ICC_CONSTRAINTS_NONE, 0);
+        icc_function *field = field_of(&g, ICC_FUNCTION_LAPLACE, ICC_CONSTRAINTS_NONE, 0);
         n_constrained += info_of(field).n_violated > 0;
-        icc_field_free(field);
+        icc_function_free(field);
         ground_free(&g);
     }
     ck_assert_uint_gt(n_constrained, 50);
@@ -565,10 +565,10 @@ START_TEST(active_sets_do_not_cycle)
 {
     ground g = ground_on(mask_c, 2, 200);
     check_optimal(&g, ICC_SOLVER_DIRECT, 1e-12);
-    icc_field *field = field_of(&g, ICC_FUNCTION_LAPLACE, ICC_CONSTRAINTS_ALL, 0);
+    icc_function *field = field_of(&g, ICC_FUNCTION_LAPLACE, ICC_CONSTRAINTS_ALL, 0);
     ck_assert_uint_le(info_of(field).n_iterations, 40);
     check_regular(field);
-    icc_field_free(field);
+    icc_function_free(field);
     ground_free(&g);
 }
 END_TEST
@@ -580,20 +580,20 @@ START_TEST(other_etas_are_kept)
     double energy = 0;
     for (int k = 0; k < 4; ++k)
         for (int32_t function = ICC_FUNCTION_LAPLACE; function <= ICC_FUNCTION_CLAMPED; ++function) {
-            icc_field_options options = choice(function, ICC_CONSTRAINTS_ALL, 0);
-            options.eta = ETAS[k];
-            options.leaf = ETAS[k] * 1e-3;
-            icc_field *field = field_with(&g, &options);
-            const double *f = icc_field_values(field);
+            icc_function_options options = choice(function, ICC_CONSTRAINTS_ALL, 0);
+            options.min_fall = ETAS[k];
+            options.leaf_min = ETAS[k] * 1e-3;
+            icc_function *field = field_with(&g, &options);
+            const double *f = icc_function_values(field);
             ck_assert_uint_eq(ground_violated(&g, ETAS[k], f), 0);
             for (size_t i = 1; i < g.n && function != ICC_FUNCTION_LAPLACE; ++i)
-                ck_assert_double_ge(f[g.order[i]], options.leaf);
+                ck_assert_double_ge(f[g.order[i]], options.leaf_min);
             if (function == ICC_FUNCTION_LAPLACE) { /* more is asked for: it costs more */
                 const double now = ground_energy(&g, function, f);
                 ck_assert_double_ge(now, energy * (1 - 1e-12));
                 energy = now;
             }
-            icc_field_free(field);
+            icc_function_free(field);
         }
     ground_free(&g);
 }
@@ -724,18 +724,18 @@ START_TEST(no_function_has_less_energy)
         ground g = random_ground(&r, 2 + round / 3 % 2, round / 3 % 2 ? 4 : 7);
         const int32_t function = ICC_FUNCTION_LAPLACE + round % 3;
         if (g.n <= MOST_UNKNOWNS) {
-            icc_field *field = field_of(&g, function, ICC_CONSTRAINTS_ALL, ICC_SOLVER_DIRECT);
+            icc_function *field = field_of(&g, function, ICC_CONSTRAINTS_ALL, ICC_SOLVER_DIRECT);
             double *room = room_for(&g);
             fill_energy(&q, &g, function, room);
             fill_inequalities(&q, &g, function, room);
-            const double energy = ground_energy(&g, function, icc_field_values(field));
+            const double energy = ground_energy(&g, function, icc_function_values(field));
             const double bound = bound_energy(&q);
             if (!(fabs(energy - bound) <= 1e-7 * energy))
                 ck_abort_msg("round %d, function %d, %zu unknowns: energy %.12g, %.12g will do",
                              round, (int)function, q.n, energy, bound);
             n_active[function] += info_of(field).n_active > 0;
             free(room);
-            icc_field_free(field);
+            icc_function_free(field);
         }
         ground_free(&g);
     }
@@ -757,21 +757,21 @@ static bool thin_drum(const double *p, int32_t dim, double cells)
 START_TEST(the_drum_has_two_saddles)
 {
     ground g = ground_on(thin_drum, 3, 48);
-    icc_field *field = field_of(&g, ICC_FUNCTION_LAPLACE, ICC_CONSTRAINTS_NONE, 0);
-    const icc_field_report report = report_of(field);
+    icc_function *field = field_of(&g, ICC_FUNCTION_LAPLACE, ICC_CONSTRAINTS_NONE, 0);
+    const icc_function_report report = report_of(field);
     ck_assert_uint_eq(report.n_maxima, 1);
     ck_assert_uint_eq(report.n_minima, 0);
     ck_assert_uint_eq(report.n_saddles, 2);
     ck_assert(report.critical != UINT32_MAX && report.critical != g.root);
     const size_t n_violated = info_of(field).n_violated;
-    icc_field_free(field);
+    icc_function_free(field);
     field = field_of(&g, ICC_FUNCTION_LAPLACE, ICC_CONSTRAINTS_NEEDED, 0);
-    const icc_field_info info = info_of(field);
+    const icc_function_info info = info_of(field);
     ck_assert_int_eq(info.constrained, 1);
     ck_assert_uint_eq(info.n_violated, n_violated);
     ck_assert_uint_gt(info.n_active, 0);
-    ck_assert_uint_eq(ground_violated(&g, ETA, icc_field_values(field)), 0);
-    icc_field_free(field);
+    ck_assert_uint_eq(ground_violated(&g, ETA, icc_function_values(field)), 0);
+    icc_function_free(field);
     ground_free(&g);
 }
 END_TEST
@@ -784,8 +784,8 @@ START_TEST(bilaplace_solves_its_equation)
     for (int k = 0; k < 2 * N_MASKS; ++k) {
         ground g = ground_number(k % N_MASKS, 40);
         const int32_t function = k < N_MASKS ? ICC_FUNCTION_BILAPLACE : ICC_FUNCTION_CLAMPED;
-        icc_field *field = field_of(&g, function, ICC_CONSTRAINTS_NONE, ICC_SOLVER_DIRECT);
-        const double *f = icc_field_values(field);
+        icc_function *field = field_of(&g, function, ICC_CONSTRAINTS_NONE, ICC_SOLVER_DIRECT);
+        const double *f = icc_function_values(field);
         double residual = 0;
         for (size_t i = 1; i < g.n; ++i)
             residual = fmax(residual, fabs(ground_gradient(&g, function, f, g.order[i])));
@@ -793,8 +793,8 @@ START_TEST(bilaplace_solves_its_equation)
         ck_assert_double_le(residual, 1e-11);
         ck_assert_double_le(fabs(residual - info_of(field).residual), 1e-12);
         if (function == ICC_FUNCTION_BILAPLACE)
-            ck_assert_ptr_nonnull(icc_field_logs(field));
-        icc_field_free(field);
+            ck_assert_ptr_nonnull(icc_function_logs(field));
+        icc_function_free(field);
         ground_free(&g);
     }
 }
@@ -803,17 +803,17 @@ END_TEST
 START_TEST(clamped_changes_its_sign)
 {
     ground g = ground_on(mask_c, 2, 60);
-    icc_field *field = field_of(&g, ICC_FUNCTION_CLAMPED, ICC_CONSTRAINTS_NONE, 0);
-    ck_assert_ptr_null(icc_field_logs(field));
+    icc_function *field = field_of(&g, ICC_FUNCTION_CLAMPED, ICC_CONSTRAINTS_NONE, 0);
+    ck_assert_ptr_null(icc_function_logs(field));
     double lowest = 0;
     for (size_t i = 0; i < g.n; ++i)
-        lowest = fmin(lowest, icc_field_values(field)[g.order[i]]);
+        lowest = fmin(lowest, icc_function_values(field)[g.order[i]]);
     ck_assert(lowest < 0);
     ck_assert_double_eq(info_of(field).least_log, 0);
-    icc_field_free(field);
+    icc_function_free(field);
     field = field_of(&g, ICC_FUNCTION_CLAMPED, ICC_CONSTRAINTS_NEEDED, 0);
     ck_assert_int_eq(info_of(field).constrained, 1);
-    icc_field_free(field);
+    icc_function_free(field);
     ground_free(&g);
 }
 END_TEST
@@ -850,22 +850,22 @@ START_TEST(constrained_bilaplace_in_the_plane)
     for (int k = 0; k < 10; ++k) {
         const int32_t function = k < 5 ? ICC_FUNCTION_BILAPLACE : ICC_FUNCTION_CLAMPED;
         ground g = ground_on(SHAPES[k % 5], 2, 50);
-        icc_field *field = field_of(&g, function, ICC_CONSTRAINTS_ALL, 0);
-        icc_field *other = field_of(&g, function, ICC_CONSTRAINTS_NONE, 0);
-        const icc_field_info info = info_of(field);
-        const double *f = icc_field_values(field);
+        icc_function *field = field_of(&g, function, ICC_CONSTRAINTS_ALL, 0);
+        icc_function *other = field_of(&g, function, ICC_CONSTRAINTS_NONE, 0);
+        const icc_function_info info = info_of(field);
+        const double *f = icc_function_values(field);
         check_inequalities(&g, field, function);
         check_regular(field);
         ck_assert_double_le(info.residual_before, 1e-8);
         ck_assert_double_le(info.residual, 1e-8);
         ck_assert_double_ge(ground_energy(&g, function, f),
-                            ground_energy(&g, function, icc_field_values(other)) * (1 - 1e-9));
+                            ground_energy(&g, function, icc_function_values(other)) * (1 - 1e-9));
         ck_assert_uint_le(info.n_iterations, 200);
         const double slope = least_slope(&g, function, f, &r);
         if (slope < -1e-6)
             ck_abort_msg("shape %d: the energy falls by %g", k, slope);
-        icc_field_free(field);
-        icc_field_free(other);
+        icc_function_free(field);
+        icc_function_free(other);
         ground_free(&g);
     }
 }
@@ -883,10 +883,10 @@ START_TEST(a_lone_vertex_is_too_coarse)
             mask m = {.dim = 2, .shape = {5, 5}, .n_vertices = 25, .inside = inside[k]};
             ground g;
             ck_assert_int_eq(ground_create(&g, &m, 12, 0), ICC_OK);
-            const icc_field_options options = choice(function, 0, 0);
-            icc_field *field = (icc_field *)&field;
+            const icc_function_options options = choice(function, 0, 0);
+            icc_function *field = (icc_function *)&field;
             icc_error err = {.size = sizeof err};
-            ck_assert_int_eq(icc_field_create(&field, g.tree, &options, NULL, &err),
+            ck_assert_int_eq(icc_function_create(&field, g.tree, &options, NULL, &err),
                              ICC_ERR_RESOLUTION);
             ck_assert(field == NULL && err.status == ICC_ERR_RESOLUTION);
             ck_assert(strstr(err.message, "coarse") != NULL && err.index == 12);
@@ -937,11 +937,11 @@ START_TEST(falls_and_bounds_may_exclude_each_other)
     ground g;
     ck_assert_int_eq(ground_create(&g, &m, 2, 0), ICC_OK);
     for (int32_t function = ICC_FUNCTION_BILAPLACE; function <= ICC_FUNCTION_CLAMPED; ++function) {
-        icc_field_options options = choice(function, ICC_CONSTRAINTS_ALL, 0);
-        icc_field *field = (icc_field *)&field;
+        icc_function_options options = choice(function, ICC_CONSTRAINTS_ALL, 0);
+        icc_function *field = (icc_function *)&field;
         icc_error err = {.size = sizeof err};
-        options.eta = options.leaf = 0.01;
-        const icc_status status = icc_field_create(&field, g.tree, &options, NULL, &err);
+        options.min_fall = options.leaf_min = 0.01;
+        const icc_status status = icc_function_create(&field, g.tree, &options, NULL, &err);
         ck_assert(status != ICC_OK && field == NULL);
         ck_assert(err.status == status && err.message[0] != '\0');
     }
@@ -951,16 +951,16 @@ END_TEST
 
 typedef struct job {
     const ground *g;
-    icc_field_options options;
+    icc_function_options options;
 } job;
 
 static icc_status make(const icc_env *env, icc_error *err, void *argument)
 {
     const job *j = argument;
-    icc_field *field = (icc_field *)&field;
-    const icc_status status = icc_field_create(&field, j->g->tree, &j->options, env, err);
+    icc_function *field = (icc_function *)&field;
+    const icc_status status = icc_function_create(&field, j->g->tree, &j->options, env, err);
     ck_assert((field == NULL) == (status != ICC_OK));
-    icc_field_free(field);
+    icc_function_free(field);
     return status;
 }
 
@@ -1008,11 +1008,11 @@ START_TEST(long_stages_can_be_cancelled)
         job j = {&g, choice(ICC_FUNCTION_LAPLACE, ICC_CONSTRAINTS_NONE, solver)};
         watcher w = {0};
         icc_env env = {.size = sizeof env, .user = &w, .progress = watch};
-        icc_field *field;
-        ck_assert_int_eq(icc_field_create(&field, g.tree, &j.options, &env, NULL), ICC_OK);
-        const icc_field_info info = info_of(field);
+        icc_function *field;
+        ck_assert_int_eq(icc_function_create(&field, g.tree, &j.options, &env, NULL), ICC_OK);
+        const icc_function_info info = info_of(field);
         const size_t n_reports = w.n_reports;
-        icc_field_free(field);
+        icc_function_free(field);
         if (solver == ICC_SOLVER_DIRECT) {
             static const size_t LEAST[N_STAGES] = {2, 2, 20, 6, 6, 4, 2};
             for (int k = 0; k < N_STAGES; ++k)
@@ -1109,9 +1109,9 @@ START_TEST(charts_of_every_function_come_back)
                          ICC_OK);
         icc_chart *chart = chart_of(domain, k % N_KINDS, 40, NULL);
         icc_chart_info info = {.size = sizeof info};
-        icc_chart_measures m = {.size = sizeof m};
+        icc_chart_report m = {.size = sizeof m};
         ck_assert_int_eq(icc_chart_get_info(chart, &info), ICC_OK);
-        ck_assert_int_eq(icc_chart_measure(chart, 4000, &m, NULL, NULL), ICC_OK);
+        ck_assert_int_eq(icc_chart_get_report(chart, 4000, &m, NULL, NULL), ICC_OK);
         ck_assert_int_eq(info.function, KINDS[k % N_KINDS].function);
         if (info.n_maxima != 1 || info.n_minima != 0 || info.n_saddles != 0)
             ck_abort_msg("shape %d, kind %d: %zu maxima, %zu minima, %zu saddles", k / N_KINDS,
@@ -1138,8 +1138,8 @@ START_TEST(curves_run_where_doubles_end)
     ck_assert_int_eq(icc_domain_create(&domain, 2, 4, XY, 0, NULL, NULL, NULL), ICC_OK);
     for (int kind = 0; kind < 3; ++kind) { /* the others are kept above LEAF */
         icc_chart *chart = chart_of(domain, kind, 3000, MAXIMUM);
-        const icc_field *field = icc_chart_field(chart);
-        const double *u = icc_field_logs(field);
+        const icc_function *field = icc_chart_function(chart);
+        const double *u = icc_function_logs(field);
         ck_assert_ptr_nonnull(u);
         ck_assert_double_lt(info_of(field).least_log, -750);
         check_regular(field);
@@ -1176,17 +1176,17 @@ START_TEST(charts_hand_out_the_function_of_the_stages)
                      ICC_OK);
     for (int kind = 0; kind < N_KINDS; ++kind) {
         icc_chart *chart = chart_of(domain, kind, 30, NULL);
-        const icc_field *field = icc_chart_field(chart);
-        const icc_field_options options = choice(KINDS[kind].function, KINDS[kind].constraints, 0);
-        icc_field *same;
+        const icc_function *field = icc_chart_function(chart);
+        const icc_function_options options = choice(KINDS[kind].function, KINDS[kind].constraints, 0);
+        icc_function *same;
         icc_grid_info info = {.size = sizeof info};
-        ck_assert_int_eq(icc_field_create(&same, icc_field_tree(field), &options, NULL, NULL), ICC_OK);
-        ck_assert_int_eq(icc_grid_get_info(icc_tree_grid(icc_field_tree(field)), &info), ICC_OK);
-        const double *f = icc_field_values(field), *h = icc_field_values(same);
+        ck_assert_int_eq(icc_function_create(&same, icc_function_tree(field), &options, NULL, NULL), ICC_OK);
+        ck_assert_int_eq(icc_grid_get_info(icc_tree_grid(icc_function_tree(field)), &info), ICC_OK);
+        const double *f = icc_function_values(field), *h = icc_function_values(same);
         for (size_t v = 0; v < info.n_vertices; ++v)
             ck_assert(isnan(f[v]) ? isnan(h[v]) : f[v] == h[v]);
         ck_assert_int_eq(info_of(field).constrained, info_of(same).constrained);
-        icc_field_free(same);
+        icc_function_free(same);
         icc_chart_free(chart);
     }
     icc_domain_free(domain);

@@ -422,8 +422,8 @@ static bool difference(const icc_map *map, const double p[2], int axis, double c
 /* Whether every curve of a chart starts into the domain. */
 static bool transversal(const icc_chart *chart)
 {
-    icc_chart_measures m = {.size = sizeof m};
-    ck_assert_int_eq(icc_chart_measure(chart, 1000, &m, NULL, NULL), ICC_OK);
+    icc_chart_report m = {.size = sizeof m};
+    ck_assert_int_eq(icc_chart_get_report(chart, 1000, &m, NULL, NULL), ICC_OK);
     return m.not_inward <= 0;
 }
 

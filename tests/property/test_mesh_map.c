@@ -222,11 +222,11 @@ START_TEST(the_mesh_is_the_map)
         const icc_map_info info = info_of(map);
         const size_t n = info.n_vertices;
         double *vertices = malloc(6 * n * sizeof *vertices);
-        uint32_t *triangles = malloc(3 * info.n_triangles * sizeof *triangles);
+        uint32_t *triangles = malloc(3 * info.n_simplices * sizeof *triangles);
         ck_assert(vertices != NULL && triangles != NULL);
         double *images = vertices + 2 * n, *mapped = vertices + 4 * n;
-        ck_assert_int_eq(icc_map_mesh(map, vertices, images, triangles), ICC_OK);
-        ck_assert_int_eq(icc_map_mesh(map, NULL, NULL, NULL), ICC_OK);
+        ck_assert_int_eq(icc_map_get_mesh(map, vertices, images, triangles), ICC_OK);
+        ck_assert_int_eq(icc_map_get_mesh(map, NULL, NULL, NULL), ICC_OK);
         size_t n_failed;
         for (int inverse = 0; inverse < 2; ++inverse) {
             const double *from = inverse ? images : vertices, *to = inverse ? vertices : images;
@@ -241,7 +241,7 @@ START_TEST(the_mesh_is_the_map)
                 ck_abort_msg("pair %d, inverse %d: a vertex is %g off", k, inverse,
                              worst / width(domain));
         }
-        for (size_t c = 0; c < 3 * info.n_triangles; ++c)
+        for (size_t c = 0; c < 3 * info.n_simplices; ++c)
             if (triangles[c] >= n)
                 ck_abort_msg("pair %d: no such vertex", k);
         free(vertices);
@@ -475,7 +475,7 @@ static icc_map *improve(const icc_map *map, const icc_improve_options *options,
     ck_assert_int_eq(icc_map_improve(&better, map, options, report, env, NULL), ICC_OK);
     ck_assert_double_le(report->energy, report->energy_start * (1 + 1e-14));
     ck_assert_double_eq(report->energy, info_of(better).energy);
-    ck_assert_uint_eq(report->n_triangles, info_of(better).n_triangles);
+    ck_assert_uint_eq(report->n_simplices, info_of(better).n_simplices);
     (void)check_triangles(better, better->mesh->pl.points);
     (void)check_triangles(better, better->mesh->pl.images);
     return better;
@@ -489,10 +489,10 @@ START_TEST(maps_can_be_improved_later)
         const size_t n = info_of(plain).n_vertices;
         double *images = malloc(4 * n * sizeof *images);
         ck_assert_ptr_nonnull(images);
-        (void)icc_map_mesh(plain, NULL, images, NULL);
+        (void)icc_map_get_mesh(plain, NULL, images, NULL);
         icc_improve_report report;
         icc_map *better = improve(plain, NULL, &report, NULL);
-        (void)icc_map_mesh(plain, NULL, images + 2 * n, NULL);
+        (void)icc_map_get_mesh(plain, NULL, images + 2 * n, NULL);
         ck_assert_mem_eq(images, images + 2 * n, 2 * n * sizeof *images);
         ck_assert_double_eq(report.energy_start, info_of(plain).energy);
         ck_assert_double_eq_tol(report.energy / info_of(fair).energy, 1, 1e-9);

@@ -109,7 +109,7 @@ static icc_map *make_map(const pair *p)
         const icc_chart_info chart =
             info_of(k == 0 ? icc_map_source_chart(map) : icc_map_target_chart(map));
         ck_assert(chart.certified == 1 && chart.method == ICC_METHOD_FOLIATION);
-        ck_assert(chart.n_mesh_triangles > 0 && chart.n_orders > 0);
+        ck_assert(chart.n_mesh_simplices > 0 && chart.n_orders > 0);
         ck_assert(chart.flux_divergence < 1e-12);
     }
     return map;

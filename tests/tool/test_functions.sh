@@ -61,7 +61,7 @@ run 0 info -s source.txt -m gradient -f laplace --constrained --json=report.json
 expect violated "$violated" "constrained"
 below 0 "$(member active)" || complain "nothing is active in an L"
 below 0 "$(member iterations)" || complain "no iterations in an L"
-run 0 info -s source.txt -m gradient -f laplace --constrained --eta 0.01 --json=report.json
+run 0 info -s source.txt -m gradient -f laplace --constrained --min-fall 0.01 --json=report.json
 below "$violated" "$(member violated)" || complain "a larger eta does not break more inequalities"
 
 # What there is by default: inequalities only where they are needed.
@@ -91,6 +91,19 @@ run 0 info -s gap.txt -m gradient -f laplace --cells 12
 holds out 'the first besides the maximum lies at'
 run 0 info -s gap.txt -m gradient -f laplace --cells 200 --json=report.json
 one_maximum "a gap with small cells"
+
+# A plate is highest beside a load that is not in its middle: the maximum moves there and says so. Whatever other
+# critical points there are, a reason follows.
+printf '0 0\n3 0\n3 1\n1 1\n1 3\n0 3\n' >corner.txt
+for function in bilaplace clamped; do
+    run 0 info -s corner.txt -m gradient -f "$function:unconstrained" --maximum 2.6,0.3 --cells 100 --json=report.json
+    below 0.01 "$(member maximum_moved)" || complain "$function: the maximum has not moved"
+    run 0 info -s corner.txt -m gradient -f "$function:unconstrained" --maximum 2.6,0.3 --cells 100
+    holds out 'from the place chosen: the function is greatest here'
+    grep -A 1 ':$' out | grep -q '^ *$' && complain "$function: a reason is missing"
+    run 0 info -s corner.txt -m gradient -f "$function:constrained" --maximum 2.6,0.3 --cells 40 --json=report.json
+    grep -q maximum_moved report.json && complain "$function: inequalities do not hold the maximum"
+done
 
 # A grid with one vertex inside: no function, no drawing of the others, no line of the cage to blame.
 awk 'BEGIN { for (i = 0; i <= 20; i++) printf "%.1f 0\n", i / 10; print "0.9 1" }' >coarse.txt

@@ -71,7 +71,7 @@ says "--triangles needs a map of kind mesh"
 run 2 info -s source.txt --method magic
 says "it may be: foliation, disc, gradient"
 for pair in "--function distance" "--function laplace" "--tree paper" "--constrained " "--unconstrained " \
-    "--eta 1e-3" "--solver direct"; do
+    "--min-fall 1e-3" "--solver direct"; do
     # shellcheck disable=SC2086
     run 2 info -s source.txt $pair
     says "${pair% *} needs --method gradient"
@@ -92,7 +92,7 @@ run 2 info -s source.txt -m gradient --function laplace,decay
 says "only plot takes several"
 run 2 plot -s source.txt -m gradient -f decay,decay,decay,decay,decay,decay,decay,decay,decay out.svg
 says "--function takes at most 8 names"
-for pair in "--constrained " "--unconstrained " "--eta 1e-3" "--solver iterative"; do
+for pair in "--constrained " "--unconstrained " "--min-fall 1e-3" "--solver iterative"; do
     for function in decay distance; do
         # shellcheck disable=SC2086
         run 2 info -s source.txt -m gradient --function $function $pair
@@ -105,7 +105,7 @@ done
 run 2 info -s source.txt -m gradient -f laplace --constrained --unconstrained
 says "--constrained and --unconstrained exclude each other"
 for value in 0 -1e-6 nan 0.011 1 x ''; do
-    run 2 info -s source.txt -m gradient -f laplace --constrained "--eta=$value"
+    run 2 info -s source.txt -m gradient -f laplace --constrained "--min-fall=$value"
     says "must be a number above 0 and at most 0.01"
 done
 run 2 info -s source.txt -m gradient -f laplace --solver magic

@@ -13,14 +13,14 @@
  * to have an order with none but the maximum. */
 static int examine_order(info *x, const stages *s)
 {
-    icc_field_report found = {.size = sizeof found};
+    icc_function_report found = {.size = sizeof found};
     icc_error err = {.size = sizeof err, .index = -1};
     x->grid = s->lattice;
     uint32_t *rank = need(s->lattice.n_vertices, sizeof *rank);
     const int32_t *generations = icc_tree_generations(s->tree);
     for (size_t i = 0; i < s->lattice.n_vertices; i++)
         rank[i] = generations[i] < 0 ? UINT32_MAX : (uint32_t)generations[i];
-    icc_status status = icc_tree_verify_ranks(s->tree, rank, &found, &x->job.env, &err);
+    icc_status status = icc_tree_get_rank_report(s->tree, rank, &found, &x->job.env, &err);
     x->n_order_critical = found.n_maxima + found.n_minima + found.n_saddles - 1;
     if (status == ICC_OK && s->lattice.dim > 2) {
         x->growth.size = sizeof x->growth;
@@ -34,12 +34,12 @@ static int examine_order(info *x, const stages *s)
 /* How the function was made, and where the first critical point lies that should not be there. */
 static int examine_function(info *x, const stages *s)
 {
-    icc_field_report found = {.size = sizeof found};
+    icc_function_report found = {.size = sizeof found};
     icc_error err = {.size = sizeof err, .index = -1};
     x->field = s->field_info;
     if (s->field == NULL)
         return DONE;
-    if (icc_field_verify(s->field, &found, &x->job.env, &err) != ICC_OK)
+    if (icc_function_get_report(s->field, &found, &x->job.env, &err) != ICC_OK)
         return job_failed(&x->job, &err);
     x->n_inner_expansion = s->n_inner_expansion;
     x->n_holes = s->lattice.dim == 2 ? stages_holes(s) : 0;
@@ -52,6 +52,8 @@ static int examine_function(info *x, const stages *s)
 /* Euler's formula: a hole brings a saddle, whatever the function; further critical points are its own. */
 static const char *own_reason(const info *x)
 {
+    if (x->field.beside && x->chart.n_maxima == 1)
+        return "the function is greatest there, beside the root, where curves are to end";
     if (x->chart.n_maxima == 1 && x->chart.n_minima == 0 && x->chart.n_saddles <= x->n_holes)
         return NULL;
     if (x->domain.dim > 2)
@@ -86,14 +88,14 @@ bool info_has_grid(const info *x)
 const char *info_growth(char text[160], const info *x)
 {
     const icc_grow_report *g = &x->growth;
-    if (g->method == ICC_GROW_AS_WISHED)
+    if (g->method == ICC_GROW_AS_GIVEN)
         snprintf(text, 160, "the order of the function has no critical vertex but the maximum");
     else if (!x->grown)
         snprintf(text, 160, "stuck: %zu vertices cannot be placed, %zu are left by thinning",
-                 g->n_unplaced, g->n_left);
+                 g->n_unplaced, g->n_remaining);
     else
         snprintf(text, 160, "%s, %zu vertices had to wait, %zu edges against the function",
-                 g->method == ICC_GROW_GROWN ? "grown" : "thinned", g->n_postponed, g->n_turned);
+                 g->method == ICC_GROW_GROWN ? "grown" : "thinned", g->n_deferred, g->n_reversed);
     return text;
 }
 
@@ -108,7 +110,7 @@ static int gather(info *x)
     icc_error err = {.size = sizeof err, .index = -1};
     icc_domain_get_info(j->domains[0], &x->domain);
     icc_chart_get_info(chart, &x->chart);
-    if (info_has_grid(x) && icc_chart_measure(chart, 0, &x->measures, &j->env, &err) != ICC_OK)
+    if (info_has_grid(x) && icc_chart_get_report(chart, 0, &x->measures, &j->env, &err) != ICC_OK)
         return job_failed(j, &err);
     stages parts;
     result = stages_make(&parts, j, 1);

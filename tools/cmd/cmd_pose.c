@@ -209,7 +209,7 @@ static int write_bound(pose *p, const icc_binding *binding)
     icc_binding_get_counts(binding, &n, &n_handles, &dim);
     double *handles = need(n_handles, (size_t)dim * sizeof *handles),
            *images = need(n, (size_t)dim * sizeof *images);
-    icc_binding_get(binding, handles, NULL);
+    icc_binding_get_weights(binding, handles, NULL);
     int result = read_pose(p, (size_t)dim, n_handles, handles);
     double began = seconds_now();
     icc_status status = ICC_OK;

@@ -119,7 +119,7 @@ static int weigh(kernel_job *k, const table *points)
     size_t n_failed = 0;
     double *weights = need(points->n, k->set.n_handles * sizeof *weights);
     double began = seconds_now();
-    icc_status status = icc_kernel_weights(k->kernel, points->n, points->values, weights, NULL,
+    icc_status status = icc_weights_evaluate(k->kernel, points->n, points->values, weights, NULL,
                                            NULL, &n_failed, &k->job.env);
     double seconds = seconds_now() - began;
     progress_end(&k->job.bar);

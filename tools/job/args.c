@@ -150,11 +150,16 @@ static int take_option(reading *r, const option *o, const char *attached)
     return set_value(r, o, attached != NULL ? attached : r->argv[r->at++]);
 }
 
+static bool is_name(const char *name, const char *text, size_t n)
+{
+    return name != NULL && strlen(name) == n && strncmp(name, text, n) == 0;
+}
+
 static const option *find_long(const command *c, const char *name, size_t n)
 {
     for (size_t i = 0; i < N_OPTIONS; i++)
-        if (options[i].commands & c->bit && strlen(options[i].name) == n &&
-            strncmp(options[i].name, name, n) == 0)
+        if (options[i].commands & c->bit &&
+            (is_name(options[i].name, name, n) || is_name(options[i].former, name, n)))
             return &options[i];
     return NULL;
 }

@@ -21,7 +21,7 @@ typedef struct args {
     function_choice functions[MAX_FUNCTIONS];
     size_t n_functions;
     int32_t improve; /* steps at most; -1: the library's choice */
-    double eta;
+    double min_fall;
     double tolerance; /* 0: the command's choice */
     double maximum[ICC_MAX_DIM], target_maximum[ICC_MAX_DIM];
     size_t n_maximum, n_target_maximum; /* their coordinates; 0: not given */

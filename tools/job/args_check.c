@@ -11,7 +11,7 @@ static int check_method(const args *a, const command *c)
     const char *gradient_only = a->n_functions > 0 ? "function"
                                 : a->constrained   ? "constrained"
                                 : a->unconstrained ? "unconstrained"
-                                : a->eta > 0       ? "eta"
+                                : a->min_fall > 0  ? "min-fall"
                                 : a->solver != 0   ? "solver"
                                 : a->tree != 0     ? "tree"
                                 : a->elevation     ? "elevation"
@@ -34,7 +34,7 @@ static int check_functions(const args *a, const command *c)
 {
     const char *solved_only = a->constrained     ? "constrained"
                               : a->unconstrained ? "unconstrained"
-                              : a->eta > 0       ? "eta"
+                              : a->min_fall > 0  ? "min-fall"
                               : a->solver != 0   ? "solver"
                                                  : NULL;
     bool solves = false;

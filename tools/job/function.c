@@ -58,7 +58,7 @@ size_t functions_parse(function_choice out[MAX_FUNCTIONS], const char *text, pro
     return 0;
 }
 
-const char *function_label(char text[48], const icc_field_info *info)
+const char *function_label(char text[48], const icc_function_info *info)
 {
     snprintf(text, 48, "%s%s", choice_name(functions, info->function),
              !function_solves(info->function) ? ""
@@ -67,7 +67,7 @@ const char *function_label(char text[48], const icc_field_info *info)
     return text;
 }
 
-void function_report(json *j, const icc_field_info *info)
+void function_report(json *j, const icc_function_info *info)
 {
     json_text(j, "function", choice_name(functions, info->function));
     if (!function_solves(info->function))

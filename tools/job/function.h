@@ -23,9 +23,9 @@ size_t functions_parse(function_choice out[MAX_FUNCTIONS], const char *text, pro
 bool function_solves(int32_t function);
 
 /* Its name, as in "laplace, unconstrained". */
-const char *function_label(char text[48], const icc_field_info *info);
+const char *function_label(char text[48], const icc_function_info *info);
 
 /* The members of the report that tell how it was made. */
-void function_report(json *j, const icc_field_info *info);
+void function_report(json *j, const icc_function_info *info);
 
 #endif

@@ -192,7 +192,7 @@ static icc_chart_options chart_options(const job *j)
         .maximum = a->n_maximum > 0 ? a->maximum : NULL,
         .constraints = a->functions[j->function].constraints,
         .solver = a->solver,
-        .eta = a->eta,
+        .min_fall = a->min_fall,
     };
 }
 

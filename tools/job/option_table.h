@@ -24,7 +24,7 @@ typedef struct choice {
 } choice;
 
 typedef struct option {
-    const char *name;
+    const char *name, *former; /* former: a spelling that is still taken, or NULL */
     char letter;
     option_kind kind;
     unsigned commands;

@@ -14,7 +14,7 @@ void kernel_job_start(kernel_job *k, const args *a)
 
 void kernel_job_end(kernel_job *k)
 {
-    icc_kernel_free(k->kernel);
+    icc_weights_free(k->kernel);
     icc_sampling_free(k->sampling);
     for (size_t i = 0; k->regions != NULL && i < k->set.n_regions; i++)
         icc_domain_free(k->regions[i]);
@@ -108,7 +108,7 @@ static int make_weights(kernel_job *k)
 {
     const handle_set *set = &k->set;
     const args *a = k->job.args;
-    icc_kernel_options how = {.size = sizeof how,
+    icc_weights_options how = {.size = sizeof how,
                               .kernel = a->kernel,
                               .initial = a->initial,
                               .method = a->weights,
@@ -120,12 +120,12 @@ static int make_weights(kernel_job *k)
                               .lines = set->lines};
     if (a->thesis) {
         how.kernel = a->kernel != 0 ? a->kernel : ICC_KERNEL_GAUSS;
-        how.tail = -1;
-        how.visible = -1;
+        how.affine_tail = -1;
+        how.within_shape = -1;
     }
     icc_error err = {.size = sizeof err, .index = -1};
     double began = seconds_now();
-    icc_status status = icc_kernel_create(&k->kernel, k->sampling, set->n_handles, set->handles,
+    icc_status status = icc_weights_create(&k->kernel, k->sampling, set->n_handles, set->handles,
                                           &how, &k->job.env, &err);
     k->seconds_weights = seconds_now() - began;
     return status == ICC_OK ? DONE : failed_set(k, "", &err);
@@ -185,12 +185,12 @@ static int find_rigidity(kernel_job *k, size_t n, const double *nodes, double *r
 
 static int stiffen(kernel_job *k)
 {
-    icc_kernel_info info = {.size = sizeof info};
-    icc_kernel_get_info(k->kernel, &info);
+    icc_weights_info info = {.size = sizeof info};
+    icc_weights_get_info(k->kernel, &info);
     size_t n = info.n_nodes, n_stiff = 0;
     double *nodes = need(n, k->set.dim * sizeof *nodes), *rigidity = need(n, sizeof *rigidity);
     uint32_t *stiff = need(n, sizeof *stiff);
-    icc_kernel_get_nodes(k->kernel, nodes, NULL, NULL, NULL);
+    icc_weights_get_nodes(k->kernel, nodes, NULL, NULL, NULL);
     double began = seconds_now();
     int result = find_rigidity(k, n, nodes, rigidity);
     for (size_t i = 0; i < n; i++)
@@ -198,13 +198,13 @@ static int stiffen(kernel_job *k)
             rigidity[n_stiff] = rigidity[i];
             stiff[n_stiff++] = (uint32_t)i;
         }
-    icc_kernel *stiffened = NULL;
+    icc_weights *stiffened = NULL;
     icc_error err = {.size = sizeof err, .index = -1};
-    if (result == DONE && icc_kernel_stiffen(&stiffened, k->kernel, n_stiff, stiff, rigidity,
+    if (result == DONE && icc_weights_stiffen(&stiffened, k->kernel, n_stiff, stiff, rigidity,
                                              k->energy, &k->job.env, &err) != ICC_OK)
         result = failed_set(k, "rigid", &err);
     if (result == DONE) {
-        icc_kernel_free(k->kernel);
+        icc_weights_free(k->kernel);
         k->kernel = stiffened;
     }
     k->seconds_rigid = seconds_now() - began;

@@ -15,7 +15,7 @@ static void report_sampling(json *out, const kernel_job *k)
     json_close(out, '}');
 }
 
-static void report_kernel(json *out, const icc_kernel_info *info)
+static void report_kernel(json *out, const icc_weights_info *info)
 {
     json_open(out, "kernel", '{');
     json_text(out, "kind", choice_name(kernels, info->kernel));
@@ -31,9 +31,9 @@ static void report_kernel(json *out, const icc_kernel_info *info)
 
 static int report_quality(json *out, kernel_job *k, size_t n, const double *points)
 {
-    icc_kernel_report q = {.size = sizeof q};
+    icc_weights_report q = {.size = sizeof q};
     icc_error err = {.size = sizeof err, .index = -1};
-    if (icc_kernel_get_report(k->kernel, n, points, &q, &k->job.env, &err) != ICC_OK)
+    if (icc_weights_get_report(k->kernel, n, points, &q, &k->job.env, &err) != ICC_OK)
         return job_failed(&k->job, &err);
     json_open(out, "quality", '{');
     json_count(out, "points", n);
@@ -48,7 +48,7 @@ static int report_quality(json *out, kernel_job *k, size_t n, const double *poin
     return DONE;
 }
 
-static void report_seconds(json *out, const kernel_job *k, const icc_kernel_info *info)
+static void report_seconds(json *out, const kernel_job *k, const icc_weights_info *info)
 {
     json_open(out, "seconds", '{');
     json_number(out, "read", k->job.seconds_read);
@@ -64,8 +64,8 @@ static void report_seconds(json *out, const kernel_job *k, const icc_kernel_info
 
 int kernel_report_open(report *r, kernel_job *k, size_t n, const double *points)
 {
-    icc_kernel_info info = {.size = sizeof info};
-    icc_kernel_get_info(k->kernel, &info);
+    icc_weights_info info = {.size = sizeof info};
+    icc_weights_get_info(k->kernel, &info);
     if (!report_open(r, &k->job))
         return FAILED;
     report_sampling(&r->json, k);

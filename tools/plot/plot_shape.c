@@ -235,12 +235,12 @@ static int draw_triangles(const panel *p)
                       "the map is not of kind mesh: its repair failed; plot without "
                       "--triangles");
     double *points = need(info.n_vertices, 2 * sizeof *points);
-    uint32_t *triangles = need(info.n_triangles, 3 * sizeof *triangles);
-    icc_map_mesh(map, p->side == 1 ? points : NULL, p->side == 2 ? points : NULL, triangles);
+    uint32_t *triangles = need(info.n_simplices, 3 * sizeof *triangles);
+    icc_map_get_mesh(map, p->side == 1 ? points : NULL, p->side == 2 ? points : NULL, triangles);
     for (size_t i = 0; i < info.n_vertices; i++)
         panel_place(p, points + 2 * i, points + 2 * i);
     fputs("<path fill=\"none\" stroke=\"#334155\" stroke-width=\"0.4\" d=\"", p->svg);
-    for (size_t i = 0; i < 3 * info.n_triangles; i++) {
+    for (size_t i = 0; i < 3 * info.n_simplices; i++) {
         uint32_t a = triangles[i], b = triangles[i % 3 == 2 ? i - 2 : i + 1];
         double ends[4] = {points[2 * a], points[2 * a + 1], points[2 * b], points[2 * b + 1]};
         /* The triangle on the other side runs from b to a; where there is none, the outline is. */

@@ -22,13 +22,13 @@ static void find_range(stages *s)
 
 static void find_scale(stages *s)
 {
-    s->values = icc_field_logs(s->field);
+    s->values = icc_function_logs(s->field);
     if (s->values != NULL)
         find_range(s);
     s->logarithmic = s->values != NULL && s->high - s->low >= many_decades * log(10);
     if (s->logarithmic)
         return;
-    s->values = icc_field_values(s->field);
+    s->values = icc_function_values(s->field);
     find_range(s);
 }
 
@@ -45,11 +45,11 @@ static bool inner_edge(const stages *s, uint32_t a, uint32_t b)
 static int find_edges(stages *s, job *j)
 {
     size_t n = 0;
-    icc_status status = icc_field_edges(s->field, 0, NULL, NULL, &n, NULL);
+    icc_status status = icc_function_get_edges(s->field, 0, NULL, NULL, &n, NULL);
     s->edges = need(n, 2 * sizeof *s->edges);
     s->kinds = need(n, sizeof *s->kinds);
     if (status == ICC_OK && n > 0)
-        status = icc_field_edges(s->field, n, s->edges, s->kinds, &n, NULL);
+        status = icc_function_get_edges(s->field, n, s->edges, s->kinds, &n, NULL);
     s->n_edges = n;
     for (size_t i = 0; i < n && status == ICC_OK; i++)
         s->n_inner_expansion += s->kinds[i] == ICC_EDGE_EXPANSION &&
@@ -71,12 +71,12 @@ int stages_make(stages *out, job *j, int side)
                                 : icc_map_source_chart(j->map);
     icc_domain_get_info(out->domain, &out->box);
     icc_chart_get_info(out->chart, &out->chart_info);
-    out->field = icc_chart_field(out->chart);
+    out->field = icc_chart_function(out->chart);
     if (out->field == NULL)
         return DONE;
-    out->tree = icc_field_tree(out->field);
+    out->tree = icc_function_tree(out->field);
     out->grid = icc_tree_grid(out->tree);
-    icc_field_get_info(out->field, &out->field_info);
+    icc_function_get_info(out->field, &out->field_info);
     icc_grid_get_info(out->grid, &out->lattice);
     find_scale(out);
     return out->box.dim == 2 ? find_edges(out, j) : DONE;

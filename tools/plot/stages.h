@@ -13,11 +13,11 @@ typedef struct stages {
     icc_domain_info box;
     icc_chart_info chart_info;
     /* Methods gradient and field; else NULL. Borrowed from the chart. */
-    const icc_field *field;
+    const icc_function *field;
     const icc_tree *tree;
     const icc_grid *grid;
     icc_grid_info lattice;
-    icc_field_info field_info;
+    icc_function_info field_info;
     const double *values; /* what is drawn of the function: its values, or their logarithms */
     bool logarithmic;
     double low, high; /* least and largest of them inside */

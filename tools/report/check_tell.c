@@ -82,7 +82,7 @@ static void print_chart(const char *file, const icc_chart_info *chart)
             "enter all over the boundary",
             chart->n_inside);
     else
-        printf("%zu %s, none of them inverted", chart->n_mesh_triangles, elements_name(chart->dim));
+        printf("%zu %s, none of them inverted", chart->n_mesh_simplices, elements_name(chart->dim));
     if (chart->method == ICC_METHOD_FOLIATION)
         fputs("; every leaf runs from the boundary to the maximum", stdout);
     if (chart->method == ICC_METHOD_FOLIATION && !(chart->order_beta > 0))
@@ -119,7 +119,7 @@ void check_print_certificates(const check *c)
     printf("map: %s, certified one-to-one", choice_name(maps, c->map.kind));
     if (c->map.kind == ICC_MAP_MESH)
         printf(": all %zu %s keep their orientation, exactly, and both boundaries are simple",
-               c->map.n_triangles, elements_name(c->map.dim));
+               c->map.n_simplices, elements_name(c->map.dim));
     putchar('\n');
 }
 

@@ -19,10 +19,10 @@ typedef struct info {
     job job;
     icc_domain_info domain;
     icc_chart_info chart;
-    icc_chart_measures measures;
+    icc_chart_report measures;
     /* Methods gradient and field. */
     icc_grid_info grid;
-    icc_field_info field;
+    icc_function_info field;
     bool has_critical; /* besides the maximum there are others, the first one here */
     double critical[ICC_MAX_DIM];
     size_t n_order_critical;  /* critical vertices of the tree's own order, besides the maximum */

@@ -28,7 +28,7 @@ static void print_domain(const info *x)
     print_point(x, "", d->upper, "\n");
 }
 
-static void print_solution(const icc_field_info *f)
+static void print_solution(const icc_function_info *f)
 {
     printf("solution    %zu unknowns, solver %s", f->n_unknowns, choice_name(solvers, f->solver));
     if (f->solver == ICC_SOLVER_ITERATIVE)
@@ -69,6 +69,8 @@ static void print_grid(const info *x)
         printf("%zu given up, ", x->grid.n_stray);
     printf("spacing %.17g\n", c->spacing);
     print_point(x, "maximum     ", c->maximum, "\n");
+    if (c->moved > 0)
+        printf("            %.4g from the place chosen: the function is greatest here\n", c->moved);
     printf("tree        %zu vertices, %zu unreachable, %zu cousin violations", c->n_tree,
            c->n_unreachable, c->n_cousin_violations);
     if (x->domain.dim > 2)
@@ -83,7 +85,7 @@ static void print_grid(const info *x)
 static void print_shares(const info *x)
 {
     const icc_chart_info *c = &x->chart;
-    const icc_chart_measures *m = &x->measures;
+    const icc_chart_report *m = &x->measures;
     const char *measure = x->domain.dim == 2 ? "area" : "volume";
     if (c->n_edges > 0)
         printf(
@@ -143,7 +145,7 @@ static void print_certified(const info *x)
     printf("method      %s, %s\n", choice_name(methods, c->method),
            c->certified ? "certified" : "not certified");
     printf("mesh        %zu vertices, %zu of them on the boundary, %zu %s", c->n_mesh_vertices,
-           c->n_mesh_boundary, c->n_mesh_triangles, elements_name(c->dim));
+           c->n_mesh_boundary, c->n_mesh_simplices, elements_name(c->dim));
     if (c->spacing > 0)
         printf(", spacing %.17g", c->spacing);
     putchar('\n');
@@ -158,7 +160,7 @@ static void print_certified(const info *x)
 static void print_mesh_map(const icc_map_info *m)
 {
     printf("%-11s %zu, %zu vertices; %zu were not positive and have been repaired\n",
-           elements_name(m->dim), m->n_triangles, m->n_vertices, m->n_inverted);
+           elements_name(m->dim), m->n_simplices, m->n_vertices, m->n_inverted);
     printf("energy      %.4g, improved to %.4g (steps: %zu, refinements: %d)\n", m->energy_start,
            m->energy, m->n_iterations, (int)m->n_levels);
 }
@@ -187,9 +189,9 @@ static void print_map(const info *x)
 static void print_grid_seconds(const info *x)
 {
     const icc_chart_info *c = &x->chart;
-    const icc_field_info *f = &x->field;
+    const icc_function_info *f = &x->field;
     printf("grid %.4f, tree %.4f, function %.4f", c->seconds_grid, c->seconds_tree,
-           c->seconds_field);
+           c->seconds_function);
     if (function_solves(c->function))
         printf(" (set up %.4f, order %.4f, factorise %.4f, solve %.4f, verify %.4f)",
                f->seconds_setup, f->seconds_order, f->seconds_factor, f->seconds_solve,

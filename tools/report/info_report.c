@@ -18,10 +18,10 @@ static void report_growth(json *j, const info *x)
     json_count(j, "critical_in_tree_order", x->n_order_critical);
     json_open(j, "order", '{');
     json_text(j, "found", methods_of_growth[x->grown ? g->method : 0]);
-    json_count(j, "postponed", g->n_postponed);
+    json_count(j, "postponed", g->n_deferred);
     json_count(j, "unplaced", g->n_unplaced);
-    json_count(j, "left", g->n_left);
-    json_count(j, "turned_edges", g->n_turned);
+    json_count(j, "left", g->n_remaining);
+    json_count(j, "turned_edges", g->n_reversed);
     json_close(j, '}');
 }
 
@@ -75,7 +75,7 @@ static void report_mesh(json *j, const icc_chart_info *c)
 {
     json_count(j, "mesh_vertices", c->n_mesh_vertices);
     json_count(j, "mesh_boundary", c->n_mesh_boundary);
-    json_count(j, "mesh_triangles", c->n_mesh_triangles);
+    json_count(j, "mesh_triangles", c->n_mesh_simplices);
     if (c->method != ICC_METHOD_FOLIATION)
         return;
     if (c->order_beta > 0)
@@ -90,6 +90,8 @@ static void report_chart(json *j, const info *x)
     json_text(j, "method", choice_name(methods, c->method));
     json_flag(j, "certified", c->certified != 0);
     report_point(j, "maximum", (size_t)x->domain.dim, c->maximum);
+    if (c->moved > 0)
+        json_number(j, "maximum_moved", c->moved);
     json_number(j, "spacing", c->spacing);
     if (info_has_grid(x))
         report_grid(j, x);
@@ -97,7 +99,7 @@ static void report_chart(json *j, const info *x)
         report_mesh(j, c);
 }
 
-static void report_shares(json *j, const icc_chart_measures *m)
+static void report_shares(json *j, const icc_chart_report *m)
 {
     json_open(j, "shares", '{');
     json_number(j, "unreachable", m->unreachable);
@@ -109,7 +111,7 @@ static void report_shares(json *j, const icc_chart_measures *m)
 
 static void report_mesh_map(json *j, const icc_map_info *m)
 {
-    json_count(j, "triangles", m->n_triangles);
+    json_count(j, "triangles", m->n_simplices);
     json_count(j, "vertices", m->n_vertices);
     json_count(j, "repaired", m->n_inverted);
     json_count(j, "steps", m->n_iterations);
@@ -152,7 +154,7 @@ static void report_seconds(json *j, const info *x)
     if (info_has_grid(x)) {
         json_number(j, "grid", c->seconds_grid);
         json_number(j, "tree", c->seconds_tree);
-        json_number(j, "function", c->seconds_field);
+        json_number(j, "function", c->seconds_function);
     } else {
         json_number(j, "mesh", c->seconds_mesh);
         json_number(j, "solve", c->seconds_solve);

@@ -14,30 +14,30 @@ MAX_DIM = 6
 
 # Every struct begins with `size`. Each line: name, then member:type.
 STRUCTS = """
-error status:i32 side:i32 index:i64 message:char[240]
+error status:i32 side:i32 index:i64 item:i32 message:char[252]
 env user:ptr alloc:ptr dealloc:ptr log:ptr progress:ptr parallel_for:ptr threads:i32
 domain_info dim:i32 orientation:i32 n_vertices:size n_facets:size lower:f64[6] upper:f64[6] measure:f64
-chart_options method:i32 function:i32 tree:i32 cells:i32 maximum:ptr constraints:i32 solver:i32 eta:f64 leaf:f64
-chart_info dim:i32 method:i32 function:i32 tree:i32 certified:i32 cells:i32 maximum:f64[6] spacing:f64 n_grid:size n_inside:size n_tree:size n_unreachable:size n_cousin_violations:size n_maxima:size n_minima:size n_saddles:size n_edges:size n_compression:size n_expansion:size n_mesh_vertices:size n_mesh_boundary:size n_mesh_triangles:size n_ties:size harmonic_share:f64 seconds_grid:f64 seconds_tree:f64 seconds_field:f64 seconds_mesh:f64 seconds_solve:f64 seconds_certify:f64 n_stray:size n_infeasible:size n_contacts:size n_not_inward:size order_peeled:i32 n_orders:i32 order_beta:f64 n_reversed:size flux_energy:f64 flux_divergence:f64
-chart_measures n_points:size n_boundary:size unreachable:f64 uncovered:f64 collapsed:f64 not_inward:f64
+chart_options method:i32 function:i32 tree:i32 cells:i32 maximum:ptr constraints:i32 solver:i32 min_fall:f64 leaf_min:f64
+chart_info dim:i32 method:i32 function:i32 tree:i32 certified:i32 cells:i32 maximum:f64[6] spacing:f64 n_grid:size n_inside:size n_tree:size n_unreachable:size n_cousin_violations:size n_maxima:size n_minima:size n_saddles:size n_edges:size n_compression:size n_expansion:size n_mesh_vertices:size n_mesh_boundary:size n_mesh_simplices:size n_ties:size harmonic_share:f64 seconds_grid:f64 seconds_tree:f64 seconds_function:f64 seconds_mesh:f64 seconds_solve:f64 seconds_certify:f64 n_stray:size n_infeasible:size n_contacts:size n_not_inward:size order_peeled:i32 n_orders:i32 order_beta:f64 n_reversed:size flux_energy:f64 flux_divergence:f64 moved:f64
+chart_report n_points:size n_boundary:size unreachable:f64 uncovered:f64 collapsed:f64 not_inward:f64
 map_options kind:i32 iterations:i32 chart:ptr target_maximum:ptr
-map_info dim:i32 kind:i32 certified:i32 n_levels:i32 n_vertices:size n_triangles:size n_inverted:size n_unrepaired:size n_iterations:size energy_start:f64 energy:f64 seconds:f64 seconds_repair:f64 seconds_improve:f64 seconds_certify:f64
+map_info dim:i32 kind:i32 certified:i32 n_levels:i32 n_vertices:size n_simplices:size n_inverted:size n_unrepaired:size n_iterations:size energy_start:f64 energy:f64 seconds:f64 seconds_repair:f64 seconds_improve:f64 seconds_certify:f64
 improve_options iterations:i32 levels:i32 tolerance:f64
-improve_report energy_start:f64 energy:f64 n_iterations:size n_triangles:size n_levels:i32 cancelled:i32
+improve_report energy_start:f64 energy:f64 n_iterations:size n_simplices:size n_levels:i32 cancelled:i32
 certificate certified:i32 boundary_simple:i32 n_inverted:size n_flat:size n_no_image:size first:i64
-picture width:i32 height:i32 channels:i32 bytes:i32 alpha:i32 reserved:i32 stride:size pixels:ptr
-grid_info dim:i32 reserved:i32 shape:size[6] origin:f64[6] spacing:f64 n_vertices:size n_inside:size n_stray:size cells:i32 reserved2:i32
-tree_options form:i32 reserved:i32 axis_order:ptr
+picture width:i32 height:i32 channels:i32 bytes:i32 alpha:i32 stride:size pixels:ptr
+grid_info dim:i32 shape:size[6] origin:f64[6] spacing:f64 n_vertices:size n_inside:size n_stray:size cells:i32
+tree_options form:i32 axis_order:ptr
 tree_report n_inside:size n_outside:size n_unreachable:size n_pairs:size n_cousin_violations:size violation:u32[2]
-field_options function:i32 constraints:i32 solver:i32 reserved:i32 eta:f64 leaf:f64
-field_info function:i32 constrained:i32 solver:i32 reserved:i32 n_unknowns:size n_violated:size n_active:size n_iterations:size n_inner:size work:f64 residual_before:f64 residual:f64 least_log:f64 seconds_setup:f64 seconds_order:f64 seconds_factor:f64 seconds_solve:f64 seconds_verify:f64
-field_report n_maxima:size n_minima:size n_saddles:size critical:u32 reserved:u32
-grow_report method:i32 vertex:u32 n_vertices:size n_postponed:size n_unplaced:size n_left:size n_turned:size n_tests:size
+function_options function:i32 constraints:i32 solver:i32 min_fall:f64 leaf_min:f64
+function_info function:i32 constrained:i32 solver:i32 n_unknowns:size n_violated:size n_active:size n_iterations:size n_inner:size work:f64 residual_before:f64 residual:f64 least_log:f64 seconds_setup:f64 seconds_order:f64 seconds_factor:f64 seconds_solve:f64 seconds_verify:f64 excess:f64 highest:u32 beside:i32
+function_report n_maxima:size n_minima:size n_saddles:size critical:u32
+grow_report method:i32 vertex:u32 n_vertices:size n_deferred:size n_unplaced:size n_remaining:size n_reversed:size n_tests:size
 sampling_options kind:i32 steps:i32 spacing:f64 margin:f64 seed:u64 n_fixed:size fixed:ptr
 sampling_info dim:i32 kind:i32 n_samples:size n_edge:size spacing:f64 nearest:f64 sigma:f64
-kernel_options kernel:i32 initial:i32 method:i32 steps:i32 tail:i32 visible:i32 sigma:f64 cutoff:f64 n_edges:size edges:ptr n_lines:size lines:ptr initial_weights:ptr
-kernel_info dim:i32 kernel:i32 initial:i32 method:i32 n_handles:size n_nodes:size n_infeasible:size n_entries:size sigma:f64 definiteness:f64 seconds_initial:f64 seconds_weights:f64 seconds_factor:f64
-kernel_report n_infeasible:size n_negative:size unity:f64 reproduction:f64 reproduction_mean:f64 lagrange:f64 linearity:f64 least_weight:f64 definiteness:f64
+weights_options kernel:i32 initial:i32 method:i32 steps:i32 affine_tail:i32 within_shape:i32 sigma:f64 cutoff:f64 n_edges:size edges:ptr n_lines:size lines:ptr initial_weights:ptr
+weights_info dim:i32 kernel:i32 initial:i32 method:i32 n_handles:size n_nodes:size n_infeasible:size n_entries:size sigma:f64 definiteness:f64 seconds_initial:f64 seconds_weights:f64 seconds_factor:f64
+weights_report n_infeasible:size n_negative:size unity:f64 reproduction:f64 reproduction_mean:f64 lagrange:f64 linearity:f64 least_weight:f64 definiteness:f64
 """
 
 # Each line: [result] name arguments; the result is a status unless it is given.
@@ -58,7 +58,7 @@ chart_create chart** domain* chart_options* env* error*
 void:chart_free chart*
 chart_get_info chart* chart_info*
 domain*:chart_domain chart*
-chart_measure chart* size chart_measures* env* error*
+chart_get_report chart* size chart_report* env* error*
 chart_encode chart* size f64* u32* f64* f64* i32* size* env*
 chart_decode chart* size u32* f64* f64* f64* i32* size* env*
 chart_trace chart* f64* size f64* size* env* error*
@@ -67,8 +67,8 @@ chart_load chart** size void* env* error*
 map_create map** domain* domain* map_options* env* error*
 map_create_from_charts map** chart* chart* map_options* env* error*
 map_improve map** map* improve_options* improve_report* env* error*
-map_follow map** map* domain* i32 env* error*
-map_mesh map* f64* f64* u32*
+map_retarget map** map* domain* i32 env* error*
+map_get_mesh map* f64* f64* u32*
 map_certify map* size f64* size u32* f64* certificate* env* error*
 map_repair map* size f64* size u32* f64* certificate* env* error*
 void:map_free map*
@@ -88,26 +88,26 @@ grid_restrict grid** grid* u8* env* error*
 void:grid_free grid*
 grid_get_info grid* grid_info*
 u8*:grid_inside grid*
-grid_maximum grid* u32* u32* env* error*
-grid_nearest grid* f64* u32*
+grid_find_maximum grid* u32* u32* env* error*
+grid_find_nearest grid* f64* u32*
 tree_create tree** grid* u32 tree_options* env* error*
 void:tree_free tree*
 u32*:tree_parents tree*
 i32*:tree_generations tree*
-tree_verify tree* tree_report* env* error*
-field_create field** tree* field_options* env* error*
-field*:chart_field chart*
-tree*:field_tree field*
+tree_get_report tree* tree_report* env* error*
+function_create function** tree* function_options* env* error*
+function*:chart_function chart*
+tree*:function_tree function*
 grid*:tree_grid tree*
 u32:tree_root tree*
-void:field_free field*
-field_get_info field* field_info*
-f64*:field_values field*
-f64*:field_logs field*
-field_verify field* field_report* env* error*
-field_edges field* size u32* i32* size* size*
+void:function_free function*
+function_get_info function* function_info*
+f64*:function_values function*
+f64*:function_logs function*
+function_get_report function* function_report* env* error*
+function_get_edges function* size u32* i32* size* size*
 tree_grow tree* f64* u32* grow_report* env* error*
-tree_verify_ranks tree* u32* field_report* env* error*
+tree_get_rank_report tree* u32* function_report* env* error*
 triangulate size size f64* u32* env* error*
 shape_create shape** i32 size domain** size f64* size u32* env* error*
 void:shape_free shape*
@@ -118,20 +118,20 @@ sampling_get_info sampling* sampling_info*
 sampling_get_points sampling* f64*
 sampling_save sampling* size void* size*
 sampling_load sampling** size void* env* error*
-kernel_create kernel** sampling* size f64* kernel_options* env* error*
-void:kernel_free kernel*
-kernel_get_info kernel* kernel_info*
-kernel_get_nodes kernel* f64* f64* f64* i32*
-kernel_paint kernel** kernel* size f64* f64 f64 env* error*
-kernel_repaint kernel** kernel* size u32* f64* env* error*
-kernel_set_method kernel** kernel* i32 env* error*
-kernel_stiffen kernel** kernel* size u32* f64* f64* env* error*
-kernel_weights kernel* size f64* f64* f64* i32* size* env*
-kernel_get_report kernel* size f64* kernel_report* env* error*
-binding_create binding** kernel* size f64* i32 env* error*
+weights_create weights** sampling* size f64* weights_options* env* error*
+void:weights_free weights*
+weights_get_info weights* weights_info*
+weights_get_nodes weights* f64* f64* f64* i32*
+weights_paint weights** weights* size f64* f64 f64 env* error*
+weights_repaint weights** weights* size u32* f64* env* error*
+weights_with_method weights** weights* i32 env* error*
+weights_stiffen weights** weights* size u32* f64* f64* env* error*
+weights_evaluate weights* size f64* f64* f64* i32* size* env*
+weights_get_report weights* size f64* weights_report* env* error*
+binding_create binding** weights* size f64* i32 env* error*
 void:binding_free binding*
 binding_get_counts binding* size* size* i32*
-binding_get binding* f64* f64*
+binding_get_weights binding* f64* f64*
 binding_pose binding* f64* f64* f64* env*
 binding_save binding* size void* size*
 binding_load binding** size void* env* error*

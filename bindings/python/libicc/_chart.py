@@ -37,12 +37,12 @@ TREES = {"thesis": 1, "paper": 2}
 
 def chart_options(dim: int, method: Optional[str], cells: Optional[int], maximum: Optional[ArrayLike],
                   function: Optional[str], constraints: Optional[str], solver: Optional[str],
-                  tree: Optional[str], eta: Optional[float], leaf: Optional[float]) -> Any:
+                  tree: Optional[str], min_fall: Optional[float], leaf_min: Optional[float]) -> Any:
     options = new("chart_options", method=choose(method, METHODS, "method"), cells=cells or 0,
                   function=choose(function, FUNCTIONS, "function"),
                   constraints=choose(constraints, CONSTRAINTS, "constraints"),
                   solver=choose(solver, SOLVERS, "solver"), tree=choose(tree, TREES, "tree"),
-                  eta=eta or 0, leaf=leaf or 0)
+                  min_fall=min_fall or 0, leaf_min=leaf_min or 0)
     if maximum is not None:
         options.keep = floats(maximum, (dim,), "maximum")
         options.maximum = address(options.keep)
@@ -61,7 +61,7 @@ class Chart(Saved):
         constraints: whether it is made to fall along the tree: "needed", "none" or "all"
         solver: "direct" or "iterative"
         tree: "thesis" or "paper"
-        eta, leaf: least relative fall and least value, see ``icc_chart_options``
+        min_fall, leaf_min: least relative fall and least value, see ``icc_chart_options``
         progress, threads: as for `Domain`
 
     Raises:
@@ -75,11 +75,11 @@ class Chart(Saved):
     def __init__(self, domain: ShapeLike, method: Optional[str] = None, *, cells: Optional[int] = None,
                  maximum: Optional[ArrayLike] = None, function: Optional[str] = None,
                  constraints: Optional[str] = None, solver: Optional[str] = None,
-                 tree: Optional[str] = None, eta: Optional[float] = None, leaf: Optional[float] = None,
+                 tree: Optional[str] = None, min_fall: Optional[float] = None, leaf_min: Optional[float] = None,
                  progress: Optional[Progress] = None, threads: Optional[int] = None):
         domain = as_domain(domain)
         options = chart_options(domain.dim, method, cells, maximum, function, constraints, solver, tree,
-                                eta, leaf)
+                                min_fall, leaf_min)
         self._take(create(lib.chart_create, domain, ctypes.addressof(options),
                           progress=progress, threads=threads))
 
@@ -103,12 +103,12 @@ class Chart(Saved):
         """Whether the chart is proved to be one-to-one."""
         return bool(self._info("chart_get_info", "chart_info").certified)
 
-    def measure(self, n_points: int = 0, *, progress: Optional[Progress] = None,
+    def report(self, n_points: int = 0, *, progress: Optional[Progress] = None,
                 threads: Optional[int] = None) -> SimpleNamespace:
         """Estimates what the coordinates miss from `n_points` evenly spread points (0: 4096): the members of
-        ``icc_chart_measures``, shares in [0, 1]."""
-        call, measures = Call(progress, threads), new("chart_measures")
-        call.check(lib.chart_measure(self, n_points, ctypes.addressof(measures), call.env,
+        ``icc_chart_report``, shares in [0, 1]."""
+        call, measures = Call(progress, threads), new("chart_report")
+        call.check(lib.chart_get_report(self, n_points, ctypes.addressof(measures), call.env,
                                      call.err))
         return fields(measures)
 

@@ -6,7 +6,7 @@ import ctypes
 import os
 import sys
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any, Callable, Dict, Optional, Sequence, Tuple, Type, TypeVar
+from typing import TYPE_CHECKING, Any, Callable, Dict, Optional, Sequence, Tuple, Type, TypeVar, Union
 
 import numpy as np
 
@@ -82,7 +82,7 @@ class Call:
         if status != 0:
             error = self.error
             text = error.message.decode("utf-8", "replace") if error.status == status else ""
-            fail(status, text, error.index, error.side)
+            fail(status, text, error.index, error.side, error.item)
 
 
 def _threads(wanted: Optional[int]) -> int:
@@ -136,7 +136,7 @@ def fields(struct: Any, dim: Optional[int] = None) -> SimpleNamespace:
     members = {}
     for name, kind in struct._fields_:
         value = getattr(struct, name)
-        if name == "size" or name.startswith("reserved"):
+        if name == "size":
             continue
         if isinstance(value, ctypes.Array):
             value = np.array(value[:dim] if len(value) == 6 else value[:])
@@ -242,6 +242,19 @@ class Saved(Handle):
         """
         function, read = getattr(lib, cls._name + "_load"), np.frombuffer(data, dtype=np.uint8)
         return cls._wrap(create(function, len(read), address(read), progress=progress, threads=threads))
+
+    def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
+        """Writes `to_bytes` to a file."""
+        data = self.to_bytes()
+        with open(path, "wb") as file:
+            file.write(data)
+
+    @classmethod
+    def load(cls: Type[_S], path: Union[str, "os.PathLike[str]"], *, progress: Optional[Progress] = None,
+             threads: Optional[int] = None) -> _S:
+        """The object that `save` wrote to a file; otherwise as `from_bytes`."""
+        with open(path, "rb") as file:
+            return cls.from_bytes(file.read(), progress=progress, threads=threads)
 
     def __reduce__(self) -> Any:
         return type(self).from_bytes, (self.to_bytes(),)

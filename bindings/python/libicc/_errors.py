@@ -1,8 +1,13 @@
 """What a call that failed raises."""
 
-from typing import NoReturn
+from typing import NoReturn, Optional
 
 from ._abi import lib
+
+
+ITEMS = (None, "vertex", "facet", "simplex", "cell", "grid vertex", "axis", "point", "region", "segment", "sample",
+         "handle", "edge", "line", "node")
+"""What `Error.item` may be: the ``ICC_ITEM_*`` of the C library in order."""
 
 
 class Error(Exception):
@@ -10,16 +15,18 @@ class Error(Exception):
 
     Attributes:
         status: the number of the status (``Error.ARGUMENT`` and so on)
-        index: the vertex, facet, cell or point at fault, or -1
+        index: which item is at fault, from 0, or -1
+        item: what that is: "vertex", "facet", "simplex", "cell", "point", .. or None
         side: 1 when the source is at fault, 2 for the target, 0 for neither
     """
 
     ARGUMENT, MEMORY, VERSION, BOUNDARY, RESOLUTION, TOPOLOGY, OUTSIDE = range(1, 8)
     SOLVER, TRACE, CERTIFICATE, CANCELLED, UNSUPPORTED, FORMAT = range(8, 14)
 
-    def __init__(self, message: str, status: int = 0, index: int = -1, side: int = 0):
+    def __init__(self, message: str, status: int = 0, index: int = -1, side: int = 0,
+                 item: Optional[str] = None):
         super().__init__(message)
-        self.status, self.index, self.side = status, index, side
+        self.status, self.index, self.side, self.item = status, index, side, item
 
 
 class ArgumentError(Error, ValueError):
@@ -91,11 +98,11 @@ _ERRORS = {
 }
 
 
-def fail(status: int, message: str = "", index: int = -1, side: int = 0) -> NoReturn:
+def fail(status: int, message: str = "", index: int = -1, side: int = 0, item: int = 0) -> NoReturn:
     name = lib.status_name(status).decode()
     if side in (1, 2):
         message = f"{('source', 'target')[side - 1]}: {message}"
-    raise _ERRORS.get(status, Error)(message or name, status, index, side)
+    raise _ERRORS.get(status, Error)(message or name, status, index, side, ITEMS[item])
 
 
 def check(status: int) -> None:

@@ -37,7 +37,7 @@ KINDS = {"curves": 1, "mesh": 2}
 class Map(Saved):
     """A map from one domain to another that agrees with their boundaries.
 
-    Facet i of the source goes to facet i of the target. Call it with points, or use `inverse`.
+    Facet i of the source goes to facet i of the target. `apply` it, or just call it, with points; `apply_inverse`, or `inverse`, is the way back.
 
     Args:
         source, target: Domains, or what `as_domain` takes
@@ -60,12 +60,12 @@ class Map(Saved):
                  cells: Optional[int] = None, maximum: Optional[ArrayLike] = None,
                  target_maximum: Optional[ArrayLike] = None, function: Optional[str] = None,
                  constraints: Optional[str] = None, solver: Optional[str] = None,
-                 tree: Optional[str] = None, eta: Optional[float] = None,
-                 leaf: Optional[float] = None, progress: Optional[Progress] = None,
+                 tree: Optional[str] = None, min_fall: Optional[float] = None,
+                 leaf_min: Optional[float] = None, progress: Optional[Progress] = None,
                  threads: Optional[int] = None):
         source, target = as_domain(source), as_domain(target)
         chart = chart_options(source.dim, method, cells, maximum, function, constraints, solver, tree,
-                              eta, leaf)
+                              min_fall, leaf_min)
         options = new("map_options", kind=choose(kind, KINDS, "kind"), chart=ctypes.addressof(chart),
                       iterations=0 if improve is None else improve or -1)
         if target_maximum is not None:
@@ -115,29 +115,33 @@ class Map(Saved):
         return (images, states) if status else images
 
     @overload
-    def __call__(self, points: ArrayLike, *, status: Literal[False] = ..., progress: Optional[Progress] = ...,
-                 threads: Optional[int] = ...) -> Floats: ...
+    def apply(self, points: ArrayLike, *, status: Literal[False] = ..., progress: Optional[Progress] = ...,
+              threads: Optional[int] = ...) -> Floats: ...
     @overload
-    def __call__(self, points: ArrayLike, *, status: Literal[True], progress: Optional[Progress] = ...,
-                 threads: Optional[int] = ...) -> Tuple[Floats, Ints]: ...
+    def apply(self, points: ArrayLike, *, status: Literal[True], progress: Optional[Progress] = ...,
+              threads: Optional[int] = ...) -> Tuple[Floats, Ints]: ...
 
-    def __call__(self, points: ArrayLike, *, status: bool = False, progress: Optional[Progress] = None,
-                 threads: Optional[int] = None) -> Any:
+    def apply(self, points: ArrayLike, *, status: bool = False, progress: Optional[Progress] = None,
+              threads: Optional[int] = None) -> Any:
         """Source -> target: points (n, dim) -> images (n, dim), NaN where there is none. With
         ``status`` also an int32 array (n,): 0, or the number of an `Error`."""
         return self._apply(lib.map_apply, points, status, progress, threads)
 
     @overload
-    def inverse(self, points: ArrayLike, *, status: Literal[False] = ..., progress: Optional[Progress] = ...,
-                threads: Optional[int] = ...) -> Floats: ...
+    def apply_inverse(self, points: ArrayLike, *, status: Literal[False] = ..., progress: Optional[Progress] = ...,
+                      threads: Optional[int] = ...) -> Floats: ...
     @overload
-    def inverse(self, points: ArrayLike, *, status: Literal[True], progress: Optional[Progress] = ...,
-                threads: Optional[int] = ...) -> Tuple[Floats, Ints]: ...
+    def apply_inverse(self, points: ArrayLike, *, status: Literal[True], progress: Optional[Progress] = ...,
+                      threads: Optional[int] = ...) -> Tuple[Floats, Ints]: ...
 
-    def inverse(self, points: ArrayLike, *, status: bool = False, progress: Optional[Progress] = None,
-                threads: Optional[int] = None) -> Any:
-        """Target -> source; otherwise as calling the map."""
+    def apply_inverse(self, points: ArrayLike, *, status: bool = False, progress: Optional[Progress] = None,
+                      threads: Optional[int] = None) -> Any:
+        """Target -> source; otherwise as `apply`."""
         return self._apply(lib.map_apply_inverse, points, status, progress, threads)
+
+    #: Calling a map is applying it, and `inverse` is `apply_inverse`.
+    __call__ = apply
+    inverse = apply_inverse
 
     def jacobian(self, points: ArrayLike, *, progress: Optional[Progress] = None,
                  threads: Optional[int] = None) -> Floats:
@@ -171,11 +175,11 @@ class Map(Saved):
         assert out.value is not None
         return type(self)._wrap(out.value), fields(report)
 
-    def follow(self, target: ShapeLike, iterations: int = 0, *, progress: Optional[Progress] = None,
-               threads: Optional[int] = None) -> "Map":
+    def retarget(self, target: ShapeLike, iterations: int = 0, *, progress: Optional[Progress] = None,
+                 threads: Optional[int] = None) -> "Map":
         """The map to a target that has moved a little, starting from this one (kind mesh in 2-D), improved by
         at most `iterations` steps (0: 8; -1: none). CertificateError if it has moved too far."""
-        return type(self)._wrap(create(lib.map_follow, self, as_domain(target),
+        return type(self)._wrap(create(lib.map_retarget, self, as_domain(target),
                                        iterations, progress=progress, threads=threads))
 
     def mesh(self) -> Tuple[Floats, Floats, Indices]:
@@ -183,8 +187,8 @@ class Map(Saved):
         info = self._info("map_get_info", "map_info")
         vertices = np.empty((info.n_vertices, info.dim))
         images = np.empty((info.n_vertices, info.dim))
-        triangles = np.empty((info.n_triangles, info.dim + 1), dtype=np.uint32)
-        check(lib.map_mesh(self, address(vertices), address(images), address(triangles)))
+        triangles = np.empty((info.n_simplices, info.dim + 1), dtype=np.uint32)
+        check(lib.map_get_mesh(self, address(vertices), address(images), address(triangles)))
         return vertices, images, triangles
 
     def _carry(self, function: Any, vertices: ArrayLike, simplices: ArrayLike, progress: Optional[Progress],

@@ -30,7 +30,7 @@ from ._errors import check
 if TYPE_CHECKING:
     from ._types import ArrayLike, Floats, ShapeLike
 
-__all__ = ["Binding", "Kernel", "Pose", "Sampling", "Shape"]
+__all__ = ["Binding", "Weights", "Pose", "Sampling", "Shape"]
 
 SAMPLINGS = {"grid": 1, "blue": 2, "points": 3}
 KERNELS = {"wendland": 1, "gauss": 2}
@@ -40,7 +40,7 @@ METHODS = {"qp": 1, "equality": 2, "l1": 3}
 
 class _Line(ctypes.Structure):
     _fields_ = [("first", ctypes.c_double * 3), ("last", ctypes.c_double * 3),
-                ("parallel", ctypes.c_int32), ("reserved", ctypes.c_int32)]
+                ("parallel", ctypes.c_int32)]
 
 
 class Shape(Handle):
@@ -134,7 +134,7 @@ def _lines(lines: Sequence[Any], dim: int) -> Any:
     return array
 
 
-class Kernel(Handle):
+class Weights(Handle):
     """Weights of handles over a shape.
 
     Args:
@@ -148,8 +148,8 @@ class Kernel(Handle):
         initial: "heat", "edges", "inverse" or "given"; None: "edges" if there are any, else "heat"
         steps: of diffusion; None: 5
         method: "qp" (default), "equality" or "l1"
-        tail: whether an affine function makes sums and reproduction exact between the samples
-        visible: whether diffusion stays inside the shape
+        affine_tail: whether an affine function makes sums and reproduction exact between the samples
+        within_shape: whether diffusion stays inside the shape
         initial_weights: (n_samples, n_handles), for initial "given"
         progress, threads: as for `libicc.Domain`
 
@@ -158,20 +158,20 @@ class Kernel(Handle):
         SolverError: sigma is too large
     """
 
-    _free = "kernel_free"
+    _free = "weights_free"
 
     def __init__(self, sampling: Sampling, handles: ArrayLike, *, edges: Optional[ArrayLike] = None,
                  lines: Sequence[Any] = (), kernel: Optional[str] = None, sigma: Optional[float] = None,
                  cutoff: Optional[float] = None, initial: Optional[str] = None,
-                 steps: Optional[int] = None, method: Optional[str] = None, tail: bool = True,
-                 visible: bool = True, initial_weights: Optional[ArrayLike] = None,
+                 steps: Optional[int] = None, method: Optional[str] = None, affine_tail: bool = True,
+                 within_shape: bool = True, initial_weights: Optional[ArrayLike] = None,
                  progress: Optional[Progress] = None, threads: Optional[int] = None):
         handles = points_of(handles, sampling._info("sampling_get_info", "sampling_info").dim)
         keep: List[Any] = [handles]
-        options = new("kernel_options", kernel=choose(kernel, KERNELS, "kernel"),
+        options = new("weights_options", kernel=choose(kernel, KERNELS, "kernel"),
                       initial=choose(initial, INITIALS, "initial"),
                       method=choose(method, METHODS, "method"), steps=steps or 0,
-                      tail=1 if tail else -1, visible=1 if visible else -1, sigma=sigma or 0,
+                      affine_tail=1 if affine_tail else -1, within_shape=1 if within_shape else -1, sigma=sigma or 0,
                       cutoff=cutoff or 0)
         if edges is not None:
             keep.append(indices(edges, 2, "edges"))
@@ -183,13 +183,13 @@ class Kernel(Handle):
             n = sampling._info("sampling_get_info", "sampling_info").n_samples
             keep.append(floats(initial_weights, (n, len(handles)), "initial_weights"))
             options.initial_weights = keep[-1].ctypes.data
-        self._take(create(lib.kernel_create, sampling, len(handles), address(handles),
+        self._take(create(lib.weights_create, sampling, len(handles), address(handles),
                           ctypes.addressof(options), progress=progress, threads=threads))
 
     @property
     def info(self) -> SimpleNamespace:
-        """The members of ``icc_kernel_info``; kernel, initial and method by their names."""
-        result = fields(self._info("kernel_get_info", "kernel_info"))
+        """The members of ``icc_weights_info``; kernel, initial and method by their names."""
+        result = fields(self._info("weights_get_info", "weights_info"))
         result.kernel = name_of(result.kernel, KERNELS)
         result.initial = name_of(result.initial, INITIALS)
         result.method = name_of(result.method, METHODS)
@@ -197,49 +197,49 @@ class Kernel(Handle):
 
     def nodes(self) -> SimpleNamespace:
         """points (n, dim), initial and weights (n, n_handles), status (n,) of the nodes."""
-        info = self._info("kernel_get_info", "kernel_info")
+        info = self._info("weights_get_info", "weights_info")
         n, m = info.n_nodes, info.n_handles
         points, initial, weights = np.empty((n, info.dim)), np.empty((n, m)), np.empty((n, m))
         status = np.empty(n, dtype=np.int32)
-        check(lib.kernel_get_nodes(self, address(points), address(initial), address(weights),
+        check(lib.weights_get_nodes(self, address(points), address(initial), address(weights),
                                    address(status)))
         return SimpleNamespace(points=points, initial=initial, weights=weights, status=status)
 
     def paint(self, handle: int, centre: ArrayLike, radius: float, amount: float, *,
-              progress: Optional[Progress] = None, threads: Optional[int] = None) -> "Kernel":
+              progress: Optional[Progress] = None, threads: Optional[int] = None) -> "Weights":
         """A kernel with the weight of one handle raised around a place (dim,), by `amount` at the centre and
         smoothly less up to the radius, and optimised again."""
-        centre = points_of(centre, self._info("kernel_get_info", "kernel_info").dim)
-        return Kernel._wrap(create(lib.kernel_paint, self, handle, address(centre), radius,
+        centre = points_of(centre, self._info("weights_get_info", "weights_info").dim)
+        return Weights._wrap(create(lib.weights_paint, self, handle, address(centre), radius,
                                    amount, progress=progress, threads=threads))
 
     def repaint(self, nodes: ArrayLike, weights: ArrayLike, *, progress: Optional[Progress] = None,
-                threads: Optional[int] = None) -> "Kernel":
+                threads: Optional[int] = None) -> "Weights":
         """A kernel whose weights at some nodes (n,) start from wishes (n, n_handles)."""
         nodes = np.ascontiguousarray(nodes, dtype=np.uint32)
-        m = self._info("kernel_get_info", "kernel_info").n_handles
+        m = self._info("weights_get_info", "weights_info").n_handles
         weights = floats(weights, (len(nodes), m), "weights")
-        return Kernel._wrap(create(lib.kernel_repaint, self, len(nodes), address(nodes),
+        return Weights._wrap(create(lib.weights_repaint, self, len(nodes), address(nodes),
                                    address(weights), progress=progress, threads=threads))
 
     def with_method(self, method: str, *, progress: Optional[Progress] = None,
-                    threads: Optional[int] = None) -> "Kernel":
+                    threads: Optional[int] = None) -> "Weights":
         """The same nodes and initial weights with another method; what was painted is gone."""
-        return Kernel._wrap(create(lib.kernel_set_method, self,
+        return Weights._wrap(create(lib.weights_with_method, self,
                                    choose(method, METHODS, "method"), progress=progress,
                                    threads=threads))
 
     def stiffen(self, nodes: ArrayLike, rigidity: Optional[ArrayLike] = None, *,
                 progress: Optional[Progress] = None,
-                threads: Optional[int] = None) -> Tuple["Kernel", Floats]:
+                threads: Optional[int] = None) -> Tuple["Weights", Floats]:
         """A kernel that is as rigid as may be at some nodes (n,), each of which may have its own rigidity (n,),
         positive; and the energy before and after, (2,)."""
         nodes, energy = np.ascontiguousarray(nodes, dtype=np.uint32), np.empty(2)
         if rigidity is not None:
             rigidity = floats(rigidity, (len(nodes),), "rigidity")
-        kernel = create(lib.kernel_stiffen, self, len(nodes), address(nodes),
+        kernel = create(lib.weights_stiffen, self, len(nodes), address(nodes),
                         address(rigidity), address(energy), progress=progress, threads=threads)
-        return Kernel._wrap(kernel), energy
+        return Weights._wrap(kernel), energy
 
     @overload
     def weights(self, points: ArrayLike, *, gradients: Literal[False] = ...,
@@ -252,35 +252,35 @@ class Kernel(Handle):
                 threads: Optional[int] = None) -> Any:
         """Weights (n, n_handles) at points (n, dim), and with ``gradients`` their derivatives
         (n, n_handles, dim)."""
-        info = self._info("kernel_get_info", "kernel_info")
+        info = self._info("weights_get_info", "weights_info")
         points = points_of(points, info.dim)
         n = len(points)
         weights = np.empty((n, info.n_handles))
         slopes = np.empty((n, info.n_handles, info.dim)) if gradients else None
         env, done = bulk(n, progress, threads)
-        done(lib.kernel_weights(self, n, address(points), address(weights), address(slopes),
+        done(lib.weights_evaluate(self, n, address(points), address(weights), address(slopes),
                                 None, None, env))
         return (weights, slopes) if gradients else weights
 
     def report(self, points: ArrayLike, *, progress: Optional[Progress] = None,
                threads: Optional[int] = None) -> SimpleNamespace:
-        """How well the weights do what they should, at points; see ``icc_kernel_report``."""
-        points = points_of(points, self._info("kernel_get_info", "kernel_info").dim)
-        call, report = Call(progress, threads), new("kernel_report")
-        call.check(lib.kernel_get_report(self, len(points), address(points),
+        """How well the weights do what they should, at points; see ``icc_weights_report``."""
+        points = points_of(points, self._info("weights_get_info", "weights_info").dim)
+        call, report = Call(progress, threads), new("weights_report")
+        call.check(lib.weights_get_report(self, len(points), address(points),
                                          ctypes.addressof(report), call.env, call.err))
         return fields(report)
 
     def bind(self, points: ArrayLike, *, derivatives: bool = False, progress: Optional[Progress] = None,
              threads: Optional[int] = None) -> "Binding":
         """Points (n, dim) with their weights, for posing again and again."""
-        points = points_of(points, self._info("kernel_get_info", "kernel_info").dim)
+        points = points_of(points, self._info("weights_get_info", "weights_info").dim)
         return Binding._wrap(create(lib.binding_create, self, len(points), address(points),
                                     int(derivatives), progress=progress, threads=threads))
 
 
 class Binding(Saved):
-    """Points with their weights; made by `Kernel.bind`."""
+    """Points with their weights; made by `Weights.bind`."""
 
     _free = "binding_free"
     _name = "binding"
@@ -296,7 +296,7 @@ class Binding(Saved):
         """The handles' positions, (n_handles, dim)."""
         _, m, dim = self._counts()
         handles = np.empty((m, dim))
-        check(lib.binding_get(self, address(handles), None))
+        check(lib.binding_get_weights(self, address(handles), None))
         return handles
 
     @property
@@ -304,7 +304,7 @@ class Binding(Saved):
         """The weights, (n, n_handles)."""
         n, m, _ = self._counts()
         weights = np.empty((n, m))
-        check(lib.binding_get(self, None, address(weights)))
+        check(lib.binding_get_weights(self, None, address(weights)))
         return weights
 
     @overload

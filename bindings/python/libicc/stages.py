@@ -17,7 +17,7 @@ from ._errors import check
 if TYPE_CHECKING:
     from ._types import Array, ArrayLike, Bools, Floats, Indices, Ints, ShapeLike
 
-__all__ = ["Field", "Grid", "Tree", "triangulate"]
+__all__ = ["Function", "Grid", "Tree", "triangulate"]
 
 
 def _view(pointer: Optional[int], n: int, dtype: Any, owner: Handle) -> Optional[Array]:
@@ -90,14 +90,14 @@ class Grid(Handle):
     def maximum(self, *, progress: Optional[Progress] = None) -> Tuple[int, int]:
         """The grassfire's maximum (Algorithm 1) as a vertex number, and the rounds it took."""
         call, vertex, rounds = Call(progress, 1), ctypes.c_uint32(), ctypes.c_uint32()
-        call.check(lib.grid_maximum(self, ctypes.addressof(vertex), ctypes.addressof(rounds),
+        call.check(lib.grid_find_maximum(self, ctypes.addressof(vertex), ctypes.addressof(rounds),
                                     call.env, call.err))
         return vertex.value, rounds.value
 
     def nearest(self, point: ArrayLike) -> int:
         """The number of the vertex inside that is nearest to a point (dim,)."""
         point, vertex = points_of(point, len(self.shape)), ctypes.c_uint32()
-        check(lib.grid_nearest(self, address(point), ctypes.addressof(vertex)))
+        check(lib.grid_find_nearest(self, address(point), ctypes.addressof(vertex)))
         return vertex.value
 
     def position(self, vertex: ArrayLike) -> Floats:
@@ -157,9 +157,9 @@ class Tree(Handle):
         call.check(function(self, *arguments, ctypes.addressof(report), call.env, call.err))
         return fields(report)
 
-    def verify(self, *, progress: Optional[Progress] = None) -> SimpleNamespace:
+    def report(self, *, progress: Optional[Progress] = None) -> SimpleNamespace:
         """Checks the cousin rule; see ``icc_tree_report``."""
-        return self._report(lib.tree_verify, "tree_report", progress=progress)
+        return self._report(lib.tree_get_report, "tree_report", progress=progress)
 
     def grow(self, values: Optional[ArrayLike] = None, *,
              progress: Optional[Progress] = None) -> Tuple[Indices, SimpleNamespace]:
@@ -173,12 +173,12 @@ class Tree(Handle):
                               progress=progress)
         return rank, report
 
-    def verify_ranks(self, rank: ArrayLike, *, progress: Optional[Progress] = None) -> SimpleNamespace:
-        """Counts the critical vertices of an order; see ``icc_field_report``."""
+    def rank_report(self, rank: ArrayLike, *, progress: Optional[Progress] = None) -> SimpleNamespace:
+        """Counts the critical vertices of an order; see ``icc_function_report``."""
         rank = np.asfortranarray(np.asarray(rank, dtype=np.uint32))
         if rank.shape != self.grid.shape:
             raise ValueError(f"rank must have the shape {self.grid.shape}, not {rank.shape}")
-        return self._report(lib.tree_verify_ranks, "field_report", rank.ctypes.data,
+        return self._report(lib.tree_get_rank_report, "function_report", rank.ctypes.data,
                             progress=progress)
 
 
@@ -189,40 +189,40 @@ def _floats_of(values: ArrayLike, shape: Tuple[int, ...]) -> Floats:
     return array
 
 
-class Field(Handle):
+class Function(Handle):
     """A function on the vertices of a tree that falls from parent to child.
 
     Args:
         tree: a Tree
-        function, constraints, solver, eta, leaf: as for `libicc.Chart`
+        function, constraints, solver, min_fall, leaf_min: as for `libicc.Chart`
     """
 
-    _free = "field_free"
+    _free = "function_free"
 
     def __init__(self, tree: Tree, function: Optional[str] = None, *,
                  constraints: Optional[str] = None, solver: Optional[str] = None,
-                 eta: Optional[float] = None, leaf: Optional[float] = None,
+                 min_fall: Optional[float] = None, leaf_min: Optional[float] = None,
                  progress: Optional[Progress] = None, threads: Optional[int] = None):
-        options = new("field_options", function=choose(function, FUNCTIONS, "function"),
+        options = new("function_options", function=choose(function, FUNCTIONS, "function"),
                       constraints=choose(constraints, CONSTRAINTS, "constraints"),
-                      solver=choose(solver, SOLVERS, "solver"), eta=eta or 0, leaf=leaf or 0)
-        self._take(create(lib.field_create, tree, ctypes.addressof(options),
+                      solver=choose(solver, SOLVERS, "solver"), min_fall=min_fall or 0, leaf_min=leaf_min or 0)
+        self._take(create(lib.function_create, tree, ctypes.addressof(options),
                           progress=progress, threads=threads))
 
     @classmethod
-    def of(cls, chart: Chart) -> Optional["Field"]:
+    def of(cls, chart: Chart) -> Optional["Function"]:
         """The function of a chart of method gradient or field; None for others."""
-        return cls._borrow(lib.chart_field(chart), owner=chart)
+        return cls._borrow(lib.chart_function(chart), owner=chart)
 
     @property
     def tree(self) -> Tree:
         """The tree that the function was made on."""
-        return Tree._wrap(lib.field_tree(self), owner=self)
+        return Tree._wrap(lib.function_tree(self), owner=self)
 
     @property
     def info(self) -> SimpleNamespace:
-        """The members of ``icc_field_info``; function and solver by their names."""
-        result = fields(self._info("field_get_info", "field_info"))
+        """The members of ``icc_function_info``; function and solver by their names."""
+        result = fields(self._info("function_get_info", "function_info"))
         result.function = name_of(result.function, FUNCTIONS)
         result.solver = name_of(result.solver, SOLVERS)
         return result
@@ -230,26 +230,26 @@ class Field(Handle):
     @property
     def values(self) -> Floats:
         """The values as an array of the grid's shape, read-only."""
-        return self.tree.grid._array(lib.field_values(self), np.float64, self)
+        return self.tree.grid._array(lib.function_values(self), np.float64, self)
 
     @property
     def logs(self) -> Optional[Floats]:
         """Logarithms of values that may be too small for doubles, or None; read-only."""
-        return self.tree.grid._array(lib.field_logs(self), np.float64, self)
+        return self.tree.grid._array(lib.function_logs(self), np.float64, self)
 
-    def verify(self, *, progress: Optional[Progress] = None) -> SimpleNamespace:
-        """Counts the critical points; see ``icc_field_report``."""
-        call, report = Call(progress, None), new("field_report")
-        call.check(lib.field_verify(self, ctypes.addressof(report), call.env, call.err))
+    def report(self, *, progress: Optional[Progress] = None) -> SimpleNamespace:
+        """Counts the critical points; see ``icc_function_report``."""
+        call, report = Call(progress, None), new("function_report")
+        call.check(lib.function_get_report(self, ctypes.addressof(report), call.env, call.err))
         return fields(report)
 
     def edges(self) -> Tuple[Indices, Ints]:
         """Edges (n, 2) where gradient lines merge, and their kinds (n,): 1 on the way up
         (compression), 2 on the way down (expansion). 2-D."""
         n = ctypes.c_size_t()
-        check(lib.field_edges(self, 0, None, None, ctypes.addressof(n), None))
+        check(lib.function_get_edges(self, 0, None, None, ctypes.addressof(n), None))
         edges, kinds = np.empty((n.value, 2), np.uint32), np.empty(n.value, np.int32)
-        check(lib.field_edges(self, n.value, address(edges), address(kinds),
+        check(lib.function_get_edges(self, n.value, address(edges), address(kinds),
                               ctypes.addressof(n), None))
         return edges, kinds
 

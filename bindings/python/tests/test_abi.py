@@ -104,6 +104,9 @@ def test_choices(header):
 
     errors = {k: v for k, v in vars(Error).items() if k.isupper()}
     assert errors == {k[4:]: v for k, v in numbers.items() if k.startswith("ERR_")}
-    from libicc._errors import _ERRORS
+    from libicc._errors import _ERRORS, ITEMS
+
+    assert {(name or "none").upper().replace(" ", "_"): k for k, name in enumerate(ITEMS)} == {
+        k[5:]: v for k, v in numbers.items() if k.startswith("ITEM_")}
 
     assert sorted(_ERRORS) == sorted(errors.values())

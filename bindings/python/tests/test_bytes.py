@@ -43,14 +43,26 @@ def test_maps(before, after, inside, kind):
     assert same(again.jacobian(inside), mapping.jacobian(inside))
 
 
+def test_files(before, after, inside, tmp_path):
+    mapping = libicc.Map(before, after)
+    mapping.save(tmp_path / "map.icc")
+    assert (tmp_path / "map.icc").read_bytes() == mapping.to_bytes()
+    again = libicc.Map.load(str(tmp_path / "map.icc"))
+    assert same(again.apply(inside), mapping(inside)) and same(again.apply_inverse(inside), mapping.inverse(inside))
+    with pytest.raises(FileNotFoundError):
+        libicc.Map.load(tmp_path / "none")
+    with pytest.raises(libicc.FormatError):
+        libicc.Chart.load(tmp_path / "map.icc")
+
+
 def test_charts_of_a_map(before, after, inside):
     borrowed = libicc.Map(before, after, "curves").source_chart
     again = pickle.loads(pickle.dumps(borrowed))
     assert all(map(same, answers(borrowed, inside), answers(again, inside)))
 
 
-def test_maps_that_follow(before, after, inside):
-    moved = libicc.Map(before, after).follow(after * 1.01)
+def test_maps_with_another_target(before, after, inside):
+    moved = libicc.Map(before, after).retarget(after * 1.01)
     again = pickle.loads(pickle.dumps(moved))
     assert same(again(inside), moved(inside)) and again.source_chart is None
 

@@ -11,7 +11,7 @@ HANDLES = np.array([[1, 1], [9, 1], [9, 9], [1, 9], [5, 5]], float)
 
 @pytest.fixture(scope="module")
 def weights():
-    return kernel.Kernel(kernel.Sampling(SQUARE, spacing=0.4, seed=3), HANDLES)
+    return kernel.Weights(kernel.Sampling(SQUARE, spacing=0.4, seed=3), HANDLES)
 
 
 @pytest.fixture
@@ -77,22 +77,22 @@ def test_samplings(weights):
 def test_curves_lines_and_edges():
     stick = kernel.Shape(vertices=[[0, 0], [5, 0], [9, 3]], segments=[[0, 1], [1, 2]])
     handles = [[0, 0], [5, 0], [9, 3]]
-    made = kernel.Kernel(kernel.Sampling(stick, spacing=0.5), handles, edges=[[0, 1], [1, 2]])
+    made = kernel.Weights(kernel.Sampling(stick, spacing=0.5), handles, edges=[[0, 1], [1, 2]])
     assert np.abs(made.weights([[2.5, 0]]) - [0.5, 0.5, 0]).max() < 0.05
     sampling = kernel.Sampling(SQUARE, spacing=0.5)
-    lined = kernel.Kernel(sampling, HANDLES, lines=[([3, 3], [7, 3]), ([3, 7], [7, 7], 0)])
+    lined = kernel.Weights(sampling, HANDLES, lines=[([3, 3], [7, 3]), ([3, 7], [7, 7], 0)])
     assert lined.info.n_nodes > 5
 
 
 def test_errors():
     sampling = kernel.Sampling(SQUARE, spacing=1.0)
     with pytest.raises(libicc.OutsideError) as caught:
-        kernel.Kernel(sampling, [[1, 1], [9, 1], [20, 20]])
+        kernel.Weights(sampling, [[1, 1], [9, 1], [20, 20]])
     assert caught.value.index == 2
     with pytest.raises(libicc.ArgumentError):
-        kernel.Kernel(sampling, [[1, 1], [2, 2], [3, 3]])
+        kernel.Weights(sampling, [[1, 1], [2, 2], [3, 3]])
     with pytest.raises(libicc.SolverError):
-        kernel.Kernel(kernel.Sampling(SQUARE, "grid", spacing=0.5), HANDLES, kernel="gauss", sigma=1.5)
+        kernel.Weights(kernel.Sampling(SQUARE, "grid", spacing=0.5), HANDLES, kernel="gauss", sigma=1.5)
 
 
 def test_points_of_the_wrong_dimension():

@@ -111,7 +111,7 @@ def test_improve_follow_and_mesh(before, after, inside):
     rough = libicc.Map(before, after, improve=0)
     fair, report = rough.improve()
     assert report.energy <= report.energy_start and fair.info.energy <= rough.info.energy
-    moved = fair.follow(after + [[0.1, 0]] * 6)
+    moved = fair.retarget(after + [[0.1, 0]] * 6)
     assert moved.certified and moved.source_chart is None
     vertices, images, triangles = fair.mesh()
     assert np.abs(fair(vertices) - images).max() < 1e-12

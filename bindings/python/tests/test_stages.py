@@ -8,22 +8,22 @@ def test_papers_pipeline(before):
     inside = grid.inside
     assert inside.sum() == grid.info.n_inside and inside.shape == grid.shape
     tree = stages.Tree(grid)
-    assert tree.root == grid.maximum()[0] and tree.verify().n_cousin_violations == 0
+    assert tree.root == grid.maximum()[0] and tree.report().n_cousin_violations == 0
     assert tree.generations.max() > 10 and tree.parents.dtype == np.uint32
-    field = stages.Field(tree, "laplace")
+    field = stages.Function(tree, "laplace")
     assert field.info.function == "laplace"
-    report = field.verify()
+    report = field.report()
     assert (report.n_maxima, report.n_minima, report.n_saddles) == (1, 0, 0)
     assert np.nanmax(field.values) == 1
-    edges, kinds = stages.Field(tree).edges()
+    edges, kinds = stages.Function(tree).edges()
     assert len(edges) == len(kinds) and set(kinds.tolist()) <= {1, 2}
     rank, report = tree.grow()
-    assert report.n_left == 0 and tree.verify_ranks(rank).n_maxima == 1
+    assert report.n_remaining == 0 and tree.rank_report(rank).n_maxima == 1
     assert np.allclose(grid.position(grid.nearest([2, 3])), [2, 3], atol=grid.info.spacing)
 
 
 def test_views_keep_their_owner(before):
-    values = stages.Field(stages.Tree(stages.Grid(before, 30))).values
+    values = stages.Function(stages.Tree(stages.Grid(before, 30))).values
     assert np.isfinite(values).any()
 
 
@@ -36,9 +36,9 @@ def test_masks():
 
 
 def test_chart_hands_out_its_field(before):
-    field = stages.Field.of(libicc.Chart(before, "gradient", function="laplace", cells=30))
+    field = stages.Function.of(libicc.Chart(before, "gradient", function="laplace", cells=30))
     assert field.info.function == "laplace"
-    assert stages.Field.of(libicc.Chart(before, "foliation")) is None
+    assert stages.Function.of(libicc.Chart(before, "foliation")) is None
 
 
 def test_triangulate(before):

@@ -121,7 +121,7 @@ END_TEST
 
 START_TEST(errors_fill_what_the_caller_has)
 {
-    ck_assert_int_eq(iccp_fail(NULL, ICC_ERR_TRACE, 5, "x"), ICC_ERR_TRACE);
+    ck_assert_int_eq(iccp_fail_at(NULL, ICC_ERR_TRACE, ICC_ITEM_CELL, 5, "x"), ICC_ERR_TRACE);
     size_t n_touched = 0; /* bytes beyond */
     for (size_t size = 0; size <= sizeof(icc_error) + 8; ++size) {
         struct {
@@ -131,13 +131,16 @@ START_TEST(errors_fill_what_the_caller_has)
         unsigned char *bytes = (unsigned char *)&room;
         memset(&room, 0x55, sizeof room);
         room.err.size = size;
-        ck_assert_int_eq(iccp_fail(&room.err, ICC_ERR_TRACE, 5, "vertex %d", 5), ICC_ERR_TRACE);
+        ck_assert_int_eq(
+            iccp_fail_at(&room.err, ICC_ERR_TRACE, ICC_ITEM_VERTEX, 5, "vertex %d", 5),
+            ICC_ERR_TRACE);
         ck_assert_uint_eq(room.err.size, size);
         for (size_t i = size < sizeof size ? sizeof size : size; i < sizeof room; ++i)
             n_touched += bytes[i] != 0x55;
         if (size >= offsetof(icc_error, message) + 16) {
             ck_assert_str_eq(room.err.message, "vertex 5");
             ck_assert_int_eq(room.err.index, 5);
+            ck_assert_int_eq(room.err.item, ICC_ITEM_VERTEX);
             ck_assert_int_eq(room.err.side, 0);
         } else if (size > offsetof(icc_error, message)) {
             ck_assert_ptr_nonnull(memchr(room.err.message, 0, size - offsetof(icc_error, message)));
@@ -153,7 +156,7 @@ START_TEST(long_messages_are_cut)
     char text[1000];
     memset(text, 'x', sizeof text);
     text[999] = '\0';
-    ck_assert_int_eq(iccp_fail(&err, ICC_ERR_FORMAT, -1, "%s", text), ICC_ERR_FORMAT);
+    ck_assert_int_eq(iccp_fail(&err, ICC_ERR_FORMAT, "%s", text), ICC_ERR_FORMAT);
     ck_assert_uint_eq(strlen(err.message), sizeof err.message - 1);
     ck_assert_int_eq(iccp_fail_side(&err, ICC_ERR_FORMAT, 2), ICC_ERR_FORMAT);
     ck_assert_int_eq(err.side, 2);
@@ -499,12 +502,43 @@ START_TEST(sorting_keeps_everything)
 }
 END_TEST
 
+static bool is_below(const void *context, uint32_t a, uint32_t b)
+{
+    const uint32_t *values = context;
+    return values[a] < values[b];
+}
+
+START_TEST(sorted_indices_keep_their_order_where_values_are_equal)
+{
+    enum { MOST = 300 };
+    uint32_t values[MOST], order[MOST], work[MOST];
+    for (size_t n = 0; n < MOST; ++n)
+        for (uint32_t different = 1; different < 1000; different *= 30) {
+            bool seen[MOST] = {false};
+            for (size_t i = 0; i < n; ++i) {
+                values[i] = (uint32_t)(i * 2654435761u >> 5) % different;
+                order[i] = (uint32_t)i;
+            }
+            iccp_sort_indices(order, work, n, values, is_below);
+            for (size_t i = 0; i < n; ++i) {
+                ck_assert(order[i] < n && !seen[order[i]]);
+                seen[order[i]] = true;
+                if (i == 0)
+                    continue;
+                const uint32_t a = order[i - 1], b = order[i];
+                ck_assert(values[a] < values[b] || (values[a] == values[b] && a < b));
+            }
+        }
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("base");
     TCase *tests = tcase_create("base");
     tcase_add_test(tests, version_is_written_down_once);
     tcase_add_test(tests, sorting_keeps_everything);
+    tcase_add_test(tests, sorted_indices_keep_their_order_where_values_are_equal);
     tcase_add_test(tests, every_status_has_its_name);
     tcase_add_test(tests, reading_a_struct);
     tcase_add_test(tests, writing_a_struct);

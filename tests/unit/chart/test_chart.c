@@ -1,5 +1,5 @@
 /* What the tests of the public functions cannot reach: corners of charts and maps. */
-#include "chart/create.h"
+#include "chart/chart_create.h"
 #include "chart/gradient_state.h"
 #include "map/map.h"
 

@@ -256,6 +256,9 @@ START_TEST(test_known_defects)
         ck_assert_ptr_null(domain);
         ck_assert_str_eq(err.message, cases[i].text);
         ck_assert_int_eq(err.index, cases[i].index);
+        ck_assert_int_eq(err.item, err.index < 0            ? ICC_ITEM_NONE
+                                   : err.message[0] == 'e' ? ICC_ITEM_FACET
+                                                           : ICC_ITEM_VERTEX);
         ck_assert_int_eq(err.status, ICC_ERR_BOUNDARY);
     }
 }

@@ -605,7 +605,7 @@ static bool grow(const mask *m, int32_t cells, random_source *r, icc_grow_report
     uint32_t root;
     ck_assert_int_eq(make(&domain, m, &err), ICC_OK);
     ck_assert_int_eq(icc_grid_create(&grid, domain, cells, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(icc_grid_maximum(grid, &root, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_grid_find_maximum(grid, &root, NULL, NULL, NULL), ICC_OK);
     while (r != NULL &&
            (root = (uint32_t)random_below(r, (int)grid->n_vertices), !grid->inside[root]))
         continue;
@@ -615,8 +615,8 @@ static bool grow(const mask *m, int32_t cells, random_source *r, icc_grow_report
     const icc_status status = icc_tree_grow(tree, NULL, rank, report, NULL, &err);
     ck_assert_uint_eq(report->n_vertices, grid->n_inside);
     ck_assert(status == ICC_OK || status == ICC_ERR_TOPOLOGY);
-    icc_field_report found = {.size = sizeof found};
-    ck_assert_int_eq(icc_tree_verify_ranks(tree, rank, &found, NULL, NULL), ICC_OK);
+    icc_function_report found = {.size = sizeof found};
+    ck_assert_int_eq(icc_tree_get_rank_report(tree, rank, &found, NULL, NULL), ICC_OK);
     ck_assert(status != ICC_OK || (found.critical == UINT32_MAX && found.n_maxima == 1));
     free(rank);
     icc_tree_free(tree);
@@ -640,7 +640,7 @@ START_TEST(orders_in_random_solids)
                 icc_grow_report report;
                 const int32_t cells = j == 2 ? 4 * (int32_t)kinds[k].side : 0;
                 ck_assert(grow(&m, cells, j > 0 ? &r : NULL, &report));
-                ck_assert(kinds[k].dim > 2 || report.method == ICC_GROW_AS_WISHED);
+                ck_assert(kinds[k].dim > 2 || report.method == ICC_GROW_AS_GIVEN);
             }
         }
 }
@@ -663,7 +663,7 @@ START_TEST(a_house_needs_a_finer_grid)
     ck_assert_uint_eq(count_solid(&m), 457);
     icc_grow_report report;
     ck_assert(!grow(&m, 0, NULL, &report));
-    ck_assert_uint_gt(report.n_left, 0);
+    ck_assert_uint_gt(report.n_remaining, 0);
     ck_assert(grow(&m, 44, NULL, &report));
     ck_assert_int_eq(report.method, ICC_GROW_THINNED);
 }
@@ -690,12 +690,12 @@ static icc_status make_file(const char *folder, const char *name, bool mended, i
         icc_tree *tree;
         uint32_t root;
         ck_assert_int_eq(icc_grid_create(&grid, domain, 0, NULL, NULL), ICC_OK);
-        ck_assert_int_eq(icc_grid_maximum(grid, &root, NULL, NULL, NULL), ICC_OK);
+        ck_assert_int_eq(icc_grid_find_maximum(grid, &root, NULL, NULL, NULL), ICC_OK);
         ck_assert_int_eq(icc_tree_create(&tree, grid, root, NULL, NULL, NULL), ICC_OK);
         uint32_t *rank = calloc(grid->n_vertices, sizeof *rank);
-        icc_field_report found = {.size = sizeof found};
+        icc_function_report found = {.size = sizeof found};
         ck_assert_int_eq(icc_tree_grow(tree, NULL, rank, NULL, NULL, err), ICC_OK);
-        ck_assert_int_eq(icc_tree_verify_ranks(tree, rank, &found, NULL, NULL), ICC_OK);
+        ck_assert_int_eq(icc_tree_get_rank_report(tree, rank, &found, NULL, NULL), ICC_OK);
         ck_assert_uint_eq(found.critical, UINT32_MAX);
         ck_assert_uint_eq(found.n_maxima, 1);
         free(rank);

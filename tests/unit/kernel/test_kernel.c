@@ -59,36 +59,36 @@ static icc_sampling *sample_cube(void)
     return sampling;
 }
 
-static icc_kernel *make(const icc_sampling *sampling, size_t n, const double *handles,
-                        const icc_kernel_options *options)
+static icc_weights *make(const icc_sampling *sampling, size_t n, const double *handles,
+                        const icc_weights_options *options)
 {
-    icc_kernel *kernel;
+    icc_weights *kernel;
     icc_error err = {.size = sizeof err};
-    if (icc_kernel_create(&kernel, sampling, n, handles, options, NULL, &err) != ICC_OK)
+    if (icc_weights_create(&kernel, sampling, n, handles, options, NULL, &err) != ICC_OK)
         ck_abort_msg("%s", err.message);
     return kernel;
 }
 
-static icc_kernel_info info_of(const icc_kernel *kernel)
+static icc_weights_info info_of(const icc_weights *kernel)
 {
-    icc_kernel_info info = {.size = sizeof info};
-    ck_assert_int_eq(icc_kernel_get_info(kernel, &info), ICC_OK);
+    icc_weights_info info = {.size = sizeof info};
+    ck_assert_int_eq(icc_weights_get_info(kernel, &info), ICC_OK);
     return info;
 }
 
-static double *weights_of(const icc_kernel *kernel)
+static double *weights_of(const icc_weights *kernel)
 {
-    const icc_kernel_info info = info_of(kernel);
+    const icc_weights_info info = info_of(kernel);
     double *weights = allocate(info.n_nodes * info.n_handles, sizeof *weights);
-    ck_assert_int_eq(icc_kernel_get_nodes(kernel, NULL, NULL, weights, NULL), ICC_OK);
+    ck_assert_int_eq(icc_weights_get_nodes(kernel, NULL, NULL, weights, NULL), ICC_OK);
     return weights;
 }
 
-static double *nodes_of(const icc_kernel *kernel)
+static double *nodes_of(const icc_weights *kernel)
 {
-    const icc_kernel_info info = info_of(kernel);
+    const icc_weights_info info = info_of(kernel);
     double *points = allocate(info.n_nodes * (size_t)info.dim, sizeof *points);
-    ck_assert_int_eq(icc_kernel_get_nodes(kernel, points, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_weights_get_nodes(kernel, points, NULL, NULL, NULL), ICC_OK);
     return points;
 }
 
@@ -102,12 +102,12 @@ static double *spread(size_t dim, size_t n)
     return points;
 }
 
-static icc_kernel_report report_of(const icc_kernel *kernel)
+static icc_weights_report report_of(const icc_weights *kernel)
 {
     const size_t dim = (size_t)info_of(kernel).dim;
     double *points = spread(dim, 2000);
-    icc_kernel_report report = {.size = sizeof report};
-    ck_assert_int_eq(icc_kernel_get_report(kernel, 2000, points, &report, NULL, NULL), ICC_OK);
+    icc_weights_report report = {.size = sizeof report};
+    ck_assert_int_eq(icc_weights_get_report(kernel, 2000, points, &report, NULL, NULL), ICC_OK);
     free(points);
     return report;
 }
@@ -121,20 +121,20 @@ START_TEST(weights_sum_to_one_and_reproduce)
     for (int32_t kernel = ICC_KERNEL_WENDLAND; kernel <= ICC_KERNEL_GAUSS; ++kernel)
         for (int32_t initial = ICC_INITIAL_HEAT; initial <= ICC_INITIAL_INVERSE; ++initial)
             for (int32_t method = ICC_WEIGHTS_QP; method <= ICC_WEIGHTS_L1; ++method) {
-                const icc_kernel_options options = {.size = sizeof options,
+                const icc_weights_options options = {.size = sizeof options,
                                                     .kernel = kernel,
                                                     .initial = initial,
                                                     .method = method,
                                                     .n_edges = 4,
                                                     .edges = RING};
-                icc_kernel *k = make(sampling, 5, HANDLES, &options);
-                const icc_kernel_report report = report_of(k);
+                icc_weights *k = make(sampling, 5, HANDLES, &options);
+                const icc_weights_report report = report_of(k);
                 ck_assert_double_le(report.unity, 1e-11);
                 ck_assert_double_le(report.reproduction, 1e-11);
                 ck_assert_double_le(report.reproduction_mean, report.reproduction);
                 ck_assert_double_le(report.lagrange, 1e-11);
                 ck_assert_uint_eq(report.n_infeasible, 0);
-                const icc_kernel_info info = info_of(k);
+                const icc_weights_info info = info_of(k);
                 ck_assert_int_eq(info.kernel, kernel);
                 ck_assert_int_eq(info.initial, initial);
                 ck_assert_int_eq(info.method, method);
@@ -158,7 +158,7 @@ START_TEST(weights_sum_to_one_and_reproduce)
                 }
                 free(weights);
                 free(points);
-                icc_kernel_free(k);
+                icc_weights_free(k);
             }
     icc_sampling_free(sampling);
 }
@@ -168,14 +168,14 @@ END_TEST
 START_TEST(without_the_affine_function_sums_are_only_near_one)
 {
     icc_sampling *sampling = sample_square(0.05);
-    const icc_kernel_options options = {
-        .size = sizeof options, .kernel = ICC_KERNEL_GAUSS, .tail = -1};
-    icc_kernel *kernel = make(sampling, 4, SQUARE, &options);
-    const icc_kernel_report report = report_of(kernel);
+    const icc_weights_options options = {
+        .size = sizeof options, .kernel = ICC_KERNEL_GAUSS, .affine_tail = -1};
+    icc_weights *kernel = make(sampling, 4, SQUARE, &options);
+    const icc_weights_report report = report_of(kernel);
     ck_assert_double_gt(report.unity, 1e-6);
     ck_assert_double_lt(report.unity, 0.3);
     ck_assert_double_le(report.lagrange, 1e-11);
-    icc_kernel_free(kernel);
+    icc_weights_free(kernel);
     icc_sampling_free(sampling);
 }
 END_TEST
@@ -185,9 +185,9 @@ START_TEST(edges_are_linear)
 {
     icc_sampling *sampling = sample_square(0.02);
     for (int32_t method = ICC_WEIGHTS_QP; method <= ICC_WEIGHTS_L1; ++method) {
-        const icc_kernel_options options = {
+        const icc_weights_options options = {
             .size = sizeof options, .method = method, .n_edges = 4, .edges = RING};
-        icc_kernel *kernel = make(sampling, 5, HANDLES, &options);
+        icc_weights *kernel = make(sampling, 5, HANDLES, &options);
         ck_assert_int_eq(info_of(kernel).initial, ICC_INITIAL_EDGES);
         double *weights = weights_of(kernel), *points = nodes_of(kernel);
         size_t n_on_edge = 0;
@@ -203,7 +203,7 @@ START_TEST(edges_are_linear)
         ck_assert_double_lt(report_of(kernel).linearity, 0.03);
         free(weights);
         free(points);
-        icc_kernel_free(kernel);
+        icc_weights_free(kernel);
     }
     icc_sampling_free(sampling);
 }
@@ -213,14 +213,14 @@ START_TEST(a_cube_works_like_a_square)
 {
     icc_sampling *sampling = sample_cube();
     for (int32_t method = ICC_WEIGHTS_QP; method <= ICC_WEIGHTS_L1; ++method) {
-        const icc_kernel_options options = {.size = sizeof options, .method = method};
-        icc_kernel *kernel = make(sampling, 8, CUBE, &options);
-        const icc_kernel_report report = report_of(kernel);
+        const icc_weights_options options = {.size = sizeof options, .method = method};
+        icc_weights *kernel = make(sampling, 8, CUBE, &options);
+        const icc_weights_report report = report_of(kernel);
         ck_assert_double_le(report.unity, 1e-11);
         ck_assert_double_le(report.reproduction, 1e-11);
         ck_assert_double_le(report.lagrange, 1e-11);
         ck_assert_double_gt(report.least_weight, -0.2);
-        icc_kernel_free(kernel);
+        icc_weights_free(kernel);
     }
     icc_sampling_free(sampling);
 }
@@ -238,15 +238,15 @@ START_TEST(initial_weights_can_be_given)
     for (size_t i = 0; i < 4 * info.n_samples; ++i)
         given[i] = cos((double)i);
     const icc_line line = {.from = {0.2, 0.3}, .to = {0.7, 0.4}};
-    const icc_kernel_options options = {.size = sizeof options,
+    const icc_weights_options options = {.size = sizeof options,
                                         .initial = ICC_INITIAL_GIVEN,
                                         .initial_weights = given,
                                         .n_lines = 1,
                                         .lines = &line};
-    icc_kernel *kernel = make(sampling, 4, SQUARE, &options);
+    icc_weights *kernel = make(sampling, 4, SQUARE, &options);
     const size_t n = info_of(kernel).n_nodes;
     double *initial = allocate(4 * n, sizeof *initial), *places = nodes_of(kernel);
-    ck_assert_int_eq(icc_kernel_get_nodes(kernel, NULL, initial, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_weights_get_nodes(kernel, NULL, initial, NULL, NULL), ICC_OK);
     size_t n_found = 0;
     for (size_t i = 0; i < n; ++i)
         for (size_t s = 0; i >= 4 && s < info.n_samples; ++s)
@@ -259,13 +259,13 @@ START_TEST(initial_weights_can_be_given)
         ck_assert(initial[j] == (j % 5 == 0));
     ck_assert_double_le(report_of(kernel).reproduction, 1e-11);
     given[4 * 17 + 2] = NAN;
-    icc_kernel *none = (icc_kernel *)&none;
+    icc_weights *none = (icc_weights *)&none;
     icc_error err = {.size = sizeof err};
-    ck_assert_int_eq(icc_kernel_create(&none, sampling, 4, SQUARE, &options, NULL, &err),
+    ck_assert_int_eq(icc_weights_create(&none, sampling, 4, SQUARE, &options, NULL, &err),
                      ICC_ERR_ARGUMENT);
     ck_assert_ptr_null(none);
     ck_assert_int_eq(err.index, 17);
-    icc_kernel_free(kernel);
+    icc_weights_free(kernel);
     icc_sampling_free(sampling);
     free(points);
     free(given);
@@ -300,14 +300,14 @@ START_TEST(weights_do_not_depend_on_the_unit)
         ck_assert_int_eq(
             icc_sampling_create_from_points(&scaled, shape, info.n_samples, points, NULL, NULL),
             ICC_OK);
-        icc_kernel *kernel = make(scaled, 5, handles, NULL);
+        icc_weights *kernel = make(scaled, 5, handles, NULL);
         weights[u] = allocate(500 * 5, sizeof **weights);
         double *places = spread(2, 500);
         for (size_t i = 0; i < 1000; ++i)
             places[i] *= units[u];
         ck_assert_int_eq(
-            icc_kernel_weights(kernel, 500, places, weights[u], NULL, NULL, NULL, NULL), ICC_OK);
-        icc_kernel_free(kernel);
+            icc_weights_evaluate(kernel, 500, places, weights[u], NULL, NULL, NULL, NULL), ICC_OK);
+        icc_weights_free(kernel);
         icc_sampling_free(scaled);
         icc_shape_free(shape);
         icc_domain_free(domain);
@@ -333,11 +333,11 @@ START_TEST(one_sample_will_do)
     ck_assert_int_eq(icc_shape_create(&shape, 2, 1, regions, 0, NULL, 0, NULL, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_sampling_create_from_points(&sampling, shape, 1, middle, NULL, NULL),
                      ICC_OK);
-    const icc_kernel_options options = {.size = sizeof options, .sigma = 0.4};
-    icc_kernel *kernel = make(sampling, 4, SQUARE, &options);
+    const icc_weights_options options = {.size = sizeof options, .sigma = 0.4};
+    icc_weights *kernel = make(sampling, 4, SQUARE, &options);
     ck_assert_double_le(report_of(kernel).reproduction, 1e-13);
     ck_assert_double_le(report_of(kernel).lagrange, 1e-13);
-    icc_kernel_free(kernel);
+    icc_weights_free(kernel);
     icc_sampling_free(sampling);
     icc_shape_free(shape);
     icc_domain_free(domain);
@@ -348,13 +348,13 @@ END_TEST
 START_TEST(any_point_may_be_asked)
 {
     icc_sampling *sampling = sample_square(0.1);
-    icc_kernel *kernel = make(sampling, 4, SQUARE, NULL);
+    icc_weights *kernel = make(sampling, 4, SQUARE, NULL);
     const double points[8] = {0.5, 0.5, NAN, 0, 1e6, -1e6, 0.2, HUGE_VAL};
     double weights[16], gradients[32];
     icc_status status[4];
     size_t n_failed;
     ck_assert_int_eq(
-        icc_kernel_weights(kernel, 4, points, weights, gradients, status, &n_failed, NULL), ICC_OK);
+        icc_weights_evaluate(kernel, 4, points, weights, gradients, status, &n_failed, NULL), ICC_OK);
     ck_assert_uint_eq(n_failed, 2);
     for (int i = 0; i < 4; ++i) {
         ck_assert_int_eq(status[i], i % 2 == 0 ? ICC_OK : ICC_ERR_ARGUMENT);
@@ -363,8 +363,8 @@ START_TEST(any_point_may_be_asked)
         ck_assert(i % 2 == 0 ? fabs(sum - 1) < 1e-6
                              : isnan(weights[4 * i]) && isnan(gradients[8 * i + 7]));
     }
-    ck_assert_int_eq(icc_kernel_weights(kernel, 0, NULL, NULL, NULL, NULL, NULL, NULL), ICC_OK);
-    icc_kernel_free(kernel);
+    ck_assert_int_eq(icc_weights_evaluate(kernel, 0, NULL, NULL, NULL, NULL, NULL, NULL), ICC_OK);
+    icc_weights_free(kernel);
     icc_sampling_free(sampling);
 }
 END_TEST
@@ -372,7 +372,7 @@ END_TEST
 /* ---- lines ---- */
 
 /* The greatest deviation from linear of the weights between two places. */
-static double crookedness(const icc_kernel *kernel, const double *from, const double *to, size_t n)
+static double crookedness(const icc_weights *kernel, const double *from, const double *to, size_t n)
 {
     const size_t m = info_of(kernel).n_handles;
     double *points = allocate(2 * (n + 1), sizeof *points),
@@ -380,7 +380,7 @@ static double crookedness(const icc_kernel *kernel, const double *from, const do
     double worst = 0;
     for (size_t i = 0; i <= 2 * n + 1; ++i)
         points[i] = from[i % 2] + (double)(i / 2) / (double)n * (to[i % 2] - from[i % 2]);
-    ck_assert_int_eq(icc_kernel_weights(kernel, n + 1, points, weights, NULL, NULL, NULL, NULL),
+    ck_assert_int_eq(icc_weights_evaluate(kernel, n + 1, points, weights, NULL, NULL, NULL, NULL),
                      ICC_OK);
     for (size_t i = 0; i < m * (n + 1); ++i) {
         const double share = (double)(i / m) / (double)n;
@@ -398,15 +398,15 @@ START_TEST(lines_stay_straight)
 {
     icc_sampling *sampling = sample_square(0.02);
     const icc_line line = {.from = {0.3, 0.25}, .to = {0.62, 0.49}}; /* 20 spacings long */
-    const icc_kernel_options with = {.size = sizeof with, .n_lines = 1, .lines = &line};
-    icc_kernel *plain = make(sampling, 5, HANDLES, NULL),
+    const icc_weights_options with = {.size = sizeof with, .n_lines = 1, .lines = &line};
+    icc_weights *plain = make(sampling, 5, HANDLES, NULL),
                *kernel = make(sampling, 5, HANDLES, &with);
     ck_assert_double_le(crookedness(kernel, line.from, line.to, 20), 1e-13);
     ck_assert_double_le(crookedness(kernel, line.from, line.to, 777), 1.5e-3);
     ck_assert_double_gt(crookedness(plain, line.from, line.to, 777), 1.5e-2);
     ck_assert_double_le(report_of(kernel).reproduction, 1e-11);
-    icc_kernel_free(plain);
-    icc_kernel_free(kernel);
+    icc_weights_free(plain);
+    icc_weights_free(kernel);
     icc_sampling_free(sampling);
 }
 END_TEST
@@ -418,8 +418,8 @@ START_TEST(lines_share_ends)
     const icc_line lines[3] = {{.from = {0.3, 0.6}, .to = {0.7, 0.8}},
                                {.from = {0.7, 0.8}, .to = {0.8, 0.3}},
                                {.from = {0, 0}, .to = {1, 0}}};
-    const icc_kernel_options options = {.size = sizeof options, .n_lines = 3, .lines = lines};
-    icc_kernel *kernel = make(sampling, 5, HANDLES, &options),
+    const icc_weights_options options = {.size = sizeof options, .n_lines = 3, .lines = lines};
+    icc_weights *kernel = make(sampling, 5, HANDLES, &options),
                *plain = make(sampling, 5, HANDLES, NULL);
     double *points = nodes_of(kernel), least = HUGE_VAL;
     const size_t n = info_of(kernel).n_nodes;
@@ -434,8 +434,8 @@ START_TEST(lines_share_ends)
     /* Both ends of the last one are handles: the pieces of a unit length are 25. */
     ck_assert_double_le(crookedness(kernel, lines[2].from, lines[2].to, 25), 1e-13);
     free(points);
-    icc_kernel_free(plain);
-    icc_kernel_free(kernel);
+    icc_weights_free(plain);
+    icc_weights_free(kernel);
     icc_sampling_free(sampling);
 }
 END_TEST
@@ -447,8 +447,8 @@ START_TEST(parallel_lines_stay_parallel)
     icc_sampling *sampling = sample_square(0.04);
     const icc_line lines[2] = {{.from = {0.2, 0.25}, .to = {0.6, 0.35}},
                                {.from = {0.75, 0.8}, .to = {0.15, 0.65}, .parallel = 1}};
-    const icc_kernel_options options = {.size = sizeof options, .n_lines = 2, .lines = lines};
-    icc_kernel *kernel = make(sampling, 5, HANDLES, &options);
+    const icc_weights_options options = {.size = sizeof options, .n_lines = 2, .lines = lines};
+    icc_weights *kernel = make(sampling, 5, HANDLES, &options);
     const double ends[8] = {0.2, 0.25, 0.6, 0.35, 0.75, 0.8, 0.15, 0.65};
     icc_binding *binding;
     double transforms[30], images[8];
@@ -467,19 +467,19 @@ START_TEST(parallel_lines_stay_parallel)
         ck_assert_double_eq_tol(hypot(v[0], v[1]), 1.5 * hypot(u[0], u[1]), 1e-13);
     }
     icc_binding_free(binding);
-    icc_kernel_free(kernel);
+    icc_weights_free(kernel);
     icc_sampling_free(sampling);
 }
 END_TEST
 
 /* ---- kernels from others ---- */
 
-static icc_kernel *paint(const icc_kernel *kernel, size_t handle, double x, double y, double radius,
+static icc_weights *paint(const icc_weights *kernel, size_t handle, double x, double y, double radius,
                          double amount)
 {
-    icc_kernel *painted;
+    icc_weights *painted;
     const double centre[2] = {x, y};
-    ck_assert_int_eq(icc_kernel_paint(&painted, kernel, handle, centre, radius, amount, NULL, NULL),
+    ck_assert_int_eq(icc_weights_paint(&painted, kernel, handle, centre, radius, amount, NULL, NULL),
                      ICC_OK);
     return painted;
 }
@@ -487,9 +487,9 @@ static icc_kernel *paint(const icc_kernel *kernel, size_t handle, double x, doub
 START_TEST(paint_changes_what_is_under_the_brush)
 {
     icc_sampling *sampling = sample_square(0.05);
-    icc_kernel *kernel = make(sampling, 5, HANDLES, NULL);
+    icc_weights *kernel = make(sampling, 5, HANDLES, NULL);
     icc_sampling_free(sampling);
-    icc_kernel *painted = paint(kernel, 2, 0.5, 0.4, 0.2, 0.3),
+    icc_weights *painted = paint(kernel, 2, 0.5, 0.4, 0.2, 0.3),
                *same = paint(kernel, 2, 0.5, 0.4, 0.2, 0);
     double *before = weights_of(kernel), *after = weights_of(painted), *still = weights_of(same);
     double *points = nodes_of(kernel), gain = 0;
@@ -509,9 +509,9 @@ START_TEST(paint_changes_what_is_under_the_brush)
     free(after);
     free(still);
     free(points);
-    icc_kernel_free(kernel);
-    icc_kernel_free(painted);
-    icc_kernel_free(same);
+    icc_weights_free(kernel);
+    icc_weights_free(painted);
+    icc_weights_free(same);
 }
 END_TEST
 
@@ -519,13 +519,13 @@ END_TEST
 START_TEST(repainting_takes_wishes)
 {
     icc_sampling *sampling = sample_square(0.1);
-    icc_kernel *kernel = make(sampling, 5, HANDLES, NULL), *both, *one, *two;
+    icc_weights *kernel = make(sampling, 5, HANDLES, NULL), *both, *one, *two;
     const uint32_t nodes[3] = {20, 2, 33}, twice[2] = {20, 20}, none = 1u << 30;
     const double wishes[15] = {1, 0, 0, 0, 0, 7, 7, 7, 7, 7, 0, 0, 1, 0, 0};
     icc_error err = {.size = sizeof err};
-    ck_assert_int_eq(icc_kernel_repaint(&both, kernel, 3, nodes, wishes, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(icc_kernel_repaint(&one, kernel, 1, nodes, wishes, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(icc_kernel_repaint(&two, one, 2, nodes + 1, wishes + 5, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_weights_repaint(&both, kernel, 3, nodes, wishes, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_weights_repaint(&one, kernel, 1, nodes, wishes, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_weights_repaint(&two, one, 2, nodes + 1, wishes + 5, NULL, NULL), ICC_OK);
     double *a = weights_of(both), *b = weights_of(two), *old = weights_of(kernel), at[10], at2[10];
     const size_t n = info_of(kernel).n_nodes;
     ck_assert_mem_eq(a, b, 5 * n * sizeof *a);
@@ -533,22 +533,22 @@ START_TEST(repainting_takes_wishes)
         ck_assert(a[i] == old[i] || i / 5 == 20 || i / 5 == 33);
     ck_assert_int_ne(memcmp(a + 100, old + 100, 5 * sizeof *a), 0);
     const double points[4] = {0.35, 0.4, 0.8, 0.7};
-    ck_assert_int_eq(icc_kernel_weights(both, 2, points, at, NULL, NULL, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(icc_kernel_weights(two, 2, points, at2, NULL, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_weights_evaluate(both, 2, points, at, NULL, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_weights_evaluate(two, 2, points, at2, NULL, NULL, NULL, NULL), ICC_OK);
     ck_assert_mem_eq(at, at2, sizeof at);
-    icc_kernel_free(two);
-    ck_assert_int_eq(icc_kernel_repaint(&two, kernel, 2, twice, wishes, NULL, &err),
+    icc_weights_free(two);
+    ck_assert_int_eq(icc_weights_repaint(&two, kernel, 2, twice, wishes, NULL, &err),
                      ICC_ERR_ARGUMENT);
     ck_assert_ptr_nonnull(strstr(err.message, "twice"));
-    ck_assert_int_eq(icc_kernel_repaint(&two, kernel, 1, &none, wishes, NULL, &err),
+    ck_assert_int_eq(icc_weights_repaint(&two, kernel, 1, &none, wishes, NULL, &err),
                      ICC_ERR_ARGUMENT);
     ck_assert_ptr_null(two);
     free(a);
     free(b);
     free(old);
-    icc_kernel_free(kernel);
-    icc_kernel_free(both);
-    icc_kernel_free(one);
+    icc_weights_free(kernel);
+    icc_weights_free(both);
+    icc_weights_free(one);
     icc_sampling_free(sampling);
 }
 END_TEST
@@ -558,41 +558,41 @@ START_TEST(another_method_starts_afresh)
 {
     icc_sampling *sampling = sample_square(0.06);
     const icc_line line = {.from = {0.3, 0.2}, .to = {0.8, 0.5}};
-    icc_kernel_options options = {
+    icc_weights_options options = {
         .size = sizeof options, .n_lines = 1, .lines = &line, .n_edges = 4, .edges = RING};
-    icc_kernel *kernel = make(sampling, 5, HANDLES, &options);
-    icc_kernel *painted = paint(kernel, 1, 0.4, 0.4, 0.3, 1);
+    icc_weights *kernel = make(sampling, 5, HANDLES, &options);
+    icc_weights *painted = paint(kernel, 1, 0.4, 0.4, 0.3, 1);
     double *points = spread(2, 300), *a = allocate(1500, sizeof *a), *b = allocate(1500, sizeof *b);
     for (int32_t method = ICC_WEIGHTS_QP; method <= ICC_WEIGHTS_L1; ++method) {
-        icc_kernel *switched, *direct;
+        icc_weights *switched, *direct;
         options.method = method;
         direct = make(sampling, 5, HANDLES, &options);
-        ck_assert_int_eq(icc_kernel_set_method(&switched, painted, method, NULL, NULL), ICC_OK);
+        ck_assert_int_eq(icc_weights_with_method(&switched, painted, method, NULL, NULL), ICC_OK);
         ck_assert_int_eq(info_of(switched).method, method);
-        ck_assert_int_eq(icc_kernel_weights(direct, 300, points, a, NULL, NULL, NULL, NULL),
+        ck_assert_int_eq(icc_weights_evaluate(direct, 300, points, a, NULL, NULL, NULL, NULL),
                          ICC_OK);
-        ck_assert_int_eq(icc_kernel_weights(switched, 300, points, b, NULL, NULL, NULL, NULL),
+        ck_assert_int_eq(icc_weights_evaluate(switched, 300, points, b, NULL, NULL, NULL, NULL),
                          ICC_OK);
         ck_assert_mem_eq(a, b, 1500 * sizeof *a);
-        icc_kernel_free(switched);
-        icc_kernel_free(direct);
+        icc_weights_free(switched);
+        icc_weights_free(direct);
     }
     free(points);
     free(a);
     free(b);
-    icc_kernel_free(kernel);
-    icc_kernel_free(painted);
+    icc_weights_free(kernel);
+    icc_weights_free(painted);
     icc_sampling_free(sampling);
 }
 END_TEST
 
-static double gradient_energy(const icc_kernel *kernel, size_t n, const uint32_t *nodes)
+static double gradient_energy(const icc_weights *kernel, size_t n, const uint32_t *nodes)
 {
     const size_t m = info_of(kernel).n_handles;
     double *points = nodes_of(kernel), *weights = allocate(m, sizeof *weights), sum = 0;
     double *gradients = allocate(2 * m, sizeof *gradients);
     for (size_t k = 0; k < n; ++k) {
-        ck_assert_int_eq(icc_kernel_weights(kernel, 1, points + 2 * nodes[k], weights, gradients,
+        ck_assert_int_eq(icc_weights_evaluate(kernel, 1, points + 2 * nodes[k], weights, gradients,
                                             NULL, NULL, NULL),
                          ICC_OK);
         for (size_t j = 0; j < 2 * m; ++j)
@@ -608,8 +608,8 @@ static double gradient_energy(const icc_kernel *kernel, size_t n, const uint32_t
 START_TEST(stiff_parts_vary_less)
 {
     icc_sampling *sampling = sample_square(0.05);
-    const icc_kernel_options options = {.size = sizeof options, .n_edges = 4, .edges = RING};
-    icc_kernel *kernel = make(sampling, 5, HANDLES, &options), *stiff;
+    const icc_weights_options options = {.size = sizeof options, .n_edges = 4, .edges = RING};
+    icc_weights *kernel = make(sampling, 5, HANDLES, &options), *stiff;
     double *points = nodes_of(kernel), energy[2];
     const size_t n = info_of(kernel).n_nodes;
     uint32_t *part = allocate(n, sizeof *part);
@@ -617,20 +617,20 @@ START_TEST(stiff_parts_vary_less)
     for (uint32_t i = 0; i < n; ++i)
         if (hypot(points[2 * i] - 0.25, points[2 * i + 1] - 0.5) < 0.2)
             part[n_part++] = i;
-    ck_assert_int_eq(icc_kernel_stiffen(&stiff, kernel, n_part, part, NULL, energy, NULL, NULL),
+    ck_assert_int_eq(icc_weights_stiffen(&stiff, kernel, n_part, part, NULL, energy, NULL, NULL),
                      ICC_OK);
     ck_assert_double_lt(energy[1], 0.9 * energy[0]);
     ck_assert_double_eq_tol(gradient_energy(stiff, n_part, part) /
                                 gradient_energy(kernel, n_part, part),
                             energy[1] / energy[0], 1e-6);
-    const icc_kernel_report report = report_of(stiff);
+    const icc_weights_report report = report_of(stiff);
     ck_assert_double_le(report.unity, 1e-11);
     ck_assert_double_le(report.reproduction, 1e-11);
     ck_assert_double_le(report.lagrange, 1e-11);
     free(points);
     free(part);
-    icc_kernel_free(kernel);
-    icc_kernel_free(stiff);
+    icc_weights_free(kernel);
+    icc_weights_free(stiff);
     icc_sampling_free(sampling);
 }
 END_TEST
@@ -638,12 +638,12 @@ END_TEST
 /* ---- refusals ---- */
 
 static void refuse(const icc_sampling *sampling, size_t n, const double *handles,
-                   const icc_kernel_options *options, icc_status status, const char *text,
+                   const icc_weights_options *options, icc_status status, const char *text,
                    int64_t index)
 {
-    icc_kernel *kernel = (icc_kernel *)&kernel;
+    icc_weights *kernel = (icc_weights *)&kernel;
     icc_error err = {.size = sizeof err};
-    const icc_status got = icc_kernel_create(&kernel, sampling, n, handles, options, NULL, &err);
+    const icc_status got = icc_weights_create(&kernel, sampling, n, handles, options, NULL, &err);
     ck_assert_msg(got == status && err.status == status && err.index == index &&
                       strstr(err.message, text) != NULL,
                   "status %d, index %d, '%s' instead of %d, %d, '%s'", (int)got, (int)err.index,
@@ -670,19 +670,19 @@ START_TEST(impossible_options_are_named)
 {
     icc_sampling *sampling = sample_square(0.1);
     const uint32_t loop[4] = {0, 1, 2, 2}, far[2] = {0, 4};
-    icc_kernel_options bad[14];
+    icc_weights_options bad[14];
     static const char *const TEXTS[14] = {
         "kernel",       "initial", "method",          "steps",        "tail",
         "visible",      "sigma",   "sigma",           "cutoff",       "edge 1 joins",
         "edge 0 joins", "no",      "initial_weights", "edges is NULL"};
     for (int k = 0; k < 14; ++k)
-        bad[k] = (icc_kernel_options){.size = sizeof *bad};
+        bad[k] = (icc_weights_options){.size = sizeof *bad};
     bad[0].kernel = 3;
     bad[1].initial = 5;
     bad[2].method = -1;
     bad[3].steps = -1;
-    bad[4].tail = 2;
-    bad[5].visible = -2;
+    bad[4].affine_tail = 2;
+    bad[5].within_shape = -2;
     bad[6].sigma = NAN;
     bad[7].sigma = -1;
     bad[8].cutoff = HUGE_VAL;
@@ -698,11 +698,11 @@ START_TEST(impossible_options_are_named)
                k == 9    ? 1
                : k == 10 ? 0
                          : -1);
-    icc_kernel_options wide = {.size = sizeof wide, .kernel = ICC_KERNEL_GAUSS, .sigma = 0.2};
+    icc_weights_options wide = {.size = sizeof wide, .kernel = ICC_KERNEL_GAUSS, .sigma = 0.2};
     refuse(sampling, 4, SQUARE, &wide, ICC_ERR_SOLVER, "sigma is too large", -1);
     wide.kernel = ICC_KERNEL_WENDLAND;
-    icc_kernel_free(make(sampling, 4, SQUARE, &wide));
-    const icc_kernel_options narrow = {.size = sizeof narrow, .sigma = 1e-9};
+    icc_weights_free(make(sampling, 4, SQUARE, &wide));
+    const icc_weights_options narrow = {.size = sizeof narrow, .sigma = 1e-9};
     refuse(sampling, 4, SQUARE, &narrow, ICC_ERR_ARGUMENT, "sigma is 1e-09", -1);
     icc_sampling_free(sampling);
 }
@@ -730,10 +730,6 @@ START_TEST(impossible_lines_are_named)
           {.from = {0.2, 0.4}, .to = {0.8, 0.4}, .parallel = 2}},
          ICC_ERR_ARGUMENT,
          "parallel is 2"},
-        {{{.from = {0.2, 0.2}, .to = {0.8, 0.2}},
-          {.from = {0.2, 0.4}, .to = {0.8, 0.4}, .reserved = 1}},
-         ICC_ERR_ARGUMENT,
-         "reserved is 1"},
         {{{.from = {0.2, 0.2}, .to = {0.8, 0.2}}, {.from = {0.4, 1}, .to = {0, 1}, .parallel = 1}},
          ICC_ERR_ARGUMENT,
          "cannot be made parallel"},
@@ -742,7 +738,7 @@ START_TEST(impossible_lines_are_named)
          "not finite"},
     };
     for (size_t k = 0; k < sizeof BAD / sizeof *BAD; ++k) {
-        const icc_kernel_options options = {
+        const icc_weights_options options = {
             .size = sizeof options, .n_lines = 2, .lines = BAD[k].lines};
         refuse(sampling, 4, SQUARE, &options, BAD[k].status, BAD[k].text, 1);
     }
@@ -753,26 +749,26 @@ END_TEST
 START_TEST(impossible_calls_are_refused)
 {
     icc_sampling *sampling = sample_square(0.1);
-    icc_kernel *kernel = make(sampling, 4, SQUARE, NULL), *other = (icc_kernel *)&other;
+    icc_weights *kernel = make(sampling, 4, SQUARE, NULL), *other = (icc_weights *)&other;
     const double centre[2] = {0.5, 0.5}, nowhere[2] = {0.5, NAN}, rigidity[1] = {-1},
                  wish[4] = {NAN};
     const uint32_t node = 9;
     double transforms[24], images[2], jacobians[4];
-    ck_assert_int_eq(icc_kernel_paint(&other, kernel, 4, centre, 1, 1, NULL, NULL),
+    ck_assert_int_eq(icc_weights_paint(&other, kernel, 4, centre, 1, 1, NULL, NULL),
                      ICC_ERR_ARGUMENT);
     ck_assert_ptr_null(other);
-    ck_assert_int_eq(icc_kernel_paint(&other, kernel, 0, centre, 0, 1, NULL, NULL),
+    ck_assert_int_eq(icc_weights_paint(&other, kernel, 0, centre, 0, 1, NULL, NULL),
                      ICC_ERR_ARGUMENT);
-    ck_assert_int_eq(icc_kernel_paint(&other, kernel, 0, nowhere, 1, 1, NULL, NULL),
+    ck_assert_int_eq(icc_weights_paint(&other, kernel, 0, nowhere, 1, 1, NULL, NULL),
                      ICC_ERR_ARGUMENT);
-    ck_assert_int_eq(icc_kernel_paint(&other, kernel, 0, centre, 1, NAN, NULL, NULL),
+    ck_assert_int_eq(icc_weights_paint(&other, kernel, 0, centre, 1, NAN, NULL, NULL),
                      ICC_ERR_ARGUMENT);
-    ck_assert_int_eq(icc_kernel_paint(&other, kernel, 0, NULL, 1, 1, NULL, NULL), ICC_ERR_ARGUMENT);
-    ck_assert_int_eq(icc_kernel_paint(NULL, kernel, 0, centre, 1, 1, NULL, NULL), ICC_ERR_ARGUMENT);
-    ck_assert_int_eq(icc_kernel_repaint(&other, kernel, 1, &node, wish, NULL, NULL),
+    ck_assert_int_eq(icc_weights_paint(&other, kernel, 0, NULL, 1, 1, NULL, NULL), ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_weights_paint(NULL, kernel, 0, centre, 1, 1, NULL, NULL), ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_weights_repaint(&other, kernel, 1, &node, wish, NULL, NULL),
                      ICC_ERR_ARGUMENT);
-    ck_assert_int_eq(icc_kernel_set_method(&other, kernel, 4, NULL, NULL), ICC_ERR_ARGUMENT);
-    ck_assert_int_eq(icc_kernel_stiffen(&other, kernel, 1, &node, rigidity, NULL, NULL, NULL),
+    ck_assert_int_eq(icc_weights_with_method(&other, kernel, 4, NULL, NULL), ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_weights_stiffen(&other, kernel, 1, &node, rigidity, NULL, NULL, NULL),
                      ICC_ERR_ARGUMENT);
     icc_binding *binding = (icc_binding *)&binding;
     ck_assert_int_eq(icc_binding_create(&binding, kernel, 1, nowhere, 0, NULL, NULL),
@@ -789,8 +785,8 @@ START_TEST(impossible_calls_are_refused)
     ck_assert_int_eq(icc_pose_turn(3, transforms, (double[3]){0}, (double[3]){0}, 1),
                      ICC_ERR_ARGUMENT);
     icc_binding_free(binding);
-    icc_kernel_free(kernel);
-    icc_kernel_free(NULL);
+    icc_weights_free(kernel);
+    icc_weights_free(NULL);
     icc_binding_free(NULL);
     icc_sampling_free(sampling);
 }
@@ -804,7 +800,7 @@ static void random_transforms(size_t dim, size_t n, double *transforms, random_s
         transforms[k] = random_between(r, -1, 1);
 }
 
-static void pose(const icc_kernel *kernel, size_t n, const double *points, const double *transforms,
+static void pose(const icc_weights *kernel, size_t n, const double *points, const double *transforms,
                  double *images, double *jacobians)
 {
     icc_binding *binding;
@@ -819,11 +815,11 @@ START_TEST(jacobians_are_derivatives)
 {
     const size_t dim = _i % 2 ? 3 : 2, m = dim == 2 ? 5 : 8, n = 40;
     icc_sampling *sampling = dim == 2 ? sample_square(0.05) : sample_cube();
-    const icc_kernel_options options = {.size = sizeof options,
+    const icc_weights_options options = {.size = sizeof options,
                                         .kernel = _i / 2 ? ICC_KERNEL_GAUSS : ICC_KERNEL_WENDLAND,
                                         .cutoff = 7,
                                         .sigma = dim == 2 ? 0 : 0.1};
-    icc_kernel *kernel = make(sampling, m, dim == 2 ? HANDLES : CUBE, &options);
+    icc_weights *kernel = make(sampling, m, dim == 2 ? HANDLES : CUBE, &options);
     double *points = spread(dim, n), *moved = allocate(n * dim, sizeof *moved), transforms[96],
            worst = 0;
     double *images = allocate(n * dim, sizeof *images),
@@ -850,7 +846,7 @@ START_TEST(jacobians_are_derivatives)
     free(jacobians);
     free(ahead);
     free(behind);
-    icc_kernel_free(kernel);
+    icc_weights_free(kernel);
     icc_sampling_free(sampling);
 }
 END_TEST
@@ -860,7 +856,7 @@ START_TEST(poses_are_affine_when_all_handles_agree)
 {
     const size_t dim = _i ? 3 : 2, m = dim == 2 ? 4 : 8, size = dim * (dim + 1), n = 300;
     icc_sampling *sampling = dim == 2 ? sample_square(0.1) : sample_cube();
-    icc_kernel *kernel = make(sampling, m, dim == 2 ? SQUARE : CUBE, NULL);
+    icc_weights *kernel = make(sampling, m, dim == 2 ? SQUARE : CUBE, NULL);
     double *points = spread(dim, n), *images = allocate(n * dim, sizeof *images);
     double *jacobians = allocate(n * dim * dim, sizeof *jacobians), transforms[96];
     random_source r = {3};
@@ -883,7 +879,7 @@ START_TEST(poses_are_affine_when_all_handles_agree)
     free(points);
     free(images);
     free(jacobians);
-    icc_kernel_free(kernel);
+    icc_weights_free(kernel);
     icc_sampling_free(sampling);
 }
 END_TEST
@@ -944,7 +940,7 @@ static unsigned char *save(const icc_binding *binding, size_t *n_bytes)
 START_TEST(bindings_come_back_bit_for_bit)
 {
     icc_sampling *sampling = sample_square(0.1);
-    icc_kernel *kernel = make(sampling, 5, HANDLES, NULL);
+    icc_weights *kernel = make(sampling, 5, HANDLES, NULL);
     double *points = spread(2, 50), transforms[30], images[2][100], jacobians[2][200];
     random_source r = {1};
     random_transforms(2, 5, transforms, &r);
@@ -966,7 +962,7 @@ START_TEST(bindings_come_back_bit_for_bit)
         if (derivatives)
             ck_assert_mem_eq(jacobians[0], jacobians[1], sizeof *jacobians);
         double handles[10];
-        ck_assert_int_eq(icc_binding_get(loaded, handles, NULL), ICC_OK);
+        ck_assert_int_eq(icc_binding_get_weights(loaded, handles, NULL), ICC_OK);
         ck_assert_mem_eq(handles, HANDLES, sizeof handles);
         size_t n_again;
         unsigned char *again = save(loaded, &n_again);
@@ -978,7 +974,7 @@ START_TEST(bindings_come_back_bit_for_bit)
         icc_binding_free(loaded);
     }
     free(points);
-    icc_kernel_free(kernel);
+    icc_weights_free(kernel);
     icc_sampling_free(sampling);
 }
 END_TEST
@@ -998,7 +994,7 @@ static icc_status try_load(size_t n_bytes, const void *data)
 START_TEST(hostile_bytes_are_refused)
 {
     icc_sampling *sampling = sample_square(0.2);
-    icc_kernel *kernel = make(sampling, 4, SQUARE, NULL);
+    icc_weights *kernel = make(sampling, 4, SQUARE, NULL);
     icc_binding *binding;
     double *points = spread(2, 3);
     size_t n_bytes;
@@ -1044,7 +1040,7 @@ START_TEST(hostile_bytes_are_refused)
     free(data);
     free(lie);
     icc_binding_free(binding);
-    icc_kernel_free(kernel);
+    icc_weights_free(kernel);
     icc_sampling_free(sampling);
 }
 END_TEST
@@ -1054,7 +1050,7 @@ END_TEST
 /* Everything that may fail, on few nodes. */
 typedef struct everything {
     icc_sampling *sampling;
-    icc_kernel *kernel;
+    icc_weights *kernel;
     double *points;
     unsigned char *data;
     size_t n_bytes;
@@ -1067,7 +1063,7 @@ static const icc_line LINES[2] = {{.from = {0.2, 0.2}, .to = {0.6, 0.2}},
 static everything make_everything(double spacing)
 {
     everything e = {.sampling = sample_square(spacing), .points = spread(2, N_PLACES)};
-    const icc_kernel_options options = {
+    const icc_weights_options options = {
         .size = sizeof options, .n_edges = 4, .edges = RING, .n_lines = 2, .lines = LINES};
     e.kernel = make(e.sampling, 5, HANDLES, &options);
     icc_binding *binding;
@@ -1079,20 +1075,20 @@ static everything make_everything(double spacing)
 
 static void clear_everything(everything *e)
 {
-    icc_kernel_free(e->kernel);
+    icc_weights_free(e->kernel);
     icc_sampling_free(e->sampling);
     free(e->points);
     free(e->data);
 }
 
 /* Weights at all places; frees the kernel. */
-static icc_status look(icc_status status, icc_kernel *kernel, const everything *e, double *out)
+static icc_status look(icc_status status, icc_weights *kernel, const everything *e, double *out)
 {
     ck_assert_int_eq(status == ICC_OK, kernel != NULL);
     if (status == ICC_OK && out != NULL)
         ck_assert_int_eq(
-            icc_kernel_weights(kernel, N_PLACES, e->points, out, NULL, NULL, NULL, NULL), ICC_OK);
-    icc_kernel_free(kernel);
+            icc_weights_evaluate(kernel, N_PLACES, e->points, out, NULL, NULL, NULL, NULL), ICC_OK);
+    icc_weights_free(kernel);
     return status;
 }
 
@@ -1102,30 +1098,30 @@ static icc_status run(int which, const everything *e, double *out, const icc_env
 {
     static const uint32_t NODES[3] = {25, 26, 27};
     static const double WISHES[15] = {1, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 1}, CENTRE[2] = {0.4, 0.4};
-    icc_kernel_options options = {.size = sizeof options,
+    icc_weights_options options = {.size = sizeof options,
                                   .initial = which == 1 ? ICC_INITIAL_INVERSE : 0,
                                   .method = which == 1 ? ICC_WEIGHTS_L1 : 0,
                                   .n_edges = which == 2 ? 4 : 0,
                                   .edges = RING,
                                   .n_lines = 2,
                                   .lines = LINES};
-    icc_kernel *kernel = (icc_kernel *)&kernel;
+    icc_weights *kernel = (icc_weights *)&kernel;
     icc_status status = -1;
     if (which < 3)
-        status = icc_kernel_create(&kernel, e->sampling, 5, HANDLES, &options, env, err);
+        status = icc_weights_create(&kernel, e->sampling, 5, HANDLES, &options, env, err);
     if (which == 3)
-        status = icc_kernel_paint(&kernel, e->kernel, 1, CENTRE, 0.3, 0.5, env, err);
+        status = icc_weights_paint(&kernel, e->kernel, 1, CENTRE, 0.3, 0.5, env, err);
     if (which == 4)
-        status = icc_kernel_repaint(&kernel, e->kernel, 3, NODES, WISHES, env, err);
+        status = icc_weights_repaint(&kernel, e->kernel, 3, NODES, WISHES, env, err);
     if (which == 5)
-        status = icc_kernel_set_method(&kernel, e->kernel, ICC_WEIGHTS_L1, env, err);
+        status = icc_weights_with_method(&kernel, e->kernel, ICC_WEIGHTS_L1, env, err);
     if (which == 6)
-        status = icc_kernel_stiffen(&kernel, e->kernel, 3, NODES, NULL, NULL, env, err);
+        status = icc_weights_stiffen(&kernel, e->kernel, 3, NODES, NULL, NULL, env, err);
     if (which < 7)
         return look(status, kernel, e, out);
     if (which == 7) {
-        icc_kernel_report report = {.size = sizeof report};
-        status = icc_kernel_get_report(e->kernel, N_PLACES, e->points, &report, env, err);
+        icc_weights_report report = {.size = sizeof report};
+        status = icc_weights_get_report(e->kernel, N_PLACES, e->points, &report, env, err);
         if (out != NULL)
             memcpy(out, &report, sizeof report);
         return status;

@@ -1,7 +1,7 @@
 /* Where Sakaridis' thesis is wrong or silent, and what happens here instead: one test for each point, with the thesis'
  * own behaviour beside it where that can be asked for. */
 #include "icc/kernel.h"
-#include "kernel/gram.h"
+#include "kernel/kernel_matrix.h"
 #include "kernel/sampling.h"
 
 #include <check.h>
@@ -78,38 +78,38 @@ static icc_sampling *make_samples(size_t n, const double *polygon, double around
 
 /* A kernel with its nodes. */
 typedef struct made {
-    icc_kernel *kernel;
-    icc_kernel_info info;
+    icc_weights *kernel;
+    icc_weights_info info;
     double *points, *initial, *weights;
     icc_status *status;
 } made;
 
-static made take(icc_kernel *kernel)
+static made take(icc_weights *kernel)
 {
-    made m = {.kernel = kernel, .info = {.size = sizeof(icc_kernel_info)}};
-    ck_assert_int_eq(icc_kernel_get_info(kernel, &m.info), ICC_OK);
+    made m = {.kernel = kernel, .info = {.size = sizeof(icc_weights_info)}};
+    ck_assert_int_eq(icc_weights_get_info(kernel, &m.info), ICC_OK);
     m.points = allocate(m.info.n_nodes, 2 * sizeof(double));
     m.initial = allocate(m.info.n_nodes, m.info.n_handles * sizeof(double));
     m.weights = allocate(m.info.n_nodes, m.info.n_handles * sizeof(double));
     m.status = allocate(m.info.n_nodes, sizeof *m.status);
-    ck_assert_int_eq(icc_kernel_get_nodes(kernel, m.points, m.initial, m.weights, m.status),
+    ck_assert_int_eq(icc_weights_get_nodes(kernel, m.points, m.initial, m.weights, m.status),
                      ICC_OK);
     return m;
 }
 
 static made make(const icc_sampling *sampling, size_t n, const double *handles,
-                 const icc_kernel_options *options)
+                 const icc_weights_options *options)
 {
-    icc_kernel *kernel;
+    icc_weights *kernel;
     icc_error err = {.size = sizeof err};
-    if (icc_kernel_create(&kernel, sampling, n, handles, options, NULL, &err) != ICC_OK)
+    if (icc_weights_create(&kernel, sampling, n, handles, options, NULL, &err) != ICC_OK)
         ck_abort_msg("%s", err.message);
     return take(kernel);
 }
 
 static void clear(made *m)
 {
-    icc_kernel_free(m->kernel);
+    icc_weights_free(m->kernel);
     free(m->points);
     free(m->initial);
     free(m->weights);
@@ -160,7 +160,7 @@ static double energy_of(const made *m, size_t n, const uint32_t *part, const dou
     double *weights = allocate(n, k * sizeof *weights), energy = 0;
     for (size_t i = 0; i < n; ++i)
         memcpy(points + 2 * i, m->points + 2 * (size_t)part[i], 2 * sizeof *points);
-    ck_assert_int_eq(icc_kernel_weights(m->kernel, n, points, weights, gradients, NULL, NULL, NULL),
+    ck_assert_int_eq(icc_weights_evaluate(m->kernel, n, points, weights, gradients, NULL, NULL, NULL),
                      ICC_OK);
     for (size_t i = 0; i < n * k; ++i)
         energy += 0.5 * (rigidity != NULL ? rigidity[i / k] : 1) * gradients[i] * gradients[i];
@@ -173,8 +173,8 @@ static double energy_of(const made *m, size_t n, const uint32_t *part, const dou
 static made stiffen(const made *m, size_t n, const uint32_t *part, const double *rigidity,
                     double energy[2])
 {
-    icc_kernel *stiff;
-    ck_assert_int_eq(icc_kernel_stiffen(&stiff, m->kernel, n, part, rigidity, energy, NULL, NULL),
+    icc_weights *stiff;
+    ck_assert_int_eq(icc_weights_stiffen(&stiff, m->kernel, n, part, rigidity, energy, NULL, NULL),
                      ICC_OK);
     return take(stiff);
 }
@@ -188,7 +188,7 @@ START_TEST(rigid_parts_lose_energy_and_edges_stay)
     draw_ring(edges, TIPS);
     icc_sampling *sampling = make_samples(TIPS, star, 1.2, ICC_SAMPLING_BLUE, 0.035);
     for (int32_t kind = ICC_KERNEL_WENDLAND; kind <= ICC_KERNEL_GAUSS; ++kind) {
-        const icc_kernel_options options = {
+        const icc_weights_options options = {
             .size = sizeof options, .kernel = kind, .n_edges = TIPS, .edges = edges};
         made before = make(sampling, TIPS, star, &options);
         uint32_t *part = allocate(before.info.n_nodes, sizeof *part);
@@ -296,10 +296,10 @@ START_TEST(diffusion_does_not_grow_and_handles_are_held)
     icc_sampling *sampling = make_samples(TIPS, star, 1.2, ICC_SAMPLING_BLUE, 0.05);
     for (int32_t steps = 1; steps <= 100; steps = steps < 5 ? 5 : 20 * steps)
         for (int32_t visible = -1; visible <= 1; visible += 2) {
-            const icc_kernel_options options = {.size = sizeof options,
+            const icc_weights_options options = {.size = sizeof options,
                                                 .kernel = ICC_KERNEL_GAUSS,
                                                 .steps = steps,
-                                                .visible = visible};
+                                                .within_shape = visible};
             made m = make(sampling, TIPS, star, &options);
             for (size_t i = 0; i < m.info.n_nodes; ++i) {
                 double sum = 0;
@@ -326,7 +326,7 @@ START_TEST(diffusion_fills_up_to_one)
 {
     const double square[8] = {0, 0, 1, 0, 1, 1, 0, 1};
     icc_sampling *sampling = make_samples(4, square, 0, ICC_SAMPLING_BLUE, 0.1);
-    const icc_kernel_options options = {.size = sizeof options, .steps = 20000};
+    const icc_weights_options options = {.size = sizeof options, .steps = 20000};
     made m = make(sampling, 4, square, &options);
     for (size_t i = 0; i < m.info.n_nodes; ++i) {
         const double *w = m.initial + 4 * i;
@@ -345,12 +345,12 @@ START_TEST(handles_keep_their_weights)
     icc_sampling *sampling = make_samples(TIPS, star, 1.2, ICC_SAMPLING_BLUE, 0.05);
     for (int32_t initial = ICC_INITIAL_HEAT; initial <= ICC_INITIAL_INVERSE; initial += 2)
         for (int32_t method = ICC_WEIGHTS_QP; method <= ICC_WEIGHTS_L1; ++method) {
-            const icc_kernel_options options = {
+            const icc_weights_options options = {
                 .size = sizeof options, .initial = initial, .method = method};
             double weights[TIPS * TIPS];
             made m = make(sampling, TIPS, star, &options);
             ck_assert_int_eq(
-                icc_kernel_weights(m.kernel, TIPS, star, weights, NULL, NULL, NULL, NULL), ICC_OK);
+                icc_weights_evaluate(m.kernel, TIPS, star, weights, NULL, NULL, NULL, NULL), ICC_OK);
             for (size_t k = 0; k < TIPS * TIPS; ++k)
                 ck_assert_double_le(fabs(weights[k] - (k / TIPS == k % TIPS ? 1 : 0)), 1e-11);
             clear(&m);
@@ -368,7 +368,7 @@ START_TEST(l1_ties_are_broken_by_squares)
     double star[2 * TIPS];
     draw_star(star);
     icc_sampling *sampling = make_samples(TIPS, star, 0, ICC_SAMPLING_BLUE, 0.05);
-    const icc_kernel_options l1 = {.size = sizeof l1, .method = ICC_WEIGHTS_L1};
+    const icc_weights_options l1 = {.size = sizeof l1, .method = ICC_WEIGHTS_L1};
     made m = make(sampling, TIPS, star, &l1);
     size_t tied = 0, inner = 0;
     for (size_t i = TIPS; i < m.info.n_nodes; ++i) {
@@ -433,7 +433,7 @@ static double greatest_jump(const made *m)
         points[2 * k] = 0.2 + 0.6 * (double)k / STEPS;
         points[2 * k + 1] = 0.47;
     }
-    ck_assert_int_eq(icc_kernel_weights(m->kernel, STEPS, points, weights, NULL, NULL, NULL, NULL),
+    ck_assert_int_eq(icc_weights_evaluate(m->kernel, STEPS, points, weights, NULL, NULL, NULL, NULL),
                      ICC_OK);
     for (size_t k = 4; k + 4 < 4 * (size_t)STEPS; ++k)
         jump = fmax(jump, fabs(weights[k + 4] - 2 * weights[k] + weights[k - 4]));
@@ -447,7 +447,7 @@ START_TEST(the_default_kernel_is_smooth_and_definite)
 {
     const double square[8] = {0, 0, 1, 0, 1, 1, 0, 1}, spacing = 0.05;
     icc_sampling *sampling = make_samples(4, square, 0, ICC_SAMPLING_GRID, spacing);
-    icc_kernel_options options = {.size = sizeof options, .sigma = 3 * spacing / 3.14159265358979};
+    icc_weights_options options = {.size = sizeof options, .sigma = 3 * spacing / 3.14159265358979};
     double jump[3];
     for (int32_t kind = ICC_KERNEL_WENDLAND; kind <= ICC_KERNEL_GAUSS; ++kind) {
         options.kernel = kind;
@@ -459,11 +459,11 @@ START_TEST(the_default_kernel_is_smooth_and_definite)
     ck_assert_double_lt(jump[ICC_KERNEL_WENDLAND], 1e-5);
     ck_assert_double_gt(jump[ICC_KERNEL_GAUSS], 1e-4);
     for (double width = 1.6; width < 7; width *= 2) {
-        icc_kernel *kernel;
+        icc_weights *kernel;
         icc_error err = {.size = sizeof err};
-        options = (icc_kernel_options){
+        options = (icc_weights_options){
             .size = sizeof options, .kernel = ICC_KERNEL_GAUSS, .sigma = width * spacing};
-        ck_assert_int_eq(icc_kernel_create(&kernel, sampling, 4, square, &options, NULL, &err),
+        ck_assert_int_eq(icc_weights_create(&kernel, sampling, 4, square, &options, NULL, &err),
                          ICC_ERR_SOLVER);
         ck_assert_ptr_null(kernel);
         ck_assert_ptr_nonnull(strstr(err.message, "sigma"));
@@ -482,10 +482,10 @@ END_TEST
 static double leak(const icc_sampling *sampling, int32_t visible, int32_t steps)
 {
     const double handles[8] = {-0.05, 1.1, -0.5, -1.1, 0.5, -1.1, 0.5, 1.1};
-    const icc_kernel_options options = {.size = sizeof options,
+    const icc_weights_options options = {.size = sizeof options,
                                         .kernel = ICC_KERNEL_GAUSS,
                                         .initial = ICC_INITIAL_HEAT,
-                                        .visible = visible,
+                                        .within_shape = visible,
                                         .steps = steps};
     double most = 0;
     made m = make(sampling, 4, handles, &options);
@@ -550,7 +550,7 @@ START_TEST(hull_edges_are_solved)
     }
     icc_sampling *sampling = make_samples(SIDES, polygon, 0, ICC_SAMPLING_BLUE, 0.02);
     for (int32_t initial = ICC_INITIAL_HEAT; initial <= ICC_INITIAL_INVERSE; initial += 2) {
-        const icc_kernel_options options = {.size = sizeof options, .initial = initial};
+        const icc_weights_options options = {.size = sizeof options, .initial = initial};
         made m = make(sampling, SIDES, polygon, &options);
         ck_assert_uint_eq(m.info.n_infeasible, 0);
         for (size_t i = 0; i < m.info.n_nodes; ++i) {
@@ -583,7 +583,7 @@ START_TEST(arithmetic_is_strict)
     icc_sampling *sampling = make_samples(4, square, 0, ICC_SAMPLING_BLUE, 0.1);
     made m = make(sampling, 4, square, NULL);
     ck_assert_int_eq(
-        icc_kernel_weights(m.kernel, 2, points, weights, NULL, status, &n_failed, NULL), ICC_OK);
+        icc_weights_evaluate(m.kernel, 2, points, weights, NULL, status, &n_failed, NULL), ICC_OK);
     ck_assert_uint_eq(n_failed, 1);
     ck_assert_int_eq(status[0], ICC_ERR_ARGUMENT);
     ck_assert_int_eq(status[1], ICC_OK);

@@ -173,7 +173,7 @@ START_TEST(it_goes_on)
         same_map(better[0], better[1], p.source);
         check_map(better[0], p.source);
         for (int k = 0; k < 2; ++k)
-            ck_assert_int_eq(icc_map_follow(&next[k], better[k], target, 2, NULL, NULL), ICC_OK);
+            ck_assert_int_eq(icc_map_retarget(&next[k], better[k], target, 2, NULL, NULL), ICC_OK);
         same_map(next[0], next[1], p.source);
         ck_assert_ptr_null(icc_map_source_chart(next[0]));
         check_map(next[0], p.source);
@@ -255,14 +255,14 @@ START_TEST(cut_chords)
     p.target = dented_cube(p.source);
     icc_map *map = map_of(&p, ICC_MAP_MESH, 0, 0, 0);
     ck_assert_int_eq(map_story(map).kind, ICC_MAP_MESH);
-    ck_assert_uint_gt(map_story(map).n_triangles, cube.n_simplices);
+    ck_assert_uint_gt(map_story(map).n_simplices, cube.n_simplices);
     check_map(map, p.source);
     /* A point of that mesh outside of the source, its image where it was: bytes end with points, corners and images. */
     const icc_map_info info = map_story(map);
     const size_t n_inner = info.n_vertices - 8;
     bytes b = map_bytes(map);
     icc_map *loaded;
-    unsigned char *point = b.data + b.n - 48 * n_inner - 16 * info.n_triangles;
+    unsigned char *point = b.data + b.n - 48 * n_inner - 16 * info.n_simplices;
     memset(point, 0, 8);
     point[7] = 0x40;
     repair_bytes(&b, "MAP_");
@@ -315,7 +315,7 @@ static icc_map *small_map(int k, pair *p)
     if (k == 1)
         return map_of(p, ICC_MAP_CURVES, ICC_METHOD_FIELD, 6, 0);
     icc_map *map = map_of(p, ICC_MAP_MESH, 0, 4, -1), *next;
-    ck_assert_int_eq(icc_map_follow(&next, map, p->target, -1, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_map_retarget(&next, map, p->target, -1, NULL, NULL), ICC_OK);
     icc_map_free(map);
     return next;
 }
@@ -404,9 +404,9 @@ START_TEST(false_meshes_are_refused)
     pair p;
     icc_map *map = small_map(0, &p), *loaded;
     const icc_map_info info = map_story(map);
-    const size_t n_boundary = 2 * info.n_vertices - info.n_triangles - 2;
+    const size_t n_boundary = 2 * info.n_vertices - info.n_simplices - 2;
     bytes b = map_bytes(map), changed = {b.n, saved_alloc(b.n)};
-    const size_t boundary = b.n - 12 * n_boundary, triangles = boundary - 12 * info.n_triangles;
+    const size_t boundary = b.n - 12 * n_boundary, triangles = boundary - 12 * info.n_simplices;
     const size_t image = triangles - 16 * info.n_vertices;
     for (size_t at = boundary; at < b.n; ++at) {
         memcpy(changed.data, b.data, b.n);

@@ -85,7 +85,7 @@ START_TEST(there_and_back)
 }
 END_TEST
 
-/* What icc_map_mesh() hands out is the map: linear in each of its tetrahedra. */
+/* What icc_map_get_mesh() hands out is the map: linear in each of its tetrahedra. */
 START_TEST(mesh_is_the_map)
 {
     pair p;
@@ -95,9 +95,9 @@ START_TEST(mesh_is_the_map)
     const icc_map_info info = info_of(map);
     double *before = calloc(info.n_vertices, 3 * sizeof *before);
     double *after = calloc(info.n_vertices, 3 * sizeof *after);
-    uint32_t *corners = calloc(info.n_triangles, 4 * sizeof *corners);
-    ck_assert_int_eq(icc_map_mesh(map, before, after, corners), ICC_OK);
-    for (size_t t = 0; t < info.n_triangles; ++t) {
+    uint32_t *corners = calloc(info.n_simplices, 4 * sizeof *corners);
+    ck_assert_int_eq(icc_map_get_mesh(map, before, after, corners), ICC_OK);
+    for (size_t t = 0; t < info.n_simplices; ++t) {
         double x[3] = {0, 0, 0}, y[3] = {0, 0, 0}, image[3], jacobian[9], edges[9];
         icc_status status;
         for (size_t k = 0; k < 12; ++k) {
@@ -170,7 +170,7 @@ START_TEST(kinds)
     make_pair(&p, 3);
     ck_assert_int_eq(icc_map_create(&map, p.source, p.target, &options, NULL, NULL), ICC_OK);
     ck_assert_int_eq(info_of(map).kind, ICC_MAP_CURVES);
-    ck_assert_int_eq(icc_map_mesh(map, NULL, NULL, NULL), ICC_ERR_UNSUPPORTED);
+    ck_assert_int_eq(icc_map_get_mesh(map, NULL, NULL, NULL), ICC_ERR_UNSUPPORTED);
     icc_map_free(map);
     /* Without a mesh on both sides there is no kind mesh. */
     icc_domain_info info = {.size = sizeof info};

@@ -1,7 +1,7 @@
 /* Bi-Laplace functions against dense references. */
 #include "base/error.h"
 #include "solver/bilaplace.h"
-#include "function/critical.h"
+#include "function/critical_points.h"
 #include "solver/energy.h"
 #include "solver/interior.h"
 #include "solver/polish.h"
@@ -35,7 +35,7 @@ static problem problem_on(int32_t dim, const size_t *sides, const uint8_t *insid
     icc_grid *grid;
     ck_assert_int_eq(icc_grid_create_mask(&grid, dim, sides, inside, NULL, NULL), ICC_OK);
     if (root == UINT32_MAX)
-        ck_assert_int_eq(icc_grid_maximum(grid, &root, NULL, NULL, NULL), ICC_OK);
+        ck_assert_int_eq(icc_grid_find_maximum(grid, &root, NULL, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_tree_create(&p.tree, grid, root, NULL, NULL, NULL), ICC_OK);
     icc_grid_free(grid);
     ck_assert_int_eq(iccp_rows_create(&p.rows, p.tree, &env), ICC_OK);
@@ -189,7 +189,7 @@ START_TEST(small_minima_are_those_of_a_dense_solver)
     for (int round = 0; round < 200; ++round) {
         problem p = random_problem(&r, 1 + round % 4);
         for (int k = 0; k < 2; ++k) {
-            icc_field_info info = {.size = sizeof info};
+            icc_function_info info = {.size = sizeof info};
             ck_assert_int_eq(iccp_bilaplace(&p.rows, FUNCTIONS[k], ICC_SOLVER_DIRECT, &p.f, &info, &env),
                              ICC_OK);
             long double *f = dense_minimum(&p, FUNCTIONS[k] == ICC_FUNCTION_CLAMPED);
@@ -215,7 +215,7 @@ START_TEST(both_solvers_agree)
     for (int s = 0; s < N_MASKS; ++s) {
         const int32_t dim = mask_number(s).dim == 3 ? 3 : 2;
         problem p = problem_of(mask_number(s).shape, dim, dim == 3 ? 20 : 60);
-        icc_field_info info = {.size = sizeof info};
+        icc_function_info info = {.size = sizeof info};
         ck_assert_int_eq(
             iccp_bilaplace(&p.rows, ICC_FUNCTION_BILAPLACE, ICC_SOLVER_DIRECT, &p.f, &info, &env), ICC_OK);
         double *direct = malloc(p.n * sizeof *direct);
@@ -239,7 +239,7 @@ START_TEST(nothing_underflows)
 {
     const iccp_env env = plain_env();
     problem p = problem_of(mask_serpentine, 2, 500);
-    icc_field_info info = {.size = sizeof info};
+    icc_function_info info = {.size = sizeof info};
     ck_assert_int_eq(iccp_bilaplace(&p.rows, ICC_FUNCTION_BILAPLACE, ICC_SOLVER_DIRECT, &p.f, &info, &env),
                      ICC_OK);
     int32_t least = 0;
@@ -418,7 +418,7 @@ START_TEST(small_constrained_minima_have_the_least_energy)
         problem p = random_problem(&r, 1 + round % 4);
         const double eta = ETAS[random_below(&r, 3)], leaf = LEAVES[random_below(&r, 3)];
         for (int k = 0; k < 2 && p.n > 1 && p.n < 40; ++k) {
-            icc_field_info info = {.size = sizeof info};
+            icc_function_info info = {.size = sizeof info};
             ck_assert_int_eq(
                 iccp_bilaplace_constrained(&p.rows, FUNCTIONS[k], eta, leaf, &p.f, &info, &env), ICC_OK);
             ck_assert_double_le(info.residual_before, 1e-11);
@@ -437,7 +437,7 @@ END_TEST
 static icc_status solve_from_inside(const problem *p, int32_t function, double *f, double *residual,
                                     const iccp_env *env)
 {
-    icc_field_info info = {.size = sizeof info};
+    icc_function_info info = {.size = sizeof info};
     iccp_program program;
     iccp_interior interior;
     bool stuck = false;
@@ -471,7 +471,7 @@ START_TEST(both_ways_lead_to_the_same_function)
         for (int k = 0; k < 2; ++k) {
             const int32_t dim = mask_number(shapes[s]).dim == 3 ? 3 : 2;
             problem p = problem_of(mask_number(shapes[s]).shape, dim, dim == 3 ? 20 : 50);
-            icc_field_info info = {.size = sizeof info};
+            icc_function_info info = {.size = sizeof info};
             double residual, *f = malloc(p.n * sizeof *f);
             ck_assert_int_eq(
                 iccp_bilaplace_constrained(&p.rows, FUNCTIONS[k], 1e-6, 1e-9, &p.f, &info, &env), ICC_OK);
@@ -490,7 +490,7 @@ START_TEST(a_letter_c_has_one_critical_point)
 {
     const iccp_env env = plain_env();
     problem p = problem_of(mask_c, 2, 200);
-    icc_field_info info = {.size = sizeof info};
+    icc_function_info info = {.size = sizeof info};
     ck_assert_int_eq(
         iccp_bilaplace_constrained(&p.rows, FUNCTIONS[_i], 1e-6, 1e-9, &p.f, &info, &env), ICC_OK);
     ck_assert_double_le(info.residual_before, 1e-11);
@@ -499,14 +499,14 @@ START_TEST(a_letter_c_has_one_critical_point)
     double *f = values(&p);
     check_feasible(&p, f, 1e-6, 1e-9);
     free(f);
-    icc_field *field;
-    icc_field_report report = {.size = sizeof report};
-    ck_assert_int_eq(iccp_field_new(&field, p.tree, &env), ICC_OK);
-    ck_assert_int_eq(iccp_field_assign(field, &p.rows, &p.f), ICC_OK);
-    ck_assert_int_eq(iccp_field_verify(field, &report, &env), ICC_OK);
+    icc_function *field;
+    icc_function_report report = {.size = sizeof report};
+    ck_assert_int_eq(iccp_function_new(&field, p.tree, &env), ICC_OK);
+    ck_assert_int_eq(iccp_function_assign(field, &p.rows, &p.f), ICC_OK);
+    ck_assert_int_eq(iccp_function_verify(field, &report, &env), ICC_OK);
     ck_assert_uint_eq(report.n_maxima, 1);
     ck_assert_uint_eq(report.n_minima + report.n_saddles, 0);
-    iccp_field_release(field);
+    iccp_function_release(field);
     problem_clear(&p);
 }
 END_TEST
@@ -527,7 +527,7 @@ START_TEST(bounds_without_room_are_refused)
     iccp_env env;
     ck_assert_int_eq(iccp_env_read(&env, &outer, NULL), ICC_OK);
     problem p = problem_on(1, sides, inside, 0);
-    icc_field_info info = {.size = sizeof info};
+    icc_function_info info = {.size = sizeof info};
     ck_assert_int_eq(
         iccp_bilaplace_constrained(&p.rows, FUNCTIONS[0], 0.01, 1e-9, &p.f, &info, &env), ICC_ERR_SOLVER);
     ck_assert(strstr(line, "at the root") != NULL);
@@ -546,7 +546,7 @@ static icc_status solve_anew(const icc_env *outer, icc_error *err, void *argumen
     sweep_case *c = argument;
     iccp_env env;
     ck_assert_int_eq(iccp_env_read(&env, outer, err), ICC_OK);
-    icc_field_info info = {.size = sizeof info};
+    icc_function_info info = {.size = sizeof info};
     return iccp_explain(
         err, c->way == 0
                  ? iccp_bilaplace(&c->p.rows, c->function, ICC_SOLVER_DIRECT, &c->p.f, &info, &env)

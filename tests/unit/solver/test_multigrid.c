@@ -37,7 +37,7 @@ static problem problem_of(int32_t dim, const size_t *shape, const uint8_t *insid
     problem p;
     ck_assert_int_eq(icc_grid_create_mask(&p.grid, dim, shape, inside, NULL, NULL), ICC_OK);
     if (root == ICCP_NONE)
-        ck_assert_int_eq(icc_grid_maximum(p.grid, &root, NULL, NULL, NULL), ICC_OK);
+        ck_assert_int_eq(icc_grid_find_maximum(p.grid, &root, NULL, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_tree_create(&p.tree, p.grid, root, NULL, NULL, NULL), ICC_OK);
     ck_assert_int_eq(iccp_rows_create(&p.rows, p.tree, &env), ICC_OK);
     p.top = malloc(p.rows.n * sizeof *p.top);
@@ -109,7 +109,7 @@ static void glue(problem *p, random_source *r, int percent, double least_share)
 static icc_status solve(problem *p, size_t *n_inner)
 {
     const iccp_env env = default_env();
-    icc_field_info info = {0};
+    icc_function_info info = {0};
     const iccp_gluing gluing = {.top = p->top, .share = p->share};
     const icc_status status = iccp_glued_iterative(&p->rows, &gluing, &p->f, &info, &env);
     if (n_inner != NULL)
@@ -445,7 +445,7 @@ static void check_direct(const problem *p)
     const iccp_env env = default_env();
     const iccp_scaled g = {malloc(p->rows.n * sizeof(double)), malloc(p->rows.n * sizeof(int32_t))};
     const iccp_gluing gluing = {.top = p->top, .share = p->share};
-    icc_field_info info = {0};
+    icc_function_info info = {0};
     if (iccp_glued_direct(&p->rows, &gluing, &g, &info, &env) == ICC_OK)
         ck_assert_double_le(difference(p, &g), 1e-6);
     free(g.fraction);
@@ -544,7 +544,7 @@ static icc_status solve_in(const icc_env *outer, icc_error *err, void *argument)
 {
     problem *p = argument;
     const iccp_gluing gluing = {.top = p->top, .share = p->share};
-    icc_field_info info = {0};
+    icc_function_info info = {0};
     iccp_env env;
     const icc_status status = iccp_env_read(&env, outer, err);
     if (status != ICC_OK)

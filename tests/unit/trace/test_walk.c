@@ -14,7 +14,7 @@ enum { SIDE = 14, MAX_VERTICES = SIDE * SIDE };
 typedef struct world {
     icc_grid grid;
     icc_tree tree;
-    icc_field field;
+    icc_function field;
     double values[MAX_VERTICES];
 } world;
 

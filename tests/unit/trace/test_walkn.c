@@ -18,7 +18,7 @@ enum { MAX_VERTICES = 20000 };
 typedef struct world {
     icc_grid grid;
     icc_tree tree;
-    icc_field field;
+    icc_function field;
     double values[MAX_VERTICES];
 } world;
 
@@ -493,7 +493,7 @@ START_TEST(starts_go_ahead)
 END_TEST
 
 /* Whether two walks go the same way, to the bit. */
-static void check_same(const icc_field *a, const icc_field *b, const double *p, int direction)
+static void check_same(const icc_function *a, const icc_function *b, const double *p, int direction)
 {
     iccp_walkn one, other;
     ck_assert_int_eq(iccp_walkn_start(&one, a, direction, p, NULL, NULL), ICC_OK);
@@ -521,7 +521,7 @@ START_TEST(only_ratios_of_values_count)
             fractions[v] = frexp(W.values[v], &exponents[v]);
             exponents[v] -= 5000;
         }
-        icc_field small = W.field, scaled = W.field;
+        icc_function small = W.field, scaled = W.field;
         small.values = tiny;
         scaled.values = fractions;
         scaled.exponent = exponents;

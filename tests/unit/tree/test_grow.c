@@ -169,8 +169,8 @@ static void check_ranks(const icc_tree *tree, const uint32_t *rank)
     }
     ck_assert_uint_eq(n_wrong, 0);
     ck_assert_uint_eq(n, tree->n_inside);
-    icc_field_report found = {.size = sizeof found};
-    ck_assert_int_eq(icc_tree_verify_ranks(tree, rank, &found, NULL, NULL), ICC_OK);
+    icc_function_report found = {.size = sizeof found};
+    ck_assert_int_eq(icc_tree_get_rank_report(tree, rank, &found, NULL, NULL), ICC_OK);
     ck_assert_uint_eq(found.n_maxima, 1);
     ck_assert_uint_eq(found.n_minima + found.n_saddles, 0);
     ck_assert_uint_eq(found.critical, UINT32_MAX);
@@ -214,7 +214,7 @@ static icc_grow_report grow(const icc_tree *tree, const double *values, uint32_t
     ck_assert_uint_le(report.n_tests, most_tests(tree));
     ck_assert_uint_eq(report.n_vertices, tree->n_inside);
     ck_assert(status == ICC_OK || status == ICC_ERR_TOPOLOGY);
-    ck_assert((status == ICC_OK) == (report.n_left == 0));
+    ck_assert((status == ICC_OK) == (report.n_remaining == 0));
     ck_assert((report.n_unplaced > 0) == (report.method == ICC_GROW_THINNED));
     ck_assert((report.n_unplaced > 0) == (report.vertex != UINT32_MAX));
     if (status == ICC_OK) {
@@ -231,8 +231,8 @@ static uint32_t rank[MAX_VERTICES];
 
 static bool is_regular(const icc_tree *tree)
 {
-    icc_field_report found = {.size = sizeof found};
-    ck_assert_int_eq(icc_tree_verify_ranks(tree, rank, &found, NULL, NULL), ICC_OK);
+    icc_function_report found = {.size = sizeof found};
+    ck_assert_int_eq(icc_tree_get_rank_report(tree, rank, &found, NULL, NULL), ICC_OK);
     return found.critical == UINT32_MAX && found.n_maxima == 1;
 }
 
@@ -287,8 +287,8 @@ START_TEST(every_root_in_an_open_box)
         const bool regular = is_regular(tree);
         const icc_grow_report report = grow(tree, NULL, rank);
         ck_assert_uint_eq(report.n_unplaced, 0);
-        ck_assert((report.method == ICC_GROW_AS_WISHED) == regular);
-        ck_assert((report.n_postponed == 0) == regular);
+        ck_assert((report.method == ICC_GROW_AS_GIVEN) == regular);
+        ck_assert((report.n_deferred == 0) == regular);
         icc_tree_free(tree);
     }
     ck_assert_uint_eq(n_irregular, 171);
@@ -304,9 +304,9 @@ START_TEST(three_cubes_in_an_l)
     ck_assert_uint_eq(grid->n_inside, 16);
     icc_tree *tree = tree_of(grid, 2);
     icc_tree_report report = {.size = sizeof report};
-    ck_assert_int_eq(icc_tree_verify(tree, &report, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_tree_get_report(tree, &report, NULL, NULL), ICC_OK);
     ck_assert_uint_eq(report.n_cousin_violations, 1);
-    ck_assert_int_eq(grow(tree, NULL, rank).method, ICC_GROW_AS_WISHED);
+    ck_assert_int_eq(grow(tree, NULL, rank).method, ICC_GROW_AS_GIVEN);
     icc_tree_free(tree);
     icc_grid_free(grid);
 }
@@ -322,13 +322,13 @@ START_TEST(a_house_with_thin_walls)
         if (grid->inside[root]) {
             icc_tree *tree = tree_of(grid, root);
             const icc_grow_report report = grow(tree, NULL, rank);
-            ck_assert_uint_gt(report.n_left, 0);
+            ck_assert_uint_gt(report.n_remaining, 0);
             icc_tree_free(tree);
         }
     icc_grid *fine;
     ck_assert_int_eq(icc_grid_refine(&fine, grid, NULL, NULL), ICC_OK);
     icc_tree *tree = tree_of(fine, 0);
-    ck_assert_uint_gt(grow(tree, NULL, rank).n_left, 0);
+    ck_assert_uint_gt(grow(tree, NULL, rank).n_remaining, 0);
     icc_tree_free(tree);
     icc_grid_free(fine);
     icc_grid_free(grid);
@@ -347,7 +347,7 @@ START_TEST(a_house_with_thick_walls)
             icc_tree *tree = tree_of(grid, random_inside(&r, grid));
             const icc_grow_report report = grow(tree, NULL, rank);
             n_stuck += report.n_unplaced > 0;
-            n_thinned += report.n_unplaced > 0 && report.n_left == 0;
+            n_thinned += report.n_unplaced > 0 && report.n_remaining == 0;
             icc_tree_free(tree);
         }
         icc_grid_free(grid);
@@ -372,8 +372,8 @@ START_TEST(random_balls)
             icc_tree *tree = tree_of(grid, random_inside(&r, grid));
             ck_assert_uint_eq(tree->n_inside, grid->n_inside);
             const icc_grow_report report = grow(tree, NULL, rank);
-            ck_assert_uint_eq(report.n_left, 0);
-            n_irregular += report.method != ICC_GROW_AS_WISHED;
+            ck_assert_uint_eq(report.n_remaining, 0);
+            n_irregular += report.method != ICC_GROW_AS_GIVEN;
             icc_tree_free(tree);
             icc_grid_free(grid);
         }
@@ -404,10 +404,10 @@ START_TEST(given_values)
             values[v] = grid->inside[v] ? -square : NAN;
         }
         const icc_grow_report report = grow(tree, values, rank);
-        ck_assert_uint_eq(report.n_left, 0);
-        n_turned += report.n_turned;
+        ck_assert_uint_eq(report.n_remaining, 0);
+        n_turned += report.n_reversed;
         n_vertices += report.n_vertices;
-        if (report.method == ICC_GROW_AS_WISHED)
+        if (report.method == ICC_GROW_AS_GIVEN)
             for (size_t i = 0; i < tree->n_inside; ++i)
                 for (size_t j = 0; j < tree->n_inside; j += 7)
                     ck_assert(rank[tree->order[i]] > rank[tree->order[j]] ||
@@ -457,7 +457,7 @@ START_TEST(values_fall_with_the_ranks)
     for (int round = 0; round < 20; ++round) {
         icc_grid *grid = random_ball(&r, 2 + round % 3, 8, 4000);
         icc_tree *tree = tree_of(grid, random_inside(&r, grid));
-        ck_assert_uint_eq(grow(tree, NULL, rank).n_left, 0);
+        ck_assert_uint_eq(grow(tree, NULL, rank).n_remaining, 0);
         const double gap = round % 2 == 0 ? 1e-3 : 0.25;
         for (uint32_t v = 0; v < grid->n_vertices; ++v)
             before[v] = after[v] = grid->inside[v] ? -(double)tree->generation[v] : (double)NAN;
@@ -500,7 +500,7 @@ START_TEST(refined_grids)
         ck_assert_uint_eq(fine->n_inside, grid->n_inside + n_edges);
         ck_assert(2 * fine->spacing == grid->spacing);
         icc_tree *tree = tree_of(fine, random_inside(&r, fine));
-        ck_assert_uint_eq(grow(tree, NULL, rank).n_left, 0);
+        ck_assert_uint_eq(grow(tree, NULL, rank).n_remaining, 0);
         icc_tree_free(tree);
         icc_grid_free(fine);
         icc_grid_free(grid);
@@ -522,7 +522,7 @@ START_TEST(shapes_that_are_no_balls)
         icc_grid *grid = closed_grid(&c, 2);
         icc_tree *tree = tree_of(grid, 0);
         const icc_grow_report report = grow(tree, NULL, rank);
-        ck_assert_uint_gt(report.n_left, 0);
+        ck_assert_uint_gt(report.n_remaining, 0);
         icc_tree_free(tree);
         icc_grid_free(grid);
     }
@@ -574,12 +574,12 @@ START_TEST(the_verifier_sees_spoilt_orders)
     for (int round = 0; round < 40; ++round) {
         icc_grid *grid = random_ball(&r, 3, 8, 4000);
         icc_tree *tree = tree_of(grid, random_inside(&r, grid));
-        ck_assert_uint_eq(grow(tree, NULL, rank).n_left, 0);
+        ck_assert_uint_eq(grow(tree, NULL, rank).n_remaining, 0);
         const uint32_t last = tree->order[tree->n_inside - 1];
         rank[last] = 0;
         rank[tree->root] = (uint32_t)tree->n_inside;
-        icc_field_report found = {.size = sizeof found};
-        ck_assert_int_eq(icc_tree_verify_ranks(tree, rank, &found, NULL, NULL), ICC_OK);
+        icc_function_report found = {.size = sizeof found};
+        ck_assert_int_eq(icc_tree_get_rank_report(tree, rank, &found, NULL, NULL), ICC_OK);
         n_seen += found.critical != UINT32_MAX;
         icc_tree_free(tree);
         icc_grid_free(grid);
@@ -597,10 +597,10 @@ typedef struct job {
 static icc_status grow_and_lower(const icc_env *env, icc_error *err, void *argument)
 {
     const job *j = argument;
-    icc_field_report report = {.size = sizeof report};
+    icc_function_report report = {.size = sizeof report};
     icc_status status = icc_tree_grow(j->tree, j->values, rank, NULL, env, err);
     if (status == ICC_OK)
-        status = icc_tree_verify_ranks(j->tree, rank, &report, env, err);
+        status = icc_tree_get_rank_report(j->tree, rank, &report, env, err);
     icc_grid *fine = NULL;
     if (status == ICC_OK)
         status = icc_grid_refine(&fine, j->tree->grid, env, err);
@@ -642,15 +642,15 @@ START_TEST(wrong_arguments)
     ck_assert_int_eq(icc_grid_create_mask(&grid, 1, (size_t[]){3}, inside, NULL, NULL), ICC_OK);
     icc_tree *tree = tree_of(grid, 1);
     icc_grow_report report = {.size = 0};
-    icc_field_report found = {.size = sizeof found};
+    icc_function_report found = {.size = sizeof found};
     ck_assert_int_eq(icc_tree_grow(NULL, NULL, rank, NULL, NULL, NULL), ICC_ERR_ARGUMENT);
     ck_assert_int_eq(icc_tree_grow(tree, NULL, NULL, NULL, NULL, NULL), ICC_ERR_ARGUMENT);
     ck_assert_int_eq(icc_tree_grow(tree, NULL, rank, &report, NULL, NULL), ICC_ERR_ARGUMENT);
     ck_assert_int_eq(icc_tree_grow(tree, NULL, rank, NULL, NULL, NULL), ICC_OK);
     ck_assert_uint_eq(rank[1], 0);
-    ck_assert_int_eq(icc_tree_verify_ranks(NULL, rank, &found, NULL, NULL), ICC_ERR_ARGUMENT);
-    ck_assert_int_eq(icc_tree_verify_ranks(tree, NULL, &found, NULL, NULL), ICC_ERR_ARGUMENT);
-    ck_assert_int_eq(icc_tree_verify_ranks(tree, rank, NULL, NULL, NULL), ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_tree_get_rank_report(NULL, rank, &found, NULL, NULL), ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_tree_get_rank_report(tree, NULL, &found, NULL, NULL), ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_tree_get_rank_report(tree, rank, NULL, NULL, NULL), ICC_ERR_ARGUMENT);
     icc_tree_free(tree);
     icc_grid_free(grid);
 }

@@ -86,6 +86,38 @@ pub const ICC_ERR_FORMAT: i32 = 13;
 /// largest dimension of a domain or grid
 pub const ICC_MAX_DIM: usize = 6;
 
+// What `icc_error.index` counts.
+/// nothing: index is -1
+pub const ICC_ITEM_NONE: i32 = 0;
+/// vertices of a boundary, a mesh or the curves of a shape
+pub const ICC_ITEM_VERTEX: i32 = 1;
+/// facets of a boundary; edges of a polygon
+pub const ICC_ITEM_FACET: i32 = 2;
+/// simplices of a mesh
+pub const ICC_ITEM_SIMPLEX: i32 = 3;
+/// cells of a mask, the first axis fastest
+pub const ICC_ITEM_CELL: i32 = 4;
+/// vertices of a grid
+pub const ICC_ITEM_GRID_VERTEX: i32 = 5;
+/// axes
+pub const ICC_ITEM_AXIS: i32 = 6;
+/// points of a list
+pub const ICC_ITEM_POINT: i32 = 7;
+/// regions of a shape
+pub const ICC_ITEM_REGION: i32 = 8;
+/// segments of a shape's curves
+pub const ICC_ITEM_SEGMENT: i32 = 9;
+/// samples of a sampling
+pub const ICC_ITEM_SAMPLE: i32 = 10;
+/// handles
+pub const ICC_ITEM_HANDLE: i32 = 11;
+/// edges between handles
+pub const ICC_ITEM_EDGE: i32 = 12;
+/// lines to keep straight
+pub const ICC_ITEM_LINE: i32 = 13;
+/// entries of a list of nodes
+pub const ICC_ITEM_NODE: i32 = 14;
+
 /// What went wrong, filled in by the call that failed.
 ///
 /// Owned by the caller, who sets `size` to `sizeof(icc_error)` before the call;
@@ -100,10 +132,12 @@ pub struct icc_error {
     pub status: icc_status,
     /// 0: neither; 1: the source; 2: the target
     pub side: i32,
-    /// the vertex, facet, cell or point at fault, or -1
+    /// which item is at fault, from 0, or -1
     pub index: i64,
+    /// what it is: `ICC_ITEM_*`
+    pub item: i32,
     /// one line of English, always terminated
-    pub message: [c_char; 240],
+    pub message: [c_char; 252],
 }
 sized!(icc_error);
 
@@ -226,7 +260,7 @@ opaque!(
 /// tree, a function on it, piecewise linear gradient lines; in any dimension, on the simplices of
 /// the Kuhn triangulation and their faces. Not one-to-one: lines merge, so that an open share of
 /// the area collapses (in 3-D and beyond, most of it), and thin parts of a shape between grid
-/// vertices are not reached. `icc_chart_measure()` tells how much. Beyond 2-D the function may have
+/// vertices are not reached. `icc_chart_get_report()` tells how much. Beyond 2-D the function may have
 /// several maxima, too, and lines that end at them: `icc_chart_info.n_maxima`. Never certified.
 pub const ICC_METHOD_GRADIENT: i32 = 1;
 /// Integral Curve Coordinates along leaves that cannot merge: level lines of an angle-valued,
@@ -265,15 +299,19 @@ pub const ICC_FUNCTION_BILAPLACE: i32 = 4;
 /// discretely biharmonic, clamped: changes its sign unless constrained
 pub const ICC_FUNCTION_CLAMPED: i32 = 5;
 
-// Whether f(parent) >= (1 + eta) f(child) is imposed on the edges of the tree inside (Laplace and bi-Laplace;
+// Whether f(parent) >= (1 + min_fall) f(child) is imposed on the edges of the tree inside (Laplace and bi-Laplace;
 // decay and distance fulfil it anyway).
 /// only when the function without has other critical points than one
 /// maximum at the root (and, in 2-D, the saddles of holes, which no
-/// function can avoid)
+/// function can avoid); in charts, only when that is so after the
+/// root has moved, too, as for `ICC_CONSTRAINTS_NONE`. If they are
+/// imposed it does not move
 pub const ICC_CONSTRAINTS_NEEDED: i32 = 1;
-/// never
+/// never. Charts of bi-Laplace functions have the maximum where the
+/// function puts it, which may be beside the place asked for:
+/// `icc_chart_info::moved`
 pub const ICC_CONSTRAINTS_NONE: i32 = 2;
-/// always
+/// always: the maximum stays where it is asked for
 pub const ICC_CONSTRAINTS_ALL: i32 = 3;
 
 // How the linear systems of Laplace and bi-Laplace are solved.
@@ -308,16 +346,17 @@ pub struct icc_chart_options {
     /// where the maximum shall be: the nearest vertex inside is taken. NULL:
     /// the grassfire's (gradient, field), the deepest vertex (foliation; of a
     /// mesh of the caller's, the deepest inside). Disc has its own, the point that goes to the centre: NULL only.
+    /// Bi-Laplace functions without constraints may move it: `icc_chart_info::moved`
     pub maximum: *const f64,
     /// gradient: `ICC_CONSTRAINTS_*`; 0: needed
     pub constraints: i32,
     /// gradient: `ICC_SOLVER_*`; 0: by the predicted work
     pub solver: i32,
     /// gradient: least relative fall along tree edges, in (0, 0.01\]; 0: 1e-6
-    pub eta: f64,
+    pub min_fall: f64,
     /// gradient, constrained bi-Laplace: least value at the leaves, in
     /// (0, 0.01\]; 0: 1e-9
-    pub leaf: f64,
+    pub leaf_min: f64,
 }
 sized!(icc_chart_options);
 
@@ -370,7 +409,7 @@ pub struct icc_chart_info {
     /// of them on the boundary
     pub n_mesh_boundary: usize,
     /// triangles of the mesh, or simplices
-    pub n_mesh_triangles: usize,
+    pub n_mesh_simplices: usize,
     /// mesh edges whose ends have the same label: ordered by index
     pub n_ties: usize,
     /// share of the boundary flux that is harmonic (foliation)
@@ -380,7 +419,7 @@ pub struct icc_chart_info {
     /// time to make and verify the tree
     pub seconds_tree: f64,
     /// time to make and verify the function
-    pub seconds_field: f64,
+    pub seconds_function: f64,
     /// time to make the mesh
     pub seconds_mesh: f64,
     /// time to solve for the function or the map
@@ -411,16 +450,20 @@ pub struct icc_chart_info {
     pub flux_energy: f64,
     /// largest share of a simplex's flux that gets lost by rounding
     pub flux_divergence: f64,
+    /// gradient, bi-Laplace functions without constraints: how far `maximum`
+    /// lies from the vertex that was asked for (or the grassfire's), because
+    /// the function is greatest beside it; else 0
+    pub moved: f64,
 }
 sized!(icc_chart_info);
 
-/// Shares that `icc_chart_measure()` estimates from evenly spread points. All lie in \[0,1\]. Area and length
+/// Shares that `icc_chart_get_report()` estimates from evenly spread points. All lie in \[0,1\]. Area and length
 /// are those of 2-D; beyond, read volume and area, and so on. For a certified chart all are 0 without
 /// looking, and so are the counts.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
-pub struct icc_chart_measures {
-    /// set by the caller: `sizeof(icc_chart_measures)`
+pub struct icc_chart_report {
+    /// set by the caller: `sizeof(icc_chart_report)`
     pub size: usize,
     /// points of the area that were used
     pub n_points: usize,
@@ -436,7 +479,7 @@ pub struct icc_chart_measures {
     /// boundary length where the gradient does not point inward
     pub not_inward: f64,
 }
-sized!(icc_chart_measures);
+sized!(icc_chart_report);
 
 opaque!(
     /// A map from one domain to another that agrees with the boundaries.
@@ -494,7 +537,7 @@ pub struct icc_map_info {
     /// mesh: vertices
     pub n_vertices: usize,
     /// mesh: triangles; in 3-D tetrahedra, also in what follows
-    pub n_triangles: usize,
+    pub n_simplices: usize,
     /// mesh: triangles that were not positive before the repair
     pub n_inverted: usize,
     /// triangles that the repair could not make positive; the map is then of
@@ -547,7 +590,7 @@ pub struct icc_improve_report {
     /// steps
     pub n_iterations: usize,
     /// triangles in the end
-    pub n_triangles: usize,
+    pub n_simplices: usize,
     /// refinements
     pub n_levels: i32,
     /// 1: the progress callback ended it early
@@ -595,8 +638,6 @@ pub struct icc_picture {
     /// 1: the last of at least two channels is opacity, and the others are not
     /// multiplied by it; 0: there is none
     pub alpha: i32,
-    /// 0
-    pub reserved: i32,
     /// bytes from a row to the next
     pub stride: usize,
     /// the first row; any alignment. Only read in a source.
@@ -874,10 +915,10 @@ extern "C" {
     /// - `measures` (out): its `size` is set by the caller
     /// - `env`: may be NULL
     /// - `err`: may be NULL
-    pub fn icc_chart_measure(
+    pub fn icc_chart_get_report(
         chart: *const icc_chart,
         n_points: usize,
-        measures: *mut icc_chart_measures,
+        measures: *mut icc_chart_report,
         env: *const icc_env,
         err: *mut icc_error,
     ) -> icc_status;
@@ -1076,7 +1117,7 @@ extern "C" {
     /// - `err`: may be NULL
     ///
     /// Returns as `icc_map_create()`; `ICC_ERR_CERTIFICATE` when the target has moved too far: make a new map
-    pub fn icc_map_follow(
+    pub fn icc_map_retarget(
         out: *mut *mut icc_map,
         map: *const icc_map,
         target: *const icc_domain,
@@ -1091,15 +1132,15 @@ extern "C" {
     /// - `map`: the map
     /// - `vertices` (out): room for `icc_map_info.n_vertices` * dim doubles, or NULL
     /// - `images` (out): the same, or NULL
-    /// - `triangles` (out): room for `icc_map_info.n_triangles` * (dim + 1) indices, or NULL. Triangles are
+    /// - `triangles` (out): room for `icc_map_info.n_simplices` * (dim + 1) indices, or NULL. Triangles are
     ///   counter-clockwise, tetrahedra have positive determinants.
     ///
     /// Returns `ICC_OK`, `ICC_ERR_ARGUMENT`, `ICC_ERR_UNSUPPORTED` (not of kind mesh)
-    pub fn icc_map_mesh(
+    pub fn icc_map_get_mesh(
         map: *const icc_map,
         vertices: *mut f64,
         images: *mut f64,
-        triangles: *mut u32,
+        simplices: *mut u32,
     ) -> icc_status;
 
     /// Maps the vertices of a caller's mesh of triangles (2-D) or tetrahedra (3-D) and checks, exactly, whether the
@@ -1168,10 +1209,10 @@ extern "C" {
     /// Fills in `info`, whose `size` the caller has set. `ICC_OK` or `ICC_ERR_ARGUMENT`.
     pub fn icc_map_get_info(map: *const icc_map, info: *mut icc_map_info) -> icc_status;
 
-    /// The chart of the source; borrowed. NULL for maps made by `icc_map_follow()`.
+    /// The chart of the source; borrowed. NULL for maps made by `icc_map_retarget()`.
     pub fn icc_map_source_chart(map: *const icc_map) -> *const icc_chart;
 
-    /// The chart of the target; borrowed. NULL for maps made by `icc_map_follow()`.
+    /// The chart of the target; borrowed. NULL for maps made by `icc_map_retarget()`.
     pub fn icc_map_target_chart(map: *const icc_map) -> *const icc_chart;
 
     /// Source -> target.
@@ -1296,8 +1337,6 @@ pub struct icc_grid_info {
     pub size: usize,
     /// dimension, 1..`ICC_MAX_DIM`
     pub dim: i32,
-    /// 0
-    pub reserved: i32,
     /// vertices along each axis
     pub shape: [usize; ICC_MAX_DIM],
     /// position of vertex 0
@@ -1315,8 +1354,6 @@ pub struct icc_grid_info {
     /// grid cells along the longest side of the domain; 0 for a grid from
     /// a mask of vertices
     pub cells: i32,
-    /// 0
-    pub reserved2: i32,
 }
 sized!(icc_grid_info);
 
@@ -1333,15 +1370,13 @@ pub struct icc_tree_options {
     pub size: usize,
     /// `ICC_TREE_*`; 0: thesis
     pub form: i32,
-    /// 0
-    pub reserved: i32,
     /// the order in which a generation expands along the axes, a
     /// permutation of 0..dim-1; NULL: 0, 1, ..
     pub axis_order: *const i32,
 }
 sized!(icc_tree_options);
 
-/// What `icc_tree_verify()` found.
+/// What `icc_tree_get_report()` found.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct icc_tree_report {
@@ -1364,14 +1399,14 @@ sized!(icc_tree_report);
 
 opaque!(
     /// A function on the vertices of a tree that falls from parent to child.
-    icc_field
+    icc_function
 );
 
-/// Options of `icc_field_create()`.
+/// Options of `icc_function_create()`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
-pub struct icc_field_options {
-    /// set by the caller: `sizeof(icc_field_options)`
+pub struct icc_function_options {
+    /// set by the caller: `sizeof(icc_function_options)`
     pub size: usize,
     /// `ICC_FUNCTION_*`; 0: decay
     pub function: i32,
@@ -1381,21 +1416,19 @@ pub struct icc_field_options {
     /// constrained bi-Laplace are always factorised; Laplace is iterated
     /// where a factorisation loses small values, as in long thin rings
     pub solver: i32,
-    /// 0
-    pub reserved: i32,
     /// least relative fall from parent to child, in (0, 0.01\]; 0: 1e-6
-    pub eta: f64,
+    pub min_fall: f64,
     /// constrained bi-Laplace: least value at vertices without children, in
     /// (0, 0.01\]; 0: 1e-9
-    pub leaf: f64,
+    pub leaf_min: f64,
 }
-sized!(icc_field_options);
+sized!(icc_function_options);
 
-/// What `icc_field_get_info()` tells. Members that the function does not have are 0.
+/// What `icc_function_get_info()` tells. Members that the function does not have are 0.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
-pub struct icc_field_info {
-    /// set by the caller: `sizeof(icc_field_info)`
+pub struct icc_function_info {
+    /// set by the caller: `sizeof(icc_function_info)`
     pub size: usize,
     /// `ICC_FUNCTION_*`
     pub function: i32,
@@ -1403,8 +1436,6 @@ pub struct icc_field_info {
     pub constrained: i32,
     /// `ICC_SOLVER_*`
     pub solver: i32,
-    /// 0
-    pub reserved: i32,
     /// vertices inside that the tree reaches, but for the root
     pub n_unknowns: usize,
     /// tree edges where the function without constraints breaks the
@@ -1420,11 +1451,11 @@ pub struct icc_field_info {
     pub work: f64,
     /// KKT residual before the final sweep from the root to the leaves: the largest
     /// |min(slack, multiplier)| of an inequality, or |row of the equation| if
-    /// there are none; the maximum of f is 1
+    /// there are none; f is 1 at the root
     pub residual_before: f64,
     /// the same after the sweep: for the function that is handed out
     pub residual: f64,
-    /// the smallest of `icc_field_logs()` inside; 0 if there are none
+    /// the smallest of `icc_function_logs()` inside; 0 if there are none
     pub least_log: f64,
     /// time to number the rows and to build the matrices
     pub seconds_setup: f64,
@@ -1436,14 +1467,22 @@ pub struct icc_field_info {
     pub seconds_solve: f64,
     /// time to count critical points, sweep and find the residuals
     pub seconds_verify: f64,
+    /// by what share of its value at the root the function is greater at `highest`;
+    /// 0 when that is the root
+    pub excess: f64,
+    /// the vertex inside with the greatest value
+    pub highest: u32,
+    /// 1: that is not the root, where curves are to end. Only seen for bilaplace
+    /// and clamped without inequalities; `icc_chart_create()` then moves the root
+    pub beside: i32,
 }
-sized!(icc_field_info);
+sized!(icc_function_info);
 
 /// Critical points of a function on the vertices inside, by the links of the Kuhn triangulation.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
-pub struct icc_field_report {
-    /// set by the caller: `sizeof(icc_field_report)`
+pub struct icc_function_report {
+    /// set by the caller: `sizeof(icc_function_report)`
     pub size: usize,
     /// vertices with no higher neighbour
     pub n_maxima: usize,
@@ -1456,12 +1495,10 @@ pub struct icc_field_report {
     /// the first critical vertex in index order other than the root, or
     /// UINT32_MAX
     pub critical: u32,
-    /// 0
-    pub reserved: u32,
 }
-sized!(icc_field_report);
+sized!(icc_function_report);
 
-// Kinds of edges in `icc_field_edges()`.
+// Kinds of edges in `icc_function_get_edges()`.
 /// the gradients on both sides point to the edge
 pub const ICC_EDGE_COMPRESSION: i32 = 1;
 /// the gradients on both sides point away from it
@@ -1469,7 +1506,7 @@ pub const ICC_EDGE_EXPANSION: i32 = 2;
 
 // How `icc_tree_grow()` found an order.
 /// the order wished for is regular
-pub const ICC_GROW_AS_WISHED: i32 = 1;
+pub const ICC_GROW_AS_GIVEN: i32 = 1;
 /// some vertices had to wait for others
 pub const ICC_GROW_GROWN: i32 = 2;
 /// growth got stuck; the vertices were removed one by one instead, and the
@@ -1490,13 +1527,13 @@ pub struct icc_grow_report {
     /// vertices inside that the tree reaches
     pub n_vertices: usize,
     /// vertices that had to wait while growing
-    pub n_postponed: usize,
+    pub n_deferred: usize,
     /// vertices left when growth got stuck
     pub n_unplaced: usize,
     /// vertices left, but for the root, when thinning got stuck, too
-    pub n_left: usize,
+    pub n_remaining: usize,
     /// edges of the Kuhn triangulation along which the order is not as wished
-    pub n_turned: usize,
+    pub n_reversed: usize,
     /// links that were looked at: less than 2^(dim+3) a vertex
     pub n_tests: usize,
 }
@@ -1598,7 +1635,7 @@ extern "C" {
     /// - `err`: may be NULL
     ///
     /// Cost: O(vertices) time and memory.
-    pub fn icc_grid_maximum(
+    pub fn icc_grid_find_maximum(
         grid: *const icc_grid,
         vertex: *mut u32,
         rounds: *mut u32,
@@ -1607,7 +1644,7 @@ extern "C" {
     ) -> icc_status;
 
     /// The inside vertex nearest to a point (the smallest index of several). O(vertices).
-    pub fn icc_grid_nearest(grid: *const icc_grid, point: *const f64, vertex: *mut u32) -> icc_status;
+    pub fn icc_grid_find_nearest(grid: *const icc_grid, point: *const f64, vertex: *mut u32) -> icc_status;
 
     /// Grows the tree of Algorithm 2 from a vertex inside.
     ///
@@ -1618,7 +1655,7 @@ extern "C" {
     /// mask may end at its last vertex, and layers beyond it are then absent.
     ///
     /// Theorem 2 of the paper (the result is a cousin tree) held in every 2-D case tried; it is false in
-    /// 3-D and beyond. Nothing is assumed here: see `icc_tree_verify()`, and `icc_tree_grow()` for an order
+    /// 3-D and beyond. Nothing is assumed here: see `icc_tree_get_report()`, and `icc_tree_grow()` for an order
     /// that serves the purpose there.
     ///
     /// - `out` (out): the tree; owned by the caller; keeps the grid alive
@@ -1648,7 +1685,7 @@ extern "C" {
     pub fn icc_tree_generations(tree: *const icc_tree) -> *const i32;
 
     /// Checks the cousin rule (Definition 2) on every pair of neighbours inside. O(vertices * dim).
-    pub fn icc_tree_verify(
+    pub fn icc_tree_get_report(
         tree: *const icc_tree,
         report: *mut icc_tree_report,
         env: *const icc_env,
@@ -1667,9 +1704,14 @@ extern "C" {
     /// inside, which is f = c L^-2 e_root (simply supported, Navier); clamped: over the vertices next to them
     /// outside, too. Laplace and bilaplace are positive inside, however far from the root; clamped changes its
     /// sign unless it is constrained. With constraints, the least energy among the functions that fall by
-    /// eta along every tree edge inside and, for bilaplace and clamped, are at least `leaf` at the leaves.
+    /// `min_fall` along every tree edge inside and, for bilaplace and clamped, are at least `leaf_min` at the leaves.
     ///
-    /// Nothing is assumed about critical points: see `icc_field_verify()`. Inequalities on a tree that is not a
+    /// Bilaplace and clamped are shapes of a plate that is loaded at the root, and a plate is highest beside
+    /// a load that is not in its middle: without constraints the maximum may be another vertex, see
+    /// `icc_function_info::highest` and `icc_function_info::beside`. (On a tree that grows from there the function is
+    /// another one; `icc_chart_create()` moves the root until the two agree.)
+    ///
+    /// Nothing is assumed about critical points: see `icc_function_get_report()`. Inequalities on a tree that is not a
     /// cousin tree, as in 3-D, do not rule out others than the maximum.
     ///
     /// - `out` (out): the field; owned by the caller; keeps the tree alive
@@ -1679,24 +1721,24 @@ extern "C" {
     /// - `err`: may be NULL
     ///
     /// Returns `ICC_OK`; `ICC_ERR_SOLVER` when a solver did not converge, which has only been seen with
-    /// inequalities on bilaplace and clamped, where they ask for more than 1 at the root (as `leaf` and `eta` do of
-    /// deep trees) or `leaf` is 1e-2; `ICC_ERR_RESOLUTION` when the root is
+    /// inequalities on bilaplace and clamped, where they ask for more than 1 at the root (as `leaf_min` and `min_fall` do of
+    /// deep trees) or `leaf_min` is 1e-2; `ICC_ERR_RESOLUTION` when the root is
     /// the only vertex inside (laplace, bilaplace, clamped); `ICC_ERR_UNSUPPORTED` for clamped, and
     /// for bilaplace under inequalities, in a build without AMD; `ICC_ERR_ARGUMENT`,
     /// `ICC_ERR_MEMORY`, `ICC_ERR_CANCELLED`, `ICC_ERR_VERSION`
-    pub fn icc_field_create(
-        out: *mut *mut icc_field,
+    pub fn icc_function_create(
+        out: *mut *mut icc_function,
         tree: *const icc_tree,
-        options: *const icc_field_options,
+        options: *const icc_function_options,
         env: *const icc_env,
         err: *mut icc_error,
     ) -> icc_status;
 
     /// The function of a gradient chart, or NULL for other charts; borrowed, as is what hangs on it.
-    pub fn icc_chart_field(chart: *const icc_chart) -> *const icc_field;
+    pub fn icc_chart_function(chart: *const icc_chart) -> *const icc_function;
 
     /// The tree that a field was made on; borrowed.
-    pub fn icc_field_tree(field: *const icc_field) -> *const icc_tree;
+    pub fn icc_function_tree(field: *const icc_function) -> *const icc_tree;
 
     /// The grid that a tree was grown on; borrowed.
     pub fn icc_tree_grid(tree: *const icc_tree) -> *const icc_grid;
@@ -1705,27 +1747,27 @@ extern "C" {
     pub fn icc_tree_root(tree: *const icc_tree) -> u32;
 
     /// Frees a field.
-    pub fn icc_field_free(field: *mut icc_field);
+    pub fn icc_function_free(field: *mut icc_function);
 
     /// Fills in `info`, whose `size` the caller has set. `ICC_OK` or `ICC_ERR_ARGUMENT`.
-    pub fn icc_field_get_info(field: *const icc_field, info: *mut icc_field_info) -> icc_status;
+    pub fn icc_function_get_info(field: *const icc_function, info: *mut icc_function_info) -> icc_status;
 
     /// One value per grid vertex; NaN where the tree does not reach; borrowed. (Beyond 2-D the function of a
     /// gradient chart goes on to some vertices outside.) Laplace and bilaplace decay exponentially in long
-    /// limbs: values below 2^-1022 are 0 here, see `icc_field_logs()`.
-    pub fn icc_field_values(field: *const icc_field) -> *const f64;
+    /// limbs: values below 2^-1022 are 0 here, see `icc_function_logs()`.
+    pub fn icc_function_values(field: *const icc_function) -> *const f64;
 
     /// The natural logarithm of every value, accurate also where the values underflow; -HUGE_VAL outside, NaN
     /// where the tree does not reach; borrowed. NULL for decay and distance, and when some value
     /// inside is not positive.
-    pub fn icc_field_logs(field: *const icc_field) -> *const f64;
+    pub fn icc_function_logs(field: *const icc_function) -> *const f64;
 
     /// Counts critical points. Vertices outside or without a value count as lower than all others, equal
     /// values are ordered by vertex index. About 10 ns a vertex in 2-D and 3-D; up to 1, 4 and 10 us in
     /// 4-D, 5-D and 6-D.
-    pub fn icc_field_verify(
-        field: *const icc_field,
-        report: *mut icc_field_report,
+    pub fn icc_function_get_report(
+        field: *const icc_function,
+        report: *mut icc_function_report,
         env: *const icc_env,
         err: *mut icc_error,
     ) -> icc_status;
@@ -1741,8 +1783,8 @@ extern "C" {
     /// - `n_tested` (out): how many edges were looked at, or NULL
     ///
     /// Returns `ICC_OK`, `ICC_ERR_ARGUMENT`, `ICC_ERR_UNSUPPORTED` (not 2-D)
-    pub fn icc_field_edges(
-        field: *const icc_field,
+    pub fn icc_function_get_edges(
+        field: *const icc_function,
         capacity: usize,
         edges: *mut u32,
         kinds: *mut i32,
@@ -1755,7 +1797,7 @@ extern "C" {
     /// In 2-D the tree's own order has been so in every case tried; beyond, it is often not (see
     /// `icc_tree_create()`). Here a set grows from the root and takes, in the order wished for, each vertex
     /// whose neighbours in the set are a contractible part of its link; others wait until they are. (Links
-    /// are those of the Kuhn triangulation, decided as for `icc_field_report.n_saddles`.) If growth gets
+    /// are those of the Kuhn triangulation, decided as for `icc_function_report.n_saddles`.) If growth gets
     /// stuck, the set of all vertices is thinned down to the root instead. A function that falls with the
     /// rank has one critical point, the maximum, in any dimension. There are shapes where both fail, such as
     /// Bing's house with two rooms: a finer grid may help. Nothing helps a shape that is not a ball, as the
@@ -1788,18 +1830,18 @@ extern "C" {
     ) -> icc_status;
 
     /// Counts the critical vertices of any order of the vertices inside that the tree reaches, as
-    /// `icc_field_verify()` does for functions: by looking at every link, whatever the order comes from.
+    /// `icc_function_get_report()` does for functions: by looking at every link, whatever the order comes from.
     ///
     /// - `tree`: the tree
     /// - `rank`: one number per grid vertex, smaller for higher vertices; equal ones count as
-    ///   `icc_field_verify()` says. Those of other vertices do not matter.
+    ///   `icc_function_get_report()` says. Those of other vertices do not matter.
     /// - `report` (out): its `size` is set by the caller
     /// - `env`: may be NULL
     /// - `err`: may be NULL
-    pub fn icc_tree_verify_ranks(
+    pub fn icc_tree_get_rank_report(
         tree: *const icc_tree,
         rank: *const u32,
-        report: *mut icc_field_report,
+        report: *mut icc_function_report,
         env: *const icc_env,
         err: *mut icc_error,
     ) -> icc_status;
@@ -1899,7 +1941,7 @@ sized!(icc_sampling_info);
 
 opaque!(
     /// Handles, and the weight of each at every place of a shape.
-    icc_kernel
+    icc_weights
 );
 
 // The kernel that is summed up.
@@ -1945,16 +1987,14 @@ pub struct icc_line {
     /// 0, or k to stay parallel to line k - 1, an earlier one (5.11), which it must be to
     /// 1e-9 of its length; `to` must then be neither a handle nor on an earlier line
     pub parallel: i32,
-    /// 0
-    pub reserved: i32,
 }
 zeroed!(icc_line);
 
-/// Options of `icc_kernel_create()`.
+/// Options of `icc_weights_create()`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
-pub struct icc_kernel_options {
-    /// set by the caller: `sizeof(icc_kernel_options)`
+pub struct icc_weights_options {
+    /// set by the caller: `sizeof(icc_weights_options)`
     pub size: usize,
     /// `ICC_KERNEL_*`; 0: Wendland
     pub kernel: i32,
@@ -1966,10 +2006,10 @@ pub struct icc_kernel_options {
     pub steps: i32,
     /// an affine function beside the kernels, which makes sums and reproduction
     /// exact between the samples: 0 or 1 with, -1 without (the thesis)
-    pub tail: i32,
+    pub affine_tail: i32,
     /// diffusion between samples that see each other inside the shape: 0 or 1; -1
     /// through walls, too (the thesis)
-    pub visible: i32,
+    pub within_shape: i32,
     /// width of the kernel; 0: `icc_sampling_info.sigma`
     pub sigma: f64,
     /// Gauss: in sigma; 0: 5
@@ -1985,13 +2025,13 @@ pub struct icc_kernel_options {
     /// n_samples * n_handles, sample after sample; for initial given
     pub initial_weights: *const f64,
 }
-sized!(icc_kernel_options);
+sized!(icc_weights_options);
 
-/// What `icc_kernel_get_info()` tells.
+/// What `icc_weights_get_info()` tells.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
-pub struct icc_kernel_info {
-    /// set by the caller: `sizeof(icc_kernel_info)`
+pub struct icc_weights_info {
+    /// set by the caller: `sizeof(icc_weights_info)`
     pub size: usize,
     /// dimension
     pub dim: i32,
@@ -2023,15 +2063,15 @@ pub struct icc_kernel_info {
     /// time to place the nodes and to factorise
     pub seconds_factor: f64,
 }
-sized!(icc_kernel_info);
+sized!(icc_weights_info);
 
 /// How well weights do what they should, at points of the caller's choice.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
-pub struct icc_kernel_report {
-    /// set by the caller: `sizeof(icc_kernel_report)`
+pub struct icc_weights_report {
+    /// set by the caller: `sizeof(icc_weights_report)`
     pub size: usize,
-    /// see `icc_kernel_info.n_infeasible`
+    /// see `icc_weights_info.n_infeasible`
     pub n_infeasible: usize,
     /// points where a weight is below -1e-9
     pub n_negative: usize,
@@ -2047,10 +2087,10 @@ pub struct icc_kernel_report {
     pub linearity: f64,
     /// the least weight
     pub least_weight: f64,
-    /// see `icc_kernel_info.definiteness`
+    /// see `icc_weights_info.definiteness`
     pub definiteness: f64,
 }
-sized!(icc_kernel_report);
+sized!(icc_weights_report);
 
 opaque!(
     /// Points with their weights, and the derivatives if asked for: for posing again and again.
@@ -2186,21 +2226,21 @@ extern "C" {
     ///
     /// Cost with n nodes, m handles and k neighbours within the kernel's reach: O(steps n k m) for diffusion,
     /// O(n m) for the weights, and a sparse factorisation, O(n^1.5) in 2-D.
-    pub fn icc_kernel_create(
-        out: *mut *mut icc_kernel,
+    pub fn icc_weights_create(
+        out: *mut *mut icc_weights,
         sampling: *const icc_sampling,
         n_handles: usize,
         handles: *const f64,
-        options: *const icc_kernel_options,
+        options: *const icc_weights_options,
         env: *const icc_env,
         err: *mut icc_error,
     ) -> icc_status;
 
     /// Frees a kernel.
-    pub fn icc_kernel_free(kernel: *mut icc_kernel);
+    pub fn icc_weights_free(kernel: *mut icc_weights);
 
     /// Fills in `info`, whose `size` the caller has set. `ICC_OK` or `ICC_ERR_ARGUMENT`.
-    pub fn icc_kernel_get_info(kernel: *const icc_kernel, info: *mut icc_kernel_info) -> icc_status;
+    pub fn icc_weights_get_info(kernel: *const icc_weights, info: *mut icc_weights_info) -> icc_status;
 
     /// Copies the nodes.
     ///
@@ -2209,8 +2249,8 @@ extern "C" {
     /// - `initial` (out): n_nodes * n_handles initial weights, or NULL
     /// - `weights` (out): n_nodes * n_handles weights, or NULL
     /// - `status` (out): n_nodes statuses: `ICC_OK`, or `ICC_ERR_SOLVER` where QP was relaxed; or NULL
-    pub fn icc_kernel_get_nodes(
-        kernel: *const icc_kernel,
+    pub fn icc_weights_get_nodes(
+        kernel: *const icc_weights,
         points: *mut f64,
         initial: *mut f64,
         weights: *mut f64,
@@ -2232,9 +2272,9 @@ extern "C" {
     ///
     /// Cost: as many weights are optimised as there are nodes within the radius, and one solution with the
     /// factor that there is.
-    pub fn icc_kernel_paint(
-        out: *mut *mut icc_kernel,
-        kernel: *const icc_kernel,
+    pub fn icc_weights_paint(
+        out: *mut *mut icc_weights,
+        kernel: *const icc_weights,
         handle: usize,
         centre: *const f64,
         radius: f64,
@@ -2245,9 +2285,9 @@ extern "C" {
 
     /// The same with wishes of the caller's: at node nodes\[i\] the weights start from
     /// weights\[i * n_handles ...\] and are optimised again. No node may be named twice.
-    pub fn icc_kernel_repaint(
-        out: *mut *mut icc_kernel,
-        kernel: *const icc_kernel,
+    pub fn icc_weights_repaint(
+        out: *mut *mut icc_weights,
+        kernel: *const icc_weights,
         n: usize,
         nodes: *const u32,
         weights: *const f64,
@@ -2257,9 +2297,9 @@ extern "C" {
 
     /// The same nodes and initial weights with another method (`ICC_WEIGHTS_*`): what was painted or stiffened is
     /// gone, as in the thesis (6.3.1).
-    pub fn icc_kernel_set_method(
-        out: *mut *mut icc_kernel,
-        kernel: *const icc_kernel,
+    pub fn icc_weights_with_method(
+        out: *mut *mut icc_weights,
+        kernel: *const icc_weights,
         method: i32,
         env: *const icc_env,
         err: *mut icc_error,
@@ -2278,9 +2318,9 @@ extern "C" {
     /// - `energy`: what was minimised, before and after; or NULL
     /// - `env`: may be NULL
     /// - `err`: may be NULL
-    pub fn icc_kernel_stiffen(
-        out: *mut *mut icc_kernel,
-        kernel: *const icc_kernel,
+    pub fn icc_weights_stiffen(
+        out: *mut *mut icc_weights,
+        kernel: *const icc_weights,
         n: usize,
         nodes: *const u32,
         rigidity: *const f64,
@@ -2300,8 +2340,8 @@ extern "C" {
     /// - `status` (out): n statuses: `ICC_OK`, `ICC_ERR_ARGUMENT` (not finite; the weights are NaN); or NULL
     /// - `n_failed` (out): how many points have none, or NULL
     /// - `env`: may be NULL
-    pub fn icc_kernel_weights(
-        kernel: *const icc_kernel,
+    pub fn icc_weights_evaluate(
+        kernel: *const icc_weights,
         n: usize,
         points: *const f64,
         weights: *mut f64,
@@ -2312,11 +2352,11 @@ extern "C" {
     ) -> icc_status;
 
     /// Measures the weights at n points (n * dim coordinates). The report's `size` is set by the caller.
-    pub fn icc_kernel_get_report(
-        kernel: *const icc_kernel,
+    pub fn icc_weights_get_report(
+        kernel: *const icc_weights,
         n: usize,
         points: *const f64,
-        report: *mut icc_kernel_report,
+        report: *mut icc_weights_report,
         env: *const icc_env,
         err: *mut icc_error,
     ) -> icc_status;
@@ -2332,7 +2372,7 @@ extern "C" {
     /// - `err`: may be NULL
     pub fn icc_binding_create(
         out: *mut *mut icc_binding,
-        kernel: *const icc_kernel,
+        kernel: *const icc_weights,
         n: usize,
         points: *const f64,
         derivatives: i32,
@@ -2352,7 +2392,7 @@ extern "C" {
     ) -> icc_status;
 
     /// Copies the handles' positions, n_handles * dim, and the weights, n_points * n_handles; each may be NULL.
-    pub fn icc_binding_get(binding: *const icc_binding, handles: *mut f64, weights: *mut f64) -> icc_status;
+    pub fn icc_binding_get_weights(binding: *const icc_binding, handles: *mut f64, weights: *mut f64) -> icc_status;
 
     /// Poses the points: x -> sum of w_j(x) (A_j x + b_j) (3.37), computed as x + sum of w_j(x) (A_j x + b_j - x): the
     /// same where weights sum to 1, and the rest pose is exact.

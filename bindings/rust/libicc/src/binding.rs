@@ -4,7 +4,7 @@ use crate::error::{check, Error, Result};
 use crate::object::{object, to_bytes};
 use crate::slices::{count, exactly, int, pointer_mut, product};
 use crate::sys;
-use crate::weights::Kernel;
+use crate::weights::Weights;
 use std::ptr;
 
 object!(
@@ -30,7 +30,7 @@ impl Binding {
     ///
     /// # Errors
     /// [`Status::ARGUMENT`](crate::Status::ARGUMENT), with the point that is not finite as `index`.
-    pub fn new(kernel: &Kernel, points: &[f64], derivatives: bool, env: &mut Env<'_>) -> Result<Binding> {
+    pub fn new(kernel: &Weights, points: &[f64], derivatives: bool, env: &mut Env<'_>) -> Result<Binding> {
         let n = count(points, kernel.info().dim as usize, "points")?;
         Binding::make(env, |out, env, err| {
             let (kernel, points, derivatives) = (kernel.as_ptr(), points.as_ptr(), i32::from(derivatives));
@@ -52,7 +52,7 @@ impl Binding {
         let counts = self.counts();
         let mut handles = vec![0.0; counts.n_handles * counts.dim];
         // SAFETY: there is room for all.
-        check(unsafe { sys::icc_binding_get(self.as_ptr(), handles.as_mut_ptr(), ptr::null_mut()) })?;
+        check(unsafe { sys::icc_binding_get_weights(self.as_ptr(), handles.as_mut_ptr(), ptr::null_mut()) })?;
         Ok(handles)
     }
 
@@ -61,7 +61,7 @@ impl Binding {
         let counts = self.counts();
         let mut weights = vec![0.0; product(&[counts.n_points, counts.n_handles])?];
         // SAFETY: there is room for all.
-        check(unsafe { sys::icc_binding_get(self.as_ptr(), ptr::null_mut(), weights.as_mut_ptr()) })?;
+        check(unsafe { sys::icc_binding_get_weights(self.as_ptr(), ptr::null_mut(), weights.as_mut_ptr()) })?;
         Ok(weights)
     }
 

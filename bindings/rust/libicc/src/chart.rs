@@ -2,13 +2,13 @@
 use crate::domain::{BoundaryPoints, Domain};
 use crate::env::Env;
 use crate::error::{Result, Status};
-use crate::field::Field;
+use crate::function::Function;
 use crate::object::{object, to_bytes, Borrowed};
 use crate::slices::{count, exactly, int, pointer, pointer_mut};
 use crate::sys;
 
 pub use crate::sys::icc_chart_info as ChartInfo;
-pub use crate::sys::icc_chart_measures as ChartMeasures;
+pub use crate::sys::icc_chart_report as ChartReport;
 
 object!(
     /// Coordinates of the inside of a domain: a boundary point, and a share of the way from there to the maximum.
@@ -46,7 +46,7 @@ pub enum Method {
 /// The function whose gradient lines are followed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(i32)]
-pub enum Function {
+pub enum FunctionKind {
     /// 10 at the maximum, times 0.95 from parent to child
     Decay = sys::ICC_FUNCTION_DECAY,
     /// minus the distance in the tree
@@ -101,7 +101,7 @@ pub struct ChartOptions<'a> {
     /// where the maximum shall be, dim coordinates
     pub maximum: Option<&'a [f64]>,
     /// gradient: the function
-    pub function: Option<Function>,
+    pub function: Option<FunctionKind>,
     /// gradient: the tree
     pub tree: Option<TreeForm>,
     /// gradient: whether the function is constrained
@@ -109,9 +109,9 @@ pub struct ChartOptions<'a> {
     /// gradient: the solver
     pub solver: Option<Solver>,
     /// gradient: least relative fall along tree edges; 0: 1e-6
-    pub eta: f64,
+    pub min_fall: f64,
     /// gradient, constrained bi-Laplace: least value at the leaves; 0: 1e-9
-    pub leaf: f64,
+    pub leaf_min: f64,
 }
 
 impl ChartOptions<'_> {
@@ -128,8 +128,8 @@ impl ChartOptions<'_> {
             maximum: pointer(self.maximum),
             constraints: self.constraints.map_or(0, |value| value as i32),
             solver: self.solver.map_or(0, |value| value as i32),
-            eta: self.eta,
-            leaf: self.leaf,
+            min_fall: self.min_fall,
+            leaf_min: self.leaf_min,
             ..Default::default()
         })
     }
@@ -224,17 +224,17 @@ impl Chart {
     }
 
     /// The function of a gradient chart, `None` for others.
-    pub fn field(&self) -> Option<Borrowed<'_, Field>> {
+    pub fn function(&self) -> Option<Borrowed<'_, Function>> {
         // SAFETY: the chart keeps its field.
-        unsafe { Field::found(sys::icc_chart_field(self.as_ptr())).map(|field| Borrowed::new(field)) }
+        unsafe { Function::found(sys::icc_chart_function(self.as_ptr())).map(|field| Borrowed::new(field)) }
     }
 
     /// Estimates what the coordinates miss from `n_points` evenly spread points; 0: 4096.
-    pub fn measure(&self, n_points: usize, env: &mut Env<'_>) -> Result<ChartMeasures> {
-        let mut measures = ChartMeasures::default();
+    pub fn report(&self, n_points: usize, env: &mut Env<'_>) -> Result<ChartReport> {
+        let mut measures = ChartReport::default();
         env.call(|env, err| {
             // SAFETY: `size` is set.
-            unsafe { sys::icc_chart_measure(self.as_ptr(), n_points, &mut measures, env, err) }
+            unsafe { sys::icc_chart_get_report(self.as_ptr(), n_points, &mut measures, env, err) }
         })?;
         Ok(measures)
     }

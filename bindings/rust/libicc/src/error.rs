@@ -67,6 +67,57 @@ pub enum Side {
     Target,
 }
 
+/// What [`Error::index`] counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Item {
+    /// vertices of a boundary, a mesh or the curves of a shape
+    Vertex,
+    /// facets of a boundary; edges of a polygon
+    Facet,
+    /// simplices of a mesh
+    Simplex,
+    /// cells of a mask, the first axis fastest
+    Cell,
+    /// vertices of a grid
+    GridVertex,
+    /// axes
+    Axis,
+    /// points of a list
+    Point,
+    /// regions of a shape
+    Region,
+    /// segments of a shape's curves
+    Segment,
+    /// samples of a sampling
+    Sample,
+    /// handles
+    Handle,
+    /// edges between handles
+    Edge,
+    /// lines to keep straight
+    Line,
+    /// entries of a list of nodes
+    Node,
+}
+
+/// In the order of the numbers `ICC_ITEM_*`, from 1.
+const ITEMS: [Item; sys::ICC_ITEM_NODE as usize] = [
+    Item::Vertex,
+    Item::Facet,
+    Item::Simplex,
+    Item::Cell,
+    Item::GridVertex,
+    Item::Axis,
+    Item::Point,
+    Item::Region,
+    Item::Segment,
+    Item::Sample,
+    Item::Handle,
+    Item::Edge,
+    Item::Line,
+    Item::Node,
+];
+
 /// Why a call failed.
 ///
 /// ```
@@ -74,15 +125,17 @@ pub enum Side {
 /// let bow_tie = [0.0, 0.0, 1.0, 1.0, 1.0, 0.0, 0.0, 1.0];
 /// let error = Domain::polygon(&bow_tie, &mut Env::new()).unwrap_err();
 /// assert_eq!(error.status, Status::BOUNDARY);
-/// assert!(error.index.is_some());
+/// assert!(error.index.is_some() && error.item == Some(libicc::Item::Facet));
 /// println!("{}", error);
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Error {
     /// what kind of failure; never [`Status::OK`]
     pub status: Status,
-    /// the vertex, facet, cell or point at fault
+    /// which item is at fault, from 0
     pub index: Option<usize>,
+    /// what that item is
+    pub item: Option<Item>,
     /// which of two shapes is at fault
     pub side: Option<Side>,
     /// one line of English
@@ -94,13 +147,13 @@ pub type Result<T> = std::result::Result<T, Error>;
 
 impl Error {
     pub(crate) fn argument(message: impl Into<String>) -> Error {
-        Error { status: Status::ARGUMENT, index: None, side: None, message: message.into() }
+        Error { status: Status::ARGUMENT, index: None, item: None, side: None, message: message.into() }
     }
 
     /// For calls that fill in no `icc_error`.
     pub(crate) fn bare(status: sys::icc_status) -> Error {
         let status = Status(status);
-        Error { status, index: None, side: None, message: status.name().to_string() }
+        Error { status, index: None, item: None, side: None, message: status.name().to_string() }
     }
 
     pub(crate) fn from_raw(status: sys::icc_status, raw: &sys::icc_error) -> Error {
@@ -112,6 +165,7 @@ impl Error {
         Error {
             status: Status(status),
             index: usize::try_from(raw.index).ok(),
+            item: usize::try_from(raw.item - 1).ok().and_then(|at| ITEMS.get(at).copied()),
             side: match raw.side {
                 1 => Some(Side::Source),
                 2 => Some(Side::Target),

@@ -86,7 +86,7 @@ impl Grid {
         let (mut vertex, mut rounds) = (0, 0);
         env.call(|env, err| {
             // SAFETY: two numbers to write to.
-            unsafe { sys::icc_grid_maximum(self.as_ptr(), &mut vertex, &mut rounds, env, err) }
+            unsafe { sys::icc_grid_find_maximum(self.as_ptr(), &mut vertex, &mut rounds, env, err) }
         })?;
         Ok((vertex, rounds))
     }
@@ -96,7 +96,7 @@ impl Grid {
         exactly(point, self.info().dim as usize, "point")?;
         let mut vertex = 0;
         // SAFETY: dim coordinates.
-        check(unsafe { sys::icc_grid_nearest(self.as_ptr(), point.as_ptr(), &mut vertex) })?;
+        check(unsafe { sys::icc_grid_find_nearest(self.as_ptr(), point.as_ptr(), &mut vertex) })?;
         Ok(vertex)
     }
 }

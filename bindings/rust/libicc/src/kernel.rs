@@ -1,12 +1,12 @@
 //! Kernel coordinates: smooth blending weights for handles, without a mesh.
 //!
-//! [`Shape`] (regions and curves) -> [`Sampling`] (points spread over it) -> [`Kernel`] (handles, and a weight of
+//! [`Shape`] (regions and curves) -> [`Sampling`] (points spread over it) -> [`Weights`] (handles, and a weight of
 //! each at every place) -> [`Binding`] (the same at points of the caller's) -> [`Pose`].
 //!
-//! Nothing here is certified to be one-to-one; [`Kernel::report`] measures how well weights do what they should.
+//! Nothing here is certified to be one-to-one; [`Weights::report`] measures how well weights do what they should.
 //!
 //! ```
-//! use libicc::kernel::{Binding, Kernel, KernelOptions, Pose, Sampling, SamplingOptions, Shape};
+//! use libicc::kernel::{Binding, Weights, WeightsOptions, Pose, Sampling, SamplingOptions, Shape};
 //! use libicc::{Domain, Env};
 //! let env = &mut Env::new();
 //! let square = Domain::polygon(&[0.0, 0.0, 10.0, 0.0, 10.0, 10.0, 0.0, 10.0], env)?;
@@ -14,7 +14,7 @@
 //! let sampling =
 //!     Sampling::new(&shape, &SamplingOptions { spacing: 1.0, ..Default::default() }, env)?;
 //! let handles = [2.0, 2.0, 8.0, 2.0, 5.0, 8.0];
-//! let kernel = Kernel::new(&sampling, &handles, &KernelOptions::default(), env)?;
+//! let kernel = Weights::new(&sampling, &handles, &WeightsOptions::default(), env)?;
 //! let points = [5.0, 5.0, 2.0, 2.0];
 //! let binding = Binding::new(&kernel, &points, false, env)?;
 //! let mut pose = Pose::rest(&binding)?;
@@ -26,6 +26,6 @@
 pub use crate::binding::{Binding, Counts, Pose};
 pub use crate::sampling::{Sampling, SamplingInfo, SamplingKind, SamplingOptions, Shape};
 pub use crate::weights::{
-    InitialWeights, Kernel, KernelForm, KernelInfo, KernelOptions, KernelReport, Line, Nodes, Weights,
+    InitialWeights, Weights, KernelForm, WeightsInfo, WeightsOptions, WeightsReport, Line, Nodes, WeightValues,
     WeightsMethod,
 };

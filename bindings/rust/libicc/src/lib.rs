@@ -38,7 +38,7 @@ mod chart;
 mod domain;
 mod env;
 mod error;
-mod field;
+mod function;
 mod grid;
 pub mod kernel;
 mod map;
@@ -52,12 +52,12 @@ mod triangulate;
 mod weights;
 
 pub use chart::{
-    Chart, ChartInfo, ChartMeasures, ChartOptions, Codes, Constraints, Function, Images, Method, Solver,
+    Chart, ChartInfo, ChartReport, ChartOptions, Codes, Constraints, FunctionKind, Images, Method, Solver,
     TreeForm,
 };
 pub use domain::{boundary_defects, repair_mask, BoundaryPoints, Defect, Domain, DomainInfo, Place};
 pub use env::Env;
-pub use error::{Error, Result, Side, Status};
+pub use error::{Error, Item, Result, Side, Status};
 pub use map::{Certificate, ImproveOptions, ImproveReport, Map, MapInfo, MapKind, MapMesh, MapOptions};
 pub use object::Borrowed;
 pub use picture::{Layout, Picture, PictureMut};

@@ -166,10 +166,10 @@ impl Map {
     ///
     /// # Errors
     /// [`Status::CERTIFICATE`] when the target has moved too far.
-    pub fn follow(&self, target: &Domain, iterations: i32, env: &mut Env<'_>) -> Result<Map> {
+    pub fn retarget(&self, target: &Domain, iterations: i32, env: &mut Env<'_>) -> Result<Map> {
         Map::make(env, |out, env, err| {
             // SAFETY: valid objects.
-            unsafe { sys::icc_map_follow(out, self.as_ptr(), target.as_ptr(), iterations, env, err) }
+            unsafe { sys::icc_map_retarget(out, self.as_ptr(), target.as_ptr(), iterations, env, err) }
         })
     }
 
@@ -207,13 +207,13 @@ impl Map {
         self.info().dim as usize
     }
 
-    /// The chart of the source; `None` for maps made by [`follow`](Self::follow).
+    /// The chart of the source; `None` for maps made by [`retarget`](Self::retarget).
     pub fn source_chart(&self) -> Option<Borrowed<'_, Chart>> {
         // SAFETY: the map keeps its charts.
         unsafe { Chart::found(sys::icc_map_source_chart(self.as_ptr())).map(|chart| Borrowed::new(chart)) }
     }
 
-    /// The chart of the target; `None` for maps made by [`follow`](Self::follow).
+    /// The chart of the target; `None` for maps made by [`retarget`](Self::retarget).
     pub fn target_chart(&self) -> Option<Borrowed<'_, Chart>> {
         // SAFETY: the map keeps its charts.
         unsafe { Chart::found(sys::icc_map_target_chart(self.as_ptr())).map(|chart| Borrowed::new(chart)) }
@@ -229,11 +229,11 @@ impl Map {
         let mut mesh = MapMesh {
             vertices: vec![0.0; info.n_vertices * dim],
             images: vec![0.0; info.n_vertices * dim],
-            simplices: vec![0; info.n_triangles * (dim + 1)],
+            simplices: vec![0; info.n_simplices * (dim + 1)],
         };
         // SAFETY: there is room for all.
         check(unsafe {
-            sys::icc_map_mesh(
+            sys::icc_map_get_mesh(
                 self.as_ptr(),
                 mesh.vertices.as_mut_ptr(),
                 mesh.images.as_mut_ptr(),

@@ -1,23 +1,23 @@
-//! The stages of Integral Curve Coordinates one by one: [`Grid`], [`Tree`], [`Field`], and [`triangulate`].
+//! The stages of Integral Curve Coordinates one by one: [`Grid`], [`Tree`], [`Function`], and [`triangulate`].
 //!
 //! For those who study or teach the method, or need one stage only.
 //!
 //! ```
-//! use libicc::stages::{Field, FieldOptions, Grid, Tree, TreeOptions};
-//! use libicc::{Domain, Env, Function};
+//! use libicc::stages::{Function, FunctionOptions, Grid, Tree, TreeOptions};
+//! use libicc::{Domain, Env, FunctionKind};
 //! let env = &mut Env::new();
 //! let shape = Domain::polygon(&[0.0, 0.0, 4.0, 0.0, 4.0, 1.0, 1.0, 1.0, 1.0, 4.0, 0.0, 4.0], env)?;
 //! let grid = Grid::new(&shape, 40, env)?;
 //! let (root, _) = grid.maximum(env)?;
 //! let tree = Tree::new(&grid, root, &TreeOptions::default(), env)?;
-//! assert_eq!(tree.verify(env)?.n_cousin_violations, 0);
-//! let options = FieldOptions { function: Some(Function::Laplace), ..Default::default() };
-//! let field = Field::new(&tree, &options, env)?;
+//! assert_eq!(tree.report(env)?.n_cousin_violations, 0);
+//! let options = FunctionOptions { function: Some(FunctionKind::Laplace), ..Default::default() };
+//! let field = Function::new(&tree, &options, env)?;
 //! assert_eq!(field.values()[root as usize], 1.0);
-//! assert_eq!(field.verify(env)?.n_maxima, 1);
+//! assert_eq!(field.report(env)?.n_maxima, 1);
 //! # Ok::<(), libicc::Error>(())
 //! ```
-pub use crate::field::{Edge, Field, FieldInfo, FieldOptions};
+pub use crate::function::{Edge, Function, FunctionInfo, FunctionOptions};
 pub use crate::grid::{Grid, GridInfo};
-pub use crate::tree::{FieldReport, GrowReport, Order, Stuck, Tree, TreeOptions, TreeReport};
+pub use crate::tree::{FunctionReport, GrowReport, Order, Stuck, Tree, TreeOptions, TreeReport};
 pub use crate::triangulate::triangulate;

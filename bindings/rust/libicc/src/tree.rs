@@ -8,7 +8,7 @@ use crate::slices::{exactly, int, pointer};
 use crate::sys;
 use std::fmt;
 
-pub use crate::sys::icc_field_report as FieldReport;
+pub use crate::sys::icc_function_report as FunctionReport;
 pub use crate::sys::icc_grow_report as GrowReport;
 pub use crate::sys::icc_tree_report as TreeReport;
 
@@ -111,11 +111,11 @@ impl Tree {
     }
 
     /// Checks the cousin rule on every pair of neighbours inside.
-    pub fn verify(&self, env: &mut Env<'_>) -> Result<TreeReport> {
+    pub fn report(&self, env: &mut Env<'_>) -> Result<TreeReport> {
         let mut report = TreeReport::default();
         env.call(|env, err| {
             // SAFETY: `size` is set.
-            unsafe { sys::icc_tree_verify(self.as_ptr(), &mut report, env, err) }
+            unsafe { sys::icc_tree_get_report(self.as_ptr(), &mut report, env, err) }
         })?;
         Ok(report)
     }
@@ -147,12 +147,12 @@ impl Tree {
     }
 
     /// Counts the critical vertices of any order: one number per grid vertex, smaller for higher ones.
-    pub fn verify_ranks(&self, rank: &[u32], env: &mut Env<'_>) -> Result<FieldReport> {
+    pub fn rank_report(&self, rank: &[u32], env: &mut Env<'_>) -> Result<FunctionReport> {
         exactly(rank, self.n_vertices(), "rank")?;
-        let mut report = FieldReport::default();
+        let mut report = FunctionReport::default();
         env.call(|env, err| {
             // SAFETY: one rank per vertex; `size` is set.
-            unsafe { sys::icc_tree_verify_ranks(self.as_ptr(), rank.as_ptr(), &mut report, env, err) }
+            unsafe { sys::icc_tree_get_rank_report(self.as_ptr(), rank.as_ptr(), &mut report, env, err) }
         })?;
         Ok(report)
     }

@@ -7,15 +7,15 @@ use crate::slices::{count, exactly, pointer, product};
 use crate::sys;
 use std::ptr;
 
-pub use crate::sys::icc_kernel_info as KernelInfo;
-pub use crate::sys::icc_kernel_report as KernelReport;
+pub use crate::sys::icc_weights_info as WeightsInfo;
+pub use crate::sys::icc_weights_report as WeightsReport;
 
 object!(
     /// Handles, and the weight of each at every place of a shape. Changes give new kernels that share what is the
     /// same.
-    Kernel,
-    icc_kernel,
-    icc_kernel_free
+    Weights,
+    icc_weights,
+    icc_weights_free
 );
 
 /// The kernel that is summed up.
@@ -64,9 +64,9 @@ pub struct Line {
     pub parallel: Option<usize>,
 }
 
-/// Options of [`Kernel::new`]. `None` and 0 are the library's choice.
+/// Options of [`Weights::new`]. `None` and 0 are the library's choice.
 #[derive(Clone, Copy, Debug)]
-pub struct KernelOptions<'a> {
+pub struct WeightsOptions<'a> {
     /// `None`: Wendland
     pub kernel: Option<KernelForm>,
     /// `None`: edges if there are any, else heat
@@ -76,9 +76,9 @@ pub struct KernelOptions<'a> {
     /// of diffusion; 0: 5
     pub steps: i32,
     /// an affine function beside the kernels, which makes sums and reproduction exact between the samples
-    pub tail: bool,
+    pub affine_tail: bool,
     /// diffusion only between samples that see each other inside the shape
-    pub visible: bool,
+    pub within_shape: bool,
     /// width of the kernel; 0: [`SamplingInfo::sigma`](crate::kernel::SamplingInfo)
     pub sigma: f64,
     /// Gauss: in sigma; 0: 5
@@ -89,15 +89,15 @@ pub struct KernelOptions<'a> {
     pub lines: &'a [Line],
 }
 
-impl Default for KernelOptions<'_> {
+impl Default for WeightsOptions<'_> {
     fn default() -> Self {
-        KernelOptions {
+        WeightsOptions {
             kernel: None,
             initial: None,
             method: None,
             steps: 0,
-            tail: true,
-            visible: true,
+            affine_tail: true,
+            within_shape: true,
             sigma: 0.0,
             cutoff: 0.0,
             edges: &[],
@@ -121,7 +121,7 @@ pub struct Nodes {
 
 /// Weights at n points.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Weights {
+pub struct WeightValues {
     /// n * n_handles
     pub weights: Vec<f64>,
     /// n * n_handles * dim derivatives, if asked for
@@ -132,7 +132,7 @@ pub struct Weights {
     pub n_failed: usize,
 }
 
-impl Kernel {
+impl Weights {
     /// Makes weights for handles, n * dim coordinates in the shape.
     ///
     /// # Errors
@@ -141,9 +141,9 @@ impl Kernel {
     pub fn new(
         sampling: &Sampling,
         handles: &[f64],
-        options: &KernelOptions<'_>,
+        options: &WeightsOptions<'_>,
         env: &mut Env<'_>,
-    ) -> Result<Kernel> {
+    ) -> Result<Weights> {
         let info = sampling.info();
         let n_handles = count(handles, info.dim as usize, "handles")?;
         if let Some(InitialWeights::Given(weights)) = options.initial {
@@ -151,19 +151,19 @@ impl Kernel {
         }
         let lines = options.lines.iter().map(raw_line).collect::<Result<Vec<_>>>()?;
         let raw = options.raw(&lines);
-        Kernel::make(env, |out, env, err| {
+        Weights::make(env, |out, env, err| {
             // SAFETY: the options are valid during the call.
             unsafe {
-                sys::icc_kernel_create(out, sampling.as_ptr(), n_handles, handles.as_ptr(), &raw, env, err)
+                sys::icc_weights_create(out, sampling.as_ptr(), n_handles, handles.as_ptr(), &raw, env, err)
             }
         })
     }
 
     /// How the weights were made.
-    pub fn info(&self) -> KernelInfo {
-        let mut info = KernelInfo::default();
+    pub fn info(&self) -> WeightsInfo {
+        let mut info = WeightsInfo::default();
         // SAFETY: `size` is set. It cannot fail.
-        unsafe { sys::icc_kernel_get_info(self.as_ptr(), &mut info) };
+        unsafe { sys::icc_weights_get_info(self.as_ptr(), &mut info) };
         info
     }
 
@@ -179,7 +179,7 @@ impl Kernel {
         };
         // SAFETY: there is room for all.
         check(unsafe {
-            sys::icc_kernel_get_nodes(
+            sys::icc_weights_get_nodes(
                 self.as_ptr(),
                 nodes.points.as_mut_ptr(),
                 nodes.initial.as_mut_ptr(),
@@ -199,30 +199,30 @@ impl Kernel {
         radius: f64,
         amount: f64,
         env: &mut Env<'_>,
-    ) -> Result<Kernel> {
+    ) -> Result<Weights> {
         exactly(centre, self.info().dim as usize, "centre")?;
-        Kernel::make(env, |out, env, err| {
+        Weights::make(env, |out, env, err| {
             let centre = centre.as_ptr();
             // SAFETY: dim coordinates.
-            unsafe { sys::icc_kernel_paint(out, self.as_ptr(), handle, centre, radius, amount, env, err) }
+            unsafe { sys::icc_weights_paint(out, self.as_ptr(), handle, centre, radius, amount, env, err) }
         })
     }
 
     /// The same with wishes of the caller's: node nodes\[i\] starts from row i of `weights`, n_handles numbers.
-    pub fn repaint(&self, nodes: &[u32], weights: &[f64], env: &mut Env<'_>) -> Result<Kernel> {
+    pub fn repaint(&self, nodes: &[u32], weights: &[f64], env: &mut Env<'_>) -> Result<Weights> {
         exactly(weights, product(&[nodes.len(), self.info().n_handles])?, "weights")?;
-        Kernel::make(env, |out, env, err| {
+        Weights::make(env, |out, env, err| {
             let (n, nodes) = (nodes.len(), nodes.as_ptr());
             // SAFETY: n nodes and rows.
-            unsafe { sys::icc_kernel_repaint(out, self.as_ptr(), n, nodes, weights.as_ptr(), env, err) }
+            unsafe { sys::icc_weights_repaint(out, self.as_ptr(), n, nodes, weights.as_ptr(), env, err) }
         })
     }
 
     /// The same nodes and initial weights with another method: what was painted or stiffened is gone.
-    pub fn with_method(&self, method: WeightsMethod, env: &mut Env<'_>) -> Result<Kernel> {
-        Kernel::make(env, |out, env, err| {
+    pub fn with_method(&self, method: WeightsMethod, env: &mut Env<'_>) -> Result<Weights> {
+        Weights::make(env, |out, env, err| {
             // SAFETY: a valid object.
-            unsafe { sys::icc_kernel_set_method(out, self.as_ptr(), method as i32, env, err) }
+            unsafe { sys::icc_weights_with_method(out, self.as_ptr(), method as i32, env, err) }
         })
     }
 
@@ -233,15 +233,15 @@ impl Kernel {
         nodes: &[u32],
         rigidity: Option<&[f64]>,
         env: &mut Env<'_>,
-    ) -> Result<(Kernel, [f64; 2])> {
+    ) -> Result<(Weights, [f64; 2])> {
         if let Some(rigidity) = rigidity {
             exactly(rigidity, nodes.len(), "rigidity")?;
         }
         let mut energy = [0.0; 2];
-        let kernel = Kernel::make(env, |out, env, err| {
+        let kernel = Weights::make(env, |out, env, err| {
             // SAFETY: as many nodes as numbers.
             unsafe {
-                sys::icc_kernel_stiffen(
+                sys::icc_weights_stiffen(
                     out,
                     self.as_ptr(),
                     nodes.len(),
@@ -257,13 +257,13 @@ impl Kernel {
     }
 
     /// Weights at points, n * dim coordinates, with derivatives if asked for.
-    pub fn weights(&self, points: &[f64], gradients: bool, env: &mut Env<'_>) -> Result<Weights> {
+    pub fn weights(&self, points: &[f64], gradients: bool, env: &mut Env<'_>) -> Result<WeightValues> {
         let info = self.info();
         let dim = info.dim as usize;
         let n = count(points, dim, "points")?;
         let n_weights = product(&[n, info.n_handles])?;
         let n_gradients = product(&[n_weights, dim])?;
-        let mut weights = Weights {
+        let mut weights = WeightValues {
             weights: vec![0.0; n_weights],
             gradients: gradients.then(|| vec![0.0; n_gradients]),
             status: vec![Status::OK; n],
@@ -273,7 +273,7 @@ impl Kernel {
         env.call(|env, _| {
             // SAFETY: there is room for n points.
             unsafe {
-                sys::icc_kernel_weights(
+                sys::icc_weights_evaluate(
                     self.as_ptr(),
                     n,
                     points.as_ptr(),
@@ -289,20 +289,20 @@ impl Kernel {
     }
 
     /// Measures the weights at points, n * dim coordinates.
-    pub fn report(&self, points: &[f64], env: &mut Env<'_>) -> Result<KernelReport> {
+    pub fn report(&self, points: &[f64], env: &mut Env<'_>) -> Result<WeightsReport> {
         let n = count(points, self.info().dim as usize, "points")?;
-        let mut report = KernelReport::default();
+        let mut report = WeightsReport::default();
         env.call(|env, err| {
             // SAFETY: n points; `size` is set.
-            unsafe { sys::icc_kernel_get_report(self.as_ptr(), n, points.as_ptr(), &mut report, env, err) }
+            unsafe { sys::icc_weights_get_report(self.as_ptr(), n, points.as_ptr(), &mut report, env, err) }
         })?;
         Ok(report)
     }
 }
 
-impl KernelOptions<'_> {
+impl WeightsOptions<'_> {
     /// As C takes them; `lines` must outlive them.
-    fn raw(&self, lines: &[sys::icc_line]) -> sys::icc_kernel_options {
+    fn raw(&self, lines: &[sys::icc_line]) -> sys::icc_weights_options {
         let (initial, given) = match self.initial {
             None => (0, ptr::null()),
             Some(InitialWeights::Heat) => (sys::ICC_INITIAL_HEAT, ptr::null()),
@@ -310,13 +310,13 @@ impl KernelOptions<'_> {
             Some(InitialWeights::Inverse) => (sys::ICC_INITIAL_INVERSE, ptr::null()),
             Some(InitialWeights::Given(weights)) => (sys::ICC_INITIAL_GIVEN, weights.as_ptr()),
         };
-        sys::icc_kernel_options {
+        sys::icc_weights_options {
             kernel: self.kernel.map_or(0, |kernel| kernel as i32),
             initial,
             method: self.method.map_or(0, |method| method as i32),
             steps: self.steps,
-            tail: if self.tail { 0 } else { -1 },
-            visible: if self.visible { 0 } else { -1 },
+            affine_tail: if self.affine_tail { 0 } else { -1 },
+            within_shape: if self.within_shape { 0 } else { -1 },
             sigma: self.sigma,
             cutoff: self.cutoff,
             n_edges: self.edges.len(),

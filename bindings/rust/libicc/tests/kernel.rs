@@ -1,6 +1,6 @@
 //! Kernel coordinates from Rust.
 use libicc::kernel::{
-    Binding, InitialWeights, Kernel, KernelOptions, Line, Pose, Sampling, SamplingKind, SamplingOptions,
+    Binding, InitialWeights, Weights, WeightsOptions, Line, Pose, Sampling, SamplingKind, SamplingOptions,
     Shape, WeightsMethod,
 };
 use libicc::{Domain, Env, Status};
@@ -19,8 +19,8 @@ fn sampling() -> Sampling {
     Sampling::new(&shape(), &options, &mut Env::new()).unwrap()
 }
 
-fn kernel(options: &KernelOptions<'_>) -> Kernel {
-    Kernel::new(&sampling(), &HANDLES, options, &mut Env::new()).unwrap()
+fn kernel(options: &WeightsOptions<'_>) -> Weights {
+    Weights::new(&sampling(), &HANDLES, options, &mut Env::new()).unwrap()
 }
 
 #[test]
@@ -55,7 +55,7 @@ fn samplings() {
 fn weights_reproduce_points() {
     let env = &mut Env::new();
     for method in [WeightsMethod::Qp, WeightsMethod::Equality, WeightsMethod::L1] {
-        let kernel = kernel(&KernelOptions { method: Some(method), ..Default::default() });
+        let kernel = kernel(&WeightsOptions { method: Some(method), ..Default::default() });
         let found = kernel.weights(&POINTS, true, env).unwrap();
         assert_eq!(found.gradients.unwrap().len(), 3 * 4 * 2);
         for (point, weights) in POINTS.chunks(2).zip(found.weights.chunks(4)) {
@@ -72,11 +72,11 @@ fn weights_reproduce_points() {
 #[test]
 fn kernels_are_changed_into_others() {
     let env = &mut Env::new();
-    let first = kernel(&KernelOptions::default());
+    let first = kernel(&WeightsOptions::default());
     let nodes = first.nodes().unwrap();
     assert_eq!(nodes.weights.len(), 4 * first.info().n_nodes);
     let painted = first.paint(0, &[5.0, 5.0], 3.0, 0.3, env).unwrap();
-    let weight = |kernel: &Kernel| kernel.weights(&[5.0, 5.0], false, &mut Env::new()).unwrap().weights[0];
+    let weight = |kernel: &Weights| kernel.weights(&[5.0, 5.0], false, &mut Env::new()).unwrap().weights[0];
     assert!(weight(&painted) > weight(&first) + 0.01);
     assert_eq!(first.nodes().unwrap(), nodes);
     let inner: Vec<u32> = (0..first.info().n_nodes)
@@ -97,26 +97,26 @@ fn kernels_are_changed_into_others() {
 fn options_are_taken() {
     let lines = [Line { from: [3.0, 5.0, 0.0], to: [7.0, 5.0, 0.0], parallel: None }];
     let edges = [[0, 1], [1, 2]];
-    let with = kernel(&KernelOptions { lines: &lines, edges: &edges, ..Default::default() });
+    let with = kernel(&WeightsOptions { lines: &lines, edges: &edges, ..Default::default() });
     assert_eq!(with.info().initial, libicc::sys::ICC_INITIAL_EDGES);
     let n = sampling().info().n_samples;
     let given = vec![0.25; 4 * n];
-    let options = KernelOptions { initial: Some(InitialWeights::Given(&given)), ..Default::default() };
+    let options = WeightsOptions { initial: Some(InitialWeights::Given(&given)), ..Default::default() };
     kernel(&options);
-    let short = KernelOptions { initial: Some(InitialWeights::Given(&given[1..])), ..Default::default() };
-    let error = Kernel::new(&sampling(), &HANDLES, &short, &mut Env::new()).unwrap_err();
+    let short = WeightsOptions { initial: Some(InitialWeights::Given(&given[1..])), ..Default::default() };
+    let error = Weights::new(&sampling(), &HANDLES, &short, &mut Env::new()).unwrap_err();
     assert_eq!(error.status, Status::ARGUMENT);
     let mut outside = HANDLES;
     outside[4] = 30.0;
-    let options = KernelOptions::default();
-    let error = Kernel::new(&sampling(), &outside, &options, &mut Env::new()).unwrap_err();
+    let options = WeightsOptions::default();
+    let error = Weights::new(&sampling(), &outside, &options, &mut Env::new()).unwrap_err();
     assert_eq!((error.status, error.index), (Status::OUTSIDE, Some(2)));
 }
 
 #[test]
 fn poses() {
     let env = &mut Env::new();
-    let kernel = kernel(&KernelOptions::default());
+    let kernel = kernel(&WeightsOptions::default());
     let binding = Binding::new(&kernel, &POINTS, true, env).unwrap();
     drop(kernel);
     let mut pose = Pose::rest(&binding).unwrap();

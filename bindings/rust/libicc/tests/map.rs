@@ -193,10 +193,10 @@ fn objects_are_shared_between_threads() {
     shared::<Map>();
     shared::<libicc::stages::Grid>();
     shared::<libicc::stages::Tree>();
-    shared::<libicc::stages::Field>();
+    shared::<libicc::stages::Function>();
     shared::<libicc::kernel::Shape>();
     shared::<libicc::kernel::Sampling>();
-    shared::<libicc::kernel::Kernel>();
+    shared::<libicc::kernel::Weights>();
     shared::<libicc::kernel::Binding>();
     shared::<libicc::Error>();
 
@@ -311,7 +311,7 @@ fn following_a_target_that_moves() {
     let first = map(&MapOptions { kind: Some(MapKind::Mesh), ..Default::default() });
     let mut moved = AFTER;
     moved[2][0] += 0.1;
-    let next = first.follow(&domain(&moved), 0, &mut Env::new()).unwrap();
+    let next = first.retarget(&domain(&moved), 0, &mut Env::new()).unwrap();
     assert_eq!(next.info().certified, 1);
     assert!(next.source_chart().is_none());
     let corner = next.apply(&BEFORE[2], &mut Env::new()).unwrap();
@@ -324,7 +324,7 @@ fn meshes_are_carried_and_certified() {
     let mesh = map.mesh().unwrap();
     let info = map.info();
     assert_eq!(mesh.vertices.len(), 2 * info.n_vertices);
-    assert_eq!(mesh.simplices.len(), 3 * info.n_triangles);
+    assert_eq!(mesh.simplices.len(), 3 * info.n_simplices);
     let mut points = flat(&BEFORE).to_vec();
     points.extend([0.7, 0.7, 2.5, 0.7, 0.7, 2.5]);
     let triangles = libicc::stages::triangulate(6, &points, &mut Env::new()).unwrap();

@@ -1,6 +1,6 @@
 //! The stages one by one.
-use libicc::stages::{Field, FieldOptions, Grid, Stuck, Tree, TreeOptions};
-use libicc::{Chart, ChartOptions, Domain, Env, Function, Method, Status, TreeForm};
+use libicc::stages::{Function, FunctionOptions, Grid, Stuck, Tree, TreeOptions};
+use libicc::{Chart, ChartOptions, Domain, Env, FunctionKind, Method, Status, TreeForm};
 
 const ELL: [f64; 12] = [0.0, 0.0, 4.0, 0.0, 4.0, 1.5, 1.5, 1.5, 1.5, 4.0, 0.0, 4.0];
 
@@ -45,14 +45,14 @@ fn trees_lead_to_the_root() {
             assert_eq!(tree.generations()[vertex], tree.generations()[parent as usize] + 1);
         }
     }
-    let report = tree.verify(env).unwrap();
+    let report = tree.report(env).unwrap();
     assert_eq!((report.n_cousin_violations, report.n_unreachable), (0, 0));
     let wrong = TreeOptions { axis_order: Some(&[0]), ..options };
     assert_eq!(Tree::new(&tree.grid(), root, &wrong, env).unwrap_err().status, Status::ARGUMENT);
 
     let order = tree.grow(None, env).unwrap();
     assert_eq!(order.rank[root as usize], 0);
-    let report = tree.verify_ranks(&order.rank, env).unwrap();
+    let report = tree.rank_report(&order.rank, env).unwrap();
     assert_eq!((report.n_maxima, report.n_minima, report.n_saddles), (1, 0, 0));
 }
 
@@ -81,14 +81,14 @@ fn fields_fall_from_the_root() {
     let grid = grid();
     let (root, _) = grid.maximum(env).unwrap();
     let tree = Tree::new(&grid, root, &TreeOptions::default(), env).unwrap();
-    for function in [Function::Decay, Function::Distance, Function::Laplace, Function::Bilaplace] {
-        let options = FieldOptions { function: Some(function), ..Default::default() };
-        let field = Field::new(&tree, &options, env).unwrap();
+    for function in [FunctionKind::Decay, FunctionKind::Distance, FunctionKind::Laplace, FunctionKind::Bilaplace] {
+        let options = FunctionOptions { function: Some(function), ..Default::default() };
+        let field = Function::new(&tree, &options, env).unwrap();
         assert_eq!(field.info().function, function as i32);
         let values = field.values();
         let greatest = values.iter().copied().filter(|value| !value.is_nan()).fold(f64::MIN, f64::max);
         assert_eq!(greatest, values[root as usize]);
-        assert_eq!(field.verify(env).unwrap().n_maxima, 1);
+        assert_eq!(field.report(env).unwrap().n_maxima, 1);
         assert_eq!(field.tree().root(), root);
         if let Some(logs) = field.logs() {
             assert_eq!(logs[root as usize], 0.0);
@@ -103,11 +103,11 @@ fn charts_show_their_field() {
     let shape = Domain::polygon(&ELL, env).unwrap();
     let options = ChartOptions { method: Some(Method::Gradient), ..Default::default() };
     let chart = Chart::new(&shape, &options, env).unwrap();
-    let field = chart.field().unwrap();
+    let field = chart.function().unwrap();
     assert_eq!(field.values().len(), chart.info().n_grid);
     let edges = field.edges().unwrap();
     let merging = edges.iter().filter(|edge| edge.compression).count();
     assert_eq!((merging, edges.len() - merging), (chart.info().n_compression, chart.info().n_expansion));
-    assert!(chart.measure(1000, env).unwrap().collapsed > 0.0);
-    assert!(Chart::new(&shape, &ChartOptions::default(), env).unwrap().field().is_none());
+    assert!(chart.report(1000, env).unwrap().collapsed > 0.0);
+    assert!(Chart::new(&shape, &ChartOptions::default(), env).unwrap().function().is_none());
 }

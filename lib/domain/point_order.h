@@ -1,6 +1,6 @@
 /* Sorting points by x, then y. */
-#ifndef ICCP_ORDER_H
-#define ICCP_ORDER_H
+#ifndef ICCP_POINT_ORDER_H
+#define ICCP_POINT_ORDER_H
 
 #include <stddef.h>
 #include <stdint.h>

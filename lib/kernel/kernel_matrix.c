@@ -1,7 +1,7 @@
 /* Based on: Sakaridis, Kernel Coordinates (ETH Zurich 2016), sections 3.1 and 6.1; H. Wendland, Piecewise polynomial,
  * positive definite and compactly supported radial functions of minimal degree, 1995: the function of smoothness C2
  * for dimensions up to 3. */
-#include "kernel/gram.h"
+#include "kernel/kernel_matrix.h"
 
 #include "base/error.h"
 #include "base/threads.h"
@@ -111,7 +111,7 @@ static icc_status fill(assembly *a, const iccp_env *env, icc_error *err)
     for (size_t i = 0; status == ICC_OK && i < n; ++i)
         out->first[i + 1] += out->first[i];
     if (status == ICC_OK && out->first[n] > MOST_ENTRIES && out->first[n] / n > MOST_NEAR)
-        return iccp_fail(err, ICC_ERR_SOLVER, -1,
+        return iccp_fail(err, ICC_ERR_SOLVER,
                          "sigma is too large: within its reach each of %zu nodes has %zu others", n,
                          out->first[n] / n);
     if (status != ICC_OK)

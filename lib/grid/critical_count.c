@@ -1,14 +1,16 @@
-#include "grid/critical.h"
+#include "grid/critical_count.h"
+
+#include <string.h>
 
 static const size_t GRAIN = 1 << 12; /* vertices per chunk: at most 0.4 s, in 6-D */
 
-void iccp_critical_put(const iccp_critical *count, size_t begin, const icc_field_report *found)
+void iccp_critical_put(const iccp_critical *count, size_t begin, const icc_function_report *found)
 {
     count->partial[begin / GRAIN] = *found;
 }
 
 icc_status iccp_critical_count(const icc_grid *grid, const void *context, size_t n_ranked,
-                               uint32_t highest, iccp_chunk chunk, icc_field_report *report,
+                               uint32_t highest, iccp_chunk chunk, icc_function_report *report,
                                const iccp_env *env)
 {
     const size_t n_chunks = (grid->n_vertices + GRAIN - 1) / GRAIN;
@@ -20,9 +22,8 @@ icc_status iccp_critical_count(const icc_grid *grid, const void *context, size_t
     const icc_status status =
         iccp_for_chunks(env, "critical points", grid->n_vertices, GRAIN, chunk, &count);
     if (status == ICC_OK) {
-        report->n_maxima = report->n_minima = report->n_saddles = 0;
+        memset(report, 0, sizeof *report); /* its padding too: equal reports have equal bytes */
         report->critical = ICCP_NONE;
-        report->reserved = 0;
         for (size_t c = n_chunks; c-- > 0;) {
             report->n_maxima += count.partial[c].n_maxima;
             report->n_minima += count.partial[c].n_minima;

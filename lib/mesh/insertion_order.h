@@ -1,6 +1,6 @@
 /* The order in which to insert points into a triangulation. */
-#ifndef ICCP_ORDER_H
-#define ICCP_ORDER_H
+#ifndef ICCP_INSERTION_ORDER_H
+#define ICCP_INSERTION_ORDER_H
 
 #include "base/env.h"
 

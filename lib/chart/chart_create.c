@@ -1,4 +1,4 @@
-#include "chart/create.h"
+#include "chart/chart_create.h"
 
 #include "base/error.h"
 #include "chart/chart_disc.h"
@@ -22,15 +22,15 @@ static icc_status complete(icc_chart_options *options, int32_t dim, bool has_mes
     if (options->cells == 0 && planar)
         options->cells = 50;
     if (options->method < ICC_METHOD_GRADIENT || options->method > ICC_METHOD_DISC)
-        return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1, "method %ld is not available",
+        return iccp_fail(err, ICC_ERR_UNSUPPORTED, "method %ld is not available",
                          (long)options->method);
     if (options->method == ICC_METHOD_FOLIATION && planar && dim > 2)
-        return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1,
+        return iccp_fail(err, ICC_ERR_UNSUPPORTED,
                          "method foliation needs a mesh of the inside in dimension %ld: make the "
                          "domain by icc_domain_create_mesh()",
                          (long)dim);
     if (planar ? dim != 2 : dim < 2)
-        return iccp_fail(err, ICC_ERR_UNSUPPORTED, -1,
+        return iccp_fail(err, ICC_ERR_UNSUPPORTED,
                          "method %ld is not available for domains of dimension %ld",
                          (long)options->method, (long)dim);
     return ICC_OK;
@@ -99,7 +99,7 @@ static icc_status choose_given(harmonic_job *job, size_t k, icc_error *err)
     double local[2];
     iccp_frame_in(&job->domain[k]->frame, 2, maximum, local);
     if (iccp_domain_locate(job->domain[k], local, true, NULL, NULL) != ICC_INSIDE) {
-        (void)iccp_fail(err, ICC_ERR_OUTSIDE, -1, "the maximum (%g, %g) is not inside the domain",
+        (void)iccp_fail(err, ICC_ERR_OUTSIDE, "the maximum (%g, %g) is not inside the domain",
                         maximum[0], maximum[1]);
         return blame(job, k, ICC_ERR_OUTSIDE, err);
     }
@@ -182,7 +182,7 @@ static icc_status create_field(icc_chart **out, const icc_domain *domain,
     if (options->maximum != NULL) {
         iccp_frame_in(&domain->frame, domain->dim, options->maximum, local);
         if (iccp_domain_locate(domain, local, true, NULL, NULL) != ICC_INSIDE)
-            return iccp_fail(err, ICC_ERR_OUTSIDE, -1, "the maximum is not inside the domain");
+            return iccp_fail(err, ICC_ERR_OUTSIDE, "the maximum is not inside the domain");
         wish = local;
     }
     return iccp_explain(err, iccp_chart_field_create(out, domain, options, wish, env, err));

@@ -1,5 +1,5 @@
 /* Values along the tree, edges where gradients meet or part, and critical points. */
-#include "function/critical.h"
+#include "function/critical_points.h"
 #include "function/edges.h"
 #include "icc/stages.h"
 
@@ -25,28 +25,28 @@ static icc_tree *tree_on(int32_t dim, const size_t *sides, const uint8_t *inside
     return tree;
 }
 
-static icc_field *field_on(const icc_tree *tree, int32_t function)
+static icc_function *field_on(const icc_tree *tree, int32_t function)
 {
-    const icc_field_options options = {.size = sizeof options, .function = function};
-    icc_field *field;
-    ck_assert_int_eq(icc_field_create(&field, tree, &options, NULL, NULL), ICC_OK);
+    const icc_function_options options = {.size = sizeof options, .function = function};
+    icc_function *field;
+    ck_assert_int_eq(icc_function_create(&field, tree, &options, NULL, NULL), ICC_OK);
     return field;
 }
 
-static icc_field_report report_on(const icc_field *field)
+static icc_function_report report_on(const icc_function *field)
 {
-    icc_field_report report = {.size = sizeof report};
-    ck_assert_int_eq(icc_field_verify(field, &report, NULL, NULL), ICC_OK);
+    icc_function_report report = {.size = sizeof report};
+    ck_assert_int_eq(icc_function_get_report(field, &report, NULL, NULL), ICC_OK);
     return report;
 }
 
 /* All inside, so that any values can be written into the field. */
-static icc_field *full_field(int32_t dim, const size_t *sides)
+static icc_function *full_field(int32_t dim, const size_t *sides)
 {
     static uint8_t inside[MAX_VERTICES];
     memset(inside, 1, sizeof inside);
     icc_tree *tree = tree_on(dim, sides, inside, 0, 0);
-    icc_field *field = field_on(tree, ICC_FUNCTION_DISTANCE);
+    icc_function *field = field_on(tree, ICC_FUNCTION_DISTANCE);
     icc_tree_free(tree);
     return field;
 }
@@ -72,23 +72,23 @@ START_TEST(values_fall_with_the_generation)
     random_source r = {1};
     for (int round = 0; round < 500; ++round) {
         icc_tree *tree = random_tree(&r, 1 + round % 4);
-        icc_field *decay = field_on(tree, ICC_FUNCTION_DECAY);
-        icc_field *distance = field_on(tree, ICC_FUNCTION_DISTANCE);
+        icc_function *decay = field_on(tree, ICC_FUNCTION_DECAY);
+        icc_function *distance = field_on(tree, ICC_FUNCTION_DISTANCE);
         const int32_t *generation = icc_tree_generations(tree);
         for (size_t v = 0; v < tree->grid->n_vertices; ++v) {
-            const double a = icc_field_values(decay)[v], b = icc_field_values(distance)[v];
+            const double a = icc_function_values(decay)[v], b = icc_function_values(distance)[v];
             ck_assert(isnan(a) == (generation[v] < 0) && isnan(b) == (generation[v] < 0));
             if (generation[v] < 0)
                 continue;
             ck_assert(b == -generation[v]);
             ck_assert_double_eq_tol(a, 10 * pow(0.95, generation[v]), 1e-12);
             const uint32_t parent = icc_tree_parents(tree)[v];
-            ck_assert(parent == UINT32_MAX || a == 0.95 * icc_field_values(decay)[parent]);
+            ck_assert(parent == UINT32_MAX || a == 0.95 * icc_function_values(decay)[parent]);
         }
         icc_tree_free(tree); /* the fields keep it */
-        ck_assert(icc_field_values(decay)[decay->tree->root] == 10);
-        icc_field_free(decay);
-        icc_field_free(distance);
+        ck_assert(icc_function_values(decay)[decay->tree->root] == 10);
+        icc_function_free(decay);
+        icc_function_free(distance);
     }
 }
 END_TEST
@@ -99,39 +99,39 @@ START_TEST(values_fall_however_deep_the_tree)
     uint8_t *inside = malloc(N);
     memset(inside, 1, N);
     icc_tree *tree = tree_on(1, (size_t[]){N}, inside, 0, 0);
-    icc_field *field = field_on(tree, 0);
-    const double *f = icc_field_values(field);
+    icc_function *field = field_on(tree, 0);
+    const double *f = icc_function_values(field);
     for (size_t v = 1; v < N; ++v)
         ck_assert(f[v] < f[v - 1]);
     ck_assert(f[13000] > 0 && f[N - 1] < 0);
-    const icc_field_report report = report_on(field);
+    const icc_function_report report = report_on(field);
     ck_assert_uint_eq(report.n_maxima, 1);
     ck_assert_uint_eq(report.n_minima, 0);
     ck_assert_uint_eq(report.n_saddles, 0);
-    icc_field_free(field);
+    icc_function_free(field);
     icc_tree_free(tree);
     free(inside);
 }
 END_TEST
 
 /* A function from 1 down to 2^-(20 n), assigned to the rows of a path. */
-static icc_field *steep_field(size_t n)
+static icc_function *steep_field(size_t n)
 {
     uint8_t inside[MAX_VERTICES] = {0};
     memset(inside + 2, 1, n);
     icc_tree *tree = tree_on(1, (size_t[]){n + 4}, inside, 2, 0);
-    icc_field *field;
+    icc_function *field;
     iccp_env env;
     iccp_rows rows;
     double fraction[MAX_VERTICES];
     int32_t exponent[MAX_VERTICES];
     const iccp_scaled f = {fraction, exponent};
     ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(iccp_field_new(&field, tree, &env), ICC_OK);
+    ck_assert_int_eq(iccp_function_new(&field, tree, &env), ICC_OK);
     ck_assert_int_eq(iccp_rows_create(&rows, tree, &env), ICC_OK);
     for (size_t k = 0; k < n; ++k)
         iccp_scaled_set(&f, k, 1 + 0.5 * (double)(k % 2), -20 * (int32_t)k);
-    ck_assert_int_eq(iccp_field_assign(field, &rows, &f), ICC_OK);
+    ck_assert_int_eq(iccp_function_assign(field, &rows, &f), ICC_OK);
     iccp_rows_free(&rows);
     icc_tree_free(tree);
     return field;
@@ -140,32 +140,32 @@ static icc_field *steep_field(size_t n)
 START_TEST(values_go_on_beyond_doubles)
 {
     enum { N = 200 };
-    icc_field *field = steep_field(N);
+    icc_function *field = steep_field(N);
     ck_assert_ptr_nonnull(field->exponent);
-    const double *f = icc_field_values(field), *u = icc_field_logs(field);
+    const double *f = icc_function_values(field), *u = icc_function_logs(field);
     for (uint32_t v = 2; v < N + 2; ++v) {
         const int k = (int)v - 2;
         ck_assert(f[v] == ldexp(1 + 0.5 * (k % 2), -20 * k));
         ck_assert_double_eq_tol(u[v], log(1 + 0.5 * (k % 2)) - 20 * k * log(2), 1e-11);
         uint32_t both[2] = {v, v + 1};
         double local[2];
-        iccp_field_local(field, 2, both, local);
+        iccp_function_local(field, 2, both, local);
         const double expected = k == N - 1 ? 0 : (k % 2 ? 1 / 1.5 : 1.5) * 0x1p-20;
         ck_assert_double_eq_tol(local[1] / local[0], expected, 1e-20);
-        ck_assert_int_eq(iccp_field_compare(field, v, v + 1), 1);
-        ck_assert_int_eq(iccp_field_compare(field, v + 1, v), -1);
-        ck_assert_int_eq(iccp_field_compare(field, v, v), 0);
+        ck_assert_int_eq(iccp_function_compare(field, v, v + 1), 1);
+        ck_assert_int_eq(iccp_function_compare(field, v + 1, v), -1);
+        ck_assert_int_eq(iccp_function_compare(field, v, v), 0);
     }
     ck_assert(f[N + 1] == 0 && f[1] == 0 && u[1] == -HUGE_VAL); /* 2^-3980 */
     ck_assert(f[0] == -f[2]); /* beyond the zero: mirrored */
     ck_assert_double_eq(field->info.least_log, u[N + 1]);
-    const icc_field_report report = report_on(field);
+    const icc_function_report report = report_on(field);
     ck_assert_uint_eq(report.n_maxima, 1);
     ck_assert_uint_eq(report.n_minima + report.n_saddles, 0);
-    icc_field_free(field);
+    icc_function_free(field);
     field = steep_field(40); /* 2^-780 needs no exponents */
     ck_assert(field->exponent == NULL && field->plain == NULL && field->logs != NULL);
-    icc_field_free(field);
+    icc_function_free(field);
 }
 END_TEST
 
@@ -178,7 +178,7 @@ typedef struct triangle {
 
 /* How much the triangle's gradient points to its edge from a to b, times a positive number: exact for
  * whole values. */
-static int64_t towards_edge(const icc_field *field, const triangle *t, const int64_t a[2],
+static int64_t towards_edge(const icc_function *field, const triangle *t, const int64_t a[2],
                             const int64_t b[2])
 {
     const int64_t nx = (int64_t)field->tree->grid->shape[0];
@@ -199,7 +199,7 @@ static int64_t towards_edge(const icc_field *field, const triangle *t, const int
     return gx * n[0] + gy * n[1];
 }
 
-static bool usable(const icc_field *field, const triangle *t, bool *any_inside)
+static bool usable(const icc_function *field, const triangle *t, bool *any_inside)
 {
     const icc_grid *grid = field->tree->grid;
     for (int c = 0; c < 3; ++c) {
@@ -215,7 +215,7 @@ static bool usable(const icc_field *field, const triangle *t, bool *any_inside)
 }
 
 /* The kind of the edge from (i, j) along (dx, dy), or -1 when it is not one to look at. */
-static int32_t kind_of(const icc_field *field, int64_t i, int64_t j, int64_t dx, int64_t dy)
+static int32_t kind_of(const icc_function *field, int64_t i, int64_t j, int64_t dx, int64_t dy)
 {
     const int64_t a[2] = {i, j}, b[2] = {i + dx, j + dy};
     triangle left = {{i, i + 1, i}, {j, j + 1, j + 1}};
@@ -242,13 +242,13 @@ START_TEST(edges_are_what_gradients_say)
     size_t n_kinds[3] = {0};
     for (int round = 0; round < 600; ++round) {
         icc_tree *tree = random_tree(&r, 2);
-        icc_field *field = field_on(tree, ICC_FUNCTION_DISTANCE);
+        icc_function *field = field_on(tree, ICC_FUNCTION_DISTANCE);
         for (size_t v = 0; round % 2 == 1 && v < tree->grid->n_vertices; ++v)
             if (!isnan(field->values[v]))
                 field->values[v] = random_below(&r, 5);
         size_t n_edges, n_tested, n = 0, n_expected = 0;
         ck_assert_int_eq(
-            icc_field_edges(field, 3 * MAX_VERTICES, edges, kinds, &n_edges, &n_tested), ICC_OK);
+            icc_function_get_edges(field, 3 * MAX_VERTICES, edges, kinds, &n_edges, &n_tested), ICC_OK);
         for (size_t v = 0; v < tree->grid->n_vertices; ++v)
             for (int e = 1; e <= 3; ++e) {
                 const size_t nx = tree->grid->shape[0], dx = e != 2, dy = e != 1;
@@ -265,7 +265,7 @@ START_TEST(edges_are_what_gradients_say)
             }
         ck_assert_uint_eq(n, n_edges);
         ck_assert_uint_eq(n_tested, n_expected);
-        icc_field_free(field);
+        icc_function_free(field);
         icc_tree_free(tree);
     }
     ck_assert_uint_gt(n_kinds[ICC_EDGE_COMPRESSION], 1000);
@@ -281,19 +281,19 @@ START_TEST(diagonals_are_compared_exactly)
     static const int signs[4] = {1, 1, -1, 1}; /* of a + b - 2 c */
     for (int i = 0; i < 4; ++i)
         for (int flip = -1; flip <= 1; flip += 2) {
-            icc_field *field = full_field(2, (size_t[]){2, 2});
+            icc_function *field = full_field(2, (size_t[]){2, 2});
             field->values[0] = flip * sums[i][0];
             field->values[3] = flip * sums[i][1];
             field->values[1] = field->values[2] = flip * sums[i][2];
             uint32_t edge[2];
             int32_t kind;
             size_t n_edges, n_tested;
-            ck_assert_int_eq(icc_field_edges(field, 1, edge, &kind, &n_edges, &n_tested), ICC_OK);
+            ck_assert_int_eq(icc_function_get_edges(field, 1, edge, &kind, &n_edges, &n_tested), ICC_OK);
             ck_assert_uint_eq(n_tested, 1);
             ck_assert_uint_eq(n_edges, 1);
             ck_assert_int_eq(kind, flip * signs[i] > 0 ? ICC_EDGE_COMPRESSION : ICC_EDGE_EXPANSION);
             ck_assert(edge[0] == 0 && edge[1] == 3);
-            icc_field_free(field);
+            icc_function_free(field);
         }
 }
 END_TEST
@@ -301,40 +301,40 @@ END_TEST
 START_TEST(edges_are_counted_beyond_capacity)
 {
     random_source r = {3};
-    icc_field *field = full_field(2, (size_t[]){30, 30});
+    icc_function *field = full_field(2, (size_t[]){30, 30});
     for (size_t v = 0; v < 900; ++v)
         field->values[v] = random_unit(&r);
     uint32_t edges[20];
     int32_t kinds[10];
     size_t n_all, n_again, n_tested, n_compression, n_expansion;
-    ck_assert_int_eq(icc_field_edges(field, 0, NULL, NULL, &n_all, NULL), ICC_OK);
+    ck_assert_int_eq(icc_function_get_edges(field, 0, NULL, NULL, &n_all, NULL), ICC_OK);
     ck_assert_uint_gt(n_all, 100);
     memset(edges, 0xff, sizeof edges);
-    ck_assert_int_eq(icc_field_edges(field, 9, edges, kinds, &n_again, &n_tested), ICC_OK);
+    ck_assert_int_eq(icc_function_get_edges(field, 9, edges, kinds, &n_again, &n_tested), ICC_OK);
     ck_assert_uint_eq(n_again, n_all);
     ck_assert(edges[17] != UINT32_MAX && edges[18] == UINT32_MAX);
-    iccp_field_count_edges(field, &n_again, &n_compression, &n_expansion);
+    iccp_function_count_edges(field, &n_again, &n_compression, &n_expansion);
     ck_assert_uint_eq(n_again, n_tested);
     ck_assert_uint_eq(n_compression + n_expansion, n_all);
     ck_assert_uint_eq(n_tested, 29 * 29 + 2 * 29 * 28); /* all but those of the rim */
-    icc_field_free(field);
+    icc_function_free(field);
 }
 END_TEST
 
 /* -------------------------------------------------------- critical points */
 
-static bool higher(const icc_field *field, size_t u, size_t v)
+static bool higher(const icc_function *field, size_t u, size_t v)
 {
     const double *f = field->values;
     return field->tree->grid->inside[u] && !isnan(f[u]) && (f[u] > f[v] || (f[u] == f[v] && u > v));
 }
 
 /* By going round each vertex and counting how often it changes between higher and lower. */
-static icc_field_report count_turns(const icc_field *field)
+static icc_function_report count_turns(const icc_function *field)
 {
     static const int around[6][2] = {{1, 0}, {1, 1}, {0, 1}, {-1, 0}, {-1, -1}, {0, -1}};
     const icc_grid *grid = field->tree->grid;
-    icc_field_report report = {.critical = UINT32_MAX};
+    icc_function_report report = {.critical = UINT32_MAX};
     for (size_t v = 0; v < grid->n_vertices; ++v) {
         if (!grid->inside[v] || isnan(field->values[v]))
             continue;
@@ -361,21 +361,21 @@ static icc_field_report count_turns(const icc_field *field)
 START_TEST(critical_points_in_the_plane)
 {
     random_source r = {4};
-    icc_field_report sum = {0};
+    icc_function_report sum = {0};
     for (int round = 0; round < 800; ++round) {
         icc_tree *tree = random_tree(&r, 2);
-        icc_field *field = field_on(tree, 0);
+        icc_function *field = field_on(tree, 0);
         for (size_t v = 0; round % 2 == 1 && v < tree->grid->n_vertices; ++v)
             if (!isnan(field->values[v]))
                 field->values[v] = random_below(&r, 5);
-        const icc_field_report found = report_on(field), expected = count_turns(field);
+        const icc_function_report found = report_on(field), expected = count_turns(field);
         ck_assert_uint_eq(found.n_maxima, expected.n_maxima);
         ck_assert_uint_eq(found.n_minima, expected.n_minima);
         ck_assert_uint_eq(found.n_saddles, expected.n_saddles);
         ck_assert_uint_eq(found.critical, expected.critical);
         sum.n_minima += found.n_minima;
         sum.n_saddles += found.n_saddles;
-        icc_field_free(field);
+        icc_function_free(field);
         icc_tree_free(tree);
     }
     ck_assert(sum.n_minima > 100 && sum.n_saddles > 1000);
@@ -396,7 +396,7 @@ START_TEST(one_peak_in_a_box)
                 peak[k] = random_below(&r, (int)sides[k]);
                 slope[k] = random_between(&r, 0.1, 1);
             }
-            icc_field *field = full_field(dim, sides);
+            icc_function *field = full_field(dim, sides);
             const icc_grid *grid = field->tree->grid;
             for (uint32_t v = 0; v < grid->n_vertices; ++v) {
                 field->values[v] = 0;
@@ -405,24 +405,24 @@ START_TEST(one_peak_in_a_box)
                 if (field->values[v] == 0)
                     field->tree->root = v;
             }
-            const icc_field_report report = report_on(field);
+            const icc_function_report report = report_on(field);
             ck_assert_uint_eq(report.n_maxima, 1);
             ck_assert_uint_eq(report.n_minima, 0);
             ck_assert_uint_eq(report.n_saddles, 0);
             ck_assert_uint_eq(report.critical, UINT32_MAX);
-            icc_field_free(field);
+            icc_function_free(field);
         }
 }
 END_TEST
 
 START_TEST(critical_points_in_space)
 {
-    icc_field *field = full_field(3, (size_t[]){5, 5, 5});
+    icc_function *field = full_field(3, (size_t[]){5, 5, 5});
     for (uint32_t v = 0; v < 125; ++v)
         field->values[v] = -(double)v;
     ck_assert_uint_eq(report_on(field).n_maxima, 1);
     field->values[62] = -1000; /* the middle: a pit, and with it a saddle */
-    icc_field_report report = report_on(field);
+    icc_function_report report = report_on(field);
     ck_assert_uint_eq(report.n_maxima, 1);
     ck_assert_uint_eq(report.n_minima, 1);
     ck_assert_uint_ge(report.n_saddles, 1);
@@ -432,7 +432,7 @@ START_TEST(critical_points_in_space)
     ck_assert_uint_eq(report.n_maxima, 2);
     ck_assert_uint_eq(report.n_minima, 0);
     ck_assert_uint_ge(report.n_saddles, 1);
-    icc_field_free(field);
+    icc_function_free(field);
 }
 END_TEST
 
@@ -448,12 +448,12 @@ START_TEST(decay_on_boxes_is_clean)
                 n *= sides[k] = (size_t)(2 + random_below(&r, dim > 3 ? 3 : 5));
             const uint32_t root = (uint32_t)random_below(&r, (int)n);
             icc_tree *tree = tree_on(dim, sides, inside, root, 0);
-            icc_field *field = field_on(tree, 0);
-            const icc_field_report report = report_on(field);
+            icc_function *field = field_on(tree, 0);
+            const icc_function_report report = report_on(field);
             ck_assert_uint_eq(report.n_maxima, 1);
             ck_assert_uint_eq(report.n_minima + report.n_saddles, 0);
             ck_assert_uint_eq(report.critical, UINT32_MAX);
-            icc_field_free(field);
+            icc_function_free(field);
             icc_tree_free(tree);
         }
 }
@@ -466,18 +466,18 @@ START_TEST(threads_do_not_change_the_report)
     uint8_t *inside = malloc(SIDE * SIDE);
     memset(inside, 1, SIDE * SIDE);
     icc_tree *tree = tree_on(2, (size_t[]){SIDE, SIDE}, inside, 0, 0);
-    icc_field *field = field_on(tree, 0);
+    icc_function *field = field_on(tree, 0);
     for (size_t v = 0; v < SIDE * SIDE; ++v)
         field->values[v] = random_unit(&r);
-    const icc_field_report one = report_on(field);
+    const icc_function_report one = report_on(field);
     ck_assert_uint_gt(one.n_saddles, 1000);
     for (int32_t threads = 2; threads <= 8; ++threads) {
         const icc_env env = {.size = sizeof env, .threads = threads};
-        icc_field_report many = {.size = sizeof many};
-        ck_assert_int_eq(icc_field_verify(field, &many, &env, NULL), ICC_OK);
+        icc_function_report many = {.size = sizeof many};
+        ck_assert_int_eq(icc_function_get_report(field, &many, &env, NULL), ICC_OK);
         ck_assert_mem_eq(&one, &many, sizeof one);
     }
-    icc_field_free(field);
+    icc_function_free(field);
     icc_tree_free(tree);
     free(inside);
 }
@@ -546,15 +546,15 @@ END_TEST
 
 static icc_status make_and_verify(const icc_env *env, icc_error *err, void *tree)
 {
-    icc_field *field = (icc_field *)&field;
-    icc_status status = icc_field_create(&field, tree, NULL, env, err);
+    icc_function *field = (icc_function *)&field;
+    icc_status status = icc_function_create(&field, tree, NULL, env, err);
     ck_assert((field == NULL) == (status != ICC_OK));
-    icc_field_report report = {.size = sizeof report, .n_maxima = 77};
+    icc_function_report report = {.size = sizeof report, .n_maxima = 77};
     if (status == ICC_OK) {
-        status = icc_field_verify(field, &report, env, err);
+        status = icc_function_get_report(field, &report, env, err);
         ck_assert_uint_eq(report.n_maxima, status == ICC_OK ? 1 : 77);
     }
-    icc_field_free(field);
+    icc_function_free(field);
     return status;
 }
 
@@ -581,29 +581,27 @@ START_TEST(wrong_arguments)
 {
     const uint8_t inside[8] = {1, 1, 1, 1, 1, 1, 1, 1};
     icc_tree *tree = tree_on(3, (size_t[]){2, 2, 2}, inside, 0, 0);
-    icc_field *field = (icc_field *)&field;
-    ck_assert_int_eq(icc_field_create(NULL, tree, NULL, NULL, NULL), ICC_ERR_ARGUMENT);
-    ck_assert_int_eq(icc_field_create(&field, NULL, NULL, NULL, NULL), ICC_ERR_ARGUMENT);
+    icc_function *field = (icc_function *)&field;
+    ck_assert_int_eq(icc_function_create(NULL, tree, NULL, NULL, NULL), ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_function_create(&field, NULL, NULL, NULL, NULL), ICC_ERR_ARGUMENT);
     ck_assert_ptr_null(field);
-    icc_field_options options = {.size = sizeof options, .function = 6};
-    ck_assert_int_eq(icc_field_create(&field, tree, &options, NULL, NULL), ICC_ERR_ARGUMENT);
-    options = (icc_field_options){.size = sizeof options, .reserved = 1};
-    ck_assert_int_eq(icc_field_create(&field, tree, &options, NULL, NULL), ICC_ERR_VERSION);
-    options = (icc_field_options){.size = 0};
-    ck_assert_int_eq(icc_field_create(&field, tree, &options, NULL, NULL), ICC_ERR_ARGUMENT);
+    icc_function_options options = {.size = sizeof options, .function = 6};
+    ck_assert_int_eq(icc_function_create(&field, tree, &options, NULL, NULL), ICC_ERR_ARGUMENT);
+    options = (icc_function_options){.size = 0};
+    ck_assert_int_eq(icc_function_create(&field, tree, &options, NULL, NULL), ICC_ERR_ARGUMENT);
     field = field_on(tree, 0);
-    icc_field_report report = {.size = 0};
-    ck_assert_int_eq(icc_field_verify(field, &report, NULL, NULL), ICC_ERR_ARGUMENT);
-    ck_assert_int_eq(icc_field_verify(field, NULL, NULL, NULL), ICC_ERR_ARGUMENT);
-    ck_assert_int_eq(icc_field_verify(NULL, &report, NULL, NULL), ICC_ERR_ARGUMENT);
+    icc_function_report report = {.size = 0};
+    ck_assert_int_eq(icc_function_get_report(field, &report, NULL, NULL), ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_function_get_report(field, NULL, NULL, NULL), ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_function_get_report(NULL, &report, NULL, NULL), ICC_ERR_ARGUMENT);
     size_t n;
-    ck_assert_int_eq(icc_field_edges(field, 0, NULL, NULL, &n, NULL), ICC_ERR_UNSUPPORTED);
-    ck_assert_int_eq(icc_field_edges(NULL, 0, NULL, NULL, &n, NULL), ICC_ERR_ARGUMENT);
-    ck_assert_int_eq(icc_field_edges(field, 0, NULL, NULL, NULL, NULL), ICC_ERR_ARGUMENT);
-    ck_assert_int_eq(icc_field_edges(field, 1, NULL, NULL, &n, NULL), ICC_ERR_ARGUMENT);
-    ck_assert_ptr_null(icc_field_values(NULL));
-    icc_field_free(NULL);
-    icc_field_free(field);
+    ck_assert_int_eq(icc_function_get_edges(field, 0, NULL, NULL, &n, NULL), ICC_ERR_UNSUPPORTED);
+    ck_assert_int_eq(icc_function_get_edges(NULL, 0, NULL, NULL, &n, NULL), ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_function_get_edges(field, 0, NULL, NULL, NULL, NULL), ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_function_get_edges(field, 1, NULL, NULL, &n, NULL), ICC_ERR_ARGUMENT);
+    ck_assert_ptr_null(icc_function_values(NULL));
+    icc_function_free(NULL);
+    icc_function_free(field);
     icc_tree_free(tree);
 }
 END_TEST

@@ -2,7 +2,7 @@
  * Computational Geometry 2003. The random rounds bound the expected work whatever the points are; the
  * curve puts consecutive points of a round, and what they touch in memory, next to each other. Cells
  * of the curve in which many points cluster get a curve of their own. */
-#include "mesh/order.h"
+#include "mesh/insertion_order.h"
 
 #include <stdbool.h>
 

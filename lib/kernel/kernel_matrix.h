@@ -1,6 +1,6 @@
 /* The kernel function, and the matrix of its values between nodes. */
-#ifndef ICCP_GRAM_KERNEL_H
-#define ICCP_GRAM_KERNEL_H
+#ifndef ICCP_KERNEL_MATRIX_H
+#define ICCP_KERNEL_MATRIX_H
 
 #include "icc/kernel.h"
 #include "kernel/cells.h"

@@ -1,5 +1,5 @@
 /* From nodes to weights everywhere: Sakaridis, Kernel Coordinates (ETH Zurich 2016), chapters 4 and 6. */
-#include "kernel/kernel.h"
+#include "kernel/handle_weights.h"
 
 #include "base/clock.h"
 #include "base/error.h"
@@ -57,7 +57,7 @@ static void set_handles(const iccp_layout *l, bool edges)
     }
 }
 
-static icc_status initialise(iccp_layout *l, const icc_kernel_options *options, const iccp_env *env)
+static icc_status initialise(iccp_layout *l, const icc_weights_options *options, const iccp_env *env)
 {
     const bool edges = options->initial == ICC_INITIAL_EDGES;
     const iccp_nodes nodes = iccp_layout_nodes(l);
@@ -72,13 +72,13 @@ static icc_status initialise(iccp_layout *l, const icc_kernel_options *options, 
     if (options->initial != ICC_INITIAL_HEAT && !edges)
         return ICC_OK;
     return iccp_diffuse(&nodes, iccp_collocation_matrix(l->collocation), options->steps, edges,
-                        options->visible >= 0, l->initial, env);
+                        options->within_shape >= 0, l->initial, env);
 }
 
 /* ---- weights ---- */
 
 typedef struct optimisation {
-    icc_kernel *kernel;
+    icc_weights *kernel;
     const uint32_t *nodes;
     const iccp_memory *memory;
 } optimisation;
@@ -86,7 +86,7 @@ typedef struct optimisation {
 static icc_status optimise_some(void *argument, size_t begin, size_t end)
 {
     const optimisation *o = argument;
-    icc_kernel *kernel = o->kernel;
+    icc_weights *kernel = o->kernel;
     const iccp_layout *l = kernel->layout;
     double *work = iccp_alloc(o->memory, iccp_optimise_work(l->handles), sizeof *work);
     if (work == NULL)
@@ -102,7 +102,7 @@ static icc_status optimise_some(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
-icc_status iccp_kernel_optimise(icc_kernel *kernel, size_t n, const uint32_t *nodes,
+icc_status iccp_weights_optimise(icc_weights *kernel, size_t n, const uint32_t *nodes,
                                 const iccp_env *env)
 {
     optimisation o = {kernel, nodes, &env->memory};
@@ -114,7 +114,7 @@ icc_status iccp_kernel_optimise(icc_kernel *kernel, size_t n, const uint32_t *no
 }
 
 /* Ends of lines that are nobody else's are optimised like any node, the nodes between them never. */
-static icc_status optimise_ends(icc_kernel *kernel, const iccp_env *env)
+static icc_status optimise_ends(icc_weights *kernel, const iccp_env *env)
 {
     const iccp_layout *l = kernel->layout;
     const iccp_nodes nodes = iccp_layout_nodes(l);
@@ -135,7 +135,7 @@ static icc_status optimise_ends(icc_kernel *kernel, const iccp_env *env)
     return ICC_OK;
 }
 
-icc_status iccp_kernel_start(icc_kernel *kernel, const iccp_env *env)
+icc_status iccp_weights_start(icc_weights *kernel, const iccp_env *env)
 {
     const iccp_layout *l = kernel->layout;
     const double start = iccp_seconds();
@@ -144,15 +144,15 @@ icc_status iccp_kernel_start(icc_kernel *kernel, const iccp_env *env)
         kernel->status[i] = ICC_OK;
     icc_status status = optimise_ends(kernel, env);
     if (status == ICC_OK)
-        status = iccp_kernel_optimise(kernel, l->n, NULL, env);
+        status = iccp_weights_optimise(kernel, l->n, NULL, env);
     for (size_t k = 0; status == ICC_OK && k < l->n_lines; ++k)
-        status = iccp_kernel_follow(kernel, k, env);
+        status = iccp_weights_follow(kernel, k, env);
     kernel->info.seconds_weights = iccp_seconds() - start;
     return status;
 }
 
 /* Columns that are the same bit for bit have the same coefficients. */
-icc_status iccp_kernel_interpolate(icc_kernel *kernel, const icc_kernel *before,
+icc_status iccp_weights_interpolate(icc_weights *kernel, const icc_weights *before,
                                    const iccp_env *env)
 {
     const iccp_layout *l = kernel->layout;
@@ -173,10 +173,10 @@ icc_status iccp_kernel_interpolate(icc_kernel *kernel, const icc_kernel *before,
 /* ---- the object ---- */
 
 /* Everything but what is in the arrays. */
-static icc_status allocate(icc_kernel **out, const iccp_layout *layout, const iccp_env *env)
+static icc_status allocate(icc_weights **out, const iccp_layout *layout, const iccp_env *env)
 {
     const size_t n = layout->n, m = layout->n_handles;
-    icc_kernel *kernel = iccp_alloc_zero(&env->memory, 1, sizeof *kernel);
+    icc_weights *kernel = iccp_alloc_zero(&env->memory, 1, sizeof *kernel);
     *out = kernel;
     if (kernel == NULL)
         return ICC_ERR_MEMORY;
@@ -192,7 +192,7 @@ static icc_status allocate(icc_kernel **out, const iccp_layout *layout, const ic
                : ICC_ERR_MEMORY;
 }
 
-static void describe(icc_kernel *kernel, const icc_kernel_options *options)
+static void describe(icc_weights *kernel, const icc_weights_options *options)
 {
     const iccp_layout *l = kernel->layout;
     kernel->info.dim = (int32_t)l->dim;
@@ -206,7 +206,7 @@ static void describe(icc_kernel *kernel, const icc_kernel_options *options)
     kernel->info.definiteness = iccp_collocation_definiteness(l->collocation);
 }
 
-static icc_status finish(icc_kernel **out, iccp_layout *layout, const icc_kernel_options *options,
+static icc_status finish(icc_weights **out, iccp_layout *layout, const icc_weights_options *options,
                          const iccp_env *env)
 {
     const double start = iccp_seconds();
@@ -218,12 +218,12 @@ static icc_status finish(icc_kernel **out, iccp_layout *layout, const icc_kernel
         return status;
     describe(*out, options);
     (*out)->info.seconds_initial = seconds;
-    status = iccp_kernel_start(*out, env);
-    return status == ICC_OK ? iccp_kernel_interpolate(*out, NULL, env) : status;
+    status = iccp_weights_start(*out, env);
+    return status == ICC_OK ? iccp_weights_interpolate(*out, NULL, env) : status;
 }
 
-icc_status iccp_kernel_create(icc_kernel **out, const icc_sampling *sampling, size_t n_handles,
-                              const double *handles, const icc_kernel_options *options,
+icc_status iccp_weights_create(icc_weights **out, const icc_sampling *sampling, size_t n_handles,
+                              const double *handles, const icc_weights_options *options,
                               const iccp_env *env, icc_error *err)
 {
     iccp_layout *layout;
@@ -239,21 +239,21 @@ icc_status iccp_kernel_create(icc_kernel **out, const icc_sampling *sampling, si
         (*out)->info.seconds_factor = seconds;
     if (status == ICC_OK)
         return ICC_OK;
-    iccp_kernel_release(*out);
+    iccp_weights_release(*out);
     *out = NULL;
     return status;
 }
 
-icc_status iccp_kernel_copy(icc_kernel **out, const icc_kernel *from, const iccp_env *env)
+icc_status iccp_weights_copy(icc_weights **out, const icc_weights *from, const iccp_env *env)
 {
     const iccp_layout *l = from->layout;
     const icc_status status = allocate(out, l, env);
     if (status != ICC_OK) {
-        iccp_kernel_release(*out);
+        iccp_weights_release(*out);
         *out = NULL;
         return status;
     }
-    icc_kernel *kernel = *out;
+    icc_weights *kernel = *out;
     kernel->info = from->info;
     memcpy(kernel->weights, from->weights, l->n * l->n_handles * sizeof *from->weights);
     memcpy(kernel->status, from->status, l->n * sizeof *from->status);
@@ -262,14 +262,14 @@ icc_status iccp_kernel_copy(icc_kernel **out, const icc_kernel *from, const iccp
     return ICC_OK;
 }
 
-icc_kernel *iccp_kernel_retain(const icc_kernel *kernel)
+icc_weights *iccp_weights_retain(const icc_weights *kernel)
 {
-    icc_kernel *k = (icc_kernel *)kernel;
+    icc_weights *k = (icc_weights *)kernel;
     atomic_fetch_add(&k->references, 1);
     return k;
 }
 
-void iccp_kernel_release(icc_kernel *kernel)
+void iccp_weights_release(icc_weights *kernel)
 {
     if (kernel == NULL || atomic_fetch_sub(&kernel->references, 1) > 1)
         return;

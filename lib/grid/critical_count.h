@@ -3,8 +3,8 @@
  * Based on: T. Banchoff, Critical Points and Curvature for Embedded Polyhedra, Journal of Differential
  * Geometry 1, 1967: what a piecewise linear function does at a vertex can be read off the neighbours
  * that are higher and those that are lower. */
-#ifndef ICCP_GRID_CRITICAL_H
-#define ICCP_GRID_CRITICAL_H
+#ifndef ICCP_CRITICAL_COUNT_H
+#define ICCP_CRITICAL_COUNT_H
 
 #include "base/threads.h"
 #include "grid/star.h"
@@ -14,7 +14,7 @@ typedef struct iccp_critical {
     iccp_star star;
     const void *context;       /* the order: for the two questions below */
     uint32_t highest;          /* where a maximum is expected */
-    icc_field_report *partial; /* what each chunk found */
+    icc_function_report *partial; /* what each chunk found */
 } iccp_critical;
 
 /* Whether a vertex takes part in the order; those that do not are lower than all others. */
@@ -23,15 +23,15 @@ typedef bool (*iccp_is_ranked)(const void *context, uint32_t v);
 /* Of two that do. */
 typedef bool (*iccp_is_higher)(const void *context, uint32_t u, uint32_t v);
 
-/* Counts critical vertices; see icc_field_report, of which all but `size` is filled in. `chunk` calls
+/* Counts critical vertices; see icc_function_report, of which all but `size` is filled in. `chunk` calls
  * iccp_critical_chunk() with the two questions; it is asked from several threads at a time. `n_ranked`:
  * about how many take part. ICC_ERR_MEMORY or ICC_ERR_CANCELLED leave the report as it was. */
 icc_status iccp_critical_count(const icc_grid *grid, const void *context, size_t n_ranked,
-                               uint32_t highest, iccp_chunk chunk, icc_field_report *report,
+                               uint32_t highest, iccp_chunk chunk, icc_function_report *report,
                                const iccp_env *env);
 
 /* Files what a chunk that begins there has found. */
-void iccp_critical_put(const iccp_critical *count, size_t begin, const icc_field_report *found);
+void iccp_critical_put(const iccp_critical *count, size_t begin, const icc_function_report *found);
 
 static ICCP_INLINE iccp_link_set iccp_critical_higher(const iccp_critical *c, uint32_t v,
                                                       iccp_is_ranked ranked, iccp_is_higher higher)
@@ -53,7 +53,7 @@ static ICCP_INLINE iccp_link_set iccp_critical_higher(const iccp_critical *c, ui
 static ICCP_INLINE icc_status iccp_critical_chunk(const iccp_critical *c, size_t begin, size_t end,
                                                   iccp_is_ranked ranked, iccp_is_higher higher)
 {
-    icc_field_report found = {.critical = ICCP_NONE};
+    icc_function_report found = {.critical = ICCP_NONE};
     for (uint32_t v = (uint32_t)begin; v < end; ++v) {
         if (!ranked(c->context, v))
             continue;

@@ -1,34 +1,34 @@
 //! The third stage: a function that falls from parent to child.
-use crate::chart::{Constraints, Function, Solver};
+use crate::chart::{Constraints, FunctionKind, Solver};
 use crate::env::Env;
 use crate::error::{check, Result};
 use crate::object::{object, Borrowed};
 use crate::sys;
-use crate::tree::{FieldReport, Tree};
+use crate::tree::{FunctionReport, Tree};
 use std::ptr;
 
-pub use crate::sys::icc_field_info as FieldInfo;
+pub use crate::sys::icc_function_info as FunctionInfo;
 
 object!(
     /// A function on the vertices of a tree.
-    Field,
-    icc_field,
-    icc_field_free
+    Function,
+    icc_function,
+    icc_function_free
 );
 
-/// Options of [`Field::new`]. `None` and 0 are the library's choice.
+/// Options of [`Function::new`]. `None` and 0 are the library's choice.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct FieldOptions {
+pub struct FunctionOptions {
     /// `None`: decay
-    pub function: Option<Function>,
+    pub function: Option<FunctionKind>,
     /// `None`: needed
     pub constraints: Option<Constraints>,
     /// `None`: by the predicted work
     pub solver: Option<Solver>,
     /// least relative fall from parent to child; 0: 1e-6
-    pub eta: f64,
+    pub min_fall: f64,
     /// constrained bi-Laplace: least value at the leaves; 0: 1e-9
-    pub leaf: f64,
+    pub leaf_min: f64,
 }
 
 /// An edge between two triangles whose gradients both point to it, or both away.
@@ -40,20 +40,20 @@ pub struct Edge {
     pub compression: bool,
 }
 
-impl Field {
+impl Function {
     /// Gives values to the vertices of a tree.
-    pub fn new(tree: &Tree, options: &FieldOptions, env: &mut Env<'_>) -> Result<Field> {
-        let raw = sys::icc_field_options {
+    pub fn new(tree: &Tree, options: &FunctionOptions, env: &mut Env<'_>) -> Result<Function> {
+        let raw = sys::icc_function_options {
             function: options.function.map_or(0, |value| value as i32),
             constraints: options.constraints.map_or(0, |value| value as i32),
             solver: options.solver.map_or(0, |value| value as i32),
-            eta: options.eta,
-            leaf: options.leaf,
+            min_fall: options.min_fall,
+            leaf_min: options.leaf_min,
             ..Default::default()
         };
-        Field::make(env, |out, env, err| {
+        Function::make(env, |out, env, err| {
             // SAFETY: the options are valid during the call.
-            unsafe { sys::icc_field_create(out, tree.as_ptr(), &raw, env, err) }
+            unsafe { sys::icc_function_create(out, tree.as_ptr(), &raw, env, err) }
         })
     }
 
@@ -61,16 +61,16 @@ impl Field {
     pub fn tree(&self) -> Borrowed<'_, Tree> {
         // SAFETY: the field keeps its tree, of which it always has one.
         unsafe {
-            let raw = sys::icc_field_tree(self.as_ptr());
+            let raw = sys::icc_function_tree(self.as_ptr());
             Borrowed::new(Tree::found(raw).expect("libicc: a field without a tree"))
         }
     }
 
     /// How the function was made.
-    pub fn info(&self) -> FieldInfo {
-        let mut info = FieldInfo::default();
+    pub fn info(&self) -> FunctionInfo {
+        let mut info = FunctionInfo::default();
         // SAFETY: `size` is set. It cannot fail.
-        unsafe { sys::icc_field_get_info(self.as_ptr(), &mut info) };
+        unsafe { sys::icc_function_get_info(self.as_ptr(), &mut info) };
         info
     }
 
@@ -81,7 +81,7 @@ impl Field {
     /// One value per grid vertex; NaN where the tree does not reach.
     pub fn values(&self) -> &[f64] {
         // SAFETY: borrowed from the field, one number per vertex.
-        unsafe { std::slice::from_raw_parts(sys::icc_field_values(self.as_ptr()), self.n_vertices()) }
+        unsafe { std::slice::from_raw_parts(sys::icc_function_values(self.as_ptr()), self.n_vertices()) }
     }
 
     /// The logarithm of every value, also where the values underflow. `None` for decay and distance, and when a
@@ -89,17 +89,17 @@ impl Field {
     pub fn logs(&self) -> Option<&[f64]> {
         // SAFETY: borrowed from the field, one number per vertex unless NULL.
         unsafe {
-            let logs = sys::icc_field_logs(self.as_ptr());
+            let logs = sys::icc_function_logs(self.as_ptr());
             (!logs.is_null()).then(|| std::slice::from_raw_parts(logs, self.n_vertices()))
         }
     }
 
     /// Counts critical points.
-    pub fn verify(&self, env: &mut Env<'_>) -> Result<FieldReport> {
-        let mut report = FieldReport::default();
+    pub fn report(&self, env: &mut Env<'_>) -> Result<FunctionReport> {
+        let mut report = FunctionReport::default();
         env.call(|env, err| {
             // SAFETY: `size` is set.
-            unsafe { sys::icc_field_verify(self.as_ptr(), &mut report, env, err) }
+            unsafe { sys::icc_function_get_report(self.as_ptr(), &mut report, env, err) }
         })?;
         Ok(report)
     }
@@ -116,7 +116,7 @@ impl Field {
             let mut n = 0;
             // SAFETY: there is room for `capacity` edges.
             check(unsafe {
-                sys::icc_field_edges(
+                sys::icc_function_get_edges(
                     self.as_ptr(),
                     capacity,
                     edges.as_mut_ptr().cast(),

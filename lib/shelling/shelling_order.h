@@ -4,8 +4,8 @@
  * that the union is a ball every time: a shelling that starts with the star of a vertex. Simplex T may be
  * added iff 1 <= |R| <= dim, where R is the set of its corners opposite to the facets shared with
  * simplices of smaller rank, and the face with the corners R is not part of the union yet. */
-#ifndef ICCP_ORDER_H
-#define ICCP_ORDER_H
+#ifndef ICCP_SHELLING_ORDER_H
+#define ICCP_SHELLING_ORDER_H
 
 #include "shelling/faces.h"
 

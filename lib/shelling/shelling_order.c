@@ -14,7 +14,7 @@
  *
  * Once a face touches the set it does so for good. So a simplex that may not go need not be looked at again
  * before one of its neighbours went. */
-#include "shelling/order.h"
+#include "shelling/shelling_order.h"
 
 #include "shelling/element.h"
 #include "shelling/heap.h"

@@ -1,55 +1,55 @@
-/* The field object: values on the vertices of a tree. */
-#ifndef ICCP_FIELD_H
-#define ICCP_FIELD_H
+/* The function object: values on the vertices of a tree. */
+#ifndef ICCP_FUNCTION_H
+#define ICCP_FUNCTION_H
 
 #include "solver/rows.h"
 #include "math/scaled.h"
 
-struct icc_field {
+struct icc_function {
     iccp_memory memory;
     icc_tree *tree;
-    icc_field_info info;
+    icc_function_info info;
     double *values;    /* one per grid vertex; NaN where the tree does not reach */
     int32_t *exponent; /* the function is values * 2^exponent; NULL: 0 everywhere, the usual case */
     double *plain;     /* the function as far as doubles hold it; NULL when that is `values` */
     double *logs;      /* of the function; NULL unless it is positive inside */
 };
 
-/* A field whose values are all NaN. */
-icc_status iccp_field_new(icc_field **out, const icc_tree *tree, const iccp_env *env);
+/* A function whose values are all NaN. */
+icc_status iccp_function_new(icc_function **out, const icc_tree *tree, const iccp_env *env);
 
 /* Takes over the values of a function on the rows: 0 at the vertices outside next to them, and beyond these
  * minus the value two steps back, as if it went on. Logarithms are made when all are positive,
- * exponents when doubles would not hold them. May be called again. ICC_ERR_MEMORY leaves the field usable
- * only for iccp_field_release(). */
-icc_status iccp_field_assign(icc_field *field, const iccp_rows *rows, const iccp_scaled *f);
+ * exponents when doubles would not hold them. May be called again. ICC_ERR_MEMORY leaves the function usable
+ * only for iccp_function_release(). */
+icc_status iccp_function_assign(icc_function *function, const iccp_rows *rows, const iccp_scaled *f);
 
-/* NULL is a no-op. Nothing shares a field yet, so it has one owner. */
-void iccp_field_release(icc_field *field);
+/* NULL is a no-op. Nothing shares a function yet, so it has one owner. */
+void iccp_function_release(icc_function *function);
 
 /* The function at a few vertices, all divided by the same power of 2 where a double would not hold
  * them; NaN stays NaN. Differences of the results have exact signs. */
-static inline void iccp_field_local(const icc_field *field, size_t n, const uint32_t *vertices,
+static inline void iccp_function_local(const icc_function *function, size_t n, const uint32_t *vertices,
                                     double *local)
 {
     for (size_t i = 0; i < n; ++i)
-        local[i] = field->values[vertices[i]];
-    if (field->exponent == NULL)
+        local[i] = function->values[vertices[i]];
+    if (function->exponent == NULL)
         return;
     int32_t highest = ICCP_ZERO_EXPONENT;
     for (size_t i = 0; i < n; ++i)
-        if (field->exponent[vertices[i]] > highest)
-            highest = field->exponent[vertices[i]];
+        if (function->exponent[vertices[i]] > highest)
+            highest = function->exponent[vertices[i]];
     for (size_t i = 0; i < n; ++i)
-        local[i] = ldexp(local[i], field->exponent[vertices[i]] - highest);
+        local[i] = ldexp(local[i], function->exponent[vertices[i]] - highest);
 }
 
 /* -1, 0 or 1 as the function at u is smaller than, equal to or larger than at v. */
-static inline int iccp_field_compare(const icc_field *field, uint32_t u, uint32_t v)
+static inline int iccp_function_compare(const icc_function *function, uint32_t u, uint32_t v)
 {
     const uint32_t both[2] = {u, v};
     double local[2];
-    iccp_field_local(field, 2, both, local);
+    iccp_function_local(function, 2, both, local);
     return (local[0] > local[1]) - (local[0] < local[1]);
 }
 
