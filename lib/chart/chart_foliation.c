@@ -9,6 +9,7 @@
 #include "foliation/harmonic_file.h"
 #include "foliation/leaf.h"
 #include "foliation/psi_file.h"
+#include "math/vec.h"
 
 #include <math.h>
 #include <string.h>
@@ -26,12 +27,6 @@ static const double *centre_of(const foliation_state *state)
     return state->mesh.points + 2 * (size_t)state->psi.centre;
 }
 
-static double distance(const double p[2], const double q[2])
-{
-    const double dx = q[0] - p[0], dy = q[1] - p[1];
-    return sqrt(dx * dx + dy * dy);
-}
-
 /* The length of part of a leaf that starts at a point, and how it changes. */
 typedef struct leaf_length {
     double length;
@@ -43,7 +38,7 @@ typedef struct leaf_length {
 static void add_piece(leaf_length *l, const double p[2], const double dp[2], const double q[2],
                       const double dq[2])
 {
-    const double length = distance(p, q);
+    const double length = iccp_vec_distance(2, p, q);
     l->length += length;
     if (length > 0)
         l->by_label += ((q[0] - p[0]) * (dq[0] - dp[0]) + (q[1] - p[1]) * (dq[1] - dp[1])) / length;
@@ -56,7 +51,7 @@ static leaf_length start_leaf(const double point[2], const double p[2], const do
                               const double dq[2])
 {
     leaf_length l = {0};
-    const double length = distance(p, q);
+    const double length = iccp_vec_distance(2, p, q);
     if (length > 0) {
         const double ahead[2] = {(q[0] - p[0]) / length, (q[1] - p[1]) / length};
         l.length = (q[0] - point[0]) * ahead[0] + (q[1] - point[1]) * ahead[1];
@@ -96,11 +91,11 @@ static inline void walk(const foliation_state *state, leaf_length *l, iccp_cross
     iccp_crossing_point(&state->mesh, crossing, p);
     while (next(&state->mesh, &state->psi, crossing)) {
         iccp_crossing_point(&state->mesh, crossing, q);
-        l->length += distance(p, q);
+        l->length += iccp_vec_distance(2, p, q);
         memcpy(p, q, sizeof p);
     }
     if (to_centre)
-        l->length += distance(p, centre_of(state));
+        l->length += iccp_vec_distance(2, p, centre_of(state));
 }
 
 /* The two parts of the leaf through a point; `end` becomes the leaf's crossing with the boundary. */
@@ -219,14 +214,14 @@ static icc_status follow(const icc_chart *chart, const iccp_coords *coords, iccp
     icc_status status = iccp_path_append(path, p, 0);
     while (status == ICC_OK && iccp_leaf_rise(&state->mesh, &state->psi, &crossing)) {
         iccp_crossing_point(&state->mesh, &crossing, q);
-        length += distance(p, q);
+        length += iccp_vec_distance(2, p, q);
         status = iccp_path_append(path, q, length);
         memcpy(p, q, sizeof p);
     }
     if (status != ICC_OK)
         return status;
     const double *m = centre_of(state);
-    return iccp_path_append(path, m, length + distance(p, m));
+    return iccp_path_append(path, m, length + iccp_vec_distance(2, p, m));
 }
 
 /* Walks the leaf again for the derivatives of the piece's ends and of the lengths by the label. */

@@ -1,5 +1,7 @@
 #include "chart/gradient_jet.h"
 
+#include "math/vec.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -21,14 +23,6 @@ static void find_edges(const icc_domain *domain, uint32_t facet,
             edge[i - 1][k] = corners[i][k] - corners[0][k];
 }
 
-static double dot(int32_t dim, const double *a, const double *b)
-{
-    double sum = 0;
-    for (int32_t k = 0; k < dim; ++k)
-        sum += a[k] * b[k];
-    return sum;
-}
-
 /* How far along each edge a vector in the facet's plane goes: least squares, by elimination. */
 static void along_edges(int32_t dim, double edge[ICC_MAX_DIM][ICC_MAX_DIM], const double *vector,
                         double *share)
@@ -36,9 +30,9 @@ static void along_edges(int32_t dim, double edge[ICC_MAX_DIM][ICC_MAX_DIM], cons
     const int32_t n = dim - 1;
     double gram[ICC_MAX_DIM][ICC_MAX_DIM];
     for (int32_t i = 0; i < n; ++i) {
-        share[i] = dot(dim, edge[i], vector);
+        share[i] = iccp_vec_dot((size_t)dim, edge[i], vector);
         for (int32_t j = 0; j < n; ++j)
-            gram[i][j] = dot(dim, edge[i], edge[j]);
+            gram[i][j] = iccp_vec_dot((size_t)dim, edge[i], edge[j]);
     }
     for (int32_t c = 0; c < n; ++c)
         for (int32_t i = c + 1; i < n; ++i) {

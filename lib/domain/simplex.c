@@ -5,6 +5,7 @@
 #include "domain/simplex.h"
 
 #include "icc/base.h"
+#include "math/vec.h"
 
 #include <float.h>
 #include <math.h>
@@ -24,14 +25,6 @@ typedef struct search {
     double bary[MAX]; /* of the best */
 } search;
 
-static double dot(size_t dim, const double *a, const double *b)
-{
-    double sum = 0;
-    for (size_t k = 0; k < dim; ++k)
-        sum += a[k] * b[k];
-    return sum;
-}
-
 static void subtract_multiple(size_t dim, double *a, double factor, const double *b)
 {
     for (size_t k = 0; k < dim; ++k)
@@ -49,18 +42,18 @@ static int project(const search *s, size_t n, const size_t *list, double *share,
     for (size_t j = 0; j + 1 < n; ++j) {
         for (size_t k = 0; k < s->dim; ++k)
             q[j][k] = s->corners[list[j + 1]][k] - origin[k];
-        const double length2 = dot(s->dim, q[j], q[j]);
+        const double length2 = iccp_vec_dot(s->dim, q[j], q[j]);
         for (size_t i = 0; i < j; ++i) {
-            r[i][j] = dot(s->dim, q[i], q[j]);
+            r[i][j] = iccp_vec_dot(s->dim, q[i], q[j]);
             subtract_multiple(s->dim, q[j], r[i][j], q[i]);
         }
-        const double across = sqrt(dot(s->dim, q[j], q[j]));
+        const double across = iccp_vec_norm(s->dim, q[j]);
         if (!(across > FLAT * sqrt(length2)))
             return 0;
         for (size_t k = 0; k < s->dim; ++k)
             q[j][k] /= across;
         r[j][j] = across;
-        along[j] = dot(s->dim, q[j], rest);
+        along[j] = iccp_vec_dot(s->dim, q[j], rest);
         subtract_multiple(s->dim, rest, along[j], q[j]);
     }
     for (size_t j = n - 1; j-- > 0;) {
@@ -117,7 +110,7 @@ static void look(search *s, unsigned subset)
         }
     /* Rounding may put a corner of one simplex into another nearby; only its own have it at 0. */
     if (within)
-        keep(s, dot(s->dim, rest, rest) + DBL_MIN, n, list, bary);
+        keep(s, iccp_vec_dot(s->dim, rest, rest) + DBL_MIN, n, list, bary);
 }
 
 double iccp_simplex_nearest(size_t dim, size_t n, const double *const *corners, const double *p,
@@ -128,7 +121,7 @@ double iccp_simplex_nearest(size_t dim, size_t n, const double *const *corners, 
         double away[MAX];
         for (size_t k = 0; k < dim; ++k)
             away[k] = p[k] - corners[i][k];
-        s.distance2[i] = dot(dim, away, away);
+        s.distance2[i] = iccp_vec_dot(dim, away, away);
         if (!(s.distance2[i] > 0)) {
             memset(bary, 0, n * sizeof *bary);
             bary[i] = 1;

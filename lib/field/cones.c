@@ -13,6 +13,7 @@
 
 #include "base/threads.h"
 #include "field/minnorm.h"
+#include "math/vec.h"
 
 #include <float.h>
 #include <string.h>
@@ -111,14 +112,6 @@ static void gradient_of(const star *s, int32_t r, int32_t k, double *gradient)
     }
 }
 
-static double dot(int32_t dim, const double *a, const double *b)
-{
-    double sum = 0;
-    for (int32_t k = 0; k < dim; ++k)
-        sum += a[k] * b[k];
-    return sum;
-}
-
 /* False when the vector has no direction. */
 static bool normalise(int32_t dim, double *v)
 {
@@ -129,7 +122,7 @@ static bool normalise(int32_t dim, double *v)
         return false;
     for (int32_t k = 0; k < dim; ++k)
         v[k] /= longest;
-    const double length = sqrt(dot(dim, v, v));
+    const double length = iccp_vec_norm((size_t)dim, v);
     for (int32_t k = 0; k < dim; ++k)
         v[k] /= length;
     return true;
@@ -175,7 +168,7 @@ static void list_normals(star *s)
         const double *normal = s->cover->normal + dim * facet[i];
         bool fresh = true;
         for (size_t j = 0; fresh && j < s->n_normals; ++j)
-            fresh = dot((int32_t)dim, normals + dim * j, normal) < SAME;
+            fresh = iccp_vec_dot(dim, normals + dim * j, normal) < SAME;
         if (fresh && is_on_side(s, facet[i]))
             memcpy(normals + dim * s->n_normals++, normal, dim * sizeof *normal);
     }
@@ -186,7 +179,7 @@ static double least_product(int32_t dim, size_t n, const double *direction, cons
 {
     double least = DBL_MAX;
     for (size_t i = 0; i < n; ++i)
-        least = fmin(least, dot(dim, direction + (size_t)dim * i, x));
+        least = fmin(least, iccp_vec_dot((size_t)dim, direction + (size_t)dim * i, x));
     return least;
 }
 
@@ -429,8 +422,8 @@ static bool project(const work *w, const star *s, int32_t r, uint32_t lowest, co
 {
     const int8_t *axis = w->orders->axis[r];
     const int32_t dim = w->orders->dim;
-    const double length = sqrt(dot(dim, gradient, gradient));
-    const double lack = AIM * length - dot(dim, gradient, x);
+    const double length = iccp_vec_norm((size_t)dim, gradient);
+    const double lack = AIM * length - iccp_vec_dot((size_t)dim, gradient, x);
     if (!(lack > 0))
         return false;
     double part[ICC_MAX_DIM + 1], norm2 = 0;
@@ -525,7 +518,7 @@ static void count_contacts(work *w, const star *s, const float *vector)
         if (!is_on_side(s, facet))
             continue;
         ++w->cones->n_contacts;
-        w->cones->n_not_inward += !(dot((int32_t)dim, w->cover->normal + dim * facet, x) > 0);
+        w->cones->n_not_inward += !(iccp_vec_dot(dim, w->cover->normal + dim * facet, x) > 0);
     }
 }
 

@@ -2,15 +2,9 @@
  * on a plane, it does so sooner or later as it moves. */
 #include "field/flow_jet.h"
 
-#include <math.h>
+#include "math/vec.h"
 
-static double product(int32_t dim, const double *a, const double *b)
-{
-    double sum = 0;
-    for (int32_t k = 0; k < dim; ++k)
-        sum += a[k] * b[k];
-    return sum;
-}
+#include <math.h>
 
 /* The derivative of the place moves with A y: the terms of that to parameter s, from y on. */
 static int32_t expand(const iccp_flow_walk *w, double s, const double *y,
@@ -62,7 +56,7 @@ static void directions(const iccp_flow_walk *w, double s, double moment[ICCP_FLO
         const double at = (2 * (i / NODES) + 1 + NODE[i % NODES]) / (2 * PARTS);
         double v[ICC_MAX_DIM];
         iccp_flow_velocity(w, s * at, v);
-        double factor = WEIGHT[i % NODES] / (2 * PARTS) / sqrt(product(dim, v, v));
+        double factor = WEIGHT[i % NODES] / (2 * PARTS) / iccp_vec_norm((size_t)dim, v);
         for (int32_t j = 0; j < ICCP_FLOW_TERMS; ++j, factor *= at)
             for (int32_t k = 0; k < dim; ++k)
                 moment[j][k] += factor * v[k];
@@ -77,7 +71,7 @@ void iccp_flow_jet_within(const iccp_flow_walk *walk, double s, iccp_flow_jet *j
     for (int32_t c = 0; c < jet->n; ++c) {
         const int32_t n = expand(walk, s, jet->place[c], change);
         for (int32_t j = 0; j < n; ++j) {
-            jet->length[c] += s * product(dim, change[j], moment[j]);
+            jet->length[c] += s * iccp_vec_dot((size_t)dim, change[j], moment[j]);
             for (int32_t k = 0; k < dim; ++k)
                 jet->place[c][k] += change[j][k] * (s / (j + 1));
         }
@@ -90,7 +84,7 @@ void iccp_flow_jet_advance(const iccp_flow_walk *walk, double s, const double *l
     const int32_t dim = walk->flow->grid->dim;
     double v[ICC_MAX_DIM];
     iccp_flow_velocity(walk, s, v);
-    const double speed = sqrt(product(dim, v, v));
+    const double speed = iccp_vec_norm((size_t)dim, v);
     for (int32_t c = 0; c < jet->n; ++c) {
         for (int32_t k = 0; k < dim; ++k)
             jet->place[c][k] += v[k] / speed * lengths[c];
@@ -104,11 +98,12 @@ bool iccp_flow_jet_onto(const iccp_flow_walk *walk, double s, const double *norm
     const int32_t dim = walk->flow->grid->dim;
     double v[ICC_MAX_DIM], lengths[ICC_MAX_DIM];
     iccp_flow_velocity(walk, s, v);
-    const double speed = sqrt(product(dim, v, v)), across = product(dim, v, normal);
+    const double speed = iccp_vec_norm((size_t)dim, v);
+    const double across = iccp_vec_dot((size_t)dim, v, normal);
     if (!(fabs(across) > 0))
         return false;
     for (int32_t c = 0; c < jet->n; ++c)
-        lengths[c] = -product(dim, jet->place[c], normal) / across * speed;
+        lengths[c] = -iccp_vec_dot((size_t)dim, jet->place[c], normal) / across * speed;
     iccp_flow_jet_advance(walk, s, lengths, jet);
     return true;
 }

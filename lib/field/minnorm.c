@@ -2,6 +2,7 @@
 #include "field/minnorm.h"
 
 #include "icc/base.h"
+#include "math/vec.h"
 
 #include <float.h>
 #include <math.h>
@@ -19,14 +20,6 @@ typedef struct corral {
     size_t corner[MOST_CORNERS + 1];
     double weight[MOST_CORNERS + 1];
 } corral;
-
-static double dot(size_t dim, const double *a, const double *b)
-{
-    double sum = 0;
-    for (size_t k = 0; k < dim; ++k)
-        sum += a[k] * b[k];
-    return sum;
-}
 
 /* Gaussian elimination with pivoting; false when the matrix is singular. */
 static bool solve(size_t n, double a[][MOST_CORNERS + 1], double *x)
@@ -69,7 +62,8 @@ static bool affine_weights(size_t dim, const double *points, const corral *c, do
     for (size_t i = 0; i < c->n; ++i) {
         weight[i] = 1;
         for (size_t j = 0; j < c->n; ++j)
-            gram[i][j] = 1 + dot(dim, points + dim * c->corner[i], points + dim * c->corner[j]);
+            gram[i][j] =
+                1 + iccp_vec_dot(dim, points + dim * c->corner[i], points + dim * c->corner[j]);
     }
     if (!solve(c->n, gram, weight))
         return false;
@@ -118,7 +112,7 @@ static size_t lowest(size_t dim, size_t n, const double *points, const double *d
     size_t best = 0;
     double least = DBL_MAX;
     for (size_t i = 0; i < n; ++i) {
-        const double product = dot(dim, points + dim * i, direction);
+        const double product = iccp_vec_dot(dim, points + dim * i, direction);
         if (product < least) {
             least = product;
             best = i;
@@ -151,14 +145,14 @@ double iccp_minnorm(size_t dim, size_t n, const double *points, double *nearest)
     for (int round = 0; round < MOST_ROUNDS; ++round) {
         place(dim, points, &c, nearest);
         low = lowest(dim, n, points, nearest);
-        const double least = dot(dim, points + dim * low, nearest);
-        if (least >= dot(dim, nearest, nearest) - TOLERANCE || c.n > dim)
+        const double least = iccp_vec_dot(dim, points + dim * low, nearest);
+        if (least >= iccp_vec_dot(dim, nearest, nearest) - TOLERANCE || c.n > dim)
             break;
         c.corner[c.n] = low;
         c.weight[c.n++] = 0;
         if (!settle(dim, points, &c))
             break;
     }
-    const double length = sqrt(dot(dim, nearest, nearest));
-    return length > TOLERANCE ? dot(dim, points + dim * low, nearest) / length : 0;
+    const double length = iccp_vec_norm(dim, nearest);
+    return length > TOLERANCE ? iccp_vec_dot(dim, points + dim * low, nearest) / length : 0;
 }

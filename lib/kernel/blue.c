@@ -9,6 +9,7 @@
 #include "base/random.h"
 #include "base/threads.h"
 #include "kernel/sieve.h"
+#include "math/vec.h"
 
 #include <math.h>
 #include <string.h>
@@ -121,14 +122,6 @@ static void push_of(const relaxation *r, size_t i, double *push)
         }
 }
 
-static double length(size_t dim, const double *v)
-{
-    double sum = 0;
-    for (size_t k = 0; k < dim; ++k)
-        sum += v[k] * v[k];
-    return sqrt(sum);
-}
-
 /* The distance of the nearest wall, and the direction away from it. */
 static double away_from_wall(const relaxation *r, const double *x, double *away)
 {
@@ -142,7 +135,7 @@ static double away_from_wall(const relaxation *r, const double *x, double *away)
             foot += bary[i] * corners[i][k];
         away[k] = x[k] - foot;
     }
-    const double distance = length(r->dim, away);
+    const double distance = iccp_vec_norm(r->dim, away);
     for (size_t k = 0; k < r->dim; ++k)
         away[k] = distance > 0 ? away[k] / distance : 0;
     return distance;
@@ -153,7 +146,7 @@ static void contain(relaxation *r, size_t i, const double *x, double *step)
 {
     double *clearance = r->clearance + (i - r->n_held), away[3], there[3];
     const double least = CLEARANCE * r->spacing;
-    double size = length(r->dim, step), toward = 0;
+    double size = iccp_vec_norm(r->dim, step), toward = 0;
     if (r->shape->walls.n == 0 || *clearance - size >= least) {
         *clearance -= size;
         return;
@@ -186,7 +179,7 @@ static icc_status move_chunk(void *argument, size_t begin, size_t end)
         const double *x = r->points + r->dim * i;
         double step[3] = {0, 0, 0};
         push_of(r, i, step);
-        const double size = GAIN * length(r->dim, step);
+        const double size = GAIN * iccp_vec_norm(r->dim, step);
         for (size_t k = 0; k < r->dim; ++k)
             step[k] *= size > longest ? GAIN * longest / size : GAIN;
         contain(r, i, x, step);

@@ -2,6 +2,8 @@
  * section 7.1. */
 #include "kernel/cells.h"
 
+#include "math/vec.h"
+
 #include <math.h>
 
 /* More cells than this for each point would cost more than they save. */
@@ -100,14 +102,6 @@ bool iccp_cells_box(const iccp_cells *cells, const double *place, double radius,
     return cells->n > 0;
 }
 
-static double distance2(size_t dim, const double *a, const double *b)
-{
-    double sum = 0;
-    for (size_t k = 0; k < dim; ++k)
-        sum += (a[k] - b[k]) * (a[k] - b[k]);
-    return sum;
-}
-
 size_t iccp_cells_near(const iccp_cells *cells, const double *place, double radius, size_t capacity,
                        uint32_t *near)
 {
@@ -121,7 +115,8 @@ size_t iccp_cells_near(const iccp_cells *cells, const double *place, double radi
             const uint32_t end = cells->first[row + box.to[0] + 1];
             for (uint32_t at = cells->first[row + box.from[0]]; at < end; ++at) {
                 const uint32_t i = cells->order[at];
-                if (distance2(cells->dim, place, cells->points + cells->dim * i) > radius * radius)
+                if (iccp_vec_distance2(cells->dim, place, cells->points + cells->dim * i) >
+                    radius * radius)
                     continue;
                 if (n < capacity)
                     near[n] = i;

@@ -1,6 +1,7 @@
 #include "kernel/places.h"
 
 #include "base/threads.h"
+#include "math/vec.h"
 
 #include <float.h>
 #include <math.h>
@@ -36,14 +37,6 @@ void iccp_places_free(iccp_places *places)
     *places = (iccp_places){0};
 }
 
-static double distance2(size_t dim, const double *a, const double *b)
-{
-    double sum = 0;
-    for (size_t k = 0; k < dim; ++k)
-        sum += (a[k] - b[k]) * (a[k] - b[k]);
-    return sum;
-}
-
 /* The nearest point to point i among those that `stays` (all without), below a squared distance, or n. */
 static size_t nearest_to(const iccp_cells *cells, size_t i, const bool *stays, double *best2)
 {
@@ -60,7 +53,8 @@ static size_t nearest_to(const iccp_cells *cells, size_t i, const bool *stays, d
                 const uint32_t j = cells->order[at];
                 if (j == i || (stays != NULL && !stays[j]))
                     continue;
-                const double d2 = distance2(cells->dim, place, cells->points + cells->dim * j);
+                const double d2 =
+                    iccp_vec_distance2(cells->dim, place, cells->points + cells->dim * j);
                 if (d2 < *best2) {
                     *best2 = d2;
                     found = j;

@@ -4,6 +4,7 @@
 #include "domain/inside.h"
 #include "domain/simplex.h"
 #include "math/orient.h"
+#include "math/vec.h"
 
 #include <math.h>
 
@@ -34,14 +35,6 @@ static uint32_t innermost(const icc_shape *shape, const double *point)
     return found;
 }
 
-static double distance(size_t dim, const double *a, const double *b)
-{
-    double sum = 0;
-    for (size_t k = 0; k < dim; ++k)
-        sum += (a[k] - b[k]) * (a[k] - b[k]);
-    return sqrt(sum);
-}
-
 iccp_spot iccp_shape_spot(const icc_shape *shape, const double *point)
 {
     double local[3], bary[3], distance2;
@@ -70,7 +63,7 @@ iccp_spot iccp_shape_spot_beside(const icc_shape *shape, const iccp_spot *other,
     double local[3];
     iccp_frame_in(&shape->frame, (int32_t)shape->dim, point, local);
     iccp_inside_reach(shape->dim, local, spot.at);
-    spot.clearance = other->clearance - distance(shape->dim, spot.at, other->at);
+    spot.clearance = other->clearance - iccp_vec_distance(shape->dim, spot.at, other->at);
     if (!(spot.clearance > reach + shape->tolerance))
         return iccp_shape_spot(shape, point);
     spot.curve = ICCP_NOWHERE;
@@ -109,14 +102,14 @@ static bool in_plane(const icc_shape *shape, const iccp_spot *spot, uint32_t wal
     const double *c[4];
     iccp_facet_corners(&shape->walls, wall, c);
     c[dim] = spot->at;
-    double size = distance(dim, c[0], c[1]), area = size;
+    double size = iccp_vec_distance(dim, c[0], c[1]), area = size;
     if (dim == 3) {
-        const double b = distance(3, c[1], c[2]), d = distance(3, c[2], c[0]),
+        const double b = iccp_vec_distance(3, c[1], c[2]), d = iccp_vec_distance(3, c[2], c[0]),
                      h = 0.5 * (size + b + d);
         area = 2 * sqrt(fmax(h * (h - size) * (h - b) * (h - d), 0));
         size = sqrt(area);
     }
-    const double slack = shape->tolerance * (1 + distance(dim, c[0], spot->at) / size);
+    const double slack = shape->tolerance * (1 + iccp_vec_distance(dim, c[0], spot->at) / size);
     return fabs(iccp_orient_value(dim, c)) <= slack * area;
 }
 
@@ -171,7 +164,7 @@ static bool sees_through_region(const icc_shape *shape, const iccp_spot *a, cons
     if (a->wall != ICCP_NOWHERE && a->wall == b->wall)
         return true;
     /* Well within a ball without walls. */
-    if (distance(shape->dim, a->at, b->at) <
+    if (iccp_vec_distance(shape->dim, a->at, b->at) <
         fmax(a->clearance, b->clearance) - 2 * shape->tolerance)
         return true;
     return !blocked(shape, a, b) && region_between(shape, a, b) == a->region;
@@ -192,14 +185,15 @@ static bool sees_along_curve(const icc_shape *shape, const iccp_spot *a, const i
     size_t n = 0;
     if (a->curve == ICCP_NOWHERE || b->curve == ICCP_NOWHERE || a->curve == b->curve)
         return a->curve != ICCP_NOWHERE && a->curve == b->curve;
-    const double longest = LONGEST_DETOUR * distance(shape->dim, a->at, b->at);
+    const double longest = LONGEST_DETOUR * iccp_vec_distance(shape->dim, a->at, b->at);
     for (int i = 0; i < 2; ++i) {
         const uint32_t v = shape->segments[2 * (size_t)a->curve + (size_t)i];
-        open[n++] = (step){a->curve, v, distance(shape->dim, a->at, iccp_web_vertex(web, v))};
+        open[n++] =
+            (step){a->curve, v, iccp_vec_distance(shape->dim, a->at, iccp_web_vertex(web, v))};
     }
     for (int steps = 0; n > 0 && steps < MOST_STEPS; ++steps) {
         const step at = open[--n];
-        const double rest = distance(shape->dim, b->at, iccp_web_vertex(web, at.vertex));
+        const double rest = iccp_vec_distance(shape->dim, b->at, iccp_web_vertex(web, at.vertex));
         if (at.way + rest > longest)
             continue;
         for (uint32_t i = web->first[at.vertex]; i < web->first[at.vertex + 1]; ++i) {

@@ -5,6 +5,7 @@
 #include "kernel/blue.h"
 #include "kernel/rims.h"
 #include "kernel/sieve.h"
+#include "math/vec.h"
 
 #include <math.h>
 
@@ -112,10 +113,7 @@ static double expect_samples(const icc_shape *shape, double spacing)
         const double *a = shape->local + shape->dim * (shape->n_walled + shape->segments[2 * s]);
         const double *b =
             shape->local + shape->dim * (shape->n_walled + shape->segments[2 * s + 1]);
-        double sum = 0;
-        for (size_t k = 0; k < shape->dim; ++k)
-            sum += (b[k] - a[k]) * (b[k] - a[k]);
-        n += sqrt(sum) / spacing;
+        n += iccp_vec_distance(shape->dim, a, b) / spacing;
     }
     return n + inside;
 }

@@ -1,5 +1,7 @@
 #include "kernel/web.h"
 
+#include "math/vec.h"
+
 #include <math.h>
 
 icc_status iccp_web_create(iccp_web *web, size_t dim, size_t n_vertices, const double *vertices,
@@ -37,10 +39,5 @@ void iccp_web_free(iccp_web *web)
 
 double iccp_web_length(const iccp_web *web, uint32_t a, uint32_t b)
 {
-    double sum = 0;
-    for (size_t k = 0; k < web->dim; ++k) {
-        const double d = iccp_web_vertex(web, b)[k] - iccp_web_vertex(web, a)[k];
-        sum += d * d;
-    }
-    return sqrt(sum);
+    return iccp_vec_distance(web->dim, iccp_web_vertex(web, a), iccp_web_vertex(web, b));
 }

@@ -1,8 +1,9 @@
 /* B. Aronov, R. Seidel, D. Souvaine, On compatible triangulations of simple polygons, 1993: both
- * polygons are triangulated by diagonals alone, and all diagonals drawn in one convex polygon. Which of
- * them cross, and in which order, follows from the order of their ends: integers decide everything.
- * Where they cross there is a point, and the cells between them are convex in both polygons wherever
- * the points are put along the diagonals, as long as their order is kept. They are spread evenly.
+ * polygons are triangulated by diagonals alone, and all diagonals drawn in one convex polygon.
+ * Which of them cross, and in which order, follows from the order of their ends: integers decide
+ * everything. Where they cross there is a point, and the cells between them are convex in both
+ * polygons wherever the points are put along the diagonals, as long as their order is kept. They
+ * are spread evenly.
  *
  * Source diagonals are walked through the target's triangles; each triangle is then cut along the
  * pieces that run through it. */
@@ -80,8 +81,8 @@ static icc_status push_crossing(overlay *o, const crossing *c)
     return ICC_OK;
 }
 
-/* The target's corner at i through whose opposite edge the way to j leaves; ICCP_NO_NEIGHBOUR when i and
- * j are joined by an edge. */
+/* The target's corner at i through whose opposite edge the way to j leaves; ICCP_NO_NEIGHBOUR when
+ * i and j are joined by an edge. */
 static uint32_t leaving_corner(const overlay *o, uint32_t i, uint32_t j)
 {
     const uint32_t *v = o->triangles[1];
@@ -91,9 +92,9 @@ static uint32_t leaving_corner(const overlay *o, uint32_t i, uint32_t j)
     return v[iccp_before(c)] == j ? ICCP_NO_NEIGHBOUR : c;
 }
 
-/* The crossing of source diagonal i j with the target's edge that a corner faces. Diagonals that cross
- * the same edge do not cross each other, so the sum of the steps from its first end to both of
- * theirs, one each way round, orders them. */
+/* The crossing of source diagonal i j with the target's edge that a corner faces. Diagonals that
+ * cross the same edge do not cross each other, so the sum of the steps from its first end to both
+ * of theirs, one each way round, orders them. */
 static crossing crossing_of(const overlay *o, uint32_t corner, uint32_t i, uint32_t j)
 {
     const uint32_t twin = o->twins[1][corner], edge = corner < twin ? corner : twin;
@@ -103,6 +104,8 @@ static crossing crossing_of(const overlay *o, uint32_t corner, uint32_t i, uint3
     return (crossing){edge, n + (uint32_t)o->n_crossings, along};
 }
 
+/* From triangle to triangle of the target, each time through the edge that has j on its far side;
+ * leaves a crossing at each edge and a piece in each triangle. */
 static icc_status walk(overlay *o, uint32_t i, uint32_t j)
 {
     uint32_t corner = leaving_corner(o, i, j), from = i;
@@ -151,6 +154,7 @@ static icc_status walk_all(overlay *o, const iccp_env *env)
     return status;
 }
 
+/* The polygons' vertices keep their places; crossings are spread along their source diagonal. */
 static icc_status place_points(overlay *o, const iccp_planar *base, const double *images)
 {
     const size_t n = o->n + o->n_crossings;
@@ -246,7 +250,8 @@ static int by_span(const void *a, const void *b)
     return (x->span > y->span) - (x->span < y->span);
 }
 
-/* Cuts off the cell behind the shortest piece first: what lies behind a longer one is cut off by then. */
+/* Cuts off the cell behind the shortest piece first: what lies behind a longer one is cut off by
+ * then. */
 static void cut_triangle(overlay *o, uint32_t triangle, piece *pieces, size_t n)
 {
     const uint32_t n_border = list_border(o, triangle);
@@ -262,6 +267,7 @@ static void cut_triangle(overlay *o, uint32_t triangle, piece *pieces, size_t n)
     emit_cell(o, 0, n_border - 1);
 }
 
+/* Cuts the target's triangles one by one; the pieces are sorted by triangle for that. */
 static icc_status cut_all(overlay *o, const iccp_env *env)
 {
     const size_t n_vertices = o->n + o->n_crossings;
@@ -289,6 +295,8 @@ static icc_status cut_all(overlay *o, const iccp_env *env)
 
 /* ---- all of it ---- */
 
+/* Both polygons by diagonals alone, and each vertex's corner on the edge after it, where walks
+ * begin. */
 static icc_status triangulate(overlay *o, const iccp_planar *base, const double *images,
                               const iccp_env *env)
 {

@@ -1,29 +1,29 @@
-/* docs/theory.md, the mesh map. Huynh and Gingold, section 9: a one-to-one map as the start of one that
- * is fair as well. */
+/* docs/theory.md, the mesh map. Huynh and Gingold, section 9: a one-to-one map as the start of one
+ * that is fair as well. */
 #include "map/mesh_map.h"
 
 #include "base/clock.h"
 #include "base/error.h"
 #include "chart/bulk.h"
 #include "map/compatible.h"
-#include "map/outline.h"
+#include "map/plmap_certificate.h"
 #include "map/repair.h"
+#include "map/untangle.h"
 
 #include <math.h>
-#include <string.h>
 
 /* Defaults of icc_improve_options. */
 static const double TOLERANCE = 1e-4;
 enum { ITERATIONS = 60, LEVELS = 4 };
 
-/* Steps for a target that has moved a little: a frame of an animation has no time for more, and the next
- * frame goes on from here. */
+/* Steps for a target that has moved a little: a frame of an animation has no time for more, and the
+ * next frame goes on from here. */
 enum { FOLLOW_ITERATIONS = 8 };
 
 /* ---- start ---- */
 
-/* The image of a mesh vertex: of a boundary vertex the corresponding point of the other cage, of others
- * what the charts say. */
+/* The image of a mesh vertex: of a boundary vertex the corresponding point of the other cage, of
+ * others what the charts say. */
 static icc_status vertex_image(const icc_chart *source, const icc_chart *target,
                                const iccp_planar *mesh, size_t v, double image[2], iccp_path *path)
 {
@@ -40,6 +40,7 @@ static icc_status vertex_image(const icc_chart *source, const icc_chart *target,
     return status == ICC_OK ? target->ops->decode(target, &coords, image, NULL, path) : status;
 }
 
+/* The map of the source chart's mesh that the two charts give, which may be inverted in places. */
 static icc_status start(iccp_plmap *pl, const icc_chart *source, const icc_chart *target,
                         const iccp_env *env, icc_error *err)
 {
@@ -66,35 +67,6 @@ static icc_status start(iccp_plmap *pl, const icc_chart *source, const icc_chart
     return status;
 }
 
-/* ---- certificate ---- */
-
-/* Every triangle positive before and after, a disc by Euler's formula, and both boundaries simple: then
- * the map of the closed polygons is a homeomorphism. */
-static icc_status certify(const iccp_plmap *pl, const iccp_env *env, icc_error *err)
-{
-    size_t n_faults = 0, n_open = 0;
-    const size_t n_triangles = pl->corners.n_triangles;
-    for (uint32_t t = 0; t < n_triangles; ++t)
-        n_faults += !iccp_plmap_positive_point(pl, t) || !iccp_plmap_positive_image(pl, t);
-    for (uint32_t c = 0; c < 3 * n_triangles; ++c) {
-        const uint32_t twin = pl->corners.twin[c];
-        n_open += twin == ICCP_NO_NEIGHBOUR;
-        if (twin != ICCP_NO_NEIGHBOUR)
-            n_faults += pl->corners.twin[twin] != c ||
-                        pl->corners.vertex[iccp_after(twin)] != pl->corners.vertex[iccp_before(c)] ||
-                        pl->corners.vertex[iccp_before(twin)] != pl->corners.vertex[iccp_after(c)];
-    }
-    if (n_faults > 0 || 2 * pl->n_vertices != n_triangles + n_open + 2)
-        return iccp_fail(err, ICC_ERR_CERTIFICATE,
-                         "the mesh map cannot be certified: %zu faults", n_faults);
-    const icc_status status =
-        iccp_outline_check(&pl->corners, pl->n_vertices, pl->points, pl->images, env);
-    return status == ICC_ERR_BOUNDARY
-               ? iccp_fail(err, ICC_ERR_CERTIFICATE,
-                           "the boundary of the mesh or of its image is not simple")
-               : status;
-}
-
 /* ---- all of it ---- */
 
 icc_status iccp_mesh_map_finish(iccp_mesh_map *map, icc_map_info *info, const iccp_env *env,
@@ -103,7 +75,7 @@ icc_status iccp_mesh_map_finish(iccp_mesh_map *map, icc_map_info *info, const ic
     const double begin = iccp_seconds();
     icc_status status = iccp_progress(env, "check", 0);
     if (status == ICC_OK)
-        status = certify(&map->pl, env, err);
+        status = iccp_plmap_certify(&map->pl, env, err);
     const iccp_planar mesh = {.n_vertices = map->pl.n_vertices,
                               .n_triangles = map->pl.corners.n_triangles,
                               .triangles = map->pl.corners.vertex};
@@ -140,7 +112,7 @@ static icc_status refit(iccp_mesh_map *map, const icc_improve_options *options, 
     iccp_env part[3];
     iccp_split(part, 3, (const double[]){1, 4, 1}, env);
     info->n_inverted = iccp_plmap_count_inverted(&map->pl);
-    icc_status status = iccp_repair(&map->pl, false, &info->n_unrepaired, &part[0]);
+    icc_status status = iccp_repair(&map->pl, &info->n_unrepaired, &part[0]);
     const double repaired = iccp_seconds();
     info->seconds_repair = repaired - begin;
     if (status != ICC_OK || info->n_unrepaired > 0)
@@ -167,8 +139,9 @@ static void swap_sides(iccp_plmap *pl)
     pl->images = points;
 }
 
-/* The start that needs no repair but where rounding makes it: compatible triangulations, of any shapes.
- * Triangles of the source that rounding has spoilt are repaired like those of the target. */
+/* The start that needs no repair but where rounding makes it: compatible triangulations, of any
+ * shapes. Triangles of the source that rounding has spoilt are repaired like those of the
+ * target. */
 static icc_status start_compatible(iccp_plmap *pl, const icc_chart *source,
                                    const icc_chart *target, const iccp_env *env)
 {
@@ -186,14 +159,15 @@ static icc_status start_compatible(iccp_plmap *pl, const icc_chart *source,
         return status;
     size_t n_left = 0;
     swap_sides(pl);
-    if (iccp_plmap_count_inverted(pl) > 0)
-        status = iccp_repair(pl, true, &n_left, env);
+    const iccp_simplicial_map reversed = iccp_plmap_simplicial(pl);
+    if (iccp_simplicial_count_inverted(&reversed) > 0)
+        status = iccp_untangle(&reversed, &n_left, env);
     swap_sides(pl);
     return status == ICC_OK && n_left > 0 ? ICC_ERR_CERTIFICATE : status;
 }
 
-/* Where the charts give a start that cannot be repaired. Leaves info->n_unrepaired as it is unless it
- * comes to a certified map. */
+/* Where the charts give a start that cannot be repaired. Leaves info->n_unrepaired as it is unless
+ * it comes to a certified map. */
 static icc_status try_compatible(iccp_mesh_map *map, const icc_chart *source,
                                  const icc_chart *target, const icc_improve_options *options,
                                  icc_map_info *info, const iccp_env *env)
@@ -270,8 +244,8 @@ icc_status iccp_mesh_map_improve(iccp_mesh_map **out, const iccp_mesh_map *map,
     return ICC_OK;
 }
 
-/* Images in the local coordinates of one target become those in another's; where the inside goes from
- * there is up to the repair. */
+/* Images in the local coordinates of one target become those in another's; where the inside goes
+ * from there is up to the repair. */
 static void change_frame(iccp_plmap *pl, const iccp_frame *from, const iccp_frame *to)
 {
     for (size_t v = 0; v < pl->n_vertices; ++v) {
@@ -328,21 +302,9 @@ void iccp_mesh_map_free(iccp_mesh_map *map, const iccp_memory *memory)
 
 /* ---- points ---- */
 
-static void triangle_jacobian(const uint32_t *v, const double *from, const double *to,
-                              double jacobian[4])
-{
-    iccp_element element;
-    const double *const image[3] = {to + 2 * (size_t)v[0], to + 2 * (size_t)v[1],
-                                    to + 2 * (size_t)v[2]};
-    iccp_element_create(&element, from + 2 * (size_t)v[0], from + 2 * (size_t)v[1],
-                        from + 2 * (size_t)v[2]);
-    iccp_element_jacobian(&element, image, jacobian);
-}
-
 icc_status iccp_mesh_map_point(const iccp_mesh_map *map, bool inverse, const double *point,
                                double *image, double *jacobian)
 {
-    const double *from = inverse ? map->pl.images : map->pl.points;
     const double *to = inverse ? map->pl.points : map->pl.images;
     uint32_t triangle;
     double bary[3];
@@ -352,7 +314,9 @@ icc_status iccp_mesh_map_point(const iccp_mesh_map *map, bool inverse, const dou
     for (size_t d = 0; d < 2; ++d)
         image[d] = bary[0] * to[2 * (size_t)v[0] + d] + bary[1] * to[2 * (size_t)v[1] + d] +
                    bary[2] * to[2 * (size_t)v[2] + d];
-    if (jacobian != NULL)
-        triangle_jacobian(v, from, to, jacobian);
+    if (jacobian != NULL) {
+        const iccp_simplicial_map simplicial = iccp_plmap_simplicial(&map->pl);
+        iccp_simplicial_jacobian(&simplicial, inverse, triangle, jacobian);
+    }
     return ICC_OK;
 }

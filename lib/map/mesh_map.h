@@ -14,8 +14,8 @@ typedef struct iccp_mesh_map {
 } iccp_mesh_map;
 
 /* Starts from two charts that were made together: their images of the source chart's mesh. Fills in
- * the mesh's members of `info`. When the repair fails, info->n_unrepaired is not 0 and *out is NULL, with
- * ICC_OK. `iterations` as in icc_map_options. */
+ * the mesh's members of `info`. When the repair fails, info->n_unrepaired is not 0 and *out is
+ * NULL, with ICC_OK. `iterations` as in icc_map_options. */
 icc_status iccp_mesh_map_create(iccp_mesh_map **out, const icc_chart *source,
                                 const icc_chart *target, int32_t iterations, icc_map_info *info,
                                 const iccp_env *env, icc_error *err);
@@ -31,14 +31,14 @@ icc_status iccp_mesh_map_follow(iccp_mesh_map **out, const iccp_mesh_map *map,
                                 const icc_domain *target, int32_t iterations, icc_map_info *info,
                                 const iccp_env *env, icc_error *err);
 
-/* The rest of a map whose `pl` is there: certifies it, ICC_ERR_CERTIFICATE if that fails, and fills in what `info` tells
- * about the mesh's size. */
+/* The rest of a map whose `pl` is there: certifies it, ICC_ERR_CERTIFICATE if that fails, and fills
+ * in what `info` tells about the mesh's size. */
 icc_status iccp_mesh_map_finish(iccp_mesh_map *map, icc_map_info *info, const iccp_env *env,
                                 icc_error *err);
 void iccp_mesh_map_free(iccp_mesh_map *map, const iccp_memory *memory);
 
-/* One local point, forward or back. `jacobian`: 4 numbers row by row, or NULL. ICC_ERR_TRACE when no
- * triangle holds the point, which can only be within rounding of the boundary. */
+/* One local point, forward or back. `jacobian`: 4 numbers row by row, or NULL. ICC_ERR_TRACE when
+ * no triangle holds the point, which can only be within rounding of the boundary. */
 icc_status iccp_mesh_map_point(const iccp_mesh_map *map, bool inverse, const double *point,
                                double *image, double *jacobian);
 

@@ -1,7 +1,6 @@
 #include "map/mesh_repair.h"
 
-#include "map/repair.h"
-#include "map/tet_repair.h"
+#include "map/untangle.h"
 #include "math/predicates.h"
 
 #include <math.h>
@@ -27,8 +26,8 @@ static void add_corner(const iccp_simplices *mesh, const double *images, uint32_
     sum[mesh->dim] += 1;
 }
 
-/* Puts the points that have neighbours with images to the mean of these; returns whether any is left. `sum`:
- * dim + 1 for each point. */
+/* Puts the points that have neighbours with images to the mean of these; returns whether any is
+ * left. `sum`: dim + 1 for each point. */
 static bool place_ring(const iccp_simplices *mesh, double *images, double *sum)
 {
     const size_t n = mesh->dim + 1;
@@ -61,53 +60,32 @@ static icc_status place(const iccp_simplices *mesh, double *images, const iccp_e
 
 /* ---- repair ---- */
 
-static double area_of(const iccp_simplices *mesh, const double *points)
+static double measure_of(const iccp_simplices *mesh, const double *points)
 {
-    double sum = 0;
-    for (size_t t = 0; t < mesh->n_simplices; ++t) {
-        const uint32_t *v = mesh->corners + 3 * t;
-        sum += fabs(iccp_area2d(points + 2 * (size_t)v[0], points + 2 * (size_t)v[1],
-                                points + 2 * (size_t)v[2]));
+    const size_t dim = mesh->dim;
+    double sum = 0, element[ICCP_MAX_ELEMENT];
+    for (size_t s = 0; s < mesh->n_simplices; ++s) {
+        const uint32_t *v = mesh->corners + (dim + 1) * s;
+        const double *corner[4];
+        for (size_t k = 0; k <= dim; ++k)
+            corner[k] = points + dim * v[k];
+        iccp_element_create(dim, corner, element);
+        sum += fabs(dim == 2 ? iccp_area2d(corner[0], corner[1], corner[2]) : element[0]);
     }
     return sum;
-}
-
-/* As a mesh map, all of whose triangles stay. */
-static icc_status repair_triangles(const iccp_simplices *mesh, double *images, const iccp_env *env)
-{
-    const size_t n = 3 * mesh->n_simplices;
-    const double before = area_of(mesh, mesh->points), after = area_of(mesh, images);
-    uint8_t *fixed = iccp_alloc(&env->memory, mesh->n_points, 1);
-    uint32_t *twin = iccp_alloc(&env->memory, n, sizeof *twin);
-    icc_status status = fixed != NULL && twin != NULL ? ICC_OK : ICC_ERR_MEMORY;
-    if (status == ICC_OK) {
-        for (size_t v = 0; v < mesh->n_points; ++v)
-            fixed[v] = v < mesh->n_rim;
-        for (size_t c = 0; c < n; ++c)
-            twin[c] = (mesh->across[c] & ICCP_RIM) != 0 ? ICCP_NO_NEIGHBOUR : mesh->across[c];
-        iccp_plmap pl = {.memory = env->memory,
-                         .corners = {mesh->corners, twin, mesh->n_simplices},
-                         .n_vertices = mesh->n_points,
-                         .points = mesh->points,
-                         .images = images,
-                         .fixed = fixed,
-                         .stretch = before > 0 && after > 0 ? sqrt(after / before) : 1};
-        size_t n_left;
-        status = iccp_repair(&pl, true, &n_left, env);
-    }
-    iccp_free(&env->memory, twin);
-    iccp_free(&env->memory, fixed);
-    return status;
 }
 
 icc_status iccp_mesh_repair(const iccp_simplices *mesh, double *images, const iccp_env *env)
 {
     size_t n_left;
+    iccp_simplicial_map map = iccp_simplicial_map_of(mesh, images);
     const icc_status status = place(mesh, images, env);
     if (status != ICC_OK)
         return status;
-    return mesh->dim == 2 ? repair_triangles(mesh, images, env)
-                          : iccp_tet_repair(mesh, images, &n_left, env);
+    const double before = measure_of(mesh, mesh->points), after = measure_of(mesh, images);
+    if (before > 0 && after > 0)
+        map.stretch = mesh->dim == 2 ? sqrt(after / before) : cbrt(after / before);
+    return iccp_untangle(&map, &n_left, env);
 }
 
 void iccp_mesh_round(const iccp_simplices *mesh, double *images)

@@ -4,13 +4,13 @@
 
 #include "domain/simplices.h"
 
-/* Moves the images, dim coordinates each, of inner points of a mesh in 2-D or 3-D until the images of all
- * simplices are positive, as far as that goes. Inner points that have none, but coordinates that are not
- * finite, get one first. */
+/* Moves the images, dim coordinates each, of inner points of a mesh in 2-D or 3-D until the images
+ * of all simplices are positive, as far as that goes. Inner points that have none, but coordinates
+ * that are not finite, get one first. */
 icc_status iccp_mesh_repair(const iccp_simplices *mesh, double *images, const iccp_env *env);
 
-/* Makes coordinates of the images of inner points 0 that are next to nothing beside the largest, so that there is
- * room for exact signs. */
+/* Makes coordinates of the images of inner points 0 that are next to nothing beside the largest, so
+ * that there is room for exact signs. */
 void iccp_mesh_round(const iccp_simplices *mesh, double *images);
 
 #endif

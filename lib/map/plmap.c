@@ -16,6 +16,7 @@ static icc_status enlarge(const iccp_memory *memory, void *array, size_t n, size
     return ICC_OK;
 }
 
+/* Half as much again as is needed, so that n cuts cost O(n). On failure the map is as before. */
 static icc_status make_room(iccp_plmap *map, size_t n_vertices, size_t n_triangles)
 {
     const iccp_memory *memory = &map->memory;
@@ -120,14 +121,6 @@ bool iccp_plmap_positive_image(const iccp_plmap *map, uint32_t triangle)
                          iccp_plmap_image(map, c + 2)) > 0;
 }
 
-size_t iccp_plmap_count_inverted(const iccp_plmap *map)
-{
-    size_t n = 0;
-    for (uint32_t t = 0; t < map->corners.n_triangles; ++t)
-        n += !iccp_plmap_positive_image(map, t);
-    return n;
-}
-
 /* Whether the halves x a m and x m b of the triangle that a corner is in keep its sign at m. */
 static bool can_halve(const double *x, const double *a, const double *b, const double m[2])
 {
@@ -185,28 +178,4 @@ icc_status iccp_plmap_cut(iccp_plmap *map, uint32_t corner, bool *done)
                       map->corners.vertex[before]);
     iccp_cut_edge(&map->corners, corner, (uint32_t)m);
     return ICC_OK;
-}
-
-void iccp_plmap_element(const iccp_plmap *map, uint32_t triangle, iccp_element *element)
-{
-    double p[3][2];
-    for (uint32_t k = 0; k < 3; ++k)
-        for (int d = 0; d < 2; ++d)
-            p[k][d] = map->stretch * iccp_plmap_point(map, 3 * triangle + k)[d];
-    iccp_element_create(element, p[0], p[1], p[2]);
-}
-
-double iccp_plmap_energy(const iccp_plmap *map)
-{
-    double sum = 0, area = 0;
-    for (uint32_t t = 0; t < map->corners.n_triangles; ++t) {
-        const double *const image[3] = {iccp_plmap_image(map, 3 * t),
-                                        iccp_plmap_image(map, 3 * t + 1),
-                                        iccp_plmap_image(map, 3 * t + 2)};
-        iccp_element element;
-        iccp_plmap_element(map, t, &element);
-        sum += iccp_dirichlet_energy(&element, image);
-        area += element.area;
-    }
-    return sum / area;
 }

@@ -2,7 +2,7 @@
 #ifndef ICCP_PLMAP_H
 #define ICCP_PLMAP_H
 
-#include "map/distortion.h"
+#include "map/simplicial_map.h"
 #include "mesh/corners.h"
 #include "mesh/planar.h"
 
@@ -41,20 +41,37 @@ static inline const double *iccp_plmap_point(const iccp_plmap *map, uint32_t cor
     return map->points + 2 * (size_t)map->corners.vertex[corner];
 }
 
+/* The map without its neighbours, until its mesh changes. */
+static inline iccp_simplicial_map iccp_plmap_simplicial(const iccp_plmap *map)
+{
+    return (iccp_simplicial_map){.dim = 2,
+                                 .n_points = map->n_vertices,
+                                 .n_simplices = map->corners.n_triangles,
+                                 .corners = map->corners.vertex,
+                                 .points = map->points,
+                                 .images = map->images,
+                                 .fixed = map->fixed,
+                                 .stretch = map->stretch};
+}
+
+static inline size_t iccp_plmap_count_inverted(const iccp_plmap *map)
+{
+    const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
+    return iccp_simplicial_count_inverted(&simplicial);
+}
+
+static inline double iccp_plmap_energy(const iccp_plmap *map)
+{
+    const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
+    return iccp_simplicial_energy(&simplicial);
+}
+
 /* Whether a triangle is positive before and after the map, exactly. */
 bool iccp_plmap_positive_point(const iccp_plmap *map, uint32_t triangle);
 bool iccp_plmap_positive_image(const iccp_plmap *map, uint32_t triangle);
-size_t iccp_plmap_count_inverted(const iccp_plmap *map);
 
-/* Cuts the edge that a corner faces at its middle, before and after the map, unless rounding would make
- * a triangle that is positive now, before or after, not positive. Makes room as needed. */
+/* Cuts the edge that a corner faces at its middle, before and after the map, unless rounding would
+ * make a triangle that is positive now, before or after, not positive. Makes room as needed. */
 icc_status iccp_plmap_cut(iccp_plmap *map, uint32_t corner, bool *done);
-
-/* Of a triangle before the map, stretched. */
-void iccp_plmap_element(const iccp_plmap *map, uint32_t triangle, iccp_element *element);
-
-/* Mean of the symmetric Dirichlet energy over the stretched area: 4 for an isometry, infinite when a
- * triangle is not positive. */
-double iccp_plmap_energy(const iccp_plmap *map);
 
 #endif

@@ -1,6 +1,7 @@
-/* Simplices are bisected at their chords, one after the other in the order of the chords' numbers (J. M. Maubach,
- * SIAM J. Sci. Comput. 16, 1995, orders the edges of a simplex for the same reason): two simplices cut a facet that
- * they share alike, since those chords that are not part of it do not matter there. */
+/* Simplices are bisected at their chords, one after the other in the order of the chords' numbers
+ * (J. M. Maubach, SIAM J. Sci. Comput. 16, 1995, orders the edges of a simplex for the same
+ * reason): two simplices cut a facet that they share alike, since those chords that are not part of
+ * it do not matter there. */
 #include "map/solid_chords.h"
 
 #include "domain/tuples.h"
@@ -82,6 +83,8 @@ static void number_chords(cutter *c)
     }
 }
 
+/* Lists the edges of the facets, then those of each simplex between points of the boundary: alike
+ * ones meet when they are sorted. */
 static icc_status find_chords(cutter *c, const iccp_env *env)
 {
     const size_t dim = c->mesh->dim, n_simplices = c->mesh->n_simplices;
@@ -186,6 +189,7 @@ static bool all_positive(const iccp_simplices *mesh)
     return true;
 }
 
+/* Cuts every simplex twice: to count the pieces, and to write them. */
 static icc_status make(cutter *c, const iccp_env *env)
 {
     const size_t dim = c->mesh->dim;

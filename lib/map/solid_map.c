@@ -1,6 +1,6 @@
-/* A map that is linear in every simplex of a mesh is a homeomorphism when it keeps all orientations and its
- * restriction to the boundary is one onto the target's: Y. Lipman, Bijective Mappings of Meshes with Boundary and
- * the Degree in Mesh Processing, SIAM J. Imaging Sci. 7, 2014. */
+/* A map that is linear in every simplex of a mesh is a homeomorphism when it keeps all orientations
+ * and its restriction to the boundary is one onto the target's: Y. Lipman, Bijective Mappings of
+ * Meshes with Boundary and the Degree in Mesh Processing, SIAM J. Imaging Sci. 7, 2014. */
 #include "map/solid_map.h"
 
 #include "base/clock.h"
@@ -8,9 +8,9 @@
 #include "domain/domain_file.h"
 #include "map/curves.h"
 #include "map/mesh_repair.h"
+#include "map/simplicial_map.h"
 #include "map/solid_chords.h"
-#include "map/tet_distortion.h"
-#include "map/tet_repair.h"
+#include "math/vec.h"
 
 #include <math.h>
 #include <string.h>
@@ -18,7 +18,8 @@
 /* Vertices per task. */
 enum { GRAIN = 64 };
 
-/* How far outside its tetrahedron, in barycentric coordinates, a point may seem to be by rounding. */
+/* How far outside its tetrahedron, in barycentric coordinates, a point may seem to be by
+ * rounding. */
 static const double ROUNDING = 1e-9;
 
 typedef struct start {
@@ -47,50 +48,6 @@ static icc_status find_images(void *argument, size_t begin, size_t end)
     return status == ICC_ERR_MEMORY ? status : ICC_OK;
 }
 
-/* Whatever is not finite counts, too. */
-static size_t count_inverted(const iccp_simplices *mesh, const double *images)
-{
-    size_t n = 0;
-    for (size_t t = 0; t < mesh->n_simplices; ++t) {
-        bool finite = true;
-        for (size_t k = 0; k < 12; ++k)
-            finite = finite && isfinite(images[3 * mesh->corners[4 * t + k / 3] + k % 3]);
-        n += !finite || !iccp_tet_is_positive(mesh, images, t);
-    }
-    return n;
-}
-
-/* The mean of |J|^2 + |J^-1|^2, the target scaled to the source's volume: 6 for an isometry. */
-static double mean_energy(const iccp_simplices *mesh, const double *images, double ratio)
-{
-    const double scale = pow(ratio, -1.0 / 3);
-    double energy = 0, volume = 0;
-    for (size_t t = 0; t < mesh->n_simplices; ++t) {
-        const double *corner[4], *image[4];
-        double j[9], squares = 0, cofactors = 0;
-        iccp_tet tet;
-        for (size_t k = 0; k < 4; ++k) {
-            corner[k] = iccp_corner_point(mesh, 4 * t + k);
-            image[k] = images + 3 * mesh->corners[4 * t + k];
-        }
-        iccp_tet_create(&tet, corner);
-        const double det = iccp_tet_jacobian(&tet, image, j) * scale * scale * scale;
-        for (size_t r = 0; r < 3; ++r)
-            for (size_t c = 0; c < 3; ++c) {
-                const size_t r1 = (r + 1) % 3, r2 = (r + 2) % 3, c1 = (c + 1) % 3, c2 = (c + 2) % 3;
-                const double cofactor =
-                    j[3 * r1 + c1] * j[3 * r2 + c2] - j[3 * r1 + c2] * j[3 * r2 + c1];
-                squares += j[3 * r + c] * j[3 * r + c];
-                cofactors += cofactor * cofactor;
-            }
-        squares *= scale * scale;
-        cofactors *= scale * scale * scale * scale;
-        energy += tet.volume * (squares + cofactors / (det * det));
-        volume += tet.volume;
-    }
-    return energy / volume;
-}
-
 static icc_status begin(iccp_solid_map *map, const icc_chart *source, const icc_chart *target,
                         const iccp_env *env)
 {
@@ -104,11 +61,17 @@ static icc_status begin(iccp_solid_map *map, const icc_chart *source, const icc_
     return iccp_for_chunks(env, "trace", mesh->n_points - mesh->n_rim, GRAIN, find_images, &s);
 }
 
+static size_t count_inverted(const iccp_solid_map *map)
+{
+    const iccp_simplicial_map simplicial = iccp_simplicial_map_of(map->mesh, map->images);
+    return iccp_simplicial_count_inverted(&simplicial);
+}
+
 static icc_status repair(iccp_solid_map *map, icc_map_info *info, const iccp_env *env)
 {
     const iccp_simplices *mesh = map->mesh;
     const double began = iccp_seconds();
-    info->n_inverted = count_inverted(mesh, map->images);
+    info->n_inverted = count_inverted(map);
     if (info->n_inverted > 0) {
         const icc_status status = iccp_mesh_repair(mesh, map->images, env);
         if (status != ICC_OK)
@@ -116,7 +79,7 @@ static icc_status repair(iccp_solid_map *map, icc_map_info *info, const iccp_env
     }
     iccp_mesh_round(mesh, map->images);
     const double repaired = iccp_seconds();
-    info->n_unrepaired = count_inverted(mesh, map->images);
+    info->n_unrepaired = count_inverted(map);
     info->seconds_certify += iccp_seconds() - repaired;
     info->seconds_repair += repaired - began;
     return ICC_OK;
@@ -132,17 +95,15 @@ static icc_status plant(iccp_solid_map *map, const iccp_env *env)
     return map->before.boxes != NULL && map->after.boxes != NULL ? ICC_OK : ICC_ERR_MEMORY;
 }
 
-/* Whether a tetrahedron is inverted whose corners are all on the boundary: no repair can help it. */
+/* Whether a tetrahedron is inverted whose corners are all on the boundary: no repair can help
+ * it. */
 static bool is_hopeless(const iccp_solid_map *map)
 {
-    const iccp_simplices *mesh = map->mesh;
-    for (size_t t = 0; t < mesh->n_simplices; ++t) {
-        bool on_rim = true;
-        for (size_t k = 0; k < 4; ++k)
-            on_rim = on_rim && mesh->corners[4 * t + k] < mesh->n_rim;
-        if (on_rim && !iccp_tet_is_positive(mesh, map->images, t))
+    const iccp_simplicial_map simplicial = iccp_simplicial_map_of(map->mesh, map->images);
+    for (size_t t = 0; t < simplicial.n_simplices; ++t)
+        if (!iccp_simplicial_is_free(&simplicial, t) &&
+            !iccp_simplicial_is_positive(&simplicial, t))
             return true;
-    }
     return false;
 }
 
@@ -196,8 +157,9 @@ icc_status iccp_solid_map_create(iccp_solid_map **out, const icc_chart *source,
     }
     info->n_vertices = map->mesh->n_points;
     info->n_simplices = map->mesh->n_simplices;
-    info->energy = info->energy_start = mean_energy(
-        map->mesh, map->images, fabs(target->domain->measure) / fabs(source->domain->measure));
+    iccp_simplicial_map simplicial = iccp_simplicial_map_of(map->mesh, map->images);
+    simplicial.stretch = cbrt(fabs(target->domain->measure) / fabs(source->domain->measure));
+    info->energy = info->energy_start = iccp_simplicial_energy(&simplicial);
     *out = map;
     return ICC_OK;
 }
@@ -225,7 +187,7 @@ static icc_status read_images(iccp_solid_map *map, const icc_domain *target, icc
     memcpy(map->images, target->vertices, 3 * n_rim * sizeof *map->images);
     iccp_blob_read_f64(r, 3 * n, map->images + 3 * n_rim);
     return iccp_are_local(3, 3 * n, map->images + 3 * n_rim) &&
-                   count_inverted(map->mesh, map->images) == 0
+                   count_inverted(map) == 0
                ? ICC_OK
                : ICC_ERR_FORMAT;
 }
@@ -279,18 +241,6 @@ static void set_corners(const iccp_solid_map *map, bool after, uint32_t t, const
         corner[k] = points + 3 * map->mesh->corners[4 * (size_t)t + k];
 }
 
-static ICCP_INLINE void cross(const double *a, const double *b, double *n)
-{
-    n[0] = a[1] * b[2] - a[2] * b[1];
-    n[1] = a[2] * b[0] - a[0] * b[2];
-    n[2] = a[0] * b[1] - a[1] * b[0];
-}
-
-static ICCP_INLINE double dot(const double *a, const double *b)
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 /* Returns the least. */
 static double barycentric(const double *const corner[4], const double *point, double *bary)
 {
@@ -302,9 +252,9 @@ static double barycentric(const double *const corner[4], const double *point, do
     }
     bary[0] = 1;
     for (size_t e = 0; e < 3; ++e) {
-        cross(edge[(e + 1) % 3], edge[(e + 2) % 3], normal);
-        det = e == 0 ? dot(edge[0], normal) : det;
-        bary[e + 1] = dot(from, normal) / det;
+        iccp_vec_cross(edge[(e + 1) % 3], edge[(e + 2) % 3], normal);
+        det = e == 0 ? iccp_vec_dot(3, edge[0], normal) : det;
+        bary[e + 1] = iccp_vec_dot(3, from, normal) / det;
         bary[0] -= bary[e + 1];
     }
     for (size_t k = 0; k < 4; ++k)
@@ -342,7 +292,6 @@ icc_status iccp_solid_map_point(const iccp_solid_map *map, bool inverse, const d
     uint32_t simplex;
     double bary[4];
     const double *from[4], *to[4];
-    iccp_tet tet;
     if (!find(map, inverse, point, &simplex, bary))
         return ICC_ERR_TRACE;
     set_corners(map, inverse, simplex, from);
@@ -351,8 +300,8 @@ icc_status iccp_solid_map_point(const iccp_solid_map *map, bool inverse, const d
         image[k] = to[0][k] + (bary[1] * (to[1][k] - to[0][k]) + bary[2] * (to[2][k] - to[0][k]) +
                                bary[3] * (to[3][k] - to[0][k]));
     if (jacobian != NULL) {
-        iccp_tet_create(&tet, from);
-        (void)iccp_tet_jacobian(&tet, to, jacobian);
+        const iccp_simplicial_map simplicial = iccp_simplicial_map_of(map->mesh, map->images);
+        iccp_simplicial_jacobian(&simplicial, inverse, simplex, jacobian);
     }
     return ICC_OK;
 }

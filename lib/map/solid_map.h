@@ -1,4 +1,5 @@
-/* Map kind mesh in space: a piecewise linear map on the source's conforming mesh, started from the charts. */
+/* Map kind mesh in space: a piecewise linear map on the source's conforming mesh, started from the
+ * charts. */
 #ifndef ICCP_SOLID_MAP_H
 #define ICCP_SOLID_MAP_H
 
@@ -14,21 +15,23 @@ typedef struct iccp_solid_map {
     iccp_facet_tree before, after;
 } iccp_solid_map;
 
-/* The images of the source's mesh by two charts on meshes in space, repaired until every tetrahedron is positive,
- * which is checked exactly; where that fails, of a mesh without chords. Fills in the mesh's members of `info`. When
- * that fails, too, info->n_unrepaired is not 0 and *out is NULL, with ICC_OK. */
+/* The images of the source's mesh by two charts on meshes in space, repaired until every
+ * tetrahedron is positive, which is checked exactly; where that fails, of a mesh without chords.
+ * Fills in the mesh's members of `info`. When that fails, too, info->n_unrepaired is not 0 and *out
+ * is NULL, with ICC_OK. */
 icc_status iccp_solid_map_create(iccp_solid_map **out, const icc_chart *source,
                                  const icc_chart *target, icc_map_info *info, const iccp_env *env);
 
-/* As part of the bytes of a map (docs/formats.md). What is read is certified anew: ICC_ERR_FORMAT if that fails. */
+/* As part of the bytes of a map (docs/formats.md). What is read is certified anew: ICC_ERR_FORMAT
+ * if that fails. */
 void iccp_solid_map_write(const iccp_solid_map *map, iccp_blob_writer *w);
 icc_status iccp_solid_map_read(iccp_solid_map **out, const icc_domain *source,
                                const icc_domain *target, icc_map_info *info, iccp_blob_reader *r,
                                const iccp_env *env);
 void iccp_solid_map_free(iccp_solid_map *map);
 
-/* One local point, forward or back. `jacobian`: 9 numbers row by row, or NULL. ICC_ERR_TRACE when no tetrahedron
- * holds the point, which can only be within rounding of the boundary. */
+/* One local point, forward or back. `jacobian`: 9 numbers row by row, or NULL. ICC_ERR_TRACE when
+ * no tetrahedron holds the point, which can only be within rounding of the boundary. */
 icc_status iccp_solid_map_point(const iccp_solid_map *map, bool inverse, const double *point,
                                 double *image, double *jacobian);
 

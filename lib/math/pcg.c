@@ -2,6 +2,7 @@
 #include "math/pcg.h"
 
 #include "base/budget.h"
+#include "math/vec.h"
 
 #include <math.h>
 #include <string.h>
@@ -11,14 +12,6 @@ static const double WANTED = 1e-13, ACCEPTED = 1e-9;
 
 /* Iterations without a new smallest residual after which progress has ended. */
 enum { PATIENCE = 200 };
-
-static double dot(size_t n, const double *a, const double *b)
-{
-    double sum = 0;
-    for (size_t i = 0; i < n; ++i)
-        sum += a[i] * b[i];
-    return sum;
-}
 
 static void multiply(const iccp_symmetric *m, const double *x, double *y)
 {
@@ -68,14 +61,14 @@ static icc_status iterate(const problem *s, double *x, double *r, double *z, dou
     const iccp_symmetric *m = s->matrix;
     const size_t n = m->n;
     icc_status status;
-    const double size = sqrt(dot(n, r, r));
+    const double size = iccp_vec_norm(n, r);
     double least = size;
     memset(x, 0, n * sizeof *x);
     if (!(size > 0))
         return size >= 0 ? ICC_OK : ICC_ERR_SOLVER;
     status = precondition(s, r, z);
     memcpy(p, z, n * sizeof *p);
-    double rz = dot(n, r, z);
+    double rz = iccp_vec_dot(n, r, z);
     for (size_t since = 0; least > WANTED * size && since < PATIENCE; ++since) {
         if (since % 16 == 0 && status == ICC_OK)
             status = iccp_progress(s->env, "solve", 0);
@@ -84,7 +77,7 @@ static icc_status iterate(const problem *s, double *x, double *r, double *z, dou
         if (status != ICC_OK)
             return status;
         multiply(m, p, q);
-        const double curvature = dot(n, p, q);
+        const double curvature = iccp_vec_dot(n, p, q);
         /* Otherwise the matrix is not positive definite, or the residual is rounding. */
         if (!(curvature > 0 && rz > 0))
             break;
@@ -93,13 +86,13 @@ static icc_status iterate(const problem *s, double *x, double *r, double *z, dou
             x[i] += step * p[i];
             r[i] -= step * q[i];
         }
-        const double residual = sqrt(dot(n, r, r));
+        const double residual = iccp_vec_norm(n, r);
         if (residual < least) {
             least = residual;
             since = 0;
         }
         status = precondition(s, r, z);
-        const double next = dot(n, r, z), beta = next / rz;
+        const double next = iccp_vec_dot(n, r, z), beta = next / rz;
         rz = next;
         for (size_t i = 0; i < n; ++i)
             p[i] = z[i] + beta * p[i];

@@ -3,6 +3,7 @@
 #include "shelling/centres.h"
 
 #include "math/spd.h"
+#include "math/vec.h"
 #include "shelling/heap.h"
 #include "shelling/stiffness.h"
 
@@ -39,12 +40,7 @@ static double size_of(const icc_domain *domain)
 
 static double distance(const iccp_simplices *mesh, size_t vertex, const double *point)
 {
-    double square = 0;
-    for (size_t k = 0; k < mesh->dim; ++k) {
-        const double d = mesh->points[mesh->dim * vertex + k] - point[k];
-        square += d * d;
-    }
-    return sqrt(square);
+    return iccp_vec_distance(mesh->dim, mesh->points + mesh->dim * vertex, point);
 }
 
 /* 0 outside. */

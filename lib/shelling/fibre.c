@@ -4,6 +4,8 @@
  * the next simplex is entered. */
 #include "shelling/fibre.h"
 
+#include "math/vec.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -120,11 +122,8 @@ static size_t corner_of_centre(const iccp_fibres *fibres, uint32_t simplex)
 /* From the centre to a place in the star: the offset, and its length. */
 static double from_centre(const iccp_fibres *fibres, const iccp_fibre_place *place, double *offset)
 {
-    double sum = 0;
     iccp_fibres_offset(fibres, place, corner_of_centre(fibres, place->simplex), offset);
-    for (size_t k = 0; k < fibres->dim; ++k)
-        sum += offset[k] * offset[k];
-    return sqrt(sum);
+    return iccp_vec_norm(fibres->dim, offset);
 }
 
 /* How the distance from the centre changes with the parameters of a jet. */

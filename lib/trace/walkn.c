@@ -8,6 +8,7 @@
 #include "trace/walkn.h"
 
 #include "math/predicates.h"
+#include "math/vec.h"
 
 #include <assert.h>
 #include <math.h>
@@ -109,14 +110,6 @@ static icc_status cross(iccp_walkn *w, int i)
     return ICC_OK;
 }
 
-static double distance(int dim, const double *p, const double *q)
-{
-    double square = 0;
-    for (int k = 0; k < dim; ++k)
-        square += (q[k] - p[k]) * (q[k] - p[k]);
-    return sqrt(square);
-}
-
 static void record(iccp_walkn *w, const iccp_motion *m)
 {
     const int dim = grid_of(w)->dim;
@@ -125,7 +118,7 @@ static void record(iccp_walkn *w, const iccp_motion *m)
             w->place.y[k + 1] = m->y[a];
     memcpy(w->from, w->to, sizeof w->from);
     find_position(w, w->to);
-    w->s += distance(dim, w->from, w->to);
+    w->s += iccp_vec_distance((size_t)dim, w->from, w->to);
     w->cell = w->place.simplex.corner[0];
 }
 

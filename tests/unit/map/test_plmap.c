@@ -1,6 +1,7 @@
 /* Piecewise linear maps: refining, untangling and improving them. */
 #include "base/error.h"
 #include "map/improve.h"
+#include "map/newton.h"
 #include "map/repair.h"
 #include "mesh/planar.h"
 
@@ -113,11 +114,12 @@ static bool image_of(const iccp_plmap *map, const double p[2], double image[2])
 
 static double area_of(const iccp_plmap *map)
 {
+    const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
     double sum = 0;
     for (uint32_t t = 0; t < map->corners.n_triangles; ++t) {
-        iccp_element element;
-        iccp_plmap_element(map, t, &element);
-        sum += element.area;
+        double element[ICCP_ELEMENT(2)];
+        iccp_simplicial_element(&simplicial, t, element);
+        sum += element[0];
     }
     return sum;
 }
@@ -245,15 +247,16 @@ START_TEST(steps_go_down)
         iccp_newton newton;
         double slope;
         shake(&map, 3, 0.05);
-        ck_assert_int_eq(iccp_newton_create(&newton, &map, NULL, &env), ICC_OK);
-        ck_assert_int_eq(iccp_newton_solve(&newton, &map, (iccp_energy)kind, 0.1, &slope, &env), ICC_OK);
+        const iccp_simplicial_map simplicial = iccp_plmap_simplicial(&map);
+        ck_assert_int_eq(iccp_newton_create(&newton, &simplicial, NULL, &env), ICC_OK);
+        ck_assert_int_eq(iccp_newton_solve(&newton, (iccp_energy)kind, 0.1, &slope, &env), ICC_OK);
         ck_assert_double_lt(slope, 0);
         double energy[2];
         for (int k = 0; k < 2; ++k) {
-            for (size_t i = 0; i < 2 * newton.n_free; ++i)
-                map.images[2 * (size_t)newton.free_vertex[i / 2] + i % 2] +=
+            for (size_t i = 0; i < 2 * newton.assembly.n_free; ++i)
+                map.images[2 * (size_t)newton.assembly.free_point[i / 2] + i % 2] +=
                     (k == 0 ? -1e-6 : 2e-6) * newton.step[i];
-            energy[k] = iccp_newton_energy(&newton, &map, (iccp_energy)kind, 0.1);
+            energy[k] = iccp_newton_energy(&newton, (iccp_energy)kind, 0.1);
         }
         ck_assert_double_eq_tol((energy[1] - energy[0]) / 2e-6 / slope, 1, 1e-4);
         iccp_newton_free(&newton);
@@ -277,13 +280,14 @@ START_TEST(every_step_is_monotone_and_positive)
         for (size_t v = 0; v < map.n_vertices; ++v)
             movable[v] = v % 5 != 0;
         iccp_newton newton;
-        ck_assert_int_eq(iccp_newton_create(&newton, &map, k % 2 ? movable : NULL, &env), ICC_OK);
-        double energy = iccp_newton_energy(&newton, &map, ICCP_DIRICHLET, 0);
-        for (int step = 0; step < 25 && newton.n_free > 0; ++step) {
+        const iccp_simplicial_map simplicial = iccp_plmap_simplicial(&map);
+        ck_assert_int_eq(iccp_newton_create(&newton, &simplicial, k % 2 ? movable : NULL, &env), ICC_OK);
+        double energy = iccp_newton_energy(&newton, ICCP_DIRICHLET, 0);
+        for (int step = 0; step < 25 && newton.assembly.n_free > 0; ++step) {
             const iccp_energy model = step % 3 == 0 ? ICCP_DIRICHLET_MAJORISED : ICCP_DIRICHLET;
             double slope;
-            ck_assert_int_eq(iccp_newton_solve(&newton, &map, model, 0, &slope, &env), ICC_OK);
-            const double after = iccp_newton_move(&newton, &map, model, 0, energy, slope);
+            ck_assert_int_eq(iccp_newton_solve(&newton, model, 0, &slope, &env), ICC_OK);
+            const double after = iccp_newton_move(&newton, model, 0, energy, slope);
             ck_assert_double_le(after, energy);
             ck_assert_uint_eq(iccp_plmap_count_inverted(&map), 0);
             energy = after;
@@ -362,12 +366,12 @@ static size_t repair_and_check(iccp_plmap *map, bool twice)
     size_t n_left = 12345, n_again = 0;
     ck_assert_int_eq(iccp_plmap_copy(&broken, map, &env.memory), ICC_OK);
     ck_assert_int_eq(iccp_plmap_copy(&again, map, &env.memory), ICC_OK);
-    ck_assert_int_eq(iccp_repair(map, false, &n_left, &env), ICC_OK);
+    ck_assert_int_eq(iccp_repair(map, &n_left, &env), ICC_OK);
     check_mesh(map);
     check_boundary(map, &broken);
     ck_assert_uint_eq(iccp_plmap_count_inverted(map), n_left);
     if (twice)
-        ck_assert_int_eq(iccp_repair(&again, false, &n_again, &env), ICC_OK);
+        ck_assert_int_eq(iccp_repair(&again, &n_again, &env), ICC_OK);
     ck_assert(!twice || (is_same(map, &again) && n_again == n_left));
     iccp_plmap_free(&broken);
     iccp_plmap_free(&again);
@@ -413,7 +417,7 @@ START_TEST(there_is_nothing_to_repair)
     iccp_plmap map = map_of(&s, 10, wave, 1), copy;
     size_t n_left;
     ck_assert_int_eq(iccp_plmap_copy(&copy, &map, &env.memory), ICC_OK);
-    ck_assert_int_eq(iccp_repair(&map, false, &n_left, &env), ICC_OK);
+    ck_assert_int_eq(iccp_repair(&map, &n_left, &env), ICC_OK);
     ck_assert_uint_eq(n_left, 0);
     ck_assert(is_same(&map, &copy));
     iccp_plmap_free(&map);
@@ -514,7 +518,7 @@ static icc_status repair_copy(const icc_env *env, icc_error *err, void *argument
     if (status == ICC_OK) {
         random_source r = {3};
         break_map(&map, 2, &r);
-        status = iccp_repair(&map, false, &n_left, &full);
+        status = iccp_repair(&map, &n_left, &full);
         ck_assert(status != ICC_OK || n_left == iccp_plmap_count_inverted(&map));
     }
     iccp_plmap_free(&map);
@@ -533,7 +537,7 @@ static icc_status repair_in_vain(const icc_env *env, icc_error *err, void *argum
     if (status == ICC_OK) {
         for (size_t v = 0; v < map.n_vertices; ++v)
             map.images[2 * v] *= -1;
-        status = iccp_repair(&map, false, &n_left, &full);
+        status = iccp_repair(&map, &n_left, &full);
         ck_assert_uint_gt(n_left, 0);
     }
     iccp_plmap_free(&map);

@@ -1,0 +1,217 @@
+/* O. C. Zienkiewicz, R. L. Taylor, The Finite Element Method, chapter 1: where each element adds to
+ * the matrix is found once. */
+#include "map/assembly.h"
+
+#include <string.h>
+
+static const uint32_t NONE = UINT32_MAX;
+
+/* Added to the diagonal, relative to its mean: where negative curvature was left out the Hessian
+ * may be singular. */
+static const double SHIFT = 1e-10;
+
+/* ---- pattern ---- */
+
+static ICCP_INLINE uint32_t slot_of(size_t dim, const iccp_assembly *s, size_t element,
+                                    size_t corner)
+{
+    return s->slot[s->corners[(dim + 1) * s->simplex[element] + corner]];
+}
+
+/* Numbers the free points, and lists the simplices that have one. */
+static icc_status list_parts(iccp_assembly *s, const iccp_simplicial_map *map,
+                             const uint8_t *movable)
+{
+    s->slot = iccp_alloc(&s->memory, map->n_points, sizeof *s->slot);
+    s->free_point = iccp_alloc(&s->memory, map->n_points, sizeof *s->free_point);
+    s->simplex = iccp_alloc(&s->memory, map->n_simplices, sizeof *s->simplex);
+    if (s->slot == NULL || s->free_point == NULL || s->simplex == NULL)
+        return ICC_ERR_MEMORY;
+    for (uint32_t v = 0; v < map->n_points; ++v) {
+        s->slot[v] = NONE;
+        if (!iccp_simplicial_is_fixed(map, v) && (movable == NULL || movable[v])) {
+            s->slot[v] = (uint32_t)s->n_free;
+            s->free_point[s->n_free++] = v;
+        }
+    }
+    for (uint32_t t = 0; t < map->n_simplices; ++t) {
+        const uint32_t *v = map->corners + (s->dim + 1) * t;
+        bool is_free = false;
+        for (size_t k = 0; k <= s->dim; ++k)
+            is_free |= s->slot[v[k]] != NONE;
+        if (is_free)
+            s->simplex[s->n_elements++] = t;
+    }
+    return ICC_OK;
+}
+
+/* Neighbours of each free point among the free ones, each once; `room` says where its list
+ * begins. */
+static ICCP_INLINE void list_neighbours(size_t dim, iccp_assembly *s, const size_t *room,
+                                        uint32_t *degree, uint32_t *list)
+{
+    uint32_t *neighbour = s->neighbour;
+    memset(degree, 0, s->n_free * sizeof *degree);
+    for (size_t e = 0; e < s->n_elements; ++e)
+        for (size_t i = 0; i <= dim; ++i)
+            for (size_t j = 0; j <= dim; ++j) {
+                const uint32_t a = slot_of(dim, s, e, i), b = slot_of(dim, s, e, j);
+                if (i == j)
+                    continue;
+                *neighbour++ = NONE;
+                if (a == NONE || b == NONE)
+                    continue;
+                uint32_t *own = list + room[a], k = 0;
+                while (k < degree[a] && own[k] != b)
+                    ++k;
+                if (k == degree[a])
+                    own[degree[a]++] = b;
+                neighbour[-1] = k;
+            }
+}
+
+/* Writes the rows' lengths and columns; the values come with each assembly. */
+static icc_status build_pattern(iccp_assembly *s, const uint32_t *degree, const size_t *room,
+                                const uint32_t *list)
+{
+    const uint32_t dim = (uint32_t)s->dim;
+    size_t n_entries = 0;
+    for (size_t i = 0; i < s->n_free; ++i)
+        for (size_t d = 0; d < dim; ++d) {
+            s->first[dim * i + d] = n_entries;
+            n_entries += dim - 1 + dim * (size_t)degree[i];
+        }
+    s->first[dim * s->n_free] = n_entries;
+    s->column = iccp_alloc(&s->memory, n_entries, sizeof *s->column);
+    s->value = iccp_alloc(&s->memory, n_entries, sizeof *s->value);
+    if (s->column == NULL || s->value == NULL)
+        return ICC_ERR_MEMORY;
+    for (uint32_t i = 0; i < s->n_free; ++i)
+        for (uint32_t d = 0; d < dim; ++d) {
+            uint32_t *column = s->column + s->first[dim * i + d];
+            for (uint32_t c = 0; c < dim; ++c)
+                if (c != d)
+                    *column++ = dim * i + c;
+            for (uint32_t k = 0; k < degree[i]; ++k)
+                for (uint32_t c = 0; c < dim; ++c)
+                    *column++ = dim * list[room[i] + k] + c;
+        }
+    return ICC_OK;
+}
+
+/* Neighbours are listed with room for each pair of corners, then the pattern without it. */
+static icc_status find_pattern(iccp_assembly *s)
+{
+    const size_t dim = s->dim;
+    size_t *room = iccp_alloc_zero(&s->memory, s->n_free + 1, sizeof *room);
+    uint32_t *degree = iccp_alloc(&s->memory, s->n_free, sizeof *degree);
+    uint32_t *list = iccp_alloc(&s->memory, dim * (dim + 1) * s->n_elements, sizeof *list);
+    icc_status status = ICC_ERR_MEMORY;
+    if (room != NULL && degree != NULL && list != NULL) {
+        for (size_t e = 0; e < s->n_elements; ++e)
+            for (size_t k = 0; k <= dim; ++k)
+                if (slot_of(dim, s, e, k) != NONE)
+                    room[slot_of(dim, s, e, k) + 1] += dim;
+        for (size_t i = 0; i < s->n_free; ++i)
+            room[i + 1] += room[i];
+        if (dim == 2)
+            list_neighbours(2, s, room, degree, list);
+        else
+            list_neighbours(3, s, room, degree, list);
+        status = build_pattern(s, degree, room, list);
+    }
+    iccp_free(&s->memory, room);
+    iccp_free(&s->memory, degree);
+    iccp_free(&s->memory, list);
+    return status;
+}
+
+icc_status iccp_assembly_create(iccp_assembly *assembly, const iccp_simplicial_map *map,
+                                const uint8_t *movable, const iccp_env *env)
+{
+    iccp_assembly *s = assembly;
+    *s = (iccp_assembly){.memory = env->memory, .dim = map->dim, .corners = map->corners};
+    icc_status status = list_parts(s, map, movable);
+    if (status == ICC_OK) {
+        const size_t n = s->dim * s->n_free, n_pairs = s->dim * (s->dim + 1);
+        s->neighbour = iccp_alloc(&s->memory, s->n_elements, n_pairs * sizeof *s->neighbour);
+        s->first = iccp_alloc(&s->memory, n + 1, sizeof *s->first);
+        s->diagonal = iccp_alloc(&s->memory, n, sizeof *s->diagonal);
+        s->gradient = iccp_alloc(&s->memory, n, sizeof *s->gradient);
+        status =
+            s->neighbour != NULL && s->first != NULL && s->diagonal != NULL && s->gradient != NULL
+                ? find_pattern(s)
+                : ICC_ERR_MEMORY;
+    }
+    if (status != ICC_OK)
+        iccp_assembly_free(s);
+    return status;
+}
+
+void iccp_assembly_free(iccp_assembly *assembly)
+{
+    iccp_assembly *s = assembly;
+    void *const owned[] = {s->free_point, s->slot,  s->simplex,  s->neighbour, s->first,
+                           s->column,     s->value, s->diagonal, s->gradient};
+    for (size_t k = 0; k < sizeof owned / sizeof *owned; ++k)
+        iccp_free(&s->memory, owned[k]);
+    *s = (iccp_assembly){.memory = s->memory};
+}
+
+/* ---- sums ---- */
+
+void iccp_assembly_begin(iccp_assembly *assembly)
+{
+    const size_t n = assembly->dim * assembly->n_free;
+    memset(assembly->gradient, 0, n * sizeof *assembly->gradient);
+    memset(assembly->diagonal, 0, n * sizeof *assembly->diagonal);
+    memset(assembly->value, 0, assembly->first[n] * sizeof *assembly->value);
+}
+
+/* First each corner's gradient and own block, then the blocks of each pair of corners. */
+static ICCP_INLINE void add(size_t dim, iccp_assembly *s, size_t element, const iccp_local *local)
+{
+    const size_t n = dim * (dim + 1);
+    const uint32_t *neighbour = s->neighbour + n * element;
+    for (size_t a = 0; a <= dim; ++a) {
+        const uint32_t i = slot_of(dim, s, element, a);
+        for (size_t d = 0; d < dim && i != NONE; ++d) {
+            const double *row = local->hessian + n * (dim * a + d) + dim * a;
+            double *value = s->value + s->first[dim * i + d];
+            s->gradient[dim * i + d] += local->gradient[dim * a + d];
+            s->diagonal[dim * i + d] += row[d];
+            for (size_t c = 0; c < dim; ++c)
+                if (c != d)
+                    *value++ += row[c];
+        }
+    }
+    for (size_t a = 0; a <= dim; ++a)
+        for (size_t b = 0; b <= dim; ++b) {
+            const uint32_t k = a != b ? *neighbour++ : NONE;
+            const uint32_t i = slot_of(dim, s, element, a);
+            for (size_t d = 0; d < dim && k != NONE; ++d) {
+                const double *row = local->hessian + n * (dim * a + d) + dim * b;
+                double *value = s->value + s->first[dim * i + d] + dim - 1 + dim * k;
+                for (size_t c = 0; c < dim; ++c)
+                    value[c] += row[c];
+            }
+        }
+}
+
+void iccp_assembly_add(iccp_assembly *assembly, size_t element, const iccp_local *local)
+{
+    if (assembly->dim == 2)
+        add(2, assembly, element, local);
+    else
+        add(3, assembly, element, local);
+}
+
+void iccp_assembly_end(iccp_assembly *assembly)
+{
+    const size_t n = assembly->dim * assembly->n_free;
+    double sum = 0;
+    for (size_t i = 0; i < n; ++i)
+        sum += assembly->diagonal[i];
+    for (size_t i = 0; i < n; ++i)
+        assembly->diagonal[i] += SHIFT * sum / (double)n;
+}

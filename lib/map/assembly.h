@@ -1,0 +1,43 @@
+/* The free points of a simplicial map, and gradient and Hessian of an energy over them, assembled
+ * simplex by simplex. */
+#ifndef ICCP_ASSEMBLY_H
+#define ICCP_ASSEMBLY_H
+
+#include "map/simplicial_map.h"
+#include "math/symmetric.h"
+
+/* Of the Hessian, rows dim i to dim i + dim - 1 belong to free point i: they hold the other entries
+ * of its own block, then dim columns for each neighbour. */
+typedef struct iccp_assembly {
+    iccp_memory memory;
+    size_t dim;
+    const uint32_t *corners; /* of the map */
+    size_t n_free, n_elements;
+    uint32_t *free_point; /* n_free */
+    uint32_t *slot;       /* of each point of the map among the free ones, or UINT32_MAX */
+    uint32_t *simplex;    /* n_elements: those with a free corner */
+    uint32_t *neighbour;  /* of each element, for the dim (dim + 1) ordered pairs of corners (a, b):
+                             which neighbour of a is b, or UINT32_MAX */
+    size_t *first;        /* the Hessian, as in iccp_symmetric */
+    uint32_t *column;
+    double *value, *diagonal;
+    double *gradient; /* dim n_free */
+} iccp_assembly;
+
+/* For the points with movable[v] != 0 that are not fixed; all of them when `movable` is NULL. */
+icc_status iccp_assembly_create(iccp_assembly *assembly, const iccp_simplicial_map *map,
+                                const uint8_t *movable, const iccp_env *env);
+void iccp_assembly_free(iccp_assembly *assembly);
+
+/* Begins a sum; adds an element to it; and adds to the diagonal what keeps a Hessian without its
+ * negative curvature regular. */
+void iccp_assembly_begin(iccp_assembly *assembly);
+void iccp_assembly_add(iccp_assembly *assembly, size_t element, const iccp_local *local);
+void iccp_assembly_end(iccp_assembly *assembly);
+
+static inline iccp_symmetric iccp_assembly_hessian(const iccp_assembly *s)
+{
+    return (iccp_symmetric){s->dim * s->n_free, s->first, s->column, s->value, s->diagonal};
+}
+
+#endif

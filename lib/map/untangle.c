@@ -1,0 +1,133 @@
+/* V. Garanzha et al., Foldover-free maps in 50 lines of code, 2021, on patches round what is
+ * inverted, larger ones in turn: docs/theory.md, the mesh map. */
+#include "map/untangle.h"
+
+#include "map/newton.h"
+#include "map/untangling.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Rings of neighbours round the inverted simplices that are free to move, 0 means all; steps at
+ * most; and steps without fewer inverted simplices after which it is given up. In space, from a
+ * start that has little to do with the map, many steps go by before epsilon is small enough for
+ * anything to happen. What is left after that in few places, patches mend more often than not. */
+typedef struct patches {
+    int rings, steps, patience;
+} patches;
+
+static const patches PLANE[ICCP_PLANE_ROUNDS] = {
+    {2, 60, 15}, {5, 60, 15}, {12, 60, 15}, {0, 60, 15}};
+static const patches SPACE[] = {{2, 60, 15}, {5, 60, 15}, {12, 60, 15}, {0, 150, 40},
+                                {2, 60, 15}, {5, 60, 15}, {12, 60, 15}};
+
+/* In space, where more than one tetrahedron in MANY is inverted, patches would cost more than all
+ * at once and leave the inverted ones beside them in worse places. */
+enum { MANY = 20 };
+
+/* Epsilon's lower bound falls by at least this share a step. Newton's method needs few steps for
+ * each epsilon; Garanzha et al. take 0.1 with a slower one. */
+static const double SLOWEST = 0.3;
+
+/* Half of the steps of a round, as far as progress goes. */
+static const double TYPICAL_STEPS = 10;
+
+/* Inverted; in space not with all corners fixed, where nothing can be done. */
+static bool is_task(const iccp_simplicial_map *map, size_t simplex)
+{
+    return (map->dim == 2 || iccp_simplicial_is_free(map, simplex)) &&
+           !iccp_simplicial_is_positive(map, simplex);
+}
+
+static size_t count_tasks(const iccp_simplicial_map *map)
+{
+    size_t n = 0;
+    for (size_t s = 0; s < map->n_simplices; ++s)
+        n += is_task(map, s);
+    return n;
+}
+
+/* Ring by ring: what has a corner in the last one is in the next. */
+void iccp_untangle_mark(const iccp_simplicial_map *map, int rings, uint8_t *marks)
+{
+    const size_t n = map->dim + 1;
+    memset(marks, 0, map->n_points);
+    for (size_t s = 0; s < map->n_simplices; ++s)
+        if (is_task(map, s))
+            for (size_t k = 0; k < n; ++k)
+                marks[map->corners[n * s + k]] = 1;
+    for (int ring = 1; ring < rings; ++ring)
+        for (size_t s = 0; s < map->n_simplices; ++s) {
+            const uint32_t *v = map->corners + n * s;
+            bool touches = false;
+            for (size_t k = 0; k < n; ++k)
+                touches |= marks[v[k]] == ring;
+            for (size_t k = 0; touches && k < n; ++k)
+                if (marks[v[k]] == 0)
+                    marks[v[k]] = (uint8_t)(ring + 1);
+        }
+}
+
+/* Newton steps, each for a smaller epsilon: Garanzha et al.: the faster the energy fell, the faster
+ * epsilon goes to zero. */
+static icc_status descend(iccp_newton *newton, const patches *round, const iccp_env *env)
+{
+    size_t n_bad, fewest;
+    int since = 0;
+    icc_status status = ICC_OK;
+    double least = iccp_newton_least(newton, &n_bad);
+    double epsilon = iccp_untangling_start(least);
+    fewest = n_bad;
+    for (int k = 0; k < round->steps && since < round->patience && newton->assembly.n_free > 0;
+         ++k) {
+        double slope;
+        const double before = iccp_newton_energy(newton, ICCP_UNTANGLE, epsilon);
+        const iccp_env part = iccp_round(env, (size_t)k, TYPICAL_STEPS);
+        status = iccp_progress(&part, "repair", 0);
+        if (status == ICC_OK)
+            status = iccp_newton_solve(newton, ICCP_UNTANGLE, epsilon, &slope, &part);
+        if (status != ICC_OK)
+            break;
+        const double after = iccp_newton_move(newton, ICCP_UNTANGLE, epsilon, before, slope);
+        least = iccp_newton_least(newton, &n_bad);
+        since = n_bad < fewest ? 0 : since + 1;
+        fewest = n_bad < fewest ? n_bad : fewest;
+        if (least > 0 && after >= 0.99 * before)
+            break;
+        epsilon = iccp_untangling_next(epsilon, least, fmax(1 - after / before, SLOWEST));
+    }
+    return status == ICC_ERR_SOLVER ? ICC_OK : status;
+}
+
+icc_status iccp_untangle_patches(const iccp_simplicial_map *map, size_t round, uint8_t *marks,
+                                 const iccp_env *env)
+{
+    const patches *p = map->dim == 2 ? &PLANE[round] : &SPACE[round];
+    iccp_newton newton;
+    if (p->rings > 0)
+        iccp_untangle_mark(map, p->rings, marks);
+    icc_status status = iccp_newton_create(&newton, map, p->rings > 0 ? marks : NULL, env);
+    if (status != ICC_OK)
+        return status;
+    status = descend(&newton, p, env);
+    iccp_newton_free(&newton);
+    return status;
+}
+
+icc_status iccp_untangle(const iccp_simplicial_map *map, size_t *n_left, const iccp_env *env)
+{
+    const size_t n = map->dim == 2 ? ICCP_PLANE_ROUNDS : sizeof SPACE / sizeof *SPACE;
+    uint8_t *marks = iccp_alloc(&env->memory, map->n_points, 1);
+    icc_status status = marks != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    size_t n_tasks = count_tasks(map);
+    for (size_t k = 0; status == ICC_OK && n_tasks > 0 && k < n; ++k) {
+        if (map->dim == 3 && SPACE[k].rings > 0 && n_tasks > map->n_simplices / MANY)
+            continue;
+        const iccp_env part = iccp_round(env, k, 1);
+        status = iccp_untangle_patches(map, k, marks, &part);
+        n_tasks = count_tasks(map);
+    }
+    *n_left = iccp_simplicial_count_inverted(map);
+    iccp_free(&env->memory, marks);
+    return status;
+}
