@@ -123,6 +123,8 @@ static icc_status read_map(icc_map **out, iccp_blob_reader *r, const iccp_env *e
         status = read_story(&(*out)->info, r) ? ICC_OK : ICC_ERR_FORMAT;
     if (status == ICC_OK && has_mesh)
         status = read_mesh(*out, r, env);
+    if (status == ICC_OK)
+        status = iccp_map_judge(*out, env);
     return status == ICC_OK && !iccp_blob_done(r) ? ICC_ERR_FORMAT : status;
 }
 
