@@ -253,6 +253,22 @@ pub const ICC_METHOD_FIELD: i32 = 3;
 /// the same certificate; the curves are the preimages of radii.
 pub const ICC_METHOD_DISC: i32 = 4;
 
+// Why a chart or a map is not certified: of several reasons, the first.
+/// it is certified
+pub const ICC_REASON_NONE: i32 = 0;
+/// the curves of method gradient merge
+pub const ICC_REASON_GRADIENT: i32 = 1;
+/// field: `icc_chart_info.n_infeasible`
+pub const ICC_REASON_INFEASIBLE: i32 = 2;
+/// field: `icc_chart_info.n_not_inward`
+pub const ICC_REASON_NOT_INWARD: i32 = 3;
+/// field: `icc_chart_info.n_stray`
+pub const ICC_REASON_STRAY: i32 = 4;
+/// maps of method field: `icc_map_info.n_lost`
+pub const ICC_REASON_LOST: i32 = 5;
+/// maps of method field: `icc_map_info.n_flat`
+pub const ICC_REASON_FLAT: i32 = 6;
+
 // The function whose gradient lines are followed.
 /// thesis (4.1): 10 at the maximum, times 0.95 from parent to child
 pub const ICC_FUNCTION_DECAY: i32 = 1;
@@ -335,7 +351,7 @@ pub struct icc_chart_info {
     pub function: i32,
     /// `ICC_TREE_*`
     pub tree: i32,
-    /// 1: proved to be one-to-one, exactly; 0: not (gradient)
+    /// 1: proved to be one-to-one, exactly (field: in doubles); 0: not, see `reason`
     pub certified: i32,
     /// cells along the longest side that were used
     pub cells: i32,
@@ -411,6 +427,10 @@ pub struct icc_chart_info {
     pub flux_energy: f64,
     /// largest share of a simplex's flux that gets lost by rounding
     pub flux_divergence: f64,
+    /// `ICC_REASON_*`: why it is not certified; 0 if it is
+    pub reason: i32,
+    /// field: grids that were tried: finer and shifted ones where the first does not do
+    pub n_grids: i32,
 }
 sized!(icc_chart_info);
 
@@ -487,7 +507,7 @@ pub struct icc_map_info {
     pub dim: i32,
     /// `ICC_MAP_*`: curves although mesh was asked for when the repair failed
     pub kind: i32,
-    /// 1: proved to be one-to-one, exactly; 0: not (gradient)
+    /// 1: proved to be one-to-one, exactly (field: in doubles); 0: not, see `reason`
     pub certified: i32,
     /// mesh: refinements
     pub n_levels: i32,
@@ -513,8 +533,22 @@ pub struct icc_map_info {
     pub seconds_repair: f64,
     /// and for the improvement
     pub seconds_improve: f64,
-    /// and for the certificate
+    /// and for the certificate; kind curves of method field likewise
     pub seconds_certify: f64,
+    /// field: evenly spread points, half of them in the target, that were mapped there
+    /// and back; 0 unless both charts are certified
+    pub n_samples: usize,
+    /// field: of these, points that come back more than 1e-9 of the bounding box's
+    /// diagonal away, or whose derivative does not fit that of the way back. None if
+    /// certified
+    pub n_lost: usize,
+    /// field: of these, points around which volume shrinks to less than 1e-6 of its mean.
+    /// At most 0.2 % if certified
+    pub n_flat: usize,
+    /// `ICC_REASON_*`: why it is not certified; 0 if it is
+    pub reason: i32,
+    /// 1: because the source's chart is not, 2: the target's; else 0
+    pub reason_side: i32,
 }
 sized!(icc_map_info);
 
