@@ -415,8 +415,6 @@ typedef struct icc_chart_info {
                                       the squared differences, weighted; 0 at best */
     double flux_divergence;      /**< largest share of a simplex's flux that gets lost by rounding */
     int32_t reason;              /**< `ICC_REASON_*`: why it is not certified; 0 if it is */
-    int32_t n_grids;             /**< field: grids that were tried: finer and shifted ones where the first does
-                                      not do */
 } icc_chart_info;
 
 /** Shares that icc_chart_measure() estimates from evenly spread points. All lie in [0,1]. Area and length

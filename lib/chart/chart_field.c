@@ -66,7 +66,6 @@ static icc_status make_tree_on(iccp_field_state *state, icc_chart *chart, int32_
     icc_status status = iccp_grid_create(&grid, chart->domain, cells, env, err);
     if (status != ICC_OK)
         return status;
-    chart->info.n_grids += 1;
     chart->info.n_grid = grid->n_vertices;
     chart->info.cells = grid->cells;
     status = choose_root(grid, maximum, &root, env, err);
@@ -222,9 +221,9 @@ const icc_field *iccp_chart_field_function(const icc_chart *chart)
     return state->field;
 }
 
-static icc_status create_on(icc_chart **out, const icc_domain *domain,
-                            const icc_chart_options *options, const double *maximum,
-                            const iccp_env *env, icc_error *err)
+icc_status iccp_chart_field_create(icc_chart **out, const icc_domain *domain,
+                                   const icc_chart_options *options, const double *maximum,
+                                   const iccp_env *env, icc_error *err)
 {
     icc_status status = iccp_chart_new(out, domain, env);
     if (status != ICC_OK)
@@ -247,6 +246,7 @@ static icc_status create_on(icc_chart **out, const icc_domain *domain,
         status = make_vectors(state, chart, env);
     if (status == ICC_OK) {
         finish(state, chart);
+        iccp_recipe_keep(&state->recipe, options, maximum, domain->dim);
         return ICC_OK;
     }
     iccp_chart_release(chart);
@@ -254,45 +254,26 @@ static icc_status create_on(icc_chart **out, const icc_domain *domain,
     return status;
 }
 
-/* Where nothing but vertices that were given up denies the certificate, chance may have put them where they are: with
- * one cell more the grid lies elsewhere. What is no better is dropped. */
-static icc_status shift_grid(icc_chart **out, const icc_chart_options *options,
-                             const double *maximum, const iccp_env *env)
+bool iccp_chart_field_is_unlucky(const icc_chart *chart)
 {
-    icc_chart *first = *out, *second;
-    icc_chart_options shifted = *options;
-    if (first->info.reason != ICC_REASON_STRAY || first->domain->mask != NULL ||
-        first->info.cells >= ICCP_MAX_CELLS)
-        return ICC_OK;
-    shifted.cells = first->info.cells + 1;
-    iccp_log(env, "field: %zu vertices were given up at %ld cells; %ld are tried",
-             first->info.n_stray, (long)first->info.cells, (long)shifted.cells);
-    const icc_status status = create_on(&second, first->domain, &shifted, maximum, env, NULL);
-    if (status == ICC_ERR_MEMORY || status == ICC_ERR_CANCELLED)
-        return status;
-    const int32_t n_grids = first->info.n_grids + (second != NULL ? second->info.n_grids : 1);
-    const bool better = second != NULL && second->info.certified;
-    iccp_chart_release(better ? first : second);
-    *out = better ? second : first;
-    (*out)->info.n_grids = n_grids;
-    return ICC_OK;
+    return chart->info.reason == ICC_REASON_STRAY && chart->domain->mask == NULL &&
+           chart->info.cells < ICCP_MAX_CELLS;
 }
 
-icc_status iccp_chart_field_create(icc_chart **out, const icc_domain *domain,
-                                   const icc_chart_options *options, const double *maximum,
-                                   const iccp_env *env, icc_error *err)
+icc_status iccp_chart_field_shift(icc_chart **out, const icc_chart *chart, const iccp_env *env)
 {
-    icc_status status = create_on(out, domain, options, maximum, env, err);
-    if (status == ICC_OK)
-        status = shift_grid(out, options, maximum, env);
-    if (status == ICC_OK) {
-        iccp_field_state *state = (*out)->state;
-        iccp_recipe_keep(&state->recipe, options, maximum, domain->dim);
-        return ICC_OK;
+    const iccp_field_state *state = chart->state;
+    icc_chart_options options = state->recipe.options;
+    options.cells = chart->info.cells + 1;
+    iccp_log(env, "field: %zu vertices were given up at %ld cells; %ld are tried",
+             chart->info.n_stray, (long)chart->info.cells, (long)options.cells);
+    const icc_status status = iccp_chart_field_create(
+        out, chart->domain, &options, iccp_recipe_maximum(&state->recipe), env, NULL);
+    if (*out != NULL && !(*out)->info.certified) {
+        iccp_chart_release(*out);
+        *out = NULL;
     }
-    iccp_chart_release(*out);
-    *out = NULL;
-    return status;
+    return status == ICC_ERR_MEMORY || status == ICC_ERR_CANCELLED ? status : ICC_OK;
 }
 
 icc_status iccp_chart_field_read(icc_chart **out, const icc_domain *domain, iccp_blob_reader *r,

@@ -65,16 +65,10 @@ static bool comes_back(const icc_domain *domain, const icc_domain *other, const 
     return sqrt(sum) <= (most + rounding) * diagonal;
 }
 
-static void lose(double *image, int32_t dim)
-{
-    for (int32_t k = 0; k < dim; ++k)
-        image[k] = NAN;
-}
-
-/* Sends the images of points that `which` names back, and drops those that arrive elsewhere. */
+/* Sends the images of n points, those that `which` names, back, and says which of them come back. */
 static icc_status send_back(const icc_chart *from, const icc_chart *to, size_t n,
-                            const size_t *which, const double *points, double *images,
-                            icc_status *status, iccp_path *path)
+                            const size_t *which, const double *points, const double *images,
+                            double most, bool *home, iccp_path *path)
 {
     const size_t dim = (size_t)from->info.dim;
     double sent[ICCP_CHART_MANY * ICC_MAX_DIM], back[ICCP_CHART_MANY * ICC_MAX_DIM];
@@ -82,15 +76,16 @@ static icc_status send_back(const icc_chart *from, const icc_chart *to, size_t n
     for (size_t j = 0; j < n; ++j)
         memcpy(sent + dim * j, images + dim * which[j], dim * sizeof *sent);
     const icc_status all = iccp_curves_points(to, from, n, sent, back, NULL, arrived, path);
-    for (size_t j = 0; all == ICC_OK && j < n; ++j) {
-        const double *point = points + dim * which[j];
-        if (arrived[j] == ICC_OK &&
-            comes_back(from->domain, to->domain, point, back + dim * j, AWAY))
-            continue;
-        status[which[j]] = ICC_ERR_TRACE;
-        lose(images + dim * which[j], from->info.dim);
-    }
+    for (size_t j = 0; all == ICC_OK && j < n; ++j)
+        home[j] = arrived[j] == ICC_OK && comes_back(from->domain, to->domain,
+                                                     points + dim * which[j], back + dim * j, most);
     return all;
+}
+
+/* Whether digits may be missing: not a number is suspect, too. */
+static bool is_suspect(const iccp_shares *shares)
+{
+    return !(shares->to - shares->from >= log(SUSPECT));
 }
 
 icc_status iccp_digits_points(const icc_chart *from, const icc_chart *to, size_t n,
@@ -101,17 +96,21 @@ icc_status iccp_digits_points(const icc_chart *from, const icc_chart *to, size_t
     double own[ICCP_CHART_MANY * ICC_MAX_DIM]; /* the images may take the place of the points */
     iccp_shares shares[ICCP_CHART_MANY];
     size_t which[ICCP_CHART_MANY], n_suspect = 0;
+    bool home[ICCP_CHART_MANY];
     memcpy(own, points, n * dim * sizeof *own);
-    const icc_status all = iccp_curves_points(from, to, n, own, images, shares, status, path);
-    if (all != ICC_OK)
-        return all;
-    const double least = log(SUSPECT);
-    for (size_t i = 0; i < n; ++i)
-        if (status[i] == ICC_OK && !(shares[i].to - shares[i].from >= least))
+    icc_status all = iccp_curves_points(from, to, n, own, images, shares, status, path);
+    for (size_t i = 0; all == ICC_OK && i < n; ++i)
+        if (status[i] == ICC_OK && is_suspect(&shares[i]))
             which[n_suspect++] = i;
-    if (n_suspect == 0)
-        return ICC_OK;
-    return send_back(from, to, n_suspect, which, own, images, status, path);
+    if (all == ICC_OK && n_suspect > 0)
+        all = send_back(from, to, n_suspect, which, own, images, AWAY, home, path);
+    for (size_t j = 0; all == ICC_OK && j < n_suspect; ++j)
+        if (!home[j]) {
+            status[which[j]] = ICC_ERR_TRACE;
+            for (size_t k = 0; k < dim; ++k)
+                images[dim * which[j] + k] = NAN;
+        }
+    return all;
 }
 
 /* ---- derivatives ---- */
@@ -135,13 +134,14 @@ icc_status iccp_digits_point(const icc_chart *from, const icc_chart *to, const d
                              double *image, double *jacobian, iccp_path *path)
 {
     static const size_t FIRST = 0;
+    bool home;
     icc_status status = iccp_curves_point(from, to, point, image, jacobian, path);
     if (status == ICC_OK && !is_positive(from->info.dim, jacobian))
         status = ICC_ERR_TRACE;
     if (status != ICC_OK)
         return status;
-    const icc_status all = send_back(from, to, 1, &FIRST, point, image, &status, path);
-    return all == ICC_OK ? status : all;
+    status = send_back(from, to, 1, &FIRST, point, image, AWAY, &home, path);
+    return status == ICC_OK && !home ? ICC_ERR_TRACE : status;
 }
 
 /* How far the product of two matrices is from the identity. */
@@ -205,32 +205,38 @@ static void find_point(const samples *s, size_t index, double *point)
     iccp_frame_out(&s->from->domain->frame, dim, local, point);
 }
 
-/* There and back. */
+/* Maps points, and some of them back: all that are suspect, and of the others one in four. */
 static icc_status judge_chunk(void *argument, size_t begin, size_t end)
 {
+    enum { ONE_IN = 4 };
     const samples *s = argument;
     const size_t dim = (size_t)s->grid->dim, n = end - begin;
     double points[ICCP_CHART_MANY * ICC_MAX_DIM], images[ICCP_CHART_MANY * ICC_MAX_DIM];
-    double back[ICCP_CHART_MANY * ICC_MAX_DIM];
     iccp_shares shares[ICCP_CHART_MANY];
-    icc_status status[ICCP_CHART_MANY], arrived[ICCP_CHART_MANY];
+    icc_status status[ICCP_CHART_MANY];
+    size_t which[ICCP_CHART_MANY], n_back = 0;
+    bool home[ICCP_CHART_MANY];
     iccp_path path;
     iccp_path_init(&path, s->memory);
     for (size_t i = 0; i < n; ++i)
         find_point(s, begin + i, points + dim * i);
     icc_status all = iccp_curves_points(s->from, s->to, n, points, images, shares, status, &path);
-    if (all == ICC_OK)
-        all = iccp_curves_points(s->to, s->from, n, images, back, NULL, arrived, &path);
-    iccp_path_clear(&path);
     for (size_t i = 0; all == ICC_OK && i < n; ++i) {
-        const double *point = points + dim * i;
-        verdict *x = &s->verdict[begin + i];
-        *x = (verdict){.used = status[i] != ICC_ERR_OUTSIDE};
-        x->lost = status[i] != ICC_OK || arrived[i] != ICC_OK ||
-                  !comes_back(s->from->domain, s->to->domain, point, back + dim * i, SAMPLE_AWAY);
-        x->flat = status[i] == ICC_OK && !(shares[i].to - shares[i].from >= log(FLAT));
-        x->steep = status[i] == ICC_OK ? fmin(shares[i].from, shares[i].to) : HUGE_VAL;
+        const bool mapped = status[i] == ICC_OK;
+        s->verdict[begin + i] = (verdict){
+            .used = status[i] != ICC_ERR_OUTSIDE,
+            .lost = !mapped,
+            .flat = mapped && !(shares[i].to - shares[i].from >= log(FLAT)),
+            .steep = mapped ? fmin(shares[i].from, shares[i].to) : HUGE_VAL,
+        };
+        if (mapped && (i % ONE_IN == 0 || is_suspect(&shares[i])))
+            which[n_back++] = i;
     }
+    if (all == ICC_OK && n_back > 0)
+        all = send_back(s->from, s->to, n_back, which, points, images, SAMPLE_AWAY, home, &path);
+    for (size_t j = 0; all == ICC_OK && j < n_back; ++j)
+        s->verdict[begin + which[j]].lost = !home[j];
+    iccp_path_clear(&path);
     return all;
 }
 

@@ -181,7 +181,6 @@ AT(icc_chart_info, n_reversed, 312);
 AT(icc_chart_info, flux_energy, 320);
 AT(icc_chart_info, flux_divergence, 328);
 AT(icc_chart_info, reason, 336);
-AT(icc_chart_info, n_grids, 340);
 
 SIZE(icc_chart_measures, 56);
 AT(icc_chart_measures, size, 0);

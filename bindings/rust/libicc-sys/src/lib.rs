@@ -429,8 +429,6 @@ pub struct icc_chart_info {
     pub flux_divergence: f64,
     /// `ICC_REASON_*`: why it is not certified; 0 if it is
     pub reason: i32,
-    /// field: grids that were tried: finer and shifted ones where the first does not do
-    pub n_grids: i32,
 }
 sized!(icc_chart_info);
 
