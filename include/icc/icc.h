@@ -296,7 +296,8 @@ enum {
      *  apart may be one and the same to the other, as when a ball goes to a pancake. */
     ICC_METHOD_FIELD = 3,
     /** Polar coordinates of the harmonic map to a disc (Tutte), piecewise linear. A homeomorphism under
-     *  the same certificate; the curves are the preimages of radii. */
+     *  the same certificate; the curves are the preimages of radii. A slit about 1e-15 of the
+     *  shape's size wide can be too narrow to be meshed, which is an error that says so. */
     ICC_METHOD_DISC = 4
 };
 

@@ -73,6 +73,8 @@ static icc_status send_back(const icc_chart *from, const icc_chart *to, size_t n
     const size_t dim = (size_t)from->info.dim;
     double sent[ICCP_CHART_MANY * ICC_MAX_DIM], back[ICCP_CHART_MANY * ICC_MAX_DIM];
     icc_status arrived[ICCP_CHART_MANY];
+    if (n == 0)
+        return ICC_OK;
     for (size_t j = 0; j < n; ++j)
         memcpy(sent + dim * j, images + dim * which[j], dim * sizeof *sent);
     const icc_status all = iccp_curves_points(to, from, n, sent, back, NULL, arrived, path);
@@ -95,14 +97,14 @@ icc_status iccp_digits_points(const icc_chart *from, const icc_chart *to, size_t
     const size_t dim = (size_t)from->info.dim;
     double own[ICCP_CHART_MANY * ICC_MAX_DIM]; /* the images may take the place of the points */
     iccp_shares shares[ICCP_CHART_MANY];
-    size_t which[ICCP_CHART_MANY], n_suspect = 0;
+    size_t which[ICCP_CHART_MANY] = {0}, n_suspect = 0;
     bool home[ICCP_CHART_MANY];
     memcpy(own, points, n * dim * sizeof *own);
     icc_status all = iccp_curves_points(from, to, n, own, images, shares, status, path);
     for (size_t i = 0; all == ICC_OK && i < n; ++i)
         if (status[i] == ICC_OK && is_suspect(&shares[i]))
             which[n_suspect++] = i;
-    if (all == ICC_OK && n_suspect > 0)
+    if (all == ICC_OK)
         all = send_back(from, to, n_suspect, which, own, images, AWAY, home, path);
     for (size_t j = 0; all == ICC_OK && j < n_suspect; ++j)
         if (!home[j]) {
@@ -214,7 +216,7 @@ static icc_status judge_chunk(void *argument, size_t begin, size_t end)
     double points[ICCP_CHART_MANY * ICC_MAX_DIM], images[ICCP_CHART_MANY * ICC_MAX_DIM];
     iccp_shares shares[ICCP_CHART_MANY];
     icc_status status[ICCP_CHART_MANY];
-    size_t which[ICCP_CHART_MANY], n_back = 0;
+    size_t which[ICCP_CHART_MANY] = {0}, n_back = 0;
     bool home[ICCP_CHART_MANY];
     iccp_path path;
     iccp_path_init(&path, s->memory);
@@ -232,7 +234,7 @@ static icc_status judge_chunk(void *argument, size_t begin, size_t end)
         if (mapped && (i % ONE_IN == 0 || is_suspect(&shares[i])))
             which[n_back++] = i;
     }
-    if (all == ICC_OK && n_back > 0)
+    if (all == ICC_OK)
         all = send_back(s->from, s->to, n_back, which, points, images, SAMPLE_AWAY, home, &path);
     for (size_t j = 0; all == ICC_OK && j < n_back; ++j)
         s->verdict[begin + which[j]].lost = !home[j];

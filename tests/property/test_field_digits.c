@@ -26,9 +26,9 @@ static icc_map *make_map(int32_t dim, size_t n_vertices, const double *from, con
     ck_assert_msg(icc_domain_create(&source, dim, n_vertices, from, n_facets, facets, NULL, &err) ==
                       ICC_OK,
                   "%s", err.message);
-    ck_assert_msg(
-        icc_domain_create(&target, dim, n_vertices, to, n_facets, facets, NULL, &err) == ICC_OK,
-        "%s", err.message);
+    ck_assert_msg(icc_domain_create(&target, dim, n_vertices, to, n_facets, facets, NULL, &err) ==
+                      ICC_OK,
+                  "%s", err.message);
     ck_assert_msg(icc_map_create(&map, source, target, &options, NULL, &err) == ICC_OK, "%s",
                   err.message);
     icc_domain_free(source);
@@ -88,7 +88,8 @@ static void count_turned(const icc_map *map, double ratio, const double *points,
     static double jacobians[N_DERIVATIVES * 9];
     icc_map_info info = {.size = sizeof info};
     ck_assert_int_eq(icc_map_get_info(map, &info), ICC_OK);
-    ck_assert_int_eq(icc_map_jacobian(map, N_DERIVATIVES, points, jacobians, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_map_jacobian(map, N_DERIVATIVES, points, jacobians, NULL, NULL, NULL),
+                     ICC_OK);
     *n_turned = *n_flat = 0;
     for (size_t i = 0; i < N_DERIVATIVES; ++i) {
         const double d = determinant(info.dim, jacobians + (size_t)(info.dim * info.dim) * i);
@@ -116,7 +117,8 @@ static bool check_promise(const char *name, icc_map *map)
         if (side == 1)
             continue;
         count_turned(map, shapes[1].measure / shapes[0].measure, points, &n_turned, &n_flat);
-        ck_assert_msg(n_turned == 0 && n_flat <= 1, "%s: %zu turned, %zu flat", name, n_turned, n_flat);
+        ck_assert_msg(n_turned == 0 && n_flat <= 1, "%s: %zu turned, %zu flat", name, n_turned,
+                      n_flat);
     }
     icc_map_free(map);
     return info.certified;
@@ -146,11 +148,11 @@ START_TEST(balls)
         double from[3], to[3], bend, angle;
         int certified; /* 1 or 0; -1: either will do */
     } CASES[] = {
-        {{1, 1, 1}, {1, 1.2, 0.8}, 0.3, 0, 1},  {{1, 1, 1}, {1, 1, 0.3}, 0, 0.6, 1},
-        {{1, 1, 1}, {3, 1, 1}, 0.1, 1, 1},      {{1, 1, 1}, {1, 1, 0.1}, 0, 0, -1},
-        {{1, 1, 1}, {1, 1, 0.02}, 0, 0, 0},     {{1, 1, 1}, {1, 1, 0.03}, 0.1, 0.5, 0},
-        {{1, 1, 0.03}, {1, 1, 1}, 0, 0, 0},     {{1, 1, 1}, {20, 1, 1}, 0, 0.4, 0},
-        {{1, 1, 1}, {8, 1, 1}, 0.02, 0, -1},    {{1, 1, 0.2}, {1, 1, 0.2}, 0.2, 0.7, 1},
+        {{1, 1, 1}, {1, 1.2, 0.8}, 0.3, 0, 1}, {{1, 1, 1}, {1, 1, 0.3}, 0, 0.6, 1},
+        {{1, 1, 1}, {3, 1, 1}, 0.1, 1, 1},     {{1, 1, 1}, {1, 1, 0.1}, 0, 0, -1},
+        {{1, 1, 1}, {1, 1, 0.02}, 0, 0, 0},    {{1, 1, 1}, {1, 1, 0.03}, 0.1, 0.5, 0},
+        {{1, 1, 0.03}, {1, 1, 1}, 0, 0, 0},    {{1, 1, 1}, {20, 1, 1}, 0, 0.4, 0},
+        {{1, 1, 1}, {8, 1, 1}, 0.02, 0, -1},   {{1, 1, 0.2}, {1, 1, 0.2}, 0.2, 0.7, 1},
     };
     random_source r = {1};
     surface_star(&ball, 2, 0, &r);
@@ -200,7 +202,8 @@ static void band(double (*xy)[2], bool spiral, double width)
     enum { HALF = N_OUTLINE / 2 };
     for (int i = 0; i < HALF; ++i) {
         const double t = (double)i / (HALF - 1), angle = 7 * t, radius = 1 + 0.35 * angle;
-        const double x[2] = {spiral ? radius * cos(angle) : 14 * t, spiral ? radius * sin(angle) : 0};
+        const double x[2] = {spiral ? radius * cos(angle) : 14 * t,
+                             spiral ? radius * sin(angle) : 0};
         const double out[2] = {spiral ? cos(angle) : 0, spiral ? sin(angle) : -1};
         for (int k = 0; k < 2; ++k) {
             xy[i][k] = x[k] + width * out[k];

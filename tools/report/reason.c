@@ -23,8 +23,7 @@ const char *reason_of_chart(char text[REASON_LENGTH], const icc_chart_info *char
     text[0] = '\0';
     if (chart->method == ICC_METHOD_GRADIENT)
         add(text, 1, "the curves of method gradient merge");
-    add(text, chart->n_infeasible,
-        "at %zu of %zu grid vertices no vector points uphill all round",
+    add(text, chart->n_infeasible, "at %zu of %zu grid vertices no vector points uphill all round",
         chart->n_infeasible, chart->n_inside);
     add(text, chart->n_not_inward,
         "at %zu of %zu contacts with the boundary (%.3g %%) the curves do not enter",
@@ -40,8 +39,8 @@ const char *reason_of_map(char text[REASON_LENGTH], const icc_map_info *map)
     text[0] = '\0';
     if (map->reason_side != 0)
         add(text, 1, "the %s's chart is not", map->reason_side == 1 ? "source" : "target");
-    add(text, map->n_lost, "%zu of %zu sample points do not come back, for want of digits", map->n_lost,
-        map->n_samples);
+    add(text, map->n_lost, "%zu of %zu sample points do not come back, for want of digits",
+        map->n_lost, map->n_samples);
     if (map->reason == ICC_REASON_FLAT || map->n_lost > 0)
         add(text, map->n_flat, "it flattens what lies around %zu of %zu sample points", map->n_flat,
             map->n_samples);

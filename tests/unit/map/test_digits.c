@@ -33,8 +33,8 @@ static icc_map *map_onto(double height, double bend)
         .size = sizeof options, .kind = ICC_MAP_CURVES, .chart = &chart};
     outline(from, 1, 0);
     outline(to, height, bend);
-    ck_assert_int_eq(
-        icc_domain_create(&source, 2, N_VERTICES, &from[0][0], 0, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_domain_create(&source, 2, N_VERTICES, &from[0][0], 0, NULL, NULL, NULL),
+                     ICC_OK);
     ck_assert_int_eq(icc_domain_create(&target, 2, N_VERTICES, &to[0][0], 0, NULL, NULL, NULL),
                      ICC_OK);
     ck_assert_int_eq(icc_map_create(&map, source, target, &options, NULL, NULL), ICC_OK);
@@ -90,8 +90,8 @@ START_TEST(shares_are_determinants)
         for (int i = 0; i < N_POINTS; ++i) {
             double image[2], jacobian[4];
             ck_assert_int_eq(status[i], ICC_OK);
-            ck_assert_int_eq(
-                iccp_curves_point(from, to, points + 2 * i, image, jacobian, &path), ICC_OK);
+            ck_assert_int_eq(iccp_curves_point(from, to, points + 2 * i, image, jacobian, &path),
+                             ICC_OK);
             ck_assert_mem_eq(image, images + 2 * i, sizeof image);
             const double shrinks = determinant(2, jacobian) / ratio;
             n_close += fabs(exp(shares[i].to - shares[i].from) / shrinks - 1) < 1e-6;
@@ -119,13 +119,13 @@ START_TEST(what_does_not_come_back_has_no_image)
     ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
     iccp_path_init(&path, &env.memory);
     spread_points(points);
-    ck_assert_int_eq(
-        iccp_curves_points(from, to, N_POINTS, points, plain, NULL, status, &path), ICC_OK);
+    ck_assert_int_eq(iccp_curves_points(from, to, N_POINTS, points, plain, NULL, status, &path),
+                     ICC_OK);
     /* In place, too. */
     memcpy(images, points, sizeof images);
     ck_assert_int_eq(iccp_digits_points(from, to, N_POINTS, images, images, status, &path), ICC_OK);
-    ck_assert_int_eq(
-        iccp_curves_points(to, from, N_POINTS, plain, back, NULL, arrived, &path), ICC_OK);
+    ck_assert_int_eq(iccp_curves_points(to, from, N_POINTS, plain, back, NULL, arrived, &path),
+                     ICC_OK);
     for (size_t i = 0; i < N_POINTS; ++i) {
         const double away = hypot(back[2 * i] - points[2 * i], back[2 * i + 1] - points[2 * i + 1]);
         double image[2], jacobian[4];
@@ -137,8 +137,7 @@ START_TEST(what_does_not_come_back_has_no_image)
         } else {
             ck_assert(isnan(images[2 * i]) && !(away <= 0.9e-6 * sqrt(8)));
         }
-        const icc_status one =
-            iccp_digits_point(from, to, points + 2 * i, image, jacobian, &path);
+        const icc_status one = iccp_digits_point(from, to, points + 2 * i, image, jacobian, &path);
         ck_assert(one == ICC_OK || one == ICC_ERR_TRACE);
         ck_assert(one == ICC_ERR_TRACE || (status[i] == ICC_OK && determinant(2, jacobian) > 0));
         n_no_derivative += one == ICC_ERR_TRACE;
@@ -155,8 +154,7 @@ START_TEST(reasons)
     static const struct {
         double height;
         int32_t reason;
-    } CASES[] = {
-        {0.5, ICC_REASON_NONE}, {0.1, ICC_REASON_FLAT}, {0.05, ICC_REASON_LOST}};
+    } CASES[] = {{0.5, ICC_REASON_NONE}, {0.1, ICC_REASON_FLAT}, {0.05, ICC_REASON_LOST}};
     for (int k = 0; k < 3; ++k) {
         icc_map *map = map_onto(CASES[k].height, 0), *again, *inverse;
         const icc_map_info info = info_of(map);

@@ -245,9 +245,14 @@ pub const ICC_METHOD_FOLIATION: i32 = 2;
 /// Integral Curve Coordinates along a field that the curves cannot merge in, on a regular grid in any
 /// dimension: a vector for every grid vertex that points uphill in all simplices around it, for
 /// the discretely harmonic function, and linear interpolation between them. The curves are
-/// followed exactly but for rounding. Certified when there is such a vector everywhere and the
-/// boundary is crossed inward all over, which is checked vertex by vertex; if not, there is a
-/// chart all the same, and `icc_chart_info.n_infeasible` and n_not_inward tell how much is amiss.
+/// followed exactly but for rounding. Certified when there is such a vector everywhere, the
+/// boundary is crossed inward all over, which is checked vertex by vertex, and no grid vertex inside was
+/// given up; if not, there is a chart all the same, and `icc_chart_info.n_infeasible`, n_not_inward
+/// and n_stray report how much is amiss.
+///
+/// A map of two certified charts is certified when doubles are enough for it, too, which
+/// `icc_map_info.n_lost` and n_flat report: curves come together on their way, and what one chart tells
+/// apart may be one and the same to the other, as when a ball goes to a pancake.
 pub const ICC_METHOD_FIELD: i32 = 3;
 /// Polar coordinates of the harmonic map to a disc (Tutte), piecewise linear. A homeomorphism under
 /// the same certificate; the curves are the preimages of radii.
