@@ -118,10 +118,8 @@ icc_status iccp_field_decode_many(const icc_chart *chart, size_t n, const iccp_c
             volume[i] = NAN;
         if (status[i] != ICC_OK || is_at_end(chart, &coords[i], point))
             continue;
-        m.curves[m.n] = (iccp_flow_curve){.sign = +1,
-                                          .share = coords[i].t,
-                                          .measured = volume != NULL,
-                                          .facet = coords[i].facet};
+        m.curves[m.n] = (iccp_flow_curve){
+            .sign = +1, .share = coords[i].t, .measured = volume != NULL, .facet = coords[i].facet};
         status[i] = iccp_field_entry(chart, point, &m.curves[m.n].start);
         m.point[m.n] = i;
         m.n += status[i] == ICC_OK;

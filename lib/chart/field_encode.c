@@ -172,8 +172,7 @@ icc_status iccp_field_encode_many(const icc_chart *chart, size_t n, const double
         memcpy(own->bary, down->bary, dim * sizeof *own->bary);
         own->t = down->length / (down->length + up->length);
         if (volume != NULL)
-            volume[m.point[j]] =
-                iccp_field_volume(state, down->volume, down->length + up->length);
+            volume[m.point[j]] = iccp_field_volume(state, down->volume, down->length + up->length);
         status[m.point[j]] = down->status != ICC_OK ? down->status : up->status;
     }
     iccp_free(path->memory, m.curves);
