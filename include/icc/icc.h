@@ -289,13 +289,31 @@ enum {
     /** Integral Curve Coordinates along a field that the curves cannot merge in, on a regular grid in any
      *  dimension: a vector for every grid vertex that points uphill in all simplices around it, for
      *  the discretely harmonic function, and linear interpolation between them. The curves are
-     *  followed exactly but for rounding. Certified when there is such a vector everywhere and the
-     *  boundary is crossed inward all over, which is checked vertex by vertex; if not, there is a
-     *  chart all the same, and icc_chart_info::n_infeasible and n_not_inward tell how much is amiss. */
+     *  followed exactly but for rounding. Certified when there is such a vector everywhere, the
+     *  boundary is crossed inward all over, which is checked vertex by vertex, and no grid vertex inside was
+     *  given up; if not, there is a chart all the same, and icc_chart_info::n_infeasible, n_not_inward
+     *  and n_stray report how much is amiss.
+     *
+     *  A map of two certified charts is certified when doubles are enough for it, too, which
+     *  icc_map_info::n_lost and n_flat report: curves come together on their way, and what one chart tells
+     *  apart may be one and the same to the other, as when a ball goes to a pancake. */
     ICC_METHOD_FIELD = 3,
     /** Polar coordinates of the harmonic map to a disc (Tutte), piecewise linear. A homeomorphism under
-     *  the same certificate; the curves are the preimages of radii. */
+     *  the same certificate; the curves are the preimages of radii. A slit about 1e-15 of the
+     *  shape's size wide can be too narrow to be meshed, which is an error that says so. */
     ICC_METHOD_DISC = 4
+};
+
+/** Why a chart or a map is not certified: of several reasons, the first. The counts that they name report how
+ *  much is amiss. */
+enum {
+    ICC_REASON_NONE = 0,       /**< it is certified */
+    ICC_REASON_GRADIENT = 1,   /**< the curves of method gradient merge */
+    ICC_REASON_INFEASIBLE = 2, /**< field: icc_chart_info::n_infeasible */
+    ICC_REASON_NOT_INWARD = 3, /**< field: icc_chart_info::n_not_inward */
+    ICC_REASON_STRAY = 4,      /**< field: icc_chart_info::n_stray */
+    ICC_REASON_LOST = 5,       /**< maps of method field: icc_map_info::n_lost */
+    ICC_REASON_FLAT = 6        /**< maps of method field: icc_map_info::n_flat */
 };
 
 /** The function whose gradient lines are followed. */
@@ -362,9 +380,11 @@ typedef struct icc_chart_info {
     int32_t method;              /**< `ICC_METHOD_*` */
     int32_t function;            /**< `ICC_FUNCTION_*` */
     int32_t tree;                /**< `ICC_TREE_*` */
-    int32_t certified;           /**< 1: proved to be one-to-one, exactly; 0: not (gradient) */
+    int32_t certified;           /**< 1: proved to be one-to-one, exactly (field: in doubles); 0: not, see
+                                      `reason` */
     int32_t cells;               /**< cells along the longest side that were used; method field in
-                                      thin shapes: twice those asked for, where those do not do */
+                                      thin shapes: twice those asked for, where those do not do, and
+                                      one more where that saves the certificate */
     double maximum[ICC_MAX_DIM]; /**< the point that every curve ends at */
     double spacing;              /**< distance of grid or lattice neighbours */
     size_t n_grid;               /**< grid vertices */
@@ -407,6 +427,7 @@ typedef struct icc_chart_info {
     double moved;                /**< gradient, bi-Laplace functions without constraints: how far
                                       `maximum` lies from the vertex that was asked for (or the
                                       grassfire's), because the function is greatest beside it; else 0 */
+    int32_t reason;              /**< `ICC_REASON_*`: why it is not certified; 0 if it is */
 } icc_chart_info;
 
 /** Shares that icc_chart_get_report() estimates from evenly spread points. All lie in [0,1]. Area and length
@@ -608,7 +629,8 @@ typedef struct icc_map_info {
     size_t size;             /**< set by the caller: `sizeof(icc_map_info)` */
     int32_t dim;             /**< dimension */
     int32_t kind;            /**< `ICC_MAP_*`: curves although mesh was asked for when the repair failed */
-    int32_t certified;       /**< 1: proved to be one-to-one, exactly; 0: not (gradient) */
+    int32_t certified;       /**< 1: proved to be one-to-one, exactly (field: in doubles, see n_lost); 0: not,
+                                  see `reason` */
     int32_t n_levels;        /**< mesh: refinements */
     size_t n_vertices;       /**< mesh: vertices */
     size_t n_simplices;      /**< mesh: triangles; in 3-D tetrahedra, also in what follows */
@@ -622,7 +644,16 @@ typedef struct icc_map_info {
     double seconds;          /**< time to make the map, charts included */
     double seconds_repair;   /**< mesh: of these for the repair */
     double seconds_improve;  /**< and for the improvement */
-    double seconds_certify;  /**< and for the certificate */
+    double seconds_certify;  /**< and for the certificate; kind curves of method field likewise */
+    size_t n_samples;        /**< field: evenly spread points, half of them in the target, that were mapped there
+                                  and back; 0 unless both charts are certified */
+    size_t n_lost;           /**< field: of these, points that come back more than 1e-9 of the bounding box's
+                                  diagonal away, or whose derivative does not fit that of the way back. None if
+                                  certified */
+    size_t n_flat;           /**< field: of these, points around which volume shrinks to less than 1e-6 of its mean.
+                                  At most 0.2 % if certified */
+    int32_t reason;          /**< `ICC_REASON_*`: why it is not certified; 0 if it is */
+    int32_t reason_side;     /**< 1: because the source's chart is not, 2: the target's; else 0 */
 } icc_map_info;
 
 /**
@@ -800,7 +831,8 @@ ICC_API const icc_chart *icc_map_source_chart(const icc_map *map);
 ICC_API const icc_chart *icc_map_target_chart(const icc_map *map);
 
 /**
- * Source -> target.
+ * Source -> target. A certified map of method field gives no image (::ICC_ERR_TRACE) to a point that would not come
+ * back to within 1e-6 of its bounding box's diagonal.
  *
  * @param map           the map
  * @param n             number of points
@@ -823,7 +855,8 @@ ICC_API icc_status icc_map_apply_inverse(const icc_map *map, size_t n, const dou
 
 /**
  * The derivative of the map at points of the source, exact for the piecewise map up to rounding;
- * one-sided where it has a kink.
+ * one-sided where it has a kink. Where a map is certified the determinant is positive; should rounding not leave it
+ * so (method field), or the point not come back, there is none.
  *
  * @param map            the map
  * @param n              number of points

@@ -70,7 +70,8 @@ icc_status iccp_decode_point(const icc_chart *chart, const iccp_coords *coords, 
 /* ---- many points ---- */
 
 icc_status iccp_encode_points(const icc_chart *chart, size_t n, const double *points,
-                              iccp_coords *coords, icc_status *status, iccp_path *path)
+                              iccp_coords *coords, double *volume, icc_status *status,
+                              iccp_path *path)
 {
     const size_t dim = (size_t)chart->domain->dim;
     double local[ICCP_CHART_MANY * ICC_MAX_DIM];
@@ -78,7 +79,7 @@ icc_status iccp_encode_points(const icc_chart *chart, size_t n, const double *po
     for (size_t i = 0; i < n; ++i)
         status[i] = to_local(chart, points + dim * i, local + dim * i);
     if (chart->ops->encode_many != NULL)
-        return chart->ops->encode_many(chart, n, local, coords, status, path);
+        return chart->ops->encode_many(chart, n, local, coords, volume, status, path);
     for (size_t i = 0; i < n && iccp_is_point_status(all); ++i)
         if (status[i] == ICC_OK)
             all = status[i] = chart->ops->encode(chart, local + dim * i, &coords[i], NULL, path);
@@ -86,7 +87,7 @@ icc_status iccp_encode_points(const icc_chart *chart, size_t n, const double *po
 }
 
 icc_status iccp_decode_points(const icc_chart *chart, size_t n, iccp_coords *coords, double *points,
-                              icc_status *status, iccp_path *path)
+                              double *volume, icc_status *status, iccp_path *path)
 {
     const size_t dim = (size_t)chart->domain->dim;
     double local[ICCP_CHART_MANY * ICC_MAX_DIM];
@@ -95,7 +96,7 @@ icc_status iccp_decode_points(const icc_chart *chart, size_t n, iccp_coords *coo
         if (status[i] == ICC_OK && !normalise(chart->domain, &coords[i]))
             status[i] = ICC_ERR_ARGUMENT;
     if (chart->ops->decode_many != NULL)
-        all = chart->ops->decode_many(chart, n, coords, local, status, path);
+        all = chart->ops->decode_many(chart, n, coords, local, volume, status, path);
     for (size_t i = 0; i < n && iccp_is_point_status(all); ++i) {
         if (chart->ops->decode_many == NULL && status[i] == ICC_OK)
             all = status[i] = chart->ops->decode(chart, &coords[i], local + dim * i, NULL, path);
@@ -143,7 +144,7 @@ static icc_status encode_chunk(void *argument, size_t begin, size_t end)
     iccp_path path;
     iccp_path_init(&path, b->memory);
     const icc_status all =
-        iccp_encode_points(b->chart, n, b->points + dim * begin, coords, status, &path);
+        iccp_encode_points(b->chart, n, b->points + dim * begin, coords, NULL, status, &path);
     iccp_path_clear(&path);
     if (all != ICC_OK)
         return all;
@@ -167,7 +168,7 @@ static icc_status decode_chunk(void *argument, size_t begin, size_t end)
     }
     iccp_path_init(&path, b->memory);
     const icc_status all =
-        iccp_decode_points(b->chart, n, coords, b->points + dim * begin, status, &path);
+        iccp_decode_points(b->chart, n, coords, b->points + dim * begin, NULL, status, &path);
     iccp_path_clear(&path);
     if (all == ICC_OK)
         note(b, begin, end, status);

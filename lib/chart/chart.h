@@ -47,11 +47,13 @@ typedef struct iccp_chart_ops {
                          iccp_decode_jet *jet, iccp_path *path);
     /* The same for at most ICCP_CHART_MANY points, without derivatives, bit for bit; NULL where that is not
      * faster. Points whose status is not ICC_OK are left out, and what happens to one is its status;
-     * returned is what concerns all. */
+     * returned is what concerns all. `volume`: for each the logarithm of the local volume there per area of the
+     * boundary and share of the way, NaN on the boundary and at the maximum; or NULL. */
     icc_status (*encode_many)(const icc_chart *chart, size_t n, const double *points,
-                              iccp_coords *coords, icc_status *status, iccp_path *path);
+                              iccp_coords *coords, double *volume, icc_status *status,
+                              iccp_path *path);
     icc_status (*decode_many)(const icc_chart *chart, size_t n, const iccp_coords *coords,
-                              double *points, icc_status *status, iccp_path *path);
+                              double *points, double *volume, icc_status *status, iccp_path *path);
     icc_status (*trace)(const icc_chart *chart, const double *point, iccp_path *path,
                         iccp_emit emit, void *argument);
     /* Fills in everything but `size`; n_points > 0. NULL for methods that miss nothing. */

@@ -195,6 +195,29 @@ static icc_status create_field(icc_chart **out, const icc_domain *domain,
     return iccp_explain(err, iccp_chart_field_create(out, domain, options, wish, env, err));
 }
 
+/* Shifts the grids of unlucky charts if then all of them are certified; else they stay as they are. */
+static icc_status shift_grids(icc_chart **chart, int n, const iccp_env *env)
+{
+    icc_chart *shifted[2] = {NULL, NULL};
+    icc_status status = ICC_OK;
+    bool all = true;
+    for (int k = 0; k < n; ++k)
+        all = all && (chart[k]->info.certified || iccp_chart_field_is_unlucky(chart[k]));
+    for (int k = 0; k < n && all && status == ICC_OK; ++k)
+        if (!chart[k]->info.certified) {
+            status = iccp_chart_field_shift(&shifted[k], chart[k], env);
+            all = shifted[k] != NULL;
+        }
+    for (int k = 0; k < n; ++k)
+        if (all && shifted[k] != NULL) {
+            iccp_chart_release(chart[k]);
+            chart[k] = shifted[k];
+        } else {
+            iccp_chart_release(shifted[k]);
+        }
+    return status;
+}
+
 /* The image of one chart's maximum in the other's domain; NULL if that is no good place for one. */
 static const double *guess_maximum(const icc_chart *chart, const icc_domain *other, double *image)
 {
@@ -229,6 +252,8 @@ static icc_status create_field_pair(icc_chart *out[2], const icc_domain *const d
         }
     }
     if (status == ICC_OK)
+        status = iccp_explain(err, shift_grids(out, 2, env));
+    if (status == ICC_OK)
         return ICC_OK;
     iccp_chart_release(out[0]);
     iccp_chart_release(out[1]);
@@ -243,13 +268,21 @@ icc_status iccp_chart_create(icc_chart **out, const icc_domain *domain,
     icc_chart_options full = *options;
     *out = NULL;
     const bool has_mesh = domain->mesh != NULL;
-    const icc_status status = complete(&full, domain->dim, has_mesh, err);
+    icc_status status = complete(&full, domain->dim, has_mesh, err);
     if (status != ICC_OK)
         return status;
     if (full.method == ICC_METHOD_GRADIENT)
         return iccp_explain(err, iccp_chart_gradient_create(out, domain, &full, env, err));
-    if (full.method == ICC_METHOD_FIELD)
-        return create_field(out, domain, &full, NULL, env, err);
+    if (full.method == ICC_METHOD_FIELD) {
+        status = create_field(out, domain, &full, NULL, env, err);
+        if (status == ICC_OK)
+            status = iccp_explain(err, shift_grids(out, 1, env));
+        if (status != ICC_OK) {
+            iccp_chart_release(*out);
+            *out = NULL;
+        }
+        return status;
+    }
     if (full.method == ICC_METHOD_FOLIATION && has_mesh)
         return iccp_chart_shelling_create(1, out, &domain, &full, env, err);
     harmonic_job job = {.n = 1, .domain = &domain, .options = &full};

@@ -175,7 +175,11 @@ static void finish(iccp_field_state *state, icc_chart *chart)
     info->n_contacts = state->cones.n_contacts;
     info->n_not_inward = state->cones.n_not_inward;
     info->n_stray = grid->n_stray;
-    info->certified = info->n_infeasible == 0 && info->n_not_inward == 0 && info->n_stray == 0;
+    info->reason = info->n_infeasible > 0   ? ICC_REASON_INFEASIBLE
+                   : info->n_not_inward > 0 ? ICC_REASON_NOT_INWARD
+                   : info->n_stray > 0      ? ICC_REASON_STRAY
+                                            : ICC_REASON_NONE;
+    info->certified = info->reason == ICC_REASON_NONE;
 }
 
 static void free_state(icc_chart *chart)
@@ -268,6 +272,28 @@ icc_status iccp_chart_field_create(icc_chart **out, const icc_domain *domain,
     iccp_chart_release(chart);
     *out = NULL;
     return status;
+}
+
+bool iccp_chart_field_is_unlucky(const icc_chart *chart)
+{
+    return chart->info.reason == ICC_REASON_STRAY && chart->domain->mask == NULL &&
+           chart->info.cells < ICCP_MAX_CELLS;
+}
+
+icc_status iccp_chart_field_shift(icc_chart **out, const icc_chart *chart, const iccp_env *env)
+{
+    const iccp_field_state *state = chart->state;
+    icc_chart_options options = state->recipe.options;
+    options.cells = chart->info.cells + 1;
+    iccp_log(env, "field: %zu vertices were given up at %ld cells; %ld are tried",
+             chart->info.n_stray, (long)chart->info.cells, (long)options.cells);
+    const icc_status status = iccp_chart_field_create(
+        out, chart->domain, &options, iccp_recipe_maximum(&state->recipe), env, NULL);
+    if (*out != NULL && !(*out)->info.certified) {
+        iccp_chart_release(*out);
+        *out = NULL;
+    }
+    return status == ICC_ERR_MEMORY || status == ICC_ERR_CANCELLED ? status : ICC_OK;
 }
 
 icc_status iccp_chart_field_read(icc_chart **out, const icc_domain *domain, iccp_blob_reader *r,

@@ -347,6 +347,7 @@ icc_status iccp_chart_gradient_create(icc_chart **out, const icc_domain *domain,
     icc_chart *chart = *out;
     chart->ops = &OPS;
     chart->info.method = ICC_METHOD_GRADIENT;
+    chart->info.reason = ICC_REASON_GRADIENT;
     chart->info.function = options->function;
     chart->info.tree = options->tree;
     iccp_gradient_state *state = iccp_alloc_zero(&env->memory, 1, sizeof *state);

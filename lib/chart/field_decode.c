@@ -2,6 +2,7 @@
 #include "chart/field_state.h"
 #include "field/flow_jet.h"
 
+#include <math.h>
 #include <string.h>
 
 /* The whole curve from a boundary point, its pieces noted. */
@@ -103,7 +104,8 @@ icc_status iccp_field_decode(const icc_chart *chart, const iccp_coords *coords, 
 }
 
 icc_status iccp_field_decode_many(const icc_chart *chart, size_t n, const iccp_coords *coords,
-                                  double *points, icc_status *status, iccp_path *path)
+                                  double *points, double *volume, icc_status *status,
+                                  iccp_path *path)
 {
     const iccp_field_state *state = chart->state;
     const size_t dim = (size_t)chart->domain->dim;
@@ -112,9 +114,12 @@ icc_status iccp_field_decode_many(const icc_chart *chart, size_t n, const iccp_c
         return ICC_ERR_MEMORY;
     for (size_t i = 0; i < n; ++i) {
         double *point = points + dim * i;
+        if (volume != NULL)
+            volume[i] = NAN;
         if (status[i] != ICC_OK || is_at_end(chart, &coords[i], point))
             continue;
-        m.curves[m.n] = (iccp_flow_curve){.sign = +1, .share = coords[i].t};
+        m.curves[m.n] = (iccp_flow_curve){
+            .sign = +1, .share = coords[i].t, .measured = volume != NULL, .facet = coords[i].facet};
         status[i] = iccp_field_entry(chart, point, &m.curves[m.n].start);
         m.point[m.n] = i;
         m.n += status[i] == ICC_OK;
@@ -123,6 +128,8 @@ icc_status iccp_field_decode_many(const icc_chart *chart, size_t n, const iccp_c
     for (size_t j = 0; all == ICC_OK && j < m.n; ++j) {
         const iccp_flow_place *place = &m.curves[j].place;
         iccp_field_place_out(state, place, place->at, points + dim * m.point[j]);
+        if (volume != NULL)
+            volume[m.point[j]] = iccp_field_volume(state, m.curves[j].volume, m.curves[j].length);
         status[m.point[j]] = m.curves[j].status;
     }
     iccp_free(path->memory, m.curves);

@@ -2,6 +2,7 @@
 #include "chart/field_state.h"
 #include "field/flow_jet.h"
 
+#include <math.h>
 #include <string.h>
 
 /* `jet` may be NULL; else it starts as the derivative of the place by the point, and ends at the boundary. */
@@ -142,7 +143,8 @@ icc_status iccp_field_encode(const icc_chart *chart, const double *point, iccp_c
 
 /* Two curves for each point, the one downhill first. */
 icc_status iccp_field_encode_many(const icc_chart *chart, size_t n, const double *points,
-                                  iccp_coords *coords, icc_status *status, iccp_path *path)
+                                  iccp_coords *coords, double *volume, icc_status *status,
+                                  iccp_path *path)
 {
     const iccp_field_state *state = chart->state;
     const size_t dim = (size_t)chart->domain->dim;
@@ -151,12 +153,15 @@ icc_status iccp_field_encode_many(const icc_chart *chart, size_t n, const double
         return ICC_ERR_MEMORY;
     for (size_t i = 0; i < n; ++i) {
         iccp_flow_curve *down = m.curves + 2 * m.n, *up = down + 1;
+        if (volume != NULL)
+            volume[i] = NAN;
         if (status[i] != ICC_OK ||
             is_settled(chart, points + dim * i, &down->start, &coords[i], &status[i]))
             continue;
         *up = (iccp_flow_curve){.start = down->start, .sign = +1};
         down->sign = -1;
         down->share = 0;
+        down->measured = volume != NULL;
         m.point[m.n++] = i;
     }
     const icc_status all = iccp_flow_follow(&state->flow, 2 * m.n, m.curves, path->memory);
@@ -166,6 +171,8 @@ icc_status iccp_field_encode_many(const icc_chart *chart, size_t n, const double
         own->facet = down->facet;
         memcpy(own->bary, down->bary, dim * sizeof *own->bary);
         own->t = down->length / (down->length + up->length);
+        if (volume != NULL)
+            volume[m.point[j]] = iccp_field_volume(state, down->volume, down->length + up->length);
         status[m.point[j]] = down->status != ICC_OK ? down->status : up->status;
     }
     iccp_free(path->memory, m.curves);

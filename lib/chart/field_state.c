@@ -55,6 +55,11 @@ int32_t iccp_field_locate(const icc_chart *chart, const double *point, iccp_flow
     return where == ICC_INSIDE && !found ? ICC_OUTSIDE : where;
 }
 
+double iccp_field_volume(const iccp_field_state *state, double volume, double length)
+{
+    return volume + log(state->tree->grid->spacing * length);
+}
+
 bool iccp_field_many_begin(iccp_field_many *many, size_t n_curves, const iccp_path *path)
 {
     many->n = 0;

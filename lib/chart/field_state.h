@@ -32,6 +32,10 @@ void iccp_field_place_out(const iccp_field_state *state, const iccp_flow_place *
 
 bool iccp_field_at_maximum(const icc_chart *chart, const double *point);
 
+/* The logarithm of local volume per area of the boundary and share of the way, from that of a curve in lattice
+ * units, and its whole length there. */
+double iccp_field_volume(const iccp_field_state *state, double volume, double length);
+
 /* The curves of points that need some, and whose they are. */
 typedef struct iccp_field_many {
     iccp_flow_curve *curves;
@@ -46,11 +50,13 @@ bool iccp_field_many_begin(iccp_field_many *many, size_t n_curves, const iccp_pa
 icc_status iccp_field_encode(const icc_chart *chart, const double *point, iccp_coords *coords,
                              iccp_encode_jet *jet, iccp_path *path);
 icc_status iccp_field_encode_many(const icc_chart *chart, size_t n, const double *points,
-                                  iccp_coords *coords, icc_status *status, iccp_path *path);
+                                  iccp_coords *coords, double *volume, icc_status *status,
+                                  iccp_path *path);
 icc_status iccp_field_decode(const icc_chart *chart, const iccp_coords *coords, double *point,
                              iccp_decode_jet *jet, iccp_path *path);
 icc_status iccp_field_decode_many(const icc_chart *chart, size_t n, const iccp_coords *coords,
-                                  double *points, icc_status *status, iccp_path *path);
+                                  double *points, double *volume, icc_status *status,
+                                  iccp_path *path);
 icc_status iccp_field_trace(const icc_chart *chart, const double *point, iccp_path *path,
                             iccp_emit emit, void *argument);
 

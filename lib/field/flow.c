@@ -75,6 +75,7 @@ void iccp_flow_begin(iccp_flow_walk *walk, const iccp_flow *flow, int32_t sign,
     walk->sign = sign;
     walk->place = *place;
     walk->length = 0;
+    walk->growth = 0;
     walk->n_steps = 0;
     walk->ends = false;
 }
@@ -103,7 +104,7 @@ icc_status iccp_flow_note(const iccp_flow_walk *walk, iccp_path *path)
         path->marks = marks;
         path->mark_capacity = capacity;
     }
-    path->marks[path->n_marks++] = (iccp_flow_mark){walk->place, walk->length};
+    path->marks[path->n_marks++] = (iccp_flow_mark){walk->place, walk->length, walk->growth};
     return ICC_OK;
 }
 
@@ -120,5 +121,6 @@ icc_status iccp_flow_rewind(iccp_flow_walk *walk, const iccp_path *path, double 
     const icc_status status =
         iccp_flow_start(walk, walk->flow, walk->sign, &path->marks[low].place);
     walk->length = path->marks[low].length;
+    walk->growth = path->marks[low].growth;
     return status;
 }

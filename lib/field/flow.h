@@ -36,13 +36,14 @@ typedef struct iccp_flow_walk {
     int32_t sign; /* +1: uphill, -1: downhill */
     iccp_flow_place place;
     double length; /* of the pieces before */
+    double growth; /* and by how much the flow's volume has grown in them: its logarithm */
     size_t n_steps;
     /* The piece's parameter s goes from 0 to `end`. The place moves with the sum of term[j] (s / scale)^j. */
     int32_t n_terms;
     double scale, term[ICCP_FLOW_TERMS][ICC_MAX_DIM];
     double column[ICC_MAX_DIM][ICC_MAX_DIM]; /* by axis: how the vector changes along it */
     bool radial; /* straight, in a simplex at the root; then `column` does not count */
-    double end, end_length;
+    double end, end_length, end_growth;
     double finish[ICC_MAX_DIM]; /* the place at the end */
     int32_t exit; /* the corner opposite to the facet where the piece ends, or ICCP_FLOW_WITHIN */
     bool ends;    /* at the root */
@@ -51,7 +52,7 @@ typedef struct iccp_flow_walk {
 /* Where a piece of a curve starts, so that it can be found again. */
 typedef struct iccp_flow_mark {
     iccp_flow_place place;
-    double length; /* of the pieces before */
+    double length, growth; /* of the pieces before */
 } iccp_flow_mark;
 
 /* At a point in lattice coordinates; with `ahead`, a direction, in the simplex that lies there, should the
@@ -86,6 +87,9 @@ void iccp_flow_velocity(const iccp_flow_walk *walk, double s, double *vector);
 /* The length of the piece from 0 to s, in lattice units; the other way round. */
 double iccp_flow_length(const iccp_flow_walk *walk, double s);
 double iccp_flow_at_length(const iccp_flow_walk *walk, double length);
+
+/* The logarithm of how much the flow's volume grows from 0 to s. */
+double iccp_flow_growth(const iccp_flow_walk *walk, double s);
 
 /* Whether the piece meets the boundary: where first (the parameter), and the facet and barycentric
  * coordinates there. */

@@ -520,9 +520,13 @@ TARGET static ICCP_INLINE void store_end(const attempt *a, int32_t dim, int l, i
 {
     for (int32_t k = 0; k < dim; ++k)
         w->finish[w->place.simplex.axis[k]] = LANE(a->finish[k], l);
+    double trace = 0;
+    for (int32_t k = 0; k < dim; ++k)
+        trace += LANE(a->column[k][k], l);
     w->exit = (int32_t)LANE(a->exit, l);
     w->end = LANE(a->end, l);
     w->end_length = LANE(a->length, l);
+    w->end_growth = w->end * trace;
 }
 
 /* What is needed to go anywhere within it. */

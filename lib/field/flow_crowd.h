@@ -55,19 +55,49 @@ TARGET static void take(crowd *c, lane *x)
     x->path.n_marks = 0;
 }
 
-TARGET static void finish(lane *x, icc_status status)
+/* A bundle's flux grows with the flow's volume, and is its area times the speed across that. `s`: of the piece at
+ * the wanted place, or at the boundary below it. Curves that are straight to the root have no speed of their own. */
+TARGET static void measure_volume(iccp_flow_curve *curve, const iccp_flow_walk *w, double s)
+{
+    const iccp_flow *flow = w->flow;
+    const int32_t dim = flow->grid->dim;
+    const double *normal = flow->cover->normal + (size_t)dim * curve->facet;
+    double first[ICC_MAX_DIM], last[ICC_MAX_DIM], across = 0, speed2 = 0;
+    iccp_flow_vector(flow, &curve->start, first);
+    iccp_flow_velocity(w, s, last);
+    const bool up = w->sign > 0;
+    const double *below = up ? first : last, *above = up ? last : first;
+    const iccp_flow_place *place = up ? &w->place : &curve->start;
+    for (int32_t k = 0; k < dim; ++k) {
+        across += below[k] * normal[k];
+        speed2 += above[k] * above[k];
+    }
+    if (iccp_flow_root_corner(flow, place, dim) != ICCP_FLOW_WITHIN)
+        speed2 = 1;
+    const double growth = w->growth + iccp_flow_growth(w, s);
+    curve->volume = log(fabs(across)) - 0.5 * log(speed2) + w->sign * growth;
+}
+
+/* Of a curve uphill, the place that is wanted. */
+TARGET static icc_status find_place(lane *x)
 {
     iccp_flow_curve *curve = x->curve;
     iccp_flow_walk *w = &x->walk;
     const double length = curve->length * curve->share;
-    if (status == ICC_OK && curve->share > 0) {
-        status = iccp_flow_rewind(w, &x->path, length);
-        if (status == ICC_OK) {
-            curve->place = w->place;
-            iccp_flow_at(w, iccp_flow_at_length(w, length - w->length), curve->place.at);
-        }
-    }
-    curve->status = status;
+    const icc_status status = iccp_flow_rewind(w, &x->path, length);
+    if (status != ICC_OK)
+        return status;
+    const double s = iccp_flow_at_length(w, length - w->length);
+    curve->place = w->place;
+    iccp_flow_at(w, s, curve->place.at);
+    if (curve->measured)
+        measure_volume(curve, w, s);
+    return ICC_OK;
+}
+
+TARGET static void finish(lane *x, icc_status status)
+{
+    x->curve->status = status == ICC_OK && x->curve->share > 0 ? find_place(x) : status;
 }
 
 /* Whether the curve goes on after the piece that has been found; `a` if its series is there. */
@@ -87,6 +117,8 @@ TARGET static ICCP_INLINE bool goes_on(lane *x, int32_t dim, const attempt *a, i
     if (!iccp_flow_leaves(w, &s, &curve->facet, curve->bary))
         return true;
     curve->length = w->length + iccp_flow_length(w, s);
+    if (curve->measured)
+        measure_volume(curve, w, s);
     return false;
 }
 
@@ -112,7 +144,7 @@ TARGET static ICCP_INLINE void advance(crowd *c, lane *x, int32_t dim)
             c->status = ICC_ERR_MEMORY;
             return;
         }
-        corner = iccp_flow_root_corner(&x->walk, dim);
+        corner = iccp_flow_root_corner(x->walk.flow, &x->walk.place, dim);
         if (corner == ICCP_FLOW_WITHIN) {
             x->n_attempts = 0;
             return;

@@ -8,12 +8,17 @@ typedef struct iccp_flow_curve {
     iccp_flow_place start;
     int32_t sign; /* +1: to the root; -1: to the boundary */
     double share; /* of the length, where `place` is wanted: of a curve uphill; else 0 */
+    bool measured; /* whether `volume` is wanted; needs `facet`, where a curve uphill starts */
     /* Found. ICC_OK, or ICC_ERR_TRACE when there is no way to go on. */
     icc_status status;
     double length;
     iccp_flow_place place;
     uint32_t facet; /* where a curve downhill leaves the domain */
     double bary[ICC_MAX_DIM];
+    /* The logarithm of the volume that a bundle of curves fills, per its area on the boundary and length: at
+     * `place`, or where a curve downhill starts. Of its two factors that are not continuous where the vectors are
+     * not, it lacks those. */
+    double volume;
 } iccp_flow_curve;
 
 /* ICC_ERR_MEMORY or ICC_OK. */

@@ -81,6 +81,18 @@ double iccp_flow_length(const iccp_flow_walk *walk, double s)
     return length;
 }
 
+/* Liouville: at the rate of the trace. Straight curves to a point spread in all directions but their own. */
+double iccp_flow_growth(const iccp_flow_walk *walk, double s)
+{
+    const int32_t dim = walk->flow->grid->dim;
+    double trace = 0;
+    if (walk->radial)
+        return (dim - 1) * log1p(-walk->sign * s);
+    for (int32_t k = 0; k < dim; ++k)
+        trace += walk->column[k][k];
+    return s * trace;
+}
+
 double iccp_flow_at_length(const iccp_flow_walk *walk, double length)
 {
     enum { MOST = 50 };
@@ -126,6 +138,7 @@ icc_status iccp_flow_find_piece_slowly(iccp_flow_walk *walk, double end)
     iccp_flow_find_exit(walk);
     iccp_flow_at(walk, walk->end, walk->finish);
     walk->end_length = iccp_flow_length(walk, walk->end);
+    walk->end_growth = iccp_flow_growth(walk, walk->end);
     return ICC_OK;
 }
 
@@ -160,6 +173,7 @@ icc_status iccp_flow_find_radial(iccp_flow_walk *w, int32_t corner)
         w->term[0][axis[i]] = w->sign * ((i < corner ? 1.0 : 0.0) - at[axis[i]]);
     product(dim, w->term[0], w->term[0], &size2);
     w->end_length = w->end * sqrt(size2);
+    w->end_growth = w->ends ? 0 : iccp_flow_growth(w, w->end);
     for (int32_t k = 0; k < dim; ++k)
         w->finish[k] = at[k] + w->end * w->term[0][k];
     return weight < 1 || w->ends ? ICC_OK : ICC_ERR_TRACE;
@@ -168,7 +182,7 @@ icc_status iccp_flow_find_radial(iccp_flow_walk *w, int32_t corner)
 icc_status iccp_flow_find_piece(iccp_flow_walk *walk)
 {
     const int32_t dim = walk->flow->grid->dim;
-    const int32_t corner = iccp_flow_root_corner(walk, dim);
+    const int32_t corner = iccp_flow_root_corner(walk->flow, &walk->place, dim);
     if (ICCP_UNLIKELY(corner != ICCP_FLOW_WITHIN))
         return iccp_flow_find_radial(walk, corner);
     switch (dim) {

@@ -10,12 +10,13 @@ icc_status iccp_flow_find_piece(iccp_flow_walk *walk);
 /* The same with all safeguards; end: a guess of walk->end if positive. */
 icc_status iccp_flow_find_piece_slowly(iccp_flow_walk *walk, double end);
 
-/* The corner that is the root, or ICCP_FLOW_WITHIN. */
-static inline int32_t iccp_flow_root_corner(const iccp_flow_walk *walk, int32_t dim)
+/* The corner of a place's simplex that is the root, or ICCP_FLOW_WITHIN. */
+static inline int32_t iccp_flow_root_corner(const iccp_flow *flow, const iccp_flow_place *place,
+                                            int32_t dim)
 {
     int32_t corner = ICCP_FLOW_WITHIN;
     for (int32_t i = 0; i <= dim; ++i)
-        corner = walk->place.simplex.corner[i] == walk->flow->root ? i : corner;
+        corner = place->simplex.corner[i] == flow->root ? i : corner;
     return corner;
 }
 
@@ -26,6 +27,7 @@ icc_status iccp_flow_find_radial(iccp_flow_walk *walk, int32_t corner);
 static ICCP_INLINE icc_status iccp_flow_cross_in(iccp_flow_walk *w, int32_t dim)
 {
     w->length += w->end_length;
+    w->growth += w->end_growth;
     if (++w->n_steps > w->flow->most_steps)
         return ICC_ERR_TRACE;
     iccp_flow_place *p = &w->place;

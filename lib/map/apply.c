@@ -3,6 +3,7 @@
 #include "base/threads.h"
 #include "chart/bulk.h"
 #include "map/curves.h"
+#include "map/digits.h"
 
 #include <math.h>
 
@@ -62,19 +63,33 @@ static void fill_nan(double *values, size_t n)
         values[k] = NAN;
 }
 
+/* Whether what does not come back has no image. */
+static bool is_guarded(const icc_map *map)
+{
+    return map->info.kind == ICC_MAP_CURVES && map->info.certified &&
+           map->source->info.method == ICC_METHOD_FIELD;
+}
+
+static icc_status curves_point(const icc_map *map, bool inverse, const double *point, double *image,
+                               double *jacobian, iccp_path *path)
+{
+    const icc_chart *from = inverse ? map->target : map->source;
+    const icc_chart *to = inverse ? map->source : map->target;
+    return is_guarded(map) ? iccp_digits_point(from, to, point, image, jacobian, path)
+                           : iccp_curves_point(from, to, point, image, jacobian, path);
+}
+
 static icc_status map_point(map_loop *loop, size_t i, iccp_path *path)
 {
     const icc_map *map = loop->map;
     const size_t dim = (size_t)map->info.dim;
-    const icc_chart *from = loop->inverse ? map->target : map->source;
-    const icc_chart *to = loop->inverse ? map->source : map->target;
     const double *point = loop->points + dim * i;
     double own[ICC_MAX_DIM];
     double *image = loop->images != NULL ? loop->images + dim * i : own;
     double *jacobian = loop->jacobians != NULL ? loop->jacobians + dim * dim * i : NULL;
     const icc_status status = map->info.kind == ICC_MAP_MESH
                                   ? mesh_point(map, loop->inverse, point, image, jacobian)
-                                  : iccp_curves_point(from, to, point, image, jacobian, path);
+                                  : curves_point(map, loop->inverse, point, image, jacobian, path);
     if (status != ICC_OK) {
         fill_nan(image, dim);
         if (jacobian != NULL)
@@ -89,10 +104,15 @@ static icc_status map_points(map_loop *loop, size_t begin, size_t n, icc_status 
     const icc_map *map = loop->map;
     const size_t dim = (size_t)map->info.dim;
     icc_status all = ICC_OK;
-    if (map->info.kind != ICC_MAP_MESH && loop->jacobians == NULL)
-        return iccp_curves_points(
-            loop->inverse ? map->target : map->source, loop->inverse ? map->source : map->target, n,
-            loop->points + dim * begin, loop->images + dim * begin, status, path);
+    if (map->info.kind != ICC_MAP_MESH && loop->jacobians == NULL) {
+        const icc_chart *from = loop->inverse ? map->target : map->source;
+        const icc_chart *to = loop->inverse ? map->source : map->target;
+        const double *points = loop->points + dim * begin;
+        double *images = loop->images + dim * begin;
+        return is_guarded(map)
+                   ? iccp_digits_points(from, to, n, points, images, status, path)
+                   : iccp_curves_points(from, to, n, points, images, NULL, status, path);
+    }
     for (size_t i = 0; i < n && iccp_is_point_status(all); ++i)
         all = status[i] = map_point(loop, begin + i, path);
     return iccp_is_point_status(all) ? ICC_OK : all;

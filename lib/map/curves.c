@@ -39,11 +39,56 @@ icc_status iccp_curves_point(const icc_chart *from, const icc_chart *to, const d
     return status;
 }
 
+/* The extent of a facet, but for a factor that is the same for all: by Gram and Schmidt, which keeps the digits of
+ * slivers. */
+static double extent_of(const icc_domain *domain, uint32_t facet)
+{
+    const int32_t dim = domain->dim;
+    const double *corner[ICC_MAX_DIM];
+    double edge[ICC_MAX_DIM][ICC_MAX_DIM], extent = 1;
+    iccp_facet_corners(&domain->tree, facet, corner);
+    for (int32_t i = 0; i + 1 < dim; ++i) {
+        double length2 = 0;
+        for (int32_t k = 0; k < dim; ++k)
+            edge[i][k] = corner[i + 1][k] - corner[0][k];
+        for (int32_t j = 0; j < i; ++j) {
+            double along = 0;
+            for (int32_t k = 0; k < dim; ++k)
+                along += edge[i][k] * edge[j][k];
+            for (int32_t k = 0; k < dim; ++k)
+                edge[i][k] -= along * edge[j][k];
+        }
+        for (int32_t k = 0; k < dim; ++k)
+            length2 += edge[i][k] * edge[i][k];
+        const double length = sqrt(length2);
+        for (int32_t k = 0; k < dim; ++k)
+            edge[i][k] /= length;
+        extent *= length;
+    }
+    return extent;
+}
+
+static double share_of(const icc_chart *chart, const iccp_coords *coords, double volume)
+{
+    if (!(coords->t > 0 && coords->t < 1))
+        return 0;
+    return volume + log(extent_of(chart->domain, coords->facet) / fabs(chart->domain->measure));
+}
+
 icc_status iccp_curves_points(const icc_chart *from, const icc_chart *to, size_t n,
-                              const double *points, double *images, icc_status *status,
-                              iccp_path *path)
+                              const double *points, double *images, iccp_shares *shares,
+                              icc_status *status, iccp_path *path)
 {
     iccp_coords coords[ICCP_CHART_MANY];
-    const icc_status all = iccp_encode_points(from, n, points, coords, status, path);
-    return all == ICC_OK ? iccp_decode_points(to, n, coords, images, status, path) : all;
+    double before[ICCP_CHART_MANY], after[ICCP_CHART_MANY];
+    const bool wanted = shares != NULL;
+    icc_status all =
+        iccp_encode_points(from, n, points, coords, wanted ? before : NULL, status, path);
+    if (all == ICC_OK)
+        all = iccp_decode_points(to, n, coords, images, wanted ? after : NULL, status, path);
+    for (size_t i = 0; wanted && all == ICC_OK && i < n; ++i)
+        if (status[i] == ICC_OK)
+            shares[i] = (iccp_shares){share_of(from, &coords[i], before[i]),
+                                      share_of(to, &coords[i], after[i])};
+    return all;
 }

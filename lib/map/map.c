@@ -3,6 +3,7 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "chart/chart_create.h"
+#include "map/digits.h"
 
 /* Cells of a mesh along the longest side: where the boundary is no finer, coarse is fair enough. */
 enum { MESH_CELLS = 20 };
@@ -95,6 +96,20 @@ void iccp_map_add_charts(icc_map *map, const icc_chart *source, const icc_chart 
     map->source = iccp_chart_retain(source);
     map->target = iccp_chart_retain(target);
     map->info.certified = source->info.certified && target->info.certified;
+    map->info.reason_side = !source->info.certified ? 1 : !target->info.certified ? 2 : 0;
+    map->info.reason = map->info.reason_side == 2 ? target->info.reason : source->info.reason;
+}
+
+icc_status iccp_map_judge(icc_map *map, const iccp_env *env)
+{
+    const double start = iccp_seconds();
+    icc_map_info *info = &map->info;
+    if (info->kind != ICC_MAP_CURVES || !info->certified ||
+        map->source->info.method != ICC_METHOD_FIELD)
+        return ICC_OK;
+    const icc_status status = iccp_digits_judge(map->source, map->target, info, env);
+    info->seconds_certify = iccp_seconds() - start;
+    return status;
 }
 
 static icc_status add_mesh(icc_map *map, int32_t iterations, const iccp_env *env, icc_error *err)
@@ -126,6 +141,8 @@ icc_status iccp_map_create_from_charts(icc_map **out, const icc_chart *source,
         iccp_map_add_charts(map, source, target);
     if (status == ICC_OK && kind == ICC_MAP_MESH)
         status = add_mesh(map, options->iterations, env, err);
+    if (status == ICC_OK)
+        status = iccp_map_judge(map, env);
     if (status != ICC_OK) {
         iccp_map_release(map);
         return iccp_explain(err, status);

@@ -118,8 +118,8 @@ static icc_status read_map(icc_map **out, iccp_blob_reader *r, const iccp_env *e
 {
     uint32_t head[2];
     const iccp_env whole = iccp_part(env, "load", 0, 1);
-    iccp_env part[3];
-    iccp_split(part, 3, (const double[]){1, 6, 2}, &whole);
+    iccp_env part[4];
+    iccp_split(part, 4, (const double[]){1, 6, 2, 1}, &whole);
     iccp_blob_read_u32(r, 2, head);
     const bool has_mesh = head[0] == ICC_MAP_MESH, has_charts = head[1] == 1;
     if (!(has_mesh || head[0] == ICC_MAP_CURVES) || head[1] > 1 || !(has_mesh || has_charts))
@@ -131,6 +131,8 @@ static icc_status read_map(icc_map **out, iccp_blob_reader *r, const iccp_env *e
         status = read_story(&(*out)->info, r) ? ICC_OK : ICC_ERR_FORMAT;
     if (status == ICC_OK && has_mesh)
         status = read_mesh(*out, r, &part[2]);
+    if (status == ICC_OK)
+        status = iccp_map_judge(*out, &part[3]);
     return status == ICC_OK && !iccp_blob_done(r) ? ICC_ERR_FORMAT : status;
 }
 

@@ -61,6 +61,14 @@ IS(ICC_METHOD_FOLIATION, 2);
 IS(ICC_METHOD_FIELD, 3);
 IS(ICC_METHOD_DISC, 4);
 
+IS(ICC_REASON_NONE, 0);
+IS(ICC_REASON_GRADIENT, 1);
+IS(ICC_REASON_INFEASIBLE, 2);
+IS(ICC_REASON_NOT_INWARD, 3);
+IS(ICC_REASON_STRAY, 4);
+IS(ICC_REASON_LOST, 5);
+IS(ICC_REASON_FLAT, 6);
+
 IS(ICC_FUNCTION_DECAY, 1);
 IS(ICC_FUNCTION_DISTANCE, 2);
 IS(ICC_FUNCTION_LAPLACE, 3);
@@ -146,7 +154,7 @@ AT(icc_chart_options, solver, 36);
 AT(icc_chart_options, min_fall, 40);
 AT(icc_chart_options, leaf_min, 48);
 
-SIZE(icc_chart_info, 344);
+SIZE(icc_chart_info, 352);
 AT(icc_chart_info, size, 0);
 AT(icc_chart_info, dim, 8);
 AT(icc_chart_info, method, 12);
@@ -189,6 +197,7 @@ AT(icc_chart_info, n_reversed, 312);
 AT(icc_chart_info, flux_energy, 320);
 AT(icc_chart_info, flux_divergence, 328);
 AT(icc_chart_info, moved, 336);
+AT(icc_chart_info, reason, 344);
 
 SIZE(icc_chart_report, 56);
 AT(icc_chart_report, size, 0);
@@ -206,7 +215,7 @@ AT(icc_map_options, iterations, 12);
 AT(icc_map_options, chart, 16);
 AT(icc_map_options, target_maximum, 24);
 
-SIZE(icc_map_info, 112);
+SIZE(icc_map_info, 144);
 AT(icc_map_info, size, 0);
 AT(icc_map_info, dim, 8);
 AT(icc_map_info, kind, 12);
@@ -223,6 +232,11 @@ AT(icc_map_info, seconds, 80);
 AT(icc_map_info, seconds_repair, 88);
 AT(icc_map_info, seconds_improve, 96);
 AT(icc_map_info, seconds_certify, 104);
+AT(icc_map_info, n_samples, 112);
+AT(icc_map_info, n_lost, 120);
+AT(icc_map_info, n_flat, 128);
+AT(icc_map_info, reason, 136);
+AT(icc_map_info, reason_side, 140);
 
 SIZE(icc_improve_options, 24);
 AT(icc_improve_options, size, 0);

@@ -166,7 +166,7 @@ static icc_chart_info info_of(const icc_chart *chart)
     return info;
 }
 
-/* The certificate is what the counts say. */
+/* The certificates are what the counts say. */
 static bool is_certified(const icc_map *map)
 {
     const icc_chart *const charts[2] = {icc_map_source_chart(map), icc_map_target_chart(map)};
@@ -177,11 +177,15 @@ static bool is_certified(const icc_map *map)
         ck_assert_int_eq(info.method, ICC_METHOD_FIELD);
         ck_assert(info.certified ==
                   (info.n_infeasible == 0 && info.n_not_inward == 0 && info.n_stray == 0));
+        ck_assert((info.reason == ICC_REASON_NONE) == (info.certified == 1));
         ck_assert(info.n_not_inward <= info.n_contacts && info.n_contacts > 0);
         both = both && info.certified;
     }
     ck_assert_int_eq(icc_map_get_info(map, &whole), ICC_OK);
+    /* Nothing here is so thin that digits would be lost between two charts. */
     ck_assert_int_eq(whole.certified, both);
+    ck_assert((whole.reason == ICC_REASON_NONE) == both && (whole.reason_side == 0) == both);
+    ck_assert_uint_eq(whole.n_lost, 0);
     return both;
 }
 

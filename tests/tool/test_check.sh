@@ -41,6 +41,27 @@ holds err 'not certifiable'
 run 1 check -s source.txt -m gradient --json
 holds out '"certified": false'
 
+# Two certified charts of method field, and a map that loses the digits between them: it says so, as does info.
+awk 'BEGIN { for (i = 0; i < 90; ++i) print cos(i * 0.0698131700798), sin(i * 0.0698131700798) }' >round
+awk '{ print $1, $2 * 0.05 }' round >flat
+awk '{ print $1, $2 * 0.7 }' round >mild
+run 0 check -s round -t mild -m field -n 64
+holds out 'map: curves, certified one-to-one'
+run 1 check -s round -t flat -m field -n 64
+[ "$(grep -c 'field chart certified' out)" -eq 2 ] || complain "not both charts: $(cat out)"
+grep -q '^map: curves, not certified: [1-9][0-9]* of [0-9]* sample points do not come back' out || complain "no reason: $(cat out)"
+holds err 'the map is not certified'
+run 1 check -s round -t flat -m field -n 64 --json
+for line in '"not_certified_because": "' '"samples_lost": ' '"samples_flat": '; do
+    holds out "$line"
+done
+run 0 info -s round -t flat -m field -n 64
+grep -q '^            because [1-9][0-9]* of [0-9]* sample points do not come back' out || complain "info gives no reason: $(cat out)"
+run 0 info -s round -t flat -m field -n 64 --json
+holds out '"not_certified_because": "'
+# Only what is amiss is named.
+grep -q '[^0-9]0 of' out && complain "a reason that is none"
+
 # Every crossing is listed, on its line.
 printf '0 0\n10 0\n10 10\n7 -5\n4 10\n1 -5\n0 10\n' >crossed
 run 1 check -s crossed

@@ -1,5 +1,6 @@
 /* What `libicc check` found, in words and as a report. */
 #include "report/check_job.h"
+#include "report/reason.h"
 
 #include "job/option_table.h"
 
@@ -90,30 +91,23 @@ static void print_chart(const char *file, const icc_chart_info *chart)
     putchar('\n');
 }
 
-/* What keeps a field from its certificate. */
-static void print_field(const char *file, const icc_chart_info *chart)
-{
-    printf(
-        "%s: field chart not certified: %zu of %zu grid vertices have no vector that points uphill "
-        "all round, %zu were given up; at %zu of %zu contacts with the boundary the curves do not "
-        "enter (%.3g %%)\n",
-        file, chart->n_infeasible, chart->n_inside, chart->n_stray, chart->n_not_inward,
-        chart->n_contacts,
-        chart->n_contacts > 0 ? 100 * (double)chart->n_not_inward / (double)chart->n_contacts : 0);
-}
-
 void check_print_certificates(const check *c)
 {
+    char text[REASON_LENGTH];
     for (size_t side = 0; side < 2; side++) {
         const char *file = job_file(&c->job, (int)side + 1);
         if (c->charts[side].certified)
             print_chart(file, &c->charts[side]);
         else if (c->charts[side].method == ICC_METHOD_FIELD)
-            print_field(file, &c->charts[side]);
+            printf("%s: field chart not certified: %s\n", file,
+                   reason_of_chart(text, &c->charts[side]));
     }
     if (c->map.n_unrepaired > 0)
         printf("map: %zu %s of the mesh could not be repaired, so it is of kind curves\n",
                c->map.n_unrepaired, elements_name(c->map.dim));
+    if (c->map.kind != 0 && !c->map.certified)
+        printf("map: %s, not certified: %s\n", choice_name(maps, c->map.kind),
+               reason_of_map(text, &c->map));
     if (!c->map.certified)
         return;
     printf("map: %s, certified one-to-one", choice_name(maps, c->map.kind));
@@ -139,6 +133,7 @@ const char *check_reason(char text[240], const check *c)
 
 static void report_certificates(const check *c, json *j)
 {
+    char text[REASON_LENGTH];
     if (c->charts[0].method != 0)
         json_text(j, "method", choice_name(methods, c->charts[0].method));
     if (c->map.kind != 0)
@@ -151,8 +146,19 @@ static void report_certificates(const check *c, json *j)
             json_count(j, "infeasible_vertices", c->charts[side].n_infeasible);
             json_count(j, "contacts", c->charts[side].n_contacts);
             json_count(j, "not_inward", c->charts[side].n_not_inward);
+            if (!c->charts[side].certified)
+                json_text(j, "not_certified_because", reason_of_chart(text, &c->charts[side]));
             json_close(j, '}');
         }
+    if (c->map.n_samples > 0) {
+        json_count(j, "samples", c->map.n_samples);
+        json_count(j, "samples_lost", c->map.n_lost);
+        json_count(j, "samples_flat", c->map.n_flat);
+    }
+    if (c->map.kind != 0 && !c->map.certified)
+        json_text(j, "not_certified_because", reason_of_map(text, &c->map));
+    else if (c->charts[0].method != 0 && !c->charts[0].certified)
+        json_text(j, "not_certified_because", reason_of_chart(text, &c->charts[0]));
     if (!check_mask_only(c))
         json_flag(j, "certified", c->certified);
 }

@@ -1,4 +1,5 @@
 #include "report/info.h"
+#include "report/reason.h"
 
 #include "job/option_table.h"
 
@@ -117,12 +118,14 @@ static void print_gradient(const info *x)
 static void print_field(const info *x)
 {
     const icc_chart_info *c = &x->chart;
-    char label[48];
+    char label[48], reason[REASON_LENGTH];
     printf("method      field, function %s, %s\n", function_label(label, &x->field),
            c->certified ? "certified" : "not certified");
     print_grid(x);
     printf("vectors     %zu of %zu vertices have none that points uphill all round\n",
            c->n_infeasible, c->n_inside);
+    if (!c->certified)
+        printf("reason      %s\n", reason_of_chart(reason, c));
     printf(
         "contacts    %6.2f %% (%zu of %zu with the boundary) are such that curves do not enter\n",
         c->n_contacts > 0 ? 100 * (double)c->n_not_inward / (double)c->n_contacts : 0,
@@ -169,8 +172,11 @@ static void print_map(const info *x)
 {
     const icc_map_info *m = &x->map;
     const map_shares *s = &x->shares;
+    char reason[REASON_LENGTH];
     printf("map         %s, %s\n", choice_name(maps, m->kind),
            m->certified ? "certified" : "not certified");
+    if (!m->certified)
+        printf("            because %s\n", reason_of_map(reason, m));
     if (m->n_unrepaired > 0)
         printf("            of kind curves because %zu %s could not be repaired\n", m->n_unrepaired,
                elements_name(m->dim));

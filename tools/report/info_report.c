@@ -1,4 +1,5 @@
 #include "report/info.h"
+#include "report/reason.h"
 
 #include "job/option_table.h"
 
@@ -86,9 +87,12 @@ static void report_mesh(json *j, const icc_chart_info *c)
 
 static void report_chart(json *j, const info *x)
 {
+    char reason[REASON_LENGTH];
     const icc_chart_info *c = &x->chart;
     json_text(j, "method", choice_name(methods, c->method));
     json_flag(j, "certified", c->certified != 0);
+    if (!c->certified)
+        json_text(j, "not_certified_because", reason_of_chart(reason, c));
     report_point(j, "maximum", (size_t)x->domain.dim, c->maximum);
     if (c->moved > 0)
         json_number(j, "maximum_moved", c->moved);
@@ -128,9 +132,17 @@ static void report_mesh_map(json *j, const icc_map_info *m)
 
 static void report_map(json *j, const icc_map_info *m, const map_shares *s)
 {
+    char reason[REASON_LENGTH];
     json_open(j, "map", '{');
     json_text(j, "kind", choice_name(maps, m->kind));
     json_flag(j, "certified", m->certified != 0);
+    if (!m->certified)
+        json_text(j, "not_certified_because", reason_of_map(reason, m));
+    if (m->n_samples > 0) {
+        json_count(j, "samples_there_and_back", m->n_samples);
+        json_count(j, "lost", m->n_lost);
+        json_count(j, "flat", m->n_flat);
+    }
     json_count(j, "unrepaired", m->n_unrepaired);
     if (m->kind == ICC_MAP_MESH)
         report_mesh_map(j, m);

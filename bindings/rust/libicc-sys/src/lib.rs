@@ -304,13 +304,34 @@ pub const ICC_METHOD_FOLIATION: i32 = 2;
 /// Integral Curve Coordinates along a field that the curves cannot merge in, on a regular grid in any
 /// dimension: a vector for every grid vertex that points uphill in all simplices around it, for
 /// the discretely harmonic function, and linear interpolation between them. The curves are
-/// followed exactly but for rounding. Certified when there is such a vector everywhere and the
-/// boundary is crossed inward all over, which is checked vertex by vertex; if not, there is a
-/// chart all the same, and `icc_chart_info.n_infeasible` and n_not_inward tell how much is amiss.
+/// followed exactly but for rounding. Certified when there is such a vector everywhere, the
+/// boundary is crossed inward all over, which is checked vertex by vertex, and no grid vertex inside was
+/// given up; if not, there is a chart all the same, and `icc_chart_info.n_infeasible`, n_not_inward
+/// and n_stray report how much is amiss.
+///
+/// A map of two certified charts is certified when doubles are enough for it, too, which
+/// `icc_map_info.n_lost` and n_flat report: curves come together on their way, and what one chart tells
+/// apart may be one and the same to the other, as when a ball goes to a pancake.
 pub const ICC_METHOD_FIELD: i32 = 3;
 /// Polar coordinates of the harmonic map to a disc (Tutte), piecewise linear. A homeomorphism under
 /// the same certificate; the curves are the preimages of radii.
 pub const ICC_METHOD_DISC: i32 = 4;
+
+// Why a chart or a map is not certified: of several reasons, the first.
+/// it is certified
+pub const ICC_REASON_NONE: i32 = 0;
+/// the curves of method gradient merge
+pub const ICC_REASON_GRADIENT: i32 = 1;
+/// field: `icc_chart_info.n_infeasible`
+pub const ICC_REASON_INFEASIBLE: i32 = 2;
+/// field: `icc_chart_info.n_not_inward`
+pub const ICC_REASON_NOT_INWARD: i32 = 3;
+/// field: `icc_chart_info.n_stray`
+pub const ICC_REASON_STRAY: i32 = 4;
+/// maps of method field: `icc_map_info.n_lost`
+pub const ICC_REASON_LOST: i32 = 5;
+/// maps of method field: `icc_map_info.n_flat`
+pub const ICC_REASON_FLAT: i32 = 6;
 
 // The function whose gradient lines are followed.
 /// thesis (4.1): 10 at the maximum, times 0.95 from parent to child
@@ -399,7 +420,7 @@ pub struct icc_chart_info {
     pub function: i32,
     /// `ICC_TREE_*`
     pub tree: i32,
-    /// 1: proved to be one-to-one, exactly; 0: not (gradient)
+    /// 1: proved to be one-to-one, exactly (field: in doubles); 0: not, see `reason`
     pub certified: i32,
     /// cells along the longest side that were used
     pub cells: i32,
@@ -479,6 +500,8 @@ pub struct icc_chart_info {
     /// lies from the vertex that was asked for (or the grassfire's), because
     /// the function is greatest beside it; else 0
     pub moved: f64,
+    /// `ICC_REASON_*`: why it is not certified; 0 if it is
+    pub reason: i32,
 }
 sized!(icc_chart_info);
 
@@ -555,7 +578,7 @@ pub struct icc_map_info {
     pub dim: i32,
     /// `ICC_MAP_*`: curves although mesh was asked for when the repair failed
     pub kind: i32,
-    /// 1: proved to be one-to-one, exactly; 0: not (gradient)
+    /// 1: proved to be one-to-one, exactly (field: in doubles); 0: not, see `reason`
     pub certified: i32,
     /// mesh: refinements
     pub n_levels: i32,
@@ -581,8 +604,22 @@ pub struct icc_map_info {
     pub seconds_repair: f64,
     /// and for the improvement
     pub seconds_improve: f64,
-    /// and for the certificate
+    /// and for the certificate; kind curves of method field likewise
     pub seconds_certify: f64,
+    /// field: evenly spread points, half of them in the target, that were mapped there
+    /// and back; 0 unless both charts are certified
+    pub n_samples: usize,
+    /// field: of these, points that come back more than 1e-9 of the bounding box's
+    /// diagonal away, or whose derivative does not fit that of the way back. None if
+    /// certified
+    pub n_lost: usize,
+    /// field: of these, points around which volume shrinks to less than 1e-6 of its mean.
+    /// At most 0.2 % if certified
+    pub n_flat: usize,
+    /// `ICC_REASON_*`: why it is not certified; 0 if it is
+    pub reason: i32,
+    /// 1: because the source's chart is not, 2: the target's; else 0
+    pub reason_side: i32,
 }
 sized!(icc_map_info);
 

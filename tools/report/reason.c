@@ -1,0 +1,48 @@
+#include "report/reason.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Adds one more, if there is any of it. */
+static void add(char text[REASON_LENGTH], size_t count, const char *format, ...)
+{
+    va_list values;
+    size_t used = strlen(text);
+    if (count == 0)
+        return;
+    if (used > 0)
+        used += (size_t)snprintf(text + used, REASON_LENGTH - used, "; ");
+    va_start(values, format);
+    vsnprintf(text + used, REASON_LENGTH - used, format, values);
+    va_end(values);
+}
+
+const char *reason_of_chart(char text[REASON_LENGTH], const icc_chart_info *chart)
+{
+    text[0] = '\0';
+    if (chart->method == ICC_METHOD_GRADIENT)
+        add(text, 1, "the curves of method gradient merge");
+    add(text, chart->n_infeasible, "at %zu of %zu grid vertices no vector points uphill all round",
+        chart->n_infeasible, chart->n_inside);
+    add(text, chart->n_not_inward,
+        "at %zu of %zu contacts with the boundary (%.3g %%) the curves do not enter",
+        chart->n_not_inward, chart->n_contacts,
+        100 * (double)chart->n_not_inward / (double)chart->n_contacts);
+    add(text, chart->n_stray, "%zu grid %s given up", chart->n_stray,
+        chart->n_stray == 1 ? "vertex inside was" : "vertices inside were");
+    return text;
+}
+
+const char *reason_of_map(char text[REASON_LENGTH], const icc_map_info *map)
+{
+    text[0] = '\0';
+    if (map->reason_side != 0)
+        add(text, 1, "the %s's chart is not", map->reason_side == 1 ? "source" : "target");
+    add(text, map->n_lost, "%zu of %zu sample points do not come back, for want of digits",
+        map->n_lost, map->n_samples);
+    if (map->reason == ICC_REASON_FLAT || map->n_lost > 0)
+        add(text, map->n_flat, "it flattens what lies around %zu of %zu sample points", map->n_flat,
+            map->n_samples);
+    return text;
+}
