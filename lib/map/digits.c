@@ -282,7 +282,7 @@ static icc_status judge_way(const icc_chart *from, const icc_chart *to, icc_map_
     icc_status status = inside != NULL && verdicts != NULL ? ICC_OK : ICC_ERR_MEMORY;
     if (status == ICC_OK) {
         list_inside(grid, inside);
-        status = iccp_for_chunks(env, "certify", N_SAMPLES, ICCP_CHART_MANY, judge_chunk, &s);
+        status = iccp_for_chunks(env, "check", N_SAMPLES, ICCP_CHART_MANY, judge_chunk, &s);
     }
     if (status == ICC_OK)
         status = judge_derivatives(&s);

@@ -141,7 +141,7 @@ icc_status iccp_map_create_from_charts(icc_map **out, const icc_chart *source,
         iccp_map_add_charts(map, source, target);
     if (status == ICC_OK && kind == ICC_MAP_MESH)
         status = add_mesh(map, options->iterations, env, err);
-    if (status == ICC_OK)
+    else if (status == ICC_OK)
         status = iccp_map_judge(map, env);
     if (status != ICC_OK) {
         iccp_map_release(map);
