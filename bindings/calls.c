@@ -1,8 +1,10 @@
-/* What calls cost in C, for the other languages to compare with: an empty one, and one that maps one point.
+/* What calls cost in C, for the other languages to compare with: an empty one, and one that maps
+ * one point.
  *
  *     calls
  *
- * prints nanoseconds of both: the least of many means, since whatever else runs makes them longer, never shorter. */
+ * prints nanoseconds of both: the least of many means, since whatever else runs makes them longer,
+ * never shorter. */
 #include <icc/icc.h>
 
 #include <stdio.h>

@@ -1,9 +1,10 @@
 /* An animal's volume goes from one pose to another: only its surface is given, before and after.
  *
- * The animal is drawn by hand from blocks, and its surface smoothed. The pose bends the surface alone.
- * Then a mesh of tetrahedra inside goes along, and every tetrahedron is looked at.
+ * The animal is drawn by hand from blocks, and its surface smoothed. The pose bends the surface
+ * alone. Then a mesh of tetrahedra inside goes along, and every tetrahedron is looked at.
  *
- * animal_pose OUT.vtk writes the tetrahedra with their displacement: in ParaView, Warp By Vector. */
+ * animal_pose OUT.vtk writes the tetrahedra with their displacement: in ParaView, Warp By
+ * Vector. */
 #include <icc/icc.h>
 
 #include <math.h>
@@ -84,7 +85,8 @@ static void smooth(mesh *m)
     free(n);
 }
 
-/* Legs step out in turn, the head goes up, the tail to the side. Shears only, so nothing can meet. */
+/* Legs step out in turn, the head goes up, the tail to the side. Shears only, so nothing can
+ * meet. */
 static void pose(const double from[3], double to[3])
 {
     double x = from[0], y = from[1], z = from[2];

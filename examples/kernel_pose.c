@@ -2,9 +2,10 @@
  *
  *     kernel_pose OUT.svg
  *
- * Four scenes, at rest on the left and posed on the right: a star with a handle at every corner; a stick figure, which
- * is a region (the head) and curves; a bar with a part in the middle that is to stay rigid (in grey); a square
- * with two parallel lines that stay straight and parallel while handles are moved (not turned). */
+ * Four scenes, at rest on the left and posed on the right: a star with a handle at every corner; a
+ * stick figure, which is a region (the head) and curves; a bar with a part in the middle that is to
+ * stay rigid (in grey); a square with two parallel lines that stay straight and parallel while
+ * handles are moved (not turned). */
 #include <icc/kernel.h>
 
 #include <math.h>
@@ -99,12 +100,12 @@ static icc_weights *weigh(const scene *s, const icc_sampling *sampling)
 {
     icc_error err = {.size = sizeof err};
     const icc_weights_options options = {.size = sizeof options,
-                                        .method = s->method,
-                                        .steps = 40,
-                                        .n_edges = s->n_edges,
-                                        .edges = s->edges[0],
-                                        .n_lines = s->n_lines,
-                                        .lines = s->lines};
+                                         .method = s->method,
+                                         .steps = 40,
+                                         .n_edges = s->n_edges,
+                                         .edges = s->edges[0],
+                                         .n_lines = s->n_lines,
+                                         .lines = s->lines};
     icc_weights *kernel;
     check(icc_weights_create(&kernel, sampling, s->n_handles, s->handles[0], &options, NULL, &err),
           s->name, &err);
@@ -185,8 +186,8 @@ static void draw(const view *v, const strokes *s, const double *ends, const char
 }
 
 /* Draws strokes at rest and posed. */
-static void draw_both(const view v[2], const icc_weights *kernel, double (*transforms)[6], strokes s,
-                      const char *style)
+static void draw_both(const view v[2], const icc_weights *kernel, double (*transforms)[6],
+                      strokes s, const char *style)
 {
     icc_error err = {.size = sizeof err};
     if (s.n > 0) {

@@ -111,7 +111,8 @@ int main(int argc, char **argv)
     fprintf(svg, "<style>.dark{stroke:#4a78b5}.light{stroke:#f4d58d}"
                  "polyline{fill:none;stroke:#b03a2e;stroke-width:.7}</style>\n");
     for (int row = 0; row < 2; ++row) {
-        const icc_chart_options chart = {.size = sizeof chart, .method = ICC_METHOD_GRADIENT, .cells = row == 0 ? 50 : 100};
+        const icc_chart_options chart = {
+            .size = sizeof chart, .method = ICC_METHOD_GRADIENT, .cells = row == 0 ? 50 : 100};
         const icc_map_options options = {.size = sizeof options, .chart = &chart};
         icc_map *map;
         icc_map_info info = {.size = sizeof info};

@@ -1,5 +1,6 @@
-/* Four dimensions, exactly: a block cut into 4-simplices by Kuhn's rule, and the same block twisted, with other
- * vertices inside. Points inside go along and come back, and the derivative of the map is positive everywhere. */
+/* Four dimensions, exactly: a block cut into 4-simplices by Kuhn's rule, and the same block
+ * twisted, with other vertices inside. Points inside go along and come back, and the derivative of
+ * the map is positive everywhere. */
 #include <icc/icc.h>
 
 #include <math.h>
@@ -34,7 +35,8 @@ static double draw(uint32_t *state)
     return *state / 4294967296.0;
 }
 
-/* From the lowest corner of each box along its edges to the highest, in all 24 orders of the axes. */
+/* From the lowest corner of each box along its edges to the highest, in all 24 orders of the
+ * axes. */
 static void cut(mesh *m)
 {
     static const uint32_t step[4] = {1, M, M * M, M * M * M};
@@ -64,7 +66,8 @@ static void turn(double *a, double *b, double angle)
     *b = N / 2. + x * sin(angle) + y * cos(angle);
 }
 
-/* The x-y planes are turned, the farther along z and w the more. Vertices inside go elsewhere first. */
+/* The x-y planes are turned, the farther along z and w the more. Vertices inside go elsewhere
+ * first. */
 static void twist(mesh *m)
 {
     uint32_t state = 4;

@@ -2,9 +2,10 @@
  *
  * mesh_morph SOURCE TARGET OUT.mesh OUT.vtk
  *
- * The files are Medit (.mesh) or legacy VTK as text. The target is a mesh of the moved boundary: the source's
- * boundary with the vertices elsewhere, in the same order, but inside it has nothing to do with the source. A
- * mesher that keeps the surface makes one, such as tetgen -pY. For ParaView: Warp By Vector, colour by quality. */
+ * The files are Medit (.mesh) or legacy VTK as text. The target is a mesh of the moved boundary:
+ * the source's boundary with the vertices elsewhere, in the same order, but inside it has nothing
+ * to do with the source. A mesher that keeps the surface makes one, such as tetgen -pY. For
+ * ParaView: Warp By Vector, colour by quality. */
 #include <icc/icc.h>
 
 #include <math.h>
@@ -38,8 +39,9 @@ static void *need(size_t n, size_t size)
     return memory;
 }
 
-/* The parts of a Medit and of a legacy VTK file (version 2 or 3, all cells tetrahedra) that matter: how their
- * size is given, how many numbers a row has, which of them count, and the number of the first vertex. */
+/* The parts of a Medit and of a legacy VTK file (version 2 or 3, all cells tetrahedra) that matter:
+ * how their size is given, how many numbers a row has, which of them count, and the number of the
+ * first vertex. */
 static const struct section {
     const char *name, *head;
     size_t length, first, n_kept;
@@ -86,8 +88,8 @@ static mesh read_mesh(const char *name)
     return m;
 }
 
-/* Volume against the mean square of the edges: 1 for the regular tetrahedron, either way round, 0 for a flat
- * one. */
+/* Volume against the mean square of the edges: 1 for the regular tetrahedron, either way round, 0
+ * for a flat one. */
 static double quality(const double *vertices, const uint32_t *corners)
 {
     double e[3][3], squares = 0;
@@ -184,9 +186,9 @@ static icc_domain *make_domain(const mesh *m)
     return domain;
 }
 
-/* The map is one-to-one, but straight tetrahedra with the images of their corners need not be: those that invert
- * are repaired, which leaves the boundary where it is. (A map of kind mesh, the default in
- * space, starts from the same images and is repaired when it is made.) */
+/* The map is one-to-one, but straight tetrahedra with the images of their corners need not be:
+ * those that invert are repaired, which leaves the boundary where it is. (A map of kind mesh, the
+ * default in space, starts from the same images and is repaired when it is made.) */
 static void morph(const mesh *source, const mesh *target, double *images)
 {
     icc_domain *before = make_domain(source), *after = make_domain(target);

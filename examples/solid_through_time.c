@@ -1,6 +1,6 @@
-/* A solid that moves, as one solid of four dimensions: its cells are voxels at moments. The boundary in
- * space and time is deformed - the motion slows down, and the solid leans over - and what happens
- * inside goes along. */
+/* A solid that moves, as one solid of four dimensions: its cells are voxels at moments. The
+ * boundary in space and time is deformed - the motion slows down, and the solid leans over - and
+ * what happens inside goes along. */
 #include <icc/icc.h>
 
 #include <math.h>

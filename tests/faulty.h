@@ -51,8 +51,8 @@ static inline icc_env faulty_env(faulty *f)
 /* Makes something and frees it again; its status. */
 typedef icc_status (*faulty_call)(const icc_env *env, icc_error *err, void *argument);
 
-/* Lets every allocation and every progress report fail in turn, or a share of them: each gives its status and a
- * text, and nothing is left behind. */
+/* Lets every allocation and every progress report fail in turn, or a share of them: each gives its
+ * status and a text, and nothing is left behind. */
 static inline void faulty_sweep(faulty_call call, void *argument)
 {
     for (int cancels = 0; cancels < 2; ++cancels) {

@@ -1,9 +1,10 @@
-/* Meshes with a centre, for tests of fluxes: 2 to 5 dimensions, plain and with what is hard about them. */
+/* Meshes with a centre, for tests of fluxes: 2 to 5 dimensions, plain and with what is hard about
+ * them. */
 #ifndef TESTS_FLUXES_H
 #define TESTS_FLUXES_H
 
-#include "shelling/centres.h"
 #include "domain/domain.h"
+#include "shelling/centres.h"
 
 #include "faulty.h"
 #include "meshes.h"
@@ -125,7 +126,8 @@ static inline size_t flux_sides(const iccp_simplices *mesh)
     return (mesh->dim + 1) * mesh->n_simplices;
 }
 
-/* The sides of a facet agree, inner sides of the star have none, and what comes in goes to the star. */
+/* The sides of a facet agree, inner sides of the star have none, and what comes in goes to the
+ * star. */
 static inline void flux_check(const flux_case *c, const double *inflow, const double *flux)
 {
     double arrived = 0;

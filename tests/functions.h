@@ -1,5 +1,5 @@
-/* Functions on the vertices of a tree, and what is to be true of them, found from the public interface
- * alone: equations, energies, inequalities, residuals. */
+/* Functions on the vertices of a tree, and what is to be true of them, found from the public
+ * interface alone: equations, energies, inequalities, residuals. */
 #ifndef TESTS_FUNCTIONS_H
 #define TESTS_FUNCTIONS_H
 
@@ -18,7 +18,7 @@ typedef struct ground {
     const uint32_t *parent;
     const int32_t *generation;
     uint32_t root;
-    size_t n;        /* vertices inside that the tree reaches */
+    size_t n;           /* vertices inside that the tree reaches */
     uint32_t *order;    /* those, parents before children */
     uint8_t *has_child; /* per vertex of the grid: whether a vertex inside has it as its parent */
 } ground;
@@ -66,14 +66,13 @@ static inline void ground_free(ground *g)
     free(g->has_child);
 }
 
-/* Grows a tree from `root`; UINT32_MAX: from the grassfire's maximum. On failure there is nothing to
- * free. */
+/* Grows a tree from `root`; UINT32_MAX: from the grassfire's maximum. On failure there is nothing
+ * to free. */
 static inline icc_status ground_create(ground *g, const mask *m, uint32_t root, int32_t form)
 {
     const icc_tree_options options = {.size = sizeof options, .form = form};
     *g = (ground){.info = {.size = sizeof g->info}, .root = root};
-    icc_status status =
-        icc_grid_create_mask(&g->grid, m->dim, m->shape, m->inside, NULL, NULL);
+    icc_status status = icc_grid_create_mask(&g->grid, m->dim, m->shape, m->inside, NULL, NULL);
     if (status == ICC_OK && root == UINT32_MAX)
         status = icc_grid_find_maximum(g->grid, &g->root, NULL, NULL, NULL);
     if (status == ICC_OK)
@@ -106,8 +105,8 @@ static inline double ground_laplacian(const ground *g, const double *f, uint32_t
     return sum;
 }
 
-/* Where a function's energy takes the square of the Laplacian. Clamped: also next to the inside; a mask
- * must not reach the grid's border then. */
+/* Where a function's energy takes the square of the Laplacian. Clamped: also next to the inside; a
+ * mask must not reach the grid's border then. */
 static inline bool ground_counts(const ground *g, int32_t function, uint32_t v)
 {
     if (v == UINT32_MAX || ground_holds(g, v) || function != ICC_FUNCTION_CLAMPED)
@@ -147,8 +146,8 @@ static inline double ground_gradient(const ground *g, int32_t function, const do
     return sum;
 }
 
-/* How far a positive function is from being the mean of its neighbours, relative to itself: the largest
- * over all vertices but the root. From logarithms, so that nothing underflows. */
+/* How far a positive function is from being the mean of its neighbours, relative to itself: the
+ * largest over all vertices but the root. From logarithms, so that nothing underflows. */
 static inline double ground_imbalance(const ground *g, const double *logs)
 {
     double worst = 0;
@@ -174,9 +173,9 @@ static inline size_t ground_violated(const ground *g, double eta, const double *
     return n_violated;
 }
 
-/* The Karush-Kuhn-Tucker residual of a function under f_parent >= (1 + eta) f_child: multipliers by one
- * sweep from the leaves to the root, so that the gradient of the Lagrange function is 0, then the
- * largest |min(slack, multiplier)|. `sum`: room for a number per vertex of the grid. */
+/* The Karush-Kuhn-Tucker residual of a function under f_parent >= (1 + eta) f_child: multipliers by
+ * one sweep from the leaves to the root, so that the gradient of the Lagrange function is 0, then
+ * the largest |min(slack, multiplier)|. `sum`: room for a number per vertex of the grid. */
 static inline double ground_residual(const ground *g, int32_t function, double eta, const double *f,
                                      double *sum)
 {

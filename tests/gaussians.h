@@ -1,4 +1,5 @@
-/* Gaussians at points, by dense algebra: the thesis' own experiments (section 3.3), for comparison. */
+/* Gaussians at points, by dense algebra: the thesis' own experiments (section 3.3), for
+ * comparison. */
 #ifndef TESTS_GAUSSIANS_H
 #define TESTS_GAUSSIANS_H
 
@@ -8,7 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* n points in the plane, the matrix of their kernel values and its Cholesky factor, row after row. */
+/* n points in the plane, the matrix of their kernel values and its Cholesky factor, row after
+ * row. */
 typedef struct gaussians {
     size_t n;
     const double *points;
@@ -94,7 +96,8 @@ typedef struct gaussians_report {
     double condition, unity, reproduction, reproduction_mean, lagrange;
 } gaussians_report;
 
-/* Deviations on a grid of count^2 points over the square of half-side `half`, in the maximum norm. */
+/* Deviations on a grid of count^2 points over the square of half-side `half`, in the maximum
+ * norm. */
 static inline void gaussians_deviations(const gaussians *g, int count, double half,
                                         gaussians_report *r)
 {

@@ -80,7 +80,8 @@ static inline bool mask_star(const double *p, int32_t dim, double cells)
     (void)dim, (void)cells;
     const double half = 3.14159265358979323846 / 5;
     const double x = p[0] - 0.5, y = p[1] - 0.5;
-    const double angle = fmod(fabs(atan2(x, y)), 2 * half), from_tip = fmin(angle, 2 * half - angle);
+    const double angle = fmod(fabs(atan2(x, y)), 2 * half),
+                 from_tip = fmin(angle, 2 * half - angle);
     const double u = hypot(x, y) * cos(from_tip), v = hypot(x, y) * sin(from_tip);
     const double a = 0.2 * cos(half), b = 0.2 * sin(half);
     return (u - 0.5) * b + v * (0.5 - a) < 0;
@@ -106,7 +107,8 @@ static inline bool mask_rooms(const double *p, int32_t dim, double cells)
     return (x < 12 && y < 12) || (x < 6 && x > 4) || (y < 6 && y > 4);
 }
 
-/* A wide way round and one straight across that is one vertex wide: shorter, but far less gets through. */
+/* A wide way round and one straight across that is one vertex wide: shorter, but far less gets
+ * through. */
 static inline bool mask_two_ways(const double *p, int32_t dim, double cells)
 {
     (void)dim;
@@ -165,7 +167,8 @@ static inline bool mask_drum(const double *p, int32_t dim, double cells)
 static inline bool mask_pit(const double *p, int32_t dim, double cells)
 {
     (void)dim, (void)cells;
-    return !(p[0] > 7. / 16 && p[0] < 11. / 16 && p[1] > 7. / 16 && p[1] < 11. / 16 && p[2] > 11. / 16);
+    return !(p[0] > 7. / 16 && p[0] < 11. / 16 && p[1] > 7. / 16 && p[1] < 11. / 16 &&
+             p[2] > 11. / 16);
 }
 
 /* All shapes but the ring with two ways and the comb. `dim` 0 for any dimension. */
@@ -180,14 +183,15 @@ enum { N_MASKS = 12 };
 static inline mask_kind mask_number(int k)
 {
     const mask_kind kinds[N_MASKS] = {
-        {"box", 0, mask_box},           {"ball", 0, mask_ball},     {"L", 2, mask_l},
-        {"C", 2, mask_c},               {"star", 2, mask_star},     {"serpentine", 2, mask_serpentine},
-        {"rooms", 2, mask_rooms},       {"C tube", 3, mask_c_tube}, {"dumbbell", 3, mask_dumbbell},
-        {"tripod", 3, mask_tripod},     {"drum", 3, mask_drum},     {"pit", 3, mask_pit}};
+        {"box", 0, mask_box},       {"ball", 0, mask_ball},     {"L", 2, mask_l},
+        {"C", 2, mask_c},           {"star", 2, mask_star},     {"serpentine", 2, mask_serpentine},
+        {"rooms", 2, mask_rooms},   {"C tube", 3, mask_c_tube}, {"dumbbell", 3, mask_dumbbell},
+        {"tripod", 3, mask_tripod}, {"drum", 3, mask_drum},     {"pit", 3, mask_pit}};
     return kinds[k];
 }
 
-/* `cells` vertices across the unit cube; ended by mask_free(). The array is NULL when there is no memory. */
+/* `cells` vertices across the unit cube; ended by mask_free(). The array is NULL when there is no
+ * memory. */
 static inline mask mask_draw(mask_shape shape, int32_t dim, size_t cells)
 {
     mask m = {.dim = dim, .n_vertices = 1};

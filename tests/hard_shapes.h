@@ -48,8 +48,8 @@ static inline shape shape_slit(double gap)
 static inline shape shape_dumbbell(double width)
 {
     const double low = 0.5 - width / 2, high = 0.5 + width / 2;
-    return shape_of(12, (double[]){0, 0, 1, 0, 1, low, 1.2, low, 1.2, 0, 2.2, 0, 2.2, 1, 1.2, 1, 1.2,
-                                   high, 1, high, 1, 1, 0, 1});
+    return shape_of(12, (double[]){0,   0, 1,   0, 1,   low,  1.2, low,  1.2, 0, 2.2, 0,
+                                   2.2, 1, 1.2, 1, 1.2, high, 1,   high, 1,   1, 0,   1});
 }
 
 static inline shape shape_channel(double aspect)
@@ -73,8 +73,8 @@ static inline shape shape_wild(size_t n, uint64_t seed)
     return shape_blob(n, random_for_blob, &r);
 }
 
-/* A square with a corner rounded off by so small a radius that the edges there are a few rounding errors
- * long on the scale of the whole. */
+/* A square with a corner rounded off by so small a radius that the edges there are a few rounding
+ * errors long on the scale of the whole. */
 static inline shape shape_fillet(double radius)
 {
     enum { N = 16 };

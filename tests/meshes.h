@@ -1,5 +1,5 @@
-/* Conforming meshes for tests: cut cubes and balls of any dimension, polygons, and what tetgen makes of a
- * surface, where that program is installed. */
+/* Conforming meshes for tests: cut cubes and balls of any dimension, polygons, and what tetgen
+ * makes of a surface, where that program is installed. */
 #ifndef TESTS_MESHES_H
 #define TESTS_MESHES_H
 
@@ -104,8 +104,8 @@ static inline void mesh_permutation(size_t which, int32_t dim, int32_t *order)
     }
 }
 
-/* Kuhn's simplices in the cells of [0, n]^dim for which keep() holds; NULL: all. All (n + 1)^dim lattice points
- * are vertices, the first axis fastest, whether or not a simplex has them. */
+/* Kuhn's simplices in the cells of [0, n]^dim for which keep() holds; NULL: all. All (n + 1)^dim
+ * lattice points are vertices, the first axis fastest, whether or not a simplex has them. */
 static inline test_mesh mesh_cells(int32_t dim, size_t n,
                                    int (*keep)(int32_t dim, const size_t *cell))
 {
@@ -139,7 +139,8 @@ static inline test_mesh mesh_cells(int32_t dim, size_t n,
     return m;
 }
 
-/* Moves the vertices inside [0, n]^dim by up to `amount` along each axis; 0.1 keeps all simplices positive. */
+/* Moves the vertices inside [0, n]^dim by up to `amount` along each axis; 0.1 keeps all simplices
+ * positive. */
 static inline void mesh_shake(test_mesh *m, size_t n, double amount, random_source *r)
 {
     const size_t dim = (size_t)m->dim;
@@ -179,8 +180,8 @@ static inline test_mesh mesh_ball(int32_t dim, size_t n, double amount, random_s
 
 /* ---- polygons ---- */
 
-/* A counter-clockwise polygon with the points of a lattice of the given width that lie inside, away from
- * the boundary. */
+/* A counter-clockwise polygon with the points of a lattice of the given width that lie inside, away
+ * from the boundary. */
 static inline test_mesh mesh_polygon(size_t n, const double *xy, double width)
 {
     icc_domain *domain;
@@ -237,8 +238,8 @@ static inline void mesh_write_surface(const char *path, size_t n_vertices, const
         abort();
 }
 
-/* Reads PATH.1.node and PATH.1.ele, numbered from 0. Numbers are read as text by strtod, so points that
- * tetgen was given in 17 digits come back as they were. */
+/* Reads PATH.1.node and PATH.1.ele, numbered from 0. Numbers are read as text by strtod, so points
+ * that tetgen was given in 17 digits come back as they were. */
 static inline int mesh_read_tetgen(test_mesh *m, const char *path)
 {
     char name[256];
@@ -278,9 +279,9 @@ static inline void mesh_remove_files(const char *path)
     }
 }
 
-/* The inside of a surface by tetgen, which keeps the surface: its vertices come first and its faces are the
- * facets. Works in files whose names begin with `tag`, so tests that run at the same time need different
- * ones. False, with a message, when there is no tetgen. */
+/* The inside of a surface by tetgen, which keeps the surface: its vertices come first and its faces
+ * are the facets. Works in files whose names begin with `tag`, so tests that run at the same time
+ * need different ones. False, with a message, when there is no tetgen. */
 static inline int mesh_tetgen(test_mesh *m, size_t n_vertices, const double *vertices,
                               size_t n_faces, const uint32_t *faces, const char *tag)
 {
@@ -309,8 +310,8 @@ static inline int mesh_tetgen(test_mesh *m, size_t n_vertices, const double *ver
 }
 
 #ifdef TEST_SHARED_DATA
-/* Of a surface of the data beside the tree, such as "t01_cube_bend" and "src". False, with a message, when
- * it or tetgen is missing. */
+/* Of a surface of the data beside the tree, such as "t01_cube_bend" and "src". False, with a
+ * message, when it or tetgen is missing. */
 static inline int mesh_of_data(test_mesh *m, const char *name, const char *side, const char *tag)
 {
     char path[512];

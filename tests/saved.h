@@ -130,7 +130,8 @@ typedef struct coordinates {
     size_t n_failed;
 } coordinates;
 
-/* Coordinates of points and the points of them; points of coordinates that are made up, and the coordinates of these. */
+/* Coordinates of points and the points of them; points of coordinates that are made up, and the
+ * coordinates of these. */
 static inline void find_coordinates(const icc_chart *chart, const double *points, coordinates *c)
 {
     icc_domain_info info = {.size = sizeof info};
@@ -234,7 +235,8 @@ static inline void same_mesh(const icc_map *a, const icc_map *b, const icc_map_i
     double *numbers = saved_alloc(4 * n * sizeof *numbers);
     uint32_t *corners = saved_alloc(2 * n_ends * sizeof *corners);
     ck_assert_int_eq(icc_map_get_mesh(a, numbers, numbers + n, corners), ICC_OK);
-    ck_assert_int_eq(icc_map_get_mesh(b, numbers + 2 * n, numbers + 3 * n, corners + n_ends), ICC_OK);
+    ck_assert_int_eq(icc_map_get_mesh(b, numbers + 2 * n, numbers + 3 * n, corners + n_ends),
+                     ICC_OK);
     ck_assert_same(numbers, numbers + 2 * n, 2 * n * sizeof *numbers, "mesh of the map");
     ck_assert_same(corners, corners + n_ends, n_ends * sizeof *corners, "corners of the map");
     free(numbers);

@@ -1,4 +1,5 @@
-/* How much of a long sweep a test runs: ICC_TEST_SHARE percent, all of it where that is not set. tests/run.sh sets it. */
+/* How much of a long sweep a test runs: ICC_TEST_SHARE percent, all of it where that is not set.
+ * tests/run.sh sets it. */
 #ifndef TESTS_SHARE_H
 #define TESTS_SHARE_H
 
@@ -18,8 +19,8 @@ static inline int share_of(int n)
     return n > 0 && some < 1 ? 1 : some;
 }
 
-/* The case after k in a sweep: the first FEW are all run, and of the others test_share() percent, which lie at irregular
- * distances, so that nothing periodic is missed. */
+/* The case after k in a sweep: the first FEW are all run, and of the others test_share() percent,
+ * which lie at irregular distances, so that nothing periodic is missed. */
 static inline size_t share_next(size_t k)
 {
     enum { FEW = 40 };

@@ -97,8 +97,8 @@ static inline void surface_cells(surface *s, int n, int (*has_cell)(int x, int y
             const int axis = side / 2, up = side % 2, u = (axis + 1) % 3, w = (axis + 2) % 3;
             int other[3] = {cell[0], cell[1], cell[2]};
             other[axis] += up ? 1 : -1;
-            const int open = other[axis] < 0 || other[axis] >= n ||
-                             !has_cell(other[0], other[1], other[2]);
+            const int open =
+                other[axis] < 0 || other[axis] >= n || !has_cell(other[0], other[1], other[2]);
             if (!has_cell(cell[0], cell[1], cell[2]) || !open)
                 continue;
             uint32_t v[4];

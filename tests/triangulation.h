@@ -1,5 +1,5 @@
-/* What a constrained Delaunay triangulation of a polygon must be, checked exactly; and shapes to try
- * it on. For the tests, the fuzzer and nothing else. */
+/* What a constrained Delaunay triangulation of a polygon must be, checked exactly; and shapes to
+ * try it on. For the tests, the fuzzer and nothing else. */
 #ifndef TEST_TRIANGULATION_H
 #define TEST_TRIANGULATION_H
 
@@ -68,7 +68,8 @@ static inline int place_in_polygon(size_t n, const double *points, const double 
 
 static inline bool is_polygon_edge(size_t n_boundary, size_t a, size_t b)
 {
-    return a < n_boundary && b < n_boundary && ((a + 1) % n_boundary == b || (b + 1) % n_boundary == a);
+    return a < n_boundary && b < n_boundary &&
+           ((a + 1) % n_boundary == b || (b + 1) % n_boundary == a);
 }
 
 /* Corner c against its neighbour; counts its edge when it is the polygon's. */
@@ -97,7 +98,8 @@ static inline const char *find_corner_defect(size_t n_boundary, size_t n_corners
 }
 
 /* NULL, or what is wrong. All triangles positive, neighbours consistent, the rim the polygon, once:
- * then the triangles cover the polygon once. The number of triangles shows that no point is missing. */
+ * then the triangles cover the polygon once. The number of triangles shows that no point is
+ * missing. */
 static inline const char *find_triangulation_defect(size_t n_boundary, size_t n_points,
                                                     const double *points, const uint32_t *triangles,
                                                     const uint32_t *neighbours)
@@ -108,7 +110,8 @@ static inline const char *find_triangulation_defect(size_t n_boundary, size_t n_
         if (triangles[c] >= n_points)
             return "no such vertex";
     for (size_t t = 0; t < n_triangles; ++t)
-        if (iccp_orient2d(point_at(points, triangles[3 * t]), point_at(points, triangles[3 * t + 1]),
+        if (iccp_orient2d(point_at(points, triangles[3 * t]),
+                          point_at(points, triangles[3 * t + 1]),
                           point_at(points, triangles[3 * t + 2])) <= 0)
             return "a triangle is not counter-clockwise";
     for (size_t c = 0; c < 3 * n_triangles; ++c) {

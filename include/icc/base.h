@@ -29,44 +29,44 @@ typedef int32_t icc_status;
 
 /** Status codes. Their numbers never change. */
 enum {
-    ICC_OK = 0,              /**< the call did what it says */
-    ICC_ERR_ARGUMENT = 1,    /**< an argument is missing or out of range */
-    ICC_ERR_MEMORY = 2,      /**< an allocation failed */
-    ICC_ERR_VERSION = 3,     /**< a struct has a member that this library does not know */
-    ICC_ERR_BOUNDARY = 4,    /**< the boundary is not that of a simple, solid shape */
-    ICC_ERR_RESOLUTION = 5,  /**< the grid is too coarse, or would be too large */
-    ICC_ERR_TOPOLOGY = 6,    /**< the shape or the grid has the wrong topology */
-    ICC_ERR_OUTSIDE = 7,     /**< a point lies outside the domain */
-    ICC_ERR_SOLVER = 8,      /**< a numerical solver did not converge */
-    ICC_ERR_TRACE = 9,       /**< an integral curve does not reach its end */
-    ICC_ERR_CERTIFICATE = 10,/**< a result could not be certified */
-    ICC_ERR_CANCELLED = 11,  /**< the progress callback asked to stop */
-    ICC_ERR_UNSUPPORTED = 12,/**< this combination is not available */
-    ICC_ERR_FORMAT = 13      /**< input data is malformed */
+    ICC_OK = 0,               /**< the call did what it says */
+    ICC_ERR_ARGUMENT = 1,     /**< an argument is missing or out of range */
+    ICC_ERR_MEMORY = 2,       /**< an allocation failed */
+    ICC_ERR_VERSION = 3,      /**< a struct has a member that this library does not know */
+    ICC_ERR_BOUNDARY = 4,     /**< the boundary is not that of a simple, solid shape */
+    ICC_ERR_RESOLUTION = 5,   /**< the grid is too coarse, or would be too large */
+    ICC_ERR_TOPOLOGY = 6,     /**< the shape or the grid has the wrong topology */
+    ICC_ERR_OUTSIDE = 7,      /**< a point lies outside the domain */
+    ICC_ERR_SOLVER = 8,       /**< a numerical solver did not converge */
+    ICC_ERR_TRACE = 9,        /**< an integral curve does not reach its end */
+    ICC_ERR_CERTIFICATE = 10, /**< a result could not be certified */
+    ICC_ERR_CANCELLED = 11,   /**< the progress callback asked to stop */
+    ICC_ERR_UNSUPPORTED = 12, /**< this combination is not available */
+    ICC_ERR_FORMAT = 13       /**< input data is malformed */
 };
 
 /** Limits and markers. */
 enum {
-    ICC_MAX_DIM = 6          /**< largest dimension of a domain or grid */
+    ICC_MAX_DIM = 6 /**< largest dimension of a domain or grid */
 };
 
 /** What icc_error::index counts. */
 enum {
-    ICC_ITEM_NONE = 0,       /**< nothing: index is -1 */
-    ICC_ITEM_VERTEX = 1,     /**< vertices of a boundary, a mesh or the curves of a shape */
-    ICC_ITEM_FACET = 2,      /**< facets of a boundary; edges of a polygon */
-    ICC_ITEM_SIMPLEX = 3,    /**< simplices of a mesh */
-    ICC_ITEM_CELL = 4,       /**< cells of a mask, the first axis fastest */
-    ICC_ITEM_GRID_VERTEX = 5,/**< vertices of a grid */
-    ICC_ITEM_AXIS = 6,       /**< axes */
-    ICC_ITEM_POINT = 7,      /**< points of a list */
-    ICC_ITEM_REGION = 8,     /**< regions of a shape */
-    ICC_ITEM_SEGMENT = 9,    /**< segments of a shape's curves */
-    ICC_ITEM_SAMPLE = 10,    /**< samples of a sampling */
-    ICC_ITEM_HANDLE = 11,    /**< handles */
-    ICC_ITEM_EDGE = 12,      /**< edges between handles */
-    ICC_ITEM_LINE = 13,      /**< lines to keep straight */
-    ICC_ITEM_NODE = 14       /**< entries of a list of nodes */
+    ICC_ITEM_NONE = 0,        /**< nothing: index is -1 */
+    ICC_ITEM_VERTEX = 1,      /**< vertices of a boundary, a mesh or the curves of a shape */
+    ICC_ITEM_FACET = 2,       /**< facets of a boundary; edges of a polygon */
+    ICC_ITEM_SIMPLEX = 3,     /**< simplices of a mesh */
+    ICC_ITEM_CELL = 4,        /**< cells of a mask, the first axis fastest */
+    ICC_ITEM_GRID_VERTEX = 5, /**< vertices of a grid */
+    ICC_ITEM_AXIS = 6,        /**< axes */
+    ICC_ITEM_POINT = 7,       /**< points of a list */
+    ICC_ITEM_REGION = 8,      /**< regions of a shape */
+    ICC_ITEM_SEGMENT = 9,     /**< segments of a shape's curves */
+    ICC_ITEM_SAMPLE = 10,     /**< samples of a sampling */
+    ICC_ITEM_HANDLE = 11,     /**< handles */
+    ICC_ITEM_EDGE = 12,       /**< edges between handles */
+    ICC_ITEM_LINE = 13,       /**< lines to keep straight */
+    ICC_ITEM_NODE = 14        /**< entries of a list of nodes */
 };
 
 /**
@@ -77,12 +77,12 @@ enum {
  * NULL. A call that succeeds leaves the struct alone.
  */
 typedef struct icc_error {
-    size_t size;         /**< set by the caller: `sizeof(icc_error)` */
-    icc_status status;   /**< the status that the call returned */
-    int32_t side;        /**< 0: neither; 1: the source; 2: the target */
-    int64_t index;       /**< which item is at fault, from 0, or -1 */
-    int32_t item;        /**< what it is: `ICC_ITEM_*` */
-    char message[252];   /**< one line of English, always terminated */
+    size_t size;       /**< set by the caller: `sizeof(icc_error)` */
+    icc_status status; /**< the status that the call returned */
+    int32_t side;      /**< 0: neither; 1: the source; 2: the target */
+    int64_t index;     /**< which item is at fault, from 0, or -1 */
+    int32_t item;      /**< what it is: `ICC_ITEM_*` */
+    char message[252]; /**< one line of English, always terminated */
 } icc_error;
 
 /** One unit of work handed to icc_env::parallel_for. */
@@ -100,8 +100,8 @@ typedef void (*icc_task)(void *argument, size_t index);
  * implementation of `parallel_for`.
  */
 typedef struct icc_env {
-    size_t size;                 /**< set by the caller: `sizeof(icc_env)` */
-    void *user;                  /**< handed to every callback below */
+    size_t size; /**< set by the caller: `sizeof(icc_env)` */
+    void *user;  /**< handed to every callback below */
     /** Memory for any type, or NULL if there is none. Set both or neither; must be
      *  thread-safe when tasks run in parallel. Default: malloc and free. */
     void *(*alloc)(void *user, size_t size);

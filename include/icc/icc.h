@@ -33,9 +33,10 @@ typedef struct icc_domain icc_domain;
 /** Where a point lies. */
 enum {
     ICC_INSIDE = 1, /**< in the interior */
-    /** On the boundary: up to 1e-14 of the bounding box's longest side, or up to `dim` * 2^-52 of the
-     *  largest coordinate along each axis, whichever is more. So a point of a facet that is computed in
-     *  doubles, as a mean of its vertices, is on the boundary wherever the shape lies. */
+    /** On the boundary: up to 1e-14 of the bounding box's longest side, or up to `dim` * 2^-52 of
+     *  the largest coordinate along each axis, whichever is more. So a point of a facet that is
+     *  computed in doubles, as a mean of its vertices, is on the boundary wherever the shape
+     *  lies. */
     ICC_BOUNDARY = 2,
     ICC_OUTSIDE = 3 /**< elsewhere */
 };
@@ -93,31 +94,33 @@ typedef struct icc_domain_info {
  * @param env        may be NULL
  * @param err        may be NULL; `index` names the vertex or facet at fault; where two are, the
  *                   message names both
- * @return ::ICC_OK, ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY, ::ICC_ERR_BOUNDARY (what is wrong with the
- *         shape), ::ICC_ERR_TOPOLOGY (several components, an inner void, handles),
+ * @return ::ICC_OK, ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY, ::ICC_ERR_BOUNDARY (what is wrong with
+ *         the shape), ::ICC_ERR_TOPOLOGY (several components, an inner void, handles),
  *         ::ICC_ERR_VERSION or ::ICC_ERR_CANCELLED
  *
  * Cost: O(n log n) time, O(n) memory for ordinary shapes; in 3-D 1 to 3 us and 70 bytes a triangle
- * (110 while it is made). All pairs of triangles whose boxes meet are looked at: n^2 / 2 pairs, 0.04
- * us each, where n triangles meet at one vertex or are long, thin and close.
+ * (110 while it is made). All pairs of triangles whose boxes meet are looked at: n^2 / 2 pairs,
+ * 0.04 us each, where n triangles meet at one vertex or are long, thin and close.
  */
 ICC_API icc_status icc_domain_create(icc_domain **out, int32_t dim, size_t n_vertices,
                                      const double *vertices, size_t n_facets,
                                      const uint32_t *facets, const icc_env *env, icc_error *err);
 
 /**
- * Makes a domain from the cells of a mask, such as the voxels of a picture: cell (i_0, i_1, ..) covers
- * [i_0, i_0 + 1] x [i_1, i_1 + 1] x .. in coordinates 0, 1, ..
+ * Makes a domain from the cells of a mask, such as the voxels of a picture: cell (i_0, i_1, ..)
+ * covers [i_0, i_0 + 1] x [i_1, i_1 + 1] x .. in coordinates 0, 1, ..
  *
  * The mask must be a solid without holes: one piece, where cells are joined by faces; no cells that
- * touch only along an edge or a corner, nor gaps that do; the outside one piece; Euler characteristic
- * 1. In 2-D and 3-D this makes it a disc or a ball. In higher dimensions holes of different
- * dimensions may cancel out and pass: icc_tree_grow() on its grid fails on them.
+ * touch only along an edge or a corner, nor gaps that do; the outside one piece; Euler
+ * characteristic 1. In 2-D and 3-D this makes it a disc or a ball. In higher dimensions holes of
+ * different dimensions may cancel out and pass: icc_tree_grow() on its grid fails on them.
  *
- * Each cell is cut in two along each axis, and each face of the pieces on the boundary into (dim - 1)!
- * simplices (Kuhn's), as the grid that icc_grid_create() makes is. icc_domain_get_boundary() hands
+ * Each cell is cut in two along each axis, and each face of the pieces on the boundary into (dim
+ * - 1)! simplices (Kuhn's), as the grid that icc_grid_create() makes is. icc_domain_get_boundary()
+ *   hands
  * them out, with the vertices in the caller's order of axes, the first axis fastest; in 2-D as a
- * counter-clockwise polygon. The image of a mask is a domain with the same facets and moved vertices.
+ * counter-clockwise polygon. The image of a mask is a domain with the same facets and moved
+ * vertices.
  *
  * @param[out] out the domain; owned by the caller
  * @param dim      1..::ICC_MAX_DIM
@@ -125,31 +128,31 @@ ICC_API icc_status icc_domain_create(icc_domain **out, int32_t dim, size_t n_ver
  * @param cells    one byte per cell, the first axis runs fastest: 0 outside, anything else inside
  * @param env      may be NULL
  * @param err      may be NULL; `index` names a cell at fault
- * @return ::ICC_OK, ::ICC_ERR_TOPOLOGY (what is wrong with the mask), ::ICC_ERR_RESOLUTION (its grid
- *         would have more than 2^28 vertices, or too many facets), ::ICC_ERR_ARGUMENT, ...
+ * @return ::ICC_OK, ::ICC_ERR_TOPOLOGY (what is wrong with the mask), ::ICC_ERR_RESOLUTION (its
+ *         grid would have more than 2^28 vertices, or too many facets), ::ICC_ERR_ARGUMENT, ...
  *
  * Cost: O(cells * 4^dim) time at most, 0.15 us a cell in 3-D, besides that of icc_domain_create().
  */
 ICC_API icc_status icc_domain_create_mask(icc_domain **out, int32_t dim, const size_t *shape,
-                                          const uint8_t *cells, const icc_env *env,
-                                          icc_error *err);
+                                          const uint8_t *cells, const icc_env *env, icc_error *err);
 
 /**
- * Makes a domain from a conforming mesh of its inside: triangles in 2-D, tetrahedra in 3-D, simplices
- * beyond. On such a domain ICC_METHOD_FOLIATION works in every dimension, with leaves that are straight
- * in every simplex; everything else works as on a domain made of the boundary alone.
+ * Makes a domain from a conforming mesh of its inside: triangles in 2-D, tetrahedra in 3-D,
+ * simplices beyond. On such a domain ICC_METHOD_FOLIATION works in every dimension, with leaves
+ * that are straight in every simplex; everything else works as on a domain made of the boundary
+ * alone.
  *
- * The vertices of the domain are those of the mesh that lie on its boundary, in the order of the mesh.
- * Two domains whose meshes differ inside correspond, as icc_map_create() asks, if these and the facets are
- * the same. The facets may be given in an order of the caller's, such as that of the surface that the mesh
- * was made for; if not, they are sorted by their vertices (the smallest index first, and so on) and
- * listed as seen from outside.
+ * The vertices of the domain are those of the mesh that lie on its boundary, in the order of the
+ * mesh. Two domains whose meshes differ inside correspond, as icc_map_create() asks, if these and
+ * the facets are the same. The facets may be given in an order of the caller's, such as that of the
+ * surface that the mesh was made for; if not, they are sorted by their vertices (the smallest index
+ * first, and so on) and listed as seen from outside.
  *
- * Checked exactly up to 3-D, to rounding beyond: what icc_domain_create() checks of the boundary; no
- * simplex without volume; a facet belongs to at most two simplices, which lie on opposite sides of it;
- * the mesh hangs together; its Euler characteristic is 1. So the simplices fill the domain and do not
- * overlap. In which order a simplex lists its vertices does not matter. Vertices that no simplex has are
- * ignored.
+ * Checked exactly up to 3-D, to rounding beyond: what icc_domain_create() checks of the boundary;
+ * no simplex without volume; a facet belongs to at most two simplices, which lie on opposite sides
+ * of it; the mesh hangs together; its Euler characteristic is 1. So the simplices fill the domain
+ * and do not overlap. In which order a simplex lists its vertices does not matter. Vertices that no
+ * simplex has are ignored.
  *
  * @param[out] out    the domain; owned by the caller
  * @param dim         2..::ICC_MAX_DIM
@@ -158,14 +161,16 @@ ICC_API icc_status icc_domain_create_mask(icc_domain **out, int32_t dim, const s
  * @param n_simplices simplices, from 1 to fewer than 2^26
  * @param simplices   n_simplices * (dim + 1) vertex indices
  * @param n_facets    facets of the boundary; ignored when `facets` is NULL
- * @param facets      n_facets * dim vertex indices: the boundary of the mesh, in the caller's order and all
- *                    seen from the same side; or NULL
+ * @param facets      n_facets * dim vertex indices: the boundary of the mesh, in the caller's order
+ *                    and all seen from the same side; or NULL
  * @param env         may be NULL
- * @param err         may be NULL; `index` names the simplex, the vertex or one of the `facets` at fault. When
- *                    it is the boundary that is refused, vertices and facets are those of the domain
- * @return ::ICC_OK; ::ICC_ERR_BOUNDARY (a simplex is flat or lists a vertex twice or one that is not there,
- *         a facet has three simplices or two on one side, `facets` are not the mesh's); ::ICC_ERR_TOPOLOGY
- *         (several pieces, holes); ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY, ::ICC_ERR_CANCELLED
+ * @param err         may be NULL; `index` names the simplex, the vertex or one of the `facets` at
+ *                    fault. When it is the boundary that is refused, vertices and facets are those
+ *                    of the domain
+ * @return ::ICC_OK; ::ICC_ERR_BOUNDARY (a simplex is flat or lists a vertex twice or one that is
+ *         not there, a facet has three simplices or two on one side, `facets` are not the mesh's);
+ *         ::ICC_ERR_TOPOLOGY (several pieces, holes); ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY,
+ *         ::ICC_ERR_CANCELLED
  *
  * Cost: O(n) time and memory besides those of icc_domain_create(): 0.5 us a tetrahedron.
  */
@@ -177,8 +182,9 @@ ICC_API icc_status icc_domain_create_mesh(icc_domain **out, int32_t dim, size_t 
 
 /**
  * Fills cells of a mask where others, or gaps, touch only along an edge or a corner, which
- * icc_domain_create_mask() refuses: one after the other, each time the one that leaves the fewest such
- * places around it. Whatever cannot be mended so, and all else that may be wrong, is left as it is.
+ * icc_domain_create_mask() refuses: one after the other, each time the one that leaves the fewest
+ * such places around it. Whatever cannot be mended so, and all else that may be wrong, is left as
+ * it is.
  *
  * @param dim           1..::ICC_MAX_DIM
  * @param shape         cells along each axis
@@ -186,8 +192,8 @@ ICC_API icc_status icc_domain_create_mesh(icc_domain **out, int32_t dim, size_t 
  * @param[out] n_filled how many, or NULL
  * @param env           may be NULL
  * @param err           may be NULL
- * @return ::ICC_OK, ::ICC_ERR_RESOLUTION, ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY, ::ICC_ERR_CANCELLED;
- *         the cells are as they were unless it is ::ICC_OK
+ * @return ::ICC_OK, ::ICC_ERR_RESOLUTION, ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY,
+ *         ::ICC_ERR_CANCELLED; the cells are as they were unless it is ::ICC_OK
  */
 ICC_API icc_status icc_mask_repair(int32_t dim, const size_t *shape, uint8_t *cells,
                                    size_t *n_filled, const icc_env *env, icc_error *err);
@@ -210,9 +216,9 @@ ICC_API icc_status icc_domain_get_boundary(const icc_domain *domain, double *ver
 
 /**
  * Says where points lie, exactly up to the tolerance of ::ICC_BOUNDARY, and finds the nearest
- * boundary point. Beyond 3-D it is not exact: points within about 1e-13 of the bounding box's longest
- * side of the boundary may be misplaced; and where a boundary meets itself, inside is what an odd
- * number of layers separates from infinity.
+ * boundary point. Beyond 3-D it is not exact: points within about 1e-13 of the bounding box's
+ * longest side of the boundary may be misplaced; and where a boundary meets itself, inside is what
+ * an odd number of layers separates from infinity.
  *
  * @param domain     the domain
  * @param n          number of points
@@ -222,8 +228,8 @@ ICC_API icc_status icc_domain_get_boundary(const icc_domain *domain, double *ver
  * @param[out] bary  n * dim barycentric coordinates of the nearest point on it, or NULL
  * @param env        may be NULL
  *
- * Cost: O(log n) a point for ordinary shapes: in 3-D with 27,000 faces 0.5 to 2 us to place a point,
- * 5 to 10 us to find the nearest facet.
+ * Cost: O(log n) a point for ordinary shapes: in 3-D with 27,000 faces 0.5 to 2 us to place a
+ * point, 5 to 10 us to find the nearest facet.
  */
 ICC_API icc_status icc_domain_locate(const icc_domain *domain, size_t n, const double *points,
                                      int32_t *where, uint32_t *facet, double *bary,
@@ -263,15 +269,16 @@ ICC_API icc_status icc_boundary_defects(size_t n_vertices, const double *vertice
 /** Coordinates of the inside of a domain: a boundary point and a share in [0,1]. */
 typedef struct icc_chart icc_chart;
 
-/** How coordinates are made. Gradient and field work in 2-D and beyond, foliation in 2-D and on domains with
- *  a mesh, disc in 2-D. */
+/** How coordinates are made. Gradient and field work in 2-D and beyond, foliation in 2-D and on
+ *  domains with a mesh, disc in 2-D. */
 enum {
     /** Integral Curve Coordinates as Huynh and Gingold published them: a regular grid, a cousin
-     *  tree, a function on it, piecewise linear gradient lines; in any dimension, on the simplices of
-     *  the Kuhn triangulation and their faces. Not one-to-one: lines merge, so that an open share of
-     *  the area collapses (in 3-D and beyond, most of it), and thin parts of a shape between grid
-     *  vertices are not reached. icc_chart_get_report() tells how much. Beyond 2-D the function may have
-     *  several maxima, too, and lines that end at them: icc_chart_info::n_maxima. Never certified. */
+     *  tree, a function on it, piecewise linear gradient lines; in any dimension, on the simplices
+     *  of the Kuhn triangulation and their faces. Not one-to-one: lines merge, so that an open
+     *  share of the area collapses (in 3-D and beyond, most of it), and thin parts of a shape
+     *  between grid vertices are not reached. icc_chart_get_report() tells how much. Beyond 2-D the
+     *  function may have several maxima, too, and lines that end at them: icc_chart_info::n_maxima.
+     *  Never certified. */
     ICC_METHOD_GRADIENT = 1,
     /** Integral Curve Coordinates along leaves that cannot merge: level lines of an angle-valued,
      *  discretely harmonic function on a triangle mesh of the domain. A homeomorphism of the closed
@@ -280,32 +287,33 @@ enum {
      *  coordinates are continuous, piecewise smooth, and in doubles come back to about 1e-15 of the
      *  domain's size. A mesh *sampled* from the map can still have inverted triangles.
      *
-     *  On a domain with a mesh, icc_domain_create_mesh(), in any dimension: leaves that are straight in
-     *  every simplex and pass the simplices in an order, a shelling; all end at an inner vertex of the
-     *  mesh, or at the middle of a simplex if there is none. The certificate looks at that order, and
-     *  promises the same (beyond 3-D the orientation of simplices is certain, but not exact). Not every
-     *  mesh has such an order: ::ICC_ERR_TOPOLOGY. A flat simplex makes for long leaves near it. */
+     *  On a domain with a mesh, icc_domain_create_mesh(), in any dimension: leaves that are
+     *  straight in every simplex and pass the simplices in an order, a shelling; all end at an
+     *  inner vertex of the mesh, or at the middle of a simplex if there is none. The certificate
+     *  looks at that order, and promises the same (beyond 3-D the orientation of simplices is
+     *  certain, but not exact). Not every mesh has such an order: ::ICC_ERR_TOPOLOGY. A flat
+     *  simplex makes for long leaves near it. */
     ICC_METHOD_FOLIATION = 2,
-    /** Integral Curve Coordinates along a field that the curves cannot merge in, on a regular grid in any
-     *  dimension: a vector for every grid vertex that points uphill in all simplices around it, for
-     *  the discretely harmonic function, and linear interpolation between them. The curves are
-     *  followed exactly but for rounding. Certified when there is such a vector everywhere, the
-     *  boundary is crossed inward all over, which is checked vertex by vertex, and no grid vertex inside was
-     *  given up; if not, there is a chart all the same, and icc_chart_info::n_infeasible, n_not_inward
-     *  and n_stray report how much is amiss.
+    /** Integral Curve Coordinates along a field that the curves cannot merge in, on a regular grid
+     *  in any dimension: a vector for every grid vertex that points uphill in all simplices around
+     *  it, for the discretely harmonic function, and linear interpolation between them. The curves
+     *  are followed exactly but for rounding. Certified when there is such a vector everywhere, the
+     *  boundary is crossed inward all over, which is checked vertex by vertex, and no grid vertex
+     *  inside was given up; if not, there is a chart all the same, and
+     *  icc_chart_info::n_infeasible, n_not_inward and n_stray report how much is amiss.
      *
      *  A map of two certified charts is certified when doubles are enough for it, too, which
-     *  icc_map_info::n_lost and n_flat report: curves come together on their way, and what one chart tells
-     *  apart may be one and the same to the other, as when a ball goes to a pancake. */
+     *  icc_map_info::n_lost and n_flat report: curves come together on their way, and what one
+     *  chart tells apart may be one and the same to the other, as when a ball goes to a pancake. */
     ICC_METHOD_FIELD = 3,
-    /** Polar coordinates of the harmonic map to a disc (Tutte), piecewise linear. A homeomorphism under
-     *  the same certificate; the curves are the preimages of radii. A slit about 1e-15 of the
+    /** Polar coordinates of the harmonic map to a disc (Tutte), piecewise linear. A homeomorphism
+     *  under the same certificate; the curves are the preimages of radii. A slit about 1e-15 of the
      *  shape's size wide can be too narrow to be meshed, which is an error that says so. */
     ICC_METHOD_DISC = 4
 };
 
-/** Why a chart or a map is not certified: of several reasons, the first. The counts that they name report how
- *  much is amiss. */
+/** Why a chart or a map is not certified: of several reasons, the first. The counts that they name
+ *  report how much is amiss. */
 enum {
     ICC_REASON_NONE = 0,       /**< it is certified */
     ICC_REASON_GRADIENT = 1,   /**< the curves of method gradient merge */
@@ -318,23 +326,25 @@ enum {
 
 /** The function whose gradient lines are followed. */
 enum {
-    ICC_FUNCTION_DECAY = 1,    /**< thesis (4.1): 10 at the maximum, times 0.95 from parent to child */
-    ICC_FUNCTION_DISTANCE = 2, /**< minus the distance in the tree (L1 distance) */
-    ICC_FUNCTION_LAPLACE = 3,  /**< discretely harmonic: 1 at the maximum, 0 outside */
-    ICC_FUNCTION_BILAPLACE = 4,/**< discretely biharmonic, simply supported (Navier) */
-    ICC_FUNCTION_CLAMPED = 5   /**< discretely biharmonic, clamped: changes its sign unless constrained */
+    ICC_FUNCTION_DECAY = 1,     /**< thesis (4.1): 10 at the maximum, times 0.95 from parent to
+                                     child */
+    ICC_FUNCTION_DISTANCE = 2,  /**< minus the distance in the tree (L1 distance) */
+    ICC_FUNCTION_LAPLACE = 3,   /**< discretely harmonic: 1 at the maximum, 0 outside */
+    ICC_FUNCTION_BILAPLACE = 4, /**< discretely biharmonic, simply supported (Navier) */
+    ICC_FUNCTION_CLAMPED = 5    /**< discretely biharmonic, clamped: changes its sign unless
+                                     constrained */
 };
 
-/** Whether f(parent) >= (1 + min_fall) f(child) is imposed on the edges of the tree inside (Laplace and
- *  bi-Laplace; decay and distance fulfil it anyway). */
+/** Whether f(parent) >= (1 + min_fall) f(child) is imposed on the edges of the tree inside (Laplace
+ *  and bi-Laplace; decay and distance fulfil it anyway). */
 enum {
-    ICC_CONSTRAINTS_NEEDED = 1, /**< only when the function without has other critical points than one
-                                     maximum at the root (and, in 2-D, the saddles of holes, which no
-                                     function can avoid); in charts, only when that is so after the
-                                     root has moved, too, as for ::ICC_CONSTRAINTS_NONE. If they are
-                                     imposed it does not move */
-    ICC_CONSTRAINTS_NONE = 2,   /**< never. Charts of bi-Laplace functions have the maximum where the
-                                     function puts it, which may be beside the place asked for:
+    ICC_CONSTRAINTS_NEEDED = 1, /**< only when the function without has other critical points than
+                                     one maximum at the root (and, in 2-D, the saddles of holes,
+                                     which no function can avoid); in charts, only when that is so
+                                     after the root has moved, too, as for ::ICC_CONSTRAINTS_NONE.
+                                     If they are imposed it does not move */
+    ICC_CONSTRAINTS_NONE = 2,   /**< never. Charts of bi-Laplace functions have the maximum where
+                                     the function puts it, which may be beside the place asked for:
                                      icc_chart_info::moved */
     ICC_CONSTRAINTS_ALL = 3     /**< always: the maximum stays where it is asked for */
 };
@@ -355,20 +365,21 @@ enum {
 /** Options of icc_chart_create(). */
 typedef struct icc_chart_options {
     size_t size;           /**< set by the caller: `sizeof(icc_chart_options)` */
-    int32_t method;        /**< `ICC_METHOD_*`; 0: the best that there is: foliation in 2-D and on domains with
-                                a mesh, else field */
+    int32_t method;        /**< `ICC_METHOD_*`; 0: the best that there is: foliation in 2-D and on
+                                domains with a mesh, else field */
     int32_t function;      /**< gradient: `ICC_FUNCTION_*`; 0: decay */
     int32_t tree;          /**< gradient: `ICC_TREE_*`; 0: thesis */
-    int32_t cells;         /**< grid or mesh cells along the longest side, 2..16384; 0: 50, as in the
-                                papers; gradient on a mask: see icc_grid_create() */
-    const double *maximum; /**< where the maximum shall be: the nearest vertex inside is taken. NULL:
-                                the grassfire's (gradient, field), the deepest vertex (foliation; of a
-                                mesh of the caller's, the deepest inside). Disc has its own, the point that goes to the centre: NULL only.
-                                Bi-Laplace functions without constraints may move it:
-                                icc_chart_info::moved */
+    int32_t cells;         /**< grid or mesh cells along the longest side, 2..16384; 0: 50, as in
+                                the papers; gradient on a mask: see icc_grid_create() */
+    const double *maximum; /**< where the maximum shall be: the nearest vertex inside is taken.
+                                NULL: the grassfire's (gradient, field), the deepest vertex
+                                (foliation; of a mesh of the caller's, the deepest inside). Disc has
+                                its own, the point that goes to the centre: NULL only. Bi-Laplace
+                                functions without constraints may move it: icc_chart_info::moved */
     int32_t constraints;   /**< gradient: `ICC_CONSTRAINTS_*`; 0: needed */
     int32_t solver;        /**< gradient: `ICC_SOLVER_*`; 0: by the predicted work */
-    double min_fall;       /**< gradient: least relative fall along tree edges, in (0, 0.01]; 0: 1e-6 */
+    double min_fall;       /**< gradient: least relative fall along tree edges, in (0, 0.01]; 0:
+                                1e-6 */
     double leaf_min;       /**< gradient, constrained bi-Laplace: least value at the leaves, in
                                 (0, 0.01]; 0: 1e-9 */
 } icc_chart_options;
@@ -380,8 +391,8 @@ typedef struct icc_chart_info {
     int32_t method;              /**< `ICC_METHOD_*` */
     int32_t function;            /**< `ICC_FUNCTION_*` */
     int32_t tree;                /**< `ICC_TREE_*` */
-    int32_t certified;           /**< 1: proved to be one-to-one, exactly (field: in doubles); 0: not, see
-                                      `reason` */
+    int32_t certified;           /**< 1: proved to be one-to-one, exactly (field: in doubles); 0:
+                                      not, see `reason` */
     int32_t cells;               /**< cells along the longest side that were used; method field in
                                       thin shapes: twice those asked for, where those do not do, and
                                       one more where that saves the certificate */
@@ -391,7 +402,8 @@ typedef struct icc_chart_info {
     size_t n_inside;             /**< grid vertices inside the domain */
     size_t n_tree;               /**< grid vertices in the tree */
     size_t n_unreachable;        /**< grid vertices inside that the tree does not reach */
-    size_t n_cousin_violations;  /**< neighbours inside that are neither parent and child nor cousins */
+    size_t n_cousin_violations;  /**< neighbours inside that are neither parent and child nor
+                                      cousins */
     size_t n_maxima;             /**< of the function, inside */
     size_t n_minima;             /**< of the function, inside */
     size_t n_saddles;            /**< of the function, inside */
@@ -405,43 +417,47 @@ typedef struct icc_chart_info {
     double harmonic_share;       /**< share of the boundary flux that is harmonic (foliation) */
     double seconds_grid;         /**< time to make the grid and find the maximum */
     double seconds_tree;         /**< time to make and verify the tree */
-    double seconds_function;        /**< time to make and verify the function */
+    double seconds_function;     /**< time to make and verify the function */
     double seconds_mesh;         /**< time to make the mesh */
     double seconds_solve;        /**< time to solve for the function or the map */
     double seconds_certify;      /**< time to certify it */
-    size_t n_stray;              /**< field: grid vertices inside that were given up, because without them
-                                      the others form a ball */
-    size_t n_infeasible;         /**< field: grid vertices where no vector points uphill in all simplices */
-    size_t n_contacts;           /**< field: pairs of a facet and a grid vertex of a simplex that it runs
-                                      through */
+    size_t n_stray;              /**< field: grid vertices inside that were given up, because
+                                      without them the others form a ball */
+    size_t n_infeasible;         /**< field: grid vertices where no vector points uphill in all
+                                      simplices */
+    size_t n_contacts;           /**< field: pairs of a facet and a grid vertex of a simplex that it
+                                      runs through */
     size_t n_not_inward;         /**< field: those of them where the vector does not point inward */
-    int32_t order_peeled;        /**< foliation on a mesh: 1: the order of the simplices was found from the
-                                      boundary inwards, 0: from the centre outwards */
-    int32_t n_orders;            /**< how many of those that are tried were complete at first; the best is
-                                      used */
+    int32_t order_peeled;        /**< foliation on a mesh: 1: the order of the simplices was found
+                                      from the boundary inwards, 0: from the centre outwards */
+    int32_t n_orders;            /**< how many of those that are tried were complete at first; the
+                                      best is used */
     double order_beta;           /**< how much reversed flux weighed in it */
     size_t n_reversed;           /**< facets that the harmonic flux runs through the other way */
-    double flux_energy;          /**< how far the flux along the leaves is from the harmonic one: sum of
-                                      the squared differences, weighted; 0 at best */
-    double flux_divergence;      /**< largest share of a simplex's flux that gets lost by rounding */
+    double flux_energy;          /**< how far the flux along the leaves is from the harmonic one:
+                                      sum of the squared differences, weighted; 0 at best */
+    double flux_divergence;      /**< largest share of a simplex's flux that gets lost by
+                                      rounding */
     double moved;                /**< gradient, bi-Laplace functions without constraints: how far
                                       `maximum` lies from the vertex that was asked for (or the
-                                      grassfire's), because the function is greatest beside it; else 0 */
+                                      grassfire's), because the function is greatest beside it; else
+                                      0 */
     int32_t reason;              /**< `ICC_REASON_*`: why it is not certified; 0 if it is */
 } icc_chart_info;
 
-/** Shares that icc_chart_get_report() estimates from evenly spread points. All lie in [0,1]. Area and length
- *  are those of 2-D; beyond, read volume and area, and so on. For a certified chart all are 0 without
- *  looking, and so are the counts. */
+/** Shares that icc_chart_get_report() estimates from evenly spread points. All lie in [0,1]. Area
+ *  and length are those of 2-D; beyond, read volume and area, and so on. For a certified chart all
+ *  are 0 without looking, and so are the counts. */
 typedef struct icc_chart_report {
-    size_t size;             /**< set by the caller: `sizeof(icc_chart_report)` */
-    size_t n_points;         /**< points of the area that were used */
-    size_t n_boundary;       /**< points of the boundary that were used */
-    double unreachable;      /**< area from which no curve reaches both the boundary and the maximum */
-    double uncovered;        /**< area that no curve from the boundary enters (expansion edges) */
-    double collapsed;        /**< coordinates (boundary length times share of the way) whose point
-                                  lies on a line where curves have merged (compression edges) */
-    double not_inward;       /**< boundary length where the gradient does not point inward */
+    size_t size;        /**< set by the caller: `sizeof(icc_chart_report)` */
+    size_t n_points;    /**< points of the area that were used */
+    size_t n_boundary;  /**< points of the boundary that were used */
+    double unreachable; /**< area from which no curve reaches both the boundary and the
+                             maximum */
+    double uncovered;   /**< area that no curve from the boundary enters (expansion edges) */
+    double collapsed;   /**< coordinates (boundary length times share of the way) whose point
+                             lies on a line where curves have merged (compression edges) */
+    double not_inward;  /**< boundary length where the gradient does not point inward */
 } icc_chart_report;
 
 /**
@@ -452,20 +468,21 @@ typedef struct icc_chart_report {
  * @param options   may be NULL
  * @param env       may be NULL
  * @param err       may be NULL
- * @return ::ICC_OK; ::ICC_ERR_RESOLUTION when no grid vertex lies inside the domain or the grid would
- *         have more than 2^28 vertices; ::ICC_ERR_OUTSIDE when `maximum` is outside;
+ * @return ::ICC_OK; ::ICC_ERR_RESOLUTION when no grid vertex lies inside the domain or the grid
+ *         would have more than 2^28 vertices; ::ICC_ERR_OUTSIDE when `maximum` is outside;
  *         ::ICC_ERR_CERTIFICATE when the chart could not be proved one-to-one, with the reason;
  *         ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY, ::ICC_ERR_UNSUPPORTED, ::ICC_ERR_VERSION,
  *         ::ICC_ERR_CANCELLED
  *
  * Cost with n vertices and N cells along the longest side: gradient O(N^2 + n N) time and memory at
- * most in 2-D, about 1 ms at N = 50, and O(N^dim) beyond: in 3-D at N = 64 from 0.1 s, and 15 us a point
- * and way. Field the same: in 3-D at N = 64 0.05 to 0.5 s, 10 us a point and way (15 without AVX2); at most 70 bytes a grid
- * vertex, and 150 for each of icc_chart_info::n_contacts while it is made. Foliation and disc mesh
- * the domain with at most 2 n + 4 N^2 vertices (far fewer in practice) and factorise its Laplacian:
- * about 5 ms at N = 50 and n < 100, 0.1 s at n = 15,000; 500 bytes a vertex. Foliation on a domain with a
- * mesh: in 3-D about 12 us a tetrahedron, 20 us from 80,000 on, of which the certificate takes 2 to 4 %, then 1 to 2 us
- * a point and way at 20,000 tetrahedra, 3 to 4 us at 80,000; 130 bytes a tetrahedron, 1.4 kB while it is made.
+ * most in 2-D, about 1 ms at N = 50, and O(N^dim) beyond: in 3-D at N = 64 from 0.1 s, and 15 us a
+ * point and way. Field the same: in 3-D at N = 64 0.05 to 0.5 s, 10 us a point and way (15 without
+ * AVX2); at most 70 bytes a grid vertex, and 150 for each of icc_chart_info::n_contacts while it is
+ * made. Foliation and disc mesh the domain with at most 2 n + 4 N^2 vertices (far fewer in
+ * practice) and factorise its Laplacian: about 5 ms at N = 50 and n < 100, 0.1 s at n = 15,000; 500
+ * bytes a vertex. Foliation on a domain with a mesh: in 3-D about 12 us a tetrahedron, 20 us from
+ * 80,000 on, of which the certificate takes 2 to 4 %, then 1 to 2 us a point and way at 20,000
+ * tetrahedra, 3 to 4 us at 80,000; 130 bytes a tetrahedron, 1.4 kB while it is made.
  */
 ICC_API icc_status icc_chart_create(icc_chart **out, const icc_domain *domain,
                                     const icc_chart_options *options, const icc_env *env,
@@ -490,8 +507,8 @@ ICC_API const icc_domain *icc_chart_domain(const icc_chart *chart);
  * @param err           may be NULL
  */
 ICC_API icc_status icc_chart_get_report(const icc_chart *chart, size_t n_points,
-                                     icc_chart_report *measures, const icc_env *env,
-                                     icc_error *err);
+                                        icc_chart_report *measures, const icc_env *env,
+                                        icc_error *err);
 
 /**
  * Cartesian -> integral curve coordinates.
@@ -507,11 +524,13 @@ ICC_API icc_status icc_chart_get_report(const icc_chart *chart, size_t n_points,
  * @param[out] bary     n * dim barycentric coordinates there: not negative, sum 1
  * @param[out] t        n shares of the curve's arc length from the boundary, in [0,1]
  * @param[out] status   n statuses: ::ICC_OK, ::ICC_ERR_OUTSIDE, ::ICC_ERR_TRACE (the curve does not
- *                      reach the boundary and the maximum), ::ICC_ERR_ARGUMENT (not finite); or NULL
+ *                      reach the boundary and the maximum), ::ICC_ERR_ARGUMENT (not finite); or
+ *                      NULL
  * @param[out] n_failed how many points have no coordinates, or NULL
  * @param env           may be NULL
  * @return ::ICC_OK when the call ran, however many points failed; ::ICC_ERR_ARGUMENT,
- *         ::ICC_ERR_MEMORY, ::ICC_ERR_VERSION or ::ICC_ERR_CANCELLED (the outputs are then undefined)
+ *         ::ICC_ERR_MEMORY, ::ICC_ERR_VERSION or ::ICC_ERR_CANCELLED (the outputs are then
+ *         undefined)
  */
 ICC_API icc_status icc_chart_encode(const icc_chart *chart, size_t n, const double *points,
                                     uint32_t *facet, double *bary, double *t, icc_status *status,
@@ -526,8 +545,8 @@ ICC_API icc_status icc_chart_encode(const icc_chart *chart, size_t n, const doub
  * @param bary          n * dim barycentric coordinates, not negative, sum 1 (up to 1e-9)
  * @param t             n shares in [0,1]; t = 0 gives the boundary point, t = 1 the maximum
  * @param[out] points   n * dim coordinates; NaN where there is no point
- * @param[out] status   n statuses: ::ICC_OK, ::ICC_ERR_TRACE (the curve does not reach the maximum, or
- *                      has left the domain there), ::ICC_ERR_ARGUMENT; or NULL
+ * @param[out] status   n statuses: ::ICC_OK, ::ICC_ERR_TRACE (the curve does not reach the maximum,
+ *                      or has left the domain there), ::ICC_ERR_ARGUMENT; or NULL
  * @param[out] n_failed how many coordinates have no point, or NULL
  * @param env           may be NULL
  * @return as icc_chart_encode()
@@ -554,38 +573,41 @@ ICC_API icc_status icc_chart_trace(const icc_chart *chart, const double *point, 
                                    icc_error *err);
 
 /**
- * Writes a chart to memory, its domain included, so that other processes and machines can use it. The format
- * is described in docs/formats.md: versioned, the same on every machine, with a checksum.
+ * Writes a chart to memory, its domain included, so that other processes and machines can use it.
+ * The format is described in docs/formats.md: versioned, the same on every machine, with a
+ * checksum.
  *
  * @param chart         the chart
  * @param capacity      bytes that `data` has room for
  * @param[out] data     NULL when capacity is 0
- * @param[out] n_bytes  bytes that are needed, also beyond `capacity`: nothing useful is written then
+ * @param[out] n_bytes  bytes that are needed, also beyond `capacity`: nothing useful is written
+ *                      then
  * @return ::ICC_OK, ::ICC_ERR_ARGUMENT
  */
 ICC_API icc_status icc_chart_save(const icc_chart *chart, size_t capacity, void *data,
                                   size_t *n_bytes);
 
 /**
- * Reads a chart back: it answers as the one that was saved does, bit for bit, with any number of threads. Its
- * info is the same but for the seconds.
+ * Reads a chart back: it answers as the one that was saved does, bit for bit, with any number of
+ * threads. Its info is the same but for the seconds.
  *
- * Charts on a mesh (foliation, disc) are read with all their numbers, and certified anew: bytes that do not
- * pass are refused, whoever made them. Charts on a grid (gradient, field) are made again from what they
- * were made of, and compared with a checksum of the numbers of the first.
+ * Charts on a mesh (foliation, disc) are read with all their numbers, and certified anew: bytes
+ * that do not pass are refused, whoever made them. Charts on a grid (gradient, field) are made
+ * again from what they were made of, and compared with a checksum of the numbers of the first.
  *
  * @param[out] out the chart; owned by the caller
  * @param n_bytes  bytes of `data`
  * @param data     any bytes
  * @param env      may be NULL
  * @param err      may be NULL
- * @return ::ICC_OK; ::ICC_ERR_FORMAT for anything that icc_chart_save() did not write; ::ICC_ERR_VERSION for
- *         what a later version wrote, and for a chart on a grid that comes out otherwise here than where it was
- *         saved; ::ICC_ERR_MEMORY, ::ICC_ERR_CANCELLED, ::ICC_ERR_ARGUMENT
+ * @return ::ICC_OK; ::ICC_ERR_FORMAT for anything that icc_chart_save() did not write;
+ *         ::ICC_ERR_VERSION for what a later version wrote, and for a chart on a grid that comes
+ *         out otherwise here than where it was saved; ::ICC_ERR_MEMORY, ::ICC_ERR_CANCELLED,
+ *         ::ICC_ERR_ARGUMENT
  *
- * Cost: O(n log n) time and O(n) memory in the number of bytes for charts on a mesh; for charts on a grid that
- * of icc_chart_create() with the options that the bytes tell, up to icc_env::load_limit: beyond it
- * the bytes are refused (::ICC_ERR_FORMAT) before the work begins.
+ * Cost: O(n log n) time and O(n) memory in the number of bytes for charts on a mesh; for charts on
+ * a grid that of icc_chart_create() with the options that the bytes tell, up to
+ * icc_env::load_limit: beyond it the bytes are refused (::ICC_ERR_FORMAT) before the work begins.
  */
 ICC_API icc_status icc_chart_load(icc_chart **out, size_t n_bytes, const void *data,
                                   const icc_env *env, icc_error *err);
@@ -597,89 +619,93 @@ typedef struct icc_map icc_map;
 
 /** How a map works. */
 enum {
-    ICC_MAP_CURVES = 1, /**< point by point through the two charts, as the papers do; any dimension */
-    /** An internal piecewise linear map. In 2-D: a triangle mesh of the source with an image for every
-     *  vertex, started from the charts, repaired until every triangle is positive, made fair, and
-     *  certified: every triangle exactly positive before and after, both boundaries exactly simple. In 3-D,
-     *  between domains made by icc_domain_create_mesh(): the source's mesh with images that start from the charts,
-     *  repaired and certified likewise, but not made fair; the target's mesh serves its chart only, and edges of
-     *  the source's inside that join boundary vertices are cut where that is needed. The fastest queries: in 2-D
-     *  less than 0.1 us a point, in 3-D 1 to 5 us. On the boundary it agrees with the cages up to rounding (samples of a side lie
-     *  on it to one unit in the last place). */
+    ICC_MAP_CURVES = 1, /**< point by point through the two charts, as the papers do; any
+                             dimension */
+    /** An internal piecewise linear map. In 2-D: a triangle mesh of the source with an image for
+     *  every vertex, started from the charts, repaired until every triangle is positive, made fair,
+     *  and certified: every triangle exactly positive before and after, both boundaries exactly
+     *  simple. In 3-D, between domains made by icc_domain_create_mesh(): the source's mesh with
+     *  images that start from the charts, repaired and certified likewise, but not made fair; the
+     *  target's mesh serves its chart only, and edges of the source's inside that join boundary
+     *  vertices are cut where that is needed. The fastest queries: in 2-D less than 0.1 us a point,
+     *  in 3-D 1 to 5 us. On the boundary it agrees with the cages up to rounding (samples of a side
+     *  lie on it to one unit in the last place). */
     ICC_MAP_MESH = 2
 };
 
 /** Options of icc_map_create(). */
 typedef struct icc_map_options {
     size_t size;                    /**< set by the caller: `sizeof(icc_map_options)` */
-    int32_t kind;                   /**< `ICC_MAP_*`; 0: mesh for foliation and disc in 2-D, unless both
-                                         domains have meshes of the caller's, and for foliation in 3-D; else
-                                         curves */
-    int32_t iterations;             /**< mesh: steps of improvement on each level of refinement; 0: as
-                                         many as pay, at most 60; -1: no improvement */
-    const icc_chart_options *chart; /**< for both charts, or NULL; its `maximum` is the source's. For
-                                         kind mesh method 0 means disc (foliation when a maximum is
-                                         given), and cells 0 means 20. */
+    int32_t kind;                   /**< `ICC_MAP_*`; 0: mesh for foliation and disc in 2-D, unless
+                                         both domains have meshes of the caller's, and for foliation
+                                         in 3-D; else curves */
+    int32_t iterations;             /**< mesh: steps of improvement on each level of refinement; 0:
+                                         as many as pay, at most 60; -1: no improvement */
+    const icc_chart_options *chart; /**< for both charts, or NULL; its `maximum` is the source's.
+                                         For kind mesh method 0 means disc (foliation when a maximum
+                                         is given), and cells 0 means 20. */
     const double *target_maximum;   /**< where the target's maximum shall be, or NULL: as the method
                                          chooses */
 } icc_map_options;
 
 /** What icc_map_get_info() tells. Members that the kind does not have are 0. */
 typedef struct icc_map_info {
-    size_t size;             /**< set by the caller: `sizeof(icc_map_info)` */
-    int32_t dim;             /**< dimension */
-    int32_t kind;            /**< `ICC_MAP_*`: curves although mesh was asked for when the repair failed */
-    int32_t certified;       /**< 1: proved to be one-to-one, exactly (field: in doubles, see n_lost); 0: not,
-                                  see `reason` */
-    int32_t n_levels;        /**< mesh: refinements */
-    size_t n_vertices;       /**< mesh: vertices */
-    size_t n_simplices;      /**< mesh: triangles; in 3-D tetrahedra, also in what follows */
-    size_t n_inverted;       /**< mesh: triangles that were not positive before the repair */
-    size_t n_unrepaired;     /**< triangles that the repair could not make positive; the map is then of
-                                  kind curves */
-    size_t n_iterations;     /**< mesh: steps of improvement */
-    double energy_start;     /**< mesh: mean symmetric Dirichlet energy |J|^2 + |J^-1|^2, the target
-                                  scaled to the source's area, after the repair; 4 for an isometry */
-    double energy;           /**< the same in the end */
-    double seconds;          /**< time to make the map, charts included */
-    double seconds_repair;   /**< mesh: of these for the repair */
-    double seconds_improve;  /**< and for the improvement */
-    double seconds_certify;  /**< and for the certificate; kind curves of method field likewise */
-    size_t n_samples;        /**< field: evenly spread points, half of them in the target, that were mapped there
-                                  and back; 0 unless both charts are certified */
-    size_t n_lost;           /**< field: of these, points that come back more than 1e-9 of the bounding box's
-                                  diagonal away, or whose derivative does not fit that of the way back. None if
-                                  certified */
-    size_t n_flat;           /**< field: of these, points around which volume shrinks to less than 1e-6 of its mean.
-                                  At most 0.2 % if certified */
-    int32_t reason;          /**< `ICC_REASON_*`: why it is not certified; 0 if it is */
-    int32_t reason_side;     /**< 1: because the source's chart is not, 2: the target's; else 0 */
+    size_t size;            /**< set by the caller: `sizeof(icc_map_info)` */
+    int32_t dim;            /**< dimension */
+    int32_t kind;           /**< `ICC_MAP_*`: curves although mesh was asked for when the repair
+                                 failed */
+    int32_t certified;      /**< 1: proved to be one-to-one, exactly (field: in doubles, see
+                                 n_lost); 0: not, see `reason` */
+    int32_t n_levels;       /**< mesh: refinements */
+    size_t n_vertices;      /**< mesh: vertices */
+    size_t n_simplices;     /**< mesh: triangles; in 3-D tetrahedra, also in what follows */
+    size_t n_inverted;      /**< mesh: triangles that were not positive before the repair */
+    size_t n_unrepaired;    /**< triangles that the repair could not make positive; the map is then
+                                 of kind curves */
+    size_t n_iterations;    /**< mesh: steps of improvement */
+    double energy_start;    /**< mesh: mean symmetric Dirichlet energy |J|^2 + |J^-1|^2, the target
+                                 scaled to the source's area, after the repair; 4 for an
+                                 isometry */
+    double energy;          /**< the same in the end */
+    double seconds;         /**< time to make the map, charts included */
+    double seconds_repair;  /**< mesh: of these for the repair */
+    double seconds_improve; /**< and for the improvement */
+    double seconds_certify; /**< and for the certificate; kind curves of method field likewise */
+    size_t n_samples;       /**< field: evenly spread points, half of them in the target, that were
+                                 mapped there and back; 0 unless both charts are certified */
+    size_t n_lost;          /**< field: of these, points that come back more than 1e-9 of the
+                                 bounding box's diagonal away, or whose derivative does not fit
+                                 that of the way back. None if certified */
+    size_t n_flat;          /**< field: of these, points around which volume shrinks to less than
+                                 1e-6 of its mean. At most 0.2 % if certified */
+    int32_t reason;         /**< `ICC_REASON_*`: why it is not certified; 0 if it is */
+    int32_t reason_side;    /**< 1: because the source's chart is not, 2: the target's; else 0 */
 } icc_map_info;
 
 /**
  * Makes the map between two domains whose boundaries correspond: facet i goes to facet i, with the
  * same barycentric coordinates. Builds both charts together: foliation and disc cut both boundaries
  * alike, and foliation pairs the maxima (the target's is where the disc maps take the source's), as
- * field does (by the affine map that fits the boundary best, the nearer the better). On domains with meshes
- * foliation takes a vertex of the source that is deep inside both domains, before and after a harmonic map,
- * and the vertex of the target nearest to its image.
+ * field does (by the affine map that fits the boundary best, the nearer the better). On domains
+ * with meshes foliation takes a vertex of the source that is deep inside both domains, before and
+ * after a harmonic map, and the vertex of the target nearest to its image.
  *
  * @param[out] out the map; owned by the caller, see icc_map_free()
  * @param source   domain before
- * @param target   domain after: same dimension, same number of vertices, same facets, and in 2-D the
- *                 same orientation, else ::ICC_ERR_BOUNDARY
+ * @param target   domain after: same dimension, same number of vertices, same facets, and in 2-D
+ *                 the same orientation, else ::ICC_ERR_BOUNDARY
  * @param options  may be NULL
  * @param env      may be NULL
  * @param err      may be NULL; `side` tells source (1) from target (2)
  * @return as icc_chart_create(), or ::ICC_ERR_BOUNDARY
  *
- * Cost of kind mesh: that of two charts, then a few Newton steps on the mesh: from 5 ms for cages of
- * some tens of vertices to about a second for 15,000. Deterministic: iterations are capped, clocks are
- * not read.
+ * Cost of kind mesh: that of two charts, then a few Newton steps on the mesh: from 5 ms for cages
+ * of some tens of vertices to about a second for 15,000. Deterministic: iterations are capped,
+ * clocks are not read.
  */
-ICC_API icc_status icc_map_create(icc_map **out, const icc_domain *source,
-                                  const icc_domain *target, const icc_map_options *options,
-                                  const icc_env *env, icc_error *err);
+ICC_API icc_status icc_map_create(icc_map **out, const icc_domain *source, const icc_domain *target,
+                                  const icc_map_options *options, const icc_env *env,
+                                  icc_error *err);
 
 /**
  * Makes a map from two charts, which must use the same method and domains that correspond as
@@ -696,8 +722,8 @@ typedef struct icc_improve_options {
     size_t size;        /**< set by the caller: `sizeof(icc_improve_options)` */
     int32_t iterations; /**< steps at most on each level; 0: 60 */
     int32_t levels;     /**< refinements at most; 0: 4; -1: none */
-    double tolerance;   /**< a level ends with a step that gains less than this share of the energy; 0:
-                             1e-4 */
+    double tolerance;   /**< a level ends with a step that gains less than this share of the energy;
+                             0: 1e-4 */
 } icc_improve_options;
 
 /** What icc_map_improve() did. */
@@ -712,9 +738,9 @@ typedef struct icc_improve_report {
 } icc_improve_report;
 
 /**
- * Makes a fairer map from one of kind mesh; the given map is not changed. The energy never rises and
- * every intermediate map is certified, so stopping early loses nothing: when the progress callback asks
- * to stop, the call succeeds with what it has and says so in the report.
+ * Makes a fairer map from one of kind mesh; the given map is not changed. The energy never rises
+ * and every intermediate map is certified, so stopping early loses nothing: when the progress
+ * callback asks to stop, the call succeeds with what it has and says so in the report.
  *
  * @param[out] out    the map; owned by the caller
  * @param map         a map of kind mesh in 2-D, else ::ICC_ERR_UNSUPPORTED
@@ -728,42 +754,44 @@ ICC_API icc_status icc_map_improve(icc_map **out, const icc_map *map,
                                    const icc_env *env, icc_error *err);
 
 /**
- * The map to a target that has moved: the source stays, the mesh and where its inside went are taken
- * over from `map`, repaired, and improved by a few steps. For dragging a cage, where each frame goes on
- * from the one before; the mesh is not refined further.
+ * The map to a target that has moved: the source stays, the mesh and where its inside went are
+ * taken over from `map`, repaired, and improved by a few steps. For dragging a cage, where each
+ * frame goes on from the one before; the mesh is not refined further.
  *
- * @param[out] out   the map; owned by the caller. It has no charts: icc_map_source_chart() gives NULL.
+ * @param[out] out   the map; owned by the caller. It has no charts: icc_map_source_chart() gives
+ *                   NULL.
  * @param map        a map of kind mesh in 2-D, else ::ICC_ERR_UNSUPPORTED
  * @param target     the new target, which must correspond as icc_map_create() asks
  * @param iterations steps of improvement at most; 0: 8; -1: none
  * @param env        may be NULL
  * @param err        may be NULL
- * @return as icc_map_create(); ::ICC_ERR_CERTIFICATE when the target has moved too far: make a new map
+ * @return as icc_map_create(); ::ICC_ERR_CERTIFICATE when the target has moved too far: make a new
+ *         map
  */
 ICC_API icc_status icc_map_retarget(icc_map **out, const icc_map *map, const icc_domain *target,
-                                  int32_t iterations, const icc_env *env, icc_error *err);
+                                    int32_t iterations, const icc_env *env, icc_error *err);
 
 /**
- * The mesh of a map of kind mesh, in the caller's coordinates (rounded once; the certificate is about
- * the numbers inside).
+ * The mesh of a map of kind mesh, in the caller's coordinates (rounded once; the certificate is
+ * about the numbers inside).
  *
  * @param map            the map
  * @param[out] vertices  room for icc_map_info::n_vertices * dim doubles, or NULL
  * @param[out] images    the same, or NULL
- * @param[out] simplices room for icc_map_info::n_simplices * (dim + 1) indices, or NULL. Triangles are
- *                       counter-clockwise, tetrahedra have positive determinants.
+ * @param[out] simplices room for icc_map_info::n_simplices * (dim + 1) indices, or NULL. Triangles
+ *                       are counter-clockwise, tetrahedra have positive determinants.
  * @return ::ICC_OK, ::ICC_ERR_ARGUMENT, ::ICC_ERR_UNSUPPORTED (not of kind mesh)
  */
 ICC_API icc_status icc_map_get_mesh(const icc_map *map, double *vertices, double *images,
-                                uint32_t *simplices);
+                                    uint32_t *simplices);
 
 /** What icc_map_certify() found out about the image of a caller's mesh. */
 typedef struct icc_certificate {
     size_t size;             /**< set by the caller: `sizeof(icc_certificate)` */
-    int32_t certified;       /**< 1: every simplex keeps its orientation and both boundaries are simple,
-                                  so the mesh and its image are one-to-one */
-    int32_t boundary_simple; /**< 1: the mesh is one that icc_domain_create_mesh() takes, and the image of
-                                  its boundary is a simple polygon or surface */
+    int32_t certified;       /**< 1: every simplex keeps its orientation and both boundaries are
+                                  simple, so the mesh and its image are one-to-one */
+    int32_t boundary_simple; /**< 1: the mesh is one that icc_domain_create_mesh() takes, and the
+                                  image of its boundary is a simple polygon or surface */
     size_t n_inverted;       /**< simplices whose image has the other orientation */
     size_t n_flat;           /**< simplices whose image, or which themselves, have no volume */
     size_t n_no_image;       /**< vertices that have no image */
@@ -771,9 +799,9 @@ typedef struct icc_certificate {
 } icc_certificate;
 
 /**
- * Maps the vertices of a caller's mesh of triangles (2-D) or tetrahedra (3-D) and checks, exactly, whether the
- * image is a mesh too. A mesh sampled from a one-to-one map need not be: its simplices are straight where
- * the map is not.
+ * Maps the vertices of a caller's mesh of triangles (2-D) or tetrahedra (3-D) and checks, exactly,
+ * whether the image is a mesh too. A mesh sampled from a one-to-one map need not be: its simplices
+ * are straight where the map is not.
  *
  * @param map              a map in 2-D or 3-D, else ::ICC_ERR_UNSUPPORTED
  * @param n_vertices       vertices of the mesh, fewer than 2^26
@@ -792,12 +820,13 @@ ICC_API icc_status icc_map_certify(const icc_map *map, size_t n_vertices, const 
                                    icc_error *err);
 
 /**
- * Carries a caller's mesh of triangles (2-D) or tetrahedra (3-D) along so that no simplex inverts: maps the
- * vertices, then moves the images of inner ones until every simplex keeps its orientation. Inner vertices
- * that have no image get one. Simplices and the images of boundary vertices stay, so it cannot always
- * succeed (a simplex with all its corners on the boundary is as the map makes it); the certificate tells.
- * Where it does not, and where the mesh is not one that icc_domain_create_mesh() takes or a vertex of its
- * boundary has no image, the images are the best that there are.
+ * Carries a caller's mesh of triangles (2-D) or tetrahedra (3-D) along so that no simplex inverts:
+ * maps the vertices, then moves the images of inner ones until every simplex keeps its orientation.
+ * Inner vertices that have no image get one. Simplices and the images of boundary vertices stay, so
+ * it cannot always succeed (a simplex with all its corners on the boundary is as the map makes it);
+ * the certificate tells. Where it does not, and where the mesh is not one that
+ * icc_domain_create_mesh() takes or a vertex of its boundary has no image, the images are the best
+ * that there are.
  *
  * @param map              a map in 2-D or 3-D, else ::ICC_ERR_UNSUPPORTED
  * @param n_vertices       vertices of the mesh, fewer than 2^26
@@ -810,13 +839,12 @@ ICC_API icc_status icc_map_certify(const icc_map *map, size_t n_vertices, const 
  * @param err              may be NULL
  * @return as icc_map_certify()
  *
- * Cost: proportional to what is inverted; where patches do not suffice, some hundred passes over the mesh.
- * Deterministic: iterations are capped, clocks are not read.
+ * Cost: proportional to what is inverted; where patches do not suffice, some hundred passes over
+ * the mesh. Deterministic: iterations are capped, clocks are not read.
  */
 ICC_API icc_status icc_map_repair(const icc_map *map, size_t n_vertices, const double *vertices,
                                   size_t n_simplices, const uint32_t *simplices, double *images,
-                                  icc_certificate *certificate, const icc_env *env,
-                                  icc_error *err);
+                                  icc_certificate *certificate, const icc_env *env, icc_error *err);
 
 /** Frees a map. */
 ICC_API void icc_map_free(icc_map *map);
@@ -831,22 +859,21 @@ ICC_API const icc_chart *icc_map_source_chart(const icc_map *map);
 ICC_API const icc_chart *icc_map_target_chart(const icc_map *map);
 
 /**
- * Source -> target. A certified map of method field gives no image (::ICC_ERR_TRACE) to a point that would not come
- * back to within 1e-6 of its bounding box's diagonal.
+ * Source -> target. A certified map of method field gives no image (::ICC_ERR_TRACE) to a point
+ * that would not come back to within 1e-6 of its bounding box's diagonal.
  *
  * @param map           the map
  * @param n             number of points
  * @param points        n * dim coordinates in the source
  * @param[out] images   n * dim coordinates; NaN for a point that has no image. May be `points`.
- * @param[out] status   n statuses: ::ICC_OK, ::ICC_ERR_OUTSIDE, ::ICC_ERR_TRACE, ::ICC_ERR_ARGUMENT; or
- *                      NULL
+ * @param[out] status   n statuses: ::ICC_OK, ::ICC_ERR_OUTSIDE, ::ICC_ERR_TRACE,
+ *                      ::ICC_ERR_ARGUMENT; or NULL
  * @param[out] n_failed how many points have no image, or NULL
  * @param env           may be NULL
  * @return as icc_chart_encode()
  */
-ICC_API icc_status icc_map_apply(const icc_map *map, size_t n, const double *points,
-                                 double *images, icc_status *status, size_t *n_failed,
-                                 const icc_env *env);
+ICC_API icc_status icc_map_apply(const icc_map *map, size_t n, const double *points, double *images,
+                                 icc_status *status, size_t *n_failed, const icc_env *env);
 
 /** Target -> source; otherwise as icc_map_apply(). */
 ICC_API icc_status icc_map_apply_inverse(const icc_map *map, size_t n, const double *points,
@@ -855,8 +882,8 @@ ICC_API icc_status icc_map_apply_inverse(const icc_map *map, size_t n, const dou
 
 /**
  * The derivative of the map at points of the source, exact for the piecewise map up to rounding;
- * one-sided where it has a kink. Where a map is certified the determinant is positive; should rounding not leave it
- * so (method field), or the point not come back, there is none.
+ * one-sided where it has a kink. Where a map is certified the determinant is positive; should
+ * rounding not leave it so (method field), or the point not come back, there is none.
  *
  * @param map            the map
  * @param n              number of points
@@ -879,8 +906,8 @@ ICC_API icc_status icc_map_jacobian(const icc_map *map, size_t n, const double *
 ICC_API icc_status icc_map_save(const icc_map *map, size_t capacity, void *data, size_t *n_bytes);
 
 /**
- * Reads a map back, as icc_chart_load() does a chart. The mesh of a map of kind mesh is read with all its
- * numbers, and certified anew.
+ * Reads a map back, as icc_chart_load() does a chart. The mesh of a map of kind mesh is read with
+ * all its numbers, and certified anew.
  */
 ICC_API icc_status icc_map_load(icc_map **out, size_t n_bytes, const void *data, const icc_env *env,
                                 icc_error *err);
@@ -899,24 +926,25 @@ typedef struct icc_picture {
 } icc_picture;
 
 /**
- * Carries a picture along: every pixel of the target whose centre lies in the target domain or on its
- * boundary gets the colour of the place in the source that goes there; all others are left alone. Pixel
- * (i, j), column i of row j, covers [i, i+1] x [j, j+1] in the coordinates of the domains.
+ * Carries a picture along: every pixel of the target whose centre lies in the target domain or on
+ * its boundary gets the colour of the place in the source that goes there; all others are left
+ * alone. Pixel (i, j), column i of row j, covers [i, i+1] x [j, j+1] in the coordinates of the
+ * domains.
  *
- * Colours between pixels are bilinear, and weighted by opacity. Where the map shrinks the picture they
- * are means of up to 16 x 16 samples, so that it does not alias. Beyond its rim the source goes on with
- * the colour of the rim. A map that is the identity copies exactly.
+ * Colours between pixels are bilinear, and weighted by opacity. Where the map shrinks the picture
+ * they are means of up to 16 x 16 samples, so that it does not alias. Beyond its rim the source
+ * goes on with the colour of the rim. A map that is the identity copies exactly.
  *
  * @param map           the map, 2-D; kind mesh is the fast one
  * @param source        read
- * @param target        the same channels, bytes and alpha as the source, any width and height. Its pixels
- *                      must not overlap the source's.
- * @param[out] n_failed pixels inside that have no image, which are left alone, or NULL; always 0 for kind
- *                      mesh
+ * @param target        the same channels, bytes and alpha as the source, any width and height. Its
+ *                      pixels must not overlap the source's.
+ * @param[out] n_failed pixels inside that have no image, which are left alone, or NULL; always 0
+ *                      for kind mesh
  * @param env           may be NULL; results are the same for every number of threads
  * @param err           may be NULL
- * @return ::ICC_OK, ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY, ::ICC_ERR_VERSION, ::ICC_ERR_CANCELLED (some
- *         pixels have been written)
+ * @return ::ICC_OK, ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY, ::ICC_ERR_VERSION, ::ICC_ERR_CANCELLED
+ *         (some pixels have been written)
  *
  * Cost of kind mesh: nanoseconds a pixel.
  */

@@ -33,22 +33,23 @@ typedef struct icc_grid_info {
     double spacing;             /**< distance of neighbours, the same along every axis */
     size_t n_vertices;          /**< product of `shape` */
     size_t n_inside;            /**< vertices inside */
-    size_t n_stray;             /**< vertices that lie inside the boundary, but were taken outside: pieces
-                                     beside the largest (see icc_grid_create()), and what
+    size_t n_stray;             /**< vertices that lie inside the boundary, but were taken outside:
+                                     pieces beside the largest (see icc_grid_create()), and what
                                      icc_grid_restrict() took */
-    int32_t cells;              /**< grid cells along the longest side of the domain; 0 for a grid from
-                                     a mask of vertices */
+    int32_t cells;              /**< grid cells along the longest side of the domain; 0 for a grid
+                                     from a mask of vertices */
 } icc_grid_info;
 
 /**
  * Covers a domain with a grid, at least two vertices wider than the domain on every side.
  *
- * A vertex is inside when it lies strictly inside the boundary. Where a domain is thinner than the grid,
- * the vertices inside may fall into pieces; beyond 2-D only the largest of them is kept, and the
- * others are counted (icc_grid_info::n_stray).
+ * A vertex is inside when it lies strictly inside the boundary. Where a domain is thinner than the
+ * grid, the vertices inside may fall into pieces; beyond 2-D only the largest of them is kept, and
+ * the others are counted (icc_grid_info::n_stray).
  *
- * The grid of a mask (icc_domain_create_mask()) has the boundary's vertices among its own: each cell of
- * the mask is cut in an even number of parts along each axis, 2 or as many more as `cells` asks for.
+ * The grid of a mask (icc_domain_create_mask()) has the boundary's vertices among its own: each
+ * cell of the mask is cut in an even number of parts along each axis, 2 or as many more as `cells`
+ * asks for.
  *
  * @param[out] out the grid; owned by the caller
  * @param domain   the domain
@@ -75,9 +76,9 @@ ICC_API icc_status icc_grid_create_mask(icc_grid **out, int32_t dim, const size_
                                         const uint8_t *inside, const icc_env *env, icc_error *err);
 
 /**
- * Makes a grid of half the spacing with the same inside: each simplex of the Kuhn triangulation is cut
- * into 2^dim, and a new vertex is inside when both ends of the edge that it halves are. Walls one
- * vertex thick stay so; for a grid that follows its domain more closely, make one with twice
+ * Makes a grid of half the spacing with the same inside: each simplex of the Kuhn triangulation is
+ * cut into 2^dim, and a new vertex is inside when both ends of the edge that it halves are. Walls
+ * one vertex thick stay so; for a grid that follows its domain more closely, make one with twice
  * icc_grid_info::cells.
  *
  * @param[out] out the grid; owned by the caller
@@ -111,8 +112,8 @@ ICC_API icc_status icc_grid_get_info(const icc_grid *grid, icc_grid_info *info);
 ICC_API const uint8_t *icc_grid_inside(const icc_grid *grid);
 
 /**
- * The vertex farthest from the outside in the grassfire transform (Algorithm 1). Of several, the one
- * nearest to their mean is taken, then the one with the smallest index.
+ * The vertex farthest from the outside in the grassfire transform (Algorithm 1). Of several, the
+ * one nearest to their mean is taken, then the one with the smallest index.
  *
  * @param grid           the grid
  * @param[out] vertex    the maximum
@@ -124,10 +125,11 @@ ICC_API const uint8_t *icc_grid_inside(const icc_grid *grid);
  * Cost: O(vertices) time and memory.
  */
 ICC_API icc_status icc_grid_find_maximum(const icc_grid *grid, uint32_t *vertex, uint32_t *rounds,
-                                    const icc_env *env, icc_error *err);
+                                         const icc_env *env, icc_error *err);
 
 /** The inside vertex nearest to a point (the smallest index of several). O(vertices). */
-ICC_API icc_status icc_grid_find_nearest(const icc_grid *grid, const double *point, uint32_t *vertex);
+ICC_API icc_status icc_grid_find_nearest(const icc_grid *grid, const double *point,
+                                         uint32_t *vertex);
 
 /* -------------------------------------------------------------------- tree */
 
@@ -144,27 +146,27 @@ typedef struct icc_tree_options {
 
 /** What icc_tree_get_report() found. */
 typedef struct icc_tree_report {
-    size_t size;                 /**< set by the caller: `sizeof(icc_tree_report)` */
-    size_t n_inside;             /**< vertices inside that the tree reaches */
-    size_t n_outside;            /**< vertices outside that belong to the tree */
-    size_t n_unreachable;        /**< vertices inside that it does not reach */
-    size_t n_pairs;              /**< neighbouring vertices, both inside and reached */
-    size_t n_cousin_violations;  /**< pairs that are neither parent and child nor cousins */
-    uint32_t violation[2];       /**< the first such pair in index order, or UINT32_MAX */
+    size_t size;                /**< set by the caller: `sizeof(icc_tree_report)` */
+    size_t n_inside;            /**< vertices inside that the tree reaches */
+    size_t n_outside;           /**< vertices outside that belong to the tree */
+    size_t n_unreachable;       /**< vertices inside that it does not reach */
+    size_t n_pairs;             /**< neighbouring vertices, both inside and reached */
+    size_t n_cousin_violations; /**< pairs that are neither parent and child nor cousins */
+    uint32_t violation[2];      /**< the first such pair in index order, or UINT32_MAX */
 } icc_tree_report;
 
 /**
  * Grows the tree of Algorithm 2 from a vertex inside.
  *
  * In both forms the vertices outside that neighbour the inside have a generation: one more than the
- * smallest among their neighbours inside. In the thesis' form they and the vertices that they expand
- * into belong to the tree and have a parent; in the paper's form their parent is UINT32_MAX, standing
- * for all their neighbours inside. A grid made by icc_grid_create() is wide enough for both layers; a
- * mask may end at its last vertex, and layers beyond it are then absent.
+ * smallest among their neighbours inside. In the thesis' form they and the vertices that they
+ * expand into belong to the tree and have a parent; in the paper's form their parent is UINT32_MAX,
+ * standing for all their neighbours inside. A grid made by icc_grid_create() is wide enough for
+ * both layers; a mask may end at its last vertex, and layers beyond it are then absent.
  *
  * Theorem 2 of the paper (the result is a cousin tree) held in every 2-D case tried; it is false in
- * 3-D and beyond. Nothing is assumed here: see icc_tree_get_report(), and icc_tree_grow() for an order
- * that serves the purpose there.
+ * 3-D and beyond. Nothing is assumed here: see icc_tree_get_report(), and icc_tree_grow() for an
+ * order that serves the purpose there.
  *
  * @param[out] out the tree; owned by the caller; keeps the grid alive
  * @param grid     the grid
@@ -185,12 +187,13 @@ ICC_API void icc_tree_free(icc_tree *tree);
 /** The parent of each vertex: UINT32_MAX for the root and for vertices without one; borrowed. */
 ICC_API const uint32_t *icc_tree_parents(const icc_tree *tree);
 
-/** The generation of each vertex: 0 for the root, -1 for vertices that are not reached; borrowed. */
+/** The generation of each vertex: 0 for the root, -1 for vertices that are not reached;
+ *  borrowed. */
 ICC_API const int32_t *icc_tree_generations(const icc_tree *tree);
 
 /** Checks the cousin rule (Definition 2) on every pair of neighbours inside. O(vertices * dim). */
 ICC_API icc_status icc_tree_get_report(const icc_tree *tree, icc_tree_report *report,
-                                   const icc_env *env, icc_error *err);
+                                       const icc_env *env, icc_error *err);
 
 /* ------------------------------------------------------------------- function */
 
@@ -202,8 +205,8 @@ typedef struct icc_function_options {
     size_t size;         /**< set by the caller: `sizeof(icc_function_options)` */
     int32_t function;    /**< `ICC_FUNCTION_*`; 0: decay */
     int32_t constraints; /**< `ICC_CONSTRAINTS_*`; 0: needed */
-    int32_t solver;      /**< `ICC_SOLVER_*`; 0: by the predicted work of a factorisation. Clamped and
-                              constrained bi-Laplace are always factorised; Laplace is iterated
+    int32_t solver;      /**< `ICC_SOLVER_*`; 0: by the predicted work of a factorisation. Clamped
+                              and constrained bi-Laplace are always factorised; Laplace is iterated
                               where a factorisation loses small values, as in long thin rings */
     double min_fall;     /**< least relative fall from parent to child, in (0, 0.01]; 0: 1e-6 */
     double leaf_min;     /**< constrained bi-Laplace: least value at vertices without children, in
@@ -220,12 +223,13 @@ typedef struct icc_function_info {
     size_t n_violated;      /**< tree edges where the function without constraints breaks the
                                  inequality; of those here, if it was not constrained */
     size_t n_active;        /**< inequalities that hold with equality */
-    size_t n_iterations;    /**< of the active set or the interior point method; 0 without constraints */
+    size_t n_iterations;    /**< of the active set or the interior point method; 0 without
+                                 constraints */
     size_t n_inner;         /**< of conjugate gradients, all together */
     double work;            /**< multiplications of the largest factorisation */
-    double residual_before; /**< KKT residual before the final sweep from the root to the leaves: the largest
-                                 |min(slack, multiplier)| of an inequality, or |row of the equation| if
-                                 there are none; f is 1 at the root */
+    double residual_before; /**< KKT residual before the final sweep from the root to the leaves:
+                                 the largest |min(slack, multiplier)| of an inequality, or |row of
+                                 the equation| if there are none; f is 1 at the root */
     double residual;        /**< the same after the sweep: for the function that is handed out */
     double least_log;       /**< the smallest of icc_function_logs() inside; 0 if there are none */
     double seconds_setup;   /**< time to number the rows and to build the matrices */
@@ -243,14 +247,14 @@ typedef struct icc_function_info {
 
 /** Critical points of a function on the vertices inside, by the links of the Kuhn triangulation. */
 typedef struct icc_function_report {
-    size_t size;         /**< set by the caller: `sizeof(icc_function_report)` */
-    size_t n_maxima;     /**< vertices with no higher neighbour */
-    size_t n_minima;     /**< vertices with no lower neighbour */
-    size_t n_saddles;    /**< other vertices where the higher or the lower neighbours do not form a
-                              contractible set. Exact up to 3-D; beyond, this is decided by strong
-                              collapses, and a vertex where neither set collapses counts. */
-    uint32_t critical;   /**< the first critical vertex in index order other than the root, or
-                              UINT32_MAX */
+    size_t size;       /**< set by the caller: `sizeof(icc_function_report)` */
+    size_t n_maxima;   /**< vertices with no higher neighbour */
+    size_t n_minima;   /**< vertices with no lower neighbour */
+    size_t n_saddles;  /**< other vertices where the higher or the lower neighbours do not form a
+                            contractible set. Exact up to 3-D; beyond, this is decided by strong
+                            collapses, and a vertex where neither set collapses counts. */
+    uint32_t critical; /**< the first critical vertex in index order other than the root, or
+                            UINT32_MAX */
 } icc_function_report;
 
 /** Kinds of edges in icc_function_get_edges(). */
@@ -262,25 +266,26 @@ enum {
 /**
  * Gives values to the vertices of a tree.
  *
- * decay: 10 at the root, times 0.95 with each generation (thesis, equation 4.1), and -1, -2, .. for the
- * generations where that would underflow, from about 13,850 on. distance: minus the generation. Both
- * depend on the generation alone.
+ * decay: 10 at the root, times 0.95 with each generation (thesis, equation 4.1), and -1, -2, .. for
+ * the generations where that would underflow, from about 13,850 on. distance: minus the generation.
+ * Both depend on the generation alone.
  *
- * laplace: 1 at the root, 0 at the vertices outside that neighbour the inside, and at every other vertex
- * the mean of its neighbours: the function with the least Dirichlet energy. (Beyond those zeros, minus
- * the value two steps back.) bilaplace: that with the least sum of squared Laplacians over the vertices
- * inside, which is f = c L^-2 e_root (simply supported, Navier); clamped: over the vertices next to them
- * outside, too. Laplace and bilaplace are positive inside, however far from the root; clamped changes its
- * sign unless it is constrained. With constraints, the least energy among the functions that fall by
- * `min_fall` along every tree edge inside and, for bilaplace and clamped, are at least `leaf_min` at the leaves.
+ * laplace: 1 at the root, 0 at the vertices outside that neighbour the inside, and at every other
+ * vertex the mean of its neighbours: the function with the least Dirichlet energy. (Beyond those
+ * zeros, minus the value two steps back.) bilaplace: that with the least sum of squared Laplacians
+ * over the vertices inside, which is f = c L^-2 e_root (simply supported, Navier); clamped: over
+ * the vertices next to them outside, too. Laplace and bilaplace are positive inside, however far
+ * from the root; clamped changes its sign unless it is constrained. With constraints, the least
+ * energy among the functions that fall by `min_fall` along every tree edge inside and, for
+ * bilaplace and clamped, are at least `leaf_min` at the leaves.
  *
- * Bilaplace and clamped are shapes of a plate that is loaded at the root, and a plate is highest beside
- * a load that is not in its middle: without constraints the maximum may be another vertex, see
- * icc_function_info::highest and icc_function_info::beside. (On a tree that grows from there the function is
- * another one; icc_chart_create() moves the root until the two agree.)
+ * Bilaplace and clamped are shapes of a plate that is loaded at the root, and a plate is highest
+ * beside a load that is not in its middle: without constraints the maximum may be another vertex,
+ * see icc_function_info::highest and icc_function_info::beside. (On a tree that grows from there
+ * the function is another one; icc_chart_create() moves the root until the two agree.)
  *
- * Nothing is assumed about critical points: see icc_function_get_report(). Inequalities on a tree that is not a
- * cousin tree, as in 3-D, do not rule out others than the maximum.
+ * Nothing is assumed about critical points: see icc_function_get_report(). Inequalities on a tree
+ * that is not a cousin tree, as in 3-D, do not rule out others than the maximum.
  *
  * @param[out] out the function; owned by the caller; keeps the tree alive
  * @param tree     the tree
@@ -288,15 +293,15 @@ enum {
  * @param env      may be NULL
  * @param err      may be NULL
  * @return ::ICC_OK; ::ICC_ERR_SOLVER when a solver did not converge, which has only been seen with
- *         inequalities on bilaplace and clamped, where they ask for more than 1 at the root (as `leaf_min` and `min_fall` do of
- *         deep trees) or `leaf_min` is 1e-2; ::ICC_ERR_RESOLUTION when the root is
- *         the only vertex inside (laplace, bilaplace, clamped); ::ICC_ERR_UNSUPPORTED for clamped, and
- *         for bilaplace under inequalities, in a build without AMD; ::ICC_ERR_ARGUMENT,
- *         ::ICC_ERR_MEMORY, ::ICC_ERR_CANCELLED, ::ICC_ERR_VERSION
+ *         inequalities on bilaplace and clamped, where they ask for more than 1 at the root (as
+ *         `leaf_min` and `min_fall` do of deep trees) or `leaf_min` is 1e-2; ::ICC_ERR_RESOLUTION
+ *         when the root is the only vertex inside (laplace, bilaplace, clamped);
+ *         ::ICC_ERR_UNSUPPORTED for clamped, and for bilaplace under inequalities, in a build
+ *         without AMD; ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY, ::ICC_ERR_CANCELLED, ::ICC_ERR_VERSION
  */
 ICC_API icc_status icc_function_create(icc_function **out, const icc_tree *tree,
-                                    const icc_function_options *options, const icc_env *env,
-                                    icc_error *err);
+                                       const icc_function_options *options, const icc_env *env,
+                                       icc_error *err);
 
 /** The function of a gradient chart, or NULL for other charts; borrowed, as is what hangs on it. */
 ICC_API const icc_function *icc_chart_function(const icc_chart *chart);
@@ -316,14 +321,14 @@ ICC_API void icc_function_free(icc_function *function);
 /** Fills in `info`, whose `size` the caller has set. ::ICC_OK or ::ICC_ERR_ARGUMENT. */
 ICC_API icc_status icc_function_get_info(const icc_function *function, icc_function_info *info);
 
-/** One value per grid vertex; NaN where the tree does not reach; borrowed. (Beyond 2-D the function of a
- *  gradient chart goes on to some vertices outside.) Laplace and bilaplace decay exponentially in long
- *  limbs: values below 2^-1022 are 0 here, see icc_function_logs(). */
+/** One value per grid vertex; NaN where the tree does not reach; borrowed. (Beyond 2-D the function
+ *  of a gradient chart goes on to some vertices outside.) Laplace and bilaplace decay exponentially
+ *  in long limbs: values below 2^-1022 are 0 here, see icc_function_logs(). */
 ICC_API const double *icc_function_values(const icc_function *function);
 
-/** The natural logarithm of every value, accurate also where the values underflow; -HUGE_VAL outside, NaN
- *  where the tree does not reach; borrowed. NULL for decay and distance, and when some value
- *  inside is not positive. */
+/** The natural logarithm of every value, accurate also where the values underflow; -HUGE_VAL
+ *  outside, NaN where the tree does not reach; borrowed. NULL for decay and distance, and when some
+ *  value inside is not positive. */
 ICC_API const double *icc_function_logs(const icc_function *function);
 
 /**
@@ -331,8 +336,9 @@ ICC_API const double *icc_function_logs(const icc_function *function);
  * values are ordered by vertex index. About 10 ns a vertex in 2-D and 3-D; up to 1, 4 and 10 us in
  * 4-D, 5-D and 6-D.
  */
-ICC_API icc_status icc_function_get_report(const icc_function *function, icc_function_report *report,
-                                    const icc_env *env, icc_error *err);
+ICC_API icc_status icc_function_get_report(const icc_function *function,
+                                           icc_function_report *report, const icc_env *env,
+                                           icc_error *err);
 
 /**
  * Lists compression and expansion edges (2-D): edges between two triangles with a value at every
@@ -346,30 +352,32 @@ ICC_API icc_status icc_function_get_report(const icc_function *function, icc_fun
  * @param[out] n_tested how many edges were looked at, or NULL
  * @return ::ICC_OK, ::ICC_ERR_ARGUMENT, ::ICC_ERR_UNSUPPORTED (not 2-D)
  */
-ICC_API icc_status icc_function_get_edges(const icc_function *function, size_t capacity, uint32_t *edges,
-                                   int32_t *kinds, size_t *n_edges, size_t *n_tested);
+ICC_API icc_status icc_function_get_edges(const icc_function *function, size_t capacity,
+                                          uint32_t *edges, int32_t *kinds, size_t *n_edges,
+                                          size_t *n_tested);
 
 /* ------------------------------------------------------------------- order */
 
 /** How icc_tree_grow() found an order. */
 enum {
     ICC_GROW_AS_GIVEN = 1, /**< the order wished for is regular */
-    ICC_GROW_GROWN = 2,     /**< some vertices had to wait for others */
-    ICC_GROW_THINNED = 3    /**< growth got stuck; the vertices were removed one by one instead, and the
-                                 order read backwards */
+    ICC_GROW_GROWN = 2,    /**< some vertices had to wait for others */
+    ICC_GROW_THINNED = 3   /**< growth got stuck; the vertices were removed one by one instead, and
+                                the order read backwards */
 };
 
 /** What icc_tree_grow() found. */
 typedef struct icc_grow_report {
     size_t size;        /**< set by the caller: `sizeof(icc_grow_report)` */
     int32_t method;     /**< `ICC_GROW_*` */
-    uint32_t vertex;    /**< the first vertex in the order wished for that growth could not place, or
-                             UINT32_MAX */
+    uint32_t vertex;    /**< the first vertex in the order wished for that growth could not place,
+                             or UINT32_MAX */
     size_t n_vertices;  /**< vertices inside that the tree reaches */
-    size_t n_deferred; /**< vertices that had to wait while growing */
+    size_t n_deferred;  /**< vertices that had to wait while growing */
     size_t n_unplaced;  /**< vertices left when growth got stuck */
     size_t n_remaining; /**< vertices left, but for the root, when thinning got stuck, too */
-    size_t n_reversed;  /**< edges of the Kuhn triangulation along which the order is not as wished */
+    size_t n_reversed;  /**< edges of the Kuhn triangulation along which the order is not as
+                             wished */
     size_t n_tests;     /**< links that were looked at: less than 2^(dim+3) a vertex */
 } icc_grow_report;
 
@@ -377,14 +385,14 @@ typedef struct icc_grow_report {
  * Orders the vertices inside so that the root is the only critical one.
  *
  * In 2-D the tree's own order has been so in every case tried; beyond, it is often not (see
- * icc_tree_create()). Here a set grows from the root and takes, in the order wished for, each vertex
- * whose neighbours in the set are a contractible part of its link; others wait until they are. (Links
- * are those of the Kuhn triangulation, decided as for icc_function_report::n_saddles.) If growth gets
- * stuck, the set of all vertices is thinned down to the root instead. A function that falls with the
- * rank has one critical point, the maximum, in any dimension. There are shapes where both fail, such as
- * Bing's house with two rooms: a finer grid may help. Nothing helps a shape that is not a ball, as the
- * vertices inside a surface may be where parts of it come near each other; growth then leaves the few
- * vertices where it would close a ring.
+ * icc_tree_create()). Here a set grows from the root and takes, in the order wished for, each
+ * vertex whose neighbours in the set are a contractible part of its link; others wait until they
+ * are. (Links are those of the Kuhn triangulation, decided as for icc_function_report::n_saddles.)
+ * If growth gets stuck, the set of all vertices is thinned down to the root instead. A function
+ * that falls with the rank has one critical point, the maximum, in any dimension. There are shapes
+ * where both fail, such as Bing's house with two rooms: a finer grid may help. Nothing helps a
+ * shape that is not a ball, as the vertices inside a surface may be where parts of it come near
+ * each other; growth then leaves the few vertices where it would close a ring.
  *
  * @param tree       the tree
  * @param values     the order wished for, one value per grid vertex, the largest first; equal ones
@@ -399,15 +407,16 @@ typedef struct icc_grow_report {
  * @param err        may be NULL; `index` names the vertex where growth got stuck
  * @return ::ICC_OK, ::ICC_ERR_TOPOLOGY (stuck), ::ICC_ERR_ARGUMENT (a value inside is NaN), ...
  *
- * Cost: less than 2^(dim+3) tests a vertex, in practice about one: 0.1 us in 2-D, 0.13 to 0.3 us in 3-D,
- * 0.5 us in 4-D, 2 us in 5-D. 6 bytes a grid vertex, and 8 a vertex inside for `values`.
+ * Cost: less than 2^(dim+3) tests a vertex, in practice about one: 0.1 us in 2-D, 0.13 to 0.3 us in
+ * 3-D, 0.5 us in 4-D, 2 us in 5-D. 6 bytes a grid vertex, and 8 a vertex inside for `values`.
  */
 ICC_API icc_status icc_tree_grow(const icc_tree *tree, const double *values, uint32_t *rank,
                                  icc_grow_report *report, const icc_env *env, icc_error *err);
 
 /**
  * Counts the critical vertices of any order of the vertices inside that the tree reaches, as
- * icc_function_get_report() does for functions: by looking at every link, whatever the order comes from.
+ * icc_function_get_report() does for functions: by looking at every link, whatever the order comes
+ * from.
  *
  * @param tree        the tree
  * @param rank        one number per grid vertex, smaller for higher vertices; equal ones count as
@@ -417,16 +426,16 @@ ICC_API icc_status icc_tree_grow(const icc_tree *tree, const double *values, uin
  * @param err         may be NULL
  */
 ICC_API icc_status icc_tree_get_rank_report(const icc_tree *tree, const uint32_t *rank,
-                                         icc_function_report *report, const icc_env *env,
-                                         icc_error *err);
+                                            icc_function_report *report, const icc_env *env,
+                                            icc_error *err);
 
 /* ----------------------------------------------------------- triangulation */
 
 /**
  * Constrained Delaunay triangulation of a simple polygon with points inside (2-D).
  *
- * All decisions are exact. Triangles are counter-clockwise (with y upwards). A polygon of b vertices
- * with p points inside has b + 2 p - 2 triangles, always; no vertex is added.
+ * All decisions are exact. Triangles are counter-clockwise (with y upwards). A polygon of b
+ * vertices with p points inside has b + 2 p - 2 triangles, always; no vertex is added.
  *
  * @param n_boundary     vertices of the polygon, either orientation; they come first
  * @param n_points       all vertices, those of the polygon included
@@ -435,7 +444,8 @@ ICC_API icc_status icc_tree_get_rank_report(const icc_tree *tree, const uint32_t
  * @param env            may be NULL
  * @param err            may be NULL; `index` names a point that is not strictly inside the polygon,
  *                       or that repeats another
- * @return ::ICC_OK, ::ICC_ERR_BOUNDARY, ::ICC_ERR_OUTSIDE, ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY, ...
+ * @return ::ICC_OK, ::ICC_ERR_BOUNDARY, ::ICC_ERR_OUTSIDE, ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY,
+ *         ...
  *
  * Cost: O(n log n) in practice, about 1 us a vertex; 100 bytes a vertex.
  */

@@ -27,7 +27,8 @@ icc_status icc_binding_create(icc_binding **out, const icc_weights *kernel, size
         return iccp_fail(err, ICC_ERR_ARGUMENT, "derivatives is %ld", (long)derivatives);
     for (size_t i = 0, dim = kernel->layout->dim; i < n; ++i)
         if (!are_finite(dim, points + dim * i))
-            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)i, "point %zu is not finite", i);
+            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)i,
+                                "point %zu is not finite", i);
     iccp_env full_env;
     const icc_status status = iccp_env_read(&full_env, env, err);
     if (status != ICC_OK)

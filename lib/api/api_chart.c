@@ -3,8 +3,8 @@
 #include "base/error.h"
 #include "base/options.h"
 #include "chart/bulk.h"
-#include "chart/chart_field.h"
 #include "chart/chart_create.h"
+#include "chart/chart_field.h"
 #include "chart/gradient_state.h"
 #include "chart/load.h"
 
@@ -59,7 +59,7 @@ const icc_function *icc_chart_function(const icc_chart *chart)
 }
 
 icc_status icc_chart_get_report(const icc_chart *chart, size_t n_points, icc_chart_report *measures,
-                             const icc_env *env, icc_error *err)
+                                const icc_env *env, icc_error *err)
 {
     if (chart == NULL || measures == NULL)
         return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_chart_get_report: %s is NULL",
@@ -78,12 +78,11 @@ icc_status icc_chart_get_report(const icc_chart *chart, size_t n_points, icc_cha
                : iccp_explain(err, status);
 }
 
-icc_status icc_chart_encode(const icc_chart *chart, size_t n, const double *points,
-                            uint32_t *facet, double *bary, double *t, icc_status *status,
-                            size_t *n_failed, const icc_env *env)
+icc_status icc_chart_encode(const icc_chart *chart, size_t n, const double *points, uint32_t *facet,
+                            double *bary, double *t, icc_status *status, size_t *n_failed,
+                            const icc_env *env)
 {
-    if (chart == NULL ||
-        (n > 0 && (points == NULL || facet == NULL || bary == NULL || t == NULL)))
+    if (chart == NULL || (n > 0 && (points == NULL || facet == NULL || bary == NULL || t == NULL)))
         return ICC_ERR_ARGUMENT;
     iccp_env full_env;
     const icc_status read = iccp_env_read(&full_env, env, NULL);
@@ -93,11 +92,10 @@ icc_status icc_chart_encode(const icc_chart *chart, size_t n, const double *poin
 }
 
 icc_status icc_chart_decode(const icc_chart *chart, size_t n, const uint32_t *facet,
-                            const double *bary, const double *t, double *points,
-                            icc_status *status, size_t *n_failed, const icc_env *env)
+                            const double *bary, const double *t, double *points, icc_status *status,
+                            size_t *n_failed, const icc_env *env)
 {
-    if (chart == NULL ||
-        (n > 0 && (points == NULL || facet == NULL || bary == NULL || t == NULL)))
+    if (chart == NULL || (n > 0 && (points == NULL || facet == NULL || bary == NULL || t == NULL)))
         return ICC_ERR_ARGUMENT;
     iccp_env full_env;
     const icc_status read = iccp_env_read(&full_env, env, NULL);

@@ -21,8 +21,8 @@ static icc_status check_counts(size_t n_vertices, const double *vertices, size_t
         return iccp_fail(err, ICC_ERR_ARGUMENT, "%zu vertices are too many; at most %zu",
                          n_vertices, ICCP_MAX_COUNT);
     if (facets != NULL && n_facets > ICCP_MAX_COUNT)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "%zu facets are too many; at most %zu",
-                         n_facets, ICCP_MAX_COUNT);
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "%zu facets are too many; at most %zu", n_facets,
+                         ICCP_MAX_COUNT);
     return ICC_OK;
 }
 

@@ -39,8 +39,7 @@ static icc_status check_choice(int32_t value, int32_t first, int32_t last, const
 {
     if (value >= first && value <= last)
         return ICC_OK;
-    return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_weights_options.%s is %ld", member,
-                     (long)value);
+    return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_weights_options.%s is %ld", member, (long)value);
 }
 
 static icc_status check_amount(double value, double most, const char *member, icc_error *err)
@@ -78,8 +77,8 @@ static icc_status check_edges(const icc_weights_options *o, size_t n_handles, ic
         const uint32_t *ends = o->edges + 2 * e;
         if (ends[0] >= n_handles || ends[1] >= n_handles || ends[0] == ends[1])
             return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_EDGE, (int64_t)e,
-                             "edge %zu joins handles %lu and %lu of %zu", e, (unsigned long)ends[0],
-                             (unsigned long)ends[1], n_handles);
+                                "edge %zu joins handles %lu and %lu of %zu", e,
+                                (unsigned long)ends[0], (unsigned long)ends[1], n_handles);
     }
     if (o->initial == ICC_INITIAL_EDGES && o->n_edges == 0)
         return iccp_fail(err, ICC_ERR_ARGUMENT,
@@ -96,11 +95,12 @@ static icc_status check_lines(const icc_weights_options *o, size_t dim, icc_erro
     for (size_t k = 0; k < o->n_lines; ++k) {
         const icc_line *line = &o->lines[k];
         if (!are_finite(dim, line->from) || !are_finite(dim, line->to))
-            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_LINE, (int64_t)k, "line %zu is not finite", k);
+            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_LINE, (int64_t)k,
+                                "line %zu is not finite", k);
         if (line->parallel < 0 || (size_t)line->parallel > k)
             return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_LINE, (int64_t)k,
-                             "line %zu: parallel is %ld; it may be parallel to an earlier line", k,
-                             (long)line->parallel);
+                                "line %zu: parallel is %ld; it may be parallel to an earlier line",
+                                k, (long)line->parallel);
     }
     return ICC_OK;
 }
@@ -116,7 +116,7 @@ static icc_status check_weights(const icc_weights_options *o, size_t n_samples, 
     if (i == n_samples)
         return ICC_OK;
     return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_SAMPLE, (int64_t)i,
-                     "an initial weight of sample %zu is not finite", i);
+                        "an initial weight of sample %zu is not finite", i);
 }
 
 static icc_status check_handles(size_t dim, size_t n, const double *handles, icc_error *err)
@@ -128,7 +128,8 @@ static icc_status check_handles(size_t dim, size_t n, const double *handles, icc
     const size_t j = first_infinite(n, dim, handles);
     if (j == n)
         return ICC_OK;
-    return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_HANDLE, (int64_t)j, "handle %zu is not finite", j);
+    return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_HANDLE, (int64_t)j,
+                        "handle %zu is not finite", j);
 }
 
 static void complete(icc_weights_options *o, double sigma)
@@ -162,8 +163,8 @@ static icc_status check_all(const icc_weights_options *o, const icc_sampling *sa
 }
 
 icc_status icc_weights_create(icc_weights **out, const icc_sampling *sampling, size_t n_handles,
-                             const double *handles, const icc_weights_options *options,
-                             const icc_env *env, icc_error *err)
+                              const double *handles, const icc_weights_options *options,
+                              const icc_env *env, icc_error *err)
 {
     if (out != NULL)
         *out = NULL;
@@ -180,8 +181,8 @@ icc_status icc_weights_create(icc_weights **out, const icc_sampling *sampling, s
         return status;
     complete(&full, sampling->info.sigma);
     return iccp_end_weights(iccp_explain(err, iccp_weights_create(out, sampling, n_handles, handles,
-                                                                &full, &full_env, err)),
-                           out, &full_env, err);
+                                                                  &full, &full_env, err)),
+                            out, &full_env, err);
 }
 
 void icc_weights_free(icc_weights *kernel)
@@ -199,7 +200,7 @@ icc_status icc_weights_get_info(const icc_weights *kernel, icc_weights_info *inf
 }
 
 icc_status icc_weights_get_nodes(const icc_weights *kernel, double *points, double *initial,
-                                double *weights, icc_status *status)
+                                 double *weights, icc_status *status)
 {
     if (kernel == NULL)
         return ICC_ERR_ARGUMENT;
@@ -217,8 +218,8 @@ icc_status icc_weights_get_nodes(const icc_weights *kernel, double *points, doub
 }
 
 icc_status icc_weights_evaluate(const icc_weights *kernel, size_t n, const double *points,
-                              double *weights, double *gradients, icc_status *status,
-                              size_t *n_failed, const icc_env *env)
+                                double *weights, double *gradients, icc_status *status,
+                                size_t *n_failed, const icc_env *env)
 {
     if (kernel == NULL || (n > 0 && (points == NULL || weights == NULL)))
         return ICC_ERR_ARGUMENT;
@@ -226,12 +227,12 @@ icc_status icc_weights_evaluate(const icc_weights *kernel, size_t n, const doubl
     const icc_status read = iccp_env_read(&full_env, env, NULL);
     return read == ICC_OK
                ? iccp_finish(&full_env, iccp_weights_evaluate(kernel, n, points, weights, gradients,
-                                                            status, n_failed, &full_env))
+                                                              status, n_failed, &full_env))
                : read;
 }
 
 icc_status icc_weights_get_report(const icc_weights *kernel, size_t n, const double *points,
-                                 icc_weights_report *report, const icc_env *env, icc_error *err)
+                                  icc_weights_report *report, const icc_env *env, icc_error *err)
 {
     if (kernel == NULL || report == NULL || (n > 0 && points == NULL))
         return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_weights_get_report: an argument is NULL");
@@ -239,7 +240,8 @@ icc_status icc_weights_get_report(const icc_weights *kernel, size_t n, const dou
     icc_weights_report full;
     const size_t i = first_infinite(n, kernel->layout->dim, points);
     if (i < n)
-        return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)i, "point %zu is not finite", i);
+        return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)i,
+                            "point %zu is not finite", i);
     icc_status status = iccp_env_read(&full_env, env, err);
     if (status == ICC_OK)
         status = iccp_finish(&full_env, iccp_weights_measure(kernel, n, points, &full, &full_env));
@@ -262,8 +264,8 @@ static icc_status begin(iccp_env *full, icc_weights **out, const icc_weights *ke
 }
 
 icc_status icc_weights_paint(icc_weights **out, const icc_weights *kernel, size_t handle,
-                            const double *centre, double radius, double amount, const icc_env *env,
-                            icc_error *err)
+                             const double *centre, double radius, double amount, const icc_env *env,
+                             icc_error *err)
 {
     iccp_env full_env;
     const icc_status status =
@@ -277,14 +279,14 @@ icc_status icc_weights_paint(icc_weights **out, const icc_weights *kernel, size_
         return iccp_fail(err, ICC_ERR_ARGUMENT,
                          "icc_weights_paint: radius %g, amount %g, or a centre that is not finite",
                          radius, amount);
-    return iccp_end_weights(iccp_explain(err, iccp_weights_paint(out, kernel, handle, centre, radius,
-                                                               amount, &full_env)),
-                           out, &full_env, err);
+    return iccp_end_weights(iccp_explain(err, iccp_weights_paint(out, kernel, handle, centre,
+                                                                 radius, amount, &full_env)),
+                            out, &full_env, err);
 }
 
 icc_status icc_weights_repaint(icc_weights **out, const icc_weights *kernel, size_t n,
-                              const uint32_t *nodes, const double *weights, const icc_env *env,
-                              icc_error *err)
+                               const uint32_t *nodes, const double *weights, const icc_env *env,
+                               icc_error *err)
 {
     iccp_env full_env;
     const icc_status status =
@@ -294,15 +296,15 @@ icc_status icc_weights_repaint(icc_weights **out, const icc_weights *kernel, siz
         return status;
     const size_t k = first_infinite(n, kernel->layout->n_handles, weights);
     if (k < n)
-        return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_NODE, (int64_t)k, "a weight for node %lu is not finite",
-                         (unsigned long)nodes[k]);
+        return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_NODE, (int64_t)k,
+                            "a weight for node %lu is not finite", (unsigned long)nodes[k]);
     return iccp_end_weights(
-        iccp_explain(err, iccp_weights_repaint(out, kernel, n, nodes, weights, &full_env, err)), out,
-        &full_env, err);
+        iccp_explain(err, iccp_weights_repaint(out, kernel, n, nodes, weights, &full_env, err)),
+        out, &full_env, err);
 }
 
 icc_status icc_weights_with_method(icc_weights **out, const icc_weights *kernel, int32_t method,
-                                 const icc_env *env, icc_error *err)
+                                   const icc_env *env, icc_error *err)
 {
     iccp_env full_env;
     const icc_status status =
@@ -317,8 +319,8 @@ icc_status icc_weights_with_method(icc_weights **out, const icc_weights *kernel,
 }
 
 icc_status icc_weights_stiffen(icc_weights **out, const icc_weights *kernel, size_t n,
-                              const uint32_t *nodes, const double *rigidity, double energy[2],
-                              const icc_env *env, icc_error *err)
+                               const uint32_t *nodes, const double *rigidity, double energy[2],
+                               const icc_env *env, icc_error *err)
 {
     iccp_env full_env;
     const icc_status status =
@@ -327,9 +329,10 @@ icc_status icc_weights_stiffen(icc_weights **out, const icc_weights *kernel, siz
         return status;
     for (size_t k = 0; rigidity != NULL && k < n; ++k)
         if (!(rigidity[k] > 0) || !isfinite(rigidity[k]))
-            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_NODE, (int64_t)k, "the rigidity of node %lu is %g",
-                             (unsigned long)nodes[k], rigidity[k]);
+            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_NODE, (int64_t)k,
+                                "the rigidity of node %lu is %g", (unsigned long)nodes[k],
+                                rigidity[k]);
     return iccp_end_weights(iccp_explain(err, iccp_weights_stiffen(out, kernel, n, nodes, rigidity,
-                                                                 energy, &full_env, err)),
-                           out, &full_env, err);
+                                                                   energy, &full_env, err)),
+                            out, &full_env, err);
 }

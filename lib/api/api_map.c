@@ -10,10 +10,10 @@
 
 ICCP_END(map)
 
-static icc_status read_options(icc_map_options *full, const icc_map_options *options, icc_error *err)
+static icc_status read_options(icc_map_options *full, const icc_map_options *options,
+                               icc_error *err)
 {
-    const icc_status status =
-        iccp_read_struct(full, sizeof *full, options, "icc_map_options", err);
+    const icc_status status = iccp_read_struct(full, sizeof *full, options, "icc_map_options", err);
     if (status == ICC_OK && full->iterations < -1)
         return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_map_options.iterations is %ld",
                          (long)full->iterations);
@@ -56,8 +56,7 @@ icc_status icc_map_create_from_charts(icc_map **out, const icc_chart *source,
     if (out != NULL)
         *out = NULL;
     if (out == NULL || source == NULL || target == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT,
-                         "icc_map_create_from_charts: an argument is NULL");
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_map_create_from_charts: an argument is NULL");
     iccp_env full_env;
     icc_map_options full;
     icc_status status = iccp_env_read(&full_env, env, err);
@@ -109,9 +108,8 @@ icc_status icc_map_apply(const icc_map *map, size_t n, const double *points, dou
     return apply(map, false, n, points, images, status, n_failed, env);
 }
 
-icc_status icc_map_apply_inverse(const icc_map *map, size_t n, const double *points,
-                                 double *images, icc_status *status, size_t *n_failed,
-                                 const icc_env *env)
+icc_status icc_map_apply_inverse(const icc_map *map, size_t n, const double *points, double *images,
+                                 icc_status *status, size_t *n_failed, const icc_env *env)
 {
     return apply(map, true, n, points, images, status, n_failed, env);
 }
@@ -141,10 +139,9 @@ icc_status icc_map_improve(icc_map **out, const icc_map *map, const icc_improve_
     icc_status status = iccp_env_read(&full_env, env, err);
     if (status == ICC_OK)
         status = iccp_read_struct(&full, sizeof full, options, "icc_improve_options", err);
-    if (status == ICC_OK && (full.iterations < 0 || full.levels < -1 ||
-                             !(full.tolerance >= 0 && full.tolerance < 1)))
-        status = iccp_fail(err, ICC_ERR_ARGUMENT,
-                           "icc_improve_options: a member is out of range");
+    if (status == ICC_OK &&
+        (full.iterations < 0 || full.levels < -1 || !(full.tolerance >= 0 && full.tolerance < 1)))
+        status = iccp_fail(err, ICC_ERR_ARGUMENT, "icc_improve_options: a member is out of range");
     if (status == ICC_OK)
         status = iccp_map_improve(out, map, &full, &full_report, &full_env, err);
     if (status == ICC_OK && full_report.cancelled == 0)
@@ -160,7 +157,7 @@ icc_status icc_map_improve(icc_map **out, const icc_map *map, const icc_improve_
 }
 
 icc_status icc_map_retarget(icc_map **out, const icc_map *map, const icc_domain *target,
-                          int32_t iterations, const icc_env *env, icc_error *err)
+                            int32_t iterations, const icc_env *env, icc_error *err)
 {
     if (out != NULL)
         *out = NULL;
@@ -188,7 +185,8 @@ static void hand_out_solid(const icc_map *map, double *vertices, double *images,
         memcpy(corners, mesh->corners, 4 * mesh->n_simplices * sizeof *corners);
 }
 
-icc_status icc_map_get_mesh(const icc_map *map, double *vertices, double *images, uint32_t *triangles)
+icc_status icc_map_get_mesh(const icc_map *map, double *vertices, double *images,
+                            uint32_t *triangles)
 {
     if (map == NULL)
         return ICC_ERR_ARGUMENT;
@@ -224,8 +222,8 @@ static icc_status check_mesh(const icc_map *map, size_t n_vertices, size_t n_sim
     for (size_t k = 0; k < (dim + 1) * n_simplices; ++k)
         if (simplices[k] >= n_vertices)
             return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_SIMPLEX, (int64_t)(k / (dim + 1)),
-                             "%s %zu has vertex %lu of %zu", name, k / (dim + 1),
-                             (unsigned long)simplices[k], n_vertices);
+                                "%s %zu has vertex %lu of %zu", name, k / (dim + 1),
+                                (unsigned long)simplices[k], n_vertices);
     return ICC_OK;
 }
 
@@ -262,8 +260,8 @@ icc_status icc_map_certify(const icc_map *map, size_t n_vertices, const double *
 {
     if (map == NULL || vertices == NULL || simplices == NULL || certificate == NULL)
         return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_map_certify: an argument is NULL");
-    return carry_mesh(map, n_vertices, vertices, n_simplices, simplices, false, images,
-                      certificate, env, err);
+    return carry_mesh(map, n_vertices, vertices, n_simplices, simplices, false, images, certificate,
+                      env, err);
 }
 
 icc_status icc_map_repair(const icc_map *map, size_t n_vertices, const double *vertices,

@@ -14,11 +14,11 @@ static icc_status check_mask(int32_t dim, const size_t *shape, const uint8_t *ce
         return iccp_fail(err, ICC_ERR_ARGUMENT, "dim is %ld; it must lie in 1..%d", (long)dim,
                          ICC_MAX_DIM);
     if (shape == NULL || cells == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "%s is NULL",
-                         shape == NULL ? "shape" : "cells");
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "%s is NULL", shape == NULL ? "shape" : "cells");
     for (int32_t k = 0; k < dim; ++k)
         if (shape[k] == 0)
-            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_AXIS, k, "shape[%ld] is 0", (long)k);
+            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_AXIS, k, "shape[%ld] is 0",
+                                (long)k);
     return ICC_OK;
 }
 

@@ -13,7 +13,8 @@ ICCP_END(sampling)
 
 static const int32_t MAX_STEPS = 100000;
 
-/* Every creator starts like this. `missing` names the first input that is NULL, or is NULL itself. */
+/* Every creator starts like this. `missing` names the first input that is NULL, or is NULL
+ * itself. */
 static icc_status begin(iccp_env *full, const icc_env *env, const char *missing, icc_error *err)
 {
     if (missing != NULL)
@@ -27,8 +28,8 @@ static icc_status check_finite(size_t n, size_t dim, const double *points, const
     for (size_t i = 0; i < n; ++i)
         for (size_t k = 0; k < dim; ++k)
             if (!isfinite(points[dim * i + k]))
-                return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)i, "%s %zu is not finite", name,
-                                 i);
+                return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)i,
+                                    "%s %zu is not finite", name, i);
     return ICC_OK;
 }
 
@@ -39,11 +40,12 @@ static icc_status check_regions(int32_t dim, size_t n_regions, const icc_domain 
 {
     for (size_t r = 0; r < n_regions; ++r) {
         if (regions[r] == NULL)
-            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_REGION, (int64_t)r, "regions[%zu] is NULL", r);
+            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_REGION, (int64_t)r,
+                                "regions[%zu] is NULL", r);
         if (regions[r]->dim != dim)
             return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_REGION, (int64_t)r,
-                             "region %zu has dimension %ld instead of %ld", r,
-                             (long)regions[r]->dim, (long)dim);
+                                "region %zu has dimension %ld instead of %ld", r,
+                                (long)regions[r]->dim, (long)dim);
     }
     return ICC_OK;
 }
@@ -89,8 +91,7 @@ static icc_status check_spread(const icc_sampling_options *o, const icc_shape *s
                                icc_error *err)
 {
     if (o->kind != ICC_SAMPLING_GRID && o->kind != ICC_SAMPLING_BLUE)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_sampling_options.kind is %ld",
-                         (long)o->kind);
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_sampling_options.kind is %ld", (long)o->kind);
     if (o->kind == ICC_SAMPLING_GRID && shape->n_regions == 0)
         return iccp_fail(err, ICC_ERR_ARGUMENT, "a grid samples regions, but there are none");
     if (o->steps < -1 || o->steps > MAX_STEPS)

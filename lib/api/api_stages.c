@@ -3,9 +3,9 @@
 #include "base/error.h"
 #include "base/options.h"
 #include "domain/domain.h"
-#include "function/make_function.h"
 #include "function/critical_points.h"
 #include "function/edges.h"
+#include "function/make_function.h"
 #include "grid/grassfire.h"
 #include "grid/lattice.h"
 #include "grid/rasterise.h"
@@ -23,10 +23,11 @@ ICCP_END(grid)
 ICCP_END(tree)
 ICCP_END(function)
 
-static const int32_t DEFAULT_CELLS = 50; /* the papers' */
+static const int32_t DEFAULT_CELLS = 50;          /* the papers' */
 static const size_t MAX_POINTS = UINT32_MAX / 16; /* corners of triangles are numbered too */
 
-/* Every creator starts like this. `missing` names the first input that is NULL, or is NULL itself. */
+/* Every creator starts like this. `missing` names the first input that is NULL, or is NULL
+ * itself. */
 static icc_status begin(iccp_env *full, const icc_env *env, const char *missing, icc_error *err)
 {
     if (missing != NULL)
@@ -49,8 +50,8 @@ icc_status icc_grid_create(icc_grid **out, const icc_domain *domain, int32_t cel
     if (cells == 0)
         cells = domain->mask == NULL ? DEFAULT_CELLS : 2;
     if (cells < ICCP_MIN_CELLS || cells > ICCP_MAX_CELLS)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "cells is %ld; it must lie in 2..%ld",
-                         (long)cells, (long)ICCP_MAX_CELLS);
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "cells is %ld; it must lie in 2..%ld", (long)cells,
+                         (long)ICCP_MAX_CELLS);
     return iccp_end_grid(iccp_explain(err, iccp_grid_create(out, domain, cells, &full_env, err)),
                          out, &full_env, err);
 }
@@ -73,7 +74,8 @@ icc_status icc_grid_create_mask(icc_grid **out, int32_t dim, const size_t *shape
                          ICC_MAX_DIM);
     for (int32_t k = 0; k < dim; ++k)
         if (shape[k] == 0)
-            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_AXIS, k, "shape[%ld] is 0", (long)k);
+            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_AXIS, k, "shape[%ld] is 0",
+                                (long)k);
     return iccp_end_grid(
         iccp_explain(err, iccp_grid_create_mask(out, dim, shape, inside, &full_env, err)), out,
         &full_env, err);
@@ -136,7 +138,7 @@ const uint8_t *icc_grid_inside(const icc_grid *grid)
 }
 
 icc_status icc_grid_find_maximum(const icc_grid *grid, uint32_t *vertex, uint32_t *rounds,
-                            const icc_env *env, icc_error *err)
+                                 const icc_env *env, icc_error *err)
 {
     iccp_env full_env;
     const char *missing = grid == NULL ? "grid" : vertex == NULL ? "vertex" : NULL;
@@ -170,8 +172,8 @@ static icc_status check_axis_order(const int32_t *order, int32_t dim, icc_error 
     for (int32_t k = 0; k < dim; ++k) {
         if (order[k] < 0 || order[k] >= dim || (seen >> order[k] & 1) != 0)
             return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_AXIS, k,
-                             "axis_order is not a permutation of 0..%ld: entry %ld is %ld",
-                             (long)dim - 1, (long)k, (long)order[k]);
+                                "axis_order is not a permutation of 0..%ld: entry %ld is %ld",
+                                (long)dim - 1, (long)k, (long)order[k]);
         seen |= (uint32_t)1 << order[k];
     }
     return ICC_OK;
@@ -187,8 +189,7 @@ static icc_status read_tree_options(icc_tree_options *full, const icc_tree_optio
     if (full->form == 0)
         full->form = ICC_TREE_THESIS;
     if (full->form != ICC_TREE_THESIS && full->form != ICC_TREE_PAPER)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_tree_options.form is %ld",
-                         (long)full->form);
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_tree_options.form is %ld", (long)full->form);
     return check_axis_order(full->axis_order, dim, err);
 }
 
@@ -207,8 +208,8 @@ icc_status icc_tree_create(icc_tree **out, const icc_grid *grid, uint32_t root,
     if (status != ICC_OK)
         return status;
     if (root >= grid->n_vertices || !grid->inside[root])
-        return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_GRID_VERTEX, root, "the root, vertex %lu, is not inside",
-                         (unsigned long)root);
+        return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_GRID_VERTEX, root,
+                            "the root, vertex %lu, is not inside", (unsigned long)root);
     return iccp_end_tree(iccp_explain(err, iccp_tree_create(out, grid, root, full.form,
                                                             full.axis_order, &full_env, err)),
                          out, &full_env, err);
@@ -240,7 +241,7 @@ const int32_t *icc_tree_generations(const icc_tree *tree)
 }
 
 icc_status icc_tree_get_report(const icc_tree *tree, icc_tree_report *report, const icc_env *env,
-                           icc_error *err)
+                               icc_error *err)
 {
     iccp_env full_env;
     const char *missing = tree == NULL ? "tree" : report == NULL ? "report" : NULL;
@@ -259,7 +260,7 @@ static icc_status check_wish(const icc_tree *tree, const double *values, icc_err
     for (size_t i = 0; values != NULL && i < tree->n_inside; ++i)
         if (isnan(values[tree->order[i]]))
             return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_GRID_VERTEX, tree->order[i],
-                             "the value of vertex %lu is NaN", (unsigned long)tree->order[i]);
+                                "the value of vertex %lu is NaN", (unsigned long)tree->order[i]);
     return ICC_OK;
 }
 
@@ -285,7 +286,7 @@ icc_status icc_tree_grow(const icc_tree *tree, const double *values, uint32_t *r
 }
 
 icc_status icc_tree_get_rank_report(const icc_tree *tree, const uint32_t *rank,
-                                 icc_function_report *report, const icc_env *env, icc_error *err)
+                                    icc_function_report *report, const icc_env *env, icc_error *err)
 {
     iccp_env full_env;
     const char *missing = tree == NULL     ? "tree"
@@ -305,8 +306,9 @@ icc_status icc_tree_get_rank_report(const icc_tree *tree, const uint32_t *rank,
 
 /* ------------------------------------------------------------------- function */
 
-icc_status icc_function_create(icc_function **out, const icc_tree *tree, const icc_function_options *options,
-                            const icc_env *env, icc_error *err)
+icc_status icc_function_create(icc_function **out, const icc_tree *tree,
+                               const icc_function_options *options, const icc_env *env,
+                               icc_error *err)
 {
     if (out != NULL)
         *out = NULL;
@@ -320,9 +322,10 @@ icc_status icc_function_create(icc_function **out, const icc_tree *tree, const i
     if (status != ICC_OK)
         return status;
     status = iccp_check_function(&full, "icc_function_options", err);
-    return status == ICC_OK ? iccp_end_function(iccp_function_create(out, tree, &full, &full_env, err),
-                                             out, &full_env, err)
-                            : status;
+    return status == ICC_OK
+               ? iccp_end_function(iccp_function_create(out, tree, &full, &full_env, err), out,
+                                   &full_env, err)
+               : status;
 }
 
 void icc_function_free(icc_function *function)
@@ -346,7 +349,8 @@ icc_status icc_function_get_info(const icc_function *function, icc_function_info
 {
     if (function == NULL || info == NULL)
         return ICC_ERR_ARGUMENT;
-    return iccp_write_struct(info, &function->info, sizeof function->info, "icc_function_info", NULL);
+    return iccp_write_struct(info, &function->info, sizeof function->info, "icc_function_info",
+                             NULL);
 }
 
 const icc_tree *icc_function_tree(const icc_function *function)
@@ -354,8 +358,8 @@ const icc_tree *icc_function_tree(const icc_function *function)
     return function != NULL ? function->tree : NULL;
 }
 
-icc_status icc_function_get_report(const icc_function *function, icc_function_report *report, const icc_env *env,
-                            icc_error *err)
+icc_status icc_function_get_report(const icc_function *function, icc_function_report *report,
+                                   const icc_env *env, icc_error *err)
 {
     iccp_env full_env;
     const char *missing = function == NULL ? "function" : report == NULL ? "report" : NULL;
@@ -363,14 +367,15 @@ icc_status icc_function_get_report(const icc_function *function, icc_function_re
     if (status != ICC_OK)
         return status;
     icc_function_report full;
-    status = iccp_explain(err, iccp_finish(&full_env, iccp_function_verify(function, &full, &full_env)));
+    status =
+        iccp_explain(err, iccp_finish(&full_env, iccp_function_verify(function, &full, &full_env)));
     if (status != ICC_OK)
         return status;
     return iccp_write_struct(report, &full, sizeof full, "icc_function_report", err);
 }
 
-icc_status icc_function_get_edges(const icc_function *function, size_t capacity, uint32_t *edges, int32_t *kinds,
-                           size_t *n_edges, size_t *n_tested)
+icc_status icc_function_get_edges(const icc_function *function, size_t capacity, uint32_t *edges,
+                                  int32_t *kinds, size_t *n_edges, size_t *n_tested)
 {
     if (function == NULL || n_edges == NULL || (capacity > 0 && (edges == NULL || kinds == NULL)))
         return ICC_ERR_ARGUMENT;
@@ -393,19 +398,20 @@ static icc_status localise(double *local, const icc_domain *polygon, size_t n_po
     for (size_t i = polygon->n_vertices; i < n_points; ++i) {
         const double *p = points + 2 * i;
         if (!isfinite(p[0]) || !isfinite(p[1]))
-            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)i, "point %zu is not finite", i);
+            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)i,
+                                "point %zu is not finite", i);
         iccp_frame_in(&polygon->frame, 2, p, local + 2 * i);
         for (int k = 0; k < 2; ++k)
             if (local[2 * i + (size_t)k] < polygon->lower[k] ||
                 local[2 * i + (size_t)k] > polygon->upper[k])
                 return iccp_fail_at(err, ICC_ERR_OUTSIDE, ICC_ITEM_POINT, (int64_t)i,
-                                 "point %zu (%.17g, %.17g) is not inside the polygon", i, p[0],
-                                 p[1]);
+                                    "point %zu (%.17g, %.17g) is not inside the polygon", i, p[0],
+                                    p[1]);
         if (!iccp_frame_holds(&polygon->frame, 2, p))
             return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)i,
-                             "point %zu (%.17g, %.17g): a coordinate is not 0, but less than "
-                             "2^-200 of the largest one",
-                             i, p[0], p[1]);
+                                "point %zu (%.17g, %.17g): a coordinate is not 0, but less than "
+                                "2^-200 of the largest one",
+                                i, p[0], p[1]);
     }
     return ICC_OK;
 }

@@ -47,10 +47,10 @@ icc_status icc_map_warp(const icc_map *map, const icc_picture *source, const icc
         status = read_picture(&from, source, "source", err);
     if (status == ICC_OK)
         status = read_picture(&to, target, "target", err);
-    if (status == ICC_OK && (from.channels != to.channels || from.bytes != to.bytes ||
-                             from.alpha != to.alpha))
-        status = iccp_fail(err, ICC_ERR_ARGUMENT,
-                           "the pictures differ in channels, bytes or alpha");
+    if (status == ICC_OK &&
+        (from.channels != to.channels || from.bytes != to.bytes || from.alpha != to.alpha))
+        status =
+            iccp_fail(err, ICC_ERR_ARGUMENT, "the pictures differ in channels, bytes or alpha");
     if (status == ICC_OK && map->info.dim != 2)
         status = iccp_fail(err, ICC_ERR_UNSUPPORTED, "a map of dimension %ld takes no picture",
                            (long)map->info.dim);

@@ -31,7 +31,8 @@ static icc_status check_share(double value, const char *name, const char *member
                      member, value, ICCP_MAX_SHARE);
 }
 
-icc_status iccp_check_function(const icc_function_options *options, const char *name, icc_error *err)
+icc_status iccp_check_function(const icc_function_options *options, const char *name,
+                               icc_error *err)
 {
     icc_status status =
         check_choice(options->function, ICC_FUNCTION_CLAMPED, name, "function", err);
@@ -52,15 +53,14 @@ icc_status iccp_read_chart_options(icc_chart_options *full, const icc_chart_opti
     if (status != ICC_OK)
         return status;
     const icc_function_options function = {.function = full->function,
-                                        .constraints = full->constraints,
-                                        .solver = full->solver,
-                                        .min_fall = full->min_fall,
-                                        .leaf_min = full->leaf_min};
+                                           .constraints = full->constraints,
+                                           .solver = full->solver,
+                                           .min_fall = full->min_fall,
+                                           .leaf_min = full->leaf_min};
     if (iccp_check_function(&function, "icc_chart_options", err) != ICC_OK)
         return ICC_ERR_ARGUMENT;
     if (full->tree < 0 || full->tree > ICC_TREE_PAPER)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_chart_options.tree is %ld",
-                         (long)full->tree);
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_chart_options.tree is %ld", (long)full->tree);
     if (full->cells != 0 && (full->cells < ICCP_MIN_CELLS || full->cells > ICCP_MAX_CELLS))
         return iccp_fail(err, ICC_ERR_ARGUMENT,
                          "icc_chart_options.cells is %ld; it must lie in %ld..%ld",

@@ -11,7 +11,8 @@ icc_status iccp_read_chart_options(icc_chart_options *full, const icc_chart_opti
                                    int32_t dim, icc_error *err);
 
 /* How a function is made: by the options of a field and of a chart alike. `name`: of the struct. */
-icc_status iccp_check_function(const icc_function_options *options, const char *name, icc_error *err);
+icc_status iccp_check_function(const icc_function_options *options, const char *name,
+                               icc_error *err);
 
 /* A maximum that the caller wants; NULL is fine. */
 icc_status iccp_check_maximum(const double *maximum, int32_t dim, icc_error *err);

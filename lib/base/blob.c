@@ -1,5 +1,5 @@
-/* The checksum is the one of IEEE 802.3, clause 3.2.9, as PNG and gzip have it. It covers all bytes but its own, so
- * that no single changed bit goes unnoticed. */
+/* The checksum is the one of IEEE 802.3, clause 3.2.9, as PNG and gzip have it. It covers all bytes
+ * but its own, so that no single changed bit goes unnoticed. */
 #include "base/blob.h"
 
 #include "base/error.h"

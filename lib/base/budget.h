@@ -1,7 +1,7 @@
-/* What a call may spend: objects that are rebuilt from a few bytes could ask for any amount of memory and
- * time. Whoever is about to allocate, or to compute, more than a fixed multiple of what it was given asks
- * first. Refused, it returns ICC_ERR_CANCELLED, which everything passes on; the call that set the budget
- * says why. */
+/* What a call may spend: objects that are rebuilt from a few bytes could ask for any amount of
+ * memory and time. Whoever is about to allocate, or to compute, more than a fixed multiple of what
+ * it was given asks first. Refused, it returns ICC_ERR_CANCELLED, which everything passes on; the
+ * call that set the budget says why. */
 #ifndef ICCP_BUDGET_H
 #define ICCP_BUDGET_H
 

@@ -14,11 +14,10 @@ icc_status iccp_env_read(iccp_env *out, const icc_env *env, icc_error *err)
     if (status != ICC_OK)
         return status;
     if ((full.alloc == NULL) != (full.dealloc == NULL))
-        return iccp_fail(err, ICC_ERR_ARGUMENT,
-                         "icc_env: set both alloc and dealloc, or neither");
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_env: set both alloc and dealloc, or neither");
     if (full.threads < 0 || full.threads > 1024)
-        return iccp_fail(err, ICC_ERR_ARGUMENT,
-                         "icc_env.threads is %ld; it must lie in 0..1024", (long)full.threads);
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_env.threads is %ld; it must lie in 0..1024",
+                         (long)full.threads);
     *out = (iccp_env){.memory = iccp_memory_default, .reported = &out->own};
     if (full.alloc != NULL)
         out->memory = (iccp_memory){full.user, full.alloc, full.dealloc};

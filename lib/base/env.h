@@ -26,8 +26,8 @@ typedef struct iccp_env {
     double before, after; /* shares of the whole call that come before this part and after it */
     uint64_t load_limit;  /* 0: the default */
     struct iccp_budget *budget; /* base/budget.h; NULL: no limits */
-    iccp_reported *reported; /* of the whole call: shares never fall; NULL: nobody looks */
-    iccp_reported own;       /* what `reported` of the whole call points at */
+    iccp_reported *reported;    /* of the whole call: shares never fall; NULL: nobody looks */
+    iccp_reported own;          /* what `reported` of the whole call points at */
 } iccp_env;
 
 /* Checks and completes the caller's env (which may be NULL). `out` must stay where it is during the

@@ -4,8 +4,8 @@
 
 #include <stdint.h>
 
-/* SplitMix64: G. Steele, D. Lea, C. Flood, Fast splittable pseudorandom number generators, 2014. Any state
- * will do to begin with. */
+/* SplitMix64: G. Steele, D. Lea, C. Flood, Fast splittable pseudorandom number generators, 2014.
+ * Any state will do to begin with. */
 static inline uint64_t iccp_random(uint64_t *state)
 {
     uint64_t z = *state += 0x9e3779b97f4a7c15u;

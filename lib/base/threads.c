@@ -10,10 +10,10 @@ typedef struct loop {
     iccp_chunk chunk;
     void *argument;
     size_t n, grain, n_chunks;
-    size_t first;             /* chunk that task 0 of a parallel_for round stands for */
-    atomic_size_t next;       /* next chunk to hand out */
+    size_t first;       /* chunk that task 0 of a parallel_for round stands for */
+    atomic_size_t next; /* next chunk to hand out */
     atomic_bool stop;
-    pthread_mutex_t lock;     /* guards the two below */
+    pthread_mutex_t lock; /* guards the two below */
     size_t failed_chunk;
     icc_status status;
 } loop;
@@ -87,8 +87,7 @@ static icc_status run_callers_threads(loop *l, const iccp_env *env, const char *
 {
     enum { ROUND = 256 };
     for (l->first = 0; l->first < l->n_chunks && !atomic_load(&l->stop); l->first += ROUND) {
-        const icc_status status =
-            iccp_progress(env, stage, (double)l->first / (double)l->n_chunks);
+        const icc_status status = iccp_progress(env, stage, (double)l->first / (double)l->n_chunks);
         if (status != ICC_OK)
             return status;
         const size_t left = l->n_chunks - l->first;

@@ -12,14 +12,15 @@ icc_status iccp_encode_point(const icc_chart *chart, const double *point, iccp_c
 icc_status iccp_decode_point(const icc_chart *chart, const iccp_coords *coords, double *point,
                              iccp_decode_jet *jet, iccp_path *path);
 
-/* The same without derivatives for at most ICCP_CHART_MANY points, whose own outcomes are `status`; returned is
- * what concerns all. Coordinates of points that fail are undefined. `volume`: as iccp_chart_ops has it, where the
- * method has encode_many; else NULL. */
+/* The same without derivatives for at most ICCP_CHART_MANY points, whose own outcomes are `status`;
+ * returned is what concerns all. Coordinates of points that fail are undefined. `volume`: as
+ * iccp_chart_ops has it, where the method has encode_many; else NULL. */
 icc_status iccp_encode_points(const icc_chart *chart, size_t n, const double *points,
                               iccp_coords *coords, double *volume, icc_status *status,
                               iccp_path *path);
 
-/* Points whose status is not ICC_OK already fail. Scales the barycentric coordinates to a sum of 1. */
+/* Points whose status is not ICC_OK already fail. Scales the barycentric coordinates to a sum of
+ * 1. */
 icc_status iccp_decode_points(const icc_chart *chart, size_t n, iccp_coords *coords, double *points,
                               double *volume, icc_status *status, iccp_path *path);
 

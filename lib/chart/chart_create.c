@@ -46,7 +46,7 @@ typedef struct harmonic_job {
     const icc_chart_options *options;
     int32_t cells;
     iccp_harmonic base[2];
-    double *image[2];     /* in the disc; only where needed */
+    double *image[2]; /* in the disc; only where needed */
     uint32_t centre[2];
 } harmonic_job;
 
@@ -109,8 +109,8 @@ static icc_status choose_given(harmonic_job *job, size_t k, icc_error *err)
     return ICC_OK;
 }
 
-/* The source's maximum is the vertex deepest inside; the target's is the vertex nearest to where the
- * maps to the disc, composed, take it: left alone, the two may end in different limbs. */
+/* The source's maximum is the vertex deepest inside; the target's is the vertex nearest to where
+ * the maps to the disc, composed, take it: left alone, the two may end in different limbs. */
 static icc_status choose_centres(harmonic_job *job, const iccp_env *env, icc_error *err)
 {
     icc_status status = ICC_OK;
@@ -171,7 +171,9 @@ static icc_status create_harmonic(harmonic_job *job, icc_chart **out, const iccp
     iccp_split(part, REFINEMENTS + 1, COST, env);
     job->cells = job->options[0].cells;
     icc_status status = try_harmonic(job, out, &part[0], err);
-    for (int k = 0; k < REFINEMENTS && status == ICC_ERR_CERTIFICATE && job->cells <= ICCP_MAX_CELLS / 2; ++k) {
+    for (int k = 0;
+         k < REFINEMENTS && status == ICC_ERR_CERTIFICATE && job->cells <= ICCP_MAX_CELLS / 2;
+         ++k) {
         job->cells *= 2;
         iccp_log(env, "the chart cannot be certified: trying %ld cells", (long)job->cells);
         status = try_harmonic(job, out, &part[k + 1], err);
@@ -195,7 +197,8 @@ static icc_status create_field(icc_chart **out, const icc_domain *domain,
     return iccp_explain(err, iccp_chart_field_create(out, domain, options, wish, env, err));
 }
 
-/* Shifts the grids of unlucky charts if then all of them are certified; else they stay as they are. */
+/* Shifts the grids of unlucky charts if then all of them are certified; else they stay as they
+ * are. */
 static icc_status shift_grids(icc_chart **chart, int n, const iccp_env *env)
 {
     icc_chart *shifted[2] = {NULL, NULL};
@@ -226,8 +229,8 @@ static const double *guess_maximum(const icc_chart *chart, const icc_domain *oth
     return iccp_pair_point(chart->domain, other, local, image) ? image : NULL;
 }
 
-/* The target's maximum is where the source's goes, about; where that is too near the boundary, the other way
- * round. Left alone, the two may end in different limbs. */
+/* The target's maximum is where the source's goes, about; where that is too near the boundary, the
+ * other way round. Left alone, the two may end in different limbs. */
 static icc_status create_field_pair(icc_chart *out[2], const icc_domain *const domain[2],
                                     const icc_chart_options options[2], const iccp_env *env,
                                     icc_error *err)
@@ -262,8 +265,7 @@ static icc_status create_field_pair(icc_chart *out[2], const icc_domain *const d
 }
 
 icc_status iccp_chart_create(icc_chart **out, const icc_domain *domain,
-                             const icc_chart_options *options, const iccp_env *env,
-                             icc_error *err)
+                             const icc_chart_options *options, const iccp_env *env, icc_error *err)
 {
     icc_chart_options full = *options;
     *out = NULL;

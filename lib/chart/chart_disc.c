@@ -13,10 +13,10 @@
 
 typedef struct disc_state {
     iccp_planar mesh;
-    double *image;       /* 2 n_vertices */
-    iccp_finder before;  /* in the domain */
-    iccp_finder after;   /* in the disc */
-    double maximum[2];   /* the point that goes to the origin */
+    double *image;      /* 2 n_vertices */
+    iccp_finder before; /* in the domain */
+    iccp_finder after;  /* in the disc */
+    double maximum[2];  /* the point that goes to the origin */
 } disc_state;
 
 static const double ORIGIN[2] = {0, 0};
@@ -32,8 +32,8 @@ static bool is_past(const disc_state *state, uint32_t k, const double z[2])
     return iccp_orient2d(ORIGIN, rim(state, k), z) >= 0;
 }
 
-/* The rim edge that the ray from the origin through z meets. Rim vertices come in order of angle, from
- * vertex 0 on, once round. */
+/* The rim edge that the ray from the origin through z meets. Rim vertices come in order of angle,
+ * from vertex 0 on, once round. */
 static uint32_t find_rim(const disc_state *state, const double z[2])
 {
     const bool first_half = is_past(state, 0, z);
@@ -91,8 +91,8 @@ static void triangle_jacobian(const iccp_planar *mesh, uint32_t triangle, const 
             a[i][c] = from[2 * (size_t)v[c + 1] + (size_t)i] - from[2 * (size_t)v[0] + (size_t)i];
             b[i][c] = to[2 * (size_t)v[c + 1] + (size_t)i] - to[2 * (size_t)v[0] + (size_t)i];
         }
-    const double det = iccp_area2d(from + 2 * (size_t)v[0], from + 2 * (size_t)v[1],
-                                   from + 2 * (size_t)v[2]);
+    const double det =
+        iccp_area2d(from + 2 * (size_t)v[0], from + 2 * (size_t)v[1], from + 2 * (size_t)v[2]);
     for (int i = 0; i < 2; ++i) {
         j[i][0] = (b[i][0] * a[1][1] - b[i][1] * a[1][0]) / det;
         j[i][1] = (b[i][1] * a[0][0] - b[i][0] * a[0][1]) / det;
@@ -176,8 +176,8 @@ static icc_status decode(const icc_chart *chart, const iccp_coords *coords, doub
     }
     double lambda, z[2], bary[3];
     uint32_t triangle;
-    const uint32_t edge = iccp_planar_edge(&state->mesh, chart->domain, coords->facet,
-                                           coords->bary[1], &lambda);
+    const uint32_t edge =
+        iccp_planar_edge(&state->mesh, chart->domain, coords->facet, coords->bary[1], &lambda);
     const double *p = rim(state, edge), *q = rim(state, edge + 1);
     for (int i = 0; i < 2; ++i)
         z[i] = (1 - coords->t) * ((1 - lambda) * p[i] + lambda * q[i]);
@@ -205,14 +205,14 @@ static bool holds_origin(const disc_state *state, uint32_t triangle)
 {
     const uint32_t *v = state->mesh.triangles + 3 * (size_t)triangle;
     for (int k = 0; k < 3; ++k)
-        if (iccp_orient2d(state->image + 2 * (size_t)v[k], state->image + 2 * (size_t)v[(k + 1) % 3],
-                          ORIGIN) < 0)
+        if (iccp_orient2d(state->image + 2 * (size_t)v[k],
+                          state->image + 2 * (size_t)v[(k + 1) % 3], ORIGIN) < 0)
             return false;
     return true;
 }
 
-/* Emits the point that goes to where the line through the origin and r meets the image of the edge that
- * a corner faces. */
+/* Emits the point that goes to where the line through the origin and r meets the image of the edge
+ * that a corner faces. */
 static icc_status emit_crossing(const disc_state *state, uint32_t corner, const double r[2],
                                 iccp_emit emit, void *argument)
 {
@@ -237,19 +237,19 @@ static icc_status trace(const icc_chart *chart, const double *point, iccp_path *
     if (coords.t >= 1)
         return emit(argument, point);
     double lambda, start[2], r[2];
-    const uint32_t edge = iccp_planar_edge(&state->mesh, chart->domain, coords.facet,
-                                           coords.bary[1], &lambda);
+    const uint32_t edge =
+        iccp_planar_edge(&state->mesh, chart->domain, coords.facet, coords.bary[1], &lambda);
     const double *p = rim(state, edge), *q = rim(state, edge + 1);
     for (int i = 0; i < 2; ++i)
         r[i] = (1 - lambda) * p[i] + lambda * q[i];
     iccp_domain_facet_point(chart->domain, coords.facet, coords.bary, start);
     status = emit(argument, start);
     uint32_t corner = state->mesh.rim[edge];
-    for (size_t left = state->mesh.n_triangles; status == ICC_OK && !holds_origin(state, corner / 3);
-         --left) {
+    for (size_t left = state->mesh.n_triangles;
+         status == ICC_OK && !holds_origin(state, corner / 3); --left) {
         const double *x = state->image + 2 * (size_t)state->mesh.triangles[corner];
-        const uint32_t exit = iccp_orient2d(r, ORIGIN, x) > 0 ? iccp_after(corner)
-                                                              : iccp_before(corner);
+        const uint32_t exit =
+            iccp_orient2d(r, ORIGIN, x) > 0 ? iccp_after(corner) : iccp_before(corner);
         status = emit_crossing(state, exit, r, emit, argument);
         corner = state->mesh.twins[exit];
         if (corner == ICCP_NO_NEIGHBOUR || left == 0)
@@ -283,9 +283,9 @@ static const iccp_chart_ops OPS = {
     .free_state = free_state,
 };
 
-/* The image's rim goes once round the origin: every edge turns left round it and the angles grow from 0 to
- * one turn. So the rim is simple and every ray from the origin meets it once; it need not be convex,
- * which rounding would spoil where boundary edges are very short. */
+/* The image's rim goes once round the origin: every edge turns left round it and the angles grow
+ * from 0 to one turn. So the rim is simple and every ray from the origin meets it once; it need not
+ * be convex, which rounding would spoil where boundary edges are very short. */
 static size_t count_rim_faults(const iccp_planar *mesh, const double *image)
 {
     const size_t n = mesh->n_boundary;
@@ -306,10 +306,11 @@ static icc_status certify(const iccp_planar *mesh, const double *image, icc_erro
     const size_t n_rim = count_rim_faults(mesh, image);
     if (iccp_certificate_holds(&domain) && iccp_certificate_holds(&disc) && n_rim == 0)
         return ICC_OK;
-    return iccp_fail(err, ICC_ERR_CERTIFICATE,
-                     "the map to the disc cannot be certified: %zu triangles inverted in the domain "
-                     "and %zu in the disc, %zu faults of topology, %zu of the rim",
-                     domain.n_inverted, disc.n_inverted, domain.n_topology, n_rim);
+    return iccp_fail(
+        err, ICC_ERR_CERTIFICATE,
+        "the map to the disc cannot be certified: %zu triangles inverted in the domain "
+        "and %zu in the disc, %zu faults of topology, %zu of the rim",
+        domain.n_inverted, disc.n_inverted, domain.n_topology, n_rim);
 }
 
 static icc_status fill_state(disc_state *state, const iccp_planar *mesh, const double *image,

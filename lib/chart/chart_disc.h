@@ -5,8 +5,9 @@
 #include "chart/chart.h"
 #include "foliation/harmonic.h"
 
-/* Makes the chart from the base's map to the disc (`image`, as iccp_harmonic_disc() gives it), and takes
- * the mesh and the image over on success. ICC_ERR_CERTIFICATE when the map is not one-to-one. */
+/* Makes the chart from the base's map to the disc (`image`, as iccp_harmonic_disc() gives it), and
+ * takes the mesh and the image over on success. ICC_ERR_CERTIFICATE when the map is not
+ * one-to-one. */
 icc_status iccp_chart_disc_create(icc_chart **out, const icc_domain *domain, iccp_harmonic *base,
                                   double **image, const iccp_env *env, icc_error *err);
 

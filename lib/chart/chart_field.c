@@ -1,6 +1,6 @@
-/* Based on: Huynh and Gingold, Bijective Deformations in R^n via Integral Curve Coordinates, for grid, tree
- * and function; the curves follow the field of docs/theory.md, fields on grids, instead of the
- * function's gradient, whose curves merge. */
+/* Based on: Huynh and Gingold, Bijective Deformations in R^n via Integral Curve Coordinates, for
+ * grid, tree and function; the curves follow the field of docs/theory.md, fields on grids, instead
+ * of the function's gradient, whose curves merge. */
 #include "chart/chart_field.h"
 
 #include "base/budget.h"
@@ -8,8 +8,8 @@
 #include "base/error.h"
 #include "chart/field_measure.h"
 #include "chart/field_state.h"
-#include "function/make_function.h"
 #include "function/critical_points.h"
+#include "function/make_function.h"
 #include "grid/grassfire.h"
 #include "grid/rasterise.h"
 #include "tree/settle.h"
@@ -26,8 +26,8 @@ static const double MOST_LOST = 0.05;
 /* Vertices that a grid of half the spacing may have: 1 GB or so in 3-D. */
 static const size_t MOST_REFINED = (size_t)1 << 24;
 
-/* Vertices inside, about, and in all at most, where the caller leaves the number of cells open: thin shapes get
- * smaller cells. Enough for real surfaces (bench_field); 0.2 s and 40 MB in 3-D. */
+/* Vertices inside, about, and in all at most, where the caller leaves the number of cells open:
+ * thin shapes get smaller cells. Enough for real surfaces (bench_field); 0.2 s and 40 MB in 3-D. */
 static const double PLANE_BUDGET = 16384, INSIDE_BUDGET = 65536, BUDGET = 4194304;
 
 static int32_t choose_cells(const icc_domain *domain, int32_t cells)
@@ -91,7 +91,8 @@ static icc_status make_tree_on(iccp_field_state *state, icc_chart *chart, int32_
     return status;
 }
 
-/* Where the vertices inside are no ball, mostly because gaps are thinner than the grid, it is refined once. */
+/* Where the vertices inside are no ball, mostly because gaps are thinner than the grid, it is
+ * refined once. */
 static icc_status make_tree(iccp_field_state *state, icc_chart *chart,
                             const icc_chart_options *options, const double *maximum,
                             const iccp_env *env, icc_error *err)
@@ -114,8 +115,8 @@ static icc_status make_field(iccp_field_state *state, icc_chart *chart,
     const double start = iccp_seconds();
     icc_function_report report = {0};
     const icc_function_options function = {.function = ICC_FUNCTION_LAPLACE,
-                                        .constraints = ICC_CONSTRAINTS_NONE,
-                                        .solver = options->solver};
+                                           .constraints = ICC_CONSTRAINTS_NONE,
+                                           .solver = options->solver};
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){5, 1}, env);
     icc_status status = iccp_function_create(&state->field, state->tree, &function, &part[0], err);

@@ -1,27 +1,30 @@
-/* Method field: curves of a Lipschitz field along which a function on a grid rises, in any dimension. */
+/* Method field: curves of a Lipschitz field along which a function on a grid rises, in any
+ * dimension. */
 #ifndef ICCP_CHART_FIELD_H
 #define ICCP_CHART_FIELD_H
 
 #include "chart/chart.h"
 #include "function/function.h"
 
-/* `options` is complete. `maximum` (local coordinates) is where the maximum shall be, whatever the options
- * say, or NULL. */
+/* `options` is complete. `maximum` (local coordinates) is where the maximum shall be, whatever the
+ * options say, or NULL. */
 icc_status iccp_chart_field_create(icc_chart **out, const icc_domain *domain,
                                    const icc_chart_options *options, const double *maximum,
                                    const iccp_env *env, icc_error *err);
 
-/* Whether nothing but vertices that were given up denies the certificate, which chance may have put where they are. */
+/* Whether nothing but vertices that were given up denies the certificate, which chance may have put
+ * where they are. */
 bool iccp_chart_field_is_unlucky(const icc_chart *chart);
 
-/* The same with one cell more, and so with the grid elsewhere; NULL if that is not certified either. */
+/* The same with one cell more, and so with the grid elsewhere; NULL if that is not certified
+ * either. */
 icc_status iccp_chart_field_shift(icc_chart **out, const icc_chart *chart, const iccp_env *env);
 
 /* The function of a chart of this method. */
 const icc_function *iccp_chart_field_function(const icc_chart *chart);
 
-/* Makes again what the chart has saved: ICC_ERR_FORMAT for what no chart saves, ICC_ERR_VERSION, with its reason, if it
- * comes out otherwise. */
+/* Makes again what the chart has saved: ICC_ERR_FORMAT for what no chart saves, ICC_ERR_VERSION,
+ * with its reason, if it comes out otherwise. */
 icc_status iccp_chart_field_read(icc_chart **out, const icc_domain *domain, iccp_blob_reader *r,
                                  const iccp_env *env, icc_error *err);
 

@@ -44,9 +44,10 @@ static void add_piece(leaf_length *l, const double p[2], const double dp[2], con
         l->by_label += ((q[0] - p[0]) * (dq[0] - dp[0]) + (q[1] - p[1]) * (dq[1] - dp[1])) / length;
 }
 
-/* The first piece, from the point to q, where the leaf leaves its triangle: part of the straight piece
- * from p to q. Labels are rounded, and a leaf that runs along an edge may leave the triangle slightly
- * on the wrong side of the point; the length is negative then, and what follows makes up for it. */
+/* The first piece, from the point to q, where the leaf leaves its triangle: part of the straight
+ * piece from p to q. Labels are rounded, and a leaf that runs along an edge may leave the triangle
+ * slightly on the wrong side of the point; the length is negative then, and what follows makes up
+ * for it. */
 static leaf_length start_leaf(const double point[2], const double p[2], const double q[2],
                               const double dq[2])
 {
@@ -98,10 +99,10 @@ static inline void walk(const foliation_state *state, leaf_length *l, iccp_cross
         l->length += iccp_vec_distance(2, p, centre_of(state));
 }
 
-/* The two parts of the leaf through a point; `end` becomes the leaf's crossing with the boundary. */
-static void measure_leaf(const foliation_state *state, const iccp_leaf *leaf,
-                         const double point[2], bool derive, leaf_length *up, leaf_length *down,
-                         iccp_crossing *end)
+/* The two parts of the leaf through a point; `end` becomes the leaf's crossing with the
+ * boundary. */
+static void measure_leaf(const foliation_state *state, const iccp_leaf *leaf, const double point[2],
+                         bool derive, leaf_length *up, leaf_length *down, iccp_crossing *end)
 {
     double low[2], d_low[2], high[2], d_high[2] = {0, 0};
     iccp_crossing crossing = leaf->up;
@@ -143,7 +144,8 @@ static void fill_encode_jet(const icc_chart *chart, uint32_t triangle, const dou
     const double rise = (double)end->below + (double)end->above;
     const double total = up->length + down->length;
     for (int c = 0; c < 2; ++c) {
-        const double along = iccp_planar_along_slope(&state->mesh, chart->domain, facet) * gradient[c] / rise;
+        const double along =
+            iccp_planar_along_slope(&state->mesh, chart->domain, facet) * gradient[c] / rise;
         const double d_up = up->by_label * gradient[c] + up->by_point[c];
         const double d_down = down->by_label * gradient[c] + down->by_point[c];
         jet->bary[c] = -along;
@@ -198,8 +200,8 @@ static iccp_crossing boundary_crossing(const icc_chart *chart, const iccp_coords
 {
     const foliation_state *state = chart->state;
     double lambda;
-    const uint32_t edge = iccp_planar_edge(&state->mesh, chart->domain, coords->facet,
-                                           coords->bary[1], &lambda);
+    const uint32_t edge =
+        iccp_planar_edge(&state->mesh, chart->domain, coords->facet, coords->bary[1], &lambda);
     return iccp_leaf_from_boundary(&state->psi, state->mesh.rim[edge], lambda);
 }
 
@@ -226,8 +228,7 @@ static icc_status follow(const icc_chart *chart, const iccp_coords *coords, iccp
 
 /* Walks the leaf again for the derivatives of the piece's ends and of the lengths by the label. */
 static void fill_decode_jet(const icc_chart *chart, const iccp_coords *coords,
-                            const iccp_path *path, size_t piece, double share,
-                            iccp_decode_jet *jet)
+                            const iccp_path *path, size_t piece, double share, iccp_decode_jet *jet)
 {
     const foliation_state *state = chart->state;
     iccp_crossing crossing = boundary_crossing(chart, coords);
@@ -255,10 +256,12 @@ static void fill_decode_jet(const icc_chart *chart, const iccp_coords *coords,
     const double direction[2] = {(b[0] - a[0]) / length, (b[1] - a[1]) / length};
     const double slide = coords->t * l.by_label - before[0] - share * (before[1] - before[0]);
     for (int i = 0; i < 2; ++i) {
-        const double by_label = ends[0][i] + share * (ends[1][i] - ends[0][i]) + slide * direction[i];
+        const double by_label =
+            ends[0][i] + share * (ends[1][i] - ends[0][i]) + slide * direction[i];
         jet->t[i] = total * direction[i];
         jet->bary[2 * i] = 0;
-        jet->bary[2 * i + 1] = by_label * rise / iccp_planar_along_slope(&state->mesh, chart->domain, coords->facet);
+        jet->bary[2 * i + 1] =
+            by_label * rise / iccp_planar_along_slope(&state->mesh, chart->domain, coords->facet);
     }
 }
 

@@ -5,13 +5,14 @@
 #include "chart/chart.h"
 #include "foliation/harmonic.h"
 
-/* Makes the chart with the given vertex of the base's mesh as its maximum, and takes the mesh over on
- * success. ICC_ERR_CERTIFICATE when it cannot be certified, with the reason. */
+/* Makes the chart with the given vertex of the base's mesh as its maximum, and takes the mesh over
+ * on success. ICC_ERR_CERTIFICATE when it cannot be certified, with the reason. */
 icc_status iccp_chart_foliation_create(icc_chart **out, const icc_domain *domain,
                                        iccp_harmonic *base, uint32_t centre, const iccp_env *env,
                                        icc_error *err);
 
-/* What the chart has saved, certified anew: ICC_ERR_FORMAT if that fails. The domain has no mesh of its own. */
+/* What the chart has saved, certified anew: ICC_ERR_FORMAT if that fails. The domain has no mesh of
+ * its own. */
 icc_status iccp_chart_foliation_read(icc_chart **out, const icc_domain *domain, iccp_blob_reader *r,
                                      const iccp_env *env);
 

@@ -7,9 +7,9 @@
 #include "chart/gradient_jet.h"
 #include "chart/gradient_measure.h"
 #include "chart/gradient_rim.h"
-#include "function/make_function.h"
 #include "function/critical_points.h"
 #include "function/edges.h"
+#include "function/make_function.h"
 #include "function/summit.h"
 #include "grid/grassfire.h"
 #include "grid/rasterise.h"
@@ -87,15 +87,17 @@ static icc_status make_tree(iccp_gradient_state *state, icc_chart *chart,
 
 /* A function without inequalities on a tree with another root. */
 static icc_status move_root(iccp_gradient_state *state, icc_chart *chart, uint32_t root,
-                            const icc_function_options *function, const iccp_env *env, icc_error *err)
+                            const icc_function_options *function, const iccp_env *env,
+                            icc_error *err)
 {
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){1, 4}, env);
     const icc_status status = grow_tree(state, chart, state->tree->grid, root, &part[0], err);
     iccp_function_release(state->field);
     state->field = NULL;
-    return status == ICC_OK ? iccp_function_create(&state->field, state->tree, function, &part[1], err)
-                            : status;
+    return status == ICC_OK
+               ? iccp_function_create(&state->field, state->tree, function, &part[1], err)
+               : status;
 }
 
 /* A plate is highest beside a load that is not in its middle, and curves would end there rather
@@ -103,7 +105,8 @@ static icc_status move_root(iccp_gradient_state *state, icc_chart *chart, uint32
  * not give a function without false critical points, inequalities are imposed at the root that was
  * asked for. */
 static icc_status make_plate(iccp_gradient_state *state, icc_chart *chart,
-                             const icc_function_options *options, const iccp_env *env, icc_error *err)
+                             const icc_function_options *options, const iccp_env *env,
+                             icc_error *err)
 {
     icc_function_options function = *options;
     bool enough = options->constraints == ICC_CONSTRAINTS_NONE;
@@ -126,20 +129,19 @@ static icc_status make_plate(iccp_gradient_state *state, icc_chart *chart,
 }
 
 static icc_status make_field(iccp_gradient_state *state, icc_chart *chart,
-                             const icc_chart_options *options, const iccp_env *env,
-                             icc_error *err)
+                             const icc_chart_options *options, const iccp_env *env, icc_error *err)
 {
     const double start = iccp_seconds(), grown = chart->info.seconds_tree;
     icc_function_report report = {0};
     const icc_function_options function = {.function = options->function,
-                                        .constraints = options->constraints,
-                                        .solver = options->solver,
-                                        .min_fall = options->min_fall,
-                                        .leaf_min = options->leaf_min};
+                                           .constraints = options->constraints,
+                                           .solver = options->solver,
+                                           .min_fall = options->min_fall,
+                                           .leaf_min = options->leaf_min};
     iccp_env part[3];
     iccp_split(part, 3, (const double[]){8, 2, 1}, env);
-    const bool is_plate = options->function == ICC_FUNCTION_BILAPLACE ||
-                          options->function == ICC_FUNCTION_CLAMPED;
+    const bool is_plate =
+        options->function == ICC_FUNCTION_BILAPLACE || options->function == ICC_FUNCTION_CLAMPED;
     icc_status status =
         is_plate && options->constraints != ICC_CONSTRAINTS_ALL
             ? make_plate(state, chart, &function, &part[0], err)
@@ -153,7 +155,7 @@ static icc_status make_field(iccp_gradient_state *state, icc_chart *chart,
     chart->info.n_saddles = report.n_saddles;
     if (chart->domain->dim == 2)
         iccp_function_count_edges(state->field, &chart->info.n_edges, &chart->info.n_compression,
-                               &chart->info.n_expansion);
+                                  &chart->info.n_expansion);
     status = iccp_gradient_extend(state->field, &part[2]);
     chart->info.seconds_function = iccp_seconds() - start - (chart->info.seconds_tree - grown);
     return status;

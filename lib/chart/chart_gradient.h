@@ -9,8 +9,8 @@ icc_status iccp_chart_gradient_create(icc_chart **out, const icc_domain *domain,
                                       const icc_chart_options *options, const iccp_env *env,
                                       icc_error *err);
 
-/* Makes again what the chart has saved: ICC_ERR_FORMAT for what no chart saves, ICC_ERR_VERSION, with its reason, if it
- * comes out otherwise. */
+/* Makes again what the chart has saved: ICC_ERR_FORMAT for what no chart saves, ICC_ERR_VERSION,
+ * with its reason, if it comes out otherwise. */
 icc_status iccp_chart_gradient_read(icc_chart **out, const icc_domain *domain, iccp_blob_reader *r,
                                     const iccp_env *env, icc_error *err);
 

@@ -1,15 +1,15 @@
-/* Based on: M. Campen, C. Silva, D. Zorin, Bijective Maps from Simplicial Foliations, ACM Transactions on
- * Graphics 35, 2016; docs/theory.md, foliations of simplices. */
+/* Based on: M. Campen, C. Silva, D. Zorin, Bijective Maps from Simplicial Foliations, ACM
+ * Transactions on Graphics 35, 2016; docs/theory.md, foliations of simplices. */
 #include "chart/chart_shelling.h"
 
 #include "base/clock.h"
 #include "base/error.h"
-#include "shelling/centres.h"
-#include "shelling/shelling_certificate.h"
-#include "shelling/shelling_split.h"
 #include "chart/shelling_state.h"
+#include "shelling/centres.h"
 #include "shelling/contest.h"
 #include "shelling/reference.h"
+#include "shelling/shelling_certificate.h"
+#include "shelling/shelling_split.h"
 
 /* Share of the flux through the boundary that is harmonic, the rest goes by area: the fairest
  * (bench_tets). */
@@ -74,8 +74,8 @@ static icc_status pair(job *j, const iccp_env *env)
     const icc_domain *const domain[2] = {j->domain[from], j->domain[1 - from]};
     const iccp_simplices *const mesh[2] = {j->mesh[from], j->mesh[1 - from]};
     uint32_t centre[2];
-    const icc_status status = iccp_paired_centres(
-        domain, mesh, given[from] ? &j->centre[from] : NULL, centre, env);
+    const icc_status status =
+        iccp_paired_centres(domain, mesh, given[from] ? &j->centre[from] : NULL, centre, env);
     if (status == ICC_OK) {
         j->centre[from] = centre[0];
         j->centre[1 - from] = centre[1];
@@ -153,7 +153,8 @@ static icc_status find_order(work *w, const iccp_simplices *mesh, uint32_t centr
     return status;
 }
 
-/* In place of the fluxes: each side's share of what leaves the simplex, negative, or of what enters it. */
+/* In place of the fluxes: each side's share of what leaves the simplex, negative, or of what enters
+ * it. */
 static void find_directions(const iccp_simplices *mesh, double *flux)
 {
     const size_t n = mesh->dim + 1;
@@ -173,8 +174,8 @@ static icc_status certify(const icc_domain *domain, const iccp_simplices *mesh, 
 {
     iccp_shelling_certificate found;
     const double start = iccp_seconds();
-    const icc_status status = iccp_certify_shelling(&found, mesh, domain->facets, centre, w->rank,
-                                                    w->flux, env);
+    const icc_status status =
+        iccp_certify_shelling(&found, mesh, domain->facets, centre, w->rank, w->flux, env);
     info->seconds_certify = iccp_seconds() - start;
     if (status != ICC_OK)
         return status;

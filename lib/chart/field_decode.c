@@ -25,8 +25,8 @@ static icc_status climb(const icc_chart *chart, const double *point, iccp_flow_w
     return status;
 }
 
-/* By the barycentric coordinates but the first: the walk once more with derivatives, those at the start of
- * the piece that holds the point kept. */
+/* By the barycentric coordinates but the first: the walk once more with derivatives, those at the
+ * start of the piece that holds the point kept. */
 static icc_status fill_decode_jet(const icc_chart *chart, const iccp_coords *coords,
                                   const iccp_path *path, const iccp_flow_walk *end, double s,
                                   double total, iccp_decode_jet *jet)

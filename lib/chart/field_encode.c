@@ -1,11 +1,13 @@
-/* From a point of the domain to its coordinates: its curve downhill to the boundary, and uphill to the maximum. */
+/* From a point of the domain to its coordinates: its curve downhill to the boundary, and uphill to
+ * the maximum. */
 #include "chart/field_state.h"
 #include "field/flow_jet.h"
 
 #include <math.h>
 #include <string.h>
 
-/* `jet` may be NULL; else it starts as the derivative of the place by the point, and ends at the boundary. */
+/* `jet` may be NULL; else it starts as the derivative of the place by the point, and ends at the
+ * boundary. */
 static icc_status walk_down(const iccp_field_state *state, const iccp_flow_place *place,
                             iccp_coords *coords, double *length, iccp_flow_jet *jet)
 {
@@ -53,8 +55,8 @@ static void unit_jet(iccp_flow_jet *jet, int32_t dim)
         jet->place[k][k] = 1;
 }
 
-/* From movements of a point on a facet to its barycentric coordinates: by the normal equations of the
- * facet's edges, which are independent. */
+/* From movements of a point on a facet to its barycentric coordinates: by the normal equations of
+ * the facet's edges, which are independent. */
 static void facet_slopes(const icc_domain *domain, uint32_t facet, const double *movement,
                          double *slope)
 {
@@ -99,8 +101,8 @@ static void fill_encode_jet(const icc_chart *chart, uint32_t facet, const iccp_f
     }
 }
 
-/* Whether the coordinates are known without a curve, or the point has none: then *status says which. Else
- * the place is where the curve starts. */
+/* Whether the coordinates are known without a curve, or the point has none: then *status says
+ * which. Else the place is where the curve starts. */
 static bool is_settled(const icc_chart *chart, const double *point, iccp_flow_place *place,
                        iccp_coords *coords, icc_status *status)
 {

@@ -1,5 +1,5 @@
-/* Curves of this method do not merge, so nothing is uncovered or collapsed: what can be amiss is that a curve
- * does not arrive, and that it crosses the boundary outward on its way up. */
+/* Curves of this method do not merge, so nothing is uncovered or collapsed: what can be amiss is
+ * that a curve does not arrive, and that it crosses the boundary outward on its way up. */
 #include "chart/field_measure.h"
 
 #include "base/threads.h"
@@ -47,7 +47,8 @@ static uint32_t find_facet(const samples *s, double share)
     return (uint32_t)low;
 }
 
-/* An evenly spread point of the boundary; the gaps between sorted numbers are barycentric coordinates. */
+/* An evenly spread point of the boundary; the gaps between sorted numbers are barycentric
+ * coordinates. */
 static uint8_t judge_boundary(const samples *s, size_t i)
 {
     const icc_domain *domain = s->chart->domain;

@@ -18,12 +18,14 @@ typedef struct iccp_field_state {
 
 /* ---- places ---- */
 
-/* ICC_INSIDE and so on for a local point, with its place if it is inside, or its facet and barycentric
- * coordinates on the boundary. A simplex that no facet runs through is inside with its vertices. */
+/* ICC_INSIDE and so on for a local point, with its place if it is inside, or its facet and
+ * barycentric coordinates on the boundary. A simplex that no facet runs through is inside with its
+ * vertices. */
 int32_t iccp_field_locate(const icc_chart *chart, const double *point, iccp_flow_place *place,
                           iccp_coords *coords);
 
-/* A local point of the boundary, in the simplex that the curve enters from there, or ICC_ERR_TRACE. */
+/* A local point of the boundary, in the simplex that the curve enters from there, or
+ * ICC_ERR_TRACE. */
 icc_status iccp_field_entry(const icc_chart *chart, const double *point, iccp_flow_place *place);
 
 /* The local point `at` of a place's simplex. */
@@ -32,8 +34,8 @@ void iccp_field_place_out(const iccp_field_state *state, const iccp_flow_place *
 
 bool iccp_field_at_maximum(const icc_chart *chart, const double *point);
 
-/* The logarithm of local volume per area of the boundary and share of the way, from that of a curve in lattice
- * units, and its whole length there. */
+/* The logarithm of local volume per area of the boundary and share of the way, from that of a curve
+ * in lattice units, and its whole length there. */
 double iccp_field_volume(const iccp_field_state *state, double volume, double length);
 
 /* The curves of points that need some, and whose they are. */

@@ -16,7 +16,8 @@ typedef struct area_samples {
     uint8_t *verdict;
 } area_samples;
 
-/* Shapes that fill less of their bounding box than one part in this get fewer samples than wanted. */
+/* Shapes that fill less of their bounding box than one part in this get fewer samples than
+ * wanted. */
 static const double MOST_CANDIDATES = 64;
 
 static void candidate(const icc_domain *domain, size_t index, double *p)
@@ -61,8 +62,8 @@ static size_t count_candidates(const icc_domain *domain, size_t n)
     return (size_t)ceil((double)n * fmin(fill > 0 ? 1 / fill : MOST_CANDIDATES, MOST_CANDIDATES));
 }
 
-static icc_status measure_area(const icc_chart *chart, size_t n_points,
-                               icc_chart_report *measures, const iccp_env *env)
+static icc_status measure_area(const icc_chart *chart, size_t n_points, icc_chart_report *measures,
+                               const iccp_env *env)
 {
     const size_t n = count_candidates(chart->domain, n_points);
     area_samples samples = {chart, iccp_alloc(&env->memory, n, 1)};
@@ -104,8 +105,8 @@ static size_t find_facet(const boundary_samples *samples, double extent)
     return low;
 }
 
-/* The share of the boundary's extent places a point along its facet; the sequence across. Sorted, such
- * numbers cut [0, 1] into barycentric coordinates that are evenly spread. */
+/* The share of the boundary's extent places a point along its facet; the sequence across. Sorted,
+ * such numbers cut [0, 1] into barycentric coordinates that are evenly spread. */
 static void place_on_facet(int32_t dim, double along, size_t index, double *bary)
 {
     double cut[ICC_MAX_DIM] = {along};

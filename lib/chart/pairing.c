@@ -1,5 +1,6 @@
-/* Based on: S. Schaefer, T. McPhail, J. Warren, Image Deformation Using Moving Least Squares, ACM Transactions
- * on Graphics 25, 2006: the affine map that fits the boundary best, the nearer the better. */
+/* Based on: S. Schaefer, T. McPhail, J. Warren, Image Deformation Using Moving Least Squares, ACM
+ * Transactions on Graphics 25, 2006: the affine map that fits the boundary best, the nearer the
+ * better. */
 #include "chart/pairing.h"
 
 #include <math.h>
@@ -9,7 +10,7 @@
 static const double LEAST_DEPTH = 0.5;
 
 typedef struct fit {
-    double weight, from[ICC_MAX_DIM], to[ICC_MAX_DIM];          /* sum; weighted means */
+    double weight, from[ICC_MAX_DIM], to[ICC_MAX_DIM]; /* sum; weighted means */
     double square[ICC_MAX_DIM][ICC_MAX_DIM], cross[ICC_MAX_DIM][ICC_MAX_DIM];
 } fit;
 

@@ -30,7 +30,8 @@ static inline const double *iccp_recipe_maximum(const iccp_recipe *recipe)
     return recipe->has_maximum ? recipe->maximum : NULL;
 }
 
-/* FNV-1a, 64 bits, of numbers as bytes, after what `digest` has seen. All that are not numbers count alike. */
+/* FNV-1a, 64 bits, of numbers as bytes, after what `digest` has seen. All that are not numbers
+ * count alike. */
 #define ICCP_DIGEST_START UINT64_C(0xcbf29ce484222325)
 uint64_t iccp_digest_f64(uint64_t digest, size_t n, const double *values);
 uint64_t iccp_digest_f32(uint64_t digest, size_t n, const float *values);
@@ -39,7 +40,8 @@ uint64_t iccp_digest_u32(uint64_t digest, size_t n, const uint32_t *values);
 /* Of the function, and where its maximum is. */
 uint64_t iccp_digest_field(const icc_function *field);
 
-/* After the chart has been made again: ICC_ERR_VERSION if it could not be, or has another digest; it is then released. */
+/* After the chart has been made again: ICC_ERR_VERSION if it could not be, or has another digest;
+ * it is then released. */
 icc_status iccp_recipe_judge(icc_chart **chart, icc_status status, uint64_t wanted, uint64_t digest,
                              icc_error *err);
 

@@ -4,7 +4,8 @@
 
 #include "chart/chart.h"
 
-/* What the chart has saved, of a domain with a mesh: certified anew, ICC_ERR_FORMAT if that fails. */
+/* What the chart has saved, of a domain with a mesh: certified anew, ICC_ERR_FORMAT if that
+ * fails. */
 icc_status iccp_chart_shelling_read(icc_chart **out, const icc_domain *domain, iccp_blob_reader *r,
                                     const iccp_env *env);
 

@@ -1,5 +1,5 @@
-/* Based on: Huynh and Gingold, Bijective Deformations in R^n via Integral Curve Coordinates, section 4; the
- * curves are the leaves of docs/theory.md, foliations of simplices. */
+/* Based on: Huynh and Gingold, Bijective Deformations in R^n via Integral Curve Coordinates,
+ * section 4; the curves are the leaves of docs/theory.md, foliations of simplices. */
 #include "chart/shelling_state.h"
 
 #include "domain/domain_file.h"
@@ -58,8 +58,8 @@ static void fill_encode_jet(const icc_chart *chart, const iccp_fibre_place *end,
         iccp_fibres_facet(&state->fibres, &slope, facet_of(chart, facet), bary);
         for (size_t i = 0; i < dim; ++i)
             jet->bary[i * dim + j] = bary[i];
-        jet->t[j] = (p->down_jet.length[j] * p->up - p->down * p->up_jet.length[j]) /
-                    (length * length);
+        jet->t[j] =
+            (p->down_jet.length[j] * p->up - p->down * p->up_jet.length[j]) / (length * length);
     }
 }
 
@@ -118,10 +118,10 @@ static icc_status encode(const icc_chart *chart, const double *point, iccp_coord
 
 /* Where a point is on its leaf: a note before it, and lengths. */
 typedef struct spot {
-    iccp_fibre_place from;  /* where the leaf enters the simplex */
-    double before;          /* the leaf's length up to there */
-    double piece;           /* and within the simplex */
-    double ahead;           /* from there to the point */
+    iccp_fibre_place from; /* where the leaf enters the simplex */
+    double before;         /* the leaf's length up to there */
+    double piece;          /* and within the simplex */
+    double ahead;          /* from there to the point */
     double total;
 } spot;
 
@@ -193,8 +193,8 @@ static icc_status decode(const icc_chart *chart, const iccp_coords *coords, doub
         iccp_domain_facet_point(chart->domain, coords->facet, coords->bary, point);
         return ICC_OK;
     }
-    iccp_fibres_enter(&state->fibres, coords->facet, facet_of(chart, coords->facet),
-                      coords->bary, &place);
+    iccp_fibres_enter(&state->fibres, coords->facet, facet_of(chart, coords->facet), coords->bary,
+                      &place);
     const icc_status status = iccp_fibres_note_rise(&state->fibres, &place, path);
     if (status != ICC_OK)
         return status;
@@ -222,8 +222,8 @@ static icc_status emit_note(const iccp_shelling_state *state, const iccp_path *p
     return emit(argument, point);
 }
 
-static icc_status trace(const icc_chart *chart, const double *point, iccp_path *path, iccp_emit emit,
-                        void *argument)
+static icc_status trace(const icc_chart *chart, const double *point, iccp_path *path,
+                        iccp_emit emit, void *argument)
 {
     const iccp_shelling_state *state = chart->state;
     iccp_fibre_place place;

@@ -13,8 +13,8 @@ typedef struct iccp_shelling_state {
 
 extern const iccp_chart_ops iccp_shelling_ops;
 
-/* A chart with its mesh and its centre, but no fibres yet. `own` is taken over, on failure as well; NULL: the domain's mesh
- * is used. */
+/* A chart with its mesh and its centre, but no fibres yet. `own` is taken over, on failure as well;
+ * NULL: the domain's mesh is used. */
 icc_status iccp_shelling_begin(icc_chart **out, const icc_domain *domain, iccp_simplices *own,
                                uint32_t centre, const iccp_env *env);
 

@@ -7,9 +7,10 @@
 #include <math.h>
 #include <stddef.h>
 
-/* Coordinate k of point `index` in 1..ICC_MAX_DIM dimensions: the sequence R_d (M. Roberts, The Unreasonable
- * Effectiveness of Quasirandom Sequences, 2018), multiples of the powers of 1/x, x^(d + 1) = x + 1. Its
- * point 0 is the middle of the cube, which is special in a symmetric shape: left out. */
+/* Coordinate k of point `index` in 1..ICC_MAX_DIM dimensions: the sequence R_d (M. Roberts, The
+ * Unreasonable Effectiveness of Quasirandom Sequences, 2018), multiples of the powers of 1/x, x^(d
+ * + 1) = x + 1. Its point 0 is the middle of the cube, which is special in a symmetric shape: left
+ *   out. */
 static inline double iccp_spread(int32_t dim, int32_t k, size_t index)
 {
     static const double FIRST[ICC_MAX_DIM] = {0.61803398874989485, 0.75487766624669276,

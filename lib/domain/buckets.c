@@ -12,9 +12,9 @@
 #include <stdbool.h>
 #include <string.h>
 
-/* Chosen with tests/bench/bench_domain.c: more cells make points no faster to locate, fewer slow them
- * down. Entries, edges counted in each of their cells, are bounded for the sake of memory when long
- * edges crowd the box. */
+/* Chosen with tests/bench/bench_domain.c: more cells make points no faster to locate, fewer slow
+ * them down. Entries, edges counted in each of their cells, are bounded for the sake of memory when
+ * long edges crowd the box. */
 enum {
     MIN_CELLS = 1024,
     CELLS_PER_EDGE = 4,
@@ -22,9 +22,9 @@ enum {
     ENTRIES_PER_EDGE = 16 /* at most, about */
 };
 
-/* An edge belongs to all cells that it comes this near to, in reaches of the band. The reach itself is
- * at least about 20 units in the last place of the coordinates (frame.h: the box is at least 1/4 long); the
- * rest absorbs what is lost in computing cells. */
+/* An edge belongs to all cells that it comes this near to, in reaches of the band. The reach itself
+ * is at least about 20 units in the last place of the coordinates (frame.h: the box is at least 1/4
+ * long); the rest absorbs what is lost in computing cells. */
 static const double SLACK = 4;
 
 static const double *edge_start(const iccp_buckets *b, size_t edge)
@@ -32,7 +32,8 @@ static const double *edge_start(const iccp_buckets *b, size_t edge)
     return b->points + 2 * edge;
 }
 
-/* The column (axis 0) or row (axis 1) of a coordinate; what lies beyond the grid goes to its rim. */
+/* The column (axis 0) or row (axis 1) of a coordinate; what lies beyond the grid goes to its
+ * rim. */
 static uint32_t slot(const iccp_buckets *b, int axis, double x)
 {
     const double s = (x - b->origin[axis]) * b->rate[axis];
@@ -41,8 +42,9 @@ static uint32_t slot(const iccp_buckets *b, int axis, double x)
 }
 
 /* Shapes the cells so that as few edges as possible share one: with Lx and Ly the lengths of the
- * ring along the axes, edges cross about Lx / hx + Ly / hy sides of cells, which for a given area of
- * cells is least when hx / hy = Lx / Ly. Column 0 lies outside the box, so each row starts outside. */
+ * ring along the axes, edges cross about Lx / hx + Ly / hy sides of cells, which for a given area
+ * of cells is least when hx / hy = Lx / Ly. Column 0 lies outside the box, so each row starts
+ * outside. */
 static void choose_cells(iccp_buckets *b, const iccp_ring *ring)
 {
     const double slack = SLACK * b->band.reach, n = (double)ring->n;
@@ -107,8 +109,8 @@ static void enter(iccp_buckets *b, uint32_t edge, uint32_t *edges)
     }
 }
 
-/* Points of a cell on a parabola, which no line meets more than twice: so one of the first 2 m + 1 is
- * on none of m edges. */
+/* Points of a cell on a parabola, which no line meets more than twice: so one of the first 2 m + 1
+ * is on none of m edges. */
 static void candidate(const iccp_buckets *b, uint32_t row, uint32_t column, uint32_t number,
                       double *p)
 {
@@ -119,8 +121,8 @@ static void candidate(const iccp_buckets *b, uint32_t row, uint32_t column, uint
 }
 
 /* Whether an odd number of times the way from p to q crosses the edge, neither lying on it. A point
- * of the edge on the line through p and q counts as left of the line: so of two edges that meet there
- * both or one or none cross, as it should be. */
+ * of the edge on the line through p and q counts as left of the line: so of two edges that meet
+ * there both or one or none cross, as it should be. */
 static bool crosses(const iccp_buckets *b, uint32_t edge, const double *p, const double *q)
 {
     const double *start = edge_start(b, edge), *end = start + 2;
@@ -137,8 +139,8 @@ static bool on_an_edge(const iccp_buckets *b, const iccp_bucket *cell, const dou
     return false;
 }
 
-/* Whether the way from known point p in the cell to known point q in the next one leads from inside to
- * outside or back. The edges of each cell are in ascending order. */
+/* Whether the way from known point p in the cell to known point q in the next one leads from inside
+ * to outside or back. The edges of each cell are in ascending order. */
 static bool changes(const iccp_buckets *b, const iccp_bucket *cell, const double *p,
                     const double *q)
 {

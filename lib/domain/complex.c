@@ -31,12 +31,12 @@ icc_status iccp_complex_check_indices(const iccp_complex *c, icc_error *err)
             const uint32_t v = corners(c, f)[i];
             if (v >= c->n_vertices)
                 return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_FACET, (int64_t)f,
-                                 "%s %zu names vertex %lu, but there are only %zu vertices", name,
-                                 f, (unsigned long)v, c->n_vertices);
+                                    "%s %zu names vertex %lu, but there are only %zu vertices",
+                                    name, f, (unsigned long)v, c->n_vertices);
             for (size_t j = 0; j < i; ++j)
                 if (corners(c, f)[j] == v)
                     return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_FACET, (int64_t)f,
-                                     "%s %zu names vertex %lu twice", name, f, (unsigned long)v);
+                                        "%s %zu names vertex %lu twice", name, f, (unsigned long)v);
         }
     return ICC_OK;
 }
@@ -115,12 +115,13 @@ static icc_status fail_ridge(const ridge_list *list, int kind, const fault *foun
     describe(list, at[0], ridge, sizeof ridge);
     if (kind == CROWDED)
         return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_FACET, (int64_t)(at[2] / c->dim),
-                         "%s belongs to %zu %ss, among them %zu, %zu and %zu, instead of two",
-                         ridge, found->n_sides, name, f, g, (size_t)(at[2] / c->dim));
+                            "%s belongs to %zu %ss, among them %zu, %zu and %zu, instead of two",
+                            ridge, found->n_sides, name, f, g, (size_t)(at[2] / c->dim));
     if (kind == OPEN)
-        return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_FACET, (int64_t)f,
-                         "%s of %s %zu belongs to no other %s: the boundary is open (%zu such %ss)",
-                         ridge, name, f, name, found->n, iccp_complex_ridge(c->dim));
+        return iccp_fail_at(
+            err, ICC_ERR_BOUNDARY, ICC_ITEM_FACET, (int64_t)f,
+            "%s of %s %zu belongs to no other %s: the boundary is open (%zu such %ss)", ridge, name,
+            f, name, found->n, iccp_complex_ridge(c->dim));
     const size_t guilty = count_conflicts(c, f) > count_conflicts(c, g) ? f : g;
     return iccp_fail_at(
         err, ICC_ERR_BOUNDARY, ICC_ITEM_FACET, (int64_t)guilty,

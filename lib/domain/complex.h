@@ -1,4 +1,5 @@
-/* The combinatorics of a boundary in 3 to 6 dimensions: what can be said of it without coordinates. */
+/* The combinatorics of a boundary in 3 to 6 dimensions: what can be said of it without
+ * coordinates. */
 #ifndef ICCP_COMPLEX_H
 #define ICCP_COMPLEX_H
 
@@ -8,18 +9,21 @@
 typedef struct iccp_complex {
     size_t dim, n_vertices, n_facets;
     const uint32_t *facets;
-    uint32_t *across; /* across[dim f + i]: the facet on the other side of f's ridge opposite corner i */
+    uint32_t *across; /* across[dim f + i]: the facet on the other side of f's ridge opposite corner
+                         i */
 } iccp_complex;
 
 /* ICC_ERR_BOUNDARY unless every index is that of a vertex and no facet has one twice. */
 icc_status iccp_complex_check_indices(const iccp_complex *c, icc_error *err);
 
-/* Fills in `across`, which has room, for a complex whose indices have been checked. ICC_ERR_BOUNDARY
- * unless every ridge belongs to exactly two facets, which run along it in opposite directions. */
+/* Fills in `across`, which has room, for a complex whose indices have been checked.
+ * ICC_ERR_BOUNDARY unless every ridge belongs to exactly two facets, which run along it in opposite
+ * directions. */
 icc_status iccp_complex_join(iccp_complex *c, const iccp_env *env, icc_error *err);
 
-/* ICC_ERR_BOUNDARY unless the facets at each vertex hang together across ridges at it; in 3-D they form
- * one cycle then. ICC_ERR_TOPOLOGY unless all facets hang together and, in 3-D, form a sphere. */
+/* ICC_ERR_BOUNDARY unless the facets at each vertex hang together across ridges at it; in 3-D they
+ * form one cycle then. ICC_ERR_TOPOLOGY unless all facets hang together and, in 3-D, form a
+ * sphere. */
 icc_status iccp_complex_check_shape(const iccp_complex *c, const iccp_env *env, icc_error *err);
 
 /* What a facet and a ridge are called: "face" and "edge" in 3-D. */

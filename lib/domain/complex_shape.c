@@ -15,9 +15,9 @@ static const uint32_t *corners(const iccp_complex *c, size_t facet)
 /* A corner of a facet is number dim f + i. Floods reach what hangs together with a first one. */
 typedef struct flood {
     const iccp_complex *c;
-    bool *reached;    /* per corner */
-    uint32_t *queue;  /* room for all corners */
-    uint32_t *at;     /* per vertex: a facet there, or NONE */
+    bool *reached;   /* per corner */
+    uint32_t *queue; /* room for all corners */
+    uint32_t *at;    /* per vertex: a facet there, or NONE */
 } flood;
 
 static size_t corner_of(const iccp_complex *c, size_t facet, uint32_t vertex)
@@ -64,10 +64,10 @@ static icc_status check_vertices(flood *f, icc_error *err)
         const char *name = iccp_complex_facet(c->dim);
         if (f->at[v] != NONE)
             return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_VERTEX, v,
-                             "two surfaces share vertex %lu: %ss %lu and %lu there are not "
-                             "connected round it",
-                             (unsigned long)v, name, (unsigned long)f->at[v],
-                             (unsigned long)facet);
+                                "two surfaces share vertex %lu: %ss %lu and %lu there are not "
+                                "connected round it",
+                                (unsigned long)v, name, (unsigned long)f->at[v],
+                                (unsigned long)facet);
         f->at[v] = facet;
         flood_vertex(f, corner);
     }
@@ -105,10 +105,11 @@ static icc_status check_connected(flood *f, icc_error *err)
         ++other;
     if (other == c->n_facets)
         return ICC_OK;
-    return iccp_fail_at(err, ICC_ERR_TOPOLOGY, ICC_ITEM_FACET, (int64_t)other,
-                     "the boundary has more than one component, or the shape an inner void: %s %zu "
-                     "is not connected to %s 0 (%zu %ss are)",
-                     name, other, name, n, name);
+    return iccp_fail_at(
+        err, ICC_ERR_TOPOLOGY, ICC_ITEM_FACET, (int64_t)other,
+        "the boundary has more than one component, or the shape an inner void: %s %zu "
+        "is not connected to %s 0 (%zu %ss are)",
+        name, other, name, n, name);
 }
 
 /* L. Euler: V - E + F = 2 - 2 genus for a closed connected oriented surface. */

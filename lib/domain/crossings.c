@@ -40,8 +40,8 @@ int iccp_facet_crossed(const iccp_facet_tree *tree, uint32_t facet, size_t axis,
     return common;
 }
 
-/* The side of a facet's plane that p is on, as a factor: the determinant of corners and p grows along
- * the axis at a rate which is +-1 times the orientation of the shadow. */
+/* The side of a facet's plane that p is on, as a factor: the determinant of corners and p grows
+ * along the axis at a rate which is +-1 times the orientation of the shadow. */
 static bool is_before(const iccp_facet_tree *tree, uint32_t facet, size_t axis, const double *p,
                       int crossed)
 {
@@ -52,9 +52,9 @@ static bool is_before(const iccp_facet_tree *tree, uint32_t facet, size_t axis, 
     return side * crossed * ((tree->dim - 1 + axis) % 2 == 0 ? 1 : -1) < 0;
 }
 
-/* The coordinate along the axis where the line meets the plane of a facet, within the facet's box. */
-static double crossing_at(const iccp_facet_tree *tree, uint32_t facet, size_t axis,
-                          const double *p)
+/* The coordinate along the axis where the line meets the plane of a facet, within the facet's
+ * box. */
+static double crossing_at(const iccp_facet_tree *tree, uint32_t facet, size_t axis, const double *p)
 {
     const size_t dim = tree->dim;
     const double *corners[MAX + 1], *at[MAX];
@@ -149,8 +149,8 @@ bool iccp_ray_parity(const iccp_facet_tree *tree, size_t axis, bool upwards, con
     return odd;
 }
 
-/* Whether a segment whose ends are on different sides of a facet's plane, or one on it, meets the facet:
- * it passes every side of it in the same direction. */
+/* Whether a segment whose ends are on different sides of a facet's plane, or one on it, meets the
+ * facet: it passes every side of it in the same direction. */
 static bool within_sides(const iccp_facet_tree *tree, const double *const *corners,
                          const double *from, const double *to)
 {

@@ -1,5 +1,5 @@
-/* Walks through the points and edges in their order, so that the list comes out sorted and nothing of
- * it need be kept. */
+/* Walks through the points and edges in their order, so that the list comes out sorted and nothing
+ * of it need be kept. */
 #include "domain/defects.h"
 
 #include "domain/boxtree.h"
@@ -8,7 +8,8 @@
 #include "math/predicates.h"
 
 /* Pairs of edges per edge that iccp_defects_first() looks at before it gives up. Outlines need less
- * than 2; the diagonal comb of tests/unit/domain/test_domain.c, all of whose boxes overlap, n / 2. */
+ * than 2; the diagonal comb of tests/unit/domain/test_domain.c, all of whose boxes overlap, n
+ * / 2. */
 enum { PATIENCE = 64 };
 
 static const uint32_t NONE = UINT32_MAX;

@@ -16,8 +16,8 @@ typedef struct iccp_defect_list {
 /* Points whose coordinates are NaN are listed as not finite. */
 icc_status iccp_defects_list(iccp_defect_list *list, const iccp_ring *ring, const iccp_env *env);
 
-/* The first of that list, or kind 0 if there is none or it takes long to find: only a number of pairs
- * of edges proportional to n is looked at. */
+/* The first of that list, or kind 0 if there is none or it takes long to find: only a number of
+ * pairs of edges proportional to n is looked at. */
 icc_status iccp_defects_first(iccp_defect *first, const iccp_ring *ring, const iccp_env *env);
 
 #endif

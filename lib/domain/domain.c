@@ -112,7 +112,8 @@ static icc_status check_interval(icc_domain *d, icc_error *err)
 {
     const double a = d->vertices[d->facets[0]], b = d->vertices[d->facets[1]];
     if (a == b)
-        return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_VERTEX, 1, "the interval has no length");
+        return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_VERTEX, 1,
+                            "the interval has no length");
     d->orientation = a < b ? 1 : -1;
     d->measure = fabs(b - a);
     return ICC_OK;
@@ -167,8 +168,8 @@ static icc_status check_counts(size_t dim, size_t n_vertices, size_t n_facets, i
         return iccp_fail(err, ICC_ERR_BOUNDARY, "an interval has 2 facets, not %zu", n_facets);
     if (n_facets <= dim)
         return iccp_fail(err, ICC_ERR_BOUNDARY,
-                         "a closed boundary in %zu dimensions has at least %zu facets, not %zu", dim,
-                         dim + 1, n_facets);
+                         "a closed boundary in %zu dimensions has at least %zu facets, not %zu",
+                         dim, dim + 1, n_facets);
     if (n_vertices <= dim)
         return iccp_fail(err, ICC_ERR_BOUNDARY,
                          "a closed boundary in %zu dimensions has at least %zu vertices, not %zu",
@@ -195,8 +196,8 @@ icc_status iccp_domain_create(icc_domain **out, int32_t dim, size_t n_vertices,
     domain->n_facets = dim == 2 ? n_vertices : n_facets;
     status = copy_boundary(domain, vertices, facets, err);
     if (status == ICC_OK)
-        status = dim == 2 ? complete_polygon(domain, env, err)
-                          : complete_simplicial(domain, env, err);
+        status =
+            dim == 2 ? complete_polygon(domain, env, err) : complete_simplicial(domain, env, err);
     if (status != ICC_OK) {
         iccp_domain_release(domain);
         return status;

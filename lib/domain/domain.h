@@ -12,8 +12,8 @@
 #include <stdatomic.h>
 #include <stdbool.h>
 
-/* Of vertices, facets and simplices of a domain. Whatever is counted per edge is counted in 32 bits;
- * domain/buckets.c has up to about 20 of it. */
+/* Of vertices, facets and simplices of a domain. Whatever is counted per edge is counted in 32
+ * bits; domain/buckets.c has up to about 20 of it. */
 #define ICCP_MAX_COUNT ((size_t)UINT32_MAX / 64)
 
 /* Cells of a grid or mesh along the longest side of a domain. */
@@ -31,18 +31,19 @@ struct icc_domain {
                             coordinates alike */
     size_t n_vertices, n_facets;
     double *given;    /* n_vertices * dim, as the caller gave them */
-    double *vertices; /* n_vertices * dim, local: what everything else works with. One that belongs to
-                         no facet, which polygons do not have, is a copy of one that does. */
+    double *vertices; /* n_vertices * dim, local: what everything else works with. One that belongs
+                         to no facet, which polygons do not have, is a copy of one that does. */
     uint32_t *facets; /* n_facets * dim vertex indices, as given or made up */
     iccp_frame frame;
     double lower[ICC_MAX_DIM]; /* local bounding box */
     double upper[ICC_MAX_DIM];
     iccp_band
         band; /* points this close to the boundary are on it; `tolerance` apart, points are the
-                         same */
-    double measure;   /* local length, area, volume, ... */
-    iccp_facet_tree tree; /* over local vertices; in 2-D a view of the locator's */
-    struct iccp_locator *locator; /* 2-D only, else NULL: the polygon as a ring, and faster answers */
+                 same */
+    double measure;               /* local length, area, volume, ... */
+    iccp_facet_tree tree;         /* over local vertices; in 2-D a view of the locator's */
+    struct iccp_locator *locator; /* 2-D only, else NULL: the polygon as a ring, and faster
+                                     answers */
     struct iccp_mask *mask;       /* what the boundary was made from, or NULL */
     struct iccp_simplices *mesh;  /* a mesh of the inside, or NULL */
 };
@@ -57,25 +58,25 @@ icc_status iccp_domain_create(icc_domain **out, int32_t dim, size_t n_vertices,
 icc_domain *iccp_domain_retain(const icc_domain *domain);
 void iccp_domain_release(icc_domain *domain);
 
-/* ICC_INSIDE, ICC_BOUNDARY or ICC_OUTSIDE for a local point, in the sense of icc_domain_locate(). When `facet`
- * is not NULL the nearest facet and the barycentric coordinates of the nearest point on it are
- * written too (which costs more for points far from the boundary; for ICC_BOUNDARY only, pass
- * `boundary_only` to skip that otherwise). Bary is not negative and sums to 1; a point that is a
- * vertex gets exactly 1 and 0. */
+/* ICC_INSIDE, ICC_BOUNDARY or ICC_OUTSIDE for a local point, in the sense of icc_domain_locate().
+ * When `facet` is not NULL the nearest facet and the barycentric coordinates of the nearest point
+ * on it are written too (which costs more for points far from the boundary; for ICC_BOUNDARY only,
+ * pass `boundary_only` to skip that otherwise). Bary is not negative and sums to 1; a point that is
+ * a vertex gets exactly 1 and 0. */
 int32_t iccp_domain_locate(const icc_domain *domain, const double *point, bool boundary_only,
                            uint32_t *facet, double *bary);
 
-/* The local point with the given barycentric coordinates on a facet: exact at the vertices, and in a
- * coordinate that all its vertices share. */
+/* The local point with the given barycentric coordinates on a facet: exact at the vertices, and in
+ * a coordinate that all its vertices share. */
 void iccp_domain_facet_point(const icc_domain *domain, uint32_t facet, const double *bary,
                              double *point);
 
-/* The first point of the boundary on the way from one local point to another, both included: the share
- * of the way, the facet (of several, the one with the smallest number) and the barycentric coordinates
- * there. False, and nothing written, if there is none. A segment never slips through between two
- * facets; one that runs within a facet meets only those at its ends. */
-bool iccp_domain_cross(const icc_domain *domain, const double *from, const double *to, double *share,
-                       uint32_t *facet, double *bary);
+/* The first point of the boundary on the way from one local point to another, both included: the
+ * share of the way, the facet (of several, the one with the smallest number) and the barycentric
+ * coordinates there. False, and nothing written, if there is none. A segment never slips through
+ * between two facets; one that runs within a facet meets only those at its ends. */
+bool iccp_domain_cross(const icc_domain *domain, const double *from, const double *to,
+                       double *share, uint32_t *facet, double *bary);
 
 /* All crossings of the boundary with the line through a local point along an axis, sorted; see
  * iccp_line_crossings(). The inside lies between each even one and the next. */

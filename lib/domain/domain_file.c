@@ -19,7 +19,8 @@ static size_t read_count(iccp_blob_reader *r, size_t size)
 
 bool iccp_are_local(size_t dim, size_t n, const double *numbers)
 {
-    /* Differences are whole multiples of 2^-53 of that, so products of two or three are above the least double. */
+    /* Differences are whole multiples of 2^-53 of that, so products of two or three are above the
+     * least double. */
     const double least = ldexp(1, dim == 2 ? -420 : -280);
     for (size_t i = 0; i < n; ++i) {
         const double size = fabs(numbers[i]);
@@ -169,7 +170,8 @@ static void write_mesh(const icc_domain *d, iccp_blob_writer *w)
     iccp_blob_u32(w, mesh->dim * mesh->n_facets, d->facets);
 }
 
-/* As they were numbered when the domain was first made: none is left out, and those of the boundary come first. */
+/* As they were numbered when the domain was first made: none is left out, and those of the boundary
+ * come first. */
 static bool keeps_order(const iccp_simplices *mesh, size_t n_points, const uint32_t *corners)
 {
     bool same = mesh->n_points == n_points;
@@ -182,7 +184,8 @@ static bool keeps_order(const iccp_simplices *mesh, size_t n_points, const uint3
 static icc_status read_mesh(icc_domain **out, int32_t dim, iccp_blob_reader *r, const iccp_env *env)
 {
     const size_t d = (size_t)dim, n_points = read_count(r, d * ICCP_F64);
-    const size_t n_simplices = read_count(r, (d + 1) * ICCP_U32), n_facets = read_count(r, d * ICCP_U32);
+    const size_t n_simplices = read_count(r, (d + 1) * ICCP_U32),
+                 n_facets = read_count(r, d * ICCP_U32);
     if (r->failed || n_simplices == 0)
         return ICC_ERR_FORMAT;
     double *points = iccp_alloc(&env->memory, n_points, d * sizeof *points);
@@ -311,7 +314,8 @@ icc_status iccp_filling_read(iccp_simplices **out, const icc_domain *domain, icc
                              const iccp_env *env)
 {
     const size_t dim = (size_t)domain->dim;
-    const size_t n_inner = read_count(r, dim * ICCP_F64), n_simplices = read_count(r, (dim + 1) * ICCP_U32);
+    const size_t n_inner = read_count(r, dim * ICCP_F64),
+                 n_simplices = read_count(r, (dim + 1) * ICCP_U32);
     *out = NULL;
     if (r->failed || n_simplices == 0)
         return ICC_ERR_FORMAT;

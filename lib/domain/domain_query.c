@@ -50,7 +50,8 @@ int32_t iccp_domain_locate(const icc_domain *domain, const double *point, bool b
     return where;
 }
 
-/* From the nearest vertex, so that vertices come out exactly, and a coordinate that they share too. */
+/* From the nearest vertex, so that vertices come out exactly, and a coordinate that they share
+ * too. */
 void iccp_domain_facet_point(const icc_domain *domain, uint32_t facet, const double *bary,
                              double *point)
 {
@@ -68,8 +69,8 @@ void iccp_domain_facet_point(const icc_domain *domain, uint32_t facet, const dou
     }
 }
 
-bool iccp_domain_cross(const icc_domain *domain, const double *from, const double *to, double *share,
-                       uint32_t *facet, double *bary)
+bool iccp_domain_cross(const icc_domain *domain, const double *from, const double *to,
+                       double *share, uint32_t *facet, double *bary)
 {
     const size_t dim = domain->tree.dim;
     double ends[2][ICC_MAX_DIM], at[ICC_MAX_DIM];

@@ -168,8 +168,9 @@ static ICCP_INLINE bool overlap(size_t dim, const double *a, const double *b)
     return true;
 }
 
-/* Whether the segment passes through a box, or within rounding of it: the shares of the way at which
- * it enters and leaves each pair of planes (Ericson, section 5.3.3), a little too generous. */
+/* Whether the segment passes through a box, or within rounding of it: the shares of the way at
+ * which it enters and leaves each pair of planes (Ericson, section 5.3.3), a little too
+ * generous. */
 static bool passes(size_t dim, const double *box, const double *from, const double *to)
 {
     double enter = 0, leave = 1;
@@ -241,8 +242,7 @@ static ICCP_INLINE bool next_of(iccp_facet_query *query, size_t dim, size_t n_co
     return false;
 }
 
-void iccp_facet_query_start(iccp_facet_query *query, const iccp_facet_tree *tree,
-                            const double *box)
+void iccp_facet_query_start(iccp_facet_query *query, const iccp_facet_tree *tree, const double *box)
 {
     *query = (iccp_facet_query){.tree = tree, .node = 1};
     for (size_t i = 0; i < 2 * tree->dim; ++i)

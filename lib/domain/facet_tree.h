@@ -1,4 +1,5 @@
-/* A tree of bounding boxes over the facets of a boundary, or the simplices of a mesh, in any dimension. */
+/* A tree of bounding boxes over the facets of a boundary, or the simplices of a mesh, in any
+ * dimension. */
 #ifndef ICCP_FACET_TREE_H
 #define ICCP_FACET_TREE_H
 
@@ -10,8 +11,9 @@
 
 enum { ICCP_FACET_LEAF = 4 };
 
-/* A complete binary tree stored as a heap, as domain/boxtree.h has it for polygons: node 1 is the root,
- * leaf n_leaves + j holds places 4 j to 4 j + 3, and order[] says which facets stand there. */
+/* A complete binary tree stored as a heap, as domain/boxtree.h has it for polygons: node 1 is the
+ * root, leaf n_leaves + j holds places 4 j to 4 j + 3, and order[] says which facets stand
+ * there. */
 typedef struct iccp_facet_tree {
     size_t dim, n_corners, n;
     const double *vertices; /* borrowed: dim coordinates each */
@@ -38,10 +40,10 @@ static inline void iccp_facet_corners(const iccp_facet_tree *tree, uint32_t face
         corners[i] = tree->vertices + tree->dim * tree->facets[tree->dim * facet + i];
 }
 
-/* Its bounding box, lower and upper, for dim = tree->dim and so on: where the compiler knows that it is 3
- * it need not loop. */
-static ICCP_INLINE void iccp_facet_box_of(const iccp_facet_tree *tree, size_t dim,
-                                          size_t n_corners, uint32_t facet, double *box)
+/* Its bounding box, lower and upper, for dim = tree->dim and so on: where the compiler knows that
+ * it is 3 it need not loop. */
+static ICCP_INLINE void iccp_facet_box_of(const iccp_facet_tree *tree, size_t dim, size_t n_corners,
+                                          uint32_t facet, double *box)
 {
     const uint32_t *corner = tree->facets + n_corners * facet;
     for (size_t k = 0; k < dim; ++k)
@@ -65,7 +67,7 @@ typedef struct iccp_facet_query {
     double box[2 * ICC_MAX_DIM]; /* may be made smaller at any time */
     const double *from, *to;     /* with a segment: only boxes that come near it; or NULL */
     size_t node;                 /* where to go on after the leaf; 0: nowhere */
-    size_t next, end; /* places of the current leaf yet to be looked at */
+    size_t next, end;            /* places of the current leaf yet to be looked at */
 } iccp_facet_query;
 
 /* In the order of the tree. `box`: 2 dim numbers, lower and upper. */
@@ -78,8 +80,8 @@ void iccp_facet_query_start_after(iccp_facet_query *query, const iccp_facet_tree
 
 bool iccp_facet_query_next(iccp_facet_query *query, uint32_t *facet);
 
-/* The facet nearest to a finite p (of several, the first), the barycentric coordinates of the nearest
- * point on it, and the squared distance. */
+/* The facet nearest to a finite p (of several, the first), the barycentric coordinates of the
+ * nearest point on it, and the squared distance. */
 uint32_t iccp_facet_tree_nearest(const iccp_facet_tree *tree, const double *p, double *bary,
                                  double *distance2);
 

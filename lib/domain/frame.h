@@ -1,10 +1,10 @@
 /* The similarity between the caller's coordinates and the library's, which are of size about 1.
  *
- * Every operation on the vertices is exact. An axis is shifted only when all its coordinates have one
- * sign and lie within a factor of two of each other: the differences to the one nearest to zero are
- * then exact (Sterbenz' lemma). The scale is a power of two, as two factors so that neither overflows
- * when the shape is denormal. So the local shape is the caller's, exactly, and what is exactly
- * simple here is exactly simple there. */
+ * Every operation on the vertices is exact. An axis is shifted only when all its coordinates have
+ * one sign and lie within a factor of two of each other: the differences to the one nearest to zero
+ * are then exact (Sterbenz' lemma). The scale is a power of two, as two factors so that neither
+ * overflows when the shape is denormal. So the local shape is the caller's, exactly, and what is
+ * exactly simple here is exactly simple there. */
 #ifndef ICCP_FRAME_H
 #define ICCP_FRAME_H
 

@@ -1,5 +1,5 @@
-/* The boundary by distance, the rest by the parity of crossings on the shortest way out along an axis
- * (C. Ericson, Real-Time Collision Detection, section 5.4.1, with exact signs). */
+/* The boundary by distance, the rest by the parity of crossings on the shortest way out along an
+ * axis (C. Ericson, Real-Time Collision Detection, section 5.4.1, with exact signs). */
 #include "domain/inside.h"
 
 #include "domain/crossings.h"
@@ -67,7 +67,8 @@ static bool on_boundary(const iccp_facet_tree *tree, const iccp_band *band, cons
     return found;
 }
 
-/* The axis and direction in which p is nearest to a side of the box; false if it lies beyond one. */
+/* The axis and direction in which p is nearest to a side of the box; false if it lies beyond
+ * one. */
 static bool way_out(const iccp_facet_tree *tree, const double *p, size_t *axis, bool *upwards)
 {
     const double *box = tree->boxes + 2 * tree->dim;

@@ -5,7 +5,8 @@
 
 #include <assert.h>
 
-/* Vertices of a grid on the cut lattice, with two layers to spare on every side; SIZE_MAX: too many. */
+/* Vertices of a grid on the cut lattice, with two layers to spare on every side; SIZE_MAX: too
+ * many. */
 static size_t count_lattice(int32_t dim, const size_t *shape)
 {
     size_t n = 1;

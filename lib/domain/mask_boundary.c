@@ -1,10 +1,10 @@
-/* Based on: H. W. Kuhn, Some Combinatorial Lemmas in Topology, IBM Journal of Research and Development
- * 4, 1960: a cube falls into the simplices from its lowest to its highest corner along the axes, one
- * for each order of the axes.
+/* Based on: H. W. Kuhn, Some Combinatorial Lemmas in Topology, IBM Journal of Research and
+ * Development 4, 1960: a cube falls into the simplices from its lowest to its highest corner along
+ * the axes, one for each order of the axes.
  *
- * The faces of the cells that are cut in two along each axis are so triangulated just as the grid on
- * the same lattice is. A face's simplices come out with the signs of the orders; where that is not
- * outwards two vertices change places. */
+ * The faces of the cells that are cut in two along each axis are so triangulated just as the grid
+ * on the same lattice is. A face's simplices come out with the signs of the orders; where that is
+ * not outwards two vertices change places. */
 #include "domain/mask_boundary.h"
 
 #include "base/budget.h"
@@ -56,8 +56,8 @@ static void list_orders(boundary *b)
     }
 }
 
-/* Numbers the vertices that have cells inside and outside around them; writes them down as well when
- * there is an array. */
+/* Numbers the vertices that have cells inside and outside around them; writes them down as well
+ * when there is an array. */
 static icc_status number_vertices(boundary *b)
 {
     const iccp_mask *mask = b->mask;

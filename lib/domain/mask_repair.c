@@ -1,6 +1,6 @@
-/* Greedy, as the repair of well-composedness in L. Latecki, 3D Well-Composed Pictures, 1997, section 6:
- * of the gaps around a contact, the one is filled whose filling leaves the fewest contacts around it, unless
- * there would be more than before. */
+/* Greedy, as the repair of well-composedness in L. Latecki, 3D Well-Composed Pictures, 1997,
+ * section 6: of the gaps around a contact, the one is filled whose filling leaves the fewest
+ * contacts around it, unless there would be more than before. */
 #include "domain/mask_repair.h"
 
 #include "domain/octants.h"

@@ -4,7 +4,8 @@
 
 #include "domain/mask.h"
 
-/* Fills cells until no others touch so, or none can be filled without more of it; see icc_mask_repair(). */
+/* Fills cells until no others touch so, or none can be filled without more of it; see
+ * icc_mask_repair(). */
 icc_status iccp_mask_repair(iccp_mask *mask, size_t *n_filled, const iccp_env *env);
 
 #endif

@@ -1,6 +1,6 @@
-/* Why the checks suffice, up to 3-D: all simplices are positive and facets induce opposite orientations, so
- * as many simplices lie over a point as the boundary winds round it. The boundary is a simple one, so
- * that is one inside and none outside. */
+/* Why the checks suffice, up to 3-D: all simplices are positive and facets induce opposite
+ * orientations, so as many simplices lie over a point as the boundary winds round it. The boundary
+ * is a simple one, so that is one inside and none outside. */
 #include "domain/mesh_domain.h"
 
 #include "base/error.h"
@@ -106,8 +106,8 @@ static icc_status renumber(builder *b)
     return ICC_OK;
 }
 
-/* Facets that the caller did not give have their points in ascending order as far as their orientation
- * allows. */
+/* Facets that the caller did not give have their points in ascending order as far as their
+ * orientation allows. */
 static icc_status list_facets(builder *b, const uint32_t *facets)
 {
     const iccp_simplices *mesh = b->mesh;
@@ -150,8 +150,8 @@ static icc_status build(builder *b, size_t n_facets, const uint32_t *facets, con
     return iccp_simplices_check_shape(b->mesh, err);
 }
 
-/* An inner vertex that sticks out of the box of the boundary would need another frame; where orientations
- * are exact they have excluded it. */
+/* An inner vertex that sticks out of the box of the boundary would need another frame; where
+ * orientations are exact they have excluded it. */
 static icc_status check_frame(const builder *b, const icc_domain *domain, icc_error *err)
 {
     if (memcmp(&b->frame, &domain->frame, sizeof b->frame) == 0)

@@ -5,7 +5,8 @@
 #include "domain/domain.h"
 #include "domain/simplices.h"
 
-/* See icc_domain_create_mesh(); arguments have been checked for NULL, the range of dim and of the counts. */
+/* See icc_domain_create_mesh(); arguments have been checked for NULL, the range of dim and of the
+ * counts. */
 icc_status iccp_domain_create_mesh(icc_domain **out, int32_t dim, size_t n_vertices,
                                    const double *vertices, size_t n_simplices,
                                    const uint32_t *simplices, size_t n_facets,

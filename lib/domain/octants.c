@@ -1,11 +1,11 @@
 /* Based on: J. A. Barmak and E. G. Minian, Strong Homotopy Types, Nerves and Collapses, Discrete &
  * Computational Geometry 47, 2012, for cubes in the place of simplices.
  *
- * The orthants are the corners of a cube. Where they meet the sphere they overlap as the faces of the
- * cube do that have all their corners in the set, so the union is contractible if those faces are. A
- * corner may be dropped along an axis when each of its faces lies in a larger one in the direction of
- * that axis: all its faces then fold onto the other side. The corners on one side of an axis that may
- * be dropped do not depend on each other and go together. */
+ * The orthants are the corners of a cube. Where they meet the sphere they overlap as the faces of
+ * the cube do that have all their corners in the set, so the union is contractible if those faces
+ * are. A corner may be dropped along an axis when each of its faces lies in a larger one in the
+ * direction of that axis: all its faces then fold onto the other side. The corners on one side of
+ * an axis that may be dropped do not depend on each other and go together. */
 #include "domain/octants.h"
 
 #include "icc/base.h"

@@ -16,7 +16,8 @@ static bool finite_point(const double *p)
 
 static icc_status fail_not_finite(icc_error *err, size_t vertex)
 {
-    return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_VERTEX, (int64_t)vertex, "vertex %zu is not finite", vertex);
+    return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_VERTEX, (int64_t)vertex,
+                        "vertex %zu is not finite", vertex);
 }
 
 static icc_status fail_too_small(icc_error *err, size_t vertex, const double *x)
@@ -53,9 +54,10 @@ static icc_status fail_pair(icc_error *err, const iccp_defect *defect, const icc
     iccp_segments_point(a, a + 2, b, b + 2, at);
     iccp_frame_out(frame, 2, at, at);
     const uint32_t e = ring->facet[defect->a], f = ring->facet[defect->b];
-    return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_FACET, e < f ? e : f, "edges %lu and %lu %s near (%.9g, %.9g)",
-                     (unsigned long)(e < f ? e : f), (unsigned long)(e < f ? f : e),
-                     defect->kind == ICC_DEFECT_CROSSING ? "cross" : "touch", at[0], at[1]);
+    return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_FACET, e < f ? e : f,
+                        "edges %lu and %lu %s near (%.9g, %.9g)", (unsigned long)(e < f ? e : f),
+                        (unsigned long)(e < f ? f : e),
+                        defect->kind == ICC_DEFECT_CROSSING ? "cross" : "touch", at[0], at[1]);
 }
 
 static icc_status fail_defect(icc_error *err, const iccp_defect *defect, const iccp_ring *ring,
@@ -64,11 +66,12 @@ static icc_status fail_defect(icc_error *err, const iccp_defect *defect, const i
     const uint32_t v = ring->vertex[defect->a], w = ring->vertex[defect->b];
     switch (defect->kind) {
     case ICC_DEFECT_REPEATED:
-        return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_VERTEX, v > w ? v : w, "vertex %lu repeats vertex %lu",
-                         (unsigned long)(v > w ? v : w), (unsigned long)(v > w ? w : v));
+        return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_VERTEX, v > w ? v : w,
+                            "vertex %lu repeats vertex %lu", (unsigned long)(v > w ? v : w),
+                            (unsigned long)(v > w ? w : v));
     case ICC_DEFECT_SPIKE:
         return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_VERTEX, v,
-                         "at vertex %lu the boundary runs back over itself", (unsigned long)v);
+                            "at vertex %lu the boundary runs back over itself", (unsigned long)v);
     case ICC_DEFECT_FLAT:
         return iccp_fail(err, ICC_ERR_BOUNDARY,
                          "all vertices lie on one line: the shape has no area");
@@ -124,9 +127,9 @@ int iccp_polygon_orientation(const iccp_ring *ring)
     return iccp_orient2d(ring->points + 2 * (size_t)iccp_ring_before(ring, v), p, p + 2);
 }
 
-/* Half the sum of the cross products of the sides with vertex 0. Each product and each sum is carried
- * with its rounding error: T. Ogita, S. M. Rump, S. Oishi, Accurate sum and dot product, 2005,
- * algorithm 5.3. */
+/* Half the sum of the cross products of the sides with vertex 0. Each product and each sum is
+ * carried with its rounding error: T. Ogita, S. M. Rump, S. Oishi, Accurate sum and dot product,
+ * 2005, algorithm 5.3. */
 double iccp_polygon_area(const iccp_ring *ring)
 {
     const double *origin = ring->points;

@@ -5,8 +5,8 @@
 #include "domain/frame.h"
 #include "domain/ring.h"
 
-/* Fits a frame to the vertices and writes their local coordinates. ICC_ERR_BOUNDARY for a vertex that
- * is not finite, or too near an axis of the local frame to work with exactly. */
+/* Fits a frame to the vertices and writes their local coordinates. ICC_ERR_BOUNDARY for a vertex
+ * that is not finite, or too near an axis of the local frame to work with exactly. */
 icc_status iccp_polygon_localise(iccp_frame *frame, double *local, size_t n, const double *vertices,
                                  icc_error *err);
 
@@ -14,8 +14,8 @@ icc_status iccp_polygon_localise(iccp_frame *frame, double *local, size_t n, con
 icc_status iccp_polygon_check(const iccp_ring *ring, const iccp_frame *frame, const iccp_env *env,
                               icc_error *err);
 
-/* The same for n local points by themselves: ring[0], ring[1], .. of `points`, or all in their order (NULL). ICC_ERR_BOUNDARY
- * also when there are fewer than 3. */
+/* The same for n local points by themselves: ring[0], ring[1], .. of `points`, or all in their
+ * order (NULL). ICC_ERR_BOUNDARY also when there are fewer than 3. */
 icc_status iccp_polygon_check_points(size_t n, const double *points, const uint32_t *ring,
                                      const iccp_env *env);
 

@@ -13,14 +13,15 @@ static icc_status index_starts(uint32_t *start, size_t n, const uint32_t *facets
         for (size_t end = 0; end < 2; ++end)
             if (facets[2 * f + end] >= n)
                 return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_FACET, f,
-                                 "facet %lu names vertex %lu, but there are only %zu vertices",
-                                 (unsigned long)f, (unsigned long)facets[2 * f + end], n);
+                                    "facet %lu names vertex %lu, but there are only %zu vertices",
+                                    (unsigned long)f, (unsigned long)facets[2 * f + end], n);
         const uint32_t v = facets[2 * f];
         if (start[v] != NONE)
-            return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_FACET, f,
-                             "facets %lu and %lu both start at vertex %lu; a boundary is one ring "
-                             "of facets in one direction",
-                             (unsigned long)start[v], (unsigned long)f, (unsigned long)v);
+            return iccp_fail_at(
+                err, ICC_ERR_BOUNDARY, ICC_ITEM_FACET, f,
+                "facets %lu and %lu both start at vertex %lu; a boundary is one ring "
+                "of facets in one direction",
+                (unsigned long)start[v], (unsigned long)f, (unsigned long)v);
         start[v] = f;
     }
     return ICC_OK;
@@ -37,10 +38,11 @@ static icc_status walk(iccp_ring *ring, const uint32_t *start, const uint32_t *f
         ring->facet[k] = start[v];
         v = facets[2 * start[v] + 1];
         if ((v == 0) != (k + 1 == ring->n))
-            return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_FACET, ring->facet[k],
-                             "the facets are not one ring through all %zu vertices: %zu steps from "
-                             "vertex 0 lead to vertex %lu",
-                             ring->n, k + 1, (unsigned long)v);
+            return iccp_fail_at(
+                err, ICC_ERR_BOUNDARY, ICC_ITEM_FACET, ring->facet[k],
+                "the facets are not one ring through all %zu vertices: %zu steps from "
+                "vertex 0 lead to vertex %lu",
+                ring->n, k + 1, (unsigned long)v);
     }
     return ICC_OK;
 }

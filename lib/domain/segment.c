@@ -60,8 +60,8 @@ void iccp_segments_point(const double *a, const double *b, const double *c, cons
     point[1] = a[1] + t * u[1];
 }
 
-/* Rounding may put a vertex on an edge nearby, so only at an end is the distance 0: a vertex is then
- * always found as itself. */
+/* Rounding may put a vertex on an edge nearby, so only at an end is the distance 0: a vertex is
+ * then always found as itself. */
 double iccp_segment_nearest(const double *a, const double *b, const double *p, double *t)
 {
     const double d[2] = {b[0] - a[0], b[1] - a[1]};

@@ -1,7 +1,8 @@
-/* The nearest point of the plane of the simplex is found by orthogonalisation (modified Gram-Schmidt,
- * G. H. Golub, C. F. Van Loan, Matrix Computations, section 5.2.8), which keeps thin simplices as
- * sharp as they are. If it lies outside, the nearest point of the simplex lies on a face opposite a
- * corner whose barycentric coordinate is negative: one looks there, at most n - 1 levels down. */
+/* The nearest point of the plane of the simplex is found by orthogonalisation (modified
+ * Gram-Schmidt, G. H. Golub, C. F. Van Loan, Matrix Computations, section 5.2.8), which keeps thin
+ * simplices as sharp as they are. If it lies outside, the nearest point of the simplex lies on a
+ * face opposite a corner whose barycentric coordinate is negative: one looks there, at most n - 1
+ * levels down. */
 #include "domain/simplex.h"
 
 #include "icc/base.h"

@@ -42,12 +42,13 @@ icc_status iccp_simplices_check_corners(const iccp_simplices *mesh, icc_error *e
         for (size_t i = 0; i <= mesh->dim; ++i) {
             if (v[i] >= mesh->n_points)
                 return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_SIMPLEX, (int64_t)s,
-                                 "%s %zu names vertex %lu, but there are only %zu vertices", name,
-                                 s, (unsigned long)v[i], mesh->n_points);
+                                    "%s %zu names vertex %lu, but there are only %zu vertices",
+                                    name, s, (unsigned long)v[i], mesh->n_points);
             for (size_t j = 0; j < i; ++j)
                 if (v[j] == v[i])
                     return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_SIMPLEX, (int64_t)s,
-                                     "%s %zu names vertex %lu twice", name, s, (unsigned long)v[i]);
+                                        "%s %zu names vertex %lu twice", name, s,
+                                        (unsigned long)v[i]);
         }
     }
     return ICC_OK;
@@ -63,8 +64,8 @@ icc_status iccp_simplices_orient(iccp_simplices *mesh, icc_error *err)
             points[i] = iccp_corner_point(mesh, n * s + i);
         const int sign = iccp_orient(mesh->dim, points);
         if (sign == 0)
-            return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_SIMPLEX, (int64_t)s, "%s %zu is flat",
-                             iccp_simplices_name(mesh->dim), s);
+            return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_SIMPLEX, (int64_t)s,
+                                "%s %zu is flat", iccp_simplices_name(mesh->dim), s);
         if (sign < 0) {
             const uint32_t swap = v[n - 2];
             v[n - 2] = v[n - 1];
@@ -125,11 +126,11 @@ static icc_status fail_sides(const side_list *list, const uint32_t *at, size_t n
     describe(list, at[0], facet, sizeof facet);
     if (n_sides > 2)
         return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_SIMPLEX, (int64_t)(at[2] / (dim + 1)),
-                         "%s belongs to %zu simplices, among them %zu, %zu and %zu", facet, n_sides,
-                         s, t, (size_t)(at[2] / (dim + 1)));
+                            "%s belongs to %zu simplices, among them %zu, %zu and %zu", facet,
+                            n_sides, s, t, (size_t)(at[2] / (dim + 1)));
     return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_SIMPLEX, (int64_t)t,
-                     "simplices %zu and %zu lie on the same side of %s, so they overlap", s, t,
-                     facet);
+                        "simplices %zu and %zu lie on the same side of %s, so they overlap", s, t,
+                        facet);
 }
 
 /* The caller's facets at at[0], .., and how many sides they have. */
@@ -140,18 +141,20 @@ static icc_status fail_facets(const side_list *list, const uint32_t *at, size_t 
     if (n_facets == 0) {
         char facet[96];
         describe(list, at[0], facet, sizeof facet);
-        return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_SIMPLEX, (int64_t)(at[0] / (list->mesh->dim + 1)),
-                         "%s of simplex %zu is on the boundary, but not among the facets given",
-                         facet, (size_t)at[0] / (list->mesh->dim + 1));
+        return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_SIMPLEX,
+                            (int64_t)(at[0] / (list->mesh->dim + 1)),
+                            "%s of simplex %zu is on the boundary, but not among the facets given",
+                            facet, (size_t)at[0] / (list->mesh->dim + 1));
     }
     const size_t f = at[n_sides] - list->n_sides;
     if (n_facets > 1)
-        return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_FACET, (int64_t)f, "%ss %zu and %zu are the same", name, f,
-                         (size_t)at[n_sides + 1] - list->n_sides);
+        return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_FACET, (int64_t)f,
+                            "%ss %zu and %zu are the same", name, f,
+                            (size_t)at[n_sides + 1] - list->n_sides);
     return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_FACET, (int64_t)f,
-                     n_sides == 0 ? "%s %zu is not one of the mesh"
-                                  : "%s %zu is not on the boundary of the mesh",
-                     name, f);
+                        n_sides == 0 ? "%s %zu is not one of the mesh"
+                                     : "%s %zu is not on the boundary of the mesh",
+                        name, f);
 }
 
 /* Sides come before facets, and the smaller ones first. */
@@ -184,8 +187,8 @@ static icc_status check_facets(const iccp_simplices *mesh, size_t n_facets, cons
     for (size_t i = 0; i < mesh->dim * n_facets; ++i)
         if (facets[i] >= mesh->n_points)
             return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_FACET, (int64_t)(i / mesh->dim),
-                             "%s %zu names vertex %lu, but there are only %zu vertices", name,
-                             i / mesh->dim, (unsigned long)facets[i], mesh->n_points);
+                                "%s %zu names vertex %lu, but there are only %zu vertices", name,
+                                i / mesh->dim, (unsigned long)facets[i], mesh->n_points);
     return ICC_OK;
 }
 

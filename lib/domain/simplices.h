@@ -1,7 +1,7 @@
 /* A conforming mesh of simplices that fills a domain, with its neighbours, in any dimension from 2.
  *
- * A side of the mesh is a facet as seen from one simplex: side (dim + 1) s + i belongs to simplex s and
- * lies opposite its corner i. */
+ * A side of the mesh is a facet as seen from one simplex: side (dim + 1) s + i belongs to simplex s
+ * and lies opposite its corner i. */
 #ifndef ICCP_SIMPLICES_H
 #define ICCP_SIMPLICES_H
 
@@ -20,11 +20,12 @@ typedef struct iccp_simplices {
     size_t n_simplices;
     size_t n_facets;   /* of the domain */
     double *points;    /* dim each, in the domain's local coordinates */
-    uint32_t *given;   /* of each point: the caller's number of it; ascending up to n_rim, and beyond */
+    uint32_t *given;   /* of each point: the caller's number of it; ascending up to n_rim, and
+                          beyond */
     uint32_t *corners; /* dim + 1 each, so that iccp_orient() of them is 1 */
     uint32_t
         *across; /* of each side: the same side as seen from its other simplex, or ICCP_RIM and the
-                           domain's facet */
+                    domain's facet */
 } iccp_simplices;
 
 void iccp_simplices_free(iccp_simplices *mesh);
@@ -48,20 +49,22 @@ const char *iccp_simplices_facet(size_t dim);
 /* ICC_ERR_BOUNDARY unless every corner is a point and no simplex has one twice. */
 icc_status iccp_simplices_check_corners(const iccp_simplices *mesh, icc_error *err);
 
-/* Exchanges two corners of those simplices that are not positive. ICC_ERR_BOUNDARY if one is flat. */
+/* Exchanges two corners of those simplices that are not positive. ICC_ERR_BOUNDARY if one is
+ * flat. */
 icc_status iccp_simplices_orient(iccp_simplices *mesh, icc_error *err);
 
-/* Fills in n_facets and `across` of a mesh that is oriented. When `facets` is not NULL, the n_facets facets,
- * dim points each, must be those of the boundary; otherwise these are numbered in the order of their
- * points. ICC_ERR_BOUNDARY unless every facet has one or two simplices, which lie on opposite sides. */
+/* Fills in n_facets and `across` of a mesh that is oriented. When `facets` is not NULL, the
+ * n_facets facets, dim points each, must be those of the boundary; otherwise these are numbered in
+ * the order of their points. ICC_ERR_BOUNDARY unless every facet has one or two simplices, which
+ * lie on opposite sides. */
 icc_status iccp_simplices_join(iccp_simplices *mesh, size_t n_facets, const uint32_t *facets,
                                icc_error *err);
 
 /* The points of a side, as seen from the other side of it: for the boundary, from outside. */
 void iccp_simplices_side(const iccp_simplices *mesh, size_t side, uint32_t *points);
 
-/* ICC_ERR_TOPOLOGY unless the simplices of a joined mesh hang together and their Euler characteristic is 1.
- * Every point must belong to a simplex. */
+/* ICC_ERR_TOPOLOGY unless the simplices of a joined mesh hang together and their Euler
+ * characteristic is 1. Every point must belong to a simplex. */
 icc_status iccp_simplices_check_shape(const iccp_simplices *mesh, icc_error *err);
 
 #endif

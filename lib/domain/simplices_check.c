@@ -43,9 +43,9 @@ static icc_status check_pieces(const iccp_simplices *mesh, icc_error *err)
             ++other;
         if (other < mesh->n_simplices)
             status = iccp_fail_at(err, ICC_ERR_TOPOLOGY, ICC_ITEM_SIMPLEX, (int64_t)other,
-                               "the mesh is in several pieces: simplex %zu is not connected to "
-                               "simplex 0 across facets (%zu are)",
-                               other, n);
+                                  "the mesh is in several pieces: simplex %zu is not connected to "
+                                  "simplex 0 across facets (%zu are)",
+                                  other, n);
     }
     iccp_free(memory, queue);
     iccp_free(memory, reached);

@@ -23,8 +23,8 @@ static icc_status check_finite(size_t dim, const iccp_complex *c, const double *
     for (size_t i = 0; i < c->dim * c->n_facets; ++i)
         for (size_t k = 0; k < dim; ++k)
             if (!isfinite(vertices[dim * c->facets[i] + k]))
-                return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_VERTEX, c->facets[i], "vertex %lu is not finite",
-                                 (unsigned long)c->facets[i]);
+                return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_VERTEX, c->facets[i],
+                                    "vertex %lu is not finite", (unsigned long)c->facets[i]);
     return ICC_OK;
 }
 
@@ -34,9 +34,10 @@ static icc_status fail_too_small(icc_error *err, size_t vertex, size_t dim, cons
     int n = 0;
     for (size_t k = 0; k < dim; ++k)
         n += snprintf(text + n, sizeof text - (size_t)n, k == 0 ? "%.9g" : ", %.9g", x[k]);
-    return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_VERTEX, (int64_t)vertex,
-                     "vertex %zu (%s): a coordinate is not 0, but less than 2^-200 of the largest one",
-                     vertex, text);
+    return iccp_fail_at(
+        err, ICC_ERR_BOUNDARY, ICC_ITEM_VERTEX, (int64_t)vertex,
+        "vertex %zu (%s): a coordinate is not 0, but less than 2^-200 of the largest one", vertex,
+        text);
 }
 
 /* The frame of the vertices that are used, which `local` gathers. */
@@ -104,22 +105,21 @@ icc_status iccp_simplicial_check_flat(const iccp_facet_tree *tree, icc_error *er
     for (uint32_t f = 0; f < tree->n; ++f)
         if (!has_area(tree, f))
             return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_FACET, f,
-                             dim == 3 ? "face %lu has area 0: its corners lie on one line"
-                                      : "facet %lu is flat: its corners do not span it",
-                             (unsigned long)f);
+                                dim == 3 ? "face %lu has area 0: its corners lie on one line"
+                                         : "facet %lu is flat: its corners do not span it",
+                                (unsigned long)f);
     iccp_facet_corners(tree, 0, points);
     for (size_t i = 0; i < dim * tree->n; ++i) {
         points[dim] = tree->vertices + dim * tree->facets[i];
         if (iccp_orient(dim, points) != 0)
             return ICC_OK;
     }
-    return iccp_fail(err, ICC_ERR_BOUNDARY,
-                     "all vertices lie in one %s: the shape has no volume",
+    return iccp_fail(err, ICC_ERR_BOUNDARY, "all vertices lie in one %s: the shape has no volume",
                      dim == 3 ? "plane" : "hyperplane");
 }
 
 icc_status iccp_simplicial_check_simple(const iccp_facet_tree *tree, const iccp_frame *frame,
-                                   const iccp_env *env, icc_error *err)
+                                        const iccp_env *env, icc_error *err)
 {
     uint32_t pair[2];
     double a[6], b[6], middle[3];
@@ -133,10 +133,10 @@ icc_status iccp_simplicial_check_simple(const iccp_facet_tree *tree, const iccp_
     for (int k = 0; k < 3; ++k)
         middle[k] = 0.5 * (fmax(a[k], b[k]) + fmin(a[3 + k], b[3 + k]));
     iccp_frame_out(frame, 3, middle, middle);
-    return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_FACET, pair[0],
-                     "the surface meets itself: faces %lu and %lu intersect near (%.9g, %.9g, %.9g)",
-                     (unsigned long)pair[0], (unsigned long)pair[1], middle[0], middle[1],
-                     middle[2]);
+    return iccp_fail_at(
+        err, ICC_ERR_BOUNDARY, ICC_ITEM_FACET, pair[0],
+        "the surface meets itself: faces %lu and %lu intersect near (%.9g, %.9g, %.9g)",
+        (unsigned long)pair[0], (unsigned long)pair[1], middle[0], middle[1], middle[2]);
 }
 
 /* ----------------------------------------------------------------- volume */
@@ -155,8 +155,9 @@ static uint32_t lowest_vertex(const iccp_facet_tree *tree)
     return lowest;
 }
 
-/* Whether the polygon's corner on the edge from v to a comes before that on the edge to b: by y / x,
- * then by z / x, with x moved by infinitesimal shares of y and z, as the choice of v implies. */
+/* Whether the polygon's corner on the edge from v to a comes before that on the edge to b: by y
+ * / x, then by z / x, with x moved by infinitesimal shares of y and z, as the choice of v
+ * implies. */
 static bool corner_before(const double *v, const double *a, const double *b)
 {
     int sign = iccp_cross_sign(a[1], v[1], b[0], v[0], b[1], v[1], a[0], v[0]);
@@ -167,12 +168,13 @@ static bool corner_before(const double *v, const double *a, const double *b)
     return sign < 0;
 }
 
-/* The turn of the polygon at its first corner, which tells the direction all round, as for any simple
- * polygon. */
+/* The turn of the polygon at its first corner, which tells the direction all round, as for any
+ * simple polygon. */
 static int surface_orientation(const iccp_facet_tree *tree)
 {
     const uint32_t lowest = lowest_vertex(tree);
-    const double *v = tree->vertices + 3 * (size_t)lowest, *first = NULL, *next = NULL, *last = NULL;
+    const double *v = tree->vertices + 3 * (size_t)lowest, *first = NULL, *next = NULL,
+                 *last = NULL;
     for (int round = 0; round < 2; ++round)
         for (size_t i = 0; i < 3 * tree->n; ++i) {
             if (tree->facets[i] != lowest)
@@ -190,8 +192,8 @@ static int surface_orientation(const iccp_facet_tree *tree)
     return -iccp_orient3d(v, first, next, last);
 }
 
-icc_status iccp_simplicial_measure(const iccp_facet_tree *tree, int32_t *orientation, double *volume,
-                              icc_error *err)
+icc_status iccp_simplicial_measure(const iccp_facet_tree *tree, int32_t *orientation,
+                                   double *volume, icc_error *err)
 {
     const size_t dim = tree->dim;
     const double *points[MAX + 1] = {tree->vertices + dim * tree->facets[0]};

@@ -1,12 +1,12 @@
 /* Based on: L. Latecki, 3D Well-Composed Pictures, Graphical Models and Image Processing 59, 1997;
- * beyond 3-D its condition is not enough (N. Boutry et al., A 4D Counter-Example Showing that DWCness
- * Does not Imply CWCness in nD, 2020), so that here the cells around every corner, edge, .. must
- * form a ball.
+ * beyond 3-D its condition is not enough (N. Boutry et al., A 4D Counter-Example Showing that
+ * DWCness Does not Imply CWCness in nD, 2020), so that here the cells around every corner, edge, ..
+ * must form a ball.
  *
- * What is left to count are holes of dimensions 1 to n - 2, since a connected solid with a connected
- * outside has none of dimension n - 1 (Alexander duality). In the plane there are no others; in
- * space the Euler characteristic is 1 minus their number, and when there are none the boundary is
- * a sphere and the solid a ball (Alexander's theorem). */
+ * What is left to count are holes of dimensions 1 to n - 2, since a connected solid with a
+ * connected outside has none of dimension n - 1 (Alexander duality). In the plane there are no
+ * others; in space the Euler characteristic is 1 minus their number, and when there are none the
+ * boundary is a sphere and the solid a ball (Alexander's theorem). */
 #include "domain/solid.h"
 
 #include "base/error.h"
@@ -19,7 +19,8 @@ static const size_t CELLS_PER_REPORT = 1 << 16;
 
 enum { TEXT_SIZE = 128 };
 
-/* "cell 17 (2, 3, 1)"; coordinates of cells outside lie in the mask, too, unless they were added. */
+/* "cell 17 (2, 3, 1)"; coordinates of cells outside lie in the mask, too, unless they were
+ * added. */
 static int64_t describe(const iccp_mask *mask, size_t cell, char *text)
 {
     int64_t at[ICC_MAX_DIM];
@@ -108,10 +109,11 @@ static icc_status check_inside(flood *f, const iccp_env *env, icc_error *err)
     char from[TEXT_SIZE], to[TEXT_SIZE];
     (void)describe(mask, first, from);
     const int64_t index = describe(mask, other, to);
-    return iccp_fail_at(err, ICC_ERR_TOPOLOGY, ICC_ITEM_CELL, index,
-                     "the mask is not one piece: no way through cells with common faces leads from "
-                     "%s to %s",
-                     from, to);
+    return iccp_fail_at(
+        err, ICC_ERR_TOPOLOGY, ICC_ITEM_CELL, index,
+        "the mask is not one piece: no way through cells with common faces leads from "
+        "%s to %s",
+        from, to);
 }
 
 /* In 1-D the outside is in two pieces, always. */
@@ -142,10 +144,11 @@ static icc_status fail_contact(const iccp_mask *mask, const size_t *at, uint64_t
         ++bit;
     char text[TEXT_SIZE];
     const int64_t index = describe(mask, iccp_mask_cell(mask, at, bit), text);
-    return iccp_fail_at(err, ICC_ERR_TOPOLOGY, ICC_ITEM_CELL, index,
-                     "at %s the boundary of the mask touches itself: cells, or gaps between cells, "
-                     "meet there only along an edge or a corner",
-                     text);
+    return iccp_fail_at(
+        err, ICC_ERR_TOPOLOGY, ICC_ITEM_CELL, index,
+        "at %s the boundary of the mask touches itself: cells, or gaps between cells, "
+        "meet there only along an edge or a corner",
+        text);
 }
 
 /* Goes through the corners, edges, .. and cells, and counts them. */

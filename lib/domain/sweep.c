@@ -1,10 +1,10 @@
-/* Plane sweep after M. I. Shamos and D. Hoey, Geometric intersection problems, 1976, section 4: edges
- * that the sweep line meets are kept in their order along it, and only neighbours are compared. The
- * first place where two edges meet is met by edges that were neighbours just before.
+/* Plane sweep after M. I. Shamos and D. Hoey, Geometric intersection problems, 1976, section 4:
+ * edges that the sweep line meets are kept in their order along it, and only neighbours are
+ * compared. The first place where two edges meet is met by edges that were neighbours just before.
  *
- * Points are swept by x, then y, as if the plane were sheared a little; so no edge is vertical and no
- * two points are met at once. All comparisons are exact, and repeated points and spikes are looked for
- * first: so edges on the line have one order until they meet. */
+ * Points are swept by x, then y, as if the plane were sheared a little; so no edge is vertical and
+ * no two points are met at once. All comparisons are exact, and repeated points and spikes are
+ * looked for first: so edges on the line have one order until they meet. */
 #include "domain/sweep.h"
 
 #include "domain/avl.h"

@@ -5,8 +5,8 @@
 #include "domain/defect.h"
 #include "domain/ring.h"
 
-/* Looks for a defect of a ring of at least 3 finite points; found->kind is 0 if there is none. Which
- * one is found of several says nothing. */
+/* Looks for a defect of a ring of at least 3 finite points; found->kind is 0 if there is none.
+ * Which one is found of several says nothing. */
 icc_status iccp_sweep(iccp_defect *found, const iccp_ring *ring, const iccp_env *env);
 
 #endif

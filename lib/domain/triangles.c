@@ -1,7 +1,7 @@
 /* Two triangles meet if and only if a side of one meets the other: C. Ericson, Real-Time Collision
- * Detection, section 5.2.10, with exact signs in place of its coordinates, and coplanar triangles in a
- * projection. Triangles with a common corner meet elsewhere if and only if the opposite side of one
- * meets the other: what they share beyond the corner reaches one of these sides. */
+ * Detection, section 5.2.10, with exact signs in place of its coordinates, and coplanar triangles
+ * in a projection. Triangles with a common corner meet elsewhere if and only if the opposite side
+ * of one meets the other: what they share beyond the corner reaches one of these sides. */
 #include "domain/triangles.h"
 
 #include "domain/segment.h"
@@ -96,8 +96,8 @@ static bool apart(const double *p, const double *q, triangle t)
     return false;
 }
 
-/* s[0] and t[0] are the common corner. The first test is for the many pairs round a corner, the second
- * for those of a smooth surface. */
+/* s[0] and t[0] are the common corner. The first test is for the many pairs round a corner, the
+ * second for those of a smooth surface. */
 static bool meet_at_corner(triangle s, triangle t)
 {
     if (apart(s[1], s[2], t) && apart(t[1], t[2], s))
@@ -107,8 +107,8 @@ static bool meet_at_corner(triangle s, triangle t)
     return segment_meets(s[1], s[2], t) || segment_meets(t[1], t[2], s);
 }
 
-/* The first two corners are common: the triangles overlap if they are coplanar and their third corners
- * lie on the same side. */
+/* The first two corners are common: the triangles overlap if they are coplanar and their third
+ * corners lie on the same side. */
 static bool meet_at_side(triangle s, triangle t)
 {
     if (iccp_orient3d(s[0], s[1], s[2], t[2]) != 0)

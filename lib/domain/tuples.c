@@ -1,5 +1,5 @@
-/* A counting sort on each of the vertices in turn (D. E. Knuth, The Art of Computer Programming 3, section
- * 5.2.5), which takes linear time whatever the input. */
+/* A counting sort on each of the vertices in turn (D. E. Knuth, The Art of Computer Programming 3,
+ * section 5.2.5), which takes linear time whatever the input. */
 #include "domain/tuples.h"
 
 #include <string.h>

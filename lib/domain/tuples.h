@@ -1,4 +1,5 @@
-/* Lists of vertices, all of the same length, such as the facets of a mesh: which of them are the same. */
+/* Lists of vertices, all of the same length, such as the facets of a mesh: which of them are the
+ * same. */
 #ifndef ICCP_TUPLES_H
 #define ICCP_TUPLES_H
 

@@ -1,14 +1,15 @@
-/* The field of docs/theory.md, fields on grids: where X_v . grad f > 0 in every simplex at v, for all v,
- * X . grad f > 0 everywhere, since X is linear in each simplex and grad f constant. X is Lipschitz, so
- * its curves do not merge, and f keeps them from closing.
+/* The field of docs/theory.md, fields on grids: where X_v . grad f > 0 in every simplex at v, for
+ * all v, X . grad f > 0 everywhere, since X is linear in each simplex and grad f constant. X is
+ * Lipschitz, so its curves do not merge, and f keeps them from closing.
  *
- * A vector for a vertex: the mean of the gradients' directions if it will do, else the point of their
- * hull nearest to the origin, which exists if and only if any vector will. The inward normals of the
- * boundary are wanted too: with them the curves cross it one way. Where there is no vector for all of
- * these, the normals go first; where there is none for the gradients, the function is changed a
- * little: it is moved to the nearest values for which the gradients have a positive product with the
- * vector, simplex by simplex (L. G. Gubin, B. T. Polyak, E. V. Raik, The Method of Projections for
- * Finding the Common Point of Convex Sets, 1967), and the vectors are found anew. */
+ * A vector for a vertex: the mean of the gradients' directions if it will do, else the point of
+ * their hull nearest to the origin, which exists if and only if any vector will. The inward normals
+ * of the boundary are wanted too: with them the curves cross it one way. Where there is no vector
+ * for all of these, the normals go first; where there is none for the gradients, the function is
+ * changed a little: it is moved to the nearest values for which the gradients have a positive
+ * product with the vector, simplex by simplex (L. G. Gubin, B. T. Polyak, E. V. Raik, The Method of
+ * Projections for Finding the Common Point of Convex Sets, 1967), and the vectors are found
+ * anew. */
 #include "field/cones.h"
 
 #include "base/threads.h"
@@ -22,8 +23,8 @@ enum { MOST_NORMALS = 64, FIRM_ROUNDS = 20, MOST_ROUNDS = 40, TYPICAL_ROUNDS = 4
 
 static const size_t GRAIN = 1 << 10; /* vertices per chunk */
 
-/* Products of unit vectors. A mean is taken when all are above the first, which keeps the vectors smooth;
- * a vector passes with the second; the projection aims at the third. */
+/* Products of unit vectors. A mean is taken when all are above the first, which keeps the vectors
+ * smooth; a vector passes with the second; the projection aims at the third. */
 static const double GOOD = 0.15, LEAST = 1e-6, AIM = 0.05;
 
 /* A vertex and the simplices at it. */
@@ -33,7 +34,7 @@ typedef struct star {
     const iccp_orders *orders;
     uint32_t vertex;
     int32_t exponent;
-    double up[1 << ICC_MAX_DIM], down[1 << ICC_MAX_DIM];          /* values, by set of axes */
+    double up[1 << ICC_MAX_DIM], down[1 << ICC_MAX_DIM]; /* values, by set of axes */
     uint8_t up_inside[1 << ICC_MAX_DIM], down_inside[1 << ICC_MAX_DIM];
     size_t n_gradients, n_normals;
     double *direction;   /* gradients, then normals: length 1 */
@@ -183,8 +184,8 @@ static double least_product(int32_t dim, size_t n, const double *direction, cons
     return least;
 }
 
-/* A vector of length 1 with products above LEAST with all of n directions. If there is none, false and the
- * mean or, where that is 0, nothing new. */
+/* A vector of length 1 with products above LEAST with all of n directions. If there is none, false
+ * and the mean or, where that is 0, nothing new. */
 static bool find_vector(int32_t dim, size_t n, const double *direction, double *x)
 {
     double mean[ICC_MAX_DIM] = {0}, nearest[ICC_MAX_DIM];
@@ -210,7 +211,8 @@ static bool is_radial(const star *s, double *x)
     const int n_sets = 1 << s->orders->dim;
     for (int set = 1; set < n_sets; ++set)
         for (int sign = -1; sign <= 1; sign += 2)
-            if ((ptrdiff_t)s->vertex + sign * s->orders->offset[set] == (ptrdiff_t)s->smooth->root) {
+            if ((ptrdiff_t)s->vertex + sign * s->orders->offset[set] ==
+                (ptrdiff_t)s->smooth->root) {
                 for (int32_t k = 0; k < s->orders->dim; ++k)
                     x[k] = set >> k & 1 ? sign : 0;
                 return true;
@@ -233,8 +235,9 @@ static void tilt(int32_t dim, size_t n, const double *normals, const double *uph
     }
 }
 
-/* Writes the vector of a vertex, or of one side of it; whether it is uphill in all simplices. It agrees with
- * the normals when some vector does, unless gradients are to go first. `agrees`: with everything. */
+/* Writes the vector of a vertex, or of one side of it; whether it is uphill in all simplices. It
+ * agrees with the normals when some vector does, unless gradients are to go first. `agrees`: with
+ * everything. */
 static bool choose(star *s, bool gradients_first, double *x, bool *agrees)
 {
     const int32_t dim = s->orders->dim;
@@ -269,8 +272,8 @@ typedef struct work {
     iccp_smooth *smooth;
     const iccp_cover *cover;
     const iccp_orders *orders;
-    uint8_t *state;         /* by vertex: bits below */
-    iccp_smooth original;   /* the function before any change; only its values are its own */
+    uint8_t *state;       /* by vertex: bits below */
+    iccp_smooth original; /* the function before any change; only its values are its own */
 } work;
 
 enum { DIRTY = 1, FAILS = 2, GRADIENTS_FIRST = 4, SPLIT = 8, TORN = 16 };
@@ -304,7 +307,8 @@ static bool choose_sides(work *w, star *s, uint32_t v)
     const iccp_sides *sides = &w->cones->sides;
     const int32_t dim = w->orders->dim;
     const size_t entry = iccp_sides_find(sides, v);
-    const uint32_t end = entry + 1 < sides->n ? sides->first[entry + 1] : (uint32_t)sides->n_vectors;
+    const uint32_t end =
+        entry + 1 < sides->n ? sides->first[entry + 1] : (uint32_t)sides->n_vectors;
     bool good = true, agrees;
     s->side = sides->side + entry * sides->n_simplices;
     for (uint32_t i = sides->first[entry]; i < end; ++i) {
@@ -351,7 +355,8 @@ static void list_active(const star *s, uint8_t *active)
         }
 }
 
-/* Gives several vectors to vertices outside that one does not suit and that lie between parts of the domain. */
+/* Gives several vectors to vertices outside that one does not suit and that lie between parts of
+ * the domain. */
 static icc_status split_torn(work *w)
 {
     const icc_grid *grid = w->smooth->grid;
@@ -382,9 +387,9 @@ static icc_status split_torn(work *w)
     return status;
 }
 
-/* How far the value of a vertex may be changed: inside to half of it or twice; outside next to the inside, to
- * as much as the smallest value there, since across a gap the function may be smaller by any factor, and
- * what is little on one side is too much on the other. */
+/* How far the value of a vertex may be changed: inside to half of it or twice; outside next to the
+ * inside, to as much as the smallest value there, since across a gap the function may be smaller by
+ * any factor, and what is little on one side is too much on the other. */
 static void find_bounds(const work *w, uint32_t v, int32_t exponent, double *low, double *high)
 {
     const icc_grid *grid = w->smooth->grid;
@@ -414,9 +419,10 @@ static void move_value(const work *w, uint32_t v, int32_t exponent, double step)
     iccp_smooth_set(w->smooth, v, fmin(fmax(value, low), high), exponent);
 }
 
-/* Moves the values of the corners of one simplex so that the gradient's product with x is AIM of its length, as
- * far as they may be; the root's, which is the largest, stays. The product is the sum of the values, each
- * times how much faster x goes along the axis before the corner than along the one after it. */
+/* Moves the values of the corners of one simplex so that the gradient's product with x is AIM of
+ * its length, as far as they may be; the root's, which is the largest, stays. The product is the
+ * sum of the values, each times how much faster x goes along the axis before the corner than along
+ * the one after it. */
 static bool project(const work *w, const star *s, int32_t r, uint32_t lowest, const double *x,
                     const double *gradient)
 {
@@ -522,7 +528,8 @@ static void count_contacts(work *w, const star *s, const float *vector)
     }
 }
 
-/* The boundary is crossed one way when it is at the corners of all simplices that it runs through. */
+/* The boundary is crossed one way when it is at the corners of all simplices that it runs
+ * through. */
 static icc_status check_inward(work *w)
 {
     const iccp_sides *sides = &w->cones->sides;
@@ -595,8 +602,8 @@ icc_status iccp_cones_create(iccp_cones *cones, iccp_smooth *smooth, const iccp_
     w.orders = orders;
     w.state = iccp_alloc(&env->memory, grid->n_vertices, sizeof *w.state);
     const bool copied = copy_values(&w.original, smooth);
-    cones->vector = iccp_alloc_zero(&env->memory, grid->n_vertices,
-                                    (size_t)grid->dim * sizeof *cones->vector);
+    cones->vector =
+        iccp_alloc_zero(&env->memory, grid->n_vertices, (size_t)grid->dim * sizeof *cones->vector);
     icc_status status = ICC_ERR_MEMORY;
     if (orders != NULL && w.state != NULL && copied && cones->vector != NULL) {
         iccp_orders_init(orders, grid);

@@ -1,5 +1,5 @@
-/* One vector for every vertex of the simplices that meet a domain, uphill in each simplex at the vertex.
- * Interpolated linearly they are a field along which the function rises everywhere. */
+/* One vector for every vertex of the simplices that meet a domain, uphill in each simplex at the
+ * vertex. Interpolated linearly they are a field along which the function rises everywhere. */
 #ifndef ICCP_CONES_H
 #define ICCP_CONES_H
 
@@ -11,16 +11,17 @@
 
 typedef struct iccp_cones {
     iccp_memory memory;
-    const icc_grid *grid;   /* borrowed */
-    float *vector;          /* dim per vertex: of length 1, but from vertices joined to the root all the way
-                               to it, so that the field is radial around it; 0 where none is needed.
-                               Exactly these numbers are checked: half the memory, which curves wait for */
-    iccp_sides sides;       /* the vectors of vertices that have several */
-    size_t n_vertices;      /* that need one */
-    size_t n_infeasible;    /* where no vector is uphill in all simplices */
-    size_t n_adjusted;      /* values of the function that were changed to prevent that */
-    size_t n_contacts;      /* pairs of a simplex and a facet that runs through it */
-    size_t n_not_inward;    /* those of them where a vector does not point inward */
+    const icc_grid *grid; /* borrowed */
+    float *vector;        /* dim per vertex: of length 1, but from vertices joined to the root all
+                             the way to it, so that the field is radial around it; 0 where none is
+                             needed. Exactly these numbers are checked: half the memory, which
+                             curves wait for */
+    iccp_sides sides;     /* the vectors of vertices that have several */
+    size_t n_vertices;    /* that need one */
+    size_t n_infeasible;  /* where no vector is uphill in all simplices */
+    size_t n_adjusted;    /* values of the function that were changed to prevent that */
+    size_t n_contacts;    /* pairs of a simplex and a facet that runs through it */
+    size_t n_not_inward;  /* those of them where a vector does not point inward */
 } iccp_cones;
 
 /* Changes `smooth` where it has to. Free it in any case. */
@@ -38,8 +39,8 @@ static inline const float *iccp_cones_vector(const iccp_cones *cones, uint32_t v
         return vector;
     const iccp_sides *sides = &cones->sides;
     const size_t entry = iccp_sides_find(sides, v);
-    const uint8_t side = sides->side[sides->n_simplices * entry +
-                                     iccp_side_simplex(cones->grid->dim, r, k)];
+    const uint8_t side =
+        sides->side[sides->n_simplices * entry + iccp_side_simplex(cones->grid->dim, r, k)];
     return sides->vector + dim * (sides->first[entry] + (side == ICCP_NO_SIDE ? 0 : side));
 }
 

@@ -1,6 +1,6 @@
-/* A simplex and a facet have a common point unless some plane separates them. Only the planes of the
- * simplex' own facets and the plane of the facet are tried, so that a few simplices are taken to
- * touch although they do not; none is missed. */
+/* A simplex and a facet have a common point unless some plane separates them. Only the planes of
+ * the simplex' own facets and the plane of the facet are tried, so that a few simplices are taken
+ * to touch although they do not; none is missed. */
 #include "field/cover.h"
 
 #include "field/cover_mask.h"
@@ -10,8 +10,8 @@
 
 enum { FACETS_PER_REPORT = 1 << 12 };
 
-/* Lattice units: a boundary along the facets of the grid, as that of a mask, runs through none of the
- * simplices on either side. Coordinates are rounded to 1e-14 or so. */
+/* Lattice units: a boundary along the facets of the grid, as that of a mask, runs through none of
+ * the simplices on either side. Coordinates are rounded to 1e-14 or so. */
 static const double CONTACT = 1e-9;
 
 typedef enum { APART, GRAZES, TOUCHES } contact;
@@ -78,14 +78,15 @@ typedef struct scan {
     double level;                            /* of the facet's plane */
     uint32_t faces;                          /* of the simplex looked at: met by the facet */
     uint32_t reached;                        /* its corners that count where the facet is */
-    int32_t settled;                         /* how many axes of its order settle that it is apart */
+    int32_t settled;                         /* how many axes of its order settle that it is
+                                                apart */
     bool second;                             /* pass: all bits are known */
     uint32_t *seen;                          /* by vertex: the last facet noted there, + 1 */
     uint32_t *count;                         /* by vertex: how many facets, in the second pass */
     uint32_t *noted;                         /* the vertices of one facet after the other */
     size_t n_noted, room;
-    size_t *end;                             /* by facet: of its vertices in `noted` */
-    uint32_t *outside;                       /* by cell: simplices found outside, up to 4-D */
+    size_t *end;       /* by facet: of its vertices in `noted` */
+    uint32_t *outside; /* by cell: simplices found outside, up to 4-D */
 } scan;
 
 /* Inward normal of unit length by elimination: the null vector of the facet's edges. */
@@ -133,7 +134,8 @@ static void find_normal(scan *s)
         s->normal[k] /= length;
 }
 
-/* The sign of the determinant of the facet's edges and a vector, which tells one side from the other. */
+/* The sign of the determinant of the facet's edges and a vector, which tells one side from the
+ * other. */
 static double side_of(const scan *s, const double *v)
 {
     const int32_t dim = s->domain->dim;
@@ -169,8 +171,8 @@ static void load_corners(scan *s, uint32_t facet)
     const icc_grid *grid = s->cover->grid;
     s->facet = facet;
     for (int32_t i = 0; i < dim; ++i) {
-        const double *p = s->domain->vertices +
-                          (size_t)dim * s->domain->facets[(size_t)dim * facet + (size_t)i];
+        const double *p =
+            s->domain->vertices + (size_t)dim * s->domain->facets[(size_t)dim * facet + (size_t)i];
         for (int32_t k = 0; k < dim; ++k)
             s->corner[i][k] = (p[k] - grid->origin[k]) / grid->spacing;
     }
@@ -255,7 +257,8 @@ static bool corners_of(const scan *s, uint32_t lowest, const int8_t *axis, uint3
     return any;
 }
 
-/* Whether the middle of a simplex that the boundary only grazes is inside; asked once where each has a bit. */
+/* Whether the middle of a simplex that the boundary only grazes is inside; asked once where each
+ * has a bit. */
 static bool middle_is_inside(const scan *s, const int32_t *cell, uint32_t lowest, int32_t r)
 {
     const icc_grid *grid = s->cover->grid;
@@ -265,8 +268,9 @@ static bool middle_is_inside(const scan *s, const int32_t *cell, uint32_t lowest
     if (s->outside[lowest] & bit)
         return false;
     for (int32_t k = 0; k < grid->dim; ++k)
-        middle[axis[k]] = grid->origin[axis[k]] +
-                          grid->spacing * (cell[axis[k]] + (double)(grid->dim - k) / (grid->dim + 1));
+        middle[axis[k]] =
+            grid->origin[axis[k]] +
+            grid->spacing * (cell[axis[k]] + (double)(grid->dim - k) / (grid->dim + 1));
     if (iccp_domain_locate(s->domain, middle, true, NULL, NULL) == ICC_INSIDE)
         return true;
     s->outside[lowest] |= bit;
@@ -322,7 +326,8 @@ static bool visit_simplex(scan *s, const int32_t *cell, uint32_t lowest, int32_t
     return s->second ? note(s, corner) : true;
 }
 
-/* Orders that begin alike follow each other, and what the beginning settles need not be asked again. */
+/* Orders that begin alike follow each other, and what the beginning settles need not be asked
+ * again. */
 static bool visit_cell(scan *s, const int32_t *cell)
 {
     const icc_grid *grid = s->cover->grid;
@@ -410,7 +415,8 @@ static icc_status turn_round(scan *s)
     return status;
 }
 
-/* Which simplices the boundary meets may be known of one facet only after another: so there are two passes. */
+/* Which simplices the boundary meets may be known of one facet only after another: so there are two
+ * passes. */
 static icc_status visit_twice(scan *s, const iccp_env *env)
 {
     icc_status status = visit_all(s, env);
@@ -447,8 +453,8 @@ icc_status iccp_cover_create(iccp_cover *cover, const icc_domain *domain, const 
     cover->bits = iccp_alloc_zero(&env->memory, n, sizeof *cover->bits);
     cover->faces = iccp_alloc_zero(&env->memory, n, sizeof *cover->faces);
     cover->first = iccp_alloc(&env->memory, n + 1, sizeof *cover->first);
-    cover->normal = iccp_alloc(&env->memory, domain->n_facets * (size_t)domain->dim,
-                               sizeof *cover->normal);
+    cover->normal =
+        iccp_alloc(&env->memory, domain->n_facets * (size_t)domain->dim, sizeof *cover->normal);
     iccp_orders *orders = iccp_alloc(&env->memory, 1, sizeof *orders);
     icc_status status = ICC_ERR_MEMORY;
     if (cover->bits != NULL && cover->faces != NULL && cover->first != NULL &&
@@ -461,7 +467,8 @@ icc_status iccp_cover_create(iccp_cover *cover, const icc_domain *domain, const 
     return status;
 }
 
-bool iccp_cover_touches(const iccp_cover *cover, uint32_t facet, uint32_t lowest, const int8_t *axis)
+bool iccp_cover_touches(const iccp_cover *cover, uint32_t facet, uint32_t lowest,
+                        const int8_t *axis)
 {
     const int32_t dim = cover->grid->dim;
     scan s = {.cover = (iccp_cover *)cover, .domain = cover->domain};

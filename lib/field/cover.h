@@ -1,5 +1,5 @@
-/* Which simplices of the Kuhn triangulation meet a domain, and which facets of its boundary come near each
- * vertex of the grid. */
+/* Which simplices of the Kuhn triangulation meet a domain, and which facets of its boundary come
+ * near each vertex of the grid. */
 #ifndef ICCP_COVER_H
 #define ICCP_COVER_H
 
@@ -10,7 +10,7 @@ enum { ICCP_MOST_ORDERS = 720 }; /* orders of ICC_MAX_DIM axes */
 /* The simplices at a vertex: each has an order of the axes and a corner that is the vertex. */
 typedef struct iccp_orders {
     int32_t dim;
-    int32_t n; /* dim! */
+    int32_t n;                                  /* dim! */
     int8_t axis[ICCP_MOST_ORDERS][ICC_MAX_DIM]; /* in lexicographic order */
     ptrdiff_t offset[1 << ICC_MAX_DIM];         /* one step along each axis of a set of axes */
 } iccp_orders;
@@ -22,16 +22,16 @@ int32_t iccp_order_rank(int32_t dim, const int8_t *axis);
 
 typedef struct iccp_cover {
     iccp_memory memory;
-    const icc_grid *grid; /* borrowed */
+    const icc_grid *grid;     /* borrowed */
     const icc_domain *domain; /* borrowed */
-    /* By cell (its lowest corner). Bit r % 32 stands for the simplex with order number r: it meets the
-     * domain although no vertex of it is inside, or a facet runs through it. Beyond 4-D several
+    /* By cell (its lowest corner). Bit r % 32 stands for the simplex with order number r: it meets
+     * the domain although no vertex of it is inside, or a facet runs through it. Beyond 4-D several
      * simplices share a bit. */
     uint32_t *bits;
     uint32_t *faces; /* by cell, iccp_cover_face_bit(): a facet may meet a face of that simplex */
     uint32_t *first; /* n_vertices + 1: of the facets that run through simplices at each vertex */
     uint32_t *facet;
-    double *normal;  /* dim for each facet: inward, length 1 */
+    double *normal; /* dim for each facet: inward, length 1 */
 } iccp_cover;
 
 /* cover->memory is set even on failure; free it in any case. */
@@ -48,13 +48,15 @@ static inline bool iccp_cover_has(const iccp_cover *cover, uint32_t lowest, int3
     return cover->bits[lowest] >> (rank % 32) & 1;
 }
 
-/* Of the face opposite to corner i of the simplex with order number r. Beyond 3-D several share a bit. */
+/* Of the face opposite to corner i of the simplex with order number r. Beyond 3-D several share a
+ * bit. */
 static inline uint32_t iccp_cover_face_bit(int32_t dim, int32_t r, int32_t i)
 {
     return (uint32_t)1 << ((r * (dim + 1) + i) % 32);
 }
 
 /* Whether a facet has a point in common with a simplex, or may have one. */
-bool iccp_cover_touches(const iccp_cover *cover, uint32_t facet, uint32_t lowest, const int8_t *axis);
+bool iccp_cover_touches(const iccp_cover *cover, uint32_t facet, uint32_t lowest,
+                        const int8_t *axis);
 
 #endif

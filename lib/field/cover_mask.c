@@ -1,6 +1,7 @@
-/* The facets of a mask's boundary run along an order of all axes but one, like the simplices of the grid
- * (domain/mask_boundary.c), a number of grid steps on each. All is found in whole numbers, and once for
- * every vertex of the grid on the boundary, not for every pair of a facet and a simplex. */
+/* The facets of a mask's boundary run along an order of all axes but one, like the simplices of the
+ * grid (domain/mask_boundary.c), a number of grid steps on each. All is found in whole numbers, and
+ * once for every vertex of the grid on the boundary, not for every pair of a facet and a
+ * simplex. */
 #include "field/cover_mask.h"
 
 #include "domain/mask.h"
@@ -19,7 +20,8 @@ typedef struct layout {
     const iccp_orders *orders;
     int64_t first[ICC_MAX_DIM]; /* lattice coordinates of the mask's lowest corner */
     int64_t half;               /* steps of the grid in half a cell of the mask */
-    uint32_t *count;            /* by vertex: how many facets it lies in, then where the next is noted */
+    uint32_t *count;            /* by vertex: how many facets it lies in, then where the next is
+                                   noted */
 } layout;
 
 /* A facet: from its lowest corner along each of the axes in turn. */
@@ -70,7 +72,8 @@ static bool is_solid(const layout *l, uint32_t lowest)
     return mask->cells[cell];
 }
 
-/* The corners of a facet come in any order: an axis is gone along the earlier, the more corners are high. */
+/* The corners of a facet come in any order: an axis is gone along the earlier, the more corners are
+ * high. */
 static void load_chain(const layout *l, uint32_t facet, chain *c)
 {
     const icc_grid *grid = l->cover->grid;
@@ -82,8 +85,8 @@ static void load_chain(const layout *l, uint32_t facet, chain *c)
         double least = HUGE_VAL, most = -HUGE_VAL, sum = 0;
         for (int32_t i = 0; i < dim; ++i) {
             const size_t v = domain->facets[(size_t)dim * facet + (size_t)i];
-            const double x =
-                round((domain->vertices[(size_t)dim * v + (size_t)k] - grid->origin[k]) / grid->spacing);
+            const double x = round(
+                (domain->vertices[(size_t)dim * v + (size_t)k] - grid->origin[k]) / grid->spacing);
             least = fmin(least, x);
             most = fmax(most, x);
             sum += x;
@@ -97,7 +100,8 @@ static void load_chain(const layout *l, uint32_t facet, chain *c)
     }
 }
 
-/* The next point of the lattice in a facet, as steps along its axes: falling numbers, from 0 to `half`. */
+/* The next point of the lattice in a facet, as steps along its axes: falling numbers, from 0 to
+ * `half`. */
 static bool next_point(int32_t n, int64_t half, int64_t *step)
 {
     int32_t i = n - 1;
@@ -147,7 +151,8 @@ static void note_facet(layout *l, uint32_t facet)
     } while (next_point(l->cover->grid->dim - 1, l->half, step));
 }
 
-/* The lowest corner of the simplex of an order in which a vertex is corner k, and whether any is inside. */
+/* The lowest corner of the simplex of an order in which a vertex is corner k, and whether any is
+ * inside. */
 static uint32_t lowest_of(const layout *l, uint32_t v, int32_t r, int32_t k, bool *any_inside)
 {
     const icc_grid *grid = l->cover->grid;
@@ -164,7 +169,8 @@ static uint32_t lowest_of(const layout *l, uint32_t v, int32_t r, int32_t k, boo
     return lowest;
 }
 
-/* Notes the simplices at a vertex of the boundary, and their faces at it; whether the domain meets any. */
+/* Notes the simplices at a vertex of the boundary, and their faces at it; whether the domain meets
+ * any. */
 static bool mark_star(const layout *l, uint32_t v)
 {
     const int32_t dim = l->cover->grid->dim;

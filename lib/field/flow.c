@@ -1,4 +1,5 @@
-/* Curves of a field that is linear in each simplex, piece by piece. What a piece is: flow_piece.c. */
+/* Curves of a field that is linear in each simplex, piece by piece. What a piece is:
+ * flow_piece.c. */
 #include "field/flow_piece.h"
 
 #include "domain/simplex.h"

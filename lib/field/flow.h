@@ -1,4 +1,5 @@
-/* Curves of a field that is linear in each Kuhn simplex of a grid: its vectors are given at the vertices. */
+/* Curves of a field that is linear in each Kuhn simplex of a grid: its vectors are given at the
+ * vertices. */
 #ifndef ICCP_FLOW_H
 #define ICCP_FLOW_H
 
@@ -7,7 +8,8 @@
 
 enum {
     ICCP_FLOW_TERMS = 25, /* of a Taylor series at most */
-    ICCP_FLOW_WITHIN = -1 /* instead of a corner: the piece ends within its simplex, or at the root */
+    ICCP_FLOW_WITHIN = -1 /* instead of a corner: the piece ends within its simplex, or at the
+                             root */
 };
 
 typedef struct iccp_flow {
@@ -15,18 +17,19 @@ typedef struct iccp_flow {
     const icc_domain *domain;
     const iccp_cover *cover;
     const iccp_cones *cones;
-    uint32_t root;        /* where all curves end; in the simplices around it they are straight */
+    uint32_t root; /* where all curves end; in the simplices around it they are straight */
     size_t most_steps;
 } iccp_flow;
 
-/* Lattice units. How far beyond a facet that it starts on a curve may be without having crossed it: curves that run
- * along a facet do so for reasons of symmetry, up to rounding. */
+/* Lattice units. How far beyond a facet that it starts on a curve may be without having crossed it:
+ * curves that run along a facet do so for reasons of symmetry, up to rounding. */
 #define ICCP_FLOW_SLACK 1e-15
 
 /* A place in a simplex. */
 typedef struct iccp_flow_place {
     iccp_kuhn_simplex simplex;
-    int32_t entry;          /* the corner opposite to the facet that the place lies on, or ICCP_FLOW_WITHIN */
+    int32_t entry;          /* the corner opposite to the facet that the place lies on, or
+                               ICCP_FLOW_WITHIN */
     double at[ICC_MAX_DIM]; /* by axis, from the lowest corner: between 0 and 1 */
 } iccp_flow_place;
 
@@ -38,7 +41,8 @@ typedef struct iccp_flow_walk {
     double length; /* of the pieces before */
     double growth; /* and by how much the flow's volume has grown in them: its logarithm */
     size_t n_steps;
-    /* The piece's parameter s goes from 0 to `end`. The place moves with the sum of term[j] (s / scale)^j. */
+    /* The piece's parameter s goes from 0 to `end`. The place moves with the sum of term[j] (s
+     * / scale)^j. */
     int32_t n_terms;
     double scale, term[ICCP_FLOW_TERMS][ICC_MAX_DIM];
     double column[ICC_MAX_DIM][ICC_MAX_DIM]; /* by axis: how the vector changes along it */
@@ -55,8 +59,8 @@ typedef struct iccp_flow_mark {
     double length, growth; /* of the pieces before */
 } iccp_flow_mark;
 
-/* At a point in lattice coordinates; with `ahead`, a direction, in the simplex that lies there, should the
- * point be in several. False beyond the grid. */
+/* At a point in lattice coordinates; with `ahead`, a direction, in the simplex that lies there,
+ * should the point be in several. False beyond the grid. */
 bool iccp_flow_find(const iccp_flow *flow, const double *x, const double *ahead,
                     iccp_flow_place *place);
 
@@ -76,7 +80,8 @@ icc_status iccp_flow_start(iccp_flow_walk *walk, const iccp_flow *flow, int32_t 
 /* Goes on to the next piece, of which there is one unless walk->ends. */
 icc_status iccp_flow_next(iccp_flow_walk *walk);
 
-/* Notes the start of the current piece, and goes back to the noted piece that holds the given length. */
+/* Notes the start of the current piece, and goes back to the noted piece that holds the given
+ * length. */
 icc_status iccp_flow_note(const iccp_flow_walk *walk, iccp_path *path);
 icc_status iccp_flow_rewind(iccp_flow_walk *walk, const iccp_path *path, double length);
 

@@ -1,16 +1,17 @@
-/* An attempt to find the end of a piece, on LANES curves side by side: what includes this file says how many, and
- * for which processor (TARGET). Nothing here branches on one lane only, and each gets the bits that it would get
- * alone.
+/* An attempt to find the end of a piece, on LANES curves side by side: what includes this file says
+ * how many, and for which processor (TARGET). Nothing here branches on one lane only, and each gets
+ * the bits that it would get alone.
  *
- * In a simplex the field is linear in position, so its curves are solutions of x' = A x + b, power series that
- * converge everywhere: the terms of x' are A^j x'(0) s^j / j!. The column of A for an axis is the difference of
- * the vectors at the two corners that the axis joins.
+ * In a simplex the field is linear in position, so its curves are solutions of x' = A x + b, power
+ * series that converge everywhere: the terms of x' are A^j x'(0) s^j / j!. The column of A for an
+ * axis is the difference of the vectors at the two corners that the axis joins.
  *
- * The barycentric coordinates' first terms say nearly when the first of them is 0. The series is added up there,
- * once; the rest of the way is so short that the derivatives there, of which A gives as many as one
- * likes, carry on to the end exactly.
+ * The barycentric coordinates' first terms say nearly when the first of them is 0. The series is
+ * added up there, once; the rest of the way is so short that the derivatives there, of which A
+ * gives as many as one likes, carry on to the end exactly.
  *
- * Everything is in the order of the simplex' axes: barycentric coordinates are then differences of neighbours. */
+ * Everything is in the order of the simplex' axes: barycentric coordinates are then differences of
+ * neighbours. */
 #ifndef ICCP_FLOW_ATTEMPT_H
 #define ICCP_FLOW_ATTEMPT_H
 
@@ -195,8 +196,9 @@ TARGET static ICCP_INLINE void vector_at(const series *x, int32_t dim, const lan
 
 /* ---- length ---- */
 
-/* Rules that use the speed and its derivative at both ends, and the speed at n places between, which are the zeros of
- * the orthogonal polynomials for the weight x^2 (1 - x)^2: exact for polynomials of degree 2 n + 3. */
+/* Rules that use the speed and its derivative at both ends, and the speed at n places between,
+ * which are the zeros of the orthogonal polynomials for the weight x^2 (1 - x)^2: exact for
+ * polynomials of degree 2 n + 3. */
 enum { N_RULES = 4, MOST_NODES = 5 };
 
 static const struct rule {
@@ -242,8 +244,8 @@ TARGET static ICCP_INLINE void speed_of(int32_t dim, const motion *m, lanes *spe
     *slope = along / *speed;
 }
 
-/* From share `from` over `share` of the scale, in terms of that part. change: the largest share by which the vector
- * may change, squared: at most that of the last rule. */
+/* From share `from` over `share` of the scale, in terms of that part. change: the largest share by
+ * which the vector may change, squared: at most that of the last rule. */
 TARGET static ICCP_INLINE void integrate(const series *x, int32_t dim, const lanes *change,
                                          const lanes *from, const lanes *share, const motion *first,
                                          const motion *last, lanes *length)
@@ -303,8 +305,8 @@ TARGET static ICCP_INLINE void coordinates(int32_t dim, double above, const lane
     out[dim] = x[dim - 1];
 }
 
-/* The barycentric coordinates at the start. One that is 0, or less by rounding, starts at SLACK, so that it has not
- * been crossed before it is less than that by SLACK. */
+/* The barycentric coordinates at the start. One that is 0, or less by rounding, starts at SLACK, so
+ * that it has not been crossed before it is less than that by SLACK. */
 typedef struct beginning {
     lanes value[ICC_MAX_DIM + 1], beyond[ICC_MAX_DIM + 1];
     lanes rate[3][ICC_MAX_DIM + 1]; /* derivatives */
@@ -346,8 +348,8 @@ TARGET static ICCP_INLINE void pick(int32_t dim, const lanes *exit, const lanes 
         *value = SELECT(*exit == (double)i, values[i], *value);
 }
 
-/* When the exit's coordinate is 0, by a quadratic equation and the cubic term as a correction. Not positive, or
- * NaN, when that says nothing. */
+/* When the exit's coordinate is 0, by a quadratic equation and the cubic term as a correction. Not
+ * positive, or NaN, when that says nothing. */
 TARGET static ICCP_INLINE void guess_time(int32_t dim, const beginning *b, const lanes *exit,
                                           lanes *s)
 {
@@ -442,8 +444,8 @@ TARGET static ICCP_INLINE void reach_facet(attempt *a, int32_t dim, const beginn
                         ALL(FAILED));
 }
 
-/* negative: a coordinate that is so at the end, or ICCP_FLOW_WITHIN; dips: whether one may be so before although it
- * is not there. */
+/* negative: a coordinate that is so at the end, or ICCP_FLOW_WITHIN; dips: whether one may be so
+ * before although it is not there. */
 TARGET static ICCP_INLINE void find_negative(const attempt *a, int32_t dim, const beginning *b,
                                              lanes *negative, mask *dips)
 {

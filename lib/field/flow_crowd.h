@@ -1,6 +1,7 @@
-/* LANES curves side by side, each at its own place: a lane whose curve has ended takes the next one. What includes
- * this file says how many, and for which processor the arithmetic is compiled (TARGET).
- * A lane whose attempt was not the last for its piece tries again while the others go on to their next. */
+/* LANES curves side by side, each at its own place: a lane whose curve has ended takes the next
+ * one. What includes this file says how many, and for which processor the arithmetic is compiled
+ * (TARGET). A lane whose attempt was not the last for its piece tries again while the others go on
+ * to their next. */
 #ifndef ICCP_FLOW_CROWD_H
 #define ICCP_FLOW_CROWD_H
 
@@ -55,8 +56,9 @@ TARGET static void take(crowd *c, lane *x)
     x->path.n_marks = 0;
 }
 
-/* A bundle's flux grows with the flow's volume, and is its area times the speed across that. `s`: of the piece at
- * the wanted place, or at the boundary below it. Curves that are straight to the root have no speed of their own. */
+/* A bundle's flux grows with the flow's volume, and is its area times the speed across that. `s`:
+ * of the piece at the wanted place, or at the boundary below it. Curves that are straight to the
+ * root have no speed of their own. */
 TARGET static void measure_volume(iccp_flow_curve *curve, const iccp_flow_walk *w, double s)
 {
     const iccp_flow *flow = w->flow;

@@ -1,13 +1,13 @@
-/* The piece's end is the first root of one of the barycentric coordinates, which are power series: Newton's
- * method on each, kept within an interval that holds the root. */
+/* The piece's end is the first root of one of the barycentric coordinates, which are power series:
+ * Newton's method on each, kept within an interval that holds the root. */
 #include "field/flow_exit.h"
 
 #include <math.h>
 
 enum { MOST = 60 };
 
-/* Of the barycentric coordinate of corner i, in terms of walk->scale; returns how many terms. One that starts at
- * 0, or less by rounding, starts at SLACK. */
+/* Of the barycentric coordinate of corner i, in terms of walk->scale; returns how many terms. One
+ * that starts at 0, or less by rounding, starts at SLACK. */
 static int32_t coordinate_series(const iccp_flow_walk *w, int32_t i, double *series)
 {
     const int32_t dim = w->flow->grid->dim;
@@ -17,8 +17,8 @@ static int32_t coordinate_series(const iccp_flow_walk *w, int32_t i, double *ser
     series[0] = fmax(series[0], ICCP_FLOW_SLACK);
     for (int32_t j = 0; j < w->n_terms; ++j) {
         const double *term = w->term[j];
-        series[j + 1] = w->scale / (j + 1) *
-                        ((i > 0 ? term[axis[i - 1]] : 0) - (i < dim ? term[axis[i]] : 0));
+        series[j + 1] =
+            w->scale / (j + 1) * ((i > 0 ? term[axis[i - 1]] : 0) - (i < dim ? term[axis[i]] : 0));
     }
     return w->n_terms + 1;
 }
@@ -34,8 +34,8 @@ static double value_of(const double *series, int32_t n, double s, double *slope)
     return value;
 }
 
-/* A root between 0, where the series is positive, and `high`, where it need not be negative. HUGE_VAL when
- * there is none. */
+/* A root between 0, where the series is positive, and `high`, where it need not be negative.
+ * HUGE_VAL when there is none. */
 static double root_of(const double *series, int32_t n, double high, double guess)
 {
     static const double CLOSE = 1e-8;
@@ -64,7 +64,8 @@ static double root_of(const double *series, int32_t n, double high, double guess
     return s;
 }
 
-/* Whether a coordinate that is positive at both ends falls below 0 between them; if so its first root. */
+/* Whether a coordinate that is positive at both ends falls below 0 between them; if so its first
+ * root. */
 static bool dips(const double *series, int32_t n, double end, double *root)
 {
     double low = 0, high = end, slope;

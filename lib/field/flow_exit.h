@@ -4,8 +4,8 @@
 
 #include "field/flow.h"
 
-/* Sets walk->end and walk->exit, given power series that hold as far as walk->scale: the piece is cut there if it
- * does not leave before. */
+/* Sets walk->end and walk->exit, given power series that hold as far as walk->scale: the piece is
+ * cut there if it does not leave before. */
 void iccp_flow_find_exit(iccp_flow_walk *walk);
 
 #endif

@@ -1,4 +1,5 @@
-/* Many curves at once, several side by side: faster by far than one after another, and the same bits. */
+/* Many curves at once, several side by side: faster by far than one after another, and the same
+ * bits. */
 #ifndef ICCP_FLOW_FOLLOW_H
 #define ICCP_FLOW_FOLLOW_H
 
@@ -6,8 +7,8 @@
 
 typedef struct iccp_flow_curve {
     iccp_flow_place start;
-    int32_t sign; /* +1: to the root; -1: to the boundary */
-    double share; /* of the length, where `place` is wanted: of a curve uphill; else 0 */
+    int32_t sign;  /* +1: to the root; -1: to the boundary */
+    double share;  /* of the length, where `place` is wanted: of a curve uphill; else 0 */
     bool measured; /* whether `volume` is wanted; needs `facet`, where a curve uphill starts */
     /* Found. ICC_OK, or ICC_ERR_TRACE when there is no way to go on. */
     icc_status status;
@@ -15,9 +16,9 @@ typedef struct iccp_flow_curve {
     iccp_flow_place place;
     uint32_t facet; /* where a curve downhill leaves the domain */
     double bary[ICC_MAX_DIM];
-    /* The logarithm of the volume that a bundle of curves fills, per its area on the boundary and length: at
-     * `place`, or where a curve downhill starts. Of its two factors that are not continuous where the vectors are
-     * not, it lacks those. */
+    /* The logarithm of the volume that a bundle of curves fills, per its area on the boundary and
+     * length: at `place`, or where a curve downhill starts. Of its two factors that are not
+     * continuous where the vectors are not, it lacks those. */
     double volume;
 } iccp_flow_curve;
 

@@ -1,5 +1,5 @@
-/* The variational equation of x' = A x + b is y' = A y, solved by the same power series. Where a curve ends
- * on a plane, it does so sooner or later as it moves. */
+/* The variational equation of x' = A x + b is y' = A y, solved by the same power series. Where a
+ * curve ends on a plane, it does so sooner or later as it moves. */
 #include "field/flow_jet.h"
 
 #include "math/vec.h"
@@ -34,18 +34,18 @@ static int32_t expand(const iccp_flow_walk *w, double s, const double *y,
 
 /* Gauss and Legendre's nodes on [-1, 1]. */
 enum { NODES = 7 };
-static const double NODE[NODES] = {-0.949107912342758524526, -0.741531185599394439864,
-                                   -0.405845151377397166907, 0,
-                                   0.405845151377397166907,  0.741531185599394439864,
-                                   0.949107912342758524526};
+static const double NODE[NODES] = {
+    -0.949107912342758524526, -0.741531185599394439864, -0.405845151377397166907, 0,
+    0.405845151377397166907,  0.741531185599394439864,  0.949107912342758524526};
 static const double WEIGHT[NODES] = {0.129484966168869693271, 0.279705391489276667901,
                                      0.381830050505118944950, 0.417959183673469387755,
                                      0.381830050505118944950, 0.279705391489276667901,
                                      0.129484966168869693271};
 
-/* The length changes by the integral of v . v' / |v|: that of s^j v / |v| for all j, to parameter s and in terms of
- * it. */
-static void directions(const iccp_flow_walk *w, double s, double moment[ICCP_FLOW_TERMS][ICC_MAX_DIM])
+/* The length changes by the integral of v . v' / |v|: that of s^j v / |v| for all j, to parameter s
+ * and in terms of it. */
+static void directions(const iccp_flow_walk *w, double s,
+                       double moment[ICCP_FLOW_TERMS][ICC_MAX_DIM])
 {
     enum { PARTS = 2 };
     const int32_t dim = w->flow->grid->dim;

@@ -15,8 +15,10 @@ static void local_of(const iccp_flow_walk *w, const double *at, double *local)
         local[k] = grid->origin[k] + grid->spacing * local[k];
 }
 
-/* Where the piece meets the plane of a facet near `guess`; the squared distance from the facet there. */
-static double meet_plane(const iccp_flow_walk *w, uint32_t facet, double guess, double *s, double *bary)
+/* Where the piece meets the plane of a facet near `guess`; the squared distance from the facet
+ * there. */
+static double meet_plane(const iccp_flow_walk *w, uint32_t facet, double guess, double *s,
+                         double *bary)
 {
     const icc_domain *domain = w->flow->domain;
     const icc_grid *grid = w->flow->grid;
@@ -50,8 +52,9 @@ static double meet_plane(const iccp_flow_walk *w, uint32_t facet, double guess, 
 
 bool iccp_flow_leaves(const iccp_flow_walk *walk, double *s, uint32_t *facet, double *bary)
 {
-    static const double SAME = 1e-11; /* lattice units: the curve meets the facet itself */
-    static const double FURTHER = 1e-9; /* of the piece: it may end on the boundary, up to rounding */
+    static const double SAME = 1e-11;   /* lattice units: the curve meets the facet itself */
+    static const double FURTHER = 1e-9; /* of the piece: it may end on the boundary, up to
+                                           rounding */
     const icc_domain *domain = walk->flow->domain;
     const icc_grid *grid = walk->flow->grid;
     double from[ICC_MAX_DIM], to[ICC_MAX_DIM], share;

@@ -1,4 +1,5 @@
-/* The pieces of one curve. What they are: flow_attempt.h; what is unusual is left to flow_exit.c. */
+/* The pieces of one curve. What they are: flow_attempt.h; what is unusual is left to
+ * flow_exit.c. */
 #include "field/flow_piece.h"
 
 #include "field/flow_exit.h"
@@ -81,7 +82,8 @@ double iccp_flow_length(const iccp_flow_walk *walk, double s)
     return length;
 }
 
-/* Liouville: at the rate of the trace. Straight curves to a point spread in all directions but their own. */
+/* Liouville: at the rate of the trace. Straight curves to a point spread in all directions but
+ * their own. */
 double iccp_flow_growth(const iccp_flow_walk *walk, double s)
 {
     const int32_t dim = walk->flow->grid->dim;

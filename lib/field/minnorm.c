@@ -1,4 +1,5 @@
-/* Based on: P. Wolfe, Finding the Nearest Point in a Polytope, Mathematical Programming 11, 1976. */
+/* Based on: P. Wolfe, Finding the Nearest Point in a Polytope, Mathematical Programming 11,
+ * 1976. */
 #include "field/minnorm.h"
 
 #include "icc/base.h"
@@ -54,8 +55,8 @@ static bool solve(size_t n, double a[][MOST_CORNERS + 1], double *x)
     return true;
 }
 
-/* The weights of the point nearest to the origin in the plane through the corners: the rows of the Gram
- * matrix are equal there. Adding 1 to all products makes the system positive definite. */
+/* The weights of the point nearest to the origin in the plane through the corners: the rows of the
+ * Gram matrix are equal there. Adding 1 to all products makes the system positive definite. */
 static bool affine_weights(size_t dim, const double *points, const corral *c, double *weight)
 {
     double gram[MOST_CORNERS + 1][MOST_CORNERS + 1], sum = 0;
@@ -121,7 +122,8 @@ static size_t lowest(size_t dim, size_t n, const double *points, const double *d
     return best;
 }
 
-/* Shrinks the corral until its nearest point is within it. False when its corners depend on each other. */
+/* Shrinks the corral until its nearest point is within it. False when its corners depend on each
+ * other. */
 static bool settle(size_t dim, const double *points, corral *c)
 {
     double weight[MOST_CORNERS + 1];

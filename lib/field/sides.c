@@ -38,7 +38,8 @@ typedef struct member {
     uint32_t corner[ICC_MAX_DIM + 1];
 } member;
 
-static void load(member *m, const iccp_cover *cover, const iccp_orders *orders, uint32_t v, size_t at)
+static void load(member *m, const iccp_cover *cover, const iccp_orders *orders, uint32_t v,
+                 size_t at)
 {
     const int32_t dim = orders->dim;
     m->r = (int32_t)(at / (size_t)(dim + 1));
@@ -70,8 +71,9 @@ static int32_t cross(const member *m, const iccp_cover *cover, int32_t i, member
     return dim;
 }
 
-/* Whether the domain goes on through a face: surely where a corner is inside, perhaps where the boundary meets
- * the face. A simplex without a vertex inside is taken to belong to its neighbours. */
+/* Whether the domain goes on through a face: surely where a corner is inside, perhaps where the
+ * boundary meets the face. A simplex without a vertex inside is taken to belong to its
+ * neighbours. */
 static bool is_open(const member *m, const member *other, const iccp_cover *cover, int32_t i,
                     int32_t other_i)
 {
@@ -85,7 +87,8 @@ static bool is_open(const member *m, const member *other, const iccp_cover *cove
     if (face_inside || !grid->inside[m->corner[i]] || !grid->inside[other_corner])
         return true;
     return (cover->faces[m->corner[0]] & iccp_cover_face_bit(grid->dim, m->r, i)) != 0 ||
-           (cover->faces[other->corner[0]] & iccp_cover_face_bit(grid->dim, other->r, other_i)) != 0;
+           (cover->faces[other->corner[0]] & iccp_cover_face_bit(grid->dim, other->r, other_i)) !=
+               0;
 }
 
 /* Gives two parts the smaller number. */
@@ -155,15 +158,16 @@ icc_status iccp_sides_add(iccp_sides *sides, uint32_t v, int n_sides, const uint
     }
     if (sides->n_vectors + (size_t)n_sides > sides->vector_capacity) {
         const size_t room = 2 * sides->vector_capacity + 256;
-        float *vector = iccp_grow(&sides->memory, sides->vector, sides->n_vectors, room,
-                                  dim * sizeof *vector);
+        float *vector =
+            iccp_grow(&sides->memory, sides->vector, sides->n_vectors, room, dim * sizeof *vector);
         if (vector == NULL)
             return ICC_ERR_MEMORY;
         sides->vector = vector;
         sides->vector_capacity = room;
     }
     memcpy(sides->side + sides->n_simplices * sides->n, side, sides->n_simplices);
-    memset(sides->vector + dim * sides->n_vectors, 0, (size_t)n_sides * dim * sizeof *sides->vector);
+    memset(sides->vector + dim * sides->n_vectors, 0,
+           (size_t)n_sides * dim * sizeof *sides->vector);
     sides->vertex[sides->n] = v;
     sides->first[sides->n++] = (uint32_t)sides->n_vectors;
     sides->n_vectors += (size_t)n_sides;

@@ -56,7 +56,8 @@ static void reach(outskirts *o, uint32_t v, uint32_t from)
     o->queue[o->n++] = v;
 }
 
-/* To the other corners of the simplices at a vertex that meet the domain: with corner k of the simplex. */
+/* To the other corners of the simplices at a vertex that meet the domain: with corner k of the
+ * simplex. */
 static void reach_star(outskirts *o, uint32_t v)
 {
     const iccp_orders *orders = o->orders;
@@ -77,7 +78,8 @@ static void reach_star(outskirts *o, uint32_t v)
     }
 }
 
-/* The largest value among the inside vertices joined to v; 0 if there are none. Such vertices start. */
+/* The largest value among the inside vertices joined to v; 0 if there are none. Such vertices
+ * start. */
 static double value_behind(const outskirts *o, uint32_t v)
 {
     const icc_grid *grid = o->smooth->grid;
@@ -86,7 +88,8 @@ static double value_behind(const outskirts *o, uint32_t v)
         for (int sign = -1; sign <= 1; sign += 2) {
             const uint32_t u = (uint32_t)((ptrdiff_t)v + sign * o->orders->offset[set]);
             if (grid->inside[u])
-                most = fmax(most, iccp_smooth_get(o->smooth, u, iccp_smooth_exponent(o->smooth, v)));
+                most =
+                    fmax(most, iccp_smooth_get(o->smooth, u, iccp_smooth_exponent(o->smooth, v)));
         }
     return most;
 }
@@ -133,8 +136,8 @@ typedef struct sweep {
     int32_t *exponent;
 } sweep;
 
-/* Between a vertex inside and others: what lies outside may belong to a part of the domain across a gap,
- * where the function is larger by any factor. */
+/* Between a vertex inside and others: what lies outside may belong to a part of the domain across a
+ * gap, where the function is larger by any factor. */
 static double mean_inside(const iccp_smooth *s, size_t v, int32_t exponent)
 {
     const icc_grid *grid = s->grid;
@@ -195,9 +198,8 @@ static icc_status run_sweep(iccp_smooth *s, const iccp_orders *orders, const icc
     w.value = iccp_alloc(&s->memory, n, sizeof *w.value);
     if (s->exponent != NULL)
         w.exponent = iccp_alloc(&s->memory, n, sizeof *w.exponent);
-    icc_status status = w.value != NULL && (s->exponent == NULL || w.exponent != NULL)
-                            ? ICC_OK
-                            : ICC_ERR_MEMORY;
+    icc_status status =
+        w.value != NULL && (s->exponent == NULL || w.exponent != NULL) ? ICC_OK : ICC_ERR_MEMORY;
     if (status == ICC_OK)
         status = iccp_for_chunks(env, "solve", n, GRAIN, sweep_chunk, &w);
     if (status == ICC_OK) {
@@ -249,11 +251,11 @@ static icc_status extend_all(iccp_smooth *s, const iccp_orders *orders, const ic
     return has_memory ? ICC_OK : ICC_ERR_MEMORY;
 }
 
-icc_status iccp_smooth_create(iccp_smooth *smooth, const icc_function *field, const iccp_cover *cover,
-                              int sweeps, const iccp_env *env)
+icc_status iccp_smooth_create(iccp_smooth *smooth, const icc_function *field,
+                              const iccp_cover *cover, int sweeps, const iccp_env *env)
 {
-    *smooth = (iccp_smooth){
-        .memory = env->memory, .grid = field->tree->grid, .root = field->tree->root};
+    *smooth =
+        (iccp_smooth){.memory = env->memory, .grid = field->tree->grid, .root = field->tree->root};
     iccp_orders *orders = iccp_alloc(&env->memory, 1, sizeof *orders);
     icc_status status = orders != NULL ? allocate(smooth, field) : ICC_ERR_MEMORY;
     if (status == ICC_OK) {

@@ -1,4 +1,5 @@
-/* A function on all vertices of the simplices that meet a domain, from one on the vertices inside. */
+/* A function on all vertices of the simplices that meet a domain, from one on the vertices
+ * inside. */
 #ifndef ICCP_SMOOTH_H
 #define ICCP_SMOOTH_H
 
@@ -9,17 +10,19 @@ typedef struct iccp_smooth {
     iccp_memory memory;
     const icc_grid *grid; /* borrowed: that of the field's tree */
     uint32_t root;
-    double *value;        /* one per vertex; 0 where no simplex needs one */
-    int32_t *exponent;    /* the function is value * 2^exponent; NULL: 0 everywhere, the usual case */
-    uint8_t *needed;      /* by vertex: 1 when it belongs to a simplex that meets the domain */
+    double *value;     /* one per vertex; 0 where no simplex needs one */
+    int32_t *exponent; /* the function is value * 2^exponent; NULL: 0 everywhere, the usual
+                          case */
+    uint8_t *needed;   /* by vertex: 1 when it belongs to a simplex that meets the domain */
 } iccp_smooth;
 
-/* The values of `field` inside; outside next to them, 0; beyond, where the domain goes on between the
- * vertices of the grid, less and less with every step. Then `sweeps` times the mean of each value and
- * the mean of its neighbours, the root's kept: that rids steps of the grid of nearly all vertices from
- * which not all simplices' gradients point to one side (bench_field). Free it in any case. */
-icc_status iccp_smooth_create(iccp_smooth *smooth, const icc_function *field, const iccp_cover *cover,
-                              int sweeps, const iccp_env *env);
+/* The values of `field` inside; outside next to them, 0; beyond, where the domain goes on between
+ * the vertices of the grid, less and less with every step. Then `sweeps` times the mean of each
+ * value and the mean of its neighbours, the root's kept: that rids steps of the grid of nearly all
+ * vertices from which not all simplices' gradients point to one side (bench_field). Free it in any
+ * case. */
+icc_status iccp_smooth_create(iccp_smooth *smooth, const icc_function *field,
+                              const iccp_cover *cover, int sweeps, const iccp_env *env);
 void iccp_smooth_free(iccp_smooth *smooth);
 
 /* The function at a vertex as x * 2^exponent. */
@@ -36,7 +39,8 @@ static inline double iccp_smooth_get(const iccp_smooth *smooth, uint32_t v, int3
     return shift < -2000 ? 0.0 : ldexp(smooth->value[v], shift);
 }
 
-static inline void iccp_smooth_set(const iccp_smooth *smooth, uint32_t v, double x, int32_t exponent)
+static inline void iccp_smooth_set(const iccp_smooth *smooth, uint32_t v, double x,
+                                   int32_t exponent)
 {
     if (smooth->exponent == NULL)
         smooth->value[v] = x;

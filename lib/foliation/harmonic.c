@@ -1,5 +1,6 @@
-/* W. Tutte, How to draw a graph, 1963; M. Floater, Parametrization and smooth approximation of surface
- * triangulations, 1997: with positive weights and a convex boundary the map is one-to-one. */
+/* W. Tutte, How to draw a graph, 1963; M. Floater, Parametrization and smooth approximation of
+ * surface triangulations, 1997: with positive weights and a convex boundary the map is
+ * one-to-one. */
 #include "foliation/harmonic.h"
 
 #include "base/clock.h"
@@ -26,8 +27,8 @@ icc_status iccp_harmonic_create(iccp_harmonic *base, const icc_domain *domain,
     const double meshed = iccp_seconds();
     base->seconds_mesh = meshed - start;
     if (base->mesh.n_vertices == base->mesh.n_boundary)
-        status = iccp_fail(err, ICC_ERR_RESOLUTION,
-                           "the mesh has no vertex inside: use more cells");
+        status =
+            iccp_fail(err, ICC_ERR_RESOLUTION, "the mesh has no vertex inside: use more cells");
     if (status == ICC_OK) {
         status = iccp_laplacian_create(&base->laplacian, &base->mesh, ICCP_NO_NEIGHBOUR, &part[1]);
         if (status == ICC_OK)

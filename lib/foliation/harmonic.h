@@ -1,4 +1,5 @@
-/* What the harmonic charts are made from: a mesh of the domain, its Laplacian, and a solver for it. */
+/* What the harmonic charts are made from: a mesh of the domain, its Laplacian, and a solver for
+ * it. */
 #ifndef ICCP_HARMONIC_H
 #define ICCP_HARMONIC_H
 
@@ -19,7 +20,8 @@ icc_status iccp_harmonic_create(iccp_harmonic *base, const icc_domain *domain,
                                 const uint32_t *pieces, int32_t cells, const iccp_env *env,
                                 icc_error *err);
 
-/* Accepts a base that is all zero. The mesh is left alone when it has been taken over (see there). */
+/* Accepts a base that is all zero. The mesh is left alone when it has been taken over (see
+ * there). */
 void iccp_harmonic_free(iccp_harmonic *base);
 
 /* What a chart's info tells about its base. */
@@ -29,8 +31,8 @@ void iccp_harmonic_describe(const iccp_harmonic *base, const icc_domain *domain,
 /* Moves the mesh out of the base. */
 iccp_planar iccp_harmonic_take_mesh(iccp_harmonic *base);
 
-/* Where the vertices go in the harmonic map to the unit disc that takes boundary vertex k to the angle
- * `turns[k]`, in turns. `image`: 2 n_vertices. */
+/* Where the vertices go in the harmonic map to the unit disc that takes boundary vertex k to the
+ * angle `turns[k]`, in turns. `image`: 2 n_vertices. */
 icc_status iccp_harmonic_disc(const iccp_harmonic *base, const double *turns, double *image,
                               const iccp_env *env);
 
@@ -38,8 +40,8 @@ icc_status iccp_harmonic_disc(const iccp_harmonic *base, const double *turns, do
  * turns[k]. */
 void iccp_add_arc_length(const iccp_planar *mesh, double weight, double *turns);
 
-/* The inner vertex farthest from the boundary, the first of several; ICCP_NO_NEIGHBOUR without inner
- * vertices. */
+/* The inner vertex farthest from the boundary, the first of several; ICCP_NO_NEIGHBOUR without
+ * inner vertices. */
 uint32_t iccp_deepest_vertex(const iccp_planar *mesh, const icc_domain *domain);
 
 /* The inner vertex nearest to a local point, likewise. */

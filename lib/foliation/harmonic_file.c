@@ -1,8 +1,8 @@
 #include "foliation/harmonic_file.h"
 
-#include "foliation/certificate.h"
 #include "domain/domain_file.h"
 #include "domain/polygon.h"
+#include "foliation/certificate.h"
 #include "mesh/corners.h"
 
 #include <string.h>

@@ -31,10 +31,10 @@ icc_status iccp_leaf_through(const iccp_planar *mesh, const iccp_psi *psi, uint3
         if (mesh->triangles[first + k] == psi->centre)
             return leaf_in_star(psi, first + k, bary, leaf);
     int64_t label[3] = {0, psi->rise[first + 2], -psi->rise[first + 1]};
-    const int64_t low = label[1] < label[2] ? (label[1] < 0 ? label[1] : 0)
-                                            : (label[2] < 0 ? label[2] : 0);
-    const int64_t high = label[1] > label[2] ? (label[1] > 0 ? label[1] : 0)
-                                             : (label[2] > 0 ? label[2] : 0);
+    const int64_t low =
+        label[1] < label[2] ? (label[1] < 0 ? label[1] : 0) : (label[2] < 0 ? label[2] : 0);
+    const int64_t high =
+        label[1] > label[2] ? (label[1] > 0 ? label[1] : 0) : (label[2] > 0 ? label[2] : 0);
     if (low >= high)
         return ICC_ERR_TRACE;
     const double value = bary[0] * (double)(label[0] - low) + bary[1] * (double)(label[1] - low) +
@@ -51,8 +51,8 @@ icc_status iccp_leaf_through(const iccp_planar *mesh, const iccp_psi *psi, uint3
     return leaf->up.corner != ICCP_NO_NEIGHBOUR ? ICC_OK : ICC_ERR_TRACE;
 }
 
-/* Twice the area's inverse times the edge that a corner faces, turned: the derivative of the corner's
- * barycentric coordinate. */
+/* Twice the area's inverse times the edge that a corner faces, turned: the derivative of the
+ * corner's barycentric coordinate. */
 static void bary_gradient(const iccp_planar *mesh, uint32_t corner, double gradient[2])
 {
     const double *p = mesh->points + 2 * (size_t)mesh->triangles[corner];

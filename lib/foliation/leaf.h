@@ -1,15 +1,15 @@
-/* Following a leaf of a foliation, a level line of psi, by its label: integers decide which triangle
- * comes next, doubles say where the leaf crosses an edge. Nothing accumulates. */
+/* Following a leaf of a foliation, a level line of psi, by its label: integers decide which
+ * triangle comes next, doubles say where the leaf crosses an edge. Nothing accumulates. */
 #ifndef ICCP_LEAF_H
 #define ICCP_LEAF_H
 
-#include "trace/path.h"
 #include "foliation/psi.h"
+#include "trace/path.h"
 
-/* Where a leaf crosses the half-edge that a corner faces, seen from the triangle nearer to the centre:
- * the label of the half-edge's first vertex lies `below` under the leaf's, that of its second vertex
- * `above` over it. A label equal to the leaf's counts as over it, as if all labels were raised by an
- * infinitely small amount: below > 0, above >= 0. */
+/* Where a leaf crosses the half-edge that a corner faces, seen from the triangle nearer to the
+ * centre: the label of the half-edge's first vertex lies `below` under the leaf's, that of its
+ * second vertex `above` over it. A label equal to the leaf's counts as over it, as if all labels
+ * were raised by an infinitely small amount: below > 0, above >= 0. */
 typedef struct iccp_crossing {
     uint32_t corner;
     int64_t below, above;
@@ -17,17 +17,18 @@ typedef struct iccp_crossing {
 
 /* The leaf through a point of a triangle. */
 typedef struct iccp_leaf {
-    bool in_star;          /* the triangle touches the centre: the leaf is straight from `down` to it */
-    iccp_crossing down;    /* where the leaf enters the triangle, coming from the boundary */
-    iccp_crossing up;      /* where it leaves, seen from the next triangle; not in the star */
+    bool in_star;       /* the triangle touches the centre: the leaf is straight from `down` to
+                           it */
+    iccp_crossing down; /* where the leaf enters the triangle, coming from the boundary */
+    iccp_crossing up;   /* where it leaves, seen from the next triangle; not in the star */
 } iccp_leaf;
 
 /* The derivative of the label of the leaf through a point, in units, by the point. Likewise. */
 void iccp_label_gradient(const iccp_planar *mesh, const iccp_psi *psi, uint32_t triangle,
                          const double bary[3], double gradient[2]);
 
-/* The leaf through the point with the given barycentric coordinates. ICC_ERR_TRACE when the triangle is
- * flat, which a certified psi excludes, or the point is the centre. */
+/* The leaf through the point with the given barycentric coordinates. ICC_ERR_TRACE when the
+ * triangle is flat, which a certified psi excludes, or the point is the centre. */
 icc_status iccp_leaf_through(const iccp_planar *mesh, const iccp_psi *psi, uint32_t triangle,
                              const double bary[3], iccp_leaf *leaf);
 

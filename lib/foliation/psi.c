@@ -6,8 +6,8 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* Turns from the direction of a to the direction of b, both seen from the centre, in (-1/2, 1/2]. An
- * edge that does not meet the centre is seen under less than half a turn. */
+/* Turns from the direction of a to the direction of b, both seen from the centre, in (-1/2, 1/2].
+ * An edge that does not meet the centre is seen under less than half a turn. */
 static double angle_between(const iccp_planar *mesh, uint32_t centre, uint32_t a, uint32_t b)
 {
     const double *m = mesh->points + 2 * (size_t)centre;
@@ -80,8 +80,7 @@ static void right_side(double *b, const iccp_planar *mesh, const iccp_laplacian 
                    angle_between(mesh, centre, n_boundary + i, n_boundary + open->column[p]);
         for (size_t p = open->rim_first[i]; p < open->rim_first[i + 1]; ++p) {
             const uint32_t k = open->rim_vertex[p];
-            sum += open->rim_weight[p] *
-                   (phi[k] + angle_between(mesh, centre, n_boundary + i, k));
+            sum += open->rim_weight[p] * (phi[k] + angle_between(mesh, centre, n_boundary + i, k));
         }
         b[i] = sum;
     }

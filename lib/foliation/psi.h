@@ -10,17 +10,19 @@
 
 /* psi maps the mesh without its centre to R/Z, winding once round the centre: increasing along the
  * boundary, discretely harmonic inside. Values are integers, and so are the differences along
- * half-edges, each with its own lift from R/Z to R, so that every decision made with them is exact. */
+ * half-edges, each with its own lift from R/Z to R, so that every decision made with them is
+ * exact. */
 typedef struct iccp_psi {
     iccp_memory memory;
-    uint32_t centre;   /* an inner vertex */
-    int64_t *label;    /* n_vertices, in [0, ICCP_TURN); the centre's means nothing. NULL in charts that were
-                          loaded */
-    int64_t *rise;     /* 3 n_triangles: along the half-edge that a corner faces; 0 at the centre */
+    uint32_t centre; /* an inner vertex */
+    int64_t *label;  /* n_vertices, in [0, ICCP_TURN); the centre's means nothing. NULL in charts
+                        that were loaded */
+    int64_t *rise;   /* 3 n_triangles: along the half-edge that a corner faces; 0 at the centre */
 } iccp_psi;
 
 /* `harmonic` is the share of the boundary flux that follows the Green's function of the centre, in
- * [0, 1); the rest is uniform in arc length. `solver` factorises the Laplacian of the whole mesh. */
+ * [0, 1); the rest is uniform in arc length. `solver` factorises the Laplacian of the whole
+ * mesh. */
 icc_status iccp_psi_create(iccp_psi *psi, const iccp_planar *mesh, const iccp_laplacian *laplacian,
                            const iccp_spd *solver, uint32_t centre, double harmonic,
                            const iccp_env *env);

@@ -29,7 +29,8 @@ static bool is_at_centre(const iccp_psi *psi, const iccp_planar *mesh, uint32_t 
            mesh->triangles[iccp_before(corner)] == psi->centre;
 }
 
-/* The turns along the boundary add up to one, of positive parts, so that their sum cannot overflow either. */
+/* The turns along the boundary add up to one, of positive parts, so that their sum cannot overflow
+ * either. */
 static bool read_rises(iccp_psi *psi, const iccp_planar *mesh, iccp_blob_reader *r)
 {
     int64_t rest = ICCP_TURN;

@@ -21,14 +21,16 @@ static icc_status judge_chunk(void *argument, size_t begin, size_t end)
     return iccp_critical_chunk(argument, begin, end, is_ranked, is_higher);
 }
 
-icc_status iccp_function_verify(const icc_function *function, icc_function_report *report, const iccp_env *env)
+icc_status iccp_function_verify(const icc_function *function, icc_function_report *report,
+                                const iccp_env *env)
 {
     const icc_tree *tree = function->tree;
-    return iccp_critical_count(tree->grid, function, tree->n_inside, tree->root, judge_chunk, report,
-                               env);
+    return iccp_critical_count(tree->grid, function, tree->n_inside, tree->root, judge_chunk,
+                               report, env);
 }
 
-icc_status iccp_function_is_regular(const icc_function *function, bool *regular, const iccp_env *env)
+icc_status iccp_function_is_regular(const icc_function *function, bool *regular,
+                                    const iccp_env *env)
 {
     const icc_tree *tree = function->tree;
     icc_function_report report = {0};

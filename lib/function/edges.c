@@ -1,9 +1,9 @@
 /* Based on: L. Huynh, Bijective Deformations in R^n via Integral Curve Coordinates, thesis, 2013,
  * chapter 5 and section 6.4.
  *
- * The gradient in a triangle points to one of its edges when the opposite corner, the apex, lies lower
- * than the foot of its perpendicular on the edge. In the triangles of the grid that foot is an end of
- * the edge, or the middle of a diagonal, so that signs of differences tell everything. */
+ * The gradient in a triangle points to one of its edges when the opposite corner, the apex, lies
+ * lower than the foot of its perpendicular on the edge. In the triangles of the grid that foot is
+ * an end of the edge, or the middle of a diagonal, so that signs of differences tell everything. */
 #include "function/edges.h"
 
 #include "math/expansion.h"
@@ -96,7 +96,7 @@ static int32_t judge(const edge *e)
 }
 
 iccp_edge_count iccp_function_edges(const icc_function *function, size_t capacity, uint32_t *edges,
-                                 int32_t *kinds)
+                                    int32_t *kinds)
 {
     const icc_grid *grid = function->tree->grid;
     assert(grid->dim == 2);
@@ -123,8 +123,8 @@ iccp_edge_count iccp_function_edges(const icc_function *function, size_t capacit
     return count;
 }
 
-void iccp_function_count_edges(const icc_function *function, size_t *n_tested, size_t *n_compression,
-                            size_t *n_expansion)
+void iccp_function_count_edges(const icc_function *function, size_t *n_tested,
+                               size_t *n_compression, size_t *n_expansion)
 {
     const iccp_edge_count count = iccp_function_edges(function, 0, NULL, NULL);
     *n_tested = count.n_tested;

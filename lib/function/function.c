@@ -43,7 +43,8 @@ static icc_status assign_logs(icc_function *function, const iccp_rows *rows, con
 }
 
 /* Fractions in place of the values, which are kept for those who want plain numbers. */
-static icc_status assign_exponents(icc_function *function, const iccp_rows *rows, const iccp_scaled *f)
+static icc_status assign_exponents(icc_function *function, const iccp_rows *rows,
+                                   const iccp_scaled *f)
 {
     const size_t n = function->tree->grid->n_vertices;
     function->plain = function->values;
@@ -62,7 +63,8 @@ static icc_status assign_exponents(icc_function *function, const iccp_rows *rows
     return ICC_OK;
 }
 
-/* The highest inside vertex two steps from an outside vertex, or ICCP_NONE if that is next to the inside. */
+/* The highest inside vertex two steps from an outside vertex, or ICCP_NONE if that is next to the
+ * inside. */
 static uint32_t highest_behind(const icc_function *function, uint32_t v)
 {
     const icc_grid *grid = function->tree->grid;
@@ -83,9 +85,9 @@ static uint32_t highest_behind(const icc_function *function, uint32_t v)
     return best;
 }
 
-/* The layer beyond the zeros mirrors the one before them: with zeros there too, a boundary that cuts
- * the corner of a cell would see a level triangle (tests/bench/bench_collapse: a third less area uncovered,
- * fewer boundary points where the gradient does not point inward). */
+/* The layer beyond the zeros mirrors the one before them: with zeros there too, a boundary that
+ * cuts the corner of a cell would see a level triangle (tests/bench/bench_collapse: a third less
+ * area uncovered, fewer boundary points where the gradient does not point inward). */
 static void mirror(icc_function *function)
 {
     const icc_tree *tree = function->tree;

@@ -2,8 +2,8 @@
 #ifndef ICCP_FUNCTION_H
 #define ICCP_FUNCTION_H
 
-#include "solver/rows.h"
 #include "math/scaled.h"
+#include "solver/rows.h"
 
 struct icc_function {
     iccp_memory memory;
@@ -18,19 +18,20 @@ struct icc_function {
 /* A function whose values are all NaN. */
 icc_status iccp_function_new(icc_function **out, const icc_tree *tree, const iccp_env *env);
 
-/* Takes over the values of a function on the rows: 0 at the vertices outside next to them, and beyond these
- * minus the value two steps back, as if it went on. Logarithms are made when all are positive,
- * exponents when doubles would not hold them. May be called again. ICC_ERR_MEMORY leaves the function usable
- * only for iccp_function_release(). */
-icc_status iccp_function_assign(icc_function *function, const iccp_rows *rows, const iccp_scaled *f);
+/* Takes over the values of a function on the rows: 0 at the vertices outside next to them, and
+ * beyond these minus the value two steps back, as if it went on. Logarithms are made when all are
+ * positive, exponents when doubles would not hold them. May be called again. ICC_ERR_MEMORY leaves
+ * the function usable only for iccp_function_release(). */
+icc_status iccp_function_assign(icc_function *function, const iccp_rows *rows,
+                                const iccp_scaled *f);
 
 /* NULL is a no-op. Nothing shares a function yet, so it has one owner. */
 void iccp_function_release(icc_function *function);
 
 /* The function at a few vertices, all divided by the same power of 2 where a double would not hold
  * them; NaN stays NaN. Differences of the results have exact signs. */
-static inline void iccp_function_local(const icc_function *function, size_t n, const uint32_t *vertices,
-                                    double *local)
+static inline void iccp_function_local(const icc_function *function, size_t n,
+                                       const uint32_t *vertices, double *local)
 {
     for (size_t i = 0; i < n; ++i)
         local[i] = function->values[vertices[i]];

@@ -1,13 +1,13 @@
 /* Based on: L. Huynh and Y. Gingold, Bijective Deformations in R^n via Integral Curve Coordinates,
- * section 5.2: solutions to the Laplace and bi-Laplace equations, with and without the inequalities of
- * the cousin tree. */
+ * section 5.2: solutions to the Laplace and bi-Laplace equations, with and without the inequalities
+ * of the cousin tree. */
 #include "function/laplace.h"
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "function/critical_points.h"
 #include "solver/bilaplace.h"
 #include "solver/constrained.h"
-#include "function/critical_points.h"
 #include "solver/glued.h"
 #include "solver/inequalities.h"
 
@@ -25,10 +25,10 @@ typedef struct job {
 /* Most multiplications of a factorisation that are preferred to conjugate gradients. */
 static const double MOST_WORK_IN_2D = 2e10, MOST_WORK_BEYOND = 2e9;
 
-/* About how many multiplications a factorisation takes whose separators are the generations of the tree:
- * along a limb of breadth w, blocks of w^dim vertices cost w^(3 (dim - 1)) each, which is
- * w^(3 dim - 4) per generation of w^(dim - 1) vertices. The factors were found from exact counts on squares
- * and boxes (tests/bench/bench_spd). */
+/* About how many multiplications a factorisation takes whose separators are the generations of the
+ * tree: along a limb of breadth w, blocks of w^dim vertices cost w^(3 (dim - 1)) each, which is
+ * w^(3 dim - 4) per generation of w^(dim - 1) vertices. The factors were found from exact counts on
+ * squares and boxes (tests/bench/bench_spd). */
 static double predict_work(const icc_tree *tree)
 {
     const double dim = tree->grid->dim;
@@ -146,7 +146,8 @@ static icc_status constrain(job *j, const iccp_env *env)
     if (function == ICC_FUNCTION_LAPLACE)
         return iccp_constrained_laplace(&j->rows, eta, glued_solver(j), j->order, &j->f, info, env);
     info->solver = ICC_SOLVER_DIRECT;
-    return iccp_bilaplace_constrained(&j->rows, function, eta, j->options->leaf_min, &j->f, info, env);
+    return iccp_bilaplace_constrained(&j->rows, function, eta, j->options->leaf_min, &j->f, info,
+                                      env);
 }
 
 static icc_status make(job *j, const iccp_env *env)
@@ -172,16 +173,17 @@ static icc_status make(job *j, const iccp_env *env)
     return status == ICC_OK ? iccp_function_assign(function, &j->rows, &j->f) : status;
 }
 
-icc_status iccp_laplace(icc_function *function, const icc_function_options *options, const iccp_env *env,
-                        icc_error *err)
+icc_status iccp_laplace(icc_function *function, const icc_function_options *options,
+                        const iccp_env *env, icc_error *err)
 {
     job j = {.function = function, .options = options};
     const icc_tree *tree = function->tree;
     if (tree->n_inside < 2)
-        return iccp_fail_at(err, ICC_ERR_RESOLUTION, ICC_ITEM_GRID_VERTEX, tree->root,
-                         "the grid is too coarse: vertex %lu is the only one inside that the tree "
-                         "reaches",
-                         (unsigned long)tree->root);
+        return iccp_fail_at(
+            err, ICC_ERR_RESOLUTION, ICC_ITEM_GRID_VERTEX, tree->root,
+            "the grid is too coarse: vertex %lu is the only one inside that the tree "
+            "reaches",
+            (unsigned long)tree->root);
     function->info.n_unknowns = tree->n_inside - 1;
     function->info.solver = choose_solver(&j);
     const icc_status status = make(&j, env);

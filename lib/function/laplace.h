@@ -4,8 +4,9 @@
 
 #include "function/function.h"
 
-/* Gives values to a new function: ICC_FUNCTION_LAPLACE, _BILAPLACE or _CLAMPED. See icc_function_create(). */
-icc_status iccp_laplace(icc_function *function, const icc_function_options *options, const iccp_env *env,
-                        icc_error *err);
+/* Gives values to a new function: ICC_FUNCTION_LAPLACE, _BILAPLACE or _CLAMPED. See
+ * icc_function_create(). */
+icc_status iccp_laplace(icc_function *function, const icc_function_options *options,
+                        const iccp_env *env, icc_error *err);
 
 #endif

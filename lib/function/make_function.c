@@ -39,7 +39,8 @@ static void find_highest(icc_function *function)
 }
 
 icc_status iccp_function_create(icc_function **out, const icc_tree *tree,
-                             const icc_function_options *options, const iccp_env *env, icc_error *err)
+                                const icc_function_options *options, const iccp_env *env,
+                                icc_error *err)
 {
     icc_function *function;
     *out = NULL;

@@ -6,6 +6,7 @@
 
 /* See icc_function_create(); the options are checked; zeros are completed here. */
 icc_status iccp_function_create(icc_function **out, const icc_tree *tree,
-                             const icc_function_options *options, const iccp_env *env, icc_error *err);
+                                const icc_function_options *options, const iccp_env *env,
+                                icc_error *err);
 
 #endif

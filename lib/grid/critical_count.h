@@ -1,8 +1,8 @@
 /* Critical vertices of an order of the vertices of a grid, whatever it comes from.
  *
- * Based on: T. Banchoff, Critical Points and Curvature for Embedded Polyhedra, Journal of Differential
- * Geometry 1, 1967: what a piecewise linear function does at a vertex can be read off the neighbours
- * that are higher and those that are lower. */
+ * Based on: T. Banchoff, Critical Points and Curvature for Embedded Polyhedra, Journal of
+ * Differential Geometry 1, 1967: what a piecewise linear function does at a vertex can be read off
+ * the neighbours that are higher and those that are lower. */
 #ifndef ICCP_CRITICAL_COUNT_H
 #define ICCP_CRITICAL_COUNT_H
 
@@ -12,8 +12,8 @@
 /* A count on its way. */
 typedef struct iccp_critical {
     iccp_star star;
-    const void *context;       /* the order: for the two questions below */
-    uint32_t highest;          /* where a maximum is expected */
+    const void *context;          /* the order: for the two questions below */
+    uint32_t highest;             /* where a maximum is expected */
     icc_function_report *partial; /* what each chunk found */
 } iccp_critical;
 
@@ -23,9 +23,10 @@ typedef bool (*iccp_is_ranked)(const void *context, uint32_t v);
 /* Of two that do. */
 typedef bool (*iccp_is_higher)(const void *context, uint32_t u, uint32_t v);
 
-/* Counts critical vertices; see icc_function_report, of which all but `size` is filled in. `chunk` calls
- * iccp_critical_chunk() with the two questions; it is asked from several threads at a time. `n_ranked`:
- * about how many take part. ICC_ERR_MEMORY or ICC_ERR_CANCELLED leave the report as it was. */
+/* Counts critical vertices; see icc_function_report, of which all but `size` is filled in. `chunk`
+ * calls iccp_critical_chunk() with the two questions; it is asked from several threads at a time.
+ * `n_ranked`: about how many take part. ICC_ERR_MEMORY or ICC_ERR_CANCELLED leave the report as it
+ * was. */
 icc_status iccp_critical_count(const icc_grid *grid, const void *context, size_t n_ranked,
                                uint32_t highest, iccp_chunk chunk, icc_function_report *report,
                                const iccp_env *env);

@@ -3,8 +3,8 @@
  *
  * Round r of the algorithm burns the vertices at axis-by-axis (L1) distance r from the outside, so
  * the ones that stay longest are those of the largest distance. Two sweeps over the grid give that
- * distance: a shortest way from the outside to a vertex may take all its steps towards larger indices
- * first, which the first sweep follows, and then those towards smaller ones. */
+ * distance: a shortest way from the outside to a vertex may take all its steps towards larger
+ * indices first, which the first sweep follows, and then those towards smaller ones. */
 #include "grid/grassfire.h"
 
 #include "base/error.h"
@@ -36,8 +36,8 @@ static icc_status sweep(const icc_grid *grid, uint32_t *distance, int32_t step, 
     return ICC_OK;
 }
 
-/* How far a vertex lies from the mean of `count` vertices whose coordinates add up to `sum`, squared
- * and times count^2. Whole numbers, so that vertices on opposite sides of the mean tie. */
+/* How far a vertex lies from the mean of `count` vertices whose coordinates add up to `sum`,
+ * squared and times count^2. Whole numbers, so that vertices on opposite sides of the mean tie. */
 static double from_mean(const icc_grid *grid, uint32_t vertex, uint64_t count, const uint64_t *sum)
 {
     double square = 0.0;

@@ -4,8 +4,8 @@
 
 #include "grid/lattice.h"
 
-/* See icc_grid_find_maximum(). `rounds` may be NULL. Beyond the last vertices of a mask everything is
- * outside. ICC_ERR_RESOLUTION when no vertex is inside. */
+/* See icc_grid_find_maximum(). `rounds` may be NULL. Beyond the last vertices of a mask everything
+ * is outside. ICC_ERR_RESOLUTION when no vertex is inside. */
 icc_status iccp_grassfire(const icc_grid *grid, uint32_t *vertex, uint32_t *rounds,
                           const iccp_env *env, icc_error *err);
 

@@ -1,17 +1,17 @@
 /* Based on: J. A. Barmak and E. G. Minian, Strong Homotopy Types, Nerves and Collapses, Discrete &
  * Computational Geometry 47, 2012.
  *
- * The simplices of the triangulation are the cliques of joined vertices. The link is a sphere of one
- * dimension less. Up to 3-D, where it is two points, a circle or a sphere, a set and the rest are both
- * contractible when each is connected and not empty (Alexander duality).
+ * The simplices of the triangulation are the cliques of joined vertices. The link is a sphere of
+ * one dimension less. Up to 3-D, where it is two points, a circle or a sphere, a set and the rest
+ * are both contractible when each is connected and not empty (Alexander duality).
  *
- * Beyond, strong collapses: a vertex is dominated by another one when everything joined to it, itself
- * included, is joined to the other; it can then be moved into the other one and dropped without
- * changing the homotopy type. What is left when no vertex is dominated does not depend on the order,
- * so a set that can be reduced to one vertex is reduced by dropping whatever will go. It is enough
- * that one of the two sets collapses: its neighbourhood is then a ball, and so is the rest of the
- * sphere (C. P. Rourke and B. J. Sanderson, Introduction to Piecewise-Linear Topology, chapter 3),
- * which shrinks to the other set. */
+ * Beyond, strong collapses: a vertex is dominated by another one when everything joined to it,
+ * itself included, is joined to the other; it can then be moved into the other one and dropped
+ * without changing the homotopy type. What is left when no vertex is dominated does not depend on
+ * the order, so a set that can be reduced to one vertex is reduced by dropping whatever will go. It
+ * is enough that one of the two sets collapses: its neighbourhood is then a ball, and so is the
+ * rest of the sphere (C. P. Rourke and B. J. Sanderson, Introduction to Piecewise-Linear Topology,
+ * chapter 3), which shrinks to the other set. */
 #include "grid/kuhn.h"
 
 #include <assert.h>

@@ -1,6 +1,6 @@
-/* Links of the Kuhn (Freudenthal) triangulation of a grid: every cell is cut along its diagonals from
- * lower to upper corners, and two vertices are joined when they differ by 0s and 1s only, or by 0s
- * and -1s only. Any dimension up to ICC_MAX_DIM. */
+/* Links of the Kuhn (Freudenthal) triangulation of a grid: every cell is cut along its diagonals
+ * from lower to upper corners, and two vertices are joined when they differ by 0s and 1s only, or
+ * by 0s and -1s only. Any dimension up to ICC_MAX_DIM. */
 #ifndef ICCP_KUHN_H
 #define ICCP_KUHN_H
 
@@ -55,8 +55,8 @@ static inline iccp_link_set iccp_link_rest(const iccp_kuhn *kuhn, const iccp_lin
     return (iccp_link_set){{kuhn->all.word[0] & ~set->word[0], kuhn->all.word[1] & ~set->word[1]}};
 }
 
-/* Whether a set of neighbours and the rest of them each span a contractible part of the link. Exact up
- * to 3-D; beyond, true is exact and false may mean that it could not be shown. */
+/* Whether a set of neighbours and the rest of them each span a contractible part of the link. Exact
+ * up to 3-D; beyond, true is exact and false may mean that it could not be shown. */
 bool iccp_kuhn_regular(const iccp_kuhn *kuhn, const iccp_link_set *set);
 
 #endif

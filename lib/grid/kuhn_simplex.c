@@ -1,5 +1,6 @@
-/* Based on: H. Freudenthal, Simplizialzerlegungen von beschraenkter Flachheit, Annals of Mathematics 43,
- * 1942; pivoting as in M. Todd, The Computation of Fixed Points and Applications, 1976, chapter III. */
+/* Based on: H. Freudenthal, Simplizialzerlegungen von beschraenkter Flachheit, Annals of
+ * Mathematics 43, 1942; pivoting as in M. Todd, The Computation of Fixed Points and Applications,
+ * 1976, chapter III. */
 #include "grid/kuhn_simplex.h"
 
 #include <math.h>

@@ -18,8 +18,8 @@ static size_t count_vertices(int32_t dim, const size_t *shape)
     return n;
 }
 
-/* Of a chart's tree, function and whatever else there is for each vertex while they are made, but for the
- * factors of matrices: 29 to 180 were measured, with the matrices. */
+/* Of a chart's tree, function and whatever else there is for each vertex while they are made, but
+ * for the factors of matrices: 29 to 180 were measured, with the matrices. */
 static const double BYTES_PER_VERTEX = 300;
 
 /* To scan a domain, grow a tree and verify a function, by the simplices at a vertex. */

@@ -11,8 +11,8 @@
 
 enum { MARGIN = 2 }; /* layers of vertices beyond the bounding box */
 
-/* How many vertices fit into a side of the bounding box, never closer than a quarter of a cell to its
- * ends unless there is only one. */
+/* How many vertices fit into a side of the bounding box, never closer than a quarter of a cell to
+ * its ends unless there is only one. */
 static size_t vertices_within(double side, double spacing)
 {
     const double n = floor(side / spacing + 0.5);
@@ -55,8 +55,8 @@ static icc_status create_in_boundary(icc_grid **out, const icc_domain *domain, i
     return status == ICC_OK ? iccp_grid_keep_largest(*out, env) : status;
 }
 
-/* Vertices to a cell of the mask: the least even number for which there are `cells` along the longest
- * side. */
+/* Vertices to a cell of the mask: the least even number for which there are `cells` along the
+ * longest side. */
 static size_t cuts_for(const iccp_mask *mask, int32_t cells)
 {
     size_t longest = 0;

@@ -3,7 +3,8 @@
  * lattice of half the spacing: the new vertices are the middles of its edges. */
 #include "grid/refine.h"
 
-/* The ends of the edge that a vertex of the finer grid is the middle of; one vertex if it is old. */
+/* The ends of the edge that a vertex of the finer grid is the middle of; one vertex if it is
+ * old. */
 static void find_ends(const icc_grid *coarse, const icc_grid *fine, uint32_t vertex, size_t *lower,
                       size_t *upper)
 {

@@ -6,8 +6,8 @@
 #include "grid/lattice.h"
 
 /* Sets `inside` and n_inside of a new grid that has `cuts` vertices to a cell along each axis, the
- * walls between cells among them, and `margin` layers of vertices beyond the mask. A vertex is inside
- * when all cells around it are. */
+ * walls between cells among them, and `margin` layers of vertices beyond the mask. A vertex is
+ * inside when all cells around it are. */
 icc_status iccp_scan_mask(icc_grid *grid, const iccp_mask *mask, size_t cuts, size_t margin,
                           const iccp_env *env);
 

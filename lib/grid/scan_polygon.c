@@ -1,8 +1,9 @@
 /* Scan conversion of a polygon by the parity rule, all edges first, then all rows.
  *
  * Where an edge crosses a row, the first vertex beyond it toggles; summing the toggles up along the
- * row says what is inside. Edges are half open, so that a row through a polygon vertex counts its two
- * edges once or as a pair. Vertices of the grid on an edge are marked apart: they are outside. */
+ * row says what is inside. Edges are half open, so that a row through a polygon vertex counts its
+ * two edges once or as a pair. Vertices of the grid on an edge are marked apart: they are
+ * outside. */
 #include "grid/scan_polygon.h"
 
 #include "math/predicates.h"

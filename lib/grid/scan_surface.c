@@ -1,8 +1,9 @@
 /* Parity along the rows of the grid, then a closer look at the vertices next to a facet.
  *
- * Where a row crosses the boundary is known to rounding, and a row that runs in a facet is moved aside
- * by an infinitesimal to begin with. So what parity says of a vertex that lies in a facet, or so near to
- * one that rounding matters, means nothing: these vertices are found facet by facet and located. */
+ * Where a row crosses the boundary is known to rounding, and a row that runs in a facet is moved
+ * aside by an infinitesimal to begin with. So what parity says of a vertex that lies in a facet, or
+ * so near to one that rounding matters, means nothing: these vertices are found facet by facet and
+ * located. */
 #include "grid/scan_surface.h"
 
 #include "base/threads.h"
@@ -17,8 +18,9 @@ enum {
 
 static const size_t ROWS_PER_CHUNK = 64, FACETS_PER_REPORT = 1 << 10;
 
-/* Distance from a facet, in longest sides of the bounding box, within which a vertex is located. Crossings
- * are accurate to a few units of rounding, 1e-16, in the distance from the facet's plane. */
+/* Distance from a facet, in longest sides of the bounding box, within which a vertex is located.
+ * Crossings are accurate to a few units of rounding, 1e-16, in the distance from the facet's
+ * plane. */
 static const double NEAR = 1e-12;
 
 typedef struct work {
@@ -64,8 +66,8 @@ static icc_status scan_rows(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
-/* The vertices in a facet's bounding box, widened by `near`: the first and the number along each axis.
- * False if there are none. */
+/* The vertices in a facet's bounding box, widened by `near`: the first and the number along each
+ * axis. False if there are none. */
 static bool find_range(const work *w, uint32_t facet, double near, size_t *first, size_t *n)
 {
     const icc_grid *grid = w->grid;

@@ -11,7 +11,8 @@ typedef struct iccp_star {
     ptrdiff_t offset[ICCP_LINK_SIZE]; /* to the index of each neighbour */
 } iccp_star;
 
-/* `n_asked`: about how often iccp_kuhn_regular() will be asked for; it is made ready accordingly. */
+/* `n_asked`: about how often iccp_kuhn_regular() will be asked for; it is made ready
+ * accordingly. */
 void iccp_star_init(iccp_star *star, const icc_grid *grid, size_t n_asked);
 
 /* Whether some neighbour of a vertex would lie beyond the grid. */

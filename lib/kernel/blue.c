@@ -1,9 +1,10 @@
-/* Inverse mean shift (thesis, section 6.2.1, equation 6.4): every sample is pushed away from those around it, by a
- * Gaussian of their distance. The thesis starts from random points and takes 4,000 to 28,000 steps. Points of the
- * densest lattice (hexagonal, face-centred cubic in 3-D), shaken, are nearly there to begin with: some ten steps
- * will do.
+/* Inverse mean shift (thesis, section 6.2.1, equation 6.4): every sample is pushed away from those
+ * around it, by a Gaussian of their distance. The thesis starts from random points and takes 4,000
+ * to 28,000 steps. Points of the densest lattice (hexagonal, face-centred cubic in 3-D), shaken,
+ * are nearly there to begin with: some ten steps will do.
  *
- * Containment: a sample that stays farther from all walls than the length of a step never crosses one. */
+ * Containment: a sample that stays farther from all walls than the length of a step never crosses
+ * one. */
 #include "kernel/blue.h"
 
 #include "base/random.h"
@@ -37,8 +38,8 @@ static double unit(uint64_t *state)
     return (double)(iccp_random(state) >> 11) * 0x1p-53;
 }
 
-/* Rows of points, each row half a spacing aside of the one before; layers of such rows, each above the gaps
- * of the one before. */
+/* Rows of points, each row half a spacing aside of the one before; layers of such rows, each above
+ * the gaps of the one before. */
 static void lattice_point(const void *argument, const size_t *at, double *point)
 {
     const lattice *l = argument;

@@ -1,5 +1,5 @@
-/* Points sorted into the cells of a regular grid by counting: C. Ericson, Real-Time Collision Detection,
- * section 7.1. */
+/* Points sorted into the cells of a regular grid by counting: C. Ericson, Real-Time Collision
+ * Detection, section 7.1. */
 #include "kernel/cells.h"
 
 #include "math/vec.h"
@@ -49,7 +49,8 @@ static void lay_out(iccp_cells *cells, double side)
         cells->shape[k] = k < cells->dim ? (size_t)(extent[k] / cells->side) + 1 : 1;
 }
 
-/* Counts, adds up, and fills in from the end, which leaves each cell's points in ascending order. */
+/* Counts, adds up, and fills in from the end, which leaves each cell's points in ascending
+ * order. */
 static void sort_points(iccp_cells *cells, size_t n_cells)
 {
     for (size_t i = 0; i < cells->n; ++i)

@@ -1,20 +1,22 @@
-/* Based on: Goldfarb and Idnani, A numerically stable dual method for solving strictly convex quadratic programs,
- * Mathematical Programming 27 (1983). From the nearest x that meets the equations, one negative x[p] after the other
- * is raised to 0 by a force on it, and held there. That changes the forces on those that are held; one that would
- * have to pull is let go. The cost grows with every step, so that the method ends: with no negative x[p] left, or
- * with one that nothing can raise.
+/* Based on: Goldfarb and Idnani, A numerically stable dual method for solving strictly convex
+ * quadratic programs, Mathematical Programming 27 (1983). From the nearest x that meets the
+ * equations, one negative x[p] after the other is raised to 0 by a force on it, and held there.
+ * That changes the forces on those that are held; one that would have to pull is let go. The cost
+ * grows with every step, so that the method ends: with no negative x[p] left, or with one that
+ * nothing can raise.
  *
- * The equations are combined so that their rows are orthonormal over the free components. Then all that is asked
- * is a product with one column, and what the columns span is told apart from rounding. Everything follows from
- * which components are held and from the force on x[p], and is computed from these anew in every step: nothing
- * accumulates. */
+ * The equations are combined so that their rows are orthonormal over the free components. Then all
+ * that is asked is a product with one column, and what the columns span is told apart from
+ * rounding. Everything follows from which components are held and from the force on x[p], and is
+ * computed from these anew in every step: nothing accumulates. */
 #include "kernel/dual.h"
 
 #include <math.h>
 
 /* Of the size of the numbers: x[p] is not negative. */
 static const double ZERO = 1e-13;
-/* Of 1: the share of component p that is not fixed by the equations and the components that are held. */
+/* Of 1: the share of component p that is not fixed by the equations and the components that are
+ * held. */
 static const double LOOSE = 1e-12;
 /* Of 1: a force changes, or a row is no combination of those before it. */
 static const double CHANGES = 1e-11;
@@ -91,8 +93,8 @@ static void settle(state *s)
             s->y[r] -= s->start[j] * column(s, j)[r];
 }
 
-/* The held component whose force vanishes first as `push`, the force on p, grows beyond what it is, and by how much
- * that is; m when there is none. */
+/* The held component whose force vanishes first as `push`, the force on p, grows beyond what it is,
+ * and by how much that is; m when there is none. */
 static size_t first_to_go(const state *s, size_t p, double push, double *growth)
 {
     size_t first = s->problem->m;

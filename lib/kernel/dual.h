@@ -8,19 +8,19 @@
 /* Equations; fewer are filled up with zeros. */
 enum { ICCP_ROWS = 4 };
 
-/* Minimises |x - start|^2 where the sum of x[j] * column j is the target and no x[j] is negative. */
+/* Minimises |x - start|^2 where the sum of x[j] * column j is the target and no x[j] is
+ * negative. */
 typedef struct iccp_nonneg {
     size_t m;
     const double
         *columns; /* ICCP_ROWS each, of length 1 at most; they span all rows that are not 0 */
     double target[ICCP_ROWS];
-    double
-        total; /* the sum of all x that meet the equations, or HUGE_VAL where they leave it open: then there must
-                     be a solution */
+    double total; /* the sum of all x that meet the equations, or HUGE_VAL where they leave it open:
+                     then there must be a solution */
 } iccp_nonneg;
 
-/* `x` is the start and becomes the solution. When there is none, false is returned and x stays as it is. `work` has
- * room for iccp_dual_work() doubles. */
+/* `x` is the start and becomes the solution. When there is none, false is returned and x stays as
+ * it is. `work` has room for iccp_dual_work() doubles. */
 size_t iccp_dual_work(size_t m);
 bool iccp_dual_solve(const iccp_nonneg *problem, double *x, double *work);
 

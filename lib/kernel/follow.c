@@ -1,7 +1,8 @@
-/* Nodes beside a line follow it: Sakaridis, Kernel Coordinates (ETH Zurich 2016), section 5.3.3, which asks for it without
- * saying how. Weights on a line are not those that would have been optimised there. This change keeps sums and
- * reproduction, so any multiple of it may be added to the weights of a node near by: all of it on the line,
- * nothing at some distance, and no more than keeps weights from becoming negative. */
+/* Nodes beside a line follow it: Sakaridis, Kernel Coordinates (ETH Zurich 2016), section 5.3.3,
+ * which asks for it without saying how. Weights on a line are not those that would have been
+ * optimised there. This change keeps sums and reproduction, so any multiple of it may be added to
+ * the weights of a node near by: all of it on the line, nothing at some distance, and no more than
+ * keeps weights from becoming negative. */
 #include "kernel/handle_weights.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
-/* From nodes to weights everywhere: Sakaridis, Kernel Coordinates (ETH Zurich 2016), chapters 4 and 6. */
+/* From nodes to weights everywhere: Sakaridis, Kernel Coordinates (ETH Zurich 2016), chapters 4 and
+ * 6. */
 #include "kernel/handle_weights.h"
 
 #include "base/clock.h"
@@ -57,7 +58,8 @@ static void set_handles(const iccp_layout *l, bool edges)
     }
 }
 
-static icc_status initialise(iccp_layout *l, const icc_weights_options *options, const iccp_env *env)
+static icc_status initialise(iccp_layout *l, const icc_weights_options *options,
+                             const iccp_env *env)
 {
     const bool edges = options->initial == ICC_INITIAL_EDGES;
     const iccp_nodes nodes = iccp_layout_nodes(l);
@@ -103,7 +105,7 @@ static icc_status optimise_some(void *argument, size_t begin, size_t end)
 }
 
 icc_status iccp_weights_optimise(icc_weights *kernel, size_t n, const uint32_t *nodes,
-                                const iccp_env *env)
+                                 const iccp_env *env)
 {
     optimisation o = {kernel, nodes, &env->memory};
     const icc_status status = iccp_for_chunks(env, "weights", n, GRAIN, optimise_some, &o);
@@ -113,7 +115,8 @@ icc_status iccp_weights_optimise(icc_weights *kernel, size_t n, const uint32_t *
     return status;
 }
 
-/* Ends of lines that are nobody else's are optimised like any node, the nodes between them never. */
+/* Ends of lines that are nobody else's are optimised like any node, the nodes between them
+ * never. */
 static icc_status optimise_ends(icc_weights *kernel, const iccp_env *env)
 {
     const iccp_layout *l = kernel->layout;
@@ -153,7 +156,7 @@ icc_status iccp_weights_start(icc_weights *kernel, const iccp_env *env)
 
 /* Columns that are the same bit for bit have the same coefficients. */
 icc_status iccp_weights_interpolate(icc_weights *kernel, const icc_weights *before,
-                                   const iccp_env *env)
+                                    const iccp_env *env)
 {
     const iccp_layout *l = kernel->layout;
     const size_t m = l->n_handles;
@@ -225,8 +228,8 @@ static icc_status finish(icc_weights **out, iccp_layout *layout, const icc_weigh
 }
 
 icc_status iccp_weights_create(icc_weights **out, const icc_sampling *sampling, size_t n_handles,
-                              const double *handles, const icc_weights_options *options,
-                              const iccp_env *env, icc_error *err)
+                               const double *handles, const icc_weights_options *options,
+                               const iccp_env *env, icc_error *err)
 {
     iccp_layout *layout;
     const double start = iccp_seconds();

@@ -1,9 +1,10 @@
 /* Based on: Sakaridis, Kernel Coordinates (ETH Zurich 2016), sections 4.1, 4.2 and 4.4.
  *
- * Weights w of a point x reproduce it and sum to 1 when A w = (1, x), where the columns of A are the handles. The
- * rows of A are replaced by orthonormal ones, Q, that span the same: A = L Q, and the equations are
- * Q w = L^-1 (1, x). So the nearest w that meets them, (4.4) to (4.6), is w0 + Q'(L^-1 (1, x) - Q w0), and whatever
- * the handles' place and size, numbers in the iterative methods are of size 1. */
+ * Weights w of a point x reproduce it and sum to 1 when A w = (1, x), where the columns of A are
+ * the handles. The rows of A are replaced by orthonormal ones, Q, that span the same: A = L Q, and
+ * the equations are Q w = L^-1 (1, x). So the nearest w that meets them, (4.4) to (4.6), is w0
+ * + Q'(L^-1 (1, x) - Q w0), and whatever the handles' place and size, numbers in the iterative
+ *   methods are of size 1. */
 #include "base/error.h"
 #include "kernel/l1.h"
 #include "kernel/weights.h"
@@ -11,11 +12,12 @@
 #include <assert.h>
 #include <math.h>
 
-/* Thickness over extent below which handles are taken to lie in a plane: weights beside it would be wrong by more
- * than this. */
+/* Thickness over extent below which handles are taken to lie in a plane: weights beside it would be
+ * wrong by more than this. */
 static const double THINNEST = 1e-8;
-/* Cost of what lies below 0 where weights must be negative: 1 / SLOPE times that above. Weights jump at the hull by
- * less the smaller it is: by 2e-4 on the star, and by 2e-2 with 1e-3. With 1e-6, Newton's method fails at times. */
+/* Cost of what lies below 0 where weights must be negative: 1 / SLOPE times that above. Weights
+ * jump at the hull by less the smaller it is: by 2e-4 on the star, and by 2e-2 with 1e-3. With
+ * 1e-6, Newton's method fails at times. */
 static const double SLOPE = 1e-5;
 
 struct iccp_handles {
@@ -54,8 +56,8 @@ static double row_length(const iccp_handles *h, size_t r)
     return sqrt(sum);
 }
 
-/* Gram and Schmidt's method, twice, which makes rows orthogonal to the last digit. False when the handles lie in a
- * plane. */
+/* Gram and Schmidt's method, twice, which makes rows orthogonal to the last digit. False when the
+ * handles lie in a plane. */
 static bool make_rows(iccp_handles *h, const double *points)
 {
     double longest = 0;
@@ -76,7 +78,8 @@ static bool make_rows(iccp_handles *h, const double *points)
     return true;
 }
 
-/* Columns that span a large simplex: each the one with the greatest part that those before leave over. */
+/* Columns that span a large simplex: each the one with the greatest part that those before leave
+ * over. */
 static void choose_start(iccp_handles *h)
 {
     double basis[ICCP_ROWS][ICCP_ROWS] = {{0}};
@@ -226,7 +229,8 @@ icc_status iccp_optimise(const iccp_handles *handles, int32_t method, const doub
     }
     const bool again = method == ICC_WEIGHTS_EQUALITY || greatest(handles->m, weights) > 1;
     meet(handles, problem.target, weights);
-    /* Large weights leave rounding errors of their size, and many their sum; the iteration sees to these, too. */
+    /* Large weights leave rounding errors of their size, and many their sum; the iteration sees to
+     * these, too. */
     if (again)
         meet(handles, problem.target, weights);
     if (method == ICC_WEIGHTS_EQUALITY || least(handles->m, weights) >= 0 ||

@@ -1,7 +1,8 @@
-/* Based on: Sakaridis, Kernel Coordinates (ETH Zurich 2016), section 4.6. There a step multiplies the weights by K
- * over a constant, and what is far from the mean density of samples grows or fades with every step. Here the rows
- * of the matrix sum to 1, so that a step takes means: weights stay between those that are held, and go on summing
- * to 1 where all of them do. The thesis' kernel also reaches across gaps; see iccp_spot_sees(). */
+/* Based on: Sakaridis, Kernel Coordinates (ETH Zurich 2016), section 4.6. There a step multiplies
+ * the weights by K over a constant, and what is far from the mean density of samples grows or fades
+ * with every step. Here the rows of the matrix sum to 1, so that a step takes means: weights stay
+ * between those that are held, and go on summing to 1 where all of them do. The thesis' kernel also
+ * reaches across gaps; see iccp_spot_sees(). */
 #include "base/threads.h"
 #include "kernel/weights.h"
 

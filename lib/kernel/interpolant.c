@@ -1,11 +1,11 @@
-/* Based on: Sakaridis, Kernel Coordinates (ETH Zurich 2016), sections 3.5 and 6.1. The affine function beside the kernels
- * is ours: coefficients a of the kernels and t of the function solve
+/* Based on: Sakaridis, Kernel Coordinates (ETH Zurich 2016), sections 3.5 and 6.1. The affine
+ * function beside the kernels is ours: coefficients a of the kernels and t of the function solve
  *
  *     K a + P t = w,  P' a = 0,    rows of P: (1, x),
  *
- * so that affine weights are reproduced exactly. With Z = K^-1 P, found once, t = (P' Z)^-1 Z' w comes first, and
- * K a = w - P t then has a small right side where the weights are nearly affine: nothing cancels.
- * H. Wendland, Scattered Data Approximation, 2005, section 8.5. */
+ * so that affine weights are reproduced exactly. With Z = K^-1 P, found once, t = (P' Z)^-1 Z' w
+ * comes first, and K a = w - P t then has a small right side where the weights are nearly affine:
+ * nothing cancels. H. Wendland, Scattered Data Approximation, 2005, section 8.5. */
 #include "kernel/interpolant.h"
 
 #include "base/error.h"

@@ -1,5 +1,5 @@
-/* Weights everywhere: a sum of kernels at the nodes, and an affine function, that have given values at the
- * nodes (6.1 to 6.3). */
+/* Weights everywhere: a sum of kernels at the nodes, and an affine function, that have given values
+ * at the nodes (6.1 to 6.3). */
 #ifndef ICCP_INTERPOLANT_H
 #define ICCP_INTERPOLANT_H
 
@@ -11,7 +11,8 @@
 /* The matrix of the nodes, factorised: shared by all weights on the same nodes. */
 typedef struct iccp_collocation iccp_collocation;
 
-/* ICC_ERR_SOLVER when the matrix is not positive definite to working precision. `points` are copied. */
+/* ICC_ERR_SOLVER when the matrix is not positive definite to working precision. `points` are
+ * copied. */
 icc_status iccp_collocation_create(iccp_collocation **out, size_t dim, size_t n,
                                    const double *points, const iccp_radial *radial, bool tail,
                                    const iccp_env *env, icc_error *err);
@@ -24,7 +25,8 @@ const iccp_radial *iccp_collocation_radial(const iccp_collocation *collocation);
 /* The least pivot over the greatest. */
 double iccp_collocation_definiteness(const iccp_collocation *collocation);
 
-/* Coefficients, n + dim + 1 rows of m (the last ones of the tail, 0 without), for n rows of m values. */
+/* Coefficients, n + dim + 1 rows of m (the last ones of the tail, 0 without), for n rows of m
+ * values. */
 icc_status iccp_collocation_solve(const iccp_collocation *collocation, size_t m,
                                   const double *values, double *coefficients, const iccp_env *env);
 

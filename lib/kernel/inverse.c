@@ -3,7 +3,8 @@
 
 #include <math.h>
 
-/* p, of the longest side of the handles' box: in the thesis' example (section 4.7) p = 1 and the side is 10. */
+/* p, of the longest side of the handles' box: in the thesis' example (section 4.7) p = 1 and the
+ * side is 10. */
 static const double REACH = 0.1;
 
 static double longest_side(const iccp_nodes *nodes)

@@ -1,6 +1,6 @@
-/* Based on: Sakaridis, Kernel Coordinates (ETH Zurich 2016), sections 3.1 and 6.1; H. Wendland, Piecewise polynomial,
- * positive definite and compactly supported radial functions of minimal degree, 1995: the function of smoothness C2
- * for dimensions up to 3. */
+/* Based on: Sakaridis, Kernel Coordinates (ETH Zurich 2016), sections 3.1 and 6.1; H. Wendland,
+ * Piecewise polynomial, positive definite and compactly supported radial functions of minimal
+ * degree, 1995: the function of smoothness C2 for dimensions up to 3. */
 #include "kernel/kernel_matrix.h"
 
 #include "base/error.h"
@@ -10,8 +10,8 @@
 
 /* Wendland's function of this radius, in sigma, has about the width of the Gaussian. */
 static const double WENDLAND_REACH = 3;
-/* Entries, 12 bytes each, whatever the number of nodes; and for each node, where the default kernel has 26
- * in 2-D. The matrix may have the greater number of the two. */
+/* Entries, 12 bytes each, whatever the number of nodes; and for each node, where the default kernel
+ * has 26 in 2-D. The matrix may have the greater number of the two. */
 static const size_t MOST_ENTRIES = (size_t)1 << 27, MOST_NEAR = 256;
 /* Rows in a task. */
 enum { GRAIN = 1024 };

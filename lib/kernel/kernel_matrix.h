@@ -28,8 +28,8 @@ typedef struct iccp_kernel_matrix {
     double *value, *diagonal;
 } iccp_kernel_matrix;
 
-/* The values between all points of the cells that are nearer than the reach. ICC_ERR_SOLVER when so many are near
- * each other that the matrix is all but full. */
+/* The values between all points of the cells that are nearer than the reach. ICC_ERR_SOLVER when so
+ * many are near each other that the matrix is all but full. */
 icc_status iccp_kernel_matrix_create(iccp_kernel_matrix *out, const iccp_cells *cells,
                                      const iccp_radial *radial, const iccp_env *env,
                                      icc_error *err);

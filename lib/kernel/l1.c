@@ -1,8 +1,9 @@
-/* Based on: Sakaridis, Kernel Coordinates (ETH Zurich 2016), section 4.4, equation 4.8, which has many solutions on
- * most points: often every x >= 0 that meets the equations, since these fix the sum of x. That case is tried
- * first. Otherwise the linear program is solved by the simplex method, with dim + 1 rows. By duality, its
- * solutions are those x that meet the equations, are 0 where |column'y| < 1 and have the sign of column'y where
- * that is 1 or -1. Of these, the one with the least sum of squares is found in the same way as in the first case. */
+/* Based on: Sakaridis, Kernel Coordinates (ETH Zurich 2016), section 4.4, equation 4.8, which has
+ * many solutions on most points: often every x >= 0 that meets the equations, since these fix the
+ * sum of x. That case is tried first. Otherwise the linear program is solved by the simplex method,
+ * with dim + 1 rows. By duality, its solutions are those x that meet the equations, are 0 where
+ * |column'y| < 1 and have the sign of column'y where that is 1 or -1. Of these, the one with the
+ * least sum of squares is found in the same way as in the first case. */
 #include "kernel/l1.h"
 
 #include <assert.h>
@@ -108,7 +109,8 @@ static size_t entering(const iccp_l1 *p, const double *y, bool first)
     return best;
 }
 
-/* Which basic x becomes 0 first as that of column j grows; of several the one with the lowest column. */
+/* Which basic x becomes 0 first as that of column j grows; of several the one with the lowest
+ * column. */
 static size_t leaving(const iccp_l1 *p, const basis *b, size_t j, double sign)
 {
     double change[ICCP_ROWS], least = HUGE_VAL;
@@ -153,7 +155,8 @@ static void optimise(const iccp_l1 *p, basis *b)
     }
 }
 
-/* Of all solutions the one with the least sum of squares: over the columns where |column'y| = 1, with its sign. */
+/* Of all solutions the one with the least sum of squares: over the columns where |column'y| = 1,
+ * with its sign. */
 static void least_squares(const iccp_l1 *p, const basis *b, double *x, double *work)
 {
     double *columns = work, *part = work + ICCP_ROWS * p->m;

@@ -17,8 +17,8 @@ typedef struct iccp_l1 {
 /* Doubles of scratch memory. */
 size_t iccp_l1_work(size_t m);
 
-/* Minimises the sum of |x[j]| where the sum of x[j] * column j is the target; of several solutions x is the one with
- * the least sum of squares. */
+/* Minimises the sum of |x[j]| where the sum of x[j] * column j is the target; of several solutions
+ * x is the one with the least sum of squares. */
 void iccp_l1_solve(const iccp_l1 *problem, double *x, double *work);
 
 #endif

@@ -1,6 +1,7 @@
-/* Handles come first, then the nodes on lines, then the samples that are not too near to one of those. Distances between
- * nodes decide how well the kernel's matrix is conditioned, so nothing is placed within half the samples' spacing of
- * anything else but ends of lines, which are where the caller wants them. */
+/* Handles come first, then the nodes on lines, then the samples that are not too near to one of
+ * those. Distances between nodes decide how well the kernel's matrix is conditioned, so nothing is
+ * placed within half the samples' spacing of anything else but ends of lines, which are where the
+ * caller wants them. */
 #include "kernel/layout.h"
 
 #include "base/error.h"
@@ -58,7 +59,8 @@ static void append(iccp_layout *l, const double *place, uint32_t sample)
     l->sample[l->n++] = sample;
 }
 
-/* How many of the nodes in the cells are as near to a place as this, in spacings; *node is one of them. */
+/* How many of the nodes in the cells are as near to a place as this, in spacings; *node is one of
+ * them. */
 static size_t count_near(const iccp_layout *l, const iccp_cells *cells, const double *place,
                          double spacings, uint32_t *node)
 {
@@ -74,12 +76,12 @@ static icc_status place_handles(iccp_layout *l, size_t n, const double *handles,
     for (size_t j = 0; j < n; ++j) {
         const double *place = handles + l->dim * j;
         if (!iccp_shape_holds(l->sampling->shape, place))
-            return iccp_fail_at(err, ICC_ERR_OUTSIDE, ICC_ITEM_HANDLE, (int64_t)j, "handle %zu is outside the shape",
-                             j);
+            return iccp_fail_at(err, ICC_ERR_OUTSIDE, ICC_ITEM_HANDLE, (int64_t)j,
+                                "handle %zu is outside the shape", j);
         for (size_t i = 0; i < j; ++i)
             if (distance(l->dim, place, handles + l->dim * i) <= same)
                 return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_HANDLE, (int64_t)j,
-                                 "handles %zu and %zu are at one place", i, j);
+                                    "handles %zu and %zu are at one place", i, j);
         append(l, place, UINT32_MAX);
     }
     return ICC_OK;
@@ -109,10 +111,10 @@ static icc_status check_line(const iccp_layout *l, size_t k, const icc_line *lin
     if (!iccp_shape_holds(l->sampling->shape, line->from) ||
         !iccp_shape_holds(l->sampling->shape, line->to))
         return iccp_fail_at(err, ICC_ERR_OUTSIDE, ICC_ITEM_LINE, (int64_t)k,
-                         "an end of line %zu is outside the shape", k);
+                            "an end of line %zu is outside the shape", k);
     if (!(length > TOO_NEAR * l->sampling->info.spacing))
         return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_LINE, (int64_t)k,
-                         "line %zu is shorter than half the samples' spacing", k);
+                            "line %zu is shorter than half the samples' spacing", k);
     if (line->parallel == 0)
         return ICC_OK;
     const icc_line *other = &lines[line->parallel - 1];
@@ -127,8 +129,8 @@ static icc_status check_line(const iccp_layout *l, size_t k, const icc_line *lin
     if (off <= PARALLEL)
         return ICC_OK;
     return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_LINE, (int64_t)k,
-                     "lines %zu and %ld are not parallel: they differ by an angle of sine %.2g", k,
-                     (long)line->parallel - 1, off);
+                        "lines %zu and %ld are not parallel: they differ by an angle of sine %.2g",
+                        k, (long)line->parallel - 1, off);
 }
 
 static void place_between(iccp_layout *l, const iccp_cells *before, const icc_line *line,
@@ -245,8 +247,7 @@ static icc_status make_room(iccp_layout *l, size_t n_handles, const icc_weights_
     for (size_t k = 0; k < options->n_lines; ++k)
         most += 2 + fmax(0, pieces_of(l, &options->lines[k]));
     if (!(most <= (double)MOST_NODES))
-        return iccp_fail(err, ICC_ERR_RESOLUTION, "there would be more than %zu nodes",
-                         MOST_NODES);
+        return iccp_fail(err, ICC_ERR_RESOLUTION, "there would be more than %zu nodes", MOST_NODES);
     const size_t n = (size_t)most, row = l->dim * sizeof(double);
     l->given = iccp_alloc(&l->memory, n, row);
     l->points = iccp_alloc(&l->memory, n, row);

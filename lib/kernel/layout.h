@@ -9,7 +9,8 @@
 
 #define ICCP_NO_EDGE UINT32_MAX
 
-/* What kernels on the same nodes share. Points in local coordinates are those of the shape's frame. */
+/* What kernels on the same nodes share. Points in local coordinates are those of the shape's
+ * frame. */
 typedef struct iccp_layout {
     iccp_memory memory;
     atomic_size_t references;

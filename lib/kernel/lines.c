@@ -1,6 +1,7 @@
-/* Based on: Sakaridis, Kernel Coordinates (ETH Zurich 2016), sections 5.3.1 and 5.3.2. Weights that are linear along a
- * line keep it straight under translations of the handles. Two lines stay parallel when their weights change by
- * the same vector per length. Both kinds of weights sum to 1 and reproduce their points when those of the ends do. */
+/* Based on: Sakaridis, Kernel Coordinates (ETH Zurich 2016), sections 5.3.1 and 5.3.2. Weights that
+ * are linear along a line keep it straight under translations of the handles. Two lines stay
+ * parallel when their weights change by the same vector per length. Both kinds of weights sum to 1
+ * and reproduce their points when those of the ends do. */
 #include "kernel/structure.h"
 
 #include <math.h>

@@ -1,11 +1,12 @@
-/* Based on: Sakaridis, Kernel Coordinates (ETH Zurich 2016), section 4.1. The quadratic program of a point has as
- * many unknowns as there are handles, but only dim + 1 equations. Its dual has one unknown per equation and no
- * inequality: with x = max(0, start + C'y) minimise the convex function |x|^2 / 2 - target'y, whose derivative
- * g = Cx - target is piecewise linear. Newton's method on it ends after a few steps: it is exact once the set of
- * positive x is the right one.
+/* Based on: Sakaridis, Kernel Coordinates (ETH Zurich 2016), section 4.1. The quadratic program of
+ * a point has as many unknowns as there are handles, but only dim + 1 equations. Its dual has one
+ * unknown per equation and no inequality: with x = max(0, start + C'y) minimise the convex function
+ * |x|^2 / 2 - target'y, whose derivative g = Cx - target is piecewise linear. Newton's method on it
+ * ends after a few steps: it is exact once the set of positive x is the right one.
  *
- * On the faces of the handles' hull the matrix of the pieces is singular, and undamped steps do not get there. So
- * a multiple of |g| is added to its diagonal, and steps that go too far are shortened. */
+ * On the faces of the handles' hull the matrix of the pieces is singular, and undamped steps do not
+ * get there. So a multiple of |g| is added to its diagonal, and steps that go too far are
+ * shortened. */
 #include "kernel/nonneg.h"
 
 #include <float.h>
@@ -19,7 +20,8 @@ static const double TIGHT = 16 * DBL_EPSILON;
 static const double OUTSIDE = 1e-11;
 /* Of the slope at the start of a step: at its end. */
 static const double STEEP = 0.5;
-/* Without a solution after so many steps, and half as many as there are components, the sure way is taken. */
+/* Without a solution after so many steps, and half as many as there are components, the sure way is
+ * taken. */
 enum { FEW_STEPS = 12, MOST_STEPS = 100, MOST_CUTS = 20 };
 
 typedef struct state {
@@ -112,9 +114,9 @@ static void advance(const iccp_nonneg *p, double slope, const double *start, con
     }
 }
 
-/* Whether a direction shows that no x meets the equations: the target lies farther along it than all columns,
- * times the total, by more than rounding. Where there is no solution, steps turn into such a direction: they become
- * normal to the columns with positive x. */
+/* Whether a direction shows that no x meets the equations: the target lies farther along it than
+ * all columns, times the total, by more than rounding. Where there is no solution, steps turn into
+ * such a direction: they become normal to the columns with positive x. */
 static bool separates(const iccp_nonneg *p, const double *step, double tolerance)
 {
     const double target = dot(step, p->target) - tolerance * sqrt(dot(step, step));

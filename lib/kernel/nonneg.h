@@ -7,8 +7,8 @@
 /* As iccp_dual_solve(). */
 bool iccp_nonneg_solve(const iccp_nonneg *problem, double *x, double *work);
 
-/* Lets x[j] be negative, at 1 / slope times the cost: that always has a solution. False when it was not found to the
- * last digits. */
+/* Lets x[j] be negative, at 1 / slope times the cost: that always has a solution. False when it was
+ * not found to the last digits. */
 bool iccp_nonneg_relax(const iccp_nonneg *problem, double slope, double *x);
 
 #endif

@@ -1,4 +1,5 @@
-/* Kernels from others on the same nodes: what the thesis' window offers (section 6.3.1), and rigid parts (5.4). */
+/* Kernels from others on the same nodes: what the thesis' window offers (section 6.3.1), and rigid
+ * parts (5.4). */
 #include "kernel/handle_weights.h"
 
 #include "base/error.h"
@@ -31,8 +32,8 @@ static double brush(const iccp_layout *l, size_t node, const double *centre, dou
 }
 
 icc_status iccp_weights_paint(icc_weights **out, const icc_weights *kernel, size_t handle,
-                             const double *centre, double radius, double amount,
-                             const iccp_env *env)
+                              const double *centre, double radius, double amount,
+                              const iccp_env *env)
 {
     const iccp_layout *l = kernel->layout;
     uint32_t *nodes = iccp_alloc(&env->memory, l->n, sizeof *nodes);
@@ -64,11 +65,11 @@ static icc_status check_nodes(const iccp_layout *l, size_t n, const uint32_t *no
     icc_status status = seen != NULL ? ICC_OK : ICC_ERR_MEMORY;
     for (size_t k = 0; status == ICC_OK && k < n; ++k) {
         if (nodes[k] >= l->n)
-            status = iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_NODE, (int64_t)k, "node %lu does not exist",
-                               (unsigned long)nodes[k]);
+            status = iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_NODE, (int64_t)k,
+                                  "node %lu does not exist", (unsigned long)nodes[k]);
         else if (seen[nodes[k]])
-            status = iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_NODE, (int64_t)k, "node %lu is named twice",
-                               (unsigned long)nodes[k]);
+            status = iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_NODE, (int64_t)k,
+                                  "node %lu is named twice", (unsigned long)nodes[k]);
         else
             seen[nodes[k]] = true;
     }
@@ -77,8 +78,8 @@ static icc_status check_nodes(const iccp_layout *l, size_t n, const uint32_t *no
 }
 
 icc_status iccp_weights_repaint(icc_weights **out, const icc_weights *kernel, size_t n,
-                               const uint32_t *nodes, const double *weights, const iccp_env *env,
-                               icc_error *err)
+                                const uint32_t *nodes, const double *weights, const iccp_env *env,
+                                icc_error *err)
 {
     const iccp_layout *l = kernel->layout;
     const size_t m = l->n_handles;
@@ -97,7 +98,7 @@ icc_status iccp_weights_repaint(icc_weights **out, const icc_weights *kernel, si
 }
 
 icc_status iccp_weights_with_method(icc_weights **out, const icc_weights *kernel, int32_t method,
-                                  const iccp_env *env)
+                                    const iccp_env *env)
 {
     icc_status status = iccp_weights_copy(out, kernel, env);
     if (status != ICC_OK)
@@ -111,8 +112,8 @@ icc_status iccp_weights_with_method(icc_weights **out, const icc_weights *kernel
     return status;
 }
 
-static icc_status stiffen(icc_weights *copy, size_t n, const uint32_t *nodes, const double *rigidity,
-                          double energy[2], const iccp_env *env)
+static icc_status stiffen(icc_weights *copy, size_t n, const uint32_t *nodes,
+                          const double *rigidity, double energy[2], const iccp_env *env)
 {
     const iccp_layout *l = copy->layout;
     const iccp_nodes all = iccp_layout_nodes(l);
@@ -129,8 +130,8 @@ static icc_status stiffen(icc_weights *copy, size_t n, const uint32_t *nodes, co
 }
 
 icc_status iccp_weights_stiffen(icc_weights **out, const icc_weights *kernel, size_t n,
-                               const uint32_t *nodes, const double *rigidity, double energy[2],
-                               const iccp_env *env, icc_error *err)
+                                const uint32_t *nodes, const double *rigidity, double energy[2],
+                                const iccp_env *env, icc_error *err)
 {
     double local[2];
     *out = NULL;

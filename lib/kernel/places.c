@@ -37,7 +37,8 @@ void iccp_places_free(iccp_places *places)
     *places = (iccp_places){0};
 }
 
-/* The nearest point to point i among those that `stays` (all without), below a squared distance, or n. */
+/* The nearest point to point i among those that `stays` (all without), below a squared distance, or
+ * n. */
 static size_t nearest_to(const iccp_cells *cells, size_t i, const bool *stays, double *best2)
 {
     const double *place = cells->points + cells->dim * i;

@@ -18,7 +18,8 @@ void iccp_places_start(iccp_places *places, size_t dim, const iccp_env *env);
 void iccp_places_add(iccp_places *places, const double *point);
 void iccp_places_free(iccp_places *places);
 
-/* Drops places from the first `n_kept` on that are nearer than a radius to an earlier one that stays. */
+/* Drops places from the first `n_kept` on that are nearer than a radius to an earlier one that
+ * stays. */
 icc_status iccp_places_thin(iccp_places *places, size_t n_kept, double radius, const iccp_env *env);
 
 /* The distance of each of n points to the nearest other one; HUGE_VAL for a single point. */

@@ -1,9 +1,10 @@
-/* Based on: Sakaridis, Kernel Coordinates (ETH Zurich 2016), (3.37) and (3.44). With weights that sum to 1 the image
+/* Based on: Sakaridis, Kernel Coordinates (ETH Zurich 2016), (3.37) and (3.44). With weights that
+ * sum to 1 the image
  *
  *     sum of w_j T_j x  =  x + sum of w_j (T_j x - x),
  *
- * and the right side is what is computed: the rest pose is then exact, and weights that do not quite sum to 1
- * do not draw anything towards the origin. */
+ * and the right side is what is computed: the rest pose is then exact, and weights that do not
+ * quite sum to 1 do not draw anything towards the origin. */
 #include "kernel/pose.h"
 
 #include "base/threads.h"

@@ -13,7 +13,7 @@ enum { EDGE_PLACES = 64 };
 static const double NEGATIVE = -1e-9;
 
 void iccp_weights_at(const icc_weights *kernel, const double *point, double *weights,
-                          double *gradients)
+                     double *gradients)
 {
     const iccp_layout *l = kernel->layout;
     double local[ICC_MAX_DIM];
@@ -61,8 +61,8 @@ static icc_status evaluate_some(void *argument, size_t begin, size_t end)
 }
 
 icc_status iccp_weights_evaluate(const icc_weights *kernel, size_t n, const double *points,
-                               double *weights, double *gradients, icc_status *status,
-                               size_t *n_failed, const iccp_env *env)
+                                 double *weights, double *gradients, icc_status *status,
+                                 size_t *n_failed, const iccp_env *env)
 {
     const size_t dim = kernel->layout->dim;
     evaluation e = {kernel, points, weights, gradients, status};
@@ -121,7 +121,8 @@ static icc_status measure_some(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
-/* The greatest deviation at a place from weights 1 - share and share of two handles, and 0 of the others. */
+/* The greatest deviation at a place from weights 1 - share and share of two handles, and 0 of the
+ * others. */
 static double deviation(const icc_weights *kernel, const double *place, const uint32_t ends[2],
                         double share, double *weights)
 {
@@ -167,11 +168,11 @@ static void summarise(size_t n, const quality *q, icc_weights_report *report)
 }
 
 icc_status iccp_weights_measure(const icc_weights *kernel, size_t n, const double *points,
-                               icc_weights_report *report, const iccp_env *env)
+                                icc_weights_report *report, const iccp_env *env)
 {
     const iccp_memory *memory = &env->memory;
     *report = (icc_weights_report){.n_infeasible = kernel->info.n_infeasible,
-                                  .definiteness = kernel->info.definiteness};
+                                   .definiteness = kernel->info.definiteness};
     quality *qualities = iccp_alloc(memory, n, sizeof *qualities);
     double *weights = iccp_alloc(memory, kernel->layout->n_handles, sizeof *weights);
     measurement m = {kernel, memory, points, qualities};

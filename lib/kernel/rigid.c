@@ -1,13 +1,16 @@
-/* Based on: Sakaridis, Kernel Coordinates (ETH Zurich 2016), section 5.4, from which this differs in five points.
+/* Based on: Sakaridis, Kernel Coordinates (ETH Zurich 2016), section 5.4, from which this differs
+ * in five points.
  * - The sign of equation 5.35a is +2: with the printed -2 the energy rises.
- * - The matrix acts on every handle alike, and sums and reproduction, 5.35b and c, hold when the change of each
- *   coefficient, as a vector over the handles, lies in the null space of the handles' matrix. So each handle is a
- *   right side of one system, and the changes are projected.
+ * - The matrix acts on every handle alike, and sums and reproduction, 5.35b and c, hold when the
+ *   change of each coefficient, as a vector over the handles, lies in the null space of the
+ *   handles' matrix. So each handle is a right side of one system, and the changes are projected.
  * - Nodes that are held (handles, edges, lines) would move with the part near them; here they stay.
  * - The rigidity stands inside the sum 5.16 and may vary.
- * - Not only the part's coefficients change, but also those around it, lest the weights bend between the part and what
- *   is held; there, the derivatives of the change count instead of those of the weights.
- * Non-negativity, 5.35d, is restored node by node after minimising, which takes a quarter of the gain on the star. */
+ * - Not only the part's coefficients change, but also those around it, lest the weights bend
+ *   between the part and what is held; there, the derivatives of the change count instead of those
+ *   of the weights.
+ * Non-negativity, 5.35d, is restored node by node after minimising, which takes a quarter of the
+ * gain on the star. */
 #include "kernel/rigid_system.h"
 #include "kernel/structure.h"
 
@@ -70,7 +73,8 @@ static bool has_negative(size_t m, const double *weights)
     return false;
 }
 
-/* Turns changes of weights into weights; with `positive`, where none was negative none becomes so. */
+/* Turns changes of weights into weights; with `positive`, where none was negative none becomes
+ * so. */
 static void add_weights(const iccp_rigid *r, const iccp_handles *handles, const bool *held,
                         bool positive, const double *weights, const vectors *v)
 {
@@ -101,8 +105,9 @@ static double product_of(const iccp_rigid *r, const double *a, const double *b, 
     return product;
 }
 
-/* The affine function of the interpolant changes with the values, and positive weights cost something, too. So the
- * energy is minimised once more between the old weights and the new ones, where it is a parabola. */
+/* The affine function of the interpolant changes with the values, and positive weights cost
+ * something, too. So the energy is minimised once more between the old weights and the new ones,
+ * where it is a parabola. */
 static icc_status lower_energy(const iccp_rigid *r, const iccp_handles *handles, const bool *held,
                                bool positive, const vectors *v, double *weights,
                                double *coefficients, double energy[2], const iccp_env *env)

@@ -1,5 +1,6 @@
-/* The matrix of Sakaridis' equations 5.16 and 5.26 and, beside and below it, those that keep the values of held nodes:
- * quasi-definite when a little is added to the diagonal of the one and taken from that of the other. */
+/* The matrix of Sakaridis' equations 5.16 and 5.26 and, beside and below it, those that keep the
+ * values of held nodes: quasi-definite when a little is added to the diagonal of the one and taken
+ * from that of the other. */
 #include "kernel/rigid_system.h"
 
 #include <math.h>
@@ -8,9 +9,9 @@
 
 /* Of the mean rigidity: how much derivatives around the part count. */
 static const double SURROUNDINGS = 0.1;
-/* Of the greatest diagonal entry: what is added and taken, so that coefficients may hardly matter to any derivative,
- * and equations may be too many. Held values are off by as much; the caller sets them right. The least with which
- * the matrix factorises: */
+/* Of the greatest diagonal entry: what is added and taken, so that coefficients may hardly matter
+ * to any derivative, and equations may be too many. Held values are off by as much; the caller sets
+ * them right. The least with which the matrix factorises: */
 static const double LEAST_PIVOT = 1e-9, MOST_PIVOT = 1e-4, PIVOT_STEP = 100;
 /* Steps of refinement; where the matrix is nearly singular more of them would diverge. */
 enum { REFINEMENTS = 1 };

@@ -1,6 +1,6 @@
-/* Lines are followed from fork to fork. Corners on the way are samples if they are not too near each other, and the
- * rest is divided evenly by arc length (thesis, section 6.2.1: "the sampling period is approximately equal for distinct
- * edges"). */
+/* Lines are followed from fork to fork. Corners on the way are samples if they are not too near
+ * each other, and the rest is divided evenly by arc length (thesis, section 6.2.1: "the sampling
+ * period is approximately equal for distinct edges"). */
 #include "kernel/rims.h"
 
 #include <math.h>
@@ -39,7 +39,8 @@ static bool is_smooth(const iccp_web *web, uint32_t v)
     return !is_corner(web, iccp_web_other_end(web, at[0], v), v, iccp_web_other_end(web, at[1], v));
 }
 
-/* The line from a vertex along a segment, up to a vertex that is not passed through or back to the start. */
+/* The line from a vertex along a segment, up to a vertex that is not passed through or back to the
+ * start. */
 static void follow(rims *r, uint32_t v, uint32_t segment)
 {
     const uint32_t start = v;
@@ -88,8 +89,8 @@ static void divide(const rims *r, size_t i, size_t j, iccp_places *places)
     }
 }
 
-/* Stations of the line at hand: its ends, and corners that are not too near them or each other. With `between`, the
- * samples between stations, else the stations. */
+/* Stations of the line at hand: its ends, and corners that are not too near them or each other.
+ * With `between`, the samples between stations, else the stations. */
 static void sample_line(rims *r, bool between, iccp_places *places)
 {
     const size_t last = r->n_line - 1;
@@ -110,7 +111,8 @@ static void sample_line(rims *r, bool between, iccp_places *places)
     }
 }
 
-/* Lines from forks and ends first; what is left then are closed ones, from a corner if there is one. */
+/* Lines from forks and ends first; what is left then are closed ones, from a corner if there is
+ * one. */
 static void sample_lines(rims *r, bool between, iccp_places *places)
 {
     for (size_t s = 0; s < r->web.n_segments; ++s)

@@ -5,8 +5,9 @@
 #include "kernel/places.h"
 #include "kernel/shape.h"
 
-/* Adds samples on segments between vertices (dim coordinates each), about `spacing` apart along each line of them:
- * first on ends, forks and corners, and then evenly between these. A closed line without any begins at a vertex. */
+/* Adds samples on segments between vertices (dim coordinates each), about `spacing` apart along
+ * each line of them: first on ends, forks and corners, and then evenly between these. A closed line
+ * without any begins at a vertex. */
 icc_status iccp_rims_sample(iccp_places *places, const double *vertices, size_t n_vertices,
                             size_t n_segments, const uint32_t *segments, double spacing,
                             const iccp_env *env);

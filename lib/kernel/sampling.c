@@ -86,7 +86,7 @@ static icc_status check_inside(const survey *s, icc_error *err)
     for (size_t i = 0; i < s->n; ++i)
         if (s->where[i] == OUTSIDE)
             return iccp_fail_at(err, ICC_ERR_OUTSIDE, ICC_ITEM_POINT, (int64_t)i,
-                             "point %zu lies in no region and on no curve", i);
+                                "point %zu lies in no region and on no curve", i);
     return ICC_OK;
 }
 
@@ -105,7 +105,7 @@ static icc_status check_regions(const survey *s, const iccp_env *env, icc_error 
     iccp_free(&env->memory, count);
     if (r < n_regions)
         return iccp_fail_at(err, ICC_ERR_RESOLUTION, ICC_ITEM_REGION, (int64_t)r,
-                         "no sample lies inside region %zu: the spacing is too large for it", r);
+                            "no sample lies inside region %zu: the spacing is too large for it", r);
     return ICC_OK;
 }
 
@@ -114,7 +114,7 @@ static icc_status check_distinct(const survey *s, bool given, icc_error *err)
     for (size_t i = 0; i < s->n; ++i)
         if (!(s->spacing[i] > 0))
             return given ? iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)i,
-                                     "point %zu is the same as another one", i)
+                                        "point %zu is the same as another one", i)
                          : iccp_fail(err, ICC_ERR_RESOLUTION,
                                      "the spacing is lost in the rounding of the coordinates");
     return ICC_OK;

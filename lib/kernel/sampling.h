@@ -8,20 +8,22 @@ struct icc_sampling {
     iccp_memory memory;
     atomic_size_t references;
     icc_shape *shape;
-    double *
-        points; /* dim each, the caller's coordinates: edge samples first, but for a grid and the caller's
-                               own points, which keep their order */
+    double
+        *points; /* dim each, the caller's coordinates: edge samples first, but for a grid and the
+                    caller's own points, which keep their order */
     icc_sampling_info info; /* but for `size` */
 };
 
-/* See icc_sampling_create(). Options have been read, and checked but for what depends on the shape. */
+/* See icc_sampling_create(). Options have been read, and checked but for what depends on the
+ * shape. */
 icc_status iccp_sampling_create(icc_sampling **out, const icc_shape *shape,
                                 const icc_sampling_options *options, const iccp_env *env,
                                 icc_error *err);
 
-/* Makes the object from samples in the caller's coordinates: checks them, and completes the info, of which kind and
- * spacing (0: their mean spacing) are set. ICC_ERR_RESOLUTION if some region has no sample inside, unless they are the
- * caller's own; then ICC_ERR_OUTSIDE if one is not in the shape. */
+/* Makes the object from samples in the caller's coordinates: checks them, and completes the info,
+ * of which kind and spacing (0: their mean spacing) are set. ICC_ERR_RESOLUTION if some region has
+ * no sample inside, unless they are the caller's own; then ICC_ERR_OUTSIDE if one is not in the
+ * shape. */
 icc_status iccp_sampling_finish(icc_sampling **out, const icc_shape *shape, size_t n,
                                 const double *points, const icc_sampling_info *info,
                                 const iccp_env *env, icc_error *err);

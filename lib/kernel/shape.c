@@ -1,4 +1,5 @@
-/* All walls stand in one tree, in the coordinates of one frame: exact signs decide what is behind one. */
+/* All walls stand in one tree, in the coordinates of one frame: exact signs decide what is behind
+ * one. */
 #include "kernel/shape.h"
 
 #include "base/error.h"
@@ -11,7 +12,8 @@
 
 /* In longest sides of the box: rounding of input files, as for domains. */
 static const double WALL_TOLERANCE = 1e-14;
-/* Of the largest coordinate: a point between two vertices is off by so much, or by that of denormal numbers. */
+/* Of the largest coordinate: a point between two vertices is off by so much, or by that of denormal
+ * numbers. */
 static const double ROUNDING = 4 * DBL_EPSILON;
 
 static icc_status check_curves(size_t dim, size_t n_vertices, const double *vertices,
@@ -21,19 +23,20 @@ static icc_status check_curves(size_t dim, size_t n_vertices, const double *vert
         for (size_t k = 0; k < dim; ++k)
             if (!isfinite(vertices[dim * i + k]))
                 return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_VERTEX, (int64_t)i,
-                                 "vertex %zu of the curves is not finite", i);
+                                    "vertex %zu of the curves is not finite", i);
     for (size_t s = 0; s < n_segments; ++s) {
         const uint32_t *ends = segments + 2 * s;
         for (int i = 0; i < 2; ++i)
             if (ends[i] >= n_vertices)
                 return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_SEGMENT, (int64_t)s,
-                                 "segment %zu has vertex %lu of %zu", s, (unsigned long)ends[i],
-                                 n_vertices);
+                                    "segment %zu has vertex %lu of %zu", s, (unsigned long)ends[i],
+                                    n_vertices);
         bool same = true;
         for (size_t k = 0; k < dim; ++k)
             same &= vertices[dim * ends[0] + k] == vertices[dim * ends[1] + k];
         if (same)
-            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_SEGMENT, (int64_t)s, "segment %zu has no length", s);
+            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_SEGMENT, (int64_t)s,
+                                "segment %zu has no length", s);
     }
     return ICC_OK;
 }
@@ -70,7 +73,8 @@ static icc_status allocate(icc_shape *shape, size_t n_all, size_t n_facets)
                : ICC_OK;
 }
 
-/* Everything in the caller's coordinates, where a vertex that belongs to no facet is one that does. */
+/* Everything in the caller's coordinates, where a vertex that belongs to no facet is one that
+ * does. */
 static void gather(icc_shape *shape)
 {
     const size_t dim = shape->dim;
@@ -150,8 +154,8 @@ static icc_status check_walls(const icc_shape *shape, const iccp_env *env, icc_e
             const uint32_t r = shape->owner[f], s = shape->owner[g];
             if (r != s && facets_meet(shape, f, g))
                 return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_REGION, r > s ? r : s,
-                                 "the boundaries of regions %lu and %lu meet",
-                                 (unsigned long)(r < s ? r : s), (unsigned long)(r < s ? s : r));
+                                    "the boundaries of regions %lu and %lu meet",
+                                    (unsigned long)(r < s ? r : s), (unsigned long)(r < s ? s : r));
         }
     }
     return ICC_OK;

@@ -1,4 +1,5 @@
-/* What is to be deformed: regions with walls between them, and curves. All points are the caller's. */
+/* What is to be deformed: regions with walls between them, and curves. All points are the
+ * caller's. */
 #ifndef ICCP_SHAPE_H
 #define ICCP_SHAPE_H
 
@@ -45,8 +46,8 @@ typedef struct iccp_spot {
 } iccp_spot;
 iccp_spot iccp_shape_spot(const icc_shape *shape, const double *point);
 
-/* The same for a point beside another one. If the other's clearance shows that no wall is within `reach`, nothing is
- * looked up, curves are left out, and the clearance is a lower bound. */
+/* The same for a point beside another one. If the other's clearance shows that no wall is within
+ * `reach`, nothing is looked up, curves are left out, and the clearance is a lower bound. */
 iccp_spot iccp_shape_spot_beside(const icc_shape *shape, const iccp_spot *other,
                                  const double *point, double reach);
 
@@ -56,12 +57,13 @@ uint32_t iccp_shape_region(const icc_shape *shape, const double *point);
 /* Whether a point is in the shape: in a region or, within 1e-9 of the box, on a curve. */
 bool iccp_shape_holds(const icc_shape *shape, const double *point);
 
-/* Whether a sees b, so that what is at b may spread to a: the segment between them runs through the region of a, its
- * boundary included, and meets no wall but at its ends. A wall belongs to the region that it encloses. So what lies
- * around a wall sees the points on it, but they do not see it: were it mutual, walls would conduct, and the
- * surroundings of a shape lead from one of its limbs to another.
- * What is outside all regions is one region here, for samples beyond the shape, but for points of curves.
- * Points of curves see each other, too, if the way along them is no more than twice as long as the straight one. */
+/* Whether a sees b, so that what is at b may spread to a: the segment between them runs through the
+ * region of a, its boundary included, and meets no wall but at its ends. A wall belongs to the
+ * region that it encloses. So what lies around a wall sees the points on it, but they do not see
+ * it: were it mutual, walls would conduct, and the surroundings of a shape lead from one of its
+ * limbs to another. What is outside all regions is one region here, for samples beyond the shape,
+ * but for points of curves. Points of curves see each other, too, if the way along them is no more
+ * than twice as long as the straight one. */
 bool iccp_spot_sees(const icc_shape *shape, const iccp_spot *a, const iccp_spot *b);
 bool iccp_shape_sees(const icc_shape *shape, const double *a, const double *b);
 

@@ -7,7 +7,8 @@
 
 void iccp_shape_write(const icc_shape *shape, iccp_blob_writer *w);
 
-/* ICC_ERR_FORMAT if the bytes are those of no shape; everything is checked as in icc_shape_create(). */
+/* ICC_ERR_FORMAT if the bytes are those of no shape; everything is checked as in
+ * icc_shape_create(). */
 icc_status iccp_shape_read(icc_shape **out, iccp_blob_reader *r, const iccp_env *env,
                            icc_error *err);
 

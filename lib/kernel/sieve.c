@@ -1,4 +1,5 @@
-/* Neighbours along a row mostly have the same region, and the distance from the walls tells so without looking. */
+/* Neighbours along a row mostly have the same region, and the distance from the walls tells so
+ * without looking. */
 #include "kernel/sieve.h"
 
 #include "base/threads.h"

@@ -18,7 +18,8 @@ typedef struct iccp_sieve {
     iccp_sieve_point point;
     const void *lattice;
     double
-        clearance; /* inside, points nearer than this to a wall are dropped; outside, those farther from one */
+        clearance; /* inside, points nearer than this to a wall are dropped; outside, those farther
+                      from one */
     double margin; /* than this, in local units; 0 keeps what is on a wall */
 } iccp_sieve;
 

@@ -1,4 +1,5 @@
-/* Where points are in a shape, and what they see. Whether a wall is in between is decided by exact signs. */
+/* Where points are in a shape, and what they see. Whether a wall is in between is decided by exact
+ * signs. */
 #include "kernel/shape.h"
 
 #include "domain/inside.h"
@@ -8,9 +9,11 @@
 
 #include <math.h>
 
-/* Curves have no inside that points could be taken for: what was meant to be on one is. Of about the box. */
+/* Curves have no inside that points could be taken for: what was meant to be on one is. Of about
+ * the box. */
 static const double CURVE_TOLERANCE = 1e-9;
-/* Of the straight way: points on two legs of a curve see each other down to an angle of 60 degrees. */
+/* Of the straight way: points on two legs of a curve see each other down to an angle of 60
+ * degrees. */
 static const double LONGEST_DETOUR = 2 * (1 + 1e-12);
 
 /* Of regions around a point that is on no wall, one within another, the smallest. */
@@ -95,7 +98,8 @@ static bool stands_on(const icc_shape *shape, const iccp_spot *spot, uint32_t wa
     return sqrt(distance2) <= shape->tolerance;
 }
 
-/* Whether a spot is in the plane of a wall, to the precision with which that is known at its distance. */
+/* Whether a spot is in the plane of a wall, to the precision with which that is known at its
+ * distance. */
 static bool in_plane(const icc_shape *shape, const iccp_spot *spot, uint32_t wall)
 {
     const size_t dim = shape->dim;
@@ -113,8 +117,8 @@ static bool in_plane(const icc_shape *shape, const iccp_spot *spot, uint32_t wal
     return fabs(iccp_orient_value(dim, c)) <= slack * area;
 }
 
-/* A wall that an end stands on is met there and nowhere else, but for rounding. Two points on walls may also have in
- * between, to rounding, what continues theirs straight on. */
+/* A wall that an end stands on is met there and nowhere else, but for rounding. Two points on walls
+ * may also have in between, to rounding, what continues theirs straight on. */
 static bool passes(const icc_shape *shape, const iccp_spot *a, const iccp_spot *b, uint32_t wall)
 {
     if (stands_on(shape, a, wall) || stands_on(shape, b, wall))
@@ -175,8 +179,8 @@ typedef struct step {
     double way;
 } step;
 
-/* Goes along the curves, at forks along all of them, as long as the way is short. The bounds are never met but in
- * thickets, where a point need not see every other. */
+/* Goes along the curves, at forks along all of them, as long as the way is short. The bounds are
+ * never met but in thickets, where a point need not see every other. */
 static bool sees_along_curve(const icc_shape *shape, const iccp_spot *a, const iccp_spot *b)
 {
     enum { MOST_OPEN = 32, MOST_STEPS = 512 };

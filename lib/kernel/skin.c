@@ -1,6 +1,7 @@
-/* Surfaces get more random points than are wanted; thinned out, they are evenly spread: M. Corsini, P. Cignoni,
- * R. Scopigno, Efficient and flexible sampling with blue noise properties of triangular meshes, 2012. Each face gets
- * its share by a running sum of areas, so that faces smaller than one sample are treated fairly. */
+/* Surfaces get more random points than are wanted; thinned out, they are evenly spread: M. Corsini,
+ * P. Cignoni, R. Scopigno, Efficient and flexible sampling with blue noise properties of triangular
+ * meshes, 2012. Each face gets its share by a running sum of areas, so that faces smaller than one
+ * sample are treated fairly. */
 #include "kernel/rims.h"
 
 #include "base/random.h"
@@ -8,7 +9,8 @@
 
 #include <math.h>
 
-/* Random points for each square of the spacing: leaves no hole that a sample would fit into, nearly everywhere. */
+/* Random points for each square of the spacing: leaves no hole that a sample would fit into, nearly
+ * everywhere. */
 static const double POINTS_A_SQUARE = 12;
 /* cos 30 degrees: faces that meet at more make a crease, which is sampled as a line. */
 static const double CREASE_COSINE = 0.86602540378443865;

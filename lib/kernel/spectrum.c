@@ -1,7 +1,8 @@
-/* Thesis, sections 3.2 and 6.2.1, figure 6.10: the spectrum of blue noise is an impulse at the origin, a region with
- * next to nothing, and then a rise to a ring. A kernel whose own spectrum stays within that region cannot tell the
- * samples from a continuum. For a grid of spacing T the thesis puts the nearest impulses, at 2 pi / T, at six standard
- * deviations of the Gaussian's spectrum (3.28); here the rise takes their place. */
+/* Thesis, sections 3.2 and 6.2.1, figure 6.10: the spectrum of blue noise is an impulse at the
+ * origin, a region with next to nothing, and then a rise to a ring. A kernel whose own spectrum
+ * stays within that region cannot tell the samples from a continuum. For a grid of spacing T the
+ * thesis puts the nearest impulses, at 2 pi / T, at six standard deviations of the Gaussian's
+ * spectrum (3.28); here the rise takes their place. */
 #include "kernel/spectrum.h"
 
 #include "base/memory.h"
@@ -19,7 +20,8 @@ static const double LOWEST = 0.7;
 /* The power of random points is 1: half of it is the rise. */
 static const double RISE = 0.5;
 static const double DEVIATIONS = 6;
-/* With fewer points the shape would drown the rise; with more, peaks would slip through between the directions. */
+/* With fewer points the shape would drown the rise; with more, peaks would slip through between the
+ * directions. */
 enum { FEWEST = 200, MOST = 1500 };
 
 static const double TWO_PI = 6.28318530717958648;
@@ -104,8 +106,8 @@ static double smooth(const double *power, size_t b)
     return (power[b - 1] + power[b] + power[b + 1]) / 3;
 }
 
-/* The wave number of the rise, in 2 pi over the spacing: downward from the ring, since far below it the shape itself
- * shows where it is narrow. 1, as for a grid, if there is no ring. */
+/* The wave number of the rise, in 2 pi over the spacing: downward from the ring, since far below it
+ * the shape itself shows where it is narrow. 1, as for a grid, if there is no ring. */
 static double find_rise(const double *power)
 {
     const double bin = HIGHEST / ICCP_SPECTRUM_BINS;
@@ -122,8 +124,8 @@ static double find_rise(const double *power)
     return bin * ((double)(b + 1) - (above - RISE) / (above - below));
 }
 
-/* Copies the points in a box around the one in the middle of the list, at most MOST of them: a piece of the shape as wide
- * as it is high: the list would begin with a strip of it. */
+/* Copies the points in a box around the one in the middle of the list, at most MOST of them: a
+ * piece of the shape as wide as it is high: the list would begin with a strip of it. */
 static size_t cut_out(size_t dim, size_t n, const double *points, double spacing, double *piece)
 {
     const double half = 0.5 * spacing * pow((double)MOST, 1 / (double)dim);

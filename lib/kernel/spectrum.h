@@ -9,8 +9,9 @@
 
 enum { ICCP_SPECTRUM_BINS = 96 };
 
-/* The power of n points, dim coordinates each, at the wave numbers step, 2 step, ... (in 2 pi per unit of length): the
- * mean over directions of |sum exp(-i k x)|^2 / n. It is 1 for points at random. */
+/* The power of n points, dim coordinates each, at the wave numbers step, 2 step, ... (in 2 pi per
+ * unit of length): the mean over directions of |sum exp(-i k x)|^2 / n. It is 1 for points at
+ * random. */
 icc_status iccp_spectrum(size_t dim, size_t n, const double *points, double step,
                          double power[ICCP_SPECTRUM_BINS], const iccp_env *env);
 

@@ -10,15 +10,18 @@
 #include <math.h>
 
 static const double MAX_SAMPLES = 16777216; /* 2^24 */
-/* Without the caller's: these shares of the longest side, in 2-D and in 3-D, where the cost of the weights grows with
- * the square of the number of samples. */
+/* Without the caller's: these shares of the longest side, in 2-D and in 3-D, where the cost of the
+ * weights grows with the square of the number of samples. */
 static const double DEFAULT_SPACING[] = {0.01, 0.05};
 static const int32_t DEFAULT_STEPS = 60;
-/* Of the spacing: samples on walls and curves keep this distance, where lines of them meet at sharp angles. */
+/* Of the spacing: samples on walls and curves keep this distance, where lines of them meet at sharp
+ * angles. */
 static const double RIM_GAP = 0.55;
-/* On surfaces, where they are spread at random: such a limit leaves about one a square of the spacing. */
+/* On surfaces, where they are spread at random: such a limit leaves about one a square of the
+ * spacing. */
 static const double SKIN_GAP = 0.75;
-/* In distances at which a point is on a wall: what is inside must be told from what is on the edge. */
+/* In distances at which a point is on a wall: what is inside must be told from what is on the
+ * edge. */
 static const double FINEST = 16;
 /* Rounding of counts such as 10 / 0.1. */
 static const double COUNT_TOLERANCE = 1e-9;
@@ -134,7 +137,7 @@ static icc_status check_fixed(const icc_shape *shape, const icc_sampling_options
         const iccp_spot spot = iccp_shape_spot(shape, options->fixed + shape->dim * i);
         if (!on_edge(&spot) && spot.region == ICCP_NOWHERE)
             status = iccp_fail_at(err, ICC_ERR_OUTSIDE, ICC_ITEM_POINT, (int64_t)i,
-                               "fixed point %zu lies in no region and on no curve", i);
+                                  "fixed point %zu lies in no region and on no curve", i);
         iccp_places_add(&places, spot.at);
     }
     if (status == ICC_OK && places.failed)
@@ -145,7 +148,7 @@ static icc_status check_fixed(const icc_shape *shape, const icc_sampling_options
     for (size_t i = 0; status == ICC_OK && i < options->n_fixed; ++i)
         if (!(distance[i] > 0))
             status = iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)i,
-                               "fixed point %zu is the same as another one", i);
+                                  "fixed point %zu is the same as another one", i);
     iccp_places_free(&places);
     iccp_free(&env->memory, distance);
     return status;
@@ -184,8 +187,8 @@ static icc_status add_rims(iccp_places *places, const icc_shape *shape, double s
     return status == ICC_OK ? iccp_places_thin(places, n_lines, SKIN_GAP * spacing, env) : status;
 }
 
-/* All samples that stay where they are, those on walls and curves first. The caller's were first in the competition
- * for room. */
+/* All samples that stay where they are, those on walls and curves first. The caller's were first in
+ * the competition for room. */
 static icc_status add_held(iccp_places *places, const icc_shape *shape,
                            const icc_sampling_options *options, double spacing, const iccp_env *env)
 {

@@ -1,6 +1,6 @@
-/* A piecewise linear map of a mesh is one-to-one when every simplex keeps its orientation and the image of
- * the boundary is a simple polygon or surface (the degree of the map is then 1 inside it and 0
- * outside). */
+/* A piecewise linear map of a mesh is one-to-one when every simplex keeps its orientation and the
+ * image of the boundary is a simple polygon or surface (the degree of the map is then 1 inside it
+ * and 0 outside). */
 #include "map/certify.h"
 
 #include "base/error.h"
@@ -43,8 +43,8 @@ static bool is_finite(size_t dim, const double *point)
     return true;
 }
 
-/* Copies points into coordinates for exact signs. Those that are not finite become 0; their simplices are
- * not looked at. */
+/* Copies points into coordinates for exact signs. Those that are not finite become 0; their
+ * simplices are not looked at. */
 static icc_status localise(mesh_check *m, double *local, const double *points, icc_error *err)
 {
     const size_t dim = m->dim;
@@ -56,7 +56,7 @@ static icc_status localise(mesh_check *m, double *local, const double *points, i
     for (size_t v = 0; v < m->n_vertices; ++v) {
         if (!iccp_frame_holds(frame, (int32_t)dim, local + dim * v))
             return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_VERTEX, (int64_t)v,
-                             "vertex %zu has a coordinate too small for exact signs", v);
+                                "vertex %zu has a coordinate too small for exact signs", v);
         iccp_frame_in(frame, (int32_t)dim, local + dim * v, local + dim * v);
     }
     return ICC_OK;
@@ -95,8 +95,8 @@ static bool can_repair(const mesh_check *m, const iccp_simplices *mesh)
     return m->result->first >= 0;
 }
 
-/* Moves the images of inner vertices until every simplex is positive, as far as that goes. What is judged
- * afterwards is what the caller gets, rounded. */
+/* Moves the images of inner vertices until every simplex is positive, as far as that goes. What is
+ * judged afterwards is what the caller gets, rounded. */
 static icc_status repair(mesh_check *m, const iccp_simplices *mesh, const iccp_env *env)
 {
     const size_t dim = m->dim, size = dim * sizeof(double);

@@ -4,8 +4,8 @@
 
 #include "map/map.h"
 
-/* See icc_map_certify() and icc_map_repair(), in 2-D and 3-D; `images` has room. Fills in everything but
- * `size`. */
+/* See icc_map_certify() and icc_map_repair(), in 2-D and 3-D; `images` has room. Fills in
+ * everything but `size`. */
 icc_status iccp_map_certify(const icc_map *map, size_t n_vertices, const double *vertices,
                             size_t n_simplices, const uint32_t *simplices, bool repaired,
                             double *images, icc_certificate *certificate, const iccp_env *env,

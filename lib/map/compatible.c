@@ -17,9 +17,9 @@ enum { MOST_CROSSINGS = 1 << 20, CHORDS_PER_REPORT = 1024 };
 
 /* Of a diagonal of each polygon; a vertex of the result, number n + its index. */
 typedef struct crossing {
-    uint32_t edge;   /* the target's: the smaller of the two corners that face it */
+    uint32_t edge; /* the target's: the smaller of the two corners that face it */
     uint32_t vertex;
-    uint64_t along;  /* grows along the half-edge that `edge` faces */
+    uint64_t along; /* grows along the half-edge that `edge` faces */
 } crossing;
 
 /* Of a source diagonal in one triangle of the target, between two vertices of the result. */
@@ -31,13 +31,16 @@ typedef struct overlay {
     const iccp_memory *memory;
     uint32_t n;
     uint32_t *triangles[2], *twins[2]; /* source, target */
-    uint32_t *corner;                  /* n: at each vertex, in the target's triangle on the edge after it */
+    uint32_t *corner;                  /* n: at each vertex, in the target's triangle on the edge
+                                          after it */
     crossing *crossings;
     piece *pieces;
     size_t n_crossings, crossing_room, n_pieces, piece_room;
-    double *points, *images;           /* of the result */
-    uint32_t *first;                   /* of the crossings of a target edge, by corner; then the end */
-    uint32_t *place, *next;            /* of vertices on the border of the triangle that is being cut */
+    double *points, *images; /* of the result */
+    uint32_t *first;         /* of the crossings of a target edge, by corner; then the
+                                end */
+    uint32_t *place, *next;  /* of vertices on the border of the triangle that is being
+                                cut */
     uint32_t *border;
     iccp_corners result;
 } overlay;
@@ -311,8 +314,8 @@ static icc_status triangulate(overlay *o, const iccp_planar *base, const double 
         o->twins[1] == NULL || o->corner == NULL)
         return ICC_ERR_MEMORY;
     for (int k = 0; status == ICC_OK && k < 2; ++k)
-        status = iccp_triangulate_mesh(o->n, o->n, points[k], o->triangles[k], o->twins[k], env,
-                                       NULL);
+        status =
+            iccp_triangulate_mesh(o->n, o->n, points[k], o->triangles[k], o->twins[k], env, NULL);
     for (uint32_t c = 0; status == ICC_OK && c < 3 * (o->n - 2); ++c)
         if (o->twins[1][c] == ICCP_NO_NEIGHBOUR)
             o->corner[o->triangles[1][iccp_after(c)]] = iccp_after(c);

@@ -1,5 +1,5 @@
-/* Based on: Huynh and Gingold, Bijective Deformations in R^n via Integral Curve Coordinates, section
- * 4, steps 3-5: the image of a point has the same coordinates in the other domain. */
+/* Based on: Huynh and Gingold, Bijective Deformations in R^n via Integral Curve Coordinates,
+ * section 4, steps 3-5: the image of a point has the same coordinates in the other domain. */
 #include "map/curves.h"
 
 #include "chart/bulk.h"
@@ -39,8 +39,8 @@ icc_status iccp_curves_point(const icc_chart *from, const icc_chart *to, const d
     return status;
 }
 
-/* The extent of a facet, but for a factor that is the same for all: by Gram and Schmidt, which keeps the digits of
- * slivers. */
+/* The extent of a facet, but for a factor that is the same for all: by Gram and Schmidt, which
+ * keeps the digits of slivers. */
 static double extent_of(const icc_domain *domain, uint32_t facet)
 {
     const int32_t dim = domain->dim;

@@ -1,7 +1,8 @@
-/* A map is as good as its way back: a point is mapped, its image mapped back, and what lies between the two is what
- * the doubles have lost. The way back costs as much as the map, so of the points that are mapped only those are sent
- * whose surroundings shrink so much that digits may be missing; how much they do follows from the divergence of the
- * two fields along the curves, which rounding cannot spoil. */
+/* A map is as good as its way back: a point is mapped, its image mapped back, and what lies between
+ * the two is what the doubles have lost. The way back costs as much as the map, so of the points
+ * that are mapped only those are sent whose surroundings shrink so much that digits may be missing;
+ * how much they do follows from the divergence of the two fields along the curves, which rounding
+ * cannot spoil. */
 #include "map/digits.h"
 
 #include "base/threads.h"
@@ -15,23 +16,26 @@
 #include <math.h>
 #include <string.h>
 
-/* Of the diagonal of the bounding box. How far images of a certified map may come back from their points, and how far
- * those of the samples may: by rounding alone it is some 1e-13, and it grows tenfold within a small part of the
- * smallest width of a domain, so that what passes among samples is still far from what fails between them. */
+/* Of the diagonal of the bounding box. How far images of a certified map may come back from their
+ * points, and how far those of the samples may: by rounding alone it is some 1e-13, and it grows
+ * tenfold within a small part of the smallest width of a domain, so that what passes among samples
+ * is still far from what fails between them. */
 static const double AWAY = 1e-6, SAMPLE_AWAY = 1e-9;
 
-/* Of the ratio of the two volumes: below the first a point is sent back; below the second it is flattened. */
+/* Of the ratio of the two volumes: below the first a point is sent back; below the second it is
+ * flattened. */
 static const double SUSPECT = 1e-4, FLAT = 1e-6;
 
-/* Samples of each domain; how many of 1,000 may be flattened; how many of each domain, where the charts contract most,
- * have their derivatives compared with those of the way back, and by how much the products of the two may be off. */
+/* Samples of each domain; how many of 1,000 may be flattened; how many of each domain, where the
+ * charts contract most, have their derivatives compared with those of the way back, and by how much
+ * the products of the two may be off. */
 enum { N_SAMPLES = 1024, MOST_FLAT = 2, N_STEEP = 4 };
 static const double JACOBIAN_OFF = 1e-3;
 
 /* ---- points ---- */
 
-/* What the caller's coordinates are rounded to, as a share of the domain's diagonal: some units in the last place of a
- * shape far from the origin. */
+/* What the caller's coordinates are rounded to, as a share of the domain's diagonal: some units in
+ * the last place of a shape far from the origin. */
 static double rounding_of(const icc_domain *domain, double diagonal)
 {
     const iccp_frame *frame = &domain->frame;
@@ -51,7 +55,8 @@ static double diagonal_of(const icc_domain *domain)
     return sqrt(sum);
 }
 
-/* In the caller's coordinates; `most`: what is allowed, as a share of the diagonal and besides rounding. */
+/* In the caller's coordinates; `most`: what is allowed, as a share of the diagonal and besides
+ * rounding. */
 static bool comes_back(const icc_domain *domain, const icc_domain *other, const double *point,
                        const double *back, double most)
 {
@@ -65,7 +70,8 @@ static bool comes_back(const icc_domain *domain, const icc_domain *other, const 
     return sqrt(sum) <= (most + rounding) * diagonal;
 }
 
-/* Sends the images of n points, those that `which` names, back, and says which of them come back. */
+/* Sends the images of n points, those that `which` names, back, and says which of them come
+ * back. */
 static icc_status send_back(const icc_chart *from, const icc_chart *to, size_t n,
                             const size_t *which, const double *points, const double *images,
                             double most, bool *home, iccp_path *path)
@@ -160,8 +166,8 @@ static double miss_of(int32_t dim, const double *a, const double *b)
     return worst;
 }
 
-/* Whether the derivative has digits: the one of the way back is its inverse. Where there is none, as on a kink that
- * curves run along, there is nothing to be compared. */
+/* Whether the derivative has digits: the one of the way back is its inverse. Where there is none,
+ * as on a kink that curves run along, there is nothing to be compared. */
 static icc_status compare_derivatives(const icc_chart *from, const icc_chart *to,
                                       const double *point, bool *agree, const iccp_memory *memory)
 {
@@ -242,7 +248,8 @@ static icc_status judge_chunk(void *argument, size_t begin, size_t end)
     return all;
 }
 
-/* The samples where the charts contract most: derivatives are products of theirs, and lose digits first. */
+/* The samples where the charts contract most: derivatives are products of theirs, and lose digits
+ * first. */
 static icc_status judge_derivatives(samples *s)
 {
     for (int i = 0; i < N_STEEP; ++i) {

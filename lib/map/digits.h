@@ -1,13 +1,14 @@
-/* Whether doubles have digits enough for a map along curves of method field. Each of its charts may be one-to-one
- * and bring every point back to rounding, and the map lose all digits between the two: where one chart tells
- * points apart, to the other they are one. */
+/* Whether doubles have digits enough for a map along curves of method field. Each of its charts may
+ * be one-to-one and bring every point back to rounding, and the map lose all digits between the
+ * two: where one chart tells points apart, to the other they are one. */
 #ifndef ICCP_DIGITS_H
 #define ICCP_DIGITS_H
 
 #include "chart/chart.h"
 
-/* Fills in what `info` says of that, and takes the certificate away from a map that does not come back, by
- * evenly spread points of both domains and both ways. The charts are of method field and certified. */
+/* Fills in what `info` says of that, and takes the certificate away from a map that does not come
+ * back, by evenly spread points of both domains and both ways. The charts are of method field and
+ * certified. */
 icc_status iccp_digits_judge(const icc_chart *source, const icc_chart *target, icc_map_info *info,
                              const iccp_env *env);
 
@@ -16,7 +17,8 @@ icc_status iccp_digits_points(const icc_chart *from, const icc_chart *to, size_t
                               const double *points, double *images, icc_status *status,
                               iccp_path *path);
 
-/* As iccp_curves_point() with a derivative; ICC_ERR_TRACE also where its determinant is not positive. */
+/* As iccp_curves_point() with a derivative; ICC_ERR_TRACE also where its determinant is not
+ * positive. */
 icc_status iccp_digits_point(const icc_chart *from, const icc_chart *to, const double *point,
                              double *image, double *jacobian, iccp_path *path);
 

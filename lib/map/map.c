@@ -22,9 +22,8 @@ static icc_status check_correspondence(const icc_domain *source, const icc_domai
     icc_status status = ICC_OK;
     const size_t n_ends = source->n_facets * (size_t)source->dim;
     if (source->dim != target->dim)
-        status = iccp_fail(err, ICC_ERR_BOUNDARY,
-                           "the source has dimension %ld, the target %ld", (long)source->dim,
-                           (long)target->dim);
+        status = iccp_fail(err, ICC_ERR_BOUNDARY, "the source has dimension %ld, the target %ld",
+                           (long)source->dim, (long)target->dim);
     else if (source->n_vertices != target->n_vertices)
         status = iccp_fail(err, ICC_ERR_BOUNDARY,
                            "the source has %zu vertices, the target %zu: vertex i must "
@@ -39,9 +38,9 @@ static icc_status check_correspondence(const icc_domain *source, const icc_domai
                            turn_of(source), turn_of(target));
     for (size_t i = 0; status == ICC_OK && i < n_ends; ++i)
         if (source->facets[i] != target->facets[i])
-            status = iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_FACET, (int64_t)(i / (size_t)source->dim),
-                               "facet %zu does not join the same vertices in the target",
-                               i / (size_t)source->dim);
+            status = iccp_fail_at(
+                err, ICC_ERR_BOUNDARY, ICC_ITEM_FACET, (int64_t)(i / (size_t)source->dim),
+                "facet %zu does not join the same vertices in the target", i / (size_t)source->dim);
     return status == ICC_OK ? ICC_OK : iccp_fail_side(err, status, 2);
 }
 
@@ -55,8 +54,7 @@ icc_status iccp_map_choose_kind(int32_t *kind, const icc_chart *source, const ic
                                 icc_error *err)
 {
     if (source->info.method != target->info.method)
-        return iccp_fail(err, ICC_ERR_UNSUPPORTED,
-                         "the charts use different methods (%ld and %ld)",
+        return iccp_fail(err, ICC_ERR_UNSUPPORTED, "the charts use different methods (%ld and %ld)",
                          (long)source->info.method, (long)target->info.method);
     const bool has_mesh = source->mesh != NULL || is_solid(source);
     if (*kind == 0)
@@ -117,8 +115,8 @@ static icc_status add_mesh(icc_map *map, int32_t iterations, const iccp_env *env
     const icc_status status =
         is_solid(map->source)
             ? iccp_solid_map_create(&map->solid, map->source, map->target, &map->info, env)
-            : iccp_mesh_map_create(&map->mesh, map->source, map->target, iterations, &map->info, env,
-                                   err);
+            : iccp_mesh_map_create(&map->mesh, map->source, map->target, iterations, &map->info,
+                                   env, err);
     if (map->mesh != NULL || map->solid != NULL)
         map->info.kind = ICC_MAP_MESH;
     else if (status == ICC_OK)
@@ -175,12 +173,12 @@ static bool are_filled(const icc_domain *const domains[2])
 }
 
 /* The method that suits the kind, where the caller leaves it open: discs are the better start for a
- * mesh, unless a maximum is given, which they do not have. The caller's own meshes are for foliations. */
+ * mesh, unless a maximum is given, which they do not have. The caller's own meshes are for
+ * foliations. */
 static void complete(icc_chart_options chart_options[2], const icc_domain *const domains[2],
                      int32_t kind)
 {
-    const bool has_maximum =
-        chart_options[0].maximum != NULL || chart_options[1].maximum != NULL;
+    const bool has_maximum = chart_options[0].maximum != NULL || chart_options[1].maximum != NULL;
     const bool has_mesh = domains[0]->mesh != NULL && domains[1]->mesh != NULL;
     const bool curves = kind == ICC_MAP_CURVES || (kind == 0 && has_mesh);
     for (int k = 0; k < 2 && !curves && domains[0]->dim == 2; ++k) {
@@ -193,15 +191,15 @@ static void complete(icc_chart_options chart_options[2], const icc_domain *const
 }
 
 icc_status iccp_map_create(icc_map **out, const icc_domain *source, const icc_domain *target,
-                           const icc_map_options *options,
-                           const icc_chart_options chart_options[2], const iccp_env *env,
-                           icc_error *err)
+                           const icc_map_options *options, const icc_chart_options chart_options[2],
+                           const iccp_env *env, icc_error *err)
 {
     const double start = iccp_seconds();
     const icc_domain *const domains[2] = {source, target};
     icc_chart_options full[2] = {chart_options[0], chart_options[1]};
     icc_status status = check_correspondence(source, target, err);
-    if (status == ICC_OK && options->kind == ICC_MAP_MESH && source->dim != 2 && !are_filled(domains))
+    if (status == ICC_OK && options->kind == ICC_MAP_MESH && source->dim != 2 &&
+        !are_filled(domains))
         status = iccp_fail(err, ICC_ERR_UNSUPPORTED,
                            "map kind mesh is not available for domains of dimension %ld%s",
                            (long)source->dim,
@@ -263,7 +261,7 @@ icc_status iccp_map_improve(icc_map **out, const icc_map *map, const icc_improve
 }
 
 icc_status iccp_map_retarget(icc_map **out, const icc_map *map, const icc_domain *target,
-                           int32_t iterations, const iccp_env *env, icc_error *err)
+                             int32_t iterations, const iccp_env *env, icc_error *err)
 {
     const double start = iccp_seconds();
     icc_map *next = NULL;
@@ -272,8 +270,9 @@ icc_status iccp_map_retarget(icc_map **out, const icc_map *map, const icc_domain
                          "only maps of kind mesh in the plane can be followed");
     icc_status status = iccp_map_begin(&next, map->source_domain, target, env, err);
     if (status == ICC_OK)
-        status = iccp_mesh_map_follow(&next->mesh, map->mesh, map->source_domain,
-                                      map->target_domain, target, iterations, &next->info, env, err);
+        status =
+            iccp_mesh_map_follow(&next->mesh, map->mesh, map->source_domain, map->target_domain,
+                                 target, iterations, &next->info, env, err);
     if (status == ICC_OK && next->mesh == NULL)
         status = iccp_fail(err, ICC_ERR_CERTIFICATE,
                            "%zu triangles could not be repaired: the target has moved too far",

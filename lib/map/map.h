@@ -16,9 +16,8 @@ struct icc_map {
 
 /* See icc_map_create(). `options` gives kind and iterations; the charts' options are separate. */
 icc_status iccp_map_create(icc_map **out, const icc_domain *source, const icc_domain *target,
-                           const icc_map_options *options,
-                           const icc_chart_options chart_options[2], const iccp_env *env,
-                           icc_error *err);
+                           const icc_map_options *options, const icc_chart_options chart_options[2],
+                           const iccp_env *env, icc_error *err);
 
 /* See icc_map_create_from_charts(). */
 icc_status iccp_map_create_from_charts(icc_map **out, const icc_chart *source,
@@ -31,7 +30,7 @@ icc_status iccp_map_improve(icc_map **out, const icc_map *map, const icc_improve
 
 /* See icc_map_retarget(). */
 icc_status iccp_map_retarget(icc_map **out, const icc_map *map, const icc_domain *target,
-                           int32_t iterations, const iccp_env *env, icc_error *err);
+                             int32_t iterations, const iccp_env *env, icc_error *err);
 void iccp_map_release(icc_map *map);
 
 /* ---- a map piece by piece ---- */

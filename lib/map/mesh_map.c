@@ -55,8 +55,7 @@ static icc_status start(iccp_plmap *pl, const icc_chart *source, const icc_chart
         if (status == ICC_OK)
             status = vertex_image(source, target, mesh, v, images + 2 * v, &path);
         if (iccp_is_point_status(status) && status != ICC_OK)
-            (void)iccp_fail(err, status, "vertex %zu of the mesh has no image by the charts",
-                            v);
+            (void)iccp_fail(err, status, "vertex %zu of the mesh has no image by the charts", v);
     }
     if (status == ICC_OK)
         status = iccp_plmap_create(pl, mesh, source->domain, images,
@@ -142,8 +141,8 @@ static void swap_sides(iccp_plmap *pl)
 /* The start that needs no repair but where rounding makes it: compatible triangulations, of any
  * shapes. Triangles of the source that rounding has spoilt are repaired like those of the
  * target. */
-static icc_status start_compatible(iccp_plmap *pl, const icc_chart *source,
-                                   const icc_chart *target, const iccp_env *env)
+static icc_status start_compatible(iccp_plmap *pl, const icc_chart *source, const icc_chart *target,
+                                   const iccp_env *env)
 {
     const iccp_planar *mesh = source->mesh;
     double *images = iccp_alloc(&env->memory, mesh->n_boundary, 2 * sizeof *images);
@@ -151,9 +150,9 @@ static icc_status start_compatible(iccp_plmap *pl, const icc_chart *source,
     for (size_t v = 0; status == ICC_OK && v < mesh->n_boundary; ++v)
         status = vertex_image(source, target, mesh, v, images + 2 * v, NULL);
     if (status == ICC_OK)
-        status = iccp_compatible_create(pl, mesh, source->domain, images,
-                                        sqrt(target->domain->measure / source->domain->measure),
-                                        env);
+        status =
+            iccp_compatible_create(pl, mesh, source->domain, images,
+                                   sqrt(target->domain->measure / source->domain->measure), env);
     iccp_free(&env->memory, images);
     if (status != ICC_OK)
         return status;

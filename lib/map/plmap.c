@@ -5,7 +5,8 @@
 #include <string.h>
 
 /* Replaces *array by a copy with more room, and leaves it alone on failure. */
-static icc_status enlarge(const iccp_memory *memory, void *array, size_t n, size_t room, size_t size)
+static icc_status enlarge(const iccp_memory *memory, void *array, size_t n, size_t room,
+                          size_t size)
 {
     void *old;
     memcpy(&old, array, sizeof old);
@@ -83,9 +84,8 @@ icc_status iccp_plmap_create(iccp_plmap *map, const iccp_planar *mesh, const icc
 
 icc_status iccp_plmap_copy(iccp_plmap *map, const iccp_plmap *other, const iccp_memory *memory)
 {
-    const icc_status status =
-        iccp_plmap_begin(map, other->n_vertices, other->corners.n_triangles, other->orientation,
-                         other->stretch, memory);
+    const icc_status status = iccp_plmap_begin(map, other->n_vertices, other->corners.n_triangles,
+                                               other->orientation, other->stretch, memory);
     if (status == ICC_OK) {
         fill(map, other->points, other->images, other->corners.vertex, other->corners.twin);
         memcpy(map->fixed, other->fixed, other->n_vertices * sizeof *map->fixed);
@@ -152,8 +152,8 @@ static void place_on_boundary(iccp_plmap *map, size_t m, bool fixed, uint32_t a,
     map->facet[m] = fixed ? map->facet[a] : 0;
     map->along[m] = 0;
     if (fixed)
-        map->along[m] = 0.5 * (map->along[a] +
-                               (map->facet[b] == map->facet[a] ? map->along[b] : facet_end));
+        map->along[m] =
+            0.5 * (map->along[a] + (map->facet[b] == map->facet[a] ? map->along[b] : facet_end));
 }
 
 icc_status iccp_plmap_cut(iccp_plmap *map, uint32_t corner, bool *done)
@@ -167,8 +167,7 @@ icc_status iccp_plmap_cut(iccp_plmap *map, uint32_t corner, bool *done)
             (twin == ICCP_NO_NEIGHBOUR || can_cut(map, twin, point, image));
     if (!*done)
         return ICC_OK;
-    const icc_status status =
-        make_room(map, map->n_vertices + 1, map->corners.n_triangles + 2);
+    const icc_status status = make_room(map, map->n_vertices + 1, map->corners.n_triangles + 2);
     if (status != ICC_OK)
         return status;
     const size_t m = map->n_vertices++;

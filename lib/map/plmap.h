@@ -11,14 +11,16 @@ typedef struct iccp_plmap {
     iccp_corners corners;
     size_t n_vertices;
     size_t vertex_room, triangle_room;
-    double *points;  /* local in the source */
-    double *images;  /* local in the target */
-    uint8_t *fixed;  /* 1 for vertices on the boundary */
-    uint32_t *facet; /* of fixed vertices: the facet of the boundary edge that begins there, counter- */
-    double *along;   /* clockwise, and where on the facet the vertex lies, in [0, 1] */
-    int32_t orientation; /* of the source: facets run along with the boundary (1) or against it (-1) */
-    double stretch;  /* lengths of the source are multiplied by this for energies, so that both areas
-                        are the same and energies are those of shape alone */
+    double *points;      /* local in the source */
+    double *images;      /* local in the target */
+    uint8_t *fixed;      /* 1 for vertices on the boundary */
+    uint32_t *facet;     /* of fixed vertices: the facet of the boundary edge that begins there,
+                            counter- */
+    double *along;       /* clockwise, and where on the facet the vertex lies, in [0, 1] */
+    int32_t orientation; /* of the source: facets run along with the boundary (1) or against it
+                            (-1) */
+    double stretch;      /* lengths of the source are multiplied by this for energies, so that both
+                            areas are the same and energies are those of shape alone */
 } iccp_plmap;
 
 /* Room for so many vertices and triangles, which are still to be filled in. */

@@ -1,5 +1,5 @@
-/* Scan conversion is right up to rounding, and half-open; domains are closed and decided exactly. The few
- * centres where that can differ are asked for one by one. */
+/* Scan conversion is right up to rounding, and half-open; domains are closed and decided exactly.
+ * The few centres where that can differ are asked for one by one. */
 #include "map/rim.h"
 
 #include "map/sampler.h"
@@ -7,8 +7,9 @@
 #include <math.h>
 #include <string.h>
 
-/* In units of the largest coordinate. Domains count points up to 1e-14 outside as boundary, which is far more than
- * rounding of the coordinates, and crossings of rows are off by a few units in the last place, 1e-16. */
+/* In units of the largest coordinate. Domains count points up to 1e-14 outside as boundary, which
+ * is far more than rounding of the coordinates, and crossings of rows are off by a few units in the
+ * last place, 1e-16. */
 static const double CLOSE = 1e-13;
 
 /* ---- listing ---- */
@@ -82,8 +83,7 @@ icc_status iccp_rim_create(iccp_rim *rim, const icc_domain *domain, const icc_pi
     icc_status status = ICC_OK;
     for (size_t i = 0; i < domain->n_facets && status == ICC_OK; ++i)
         status = add_along(rim, target, domain->given + 2 * (size_t)domain->facets[2 * i],
-                           domain->given + 2 * (size_t)domain->facets[2 * i + 1],
-                           CLOSE * largest);
+                           domain->given + 2 * (size_t)domain->facets[2 * i + 1], CLOSE * largest);
     if (status != ICC_OK)
         iccp_rim_free(rim);
     return status;
@@ -97,8 +97,8 @@ void iccp_rim_free(iccp_rim *rim)
 
 /* ---- settling ---- */
 
-/* Where a centre comes from; false when it is outside. Centres that are inside and yet in no triangle are
- * within rounding of the boundary. */
+/* Where a centre comes from; false when it is outside. Centres that are inside and yet in no
+ * triangle are within rounding of the boundary. */
 static bool origin(const icc_map *map, const double centre[2], double place[2])
 {
     const icc_domain *from = map->target_domain, *to = map->source_domain;

@@ -1,4 +1,5 @@
-/* Pixels whose centres are so close to the boundary that rounding could decide whether they are inside. */
+/* Pixels whose centres are so close to the boundary that rounding could decide whether they are
+ * inside. */
 #ifndef ICCP_RIM_H
 #define ICCP_RIM_H
 
@@ -10,7 +11,7 @@ typedef struct iccp_rim {
     struct iccp_rim_pixel {
         int32_t column, row;
         uint8_t before[8];
-    } *pixels;
+    } * pixels;
 } iccp_rim;
 
 /* Lists them with what the target picture has there, before anything is painted. */

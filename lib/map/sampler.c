@@ -1,8 +1,9 @@
-/* Bilinear interpolation in integers, so that a position on a pixel's centre gives its colour exactly.
+/* Bilinear interpolation in integers, so that a position on a pixel's centre gives its colour
+ * exactly.
  *
- * With opacity, colours are averaged with the weight 2^s a + 1 of an opacity a: what is transparent does
- * not bleed into what is not (by 1 in 2^s a), and yet the colour of what is all transparent survives.
- * The largest sums are 2^48 for one byte a sample, and just under 2^64 for two. */
+ * With opacity, colours are averaged with the weight 2^s a + 1 of an opacity a: what is transparent
+ * does not bleed into what is not (by 1 in 2^s a), and yet the colour of what is all transparent
+ * survives. The largest sums are 2^48 for one byte a sample, and just under 2^64 for two. */
 #include "map/sampler.h"
 
 #include "base/compiler.h"
@@ -40,8 +41,8 @@ static ICCP_INLINE int floor_bits(format f)
     return f.wide ? WIDE_FLOOR : NARROW_FLOOR;
 }
 
-/* The pixel up and left of a position, how far the others of the four round it are in memory, and how far
- * it is from the first. */
+/* The pixel up and left of a position, how far the others of the four round it are in memory, and
+ * how far it is from the first. */
 typedef struct cell {
     const uint8_t *first;
     size_t right, down;
@@ -88,7 +89,7 @@ static ICCP_INLINE cell find_cell(const plane *p, format f, int64_t u, int64_t v
 
 /* Differences may wrap, the result does not. */
 static ICCP_INLINE uint64_t blend(const cell *c, int bits, uint64_t s00, uint64_t s10, uint64_t s01,
-                             uint64_t s11)
+                                  uint64_t s11)
 {
     const uint64_t top = (s00 << bits) + c->share_right * (s10 - s00);
     const uint64_t bottom = (s01 << bits) + c->share_right * (s11 - s01);
@@ -109,8 +110,7 @@ static ICCP_INLINE void plain_sum(const cell *c, format f, int channel, sums *s)
     const uint8_t *p = c->first, *q = p + c->down;
     if (channel < f.channels)
         s->of[channel] = blend(c, position_bits(f), sample(p, channel, f.wide),
-                               sample(p + c->right, channel, f.wide),
-                               sample(q, channel, f.wide),
+                               sample(p + c->right, channel, f.wide), sample(q, channel, f.wide),
                                sample(q + c->right, channel, f.wide));
 }
 
@@ -128,9 +128,8 @@ static ICCP_INLINE void plain_sum_pair(const cell *c, format f, int channel, sum
         plain_sum(c, f, channel + 1, s);
         return;
     }
-    const uint64_t both =
-        blend(c, position_bits(f), pair(p, channel), pair(p + c->right, channel),
-              pair(q, channel), pair(q + c->right, channel));
+    const uint64_t both = blend(c, position_bits(f), pair(p, channel), pair(p + c->right, channel),
+                                pair(q, channel), pair(q + c->right, channel));
     s->of[channel] = both & UINT32_MAX;
     s->of[channel + 1] = both >> 32;
 }
@@ -275,7 +274,7 @@ static ICCP_INLINE void gather(const icc_picture *picture, format f, walk w, flo
         FORMAT(4, true, true, CALL)                                                                \
     }
 #define FORMAT(channels, wide, alpha, CALL)                                                        \
-    case (channels) * 4 + (wide) * 2 + (alpha):                                                    \
+    case (channels)*4 + (wide)*2 + (alpha):                                                        \
         CALL(((format){channels, wide, alpha}));                                                   \
         break;
 
@@ -286,8 +285,8 @@ static void paint_walk(const icc_picture *source, const walk *w, uint8_t *to)
 #undef PAINT
 }
 
-static void gather_walk(const icc_picture *source, const walk *w, float weight,
-                        size_t phase, size_t per_pixel, iccp_gathered *pixels)
+static void gather_walk(const icc_picture *source, const walk *w, float weight, size_t phase,
+                        size_t per_pixel, iccp_gathered *pixels)
 {
 #define GATHER(f) gather(source, f, *w, weight, phase, per_pixel, pixels)
     WITH_FORMAT(source, GATHER)

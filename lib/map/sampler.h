@@ -6,8 +6,8 @@
 
 #include <stdbool.h>
 
-/* n positions in a picture, in pixels from the centre of the first one. Beyond the rectangle of the pixels'
- * centres the nearest place on it counts. */
+/* n positions in a picture, in pixels from the centre of the first one. Beyond the rectangle of the
+ * pixels' centres the nearest place on it counts. */
 typedef struct iccp_line {
     double u, v, du, dv;
     size_t n;
@@ -20,8 +20,8 @@ typedef struct iccp_gathered {
     bool owned; /* for the caller: whether the mean shall be written */
 } iccp_gathered;
 
-/* Writes the samples to consecutive pixels, which have the source's format. Positions are rounded to
- * 2^-12 pixels (2^-14 with two bytes); from there on results are exact but for one rounding. */
+/* Writes the samples to consecutive pixels, which have the source's format. Positions are rounded
+ * to 2^-12 pixels (2^-14 with two bytes); from there on results are exact but for one rounding. */
 void iccp_sampler_paint(const icc_picture *source, const iccp_line *line, uint8_t *to);
 
 /* Adds the samples, `weight` each, to pixels[(phase + k) / per_pixel]. */

@@ -1,25 +1,24 @@
-/* Scan conversion with half-open intervals: Foley, van Dam, Feiner and Hughes, Computer Graphics, section
- * 3.6. The two triangles of an edge compute its crossing with a row from the same numbers, always from
- * its lower end, so neither a gap nor an overlap can open between them. Which edge is the left one follows
- * from the order of the corners, not from rounded crossings.
+/* Scan conversion with half-open intervals: Foley, van Dam, Feiner and Hughes, Computer Graphics,
+ * section 3.6. The two triangles of an edge compute its crossing with a row from the same numbers,
+ * always from its lower end, so neither a gap nor an overlap can open between them. Which edge is
+ * the left one follows from the order of the corners, not from rounded crossings.
  *
- * Positions in the source are interpolated along the edges and then along the row, so that even in the
- * thinnest triangle they stay between its corners. */
+ * Positions in the source are interpolated along the edges and then along the row, so that even in
+ * the thinnest triangle they stay between its corners. */
 #include "map/scan.h"
 
 #include <math.h>
 
-/* Pixels of the source from sample to sample, at most. A bilinear sample sees two, so even at 1.25 none is
- * missed, but of a zone plate's rings too fine for the target shrunk by that, 54 % of the contrast would be
- * left, and 32 % at 1.1, as much as a mean over the whole pixel leaves. */
+/* Pixels of the source from sample to sample, at most. A bilinear sample sees two, so even at 1.25
+ * none is missed, but of a zone plate's rings too fine for the target shrunk by that, 54 % of the
+ * contrast would be left, and 32 % at 1.1, as much as a mean over the whole pixel leaves. */
 static const double STEP = 1.1;
 
 static iccp_edge make_edge(const iccp_place *a, const iccp_place *b)
 {
     const double height = b->y - a->y;
-    return (iccp_edge){*a,
-                       {(b->x - a->x) / height, height, (b->u - a->u) / height,
-                        (b->v - a->v) / height}};
+    return (iccp_edge){
+        *a, {(b->x - a->x) / height, height, (b->u - a->u) / height, (b->v - a->v) / height}};
 }
 
 int32_t iccp_samples_for(double distance)
@@ -91,8 +90,7 @@ int64_t iccp_scan_row(const iccp_scan *scan, double y, int32_t n, int32_t width,
     if (!(scan->whole.start.y <= y && y < scan->top))
         return 0;
     const iccp_place whole = crossing(&scan->whole, y);
-    const iccp_place broken =
-        crossing(y < scan->second.start.y ? &scan->first : &scan->second, y);
+    const iccp_place broken = crossing(y < scan->second.start.y ? &scan->first : &scan->second, y);
     const iccp_place *left = scan->whole_left ? &whole : &broken;
     const iccp_place *right = scan->whole_left ? &broken : &whole;
     const int64_t all = (int64_t)width * n;

@@ -16,7 +16,7 @@ typedef struct iccp_simplicial_map {
     size_t n_rim;         /* the images of the first points are fixed, */
     const uint8_t *fixed; /* and of those with fixed[v] != 0, unless this is NULL */
     double stretch; /* lengths before the map are multiplied by this for energies, so that the areas
-                             or volumes are the same and energies are those of shape alone */
+                       or volumes are the same and energies are those of shape alone */
 } iccp_simplicial_map;
 
 /* The map of a mesh without a stretch. */

@@ -186,8 +186,7 @@ static icc_status read_images(iccp_solid_map *map, const icc_domain *target, icc
         return ICC_ERR_MEMORY;
     memcpy(map->images, target->vertices, 3 * n_rim * sizeof *map->images);
     iccp_blob_read_f64(r, 3 * n, map->images + 3 * n_rim);
-    return iccp_are_local(3, 3 * n, map->images + 3 * n_rim) &&
-                   count_inverted(map) == 0
+    return iccp_are_local(3, 3 * n, map->images + 3 * n_rim) && count_inverted(map) == 0
                ? ICC_OK
                : ICC_ERR_FORMAT;
 }
@@ -204,8 +203,7 @@ icc_status iccp_solid_map_read(iccp_solid_map **out, const icc_domain *source,
     if (map == NULL)
         return ICC_ERR_MEMORY;
     map->memory = env->memory;
-    icc_status status =
-        has_own == 1 ? iccp_filling_read(&map->own, source, r, env) : ICC_OK;
+    icc_status status = has_own == 1 ? iccp_filling_read(&map->own, source, r, env) : ICC_OK;
     map->mesh = map->own != NULL ? map->own : source->mesh;
     if (status == ICC_OK)
         status = read_images(map, target, r);

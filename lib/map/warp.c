@@ -1,9 +1,9 @@
-/* Through the mesh the inverse of a map is one affine map for each triangle of the target, so pictures are
- * drawn triangle by triangle, row by row, without looking for the triangle of a pixel.
+/* Through the mesh the inverse of a map is one affine map for each triangle of the target, so
+ * pictures are drawn triangle by triangle, row by row, without looking for the triangle of a pixel.
  *
- * Where a triangle shrinks the picture its rows are sampled more finely and gathered. A pixel belongs to
- * the triangle that holds its centre: either it is painted by that triangle at once, or it is the mean of
- * what all triangles that gather have in it. */
+ * Where a triangle shrinks the picture its rows are sampled more finely and gathered. A pixel
+ * belongs to the triangle that holds its centre: either it is painted by that triangle at once, or
+ * it is the mean of what all triangles that gather have in it. */
 #include "map/warp.h"
 
 #include "base/threads.h"
@@ -23,7 +23,7 @@ typedef struct warp {
     iccp_place *places; /* of each vertex */
     iccp_scan *scans;   /* of each triangle */
     size_t n_bands;
-    size_t *first;      /* n_bands + 1: where a band's triangles begin */
+    size_t *first; /* n_bands + 1: where a band's triangles begin */
     uint32_t *entries;
 } warp;
 
@@ -132,16 +132,14 @@ static void gather(const warp *w, const iccp_scan *scan, row *r)
     iccp_line line;
     for (int32_t k = 0; k < scan->rows; ++k) {
         const double y = ((double)r->number * scan->rows + k + 0.5) / scan->rows;
-        const size_t begin =
-            (size_t)iccp_scan_row(scan, y, scan->columns, w->target->width, &line);
+        const size_t begin = (size_t)iccp_scan_row(scan, y, scan->columns, w->target->width, &line);
         if (line.n == 0)
             continue;
         iccp_sampler_gather(w->source, &line, weight, begin % columns, columns,
                             r->gathered + begin / columns);
         widen(r, begin / columns, (begin + line.n - 1) / columns + 1);
     }
-    const size_t begin =
-        (size_t)iccp_scan_row(scan, r->number + 0.5, 1, w->target->width, &line);
+    const size_t begin = (size_t)iccp_scan_row(scan, r->number + 0.5, 1, w->target->width, &line);
     for (size_t i = begin; i < begin + line.n; ++i)
         r->gathered[i].owned = true;
     if (line.n > 0)
@@ -203,8 +201,7 @@ static icc_status paint_band(void *argument, size_t begin, size_t end)
     row r = {.gathered = NULL};
     for (size_t e = w->first[band]; e < w->first[band + 1] && r.gathered == NULL; ++e)
         if (gathers(&w->scans[w->entries[e]])) {
-            r.gathered =
-                iccp_alloc_zero(w->memory, (size_t)w->target->width, sizeof *r.gathered);
+            r.gathered = iccp_alloc_zero(w->memory, (size_t)w->target->width, sizeof *r.gathered);
             if (r.gathered == NULL)
                 return ICC_ERR_MEMORY;
         }

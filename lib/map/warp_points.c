@@ -1,7 +1,7 @@
 /* Every pixel of the target fetches its colour from where its centre comes from. Where neighbouring
- * centres come from more than a pixel apart the map shrinks the picture; the pixel is then the mean of a
- * grid of samples, each mapped back by itself, so that nothing outside the source domain and nothing from
- * the far side of a fold gets in. */
+ * centres come from more than a pixel apart the map shrinks the picture; the pixel is then the mean
+ * of a grid of samples, each mapped back by itself, so that nothing outside the source domain and
+ * nothing from the far side of a fold gets in. */
 #include "map/warp_points.h"
 
 #include "base/threads.h"
@@ -20,7 +20,8 @@ typedef struct warp {
     atomic_size_t n_failed;
 } warp;
 
-/* Origins of the centres in the rows of one task and the rows beside them; NaN where there is none. */
+/* Origins of the centres in the rows of one task and the rows beside them; NaN where there is
+ * none. */
 typedef struct band {
     double *origins;
     icc_status *status;
@@ -42,8 +43,8 @@ static double distance(const double *a, const double *b)
     return hypot(a[0] - b[0], a[1] - b[1]);
 }
 
-/* Of two neighbours the nearer one counts: at a jump of the map the other one tells nothing about this
- * pixel. fmin passes over NaN. */
+/* Of two neighbours the nearer one counts: at a jump of the map the other one tells nothing about
+ * this pixel. fmin passes over NaN. */
 static int32_t samples_between(const double *before, const double *here, const double *after)
 {
     return iccp_samples_for(fmin(before != NULL ? distance(before, here) : NAN,

@@ -7,7 +7,8 @@
 
 enum { STRIP = 4 };
 
-/* With a constant width the loops over rows and columns are unrolled and run in vector registers. */
+/* With a constant width the loops over rows and columns are unrolled and run in vector
+ * registers. */
 static ICCP_INLINE void multiply_strip(double *tile, size_t width, const double *a, const double *b,
                                        size_t depth)
 {

@@ -8,8 +8,9 @@
 enum { ICCP_TILE = 4 };
 
 /* tile[16 t + 4 c + r] = the sum over k < depth, in this order, of
- * a[t * stride + 4 k + r] * b[width * k + c], for strips t < n_strips (1 or 2), c < width (1, 2 or 4)
- * and r < 4. The same bits from every implementation: lanes are rows, and nothing is contracted. */
+ * a[t * stride + 4 k + r] * b[width * k + c], for strips t < n_strips (1 or 2), c < width (1, 2 or
+ * 4) and r < 4. The same bits from every implementation: lanes are rows, and nothing is
+ *    contracted. */
 typedef void (*iccp_multiply)(double *tile, size_t n_strips, size_t width, const double *a,
                               size_t stride, const double *b, size_t depth);
 

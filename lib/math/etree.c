@@ -1,7 +1,7 @@
-/* Elimination tree and postorder after J. Liu, The role of elimination trees in sparse factorization,
- * SIAM J. Matrix Anal. Appl. 11, 1990; column counts after J. Gilbert, E. Ng, B. Peyton, An efficient
- * algorithm to compute row and column counts for sparse Cholesky factorization, SIAM J. Matrix Anal.
- * Appl. 15, 1994. */
+/* Elimination tree and postorder after J. Liu, The role of elimination trees in sparse
+ * factorization, SIAM J. Matrix Anal. Appl. 11, 1990; column counts after J. Gilbert, E. Ng, B.
+ * Peyton, An efficient algorithm to compute row and column counts for sparse Cholesky
+ * factorization, SIAM J. Matrix Anal. Appl. 15, 1994. */
 #include "math/etree.h"
 
 #include <string.h>
@@ -122,8 +122,8 @@ static uint32_t find_root(uint32_t *ancestor, uint32_t v)
     return root;
 }
 
-/* Row i of the factor is a subtree; column j is one of its leaves unless a descendant of j is in the
- * row as well. Every leaf adds a path, which ends where it meets that of the leaf before. */
+/* Row i of the factor is a subtree; column j is one of its leaves unless a descendant of j is in
+ * the row as well. Every leaf adds a path, which ends where it meets that of the leaf before. */
 static void count_leaf(const counting *c, uint32_t *delta, uint32_t i, uint32_t j)
 {
     if (c->leaf[i] != NONE && c->first[j] <= c->latest[i])

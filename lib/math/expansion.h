@@ -3,10 +3,11 @@
  * Based on: J. R. Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric
  * Predicates, Discrete & Computational Geometry 18, 1997, sections 2.2 to 2.6.
  *
- * An expansion is an array of non-zero doubles that do not overlap, the smallest magnitude first; its
- * value is their exact sum, its sign that of the last one. Zero is the empty expansion. Exact as long
- * as nothing overflows and every product of two last places stays above 2^-1074. Relies on plain
- * double arithmetic, rounded to even: no contraction to fused operations, no excess precision. */
+ * An expansion is an array of non-zero doubles that do not overlap, the smallest magnitude first;
+ * its value is their exact sum, its sign that of the last one. Zero is the empty expansion. Exact
+ * as long as nothing overflows and every product of two last places stays above 2^-1074. Relies on
+ * plain double arithmetic, rounded to even: no contraction to fused operations, no excess
+ * precision. */
 #ifndef ICCP_EXPANSION_H
 #define ICCP_EXPANSION_H
 
@@ -49,8 +50,7 @@ static inline double iccp_two_product(double a, double b, double *error)
     const double product = a * b;
     const double a_high = iccp_upper_half(a), a_low = a - a_high;
     const double b_high = iccp_upper_half(b), b_low = b - b_high;
-    *error = a_low * b_low -
-             (((product - a_high * b_high) - a_low * b_high) - a_high * b_low);
+    *error = a_low * b_low - (((product - a_high * b_high) - a_low * b_high) - a_high * b_low);
     return product;
 }
 

@@ -1,5 +1,5 @@
-/* Row by row, after F. Gustavson, Two fast algorithms for sparse matrices: multiplication and permuted
- * transposition, ACM Trans. Math. Software 4, 1978. */
+/* Row by row, after F. Gustavson, Two fast algorithms for sparse matrices: multiplication and
+ * permuted transposition, ACM Trans. Math. Software 4, 1978. */
 #include "math/gram.h"
 
 #include <stdbool.h>

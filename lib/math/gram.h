@@ -20,13 +20,14 @@ typedef struct iccp_gram {
     size_t *first;
     uint32_t *column;
     double *value, *diagonal;
-    size_t *row_first;  /* of the transpose of B: where its rows, the columns of B, begin */
+    size_t *row_first; /* of the transpose of B: where its rows, the columns of B, begin */
     uint32_t *row;
     double *row_value;
-    double *sum;        /* n_columns: a row of the Gram matrix in the making */
+    double *sum; /* n_columns: a row of the Gram matrix in the making */
 } iccp_gram;
 
-/* Room for a matrix; `first`, `column` and `value` are for the caller to write. Columns < 2^32 - 1. */
+/* Room for a matrix; `first`, `column` and `value` are for the caller to write. Columns < 2^32
+ * - 1. */
 icc_status iccp_sparse_create(iccp_sparse *b, size_t n_rows, size_t n_columns, size_t n_entries,
                               const iccp_env *env);
 void iccp_sparse_free(iccp_sparse *b);
@@ -37,8 +38,8 @@ void iccp_sparse_apply(const iccp_sparse *b, const double *x, const double *minu
 /* out += B' y */
 void iccp_sparse_apply_transpose(const iccp_sparse *b, const double *y, double *out);
 
-/* Finds the pattern, which the weights do not change. The values are left unset. O(sum of squared row
- * lengths). */
+/* Finds the pattern, which the weights do not change. The values are left unset. O(sum of squared
+ * row lengths). */
 icc_status iccp_gram_create(iccp_gram *gram, const iccp_sparse *b, const iccp_env *env);
 void iccp_gram_free(iccp_gram *gram);
 

@@ -1,5 +1,5 @@
-/* What is known of a factor from the pattern of the matrix: T. Davis, Direct Methods for Sparse Linear
- * Systems, 2006, chapter 4 and section 7.1. */
+/* What is known of a factor from the pattern of the matrix: T. Davis, Direct Methods for Sparse
+ * Linear Systems, 2006, chapter 4 and section 7.1. */
 #include "math/ldlt.h"
 
 #include "base/budget.h"

@@ -14,10 +14,10 @@ typedef struct iccp_ldlt {
     uint32_t *order;    /* the row that is eliminated k-th */
     uint32_t *position; /* when a row is eliminated */
     iccp_supernodes nodes;
-    size_t n_entries;   /* of L, below the diagonal */
-    double work;        /* multiplications of one factorisation, without those by stored zeros */
-    double *value;      /* the panels of L; NULL before the first factorisation */
-    double *pivot;      /* D */
+    size_t n_entries; /* of L, below the diagonal */
+    double work;      /* multiplications of one factorisation, without those by stored zeros */
+    double *value;    /* the panels of L; NULL before the first factorisation */
+    double *pivot;    /* D */
 } iccp_ldlt;
 
 /* Orders and analyses a matrix by its pattern alone. Rows come in groups of `block` with the same
@@ -37,8 +37,8 @@ double iccp_ldlt_bytes(const iccp_ldlt *factor);
 
 /* Factorises a matrix with the analysed pattern, into the memory that the first call allocates.
  * ICC_ERR_SOLVER when a pivot is not positive: the matrix is not positive definite to working
- * precision. Cost: proportional to the sum of the squared column counts of L. The same bits on every
- * processor. */
+ * precision. Cost: proportional to the sum of the squared column counts of L. The same bits on
+ * every processor. */
 icc_status iccp_ldlt_factorise(iccp_ldlt *factor, const iccp_symmetric *matrix,
                                const iccp_env *env);
 
@@ -54,13 +54,14 @@ void iccp_ldlt_free(iccp_ldlt *factor);
  * solution. `work` has room for n * n_rhs doubles. */
 void iccp_ldlt_solve(const iccp_ldlt *factor, size_t n_rhs, double *b, double *work);
 
-/* The same for one right side of normalised numbers, without under- or overflow. `work` has room for
- * n of them. ICC_OK, or ICC_ERR_CANCELLED. The solution of an M-matrix with a right side that is
- * not negative is right to the last
- * few digits in every component, since nothing cancels, unless entries of L itself underflow: orders
- * that join rows directly whose numbers differ by 10^150 lose them. Orders by degree do that in long
- * rings, not where corridors end; an order by falling distance from the source never does. */
-icc_status iccp_ldlt_solve_scaled(const iccp_ldlt *factor, const iccp_scaled *b, const iccp_scaled *work,
-                                  const iccp_env *env);
+/* The same for one right side of normalised numbers, without under- or overflow. `work` has room
+ * for n of them. ICC_OK, or ICC_ERR_CANCELLED. The solution of an M-matrix with a right side that
+ * is not negative is right to the last
+ * few digits in every component, since nothing cancels, unless entries of L itself underflow:
+ * orders that join rows directly whose numbers differ by 10^150 lose them. Orders by degree do that
+ * in long rings, not where corridors end; an order by falling distance from the source never
+ * does. */
+icc_status iccp_ldlt_solve_scaled(const iccp_ldlt *factor, const iccp_scaled *b,
+                                  const iccp_scaled *work, const iccp_env *env);
 
 #endif

@@ -1,7 +1,7 @@
-/* Left-looking supernodal factorisation: E. Ng, B. Peyton, Block sparse Cholesky algorithms on advanced
- * uniprocessor computers, SIAM J. Sci. Comput. 14, 1993, with L D L^T in place of L L^T. A panel gets
- * the entries of the matrix, then the product of each panel before it that has rows among its columns,
- * tile by tile, then it is factorised by itself. */
+/* Left-looking supernodal factorisation: E. Ng, B. Peyton, Block sparse Cholesky algorithms on
+ * advanced uniprocessor computers, SIAM J. Sci. Comput. 14, 1993, with L D L^T in place of L L^T. A
+ * panel gets the entries of the matrix, then the product of each panel before it that has rows
+ * among its columns, tile by tile, then it is factorised by itself. */
 #include "math/ldlt.h"
 #include "math/panel.h"
 
@@ -15,12 +15,12 @@
 /* What a panel costs besides its products, in multiplications: about a microsecond. */
 static const double PER_PANEL = 2000;
 
-/* Work space of one factorisation. Each finished panel waits in the list of the next one that it has
- * rows for. */
+/* Work space of one factorisation. Each finished panel waits in the list of the next one that it
+ * has rows for. */
 typedef struct factorisation {
     iccp_ldlt *l;
     const iccp_symmetric *matrix;
-    int8_t *sign;      /* in eliminated numbering, or NULL */
+    int8_t *sign; /* in eliminated numbering, or NULL */
     iccp_multiply multiply;
     iccp_labour labour;
     uint32_t *local;   /* n: where a row is in the current panel */
@@ -48,8 +48,7 @@ static void load(const factorisation *f, uint32_t s, const iccp_panel *p)
     const iccp_ldlt *l = f->l;
     const iccp_symmetric *m = f->matrix;
     const uint32_t first = l->nodes.column[s];
-    memset(p->value, 0,
-           (l->nodes.first_value[s + 1] - l->nodes.first_value[s]) * sizeof *p->value);
+    memset(p->value, 0, (l->nodes.first_value[s + 1] - l->nodes.first_value[s]) * sizeof *p->value);
     for (uint32_t k = 0; k < p->columns; ++k) {
         const uint32_t row = l->order[first + k];
         double *column = p->value + STRIP * k;
@@ -68,8 +67,8 @@ typedef struct update {
     iccp_panel from;
     const uint32_t *below; /* rows of `from` below its columns */
     size_t begin, end;
-    double *value;  /* of the later panel */
-    uint32_t first; /* its first column */
+    double *value;           /* of the later panel */
+    uint32_t first;          /* its first column */
     size_t block, block_end; /* the rows among those that are packed */
 } update;
 
@@ -151,7 +150,8 @@ static icc_status update_from(factorisation *f, uint32_t from, uint32_t to)
     return status;
 }
 
-/* All labour of a factorisation, zeros counted. A panel costs what it does to itself and to others. */
+/* All labour of a factorisation, zeros counted. A panel costs what it does to itself and to
+ * others. */
 static double labour_of(const iccp_supernodes *nodes)
 {
     double sum = 0;
@@ -205,7 +205,9 @@ icc_status iccp_ldlt_factorise_signed(iccp_ldlt *factor, const iccp_symmetric *m
 {
     const iccp_supernodes *nodes = &factor->nodes;
     const iccp_memory *memory = &env->memory;
-    factorisation f = {.l = factor, .matrix = matrix, .multiply = iccp_multiply_choose(),
+    factorisation f = {.l = factor,
+                       .matrix = matrix,
+                       .multiply = iccp_multiply_choose(),
                        .labour = {.env = env, .quiet = *env}};
     icc_status status = make_room(factor);
     f.labour.quiet.progress = NULL;

@@ -72,7 +72,8 @@ static void scatter(const iccp_ldlt *l, const iccp_scaled *b, const iccp_scaled 
 {
     for (size_t k = 0; k < l->n; ++k)
         iccp_scaled_set(b, l->order[k], work->fraction[k],
-                        work->fraction[k] < 0 || work->fraction[k] > 0 ? work->exponent[k] * UNIT : 0);
+                        work->fraction[k] < 0 || work->fraction[k] > 0 ? work->exponent[k] * UNIT
+                                                                       : 0);
 }
 
 /* The unit that two numbers share, whatever the unit of 0; false when they have none. */
@@ -181,8 +182,8 @@ static icc_status report(const iccp_supernodes *nodes, size_t s, bool is_back, c
     return iccp_progress(env, "solve", 0.5 * (is_back ? 2 - share : share));
 }
 
-icc_status iccp_ldlt_solve_scaled(const iccp_ldlt *factor, const iccp_scaled *b, const iccp_scaled *work,
-                                  const iccp_env *env)
+icc_status iccp_ldlt_solve_scaled(const iccp_ldlt *factor, const iccp_scaled *b,
+                                  const iccp_scaled *work, const iccp_env *env)
 {
     const iccp_supernodes *nodes = &factor->nodes;
     icc_status status = ICC_OK;

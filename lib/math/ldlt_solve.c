@@ -1,5 +1,5 @@
-/* Triangular solves with a supernodal factor (see ldlt_factorise.c), strip by strip: what a strip of
- * rows needs of the columns before its own is one product, then come the few entries beside the
+/* Triangular solves with a supernodal factor (see ldlt_factorise.c), strip by strip: what a strip
+ * of rows needs of the columns before its own is one product, then come the few entries beside the
  * diagonal. */
 #include "math/ldlt.h"
 #include "math/panel.h"
@@ -9,8 +9,8 @@
 
 #define STRIP ((size_t)ICCP_STRIP)
 
-/* Right sides next to each other within the work space: entry i of side s at value[i * width + s]. One pass over a
- * panel serves a whole group of them. */
+/* Right sides next to each other within the work space: entry i of side s at value[i * width + s].
+ * One pass over a panel serves a whole group of them. */
 typedef struct group {
     double *value;
     size_t width;

@@ -1,6 +1,6 @@
 /* Approximate minimum degree, by AMD: P. Amestoy, T. Davis, I. Duff, An approximate minimum degree
- * ordering algorithm, SIAM J. Matrix Anal. Appl. 17, 1996. Its kernel amd_2 is called directly, since
- * it takes all its memory from the caller. */
+ * ordering algorithm, SIAM J. Matrix Anal. Appl. 17, 1996. Its kernel amd_2 is called directly,
+ * since it takes all its memory from the caller. */
 #include "math/ordering.h"
 
 #include <limits.h>

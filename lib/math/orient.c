@@ -4,8 +4,9 @@
 
 #include "math/predicates.h"
 
-/* Relative to the product of the lengths of the rows, for n = 4..6. Elimination with pivoting errs by
- * n^2 eps times the growth of its entries, at most 2^5 and in practice below 4: 36 * 4 * 1.1e-16. */
+/* Relative to the product of the lengths of the rows, for n = 4..6. Elimination with pivoting errs
+ * by n^2 eps times the growth of its entries, at most 2^5 and in practice below 4: 36 * 4
+ * * 1.1e-16. */
 static const double UNCERTAIN = 2e-14;
 
 typedef double matrix[ICCP_ORIENT_MAX][ICCP_ORIENT_MAX];

@@ -1,5 +1,6 @@
 /* Orientation of n + 1 points in n dimensions, n = 0..6: the sign of the determinant whose rows are
- * points 1 to n minus point 0. Exact for n <= 3, with what math/predicates.h asks of the arguments. */
+ * points 1 to n minus point 0. Exact for n <= 3, with what math/predicates.h asks of the
+ * arguments. */
 #ifndef ICCP_ORIENT_H
 #define ICCP_ORIENT_H
 
@@ -14,8 +15,8 @@ double iccp_orient_value(size_t n, const double *const *points);
  * doubles cannot tell. */
 int iccp_orient(size_t n, const double *const *points);
 
-/* The same with the last point moved by (e, e^2, e^3, ...) for an infinitesimal e > 0. So it is 0 only
- * if the other points do not span n - 1 dimensions. */
+/* The same with the last point moved by (e, e^2, e^3, ...) for an infinitesimal e > 0. So it is 0
+ * only if the other points do not span n - 1 dimensions. */
 int iccp_orient_beside(size_t n, const double *const *points);
 
 #endif

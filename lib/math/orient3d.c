@@ -31,8 +31,7 @@ static int orient3d_full(const double a[3], const double b[3], const double c[3]
     size_t n[3];
     for (int i = 0; i < 3; ++i) {
         const double *p = rows[(i + 1) % 3], *q = rows[(i + 2) % 3];
-        const size_t n_left =
-            iccp_expansion_product_of_differences(left, p[0], d[0], q[1], d[1]);
+        const size_t n_left = iccp_expansion_product_of_differences(left, p[0], d[0], q[1], d[1]);
         const size_t n_right = /* negative */
             iccp_expansion_product_of_differences(right, d[1], p[1], q[0], d[0]);
         const size_t n_minor = iccp_expansion_sum(minor, n_left, left, n_right, right);

@@ -1,6 +1,6 @@
 /* Blocked L D L^T of a tall dense panel, by columns and left-looking: G. Golub, C. Van Loan, Matrix
- * Computations, section 4.2. Blocks of ICCP_BLOCK columns get the product of all columns before them
- * at once; within a block the same is done for ICCP_TILE columns at a time. */
+ * Computations, section 4.2. Blocks of ICCP_BLOCK columns get the product of all columns before
+ * them at once; within a block the same is done for ICCP_TILE columns at a time. */
 #include "math/panel.h"
 
 #include <math.h>
@@ -57,8 +57,8 @@ icc_status iccp_labour_strips(iccp_labour *labour, size_t begin, size_t end, dou
     return status;
 }
 
-void iccp_panel_pack(double *packed, const iccp_panel *panel, size_t begin, size_t end, size_t first,
-                     size_t last)
+void iccp_panel_pack(double *packed, const iccp_panel *panel, size_t begin, size_t end,
+                     size_t first, size_t last)
 {
     for (size_t i = begin; i < end; i += ICCP_TILE) {
         const size_t left = end - i, width = iccp_panel_width(left);

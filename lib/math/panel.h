@@ -42,15 +42,16 @@ typedef struct iccp_labour {
 /* Adds to what is done, and reports it now and then. */
 icc_status iccp_labour_add(iccp_labour *labour, double multiplications);
 
-/* Runs chunk() over the strips [begin, end) of a product, `cost` multiplications each, on all threads
- * where that pays. Strips are written independently: the bits do not depend on the threads. */
+/* Runs chunk() over the strips [begin, end) of a product, `cost` multiplications each, on all
+ * threads where that pays. Strips are written independently: the bits do not depend on the
+ * threads. */
 icc_status iccp_labour_strips(iccp_labour *labour, size_t begin, size_t end, double cost,
                               iccp_chunk chunk, void *argument);
 
 /* packed = rows [begin, end) of columns [first, last) of L D, for iccp_multiply: by groups of
  * ICCP_TILE rows, the last of them as narrow as it may be. At most ICCP_BLOCK rows. */
-void iccp_panel_pack(double *packed, const iccp_panel *panel, size_t begin, size_t end, size_t first,
-                     size_t last);
+void iccp_panel_pack(double *packed, const iccp_panel *panel, size_t begin, size_t end,
+                     size_t first, size_t last);
 
 /* The width of the group that begins `left` rows before the end. */
 static inline size_t iccp_panel_width(size_t left)

@@ -1,4 +1,5 @@
-/* Y. Saad, Iterative Methods for Sparse Linear Systems, 2nd edition, 2003, sections 9.2 and 10.2. */
+/* Y. Saad, Iterative Methods for Sparse Linear Systems, 2nd edition, 2003, sections 9.2 and
+ * 10.2. */
 #include "math/pcg.h"
 
 #include "base/budget.h"
@@ -7,7 +8,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Relative residuals: wanted, and the worst that is accepted when rounding stops progress earlier. */
+/* Relative residuals: wanted, and the worst that is accepted when rounding stops progress
+ * earlier. */
 static const double WANTED = 1e-13, ACCEPTED = 1e-9;
 
 /* Iterations without a new smallest residual after which progress has ended. */

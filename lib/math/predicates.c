@@ -19,8 +19,7 @@ static int cross_sign_full(double a, double b, double c, double d, double e, dou
 {
     double left[8], right[8], cross[16];
     const size_t n_left = iccp_expansion_product_of_differences(left, a, b, c, d);
-    const size_t n_right =
-        iccp_expansion_product_of_differences(right, f, e, g, h); /* negative */
+    const size_t n_right = iccp_expansion_product_of_differences(right, f, e, g, h); /* negative */
     return iccp_expansion_sign(iccp_expansion_sum(cross, n_left, left, n_right, right), cross);
 }
 
@@ -33,8 +32,7 @@ int iccp_cross_sign_exact(double a, double b, double c, double d, double e, doub
     const double ef = iccp_two_sum(e, -f, &tail[2]);
     const double gh = iccp_two_sum(g, -h, &tail[3]);
     const size_t n = iccp_expansion_cross(cross, ab, cd, ef, gh);
-    const int rounded =
-        tail[0] != 0.0 || tail[1] != 0.0 || tail[2] != 0.0 || tail[3] != 0.0;
+    const int rounded = tail[0] != 0.0 || tail[1] != 0.0 || tail[2] != 0.0 || tail[3] != 0.0;
     if (!rounded ||
         fabs(iccp_expansion_estimate(n, cross)) >= cross_error_2 * (fabs(ab * cd) + fabs(ef * gh)))
         return iccp_expansion_sign(n, cross);
@@ -50,7 +48,8 @@ double iccp_area2d(const double a[2], const double b[2], const double c[2])
     const double ay = iccp_two_sum(a[1], -c[1], &tail[2]);
     const double bx = iccp_two_sum(b[0], -c[0], &tail[3]);
     const size_t n = iccp_expansion_cross(cross, ax, by, ay, bx);
-    return iccp_expansion_estimate(n, cross) + ((ax * tail[1] + by * tail[0]) - (ay * tail[3] + bx * tail[2]));
+    return iccp_expansion_estimate(n, cross) +
+           ((ax * tail[1] + by * tail[0]) - (ay * tail[3] + bx * tail[2]));
 }
 
 /* h = e (x^2 + y^2) for e of at most 12 components, room for 8 n. */
@@ -107,7 +106,8 @@ static int incircle_full(const double a[2], const double b[2], const double c[2]
 
 /* Whether six numbers are multiples of one unit and at most 2^12 of it: the sum with 2^42 times the
  * largest is rounded to such a unit, or a larger one. Then no term of the determinant exceeds 2^53
- * units, and plain doubles hold it exactly. Makes points on a lattice, where ties are the rule, cheap. */
+ * units, and plain doubles hold it exactly. Makes points on a lattice, where ties are the rule,
+ * cheap. */
 static int are_few_units(double x[3][2])
 {
     double largest = 0.0;
@@ -121,8 +121,8 @@ static int are_few_units(double x[3][2])
     return exact;
 }
 
-/* `circle` is the determinant and `permanent` the sum of its terms all taken positive, as the filter
- * computed them. */
+/* `circle` is the determinant and `permanent` the sum of its terms all taken positive, as the
+ * filter computed them. */
 static int incircle_exact(const double a[2], const double b[2], const double c[2],
                           const double d[2], double circle, double permanent)
 {

@@ -37,8 +37,9 @@ static inline int iccp_orient2d(const double a[2], const double b[2], const doub
     return iccp_cross_sign(a[0], c[0], b[1], c[1], a[1], c[1], b[0], c[0]);
 }
 
-/* Twice the area of a, b, c, positive when they make a left turn, to a few rounding errors of itself
- * however flat the triangle is, unless the coordinates themselves hardly tell it from a line. */
+/* Twice the area of a, b, c, positive when they make a left turn, to a few rounding errors of
+ * itself however flat the triangle is, unless the coordinates themselves hardly tell it from a
+ * line. */
 double iccp_area2d(const double a[2], const double b[2], const double c[2]);
 
 /* iccp_orient3d() for when its filter cannot tell. `det` is the determinant and `permanent` the sum
@@ -49,7 +50,8 @@ int iccp_orient3d_exact(const double a[3], const double b[3], const double c[3],
 /* The filter's relative error, (7 + 56 eps) eps (Shewchuk, section 4.3). */
 #define ICCP_ORIENT3D_ERROR 7.7715611723761027e-16
 
-/* +1 when d lies on the side of the plane through a, b, c from which they look counter-clockwise. */
+/* +1 when d lies on the side of the plane through a, b, c from which they look
+ * counter-clockwise. */
 static inline int iccp_orient3d(const double a[3], const double b[3], const double c[3],
                                 const double d[3])
 {

@@ -20,8 +20,8 @@ static inline void iccp_scaled_set(const iccp_scaled *vector, size_t i, double x
 {
     int shift;
     vector->fraction[i] = frexp(x, &shift);
-    vector->exponent[i] = vector->fraction[i] < 0 || vector->fraction[i] > 0 ? exponent + shift
-                                                                             : ICCP_ZERO_EXPONENT;
+    vector->exponent[i] =
+        vector->fraction[i] < 0 || vector->fraction[i] > 0 ? exponent + shift : ICCP_ZERO_EXPONENT;
 }
 
 /* Entry i times 2^-exponent as a double: 0 when that is below its range. */

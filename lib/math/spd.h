@@ -1,5 +1,5 @@
-/* Solving sparse symmetric positive definite systems, whatever the back end: a factorisation where an
- * ordering is available, preconditioned conjugate gradients elsewhere. */
+/* Solving sparse symmetric positive definite systems, whatever the back end: a factorisation where
+ * an ordering is available, preconditioned conjugate gradients elsewhere. */
 #ifndef ICCP_SPD_H
 #define ICCP_SPD_H
 

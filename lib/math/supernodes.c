@@ -1,7 +1,7 @@
 /* Relaxed supernodes: C. Ashcraft, R. Grimes, The influence of relaxed supernode partitions on the
- * multifrontal method, ACM Trans. Math. Software 15, 1989. Their rows are found as the row subtrees of
- * T. Davis, Direct Methods for Sparse Linear Systems, 2006, section 4.3, with supernodes in place of
- * columns. */
+ * multifrontal method, ACM Trans. Math. Software 15, 1989. Their rows are found as the row subtrees
+ * of T. Davis, Direct Methods for Sparse Linear Systems, 2006, section 4.3, with supernodes in
+ * place of columns. */
 #include "math/supernodes.h"
 
 #include <stdbool.h>
@@ -23,8 +23,8 @@ static bool is_worth_merging(double columns, double zeros, double room)
     return zeros <= share * room;
 }
 
-/* Goes through the columns; the supernodes so far are a stack, and a new one swallows those before it
- * whose parent it is while that pays. entries[s]: of the factor, in supernode s. */
+/* Goes through the columns; the supernodes so far are a stack, and a new one swallows those before
+ * it whose parent it is while that pays. entries[s]: of the factor, in supernode s. */
 static void partition(iccp_supernodes *nodes, const iccp_etree *t, const uint32_t *count,
                       double *entries)
 {
@@ -32,7 +32,8 @@ static void partition(iccp_supernodes *nodes, const iccp_etree *t, const uint32_
     for (uint32_t begin = 0, end; begin < n; begin = end) {
         uint32_t first = begin;
         double sum = count[begin];
-        for (end = begin + 1; end < n && t->parent[end - 1] == end && count[end - 1] == count[end] + 1;)
+        for (end = begin + 1;
+             end < n && t->parent[end - 1] == end && count[end - 1] == count[end] + 1;)
             sum += count[end++];
         for (; nodes->n > 0 && t->parent[first - 1] < end; --nodes->n) {
             const uint32_t joint = nodes->column[nodes->n - 1];
@@ -74,8 +75,8 @@ static void measure(iccp_supernodes *nodes, const iccp_etree *t, const uint32_t 
 }
 
 /* Row i reaches the supernodes of its entries and those above them in the tree, up to its own. */
-static icc_status list_rows(iccp_supernodes *nodes, const iccp_etree *t, uint32_t *mark, size_t *end,
-                            const iccp_env *env)
+static icc_status list_rows(iccp_supernodes *nodes, const iccp_etree *t, uint32_t *mark,
+                            size_t *end, const iccp_env *env)
 {
     const iccp_symmetric *m = t->matrix;
     icc_status status = ICC_OK;

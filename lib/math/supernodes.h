@@ -11,18 +11,18 @@ enum { ICCP_STRIP = 4 };
 
 typedef struct iccp_supernodes {
     size_t n;
-    uint32_t *column;     /* n + 1: where the supernodes begin */
-    uint32_t *owner;      /* the supernode of each column */
-    uint32_t *parent;     /* ICCP_NO_PARENT at a root */
-    size_t *first_row;    /* n + 1: where their rows begin in `row` */
-    uint32_t *row;        /* rows below each supernode, rising */
-    size_t *first_value;  /* n + 1: where their panels begin */
-    size_t most_columns;  /* of one supernode */
-    size_t most_rows;     /* of one panel */
+    uint32_t *column;    /* n + 1: where the supernodes begin */
+    uint32_t *owner;     /* the supernode of each column */
+    uint32_t *parent;    /* ICCP_NO_PARENT at a root */
+    size_t *first_row;   /* n + 1: where their rows begin in `row` */
+    uint32_t *row;       /* rows below each supernode, rising */
+    size_t *first_value; /* n + 1: where their panels begin */
+    size_t most_columns; /* of one supernode */
+    size_t most_rows;    /* of one panel */
 } iccp_supernodes;
 
-/* Neighbouring supernodes are merged where few zeros have to be stored for it. On failure nothing is
- * left allocated. */
+/* Neighbouring supernodes are merged where few zeros have to be stored for it. On failure nothing
+ * is left allocated. */
 icc_status iccp_supernodes_create(iccp_supernodes *nodes, const iccp_etree *tree,
                                   const uint32_t *count, const iccp_env *env);
 void iccp_supernodes_free(iccp_supernodes *nodes, const iccp_memory *memory);

@@ -8,7 +8,7 @@
 
 typedef struct iccp_symmetric {
     size_t n;
-    const size_t *first;    /* n + 1: where the rows begin in the two arrays below */
+    const size_t *first; /* n + 1: where the rows begin in the two arrays below */
     const uint32_t *column;
     const double *value;
     const double *diagonal; /* n */

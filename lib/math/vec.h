@@ -1,5 +1,5 @@
-/* Products and lengths of short vectors. Sums run from the first coordinate on, so that results have the
- * same bits wherever they are computed. */
+/* Products and lengths of short vectors. Sums run from the first coordinate on, so that results
+ * have the same bits wherever they are computed. */
 #ifndef ICCP_VEC_H
 #define ICCP_VEC_H
 

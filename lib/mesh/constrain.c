@@ -2,13 +2,13 @@
  * triangulations, Computers & Graphics 21, 1997: take out the triangles that an edge crosses and
  * triangulate the two polygons that they leave on either side of it; and on J. R. Shewchuk,
  * B. C. Brown, Fast segment insertion and incremental construction of constrained Delaunay
- * triangulations, Computational Geometry 48, 2015, for the order: vertices are cut off at random, and
- * put back in reverse, each followed by flips round it. That takes time proportional to the number of
- * triangles where one fixed order can take its square.
+ * triangulations, Computational Geometry 48, 2015, for the order: vertices are cut off at random,
+ * and put back in reverse, each followed by flips round it. That takes time proportional to the
+ * number of triangles where one fixed order can take its square.
  *
- * Every vertex of these polygons sees the edge. Therefore each at which the polygon is convex can be
- * cut off, the ends of the edge excepted, whatever was cut off before: a vertex inside the triangle
- * would have to see the edge across its sides. */
+ * Every vertex of these polygons sees the edge. Therefore each at which the polygon is convex can
+ * be cut off, the ends of the edge excepted, whatever was cut off before: a vertex inside the
+ * triangle would have to see the edge across its sides. */
 #include "mesh/constrain.h"
 
 #include "base/error.h"
@@ -30,8 +30,8 @@ typedef struct chain_link {
     uint32_t side; /* LEFT or RIGHT */
     uint32_t vertex;
     uint32_t previous, next; /* the links before and after it on its side */
-    uint32_t outer; /* the corner beyond the edge; or, when the chain runs along both sides of an edge
-                       between crossed triangles, LINK and the other link */
+    uint32_t outer; /* the corner beyond the edge; or, when the chain runs along both sides of an
+                       edge between crossed triangles, LINK and the other link */
     bool queued;
 } chain_link;
 
@@ -44,8 +44,8 @@ typedef struct cutter {
     chain_link *links;   /* the first is `from`, on both sides; the last two are `to` */
     uint32_t *queue;     /* links that may be ready to be cut off, each at most once */
     uint32_t n_triangles, n_links;
-    uint32_t room;       /* for as many triangles, and EXTRA more of the others */
-    uint32_t last[2];    /* the last link on either side so far */
+    uint32_t room;    /* for as many triangles, and EXTRA more of the others */
+    uint32_t last[2]; /* the last link on either side so far */
     uint64_t random;
     icc_error *err;
 } cutter;
@@ -67,19 +67,20 @@ static icc_status fail_touch(const cutter *k, uint32_t vertex)
     const unsigned long from = k->from, to = k->to, point = vertex;
     if (vertex < k->mesh->n_boundary)
         return iccp_fail_at(k->err, ICC_ERR_BOUNDARY, ICC_ITEM_POINT, vertex,
-                         "vertex %lu lies on the polygon's edge from vertex %lu to %lu", point,
-                         from, to);
-    return iccp_fail_at(k->err, ICC_ERR_OUTSIDE, ICC_ITEM_POINT, vertex,
-                     "point %lu is not inside the polygon: it lies on the edge from vertex %lu to %lu",
-                     point, from, to);
+                            "vertex %lu lies on the polygon's edge from vertex %lu to %lu", point,
+                            from, to);
+    return iccp_fail_at(
+        k->err, ICC_ERR_OUTSIDE, ICC_ITEM_POINT, vertex,
+        "point %lu is not inside the polygon: it lies on the edge from vertex %lu to %lu", point,
+        from, to);
 }
 
 static icc_status fail_cross(const cutter *k, uint32_t a, uint32_t b)
 {
     return iccp_fail_at(k->err, ICC_ERR_BOUNDARY, ICC_ITEM_POINT, k->from,
-                     "the polygon crosses itself: its edges %lu-%lu and %lu-%lu",
-                     (unsigned long)k->from, (unsigned long)k->to, (unsigned long)a,
-                     (unsigned long)b);
+                        "the polygon crosses itself: its edges %lu-%lu and %lu-%lu",
+                        (unsigned long)k->from, (unsigned long)k->to, (unsigned long)a,
+                        (unsigned long)b);
 }
 
 static bool is_present(const cutter *k)
@@ -151,8 +152,8 @@ static void add_link(cutter *k, uint32_t side, uint32_t vertex, uint32_t outer)
     k->last[side] = index;
 }
 
-/* Follows the edge from the first triangle that it enters to its end, and notes the triangles and the
- * chains. */
+/* Follows the edge from the first triangle that it enters to its end, and notes the triangles and
+ * the chains. */
 static icc_status collect(cutter *k, uint32_t corner, const iccp_memory *memory)
 {
     const iccp_corner *const c = k->mesh->corners;
@@ -289,8 +290,8 @@ static bool must_flip(const cutter *k, uint32_t corner)
                          iccp_point(mesh, to), iccp_point(mesh, beyond)) > 0;
 }
 
-/* Goes round the vertex at a corner, from one neighbour on its chain to the other, and flips the edges
- * that it faces while they are not Delaunay. */
+/* Goes round the vertex at a corner, from one neighbour on its chain to the other, and flips the
+ * edges that it faces while they are not Delaunay. */
 static void legalise(cutter *k, uint32_t corner)
 {
     const uint32_t last = vertex_at(k, iccp_before(corner));

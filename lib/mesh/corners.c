@@ -56,7 +56,8 @@ void iccp_turn_edge(iccp_corners *corners, uint32_t corner)
     link_twins(c, after, twin_after);
 }
 
-/* Links the half-edges with the same ends, from `begin` to `end`: one, or two in opposite directions. */
+/* Links the half-edges with the same ends, from `begin` to `end`: one, or two in opposite
+ * directions. */
 static bool link_equal(iccp_corners *c, const iccp_tuples *edges, size_t begin, size_t end)
 {
     const uint32_t a = edges->order[begin], *ends = edges->vertices + 2 * (size_t)a;

@@ -1,10 +1,11 @@
-/* Based on: C. L. Lawson, Software for C1 surface interpolation, 1977: points one by one, located by
- * walking, each followed by the flips that make the triangulation Delaunay again. The order of
+/* Based on: C. L. Lawson, Software for C1 surface interpolation, 1977: points one by one, located
+ * by walking, each followed by the flips that make the triangulation Delaunay again. The order of
  * insertion is that of mesh/insertion_order.c.
  *
  * A point on an edge needs no case of its own: the triangle without area that it leaves behind lies
- * inside the circle on the other side, and is flipped at once. Neither does a point outside the hull:
- * the circle of a ghost triangle is the open half-plane beyond its edge of the hull, with that edge. */
+ * inside the circle on the other side, and is flipped at once. Neither does a point outside the
+ * hull: the circle of a ghost triangle is the open half-plane beyond its edge of the hull, with
+ * that edge. */
 #include "mesh/delaunay.h"
 
 #include "base/error.h"
@@ -147,14 +148,15 @@ static icc_status fail_repeated(uint32_t n_boundary, uint32_t a, uint32_t b, icc
 {
     const uint32_t point = a > b ? a : b, other = a > b ? b : a;
     if (point < n_boundary)
-        return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_POINT, point, "vertex %lu repeats vertex %lu",
-                         (unsigned long)point, (unsigned long)other);
+        return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_POINT, point,
+                            "vertex %lu repeats vertex %lu", (unsigned long)point,
+                            (unsigned long)other);
     if (other < n_boundary)
         return iccp_fail_at(err, ICC_ERR_OUTSIDE, ICC_ITEM_POINT, point,
-                         "point %lu is not inside the polygon: it repeats vertex %lu",
-                         (unsigned long)point, (unsigned long)other);
+                            "point %lu is not inside the polygon: it repeats vertex %lu",
+                            (unsigned long)point, (unsigned long)other);
     return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, point, "point %lu repeats point %lu",
-                     (unsigned long)point, (unsigned long)other);
+                        (unsigned long)point, (unsigned long)other);
 }
 
 /* Inserts the points in the order of their indices; `order` has the caller's. */

@@ -5,12 +5,12 @@
 
 #include <math.h>
 
-/* Cells that a triangle misses by less than this, in cells, list it too: the slab arithmetic below is
- * rounded. */
+/* Cells that a triangle misses by less than this, in cells, list it too: the slab arithmetic below
+ * is rounded. */
 static const double SLACK = 1e-9;
 
-/* Of twice a triangle's area in the products that it is the sum of: below it barycentric coordinates in
- * plain doubles would be off by more than 1e-14. */
+/* Of twice a triangle's area in the products that it is the sum of: below it barycentric
+ * coordinates in plain doubles would be off by more than 1e-14. */
 static const double FLATTEST = 0.05;
 
 static size_t cell_of(double x, size_t n)
@@ -137,8 +137,8 @@ void iccp_finder_free(iccp_finder *finder)
     *finder = (iccp_finder){.memory = finder->memory};
 }
 
-/* Of the sum of magnitudes: the rounding of an area's differences, products and their difference stays
- * below it, so that beyond it the sign is right. */
+/* Of the sum of magnitudes: the rounding of an area's differences, products and their difference
+ * stays below it, so that beyond it the sign is right. */
 static const double CERTAIN = 1e-15;
 
 /* The doubtful case: p is next to an edge, or the triangle is flat. */
@@ -152,8 +152,8 @@ static bool holds_exactly(const double *const q[3], const double p[2], double ba
     return bary[0] + bary[1] + bary[2] > 0;
 }
 
-/* Whether the triangle holds p, exactly; then `bary` are the areas that p makes with its edges. All three
- * are computed before anything is decided: one branch that is hard to predict, not three. */
+/* Whether the triangle holds p, exactly; then `bary` are the areas that p makes with its edges. All
+ * three are computed before anything is decided: one branch that is hard to predict, not three. */
 static bool holds(const iccp_finder *f, uint32_t triangle, const double p[2], double bary[3])
 {
     const uint32_t *v = f->triangles + 3 * (size_t)triangle;
@@ -162,8 +162,7 @@ static bool holds(const iccp_finder *f, uint32_t triangle, const double p[2], do
     const double ax = q[0][0] - p[0], ay = q[0][1] - p[1], bx = q[1][0] - p[0];
     const double by = q[1][1] - p[1], cx = q[2][0] - p[0], cy = q[2][1] - p[1];
     const double bc = bx * cy, cb = by * cx, ca = cx * ay, ac = cy * ax, ab = ax * by, ba = ay * bx;
-    const double size =
-        fabs(bc) + fabs(cb) + fabs(ca) + fabs(ac) + fabs(ab) + fabs(ba);
+    const double size = fabs(bc) + fabs(cb) + fabs(ca) + fabs(ac) + fabs(ab) + fabs(ba);
     bary[0] = bc - cb;
     bary[1] = ca - ac;
     bary[2] = ab - ba;

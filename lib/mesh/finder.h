@@ -11,7 +11,7 @@ typedef struct iccp_finder {
     const uint32_t *triangles; /* borrowed */
     double origin[2], rate;    /* cell = (point - origin) * rate */
     size_t size[2];
-    uint32_t *first;           /* cells + 1: where the triangles of a cell begin in `entries` */
+    uint32_t *first; /* cells + 1: where the triangles of a cell begin in `entries` */
     uint32_t *entries;
 } iccp_finder;
 
@@ -20,8 +20,8 @@ icc_status iccp_finder_create(iccp_finder *finder, const iccp_planar *mesh, cons
                               const iccp_env *env);
 void iccp_finder_free(iccp_finder *finder);
 
-/* The triangle that holds p, exactly, the first of several, and p's barycentric coordinates in it: not
- * negative, sum 1. False when there is none. */
+/* The triangle that holds p, exactly, the first of several, and p's barycentric coordinates in it:
+ * not negative, sum 1. False when there is none. */
 bool iccp_finder_find(const iccp_finder *finder, const double p[2], uint32_t *triangle,
                       double bary[3]);
 

@@ -1,6 +1,6 @@
-/* A quadtree built level by level; every cell carries the samples that can still make it split. After
- * M. Bern, D. Eppstein, J. Gilbert, Provably good mesh generation, 1994, without their warping: the
- * triangulation takes care of the boundary. */
+/* A quadtree built level by level; every cell carries the samples that can still make it split.
+ * After M. Bern, D. Eppstein, J. Gilbert, Provably good mesh generation, 1994, without their
+ * warping: the triangulation takes care of the boundary. */
 #include "mesh/grading.h"
 
 #include "domain/locate.h"
@@ -14,12 +14,13 @@ static const double GROWTH = 0.6;
 /* Of a leaf's width: points closer to the boundary would make flat triangles. */
 static const double CLEARANCE = 0.45;
 
-/* Levels below the top: edges shorter than the step by more than this factor of two count as longer. */
+/* Levels below the top: edges shorter than the step by more than this factor of two count as
+ * longer. */
 enum { MAX_LEVELS = 12 };
 
 typedef struct cell {
-    double x, y;          /* centre */
-    size_t first, n;      /* its samples */
+    double x, y;     /* centre */
+    size_t first, n; /* its samples */
 } cell;
 
 /* Cells of one level and their samples. */
@@ -66,8 +67,8 @@ static icc_status push_entry(level *l, uint32_t sample, const iccp_memory *memor
     return ICC_OK;
 }
 
-/* Whether a sample is so near a point that it forbids cells of the given width there: its length and
- * GROWTH times the distance, less `slack`, do not reach the width. */
+/* Whether a sample is so near a point that it forbids cells of the given width there: its length
+ * and GROWTH times the distance, less `slack`, do not reach the width. */
 static bool forbids(const iccp_samples *samples, uint32_t i, double x, double y, double width,
                     double slack)
 {
@@ -121,8 +122,8 @@ static icc_status emit_leaf(builder *b, const level *l, const cell *c)
     return ICC_OK;
 }
 
-/* The top level: cells of the step's width, centred over the bounding box, all with all samples that
- * can split them. */
+/* The top level: cells of the step's width, centred over the bounding box, all with all samples
+ * that can split them. */
 static icc_status build_top(const builder *b, level *top)
 {
     const icc_domain *domain = b->domain;

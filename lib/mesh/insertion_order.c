@@ -1,12 +1,13 @@
 /* Based on: N. Amenta, S. Choi, G. Rote, Incremental Constructions con BRIO, Symposium on
- * Computational Geometry 2003. The random rounds bound the expected work whatever the points are; the
- * curve puts consecutive points of a round, and what they touch in memory, next to each other. Cells
- * of the curve in which many points cluster get a curve of their own. */
+ * Computational Geometry 2003. The random rounds bound the expected work whatever the points are;
+ * the curve puts consecutive points of a round, and what they touch in memory, next to each other.
+ * Cells of the curve in which many points cluster get a curve of their own. */
 #include "mesh/insertion_order.h"
 
 #include <stdbool.h>
 
-/* A key is, from the top: the round, 4 bits; the place on the curve, 32 bits; the index, 28 bits. */
+/* A key is, from the top: the round, 4 bits; the place on the curve, 32 bits; the index, 28
+ * bits. */
 enum { ROUND_SHIFT = 60, CURVE_SHIFT = 28, CURVE_BITS = 16, DIGIT_BITS = 9, LAST_ROUND = 15 };
 
 /* The place on the Hilbert curve of a cell of the 2^16 x 2^16 square. The curve's four orientations

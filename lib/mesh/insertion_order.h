@@ -6,9 +6,9 @@
 
 #include <stddef.h>
 
-/* Fills in a permutation of 0..n-1, n <= 2^28: rounds of points picked at random, each some times as
- * large as those before it together, and along a Hilbert curve within a round. The same for the same
- * points on every machine. ICC_OK or ICC_ERR_MEMORY. */
+/* Fills in a permutation of 0..n-1, n <= 2^28: rounds of points picked at random, each some times
+ * as large as those before it together, and along a Hilbert curve within a round. The same for the
+ * same points on every machine. ICC_OK or ICC_ERR_MEMORY. */
 icc_status iccp_insertion_order(uint32_t *order, size_t n, const double *points,
                                 const iccp_memory *memory);
 

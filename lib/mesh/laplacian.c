@@ -50,7 +50,8 @@ static void visit_edges(iccp_laplacian *l, const iccp_planar *mesh, uint32_t lef
     }
 }
 
-static void count_edge(iccp_laplacian *l, uint32_t n_boundary, uint32_t a, uint32_t b, double weight)
+static void count_edge(iccp_laplacian *l, uint32_t n_boundary, uint32_t a, uint32_t b,
+                       double weight)
 {
     (void)weight;
     if (b < n_boundary) {

@@ -9,16 +9,16 @@
 typedef struct iccp_laplacian {
     iccp_memory memory;
     iccp_symmetric matrix;
-    size_t *first;         /* what the matrix borrows */
+    size_t *first; /* what the matrix borrows */
     uint32_t *column;
     double *value, *diagonal;
-    size_t *rim_first;     /* n + 1: where a row's edges to the boundary begin */
-    uint32_t *rim_vertex;  /* their boundary vertices */
+    size_t *rim_first;    /* n + 1: where a row's edges to the boundary begin */
+    uint32_t *rim_vertex; /* their boundary vertices */
     double *rim_weight;
 } iccp_laplacian;
 
-/* Cotangent weights, kept within positive bounds. Edges at the vertex `left_out` (ICCP_NO_NEIGHBOUR:
- * none) are left out; its own row is that of the identity. */
+/* Cotangent weights, kept within positive bounds. Edges at the vertex `left_out`
+ * (ICCP_NO_NEIGHBOUR: none) are left out; its own row is that of the identity. */
 icc_status iccp_laplacian_create(iccp_laplacian *laplacian, const iccp_planar *mesh,
                                  uint32_t left_out, const iccp_env *env);
 void iccp_laplacian_free(iccp_laplacian *laplacian);

@@ -32,8 +32,7 @@ static void raise_pieces(uint32_t *pieces, const icc_domain *domain, int32_t cel
         pieces[f] = (uint32_t)fmax(pieces[f], ceil(facet_length(domain, f) / step));
 }
 
-void iccp_planar_pieces(uint32_t *pieces, const icc_domain *a, const icc_domain *b,
-                        int32_t cells)
+void iccp_planar_pieces(uint32_t *pieces, const icc_domain *a, const icc_domain *b, int32_t cells)
 {
     for (size_t f = 0; f < a->n_facets; ++f)
         pieces[f] = 1;
@@ -132,12 +131,13 @@ static bool turns_left(const iccp_planar *mesh, uint32_t a, uint32_t b, const do
     return iccp_orient2d(mesh->points + 2 * (size_t)a, mesh->points + 2 * (size_t)b, c) > 0;
 }
 
-/* Cuts the edge that a corner faces at its middle, unless rounding of the middle would make one of the
- * four new triangles not positive. */
+/* Cuts the edge that a corner faces at its middle, unless rounding of the middle would make one of
+ * the four new triangles not positive. */
 static void split_edge(iccp_planar *mesh, iccp_corners *corners, uint32_t corner)
 {
     const uint32_t twin = mesh->twins[corner];
-    const uint32_t a = mesh->triangles[iccp_after(corner)], b = mesh->triangles[iccp_before(corner)];
+    const uint32_t a = mesh->triangles[iccp_after(corner)],
+                   b = mesh->triangles[iccp_before(corner)];
     const uint32_t x = mesh->triangles[corner], y = mesh->triangles[twin];
     const double *pa = mesh->points + 2 * (size_t)a, *pb = mesh->points + 2 * (size_t)b;
     const double middle[2] = {0.5 * pa[0] + 0.5 * pb[0], 0.5 * pa[1] + 0.5 * pb[1]};
@@ -210,8 +210,8 @@ static icc_status allocate_rest(iccp_planar *mesh, size_t n_inner, size_t n_tria
     return mesh->triangles != NULL && mesh->twins != NULL ? ICC_OK : ICC_ERR_MEMORY;
 }
 
-/* Appends the inner points and makes room for a cut in every chord, of which there are at most as many
- * as boundary vertices. */
+/* Appends the inner points and makes room for a cut in every chord, of which there are at most as
+ * many as boundary vertices. */
 static icc_status allocate_inside(iccp_planar *mesh, const double *inner, size_t n_inner)
 {
     const size_t most = 2 * mesh->n_boundary + n_inner;

@@ -1,8 +1,9 @@
 /* A triangle mesh of a polygonal domain whose edges cover the polygon.
  *
  * Boundary vertices come first, counter-clockwise, however the domain is wound: mesh edge k of the
- * boundary joins vertices k and k + 1. Corners are numbered as in mesh/trimesh.h: corner c is number
- * c % 3 of triangle c / 3 and faces the half-edge from the corner after it to the one before. */
+ * boundary joins vertices k and k + 1. Corners are numbered as in mesh/trimesh.h: corner c is
+ * number c % 3 of triangle c / 3 and faces the half-edge from the corner after it to the one
+ * before. */
 #ifndef ICCP_PLANAR_H
 #define ICCP_PLANAR_H
 
@@ -26,21 +27,20 @@ typedef struct iccp_planar {
 double iccp_planar_step(const icc_domain *domain, int32_t cells);
 
 /* How finely two domains with corresponding facets must cut each facet so that no boundary edge of
- * either is longer than a cell; of one domain when `b` is NULL. The pieces of a facet are equal. Where
- * that takes more than cells^2 edges in all, longer ones are allowed. */
-void iccp_planar_pieces(uint32_t *pieces, const icc_domain *a, const icc_domain *b,
-                        int32_t cells);
+ * either is longer than a cell; of one domain when `b` is NULL. The pieces of a facet are equal.
+ * Where that takes more than cells^2 edges in all, longer ones are allowed. */
+void iccp_planar_pieces(uint32_t *pieces, const icc_domain *a, const icc_domain *b, int32_t cells);
 
 /* Meshes a domain: its facets cut into pieces, points inside that are graded from the boundary's
- * spacing to the step (mesh/grading.h), constrained Delaunay, and edges between two boundary vertices
- * cut at their middle. No triangle is degenerate or inverted, exactly. ICC_ERR_CERTIFICATE when sides
- * are so close that rounded points on them touch. */
+ * spacing to the step (mesh/grading.h), constrained Delaunay, and edges between two boundary
+ * vertices cut at their middle. No triangle is degenerate or inverted, exactly. ICC_ERR_CERTIFICATE
+ * when sides are so close that rounded points on them touch. */
 icc_status iccp_planar_create(iccp_planar *mesh, const icc_domain *domain, const uint32_t *pieces,
                               int32_t cells, const iccp_env *env, icc_error *err);
 void iccp_planar_free(iccp_planar *mesh);
 
-/* A mesh with its boundary, cut into pieces, and room for what is still to be filled in: n_inner points after those of
- * the boundary, n_triangles triangles and their twins, and the rim. */
+/* A mesh with its boundary, cut into pieces, and room for what is still to be filled in: n_inner
+ * points after those of the boundary, n_triangles triangles and their twins, and the rim. */
 icc_status iccp_planar_begin(iccp_planar *mesh, const icc_domain *domain, const uint32_t *pieces,
                              size_t n_inner, size_t n_triangles, const iccp_env *env);
 

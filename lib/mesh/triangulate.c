@@ -1,5 +1,5 @@
-/* The Delaunay triangulation of all points, made to contain the edges of the polygon, less what lies
- * outside: mesh/delaunay.c, mesh/constrain.c, and the rest here. */
+/* The Delaunay triangulation of all points, made to contain the edges of the polygon, less what
+ * lies outside: mesh/delaunay.c, mesh/constrain.c, and the rest here. */
 #include "mesh/triangulate.h"
 
 #include "base/error.h"
@@ -11,8 +11,8 @@
 /* Of a triangle outside. */
 static const uint32_t OUTSIDE = UINT32_MAX;
 
-/* Marks what can be reached from the ghosts without crossing the polygon: number[t] becomes OUTSIDE,
- * and stays 0 inside. `stack` has room for every triangle. */
+/* Marks what can be reached from the ghosts without crossing the polygon: number[t] becomes
+ * OUTSIDE, and stays 0 inside. `stack` has room for every triangle. */
 static void mark_outside(const iccp_trimesh *mesh, uint32_t *number, uint32_t *stack)
 {
     const iccp_corner *const c = mesh->corners;
@@ -58,7 +58,7 @@ static uint32_t number_inside(const iccp_trimesh *mesh, uint32_t *number)
 }
 
 static void copy_out(const iccp_trimesh *mesh, const uint32_t *number, uint32_t *triangles,
-                  uint32_t *neighbours)
+                     uint32_t *neighbours)
 {
     const iccp_corner *const c = mesh->corners;
     for (uint32_t corner = 0; corner < 3 * mesh->n_triangles; ++corner) {
@@ -87,8 +87,8 @@ static icc_status extract(const iccp_trimesh *mesh, uint32_t *triangles, uint32_
     mark_outside(mesh, number, stack);
     const uint32_t outsider = find_outsider(mesh, number);
     if (outsider < mesh->n_points) {
-        status = iccp_fail_at(err, ICC_ERR_OUTSIDE, ICC_ITEM_POINT, outsider, "point %lu lies outside the polygon",
-                           (unsigned long)outsider);
+        status = iccp_fail_at(err, ICC_ERR_OUTSIDE, ICC_ITEM_POINT, outsider,
+                              "point %lu lies outside the polygon", (unsigned long)outsider);
         goto done;
     }
     const uint32_t n_inside = number_inside(mesh, number);
@@ -106,9 +106,8 @@ icc_status iccp_triangulate_mesh(size_t n_boundary, size_t n_points, const doubl
                                  icc_error *err)
 {
     assert(n_boundary >= 3 && n_boundary <= n_points && n_points <= ICCP_TRIMESH_MAX_POINTS);
-    iccp_trimesh mesh = {.points = points,
-                         .n_points = (uint32_t)n_points,
-                         .n_boundary = (uint32_t)n_boundary};
+    iccp_trimesh mesh = {
+        .points = points, .n_points = (uint32_t)n_points, .n_boundary = (uint32_t)n_boundary};
     mesh.corners = iccp_alloc(&env->memory, 2 * n_points - 2, 3 * sizeof *mesh.corners);
     if (mesh.corners == NULL)
         return iccp_fail_memory(err);

@@ -1,9 +1,10 @@
 /* Triangles and their neighbours, as corners.
  *
- * Corner c belongs to triangle c / 3 and faces one of its edges, the half-edge c, which runs from the
- * vertex after it to the vertex before it, counter-clockwise; its twin is the corner that faces the
- * same edge from the other triangle. The vertex n_points is the ghost: the triangles between it and
- * the edges of the hull cover the plane outside the hull, so that every half-edge has a twin. */
+ * Corner c belongs to triangle c / 3 and faces one of its edges, the half-edge c, which runs from
+ * the vertex after it to the vertex before it, counter-clockwise; its twin is the corner that faces
+ * the same edge from the other triangle. The vertex n_points is the ghost: the triangles between it
+ * and the edges of the hull cover the plane outside the hull, so that every half-edge has a
+ * twin. */
 #ifndef ICCP_TRIMESH_H
 #define ICCP_TRIMESH_H
 
@@ -12,7 +13,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* So that a corner has a bit to spare and an index fits into the sort key of mesh/insertion_order.c. */
+/* So that a corner has a bit to spare and an index fits into the sort key of
+ * mesh/insertion_order.c. */
 #define ICCP_TRIMESH_MAX_POINTS ((size_t)1 << 28)
 
 typedef struct iccp_corner {
@@ -20,11 +22,11 @@ typedef struct iccp_corner {
 } iccp_corner;
 
 typedef struct iccp_trimesh {
-    const double *points;  /* borrowed */
+    const double *points; /* borrowed */
     uint32_t n_points;
-    uint32_t n_boundary;   /* the first ones are the vertices of a polygon, in their order */
+    uint32_t n_boundary; /* the first ones are the vertices of a polygon, in their order */
     uint32_t n_triangles;
-    iccp_corner *corners;  /* room for 3 (2 n_points - 2), as many as there are in the end */
+    iccp_corner *corners; /* room for 3 (2 n_points - 2), as many as there are in the end */
 } iccp_trimesh;
 
 /* The next corner of the triangle, counter-clockwise. */
@@ -62,8 +64,8 @@ static inline bool iccp_is_boundary_edge(const iccp_trimesh *mesh, uint32_t a, u
     return high < mesh->n_boundary && (high - low == 1 || high - low == mesh->n_boundary - 1);
 }
 
-/* Replaces the edge that the corner faces by the other diagonal of its two triangles. The corner and
- * the one after it keep their vertices; the triangles keep their places. */
+/* Replaces the edge that the corner faces by the other diagonal of its two triangles. The corner
+ * and the one after it keep their vertices; the triangles keep their places. */
 static inline void iccp_flip(iccp_trimesh *mesh, uint32_t corner)
 {
     iccp_corner *const c = mesh->corners;

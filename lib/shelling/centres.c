@@ -1,5 +1,5 @@
-/* Depths are distances from the boundary. They are found only where it matters: between two vertices the depth
- * differs by no more than their distance. */
+/* Depths are distances from the boundary. They are found only where it matters: between two
+ * vertices the depth differs by no more than their distance. */
 #include "shelling/centres.h"
 
 #include "math/spd.h"
@@ -14,12 +14,14 @@
 /* Vertices between looks at the progress callback. */
 enum { VERTICES_PER_REPORT = 1 << 10 };
 
-/* The weight of an edge, of the geometric mean of its ends' diagonals: obtuse and thin simplices would give less
- * or a negative one. Any positive weights put images between those of the neighbours. */
+/* The weight of an edge, of the geometric mean of its ends' diagonals: obtuse and thin simplices
+ * would give less or a negative one. Any positive weights put images between those of the
+ * neighbours. */
 static const double LEAST_WEIGHT = 0.02;
 
-/* How much deeper a vertex must be to be taken at some distance from where the image of the other centre lies: with
- * 1.2 to 1.5, pairs of real bodies are a fifth to a half deeper than with the nearest vertex. */
+/* How much deeper a vertex must be to be taken at some distance from where the image of the other
+ * centre lies: with 1.2 to 1.5, pairs of real bodies are a fifth to a half deeper than with the
+ * nearest vertex. */
 static const double DEPTH_PER_DISTANCE = 1.5;
 
 typedef struct search {
@@ -95,7 +97,8 @@ static double measure(search *s, uint32_t v)
     return depth;
 }
 
-/* The inner vertex with the greatest depth, or lesser depth of it and its image; if all are 0, NONE. */
+/* The inner vertex with the greatest depth, or lesser depth of it and its image; if all are 0,
+ * NONE. */
 static icc_status find_deepest(search *s, const iccp_env *env)
 {
     const double size = size_of(s->domain[0]);
@@ -159,8 +162,8 @@ uint32_t iccp_nearest_centre(const iccp_simplices *mesh, const double *point)
     return nearest;
 }
 
-/* Positive weights in place of the matrix's; those to the boundary bring the second domain's vertices to the right
- * side, one number for each dimension. */
+/* Positive weights in place of the matrix's; those to the boundary bring the second domain's
+ * vertices to the right side, one number for each dimension. */
 static void set_weights(iccp_gram *g, const iccp_simplices *mesh, const icc_domain *to, double *sum,
                         double *right)
 {
@@ -199,8 +202,8 @@ static icc_status set_up(iccp_gram *inner, iccp_gram *edges, const iccp_simplice
     return status;
 }
 
-/* The images of the inner vertices by the harmonic map: W. T. Tutte, How to draw a graph, 1963, with the weights of
- * the Laplacian. */
+/* The images of the inner vertices by the harmonic map: W. T. Tutte, How to draw a graph, 1963,
+ * with the weights of the Laplacian. */
 static icc_status find_images(iccp_gram *edges, const iccp_simplices *mesh, const icc_domain *to,
                               double *image, const iccp_env *env)
 {
@@ -218,8 +221,8 @@ static icc_status find_images(iccp_gram *edges, const iccp_simplices *mesh, cons
     return status;
 }
 
-/* An inner vertex near a point, a deep one rather than the nearest. No depth is more than that of the point and the
- * distance from it, so that few have to be measured. */
+/* An inner vertex near a point, a deep one rather than the nearest. No depth is more than that of
+ * the point and the distance from it, so that few have to be measured. */
 static uint32_t find_partner(const icc_domain *domain, const iccp_simplices *mesh,
                              const double *point)
 {

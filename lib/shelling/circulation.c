@@ -1,5 +1,6 @@
-/* The sweeps are Gauss-Seidel relaxation (D. Young, Iterative Solution of Large Linear Systems, 1971) of the flux
- * problem of networks in the space of cycles; the bounds are those of projected relaxation (C. Cryer, SIAM J.
+/* The sweeps are Gauss-Seidel relaxation (D. Young, Iterative Solution of Large Linear Systems,
+ * 1971) of the flux problem of networks in the space of cycles; the bounds are those of projected
+ *       relaxation (C. Cryer, SIAM J.
  * Control 9, 1971). */
 #include "shelling/circulation.h"
 
@@ -11,8 +12,8 @@
 /* Of what a simplex receives: the least that the greedy flux sends through each of its sides. */
 static const double LEAST_SHARE = 0.02;
 
-/* Of the mean flux density in the simplices at a facet: what the fitted flux keeps there at least, where the
- * greedy one has twice as much. */
+/* Of the mean flux density in the simplices at a facet: what the fitted flux keeps there at least,
+ * where the greedy one has twice as much. */
 static const double LEAST_DENSITY = 0.02;
 
 /* Over-relaxation of the sweeps: below 2, no step raises the energy. */
@@ -84,8 +85,9 @@ void iccp_circulation_free(iccp_circulation *circulation)
     circulation->least = NULL;
 }
 
-/* What a simplex receives leaves it through its sides to smaller rank as `wish` has it, but at least a share
- * of all through each. Flux here only ever is added up, so that rounding is all that is amiss. */
+/* What a simplex receives leaves it through its sides to smaller rank as `wish` has it, but at
+ * least a share of all through each. Flux here only ever is added up, so that rounding is all that
+ * is amiss. */
 static void send_on(const iccp_circulation *c, const uint32_t *rank, size_t simplex,
                     const double *wish, double least, double *flux)
 {
@@ -140,8 +142,8 @@ icc_status iccp_circulation_greedy(const iccp_circulation *c, const uint32_t *ra
     return send_all(c, rank, c->reference, LEAST_SHARE, flux, env);
 }
 
-/* A facet during the sweeps: flux from the smaller of its sides, what that shall be, the weight of the
- * difference, and the least modulus. The sign never changes. */
+/* A facet during the sweeps: flux from the smaller of its sides, what that shall be, the weight of
+ * the difference, and the least modulus. The sign never changes. */
 typedef struct gate {
     double flux, wish, weight, least;
 } gate;
@@ -155,8 +157,9 @@ static void open_gates(const iccp_circulation *c, const double *flux, gate *gate
     }
 }
 
-/* The best circulation is a mean of the differences; it may go too far by some. What runs along with it can take
- * all of it in one direction, what runs against it in the other, until little is left. */
+/* The best circulation is a mean of the differences; it may go too far by some. What runs along
+ * with it can take all of it in one direction, what runs against it in the other, until little is
+ * left. */
 static void relax_ring(gate *gates, const uint32_t *step, size_t n_steps)
 {
     double sum = 0, weight = 0, room_back = HUGE_VAL, room_on = HUGE_VAL;

@@ -1,5 +1,6 @@
-/* Positive fluxes along an order of simplices, as near as may be to a reference flux. They decide how the
- * volume is shared out among the leaves: that the leaves are a foliation follows from the order alone. */
+/* Positive fluxes along an order of simplices, as near as may be to a reference flux. They decide
+ * how the volume is shared out among the leaves: that the leaves are a foliation follows from the
+ * order alone. */
 #ifndef ICCP_CIRCULATION_H
 #define ICCP_CIRCULATION_H
 
@@ -22,24 +23,24 @@ icc_status iccp_circulation_create(iccp_circulation *circulation, const iccp_sim
                                    const iccp_env *env);
 void iccp_circulation_free(iccp_circulation *circulation);
 
-/* From the boundary inwards, each simplex sends on what it receives through the facets to simplices of
- * smaller rank, in proportion to the reference flux there, but through each at least a small share. The flux
- * is positive from greater to smaller rank and without divergence. `rank` is complete, see
- * shelling/shelling_order.h. O(n). */
+/* From the boundary inwards, each simplex sends on what it receives through the facets to simplices
+ * of smaller rank, in proportion to the reference flux there, but through each at least a small
+ * share. The flux is positive from greater to smaller rank and without divergence. `rank` is
+ * complete, see shelling/shelling_order.h. O(n). */
 icc_status iccp_circulation_greedy(const iccp_circulation *c, const uint32_t *rank, double *flux,
                                    const iccp_env *env);
 
-/* Brings such a flux nearer to the reference: Gauss-Seidel sweeps over the rings, each time with the
- * circulation round the ring that lowers the energy most and leaves all fluxes positive. The energy never
- * rises. O(n) a sweep. */
+/* Brings such a flux nearer to the reference: Gauss-Seidel sweeps over the rings, each time with
+ * the circulation round the ring that lowers the energy most and leaves all fluxes positive. The
+ * energy never rises. O(n) a sweep. */
 icc_status iccp_circulation_relax(const iccp_circulation *c, const uint32_t *rank, size_t n_sweeps,
                                   double *flux, const iccp_env *env);
 
 /* Sum over the facets of (flux - reference)^2 / weight. */
 double iccp_circulation_energy(const iccp_circulation *c, const double *flux);
 
-/* The largest relative divergence of a simplex outside the star: the sum of its fluxes over the sum of what
- * leaves. */
+/* The largest relative divergence of a simplex outside the star: the sum of its fluxes over the sum
+ * of what leaves. */
 double iccp_circulation_divergence(const iccp_circulation *c, const double *flux);
 
 #endif

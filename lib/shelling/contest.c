@@ -1,7 +1,8 @@
-/* The reference flux tells a good order: the less of it an order turns round, the nearer to it a flux along
- * the order can come. Which rule and which weight do best differs from mesh to mesh, so some are tried, each with
- * its facets turned. Where all get stuck, they are repeated with a bias for the simplices that were left, as in
- * D. E. Joslin, D. P. Clements, Squeaky Wheel Optimization, 1999. */
+/* The reference flux tells a good order: the less of it an order turns round, the nearer to it a
+ * flux along the order can come. Which rule and which weight do best differs from mesh to mesh, so
+ * some are tried, each with its facets turned. Where all get stuck, they are repeated with a bias
+ * for the simplices that were left, as in D. E. Joslin, D. P. Clements, Squeaky Wheel Optimization,
+ * 1999. */
 #include "shelling/contest.h"
 
 #include "base/error.h"
@@ -14,9 +15,10 @@
 
 enum { N_BETAS = 2, N_RUNS = 2 * N_BETAS };
 
-/* On 16 meshes the best one, before facets were turned, was one of 16 to 1024: the greater, the less flux is reversed,
- * until, the earlier the more simplices there are, simplices that had to wait for long are closed in. Once
- * facets are turned small ones do as well where there are few simplices, and better where there are many. */
+/* On 16 meshes the best one, before facets were turned, was one of 16 to 1024: the greater, the
+ * less flux is reversed, until, the earlier the more simplices there are, simplices that had to
+ * wait for long are closed in. Once facets are turned small ones do as well where there are few
+ * simplices, and better where there are many. */
 static const double BETA[N_BETAS] = {8, 32};
 
 /* The energy was within 5 % then of what it was after 100. */
@@ -25,8 +27,8 @@ static const size_t SWEEPS = 20;
 /* Repetitions of an order that is not complete. */
 enum { N_ROUNDS = 12 };
 
-/* The bias of a simplex that was left, of the potential's range: growth that stopped short on real meshes was
- * complete after 2 to 4 rounds. */
+/* The bias of a simplex that was left, of the potential's range: growth that stopped short on real
+ * meshes was complete after 2 to 4 rounds. */
 static const double BIAS_LEFT = 0.01;
 
 typedef struct contest {
@@ -50,8 +52,8 @@ static bool is_peeling(size_t run)
     return run < N_BETAS;
 }
 
-/* The greedy flux will do to compare: an order whose energy was least then was within 10 % of the least after
- * 100 sweeps, too. HUGE_VAL if the order is not complete. */
+/* The greedy flux will do to compare: an order whose energy was least then was within 10 % of the
+ * least after 100 sweeps, too. HUGE_VAL if the order is not complete. */
 static icc_status try_order(const contest *c, size_t run, const double *bias, attempt *a,
                             const iccp_env *env)
 {

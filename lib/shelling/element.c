@@ -4,8 +4,9 @@
 
 #include <math.h>
 
-/* Of the longest edge: what an edge leaves the space of the ones before by counts as at least that much. So
- * matrices can be factorised whatever there is in the mesh: a single simplex of 1e-9 is enough to spoil them. */
+/* Of the longest edge: what an edge leaves the space of the ones before by counts as at least that
+ * much. So matrices can be factorised whatever there is in the mesh: a single simplex of 1e-9 is
+ * enough to spoil them. */
 static const double THINNEST = 1e-4;
 
 /* Local units, in which domains have the size 1: lengths that are divided by. */
@@ -23,8 +24,8 @@ static void swap_rows(double *a, double *b, size_t n)
     }
 }
 
-/* Elimination as far as the inverse, with the greatest entry of each column for a pivot. Returns the modulus of
- * the determinant. */
+/* Elimination as far as the inverse, with the greatest entry of each column for a pivot. Returns
+ * the modulus of the determinant. */
 static double invert(size_t n, tableau a, double size)
 {
     double determinant = 1;

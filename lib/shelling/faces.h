@@ -1,7 +1,7 @@
 /* Numbers for the faces of a mesh, the same from every simplex that has the face.
  *
- * A face of a simplex is a set of its corners, corner i being bit i. The faces numbered are those of
- * dimension 0 to dim - 2: two simplices that have one need not have a facet in common. */
+ * A face of a simplex is a set of its corners, corner i being bit i. The faces numbered are those
+ * of dimension 0 to dim - 2: two simplices that have one need not have a facet in common. */
 #ifndef ICCP_FACES_H
 #define ICCP_FACES_H
 

@@ -1,7 +1,7 @@
-/* Based on: M. Campen, C. Silva, D. Zorin, Bijective Maps from Simplicial Foliations, ACM Transactions on
- * Graphics 35, 2016: leaves through an ordered mesh. The side that a leaf leaves a simplex by is the one
- * whose barycentric coordinate vanishes first; as the corners are sorted, the others keep their order when
- * the next simplex is entered. */
+/* Based on: M. Campen, C. Silva, D. Zorin, Bijective Maps from Simplicial Foliations, ACM
+ * Transactions on Graphics 35, 2016: leaves through an ordered mesh. The side that a leaf leaves a
+ * simplex by is the one whose barycentric coordinate vanishes first; as the corners are sorted, the
+ * others keep their order when the next simplex is entered. */
 #include "shelling/fibre.h"
 
 #include "math/vec.h"
@@ -14,8 +14,8 @@ enum { CORNERS = ICCP_FIBRE_CORNERS, MAX = ICC_MAX_DIM };
 /* In which direction a leaf is followed, as a factor of the rates. */
 static const double UP = 1, DOWN = -1;
 
-/* Everything that follows is written for n = dim + 1 corners; where the compiler knows n it need not
- * loop. */
+/* Everything that follows is written for n = dim + 1 corners; where the compiler knows n it need
+ * not loop. */
 
 static ICCP_INLINE const iccp_fibre_word *record_of(const iccp_fibres *fibres, size_t n,
                                                     uint32_t simplex)
@@ -33,7 +33,8 @@ static ICCP_INLINE uint32_t across(const iccp_fibre_word *record, size_t n, size
     return record[n + 2 + side / 2].side[side % 2];
 }
 
-/* As an integer: numbers that are not negative keep their order, and all negative ones come after them. */
+/* As an integer: numbers that are not negative keep their order, and all negative ones come after
+ * them. */
 static ICCP_INLINE uint64_t bits_of(double x)
 {
     uint64_t bits;
@@ -41,9 +42,9 @@ static ICCP_INLINE uint64_t bits_of(double x)
     return bits;
 }
 
-/* The side that the leaf leaves by, and after how much of the rates; n where there is none, in the star on the way
- * up. Which it is cannot be predicted, so there are no branches: sides that are entered have a negative
- * reach, be it -0. Places never have a coordinate -0. */
+/* The side that the leaf leaves by, and after how much of the rates; n where there is none, in the
+ * star on the way up. Which it is cannot be predicted, so there are no branches: sides that are
+ * entered have a negative reach, be it -0. Places never have a coordinate -0. */
 static ICCP_INLINE size_t find_exit(const iccp_fibre_word *record, size_t n, double way,
                                     const double *bary, double *share)
 {
@@ -159,8 +160,7 @@ static double fall_through_star(const iccp_fibres *fibres, iccp_fibre_place *pla
             jet->length[p] += slope[p] * own / others +
                               distance * (d_own * others - own * d_others) / (others * others);
             for (size_t i = 0; i < n; ++i)
-                jet->bary[i][p] =
-                    (jet->bary[i][p] - place->bary[i] * d_others / others) / others;
+                jet->bary[i][p] = (jet->bary[i][p] - place->bary[i] * d_others / others) / others;
             jet->bary[corner][p] = 0;
         }
     }

@@ -1,5 +1,5 @@
-/* Barycentric coordinates by elimination with pivoting, which is backward stable: they give the point back to
- * rounding however flat the simplex is. */
+/* Barycentric coordinates by elimination with pivoting, which is backward stable: they give the
+ * point back to rounding however flat the simplex is. */
 #include "shelling/fibre.h"
 
 #include <math.h>
@@ -103,8 +103,8 @@ void iccp_fibres_gradient(const iccp_fibres *fibres, uint32_t simplex, iccp_fibr
         }
 }
 
-/* If rounding leaves the point outside all simplices, the one that it is least outside of, by about its
- * distance. */
+/* If rounding leaves the point outside all simplices, the one that it is least outside of, by about
+ * its distance. */
 bool iccp_fibres_find(const iccp_fibres *fibres, const double *point, double tolerance,
                       iccp_fibre_place *place, bool *inner)
 {

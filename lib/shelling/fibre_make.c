@@ -1,5 +1,5 @@
-/* The simplices are stored in the order of the leaves of their tree of boxes: what is near in space is near
- * in memory, and a simplex is one or two cache lines. */
+/* The simplices are stored in the order of the leaves of their tree of boxes: what is near in space
+ * is near in memory, and a simplex is one or two cache lines. */
 #include "shelling/fibre.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@ typedef struct maker {
     const iccp_simplices *mesh;
     const double *direction;
     double tolerance;
-    uint32_t *side;  /* of each side of the mesh: its number here */
+    uint32_t *side; /* of each side of the mesh: its number here */
 } maker;
 
 /* Numbers the simplices and sorts the corners of each. */
@@ -80,8 +80,7 @@ static void fill_record(const maker *m, uint32_t place)
         const size_t given = n * simplex + i, k = m->side[given] % n;
         const uint32_t across = m->mesh->across[given];
         rate[k] = in_star ? 1 : m->direction[given];
-        record[n + 2 + k / 2].side[k % 2] =
-            (across & ICCP_RIM) != 0 ? across : m->side[across];
+        record[n + 2 + k / 2].side[k % 2] = (across & ICCP_RIM) != 0 ? across : m->side[across];
         if ((across & ICCP_RIM) != 0)
             m->fibres->rim[across & ~ICCP_RIM] = m->side[given];
     }
@@ -96,8 +95,8 @@ static icc_status make(maker *m)
     iccp_fibres *fibres = m->fibres;
     const iccp_simplices *mesh = m->mesh;
     const size_t n = mesh->dim + 1, n_simplices = mesh->n_simplices;
-    iccp_facet_tree_create_solid(&fibres->tree, mesh->dim, mesh->points, n_simplices,
-                                 mesh->corners, &fibres->memory);
+    iccp_facet_tree_create_solid(&fibres->tree, mesh->dim, mesh->points, n_simplices, mesh->corners,
+                                 &fibres->memory);
     fibres->corners = iccp_alloc(&fibres->memory, n_simplices, n * sizeof *fibres->corners);
     fibres->block = iccp_alloc(&fibres->memory, n_simplices + 1,
                                iccp_fibre_stride(n) * sizeof *fibres->records);
@@ -108,7 +107,8 @@ static icc_status make(maker *m)
         fibres->rim == NULL || fibres->place == NULL || m->side == NULL)
         return ICC_ERR_MEMORY;
     fibres->records = fibres->block;
-    while ((uintptr_t)fibres->records % CACHE_LINE != 0 && fibres->records < fibres->block + iccp_fibre_stride(n))
+    while ((uintptr_t)fibres->records % CACHE_LINE != 0 &&
+           fibres->records < fibres->block + iccp_fibre_stride(n))
         ++fibres->records;
     number(m);
     for (uint32_t place = 0; place < n_simplices; ++place)
@@ -127,8 +127,7 @@ icc_status iccp_fibres_create(iccp_fibres *fibres, const iccp_simplices *mesh, u
                             .n_simplices = mesh->n_simplices,
                             .centre = centre,
                             .points = mesh->points};
-    maker m = {
-        .fibres = fibres, .mesh = mesh, .direction = direction, .tolerance = tolerance};
+    maker m = {.fibres = fibres, .mesh = mesh, .direction = direction, .tolerance = tolerance};
     const icc_status status = make(&m);
     iccp_free(&env->memory, m.side);
     if (status != ICC_OK)

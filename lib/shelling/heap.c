@@ -1,5 +1,6 @@
-/* Based on: J. W. J. Williams, Algorithm 232: Heapsort, 1964. Four children to a node, as in D. B. Johnson,
- * Priority Queues with Update and Finding Minimum Spanning Trees, 1975: fewer levels, fewer cache lines. */
+/* Based on: J. W. J. Williams, Algorithm 232: Heapsort, 1964. Four children to a node, as in D. B.
+ * Johnson, Priority Queues with Update and Finding Minimum Spanning Trees, 1975: fewer levels,
+ * fewer cache lines. */
 #include "shelling/heap.h"
 
 #include <string.h>

@@ -25,8 +25,8 @@ void iccp_heap_free(iccp_heap *heap, const iccp_memory *memory);
 /* Takes in a number, or gives it another key. O(log n). */
 void iccp_heap_put(iccp_heap *heap, uint32_t number, double key);
 
-/* Takes out the number with the smallest key; of equal ones, the smallest number. The heap is not empty.
- * O(log n). */
+/* Takes out the number with the smallest key; of equal ones, the smallest number. The heap is not
+ * empty. O(log n). */
 uint32_t iccp_heap_pop(iccp_heap *heap);
 
 #endif

@@ -1,6 +1,7 @@
-/* Based on: P. Doyle, J. L. Snell, Random Walks and Electric Networks, 1984, section 1.3: a network of the
- * simplices, with the star of the centre at one pole and the boundary at the other. The potential is that of
- * the star here, so that small ones, at the ends of limbs, keep all their digits. */
+/* Based on: P. Doyle, J. L. Snell, Random Walks and Electric Networks, 1984, section 1.3: a network
+ * of the simplices, with the star of the centre at one pole and the boundary at the other. The
+ * potential is that of the star here, so that small ones, at the ends of limbs, keep all their
+ * digits. */
 #include "shelling/reference.h"
 
 #include "shelling/element.h"

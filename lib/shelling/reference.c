@@ -1,7 +1,7 @@
-/* Based on: M. Crouzeix, P.-A. Raviart, Conforming and nonconforming finite element methods for solving the
- * stationary Stokes equations I, RAIRO 7, 1973: functions that are linear in each simplex and agree in the
- * middles of the facets. The gradient is a constant vector in each simplex, without sources on the facets
- * between them. */
+/* Based on: M. Crouzeix, P.-A. Raviart, Conforming and nonconforming finite element methods for
+ * solving the stationary Stokes equations I, RAIRO 7, 1973: functions that are linear in each
+ * simplex and agree in the middles of the facets. The gradient is a constant vector in each
+ * simplex, without sources on the facets between them. */
 #include "shelling/reference.h"
 
 #include "shelling/element.h"
@@ -14,8 +14,8 @@
 /* Simplices between looks at the progress callback. */
 enum { SIMPLICES_PER_REPORT = 1 << 14 };
 
-/* The unknowns are the values in the middles of the facets outside the star of the centre. On its hull they are
- * 0. */
+/* The unknowns are the values in the middles of the facets outside the star of the centre. On its
+ * hull they are 0. */
 typedef struct equations {
     const iccp_simplices *mesh;
     uint32_t centre;
@@ -159,7 +159,8 @@ static void list_points(const equations *e, uint32_t *point, bool *fixed)
     }
 }
 
-/* The loads are the inflow, since the function of a facet is 1 there on average and 0 on the others. */
+/* The loads are the inflow, since the function of a facet is 1 there on average and 0 on the
+ * others. */
 static icc_status solve(equations *e, const double *inflow, const iccp_env *env)
 {
     const iccp_simplices *mesh = e->mesh;
@@ -180,8 +181,8 @@ static icc_status solve(equations *e, const double *inflow, const iccp_env *env)
     return status;
 }
 
-/* What leaves a simplex through its sides: the gradient of a side's function is its outer normal times its area
- * over the volume. */
+/* What leaves a simplex through its sides: the gradient of a side's function is its outer normal
+ * times its area over the volume. */
 static void find_flux(const equations *e, size_t simplex, double *flux, double *potential)
 {
     const size_t n_corners = e->mesh->dim + 1;

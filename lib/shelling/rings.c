@@ -44,8 +44,9 @@ static void number_facets(iccp_rings *rings, const walk *w, uint32_t centre)
     }
 }
 
-/* Writes the steps round the face of a simplex without the corners `out` and `in`, beginning through the side
- * opposite `out`. Returns how many; 0 if the way does not come back, or has been gone before. */
+/* Writes the steps round the face of a simplex without the corners `out` and `in`, beginning
+ * through the side opposite `out`. Returns how many; 0 if the way does not come back, or has been
+ * gone before. */
 static size_t go_round(const walk *w, size_t simplex, size_t out, size_t in, uint32_t *step)
 {
     const iccp_simplices *mesh = w->mesh;

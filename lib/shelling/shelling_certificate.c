@@ -1,5 +1,5 @@
-/* The theorem of docs/theory.md, foliations of simplices, hypothesis by hypothesis. Faces are sets of
- * vertices; each is looked at from its first vertex, among the simplices there. */
+/* The theorem of docs/theory.md, foliations of simplices, hypothesis by hypothesis. Faces are sets
+ * of vertices; each is looked at from its first vertex, among the simplices there. */
 #include "shelling/shelling_certificate.h"
 
 #include "icc/icc.h"
@@ -30,11 +30,11 @@ typedef struct checker {
     const uint32_t *rank;
     const double *direction;
     iccp_shelling_certificate *found;
-    sets *sets;         /* of each simplex */
-    uint32_t *first;    /* n_points + 1: where those of a vertex begin in `around` */
-    uint32_t *around;   /* simplices */
-    face *table;        /* open addressing, `capacity` a power of two */
-    uint32_t *used;     /* places in the table */
+    sets *sets;       /* of each simplex */
+    uint32_t *first;  /* n_points + 1: where those of a vertex begin in `around` */
+    uint32_t *around; /* simplices */
+    face *table;      /* open addressing, `capacity` a power of two */
+    uint32_t *used;   /* places in the table */
     size_t capacity, n_used;
 } checker;
 
@@ -67,8 +67,9 @@ static bool check_simplices(const checker *c)
     return c->found->n_topology == 0;
 }
 
-/* Whether two simplices that are both positive lie on opposite sides of a facet: the corners of the second, with
- * that opposite to the facet replaced by the first's, are an odd permutation of the first's. */
+/* Whether two simplices that are both positive lie on opposite sides of a facet: the corners of the
+ * second, with that opposite to the facet replaced by the first's, are an odd permutation of the
+ * first's. */
 static bool is_joined(const checker *c, uint32_t side, uint32_t twin)
 {
     const uint32_t n = (uint32_t)c->mesh->dim + 1;
@@ -138,8 +139,8 @@ static void check_centre(const checker *c)
 
 /* ---- the order ---- */
 
-/* Sides to simplices of greater rank, and the boundary, are entered, those to simplices of smaller rank
- * left. Returns whether there are others. */
+/* Sides to simplices of greater rank, and the boundary, are entered, those to simplices of smaller
+ * rank left. Returns whether there are others. */
 static bool fill_sets(const checker *c, uint32_t s)
 {
     const iccp_simplices *mesh = c->mesh;
@@ -244,7 +245,8 @@ static void add_face(checker *c, const sets *set, unsigned corners, const uint32
     f->n_out += (set->in & ~corners) == 0;
 }
 
-/* All faces of a simplex of dimension up to dim - 2 whose smallest vertex is v, but those at the centre. */
+/* All faces of a simplex of dimension up to dim - 2 whose smallest vertex is v, but those at the
+ * centre. */
 static void add_faces(checker *c, uint32_t simplex, uint32_t v)
 {
     const size_t dim = c->mesh->dim;
@@ -322,8 +324,7 @@ icc_status iccp_certify_shelling(iccp_shelling_certificate *certificate, const i
                  .found = certificate};
     uint8_t *met = iccp_alloc_zero(&env->memory, mesh->n_facets, 1);
     c.sets = iccp_alloc(&env->memory, mesh->n_simplices, sizeof *c.sets);
-    icc_status status =
-        met != NULL && c.sets != NULL ? check(&c, met, env) : ICC_ERR_MEMORY;
+    icc_status status = met != NULL && c.sets != NULL ? check(&c, met, env) : ICC_ERR_MEMORY;
     iccp_free(&env->memory, met);
     iccp_free(&env->memory, c.sets);
     iccp_free(&env->memory, c.first);

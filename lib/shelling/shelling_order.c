@@ -1,19 +1,21 @@
-/* Based on: G. M. Ziegler, Lectures on Polytopes, section 8.1, for shellings; M. Campen, C. Silva, D. Zorin,
- * Bijective Maps from Simplicial Foliations, 2016, for what they are good for.
+/* Based on: G. M. Ziegler, Lectures on Polytopes, section 8.1, for shellings; M. Campen, C. Silva,
+ * D. Zorin, Bijective Maps from Simplicial Foliations, 2016, for what they are good for.
  *
- * Growing and peeling are one procedure. Simplices go over, one by one, to a set that is the star of the
- * centre at first when growing, and the outside of the domain when peeling. A simplex T may go if what it has
- * in common with the set is nothing but its facets there: no face that lies in none of them. Such faces all
- * contain R, the corners opposite to the facets, so that R is the one to ask for.
+ * Growing and peeling are one procedure. Simplices go over, one by one, to a set that is the star
+ * of the centre at first when growing, and the outside of the domain when peeling. A simplex T may
+ * go if what it has in common with the set is nothing but its facets there: no face that lies in
+ * none of them. Such faces all contain R, the corners opposite to the facets, so that R is the one
+ * to ask for.
  *
- * When growing, this is the rule itself. When peeling, let U be what remains, a ball, and K the set R of T: the
- * face K is not on the boundary of U, so U without T is a ball again. The rule for the way back is about the
- * other corners, K'. The face K' lies in all facets of T on the boundary of U, and its facets there are these;
- * so the link of K' in U is a ball whose boundary is that of the simplex K, with K as a member. It has no room
- * for more: T is the only simplex of U with the face K'.
+ * When growing, this is the rule itself. When peeling, let U be what remains, a ball, and K the set
+ * R of T: the face K is not on the boundary of U, so U without T is a ball again. The rule for the
+ * way back is about the other corners, K'. The face K' lies in all facets of T on the boundary of
+ * U, and its facets there are these; so the link of K' in U is a ball whose boundary is that of the
+ * simplex K, with K as a member. It has no room for more: T is the only simplex of U with the face
+ * K'.
  *
- * Once a face touches the set it does so for good. So a simplex that may not go need not be looked at again
- * before one of its neighbours went. */
+ * Once a face touches the set it does so for good. So a simplex that may not go need not be looked
+ * at again before one of its neighbours went. */
 #include "shelling/shelling_order.h"
 
 #include "shelling/element.h"
@@ -32,8 +34,9 @@ typedef struct front {
     const iccp_env *env;
     bool peeling;
     uint32_t *rank;
-    uint8_t *
-        facing; /* of each simplex: its corners opposite to the set; GONE: it is not to be taken (again) */
+    uint8_t
+        *facing; /* of each simplex: its corners opposite to the set; GONE: it is not to be taken
+                    (again) */
     uint8_t *touched; /* whether a face belongs to the set */
     iccp_heap heap;
 } front;
@@ -60,8 +63,8 @@ static double step_of(const iccp_order_wish *wish, size_t simplex)
     return step;
 }
 
-/* The potential, and a penalty: the share of the simplex's flux that would run from smaller to greater rank
- * if it went now, times a step of the potential. */
+/* The potential, and a penalty: the share of the simplex's flux that would run from smaller to
+ * greater rank if it went now, times a step of the potential. */
 static double key_of(const front *f, size_t s)
 {
     const iccp_order_wish *w = f->wish;
@@ -110,7 +113,8 @@ static void join_side(front *f, size_t s, size_t corner)
     approach(f, s, corner);
 }
 
-/* The star of the centre has rank 0 and is not to be taken. Returns how many simplices there are besides. */
+/* The star of the centre has rank 0 and is not to be taken. Returns how many simplices there are
+ * besides. */
 static uint32_t rank_star(front *f)
 {
     const iccp_simplices *mesh = f->wish->mesh;
@@ -124,8 +128,8 @@ static uint32_t rank_star(front *f)
     return n;
 }
 
-/* The set as it is at first. Only when it is complete can be told which simplices may go: they are asked again
- * when the queue gives them out. */
+/* The set as it is at first. Only when it is complete can be told which simplices may go: they are
+ * asked again when the queue gives them out. */
 static void begin(front *f)
 {
     const iccp_simplices *mesh = f->wish->mesh;

@@ -1,9 +1,11 @@
-/* Orders of the simplices of a ball: every leaf of the foliation passes simplices of ever smaller rank.
+/* Orders of the simplices of a ball: every leaf of the foliation passes simplices of ever smaller
+ * rank.
  *
- * The simplices at the centre have rank 0, the others 1, 2, ... in the order in which they can be added so
- * that the union is a ball every time: a shelling that starts with the star of a vertex. Simplex T may be
- * added iff 1 <= |R| <= dim, where R is the set of its corners opposite to the facets shared with
- * simplices of smaller rank, and the face with the corners R is not part of the union yet. */
+ * The simplices at the centre have rank 0, the others 1, 2, ... in the order in which they can be
+ * added so that the union is a ball every time: a shelling that starts with the star of a vertex.
+ * Simplex T may be added iff 1 <= |R| <= dim, where R is the set of its corners opposite to the
+ * facets shared with simplices of smaller rank, and the face with the corners R is not part of the
+ * union yet. */
 #ifndef ICCP_SHELLING_ORDER_H
 #define ICCP_SHELLING_ORDER_H
 
@@ -20,13 +22,13 @@ typedef struct iccp_order_wish {
     const double *bias;      /* added to the potential of each simplex in the comparison; or NULL */
 } iccp_order_wish;
 
-/* Adds simplices to the star of the centre, one by one. `n_left` tells how many could not be added; their
- * rank is UINT32_MAX. ICC_OK, ICC_ERR_MEMORY or ICC_ERR_CANCELLED. O(n log n). */
+/* Adds simplices to the star of the centre, one by one. `n_left` tells how many could not be added;
+ * their rank is UINT32_MAX. ICC_OK, ICC_ERR_MEMORY or ICC_ERR_CANCELLED. O(n log n). */
 icc_status iccp_order_grow(const iccp_order_wish *wish, uint32_t *rank, size_t *n_left,
                            const iccp_env *env);
 
-/* The same from the other end: takes simplices at the boundary away, one by one, as long as a ball is left,
- * until the star of the centre remains. */
+/* The same from the other end: takes simplices at the boundary away, one by one, as long as a ball
+ * is left, until the star of the centre remains. */
 icc_status iccp_order_peel(const iccp_order_wish *wish, uint32_t *rank, size_t *n_left,
                            const iccp_env *env);
 

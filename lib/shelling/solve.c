@@ -1,7 +1,7 @@
-/* Based on: J. Xu, The auxiliary space method and optimal multigrid preconditioning techniques for unstructured
- * grids, Computing 56, 1996: a smoother on the unknowns themselves and an exact solution in a space that is
- * smaller and easier, here of the continuous functions that are linear in each simplex. The number of iterations
- * does not grow with that of simplices. */
+/* Based on: J. Xu, The auxiliary space method and optimal multigrid preconditioning techniques for
+ * unstructured grids, Computing 56, 1996: a smoother on the unknowns themselves and an exact
+ * solution in a space that is smaller and easier, here of the continuous functions that are linear
+ * in each simplex. The number of iterations does not grow with that of simplices. */
 #include "shelling/solve.h"
 
 #include "math/ordering.h"
@@ -10,9 +10,9 @@
 
 #define NONE UINT32_MAX
 
-/* Multiplications per entry of the matrix up to which the factorisation is chosen. A cube of 83,000 tetrahedra would
- * take 66,000 and iterations a quarter of the time; the bodies of animals take 500 to 800, and iterations twenty
- * times as long for the sake of their flat tetrahedra. */
+/* Multiplications per entry of the matrix up to which the factorisation is chosen. A cube of 83,000
+ * tetrahedra would take 66,000 and iterations a quarter of the time; the bodies of animals take 500
+ * to 800, and iterations twenty times as long for the sake of their flat tetrahedra. */
 static const double MOST_WORK = 20000;
 
 typedef struct auxiliary {

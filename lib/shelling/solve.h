@@ -13,8 +13,8 @@ typedef struct iccp_unknowns {
     const uint32_t *point; /* these ones */
 } iccp_unknowns;
 
-/* Solves for one right side, which becomes the solution: by a factorisation where that is not too expensive or
- * nothing else helps. */
+/* Solves for one right side, which becomes the solution: by a factorisation where that is not too
+ * expensive or nothing else helps. */
 icc_status iccp_shelling_solve(const iccp_symmetric *matrix, const iccp_unknowns *unknowns,
                                double *b, const iccp_env *env);
 

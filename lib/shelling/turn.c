@@ -1,9 +1,10 @@
-/* An order by itself is not what matters, but through which sides of each simplex leaves enter, and at each face
- * inside, that leaves come to it in one simplex and go from it in one (docs/theory.md, foliations of simplices).
- * Whether a facet can be crossed the other way is a question to the two simplices at it: each still has sides of
- * both kinds, and at each face of the facet the simplices whose sides there are all entered, and those
- * whose sides are all left, are as many as before. That leaves do not run in circles must be seen to besides: when
- * they do after a pass, what it turned there is turned back. */
+/* An order by itself is not what matters, but through which sides of each simplex leaves enter, and
+ * at each face inside, that leaves come to it in one simplex and go from it in one (docs/theory.md,
+ * foliations of simplices). Whether a facet can be crossed the other way is a question to the two
+ * simplices at it: each still has sides of both kinds, and at each face of the facet the simplices
+ * whose sides there are all entered, and those whose sides are all left, are as many as before.
+ * That leaves do not run in circles must be seen to besides: when they do after a pass, what it
+ * turned there is turned back. */
 #include "shelling/turn.h"
 
 #include "shelling/heap.h"
@@ -71,8 +72,8 @@ static unsigned translate(unsigned set, const unsigned *bit)
     return other;
 }
 
-/* Of two simplices, by the sides that they enter by: how many have all of these sides entered, and how many all
- * left. */
+/* Of two simplices, by the sides that they enter by: how many have all of these sides entered, and
+ * how many all left. */
 static int count_alike(unsigned a, unsigned sides_a, unsigned b, unsigned sides_b)
 {
     const int entered = ((a & sides_a) == sides_a) + ((b & sides_b) == sides_b);
@@ -80,7 +81,8 @@ static int count_alike(unsigned a, unsigned sides_a, unsigned b, unsigned sides_
     return 3 * entered + left;
 }
 
-/* Whether leaves may enter by a side that they leave by. The sides at a face are those opposite to other corners. */
+/* Whether leaves may enter by a side that they leave by. The sides at a face are those opposite to
+ * other corners. */
 static bool may_turn(const turner *t, uint32_t side)
 {
     const iccp_simplices *mesh = t->wish->mesh;
@@ -136,9 +138,9 @@ static icc_status pass(turner *t, const uint32_t *rank, const iccp_env *env)
     return iccp_progress(env, "order", 0);
 }
 
-/* A. B. Kahn, Topological sorting of large networks, 1962: takes out, one after the other, the simplices that are
- * in and that leaves come to from none that is in, or, from below, go from to none that is in. The queue holds
- * them in this order. Returns how many. */
+/* A. B. Kahn, Topological sorting of large networks, 1962: takes out, one after the other, the
+ * simplices that are in and that leaves come to from none that is in, or, from below, go from to
+ * none that is in. The queue holds them in this order. Returns how many. */
 static size_t take_out(turner *t, bool from_below)
 {
     const iccp_simplices *mesh = t->wish->mesh;
@@ -164,7 +166,8 @@ static size_t take_out(turner *t, bool from_below)
     return n_out;
 }
 
-/* Ranks all simplices but the star; or, where leaves run in circles, leaves those in that do or lie between. */
+/* Ranks all simplices but the star; or, where leaves run in circles, leaves those in that do or lie
+ * between. */
 static bool rank_anew(turner *t, uint32_t *rank)
 {
     const size_t n = t->wish->mesh->n_simplices;
@@ -183,7 +186,8 @@ static bool rank_anew(turner *t, uint32_t *rank)
     return true;
 }
 
-/* Turns facets of this pass back, the last one first: all, or those between simplices that are in, for good. */
+/* Turns facets of this pass back, the last one first: all, or those between simplices that are in,
+ * for good. */
 static size_t turn_back(turner *t, bool all)
 {
     const iccp_simplices *mesh = t->wish->mesh;

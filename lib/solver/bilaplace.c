@@ -1,6 +1,6 @@
 /* Based on: L. Huynh and Y. Gingold, Bijective Deformations in R^n via Integral Curve Coordinates,
- * section 5.2. Simply supported (Navier), the minimum satisfies L L f = 0 but at the root, so that two
- * solves with the M-matrix L give it; nothing cancels in them. Clamped, it is a least squares
+ * section 5.2. Simply supported (Navier), the minimum satisfies L L f = 0 but at the root, so that
+ * two solves with the M-matrix L give it; nothing cancels in them. Clamped, it is a least squares
  * problem with the Laplacians outside as further equations. */
 #include "solver/bilaplace.h"
 
@@ -13,8 +13,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Of a component, in its own size: far above the 1e-15 of solutions that are right, far below the 1 of
- * others. */
+/* Of a component, in its own size: far above the 1e-15 of solutions that are right, far below the 1
+ * of others. */
 static const double MOST_RESIDUAL = 1e-6;
 
 /* Divides by the value of the root, which becomes 1. */
@@ -81,8 +81,8 @@ static icc_status solve_twice(const iccp_rows *rows, const iccp_ldlt *factor, co
     return status;
 }
 
-static icc_status navier_direct(const iccp_rows *rows, const iccp_scaled *f, icc_function_info *info,
-                                const iccp_env *env)
+static icc_status navier_direct(const iccp_rows *rows, const iccp_scaled *f,
+                                icc_function_info *info, const iccp_env *env)
 {
     iccp_laplacian_factor l;
     const icc_status created = iccp_laplacian_factorise(&l, rows, info, env);
@@ -98,8 +98,8 @@ static icc_status navier_direct(const iccp_rows *rows, const iccp_scaled *f, icc
 }
 
 /* Unknowns: all rows but the root. */
-static icc_status clamped(const iccp_rows *rows, const iccp_sparse *a, double *f, icc_function_info *info,
-                          const iccp_env *env)
+static icc_status clamped(const iccp_rows *rows, const iccp_sparse *a, double *f,
+                          icc_function_info *info, const iccp_env *env)
 {
     const size_t n = rows->n;
     uint32_t *unknown = iccp_alloc(&env->memory, n, sizeof *unknown);

@@ -1,7 +1,7 @@
-/* An active set iteration is fast when it converges, and then exact up to rounding. When it does not, an
- * interior point method, which is slower and always converges, tells it where to begin. Far from the
- * root f is as small as the leaves' bounds, and what is active there shows only in the last iterates of
- * the latter; so the two take turns. */
+/* An active set iteration is fast when it converges, and then exact up to rounding. When it does
+ * not, an interior point method, which is slower and always converges, tells it where to begin. Far
+ * from the root f is as small as the leaves' bounds, and what is active there shows only in the
+ * last iterates of the latter; so the two take turns. */
 #include "base/clock.h"
 #include "solver/bilaplace.h"
 #include "solver/inequalities.h"
@@ -11,8 +11,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Residuals, for a maximum of 1: no better one is looked for; no other method is tried; a worse one is not
- * handed out. */
+/* Residuals, for a maximum of 1: no better one is looked for; no other method is tried; a worse one
+ * is not handed out. */
 static const double ENOUGH = 1e-12, GOOD = 1e-11, ACCEPTABLE = 1e-8;
 
 /* Means of slack * multiplier where the active set is tried. The last one is never reached. */
@@ -21,8 +21,9 @@ static const double TARGETS[] = {1e-12, 1e-14, 1e-16, 1e-18, 0};
 /* A slack below this, relative to the parent or the bound, is equality. */
 static const double EQUAL = 1e-12;
 
-static icc_status take_turns(const iccp_program *program, uint8_t *active, iccp_candidate *candidate,
-                             icc_function_info *info, const iccp_env *env)
+static icc_status take_turns(const iccp_program *program, uint8_t *active,
+                             iccp_candidate *candidate, icc_function_info *info,
+                             const iccp_env *env)
 {
     iccp_interior interior;
     bool stuck = false;
@@ -59,13 +60,13 @@ static icc_status optimise(const iccp_program *program, iccp_candidate *candidat
     iccp_free(&env->memory, active);
     if (status != ICC_OK || candidate->residual <= ACCEPTABLE)
         return status;
-    iccp_log(env, "bi-Laplace: the residual is still %.1e after %lu iterations", candidate->residual,
-             (unsigned long)info->n_iterations);
+    iccp_log(env, "bi-Laplace: the residual is still %.1e after %lu iterations",
+             candidate->residual, (unsigned long)info->n_iterations);
     return ICC_ERR_SOLVER;
 }
 
-/* Raises what is below the least value that the leaves' bounds allow, then sweeps from the root. `f` as
- * doubles follows. work: n */
+/* Raises what is below the least value that the leaves' bounds allow, then sweeps from the root.
+ * `f` as doubles follows. work: n */
 static void sweep(const iccp_program *program, double *f, const iccp_scaled *scaled, double *work)
 {
     const size_t n = program->rows->n;
@@ -115,12 +116,13 @@ static icc_status check_room(const iccp_program *program, double *work, const ic
     const double least = iccp_program_least_root(program, work);
     if (least < 1)
         return ICC_OK;
-    iccp_log(env, "bi-Laplace: the inequalities ask for %g at the root, where the function is 1", least);
+    iccp_log(env, "bi-Laplace: the inequalities ask for %g at the root, where the function is 1",
+             least);
     return ICC_ERR_SOLVER;
 }
 
-icc_status iccp_bilaplace_constrained(const iccp_rows *rows, int32_t function, double eta, double leaf,
-                                      const iccp_scaled *f, icc_function_info *info,
+icc_status iccp_bilaplace_constrained(const iccp_rows *rows, int32_t function, double eta,
+                                      double leaf, const iccp_scaled *f, icc_function_info *info,
                                       const iccp_env *env)
 {
     const double start = iccp_seconds();

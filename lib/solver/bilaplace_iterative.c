@@ -1,14 +1,15 @@
-/* Two solves by conjugate gradients with a multigrid preconditioner, after D. Braess, P. Peisker, On the
- * numerical solution of the biharmonic equation and the role of squaring matrices for preconditioning,
- * IMA J. Numer. Anal. 6, 1986: simply supported, the biharmonic equation is two Poisson equations. */
+/* Two solves by conjugate gradients with a multigrid preconditioner, after D. Braess, P. Peisker,
+ * On the numerical solution of the biharmonic equation and the role of squaring matrices for
+ * preconditioning, IMA J. Numer. Anal. 6, 1986: simply supported, the biharmonic equation is two
+ * Poisson equations. */
 #include "base/clock.h"
 #include "solver/bilaplace.h"
 #include "solver/mg_cg.h"
 
 #include <math.h>
 
-/* Every row holds to that share of its own terms, however small they are, or there is no result: what
- * conjugate gradients leave in long limbs is noise. */
+/* Every row holds to that share of its own terms, however small they are, or there is no result:
+ * what conjugate gradients leave in long limbs is noise. */
 static const iccp_mg_goal GOAL = {.relative = 1e-11, .componentwise = 1e-9, .floor = 0};
 
 typedef struct poisson {
@@ -21,8 +22,7 @@ typedef struct poisson {
 static icc_status poisson_create(poisson *p, const iccp_rows *rows, const iccp_env *env)
 {
     *p = (poisson){.rows = rows, .mg = {.memory = env->memory}};
-    icc_status status =
-        iccp_multigrid_create(&p->mg, rows->tree->grid, rows->n, rows->vertex, env);
+    icc_status status = iccp_multigrid_create(&p->mg, rows->tree->grid, rows->n, rows->vertex, env);
     if (status != ICC_OK)
         return status;
     const iccp_mg_level *level = &p->mg.level[0];
@@ -56,7 +56,8 @@ static icc_status solve(poisson *p, size_t loaded, icc_function_info *info, cons
         p->x[i] = 0;
         size += p->r[i] * p->r[i];
     }
-    const icc_status status = iccp_mg_cg(&p->mg, p->x, p->r, sqrt(size), &GOAL, &info->n_inner, env);
+    const icc_status status =
+        iccp_mg_cg(&p->mg, p->x, p->r, sqrt(size), &GOAL, &info->n_inner, env);
     const double unit = p->x[p->position[loaded]];
     if (status != ICC_OK || !(unit > 0))
         return status != ICC_OK ? status : ICC_ERR_SOLVER;

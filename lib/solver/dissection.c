@@ -1,11 +1,13 @@
-/* Nested dissection: A. George, Nested dissection of a regular finite element mesh, SIAM J. Numer. Anal.
- * 10, 1973. Neighbours differ by 1 in one coordinate, and by 1 in their generation of the tree, which is one
- * coordinate more here: the rows with one value of a coordinate separate those below it from those above it.
- * Parts that are thin along the tree are eliminated from their far end.
+/* Nested dissection: A. George, Nested dissection of a regular finite element mesh, SIAM J. Numer.
+ * Anal. 10, 1973. Neighbours differ by 1 in one coordinate, and by 1 in their generation of the
+ * tree, which is one coordinate more here: the rows with one value of a coordinate separate those
+ * below it from those above it. Parts that are thin along the tree are eliminated from their far
+ * end.
  *
- * A separator in the middle of a long limb would be joined with the limb's ends by entries that underflow, and
- * the values beyond it would be lost. So the rows are first cut into bands, in each of which values fall by
- * a bounded factor on the way from the root, and the farthest band goes first. */
+ * A separator in the middle of a long limb would be joined with the limb's ends by entries that
+ * underflow, and the values beyond it would be lost. So the rows are first cut into bands, in each
+ * of which values fall by a bounded factor on the way from the root, and the farthest band goes
+ * first. */
 #include "solver/dissection.h"
 
 #include <math.h>
@@ -13,9 +15,9 @@
 #include <string.h>
 
 enum {
-    SMALL = 16,       /* rows: smaller parts are not cut */
-    MOST_PARTS = 64,  /* that wait: the smaller half goes first, so that they halve */
-    MOST_PLANES = 16  /* per row of a part: coordinates that span more are not looked at */
+    SMALL = 16,      /* rows: smaller parts are not cut */
+    MOST_PARTS = 64, /* that wait: the smaller half goes first, so that they halve */
+    MOST_PLANES = 16 /* per row of a part: coordinates that span more are not looked at */
 };
 
 /* Natural logarithm of what values fall by in a band: 2^-288, and entries of a factor may go down
@@ -34,11 +36,11 @@ static const double PI = 3.14159265358979323846;
 typedef struct dissection {
     const iccp_rows *rows;
     const iccp_env *env;
-    size_t n_axes;       /* the generation is the last one */
-    uint32_t *order;     /* parts are ranges of it, their rows rising */
-    uint32_t *work;      /* n */
-    uint32_t *place;     /* n * n_axes: the coordinates of each row; at first the runs through it */
-    uint32_t *count;     /* rows of a part in each plane across one axis */
+    size_t n_axes;   /* the generation is the last one */
+    uint32_t *order; /* parts are ranges of it, their rows rising */
+    uint32_t *work;  /* n */
+    uint32_t *place; /* n * n_axes: the coordinates of each row; at first the runs through it */
+    uint32_t *count; /* rows of a part in each plane across one axis */
     size_t n_done, n_visited;
 } dissection;
 
@@ -151,8 +153,8 @@ static icc_status find_places(dissection *d)
     return status;
 }
 
-/* Counts the rows of a part in its planes across one axis, from the lowest on. Returns the number of planes,
- * 0 when there are too many. */
+/* Counts the rows of a part in its planes across one axis, from the lowest on. Returns the number
+ * of planes, 0 when there are too many. */
 static size_t count_planes(const dissection *d, const part *p, size_t axis, uint32_t *lowest)
 {
     const uint32_t *place = d->place + axis;
@@ -296,7 +298,8 @@ static icc_status run(dissection *d)
 icc_status iccp_dissection(const iccp_rows *rows, uint32_t *order, const iccp_env *env)
 {
     const iccp_memory *m = &env->memory;
-    dissection d = {.rows = rows, .env = env, .n_axes = (size_t)rows->tree->grid->dim + 1, .order = order};
+    dissection d = {
+        .rows = rows, .env = env, .n_axes = (size_t)rows->tree->grid->dim + 1, .order = order};
     d.work = iccp_alloc(m, rows->n, sizeof *d.work);
     d.place = iccp_alloc(m, rows->n, d.n_axes * sizeof *d.place);
     d.count = iccp_alloc(m, most_planes(rows), sizeof *d.count);

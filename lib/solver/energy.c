@@ -1,6 +1,6 @@
-/* Least squares by the normal equations, corrected with the residual of the least squares problem: A.
- * Bjorck, Stability analysis of the method of seminormal equations for linear least squares problems,
- * Linear Algebra Appl. 88/89, 1987. */
+/* Least squares by the normal equations, corrected with the residual of the least squares problem:
+ * A. Bjorck, Stability analysis of the method of seminormal equations for linear least squares
+ * problems, Linear Algebra Appl. 88/89, 1987. */
 #include "solver/energy.h"
 
 #include "base/clock.h"
@@ -55,7 +55,8 @@ static void set_inside(iccp_sparse *a, const iccp_rows *rows)
 
 /* The row of A of the vertex outside next to row k; numbers it when it is met for the first time. A
  * vertex beyond the grid has one neighbour inside, so that it is met only once. */
-static size_t row_outside(iccp_sparse *a, const iccp_rows *rows, uint32_t *row_of, size_t k, int32_t d)
+static size_t row_outside(iccp_sparse *a, const iccp_rows *rows, uint32_t *row_of, size_t k,
+                          int32_t d)
 {
     const uint32_t u = vertex_outside(rows, k, d);
     if (u == ICCP_NONE)
@@ -65,8 +66,8 @@ static size_t row_outside(iccp_sparse *a, const iccp_rows *rows, uint32_t *row_o
     return row_of[u];
 }
 
-/* Two passes over the neighbours outside, which number them alike: the first counts the entries of their
- * rows, the second writes them. */
+/* Two passes over the neighbours outside, which number them alike: the first counts the entries of
+ * their rows, the second writes them. */
 static icc_status set_outside(iccp_sparse *a, const iccp_rows *rows, const iccp_env *env)
 {
     const size_t n = rows->n, n_vertices = rows->tree->grid->n_vertices, most = a->n_rows;
@@ -109,8 +110,8 @@ icc_status iccp_energy_create(iccp_sparse *a, const iccp_rows *rows, int32_t fun
     count_neighbours(rows, &n_inside, &n_outside);
     if (function != ICC_FUNCTION_CLAMPED)
         n_outside = 0;
-    icc_status status = iccp_sparse_create(a, rows->n + n_outside, rows->n,
-                                           rows->n + n_inside + n_outside, env);
+    icc_status status =
+        iccp_sparse_create(a, rows->n + n_outside, rows->n, rows->n + n_inside + n_outside, env);
     if (status != ICC_OK)
         return status;
     set_inside(a, rows);

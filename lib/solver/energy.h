@@ -1,11 +1,11 @@
-/* The bending energy 1/2 |A f|^2 of functions on the rows, A f being their Laplacian, and its minimum
- * under fixed and glued values. */
+/* The bending energy 1/2 |A f|^2 of functions on the rows, A f being their Laplacian, and its
+ * minimum under fixed and glued values. */
 #ifndef ICCP_ENERGY_H
 #define ICCP_ENERGY_H
 
-#include "solver/rows.h"
 #include "icc/stages.h"
 #include "math/gram.h"
+#include "solver/rows.h"
 
 /* The Laplacians of the vertices inside, one row of A each in the order of `rows`, and for
  * ICC_FUNCTION_CLAMPED below them those of the vertices outside next to them, whether or not the
@@ -23,10 +23,10 @@ typedef struct iccp_reduction {
     const double *share; /* > 0 where there is an unknown */
 } iccp_reduction;
 
-/* Finds the least energy among such f. On entry f holds the known values; on return all. Refined until
- * nothing improves any more, so that the error is about that of rounding f times the condition
- * of A, not of A'A. ICC_ERR_SOLVER when that does not get below 1e-6. Adds to `info` (work,
- * seconds_*). */
+/* Finds the least energy among such f. On entry f holds the known values; on return all. Refined
+ * until nothing improves any more, so that the error is about that of rounding f times the
+ * condition of A, not of A'A. ICC_ERR_SOLVER when that does not get below 1e-6. Adds to `info`
+ * (work, seconds_*). */
 icc_status iccp_energy_minimise(const iccp_sparse *a, const iccp_reduction *reduction, double *f,
                                 icc_function_info *info, const iccp_env *env);
 

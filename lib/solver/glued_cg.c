@@ -1,7 +1,7 @@
-/* The preconditioner is P+ M P+' with the V-cycle M and P+ = (P'P)^-1 P', the weighted average over each
- * top and its members. Its inverse is at most P'LP if M is exact, whatever is glued, and nearly that where
- * functions are smooth: it takes two to three times the iterations that M takes without gluing.
- * (A Jacobi step for each top, added to it, costs more of them.) */
+/* The preconditioner is P+ M P+' with the V-cycle M and P+ = (P'P)^-1 P', the weighted average over
+ * each top and its members. Its inverse is at most P'LP if M is exact, whatever is glued, and
+ * nearly that where functions are smooth: it takes two to three times the iterations that M takes
+ * without gluing. (A Jacobi step for each top, added to it, costs more of them.) */
 #include "solver/glued_cg.h"
 
 #include "base/budget.h"
@@ -189,8 +189,13 @@ icc_status iccp_glued_cg(iccp_multigrid *mg, size_t n_glued, const iccp_glue *gl
                          double *r, double size, const iccp_mg_goal *goal, size_t *n_iterations,
                          const iccp_env *env)
 {
-    solver s = {.mg = mg, .level = &mg->level[0], .n = mg->level[0].n_entries,
-                .n_glued = n_glued, .glue = glue, .x = x, .r = r};
+    solver s = {.mg = mg,
+                .level = &mg->level[0],
+                .n = mg->level[0].n_entries,
+                .n_glued = n_glued,
+                .glue = glue,
+                .x = x,
+                .r = r};
     s.top = iccp_alloc(&mg->memory, n_glued, sizeof *s.top);
     s.p = iccp_alloc_zero(&mg->memory, s.n, sizeof *s.p);
     s.q = iccp_alloc_zero(&mg->memory, s.n, sizeof *s.q);

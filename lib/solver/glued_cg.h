@@ -1,4 +1,5 @@
-/* Conjugate gradients for P'LP, the Laplacian with some vertices glued to others (solver/glued.h). */
+/* Conjugate gradients for P'LP, the Laplacian with some vertices glued to others
+ * (solver/glued.h). */
 #ifndef ICCP_GLUED_CG_H
 #define ICCP_GLUED_CG_H
 
@@ -10,9 +11,9 @@ typedef struct iccp_glue {
     double share;
 } iccp_glue;
 
-/* x, r, size, goal and n_iterations as in iccp_mg_cg(), x and r for the vertices that are not glued to
- * others; the rest of r is 0, the rest of x is overwritten. The members of a top follow each other. About 50
- * bytes an entry while it runs, x, r and the multigrid included. */
+/* x, r, size, goal and n_iterations as in iccp_mg_cg(), x and r for the vertices that are not glued
+ * to others; the rest of r is 0, the rest of x is overwritten. The members of a top follow each
+ * other. About 50 bytes an entry while it runs, x, r and the multigrid included. */
 icc_status iccp_glued_cg(iccp_multigrid *mg, size_t n_glued, const iccp_glue *glue, double *x,
                          double *r, double size, const iccp_mg_goal *goal, size_t *n_iterations,
                          const iccp_env *env);

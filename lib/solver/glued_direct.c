@@ -4,10 +4,10 @@
  * v: the accuracy of small components hangs on how far the diagonal exceeds the rest of its row,
  * and in the difference of 2 dim |s|^2 and the products within the cluster that would be lost. */
 #include "base/clock.h"
+#include "math/ldlt.h"
 #include "solver/dissection.h"
 #include "solver/glued.h"
 #include "solver/inequalities.h"
-#include "math/ldlt.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -15,8 +15,8 @@
 /* Clusters between looks at the progress callback. */
 enum { CLUSTERS_PER_REPORT = 1 << 16 };
 
-/* Of a component, in its own size: far above the 1e-15 of solutions that are right, far below the 1 of
- * others. */
+/* Of a component, in its own size: far above the 1e-15 of solutions that are right, far below the 1
+ * of others. */
 static const double MOST_RESIDUAL = 1e-6;
 
 typedef struct assembly {
@@ -172,8 +172,8 @@ static icc_status find_residual(const assembly *a, const iccp_scaled *x, const i
     return status;
 }
 
-/* Whether every component is about what it should be, by its residual. Entries of the factor that underflow,
- * which the bands of solver/dissection.c are to prevent, spoil whole stretches. */
+/* Whether every component is about what it should be, by its residual. Entries of the factor that
+ * underflow, which the bands of solver/dissection.c are to prevent, spoil whole stretches. */
 static bool is_accurate(const assembly *a, const iccp_scaled *x, const iccp_scaled *residual)
 {
     for (size_t u = 0; u < a->n; ++u) {
@@ -206,7 +206,8 @@ static icc_status solve_twice(const assembly *a, const iccp_ldlt *factor, const 
     if (status != ICC_OK)
         return status;
     for (size_t u = 0; u < a->n; ++u)
-        iccp_scaled_set(x, u, x->fraction[u] + iccp_scaled_get(d, u, x->exponent[u]), x->exponent[u]);
+        iccp_scaled_set(x, u, x->fraction[u] + iccp_scaled_get(d, u, x->exponent[u]),
+                        x->exponent[u]);
     expand(a, x, f);
     return ICC_OK;
 }
@@ -228,8 +229,9 @@ static icc_status solve(const assembly *a, const iccp_ldlt *factor, const iccp_s
     return status;
 }
 
-/* Eliminates each cluster when its last row would be. This makes no new fill: a path through clusters that
- * come earlier is one through rows that come earlier, as the rows of a cluster hang together. */
+/* Eliminates each cluster when its last row would be. This makes no new fill: a path through
+ * clusters that come earlier is one through rows that come earlier, as the rows of a cluster hang
+ * together. */
 static void contract_order(const assembly *a, const uint32_t *kept, uint32_t *order)
 {
     size_t end = a->n;

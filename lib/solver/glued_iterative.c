@@ -1,26 +1,28 @@
-/* The glued problem by conjugate gradients, in shells. What an iteration leaves as an error is relative to the
- * largest value. So a solution is accepted only where it exceeds CUT times that; the rows left are solved for
- * again, with the accepted ones as given values, in units of the largest of these. The equations are
- * the same, so that the shells fit together to the accuracy of each.
+/* The glued problem by conjugate gradients, in shells. What an iteration leaves as an error is
+ * relative to the largest value. So a solution is accepted only where it exceeds CUT times that;
+ * the rows left are solved for again, with the accepted ones as given values, in units of the
+ * largest of these. The equations are the same, so that the shells fit together to the accuracy of
+ * each.
  *
- * A shell need not reach to the end of what is left: if it ends where the solution has fallen to v, with 0
- * assumed beyond, a value of w is wrong by about (v / w)^2 of itself (sinh(D - s) / sinh(D) in place of
- * exp(-s)). Nothing flows into a shell from beyond but what has left it there: rows next to known ones always
- * belong to it. */
+ * A shell need not reach to the end of what is left: if it ends where the solution has fallen to v,
+ * with 0 assumed beyond, a value of w is wrong by about (v / w)^2 of itself (sinh(D - s) / sinh(D)
+ * in place of exp(-s)). Nothing flows into a shell from beyond but what has left it there: rows
+ * next to known ones always belong to it. */
 #include "base/clock.h"
 #include "solver/glued.h"
 #include "solver/glued_cg.h"
 
 #include <string.h>
 
-/* Accepted: values above CUT of the largest and TRUNCATION times those where the shell ends. Of 1e-5 ..
- * 1e-8, all leave residuals below 1e-9 of each value; the lower, the fewer shells. */
+/* Accepted: values above CUT of the largest and TRUNCATION times those where the shell ends. Of
+ * 1e-5 .. 1e-8, all leave residuals below 1e-9 of each value; the lower, the fewer shells. */
 static const double CUT = 1e-7, TRUNCATION = 1e7;
 
 /* Values below this share of the largest are no help in guessing how large a shell should be. */
 static const double NEGLIGIBLE = 1e-14;
 
-/* Each shell is solved to this; a tenth of CUT, so that rows next to an accepted one are good, too. */
+/* Each shell is solved to this; a tenth of CUT, so that rows next to an accepted one are good,
+ * too. */
 static const iccp_mg_goal GOAL = {.relative = 1e-10, .componentwise = 1e-9, .floor = 1e-8};
 
 enum { LEAST_GROWTH = 512 };
@@ -44,12 +46,12 @@ typedef struct shells {
 } shells;
 
 typedef struct shell {
-    uint32_t *vertex;   /* grid vertices of its rows; later their positions */
+    uint32_t *vertex; /* grid vertices of its rows; later their positions */
     iccp_glue *glue;
     size_t n_glued;
     iccp_multigrid mg;
     double *x, *r, *q;
-    int32_t exponent;   /* x is in units of 2^exponent */
+    int32_t exponent; /* x is in units of 2^exponent */
 } shell;
 
 /* Rows by their tops, stable: a counting sort. */
@@ -133,8 +135,8 @@ static void find_exponent(const shells *s, shell *h)
         }
 }
 
-/* r = P' of what the known values contribute. In the first shell nothing is known; there it is a unit load
- * at the root, and the solution is scaled afterwards. */
+/* r = P' of what the known values contribute. In the first shell nothing is known; there it is a
+ * unit load at the root, and the solution is scaled afterwards. */
 static void load(const shells *s, shell *h)
 {
     size_t top = 0;
@@ -176,8 +178,8 @@ static icc_status place(const shells *s, shell *h)
     return status;
 }
 
-/* Scales the guess, of which q is P'LP x, so that its energy is least, and makes r its residual; returns
- * the size of the load. */
+/* Scales the guess, of which q is P'LP x, so that its energy is least, and makes r its residual;
+ * returns the size of the load. */
 static double begin_with_guess(shell *h)
 {
     const size_t n = h->mg.level[0].n_entries;
@@ -232,8 +234,7 @@ static icc_status solve_shell(shells *s, shell *h)
         return ICC_ERR_MEMORY;
     for (size_t i = 0; i < s->n; ++i)
         h->vertex[i] = s->rows->vertex[s->row[i]];
-    icc_status status =
-        iccp_multigrid_create(&h->mg, s->rows->tree->grid, s->n, h->vertex, s->env);
+    icc_status status = iccp_multigrid_create(&h->mg, s->rows->tree->grid, s->n, h->vertex, s->env);
     if (status == ICC_OK && !allocate(s, h))
         status = ICC_ERR_MEMORY;
     if (status != ICC_OK)

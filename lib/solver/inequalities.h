@@ -2,8 +2,8 @@
 #ifndef ICCP_INEQUALITIES_H
 #define ICCP_INEQUALITIES_H
 
-#include "solver/rows.h"
 #include "math/scaled.h"
+#include "solver/rows.h"
 
 /* Of a positive, normalised function: how many are violated, by (1 + eta) * child > parent, the
  * product rounded once. */

@@ -1,10 +1,12 @@
-/* Based on: S. Mehrotra, On the implementation of a primal-dual interior point method, SIAM J. Optim. 2,
+/* Based on: S. Mehrotra, On the implementation of a primal-dual interior point method, SIAM J.
+ * Optim. 2,
  * 1992. With slacks s and multipliers y, each step solves
  *     A'A df - G' dy = -dual,   G df + (s / y) dy = -product / y - primal
- * by eliminating dy, which leaves A'A + G'WG with W = y / s. Where an inequality gets active, W grows
- * beyond all bounds and drowns A'A. So W = 1 / (s / y + softness) is factorised instead, and the residuals
- * of the two equations correct the step: M. Friedlander, D. Orban, A primal-dual regularized
- * interior-point method for convex quadratic programs, Math. Prog. Comp. 4, 2012, section 5. */
+ * by eliminating dy, which leaves A'A + G'WG with W = y / s. Where an inequality gets active, W
+ * grows beyond all bounds and drowns A'A. So W = 1 / (s / y + softness) is factorised instead, and
+ * the residuals of the two equations correct the step: M. Friedlander, D. Orban, A primal-dual
+ * regularized interior-point method for convex quadratic programs, Math. Prog. Comp. 4, 2012,
+ * section 5. */
 #include "solver/interior.h"
 
 #include "base/clock.h"
@@ -16,14 +18,15 @@ enum {
     MAX_ITERATIONS = 200,
     MAX_CORRECTIONS = 8,
     MAX_SOFTENINGS = 4,
-    PATIENCE = 6 /* iterations that reduce the products by less than a tenth, and residuals hardly */
+    PATIENCE = 6 /* iterations that reduce the products by less than a tenth, and residuals
+                    hardly */
 };
 
 /* Share of the first residuals: the products do not fall before. */
 static const double NEARLY_FEASIBLE = 1e-6;
 
-/* Weights are at most its inverse, which A'A, with entries up to 4 dim (dim + 1/2), can stand beside. Between
- * 1e-8 and 1e-5 the iterations are the same. */
+/* Weights are at most its inverse, which A'A, with entries up to 4 dim (dim + 1/2), can stand
+ * beside. Between 1e-8 and 1e-5 the iterations are the same. */
 static const double SOFTNESS = 1e-6;
 
 /* The share of the way to the boundary that is gone. */
@@ -124,8 +127,8 @@ static double find_errors(iccp_interior *p)
     return error;
 }
 
-/* The step for the present residuals and products. The first correction brings what softness left out, so
- * that the error may grow there. */
+/* The step for the present residuals and products. The first correction brings what softness left
+ * out, so that the error may grow there. */
 static void solve(iccp_interior *p, double tolerance)
 {
     double last = HUGE_VAL;
@@ -133,7 +136,8 @@ static void solve(iccp_interior *p, double tolerance)
     memset(p->step_multiplier, 0, n_pairs(p) * sizeof *p->step_multiplier);
     for (int k = 0; k <= MAX_CORRECTIONS; ++k) {
         const double error = find_errors(p);
-        if (k > 0 && (error <= tolerance || k == MAX_CORRECTIONS || (k > 2 && !(error < 0.7 * last))))
+        if (k > 0 &&
+            (error <= tolerance || k == MAX_CORRECTIONS || (k > 2 && !(error < 0.7 * last))))
             return;
         last = error;
         add_solution(p);
@@ -156,8 +160,8 @@ static double step_length(const iccp_interior *p)
                 reach(p->multiplier, p->step_multiplier, n_pairs(p)));
 }
 
-/* Predictor: straight to products of 0. Corrector: to equal products, the smaller the further the predictor
- * got, with the predictor's second order terms. Where that leads into a wall, to
+/* Predictor: straight to products of 0. Corrector: to equal products, the smaller the further the
+ * predictor got, with the predictor's second order terms. Where that leads into a wall, to
  * equal products alone. Returns the share of the residuals that a whole step makes up for. */
 static double find_step(iccp_interior *p)
 {
@@ -286,7 +290,8 @@ static icc_status allocate(iccp_interior *p, const iccp_env *env)
     double **const of_pairs[] = {&p->slack,      &p->multiplier,      &p->primal, &p->product,
                                  &p->step_slack, &p->step_multiplier, &p->gap};
     const size_t n_arrays = sizeof of_pairs / sizeof *of_pairs;
-    double *room = iccp_alloc(&env->memory, 2 * n_energy + 4 * n + (n_arrays + 2) * m, sizeof *room);
+    double *room =
+        iccp_alloc(&env->memory, 2 * n_energy + 4 * n + (n_arrays + 2) * m, sizeof *room);
     p->room = room;
     if (room == NULL)
         return ICC_ERR_MEMORY;
@@ -299,8 +304,8 @@ static icc_status allocate(iccp_interior *p, const iccp_env *env)
     return ICC_OK;
 }
 
-/* Slacks and multipliers of the function with the least energy and sum of squared slacks, where they
- * are positive and large enough. */
+/* Slacks and multipliers of the function with the least energy and sum of squared slacks, where
+ * they are positive and large enough. */
 static icc_status start(iccp_interior *p, icc_function_info *info, const iccp_env *env)
 {
     const size_t n = n_rows(p), m = n_pairs(p), n_energy = p->program->a.n_rows;
@@ -335,7 +340,8 @@ icc_status iccp_interior_create(iccp_interior *interior, const iccp_program *pro
                                 icc_function_info *info, const iccp_env *env)
 {
     iccp_interior *p = interior;
-    *p = (iccp_interior){.memory = env->memory, .program = program, .softness = SOFTNESS, .remaining = 1};
+    *p = (iccp_interior){
+        .memory = env->memory, .program = program, .softness = SOFTNESS, .remaining = 1};
     p->b.memory = p->gram.memory = p->factor.memory = env->memory;
     double clock = iccp_seconds();
     iccp_env part[3];

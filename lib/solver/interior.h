@@ -2,8 +2,8 @@
 #ifndef ICCP_INTERIOR_H
 #define ICCP_INTERIOR_H
 
-#include "solver/program.h"
 #include "math/ldlt.h"
+#include "solver/program.h"
 
 typedef struct iccp_interior {
     iccp_memory memory;
@@ -11,21 +11,22 @@ typedef struct iccp_interior {
     double *f;                   /* per row; f_0 = 1 */
     double *slack, *multiplier;  /* per inequality; positive */
     size_t n_iterations;
-    double remaining;            /* share of the first iterate's residuals: each step takes its length off */
-    double softness;             /* see interior.c */
-    iccp_sparse b;               /* A above G, without the root's column */
+    double remaining; /* share of the first iterate's residuals: each step takes its
+                         length off */
+    double softness;  /* see interior.c */
+    iccp_sparse b;    /* A above G, without the root's column */
     iccp_gram gram;
     iccp_ldlt factor;
-    double *weight;              /* per row of b */
-    double *dual, *primal;       /* residuals: per row, per inequality */
-    double *product;             /* per inequality: slack * multiplier, less what is wanted */
+    double *weight;        /* per row of b */
+    double *dual, *primal; /* residuals: per row, per inequality */
+    double *product;       /* per inequality: slack * multiplier, less what is wanted */
     double *step_f, *step_slack, *step_multiplier;
-    double *force, *gap, *work;  /* right sides, and room for the longest of all these */
-    double *room;                /* what all these arrays lie in */
+    double *force, *gap, *work; /* right sides, and room for the longest of all these */
+    double *room;               /* what all these arrays lie in */
 } iccp_interior;
 
-/* Analyses the systems and finds a point to start from. Memory: that of the factor, about 20 doubles per
- * row and 12 per inequality. */
+/* Analyses the systems and finds a point to start from. Memory: that of the factor, about 20
+ * doubles per row and 12 per inequality. */
 icc_status iccp_interior_create(iccp_interior *interior, const iccp_program *program,
                                 icc_function_info *info, const iccp_env *env);
 void iccp_interior_free(iccp_interior *interior);
@@ -33,8 +34,8 @@ void iccp_interior_free(iccp_interior *interior);
 /* Half of the iterations, as far as progress goes. */
 #define ICCP_INTERIOR_TYPICAL 15.0
 
-/* Iterates until the mean of slack * multiplier is below `target`. *stuck: rounding errors do not let it
- * get there; the iterate is then the last good one. Adds to `info` (work, seconds_*). */
+/* Iterates until the mean of slack * multiplier is below `target`. *stuck: rounding errors do not
+ * let it get there; the iterate is then the last good one. Adds to `info` (work, seconds_*). */
 icc_status iccp_interior_run(iccp_interior *interior, double target, bool *stuck,
                              icc_function_info *info, const iccp_env *env);
 

@@ -1,10 +1,11 @@
-/* Conjugate gradients in the form with one round of dot products an iteration: A. Chronopoulos and C. W.
- * Gear, s-step iterative methods for symmetric linear systems, 1989. Memory is what costs time
- * here, so that an iteration is two passes over it: down (new direction p, new x and r, first half of the
- * V-cycle) and up (second half, dot products), slab by slab with each step a slab behind the one before.
+/* Conjugate gradients in the form with one round of dot products an iteration: A. Chronopoulos and
+ * C. W. Gear, s-step iterative methods for symmetric linear systems, 1989. Memory is what costs
+ * time here, so that an iteration is two passes over it: down (new direction p, new x and r, first
+ * half of the V-cycle) and up (second half, dot products), slab by slab with each step a slab
+ * behind the one before.
  *
- * p and the V-cycle are float. That is no loss: r changes by exactly what x does, whatever p is, so that it stays
- * the residual to double precision. A p is never stored. */
+ * p and the V-cycle are float. That is no loss: r changes by exactly what x does, whatever p is, so
+ * that it stays the residual to double precision. A p is never stored. */
 #include "solver/mg_cg.h"
 
 #include "base/budget.h"

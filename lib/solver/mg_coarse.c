@@ -1,11 +1,11 @@
-/* Coarse levels are rediscretised: the vertices inside with even coordinates, with the stencil of their own
- * spacing. Three things keep that close to the fine problem, whatever the mask:
+/* Coarse levels are rediscretised: the vertices inside with even coordinates, with the stencil of
+ * their own spacing. Three things keep that close to the fine problem, whatever the mask:
  * - the boundary stays where it is: a neighbour outside counts 1 / (its distance in coarse steps),
- *   which is the symmetric form of Shortley and Weller's stencil (W. Hackbusch, Elliptic Differential
- *   Equations, 2nd edition, 2017, section 4.8.1);
+ *   which is the symmetric form of Shortley and Weller's stencil (W. Hackbusch, Elliptic
+ *   Differential Equations, 2nd edition, 2017, section 4.8.1);
  * - coarse neighbours never look through a wall: if there is one between them, neither is kept;
- * - corridors too narrow for a coarse vertex need none: what is wrong there decays within their width,
- *   which the smoother sees to.
+ * - corridors too narrow for a coarse vertex need none: what is wrong there decays within their
+ *   width, which the smoother sees to.
  * Measured on the masks of tests/hard_masks.h: 9 to 14 iterations to 1e-10 instead of 11 to 36 with
  * the plain stencil and the walls looked through. */
 #include "solver/mg_level.h"
@@ -87,8 +87,8 @@ static double diagonal(const iccp_mg_level *level, const iccp_mg_level *finest, 
     return sum;
 }
 
-/* Every coarse row next to a row of the finer level covers it, so that both can be added to each other
- * without asking. */
+/* Every coarse row next to a row of the finer level covers it, so that both can be added to each
+ * other without asking. */
 static void cover(iccp_mg_level *level, const iccp_mg_level *fine)
 {
     for (size_t r = 0; r < fine->n_rows; ++r) {

@@ -1,6 +1,6 @@
-/* Each loop is written once and compiled for each number of neighbours that matters and for each kind of
- * machine; compilers vectorise all of them. Nothing is reordered on the way, so that the bits are the
- * same. */
+/* Each loop is written once and compiled for each number of neighbours that matters and for each
+ * kind of machine; compilers vectorise all of them. Nothing is reordered on the way, so that the
+ * bits are the same. */
 #include "solver/mg_kernel.h"
 
 enum { LANES = ICCP_MG_LANES };
@@ -41,8 +41,8 @@ static ICCP_INLINE double apply(const float *x, const float *const *near, size_t
     return n_near * (double)x[i] - sum;
 }
 
-static ICCP_INLINE void measure_at(const float *z, const double *r, const float *const *near, size_t i,
-                                   int32_t n_near, iccp_mg_upward *up, size_t lane)
+static ICCP_INLINE void measure_at(const float *z, const double *r, const float *const *near,
+                                   size_t i, int32_t n_near, iccp_mg_upward *up, size_t lane)
 {
     up->rz[lane] += r[i] * (double)z[i];
     up->zaz[lane] += (double)z[i] * apply(z, near, i, n_near);

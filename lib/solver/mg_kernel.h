@@ -1,5 +1,6 @@
-/* The inner loops of multigrid and conjugate gradients: over the vertices of one run, which lie side by side
- * in every array. near[j][i] is neighbour j of vertex i. All code paths give the same bits. */
+/* The inner loops of multigrid and conjugate gradients: over the vertices of one run, which lie
+ * side by side in every array. near[j][i] is neighbour j of vertex i. All code paths give the same
+ * bits. */
 #ifndef ICCP_MG_KERNEL_H
 #define ICCP_MG_KERNEL_H
 

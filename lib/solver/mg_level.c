@@ -1,9 +1,11 @@
-/* The finest level from a list of vertices, and what all levels have in common: rows, windows, runs. */
+/* The finest level from a list of vertices, and what all levels have in common: rows, windows,
+ * runs. */
 #include "solver/mg_level.h"
 
 #include <string.h>
 
-size_t iccp_mg_row_of(const iccp_mg_level *level, const icc_grid *grid, uint32_t vertex, uint32_t *x)
+size_t iccp_mg_row_of(const iccp_mg_level *level, const icc_grid *grid, uint32_t vertex,
+                      uint32_t *x)
 {
     size_t row = 0;
     uint32_t rest = vertex / (uint32_t)grid->shape[0];
@@ -42,8 +44,8 @@ icc_status iccp_mg_make_rows(iccp_mg_level *level, const iccp_memory *memory)
     return ICC_OK;
 }
 
-/* Windows: the ranges of a row and of all rows round it (axis by axis), and one vertex more to both sides.
- * Where they are stored follows. `wide`: 2 n_rows numbers of work space. */
+/* Windows: the ranges of a row and of all rows round it (axis by axis), and one vertex more to both
+ * sides. Where they are stored follows. `wide`: 2 n_rows numbers of work space. */
 static void place_windows(iccp_mg_level *level, uint32_t *wide)
 {
     const size_t n = level->n_rows;
@@ -56,10 +58,10 @@ static void place_windows(iccp_mg_level *level, uint32_t *wide)
         for (size_t r = 0; r < n; ++r) {
             if (r >= level->stride[k])
                 iccp_mg_widen(wide + 2 * r, level->row[r - level->stride[k]].first,
-                      level->row[r - level->stride[k]].last);
+                              level->row[r - level->stride[k]].last);
             if (r + level->stride[k] < n)
                 iccp_mg_widen(wide + 2 * r, level->row[r + level->stride[k]].first,
-                      level->row[r + level->stride[k]].last);
+                              level->row[r + level->stride[k]].last);
         }
     }
     size_t at = 0;
@@ -122,7 +124,8 @@ icc_status iccp_mg_make_runs(iccp_mg_level *level, const iccp_memory *memory)
     return ICC_OK;
 }
 
-static void find_extent(iccp_mg_level *level, const icc_grid *grid, size_t n, const uint32_t *vertex)
+static void find_extent(iccp_mg_level *level, const icc_grid *grid, size_t n,
+                        const uint32_t *vertex)
 {
     uint32_t high[ICC_MAX_DIM] = {0};
     for (int32_t k = 0; k < grid->dim; ++k)
@@ -172,8 +175,8 @@ static icc_status mark_inside(iccp_mg_level *level, const icc_grid *grid, size_t
 icc_status iccp_mg_level_fine(iccp_mg_level *level, const icc_grid *grid, size_t n,
                               const uint32_t *vertex, const iccp_env *env)
 {
-    *level = (iccp_mg_level){.dim = grid->dim,
-                             .kernels = iccp_mg_kernels_choose(2 * grid->dim, false)};
+    *level =
+        (iccp_mg_level){.dim = grid->dim, .kernels = iccp_mg_kernels_choose(2 * grid->dim, false)};
     find_extent(level, grid, n, vertex);
     icc_status status = iccp_mg_make_rows(level, &env->memory);
     if (status == ICC_OK)

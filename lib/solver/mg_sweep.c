@@ -1,7 +1,7 @@
 /* W. Hackbusch, Multi-Grid Methods and Applications, 1985, chapter 3: red-black smoothing, linear
  * interpolation and its transpose. A V-cycle that starts from 0 needs no x on the way down: red is
- * b / diagonal, black follows from it, and then only red has a residual. On the way up red is b / diagonal
- * and the coarse correction, black and red follow from that.
+ * b / diagonal, black follows from it, and then only red has a residual. On the way up red is b
+ * / diagonal and the coarse correction, black and red follow from that.
  *
  * Loops run over pieces of halves of rows: contiguous, without a branch, vectorised. */
 #include "solver/mg_sweep.h"
@@ -17,7 +17,8 @@ static int half_of(const iccp_mg_level *level, size_t row, int colour)
     return (int)(level->row[row].parity ^ (uint32_t)colour);
 }
 
-static const float *inverse_at(const iccp_mg_level *level, const iccp_mg_scratch *scratch, size_t at)
+static const float *inverse_at(const iccp_mg_level *level, const iccp_mg_scratch *scratch,
+                               size_t at)
 {
     return level->inverse != NULL ? level->inverse + at : scratch->constant;
 }
@@ -38,7 +39,8 @@ void iccp_mg_start(const iccp_mg_level *level, const iccp_mg_scratch *scratch, s
     }
 }
 
-void iccp_mg_relax(const iccp_mg_level *level, const iccp_mg_scratch *scratch, size_t slab, int colour)
+void iccp_mg_relax(const iccp_mg_level *level, const iccp_mg_scratch *scratch, size_t slab,
+                   int colour)
 {
     const size_t n = rows_per_slab(level);
     for (size_t row = slab * n; row < (slab + 1) * n; ++row) {
@@ -47,8 +49,8 @@ void iccp_mg_relax(const iccp_mg_level *level, const iccp_mg_scratch *scratch, s
         for (; run < end; ++run) {
             const float *near[2 * ICC_MAX_DIM];
             const size_t at = iccp_mg_near_in(level, row, half, run->begin, level->x, near);
-            level->kernels->relax(level->x + at, level->b + at, inverse_at(level, scratch, at), near,
-                                  run->end - run->begin, 2 * level->dim);
+            level->kernels->relax(level->x + at, level->b + at, inverse_at(level, scratch, at),
+                                  near, run->end - run->begin, 2 * level->dim);
         }
     }
 }
@@ -85,8 +87,8 @@ static bool row_range(const iccp_mg_level *level, size_t row, uint32_t *first, u
     return *first <= *last;
 }
 
-/* line[x - first] = weighted residuals round the vertices x of a coarse row. In rows an odd number of steps
- * away red is to the left and right of them, in the others in the same place. */
+/* line[x - first] = weighted residuals round the vertices x of a coarse row. In rows an odd number
+ * of steps away red is to the left and right of them, in the others in the same place. */
 static void collect(const iccp_mg_level *fine, size_t centre, uint32_t first, size_t n, float scale,
                     float *restrict line)
 {
@@ -100,7 +102,9 @@ static void collect(const iccp_mg_level *fine, size_t centre, uint32_t first, si
         float weight = scale;
         int half = 0;
         for (int32_t k = 1; k < fine->dim; ++k, rest /= 3) {
-            row = rest % 3 == 0 ? row - fine->stride[k] : rest % 3 == 2 ? row + fine->stride[k] : row;
+            row = rest % 3 == 0   ? row - fine->stride[k]
+                  : rest % 3 == 2 ? row + fine->stride[k]
+                                  : row;
             weight *= rest % 3 == 1 ? 1.0f : 0.5f;
             half ^= rest % 3 != 1;
         }

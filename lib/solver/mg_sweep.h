@@ -1,5 +1,5 @@
-/* What the V-cycle does to one slab of a level. Red are the vertices whose coordinates have an even sum,
- * and with them all that have a coarse one in their place. */
+/* What the V-cycle does to one slab of a level. Red are the vertices whose coordinates have an even
+ * sum, and with them all that have a coarse one in their place. */
 #ifndef ICCP_MG_SWEEP_H
 #define ICCP_MG_SWEEP_H
 
@@ -17,13 +17,14 @@ typedef struct iccp_mg_scratch {
 void iccp_mg_start(const iccp_mg_level *level, const iccp_mg_scratch *scratch, size_t slab);
 
 /* Gauss-Seidel for one colour: x = (b + sum of the neighbours) / diagonal. */
-void iccp_mg_relax(const iccp_mg_level *level, const iccp_mg_scratch *scratch, size_t slab, int colour);
+void iccp_mg_relax(const iccp_mg_level *level, const iccp_mg_scratch *scratch, size_t slab,
+                   int colour);
 
 /* x = residual for red, after iccp_mg_start() for red and iccp_mg_relax() for black. */
 void iccp_mg_residual(const iccp_mg_level *level, size_t slab);
 
-/* b of a slab of the coarse level, from the residuals that iccp_mg_residual() left in the three slabs
- * round it of the fine level. */
+/* b of a slab of the coarse level, from the residuals that iccp_mg_residual() left in the three
+ * slabs round it of the fine level. */
 void iccp_mg_restrict(const iccp_mg_level *coarse, const iccp_mg_level *fine,
                       const iccp_mg_scratch *scratch, size_t slab);
 

@@ -1,7 +1,8 @@
-/* W. Hackbusch, Multi-Grid Methods and Applications, 1985, chapter 2; as a preconditioner: O. Tatebe,
- * The multigrid preconditioned conjugate gradient method, 1993. One red-black sweep before and one in the
- * reverse order after the coarse correction make it symmetric. Several slabs are in work at the
- * same time, each a step behind the one before, so that all steps find their data in the cache. */
+/* W. Hackbusch, Multi-Grid Methods and Applications, 1985, chapter 2; as a preconditioner: O.
+ * Tatebe, The multigrid preconditioned conjugate gradient method, 1993. One red-black sweep before
+ * and one in the reverse order after the coarse correction make it symmetric. Several slabs are in
+ * work at the same time, each a step behind the one before, so that all steps find their data in
+ * the cache. */
 #include "solver/multigrid.h"
 
 #include <string.h>

@@ -1,12 +1,13 @@
-/* Primal-dual active set: M. Hintermueller, K. Ito, K. Kunisch, The primal-dual active set strategy as a
- * semismooth Newton method, SIAM J. Optim. 13, 2002. A'A is no M-matrix, and nothing says that the
- * iteration converges: it does so nearly always from the empty set, at one generation or so a step
- * where f gets as small as the bounds, and within a few steps from the last iterates of an interior
- * point method.
+/* Primal-dual active set: M. Hintermueller, K. Ito, K. Kunisch, The primal-dual active set strategy
+ * as a semismooth Newton method, SIAM J. Optim. 13, 2002. A'A is no M-matrix, and nothing says that
+ * the iteration converges: it does so nearly always from the empty set, at one generation or so a
+ * step where f gets as small as the bounds, and within a few steps from the last iterates of an
+ * interior point method.
  *
- * Active edges glue children to parents. A cluster in which leaves are active is held: its values are the
- * highest that one of these leaves asks for. The others are then above their bounds, as a rule by no more
- * than eta times the bound, which is nothing; if it is more than `enough`, they are inactive. */
+ * Active edges glue children to parents. A cluster in which leaves are active is held: its values
+ * are the highest that one of these leaves asks for. The others are then above their bounds, as a
+ * rule by no more than eta times the bound, which is nothing; if it is more than `enough`, they are
+ * inactive. */
 #include "solver/polish.h"
 
 #include "base/clock.h"
@@ -18,12 +19,13 @@
 
 enum {
     PATIENCE = 20, /* corrections with neither a smaller residual nor fewer changes */
-    TRUST = 3,    /* of these are made in full */
+    TRUST = 3,     /* of these are made in full */
     MAX_CORRECTIONS = 1000
 };
 
-/* Slacks and multipliers are wrong below minus this part of `enough`. With all of it, a contact moves by one
- * row a step where the function is tiny; with a hundredth, rounding errors get active. */
+/* Slacks and multipliers are wrong below minus this part of `enough`. With all of it, a contact
+ * moves by one row a step where the function is tiny; with a hundredth, rounding errors get
+ * active. */
 static const double WRONG = 0.1;
 
 enum { LIFTED = 1, RISES = 2, STAYS = 4 };
@@ -34,17 +36,18 @@ typedef struct state {
     double enough, tolerance;
     uint8_t *active;   /* per inequality */
     uint8_t *open;     /* per row: an active leaf is reached from here by active edges, downwards */
-    uint8_t *mark;     /* LIFTED: such a leaf bears what would be a negative multiplier of the row's edge;
-                          RISES: the cluster of this top pulls at its leaves; STAYS: but not here */
+    uint8_t *mark;     /* LIFTED: such a leaf bears what would be a negative multiplier of the row's
+                          edge; RISES: the cluster of this top pulls at its leaves; STAYS: but not
+                          here */
     uint32_t *top;     /* of each row's cluster */
     uint32_t *unknown; /* of its cluster, or ICCP_NONE if it is held */
     double *share;     /* of the value of the top */
     double *held;      /* per top: its value, or 0 */
     double *f, *gradient;
-    double *sum;       /* of the multipliers of the children's edges */
+    double *sum; /* of the multipliers of the children's edges */
     double *work;
-    double *room;      /* what the arrays of doubles lie in */
-    bool hesitant;     /* only every other change is made, by chance */
+    double *room;  /* what the arrays of doubles lie in */
+    bool hesitant; /* only every other change is made, by chance */
     uint64_t random;
 } state;
 
@@ -115,8 +118,7 @@ static icc_status solve(state *s, double *residual, icc_function_info *info, con
     const double start = iccp_seconds();
     const iccp_scaled f = {s->f, NULL}, gradient = {s->gradient, NULL};
     iccp_energy_gradient(&p->a, s->f, s->work, s->gradient);
-    *residual =
-        iccp_inequalities_residual(p->rows, p->sigma - 1, p->leaf, &f, &gradient, s->work);
+    *residual = iccp_inequalities_residual(p->rows, p->sigma - 1, p->leaf, &f, &gradient, s->work);
     info->seconds_verify += iccp_seconds() - start;
     return ICC_OK;
 }
@@ -138,10 +140,10 @@ static size_t correct_leaves(state *s)
     return n_wrong;
 }
 
-/* Makes violated edges active and those with a negative multiplier inactive; returns how many. Multipliers
- * follow from the gradient from the leaves to the root. Leaves of a held cluster have multipliers of
- * their own, as many as are needed for the edges above them not to get negative; what is
- * then left over at the top must not be positive, or the cluster rises. */
+/* Makes violated edges active and those with a negative multiplier inactive; returns how many.
+ * Multipliers follow from the gradient from the leaves to the root. Leaves of a held cluster have
+ * multipliers of their own, as many as are needed for the edges above them not to get negative;
+ * what is then left over at the top must not be positive, or the cluster rises. */
 static size_t correct_edges(state *s)
 {
     const iccp_program *p = s->program;

@@ -10,9 +10,10 @@ typedef struct iccp_candidate {
     double residual; /* see iccp_inequalities_residual(); HUGE_VAL: nothing found yet */
 } iccp_candidate;
 
-/* Solves with those inequalities as equations that have active[i] != 0, and corrects this set, which is
- * overwritten, until nothing is wrong by more than `enough` or several corrections in a row have not
- * helped. Replaces the candidate by what is better. Adds to `info` (n_iterations, work, seconds_*). */
+/* Solves with those inequalities as equations that have active[i] != 0, and corrects this set,
+ * which is overwritten, until nothing is wrong by more than `enough` or several corrections in a
+ * row have not helped. Replaces the candidate by what is better. Adds to `info` (n_iterations,
+ * work, seconds_*). */
 icc_status iccp_polish(const iccp_program *program, uint8_t *active, double enough,
                        iccp_candidate *candidate, icc_function_info *info, const iccp_env *env);
 

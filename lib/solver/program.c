@@ -52,7 +52,8 @@ double iccp_program_least_root(const iccp_program *program, double *work)
     return work[0];
 }
 
-void iccp_program_slacks(const iccp_program *program, const double *f, bool is_direction, double *slack)
+void iccp_program_slacks(const iccp_program *program, const double *f, bool is_direction,
+                         double *slack)
 {
     const iccp_rows *rows = program->rows;
     const double bound = is_direction ? 0.0 : program->leaf;

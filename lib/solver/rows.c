@@ -8,8 +8,7 @@ static void find_neighbours(iccp_rows *rows, const uint32_t *row_of, uint32_t k)
     uint32_t *neighbour = rows->neighbour + (size_t)k * (size_t)rows->n_neighbours;
     for (int32_t axis = 0; axis < grid->dim; ++axis)
         for (int32_t side = 0; side < 2; ++side) {
-            const uint32_t u =
-                iccp_grid_neighbour(grid, rows->vertex[k], axis, 2 * side - 1);
+            const uint32_t u = iccp_grid_neighbour(grid, rows->vertex[k], axis, 2 * side - 1);
             *neighbour++ = u == ICCP_NONE ? ICCP_NONE : row_of[u];
         }
     const uint32_t parent = rows->tree->parent[rows->vertex[k]];
@@ -26,7 +25,8 @@ icc_status iccp_rows_create(iccp_rows *rows, const icc_tree *tree, const iccp_en
                         .vertex = tree->order};
     uint32_t *row_of = iccp_alloc(&env->memory, tree->grid->n_vertices, sizeof *row_of);
     rows->parent = iccp_alloc(&env->memory, n, sizeof *rows->parent);
-    rows->neighbour = iccp_alloc(&env->memory, n, (size_t)rows->n_neighbours * sizeof *rows->neighbour);
+    rows->neighbour =
+        iccp_alloc(&env->memory, n, (size_t)rows->n_neighbours * sizeof *rows->neighbour);
     icc_status status = ICC_ERR_MEMORY;
     if (row_of != NULL && rows->parent != NULL && rows->neighbour != NULL) {
         memset(row_of, 0xff, tree->grid->n_vertices * sizeof *row_of); /* ICCP_NONE */

@@ -1,6 +1,6 @@
-/* The vertices inside as rows of a linear system, numbered as the tree reaches them: row 0 is the root
- * and parents come before their children, so that a forward pass goes from the root to the leaves and a
- * backward pass from the leaves to the root. */
+/* The vertices inside as rows of a linear system, numbered as the tree reaches them: row 0 is the
+ * root and parents come before their children, so that a forward pass goes from the root to the
+ * leaves and a backward pass from the leaves to the root. */
 #ifndef ICCP_ROWS_H
 #define ICCP_ROWS_H
 
@@ -13,8 +13,8 @@ typedef struct iccp_rows {
     int32_t n_neighbours;   /* of each row: 2 dim. A row's diagonal entry in the Laplacian */
     const uint32_t *vertex; /* n: the grid vertex of each row; borrowed from the tree */
     uint32_t *parent;       /* n: a smaller row; ICCP_NONE for row 0 */
-    uint32_t *neighbour;    /* n * n_neighbours: rows, or ICCP_NONE for a vertex outside, in the order
-                               axis 0 -, axis 0 +, axis 1 -, .. */
+    uint32_t *neighbour;    /* n * n_neighbours: rows, or ICCP_NONE for a vertex outside, in the
+                               order axis 0 -, axis 0 +, axis 1 -, .. */
 } iccp_rows;
 
 /* O(vertices * dim) time; 4 + 8 dim bytes a row and, until it returns, 4 bytes a vertex. */

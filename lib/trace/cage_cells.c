@@ -1,11 +1,13 @@
-/* Facets are cut in half across their longest edge until the box of each piece is no wider than a cell. */
+/* Facets are cut in half across their longest edge until the box of each piece is no wider than a
+ * cell. */
 #include "trace/cage_cells.h"
 
 #include <math.h>
 #include <string.h>
 
-/* Cells that a facet misses by less than this, in cells, are entered too: far more than the rounding of
- * lattice coordinates, and almost free. Also the cells on both sides of a boundary along the grid. */
+/* Cells that a facet misses by less than this, in cells, are entered too: far more than the
+ * rounding of lattice coordinates, and almost free. Also the cells on both sides of a boundary
+ * along the grid. */
 static const double SLACK = 1e-9;
 
 enum {
@@ -185,8 +187,8 @@ static double determinant(int n, double a[ICC_MAX_DIM][ICC_MAX_DIM])
     return det;
 }
 
-/* The determinant of a vector out of the domain and the facet's edges has the orientation's sign: component
- * k of the outward normal is the cofactor of that vector's component k. */
+/* The determinant of a vector out of the domain and the facet's edges has the orientation's sign:
+ * component k of the outward normal is the cofactor of that vector's component k. */
 void iccp_cage_inward(const icc_domain *domain, uint32_t facet, double *inward)
 {
     const int dim = domain->dim;

@@ -5,8 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Cells that an edge misses by less than this, in cells, are entered too: far more than the rounding
- * of the slab arithmetic below, and almost free. */
+/* Cells that an edge misses by less than this, in cells, are entered too: far more than the
+ * rounding of the slab arithmetic below, and almost free. */
 static const double SLACK = 1e-9;
 
 static size_t cell_of(double x, size_t n)

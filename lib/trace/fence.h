@@ -1,6 +1,6 @@
-/* The polygon as a walk over the grid meets it: for every grid cell, the edges that pass through it.
- * So a walk tests a few edges in each cell, not the whole boundary ("while point inside boundary" in
- * Algorithm 5). */
+/* The polygon as a walk over the grid meets it: for every grid cell, the edges that pass through
+ * it. So a walk tests a few edges in each cell, not the whole boundary ("while point inside
+ * boundary" in Algorithm 5). */
 #ifndef ICCP_FENCE_H
 #define ICCP_FENCE_H
 
@@ -18,8 +18,8 @@ typedef struct iccp_fence {
 /* Where a step hits the fence. */
 typedef struct iccp_fence_hit {
     uint32_t facet;
-    double share;        /* of the step, in [0,1] */
-    double along;        /* of the facet from its first to its second vertex, in [0,1] */
+    double share; /* of the step, in [0,1] */
+    double along; /* of the facet from its first to its second vertex, in [0,1] */
 } iccp_fence_hit;
 
 /* O(n + cells + edge pieces) time and memory. */
@@ -27,8 +27,8 @@ icc_status iccp_fence_create(iccp_fence *fence, const icc_domain *domain, const 
                              const iccp_env *env);
 void iccp_fence_free(iccp_fence *fence);
 
-/* The first edge that the step from p to q within cell (i, j) meets; touching counts. The decision is
- * exact for the rounded vertices. False when there is none. */
+/* The first edge that the step from p to q within cell (i, j) meets; touching counts. The decision
+ * is exact for the rounded vertices. False when there is none. */
 bool iccp_fence_first(const iccp_fence *fence, size_t i, size_t j, const double p[2],
                       const double q[2], iccp_fence_hit *hit);
 

@@ -21,8 +21,8 @@ void iccp_path_clear(iccp_path *path)
 bool iccp_path_grow(iccp_path *path)
 {
     const size_t capacity = path->capacity > 0 ? 2 * path->capacity : FIRST_CAPACITY;
-    double *points = iccp_grow(path->memory, path->points, (path->dim + 1) * path->n, capacity,
-                               sizeof *points);
+    double *points =
+        iccp_grow(path->memory, path->points, (path->dim + 1) * path->n, capacity, sizeof *points);
     if (points == NULL)
         return false;
     path->points = points;

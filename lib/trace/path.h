@@ -61,8 +61,8 @@ static inline double iccp_path_length(const iccp_path *path)
     return iccp_path_length_at(path, path->n - 1);
 }
 
-/* The index k of the piece [k, k + 1] that holds arc length s, and how far along it that is, for a path of
- * at least two points. */
+/* The index k of the piece [k, k + 1] that holds arc length s, and how far along it that is, for a
+ * path of at least two points. */
 size_t iccp_path_find(const iccp_path *path, double s, double *share);
 
 /* The position that far along a piece. */

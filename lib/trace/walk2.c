@@ -14,8 +14,8 @@
 /* Corners of the two triangles of a cell, counter-clockwise; edge k lies opposite to corner k. */
 static const int CORNER[2][3][2] = {{{0, 0}, {1, 0}, {1, 1}}, {{0, 0}, {1, 1}, {0, 1}}};
 
-/* Across edge k of a triangle lie: a step to another cell, the edge's number there, and whether u or v
- * starts anew at 0 or 1 in the new cell (-1: stays). */
+/* Across edge k of a triangle lie: a step to another cell, the edge's number there, and whether u
+ * or v starts anew at 0 or 1 in the new cell (-1: stays). */
 typedef struct crossing {
     int di, dj, edge, u, v;
 } crossing;
@@ -24,12 +24,14 @@ static const crossing ACROSS[2][3] = {
     {{0, 1, 2, -1, 0}, {-1, 0, 0, 1, -1}, {0, 0, 1, -1, -1}},
 };
 
-/* Directions to the six neighbours of a vertex, counter-clockwise, and the triangle between each and
- * the next: its cell relative to the vertex, its side of the diagonal, the vertex' corner in it. */
+/* Directions to the six neighbours of a vertex, counter-clockwise, and the triangle between each
+ * and the next: its cell relative to the vertex, its side of the diagonal, the vertex' corner in
+ * it. */
 static const int AROUND[6][2] = {{1, 0}, {1, 1}, {0, 1}, {-1, 0}, {-1, -1}, {0, -1}};
 static const struct {
     int di, dj, upper, corner;
-} SECTOR[6] = {{0, 0, 0, 0}, {0, 0, 1, 0}, {-1, 0, 0, 1}, {-1, -1, 1, 1}, {-1, -1, 0, 2}, {0, -1, 1, 2}};
+} SECTOR[6] = {{0, 0, 0, 0},   {0, 0, 1, 0},   {-1, 0, 0, 1},
+               {-1, -1, 1, 1}, {-1, -1, 0, 2}, {0, -1, 1, 2}};
 
 /* The gradient of f in a triangle, times the direction of the walk. The components are differences
  * of values, kept for exact signs: gu = f[ua] - f[ub], gv = f[va] - f[vb]. */
@@ -38,11 +40,12 @@ typedef struct gradient {
     double gu, gv;
 } gradient;
 
-/* In units of f: far above the square root of the smallest normal double, so that the squares of rises
- * that matter beside one of this size are normal. */
+/* In units of f: far above the square root of the smallest normal double, so that the squares of
+ * rises that matter beside one of this size are normal. */
 static const double TINY_RISE = 1e-100;
 
-/* The sine of an angle below which a step runs along a fence's edge that it meets: rounding of both. */
+/* The sine of an angle below which a step runs along a fence's edge that it meets: rounding of
+ * both. */
 static const double PARALLEL = 1e-12;
 
 static int sign(double x)
@@ -82,8 +85,8 @@ static bool triangle_gradient(const iccp_walk2 *w, size_t i, size_t j, int upper
 }
 
 /* Exact sign of (cu - u) gv - (cv - v) gu: the side of the line from (u, v) to the corner (cu, cv)
- * to which the gradient points; + is left. The filter's bound: each difference and product is off by
- * at most 2^-53 of itself, so the result by less than 4 * 2^-53 times the sum of magnitudes. The
+ * to which the gradient points; + is left. The filter's bound: each difference and product is off
+ * by at most 2^-53 of itself, so the result by less than 4 * 2^-53 times the sum of magnitudes. The
  * values are brought near 1 for the exact sign: far from the maximum decay makes them tiny. */
 static int turn_sign(const gradient *g, double cu, double cv, double u, double v)
 {
@@ -208,7 +211,8 @@ static icc_status go_to_edge(iccp_walk2 *w, const gradient *g, int k)
     return w->i < w->nx - 1 && w->j < w->ny - 1 ? ICC_OK : ICC_ERR_TRACE;
 }
 
-/* Along edge k to its end where f is higher (in the direction of the walk), ties by vertex index. */
+/* Along edge k to its end where f is higher (in the direction of the walk), ties by vertex
+ * index. */
 static icc_status follow_edge(iccp_walk2 *w, int k)
 {
     const int *a = CORNER[w->upper][(k + 1) % 3], *b = CORNER[w->upper][(k + 2) % 3];
@@ -221,8 +225,8 @@ static icc_status follow_edge(iccp_walk2 *w, int k)
     return ICC_OK;
 }
 
-/* Table 5.1: the walk stands on edge k; the side of the opposite corner to which the gradient points
- * decides between the two other edges. */
+/* Table 5.1: the walk stands on edge k; the side of the opposite corner to which the gradient
+ * points decides between the two other edges. */
 static icc_status step_from_edge(iccp_walk2 *w)
 {
     const int k = w->edge;
@@ -259,8 +263,8 @@ static icc_status step_from_inside(iccp_walk2 *w)
     return ICC_ERR_TRACE;
 }
 
-/* How much f rises from the vertex to its six neighbours, in the direction of the walk; NaN: no value. In
- * units of the largest when that is tiny, so that its square does not vanish. */
+/* How much f rises from the vertex to its six neighbours, in the direction of the walk; NaN: no
+ * value. In units of the largest when that is tiny, so that its square does not vanish. */
 static void find_rises(const iccp_walk2 *w, double rise[6])
 {
     uint32_t star[7];
@@ -318,7 +322,8 @@ static void leave_along_edge(iccp_walk2 *w, int m)
     go_to_corner(w, du > 0 || (du == 0 && w->u > 0), dv > 0 || (dv == 0 && w->v > 0));
 }
 
-/* Steepest ascent from a vertex. Neighbours as high as the vertex are a last resort, in vertex order. */
+/* Steepest ascent from a vertex. Neighbours as high as the vertex are a last resort, in vertex
+ * order. */
 static icc_status step_from_vertex(iccp_walk2 *w)
 {
     double rise[6], best = 0;
@@ -351,8 +356,8 @@ static icc_status step_from_vertex(iccp_walk2 *w)
     return ICC_OK;
 }
 
-/* Direction from a walk that stands on an edge of its triangle, as far as that can be at a start, to the
- * triangle on the other side; false when it stands on none. */
+/* Direction from a walk that stands on an edge of its triangle, as far as that can be at a start,
+ * to the triangle on the other side; false when it stands on none. */
 static bool other_side(const iccp_walk2 *w, int side[2])
 {
     side[0] = w->upper ? -(w->u <= 0 && w->i > 0) : -(w->v > 0 && w->v >= w->u);
@@ -507,7 +512,8 @@ icc_status iccp_trace_downhill(iccp_walk2 *walk, const iccp_fence *fence, iccp_p
         /* A step that leaves the grid may have passed the fence first. */
         if (walk->s <= s_before && status != ICC_OK)
             return status;
-        hit_fence = iccp_fence_first(fence, walk->cell[0], walk->cell[1], walk->from, walk->to, hit);
+        hit_fence =
+            iccp_fence_first(fence, walk->cell[0], walk->cell[1], walk->from, walk->to, hit);
         if (hit_fence)
             end_at_fence(walk, s_before, &jet_before, fence, hit);
         if (path != NULL && (hit_fence || status == ICC_OK)) {

@@ -21,13 +21,14 @@ enum { ICCP_UPHILL = 1, ICCP_DOWNHILL = -1 };
 
 typedef struct iccp_walk2 {
     const icc_function *function;
-    size_t nx, ny;         /* vertices along the axes */
-    uint32_t root;         /* the maximum */
-    int direction;         /* ICCP_UPHILL or ICCP_DOWNHILL */
-    bool at_vertex;        /* at vertex (i, j); else in or on a triangle of cell (i, j) */
-    bool merged;           /* the walk has followed an edge or met a vertex: other lines are on it */
-    int upper;             /* the triangle above (1) or below (0) the diagonal */
-    int edge;              /* the edge of the triangle that the walk stands on, or -1: anywhere */
+    size_t nx, ny;  /* vertices along the axes */
+    uint32_t root;  /* the maximum */
+    int direction;  /* ICCP_UPHILL or ICCP_DOWNHILL */
+    bool at_vertex; /* at vertex (i, j); else in or on a triangle of cell (i, j) */
+    bool merged;    /* the walk has followed an edge or met a vertex: other lines are on
+                       it */
+    int upper;      /* the triangle above (1) or below (0) the diagonal */
+    int edge;       /* the edge of the triangle that the walk stands on, or -1: anywhere */
     size_t i, j;
     double u, v;           /* position within the cell, in [0,1] */
     double s;              /* arc length walked */
@@ -42,8 +43,8 @@ typedef struct iccp_walk2 {
 icc_status iccp_walk2_start(iccp_walk2 *walk, const icc_function *function, int direction, double x,
                             double y, iccp_jet2 *jet);
 
-/* Called after a start that lies on an edge, has it go into the triangle on the side to which `ahead`
- * points, if that has values; does nothing after any other start. */
+/* Called after a start that lies on an edge, has it go into the triangle on the side to which
+ * `ahead` points, if that has values; does nothing after any other start. */
 void iccp_walk2_face(iccp_walk2 *walk, const double ahead[2]);
 
 /* Goes on to the next edge or vertex (Algorithm 3). ICC_ERR_TRACE when there is no way on. */
@@ -65,8 +66,8 @@ icc_status iccp_trace_uphill(iccp_walk2 *walk, iccp_path *path, double *merge);
 icc_status iccp_trace_downhill(iccp_walk2 *walk, const iccp_fence *fence, iccp_path *path,
                                iccp_fence_hit *hit);
 
-/* Sign of the derivative of f at a point along a direction, by the triangle that holds it: -1, 0, +1,
- * or 0 where there are no values. For judging transversality; not exact. */
+/* Sign of the derivative of f at a point along a direction, by the triangle that holds it: -1, 0,
+ * +1, or 0 where there are no values. For judging transversality; not exact. */
 int iccp_slope_sign(const icc_function *function, const double p[2], const double direction[2]);
 
 #endif

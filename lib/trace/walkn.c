@@ -1,10 +1,11 @@
 /* Based on: L. Huynh, Bijective Deformations in R^n via Integral Curve Coordinates, thesis, 2013,
  * chapter 5, Algorithms 3-5 (Huynh and Gingold, section 6, where n dimensions are sketched).
  *
- * In a simplex the line follows the gradient to a facet. If the gradient of the simplex behind points away
- * from there, the line crosses; if not, it stays in the facet, or goes wherever is steepest among the faces
- * around it (walkn_star.c), and so on in lower and lower faces down to the vertices. f rises strictly, or
- * where it is level the vertex index does, so that a walk cannot loop. */
+ * In a simplex the line follows the gradient to a facet. If the gradient of the simplex behind
+ * points away from there, the line crosses; if not, it stays in the facet, or goes wherever is
+ * steepest among the faces around it (walkn_star.c), and so on in lower and lower faces down to the
+ * vertices. f rises strictly, or where it is level the vertex index does, so that a walk cannot
+ * loop. */
 #include "trace/walkn.h"
 
 #include "math/predicates.h"
@@ -257,8 +258,8 @@ icc_status iccp_walkn_uphill(iccp_walkn *walk, iccp_path *path, double *merge)
     return status;
 }
 
-/* What does not change along the boundary where a step meets it: the distance from the facet's plane; of a
- * step in that plane, which ends at the facet's border, how far it goes. */
+/* What does not change along the boundary where a step meets it: the distance from the facet's
+ * plane; of a step in that plane, which ends at the facet's border, how far it goes. */
 static void find_constraint(const iccp_walkn *w, const icc_domain *domain, uint32_t facet,
                             double *normal)
 {

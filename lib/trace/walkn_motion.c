@@ -1,13 +1,13 @@
-/* On any face the gradient needs no solving: a block of k axes between two corners moves at the difference
- * of their values over k, and the barycentric coordinate of a corner at the difference of the speeds on
- * its two sides. */
+/* On any face the gradient needs no solving: a block of k axes between two corners moves at the
+ * difference of their values over k, and the barycentric coordinate of a corner at the difference
+ * of the speeds on its two sides. */
 #include "trace/walkn_motion.h"
 
 #include <float.h>
 #include <math.h>
 
-/* Facets that are met this close together, relative to the time it takes, are met together: what two
- * quotients may be off by rounding. */
+/* Facets that are met this close together, relative to the time it takes, are met together: what
+ * two quotients may be off by rounding. */
 static const double SAME_TIME = 8 * DBL_EPSILON;
 
 void iccp_motion_find(iccp_motion *m, const iccp_place *place, const iccp_slope *slope,
@@ -90,8 +90,8 @@ static void write_jet(const iccp_motion *m, const iccp_place *place, int paramet
             jet->x[place->simplex.axis[k]][parameter] = y[a];
 }
 
-/* The facet is met where y[exit] - y[exit + 1] = 0. If others are met there, too, what they fix does
- * not move any more. */
+/* The facet is met where y[exit] - y[exit + 1] = 0. If others are met there, too, what they fix
+ * does not move any more. */
 void iccp_motion_carry(const iccp_motion *m, const iccp_place *place, unsigned left, iccp_jetn *jet)
 {
     const int e = m->exit, last = m->n - 1;

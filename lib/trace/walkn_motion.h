@@ -4,8 +4,8 @@
 
 #include "trace/walkn_star.h"
 
-/* The face that carries a step, and how its points move: all coordinates between a corner and the next, a
- * block, are equal and stay so. */
+/* The face that carries a step, and how its points move: all coordinates between a corner and the
+ * next, a block, are equal and stay so. */
 typedef struct iccp_motion {
     int n;                         /* corners */
     int corner[ICC_MAX_DIM + 1];   /* numbers in the simplex */
@@ -24,8 +24,8 @@ typedef struct iccp_jetn {
 void iccp_motion_find(iccp_motion *motion, const iccp_place *place, const iccp_slope *slope,
                       unsigned corners);
 
-/* Moves on to the first of the facets opposite to the corners that belong to `face`, the one that the step
- * starts in; returns the corners that are left, or 0 when nothing moves. */
+/* Moves on to the first of the facets opposite to the corners that belong to `face`, the one that
+ * the step starts in; returns the corners that are left, or 0 when nothing moves. */
 unsigned iccp_motion_run(iccp_motion *motion, unsigned face);
 
 /* Carries a jet along, after the run and before its result is written to the place. */

@@ -1,14 +1,15 @@
 /* Based on: L. Huynh, Bijective Deformations in R^n via Integral Curve Coordinates, thesis, 2013,
  * section 5.1 (Table 5.1), for faces of any dimension.
  *
- * A face that holds the given one has more corners: some below its lowest, some above its highest, some
- * between two that follow each other. Along its blocks of axes, from corner to corner, f rises by g per
- * axis, and that is the speed of their coordinates along the gradient, so that the barycentric coordinate
- * of the corner between two blocks moves at the difference of their speeds. The gradient points into the
- * face when those of the new corners all grow: going away from the given face, and between two of its
- * corners from the lower to the upper one, each block is less steep than the one before; and outside,
- * all rise. The square of the slope is the sum of (rise)^2 / (axes) over the blocks. So what is between
- * two corners is a problem of its own, and what is below and above share the axes only. */
+ * A face that holds the given one has more corners: some below its lowest, some above its highest,
+ * some between two that follow each other. Along its blocks of axes, from corner to corner, f rises
+ * by g per axis, and that is the speed of their coordinates along the gradient, so that the
+ * barycentric coordinate of the corner between two blocks moves at the difference of their speeds.
+ * The gradient points into the face when those of the new corners all grow: going away from the
+ * given face, and between two of its corners from the lower to the upper one, each block is less
+ * steep than the one before; and outside, all rise. The square of the slope is the sum of (rise)^2
+ * / (axes) over the blocks. So what is between two corners is a problem of its own, and what is
+ * below and above share the axes only. */
 #include "trace/walkn_star.h"
 
 #include "math/predicates.h"
@@ -18,8 +19,8 @@
 
 enum { SETS = 1 << ICC_MAX_DIM };
 
-/* In units of f: far above the square root of the smallest normal double, so that the squares of rises
- * that matter beside one of this size are normal. */
+/* In units of f: far above the square root of the smallest normal double, so that the squares of
+ * rises that matter beside one of this size are normal. */
 static const double TINY_RISE = 1e-100;
 
 /* Blocks of axes that follow each other. */
@@ -29,8 +30,8 @@ typedef struct chain {
     uint8_t set[ICC_MAX_DIM]; /* axes gone along after each block */
 } chain;
 
-/* The vertices that are reached from a corner along sets of some axes, all up or all down. A set is a
- * number with a bit for each entry of axis[]. */
+/* The vertices that are reached from a corner along sets of some axes, all up or all down. A set is
+ * a number with a bit for each entry of axis[]. */
 typedef struct fan {
     int n;
     int8_t axis[ICC_MAX_DIM];
@@ -147,8 +148,8 @@ static void take_apart(hinge *h, const iccp_place *place, const icc_grid *grid)
     memcpy(h->down.axis, h->up.axis, sizeof h->up.axis);
 }
 
-/* The vertices of a fan. Those beyond the grid are replaced by the corner; returns the sets that lead
- * to the others, a bit for each. */
+/* The vertices of a fan. Those beyond the grid are replaced by the corner; returns the sets that
+ * lead to the others, a bit for each. */
 static uint64_t list(const hinge *h, const fan *way, bool down, uint32_t corner, uint32_t *vertices)
 {
     uint64_t there = 1;
@@ -167,8 +168,8 @@ static uint64_t list(const hinge *h, const fan *way, bool down, uint32_t corner,
     return there;
 }
 
-/* The values of n vertices, the first of which is a corner. Around a level face, only what is as high
- * counts. */
+/* The values of n vertices, the first of which is a corner. Around a level face, only what is as
+ * high counts. */
 static void load(const iccp_slope *slope, size_t n, const uint32_t *vertices, double *f)
 {
     const iccp_slope plain = {slope->function, slope->direction, false};

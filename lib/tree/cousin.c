@@ -2,14 +2,15 @@
  * section 4.2, Algorithm 2; the paper's form: Huynh and Gingold, section 5.2.
  *
  * A generation expands along the first axis, all of it, then along the second, and so on. No vertex
- * outside has a child inside, so the tree inside does not depend on those outside. It is grown first,
- * then the vertices outside are added, again generation by generation; in the paper's form they get no
- * parent.
+ * outside has a child inside, so the tree inside does not depend on those outside. It is grown
+ * first, then the vertices outside are added, again generation by generation; in the paper's form
+ * they get no parent.
  *
- * One thing is not as in the thesis' pseudocode. There a vertex outside may reach the far side of a gap
- * two cells wide before the inside does, and what it reaches then lies higher than its neighbours
- * inside, against the purpose of this layer. Here a neighbour of the inside waits for it. Where
- * vertices inside and outside compete for one between them, the one inside becomes its parent. */
+ * One thing is not as in the thesis' pseudocode. There a vertex outside may reach the far side of a
+ * gap two cells wide before the inside does, and what it reaches then lies higher than its
+ * neighbours inside, against the purpose of this layer. Here a neighbour of the inside waits for
+ * it. Where vertices inside and outside compete for one between them, the one inside becomes its
+ * parent. */
 #include "tree/cousin.h"
 
 #include "base/error.h"

@@ -1,16 +1,17 @@
-/* Based on: Huynh and Gingold, section 5.2, for what is to be reached; J. H. C. Whitehead, Simplicial Spaces,
- * Nuclei and m-Groups, 1939, for how: a vertex whose neighbours in a set form a contractible part of
- * its link may be added to the set, or taken from it, without a change of the homotopy type.
+/* Based on: Huynh and Gingold, section 5.2, for what is to be reached; J. H. C. Whitehead,
+ * Simplicial Spaces, Nuclei and m-Groups, 1939, for how: a vertex whose neighbours in a set form a
+ * contractible part of its link may be added to the set, or taken from it, without a change of the
+ * homotopy type.
  *
- * The tree's order (Algorithm 2) makes critical vertices beyond the plane. Here it is a wish only. A set
- * grows from the root: of the vertices that touch it, it takes the first one in the order wished for
- * whose neighbours in it are contractible, as are then the others (grid/kuhn.h). A vertex that is
- * not has to wait until the set has taken another neighbour of it. When all are taken, no vertex but
- * the root is critical, whatever the shape.
+ * The tree's order (Algorithm 2) makes critical vertices beyond the plane. Here it is a wish only.
+ * A set grows from the root: of the vertices that touch it, it takes the first one in the order
+ * wished for whose neighbours in it are contractible, as are then the others (grid/kuhn.h). A
+ * vertex that is not has to wait until the set has taken another neighbour of it. When all are
+ * taken, no vertex but the root is critical, whatever the shape.
  *
- * Should it get stuck, the set of all vertices is thinned in the same way: the last one whose neighbours in
- * the set are contractible goes, but for the root, and the order is read backwards. There are shapes,
- * even balls, where both fail: Bing's house with two rooms. */
+ * Should it get stuck, the set of all vertices is thinned in the same way: the last one whose
+ * neighbours in the set are contractible goes, but for the root, and the order is read backwards.
+ * There are shapes, even balls, where both fail: Bing's house with two rooms. */
 #include "tree/grow.h"
 
 #include "base/error.h"
@@ -94,8 +95,8 @@ static void take(growth *g, uint32_t v)
     call_neighbours(g, v);
 }
 
-/* Takes vertices until there are none left to try. A vertex is tried once for each of its neighbours
- * that is taken, at most. */
+/* Takes vertices until there are none left to try. A vertex is tried once for each of its
+ * neighbours that is taken, at most. */
 static icc_status take_all(growth *g)
 {
     for (;;) {
@@ -236,13 +237,13 @@ static icc_status fail_stuck(const growth *g, const icc_grow_report *report, icc
         used += snprintf(at + used, sizeof at - (size_t)used, "%s%" PRIu32, k == 0 ? "" : ", ",
                          iccp_grid_coordinate(g->tree->grid, report->vertex, k));
     return iccp_fail_at(err, ICC_ERR_TOPOLOGY, ICC_ITEM_GRID_VERTEX, report->vertex,
-                     "no order with one critical vertex was found: growth stops before vertex "
-                     "%" PRIu32 " (%s), %zu of %zu left, thinning leaves %zu; try a finer grid",
-                     report->vertex, at, report->n_unplaced, g->n, report->n_remaining);
+                        "no order with one critical vertex was found: growth stops before vertex "
+                        "%" PRIu32 " (%s), %zu of %zu left, thinning leaves %zu; try a finer grid",
+                        report->vertex, at, report->n_unplaced, g->n, report->n_remaining);
 }
 
-/* Grows and, if that is not enough, thins. When both get stuck it grows once more, since the ranks that
- * growth gives are worth having. */
+/* Grows and, if that is not enough, thins. When both get stuck it grows once more, since the ranks
+ * that growth gives are worth having. */
 static icc_status find_order(growth *g, icc_grow_report *report, icc_error *err)
 {
     icc_status status = grow(g);

@@ -1,5 +1,5 @@
-/* Based on: P. van Emde Boas, Preserving Order in a Forest in Less than Logarithmic Time, 1975, in the
- * form of a tree of machine words, each of 64 children. */
+/* Based on: P. van Emde Boas, Preserving Order in a Forest in Less than Logarithmic Time, 1975, in
+ * the form of a tree of machine words, each of 64 children. */
 #include "tree/queue.h"
 
 void iccp_queue_create(iccp_queue *queue, size_t n, const iccp_memory *memory)

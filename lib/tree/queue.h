@@ -8,8 +8,8 @@
 
 enum { ICCP_QUEUE_LEVELS = 6 }; /* 64^6 > 2^32 */
 
-/* Bit i of level 0 stands for the number i, bit i of the next level for word i of the one below: a word
- * with some bit. */
+/* Bit i of level 0 stands for the number i, bit i of the next level for word i of the one below: a
+ * word with some bit. */
 typedef struct iccp_queue {
     uint64_t *level[ICCP_QUEUE_LEVELS];
     int n_levels;

@@ -28,8 +28,8 @@ icc_status iccp_tree_verify_ranks(const icc_tree *tree, const uint32_t *rank,
                                   icc_function_report *report, const iccp_env *env)
 {
     const ranks context = {tree, rank};
-    return iccp_critical_count(tree->grid, &context, tree->n_inside, tree->root, judge_chunk, report,
-                               env);
+    return iccp_critical_count(tree->grid, &context, tree->n_inside, tree->root, judge_chunk,
+                               report, env);
 }
 
 static void lower(const iccp_star *star, const uint32_t *rank, uint32_t v, double gap,

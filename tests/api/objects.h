@@ -1,5 +1,5 @@
-/* One object of each kind, and calls of every function that may fail, for tests that put all of them
- * through the same treatment. */
+/* One object of each kind, and calls of every function that may fail, for tests that put all of
+ * them through the same treatment. */
 #ifndef TESTS_API_OBJECTS_H
 #define TESTS_API_OBJECTS_H
 
@@ -40,7 +40,7 @@ typedef struct objects {
     icc_shape *shape; /* the source, and a curve */
     icc_sampling *sampling;
     icc_weights *kernel;
-    icc_binding *binding; /* of half the points, with derivatives */
+    icc_binding *binding;        /* of half the points, with derivatives */
     double points[2 * N_POINTS]; /* in the source */
     uint32_t facet[N_POINTS];
     double bary[2 * N_POINTS], t[N_POINTS];
@@ -64,8 +64,8 @@ static inline icc_tree *make_bent_tree(void)
     icc_tree *tree;
     uint32_t root;
     for (size_t v = 0; v < sizeof inside; ++v)
-        inside[v] = v % 17 > 1 && v % 17 < 15 && v / 17 > 1 && v / 17 < 15 &&
-                    (v % 17 < 7 || v / 17 < 7);
+        inside[v] =
+            v % 17 > 1 && v % 17 < 15 && v / 17 > 1 && v / 17 < 15 && (v % 17 < 7 || v / 17 < 7);
     ck_assert_int_eq(icc_grid_create_mask(&grid, 2, SHAPE, inside, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_grid_find_maximum(grid, &root, NULL, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_tree_create(&tree, grid, root, NULL, NULL, NULL), ICC_OK);
@@ -73,7 +73,8 @@ static inline icc_tree *make_bent_tree(void)
     return tree;
 }
 
-static inline icc_status make_shape(const objects *o, icc_shape **shape, const icc_env *env, icc_error *err)
+static inline icc_status make_shape(const objects *o, icc_shape **shape, const icc_env *env,
+                                    icc_error *err)
 {
     static const double VERTICES[6] = {0.5, 0.5, 4, 0.5, 4, 2};
     static const uint32_t SEGMENTS[4] = {0, 1, 1, 2};
@@ -81,8 +82,8 @@ static inline icc_status make_shape(const objects *o, icc_shape **shape, const i
     return icc_shape_create(shape, 2, 1, regions, 3, VERTICES, 2, SEGMENTS, env, err);
 }
 
-static inline icc_status make_sampling(const objects *o, icc_sampling **sampling, const icc_env *env,
-                                       icc_error *err)
+static inline icc_status make_sampling(const objects *o, icc_sampling **sampling,
+                                       const icc_env *env, icc_error *err)
 {
     const icc_sampling_options options = {.size = sizeof options, .spacing = 0.25, .steps = 5};
     return icc_sampling_create(sampling, o->shape, &options, env, err);
@@ -104,8 +105,8 @@ static inline void make_coordinates(objects *o)
     ck_assert_int_eq(make_shape(o, &o->shape, NULL, NULL), ICC_OK);
     ck_assert_int_eq(make_sampling(o, &o->sampling, NULL, NULL), ICC_OK);
     ck_assert_int_eq(make_kernel(o, &o->kernel, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(icc_binding_create(&o->binding, o->kernel, N_POINTS / 2, o->points, 1, NULL, NULL),
-                     ICC_OK);
+    ck_assert_int_eq(
+        icc_binding_create(&o->binding, o->kernel, N_POINTS / 2, o->points, 1, NULL, NULL), ICC_OK);
 }
 
 /* With charts of the given method; 0: the default. */
@@ -115,13 +116,15 @@ static inline void objects_init(objects *o, int32_t method)
     static const size_t SHAPE[3] = {5, 5, 5};
     uint8_t inside[125];
     memset(inside, 1, sizeof inside);
-    ck_assert_int_eq(icc_domain_create(&o->source, 2, N_CORNERS, SOURCE, 0, NULL, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(icc_domain_create(&o->target, 2, N_CORNERS, TARGET, 0, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_domain_create(&o->source, 2, N_CORNERS, SOURCE, 0, NULL, NULL, NULL),
+                     ICC_OK);
+    ck_assert_int_eq(icc_domain_create(&o->target, 2, N_CORNERS, TARGET, 0, NULL, NULL, NULL),
+                     ICC_OK);
     ck_assert_int_eq(icc_chart_create(&o->chart, o->source, &o->options, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_chart_create(&o->target_chart, o->target, &o->options, NULL, NULL),
                      ICC_OK);
-    ck_assert_int_eq(icc_map_create_from_charts(&o->map, o->chart, o->target_chart, NULL, NULL, NULL),
-                     ICC_OK);
+    ck_assert_int_eq(
+        icc_map_create_from_charts(&o->map, o->chart, o->target_chart, NULL, NULL, NULL), ICC_OK);
     o->mesh_map = make_mesh_map(o);
     ck_assert_int_eq(icc_grid_create(&o->grid, o->source, 0, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_grid_create_mask(&o->mask, 3, SHAPE, inside, NULL, NULL), ICC_OK);
@@ -346,8 +349,8 @@ static inline icc_status call_map_certify(const objects *o, outcome *out, const 
                                           icc_error *err)
 {
     icc_certificate c = {.size = sizeof c};
-    const icc_status status = icc_map_certify(o->mesh_map, N_CORNERS, SOURCE, 4, TRIANGLES,
-                                              out->numbers, &c, env, err);
+    const icc_status status =
+        icc_map_certify(o->mesh_map, N_CORNERS, SOURCE, 4, TRIANGLES, out->numbers, &c, env, err);
     memcpy(out->indices, &c, sizeof c);
     return status;
 }
@@ -362,8 +365,8 @@ static inline icc_status call_map_repair(const objects *o, outcome *out, const i
     memcpy(vertices, SOURCE, sizeof SOURCE);
     vertices[2 * N_CORNERS] = 0.9999;
     vertices[2 * N_CORNERS + 1] = 0.999;
-    const icc_status status = icc_map_repair(o->mesh_map, N_CORNERS + 1, vertices, 5, FAN,
-                                             out->numbers, &c, env, err);
+    const icc_status status =
+        icc_map_repair(o->mesh_map, N_CORNERS + 1, vertices, 5, FAN, out->numbers, &c, env, err);
     memcpy(out->indices, &c, sizeof c);
     return status;
 }
@@ -441,10 +444,8 @@ static inline icc_status make_function(const objects *o, int32_t function, int32
                                        icc_error *err)
 {
     icc_function *field = (icc_function *)&field;
-    const icc_function_options options = {.size = sizeof options,
-                                       .function = function,
-                                       .constraints = constraints,
-                                       .solver = solver};
+    const icc_function_options options = {
+        .size = sizeof options, .function = function, .constraints = constraints, .solver = solver};
     const icc_status status = icc_function_create(&field, o->bent, &options, env, err);
     HANDED_OVER(status, field);
     icc_function_info info = {.size = sizeof info};
@@ -452,7 +453,8 @@ static inline icc_status make_function(const objects *o, int32_t function, int32
         ck_assert_int_eq(icc_function_get_info(field, &info), ICC_OK);
         memcpy(out->numbers, icc_function_values(field), 17 * 17 * sizeof *out->numbers);
         if (icc_function_logs(field) != NULL)
-            memcpy(out->numbers + 17 * 17, icc_function_logs(field), 17 * 17 * sizeof *out->numbers);
+            memcpy(out->numbers + 17 * 17, icc_function_logs(field),
+                   17 * 17 * sizeof *out->numbers);
     }
     memcpy(out->indices, &info, offsetof(icc_function_info, seconds_setup));
     icc_function_free(field);
@@ -518,11 +520,12 @@ static inline icc_status call_domain_create_mask(const objects *o, outcome *out,
     return status;
 }
 
-static inline icc_status call_domain_create_mesh(const objects *o, outcome *out,
-                                                 const icc_env *env, icc_error *err)
+static inline icc_status call_domain_create_mesh(const objects *o, outcome *out, const icc_env *env,
+                                                 icc_error *err)
 {
     static const double POINTS[18] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1, .3, .3, .3};
-    static const uint32_t SIMPLICES[20] = {5, 0, 1, 2, 5, 0, 1, 3, 5, 0, 2, 3, 5, 1, 2, 3, 4, 1, 2, 3};
+    static const uint32_t SIMPLICES[20] = {5, 0, 1, 2, 5, 0, 1, 3, 5, 0,
+                                           2, 3, 5, 1, 2, 3, 4, 1, 2, 3};
     (void)o;
     icc_domain *domain = (icc_domain *)&domain;
     const icc_status status =
@@ -613,12 +616,13 @@ static inline icc_status call_sampling_create(const objects *o, outcome *out, co
 }
 
 /* Writes the weights at the points, and frees the kernel. */
-static inline icc_status tell_weights(icc_status status, const objects *o, icc_weights *kernel, outcome *out)
+static inline icc_status tell_weights(icc_status status, const objects *o, icc_weights *kernel,
+                                      outcome *out)
 {
     HANDED_OVER(status, kernel);
     if (status == ICC_OK)
-        (void)icc_weights_evaluate(kernel, N_POINTS, o->points, out->numbers, NULL, out->status, &out->count,
-                                 NULL);
+        (void)icc_weights_evaluate(kernel, N_POINTS, o->points, out->numbers, NULL, out->status,
+                                   &out->count, NULL);
     icc_weights_free(kernel);
     return status;
 }
@@ -673,14 +677,15 @@ static inline icc_status call_kernel_weights(const objects *o, outcome *out, con
 {
     (void)err;
     return icc_weights_evaluate(o->kernel, N_POINTS, o->points, out->numbers, NULL, out->status,
-                              &out->count, env);
+                                &out->count, env);
 }
 
 static inline icc_status call_kernel_get_report(const objects *o, outcome *out, const icc_env *env,
                                                 icc_error *err)
 {
     icc_weights_report report = {.size = sizeof report};
-    const icc_status status = icc_weights_get_report(o->kernel, N_POINTS, o->points, &report, env, err);
+    const icc_status status =
+        icc_weights_get_report(o->kernel, N_POINTS, o->points, &report, env, err);
     memcpy(out->numbers, &report, sizeof report);
     return status;
 }
@@ -796,7 +801,8 @@ static const call CALLS[] = {
 };
 enum { N_CALLS = sizeof CALLS / sizeof *CALLS };
 
-/* Whether the call has nothing to do with charts, and takes long: once is enough, whatever the methods. */
+/* Whether the call has nothing to do with charts, and takes long: once is enough, whatever the
+ * methods. */
 static inline int is_once(const call *c)
 {
     static const char *const BEGINNINGS[] = {"icc_function_create:", "icc_shape_", "icc_sampling_",
@@ -810,10 +816,9 @@ static inline int is_once(const call *c)
 /* Whether the call takes an icc_error, which must then tell what the status tells. */
 static inline int has_error(const call *c)
 {
-    static const char *const WITHOUT[] = {"icc_domain_locate",     "icc_chart_encode",
-                                          "icc_chart_decode",      "icc_map_apply",
-                                          "icc_map_apply_inverse", "icc_map_jacobian",
-                                          "icc_weights_evaluate",    "icc_binding_pose"};
+    static const char *const WITHOUT[] = {
+        "icc_domain_locate",     "icc_chart_encode", "icc_chart_decode",     "icc_map_apply",
+        "icc_map_apply_inverse", "icc_map_jacobian", "icc_weights_evaluate", "icc_binding_pose"};
     for (size_t i = 0; i < sizeof WITHOUT / sizeof *WITHOUT; ++i)
         if (strcmp(c->name, WITHOUT[i]) == 0)
             return 0;

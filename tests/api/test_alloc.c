@@ -100,10 +100,12 @@ START_TEST(objects_are_freed_in_any_order)
     const icc_domain *regions[1] = {domain};
     ck_assert_int_eq(icc_shape_create(&shape, 2, 1, regions, 0, NULL, 0, NULL, &env, NULL), ICC_OK);
     ck_assert_int_eq(icc_sampling_create(&sampling, shape, &coarse, &env, NULL), ICC_OK);
-    ck_assert_int_eq(icc_weights_create(&kernel, sampling, N_HANDLES, HANDLES, NULL, &env, NULL), ICC_OK);
+    ck_assert_int_eq(icc_weights_create(&kernel, sampling, N_HANDLES, HANDLES, NULL, &env, NULL),
+                     ICC_OK);
     icc_shape_free(shape);
     icc_sampling_free(sampling);
-    ck_assert_int_eq(icc_weights_with_method(&painted, kernel, ICC_WEIGHTS_EQUALITY, &env, NULL), ICC_OK);
+    ck_assert_int_eq(icc_weights_with_method(&painted, kernel, ICC_WEIGHTS_EQUALITY, &env, NULL),
+                     ICC_OK);
     icc_weights_free(kernel);
     ck_assert_int_eq(icc_binding_create(&binding, painted, 1, SOURCE, 1, &env, NULL), ICC_OK);
     icc_weights_free(painted);

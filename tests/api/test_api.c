@@ -86,12 +86,18 @@ START_TEST(charts_refuse_bad_arguments)
     NOT_MADE(c, icc_chart_create(&c, NULL, NULL, NULL, &err));
     static const double NOT_FINITE[2] = {0.5, NAN}, INSIDE[2] = {0.5, 0.5};
     const icc_chart_options bad[] = {
-        {.size = sizeof *bad, .function = 6},  {.size = sizeof *bad, .function = -1},
-        {.size = sizeof *bad, .tree = 3},      {.size = sizeof *bad, .tree = -1},
-        {.size = sizeof *bad, .cells = 1},     {.size = sizeof *bad, .cells = -50},
-        {.size = sizeof *bad, .cells = 16385}, {.size = sizeof *bad, .maximum = NOT_FINITE},
-        {.size = sizeof *bad, .constraints = 4}, {.size = sizeof *bad, .solver = 3},
-        {.size = sizeof *bad, .min_fall = 0.02},    {.size = sizeof *bad, .min_fall = NAN},
+        {.size = sizeof *bad, .function = 6},
+        {.size = sizeof *bad, .function = -1},
+        {.size = sizeof *bad, .tree = 3},
+        {.size = sizeof *bad, .tree = -1},
+        {.size = sizeof *bad, .cells = 1},
+        {.size = sizeof *bad, .cells = -50},
+        {.size = sizeof *bad, .cells = 16385},
+        {.size = sizeof *bad, .maximum = NOT_FINITE},
+        {.size = sizeof *bad, .constraints = 4},
+        {.size = sizeof *bad, .solver = 3},
+        {.size = sizeof *bad, .min_fall = 0.02},
+        {.size = sizeof *bad, .min_fall = NAN},
         {.size = sizeof *bad, .leaf_min = -1e-9},
         {.size = sizeof *bad, .method = ICC_METHOD_DISC, .maximum = INSIDE},
     };
@@ -102,7 +108,8 @@ START_TEST(charts_refuse_bad_arguments)
         NOT_MADE(m, icc_map_create(&m, o.source, o.target, &options, NULL, &err));
     }
     const icc_chart_options disc = {.size = sizeof disc, .method = ICC_METHOD_DISC};
-    const icc_map_options target = {.size = sizeof target, .chart = &disc, .target_maximum = INSIDE};
+    const icc_map_options target = {
+        .size = sizeof target, .chart = &disc, .target_maximum = INSIDE};
     icc_map *map;
     NOT_MADE(map, icc_map_create(&map, o.source, o.target, &target, NULL, &err));
     static const int32_t UNKNOWN[] = {-1, 5, 99};
@@ -114,7 +121,8 @@ START_TEST(charts_refuse_bad_arguments)
     icc_chart_info info = {.size = sizeof info};
     REFUSED(icc_chart_get_info(NULL, &info));
     REFUSED(icc_chart_get_info(o.chart, NULL));
-    ck_assert(icc_chart_function(NULL) == NULL && icc_chart_function(o.chart) == NULL); /* a foliation */
+    ck_assert(icc_chart_function(NULL) == NULL && icc_chart_function(o.chart) == NULL); /* a
+                                                                                           foliation */
     ck_assert_ptr_null(icc_chart_domain(NULL));
     ck_assert_ptr_eq(icc_chart_domain(o.chart), o.source);
     icc_chart_report m = {.size = sizeof m};
@@ -352,9 +360,9 @@ START_TEST(stages_refuse_bad_arguments)
         {.size = sizeof *bad, .function = 6},        {.size = sizeof *bad, .function = -1},
         {.size = sizeof *bad, .constraints = 4},     {.size = sizeof *bad, .constraints = -1},
         {.size = sizeof *bad, .solver = 3},          {.size = sizeof *bad, .solver = -1},
-        {.size = sizeof *bad, .min_fall = -1e-6},         {.size = sizeof *bad, .min_fall = 0.0100001},
-        {.size = sizeof *bad, .min_fall = NAN},           {.size = sizeof *bad, .leaf_min = -1e-9},
-        {.size = sizeof *bad, .leaf_min = HUGE_VAL},     {.size = sizeof *bad, .leaf_min = NAN},
+        {.size = sizeof *bad, .min_fall = -1e-6},    {.size = sizeof *bad, .min_fall = 0.0100001},
+        {.size = sizeof *bad, .min_fall = NAN},      {.size = sizeof *bad, .leaf_min = -1e-9},
+        {.size = sizeof *bad, .leaf_min = HUGE_VAL}, {.size = sizeof *bad, .leaf_min = NAN},
     };
     static const char *const NAMED[] = {"function", "function", "constraints", "constraints",
                                         "solver",   "solver",   "eta",         "eta",
@@ -382,7 +390,8 @@ START_TEST(stages_refuse_bad_arguments)
     REFUSED(icc_function_get_edges(o.field, 0, NULL, NULL, NULL, NULL));
     REFUSED(icc_function_get_edges(o.field, 1, NULL, kinds, &n, NULL));
     REFUSED(icc_function_get_edges(o.field, 1, edges, NULL, &n, NULL));
-    ck_assert_int_eq(icc_function_get_edges(o.field, 1, edges, kinds, &n, NULL), ICC_ERR_UNSUPPORTED);
+    ck_assert_int_eq(icc_function_get_edges(o.field, 1, edges, kinds, &n, NULL),
+                     ICC_ERR_UNSUPPORTED);
     static const int32_t ORDER[3] = {2, 0, 1};
     const icc_tree_options good = {.size = sizeof good, .axis_order = ORDER};
     ck_assert_int_eq(icc_tree_create(&t, o.mask, 62, &good, NULL, &err), ICC_OK);
@@ -806,15 +815,19 @@ START_TEST(infos_may_be_older_or_newer)
     static const struct {
         writer write;
         size_t size;
-    } WRITERS[] = {
-        {write_domain_info, sizeof(icc_domain_info)},  {write_chart_info, sizeof(icc_chart_info)},
-        {write_measures, sizeof(icc_chart_report)},  {write_map_info, sizeof(icc_map_info)},
-        {write_improve_report, sizeof(icc_improve_report)},
-        {write_certificate, sizeof(icc_certificate)},
-        {write_grid_info, sizeof(icc_grid_info)},      {write_tree_report, sizeof(icc_tree_report)},
-        {write_field_info, sizeof(icc_function_info)},    {write_field_report, sizeof(icc_function_report)},
-        {write_sampling_info, sizeof(icc_sampling_info)},
-        {write_kernel_info, sizeof(icc_weights_info)},  {write_kernel_report, sizeof(icc_weights_report)}};
+    } WRITERS[] = {{write_domain_info, sizeof(icc_domain_info)},
+                   {write_chart_info, sizeof(icc_chart_info)},
+                   {write_measures, sizeof(icc_chart_report)},
+                   {write_map_info, sizeof(icc_map_info)},
+                   {write_improve_report, sizeof(icc_improve_report)},
+                   {write_certificate, sizeof(icc_certificate)},
+                   {write_grid_info, sizeof(icc_grid_info)},
+                   {write_tree_report, sizeof(icc_tree_report)},
+                   {write_field_info, sizeof(icc_function_info)},
+                   {write_field_report, sizeof(icc_function_report)},
+                   {write_sampling_info, sizeof(icc_sampling_info)},
+                   {write_kernel_info, sizeof(icc_weights_info)},
+                   {write_kernel_report, sizeof(icc_weights_report)}};
     enum { ROOM = 512 };
     objects o;
     objects_init(&o, 0);

@@ -1,5 +1,5 @@
-/* Every operation on every kind of map and chart, however it came about: it works, or it says by name and
- * with a message why not. */
+/* Every operation on every kind of map and chart, however it came about: it works, or it says by
+ * name and with a message why not. */
 #include <check.h>
 #include <icc/stages.h>
 #include <math.h>
@@ -357,8 +357,8 @@ static void ask_map(const subject *s)
     icc_domain_free(target);
 }
 
-/* The map, and what follows from it step by step: i improved, f retargeted, s saved and loaded. Only meshes
- * in the plane have more than the first two; ask_map() sees the others refuse. */
+/* The map, and what follows from it step by step: i improved, f retargeted, s saved and loaded.
+ * Only meshes in the plane have more than the first two; ask_map() sees the others refuse. */
 static void ask_family(const subject *first)
 {
     static const char *const WAYS[] = {"", "s", "i", "f", "ff", "fi", "fs", "si", "sf", "fsif"};

@@ -1,11 +1,12 @@
-/* Progress is one share for a whole call: it lies in [0, 1], never falls and is 1 at the end; its stages
- * have names that icc/base.h lists. */
+/* Progress is one share for a whole call: it lies in [0, 1], never falls and is 1 at the end; its
+ * stages have names that icc/base.h lists. */
 #include "objects.h"
 
 #include <stdbool.h>
 
-static const char *const STAGES[] = {"check", "repair", "mesh", "grid",   "tree",    "order", "solve",
-                                     "trace", "improve", "warp", "sample", "weights", "load"};
+static const char *const STAGES[] = {"check",  "repair",  "mesh",  "grid",    "tree",
+                                     "order",  "solve",   "trace", "improve", "warp",
+                                     "sample", "weights", "load"};
 
 typedef struct watcher {
     const char *call;

@@ -1,4 +1,5 @@
-/* Results do not depend on threads, objects may be shared, progress stays on its thread and cancels. */
+/* Results do not depend on threads, objects may be shared, progress stays on its thread and
+ * cancels. */
 #include "../share.h"
 #include "objects.h"
 
@@ -125,12 +126,13 @@ static icc_tree *large_tree(bool ball)
     ck_assert_ptr_nonnull(inside);
     for (size_t v = 0; v < n; ++v) {
         const double x = (double)(v % side) - middle, y = (double)(v / side % side) - middle;
-        const double z = ball ? (double)(v / side / side) - middle : 0, r = sqrt(x * x + y * y + z * z);
+        const double z = ball ? (double)(v / side / side) - middle : 0,
+                     r = sqrt(x * x + y * y + z * z);
         inside[v] = r < size && (ball || (r > 0.5 * size && (x < 0 || fabs(y) > 0.3 * size)));
     }
-    ck_assert_int_eq(icc_grid_create_mask(&grid, ball ? 3 : 2, (size_t[]){side, side, side}, inside,
-                                          NULL, NULL),
-                     ICC_OK);
+    ck_assert_int_eq(
+        icc_grid_create_mask(&grid, ball ? 3 : 2, (size_t[]){side, side, side}, inside, NULL, NULL),
+        ICC_OK);
     ck_assert_int_eq(icc_grid_find_maximum(grid, &root, NULL, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_tree_create(&tree, grid, root, NULL, NULL, NULL), ICC_OK);
     icc_grid_free(grid);
@@ -139,12 +141,12 @@ static icc_tree *large_tree(bool ball)
 }
 
 static icc_function *large_field(const icc_tree *tree, int32_t function, int32_t solver,
-                              const icc_env *env)
+                                 const icc_env *env)
 {
     const icc_function_options options = {.size = sizeof options,
-                                       .function = function,
-                                       .constraints = ICC_CONSTRAINTS_ALL,
-                                       .solver = solver};
+                                          .function = function,
+                                          .constraints = ICC_CONSTRAINTS_ALL,
+                                          .solver = solver};
     icc_function *field;
     ck_assert_int_eq(icc_function_create(&field, tree, &options, env, NULL), ICC_OK);
     return field;
@@ -178,10 +180,8 @@ START_TEST(functions_do_not_depend_on_the_number_of_threads)
     icc_function *plain = large_field(tree, function, solver, NULL);
     for (int32_t n = 2; n <= 4; n += test_share() < 100 ? 2 : 1) {
         crew c = {.n_tasks = 0};
-        const icc_env env = {.size = sizeof env,
-                             .user = &c,
-                             .parallel_for = n == 4 ? crew_run : NULL,
-                             .threads = n};
+        const icc_env env = {
+            .size = sizeof env, .user = &c, .parallel_for = n == 4 ? crew_run : NULL, .threads = n};
         icc_function *field = large_field(tree, function, solver, &env);
         check_same(plain, field, info.n_vertices);
         icc_function_free(field);
@@ -318,8 +318,8 @@ START_TEST(every_long_call_can_be_cancelled)
         const size_t n = cancel_everywhere(&o, &CALLS[i], 1, false);
         const char *name = CALLS[i].name;
         /* These take no time, or one report per 65536 vertices is enough. */
-        if (n == 0 && METHODS[_i] == ICC_METHOD_GRADIENT &&
-            strcmp(name, "icc_chart_trace") != 0 && strcmp(name, "icc_shape_create") != 0 &&
+        if (n == 0 && METHODS[_i] == ICC_METHOD_GRADIENT && strcmp(name, "icc_chart_trace") != 0 &&
+            strcmp(name, "icc_shape_create") != 0 &&
             strcmp(name, "icc_map_create_from_charts") != 0 &&
             strcmp(name, "icc_grid_create_mask") != 0)
             ck_abort_msg("%s reports no progress", name);

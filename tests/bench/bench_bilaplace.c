@@ -1,9 +1,9 @@
-/* Bi-Laplace functions on the shapes of tests/hard_masks.h. Arguments: shape, dimension, cells, by threes;
- * without any, small ones. One thread. */
+/* Bi-Laplace functions on the shapes of tests/hard_masks.h. Arguments: shape, dimension, cells, by
+ * threes; without any, small ones. One thread. */
 #include "bench.h"
 
-#include "solver/bilaplace.h"
 #include "function/critical_points.h"
+#include "solver/bilaplace.h"
 
 #include "../hard_masks.h"
 
@@ -44,7 +44,8 @@ static void print_points(const icc_tree *tree, const iccp_rows *rows, const iccp
 {
     icc_function *field;
     icc_function_report report = {.size = sizeof report};
-    if (iccp_function_new(&field, tree, env) == ICC_OK && iccp_function_assign(field, rows, f) == ICC_OK &&
+    if (iccp_function_new(&field, tree, env) == ICC_OK &&
+        iccp_function_assign(field, rows, f) == ICC_OK &&
         iccp_function_verify(field, &report, env) == ICC_OK)
         printf(" %4zu %4zu %4zu", report.n_maxima, report.n_minima, report.n_saddles);
     iccp_function_release(field);
@@ -96,10 +97,11 @@ int main(int argc, char **argv)
     static const bench_case SMALL[] = {{"box", 2, 200}, {"C", 2, 200},       {"star", 2, 200},
                                        {"L", 2, 200},   {"dumbbell", 3, 32}, {"tripod", 3, 32},
                                        {"drum", 3, 32}};
-    printf("                                           seconds                         steps active "
-           "residual\n"
-           "shape     dim cells     rows function       all   order   factor    solve         %%   "
-           "before    after  max  min sadd\n");
+    printf(
+        "                                           seconds                         steps active "
+        "residual\n"
+        "shape     dim cells     rows function       all   order   factor    solve         %%   "
+        "before    after  max  min sadd\n");
     for (size_t k = 0; argc < 4 && k < sizeof SMALL / sizeof *SMALL; ++k)
         measure_all(&SMALL[k]);
     for (int k = 1; k + 2 < argc; k += 3) {

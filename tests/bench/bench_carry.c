@@ -1,7 +1,8 @@
-/* A tetrahedral mesh carried along: usage: bench_carry NAME.src.obj ..., with NAME.tgt.obj beside each and the
- * program tetgen installed. How many tetrahedra are inverted in the image under methods field and foliation, how
- * many of those cannot be mended because all their corners are on the boundary, how many are left after the
- * repair, and what it costs. Run by hand on a quiet machine. */
+/* A tetrahedral mesh carried along: usage: bench_carry NAME.src.obj ..., with NAME.tgt.obj beside
+ * each and the program tetgen installed. How many tetrahedra are inverted in the image under
+ * methods field and foliation, how many of those cannot be mended because all their corners are on
+ * the boundary, how many are left after the repair, and what it costs. Run by hand on a quiet
+ * machine. */
 #include <icc/icc.h>
 
 #include "../meshes.h"

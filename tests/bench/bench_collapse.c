@@ -1,7 +1,8 @@
 /* How much the papers' method collapses. Without arguments: four pairs of shapes, each function and
- * resolution, what the charts miss, and the sign of the map's derivative at evenly spread points. With
- * a directory of cages (NAME.src.txt and NAME.tgt.txt, a vertex `x y` on a line): what the charts of
- * each cage miss, function by function. Cells along the longest side may follow; 50 if not. */
+ * resolution, what the charts miss, and the sign of the map's derivative at evenly spread points.
+ * With a directory of cages (NAME.src.txt and NAME.tgt.txt, a vertex `x y` on a line): what the
+ * charts of each cage miss, function by function. Cells along the longest side may follow; 50 if
+ * not. */
 #define _POSIX_C_SOURCE 200809L
 
 #include "cages.h"

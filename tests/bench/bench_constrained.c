@@ -1,8 +1,8 @@
 /* Laplace's function under the tree's inequalities, beside the figures of a prototype on the same
  * masks: A with CHOLMOD, B with conjugate gradients and multigrid. Processor time of one thread. */
+#include "grid/grassfire.h"
 #include "solver/constrained.h"
 #include "solver/inequalities.h"
-#include "grid/grassfire.h"
 
 #include "../hard_masks.h"
 #include "bench.h"

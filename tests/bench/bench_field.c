@@ -1,7 +1,7 @@
-/* Charts of method field on surfaces: usage: bench_field CELLS NAME.src.obj ..., with NAME.tgt.obj beside
- * each; CELLS 0 is the default. What is amiss, what it costs, and how good the maps are: no image,
- * round trip, inverted Jacobians, symmetric Dirichlet energy (6 for an isometry). Run by hand on a quiet
- * machine. */
+/* Charts of method field on surfaces: usage: bench_field CELLS NAME.src.obj ..., with NAME.tgt.obj
+ * beside each; CELLS 0 is the default. What is amiss, what it costs, and how good the maps are: no
+ * image, round trip, inverted Jacobians, symmetric Dirichlet energy (6 for an isometry). Run by
+ * hand on a quiet machine. */
 #include <icc/icc.h>
 
 #include "../obj.h"
@@ -20,8 +20,9 @@ static icc_domain *read_domain(const char *path)
         fprintf(stderr, "cannot read %s\n", path);
         exit(EXIT_FAILURE);
     }
-    bench_check(icc_domain_create(&domain, 3, o.n_vertices, o.vertices, o.n_faces, o.faces, NULL, &err),
-                &err);
+    bench_check(
+        icc_domain_create(&domain, 3, o.n_vertices, o.vertices, o.n_faces, o.faces, NULL, &err),
+        &err);
     obj_free(&o);
     return domain;
 }
@@ -31,13 +32,16 @@ static void print_chart(const char *name, const icc_chart *chart)
     icc_chart_info i = {.size = sizeof i};
     bench_check(icc_chart_get_info(chart, &i), NULL);
     printf("  %s: %ld cells, %zu of %zu vertices inside, %zu given up; critical %zu/%zu/%zu, "
-           "infeasible %zu, not inward %zu of %zu%s; s: grid %.2f tree %.2f function %.2f vectors %.2f\n",
-           name, (long)i.cells, i.n_inside, i.n_grid, i.n_stray, i.n_maxima, i.n_minima, i.n_saddles,
-           i.n_infeasible, i.n_not_inward, i.n_contacts, i.certified ? ", certified" : "",
-           i.seconds_grid, i.seconds_tree, i.seconds_function, i.seconds_solve);
+           "infeasible %zu, not inward %zu of %zu%s; s: grid %.2f tree %.2f function %.2f vectors "
+           "%.2f\n",
+           name, (long)i.cells, i.n_inside, i.n_grid, i.n_stray, i.n_maxima, i.n_minima,
+           i.n_saddles, i.n_infeasible, i.n_not_inward, i.n_contacts,
+           i.certified ? ", certified" : "", i.seconds_grid, i.seconds_tree, i.seconds_function,
+           i.seconds_solve);
 }
 
-static double points[3 * N_POINTS], images[3 * N_POINTS], back[3 * N_POINTS], jacobians[9 * N_POINTS];
+static double points[3 * N_POINTS], images[3 * N_POINTS], back[3 * N_POINTS],
+    jacobians[9 * N_POINTS];
 
 static void fill_points(const icc_domain *domain, const icc_domain_info *info)
 {
@@ -80,7 +84,8 @@ static void measure(const icc_domain *source, const icc_domain *target, const ic
     }
     qsort(energies, N_POINTS, sizeof *energies, ascending);
     qsort(errors, N_POINTS, sizeof *errors, ascending);
-    printf("  %.1f us a point, %.1f with derivative; no image %zu of %d; round trip median %.1e, 99 %% "
+    printf("  %.1f us a point, %.1f with derivative; no image %zu of %d; round trip median %.1e, "
+           "99 %% "
            "%.1e, worst %.1e; inverted %zu; energy median %.1f, 99 %% %.1f\n",
            1e6 * (middle - begin) / N_POINTS, 1e6 * (end - before) / N_POINTS, lost, N_POINTS,
            errors[N_POINTS / 2], errors[N_POINTS * 99 / 100], errors[N_POINTS - 1], inverted,
@@ -95,7 +100,8 @@ static void run(const char *path, int32_t cells)
         return;
     (void)snprintf(other, sizeof other, "%.*s.tgt.obj", (int)(end - path), path);
     icc_domain *source = read_domain(path), *target = read_domain(other);
-    const icc_chart_options chart = {.size = sizeof chart, .method = ICC_METHOD_FIELD, .cells = cells};
+    const icc_chart_options chart = {
+        .size = sizeof chart, .method = ICC_METHOD_FIELD, .cells = cells};
     const icc_map_options options = {.size = sizeof options, .chart = &chart};
     icc_error err = {.size = sizeof err};
     icc_map *map;

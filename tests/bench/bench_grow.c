@@ -1,5 +1,5 @@
-/* What it costs to order the vertices of a grid, and what a tree costs to compare. Run by hand on a quiet
- * machine. */
+/* What it costs to order the vertices of a grid, and what a tree costs to compare. Run by hand on a
+ * quiet machine. */
 #include <icc/stages.h>
 
 #include "../hard_masks.h"

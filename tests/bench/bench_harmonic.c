@@ -1,5 +1,5 @@
-/* What a pair of foliation or disc charts costs, what a mapped point costs, and how fair the maps of
- * the three methods are. Arguments: cage files, source and target by turns. One thread. */
+/* What a pair of foliation or disc charts costs, what a mapped point costs, and how fair the maps
+ * of the three methods are. Arguments: cage files, source and target by turns. One thread. */
 #include "cages.h"
 
 enum { RUNS = 5, POINTS = 20000, ENERGY_POINTS = 20000 };

@@ -1,6 +1,6 @@
-/* What takes time while one works on weights: a kernel on samples that there are, as after adding a handle; paint; weights
- * at points; poses. On the star of the thesis' table 6.4 and its surroundings, beside the demands on one thread. What
- * the weights are worth is in bench_stars.
+/* What takes time while one works on weights: a kernel on samples that there are, as after adding a
+ * handle; paint; weights at points; poses. On the star of the thesis' table 6.4 and its
+ * surroundings, beside the demands on one thread. What the weights are worth is in bench_stars.
  * usage: bench_kernel */
 #include "bench.h"
 
@@ -81,7 +81,7 @@ static void time_points(const icc_weights *kernel, size_t m)
     for (int k = 0; k < 2 * REPEATS; ++k) {
         const double begin = bench_seconds();
         (void)icc_weights_evaluate(kernel, PIXELS, points, weights, k % 2 ? gradients : NULL, NULL,
-                                 NULL, NULL);
+                                   NULL, NULL);
         best[k % 2] = fmin(best[k % 2], bench_seconds() - begin);
     }
     row("weights at a point: us", 1e6 * best[0] / PIXELS, m == TIPS ? "1.3 (Gauss: 2.5)" : "");

@@ -1,6 +1,7 @@
 /* What mesh maps cost and how fair they are. Arguments: cage files, source and target by turns. Or
- * `random`, then how many pairs of random polygons to map, the first seed, the iterations (0: as many
- * as pay, -1: none), and -v to print the polygons of each pair that got no mesh map. One thread. */
+ * `random`, then how many pairs of random polygons to map, the first seed, the iterations (0: as
+ * many as pay, -1: none), and -v to print the polygons of each pair that got no mesh map. One
+ * thread. */
 #include "random_polygons.h"
 
 #include "cages.h"
@@ -86,7 +87,8 @@ static void print_points(const icc_map *map, const icc_domain *source)
     (void)icc_map_apply_inverse(map, n, images, back, NULL, &lost[1], NULL);
     double worst = 0;
     for (size_t i = 0; i < n; ++i)
-        worst = fmax(worst, hypot(back[2 * i] - points[2 * i], back[2 * i + 1] - points[2 * i + 1]));
+        worst =
+            fmax(worst, hypot(back[2 * i] - points[2 * i], back[2 * i + 1] - points[2 * i + 1]));
     printf("  %6.3f %6.3f  %7.1e %4zu\n", 1e6 * there_seconds, 1e6 * back_seconds,
            worst / cage_diagonal(source), lost[0] + lost[1]);
     fflush(stdout);
@@ -172,8 +174,8 @@ static void print_polygons(const polygon p[2])
                p[1].xy[k][1]);
 }
 
-/* Both polygons are drawn with as few as a third of their vertices; the rest are put on their edges as
- * unevenly as 1 : 1000, so that corresponding edges differ as much in length. */
+/* Both polygons are drawn with as few as a third of their vertices; the rest are put on their edges
+ * as unevenly as 1 : 1000, so that corresponding edges differ as much in length. */
 static void try_pair(tally t[POLYGON_KINDS], uint64_t seed, int32_t iterations, int verbose)
 {
     random_source r = {seed};

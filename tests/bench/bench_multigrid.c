@@ -1,6 +1,7 @@
-/* Conjugate gradients with the multigrid preconditioner on masks: a unit load at the middle vertex, from 0 to a
- * relative residual of 1e-10. One thread, processor time of the fastest of three runs, set-up included; the
- * prototype's figures beside ours where it had the mask. Arguments: parts of the names of masks to run. */
+/* Conjugate gradients with the multigrid preconditioner on masks: a unit load at the middle vertex,
+ * from 0 to a relative residual of 1e-10. One thread, processor time of the fastest of three runs,
+ * set-up included; the prototype's figures beside ours where it had the mask. Arguments: parts of
+ * the names of masks to run. */
 #include "bench.h"
 
 #include "solver/mg_cg.h"
@@ -57,7 +58,8 @@ static timing run(const icc_grid *grid, size_t n, const uint32_t *vertex, const 
     bench_check(iccp_multigrid_create(&mg, grid, n, vertex, env), NULL);
     const double middle = processor_seconds();
     const iccp_mg_level *level = &mg.level[0];
-    double *x = bench_alloc(level->n_entries, sizeof *x), *r = bench_alloc(level->n_entries, sizeof *r);
+    double *x = bench_alloc(level->n_entries, sizeof *x),
+           *r = bench_alloc(level->n_entries, sizeof *r);
     uint32_t at;
     const size_t row = iccp_mg_row_of(level, grid, vertex[n / 2], &at);
     r[iccp_mg_position(level, row, at)] = 1;
@@ -65,7 +67,8 @@ static timing run(const icc_grid *grid, size_t n, const uint32_t *vertex, const 
     result.setup = middle - start;
     result.solve = processor_seconds() - middle;
     /* x and r in double, the direction in float. */
-    result.bytes = iccp_multigrid_bytes(&mg) + level->n_entries * (2 * sizeof(double) + sizeof(float));
+    result.bytes =
+        iccp_multigrid_bytes(&mg) + level->n_entries * (2 * sizeof(double) + sizeof(float));
     free(x);
     free(r);
     iccp_multigrid_free(&mg);

@@ -1,7 +1,7 @@
-/* Orders of tetrahedra: usage: bench_order SURFACE.obj ..., with the program tetgen installed. What growing and
- * peeling take, how much of the harmonic flux they reverse before and after facets are turned, the energy of the flux
- * that is fitted, what the contest takes, and how often each way is complete for maxima by chance. Run by hand on a quiet
- * machine. */
+/* Orders of tetrahedra: usage: bench_order SURFACE.obj ..., with the program tetgen installed. What
+ * growing and peeling take, how much of the harmonic flux they reverse before and after facets are
+ * turned, the energy of the flux that is fitted, what the contest takes, and how often each way is
+ * complete for maxima by chance. Run by hand on a quiet machine. */
 #include "base/error.h"
 #include "shelling/centres.h"
 #include "shelling/contest.h"
@@ -120,7 +120,8 @@ static void tell(subject *s)
 
 static void turn(subject *s)
 {
-    const iccp_order_wish wish = {s->mesh, &s->faces, s->centre, s->reference, s->potential, 0, NULL};
+    const iccp_order_wish wish = {s->mesh,      &s->faces, s->centre, s->reference,
+                                  s->potential, 0,         NULL};
     size_t n_turned;
     const double start = bench_seconds();
     check(iccp_order_turn(&wish, s->rank, &n_turned, &s->env));

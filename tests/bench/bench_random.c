@@ -1,6 +1,6 @@
 /* Whether foliation and disc charts of random simple polygons are made and certified, alone and in
- * pairs, and how far points come back. Arguments: how many polygons, the first seed, and `-v` to print
- * the polygon of each failure. */
+ * pairs, and how far points come back. Arguments: how many polygons, the first seed, and `-v` to
+ * print the polygon of each failure. */
 #include "random_polygons.h"
 
 #include "cages.h"
@@ -11,7 +11,7 @@ static const int32_t METHODS[N_METHODS] = {ICC_METHOD_FOLIATION, ICC_METHOD_DISC
 static const char *const METHOD_NAMES[N_METHODS] = {"foliation", "disc"};
 
 typedef struct tally {
-    size_t n, n_failed;                      /* charts or pairs */
+    size_t n, n_failed; /* charts or pairs */
     size_t n_points, n_lost, n_off;
     size_t n_refined, n_less_harmonic, n_ties;
     double worst, seconds, slowest;
@@ -84,7 +84,8 @@ static void try_points(tally *t, uint64_t seed, const icc_map *map, const icc_do
     const double diagonal = cage_diagonal(source);
     double worst = 0;
     for (size_t i = 0; i < n; ++i) {
-        const double off = hypot(images[2 * i] - points[2 * i], images[2 * i + 1] - points[2 * i + 1]);
+        const double off =
+            hypot(images[2 * i] - points[2 * i], images[2 * i + 1] - points[2 * i + 1]);
         worst = fmax(worst, off / diagonal);
         t->n_off += off > FAR_OFF * diagonal;
     }
@@ -105,8 +106,7 @@ static void try_pair(tally *t, int method, const int kinds[2], uint64_t seed, co
     icc_map *map;
     icc_error error = {.size = sizeof error};
     const double start = bench_seconds();
-    const icc_status status =
-        icc_map_create(&map, domains[0], domains[1], &options, NULL, &error);
+    const icc_status status = icc_map_create(&map, domains[0], domains[1], &options, NULL, &error);
     note_time(t, start);
     if (status != ICC_OK) {
         ++t->n_failed;

@@ -1,5 +1,5 @@
-/* Samplings beside the thesis': the star's 9,600 samples (section 6.2.1), 1,024 points in a square (3.3.2), grids
- * (3.3.1), and the spectrum of figure 6.10. */
+/* Samplings beside the thesis': the star's 9,600 samples (section 6.2.1), 1,024 points in a square
+ * (3.3.2), grids (3.3.1), and the spectrum of figure 6.10. */
 #include "bench.h"
 #include "gaussians.h"
 #include "kernel/sampling.h"

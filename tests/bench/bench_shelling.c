@@ -1,7 +1,8 @@
-/* What the stages of foliations of simplices cost, on cubes in 3 to 5 dimensions and on tetrahedra in surfaces:
- * usage: bench_shelling [NAME.obj ...], with the program tetgen installed for these. */
-#include "shelling/centres.h"
+/* What the stages of foliations of simplices cost, on cubes in 3 to 5 dimensions and on tetrahedra
+ * in surfaces: usage: bench_shelling [NAME.obj ...], with the program tetgen installed for
+ * these. */
 #include "domain/domain.h"
+#include "shelling/centres.h"
 #include "shelling/circulation.h"
 #include "shelling/shelling_order.h"
 

@@ -1,6 +1,7 @@
-/* What Laplace's and the bi-Laplace function cost and how good they are, beside the figures to reach and
- * those of general solvers. Arguments: parts of the names of rows to run, "all" also for those that take
- * minutes; none: all others. One thread, the least processor time of up to five runs. */
+/* What Laplace's and the bi-Laplace function cost and how good they are, beside the figures to
+ * reach and those of general solvers. Arguments: parts of the names of rows to run, "all" also for
+ * those that take minutes; none: all others. One thread, the least processor time of up to five
+ * runs. */
 #include "bench.h"
 
 #include "function/function.h"
@@ -17,7 +18,7 @@ typedef struct row {
     mask_shape shape;
     int32_t dim, function, constraints, solver;
     size_t cells;
-    bool slow;           /* not run unless asked for */
+    bool slow;                         /* not run unless asked for */
     double seconds, stretch, residual; /* to reach; 0: nothing is asked for */
     size_t n_iterations, bytes;        /* likewise */
     const char *others;
@@ -28,62 +29,181 @@ typedef struct row {
 #define LAPLACE ICC_FUNCTION_LAPLACE
 
 static const row ROWS[] = {
-    {.name = "pcg box 1000^2", .shape = mask_box, .dim = 2, .cells = 1000, .function = LAPLACE,
-     .constraints = FREE, .solver = ICC_SOLVER_ITERATIVE, .seconds = 0.25, .stretch = 0.08,
-     .n_iterations = 20, .bytes = 130, .others = "CG 17.2 s, MIC(0)-CG 7.9 s, CHOLMOD 2.7 s"},
-    {.name = "pcg box 128^3", .shape = mask_box, .dim = 3, .cells = 128, .function = LAPLACE,
-     .constraints = FREE, .solver = ICC_SOLVER_ITERATIVE, .seconds = 0.8, .stretch = 0.25,
-     .n_iterations = 20, .bytes = 130, .others = "CG 7.6 s, MIC(0)-CG 3.6 s, CHOLMOD: too large"},
-    {.name = "direct star 1000^2", .shape = mask_star, .dim = 2, .cells = 1000, .function = LAPLACE,
-     .constraints = FREE, .solver = ICC_SOLVER_DIRECT, .seconds = 1.4, .residual = 1e-12,
+    {.name = "pcg box 1000^2",
+     .shape = mask_box,
+     .dim = 2,
+     .cells = 1000,
+     .function = LAPLACE,
+     .constraints = FREE,
+     .solver = ICC_SOLVER_ITERATIVE,
+     .seconds = 0.25,
+     .stretch = 0.08,
+     .n_iterations = 20,
+     .bytes = 130,
+     .others = "CG 17.2 s, MIC(0)-CG 7.9 s, CHOLMOD 2.7 s"},
+    {.name = "pcg box 128^3",
+     .shape = mask_box,
+     .dim = 3,
+     .cells = 128,
+     .function = LAPLACE,
+     .constraints = FREE,
+     .solver = ICC_SOLVER_ITERATIVE,
+     .seconds = 0.8,
+     .stretch = 0.25,
+     .n_iterations = 20,
+     .bytes = 130,
+     .others = "CG 7.6 s, MIC(0)-CG 3.6 s, CHOLMOD: too large"},
+    {.name = "direct star 1000^2",
+     .shape = mask_star,
+     .dim = 2,
+     .cells = 1000,
+     .function = LAPLACE,
+     .constraints = FREE,
+     .solver = ICC_SOLVER_DIRECT,
+     .seconds = 1.4,
+     .residual = 1e-12,
      .others = "CHOLMOD 0.66 s"},
-    {.name = "direct C 1000^2", .shape = mask_c, .dim = 2, .cells = 1000, .function = LAPLACE,
-     .constraints = FREE, .solver = ICC_SOLVER_DIRECT, .seconds = 1.4, .residual = 1e-12,
+    {.name = "direct C 1000^2",
+     .shape = mask_c,
+     .dim = 2,
+     .cells = 1000,
+     .function = LAPLACE,
+     .constraints = FREE,
+     .solver = ICC_SOLVER_DIRECT,
+     .seconds = 1.4,
+     .residual = 1e-12,
      .others = "CHOLMOD 1.10 s"},
-    {.name = "direct serpentine 1000^2", .shape = mask_serpentine, .dim = 2, .cells = 1000,
-     .function = LAPLACE, .constraints = FREE, .solver = ICC_SOLVER_DIRECT, .residual = 1e-12,
+    {.name = "direct serpentine 1000^2",
+     .shape = mask_serpentine,
+     .dim = 2,
+     .cells = 1000,
+     .function = LAPLACE,
+     .constraints = FREE,
+     .solver = ICC_SOLVER_DIRECT,
+     .residual = 1e-12,
      .others = "CHOLMOD: 819,341 zeros of 901,764"},
-    {.name = "tree C 50^2", .shape = mask_c, .dim = 2, .cells = 50, .function = LAPLACE,
-     .constraints = TREE, .solver = ICC_SOLVER_DIRECT, .seconds = 0.005, .residual = 1e-12},
-    {.name = "tree C 200^2", .shape = mask_c, .dim = 2, .cells = 200, .function = LAPLACE,
-     .constraints = TREE, .solver = ICC_SOLVER_DIRECT, .seconds = 0.1, .residual = 1e-12,
-     .others = "Ipopt + MUMPS 5.4 s at 7e-6, NLopt L-BFGS 19 s at 1.7e-5, CLP none in 60 s"},
-    {.name = "tree L 1000^2", .shape = mask_l, .dim = 2, .cells = 1000, .function = LAPLACE,
-     .constraints = TREE, .solver = ICC_SOLVER_DIRECT, .seconds = 10, .residual = 1e-12},
-    {.name = "tree star 1000^2", .shape = mask_star, .dim = 2, .cells = 1000, .function = LAPLACE,
-     .constraints = TREE, .solver = ICC_SOLVER_DIRECT, .residual = 1e-12,
-     .others = "the prototype: 11 s"},
-    {.name = "tree C 1000^2", .shape = mask_c, .dim = 2, .cells = 1000, .function = LAPLACE,
-     .constraints = TREE, .solver = ICC_SOLVER_DIRECT, .seconds = 50, .stretch = 15,
+    {.name = "tree C 50^2",
+     .shape = mask_c,
+     .dim = 2,
+     .cells = 50,
+     .function = LAPLACE,
+     .constraints = TREE,
+     .solver = ICC_SOLVER_DIRECT,
+     .seconds = 0.005,
      .residual = 1e-12},
-    {.name = "tree C tube 64^3", .shape = mask_c_tube, .dim = 3, .cells = 64, .function = LAPLACE,
-     .constraints = TREE, .solver = ICC_SOLVER_DIRECT, .seconds = 2, .residual = 1e-12,
+    {.name = "tree C 200^2",
+     .shape = mask_c,
+     .dim = 2,
+     .cells = 200,
+     .function = LAPLACE,
+     .constraints = TREE,
+     .solver = ICC_SOLVER_DIRECT,
+     .seconds = 0.1,
+     .residual = 1e-12,
+     .others = "Ipopt + MUMPS 5.4 s at 7e-6, NLopt L-BFGS 19 s at 1.7e-5, CLP none in 60 s"},
+    {.name = "tree L 1000^2",
+     .shape = mask_l,
+     .dim = 2,
+     .cells = 1000,
+     .function = LAPLACE,
+     .constraints = TREE,
+     .solver = ICC_SOLVER_DIRECT,
+     .seconds = 10,
+     .residual = 1e-12},
+    {.name = "tree star 1000^2",
+     .shape = mask_star,
+     .dim = 2,
+     .cells = 1000,
+     .function = LAPLACE,
+     .constraints = TREE,
+     .solver = ICC_SOLVER_DIRECT,
+     .residual = 1e-12,
+     .others = "the prototype: 11 s"},
+    {.name = "tree C 1000^2",
+     .shape = mask_c,
+     .dim = 2,
+     .cells = 1000,
+     .function = LAPLACE,
+     .constraints = TREE,
+     .solver = ICC_SOLVER_DIRECT,
+     .seconds = 50,
+     .stretch = 15,
+     .residual = 1e-12},
+    {.name = "tree C tube 64^3",
+     .shape = mask_c_tube,
+     .dim = 3,
+     .cells = 64,
+     .function = LAPLACE,
+     .constraints = TREE,
+     .solver = ICC_SOLVER_DIRECT,
+     .seconds = 2,
+     .residual = 1e-12,
      .others = "Ipopt + MUMPS 9.1 s at 5e-6"},
-    {.name = "tree pcg C tube 128^3", .shape = mask_c_tube, .dim = 3, .cells = 128,
-     .function = LAPLACE, .constraints = TREE, .solver = ICC_SOLVER_ITERATIVE, .seconds = 3,
+    {.name = "tree pcg C tube 128^3",
+     .shape = mask_c_tube,
+     .dim = 3,
+     .cells = 128,
+     .function = LAPLACE,
+     .constraints = TREE,
+     .solver = ICC_SOLVER_ITERATIVE,
+     .seconds = 3,
      .residual = 1e-9},
-    {.name = "tree pcg tripod 128^3", .shape = mask_tripod, .dim = 3, .cells = 128,
-     .function = LAPLACE, .constraints = TREE, .solver = ICC_SOLVER_ITERATIVE, .seconds = 3,
+    {.name = "tree pcg tripod 128^3",
+     .shape = mask_tripod,
+     .dim = 3,
+     .cells = 128,
+     .function = LAPLACE,
+     .constraints = TREE,
+     .solver = ICC_SOLVER_ITERATIVE,
+     .seconds = 3,
      .residual = 1e-9},
-    {.name = "tree pcg dumbbell 128^3", .shape = mask_dumbbell, .dim = 3, .cells = 128,
-     .function = LAPLACE, .constraints = TREE, .solver = ICC_SOLVER_ITERATIVE, .seconds = 3,
+    {.name = "tree pcg dumbbell 128^3",
+     .shape = mask_dumbbell,
+     .dim = 3,
+     .cells = 128,
+     .function = LAPLACE,
+     .constraints = TREE,
+     .solver = ICC_SOLVER_ITERATIVE,
+     .seconds = 3,
      .residual = 1e-9},
-    {.name = "bilaplace C 1000^2", .shape = mask_c, .dim = 2, .cells = 1000,
-     .function = ICC_FUNCTION_BILAPLACE, .constraints = FREE},
-    {.name = "tree bilaplace C 200^2", .shape = mask_c, .dim = 2, .cells = 200,
-     .function = ICC_FUNCTION_BILAPLACE, .constraints = TREE,
+    {.name = "bilaplace C 1000^2",
+     .shape = mask_c,
+     .dim = 2,
+     .cells = 1000,
+     .function = ICC_FUNCTION_BILAPLACE,
+     .constraints = FREE},
+    {.name = "tree bilaplace C 200^2",
+     .shape = mask_c,
+     .dim = 2,
+     .cells = 200,
+     .function = ICC_FUNCTION_BILAPLACE,
+     .constraints = TREE,
      .others = "the prototype: 0.9 to 3.8 s at 1e-10 to 8e-9"},
-    {.name = "tree clamped C 200^2", .shape = mask_c, .dim = 2, .cells = 200,
-     .function = ICC_FUNCTION_CLAMPED, .constraints = TREE},
-    {.name = "tree bilaplace C 1000^2", .shape = mask_c, .dim = 2, .cells = 1000,
-     .function = ICC_FUNCTION_BILAPLACE, .constraints = TREE, .slow = true},
-    {.name = "tree clamped C 1000^2", .shape = mask_c, .dim = 2, .cells = 1000,
-     .function = ICC_FUNCTION_CLAMPED, .constraints = TREE, .slow = true},
+    {.name = "tree clamped C 200^2",
+     .shape = mask_c,
+     .dim = 2,
+     .cells = 200,
+     .function = ICC_FUNCTION_CLAMPED,
+     .constraints = TREE},
+    {.name = "tree bilaplace C 1000^2",
+     .shape = mask_c,
+     .dim = 2,
+     .cells = 1000,
+     .function = ICC_FUNCTION_BILAPLACE,
+     .constraints = TREE,
+     .slow = true},
+    {.name = "tree clamped C 1000^2",
+     .shape = mask_c,
+     .dim = 2,
+     .cells = 1000,
+     .function = ICC_FUNCTION_CLAMPED,
+     .constraints = TREE,
+     .slow = true},
 };
 enum { N_ROWS = sizeof ROWS / sizeof *ROWS };
 
-/* Allocations remember their size, and the longest time between two looks at the progress callback is
- * kept. */
+/* Allocations remember their size, and the longest time between two looks at the progress callback
+ * is kept. */
 typedef struct meter {
     size_t live, most;
     double last, longest;
@@ -172,7 +292,8 @@ static double find_imbalance(const ground *g, const icc_function *field)
     return worst;
 }
 
-/* Edges where the logarithms say that the inequality does not hold; it may be tight up to rounding. */
+/* Edges where the logarithms say that the inequality does not hold; it may be tight up to
+ * rounding. */
 static size_t count_violated(const ground *g, const icc_function *field)
 {
     const double *u = icc_function_logs(field);
@@ -189,9 +310,9 @@ static size_t count_violated(const ground *g, const icc_function *field)
 static icc_function *run(const row *r, const ground *g, figures *out)
 {
     const icc_function_options options = {.size = sizeof options,
-                                       .function = r->function,
-                                       .constraints = r->constraints,
-                                       .solver = r->solver};
+                                          .function = r->function,
+                                          .constraints = r->constraints,
+                                          .solver = r->solver};
     static meter m; /* the field gives its memory back to it later */
     m = (meter){.last = bench_seconds()};
     const icc_env env = {.size = sizeof env,
@@ -235,7 +356,8 @@ static bool is_reached(const row *r, const figures *f)
 static void print(const row *r, const figures *f)
 {
     const icc_function_info *i = &f->info;
-    printf("%-26s %7zu %8.4f %6.3g %8.4f %7.3f %7.3f %7.3f %7.3f %7.3f %4zu %5zu %5.1f %5.1f %8.1e %8.1e "
+    printf("%-26s %7zu %8.4f %6.3g %8.4f %7.3f %7.3f %7.3f %7.3f %7.3f %4zu %5zu %5.1f %5.1f %8.1e "
+           "%8.1e "
            "%4zu %2zu/%zu/%zu %8.1e %6.0f %6.0f %-10.10s %s\n",
            r->name, f->n, f->cpu, r->seconds, f->wall, i->seconds_setup, i->seconds_order,
            i->seconds_factor, i->seconds_solve, i->seconds_verify, i->n_iterations, i->n_inner,
@@ -267,9 +389,8 @@ static void measure(const row *r)
     }
     if (field != NULL) {
         bench_check(icc_function_get_report(field, &f.report, NULL, &error), &error);
-        f.imbalance = r->function == LAPLACE && !f.info.constrained
-                          ? find_imbalance(&g, field)
-                          : NAN;
+        f.imbalance =
+            r->function == LAPLACE && !f.info.constrained ? find_imbalance(&g, field) : NAN;
         f.n_violated = f.info.constrained ? count_violated(&g, field) : 0;
         print(r, &f);
     }
@@ -287,15 +408,19 @@ static bool is_wanted(const row *r, int argc, char **argv)
 
 int main(int argc, char **argv)
 {
-    printf("bar: processor seconds to reach; setup to verify: seconds by the clock on the wall; its: of the "
+    printf("bar: processor seconds to reach; setup to verify: seconds by the clock on the wall; "
+           "its: of the "
            "active set or interior\npoint method, inner: of conjugate gradients; viol%%: without "
-           "constraints; nat: largest |min(slack, multiplier)|, or row of\nthe equation, before and after "
+           "constraints; nat: largest |min(slack, multiplier)|, or row of\nthe equation, before "
+           "and after "
            "the sweep; left: violated edges in the end; M/m/s: maxima, minima, saddles; compon.:\n"
-           "componentwise residual, found anew; gap: longest time between two progress reports, in ms, and "
+           "componentwise residual, found anew; gap: longest time between two progress reports, in "
+           "ms, and "
            "its stage\n\n");
-    printf("%-26s %7s %8s %6s %8s %7s %7s %7s %7s %7s %4s %5s %5s %5s %8s %8s %4s %6s %8s %6s %6s\n", "", "n",
-           "cpu s", "bar", "wall s", "setup", "order", "factor", "solve", "verify", "its", "inner", "viol%", "act%",
-           "nat", "after", "left", "M/m/s", "compon.", "B/n", "gap");
+    printf(
+        "%-26s %7s %8s %6s %8s %7s %7s %7s %7s %7s %4s %5s %5s %5s %8s %8s %4s %6s %8s %6s %6s\n",
+        "", "n", "cpu s", "bar", "wall s", "setup", "order", "factor", "solve", "verify", "its",
+        "inner", "viol%", "act%", "nat", "after", "left", "M/m/s", "compon.", "B/n", "gap");
     for (int k = 0; k < N_ROWS; ++k)
         if (is_wanted(&ROWS[k], argc, argv))
             measure(&ROWS[k]);

@@ -4,10 +4,10 @@
  * own: other programs disturb them less. */
 #include "bench.h"
 
-#include "solver/dissection.h"
 #include "grid/grassfire.h"
 #include "math/ldlt.h"
 #include "math/ordering.h"
+#include "solver/dissection.h"
 
 #include <stdbool.h>
 
@@ -78,19 +78,27 @@ static const struct {
     inside is_inside;
     size_t size, layers;
 } SHAPES[] = {
-    {"square200", is_square, 200, 1},   {"l200", is_l, 200, 1},
-    {"c200", is_c, 200, 1},             {"star200", is_star, 200, 1},
-    {"square1000", is_square, 1000, 1}, {"l1000", is_l, 1000, 1},
-    {"c1000", is_c, 1000, 1},           {"star1000", is_star, 1000, 1},
-    {"snake1000", is_snake, 1000, 1},   {"box32", is_square, 32, 32},
-    {"tube32", is_tube, 32, 32},        {"tube64", is_tube, 64, 64},
+    {"square200", is_square, 200, 1},
+    {"l200", is_l, 200, 1},
+    {"c200", is_c, 200, 1},
+    {"star200", is_star, 200, 1},
+    {"square1000", is_square, 1000, 1},
+    {"l1000", is_l, 1000, 1},
+    {"c1000", is_c, 1000, 1},
+    {"star1000", is_star, 1000, 1},
+    {"snake1000", is_snake, 1000, 1},
+    {"box32", is_square, 32, 32},
+    {"tube32", is_tube, 32, 32},
+    {"tube64", is_tube, 64, 64},
     {"box64", is_square, 64, 64},
 };
 
 static grid make_grid(inside is_inside, size_t size, size_t layers)
 {
     const size_t n_cells = size * size * layers;
-    grid g = {.size = size, .layers = layers, .unknown = bench_alloc(n_cells, sizeof *g.unknown),
+    grid g = {.size = size,
+              .layers = layers,
+              .unknown = bench_alloc(n_cells, sizeof *g.unknown),
               .cell = bench_alloc(n_cells, sizeof *g.cell)};
     for (size_t i = 0; i < n_cells; ++i) {
         const double x = (double)(2 * (i % size) + 1) / (double)size - 1;
@@ -155,7 +163,8 @@ static double dissect(const grid *g, uint32_t *order, const iccp_env *env)
     uint32_t root;
     for (size_t i = 0; i < g->size * g->size * g->layers; ++i)
         marks[i] = g->unknown[i] != OUTSIDE;
-    bench_check(iccp_grid_create_mask(&lattice, g->layers > 1 ? 3 : 2, shape, marks, env, &error), &error);
+    bench_check(iccp_grid_create_mask(&lattice, g->layers > 1 ? 3 : 2, shape, marks, env, &error),
+                &error);
     bench_check(iccp_grassfire(lattice, &root, NULL, env, &error), &error);
     bench_check(iccp_tree_create(&tree, lattice, root, ICC_TREE_PAPER, NULL, env, &error), &error);
     bench_check(iccp_rows_create(&rows, tree, env), &error);
@@ -179,8 +188,8 @@ static void time_cholmod(const iccp_symmetric *m)
     cholmod_start(&common);
     common.nmethods = 1;
     common.method[0].ordering = CHOLMOD_AMD;
-    cholmod_sparse *a = cholmod_allocate_sparse(m->n, m->n, m->n + m->first[m->n], 0, 1, 1,
-                                                CHOLMOD_REAL, &common);
+    cholmod_sparse *a =
+        cholmod_allocate_sparse(m->n, m->n, m->n + m->first[m->n], 0, 1, 1, CHOLMOD_REAL, &common);
     int *start = a->p, *row = a->i, k = 0;
     double *value = a->x;
     for (size_t j = 0; j < m->n; ++j) {
@@ -202,8 +211,8 @@ static void time_cholmod(const iccp_symmetric *m)
     cholmod_dense *b = cholmod_ones(m->n, 1, CHOLMOD_REAL, &common);
     const double t3 = seconds();
     cholmod_dense *x = cholmod_solve(CHOLMOD_A, factor, b, &common);
-    printf("  cholmod    analyse %.3f  factor %.3f  solve %.4f  lnz %.3g  %.0f MB\n", t1 - t0, t2 - t1,
-           seconds() - t3, common.lnz, (double)common.memory_usage * 1e-6);
+    printf("  cholmod    analyse %.3f  factor %.3f  solve %.4f  lnz %.3g  %.0f MB\n", t1 - t0,
+           t2 - t1, seconds() - t3, common.lnz, (double)common.memory_usage * 1e-6);
     cholmod_free_dense(&x, &common);
     cholmod_free_dense(&b, &common);
     cholmod_free_factor(&factor, &common);
@@ -277,7 +286,8 @@ static void time_ours(const grid *g, const iccp_symmetric *m, bool dissected)
     const double t3 = seconds();
     bench_check(iccp_ldlt_factorise(&factor, m, &env), &error);
     const double t4 = seconds();
-    printf("  %s  order %.3f  analyse %.3f  factor %.3f  again %.3f  entries %.3g  work %.3g  %.1f GF/s"
+    printf("  %s  order %.3f  analyse %.3f  factor %.3f  again %.3f  entries %.3g  work %.3g  %.1f "
+           "GF/s"
            "  supernodes %zu  %.0f MB\n",
            dissected ? "dissection" : "degree    ", t1 - t0, t2 - t1, t3 - t2, t4 - t3,
            (double)factor.n_entries, factor.work, 2e-9 * factor.work / (t4 - t3), factor.nodes.n,

@@ -1,7 +1,7 @@
-/* The thesis' shapes: the star of tables 6.1 to 6.5, the stick figure of table 6.6 and a cage like the butterfly of table
- * 6.7; rigid parts and lines on the star. Beside each property's yes or no of the thesis stands how far it fails here,
- * with the thesis' options (Gaussian kernel, no affine function) and with ours.
- * usage: bench_stars */
+/* The thesis' shapes: the star of tables 6.1 to 6.5, the stick figure of table 6.6 and a cage like
+ * the butterfly of table 6.7; rigid parts and lines on the star. Beside each property's yes or no
+ * of the thesis stands how far it fails here, with the thesis' options (Gaussian kernel, no affine
+ * function) and with ours. usage: bench_stars */
 #include "bench.h"
 
 #include <icc/kernel.h>
@@ -11,8 +11,8 @@ enum { TIPS = 10, CAGE = 26, MEN = 14, HEAD = 8, LINE = 21 };
 
 static const char *const METHOD[4] = {"", "QP", "QEC", "l1"};
 
-/* A shape, its samples, and points at which weights are judged: those of a grid that are in the first region or, for
- * the stick figure, in its head. */
+/* A shape, its samples, and points at which weights are judged: those of a grid that are in the
+ * first region or, for the stick figure, in its head. */
 typedef struct stage {
     icc_sampling *sampling;
     icc_sampling_info info;
@@ -107,8 +107,8 @@ static icc_weights *kernel_of(const stage *s, icc_weights_options options, doubl
     icc_weights *kernel;
     icc_error error = {.size = sizeof error};
     const double start = bench_seconds();
-    if (icc_weights_create(&kernel, s->sampling, s->n_handles, s->handles, &options, NULL, &error) !=
-        ICC_OK) {
+    if (icc_weights_create(&kernel, s->sampling, s->n_handles, s->handles, &options, NULL,
+                           &error) != ICC_OK) {
         printf("  %s: %s\n", icc_status_name(error.status), error.message);
         return NULL;
     }
@@ -201,9 +201,9 @@ static void stars(void)
         0, (icc_sampling_options){.kind = ICC_SAMPLING_GRID, .spacing = 0.0286, .margin = 4});
     judge(&s, &tables[0],
           (icc_weights_options){.initial = ICC_INITIAL_HEAT,
-                               .n_edges = s.n_edges,
-                               .edges = s.edges,
-                               .sigma = 3 * 0.0286 / 3.14159265});
+                                .n_edges = s.n_edges,
+                                .edges = s.edges,
+                                .sigma = 3 * 0.0286 / 3.14159265});
     clear(&s);
     s = star_of(0, (icc_sampling_options){.spacing = 0.0897});
     judge(&s, &tables[1],
@@ -272,11 +272,11 @@ static double bend_of(const stage *s, int32_t kind, const icc_line *line)
     enum { STEPS = 1000 };
     static double points[2 * (STEPS + 1)], weights[TIPS * (STEPS + 1)];
     const icc_weights_options options = {.size = sizeof options,
-                                        .kernel = kind,
-                                        .n_edges = s->n_edges,
-                                        .edges = s->edges,
-                                        .n_lines = 1,
-                                        .lines = line};
+                                         .kernel = kind,
+                                         .n_edges = s->n_edges,
+                                         .edges = s->edges,
+                                         .n_lines = 1,
+                                         .lines = line};
     double seconds, off = 0;
     icc_weights *kernel = kernel_of(s, options, &seconds);
     for (size_t i = 0; i <= STEPS; ++i)
@@ -294,7 +294,8 @@ static double bend_of(const stage *s, int32_t kind, const icc_line *line)
     return off;
 }
 
-/* The sine of the angle between the images of two parallel lines, under translations of the handles. */
+/* The sine of the angle between the images of two parallel lines, under translations of the
+ * handles. */
 static double turn_of(const stage *s)
 {
     const icc_line lines[2] = {{.from = {-0.25, -0.1}, .to = {0.25, 0.2}},
@@ -356,17 +357,18 @@ static void structure(void)
 
 /* ---- a gap ---- */
 
-/* Two legs, two spacings apart: the greatest initial weight, in the upper half of one, of a handle on the other. */
+/* Two legs, two spacings apart: the greatest initial weight, in the upper half of one, of a handle
+ * on the other. */
 static double leak(const stage *s, int32_t visible, int32_t steps)
 {
     icc_weights_info info = {.size = sizeof info};
     double seconds, most = 0;
     icc_weights *kernel = kernel_of(s,
-                                   (icc_weights_options){.size = sizeof(icc_weights_options),
-                                                        .kernel = ICC_KERNEL_GAUSS,
-                                                        .within_shape = visible,
-                                                        .steps = steps},
-                                   &seconds);
+                                    (icc_weights_options){.size = sizeof(icc_weights_options),
+                                                          .kernel = ICC_KERNEL_GAUSS,
+                                                          .within_shape = visible,
+                                                          .steps = steps},
+                                    &seconds);
     bench_check(icc_weights_get_info(kernel, &info), NULL);
     double *points = bench_alloc(info.n_nodes, 2 * sizeof *points);
     double *weights = bench_alloc(info.n_nodes, info.n_handles * sizeof *weights);
@@ -398,7 +400,8 @@ static void leaks(void)
 
 /* ---- the stick figure ---- */
 
-/* Head, limbs and what is around them: handles round the head, at the ends of the limbs and where they meet. */
+/* Head, limbs and what is around them: handles round the head, at the ends of the limbs and where
+ * they meet. */
 static void stick_figure(void)
 {
     static const table t = {"table 6.6, stick figure",
@@ -451,11 +454,11 @@ static void butterfly(void)
         sample(&s, shape_of(2, regions, 0, NULL, 0, NULL),
                (icc_sampling_options){.size = sizeof(icc_sampling_options), .spacing = 0.041});
         icc_weights *kernel = kernel_of(&s,
-                                       (icc_weights_options){.size = sizeof(icc_weights_options),
-                                                            .n_edges = CAGE,
-                                                            .edges = s.edges,
-                                                            .method = method},
-                                       &seconds);
+                                        (icc_weights_options){.size = sizeof(icc_weights_options),
+                                                              .n_edges = CAGE,
+                                                              .edges = s.edges,
+                                                              .method = method},
+                                        &seconds);
         judge_at(&s, CAGE, s.handles);
         bench_check(icc_binding_create(&binding, kernel, s.n_points, s.points, 0, NULL, &error),
                     &error);

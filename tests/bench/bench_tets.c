@@ -1,7 +1,7 @@
-/* Method foliation on tetrahedra: usage: bench_tets NAME.src.obj ..., with NAME.tgt.obj beside each and the
- * program tetgen installed. What it costs, and how good the maps are: round trip, inverted Jacobians,
- * determinants relative to the volumes, symmetric Dirichlet energy (6 for an isometry), beside a prototype's
- * figures for some pairs. Run by hand on a quiet machine. */
+/* Method foliation on tetrahedra: usage: bench_tets NAME.src.obj ..., with NAME.tgt.obj beside each
+ * and the program tetgen installed. What it costs, and how good the maps are: round trip, inverted
+ * Jacobians, determinants relative to the volumes, symmetric Dirichlet energy (6 for an isometry),
+ * beside a prototype's figures for some pairs. Run by hand on a quiet machine. */
 #include <icc/icc.h>
 
 #include "../meshes.h"
@@ -16,7 +16,8 @@ static double seconds(void)
     return (double)clock() / CLOCKS_PER_SEC;
 }
 
-/* Quantiles of 1, 50 and 99 % of the determinants, of energies the median, the mean and that of 99 %. */
+/* Quantiles of 1, 50 and 99 % of the determinants, of energies the median, the mean and that of 99
+ * %. */
 typedef struct figures {
     const char *name;
     double build, micros;
@@ -36,8 +37,9 @@ static const figures PROTOTYPE[] = {
 
 static void print_figures(const char *name, const figures *f)
 {
-    printf("  %-9s build %5.2f s, %5.2f us a point, det %.2g %.2g %.2g, energy %.1f %.1f %.0f\n", name,
-           f->build, f->micros, f->det[0], f->det[1], f->det[2], f->energy[0], f->energy[1], f->energy[2]);
+    printf("  %-9s build %5.2f s, %5.2f us a point, det %.2g %.2g %.2g, energy %.1f %.1f %.0f\n",
+           name, f->build, f->micros, f->det[0], f->det[1], f->det[2], f->energy[0], f->energy[1],
+           f->energy[2]);
 }
 
 static void mesh_surface(test_mesh *m, const char *path, const char *tag)
@@ -56,17 +58,21 @@ static void print_chart(const char *name, const icc_chart *chart)
 {
     icc_chart_info i = {.size = sizeof i};
     bench_check(icc_chart_get_info(chart, &i), NULL);
-    const double sum = i.seconds_grid + i.seconds_solve + i.seconds_tree + i.seconds_mesh + i.seconds_certify;
-    printf("  %s: %zu tetrahedra, %zu vertices; %s beta %g of %ld, %zu reversed, energy %.1e, divergence "
-           "%.0e%s\n    ms: centre %.0f flux %.0f order %.0f certificate %.1f (%.1f %%) leaves %.0f\n",
-           name, i.n_mesh_simplices, i.n_mesh_vertices, i.order_peeled ? "peeled" : "grown", i.order_beta,
-           (long)i.n_orders, i.n_reversed, i.flux_energy, i.flux_divergence,
-           i.certified ? ", certified" : "", 1e3 * i.seconds_grid, 1e3 * i.seconds_solve,
-           1e3 * i.seconds_tree, 1e3 * i.seconds_certify, 100 * i.seconds_certify / sum,
-           1e3 * i.seconds_mesh);
+    const double sum =
+        i.seconds_grid + i.seconds_solve + i.seconds_tree + i.seconds_mesh + i.seconds_certify;
+    printf(
+        "  %s: %zu tetrahedra, %zu vertices; %s beta %g of %ld, %zu reversed, energy %.1e, "
+        "divergence "
+        "%.0e%s\n    ms: centre %.0f flux %.0f order %.0f certificate %.1f (%.1f %%) leaves %.0f\n",
+        name, i.n_mesh_simplices, i.n_mesh_vertices, i.order_peeled ? "peeled" : "grown",
+        i.order_beta, (long)i.n_orders, i.n_reversed, i.flux_energy, i.flux_divergence,
+        i.certified ? ", certified" : "", 1e3 * i.seconds_grid, 1e3 * i.seconds_solve,
+        1e3 * i.seconds_tree, 1e3 * i.seconds_certify, 100 * i.seconds_certify / sum,
+        1e3 * i.seconds_mesh);
 }
 
-static double points[3 * N_POINTS], images[3 * N_POINTS], back[3 * N_POINTS], jacobians[9 * N_POINTS];
+static double points[3 * N_POINTS], images[3 * N_POINTS], back[3 * N_POINTS],
+    jacobians[9 * N_POINTS];
 
 static void fill_points(const icc_domain *domain, const icc_domain_info *info)
 {

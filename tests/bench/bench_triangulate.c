@@ -15,10 +15,9 @@ static void wave(double *points, size_t n_boundary, size_t n_points)
     uint64_t state = 1;
     for (size_t i = 0; i < n_points; ++i) {
         const double share = (double)i / (double)n_boundary;
-        const double angle =
-            6.283185307179586 * (i < n_boundary ? share : uniform(&state));
-        const double radius = i < n_boundary ? 1.0 + 0.2 * sin(40.0 * angle)
-                                             : 0.79 * sqrt(uniform(&state));
+        const double angle = 6.283185307179586 * (i < n_boundary ? share : uniform(&state));
+        const double radius =
+            i < n_boundary ? 1.0 + 0.2 * sin(40.0 * angle) : 0.79 * sqrt(uniform(&state));
         points[2 * i] = radius * cos(angle);
         points[2 * i + 1] = radius * sin(angle);
     }

@@ -1,4 +1,5 @@
-/* What it costs to walk along integral lines in 2 to 6 dimensions. Run by hand on a quiet machine. */
+/* What it costs to walk along integral lines in 2 to 6 dimensions. Run by hand on a quiet
+ * machine. */
 #include "trace/walk2.h"
 #include "trace/walkn.h"
 
@@ -109,8 +110,8 @@ static void run(const char *name, mask_shape shape, int32_t dim, size_t cells)
     for (int i = 0; i < 3; ++i) {
         icc_function *field;
         const icc_function_options options = {.size = sizeof options,
-                                           .function = FUNCTION[i].function,
-                                           .constraints = ICC_CONSTRAINTS_NONE};
+                                              .function = FUNCTION[i].function,
+                                              .constraints = ICC_CONSTRAINTS_NONE};
         bench_check(icc_function_create(&field, tree, &options, NULL, &err), &err);
         const tally t = climb(field);
         print(name, FUNCTION[i].name, &t);

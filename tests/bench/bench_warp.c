@@ -2,8 +2,8 @@
  * usage: bench_warp [SOURCE.txt TARGET.txt WIDTH HEIGHT]...
  * with cages of one vertex "x y" on a line. Decoding and encoding of pictures is not part of it.
  *
- * Bars: 512 x 512 in 30 ms on 2 threads; a million pixels in 16 ms when only the target moves (cages of at
- * most 66 vertices). */
+ * Bars: 512 x 512 in 30 ms on 2 threads; a million pixels in 16 ms when only the target moves
+ * (cages of at most 66 vertices). */
 #include "bench.h"
 
 enum { REPEATS = 9, MOST_VERTICES = 1 << 16, MOST_THREADS = 2 };
@@ -102,10 +102,10 @@ static void measure(const char *name, const cages *c, const icc_picture *from,
                 best = s.all < best.all ? s : best;
             }
             printf("%-18s %4ldx%-4ld %ldx%ld%c %7ld %-4s %9zu %8.2f %8.2f %8.2f %8.2f\n", name,
-                   (long)from->width, (long)from->height, (long)from->channels,
-                   (long)from->bytes, from->alpha ? 'a' : ' ', (long)threads,
-                   iterations < 0 ? "no" : "yes", best.n_triangles, 1e3 * best.domains,
-                   1e3 * best.map, 1e3 * best.warp, 1e3 * best.all);
+                   (long)from->width, (long)from->height, (long)from->channels, (long)from->bytes,
+                   from->alpha ? 'a' : ' ', (long)threads, iterations < 0 ? "no" : "yes",
+                   best.n_triangles, 1e3 * best.domains, 1e3 * best.map, 1e3 * best.warp,
+                   1e3 * best.all);
         }
 }
 

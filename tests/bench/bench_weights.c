@@ -1,5 +1,5 @@
-/* Weights at single points, diffusion, lines and rigid parts: what the thesis printed, what we get, what is asked for.
- * usage: bench_weights */
+/* Weights at single points, diffusion, lines and rigid parts: what the thesis printed, what we get,
+ * what is asked for. usage: bench_weights */
 #include "bench.h"
 
 #include "../random.h"

@@ -37,8 +37,8 @@ static inline icc_domain_info cage_info(const icc_domain *domain)
     return info;
 }
 
-/* Points spread evenly inside a domain by the R2 sequence (M. Roberts, 2018). How many there are: n,
- * unless the domain is so thin that a thousand tries a point do not suffice. */
+/* Points spread evenly inside a domain by the R2 sequence (M. Roberts, 2018). How many there are:
+ * n, unless the domain is so thin that a thousand tries a point do not suffice. */
 static inline size_t cage_points(const icc_domain *domain, size_t n, double *points)
 {
     const icc_domain_info info = cage_info(domain);
@@ -80,9 +80,9 @@ static inline double cage_quantile(double *values, size_t n, double share)
 /* Determinants this small, both shapes scaled to area 1, are rounding. */
 static const double CAGE_FLAT = 1e-9;
 
-/* The symmetric Dirichlet energy |J|^2 + |J^-1|^2 at evenly spread points, both shapes scaled to area
- * 1: 4 for an isometry. Points where the map has no derivative, collapses or turns over are left out
- * and counted. */
+/* The symmetric Dirichlet energy |J|^2 + |J^-1|^2 at evenly spread points, both shapes scaled to
+ * area 1: 4 for an isometry. Points where the map has no derivative, collapses or turns over are
+ * left out and counted. */
 typedef struct cage_energy {
     double mean, median, high; /* high: 99 % */
     double left_out;           /* share */
@@ -103,8 +103,7 @@ static inline cage_energy cage_measure_energy(const icc_map *map, const icc_doma
     for (size_t i = 0; i < n; ++i) {
         const double *j = jacobians + 4 * i;
         const double det = (j[0] * j[3] - j[1] * j[2]) / ratio;
-        const double square =
-            (j[0] * j[0] + j[1] * j[1] + j[2] * j[2] + j[3] * j[3]) / ratio;
+        const double square = (j[0] * j[0] + j[1] * j[1] + j[2] * j[2] + j[3] * j[3]) / ratio;
         if (det > CAGE_FLAT) {
             energies[kept] = square + square / (det * det);
             sum += energies[kept++];

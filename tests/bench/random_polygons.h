@@ -258,7 +258,7 @@ enum { POLYGON_KINDS = 10 };
 
 static inline const char *polygon_kind_name(int kind)
 {
-    static const char *const NAMES[POLYGON_KINDS] = {"star",   "untangled", "grown",  "spiral",
+    static const char *const NAMES[POLYGON_KINDS] = {"star",   "untangled", "grown",   "spiral",
                                                      "comb",   "spikes",    "columns", "coast",
                                                      "needle", "splinter"};
     return NAMES[kind];
@@ -267,8 +267,8 @@ static inline const char *polygon_kind_name(int kind)
 static inline void polygon_draw(polygon *p, int kind, size_t n, random_source *r)
 {
     static void (*const DRAW[])(polygon *, size_t, random_source *) = {
-        polygon_star, polygon_untangled, polygon_grown,   polygon_spiral,    polygon_comb,
-        polygon_spikes, polygon_columns, polygon_coast, polygon_star, polygon_untangled};
+        polygon_star,   polygon_untangled, polygon_grown, polygon_spiral, polygon_comb,
+        polygon_spikes, polygon_columns,   polygon_coast, polygon_star,   polygon_untangled};
     p->n = 0;
     if (n < 9 && (kind == 3 || kind == 5))
         kind = 0;

@@ -1,5 +1,6 @@
-/* Any bytes as a saved sampling or binding. The first byte says which; with its lowest bit the header is put right, so
- * that the content is looked at. What is accepted is sound, and saved again it is the same. */
+/* Any bytes as a saved sampling or binding. The first byte says which; with its lowest bit the
+ * header is put right, so that the content is looked at. What is accepted is sound, and saved again
+ * it is the same. */
 #include "icc/kernel.h"
 
 #include "blobs.h"

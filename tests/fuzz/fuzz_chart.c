@@ -36,8 +36,8 @@ static void check_curve(const icc_chart *chart, const double *point, icc_status 
         require(isfinite(curve[i]));
 }
 
-/* A certified chart has coordinates for every point of the domain, a curve through it, and goes back to
- * it. */
+/* A certified chart has coordinates for every point of the domain, a curve through it, and goes
+ * back to it. */
 static void check_certified(const icc_chart *chart, size_t n, const double *points, const codes *c,
                             const double *back)
 {
@@ -108,8 +108,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
                                        .function = 1 + (kind >> 2 & 1),
                                        .tree = 1 + (kind >> 3 & 1),
                                        .cells = 2 + data[1] % 64,
-                                       .maximum = (kind & 64) && data[1] >> 6 != 2 ? points + 4
-                                                                                   : NULL};
+                                       .maximum =
+                                           (kind & 64) && data[1] >> 6 != 2 ? points + 4 : NULL};
     icc_chart *chart;
     const icc_status status = icc_chart_create(&chart, domain, &options, NULL, NULL);
     require(status == ICC_OK || status == ICC_ERR_RESOLUTION || status == ICC_ERR_CERTIFICATE ||

@@ -1,6 +1,7 @@
-/* Any bytes as a saved chart or map. The first byte says which; with its lowest bit the header is put right, so that the
- * content is looked at. What is accepted answers, and saved again it is the same. There is little memory and patience: made-up
- * options of a chart on a grid cost what they cost when it is made. */
+/* Any bytes as a saved chart or map. The first byte says which; with its lowest bit the header is
+ * put right, so that the content is looked at. What is accepted answers, and saved again it is the
+ * same. There is little memory and patience: made-up options of a chart on a grid cost what they
+ * cost when it is made. */
 #include "icc/icc.h"
 
 #include "blobs.h"

@@ -1,8 +1,8 @@
 /* Any bytes as a polygon: icc_domain_create() and icc_boundary_defects() must agree on it, and a
  * domain must find its own vertices and not contradict itself about other points.
  *
- * Byte 0 chooses how the rest is read. Small integers make degenerate polygons likely, a nudge by one
- * unit in the last place nearly degenerate ones, and raw doubles anything. */
+ * Byte 0 chooses how the rest is read. Small integers make degenerate polygons likely, a nudge by
+ * one unit in the last place nearly degenerate ones, and raw doubles anything. */
 #include "icc/icc.h"
 
 #include <math.h>

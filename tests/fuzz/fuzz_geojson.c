@@ -1,5 +1,5 @@
-/* Any bytes at all must be refused with a reason, or become GeoJSON of which all is as it was but coordinates and
- * bounding boxes; under each policy; and leak nothing. */
+/* Any bytes at all must be refused with a reason, or become GeoJSON of which all is as it was but
+ * coordinates and bounding boxes; under each policy; and leak nothing. */
 #define _POSIX_C_SOURCE 200809L
 
 #include "geo/geo_carry.h"
@@ -33,9 +33,11 @@ static const cages *make_cages(void)
     if (c.map != NULL)
         return &c;
     for (size_t side = 0; side < 2; side++)
-        require(icc_domain_create(&c.domains[side], 2, 6, corners[side], 0, NULL, NULL, NULL) == ICC_OK);
+        require(icc_domain_create(&c.domains[side], 2, 6, corners[side], 0, NULL, NULL, NULL) ==
+                ICC_OK);
     require(icc_map_create(&c.map, c.domains[0], c.domains[1], NULL, NULL, NULL) == ICC_OK);
-    require(carrier_start(&c.carrier, c.map, c.domains[0], c.domains[1], false, -1, NULL) == ICC_OK);
+    require(carrier_start(&c.carrier, c.map, c.domains[0], c.domains[1], false, -1, NULL) ==
+            ICC_OK);
     return &c;
 }
 
@@ -49,7 +51,8 @@ static char *write_result(geo_result *r, const char *text, size_t n, size_t *n_o
     return bytes;
 }
 
-/* The objects are the same as before, less those that became null; whatever is carried again is GeoJSON. */
+/* The objects are the same as before, less those that became null; whatever is carried again is
+ * GeoJSON. */
 static void check_result(geo_result *r, const char *text, size_t n)
 {
     size_t n_out;

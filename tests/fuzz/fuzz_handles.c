@@ -1,5 +1,5 @@
-/* Any bytes at all must give handles or a pose with numbers that are finite and in range, or a reason; and leak
- * nothing. */
+/* Any bytes at all must give handles or a pose with numbers that are finite and in range, or a
+ * reason; and leak nothing. */
 #include "kernel/handle_set.h"
 
 #include <math.h>

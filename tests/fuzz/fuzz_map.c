@@ -1,5 +1,5 @@
-/* Any bytes as two polygons and points: either they do not correspond, or every point of the source,
- * and of the target, gets a finite image or a status. */
+/* Any bytes as two polygons and points: either they do not correspond, or every point of the
+ * source, and of the target, gets a finite image or a status. */
 #include "outlines.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
@@ -41,7 +41,8 @@ static void check_mesh(const icc_map *map, const icc_domain *target)
         icc_map_repair(map, info.n_vertices, vertices, info.n_simplices, triangles,
                        vertices + 2 * info.n_vertices, &checked, NULL, NULL);
     require(status == ICC_OK || status == ICC_ERR_ARGUMENT);
-    require(status != ICC_OK || checked.certified == (checked.boundary_simple && checked.first < 0));
+    require(status != ICC_OK ||
+            checked.certified == (checked.boundary_simple && checked.first < 0));
     const icc_improve_options few = {.size = sizeof few, .iterations = 1, .levels = 1};
     icc_improve_report report = {.size = sizeof report};
     icc_map *better, *same;
@@ -69,9 +70,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     place_outline(m, target, kind >> 6);
     const size_t n_points = pick_points(n, source, data + 2, size - 2, points);
     icc_domain *domains[2] = {NULL, NULL};
-    const icc_chart_options chart = {
-        .size = sizeof chart, .method = pick_method(data[1] >> 6), .function = 1 + (kind >> 3 & 1),
-        .cells = 2 + data[1] % 32};
+    const icc_chart_options chart = {.size = sizeof chart,
+                                     .method = pick_method(data[1] >> 6),
+                                     .function = 1 + (kind >> 3 & 1),
+                                     .cells = 2 + data[1] % 32};
     const icc_map_options options = {.size = sizeof options,
                                      .kind = data[1] % 4 == 3 ? ICC_MAP_CURVES : 0,
                                      .iterations = data[1] % 2 ? 2 : -1,

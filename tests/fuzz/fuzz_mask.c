@@ -1,6 +1,6 @@
-/* Any mask of cells: it is refused with a text, or gives a boundary around as much as its cells, a grid
- * with every cell's middle inside, and an order that the verifier agrees with, if there is one. Turned
- * round it fares the same. */
+/* Any mask of cells: it is refused with a text, or gives a boundary around as much as its cells, a
+ * grid with every cell's middle inside, and an order that the verifier agrees with, if there is
+ * one. Turned round it fares the same. */
 #include "icc/stages.h"
 
 #include <math.h>
@@ -25,8 +25,8 @@ typedef struct mask {
     uint8_t cells[MAX_CELLS];
 } mask;
 
-/* One byte for the dimension and the kind, one for each side; then one byte for each cell to be taken out of
- * a box, or one bit for each cell. */
+/* One byte for the dimension and the kind, one for each side; then one byte for each cell to be
+ * taken out of a box, or one bit for each cell. */
 static void read_mask(mask *m, const uint8_t *data, size_t size)
 {
     static const size_t most[ICC_MAX_DIM] = {64, 256, 125,

@@ -1,9 +1,9 @@
-/* Any bytes as a mesh in 2 to 4 dimensions: it is refused with a reason, or the library's copy of it fills
- * the domain, side by side; and in which order the mesh is listed does not matter.
+/* Any bytes as a mesh in 2 to 4 dimensions: it is refused with a reason, or the library's copy of
+ * it fills the domain, side by side; and in which order the mesh is listed does not matter.
  *
- * Byte 0 chooses a cube to start from, its frame, and whether its facets are given. One byte moves a
- * coordinate: small steps of half a cell make flat simplices likely. What is left replaces corners, two
- * bytes each, or facets. */
+ * Byte 0 chooses a cube to start from, its frame, and whether its facets are given. One byte moves
+ * a coordinate: small steps of half a cell make flat simplices likely. What is left replaces
+ * corners, two bytes each, or facets. */
 #include "../meshes.h"
 #include "domain/domain.h"
 #include "domain/simplices.h"

@@ -1,6 +1,7 @@
-/* Any bytes as a polygon: its mesh is a triangulated disc, exactly, and every point of it is found. */
-#include "foliation/certificate.h"
+/* Any bytes as a polygon: its mesh is a triangulated disc, exactly, and every point of it is
+ * found. */
 #include "domain/locate.h"
+#include "foliation/certificate.h"
 #include "mesh/finder.h"
 
 #include "outlines.h"
@@ -26,7 +27,8 @@ static void check_points(const iccp_planar *mesh, const icc_domain *domain, cons
         double p[2], bary[3];
         uint32_t found;
         for (size_t k = 0; k < 2; ++k)
-            p[k] = 0.5 * mesh->points[2 * (size_t)v[0] + k] + 0.25 * mesh->points[2 * (size_t)v[1] + k] +
+            p[k] = 0.5 * mesh->points[2 * (size_t)v[0] + k] +
+                   0.25 * mesh->points[2 * (size_t)v[1] + k] +
                    0.25 * mesh->points[2 * (size_t)v[2] + k];
         if (iccp_finder_find(&finder, p, &found, bary))
             require(fabs(bary[0] + bary[1] + bary[2] - 1) < 1e-15);

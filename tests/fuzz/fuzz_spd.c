@@ -1,5 +1,5 @@
-/* Any bytes as a sparse symmetric matrix: both solvers solve it or refuse it, and where the diagonal
- * dominates the direct one does not refuse and both agree. */
+/* Any bytes as a sparse symmetric matrix: both solvers solve it or refuse it, and where the
+ * diagonal dominates the direct one does not refuse and both agree. */
 #include "math/ordering.h"
 #include "math/spd.h"
 
@@ -16,7 +16,8 @@ typedef struct sparse {
 } sparse;
 
 /* Three bytes an entry: row, column, value; then the rows are written in order. */
-static iccp_symmetric read_matrix(sparse *s, size_t n, const uint8_t *data, size_t size, double extra)
+static iccp_symmetric read_matrix(sparse *s, size_t n, const uint8_t *data, size_t size,
+                                  double extra)
 {
     memset(s, 0, sizeof *s);
     for (size_t k = 0; k + 3 <= size; k += 3) {

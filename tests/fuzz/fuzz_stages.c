@@ -1,5 +1,5 @@
-/* Any mask with any root: every stage works, the two forms of the tree agree, and what the stages say
- * about each other is consistent. On small masks, any solved function too. */
+/* Any mask with any root: every stage works, the two forms of the tree agree, and what the stages
+ * say about each other is consistent. On small masks, any solved function too. */
 #include "icc/stages.h"
 #include "math/ordering.h"
 
@@ -121,11 +121,11 @@ static icc_function_options read_options(reader *in)
     static const double ETAS[4] = {0, 1e-12, 1e-3, 1e-2}, LEAVES[4] = {0, 1e-15, 1e-4, 1e-2};
     const unsigned what = next_byte(in), sizes = next_byte(in);
     return (icc_function_options){.size = sizeof(icc_function_options),
-                               .function = ICC_FUNCTION_LAPLACE + (int32_t)(what % 3),
-                               .constraints = (int32_t)(what / 3 % 4),
-                               .solver = (int32_t)(what / 12 % 3),
-                               .min_fall = ETAS[sizes % 4],
-                               .leaf_min = LEAVES[sizes / 4 % 4]};
+                                  .function = ICC_FUNCTION_LAPLACE + (int32_t)(what % 3),
+                                  .constraints = (int32_t)(what / 3 % 4),
+                                  .solver = (int32_t)(what / 12 % 3),
+                                  .min_fall = ETAS[sizes % 4],
+                                  .leaf_min = LEAVES[sizes / 4 % 4]};
 }
 
 /* Whether the tree is so deep that falls and bounds cannot both be kept. */
@@ -140,12 +140,13 @@ static bool is_infeasible(const icc_tree *tree, const shape *s, const icc_functi
     return options->function != ICC_FUNCTION_LAPLACE && leaf * pow(1 + eta, deepest) > 1;
 }
 
-static void check_values(const icc_function *field, const shape *s, const icc_function_options *options)
+static void check_values(const icc_function *field, const shape *s,
+                         const icc_function_options *options)
 {
     const double *f = icc_function_values(field), *u = icc_function_logs(field);
     const double eta = options->min_fall > 0 ? options->min_fall : 1e-6;
     const double leaf = options->function == ICC_FUNCTION_LAPLACE ? 0
-                        : options->leaf_min > 0                       ? options->leaf_min
+                        : options->leaf_min > 0                   ? options->leaf_min
                                                                   : 1e-9;
     const icc_tree *tree = icc_function_tree(field);
     icc_function_info info = {.size = sizeof info};
@@ -158,7 +159,8 @@ static void check_values(const icc_function *field, const shape *s, const icc_fu
             continue;
         require(f[v] <= 1 || (!info.constrained && options->function != ICC_FUNCTION_LAPLACE));
         require(u != NULL || options->function == ICC_FUNCTION_CLAMPED);
-        require(u == NULL || (isfinite(u[v]) && fabs(exp(u[v]) - f[v]) <= 1e-12 * (1 + fabs(f[v]))));
+        require(u == NULL ||
+                (isfinite(u[v]) && fabs(exp(u[v]) - f[v]) <= 1e-12 * (1 + fabs(f[v]))));
         require(!info.constrained || f[v] >= leaf);
         require(!info.constrained || parent == UINT32_MAX || f[parent] >= (1 + eta) * f[v]);
     }
@@ -170,7 +172,8 @@ static bool may_give_up(const icc_function_options *options)
     return options->function != ICC_FUNCTION_LAPLACE && options->leaf_min > 1e-3;
 }
 
-static void check_solution(const icc_tree *tree, const shape *s, const icc_function_options *options)
+static void check_solution(const icc_tree *tree, const shape *s,
+                           const icc_function_options *options)
 {
     icc_function *field;
     icc_tree_report report = {.size = sizeof report};

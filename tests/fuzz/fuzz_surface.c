@@ -1,9 +1,10 @@
-/* Any bytes as a boundary in 3-D: it is refused with a reason, or the domain finds its own vertices,
- * agrees with its mirror image, and does not contradict itself about points, lines and segments.
+/* Any bytes as a boundary in 3-D: it is refused with a reason, or the domain finds its own
+ * vertices, agrees with its mirror image, and does not contradict itself about points, lines and
+ * segments.
  *
- * Byte 0 chooses a shape to start from, its frame, and how bytes move the vertices: small integers make
- * degenerate surfaces likely, a nudge by one unit in the last place nearly degenerate ones. Three bytes
- * a vertex; what is left replaces vertex indices of the faces. */
+ * Byte 0 chooses a shape to start from, its frame, and how bytes move the vertices: small integers
+ * make degenerate surfaces likely, a nudge by one unit in the last place nearly degenerate ones.
+ * Three bytes a vertex; what is left replaces vertex indices of the faces. */
 #include "../surfaces.h"
 #include "domain/domain.h"
 #include "icc/icc.h"

@@ -17,8 +17,8 @@ static void require(bool fact)
         abort();
 }
 
-/* A signed number of few bits, so that points coincide and line up; or, as the first byte says, that
- * times a number that is no power of two, or a few last places off, or very large or small. */
+/* A signed number of few bits, so that points coincide and line up; or, as the first byte says,
+ * that times a number that is no power of two, or a few last places off, or very large or small. */
 static double decode(uint8_t style, uint8_t byte)
 {
     const double coarse = (double)(byte >> 3) - 16.0;
@@ -35,8 +35,8 @@ static double decode(uint8_t style, uint8_t byte)
     }
 }
 
-/* The first byte: its lower half and its highest bit say how many vertices there are, the rest how to
- * decode. Then x and y of each point. */
+/* The first byte: its lower half and its highest bit say how many vertices there are, the rest how
+ * to decode. Then x and y of each point. */
 static void read_input(input *in, const uint8_t *data, size_t size)
 {
     in->n_points = (size - 1) / 2 < MOST_POINTS ? (size - 1) / 2 : MOST_POINTS;

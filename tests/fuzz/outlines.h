@@ -16,8 +16,9 @@ static inline void require(int condition)
         abort();
 }
 
-/* One byte a vertex: its distance from the middle, so that the polygon is star-shaped; with `snap` on
- * an integer grid, where vertices repeat and edges touch. With `pairs` two bytes, its coordinates. */
+/* One byte a vertex: its distance from the middle, so that the polygon is star-shaped; with `snap`
+ * on an integer grid, where vertices repeat and edges touch. With `pairs` two bytes, its
+ * coordinates. */
 static inline size_t read_outline(const uint8_t *data, size_t size, int snap, int pairs, double *xy)
 {
     size_t n = pairs ? size / 2 : size;
@@ -64,10 +65,10 @@ enum { MAX_POINTS = 4 * MAX_VERTICES };
 
 static inline int32_t pick_method(int choice)
 {
-    static const int32_t METHODS[4] = {ICC_METHOD_GRADIENT, ICC_METHOD_FOLIATION, ICC_METHOD_DISC, 0};
+    static const int32_t METHODS[4] = {ICC_METHOD_GRADIENT, ICC_METHOD_FOLIATION, ICC_METHOD_DISC,
+                                       0};
     return METHODS[choice & 3];
 }
-
 
 static inline int is_point_status(icc_status status)
 {

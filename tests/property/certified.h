@@ -1,5 +1,5 @@
-/* What holds for every chart and map that is certified, whatever the method. Each test_METHOD.c names
- * its METHOD and runs these checks on its shapes. */
+/* What holds for every chart and map that is certified, whatever the method. Each test_METHOD.c
+ * names its METHOD and runs these checks on its shapes. */
 #ifndef TESTS_PROPERTY_CERTIFIED_H
 #define TESTS_PROPERTY_CERTIFIED_H
 
@@ -91,8 +91,8 @@ static inline code encode_point(const icc_chart *chart, const double p[2])
     code c;
     icc_status status;
     size_t n_failed;
-    ck_assert_int_eq(icc_chart_encode(chart, 1, p, &c.facet, c.bary, &c.t, &status, &n_failed, NULL),
-                     ICC_OK);
+    ck_assert_int_eq(
+        icc_chart_encode(chart, 1, p, &c.facet, c.bary, &c.t, &status, &n_failed, NULL), ICC_OK);
     if (status != ICC_OK || n_failed != 0)
         ck_abort_msg("(%.17g, %.17g) has no coordinates: %d", p[0], p[1], (int)status);
     if (!(c.t >= 0 && c.t <= 1 && c.bary[0] >= 0 && c.bary[1] >= 0 &&
@@ -107,8 +107,8 @@ static inline void decode_point(const icc_chart *chart, const code *c, double p[
     ck_assert_int_eq(icc_chart_decode(chart, 1, &c->facet, c->bary, &c->t, p, &status, NULL, NULL),
                      ICC_OK);
     if (status != ICC_OK)
-        ck_abort_msg("facet %u, %.17g, t = %.17g is nowhere: %d", (unsigned)c->facet, c->bary[1], c->t,
-                     (int)status);
+        ck_abort_msg("facet %u, %.17g, t = %.17g is nowhere: %d", (unsigned)c->facet, c->bary[1],
+                     c->t, (int)status);
 }
 
 static inline void check_round_trip(const subject *s, const double p[2], double tolerance)
@@ -117,7 +117,8 @@ static inline void check_round_trip(const subject *s, const double p[2], double 
     const code c = encode_point(s->chart, p);
     decode_point(s->chart, &c, back);
     if (!(distance_of(p, back) <= tolerance * s->width))
-        ck_abort_msg("(%.17g, %.17g) comes back %g away", p[0], p[1], distance_of(p, back) / s->width);
+        ck_abort_msg("(%.17g, %.17g) comes back %g away", p[0], p[1],
+                     distance_of(p, back) / s->width);
 }
 
 /* The mesh that the chart was made on. */
@@ -128,7 +129,8 @@ static inline iccp_planar mesh_of(const subject *s)
     iccp_planar mesh;
     ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
     iccp_planar_pieces(pieces, s->domain, NULL, s->info.cells);
-    ck_assert_int_eq(iccp_planar_create(&mesh, s->domain, pieces, s->info.cells, &env, NULL), ICC_OK);
+    ck_assert_int_eq(iccp_planar_create(&mesh, s->domain, pieces, s->info.cells, &env, NULL),
+                     ICC_OK);
     ck_assert_uint_eq(mesh.n_triangles, s->info.n_mesh_simplices);
     free(pieces);
     return mesh;
@@ -138,8 +140,11 @@ static inline iccp_planar mesh_of(const subject *s)
 static inline void check_special_points(const subject *s, double tolerance)
 {
     iccp_planar mesh = mesh_of(s);
-    static const double BARY[5][3] = {
-        {1, 0, 0}, {0.5, 0.5, 0}, {0, 0.25, 0.75}, {1 / 3.0, 1 / 3.0, 1 / 3.0}, {1 - 2e-9, 1e-9, 1e-9}};
+    static const double BARY[5][3] = {{1, 0, 0},
+                                      {0.5, 0.5, 0},
+                                      {0, 0.25, 0.75},
+                                      {1 / 3.0, 1 / 3.0, 1 / 3.0},
+                                      {1 - 2e-9, 1e-9, 1e-9}};
     for (size_t t = 0; t < mesh.n_triangles; t += 1 + mesh.n_triangles / 500)
         for (int k = 0; k < 5; ++k) {
             double local[2] = {0, 0}, p[2];
@@ -191,16 +196,16 @@ static inline void check_curve(const subject *s, const double p[2], double slack
         double back[2];
         decode_point(s->chart, &same, back);
         if (distance_of(back, q) > slack * s->width)
-            ck_abort_msg("the curve leaves its foot by %g at t = %g", distance_of(back, q) / s->width,
-                         c.t);
+            ck_abort_msg("the curve leaves its foot by %g at t = %g",
+                         distance_of(back, q) / s->width, c.t);
     }
 }
 
 /* No curve is longer than this, in widths: the longest runs along a spiral. */
 enum { MAX_LENGTH = 60 };
 
-/* Boundary points have t = 0 where they are and come back; what has t close to 0 or 1 is close to them
- * or to the maximum. */
+/* Boundary points have t = 0 where they are and come back; what has t close to 0 or 1 is close to
+ * them or to the maximum. */
 static inline void check_boundary(const subject *s, random_source *r)
 {
     for (uint32_t f = 0; f < s->domain->n_facets; ++f)
@@ -216,7 +221,8 @@ static inline void check_boundary(const subject *s, random_source *r)
             /* The t of a disc is no length. */
             for (int e = 6; e < 320 && METHOD == ICC_METHOD_FOLIATION; e = 5 * e / 4) {
                 const double near = pow(10, -e), bound = MAX_LENGTH * near + 4e-15;
-                const code low = {f, {1 - along, along}, near}, high = {f, {1 - along, along}, 1 - near};
+                const code low = {f, {1 - along, along}, near},
+                           high = {f, {1 - along, along}, 1 - near};
                 decode_point(s->chart, &low, back);
                 ck_assert_double_le(distance_of(p, back), bound * s->width);
                 decode_point(s->chart, &high, back);
@@ -245,9 +251,9 @@ static inline void check_decoding(const subject *s, random_source *r, double tol
                      distance_of(p, q) / s->width);
 }
 
-/* Everything above, with n random points. `tolerance` is for points that go to coordinates and back,
- * `slack` for coordinates: in a corridor as wide as w the rounding of a point moves its coordinates by
- * 1e-16 / w. */
+/* Everything above, with n random points. `tolerance` is for points that go to coordinates and
+ * back, `slack` for coordinates: in a corridor as wide as w the rounding of a point moves its
+ * coordinates by 1e-16 / w. */
 static inline void check_chart(const shape *outline, int32_t cells, int n, double tolerance,
                                double slack)
 {
@@ -268,7 +274,8 @@ static inline void check_chart(const shape *outline, int32_t cells, int n, doubl
     subject_clear(&s);
 }
 
-/* Coordinates do not depend on size, and far from zero points come back as well as they are given. */
+/* Coordinates do not depend on size, and far from zero points come back as well as they are
+ * given. */
 static inline void check_places(const shape *outline, int32_t cells)
 {
     static const double PLACES[5][3] = {
@@ -289,9 +296,11 @@ static inline void check_places(const shape *outline, int32_t cells)
                 continue;
             const code a = encode_point(plain.chart, p), b = encode_point(s.chart, q);
             decode_point(s.chart, &b, back);
-            /* Rounding the vertices may change the mesh: only scaling by powers of two rounds nothing. */
+            /* Rounding the vertices may change the mesh: only scaling by powers of two rounds
+             * nothing. */
             if (k < 2)
-                ck_assert(a.facet == b.facet && !(fabs(a.t - b.t) > 0) && !(fabs(a.bary[1] - b.bary[1]) > 0));
+                ck_assert(a.facet == b.facet && !(fabs(a.t - b.t) > 0) &&
+                          !(fabs(a.bary[1] - b.bary[1]) > 0));
             ck_assert_double_le(distance_of(back, q) / s.width, k < 4 ? 1e-12 : 5e-8);
         }
         subject_clear(&s);
@@ -313,7 +322,8 @@ static inline void check_shuffled(const shape *outline, int32_t cells)
         facets[2 * other] = (uint32_t)f;
         facets[2 * other + 1] = (uint32_t)((f + 1) % n);
     }
-    ck_assert_int_eq(icc_domain_create(&s.domain, 2, n, outline->xy, n, facets, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_domain_create(&s.domain, 2, n, outline->xy, n, facets, NULL, NULL),
+                     ICC_OK);
     ck_assert_int_eq(icc_chart_create(&s.chart, s.domain, &options, NULL, NULL), ICC_OK);
     for (int i = 0; i < 100; ++i) {
         double p[2];
@@ -334,7 +344,8 @@ static inline void check_shuffled(const shape *outline, int32_t cells)
 static inline icc_map *map_of(const icc_domain *source, const icc_domain *target, int32_t cells)
 {
     const icc_chart_options chart = method_options(cells);
-    const icc_map_options options = {.size = sizeof options, .kind = ICC_MAP_CURVES, .chart = &chart};
+    const icc_map_options options = {
+        .size = sizeof options, .kind = ICC_MAP_CURVES, .chart = &chart};
     icc_error err = {.size = sizeof err};
     icc_map *map;
     if (icc_map_create(&map, source, target, &options, NULL, &err) != ICC_OK)
@@ -420,8 +431,10 @@ static inline int check_jacobian(const icc_map *map, const subject *s, const dou
 /* The subject of a map's source, borrowed. */
 static inline subject source_of(const icc_map *map, const icc_domain *source)
 {
-    subject s = {.domain = (icc_domain *)source, .chart = (icc_chart *)icc_map_source_chart(map),
-                 .shape = {.size = sizeof s.shape}, .info = {.size = sizeof s.info}};
+    subject s = {.domain = (icc_domain *)source,
+                 .chart = (icc_chart *)icc_map_source_chart(map),
+                 .shape = {.size = sizeof s.shape},
+                 .info = {.size = sizeof s.info}};
     (void)icc_domain_get_info(source, &s.shape);
     (void)icc_chart_get_info(s.chart, &s.info);
     s.width = fmax(s.shape.upper[0] - s.shape.lower[0], s.shape.upper[1] - s.shape.lower[1]);

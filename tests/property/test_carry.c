@@ -1,5 +1,5 @@
-/* A caller's tetrahedral mesh carried along by a map: the certificate counts what is there, and the repair
- * leaves nothing inverted that could be mended. */
+/* A caller's tetrahedral mesh carried along by a map: the certificate counts what is there, and the
+ * repair leaves nothing inverted that could be mended. */
 #include <check.h>
 #include <icc/icc.h>
 #include <math.h>
@@ -217,7 +217,8 @@ START_TEST(listing_does_not_matter)
 }
 END_TEST
 
-/* The gradient method leaves points without an image; inner vertices get one, and those outside do not. */
+/* The gradient method leaves points without an image; inner vertices get one, and those outside do
+ * not. */
 START_TEST(vertices_without_an_image)
 {
     random_source r = {3};

@@ -120,8 +120,8 @@ enum { N_OPTIONS = 24 };
 
 static icc_chart_options cells(int32_t n)
 {
-    return (icc_chart_options){.size = sizeof(icc_chart_options), .method = ICC_METHOD_GRADIENT,
-                               .cells = n};
+    return (icc_chart_options){
+        .size = sizeof(icc_chart_options), .method = ICC_METHOD_GRADIENT, .cells = n};
 }
 
 /* Errors of one round trip, in units of the shape's width and as they are. */

@@ -393,8 +393,8 @@ START_TEST(inward_is_inward)
 }
 END_TEST
 
-/* Whether a derivative is that of three values a step apart, two times; false where they do not tell, as where
- * the function has a kink. */
+/* Whether a derivative is that of three values a step apart, two times; false where they do not
+ * tell, as where the function has a kink. */
 static bool agrees(double low, double at, double high, double step, double derivative)
 {
     const double left = (at - low) / step, right = (high - at) / step;
@@ -441,7 +441,8 @@ START_TEST(jets_are_derivatives)
             /* By t, and from the first corner of the facet to another. */
             for (int32_t b = 0; b < dim; ++b) {
                 start = c[1];
-                good = b == 0 || fmin(start.bary[0], start.bary[b]) > STEP; /* there are two sides */
+                good = b == 0 || fmin(start.bary[0], start.bary[b]) > STEP; /* there are two
+                                                                               sides */
                 for (int n = 0; n < 3 && good; ++n) {
                     start = c[1];
                     start.t += b == 0 ? (n - 1) * STEP : 0;
@@ -474,8 +475,8 @@ START_TEST(measures_are_shares)
         ck_assert_int_eq(icc_chart_get_report(s.chart, 500, &m, NULL, NULL), ICC_OK);
         ck_assert_uint_eq(m.n_boundary, 500);
         ck_assert(m.n_points > 300 && m.n_points < 700);
-        /* Lines merge a lot; but from nearly everywhere they reach both ends, and nearly everywhere they start
-         * inward. */
+        /* Lines merge a lot; but from nearly everywhere they reach both ends, and nearly everywhere
+         * they start inward. */
         ck_assert(m.unreachable >= 0 && m.unreachable < 0.02);
         ck_assert(m.not_inward >= 0 && m.not_inward < 0.1);
         ck_assert(m.uncovered > 0 && m.uncovered < 1 && m.collapsed > 0.2 && m.collapsed < 1);

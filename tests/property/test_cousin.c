@@ -1,5 +1,6 @@
-/* What holds for every shape of a kind, tried on all of them: in the plane the tree is a cousin tree
- * and its order has one critical point; in space neither is true, and the order has to be grown. */
+/* What holds for every shape of a kind, tried on all of them: in the plane the tree is a cousin
+ * tree and its order has one critical point; in space neither is true, and the order has to be
+ * grown. */
 #include "grid/kuhn.h"
 #include "icc/stages.h"
 
@@ -104,8 +105,8 @@ static int euler(uint32_t mask, int nx, uint32_t first_column)
            count_bits(lower) + count_bits(upper);
 }
 
-/* All masks of nx * ny vertices that are connected along the axes, without holes in the triangulated
- * grid, with at least `least` vertices. Every `stride`-th is tried. */
+/* All masks of nx * ny vertices that are connected along the axes, without holes in the
+ * triangulated grid, with at least `least` vertices. Every `stride`-th is tried. */
 static tally try_plane(int nx, int ny, int least, size_t stride)
 {
     tally sum = {0};

@@ -17,10 +17,10 @@ END_TEST
 START_TEST(hard_shapes_have_coordinates)
 {
     const shape s = shape_hard(_i), reversed = shape_reversed(&s);
-    /* The map shrinks the neighbourhood of a very short edge, and rounding in the disc is magnified on
-     * the way back: at a slit of 1e-9 seven digits are lost, at one of 1e-14 all but two. */
-    static const double TOLERANCE[N_HARD_SHAPES] = {[2] = 1e-7, [3] = 1e-2, [5] = 1e-7, [6] = 1e-2,
-                                                    [13] = 1e-8, [14] = 1e-7, [15] = 1e-4};
+    /* The map shrinks the neighbourhood of a very short edge, and rounding in the disc is magnified
+     * on the way back: at a slit of 1e-9 seven digits are lost, at one of 1e-14 all but two. */
+    static const double TOLERANCE[N_HARD_SHAPES] = {
+        [2] = 1e-7, [3] = 1e-2, [5] = 1e-7, [6] = 1e-2, [13] = 1e-8, [14] = 1e-7, [15] = 1e-4};
     const double tolerance = fmax(TOLERANCE[_i], 1e-10);
     check_chart(&s, 50, 100, tolerance, shape_hard_slack(_i));
     check_chart(&reversed, 12, 100, tolerance, shape_hard_slack(_i));

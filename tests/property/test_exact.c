@@ -1,11 +1,12 @@
-/* The map of a foliation is one-to-one, without a "nearly": computed in rational numbers every point comes
- * back as itself, bit by bit. The library's own meshes and labels are taken as they are; the share of
- * the way is measured in |dx| + |dy|, which needs no square root; every decision is that of
- * foliation/leaf.c. With arc length in place of it, the library's doubles are compared as well. */
-#include "foliation/harmonic.h"
+/* The map of a foliation is one-to-one, without a "nearly": computed in rational numbers every
+ * point comes back as itself, bit by bit. The library's own meshes and labels are taken as they
+ * are; the share of the way is measured in |dx| + |dy|, which needs no square root; every decision
+ * is that of foliation/leaf.c. With arc length in place of it, the library's doubles are compared
+ * as well. */
 #include "domain/locate.h"
-#include "icc/icc.h"
+#include "foliation/harmonic.h"
 #include "foliation/psi.h"
+#include "icc/icc.h"
 
 #include "../hard_shapes.h"
 #include "../share.h"
@@ -101,8 +102,9 @@ static void foliation_init(foliation *f, icc_domain *domain, const uint32_t *pie
     const iccp_planar *mesh = &f->base.mesh;
     iccp_frame_in(&domain->frame, 2, maximum, local);
     const uint32_t centre = iccp_nearest_vertex(mesh, mesh->points, local);
-    ck_assert_int_eq(iccp_psi_create(&f->psi, mesh, &f->base.laplacian, &f->base.solver, centre, 0.5,
-                                     &env), ICC_OK);
+    ck_assert_int_eq(
+        iccp_psi_create(&f->psi, mesh, &f->base.laplacian, &f->base.solver, centre, 0.5, &env),
+        ICC_OK);
     f->rim = malloc(mesh->n_boundary * sizeof *f->rim);
     for (uint32_t c = 0; c < 3 * mesh->n_triangles; ++c)
         if (mesh->twins[c] == ICCP_NO_NEIGHBOUR)
@@ -149,8 +151,8 @@ static void crossing_point(const foliation *f, const crossing *c, vec *p)
     mpq_init(share);
     mpq_add(share, c->below, c->above);
     mpq_div(share, c->below, share);
-    vec_between(p, &f->points[v[iccp_after(c->corner)]],
-                &f->points[v[iccp_before(c->corner)]], share);
+    vec_between(p, &f->points[v[iccp_after(c->corner)]], &f->points[v[iccp_before(c->corner)]],
+                share);
     mpq_clear(share);
 }
 
@@ -335,8 +337,9 @@ typedef struct coords {
 } coords;
 
 /* Lengths from p by `next` to the end of the leaf. */
-static void walk(const foliation *f, crossing *c, const vec *p, bool (*next)(const foliation *, crossing *),
-                 bool to_centre, mpq_t length, double *arc)
+static void walk(const foliation *f, crossing *c, const vec *p,
+                 bool (*next)(const foliation *, crossing *), bool to_centre, mpq_t length,
+                 double *arc)
 {
     vec from, to;
     vec_init(&from);
@@ -453,11 +456,12 @@ static void check_point(const foliation f[2], const vec *p, const icc_chart *cha
     uint32_t facet;
     icc_status status;
     iccp_frame_out(&f[0].domain->frame, 2, local, point);
-    ck_assert_int_eq(icc_chart_encode(chart, 1, point, &facet, bary, &t, &status, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_chart_encode(chart, 1, point, &facet, bary, &t, &status, NULL, NULL),
+                     ICC_OK);
     ck_assert_int_eq(status, ICC_OK);
     ck_assert_double_le(fabs(t - there.arc_t), 1e-9);
-    const double along = iccp_planar_along(&f[0].base.mesh, f[0].domain, there.edge,
-                                           mpq_get_d(there.lambda));
+    const double along =
+        iccp_planar_along(&f[0].base.mesh, f[0].domain, there.edge, mpq_get_d(there.lambda));
     if (facet == f[0].base.mesh.facet[there.edge])
         ck_assert_double_le(fabs(bary[1] - along), 1e-9);
     else /* next to a corner */
@@ -498,11 +502,13 @@ static void check_pair(const shape *source, const shape *target, int32_t cells, 
     foliation f[2];
     uint32_t pieces[SHAPE_MAX];
     for (int k = 0; k < 2; ++k)
-        ck_assert_int_eq(icc_domain_create(&domain[k], 2, shapes[k]->n, shapes[k]->xy, 0, NULL, NULL,
-                                           NULL), ICC_OK);
-    const icc_chart_options chart = {.size = sizeof chart, .method = ICC_METHOD_FOLIATION,
-                                     .cells = cells};
-    const icc_map_options options = {.size = sizeof options, .kind = ICC_MAP_CURVES, .chart = &chart};
+        ck_assert_int_eq(
+            icc_domain_create(&domain[k], 2, shapes[k]->n, shapes[k]->xy, 0, NULL, NULL, NULL),
+            ICC_OK);
+    const icc_chart_options chart = {
+        .size = sizeof chart, .method = ICC_METHOD_FOLIATION, .cells = cells};
+    const icc_map_options options = {
+        .size = sizeof options, .kind = ICC_MAP_CURVES, .chart = &chart};
     ck_assert_int_eq(icc_map_create(&map, domain[0], domain[1], &options, NULL, NULL), ICC_OK);
     iccp_planar_pieces(pieces, domain[0], domain[1], cells);
     for (int k = 0; k < 2; ++k) {

@@ -42,8 +42,8 @@ static void make_target(pair *p)
     p->to = malloc(p->n_vertices * (size_t)p->dim * sizeof *p->to);
     for (size_t v = 0; v < p->n_vertices; ++v)
         deform(p->dim, p->from + (size_t)p->dim * v, p->to + (size_t)p->dim * v);
-    ck_assert_msg(icc_domain_create(&p->target, p->dim, p->n_vertices, p->to, p->n_facets, p->facets,
-                                    NULL, &err) == ICC_OK,
+    ck_assert_msg(icc_domain_create(&p->target, p->dim, p->n_vertices, p->to, p->n_facets,
+                                    p->facets, NULL, &err) == ICC_OK,
                   "%s", err.message);
 }
 
@@ -102,7 +102,8 @@ static void random_inside(random_source *r, const icc_domain *domain, double *po
 static icc_map *make_map(const pair *p, int32_t cells)
 {
     icc_error err = {.size = sizeof err};
-    const icc_chart_options chart = {.size = sizeof chart, .method = ICC_METHOD_FIELD, .cells = cells};
+    const icc_chart_options chart = {
+        .size = sizeof chart, .method = ICC_METHOD_FIELD, .cells = cells};
     const icc_map_options options = {
         .size = sizeof options, .kind = ICC_MAP_CURVES, .chart = &chart};
     icc_map *map;
@@ -123,14 +124,16 @@ static double largest_difference(size_t n, const double *a, const double *b)
 static size_t count_lost(random_source *r, const pair *p, const icc_map *map, double tolerance)
 {
     const size_t dim = (size_t)p->dim;
-    double points[N_POINTS * ICC_MAX_DIM], images[N_POINTS * ICC_MAX_DIM], back[N_POINTS * ICC_MAX_DIM];
+    double points[N_POINTS * ICC_MAX_DIM], images[N_POINTS * ICC_MAX_DIM],
+        back[N_POINTS * ICC_MAX_DIM];
     int32_t where[N_POINTS];
     size_t lost = 0;
     for (size_t i = 0; i < N_POINTS; ++i)
         random_inside(r, p->source, points + dim * i);
     ck_assert_int_eq(icc_map_apply(map, N_POINTS, points, images, NULL, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_map_apply_inverse(map, N_POINTS, images, back, NULL, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(icc_domain_locate(p->target, N_POINTS, images, where, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_domain_locate(p->target, N_POINTS, images, where, NULL, NULL, NULL),
+                     ICC_OK);
     for (size_t i = 0; i < N_POINTS; ++i)
         lost += where[i] != ICC_INSIDE ||
                 !(largest_difference(dim, points + dim * i, back + dim * i) <= tolerance);
@@ -143,7 +146,8 @@ static void check_boundary(random_source *r, const pair *p, const icc_map *map)
     const size_t dim = (size_t)p->dim;
     for (int i = 0; i < N_POINTS; ++i) {
         const uint32_t *facet = p->facets + dim * (size_t)random_below(r, (int)p->n_facets);
-        double bary[ICC_MAX_DIM], sum = 0, x[ICC_MAX_DIM] = {0}, y[ICC_MAX_DIM] = {0}, z[ICC_MAX_DIM];
+        double bary[ICC_MAX_DIM], sum = 0, x[ICC_MAX_DIM] = {0}, y[ICC_MAX_DIM] = {0},
+                                  z[ICC_MAX_DIM];
         for (size_t k = 0; k < dim; ++k)
             sum += bary[k] = random_unit(r);
         for (size_t k = 0; k < dim; ++k)
@@ -153,7 +157,8 @@ static void check_boundary(random_source *r, const pair *p, const icc_map *map)
             }
         icc_status status;
         ck_assert_int_eq(icc_map_apply(map, 1, x, z, &status, NULL, NULL), ICC_OK);
-        /* A point may be rounded to the outside, but not by more than the tolerance of a boundary. */
+        /* A point may be rounded to the outside, but not by more than the tolerance of a
+         * boundary. */
         ck_assert_int_eq(status, ICC_OK);
         ck_assert(largest_difference(dim, y, z) < 1e-9);
     }
@@ -204,18 +209,20 @@ static void check_curve(const icc_chart *chart, const double *point, int32_t dim
         icc_chart_encode(chart, 1, point, &first_facet, first, &t, &status, NULL, NULL), ICC_OK);
     ck_assert_int_eq(status, ICC_OK);
     t = 0;
-    ck_assert_int_eq(icc_chart_decode(chart, 1, &first_facet, first, &t, start, &status, NULL, NULL),
-                     ICC_OK);
+    ck_assert_int_eq(
+        icc_chart_decode(chart, 1, &first_facet, first, &t, start, &status, NULL, NULL), ICC_OK);
     ck_assert(largest_difference((size_t)dim, start, curve) < 1e-9);
     for (size_t i = 1; i + 1 < n; ++i) {
         const double *x = curve + (size_t)dim * i;
         double from[ICC_MAX_DIM];
-        ck_assert_int_eq(icc_chart_encode(chart, 1, x, &facet, bary, &t, &status, NULL, NULL), ICC_OK);
+        ck_assert_int_eq(icc_chart_encode(chart, 1, x, &facet, bary, &t, &status, NULL, NULL),
+                         ICC_OK);
         ck_assert_int_eq(status, ICC_OK);
         ck_assert(t > last - 1e-9);
         last = t;
         t = 0;
-        ck_assert_int_eq(icc_chart_decode(chart, 1, &facet, bary, &t, from, &status, NULL, NULL), ICC_OK);
+        ck_assert_int_eq(icc_chart_decode(chart, 1, &facet, bary, &t, from, &status, NULL, NULL),
+                         ICC_OK);
         /* Curves come together uphill: a place there tells less about where it came from. */
         ck_assert(last > 0.9 || largest_difference((size_t)dim, start, from) < 1e-6);
     }
@@ -266,7 +273,8 @@ static void check_certified_map(random_source *r, const pair *p, const icc_map *
     }
 }
 
-/* Points that are mapped together get the bits of points that are mapped one by one, failures included. */
+/* Points that are mapped together get the bits of points that are mapped one by one, failures
+ * included. */
 static void check_bulk(random_source *r, const pair *p, const icc_map *map)
 {
     static double points[N_POINTS * ICC_MAX_DIM], images[N_POINTS * ICC_MAX_DIM];
@@ -372,7 +380,8 @@ START_TEST(orientation_does_not_matter)
     }
     icc_map *wrong;
     icc_error err = {.size = sizeof err};
-    ck_assert_int_eq(icc_map_create(&wrong, p.source, q.target, NULL, NULL, &err), ICC_ERR_BOUNDARY);
+    ck_assert_int_eq(icc_map_create(&wrong, p.source, q.target, NULL, NULL, &err),
+                     ICC_ERR_BOUNDARY);
     ck_assert(wrong == NULL && err.side == 2);
     icc_map_free(a);
     icc_map_free(b);
@@ -415,9 +424,9 @@ START_TEST(memory_is_as_stated)
     static surface s;
     surface_octahedron(&s);
     icc_domain *domain;
-    ck_assert_int_eq(icc_domain_create(&domain, 3, s.n_vertices, s.vertices, s.n_faces, s.faces, NULL,
-                                       NULL),
-                     ICC_OK);
+    ck_assert_int_eq(
+        icc_domain_create(&domain, 3, s.n_vertices, s.vertices, s.n_faces, s.faces, NULL, NULL),
+        ICC_OK);
     meter m = {0};
     const icc_env env = {
         .size = sizeof env, .user = &m, .alloc = meter_alloc, .dealloc = meter_dealloc};
@@ -506,11 +515,13 @@ START_TEST(what_is_not_available_is_named)
     surface_star(&shape, 1, 0, &r);
     pair_of_surface(&p, &shape);
     const icc_map_options mesh = {.size = sizeof mesh, .kind = ICC_MAP_MESH};
-    ck_assert_int_eq(icc_map_create(&map, p.source, p.target, &mesh, NULL, &err), ICC_ERR_UNSUPPORTED);
+    ck_assert_int_eq(icc_map_create(&map, p.source, p.target, &mesh, NULL, &err),
+                     ICC_ERR_UNSUPPORTED);
     ck_assert(map == NULL && strstr(err.message, "mesh") != NULL);
     for (int32_t method = ICC_METHOD_FOLIATION; method <= ICC_METHOD_DISC; method += 2) {
         const icc_chart_options options = {.size = sizeof options, .method = method};
-        ck_assert_int_eq(icc_chart_create(&chart, p.source, &options, NULL, &err), ICC_ERR_UNSUPPORTED);
+        ck_assert_int_eq(icc_chart_create(&chart, p.source, &options, NULL, &err),
+                         ICC_ERR_UNSUPPORTED);
         ck_assert(chart == NULL && strstr(err.message, "dimension 3") != NULL);
     }
     const double outside[3] = {2, 0, 0};
@@ -529,8 +540,9 @@ START_TEST(what_is_not_available_is_named)
         p.facets[15 + k] = p.facets[16 + k];
     p.facets[17] = first;
     icc_domain *turned;
-    ck_assert_int_eq(icc_domain_create(&turned, 3, p.n_vertices, p.to, p.n_facets, p.facets, NULL, &err),
-                     ICC_OK);
+    ck_assert_int_eq(
+        icc_domain_create(&turned, 3, p.n_vertices, p.to, p.n_facets, p.facets, NULL, &err),
+        ICC_OK);
     ck_assert_int_eq(icc_map_create(&map, p.source, turned, NULL, NULL, &err), ICC_ERR_BOUNDARY);
     ck_assert(err.index == 5 && err.side == 2 && strstr(err.message, "facet 5") != NULL);
     icc_domain_free(turned);
@@ -583,8 +595,10 @@ START_TEST(slits_thinner_than_the_grid)
 {
     listener heard = {0};
     const icc_env env = {.size = sizeof env, .user = &heard, .log = listen};
-    const icc_chart_options options = {.size = sizeof options, .method = ICC_METHOD_FIELD, .cells = 5};
-    const icc_chart_options coarse = {.size = sizeof options, .method = ICC_METHOD_FIELD, .cells = 3};
+    const icc_chart_options options = {
+        .size = sizeof options, .method = ICC_METHOD_FIELD, .cells = 5};
+    const icc_chart_options coarse = {
+        .size = sizeof options, .method = ICC_METHOD_FIELD, .cells = 3};
     icc_chart_info info = {.size = sizeof info};
     icc_error err = {.size = sizeof err};
     icc_chart *chart;
@@ -626,12 +640,12 @@ START_TEST(real_shapes)
         p.from = source.vertices;
         p.to = target.vertices;
         p.facets = source.faces;
-        ck_assert_int_eq(icc_domain_create(&p.source, 3, p.n_vertices, p.from, p.n_facets, p.facets,
-                                           NULL, NULL),
-                         ICC_OK);
-        ck_assert_int_eq(icc_domain_create(&p.target, 3, p.n_vertices, p.to, p.n_facets, p.facets,
-                                           NULL, NULL),
-                         ICC_OK);
+        ck_assert_int_eq(
+            icc_domain_create(&p.source, 3, p.n_vertices, p.from, p.n_facets, p.facets, NULL, NULL),
+            ICC_OK);
+        ck_assert_int_eq(
+            icc_domain_create(&p.target, 3, p.n_vertices, p.to, p.n_facets, p.facets, NULL, NULL),
+            ICC_OK);
         icc_map *map = make_map(&p, 32);
         ck_assert(is_certified(map));
         ck_assert_uint_eq(count_lost(&r, &p, map, 1e-8), 0);

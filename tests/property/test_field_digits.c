@@ -1,5 +1,5 @@
-/* Maps of method field are certified as maps: whatever the target, if there is a certificate, every point has an
- * image, comes back from it, and is turned nowhere. */
+/* Maps of method field are certified as maps: whatever the target, if there is a certificate, every
+ * point has an image, comes back from it, and is turned nowhere. */
 #include <check.h>
 #include <icc/icc.h>
 #include <math.h>

@@ -1,5 +1,5 @@
-/* What holds for Laplace's and the bi-Laplace function of every mask: the equations, the inequalities and
- * the conditions of optimality, all found anew from the public interface. */
+/* What holds for Laplace's and the bi-Laplace function of every mask: the equations, the
+ * inequalities and the conditions of optimality, all found anew from the public interface. */
 #include "../functions.h"
 
 #include "../faulty.h"
@@ -18,9 +18,9 @@ static const double ETA = 1e-6, LEAF = 1e-9; /* the defaults */
 static icc_function_options choice(int32_t function, int32_t constraints, int32_t solver)
 {
     return (icc_function_options){.size = sizeof(icc_function_options),
-                               .function = function,
-                               .constraints = constraints,
-                               .solver = solver};
+                                  .function = function,
+                                  .constraints = constraints,
+                                  .solver = solver};
 }
 
 static icc_function *field_with(const ground *g, const icc_function_options *options)
@@ -35,7 +35,8 @@ static icc_function *field_with(const ground *g, const icc_function_options *opt
     return field;
 }
 
-static icc_function *field_of(const ground *g, int32_t function, int32_t constraints, int32_t solver)
+static icc_function *field_of(const ground *g, int32_t function, int32_t constraints,
+                              int32_t solver)
 {
     const icc_function_options options = choice(function, constraints, solver);
     return field_with(g, &options);
@@ -165,7 +166,8 @@ static void check_values(const ground *g, const icc_function *field, const icc_f
     ck_assert_double_eq(info->least_log, least);
 }
 
-static void check_info(const ground *g, const icc_function_info *info, const icc_function_options *options)
+static void check_info(const ground *g, const icc_function_info *info,
+                       const icc_function_options *options)
 {
     ck_assert_int_eq(info->function, options->function);
     ck_assert(info->solver == ICC_SOLVER_DIRECT || info->solver == ICC_SOLVER_ITERATIVE);
@@ -189,7 +191,8 @@ static void check_inequalities(const ground *g, const icc_function *field, int32
     ck_assert_ptr_nonnull(icc_function_logs(field));
 }
 
-/* Vertices less edges plus triangles of the inside of a grid in the plane: 1 less the number of holes. */
+/* Vertices less edges plus triangles of the inside of a grid in the plane: 1 less the number of
+ * holes. */
 static long euler_characteristic(const ground *g)
 {
     const uint32_t nx = (uint32_t)g->info.shape[0];
@@ -411,8 +414,8 @@ START_TEST(long_thin_rings)
 }
 END_TEST
 
-/* Two rooms and a corridor between them: 60 wide, 1 wide and 900 long. A separator in its middle would see
- * neither room. */
+/* Two rooms and a corridor between them: 60 wide, 1 wide and 900 long. A separator in its middle
+ * would see neither room. */
 START_TEST(rooms_far_apart)
 {
     enum { ROOM = 60, LENGTH = 900, NX = 2 * ROOM + LENGTH + 4, NY = ROOM + 4 };
@@ -485,8 +488,7 @@ START_TEST(inequalities_far_below_the_range_of_doubles)
     ck_assert_int_eq(ground_create(&g, &m, 10 + 164 * 10, 0), ICC_OK);
     mask_free(&m);
     for (int k = 0; k < 2; ++k) {
-        icc_function *field =
-            field_of(&g, ICC_FUNCTION_LAPLACE, ICC_CONSTRAINTS_ALL, SOLVERS[k]);
+        icc_function *field = field_of(&g, ICC_FUNCTION_LAPLACE, ICC_CONSTRAINTS_ALL, SOLVERS[k]);
         const icc_function_info info = info_of(field);
         const double *u = icc_function_logs(field);
         ck_assert(info.least_log < -150);
@@ -580,7 +582,8 @@ START_TEST(other_etas_are_kept)
     ground g = ground_on(mask_c, 2, 60);
     double energy = 0;
     for (int k = 0; k < 4; ++k)
-        for (int32_t function = ICC_FUNCTION_LAPLACE; function <= ICC_FUNCTION_CLAMPED; ++function) {
+        for (int32_t function = ICC_FUNCTION_LAPLACE; function <= ICC_FUNCTION_CLAMPED;
+             ++function) {
             icc_function_options options = choice(function, ICC_CONSTRAINTS_ALL, 0);
             options.min_fall = ETAS[k];
             options.leaf_min = ETAS[k] * 1e-3;
@@ -682,8 +685,8 @@ static double dot(size_t n, const double *a, const double *b)
     return sum;
 }
 
-/* Hildreth's method: one multiplier after the other is set to what is best for the dual problem. Its
- * value is a lower bound of the energy at every step, and is returned. */
+/* Hildreth's method: one multiplier after the other is set to what is best for the dual problem.
+ * Its value is a lower bound of the energy at every step, and is returned. */
 static double bound_energy(dense *q)
 {
     static double g[MOST_BOUNDS][MOST_BOUNDS], column[MOST_UNKNOWNS];
@@ -880,7 +883,8 @@ START_TEST(a_lone_vertex_is_too_coarse)
     uint8_t inside[2][25] = {{0}, {0}};
     inside[0][12] = inside[1][12] = inside[1][24] = 1;
     for (int k = 0; k < 2; ++k)
-        for (int32_t function = ICC_FUNCTION_LAPLACE; function <= ICC_FUNCTION_CLAMPED; ++function) {
+        for (int32_t function = ICC_FUNCTION_LAPLACE; function <= ICC_FUNCTION_CLAMPED;
+             ++function) {
             mask m = {.dim = 2, .shape = {5, 5}, .n_vertices = 25, .inside = inside[k]};
             ground g;
             ck_assert_int_eq(ground_create(&g, &m, 12, 0), ICC_OK);
@@ -996,8 +1000,8 @@ static int32_t watch(void *user, const char *stage, double share)
     return ++w->n_reports == w->cancel_at;
 }
 
-/* What a direct solution goes through reports often, the factorisation every so many multiplications, and
- * all can be cancelled. */
+/* What a direct solution goes through reports often, the factorisation every so many
+ * multiplications, and all can be cancelled. */
 START_TEST(long_stages_can_be_cancelled)
 {
     static const double MOST_BETWEEN_REPORTS = 4e7; /* multiplications, some 20 ms */
@@ -1071,7 +1075,8 @@ static size_t points_in(const icc_domain *domain, random_source *r, double *poin
     return n;
 }
 
-/* The share of points that do not come back to within `tolerance`; *failed: that have no coordinates. */
+/* The share of points that do not come back to within `tolerance`; *failed: that have no
+ * coordinates. */
 static double share_lost(const icc_chart *chart, size_t n, const double *points, double tolerance,
                          double *failed)
 {
@@ -1143,7 +1148,8 @@ START_TEST(curves_run_where_doubles_end)
             size_t n;
             ck_assert_int_eq(icc_chart_trace(chart, p, 20000, curve, &n, NULL, NULL), ICC_OK);
             ck_assert_uint_le(n, 20000);
-            /* From the boundary to the point, which is on the line, and then straight to the maximum. */
+            /* From the boundary to the point, which is on the line, and then straight to the
+             * maximum. */
             double nearest = HUGE_VAL;
             for (size_t j = 0; j < n; ++j)
                 nearest = fmin(nearest, hypot(curve[2 * j] - p[0], curve[2 * j + 1] - p[1]));
@@ -1161,7 +1167,8 @@ START_TEST(curves_run_where_doubles_end)
 }
 END_TEST
 
-/* Boundary of the cage of a chart whose function is handed out: the same as one made by the stages. */
+/* Boundary of the cage of a chart whose function is handed out: the same as one made by the
+ * stages. */
 START_TEST(charts_hand_out_the_function_of_the_stages)
 {
     const shape outline = shape_l();
@@ -1171,10 +1178,12 @@ START_TEST(charts_hand_out_the_function_of_the_stages)
     for (int kind = 0; kind < N_KINDS; ++kind) {
         icc_chart *chart = chart_of(domain, kind, 30, NULL);
         const icc_function *field = icc_chart_function(chart);
-        const icc_function_options options = choice(KINDS[kind].function, KINDS[kind].constraints, 0);
+        const icc_function_options options =
+            choice(KINDS[kind].function, KINDS[kind].constraints, 0);
         icc_function *same;
         icc_grid_info info = {.size = sizeof info};
-        ck_assert_int_eq(icc_function_create(&same, icc_function_tree(field), &options, NULL, NULL), ICC_OK);
+        ck_assert_int_eq(icc_function_create(&same, icc_function_tree(field), &options, NULL, NULL),
+                         ICC_OK);
         ck_assert_int_eq(icc_grid_get_info(icc_tree_grid(icc_function_tree(field)), &info), ICC_OK);
         const double *f = icc_function_values(field), *h = icc_function_values(same);
         for (size_t v = 0; v < info.n_vertices; ++v)

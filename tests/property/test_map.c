@@ -19,8 +19,8 @@ static icc_domain *domain_of(const shape *s)
 /* A map whose domains are kept alive by the charts alone. */
 static icc_map *map_of(const shape *source, const shape *target, int32_t cells, int32_t function)
 {
-    const icc_chart_options chart = {.size = sizeof chart, .method = ICC_METHOD_GRADIENT,
-                                     .cells = cells, .function = function};
+    const icc_chart_options chart = {
+        .size = sizeof chart, .method = ICC_METHOD_GRADIENT, .cells = cells, .function = function};
     const icc_map_options options = {.size = sizeof options, .chart = &chart};
     icc_domain *a = domain_of(source), *b = domain_of(target);
     icc_map *map;
@@ -276,7 +276,8 @@ START_TEST(facets_may_come_in_any_order)
         for (int side = 0; side < 2; ++side)
             ck_assert_int_eq(
                 icc_domain_create(&domain[side], 2, n, s[side].xy, n, facets, NULL, NULL), ICC_OK);
-        const icc_chart_options chart = {.size = sizeof chart, .method = ICC_METHOD_GRADIENT, .cells = 25};
+        const icc_chart_options chart = {
+            .size = sizeof chart, .method = ICC_METHOD_GRADIENT, .cells = 25};
         const icc_map_options options = {.size = sizeof options, .chart = &chart};
         icc_map *map, *plain = map_of(&s[0], &s[1], 25, 0);
         ck_assert_int_eq(icc_map_create(&map, domain[0], domain[1], &options, NULL, NULL), ICC_OK);
@@ -344,8 +345,8 @@ START_TEST(errors_name_the_side)
     const shape triangle = shape_of(3, (double[]){0, 0, 1, 0, 0, 1});
     icc_domain *good = domain_of(&triangle), *bad = domain_of(&needle);
     const double outside[2] = {5, 5}, inside[2] = {0.25, 0.25};
-    const icc_chart_options chart = {.size = sizeof chart, .method = ICC_METHOD_GRADIENT,
-                                     .cells = 10, .maximum = outside};
+    const icc_chart_options chart = {
+        .size = sizeof chart, .method = ICC_METHOD_GRADIENT, .cells = 10, .maximum = outside};
     icc_map_options options = {.size = sizeof options, .chart = &chart};
     icc_map *map;
     icc_error err = {.size = sizeof err};
@@ -361,8 +362,8 @@ START_TEST(errors_name_the_side)
     (void)icc_chart_get_info(icc_map_target_chart(map), &info);
     ck_assert_double_le(distance(info.maximum, inside), info.spacing);
     icc_map_free(map);
-    const icc_chart_options coarse = {.size = sizeof coarse, .method = ICC_METHOD_GRADIENT,
-                                      .cells = 2};
+    const icc_chart_options coarse = {
+        .size = sizeof coarse, .method = ICC_METHOD_GRADIENT, .cells = 2};
     options = (icc_map_options){.size = sizeof options, .chart = &coarse};
     const icc_status status = icc_map_create(&map, good, bad, &options, NULL, &err);
     if (status != ICC_OK)

@@ -16,7 +16,8 @@ static shape shape_c(size_t pieces)
     shape s = {.n = 2 * (pieces + 1)};
     for (size_t k = 0; k <= pieces; ++k) {
         const double a = -1.9 + 3.8 * (double)k / (double)pieces;
-        const double outer[2] = {1.3 * cos(a), 1.3 * sin(a)}, inner[2] = {0.8 * cos(a), 0.8 * sin(a)};
+        const double outer[2] = {1.3 * cos(a), 1.3 * sin(a)},
+                     inner[2] = {0.8 * cos(a), 0.8 * sin(a)};
         memcpy(s.xy + 2 * k, outer, sizeof outer);
         memcpy(s.xy + 2 * (s.n - 1 - k), inner, sizeof inner);
     }
@@ -125,7 +126,8 @@ static icc_domain *domain_of(const shape *s, bool shuffled)
     }
     shuffled = shuffled && s->n % 7 != 0;
     ck_assert_int_eq(icc_domain_create(&domain, 2, s->n, s->xy, shuffled ? s->n : 0,
-                                       shuffled ? facets : NULL, NULL, NULL), ICC_OK);
+                                       shuffled ? facets : NULL, NULL, NULL),
+                     ICC_OK);
     return domain;
 }
 
@@ -232,8 +234,9 @@ START_TEST(the_mesh_is_the_map)
         for (int inverse = 0; inverse < 2; ++inverse) {
             const double *from = inverse ? images : vertices, *to = inverse ? vertices : images;
             const icc_domain *domain = inverse ? map->source_domain : map->target_domain;
-            ck_assert_int_eq((inverse ? icc_map_apply_inverse : icc_map_apply)(
-                                 map, n, from, mapped, NULL, &n_failed, NULL), ICC_OK);
+            ck_assert_int_eq((inverse ? icc_map_apply_inverse
+                                      : icc_map_apply)(map, n, from, mapped, NULL, &n_failed, NULL),
+                             ICC_OK);
             ck_assert_uint_eq(n_failed, 0);
             double worst = 0;
             for (size_t v = 0; v < n; ++v)
@@ -372,7 +375,8 @@ START_TEST(jacobians_are_those_of_the_triangles)
             icc_status status;
             for (size_t d = 0; d < 2; ++d)
                 local[d] = (pl->points[2 * v[0] + d] + pl->points[2 * v[1] + d] +
-                            pl->points[2 * v[2] + d]) / 3;
+                            pl->points[2 * v[2] + d]) /
+                           3;
             iccp_frame_out(&map->source_domain->frame, 2, local, c);
             ck_assert_int_eq(icc_map_jacobian(map, 1, c, j, &status, NULL, NULL), ICC_OK);
             ck_assert_int_eq(status, ICC_OK);
@@ -383,7 +387,9 @@ START_TEST(jacobians_are_those_of_the_triangles)
                 for (size_t d = 0; d < 2; ++d)
                     local[d] = pl->points[2 * v[i] + d] * 0.5 +
                                ((pl->points[2 * v[0] + d] + pl->points[2 * v[1] + d] +
-                                 pl->points[2 * v[2] + d]) / 3) * 0.5,
+                                 pl->points[2 * v[2] + d]) /
+                                3) *
+                                   0.5,
                     p[2 * i + d] = local[d] * map->source_domain->frame.out[0] *
                                        map->source_domain->frame.out[1] +
                                    map->source_domain->frame.shift[d];

@@ -1,5 +1,5 @@
-/* Bi-Laplace functions without inequalities are highest beside a root that is not in the middle: charts move
- * their maximum there, functions on a given tree say so. */
+/* Bi-Laplace functions without inequalities are highest beside a root that is not in the middle:
+ * charts move their maximum there, functions on a given tree say so. */
 #include "../faulty.h"
 #include "../random.h"
 #include "../saved.h"
@@ -16,7 +16,8 @@ enum { MOST_VERTICES = 4096 };
 static icc_domain *polygon(const shape *outline)
 {
     icc_domain *domain;
-    ck_assert_int_eq(icc_domain_create(&domain, 2, outline->n, outline->xy, 0, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_domain_create(&domain, 2, outline->n, outline->xy, 0, NULL, NULL, NULL),
+                     ICC_OK);
     return domain;
 }
 
@@ -27,7 +28,8 @@ static icc_chart *make_chart(const icc_domain *domain, const icc_chart_options *
     return chart;
 }
 
-static icc_chart_options options_of(int32_t function, int32_t constraints, int32_t cells, const double *maximum)
+static icc_chart_options options_of(int32_t function, int32_t constraints, int32_t cells,
+                                    const double *maximum)
 {
     return (icc_chart_options){.size = sizeof(icc_chart_options),
                                .method = ICC_METHOD_GRADIENT,
@@ -44,7 +46,8 @@ static icc_chart_info info_of(const icc_chart *chart)
     return info;
 }
 
-/* The greatest value is at the root, and that is the maximum, as far from the place asked for as it says. */
+/* The greatest value is at the root, and that is the maximum, as far from the place asked for as it
+ * says. */
 static void check_maximum(const icc_chart *chart, const double *asked)
 {
     const icc_function *field = icc_chart_function(chart);
@@ -72,12 +75,14 @@ static void check_maximum(const icc_chart *chart, const double *asked)
     for (int32_t k = 0; k < lattice.dim; ++k) {
         const double x = lattice.origin[k] + lattice.spacing * (double)(here % lattice.shape[k]);
         const double y = lattice.origin[k] + lattice.spacing * (double)(there % lattice.shape[k]);
-        ck_assert_double_eq_tol(info.maximum[k], x, 1e-9 * lattice.spacing * (double)lattice.shape[k]);
+        ck_assert_double_eq_tol(info.maximum[k], x,
+                                1e-9 * lattice.spacing * (double)lattice.shape[k]);
         moved += (x - y) * (x - y);
         here /= lattice.shape[k];
         there /= lattice.shape[k];
     }
-    ck_assert_double_eq_tol(info.moved, sqrt(moved), 1e-9 * lattice.spacing * (double)lattice.shape[0]);
+    ck_assert_double_eq_tol(info.moved, sqrt(moved),
+                            1e-9 * lattice.spacing * (double)lattice.shape[0]);
 }
 
 /* A point of the domain away from its boundary. */
@@ -131,8 +136,9 @@ START_TEST(curves_reach_the_moved_maximum)
     const shape outlines[] = {shape_l(), shape_dart(), shape_star(3, 0.4, 0.3)};
     for (size_t k = 0; k < 3; ++k) {
         icc_domain *domain = polygon(&outlines[k]);
-        const double corner[2] = {outlines[k].xy[0] * 0.7 + outlines[k].xy[2] * 0.15 + outlines[k].xy[4] * 0.15,
-                                  outlines[k].xy[1] * 0.7 + outlines[k].xy[3] * 0.15 + outlines[k].xy[5] * 0.15};
+        const double corner[2] = {
+            outlines[k].xy[0] * 0.7 + outlines[k].xy[2] * 0.15 + outlines[k].xy[4] * 0.15,
+            outlines[k].xy[1] * 0.7 + outlines[k].xy[3] * 0.15 + outlines[k].xy[5] * 0.15};
         int32_t where;
         ck_assert_int_eq(icc_domain_locate(domain, 1, corner, &where, NULL, NULL, NULL), ICC_OK);
         for (int32_t cells = 100; cells <= 400; cells *= 2)
@@ -152,20 +158,23 @@ START_TEST(curves_reach_the_moved_maximum)
 }
 END_TEST
 
-/* "needed" moves the maximum before it imposes inequalities; with these it stays where it was asked for. */
+/* "needed" moves the maximum before it imposes inequalities; with these it stays where it was asked
+ * for. */
 START_TEST(inequalities_hold_the_maximum)
 {
     const shape outline = shape_l();
     const double asked[2] = {2.6, 0.3};
     icc_domain *domain = polygon(&outline);
-    for (int32_t constraints = ICC_CONSTRAINTS_NEEDED; constraints <= ICC_CONSTRAINTS_ALL; ++constraints)
+    for (int32_t constraints = ICC_CONSTRAINTS_NEEDED; constraints <= ICC_CONSTRAINTS_ALL;
+         ++constraints)
         for (int i = 0; i < 2; ++i) {
             const icc_chart_options options = options_of(PLATES[i], constraints, 60, asked);
             icc_chart *chart = make_chart(domain, &options);
             icc_function_info solved = {.size = sizeof solved};
             ck_assert_int_eq(icc_function_get_info(icc_chart_function(chart), &solved), ICC_OK);
-            const bool expect = constraints == ICC_CONSTRAINTS_ALL ||
-                                (constraints == ICC_CONSTRAINTS_NEEDED && PLATES[i] == ICC_FUNCTION_CLAMPED);
+            const bool expect =
+                constraints == ICC_CONSTRAINTS_ALL ||
+                (constraints == ICC_CONSTRAINTS_NEEDED && PLATES[i] == ICC_FUNCTION_CLAMPED);
             ck_assert_int_eq(solved.constrained, expect);
             check_maximum(chart, asked);
             ck_assert_int_eq(info_of(chart).moved > 0, !expect);
@@ -175,11 +184,11 @@ START_TEST(inequalities_hold_the_maximum)
 }
 END_TEST
 
-static icc_function *make_field(icc_tree **tree, const icc_grid *grid, uint32_t root, int32_t function)
+static icc_function *make_field(icc_tree **tree, const icc_grid *grid, uint32_t root,
+                                int32_t function)
 {
-    const icc_function_options options = {.size = sizeof options,
-                                       .function = function,
-                                       .constraints = ICC_CONSTRAINTS_NONE};
+    const icc_function_options options = {
+        .size = sizeof options, .function = function, .constraints = ICC_CONSTRAINTS_NONE};
     icc_function *field;
     ck_assert_int_eq(icc_tree_create(tree, grid, root, NULL, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_function_create(&field, *tree, &options, NULL, NULL), ICC_OK);
@@ -268,8 +277,9 @@ START_TEST(saved_charts_have_the_same_maximum)
 }
 END_TEST
 
-/* Masks in the plane and in space, a ball, by both solvers. In the plane the maximum moves, with either of them;
- * beyond, a plate is pointed at its load, and the maximum has not been seen to move. */
+/* Masks in the plane and in space, a ball, by both solvers. In the plane the maximum moves, with
+ * either of them; beyond, a plate is pointed at its load, and the maximum has not been seen to
+ * move. */
 START_TEST(it_is_so_for_masks_and_in_space)
 {
     static surface ball;
@@ -279,17 +289,18 @@ START_TEST(it_is_so_for_masks_and_in_space)
     uint8_t cells[30 * 18];
     memset(cells, 1, sizeof cells);
     surface_star(&ball, 2, 0.2, &r);
-    ck_assert_int_eq(icc_domain_create(&domains[3], 3, ball.n_vertices, ball.vertices, ball.n_faces, ball.faces,
-                                       NULL, NULL),
+    ck_assert_int_eq(icc_domain_create(&domains[3], 3, ball.n_vertices, ball.vertices, ball.n_faces,
+                                       ball.faces, NULL, NULL),
                      ICC_OK);
     for (int k = 0; k < 3; ++k)
-        ck_assert_int_eq(icc_domain_create_mask(&domains[k], k + 2, shapes[k], cells, NULL, NULL), ICC_OK);
+        ck_assert_int_eq(icc_domain_create_mask(&domains[k], k + 2, shapes[k], cells, NULL, NULL),
+                         ICC_OK);
     size_t n_moved = 0;
     for (int k = 0; k < 4; ++k) {
         const double asked[ICC_MAX_DIM] = {k < 3 ? 2 : -0.3, 1.5, 1, 1};
         for (int i = 0; i < 5; ++i) {
-            icc_chart_options options =
-                options_of(PLATES[i / 2 % 2], ICC_CONSTRAINTS_NONE, k == 3 ? 16 : 0, i < 4 && k < 3 ? asked : NULL);
+            icc_chart_options options = options_of(PLATES[i / 2 % 2], ICC_CONSTRAINTS_NONE,
+                                                   k == 3 ? 16 : 0, i < 4 && k < 3 ? asked : NULL);
             options.solver = i % 2 == 0 ? ICC_SOLVER_DIRECT : ICC_SOLVER_ITERATIVE;
             icc_chart *chart = make_chart(domains[k], &options);
             check_maximum(chart, options.maximum);
@@ -312,8 +323,10 @@ START_TEST(both_charts_of_a_map_move_theirs)
     target.xy[2] += 0.4;
     target.xy[11] += 0.3;
     icc_domain *domains[2] = {polygon(&source), polygon(&target)};
-    const icc_chart_options chart = options_of(ICC_FUNCTION_BILAPLACE, ICC_CONSTRAINTS_NONE, 150, asked);
-    const icc_map_options options = {.size = sizeof options, .kind = ICC_MAP_CURVES,
+    const icc_chart_options chart =
+        options_of(ICC_FUNCTION_BILAPLACE, ICC_CONSTRAINTS_NONE, 150, asked);
+    const icc_map_options options = {.size = sizeof options,
+                                     .kind = ICC_MAP_CURVES,
                                      .chart = &chart,
                                      .target_maximum = target_asked};
     icc_map *map;
@@ -321,7 +334,8 @@ START_TEST(both_charts_of_a_map_move_theirs)
     ck_assert_int_eq(icc_map_create(&map, domains[0], domains[1], &options, NULL, NULL), ICC_OK);
     check_maximum(icc_map_source_chart(map), asked);
     check_maximum(icc_map_target_chart(map), target_asked);
-    ck_assert(info_of(icc_map_source_chart(map)).moved > 0 && info_of(icc_map_target_chart(map)).moved > 0);
+    ck_assert(info_of(icc_map_source_chart(map)).moved > 0 &&
+              info_of(icc_map_target_chart(map)).moved > 0);
     for (int i = 0; i < 200; ++i)
         pick(domains[0], &r, points + 2 * i);
     ck_assert_int_eq(icc_map_apply(map, 200, points, places, NULL, &n_failed, NULL), ICC_OK);
@@ -332,7 +346,8 @@ START_TEST(both_charts_of_a_map_move_theirs)
 }
 END_TEST
 
-/* A chart that moves its maximum, each of its allocations failing once and each report answered with "stop". */
+/* A chart that moves its maximum, each of its allocations failing once and each report answered
+ * with "stop". */
 START_TEST(failures_leave_nothing_behind)
 {
     const shape outline = shape_l();
@@ -348,7 +363,8 @@ START_TEST(failures_leave_nothing_behind)
                 const icc_env env = faulty_env(&f);
                 icc_chart *chart;
                 status = icc_chart_create(&chart, domain, &options, &env, NULL);
-                ck_assert(status == ICC_OK || status == (cancel ? ICC_ERR_CANCELLED : ICC_ERR_MEMORY));
+                ck_assert(status == ICC_OK ||
+                          status == (cancel ? ICC_ERR_CANCELLED : ICC_ERR_MEMORY));
                 ck_assert_int_eq(chart == NULL, status != ICC_OK);
                 icc_chart_free(chart);
                 ck_assert_uint_eq(f.n_live, 0);
@@ -364,7 +380,8 @@ static size_t read_points(const char *path, double xy[2 * MOST_VERTICES])
 {
     size_t n = 0;
     FILE *file = fopen(path, "r");
-    while (file != NULL && n < MOST_VERTICES && fscanf(file, "%lf %lf", &xy[2 * n], &xy[2 * n + 1]) == 2)
+    while (file != NULL && n < MOST_VERTICES &&
+           fscanf(file, "%lf %lf", &xy[2 * n], &xy[2 * n + 1]) == 2)
         ++n;
     if (file != NULL)
         fclose(file);
@@ -373,8 +390,9 @@ static size_t read_points(const char *path, double xy[2 * MOST_VERTICES])
 
 START_TEST(it_is_so_for_real_outlines)
 {
-    static const char *const NAMES[] = {"d01_mouse_vertebra", "d04_glyph_rf_eszett", "d08_us_newyork",
-                                        "d10_us_outline",     "d15_antarctica",      "d19_disc_to_michigan"};
+    static const char *const NAMES[] = {"d01_mouse_vertebra", "d04_glyph_rf_eszett",
+                                        "d08_us_newyork",     "d10_us_outline",
+                                        "d15_antarctica",     "d19_disc_to_michigan"};
     static double xy[2 * MOST_VERTICES];
     random_source r = {7};
     for (size_t k = 0; k < sizeof NAMES / sizeof *NAMES; ++k) {
@@ -388,8 +406,8 @@ START_TEST(it_is_so_for_real_outlines)
         ck_assert_int_eq(icc_domain_create(&domain, 2, n, xy, 0, NULL, NULL, NULL), ICC_OK);
         pick(domain, &r, asked);
         for (int i = 0; i < 4; ++i) {
-            const icc_chart_options options = options_of(PLATES[i % 2], ICC_CONSTRAINTS_NONE, i % 2 == 0 ? 200 : 80,
-                                                         i < 2 ? NULL : asked);
+            const icc_chart_options options = options_of(
+                PLATES[i % 2], ICC_CONSTRAINTS_NONE, i % 2 == 0 ? 200 : 80, i < 2 ? NULL : asked);
             icc_chart *chart = make_chart(domain, &options);
             check_maximum(chart, options.maximum);
             icc_chart_free(chart);

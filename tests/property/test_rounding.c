@@ -1,4 +1,5 @@
-/* Points of a boundary, as doubles hold them, have their images there and back, wherever the shape lies. */
+/* Points of a boundary, as doubles hold them, have their images there and back, wherever the shape
+ * lies. */
 #include "../meshes.h"
 #include "../random.h"
 #include "../shapes.h"
@@ -15,7 +16,8 @@ enum { N_SAMPLES = 300, MOST = 3 };
 /* By how many units in the last place of the largest coordinate an image may be off. */
 static const double ALLOWED = 64;
 
-/* A shape of size `scale` at a place: near, far along one axis and both, as metres of a UTM zone, as degrees. */
+/* A shape of size `scale` at a place: near, far along one axis and both, as metres of a UTM zone,
+ * as degrees. */
 typedef struct placement {
     double scale, at[MOST];
 } placement;
@@ -229,7 +231,8 @@ START_TEST(sides_of_polygons)
 }
 END_TEST
 
-/* Far away along one axis, and thin along the other: rounding along the first does not blur the second. */
+/* Far away along one axis, and thin along the other: rounding along the first does not blur the
+ * second. */
 START_TEST(thin_and_far)
 {
     const double xy[8] = {1e9, 0, 1e9 + 64, 0, 1e9 + 64, 1e-9, 1e9, 1e-9};

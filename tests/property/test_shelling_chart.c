@@ -1,4 +1,5 @@
-/* Method foliation on conforming meshes of any dimension: what the certificate promises holds in doubles. */
+/* Method foliation on conforming meshes of any dimension: what the certificate promises holds in
+ * doubles. */
 #include <check.h>
 #include <icc/stages.h>
 #include <math.h>
@@ -135,12 +136,15 @@ static void check_round_trip(random_source *r, const pair *p, const icc_map *map
         random_inside(r, p->source, points + dim * i);
     ck_assert_int_eq(icc_map_apply(map, N_POINTS, points, images, NULL, &n_failed, NULL), ICC_OK);
     ck_assert_uint_eq(n_failed, 0);
-    ck_assert_int_eq(icc_map_apply_inverse(map, N_POINTS, images, back, NULL, &n_failed, NULL), ICC_OK);
+    ck_assert_int_eq(icc_map_apply_inverse(map, N_POINTS, images, back, NULL, &n_failed, NULL),
+                     ICC_OK);
     ck_assert_uint_eq(n_failed, 0);
-    ck_assert_int_eq(icc_domain_locate(p->target, N_POINTS, images, where, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_domain_locate(p->target, N_POINTS, images, where, NULL, NULL, NULL),
+                     ICC_OK);
     for (size_t i = 0; i < N_POINTS; ++i) {
         ck_assert_int_ne(where[i], ICC_OUTSIDE);
-        ck_assert_double_le(distance(p->dim, points + dim * i, back + dim * i), 1e-12 * p->diagonal);
+        ck_assert_double_le(distance(p->dim, points + dim * i, back + dim * i),
+                            1e-12 * p->diagonal);
     }
 }
 
@@ -209,8 +213,8 @@ static void check_jacobians(random_source *r, const pair *p, const icc_map *map)
     ck_assert_int_ge(n_close, N_POINTS * 95 / 100);
 }
 
-/* From the boundary through the point to the maximum; everything on it has the same boundary point, and t
- * rises by arc length. */
+/* From the boundary through the point to the maximum; everything on it has the same boundary point,
+ * and t rises by arc length. */
 static void check_curve(const icc_chart *chart, const double *point, int32_t dim, double diagonal)
 {
     enum { ROOM = 4000 };
@@ -227,7 +231,8 @@ static void check_curve(const icc_chart *chart, const double *point, int32_t dim
         const double *x = curve + (size_t)dim * i;
         so_far += i > 0 ? distance(dim, x - dim, x) : 0;
         nearest = fmin(nearest, distance(dim, x, point));
-        ck_assert_int_eq(icc_chart_encode(chart, 1, x, &facet, bary, &t, &status, NULL, NULL), ICC_OK);
+        ck_assert_int_eq(icc_chart_encode(chart, 1, x, &facet, bary, &t, &status, NULL, NULL),
+                         ICC_OK);
         ck_assert_int_eq(status, ICC_OK);
         ck_assert_double_le(fabs(t - so_far / length), 1e-9);
         t = 0;
@@ -238,7 +243,8 @@ static void check_curve(const icc_chart *chart, const double *point, int32_t dim
     }
     ck_assert_double_le(nearest, 1e-13 * diagonal);
     const icc_chart_info info = info_of(chart);
-    ck_assert_double_le(distance(dim, info.maximum, curve + (size_t)dim * (n - 1)), 1e-14 * diagonal);
+    ck_assert_double_le(distance(dim, info.maximum, curve + (size_t)dim * (n - 1)),
+                        1e-14 * diagonal);
 }
 
 static void check_pair(random_source *r, pair p)
@@ -329,7 +335,8 @@ START_TEST(faces_of_the_mesh)
         pair p = pair_of(source, target);
         icc_map *map = make_map(&p);
         for (int i = 0; i < share_of(3000); ++i) {
-            const uint32_t *corner = kept.simplices + n * (size_t)random_below(&r, (int)kept.n_simplices);
+            const uint32_t *corner =
+                kept.simplices + n * (size_t)random_below(&r, (int)kept.n_simplices);
             double x[MAX] = {0}, y[MAX], z[MAX], sum = 0, bary[MAX + 1];
             icc_status status[2];
             while (!(sum > 0))
@@ -350,7 +357,8 @@ START_TEST(faces_of_the_mesh)
 }
 END_TEST
 
-/* Outside is outside, t = 0 and t = 1 are exact, and a given maximum is the nearest vertex inside. */
+/* Outside is outside, t = 0 and t = 1 are exact, and a given maximum is the nearest vertex
+ * inside. */
 START_TEST(ends)
 {
     random_source r = {6};
@@ -363,17 +371,20 @@ START_TEST(ends)
     uint32_t facet;
     double bary[3], t, x[3];
     icc_status status;
-    ck_assert_msg(icc_chart_create(&chart, domain, &options, NULL, &err) == ICC_OK, "%s", err.message);
+    ck_assert_msg(icc_chart_create(&chart, domain, &options, NULL, &err) == ICC_OK, "%s",
+                  err.message);
     const icc_chart_info info = info_of(chart);
     ck_assert(info.maximum[0] == 1 && info.maximum[1] == 3 && info.maximum[2] == 2);
-    ck_assert_int_eq(icc_chart_encode(chart, 1, info.maximum, &facet, bary, &t, &status, NULL, NULL),
-                     ICC_OK);
+    ck_assert_int_eq(
+        icc_chart_encode(chart, 1, info.maximum, &facet, bary, &t, &status, NULL, NULL), ICC_OK);
     ck_assert(status == ICC_OK && t == 1 && facet == 0 && bary[0] == bary[1]);
     ck_assert_int_eq(icc_chart_decode(chart, 1, &facet, bary, &t, x, &status, NULL, NULL), ICC_OK);
     ck_assert(status == ICC_OK && memcmp(x, info.maximum, sizeof x) == 0);
-    ck_assert_int_eq(icc_chart_encode(chart, 1, outside, &facet, bary, &t, &status, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_chart_encode(chart, 1, outside, &facet, bary, &t, &status, NULL, NULL),
+                     ICC_OK);
     ck_assert_int_eq(status, ICC_ERR_OUTSIDE);
-    ck_assert_int_eq(icc_chart_encode(chart, 1, corner, &facet, bary, &t, &status, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_chart_encode(chart, 1, corner, &facet, bary, &t, &status, NULL, NULL),
+                     ICC_OK);
     ck_assert(status == ICC_OK && t == 0);
     ck_assert_int_eq(icc_chart_decode(chart, 1, &facet, bary, &t, x, &status, NULL, NULL), ICC_OK);
     ck_assert(status == ICC_OK && memcmp(x, corner, sizeof x) == 0);
@@ -386,8 +397,8 @@ START_TEST(ends)
 }
 END_TEST
 
-/* A million times thinner than wide, one way and then the other: an image is rounded to 1e-16 of its
- * domain's size, 1e-10 of its thickness, which the way back makes 1e-10 of the size. */
+/* A million times thinner than wide, one way and then the other: an image is rounded to 1e-16 of
+ * its domain's size, 1e-10 of its thickness, which the way back makes 1e-10 of the size. */
 START_TEST(thin)
 {
     random_source r = {10};
@@ -419,17 +430,17 @@ START_TEST(two_kinds_of_mesh)
     uint32_t *facets = mesh_alloc(2 * info.n_facets, sizeof *facets);
     ck_assert_int_eq(icc_domain_get_boundary(p.target, vertices, facets), ICC_OK);
     icc_domain_free(p.target);
-    ck_assert_int_eq(icc_domain_create(&p.target, 2, info.n_vertices, vertices, info.n_facets, facets,
-                                       NULL, NULL),
+    ck_assert_int_eq(icc_domain_create(&p.target, 2, info.n_vertices, vertices, info.n_facets,
+                                       facets, NULL, NULL),
                      ICC_OK);
     icc_chart *charts[2];
     ck_assert_int_eq(icc_chart_create(&charts[0], p.source, NULL, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_chart_create(&charts[1], p.target, NULL, NULL, NULL), ICC_OK);
     for (int k = 0; k < 2; ++k) {
         icc_map *map;
-        ck_assert_msg(icc_map_create_from_charts(&map, charts[k], charts[1 - k], NULL, NULL, &err) ==
-                          ICC_OK,
-                      "%s", err.message);
+        ck_assert_msg(
+            icc_map_create_from_charts(&map, charts[k], charts[1 - k], NULL, NULL, &err) == ICC_OK,
+            "%s", err.message);
         const pair way = {.dim = 2,
                           .source = k == 0 ? p.source : p.target,
                           .target = k == 0 ? p.target : p.source,

@@ -55,8 +55,9 @@ bool file_is_same(const char *input, const char *output)
     return known && S_ISREG(in.st_mode) && in.st_dev == out.st_dev && in.st_ino == out.st_ino;
 }
 
-/* Where a plain file of this name is or will be, with links followed: a rename onto a link would cut it off
- * from its file. NULL for devices, pipes and links to nowhere, which are written directly. */
+/* Where a plain file of this name is or will be, with links followed: a rename onto a link would
+ * cut it off from its file. NULL for devices, pipes and links to nowhere, which are written
+ * directly. */
 static char *find_place(const char *name)
 {
     struct stat info;

@@ -12,8 +12,8 @@
 /* The content of a file and a '\0' behind it; free() it. NULL: said why on stderr. */
 char *file_read(const char *name, size_t *n);
 
-/* Whether two names, "-" for the input being standard input, for the output standard output, are those of
- * one plain file, be it through a link. */
+/* Whether two names, "-" for the input being standard input, for the output standard output, are
+ * those of one plain file, be it through a link. */
 bool file_is_same(const char *input, const char *output);
 
 /* A file that is written beside its final place and takes that only when all is well. */

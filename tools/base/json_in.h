@@ -1,5 +1,6 @@
-/* JSON that is read: lists of points and the like, with the entry at fault named. `where` is what a list is
- * called in messages, like "handles" or "rigid[2].region". All return false with `wrong` filled in. */
+/* JSON that is read: lists of points and the like, with the entry at fault named. `where` is what a
+ * list is called in messages, like "handles" or "rigid[2].region". All return false with `wrong`
+ * filled in. */
 #ifndef JSON_IN_H
 #define JSON_IN_H
 

@@ -1,5 +1,5 @@
-/* JSON text, piece by piece, checked against the whole grammar of RFC 8259. Nothing is converted: a piece is
- * where it stands in the text. The depth is limited by memory only. */
+/* JSON text, piece by piece, checked against the whole grammar of RFC 8259. Nothing is converted: a
+ * piece is where it stands in the text. The depth is limited by memory only. */
 #ifndef JSON_SCAN_H
 #define JSON_SCAN_H
 

@@ -38,8 +38,8 @@ static int columns_of_terminal(void)
     return 80;
 }
 
-/* "[#####     ]  50 % improve", in fewer columns than the terminal has: the last one may make it go to the
- * next line. Where it is narrow the bar shrinks, then goes, then the stage. */
+/* "[#####     ]  50 % improve", in fewer columns than the terminal has: the last one may make it go
+ * to the next line. Where it is narrow the bar shrinks, then goes, then the stage. */
 static void draw(const char *stage, double share)
 {
     static const char full[] = "##############################";

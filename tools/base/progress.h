@@ -1,5 +1,5 @@
-/* A progress bar on stderr, when that is a terminal. One bar stands for all calls of the library that a
- * command makes: each takes a share of what the calls before it have left. */
+/* A progress bar on stderr, when that is a terminal. One bar stands for all calls of the library
+ * that a command makes: each takes a share of what the calls before it have left. */
 #ifndef PROGRESS_H
 #define PROGRESS_H
 

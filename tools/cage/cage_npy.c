@@ -1,5 +1,5 @@
-/* Masks from NumPy's .npy files: NumPy Enhancement Proposal 1, versions 1 to 3. Axis k of the array is
- * coordinate k. */
+/* Masks from NumPy's .npy files: NumPy Enhancement Proposal 1, versions 1 to 3. Axis k of the array
+ * is coordinate k. */
 #include "cage/cage_readers.h"
 
 #include "base/allocate.h"

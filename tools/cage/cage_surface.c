@@ -1,6 +1,6 @@
 /* Surfaces from the files that meshes come in, too. */
-#include "cage/cage_readers.h"
 #include "base/allocate.h"
+#include "cage/cage_readers.h"
 #include "mesh/mesh_file.h"
 
 #include <stdlib.h>

@@ -176,7 +176,8 @@ bool cage_read_svg(cage *out, cage_role role, const char *text, size_t n, proble
     if (found.n_all == 0)
         return spoilt(wrong, 0, "there is no complete <path> or <polygon> in this SVG");
     if (found.n_chosen > 1 || (found.n_chosen == 0 && found.n_all > 1))
-        return spoilt(wrong, 0, "%zu of the %zu shapes have the id or label \"%s\"; exactly one must",
+        return spoilt(wrong, 0,
+                      "%zu of the %zu shapes have the id or label \"%s\"; exactly one must",
                       found.n_chosen, found.n_all, id);
     bool polygon = is_named(&found.tag, "polygon");
     const char *data = attribute(&found.tag, polygon ? "points" : "d", &end);

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* How far a vertex of the mesh may be from that of the cage, in diagonals of the cage: files are often
- * written with ten digits. */
+/* How far a vertex of the mesh may be from that of the cage, in diagonals of the cage: files are
+ * often written with ten digits. */
 static const double NEAR = 1e-9;
 
 void filling_free(filling *f)

@@ -10,11 +10,11 @@ typedef struct filling {
     double *points;    /* n_points * dim: first the vertices of the cage, in their order */
     uint32_t *corners; /* n * (dim + 1) */
     size_t n_facets;
-    uint32_t *facets;  /* n_facets * dim: those of the cage */
+    uint32_t *facets; /* n_facets * dim: those of the cage */
 } filling;
 
-/* Reads a mesh (Medit, VTK, OBJ, OFF) whose boundary is the cage. Its vertices may come in any order: those
- * of the cage are found by their places. False: see `wrong`, and `out` is empty. */
+/* Reads a mesh (Medit, VTK, OBJ, OFF) whose boundary is the cage. Its vertices may come in any
+ * order: those of the cage are found by their places. False: see `wrong`, and `out` is empty. */
 bool filling_read(filling *out, const cage *c, const char *text, size_t n, problem *wrong);
 
 /* Whether the program tetgen can be run. */

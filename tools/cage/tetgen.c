@@ -1,6 +1,6 @@
-/* Runs the program tetgen (Si, TetGen, a Delaunay-Based Quality Tetrahedral Mesh Generator, 2015), if it is
- * installed, in a folder of its own. -Y keeps the surface as it is: the first vertices that come back are
- * those that went in. */
+/* Runs the program tetgen (Si, TetGen, a Delaunay-Based Quality Tetrahedral Mesh Generator, 2015),
+ * if it is installed, in a folder of its own. -Y keeps the surface as it is: the first vertices
+ * that come back are those that went in. */
 #define _POSIX_C_SOURCE 200809L
 
 #include "cage/filling.h"
@@ -18,8 +18,8 @@
 
 extern char **environ;
 
-/* -p: what a surface encloses; -Y: without new vertices on it; -q1.4: radius-edge ratio; -F: no files of
- * faces; -Q: quiet. */
+/* -p: what a surface encloses; -Y: without new vertices on it; -q1.4: radius-edge ratio; -F: no
+ * files of faces; -Q: quiet. */
 #define OPTIONS "-pYq1.4FQ"
 
 static const char *const leftovers[] = {"cage.off",    "cage.1.node", "cage.1.ele",

@@ -75,10 +75,10 @@ static bool is_surface_only(const check *c)
 /* The formats in which --repair writes. */
 static const char *repaired_formats(const check *c)
 {
-    return c->job.cages[0].cells != NULL   ? "NumPy"
-           : !in_plane(c)                  ? "OBJ"
-           : c->job.args->target != NULL   ? "GeoJSON, JSON"
-                                           : "text, GeoJSON, JSON";
+    return c->job.cages[0].cells != NULL ? "NumPy"
+           : !in_plane(c)                ? "OBJ"
+           : c->job.args->target != NULL ? "GeoJSON, JSON"
+                                         : "text, GeoJSON, JSON";
 }
 
 /* What the cages must be for the options. */
@@ -92,8 +92,8 @@ static int check_options(const check *c)
         return failed(a->source, 0,
                       "--repair is for cages in the plane, and for surfaces and masks without a "
                       "target");
-    return output_fits(a->command, a->boundary,
-                       job_dim(&c->job) == 3 ? "text, OBJ" : "text") == DONE
+    return output_fits(a->command, a->boundary, job_dim(&c->job) == 3 ? "text, OBJ" : "text") ==
+                   DONE
                ? output_fits(a->command, a->repair, repaired_formats(c))
                : MISUSED;
 }

@@ -82,8 +82,8 @@ static int report_all(const job *j, const geo_result *r, const char *text, doubl
     return report_close(&out) ? DONE : FAILED;
 }
 
-/* Writes the result, unless that is not wanted or would cost the only copy of what is not carried. The report comes
- * first, so that whatever fails leaves the file as it was. */
+/* Writes the result, unless that is not wanted or would cost the only copy of what is not carried.
+ * The report comes first, so that whatever fails leaves the file as it was. */
 static int finish(const job *j, geo_result *r, const char *text, size_t n, double seconds)
 {
     const char *in = j->args->operands[0], *to = j->args->operands[1];

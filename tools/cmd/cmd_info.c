@@ -1,14 +1,14 @@
 /* libicc info: what a chart is made of, and what it misses. */
 #include "cmd/commands.h"
 
-#include "report/info.h"
 #include "base/allocate.h"
 #include "plot/stages.h"
+#include "report/info.h"
 
 #include <stdlib.h>
 
-/* The critical vertices of the order in which the tree was grown, and, beyond the plane, what it takes
- * to have an order with none but the maximum. */
+/* The critical vertices of the order in which the tree was grown, and, beyond the plane, what it
+ * takes to have an order with none but the maximum. */
 static int examine_order(info *x, const stages *s)
 {
     icc_function_report found = {.size = sizeof found};

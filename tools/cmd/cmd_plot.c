@@ -1,6 +1,7 @@
-/* libicc plot: the papers' figures. Rows as in figure 6 of the paper: the u v map, the checkerboard, the
- * function with its curves; then its elevation. One column for the source, one for the target; or one
- * for each of several functions, after one for the source if there is a target. */
+/* libicc plot: the papers' figures. Rows as in figure 6 of the paper: the u v map, the
+ * checkerboard, the function with its curves; then its elevation. One column for the source, one
+ * for the target; or one for each of several functions, after one for the source if there is a
+ * target. */
 #define _POSIX_C_SOURCE 200809L
 
 #include "cmd/commands.h"

@@ -2,11 +2,11 @@
 #include "cmd/commands.h"
 
 #include "base/allocate.h"
-#include "mesh/mesh_file.h"
 #include "base/number.h"
-#include "kernel/pose_job.h"
 #include "job/output_name.h"
 #include "job/point_file.h"
+#include "kernel/pose_job.h"
+#include "mesh/mesh_file.h"
 #include "mesh/tally.h"
 
 #include <math.h>

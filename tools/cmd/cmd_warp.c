@@ -1,8 +1,8 @@
 /* libicc warp: a picture inside a cage follows it. */
 #include "cmd/commands.h"
 
-#include "job/job.h"
 #include "base/allocate.h"
+#include "job/job.h"
 #include "plot/coverage.h"
 #include "plot/picture.h"
 

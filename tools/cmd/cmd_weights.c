@@ -1,9 +1,9 @@
 /* libicc weights: how much of each handle there is at a point. */
 #include "cmd/commands.h"
 
-#include "kernel/kernel_job.h"
 #include "base/allocate.h"
 #include "job/point_file.h"
+#include "kernel/kernel_job.h"
 #include "kernel/weight_plot.h"
 
 #include <math.h>
@@ -120,7 +120,7 @@ static int weigh(kernel_job *k, const table *points)
     double *weights = need(points->n, k->set.n_handles * sizeof *weights);
     double began = seconds_now();
     icc_status status = icc_weights_evaluate(k->kernel, points->n, points->values, weights, NULL,
-                                           NULL, &n_failed, &k->job.env);
+                                             NULL, &n_failed, &k->job.env);
     double seconds = seconds_now() - began;
     progress_end(&k->job.bar);
     int result = status == ICC_OK ? write_binding(k, points) : job_failed_status(&k->job, status);

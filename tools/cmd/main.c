@@ -1,9 +1,9 @@
 /* libicc: shapes and what is inside them follow their boundary.
  *
  * setlocale() is never called, so numbers are read and written the same way everywhere. */
-#include "cmd/commands.h"
 #include "base/file.h"
 #include "base/say.h"
+#include "cmd/commands.h"
 
 #include <errno.h>
 #include <icc/icc.h>
@@ -26,7 +26,8 @@ static const command commands[] = {
          "4.\n"
          "Blank lines and lines that begin with # are left out.\n\n"
          "With --geojson it carries the points, lines and polygons of a GeoJSON file, with more\n"
-         "vertices where the map bends lines; all but coordinates stays byte for byte. Features that\n"
+         "vertices where the map bends lines; all but coordinates stays byte for byte. Features "
+         "that\n"
          "lie outside, be it in part, are named, and the exit code is then 4; see --outside.\n"},
     {.name = "encode",
      .bit = FOR_ENCODE,
@@ -68,7 +69,8 @@ static const command commands[] = {
      .usage = "--source FILE --target FILE [OPTION]... IN OUT",
      .summary = "Carries the vertices of a mesh along",
      .details =
-         "OBJ, OFF, Medit (.mesh) and legacy VTK as text, PLY also as binary; OUT has the format of "
+         "OBJ, OFF, Medit (.mesh) and legacy VTK as text, PLY also as binary; OUT has the format "
+         "of "
          "IN.\n"
          "Nothing is written when a vertex lies outside the cage, unless --outside keep leaves it "
          "where it is.\n"

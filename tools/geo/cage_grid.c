@@ -1,5 +1,5 @@
-/* A regular grid of about as many cells as the cage has edges. A segment is in the cells that it passes in each
- * row, so that n edges are in O(n sqrt n) cells, however long they are. */
+/* A regular grid of about as many cells as the cage has edges. A segment is in the cells that it
+ * passes in each row, so that n edges are in O(n sqrt n) cells, however long they are. */
 #include "geo/cage_grid.h"
 
 #include "base/allocate.h"
@@ -22,8 +22,8 @@ static range cells_between(const cage_grid *g, size_t k, double low, double high
     return (range){from > 0 ? (size_t)fmin(from, last) : 0, to > 0 ? (size_t)fmin(to, last) : 0};
 }
 
-/* The cells that a segment passes in a row. One that reaches far beyond the cage is in all of them between its
- * ends: where exactly it passes would drown in rounding. */
+/* The cells that a segment passes in a row. One that reaches far beyond the cage is in all of them
+ * between its ends: where exactly it passes would drown in rounding. */
 static range cells_of_row(const cage_grid *g, size_t row, const double a[2], const double b[2])
 {
     double dx = b[0] - a[0], dy = b[1] - a[1], low = fmin(a[0], b[0]), high = fmax(a[0], b[0]);

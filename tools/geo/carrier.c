@@ -1,5 +1,5 @@
-/* The map takes each facet of the cage linearly to its image, so a point that is taken to the cage gets its
- * image from the facet alone, and no rounding can put it outside again. */
+/* The map takes each facet of the cage linearly to its image, so a point that is taken to the cage
+ * gets its image from the facet alone, and no rounding can put it outside again. */
 #include "geo/carrier.h"
 
 #include "base/allocate.h"

@@ -1,4 +1,5 @@
-/* A map as files of points need it: what lies outside the cage by no more than rounding is taken to be on it. */
+/* A map as files of points need it: what lies outside the cage by no more than rounding is taken to
+ * be on it. */
 #ifndef CARRIER_H
 #define CARRIER_H
 
@@ -22,22 +23,25 @@ typedef struct carrier {
     uint32_t *facets[2]; /* dim vertices each; facet i of one corresponds to facet i of the other */
 } carrier;
 
-/* Begins to carry between two domains, from the first; back if `inverse` tells that the map goes from the second.
- * snap < 0: 1e-9 of the cage's size, and no less than what rounding does to its coordinates. To be freed
- * in any case. */
+/* Begins to carry between two domains, from the first; back if `inverse` tells that the map goes
+ * from the second. snap < 0: 1e-9 of the cage's size, and no less than what rounding does to its
+ * coordinates. To be freed in any case. */
 icc_status carrier_start(carrier *out, const icc_map *map, const icc_domain *from,
                          const icc_domain *to, bool inverse, double snap, const icc_env *env);
 void carrier_free(carrier *c);
 
-/* Maps n points, which may not be the images. Status: n of them. Snapped: n truth values, or NULL. */
+/* Maps n points, which may not be the images. Status: n of them. Snapped: n truth values, or
+ * NULL. */
 icc_status carrier_map(const carrier *c, size_t n, const double *points, double *images,
                        icc_status *status, bool *snapped);
 
-/* The place on the cage nearest to a point: a facet, `dim` shares of its corners, and how far off. */
+/* The place on the cage nearest to a point: a facet, `dim` shares of its corners, and how far
+ * off. */
 icc_status carrier_nearest(const carrier *c, const double *point, uint32_t *facet, double *shares,
                            double *distance);
 
-/* The point of a facet of the cage (side 0) or of its image (side 1) with these shares of its corners. */
+/* The point of a facet of the cage (side 0) or of its image (side 1) with these shares of its
+ * corners. */
 void carrier_facet_point(const carrier *c, size_t side, uint32_t facet, const double *shares,
                          double *point);
 

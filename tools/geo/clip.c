@@ -1,6 +1,7 @@
-/* Based on: K. Weiler, P. Atherton, Hidden Surface Removal Using Polygon Area Sorting, 1977, for two polygons whose
- * boundaries have been cut where they meet. Of the polygon's pieces those in the cage are kept, of the cage's those
- * in the polygon; a piece that both have is kept once if they are on the same side of it. */
+/* Based on: K. Weiler, P. Atherton, Hidden Surface Removal Using Polygon Area Sorting, 1977, for
+ * two polygons whose boundaries have been cut where they meet. Of the polygon's pieces those in the
+ * cage are kept, of the cage's those in the polygon; a piece that both have is kept once if they
+ * are on the same side of it. */
 #include "geo/clip.h"
 
 #include "base/allocate.h"
@@ -45,7 +46,8 @@ static int by_place(const void *a, const void *b)
     for (size_t k = 0; k < 2; k++)
         if (p->at[k] < q->at[k] || p->at[k] > q->at[k])
             return p->at[k] < q->at[k] ? -1 : 1;
-    /* Vertices of the polygon come before what was computed, and that before corners of the cage. */
+    /* Vertices of the polygon come before what was computed, and that before corners of the
+     * cage. */
     double i = p->from == SIZE_MAX ? 2 : p->along, j = q->from == SIZE_MAX ? 2 : q->along;
     return i < j ? -1 : i > j ? 1 : p->from < q->from ? -1 : p->from > q->from;
 }
@@ -162,7 +164,8 @@ static void add_corners(clipper *c)
         }
 }
 
-/* The nodes on an edge of the cage among all that are on edges; how many, and which is the first. */
+/* The nodes on an edge of the cage among all that are on edges; how many, and which is the
+ * first. */
 static size_t nodes_of(size_t n_on, const geo_node *on, uint32_t facet, size_t *first)
 {
     size_t low = 0, high = n_on;
@@ -178,8 +181,8 @@ static size_t nodes_of(size_t n_on, const geo_node *on, uint32_t facet, size_t *
     return low - *first;
 }
 
-/* Adds a piece of the polygon. One that runs along an edge of the cage is cut at whatever nodes there are on it, as
- * the edge is. */
+/* Adds a piece of the polygon. One that runs along an edge of the cage is cut at whatever nodes
+ * there are on it, as the edge is. */
 static void add_own(clipper *c, const geo_node *a, const geo_node *b, bool reversed, size_t n_on,
                     const geo_node *on)
 {
@@ -280,7 +283,8 @@ static void keep(clipper *c)
         qsort(c->kept.list, c->kept.n, sizeof *c->kept.list, by_ends);
 }
 
-/* The nodes of the rings, each ring behind the other, with where they begin; false if one is not in order. */
+/* The nodes of the rings, each ring behind the other, with where they begin; false if one is not in
+ * order. */
 static size_t *collect(clipper *c, const geo_shape *shape, size_t first, size_t n_rings,
                        const icc_status *status, const bool *snapped)
 {

@@ -4,8 +4,8 @@
 
 #include "geo/noding.h"
 
-/* Rings of nodes, not closed, with the inside on the left. Each outer ring is followed by its holes. Corners of
- * the cage have no `from`. */
+/* Rings of nodes, not closed, with the inside on the left. Each outer ring is followed by its
+ * holes. Corners of the cage have no `from`. */
 typedef struct clip_ring {
     size_t first, n;
     size_t part;
@@ -17,9 +17,9 @@ typedef struct clipped {
     size_t n_nodes, n_rings, n_parts;
 } clipped;
 
-/* Cuts the polygon of the shape's paths first .. first + n_rings - 1, the outer ring before the holes. False: the
- * rings cross themselves or each other so that there is no telling what is inside. To be freed in either
- * case. */
+/* Cuts the polygon of the shape's paths first .. first + n_rings - 1, the outer ring before the
+ * holes. False: the rings cross themselves or each other so that there is no telling what is
+ * inside. To be freed in either case. */
 bool clip_polygon(clipped *out, noding *x, const geo_shape *shape, size_t first, size_t n_rings,
                   const icc_status *status, const bool *snapped);
 void clipped_free(clipped *c);

@@ -1,5 +1,5 @@
-/* What is kept has as many pieces into each node as out of it, unless the polygon crosses itself or rounding has
- * misplaced a piece, and then falls into rings. */
+/* What is kept has as many pieces into each node as out of it, unless the polygon crosses itself or
+ * rounding has misplaced a piece, and then falls into rings. */
 #include "geo/clip_rings.h"
 
 #include "base/allocate.h"
@@ -26,7 +26,8 @@ double ring_area(size_t n, const double *points, size_t stride)
     return sum;
 }
 
-/* Where the pieces from each node begin. False: into some node there come more or fewer than go out. */
+/* Where the pieces from each node begin. False: into some node there come more or fewer than go
+ * out. */
 static bool balance(tracer *c)
 {
     uint32_t *into = need(c->n_nodes + 1, sizeof *into);
@@ -52,8 +53,8 @@ static double clockwise(const double a[2], const double b[2])
     return turn > 0 ? turn : turn + 1;
 }
 
-/* The piece that goes on along the same face: of those that leave the node the first clockwise from where we come
- * from. */
+/* The piece that goes on along the same face: of those that leave the node the first clockwise from
+ * where we come from. */
 static clip_piece *next_piece(const tracer *c, const clip_piece *p, const clip_piece *start)
 {
     const double *at = c->nodes[p->to].at, *from = c->nodes[p->from].at;
@@ -86,8 +87,8 @@ static void add_ring(tracer *c, clipped *out, size_t n, const uint32_t *ring)
     }
 }
 
-/* Follows the pieces round. A ring that comes back to a node before its end is split there, so that each is
- * simple. */
+/* Follows the pieces round. A ring that comes back to a node before its end is split there, so that
+ * each is simple. */
 static bool trace_rings(tracer *c, clipped *out)
 {
     size_t n = 0;

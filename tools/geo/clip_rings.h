@@ -10,8 +10,8 @@ typedef struct clip_piece {
     bool used;
 } clip_piece;
 
-/* Joins pieces, sorted by the node from which they go, to rings, and gives holes to what they are in. False: some are
- * left over. What there is in `out` is to be freed in either case. */
+/* Joins pieces, sorted by the node from which they go, to rings, and gives holes to what they are
+ * in. False: some are left over. What there is in `out` is to be freed in either case. */
 bool clip_rings(clipped *out, size_t n_nodes, const geo_node *nodes, size_t n, clip_piece *pieces);
 
 #endif

@@ -22,9 +22,9 @@ typedef struct polyline {
 void polyline_add(polyline *line, const vertex *v);
 void polyline_free(polyline *line);
 
-/* Inserts vertices until no open piece's image is farther than `tolerance` from a straight line, as seen at three
- * points of the piece; at most 4096 pieces between two vertices. Where the map has a gap there is a
- * vertex without image. DONE, or FAILED: see `wrong`. */
+/* Inserts vertices until no open piece's image is farther than `tolerance` from a straight line, as
+ * seen at three points of the piece; at most 4096 pieces between two vertices. Where the map has a
+ * gap there is a vertex without image. DONE, or FAILED: see `wrong`. */
 int polyline_densify(polyline *line, const carrier *c, double tolerance, problem *wrong);
 
 #endif

@@ -17,8 +17,8 @@ typedef struct edits {
     size_t n_bytes, room_bytes;
 } edits;
 
-/* Begins to replace a piece of the text. Pieces may come in any order; one that lies within another is lost
- * with it. */
+/* Begins to replace a piece of the text. Pieces may come in any order; one that lies within another
+ * is lost with it. */
 void edits_replace(edits *e, size_t begin, size_t end);
 
 /* Adds to what replaces the last one: bytes, or a number that reads as the same again. */

@@ -38,8 +38,7 @@ static bool set_box(carriage *c, geo_span span, const geo_box *box)
     }
     const char *last = n > 0 ? end + strspn(end, " \t\r\n") : p;
     if (*last != ']' || n < 4 || n % 2 != 0)
-        return spoilt(c->wrong, line_of(c->text, p),
-                      "this bbox is not a list of 4 numbers, or 6");
+        return spoilt(c->wrong, line_of(c->text, p), "this bbox is not a list of 4 numbers, or 6");
     if (box->lower[0] > box->upper[0]) {
         drop_member(c, span);
         return true;

@@ -31,8 +31,8 @@ typedef struct carriage {
 /* The object of the geometry at hand. */
 geo_object *geo_current(const carriage *c);
 
-/* Notes that the geometry at hand is not carried as it was. A feature has one entry; of two fates that its
- * geometries have the worse is told. */
+/* Notes that the geometry at hand is not carried as it was. A feature has one entry; of two fates
+ * that its geometries have the worse is told. */
 void geo_note_fault(carriage *c, size_t n_without, const char *fate);
 
 /* Notes that, and leaves nothing of it. Returns true. */
@@ -41,7 +41,8 @@ bool geo_leave_out(carriage *c, size_t n_without);
 /* One more empty line in c->lines. */
 polyline *geo_add_line(carriage *c);
 
-/* A node with its image: on the cage that of its place there, elsewhere that of its position, if it has one. */
+/* A node with its image: on the cage that of its place there, elsewhere that of its position, if it
+ * has one. */
 vertex geo_vertex_of(const carriage *c, const geo_node *node);
 bool geo_has_gap(const polyline *line);
 geo_writer geo_writer_of(carriage *c);
@@ -49,8 +50,8 @@ geo_writer geo_writer_of(carriage *c);
 /* Cuts the geometry at hand along the cage. False: see c->wrong. */
 bool geo_cut(carriage *c, size_t n_without);
 
-/* Sets each bbox to what is in its object, from the last object to the first, so that what an object holds is known
- * before it. False: see c->wrong. */
+/* Sets each bbox to what is in its object, from the last object to the first, so that what an
+ * object holds is known before it. False: see c->wrong. */
 bool geo_set_boxes(carriage *c);
 
 #endif

@@ -1,6 +1,6 @@
-/* Geometry by geometry: one that is in the cage as a whole, snapped vertices included, is mapped in place; what
- * becomes of the others is the policy's business. Bounding boxes come last, since they may stand before what
- * they bound. */
+/* Geometry by geometry: one that is in the cage as a whole, snapped vertices included, is mapped in
+ * place; what becomes of the others is the policy's business. Bounding boxes come last, since they
+ * may stand before what they bound. */
 #include "geo/geo_carry.h"
 
 #include "base/allocate.h"
@@ -49,8 +49,8 @@ void geo_note_fault(carriage *c, size_t n_without, const char *fate)
         fault->fate = fate;
 }
 
-/* Leaves nothing of a geometry: a feature's becomes null, that of no feature or one among others becomes
- * empty, which readers take for none. */
+/* Leaves nothing of a geometry: a feature's becomes null, that of no feature or one among others
+ * becomes empty, which readers take for none. */
 static void empty_geometry(carriage *c)
 {
     const geo_object *o = geo_current(c);
@@ -185,7 +185,8 @@ static bool refine(carriage *c, bool *whole)
     return true;
 }
 
-/* Maps a geometry in place if it is in the cage as a whole, or if it is kept; else does what the policy says. */
+/* Maps a geometry in place if it is in the cage as a whole, or if it is kept; else does what the
+ * policy says. */
 static bool carry_geometry(carriage *c)
 {
     const geo_object *o = geo_current(c);

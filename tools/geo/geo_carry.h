@@ -27,8 +27,8 @@ typedef struct geo_result {
     geo_fault *faults;
 } geo_result;
 
-/* Carries text[0..n), with text[n] == '\0'. Lines are off by at most `tolerance`. False: see `wrong`. To be freed
- * in either case. */
+/* Carries text[0..n), with text[n] == '\0'. Lines are off by at most `tolerance`. False: see
+ * `wrong`. To be freed in either case. */
 bool geo_carry(geo_result *out, const carrier *carries, geo_policy policy, double tolerance,
                const char *text, size_t n, problem *wrong);
 void geo_result_free(geo_result *r);

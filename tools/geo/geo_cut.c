@@ -59,8 +59,8 @@ static void add_parts(carriage *c)
     }
 }
 
-/* The parts of a line between gaps of the map, where its curves do not reach; counts them, and if `write` adds them
- * to a list. */
+/* The parts of a line between gaps of the map, where its curves do not reach; counts them, and if
+ * `write` adds them to a list. */
 static size_t write_parts(geo_writer *w, const polyline *line, bool write, size_t n_before)
 {
     size_t n = n_before;
@@ -108,8 +108,8 @@ static bool cut_lines(carriage *c, size_t n_without)
     return end_cut(c, n_without, n);
 }
 
-/* A ring of a clipped polygon as a line, in the sense of the old one. Corners of the cage get their heights from
- * the node before. */
+/* A ring of a clipped polygon as a line, in the sense of the old one. Corners of the cage get their
+ * heights from the node before. */
 static void add_ring(carriage *c, const clipped *cut, const clip_ring *ring, size_t first_position,
                      bool reversed)
 {
@@ -188,7 +188,8 @@ static bool cut_polygon(carriage *c, size_t first, size_t end, cutting *to)
     return good;
 }
 
-/* Cuts polygons one by one. What has been written is taken back if one cannot be cut, or nothing is left. */
+/* Cuts polygons one by one. What has been written is taken back if one cannot be cut, or nothing is
+ * left. */
 static bool cut_polygons(carriage *c, size_t n_without)
 {
     const geo_object *o = geo_current(c);

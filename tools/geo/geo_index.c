@@ -1,6 +1,6 @@
-/* One pass over the text, with a stack of its own: an object is noted where a member `geometry`, `features` or
- * `geometries` leads to it. As `type` may be the last member, only a second pass over the objects tells which
- * of these members mean what they seem to. */
+/* One pass over the text, with a stack of its own: an object is noted where a member `geometry`,
+ * `features` or `geometries` leads to it. As `type` may be the last member, only a second pass over
+ * the objects tells which of these members mean what they seem to. */
 #include "geo/geo_index.h"
 
 #include "base/allocate.h"
@@ -160,7 +160,8 @@ static bool misses(const geo_object *o, const char *text, size_t at, const char 
     return spoilt(wrong, line_of(text, text + at), format, geo_type_names[o->type], name);
 }
 
-/* Members that mean something must be there, once, and be lists or objects where these are expected. */
+/* Members that mean something must be there, once, and be lists or objects where these are
+ * expected. */
 static bool check_members(const geo_object *o, const char *text, problem *wrong)
 {
     unsigned need = needed(o->type), feature = o->type == GEO_FEATURE ? 1U << GEOMETRY : 0;

@@ -53,8 +53,8 @@ typedef struct geo_index {
     size_t n, room;
 } geo_index;
 
-/* Checks text[0..n), with text[n] == '\0', and finds its objects. False: see `wrong`. To be freed in either
- * case. */
+/* Checks text[0..n), with text[n] == '\0', and finds its objects. False: see `wrong`. To be freed
+ * in either case. */
 bool geo_index_read(geo_index *out, const char *text, size_t n, problem *wrong);
 void geo_index_free(geo_index *index);
 

@@ -1,4 +1,5 @@
-/* The coordinates of a geometry: where its positions stand in the text, and how they make up lines and rings. */
+/* The coordinates of a geometry: where its positions stand in the text, and how they make up lines
+ * and rings. */
 #ifndef GEO_SHAPE_H
 #define GEO_SHAPE_H
 
@@ -19,8 +20,8 @@ typedef struct geo_shape {
     size_t room_spans, room_points, room_paths;
 } geo_shape;
 
-/* Reads the coordinates of a geometry, which have been checked to be JSON; the shape may have been used before,
- * or be all zero. False: see `wrong`. */
+/* Reads the coordinates of a geometry, which have been checked to be JSON; the shape may have been
+ * used before, or be all zero. False: see `wrong`. */
 bool geo_shape_read(geo_shape *out, const geo_object *object, const char *text, problem *wrong);
 void geo_shape_free(geo_shape *shape);
 

@@ -23,8 +23,8 @@ static void copy(geo_writer *w, const char *begin, const char *end)
     edits_put(w->edits, (size_t)(end - begin), begin);
 }
 
-/* The third and further numbers of a place between two positions: each is taken over where both have the same, else
- * it is in between; there are as many as both positions have. */
+/* The third and further numbers of a place between two positions: each is taken over where both
+ * have the same, else it is in between; there are as many as both positions have. */
 static void write_heights(geo_writer *w, const char *p, const char *q, double along)
 {
     const char *a, *a_end, *b, *b_end;

@@ -21,8 +21,8 @@ typedef struct geo_writer {
     geo_box *box; /* grows by what is written */
 } geo_writer;
 
-/* Replaces the coordinates by the images of lines that have every position of the shape in its order; what
- * stands between positions stays. */
+/* Replaces the coordinates by the images of lines that have every position of the shape in its
+ * order; what stands between positions stays. */
 void geo_write_in_place(geo_writer *w, geo_span coordinates, size_t n_lines, const polyline *lines);
 
 /* Adds the vertices first .. end - 1 of a line as a list of positions. */

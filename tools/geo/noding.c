@@ -1,6 +1,6 @@
-/* Nodes are shared: whatever comes within `near` of a corner of the cage is at that corner, and a vertex that comes
- * within `near` of an edge is a node of the edge. So what crosses is well apart from what touches, and
- * crossings can be told by exact signs. */
+/* Nodes are shared: whatever comes within `near` of a corner of the cage is at that corner, and a
+ * vertex that comes within `near` of an edge is a node of the edge. So what crosses is well apart
+ * from what touches, and crossings can be told by exact signs. */
 #include "geo/noding.h"
 
 #include "base/allocate.h"
@@ -124,9 +124,9 @@ static void insert(noding *x, size_t first, const geo_node *a, const geo_node *b
     x->nodes[i] = node;
 }
 
-/* How far the line a b is from an end of the cage's edge that it crosses, in any unit. The end of the line that is
- * nearer comes first, and its direction is scaled, so that lines from far away neither overflow nor
- * drown the edge in rounding. */
+/* How far the line a b is from an end of the cage's edge that it crosses, in any unit. The end of
+ * the line that is nearer comes first, and its direction is scaled, so that lines from far away
+ * neither overflow nor drown the edge in rounding. */
 static double height(const double a[2], const double b[2], const double p[2])
 {
     double dx = b[0] / 2 - a[0] / 2, dy = b[1] / 2 - a[1] / 2, scale = fmax(fabs(dx), fabs(dy));

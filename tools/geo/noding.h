@@ -30,8 +30,8 @@ typedef struct noding {
 void noding_start(noding *out, const carrier *cage);
 void noding_free(noding *x);
 
-/* The nodes of one path of a shape; status and snapped are those of all its positions. Returns whether all of it
- * lies in the cage. */
+/* The nodes of one path of a shape; status and snapped are those of all its positions. Returns
+ * whether all of it lies in the cage. */
 bool noding_path(noding *x, const geo_shape *shape, size_t path, const icc_status *status,
                  const bool *snapped);
 

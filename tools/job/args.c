@@ -1,8 +1,8 @@
 #include "job/args.h"
 
 #include "base/number.h"
-#include "job/option_table.h"
 #include "base/say.h"
+#include "job/option_table.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,8 +1,8 @@
 /* Options that need or exclude each other, and what they stand for. */
+#include "base/say.h"
 #include "job/args.h"
 #include "job/option_table.h"
 #include "job/output_name.h"
-#include "base/say.h"
 
 #include <icc/kernel.h>
 #include <string.h>
@@ -88,7 +88,8 @@ static int check_operands(const args *a, const command *c)
     if (a->outside == OUTSIDE_CLIP && !a->geojson)
         return misused(c->name, "--outside clip goes with --geojson only");
     if (a->outside == OUTSIDE_NULL && c->bit & FOR_MESH)
-        return misused(c->name, "--outside null would leave vertices without a place; keep or fail");
+        return misused(c->name,
+                       "--outside null would leave vertices without a place; keep or fail");
     if (a->outside != 0 && a->outside != OUTSIDE_NULL && a->has_background && c->bit & FOR_WARP)
         return misused(c->name, "--background clears what --outside %s would not",
                        choice_name(outsides, a->outside));

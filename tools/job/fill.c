@@ -1,7 +1,7 @@
 #include "job/fill.h"
 
-#include "cage/filling.h"
 #include "base/allocate.h"
+#include "cage/filling.h"
 
 #include <stdlib.h>
 #include <string.h>

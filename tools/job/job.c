@@ -44,8 +44,8 @@ const char *job_file(const job *j, int side)
     return side == 2 && a->target != NULL ? a->target : a->source != NULL ? a->source : a->handles;
 }
 
-/* In the plane edge i begins at vertex i. Beyond, the index is that of a facet, unless the message is
- * about a vertex. */
+/* In the plane edge i begins at vertex i. Beyond, the index is that of a facet, unless the message
+ * is about a vertex. */
 static size_t line_at_fault(const cage *c, const icc_error *err)
 {
     bool of_grid = err->status == ICC_ERR_RESOLUTION || err->status == ICC_ERR_SOLVER;

@@ -2,13 +2,13 @@
 #ifndef JOB_H
 #define JOB_H
 
-#include "job/args.h"
-#include "cage/cage.h"
 #include "base/file.h"
 #include "base/json.h"
 #include "base/progress.h"
 #include "base/say.h"
+#include "cage/cage.h"
 #include "geo/carrier.h"
+#include "job/args.h"
 
 #include <icc/icc.h>
 
@@ -36,7 +36,8 @@ int job_read_cages(job *j);
 /* Coordinates of a point, once the cages have been read. */
 size_t job_dim(const job *j);
 
-/* Reads the cages and makes their domains. A mask then has the vertices and facets of its boundary. */
+/* Reads the cages and makes their domains. A mask then has the vertices and facets of its
+ * boundary. */
 int job_make_domains(job *j);
 
 /* Reads the cages, which must be in the plane for `what`. */
@@ -48,7 +49,8 @@ int job_make_chart(job *j);
 /* All that, and the map from source to target. */
 int job_make_map(job *j);
 
-/* A carrier from the side whose points are read to the other, once there is a map; to be freed in any case. */
+/* A carrier from the side whose points are read to the other, once there is a map; to be freed in
+ * any case. */
 int job_start_carrier(job *j, carrier *c);
 
 /* Says what the library said, with the file and the line at fault; returns FAILED. */

@@ -186,7 +186,8 @@ const option options[N_OPTIONS] = {
      .commands = FOR_CHECK,
      .offset = AT(repair),
      .value = "FILE",
-     .help = "write the cage mended: repeated vertices, spikes; unjoined faces; contacts of a mask"},
+     .help =
+         "write the cage mended: repeated vertices, spikes; unjoined faces; contacts of a mask"},
     {.name = "boundary",
      .kind = OPTION_TEXT,
      .commands = FOR_CHECK,

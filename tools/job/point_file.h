@@ -2,8 +2,8 @@
 #ifndef POINT_FILE_H
 #define POINT_FILE_H
 
-#include "job/job.h"
 #include "base/table.h"
+#include "job/job.h"
 
 /* Rows of points, and of integral curve coordinates. */
 table_form rows_of_points(size_t dim);

@@ -1,7 +1,7 @@
 #include "kernel/handle_set.h"
 
-#include "base/json_in.h"
 #include "base/allocate.h"
+#include "base/json_in.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
-/* Handles and what goes with them, from JSON: where they are, the edges between them, lines to keep straight,
- * further regions and curves of the shape, rigid parts. */
+/* Handles and what goes with them, from JSON: where they are, the edges between them, lines to keep
+ * straight, further regions and curves of the shape, rigid parts. */
 #ifndef HANDLE_SET_H
 #define HANDLE_SET_H
 
@@ -41,8 +41,8 @@ typedef struct handle_set {
 bool handle_set_read(handle_set *out, const char *text, size_t n, problem *wrong);
 void handle_set_free(handle_set *set);
 
-/* Reads a pose, {"transforms": [..]} or {"moves": [..]}: n_handles * dim * (dim + 1) numbers, made with need(),
- * or NULL. `handles` are where the handles are at rest. */
+/* Reads a pose, {"transforms": [..]} or {"moves": [..]}: n_handles * dim * (dim + 1) numbers, made
+ * with need(), or NULL. `handles` are where the handles are at rest. */
 double *pose_read(size_t dim, size_t n_handles, const double *handles, const char *text, size_t n,
                   problem *wrong);
 

@@ -23,7 +23,8 @@ void kernel_job_end(kernel_job *k)
     job_end(&k->job);
 }
 
-/* What the library says of something in the handles' file, called `what` if the message does not. */
+/* What the library says of something in the handles' file, called `what` if the message does
+ * not. */
 static int failed_set(kernel_job *k, const char *what, const icc_error *err)
 {
     const char *message = err->message[0] != '\0' ? err->message : icc_status_name(err->status);
@@ -110,15 +111,15 @@ static int make_weights(kernel_job *k)
     const handle_set *set = &k->set;
     const args *a = k->job.args;
     icc_weights_options how = {.size = sizeof how,
-                              .kernel = a->kernel,
-                              .initial = a->initial,
-                              .method = a->weights,
-                              .steps = a->steps,
-                              .sigma = a->sigma,
-                              .n_edges = set->n_edges,
-                              .edges = set->edges,
-                              .n_lines = set->n_lines,
-                              .lines = set->lines};
+                               .kernel = a->kernel,
+                               .initial = a->initial,
+                               .method = a->weights,
+                               .steps = a->steps,
+                               .sigma = a->sigma,
+                               .n_edges = set->n_edges,
+                               .edges = set->edges,
+                               .n_lines = set->n_lines,
+                               .lines = set->lines};
     if (a->thesis) {
         how.kernel = a->kernel != 0 ? a->kernel : ICC_KERNEL_GAUSS;
         how.affine_tail = -1;
@@ -128,7 +129,7 @@ static int make_weights(kernel_job *k)
     double began = seconds_now();
     progress_expect(&k->job.bar, 0.8);
     icc_status status = icc_weights_create(&k->kernel, k->sampling, set->n_handles, set->handles,
-                                          &how, &k->job.env, &err);
+                                           &how, &k->job.env, &err);
     k->seconds_weights = seconds_now() - began;
     return status == ICC_OK ? DONE : failed_set(k, "", &err);
 }
@@ -203,7 +204,7 @@ static int stiffen(kernel_job *k)
     icc_weights *stiffened = NULL;
     icc_error err = {.size = sizeof err, .index = -1};
     if (result == DONE && icc_weights_stiffen(&stiffened, k->kernel, n_stiff, stiff, rigidity,
-                                             k->energy, &k->job.env, &err) != ICC_OK)
+                                              k->energy, &k->job.env, &err) != ICC_OK)
         result = failed_set(k, "rigid", &err);
     if (result == DONE) {
         icc_weights_free(k->kernel);

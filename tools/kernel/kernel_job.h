@@ -2,8 +2,8 @@
 #ifndef KERNEL_JOB_H
 #define KERNEL_JOB_H
 
-#include "kernel/handle_set.h"
 #include "job/job.h"
+#include "kernel/handle_set.h"
 
 #include <icc/kernel.h>
 
@@ -23,8 +23,8 @@ int kernel_job_read(kernel_job *k);
 int kernel_job_make(kernel_job *k);
 void kernel_job_end(kernel_job *k);
 
-/* The report of --json up to what the command itself has to add: what was made, and how good the weights are at
- * n finite points. */
+/* The report of --json up to what the command itself has to add: what was made, and how good the
+ * weights are at n finite points. */
 int kernel_report_open(report *r, kernel_job *k, size_t n, const double *points);
 
 #endif

@@ -1,6 +1,6 @@
 /* The report of `weights` and `pose`. */
-#include "kernel/kernel_job.h"
 #include "job/option_table.h"
+#include "kernel/kernel_job.h"
 
 static void report_sampling(json *out, const kernel_job *k)
 {

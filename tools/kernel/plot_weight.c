@@ -139,7 +139,8 @@ static void draw_structure(const sheet *s)
 
 /* ------------------------------------------------------------------ raster */
 
-/* How much of a pixel an isoline covers that is one pixel wide; the distance to it is by the gradient. */
+/* How much of a pixel an isoline covers that is one pixel wide; the distance to it is by the
+ * gradient. */
 static double isoline(const sheet *s, double weight, const double gradient[2])
 {
     double steps = s->logarithmic ? DECADES : 10;
@@ -172,7 +173,7 @@ static icc_status fill(const sheet *s, picture *image)
             locate(s, (double)((begin + i) % image->width) + 0.5,
                    (double)((begin + i) / image->width) + 0.5, points + 2 * i);
         status = icc_weights_evaluate(s->job->kernel, count, points, weights, gradients, NULL, NULL,
-                                    &s->job->job.env);
+                                      &s->job->job.env);
         for (size_t i = 0; i < count && status == ICC_OK; i++)
             paint(s, image->samples + 3 * (begin + i), weights[m * i + s->handle],
                   gradients + 2 * (m * i + s->handle));

@@ -1,9 +1,9 @@
-/* Poses from JSON. The transform of a handle is either given, or made of a linear map about the handle, a turn,
- * and a move, in this order. */
+/* Poses from JSON. The transform of a handle is either given, or made of a linear map about the
+ * handle, a turn, and a move, in this order. */
 #include "kernel/handle_set.h"
 
-#include "base/json_in.h"
 #include "base/allocate.h"
+#include "base/json_in.h"
 
 #include <math.h>
 #include <stdio.h>

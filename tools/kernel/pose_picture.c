@@ -1,6 +1,6 @@
-/* Pictures are posed forwards: the regions of the shape are cut into small triangles, which are posed, and each
- * is drawn where it has gone to, with the colours from where it was. What turns over is drawn first, so that the
- * rest hides it. */
+/* Pictures are posed forwards: the regions of the shape are cut into small triangles, which are
+ * posed, and each is drawn where it has gone to, with the colours from where it was. What turns
+ * over is drawn first, so that the rest hides it. */
 #include "kernel/pose_job.h"
 
 #include "base/allocate.h"
@@ -56,8 +56,8 @@ static void add_boundary(patch *p, size_t n, const double *ring)
     p->n_boundary = p->n;
 }
 
-/* Which vertices of a lattice over the picture are too close to the boundary: within half a step of one of its
- * vertices, so that all others are more than rounding away from its edges. */
+/* Which vertices of a lattice over the picture are too close to the boundary: within half a step of
+ * one of its vertices, so that all others are more than rounding away from its edges. */
 static bool *find_close(const patch *p, size_t columns, size_t rows)
 {
     bool *close = need(columns * rows, sizeof *close);
@@ -95,7 +95,8 @@ static icc_status add_inside(patch *p, const drawing *d, const icc_domain *regio
     return status;
 }
 
-/* Whether the region is far larger than the picture, so that its boundary would take too many pieces. */
+/* Whether the region is far larger than the picture, so that its boundary would take too many
+ * pieces. */
 static bool is_huge(const drawing *d, size_t n, const double *ring)
 {
     double length = 0;
@@ -220,7 +221,8 @@ static void draw_triangle(drawing *d, const patch *p, const uint32_t *corners)
         }
 }
 
-/* The orientation of the image: 1 as at rest, 0 also if a pose with huge numbers has left the doubles. */
+/* The orientation of the image: 1 as at rest, 0 also if a pose with huge numbers has left the
+ * doubles. */
 static int image_sign(const patch *p, const uint32_t *corners)
 {
     for (size_t k = 0; k < 6; k++)

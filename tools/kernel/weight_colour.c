@@ -1,5 +1,6 @@
-/* Colours of weights. Equal steps of weight are equal steps of lightness to the eye, in the colour space Oklab
- * (B. Ottosson, A perceptual color space for image processing, 2020): from dark violet over teal to yellow. */
+/* Colours of weights. Equal steps of weight are equal steps of lightness to the eye, in the colour
+ * space Oklab (B. Ottosson, A perceptual color space for image processing, 2020): from dark violet
+ * over teal to yellow. */
 #include "kernel/weight_plot.h"
 
 #include <math.h>

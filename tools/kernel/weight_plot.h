@@ -4,7 +4,8 @@
 
 #include "kernel/kernel_job.h"
 
-/* The weight of one handle over the shape, by colour and isolines (the thesis' figures 6.13 to 6.17). */
+/* The weight of one handle over the shape, by colour and isolines (the thesis' figures 6.13 to
+ * 6.17). */
 int plot_weight(kernel_job *k);
 
 /* The weights of all handles along a segment with n places (its figures 4.1 to 4.6). */
@@ -13,7 +14,8 @@ int plot_along(const kernel_job *k, size_t n, const double *weights);
 /* The least magnitude that is drawn in logarithmic scale is 10 to the power of minus this. */
 enum { DECADES = 10 };
 
-/* Where a weight stands in a figure: 0 at the bottom of the scale, 1 at the top; beyond them in linear scale. */
+/* Where a weight stands in a figure: 0 at the bottom of the scale, 1 at the top; beyond them in
+ * linear scale. */
 double weight_level(double weight, bool logarithmic);
 
 /* The colour of a weight, each of red, green, blue from 0 to 255. Negative ones are red. */

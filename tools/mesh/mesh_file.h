@@ -21,7 +21,7 @@ typedef struct mesh_file {
     size_t n_text;
     size_t dim;
     size_t n_vertices;
-    double *points; /* n_vertices * dim */
+    double *points;     /* n_vertices * dim */
     const char *format; /* its name, for messages */
     mesh_form form;     /* of the numbers */
     /* Where the numbers of each vertex begin and end in the text, ascending: n_vertices * n_spans

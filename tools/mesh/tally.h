@@ -5,15 +5,16 @@
 #include "base/json.h"
 #include "mesh/mesh_file.h"
 
-/* Elements by what became of their orientation; those that had none before count by themselves. In the
- * plane they are triangles, in space tetrahedra. */
+/* Elements by what became of their orientation; those that had none before count by themselves. In
+ * the plane they are triangles, in space tetrahedra. */
 typedef struct tally {
     size_t all, kept, inverted, collapsed, flat_before, without_image;
 } tally;
 
 tally tally_count(const mesh_file *m, const double *images);
 
-/* In one line, without its end; as an object of a report, which lists those that are inverted or collapsed. */
+/* In one line, without its end; as an object of a report, which lists those that are inverted or
+ * collapsed. */
 void tally_print(const tally *t, const mesh_file *m, char *text, size_t room);
 void tally_report(const tally *t, const mesh_file *m, const double *images, json *out);
 

@@ -29,19 +29,21 @@ void picture_widen(picture *p, bool colour, bool alpha);
 /* Sets a pixel to 8-bit RGBA. The picture must have room for what the colour needs. */
 void picture_set(picture *p, size_t pixel, const unsigned char rgba[4]);
 
-/* Decodes a PNG, bytes[0..n) with bytes[n] == '\0'. Palettes and small depths are widened. False: see `wrong`. */
+/* Decodes a PNG, bytes[0..n) with bytes[n] == '\0'. Palettes and small depths are widened. False:
+ * see `wrong`. */
 bool picture_decode(picture *out, const char *bytes, size_t n, problem *wrong);
 
 /* Encodes a PNG with what `keep` tells, which may come from another picture. NULL: see `wrong`. */
 unsigned char *picture_encode(const picture *p, const struct png_keep *keep, size_t *n,
                               problem *wrong);
 
-/* picture_decode() of a file that has been read, and picture_encode() to a file: DONE, or FAILED with a line on
- * stderr. */
+/* picture_decode() of a file that has been read, and picture_encode() to a file: DONE, or FAILED
+ * with a line on stderr. */
 int picture_take(picture *out, const char *name, const char *bytes, size_t n);
 int picture_save(const picture *p, const struct png_keep *keep, const char *name);
 
-/* What is drawn on: a copy, or all background if that is not NULL. `from` is widened as that needs it. */
+/* What is drawn on: a copy, or all background if that is not NULL. `from` is widened as that needs
+ * it. */
 picture picture_canvas(picture *from, const unsigned char *background);
 
 void png_keep_free(struct png_keep *keep);

@@ -122,7 +122,8 @@ static bool decode(png_keep *k, picture *out, png_byte **rows)
     return true;
 }
 
-/* Whether every chunk ends within the file; libpng makes room for what a chunk announces before it reads. */
+/* Whether every chunk ends within the file; libpng makes room for what a chunk announces before it
+ * reads. */
 static bool is_whole(const unsigned char *bytes, size_t n)
 {
     size_t at = 8;

@@ -1,4 +1,5 @@
-/* A chart, and the stages of methods gradient and field that it was made in, so that they can be drawn. */
+/* A chart, and the stages of methods gradient and field that it was made in, so that they can be
+ * drawn. */
 #ifndef STAGES_H
 #define STAGES_H
 
@@ -27,16 +28,16 @@ typedef struct stages {
     size_t n_inner_expansion; /* expansion edges whose two triangles are inside */
 } stages;
 
-/* Of the chart that the job has made of the source (side 1), or of its map's source or target (2). Other
- * methods than gradient have no stages; their function is t. */
+/* Of the chart that the job has made of the source (side 1), or of its map's source or target (2).
+ * Other methods than gradient have no stages; their function is t. */
 int stages_make(stages *out, job *j, int side);
 void stages_free(stages *s);
 
 /* The position of a grid vertex: as many coordinates as the grid has dimensions. */
 void stages_position(const stages *s, uint32_t vertex, double *out);
 
-/* In the plane: around how many holes the triangles lie whose vertices are all inside and in the tree. Each brings a
- * saddle to any function that is lower outside. */
+/* In the plane: around how many holes the triangles lie whose vertices are all inside and in the
+ * tree. Each brings a saddle to any function that is lower outside. */
 size_t stages_holes(const stages *s);
 
 /* The function of method gradient, linear in every triangle, or its logarithm, which is

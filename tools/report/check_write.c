@@ -119,7 +119,8 @@ int check_repair(check *c)
     return write_cages(c);
 }
 
-/* Version 1 of the format: the header is padded so that the data begin at a multiple of 64 bytes. */
+/* Version 1 of the format: the header is padded so that the data begin at a multiple of 64
+ * bytes. */
 static void write_npy(FILE *stream, const cage *c)
 {
     char header[256];

@@ -10,8 +10,8 @@
 typedef struct map_shares {
     size_t n; /* points; 0: there is no map */
     double without_image, collapsed, inverted;
-    /* The symmetric Dirichlet energy |J|^2 + |J^-1|^2 where neither is the case, both shapes scaled to
-     * the same measure: twice the dimension where the shape of things is kept. */
+    /* The symmetric Dirichlet energy |J|^2 + |J^-1|^2 where neither is the case, both shapes scaled
+     * to the same measure: twice the dimension where the shape of things is kept. */
     double mean, median, nearly_all; /* 99 % are below the last one */
 } map_shares;
 

@@ -1,6 +1,6 @@
 /* What becomes of the inside of a shape under a map, by its derivative. */
-#include "report/info.h"
 #include "base/allocate.h"
+#include "report/info.h"
 #include "report/sample.h"
 
 #include <math.h>

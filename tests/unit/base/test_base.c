@@ -131,9 +131,8 @@ START_TEST(errors_fill_what_the_caller_has)
         unsigned char *bytes = (unsigned char *)&room;
         memset(&room, 0x55, sizeof room);
         room.err.size = size;
-        ck_assert_int_eq(
-            iccp_fail_at(&room.err, ICC_ERR_TRACE, ICC_ITEM_VERTEX, 5, "vertex %d", 5),
-            ICC_ERR_TRACE);
+        ck_assert_int_eq(iccp_fail_at(&room.err, ICC_ERR_TRACE, ICC_ITEM_VERTEX, 5, "vertex %d", 5),
+                         ICC_ERR_TRACE);
         ck_assert_uint_eq(room.err.size, size);
         for (size_t i = size < sizeof size ? sizeof size : size; i < sizeof room; ++i)
             n_touched += bytes[i] != 0x55;
@@ -542,7 +541,8 @@ START_TEST(sorting_keeps_everything)
                 const uint32_t number = pairs[2 * i + 1];
                 ck_assert(i == 0 || pairs[2 * i - 2] <= pairs[2 * i]);
                 ck_assert(number < n && !seen[number]);
-                ck_assert_uint_eq(pairs[2 * i], (uint32_t)(number * (size_t)2654435761u >> 5) % values);
+                ck_assert_uint_eq(pairs[2 * i],
+                                  (uint32_t)(number * (size_t)2654435761u >> 5) % values);
                 seen[number] = true;
             }
         }

@@ -66,7 +66,8 @@ START_TEST(methods_do_not_mix)
     icc_map *map;
     icc_error err = {.size = sizeof err};
     b->info.method = 99;
-    ck_assert_int_eq(iccp_map_create_from_charts(&map, a, b, &ANY_KIND, &env, &err), ICC_ERR_UNSUPPORTED);
+    ck_assert_int_eq(iccp_map_create_from_charts(&map, a, b, &ANY_KIND, &env, &err),
+                     ICC_ERR_UNSUPPORTED);
     ck_assert_int_eq(err.status, ICC_ERR_UNSUPPORTED);
     iccp_chart_release(a);
     iccp_chart_release(b);
@@ -81,7 +82,8 @@ START_TEST(dimensions_do_not_mix)
     icc_map *map;
     icc_error err = {.size = sizeof err};
     b->domain->dim = 3;
-    ck_assert_int_eq(iccp_map_create_from_charts(&map, a, b, &ANY_KIND, &env, &err), ICC_ERR_BOUNDARY);
+    ck_assert_int_eq(iccp_map_create_from_charts(&map, a, b, &ANY_KIND, &env, &err),
+                     ICC_ERR_BOUNDARY);
     ck_assert_int_eq(err.side, 2);
     b->domain->dim = 2;
     iccp_chart_release(a);
@@ -133,8 +135,8 @@ START_TEST(curves_are_drawn_from_anywhere)
 }
 END_TEST
 
-/* The comb's back runs along a line of the grid; above it, outside, lie other teeth. Curves from there
- * must go down into the back. */
+/* The comb's back runs along a line of the grid; above it, outside, lie other teeth. Curves from
+ * there must go down into the back. */
 START_TEST(curves_from_a_grid_line_go_into_the_domain)
 {
     const shape s = shape_comb(4);

@@ -195,7 +195,8 @@ START_TEST(meshes)
 }
 END_TEST
 
-/* Of a vertex inside, not even the sign of a zero is lost on the way to local coordinates and back. */
+/* Of a vertex inside, not even the sign of a zero is lost on the way to local coordinates and
+ * back. */
 START_TEST(signs_of_zeros)
 {
     test_mesh m = mesh_cells(2, 2, NULL);
@@ -217,7 +218,8 @@ START_TEST(signs_of_zeros)
 }
 END_TEST
 
-/* A foliation of the library's own mesh, although the domain has one of the caller's: the other of the pair has none. */
+/* A foliation of the library's own mesh, although the domain has one of the caller's: the other of
+ * the pair has none. */
 START_TEST(mesh_beside_polygon)
 {
     const shape s = shape_l();
@@ -404,7 +406,8 @@ static size_t get64(const bytes *b, size_t at)
     return value;
 }
 
-/* Triangles turned over, or moved, and rises changed so that they still fit together along edges. */
+/* Triangles turned over, or moved, and rises changed so that they still fit together along
+ * edges. */
 START_TEST(false_foliations_are_refused)
 {
     icc_chart *chart = small_chart(0), *loaded;
@@ -497,8 +500,8 @@ static void put_number(bytes *b, size_t at, double number)
     put64(b, at, bits);
 }
 
-/* Where leaves go out through two sides, they go out through one: nothing goes round, but what enters the simplex behind the
- * other one comes from nowhere. */
+/* Where leaves go out through two sides, they go out through one: nothing goes round, but what
+ * enters the simplex behind the other one comes from nowhere. */
 START_TEST(leaves_from_nowhere_are_refused)
 {
     random_source r = {8};
@@ -530,7 +533,8 @@ START_TEST(leaves_from_nowhere_are_refused)
 }
 END_TEST
 
-/* The chart's own mesh, of a domain without vertices inside: each simplex with two corners exchanged, or one corner of another. */
+/* The chart's own mesh, of a domain without vertices inside: each simplex with two corners
+ * exchanged, or one corner of another. */
 START_TEST(false_fillings_are_refused)
 {
     icc_chart *chart = small_chart(5), *loaded;

@@ -1,5 +1,5 @@
-/* What loading may cost: memory is limited by the bytes and icc_env::load_limit, whatever somebody has made
- * up with a checksum that is right, and time with it. */
+/* What loading may cost: memory is limited by the bytes and icc_env::load_limit, whatever somebody
+ * has made up with a checksum that is right, and time with it. */
 #include "../../meshes.h"
 #include "../../saved.h"
 

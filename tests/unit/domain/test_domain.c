@@ -1,5 +1,5 @@
-/* Polygon domains against brute force in 64-bit integers: which polygons are accepted, what is listed
- * of the others, and where points lie. */
+/* Polygon domains against brute force in 64-bit integers: which polygons are accepted, what is
+ * listed of the others, and where points lie. */
 #include "domain/avl.h"
 #include "domain/domain.h"
 #include "domain/locate.h"
@@ -258,7 +258,7 @@ START_TEST(test_known_defects)
         ck_assert_ptr_null(domain);
         ck_assert_str_eq(err.message, cases[i].text);
         ck_assert_int_eq(err.index, cases[i].index);
-        ck_assert_int_eq(err.item, err.index < 0            ? ICC_ITEM_NONE
+        ck_assert_int_eq(err.item, err.index < 0           ? ICC_ITEM_NONE
                                    : err.message[0] == 'e' ? ICC_ITEM_FACET
                                                            : ICC_ITEM_VERTEX);
         ck_assert_int_eq(err.status, ICC_ERR_BOUNDARY);
@@ -731,8 +731,8 @@ START_TEST(test_vertex_near_edge)
 }
 END_TEST
 
-/* Where edges pass from cell to cell of the buckets, points on either side of them and of the cells'
- * sides are on the boundary up to the tolerance and not beyond. */
+/* Where edges pass from cell to cell of the buckets, points on either side of them and of the
+ * cells' sides are on the boundary up to the tolerance and not beyond. */
 START_TEST(test_sides_of_cells)
 {
     static shape s;
@@ -805,7 +805,7 @@ START_TEST(test_invariance)
 {
     static const struct {
         double scale, x, y;
-    } places[] = {{1, 0, 0},         {0x1p-1060, 0, 0},  {0x1p990, 0, 0}, {0x1p-10, 1e8, -1e8},
+    } places[] = {{1, 0, 0},         {0x1p-1060, 0, 0}, {0x1p990, 0, 0}, {0x1p-10, 1e8, -1e8},
                   {1, 1e11, 0x1p36}, {0x1p14, 0, 1e15}, {0x1p-1, -7, 3}};
     enum { PLACES = sizeof places / sizeof places[0] };
     static shape s;

@@ -1,5 +1,5 @@
-/* Masks: which are refused, against definitions tried out one by one; their boundaries, as complexes of
- * simplices; their grids; and real ones, where they are at hand. */
+/* Masks: which are refused, against definitions tried out one by one; their boundaries, as
+ * complexes of simplices; their grids; and real ones, where they are at hand. */
 #include "domain/domain.h"
 #include "domain/octants.h"
 #include "grid/lattice.h"
@@ -97,8 +97,8 @@ static uint64_t half(uint64_t set, int n, int axis, int side)
     return found;
 }
 
-/* Whether the orthants form a ball. On a sphere of dimension up to 3 a manifold is one if it and the rest
- * are connected and the Euler characteristic is 1. */
+/* Whether the orthants form a ball. On a sphere of dimension up to 3 a manifold is one if it and
+ * the rest are connected and the Euler characteristic is 1. */
 static bool is_ball(uint64_t set, int n)
 {
     const uint64_t all = ((uint64_t)1 << (1 << n)) - 1;
@@ -200,7 +200,8 @@ static size_t count_pieces(const mask *m, bool kind)
     return (size_t)n_pieces;
 }
 
-/* Contacts along an edge (two cells or gaps across a square of four) or at a corner (across a cube). */
+/* Contacts along an edge (two cells or gaps across a square of four) or at a corner (across a
+ * cube). */
 static bool is_well_composed(const mask *m)
 {
     for (int axes = 3; axes < 1 << m->dim; ++axes) {
@@ -268,7 +269,8 @@ static bool is_solid(const mask *m)
            euler_of(m) == 1;
 }
 
-/* Returns whether the mask is taken, and checks that it should be; a cell that is named lies in it. */
+/* Returns whether the mask is taken, and checks that it should be; a cell that is named lies in
+ * it. */
 static bool try_mask(const mask *m)
 {
     icc_domain *domain;
@@ -647,9 +649,9 @@ START_TEST(orders_in_random_solids)
 }
 END_TEST
 
-/* Bing's house with two rooms, walls one cell thick: a ball, as any that can be filled with clay through
- * its two shafts. On the coarsest grid its inside is the house with thin walls, which cannot be taken
- * down; on a finer one it can. */
+/* Bing's house with two rooms, walls one cell thick: a ball, as any that can be filled with clay
+ * through its two shafts. On the coarsest grid its inside is the house with thin walls, which
+ * cannot be taken down; on a finer one it can. */
 START_TEST(a_house_needs_a_finer_grid)
 {
     mask m = {.dim = 3, .shape = {11, 11, 5}};
@@ -713,8 +715,8 @@ static bool has_contacts(const mask *m)
     return !is_well_composed(m);
 }
 
-/* Balls of cells with some taken away at random: no contact is left, nothing is emptied, and what has
- * none stays as it is. */
+/* Balls of cells with some taken away at random: no contact is left, nothing is emptied, and what
+ * has none stays as it is. */
 START_TEST(contacts_are_filled)
 {
     random_source r = {8};

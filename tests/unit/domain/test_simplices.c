@@ -1,5 +1,5 @@
-/* Domains made of meshes: what is accepted, what is refused and how it is named, and what the library
- * keeps of the mesh. */
+/* Domains made of meshes: what is accepted, what is refused and how it is named, and what the
+ * library keeps of the mesh. */
 #include <check.h>
 #include <stdio.h>
 #include <stdlib.h>

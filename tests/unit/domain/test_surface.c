@@ -134,8 +134,9 @@ START_TEST(holes_are_named)
     surface_octahedron(&t);
     s = t;
     --s.n_faces; /* face 7 was 1, 5, 3 */
-    refuse(&s, &(expected){ICC_ERR_BOUNDARY, 3, "edge (1, 3) of face 3 belongs to no other face: "
-                                                "the boundary is open (3 such edges)"});
+    refuse(&s, &(expected){ICC_ERR_BOUNDARY, 3,
+                           "edge (1, 3) of face 3 belongs to no other face: "
+                           "the boundary is open (3 such edges)"});
     s.n_faces = 3;
     refuse(&s, &(expected){ICC_ERR_BOUNDARY, -1, "at least 4 facets, not 3"});
     s.n_faces = 0;
@@ -418,7 +419,8 @@ END_TEST
 
 /* How often the surface winds round p: A. van Oosterom, J. Strackee, The Solid Angle of a Plane
  * Triangle, 1983. */
-static double winding(size_t n_faces, const uint32_t *faces, const double *vertices, const double *p)
+static double winding(size_t n_faces, const uint32_t *faces, const double *vertices,
+                      const double *p)
 {
     double sum = 0;
     for (size_t f = 0; f < n_faces; ++f) {
@@ -539,7 +541,8 @@ START_TEST(stars_are_domains)
 }
 END_TEST
 
-/* The lowest vertex and its neighbours decide on the orientation: all kinds of ties between them. */
+/* The lowest vertex and its neighbours decide on the orientation: all kinds of ties between
+ * them. */
 START_TEST(orientation_is_exact)
 {
     random_source r = {5};
@@ -567,7 +570,8 @@ END_TEST
 static int in_shape(int x, int y, int z)
 {
     return x >= 0 && y >= 0 && z >= 0 && x < 5 && y < 5 && z < 5 &&
-           (z == 0 || (x == 0 && y < 4) || (y == 2 && x < 4 && z > 2) || (x == 3 && y == 2 && z > 1));
+           (z == 0 || (x == 0 && y < 4) || (y == 2 && x < 4 && z > 2) ||
+            (x == 3 && y == 2 && z > 1));
 }
 
 /* Lines through lattice points run along edges and through vertices everywhere. */
@@ -657,10 +661,11 @@ START_TEST(frames_keep_surfaces)
     for (int round = 0; round < 4; ++round) {
         s = t;
         for (size_t i = 0; i < 3 * s.n_vertices; ++i)
-            s.vertices[i] = s.vertices[i] * (round < 2 ? scales[round] / 1024 : scales[round]) +
-                            offsets[round];
+            s.vertices[i] =
+                s.vertices[i] * (round < 2 ? scales[round] / 1024 : scales[round]) + offsets[round];
         icc_domain *domain = make(&s);
-        if (round == 0) /* elsewhere points of edges and faces are rounded by more than the tolerance */
+        if (round == 0) /* elsewhere points of edges and faces are rounded by more than the
+                           tolerance */
             check_own_points(domain, &s, &r);
         for (size_t i = 0; i < 3 * s.n_vertices; i += 3)
             ck_assert_int_eq(where_is(domain, s.vertices[i], s.vertices[i + 1], s.vertices[i + 2]),
@@ -786,7 +791,9 @@ static void check_cross_polytope(const icc_domain *domain, int dim, random_sourc
             sum += fabs(p[k]);
         }
         REQUIRE(icc_domain_locate(domain, 1, p, &where, &facet, bary, NULL) == ICC_OK);
-        REQUIRE(where == (fabs(sum - 1) < 1e-14 ? ICC_BOUNDARY : sum < 1 ? ICC_INSIDE : ICC_OUTSIDE));
+        REQUIRE(where == (fabs(sum - 1) < 1e-14 ? ICC_BOUNDARY
+                          : sum < 1             ? ICC_INSIDE
+                                                : ICC_OUTSIDE));
         iccp_domain_facet_point(domain, facet, bary, at);
         iccp_frame_out(&domain->frame, dim, at, at);
         for (int k = 0; k < dim; ++k)
@@ -858,22 +865,24 @@ START_TEST(polytopes_are_checked)
 }
 END_TEST
 
-/* A point x of a simplex is the nearest to p if and only if all corners v have (p - x)(v - x) <= 0: else
- * going that way makes the squared distance smaller by up to the square of that over (v - x)^2. */
+/* A point x of a simplex is the nearest to p if and only if all corners v have (p - x)(v - x) <= 0:
+ * else going that way makes the squared distance smaller by up to the square of that over (v
+ * - x)^2. */
 START_TEST(nearest_points_are_nearest)
 {
     random_source r = {13};
     int n_inner = 0;
     for (int round = 0; round < share_of(200000); ++round) {
-        const size_t dim = 1 + (size_t)random_below(&r, 6), n = 1 + (size_t)random_below(&r, (int)dim);
+        const size_t dim = 1 + (size_t)random_below(&r, 6),
+                     n = 1 + (size_t)random_below(&r, (int)dim);
         const double thin = random_below(&r, 3) == 0 ? ldexp(1, -random_below(&r, 70)) : 1;
         double v[6][6], p[6], x[6] = {0}, bary[6], sum = 0, away2 = 0;
         const double *corners[6];
         for (size_t i = 0; i < n; ++i) {
             corners[i] = v[i];
             for (size_t k = 0; k < dim; ++k)
-                v[i][k] = (k == 0 ? 1 : thin) * (random_below(&r, 2) ? random_unit(&r)
-                                                                     : random_below(&r, 3) * 0.5);
+                v[i][k] = (k == 0 ? 1 : thin) *
+                          (random_below(&r, 2) ? random_unit(&r) : random_below(&r, 3) * 0.5);
         }
         for (size_t k = 0; k < dim; ++k)
             p[k] = (k == 0 ? 1 : thin) * (2 * random_unit(&r) - 0.5);
@@ -912,8 +921,8 @@ START_TEST(polytopes_are_counted)
             cross_polytope(&s, (int)dim);
             const uint32_t n = (uint32_t)s.n_vertices, n_facets = (uint32_t)s.n_faces;
             for (size_t i = 0; i < dim * n; ++i)
-                s.vertices[dim * n + i] = kind == 2 ? 0.5 * s.vertices[i]
-                                                    : s.vertices[i] + (i % dim == 0 ? 2 + kind : 0);
+                s.vertices[dim * n + i] =
+                    kind == 2 ? 0.5 * s.vertices[i] : s.vertices[i] + (i % dim == 0 ? 2 + kind : 0);
             for (size_t i = 0; i < dim * n_facets; ++i) {
                 const uint32_t v = s.faces[i] + n;
                 s.faces[dim * n_facets + i] = kind == 0 && v == n + 1 ? 0 : v;
@@ -939,7 +948,8 @@ START_TEST(intervals_are_domains)
     icc_domain_info info = {.size = sizeof info};
     ck_assert_int_eq(icc_domain_create(&domain, 1, 3, ends, 2, facets, NULL, &err), ICC_OK);
     ck_assert_int_eq(icc_domain_get_info(domain, &info), ICC_OK);
-    ck_assert(info.orientation == -1 && info.measure == 7 && info.lower[0] == 2 && info.upper[0] == 9);
+    ck_assert(info.orientation == -1 && info.measure == 7 && info.lower[0] == 2 &&
+              info.upper[0] == 9);
     const double points[6] = {1, 2, 4, 8, 9, 10};
     const int32_t expect[6] = {ICC_OUTSIDE, ICC_BOUNDARY, ICC_INSIDE,
                                ICC_INSIDE,  ICC_BOUNDARY, ICC_OUTSIDE};
@@ -985,8 +995,8 @@ START_TEST(polygons_answer_too)
     icc_domain *domain;
     ck_assert_int_eq(icc_domain_create(&domain, 2, N, polygon, 0, NULL, NULL, NULL), ICC_OK);
     for (int i = 0; i < 20000; ++i) {
-        const double p[2] = {2 * random_unit(&r) - 1, i % 2 ? domain->vertices[2 * (i % N) + 1]
-                                                             : 2 * random_unit(&r) - 1};
+        const double p[2] = {2 * random_unit(&r) - 1,
+                             i % 2 ? domain->vertices[2 * (i % N) + 1] : 2 * random_unit(&r) - 1};
         const double origin[2] = {0, 0};
         iccp_line_crossing line[N];
         double share, bary[2];
@@ -1019,8 +1029,8 @@ START_TEST(real_surfaces_are_accepted)
         icc_error err = {.size = sizeof err};
         icc_domain_info info = {.size = sizeof info};
         ck_assert(obj_read(&o, files.gl_pathv[i]));
-        const icc_status status = icc_domain_create(&domain, 3, o.n_vertices, o.vertices,
-                                                    o.n_faces, o.faces, NULL, &err);
+        const icc_status status =
+            icc_domain_create(&domain, 3, o.n_vertices, o.vertices, o.n_faces, o.faces, NULL, &err);
         ck_assert_msg(status == ICC_OK, "%s: %s", files.gl_pathv[i], err.message);
         ck_assert_int_eq(icc_domain_get_info(domain, &info), ICC_OK);
         ck_assert_int_eq(info.orientation, 1);
@@ -1080,8 +1090,8 @@ START_TEST(bad_files_are_refused)
         (void)snprintf(path, sizeof path, "%s/bad/3d/%s.obj", shared(), files[i].name);
         if (!obj_read(&o, path))
             continue;
-        const icc_status status = icc_domain_create(&domain, 3, o.n_vertices, o.vertices,
-                                                    o.n_faces, o.faces, NULL, &err);
+        const icc_status status =
+            icc_domain_create(&domain, 3, o.n_vertices, o.vertices, o.n_faces, o.faces, NULL, &err);
         ck_assert_msg(status == e->status && err.index == e->index &&
                           (e->text == NULL || strstr(err.message, e->text) != NULL),
                       "%s: %ld %ld %s", files[i].name, (long)status, (long)err.index, err.message);

@@ -129,13 +129,14 @@ static bool middle_is_inside(const iccp_cover *cover, uint32_t lowest, const int
     const icc_grid *grid = cover->grid;
     double x[ICC_MAX_DIM];
     for (int32_t i = 0; i < grid->dim; ++i)
-        x[axis[i]] = grid->origin[axis[i]] +
-                     grid->spacing * (iccp_grid_coordinate(grid, lowest, axis[i]) +
-                                      (double)(grid->dim - i) / (grid->dim + 1));
+        x[axis[i]] =
+            grid->origin[axis[i]] + grid->spacing * (iccp_grid_coordinate(grid, lowest, axis[i]) +
+                                                     (double)(grid->dim - i) / (grid->dim + 1));
     return iccp_domain_locate(cover->domain, x, true, NULL, NULL) == ICC_INSIDE;
 }
 
-/* The simplices in the mask with a vertex on the boundary have a bit, and no others; and their faces there. */
+/* The simplices in the mask with a vertex on the boundary have a bit, and no others; and their
+ * faces there. */
 static void check_bits(const iccp_cover *cover)
 {
     const icc_grid *grid = cover->grid;

@@ -1,8 +1,9 @@
-/* Simplices of the grid, nearest points of hulls, and curves of fields that can be solved by hand. */
-#include "field/minnorm.h"
-#include "grid/rasterise.h"
+/* Simplices of the grid, nearest points of hulls, and curves of fields that can be solved by
+ * hand. */
 #include "field/flow_follow.h"
 #include "field/flow_jet.h"
+#include "field/minnorm.h"
+#include "grid/rasterise.h"
 
 #include "../../random.h"
 
@@ -36,8 +37,8 @@ static void random_point(random_source *r, const icc_grid *grid, double *x)
     }
 }
 
-static void check_holds(const icc_grid *grid, const iccp_kuhn_simplex *simplex, const double *lambda,
-                        const double *x)
+static void check_holds(const icc_grid *grid, const iccp_kuhn_simplex *simplex,
+                        const double *lambda, const double *x)
 {
     double sum = 0, y[ICC_MAX_DIM];
     for (int32_t i = 0; i <= grid->dim; ++i) {
@@ -194,7 +195,8 @@ static void world_init(world *w)
         corners[i] = i / 3 >> i % 3 & 1 ? 12 : 0;
     memset(w, 0, sizeof *w);
     ck_assert_int_eq(iccp_env_read(&w->env, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(iccp_domain_create(&w->domain, 3, 8, corners, 12, FACES, &w->env, NULL), ICC_OK);
+    ck_assert_int_eq(iccp_domain_create(&w->domain, 3, 8, corners, 12, FACES, &w->env, NULL),
+                     ICC_OK);
     ck_assert_int_eq(iccp_grid_create(&w->grid, w->domain, 12, &w->env, NULL), ICC_OK);
     ck_assert_int_eq(iccp_cover_create(&w->cover, w->domain, w->grid, &w->env), ICC_OK);
     w->cones = (iccp_cones){.memory = w->env.memory, .grid = w->grid};

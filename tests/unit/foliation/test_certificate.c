@@ -24,8 +24,9 @@ static subject subject_of(const shape *s, int32_t cells)
     iccp_planar_pieces(pieces, x.domain, NULL, cells);
     ck_assert_int_eq(iccp_harmonic_create(&x.base, x.domain, pieces, cells, &x.env, NULL), ICC_OK);
     const uint32_t centre = iccp_deepest_vertex(&x.base.mesh, x.domain);
-    ck_assert_int_eq(iccp_psi_create(&x.psi, &x.base.mesh, &x.base.laplacian, &x.base.solver, centre,
-                                     0.5, &x.env), ICC_OK);
+    ck_assert_int_eq(iccp_psi_create(&x.psi, &x.base.mesh, &x.base.laplacian, &x.base.solver,
+                                     centre, 0.5, &x.env),
+                     ICC_OK);
     return x;
 }
 
@@ -284,7 +285,8 @@ START_TEST(stress_meshes_are_certified)
     for (int32_t method = ICC_METHOD_FOLIATION; method <= ICC_METHOD_DISC; method += 2) {
         icc_domain *domain;
         icc_chart *chart;
-        const icc_chart_options options = {.size = sizeof options, .method = method, .cells = cells};
+        const icc_chart_options options = {
+            .size = sizeof options, .method = method, .cells = cells};
         icc_error err = {.size = sizeof err};
         ck_assert_int_eq(icc_domain_create(&domain, 2, s.n, s.xy, 0, NULL, NULL, NULL), ICC_OK);
         if (icc_chart_create(&chart, domain, &options, NULL, &err) != ICC_OK)
@@ -300,8 +302,8 @@ START_TEST(stress_meshes_are_certified)
 }
 END_TEST
 
-/* What cannot be certified is refused, with a reason: edges as short as rounding errors, a triangle as
- * thin. */
+/* What cannot be certified is refused, with a reason: edges as short as rounding errors, a triangle
+ * as thin. */
 START_TEST(what_cannot_be_certified_is_refused)
 {
     const shape s[2] = {shape_fillet(1e-15),
@@ -312,10 +314,11 @@ START_TEST(what_cannot_be_certified_is_refused)
         const icc_chart_options options = {
             .size = sizeof options, .method = k % 2 ? ICC_METHOD_FOLIATION : ICC_METHOD_DISC};
         icc_error err = {.size = sizeof err};
-        ck_assert_int_eq(icc_domain_create(&domain, 2, s[k / 2].n, s[k / 2].xy, 0, NULL, NULL, NULL),
-                         ICC_OK);
+        ck_assert_int_eq(
+            icc_domain_create(&domain, 2, s[k / 2].n, s[k / 2].xy, 0, NULL, NULL, NULL), ICC_OK);
         const icc_status status = icc_chart_create(&chart, domain, &options, NULL, &err);
-        /* The triangle's sides touch when they are rounded at some of the points that were tried. */
+        /* The triangle's sides touch when they are rounded at some of the points that were
+         * tried. */
         ck_assert(status == ICC_ERR_CERTIFICATE || (status == ICC_OK && k >= 2));
         ck_assert(status == ICC_OK || (chart == NULL && err.status == status && err.index == -1));
         ck_assert(status == ICC_OK || err.message[0] != '\0');

@@ -157,7 +157,7 @@ START_TEST(values_go_on_beyond_doubles)
         ck_assert_int_eq(iccp_function_compare(field, v, v), 0);
     }
     ck_assert(f[N + 1] == 0 && f[1] == 0 && u[1] == -HUGE_VAL); /* 2^-3980 */
-    ck_assert(f[0] == -f[2]); /* beyond the zero: mirrored */
+    ck_assert(f[0] == -f[2]);                                   /* beyond the zero: mirrored */
     ck_assert_double_eq(field->info.least_log, u[N + 1]);
     const icc_function_report report = report_on(field);
     ck_assert_uint_eq(report.n_maxima, 1);
@@ -176,8 +176,8 @@ typedef struct triangle {
     int64_t x[3], y[3];
 } triangle;
 
-/* How much the triangle's gradient points to its edge from a to b, times a positive number: exact for
- * whole values. */
+/* How much the triangle's gradient points to its edge from a to b, times a positive number: exact
+ * for whole values. */
 static int64_t towards_edge(const icc_function *field, const triangle *t, const int64_t a[2],
                             const int64_t b[2])
 {
@@ -248,7 +248,8 @@ START_TEST(edges_are_what_gradients_say)
                 field->values[v] = random_below(&r, 5);
         size_t n_edges, n_tested, n = 0, n_expected = 0;
         ck_assert_int_eq(
-            icc_function_get_edges(field, 3 * MAX_VERTICES, edges, kinds, &n_edges, &n_tested), ICC_OK);
+            icc_function_get_edges(field, 3 * MAX_VERTICES, edges, kinds, &n_edges, &n_tested),
+            ICC_OK);
         for (size_t v = 0; v < tree->grid->n_vertices; ++v)
             for (int e = 1; e <= 3; ++e) {
                 const size_t nx = tree->grid->shape[0], dx = e != 2, dy = e != 1;
@@ -273,7 +274,8 @@ START_TEST(edges_are_what_gradients_say)
 }
 END_TEST
 
-/* Along a diagonal the sum of two values is compared with twice a third: a rounded sum would tie. */
+/* Along a diagonal the sum of two values is compared with twice a third: a rounded sum would
+ * tie. */
 START_TEST(diagonals_are_compared_exactly)
 {
     static const double sums[4][3] = {
@@ -288,7 +290,8 @@ START_TEST(diagonals_are_compared_exactly)
             uint32_t edge[2];
             int32_t kind;
             size_t n_edges, n_tested;
-            ck_assert_int_eq(icc_function_get_edges(field, 1, edge, &kind, &n_edges, &n_tested), ICC_OK);
+            ck_assert_int_eq(icc_function_get_edges(field, 1, edge, &kind, &n_edges, &n_tested),
+                             ICC_OK);
             ck_assert_uint_eq(n_tested, 1);
             ck_assert_uint_eq(n_edges, 1);
             ck_assert_int_eq(kind, flip * signs[i] > 0 ? ICC_EDGE_COMPRESSION : ICC_EDGE_EXPANSION);
@@ -382,8 +385,8 @@ START_TEST(critical_points_in_the_plane)
 }
 END_TEST
 
-/* On a box, values outside being lower, the numbers of critical points of a function add up like the
- * Euler characteristic of a ball; with one peak there is nothing else. */
+/* On a box, values outside being lower, the numbers of critical points of a function add up like
+ * the Euler characteristic of a ball; with one peak there is nothing else. */
 START_TEST(one_peak_in_a_box)
 {
     random_source r = {5};

@@ -179,7 +179,8 @@ static void check_layout(const icc_domain *domain, const icc_grid *grid, size_t 
     ck_assert_uint_eq(n_margin, 0);
 }
 
-/* +1 inside, 0 on the boundary, -1 outside: by crossings of a ray, exactly, one edge after the other. */
+/* +1 inside, 0 on the boundary, -1 outside: by crossings of a ray, exactly, one edge after the
+ * other. */
 static int where(const icc_domain *domain, const double *p)
 {
     int side = -1;
@@ -243,8 +244,8 @@ START_TEST(polygons_of_every_kind)
 }
 END_TEST
 
-/* Edges along the axes and whole-number coordinates: with a spacing of 2, every odd point is a vertex
- * of the grid, and many lie on the boundary. */
+/* Edges along the axes and whole-number coordinates: with a spacing of 2, every odd point is a
+ * vertex of the grid, and many lie on the boundary. */
 static shape random_skyline(random_source *r, int width, int height)
 {
     shape s = {.n = 2, .xy = {0, 0, width, 0}};
@@ -596,8 +597,8 @@ static bool joined(const iccp_kuhn *kuhn, int i, int j)
     return iccp_link_has(&kuhn->joined[i], j);
 }
 
-/* Cliques of a set with more vertices counted from `from` on: +1 for odd numbers of vertices, -1 for
- * even ones. At most six vertices deep. */
+/* Cliques of a set with more vertices counted from `from` on: +1 for odd numbers of vertices, -1
+ * for even ones. At most six vertices deep. */
 static int euler(const iccp_kuhn *kuhn, const iccp_link_set *set, const iccp_link_set *common,
                  int from)
 {

@@ -1,5 +1,5 @@
-/* Sums of kernels: what the thesis measures in chapter 3, the affine function, and when there is no solution.
- * Sections and figures are those of Sakaridis, Kernel Coordinates, 2016. */
+/* Sums of kernels: what the thesis measures in chapter 3, the affine function, and when there is no
+ * solution. Sections and figures are those of Sakaridis, Kernel Coordinates, 2016. */
 #include "kernel/interpolant.h"
 
 #include "../../faulty.h"
@@ -68,7 +68,8 @@ static double *solve(const iccp_collocation *c, size_t rows, size_t m, const dou
     return coefficients;
 }
 
-/* Rows (1, x, y, ...): what the dual functions' partition of unity and reproduction are measured by. */
+/* Rows (1, x, y, ...): what the dual functions' partition of unity and reproduction are measured
+ * by. */
 static double *affine_values(size_t dim, size_t n, const double *points)
 {
     double *values = malloc((dim + 1) * n * sizeof *values);
@@ -208,7 +209,8 @@ static iccp_radial radial_of(int kind, double spacing)
     return iccp_radial_make(kind, 3 * spacing / PI, kind == ICC_KERNEL_GAUSS ? UNCUT : 0);
 }
 
-/* The kernels by themselves: 1 at 0, falling, nothing beyond the reach, and the slope is the derivative. */
+/* The kernels by themselves: 1 at 0, falling, nothing beyond the reach, and the slope is the
+ * derivative. */
 START_TEST(kernels_and_their_slopes_agree)
 {
     for (int kind = ICC_KERNEL_WENDLAND; kind <= ICC_KERNEL_GAUSS; ++kind) {
@@ -226,7 +228,8 @@ START_TEST(kernels_and_their_slopes_agree)
 }
 END_TEST
 
-/* Values at the nodes, in 2-D and 3-D, with and without the affine function; the equations themselves. */
+/* Values at the nodes, in 2-D and 3-D, with and without the affine function; the equations
+ * themselves. */
 START_TEST(values_at_nodes_are_taken)
 {
     const size_t dim = _i % 2 ? 3 : 2, m = 5;
@@ -354,7 +357,8 @@ static icc_status try(int kind, size_t n, const double *points, double sigma, ic
     return status;
 }
 
-/* The cut Gaussian stops being positive definite between 1.2 and 1.4 spacings; Wendland's never does. */
+/* The cut Gaussian stops being positive definite between 1.2 and 1.4 spacings; Wendland's never
+ * does. */
 START_TEST(a_cut_gaussian_can_be_too_wide)
 {
     const size_t n = 31 * 31;
@@ -414,7 +418,8 @@ START_TEST(nodes_that_determine_nothing_are_refused)
 }
 END_TEST
 
-/* Each thread solves for some of the columns; some columns alone are what they are with the others. */
+/* Each thread solves for some of the columns; some columns alone are what they are with the
+ * others. */
 START_TEST(columns_do_not_depend_on_each_other)
 {
     const size_t m = 21;

@@ -1,4 +1,5 @@
-/* Kernels, bindings and poses: what they promise, what they refuse, and that they keep what they are given. */
+/* Kernels, bindings and poses: what they promise, what they refuse, and that they keep what they
+ * are given. */
 #include "icc/kernel.h"
 
 #include "../../faulty.h"
@@ -61,7 +62,7 @@ static icc_sampling *sample_cube(void)
 }
 
 static icc_weights *make(const icc_sampling *sampling, size_t n, const double *handles,
-                        const icc_weights_options *options)
+                         const icc_weights_options *options)
 {
     icc_weights *kernel;
     icc_error err = {.size = sizeof err};
@@ -115,7 +116,8 @@ static icc_weights_report report_of(const icc_weights *kernel)
 
 /* ---- weights ---- */
 
-/* All kernels, starts and methods: sums, reproduction and Lagrange's property at nodes and between them. */
+/* All kernels, starts and methods: sums, reproduction and Lagrange's property at nodes and between
+ * them. */
 START_TEST(weights_sum_to_one_and_reproduce)
 {
     icc_sampling *sampling = sample_square(0.05);
@@ -123,11 +125,11 @@ START_TEST(weights_sum_to_one_and_reproduce)
         for (int32_t initial = ICC_INITIAL_HEAT; initial <= ICC_INITIAL_INVERSE; ++initial)
             for (int32_t method = ICC_WEIGHTS_QP; method <= ICC_WEIGHTS_L1; ++method) {
                 const icc_weights_options options = {.size = sizeof options,
-                                                    .kernel = kernel,
-                                                    .initial = initial,
-                                                    .method = method,
-                                                    .n_edges = 4,
-                                                    .edges = RING};
+                                                     .kernel = kernel,
+                                                     .initial = initial,
+                                                     .method = method,
+                                                     .n_edges = 4,
+                                                     .edges = RING};
                 icc_weights *k = make(sampling, 5, HANDLES, &options);
                 const icc_weights_report report = report_of(k);
                 ck_assert_double_le(report.unity, 1e-11);
@@ -227,7 +229,8 @@ START_TEST(a_cube_works_like_a_square)
 }
 END_TEST
 
-/* Initial weights of the caller's come back, at the samples that are nodes; handles have their own. */
+/* Initial weights of the caller's come back, at the samples that are nodes; handles have their
+ * own. */
 START_TEST(initial_weights_can_be_given)
 {
     icc_sampling *sampling = sample_square(0.1);
@@ -240,10 +243,10 @@ START_TEST(initial_weights_can_be_given)
         given[i] = cos((double)i);
     const icc_line line = {.from = {0.2, 0.3}, .to = {0.7, 0.4}};
     const icc_weights_options options = {.size = sizeof options,
-                                        .initial = ICC_INITIAL_GIVEN,
-                                        .initial_weights = given,
-                                        .n_lines = 1,
-                                        .lines = &line};
+                                         .initial = ICC_INITIAL_GIVEN,
+                                         .initial_weights = given,
+                                         .n_lines = 1,
+                                         .lines = &line};
     icc_weights *kernel = make(sampling, 4, SQUARE, &options);
     const size_t n = info_of(kernel).n_nodes;
     double *initial = allocate(4 * n, sizeof *initial), *places = nodes_of(kernel);
@@ -275,7 +278,8 @@ START_TEST(initial_weights_can_be_given)
 }
 END_TEST
 
-/* Weights do not depend on the unit of length: twice to the tenth times as large is the same, bit for bit. */
+/* Weights do not depend on the unit of length: twice to the tenth times as large is the same, bit
+ * for bit. */
 START_TEST(weights_do_not_depend_on_the_unit)
 {
     icc_sampling *sampling = sample_square(0.1);
@@ -355,7 +359,8 @@ START_TEST(any_point_may_be_asked)
     icc_status status[4];
     size_t n_failed;
     ck_assert_int_eq(
-        icc_weights_evaluate(kernel, 4, points, weights, gradients, status, &n_failed, NULL), ICC_OK);
+        icc_weights_evaluate(kernel, 4, points, weights, gradients, status, &n_failed, NULL),
+        ICC_OK);
     ck_assert_uint_eq(n_failed, 2);
     for (int i = 0; i < 4; ++i) {
         ck_assert_int_eq(status[i], i % 2 == 0 ? ICC_OK : ICC_ERR_ARGUMENT);
@@ -393,15 +398,15 @@ static double crookedness(const icc_weights *kernel, const double *from, const d
     return worst;
 }
 
-/* A line of 21 nodes is straight at them, and between them bends ten times less than without (on the thesis' star,
- * which is in the benchmark, by less than 1e-3). */
+/* A line of 21 nodes is straight at them, and between them bends ten times less than without (on
+ * the thesis' star, which is in the benchmark, by less than 1e-3). */
 START_TEST(lines_stay_straight)
 {
     icc_sampling *sampling = sample_square(0.02);
     const icc_line line = {.from = {0.3, 0.25}, .to = {0.62, 0.49}}; /* 20 spacings long */
     const icc_weights_options with = {.size = sizeof with, .n_lines = 1, .lines = &line};
     icc_weights *plain = make(sampling, 5, HANDLES, NULL),
-               *kernel = make(sampling, 5, HANDLES, &with);
+                *kernel = make(sampling, 5, HANDLES, &with);
     ck_assert_double_le(crookedness(kernel, line.from, line.to, 20), 1e-13);
     ck_assert_double_le(crookedness(kernel, line.from, line.to, 777), 1.5e-3);
     ck_assert_double_gt(crookedness(plain, line.from, line.to, 777), 1.5e-2);
@@ -421,7 +426,7 @@ START_TEST(lines_share_ends)
                                {.from = {0, 0}, .to = {1, 0}}};
     const icc_weights_options options = {.size = sizeof options, .n_lines = 3, .lines = lines};
     icc_weights *kernel = make(sampling, 5, HANDLES, &options),
-               *plain = make(sampling, 5, HANDLES, NULL);
+                *plain = make(sampling, 5, HANDLES, NULL);
     double *points = nodes_of(kernel), least = HUGE_VAL;
     const size_t n = info_of(kernel).n_nodes;
     for (size_t i = 0; i < n; ++i)
@@ -441,8 +446,8 @@ START_TEST(lines_share_ends)
 }
 END_TEST
 
-/* Parallel lines have the same change of weights per length, in either direction, and moved handles keep them
- * parallel. */
+/* Parallel lines have the same change of weights per length, in either direction, and moved handles
+ * keep them parallel. */
 START_TEST(parallel_lines_stay_parallel)
 {
     icc_sampling *sampling = sample_square(0.04);
@@ -475,13 +480,13 @@ END_TEST
 
 /* ---- kernels from others ---- */
 
-static icc_weights *paint(const icc_weights *kernel, size_t handle, double x, double y, double radius,
-                         double amount)
+static icc_weights *paint(const icc_weights *kernel, size_t handle, double x, double y,
+                          double radius, double amount)
 {
     icc_weights *painted;
     const double centre[2] = {x, y};
-    ck_assert_int_eq(icc_weights_paint(&painted, kernel, handle, centre, radius, amount, NULL, NULL),
-                     ICC_OK);
+    ck_assert_int_eq(
+        icc_weights_paint(&painted, kernel, handle, centre, radius, amount, NULL, NULL), ICC_OK);
     return painted;
 }
 
@@ -491,7 +496,7 @@ START_TEST(paint_changes_what_is_under_the_brush)
     icc_weights *kernel = make(sampling, 5, HANDLES, NULL);
     icc_sampling_free(sampling);
     icc_weights *painted = paint(kernel, 2, 0.5, 0.4, 0.2, 0.3),
-               *same = paint(kernel, 2, 0.5, 0.4, 0.2, 0);
+                *same = paint(kernel, 2, 0.5, 0.4, 0.2, 0);
     double *before = weights_of(kernel), *after = weights_of(painted), *still = weights_of(same);
     double *points = nodes_of(kernel), gain = 0;
     for (size_t i = 0; i < info_of(kernel).n_nodes; ++i) {
@@ -516,7 +521,8 @@ START_TEST(paint_changes_what_is_under_the_brush)
 }
 END_TEST
 
-/* Wishes at some nodes: all at once is the same as one after the other; those of others are refused. */
+/* Wishes at some nodes: all at once is the same as one after the other; those of others are
+ * refused. */
 START_TEST(repainting_takes_wishes)
 {
     icc_sampling *sampling = sample_square(0.1);
@@ -554,7 +560,8 @@ START_TEST(repainting_takes_wishes)
 }
 END_TEST
 
-/* Another method starts from the initial weights: paint is gone, and the kernel is the one made with that method. */
+/* Another method starts from the initial weights: paint is gone, and the kernel is the one made
+ * with that method. */
 START_TEST(another_method_starts_afresh)
 {
     icc_sampling *sampling = sample_square(0.06);
@@ -594,7 +601,7 @@ static double gradient_energy(const icc_weights *kernel, size_t n, const uint32_
     double *gradients = allocate(2 * m, sizeof *gradients);
     for (size_t k = 0; k < n; ++k) {
         ck_assert_int_eq(icc_weights_evaluate(kernel, 1, points + 2 * nodes[k], weights, gradients,
-                                            NULL, NULL, NULL),
+                                              NULL, NULL, NULL),
                          ICC_OK);
         for (size_t j = 0; j < 2 * m; ++j)
             sum += 0.5 * gradients[j] * gradients[j];
@@ -764,8 +771,10 @@ START_TEST(impossible_calls_are_refused)
                      ICC_ERR_ARGUMENT);
     ck_assert_int_eq(icc_weights_paint(&other, kernel, 0, centre, 1, NAN, NULL, NULL),
                      ICC_ERR_ARGUMENT);
-    ck_assert_int_eq(icc_weights_paint(&other, kernel, 0, NULL, 1, 1, NULL, NULL), ICC_ERR_ARGUMENT);
-    ck_assert_int_eq(icc_weights_paint(NULL, kernel, 0, centre, 1, 1, NULL, NULL), ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_weights_paint(&other, kernel, 0, NULL, 1, 1, NULL, NULL),
+                     ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_weights_paint(NULL, kernel, 0, centre, 1, 1, NULL, NULL),
+                     ICC_ERR_ARGUMENT);
     ck_assert_int_eq(icc_weights_repaint(&other, kernel, 1, &node, wish, NULL, NULL),
                      ICC_ERR_ARGUMENT);
     ck_assert_int_eq(icc_weights_with_method(&other, kernel, 4, NULL, NULL), ICC_ERR_ARGUMENT);
@@ -801,8 +810,8 @@ static void random_transforms(size_t dim, size_t n, double *transforms, random_s
         transforms[k] = random_between(r, -1, 1);
 }
 
-static void pose(const icc_weights *kernel, size_t n, const double *points, const double *transforms,
-                 double *images, double *jacobians)
+static void pose(const icc_weights *kernel, size_t n, const double *points,
+                 const double *transforms, double *images, double *jacobians)
 {
     icc_binding *binding;
     ck_assert_int_eq(icc_binding_create(&binding, kernel, n, points, jacobians != NULL, NULL, NULL),
@@ -817,9 +826,9 @@ START_TEST(jacobians_are_derivatives)
     const size_t dim = _i % 2 ? 3 : 2, m = dim == 2 ? 5 : 8, n = 40;
     icc_sampling *sampling = dim == 2 ? sample_square(0.05) : sample_cube();
     const icc_weights_options options = {.size = sizeof options,
-                                        .kernel = _i / 2 ? ICC_KERNEL_GAUSS : ICC_KERNEL_WENDLAND,
-                                        .cutoff = 7,
-                                        .sigma = dim == 2 ? 0 : 0.1};
+                                         .kernel = _i / 2 ? ICC_KERNEL_GAUSS : ICC_KERNEL_WENDLAND,
+                                         .cutoff = 7,
+                                         .sigma = dim == 2 ? 0 : 0.1};
     icc_weights *kernel = make(sampling, m, dim == 2 ? HANDLES : CUBE, &options);
     double *points = spread(dim, n), *moved = allocate(n * dim, sizeof *moved), transforms[96],
            worst = 0;
@@ -885,7 +894,8 @@ START_TEST(poses_are_affine_when_all_handles_agree)
 }
 END_TEST
 
-/* A turn keeps its handle where it is and lengths what they are, goes counter-clockwise, and adds up. */
+/* A turn keeps its handle where it is and lengths what they are, goes counter-clockwise, and adds
+ * up. */
 START_TEST(handles_turn_about_themselves)
 {
     const double angle = 0.7, offset[3] = {2, -1, 0.5}, at[3] = {0.3, 0.8, -0.4},
@@ -1100,12 +1110,12 @@ static icc_status run(int which, const everything *e, double *out, const icc_env
     static const uint32_t NODES[3] = {25, 26, 27};
     static const double WISHES[15] = {1, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 1}, CENTRE[2] = {0.4, 0.4};
     icc_weights_options options = {.size = sizeof options,
-                                  .initial = which == 1 ? ICC_INITIAL_INVERSE : 0,
-                                  .method = which == 1 ? ICC_WEIGHTS_L1 : 0,
-                                  .n_edges = which == 2 ? 4 : 0,
-                                  .edges = RING,
-                                  .n_lines = 2,
-                                  .lines = LINES};
+                                   .initial = which == 1 ? ICC_INITIAL_INVERSE : 0,
+                                   .method = which == 1 ? ICC_WEIGHTS_L1 : 0,
+                                   .n_edges = which == 2 ? 4 : 0,
+                                   .edges = RING,
+                                   .n_lines = 2,
+                                   .lines = LINES};
     icc_weights *kernel = (icc_weights *)&kernel;
     icc_status status = -1;
     if (which < 3)

@@ -1,5 +1,5 @@
-/* Diffusion stays in the shape: section 4.6 of the thesis claims that weights follow the shape, but its kernel reaches
- * across gaps (digest: 11 to 25 % of the weight on the other limb of a U). */
+/* Diffusion stays in the shape: section 4.6 of the thesis claims that weights follow the shape, but
+ * its kernel reaches across gaps (digest: 11 to 25 % of the weight on the other limb of a U). */
 #include "../../regions.h"
 #include "icc/kernel.h"
 
@@ -26,7 +26,8 @@ static double leak(int surrounded, int32_t visible, int32_t steps)
     icc_shape *shape = long_u(surrounded);
     const icc_sampling_options sampling_options = {.size = sizeof sampling_options,
                                                    .spacing = SPACING};
-    const icc_weights_options options = {.size = sizeof options, .within_shape = visible, .steps = steps};
+    const icc_weights_options options = {
+        .size = sizeof options, .within_shape = visible, .steps = steps};
     icc_sampling *sampling;
     icc_weights *kernel;
     icc_weights_info info = {.size = sizeof info};

@@ -213,7 +213,8 @@ START_TEST(no_steps_and_many_steps_keep_to_their_side)
 }
 END_TEST
 
-/* Random points have next to no power below the ring; a relaxed sampling has, and its ring is no lattice's. */
+/* Random points have next to no power below the ring; a relaxed sampling has, and its ring is no
+ * lattice's. */
 START_TEST(blue_noise_has_its_spectrum)
 {
     enum { N = 3000 };
@@ -246,7 +247,8 @@ START_TEST(blue_noise_has_its_spectrum)
 }
 END_TEST
 
-/* Section 3.3.2: 1024 points in [-30, 30]^2, sigma = 2.5. There it was 2.3e5, 3.4e-4, 1.1e-2, 5.7e-9. */
+/* Section 3.3.2: 1024 points in [-30, 30]^2, sigma = 2.5. There it was 2.3e5, 3.4e-4, 1.1e-2,
+ * 5.7e-9. */
 START_TEST(gaussians_on_blue_noise_do_as_well_as_in_the_thesis)
 {
     icc_shape *shape = square_shape(30);

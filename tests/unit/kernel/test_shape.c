@@ -113,7 +113,8 @@ START_TEST(samples_on_walls_are_found_far_from_the_origin)
 }
 END_TEST
 
-/* Of random pairs in the star and around it, none is seen through a wall; those that no wall parts are. */
+/* Of random pairs in the star and around it, none is seen through a wall; those that no wall parts
+ * are. */
 START_TEST(walls_hide_exactly_what_is_behind_them)
 {
     icc_shape *shape = star_shape();
@@ -143,7 +144,8 @@ START_TEST(walls_hide_exactly_what_is_behind_them)
 }
 END_TEST
 
-/* The limbs of the U do not see each other, nor do points on their walls, whatever there is between. */
+/* The limbs of the U do not see each other, nor do points on their walls, whatever there is
+ * between. */
 START_TEST(limbs_do_not_see_each_other)
 {
     for (int surrounded = 0; surrounded < 2; ++surrounded) {
@@ -165,7 +167,8 @@ START_TEST(limbs_do_not_see_each_other)
 }
 END_TEST
 
-/* Points on a wall see along it and into what it encloses; what is around sees them, but not the other way. */
+/* Points on a wall see along it and into what it encloses; what is around sees them, but not the
+ * other way. */
 START_TEST(a_wall_belongs_to_what_it_encloses)
 {
     icc_shape *shape = star_shape();
@@ -198,7 +201,8 @@ START_TEST(a_wall_belongs_to_what_it_encloses)
 }
 END_TEST
 
-/* However often the sides of the star are divided, and however they are rounded, one sees along them. */
+/* However often the sides of the star are divided, and however they are rounded, one sees along
+ * them. */
 START_TEST(divided_walls_are_still_straight)
 {
     enum { MOST = 200 };

@@ -1,5 +1,5 @@
-/* Where Sakaridis' thesis is wrong or silent, and what happens here instead: one test for each point, with the thesis'
- * own behaviour beside it where that can be asked for. */
+/* Where Sakaridis' thesis is wrong or silent, and what happens here instead: one test for each
+ * point, with the thesis' own behaviour beside it where that can be asked for. */
 #include "icc/kernel.h"
 #include "kernel/kernel_matrix.h"
 #include "kernel/sampling.h"
@@ -160,8 +160,8 @@ static double energy_of(const made *m, size_t n, const uint32_t *part, const dou
     double *weights = allocate(n, k * sizeof *weights), energy = 0;
     for (size_t i = 0; i < n; ++i)
         memcpy(points + 2 * i, m->points + 2 * (size_t)part[i], 2 * sizeof *points);
-    ck_assert_int_eq(icc_weights_evaluate(m->kernel, n, points, weights, gradients, NULL, NULL, NULL),
-                     ICC_OK);
+    ck_assert_int_eq(
+        icc_weights_evaluate(m->kernel, n, points, weights, gradients, NULL, NULL, NULL), ICC_OK);
     for (size_t i = 0; i < n * k; ++i)
         energy += 0.5 * (rigidity != NULL ? rigidity[i / k] : 1) * gradients[i] * gradients[i];
     free(points);
@@ -225,7 +225,8 @@ START_TEST(rigid_parts_lose_energy_and_edges_stay)
 }
 END_TEST
 
-/* A rigidity that varies is no obstacle: it counts where it is large, and only its proportions do. */
+/* A rigidity that varies is no obstacle: it counts where it is large, and only its proportions
+ * do. */
 START_TEST(rigidity_may_vary)
 {
     double star[2 * TIPS], energy[2];
@@ -288,7 +289,8 @@ static double grow_raw(const made *m, int steps)
     return most;
 }
 
-/* With rows that sum to 1, weights stay between those of the handles, which are held; raw, they grow without end. */
+/* With rows that sum to 1, weights stay between those of the handles, which are held; raw, they
+ * grow without end. */
 START_TEST(diffusion_does_not_grow_and_handles_are_held)
 {
     double star[2 * TIPS];
@@ -297,9 +299,9 @@ START_TEST(diffusion_does_not_grow_and_handles_are_held)
     for (int32_t steps = 1; steps <= 100; steps = steps < 5 ? 5 : 20 * steps)
         for (int32_t visible = -1; visible <= 1; visible += 2) {
             const icc_weights_options options = {.size = sizeof options,
-                                                .kernel = ICC_KERNEL_GAUSS,
-                                                .steps = steps,
-                                                .within_shape = visible};
+                                                 .kernel = ICC_KERNEL_GAUSS,
+                                                 .steps = steps,
+                                                 .within_shape = visible};
             made m = make(sampling, TIPS, star, &options);
             for (size_t i = 0; i < m.info.n_nodes; ++i) {
                 double sum = 0;
@@ -320,8 +322,8 @@ START_TEST(diffusion_does_not_grow_and_handles_are_held)
 }
 END_TEST
 
-/* A step is a mean: where all that is held sums to 1 and all else did, it goes on doing so. Here every node is given a
- * sum of 1 by many steps: the handles' hull fills up. */
+/* A step is a mean: where all that is held sums to 1 and all else did, it goes on doing so. Here
+ * every node is given a sum of 1 by many steps: the handles' hull fills up. */
 START_TEST(diffusion_fills_up_to_one)
 {
     const double square[8] = {0, 0, 1, 0, 1, 1, 0, 1};
@@ -337,7 +339,8 @@ START_TEST(diffusion_fills_up_to_one)
 }
 END_TEST
 
-/* Because handles are held, Lagrange's property holds with every method and start (tables 6.1 and 6.2 say no). */
+/* Because handles are held, Lagrange's property holds with every method and start (tables 6.1 and
+ * 6.2 say no). */
 START_TEST(handles_keep_their_weights)
 {
     double star[2 * TIPS];
@@ -350,7 +353,8 @@ START_TEST(handles_keep_their_weights)
             double weights[TIPS * TIPS];
             made m = make(sampling, TIPS, star, &options);
             ck_assert_int_eq(
-                icc_weights_evaluate(m.kernel, TIPS, star, weights, NULL, NULL, NULL, NULL), ICC_OK);
+                icc_weights_evaluate(m.kernel, TIPS, star, weights, NULL, NULL, NULL, NULL),
+                ICC_OK);
             for (size_t k = 0; k < TIPS * TIPS; ++k)
                 ck_assert_double_le(fabs(weights[k] - (k / TIPS == k % TIPS ? 1 : 0)), 1e-11);
             clear(&m);
@@ -361,8 +365,9 @@ END_TEST
 
 /* ---- 4: l1 ---- */
 
-/* On nine nodes of ten any weights that are not less than the initial ones are as good: we take those with the least
- * squares. Had the solution been unique, at most three weights would have changed. */
+/* On nine nodes of ten any weights that are not less than the initial ones are as good: we take
+ * those with the least squares. Had the solution been unique, at most three weights would have
+ * changed. */
 START_TEST(l1_ties_are_broken_by_squares)
 {
     double star[2 * TIPS];
@@ -422,8 +427,8 @@ END_TEST
 
 /* ---- 6: the kernel's reach ---- */
 
-/* The greatest second difference of a weight on the way across a shape, in steps so small that those of a smooth
- * function vanish: a jump. */
+/* The greatest second difference of a weight on the way across a shape, in steps so small that
+ * those of a smooth function vanish: a jump. */
 static double greatest_jump(const made *m)
 {
     enum { STEPS = 20000 };
@@ -433,8 +438,8 @@ static double greatest_jump(const made *m)
         points[2 * k] = 0.2 + 0.6 * (double)k / STEPS;
         points[2 * k + 1] = 0.47;
     }
-    ck_assert_int_eq(icc_weights_evaluate(m->kernel, STEPS, points, weights, NULL, NULL, NULL, NULL),
-                     ICC_OK);
+    ck_assert_int_eq(
+        icc_weights_evaluate(m->kernel, STEPS, points, weights, NULL, NULL, NULL, NULL), ICC_OK);
     for (size_t k = 4; k + 4 < 4 * (size_t)STEPS; ++k)
         jump = fmax(jump, fabs(weights[k + 4] - 2 * weights[k] + weights[k - 4]));
     free(points);
@@ -483,10 +488,10 @@ static double leak(const icc_sampling *sampling, int32_t visible, int32_t steps)
 {
     const double handles[8] = {-0.05, 1.1, -0.5, -1.1, 0.5, -1.1, 0.5, 1.1};
     const icc_weights_options options = {.size = sizeof options,
-                                        .kernel = ICC_KERNEL_GAUSS,
-                                        .initial = ICC_INITIAL_HEAT,
-                                        .within_shape = visible,
-                                        .steps = steps};
+                                         .kernel = ICC_KERNEL_GAUSS,
+                                         .initial = ICC_INITIAL_HEAT,
+                                         .within_shape = visible,
+                                         .steps = steps};
     double most = 0;
     made m = make(sampling, 4, handles, &options);
     for (size_t i = 4; i < m.info.n_nodes; ++i) {
@@ -515,7 +520,8 @@ END_TEST
 
 /* ---- 8: containment ---- */
 
-/* No sample but those on the boundaries is on a wall, none is outside, and each region has its share. */
+/* No sample but those on the boundaries is on a wall, none is outside, and each region has its
+ * share. */
 START_TEST(samples_stay_on_their_side)
 {
     double star[2 * TIPS];
@@ -569,8 +575,8 @@ END_TEST
 
 /* ---- 10: arithmetic ---- */
 
-/* What -ffast-math would break, also in programs that only link the library: small numbers become 0, NaN is not
- * noticed. */
+/* What -ffast-math would break, also in programs that only link the library: small numbers become
+ * 0, NaN is not noticed. */
 START_TEST(arithmetic_is_strict)
 {
     volatile double small = DBL_MIN;

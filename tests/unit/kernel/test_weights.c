@@ -137,7 +137,8 @@ START_TEST(equality_is_the_closed_form)
         static problem p;
         p.dim = 2;
         p.m = 4 + (size_t)random_below(&r, 30);
-        /* Corners of a square among them: the printed formula loses digits where handles are nearly on a line. */
+        /* Corners of a square among them: the printed formula loses digits where handles are nearly
+         * on a line. */
         random_handles(&p, &r);
         memcpy(p.handles, (double[]){-1, -1, 1, -1, 1, 1, -1, 1}, 8 * sizeof(double));
         iccp_handles *handles = make_handles(&p);
@@ -441,8 +442,8 @@ START_TEST(l1_is_least)
 }
 END_TEST
 
-/* Of all solutions the one with the least sum of squares: no change that keeps the equations and does not raise the
- * sum of absolute changes lowers that of squares. */
+/* Of all solutions the one with the least sum of squares: no change that keeps the equations and
+ * does not raise the sum of absolute changes lowers that of squares. */
 START_TEST(l1_breaks_ties_by_squares)
 {
     random_source r = {17};
@@ -481,9 +482,10 @@ END_TEST
 
 /* ---- table 4.1 ---- */
 
-/* The thesis' example: a grid of 101 x 101 samples over 10 x 10, handles at its corners, inverse distances. QP has no
- * negative weights, equality only has them down to -0.106, l1 hardly any; along the diagonal weights fall with QP and
- * l1 but for what a corner's own initial weight does beside it, and rise again with equality only. */
+/* The thesis' example: a grid of 101 x 101 samples over 10 x 10, handles at its corners, inverse
+ * distances. QP has no negative weights, equality only has them down to -0.106, l1 hardly any;
+ * along the diagonal weights fall with QP and l1 but for what a corner's own initial weight does
+ * beside it, and rise again with equality only. */
 START_TEST(the_example_of_chapter_4)
 {
     enum { SIDE = 101, N = 4 + SIDE * SIDE };
@@ -527,8 +529,8 @@ END_TEST
 
 /* ---- lines ---- */
 
-/* Weights are linear on a line, and change by the same vector per length on one that is parallel to it, whichever way
- * that runs: the images under any translations of the handles are parallel. */
+/* Weights are linear on a line, and change by the same vector per length on one that is parallel to
+ * it, whichever way that runs: the images under any translations of the handles are parallel. */
 START_TEST(lines_are_straight_and_parallel)
 {
     enum { N = 10 };

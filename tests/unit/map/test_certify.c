@@ -33,14 +33,14 @@ static icc_certificate certify(const icc_map *map, size_t n, const double *verti
                                size_t n_triangles, const uint32_t *triangles)
 {
     icc_certificate c = {.size = sizeof c};
-    ck_assert_int_eq(icc_map_certify(map, n, vertices, n_triangles, triangles, NULL, &c, NULL, NULL),
-                     ICC_OK);
+    ck_assert_int_eq(
+        icc_map_certify(map, n, vertices, n_triangles, triangles, NULL, &c, NULL, NULL), ICC_OK);
     ck_assert_int_eq(c.certified, c.boundary_simple && c.first < 0);
     return c;
 }
 
-/* The unit square in 2 n^2 triangles; the diagonals run towards the corner that the dart pushes in, or
- * across it. */
+/* The unit square in 2 n^2 triangles; the diagonals run towards the corner that the dart pushes in,
+ * or across it. */
 typedef struct grid {
     size_t n_vertices, n_triangles;
     double *vertices;
@@ -113,7 +113,8 @@ START_TEST(fine_meshes_are_certified)
             icc_certificate c = {.size = sizeof c};
             ck_assert(images != NULL && mapped != NULL);
             ck_assert_int_eq(icc_map_certify(map, g.n_vertices, g.vertices, g.n_triangles,
-                                             g.triangles, images, &c, NULL, NULL), ICC_OK);
+                                             g.triangles, images, &c, NULL, NULL),
+                             ICC_OK);
             (void)icc_map_apply(map, g.n_vertices, g.vertices, mapped, NULL, NULL, NULL);
             ck_assert_mem_eq(images, mapped, 2 * g.n_vertices * sizeof *images);
             check_counts(&g, images, &c);
@@ -195,7 +196,8 @@ START_TEST(meshes_that_are_no_disc)
 {
     const shape square = shape_square();
     icc_map *map = map_between(&square, &square, 0);
-    const double xy[20] = {0,  0,  .4, 0,  0, .4, .4, .4, .6, .6, 1, .6, .6, 1, .2, .3, .8, .1, .3, .8};
+    const double xy[20] = {0, 0,  .4, 0, 0,  .4, .4, .4, .6, .6,
+                           1, .6, .6, 1, .2, .3, .8, .1, .3, .8};
     static const struct {
         const char *name;
         size_t n_triangles;
@@ -215,7 +217,8 @@ START_TEST(meshes_that_are_no_disc)
     }
     /* A ring of triangles has two boundaries. */
     const double ring[16] = {0, 0, 1, 0, 1, 1, 0, 1, .3, .3, .7, .3, .7, .7, .3, .7};
-    const uint32_t around[24] = {0, 1, 4, 1, 5, 4, 1, 2, 5, 2, 6, 5, 2, 3, 6, 3, 7, 6, 3, 0, 7, 0, 4, 7};
+    const uint32_t around[24] = {0, 1, 4, 1, 5, 4, 1, 2, 5, 2, 6, 5,
+                                 2, 3, 6, 3, 7, 6, 3, 0, 7, 0, 4, 7};
     const icc_certificate c = certify(map, 8, ring, 8, around);
     ck_assert(c.n_inverted == 0 && c.n_flat == 0 && c.first == -1 && c.boundary_simple == 0);
     icc_map_free(map);
@@ -262,7 +265,8 @@ START_TEST(meshes_are_repaired)
             (void)icc_map_certify(map, g.n_vertices, g.vertices, g.n_triangles, g.triangles, mapped,
                                   &before, NULL, NULL);
             ck_assert_int_eq(icc_map_repair(map, g.n_vertices, g.vertices, g.n_triangles,
-                                            g.triangles, images, &after, NULL, NULL), ICC_OK);
+                                            g.triangles, images, &after, NULL, NULL),
+                             ICC_OK);
             check_counts(&g, images, &after);
             ck_assert_int_eq(after.certified, !across);
             n_repaired += !before.certified && after.certified;
@@ -322,10 +326,12 @@ START_TEST(inner_vertices_without_an_image_get_one)
     ck_assert_int_eq(icc_domain_create(&a, 2, from.n, from.xy, 0, NULL, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_domain_create(&b, 2, to.n, to.xy, 0, NULL, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_map_create(&map, a, b, &options, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(icc_map_certify(map, m.n_vertices, m.vertices, m.n_simplices, m.simplices, NULL,
-                                     &before, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(icc_map_repair(map, m.n_vertices, m.vertices, m.n_simplices, m.simplices, images,
-                                    &after, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_map_certify(map, m.n_vertices, m.vertices, m.n_simplices, m.simplices,
+                                     NULL, &before, NULL, NULL),
+                     ICC_OK);
+    ck_assert_int_eq(icc_map_repair(map, m.n_vertices, m.vertices, m.n_simplices, m.simplices,
+                                    images, &after, NULL, NULL),
+                     ICC_OK);
     ck_assert(before.n_no_image > 0 && before.certified == 0);
     ck_assert(after.n_no_image == 0 && after.certified == 1);
     free(images);
@@ -350,16 +356,20 @@ START_TEST(bad_meshes_are_refused)
             repair ? icc_map_repair : icc_map_certify;
         icc_certificate c = {.size = sizeof c};
         icc_error err = {.size = sizeof err};
-        ck_assert_int_eq(call(map, 4, s.xy, 2, triangles, images, &c, NULL, &err), ICC_ERR_ARGUMENT);
+        ck_assert_int_eq(call(map, 4, s.xy, 2, triangles, images, &c, NULL, &err),
+                         ICC_ERR_ARGUMENT);
         ck_assert_int_eq(err.index, 1);
-        ck_assert_int_eq(call(map, 5, s.xy, 0, triangles, images, &c, NULL, &err), ICC_ERR_ARGUMENT);
-        ck_assert_int_eq(call(map, 2, s.xy, 1, triangles, images, &c, NULL, &err), ICC_ERR_ARGUMENT);
+        ck_assert_int_eq(call(map, 5, s.xy, 0, triangles, images, &c, NULL, &err),
+                         ICC_ERR_ARGUMENT);
+        ck_assert_int_eq(call(map, 2, s.xy, 1, triangles, images, &c, NULL, &err),
+                         ICC_ERR_ARGUMENT);
         ck_assert_int_eq(call(map, SIZE_MAX, s.xy, 1, triangles, images, &c, NULL, &err),
                          ICC_ERR_ARGUMENT);
         ck_assert_int_eq(call(map, 4, s.xy, SIZE_MAX, triangles, images, &c, NULL, &err),
                          ICC_ERR_ARGUMENT);
         const double tiny[8] = {0, 0, 1, 0, 1, 1, 1e-300, 1};
-        ck_assert_int_eq(call(map, 4, tiny, 1, triangles, images, &c, NULL, &err), ICC_ERR_ARGUMENT);
+        ck_assert_int_eq(call(map, 4, tiny, 1, triangles, images, &c, NULL, &err),
+                         ICC_ERR_ARGUMENT);
         ck_assert_int_eq(err.index, 3);
     }
     icc_map_free(map);

@@ -48,14 +48,14 @@ static double area_sum(const iccp_plmap *map, const double *xy)
     double sum = 0;
     for (size_t t = 0; t < map->corners.n_triangles; ++t) {
         const uint32_t *v = map->corners.vertex + 3 * t;
-        sum += 0.5 * iccp_area2d(xy + 2 * (size_t)v[0], xy + 2 * (size_t)v[1],
-                                 xy + 2 * (size_t)v[2]);
+        sum +=
+            0.5 * iccp_area2d(xy + 2 * (size_t)v[0], xy + 2 * (size_t)v[1], xy + 2 * (size_t)v[2]);
     }
     return sum;
 }
 
-/* All triangles positive and their areas sum to the polygon's, before and after; each edge once in each
- * direction, or on the boundary, whose vertices stay. */
+/* All triangles positive and their areas sum to the polygon's, before and after; each edge once in
+ * each direction, or on the boundary, whose vertices stay. */
 static void check_map(const pair *p, const iccp_plmap *map)
 {
     const size_t n = p->base.n_boundary, n_triangles = map->corners.n_triangles;

@@ -67,7 +67,8 @@ static double measure_of(const icc_chart *chart)
     return info.measure;
 }
 
-/* The shares say what the derivative does, also where it shrinks area by many orders of magnitude. */
+/* The shares say what the derivative does, also where it shrinks area by many orders of
+ * magnitude. */
 START_TEST(shares_are_determinants)
 {
     static const double HEIGHTS[] = {1, 0.3, 0.1};
@@ -97,7 +98,8 @@ START_TEST(shares_are_determinants)
             n_close += fabs(exp(shares[i].to - shares[i].from) / shrinks - 1) < 1e-6;
             least = fmin(least, shrinks);
         }
-        /* Not where vectors jump, next to the boundary, or a curve starts within the cells around a root. */
+        /* Not where vectors jump, next to the boundary, or a curve starts within the cells around a
+         * root. */
         ck_assert_int_ge(n_close, N_POINTS * 95 / 100);
         ck_assert(h < 2 || least < 1e-5);
         iccp_path_clear(&path);

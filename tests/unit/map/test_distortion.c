@@ -33,7 +33,8 @@ static double measure_of(size_t dim, const double *p)
         return (e[0][0] * e[1][1] - e[0][1] * e[1][0]) / 2;
     return (e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) -
             e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
-            e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0])) / 6;
+            e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0])) /
+           6;
 }
 
 static void set_element(sample *s)
@@ -63,7 +64,8 @@ static sample random_sample(random_source *r, size_t dim, int sign)
 typedef double energy_function(size_t dim, const double *element, const double *const *image,
                                double epsilon);
 
-static double dirichlet(size_t dim, const double *element, const double *const *image, double epsilon)
+static double dirichlet(size_t dim, const double *element, const double *const *image,
+                        double epsilon)
 {
     (void)epsilon;
     return iccp_dirichlet_energy(dim, element, image);
@@ -95,7 +97,8 @@ static iccp_local untangling_at(const sample *s, double epsilon)
 }
 
 /* Central differences of the energy. */
-static void check_gradient(energy_function *f, const sample *s, double epsilon, const iccp_local *local)
+static void check_gradient(energy_function *f, const sample *s, double epsilon,
+                           const iccp_local *local)
 {
     double scale = 1, worst = 0;
     for (size_t i = 0; i < s->n; ++i)
@@ -107,7 +110,8 @@ static void check_gradient(energy_function *f, const sample *s, double epsilon, 
         memcpy(down, s->image, sizeof down);
         up[i] += h;
         down[i] -= h;
-        const double slope = (energy_at(f, s, up, epsilon) - energy_at(f, s, down, epsilon)) / (2 * h);
+        const double slope =
+            (energy_at(f, s, up, epsilon) - energy_at(f, s, down, epsilon)) / (2 * h);
         worst = fmax(worst, fabs(local->gradient[i] - slope));
     }
     ck_assert_double_le(worst, (s->dim == 2 ? 1e-6 : 1e-5) * scale);
@@ -122,7 +126,8 @@ static double quadratic(const sample *s, const iccp_local *local, const double *
     return sum;
 }
 
-static double second_difference(energy_function *f, const sample *s, const double *d, double epsilon)
+static double second_difference(energy_function *f, const sample *s, const double *d,
+                                double epsilon)
 {
     const double h = 1e-4;
     double up[12], down[12];
@@ -131,7 +136,8 @@ static double second_difference(energy_function *f, const sample *s, const doubl
         down[i] = s->image[i] - h * d[i];
     }
     return (energy_at(f, s, up, epsilon) - 2 * energy_at(f, s, s->image, epsilon) +
-            energy_at(f, s, down, epsilon)) / (h * h);
+            energy_at(f, s, down, epsilon)) /
+           (h * h);
 }
 
 static double trace_of(const sample *s, const iccp_local *local)
@@ -171,8 +177,8 @@ static void check_shape(const sample *s, const iccp_local *local, random_source 
 }
 
 /* At least the energy's curvature; the same as that where `exact`. */
-static void check_hessian(energy_function *f, const sample *s, double epsilon, const iccp_local *local,
-                          bool exact, random_source *r)
+static void check_hessian(energy_function *f, const sample *s, double epsilon,
+                          const iccp_local *local, bool exact, random_source *r)
 {
     const double scale = trace_of(s, local);
     check_shape(s, local, r);
@@ -180,7 +186,8 @@ static void check_hessian(energy_function *f, const sample *s, double epsilon, c
         double d[12];
         for (size_t i = 0; i < s->n; ++i)
             d[i] = random_between(r, -1, 1);
-        const double bound = quadratic(s, local, d), curvature = second_difference(f, s, d, epsilon);
+        const double bound = quadratic(s, local, d),
+                     curvature = second_difference(f, s, d, epsilon);
         ck_assert_double_le(curvature - bound, (s->dim == 2 ? 1e-3 : 2e-3) * scale);
         ck_assert(!exact || fabs(curvature - bound) <= 1e-4 * scale);
     }
@@ -218,8 +225,8 @@ START_TEST(gradients_and_hessians_of_the_untangling_energy)
 }
 END_TEST
 
-/* The simplex itself, turned by an angle round one axis after its coordinates have been swapped round, and
- * moved. */
+/* The simplex itself, turned by an angle round one axis after its coordinates have been swapped
+ * round, and moved. */
 static void move_rigidly(sample *s, const double *from, double angle)
 {
     const double c = cos(angle), w = sin(angle);
@@ -246,7 +253,8 @@ START_TEST(isometries)
             const iccp_local untangling = untangling_at(&s, 1e-9);
             const double measure = s.element[0], energy = 2 * (double)dim * measure;
             ck_assert_double_eq_tol(energy_at(dirichlet, &s, s.image, 1), energy, 1e-11 * energy);
-            ck_assert_double_eq_tol(energy_at(iccp_untangling_energy, &s, s.image, 1e-9), measure, 1e-12);
+            ck_assert_double_eq_tol(energy_at(iccp_untangling_energy, &s, s.image, 1e-9), measure,
+                                    1e-12);
             for (size_t i = 0; i < s.n; ++i)
                 ck_assert(fabs(newton.gradient[i]) < 1e-10 && fabs(slim.gradient[i]) < 1e-10 &&
                           fabs(untangling.gradient[i]) < 1e-10);
@@ -300,7 +308,8 @@ START_TEST(energies_are_those_of_shape)
             sample turned = s;
             move_rigidly(&turned, s.image, random_between(&r, 0, 6.28));
             const double u = energy_at(iccp_untangling_energy, &s, s.image, 0.1);
-            ck_assert_double_eq_tol(energy_at(iccp_untangling_energy, &s, turned.image, 0.1) / u, 1, 1e-11);
+            ck_assert_double_eq_tol(energy_at(iccp_untangling_energy, &s, turned.image, 0.1) / u, 1,
+                                    1e-11);
             const double d = energy_at(dirichlet, &s, s.image, 0);
             if (d < 1e3)
                 ck_assert_double_eq_tol(energy_at(dirichlet, &s, turned.image, 0) / d, 1, 1e-10);
@@ -388,7 +397,8 @@ START_TEST(singular_values_and_vectors)
 }
 END_TEST
 
-/* chi is positive, rises, tends to det and to 0, and its two forms meet: chi(d) chi(-d) = eps^2 / 4. */
+/* chi is positive, rises, tends to det and to 0, and its two forms meet: chi(d) chi(-d) = eps^2
+ * / 4. */
 START_TEST(chi_stands_for_the_determinant)
 {
     for (double epsilon = 1; epsilon > 1e-11; epsilon /= 10) {
@@ -397,8 +407,8 @@ START_TEST(chi_stands_for_the_determinant)
             const double chi = iccp_untangling_chi(epsilon, d);
             ck_assert_double_gt(chi, last);
             ck_assert_double_ge(chi, d);
-            ck_assert_double_eq_tol(chi * iccp_untangling_chi(epsilon, -d) / (epsilon * epsilon / 4), 1,
-                                    1e-12);
+            ck_assert_double_eq_tol(
+                chi * iccp_untangling_chi(epsilon, -d) / (epsilon * epsilon / 4), 1, 1e-12);
             last = chi;
         }
         ck_assert_double_eq_tol(iccp_untangling_chi(epsilon, 0), epsilon / 2, 1e-15);

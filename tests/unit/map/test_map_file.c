@@ -1,4 +1,5 @@
-/* Maps as bytes: what is loaded is what was saved, goes on as that would, and nothing else is loaded. */
+/* Maps as bytes: what is loaded is what was saved, goes on as that would, and nothing else is
+ * loaded. */
 #include "../../faulty.h"
 #include "../../hard_shapes.h"
 #include "../../meshes.h"
@@ -228,8 +229,8 @@ START_TEST(filled)
 }
 END_TEST
 
-/* A corner of the cube pressed in beyond the diagonal that all tetrahedra of the source share: its map has a mesh of its
- * own. The target is filled from one point inside. */
+/* A corner of the cube pressed in beyond the diagonal that all tetrahedra of the source share: its
+ * map has a mesh of its own. The target is filled from one point inside. */
 static icc_domain *dented_cube(const icc_domain *cube)
 {
     static const double VERTICES[27] = {0.28, 0.26, -0.18, 0.56,  0.42, 0.48, 0.11, 1.17, -0.09,
@@ -258,7 +259,8 @@ START_TEST(cut_chords)
     ck_assert_int_eq(map_story(map).kind, ICC_MAP_MESH);
     ck_assert_uint_gt(map_story(map).n_simplices, cube.n_simplices);
     check_map(map, p.source);
-    /* A point of that mesh outside of the source, its image where it was: bytes end with points, corners and images. */
+    /* A point of that mesh outside of the source, its image where it was: bytes end with points,
+     * corners and images. */
     const icc_map_info info = map_story(map);
     const size_t n_inner = info.n_vertices - 8;
     bytes b = map_bytes(map);
@@ -399,7 +401,8 @@ START_TEST(content_is_checked)
 }
 END_TEST
 
-/* The last bytes of a map of kind mesh say where its boundary vertices lie; before them are the triangles. */
+/* The last bytes of a map of kind mesh say where its boundary vertices lie; before them are the
+ * triangles. */
 START_TEST(false_meshes_are_refused)
 {
     pair p;

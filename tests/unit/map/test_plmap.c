@@ -49,8 +49,7 @@ static iccp_plmap map_of(const shape *s, int32_t cells, image_function *f, doubl
     ck_assert_ptr_nonnull(images);
     for (size_t v = 0; v < mesh.n_vertices; ++v)
         f(mesh.points + 2 * v, images + 2 * v);
-    ck_assert_int_eq(iccp_plmap_create(&map, &mesh, domain, images, stretch, &env.memory),
-                     ICC_OK);
+    ck_assert_int_eq(iccp_plmap_create(&map, &mesh, domain, images, stretch, &env.memory), ICC_OK);
     free(images);
     iccp_planar_free(&mesh);
     icc_domain_free(domain);
@@ -68,7 +67,8 @@ static bool is_same(const iccp_plmap *a, const iccp_plmap *b)
            memcmp(a->corners.twin, b->corners.twin, n) == 0;
 }
 
-/* A disc of triangles that are positive in the source, its boundary vertices and no others fixed. */
+/* A disc of triangles that are positive in the source, its boundary vertices and no others
+ * fixed. */
 static void check_mesh(const iccp_plmap *map)
 {
     const iccp_corners *c = &map->corners;
@@ -173,15 +173,20 @@ START_TEST(edges_that_rounding_would_spoil_stay)
     icc_domain *domain;
     ck_assert_int_eq(icc_domain_create(&domain, 2, 3, images, 0, NULL, NULL, NULL), ICC_OK);
     for (int swapped = 0; swapped < 2; ++swapped) {
-        const iccp_planar mesh = {.n_vertices = 3, .n_boundary = 3, .n_triangles = 1,
-                                  .points = swapped ? images : points, .triangles = triangles,
-                                  .twins = twins, .facet = facets, .first = facets,
+        const iccp_planar mesh = {.n_vertices = 3,
+                                  .n_boundary = 3,
+                                  .n_triangles = 1,
+                                  .points = swapped ? images : points,
+                                  .triangles = triangles,
+                                  .twins = twins,
+                                  .facet = facets,
+                                  .first = facets,
                                   .pieces = pieces};
         iccp_plmap map, copy;
         bool done = true;
-        ck_assert_int_eq(iccp_plmap_create(&map, &mesh, domain, swapped ? points : images, 1,
-                                           &env.memory),
-                         ICC_OK);
+        ck_assert_int_eq(
+            iccp_plmap_create(&map, &mesh, domain, swapped ? points : images, 1, &env.memory),
+            ICC_OK);
         ck_assert_int_eq(iccp_plmap_copy(&copy, &map, &env.memory), ICC_OK);
         ck_assert_int_eq(iccp_plmap_cut(&map, 2, &done), ICC_OK);
         ck_assert(!done && is_same(&map, &copy));
@@ -265,8 +270,8 @@ START_TEST(steps_go_down)
 }
 END_TEST
 
-/* Every accepted step lowers the energy; Dirichlet's keeps every triangle positive. Vertices that are
- * not movable stay. */
+/* Every accepted step lowers the energy; Dirichlet's keeps every triangle positive. Vertices that
+ * are not movable stay. */
 START_TEST(every_step_is_monotone_and_positive)
 {
     const iccp_env env = default_env();
@@ -281,7 +286,8 @@ START_TEST(every_step_is_monotone_and_positive)
             movable[v] = v % 5 != 0;
         iccp_newton newton;
         const iccp_simplicial_map simplicial = iccp_plmap_simplicial(&map);
-        ck_assert_int_eq(iccp_newton_create(&newton, &simplicial, k % 2 ? movable : NULL, &env), ICC_OK);
+        ck_assert_int_eq(iccp_newton_create(&newton, &simplicial, k % 2 ? movable : NULL, &env),
+                         ICC_OK);
         double energy = iccp_newton_energy(&newton, ICCP_DIRICHLET, 0);
         for (int step = 0; step < 25 && newton.assembly.n_free > 0; ++step) {
             const iccp_energy model = step % 3 == 0 ? ICCP_DIRICHLET_MAJORISED : ICCP_DIRICHLET;

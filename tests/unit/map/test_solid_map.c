@@ -1,5 +1,5 @@
-/* Map kind mesh in space: every tetrahedron positive, there and back, derivatives, and what happens when the
- * repair fails. */
+/* Map kind mesh in space: every tetrahedron positive, there and back, derivatives, and what happens
+ * when the repair fails. */
 #include "../../faulty.h"
 #include "../../meshes.h"
 #include "../../share.h"
@@ -130,8 +130,8 @@ START_TEST(mesh_is_the_map)
 }
 END_TEST
 
-/* Corners of the boundary that meet in one tetrahedron: turned inside out by the target, no images of inner vertices
- * help, and the map is one along curves, which says so. */
+/* Corners of the boundary that meet in one tetrahedron: turned inside out by the target, no images
+ * of inner vertices help, and the map is one along curves, which says so. */
 static void turn_corner(int32_t dim, const double *x, double *y)
 {
     (void)dim;

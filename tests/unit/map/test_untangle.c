@@ -101,7 +101,9 @@ static void tangle(cube *c, int kind, random_source *r)
         double *y = c->start + dim * v;
         bend(dim, x, y);
         for (size_t k = 0; k < dim && v >= c->mesh->n_rim; ++k)
-            y[k] = kind == 0 ? 0.5 + 1e-3 * random_unit(r) : kind == 1 ? random_between(r, -1, 2) : x[k];
+            y[k] = kind == 0   ? 0.5 + 1e-3 * random_unit(r)
+                   : kind == 1 ? random_between(r, -1, 2)
+                               : x[k];
     }
     memcpy(c->images, c->start, c->size);
 }
@@ -229,7 +231,8 @@ START_TEST(steps_go_down)
             ck_assert_uint_eq(count_inverted(&c), 0);
             ck_assert_int_eq(iccp_newton_create(&newton, &map, NULL, &env), ICC_OK);
             ck_assert_uint_eq(newton.assembly.n_free, c.mesh->n_points - c.mesh->n_rim);
-            ck_assert_int_eq(iccp_newton_solve(&newton, (iccp_energy)kind, 0.1, &slope, &env), ICC_OK);
+            ck_assert_int_eq(iccp_newton_solve(&newton, (iccp_energy)kind, 0.1, &slope, &env),
+                             ICC_OK);
             ck_assert_double_lt(slope, 0);
             for (int k = 0; k < 2; ++k) {
                 for (size_t i = 0; i < map.dim * newton.assembly.n_free; ++i)
@@ -244,8 +247,8 @@ START_TEST(steps_go_down)
 }
 END_TEST
 
-/* A cube as it was with its inner vertices shaken: the fairest map with this boundary is the identity, and every
- * step towards it keeps all simplices positive. */
+/* A cube as it was with its inner vertices shaken: the fairest map with this boundary is the
+ * identity, and every step towards it keeps all simplices positive. */
 START_TEST(shaken_maps_become_fair)
 {
     random_source r = {10};
@@ -258,7 +261,8 @@ START_TEST(shaken_maps_become_fair)
             for (size_t i = c.mesh->dim * c.mesh->n_rim; i < c.size / sizeof *c.images; ++i)
                 c.images[i] += random_between(&r, -0.02, 0.02);
             const double before = iccp_simplicial_energy(&map);
-            ck_assert_int_eq(iccp_improve_images(&map, 3, steps, 1e-13, &improvement, &env), ICC_OK);
+            ck_assert_int_eq(iccp_improve_images(&map, 3, steps, 1e-13, &improvement, &env),
+                             ICC_OK);
             const double after = iccp_simplicial_energy(&map);
             ck_assert_uint_le(improvement.n_iterations, steps);
             ck_assert_uint_eq(count_inverted(&c), 0);

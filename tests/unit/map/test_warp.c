@@ -36,8 +36,8 @@ static unsigned get(const icc_picture *p, int32_t i, int32_t j, int32_t c)
 
 static void set(const icc_picture *p, int32_t i, int32_t j, int32_t c, unsigned value)
 {
-    uint8_t *at = (uint8_t *)p->pixels + (size_t)j * p->stride +
-                  (size_t)((i * p->channels + c) * p->bytes);
+    uint8_t *at =
+        (uint8_t *)p->pixels + (size_t)j * p->stride + (size_t)((i * p->channels + c) * p->bytes);
     const uint16_t two = (uint16_t)value;
     if (p->bytes == 2)
         memcpy(at, &two, 2);
@@ -116,10 +116,10 @@ static bool inside(const mapped *m, int32_t i, int32_t j)
 }
 
 static const double whole[8] = {0, 0, 40, 0, 40, 40, 0, 40};
-static const double star[20] = {20, 2,    24, 15, 38.5, 16, 27, 23, 31, 37.5,
-                                20, 28.5, 9,  37.5, 13, 23, 1.5, 16, 16, 15};
-static const double bent[20] = {22,  3,  25, 13, 38, 19.5, 26, 24, 28, 38.5,
-                                18.5, 27, 6, 35, 12.5, 21, 2.5, 13, 17, 14};
+static const double star[20] = {20, 2,    24, 15,   38.5, 16, 27,  23, 31, 37.5,
+                                20, 28.5, 9,  37.5, 13,   23, 1.5, 16, 16, 15};
+static const double bent[20] = {22,   3,  25, 13, 38,   19.5, 26,  24, 28, 38.5,
+                                18.5, 27, 6,  35, 12.5, 21,   2.5, 13, 17, 14};
 
 /* ---- exact cases ---- */
 
@@ -159,7 +159,8 @@ START_TEST(test_identity)
 }
 END_TEST
 
-/* Pixels outside keep every bit, those inside are all written: two backgrounds tell which is which. */
+/* Pixels outside keep every bit, those inside are all written: two backgrounds tell which is
+ * which. */
 static void check_extent(const mapped *m)
 {
     icc_picture from = make(40, 40, 1, 1, 0), to = make(40, 40, 1, 1, 0);
@@ -191,8 +192,8 @@ START_TEST(test_extent)
 }
 END_TEST
 
-/* Jagged targets with all vertices on centres, so that many centres lie on edges, from sources that shrink
- * into them more and more. */
+/* Jagged targets with all vertices on centres, so that many centres lie on edges, from sources that
+ * shrink into them more and more. */
 START_TEST(test_centres_on_edges)
 {
     uint32_t random = 7;
@@ -238,8 +239,9 @@ END_TEST
 
 /* ---- against point by point ---- */
 
-/* Every pixel against the bilinear colour at the origin of its centre, in plain doubles. A mean of samples
- * differs from it, on these waves, by less than a level; positions are rounded to 1/8192 pixel. */
+/* Every pixel against the bilinear colour at the origin of its centre, in plain doubles. A mean of
+ * samples differs from it, on these waves, by less than a level; positions are rounded to 1/8192
+ * pixel. */
 static double expected(const icc_picture *p, const double at[2], int32_t c)
 {
     const double u = fmin(fmax(at[0] - 0.5, 0), p->width - 1);
@@ -297,9 +299,9 @@ static bool deep_inside(const mapped *m, int32_t i, int32_t j)
            inside(m, i, j + 1);
 }
 
-/* A star and the same at another size and place: the meshes of the charts agree, so that both kinds are
- * the same similarity, and even noise comes out the same. The samples of a pixel are the same too, summed
- * up in another order, where kind curves has neighbours to tell how many it takes. */
+/* A star and the same at another size and place: the meshes of the charts agree, so that both kinds
+ * are the same similarity, and even noise comes out the same. The samples of a pixel are the same
+ * too, summed up in another order, where kind curves has neighbours to tell how many it takes. */
 START_TEST(test_kinds_agree)
 {
     const double factors[3] = {0.5, 1.7, 0.22};
@@ -339,7 +341,8 @@ static mapped scaled(double factor, double size)
     return make_map(4, from, to, ICC_MAP_MESH);
 }
 
-/* Smaller by any factor, a checkerboard of single pixels is an even grey, 0..255 becomes 128 +- 32. */
+/* Smaller by any factor, a checkerboard of single pixels is an even grey, 0..255 becomes 128
+ * +- 32. */
 START_TEST(test_no_alias)
 {
     for (int step = 2; step <= 16; ++step) {

@@ -1,5 +1,5 @@
-/* The sparse factorisation: its analysis against elimination on paper, its kernels against each other,
- * its factors against dense ones in long double. */
+/* The sparse factorisation: its analysis against elimination on paper, its kernels against each
+ * other, its factors against dense ones in long double. */
 #include "math/dense.h"
 #include "math/ldlt.h"
 
@@ -40,8 +40,9 @@ static void compress(matrix *a)
     a->m = (iccp_symmetric){a->n, a->first, a->column, a->value, a->diagonal};
 }
 
-/* Each pair has an entry with a given probability; the diagonal dominates. sign: of each row, NULL: all
- * positive. A quasi-definite matrix is one whose rows of either sign by themselves are definite. */
+/* Each pair has an entry with a given probability; the diagonal dominates. sign: of each row, NULL:
+ * all positive. A quasi-definite matrix is one whose rows of either sign by themselves are
+ * definite. */
 static matrix *random_matrix(size_t n, double density, const int8_t *sign, random_source *r)
 {
     matrix *a = calloc(1, sizeof *a);
@@ -234,7 +235,8 @@ START_TEST(factors_are_those_of_dense_elimination)
         iccp_ldlt l;
         ck_assert_int_eq(iccp_ldlt_analyse_ordered(&l, &a->m, order, &env), ICC_OK);
         ck_assert_int_eq(k % 2 ? iccp_ldlt_factorise_signed(&l, &a->m, sign, &env)
-                               : iccp_ldlt_factorise(&l, &a->m, &env), ICC_OK);
+                               : iccp_ldlt_factorise(&l, &a->m, &env),
+                         ICC_OK);
         eliminate_dense(a, l.order, pivot);
         for (size_t i = 0; i < n; ++i)
             ck_assert_double_le(fabs(l.pivot[i] - pivot[i]), 1e-11 * fabs(pivot[i]));
@@ -380,8 +382,8 @@ static const struct {
     rule is_in;
 } MAZES[] = {{200, 199, 1, in_snake}, {40, 35, 11, in_storeys}, {149, 150, 1, in_comb}};
 
-/* Solves for a source and checks that every number is positive and satisfies its equation to 1e-12 of
- * its own size. Returns the lowest exponent. */
+/* Solves for a source and checks that every number is positive and satisfies its equation to 1e-12
+ * of its own size. Returns the lowest exponent. */
 static int32_t check_components(const lattice *g, const iccp_ldlt *l, size_t source)
 {
     const iccp_scaled x = {malloc(g->n * sizeof(double)), malloc(g->n * sizeof(int32_t))};
@@ -471,8 +473,8 @@ START_TEST(rings_are_solved_in_order_of_distance)
 }
 END_TEST
 
-/* Two rows that meet in a third share a panel, with a 0 between them. The first has the larger right
- * side by far, yet what gets from it to the second is less than the second has. */
+/* Two rows that meet in a third share a panel, with a 0 between them. The first has the larger
+ * right side by far, yet what gets from it to the second is less than the second has. */
 START_TEST(stored_zeros_carry_nothing)
 {
     const size_t first[] = {0, 1, 2, 4};
@@ -574,7 +576,9 @@ START_TEST(threads_change_nothing)
     const iccp_symmetric m = {N, first, column, value, diagonal};
     double *one = NULL;
     for (int32_t run = 0; run < 4; ++run) {
-        const icc_env outer = {.size = sizeof outer, .user = &n_tasks, .threads = 1 + 2 * run,
+        const icc_env outer = {.size = sizeof outer,
+                               .user = &n_tasks,
+                               .threads = 1 + 2 * run,
                                .parallel_for = run == 3 ? run_backwards : NULL};
         iccp_env env;
         iccp_ldlt l;
@@ -599,7 +603,8 @@ START_TEST(threads_change_nothing)
 }
 END_TEST
 
-/* Analyses and factorises twice; what fails is tried again at once, with the memory that is there. */
+/* Analyses and factorises twice; what fails is tried again at once, with the memory that is
+ * there. */
 static icc_status make_factor(const matrix *a, const uint32_t *order, const int8_t *sign,
                               const iccp_env *env)
 {
@@ -668,7 +673,8 @@ int main(void)
     tcase_add_test(tests, factors_are_those_of_dense_elimination);
     tcase_add_test(tests, factorising_again_changes_nothing);
     tcase_add_test(tests, wrong_signs_are_refused);
-    tcase_add_loop_test(tests, mazes_are_solved_in_every_component, 0, sizeof MAZES / sizeof *MAZES);
+    tcase_add_loop_test(tests, mazes_are_solved_in_every_component, 0,
+                        sizeof MAZES / sizeof *MAZES);
     tcase_add_test(tests, rings_are_solved_in_order_of_distance);
     tcase_add_test(tests, stored_zeros_carry_nothing);
     tcase_add_test(tests, long_factorisations_report_often);

@@ -194,7 +194,7 @@ START_TEST(orientation_is_exact)
     for (int i = 0; i < share_of(N); ++i) {
         double p[3][2];
         void (*const make[3])(random_source *, double[3][2]) = {nearly_collinear, last_bits,
-                                                               spread};
+                                                                spread};
         make[i % 3](&r, p);
         check_orientation(&q, p);
         n_zero += iccp_orient2d(p[0], p[1], p[2]) == 0;
@@ -262,7 +262,8 @@ static void nearly_cocircular(random_source *r, double p[4][2])
 
 static void small_lattice(random_source *r, double p[4][2])
 {
-    const double scale = ldexp(1.0, random_below(r, 300) - 150) * (random_below(r, 2) ? 1.0 : 1.0 / 3.0);
+    const double scale =
+        ldexp(1.0, random_below(r, 300) - 150) * (random_below(r, 2) ? 1.0 : 1.0 / 3.0);
     for (int i = 0; i < 4; ++i)
         for (int k = 0; k < 2; ++k)
             p[i][k] = scale * grid(r, 3);
@@ -329,7 +330,7 @@ START_TEST(incircle_is_exact)
     for (int i = 0; i < share_of(N); ++i) {
         double p[4][2];
         void (*const make[5])(random_source *, double[4][2]) = {nearly_cocircular, small_lattice,
-                                                               integers, rectangle, wild};
+                                                                integers, rectangle, wild};
         make[i % 5](&r, p);
         const int s = exact_incircle(&q, p);
         ck_assert_int_eq(iccp_incircle(p[0], p[1], p[2], p[3]), s);
@@ -403,7 +404,7 @@ START_TEST(orientation_in_space_is_exact)
     for (int i = 0; i < share_of(N); ++i) {
         double p[4][3];
         void (*const make[4])(random_source *, double[4][3]) = {nearly_coplanar, parallelogram,
-                                                               lattice3, wild3};
+                                                                lattice3, wild3};
         make[i % 4](&r, p);
         const int s = exact_orient3d(&q, p);
         ck_assert_int_eq(iccp_orient3d(p[0], p[1], p[2], p[3]), s);
@@ -455,8 +456,10 @@ START_TEST(expansions_keep_their_value)
     mpq_init(c);
     for (int i = 0; i < share_of(N) / 10; ++i) {
         double e[4], f[4], sum[8], scaled[16];
-        const size_t m = iccp_expansion_cross(e, random_unit(&r), random_unit(&r), any(&r), random_unit(&r));
-        const size_t n = iccp_expansion_cross(f, any(&r), random_unit(&r), random_unit(&r), random_unit(&r));
+        const size_t m =
+            iccp_expansion_cross(e, random_unit(&r), random_unit(&r), any(&r), random_unit(&r));
+        const size_t n =
+            iccp_expansion_cross(f, any(&r), random_unit(&r), random_unit(&r), random_unit(&r));
         const double factor = random_unit(&r);
         const size_t n_sum = iccp_expansion_sum(sum, m, e, n, f);
         const size_t n_scaled = iccp_expansion_scale(scaled, n_sum, sum, factor);

@@ -1,5 +1,5 @@
-/* The two ways to solve sparse positive definite systems, against each other and, where the libraries
- * are installed, against CHOLMOD and CXSparse. */
+/* The two ways to solve sparse positive definite systems, against each other and, where the
+ * libraries are installed, against CHOLMOD and CXSparse. */
 #include "math/ordering.h"
 #include "math/scaled.h"
 #include "math/spd.h"
@@ -32,9 +32,10 @@ typedef struct edge {
 
 static equations from_edges(size_t n, size_t n_edges, const edge *edges, const double *extra)
 {
-    equations s = {.first = calloc(n + 2, sizeof *s.first), .column = calloc(2 * n_edges + 1, sizeof *s.column),
-                 .value = calloc(2 * n_edges + 1, sizeof *s.value),
-                 .diagonal = calloc(n + 1, sizeof *s.diagonal)};
+    equations s = {.first = calloc(n + 2, sizeof *s.first),
+                   .column = calloc(2 * n_edges + 1, sizeof *s.column),
+                   .value = calloc(2 * n_edges + 1, sizeof *s.value),
+                   .diagonal = calloc(n + 1, sizeof *s.diagonal)};
     for (size_t e = 0; e < n_edges; ++e) {
         ++s.first[edges[e].a];
         ++s.first[edges[e].b];
@@ -112,8 +113,8 @@ static equations random_system(size_t n, double decades, random_source *r)
     return s;
 }
 
-static double multiply_row(const iccp_symmetric *m, size_t i, const double *x, size_t n_rhs, size_t r,
-                           double *size)
+static double multiply_row(const iccp_symmetric *m, size_t i, const double *x, size_t n_rhs,
+                           size_t r, double *size)
 {
     double sum = m->diagonal[i] * x[i * n_rhs + r];
     *size += fabs(sum);
@@ -126,7 +127,8 @@ static double multiply_row(const iccp_symmetric *m, size_t i, const double *x, s
 }
 
 /* |A x - b| in units of |A| |x| + |b|, row by row (the backward error), the worst of them. */
-static double backward_error(const iccp_symmetric *m, const double *x, const double *b, size_t n_rhs)
+static double backward_error(const iccp_symmetric *m, const double *x, const double *b,
+                             size_t n_rhs)
 {
     double worst = 0;
     for (size_t r = 0; r < n_rhs; ++r)
@@ -204,8 +206,8 @@ static void solve_by_cholmod(const iccp_symmetric *m, const double *b, double *x
 {
     cholmod_common common;
     cholmod_start(&common);
-    cholmod_sparse *a = cholmod_allocate_sparse(m->n, m->n, m->n + m->first[m->n], 0, 1, 1, CHOLMOD_REAL,
-                                                &common);
+    cholmod_sparse *a =
+        cholmod_allocate_sparse(m->n, m->n, m->n + m->first[m->n], 0, 1, 1, CHOLMOD_REAL, &common);
     fill_columns(m, true, a->p, a->i, a->x);
     cholmod_dense *right = cholmod_allocate_dense(m->n, 1, m->n, CHOLMOD_REAL, &common);
     memcpy(right->x, b, m->n * sizeof *b);
@@ -232,7 +234,8 @@ static void solve_by_cxsparse(const iccp_symmetric *m, const double *b, double *
 #endif
 
 /* The same solution from everybody, relative to the largest entry. */
-static void check_oracles(const iccp_symmetric *m, const double *b, const double *x, double tolerance)
+static void check_oracles(const iccp_symmetric *m, const double *b, const double *x,
+                          double tolerance)
 {
 #ifdef TEST_WITH_SUITESPARSE
     double *y = malloc((m->n + 1) * sizeof *y), largest = 0;
@@ -310,8 +313,8 @@ START_TEST(random_matrices_are_solved)
 }
 END_TEST
 
-/* Weights over twelve powers of ten: the factorisation is still backward stable; the iteration may give
- * up, but does not pretend. */
+/* Weights over twelve powers of ten: the factorisation is still backward stable; the iteration may
+ * give up, but does not pretend. */
 START_TEST(extreme_weights_are_solved_or_refused)
 {
     random_source r = {3};
@@ -381,7 +384,8 @@ START_TEST(nothing_and_one_row_are_solved)
     const size_t first[2] = {0, 0};
     const double diagonal = 4;
     double x[1] = {2};
-    const iccp_symmetric none = {0, first, NULL, NULL, NULL}, one = {1, first, NULL, NULL, &diagonal};
+    const iccp_symmetric none = {0, first, NULL, NULL, NULL},
+                         one = {1, first, NULL, NULL, &diagonal};
     for (int iterative = 0; iterative < 2; ++iterative) {
         const double b[1] = {2};
         solve(&none, iterative, b, 1, x);
@@ -530,7 +534,8 @@ START_TEST(scaled_solves_agree_with_plain_ones)
     if (!iccp_ordering_available())
         return;
     for (size_t k = 0; k < 30; ++k) {
-        equations s = k < 3 ? grid_system(30) : random_system(2 + (size_t)random_below(&r, 300), 4, &r);
+        equations s =
+            k < 3 ? grid_system(30) : random_system(2 + (size_t)random_below(&r, 300), 4, &r);
         iccp_ldlt factor = factorised(&s.m);
         double *b = random_sides(s.m.n, &r), *x = malloc(2 * s.m.n * sizeof *x);
         for (size_t i = 0; i < s.m.n; ++i)
@@ -554,15 +559,16 @@ START_TEST(scaled_solves_agree_with_plain_ones)
 }
 END_TEST
 
-/* -f(k - 1) + 4 f(k) - f(k + 1) = [k = 0], f(n) = 0: f(k) = g^(k + 1) (1 - g^2(n - k)) / (1 - g^2(n + 1))
- * with g = 2 - sqrt 3, down to 2^-38000.. */
+/* -f(k - 1) + 4 f(k) - f(k + 1) = [k = 0], f(n) = 0: f(k) = g^(k + 1) (1 - g^2(n - k)) / (1 - g^2(n
+ * + 1)) with g = 2 - sqrt 3, down to 2^-38000.. */
 START_TEST(long_chains_do_not_underflow)
 {
     enum { N = 20000 };
     if (!iccp_ordering_available())
         return;
     edge *edges = malloc(N * sizeof *edges);
-    double *extra = calloc(N, sizeof *extra), *b = calloc(N, sizeof *b), *x = malloc(2 * N * sizeof *x);
+    double *extra = calloc(N, sizeof *extra), *b = calloc(N, sizeof *b),
+           *x = malloc(2 * N * sizeof *x);
     for (uint32_t k = 0; k < N; ++k) {
         edges[k] = (edge){k, k + 1, 1};
         extra[k] = k == 0 || k == N - 1 ? 3 : 2;

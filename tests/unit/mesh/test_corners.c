@@ -1,4 +1,5 @@
-/* Cutting and turning edges: after any number of changes the two arrays are a mesh of the same disc. */
+/* Cutting and turning edges: after any number of changes the two arrays are a mesh of the same
+ * disc. */
 #include "mesh/corners.h"
 
 #include "../../random.h"
@@ -100,7 +101,8 @@ static bool is_joined(const iccp_corners *c, uint32_t a, uint32_t b)
 }
 
 /* Other triangles than the two beside the edge keep their vertices. */
-static void check_rest(const iccp_corners *c, const uint32_t *before, size_t n, uint32_t t, uint32_t u)
+static void check_rest(const iccp_corners *c, const uint32_t *before, size_t n, uint32_t t,
+                       uint32_t u)
 {
     size_t n_changed = 0;
     for (size_t k = 0; k < 3 * n; ++k)
@@ -137,8 +139,7 @@ START_TEST(random_changes_keep_every_invariant)
                 ck_assert(!is_joined(&c, a, b) && is_joined(&c, x, y));
                 ++n_turns;
             }
-            check_rest(&c, before, n_before, k / 3,
-                       twin == ICCP_NO_NEIGHBOUR ? k / 3 : twin / 3);
+            check_rest(&c, before, n_before, k / 3, twin == ICCP_NO_NEIGHBOUR ? k / 3 : twin / 3);
             check_disc(&c, n_vertices);
         }
         ck_assert_uint_gt(n_turns, 20);

@@ -30,8 +30,9 @@ static graded corners_of(const shape *s, double cells)
         const double *o = g.samples + 2 * ((k + s->n - 1) % s->n);
         g.length[k] = fmax(hypot(q[0] - p[0], q[1] - p[1]), hypot(o[0] - p[0], o[1] - p[1]));
     }
-    g.step = fmax(g.domain->upper[0] - g.domain->lower[0], g.domain->upper[1] - g.domain->lower[1]) /
-             cells;
+    g.step =
+        fmax(g.domain->upper[0] - g.domain->lower[0], g.domain->upper[1] - g.domain->lower[1]) /
+        cells;
     return g;
 }
 
@@ -80,8 +81,8 @@ typedef struct leaf {
     int level;
 } leaf;
 
-/* The leaf that holds a point: from the cells of the step's width, centred over the bounding box, down
- * until a cell is no wider than the samples allow at its centre. */
+/* The leaf that holds a point: from the cells of the step's width, centred over the bounding box,
+ * down until a cell is no wider than the samples allow at its centre. */
 static leaf leaf_at(const graded *g, const double *p)
 {
     leaf l = {.width = g->step};
@@ -203,7 +204,8 @@ START_TEST(hard_shapes_are_graded)
         graded g = graded_of(&s, 20);
         size_t n_outside = 0;
         for (size_t i = 0; i < g.n; ++i)
-            n_outside += iccp_domain_locate(g.domain, g.points + 2 * i, true, NULL, NULL) != ICC_INSIDE;
+            n_outside +=
+                iccp_domain_locate(g.domain, g.points + 2 * i, true, NULL, NULL) != ICC_INSIDE;
         ck_assert_uint_eq(n_outside, 0);
         ck_assert_uint_le(g.n, 60000);
         graded_clear(&g);

@@ -1,6 +1,6 @@
 /* Domain meshes, and finding points in them. */
-#include "foliation/certificate.h"
 #include "domain/locate.h"
+#include "foliation/certificate.h"
 #include "math/predicates.h"
 #include "mesh/finder.h"
 
@@ -37,8 +37,8 @@ static void meshed_clear(meshed *m)
     free(m->pieces);
 }
 
-/* Edges between boundary vertices that the mesher had to leave: their middle, rounded, is not inside
- * the two triangles. */
+/* Edges between boundary vertices that the mesher had to leave: their middle, rounded, is not
+ * inside the two triangles. */
 static size_t count_chords(const iccp_planar *mesh)
 {
     size_t n = 0;
@@ -68,10 +68,12 @@ static void check_rim(const meshed *m)
         const uint32_t f = mesh->facet[k], next = (k + 1) % (uint32_t)mesh->n_boundary;
         const double *a = d->vertices + 2 * (size_t)d->facets[2 * f];
         const double *b = d->vertices + 2 * (size_t)d->facets[2 * f + 1];
-        const double start = iccp_planar_along(mesh, d, k, 0), end = iccp_planar_along(mesh, d, k, 1);
+        const double start = iccp_planar_along(mesh, d, k, 0),
+                     end = iccp_planar_along(mesh, d, k, 1);
         ck_assert_double_eq_tol((end - start) * d->orientation, 1.0 / mesh->pieces[f], 1e-15);
         for (size_t i = 0; i < 2; ++i) {
-            const double p = mesh->points[2 * (size_t)k + i], q = mesh->points[2 * (size_t)next + i];
+            const double p = mesh->points[2 * (size_t)k + i],
+                         q = mesh->points[2 * (size_t)next + i];
             ck_assert_double_eq_tol(p, a[i] + start * (b[i] - a[i]), 4e-16);
             ck_assert_double_eq_tol(q, a[i] + end * (b[i] - a[i]), 4e-16);
         }
@@ -88,7 +90,8 @@ static void check_shares(const meshed *m, random_source *r)
             const uint32_t edge = iccp_planar_edge(&m->mesh, m->domain, f, along, &lambda);
             ck_assert(edge < m->mesh.n_boundary && m->mesh.facet[edge] == f);
             ck_assert(lambda >= 0 && lambda <= 1);
-            ck_assert_double_eq_tol(iccp_planar_along(&m->mesh, m->domain, edge, lambda), along, 1e-15);
+            ck_assert_double_eq_tol(iccp_planar_along(&m->mesh, m->domain, edge, lambda), along,
+                                    1e-15);
         }
 }
 
@@ -106,7 +109,8 @@ static void check_finder(const meshed *m, random_source *r)
         double p[2] = {0, 0}, bary[3], q[2] = {0, 0};
         for (size_t k = 0; k < 3; ++k)
             for (size_t j = 0; j < 2; ++j)
-                p[j] += w[k] / (w[0] + w[1] + w[2]) * mesh->points[2 * mesh->triangles[3 * t + k] + j];
+                p[j] +=
+                    w[k] / (w[0] + w[1] + w[2]) * mesh->points[2 * mesh->triangles[3 * t + k] + j];
         uint32_t found;
         const bool is_found = iccp_finder_find(&finder, p, &found, bary);
         if (iccp_domain_locate(m->domain, p, true, NULL, NULL) == ICC_INSIDE)
@@ -115,8 +119,9 @@ static void check_finder(const meshed *m, random_source *r)
             continue;
         for (size_t k = 0; k < 3; ++k) {
             const uint32_t *v = mesh->triangles + 3 * (size_t)found;
-            ck_assert(bary[k] >= 0 && iccp_orient2d(mesh->points + 2 * (size_t)v[(k + 1) % 3],
-                                                    mesh->points + 2 * (size_t)v[(k + 2) % 3], p) >= 0);
+            ck_assert(bary[k] >= 0 &&
+                      iccp_orient2d(mesh->points + 2 * (size_t)v[(k + 1) % 3],
+                                    mesh->points + 2 * (size_t)v[(k + 2) % 3], p) >= 0);
             for (size_t j = 0; j < 2; ++j)
                 q[j] += bary[k] * mesh->points[2 * (size_t)v[k] + j];
         }

@@ -79,7 +79,8 @@ static double area(size_t n, const uint32_t *vertices, const double *points)
 {
     double sum = 0.0;
     for (size_t i = 0; i < n; ++i) {
-        const double *a = point_at(points, vertices[i]), *b = point_at(points, vertices[(i + 1) % n]);
+        const double *a = point_at(points, vertices[i]),
+                     *b = point_at(points, vertices[(i + 1) % n]);
         sum += a[0] * b[1] - b[0] * a[1];
     }
     return sum;
@@ -108,16 +109,15 @@ static void check_shape(shape *s, const char *name)
     ck_assert_ptr_nonnull(triangles);
     for (int turn = 0; turn < 2; ++turn) {
         icc_error err = {.size = sizeof err};
-        const icc_status status =
-            iccp_triangulate_mesh(s->n_boundary, s->n_points, s->points, triangles, triangles + n,
-                                  plain(), &err);
+        const icc_status status = iccp_triangulate_mesh(s->n_boundary, s->n_points, s->points,
+                                                        triangles, triangles + n, plain(), &err);
         ck_assert_msg(status == ICC_OK, "%s: %s", name, err.message);
         const char *defect = find_triangulation_defect(s->n_boundary, s->n_points, s->points,
                                                        triangles, triangles + n);
         ck_assert_msg(defect == NULL, "%s: %s", name, defect);
         check_area(s, triangles);
-        ck_assert_int_eq(iccp_triangulate(s->n_boundary, s->n_points, s->points,
-                                          triangles + 2 * n, plain(), &err),
+        ck_assert_int_eq(iccp_triangulate(s->n_boundary, s->n_points, s->points, triangles + 2 * n,
+                                          plain(), &err),
                          ICC_OK);
         ck_assert_mem_eq(triangles, triangles + 2 * n, n * sizeof *triangles);
         reverse_polygon(s);
@@ -136,7 +136,8 @@ static void check_filled(shape *s, const char *name, random_source *r, size_t n_
     }
     check_shape(s, name);
     for (size_t i = 0; i < n_offers; ++i)
-        offer(s, low[0] + random_unit(r) * (high[0] - low[0]), low[1] + random_unit(r) * (high[1] - low[1]));
+        offer(s, low[0] + random_unit(r) * (high[0] - low[0]),
+              low[1] + random_unit(r) * (high[1] - low[1]));
     check_shape(s, name);
 }
 
@@ -166,7 +167,8 @@ START_TEST(stars)
         const size_t n = 5 + pick(&r, 60);
         const double least = i % 3 == 0 ? 0.01 : 0.6;
         for (size_t k = 0; k < n; ++k) {
-            const double angle = 6.283185307179586 * ((double)k + 0.9 * random_unit(&r)) / (double)n;
+            const double angle =
+                6.283185307179586 * ((double)k + 0.9 * random_unit(&r)) / (double)n;
             const double radius = least + (1.0 - least) * random_unit(&r);
             add(s, 5.0 + radius * cos(angle), radius * sin(angle));
         }
@@ -282,8 +284,8 @@ START_TEST(points_close_to_the_polygon)
 }
 END_TEST
 
-/* The polygon through random points in random order, untangled: long edges that cross many others of
- * the Delaunay triangulation. */
+/* The polygon through random points in random order, untangled: long edges that cross many others
+ * of the Delaunay triangulation. */
 static void add_tangle(shape *s, random_source *r, size_t n, size_t grid)
 {
     while (s->n_points < n) {
@@ -331,8 +333,8 @@ START_TEST(tangles)
 END_TEST
 
 /* A polygon with an edge from vertex 0 to 1 that crosses more than 2 n triangles of the Delaunay
- * triangulation: on either side of it runs a row of n vertices at a small distance, jagged or along an
- * arc that bends towards the edge or away from it. Below the edge the polygon is a box. */
+ * triangulation: on either side of it runs a row of n vertices at a small distance, jagged or along
+ * an arc that bends towards the edge or away from it. Below the edge the polygon is a box. */
 static void add_long_edge(shape *s, random_source *r, int kind, size_t n)
 {
     const double width = (double)n + 1.0;
@@ -341,8 +343,8 @@ static void add_long_edge(shape *s, random_source *r, int kind, size_t n)
     for (int side = 0; side < 2; ++side) {
         for (size_t i = n; i > 0; --i) {
             const double x = (double)i + 0.25 * side, at = x / width;
-            const double arc = kind == 1 ? 1.0 + width * at * (1.0 - at)
-                                         : 0.01 + (at - 0.5) * (at - 0.5);
+            const double arc =
+                kind == 1 ? 1.0 + width * at * (1.0 - at) : 0.01 + (at - 0.5) * (at - 0.5);
             const double y = kind == 0 ? 0.01 + random_unit(r) : arc;
             add(s, x, side == 0 ? y : -y);
         }
@@ -430,7 +432,9 @@ static int find_faults(const shape *s, bool at_fault[])
         at_fault[i] = false;
         for (size_t j = 0; j < i; ++j)
             if (memcmp(p, point_at(s->points, j), 2 * sizeof *p) == 0) {
-                faults |= i < s->n_boundary ? REPEATED_VERTEX : j < s->n_boundary ? 0 : REPEATED_POINT;
+                faults |= i < s->n_boundary   ? REPEATED_VERTEX
+                          : j < s->n_boundary ? 0
+                                              : REPEATED_POINT;
                 at_fault[i] = true;
             }
         if (i >= s->n_boundary && place_in_polygon(s->n_boundary, s->points, p) <= 0) {
@@ -457,7 +461,8 @@ static bool is_explained(icc_status status, int faults)
     }
 }
 
-/* Random data on a tiny grid, most of it bad: refused exactly when it is, for a reason that holds. */
+/* Random data on a tiny grid, most of it bad: refused exactly when it is, for a reason that
+ * holds. */
 START_TEST(accepts_exactly_what_is_good)
 {
     random_source r = {9};
@@ -480,8 +485,8 @@ START_TEST(accepts_exactly_what_is_good)
             continue;
         uint32_t triangles[60], neighbours[60];
         icc_error err = {.size = sizeof err};
-        const icc_status status = iccp_triangulate_mesh(
-            s.n_boundary, s.n_points, s.points, triangles, neighbours, plain(), &err);
+        const icc_status status = iccp_triangulate_mesh(s.n_boundary, s.n_points, s.points,
+                                                        triangles, neighbours, plain(), &err);
         const int faults = find_faults(&s, at_fault);
         ck_assert_msg(is_explained(status, faults), "status %d, faults %d", status, faults);
         ++n_status[status];
@@ -510,7 +515,7 @@ static shape *demanding(void)
 }
 
 typedef struct budget {
-    int left;         /* allocations, or progress reports, until one fails */
+    int left; /* allocations, or progress reports, until one fails */
     int n_live;
 } budget;
 

@@ -1,7 +1,7 @@
 /* Centres of meshes, against looking at all vertices. */
 #include "base/error.h"
-#include "shelling/centres.h"
 #include "domain/simplex.h"
+#include "shelling/centres.h"
 
 #include "../../fluxes.h"
 

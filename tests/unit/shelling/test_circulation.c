@@ -1,5 +1,5 @@
-/* Rings and positive fluxes. Orders are made here, by electric networks with wires of random strength: no simplex
- * is higher or lower than all around it, which is all that fluxes ask for. */
+/* Rings and positive fluxes. Orders are made here, by electric networks with wires of random
+ * strength: no simplex is higher or lower than all around it, which is all that fluxes ask for. */
 #include "base/error.h"
 #include "shelling/circulation.h"
 
@@ -24,8 +24,8 @@ static int compare_heights(const void *a, const void *b)
     return x->simplex < y->simplex ? -1 : 1;
 }
 
-/* Ranks by the potential of a network, 0 in the star and 1 beyond the boundary; `wire` of each side is the same from
- * both. */
+/* Ranks by the potential of a network, 0 in the star and 1 beyond the boundary; `wire` of each side
+ * is the same from both. */
 static void rank_by_network(const flux_case *c, const double *wire, uint32_t *rank)
 {
     const iccp_simplices *mesh = c->mesh;
@@ -71,7 +71,8 @@ static void random_wires(const iccp_simplices *mesh, double spread, random_sourc
     }
 }
 
-/* Of the simplices next to one outside the star, one has smaller rank and one greater, or lies beyond the boundary. */
+/* Of the simplices next to one outside the star, one has smaller rank and one greater, or lies
+ * beyond the boundary. */
 static bool is_sound(const flux_case *c, const uint32_t *rank)
 {
     const size_t n_corners = c->mesh->dim + 1;
@@ -172,7 +173,8 @@ static int compare_faces(const void *a, const void *b)
     return memcmp(a, b, sizeof(face));
 }
 
-/* The faces of a simplex without two of its corners; those on the facet of one of the two only, with `on` < dim + 1. */
+/* The faces of a simplex without two of its corners; those on the facet of one of the two only,
+ * with `on` < dim + 1. */
 static size_t list_faces(const iccp_simplices *mesh, size_t simplex, size_t on, face *faces)
 {
     const size_t n_corners = mesh->dim + 1;
@@ -226,7 +228,8 @@ static size_t count_rings(const flux_case *c)
     return n_all - n_rim - n_central;
 }
 
-/* Every inner face has its ring, and a ring takes nothing from any simplex nor gives it anything. */
+/* Every inner face has its ring, and a ring takes nothing from any simplex nor gives it
+ * anything. */
 START_TEST(rings_are_cycles)
 {
     size_t n_rings = 0;
@@ -331,8 +334,9 @@ START_TEST(energy_never_rises)
 }
 END_TEST
 
-/* Along an order that the reference never runs against, the fit is the reference, but for where that is less than the
- * least flux, and what follows from it: 18 times as much in a corridor, 9 elsewhere. */
+/* Along an order that the reference never runs against, the fit is the reference, but for where
+ * that is less than the least flux, and what follows from it: 18 times as much in a corridor, 9
+ * elsewhere. */
 START_TEST(reference_is_found_again)
 {
     int n_found = 0;

@@ -1,6 +1,6 @@
-/* Orders of simplices: every complete one is checked against the definition, on cubes, boxes with wells and
- * houses with two rooms, coarse and finer, in 2 to 6 dimensions. The checker knows the faces of a simplex as lists of
- * vertices, and nothing of how orders are found. */
+/* Orders of simplices: every complete one is checked against the definition, on cubes, boxes with
+ * wells and houses with two rooms, coarse and finer, in 2 to 6 dimensions. The checker knows the
+ * faces of a simplex as lists of vertices, and nothing of how orders are found. */
 #include "base/error.h"
 #include "domain/domain.h"
 #include "shelling/contest.h"
@@ -42,8 +42,8 @@ static int has_no_well(int32_t dim, const size_t *cell)
     return !in_well;
 }
 
-/* Bing's house with two rooms: the room above is entered from below through a shaft in the room below, and
- * the other way round; each shaft hangs on a wall. 11 x 11 x 5 cells. */
+/* Bing's house with two rooms: the room above is entered from below through a shaft in the room
+ * below, and the other way round; each shaft hangs on a wall. 11 x 11 x 5 cells. */
 static int in_house(const size_t *cell, size_t fine)
 {
     const int x = (int)(cell[0] / fine), y = (int)(cell[1] / fine), z = (int)(cell[2] / fine);
@@ -65,7 +65,8 @@ static int in_house_2(int32_t dim, const size_t *cell)
     return dim == 3 && in_house(cell, 2);
 }
 
-/* Cuts all simplices at an edge in two at its middle, where a new vertex is. There is room for them. */
+/* Cuts all simplices at an edge in two at its middle, where a new vertex is. There is room for
+ * them. */
 static void split_edge(test_mesh *m, uint32_t a, uint32_t b)
 {
     const size_t dim = (size_t)m->dim, n_corners = dim + 1, n_before = m->n_simplices;
@@ -179,8 +180,8 @@ static catalogue list_faces(const iccp_simplices *m)
     return c;
 }
 
-/* Whether what simplex s has in common with the union are facets and their faces, one facet at least, but not
- * all. Adds it, if `always` or if so, and to the Euler characteristic. */
+/* Whether what simplex s has in common with the union are facets and their faces, one facet at
+ * least, but not all. Adds it, if `always` or if so, and to the Euler characteristic. */
 static bool add_simplex(const iccp_simplices *m, const catalogue *c, size_t s, uint8_t *in_union,
                         bool always, int64_t *euler)
 {
@@ -200,8 +201,9 @@ static bool add_simplex(const iccp_simplices *m, const catalogue *c, size_t s, u
     return fits;
 }
 
-/* In 3-D, whether the facets with one simplex in the union form a sphere: each edge has two of them and the
- * Euler characteristic is 2. (Vertices where the sphere touches itself have been seen by the above.) */
+/* In 3-D, whether the facets with one simplex in the union form a sphere: each edge has two of them
+ * and the Euler characteristic is 2. (Vertices where the sphere touches itself have been seen by
+ * the above.) */
 static void check_sphere(const iccp_simplices *m, const catalogue *c, const uint32_t *rank,
                          uint32_t limit)
 {
@@ -549,8 +551,8 @@ START_TEST(one_of_two_is_complete_for_any_maximum)
 }
 END_TEST
 
-/* Turns the order's facets and checks what becomes of it: a shelling as before, and what is turned was amiss.
- * Returns how many facets that were are left so. */
+/* Turns the order's facets and checks what becomes of it: a shelling as before, and what is turned
+ * was amiss. Returns how many facets that were are left so. */
 static size_t turn_order(problem *p, uint32_t centre, size_t *n_turned)
 {
     const iccp_order_wish wish = {p->mesh, &p->faces, centre, p->flux, p->potential, 8, NULL};
@@ -566,7 +568,8 @@ static size_t turn_order(problem *p, uint32_t centre, size_t *n_turned)
             continue;
         const size_t here = iccp_simplex_of(m, (uint32_t)side);
         const size_t there = iccp_simplex_of(m, m->across[side]);
-        const bool left_by = before[here] > before[there], is_left_by = p->rank[here] > p->rank[there];
+        const bool left_by = before[here] > before[there],
+                   is_left_by = p->rank[here] > p->rank[there];
         must(!left_by || is_left_by || p->flux[side] < 0);
         n_changed += left_by && !is_left_by;
         n_left += is_left_by && p->flux[side] < 0;
@@ -599,7 +602,8 @@ START_TEST(turned_orders_are_shellings)
 }
 END_TEST
 
-/* The contest gives what it says, and nothing that a single order with its greedy flux has is better. */
+/* The contest gives what it says, and nothing that a single order with its greedy flux has is
+ * better. */
 static void check_contest(problem *p, uint32_t centre, const iccp_contest_info *info,
                           const double *flux)
 {

@@ -1,5 +1,5 @@
-/* What flows in and the reference flux. The flux is without sources and, of all fluxes of constant vectors that are,
- * the one with the least energy: two properties that have it all. */
+/* What flows in and the reference flux. The flux is without sources and, of all fluxes of constant
+ * vectors that are, the one with the least energy: two properties that have it all. */
 #include "base/error.h"
 #include "math/orient.h"
 #include "shelling/element.h"
@@ -40,7 +40,8 @@ static fluxes solve(const flux_case *c, double harmonic)
     return f;
 }
 
-/* Gradients are dual to the edges; areas are theirs, and the same from both sides, as are the wires. */
+/* Gradients are dual to the edges; areas are theirs, and the same from both sides, as are the
+ * wires. */
 START_TEST(geometry_of_simplices)
 {
     for (int k = 0; k < FLUX_CASES; ++k) {
@@ -125,8 +126,8 @@ START_TEST(uniform_inflow_goes_by_area)
 }
 END_TEST
 
-/* Harmonic inflow at the ends of a corridor is small, and to many digits: it falls by the same factor on every stretch
- * of the way. */
+/* Harmonic inflow at the ends of a corridor is small, and to many digits: it falls by the same
+ * factor on every stretch of the way. */
 START_TEST(harmonic_inflow_falls_along_a_corridor)
 {
     test_mesh m = mesh_cells(2, 300, flux_in_corridor);
@@ -193,8 +194,8 @@ static double volume_of(const iccp_simplices *mesh, size_t simplex)
     return volume;
 }
 
-/* The vector with given fluxes, which add up to 0, through the sides: the mean of the lowest-order field of
- * P.-A. Raviart and J.-M. Thomas. */
+/* The vector with given fluxes, which add up to 0, through the sides: the mean of the lowest-order
+ * field of P.-A. Raviart and J.-M. Thomas. */
 static void vector_of(const iccp_simplices *mesh, size_t simplex, const double *flux, double *u)
 {
     const double volume = volume_of(mesh, simplex);
@@ -208,7 +209,8 @@ static void vector_of(const iccp_simplices *mesh, size_t simplex, const double *
     }
 }
 
-/* What one more unit round a ring would do to the energy, and the sum of the moduli of its terms. */
+/* What one more unit round a ring would do to the energy, and the sum of the moduli of its
+ * terms. */
 static double slope(const flux_case *c, const iccp_rings *rings, size_t ring, const double *flux,
                     double *size)
 {
@@ -226,8 +228,8 @@ static double slope(const flux_case *c, const iccp_rings *rings, size_t ring, co
             if (flux_in_star(c, t))
                 continue;
             vector_of(mesh, t, flux + n_corners * t, u);
-            /* The ring leaves the simplex as it enters it, so that it does not matter from where this is
-             * measured. */
+            /* The ring leaves the simplex as it enters it, so that it does not matter from where
+             * this is measured. */
             double product = 0;
             for (size_t d = 0; d < mesh->dim; ++d)
                 product += u[d] * (iccp_corner_point(mesh, n_corners * t)[d] -
@@ -262,8 +264,8 @@ START_TEST(flux_has_least_energy)
 }
 END_TEST
 
-/* In a round disc with a fine mesh, from the boundary straight to the centre: the potential is log(r), and half of
- * the way has log(2) / (2 pi) of it. */
+/* In a round disc with a fine mesh, from the boundary straight to the centre: the potential is
+ * log(r), and half of the way has log(2) / (2 pi) of it. */
 START_TEST(potential_of_a_disc)
 {
     enum { N = 96 };
@@ -302,7 +304,8 @@ START_TEST(potential_of_a_disc)
 }
 END_TEST
 
-/* Moves the first corner inside the cube of a simplex from the k-th on almost to the opposite facet. */
+/* Moves the first corner inside the cube of a simplex from the k-th on almost to the opposite
+ * facet. */
 static void flatten(test_mesh *m, size_t k, size_t n, double height)
 {
     const size_t dim = (size_t)m->dim;

@@ -1,9 +1,9 @@
-/* The certificate of foliations of simplices holds for orders that the library finds, and for nothing that is
- * corrupted. */
+/* The certificate of foliations of simplices holds for orders that the library finds, and for
+ * nothing that is corrupted. */
 #include "shelling/centres.h"
-#include "shelling/shelling_certificate.h"
 #include "shelling/contest.h"
 #include "shelling/reference.h"
+#include "shelling/shelling_certificate.h"
 
 #include "../../faulty.h"
 #include "../../meshes.h"
@@ -37,8 +37,7 @@ static void direct(foliation *f)
 {
     for (size_t side = 0; side < f->n_sides; ++side) {
         const uint32_t twin = f->mesh.across[side];
-        const bool enters =
-            (twin & ICCP_RIM) != 0 || f->rank[twin / f->n] > f->rank[side / f->n];
+        const bool enters = (twin & ICCP_RIM) != 0 || f->rank[twin / f->n] > f->rank[side / f->n];
         f->direction[side] = enters ? 0.5 : -0.25;
     }
 }
@@ -47,14 +46,16 @@ static void find_order(foliation *f)
 {
     const iccp_simplices *mesh = &f->mesh;
     double *inflow = malloc(mesh->n_facets * sizeof *inflow);
-    double *flux = malloc(f->n_sides * sizeof *flux), *reference = malloc(f->n_sides * sizeof *flux);
+    double *flux = malloc(f->n_sides * sizeof *flux),
+           *reference = malloc(f->n_sides * sizeof *flux);
     double *potential = malloc(mesh->n_simplices * sizeof *potential);
     iccp_contest_info info;
     ck_assert_int_eq(iccp_deepest_centre(f->domain, mesh, &f->centre, &f->env), ICC_OK);
     ck_assert_int_eq(iccp_inflow(mesh, f->centre, 0.5, inflow, &f->env), ICC_OK);
-    ck_assert_int_eq(iccp_reference_flux(mesh, f->centre, inflow, reference, potential, &f->env), ICC_OK);
-    ck_assert_int_eq(iccp_contest(mesh, f->centre, inflow, reference, potential, f->rank, flux, &info,
-                                  &f->env, NULL),
+    ck_assert_int_eq(iccp_reference_flux(mesh, f->centre, inflow, reference, potential, &f->env),
+                     ICC_OK);
+    ck_assert_int_eq(iccp_contest(mesh, f->centre, inflow, reference, potential, f->rank, flux,
+                                  &info, &f->env, NULL),
                      ICC_OK);
     free(inflow);
     free(flux);
@@ -98,9 +99,9 @@ static void foliation_free(foliation *f)
 static iccp_shelling_certificate look(const foliation *f)
 {
     iccp_shelling_certificate c;
-    ck_assert_int_eq(iccp_certify_shelling(&c, &f->mesh, f->facets, f->centre, f->rank, f->direction,
-                                           &f->env),
-                     ICC_OK);
+    ck_assert_int_eq(
+        iccp_certify_shelling(&c, &f->mesh, f->facets, f->centre, f->rank, f->direction, &f->env),
+        ICC_OK);
     return c;
 }
 
@@ -151,7 +152,8 @@ START_TEST(holds_for_what_is_found)
 }
 END_TEST
 
-/* A vertex is drawn through one of its simplices, two corners are exchanged, a corner is another one. */
+/* A vertex is drawn through one of its simplices, two corners are exchanged, a corner is another
+ * one. */
 START_TEST(mesh)
 {
     random_source r = {1};
@@ -190,7 +192,8 @@ START_TEST(mesh)
 }
 END_TEST
 
-/* A side's other side is a third one, or none, or a facet that it is not; a facet is not the mesh's. */
+/* A side's other side is a third one, or none, or a facet that it is not; a facet is not the
+ * mesh's. */
 START_TEST(neighbours)
 {
     random_source r = {2};
@@ -284,8 +287,8 @@ START_TEST(holes)
 }
 END_TEST
 
-/* Neighbours exchange their ranks, with and without directions that fit; ties; the order backwards; ranks in the
- * star. */
+/* Neighbours exchange their ranks, with and without directions that fit; ties; the order backwards;
+ * ranks in the star. */
 START_TEST(order)
 {
     for (int k = 0; k < N_SHAPES; ++k) {
@@ -384,8 +387,8 @@ static icc_status call_certify(const icc_env *caller, icc_error *err, void *argu
     iccp_env env;
     iccp_shelling_certificate c;
     ck_assert_int_eq(iccp_env_read(&env, caller, err), ICC_OK);
-    const icc_status status = iccp_certify_shelling(&c, &f->mesh, f->facets, f->centre, f->rank,
-                                                    f->direction, &env);
+    const icc_status status =
+        iccp_certify_shelling(&c, &f->mesh, f->facets, f->centre, f->rank, f->direction, &env);
     /* The text is the caller's business. */
     if (status != ICC_OK) {
         err->status = status;

@@ -1,7 +1,7 @@
 /* Bi-Laplace functions against dense references. */
 #include "base/error.h"
-#include "solver/bilaplace.h"
 #include "function/critical_points.h"
+#include "solver/bilaplace.h"
 #include "solver/energy.h"
 #include "solver/interior.h"
 #include "solver/polish.h"
@@ -191,8 +191,9 @@ START_TEST(small_minima_are_those_of_a_dense_solver)
         problem p = random_problem(&r, 1 + round % 4);
         for (int k = 0; k < 2; ++k) {
             icc_function_info info = {.size = sizeof info};
-            ck_assert_int_eq(iccp_bilaplace(&p.rows, FUNCTIONS[k], ICC_SOLVER_DIRECT, &p.f, &info, &env),
-                             ICC_OK);
+            ck_assert_int_eq(
+                iccp_bilaplace(&p.rows, FUNCTIONS[k], ICC_SOLVER_DIRECT, &p.f, &info, &env),
+                ICC_OK);
             long double *f = dense_minimum(&p, FUNCTIONS[k] == ICC_FUNCTION_CLAMPED);
             ck_assert_double_eq(value(&p, 0), 1);
             ck_assert_double_le(info.residual, 1e-12);
@@ -218,12 +219,13 @@ START_TEST(both_solvers_agree)
         problem p = problem_of(mask_number(s).shape, dim, dim == 3 ? 20 : 60);
         icc_function_info info = {.size = sizeof info};
         ck_assert_int_eq(
-            iccp_bilaplace(&p.rows, ICC_FUNCTION_BILAPLACE, ICC_SOLVER_DIRECT, &p.f, &info, &env), ICC_OK);
+            iccp_bilaplace(&p.rows, ICC_FUNCTION_BILAPLACE, ICC_SOLVER_DIRECT, &p.f, &info, &env),
+            ICC_OK);
         double *direct = malloc(p.n * sizeof *direct);
         for (size_t k = 0; k < p.n; ++k)
             direct[k] = value(&p, k);
-        const icc_status status =
-            iccp_bilaplace(&p.rows, ICC_FUNCTION_BILAPLACE, ICC_SOLVER_ITERATIVE, &p.f, &info, &env);
+        const icc_status status = iccp_bilaplace(&p.rows, ICC_FUNCTION_BILAPLACE,
+                                                 ICC_SOLVER_ITERATIVE, &p.f, &info, &env);
         ck_assert(status == ICC_OK || status == ICC_ERR_SOLVER);
         ck_assert_uint_gt(info.n_inner, 0);
         for (size_t k = 0; k < p.n && status == ICC_OK; ++k)
@@ -241,8 +243,9 @@ START_TEST(nothing_underflows)
     const iccp_env env = plain_env();
     problem p = problem_of(mask_serpentine, 2, 500);
     icc_function_info info = {.size = sizeof info};
-    ck_assert_int_eq(iccp_bilaplace(&p.rows, ICC_FUNCTION_BILAPLACE, ICC_SOLVER_DIRECT, &p.f, &info, &env),
-                     ICC_OK);
+    ck_assert_int_eq(
+        iccp_bilaplace(&p.rows, ICC_FUNCTION_BILAPLACE, ICC_SOLVER_DIRECT, &p.f, &info, &env),
+        ICC_OK);
     int32_t least = 0;
     for (size_t k = 0; k < p.n; ++k) {
         ck_assert(p.f.fraction[k] >= 0.5 && p.f.fraction[k] < 1);
@@ -255,7 +258,8 @@ END_TEST
 
 /* ------------------------------------------------- the tree's inequalities */
 
-/* The program in the values but for the root's, dense: 1/2 x'Hx + c'x + e is to be least under G x >= b. */
+/* The program in the values but for the root's, dense: 1/2 x'Hx + c'x + e is to be least under G x
+ * >= b. */
 typedef struct dense_program {
     size_t n, m;
     long double *h, *inverse, *c, *g, *b, e;
@@ -343,7 +347,8 @@ static long double dense_energy_at(const dense_program *d, const long double *x)
 }
 
 /* A lower bound of the energy of every function that fulfils the inequalities: the dual function at
- * multipliers found by C. Hildreth, A quadratic programming procedure, 1957: one at a time, over and over. */
+ * multipliers found by C. Hildreth, A quadratic programming procedure, 1957: one at a time, over
+ * and over. */
 static long double lower_bound(const dense_program *d)
 {
     const size_t n = d->n, m = d->m;
@@ -363,7 +368,8 @@ static long double lower_bound(const dense_program *d)
                 x[j] += (next - y[i]) * v[i * n + j];
             y[i] = next;
         }
-    /* x minimises the Lagrange function of y, whose value is the energy less what the slacks add. */
+    /* x minimises the Lagrange function of y, whose value is the energy less what the slacks
+     * add. */
     bound = dense_energy_at(d, x);
     for (size_t i = 0; i < m; ++i)
         bound -= y[i] * (product(n, d->g + i * n, x) - d->b[i]);
@@ -394,8 +400,8 @@ static double *values(const problem *p)
     return f;
 }
 
-/* Feasible, and of an energy that no feasible function can have less of, up to what the bound lacks: it is
- * slow in telling apart the leaves of a cluster, whose slacks differ by eta * leaf. */
+/* Feasible, and of an energy that no feasible function can have less of, up to what the bound
+ * lacks: it is slow in telling apart the leaves of a cluster, whose slacks differ by eta * leaf. */
 static void check_optimal(const problem *p, const double *f, bool clamped, double eta, double leaf)
 {
     dense_program d = dense_program_of(p, clamped, eta, leaf);
@@ -421,7 +427,8 @@ START_TEST(small_constrained_minima_have_the_least_energy)
         for (int k = 0; k < 2 && p.n > 1 && p.n < 40; ++k) {
             icc_function_info info = {.size = sizeof info};
             ck_assert_int_eq(
-                iccp_bilaplace_constrained(&p.rows, FUNCTIONS[k], eta, leaf, &p.f, &info, &env), ICC_OK);
+                iccp_bilaplace_constrained(&p.rows, FUNCTIONS[k], eta, leaf, &p.f, &info, &env),
+                ICC_OK);
             ck_assert_double_le(info.residual_before, 1e-11);
             ck_assert_double_le(info.residual, 1e-9);
             ck_assert_uint_gt(info.n_iterations, 0);
@@ -475,7 +482,8 @@ START_TEST(both_ways_lead_to_the_same_function)
             icc_function_info info = {.size = sizeof info};
             double residual, *f = malloc(p.n * sizeof *f);
             ck_assert_int_eq(
-                iccp_bilaplace_constrained(&p.rows, FUNCTIONS[k], 1e-6, 1e-9, &p.f, &info, &env), ICC_OK);
+                iccp_bilaplace_constrained(&p.rows, FUNCTIONS[k], 1e-6, 1e-9, &p.f, &info, &env),
+                ICC_OK);
             ck_assert_int_eq(solve_from_inside(&p, FUNCTIONS[k], f, &residual, &env), ICC_OK);
             ck_assert_double_le(info.residual_before, 1e-11);
             ck_assert_double_le(residual, 1e-8);
@@ -530,7 +538,8 @@ START_TEST(bounds_without_room_are_refused)
     problem p = problem_on(1, sides, inside, 0);
     icc_function_info info = {.size = sizeof info};
     ck_assert_int_eq(
-        iccp_bilaplace_constrained(&p.rows, FUNCTIONS[0], 0.01, 1e-9, &p.f, &info, &env), ICC_ERR_SOLVER);
+        iccp_bilaplace_constrained(&p.rows, FUNCTIONS[0], 0.01, 1e-9, &p.f, &info, &env),
+        ICC_ERR_SOLVER);
     ck_assert(strstr(line, "at the root") != NULL);
     problem_clear(&p);
 }
@@ -549,13 +558,14 @@ static icc_status solve_anew(const icc_env *outer, icc_error *err, void *argumen
     ck_assert_int_eq(iccp_env_read(&env, outer, err), ICC_OK);
     icc_function_info info = {.size = sizeof info};
     return iccp_explain(
-        err, c->way == 0
-                 ? iccp_bilaplace(&c->p.rows, c->function, ICC_SOLVER_DIRECT, &c->p.f, &info, &env)
-             : c->way == 3
-                 ? iccp_bilaplace(&c->p.rows, c->function, ICC_SOLVER_ITERATIVE, &c->p.f, &info, &env)
-             : c->way == 1
-                 ? iccp_bilaplace_constrained(&c->p.rows, c->function, 1e-6, 1e-9, &c->p.f, &info, &env)
-                 : solve_from_inside(&c->p, c->function, c->p.f.fraction, &info.residual, &env));
+        err,
+        c->way == 0
+            ? iccp_bilaplace(&c->p.rows, c->function, ICC_SOLVER_DIRECT, &c->p.f, &info, &env)
+        : c->way == 3
+            ? iccp_bilaplace(&c->p.rows, c->function, ICC_SOLVER_ITERATIVE, &c->p.f, &info, &env)
+        : c->way == 1
+            ? iccp_bilaplace_constrained(&c->p.rows, c->function, 1e-6, 1e-9, &c->p.f, &info, &env)
+            : solve_from_inside(&c->p, c->function, c->p.f.fraction, &info.residual, &env));
 }
 
 START_TEST(failures_leave_nothing_behind)

@@ -1,9 +1,9 @@
 /* The glued problem by factorisation, the tree's inequalities, and Laplace's function under them.
  * Long double reaches down to 1e-4951, so that it can serve as a reference in long limbs, too. */
 #include "base/error.h"
+#include "grid/grassfire.h"
 #include "solver/constrained.h"
 #include "solver/inequalities.h"
-#include "grid/grassfire.h"
 
 #include "../../faulty.h"
 #include "../../hard_masks.h"

@@ -1,5 +1,5 @@
-/* The V-cycle as a preconditioner, and the iterative solver of the glued problem against dense elimination
- * and the direct one. */
+/* The V-cycle as a preconditioner, and the iterative solver of the glued problem against dense
+ * elimination and the direct one. */
 #include "base/error.h"
 #include "solver/glued.h"
 #include "solver/mg_cg.h"
@@ -248,8 +248,7 @@ static void check_form(const problem *p)
 {
     for (uint32_t k = 0; k < p->rows.n; ++k) {
         ck_assert(p->f.fraction[k] >= 0.5 && p->f.fraction[k] < 1);
-        const double wanted =
-            p->share[k] * iccp_scaled_get(&p->f, p->top[k], p->f.exponent[k]);
+        const double wanted = p->share[k] * iccp_scaled_get(&p->f, p->top[k], p->f.exponent[k]);
         ck_assert_double_eq_tol(wanted, p->f.fraction[k], 1e-14);
     }
     ck_assert_double_eq_tol(iccp_scaled_get(&p->f, 0, 0), 1, 1e-14);
@@ -315,8 +314,7 @@ static void check_cycle(const problem *p, random_source *r)
 {
     const iccp_env env = default_env();
     iccp_multigrid mg;
-    ck_assert_int_eq(
-        iccp_multigrid_create(&mg, p->grid, p->rows.n, p->rows.vertex, &env), ICC_OK);
+    ck_assert_int_eq(iccp_multigrid_create(&mg, p->grid, p->rows.n, p->rows.vertex, &env), ICC_OK);
     const size_t n = mg.level[0].n_entries;
     ck_assert_uint_eq(mg.level[0].n_inside, p->rows.n);
     double *b = malloc(4 * n * sizeof *b), *c = b + n, *x = c + n, *y = x + n;
@@ -363,8 +361,7 @@ static size_t count_iterations(const problem *p)
     const iccp_env env = default_env();
     const iccp_mg_goal goal = {1e-10, 1e300, 1};
     iccp_multigrid mg;
-    ck_assert_int_eq(
-        iccp_multigrid_create(&mg, p->grid, p->rows.n, p->rows.vertex, &env), ICC_OK);
+    ck_assert_int_eq(iccp_multigrid_create(&mg, p->grid, p->rows.n, p->rows.vertex, &env), ICC_OK);
     const iccp_mg_level *level = &mg.level[0];
     double *x = calloc(level->n_entries, sizeof *x), *r = calloc(level->n_entries, sizeof *r);
     uint32_t at;
@@ -390,8 +387,8 @@ START_TEST(iterations_do_not_grow)
             for (int i = 0; i < 2; ++i) {
                 problem p = drawn(kind.shape, dim, cells[dim][i]);
                 const size_t n = count_iterations(&p);
-                ck_assert_msg(n <= 16, "%s %d-D %zu: %zu iterations", kind.name, dim,
-                              cells[dim][i], n);
+                ck_assert_msg(n <= 16, "%s %d-D %zu: %zu iterations", kind.name, dim, cells[dim][i],
+                              n);
                 problem_clear(&p);
             }
         }
@@ -468,8 +465,8 @@ START_TEST(every_mask_is_solved)
 }
 END_TEST
 
-/* A corridor 111 times as long as wide: values down to 1e-69 in the middle of the root's two ways, or
- * 1e-133 from one end. */
+/* A corridor 111 times as long as wide: values down to 1e-69 in the middle of the root's two ways,
+ * or 1e-133 from one end. */
 START_TEST(decay_is_followed)
 {
     mask m = mask_draw(mask_serpentine, 2, 200);

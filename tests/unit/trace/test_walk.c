@@ -248,8 +248,8 @@ static bool has_higher_neighbour(world *w, size_t i, size_t j)
     return false;
 }
 
-/* Values that fall as vertices are reached in random order from the root: one maximum. The outermost
- * vertices are lowest, so that no line leaves. With `levels`, many values are equal. */
+/* Values that fall as vertices are reached in random order from the root: one maximum. The
+ * outermost vertices are lowest, so that no line leaves. With `levels`, many values are equal. */
 static void set_one_maximum(world *w, random_source *r, bool levels)
 {
     const size_t n = w->grid.shape[0];
@@ -669,7 +669,8 @@ START_TEST(ascending_from_the_end_of_a_descent_comes_back)
             ck_assert_int_eq(iccp_trace_uphill(&up, &path, NULL), ICC_OK);
             double nearest = HUGE_VAL;
             for (size_t m = 0; m + 1 < path.n; ++m)
-                nearest = fmin(nearest, to_segment(p, iccp_path_at(&path, m), iccp_path_at(&path, m + 1)));
+                nearest = fmin(nearest,
+                               to_segment(p, iccp_path_at(&path, m), iccp_path_at(&path, m + 1)));
             ck_assert_double_le(nearest, 1e-9);
             iccp_walk2 rest;
             ck_assert_int_eq(iccp_walk2_start(&rest, &f.w.field, ICCP_UPHILL, p[0], p[1], NULL),

@@ -1,4 +1,5 @@
-/* Walks in any dimension, against what can be said without walking, and against walks in the plane. */
+/* Walks in any dimension, against what can be said without walking, and against walks in the
+ * plane. */
 #include "grid/rasterise.h"
 #include "trace/walk2.h"
 #include "trace/walkn.h"
@@ -306,12 +307,13 @@ START_TEST(walks_rise_the_steepest_way)
             }
         }
     }
-    ck_assert(n_slides > share_of(5000) && n_crossings > share_of(5000) && n_peaks > share_of(2000));
+    ck_assert(n_slides > share_of(5000) && n_crossings > share_of(5000) &&
+              n_peaks > share_of(2000));
 }
 END_TEST
 
-/* Growing from the root: each vertex is lower than one that shares a simplex with it. With `levels`, or as low.
- * The border is lowest. */
+/* Growing from the root: each vertex is lower than one that shares a simplex with it. With
+ * `levels`, or as low. The border is lowest. */
 static void set_one_maximum(world *w, random_source *r, bool levels)
 {
     const size_t n = w->grid.n_vertices;
@@ -372,7 +374,8 @@ START_TEST(every_ascent_ends_at_the_only_maximum)
             ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, ICCP_UPHILL, p, NULL, NULL), ICC_OK);
             const size_t budget = walk.steps_left;
             const icc_status status = iccp_walkn_uphill(&walk, NULL, NULL);
-            /* Of several vertices as high as their neighbours, one may be a maximum by its index. */
+            /* Of several vertices as high as their neighbours, one may be a maximum by its
+             * index. */
             ck_assert(levels || status == ICC_OK);
             ck_assert_uint_lt(budget - walk.steps_left, 20 * W.grid.n_vertices);
         }
@@ -411,8 +414,8 @@ START_TEST(level_functions_end)
 }
 END_TEST
 
-/* f = slope x_last - the sum of |x_k - 2| over the others. Lines get to the planes x_k = 2 one by one, and go
- * on in them. */
+/* f = slope x_last - the sum of |x_k - 2| over the others. Lines get to the planes x_k = 2 one by
+ * one, and go on in them. */
 START_TEST(lines_merge_in_lower_and_lower_faces)
 {
     random_source r = {6};

@@ -79,8 +79,8 @@ static cells open_box(size_t well, size_t depth)
     return c;
 }
 
-/* Bing's house: the room above is entered from below through a shaft in the room below, and the other
- * way round; each shaft hangs on a wall. */
+/* Bing's house: the room above is entered from below through a shaft in the room below, and the
+ * other way round; each shaft hangs on a wall. */
 static cells house(void)
 {
     cells c = {.dim = 3, .shape = {11, 11, 5}};
@@ -177,8 +177,8 @@ static void check_ranks(const icc_tree *tree, const uint32_t *rank)
     ck_assert_uint_eq(found.critical, UINT32_MAX);
 }
 
-/* What was placed is regular by itself. Its vertices need not be joined along the axes: a tree on them
- * may reach fewer, but is asked for those that it reaches only. */
+/* What was placed is regular by itself. Its vertices need not be joined along the axes: a tree on
+ * them may reach fewer, but is asked for those that it reaches only. */
 static void check_placed(const icc_tree *tree, const uint32_t *rank, size_t n_unplaced)
 {
     static uint8_t keep[MAX_VERTICES];
@@ -268,8 +268,8 @@ START_TEST(the_queue_gives_out_the_smallest)
 }
 END_TEST
 
-/* A well of one cell by one, two deep, each cell cut in two. The generations alone leave half of the roots
- * with a critical vertex besides; how many depends on how ties are broken. */
+/* A well of one cell by one, two deep, each cell cut in two. The generations alone leave half of
+ * the roots with a critical vertex besides; how many depends on how ties are broken. */
 START_TEST(every_root_in_an_open_box)
 {
     const cells box = open_box(1, 2);
@@ -530,8 +530,8 @@ START_TEST(shapes_that_are_no_balls)
 }
 END_TEST
 
-/* A ring one vertex thick on a cube: it is opened where growth meets itself, and what is lost is counted;
- * if nothing may be lost there is no tree. */
+/* A ring one vertex thick on a cube: it is opened where growth meets itself, and what is lost is
+ * counted; if nothing may be lost there is no tree. */
 START_TEST(rings_are_opened)
 {
     enum { SIDE = 13 };

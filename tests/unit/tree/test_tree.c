@@ -267,8 +267,8 @@ static void check_order(const icc_tree *tree)
     ck_assert_uint_eq(n_wrong, 0);
 }
 
-/* A cell with a corner inside and reached has all corners reached, but for those inside that no tree
- * can reach. */
+/* A cell with a corner inside and reached has all corners reached, but for those inside that no
+ * tree can reach. */
 static void check_cells(const icc_tree *tree)
 {
     const icc_grid *grid = tree->grid;
@@ -401,7 +401,8 @@ START_TEST(the_verifier_counts_what_the_definition_says)
 }
 END_TEST
 
-/* Three cubes in an L, the smallest solid against Theorem 2: found in one order of the axes only. */
+/* Three cubes in an L, the smallest solid against Theorem 2: found in one order of the axes
+ * only. */
 START_TEST(the_l_of_three_cubes)
 {
     static const int cubes[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}};
