@@ -50,10 +50,10 @@ static inline bytes map_bytes(const icc_map *map)
 /* With length and checksum put right. */
 static inline void repair_bytes(bytes *b, const char *kind)
 {
-    iccp_blob_writer w;
+    iccp_blob w;
     size_t n;
     iccp_blob_begin(&w, b->data, b->n, kind, 1);
-    w.n = b->n;
+    w.at = b->n;
     iccp_blob_end(&w, &n);
 }
 

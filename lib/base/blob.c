@@ -44,65 +44,56 @@ static uint64_t get(const unsigned char *at, int n_bytes)
     return value;
 }
 
-/* ----------------------------------------------------------------- writing */
+bool iccp_blob_has(const iccp_blob *b, size_t n, size_t size)
+{
+    return !b->reads || n <= (b->size - b->at) / size;
+}
 
-static void write_number(iccp_blob_writer *w, uint64_t value, int n_bytes)
+/* The number that is written or, reading, the one that is there. */
+static uint64_t visit_number(iccp_blob *b, uint64_t value, int n_bytes)
 {
     const size_t size = (size_t)n_bytes;
-    if (w->n <= w->capacity && size <= w->capacity - w->n)
-        put(w->data + w->n, value, n_bytes);
-    w->n += size;
-}
-
-void iccp_blob_begin(iccp_blob_writer *w, void *data, size_t capacity, const char *kind,
-                     uint32_t version)
-{
-    *w = (iccp_blob_writer){.data = data, .capacity = capacity};
-    for (int i = 0; i < 4; ++i)
-        write_number(w, (unsigned char)MAGIC[i], 1);
-    for (int i = 0; i < 4; ++i)
-        write_number(w, (unsigned char)kind[i], 1);
-    write_number(w, version, 4);
-    write_number(w, 0, 4);
-    write_number(w, 0, 8);
-}
-
-void iccp_blob_u32(iccp_blob_writer *w, size_t n, const uint32_t *values)
-{
-    for (size_t i = 0; i < n; ++i)
-        write_number(w, values[i], 4);
-}
-
-void iccp_blob_u64(iccp_blob_writer *w, uint64_t value)
-{
-    write_number(w, value, 8);
-}
-
-void iccp_blob_f64(iccp_blob_writer *w, size_t n, const double *values)
-{
-    for (size_t i = 0; i < n; ++i) {
-        uint64_t bits;
-        memcpy(&bits, &values[i], sizeof bits);
-        write_number(w, bits, 8);
+    if (b->reads) {
+        iccp_blob_require(b, iccp_blob_has(b, 1, size));
+        if (b->status != ICC_OK)
+            return 0;
+        value = get(b->from + b->at, n_bytes);
+    } else if (b->at <= b->size && size <= b->size - b->at) {
+        put(b->to + b->at, value, n_bytes);
     }
+    b->at += size;
+    return value;
 }
 
-void iccp_blob_end(iccp_blob_writer *w, size_t *n_bytes)
+/* ---- the header ---- */
+
+void iccp_blob_begin(iccp_blob *b, void *data, size_t capacity, const char *kind, uint32_t version)
 {
-    *n_bytes = w->n;
-    if (w->n > w->capacity)
-        return;
-    put(w->data + LENGTH_AT, w->n, 8);
-    put(w->data + CHECKSUM_AT, checksum(w->data, w->n), 4);
+    *b = (iccp_blob){.to = data, .size = capacity};
+    for (int i = 0; i < 4; ++i)
+        (void)visit_number(b, (unsigned char)MAGIC[i], 1);
+    for (int i = 0; i < 4; ++i)
+        (void)visit_number(b, (unsigned char)kind[i], 1);
+    (void)visit_number(b, version, 4);
+    (void)visit_number(b, 0, 4);
+    (void)visit_number(b, 0, 8);
 }
 
-/* ----------------------------------------------------------------- reading */
+void iccp_blob_end(iccp_blob *b, size_t *n_bytes)
+{
+    *n_bytes = b->at;
+    if (b->at > b->size)
+        return;
+    put(b->to + LENGTH_AT, b->at, 8);
+    put(b->to + CHECKSUM_AT, checksum(b->to, b->at), 4);
+}
 
-icc_status iccp_blob_open(iccp_blob_reader *r, const void *data, size_t n_bytes, const char *kind,
-                          uint32_t version, icc_error *err)
+icc_status iccp_blob_open(iccp_blob *b, const void *data, size_t n_bytes, const char *kind,
+                          uint32_t version, const iccp_memory *memory, icc_error *err)
 {
     const unsigned char *bytes = data;
-    *r = (iccp_blob_reader){.data = bytes, .n = n_bytes, .at = HEADER};
+    *b =
+        (iccp_blob){.reads = true, .from = bytes, .size = n_bytes, .at = HEADER, .memory = *memory};
     if (n_bytes < HEADER || memcmp(bytes, MAGIC, sizeof MAGIC) != 0)
         return iccp_fail(err, ICC_ERR_FORMAT, "these bytes are none of libicc's");
     if (memcmp(bytes + KIND_AT, kind, 4) != 0)
@@ -122,49 +113,112 @@ icc_status iccp_blob_open(iccp_blob_reader *r, const void *data, size_t n_bytes,
     return ICC_OK;
 }
 
-static uint64_t read_number(iccp_blob_reader *r, int n_bytes)
+bool iccp_blob_done(const iccp_blob *b)
 {
-    const size_t size = (size_t)n_bytes;
-    if (r->failed || r->n - r->at < size) {
-        r->failed = true;
-        return 0;
-    }
-    r->at += size;
-    return get(r->data + r->at - size, n_bytes);
+    return b->status == ICC_OK && b->at == b->size;
 }
 
-void iccp_blob_read_u32(iccp_blob_reader *r, size_t n, uint32_t *values)
-{
-    for (size_t i = 0; i < n; ++i)
-        values[i] = (uint32_t)read_number(r, 4);
-}
+/* ---- numbers ---- */
 
-uint64_t iccp_blob_read_u64(iccp_blob_reader *r)
-{
-    return read_number(r, 8);
-}
-
-void iccp_blob_read_f64(iccp_blob_reader *r, size_t n, double *values)
+void iccp_blob_u32(iccp_blob *b, size_t n, uint32_t *values)
 {
     for (size_t i = 0; i < n; ++i) {
-        const uint64_t bits = read_number(r, 8);
-        memcpy(&values[i], &bits, sizeof bits);
+        const uint32_t value = (uint32_t)visit_number(b, b->reads ? 0 : values[i], ICCP_U32);
+        if (b->reads)
+            values[i] = value;
     }
 }
 
-size_t iccp_blob_read_count(iccp_blob_reader *r, size_t size)
+void iccp_blob_u64(iccp_blob *b, size_t n, uint64_t *values)
 {
-    const uint64_t count = read_number(r, 8);
-    if (r->failed || count > (r->n - r->at) / size) {
-        r->failed = true;
-        return 0;
+    for (size_t i = 0; i < n; ++i) {
+        const uint64_t value = visit_number(b, b->reads ? 0 : values[i], ICCP_U64);
+        if (b->reads)
+            values[i] = value;
     }
-    return (size_t)count;
 }
 
-bool iccp_blob_done(const iccp_blob_reader *r)
+void iccp_blob_f64(iccp_blob *b, size_t n, double *values)
 {
-    return !r->failed && r->at == r->n;
+    for (size_t i = 0; i < n; ++i) {
+        uint64_t bits = 0;
+        if (!b->reads)
+            memcpy(&bits, &values[i], sizeof bits);
+        bits = visit_number(b, bits, ICCP_F64);
+        if (b->reads)
+            memcpy(&values[i], &bits, sizeof bits);
+    }
+}
+
+void iccp_blob_i32(iccp_blob *b, int n_bytes, int32_t least, int32_t most, int32_t *value)
+{
+    const uint64_t number = visit_number(b, b->reads ? 0 : (uint64_t)*value, n_bytes);
+    if (!b->reads)
+        return;
+    iccp_blob_require(b,
+                      number <= INT32_MAX && (int32_t)number >= least && (int32_t)number <= most);
+    *value = b->status == ICC_OK ? (int32_t)number : 0;
+}
+
+void iccp_blob_size(iccp_blob *b, size_t *n)
+{
+    const uint64_t number = visit_number(b, b->reads ? 0 : *n, ICCP_U64);
+    if (!b->reads)
+        return;
+    iccp_blob_require(b, number <= SIZE_MAX);
+    *n = b->status == ICC_OK ? (size_t)number : 0;
+}
+
+void iccp_blob_count(iccp_blob *b, size_t size, size_t *n)
+{
+    iccp_blob_size(b, n);
+    if (b->status != ICC_OK || iccp_blob_has(b, *n, size))
+        return;
+    iccp_blob_require(b, false);
+    *n = 0;
+}
+
+/* ---- arrays ---- */
+
+void *iccp_blob_alloc(iccp_blob *b, size_t n, size_t size)
+{
+    if (!b->reads || b->status != ICC_OK)
+        return NULL;
+    void *items = iccp_alloc(&b->memory, n, size);
+    if (items == NULL)
+        b->status = ICC_ERR_MEMORY;
+    return items;
+}
+
+/* Room for an array whose items are left to be read, else NULL. */
+static void *alloc_array(iccp_blob *b, size_t n, size_t size)
+{
+    iccp_blob_require(b, iccp_blob_has(b, n, size));
+    return iccp_blob_alloc(b, n, size);
+}
+
+void iccp_blob_array_u32(iccp_blob *b, size_t n, uint32_t **values)
+{
+    if (b->reads)
+        *values = alloc_array(b, n, sizeof **values);
+    if (b->status == ICC_OK)
+        iccp_blob_u32(b, n, *values);
+}
+
+void iccp_blob_array_f64(iccp_blob *b, size_t n, double **values)
+{
+    if (b->reads)
+        *values = alloc_array(b, n, sizeof **values);
+    if (b->status == ICC_OK)
+        iccp_blob_f64(b, n, *values);
+}
+
+/* ---- failures ---- */
+
+void iccp_blob_require(iccp_blob *b, bool holds)
+{
+    if (b->reads && b->status == ICC_OK && !holds)
+        b->status = ICC_ERR_FORMAT;
 }
 
 icc_status iccp_blob_blame(icc_error *err, icc_status status, const char *what)

@@ -65,7 +65,7 @@ typedef struct iccp_chart_ops {
     icc_status (*measure)(const icc_chart *chart, size_t n_points, icc_chart_report *measures,
                           const iccp_env *env);
     /* What the method's loader wants, without the domain (chart/load.h). */
-    void (*save)(const icc_chart *chart, iccp_blob_writer *w);
+    void (*save)(const icc_chart *chart, iccp_blob *w);
     void (*free_state)(icc_chart *chart);
 } iccp_chart_ops;
 

@@ -268,7 +268,7 @@ static void free_state(icc_chart *chart)
     iccp_free(&chart->memory, state);
 }
 
-static void save(const icc_chart *chart, iccp_blob_writer *w)
+static void save(const icc_chart *chart, iccp_blob *w)
 {
     const disc_state *state = chart->state;
     iccp_harmonic_write(chart->info.cells, &state->mesh, chart->domain, w);
@@ -372,7 +372,7 @@ static bool are_in_disc(size_t n, const double *numbers)
     return true;
 }
 
-icc_status iccp_chart_disc_read(icc_chart **out, const icc_domain *domain, iccp_blob_reader *r,
+icc_status iccp_chart_disc_read(icc_chart **out, const icc_domain *domain, iccp_blob *r,
                                 const iccp_env *env)
 {
     iccp_harmonic base;
@@ -384,8 +384,8 @@ icc_status iccp_chart_disc_read(icc_chart **out, const icc_domain *domain, iccp_
     double *image = iccp_alloc(&env->memory, n, sizeof *image);
     status = ICC_ERR_MEMORY;
     if (image != NULL) {
-        iccp_blob_read_f64(r, n, image);
-        status = !r->failed && are_in_disc(n, image)
+        iccp_blob_f64(r, n, image);
+        status = r->status == ICC_OK && are_in_disc(n, image)
                      ? iccp_chart_disc_create(out, domain, &base, &image, env, NULL)
                      : ICC_ERR_FORMAT;
     }

@@ -12,7 +12,7 @@ icc_status iccp_chart_disc_create(icc_chart **out, const icc_domain *domain, icc
                                   double **image, const iccp_env *env, icc_error *err);
 
 /* What the chart has saved, certified anew: ICC_ERR_FORMAT or ICC_ERR_CERTIFICATE if that fails. */
-icc_status iccp_chart_disc_read(icc_chart **out, const icc_domain *domain, iccp_blob_reader *r,
+icc_status iccp_chart_disc_read(icc_chart **out, const icc_domain *domain, iccp_blob *r,
                                 const iccp_env *env);
 
 #endif

@@ -214,7 +214,7 @@ static uint64_t digest_of(const icc_chart *chart)
     return iccp_digest_f32(digest, dim * sides->n_vectors, sides->vector);
 }
 
-static void save(const icc_chart *chart, iccp_blob_writer *w)
+static void save(const icc_chart *chart, iccp_blob *w)
 {
     const iccp_field_state *state = chart->state;
     iccp_recipe_write(&state->recipe, chart->domain->dim, digest_of(chart), w);
@@ -297,7 +297,7 @@ icc_status iccp_chart_field_shift(icc_chart **out, const icc_chart *chart, const
     return status == ICC_ERR_MEMORY || status == ICC_ERR_CANCELLED ? status : ICC_OK;
 }
 
-icc_status iccp_chart_field_read(icc_chart **out, const icc_domain *domain, iccp_blob_reader *r,
+icc_status iccp_chart_field_read(icc_chart **out, const icc_domain *domain, iccp_blob *r,
                                  const iccp_env *env, icc_error *err)
 {
     iccp_recipe recipe;

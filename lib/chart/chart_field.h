@@ -25,7 +25,7 @@ const icc_function *iccp_chart_field_function(const icc_chart *chart);
 
 /* Makes again what the chart has saved: ICC_ERR_FORMAT for what no chart saves, ICC_ERR_VERSION,
  * with its reason, if it comes out otherwise. */
-icc_status iccp_chart_field_read(icc_chart **out, const icc_domain *domain, iccp_blob_reader *r,
+icc_status iccp_chart_field_read(icc_chart **out, const icc_domain *domain, iccp_blob *r,
                                  const iccp_env *env, icc_error *err);
 
 #endif

@@ -358,11 +358,12 @@ static void free_state(icc_chart *chart)
     iccp_free(&chart->memory, state);
 }
 
-static void save(const icc_chart *chart, iccp_blob_writer *w)
+static void save(const icc_chart *chart, iccp_blob *w)
 {
     const foliation_state *state = chart->state;
+    double share = chart->info.harmonic_share;
     iccp_harmonic_write(chart->info.cells, &state->mesh, chart->domain, w);
-    iccp_blob_f64(w, 1, &chart->info.harmonic_share);
+    iccp_blob_f64(w, 1, &share);
     iccp_psi_write(&state->psi, &state->mesh, w);
 }
 
@@ -457,7 +458,7 @@ icc_status iccp_chart_foliation_create(icc_chart **out, const icc_domain *domain
 
 /* ---- reading it ---- */
 
-static icc_status read_psi(icc_chart *chart, const iccp_planar *mesh, iccp_blob_reader *r,
+static icc_status read_psi(icc_chart *chart, const iccp_planar *mesh, iccp_blob *r,
                            const iccp_env *env)
 {
     foliation_state *state = chart->state;
@@ -472,7 +473,7 @@ static icc_status read_psi(icc_chart *chart, const iccp_planar *mesh, iccp_blob_
     return chart->info.certified ? ICC_OK : ICC_ERR_FORMAT;
 }
 
-icc_status iccp_chart_foliation_read(icc_chart **out, const icc_domain *domain, iccp_blob_reader *r,
+icc_status iccp_chart_foliation_read(icc_chart **out, const icc_domain *domain, iccp_blob *r,
                                      const iccp_env *env)
 {
     iccp_harmonic base;
@@ -481,7 +482,7 @@ icc_status iccp_chart_foliation_read(icc_chart **out, const icc_domain *domain, 
     icc_status status = iccp_harmonic_read(&base, domain, r, env);
     if (status != ICC_OK)
         return status;
-    iccp_blob_read_f64(r, 1, &share);
+    iccp_blob_f64(r, 1, &share);
     status = share >= 0 && share < 1 ? begin(out, domain, &base, env) : ICC_ERR_FORMAT;
     if (status == ICC_OK) {
         (*out)->info.harmonic_share = share;

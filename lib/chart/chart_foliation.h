@@ -13,7 +13,7 @@ icc_status iccp_chart_foliation_create(icc_chart **out, const icc_domain *domain
 
 /* What the chart has saved, certified anew: ICC_ERR_FORMAT if that fails. The domain has no mesh of
  * its own. */
-icc_status iccp_chart_foliation_read(icc_chart **out, const icc_domain *domain, iccp_blob_reader *r,
+icc_status iccp_chart_foliation_read(icc_chart **out, const icc_domain *domain, iccp_blob *r,
                                      const iccp_env *env);
 
 #endif

@@ -324,7 +324,7 @@ static void free_state(icc_chart *chart)
     iccp_free(&chart->memory, state);
 }
 
-static void save(const icc_chart *chart, iccp_blob_writer *w)
+static void save(const icc_chart *chart, iccp_blob *w)
 {
     const iccp_gradient_state *state = chart->state;
     iccp_recipe_write(&state->recipe, chart->domain->dim, iccp_digest_field(state->field), w);
@@ -371,7 +371,7 @@ icc_status iccp_chart_gradient_create(icc_chart **out, const icc_domain *domain,
     return status;
 }
 
-icc_status iccp_chart_gradient_read(icc_chart **out, const icc_domain *domain, iccp_blob_reader *r,
+icc_status iccp_chart_gradient_read(icc_chart **out, const icc_domain *domain, iccp_blob *r,
                                     const iccp_env *env, icc_error *err)
 {
     iccp_recipe recipe;

@@ -14,17 +14,19 @@ static const uint32_t VERSION = 1;
 /* The format's own number for ICC_METHOD_FOLIATION on the domain's mesh. */
 enum { ON_MESH = 5 };
 
-void iccp_chart_write(const icc_chart *chart, iccp_blob_writer *w)
+void iccp_chart_write(const icc_chart *chart, iccp_blob *w)
 {
     const bool on_mesh = chart->info.method == ICC_METHOD_FOLIATION && chart->mesh == NULL;
-    iccp_blob_u64(w, on_mesh ? ON_MESH : (uint64_t)chart->info.method);
+    uint64_t method = on_mesh ? ON_MESH : (uint64_t)chart->info.method;
+    iccp_blob_u64(w, 1, &method);
     chart->ops->save(chart, w);
 }
 
-icc_status iccp_chart_read(icc_chart **out, const icc_domain *domain, iccp_blob_reader *r,
+icc_status iccp_chart_read(icc_chart **out, const icc_domain *domain, iccp_blob *r,
                            const iccp_env *env, icc_error *err)
 {
-    const uint64_t method = iccp_blob_read_u64(r);
+    uint64_t method;
+    iccp_blob_u64(r, 1, &method);
     *out = NULL;
     if (method == ICC_METHOD_GRADIENT)
         return iccp_chart_gradient_read(out, domain, r, env, err);
@@ -41,9 +43,10 @@ icc_status iccp_chart_read(icc_chart **out, const icc_domain *domain, iccp_blob_
 
 void iccp_chart_save(const icc_chart *chart, size_t capacity, void *data, size_t *n_bytes)
 {
-    iccp_blob_writer w;
+    icc_domain *domain = chart->domain;
+    iccp_blob w;
     iccp_blob_begin(&w, data, capacity, KIND, VERSION);
-    iccp_domain_write(chart->domain, &w);
+    (void)iccp_domain_visit(&w, &domain, NULL);
     iccp_chart_write(chart, &w);
     iccp_blob_end(&w, n_bytes);
 }
@@ -51,10 +54,10 @@ void iccp_chart_save(const icc_chart *chart, size_t capacity, void *data, size_t
 icc_status iccp_chart_load(icc_chart **out, size_t n_bytes, const void *data, const iccp_env *env,
                            icc_error *err)
 {
-    iccp_blob_reader r;
+    iccp_blob r;
     icc_domain *domain = NULL;
     *out = NULL;
-    icc_status status = iccp_blob_open(&r, data, n_bytes, KIND, VERSION, err);
+    icc_status status = iccp_blob_open(&r, data, n_bytes, KIND, VERSION, &env->memory, err);
     if (status != ICC_OK)
         return status;
     iccp_budget budget;
@@ -62,7 +65,7 @@ icc_status iccp_chart_load(icc_chart **out, size_t n_bytes, const void *data, co
     const iccp_env whole = iccp_part(&limited, "load", 0, 1);
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){1, 6}, &whole);
-    status = iccp_domain_read(&domain, &r, &part[0]);
+    status = iccp_domain_visit(&r, &domain, &part[0]);
     if (status == ICC_OK)
         status = iccp_chart_read(out, domain, &r, &part[1], err);
     iccp_domain_release(domain);

@@ -5,11 +5,11 @@
 #include "chart/chart.h"
 
 /* A chart as part of other bytes, without its domain. */
-void iccp_chart_write(const icc_chart *chart, iccp_blob_writer *w);
+void iccp_chart_write(const icc_chart *chart, iccp_blob *w);
 
 /* ICC_ERR_VERSION, with its reason, for a chart that comes out otherwise here; without words for
  * others. */
-icc_status iccp_chart_read(icc_chart **out, const icc_domain *domain, iccp_blob_reader *r,
+icc_status iccp_chart_read(icc_chart **out, const icc_domain *domain, iccp_blob *r,
                            const iccp_env *env, icc_error *err);
 
 /* See icc_chart_save() and icc_chart_load(). */

@@ -14,59 +14,46 @@ void iccp_recipe_keep(iccp_recipe *recipe, const icc_chart_options *options, con
         recipe->maximum[k] = maximum[k];
 }
 
-void iccp_recipe_write(const iccp_recipe *recipe, int32_t dim, uint64_t digest, iccp_blob_writer *w)
-{
-    const icc_chart_options *o = &recipe->options;
-    const uint32_t choices[6] = {(uint32_t)o->function, (uint32_t)o->tree,
-                                 (uint32_t)o->cells,    (uint32_t)o->constraints,
-                                 (uint32_t)o->solver,   recipe->has_maximum};
-    const double shares[2] = {o->min_fall, o->leaf_min};
-    iccp_blob_u32(w, 6, choices);
-    iccp_blob_f64(w, 2, shares);
-    iccp_blob_f64(w, (size_t)dim, recipe->maximum);
-    iccp_blob_u64(w, digest);
-}
-
-static bool is_choice(uint32_t value, int32_t first, int32_t last)
-{
-    return value >= (uint32_t)first && value <= (uint32_t)last;
-}
-
 static bool is_zero(double value)
 {
     return !(fabs(value) > 0) && !signbit(value);
 }
 
-icc_status iccp_recipe_read(iccp_recipe *recipe, int32_t dim, uint64_t *digest, iccp_blob_reader *r)
+static void visit(iccp_blob *b, iccp_recipe *recipe, int32_t dim, uint64_t *digest)
 {
-    uint32_t c[6];
-    double shares[2];
-    *recipe = (iccp_recipe){.has_maximum = false};
-    iccp_blob_read_u32(r, 6, c);
-    iccp_blob_read_f64(r, 2, shares);
-    iccp_blob_read_f64(r, (size_t)dim, recipe->maximum);
-    *digest = iccp_blob_read_u64(r);
-    bool sound = !r->failed && is_choice(c[0], ICC_FUNCTION_DECAY, ICC_FUNCTION_CLAMPED) &&
-                 is_choice(c[1], ICC_TREE_THESIS, ICC_TREE_PAPER) &&
-                 (c[2] == 0 || is_choice(c[2], ICCP_MIN_CELLS, ICCP_MAX_CELLS)) &&
-                 is_choice(c[3], 0, ICC_CONSTRAINTS_ALL) &&
-                 is_choice(c[4], 0, ICC_SOLVER_ITERATIVE) && c[5] <= 1;
-    for (int k = 0; k < 2; ++k)
-        sound = sound && shares[k] >= 0 && shares[k] <= ICCP_MAX_SHARE;
+    icc_chart_options *o = &recipe->options;
+    int32_t has_maximum = recipe->has_maximum;
+    iccp_blob_i32(b, ICCP_U32, ICC_FUNCTION_DECAY, ICC_FUNCTION_CLAMPED, &o->function);
+    iccp_blob_i32(b, ICCP_U32, ICC_TREE_THESIS, ICC_TREE_PAPER, &o->tree);
+    iccp_blob_i32(b, ICCP_U32, 0, ICCP_MAX_CELLS, &o->cells);
+    iccp_blob_i32(b, ICCP_U32, 0, ICC_CONSTRAINTS_ALL, &o->constraints);
+    iccp_blob_i32(b, ICCP_U32, 0, ICC_SOLVER_ITERATIVE, &o->solver);
+    iccp_blob_i32(b, ICCP_U32, 0, 1, &has_maximum);
+    iccp_blob_f64(b, 1, &o->min_fall);
+    iccp_blob_f64(b, 1, &o->leaf_min);
+    iccp_blob_f64(b, (size_t)dim, recipe->maximum);
+    iccp_blob_u64(b, 1, digest);
+    recipe->has_maximum = has_maximum == 1;
+}
+
+void iccp_recipe_write(const iccp_recipe *recipe, int32_t dim, uint64_t digest, iccp_blob *b)
+{
+    iccp_recipe copy = *recipe;
+    visit(b, &copy, dim, &digest);
+}
+
+icc_status iccp_recipe_read(iccp_recipe *recipe, int32_t dim, uint64_t *digest, iccp_blob *b)
+{
+    icc_chart_options *o = &recipe->options;
+    *recipe = (iccp_recipe){.options.size = sizeof *o};
+    visit(b, recipe, dim, digest);
+    bool sound = b->status == ICC_OK && (o->cells == 0 || o->cells >= ICCP_MIN_CELLS) &&
+                 o->min_fall >= 0 && o->min_fall <= ICCP_MAX_SHARE && o->leaf_min >= 0 &&
+                 o->leaf_min <= ICCP_MAX_SHARE;
     for (int32_t k = 0; k < dim; ++k)
-        sound = sound && isfinite(recipe->maximum[k]) && (c[5] == 1 || is_zero(recipe->maximum[k]));
-    if (!sound)
-        return ICC_ERR_FORMAT;
-    recipe->has_maximum = c[5] == 1;
-    recipe->options = (icc_chart_options){.size = sizeof recipe->options,
-                                          .function = (int32_t)c[0],
-                                          .tree = (int32_t)c[1],
-                                          .cells = (int32_t)c[2],
-                                          .constraints = (int32_t)c[3],
-                                          .solver = (int32_t)c[4],
-                                          .min_fall = shares[0],
-                                          .leaf_min = shares[1]};
-    return ICC_OK;
+        sound = sound && isfinite(recipe->maximum[k]) &&
+                (recipe->has_maximum || is_zero(recipe->maximum[k]));
+    return sound ? ICC_OK : ICC_ERR_FORMAT;
 }
 
 static uint64_t add(uint64_t digest, uint64_t value, int n_bytes)

@@ -17,12 +17,10 @@ typedef struct iccp_recipe {
 /* `maximum`, in coordinates that the method likes, may be NULL. */
 void iccp_recipe_keep(iccp_recipe *recipe, const icc_chart_options *options, const double *maximum,
                       int32_t dim);
-void iccp_recipe_write(const iccp_recipe *recipe, int32_t dim, uint64_t digest,
-                       iccp_blob_writer *w);
+void iccp_recipe_write(const iccp_recipe *recipe, int32_t dim, uint64_t digest, iccp_blob *w);
 
 /* ICC_ERR_FORMAT for options that icc_chart_create() would refuse as arguments. */
-icc_status iccp_recipe_read(iccp_recipe *recipe, int32_t dim, uint64_t *digest,
-                            iccp_blob_reader *r);
+icc_status iccp_recipe_read(iccp_recipe *recipe, int32_t dim, uint64_t *digest, iccp_blob *r);
 
 /* NULL without. */
 static inline const double *iccp_recipe_maximum(const iccp_recipe *recipe)

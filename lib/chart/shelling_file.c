@@ -93,22 +93,20 @@ static icc_status certify(const order *o, const icc_domain *domain, uint32_t cen
     return status != ICC_OK || iccp_shelling_certificate_holds(&found) ? status : ICC_ERR_FORMAT;
 }
 
+/* The directions, certified with an order made for them, become leaves. */
 static icc_status read_fibres(icc_chart *chart, const iccp_simplices *mesh, uint32_t centre,
-                              iccp_blob_reader *r, const iccp_env *env)
+                              iccp_blob *b, const iccp_env *env)
 {
     iccp_shelling_state *state = chart->state;
-    const size_t n = mesh->n_simplices, n_sides = (mesh->dim + 1) * n;
-    if (n_sides > (r->n - r->at) / sizeof(double))
-        return ICC_ERR_FORMAT;
-    double *direction = iccp_alloc(&env->memory, n_sides, sizeof *direction);
-    const order o = {mesh, direction, iccp_alloc(&env->memory, n, sizeof *o.rank),
-                     iccp_alloc(&env->memory, n, sizeof *o.n_ahead),
-                     iccp_alloc(&env->memory, n, sizeof *o.queue)};
-    icc_status status = ICC_ERR_MEMORY;
-    if (direction != NULL && o.rank != NULL && o.n_ahead != NULL && o.queue != NULL) {
-        iccp_blob_read_f64(r, n_sides, direction);
+    const size_t n = mesh->n_simplices;
+    double *direction;
+    iccp_blob_array_f64(b, (mesh->dim + 1) * n, &direction);
+    const order o = {mesh, direction, iccp_blob_alloc(b, n, sizeof *o.rank),
+                     iccp_blob_alloc(b, n, sizeof *o.n_ahead),
+                     iccp_blob_alloc(b, n, sizeof *o.queue)};
+    icc_status status = b->status;
+    if (status == ICC_OK)
         status = certify(&o, chart->domain, centre, env);
-    }
     if (status == ICC_OK)
         status = iccp_fibres_create(&state->fibres, mesh, centre, direction,
                                     chart->domain->band.reach, env);
@@ -120,55 +118,37 @@ static icc_status read_fibres(icc_chart *chart, const iccp_simplices *mesh, uint
     return status;
 }
 
-/* What tells how the order was found; nothing depends on it. */
-static bool read_story(icc_chart_info *info, iccp_blob_reader *r)
+static void copy_story(icc_chart_info *info, const icc_chart_info *story)
 {
-    double measures[4];
-    const uint64_t peeled = iccp_blob_read_u64(r), n_orders = iccp_blob_read_u64(r);
-    const uint64_t n_reversed = iccp_blob_read_u64(r);
-    iccp_blob_read_f64(r, 4, measures);
-    if (r->failed || peeled > 1 || n_orders > INT32_MAX || n_reversed > UINT32_MAX)
-        return false;
-    info->order_peeled = (int32_t)peeled;
-    info->n_orders = (int32_t)n_orders;
-    info->n_reversed = (size_t)n_reversed;
-    info->harmonic_share = measures[0];
-    info->order_beta = measures[1];
-    info->flux_energy = measures[2];
-    info->flux_divergence = measures[3];
-    return true;
+    info->order_peeled = story->order_peeled;
+    info->n_orders = story->n_orders;
+    info->n_reversed = story->n_reversed;
+    info->harmonic_share = story->harmonic_share;
+    info->order_beta = story->order_beta;
+    info->flux_energy = story->flux_energy;
+    info->flux_divergence = story->flux_divergence;
 }
 
-icc_status iccp_chart_shelling_read(icc_chart **out, const icc_domain *domain, iccp_blob_reader *r,
+icc_status iccp_chart_shelling_read(icc_chart **out, const icc_domain *domain, iccp_blob *b,
                                     const iccp_env *env)
 {
     icc_chart_info story = {0};
-    iccp_simplices *own = NULL;
+    iccp_simplices *own;
+    uint64_t centre;
     *out = NULL;
-    icc_status status = read_story(&story, r) ? ICC_OK : ICC_ERR_FORMAT;
-    const uint64_t has_own = iccp_blob_read_u64(r);
-    if (status == ICC_OK && has_own == 1)
-        status = iccp_filling_read(&own, domain, r, env);
+    icc_status status = iccp_shelling_visit_head(b, &story, &own, &centre, domain);
     const iccp_simplices *mesh = own != NULL ? own : domain->mesh;
-    const uint64_t centre = iccp_blob_read_u64(r);
-    if (status == ICC_OK && (has_own > 1 || centre < mesh->n_rim || centre >= mesh->n_points))
+    if (status == ICC_OK && (centre < mesh->n_rim || centre >= mesh->n_points))
         status = ICC_ERR_FORMAT;
-    if (status == ICC_OK) {
-        status = iccp_shelling_begin(out, domain, own, (uint32_t)centre, env);
-        own = NULL;
+    if (status != ICC_OK) {
+        iccp_simplices_free(own);
+        return status;
     }
+    status = iccp_shelling_begin(out, domain, own, (uint32_t)centre, env);
     if (status == ICC_OK) {
-        icc_chart_info *info = &(*out)->info;
-        info->order_peeled = story.order_peeled;
-        info->n_orders = story.n_orders;
-        info->n_reversed = story.n_reversed;
-        info->harmonic_share = story.harmonic_share;
-        info->order_beta = story.order_beta;
-        info->flux_energy = story.flux_energy;
-        info->flux_divergence = story.flux_divergence;
-        status = read_fibres(*out, mesh, (uint32_t)centre, r, env);
+        copy_story(&(*out)->info, &story);
+        status = read_fibres(*out, mesh, (uint32_t)centre, b, env);
     }
-    iccp_simplices_free(own);
     if (status != ICC_OK) {
         iccp_chart_release(*out);
         *out = NULL;

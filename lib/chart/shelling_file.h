@@ -1,4 +1,4 @@
-/* Reading charts of method foliation on the caller's mesh; see docs/formats.md. */
+/* Reading charts of method foliation on a caller-supplied mesh; see docs/formats.md. */
 #ifndef ICCP_SHELLING_FILE_H
 #define ICCP_SHELLING_FILE_H
 
@@ -6,7 +6,7 @@
 
 /* What the chart has saved, of a domain with a mesh: certified anew, ICC_ERR_FORMAT if that
  * fails. */
-icc_status iccp_chart_shelling_read(icc_chart **out, const icc_domain *domain, iccp_blob_reader *r,
+icc_status iccp_chart_shelling_read(icc_chart **out, const icc_domain *domain, iccp_blob *b,
                                     const iccp_env *env);
 
 #endif

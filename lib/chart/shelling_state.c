@@ -257,26 +257,35 @@ static void free_state(icc_chart *chart)
     iccp_free(&chart->memory, state);
 }
 
+icc_status iccp_shelling_visit_head(iccp_blob *b, icc_chart_info *story, iccp_simplices **own,
+                                    uint64_t *centre, const icc_domain *domain)
+{
+    iccp_blob_i32(b, ICCP_U64, 0, 1, &story->order_peeled);
+    iccp_blob_i32(b, ICCP_U64, 0, INT32_MAX, &story->n_orders);
+    iccp_blob_size(b, &story->n_reversed);
+    iccp_blob_require(b, story->n_reversed <= UINT32_MAX);
+    iccp_blob_f64(b, 1, &story->harmonic_share);
+    iccp_blob_f64(b, 1, &story->order_beta);
+    iccp_blob_f64(b, 1, &story->flux_energy);
+    iccp_blob_f64(b, 1, &story->flux_divergence);
+    const icc_status status = iccp_filling_visit(b, own, domain);
+    iccp_blob_u64(b, 1, centre);
+    return status == ICC_OK ? b->status : status;
+}
+
 /* The order of the simplices follows from the directions. */
-static void save(const icc_chart *chart, iccp_blob_writer *w)
+static void save(const icc_chart *chart, iccp_blob *b)
 {
     const iccp_shelling_state *state = chart->state;
-    const iccp_simplices *mesh = state->mesh != NULL ? state->mesh : chart->domain->mesh;
-    const icc_chart_info *info = &chart->info;
-    const double measures[] = {info->harmonic_share, info->order_beta, info->flux_energy,
-                               info->flux_divergence};
-    iccp_blob_u64(w, (uint64_t)info->order_peeled);
-    iccp_blob_u64(w, (uint64_t)info->n_orders);
-    iccp_blob_u64(w, info->n_reversed);
-    iccp_blob_f64(w, 4, measures);
-    iccp_blob_u64(w, state->mesh != NULL);
-    if (state->mesh != NULL)
-        iccp_filling_write(state->mesh, w);
-    iccp_blob_u64(w, state->fibres.centre);
+    iccp_simplices *own = state->mesh;
+    const iccp_simplices *mesh = own != NULL ? own : chart->domain->mesh;
+    icc_chart_info story = chart->info;
+    uint64_t centre = state->fibres.centre;
+    (void)iccp_shelling_visit_head(b, &story, &own, &centre, chart->domain);
     for (size_t s = 0; s < mesh->n_simplices; ++s) {
         double direction[ICCP_FIBRE_CORNERS];
         iccp_fibres_direction(&state->fibres, mesh, s, direction);
-        iccp_blob_f64(w, mesh->dim + 1, direction);
+        iccp_blob_f64(b, mesh->dim + 1, direction);
     }
 }
 

@@ -10,11 +10,24 @@
 
 enum { BOUNDARY = 1, MASK = 2, MESH = 3 };
 
-static size_t read_count(iccp_blob_reader *r, size_t size)
+/* Arrays that a domain is made from; those of one that is written are its own. */
+typedef struct parts {
+    size_t n_points, n_simplices, n_facets;
+    double *points;
+    uint32_t *corners, *facets;
+} parts;
+
+static void free_parts(parts *p, const iccp_memory *memory)
 {
-    const size_t count = iccp_blob_read_count(r, size);
-    r->failed = r->failed || count > ICCP_MAX_COUNT;
-    return r->failed ? 0 : count;
+    iccp_free(memory, p->points);
+    iccp_free(memory, p->corners);
+    iccp_free(memory, p->facets);
+}
+
+static void visit_count(iccp_blob *b, size_t size, size_t *n)
+{
+    iccp_blob_count(b, size, n);
+    iccp_blob_require(b, *n <= ICCP_MAX_COUNT);
 }
 
 bool iccp_are_local(size_t dim, size_t n, const double *numbers)
@@ -32,41 +45,33 @@ bool iccp_are_local(size_t dim, size_t n, const double *numbers)
 
 /* ---- boundaries ---- */
 
-void iccp_boundary_write(const icc_domain *d, iccp_blob_writer *w)
-{
-    const size_t dim = (size_t)d->dim;
-    iccp_blob_u64(w, d->n_vertices);
-    iccp_blob_u64(w, d->n_facets);
-    iccp_blob_f64(w, d->n_vertices * dim, d->given);
-    iccp_blob_u32(w, d->n_facets * dim, d->facets);
-}
-
-icc_status iccp_boundary_read(icc_domain **out, int32_t dim, iccp_blob_reader *r,
-                              const iccp_env *env)
+icc_status iccp_boundary_visit(iccp_blob *b, icc_domain **domain, int32_t dim, const iccp_env *env)
 {
     const size_t d = (size_t)dim;
-    const size_t n_vertices = read_count(r, d * ICCP_F64), n_facets = read_count(r, d * ICCP_U32);
-    *out = NULL;
-    if (r->failed)
-        return ICC_ERR_FORMAT;
-    double *vertices = iccp_alloc(&env->memory, n_vertices, d * sizeof *vertices);
-    uint32_t *facets = iccp_alloc(&env->memory, n_facets, d * sizeof *facets);
-    icc_status status = ICC_ERR_MEMORY;
-    if (vertices != NULL && facets != NULL) {
-        iccp_blob_read_f64(r, n_vertices * d, vertices);
-        iccp_blob_read_u32(r, n_facets * d, facets);
-        status = r->failed ? ICC_ERR_FORMAT
-                           : iccp_domain_create(out, dim, n_vertices, vertices, n_facets, facets,
-                                                env, NULL);
-    }
-    iccp_free(&env->memory, vertices);
-    iccp_free(&env->memory, facets);
+    parts p = {0};
+    if (!b->reads)
+        p = (parts){.n_points = (*domain)->n_vertices,
+                    .n_facets = (*domain)->n_facets,
+                    .points = (*domain)->given,
+                    .facets = (*domain)->facets};
+    visit_count(b, d * ICCP_F64, &p.n_points);
+    visit_count(b, d * ICCP_U32, &p.n_facets);
+    iccp_blob_array_f64(b, d * p.n_points, &p.points);
+    iccp_blob_array_u32(b, d * p.n_facets, &p.facets);
+    if (!b->reads)
+        return ICC_OK;
+    icc_status status = b->status;
+    *domain = NULL;
+    if (status == ICC_OK)
+        status =
+            iccp_domain_create(domain, dim, p.n_points, p.points, p.n_facets, p.facets, env, NULL);
+    free_parts(&p, &env->memory);
     return status;
 }
 
 /* ---- masks ---- */
 
-/* Goes on to the next cell, the first axis fastest; false at the end. */
+/* Continues with the next cell, the first axis fastest; false at the end. */
 static bool next_cell(int32_t dim, const size_t *shape, size_t *at)
 {
     for (int32_t k = 0; k < dim; ++k) {
@@ -77,69 +82,64 @@ static bool next_cell(int32_t dim, const size_t *shape, size_t *at)
     return false;
 }
 
-static bool has_cell(const iccp_mask *mask, const size_t *at)
-{
-    size_t cell = 0;
-    for (int32_t k = 0; k < mask->dim; ++k)
-        cell += (at[k] + 1) * mask->stride[k];
-    return mask->cells[cell] != 0;
-}
-
-/* 32 cells to a word. */
-static void write_mask(const iccp_mask *mask, iccp_blob_writer *w)
+/* 32 cells to a word, whose bits beyond the last cell are 0. `stride[k]`: from a cell to the next
+ * one along axis k. */
+static void visit_cells(iccp_blob *b, int32_t dim, const size_t *shape, const size_t *stride,
+                        uint8_t *cells)
 {
     size_t at[ICC_MAX_DIM] = {0};
     bool more = true;
-    for (int32_t k = 0; k < mask->dim; ++k)
-        iccp_blob_u64(w, mask->shape[k]);
-    while (more) {
+    while (more && b->status == ICC_OK) {
+        uint8_t *cell[32];
         uint32_t word = 0;
-        for (int bit = 0; bit < 32 && more; ++bit) {
-            word |= (uint32_t)has_cell(mask, at) << bit;
-            more = next_cell(mask->dim, mask->shape, at);
+        int n = 0;
+        for (; n < 32 && more; ++n) {
+            cell[n] = cells;
+            for (int32_t k = 0; k < dim; ++k)
+                cell[n] += at[k] * stride[k];
+            word |= b->reads ? 0 : (uint32_t)*cell[n] << n;
+            more = next_cell(dim, shape, at);
         }
-        iccp_blob_u32(w, 1, &word);
+        iccp_blob_u32(b, 1, &word);
+        iccp_blob_require(b, n == 32 || word >> n == 0);
+        for (int bit = 0; bit < n && b->reads; ++bit)
+            *cell[bit] = word >> bit & 1;
     }
 }
 
-/* The number of cells; 0 if their bytes are not there. */
-static size_t read_shape(iccp_blob_reader *r, int32_t dim, size_t *shape)
+/* Returns the number of cells, whose bytes are there unless reading has failed. */
+static size_t visit_shape(iccp_blob *b, int32_t dim, size_t *shape)
 {
-    uint64_t n = 1;
+    size_t n = 1;
     for (int32_t k = 0; k < dim; ++k) {
-        const uint64_t side = iccp_blob_read_u64(r);
-        if (r->failed || side == 0 || side > ICCP_MAX_LATTICE / n)
-            return 0;
-        shape[k] = (size_t)side;
-        n *= side;
+        iccp_blob_size(b, &shape[k]);
+        iccp_blob_require(b, shape[k] > 0 && shape[k] <= ICCP_MAX_LATTICE / n);
+        n *= b->status == ICC_OK ? shape[k] : 1;
     }
-    return (n + 31) / 32 <= (r->n - r->at) / ICCP_U32 ? (size_t)n : 0;
+    iccp_blob_require(b, iccp_blob_has(b, (n + 31) / 32, ICCP_U32));
+    return n;
 }
 
-static bool read_cells(iccp_blob_reader *r, size_t n, uint8_t *cells)
+static void write_mask(iccp_blob *b, iccp_mask *mask)
 {
-    uint32_t word = 0;
-    for (size_t i = 0; i < n; ++i) {
-        if (i % 32 == 0)
-            iccp_blob_read_u32(r, 1, &word);
-        cells[i] = word & 1;
-        word >>= 1;
-    }
-    return !r->failed && word == 0;
+    size_t first = 0;
+    for (int32_t k = 0; k < mask->dim; ++k)
+        first += mask->stride[k];
+    (void)visit_shape(b, mask->dim, mask->shape);
+    visit_cells(b, mask->dim, mask->shape, mask->stride, mask->cells + first);
 }
 
-static icc_status read_mask(icc_domain **out, int32_t dim, iccp_blob_reader *r, const iccp_env *env)
+static icc_status read_mask(iccp_blob *b, icc_domain **domain, int32_t dim, const iccp_env *env)
 {
-    size_t shape[ICC_MAX_DIM];
-    const size_t n = read_shape(r, dim, shape);
-    if (n == 0)
-        return ICC_ERR_FORMAT;
-    uint8_t *cells = iccp_alloc(&env->memory, n, 1);
-    icc_status status = ICC_ERR_MEMORY;
+    size_t shape[ICC_MAX_DIM] = {0}, stride[ICC_MAX_DIM] = {1};
+    uint8_t *cells = iccp_blob_alloc(b, visit_shape(b, dim, shape), 1);
+    for (int32_t k = 1; k < dim; ++k)
+        stride[k] = stride[k - 1] * shape[k - 1];
     if (cells != NULL)
-        status = read_cells(r, n, cells)
-                     ? iccp_domain_create_mask(out, dim, shape, cells, env, NULL)
-                     : ICC_ERR_FORMAT;
+        visit_cells(b, dim, shape, stride, cells);
+    icc_status status = b->status;
+    if (status == ICC_OK)
+        status = iccp_domain_create_mask(domain, dim, shape, cells, env, NULL);
     iccp_free(&env->memory, cells);
     return status;
 }
@@ -147,27 +147,41 @@ static icc_status read_mask(icc_domain **out, int32_t dim, iccp_blob_reader *r, 
 /* ---- meshes ---- */
 
 /* What the caller gave, exactly: the frame loses nothing but the sign of a zero. */
-static void write_given(const icc_domain *d, const double *local, iccp_blob_writer *w)
+static void write_given(iccp_blob *b, const icc_domain *d, const double *local)
 {
     double given[ICC_MAX_DIM];
     iccp_frame_out(&d->frame, d->dim, local, given);
     for (int32_t k = 0; k < d->dim; ++k)
         if (given[k] == 0)
             given[k] = copysign(0, local[k]);
-    iccp_blob_f64(w, (size_t)d->dim, given);
+    iccp_blob_f64(b, (size_t)d->dim, given);
 }
 
-static void write_mesh(const icc_domain *d, iccp_blob_writer *w)
+/* Points of a mesh that is written come from its domain, which keeps those of the boundary as they
+ * were given. */
+static void visit_mesh(iccp_blob *b, size_t dim, parts *p, const icc_domain *from)
+{
+    visit_count(b, dim * ICCP_F64, &p->n_points);
+    visit_count(b, (dim + 1) * ICCP_U32, &p->n_simplices);
+    visit_count(b, dim * ICCP_U32, &p->n_facets);
+    iccp_blob_require(b, p->n_simplices > 0);
+    if (b->reads) {
+        iccp_blob_array_f64(b, dim * p->n_points, &p->points);
+    } else {
+        iccp_blob_f64(b, dim * from->n_vertices, from->given);
+        for (size_t v = from->n_vertices; v < p->n_points; ++v)
+            write_given(b, from, p->points + dim * v);
+    }
+    iccp_blob_array_u32(b, (dim + 1) * p->n_simplices, &p->corners);
+    iccp_blob_array_u32(b, dim * p->n_facets, &p->facets);
+}
+
+static void write_mesh(iccp_blob *b, const icc_domain *d)
 {
     const iccp_simplices *mesh = d->mesh;
-    iccp_blob_u64(w, mesh->n_points);
-    iccp_blob_u64(w, mesh->n_simplices);
-    iccp_blob_u64(w, mesh->n_facets);
-    iccp_blob_f64(w, mesh->dim * mesh->n_rim, d->given);
-    for (size_t v = mesh->n_rim; v < mesh->n_points; ++v)
-        write_given(d, mesh->points + mesh->dim * v, w);
-    iccp_blob_u32(w, (mesh->dim + 1) * mesh->n_simplices, mesh->corners);
-    iccp_blob_u32(w, mesh->dim * mesh->n_facets, d->facets);
+    parts p = {mesh->n_points, mesh->n_simplices, mesh->n_facets,
+               mesh->points,   mesh->corners,     d->facets};
+    visit_mesh(b, mesh->dim, &p, d);
 }
 
 /* As they were numbered when the domain was first made: none is left out, and those of the boundary
@@ -181,78 +195,77 @@ static bool keeps_order(const iccp_simplices *mesh, size_t n_points, const uint3
                           (mesh->dim + 1) * mesh->n_simplices * sizeof *corners) == 0;
 }
 
-static icc_status read_mesh(icc_domain **out, int32_t dim, iccp_blob_reader *r, const iccp_env *env)
+static icc_status read_mesh(iccp_blob *b, icc_domain **domain, int32_t dim, const iccp_env *env)
 {
-    const size_t d = (size_t)dim, n_points = read_count(r, d * ICCP_F64);
-    const size_t n_simplices = read_count(r, (d + 1) * ICCP_U32),
-                 n_facets = read_count(r, d * ICCP_U32);
-    if (r->failed || n_simplices == 0)
-        return ICC_ERR_FORMAT;
-    double *points = iccp_alloc(&env->memory, n_points, d * sizeof *points);
-    uint32_t *corners = iccp_alloc(&env->memory, n_simplices, (d + 1) * sizeof *corners);
-    uint32_t *facets = iccp_alloc(&env->memory, n_facets, d * sizeof *facets);
-    icc_status status = ICC_ERR_MEMORY;
-    if (points != NULL && corners != NULL && facets != NULL) {
-        iccp_blob_read_f64(r, n_points * d, points);
-        iccp_blob_read_u32(r, n_simplices * (d + 1), corners);
-        iccp_blob_read_u32(r, n_facets * d, facets);
-        status = r->failed ? ICC_ERR_FORMAT
-                           : iccp_domain_create_mesh(out, dim, n_points, points, n_simplices,
-                                                     corners, n_facets, facets, env, NULL);
-    }
-    if (status == ICC_OK && !keeps_order((*out)->mesh, n_points, corners))
+    parts p = {0};
+    visit_mesh(b, (size_t)dim, &p, NULL);
+    icc_status status = b->status;
+    if (status == ICC_OK)
+        status = iccp_domain_create_mesh(domain, dim, p.n_points, p.points, p.n_simplices,
+                                         p.corners, p.n_facets, p.facets, env, NULL);
+    if (status == ICC_OK && !keeps_order((*domain)->mesh, p.n_points, p.corners))
         status = ICC_ERR_FORMAT;
-    iccp_free(&env->memory, points);
-    iccp_free(&env->memory, corners);
-    iccp_free(&env->memory, facets);
+    free_parts(&p, &env->memory);
     return status;
 }
 
 /* ---- any ---- */
 
-void iccp_domain_write(const icc_domain *domain, iccp_blob_writer *w)
+static int32_t kind_of(const icc_domain *domain)
 {
-    const uint32_t kind = domain->mask != NULL ? MASK : domain->mesh != NULL ? MESH : BOUNDARY;
-    const uint32_t head[2] = {(uint32_t)domain->dim, kind};
-    iccp_blob_u32(w, 2, head);
-    if (kind == MASK)
-        write_mask(domain->mask, w);
-    else if (kind == MESH)
-        write_mesh(domain, w);
-    else
-        iccp_boundary_write(domain, w);
+    return domain->mask != NULL ? MASK : domain->mesh != NULL ? MESH : BOUNDARY;
 }
 
-icc_status iccp_domain_read(icc_domain **out, iccp_blob_reader *r, const iccp_env *env)
+static icc_status visit_kind(iccp_blob *b, int32_t kind, icc_domain **domain, int32_t dim,
+                             const iccp_env *env)
 {
-    uint32_t head[2];
-    icc_status status = ICC_ERR_FORMAT;
-    *out = NULL;
-    iccp_blob_read_u32(r, 2, head);
-    if (head[0] < 2 || head[0] > ICC_MAX_DIM)
-        return ICC_ERR_FORMAT;
-    if (head[1] == BOUNDARY)
-        status = iccp_boundary_read(out, (int32_t)head[0], r, env);
-    else if (head[1] == MASK)
-        status = read_mask(out, (int32_t)head[0], r, env);
-    else if (head[1] == MESH)
-        status = read_mesh(out, (int32_t)head[0], r, env);
+    if (kind == BOUNDARY)
+        return iccp_boundary_visit(b, domain, dim, env);
+    if (b->reads)
+        return kind == MASK ? read_mask(b, domain, dim, env) : read_mesh(b, domain, dim, env);
+    if (kind == MASK)
+        write_mask(b, (*domain)->mask);
+    else
+        write_mesh(b, *domain);
+    return ICC_OK;
+}
+
+icc_status iccp_domain_visit(iccp_blob *b, icc_domain **domain, const iccp_env *env)
+{
+    int32_t dim = b->reads ? 0 : (*domain)->dim, kind = b->reads ? 0 : kind_of(*domain);
+    if (b->reads)
+        *domain = NULL;
+    iccp_blob_i32(b, ICCP_U32, 2, ICC_MAX_DIM, &dim);
+    iccp_blob_i32(b, ICCP_U32, BOUNDARY, MESH, &kind);
+    const icc_status status =
+        b->status == ICC_OK ? visit_kind(b, kind, domain, dim, env) : b->status;
     if (status != ICC_OK) {
-        iccp_domain_release(*out);
-        *out = NULL;
+        iccp_domain_release(*domain);
+        *domain = NULL;
     }
     return status;
 }
 
 /* ---- other meshes of a domain ---- */
 
-void iccp_filling_write(const iccp_simplices *mesh, iccp_blob_writer *w)
+/* Without the points of the boundary, which are the domain's. */
+static void visit_filling(iccp_blob *b, iccp_simplices *mesh, const icc_domain *domain)
 {
-    const size_t n_inner = mesh->n_points - mesh->n_rim;
-    iccp_blob_u64(w, n_inner);
-    iccp_blob_u64(w, mesh->n_simplices);
-    iccp_blob_f64(w, mesh->dim * n_inner, mesh->points + mesh->dim * mesh->n_rim);
-    iccp_blob_u32(w, (mesh->dim + 1) * mesh->n_simplices, mesh->corners);
+    const size_t dim = mesh->dim, n_rim = mesh->n_rim;
+    size_t n_inner = mesh->n_points - n_rim;
+    visit_count(b, dim * ICCP_F64, &n_inner);
+    visit_count(b, (dim + 1) * ICCP_U32, &mesh->n_simplices);
+    iccp_blob_require(b, mesh->n_simplices > 0);
+    if (b->reads) {
+        mesh->n_points = n_rim + n_inner;
+        mesh->points = iccp_blob_alloc(b, mesh->n_points, dim * sizeof *mesh->points);
+    }
+    if (b->status != ICC_OK)
+        return;
+    if (b->reads)
+        memcpy(mesh->points, domain->vertices, dim * n_rim * sizeof *mesh->points);
+    iccp_blob_f64(b, dim * n_inner, mesh->points + dim * n_rim);
+    iccp_blob_array_u32(b, (dim + 1) * mesh->n_simplices, &mesh->corners);
 }
 
 static bool all_positive(const iccp_simplices *mesh)
@@ -280,6 +293,9 @@ static bool all_used(const iccp_simplices *mesh, bool *used)
 
 static icc_status check_filling(iccp_simplices *mesh, const icc_domain *domain)
 {
+    const size_t n_inner = mesh->n_points - mesh->n_rim;
+    if (!iccp_are_local(mesh->dim, mesh->dim * n_inner, mesh->points + mesh->dim * mesh->n_rim))
+        return ICC_ERR_FORMAT;
     icc_status status = iccp_simplices_check_corners(mesh, NULL);
     if (status != ICC_OK)
         return status;
@@ -294,43 +310,36 @@ static icc_status check_filling(iccp_simplices *mesh, const icc_domain *domain)
     return status == ICC_OK ? iccp_simplices_check_shape(mesh, NULL) : status;
 }
 
-static icc_status fill(iccp_simplices *mesh, const icc_domain *domain, size_t n_inner,
-                       iccp_blob_reader *r)
+static icc_status read_filling(iccp_blob *b, iccp_simplices **out, const icc_domain *domain)
 {
-    const size_t dim = mesh->dim, n_rim = mesh->n_rim, n_simplices = mesh->n_simplices;
-    mesh->points = iccp_alloc(&mesh->memory, mesh->n_points, dim * sizeof *mesh->points);
-    mesh->corners = iccp_alloc(&mesh->memory, n_simplices, (dim + 1) * sizeof *mesh->corners);
-    if (mesh->points == NULL || mesh->corners == NULL)
-        return ICC_ERR_MEMORY;
-    double *inner = mesh->points + dim * n_rim;
-    memcpy(mesh->points, domain->vertices, dim * n_rim * sizeof *mesh->points);
-    iccp_blob_read_f64(r, dim * n_inner, inner);
-    iccp_blob_read_u32(r, (dim + 1) * n_simplices, mesh->corners);
-    return !r->failed && iccp_are_local(dim, dim * n_inner, inner) ? check_filling(mesh, domain)
-                                                                   : ICC_ERR_FORMAT;
+    iccp_simplices *mesh = *out = iccp_blob_alloc(b, 1, sizeof *mesh);
+    if (mesh == NULL)
+        return b->status;
+    *mesh = (iccp_simplices){.memory = b->memory,
+                             .dim = (size_t)domain->dim,
+                             .n_points = domain->n_vertices,
+                             .n_rim = domain->n_vertices};
+    visit_filling(b, mesh, domain);
+    const icc_status status = b->status == ICC_OK ? check_filling(mesh, domain) : b->status;
+    if (status != ICC_OK) {
+        iccp_simplices_free(mesh);
+        *out = NULL;
+    }
+    return status;
 }
 
-icc_status iccp_filling_read(iccp_simplices **out, const icc_domain *domain, iccp_blob_reader *r,
-                             const iccp_env *env)
+icc_status iccp_filling_visit(iccp_blob *b, iccp_simplices **mesh, const icc_domain *domain)
 {
-    const size_t dim = (size_t)domain->dim;
-    const size_t n_inner = read_count(r, dim * ICCP_F64),
-                 n_simplices = read_count(r, (dim + 1) * ICCP_U32);
-    *out = NULL;
-    if (r->failed || n_simplices == 0)
-        return ICC_ERR_FORMAT;
-    iccp_simplices *mesh = iccp_alloc_zero(&env->memory, 1, sizeof *mesh);
-    if (mesh == NULL)
-        return ICC_ERR_MEMORY;
-    *mesh = (iccp_simplices){.memory = env->memory,
-                             .dim = dim,
-                             .n_points = domain->n_vertices + n_inner,
-                             .n_rim = domain->n_vertices,
-                             .n_simplices = n_simplices};
-    const icc_status status = fill(mesh, domain, n_inner, r);
-    if (status == ICC_OK)
-        *out = mesh;
-    else
-        iccp_simplices_free(mesh);
-    return status;
+    uint64_t has_mesh = !b->reads && *mesh != NULL;
+    if (b->reads)
+        *mesh = NULL;
+    iccp_blob_u64(b, 1, &has_mesh);
+    iccp_blob_require(b, has_mesh <= 1);
+    if (has_mesh != 1 || b->status != ICC_OK)
+        return b->status;
+    if (b->reads)
+        return read_filling(b, mesh, domain);
+    iccp_simplices copy = **mesh;
+    visit_filling(b, &copy, domain);
+    return ICC_OK;
 }

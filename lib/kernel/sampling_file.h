@@ -3,12 +3,6 @@
 #define ICCP_SAMPLING_FILE_H
 
 #include "kernel/sampling.h"
-#include "kernel/shape_file.h"
-
-/* The content, for objects that keep a sampling. */
-void iccp_sampling_write(const icc_sampling *sampling, iccp_blob_writer *w);
-icc_status iccp_sampling_read(icc_sampling **out, iccp_blob_reader *r, const iccp_env *env,
-                              icc_error *err);
 
 /* See icc_sampling_save() and icc_sampling_load(). */
 void iccp_sampling_save(const icc_sampling *sampling, size_t capacity, void *data, size_t *n_bytes);

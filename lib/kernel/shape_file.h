@@ -5,11 +5,8 @@
 #include "base/blob.h"
 #include "kernel/shape.h"
 
-void iccp_shape_write(const icc_shape *shape, iccp_blob_writer *w);
-
 /* ICC_ERR_FORMAT if the bytes are those of no shape; everything is checked as in
- * icc_shape_create(). */
-icc_status iccp_shape_read(icc_shape **out, iccp_blob_reader *r, const iccp_env *env,
-                           icc_error *err);
+ * icc_shape_create(). Writing takes no env and cannot fail. */
+icc_status iccp_shape_visit(iccp_blob *b, icc_shape **shape, const iccp_env *env, icc_error *err);
 
 #endif

@@ -4,20 +4,6 @@
 
 #include <math.h>
 
-void iccp_plmap_write(const iccp_plmap *map, iccp_blob_writer *w)
-{
-    iccp_blob_u64(w, map->n_vertices);
-    iccp_blob_u64(w, map->corners.n_triangles);
-    iccp_blob_f64(w, 2 * map->n_vertices, map->points);
-    iccp_blob_f64(w, 2 * map->n_vertices, map->images);
-    iccp_blob_u32(w, 3 * map->corners.n_triangles, map->corners.vertex);
-    for (size_t v = 0; v < map->n_vertices; ++v)
-        if (map->fixed[v]) {
-            iccp_blob_u32(w, 1, &map->facet[v]);
-            iccp_blob_f64(w, 1, &map->along[v]);
-        }
-}
-
 /* Twins follow from the triangles. */
 static icc_status link_triangles(iccp_plmap *map, const iccp_env *env)
 {
@@ -30,9 +16,8 @@ static icc_status link_triangles(iccp_plmap *map, const iccp_env *env)
 }
 
 /* Fixed are the vertices of the boundary. */
-static bool read_boundary(iccp_plmap *map, size_t n_facets, iccp_blob_reader *r)
+static void find_boundary(iccp_plmap *map)
 {
-    bool sound = true;
     for (size_t v = 0; v < map->n_vertices; ++v) {
         map->fixed[v] = 0;
         map->facet[v] = 0;
@@ -41,13 +26,6 @@ static bool read_boundary(iccp_plmap *map, size_t n_facets, iccp_blob_reader *r)
     for (uint32_t c = 0; c < 3 * map->corners.n_triangles; ++c)
         if (map->corners.twin[c] == ICCP_NO_NEIGHBOUR)
             map->fixed[map->corners.vertex[iccp_after(c)]] = 1;
-    for (size_t v = 0; v < map->n_vertices; ++v)
-        if (map->fixed[v]) {
-            iccp_blob_read_u32(r, 1, &map->facet[v]);
-            iccp_blob_read_f64(r, 1, &map->along[v]);
-            sound = sound && map->facet[v] < n_facets && map->along[v] >= 0 && map->along[v] <= 1;
-        }
-    return sound && !r->failed;
 }
 
 /* ---- where the boundary is ---- */
@@ -94,35 +72,58 @@ static bool follows_facets(const iccp_plmap *map, const icc_domain *source,
 
 /* ---- all of it ---- */
 
-static icc_status fill(iccp_plmap *map, const icc_domain *source, const icc_domain *target,
-                       iccp_blob_reader *r, const iccp_env *env)
+static void visit_vertices(iccp_blob *b, iccp_plmap *map)
+{
+    iccp_blob_f64(b, 2 * map->n_vertices, map->points);
+    iccp_blob_f64(b, 2 * map->n_vertices, map->images);
+    iccp_blob_u32(b, 3 * map->corners.n_triangles, map->corners.vertex);
+}
+
+static void visit_boundary(iccp_blob *b, iccp_plmap *map, size_t n_facets)
+{
+    for (size_t v = 0; v < map->n_vertices; ++v)
+        if (map->fixed[v]) {
+            iccp_blob_u32(b, 1, &map->facet[v]);
+            iccp_blob_f64(b, 1, &map->along[v]);
+            iccp_blob_require(b,
+                              map->facet[v] < n_facets && map->along[v] >= 0 && map->along[v] <= 1);
+        }
+}
+
+static icc_status read_rest(iccp_blob *b, iccp_plmap *map, const icc_domain *source,
+                            const icc_domain *target, const iccp_env *env)
 {
     const size_t n = 2 * map->n_vertices;
-    iccp_blob_read_f64(r, n, map->points);
-    iccp_blob_read_f64(r, n, map->images);
-    iccp_blob_read_u32(r, 3 * map->corners.n_triangles, map->corners.vertex);
-    if (r->failed || !iccp_are_local(2, n, map->points) || !iccp_are_local(2, n, map->images))
+    visit_vertices(b, map);
+    if (b->status != ICC_OK || !iccp_are_local(2, n, map->points) ||
+        !iccp_are_local(2, n, map->images))
         return ICC_ERR_FORMAT;
     const icc_status status = link_triangles(map, env);
     if (status != ICC_OK)
         return status;
-    return read_boundary(map, source->n_facets, r) && follows_facets(map, source, target)
-               ? ICC_OK
-               : ICC_ERR_FORMAT;
+    find_boundary(map);
+    visit_boundary(b, map, source->n_facets);
+    return b->status == ICC_OK && follows_facets(map, source, target) ? ICC_OK : ICC_ERR_FORMAT;
 }
 
-icc_status iccp_plmap_read(iccp_plmap *map, const icc_domain *source, const icc_domain *target,
-                           iccp_blob_reader *r, const iccp_env *env)
+icc_status iccp_plmap_visit(iccp_blob *b, iccp_plmap *map, const icc_domain *source,
+                            const icc_domain *target, const iccp_env *env)
 {
-    const size_t n_vertices = iccp_blob_read_count(r, 4 * ICCP_F64);
-    const size_t n_triangles = iccp_blob_read_count(r, 3 * ICCP_U32);
-    if (r->failed || n_triangles == 0 || 3 * (uint64_t)n_triangles >= UINT32_MAX)
+    size_t n_vertices = map->n_vertices, n_triangles = map->corners.n_triangles;
+    iccp_blob_count(b, 4 * ICCP_F64, &n_vertices);
+    iccp_blob_count(b, 3 * ICCP_U32, &n_triangles);
+    if (!b->reads) {
+        visit_vertices(b, map);
+        visit_boundary(b, map, source->n_facets);
+        return ICC_OK;
+    }
+    if (b->status != ICC_OK || n_triangles == 0 || 3 * (uint64_t)n_triangles >= UINT32_MAX)
         return ICC_ERR_FORMAT;
     icc_status status = iccp_plmap_begin(map, n_vertices, n_triangles, source->orientation,
                                          sqrt(target->measure / source->measure), &env->memory);
     if (status != ICC_OK)
         return status;
-    status = fill(map, source, target, r, env);
+    status = read_rest(b, map, source, target, env);
     if (status != ICC_OK)
         iccp_plmap_free(map);
     return status;

@@ -5,11 +5,10 @@
 #include "base/blob.h"
 #include "map/plmap.h"
 
-void iccp_plmap_write(const iccp_plmap *map, iccp_blob_writer *w);
-
-/* ICC_ERR_FORMAT unless the triangles are a manifold, and its boundary goes once along the facets
- * of both domains. What is positive and simple is for the certificate (map/mesh_map.h). */
-icc_status iccp_plmap_read(iccp_plmap *map, const icc_domain *source, const icc_domain *target,
-                           iccp_blob_reader *r, const iccp_env *env);
+/* Into a map that is all zero. ICC_ERR_FORMAT unless the triangles are a manifold, and its boundary
+ * goes once along the facets of both domains. What is positive and simple is for the certificate
+ * (map/mesh_map.h). */
+icc_status iccp_plmap_visit(iccp_blob *b, iccp_plmap *map, const icc_domain *source,
+                            const icc_domain *target, const iccp_env *env);
 
 #endif

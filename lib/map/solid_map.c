@@ -166,56 +166,57 @@ icc_status iccp_solid_map_create(iccp_solid_map **out, const icc_chart *source,
 
 /* ---- as bytes ---- */
 
-void iccp_solid_map_write(const iccp_solid_map *map, iccp_blob_writer *w)
+/* Images of the boundary are the target's vertices. */
+static icc_status visit(iccp_blob *b, iccp_solid_map *map, const icc_domain *source,
+                        const icc_domain *target)
 {
-    const iccp_simplices *mesh = map->mesh;
-    iccp_blob_u64(w, map->own != NULL);
-    if (map->own != NULL)
-        iccp_filling_write(map->own, w);
-    iccp_blob_f64(w, 3 * (mesh->n_points - mesh->n_rim), map->images + 3 * mesh->n_rim);
+    const icc_status status = iccp_filling_visit(b, &map->own, source);
+    if (status != ICC_OK)
+        return status;
+    if (b->reads)
+        map->mesh = map->own != NULL ? map->own : source->mesh;
+    const size_t n_rim = map->mesh->n_rim, n = map->mesh->n_points - n_rim;
+    iccp_blob_require(b, iccp_blob_has(b, n, 3 * ICCP_F64));
+    if (b->reads)
+        map->images = iccp_blob_alloc(b, map->mesh->n_points, 3 * sizeof *map->images);
+    if (b->status != ICC_OK)
+        return b->status;
+    if (b->reads)
+        memcpy(map->images, target->vertices, 3 * n_rim * sizeof *map->images);
+    iccp_blob_f64(b, 3 * n, map->images + 3 * n_rim);
+    return b->status;
 }
 
-/* Images of the boundary are the target's vertices. */
-static icc_status read_images(iccp_solid_map *map, const icc_domain *target, iccp_blob_reader *r)
+static icc_status certify(iccp_solid_map *map, const iccp_env *env)
 {
     const size_t n_rim = map->mesh->n_rim, n = map->mesh->n_points - n_rim;
-    if (n > (r->n - r->at) / (3 * sizeof(double)))
-        return ICC_ERR_FORMAT;
-    map->images = iccp_alloc(&map->memory, map->mesh->n_points, 3 * sizeof *map->images);
-    if (map->images == NULL)
-        return ICC_ERR_MEMORY;
-    memcpy(map->images, target->vertices, 3 * n_rim * sizeof *map->images);
-    iccp_blob_read_f64(r, 3 * n, map->images + 3 * n_rim);
     return iccp_are_local(3, 3 * n, map->images + 3 * n_rim) && count_inverted(map) == 0
-               ? ICC_OK
+               ? plant(map, env)
                : ICC_ERR_FORMAT;
 }
 
-icc_status iccp_solid_map_read(iccp_solid_map **out, const icc_domain *source,
-                               const icc_domain *target, icc_map_info *info, iccp_blob_reader *r,
-                               const iccp_env *env)
+icc_status iccp_solid_map_visit(iccp_blob *b, iccp_solid_map **map, const icc_domain *source,
+                                const icc_domain *target, icc_map_info *info, const iccp_env *env)
 {
-    const uint64_t has_own = iccp_blob_read_u64(r);
-    *out = NULL;
-    if (r->failed || has_own > 1 || source->mesh == NULL)
+    if (!b->reads)
+        return visit(b, *map, source, target);
+    *map = NULL;
+    if (source->mesh == NULL)
         return ICC_ERR_FORMAT;
-    iccp_solid_map *map = iccp_alloc_zero(&env->memory, 1, sizeof *map);
-    if (map == NULL)
+    iccp_solid_map *read = iccp_alloc_zero(&env->memory, 1, sizeof *read);
+    if (read == NULL)
         return ICC_ERR_MEMORY;
-    map->memory = env->memory;
-    icc_status status = has_own == 1 ? iccp_filling_read(&map->own, source, r, env) : ICC_OK;
-    map->mesh = map->own != NULL ? map->own : source->mesh;
+    read->memory = env->memory;
+    icc_status status = visit(b, read, source, target);
     if (status == ICC_OK)
-        status = read_images(map, target, r);
-    if (status == ICC_OK)
-        status = plant(map, env);
+        status = certify(read, env);
     if (status != ICC_OK) {
-        iccp_solid_map_free(map);
+        iccp_solid_map_free(read);
         return status;
     }
-    info->n_vertices = map->mesh->n_points;
-    info->n_simplices = map->mesh->n_simplices;
-    *out = map;
+    info->n_vertices = read->mesh->n_points;
+    info->n_simplices = read->mesh->n_simplices;
+    *map = read;
     return ICC_OK;
 }
 

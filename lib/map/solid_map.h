@@ -23,11 +23,9 @@ icc_status iccp_solid_map_create(iccp_solid_map **out, const icc_chart *source,
                                  const icc_chart *target, icc_map_info *info, const iccp_env *env);
 
 /* As part of the bytes of a map (docs/formats.md). What is read is certified anew: ICC_ERR_FORMAT
- * if that fails. */
-void iccp_solid_map_write(const iccp_solid_map *map, iccp_blob_writer *w);
-icc_status iccp_solid_map_read(iccp_solid_map **out, const icc_domain *source,
-                               const icc_domain *target, icc_map_info *info, iccp_blob_reader *r,
-                               const iccp_env *env);
+ * if that fails. Writing takes no info and no env. */
+icc_status iccp_solid_map_visit(iccp_blob *b, iccp_solid_map **map, const icc_domain *source,
+                                const icc_domain *target, icc_map_info *info, const iccp_env *env);
 void iccp_solid_map_free(iccp_solid_map *map);
 
 /* One local point, forward or back. `jacobian`: 9 numbers row by row, or NULL. ICC_ERR_TRACE when

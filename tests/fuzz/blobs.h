@@ -18,10 +18,10 @@ static inline void require(int holds)
 /* Makes the header of bytes fit their content. */
 static inline void put_right(uint8_t *bytes, size_t size, const char *kind)
 {
-    iccp_blob_writer w;
+    iccp_blob w;
     size_t n;
     iccp_blob_begin(&w, bytes, size, kind, 1);
-    w.n = size;
+    w.at = size;
     iccp_blob_end(&w, &n);
 }
 

@@ -315,10 +315,10 @@ START_TEST(later_versions)
 {
     icc_chart *chart = small_chart(0), *loaded;
     bytes b = chart_bytes(chart);
-    iccp_blob_writer w;
+    iccp_blob w;
     size_t n;
     iccp_blob_begin(&w, b.data, b.n, "CHRT", 2);
-    w.n = b.n;
+    w.at = b.n;
     iccp_blob_end(&w, &n);
     ck_assert_int_eq(icc_chart_load(&loaded, b.n, b.data, NULL, NULL), ICC_ERR_VERSION);
     repair_bytes(&b, "MAP_");

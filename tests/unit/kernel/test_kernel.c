@@ -1032,16 +1032,17 @@ START_TEST(hostile_bytes_are_refused)
                                                      {1u << 31, 1u << 31}};
     for (size_t k = 0; k < sizeof HANDLES_AND_POINTS / sizeof *HANDLES_AND_POINTS + 4; ++k) {
         const bool counts = k >= 4;
-        const uint32_t head[2] = {k == 0 ? 1 : k == 1 ? 4 : 2, k == 2 ? 2 : 1};
+        uint32_t head[2] = {k == 0 ? 1 : k == 1 ? 4 : 2, k == 2 ? 2 : 1};
+        uint64_t sizes[2] = {counts ? HANDLES_AND_POINTS[k - 4][0] : 4,
+                             counts ? HANDLES_AND_POINTS[k - 4][1] : 3};
         double numbers[50] = {0};
-        iccp_blob_writer w;
+        iccp_blob w;
         size_t needed;
         if (k == 3)
             numbers[9] = NAN;
         iccp_blob_begin(&w, lie, n_bytes, "BIND", 1);
         iccp_blob_u32(&w, 2, head);
-        iccp_blob_u64(&w, counts ? HANDLES_AND_POINTS[k - 4][0] : 4);
-        iccp_blob_u64(&w, counts ? HANDLES_AND_POINTS[k - 4][1] : 3);
+        iccp_blob_u64(&w, 2, sizes);
         iccp_blob_f64(&w, 50, numbers);
         iccp_blob_end(&w, &needed);
         ck_assert_uint_eq(needed, n_bytes);

@@ -634,7 +634,7 @@ START_TEST(hostile_content_is_safe)
     random_source r = {77};
     ck_assert_ptr_nonnull(changed);
     for (int round = 0; round < 20000; ++round) {
-        iccp_blob_writer w;
+        iccp_blob w;
         size_t size;
         memcpy(changed, data, n);
         for (int k = random_below(&r, 3); k >= 0; --k) {
@@ -643,7 +643,7 @@ START_TEST(hostile_content_is_safe)
             changed[at] = (unsigned char)(random_below(&r, 4) == 0 ? any : changed[at] ^ bit);
         }
         iccp_blob_begin(&w, changed, n, "SMPL", 1);
-        w.n = n;
+        w.at = n;
         iccp_blob_end(&w, &size);
         const icc_status status = icc_sampling_load(&loaded, n, changed, NULL, NULL);
         ck_assert(status == ICC_OK || status == ICC_ERR_FORMAT);
