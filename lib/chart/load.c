@@ -16,8 +16,7 @@ enum { ON_MESH = 5 };
 
 void iccp_chart_write(const icc_chart *chart, iccp_blob_writer *w)
 {
-    const bool on_mesh = chart->info.method == ICC_METHOD_FOLIATION && chart->mesh == NULL;
-    iccp_blob_u64(w, on_mesh ? ON_MESH : (uint64_t)chart->info.method);
+    iccp_blob_u64(w, iccp_chart_is_shelling(chart) ? ON_MESH : (uint64_t)chart->info.method);
     chart->ops->save(chart, w);
 }
 

@@ -121,7 +121,7 @@ static icc_status read_fibres(icc_chart *chart, const iccp_simplices *mesh, uint
 }
 
 /* What tells how the order was found; nothing depends on it. */
-static bool read_story(icc_chart_info *info, iccp_blob_reader *r)
+static bool read_story(icc_shelling_info *info, iccp_blob_reader *r)
 {
     double measures[4];
     const uint64_t peeled = iccp_blob_read_u64(r), n_orders = iccp_blob_read_u64(r);
@@ -142,7 +142,7 @@ static bool read_story(icc_chart_info *info, iccp_blob_reader *r)
 icc_status iccp_chart_shelling_read(icc_chart **out, const icc_domain *domain, iccp_blob_reader *r,
                                     const iccp_env *env)
 {
-    icc_chart_info story = {0};
+    icc_shelling_info story = {0};
     iccp_simplices *own = NULL;
     *out = NULL;
     icc_status status = read_story(&story, r) ? ICC_OK : ICC_ERR_FORMAT;
@@ -158,7 +158,7 @@ icc_status iccp_chart_shelling_read(icc_chart **out, const icc_domain *domain, i
         own = NULL;
     }
     if (status == ICC_OK) {
-        icc_chart_info *info = &(*out)->info;
+        icc_shelling_info *info = &(*out)->own.shelling;
         info->order_peeled = story.order_peeled;
         info->n_orders = story.n_orders;
         info->n_reversed = story.n_reversed;

@@ -262,7 +262,7 @@ static void save(const icc_chart *chart, iccp_blob_writer *w)
 {
     const iccp_shelling_state *state = chart->state;
     const iccp_simplices *mesh = state->mesh != NULL ? state->mesh : chart->domain->mesh;
-    const icc_chart_info *info = &chart->info;
+    const icc_shelling_info *info = &chart->own.shelling;
     const double measures[] = {info->harmonic_share, info->order_beta, info->flux_energy,
                                info->flux_divergence};
     iccp_blob_u64(w, (uint64_t)info->order_peeled);
@@ -304,9 +304,9 @@ icc_status iccp_shelling_begin(icc_chart **out, const icc_domain *domain, iccp_s
     }
     icc_chart_info *info = &(*out)->info;
     info->method = ICC_METHOD_FOLIATION;
-    info->n_mesh_vertices = mesh->n_points;
-    info->n_mesh_boundary = mesh->n_rim;
-    info->n_mesh_simplices = mesh->n_simplices;
+    (*out)->own.shelling = (icc_shelling_info){.n_mesh_vertices = mesh->n_points,
+                                               .n_mesh_boundary = mesh->n_rim,
+                                               .n_mesh_simplices = mesh->n_simplices};
     state->mesh = own;
     state->fibres.memory = env->memory;
     memcpy(state->centre, mesh->points + mesh->dim * centre, mesh->dim * sizeof *state->centre);
