@@ -195,11 +195,13 @@ static void write_vtk(const char *name, const mesh *volume, const double *images
 static void report(const icc_chart *chart, const char *name)
 {
     icc_chart_info info = {.size = sizeof info};
+    icc_field_info own = {.size = sizeof own};
     check(icc_chart_get_info(chart, &info), NULL);
+    check(icc_chart_get_field_info(chart, &own), NULL);
     printf("%s: grid of %zu vertices inside, %zu without a vector, %zu given up; curves enter at "
            "all but "
            "%zu of %zu contacts with the boundary: %scertified\n",
-           name, info.n_inside, info.n_infeasible, info.n_stray, info.n_not_inward, info.n_contacts,
+           name, own.n_inside, own.n_infeasible, own.n_stray, own.n_not_inward, own.n_contacts,
            info.certified ? "" : "not ");
 }
 

@@ -95,10 +95,12 @@ static icc_domain *make_domain(const mesh *m)
 static void describe(const char *name, const icc_chart *chart)
 {
     icc_chart_info info = {.size = sizeof info};
+    icc_shelling_info own = {.size = sizeof own};
     check(icc_chart_get_info(chart, &info), NULL);
+    check(icc_chart_get_shelling_info(chart, &own), NULL);
     printf(
         "%s: %zu simplices, %d complete orders, maximum at (%.2f, %.2f, %.2f, %.2f): %scertified\n",
-        name, info.n_mesh_simplices, (int)info.n_orders, info.maximum[0], info.maximum[1],
+        name, own.n_mesh_simplices, (int)own.n_orders, info.maximum[0], info.maximum[1],
         info.maximum[2], info.maximum[3], info.certified ? "" : "not ");
 }
 

@@ -277,7 +277,7 @@ enum {
      *  of the Kuhn triangulation and their faces. Not one-to-one: lines merge, so that an open
      *  share of the area collapses (in 3-D and beyond, most of it), and thin parts of a shape
      *  between grid vertices are not reached. icc_chart_get_report() tells how much. Beyond 2-D the
-     *  function may have several maxima, too, and lines that end at them: icc_chart_info::n_maxima.
+     *  function may have several maxima, too, and lines that end at them: icc_gradient_info::n_maxima.
      *  Never certified. */
     ICC_METHOD_GRADIENT = 1,
     /** Integral Curve Coordinates along leaves that cannot merge: level lines of an angle-valued,
@@ -300,7 +300,7 @@ enum {
      *  are followed exactly but for rounding. Certified when there is such a vector everywhere, the
      *  boundary is crossed inward all over, which is checked vertex by vertex, and no grid vertex
      *  inside was given up; if not, there is a chart all the same, and
-     *  icc_chart_info::n_infeasible, n_not_inward and n_stray report how much is amiss.
+     *  icc_field_info::n_infeasible, n_not_inward and n_stray report how much is amiss.
      *
      *  A map of two certified charts is certified when doubles are enough for it, too, which
      *  icc_map_info::n_lost and n_flat report: curves come together on their way, and what one
@@ -317,9 +317,9 @@ enum {
 enum {
     ICC_REASON_NONE = 0,       /**< it is certified */
     ICC_REASON_GRADIENT = 1,   /**< the curves of method gradient merge */
-    ICC_REASON_INFEASIBLE = 2, /**< field: icc_chart_info::n_infeasible */
-    ICC_REASON_NOT_INWARD = 3, /**< field: icc_chart_info::n_not_inward */
-    ICC_REASON_STRAY = 4,      /**< field: icc_chart_info::n_stray */
+    ICC_REASON_INFEASIBLE = 2, /**< field: icc_field_info::n_infeasible */
+    ICC_REASON_NOT_INWARD = 3, /**< field: icc_field_info::n_not_inward */
+    ICC_REASON_STRAY = 4,      /**< field: icc_field_info::n_stray */
     ICC_REASON_LOST = 5,       /**< maps of method field: icc_map_info::n_lost */
     ICC_REASON_FLAT = 6        /**< maps of method field: icc_map_info::n_flat */
 };
@@ -345,7 +345,7 @@ enum {
                                      If they are imposed it does not move */
     ICC_CONSTRAINTS_NONE = 2,   /**< never. Charts of bi-Laplace functions have the maximum where
                                      the function puts it, which may be beside the place asked for:
-                                     icc_chart_info::moved */
+                                     icc_gradient_info::moved */
     ICC_CONSTRAINTS_ALL = 3     /**< always: the maximum stays where it is asked for */
 };
 
@@ -375,7 +375,7 @@ typedef struct icc_chart_options {
                                 NULL: the grassfire's (gradient, field), the deepest vertex
                                 (foliation; of a mesh of the caller's, the deepest inside). Disc has
                                 its own, the point that goes to the centre: NULL only. Bi-Laplace
-                                functions without constraints may move it: icc_chart_info::moved */
+                                functions without constraints may move it: icc_gradient_info::moved */
     int32_t constraints;   /**< gradient: `ICC_CONSTRAINTS_*`; 0: needed */
     int32_t solver;        /**< gradient: `ICC_SOLVER_*`; 0: by the predicted work */
     double min_fall;       /**< gradient: least relative fall along tree edges, in (0, 0.01]; 0:
@@ -384,66 +384,122 @@ typedef struct icc_chart_options {
                                 (0, 0.01]; 0: 1e-9 */
 } icc_chart_options;
 
-/** What icc_chart_get_info() tells. Members that the method does not have are 0. */
+/** What icc_chart_get_info() fills in, for every method. What only one method has is in a struct of
+ *  its own: icc_gradient_info, icc_field_info, icc_foliation_info, icc_shelling_info,
+ *  icc_disc_info. */
 typedef struct icc_chart_info {
     size_t size;                 /**< set by the caller: `sizeof(icc_chart_info)` */
     int32_t dim;                 /**< dimension */
     int32_t method;              /**< `ICC_METHOD_*` */
-    int32_t function;            /**< `ICC_FUNCTION_*` */
-    int32_t tree;                /**< `ICC_TREE_*` */
     int32_t certified;           /**< 1: proved to be one-to-one, exactly (field: in doubles); 0:
                                       not, see `reason` */
+    int32_t reason;              /**< `ICC_REASON_*`: why it is not certified; 0 if it is */
     int32_t cells;               /**< cells along the longest side that were used; method field in
                                       thin shapes: twice those asked for, where those do not do, and
-                                      one more where that saves the certificate */
+                                      one more where that saves the certificate; 0 on a domain's
+                                      mesh */
     double maximum[ICC_MAX_DIM]; /**< the point that every curve ends at */
-    double spacing;              /**< distance of grid or lattice neighbours */
-    size_t n_grid;               /**< grid vertices */
-    size_t n_inside;             /**< grid vertices inside the domain */
-    size_t n_tree;               /**< grid vertices in the tree */
-    size_t n_unreachable;        /**< grid vertices inside that the tree does not reach */
-    size_t n_cousin_violations;  /**< neighbours inside that are neither parent and child nor
-                                      cousins */
-    size_t n_maxima;             /**< of the function, inside */
-    size_t n_minima;             /**< of the function, inside */
-    size_t n_saddles;            /**< of the function, inside */
-    size_t n_edges;              /**< edges between two triangles that curves run through */
-    size_t n_compression;        /**< edges where curves merge on the way up */
-    size_t n_expansion;          /**< edges where curves merge on the way down */
-    size_t n_mesh_vertices;      /**< vertices of the mesh */
-    size_t n_mesh_boundary;      /**< of them on the boundary */
-    size_t n_mesh_simplices;     /**< triangles of the mesh, or simplices */
-    size_t n_ties;               /**< mesh edges whose ends have the same label: ordered by index */
-    double harmonic_share;       /**< share of the boundary flux that is harmonic (foliation) */
-    double seconds_grid;         /**< time to make the grid and find the maximum */
-    double seconds_tree;         /**< time to make and verify the tree */
-    double seconds_function;     /**< time to make and verify the function */
-    double seconds_mesh;         /**< time to make the mesh */
-    double seconds_solve;        /**< time to solve for the function or the map */
-    double seconds_certify;      /**< time to certify it */
-    size_t n_stray;              /**< field: grid vertices inside that were given up, because
-                                      without them the others form a ball */
-    size_t n_infeasible;         /**< field: grid vertices where no vector points uphill in all
-                                      simplices */
-    size_t n_contacts;           /**< field: pairs of a facet and a grid vertex of a simplex that it
-                                      runs through */
-    size_t n_not_inward;         /**< field: those of them where the vector does not point inward */
-    int32_t order_peeled;        /**< foliation on a mesh: 1: the order of the simplices was found
-                                      from the boundary inwards, 0: from the centre outwards */
-    int32_t n_orders;            /**< how many of those that are tried were complete at first; the
-                                      best is used */
-    double order_beta;           /**< how much reversed flux weighed in it */
-    size_t n_reversed;           /**< facets that the harmonic flux runs through the other way */
-    double flux_energy;          /**< how far the flux along the leaves is from the harmonic one:
-                                      sum of the squared differences, weighted; 0 at best */
-    double flux_divergence;      /**< largest share of a simplex's flux that gets lost by
-                                      rounding */
-    double moved;                /**< gradient, bi-Laplace functions without constraints: how far
-                                      `maximum` lies from the vertex that was asked for (or the
-                                      grassfire's), because the function is greatest beside it; else
-                                      0 */
-    int32_t reason;              /**< `ICC_REASON_*`: why it is not certified; 0 if it is */
+    double spacing;              /**< distance of grid or lattice neighbours; 0 on a domain's
+                                      mesh */
 } icc_chart_info;
+
+/** What only charts of method gradient have. */
+typedef struct icc_gradient_info {
+    size_t size;                /**< set by the caller: `sizeof(icc_gradient_info)` */
+    int32_t function;           /**< `ICC_FUNCTION_*` */
+    int32_t tree;               /**< `ICC_TREE_*` */
+    size_t n_grid;              /**< grid vertices */
+    size_t n_inside;            /**< grid vertices inside the domain */
+    size_t n_tree;              /**< grid vertices in the tree */
+    size_t n_unreachable;       /**< grid vertices inside that the tree does not reach */
+    size_t n_cousin_violations; /**< neighbours inside that are neither parent and child nor
+                                     cousins */
+    size_t n_maxima;            /**< of the function, inside */
+    size_t n_minima;            /**< of the function, inside */
+    size_t n_saddles;           /**< of the function, inside */
+    size_t n_edges;             /**< 2-D: edges between two triangles that curves run through */
+    size_t n_compression;       /**< 2-D: edges where curves merge on the way up */
+    size_t n_expansion;         /**< 2-D: edges where curves merge on the way down */
+    double moved;               /**< bi-Laplace functions without constraints: how far
+                                     icc_chart_info::maximum lies from the vertex that was asked for
+                                     (or the grassfire's), because the function is greatest beside
+                                     it; else 0 */
+    double seconds_grid;        /**< time to make the grid and find the maximum */
+    double seconds_tree;        /**< time to make and verify the tree */
+    double seconds_function;    /**< time to make and verify the function */
+} icc_gradient_info;
+
+/** What only charts of method field have. The function is ::ICC_FUNCTION_LAPLACE, the tree's form
+ *  ::ICC_TREE_THESIS. */
+typedef struct icc_field_info {
+    size_t size;                /**< set by the caller: `sizeof(icc_field_info)` */
+    size_t n_grid;              /**< grid vertices */
+    size_t n_inside;            /**< grid vertices inside the domain */
+    size_t n_stray;             /**< grid vertices inside that were given up, because without them
+                                     the others form a ball */
+    size_t n_tree;              /**< grid vertices in the tree */
+    size_t n_unreachable;       /**< grid vertices inside that the tree does not reach */
+    size_t n_cousin_violations; /**< neighbours inside that are neither parent and child nor
+                                     cousins */
+    size_t n_maxima;            /**< of the function, inside */
+    size_t n_minima;            /**< of the function, inside */
+    size_t n_saddles;           /**< of the function, inside */
+    size_t n_infeasible;        /**< grid vertices where no vector points uphill in all simplices */
+    size_t n_contacts;          /**< pairs of a facet and a grid vertex of a simplex that it runs
+                                     through */
+    size_t n_not_inward;        /**< those of them where the vector does not point inward */
+    double seconds_grid;        /**< time to make the grid and find the maximum */
+    double seconds_tree;        /**< time to make and verify the tree */
+    double seconds_function;    /**< time to make and verify the function */
+    double seconds_solve;       /**< time to find the vectors and check them */
+} icc_field_info;
+
+/** What only charts of method foliation have in 2-D, on a mesh that the library makes. */
+typedef struct icc_foliation_info {
+    size_t size;             /**< set by the caller: `sizeof(icc_foliation_info)` */
+    size_t n_mesh_vertices;  /**< vertices of the mesh */
+    size_t n_mesh_boundary;  /**< of them on the boundary */
+    size_t n_mesh_simplices; /**< triangles of the mesh */
+    size_t n_ties;           /**< mesh edges whose ends have the same label: ordered by index */
+    double harmonic_share;   /**< share of the boundary flux that is harmonic */
+    double seconds_mesh;     /**< time to make the mesh */
+    double seconds_solve;    /**< time to solve for the leaves */
+    double seconds_certify;  /**< time to certify them */
+} icc_foliation_info;
+
+/** What only charts of method foliation have on a domain's mesh, icc_domain_create_mesh(). */
+typedef struct icc_shelling_info {
+    size_t size;             /**< set by the caller: `sizeof(icc_shelling_info)` */
+    size_t n_mesh_vertices;  /**< vertices of the mesh, and one more where none lies inside */
+    size_t n_mesh_boundary;  /**< of them on the boundary */
+    size_t n_mesh_simplices; /**< simplices of the mesh */
+    double harmonic_share;   /**< share of the boundary flux that is harmonic */
+    int32_t order_peeled;    /**< 1: the order of the simplices was found from the boundary inwards,
+                                  0: from the centre outwards */
+    int32_t n_orders;        /**< how many of those that are tried were complete at first; the best
+                                  is used */
+    double order_beta;       /**< how much reversed flux weighed in it */
+    size_t n_reversed;       /**< facets that the harmonic flux runs through the other way */
+    double flux_energy;      /**< how far the flux along the leaves is from the harmonic one: sum of
+                                  the squared differences, weighted; 0 at best */
+    double flux_divergence;  /**< largest share of a simplex's flux that gets lost by rounding */
+    double seconds_centre;   /**< time to choose the maximum */
+    double seconds_solve;    /**< time to solve for the harmonic flux */
+    double seconds_order;    /**< time to find the order */
+    double seconds_certify;  /**< time to certify it */
+    double seconds_leaves;   /**< time to prepare the leaves */
+} icc_shelling_info;
+
+/** What only charts of method disc have. */
+typedef struct icc_disc_info {
+    size_t size;             /**< set by the caller: `sizeof(icc_disc_info)` */
+    size_t n_mesh_vertices;  /**< vertices of the mesh */
+    size_t n_mesh_boundary;  /**< of them on the boundary */
+    size_t n_mesh_simplices; /**< triangles of the mesh */
+    double seconds_mesh;     /**< time to make the mesh */
+    double seconds_solve;    /**< time to solve for the map to the disc */
+    double seconds_certify;  /**< time to certify it */
+} icc_disc_info;
 
 /** Shares that icc_chart_get_report() estimates from evenly spread points. All lie in [0,1]. Area
  *  and length are those of 2-D; beyond, read volume and area, and so on. For a certified chart all
@@ -477,7 +533,7 @@ typedef struct icc_chart_report {
  * Cost with n vertices and N cells along the longest side: gradient O(N^2 + n N) time and memory at
  * most in 2-D, about 1 ms at N = 50, and O(N^dim) beyond: in 3-D at N = 64 from 0.1 s, and 15 us a
  * point and way. Field the same: in 3-D at N = 64 0.05 to 0.5 s, 10 us a point and way (15 without
- * AVX2); at most 70 bytes a grid vertex, and 150 for each of icc_chart_info::n_contacts while it is
+ * AVX2); at most 70 bytes a grid vertex, and 150 for each of icc_field_info::n_contacts while it is
  * made. Foliation and disc mesh the domain with at most 2 n + 4 N^2 vertices (far fewer in
  * practice) and factorise its Laplacian: about 5 ms at N = 50 and n < 100, 0.1 s at n = 15,000; 500
  * bytes a vertex. Foliation on a domain with a mesh: in 3-D about 12 us a tetrahedron, 20 us from
@@ -493,6 +549,22 @@ ICC_API void icc_chart_free(icc_chart *chart);
 
 /** Fills in `info`, whose `size` the caller has set. ::ICC_OK or ::ICC_ERR_ARGUMENT. */
 ICC_API icc_status icc_chart_get_info(const icc_chart *chart, icc_chart_info *info);
+
+/** Fills in what only charts of method gradient have; `size` as there. ::ICC_OK,
+ *  ::ICC_ERR_UNSUPPORTED for charts that are made otherwise, or ::ICC_ERR_ARGUMENT. */
+ICC_API icc_status icc_chart_get_gradient_info(const icc_chart *chart, icc_gradient_info *info);
+
+/** The same for method field. */
+ICC_API icc_status icc_chart_get_field_info(const icc_chart *chart, icc_field_info *info);
+
+/** The same for method foliation in 2-D, unless the domain brings a mesh. */
+ICC_API icc_status icc_chart_get_foliation_info(const icc_chart *chart, icc_foliation_info *info);
+
+/** The same for method foliation on a domain's mesh. */
+ICC_API icc_status icc_chart_get_shelling_info(const icc_chart *chart, icc_shelling_info *info);
+
+/** The same for method disc. */
+ICC_API icc_status icc_chart_get_disc_info(const icc_chart *chart, icc_disc_info *info);
 
 /** The domain that the chart was made on; borrowed. */
 ICC_API const icc_domain *icc_chart_domain(const icc_chart *chart);

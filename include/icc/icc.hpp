@@ -25,6 +25,7 @@
 #include <exception>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -383,7 +384,17 @@ public:
     static chart load(view<const std::byte> saved, const env &e = {}) { return chart(saved, e); }
 
     std::vector<std::byte> save() const { return bytes(icc_chart_save); } /**< with the domain */
-    icc_chart_info info() const { return tell(icc_chart_get_info); }      /**< certificate, counts, .. */
+    icc_chart_info info() const { return tell(icc_chart_get_info); }      /**< certificate, maximum, .. */
+    /** What only charts of one method have; nothing for charts of others. */
+    std::optional<icc_gradient_info> gradient_info() const { return own(icc_chart_get_gradient_info); }
+    /** Likewise. */
+    std::optional<icc_field_info> field_info() const { return own(icc_chart_get_field_info); }
+    /** Likewise, in the plane on a mesh that the library makes. */
+    std::optional<icc_foliation_info> foliation_info() const { return own(icc_chart_get_foliation_info); }
+    /** Likewise, for method foliation on a domain's mesh. */
+    std::optional<icc_shelling_info> shelling_info() const { return own(icc_chart_get_shelling_info); }
+    /** Likewise. */
+    std::optional<icc_disc_info> disc_info() const { return own(icc_chart_get_disc_info); }
     /** The domain, for calls of the C interface; borrowed. */
     const icc_domain *get_domain() const noexcept { return icc_chart_domain(get()); }
 
@@ -448,6 +459,18 @@ public:
             });
         } while (n * width > curve.size());
         return curve;
+    }
+
+private:
+    /** What `read` fills in; nothing where the method does not have it. */
+    template <class Info> std::optional<Info> own(icc_status (*read)(const icc_chart *, Info *)) const
+    {
+        auto info = sized<Info>();
+        const icc_status status = read(get(), &info);
+        if (status == ICC_ERR_UNSUPPORTED)
+            return std::nullopt;
+        call({}, [&](auto...) { return status; });
+        return info;
     }
 };
 

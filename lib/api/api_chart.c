@@ -43,6 +43,55 @@ icc_status icc_chart_get_info(const icc_chart *chart, icc_chart_info *info)
     return iccp_write_struct(info, &chart->info, sizeof chart->info, "icc_chart_info", NULL);
 }
 
+/* The members that only one method has. */
+static icc_status write_own(const icc_chart *chart, int32_t method, bool shelling, void *info,
+                            const void *own, size_t size, const char *name)
+{
+    if (chart->info.method != method || iccp_chart_is_shelling(chart) != shelling)
+        return ICC_ERR_UNSUPPORTED;
+    return iccp_write_struct(info, own, size, name, NULL);
+}
+
+icc_status icc_chart_get_gradient_info(const icc_chart *chart, icc_gradient_info *info)
+{
+    if (chart == NULL || info == NULL)
+        return ICC_ERR_ARGUMENT;
+    return write_own(chart, ICC_METHOD_GRADIENT, false, info, &chart->own.gradient,
+                     sizeof chart->own.gradient, "icc_gradient_info");
+}
+
+icc_status icc_chart_get_field_info(const icc_chart *chart, icc_field_info *info)
+{
+    if (chart == NULL || info == NULL)
+        return ICC_ERR_ARGUMENT;
+    return write_own(chart, ICC_METHOD_FIELD, false, info, &chart->own.field,
+                     sizeof chart->own.field, "icc_field_info");
+}
+
+icc_status icc_chart_get_foliation_info(const icc_chart *chart, icc_foliation_info *info)
+{
+    if (chart == NULL || info == NULL)
+        return ICC_ERR_ARGUMENT;
+    return write_own(chart, ICC_METHOD_FOLIATION, false, info, &chart->own.foliation,
+                     sizeof chart->own.foliation, "icc_foliation_info");
+}
+
+icc_status icc_chart_get_shelling_info(const icc_chart *chart, icc_shelling_info *info)
+{
+    if (chart == NULL || info == NULL)
+        return ICC_ERR_ARGUMENT;
+    return write_own(chart, ICC_METHOD_FOLIATION, true, info, &chart->own.shelling,
+                     sizeof chart->own.shelling, "icc_shelling_info");
+}
+
+icc_status icc_chart_get_disc_info(const icc_chart *chart, icc_disc_info *info)
+{
+    if (chart == NULL || info == NULL)
+        return ICC_ERR_ARGUMENT;
+    return write_own(chart, ICC_METHOD_DISC, false, info, &chart->own.disc, sizeof chart->own.disc,
+                     "icc_disc_info");
+}
+
 const icc_domain *icc_chart_domain(const icc_chart *chart)
 {
     return chart != NULL ? chart->domain : NULL;

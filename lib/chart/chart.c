@@ -37,3 +37,8 @@ void iccp_coords_of_maximum(int32_t dim, iccp_coords *coords)
     for (int32_t k = 0; k < dim; ++k)
         coords->bary[k] = 1.0 / dim;
 }
+
+bool iccp_chart_is_shelling(const icc_chart *chart)
+{
+    return chart->info.method == ICC_METHOD_FOLIATION && chart->mesh == NULL;
+}

@@ -74,6 +74,13 @@ struct icc_chart {
     atomic_size_t references;
     icc_domain *domain;
     icc_chart_info info; /* with the maximum in the caller's coordinates */
+    union {
+        icc_gradient_info gradient;
+        icc_field_info field;
+        icc_foliation_info foliation;
+        icc_shelling_info shelling; /* see iccp_chart_is_shelling() */
+        icc_disc_info disc;
+    } own; /* what only the chart's method has */
     const iccp_chart_ops *ops;
     void *state;             /* the method's own */
     const iccp_planar *mesh; /* the domain's that the chart lives on, part of the state; or
@@ -84,5 +91,8 @@ struct icc_chart {
 icc_status iccp_chart_new(icc_chart **out, const icc_domain *domain, const iccp_env *env);
 icc_chart *iccp_chart_retain(const icc_chart *chart);
 void iccp_chart_release(icc_chart *chart);
+
+/* Whether the chart is of method foliation on the domain's mesh. */
+bool iccp_chart_is_shelling(const icc_chart *chart);
 
 #endif

@@ -345,7 +345,12 @@ icc_status iccp_chart_disc_create(icc_chart **out, const icc_domain *domain, icc
     chart->info.method = ICC_METHOD_DISC;
     chart->info.certified = 1;
     iccp_harmonic_describe(base, domain, &chart->info);
-    chart->info.seconds_certify = seconds;
+    chart->own.disc = (icc_disc_info){.n_mesh_vertices = base->mesh.n_vertices,
+                                      .n_mesh_boundary = base->mesh.n_boundary,
+                                      .n_mesh_simplices = base->mesh.n_triangles,
+                                      .seconds_mesh = base->seconds_mesh,
+                                      .seconds_solve = base->seconds_solve,
+                                      .seconds_certify = seconds};
     disc_state *state = iccp_alloc_zero(&env->memory, 1, sizeof *state);
     chart->state = state;
     status = state != NULL ? fill_state(state, &base->mesh, *image, env) : ICC_ERR_MEMORY;

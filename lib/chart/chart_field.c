@@ -69,10 +69,10 @@ static icc_status make_tree_on(iccp_field_state *state, icc_chart *chart, int32_
     icc_status status = iccp_grid_create(&grid, chart->domain, cells, &part[0], err);
     if (status != ICC_OK)
         return status;
-    chart->info.n_grid = grid->n_vertices;
+    chart->own.field.n_grid = grid->n_vertices;
     chart->info.cells = grid->cells;
     status = choose_root(grid, maximum, &root, &part[1], err);
-    chart->info.seconds_grid += iccp_seconds() - start;
+    chart->own.field.seconds_grid += iccp_seconds() - start;
     start = iccp_seconds();
     uint32_t *rank = iccp_alloc(&env->memory, grid->n_vertices, sizeof *rank);
     if (status == ICC_OK && rank == NULL)
@@ -84,10 +84,10 @@ static icc_status make_tree_on(iccp_field_state *state, icc_chart *chart, int32_
         status = iccp_tree_verify(state->tree, &report, &part[3]);
     iccp_free(&env->memory, rank);
     iccp_grid_release(grid);
-    chart->info.seconds_tree += iccp_seconds() - start;
-    chart->info.n_tree = report.n_inside + report.n_outside;
-    chart->info.n_unreachable = report.n_unreachable;
-    chart->info.n_cousin_violations = report.n_cousin_violations;
+    chart->own.field.seconds_tree += iccp_seconds() - start;
+    chart->own.field.n_tree = report.n_inside + report.n_outside;
+    chart->own.field.n_unreachable = report.n_unreachable;
+    chart->own.field.n_cousin_violations = report.n_cousin_violations;
     return status;
 }
 
@@ -97,16 +97,15 @@ static icc_status make_tree(iccp_field_state *state, icc_chart *chart,
                             const icc_chart_options *options, const double *maximum,
                             const iccp_env *env, icc_error *err)
 {
-    const icc_chart_info *info = &chart->info;
     const int32_t cells = choose_cells(chart->domain, options->cells);
     const iccp_env first = iccp_part(env, NULL, 0, 0.8), again = iccp_part(env, NULL, 0.8, 1);
     const icc_status status = make_tree_on(state, chart, cells, maximum, &first, err);
-    if (status != ICC_ERR_TOPOLOGY || info->n_grid > MOST_REFINED >> chart->domain->dim)
+    if (status != ICC_ERR_TOPOLOGY || chart->own.field.n_grid > MOST_REFINED >> chart->domain->dim)
         return status;
     iccp_log(env,
              "field: no order of the vertices of %d cells has one critical vertex; %d are tried",
-             (int)info->cells, (int)(2 * info->cells));
-    return make_tree_on(state, chart, 2 * info->cells, maximum, &again, err);
+             (int)chart->info.cells, (int)(2 * chart->info.cells));
+    return make_tree_on(state, chart, 2 * chart->info.cells, maximum, &again, err);
 }
 
 static icc_status make_field(iccp_field_state *state, icc_chart *chart,
@@ -122,10 +121,10 @@ static icc_status make_field(iccp_field_state *state, icc_chart *chart,
     icc_status status = iccp_function_create(&state->field, state->tree, &function, &part[0], err);
     if (status == ICC_OK)
         status = iccp_function_verify(state->field, &report, &part[1]);
-    chart->info.n_maxima = report.n_maxima;
-    chart->info.n_minima = report.n_minima;
-    chart->info.n_saddles = report.n_saddles;
-    chart->info.seconds_function = iccp_seconds() - start;
+    chart->own.field.n_maxima = report.n_maxima;
+    chart->own.field.n_minima = report.n_minima;
+    chart->own.field.n_saddles = report.n_saddles;
+    chart->own.field.seconds_function = iccp_seconds() - start;
     return status;
 }
 
@@ -148,7 +147,7 @@ static icc_status make_vectors(iccp_field_state *state, icc_chart *chart, const 
     if (status == ICC_OK)
         status = iccp_cones_create(&state->cones, &smooth, &state->cover, &part[2]);
     iccp_smooth_free(&smooth);
-    chart->info.seconds_solve = iccp_seconds() - start;
+    chart->own.field.seconds_solve = iccp_seconds() - start;
     return status;
 }
 
@@ -156,7 +155,7 @@ static void finish(iccp_field_state *state, icc_chart *chart)
 {
     const icc_grid *grid = state->tree->grid;
     const int32_t dim = grid->dim;
-    icc_chart_info *info = &chart->info;
+    icc_field_info *own = &chart->own.field;
     size_t steps = 1000;
     for (int32_t k = 0; k < dim; ++k) {
         state->root[k] =
@@ -169,18 +168,18 @@ static void finish(iccp_field_state *state, icc_chart *chart)
                               .cones = &state->cones,
                               .root = state->tree->root,
                               .most_steps = steps};
-    iccp_frame_out(&chart->domain->frame, dim, state->root, info->maximum);
-    info->spacing = grid->spacing * chart->domain->frame.out[0] * chart->domain->frame.out[1];
-    info->n_inside = grid->n_inside;
-    info->n_infeasible = state->cones.n_infeasible;
-    info->n_contacts = state->cones.n_contacts;
-    info->n_not_inward = state->cones.n_not_inward;
-    info->n_stray = grid->n_stray;
-    info->reason = info->n_infeasible > 0   ? ICC_REASON_INFEASIBLE
-                   : info->n_not_inward > 0 ? ICC_REASON_NOT_INWARD
-                   : info->n_stray > 0      ? ICC_REASON_STRAY
-                                            : ICC_REASON_NONE;
-    info->certified = info->reason == ICC_REASON_NONE;
+    iccp_frame_out(&chart->domain->frame, dim, state->root, chart->info.maximum);
+    chart->info.spacing = grid->spacing * chart->domain->frame.out[0] * chart->domain->frame.out[1];
+    own->n_inside = grid->n_inside;
+    own->n_infeasible = state->cones.n_infeasible;
+    own->n_contacts = state->cones.n_contacts;
+    own->n_not_inward = state->cones.n_not_inward;
+    own->n_stray = grid->n_stray;
+    chart->info.reason = own->n_infeasible > 0   ? ICC_REASON_INFEASIBLE
+                         : own->n_not_inward > 0 ? ICC_REASON_NOT_INWARD
+                         : own->n_stray > 0      ? ICC_REASON_STRAY
+                                                 : ICC_REASON_NONE;
+    chart->info.certified = chart->info.reason == ICC_REASON_NONE;
 }
 
 static void free_state(icc_chart *chart)
@@ -247,8 +246,6 @@ icc_status iccp_chart_field_create(icc_chart **out, const icc_domain *domain,
     icc_chart *chart = *out;
     chart->ops = &OPS;
     chart->info.method = ICC_METHOD_FIELD;
-    chart->info.function = ICC_FUNCTION_LAPLACE;
-    chart->info.tree = ICC_TREE_THESIS;
     iccp_field_state *state = iccp_alloc_zero(&env->memory, 1, sizeof *state);
     chart->state = state;
     status = ICC_ERR_MEMORY;
@@ -261,7 +258,7 @@ icc_status iccp_chart_field_create(icc_chart **out, const icc_domain *domain,
     if (status == ICC_OK)
         status = make_field(state, chart, options, &part[1], err);
     if (status == ICC_OK)
-        status = iccp_budget_work(env, VECTOR_WORK * (double)chart->info.n_grid *
+        status = iccp_budget_work(env, VECTOR_WORK * (double)chart->own.field.n_grid *
                                            iccp_simplices_at_vertex(domain->dim));
     if (status == ICC_OK)
         status = make_vectors(state, chart, &part[2], err);
@@ -287,7 +284,7 @@ icc_status iccp_chart_field_shift(icc_chart **out, const icc_chart *chart, const
     icc_chart_options options = state->recipe.options;
     options.cells = chart->info.cells + 1;
     iccp_log(env, "field: %zu vertices were given up at %ld cells; %ld are tried",
-             chart->info.n_stray, (long)chart->info.cells, (long)options.cells);
+             chart->own.field.n_stray, (long)chart->info.cells, (long)options.cells);
     const icc_status status = iccp_chart_field_create(
         out, chart->domain, &options, iccp_recipe_maximum(&state->recipe), env, NULL);
     if (*out != NULL && !(*out)->info.certified) {

@@ -361,7 +361,7 @@ static void free_state(icc_chart *chart)
 static void save(const icc_chart *chart, iccp_blob *w)
 {
     const foliation_state *state = chart->state;
-    double share = chart->info.harmonic_share;
+    double share = chart->own.foliation.harmonic_share;
     iccp_harmonic_write(chart->info.cells, &state->mesh, chart->domain, w);
     iccp_blob_f64(w, 1, &share);
     iccp_psi_write(&state->psi, &state->mesh, w);
@@ -380,9 +380,11 @@ static const iccp_chart_ops OPS = {
 /* Shares of harmonic flux to try: one half is the fairest; less copes with sharper corners. */
 static const double HARMONIC_SHARES[] = {0.5, 0.25, 0.0};
 
-static icc_status make_psi(foliation_state *state, const iccp_harmonic *base, uint32_t centre,
-                           icc_chart_info *info, const iccp_env *env, icc_error *err)
+static icc_status make_psi(icc_chart *chart, const iccp_harmonic *base, uint32_t centre,
+                           const iccp_env *env, icc_error *err)
 {
+    foliation_state *state = chart->state;
+    icc_foliation_info *info = &chart->own.foliation;
     iccp_certificate certificate = {0};
     const double start = iccp_seconds();
     iccp_certify_mesh(&base->mesh, base->mesh.points, &certificate);
@@ -397,7 +399,7 @@ static icc_status make_psi(foliation_state *state, const iccp_harmonic *base, ui
         if (status != ICC_OK)
             return status;
         if (iccp_certificate_holds(&certificate)) {
-            info->certified = 1;
+            chart->info.certified = 1;
             info->n_ties = certificate.n_ties;
             info->harmonic_share = HARMONIC_SHARES[k];
             info->seconds_solve += solved - start;
@@ -423,6 +425,11 @@ static icc_status begin(icc_chart **out, const icc_domain *domain, const iccp_ha
     chart->ops = &OPS;
     chart->info.method = ICC_METHOD_FOLIATION;
     iccp_harmonic_describe(base, domain, &chart->info);
+    chart->own.foliation = (icc_foliation_info){.n_mesh_vertices = base->mesh.n_vertices,
+                                                .n_mesh_boundary = base->mesh.n_boundary,
+                                                .n_mesh_simplices = base->mesh.n_triangles,
+                                                .seconds_mesh = base->seconds_mesh,
+                                                .seconds_solve = base->seconds_solve};
     chart->state = iccp_alloc_zero(&env->memory, 1, sizeof(foliation_state));
     return chart->state != NULL ? ICC_OK : ICC_ERR_MEMORY;
 }
@@ -452,7 +459,7 @@ icc_status iccp_chart_foliation_create(icc_chart **out, const icc_domain *domain
 {
     icc_status status = begin(out, domain, base, env);
     if (status == ICC_OK)
-        status = make_psi((*out)->state, base, centre, &(*out)->info, env, err);
+        status = make_psi(*out, base, centre, env, err);
     return finish(out, base, status, env);
 }
 
@@ -469,7 +476,7 @@ static icc_status read_psi(icc_chart *chart, const iccp_planar *mesh, iccp_blob 
     if (status != ICC_OK)
         return status;
     chart->info.certified = iccp_certificate_holds(&certificate);
-    chart->info.n_ties = certificate.n_ties;
+    chart->own.foliation.n_ties = certificate.n_ties;
     return chart->info.certified ? ICC_OK : ICC_ERR_FORMAT;
 }
 
@@ -485,7 +492,7 @@ icc_status iccp_chart_foliation_read(icc_chart **out, const icc_domain *domain, 
     iccp_blob_f64(r, 1, &share);
     status = share >= 0 && share < 1 ? begin(out, domain, &base, env) : ICC_ERR_FORMAT;
     if (status == ICC_OK) {
-        (*out)->info.harmonic_share = share;
+        (*out)->own.foliation.harmonic_share = share;
         status = read_psi(*out, &base.mesh, r, env);
     }
     status = finish(out, &base, status, env);

@@ -50,16 +50,17 @@ static icc_status grow_tree(iccp_gradient_state *state, icc_chart *chart, const 
     icc_tree *tree = NULL;
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){4, 1}, env);
-    icc_status status = iccp_tree_create(&tree, grid, root, chart->info.tree, NULL, &part[0], err);
+    icc_status status =
+        iccp_tree_create(&tree, grid, root, chart->own.gradient.tree, NULL, &part[0], err);
     if (status != ICC_OK)
         return status;
     iccp_tree_release(state->tree);
     state->tree = tree;
     status = iccp_tree_verify(tree, &report, &part[1]);
-    chart->info.seconds_tree += iccp_seconds() - start;
-    chart->info.n_tree = report.n_inside + report.n_outside;
-    chart->info.n_unreachable = report.n_unreachable;
-    chart->info.n_cousin_violations = report.n_cousin_violations;
+    chart->own.gradient.seconds_tree += iccp_seconds() - start;
+    chart->own.gradient.n_tree = report.n_inside + report.n_outside;
+    chart->own.gradient.n_unreachable = report.n_unreachable;
+    chart->own.gradient.n_cousin_violations = report.n_cousin_violations;
     return status;
 }
 
@@ -75,12 +76,12 @@ static icc_status make_tree(iccp_gradient_state *state, icc_chart *chart,
     if (status != ICC_OK)
         return status;
     status = choose_root(grid, chart->domain, options->maximum, &state->chosen, &part[1], err);
-    chart->info.seconds_grid = iccp_seconds() - start;
+    chart->own.gradient.seconds_grid = iccp_seconds() - start;
     if (status == ICC_OK)
         status = grow_tree(state, chart, grid, state->chosen, &part[2], err);
     chart->info.cells = grid->cells;
-    chart->info.n_grid = grid->n_vertices;
-    chart->info.n_inside = grid->n_inside;
+    chart->own.gradient.n_grid = grid->n_vertices;
+    chart->own.gradient.n_inside = grid->n_inside;
     iccp_grid_release(grid);
     return status;
 }
@@ -131,7 +132,7 @@ static icc_status make_plate(iccp_gradient_state *state, icc_chart *chart,
 static icc_status make_field(iccp_gradient_state *state, icc_chart *chart,
                              const icc_chart_options *options, const iccp_env *env, icc_error *err)
 {
-    const double start = iccp_seconds(), grown = chart->info.seconds_tree;
+    const double start = iccp_seconds(), grown = chart->own.gradient.seconds_tree;
     icc_function_report report = {0};
     const icc_function_options function = {.function = options->function,
                                            .constraints = options->constraints,
@@ -150,14 +151,16 @@ static icc_status make_field(iccp_gradient_state *state, icc_chart *chart,
         status = iccp_function_verify(state->field, &report, &part[1]);
     if (status != ICC_OK)
         return status;
-    chart->info.n_maxima = report.n_maxima;
-    chart->info.n_minima = report.n_minima;
-    chart->info.n_saddles = report.n_saddles;
+    chart->own.gradient.n_maxima = report.n_maxima;
+    chart->own.gradient.n_minima = report.n_minima;
+    chart->own.gradient.n_saddles = report.n_saddles;
     if (chart->domain->dim == 2)
-        iccp_function_count_edges(state->field, &chart->info.n_edges, &chart->info.n_compression,
-                                  &chart->info.n_expansion);
+        iccp_function_count_edges(state->field, &chart->own.gradient.n_edges,
+                                  &chart->own.gradient.n_compression,
+                                  &chart->own.gradient.n_expansion);
     status = iccp_gradient_extend(state->field, &part[2]);
-    chart->info.seconds_function = iccp_seconds() - start - (chart->info.seconds_tree - grown);
+    chart->own.gradient.seconds_function =
+        iccp_seconds() - start - (chart->own.gradient.seconds_tree - grown);
     return status;
 }
 
@@ -182,7 +185,7 @@ static void place_maximum(iccp_gradient_state *state, icc_chart *chart)
     iccp_gradient_to_local(state, state->root, local);
     iccp_frame_out(&chart->domain->frame, grid->dim, local, chart->info.maximum);
     chart->info.spacing = grid->spacing * chart->domain->frame.out[0] * chart->domain->frame.out[1];
-    chart->info.moved = sqrt(squared) * chart->info.spacing;
+    chart->own.gradient.moved = sqrt(squared) * chart->info.spacing;
 }
 
 /* ---- Algorithm 7: Cartesian to ICC ---- */
@@ -350,8 +353,8 @@ icc_status iccp_chart_gradient_create(icc_chart **out, const icc_domain *domain,
     chart->ops = &OPS;
     chart->info.method = ICC_METHOD_GRADIENT;
     chart->info.reason = ICC_REASON_GRADIENT;
-    chart->info.function = options->function;
-    chart->info.tree = options->tree;
+    chart->own.gradient.function = options->function;
+    chart->own.gradient.tree = options->tree;
     iccp_gradient_state *state = iccp_alloc_zero(&env->memory, 1, sizeof *state);
     chart->state = state;
     iccp_env part[3];

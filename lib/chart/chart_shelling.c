@@ -117,7 +117,7 @@ static void work_free(work *w, const iccp_memory *memory)
 }
 
 static icc_status find_order(work *w, const iccp_simplices *mesh, uint32_t centre,
-                             icc_chart_info *info, const iccp_env *env, icc_error *err)
+                             icc_shelling_info *info, const iccp_env *env, icc_error *err)
 {
     const size_t n = mesh->n_simplices;
     iccp_contest_info contest = {0};
@@ -143,7 +143,7 @@ static icc_status find_order(work *w, const iccp_simplices *mesh, uint32_t centr
                               &contest, &part[2], err);
     info->harmonic_share = HARMONIC_SHARE;
     info->seconds_solve = solved - start;
-    info->seconds_tree = iccp_seconds() - solved;
+    info->seconds_order = iccp_seconds() - solved;
     info->order_peeled = contest.peeled;
     info->n_orders = (int32_t)contest.n_finished;
     info->order_beta = contest.beta;
@@ -169,18 +169,18 @@ static void find_directions(const iccp_simplices *mesh, double *flux)
     }
 }
 
-static icc_status certify(const icc_domain *domain, const iccp_simplices *mesh, uint32_t centre,
-                          const work *w, icc_chart_info *info, const iccp_env *env, icc_error *err)
+static icc_status certify(icc_chart *chart, const iccp_simplices *mesh, uint32_t centre,
+                          const work *w, const iccp_env *env, icc_error *err)
 {
     iccp_shelling_certificate found;
     const double start = iccp_seconds();
     const icc_status status =
-        iccp_certify_shelling(&found, mesh, domain->facets, centre, w->rank, w->flux, env);
-    info->seconds_certify = iccp_seconds() - start;
+        iccp_certify_shelling(&found, mesh, chart->domain->facets, centre, w->rank, w->flux, env);
+    chart->own.shelling.seconds_certify = iccp_seconds() - start;
     if (status != ICC_OK)
         return status;
-    info->certified = iccp_shelling_certificate_holds(&found);
-    if (info->certified)
+    chart->info.certified = iccp_shelling_certificate_holds(&found);
+    if (chart->info.certified)
         return ICC_OK;
     return iccp_fail(err, ICC_ERR_CERTIFICATE,
                      "the foliation cannot be certified: %zu inverted simplices, %zu faults of "
@@ -190,23 +190,24 @@ static icc_status certify(const icc_domain *domain, const iccp_simplices *mesh, 
                      found.n_directions);
 }
 
-static icc_status make_fibres(iccp_shelling_state *state, const icc_domain *domain,
-                              const iccp_simplices *mesh, uint32_t centre, icc_chart_info *info,
+static icc_status make_fibres(icc_chart *chart, const iccp_simplices *mesh, uint32_t centre,
                               const iccp_env *env, icc_error *err)
 {
+    iccp_shelling_state *state = chart->state;
+    icc_shelling_info *info = &chart->own.shelling;
     work w = {0};
     iccp_env part[3];
     iccp_split(part, 3, (const double[]){8, 2, 1}, env);
     icc_status status = find_order(&w, mesh, centre, info, &part[0], err);
     if (status == ICC_OK) {
         find_directions(mesh, w.flux);
-        status = certify(domain, mesh, centre, &w, info, &part[1], err);
+        status = certify(chart, mesh, centre, &w, &part[1], err);
     }
     const double start = iccp_seconds();
     if (status == ICC_OK)
-        status =
-            iccp_fibres_create(&state->fibres, mesh, centre, w.flux, domain->band.reach, &part[2]);
-    info->seconds_mesh = iccp_seconds() - start;
+        status = iccp_fibres_create(&state->fibres, mesh, centre, w.flux, chart->domain->band.reach,
+                                    &part[2]);
+    info->seconds_leaves = iccp_seconds() - start;
     work_free(&w, &env->memory);
     return status;
 }
@@ -218,9 +219,8 @@ static icc_status make_chart(job *j, size_t k, icc_chart **out, const iccp_env *
     const icc_status status = iccp_shelling_begin(out, j->domain[k], own, j->centre[k], env);
     if (status != ICC_OK)
         return status;
-    (*out)->info.seconds_grid = j->seconds / (double)j->n;
-    return make_fibres((*out)->state, j->domain[k], j->mesh[k], j->centre[k], &(*out)->info, env,
-                       err);
+    (*out)->own.shelling.seconds_centre = j->seconds / (double)j->n;
+    return make_fibres(*out, j->mesh[k], j->centre[k], env, err);
 }
 
 icc_status iccp_chart_shelling_create(size_t n, icc_chart **out, const icc_domain *const *domain,

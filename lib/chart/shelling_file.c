@@ -118,7 +118,7 @@ static icc_status read_fibres(icc_chart *chart, const iccp_simplices *mesh, uint
     return status;
 }
 
-static void copy_story(icc_chart_info *info, const icc_chart_info *story)
+static void copy_story(icc_shelling_info *info, const icc_shelling_info *story)
 {
     info->order_peeled = story->order_peeled;
     info->n_orders = story->n_orders;
@@ -132,7 +132,7 @@ static void copy_story(icc_chart_info *info, const icc_chart_info *story)
 icc_status iccp_chart_shelling_read(icc_chart **out, const icc_domain *domain, iccp_blob *b,
                                     const iccp_env *env)
 {
-    icc_chart_info story = {0};
+    icc_shelling_info story = {0};
     iccp_simplices *own;
     uint64_t centre;
     *out = NULL;
@@ -146,7 +146,7 @@ icc_status iccp_chart_shelling_read(icc_chart **out, const icc_domain *domain, i
     }
     status = iccp_shelling_begin(out, domain, own, (uint32_t)centre, env);
     if (status == ICC_OK) {
-        copy_story(&(*out)->info, &story);
+        copy_story(&(*out)->own.shelling, &story);
         status = read_fibres(*out, mesh, (uint32_t)centre, b, env);
     }
     if (status != ICC_OK) {

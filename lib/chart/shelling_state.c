@@ -257,7 +257,7 @@ static void free_state(icc_chart *chart)
     iccp_free(&chart->memory, state);
 }
 
-icc_status iccp_shelling_visit_head(iccp_blob *b, icc_chart_info *story, iccp_simplices **own,
+icc_status iccp_shelling_visit_head(iccp_blob *b, icc_shelling_info *story, iccp_simplices **own,
                                     uint64_t *centre, const icc_domain *domain)
 {
     iccp_blob_i32(b, ICCP_U64, 0, 1, &story->order_peeled);
@@ -279,7 +279,7 @@ static void save(const icc_chart *chart, iccp_blob *b)
     const iccp_shelling_state *state = chart->state;
     iccp_simplices *own = state->mesh;
     const iccp_simplices *mesh = own != NULL ? own : chart->domain->mesh;
-    icc_chart_info story = chart->info;
+    icc_shelling_info story = chart->own.shelling;
     uint64_t centre = state->fibres.centre;
     (void)iccp_shelling_visit_head(b, &story, &own, &centre, chart->domain);
     for (size_t s = 0; s < mesh->n_simplices; ++s) {
@@ -313,9 +313,9 @@ icc_status iccp_shelling_begin(icc_chart **out, const icc_domain *domain, iccp_s
     }
     icc_chart_info *info = &(*out)->info;
     info->method = ICC_METHOD_FOLIATION;
-    info->n_mesh_vertices = mesh->n_points;
-    info->n_mesh_boundary = mesh->n_rim;
-    info->n_mesh_simplices = mesh->n_simplices;
+    (*out)->own.shelling = (icc_shelling_info){.n_mesh_vertices = mesh->n_points,
+                                               .n_mesh_boundary = mesh->n_rim,
+                                               .n_mesh_simplices = mesh->n_simplices};
     state->mesh = own;
     state->fibres.memory = env->memory;
     memcpy(state->centre, mesh->points + mesh->dim * centre, mesh->dim * sizeof *state->centre);

@@ -48,11 +48,6 @@ void iccp_harmonic_describe(const iccp_harmonic *base, const icc_domain *domain,
     const double *scale = domain->frame.out;
     info->cells = base->cells;
     info->spacing = iccp_planar_step(domain, base->cells) * scale[0] * scale[1];
-    info->n_mesh_vertices = base->mesh.n_vertices;
-    info->n_mesh_boundary = base->mesh.n_boundary;
-    info->n_mesh_simplices = base->mesh.n_triangles;
-    info->seconds_mesh = base->seconds_mesh;
-    info->seconds_solve = base->seconds_solve;
 }
 
 void iccp_harmonic_free(iccp_harmonic *base)

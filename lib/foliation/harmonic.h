@@ -24,7 +24,7 @@ icc_status iccp_harmonic_create(iccp_harmonic *base, const icc_domain *domain,
  * there). */
 void iccp_harmonic_free(iccp_harmonic *base);
 
-/* What a chart's info tells about its base. */
+/* The cells and spacing of its base in a chart's info. */
 void iccp_harmonic_describe(const iccp_harmonic *base, const icc_domain *domain,
                             icc_chart_info *info);
 

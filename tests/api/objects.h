@@ -218,7 +218,11 @@ static inline icc_status call_chart_create(const objects *o, outcome *out, const
     icc_chart_info info = {.size = sizeof info};
     if (status == ICC_OK)
         (void)icc_chart_get_info(chart, &info);
-    out->count = info.n_tree + info.n_mesh_simplices;
+    icc_gradient_info gradient = {.size = sizeof gradient};
+    icc_foliation_info foliation = {.size = sizeof foliation};
+    (void)icc_chart_get_gradient_info(chart, &gradient);
+    (void)icc_chart_get_foliation_info(chart, &foliation);
+    out->count = gradient.n_tree + foliation.n_mesh_simplices;
     memcpy(out->numbers, info.maximum, sizeof info.maximum);
     icc_chart_free(chart);
     return status;

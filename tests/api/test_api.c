@@ -449,7 +449,7 @@ START_TEST(the_triangulation_names_the_point)
 }
 END_TEST
 
-/* The edges that icc_chart_get_info() counts, one by one, in as much room as there is. */
+/* The edges that icc_chart_get_gradient_info() counts, one by one, in as much room as there is. */
 START_TEST(edges_are_listed)
 {
     icc_domain *domain;
@@ -482,8 +482,8 @@ START_TEST(edges_are_listed)
         .size = sizeof options, .method = ICC_METHOD_GRADIENT, .cells = 12};
     icc_chart *chart;
     ck_assert_int_eq(icc_chart_create(&chart, domain, &options, NULL, NULL), ICC_OK);
-    icc_chart_info counted = {.size = sizeof counted};
-    ck_assert_int_eq(icc_chart_get_info(chart, &counted), ICC_OK);
+    icc_gradient_info counted = {.size = sizeof counted};
+    ck_assert_int_eq(icc_chart_get_gradient_info(chart, &counted), ICC_OK);
     ck_assert_uint_eq(counted.n_edges, n_tested);
     ck_assert_uint_eq(counted.n_compression, n_compression);
     ck_assert_uint_eq(counted.n_expansion, n - n_compression);
@@ -751,6 +751,31 @@ static icc_status write_chart_info(const objects *o, void *info)
     return icc_chart_get_info(o->chart, info);
 }
 
+static icc_status write_gradient_info(const objects *o, void *info)
+{
+    return icc_chart_get_gradient_info(o->chart, info);
+}
+
+static icc_status write_field_chart_info(const objects *o, void *info)
+{
+    return icc_chart_get_field_info(o->chart, info);
+}
+
+static icc_status write_foliation_info(const objects *o, void *info)
+{
+    return icc_chart_get_foliation_info(o->chart, info);
+}
+
+static icc_status write_shelling_info(const objects *o, void *info)
+{
+    return icc_chart_get_shelling_info(o->chart, info);
+}
+
+static icc_status write_disc_info(const objects *o, void *info)
+{
+    return icc_chart_get_disc_info(o->chart, info);
+}
+
 static icc_status write_measures(const objects *o, void *info)
 {
     return icc_chart_get_report(o->chart, 10, info, NULL, NULL);
@@ -810,6 +835,38 @@ static icc_status write_kernel_report(const objects *o, void *info)
     return icc_weights_get_report(o->kernel, 9, o->points, info, NULL, NULL);
 }
 
+enum { ROOM = 512 };
+
+/* A struct with `known` bytes is filled as far as the caller has room, and with zeros beyond. */
+static void check_writer(const objects *o, writer write, size_t known)
+{
+    union {
+        size_t size;
+        double alignment;
+        unsigned char bytes[ROOM];
+    } full, part;
+    memset(&full, 0xaa, sizeof full);
+    full.size = 0;
+    REFUSED(write(o, &full));
+    full.size = SIZE_MAX;
+    REFUSED(write(o, &full));
+    full.size = known;
+    ck_assert_int_eq(write(o, &full), ICC_OK);
+    ck_assert_uint_eq(full.size, known);
+    for (size_t size = sizeof(size_t); size <= ROOM; ++size) {
+        memset(&part, 0xaa, sizeof part);
+        part.size = size;
+        ck_assert_int_eq(write(o, &part), ICC_OK);
+        bool same = part.size == size;
+        for (size_t b = sizeof(size_t); b < ROOM; ++b) {
+            const unsigned char expected = b >= size ? 0xaa : b >= known ? 0 : full.bytes[b];
+            same = same && part.bytes[b] == expected;
+        }
+        if (!same)
+            ck_abort_msg("a struct of %zu bytes with room for %zu is filled wrongly", known, size);
+    }
+}
+
 START_TEST(infos_may_be_older_or_newer)
 {
     static const struct {
@@ -828,39 +885,119 @@ START_TEST(infos_may_be_older_or_newer)
                    {write_sampling_info, sizeof(icc_sampling_info)},
                    {write_kernel_info, sizeof(icc_weights_info)},
                    {write_kernel_report, sizeof(icc_weights_report)}};
-    enum { ROOM = 512 };
     objects o;
     objects_init(&o, 0);
-    for (size_t k = 0; k < sizeof WRITERS / sizeof *WRITERS; ++k) {
-        union {
-            size_t size;
-            double alignment;
-            unsigned char bytes[ROOM];
-        } full, part;
-        memset(&full, 0xaa, sizeof full);
-        full.size = 0;
-        REFUSED(WRITERS[k].write(&o, &full));
-        full.size = SIZE_MAX;
-        REFUSED(WRITERS[k].write(&o, &full));
-        full.size = WRITERS[k].size;
-        ck_assert_int_eq(WRITERS[k].write(&o, &full), ICC_OK);
-        ck_assert_uint_eq(full.size, WRITERS[k].size);
-        for (size_t size = sizeof(size_t); size <= ROOM; ++size) {
-            memset(&part, 0xaa, sizeof part);
-            part.size = size;
-            ck_assert_int_eq(WRITERS[k].write(&o, &part), ICC_OK);
-            bool same = part.size == size;
-            for (size_t b = sizeof(size_t); b < ROOM; ++b) {
-                const unsigned char expected = b >= size              ? 0xaa
-                                               : b >= WRITERS[k].size ? 0
-                                                                      : full.bytes[b];
-                same = same && part.bytes[b] == expected;
-            }
-            if (!same)
-                ck_abort_msg("struct %zu with room for %zu bytes is filled wrongly", k, size);
-        }
-    }
+    for (size_t k = 0; k < sizeof WRITERS / sizeof *WRITERS; ++k)
+        check_writer(&o, WRITERS[k].write, WRITERS[k].size);
     objects_clear(&o);
+}
+END_TEST
+
+/* ---- what only one method has ---- */
+
+enum { N_OWN = 5 };
+
+static const struct {
+    int32_t method;
+    writer write;
+    size_t size;
+} OWN[N_OWN] = {{ICC_METHOD_GRADIENT, write_gradient_info, sizeof(icc_gradient_info)},
+                {ICC_METHOD_FIELD, write_field_chart_info, sizeof(icc_field_info)},
+                {ICC_METHOD_FOLIATION, write_foliation_info, sizeof(icc_foliation_info)},
+                {ICC_METHOD_FOLIATION, write_shelling_info, sizeof(icc_shelling_info)},
+                {ICC_METHOD_DISC, write_disc_info, sizeof(icc_disc_info)}};
+
+/* Of a square: on the domain's mesh, four triangles round a vertex, for the shelling. */
+static icc_chart *square_chart(int k)
+{
+    static const double CORNERS[10] = {0, 0, 1, 0, 1, 1, 0, 1, 0.5, 0.5};
+    static const uint32_t FOUR[12] = {0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4};
+    const icc_chart_options options = {.size = sizeof options, .method = OWN[k].method};
+    icc_domain *domain;
+    icc_chart *chart;
+    ck_assert_int_eq(
+        OWN[k].write == write_shelling_info
+            ? icc_domain_create_mesh(&domain, 2, 5, CORNERS, 4, FOUR, 0, NULL, NULL, NULL)
+            : icc_domain_create(&domain, 2, 4, CORNERS, 0, NULL, NULL, NULL),
+        ICC_OK);
+    ck_assert_int_eq(icc_chart_create(&chart, domain, &options, NULL, NULL), ICC_OK);
+    icc_domain_free(domain);
+    return chart;
+}
+
+START_TEST(infos_of_methods_are_theirs_alone)
+{
+    for (int made = 0; made < N_OWN; ++made) {
+        const objects o = {.chart = square_chart(made)};
+        for (int asked = 0; asked < N_OWN; ++asked) {
+            union {
+                size_t size;
+                unsigned char bytes[ROOM];
+            } info, before;
+            memset(&info, 0xaa, sizeof info);
+            info.size = OWN[asked].size;
+            before = info;
+            REFUSED(OWN[asked].write(&(objects){.chart = NULL}, &info));
+            REFUSED(OWN[asked].write(&o, NULL));
+            const icc_status status = OWN[asked].write(&o, &info);
+            ck_assert_int_eq(status, asked == made ? ICC_OK : ICC_ERR_UNSUPPORTED);
+            ck_assert_int_eq(memcmp(&info, &before, sizeof info) == 0, asked != made);
+        }
+        check_writer(&o, OWN[made].write, OWN[made].size);
+        icc_chart_free(o.chart);
+    }
+}
+END_TEST
+
+/* Against what the chart's grid and tree say, and Euler's formula. */
+START_TEST(infos_of_methods_count)
+{
+    icc_chart *charts[N_OWN];
+    for (int k = 0; k < N_OWN; ++k)
+        charts[k] = square_chart(k);
+    icc_gradient_info gradient = {.size = sizeof gradient};
+    icc_field_info field = {.size = sizeof field};
+    icc_foliation_info foliation = {.size = sizeof foliation};
+    icc_shelling_info shelling = {.size = sizeof shelling};
+    icc_disc_info disc = {.size = sizeof disc};
+    ck_assert_int_eq(icc_chart_get_gradient_info(charts[0], &gradient), ICC_OK);
+    ck_assert_int_eq(icc_chart_get_field_info(charts[1], &field), ICC_OK);
+    ck_assert_int_eq(icc_chart_get_foliation_info(charts[2], &foliation), ICC_OK);
+    ck_assert_int_eq(icc_chart_get_shelling_info(charts[3], &shelling), ICC_OK);
+    ck_assert_int_eq(icc_chart_get_disc_info(charts[4], &disc), ICC_OK);
+    ck_assert(gradient.function == ICC_FUNCTION_DECAY && gradient.tree == ICC_TREE_THESIS);
+    const size_t counts[2][6] = {{gradient.n_grid, gradient.n_inside, gradient.n_tree,
+                                  gradient.n_maxima, gradient.n_minima, gradient.n_saddles},
+                                 {field.n_grid, field.n_inside, field.n_tree, field.n_maxima,
+                                  field.n_minima, field.n_saddles}};
+    for (int k = 0; k < 2; ++k) {
+        const icc_function *function = icc_chart_function(charts[k]);
+        const icc_tree *tree = icc_function_tree(function);
+        icc_grid_info grid = {.size = sizeof grid};
+        icc_tree_report grown = {.size = sizeof grown};
+        icc_function_report found = {.size = sizeof found};
+        ck_assert_int_eq(icc_grid_get_info(icc_tree_grid(tree), &grid), ICC_OK);
+        ck_assert_int_eq(icc_tree_get_report(tree, &grown, NULL, NULL), ICC_OK);
+        ck_assert_int_eq(icc_function_get_report(function, &found, NULL, NULL), ICC_OK);
+        ck_assert_uint_eq(counts[k][0], grid.n_vertices);
+        ck_assert_uint_eq(counts[k][1], grid.n_inside);
+        ck_assert_uint_eq(counts[k][2], grown.n_inside + grown.n_outside);
+        ck_assert_uint_eq(counts[k][3], found.n_maxima);
+        ck_assert_uint_eq(counts[k][4], found.n_minima);
+        ck_assert_uint_eq(counts[k][5], found.n_saddles);
+    }
+    ck_assert(field.n_contacts > 0 && field.n_infeasible == 0 && field.n_not_inward == 0);
+    const size_t meshes[3][3] = {
+        {foliation.n_mesh_vertices, foliation.n_mesh_boundary, foliation.n_mesh_simplices},
+        {disc.n_mesh_vertices, disc.n_mesh_boundary, disc.n_mesh_simplices},
+        {shelling.n_mesh_vertices, shelling.n_mesh_boundary, shelling.n_mesh_simplices}};
+    for (int k = 0; k < 3; ++k)
+        ck_assert_uint_eq(meshes[k][2], 2 * meshes[k][0] - meshes[k][1] - 2);
+    ck_assert(meshes[0][0] > 100 && meshes[2][0] == 5 && meshes[2][2] == 4);
+    ck_assert(foliation.harmonic_share >= 0.5 && shelling.harmonic_share > 0);
+    ck_assert(shelling.n_orders > 0 && shelling.flux_divergence < 1e-12);
+    for (int k = 0; k < N_OWN; ++k)
+        icc_chart_free(charts[k]);
 }
 END_TEST
 
@@ -947,6 +1084,8 @@ int main(void)
     tcase_add_test(tests, every_call_checks_its_env);
     tcase_add_test(tests, options_may_be_older_or_newer);
     tcase_add_test(tests, infos_may_be_older_or_newer);
+    tcase_add_test(tests, infos_of_methods_are_theirs_alone);
+    tcase_add_test(tests, infos_of_methods_count);
     tcase_add_test(tests, errors_may_be_older_or_newer);
     tcase_add_test(tests, everything_has_a_name);
     suite_add_tcase(suite, tests);

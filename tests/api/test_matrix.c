@@ -446,6 +446,33 @@ static void chart_points(const subject *s, const icc_domain *domain)
         ck_assert_int_eq(status[i], ICC_ERR_ARGUMENT);
 }
 
+/* Each chart has what its method has, and nothing else. */
+static void chart_infos(const subject *s, const icc_chart_info *info)
+{
+    icc_gradient_info gradient = {.size = sizeof gradient};
+    icc_field_info field = {.size = sizeof field};
+    icc_foliation_info foliation = {.size = sizeof foliation};
+    icc_shelling_info shelling = {.size = sizeof shelling};
+    icc_disc_info disc = {.size = sizeof disc};
+    const struct {
+        icc_status status;
+        int32_t method;
+    } found[] = {{icc_chart_get_gradient_info(s->chart, &gradient), ICC_METHOD_GRADIENT},
+                 {icc_chart_get_field_info(s->chart, &field), ICC_METHOD_FIELD},
+                 {icc_chart_get_foliation_info(s->chart, &foliation), ICC_METHOD_FOLIATION},
+                 {icc_chart_get_shelling_info(s->chart, &shelling), ICC_METHOD_FOLIATION},
+                 {icc_chart_get_disc_info(s->chart, &disc), ICC_METHOD_DISC}};
+    int n = 0;
+    for (size_t k = 0; k < sizeof found / sizeof *found; ++k) {
+        ++n_pairs;
+        ck_assert(found[k].status == ICC_OK || found[k].status == ICC_ERR_UNSUPPORTED);
+        ck_assert(found[k].status != ICC_OK || found[k].method == info->method);
+        n += found[k].status == ICC_OK;
+    }
+    ck_assert_int_eq(n, 1);
+    ck_assert(s->dim == 2 || foliation.n_mesh_vertices == 0);
+}
+
 static void ask_chart(const subject *s)
 {
     icc_domain *domain = make_domain(s->shape, 1);
@@ -455,6 +482,7 @@ static void ask_chart(const subject *s)
     ++n_pairs;
     ck_assert_int_eq(icc_chart_get_info(s->chart, &info), ICC_OK);
     ck_assert_int_eq(info.dim, s->dim);
+    chart_infos(s, &info);
     ck_assert_ptr_nonnull(icc_chart_domain(s->chart));
     ck_assert(sound(s, "measure", icc_chart_get_report(s->chart, 50, &measures, NULL, &err), &err));
     chart_function(s);

@@ -157,9 +157,9 @@ static bool measure_cage(const icc_domain *domain, int k, int32_t cells, result 
         return false;
     }
     *seconds += bench_seconds() - start;
-    icc_chart_info info = {.size = sizeof info};
+    icc_gradient_info info = {.size = sizeof info};
     icc_chart_report m = {.size = sizeof m};
-    bench_check(icc_chart_get_info(chart, &info), &error);
+    bench_check(icc_chart_get_gradient_info(chart, &info), &error);
     bench_check(icc_chart_get_report(chart, POINTS, &m, NULL, &error), &error);
     memcpy(r->critical[k], (size_t[]){info.n_maxima, info.n_minima, info.n_saddles},
            sizeof r->critical[k]);

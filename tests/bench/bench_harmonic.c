@@ -68,12 +68,14 @@ static void print_sizes(const icc_map *map)
     double mesh = 0, solve = 0, certify = 0;
     const icc_chart *charts[2] = {icc_map_source_chart(map), icc_map_target_chart(map)};
     for (int k = 0; k < 2; ++k) {
-        icc_chart_info info = {.size = sizeof info};
-        (void)icc_chart_get_info(charts[k], &info);
-        printf(" %6zu", info.n_mesh_vertices);
-        mesh += 1e3 * info.seconds_mesh;
-        solve += 1e3 * info.seconds_solve;
-        certify += 1e3 * info.seconds_certify;
+        icc_foliation_info leaves = {.size = sizeof leaves};
+        icc_disc_info disc = {.size = sizeof disc};
+        (void)icc_chart_get_foliation_info(charts[k], &leaves);
+        (void)icc_chart_get_disc_info(charts[k], &disc);
+        printf(" %6zu", leaves.n_mesh_vertices + disc.n_mesh_vertices);
+        mesh += 1e3 * (leaves.seconds_mesh + disc.seconds_mesh);
+        solve += 1e3 * (leaves.seconds_solve + disc.seconds_solve);
+        certify += 1e3 * (leaves.seconds_certify + disc.seconds_certify);
     }
     printf("  %6.1f %6.1f %5.1f", mesh, solve, certify);
 }

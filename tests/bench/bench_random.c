@@ -39,11 +39,13 @@ static void report_failure(const char *what, int kind, uint64_t seed, const poly
 static void note_info(tally *t, const icc_chart *chart)
 {
     icc_chart_info info = {.size = sizeof info};
+    icc_foliation_info own = {.size = sizeof own};
     (void)icc_chart_get_info(chart, &info);
     t->n_failed += !info.certified;
     t->n_refined += info.cells != 50;
-    t->n_less_harmonic += info.method == ICC_METHOD_FOLIATION && info.harmonic_share < 0.5;
-    t->n_ties += info.n_ties > 0;
+    t->n_less_harmonic +=
+        icc_chart_get_foliation_info(chart, &own) == ICC_OK && own.harmonic_share < 0.5;
+    t->n_ties += own.n_ties > 0;
 }
 
 static void note_time(tally *t, double start)

@@ -56,19 +56,21 @@ static void mesh_surface(test_mesh *m, const char *path, const char *tag)
 
 static void print_chart(const char *name, const icc_chart *chart)
 {
-    icc_chart_info i = {.size = sizeof i};
-    bench_check(icc_chart_get_info(chart, &i), NULL);
+    icc_chart_info common = {.size = sizeof common};
+    icc_shelling_info i = {.size = sizeof i};
+    bench_check(icc_chart_get_info(chart, &common), NULL);
+    bench_check(icc_chart_get_shelling_info(chart, &i), NULL);
     const double sum =
-        i.seconds_grid + i.seconds_solve + i.seconds_tree + i.seconds_mesh + i.seconds_certify;
+        i.seconds_centre + i.seconds_solve + i.seconds_order + i.seconds_leaves + i.seconds_certify;
     printf(
         "  %s: %zu tetrahedra, %zu vertices; %s beta %g of %ld, %zu reversed, energy %.1e, "
         "divergence "
         "%.0e%s\n    ms: centre %.0f flux %.0f order %.0f certificate %.1f (%.1f %%) leaves %.0f\n",
         name, i.n_mesh_simplices, i.n_mesh_vertices, i.order_peeled ? "peeled" : "grown",
         i.order_beta, (long)i.n_orders, i.n_reversed, i.flux_energy, i.flux_divergence,
-        i.certified ? ", certified" : "", 1e3 * i.seconds_grid, 1e3 * i.seconds_solve,
-        1e3 * i.seconds_tree, 1e3 * i.seconds_certify, 100 * i.seconds_certify / sum,
-        1e3 * i.seconds_mesh);
+        common.certified ? ", certified" : "", 1e3 * i.seconds_centre, 1e3 * i.seconds_solve,
+        1e3 * i.seconds_order, 1e3 * i.seconds_certify, 100 * i.seconds_certify / sum,
+        1e3 * i.seconds_leaves);
 }
 
 static double points[3 * N_POINTS], images[3 * N_POINTS], back[3 * N_POINTS],

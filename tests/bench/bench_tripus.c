@@ -115,10 +115,10 @@ static int32_t find_cells(double xy[N][2], size_t wanted, size_t *n_tree)
         const icc_chart_options options = {
             .size = sizeof options, .method = ICC_METHOD_GRADIENT, .cells = cells};
         icc_chart *chart;
-        icc_chart_info info = {.size = sizeof info};
+        icc_gradient_info info = {.size = sizeof info};
         icc_error error = {.size = sizeof error};
         bench_check(icc_chart_create(&chart, domain, &options, NULL, &error), &error);
-        bench_check(icc_chart_get_info(chart, &info), &error);
+        bench_check(icc_chart_get_gradient_info(chart, &info), &error);
         icc_chart_free(chart);
         const double off = fabs((double)info.n_tree - (double)wanted);
         if (best == 0 || off < fabs((double)*n_tree - (double)wanted)) {

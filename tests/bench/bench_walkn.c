@@ -141,7 +141,7 @@ static void run_chart(int32_t cells)
                 &err);
     for (int i = 0; i < 3; ++i) {
         icc_chart *chart;
-        icc_chart_info info = {.size = sizeof info};
+        icc_gradient_info info = {.size = sizeof info};
         const icc_chart_options options = {.size = sizeof options,
                                            .method = ICC_METHOD_GRADIENT,
                                            .function = FUNCTION[i].function,
@@ -160,7 +160,7 @@ static void run_chart(int32_t cells)
         bench_check(icc_chart_decode(chart, N_WALKS, facet, bary, t, points, NULL, &up, NULL),
                     &err);
         const double back = seconds();
-        (void)icc_chart_get_info(chart, &info);
+        (void)icc_chart_get_gradient_info(chart, &info);
         printf("ball, %3ld cells %-9s %8zu inside %7.2f s, of these %5.2f for f %7.1f us there "
                "%7.1f us "
                "back %5zu %5zu astray\n",

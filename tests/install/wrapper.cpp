@@ -93,6 +93,9 @@ void makes_other_objects()
     options.method = ICC_METHOD_DISC;
     const icc::chart chart(source, options);
     check(chart.info().method == ICC_METHOD_DISC, "a chart");
+    check(chart.disc_info() && chart.disc_info()->n_mesh_simplices > 0, "what its method has");
+    check(!chart.gradient_info() && !chart.field_info() && !chart.foliation_info() && !chart.shelling_info(),
+          "and no other");
 
     const icc::handle<icc_grid, icc_grid_free> grid({}, [](auto out, auto... rest) {
         return icc_grid_create(out, source.get(), 10, rest...);

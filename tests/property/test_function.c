@@ -1107,9 +1107,9 @@ START_TEST(charts_of_every_function_come_back)
         ck_assert_int_eq(icc_domain_create(&domain, 2, outline.n, outline.xy, 0, NULL, NULL, NULL),
                          ICC_OK);
         icc_chart *chart = chart_of(domain, k % N_KINDS, 40, NULL);
-        icc_chart_info info = {.size = sizeof info};
+        icc_gradient_info info = {.size = sizeof info};
         icc_chart_report m = {.size = sizeof m};
-        ck_assert_int_eq(icc_chart_get_info(chart, &info), ICC_OK);
+        ck_assert_int_eq(icc_chart_get_gradient_info(chart, &info), ICC_OK);
         ck_assert_int_eq(icc_chart_get_report(chart, 4000, &m, NULL, NULL), ICC_OK);
         ck_assert_int_eq(info.function, KINDS[k % N_KINDS].function);
         if (info.n_maxima != 1 || info.n_minima != 0 || info.n_saddles != 0)

@@ -108,11 +108,13 @@ static icc_map *make_map(const pair *p)
     ck_assert_int_eq(icc_map_get_info(map, &info), ICC_OK);
     ck_assert(info.certified == 1 && info.kind == ICC_MAP_CURVES);
     for (int k = 0; k < 2; ++k) {
-        const icc_chart_info chart =
-            info_of(k == 0 ? icc_map_source_chart(map) : icc_map_target_chart(map));
-        ck_assert(chart.certified == 1 && chart.method == ICC_METHOD_FOLIATION);
-        ck_assert(chart.n_mesh_simplices > 0 && chart.n_orders > 0);
-        ck_assert(chart.flux_divergence < 1e-12);
+        const icc_chart *chart = k == 0 ? icc_map_source_chart(map) : icc_map_target_chart(map);
+        const icc_chart_info common = info_of(chart);
+        icc_shelling_info own = {.size = sizeof own};
+        ck_assert(common.certified == 1 && common.method == ICC_METHOD_FOLIATION);
+        ck_assert_int_eq(icc_chart_get_shelling_info(chart, &own), ICC_OK);
+        ck_assert(own.n_mesh_simplices > 0 && own.n_orders > 0);
+        ck_assert(own.flux_divergence < 1e-12);
     }
     return map;
 }

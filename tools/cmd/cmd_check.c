@@ -32,12 +32,10 @@ static int certify(check *c)
         return result;
     c->certified = true;
     for (size_t side = 0; side < (pair ? 2 : 1); side++) {
-        c->charts[side].size = sizeof c->charts[side];
-        icc_chart_get_info(!pair       ? c->job.chart
-                           : side == 0 ? icc_map_source_chart(c->job.map)
-                                       : icc_map_target_chart(c->job.map),
-                           &c->charts[side]);
-        c->certified = c->certified && c->charts[side].certified;
+        c->charts[side] = chart_facts_of(!pair       ? c->job.chart
+                                         : side == 0 ? icc_map_source_chart(c->job.map)
+                                                     : icc_map_target_chart(c->job.map));
+        c->certified = c->certified && c->charts[side].common.certified;
     }
     if (!pair)
         return DONE;

@@ -57,8 +57,9 @@ static int gather(info *x)
     const icc_chart *chart = pair ? icc_map_source_chart(j->map) : j->chart;
     icc_error err = {.size = sizeof err, .index = -1};
     icc_domain_get_info(j->domains[0], &x->domain);
-    icc_chart_get_info(chart, &x->chart);
-    if (info_has_grid(x) && icc_chart_get_report(chart, 0, &x->measures, &j->env, &err) != ICC_OK)
+    x->chart = chart_facts_of(chart);
+    if (chart_has_grid(&x->chart) &&
+        icc_chart_get_report(chart, 0, &x->measures, &j->env, &err) != ICC_OK)
         return job_failed(j, &err);
     stages parts;
     result = stages_make(&parts, j, 1);
@@ -74,7 +75,6 @@ static int gather(info *x)
 int run_info(const args *a)
 {
     info x = {.domain = {.size = sizeof x.domain},
-              .chart = {.size = sizeof x.chart},
               .measures = {.size = sizeof x.measures},
               .map = {.size = sizeof x.map}};
     job_start(&x.job, a);

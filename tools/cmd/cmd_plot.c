@@ -116,8 +116,8 @@ static void write_captions(const plot *x, int what, const column *c)
     if (s->logarithmic)
         snprintf(scale, sizeof scale, "logarithm, over %.0f decades", (s->high - s->low) / log(10));
     if (what == ROW_SHAPE)
-        snprintf(text, sizeof text, "%zu expansion edges, %zu inside%s%s",
-                 s->chart_info.n_expansion, s->n_inner_expansion, *scale ? "; " : "", scale);
+        snprintf(text, sizeof text, "%zu expansion edges, %zu inside%s%s", s->n_expansion,
+                 s->n_inner_expansion, *scale ? "; " : "", scale);
     svg_label(x->svg, middle, below + 20, what == ROW_SHAPE ? text : scale);
 }
 

@@ -52,8 +52,10 @@ static int find_edges(stages *s, job *j)
         status = icc_function_get_edges(s->field, n, s->edges, s->kinds, &n, NULL);
     s->n_edges = n;
     for (size_t i = 0; i < n && status == ICC_OK; i++)
-        s->n_inner_expansion += s->kinds[i] == ICC_EDGE_EXPANSION &&
-                                inner_edge(s, s->edges[2 * i], s->edges[2 * i + 1]);
+        if (s->kinds[i] == ICC_EDGE_EXPANSION) {
+            s->n_expansion++;
+            s->n_inner_expansion += inner_edge(s, s->edges[2 * i], s->edges[2 * i + 1]);
+        }
     return status == ICC_OK ? DONE : job_failed_status(j, status);
 }
 

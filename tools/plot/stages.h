@@ -25,6 +25,7 @@ typedef struct stages {
     size_t n_edges;   /* in the plane; else none */
     uint32_t *edges;  /* n_edges pairs: compression and expansion edges */
     int32_t *kinds;
+    size_t n_expansion;
     size_t n_inner_expansion; /* expansion edges whose two triangles are inside */
 } stages;
 

@@ -4,6 +4,7 @@
 
 #include "cage/cage_defects.h"
 #include "job/job.h"
+#include "report/chart_facts.h"
 
 typedef struct check {
     job job;
@@ -12,7 +13,7 @@ typedef struct check {
     size_t n_dropped; /* by --repair: vertices */
     size_t n_filled;  /* by --repair: cells of a mask */
     size_t n_joined;  /* by --repair: vertices of a surface */
-    icc_chart_info charts[2];
+    chart_facts charts[2];
     icc_map_info map; /* of kind 0 without a target */
     bool certified;   /* all there is */
 } check;

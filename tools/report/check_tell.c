@@ -74,20 +74,22 @@ void check_print_domains(const check *c)
     }
 }
 
-static void print_chart(const char *file, const icc_chart_info *chart)
+static void print_chart(const char *file, const chart_facts *chart)
 {
-    printf("%s: %s chart certified: ", file, choice_name(methods, chart->method));
-    if (chart->method == ICC_METHOD_FIELD)
+    const int32_t method = chart->common.method;
+    printf("%s: %s chart certified: ", file, choice_name(methods, method));
+    if (method == ICC_METHOD_FIELD)
         printf(
             "every one of %zu grid vertices has a vector that points uphill all round, and curves "
             "enter all over the boundary",
-            chart->n_inside);
+            chart->field.n_inside);
     else
-        printf("%zu %s, none of them inverted", chart->n_mesh_simplices, elements_name(chart->dim));
-    if (chart->method == ICC_METHOD_FOLIATION)
+        printf("%zu %s, none of them inverted", chart->mesh.n_simplices,
+               elements_name(chart->common.dim));
+    if (method == ICC_METHOD_FOLIATION)
         fputs("; every leaf runs from the boundary to the maximum", stdout);
-    if (chart->method == ICC_METHOD_FOLIATION && !(chart->order_beta > 0))
-        printf(" (%zu ties)", chart->n_ties);
+    if (method == ICC_METHOD_FOLIATION && !chart->is_shelling)
+        printf(" (%zu ties)", chart->foliation.n_ties);
     putchar('\n');
 }
 
@@ -96,9 +98,9 @@ void check_print_certificates(const check *c)
     char text[REASON_LENGTH];
     for (size_t side = 0; side < 2; side++) {
         const char *file = job_file(&c->job, (int)side + 1);
-        if (c->charts[side].certified)
+        if (c->charts[side].common.certified)
             print_chart(file, &c->charts[side]);
-        else if (c->charts[side].method == ICC_METHOD_FIELD)
+        else if (c->charts[side].common.method == ICC_METHOD_FIELD)
             printf("%s: field chart not certified: %s\n", file,
                    reason_of_chart(text, &c->charts[side]));
     }
@@ -120,7 +122,7 @@ void check_print_certificates(const check *c)
 const char *check_reason(char text[240], const check *c)
 {
     bool pair = c->map.kind != 0;
-    if (c->charts[0].method == ICC_METHOD_GRADIENT)
+    if (c->charts[0].common.method == ICC_METHOD_GRADIENT)
         snprintf(text, 240,
                  "%s valid, but the method gradient is not certifiable: its curves merge ('libicc "
                  "info' tells how much)",
@@ -134,19 +136,19 @@ const char *check_reason(char text[240], const check *c)
 static void report_certificates(const check *c, json *j)
 {
     char text[REASON_LENGTH];
-    if (c->charts[0].method != 0)
-        json_text(j, "method", choice_name(methods, c->charts[0].method));
+    if (c->charts[0].common.method != 0)
+        json_text(j, "method", choice_name(methods, c->charts[0].common.method));
     if (c->map.kind != 0)
         json_text(j, "map", choice_name(maps, c->map.kind));
-    if (c->charts[0].method == ICC_METHOD_FIELD)
+    if (c->charts[0].common.method == ICC_METHOD_FIELD)
         for (size_t side = 0; side < (c->map.kind != 0 ? 2 : 1); side++) {
             json_open(j, cage_role_name(side == 0 ? CAGE_SOURCE : CAGE_TARGET), '{');
-            json_count(j, "inside_vertices", c->charts[side].n_inside);
-            json_count(j, "stray_vertices", c->charts[side].n_stray);
-            json_count(j, "infeasible_vertices", c->charts[side].n_infeasible);
-            json_count(j, "contacts", c->charts[side].n_contacts);
-            json_count(j, "not_inward", c->charts[side].n_not_inward);
-            if (!c->charts[side].certified)
+            json_count(j, "inside_vertices", c->charts[side].field.n_inside);
+            json_count(j, "stray_vertices", c->charts[side].field.n_stray);
+            json_count(j, "infeasible_vertices", c->charts[side].field.n_infeasible);
+            json_count(j, "contacts", c->charts[side].field.n_contacts);
+            json_count(j, "not_inward", c->charts[side].field.n_not_inward);
+            if (!c->charts[side].common.certified)
                 json_text(j, "not_certified_because", reason_of_chart(text, &c->charts[side]));
             json_close(j, '}');
         }
@@ -157,7 +159,7 @@ static void report_certificates(const check *c, json *j)
     }
     if (c->map.kind != 0 && !c->map.certified)
         json_text(j, "not_certified_because", reason_of_map(text, &c->map));
-    else if (c->charts[0].method != 0 && !c->charts[0].certified)
+    else if (c->charts[0].common.method != 0 && !c->charts[0].common.certified)
         json_text(j, "not_certified_because", reason_of_chart(text, &c->charts[0]));
     if (!check_mask_only(c))
         json_flag(j, "certified", c->certified);

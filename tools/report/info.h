@@ -3,6 +3,7 @@
 #define INFO_H
 
 #include "job/job.h"
+#include "report/chart_facts.h"
 
 #include <icc/stages.h>
 
@@ -18,7 +19,7 @@ typedef struct map_shares {
 typedef struct info {
     job job;
     icc_domain_info domain;
-    icc_chart_info chart;
+    chart_facts chart;
     icc_chart_report measures;
     /* Methods gradient and field. */
     icc_grid_info grid;
@@ -42,9 +43,6 @@ const char *info_reason(char text[240], const info *x);
 
 /* How the order of the vertices was found, in words. */
 const char *info_growth(char text[160], const info *x);
-
-/* Whether the chart was made on a grid (methods gradient and field). */
-bool info_has_grid(const info *x);
 
 void info_print(const info *x);
 

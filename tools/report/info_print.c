@@ -51,9 +51,9 @@ static void print_solution(const icc_function_info *f)
 
 static void print_critical(const info *x)
 {
-    const icc_chart_info *c = &x->chart;
-    printf("critical    %zu maxima, %zu minima, %zu saddles\n", c->n_maxima, c->n_minima,
-           c->n_saddles);
+    const grid_facts *g = &x->chart.grid;
+    printf("critical    %zu maxima, %zu minima, %zu saddles\n", g->n_maxima, g->n_minima,
+           g->n_saddles);
     char reason[240];
     if (!x->has_critical)
         return;
@@ -63,29 +63,31 @@ static void print_critical(const info *x)
 
 static void print_grid(const info *x)
 {
-    const icc_chart_info *c = &x->chart;
+    const icc_chart_info *c = &x->chart.common;
+    const grid_facts *g = &x->chart.grid;
+    const double moved = x->chart.gradient.moved;
     char text[160];
-    printf("grid        %zu vertices, %zu inside, ", c->n_grid, c->n_inside);
+    printf("grid        %zu vertices, %zu inside, ", g->n_vertices, g->n_inside);
     if (x->domain.dim > 2)
         printf("%zu given up, ", x->grid.n_stray);
     printf("spacing %.12g\n", c->spacing);
     print_point(x, "maximum     ", c->maximum, "\n");
-    if (c->moved > 0)
-        printf("            %.4g from the place chosen: the function is greatest here\n", c->moved);
-    printf("tree        %zu vertices, %zu unreachable, %zu cousin violations", c->n_tree,
-           c->n_unreachable, c->n_cousin_violations);
+    if (moved > 0)
+        printf("            %.4g from the place chosen: the function is greatest here\n", moved);
+    printf("tree        %zu vertices, %zu unreachable, %zu cousin violations", g->n_tree,
+           g->n_unreachable, g->n_cousin_violations);
     if (x->domain.dim > 2)
         printf(", %zu critical vertices in its order\norder       %s", x->n_order_critical,
                info_growth(text, x));
     putchar('\n');
-    if (function_solves(c->function))
+    if (function_solves(x->field.function))
         print_solution(&x->field);
     print_critical(x);
 }
 
 static void print_shares(const info *x)
 {
-    const icc_chart_info *c = &x->chart;
+    const icc_gradient_info *c = &x->chart.gradient;
     const icc_chart_report *m = &x->measures;
     const char *measure = x->domain.dim == 2 ? "area" : "volume";
     if (c->n_edges > 0)
@@ -110,30 +112,31 @@ static void print_gradient(const info *x)
 {
     char label[48];
     printf("method      gradient, function %s, tree %s, not certifiable\n",
-           function_label(label, &x->field), choice_name(trees, x->chart.tree));
+           function_label(label, &x->field), choice_name(trees, x->chart.grid.tree));
     print_grid(x);
     print_shares(x);
 }
 
 static void print_field(const info *x)
 {
-    const icc_chart_info *c = &x->chart;
+    const icc_chart_info *c = &x->chart.common;
+    const icc_field_info *f = &x->chart.field;
     char label[48], reason[REASON_LENGTH];
     printf("method      field, function %s, %s\n", function_label(label, &x->field),
            c->certified ? "certified" : "not certified");
     print_grid(x);
     printf("vectors     %zu of %zu vertices have none that points uphill all round\n",
-           c->n_infeasible, c->n_inside);
+           f->n_infeasible, f->n_inside);
     if (!c->certified)
-        printf("reason      %s\n", reason_of_chart(reason, c));
+        printf("reason      %s\n", reason_of_chart(reason, &x->chart));
     printf(
         "contacts    %6.2f %% (%zu of %zu with the boundary) are such that curves do not enter\n",
-        c->n_contacts > 0 ? 100 * (double)c->n_not_inward / (double)c->n_contacts : 0,
-        c->n_not_inward, c->n_contacts);
+        f->n_contacts > 0 ? 100 * (double)f->n_not_inward / (double)f->n_contacts : 0,
+        f->n_not_inward, f->n_contacts);
     print_shares(x);
 }
 
-static void print_order(const icc_chart_info *c)
+static void print_order(const icc_shelling_info *c)
 {
     printf("order       %s, weight %.4g; %d complete ones to choose from\n",
            c->order_peeled ? "peeled from the boundary" : "grown from the maximum", c->order_beta,
@@ -144,20 +147,21 @@ static void print_order(const icc_chart_info *c)
 
 static void print_certified(const info *x)
 {
-    const icc_chart_info *c = &x->chart;
+    const icc_chart_info *c = &x->chart.common;
+    const mesh_facts *m = &x->chart.mesh;
     printf("method      %s, %s\n", choice_name(methods, c->method),
            c->certified ? "certified" : "not certified");
-    printf("mesh        %zu vertices, %zu of them on the boundary, %zu %s", c->n_mesh_vertices,
-           c->n_mesh_boundary, c->n_mesh_simplices, elements_name(c->dim));
+    printf("mesh        %zu vertices, %zu of them on the boundary, %zu %s", m->n_vertices,
+           m->n_boundary, m->n_simplices, elements_name(c->dim));
     if (c->spacing > 0)
         printf(", spacing %.12g", c->spacing);
     putchar('\n');
     print_point(x, "maximum     ", c->maximum, "\n");
-    if (c->order_beta > 0)
-        print_order(c);
+    if (x->chart.is_shelling)
+        print_order(&x->chart.shelling);
     else if (c->method == ICC_METHOD_FOLIATION)
-        printf("leaves      %zu ties, flux through the boundary %.4g %% harmonic\n", c->n_ties,
-               100 * c->harmonic_share);
+        printf("leaves      %zu ties, flux through the boundary %.4g %% harmonic\n",
+               x->chart.foliation.n_ties, 100 * m->harmonic_share);
 }
 
 static void print_mesh_map(const icc_map_info *m)
@@ -194,40 +198,40 @@ static void print_map(const info *x)
 
 static void print_grid_seconds(const info *x)
 {
-    const icc_chart_info *c = &x->chart;
+    const grid_facts *g = &x->chart.grid;
     const icc_function_info *f = &x->field;
-    printf("grid %.4f, tree %.4f, function %.4f", c->seconds_grid, c->seconds_tree,
-           c->seconds_function);
-    if (function_solves(c->function))
+    printf("grid %.4f, tree %.4f, function %.4f", g->seconds_grid, g->seconds_tree,
+           g->seconds_function);
+    if (function_solves(x->field.function))
         printf(" (set up %.4f, order %.4f, factorise %.4f, solve %.4f, verify %.4f)",
                f->seconds_setup, f->seconds_order, f->seconds_factor, f->seconds_solve,
                f->seconds_verify);
-    if (c->method == ICC_METHOD_FIELD)
-        printf(", vectors %.4f", c->seconds_solve);
+    if (x->chart.common.method == ICC_METHOD_FIELD)
+        printf(", vectors %.4f", x->chart.field.seconds_solve);
 }
 
-static void print_mesh_seconds(const icc_chart_info *c)
+static void print_mesh_seconds(const chart_facts *c)
 {
-    printf("mesh %.4f, solve %.4f, ", c->seconds_mesh, c->seconds_solve);
-    if (c->order_beta > 0)
-        printf("order %.4f, ", c->seconds_tree);
-    printf("certify %.4f", c->seconds_certify);
+    printf("mesh %.4f, solve %.4f, ", c->mesh.seconds_mesh, c->mesh.seconds_solve);
+    if (c->is_shelling)
+        printf("order %.4f, ", c->shelling.seconds_order);
+    printf("certify %.4f", c->mesh.seconds_certify);
 }
 
 void info_print(const info *x)
 {
-    const icc_chart_info *c = &x->chart;
+    const chart_facts *c = &x->chart;
     print_domain(x);
-    if (c->method == ICC_METHOD_GRADIENT)
+    if (c->common.method == ICC_METHOD_GRADIENT)
         print_gradient(x);
-    else if (c->method == ICC_METHOD_FIELD)
+    else if (c->common.method == ICC_METHOD_FIELD)
         print_field(x);
     else
         print_certified(x);
     if (x->shares.n > 0)
         print_map(x);
     printf("seconds     read %.4f, ", x->job.seconds_read);
-    if (info_has_grid(x))
+    if (chart_has_grid(c))
         print_grid_seconds(x);
     else
         print_mesh_seconds(c);

@@ -28,17 +28,18 @@ static void report_growth(json *j, const info *x)
 
 static void report_grid(json *j, const info *x)
 {
-    const icc_chart_info *c = &x->chart;
+    const chart_facts *c = &x->chart;
+    const grid_facts *g = &c->grid;
     function_report(j, &x->field);
-    json_text(j, "tree_form", choice_name(trees, c->tree));
-    json_count(j, "grid_vertices", c->n_grid);
-    json_count(j, "inside_vertices", c->n_inside);
-    json_count(j, "tree_vertices", c->n_tree);
-    json_count(j, "unreachable_vertices", c->n_unreachable);
-    json_count(j, "cousin_violations", c->n_cousin_violations);
-    json_count(j, "maxima", c->n_maxima);
-    json_count(j, "minima", c->n_minima);
-    json_count(j, "saddles", c->n_saddles);
+    json_text(j, "tree_form", choice_name(trees, g->tree));
+    json_count(j, "grid_vertices", g->n_vertices);
+    json_count(j, "inside_vertices", g->n_inside);
+    json_count(j, "tree_vertices", g->n_tree);
+    json_count(j, "unreachable_vertices", g->n_unreachable);
+    json_count(j, "cousin_violations", g->n_cousin_violations);
+    json_count(j, "maxima", g->n_maxima);
+    json_count(j, "minima", g->n_minima);
+    json_count(j, "saddles", g->n_saddles);
     json_count(j, "holes", x->n_holes);
     if (x->has_critical) {
         char reason[240];
@@ -47,20 +48,20 @@ static void report_grid(json *j, const info *x)
     }
     if (x->domain.dim > 2)
         report_growth(j, x);
-    if (c->method == ICC_METHOD_FIELD) {
-        json_count(j, "infeasible_vertices", c->n_infeasible);
-        json_count(j, "contacts", c->n_contacts);
-        json_count(j, "contacts_not_inward", c->n_not_inward);
+    if (c->common.method == ICC_METHOD_FIELD) {
+        json_count(j, "infeasible_vertices", c->field.n_infeasible);
+        json_count(j, "contacts", c->field.n_contacts);
+        json_count(j, "contacts_not_inward", c->field.n_not_inward);
     }
     if (x->domain.dim > 2)
         return;
-    json_count(j, "edges", c->n_edges);
-    json_count(j, "compression_edges", c->n_compression);
-    json_count(j, "expansion_edges", c->n_expansion);
+    json_count(j, "edges", c->gradient.n_edges);
+    json_count(j, "compression_edges", c->gradient.n_compression);
+    json_count(j, "expansion_edges", c->gradient.n_expansion);
     json_count(j, "expansion_edges_inside", x->n_inner_expansion);
 }
 
-static void report_order(json *j, const icc_chart_info *c)
+static void report_order(json *j, const icc_shelling_info *c)
 {
     json_open(j, "order", '{');
     json_text(j, "found", c->order_peeled ? "peeled" : "grown");
@@ -72,35 +73,35 @@ static void report_order(json *j, const icc_chart_info *c)
     json_close(j, '}');
 }
 
-static void report_mesh(json *j, const icc_chart_info *c)
+static void report_mesh(json *j, const chart_facts *c)
 {
-    json_count(j, "mesh_vertices", c->n_mesh_vertices);
-    json_count(j, "mesh_boundary", c->n_mesh_boundary);
-    json_count(j, "mesh_triangles", c->n_mesh_simplices);
-    if (c->method != ICC_METHOD_FOLIATION)
+    json_count(j, "mesh_vertices", c->mesh.n_vertices);
+    json_count(j, "mesh_boundary", c->mesh.n_boundary);
+    json_count(j, "mesh_triangles", c->mesh.n_simplices);
+    if (c->common.method != ICC_METHOD_FOLIATION)
         return;
-    if (c->order_beta > 0)
-        report_order(j, c);
-    json_count(j, "ties", c->n_ties);
-    json_number(j, "harmonic_share", c->harmonic_share);
+    if (c->is_shelling)
+        report_order(j, &c->shelling);
+    json_count(j, "ties", c->foliation.n_ties);
+    json_number(j, "harmonic_share", c->mesh.harmonic_share);
 }
 
 static void report_chart(json *j, const info *x)
 {
     char reason[REASON_LENGTH];
-    const icc_chart_info *c = &x->chart;
+    const icc_chart_info *c = &x->chart.common;
     json_text(j, "method", choice_name(methods, c->method));
     json_flag(j, "certified", c->certified != 0);
     if (!c->certified)
-        json_text(j, "not_certified_because", reason_of_chart(reason, c));
+        json_text(j, "not_certified_because", reason_of_chart(reason, &x->chart));
     report_point(j, "maximum", (size_t)x->domain.dim, c->maximum);
-    if (c->moved > 0)
-        json_number(j, "maximum_moved", c->moved);
+    if (x->chart.gradient.moved > 0)
+        json_number(j, "maximum_moved", x->chart.gradient.moved);
     json_number(j, "spacing", c->spacing);
-    if (info_has_grid(x))
+    if (chart_has_grid(&x->chart))
         report_grid(j, x);
     else
-        report_mesh(j, c);
+        report_mesh(j, &x->chart);
 }
 
 static void report_shares(json *j, const icc_chart_report *m)
@@ -160,19 +161,19 @@ static void report_map(json *j, const icc_map_info *m, const map_shares *s)
 
 static void report_seconds(json *j, const info *x)
 {
-    const icc_chart_info *c = &x->chart;
+    const chart_facts *c = &x->chart;
     json_open(j, "seconds", '{');
     json_number(j, "read", x->job.seconds_read);
-    if (info_has_grid(x)) {
-        json_number(j, "grid", c->seconds_grid);
-        json_number(j, "tree", c->seconds_tree);
-        json_number(j, "function", c->seconds_function);
+    if (chart_has_grid(&x->chart)) {
+        json_number(j, "grid", c->grid.seconds_grid);
+        json_number(j, "tree", c->grid.seconds_tree);
+        json_number(j, "function", c->grid.seconds_function);
     } else {
-        json_number(j, "mesh", c->seconds_mesh);
-        json_number(j, "solve", c->seconds_solve);
-        if (c->order_beta > 0)
-            json_number(j, "order", c->seconds_tree);
-        json_number(j, "certify", c->seconds_certify);
+        json_number(j, "mesh", c->mesh.seconds_mesh);
+        json_number(j, "solve", c->mesh.seconds_solve);
+        if (c->is_shelling)
+            json_number(j, "order", c->shelling.seconds_order);
+        json_number(j, "certify", c->mesh.seconds_certify);
     }
     json_number(j, "all", seconds_now() - x->job.started);
     json_close(j, '}');
@@ -190,7 +191,7 @@ int info_report(const info *x)
         json_text(&r.json, "orientation", x->domain.orientation > 0 ? "outward" : "inward");
     json_number(&r.json, x->domain.dim == 2 ? "area" : "measure", x->domain.measure);
     report_chart(&r.json, x);
-    if (x->chart.method != ICC_METHOD_FIELD || x->measures.n_points > 0)
+    if (x->chart.common.method != ICC_METHOD_FIELD || x->measures.n_points > 0)
         report_shares(&r.json, &x->measures);
     if (x->shares.n > 0)
         report_map(&r.json, &x->map, &x->shares);

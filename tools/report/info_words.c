@@ -8,15 +8,16 @@
  * own. */
 static const char *own_reason(const info *x)
 {
-    if (x->field.beside && x->chart.n_maxima == 1)
+    const grid_facts *g = &x->chart.grid;
+    if (x->field.beside && g->n_maxima == 1)
         return "the function is greatest there, beside the root, where curves are to end";
-    if (x->chart.n_maxima == 1 && x->chart.n_minima == 0 && x->chart.n_saddles <= x->n_holes)
+    if (g->n_maxima == 1 && g->n_minima == 0 && g->n_saddles <= x->n_holes)
         return NULL;
     if (x->domain.dim > 2)
         return "beyond the plane the inequalities of a tree would not exclude them";
     if (function_solves(x->field.function) && !x->field.constrained)
         return "the inequalities that keep such points away were not imposed";
-    if (x->chart.n_cousin_violations > 0)
+    if (g->n_cousin_violations > 0)
         return "the tree breaks the cousin rule, so falling along it does not exclude them";
     return "the function keeps to the inequalities only up to its residual";
 }
@@ -34,11 +35,6 @@ const char *info_reason(char text[240], const info *x)
     size_t used = strlen(text);
     snprintf(text + used, 240 - used, "%s", own != NULL ? own : "");
     return text;
-}
-
-bool info_has_grid(const info *x)
-{
-    return x->chart.method == ICC_METHOD_GRADIENT || x->chart.method == ICC_METHOD_FIELD;
 }
 
 const char *info_growth(char text[160], const info *x)

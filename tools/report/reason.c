@@ -18,19 +18,19 @@ static void add(char text[REASON_LENGTH], size_t count, const char *format, ...)
     va_end(values);
 }
 
-const char *reason_of_chart(char text[REASON_LENGTH], const icc_chart_info *chart)
+const char *reason_of_chart(char text[REASON_LENGTH], const chart_facts *chart)
 {
+    const icc_field_info *f = &chart->field;
     text[0] = '\0';
-    if (chart->method == ICC_METHOD_GRADIENT)
+    if (chart->common.method == ICC_METHOD_GRADIENT)
         add(text, 1, "the curves of method gradient merge");
-    add(text, chart->n_infeasible, "at %zu of %zu grid vertices no vector points uphill all round",
-        chart->n_infeasible, chart->n_inside);
-    add(text, chart->n_not_inward,
+    add(text, f->n_infeasible, "at %zu of %zu grid vertices no vector points uphill all round",
+        f->n_infeasible, f->n_inside);
+    add(text, f->n_not_inward,
         "at %zu of %zu contacts with the boundary (%.3g %%) the curves do not enter",
-        chart->n_not_inward, chart->n_contacts,
-        100 * (double)chart->n_not_inward / (double)chart->n_contacts);
-    add(text, chart->n_stray, "%zu grid %s given up", chart->n_stray,
-        chart->n_stray == 1 ? "vertex inside was" : "vertices inside were");
+        f->n_not_inward, f->n_contacts, 100 * (double)f->n_not_inward / (double)f->n_contacts);
+    add(text, f->n_stray, "%zu grid %s given up", f->n_stray,
+        f->n_stray == 1 ? "vertex inside was" : "vertices inside were");
     return text;
 }
 

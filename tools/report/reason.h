@@ -2,12 +2,12 @@
 #ifndef REASON_H
 #define REASON_H
 
-#include <icc/icc.h>
+#include "report/chart_facts.h"
 
 enum { REASON_LENGTH = 320 };
 
 /* Every reason that there is, the one that matters first; of a chart that is not certified. */
-const char *reason_of_chart(char text[REASON_LENGTH], const icc_chart_info *chart);
+const char *reason_of_chart(char text[REASON_LENGTH], const chart_facts *chart);
 
 /* Of a map that is not certified. */
 const char *reason_of_map(char text[REASON_LENGTH], const icc_map_info *map);

@@ -18,7 +18,12 @@ error status:i32 side:i32 index:i64 item:i32 message:char[252]
 env user:ptr alloc:ptr dealloc:ptr log:ptr progress:ptr parallel_for:ptr threads:i32 load_limit:u64
 domain_info dim:i32 orientation:i32 n_vertices:size n_facets:size lower:f64[6] upper:f64[6] measure:f64
 chart_options method:i32 function:i32 tree:i32 cells:i32 maximum:ptr constraints:i32 solver:i32 min_fall:f64 leaf_min:f64
-chart_info dim:i32 method:i32 function:i32 tree:i32 certified:i32 cells:i32 maximum:f64[6] spacing:f64 n_grid:size n_inside:size n_tree:size n_unreachable:size n_cousin_violations:size n_maxima:size n_minima:size n_saddles:size n_edges:size n_compression:size n_expansion:size n_mesh_vertices:size n_mesh_boundary:size n_mesh_simplices:size n_ties:size harmonic_share:f64 seconds_grid:f64 seconds_tree:f64 seconds_function:f64 seconds_mesh:f64 seconds_solve:f64 seconds_certify:f64 n_stray:size n_infeasible:size n_contacts:size n_not_inward:size order_peeled:i32 n_orders:i32 order_beta:f64 n_reversed:size flux_energy:f64 flux_divergence:f64 moved:f64 reason:i32
+chart_info dim:i32 method:i32 certified:i32 reason:i32 cells:i32 maximum:f64[6] spacing:f64
+gradient_info function:i32 tree:i32 n_grid:size n_inside:size n_tree:size n_unreachable:size n_cousin_violations:size n_maxima:size n_minima:size n_saddles:size n_edges:size n_compression:size n_expansion:size moved:f64 seconds_grid:f64 seconds_tree:f64 seconds_function:f64
+field_info n_grid:size n_inside:size n_stray:size n_tree:size n_unreachable:size n_cousin_violations:size n_maxima:size n_minima:size n_saddles:size n_infeasible:size n_contacts:size n_not_inward:size seconds_grid:f64 seconds_tree:f64 seconds_function:f64 seconds_solve:f64
+foliation_info n_mesh_vertices:size n_mesh_boundary:size n_mesh_simplices:size n_ties:size harmonic_share:f64 seconds_mesh:f64 seconds_solve:f64 seconds_certify:f64
+shelling_info n_mesh_vertices:size n_mesh_boundary:size n_mesh_simplices:size harmonic_share:f64 order_peeled:i32 n_orders:i32 order_beta:f64 n_reversed:size flux_energy:f64 flux_divergence:f64 seconds_centre:f64 seconds_solve:f64 seconds_order:f64 seconds_certify:f64 seconds_leaves:f64
+disc_info n_mesh_vertices:size n_mesh_boundary:size n_mesh_simplices:size seconds_mesh:f64 seconds_solve:f64 seconds_certify:f64
 chart_report n_points:size n_boundary:size unreachable:f64 uncovered:f64 collapsed:f64 not_inward:f64
 map_options kind:i32 iterations:i32 chart:ptr target_maximum:ptr
 map_info dim:i32 kind:i32 certified:i32 n_levels:i32 n_vertices:size n_simplices:size n_inverted:size n_unrepaired:size n_iterations:size energy_start:f64 energy:f64 seconds:f64 seconds_repair:f64 seconds_improve:f64 seconds_certify:f64 n_samples:size n_lost:size n_flat:size reason:i32 reason_side:i32
@@ -57,6 +62,11 @@ boundary_defects size f64* size i32* u32* size* env* error*
 chart_create chart** domain* chart_options* env* error*
 void:chart_free chart*
 chart_get_info chart* chart_info*
+chart_get_gradient_info chart* gradient_info*
+chart_get_field_info chart* field_info*
+chart_get_foliation_info chart* foliation_info*
+chart_get_shelling_info chart* shelling_info*
+chart_get_disc_info chart* disc_info*
 domain*:chart_domain chart*
 chart_get_report chart* size chart_report* env* error*
 chart_encode chart* size f64* u32* f64* f64* i32* size* env*

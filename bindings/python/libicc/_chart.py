@@ -90,12 +90,19 @@ class Chart(Saved):
 
     @property
     def info(self) -> SimpleNamespace:
-        """The members of ``icc_chart_info``; method and function by their names."""
+        """The members of ``icc_chart_info``, and of the struct that the method has for itself:
+        ``icc_gradient_info``, ``icc_field_info``, ``icc_foliation_info``, ``icc_shelling_info`` (foliation on a
+        domain's mesh) or ``icc_disc_info``; method, function and tree by their names."""
         info = self._info("chart_get_info", "chart_info")
         result = fields(info, info.dim)
         result.method = name_of(info.method, METHODS)
-        result.function = name_of(info.function, FUNCTIONS)
-        result.tree = name_of(info.tree, TREES)
+        for name in ("gradient", "field", "foliation", "shelling", "disc"):
+            own = new(name + "_info")
+            if getattr(lib, f"chart_get_{name}_info")(self, ctypes.addressof(own)) == 0:
+                result.__dict__.update(vars(fields(own)))
+        if info.method == METHODS["gradient"]:
+            result.function = name_of(result.function, FUNCTIONS)
+            result.tree = name_of(result.tree, TREES)
         return result
 
     @property

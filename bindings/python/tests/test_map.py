@@ -37,6 +37,28 @@ def test_charts(before, inside, method):
     assert chart.domain.dim == 2
 
 
+OWN = {"gradient": ("n_compression", "function", "tree"), "field": ("n_infeasible", "n_contacts"),
+       "foliation": ("n_ties",), "disc": (), "shelling": ("n_orders", "flux_energy")}
+
+
+@pytest.mark.parametrize("method", OWN)
+def test_info_has_what_the_method_has(before, method):
+    if method == "shelling":
+        square = libicc.Domain.from_mesh([[0, 0], [1, 0], [1, 1], [0, 1], [0.5, 0.5]],
+                                         [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]])
+        info = libicc.Chart(square).info
+        assert info.n_mesh_simplices == 4
+    else:
+        info = libicc.Chart(before, method).info
+    assert info.dim == 2 and len(info.maximum) == 2 and not hasattr(info, "size")
+    for name, members in OWN.items():
+        for member in members:
+            assert hasattr(info, member) == (name == method)
+    assert hasattr(info, "n_mesh_vertices") == (method in ("foliation", "disc", "shelling"))
+    if method == "gradient":
+        assert info.function == "decay" and info.tree == "thesis"
+
+
 def test_borrowed_objects_keep_their_owner(before, after, inside):
     chart = libicc.Map(before, after, "curves", method="foliation").source_chart
     gc.collect()

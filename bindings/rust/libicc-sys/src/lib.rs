@@ -286,7 +286,7 @@ opaque!(
 /// the Kuhn triangulation and their faces. Not one-to-one: lines merge, so that an open share of
 /// the area collapses (in 3-D and beyond, most of it), and thin parts of a shape between grid
 /// vertices are not reached. `icc_chart_get_report()` tells how much. Beyond 2-D the function may have
-/// several maxima, too, and lines that end at them: `icc_chart_info.n_maxima`. Never certified.
+/// several maxima, too, and lines that end at them: `icc_gradient_info.n_maxima`. Never certified.
 pub const ICC_METHOD_GRADIENT: i32 = 1;
 /// Integral Curve Coordinates along leaves that cannot merge: level lines of an angle-valued,
 /// discretely harmonic function on a triangle mesh of the domain. A homeomorphism of the closed
@@ -306,7 +306,7 @@ pub const ICC_METHOD_FOLIATION: i32 = 2;
 /// the discretely harmonic function, and linear interpolation between them. The curves are
 /// followed exactly but for rounding. Certified when there is such a vector everywhere, the
 /// boundary is crossed inward all over, which is checked vertex by vertex, and no grid vertex inside was
-/// given up; if not, there is a chart all the same, and `icc_chart_info.n_infeasible`, n_not_inward
+/// given up; if not, there is a chart all the same, and `icc_field_info.n_infeasible`, n_not_inward
 /// and n_stray report how much is amiss.
 ///
 /// A map of two certified charts is certified when doubles are enough for it, too, which
@@ -322,11 +322,11 @@ pub const ICC_METHOD_DISC: i32 = 4;
 pub const ICC_REASON_NONE: i32 = 0;
 /// the curves of method gradient merge
 pub const ICC_REASON_GRADIENT: i32 = 1;
-/// field: `icc_chart_info.n_infeasible`
+/// field: `icc_field_info.n_infeasible`
 pub const ICC_REASON_INFEASIBLE: i32 = 2;
-/// field: `icc_chart_info.n_not_inward`
+/// field: `icc_field_info.n_not_inward`
 pub const ICC_REASON_NOT_INWARD: i32 = 3;
-/// field: `icc_chart_info.n_stray`
+/// field: `icc_field_info.n_stray`
 pub const ICC_REASON_STRAY: i32 = 4;
 /// maps of method field: `icc_map_info.n_lost`
 pub const ICC_REASON_LOST: i32 = 5;
@@ -355,7 +355,7 @@ pub const ICC_FUNCTION_CLAMPED: i32 = 5;
 pub const ICC_CONSTRAINTS_NEEDED: i32 = 1;
 /// never. Charts of bi-Laplace functions have the maximum where the
 /// function puts it, which may be beside the place asked for:
-/// `icc_chart_info::moved`
+/// `icc_gradient_info::moved`
 pub const ICC_CONSTRAINTS_NONE: i32 = 2;
 /// always: the maximum stays where it is asked for
 pub const ICC_CONSTRAINTS_ALL: i32 = 3;
@@ -392,7 +392,7 @@ pub struct icc_chart_options {
     /// where the maximum shall be: the nearest vertex inside is taken. NULL:
     /// the grassfire's (gradient, field), the deepest vertex (foliation; of a
     /// mesh of the caller's, the deepest inside). Disc has its own, the point that goes to the centre: NULL only.
-    /// Bi-Laplace functions without constraints may move it: `icc_chart_info::moved`
+    /// Bi-Laplace functions without constraints may move it: `icc_gradient_info::moved`
     pub maximum: *const f64,
     /// gradient: `ICC_CONSTRAINTS_*`; 0: needed
     pub constraints: i32,
@@ -406,7 +406,8 @@ pub struct icc_chart_options {
 }
 sized!(icc_chart_options);
 
-/// What `icc_chart_get_info()` tells. Members that the method does not have are 0.
+/// What `icc_chart_get_info()` fills in, for every method. What only one method has is in a struct of its own:
+/// `icc_gradient_info`, `icc_field_info`, `icc_foliation_info`, `icc_shelling_info`, `icc_disc_info`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct icc_chart_info {
@@ -416,18 +417,30 @@ pub struct icc_chart_info {
     pub dim: i32,
     /// `ICC_METHOD_*`
     pub method: i32,
+    /// 1: proved to be one-to-one, exactly (field: in doubles); 0: not, see `reason`
+    pub certified: i32,
+    /// `ICC_REASON_*`: why it is not certified; 0 if it is
+    pub reason: i32,
+    /// cells along the longest side that were used; method field in thin shapes: twice those asked for, where
+    /// those do not do, and one more where that saves the certificate; 0 on a domain's mesh
+    pub cells: i32,
+    /// the point that every curve ends at
+    pub maximum: [f64; ICC_MAX_DIM],
+    /// distance of grid or lattice neighbours; 0 on a domain's mesh
+    pub spacing: f64,
+}
+sized!(icc_chart_info);
+
+/// What only charts of method gradient have.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct icc_gradient_info {
+    /// set by the caller: `sizeof(icc_gradient_info)`
+    pub size: usize,
     /// `ICC_FUNCTION_*`
     pub function: i32,
     /// `ICC_TREE_*`
     pub tree: i32,
-    /// 1: proved to be one-to-one, exactly (field: in doubles); 0: not, see `reason`
-    pub certified: i32,
-    /// cells along the longest side that were used
-    pub cells: i32,
-    /// the point that every curve ends at
-    pub maximum: [f64; ICC_MAX_DIM],
-    /// distance of grid or lattice neighbours
-    pub spacing: f64,
     /// grid vertices
     pub n_grid: usize,
     /// grid vertices inside the domain
@@ -444,66 +457,150 @@ pub struct icc_chart_info {
     pub n_minima: usize,
     /// of the function, inside
     pub n_saddles: usize,
-    /// edges between two triangles that curves run through
+    /// 2-D: edges between two triangles that curves run through
     pub n_edges: usize,
-    /// edges where curves merge on the way up
+    /// 2-D: edges where curves merge on the way up
     pub n_compression: usize,
-    /// edges where curves merge on the way down
+    /// 2-D: edges where curves merge on the way down
     pub n_expansion: usize,
-    /// vertices of the mesh
-    pub n_mesh_vertices: usize,
-    /// of them on the boundary
-    pub n_mesh_boundary: usize,
-    /// triangles of the mesh, or simplices
-    pub n_mesh_simplices: usize,
-    /// mesh edges whose ends have the same label: ordered by index
-    pub n_ties: usize,
-    /// share of the boundary flux that is harmonic (foliation)
-    pub harmonic_share: f64,
+    /// bi-Laplace functions without constraints: how far `icc_chart_info.maximum` lies from the vertex that was
+    /// asked for (or the grassfire's), because the function is greatest beside it; else 0
+    pub moved: f64,
     /// time to make the grid and find the maximum
     pub seconds_grid: f64,
     /// time to make and verify the tree
     pub seconds_tree: f64,
     /// time to make and verify the function
     pub seconds_function: f64,
+}
+sized!(icc_gradient_info);
+
+/// What only charts of method field have. The function is `ICC_FUNCTION_LAPLACE`, the tree's form `ICC_TREE_THESIS`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct icc_field_info {
+    /// set by the caller: `sizeof(icc_field_info)`
+    pub size: usize,
+    /// grid vertices
+    pub n_grid: usize,
+    /// grid vertices inside the domain
+    pub n_inside: usize,
+    /// grid vertices inside that were given up, because without them the others form a ball
+    pub n_stray: usize,
+    /// grid vertices in the tree
+    pub n_tree: usize,
+    /// grid vertices inside that the tree does not reach
+    pub n_unreachable: usize,
+    /// neighbours inside that are neither parent and child nor cousins
+    pub n_cousin_violations: usize,
+    /// of the function, inside
+    pub n_maxima: usize,
+    /// of the function, inside
+    pub n_minima: usize,
+    /// of the function, inside
+    pub n_saddles: usize,
+    /// grid vertices where no vector points uphill in all simplices
+    pub n_infeasible: usize,
+    /// pairs of a facet and a grid vertex of a simplex that it runs through
+    pub n_contacts: usize,
+    /// those of them where the vector does not point inward
+    pub n_not_inward: usize,
+    /// time to make the grid and find the maximum
+    pub seconds_grid: f64,
+    /// time to make and verify the tree
+    pub seconds_tree: f64,
+    /// time to make and verify the function
+    pub seconds_function: f64,
+    /// time to find the vectors and check them
+    pub seconds_solve: f64,
+}
+sized!(icc_field_info);
+
+/// What only charts of method foliation have in 2-D, on a mesh that the library makes.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct icc_foliation_info {
+    /// set by the caller: `sizeof(icc_foliation_info)`
+    pub size: usize,
+    /// vertices of the mesh
+    pub n_mesh_vertices: usize,
+    /// of them on the boundary
+    pub n_mesh_boundary: usize,
+    /// triangles of the mesh
+    pub n_mesh_simplices: usize,
+    /// mesh edges whose ends have the same label: ordered by index
+    pub n_ties: usize,
+    /// share of the boundary flux that is harmonic
+    pub harmonic_share: f64,
     /// time to make the mesh
     pub seconds_mesh: f64,
-    /// time to solve for the function or the map
+    /// time to solve for the leaves
     pub seconds_solve: f64,
-    /// time to certify it
+    /// time to certify them
     pub seconds_certify: f64,
-    /// field: grid vertices inside that were given up, because without them
-    /// the others form a ball
-    pub n_stray: usize,
-    /// field: grid vertices where no vector points uphill in all simplices
-    pub n_infeasible: usize,
-    /// field: pairs of a facet and a grid vertex of a simplex that it runs
-    /// through
-    pub n_contacts: usize,
-    /// field: those of them where the vector does not point inward
-    pub n_not_inward: usize,
-    /// foliation on a mesh: 1: the order of the simplices was found from the
-    /// boundary inwards, 0: from the centre outwards
+}
+sized!(icc_foliation_info);
+
+/// What only charts of method foliation have on a domain's mesh, `icc_domain_create_mesh()`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct icc_shelling_info {
+    /// set by the caller: `sizeof(icc_shelling_info)`
+    pub size: usize,
+    /// vertices of the mesh, and one more where none lies inside
+    pub n_mesh_vertices: usize,
+    /// of them on the boundary
+    pub n_mesh_boundary: usize,
+    /// simplices of the mesh
+    pub n_mesh_simplices: usize,
+    /// share of the boundary flux that is harmonic
+    pub harmonic_share: f64,
+    /// 1: the order of the simplices was found from the boundary inwards, 0: from the centre outwards
     pub order_peeled: i32,
-    /// how many such orders were complete; the best is used
+    /// how many of those that are tried were complete at first; the best is used
     pub n_orders: i32,
     /// how much reversed flux weighed in it
     pub order_beta: f64,
     /// facets that the harmonic flux runs through the other way
     pub n_reversed: usize,
-    /// how far the flux along the leaves is from the harmonic one: sum of
-    /// the squared differences, weighted; 0 at best
+    /// how far the flux along the leaves is from the harmonic one: sum of the squared differences, weighted; 0 at
+    /// best
     pub flux_energy: f64,
     /// largest share of a simplex's flux that gets lost by rounding
     pub flux_divergence: f64,
-    /// gradient, bi-Laplace functions without constraints: how far `maximum`
-    /// lies from the vertex that was asked for (or the grassfire's), because
-    /// the function is greatest beside it; else 0
-    pub moved: f64,
-    /// `ICC_REASON_*`: why it is not certified; 0 if it is
-    pub reason: i32,
+    /// time to choose the maximum
+    pub seconds_centre: f64,
+    /// time to solve for the harmonic flux
+    pub seconds_solve: f64,
+    /// time to find the order
+    pub seconds_order: f64,
+    /// time to certify it
+    pub seconds_certify: f64,
+    /// time to prepare the leaves
+    pub seconds_leaves: f64,
 }
-sized!(icc_chart_info);
+sized!(icc_shelling_info);
+
+/// What only charts of method disc have.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct icc_disc_info {
+    /// set by the caller: `sizeof(icc_disc_info)`
+    pub size: usize,
+    /// vertices of the mesh
+    pub n_mesh_vertices: usize,
+    /// of them on the boundary
+    pub n_mesh_boundary: usize,
+    /// triangles of the mesh
+    pub n_mesh_simplices: usize,
+    /// time to make the mesh
+    pub seconds_mesh: f64,
+    /// time to solve for the map to the disc
+    pub seconds_solve: f64,
+    /// time to certify it
+    pub seconds_certify: f64,
+}
+sized!(icc_disc_info);
 
 /// Shares that `icc_chart_get_report()` estimates from evenly spread points. All lie in \[0,1\]. Area and length
 /// are those of 2-D; beyond, read volume and area, and so on. For a certified chart all are 0 without
@@ -948,7 +1045,7 @@ extern "C" {
     /// Cost with n vertices and N cells along the longest side: gradient O(N^2 + n N) time and memory at
     /// most in 2-D, about 1 ms at N = 50, and O(N^dim) beyond: in 3-D at N = 64 from 0.1 s, and 15 us a point
     /// and way. Field the same: in 3-D at N = 64 0.05 to 0.5 s, 20 us a point and way; at most 70 bytes a grid
-    /// vertex, and 150 for each of `icc_chart_info.n_contacts` while it is made. Foliation and disc mesh
+    /// vertex, and 150 for each of `icc_field_info.n_contacts` while it is made. Foliation and disc mesh
     /// the domain with at most 2 n + 4 N^2 vertices (far fewer in practice) and factorise its Laplacian:
     /// about 5 ms at N = 50 and n \< 100, 0.1 s at n = 15,000; 500 bytes a vertex. Foliation on a domain with a
     /// mesh: in 3-D about 25 us a tetrahedron, 40 us from 80,000 on, of which the certificate takes 2 %, then 1 to 2 us
@@ -966,6 +1063,22 @@ extern "C" {
 
     /// Fills in `info`, whose `size` the caller has set. `ICC_OK` or `ICC_ERR_ARGUMENT`.
     pub fn icc_chart_get_info(chart: *const icc_chart, info: *mut icc_chart_info) -> icc_status;
+
+    /// Fills in what only charts of method gradient have; `size` as there. `ICC_OK`, `ICC_ERR_UNSUPPORTED` for charts
+    /// that are made otherwise, or `ICC_ERR_ARGUMENT`.
+    pub fn icc_chart_get_gradient_info(chart: *const icc_chart, info: *mut icc_gradient_info) -> icc_status;
+
+    /// The same for method field.
+    pub fn icc_chart_get_field_info(chart: *const icc_chart, info: *mut icc_field_info) -> icc_status;
+
+    /// The same for method foliation in 2-D, unless the domain brings a mesh.
+    pub fn icc_chart_get_foliation_info(chart: *const icc_chart, info: *mut icc_foliation_info) -> icc_status;
+
+    /// The same for method foliation on a domain's mesh.
+    pub fn icc_chart_get_shelling_info(chart: *const icc_chart, info: *mut icc_shelling_info) -> icc_status;
+
+    /// The same for method disc.
+    pub fn icc_chart_get_disc_info(chart: *const icc_chart, info: *mut icc_disc_info) -> icc_status;
 
     /// The domain that the chart was made on; borrowed.
     pub fn icc_chart_domain(chart: *const icc_chart) -> *const icc_domain;

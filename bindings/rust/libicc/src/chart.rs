@@ -9,6 +9,11 @@ use crate::sys;
 
 pub use crate::sys::icc_chart_info as ChartInfo;
 pub use crate::sys::icc_chart_report as ChartReport;
+pub use crate::sys::icc_disc_info as DiscInfo;
+pub use crate::sys::icc_field_info as FieldInfo;
+pub use crate::sys::icc_foliation_info as FoliationInfo;
+pub use crate::sys::icc_gradient_info as GradientInfo;
+pub use crate::sys::icc_shelling_info as ShellingInfo;
 
 object!(
     /// Coordinates of the inside of a domain: a boundary point, and a share of the way from there to the maximum.
@@ -203,12 +208,52 @@ impl Chart {
         })
     }
 
-    /// What the chart is made of, and whether it is certified.
+    /// What charts of every method have: whether it is certified, where the curves end, ...
     pub fn info(&self) -> ChartInfo {
         let mut info = ChartInfo::default();
         // SAFETY: `size` is set. It cannot fail.
         unsafe { sys::icc_chart_get_info(self.as_ptr(), &mut info) };
         info
+    }
+
+    /// What only charts of method gradient have; `None` for others.
+    pub fn gradient_info(&self) -> Option<GradientInfo> {
+        let mut info = GradientInfo::default();
+        // SAFETY: `size` is set.
+        let status = unsafe { sys::icc_chart_get_gradient_info(self.as_ptr(), &mut info) };
+        (status == sys::ICC_OK).then_some(info)
+    }
+
+    /// What only charts of method field have; `None` for others.
+    pub fn field_info(&self) -> Option<FieldInfo> {
+        let mut info = FieldInfo::default();
+        // SAFETY: `size` is set.
+        let status = unsafe { sys::icc_chart_get_field_info(self.as_ptr(), &mut info) };
+        (status == sys::ICC_OK).then_some(info)
+    }
+
+    /// What only charts of method foliation in the plane, on a mesh that the library makes, have; `None` for others.
+    pub fn foliation_info(&self) -> Option<FoliationInfo> {
+        let mut info = FoliationInfo::default();
+        // SAFETY: `size` is set.
+        let status = unsafe { sys::icc_chart_get_foliation_info(self.as_ptr(), &mut info) };
+        (status == sys::ICC_OK).then_some(info)
+    }
+
+    /// What only charts of method foliation on a domain's mesh have; `None` for others.
+    pub fn shelling_info(&self) -> Option<ShellingInfo> {
+        let mut info = ShellingInfo::default();
+        // SAFETY: `size` is set.
+        let status = unsafe { sys::icc_chart_get_shelling_info(self.as_ptr(), &mut info) };
+        (status == sys::ICC_OK).then_some(info)
+    }
+
+    /// What only charts of method disc have; `None` for others.
+    pub fn disc_info(&self) -> Option<DiscInfo> {
+        let mut info = DiscInfo::default();
+        // SAFETY: `size` is set.
+        let status = unsafe { sys::icc_chart_get_disc_info(self.as_ptr(), &mut info) };
+        (status == sys::ICC_OK).then_some(info)
     }
 
     /// The dimension.

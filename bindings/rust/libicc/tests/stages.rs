@@ -104,10 +104,13 @@ fn charts_show_their_field() {
     let options = ChartOptions { method: Some(Method::Gradient), ..Default::default() };
     let chart = Chart::new(&shape, &options, env).unwrap();
     let field = chart.function().unwrap();
-    assert_eq!(field.values().len(), chart.info().n_grid);
+    let info = chart.gradient_info().unwrap();
+    assert_eq!(field.values().len(), info.n_grid);
     let edges = field.edges().unwrap();
     let merging = edges.iter().filter(|edge| edge.compression).count();
-    assert_eq!((merging, edges.len() - merging), (chart.info().n_compression, chart.info().n_expansion));
+    assert_eq!((merging, edges.len() - merging), (info.n_compression, info.n_expansion));
     assert!(chart.report(1000, env).unwrap().collapsed > 0.0);
+    let others = (chart.field_info(), chart.foliation_info(), chart.shelling_info(), chart.disc_info());
+    assert!(matches!(others, (None, None, None, None)));
     assert!(Chart::new(&shape, &ChartOptions::default(), env).unwrap().function().is_none());
 }
