@@ -140,7 +140,7 @@ icc_status icc_chart_trace(const icc_chart *chart, const double *point, size_t c
     polyline line = {&chart->domain->frame, dim, capacity, 0, curve};
     iccp_path path;
     iccp_path_init(&path, &full_env.memory);
-    status = chart->ops->trace(chart, local, &path, append, &line);
+    status = iccp_chart_trace(chart, local, &path, append, &line);
     iccp_path_clear(&path);
     if (status == ICC_ERR_OUTSIDE)
         return iccp_fail(err, status, "the point is outside the domain");
