@@ -21,18 +21,20 @@ icc_status icc_binding_create(icc_binding **out, const icc_weights *kernel, size
 {
     if (out != NULL)
         *out = NULL;
-    if (out == NULL || kernel == NULL || (n > 0 && points == NULL))
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_binding_create: an argument is NULL");
+    iccp_env full_env;
+    const char *missing = out == NULL               ? "out"
+                          : kernel == NULL          ? "kernel"
+                          : n > 0 && points == NULL ? "points"
+                                                    : NULL;
+    const icc_status status = iccp_begin(&full_env, env, missing, err);
+    if (status != ICC_OK)
+        return status;
     if (derivatives < 0 || derivatives > 1)
         return iccp_fail(err, ICC_ERR_ARGUMENT, "derivatives is %ld", (long)derivatives);
     for (size_t i = 0, dim = kernel->layout->dim; i < n; ++i)
         if (!are_finite(dim, points + dim * i))
             return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)i,
                                 "point %zu is not finite", i);
-    iccp_env full_env;
-    const icc_status status = iccp_env_read(&full_env, env, err);
-    if (status != ICC_OK)
-        return status;
     return iccp_end_binding(
         iccp_explain(err, iccp_binding_create(out, kernel, n, points, derivatives == 1, &full_env)),
         out, &full_env, err);
@@ -97,10 +99,9 @@ icc_status icc_binding_load(icc_binding **out, size_t n_bytes, const void *data,
 {
     if (out != NULL)
         *out = NULL;
-    if (out == NULL || (n_bytes > 0 && data == NULL))
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_binding_load: an argument is NULL");
+    const char *missing = out == NULL ? "out" : n_bytes > 0 && data == NULL ? "data" : NULL;
     iccp_env full_env;
-    const icc_status status = iccp_env_read(&full_env, env, err);
+    const icc_status status = iccp_begin(&full_env, env, missing, err);
     if (status != ICC_OK)
         return status;
     return iccp_end_binding(

@@ -18,12 +18,10 @@ icc_status icc_chart_create(icc_chart **out, const icc_domain *domain,
 {
     if (out != NULL)
         *out = NULL;
-    if (out == NULL || domain == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_chart_create: %s is NULL",
-                         out == NULL ? "out" : "domain");
+    const char *missing = out == NULL ? "out" : domain == NULL ? "domain" : NULL;
     iccp_env full_env;
     icc_chart_options full;
-    icc_status status = iccp_env_read(&full_env, env, err);
+    icc_status status = iccp_begin(&full_env, env, missing, err);
     if (status == ICC_OK)
         status = iccp_read_chart_options(&full, options, domain->dim, err);
     return status == ICC_OK ? iccp_end_chart(iccp_chart_create(out, domain, &full, &full_env, err),
@@ -110,15 +108,15 @@ const icc_function *icc_chart_function(const icc_chart *chart)
 icc_status icc_chart_get_report(const icc_chart *chart, size_t n_points, icc_chart_report *measures,
                                 const icc_env *env, icc_error *err)
 {
-    if (chart == NULL || measures == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_chart_get_report: %s is NULL",
-                         chart == NULL ? "chart" : "measures");
+    iccp_env full_env;
+    const char *missing = chart == NULL ? "chart" : measures == NULL ? "measures" : NULL;
+    icc_status status = iccp_begin(&full_env, env, missing, err);
+    if (status != ICC_OK)
+        return status;
     if (n_points > UINT32_MAX)
         return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_chart_get_report: %zu points are too many",
                          n_points);
-    iccp_env full_env;
     icc_chart_report full = {0};
-    icc_status status = iccp_env_read(&full_env, env, err);
     if (status == ICC_OK && chart->ops->measure != NULL)
         status = iccp_finish(&full_env, chart->ops->measure(chart, n_points > 0 ? n_points : 4096,
                                                             &full, &full_env));
@@ -174,22 +172,25 @@ icc_status icc_chart_trace(const icc_chart *chart, const double *point, size_t c
 {
     if (n_curve != NULL)
         *n_curve = 0;
-    if (chart == NULL || point == NULL || n_curve == NULL || (capacity > 0 && curve == NULL))
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_chart_trace: an argument is NULL");
+    iccp_env full_env;
+    const char *missing = chart == NULL                   ? "chart"
+                          : point == NULL                 ? "point"
+                          : n_curve == NULL               ? "n_curve"
+                          : capacity > 0 && curve == NULL ? "curve"
+                                                          : NULL;
+    icc_status status = iccp_begin(&full_env, env, missing, err);
+    if (status != ICC_OK)
+        return status;
     const int32_t dim = chart->domain->dim;
     for (int32_t k = 0; k < dim; ++k)
         if (!isfinite(point[k]))
             return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_chart_trace: the point is not finite");
-    iccp_env full_env;
-    icc_status status = iccp_env_read(&full_env, env, err);
-    if (status != ICC_OK)
-        return status;
     double local[ICC_MAX_DIM];
     iccp_frame_in(&chart->domain->frame, dim, point, local);
     polyline line = {&chart->domain->frame, dim, capacity, 0, curve};
     iccp_path path;
     iccp_path_init(&path, &full_env.memory);
-    status = chart->ops->trace(chart, local, &path, append, &line);
+    status = iccp_chart_trace(chart, local, &path, append, &line);
     iccp_path_clear(&path);
     if (status == ICC_ERR_OUTSIDE)
         return iccp_fail(err, status, "the point is outside the domain");
@@ -215,11 +216,9 @@ icc_status icc_chart_load(icc_chart **out, size_t n_bytes, const void *data, con
 {
     if (out != NULL)
         *out = NULL;
-    if (out == NULL || data == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_chart_load: %s is NULL",
-                         out == NULL ? "out" : "data");
+    const char *missing = out == NULL ? "out" : data == NULL ? "data" : NULL;
     iccp_env full_env;
-    const icc_status status = iccp_env_read(&full_env, env, err);
+    const icc_status status = iccp_begin(&full_env, env, missing, err);
     return status == ICC_OK ? iccp_end_chart(iccp_chart_load(out, n_bytes, data, &full_env, err),
                                              out, &full_env, err)
                             : status;

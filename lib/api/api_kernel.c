@@ -168,11 +168,13 @@ icc_status icc_weights_create(icc_weights **out, const icc_sampling *sampling, s
 {
     if (out != NULL)
         *out = NULL;
-    if (out == NULL || sampling == NULL || handles == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_weights_create: an argument is NULL");
+    const char *missing = out == NULL        ? "out"
+                          : sampling == NULL ? "sampling"
+                          : handles == NULL  ? "handles"
+                                             : NULL;
     iccp_env full_env;
     icc_weights_options full;
-    icc_status status = iccp_env_read(&full_env, env, err);
+    icc_status status = iccp_begin(&full_env, env, missing, err);
     if (status == ICC_OK)
         status = iccp_read_struct(&full, sizeof full, options, "icc_weights_options", err);
     if (status == ICC_OK)
@@ -234,15 +236,19 @@ icc_status icc_weights_evaluate(const icc_weights *kernel, size_t n, const doubl
 icc_status icc_weights_get_report(const icc_weights *kernel, size_t n, const double *points,
                                   icc_weights_report *report, const icc_env *env, icc_error *err)
 {
-    if (kernel == NULL || report == NULL || (n > 0 && points == NULL))
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_weights_get_report: an argument is NULL");
     iccp_env full_env;
+    const char *missing = kernel == NULL            ? "kernel"
+                          : report == NULL          ? "report"
+                          : n > 0 && points == NULL ? "points"
+                                                    : NULL;
+    icc_status status = iccp_begin(&full_env, env, missing, err);
+    if (status != ICC_OK)
+        return status;
     icc_weights_report full;
     const size_t i = first_infinite(n, kernel->layout->dim, points);
     if (i < n)
         return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)i,
                             "point %zu is not finite", i);
-    icc_status status = iccp_env_read(&full_env, env, err);
     if (status == ICC_OK)
         status = iccp_finish(&full_env, iccp_weights_measure(kernel, n, points, &full, &full_env));
     if (status == ICC_OK)
@@ -252,24 +258,18 @@ icc_status icc_weights_get_report(const icc_weights *kernel, size_t n, const dou
 
 /* ---- kernels from others ---- */
 
-/* Every function that makes a kernel from another one starts like this. */
-static icc_status begin(iccp_env *full, icc_weights **out, const icc_weights *kernel,
-                        bool complete_call, const char *name, const icc_env *env, icc_error *err)
-{
-    if (out != NULL)
-        *out = NULL;
-    if (out == NULL || kernel == NULL || !complete_call)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "%s: an argument is NULL", name);
-    return iccp_env_read(full, env, err);
-}
-
 icc_status icc_weights_paint(icc_weights **out, const icc_weights *kernel, size_t handle,
                              const double *centre, double radius, double amount, const icc_env *env,
                              icc_error *err)
 {
+    if (out != NULL)
+        *out = NULL;
     iccp_env full_env;
-    const icc_status status =
-        begin(&full_env, out, kernel, centre != NULL, "icc_weights_paint", env, err);
+    const char *missing = out == NULL      ? "out"
+                          : kernel == NULL ? "kernel"
+                          : centre == NULL ? "centre"
+                                           : NULL;
+    const icc_status status = iccp_begin(&full_env, env, missing, err);
     if (status != ICC_OK)
         return status;
     if (handle >= kernel->layout->n_handles)
@@ -288,10 +288,15 @@ icc_status icc_weights_repaint(icc_weights **out, const icc_weights *kernel, siz
                                const uint32_t *nodes, const double *weights, const icc_env *env,
                                icc_error *err)
 {
+    if (out != NULL)
+        *out = NULL;
     iccp_env full_env;
-    const icc_status status =
-        begin(&full_env, out, kernel, n == 0 || (nodes != NULL && weights != NULL),
-              "icc_weights_repaint", env, err);
+    const char *missing = out == NULL                ? "out"
+                          : kernel == NULL           ? "kernel"
+                          : n > 0 && nodes == NULL   ? "nodes"
+                          : n > 0 && weights == NULL ? "weights"
+                                                     : NULL;
+    const icc_status status = iccp_begin(&full_env, env, missing, err);
     if (status != ICC_OK)
         return status;
     const size_t k = first_infinite(n, kernel->layout->n_handles, weights);
@@ -306,9 +311,11 @@ icc_status icc_weights_repaint(icc_weights **out, const icc_weights *kernel, siz
 icc_status icc_weights_with_method(icc_weights **out, const icc_weights *kernel, int32_t method,
                                    const icc_env *env, icc_error *err)
 {
+    if (out != NULL)
+        *out = NULL;
     iccp_env full_env;
-    const icc_status status =
-        begin(&full_env, out, kernel, true, "icc_weights_with_method", env, err);
+    const char *missing = out == NULL ? "out" : kernel == NULL ? "kernel" : NULL;
+    const icc_status status = iccp_begin(&full_env, env, missing, err);
     if (status != ICC_OK)
         return status;
     if (method < ICC_WEIGHTS_QP || method > ICC_WEIGHTS_L1)
@@ -322,9 +329,14 @@ icc_status icc_weights_stiffen(icc_weights **out, const icc_weights *kernel, siz
                                const uint32_t *nodes, const double *rigidity, double energy[2],
                                const icc_env *env, icc_error *err)
 {
+    if (out != NULL)
+        *out = NULL;
     iccp_env full_env;
-    const icc_status status =
-        begin(&full_env, out, kernel, n == 0 || nodes != NULL, "icc_weights_stiffen", env, err);
+    const char *missing = out == NULL              ? "out"
+                          : kernel == NULL         ? "kernel"
+                          : n > 0 && nodes == NULL ? "nodes"
+                                                   : NULL;
+    const icc_status status = iccp_begin(&full_env, env, missing, err);
     if (status != ICC_OK)
         return status;
     for (size_t k = 0; rigidity != NULL && k < n; ++k)

@@ -25,12 +25,14 @@ icc_status icc_map_create(icc_map **out, const icc_domain *source, const icc_dom
 {
     if (out != NULL)
         *out = NULL;
-    if (out == NULL || source == NULL || target == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_map_create: an argument is NULL");
+    const char *missing = out == NULL      ? "out"
+                          : source == NULL ? "source"
+                          : target == NULL ? "target"
+                                           : NULL;
     iccp_env full_env;
     icc_map_options full;
     icc_chart_options chart;
-    icc_status status = iccp_env_read(&full_env, env, err);
+    icc_status status = iccp_begin(&full_env, env, missing, err);
     if (status == ICC_OK)
         status = read_options(&full, options, err);
     if (status == ICC_OK)
@@ -55,11 +57,13 @@ icc_status icc_map_create_from_charts(icc_map **out, const icc_chart *source,
 {
     if (out != NULL)
         *out = NULL;
-    if (out == NULL || source == NULL || target == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_map_create_from_charts: an argument is NULL");
+    const char *missing = out == NULL      ? "out"
+                          : source == NULL ? "source"
+                          : target == NULL ? "target"
+                                           : NULL;
     iccp_env full_env;
     icc_map_options full;
-    icc_status status = iccp_env_read(&full_env, env, err);
+    icc_status status = iccp_begin(&full_env, env, missing, err);
     if (status == ICC_OK)
         status = read_options(&full, options, err);
     return status == ICC_OK ? iccp_end_map(iccp_map_create_from_charts(out, source, target, &full,
@@ -131,12 +135,11 @@ icc_status icc_map_improve(icc_map **out, const icc_map *map, const icc_improve_
 {
     if (out != NULL)
         *out = NULL;
-    if (out == NULL || map == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_map_improve: an argument is NULL");
+    const char *missing = out == NULL ? "out" : map == NULL ? "map" : NULL;
     iccp_env full_env;
     icc_improve_options full;
     icc_improve_report full_report = {0};
-    icc_status status = iccp_env_read(&full_env, env, err);
+    icc_status status = iccp_begin(&full_env, env, missing, err);
     if (status == ICC_OK)
         status = iccp_read_struct(&full, sizeof full, options, "icc_improve_options", err);
     if (status == ICC_OK &&
@@ -161,13 +164,17 @@ icc_status icc_map_retarget(icc_map **out, const icc_map *map, const icc_domain 
 {
     if (out != NULL)
         *out = NULL;
-    if (out == NULL || map == NULL || target == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_map_retarget: an argument is NULL");
+    iccp_env full_env;
+    const char *missing = out == NULL      ? "out"
+                          : map == NULL    ? "map"
+                          : target == NULL ? "target"
+                                           : NULL;
+    const icc_status status = iccp_begin(&full_env, env, missing, err);
+    if (status != ICC_OK)
+        return status;
     if (iterations < -1)
         return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_map_retarget: iterations is %ld",
                          (long)iterations);
-    iccp_env full_env;
-    const icc_status status = iccp_env_read(&full_env, env, err);
     return status == ICC_OK
                ? iccp_end_map(iccp_map_retarget(out, map, target, iterations, &full_env, err), out,
                               &full_env, err)
@@ -235,7 +242,13 @@ static icc_status carry_mesh(const icc_map *map, size_t n_vertices, const double
 {
     iccp_env full_env;
     icc_certificate full = {0};
-    icc_status status = iccp_env_read(&full_env, env, err);
+    const char *missing = map == NULL                  ? "map"
+                          : vertices == NULL           ? "vertices"
+                          : simplices == NULL          ? "simplices"
+                          : repaired && images == NULL ? "images"
+                          : certificate == NULL        ? "certificate"
+                                                       : NULL;
+    icc_status status = iccp_begin(&full_env, env, missing, err);
     if (status == ICC_OK)
         status = check_mesh(map, n_vertices, n_simplices, simplices, err);
     if (status != ICC_OK)
@@ -258,8 +271,6 @@ icc_status icc_map_certify(const icc_map *map, size_t n_vertices, const double *
                            size_t n_simplices, const uint32_t *simplices, double *images,
                            icc_certificate *certificate, const icc_env *env, icc_error *err)
 {
-    if (map == NULL || vertices == NULL || simplices == NULL || certificate == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_map_certify: an argument is NULL");
     return carry_mesh(map, n_vertices, vertices, n_simplices, simplices, false, images, certificate,
                       env, err);
 }
@@ -268,9 +279,6 @@ icc_status icc_map_repair(const icc_map *map, size_t n_vertices, const double *v
                           size_t n_simplices, const uint32_t *simplices, double *images,
                           icc_certificate *certificate, const icc_env *env, icc_error *err)
 {
-    if (map == NULL || vertices == NULL || simplices == NULL || images == NULL ||
-        certificate == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_map_repair: an argument is NULL");
     return carry_mesh(map, n_vertices, vertices, n_simplices, simplices, true, images, certificate,
                       env, err);
 }
@@ -288,11 +296,9 @@ icc_status icc_map_load(icc_map **out, size_t n_bytes, const void *data, const i
 {
     if (out != NULL)
         *out = NULL;
-    if (out == NULL || data == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_map_load: %s is NULL",
-                         out == NULL ? "out" : "data");
+    const char *missing = out == NULL ? "out" : data == NULL ? "data" : NULL;
     iccp_env full_env;
-    const icc_status status = iccp_env_read(&full_env, env, err);
+    const icc_status status = iccp_begin(&full_env, env, missing, err);
     return status == ICC_OK ? iccp_end_map(iccp_map_load(out, n_bytes, data, &full_env, err), out,
                                            &full_env, err)
                             : status;

@@ -13,15 +13,6 @@ ICCP_END(sampling)
 
 static const int32_t MAX_STEPS = 100000;
 
-/* Every creator starts like this. `missing` names the first input that is NULL, or is NULL
- * itself. */
-static icc_status begin(iccp_env *full, const icc_env *env, const char *missing, icc_error *err)
-{
-    if (missing != NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "%s is NULL", missing);
-    return iccp_env_read(full, env, err);
-}
-
 static icc_status check_finite(size_t n, size_t dim, const double *points, const char *name,
                                icc_error *err)
 {
@@ -63,7 +54,7 @@ icc_status icc_shape_create(icc_shape **out, int32_t dim, size_t n_regions,
                           : n_vertices > 0 && vertices == NULL ? "vertices"
                           : n_segments > 0 && segments == NULL ? "segments"
                                                                : NULL;
-    icc_status status = begin(&full_env, env, missing, err);
+    icc_status status = iccp_begin(&full_env, env, missing, err);
     if (status != ICC_OK)
         return status;
     if (dim != 2 && dim != 3)
@@ -133,7 +124,7 @@ icc_status icc_sampling_create(icc_sampling **out, const icc_shape *shape,
     iccp_env full_env;
     icc_sampling_options full;
     const char *missing = out == NULL ? "out" : shape == NULL ? "shape" : NULL;
-    icc_status status = begin(&full_env, env, missing, err);
+    icc_status status = iccp_begin(&full_env, env, missing, err);
     if (status == ICC_OK)
         status = read_options(&full, options, shape, err);
     return status == ICC_OK
@@ -152,7 +143,7 @@ icc_status icc_sampling_create_from_points(icc_sampling **out, const icc_shape *
                           : shape == NULL  ? "shape"
                           : points == NULL ? "points"
                                            : NULL;
-    icc_status status = begin(&full_env, env, missing, err);
+    icc_status status = iccp_begin(&full_env, env, missing, err);
     if (status != ICC_OK)
         return status;
     if (n == 0)
@@ -206,7 +197,7 @@ icc_status icc_sampling_load(icc_sampling **out, size_t n_bytes, const void *dat
         *out = NULL;
     iccp_env full_env;
     const char *missing = out == NULL ? "out" : data == NULL ? "data" : NULL;
-    const icc_status status = begin(&full_env, env, missing, err);
+    const icc_status status = iccp_begin(&full_env, env, missing, err);
     return status == ICC_OK
                ? iccp_end_sampling(iccp_sampling_load(out, n_bytes, data, &full_env, err), out,
                                    &full_env, err)

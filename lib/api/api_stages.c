@@ -26,15 +26,6 @@ ICCP_END(function)
 static const int32_t DEFAULT_CELLS = 50;          /* the papers' */
 static const size_t MAX_POINTS = UINT32_MAX / 16; /* corners of triangles are numbered too */
 
-/* Every creator starts like this. `missing` names the first input that is NULL, or is NULL
- * itself. */
-static icc_status begin(iccp_env *full, const icc_env *env, const char *missing, icc_error *err)
-{
-    if (missing != NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "%s is NULL", missing);
-    return iccp_env_read(full, env, err);
-}
-
 /* -------------------------------------------------------------------- grid */
 
 icc_status icc_grid_create(icc_grid **out, const icc_domain *domain, int32_t cells,
@@ -44,7 +35,7 @@ icc_status icc_grid_create(icc_grid **out, const icc_domain *domain, int32_t cel
         *out = NULL;
     iccp_env full_env;
     const char *missing = out == NULL ? "out" : domain == NULL ? "domain" : NULL;
-    const icc_status status = begin(&full_env, env, missing, err);
+    const icc_status status = iccp_begin(&full_env, env, missing, err);
     if (status != ICC_OK)
         return status;
     if (cells == 0)
@@ -66,7 +57,7 @@ icc_status icc_grid_create_mask(icc_grid **out, int32_t dim, const size_t *shape
                           : shape == NULL  ? "shape"
                           : inside == NULL ? "inside"
                                            : NULL;
-    const icc_status status = begin(&full_env, env, missing, err);
+    const icc_status status = iccp_begin(&full_env, env, missing, err);
     if (status != ICC_OK)
         return status;
     if (dim < 1 || dim > ICC_MAX_DIM)
@@ -87,7 +78,7 @@ icc_status icc_grid_refine(icc_grid **out, const icc_grid *grid, const icc_env *
         *out = NULL;
     iccp_env full_env;
     const char *missing = out == NULL ? "out" : grid == NULL ? "grid" : NULL;
-    const icc_status status = begin(&full_env, env, missing, err);
+    const icc_status status = iccp_begin(&full_env, env, missing, err);
     if (status != ICC_OK)
         return status;
     return iccp_end_grid(iccp_explain(err, iccp_grid_refine(out, grid, &full_env, err)), out,
@@ -104,7 +95,7 @@ icc_status icc_grid_restrict(icc_grid **out, const icc_grid *grid, const uint8_t
                           : grid == NULL ? "grid"
                           : keep == NULL ? "keep"
                                          : NULL;
-    const icc_status status = begin(&full_env, env, missing, err);
+    const icc_status status = iccp_begin(&full_env, env, missing, err);
     if (status != ICC_OK)
         return status;
     return iccp_end_grid(iccp_explain(err, iccp_grid_restrict(out, grid, keep, &full_env, err)),
@@ -142,7 +133,7 @@ icc_status icc_grid_find_maximum(const icc_grid *grid, uint32_t *vertex, uint32_
 {
     iccp_env full_env;
     const char *missing = grid == NULL ? "grid" : vertex == NULL ? "vertex" : NULL;
-    const icc_status status = begin(&full_env, env, missing, err);
+    const icc_status status = iccp_begin(&full_env, env, missing, err);
     if (status != ICC_OK)
         return status;
     return iccp_explain(
@@ -200,7 +191,7 @@ icc_status icc_tree_create(icc_tree **out, const icc_grid *grid, uint32_t root,
         *out = NULL;
     iccp_env full_env;
     const char *missing = out == NULL ? "out" : grid == NULL ? "grid" : NULL;
-    icc_status status = begin(&full_env, env, missing, err);
+    icc_status status = iccp_begin(&full_env, env, missing, err);
     if (status != ICC_OK)
         return status;
     icc_tree_options full;
@@ -245,7 +236,7 @@ icc_status icc_tree_get_report(const icc_tree *tree, icc_tree_report *report, co
 {
     iccp_env full_env;
     const char *missing = tree == NULL ? "tree" : report == NULL ? "report" : NULL;
-    icc_status status = begin(&full_env, env, missing, err);
+    icc_status status = iccp_begin(&full_env, env, missing, err);
     if (status != ICC_OK)
         return status;
     icc_tree_report full;
@@ -269,7 +260,7 @@ icc_status icc_tree_grow(const icc_tree *tree, const double *values, uint32_t *r
 {
     iccp_env full_env;
     const char *missing = tree == NULL ? "tree" : rank == NULL ? "rank" : NULL;
-    icc_status status = begin(&full_env, env, missing, err);
+    icc_status status = iccp_begin(&full_env, env, missing, err);
     if (status == ICC_OK)
         status = check_wish(tree, values, err);
     if (status != ICC_OK)
@@ -293,7 +284,7 @@ icc_status icc_tree_get_rank_report(const icc_tree *tree, const uint32_t *rank,
                           : rank == NULL   ? "rank"
                           : report == NULL ? "report"
                                            : NULL;
-    icc_status status = begin(&full_env, env, missing, err);
+    icc_status status = iccp_begin(&full_env, env, missing, err);
     if (status != ICC_OK)
         return status;
     icc_function_report full;
@@ -314,7 +305,7 @@ icc_status icc_function_create(icc_function **out, const icc_tree *tree,
         *out = NULL;
     iccp_env full_env;
     const char *missing = out == NULL ? "out" : tree == NULL ? "tree" : NULL;
-    icc_status status = begin(&full_env, env, missing, err);
+    icc_status status = iccp_begin(&full_env, env, missing, err);
     if (status != ICC_OK)
         return status;
     icc_function_options full;
@@ -363,7 +354,7 @@ icc_status icc_function_get_report(const icc_function *function, icc_function_re
 {
     iccp_env full_env;
     const char *missing = function == NULL ? "function" : report == NULL ? "report" : NULL;
-    icc_status status = begin(&full_env, env, missing, err);
+    icc_status status = iccp_begin(&full_env, env, missing, err);
     if (status != ICC_OK)
         return status;
     icc_function_report full;
@@ -436,7 +427,7 @@ icc_status icc_triangulate(size_t n_boundary, size_t n_points, const double *poi
 {
     iccp_env full_env;
     const char *missing = points == NULL ? "points" : triangles == NULL ? "triangles" : NULL;
-    icc_status status = begin(&full_env, env, missing, err);
+    icc_status status = iccp_begin(&full_env, env, missing, err);
     if (status != ICC_OK)
         return status;
     if (n_boundary < 3 || n_points < n_boundary || n_points > MAX_POINTS)

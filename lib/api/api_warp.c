@@ -38,11 +38,13 @@ static icc_status read_picture(icc_picture *full, const icc_picture *given, cons
 icc_status icc_map_warp(const icc_map *map, const icc_picture *source, const icc_picture *target,
                         size_t *n_failed, const icc_env *env, icc_error *err)
 {
-    if (map == NULL || source == NULL || target == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_map_warp: an argument is NULL");
+    const char *missing = map == NULL      ? "map"
+                          : source == NULL ? "source"
+                          : target == NULL ? "target"
+                                           : NULL;
     iccp_env full_env;
     icc_picture from, to;
-    icc_status status = iccp_env_read(&full_env, env, err);
+    icc_status status = iccp_begin(&full_env, env, missing, err);
     if (status == ICC_OK)
         status = read_picture(&from, source, "source", err);
     if (status == ICC_OK)

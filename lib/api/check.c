@@ -6,6 +6,13 @@
 
 #include <math.h>
 
+icc_status iccp_begin(iccp_env *full, const icc_env *env, const char *missing, icc_error *err)
+{
+    if (missing != NULL)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "%s is NULL", missing);
+    return iccp_env_read(full, env, err);
+}
+
 icc_status iccp_check_maximum(const double *maximum, int32_t dim, icc_error *err)
 {
     for (int32_t k = 0; maximum != NULL && k < dim; ++k)
@@ -41,8 +48,8 @@ icc_status iccp_check_function(const icc_function_options *options, const char *
     if (status == ICC_OK)
         status = check_choice(options->solver, ICC_SOLVER_ITERATIVE, name, "solver", err);
     if (status == ICC_OK)
-        status = check_share(options->min_fall, name, "eta", err);
-    return status == ICC_OK ? check_share(options->leaf_min, name, "leaf", err) : status;
+        status = check_share(options->min_fall, name, "min_fall", err);
+    return status == ICC_OK ? check_share(options->leaf_min, name, "leaf_min", err) : status;
 }
 
 icc_status iccp_read_chart_options(icc_chart_options *full, const icc_chart_options *options,

@@ -17,6 +17,10 @@ icc_status iccp_check_function(const icc_function_options *options, const char *
 /* A maximum that the caller wants; NULL is fine. */
 icc_status iccp_check_maximum(const double *maximum, int32_t dim, icc_error *err);
 
+/* How a call begins: `missing` names the first argument that is NULL, or is NULL itself. Reads the
+ * caller's environment. */
+icc_status iccp_begin(iccp_env *full, const icc_env *env, const char *missing, icc_error *err);
+
 /* How a call ends that makes an object: by its last report. Whoever wants to stop even then gets
  * no object. */
 #define ICCP_END(type)                                                                             \

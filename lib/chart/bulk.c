@@ -19,11 +19,11 @@ static icc_status to_local(const icc_chart *chart, const double *point, double *
 }
 
 icc_status iccp_encode_point(const icc_chart *chart, const double *point, iccp_coords *coords,
-                             iccp_encode_jet *jet, iccp_path *path)
+                             iccp_encode_jet *jet)
 {
     double local[ICC_MAX_DIM];
     const icc_status status = to_local(chart, point, local);
-    return status == ICC_OK ? chart->ops->encode(chart, local, coords, jet, path) : status;
+    return status == ICC_OK ? iccp_chart_encode(chart, local, coords, jet) : status;
 }
 
 /* Range checks in the form that NaN fails. Scales a sum that is off within tolerance to 1. */
@@ -62,28 +62,62 @@ icc_status iccp_decode_point(const icc_chart *chart, const iccp_coords *coords, 
     double local[ICC_MAX_DIM];
     icc_status status = ICC_ERR_ARGUMENT;
     if (normalise(chart->domain, &checked))
-        status = chart->ops->decode(chart, &checked, local, jet, path);
+        status = iccp_chart_decode(chart, &checked, local, jet, path);
     from_local(chart, status, local, point);
     return status;
 }
 
 /* ---- many points ---- */
 
+/* Those that have curves of their own go to the method together. */
+static icc_status encode_many(const icc_chart *chart, size_t n, const double *points,
+                              iccp_coords *coords, double *volume, icc_status *status,
+                              iccp_path *path)
+{
+    iccp_chart_place place[ICCP_CHART_MANY];
+    size_t which[ICCP_CHART_MANY], n_which = 0;
+    for (size_t i = 0; i < n; ++i) {
+        double local[ICC_MAX_DIM];
+        if (volume != NULL)
+            volume[i] = NAN;
+        status[i] = to_local(chart, points + (size_t)chart->domain->dim * i, local);
+        if (status[i] == ICC_OK &&
+            !iccp_chart_is_settled(chart, local, &place[n_which], &coords[i], &status[i]))
+            which[n_which++] = i;
+    }
+    if (n_which == 0)
+        return ICC_OK;
+    return chart->ops->encode_many(chart, n_which, which, place, coords, volume, status, path);
+}
+
 icc_status iccp_encode_points(const icc_chart *chart, size_t n, const double *points,
                               iccp_coords *coords, double *volume, icc_status *status,
                               iccp_path *path)
 {
     const size_t dim = (size_t)chart->domain->dim;
-    double local[ICCP_CHART_MANY * ICC_MAX_DIM];
     icc_status all = ICC_OK;
-    for (size_t i = 0; i < n; ++i)
-        status[i] = to_local(chart, points + dim * i, local + dim * i);
     if (chart->ops->encode_many != NULL)
-        return chart->ops->encode_many(chart, n, local, coords, volume, status, path);
+        return encode_many(chart, n, points, coords, volume, status, path);
     for (size_t i = 0; i < n && iccp_is_point_status(all); ++i)
-        if (status[i] == ICC_OK)
-            all = status[i] = chart->ops->encode(chart, local + dim * i, &coords[i], NULL, path);
+        all = status[i] = iccp_encode_point(chart, points + dim * i, &coords[i], NULL);
     return iccp_is_point_status(all) ? ICC_OK : all;
+}
+
+/* Likewise. */
+static icc_status decode_many(const icc_chart *chart, size_t n, const iccp_coords *coords,
+                              double *local, double *volume, icc_status *status, iccp_path *path)
+{
+    size_t which[ICCP_CHART_MANY], n_which = 0;
+    for (size_t i = 0; i < n; ++i) {
+        if (volume != NULL)
+            volume[i] = NAN;
+        if (status[i] == ICC_OK &&
+            !iccp_chart_is_end(chart, &coords[i], local + (size_t)chart->domain->dim * i))
+            which[n_which++] = i;
+    }
+    if (n_which == 0)
+        return ICC_OK;
+    return chart->ops->decode_many(chart, n_which, which, coords, local, volume, status, path);
 }
 
 icc_status iccp_decode_points(const icc_chart *chart, size_t n, iccp_coords *coords, double *points,
@@ -96,10 +130,10 @@ icc_status iccp_decode_points(const icc_chart *chart, size_t n, iccp_coords *coo
         if (status[i] == ICC_OK && !normalise(chart->domain, &coords[i]))
             status[i] = ICC_ERR_ARGUMENT;
     if (chart->ops->decode_many != NULL)
-        all = chart->ops->decode_many(chart, n, coords, local, volume, status, path);
+        all = decode_many(chart, n, coords, local, volume, status, path);
     for (size_t i = 0; i < n && iccp_is_point_status(all); ++i) {
         if (chart->ops->decode_many == NULL && status[i] == ICC_OK)
-            all = status[i] = chart->ops->decode(chart, &coords[i], local + dim * i, NULL, path);
+            all = status[i] = iccp_chart_decode(chart, &coords[i], local + dim * i, NULL, path);
         from_local(chart, status[i], local + dim * i, points + dim * i);
     }
     return iccp_is_point_status(all) ? ICC_OK : all;

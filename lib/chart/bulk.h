@@ -6,7 +6,7 @@
 
 /* One point in the caller's coordinates: checked, made local, encoded. */
 icc_status iccp_encode_point(const icc_chart *chart, const double *point, iccp_coords *coords,
-                             iccp_encode_jet *jet, iccp_path *path);
+                             iccp_encode_jet *jet);
 
 /* One point's coordinates decoded, in the caller's coordinates; NaN when it fails. */
 icc_status iccp_decode_point(const icc_chart *chart, const iccp_coords *coords, double *point,
@@ -14,7 +14,8 @@ icc_status iccp_decode_point(const icc_chart *chart, const iccp_coords *coords, 
 
 /* The same without derivatives for at most ICCP_CHART_MANY points, whose own outcomes are `status`;
  * returned is what concerns all. Coordinates of points that fail are undefined. `volume`: as
- * iccp_chart_ops has it, where the method has encode_many; else NULL. */
+ * iccp_chart_ops has it, where the method has encode_many, and NaN on the boundary and at the
+ * maximum; else NULL. */
 icc_status iccp_encode_points(const icc_chart *chart, size_t n, const double *points,
                               iccp_coords *coords, double *volume, icc_status *status,
                               iccp_path *path);

@@ -1,13 +1,16 @@
 /* The chart object: coordinates of a domain's inside, whatever the method. A method is a table of
- * operations on local points; bulk calls, maps and measures are written once, on top of the
+ * operations on local points with a curve of their own; what has none (points outside, on the
+ * boundary and at the maximum), bulk calls, maps and measures are written once, on top of the
  * table. */
 #ifndef ICCP_CHART_H
 #define ICCP_CHART_H
 
 #include "base/blob.h"
 #include "domain/domain.h"
+#include "field/flow.h"
 #include "icc/icc.h"
 #include "mesh/planar.h"
+#include "shelling/fibre.h"
 #include "trace/path.h"
 
 /* Coordinates of one point. */
@@ -31,9 +34,6 @@ typedef struct iccp_decode_jet {
     double t[ICC_MAX_DIM];
 } iccp_decode_jet;
 
-/* The maximum has all boundary points: it stands with the middle of facet 0. */
-void iccp_coords_of_maximum(int32_t dim, iccp_coords *coords);
-
 /* A curve as a polyline of local points, from the boundary to the maximum; for
  * icc_chart_trace(). */
 typedef icc_status (*iccp_emit)(void *argument, const double *local);
@@ -42,25 +42,39 @@ typedef icc_status (*iccp_emit)(void *argument, const double *local);
  * quickly. */
 enum { ICCP_CHART_MANY = 128 };
 
+/* Where a point inside lies, in the terms of the methods that search for it. */
+typedef union iccp_chart_place {
+    iccp_flow_place flow;   /* method field */
+    iccp_fibre_place fibre; /* method foliation on the domain's mesh */
+} iccp_chart_place;
+
+/* All points are local. `path` is scratch. */
 typedef struct iccp_chart_ops {
-    /* The point is inside or on the boundary. `jet` may be NULL; it is refused (ICC_ERR_TRACE)
-     * where there is no derivative. `path` is scratch. */
-    icc_status (*encode)(const icc_chart *chart, const double *point, iccp_coords *coords,
-                         iccp_encode_jet *jet, iccp_path *path);
+    /* ICC_INSIDE, with the place; ICC_BOUNDARY, with facet and barycentric coordinates in `coords`;
+     * or ICC_OUTSIDE. NULL for methods that need no place: the domain is asked. */
+    int32_t (*locate)(const icc_chart *chart, const double *point, iccp_chart_place *place,
+                      iccp_coords *coords);
+    /* The point is inside and not the maximum; likewise 0 < t < 1. `jet` may be NULL; it is refused
+     * (ICC_ERR_TRACE) where there is no derivative. */
+    icc_status (*encode)(const icc_chart *chart, const double *point, const iccp_chart_place *place,
+                         iccp_coords *coords, iccp_encode_jet *jet);
     icc_status (*decode)(const icc_chart *chart, const iccp_coords *coords, double *point,
                          iccp_decode_jet *jet, iccp_path *path);
-    /* The same for at most ICCP_CHART_MANY points, without derivatives, bit for bit; NULL where
-     * that is not faster. Points whose status is not ICC_OK are left out, and what happens to one
+    /* The same without derivatives, bit for bit; NULL where that is not faster. For the n points
+     * `which` of at most ICCP_CHART_MANY; `place` alone counts from 0 to n. What happens to a point
      * is its status; returned is what concerns all. `volume`: for each the logarithm of the local
-     * volume there per area of the boundary and share of the way, NaN on the boundary and at the
-     * maximum; or NULL. */
-    icc_status (*encode_many)(const icc_chart *chart, size_t n, const double *points,
-                              iccp_coords *coords, double *volume, icc_status *status,
-                              iccp_path *path);
-    icc_status (*decode_many)(const icc_chart *chart, size_t n, const iccp_coords *coords,
-                              double *points, double *volume, icc_status *status, iccp_path *path);
-    icc_status (*trace)(const icc_chart *chart, const double *point, iccp_path *path,
-                        iccp_emit emit, void *argument);
+     * volume there per area of the boundary and share of the way; or NULL. */
+    icc_status (*encode_many)(const icc_chart *chart, size_t n, const size_t *which,
+                              const iccp_chart_place *place, iccp_coords *coords, double *volume,
+                              icc_status *status, iccp_path *path);
+    icc_status (*decode_many)(const icc_chart *chart, size_t n, const size_t *which,
+                              const iccp_coords *coords, double *points, double *volume,
+                              icc_status *status, iccp_path *path);
+    /* The point is inside, or on the boundary with these coordinates, else NULL; and not the
+     * maximum. */
+    icc_status (*trace)(const icc_chart *chart, const double *point, const iccp_chart_place *place,
+                        const iccp_coords *boundary, iccp_path *path, iccp_emit emit,
+                        void *argument);
     /* Fills in everything but `size`; n_points > 0. NULL for methods that miss nothing. */
     icc_status (*measure)(const icc_chart *chart, size_t n_points, icc_chart_report *measures,
                           const iccp_env *env);
@@ -81,16 +95,40 @@ struct icc_chart {
         icc_shelling_info shelling; /* see iccp_chart_is_shelling() */
         icc_disc_info disc;
     } own; /* what only the chart's method has */
+    double maximum[ICC_MAX_DIM]; /* local */
     const iccp_chart_ops *ops;
     void *state;             /* the method's own */
     const iccp_planar *mesh; /* the domain's that the chart lives on, part of the state; or
                                 NULL */
 };
 
-/* A chart without a method yet: the creator of a method fills in ops, state and info. */
+/* A chart without a method yet: the creator of a method fills in ops, state, info and maximum. */
 icc_status iccp_chart_new(icc_chart **out, const icc_domain *domain, const iccp_env *env);
 icc_chart *iccp_chart_retain(const icc_chart *chart);
 void iccp_chart_release(icc_chart *chart);
+void iccp_chart_set_maximum(icc_chart *chart, const double *local);
+
+/* ---- one local point ---- */
+
+/* Whether a point has no curve of its own: it is outside, the maximum, or on the boundary. Then
+ * *status and `coords` are the answer; else `place` is for the method. */
+bool iccp_chart_is_settled(const icc_chart *chart, const double *point, iccp_chart_place *place,
+                           iccp_coords *coords, icc_status *status);
+
+/* Whether coordinates are those of a point of the boundary or of the maximum. Then it is
+ * written. */
+bool iccp_chart_is_end(const icc_chart *chart, const iccp_coords *coords, double *point);
+
+/* `jet` may be NULL; it is refused (ICC_ERR_TRACE) where there is no derivative, as there is none
+ * on the boundary and at the maximum. */
+icc_status iccp_chart_encode(const icc_chart *chart, const double *point, iccp_coords *coords,
+                             iccp_encode_jet *jet);
+icc_status iccp_chart_decode(const icc_chart *chart, const iccp_coords *coords, double *point,
+                             iccp_decode_jet *jet, iccp_path *path);
+
+/* The curve through a point, from the boundary to the maximum; of the maximum, the point alone. */
+icc_status iccp_chart_trace(const icc_chart *chart, const double *point, iccp_path *path,
+                            iccp_emit emit, void *argument);
 
 /* Whether the chart is of method foliation on the domain's mesh. */
 bool iccp_chart_is_shelling(const icc_chart *chart);

@@ -9,14 +9,12 @@
 #include "math/predicates.h"
 
 #include <math.h>
-#include <string.h>
 
 typedef struct disc_state {
     iccp_planar mesh;
     double *image;      /* 2 n_vertices */
     iccp_finder before; /* in the domain */
     iccp_finder after;  /* in the disc */
-    double maximum[2];  /* the point that goes to the origin */
 } disc_state;
 
 static const double ORIGIN[2] = {0, 0};
@@ -108,16 +106,10 @@ static void interpolate(const iccp_planar *mesh, uint32_t triangle, const double
                bary[2] * points[2 * (size_t)v[2] + i];
 }
 
-static bool at_maximum(const icc_chart *chart, const double p[2])
+static icc_status encode(const icc_chart *chart, const double *point, const iccp_chart_place *place,
+                         iccp_coords *coords, iccp_encode_jet *jet)
 {
-    const disc_state *state = chart->state;
-    return fabs(p[0] - state->maximum[0]) <= chart->domain->band.tolerance &&
-           fabs(p[1] - state->maximum[1]) <= chart->domain->band.tolerance;
-}
-
-static icc_status encode_inside(const icc_chart *chart, const double *point, iccp_coords *coords,
-                                iccp_encode_jet *jet)
-{
+    (void)place;
     const disc_state *state = chart->state;
     uint32_t triangle, edge;
     double bary[3], z[2], lambda, t;
@@ -141,39 +133,11 @@ static icc_status encode_inside(const icc_chart *chart, const double *point, icc
     return ICC_OK;
 }
 
-static icc_status encode(const icc_chart *chart, const double *point, iccp_coords *coords,
-                         iccp_encode_jet *jet, iccp_path *path)
-{
-    (void)path;
-    const int32_t where =
-        iccp_domain_locate(chart->domain, point, true, &coords->facet, coords->bary);
-    coords->t = 0;
-    if (where == ICC_OUTSIDE)
-        return ICC_ERR_OUTSIDE;
-    /* The maximum first: it may lie in a corridor so narrow that all of it counts as boundary. */
-    const bool is_top = at_maximum(chart, point);
-    if (is_top)
-        *coords = (iccp_coords){.facet = 0, .bary = {0.5, 0.5}, .t = 1};
-    if (is_top || where == ICC_BOUNDARY)
-        return jet == NULL ? ICC_OK : ICC_ERR_TRACE;
-    return encode_inside(chart, point, coords, jet);
-}
-
 static icc_status decode(const icc_chart *chart, const iccp_coords *coords, double *point,
                          iccp_decode_jet *jet, iccp_path *path)
 {
     (void)path;
     const disc_state *state = chart->state;
-    if (jet != NULL && (coords->t <= 0 || coords->t >= 1))
-        return ICC_ERR_TRACE;
-    if (coords->t <= 0) {
-        iccp_domain_facet_point(chart->domain, coords->facet, coords->bary, point);
-        return ICC_OK;
-    }
-    if (coords->t >= 1) {
-        memcpy(point, state->maximum, sizeof state->maximum);
-        return ICC_OK;
-    }
     double lambda, z[2], bary[3];
     uint32_t triangle;
     const uint32_t edge =
@@ -226,12 +190,18 @@ static icc_status emit_crossing(const disc_state *state, uint32_t corner, const 
     return emit(argument, point);
 }
 
-static icc_status trace(const icc_chart *chart, const double *point, iccp_path *path,
-                        iccp_emit emit, void *argument)
+static icc_status trace(const icc_chart *chart, const double *point, const iccp_chart_place *place,
+                        const iccp_coords *boundary, iccp_path *path, iccp_emit emit,
+                        void *argument)
 {
+    (void)path;
     const disc_state *state = chart->state;
     iccp_coords coords;
-    icc_status status = encode(chart, point, &coords, NULL, path);
+    icc_status status = ICC_OK;
+    if (boundary != NULL)
+        coords = *boundary;
+    else
+        status = encode(chart, point, place, &coords, NULL);
     if (status != ICC_OK)
         return status;
     if (coords.t >= 1)
@@ -255,7 +225,7 @@ static icc_status trace(const icc_chart *chart, const double *point, iccp_path *
         if (corner == ICCP_NO_NEIGHBOUR || left == 0)
             return ICC_ERR_TRACE;
     }
-    return status == ICC_OK ? emit(argument, state->maximum) : status;
+    return status == ICC_OK ? emit(argument, chart->maximum) : status;
 }
 
 static void free_state(icc_chart *chart)
@@ -313,19 +283,22 @@ static icc_status certify(const iccp_planar *mesh, const double *image, icc_erro
         domain.n_inverted, disc.n_inverted, domain.n_topology, n_rim);
 }
 
-static icc_status fill_state(disc_state *state, const iccp_planar *mesh, const double *image,
+/* The maximum is the point that goes to the origin. */
+static icc_status fill_state(icc_chart *chart, const iccp_planar *mesh, const double *image,
                              const iccp_env *env)
 {
+    disc_state *state = chart->state;
     icc_status status = iccp_finder_create(&state->before, mesh, mesh->points, env);
     if (status == ICC_OK)
         status = iccp_finder_create(&state->after, mesh, image, env);
     if (status != ICC_OK)
         return status;
     uint32_t triangle = 0;
-    double bary[3] = {1, 0, 0};
+    double bary[3] = {1, 0, 0}, maximum[2];
     if (!iccp_finder_find(&state->after, ORIGIN, &triangle, bary))
         return ICC_ERR_CERTIFICATE;
-    interpolate(mesh, triangle, bary, mesh->points, state->maximum);
+    interpolate(mesh, triangle, bary, mesh->points, maximum);
+    iccp_chart_set_maximum(chart, maximum);
     return ICC_OK;
 }
 
@@ -353,7 +326,7 @@ icc_status iccp_chart_disc_create(icc_chart **out, const icc_domain *domain, icc
                                       .seconds_certify = seconds};
     disc_state *state = iccp_alloc_zero(&env->memory, 1, sizeof *state);
     chart->state = state;
-    status = state != NULL ? fill_state(state, &base->mesh, *image, env) : ICC_ERR_MEMORY;
+    status = state != NULL ? fill_state(chart, &base->mesh, *image, env) : ICC_ERR_MEMORY;
     if (status != ICC_OK) {
         iccp_chart_release(chart);
         *out = NULL;
@@ -365,7 +338,6 @@ icc_status iccp_chart_disc_create(icc_chart **out, const icc_domain *domain, icc
     chart->mesh = &state->mesh;
     state->image = *image;
     *image = NULL;
-    iccp_frame_out(&domain->frame, 2, state->maximum, chart->info.maximum);
     return ICC_OK;
 }
 

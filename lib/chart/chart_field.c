@@ -156,9 +156,10 @@ static void finish(iccp_field_state *state, icc_chart *chart)
     const icc_grid *grid = state->tree->grid;
     const int32_t dim = grid->dim;
     icc_field_info *own = &chart->own.field;
+    double root[ICC_MAX_DIM];
     size_t steps = 1000;
     for (int32_t k = 0; k < dim; ++k) {
-        state->root[k] =
+        root[k] =
             grid->origin[k] + grid->spacing * iccp_grid_coordinate(grid, state->tree->root, k);
         steps += 200 * grid->shape[k];
     }
@@ -168,7 +169,7 @@ static void finish(iccp_field_state *state, icc_chart *chart)
                               .cones = &state->cones,
                               .root = state->tree->root,
                               .most_steps = steps};
-    iccp_frame_out(&chart->domain->frame, dim, state->root, chart->info.maximum);
+    iccp_chart_set_maximum(chart, root);
     chart->info.spacing = grid->spacing * chart->domain->frame.out[0] * chart->domain->frame.out[1];
     own->n_inside = grid->n_inside;
     own->n_infeasible = state->cones.n_infeasible;
@@ -220,6 +221,7 @@ static void save(const icc_chart *chart, iccp_blob *w)
 }
 
 static const iccp_chart_ops OPS = {
+    .locate = iccp_field_locate,
     .encode = iccp_field_encode,
     .decode = iccp_field_decode,
     .encode_many = iccp_field_encode_many,

@@ -127,13 +127,6 @@ static void measure_leaf(const foliation_state *state, const iccp_leaf *leaf, co
         walk(state, down, end, false, iccp_leaf_fall);
 }
 
-static bool at_maximum(const icc_chart *chart, const double p[2])
-{
-    const double *m = centre_of(chart->state);
-    return fabs(p[0] - m[0]) <= chart->domain->band.tolerance &&
-           fabs(p[1] - m[1]) <= chart->domain->band.tolerance;
-}
-
 static void fill_encode_jet(const icc_chart *chart, uint32_t triangle, const double bary[3],
                             const iccp_crossing *end, uint32_t facet, const leaf_length *up,
                             const leaf_length *down, iccp_encode_jet *jet)
@@ -154,9 +147,10 @@ static void fill_encode_jet(const icc_chart *chart, uint32_t triangle, const dou
     }
 }
 
-static icc_status encode_inside(const icc_chart *chart, const double *point, iccp_coords *coords,
-                                iccp_encode_jet *jet)
+static icc_status encode(const icc_chart *chart, const double *point, const iccp_chart_place *place,
+                         iccp_coords *coords, iccp_encode_jet *jet)
 {
+    (void)place;
     const foliation_state *state = chart->state;
     uint32_t triangle;
     double bary[3];
@@ -177,23 +171,6 @@ static icc_status encode_inside(const icc_chart *chart, const double *point, icc
     if (jet != NULL)
         fill_encode_jet(chart, triangle, bary, &end, coords->facet, &up, &down, jet);
     return ICC_OK;
-}
-
-static icc_status encode(const icc_chart *chart, const double *point, iccp_coords *coords,
-                         iccp_encode_jet *jet, iccp_path *path)
-{
-    (void)path;
-    const int32_t where =
-        iccp_domain_locate(chart->domain, point, true, &coords->facet, coords->bary);
-    coords->t = 0;
-    if (where == ICC_OUTSIDE)
-        return ICC_ERR_OUTSIDE;
-    if (where == ICC_BOUNDARY)
-        return jet == NULL ? ICC_OK : ICC_ERR_TRACE;
-    if (!at_maximum(chart, point))
-        return encode_inside(chart, point, coords, jet);
-    *coords = (iccp_coords){.facet = 0, .bary = {0.5, 0.5}, .t = 1};
-    return jet == NULL ? ICC_OK : ICC_ERR_TRACE;
 }
 
 static iccp_crossing boundary_crossing(const icc_chart *chart, const iccp_coords *coords)
@@ -268,16 +245,6 @@ static void fill_decode_jet(const icc_chart *chart, const iccp_coords *coords,
 static icc_status decode(const icc_chart *chart, const iccp_coords *coords, double *point,
                          iccp_decode_jet *jet, iccp_path *path)
 {
-    if (jet != NULL && (coords->t <= 0 || coords->t >= 1))
-        return ICC_ERR_TRACE;
-    if (coords->t <= 0) {
-        iccp_domain_facet_point(chart->domain, coords->facet, coords->bary, point);
-        return ICC_OK;
-    }
-    if (coords->t >= 1) {
-        memcpy(point, centre_of(chart->state), 2 * sizeof *point);
-        return ICC_OK;
-    }
     const icc_status status = follow(chart, coords, path);
     if (status != ICC_OK)
         return status;
@@ -319,19 +286,14 @@ static icc_status emit_up(const foliation_state *state, const iccp_leaf *leaf, i
     return status == ICC_OK ? emit(argument, centre_of(state)) : status;
 }
 
-static icc_status trace(const icc_chart *chart, const double *point, iccp_path *path,
-                        iccp_emit emit, void *argument)
+static icc_status trace(const icc_chart *chart, const double *point, const iccp_chart_place *place,
+                        const iccp_coords *boundary, iccp_path *path, iccp_emit emit,
+                        void *argument)
 {
+    (void)place;
     const foliation_state *state = chart->state;
-    iccp_coords coords;
-    const int32_t where =
-        iccp_domain_locate(chart->domain, point, true, &coords.facet, coords.bary);
-    if (where == ICC_OUTSIDE)
-        return ICC_ERR_OUTSIDE;
-    if (at_maximum(chart, point))
-        return emit(argument, point);
-    if (where == ICC_BOUNDARY) {
-        icc_status status = follow(chart, &coords, path);
+    if (boundary != NULL) {
+        icc_status status = follow(chart, boundary, path);
         for (size_t k = 0; status == ICC_OK && k < path->n; ++k)
             status = emit(argument, iccp_path_at(path, k));
         return status;
@@ -449,7 +411,7 @@ static icc_status finish(icc_chart **out, iccp_harmonic *base, icc_status status
     }
     state->mesh = iccp_harmonic_take_mesh(base);
     chart->mesh = &state->mesh;
-    iccp_frame_out(&chart->domain->frame, 2, centre_of(state), chart->info.maximum);
+    iccp_chart_set_maximum(chart, centre_of(state));
     return ICC_OK;
 }
 

@@ -175,48 +175,28 @@ static icc_status make_boundary(iccp_gradient_state *state, const icc_domain *do
 static void place_maximum(iccp_gradient_state *state, icc_chart *chart)
 {
     const icc_grid *grid = state->tree->grid;
-    double local[ICC_MAX_DIM], squared = 0;
+    double lattice[ICC_MAX_DIM], local[ICC_MAX_DIM], squared = 0;
     for (int32_t k = 0; k < grid->dim; ++k) {
-        state->root[k] = iccp_grid_coordinate(grid, state->tree->root, k);
-        const double step = state->root[k] - iccp_grid_coordinate(grid, state->chosen, k);
+        lattice[k] = iccp_grid_coordinate(grid, state->tree->root, k);
+        const double step = lattice[k] - iccp_grid_coordinate(grid, state->chosen, k);
         squared += step * step;
     }
-    state->root_reach = chart->domain->band.tolerance / grid->spacing;
-    iccp_gradient_to_local(state, state->root, local);
-    iccp_frame_out(&chart->domain->frame, grid->dim, local, chart->info.maximum);
+    iccp_gradient_to_local(state, lattice, local);
+    iccp_chart_set_maximum(chart, local);
     chart->info.spacing = grid->spacing * chart->domain->frame.out[0] * chart->domain->frame.out[1];
     chart->own.gradient.moved = sqrt(squared) * chart->info.spacing;
 }
 
 /* ---- Algorithm 7: Cartesian to ICC ---- */
 
-static bool at_maximum(const iccp_gradient_state *state, const double *p)
+static icc_status encode(const icc_chart *chart, const double *point, const iccp_chart_place *place,
+                         iccp_coords *coords, iccp_encode_jet *jet)
 {
-    for (int32_t k = 0; k < state->tree->grid->dim; ++k)
-        if (!(fabs(p[k] - state->root[k]) <= state->root_reach))
-            return false;
-    return true;
-}
-
-static icc_status encode(const icc_chart *chart, const double *point, iccp_coords *coords,
-                         iccp_encode_jet *jet, iccp_path *path)
-{
-    (void)path;
+    (void)place;
     const iccp_gradient_state *state = chart->state;
     const int32_t dim = chart->domain->dim;
-    const int32_t where =
-        iccp_domain_locate(chart->domain, point, true, &coords->facet, coords->bary);
-    if (where == ICC_OUTSIDE)
-        return ICC_ERR_OUTSIDE;
-    coords->t = 0;
-    if (where == ICC_BOUNDARY)
-        return jet == NULL ? ICC_OK : ICC_ERR_TRACE;
     double p[ICC_MAX_DIM];
     iccp_gradient_to_lattice(state, point, p);
-    if (at_maximum(state, p)) {
-        iccp_coords_of_maximum(dim, coords);
-        return jet == NULL ? ICC_OK : ICC_ERR_TRACE;
-    }
     iccp_jetn jets[2];
     iccp_gradient_line down, up;
     for (int k = 0; k < 2 && jet != NULL; ++k)
@@ -240,18 +220,8 @@ static icc_status decode(const icc_chart *chart, const iccp_coords *coords, doub
                          iccp_decode_jet *jet, iccp_path *path)
 {
     const iccp_gradient_state *state = chart->state;
-    const int32_t dim = chart->domain->dim;
     double boundary[ICC_MAX_DIM], p[ICC_MAX_DIM], share;
-    if (jet != NULL && (coords->t <= 0 || coords->t >= 1))
-        return ICC_ERR_TRACE;
-    if (coords->t >= 1) {
-        iccp_gradient_to_local(state, state->root, point);
-        return ICC_OK;
-    }
     iccp_domain_facet_point(chart->domain, coords->facet, coords->bary, boundary);
-    memcpy(point, boundary, (size_t)dim * sizeof *point);
-    if (coords->t <= 0)
-        return ICC_OK;
     iccp_gradient_line line;
     const icc_status status = iccp_gradient_up_from(chart, coords->facet, boundary, path, &line);
     if (status != ICC_OK)
@@ -289,23 +259,19 @@ static icc_status trace_below(const iccp_gradient_state *state, const double *p,
     return status;
 }
 
-static icc_status trace(const icc_chart *chart, const double *point, iccp_path *path,
-                        iccp_emit emit, void *argument)
+static icc_status trace(const icc_chart *chart, const double *point, const iccp_chart_place *place,
+                        const iccp_coords *boundary, iccp_path *path, iccp_emit emit,
+                        void *argument)
 {
+    (void)place;
     const iccp_gradient_state *state = chart->state;
-    uint32_t facet;
-    double bary[ICC_MAX_DIM], p[ICC_MAX_DIM];
-    const int32_t where = iccp_domain_locate(chart->domain, point, true, &facet, bary);
-    if (where == ICC_OUTSIDE)
-        return ICC_ERR_OUTSIDE;
-    iccp_gradient_to_lattice(state, point, p);
-    if (at_maximum(state, p))
-        return emit(argument, point);
+    double p[ICC_MAX_DIM];
     iccp_gradient_line line;
     icc_status status;
-    if (where == ICC_BOUNDARY) {
-        status = iccp_gradient_up_from(chart, facet, point, path, &line);
+    if (boundary != NULL) {
+        status = iccp_gradient_up_from(chart, boundary->facet, point, path, &line);
     } else {
+        iccp_gradient_to_lattice(state, point, p);
         status = trace_below(state, p, path, emit, argument);
         if (status == ICC_OK)
             status = iccp_gradient_up(state, p, path, NULL, &line);

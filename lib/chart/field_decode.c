@@ -2,9 +2,6 @@
 #include "chart/field_state.h"
 #include "field/flow_jet.h"
 
-#include <math.h>
-#include <string.h>
-
 /* The whole curve from a boundary point, its pieces noted. */
 static icc_status climb(const icc_chart *chart, const double *point, iccp_flow_walk *walk,
                         iccp_path *path)
@@ -71,25 +68,13 @@ static icc_status fill_decode_jet(const icc_chart *chart, const iccp_coords *coo
     return ICC_OK;
 }
 
-/* The point where its curve starts, or the point itself; then returns true. */
-static bool is_at_end(const icc_chart *chart, const iccp_coords *coords, double *point)
-{
-    const iccp_field_state *state = chart->state;
-    if (coords->t >= 1)
-        memcpy(point, state->root, (size_t)chart->domain->dim * sizeof *point);
-    else
-        iccp_domain_facet_point(chart->domain, coords->facet, coords->bary, point);
-    return coords->t <= 0 || coords->t >= 1;
-}
-
 icc_status iccp_field_decode(const icc_chart *chart, const iccp_coords *coords, double *point,
                              iccp_decode_jet *jet, iccp_path *path)
 {
     const iccp_field_state *state = chart->state;
     iccp_flow_walk walk;
     double at[ICC_MAX_DIM];
-    if (is_at_end(chart, coords, point))
-        return jet == NULL ? ICC_OK : ICC_ERR_TRACE;
+    iccp_domain_facet_point(chart->domain, coords->facet, coords->bary, point);
     icc_status status = climb(chart, point, &walk, path);
     if (status != ICC_OK)
         return status;
@@ -103,35 +88,35 @@ icc_status iccp_field_decode(const icc_chart *chart, const iccp_coords *coords, 
     return jet == NULL ? ICC_OK : fill_decode_jet(chart, coords, path, &walk, s, total, jet);
 }
 
-icc_status iccp_field_decode_many(const icc_chart *chart, size_t n, const iccp_coords *coords,
-                                  double *points, double *volume, icc_status *status,
-                                  iccp_path *path)
+/* Points where no curve starts fail by themselves. */
+icc_status iccp_field_decode_many(const icc_chart *chart, size_t n, const size_t *which,
+                                  const iccp_coords *coords, double *points, double *volume,
+                                  icc_status *status, iccp_path *path)
 {
     const iccp_field_state *state = chart->state;
     const size_t dim = (size_t)chart->domain->dim;
-    iccp_field_many m;
-    if (!iccp_field_many_begin(&m, n, path))
+    size_t n_curves = 0, own[ICCP_CHART_MANY];
+    iccp_flow_curve *curves = iccp_alloc(path->memory, n, sizeof *curves);
+    if (curves == NULL)
         return ICC_ERR_MEMORY;
-    for (size_t i = 0; i < n; ++i) {
-        double *point = points + dim * i;
-        if (volume != NULL)
-            volume[i] = NAN;
-        if (status[i] != ICC_OK || is_at_end(chart, &coords[i], point))
-            continue;
-        m.curves[m.n] = (iccp_flow_curve){
+    for (size_t j = 0; j < n; ++j) {
+        const size_t i = which[j];
+        double start[ICC_MAX_DIM];
+        iccp_domain_facet_point(chart->domain, coords[i].facet, coords[i].bary, start);
+        curves[n_curves] = (iccp_flow_curve){
             .sign = +1, .share = coords[i].t, .measured = volume != NULL, .facet = coords[i].facet};
-        status[i] = iccp_field_entry(chart, point, &m.curves[m.n].start);
-        m.point[m.n] = i;
-        m.n += status[i] == ICC_OK;
+        status[i] = iccp_field_entry(chart, start, &curves[n_curves].start);
+        own[n_curves] = i;
+        n_curves += status[i] == ICC_OK;
     }
-    const icc_status all = iccp_flow_follow(&state->flow, m.n, m.curves, path->memory);
-    for (size_t j = 0; all == ICC_OK && j < m.n; ++j) {
-        const iccp_flow_place *place = &m.curves[j].place;
-        iccp_field_place_out(state, place, place->at, points + dim * m.point[j]);
+    const icc_status all = iccp_flow_follow(&state->flow, n_curves, curves, path->memory);
+    for (size_t j = 0; all == ICC_OK && j < n_curves; ++j) {
+        const iccp_flow_place *place = &curves[j].place;
+        iccp_field_place_out(state, place, place->at, points + dim * own[j]);
         if (volume != NULL)
-            volume[m.point[j]] = iccp_field_volume(state, m.curves[j].volume, m.curves[j].length);
-        status[m.point[j]] = m.curves[j].status;
+            volume[own[j]] = iccp_field_volume(state, curves[j].volume, curves[j].length);
+        status[own[j]] = curves[j].status;
     }
-    iccp_free(path->memory, m.curves);
+    iccp_free(path->memory, curves);
     return all;
 }

@@ -3,7 +3,6 @@
 #include "chart/field_state.h"
 #include "field/flow_jet.h"
 
-#include <math.h>
 #include <string.h>
 
 /* `jet` may be NULL; else it starts as the derivative of the place by the point, and ends at the
@@ -101,40 +100,21 @@ static void fill_encode_jet(const icc_chart *chart, uint32_t facet, const iccp_f
     }
 }
 
-/* Whether the coordinates are known without a curve, or the point has none: then *status says
- * which. Else the place is where the curve starts. */
-static bool is_settled(const icc_chart *chart, const double *point, iccp_flow_place *place,
-                       iccp_coords *coords, icc_status *status)
+icc_status iccp_field_encode(const icc_chart *chart, const double *point,
+                             const iccp_chart_place *place, iccp_coords *coords,
+                             iccp_encode_jet *jet)
 {
-    const int32_t where = iccp_field_locate(chart, point, place, coords);
-    coords->t = 0;
-    *status = where == ICC_OUTSIDE ? ICC_ERR_OUTSIDE : ICC_OK;
-    if (where != ICC_INSIDE)
-        return true;
-    if (!iccp_field_at_maximum(chart, point))
-        return false;
-    iccp_coords_of_maximum(chart->domain->dim, coords);
-    return true;
-}
-
-icc_status iccp_field_encode(const icc_chart *chart, const double *point, iccp_coords *coords,
-                             iccp_encode_jet *jet, iccp_path *path)
-{
-    (void)path;
+    (void)point;
     const iccp_field_state *state = chart->state;
-    iccp_flow_place place;
-    icc_status status;
-    if (is_settled(chart, point, &place, coords, &status))
-        return status == ICC_OK && jet != NULL ? ICC_ERR_TRACE : status;
     double s_down = 0, s_up = 0;
     iccp_flow_jet down, up;
     if (jet != NULL) {
         unit_jet(&down, chart->domain->dim);
         unit_jet(&up, chart->domain->dim);
     }
-    status = walk_down(state, &place, coords, &s_down, jet != NULL ? &down : NULL);
+    icc_status status = walk_down(state, &place->flow, coords, &s_down, jet != NULL ? &down : NULL);
     if (status == ICC_OK)
-        status = walk_up(state, &place, &s_up, jet != NULL ? &up : NULL);
+        status = walk_up(state, &place->flow, &s_up, jet != NULL ? &up : NULL);
     if (status != ICC_OK)
         return status;
     coords->t = s_down / (s_down + s_up);
@@ -144,39 +124,31 @@ icc_status iccp_field_encode(const icc_chart *chart, const double *point, iccp_c
 }
 
 /* Two curves for each point, the one downhill first. */
-icc_status iccp_field_encode_many(const icc_chart *chart, size_t n, const double *points,
-                                  iccp_coords *coords, double *volume, icc_status *status,
-                                  iccp_path *path)
+icc_status iccp_field_encode_many(const icc_chart *chart, size_t n, const size_t *which,
+                                  const iccp_chart_place *place, iccp_coords *coords,
+                                  double *volume, icc_status *status, iccp_path *path)
 {
     const iccp_field_state *state = chart->state;
     const size_t dim = (size_t)chart->domain->dim;
-    iccp_field_many m;
-    if (!iccp_field_many_begin(&m, 2 * n, path))
+    iccp_flow_curve *curves = iccp_alloc(path->memory, 2 * n, sizeof *curves);
+    if (curves == NULL)
         return ICC_ERR_MEMORY;
-    for (size_t i = 0; i < n; ++i) {
-        iccp_flow_curve *down = m.curves + 2 * m.n, *up = down + 1;
-        if (volume != NULL)
-            volume[i] = NAN;
-        if (status[i] != ICC_OK ||
-            is_settled(chart, points + dim * i, &down->start, &coords[i], &status[i]))
-            continue;
-        *up = (iccp_flow_curve){.start = down->start, .sign = +1};
-        down->sign = -1;
-        down->share = 0;
-        down->measured = volume != NULL;
-        m.point[m.n++] = i;
+    for (size_t j = 0; j < n; ++j) {
+        curves[2 * j] = (iccp_flow_curve){
+            .start = place[j].flow, .sign = -1, .share = 0, .measured = volume != NULL};
+        curves[2 * j + 1] = (iccp_flow_curve){.start = place[j].flow, .sign = +1};
     }
-    const icc_status all = iccp_flow_follow(&state->flow, 2 * m.n, m.curves, path->memory);
-    for (size_t j = 0; all == ICC_OK && j < m.n; ++j) {
-        const iccp_flow_curve *down = m.curves + 2 * j, *up = down + 1;
-        iccp_coords *own = coords + m.point[j];
+    const icc_status all = iccp_flow_follow(&state->flow, 2 * n, curves, path->memory);
+    for (size_t j = 0; all == ICC_OK && j < n; ++j) {
+        const iccp_flow_curve *down = curves + 2 * j, *up = down + 1;
+        iccp_coords *own = coords + which[j];
         own->facet = down->facet;
         memcpy(own->bary, down->bary, dim * sizeof *own->bary);
         own->t = down->length / (down->length + up->length);
         if (volume != NULL)
-            volume[m.point[j]] = iccp_field_volume(state, down->volume, down->length + up->length);
-        status[m.point[j]] = down->status != ICC_OK ? down->status : up->status;
+            volume[which[j]] = iccp_field_volume(state, down->volume, down->length + up->length);
+        status[which[j]] = down->status != ICC_OK ? down->status : up->status;
     }
-    iccp_free(path->memory, m.curves);
+    iccp_free(path->memory, curves);
     return all;
 }

@@ -20,7 +20,7 @@ typedef struct samples {
 
 enum { INSIDE = 1, UNREACHABLE = 2, OUTWARD = 4 };
 
-static uint8_t judge_point(const samples *s, size_t i, iccp_path *path)
+static uint8_t judge_point(const samples *s, size_t i)
 {
     const icc_domain *domain = s->chart->domain;
     double point[ICC_MAX_DIM];
@@ -28,7 +28,7 @@ static uint8_t judge_point(const samples *s, size_t i, iccp_path *path)
     for (int32_t k = 0; k < domain->dim; ++k)
         point[k] = domain->lower[k] +
                    (domain->upper[k] - domain->lower[k]) * iccp_spread(domain->dim, k, i);
-    const icc_status status = s->chart->ops->encode(s->chart, point, &coords, NULL, path);
+    const icc_status status = iccp_chart_encode(s->chart, point, &coords, NULL);
     if (status == ICC_ERR_OUTSIDE)
         return 0;
     return status == ICC_OK ? INSIDE : INSIDE | UNREACHABLE;
@@ -55,7 +55,8 @@ static uint8_t judge_boundary(const samples *s, size_t i)
     const icc_grid *grid = s->flow->grid;
     const int32_t dim = domain->dim;
     const uint32_t facet = find_facet(s, ((double)i + 0.5) / (double)s->n);
-    double cut[ICC_MAX_DIM + 1], bary[ICC_MAX_DIM], x[ICC_MAX_DIM], vector[ICC_MAX_DIM], inward = 0;
+    double cut[ICC_MAX_DIM + 1], bary[ICC_MAX_DIM] = {0}, x[ICC_MAX_DIM], vector[ICC_MAX_DIM],
+                                 inward = 0;
     cut[0] = 0;
     for (int32_t k = 1; k < dim; ++k) {
         int32_t at = k;
@@ -83,11 +84,8 @@ static uint8_t judge_boundary(const samples *s, size_t i)
 static icc_status judge_chunk(void *argument, size_t begin, size_t end)
 {
     samples *s = argument;
-    iccp_path path;
-    iccp_path_init(&path, &s->chart->memory);
     for (size_t i = begin; i < end; ++i)
-        s->result[i] = (uint8_t)(judge_point(s, i, &path) | judge_boundary(s, i));
-    iccp_path_clear(&path);
+        s->result[i] = (uint8_t)(judge_point(s, i) | judge_boundary(s, i));
     return ICC_OK;
 }
 

@@ -19,15 +19,6 @@ void iccp_field_place_out(const iccp_field_state *state, const iccp_flow_place *
         local[k] = grid->origin[k] + grid->spacing * local[k];
 }
 
-bool iccp_field_at_maximum(const icc_chart *chart, const double *point)
-{
-    const iccp_field_state *state = chart->state;
-    for (int32_t k = 0; k < chart->domain->dim; ++k)
-        if (fabs(point[k] - state->root[k]) > chart->domain->band.tolerance)
-            return false;
-    return true;
-}
-
 icc_status iccp_field_entry(const icc_chart *chart, const double *point, iccp_flow_place *place)
 {
     const iccp_field_state *state = chart->state;
@@ -39,14 +30,14 @@ icc_status iccp_field_entry(const icc_chart *chart, const double *point, iccp_fl
     return iccp_flow_find(&state->flow, x, ahead, place) ? ICC_OK : ICC_ERR_TRACE;
 }
 
-int32_t iccp_field_locate(const icc_chart *chart, const double *point, iccp_flow_place *place,
+int32_t iccp_field_locate(const icc_chart *chart, const double *point, iccp_chart_place *place,
                           iccp_coords *coords)
 {
     const iccp_field_state *state = chart->state;
     double x[ICC_MAX_DIM];
     to_lattice(state, point, x);
-    const bool found = iccp_flow_find(&state->flow, x, NULL, place);
-    const uint32_t lowest = found ? place->simplex.corner[0] : 0;
+    const bool found = iccp_flow_find(&state->flow, x, NULL, &place->flow);
+    const uint32_t lowest = found ? place->flow.simplex.corner[0] : 0;
     if (found && !iccp_band_is_wide(&chart->domain->band) && state->cover.bits[lowest] == 0 &&
         state->tree->grid->inside[lowest])
         return ICC_INSIDE;
@@ -58,11 +49,4 @@ int32_t iccp_field_locate(const icc_chart *chart, const double *point, iccp_flow
 double iccp_field_volume(const iccp_field_state *state, double volume, double length)
 {
     return volume + log(state->tree->grid->spacing * length);
-}
-
-bool iccp_field_many_begin(iccp_field_many *many, size_t n_curves, const iccp_path *path)
-{
-    many->n = 0;
-    many->curves = iccp_alloc(path->memory, n_curves, sizeof *many->curves);
-    return many->curves != NULL;
 }

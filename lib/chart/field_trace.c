@@ -36,32 +36,30 @@ static icc_status trace_below(const icc_chart *chart, const iccp_flow_place *pla
     return status == ICC_OK ? emit_marks(state, path, true, emit, argument) : status;
 }
 
-icc_status iccp_field_trace(const icc_chart *chart, const double *point, iccp_path *path,
-                            iccp_emit emit, void *argument)
+/* The place where a curve enters the domain from the boundary. */
+static icc_status find_entry(const icc_chart *chart, const double *point,
+                             const iccp_coords *boundary, iccp_flow_place *place)
+{
+    double local[ICC_MAX_DIM];
+    if (iccp_field_entry(chart, point, place) == ICC_OK)
+        return ICC_OK;
+    /* The band of the boundary may be wider than the grid goes beyond it. */
+    iccp_domain_facet_point(chart->domain, boundary->facet, boundary->bary, local);
+    return iccp_field_entry(chart, local, place);
+}
+
+icc_status iccp_field_trace(const icc_chart *chart, const double *point,
+                            const iccp_chart_place *place, const iccp_coords *boundary,
+                            iccp_path *path, iccp_emit emit, void *argument)
 {
     const iccp_field_state *state = chart->state;
-    iccp_flow_place place;
+    iccp_flow_place entry;
     iccp_flow_walk walk;
-    iccp_coords coords;
-    const int32_t where = iccp_field_locate(chart, point, &place, &coords);
-    icc_status status = ICC_OK;
-    if (where == ICC_OUTSIDE)
-        return ICC_ERR_OUTSIDE;
-    if (iccp_field_at_maximum(chart, point))
-        return emit(argument, point);
-    if (where == ICC_INSIDE)
-        status = trace_below(chart, &place, path, emit, argument);
-    else {
-        double local[ICC_MAX_DIM];
-        status = iccp_field_entry(chart, point, &place);
-        /* The band of the boundary may be wider than the grid goes beyond it. */
-        iccp_domain_facet_point(chart->domain, coords.facet, coords.bary, local);
-        if (status == ICC_ERR_TRACE)
-            status = iccp_field_entry(chart, local, &place);
-    }
+    icc_status status = boundary != NULL ? find_entry(chart, point, boundary, &entry)
+                                         : trace_below(chart, &place->flow, path, emit, argument);
     path->n_marks = 0;
     if (status == ICC_OK)
-        status = iccp_flow_start(&walk, &state->flow, +1, &place);
+        status = iccp_flow_start(&walk, &state->flow, +1, boundary != NULL ? &entry : &place->flow);
     for (bool more = true; status == ICC_OK && more;) {
         status = iccp_flow_note(&walk, path);
         more = !walk.ends;
@@ -70,5 +68,5 @@ icc_status iccp_field_trace(const icc_chart *chart, const double *point, iccp_pa
     }
     if (status == ICC_OK)
         status = emit_marks(state, path, false, emit, argument);
-    return status == ICC_OK ? emit(argument, state->root) : status;
+    return status == ICC_OK ? emit(argument, chart->maximum) : status;
 }

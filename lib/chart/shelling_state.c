@@ -12,23 +12,14 @@ static const uint32_t *facet_of(const icc_chart *chart, uint32_t facet)
     return chart->domain->facets + (size_t)chart->domain->dim * facet;
 }
 
-static bool at_maximum(const icc_chart *chart, const double *point)
-{
-    const iccp_shelling_state *state = chart->state;
-    for (int32_t k = 0; k < chart->domain->dim; ++k)
-        if (!(fabs(point[k] - state->centre[k]) <= chart->domain->band.tolerance))
-            return false;
-    return true;
-}
-
 /* ICC_INSIDE and so on. The domain is asked only where the simplex cannot tell. */
-static int32_t locate(const icc_chart *chart, const double *point, iccp_fibre_place *place,
+static int32_t locate(const icc_chart *chart, const double *point, iccp_chart_place *place,
                       iccp_coords *coords)
 {
     const iccp_shelling_state *state = chart->state;
     bool inner;
     const bool found =
-        iccp_fibres_find(&state->fibres, point, chart->domain->band.reach, place, &inner);
+        iccp_fibres_find(&state->fibres, point, chart->domain->band.reach, &place->fibre, &inner);
     if (found && inner)
         return ICC_INSIDE;
     const int32_t where =
@@ -75,17 +66,18 @@ static void end_on_facet(const icc_chart *chart, const iccp_fibre_place *end, ic
         coords->bary[k] /= sum;
 }
 
-static void encode_inside(const icc_chart *chart, const iccp_fibre_place *place,
-                          iccp_coords *coords, iccp_encode_jet *jet)
+static icc_status encode(const icc_chart *chart, const double *point, const iccp_chart_place *place,
+                         iccp_coords *coords, iccp_encode_jet *jet)
 {
+    (void)point;
     const iccp_shelling_state *state = chart->state;
-    iccp_fibre_place low = *place, high = *place;
+    iccp_fibre_place low = place->fibre, high = place->fibre;
     parts p;
     if (jet == NULL) {
         p.down = iccp_fibres_fall(&state->fibres, &low, &coords->facet);
         p.up = iccp_fibres_rise(&state->fibres, &high);
     } else {
-        iccp_fibres_gradient(&state->fibres, place->simplex, &p.down_jet);
+        iccp_fibres_gradient(&state->fibres, place->fibre.simplex, &p.down_jet);
         p.up_jet = p.down_jet;
         p.down = iccp_fibres_fall_jet(&state->fibres, &low, &coords->facet, &p.down_jet);
         p.up = iccp_fibres_rise_jet(&state->fibres, &high, &p.up_jet, UINT32_MAX, NULL);
@@ -93,24 +85,6 @@ static void encode_inside(const icc_chart *chart, const iccp_fibre_place *place,
     }
     end_on_facet(chart, &low, coords);
     coords->t = p.down / (p.down + p.up);
-}
-
-static icc_status encode(const icc_chart *chart, const double *point, iccp_coords *coords,
-                         iccp_encode_jet *jet, iccp_path *path)
-{
-    (void)path;
-    iccp_fibre_place place;
-    const int32_t where = locate(chart, point, &place, coords);
-    coords->t = 0;
-    if (where == ICC_OUTSIDE)
-        return ICC_ERR_OUTSIDE;
-    if (where == ICC_BOUNDARY)
-        return jet == NULL ? ICC_OK : ICC_ERR_TRACE;
-    if (at_maximum(chart, point)) {
-        iccp_coords_of_maximum(chart->domain->dim, coords);
-        return jet == NULL ? ICC_OK : ICC_ERR_TRACE;
-    }
-    encode_inside(chart, &place, coords, jet);
     return ICC_OK;
 }
 
@@ -181,18 +155,7 @@ static icc_status decode(const icc_chart *chart, const iccp_coords *coords, doub
                          iccp_decode_jet *jet, iccp_path *path)
 {
     const iccp_shelling_state *state = chart->state;
-    const size_t dim = state->fibres.dim;
     iccp_fibre_place place;
-    if (jet != NULL && (coords->t <= 0 || coords->t >= 1))
-        return ICC_ERR_TRACE;
-    if (coords->t >= 1) {
-        memcpy(point, state->centre, dim * sizeof *point);
-        return ICC_OK;
-    }
-    if (coords->t <= 0) {
-        iccp_domain_facet_point(chart->domain, coords->facet, coords->bary, point);
-        return ICC_OK;
-    }
     iccp_fibres_enter(&state->fibres, coords->facet, facet_of(chart, coords->facet), coords->bary,
                       &place);
     const icc_status status = iccp_fibres_note_rise(&state->fibres, &place, path);
@@ -222,28 +185,24 @@ static icc_status emit_note(const iccp_shelling_state *state, const iccp_path *p
     return emit(argument, point);
 }
 
-static icc_status trace(const icc_chart *chart, const double *point, iccp_path *path,
-                        iccp_emit emit, void *argument)
+static icc_status trace(const icc_chart *chart, const double *point, const iccp_chart_place *place,
+                        const iccp_coords *boundary, iccp_path *path, iccp_emit emit,
+                        void *argument)
 {
+    (void)point;
     const iccp_shelling_state *state = chart->state;
-    iccp_fibre_place place;
-    iccp_coords coords;
+    iccp_fibre_place start = place->fibre;
     icc_status status = ICC_OK;
-    const int32_t where = locate(chart, point, &place, &coords);
-    if (where == ICC_OUTSIDE)
-        return ICC_ERR_OUTSIDE;
-    if (at_maximum(chart, point))
-        return emit(argument, point);
-    if (where == ICC_BOUNDARY) {
-        iccp_fibres_enter(&state->fibres, coords.facet, facet_of(chart, coords.facet), coords.bary,
-                          &place);
+    if (boundary != NULL) {
+        iccp_fibres_enter(&state->fibres, boundary->facet, facet_of(chart, boundary->facet),
+                          boundary->bary, &start);
     } else {
-        status = iccp_fibres_note_fall(&state->fibres, &place, path);
+        status = iccp_fibres_note_fall(&state->fibres, &start, path);
         for (size_t k = path->n; status == ICC_OK && k-- > 1;)
             status = emit_note(state, path, k, emit, argument);
     }
     if (status == ICC_OK)
-        status = iccp_fibres_note_rise(&state->fibres, &place, path);
+        status = iccp_fibres_note_rise(&state->fibres, &start, path);
     for (size_t k = 0; status == ICC_OK && k < path->n; ++k)
         status = emit_note(state, path, k, emit, argument);
     return status;
@@ -290,6 +249,7 @@ static void save(const icc_chart *chart, iccp_blob *b)
 }
 
 const iccp_chart_ops iccp_shelling_ops = {
+    .locate = locate,
     .encode = encode,
     .decode = decode,
     .trace = trace,
@@ -318,7 +278,6 @@ icc_status iccp_shelling_begin(icc_chart **out, const icc_domain *domain, iccp_s
                                                .n_mesh_simplices = mesh->n_simplices};
     state->mesh = own;
     state->fibres.memory = env->memory;
-    memcpy(state->centre, mesh->points + mesh->dim * centre, mesh->dim * sizeof *state->centre);
-    iccp_frame_out(&domain->frame, domain->dim, state->centre, info->maximum);
+    iccp_chart_set_maximum(*out, mesh->points + mesh->dim * centre);
     return ICC_OK;
 }

@@ -8,7 +8,6 @@
 typedef struct iccp_shelling_state {
     iccp_simplices *mesh; /* the chart's own, where the domain's has no vertex inside; or NULL */
     iccp_fibres fibres;
-    double centre[ICC_MAX_DIM]; /* local */
 } iccp_shelling_state;
 
 extern const iccp_chart_ops iccp_shelling_ops;

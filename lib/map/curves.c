@@ -28,7 +28,7 @@ icc_status iccp_curves_point(const icc_chart *from, const icc_chart *to, const d
     iccp_encode_jet inner;
     iccp_decode_jet outer;
     const bool jets = jacobian != NULL;
-    icc_status status = iccp_encode_point(from, point, &coords, jets ? &inner : NULL, path);
+    icc_status status = iccp_encode_point(from, point, &coords, jets ? &inner : NULL);
     if (status == ICC_OK)
         status = iccp_decode_point(to, &coords, image, jets ? &outer : NULL, path);
     else

@@ -36,8 +36,8 @@ static icc_status vertex_image(const icc_chart *source, const icc_chart *target,
         iccp_domain_facet_point(target->domain, mesh->facet[k], bary, image);
         return ICC_OK;
     }
-    const icc_status status = source->ops->encode(source, point, &coords, NULL, path);
-    return status == ICC_OK ? target->ops->decode(target, &coords, image, NULL, path) : status;
+    const icc_status status = iccp_chart_encode(source, point, &coords, NULL);
+    return status == ICC_OK ? iccp_chart_decode(target, &coords, image, NULL, path) : status;
 }
 
 /* The map of the source chart's mesh that the two charts give, which may be inverted in places. */

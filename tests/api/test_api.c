@@ -365,8 +365,8 @@ START_TEST(stages_refuse_bad_arguments)
         {.size = sizeof *bad, .leaf_min = HUGE_VAL}, {.size = sizeof *bad, .leaf_min = NAN},
     };
     static const char *const NAMED[] = {"function", "function", "constraints", "constraints",
-                                        "solver",   "solver",   "eta",         "eta",
-                                        "eta",      "leaf",     "leaf",        "leaf"};
+                                        "solver",   "solver",   "min_fall",    "min_fall",
+                                        "min_fall", "leaf_min", "leaf_min",    "leaf_min"};
     for (size_t k = 0; k < sizeof bad / sizeof *bad; ++k) {
         NOT_MADE(f, icc_function_create(&f, o.tree, &bad[k], NULL, &err));
         ck_assert_ptr_nonnull(strstr(err.message, NAMED[k]));
@@ -544,6 +544,57 @@ START_TEST(kernels_refuse_bad_arguments)
     REFUSED(icc_pose_turn(2, transforms, NULL, NULL, 1));
     REFUSED(icc_pose_turn(3, transforms, HANDLES, NULL, 1));
     REFUSED(icc_pose_turn(2, transforms, HANDLES, NULL, NAN));
+    objects_clear(&o);
+}
+END_TEST
+
+/* That an argument is missing is said in one form, by its name in the header. */
+#define MISSING(name, call)                                                                        \
+    do {                                                                                           \
+        EXPLAINED(call);                                                                           \
+        ck_assert_str_eq(err.message, name " is NULL");                                            \
+    } while (0)
+
+START_TEST(what_is_missing_is_named)
+{
+    objects o;
+    objects_init(&o, 0);
+    icc_error err;
+    icc_chart *c;
+    icc_map *m;
+    icc_weights *w;
+    icc_binding *b;
+    icc_tree *t;
+    size_t n;
+    double image[2];
+    icc_weights_report report = {.size = sizeof report};
+    icc_certificate certificate = {.size = sizeof certificate};
+    const icc_picture picture = {.size = sizeof picture};
+    MISSING("domain", icc_chart_create(&c, NULL, NULL, NULL, &err));
+    MISSING("measures", icc_chart_get_report(o.chart, 1, NULL, NULL, &err));
+    MISSING("curve", icc_chart_trace(o.chart, o.points, 1, NULL, &n, NULL, &err));
+    MISSING("data", icc_chart_load(&c, 1, NULL, NULL, &err));
+    MISSING("target", icc_map_create(&m, o.source, NULL, NULL, NULL, &err));
+    MISSING("source", icc_map_create_from_charts(&m, NULL, o.chart, NULL, NULL, &err));
+    MISSING("map", icc_map_improve(&m, NULL, NULL, NULL, NULL, &err));
+    MISSING("target", icc_map_retarget(&m, o.mesh_map, NULL, 1, NULL, &err));
+    MISSING("simplices",
+            icc_map_certify(o.map, 3, o.points, 1, NULL, NULL, &certificate, NULL, &err));
+    MISSING("images",
+            icc_map_repair(o.map, 3, o.points, 1, FACETS, NULL, &certificate, NULL, &err));
+    MISSING("certificate", icc_map_repair(o.map, 3, o.points, 1, FACETS, image, NULL, NULL, &err));
+    MISSING("data", icc_map_load(&m, 1, NULL, NULL, &err));
+    MISSING("target", icc_map_warp(o.map, &picture, NULL, &n, NULL, &err));
+    MISSING("out", icc_tree_create(NULL, o.grid, 0, NULL, NULL, &err));
+    MISSING("grid", icc_tree_create(&t, NULL, 0, NULL, NULL, &err));
+    MISSING("handles", icc_weights_create(&w, o.sampling, 1, NULL, NULL, NULL, &err));
+    MISSING("points", icc_weights_get_report(o.kernel, 1, NULL, &report, NULL, &err));
+    MISSING("centre", icc_weights_paint(&w, o.kernel, 0, NULL, 1, 1, NULL, &err));
+    MISSING("weights", icc_weights_repaint(&w, o.kernel, 1, FACETS, NULL, NULL, &err));
+    MISSING("kernel", icc_weights_with_method(&w, NULL, 1, NULL, &err));
+    MISSING("nodes", icc_weights_stiffen(&w, o.kernel, 1, NULL, NULL, NULL, NULL, &err));
+    MISSING("points", icc_binding_create(&b, o.kernel, 1, NULL, 0, NULL, &err));
+    MISSING("data", icc_binding_load(&b, 1, NULL, NULL, &err));
     objects_clear(&o);
 }
 END_TEST
@@ -1080,6 +1131,7 @@ int main(void)
     tcase_add_test(tests, the_triangulation_names_the_point);
     tcase_add_test(tests, edges_are_listed);
     tcase_add_test(tests, kernels_refuse_bad_arguments);
+    tcase_add_test(tests, what_is_missing_is_named);
     tcase_add_test(tests, freeing_nothing_does_nothing);
     tcase_add_test(tests, every_call_checks_its_env);
     tcase_add_test(tests, options_may_be_older_or_newer);

@@ -1,8 +1,11 @@
 /* What the tests of the public functions cannot reach: corners of charts and maps. */
+#include "chart/bulk.h"
 #include "chart/chart_create.h"
+#include "chart/chart_foliation.h"
 #include "chart/gradient_state.h"
 #include "map/map.h"
 
+#include "../../hard_shapes.h"
 #include "../../shapes.h"
 
 #include <check.h>
@@ -111,21 +114,19 @@ START_TEST(curves_are_drawn_from_anywhere)
 {
     const shape s = shape_square();
     icc_chart *chart = chart_of(&s, 9);
-    const iccp_gradient_state *state = chart->state;
-    double maximum[2];
-    iccp_gradient_to_local(state, state->root, maximum);
+    const double *maximum = chart->maximum;
     const double starts[3][2] = {{0.3, 0}, {0.3, 0.1}, {maximum[0], maximum[1]}};
     iccp_path path;
     iccp_path_init(&path, &chart->memory);
     for (int k = 0; k < 3; ++k) {
         drawing d = {.stop_at = SIZE_MAX};
-        ck_assert_int_eq(chart->ops->trace(chart, starts[k], &path, draw, &d), ICC_OK);
+        ck_assert_int_eq(iccp_chart_trace(chart, starts[k], &path, draw, &d), ICC_OK);
         ck_assert(k == 2 ? d.n == 1 : d.n > 5);
-        ck_assert_mem_eq(d.last, maximum, sizeof maximum);
+        ck_assert_mem_eq(d.last, maximum, sizeof d.last);
         /* Whoever draws may stop. */
         for (size_t m = 0; m < d.n; ++m) {
             drawing short_of = {.stop_at = m};
-            ck_assert_int_eq(chart->ops->trace(chart, starts[k], &path, draw, &short_of),
+            ck_assert_int_eq(iccp_chart_trace(chart, starts[k], &path, draw, &short_of),
                              ICC_ERR_MEMORY);
             ck_assert_uint_eq(short_of.n, m);
         }
@@ -183,6 +184,62 @@ START_TEST(inward_is_inward)
 }
 END_TEST
 
+/* A foliation of a dumbbell whose maximum lies in the corridor. */
+static icc_chart *chart_of_corridor(const icc_domain *domain, int32_t cells)
+{
+    const iccp_env env = plain_env();
+    iccp_harmonic base = {0};
+    icc_chart *chart;
+    uint32_t pieces[12];
+    const double middle[2] = {0.5 * (domain->lower[0] + domain->upper[0]),
+                              0.5 * (domain->lower[1] + domain->upper[1])};
+    iccp_planar_pieces(pieces, domain, NULL, cells);
+    ck_assert_int_eq(iccp_harmonic_create(&base, domain, pieces, cells, &env, NULL), ICC_OK);
+    const uint32_t centre = iccp_nearest_vertex(&base.mesh, base.mesh.points, middle);
+    ck_assert_int_eq(iccp_chart_foliation_create(&chart, domain, &base, centre, &env, NULL),
+                     ICC_OK);
+    iccp_harmonic_free(&base);
+    return chart;
+}
+
+/* All of the corridor counts as boundary; its maximum is the maximum, by every call. */
+START_TEST(the_maximum_may_lie_on_the_boundary)
+{
+    for (int k = 0; k < 9; ++k) {
+        const iccp_env env = plain_env();
+        const shape s = shape_dumbbell(ldexp(1, -46 - k / 3));
+        icc_domain *domain;
+        ck_assert_int_eq(iccp_domain_create(&domain, 2, s.n, s.xy, 0, NULL, &env, NULL), ICC_OK);
+        icc_chart *chart = chart_of_corridor(domain, 10 + 7 * (k % 3));
+        const double *maximum = chart->maximum;
+        ck_assert_int_eq(iccp_domain_locate(domain, maximum, true, NULL, NULL), ICC_BOUNDARY);
+
+        uint32_t facet;
+        double bary[2], t, back[2];
+        ck_assert_int_eq(
+            icc_chart_encode(chart, 1, chart->info.maximum, &facet, bary, &t, NULL, NULL, NULL),
+            ICC_OK);
+        ck_assert_double_eq(t, 1);
+        ck_assert_int_eq(icc_chart_decode(chart, 1, &facet, bary, &t, back, NULL, NULL, NULL),
+                         ICC_OK);
+        ck_assert_mem_eq(back, chart->info.maximum, sizeof back);
+
+        iccp_coords coords;
+        iccp_encode_jet jet;
+        iccp_path path;
+        drawing d = {.stop_at = SIZE_MAX};
+        iccp_path_init(&path, &chart->memory);
+        ck_assert_int_eq(iccp_encode_point(chart, chart->info.maximum, &coords, &jet),
+                         ICC_ERR_TRACE);
+        ck_assert_int_eq(iccp_chart_trace(chart, maximum, &path, draw, &d), ICC_OK);
+        ck_assert_uint_eq(d.n, 1);
+        iccp_path_clear(&path);
+        iccp_chart_release(chart);
+        iccp_domain_release(domain);
+    }
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("chart");
@@ -192,6 +249,7 @@ int main(void)
     tcase_add_test(tests, methods_do_not_mix);
     tcase_add_test(tests, dimensions_do_not_mix);
     tcase_add_test(tests, curves_are_drawn_from_anywhere);
+    tcase_add_test(tests, the_maximum_may_lie_on_the_boundary);
     tcase_add_test(tests, curves_from_a_grid_line_go_into_the_domain);
     tcase_add_test(tests, inward_is_inward);
     suite_add_tcase(suite, tests);
