@@ -24,7 +24,7 @@ icc_status iccp_harmonic_create(iccp_harmonic *base, const icc_domain *domain,
  * there). */
 void iccp_harmonic_free(iccp_harmonic *base);
 
-/* What a chart's info tells about its base. */
+/* Fills in what a chart's info reports about its base. */
 void iccp_harmonic_describe(const iccp_harmonic *base, const icc_domain *domain,
                             icc_chart_info *info);
 
