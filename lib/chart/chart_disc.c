@@ -115,6 +115,9 @@ static bool at_maximum(const icc_chart *chart, const double p[2])
            fabs(p[1] - state->maximum[1]) <= chart->domain->band.tolerance;
 }
 
+/* The point goes to the disc with its triangle. There the ray from the centre through it ends on
+ * an edge of the boundary's image, which gives the boundary point, and t is 1 minus the share of
+ * the ray up to the point. The jet is the chain rule through both. */
 static icc_status encode_inside(const icc_chart *chart, const double *point, iccp_coords *coords,
                                 iccp_encode_jet *jet)
 {
@@ -159,6 +162,8 @@ static icc_status encode(const icc_chart *chart, const double *point, iccp_coord
     return encode_inside(chart, point, coords, jet);
 }
 
+/* The inverse of encode(): the point of the disc lies at 1 - t of the ray to the boundary
+ * point's image, and its triangle takes it back. */
 static icc_status decode(const icc_chart *chart, const iccp_coords *coords, double *point,
                          iccp_decode_jet *jet, iccp_path *path)
 {
@@ -226,6 +231,8 @@ static icc_status emit_crossing(const disc_state *state, uint32_t corner, const 
     return emit(argument, point);
 }
 
+/* The curve is the preimage of a straight ray: a walk through the triangles of the image from
+ * the boundary edge to the centre, one crossing each, decided by exact signs. */
 static icc_status trace(const icc_chart *chart, const double *point, iccp_path *path,
                         iccp_emit emit, void *argument)
 {

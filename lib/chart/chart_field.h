@@ -24,7 +24,7 @@ icc_status iccp_chart_field_shift(icc_chart **out, const icc_chart *chart, const
 const icc_function *iccp_chart_field_function(const icc_chart *chart);
 
 /* Makes again what the chart has saved: ICC_ERR_FORMAT for what no chart saves, ICC_ERR_VERSION,
- * with its reason, if it comes out otherwise. */
+ * with its reason, if rebuilding it gives different values. */
 icc_status iccp_chart_field_read(icc_chart **out, const icc_domain *domain, iccp_blob_reader *r,
                                  const iccp_env *env, icc_error *err);
 

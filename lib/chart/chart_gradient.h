@@ -10,7 +10,7 @@ icc_status iccp_chart_gradient_create(icc_chart **out, const icc_domain *domain,
                                       icc_error *err);
 
 /* Makes again what the chart has saved: ICC_ERR_FORMAT for what no chart saves, ICC_ERR_VERSION,
- * with its reason, if it comes out otherwise. */
+ * with its reason, if rebuilding it gives different values. */
 icc_status iccp_chart_gradient_read(icc_chart **out, const icc_domain *domain, iccp_blob_reader *r,
                                     const iccp_env *env, icc_error *err);
 

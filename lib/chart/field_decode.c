@@ -103,6 +103,8 @@ icc_status iccp_field_decode(const icc_chart *chart, const iccp_coords *coords, 
     return jet == NULL ? ICC_OK : fill_decode_jet(chart, coords, path, &walk, s, total, jet);
 }
 
+/* One pass prepares the curves that have to be followed, these are followed side by side, and a
+ * second pass writes where they lead. */
 icc_status iccp_field_decode_many(const icc_chart *chart, size_t n, const iccp_coords *coords,
                                   double *points, double *volume, icc_status *status,
                                   iccp_path *path)

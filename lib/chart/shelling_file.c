@@ -93,6 +93,8 @@ static icc_status certify(const order *o, const icc_domain *domain, uint32_t cen
     return status != ICC_OK || iccp_shelling_certificate_holds(&found) ? status : ICC_ERR_FORMAT;
 }
 
+/* Reads the directions and certifies them anew: the ranks are found from them, not read, so that
+ * no file can pass a false order. */
 static icc_status read_fibres(icc_chart *chart, const iccp_simplices *mesh, uint32_t centre,
                               iccp_blob_reader *r, const iccp_env *env)
 {
