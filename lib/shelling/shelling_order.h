@@ -16,9 +16,7 @@ typedef struct iccp_order_wish {
     const iccp_simplices *mesh;
     const iccp_faces *faces; /* of the mesh */
     uint32_t centre;         /* not on the boundary */
-    const double *
-        flux; /* of each side, that shall run from greater to smaller rank: see
-                 shelling/reference.h */
+    const double *flux;      /* of each side: it shall run from greater to smaller rank */
     const double *potential; /* of each simplex: where it is small the rank shall be small */
     double beta;             /* how much reversed flux weighs against the potential */
     const double *bias;      /* added to the potential of each simplex in the comparison; or NULL */
