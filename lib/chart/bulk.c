@@ -188,6 +188,7 @@ static icc_status encode_chunk(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
+/* One path serves all points of a chunk: its memory is the only allocation. */
 static icc_status decode_chunk(void *argument, size_t begin, size_t end)
 {
     bulk *b = argument;

@@ -94,7 +94,7 @@ struct icc_chart {
         icc_foliation_info foliation;
         icc_shelling_info shelling; /* see iccp_chart_is_shelling() */
         icc_disc_info disc;
-    } own; /* what only the chart's method has */
+    } own;                       /* what only the chart's method has */
     double maximum[ICC_MAX_DIM]; /* local */
     const iccp_chart_ops *ops;
     void *state;             /* the method's own */

@@ -8,7 +8,9 @@
 #include "chart/chart_shelling.h"
 #include "chart/pairing.h"
 
-/* `has_mesh`: the domain has one, and so has the other one of a pair. */
+/* Replaces the defaults, 0, by what they stand for in this dimension, and refuses combinations
+ * that no method offers. `has_mesh`: the domain has a mesh of its inside, and so has the other
+ * domain of a pair. */
 static icc_status complete(icc_chart_options *options, int32_t dim, bool has_mesh, icc_error *err)
 {
     if (options->method == 0)
@@ -56,6 +58,8 @@ static icc_status blame(const harmonic_job *job, size_t k, icc_status status, ic
     return job->n > 1 ? iccp_fail_side(err, status, (int32_t)k + 1) : status;
 }
 
+/* The meshes of the domains and their equations. Domains of a pair cut corresponding facets into
+ * the same number of pieces, so that their boundary vertices correspond. */
 static icc_status make_bases(harmonic_job *job, const iccp_env *env, icc_error *err)
 {
     const icc_domain *other = job->n > 1 ? job->domain[1] : NULL;
@@ -140,6 +144,8 @@ static icc_status finish(harmonic_job *job, size_t k, icc_chart **out, const icc
     return status == ICC_OK ? ICC_OK : blame(job, k, status, err);
 }
 
+/* One try at a resolution: meshes, then the images in the disc or the centres, then the charts.
+ * All or nothing: if one fails, none is left. */
 static icc_status try_harmonic(harmonic_job *job, icc_chart **out, const iccp_env *env,
                                icc_error *err)
 {
@@ -163,6 +169,7 @@ static icc_status try_harmonic(harmonic_job *job, icc_chart **out, const iccp_en
     return status;
 }
 
+/* Certificates fail where a mesh is too coarse for its corners, so that finer ones are tried. */
 static icc_status create_harmonic(harmonic_job *job, icc_chart **out, const iccp_env *env,
                                   icc_error *err)
 {

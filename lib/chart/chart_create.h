@@ -9,7 +9,7 @@ icc_status iccp_chart_create(icc_chart **out, const icc_domain *domain,
                              const icc_chart_options *options, const iccp_env *env, icc_error *err);
 
 /* The charts of two domains that correspond (map/map.h): with the same cuts of the boundary and
- * paired maxima. The options differ in `maximum` only. On failure both are NULL and err->side tells
+ * paired maxima. The options differ in `maximum` only. On failure both are NULL and err->side says
  * which one failed. */
 icc_status iccp_chart_create_pair(icc_chart *out[2], const icc_domain *const domain[2],
                                   const icc_chart_options options[2], const iccp_env *env,

@@ -106,6 +106,9 @@ static void interpolate(const iccp_planar *mesh, uint32_t triangle, const double
                bary[2] * points[2 * (size_t)v[2] + i];
 }
 
+/* The point goes to the disc with its triangle. There the ray from the centre through it ends on
+ * an edge of the boundary's image, which gives the boundary point, and t is 1 minus the share of
+ * the ray up to the point. The jet is the chain rule through both. */
 static icc_status encode(const icc_chart *chart, const double *point, const iccp_chart_place *place,
                          iccp_coords *coords, iccp_encode_jet *jet)
 {
@@ -133,6 +136,8 @@ static icc_status encode(const icc_chart *chart, const double *point, const iccp
     return ICC_OK;
 }
 
+/* The inverse of encode(): the point of the disc lies at 1 - t of the ray to the boundary
+ * point's image, and its triangle takes it back. */
 static icc_status decode(const icc_chart *chart, const iccp_coords *coords, double *point,
                          iccp_decode_jet *jet, iccp_path *path)
 {
@@ -190,6 +195,8 @@ static icc_status emit_crossing(const disc_state *state, uint32_t corner, const 
     return emit(argument, point);
 }
 
+/* The curve is the preimage of a straight ray: a walk through the triangles of the image from
+ * the boundary edge to the centre, one crossing each, decided by exact signs. */
 static icc_status trace(const icc_chart *chart, const double *point, const iccp_chart_place *place,
                         const iccp_coords *boundary, iccp_path *path, iccp_emit emit,
                         void *argument)

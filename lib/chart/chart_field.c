@@ -56,6 +56,8 @@ static icc_status choose_root(const icc_grid *grid, const double *maximum, uint3
     return ICC_OK;
 }
 
+/* The tree's order makes the vertices that it reaches a ball; iccp_tree_settle() may give up a
+ * few vertices for that. Fails with ICC_ERR_TOPOLOGY where too many would be lost. */
 static icc_status make_tree_on(iccp_field_state *state, icc_chart *chart, int32_t cells,
                                const double *maximum, const iccp_env *env, icc_error *err)
 {
@@ -108,6 +110,8 @@ static icc_status make_tree(iccp_field_state *state, icc_chart *chart,
     return make_tree_on(state, chart, 2 * chart->info.cells, maximum, &again, err);
 }
 
+/* Laplace's function on the tree, without inequalities: the vectors are made to rise along it
+ * whatever it is. */
 static icc_status make_field(iccp_field_state *state, icc_chart *chart,
                              const icc_chart_options *options, const iccp_env *env, icc_error *err)
 {
@@ -131,6 +135,8 @@ static icc_status make_field(iccp_field_state *state, icc_chart *chart,
 /* Multiplications for each simplex at a vertex, about. */
 static const double VECTOR_WORK = 20;
 
+/* From function to vectors: which simplices meet the domain, values on all of their vertices,
+ * and one vector for each vertex along which these values rise. */
 static icc_status make_vectors(iccp_field_state *state, icc_chart *chart, const iccp_env *env,
                                icc_error *err)
 {
@@ -151,6 +157,8 @@ static icc_status make_vectors(iccp_field_state *state, icc_chart *chart, const 
     return status;
 }
 
+/* What remains once the vectors are there: the root's place, the bound on the steps of a curve,
+ * and the verdict, which is that of the three conditions of docs/theory.md, fields on grids. */
 static void finish(iccp_field_state *state, icc_chart *chart)
 {
     const icc_grid *grid = state->tree->grid;

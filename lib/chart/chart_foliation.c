@@ -127,6 +127,8 @@ static void measure_leaf(const foliation_state *state, const iccp_leaf *leaf, co
         walk(state, down, end, false, iccp_leaf_fall);
 }
 
+/* The label decides the leaf, so every derivative is that by the label times the label's
+ * gradient; the lengths also depend on where the point is on the leaf. */
 static void fill_encode_jet(const icc_chart *chart, uint32_t triangle, const double bary[3],
                             const iccp_crossing *end, uint32_t facet, const leaf_length *up,
                             const leaf_length *down, iccp_encode_jet *jet)
@@ -147,6 +149,8 @@ static void fill_encode_jet(const icc_chart *chart, uint32_t triangle, const dou
     }
 }
 
+/* Finds the leaf by its label, exactly; follows it both ways; t is the share of its length that
+ * lies below the point. */
 static icc_status encode(const icc_chart *chart, const double *point, const iccp_chart_place *place,
                          iccp_coords *coords, iccp_encode_jet *jet)
 {
@@ -242,6 +246,8 @@ static void fill_decode_jet(const icc_chart *chart, const iccp_coords *coords,
     }
 }
 
+/* Walks the leaf from the boundary once, keeping its corners, and then goes t of its length
+ * along them: the length is known at the end only. */
 static icc_status decode(const icc_chart *chart, const iccp_coords *coords, double *point,
                          iccp_decode_jet *jet, iccp_path *path)
 {
@@ -286,6 +292,8 @@ static icc_status emit_up(const foliation_state *state, const iccp_leaf *leaf, i
     return status == ICC_OK ? emit(argument, centre_of(state)) : status;
 }
 
+/* The polyline of the leaf. A boundary point has the whole of it; a point inside, its own two
+ * parts. */
 static icc_status trace(const icc_chart *chart, const double *point, const iccp_chart_place *place,
                         const iccp_coords *boundary, iccp_path *path, iccp_emit emit,
                         void *argument)
@@ -342,6 +350,8 @@ static const iccp_chart_ops OPS = {
 /* Shares of harmonic flux to try: one half is the fairest; less copes with sharper corners. */
 static const double HARMONIC_SHARES[] = {0.5, 0.25, 0.0};
 
+/* Tries shares of harmonic flux until one gives a foliation that the exact certificate accepts.
+ * The factor is the same for all of them. */
 static icc_status make_psi(icc_chart *chart, const iccp_harmonic *base, uint32_t centre,
                            const iccp_env *env, icc_error *err)
 {

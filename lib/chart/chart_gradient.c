@@ -64,6 +64,7 @@ static icc_status grow_tree(iccp_gradient_state *state, icc_chart *chart, const 
     return status;
 }
 
+/* Algorithms 1 and 2: the grid, the grassfire's maximum unless one was asked for, and the tree. */
 static icc_status make_tree(iccp_gradient_state *state, icc_chart *chart,
                             const icc_chart_options *options, const iccp_env *env, icc_error *err)
 {
@@ -129,6 +130,8 @@ static icc_status make_plate(iccp_gradient_state *state, icc_chart *chart,
     return move_root(state, chart, state->chosen, &function, &part[4], err);
 }
 
+/* Section 5.2 on the tree, with the options as given; plates are a special case. Then the
+ * function is checked for false critical points and extended to vertices that no tree reaches. */
 static icc_status make_field(iccp_gradient_state *state, icc_chart *chart,
                              const icc_chart_options *options, const iccp_env *env, icc_error *err)
 {
@@ -216,6 +219,9 @@ static icc_status encode(const icc_chart *chart, const double *point, const iccp
 
 /* ---- Algorithm 8: ICC to Cartesian ---- */
 
+/* Algorithm 8: the curve uphill from the boundary point, as a path; then t of its length along
+ * it. A result outside the domain, as near a boundary that the grid does not resolve, is an
+ * error. */
 static icc_status decode(const icc_chart *chart, const iccp_coords *coords, double *point,
                          iccp_decode_jet *jet, iccp_path *path)
 {
@@ -259,6 +265,7 @@ static icc_status trace_below(const iccp_gradient_state *state, const double *p,
     return status;
 }
 
+/* Both halves of the curve, from the boundary to the maximum. */
 static icc_status trace(const icc_chart *chart, const double *point, const iccp_chart_place *place,
                         const iccp_coords *boundary, iccp_path *path, iccp_emit emit,
                         void *argument)

@@ -83,6 +83,8 @@ static icc_status pair(job *j, const iccp_env *env)
     return status;
 }
 
+/* Meshes without a vertex inside get one; then each centre is the caller's, the deepest vertex,
+ * or one that suits both domains of a pair. */
 static icc_status choose_centres(job *j, const iccp_env *env, icc_error *err)
 {
     const double start = iccp_seconds();
@@ -116,6 +118,8 @@ static void work_free(work *w, const iccp_memory *memory)
     iccp_free(memory, w->rank);
 }
 
+/* From a mesh to ranks and fluxes: what enters through the boundary, the harmonic flux with that
+ * inflow, and the order that reverses least of it. */
 static icc_status find_order(work *w, const iccp_simplices *mesh, uint32_t centre,
                              icc_shelling_info *info, const iccp_env *env, icc_error *err)
 {
@@ -169,6 +173,7 @@ static void find_directions(const iccp_simplices *mesh, double *flux)
     }
 }
 
+/* Certifies what the leaves will follow, ranks and directions, whoever made them. */
 static icc_status certify(icc_chart *chart, const iccp_simplices *mesh, uint32_t centre,
                           const work *w, const iccp_env *env, icc_error *err)
 {
@@ -190,6 +195,7 @@ static icc_status certify(icc_chart *chart, const iccp_simplices *mesh, uint32_t
                      found.n_directions);
 }
 
+/* The order, the directions that it leads to, their certificate, and the leaves. */
 static icc_status make_fibres(icc_chart *chart, const iccp_simplices *mesh, uint32_t centre,
                               const iccp_env *env, icc_error *err)
 {

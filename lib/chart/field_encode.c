@@ -29,6 +29,8 @@ static icc_status walk_down(const iccp_field_state *state, const iccp_flow_place
     return iccp_flow_jet_onto(&walk, s, normal, jet) ? ICC_OK : ICC_ERR_TRACE;
 }
 
+/* From a place to the maximum, with derivatives if `jet` is not NULL. The last piece's jet may
+ * fail at the root, where its direction ends: its length is still right. */
 static icc_status walk_up(const iccp_field_state *state, const iccp_flow_place *place,
                           double *length, iccp_flow_jet *jet)
 {
@@ -84,6 +86,8 @@ static void facet_slopes(const icc_domain *domain, uint32_t facet, const double 
     }
 }
 
+/* d t = (d down * up - down * d up) / length^2, and the slopes of the boundary point's
+ * barycentric coordinates. */
 static void fill_encode_jet(const icc_chart *chart, uint32_t facet, const iccp_flow_jet *down,
                             double s_down, const iccp_flow_jet *up, double s_up,
                             iccp_encode_jet *jet)

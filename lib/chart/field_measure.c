@@ -20,6 +20,7 @@ typedef struct samples {
 
 enum { INSIDE = 1, UNREACHABLE = 2, OUTWARD = 4 };
 
+/* Whether an evenly spread point of the bounding box lies inside, and whether it can be encoded. */
 static uint8_t judge_point(const samples *s, size_t i)
 {
     const icc_domain *domain = s->chart->domain;
@@ -34,6 +35,7 @@ static uint8_t judge_point(const samples *s, size_t i)
     return status == ICC_OK ? INSIDE : INSIDE | UNREACHABLE;
 }
 
+/* The facet that holds a share of the boundary's extent. */
 static uint32_t find_facet(const samples *s, double share)
 {
     size_t low = 0, high = s->chart->domain->n_facets - 1;
@@ -47,7 +49,8 @@ static uint32_t find_facet(const samples *s, double share)
     return (uint32_t)low;
 }
 
-/* An evenly spread point of the boundary; the gaps between sorted numbers are barycentric
+/* Whether the vector at an evenly spread point of the boundary crosses it inward. Facets get
+ * points by their share of the extent; the gaps between sorted numbers are barycentric
  * coordinates. */
 static uint8_t judge_boundary(const samples *s, size_t i)
 {

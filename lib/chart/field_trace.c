@@ -1,6 +1,7 @@
 /* The whole curve of a point. */
 #include "chart/field_state.h"
 
+/* Emits the places of a path's marks, from the first or from the last. */
 static icc_status emit_marks(const iccp_field_state *state, const iccp_path *path, bool reversed,
                              iccp_emit emit, void *argument)
 {

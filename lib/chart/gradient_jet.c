@@ -74,7 +74,7 @@ void iccp_gradient_encode_jet(const icc_chart *chart, const iccp_gradient_line *
 }
 
 /* The derivative by the boundary point needs the walk up to the piece that holds the point, and the
- * whole length's: walk again with a jet. The path tells how far. */
+ * whole length's: walk again with a jet. The path says how far. */
 icc_status iccp_gradient_decode_jet(const icc_chart *chart, const iccp_coords *coords,
                                     const double *boundary, const iccp_path *path, size_t piece,
                                     double share, iccp_decode_jet *jet)

@@ -25,6 +25,7 @@ static void from_plane(const iccp_jet2 *flat, iccp_jetn *jet)
     }
 }
 
+/* Downhill by Algorithm 3, with the jet in two dimensions carried over if there is one. */
 static icc_status down_in_plane(const iccp_gradient_state *state, const double *from,
                                 iccp_path *path, iccp_jetn *jet, iccp_gradient_line *line)
 {

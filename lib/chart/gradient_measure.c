@@ -27,6 +27,8 @@ static void candidate(const icc_domain *domain, size_t index, double *p)
                iccp_spread(domain->dim, k, index) * (domain->upper[k] - domain->lower[k]);
 }
 
+/* Figure 6.12: a point is uncovered if its curve downhill merges with another, so that no
+ * boundary point of its own leads to it. */
 static uint8_t judge_point(const iccp_gradient_state *state, const double *local)
 {
     double p[ICC_MAX_DIM];
@@ -62,6 +64,7 @@ static size_t count_candidates(const icc_domain *domain, size_t n)
     return (size_t)ceil((double)n * fmin(fill > 0 ? 1 / fill : MOST_CANDIDATES, MOST_CANDIDATES));
 }
 
+/* Shares of the area by evenly spread points of the bounding box, those outside not counted. */
 static icc_status measure_area(const icc_chart *chart, size_t n_points, icc_chart_report *measures,
                                const iccp_env *env)
 {
@@ -122,6 +125,8 @@ static void place_on_facet(int32_t dim, double along, size_t index, double *bary
         bary[k] = cut[k - 1] - (k < dim - 1 ? cut[k] : 0);
 }
 
+/* At a boundary point: whether the function rises inward, and on which share of its curve uphill
+ * other curves have joined it. */
 static void judge_boundary_point(const boundary_samples *samples, size_t index)
 {
     const icc_domain *domain = samples->chart->domain;
@@ -168,6 +173,8 @@ static void sum_boundary(const boundary_samples *samples, icc_chart_report *meas
     measures->collapsed = n_curves > 0 ? collapsed / (double)n_curves : 0;
 }
 
+/* The length of a facet's inward normal is its extent, up to a factor that depends on the
+ * dimension only. */
 static void sum_extents(const icc_domain *domain, double *extent)
 {
     double inward[ICC_MAX_DIM];
@@ -181,6 +188,7 @@ static void sum_extents(const icc_domain *domain, double *extent)
     }
 }
 
+/* Boundary points are spread by extent: short facets do not count as much as long ones. */
 static icc_status measure_boundary(const icc_chart *chart, size_t n_points,
                                    icc_chart_report *measures, const iccp_env *env)
 {

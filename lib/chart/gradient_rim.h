@@ -5,8 +5,8 @@
 #include "function/function.h"
 
 /* A tree has two layers of vertices outside, and a simplex with a vertex inside may have others up
- * to dim steps away from it. Their values go on as they do from the layer before the last to the
- * last. Has no effect in the plane. */
+ * to dim steps away from it. Their values continue linearly from the last two layers. Has no effect
+ * in the plane. */
 icc_status iccp_gradient_extend(icc_function *field, const iccp_env *env);
 
 #endif

@@ -16,8 +16,7 @@ enum { ON_MESH = 5 };
 
 void iccp_chart_write(const icc_chart *chart, iccp_blob *w)
 {
-    uint64_t method =
-        iccp_chart_is_shelling(chart) ? ON_MESH : (uint64_t)chart->info.method;
+    uint64_t method = iccp_chart_is_shelling(chart) ? ON_MESH : (uint64_t)chart->info.method;
     iccp_blob_u64(w, 1, &method);
     chart->ops->save(chart, w);
 }

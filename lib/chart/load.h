@@ -7,7 +7,7 @@
 /* A chart as part of other bytes, without its domain. */
 void iccp_chart_write(const icc_chart *chart, iccp_blob *w);
 
-/* ICC_ERR_VERSION, with its reason, for a chart that comes out otherwise here; without words for
+/* ICC_ERR_VERSION, with its reason, for a chart that gives different values here; without words for
  * others. */
 icc_status iccp_chart_read(icc_chart **out, const icc_domain *domain, iccp_blob *r,
                            const iccp_env *env, icc_error *err);

@@ -38,7 +38,7 @@ uint64_t iccp_digest_u32(uint64_t digest, size_t n, const uint32_t *values);
 /* Of the function, and where its maximum is. */
 uint64_t iccp_digest_field(const icc_function *field);
 
-/* After the chart has been made again: ICC_ERR_VERSION if it could not be, or has another digest;
+/* After the chart has been rebuilt: ICC_ERR_VERSION if it could not be, or has another digest;
  * it is then released. */
 icc_status iccp_recipe_judge(icc_chart **chart, icc_status status, uint64_t wanted, uint64_t digest,
                              icc_error *err);

@@ -66,6 +66,8 @@ static void end_on_facet(const icc_chart *chart, const iccp_fibre_place *end, ic
         coords->bary[k] /= sum;
 }
 
+/* Falls to the boundary and rises to the centre; t is the share of the length that lies below.
+ * With a jet the same two walks carry derivatives by the point's coordinates. */
 static icc_status encode(const icc_chart *chart, const double *point, const iccp_chart_place *place,
                          iccp_coords *coords, iccp_encode_jet *jet)
 {
@@ -151,6 +153,8 @@ static void fill_decode_jet(const icc_chart *chart, const iccp_coords *coords,
     }
 }
 
+/* Notes the whole leaf from the boundary, since t is a share of its length, and goes ahead from
+ * the note below the point. */
 static icc_status decode(const icc_chart *chart, const iccp_coords *coords, double *point,
                          iccp_decode_jet *jet, iccp_path *path)
 {
@@ -185,6 +189,7 @@ static icc_status emit_note(const iccp_shelling_state *state, const iccp_path *p
     return emit(argument, point);
 }
 
+/* The notes of both halves of the leaf, those downhill in reverse. */
 static icc_status trace(const icc_chart *chart, const double *point, const iccp_chart_place *place,
                         const iccp_coords *boundary, iccp_path *path, iccp_emit emit,
                         void *argument)

@@ -27,7 +27,9 @@ static const size_t GRAIN = 1 << 10; /* vertices per chunk */
  * smooth; a vector passes with the second; the projection aims at the third. */
 static const double GOOD = 0.15, LEAST = 1e-6, AIM = 0.05;
 
-/* A vertex and the simplices at it. */
+/* A vertex and the simplices at it. A simplex is (r, k): the order r of the axes, in which the
+ * vertex is corner k. Values and flags are indexed by a set of axes, bit i being axis i: those
+ * at the vertex plus, or minus, one step along each axis of the set. */
 typedef struct star {
     const iccp_smooth *smooth;
     const iccp_cover *cover;
@@ -42,6 +44,7 @@ typedef struct star {
     uint8_t number;
 } star;
 
+/* (dim + 1)! simplices at a vertex, one gradient each, and the normals. */
 static size_t most_directions(int32_t dim)
 {
     size_t n = 1;
@@ -50,6 +53,8 @@ static size_t most_directions(int32_t dim)
     return n + MOST_NORMALS;
 }
 
+/* Takes the values around a vertex, all with the greatest of their exponents, so that
+ * differences make sense. */
 static void load(star *s, uint32_t v)
 {
     const icc_grid *grid = s->smooth->grid;
@@ -158,6 +163,8 @@ static bool is_on_side(const star *s, uint32_t facet)
     return s->side == NULL;
 }
 
+/* The inward normals of the facets at the vertex, behind the gradients. Parallel ones count
+ * once, which keeps their number small on flat boundaries. */
 static void list_normals(star *s)
 {
     static const double SAME = 1 - 1e-12;
@@ -220,7 +227,8 @@ static bool is_radial(const star *s, double *x)
     return false;
 }
 
-/* Turns a vector that n normals agree with towards `uphill`, as far as they still do. */
+/* Tilts x, which agrees with n normals, towards `uphill` as far as it still agrees with them by
+ * half as much: 4, 2, .. times `uphill` are tried. */
 static void tilt(int32_t dim, size_t n, const double *normals, const double *uphill, double *x)
 {
     const double least = fmin(0.5 * least_product(dim, n, normals, x), AIM);
@@ -235,9 +243,11 @@ static void tilt(int32_t dim, size_t n, const double *normals, const double *uph
     }
 }
 
-/* Writes the vector of a vertex, or of one side of it; whether it is uphill in all simplices. It
- * agrees with the normals when some vector does, unless gradients are to go first. `agrees`: with
- * everything. */
+/* Writes the vector of a vertex, or of one sector of it; returns whether it is uphill in all
+ * simplices. In this order: towards the root next to the root; a vector for gradients and
+ * normals together; if there is none, one for the normals, tilted uphill; or one for the
+ * gradients alone, which comes before the normals when `gradients_first`. `agrees`: whether it
+ * suits everything. */
 static bool choose(star *s, bool gradients_first, double *x, bool *agrees)
 {
     const int32_t dim = s->orders->dim;
@@ -301,7 +311,8 @@ static void store(float *vector, int32_t dim, const double *x)
         vector[k] = (float)x[k];
 }
 
-/* The vectors of a vertex that has several; whether all are uphill. */
+/* Chooses the vectors of a vertex that has several, one for each sector; returns whether all are
+ * uphill. */
 static bool choose_sides(work *w, star *s, uint32_t v)
 {
     const iccp_sides *sides = &w->cones->sides;
@@ -321,6 +332,8 @@ static bool choose_sides(work *w, star *s, uint32_t v)
     return good;
 }
 
+/* Chooses the vectors of vertices marked DIRTY. Each depends on the function alone, not on other
+ * vectors: chunks may run in any order. */
 static icc_status choose_chunk(void *argument, size_t begin, size_t end)
 {
     work *w = argument;
@@ -355,8 +368,8 @@ static void list_active(const star *s, uint8_t *active)
         }
 }
 
-/* Gives several vectors to vertices outside that one does not suit and that lie between parts of
- * the domain. */
+/* Gives several vectors to vertices outside, between parts of the domain, that no single vector
+ * suits. Those next to the root stay radial. */
 static icc_status split_torn(work *w)
 {
     const icc_grid *grid = w->smooth->grid;
@@ -411,6 +424,7 @@ static void find_bounds(const work *w, uint32_t v, int32_t exponent, double *low
     }
 }
 
+/* Adds a step to the value of a vertex, within the bounds for it. */
 static void move_value(const work *w, uint32_t v, int32_t exponent, double step)
 {
     double low, high;
@@ -466,6 +480,8 @@ static void soil(const work *w, uint32_t v)
     }
 }
 
+/* Projects the function, simplex by simplex, onto the values for which the vertex' vector is
+ * uphill. One projection may spoil another: the caller repeats. */
 static void adjust(work *w, star *s, uint32_t v)
 {
     const int32_t dim = w->orders->dim;
@@ -494,6 +510,8 @@ static icc_status choose_all(work *w, const iccp_env *env)
     return status;
 }
 
+/* Alternates adjusting the function and choosing vectors until all are uphill. From FIRM_ROUNDS
+ * on, vertices that still fail give up the normals. */
 static icc_status adjust_all(work *w, const iccp_env *env)
 {
     star s;
@@ -557,6 +575,8 @@ static icc_status check_inward(work *w)
     return status;
 }
 
+/* One vector for each vertex; several where one does not suit; then the function is adjusted
+ * where neither is enough. */
 static icc_status fill(work *w, const iccp_env *env)
 {
     const icc_grid *grid = w->smooth->grid;

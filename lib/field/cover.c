@@ -345,6 +345,7 @@ static bool visit_cell(scan *s, const int32_t *cell)
     return true;
 }
 
+/* Visits the cells that the facet's plane meets, within the facet's bounding box. */
 static bool visit_facet(scan *s, uint32_t facet)
 {
     const int32_t dim = s->domain->dim;

@@ -30,8 +30,8 @@ typedef struct iccp_cover {
     uint32_t *bits;
     uint32_t *faces; /* by cell, iccp_cover_face_bit(): a facet may meet a face of that simplex */
     uint32_t *first; /* n_vertices + 1: of the facets that run through simplices at each vertex */
-    uint32_t *facet;
-    double *normal; /* dim for each facet: inward, length 1 */
+    uint32_t *facet; /* those facets, vertex by vertex */
+    double *normal;  /* dim for each facet: inward, length 1 */
 } iccp_cover;
 
 /* cover->memory is set even on failure; free it in any case. */

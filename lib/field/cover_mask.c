@@ -36,6 +36,9 @@ static bool is_whole(double x)
     return fabs(x - round(x)) < ROUNDING;
 }
 
+/* Finds where the mask lies in the lattice; false unless half a cell is a whole number of grid
+ * steps, the mask's corner is a lattice point and one layer of the grid lies beyond on all
+ * sides. */
 static bool find_layout(layout *l)
 {
     const icc_grid *grid = l->cover->grid;

@@ -4,8 +4,8 @@
 
 #include "field/cover.h"
 
-/* Whether the domain is a mask, the walls between its cells lie in the lattice, and the grid goes
- * on beyond. */
+/* Whether the domain is a mask, the walls between its cells lie in the lattice, and the grid
+ * extends beyond. */
 bool iccp_cover_fits_mask(const iccp_cover *cover);
 
 /* Fills the cover, which has its arrays but for `facet`, where the mask fits. A facet meets a

@@ -73,11 +73,11 @@ void iccp_flow_position(const iccp_flow *flow, const iccp_flow_place *place, con
 void iccp_flow_begin(iccp_flow_walk *walk, const iccp_flow *flow, int32_t sign,
                      const iccp_flow_place *place);
 
-/* Starts a walk, and finds its first piece. ICC_ERR_TRACE when there is no way to go. */
+/* Starts a walk, and finds its first piece. ICC_ERR_TRACE when it cannot move. */
 icc_status iccp_flow_start(iccp_flow_walk *walk, const iccp_flow *flow, int32_t sign,
                            const iccp_flow_place *place);
 
-/* Goes on to the next piece, of which there is one unless walk->ends. */
+/* Continues with the next piece, of which there is one unless walk->ends. */
 icc_status iccp_flow_next(iccp_flow_walk *walk);
 
 /* Notes the start of the current piece, and goes back to the noted piece that holds the given

@@ -103,7 +103,7 @@ typedef struct attempt {
 
 /* ---- the equation ---- */
 
-/* norm: the sum of the sizes. */
+/* A by its columns, and the sum of the sizes of its entries, a bound of its norm. */
 TARGET static ICCP_INLINE void set_matrix(attempt *a, int32_t dim)
 {
     lanes norm = {0};
@@ -325,7 +325,7 @@ TARGET static ICCP_INLINE void look_around(const attempt *a, int32_t dim,
     }
 }
 
-/* Unless the facet is given: the first coordinate to be 0 when all go on as they start. */
+/* Unless the facet is given: the first coordinate to be 0 when all continue as they start. */
 TARGET static ICCP_INLINE void choose_exit(attempt *a, int32_t dim, const beginning *b)
 {
     const lanes given = a->exit;
@@ -460,6 +460,9 @@ TARGET static ICCP_INLINE void find_negative(const attempt *a, int32_t dim, cons
     }
 }
 
+/* One attempt: guesses the exit and when it is reached, adds up the series there, and goes the
+ * rest of the way. Accepted only if the rest was short and no other coordinate is, or may have
+ * been, negative; else the outcome says what to try next. */
 TARGET static ICCP_INLINE void try_exit(attempt *a, int32_t dim)
 {
     lanes first[3][ICC_MAX_DIM], s, negative;
@@ -498,7 +501,7 @@ TARGET static ICCP_INLINE bool again(attempt *a, int l)
 
 /* ---- walks ---- */
 
-/* The start of a walk's piece. */
+/* The start of a walk's piece goes to lane l of the attempt. */
 TARGET static ICCP_INLINE void load(attempt *a, int32_t dim, int l, const iccp_flow_walk *w)
 {
     const iccp_cones *cones = w->flow->cones;

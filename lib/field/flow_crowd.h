@@ -1,7 +1,7 @@
 /* LANES curves side by side, each at its own place: a lane whose curve has ended takes the next
  * one. What includes this file says how many, and for which processor the arithmetic is compiled
- * (TARGET). A lane whose attempt was not the last for its piece tries again while the others go on
- * to their next. */
+ * (TARGET). A lane whose attempt was not the last for its piece tries again while the others
+ * continue with their next. */
 #ifndef ICCP_FLOW_CROWD_H
 #define ICCP_FLOW_CROWD_H
 
@@ -33,6 +33,7 @@ typedef struct crowd {
     group group[GROUPS];
 } crowd;
 
+/* The loops over dimensions are unrolled in compiled copies for 2 and 3. */
 TARGET static void try_exits(attempt *a, int32_t dim)
 {
     if (dim == 3)
@@ -97,12 +98,13 @@ TARGET static icc_status find_place(lane *x)
     return ICC_OK;
 }
 
+/* Ends a lane's curve. */
 TARGET static void finish(lane *x, icc_status status)
 {
     x->curve->status = status == ICC_OK && x->curve->share > 0 ? find_place(x) : status;
 }
 
-/* Whether the curve goes on after the piece that has been found; `a` if its series is there. */
+/* Whether the curve continues after the piece that has been found; `a` if its series is there. */
 TARGET static ICCP_INLINE bool goes_on(lane *x, int32_t dim, const attempt *a, int l)
 {
     iccp_flow_walk *w = &x->walk;
@@ -172,6 +174,8 @@ TARGET static ICCP_INLINE void evaluate(crowd *c, group *g, int l, int32_t dim)
     advance(c, x, dim);
 }
 
+/* Loads the lanes that have come to a new piece; the others continue with the one that they
+ * have. */
 TARGET static ICCP_INLINE void load_group(group *g, int32_t dim)
 {
     for (int l = 0; l < LANES; ++l)
@@ -179,6 +183,8 @@ TARGET static ICCP_INLINE void load_group(group *g, int32_t dim)
             load(&g->attempt, dim, l, &g->lane[l].walk);
 }
 
+/* Two groups take turns: the loads of one are issued before the other's arithmetic, and arrive
+ * in the meantime. */
 TARGET static ICCP_INLINE void run_in(crowd *c, int32_t dim)
 {
     for (int g = 0; g < GROUPS; ++g)

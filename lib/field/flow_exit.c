@@ -88,6 +88,8 @@ static bool dips(const double *series, int32_t n, double end, double *root)
     return true;
 }
 
+/* The earliest root of all coordinates: each root that is found shortens the piece, and the
+ * others are looked at again up to there. */
 void iccp_flow_find_exit(iccp_flow_walk *walk)
 {
     double end = 1;

@@ -10,7 +10,7 @@ typedef struct iccp_flow_curve {
     int32_t sign;  /* +1: to the root; -1: to the boundary */
     double share;  /* of the length, where `place` is wanted: of a curve uphill; else 0 */
     bool measured; /* whether `volume` is wanted; needs `facet`, where a curve uphill starts */
-    /* Found. ICC_OK, or ICC_ERR_TRACE when there is no way to go on. */
+    /* Found. ICC_OK, or ICC_ERR_TRACE when it cannot continue. */
     icc_status status;
     double length;
     iccp_flow_place place;
@@ -26,7 +26,7 @@ typedef struct iccp_flow_curve {
 icc_status iccp_flow_follow(const iccp_flow *flow, size_t n, iccp_flow_curve *curves,
                             const iccp_memory *memory);
 
-/* Ways to do that, of which the processor has so many: the last is the fastest. */
+/* How many ways to do that the processor supports: the last one is the fastest. */
 int iccp_flow_kinds(void);
 icc_status iccp_flow_follow_as(int kind, const iccp_flow *flow, size_t n, iccp_flow_curve *curves,
                                const iccp_memory *memory);

@@ -53,6 +53,8 @@ static void motion_at(const iccp_flow_walk *w, int32_t dim, const series *x, dou
     }
 }
 
+/* By integrate(), in as many equal parts as keep the vector's change in each within what its
+ * last rule allows. */
 double iccp_flow_length(const iccp_flow_walk *walk, double s)
 {
     enum { MOST_PARTS = 16 };
@@ -95,6 +97,7 @@ double iccp_flow_growth(const iccp_flow_walk *walk, double s)
     return s * trace;
 }
 
+/* Newton's method on the length, kept within an interval that holds the answer. */
 double iccp_flow_at_length(const iccp_flow_walk *walk, double length)
 {
     enum { MOST = 50 };
@@ -144,6 +147,8 @@ icc_status iccp_flow_find_piece_slowly(iccp_flow_walk *walk, double end)
     return ICC_OK;
 }
 
+/* The fast way for nearly all pieces; what it cannot do in MOST_ATTEMPTS tries is left to the
+ * slow one. */
 static ICCP_INLINE icc_status curved_piece(iccp_flow_walk *w, int32_t dim)
 {
     attempt a;
@@ -158,6 +163,8 @@ static ICCP_INLINE icc_status curved_piece(iccp_flow_walk *w, int32_t dim)
     return ICC_OK;
 }
 
+/* Next to the root the vectors point straight at it: the place is p(s) = p + s (root - p) on the
+ * way up, and the opposite on the way down, where the corner's weight falls to 0. */
 icc_status iccp_flow_find_radial(iccp_flow_walk *w, int32_t corner)
 {
     const int32_t dim = w->flow->grid->dim;

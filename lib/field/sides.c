@@ -38,6 +38,7 @@ typedef struct member {
     uint32_t corner[ICC_MAX_DIM + 1];
 } member;
 
+/* Simplex `at` of vertex v, by the numbering of iccp_side_simplex(). */
 static void load(member *m, const iccp_cover *cover, const iccp_orders *orders, uint32_t v,
                  size_t at)
 {
@@ -71,7 +72,7 @@ static int32_t cross(const member *m, const iccp_cover *cover, int32_t i, member
     return dim;
 }
 
-/* Whether the domain goes on through a face: surely where a corner is inside, perhaps where the
+/* Whether the domain continues through a face: surely where a corner is inside, perhaps where the
  * boundary meets the face. A simplex without a vertex inside is taken to belong to its
  * neighbours. */
 static bool is_open(const member *m, const member *other, const iccp_cover *cover, int32_t i,
@@ -114,6 +115,7 @@ static int renumber(size_t n, uint8_t *side)
     return count;
 }
 
+/* Every active simplex starts as a part of its own; open faces join parts. */
 int iccp_sides_split(const iccp_cover *cover, const iccp_orders *orders, uint32_t v,
                      const uint8_t *active, uint8_t *side)
 {
@@ -141,6 +143,7 @@ int iccp_sides_split(const iccp_cover *cover, const iccp_orders *orders, uint32_
     return renumber(n, side);
 }
 
+/* Arrays grow by doubling; a failed allocation leaves what is there intact. */
 icc_status iccp_sides_add(iccp_sides *sides, uint32_t v, int n_sides, const uint8_t *side)
 {
     const size_t dim = (size_t)sides->dim;

@@ -31,9 +31,10 @@ static inline size_t iccp_side_simplex(int32_t dim, int32_t r, int32_t k)
 /* Which entry is a vertex', or SIZE_MAX. */
 size_t iccp_sides_find(const iccp_sides *sides, uint32_t v);
 
-/* Finds the parts that the simplices at a vertex make up, of which `active` says which meet the
- * domain: two that share a facet belong together when the domain goes on through it. Writes the
- * part of each and returns their number, at most ICCP_NO_SIDE. */
+/* Finds the parts that the simplices at a vertex make up, of which `active`, numbered by
+ * iccp_side_simplex() like `side`, says which meet the domain: two that share a facet belong
+ * together when the domain continues through it. Writes the part of each and returns their number,
+ * at most ICCP_NO_SIDE. */
 int iccp_sides_split(const iccp_cover *cover, const iccp_orders *orders, uint32_t v,
                      const uint8_t *active, uint8_t *side);
 

@@ -6,6 +6,7 @@
 
 static const size_t GRAIN = 1 << 14; /* vertices per chunk */
 
+/* Marks the corners of a simplex as needed. */
 static void mark(iccp_smooth *s, const iccp_orders *orders, uint32_t lowest, int32_t r)
 {
     uint32_t corner = lowest;
@@ -37,12 +38,14 @@ typedef struct outskirts {
     iccp_smooth *smooth;
     const iccp_orders *orders;
     const iccp_cover *cover;
-    uint32_t *queue;
-    int32_t *distance; /* steps from the vertices next to the inside; -1: none yet */
-    double *scale;     /* by which the function falls with each step */
+    uint32_t *queue;   /* vertices, n so far */
+    int32_t *distance; /* by vertex: steps from the vertices next to the inside; -1: none yet */
+    double *scale;     /* by vertex: by which the function falls with each step */
     size_t n;
 } outskirts;
 
+/* Gives a vertex its value on the first visit: below 0 by as many scales as there are steps.
+ * `from` is a vertex that has one. */
 static void reach(outskirts *o, uint32_t v, uint32_t from)
 {
     iccp_smooth *s = o->smooth;
@@ -117,6 +120,8 @@ static void start_ring(outskirts *o, uint32_t v)
     }
 }
 
+/* Breadth-first from the vertices outside that are next to the inside, so that distances are
+ * least. */
 static void extend(outskirts *o)
 {
     const icc_grid *grid = o->smooth->grid;
@@ -169,6 +174,7 @@ static double mean_outside(const sweep *w, size_t v, int32_t exponent)
     return fmin(0.5 * (s->value[v] + sum / (2.0 * grid->dim)), most);
 }
 
+/* Reads the old values and writes new ones: the same for every number of threads. */
 static icc_status sweep_chunk(void *argument, size_t begin, size_t end)
 {
     sweep *w = argument;
@@ -191,6 +197,7 @@ static icc_status sweep_chunk(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
+/* One Jacobi sweep into new arrays, which then take the place of the old ones. */
 static icc_status run_sweep(iccp_smooth *s, const iccp_orders *orders, const iccp_env *env)
 {
     const size_t n = s->grid->n_vertices;
@@ -215,6 +222,7 @@ static icc_status run_sweep(iccp_smooth *s, const iccp_orders *orders, const icc
     return status;
 }
 
+/* Copies the function's values inside; 0 elsewhere. */
 static icc_status allocate(iccp_smooth *s, const icc_function *field)
 {
     const size_t n = s->grid->n_vertices;

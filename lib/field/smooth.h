@@ -16,7 +16,7 @@ typedef struct iccp_smooth {
     uint8_t *needed;   /* by vertex: 1 when it belongs to a simplex that meets the domain */
 } iccp_smooth;
 
-/* The values of `field` inside; outside next to them, 0; beyond, where the domain goes on between
+/* The values of `field` inside; outside next to them, 0; beyond, where the domain continues between
  * the vertices of the grid, less and less with every step. Then `sweeps` times the mean of each
  * value and the mean of its neighbours, the root's kept: that rids steps of the grid of nearly all
  * vertices from which not all simplices' gradients point to one side (bench_field). Free it in any

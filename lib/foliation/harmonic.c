@@ -12,6 +12,8 @@
 
 static const double TWO_PI = 6.28318530717958647693;
 
+/* The mesh, its Laplacian and the factor of that, which the rest of both planar methods starts
+ * from. */
 icc_status iccp_harmonic_create(iccp_harmonic *base, const icc_domain *domain,
                                 const uint32_t *pieces, int32_t cells, const iccp_env *env,
                                 icc_error *err)

@@ -23,6 +23,9 @@ static icc_status leaf_in_star(const iccp_psi *psi, uint32_t corner, const doubl
     return ICC_OK;
 }
 
+/* The label is linear in a triangle without the centre: taken relative to corner 0, `own` is the
+ * point's, rounded to strictly between the least and the greatest. The exact signs of the
+ * corners' labels minus `own` then say which two edges the leaf crosses. */
 icc_status iccp_leaf_through(const iccp_planar *mesh, const iccp_psi *psi, uint32_t triangle,
                              const double bary[3], iccp_leaf *leaf)
 {
@@ -63,6 +66,9 @@ static void bary_gradient(const iccp_planar *mesh, uint32_t corner, double gradi
     gradient[1] = (b[0] - a[0]) / area;
 }
 
+/* The sum of each corner's label, relative to corner 0, times the gradient of its barycentric
+ * coordinate. In the star the label is that of the edge opposite, where the line from the centre
+ * meets it. */
 void iccp_label_gradient(const iccp_planar *mesh, const iccp_psi *psi, uint32_t triangle,
                          const double bary[3], double gradient[2])
 {

@@ -56,7 +56,7 @@ static inline void iccp_crossing_point(const iccp_planar *mesh, const iccp_cross
     p[1] = a[1] + share * (b[1] - a[1]);
 }
 
-/* Goes on to the next crossing towards the centre; false when the triangle touches the centre. */
+/* Moves to the next crossing towards the centre; false when the triangle touches the centre. */
 static inline bool iccp_leaf_rise(const iccp_planar *mesh, const iccp_psi *psi,
                                   iccp_crossing *crossing)
 {
@@ -71,7 +71,7 @@ static inline bool iccp_leaf_rise(const iccp_planar *mesh, const iccp_psi *psi,
     return true;
 }
 
-/* Goes on to the next crossing towards the boundary; false when this one is on the boundary. */
+/* Moves to the next crossing towards the boundary; false when this one is on the boundary. */
 static inline bool iccp_leaf_fall(const iccp_planar *mesh, const iccp_psi *psi,
                                   iccp_crossing *crossing)
 {

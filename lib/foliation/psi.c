@@ -86,6 +86,9 @@ static void right_side(double *b, const iccp_planar *mesh, const iccp_laplacian 
     }
 }
 
+/* psi turns once round the centre, so it has no single value. The angle round the centre turns
+ * as often: what is left, phi, is an ordinary function, given on the boundary, and its Laplacian
+ * inside is minus that of the angle. The centre, where the angle is not defined, is left out. */
 static icc_status solve_phi(double *phi, const iccp_planar *mesh, uint32_t centre,
                             const iccp_env *env)
 {

@@ -355,6 +355,8 @@ static icc_status insert_all(cutter *k, const iccp_env *env)
     return ICC_OK;
 }
 
+/* Inserts the polygon's edges one at a time. The arrays for the region that an edge crosses are
+ * reused, and grow as needed. */
 icc_status iccp_constrain(iccp_trimesh *mesh, const iccp_env *env, icc_error *err)
 {
     enum { ROOM = 64 };

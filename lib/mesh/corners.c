@@ -71,6 +71,7 @@ static bool link_equal(iccp_corners *c, const iccp_tuples *edges, size_t begin, 
     return c->vertex[iccp_after(a)] == c->vertex[iccp_before(b)];
 }
 
+/* Sorting the half-edges by their two ends puts those of one edge side by side. */
 icc_status iccp_find_twins(iccp_corners *corners, size_t n_vertices, bool *is_manifold,
                            const iccp_env *env)
 {

@@ -8,7 +8,7 @@
 #include "mesh/trimesh.h"
 
 typedef struct iccp_corners {
-    uint32_t *vertex, *twin;
+    uint32_t *vertex, *twin; /* of each corner, 3 a triangle */
     size_t n_triangles;
 } iccp_corners;
 

@@ -97,6 +97,8 @@ static void choose_cells(iccp_finder *f, const iccp_planar *mesh)
     f->origin[1] = lower[1];
 }
 
+/* Two passes over the triangles: the first counts the entries of each cell, the second,
+ * backwards, fills them in, which moves `first` from the ends of the cells to where they begin. */
 icc_status iccp_finder_create(iccp_finder *finder, const iccp_planar *mesh, const double *points,
                               const iccp_env *env)
 {

@@ -11,8 +11,8 @@ typedef struct iccp_finder {
     const uint32_t *triangles; /* borrowed */
     double origin[2], rate;    /* cell = (point - origin) * rate */
     size_t size[2];
-    uint32_t *first; /* cells + 1: where the triangles of a cell begin in `entries` */
-    uint32_t *entries;
+    uint32_t *first;   /* cells + 1: where the triangles of a cell begin in `entries` */
+    uint32_t *entries; /* triangles, cell by cell */
 } iccp_finder;
 
 /* For the mesh's triangles with their corners at `points`, all counter-clockwise. */

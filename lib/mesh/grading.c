@@ -101,6 +101,8 @@ static icc_status add_child(const builder *b, const level *from, const cell *par
     return push_cell(to, &child, b->memory);
 }
 
+/* A cell that is not split any further becomes a vertex at its centre, unless that is outside,
+ * or nearer to the boundary than suits the cell's width. */
 static icc_status emit_leaf(builder *b, const level *l, const cell *c)
 {
     const double p[2] = {c->x, c->y};
@@ -163,6 +165,8 @@ static icc_status descend(builder *b, const level *from, level *to, bool last)
     return status;
 }
 
+/* Level by level, so that only two levels of the tree are in memory: a cell either becomes a
+ * point or is split into four of the next level. */
 icc_status iccp_graded_points(const icc_domain *domain, const iccp_samples *samples, double step,
                               double **points, size_t *n_points, const iccp_env *env)
 {

@@ -30,6 +30,8 @@ static double edge_weight(const iccp_planar *mesh, uint32_t corner)
 typedef void (*edge_visitor)(iccp_laplacian *l, uint32_t n_boundary, uint32_t a, uint32_t b,
                              double weight);
 
+/* Calls `visit` once for every edge with a vertex inside that does not end at vertex `left_out`:
+ * counting and filling the rows thus meet the same edges in the same order. */
 static void visit_edges(iccp_laplacian *l, const iccp_planar *mesh, uint32_t left_out,
                         bool with_weights, edge_visitor visit)
 {
@@ -101,6 +103,7 @@ static icc_status allocate_entries(iccp_laplacian *l, size_t n)
                : ICC_ERR_MEMORY;
 }
 
+/* Two passes over the edges: the first counts the entries of each row, the second fills them in. */
 icc_status iccp_laplacian_create(iccp_laplacian *laplacian, const iccp_planar *mesh,
                                  uint32_t left_out, const iccp_env *env)
 {

@@ -13,8 +13,8 @@ typedef struct iccp_laplacian {
     uint32_t *column;
     double *value, *diagonal;
     size_t *rim_first;    /* n + 1: where a row's edges to the boundary begin */
-    uint32_t *rim_vertex; /* their boundary vertices */
-    double *rim_weight;
+    uint32_t *rim_vertex; /* of each such edge: its boundary vertex */
+    double *rim_weight;   /* and its weight */
 } iccp_laplacian;
 
 /* Cotangent weights, kept within positive bounds. Edges at the vertex `left_out`

@@ -23,7 +23,7 @@ typedef struct iccp_planar {
     uint32_t *pieces;    /* n_facets: boundary edges on a facet */
 } iccp_planar;
 
-/* The lattice step for so many cells along the longest side of the bounding box. */
+/* The lattice step for a number of cells along the longest side of the bounding box. */
 double iccp_planar_step(const icc_domain *domain, int32_t cells);
 
 /* How finely two domains with corresponding facets must cut each facet so that no boundary edge of

@@ -101,6 +101,8 @@ done:
     return status;
 }
 
+/* A Delaunay triangulation of all points; then the polygon's edges are forced into it; then the
+ * triangles outside are dropped. */
 icc_status iccp_triangulate_mesh(size_t n_boundary, size_t n_points, const double *points,
                                  uint32_t *triangles, uint32_t *neighbours, const iccp_env *env,
                                  icc_error *err)

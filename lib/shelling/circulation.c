@@ -39,6 +39,8 @@ static void find_densities(const iccp_circulation *c, double *density)
     }
 }
 
+/* What the fit needs of each facet: how dear a difference from the reference is there, and the
+ * least flux that it is to keep. */
 static icc_status weigh_facets(iccp_circulation *c, const iccp_env *env)
 {
     const iccp_simplices *mesh = c->mesh;
@@ -148,6 +150,8 @@ typedef struct gate {
     double flux, wish, weight, least;
 } gate;
 
+/* The fluxes to be changed, in the order of the facets, so that a sweep reads one array. A facet
+ * that starts with little flux may keep half of it. */
 static void open_gates(const iccp_circulation *c, const double *flux, gate *gates)
 {
     for (size_t f = 0; f < c->rings.n_facets; ++f) {
@@ -178,11 +182,12 @@ static void relax_ring(gate *gates, const uint32_t *step, size_t n_steps)
         gate *g = gates + step[k] / 2;
         const double flux = g->flux + (step[k] % 2 == 0 ? round : -round);
         const double size = g->flux > 0 ? flux : -flux;
-        /* Rounding must not turn it round. */
+        /* Rounding must not reverse it. */
         g->flux = copysign(size > g->least ? size : g->least, g->flux);
     }
 }
 
+/* One Gauss-Seidel sweep over all cycles. */
 static icc_status sweep(const iccp_rings *rings, gate *gates, const iccp_env *env)
 {
     for (size_t r = 0; r < rings->n; ++r) {
@@ -196,6 +201,8 @@ static icc_status sweep(const iccp_rings *rings, gate *gates, const iccp_env *en
     return ICC_OK;
 }
 
+/* Circulations keep the divergence that is there, which the greedy flux has only by rounding;
+ * what they add is removed at the end by sending everything through once more. */
 icc_status iccp_circulation_relax(const iccp_circulation *c, const uint32_t *rank, size_t n_sweeps,
                                   double *flux, const iccp_env *env)
 {

@@ -15,7 +15,7 @@ typedef struct iccp_circulation {
     const double *reference; /* flux through each side */
     iccp_rings rings;
     double *weight; /* of each facet of the rings: area over the distance of the barycentres */
-    double *least;  /* flux that it should have at least: a share of what flows nearby */
+    double *least;  /* likewise: flux that it should have at least, a share of what flows nearby */
 } iccp_circulation;
 
 icc_status iccp_circulation_create(iccp_circulation *circulation, const iccp_simplices *mesh,
@@ -25,8 +25,8 @@ void iccp_circulation_free(iccp_circulation *circulation);
 
 /* From the boundary inwards, each simplex sends on what it receives through the facets to simplices
  * of smaller rank, in proportion to the reference flux there, but through each at least a small
- * share. The flux is positive from greater to smaller rank and without divergence. `rank` is
- * complete, see shelling/shelling_order.h. O(n). */
+ * share. The flux is positive from greater to smaller rank and without divergence. `rank`, of each
+ * simplex, is complete, see shelling/shelling_order.h; `flux` is of each side. O(n). */
 icc_status iccp_circulation_greedy(const iccp_circulation *c, const uint32_t *rank, double *flux,
                                    const iccp_env *env);
 
@@ -36,7 +36,7 @@ icc_status iccp_circulation_greedy(const iccp_circulation *c, const uint32_t *ra
 icc_status iccp_circulation_relax(const iccp_circulation *c, const uint32_t *rank, size_t n_sweeps,
                                   double *flux, const iccp_env *env);
 
-/* Sum over the facets of (flux - reference)^2 / weight. */
+/* Sum over the facets of (flux - reference)^2 / weight. `flux`: of each side, here and below. */
 double iccp_circulation_energy(const iccp_circulation *c, const double *flux);
 
 /* The largest relative divergence of a simplex outside the star: the sum of its fluxes over the sum

@@ -1,6 +1,6 @@
-/* The reference flux tells a good order: the less of it an order turns round, the nearer to it a
- * flux along the order can come. Which rule and which weight do best differs from mesh to mesh, so
- * some are tried, each with its facets turned. Where all get stuck, they are repeated with a bias
+/* The reference flux says how good an order is: the less of it an order reverses, the nearer to it
+ * a flux along the order can come. Which rule and which weight do best differs from mesh to mesh,
+ * so some are tried, each with facets reversed. Where all get stuck, they are repeated with a bias
  * for the simplices that were left, as in D. E. Joslin, D. P. Clements, Squeaky Wheel Optimization,
  * 1999. */
 #include "shelling/contest.h"
@@ -15,9 +15,9 @@
 
 enum { N_BETAS = 2, N_RUNS = 2 * N_BETAS };
 
-/* On 16 meshes the best one, before facets were turned, was one of 16 to 1024: the greater, the
+/* On 16 meshes the best one, before facets were reversed, was one of 16 to 1024: the greater, the
  * less flux is reversed, until, the earlier the more simplices there are, simplices that had to
- * wait for long are closed in. Once facets are turned small ones do as well where there are few
+ * wait for long are closed in. Once facets are reversed small ones do as well where there are few
  * simplices, and better where there are many. */
 static const double BETA[N_BETAS] = {8, 32};
 
@@ -52,8 +52,9 @@ static bool is_peeling(size_t run)
     return run < N_BETAS;
 }
 
-/* The greedy flux will do to compare: an order whose energy was least then was within 10 % of the
- * least after 100 sweeps, too. HUGE_VAL if the order is not complete. */
+/* Makes one order, reverses facets of it, and sends the flux along it. The greedy flux will do
+ * to compare: an order whose energy was least then was within 10 % of the least after 100
+ * sweeps, too. The energy is HUGE_VAL if the order is not complete. */
 static icc_status try_order(const contest *c, size_t run, const double *bias, attempt *a,
                             const iccp_env *env)
 {
@@ -74,6 +75,8 @@ static icc_status try_order(const contest *c, size_t run, const double *bias, at
     return status;
 }
 
+/* Only the energy of a run is kept: the winner is made once more, which saves the memory of all
+ * the others. */
 static icc_status compete(contest *c, size_t run)
 {
     const iccp_simplices *mesh = c->wish.mesh;
@@ -110,7 +113,8 @@ static size_t find_best(const contest *c, size_t *n_finished)
     return best;
 }
 
-/* The simplices that were left have their turn earlier. */
+/* Squeaky wheel: the simplices that were left get their turn earlier the next time, by a bias
+ * that adds up over the rounds. Peeling wants the greatest potential first, growing the least. */
 static void learn(const contest *c, bool peeling, const uint32_t *rank, double *bias)
 {
     const size_t n = c->wish.mesh->n_simplices;
@@ -122,7 +126,8 @@ static void learn(const contest *c, bool peeling, const uint32_t *rank, double *
             bias[s] += (peeling ? BIAS_LEFT : -BIAS_LEFT) * range;
 }
 
-/* Repeats an order until it is complete. `n_least` is the least that was left. */
+/* Repeats an order, each time with a greater bias for the simplices that were left, until it is
+ * complete. `n_least` is the least that was left in any round. */
 static icc_status practise(const contest *c, size_t run, double *bias, attempt *a, size_t *n_least,
                            const iccp_env *env)
 {
@@ -156,6 +161,7 @@ static icc_status repeat(const contest *c, size_t *run, attempt *a, size_t *n_le
     return status;
 }
 
+/* Facets that the reference flux crosses from smaller to greater rank. */
 static size_t count_reversed(const iccp_circulation *c, const uint32_t *rank)
 {
     size_t n = 0;
@@ -168,6 +174,8 @@ static size_t count_reversed(const iccp_circulation *c, const uint32_t *rank)
     return n;
 }
 
+/* All runs compete, in parallel, and the best is repeated into `best`. Its greedy flux is then
+ * fitted to the reference, which pays for the winner only. */
 static icc_status hold(contest *c, attempt *best, iccp_contest_info *info, const iccp_env *env,
                        icc_error *err)
 {

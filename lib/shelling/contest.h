@@ -15,11 +15,12 @@ typedef struct iccp_contest_info {
     size_t n_finished; /* of them, those that were complete */
 } iccp_contest_info;
 
-/* Grows and peels with several weights, turns facets, and sends the flux along every complete
- * order. The flux along the one with the least energy is fitted. If no order is complete, two are
- * repeated with a bias for the simplices that were left: ICC_ERR_TOPOLOGY when that does not help,
- * as with some meshes of Bing's house with two rooms. The same for every number of threads. O(n log
- * n). */
+/* Grows and peels with several weights, reverses facets, and sends the flux along every complete
+ * order. `inflow` is by facet of the domain, `reference` and `flux` by side, `potential` and `rank`
+ * by simplex. The flux along the one with the least energy is fitted. If no order is complete, two
+ * are repeated with a bias for the simplices that were left: ICC_ERR_TOPOLOGY when that does not
+ * help, as with some meshes of Bing's house with two rooms. The same for every number of threads.
+ * O(n log n). */
 icc_status iccp_contest(const iccp_simplices *mesh, uint32_t centre, const double *inflow,
                         const double *reference, const double *potential, uint32_t *rank,
                         double *flux, iccp_contest_info *info, const iccp_env *env, icc_error *err);

@@ -47,6 +47,8 @@ static double invert(size_t n, tableau a, double size)
     return determinant;
 }
 
+/* Gradients by inverting the matrix of the edges from corner 0; the first is minus the sum of
+ * the others. */
 double iccp_element_gradients(const iccp_simplices *mesh, size_t simplex, double *gradient)
 {
     const size_t n = mesh->dim, side = (n + 1) * simplex;
@@ -73,6 +75,7 @@ double iccp_element_gradients(const iccp_simplices *mesh, size_t simplex, double
     return volume;
 }
 
+/* The product of the heights of the edges from one corner, by Gram and Schmidt, over (dim - 1)!. */
 double iccp_element_area(const iccp_simplices *mesh, size_t side)
 {
     const size_t dim = mesh->dim, out = side % (dim + 1), first = side - out, base = out == 0;

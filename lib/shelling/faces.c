@@ -2,7 +2,7 @@
 
 #include "domain/tuples.h"
 
-/* The sets of so many of a simplex's corners. */
+/* The sets of `size` of a simplex's corners. */
 static size_t list_sets(size_t dim, size_t size, unsigned *sets)
 {
     size_t n = 0;
@@ -35,6 +35,8 @@ static void number_sorted(iccp_faces *faces, const iccp_tuples *t, size_t n_sets
     }
 }
 
+/* Numbers the faces with `size` corners: listed by their sorted vertices, from every simplex
+ * that has them, equal ones are neighbours after sorting. */
 static icc_status number_size(iccp_faces *faces, const iccp_simplices *mesh, size_t size,
                               const iccp_env *env)
 {

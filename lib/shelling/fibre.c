@@ -381,6 +381,8 @@ void iccp_fibres_ahead(const iccp_fibres *fibres, double length, double piece,
     place->bary[corner] += share * sum;
 }
 
+/* A move by `length` along the leaf adds its rate times length over speed; what the lengths' own
+ * derivatives add is along the leaf, too. */
 void iccp_fibres_ahead_jet(const iccp_fibres *fibres, const iccp_fibre_place *place, double length,
                            double piece, const double *d_length, const double *d_piece,
                            iccp_fibre_jet *jet)

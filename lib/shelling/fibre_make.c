@@ -15,7 +15,8 @@ typedef struct maker {
     uint32_t *side; /* of each side of the mesh: its number here */
 } maker;
 
-/* Numbers the simplices and sorts the corners of each. */
+/* Numbers the simplices in the order of the tree's leaves, sorts the corners of each, and notes
+ * in `side` what every side of the mesh is called here. */
 static void number(const maker *m)
 {
     const iccp_simplices *mesh = m->mesh;
@@ -35,6 +36,7 @@ static void number(const maker *m)
     }
 }
 
+/* How fast the point moves, in length, when the barycentric coordinates change at these rates. */
 static double speed_of(const iccp_fibres *fibres, const uint32_t *corners, const double *rate)
 {
     const size_t dim = fibres->dim;
@@ -65,7 +67,8 @@ static double margin_of(const maker *m, uint32_t simplex)
     return 2 * m->tolerance * sqrt(steepest);
 }
 
-/* In the star no side is left. */
+/* Everything that a step of a leaf reads of its simplex. In the star all rates are 1: no side is
+ * one that a rising leaf leaves by, so that it ends there. */
 static void fill_record(const maker *m, uint32_t place)
 {
     const size_t n = m->fibres->dim + 1;
@@ -90,6 +93,8 @@ static void fill_record(const maker *m, uint32_t place)
     record[n + 1].number = margin_of(m, place);
 }
 
+/* The tree comes first, since its order of leaves is the order of everything else; in the end it
+ * is told the new numbers, so that a query gives these. Records start at a cache line. */
 static icc_status make(maker *m)
 {
     iccp_fibres *fibres = m->fibres;

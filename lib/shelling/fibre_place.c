@@ -17,7 +17,7 @@ void iccp_fibres_offset(const iccp_fibres *fibres, const iccp_fibre_place *place
             offset[k] += place->bary[i] / sum * (fibres->points[dim * v[i] + k] - origin[k]);
 }
 
-/* From the corner that is nearest, as it were, so that corners come out exactly. */
+/* From the corner with the greatest weight, so that corners come out exactly. */
 void iccp_fibres_point(const iccp_fibres *fibres, const iccp_fibre_place *place, double *point)
 {
     const size_t dim = fibres->dim;

@@ -60,6 +60,8 @@ static void add_row(network *w, size_t simplex)
     w->first[row + 1] = end;
 }
 
+/* Numbers the simplices outside the star, and gives each a row: its conductances to its
+ * neighbours, with those to the star, of potential 1, on the right side. */
 static icc_status create_network(network *w, const iccp_simplices *mesh, uint32_t centre,
                                  const iccp_env *env)
 {

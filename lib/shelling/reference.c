@@ -30,6 +30,9 @@ typedef struct equations {
 /* A matrix (dim + 1)^2: what a simplex adds for its facets. */
 typedef double element[(ICC_MAX_DIM + 1) * (ICC_MAX_DIM + 1)];
 
+/* dim^2 times the stiffness matrix of linear functions: the function that is 1 in the middle of
+ * the facet opposite corner i, and 0 in the middles of the others, is 1 - dim * (barycentric
+ * coordinate i). */
 static void find_element(const iccp_simplices *mesh, size_t simplex, element a)
 {
     const size_t dim = mesh->dim;
@@ -44,6 +47,8 @@ static void find_element(const iccp_simplices *mesh, size_t simplex, element a)
         }
 }
 
+/* A facet outside the star has one row, which both its sides know. Sides in the star or on its
+ * hull have none. */
 static void number_rows(equations *e)
 {
     const iccp_simplices *mesh = e->mesh;
@@ -79,6 +84,8 @@ static void count_entries(equations *e)
         e->first[r] += e->first[r - 1];
 }
 
+/* Adds a simplex to the rows of its facets. Filling moves `first` from the ends of the rows to
+ * where they begin. */
 static void add_element(equations *e, size_t simplex)
 {
     const size_t n_corners = e->mesh->dim + 1;
@@ -121,6 +128,7 @@ static void free_equations(equations *e, const iccp_env *env)
     iccp_free(&env->memory, e->unknown);
 }
 
+/* Rows are counted before they are filled, so that the matrix is allocated once. */
 static icc_status create_equations(equations *e, const iccp_simplices *mesh, uint32_t centre,
                                    const iccp_env *env)
 {
@@ -198,7 +206,9 @@ static void find_flux(const equations *e, size_t simplex, double *flux, double *
     }
 }
 
-/* Both sides of a facet tell the same but for rounding. */
+/* Makes the two sides of each facet opposite to the last bit, by their mean, or, where one of
+ * the simplices is in the star, by the one that was computed; facets of the domain get what was
+ * prescribed. */
 static void settle_flux(const equations *e, const double *inflow, double *flux)
 {
     const iccp_simplices *mesh = e->mesh;
@@ -214,6 +224,8 @@ static void settle_flux(const equations *e, const double *inflow, double *flux)
     }
 }
 
+/* Solves for the values in the middles of the facets; the gradients of these give the flux
+ * through every side. */
 icc_status iccp_reference_flux(const iccp_simplices *mesh, uint32_t centre, const double *inflow,
                                double *flux, double *potential, const iccp_env *env)
 {

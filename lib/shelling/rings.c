@@ -9,7 +9,7 @@ enum { SIMPLICES_PER_REPORT = 1 << 14 };
 
 typedef struct walk {
     const iccp_simplices *mesh;
-    uint32_t *facet; /* of each side, or NONE */
+    uint32_t *facet; /* of each side: its number among iccp_rings' facets, or NONE */
     uint32_t
         *gone; /* of each simplex: bit (a, b) stands for its face without the corners a and b */
 } walk;
@@ -28,6 +28,8 @@ static bool touches(const iccp_simplices *mesh, size_t side, uint32_t vertex)
     return false;
 }
 
+/* Numbers the facets between simplices in the order of the smaller of their sides. NONE: on the
+ * domain's boundary, or within the star. */
 static void number_facets(iccp_rings *rings, const walk *w, uint32_t centre)
 {
     const iccp_simplices *mesh = w->mesh;
@@ -68,6 +70,8 @@ static size_t go_round(const walk *w, size_t simplex, size_t out, size_t in, uin
     return simplex == start ? n : 0;
 }
 
+/* Tries to walk round every face of every simplex with two corners left out; `gone` stops all
+ * but the first try at each face. */
 static icc_status find_rings(iccp_rings *rings, const walk *w, const iccp_env *env)
 {
     const iccp_simplices *mesh = w->mesh;

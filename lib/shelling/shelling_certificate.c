@@ -165,6 +165,8 @@ static bool fill_sets(const checker *c, uint32_t s)
     return tied;
 }
 
+/* Checks what concerns one simplex alone: its rank, that leaves both enter and leave it, and
+ * that its direction agrees with the order. */
 static void check_order(const checker *c)
 {
     const size_t n = c->mesh->dim + 1;

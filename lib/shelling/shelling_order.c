@@ -41,6 +41,8 @@ typedef struct front {
     iccp_heap heap;
 } front;
 
+/* The rule of shelling/shelling_order.h, in constant time: whether the face with the corners
+ * `facing` touches the set is a look at `touched`. */
 static bool may_go(const front *f, size_t s)
 {
     const unsigned facing = f->facing[s];
@@ -80,7 +82,8 @@ static double key_of(const front *f, size_t s)
     return (f->peeling ? -potential : potential) + penalty;
 }
 
-/* The set has come to another side of a simplex. */
+/* The set has come to another side of a simplex, which may be taken now, or has another key than
+ * before. */
 static void approach(front *f, size_t s, size_t corner)
 {
     f->facing[s] |= (uint8_t)(1u << corner);
@@ -143,6 +146,8 @@ static void begin(front *f)
     }
 }
 
+/* Takes the simplex with the least key until none may go. A simplex that may not go any more
+ * when its turn comes is dropped: its neighbours put it back when they go. */
 static icc_status advance(front *f, uint32_t n, size_t *n_left)
 {
     uint32_t n_gone = 0;
@@ -163,6 +168,8 @@ static icc_status advance(front *f, uint32_t n, size_t *n_left)
     return ICC_OK;
 }
 
+/* Growing and peeling differ in where the set starts, in the sign of the key and in the
+ * direction of the ranks only. */
 static icc_status find_order(const iccp_order_wish *wish, bool peeling, uint32_t *rank,
                              size_t *n_left, const iccp_env *env)
 {

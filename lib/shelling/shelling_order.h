@@ -16,14 +16,15 @@ typedef struct iccp_order_wish {
     const iccp_simplices *mesh;
     const iccp_faces *faces; /* of the mesh */
     uint32_t centre;         /* not on the boundary */
-    const double *flux; /* that shall run from greater to smaller rank: see shelling/reference.h */
-    const double *potential; /* simplices where it is small shall have small rank */
+    const double *flux;      /* of each side: it shall run from greater to smaller rank */
+    const double *potential; /* of each simplex: where it is small the rank shall be small */
     double beta;             /* how much reversed flux weighs against the potential */
     const double *bias;      /* added to the potential of each simplex in the comparison; or NULL */
 } iccp_order_wish;
 
-/* Adds simplices to the star of the centre, one by one. `n_left` tells how many could not be added;
- * their rank is UINT32_MAX. ICC_OK, ICC_ERR_MEMORY or ICC_ERR_CANCELLED. O(n log n). */
+/* Adds simplices to the star of the centre, one by one. `rank` is of each simplex. `n_left` counts
+ * those that could not be added; their rank is UINT32_MAX. ICC_OK, ICC_ERR_MEMORY or
+ * ICC_ERR_CANCELLED. O(n log n). */
 icc_status iccp_order_grow(const iccp_order_wish *wish, uint32_t *rank, size_t *n_left,
                            const iccp_env *env);
 

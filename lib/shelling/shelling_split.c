@@ -42,6 +42,8 @@ static double depth_of(const icc_domain *domain, const double *point)
     return square;
 }
 
+/* The simplex whose barycentre is farthest from the boundary, of those that can be split there;
+ * NONE if there is none. */
 static uint32_t find_deepest(const icc_domain *domain)
 {
     const iccp_simplices *mesh = domain->mesh;
@@ -59,6 +61,7 @@ static uint32_t find_deepest(const icc_domain *domain)
     return deepest;
 }
 
+/* A copy with room for one more point and the dim more simplices that it makes. */
 static icc_status copy(iccp_simplices **out, const iccp_simplices *mesh, const iccp_memory *memory)
 {
     const size_t dim = mesh->dim, n_sides = (dim + 1) * mesh->n_simplices;

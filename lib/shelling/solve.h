@@ -9,7 +9,7 @@
 typedef struct iccp_unknowns {
     const iccp_simplices *mesh;
     const bool *fixed;     /* of each point: functions without sources are 0 there */
-    size_t n_points;       /* an unknown is about the mean of a function over so many points, */
+    size_t n_points;       /* an unknown is about the mean of a function over this many points, */
     const uint32_t *point; /* these ones */
 } iccp_unknowns;
 

@@ -53,6 +53,7 @@ static size_t count_entries(const iccp_gram *gram, const uint32_t *row, size_t *
     return n_entries;
 }
 
+/* Two passes over the rows that are kept: count, then fill. */
 icc_status iccp_stiffness_restrict(iccp_gram *part, const iccp_gram *gram, const uint32_t *row,
                                    const iccp_env *env)
 {

@@ -8,7 +8,7 @@
 /* The stiffness matrix of all points, which is singular. */
 icc_status iccp_stiffness_create(iccp_gram *gram, const iccp_simplices *mesh, const iccp_env *env);
 
-/* Some rows and their columns of a matrix: row[i] is the new number of its row i, rising, or
+/* Some rows and their columns of a matrix: row[i] is the new number of row i of `gram`, rising, or
  * UINT32_MAX. */
 icc_status iccp_stiffness_restrict(iccp_gram *part, const iccp_gram *gram, const uint32_t *row,
                                    const iccp_env *env);

@@ -3,8 +3,8 @@
  * foliations of simplices). Whether a facet can be crossed the other way is a question to the two
  * simplices at it: each still has sides of both kinds, and at each face of the facet the simplices
  * whose sides there are all entered, and those whose sides are all left, are as many as before.
- * That leaves do not run in circles must be seen to besides: when they do after a pass, what it
- * turned there is turned back. */
+ * Leaves must not run in circles either: where they do after a pass, its reversals there are
+ * undone. */
 #include "shelling/turn.h"
 
 #include "shelling/heap.h"
@@ -17,13 +17,14 @@ enum { MOST_PASSES = 20 };
 typedef struct turner {
     const iccp_order_wish *wish;
     uint8_t *entered; /* of each simplex: the sides that leaves enter by, side i being bit i */
-    uint32_t *turned; /* in this pass, each as seen from the simplex that was of greater rank */
+    uint32_t
+        *turned; /* sides: reversed in this pass, as seen from the simplex of greater rank before */
     size_t n_turned;
     iccp_heap heap;    /* of sides */
     uint8_t *barred;   /* of each side: 1: it has been turned back */
     uint8_t *in;       /* of each simplex: 0: it has been taken out */
     uint32_t *waiting; /* of each simplex: neighbours that must be taken out before it */
-    uint32_t *queue;
+    uint32_t *queue;   /* simplices */
 } turner;
 
 static bool in_star(const uint32_t *rank, size_t s)
@@ -31,6 +32,7 @@ static bool in_star(const uint32_t *rank, size_t s)
     return rank[s] == 0;
 }
 
+/* Leaves enter a simplex from greater rank and from outside the domain. */
 static void find_entered(turner *t, const uint32_t *rank)
 {
     const iccp_simplices *mesh = t->wish->mesh;
@@ -43,7 +45,8 @@ static void find_entered(turner *t, const uint32_t *rank)
     }
 }
 
-/* Whether a simplex has, at a side that leaves leave by, or enter by, a neighbour that is in. */
+/* Whether there is, at side i of a simplex, a neighbour that is still in and that leaves pass to
+ * from here (`by_leaving`), or come from. */
 static bool is_before(const turner *t, size_t s, size_t i, bool by_leaving)
 {
     const iccp_simplices *mesh = t->wish->mesh;
@@ -52,7 +55,8 @@ static bool is_before(const turner *t, size_t s, size_t i, bool by_leaving)
     return across < ICCP_RIM && leaves == by_leaving && t->in[iccp_simplex_of(mesh, across)] != 0;
 }
 
-/* Of each corner of one simplex the bit of the same corner in another, or 0. */
+/* Of each corner of simplex a, the bit of the same corner in simplex b, or 0: sets of corners
+ * can then be carried from one to the other. */
 static void match_corners(const iccp_simplices *mesh, size_t a, size_t b, unsigned *bit)
 {
     const size_t n = mesh->dim + 1;
@@ -64,6 +68,7 @@ static void match_corners(const iccp_simplices *mesh, size_t a, size_t b, unsign
     }
 }
 
+/* The set of corners of the other simplex, by the bits that match_corners() found. */
 static unsigned translate(unsigned set, const unsigned *bit)
 {
     unsigned other = 0;
@@ -81,8 +86,10 @@ static int count_alike(unsigned a, unsigned sides_a, unsigned b, unsigned sides_
     return 3 * entered + left;
 }
 
-/* Whether leaves may enter by a side that they leave by. The sides at a face are those opposite to
- * other corners. */
+/* Whether a facet may be reversed: whether leaves may enter by a side that they leave by now.
+ * Each simplex must keep sides of both kinds. For every face of the facet, the two simplices at
+ * the facet must count as before: other simplices at the face do not change. The sides at a face
+ * are those opposite to other corners. */
 static bool may_turn(const turner *t, uint32_t side)
 {
     const iccp_simplices *mesh = t->wish->mesh;
@@ -106,6 +113,7 @@ static bool may_turn(const turner *t, uint32_t side)
     return true;
 }
 
+/* Reversing is its own inverse: both sides of the facet change kind. */
 static void turn(turner *t, uint32_t side)
 {
     const iccp_simplices *mesh = t->wish->mesh;
@@ -115,7 +123,9 @@ static void turn(turner *t, uint32_t side)
     t->entered[twin / n] ^= (uint8_t)(1u << twin % n);
 }
 
-/* Turns what may be turned, what carries most flux first. */
+/* One pass: queues the facets that the flux crosses the wrong way, and reverses, with most flux
+ * first, those that may be at that moment. Facets at the star, and those that had to be undone,
+ * are not tried. */
 static icc_status pass(turner *t, const uint32_t *rank, const iccp_env *env)
 {
     const iccp_simplices *mesh = t->wish->mesh;
@@ -138,9 +148,10 @@ static icc_status pass(turner *t, const uint32_t *rank, const iccp_env *env)
     return iccp_progress(env, "order", 0);
 }
 
-/* A. B. Kahn, Topological sorting of large networks, 1962: takes out, one after the other, the
- * simplices that are in and that leaves come to from none that is in, or, from below, go from to
- * none that is in. The queue holds them in this order. Returns how many. */
+/* A. B. Kahn, Topological sorting of large networks, 1962: takes out, one after the other,
+ * simplices that leaves come to from none that is still in; or, from below, those that leaves go
+ * from to none that is still in. `queue` holds them in this order. Returns how many: fewer than
+ * were in if leaves run in circles. */
 static size_t take_out(turner *t, bool from_below)
 {
     const iccp_simplices *mesh = t->wish->mesh;
@@ -166,8 +177,9 @@ static size_t take_out(turner *t, bool from_below)
     return n_out;
 }
 
-/* Ranks all simplices but the star; or, where leaves run in circles, leaves those in that do or lie
- * between. */
+/* Ranks all simplices but the star by sorting from below. Where leaves run in circles that is
+ * impossible: sorting what is left from above as well leaves in only the simplices on circles or
+ * between two of them. */
 static bool rank_anew(turner *t, uint32_t *rank)
 {
     const size_t n = t->wish->mesh->n_simplices;
@@ -186,8 +198,9 @@ static bool rank_anew(turner *t, uint32_t *rank)
     return true;
 }
 
-/* Turns facets of this pass back, the last one first: all, or those between simplices that are in,
- * for good. */
+/* Undoes reversals of this pass, the last one first, and bars these facets for good: all of
+ * them, or those between simplices that are in, where the circles are. Reversals that are kept
+ * stay in `turned`. */
 static size_t turn_back(turner *t, bool all)
 {
     const iccp_simplices *mesh = t->wish->mesh;
@@ -208,6 +221,8 @@ static size_t turn_back(turner *t, bool all)
     return n_back;
 }
 
+/* Passes until one changes nothing. Each ends with an order without circles: reversals on
+ * circles are undone first, and all of the pass when none of these can be. */
 static icc_status turn_all(turner *t, uint32_t *rank, size_t *n_turned, const iccp_env *env)
 {
     icc_status status = ICC_OK;

@@ -6,8 +6,8 @@
 
 /* Turns facets that the wish's flux crosses from smaller to greater rank, those with much of it
  * first, wherever the order stays one like those of shelling/shelling_order.h, and ranks the
- * simplices anew. `rank` is complete. O(n log n) a pass, of which there are at most 20. ICC_OK,
- * ICC_ERR_MEMORY or ICC_ERR_CANCELLED. */
+ * simplices anew. `rank`, of each simplex, is complete. O(n log n) a pass, of which there are at
+ * most 20. ICC_OK, ICC_ERR_MEMORY or ICC_ERR_CANCELLED. */
 icc_status iccp_order_turn(const iccp_order_wish *wish, uint32_t *rank, size_t *n_turned,
                            const iccp_env *env);
 
