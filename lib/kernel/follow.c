@@ -43,20 +43,20 @@ static double nearest(const iccp_layout *l, const iccp_line_nodes *line, const d
 }
 
 /* What the line changes, node by node: what its weights are minus what they would be without it. */
-static void find_change(const icc_weights *kernel, const change *c, double *work)
+static void find_change(const icc_weights *weights, const change *c, double *work)
 {
     const iccp_layout *l = c->layout;
     const size_t m = l->n_handles;
     for (size_t k = 0; k < c->n; ++k) {
         const size_t i = node_of(c->line, k);
-        const double *weights = kernel->weights + m * i, *place = l->points + l->dim * i;
+        const double *values = weights->values + m * i, *place = l->points + l->dim * i;
         double *without = c->change + m * k;
         (void)nearest(l, c->line, place, &c->share[k]);
-        memcpy(without, i < m ? weights : l->initial + m * i, m * sizeof *without);
+        memcpy(without, i < m ? values : l->initial + m * i, m * sizeof *without);
         if (i >= m)
-            (void)iccp_optimise(l->handles, kernel->info.method, place, without, work);
+            (void)iccp_optimise(l->handles, weights->info.method, place, without, work);
         for (size_t j = 0; j < m; ++j)
-            without[j] = weights[j] - without[j];
+            without[j] = values[j] - without[j];
     }
 }
 
@@ -78,23 +78,23 @@ static void add_change(const change *c, double share, double strength, double *w
         weights[j] += strength * row[j];
 }
 
-static void bend(icc_weights *kernel, const change *c, double *row)
+static void bend(icc_weights *weights, const change *c, double *row)
 {
     const iccp_layout *l = c->layout;
-    const double reach = REACH * kernel->info.sigma * iccp_layout_scale(l);
+    const double reach = REACH * weights->info.sigma * iccp_layout_scale(l);
     for (size_t i = l->n_handles + l->n_line_nodes; i < l->n; ++i) {
         double share;
         if (l->held[i])
             continue;
         const double t = nearest(l, c->line, l->points + l->dim * i, &share) / (reach * reach);
         if (t < 1)
-            add_change(c, share, (1 - t) * (1 - t), kernel->weights + l->n_handles * i, row);
+            add_change(c, share, (1 - t) * (1 - t), weights->values + l->n_handles * i, row);
     }
 }
 
-icc_status iccp_weights_follow(icc_weights *kernel, size_t k, const iccp_env *env)
+icc_status iccp_weights_follow(icc_weights *weights, size_t k, const iccp_env *env)
 {
-    const iccp_layout *l = kernel->layout;
+    const iccp_layout *l = weights->layout;
     const iccp_memory *memory = &env->memory;
     change c = {.layout = l, .line = &l->lines[k], .n = l->lines[k].count + 2};
     c.share = iccp_alloc(memory, c.n, sizeof *c.share);
@@ -102,8 +102,8 @@ icc_status iccp_weights_follow(icc_weights *kernel, size_t k, const iccp_env *en
     double *work = iccp_alloc(memory, iccp_optimise_work(l->handles) + l->n_handles, sizeof *work);
     const bool complete = c.share != NULL && c.change != NULL && work != NULL;
     if (complete) {
-        find_change(kernel, &c, work);
-        bend(kernel, &c, work);
+        find_change(weights, &c, work);
+        bend(weights, &c, work);
     }
     iccp_free(memory, c.share);
     iccp_free(memory, c.change);

@@ -80,7 +80,7 @@ static icc_status initialise(iccp_layout *l, const icc_weights_options *options,
 /* ---- weights ---- */
 
 typedef struct optimisation {
-    icc_weights *kernel;
+    icc_weights *weights;
     const uint32_t *nodes;
     const iccp_memory *memory;
 } optimisation;
@@ -88,38 +88,38 @@ typedef struct optimisation {
 static icc_status optimise_some(void *argument, size_t begin, size_t end)
 {
     const optimisation *o = argument;
-    icc_weights *kernel = o->kernel;
-    const iccp_layout *l = kernel->layout;
+    icc_weights *weights = o->weights;
+    const iccp_layout *l = weights->layout;
     double *work = iccp_alloc(o->memory, iccp_optimise_work(l->handles), sizeof *work);
     if (work == NULL)
         return ICC_ERR_MEMORY;
     for (size_t k = begin; k < end; ++k) {
         const size_t i = o->nodes != NULL ? o->nodes[k] : k;
         if (!l->held[i])
-            kernel->status[i] =
-                iccp_optimise(l->handles, kernel->info.method, l->points + l->dim * i,
-                              kernel->weights + l->n_handles * i, work);
+            weights->status[i] =
+                iccp_optimise(l->handles, weights->info.method, l->points + l->dim * i,
+                              weights->values + l->n_handles * i, work);
     }
     iccp_free(o->memory, work);
     return ICC_OK;
 }
 
-icc_status iccp_weights_optimise(icc_weights *kernel, size_t n, const uint32_t *nodes,
+icc_status iccp_weights_optimise(icc_weights *weights, size_t n, const uint32_t *nodes,
                                  const iccp_env *env)
 {
-    optimisation o = {kernel, nodes, &env->memory};
+    optimisation o = {weights, nodes, &env->memory};
     const icc_status status = iccp_for_chunks(env, "weights", n, GRAIN, optimise_some, &o);
-    kernel->info.n_infeasible = 0;
-    for (size_t i = 0; i < kernel->layout->n; ++i)
-        kernel->info.n_infeasible += kernel->status[i] != ICC_OK;
+    weights->info.n_infeasible = 0;
+    for (size_t i = 0; i < weights->layout->n; ++i)
+        weights->info.n_infeasible += weights->status[i] != ICC_OK;
     return status;
 }
 
 /* Ends of lines that are nobody else's are optimised like any node, the nodes between them
  * never. */
-static icc_status optimise_ends(icc_weights *kernel, const iccp_env *env)
+static icc_status optimise_ends(icc_weights *weights, const iccp_env *env)
 {
-    const iccp_layout *l = kernel->layout;
+    const iccp_layout *l = weights->layout;
     const iccp_nodes nodes = iccp_layout_nodes(l);
     double *work = iccp_alloc(&env->memory, iccp_optimise_work(l->handles), sizeof *work);
     if (work == NULL)
@@ -129,46 +129,45 @@ static icc_status optimise_ends(icc_weights *kernel, const iccp_env *env)
         const size_t first = k == 0 ? l->n_handles : l->lines[k - 1].first + l->lines[k - 1].count;
         for (size_t e = 0; e < 2; ++e)
             if (ends[e] >= first)
-                kernel->status[ends[e]] =
-                    iccp_optimise(l->handles, kernel->info.method, l->points + l->dim * ends[e],
-                                  kernel->weights + l->n_handles * ends[e], work);
-        iccp_straighten(&nodes, &l->lines[k], iccp_layout_parallel(l, k), kernel->weights);
+                weights->status[ends[e]] =
+                    iccp_optimise(l->handles, weights->info.method, l->points + l->dim * ends[e],
+                                  weights->values + l->n_handles * ends[e], work);
+        iccp_straighten(&nodes, &l->lines[k], iccp_layout_parallel(l, k), weights->values);
     }
     iccp_free(&env->memory, work);
     return ICC_OK;
 }
 
-icc_status iccp_weights_start(icc_weights *kernel, const iccp_env *env)
+icc_status iccp_weights_start(icc_weights *weights, const iccp_env *env)
 {
-    const iccp_layout *l = kernel->layout;
+    const iccp_layout *l = weights->layout;
     const double start = iccp_seconds();
-    memcpy(kernel->weights, l->initial, l->n * l->n_handles * sizeof *l->initial);
+    memcpy(weights->values, l->initial, l->n * l->n_handles * sizeof *l->initial);
     for (size_t i = 0; i < l->n; ++i)
-        kernel->status[i] = ICC_OK;
-    icc_status status = optimise_ends(kernel, env);
+        weights->status[i] = ICC_OK;
+    icc_status status = optimise_ends(weights, env);
     if (status == ICC_OK)
-        status = iccp_weights_optimise(kernel, l->n, NULL, env);
+        status = iccp_weights_optimise(weights, l->n, NULL, env);
     for (size_t k = 0; status == ICC_OK && k < l->n_lines; ++k)
-        status = iccp_weights_follow(kernel, k, env);
-    kernel->info.seconds_weights = iccp_seconds() - start;
+        status = iccp_weights_follow(weights, k, env);
+    weights->info.seconds_weights = iccp_seconds() - start;
     return status;
 }
 
 /* Columns that are the same bit for bit have the same coefficients. */
-icc_status iccp_weights_interpolate(icc_weights *kernel, const icc_weights *before,
+icc_status iccp_weights_interpolate(icc_weights *weights, const icc_weights *before,
                                     const iccp_env *env)
 {
-    const iccp_layout *l = kernel->layout;
+    const iccp_layout *l = weights->layout;
     const size_t m = l->n_handles;
     bool *changed = iccp_alloc_zero(&env->memory, m, sizeof *changed);
     if (changed == NULL)
         return ICC_ERR_MEMORY;
     for (size_t i = 0; i < l->n; ++i)
         for (size_t j = 0; j < m; ++j)
-            changed[j] |=
-                before == NULL || kernel->weights[m * i + j] != before->weights[m * i + j];
-    const icc_status status = iccp_collocation_solve_some(l->collocation, m, kernel->weights,
-                                                          changed, kernel->coefficients, env);
+            changed[j] |= before == NULL || weights->values[m * i + j] != before->values[m * i + j];
+    const icc_status status = iccp_collocation_solve_some(l->collocation, m, weights->values,
+                                                          changed, weights->coefficients, env);
     iccp_free(&env->memory, changed);
     return status;
 }
@@ -179,34 +178,34 @@ icc_status iccp_weights_interpolate(icc_weights *kernel, const icc_weights *befo
 static icc_status allocate(icc_weights **out, const iccp_layout *layout, const iccp_env *env)
 {
     const size_t n = layout->n, m = layout->n_handles;
-    icc_weights *kernel = iccp_alloc_zero(&env->memory, 1, sizeof *kernel);
-    *out = kernel;
-    if (kernel == NULL)
+    icc_weights *weights = iccp_alloc_zero(&env->memory, 1, sizeof *weights);
+    *out = weights;
+    if (weights == NULL)
         return ICC_ERR_MEMORY;
-    kernel->memory = env->memory;
-    atomic_init(&kernel->references, 1);
-    kernel->layout = iccp_layout_retain(layout);
-    kernel->weights = iccp_alloc(&kernel->memory, n, m * sizeof *kernel->weights);
-    kernel->status = iccp_alloc(&kernel->memory, n, sizeof *kernel->status);
-    kernel->coefficients =
-        iccp_alloc(&kernel->memory, n + layout->dim + 1, m * sizeof *kernel->coefficients);
-    return kernel->weights != NULL && kernel->status != NULL && kernel->coefficients != NULL
+    weights->memory = env->memory;
+    atomic_init(&weights->references, 1);
+    weights->layout = iccp_layout_retain(layout);
+    weights->values = iccp_alloc(&weights->memory, n, m * sizeof *weights->values);
+    weights->status = iccp_alloc(&weights->memory, n, sizeof *weights->status);
+    weights->coefficients =
+        iccp_alloc(&weights->memory, n + layout->dim + 1, m * sizeof *weights->coefficients);
+    return weights->values != NULL && weights->status != NULL && weights->coefficients != NULL
                ? ICC_OK
                : ICC_ERR_MEMORY;
 }
 
-static void describe(icc_weights *kernel, const icc_weights_options *options)
+static void describe(icc_weights *weights, const icc_weights_options *options)
 {
-    const iccp_layout *l = kernel->layout;
-    kernel->info.dim = (int32_t)l->dim;
-    kernel->info.kernel = options->kernel;
-    kernel->info.initial = options->initial;
-    kernel->info.method = options->method;
-    kernel->info.sigma = options->sigma;
-    kernel->info.n_handles = l->n_handles;
-    kernel->info.n_nodes = l->n;
-    kernel->info.n_entries = iccp_collocation_entries(l->collocation);
-    kernel->info.definiteness = iccp_collocation_definiteness(l->collocation);
+    const iccp_layout *l = weights->layout;
+    weights->info.dim = (int32_t)l->dim;
+    weights->info.kernel = options->kernel;
+    weights->info.initial = options->initial;
+    weights->info.method = options->method;
+    weights->info.sigma = options->sigma;
+    weights->info.n_handles = l->n_handles;
+    weights->info.n_nodes = l->n;
+    weights->info.n_entries = iccp_collocation_entries(l->collocation);
+    weights->info.definiteness = iccp_collocation_definiteness(l->collocation);
 }
 
 static icc_status finish(icc_weights **out, iccp_layout *layout, const icc_weights_options *options,
@@ -261,30 +260,30 @@ icc_status iccp_weights_copy(icc_weights **out, const icc_weights *from, const i
         *out = NULL;
         return status;
     }
-    icc_weights *kernel = *out;
-    kernel->info = from->info;
-    memcpy(kernel->weights, from->weights, l->n * l->n_handles * sizeof *from->weights);
-    memcpy(kernel->status, from->status, l->n * sizeof *from->status);
-    memcpy(kernel->coefficients, from->coefficients,
+    icc_weights *weights = *out;
+    weights->info = from->info;
+    memcpy(weights->values, from->values, l->n * l->n_handles * sizeof *from->values);
+    memcpy(weights->status, from->status, l->n * sizeof *from->status);
+    memcpy(weights->coefficients, from->coefficients,
            (l->n + l->dim + 1) * l->n_handles * sizeof *from->coefficients);
     return ICC_OK;
 }
 
-icc_weights *iccp_weights_retain(const icc_weights *kernel)
+icc_weights *iccp_weights_retain(const icc_weights *weights)
 {
-    icc_weights *k = (icc_weights *)kernel;
+    icc_weights *k = (icc_weights *)weights;
     atomic_fetch_add(&k->references, 1);
     return k;
 }
 
-void iccp_weights_release(icc_weights *kernel)
+void iccp_weights_release(icc_weights *weights)
 {
-    if (kernel == NULL || atomic_fetch_sub(&kernel->references, 1) > 1)
+    if (weights == NULL || atomic_fetch_sub(&weights->references, 1) > 1)
         return;
-    iccp_layout_release(kernel->layout);
-    iccp_free(&kernel->memory, kernel->weights);
-    iccp_free(&kernel->memory, kernel->status);
-    iccp_free(&kernel->memory, kernel->coefficients);
-    const iccp_memory memory = kernel->memory;
-    iccp_free(&memory, kernel);
+    iccp_layout_release(weights->layout);
+    iccp_free(&weights->memory, weights->values);
+    iccp_free(&weights->memory, weights->status);
+    iccp_free(&weights->memory, weights->coefficients);
+    const iccp_memory memory = weights->memory;
+    iccp_free(&memory, weights);
 }
