@@ -25,7 +25,7 @@ icc_status icc_binding_create(icc_binding **out, const icc_weights *weights, siz
         return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_binding_create: an argument is NULL");
     if (derivatives < 0 || derivatives > 1)
         return iccp_fail(err, ICC_ERR_ARGUMENT, "derivatives is %ld", (long)derivatives);
-    for (size_t i = 0, dim = weights->layout->dim; i < n; ++i)
+    for (size_t i = 0, dim = weights->nodes->dim; i < n; ++i)
         if (!are_finite(dim, points + dim * i))
             return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)i,
                                 "point %zu is not finite", i);

@@ -204,16 +204,16 @@ icc_status icc_weights_get_nodes(const icc_weights *weights, double *points, dou
 {
     if (weights == NULL)
         return ICC_ERR_ARGUMENT;
-    const iccp_layout *l = weights->layout;
-    const size_t n_weights = l->n * l->n_handles;
+    const iccp_node_set *set = weights->nodes;
+    const size_t n_weights = set->n * set->n_handles;
     if (points != NULL)
-        memcpy(points, l->given, l->n * l->dim * sizeof *points);
+        memcpy(points, set->given, set->n * set->dim * sizeof *points);
     if (initial != NULL)
-        memcpy(initial, l->initial, n_weights * sizeof *initial);
+        memcpy(initial, set->initial, n_weights * sizeof *initial);
     if (values != NULL)
         memcpy(values, weights->values, n_weights * sizeof *values);
     if (status != NULL)
-        memcpy(status, weights->status, l->n * sizeof *status);
+        memcpy(status, weights->status, set->n * sizeof *status);
     return ICC_OK;
 }
 
@@ -238,7 +238,7 @@ icc_status icc_weights_get_report(const icc_weights *weights, size_t n, const do
         return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_weights_get_report: an argument is NULL");
     iccp_env full_env;
     icc_weights_report full;
-    const size_t i = first_infinite(n, weights->layout->dim, points);
+    const size_t i = first_infinite(n, weights->nodes->dim, points);
     if (i < n)
         return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)i,
                             "point %zu is not finite", i);
@@ -272,9 +272,9 @@ icc_status icc_weights_paint(icc_weights **out, const icc_weights *weights, size
         begin(&full_env, out, weights, centre != NULL, "icc_weights_paint", env, err);
     if (status != ICC_OK)
         return status;
-    if (handle >= weights->layout->n_handles)
+    if (handle >= weights->nodes->n_handles)
         return iccp_fail(err, ICC_ERR_ARGUMENT, "handle %zu does not exist", handle);
-    if (!are_finite(weights->layout->dim, centre) || !(radius > 0) || !isfinite(radius) ||
+    if (!are_finite(weights->nodes->dim, centre) || !(radius > 0) || !isfinite(radius) ||
         !isfinite(amount))
         return iccp_fail(err, ICC_ERR_ARGUMENT,
                          "icc_weights_paint: radius %g, amount %g, or a centre that is not finite",
@@ -294,7 +294,7 @@ icc_status icc_weights_repaint(icc_weights **out, const icc_weights *weights, si
               "icc_weights_repaint", env, err);
     if (status != ICC_OK)
         return status;
-    const size_t k = first_infinite(n, weights->layout->n_handles, values);
+    const size_t k = first_infinite(n, weights->nodes->n_handles, values);
     if (k < n)
         return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_NODE, (int64_t)k,
                             "a weight for node %lu is not finite", (unsigned long)nodes[k]);

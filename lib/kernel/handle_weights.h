@@ -2,12 +2,12 @@
 #ifndef ICCP_HANDLE_WEIGHTS_H
 #define ICCP_HANDLE_WEIGHTS_H
 
-#include "kernel/layout.h"
+#include "kernel/node_set.h"
 
 struct icc_weights {
     iccp_memory memory;
     atomic_size_t references;
-    iccp_layout *layout;
+    iccp_node_set *nodes;
     double *values;        /* n * n_handles */
     icc_status *status;    /* of each node */
     double *coefficients;  /* of the interpolant */
@@ -33,7 +33,7 @@ icc_status iccp_weights_optimise(icc_weights *weights, size_t n, const uint32_t 
 icc_status iccp_weights_start(icc_weights *weights, const iccp_env *env);
 
 /* Lets the nodes near line k follow it. */
-icc_status iccp_weights_follow(icc_weights *weights, size_t k, const iccp_env *env);
+icc_status iccp_weights_follow_line(icc_weights *weights, size_t k, const iccp_env *env);
 
 /* Coefficients for the weights, of the handles whose weights at nodes are not those of `before`;
  * NULL: of all. */

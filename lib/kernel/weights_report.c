@@ -15,13 +15,13 @@ static const double NEGATIVE = -1e-9;
 void iccp_weights_at(const icc_weights *weights, const double *point, double *values,
                      double *gradients)
 {
-    const iccp_layout *l = weights->layout;
+    const iccp_node_set *set = weights->nodes;
     double local[ICC_MAX_DIM];
-    iccp_frame_in(&l->sampling->shape->frame, (int32_t)l->dim, point, local);
-    iccp_collocation_evaluate(l->collocation, l->n_handles, weights->coefficients, local, values,
-                              gradients);
-    const double scale = iccp_layout_scale(l);
-    for (size_t k = 0; gradients != NULL && k < l->n_handles * l->dim; ++k)
+    iccp_frame_in(&set->sampling->shape->frame, (int32_t)set->dim, point, local);
+    iccp_collocation_evaluate(set->collocation, set->n_handles, weights->coefficients, local,
+                              values, gradients);
+    const double scale = iccp_node_set_scale(set);
+    for (size_t k = 0; gradients != NULL && k < set->n_handles * set->dim; ++k)
         gradients[k] *= scale;
 }
 
@@ -43,7 +43,7 @@ typedef struct evaluation {
 static icc_status evaluate_some(void *argument, size_t begin, size_t end)
 {
     const evaluation *e = argument;
-    const size_t dim = e->weights->layout->dim, m = e->weights->layout->n_handles;
+    const size_t dim = e->weights->nodes->dim, m = e->weights->nodes->n_handles;
     for (size_t i = begin; i < end; ++i) {
         double *weights = e->values + m * i;
         double *gradients = e->gradients != NULL ? e->gradients + dim * m * i : NULL;
@@ -64,7 +64,7 @@ icc_status iccp_weights_evaluate(const icc_weights *weights, size_t n, const dou
                                  double *values, double *gradients, icc_status *status,
                                  size_t *n_failed, const iccp_env *env)
 {
-    const size_t dim = weights->layout->dim;
+    const size_t dim = weights->nodes->dim;
     evaluation e = {weights, points, values, gradients, status};
     size_t failed = 0;
     for (size_t i = 0; i < n; ++i)
@@ -90,33 +90,33 @@ typedef struct measurement {
 
 static quality measure(const icc_weights *weights, const double *point, double *values)
 {
-    const iccp_layout *l = weights->layout;
+    const iccp_node_set *set = weights->nodes;
     quality q = {-1, 0, HUGE_VAL};
     double local[ICC_MAX_DIM];
-    iccp_frame_in(&l->sampling->shape->frame, (int32_t)l->dim, point, local);
+    iccp_frame_in(&set->sampling->shape->frame, (int32_t)set->dim, point, local);
     iccp_weights_at(weights, point, values, NULL);
-    for (size_t j = 0; j < l->n_handles; ++j) {
+    for (size_t j = 0; j < set->n_handles; ++j) {
         q.unity += values[j];
         q.least = fmin(q.least, values[j]);
-        for (size_t k = 0; k < l->dim; ++k)
-            local[k] -= values[j] * l->points[l->dim * j + k];
+        for (size_t k = 0; k < set->dim; ++k)
+            local[k] -= values[j] * set->points[set->dim * j + k];
     }
     q.unity = fabs(q.unity);
-    for (size_t k = 0; k < l->dim; ++k)
+    for (size_t k = 0; k < set->dim; ++k)
         q.reproduction = hypot(q.reproduction, local[k]);
-    q.reproduction /= iccp_layout_scale(l);
+    q.reproduction /= iccp_node_set_scale(set);
     return q;
 }
 
 static icc_status measure_some(void *argument, size_t begin, size_t end)
 {
     const measurement *m = argument;
-    const iccp_layout *l = m->weights->layout;
-    double *weights = iccp_alloc(m->memory, l->n_handles, sizeof *weights);
+    const iccp_node_set *set = m->weights->nodes;
+    double *weights = iccp_alloc(m->memory, set->n_handles, sizeof *weights);
     if (weights == NULL)
         return ICC_ERR_MEMORY;
     for (size_t i = begin; i < end; ++i)
-        m->quality[i] = measure(m->weights, m->points + l->dim * i, weights);
+        m->quality[i] = measure(m->weights, m->points + set->dim * i, weights);
     iccp_free(m->memory, weights);
     return ICC_OK;
 }
@@ -128,7 +128,7 @@ static double deviation(const icc_weights *weights, const double *place, const u
 {
     double worst = 0;
     iccp_weights_at(weights, place, values, NULL);
-    for (size_t j = 0; j < weights->layout->n_handles; ++j) {
+    for (size_t j = 0; j < weights->nodes->n_handles; ++j) {
         const double wanted = j == ends[0] ? 1 - share : j == ends[1] ? share : 0;
         worst = fmax(worst, fabs(values[j] - wanted));
     }
@@ -137,20 +137,20 @@ static double deviation(const icc_weights *weights, const double *place, const u
 
 static void measure_handles(const icc_weights *weights, icc_weights_report *report, double *values)
 {
-    const iccp_layout *l = weights->layout;
-    for (uint32_t j = 0; j < l->n_handles; ++j)
-        report->lagrange = fmax(report->lagrange, deviation(weights, l->given + l->dim * j,
+    const iccp_node_set *set = weights->nodes;
+    for (uint32_t j = 0; j < set->n_handles; ++j)
+        report->lagrange = fmax(report->lagrange, deviation(weights, set->given + set->dim * j,
                                                             (uint32_t[2]){j, j}, 0, values));
-    for (size_t e = 0; e < l->n_edges; ++e) {
-        const double *a = l->given + l->dim * l->edges[2 * e];
-        const double *b = l->given + l->dim * l->edges[2 * e + 1];
+    for (size_t e = 0; e < set->n_edges; ++e) {
+        const double *a = set->given + set->dim * set->edges[2 * e];
+        const double *b = set->given + set->dim * set->edges[2 * e + 1];
         for (int p = 1; p < EDGE_PLACES; ++p) {
             const double share = (double)p / EDGE_PLACES;
             double place[3];
-            for (size_t k = 0; k < l->dim; ++k)
+            for (size_t k = 0; k < set->dim; ++k)
                 place[k] = a[k] + share * (b[k] - a[k]);
-            report->linearity =
-                fmax(report->linearity, deviation(weights, place, l->edges + 2 * e, share, values));
+            report->linearity = fmax(report->linearity,
+                                     deviation(weights, place, set->edges + 2 * e, share, values));
         }
     }
 }
@@ -174,7 +174,7 @@ icc_status iccp_weights_measure(const icc_weights *weights, size_t n, const doub
     *report = (icc_weights_report){.n_infeasible = weights->info.n_infeasible,
                                    .definiteness = weights->info.definiteness};
     quality *qualities = iccp_alloc(memory, n, sizeof *qualities);
-    double *values = iccp_alloc(memory, weights->layout->n_handles, sizeof *values);
+    double *values = iccp_alloc(memory, weights->nodes->n_handles, sizeof *values);
     measurement m = {weights, memory, points, qualities};
     icc_status status = qualities != NULL && values != NULL ? ICC_OK : ICC_ERR_MEMORY;
     if (status == ICC_OK)
