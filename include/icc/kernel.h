@@ -172,7 +172,7 @@ ICC_API icc_status icc_sampling_save(const icc_sampling *sampling, size_t capaci
 ICC_API icc_status icc_sampling_load(icc_sampling **out, size_t n_bytes, const void *data,
                                      const icc_env *env, icc_error *err);
 
-/* ------------------------------------------------------------------ kernel */
+/* ----------------------------------------------------------------- weights */
 
 /** Handles, and the weight of each at every place of a shape. */
 typedef struct icc_weights icc_weights;
@@ -271,7 +271,7 @@ typedef struct icc_weights_info {
 /**
  * Makes weights for handles.
  *
- * @param[out] out   the kernel; owned by the caller. It keeps the sampling alive.
+ * @param[out] out   the weights; owned by the caller. They keep the sampling alive.
  * @param sampling   the samples
  * @param n_handles  handles, at least dim + 1
  * @param handles    n_handles * dim coordinates, in the shape, not all in one plane (2-D: line)
@@ -291,32 +291,32 @@ ICC_API icc_status icc_weights_create(icc_weights **out, const icc_sampling *sam
                                       const icc_weights_options *options, const icc_env *env,
                                       icc_error *err);
 
-/** Frees a kernel. */
-ICC_API void icc_weights_free(icc_weights *kernel);
+/** Frees weights. */
+ICC_API void icc_weights_free(icc_weights *weights);
 
 /** Fills in `info`, whose `size` the caller has set. ::ICC_OK or ::ICC_ERR_ARGUMENT. */
-ICC_API icc_status icc_weights_get_info(const icc_weights *kernel, icc_weights_info *info);
+ICC_API icc_status icc_weights_get_info(const icc_weights *weights, icc_weights_info *info);
 
 /**
  * Copies the nodes.
  *
- * @param kernel       the kernel
+ * @param weights      the weights
  * @param[out] points  n_nodes * dim coordinates, or NULL
  * @param[out] initial n_nodes * n_handles initial weights, or NULL
- * @param[out] weights n_nodes * n_handles weights, or NULL
+ * @param[out] values  n_nodes * n_handles weights, or NULL
  * @param[out] status  n_nodes statuses: ::ICC_OK, or ::ICC_ERR_SOLVER where QP was relaxed; or NULL
  */
-ICC_API icc_status icc_weights_get_nodes(const icc_weights *kernel, double *points, double *initial,
-                                         double *weights, icc_status *status);
+ICC_API icc_status icc_weights_get_nodes(const icc_weights *weights, double *points,
+                                         double *initial, double *values, icc_status *status);
 
 /**
  * Paints: adds amount * brush to the weight of one handle at the nodes around a place, and
  * optimises them again from there. The brush falls smoothly from 1 at the centre to 0 at the
  * radius. Handles, nodes on lines and nodes on edges that are held stay as they are.
  *
- * @param[out] out a new kernel with the same nodes; owned by the caller. The old one is not
- *                 changed.
- * @param kernel   the kernel
+ * @param[out] out new weights at the same nodes; owned by the caller. The old ones do not
+ *                 change.
+ * @param weights  the weights to change
  * @param handle   whose weight
  * @param centre   dim coordinates
  * @param radius   positive
@@ -327,21 +327,21 @@ ICC_API icc_status icc_weights_get_nodes(const icc_weights *kernel, double *poin
  * Cost: as many weights are optimised as there are nodes within the radius, and one solution with
  * the factor that there is.
  */
-ICC_API icc_status icc_weights_paint(icc_weights **out, const icc_weights *kernel, size_t handle,
+ICC_API icc_status icc_weights_paint(icc_weights **out, const icc_weights *weights, size_t handle,
                                      const double *centre, double radius, double amount,
                                      const icc_env *env, icc_error *err);
 
 /**
- * The same with wishes of the caller's: at node nodes[i] the weights start from
- * weights[i * n_handles ...] and are optimised again. No node may be named twice.
+ * The same with given weights: at node nodes[i] they start from values[i * n_handles ...] and
+ * are optimised again. No node may be named twice.
  */
-ICC_API icc_status icc_weights_repaint(icc_weights **out, const icc_weights *kernel, size_t n,
-                                       const uint32_t *nodes, const double *weights,
+ICC_API icc_status icc_weights_repaint(icc_weights **out, const icc_weights *weights, size_t n,
+                                       const uint32_t *nodes, const double *values,
                                        const icc_env *env, icc_error *err);
 
 /** The same nodes and initial weights with another method (`ICC_WEIGHTS_*`): what was painted or
  *  stiffened is gone, as in the thesis (6.3.1). */
-ICC_API icc_status icc_weights_with_method(icc_weights **out, const icc_weights *kernel,
+ICC_API icc_status icc_weights_with_method(icc_weights **out, const icc_weights *weights,
                                            int32_t method, const icc_env *env, icc_error *err);
 
 /**
@@ -351,8 +351,8 @@ ICC_API icc_status icc_weights_with_method(icc_weights **out, const icc_weights 
  * Nodes around the part, within the kernel's reach, give way. With QP no weight becomes negative at
  * a node where none was.
  *
- * @param[out] out  a new kernel; owned by the caller
- * @param kernel    the kernel
+ * @param[out] out  new weights; owned by the caller
+ * @param weights   the weights to change
  * @param n         nodes of the part
  * @param nodes     their indices
  * @param rigidity  n positive numbers, how much each matters; NULL: all the same
@@ -360,26 +360,26 @@ ICC_API icc_status icc_weights_with_method(icc_weights **out, const icc_weights 
  * @param env       may be NULL
  * @param err       may be NULL
  */
-ICC_API icc_status icc_weights_stiffen(icc_weights **out, const icc_weights *kernel, size_t n,
+ICC_API icc_status icc_weights_stiffen(icc_weights **out, const icc_weights *weights, size_t n,
                                        const uint32_t *nodes, const double *rigidity,
                                        double energy[2], const icc_env *env, icc_error *err);
 
 /**
  * Weights at points.
  *
- * @param kernel         the kernel
+ * @param weights        the weights
  * @param n              number of points
  * @param points         n * dim coordinates. Any finite point has weights; far from all nodes they
  *                       are those of the affine tail, or 0 without.
- * @param[out] weights   n * n_handles
+ * @param[out] values    n * n_handles weights
  * @param[out] gradients n * n_handles * dim derivatives, or NULL (3.44)
- * @param[out] status    n statuses: ::ICC_OK, ::ICC_ERR_ARGUMENT (not finite; the weights are NaN);
+ * @param[out] status    n statuses: ::ICC_OK, ::ICC_ERR_ARGUMENT (not finite; its values are NaN);
  *                       or NULL
  * @param[out] n_failed  how many points have none, or NULL
  * @param env            may be NULL
  */
-ICC_API icc_status icc_weights_evaluate(const icc_weights *kernel, size_t n, const double *points,
-                                        double *weights, double *gradients, icc_status *status,
+ICC_API icc_status icc_weights_evaluate(const icc_weights *weights, size_t n, const double *points,
+                                        double *values, double *gradients, icc_status *status,
                                         size_t *n_failed, const icc_env *env);
 
 /** How well weights do what they should, at points of the caller's choice. */
@@ -399,9 +399,9 @@ typedef struct icc_weights_report {
 
 /** Measures the weights at n points (n * dim coordinates). The report's `size` is set by the
  *  caller. */
-ICC_API icc_status icc_weights_get_report(const icc_weights *kernel, size_t n, const double *points,
-                                          icc_weights_report *report, const icc_env *env,
-                                          icc_error *err);
+ICC_API icc_status icc_weights_get_report(const icc_weights *weights, size_t n,
+                                          const double *points, icc_weights_report *report,
+                                          const icc_env *env, icc_error *err);
 
 /* ----------------------------------------------------------------- binding */
 
@@ -409,17 +409,17 @@ ICC_API icc_status icc_weights_get_report(const icc_weights *kernel, size_t n, c
 typedef struct icc_binding icc_binding;
 
 /**
- * Binds points to the handles of a kernel.
+ * Binds points to handles.
  *
- * @param[out] out    the binding; owned by the caller. It does not need the kernel any more.
- * @param kernel      the kernel
+ * @param[out] out    the binding; owned by the caller. It does not need the weights any more.
+ * @param weights     the weights
  * @param n           number of points
  * @param points      n * dim coordinates, finite
  * @param derivatives 1: poses have Jacobians, at dim * n_handles doubles a point more
  * @param env         may be NULL
  * @param err         may be NULL
  */
-ICC_API icc_status icc_binding_create(icc_binding **out, const icc_weights *kernel, size_t n,
+ICC_API icc_status icc_binding_create(icc_binding **out, const icc_weights *weights, size_t n,
                                       const double *points, int32_t derivatives, const icc_env *env,
                                       icc_error *err);
 

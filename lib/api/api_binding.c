@@ -15,17 +15,17 @@ static bool are_finite(size_t n, const double *values)
     return true;
 }
 
-icc_status icc_binding_create(icc_binding **out, const icc_weights *kernel, size_t n,
+icc_status icc_binding_create(icc_binding **out, const icc_weights *weights, size_t n,
                               const double *points, int32_t derivatives, const icc_env *env,
                               icc_error *err)
 {
     if (out != NULL)
         *out = NULL;
-    if (out == NULL || kernel == NULL || (n > 0 && points == NULL))
+    if (out == NULL || weights == NULL || (n > 0 && points == NULL))
         return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_binding_create: an argument is NULL");
     if (derivatives < 0 || derivatives > 1)
         return iccp_fail(err, ICC_ERR_ARGUMENT, "derivatives is %ld", (long)derivatives);
-    for (size_t i = 0, dim = kernel->layout->dim; i < n; ++i)
+    for (size_t i = 0, dim = weights->nodes->dim; i < n; ++i)
         if (!are_finite(dim, points + dim * i))
             return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)i,
                                 "point %zu is not finite", i);
@@ -33,9 +33,9 @@ icc_status icc_binding_create(icc_binding **out, const icc_weights *kernel, size
     const icc_status status = iccp_env_read(&full_env, env, err);
     if (status != ICC_OK)
         return status;
-    return iccp_end_binding(
-        iccp_explain(err, iccp_binding_create(out, kernel, n, points, derivatives == 1, &full_env)),
-        out, &full_env, err);
+    return iccp_end_binding(iccp_explain(err, iccp_binding_create(out, weights, n, points,
+                                                                  derivatives == 1, &full_env)),
+                            out, &full_env, err);
 }
 
 void icc_binding_free(icc_binding *binding)

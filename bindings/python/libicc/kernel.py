@@ -207,7 +207,7 @@ class Weights(Handle):
 
     def paint(self, handle: int, centre: ArrayLike, radius: float, amount: float, *,
               progress: Optional[Progress] = None, threads: Optional[int] = None) -> "Weights":
-        """A kernel with the weight of one handle raised around a place (dim,), by `amount` at the centre and
+        """New weights, with that of one handle raised around a place (dim,), by `amount` at the centre and
         smoothly less up to the radius, and optimised again."""
         centre = points_of(centre, self._info("weights_get_info", "weights_info").dim)
         return Weights._wrap(create(lib.weights_paint, self, handle, address(centre), radius,
@@ -215,7 +215,7 @@ class Weights(Handle):
 
     def repaint(self, nodes: ArrayLike, weights: ArrayLike, *, progress: Optional[Progress] = None,
                 threads: Optional[int] = None) -> "Weights":
-        """A kernel whose weights at some nodes (n,) start from wishes (n, n_handles)."""
+        """New weights, which at some nodes (n,) start from those given (n, n_handles)."""
         nodes = np.ascontiguousarray(nodes, dtype=np.uint32)
         m = self._info("weights_get_info", "weights_info").n_handles
         weights = floats(weights, (len(nodes), m), "weights")
@@ -232,14 +232,14 @@ class Weights(Handle):
     def stiffen(self, nodes: ArrayLike, rigidity: Optional[ArrayLike] = None, *,
                 progress: Optional[Progress] = None,
                 threads: Optional[int] = None) -> Tuple["Weights", Floats]:
-        """A kernel that is as rigid as may be at some nodes (n,), each of which may have its own rigidity (n,),
+        """New weights, as rigid as may be at some nodes (n,), each of which may have its own rigidity (n,),
         positive; and the energy before and after, (2,)."""
         nodes, energy = np.ascontiguousarray(nodes, dtype=np.uint32), np.empty(2)
         if rigidity is not None:
             rigidity = floats(rigidity, (len(nodes),), "rigidity")
-        kernel = create(lib.weights_stiffen, self, len(nodes), address(nodes),
-                        address(rigidity), address(energy), progress=progress, threads=threads)
-        return Weights._wrap(kernel), energy
+        weights = create(lib.weights_stiffen, self, len(nodes), address(nodes),
+                         address(rigidity), address(energy), progress=progress, threads=threads)
+        return Weights._wrap(weights), energy
 
     @overload
     def weights(self, points: ArrayLike, *, gradients: Literal[False] = ...,

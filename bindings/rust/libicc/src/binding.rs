@@ -8,7 +8,7 @@ use crate::weights::Weights;
 use std::ptr;
 
 object!(
-    /// Points with their weights, for posing again and again. It does not need the kernel any more.
+    /// Points with their weights, for posing again and again. It does not need the weights any more.
     Binding,
     icc_binding,
     icc_binding_free
@@ -26,16 +26,16 @@ pub struct Counts {
 }
 
 impl Binding {
-    /// Binds points, n * dim coordinates, to the handles of a kernel. With `derivatives` poses have Jacobians.
+    /// Binds points, n * dim coordinates, to handles. With `derivatives` poses have Jacobians.
     ///
     /// # Errors
     /// [`Status::ARGUMENT`](crate::Status::ARGUMENT), with the point that is not finite as `index`.
-    pub fn new(kernel: &Weights, points: &[f64], derivatives: bool, env: &mut Env<'_>) -> Result<Binding> {
-        let n = count(points, kernel.info().dim as usize, "points")?;
+    pub fn new(weights: &Weights, points: &[f64], derivatives: bool, env: &mut Env<'_>) -> Result<Binding> {
+        let n = count(points, weights.info().dim as usize, "points")?;
         Binding::make(env, |out, env, err| {
-            let (kernel, points, derivatives) = (kernel.as_ptr(), points.as_ptr(), i32::from(derivatives));
+            let (weights, points, derivatives) = (weights.as_ptr(), points.as_ptr(), i32::from(derivatives));
             // SAFETY: n points.
-            unsafe { sys::icc_binding_create(out, kernel, n, points, derivatives, env, err) }
+            unsafe { sys::icc_binding_create(out, weights, n, points, derivatives, env, err) }
         })
     }
 
