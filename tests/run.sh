@@ -1,8 +1,8 @@
 #!/bin/sh
 # Installs what is missing, builds the library with its tests and runs them, in one of three tiers:
 # usage: sh tests/run.sh [--all | --long] [PRESET [CMAKE ARGUMENT ...]]      (presets: see CMakePresets.json)
-# Without a tier: the tests of less than ten seconds each, with a share of the cases of long sweeps. A few minutes.
 # Without a tier: what takes less than ten seconds, with a share of the cases of long sweeps. A few minutes.
+# --all: what CI runs: also tests labelled `all`, benchmarks compiled, what needs heavy packages, the layout of the
 #        sources, the reference documentation, and the Debian packages, built and tested in a system of their own.
 # --long: the same with all cases of every sweep, tests labelled `long`, a hundred times the variations of fuzzers'
 #         inputs (10^6 where one takes microseconds), and all of it under the sanitizers. Hours.

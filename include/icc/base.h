@@ -13,7 +13,15 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#if defined(ICC_STATIC) || !defined(__GNUC__)
+#if defined(ICC_STATIC)
+#define ICC_API
+#elif defined(_WIN32)
+#if defined(ICC_BUILDING)
+#define ICC_API __declspec(dllexport)
+#else
+#define ICC_API __declspec(dllimport)
+#endif
+#elif !defined(__GNUC__)
 #define ICC_API
 #else
 #define ICC_API __attribute__((visibility("default")))

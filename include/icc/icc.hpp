@@ -144,7 +144,7 @@ template <class F> void call(const env &e, F &&f)
                 return 1;
             }
         };
-    icc_error err{sizeof err, ICC_OK, 0, -1, ""};
+    icc_error err{sizeof err, ICC_OK, 0, -1, ICC_ITEM_NONE, ""};
     err.status = f(static_cast<const icc_env *>(&c_env), &err);
     if (now.thrown)
         std::rethrow_exception(now.thrown);
@@ -157,9 +157,9 @@ template <class T> std::size_t count(view<T> list, std::int64_t each)
 {
     const auto n = static_cast<std::size_t>(each > 0 ? each : 1);
     if (list.size() % n != 0)
-        throw error({sizeof(icc_error), ICC_ERR_ARGUMENT, 0, -1, "a list ends amid a point or simplex"});
+        throw error({sizeof(icc_error), ICC_ERR_ARGUMENT, 0, -1, ICC_ITEM_NONE, "a list ends amid a point or simplex"});
     if (list.width() != 0 && list.width() != n)
-        throw error({sizeof(icc_error), ICC_ERR_ARGUMENT, 0, -1, "points are of another dimension"});
+        throw error({sizeof(icc_error), ICC_ERR_ARGUMENT, 0, -1, ICC_ITEM_NONE, "points are of another dimension"});
     return list.size() / n;
 }
 
@@ -167,7 +167,7 @@ template <class T> std::size_t count(view<T> list, std::int64_t each)
 template <class T> void expect(view<T> list, std::size_t n)
 {
     if (list.size() != n)
-        throw error({sizeof(icc_error), ICC_ERR_ARGUMENT, 0, -1, "a list for results has another length"});
+        throw error({sizeof(icc_error), ICC_ERR_ARGUMENT, 0, -1, ICC_ITEM_NONE, "a list for results has another length"});
 }
 
 /** An object of the C interface that frees itself: `icc::handle<icc_grid, icc_grid_free>`. Calls refuse an

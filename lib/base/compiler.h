@@ -3,7 +3,12 @@
 #define ICCP_COMPILER_H
 
 #if defined(__GNUC__)
+#if defined(__MINGW32__) && !defined(__clang__)
+/* C99's conversions, %zu among them, and not those of the old system library. */
+#define ICCP_PRINTF(text, first) __attribute__((format(gnu_printf, text, first)))
+#else
 #define ICCP_PRINTF(text, first) __attribute__((format(printf, text, first)))
+#endif
 #define ICCP_LIKELY(x) __builtin_expect(!!(x), 1)
 #define ICCP_UNLIKELY(x) __builtin_expect(!!(x), 0)
 #define ICCP_INLINE inline __attribute__((always_inline))

@@ -35,7 +35,7 @@ template <class Exception, class F> Exception thrown(F f, Exception otherwise)
     return otherwise;
 }
 
-const icc::error none({sizeof(icc_error), ICC_OK, 0, -1, "nothing was thrown"});
+const icc::error none({sizeof(icc_error), ICC_OK, 0, -1, ICC_ITEM_NONE, "nothing was thrown"});
 const icc::domain source = icc::domain::polygon({0, 0, 4, 0, 4, 3, 0, 3});
 const icc::domain target = icc::domain::polygon({0, 0, 8, 0, 8, 6, 0, 6});
 

@@ -1,7 +1,7 @@
 //! Points with their weights, and poses of the handles.
 use crate::env::Env;
 use crate::error::{check, Error, Result};
-use crate::object::{object, to_bytes};
+use crate::object::{object, saved, to_bytes};
 use crate::slices::{count, exactly, int, pointer_mut, product};
 use crate::sys;
 use crate::weights::Weights;
@@ -24,6 +24,8 @@ pub struct Counts {
     /// dimension
     pub dim: usize,
 }
+
+saved!(Binding);
 
 impl Binding {
     /// Binds points, n * dim coordinates, to handles. With `derivatives` poses have Jacobians.

@@ -3,7 +3,7 @@ use crate::domain::{BoundaryPoints, Domain};
 use crate::env::Env;
 use crate::error::{Result, Status};
 use crate::function::Function;
-use crate::object::{object, to_bytes, Borrowed};
+use crate::object::{object, saved, to_bytes, Borrowed};
 use crate::slices::{count, exactly, int, pointer, pointer_mut};
 use crate::sys;
 
@@ -164,6 +164,8 @@ impl Images {
         Images { points: vec![0.0; n * width], status: vec![Status::OK; n], n_failed: 0 }
     }
 }
+
+saved!(Chart);
 
 impl Chart {
     /// Makes coordinates of a domain.

@@ -3,7 +3,7 @@ use crate::chart::{statuses, Chart, ChartOptions, Images};
 use crate::domain::Domain;
 use crate::env::Env;
 use crate::error::{check, Result, Status};
-use crate::object::{object, to_bytes, Borrowed};
+use crate::object::{object, saved, to_bytes, Borrowed};
 use crate::picture::{Picture, PictureMut};
 use crate::slices::{count, exactly, pointer};
 use crate::sys;
@@ -111,6 +111,8 @@ type CarryMesh = unsafe extern "C" fn(
     *const sys::icc_env,
     *mut sys::icc_error,
 ) -> sys::icc_status;
+
+saved!(Map);
 
 impl Map {
     /// Makes the map between two domains whose boundaries correspond, facet by facet.

@@ -84,6 +84,30 @@ macro_rules! object {
 }
 pub(crate) use object;
 
+/// Files of objects that have `to_bytes` and `from_bytes`.
+macro_rules! saved {
+    ($name:ident) => {
+        impl $name {
+            /// Writes [`to_bytes`](Self::to_bytes) to a file.
+            pub fn save(&self, path: impl AsRef<std::path::Path>) -> std::io::Result<()> {
+                std::fs::write(path, self.to_bytes()?)
+            }
+
+            /// Reads a file that [`save`](Self::save) wrote, as [`from_bytes`](Self::from_bytes) reads bytes.
+            ///
+            /// # Errors
+            /// Those of reading the file, and [`Error`](crate::Error) inside of one of kind `InvalidData`.
+            pub fn load(
+                path: impl AsRef<std::path::Path>,
+                env: &mut $crate::env::Env<'_>,
+            ) -> std::io::Result<$name> {
+                Ok($name::from_bytes(&std::fs::read(path)?, env)?)
+            }
+        }
+    };
+}
+pub(crate) use saved;
+
 /// Asks how many bytes are needed, then for them.
 pub(crate) fn to_bytes(write: impl Fn(usize, *mut c_void, *mut usize) -> icc_status) -> Result<Vec<u8>> {
     let mut n = 0;

@@ -2,7 +2,7 @@
 use crate::domain::Domain;
 use crate::env::Env;
 use crate::error::{check, Result};
-use crate::object::{object, to_bytes};
+use crate::object::{object, saved, to_bytes};
 use crate::slices::{count, int, pointer};
 use crate::sys;
 
@@ -103,6 +103,8 @@ impl Shape {
         self.object.as_ptr()
     }
 }
+
+saved!(Sampling);
 
 impl Sampling {
     /// Spreads samples over a shape. Equal seeds give equal samplings.

@@ -81,3 +81,17 @@ fn other_bytes_are_refused() {
     }
     assert_eq!(Chart::from_bytes(&data, env).unwrap_err().status, Status::FORMAT);
 }
+
+#[test]
+fn files_hold_the_same_bytes() {
+    let env = &mut Env::new();
+    let path = std::env::temp_dir().join(format!("libicc-{}.map", std::process::id()));
+    let map = map(MapKind::Mesh);
+    map.save(&path).unwrap();
+    let again = Map::load(&path, env).unwrap();
+    assert_eq!(again.to_bytes().unwrap(), map.to_bytes().unwrap());
+    let wrong = Chart::load(&path, env).unwrap_err();
+    assert_eq!(wrong.kind(), std::io::ErrorKind::InvalidData);
+    std::fs::remove_file(&path).unwrap();
+    assert_eq!(Map::load(&path, env).unwrap_err().kind(), std::io::ErrorKind::NotFound);
+}
