@@ -1,7 +1,7 @@
 //! Kernel coordinates: smooth blending weights for handles, without a mesh.
 //!
 //! [`Shape`] (regions and curves) -> [`Sampling`] (points spread over it) -> [`Weights`] (handles, and a weight of
-//! each at every place) -> [`Binding`] (the same at points of the caller's) -> [`Pose`].
+//! each at every place) -> [`Binding`] (the same at caller-supplied points) -> [`Pose`].
 //!
 //! Nothing here is certified to be one-to-one; [`Weights::report`] measures how well weights do what they should.
 //!

@@ -208,7 +208,7 @@ impl Weights {
         })
     }
 
-    /// The same with wishes of the caller's: node nodes\[i\] starts from row i of `weights`, n_handles numbers.
+    /// The same with given weights: node nodes\[i\] starts from row i of `weights`, n_handles numbers.
     pub fn repaint(&self, nodes: &[u32], weights: &[f64], env: &mut Env<'_>) -> Result<Weights> {
         exactly(weights, product(&[nodes.len(), self.info().n_handles])?, "weights")?;
         Weights::make(env, |out, env, err| {
