@@ -73,24 +73,24 @@ static icc_sampling *spread(const scene *s, icc_domain **region)
 }
 
 /* Makes the part around a centre as rigid as can be. */
-static icc_weights *stiffen(icc_weights *kernel, const scene *s)
+static icc_weights *stiffen(icc_weights *weights, const scene *s)
 {
     icc_error err = {.size = sizeof err};
     icc_weights_info info = {.size = sizeof info};
-    check(icc_weights_get_info(kernel, &info), s->name, NULL);
+    check(icc_weights_get_info(weights, &info), s->name, NULL);
     double *nodes = allocate(info.n_nodes, 2 * sizeof *nodes), energy[2];
     uint32_t *stiff = allocate(info.n_nodes, sizeof *stiff);
     size_t n = 0;
-    check(icc_weights_get_nodes(kernel, nodes, NULL, NULL, NULL), s->name, NULL);
+    check(icc_weights_get_nodes(weights, nodes, NULL, NULL, NULL), s->name, NULL);
     for (size_t i = 0; i < info.n_nodes; ++i)
         if (hypot(nodes[2 * i] - s->rigid[0], nodes[2 * i + 1] - s->rigid[1]) < s->rigid[2])
             stiff[n++] = (uint32_t)i;
     icc_weights *stiffened;
-    check(icc_weights_stiffen(&stiffened, kernel, n, stiff, NULL, energy, NULL, &err), s->name,
+    check(icc_weights_stiffen(&stiffened, weights, n, stiff, NULL, energy, NULL, &err), s->name,
           &err);
     printf("%s: the energy of the rigid part falls from %.3g to %.3g\n", s->name, energy[0],
            energy[1]);
-    icc_weights_free(kernel);
+    icc_weights_free(weights);
     free(nodes);
     free(stiff);
     return stiffened;
@@ -106,10 +106,10 @@ static icc_weights *weigh(const scene *s, const icc_sampling *sampling)
                                          .edges = s->edges[0],
                                          .n_lines = s->n_lines,
                                          .lines = s->lines};
-    icc_weights *kernel;
-    check(icc_weights_create(&kernel, sampling, s->n_handles, s->handles[0], &options, NULL, &err),
+    icc_weights *weights;
+    check(icc_weights_create(&weights, sampling, s->n_handles, s->handles[0], &options, NULL, &err),
           s->name, &err);
-    return s->rigid[2] > 0 ? stiffen(kernel, s) : kernel;
+    return s->rigid[2] > 0 ? stiffen(weights, s) : weights;
 }
 
 static void make_pose(const scene *s, double (*transforms)[6])
@@ -186,14 +186,14 @@ static void draw(const view *v, const strokes *s, const double *ends, const char
 }
 
 /* Draws strokes at rest and posed. */
-static void draw_both(const view v[2], const icc_weights *kernel, double (*transforms)[6],
+static void draw_both(const view v[2], const icc_weights *weights, double (*transforms)[6],
                       strokes s, const char *style)
 {
     icc_error err = {.size = sizeof err};
     if (s.n > 0) {
         icc_binding *binding;
         double *posed = allocate(s.n, 4 * sizeof *posed);
-        check(icc_binding_create(&binding, kernel, 2 * s.n, s.ends, 0, NULL, &err), "binding",
+        check(icc_binding_create(&binding, weights, 2 * s.n, s.ends, 0, NULL, &err), "binding",
               &err);
         check(icc_binding_pose(binding, transforms[0], posed, NULL, NULL), "pose", NULL);
         draw(&v[0], &s, s.ends, style);
@@ -220,7 +220,7 @@ static void draw_scene(const scene *s, const view v[2])
 {
     icc_domain *region;
     icc_sampling *sampling = spread(s, &region);
-    icc_weights *kernel = weigh(s, sampling);
+    icc_weights *weights = weigh(s, sampling);
     double transforms[MOST][6];
     strokes outline = {0, NULL}, lines = {0, NULL}, circle = {0, NULL};
     make_pose(s, transforms);
@@ -236,12 +236,12 @@ static void draw_scene(const scene *s, const view v[2])
                end[2] = {s->rigid[0] + r * cos(b), s->rigid[1] + r * sin(b)};
         add(&circle, from, end, NULL);
     }
-    draw_both(v, kernel, transforms, circle, "stroke=\"#999\" stroke-width=\"5\"");
-    draw_both(v, kernel, transforms, make_grid(region), "stroke=\"#7aa6d8\"");
-    draw_both(v, kernel, transforms, outline, "stroke=\"#222\" stroke-width=\"2\"");
-    draw_both(v, kernel, transforms, lines, "stroke=\"#d08a00\" stroke-width=\"3\"");
+    draw_both(v, weights, transforms, circle, "stroke=\"#999\" stroke-width=\"5\"");
+    draw_both(v, weights, transforms, make_grid(region), "stroke=\"#7aa6d8\"");
+    draw_both(v, weights, transforms, outline, "stroke=\"#222\" stroke-width=\"2\"");
+    draw_both(v, weights, transforms, lines, "stroke=\"#d08a00\" stroke-width=\"3\"");
     draw_handles(v, s, transforms);
-    icc_weights_free(kernel);
+    icc_weights_free(weights);
     icc_sampling_free(sampling);
     icc_domain_free(region);
 }

@@ -2,9 +2,8 @@
  * @file icc/base.h
  * @brief Status codes, errors, the calling environment and the version.
  *
- * libicc keeps no global and no thread-local state, installs no signal
- * handler, prints nothing and never ends the process. (Not related to ICC
- * colour profiles.)
+ * libicc keeps no global and no thread-local state, installs no signal handler, prints nothing and
+ * never exits the process. (Not related to ICC colour profiles.)
  *
  * SPDX-License-Identifier: MIT
  */
@@ -37,10 +36,10 @@ typedef int32_t icc_status;
 
 /** Status codes. Their numbers never change. */
 enum {
-    ICC_OK = 0,               /**< the call did what it says */
+    ICC_OK = 0,               /**< the call has run; points may have statuses of their own */
     ICC_ERR_ARGUMENT = 1,     /**< an argument is missing or out of range */
     ICC_ERR_MEMORY = 2,       /**< an allocation failed */
-    ICC_ERR_VERSION = 3,      /**< a struct has a member that this library does not know */
+    ICC_ERR_VERSION = 3,      /**< a struct or saved object is from another version */
     ICC_ERR_BOUNDARY = 4,     /**< the boundary is not that of a simple, solid shape */
     ICC_ERR_RESOLUTION = 5,   /**< the grid is too coarse, or would be too large */
     ICC_ERR_TOPOLOGY = 6,     /**< the shape or the grid has the wrong topology */
@@ -49,7 +48,7 @@ enum {
     ICC_ERR_TRACE = 9,        /**< an integral curve does not reach its end */
     ICC_ERR_CERTIFICATE = 10, /**< a result could not be certified */
     ICC_ERR_CANCELLED = 11,   /**< the progress callback asked to stop */
-    ICC_ERR_UNSUPPORTED = 12, /**< this combination is not available */
+    ICC_ERR_UNSUPPORTED = 12, /**< this combination is not supported */
     ICC_ERR_FORMAT = 13       /**< input data is malformed */
 };
 
@@ -78,18 +77,18 @@ enum {
 };
 
 /**
- * What went wrong, filled in by the call that failed.
+ * What went wrong; filled in by the call that failed.
  *
- * Owned by the caller, who sets `size` to `sizeof(icc_error)` before the call;
- * members beyond `size` are not touched. Every function that takes one accepts
- * NULL. A call that succeeds leaves the struct alone.
+ * Owned by the caller, who sets `size` to `sizeof(icc_error)` before the call; members beyond
+ * `size` are not touched. Every function that takes one accepts NULL. A call that succeeds does not
+ * touch it.
  */
 typedef struct icc_error {
     size_t size;       /**< set by the caller: `sizeof(icc_error)` */
     icc_status status; /**< the status that the call returned */
     int32_t side;      /**< 0: neither; 1: the source; 2: the target */
-    int64_t index;     /**< which item is at fault, from 0, or -1 */
-    int32_t item;      /**< what it is: `ICC_ITEM_*` */
+    int64_t index;     /**< the item at fault, from 0, or -1 */
+    int32_t item;      /**< what `index` counts: `ICC_ITEM_*` */
     char message[252]; /**< one line of English, always terminated */
 } icc_error;
 
@@ -99,57 +98,56 @@ typedef void (*icc_task)(void *argument, size_t index);
 /**
  * How a call allocates, reports and runs in parallel.
  *
- * Zero-initialise, set `size`, then whatever is wanted; NULL in place of the
- * struct means all defaults. The struct is read during the call and not kept;
- * objects keep `user`, `alloc` and `dealloc`, which must stay valid for as long
- * as the object lives.
+ * Zero-initialise it, set `size`, then whatever you need; NULL instead of the struct means all
+ * defaults. The struct is read during the call only; but objects keep `user`, `alloc` and
+ * `dealloc`, which must stay valid as long as the object lives.
  *
  * Results are bit-identical for every number of threads and for every
  * implementation of `parallel_for`.
  */
 typedef struct icc_env {
     size_t size; /**< set by the caller: `sizeof(icc_env)` */
-    void *user;  /**< handed to every callback below */
+    void *user;  /**< passed to every callback below */
     /** Memory for any type, or NULL if there is none. Set both or neither; must be
      *  thread-safe when tasks run in parallel. Default: malloc and free. */
     void *(*alloc)(void *user, size_t size);
-    /** Gives back what `alloc` returned; never called with NULL. */
+    /** Frees what `alloc` returned; never called with NULL. */
     void (*dealloc)(void *user, void *memory);
     /** Takes one line of diagnostics, without a line end. Default: none. */
     void (*log)(void *user, const char *message);
-    /** Called on the calling thread now and then during long work, with what is being done and
+    /** Called on the calling thread from time to time during long work, with the current stage and
      *  the share of the whole call that is done: in [0,1], never less than before, and 1 in the
-     *  last report of a call that succeeds. Shares are guesses; they go by what the parts of a
-     *  call usually cost. Non-zero cancels: the call gives up as soon as it can and returns
-     *  ::ICC_ERR_CANCELLED. A call that is done at once may report nothing. Default: none.
+     *  last report of a call that succeeds. Shares are estimates, from what the parts of a call
+     *  usually cost. Return non-zero to cancel: the call stops as soon as it can and returns
+     *  ::ICC_ERR_CANCELLED. A quick call may report nothing. Default: none.
      *
-     *  `stage` is one of these names (more may come), and may come back later in the call:
+     *  `stage` is one of these names (more may be added), and may recur later in the call:
      *  - "check": boundaries, masks, meshes and results are checked and measured
-     *  - "repair": what is not one-to-one yet is mended
+     *  - "repair": what is not yet one-to-one is repaired
      *  - "mesh": a domain is triangulated
      *  - "grid": a grid is laid over a domain
-     *  - "tree": the vertices of a grid are put in order
-     *  - "order": the simplices of a mesh are put in order
+     *  - "tree": the vertices of a grid are ordered
+     *  - "order": the simplices of a mesh are ordered
      *  - "solve": equations are solved
-     *  - "trace": points are carried along curves, or looked up
+     *  - "trace": points are traced along curves, or looked up
      *  - "improve": a map is made fairer
-     *  - "warp": pictures or poses are carried along
-     *  - "sample": samples are spread
+     *  - "warp": pictures are warped, or points posed
+     *  - "sample": samples are spread over a shape
      *  - "weights": kernel coordinates are computed
      *  - "load": an object is read back */
     int32_t (*progress)(void *user, const char *stage, double share);
     /** Runs task(argument, i) for every i in [0, n_tasks), in any order and on any
      *  threads, and returns when all are done. Replaces the library's own threads. */
     void (*parallel_for)(void *user, size_t n_tasks, icc_task task, void *argument);
-    /** Threads that a call may use, the calling one included; 0 and 1 mean one. Further
-     *  threads live only during the call. If one cannot be started, the others do its work. */
+    /** Threads that a call may use, including the calling one; 0 and 1 mean one. The others live
+     *  only during the call. If one cannot be started, the others do its work. */
     int32_t threads;
-    /** Bytes that loading an object may take beyond 64 for each byte that it is read from; 0 means
-     *  256,000,000. Charts of methods gradient and field, and domains made of masks, are rebuilt
-     *  from a few bytes and may need more: loading refuses them with ::ICC_ERR_FORMAT and a
-     *  message that names this member, before it asks for the memory. Time is limited
-     *  with it: to some ten seconds for the default, and in proportion. UINT64_MAX lifts both
-     *  limits, for bytes that are trusted. */
+    /** Bytes of memory that loading an object may take, beyond 64 for each byte of its data; 0
+     *  means 256,000,000. Charts of methods gradient and field, and domains made from masks, are
+     *  rebuilt from a few bytes and may need more: loading then refuses them with ::ICC_ERR_FORMAT
+     *  and a message that names this member, before it allocates the memory. Time is limited in
+     *  proportion: to some ten seconds for the default. UINT64_MAX lifts both limits, for data that
+     *  you trust. */
     uint64_t load_limit;
 } icc_env;
 

@@ -1,18 +1,25 @@
 /**
  * @file icc/icc.h
- * @brief Domains, charts and maps: carry the inside of a shape along with its boundary.
+ * @brief Domains, charts and maps: move the inside of a shape along with its boundary.
  *
  *     icc_domain (a boundary and what it encloses)
  *       -> icc_chart (coordinates of the inside: boundary point + share of the way to the maximum)
  *         -> icc_map (two charts and the homeomorphism of their boundaries)
  *
- * Objects are opaque and immutable once made. Any number of threads may use one object at the same
- * time without locks. Each object keeps what it was made from alive: a domain may be freed while a
+ * Objects are opaque and immutable. Any number of threads may use one object at the same time
+ * without locks. An object keeps alive whatever it was made from: you may free a domain while a
  * chart on it is in use. Every `icc_*_free` accepts NULL.
  *
  * Creators write the new object to `*out`, or NULL on failure. `env` and `err` may always be NULL.
  * Points are stored one after the other, `dim` doubles each. In option structs zero means the
  * default.
+ *
+ * What may surprise you:
+ * - A call on many points (encode, decode, apply, jacobian) returns ::ICC_OK once it has run, even
+ *   if every point failed. Look at `n_failed`, or at the status of each point.
+ * - These calls have no `err`: the statuses say what happened to each point.
+ * - Saving takes two calls: with a capacity of 0 for the number of bytes, then for the bytes.
+ * - icc_domain_create_mask() takes a mask of cells, icc_grid_create_mask() one of grid vertices.
  *
  * SPDX-License-Identifier: MIT
  */
@@ -33,15 +40,15 @@ typedef struct icc_domain icc_domain;
 /** Where a point lies. */
 enum {
     ICC_INSIDE = 1, /**< in the interior */
-    /** On the boundary: up to 1e-14 of the bounding box's longest side, or up to `dim` * 2^-52 of
+    /** On the boundary: within 1e-14 of the bounding box's longest side, or within `dim` * 2^-52 of
      *  the largest coordinate along each axis, whichever is more. So a point of a facet that is
-     *  computed in doubles, as a mean of its vertices, is on the boundary wherever the shape
+     *  computed in doubles, as a mean of its vertices, counts as on the boundary wherever the shape
      *  lies. */
     ICC_BOUNDARY = 2,
     ICC_OUTSIDE = 3 /**< elsewhere */
 };
 
-/** What icc_domain_get_info() tells. */
+/** What icc_domain_get_info() reports. */
 typedef struct icc_domain_info {
     size_t size;               /**< set by the caller: `sizeof(icc_domain_info)` */
     int32_t dim;               /**< dimension */
@@ -63,27 +70,27 @@ typedef struct icc_domain_info {
  * 2-D: a simple polygon. `facets` may be NULL: facet i then joins vertex i and vertex i + 1, the
  * last one back to vertex 0. Otherwise the facets, two vertex indices each, must form one closed
  * ring through all vertices, in any order but all in the same direction. Collinear vertices are
- * fine. Checked exactly: no edge of length zero, no repeated vertex, no edges that cross, touch or
- * run back over each other.
+ * fine. Checked exactly: no edge has length zero, no vertex is repeated, and no edges cross, touch
+ * or run back over each other.
  *
  * 3-D: a closed surface of triangles, three vertex indices each, in any order. Checked exactly: no
  * face with area 0; each edge belongs to two faces, which run along it in opposite directions; the
- * faces at each vertex form one cycle; one component, so no inner voids; genus 0; the surface does
- * not meet itself, which is to say that two faces have nothing in common but the vertices and edges
- * that they share. Coplanar faces are fine.
+ * faces at each vertex form one cycle; one component, so no inner voids; genus 0; no
+ * self-intersection: two faces have nothing in common but the vertices and edges that they share.
+ * Coplanar faces are fine.
  *
  * 4-D to 6-D: a closed boundary of simplices, dim vertex indices each. Checked: each ridge (dim - 1
  * vertices) belongs to two facets, which run along it in opposite directions; the facets at each
- * vertex hang together; one component; and, exactly in 4-D and to rounding (1e-13) beyond, no flat
+ * vertex are connected; one component; and, exactly in 4-D and to rounding (1e-13) beyond, no flat
  * facet; to rounding, a volume other than 0. Self-intersection is NOT checked beyond 3-D, nor is
  * the topology of the boundary.
  *
  * 1-D: an interval: two facets of one vertex each.
  *
- * All checks are made on the coordinates as given. Inside the library the shape is shifted and
- * scaled by exact operations, so any position and size will do (an offset of 1e9, coordinates of
- * 1e300). A coordinate other than 0 that is smaller than 2^-200 of the largest one is refused.
- * Except in 2-D, vertices that belong to no facet are kept and otherwise ignored.
+ * All checks use the coordinates as given. Internally the shape is shifted and scaled by exact
+ * operations, so any position and size will do (an offset of 1e9, coordinates of 1e300). A
+ * coordinate other than 0 that is smaller than 2^-200 of the largest one is refused. Except in 2-D,
+ * vertices that belong to no facet are kept and otherwise ignored.
  *
  * @param[out] out   the domain; owned by the caller, see icc_domain_free()
  * @param dim        1..::ICC_MAX_DIM
@@ -92,67 +99,66 @@ typedef struct icc_domain_info {
  * @param n_facets   number of facets; ignored when `facets` is NULL
  * @param facets     n_facets * dim vertex indices; NULL in 2-D only
  * @param env        may be NULL
- * @param err        may be NULL; `index` names the vertex or facet at fault; where two are, the
+ * @param err        may be NULL; `index` is the vertex or facet at fault; where there are two, the
  *                   message names both
  * @return ::ICC_OK, ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY, ::ICC_ERR_BOUNDARY (what is wrong with
  *         the shape), ::ICC_ERR_TOPOLOGY (several components, an inner void, handles),
  *         ::ICC_ERR_VERSION or ::ICC_ERR_CANCELLED
  *
  * Cost: O(n log n) time, O(n) memory for ordinary shapes; in 3-D 1 to 3 us and 70 bytes a triangle
- * (110 while it is made). All pairs of triangles whose boxes meet are looked at: n^2 / 2 pairs,
- * 0.04 us each, where n triangles meet at one vertex or are long, thin and close.
+ * (110 while it is made). Every pair of triangles whose bounding boxes meet is tested: n^2 / 2
+ * pairs, 0.04 us each, where n triangles meet at one vertex or are long, thin and close.
  */
 ICC_API icc_status icc_domain_create(icc_domain **out, int32_t dim, size_t n_vertices,
                                      const double *vertices, size_t n_facets,
                                      const uint32_t *facets, const icc_env *env, icc_error *err);
 
 /**
- * Makes a domain from the cells of a mask, such as the voxels of a picture: cell (i_0, i_1, ..)
- * covers [i_0, i_0 + 1] x [i_1, i_1 + 1] x .. in coordinates 0, 1, ..
+ * Makes a domain from a mask of cells, such as voxels (not of vertices, as icc_grid_create_mask()
+ * takes): cell (i_0, i_1, ..) covers [i_0, i_0 + 1] x [i_1, i_1 + 1] x .. in coordinates 0, 1, ..
  *
- * The mask must be a solid without holes: one piece, where cells are joined by faces; no cells that
- * touch only along an edge or a corner, nor gaps that do; the outside one piece; Euler
- * characteristic 1. In 2-D and 3-D this makes it a disc or a ball. In higher dimensions holes of
- * different dimensions may cancel out and pass: icc_tree_grow() on its grid fails on them.
+ * The mask must be a solid without holes: the cells form one piece, joined by faces; no cells touch
+ * only along an edge or a corner, nor do gaps; the outside is one piece; the Euler characteristic
+ * is 1. In 2-D and 3-D this makes it a disc or a ball. In higher dimensions holes of different
+ * dimensions may cancel out and pass; icc_tree_grow() fails on the grid of such a mask.
  *
- * Each cell is cut in two along each axis, and each face of the pieces on the boundary into (dim
- * - 1)! simplices (Kuhn's), as the grid that icc_grid_create() makes is. icc_domain_get_boundary()
- *   hands
- * them out, with the vertices in the caller's order of axes, the first axis fastest; in 2-D as a
- * counter-clockwise polygon. The image of a mask is a domain with the same facets and moved
- * vertices.
+ * Each cell is cut in two along each axis, and each face of the pieces on the boundary into (dim -
+ * 1)! simplices (Kuhn's), like the grid that icc_grid_create() makes. icc_domain_get_boundary()
+ * returns these facets, and the vertices in the caller's order of axes, the first axis fastest; in
+ * 2-D as a counter-clockwise polygon. The target of a map from a mask is a domain with the same
+ * facets and moved vertices.
  *
  * @param[out] out the domain; owned by the caller
  * @param dim      1..::ICC_MAX_DIM
  * @param shape    cells along each axis, dim numbers
  * @param cells    one byte per cell, the first axis runs fastest: 0 outside, anything else inside
  * @param env      may be NULL
- * @param err      may be NULL; `index` names a cell at fault
+ * @param err      may be NULL; `index` is a cell at fault
  * @return ::ICC_OK, ::ICC_ERR_TOPOLOGY (what is wrong with the mask), ::ICC_ERR_RESOLUTION (its
  *         grid would have more than 2^28 vertices, or too many facets), ::ICC_ERR_ARGUMENT, ...
  *
- * Cost: O(cells * 4^dim) time at most, 0.15 us a cell in 3-D, besides that of icc_domain_create().
+ * Cost: at most O(cells * 4^dim) time, 0.15 us a cell in 3-D, on top of icc_domain_create().
  */
 ICC_API icc_status icc_domain_create_mask(icc_domain **out, int32_t dim, const size_t *shape,
                                           const uint8_t *cells, const icc_env *env, icc_error *err);
 
 /**
  * Makes a domain from a conforming mesh of its inside: triangles in 2-D, tetrahedra in 3-D,
- * simplices beyond. On such a domain ICC_METHOD_FOLIATION works in every dimension, with leaves
- * that are straight in every simplex; everything else works as on a domain made of the boundary
+ * simplices beyond. On such a domain ::ICC_METHOD_FOLIATION works in every dimension, with leaves
+ * that are straight in every simplex. Everything else works as on a domain made from its boundary
  * alone.
  *
  * The vertices of the domain are those of the mesh that lie on its boundary, in the order of the
- * mesh. Two domains whose meshes differ inside correspond, as icc_map_create() asks, if these and
- * the facets are the same. The facets may be given in an order of the caller's, such as that of the
- * surface that the mesh was made for; if not, they are sorted by their vertices (the smallest index
- * first, and so on) and listed as seen from outside.
+ * mesh. Two domains correspond, as icc_map_create() requires, if they have the same number of these
+ * vertices and the same facets; their meshes may differ inside. You may pass the facets in any
+ * order, such as that of the surface that was meshed; otherwise they are sorted by their vertices
+ * (the smallest index first, and so on) and oriented as seen from outside.
  *
  * Checked exactly up to 3-D, to rounding beyond: what icc_domain_create() checks of the boundary;
- * no simplex without volume; a facet belongs to at most two simplices, which lie on opposite sides
- * of it; the mesh hangs together; its Euler characteristic is 1. So the simplices fill the domain
- * and do not overlap. In which order a simplex lists its vertices does not matter. Vertices that no
- * simplex has are ignored.
+ * every simplex has a volume; a facet belongs to at most two simplices, which lie on opposite sides
+ * of it; the mesh is connected; its Euler characteristic is 1. So the simplices fill the domain and
+ * do not overlap. A simplex may list its vertices in any order. Vertices that belong to no simplex
+ * are ignored.
  *
  * @param[out] out    the domain; owned by the caller
  * @param dim         2..::ICC_MAX_DIM
@@ -164,15 +170,15 @@ ICC_API icc_status icc_domain_create_mask(icc_domain **out, int32_t dim, const s
  * @param facets      n_facets * dim vertex indices: the boundary of the mesh, in the caller's order
  *                    and all seen from the same side; or NULL
  * @param env         may be NULL
- * @param err         may be NULL; `index` names the simplex, the vertex or one of the `facets` at
- *                    fault. When it is the boundary that is refused, vertices and facets are those
- *                    of the domain
- * @return ::ICC_OK; ::ICC_ERR_BOUNDARY (a simplex is flat or lists a vertex twice or one that is
- *         not there, a facet has three simplices or two on one side, `facets` are not the mesh's);
+ * @param err         may be NULL; `index` is the simplex, the vertex or the one of `facets` at
+ *                    fault. When the boundary is refused, vertices and facets are those of the
+ *                    domain
+ * @return ::ICC_OK; ::ICC_ERR_BOUNDARY (a simplex is flat, or lists a vertex twice or one that does
+ *         not exist; a facet has three simplices, or two on one side; `facets` are not the mesh's);
  *         ::ICC_ERR_TOPOLOGY (several pieces, holes); ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY,
  *         ::ICC_ERR_CANCELLED
  *
- * Cost: O(n) time and memory besides those of icc_domain_create(): 0.5 us a tetrahedron.
+ * Cost: O(n) time and memory on top of icc_domain_create(): 0.5 us a tetrahedron.
  */
 ICC_API icc_status icc_domain_create_mesh(icc_domain **out, int32_t dim, size_t n_vertices,
                                           const double *vertices, size_t n_simplices,
@@ -182,18 +188,18 @@ ICC_API icc_status icc_domain_create_mesh(icc_domain **out, int32_t dim, size_t 
 
 /**
  * Fills cells of a mask where others, or gaps, touch only along an edge or a corner, which
- * icc_domain_create_mask() refuses: one after the other, each time the one that leaves the fewest
- * such places around it. Whatever cannot be mended so, and all else that may be wrong, is left as
+ * icc_domain_create_mask() refuses. Cells are filled one at a time, each time the one that leaves
+ * the fewest such places around it. Whatever this cannot mend, and every other defect, is left as
  * it is.
  *
  * @param dim           1..::ICC_MAX_DIM
  * @param shape         cells along each axis
- * @param[in,out] cells as for icc_domain_create_mask(); those that are filled become 1
+ * @param[in,out] cells as for icc_domain_create_mask(); filled cells become 1
  * @param[out] n_filled how many, or NULL
  * @param env           may be NULL
  * @param err           may be NULL
  * @return ::ICC_OK, ::ICC_ERR_RESOLUTION, ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY,
- *         ::ICC_ERR_CANCELLED; the cells are as they were unless it is ::ICC_OK
+ *         ::ICC_ERR_CANCELLED; unless it is ::ICC_OK, the cells are unchanged
  */
 ICC_API icc_status icc_mask_repair(int32_t dim, const size_t *shape, uint8_t *cells,
                                    size_t *n_filled, const icc_env *env, icc_error *err);
@@ -215,10 +221,10 @@ ICC_API icc_status icc_domain_get_boundary(const icc_domain *domain, double *ver
                                            uint32_t *facets);
 
 /**
- * Says where points lie, exactly up to the tolerance of ::ICC_BOUNDARY, and finds the nearest
- * boundary point. Beyond 3-D it is not exact: points within about 1e-13 of the bounding box's
- * longest side of the boundary may be misplaced; and where a boundary meets itself, inside is what
- * an odd number of layers separates from infinity.
+ * Reports where points lie, exactly up to the tolerance of ::ICC_BOUNDARY, and finds the nearest
+ * boundary points. Beyond 3-D it is not exact: points nearer to the boundary than about 1e-13 of
+ * the bounding box's longest side may be misplaced; and where a boundary meets itself, a point is
+ * inside if an odd number of layers separates it from infinity.
  *
  * @param domain     the domain
  * @param n          number of points
@@ -246,18 +252,18 @@ enum {
 };
 
 /**
- * Lists everything that keeps a closed polygon from being the boundary of a domain.
+ * Lists every defect that keeps a closed polygon from being the boundary of a domain.
  *
  * @param n_vertices    vertices of the ring
  * @param vertices      n_vertices * 2 coordinates; facet i joins vertices i and i + 1
  * @param capacity      how many defects the two arrays have room for
  * @param[out] kinds    `capacity` kinds, `ICC_DEFECT_*`
- * @param[out] items    `capacity` pairs (a, b); see there
+ * @param[out] items    `capacity` pairs (a, b), see `ICC_DEFECT_*`
  * @param[out] n_defects how many there are in all, also beyond `capacity`
  * @param env           may be NULL
  * @param err           may be NULL
  *
- * Sorted by a, then b. Vertices that are not finite are listed and otherwise left out.
+ * Sorted by a, then b. Vertices that are not finite are listed and otherwise ignored.
  * Cost: O((n + k) log n) for k pairs of facets whose boxes overlap.
  */
 ICC_API icc_status icc_boundary_defects(size_t n_vertices, const double *vertices, size_t capacity,
@@ -276,44 +282,45 @@ enum {
      *  tree, a function on it, piecewise linear gradient lines; in any dimension, on the simplices
      *  of the Kuhn triangulation and their faces. Not one-to-one: lines merge, so that an open
      *  share of the area collapses (in 3-D and beyond, most of it), and thin parts of a shape
-     *  between grid vertices are not reached. icc_chart_get_report() tells how much. Beyond 2-D the
-     *  function may have several maxima, too, and lines that end at them: icc_gradient_info::n_maxima.
-     *  Never certified. */
+     *  between grid vertices are not reached. icc_chart_get_report() estimates how much. Beyond 2-D
+     *  the function may have several maxima, too, and lines that end at them:
+     *  icc_gradient_info::n_maxima. Never certified. */
     ICC_METHOD_GRADIENT = 1,
     /** Integral Curve Coordinates along leaves that cannot merge: level lines of an angle-valued,
-     *  discretely harmonic function on a triangle mesh of the domain. A homeomorphism of the closed
-     *  domain in exact arithmetic whenever its certificate holds, which is checked with integers
-     *  and exact signs for every chart; otherwise there is no chart (::ICC_ERR_CERTIFICATE). The
-     *  coordinates are continuous, piecewise smooth, and in doubles come back to about 1e-15 of the
-     *  domain's size. A mesh *sampled* from the map can still have inverted triangles.
+     *  discretely harmonic function on a triangle mesh of the domain. Whenever its certificate
+     *  holds, the chart is a homeomorphism of the closed domain in exact arithmetic. The
+     *  certificate is checked for every chart, with integers and exact signs; if it fails there is
+     *  no chart (::ICC_ERR_CERTIFICATE). The coordinates are continuous and piecewise smooth; in
+     *  doubles, a round trip returns to about 1e-15 of the domain's size. A mesh *sampled* from the
+     *  map can still have inverted triangles.
      *
-     *  On a domain with a mesh, icc_domain_create_mesh(), in any dimension: leaves that are
-     *  straight in every simplex and pass the simplices in an order, a shelling; all end at an
-     *  inner vertex of the mesh, or at the middle of a simplex if there is none. The certificate
-     *  looks at that order, and promises the same (beyond 3-D the orientation of simplices is
-     *  certain, but not exact). Not every mesh has such an order: ::ICC_ERR_TOPOLOGY. A flat
-     *  simplex makes for long leaves near it. */
+     *  On a domain with a mesh (icc_domain_create_mesh()), in any dimension: leaves that are
+     *  straight in every simplex and pass through the simplices in an order, a shelling; all end at
+     *  an inner vertex of the mesh, or at the middle of a simplex if there is none. The certificate
+     *  checks that order, and promises the same (beyond 3-D the orientation of simplices is
+     *  certain, but not exact). Not every mesh has such an order: ::ICC_ERR_TOPOLOGY. Leaves near a
+     *  flat simplex are long. */
     ICC_METHOD_FOLIATION = 2,
-    /** Integral Curve Coordinates along a field that the curves cannot merge in, on a regular grid
-     *  in any dimension: a vector for every grid vertex that points uphill in all simplices around
-     *  it, for the discretely harmonic function, and linear interpolation between them. The curves
-     *  are followed exactly but for rounding. Certified when there is such a vector everywhere, the
-     *  boundary is crossed inward all over, which is checked vertex by vertex, and no grid vertex
-     *  inside was given up; if not, there is a chart all the same, and
-     *  icc_field_info::n_infeasible, n_not_inward and n_stray report how much is amiss.
+    /** Integral Curve Coordinates along a vector field in which curves cannot merge, on a regular
+     *  grid in any dimension. Every grid vertex has a vector that points uphill in all simplices
+     *  around it, for the discretely harmonic function; between vertices the field is linear. The
+     *  curves are followed exactly but for rounding. Certified when there is such a vector
+     *  everywhere, the field crosses the whole boundary inward, which is checked vertex by vertex,
+     *  and no grid vertex inside was given up. If not, there is a chart all the same, and
+     *  icc_field_info::n_infeasible, n_not_inward and n_stray count what is wrong.
      *
-     *  A map of two certified charts is certified when doubles are enough for it, too, which
-     *  icc_map_info::n_lost and n_flat report: curves come together on their way, and what one
-     *  chart tells apart may be one and the same to the other, as when a ball goes to a pancake. */
+     *  Two certified charts do not suffice for a certified map: doubles must have enough digits for
+     *  it, too, see icc_map_info::n_lost and n_flat. Curves converge on their way, and points that
+     *  one chart tells apart may coincide in the other, as when a ball is mapped to a pancake. */
     ICC_METHOD_FIELD = 3,
     /** Polar coordinates of the harmonic map to a disc (Tutte), piecewise linear. A homeomorphism
-     *  under the same certificate; the curves are the preimages of radii. A slit about 1e-15 of the
-     *  shape's size wide can be too narrow to be meshed, which is an error that says so. */
+     *  under the same certificate; the curves are the preimages of radii. A slit as narrow as about
+     *  1e-15 of the shape's size can be too narrow to mesh, which is an error that says so. */
     ICC_METHOD_DISC = 4
 };
 
-/** Why a chart or a map is not certified: of several reasons, the first. The counts that they name
- *  report how much is amiss. */
+/** Why a chart or a map is not certified: the first of several reasons. The counts named here
+ *  report to what extent. */
 enum {
     ICC_REASON_NONE = 0,       /**< it is certified */
     ICC_REASON_GRADIENT = 1,   /**< the curves of method gradient merge */
@@ -336,17 +343,18 @@ enum {
 };
 
 /** Whether f(parent) >= (1 + min_fall) f(child) is imposed on the edges of the tree inside (Laplace
- *  and bi-Laplace; decay and distance fulfil it anyway). */
+ *  and bi-Laplace; decay and distance satisfy it anyway). */
 enum {
-    ICC_CONSTRAINTS_NEEDED = 1, /**< only when the function without has other critical points than
-                                     one maximum at the root (and, in 2-D, the saddles of holes,
-                                     which no function can avoid); in charts, only when that is so
-                                     after the root has moved, too, as for ::ICC_CONSTRAINTS_NONE.
-                                     If they are imposed it does not move */
-    ICC_CONSTRAINTS_NONE = 2,   /**< never. Charts of bi-Laplace functions have the maximum where
-                                     the function puts it, which may be beside the place asked for:
-                                     icc_gradient_info::moved */
-    ICC_CONSTRAINTS_ALL = 3     /**< always: the maximum stays where it is asked for */
+    ICC_CONSTRAINTS_NEEDED = 1, /**< only if the function without them has critical points other
+                                     than one maximum at the root (and, in 2-D, the saddles of
+                                     holes, which no function can avoid); in charts, only if that is
+                                     still so after the root has moved as for
+                                     ::ICC_CONSTRAINTS_NONE. If they are imposed, the root does not
+                                     move */
+    ICC_CONSTRAINTS_NONE = 2,   /**< never. Charts of bi-Laplace functions then have their maximum
+                                     where the function puts it, which may be beside the requested
+                                     place: icc_gradient_info::moved */
+    ICC_CONSTRAINTS_ALL = 3     /**< always: the maximum stays at the requested place */
 };
 
 /** How the linear systems of Laplace and bi-Laplace are solved. */
@@ -365,17 +373,17 @@ enum {
 /** Options of icc_chart_create(). */
 typedef struct icc_chart_options {
     size_t size;           /**< set by the caller: `sizeof(icc_chart_options)` */
-    int32_t method;        /**< `ICC_METHOD_*`; 0: the best that there is: foliation in 2-D and on
+    int32_t method;        /**< `ICC_METHOD_*`; 0: the best available: foliation in 2-D and on
                                 domains with a mesh, else field */
     int32_t function;      /**< gradient: `ICC_FUNCTION_*`; 0: decay */
     int32_t tree;          /**< gradient: `ICC_TREE_*`; 0: thesis */
     int32_t cells;         /**< grid or mesh cells along the longest side, 2..16384; 0: 50, as in
                                 the papers; gradient on a mask: see icc_grid_create() */
-    const double *maximum; /**< where the maximum shall be: the nearest vertex inside is taken.
-                                NULL: the grassfire's (gradient, field), the deepest vertex
-                                (foliation; of a mesh of the caller's, the deepest inside). Disc has
-                                its own, the point that goes to the centre: NULL only. Bi-Laplace
-                                functions without constraints may move it: icc_gradient_info::moved */
+    const double *maximum; /**< the requested maximum: the nearest vertex inside is taken. NULL: the
+                                grassfire's (gradient, field), the deepest vertex (foliation; on a
+                                caller-supplied mesh, the deepest inner vertex). Disc has its own,
+                                the point that goes to the centre: NULL only. Bi-Laplace functions
+                                without constraints may move it: icc_gradient_info::moved */
     int32_t constraints;   /**< gradient: `ICC_CONSTRAINTS_*`; 0: needed */
     int32_t solver;        /**< gradient: `ICC_SOLVER_*`; 0: by the predicted work */
     double min_fall;       /**< gradient: least relative fall along tree edges, in (0, 0.01]; 0:
@@ -501,9 +509,9 @@ typedef struct icc_disc_info {
     double seconds_certify;  /**< time to certify it */
 } icc_disc_info;
 
-/** Shares that icc_chart_get_report() estimates from evenly spread points. All lie in [0,1]. Area
- *  and length are those of 2-D; beyond, read volume and area, and so on. For a certified chart all
- *  are 0 without looking, and so are the counts. */
+/** Shares that icc_chart_get_report() estimates from evenly spread points. All lie in [0,1]. "Area"
+ *  and "length" are for 2-D; beyond, read volume and area, and so on. For a certified chart all
+ *  shares and counts are 0, without sampling. */
 typedef struct icc_chart_report {
     size_t size;        /**< set by the caller: `sizeof(icc_chart_report)` */
     size_t n_points;    /**< points of the area that were used */
@@ -517,7 +525,7 @@ typedef struct icc_chart_report {
 } icc_chart_report;
 
 /**
- * Makes coordinates of a domain.
+ * Makes a chart: coordinates of the inside of a domain.
  *
  * @param[out] out  the chart; owned by the caller, see icc_chart_free(). It keeps the domain alive.
  * @param domain    the domain
@@ -526,19 +534,22 @@ typedef struct icc_chart_report {
  * @param err       may be NULL
  * @return ::ICC_OK; ::ICC_ERR_RESOLUTION when no grid vertex lies inside the domain or the grid
  *         would have more than 2^28 vertices; ::ICC_ERR_OUTSIDE when `maximum` is outside;
- *         ::ICC_ERR_CERTIFICATE when the chart could not be proved one-to-one, with the reason;
- *         ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY, ::ICC_ERR_UNSUPPORTED, ::ICC_ERR_VERSION,
+ *         ::ICC_ERR_CERTIFICATE when the chart could not be proved one-to-one (`err` has the
+ *         reason); ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY, ::ICC_ERR_UNSUPPORTED, ::ICC_ERR_VERSION,
  *         ::ICC_ERR_CANCELLED
  *
- * Cost with n vertices and N cells along the longest side: gradient O(N^2 + n N) time and memory at
- * most in 2-D, about 1 ms at N = 50, and O(N^dim) beyond: in 3-D at N = 64 from 0.1 s, and 15 us a
- * point and way. Field the same: in 3-D at N = 64 0.05 to 0.5 s, 10 us a point and way (15 without
- * AVX2); at most 70 bytes a grid vertex, and 150 for each of icc_field_info::n_contacts while it is
- * made. Foliation and disc mesh the domain with at most 2 n + 4 N^2 vertices (far fewer in
- * practice) and factorise its Laplacian: about 5 ms at N = 50 and n < 100, 0.1 s at n = 15,000; 500
- * bytes a vertex. Foliation on a domain with a mesh: in 3-D about 12 us a tetrahedron, 20 us from
- * 80,000 on, of which the certificate takes 2 to 4 %, then 1 to 2 us a point and way at 20,000
- * tetrahedra, 3 to 4 us at 80,000; 130 bytes a tetrahedron, 1.4 kB while it is made.
+ * Cost with n boundary vertices and N cells along the longest side, by method:
+ * - gradient: at most O(N^2 + n N) time and memory in 2-D, about 1 ms at N = 50; O(N^dim) beyond,
+ *   in 3-D at N = 64 from 0.1 s. A point takes 15 us in each direction in 3-D.
+ * - field: O() as gradient; in 3-D at N = 64 from 0.05 to 0.5 s. A point takes 10 us in each
+ *   direction (15 without AVX2). At most 70 bytes a grid vertex, and 150 for each of
+ *   icc_field_info::n_contacts while it is made.
+ * - foliation and disc in 2-D: a mesh of at most 2 n + 4 N^2 vertices (far fewer in practice),
+ *   whose Laplacian is factorised: about 5 ms at N = 50 and n < 100, 0.1 s at n = 15,000. 500 bytes
+ *   a vertex.
+ * - foliation on a domain with a mesh, in 3-D: 12 us a tetrahedron, 20 us from 80,000 on, of which
+ *   the certificate takes 2 to 4 %. A point takes 1 to 2 us in each direction at 20,000 tetrahedra,
+ *   3 to 4 us at 80,000. 130 bytes a tetrahedron, 1.4 kB while it is made.
  */
 ICC_API icc_status icc_chart_create(icc_chart **out, const icc_domain *domain,
                                     const icc_chart_options *options, const icc_env *env,
@@ -583,11 +594,12 @@ ICC_API icc_status icc_chart_get_report(const icc_chart *chart, size_t n_points,
                                         icc_error *err);
 
 /**
- * Cartesian -> integral curve coordinates.
+ * Cartesian -> integral curve coordinates. Returns ::ICC_OK even if every point failed: see
+ * `status` and `n_failed`.
  *
- * A point on the boundary has t = 0. The maximum has t = 1, facet 0 and the facet's midpoint.
- * A point that has no coordinates gets NaN in `bary` and `t`, UINT32_MAX in `facet` and its own
- * status; the others are not affected.
+ * A point on the boundary has t = 0. The maximum has t = 1, facet 0 and the facet's midpoint. A
+ * point without coordinates gets NaN in `bary` and `t`, UINT32_MAX in `facet` and its own status;
+ * the other points are not affected.
  *
  * @param chart         the chart
  * @param n             number of points
@@ -609,7 +621,8 @@ ICC_API icc_status icc_chart_encode(const icc_chart *chart, size_t n, const doub
                                     size_t *n_failed, const icc_env *env);
 
 /**
- * Integral curve coordinates -> Cartesian; the inverse of icc_chart_encode().
+ * Integral curve coordinates -> Cartesian; the inverse of icc_chart_encode(), and like it ::ICC_OK
+ * even if every point failed.
  *
  * @param chart         the chart
  * @param n             number of points
@@ -645,9 +658,9 @@ ICC_API icc_status icc_chart_trace(const icc_chart *chart, const double *point, 
                                    icc_error *err);
 
 /**
- * Writes a chart to memory, its domain included, so that other processes and machines can use it.
- * The format is described in docs/formats.md: versioned, the same on every machine, with a
- * checksum.
+ * Writes a chart and its domain to memory, for other processes and machines. Call it twice: with
+ * capacity 0 for the number of bytes, then with a buffer of that size. The format (docs/formats.md)
+ * is versioned, the same on every machine, and has a checksum.
  *
  * @param chart         the chart
  * @param capacity      bytes that `data` has room for
@@ -660,12 +673,12 @@ ICC_API icc_status icc_chart_save(const icc_chart *chart, size_t capacity, void 
                                   size_t *n_bytes);
 
 /**
- * Reads a chart back: it answers as the one that was saved does, bit for bit, with any number of
- * threads. Its info is the same but for the seconds.
+ * Reads a chart back. It gives the same results as the one that was saved, bit for bit, with any
+ * number of threads. Its info is the same but for the seconds.
  *
- * Charts on a mesh (foliation, disc) are read with all their numbers, and certified anew: bytes
- * that do not pass are refused, whoever made them. Charts on a grid (gradient, field) are made
- * again from what they were made of, and compared with a checksum of the numbers of the first.
+ * Charts on a mesh (foliation, disc) are stored in full and certified anew: bytes that do not pass
+ * are refused, wherever they come from. Charts on a grid (gradient, field) are rebuilt from their
+ * inputs and compared with a checksum of the original's numbers.
  *
  * @param[out] out the chart; owned by the caller
  * @param n_bytes  bytes of `data`
@@ -673,13 +686,13 @@ ICC_API icc_status icc_chart_save(const icc_chart *chart, size_t capacity, void 
  * @param env      may be NULL
  * @param err      may be NULL
  * @return ::ICC_OK; ::ICC_ERR_FORMAT for anything that icc_chart_save() did not write;
- *         ::ICC_ERR_VERSION for what a later version wrote, and for a chart on a grid that comes
- *         out otherwise here than where it was saved; ::ICC_ERR_MEMORY, ::ICC_ERR_CANCELLED,
+ *         ::ICC_ERR_VERSION for what a later version wrote, and for a chart on a grid that gives
+ *         different values here than where it was saved; ::ICC_ERR_MEMORY, ::ICC_ERR_CANCELLED,
  *         ::ICC_ERR_ARGUMENT
  *
  * Cost: O(n log n) time and O(n) memory in the number of bytes for charts on a mesh; for charts on
- * a grid that of icc_chart_create() with the options that the bytes tell, up to
- * icc_env::load_limit: beyond it the bytes are refused (::ICC_ERR_FORMAT) before the work begins.
+ * a grid as icc_chart_create() with the stored options, up to icc_env::load_limit: bytes that need
+ * more are refused (::ICC_ERR_FORMAT) before the work begins.
  */
 ICC_API icc_status icc_chart_load(icc_chart **out, size_t n_bytes, const void *data,
                                   const icc_env *env, icc_error *err);
@@ -693,15 +706,18 @@ typedef struct icc_map icc_map;
 enum {
     ICC_MAP_CURVES = 1, /**< point by point through the two charts, as the papers do; any
                              dimension */
-    /** An internal piecewise linear map. In 2-D: a triangle mesh of the source with an image for
-     *  every vertex, started from the charts, repaired until every triangle is positive, made fair,
-     *  and certified: every triangle exactly positive before and after, both boundaries exactly
-     *  simple. In 3-D, between domains made by icc_domain_create_mesh(): the source's mesh with
-     *  images that start from the charts, repaired and certified likewise, but not made fair; the
-     *  target's mesh serves its chart only, and edges of the source's inside that join boundary
-     *  vertices are cut where that is needed. The fastest queries: in 2-D less than 0.1 us a point,
-     *  in 3-D 1 to 5 us. On the boundary it agrees with the cages up to rounding (samples of a side
-     *  lie on it to one unit in the last place). */
+    /** A piecewise linear map on an internal mesh. The fastest queries: in 2-D less than 0.1 us a
+     *  point, in 3-D 1 to 5 us. On the boundary it agrees with the cages up to rounding (samples of
+     *  a side lie on it to one unit in the last place).
+     *
+     *  In 2-D: a triangle mesh of the source with an image for every vertex. The images start from
+     *  the charts, are repaired until every triangle is positive, made fair, and certified: every
+     *  triangle is exactly positive before and after, and both boundaries are exactly simple.
+     *
+     *  In 3-D, between domains made by icc_domain_create_mesh(): the source's mesh, with images
+     *  that start from the charts and are repaired and certified likewise, but not made fair. The
+     *  target's mesh serves its chart only. Inner edges of the source's mesh that join boundary
+     *  vertices are cut where that is needed. */
     ICC_MAP_MESH = 2
 };
 
@@ -709,22 +725,21 @@ enum {
 typedef struct icc_map_options {
     size_t size;                    /**< set by the caller: `sizeof(icc_map_options)` */
     int32_t kind;                   /**< `ICC_MAP_*`; 0: mesh for foliation and disc in 2-D, unless
-                                         both domains have meshes of the caller's, and for foliation
+                                         both domains have caller-supplied meshes, and for foliation
                                          in 3-D; else curves */
-    int32_t iterations;             /**< mesh: steps of improvement on each level of refinement; 0:
-                                         as many as pay, at most 60; -1: no improvement */
+    int32_t iterations;             /**< mesh: improvement steps on each level of refinement; 0: as
+                                         long as they pay off, at most 60; -1: no improvement */
     const icc_chart_options *chart; /**< for both charts, or NULL; its `maximum` is the source's.
                                          For kind mesh method 0 means disc (foliation when a maximum
                                          is given), and cells 0 means 20. */
-    const double *target_maximum;   /**< where the target's maximum shall be, or NULL: as the method
-                                         chooses */
+    const double *target_maximum;   /**< the target's maximum, or NULL: as the method chooses */
 } icc_map_options;
 
-/** What icc_map_get_info() tells. Members that the kind does not have are 0. */
+/** What icc_map_get_info() reports. Members that do not apply to the kind are 0. */
 typedef struct icc_map_info {
     size_t size;            /**< set by the caller: `sizeof(icc_map_info)` */
     int32_t dim;            /**< dimension */
-    int32_t kind;           /**< `ICC_MAP_*`: curves although mesh was asked for when the repair
+    int32_t kind;           /**< `ICC_MAP_*`: curves, even if mesh was requested, when the repair
                                  failed */
     int32_t certified;      /**< 1: proved to be one-to-one, exactly (field: in doubles, see
                                  n_lost); 0: not, see `reason` */
@@ -738,15 +753,16 @@ typedef struct icc_map_info {
     double energy_start;    /**< mesh: mean symmetric Dirichlet energy |J|^2 + |J^-1|^2, the target
                                  scaled to the source's area, after the repair; 4 for an
                                  isometry */
-    double energy;          /**< the same in the end */
-    double seconds;         /**< time to make the map, charts included */
-    double seconds_repair;  /**< mesh: of these for the repair */
-    double seconds_improve; /**< and for the improvement */
-    double seconds_certify; /**< and for the certificate; kind curves of method field likewise */
+    double energy;          /**< the same at the end */
+    double seconds;         /**< time to make the map, including the charts */
+    double seconds_repair;  /**< mesh: of that, time to repair it */
+    double seconds_improve; /**< of that, time to improve it */
+    double seconds_certify; /**< of that, time to certify it; kind curves of method field
+                                 likewise */
     size_t n_samples;       /**< field: evenly spread points, half of them in the target, that were
                                  mapped there and back; 0 unless both charts are certified */
     size_t n_lost;          /**< field: of these, points that come back more than 1e-9 of the
-                                 bounding box's diagonal away, or whose derivative does not fit
+                                 bounding box's diagonal away, or whose derivative does not match
                                  that of the way back. None if certified */
     size_t n_flat;          /**< field: of these, points around which volume shrinks to less than
                                  1e-6 of its mean. At most 0.2 % if certified */
@@ -756,11 +772,14 @@ typedef struct icc_map_info {
 
 /**
  * Makes the map between two domains whose boundaries correspond: facet i goes to facet i, with the
- * same barycentric coordinates. Builds both charts together: foliation and disc cut both boundaries
- * alike, and foliation pairs the maxima (the target's is where the disc maps take the source's), as
- * field does (by the affine map that fits the boundary best, the nearer the better). On domains
- * with meshes foliation takes a vertex of the source that is deep inside both domains, before and
- * after a harmonic map, and the vertex of the target nearest to its image.
+ * same barycentric coordinates.
+ *
+ * Both charts are built together. Foliation and disc cut both boundaries alike. The maxima are
+ * paired:
+ * - by foliation, the target's is where the disc maps take the source's;
+ * - by field, through the affine map that fits the boundary best, near parts of it counting most;
+ * - by foliation on domains with meshes, a vertex of the source that is deep inside both domains,
+ *   before and after a harmonic map, with the target's vertex nearest to its image.
  *
  * @param[out] out the map; owned by the caller, see icc_map_free()
  * @param source   domain before
@@ -768,20 +787,20 @@ typedef struct icc_map_info {
  *                 the same orientation, else ::ICC_ERR_BOUNDARY
  * @param options  may be NULL
  * @param env      may be NULL
- * @param err      may be NULL; `side` tells source (1) from target (2)
+ * @param err      may be NULL; `side` is 1 for the source, 2 for the target
  * @return as icc_chart_create(), or ::ICC_ERR_BOUNDARY
  *
- * Cost of kind mesh: that of two charts, then a few Newton steps on the mesh: from 5 ms for cages
- * of some tens of vertices to about a second for 15,000. Deterministic: iterations are capped,
- * clocks are not read.
+ * Cost of kind mesh: two charts, then a few Newton steps on the mesh: from 5 ms for cages of a few
+ * dozen vertices to about a second for 15,000. Deterministic: iterations are capped, and no clock
+ * is read.
  */
 ICC_API icc_status icc_map_create(icc_map **out, const icc_domain *source, const icc_domain *target,
                                   const icc_map_options *options, const icc_env *env,
                                   icc_error *err);
 
 /**
- * Makes a map from two charts, which must use the same method and domains that correspond as
- * icc_map_create() asks. Kind mesh takes the source chart's mesh. Of the options `kind` and
+ * Makes a map from two charts, which must use the same method, on domains that correspond as
+ * icc_map_create() requires. Kind mesh uses the source chart's mesh. Only the options `kind` and
  * `iterations` are used. The map keeps the charts alive.
  */
 ICC_API icc_status icc_map_create_from_charts(icc_map **out, const icc_chart *source,
@@ -792,10 +811,10 @@ ICC_API icc_status icc_map_create_from_charts(icc_map **out, const icc_chart *so
 /** Options of icc_map_improve(). */
 typedef struct icc_improve_options {
     size_t size;        /**< set by the caller: `sizeof(icc_improve_options)` */
-    int32_t iterations; /**< steps at most on each level; 0: 60 */
-    int32_t levels;     /**< refinements at most; 0: 4; -1: none */
-    double tolerance;   /**< a level ends with a step that gains less than this share of the energy;
-                             0: 1e-4 */
+    int32_t iterations; /**< at most so many steps on each level; 0: 60 */
+    int32_t levels;     /**< at most so many refinements; 0: 4; -1: none */
+    double tolerance;   /**< a level ends when a step gains less than this share of the energy; 0:
+                             1e-4 */
 } icc_improve_options;
 
 /** What icc_map_improve() did. */
@@ -804,15 +823,15 @@ typedef struct icc_improve_report {
     double energy_start; /**< as icc_map_info::energy, before */
     double energy;       /**< and after; never more */
     size_t n_iterations; /**< steps */
-    size_t n_simplices;  /**< triangles in the end */
+    size_t n_simplices;  /**< triangles at the end */
     int32_t n_levels;    /**< refinements */
-    int32_t cancelled;   /**< 1: the progress callback ended it early */
+    int32_t cancelled;   /**< 1: the progress callback stopped it early */
 } icc_improve_report;
 
 /**
  * Makes a fairer map from one of kind mesh; the given map is not changed. The energy never rises
- * and every intermediate map is certified, so stopping early loses nothing: when the progress
- * callback asks to stop, the call succeeds with what it has and says so in the report.
+ * and every intermediate map is certified, so stopping early is safe: when the progress callback
+ * asks to stop, the call succeeds with the map reached so far and says so in the report.
  *
  * @param[out] out    the map; owned by the caller
  * @param map         a map of kind mesh in 2-D, else ::ICC_ERR_UNSUPPORTED
@@ -826,26 +845,26 @@ ICC_API icc_status icc_map_improve(icc_map **out, const icc_map *map,
                                    const icc_env *env, icc_error *err);
 
 /**
- * The map to a target that has moved: the source stays, the mesh and where its inside went are
- * taken over from `map`, repaired, and improved by a few steps. For dragging a cage, where each
- * frame goes on from the one before; the mesh is not refined further.
+ * Makes the map to a target that has moved. The source stays; the mesh and the images of its inner
+ * vertices are taken from `map`, repaired, and improved by a few steps. For dragging a cage, where
+ * each frame continues from the one before. The mesh is not refined further.
  *
  * @param[out] out   the map; owned by the caller. It has no charts: icc_map_source_chart() gives
  *                   NULL.
  * @param map        a map of kind mesh in 2-D, else ::ICC_ERR_UNSUPPORTED
- * @param target     the new target, which must correspond as icc_map_create() asks
- * @param iterations steps of improvement at most; 0: 8; -1: none
+ * @param target     the new target, which must correspond as icc_map_create() requires
+ * @param iterations at most so many improvement steps; 0: 8; -1: none
  * @param env        may be NULL
  * @param err        may be NULL
- * @return as icc_map_create(); ::ICC_ERR_CERTIFICATE when the target has moved too far: make a new
- *         map
+ * @return as icc_map_create(); ::ICC_ERR_CERTIFICATE when the target has moved too far: then make a
+ *         new map
  */
 ICC_API icc_status icc_map_retarget(icc_map **out, const icc_map *map, const icc_domain *target,
                                     int32_t iterations, const icc_env *env, icc_error *err);
 
 /**
- * The mesh of a map of kind mesh, in the caller's coordinates (rounded once; the certificate is
- * about the numbers inside).
+ * Copies the mesh of a map of kind mesh, in the caller's coordinates (rounded once; the certificate
+ * is about the unrounded numbers inside).
  *
  * @param map            the map
  * @param[out] vertices  room for icc_map_info::n_vertices * dim doubles, or NULL
@@ -857,23 +876,23 @@ ICC_API icc_status icc_map_retarget(icc_map **out, const icc_map *map, const icc
 ICC_API icc_status icc_map_get_mesh(const icc_map *map, double *vertices, double *images,
                                     uint32_t *simplices);
 
-/** What icc_map_certify() found out about the image of a caller's mesh. */
+/** What icc_map_certify() found out about the image of a caller-supplied mesh. */
 typedef struct icc_certificate {
     size_t size;             /**< set by the caller: `sizeof(icc_certificate)` */
     int32_t certified;       /**< 1: every simplex keeps its orientation and both boundaries are
                                   simple, so the mesh and its image are one-to-one */
-    int32_t boundary_simple; /**< 1: the mesh is one that icc_domain_create_mesh() takes, and the
-                                  image of its boundary is a simple polygon or surface */
-    size_t n_inverted;       /**< simplices whose image has the other orientation */
-    size_t n_flat;           /**< simplices whose image, or which themselves, have no volume */
+    int32_t boundary_simple; /**< 1: icc_domain_create_mesh() would accept the mesh, and the image
+                                  of its boundary is a simple polygon or surface */
+    size_t n_inverted;       /**< simplices whose image has the opposite orientation */
+    size_t n_flat;           /**< simplices without volume, or whose image has none */
     size_t n_no_image;       /**< vertices that have no image */
     int64_t first;           /**< the first simplex at fault, or -1 */
 } icc_certificate;
 
 /**
- * Maps the vertices of a caller's mesh of triangles (2-D) or tetrahedra (3-D) and checks, exactly,
- * whether the image is a mesh too. A mesh sampled from a one-to-one map need not be: its simplices
- * are straight where the map is not.
+ * Maps the vertices of a caller-supplied mesh of triangles (2-D) or tetrahedra (3-D) and checks,
+ * exactly, whether the image is a mesh too. It need not be, even though the map is one-to-one: its
+ * simplices are straight where the map bends.
  *
  * @param map              a map in 2-D or 3-D, else ::ICC_ERR_UNSUPPORTED
  * @param n_vertices       vertices of the mesh, fewer than 2^26
@@ -884,7 +903,7 @@ typedef struct icc_certificate {
  * @param[out] certificate its `size` is set by the caller
  * @param env              may be NULL
  * @param err              may be NULL
- * @return ::ICC_OK when the check ran, whatever it found; ::ICC_ERR_ARGUMENT, ...
+ * @return ::ICC_OK once the check has run, whatever it found; ::ICC_ERR_ARGUMENT, ...
  */
 ICC_API icc_status icc_map_certify(const icc_map *map, size_t n_vertices, const double *vertices,
                                    size_t n_simplices, const uint32_t *simplices, double *images,
@@ -892,13 +911,14 @@ ICC_API icc_status icc_map_certify(const icc_map *map, size_t n_vertices, const 
                                    icc_error *err);
 
 /**
- * Carries a caller's mesh of triangles (2-D) or tetrahedra (3-D) along so that no simplex inverts:
+ * Maps a caller-supplied mesh of triangles (2-D) or tetrahedra (3-D) so that no simplex inverts:
  * maps the vertices, then moves the images of inner ones until every simplex keeps its orientation.
- * Inner vertices that have no image get one. Simplices and the images of boundary vertices stay, so
- * it cannot always succeed (a simplex with all its corners on the boundary is as the map makes it);
- * the certificate tells. Where it does not, and where the mesh is not one that
- * icc_domain_create_mesh() takes or a vertex of its boundary has no image, the images are the best
- * that there are.
+ * Inner vertices without an image get one.
+ *
+ * Simplices and the images of boundary vertices do not change, so this cannot always succeed (a
+ * simplex with all its corners on the boundary stays as the map makes it): check `certificate`. If
+ * it fails, if icc_domain_create_mesh() would not accept the mesh, or if a vertex of its boundary
+ * has no image, the images are the best that were found.
  *
  * @param map              a map in 2-D or 3-D, else ::ICC_ERR_UNSUPPORTED
  * @param n_vertices       vertices of the mesh, fewer than 2^26
@@ -911,8 +931,8 @@ ICC_API icc_status icc_map_certify(const icc_map *map, size_t n_vertices, const 
  * @param err              may be NULL
  * @return as icc_map_certify()
  *
- * Cost: proportional to what is inverted; where patches do not suffice, some hundred passes over
- * the mesh. Deterministic: iterations are capped, clocks are not read.
+ * Cost: proportional to the number of inverted simplices; where repairing patches does not suffice,
+ * some hundred passes over the mesh. Deterministic: iterations are capped, and no clock is read.
  */
 ICC_API icc_status icc_map_repair(const icc_map *map, size_t n_vertices, const double *vertices,
                                   size_t n_simplices, const uint32_t *simplices, double *images,
@@ -931,13 +951,15 @@ ICC_API const icc_chart *icc_map_source_chart(const icc_map *map);
 ICC_API const icc_chart *icc_map_target_chart(const icc_map *map);
 
 /**
- * Source -> target. A certified map of method field gives no image (::ICC_ERR_TRACE) to a point
- * that would not come back to within 1e-6 of its bounding box's diagonal.
+ * Source -> target. Returns ::ICC_OK even if every point failed: see `status` and `n_failed`. A
+ * certified map of method field gives no image (::ICC_ERR_TRACE) to a point that would not come
+ * back to within 1e-6 of its bounding box's diagonal.
  *
  * @param map           the map
  * @param n             number of points
  * @param points        n * dim coordinates in the source
- * @param[out] images   n * dim coordinates; NaN for a point that has no image. May be `points`.
+ * @param[out] images   n * dim coordinates; NaN for a point without an image. May be the same array
+ *                      as `points`.
  * @param[out] status   n statuses: ::ICC_OK, ::ICC_ERR_OUTSIDE, ::ICC_ERR_TRACE,
  *                      ::ICC_ERR_ARGUMENT; or NULL
  * @param[out] n_failed how many points have no image, or NULL
@@ -954,8 +976,9 @@ ICC_API icc_status icc_map_apply_inverse(const icc_map *map, size_t n, const dou
 
 /**
  * The derivative of the map at points of the source, exact for the piecewise map up to rounding;
- * one-sided where it has a kink. Where a map is certified the determinant is positive; should
- * rounding not leave it so (method field), or the point not come back, there is none.
+ * one-sided where it has a kink. Where a map is certified the determinant is positive; if rounding
+ * would make it otherwise (method field), or the point does not come back, there is no derivative.
+ * Returns ::ICC_OK even if every point failed.
  *
  * @param map            the map
  * @param n              number of points
@@ -964,7 +987,7 @@ ICC_API icc_status icc_map_apply_inverse(const icc_map *map, size_t n, const dou
  * @param[out] jacobians n * dim * dim: row i, column j is the derivative of image coordinate i by
  *                       point coordinate j; NaN where there is none
  * @param[out] status    n statuses, or NULL
- * @param[out] n_failed  how many points have none, or NULL
+ * @param[out] n_failed  how many points have no derivative, or NULL
  * @param env            may be NULL
  * @return as icc_chart_encode()
  */
@@ -973,13 +996,13 @@ ICC_API icc_status icc_map_jacobian(const icc_map *map, size_t n, const double *
                                     const icc_env *env);
 
 /**
- * Writes a map to memory, with its domains and charts; otherwise as icc_chart_save().
+ * Writes a map to memory, with its domains and charts, in two calls as icc_chart_save() does.
  */
 ICC_API icc_status icc_map_save(const icc_map *map, size_t capacity, void *data, size_t *n_bytes);
 
 /**
- * Reads a map back, as icc_chart_load() does a chart. The mesh of a map of kind mesh is read with
- * all its numbers, and certified anew.
+ * Reads a map back, as icc_chart_load() does a chart. The mesh of a map of kind mesh is stored in
+ * full, and certified anew.
  */
 ICC_API icc_status icc_map_load(icc_map **out, size_t n_bytes, const void *data, const icc_env *env,
                                 icc_error *err);
@@ -993,26 +1016,26 @@ typedef struct icc_picture {
     int32_t bytes;    /**< of a sample: 1, or 2 in the machine's order; unsigned, all values used */
     int32_t alpha;    /**< 1: the last of at least two channels is opacity, and the others are not
                            multiplied by it; 0: there is none */
-    size_t stride;    /**< bytes from a row to the next */
-    void *pixels;     /**< the first row; any alignment. Only read in a source. */
+    size_t stride;    /**< bytes from one row to the next */
+    void *pixels;     /**< the first row; any alignment. A source is only read. */
 } icc_picture;
 
 /**
- * Carries a picture along: every pixel of the target whose centre lies in the target domain or on
- * its boundary gets the colour of the place in the source that goes there; all others are left
- * alone. Pixel (i, j), column i of row j, covers [i, i+1] x [j, j+1] in the coordinates of the
+ * Warps a picture: every pixel of the target whose centre lies in the target domain or on its
+ * boundary gets the colour of the place in the source that is mapped there; all other pixels are
+ * left alone. Pixel (i, j), column i of row j, covers [i, i+1] x [j, j+1] in the coordinates of the
  * domains.
  *
- * Colours between pixels are bilinear, and weighted by opacity. Where the map shrinks the picture
- * they are means of up to 16 x 16 samples, so that it does not alias. Beyond its rim the source
- * goes on with the colour of the rim. A map that is the identity copies exactly.
+ * Colours between pixels are interpolated bilinearly, weighted by opacity. Where the map shrinks
+ * the picture they are means of up to 16 x 16 samples, to avoid aliasing. Beyond its edge the
+ * source continues with the colour of the edge. The identity copies pixels exactly.
  *
- * @param map           the map, 2-D; kind mesh is the fast one
+ * @param map           the map, 2-D; kind mesh is the fastest
  * @param source        read
- * @param target        the same channels, bytes and alpha as the source, any width and height. Its
- *                      pixels must not overlap the source's.
- * @param[out] n_failed pixels inside that have no image, which are left alone, or NULL; always 0
- *                      for kind mesh
+ * @param target        has the channels, bytes and alpha of the source, and any width and height.
+ *                      Its pixels must not overlap the source's.
+ * @param[out] n_failed pixels inside without an image, which are left alone, or NULL; always 0 for
+ *                      kind mesh
  * @param env           may be NULL; results are the same for every number of threads
  * @param err           may be NULL
  * @return ::ICC_OK, ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY, ::ICC_ERR_VERSION, ::ICC_ERR_CANCELLED

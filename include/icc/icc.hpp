@@ -43,7 +43,7 @@ template <class T> inline constexpr bool is_view<view<T>> = true;
 template <class E, class T> inline constexpr bool is_row = false;
 template <class T, std::size_t N> inline constexpr bool is_row<std::array<T, N>, T> = true;
 
-/** Elements in a row that belong to someone else: a vector, an array, a `std::span`, or a list in braces;
+/** Contiguous elements that someone else owns: a vector, an array, a `std::span`, or a list in braces;
  *  also of `std::array`, such as `std::vector<std::array<double, 2>>` for points. */
 template <class T> class view {
     using value = std::remove_const_t<T>;
@@ -99,17 +99,17 @@ template <class Points> auto numbers(Points &points) noexcept
 /** A call that failed: `status`, `side` and `index` are those of ::icc_error. */
 class error : public std::exception, public icc_error {
 public:
-    explicit error(const icc_error &e) noexcept : icc_error(e) {} /**< as the C interface tells it */
+    explicit error(const icc_error &e) noexcept : icc_error(e) {} /**< as the C interface reports it */
     /** One line of English. */
     const char *what() const noexcept override { return *message ? message : icc_status_name(status); }
 };
 
 /** How a call runs. */
 struct env {
-    std::int32_t threads = 1; /**< that it may use; results are the same */
-    /** Called now and then on the calling thread with the name of the stage and the share of the whole
-     *  call that is done, which never falls. True cancels: icc::error with ::ICC_ERR_CANCELLED. What it
-     *  throws cancels, too, and comes out of the call. */
+    std::int32_t threads = 1; /**< how many it may use; results do not depend on it */
+    /** Called from time to time on the calling thread with the name of the stage and the share of the whole
+     *  call that is done, which never falls. True cancels: icc::error with ::ICC_ERR_CANCELLED. An
+     *  exception cancels, too, and propagates from the call. */
     std::function<bool(const char *stage, double share)> progress = {};
     /** Bytes for objects that are read back, as icc_env::load_limit; 0: the default. */
     std::uint64_t load_limit = 0;
@@ -189,7 +189,7 @@ public:
     const T *get() const noexcept { return owned_.get(); } /**< for calls of the C interface; borrowed */
 
 protected:
-    /** What `read` tells. */
+    /** What `read` fills in. */
     template <class Info> Info tell(icc_status (*read)(const T *, Info *)) const
     {
         auto info = sized<Info>();
@@ -197,7 +197,7 @@ protected:
         return info;
     }
 
-    /** The bytes that `write` makes. */
+    /** The bytes that `write` writes. */
     auto bytes(icc_status (*write)(const T *, std::size_t, void *, std::size_t *)) const
     {
         std::size_t n = 0;
@@ -398,7 +398,7 @@ public:
     /** The domain, for calls of the C interface; borrowed. */
     const icc_domain *get_domain() const noexcept { return icc_chart_domain(get()); }
 
-    /** What the coordinates miss, estimated from so many points; 0: 4096. */
+    /** What the coordinates miss, estimated from `n_points` points; 0: 4096. */
     icc_chart_report report(std::size_t n_points = 0, const env &e = {}) const
     {
         auto result = sized<icc_chart_report>();
@@ -419,7 +419,7 @@ public:
         return c;
     }
 
-    /** And back, into memory of the caller's; statuses may be left out. Returns how many have no point. */
+    /** The inverse, into caller-supplied memory; statuses may be left out. Returns how many have no point. */
     std::size_t decode(const coordinates &c, view<double> points, view<icc_status> statuses = {},
                        const env &e = {}) const
     {
@@ -480,10 +480,10 @@ struct map_mesh {
     std::vector<std::uint32_t> simplices; /**< `dim` + 1 vertices each */
 };
 
-/** A mesh of the caller's, carried along. */
+/** The image of a caller-supplied mesh. */
 struct carried_mesh {
     std::vector<double> images;  /**< of its vertices */
-    icc_certificate certificate; /**< whether it is a mesh still */
+    icc_certificate certificate; /**< whether it is still a mesh */
 };
 
 /** A picture in memory whose rows follow each other: `Sample` is `std::uint8_t` or `std::uint16_t`;
@@ -572,7 +572,7 @@ public:
         return m;
     }
 
-    /** Carries a mesh along and checks it: icc_map_certify(). */
+    /** Maps a mesh and checks its image: icc_map_certify(). */
     carried_mesh certify(view<const double> vertices, view<const std::uint32_t> simplices,
                          const env &e = {}) const
     {
@@ -586,8 +586,8 @@ public:
         return carry_mesh(icc_map_repair, vertices, simplices, e);
     }
 
-    /** Source to target, into memory of the caller's, which may be that of the points. Points that have no
-     *  image get NaN; returns how many. */
+    /** Source to target, into caller-supplied memory, which may be that of the points. Points without an
+     *  image get NaN and do not throw; returns how many. */
     std::size_t apply(view<const double> points, view<double> images, const env &e = {}) const
     {
         return carry(icc_map_apply, points, images, {}, e);
@@ -666,7 +666,7 @@ public:
         return jacobians;
     }
 
-    /** Carries a picture along: icc_map_warp(). Returns how many pixels have no image. */
+    /** Warps a picture: icc_map_warp(). Returns how many pixels have no image. */
     std::size_t warp(const icc_picture &source, const icc_picture &target, const env &e = {}) const
     {
         std::size_t n_failed = 0;

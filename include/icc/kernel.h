@@ -5,18 +5,18 @@
  *     icc_shape (filled regions and curves, in 2-D or 3-D)
  *       -> icc_sampling (points spread over it)
  *         -> icc_weights (handles, and a weight of every handle at every sample)
- *           -> icc_binding (the same at points of the caller's, kept for posing again and again)
+ *           -> icc_binding (weights at caller-supplied points, kept for repeated poses)
  *
  * The weights are optimised at each sample on its own: they sum to 1 and reproduce the sample from
  * the handles' positions. Between the samples they are interpolated by a sum of kernels. A pose is
- * an affine transform per handle; a point goes to the mean of what the transforms make of it, by
- * its weights (linear blend skinning).
+ * an affine transform per handle; a point goes to the weighted mean of its images under these
+ * transforms (linear blend skinning).
  *
  * Nothing here is certified to be one-to-one, and weights between samples can be slightly negative:
  * icc_weights_get_report() measures how much. For maps that are one-to-one see icc/icc.h.
  *
- * Objects are immutable: painting, new handles and other methods give new objects that share what
- * has not changed. The rules of icc/icc.h hold: `*out` is NULL on failure, `env` and `err` may be
+ * Objects are immutable: painting, rigid parts and other methods make new objects, which share what
+ * has not changed. The rules of icc/icc.h apply: `*out` is NULL on failure, `env` and `err` may be
  * NULL, zero in an option means the default.
  *
  * Source: Sakaridis, Kernel Coordinates (ETH Zurich 2016); equation numbers are that thesis'.
@@ -41,11 +41,11 @@ typedef struct icc_shape icc_shape;
  * Makes a shape from regions and curves, which may be mixed.
  *
  * Regions are domains. Their boundaries must not meet, which is checked exactly. One may lie within
- * another: the boundaries are walls between them, and a point belongs to the innermost region
- * around it, a point on a boundary to what that encloses. So a star in a square is a star and its
- * surroundings. Curves are segments between vertices; they may lie anywhere, and are no walls.
- * Weights spread over a boundary outward only, from what it encloses to what is around it: so they
- * do not take the way through the surroundings from one limb to another.
+ * another: the boundaries are walls between them. A point belongs to the innermost region around
+ * it; a point on a boundary belongs to what that boundary encloses. So a star in a square is a star
+ * and its surroundings. Curves are segments between vertices; they may lie anywhere, and are not
+ * walls. Weights spread across a boundary only outward, from what it encloses to what surrounds it:
+ * so they do not take a short cut through the surroundings from one limb to another.
  *
  * @param[out] out   the shape; owned by the caller. It keeps the regions alive.
  * @param dim        2 or 3
@@ -56,7 +56,7 @@ typedef struct icc_shape icc_shape;
  * @param n_segments segments of the curves
  * @param segments   n_segments * 2 vertex indices
  * @param env        may be NULL
- * @param err        may be NULL; `index` names the region, vertex or segment at fault
+ * @param err        may be NULL; `index` is the region, vertex or segment at fault
  * @return ::ICC_OK, ::ICC_ERR_ARGUMENT (no region and no segment, a vertex that is not finite or
  *         not there, a segment without length), ::ICC_ERR_MEMORY, ::ICC_ERR_BOUNDARY (boundaries
  *         meet), ::ICC_ERR_VERSION, ::ICC_ERR_CANCELLED
@@ -76,10 +76,10 @@ typedef struct icc_sampling icc_sampling;
 
 /** How samples are spread. */
 enum {
-    ICC_SAMPLING_GRID = 1, /**< a regular grid from the lower corner of the regions' box, the first
+    ICC_SAMPLING_GRID = 1,  /**< a regular grid from the lower corner of the regions' box, the first
                                 axis fastest */
-    ICC_SAMPLING_BLUE = 2, /**< blue noise: random, yet evenly spaced; on the boundaries and curves,
-                                too */
+    ICC_SAMPLING_BLUE = 2,  /**< blue noise: random but evenly spaced, also on boundaries and
+                                curves */
     ICC_SAMPLING_POINTS = 3 /**< the caller's points: icc_sampling_create_from_points() only */
 };
 
@@ -88,34 +88,34 @@ typedef struct icc_sampling_options {
     size_t size;         /**< set by the caller: `sizeof(icc_sampling_options)` */
     int32_t kind;        /**< `ICC_SAMPLING_*`; 0: blue */
     int32_t steps;       /**< blue: steps of relaxation (inverse mean shift); 0: 60; -1: none */
-    double spacing;      /**< T, the distance of neighbours; 0: of the longest side 1/100, in
-                              3-D 1/20, where half of it costs 60 times as much */
-    double margin;       /**< grid: how far from the regions it goes, in spacings; 0: not beyond
-                              them */
+    double spacing;      /**< T, the distance of neighbours; 0: 1/100 of the longest side, in 3-D
+                              1/20, where half the spacing costs 60 times as much */
+    double margin;       /**< grid: how far it extends beyond the regions, in spacings; 0: not at
+                              all */
     uint64_t seed;       /**< blue: of the random numbers; equal seeds give equal samplings */
-    size_t n_fixed;      /**< points that shall be samples */
+    size_t n_fixed;      /**< points that must be samples */
     const double *fixed; /**< n_fixed * dim coordinates, or NULL. Blue only. */
 } icc_sampling_options;
 
-/** What icc_sampling_get_info() tells. */
+/** What icc_sampling_get_info() reports. */
 typedef struct icc_sampling_info {
     size_t size;      /**< set by the caller: `sizeof(icc_sampling_info)` */
     int32_t dim;      /**< dimension */
     int32_t kind;     /**< `ICC_SAMPLING_*` */
     size_t n_samples; /**< samples */
-    size_t n_edge;    /**< of them on boundaries and curves; with blue noise the first ones */
-    double spacing;   /**< T as asked for; of the caller's points the mean distance of nearest
+    size_t n_edge;    /**< samples on boundaries and curves; with blue noise these come first */
+    double spacing;   /**< T as requested; for caller-supplied points the mean distance of nearest
                            neighbours */
     double nearest;   /**< the least distance of two samples, over T */
     double sigma;     /**< suggested width of the kernel: from the samples' spectrum (figure 6.10);
-                           3 T / pi for a grid (3.28) and the caller's points */
+                           3 T / pi for a grid (3.28) and for caller-supplied points */
 } icc_sampling_info;
 
 /**
- * Spreads samples over a shape. No sample comes to lie on the wrong side of a wall.
+ * Spreads samples over a shape. No sample ends up on the wrong side of a wall.
  *
- * Blue noise: boundaries and curves get samples about T apart, at their ends, forks and corners
- * first, and keep them. The rest starts from a shaken lattice and is relaxed (6.4), no nearer to a
+ * Blue noise: boundaries and curves get fixed samples about T apart, at their ends, forks and
+ * corners first. The others start from a jittered lattice and are relaxed (6.4), no nearer to a
  * boundary than 0.4 T. Fixed points stay where they are; samples on boundaries make room for them.
  *
  * @param[out] out the sampling; owned by the caller. It keeps the shape alive.
@@ -123,10 +123,10 @@ typedef struct icc_sampling_info {
  * @param options  may be NULL
  * @param env      may be NULL
  * @param err      may be NULL
- * @return ::ICC_OK, ::ICC_ERR_RESOLUTION (no sample lies inside some region, named, or there would
- *         be more than 2^24), ::ICC_ERR_OUTSIDE (a fixed point is in no region), ::ICC_ERR_ARGUMENT
- *         (a grid for curves alone, a fixed point that is not finite, ...), ::ICC_ERR_MEMORY,
- *         ::ICC_ERR_VERSION, ::ICC_ERR_CANCELLED
+ * @return ::ICC_OK, ::ICC_ERR_RESOLUTION (no sample lies inside some region, which `err` names, or
+ *         there would be more than 2^24), ::ICC_ERR_OUTSIDE (a fixed point is in no region),
+ *         ::ICC_ERR_ARGUMENT (a grid for curves alone, a fixed point that is not finite, ...),
+ *         ::ICC_ERR_MEMORY, ::ICC_ERR_VERSION, ::ICC_ERR_CANCELLED
  *
  * Cost: O(steps * n) time and O(n) memory: 10,000 samples take less than a second.
  */
@@ -135,11 +135,11 @@ ICC_API icc_status icc_sampling_create(icc_sampling **out, const icc_shape *shap
                                        icc_error *err);
 
 /**
- * A sampling from the caller's points, which keep their order. The suggested width follows from
- * their mean spacing.
+ * Makes a sampling from caller-supplied points, which keep their order. The suggested width follows
+ * from their mean spacing.
  *
- * @return ::ICC_OK, ::ICC_ERR_OUTSIDE (a point lies in no region and on no curve; `index` names
- *         it), ::ICC_ERR_ARGUMENT (not finite, or two points are the same), ::ICC_ERR_MEMORY
+ * @return ::ICC_OK, ::ICC_ERR_OUTSIDE (a point, given by `index`, lies in no region and on no
+ *         curve), ::ICC_ERR_ARGUMENT (not finite, or two points are the same), ::ICC_ERR_MEMORY
  */
 ICC_API icc_status icc_sampling_create_from_points(icc_sampling **out, const icc_shape *shape,
                                                    size_t n, const double *points,
@@ -155,8 +155,9 @@ ICC_API icc_status icc_sampling_get_info(const icc_sampling *sampling, icc_sampl
 ICC_API icc_status icc_sampling_get_points(const icc_sampling *sampling, double *points);
 
 /**
- * Writes a sampling to memory, its shape included. The format is described in docs/formats.md:
- * versioned, the same on every machine, with a checksum.
+ * Writes a sampling and its shape to memory. Call it twice: with capacity 0 for the number of
+ * bytes, then with a buffer of that size. The format (docs/formats.md) is versioned, the same on
+ * every machine, and has a checksum.
  *
  * @param sampling      the sampling
  * @param capacity      bytes that `data` has room for
@@ -168,21 +169,21 @@ ICC_API icc_status icc_sampling_save(const icc_sampling *sampling, size_t capaci
                                      size_t *n_bytes);
 
 /** Reads a sampling back, bit for bit. ::ICC_ERR_FORMAT for anything that icc_sampling_save() did
- *  not write, ::ICC_ERR_VERSION for what a later version did; any bytes are safe to try. */
+ *  not write, ::ICC_ERR_VERSION for what a later version wrote; any bytes are safe to pass. */
 ICC_API icc_status icc_sampling_load(icc_sampling **out, size_t n_bytes, const void *data,
                                      const icc_env *env, icc_error *err);
 
-/* ------------------------------------------------------------------ kernel */
+/* ----------------------------------------------------------------- weights */
 
-/** Handles, and the weight of each at every place of a shape. */
+/** Handles, and the weight of each handle everywhere in a shape. */
 typedef struct icc_weights icc_weights;
 
 /** The kernel that is summed up. */
 enum {
     ICC_KERNEL_WENDLAND = 1, /**< Wendland's C2 function of radius 3 sigma: smooth, and positive
                                   definite at any width */
-    ICC_KERNEL_GAUSS = 2     /**< the thesis': exp(-d^2 / (2 sigma^2)), cut off at `cutoff` sigma,
-                                  where it jumps; not always positive definite */
+    ICC_KERNEL_GAUSS = 2     /**< the thesis's kernel: exp(-d^2 / (2 sigma^2)), cut off at `cutoff`
+                                  sigma, where it jumps; not always positive definite */
 };
 
 /** Where the weights start from. */
@@ -195,7 +196,7 @@ enum {
     ICC_INITIAL_GIVEN = 4    /**< the caller's */
 };
 
-/** What is optimised at each sample, under the conditions that weights sum to 1 and reproduce the
+/** What is minimised at each sample, on the conditions that weights sum to 1 and reproduce the
  *  sample. */
 enum {
     ICC_WEIGHTS_QP = 1,       /**< least change of the initial weights, none negative (4.1) */
@@ -206,20 +207,19 @@ enum {
 
 /**
  * A segment along which weights are linear: what lies on it stays straight (5.6). It has nodes at
- * both ends and between them, one spacing apart or a little less; nodes beside it follow it, the
- * nearer the more. Spread the samples with those places fixed for the best spacing.
+ * both ends and between them, one spacing apart or a little less; nodes beside it follow it, nearer
+ * ones more closely. For the best spacing, make the sampling with these places as fixed points.
  *
- * An end may be a handle, or an end of an earlier line. Lines should not cross: where they come
- * near each other, or a handle, the earlier one and the handle prevail. The weights of a parallel
- * line follow from those of the other and can be negative; nodes beside it keep theirs, so that
- * between its nodes it is straight only to a few hundredths then.
+ * An end may be a handle, or an end of an earlier line. Lines should not cross: where a line comes
+ * near an earlier one, or a handle, the earlier line or the handle prevails. The weights of a
+ * parallel line follow from those of the other line and can be negative; nodes beside it keep
+ * theirs, so between its nodes such a line is straight only to a few hundredths.
  */
 typedef struct icc_line {
-    double from[3];   /**< an end of it, in the shape; at least half a spacing away from the
-                           other */
+    double from[3];   /**< one end, in the shape; at least half a spacing away from the other */
     double to[3];     /**< the other */
-    int32_t parallel; /**< 0, or k to stay parallel to line k - 1, an earlier one (5.11), which it
-                           must be to 1e-9 of its length; `to` must then be neither a handle nor on
+    int32_t parallel; /**< 0, or k to stay parallel to line k - 1, an earlier one (5.11). It must be
+                           parallel to 1e-9 of its length, and `to` must be neither a handle nor on
                            an earlier line */
 } icc_line;
 
@@ -230,11 +230,11 @@ typedef struct icc_weights_options {
     int32_t initial;       /**< `ICC_INITIAL_*`; 0: edges if there are any, else heat */
     int32_t method;        /**< `ICC_WEIGHTS_*`; 0: QP */
     int32_t steps;         /**< of diffusion; 0: 5 */
-    int32_t affine_tail;   /**< an affine function beside the kernels, which makes sums and
-                                reproduction exact between the samples: 0 or 1 with, -1 without
-                                (the thesis) */
-    int32_t within_shape;  /**< diffusion between samples that see each other inside the shape: 0
-                                or 1; -1 through walls, too (the thesis) */
+    int32_t affine_tail;   /**< an affine function added to the kernels, which makes sums and
+                                reproduction exact between the samples: 0 or 1 with, -1 without (as
+                                in the thesis) */
+    int32_t within_shape;  /**< 0 or 1: diffusion only between samples that see each other inside
+                                the shape; -1: through walls, too (as in the thesis) */
     double sigma;          /**< width of the kernel; 0: icc_sampling_info::sigma */
     double cutoff;         /**< Gauss: in sigma; 0: 5 */
     size_t n_edges;        /**< edges between handles */
@@ -245,7 +245,7 @@ typedef struct icc_weights_options {
                                         given */
 } icc_weights_options;
 
-/** What icc_weights_get_info() tells. */
+/** What icc_weights_get_info() reports. */
 typedef struct icc_weights_info {
     size_t size;            /**< set by the caller: `sizeof(icc_weights_info)` */
     int32_t dim;            /**< dimension */
@@ -253,12 +253,11 @@ typedef struct icc_weights_info {
     int32_t initial;        /**< `ICC_INITIAL_*` */
     int32_t method;         /**< `ICC_WEIGHTS_*` */
     size_t n_handles;       /**< handles */
-    size_t n_nodes;         /**< places that carry weights: the handles first, then those on lines,
-                                 then the samples, but for those within half a spacing of a handle
-                                 or a line's node */
-    size_t n_infeasible;    /**< QP: nodes where no weights that are not negative reproduce the
-                                 point (outside the handles' convex hull): QP is relaxed there, the
-                                 sums still hold */
+    size_t n_nodes;         /**< places that carry weights: first the handles, then places on lines,
+                                 then the samples, except those within half a spacing of a handle or
+                                 a line's node */
+    size_t n_infeasible;    /**< QP: nodes that no non-negative weights reproduce (outside the
+                                 handles' convex hull): QP is relaxed there, the sums still hold */
     size_t n_entries;       /**< kernel values of the matrix, diagonal included, one triangle */
     double sigma;           /**< width of the kernel */
     double definiteness;    /**< how far the matrix is from losing positive definiteness: its least
@@ -271,13 +270,13 @@ typedef struct icc_weights_info {
 /**
  * Makes weights for handles.
  *
- * @param[out] out   the kernel; owned by the caller. It keeps the sampling alive.
+ * @param[out] out   the weights; owned by the caller. They keep the sampling alive.
  * @param sampling   the samples
  * @param n_handles  handles, at least dim + 1
  * @param handles    n_handles * dim coordinates, in the shape, not all in one plane (2-D: line)
  * @param options    may be NULL
  * @param env        may be NULL
- * @param err        may be NULL; `index` names the handle, edge or line at fault
+ * @param err        may be NULL; `index` is the handle, edge or line at fault
  * @return ::ICC_OK; ::ICC_ERR_OUTSIDE (a handle or line outside the shape); ::ICC_ERR_ARGUMENT (two
  *         handles at one place, handles that cannot reproduce points, weights that are not finite,
  *         ...); ::ICC_ERR_SOLVER (sigma is too large for a positive definite matrix);
@@ -291,32 +290,32 @@ ICC_API icc_status icc_weights_create(icc_weights **out, const icc_sampling *sam
                                       const icc_weights_options *options, const icc_env *env,
                                       icc_error *err);
 
-/** Frees a kernel. */
-ICC_API void icc_weights_free(icc_weights *kernel);
+/** Frees weights. */
+ICC_API void icc_weights_free(icc_weights *weights);
 
 /** Fills in `info`, whose `size` the caller has set. ::ICC_OK or ::ICC_ERR_ARGUMENT. */
-ICC_API icc_status icc_weights_get_info(const icc_weights *kernel, icc_weights_info *info);
+ICC_API icc_status icc_weights_get_info(const icc_weights *weights, icc_weights_info *info);
 
 /**
  * Copies the nodes.
  *
- * @param kernel       the kernel
+ * @param weights      the weights
  * @param[out] points  n_nodes * dim coordinates, or NULL
  * @param[out] initial n_nodes * n_handles initial weights, or NULL
- * @param[out] weights n_nodes * n_handles weights, or NULL
+ * @param[out] values  n_nodes * n_handles weights, or NULL
  * @param[out] status  n_nodes statuses: ::ICC_OK, or ::ICC_ERR_SOLVER where QP was relaxed; or NULL
  */
-ICC_API icc_status icc_weights_get_nodes(const icc_weights *kernel, double *points, double *initial,
-                                         double *weights, icc_status *status);
+ICC_API icc_status icc_weights_get_nodes(const icc_weights *weights, double *points,
+                                         double *initial, double *values, icc_status *status);
 
 /**
  * Paints: adds amount * brush to the weight of one handle at the nodes around a place, and
  * optimises them again from there. The brush falls smoothly from 1 at the centre to 0 at the
  * radius. Handles, nodes on lines and nodes on edges that are held stay as they are.
  *
- * @param[out] out a new kernel with the same nodes; owned by the caller. The old one is not
- *                 changed.
- * @param kernel   the kernel
+ * @param[out] out new weights at the same nodes; owned by the caller. The old ones do not
+ *                 change.
+ * @param weights  the weights to change
  * @param handle   whose weight
  * @param centre   dim coordinates
  * @param radius   positive
@@ -324,72 +323,73 @@ ICC_API icc_status icc_weights_get_nodes(const icc_weights *kernel, double *poin
  * @param env      may be NULL
  * @param err      may be NULL
  *
- * Cost: as many weights are optimised as there are nodes within the radius, and one solution with
- * the factor that there is.
+ * Cost: one optimisation for each node within the radius, and one solution with the existing
+ * factor.
  */
-ICC_API icc_status icc_weights_paint(icc_weights **out, const icc_weights *kernel, size_t handle,
+ICC_API icc_status icc_weights_paint(icc_weights **out, const icc_weights *weights, size_t handle,
                                      const double *centre, double radius, double amount,
                                      const icc_env *env, icc_error *err);
 
 /**
- * The same with wishes of the caller's: at node nodes[i] the weights start from
- * weights[i * n_handles ...] and are optimised again. No node may be named twice.
+ * The same with given weights: at node nodes[i] they start from values[i * n_handles ...] and
+ * are optimised again. No node may be named twice.
  */
-ICC_API icc_status icc_weights_repaint(icc_weights **out, const icc_weights *kernel, size_t n,
-                                       const uint32_t *nodes, const double *weights,
+ICC_API icc_status icc_weights_repaint(icc_weights **out, const icc_weights *weights, size_t n,
+                                       const uint32_t *nodes, const double *values,
                                        const icc_env *env, icc_error *err);
 
-/** The same nodes and initial weights with another method (`ICC_WEIGHTS_*`): what was painted or
- *  stiffened is gone, as in the thesis (6.3.1). */
-ICC_API icc_status icc_weights_with_method(icc_weights **out, const icc_weights *kernel,
+/** The same nodes and initial weights with another method (`ICC_WEIGHTS_*`): painting and
+ *  stiffening are lost, as in the thesis (6.3.1). */
+ICC_API icc_status icc_weights_with_method(icc_weights **out, const icc_weights *weights,
                                            int32_t method, const icc_env *env, icc_error *err);
 
 /**
- * Makes weights vary as little as may be over a part of the shape, so that it moves as if it were
- * rigid (5.12 to 5.35, with the sign of 5.35a mended): least squared derivatives there, weighted by
- * `rigidity`. Sums and reproduction hold; handles, nodes on edges and on lines keep their weights.
- * Nodes around the part, within the kernel's reach, give way. With QP no weight becomes negative at
- * a node where none was.
+ * Makes weights vary as little as possible over a part of the shape, so that it moves as if it were
+ * rigid (5.12 to 5.35, with the sign of 5.35a corrected): least squared derivatives there, weighted
+ * by `rigidity`. Sums and reproduction hold; handles, nodes on edges and on lines keep their
+ * weights. Nodes around the part, within the kernel's reach, give way. With QP no weight becomes
+ * negative at a node where none was.
  *
- * @param[out] out  a new kernel; owned by the caller
- * @param kernel    the kernel
+ * @param[out] out  new weights; owned by the caller
+ * @param weights   the weights to change
  * @param n         nodes of the part
  * @param nodes     their indices
- * @param rigidity  n positive numbers, how much each matters; NULL: all the same
+ * @param rigidity  n positive numbers, how much each node matters; NULL: all equal
  * @param energy    what was minimised, before and after; or NULL
  * @param env       may be NULL
  * @param err       may be NULL
  */
-ICC_API icc_status icc_weights_stiffen(icc_weights **out, const icc_weights *kernel, size_t n,
+ICC_API icc_status icc_weights_stiffen(icc_weights **out, const icc_weights *weights, size_t n,
                                        const uint32_t *nodes, const double *rigidity,
                                        double energy[2], const icc_env *env, icc_error *err);
 
 /**
- * Weights at points.
+ * Evaluates weights at points. Returns ::ICC_OK even if every point failed: see `status` and
+ * `n_failed`.
  *
- * @param kernel         the kernel
+ * @param weights        the weights
  * @param n              number of points
  * @param points         n * dim coordinates. Any finite point has weights; far from all nodes they
  *                       are those of the affine tail, or 0 without.
- * @param[out] weights   n * n_handles
+ * @param[out] values    n * n_handles weights
  * @param[out] gradients n * n_handles * dim derivatives, or NULL (3.44)
- * @param[out] status    n statuses: ::ICC_OK, ::ICC_ERR_ARGUMENT (not finite; the weights are NaN);
+ * @param[out] status    n statuses: ::ICC_OK, ::ICC_ERR_ARGUMENT (not finite; its values are NaN);
  *                       or NULL
- * @param[out] n_failed  how many points have none, or NULL
+ * @param[out] n_failed  how many points have no weights, or NULL
  * @param env            may be NULL
  */
-ICC_API icc_status icc_weights_evaluate(const icc_weights *kernel, size_t n, const double *points,
-                                        double *weights, double *gradients, icc_status *status,
+ICC_API icc_status icc_weights_evaluate(const icc_weights *weights, size_t n, const double *points,
+                                        double *values, double *gradients, icc_status *status,
                                         size_t *n_failed, const icc_env *env);
 
-/** How well weights do what they should, at points of the caller's choice. */
+/** How good weights are, measured at caller-supplied points. */
 typedef struct icc_weights_report {
     size_t size;              /**< set by the caller: `sizeof(icc_weights_report)` */
     size_t n_infeasible;      /**< see icc_weights_info::n_infeasible */
     size_t n_negative;        /**< points where a weight is below -1e-9 */
     double unity;             /**< the greatest deviation of the sum of weights from 1 */
-    double reproduction;      /**< the greatest distance of a point from what its weights make of
-                                   the handles */
+    double reproduction;      /**< the greatest distance of a point from the weighted mean of the
+                                   handles */
     double reproduction_mean; /**< the mean of these */
     double lagrange;          /**< the greatest deviation from 1 and 0 at the handles */
     double linearity;         /**< the greatest deviation from linear weights along the edges */
@@ -399,27 +399,27 @@ typedef struct icc_weights_report {
 
 /** Measures the weights at n points (n * dim coordinates). The report's `size` is set by the
  *  caller. */
-ICC_API icc_status icc_weights_get_report(const icc_weights *kernel, size_t n, const double *points,
-                                          icc_weights_report *report, const icc_env *env,
-                                          icc_error *err);
+ICC_API icc_status icc_weights_get_report(const icc_weights *weights, size_t n,
+                                          const double *points, icc_weights_report *report,
+                                          const icc_env *env, icc_error *err);
 
 /* ----------------------------------------------------------------- binding */
 
-/** Points with their weights, and the derivatives if asked for: for posing again and again. */
+/** Points with their weights, and derivatives if requested: for repeated poses. */
 typedef struct icc_binding icc_binding;
 
 /**
- * Binds points to the handles of a kernel.
+ * Binds points to handles.
  *
- * @param[out] out    the binding; owned by the caller. It does not need the kernel any more.
- * @param kernel      the kernel
+ * @param[out] out    the binding; owned by the caller. It does not need the weights any more.
+ * @param weights     the weights
  * @param n           number of points
  * @param points      n * dim coordinates, finite
- * @param derivatives 1: poses have Jacobians, at dim * n_handles doubles a point more
+ * @param derivatives 1: poses have Jacobians, which takes dim * n_handles more doubles a point
  * @param env         may be NULL
  * @param err         may be NULL
  */
-ICC_API icc_status icc_binding_create(icc_binding **out, const icc_weights *kernel, size_t n,
+ICC_API icc_status icc_binding_create(icc_binding **out, const icc_weights *weights, size_t n,
                                       const double *points, int32_t derivatives, const icc_env *env,
                                       icc_error *err);
 
@@ -442,8 +442,8 @@ ICC_API icc_status icc_binding_get_weights(const icc_binding *binding, double *h
  * @param binding        the binding
  * @param transforms     n_handles * dim * (dim + 1): per handle the rows of (A | b)
  * @param[out] images    n * dim coordinates
- * @param[out] jacobians n * dim * dim derivatives of the images by the points, or NULL; otherwise
- *                       the binding must have derivatives
+ * @param[out] jacobians n * dim * dim derivatives of the images by the points, or NULL; unless
+ *                       NULL, the binding must have derivatives
  * @param env            may be NULL
  * @return ::ICC_OK, ::ICC_ERR_ARGUMENT (a transform is not finite), ::ICC_ERR_UNSUPPORTED (no
  *         derivatives), ...
@@ -461,17 +461,17 @@ ICC_API icc_status icc_binding_load(icc_binding **out, size_t n_bytes, const voi
 
 /* ------------------------------------------------------------------- poses */
 
-/** Rest pose: writes n_handles identities to `transforms` (see icc_binding_pose()). */
+/** Writes the rest pose, n_handles identities, to `transforms` (see icc_binding_pose()). */
 ICC_API icc_status icc_pose_reset(int32_t dim, size_t n_handles, double *transforms);
 
 /** Moves one handle: adds `offset`, dim numbers, to its transform. */
 ICC_API icc_status icc_pose_move(int32_t dim, double *transform, const double *offset);
 
 /**
- * Turns a handle about where its transform has taken it.
+ * Rotates a handle about the place its transform has taken it to.
  *
  * @param dim       2 or 3
- * @param transform of the handle, dim * (dim + 1)
+ * @param transform the handle's, dim * (dim + 1) numbers
  * @param handle    the handle's position at rest, dim coordinates
  * @param axis      3-D: 3 numbers, not all 0; 2-D: ignored
  * @param angle     in radians, counter-clockwise (y upwards; 3-D: seen from the axis' tip)

@@ -3,7 +3,7 @@
  * @brief The stages of Integral Curve Coordinates, each by itself: grid, maximum, tree, function,
  * and the triangulation of sparse points.
  *
- * For those who study or teach the method, or need one stage only. Rules as in icc/icc.h.
+ * For studying or teaching the method, or for using one stage alone. The rules of icc/icc.h apply.
  * Source: L. Huynh, Bijective Deformations in R^n via Integral Curve Coordinates, thesis, George
  * Mason University, 2013, chapters 4 and 6; L. Huynh and Y. Gingold, paper of the same name.
  *
@@ -20,11 +20,11 @@ extern "C" {
 
 /* -------------------------------------------------------------------- grid */
 
-/** A regular grid of vertices, each inside or outside of a shape. Vertex (i_0, i_1, ..) has the
- *  index i_0 + shape[0] * (i_1 + shape[1] * (..)) and the position origin + spacing * i. */
+/** A regular grid of vertices, each inside or outside a shape. Vertex (i_0, i_1, ..) has the index
+ *  i_0 + shape[0] * (i_1 + shape[1] * (..)) and the position origin + spacing * i. */
 typedef struct icc_grid icc_grid;
 
-/** What icc_grid_get_info() tells. */
+/** What icc_grid_get_info() reports. */
 typedef struct icc_grid_info {
     size_t size;                /**< set by the caller: `sizeof(icc_grid_info)` */
     int32_t dim;                /**< dimension, 1..::ICC_MAX_DIM */
@@ -33,9 +33,9 @@ typedef struct icc_grid_info {
     double spacing;             /**< distance of neighbours, the same along every axis */
     size_t n_vertices;          /**< product of `shape` */
     size_t n_inside;            /**< vertices inside */
-    size_t n_stray;             /**< vertices that lie inside the boundary, but were taken outside:
-                                     pieces beside the largest (see icc_grid_create()), and what
-                                     icc_grid_restrict() took */
+    size_t n_stray;             /**< vertices that lie inside the boundary, but count as outside:
+                                     pieces other than the largest (see icc_grid_create()), and
+                                     those removed by icc_grid_restrict() */
     int32_t cells;              /**< grid cells along the longest side of the domain; 0 for a grid
                                      from a mask of vertices */
 } icc_grid_info;
@@ -43,18 +43,17 @@ typedef struct icc_grid_info {
 /**
  * Covers a domain with a grid, at least two vertices wider than the domain on every side.
  *
- * A vertex is inside when it lies strictly inside the boundary. Where a domain is thinner than the
- * grid, the vertices inside may fall into pieces; beyond 2-D only the largest of them is kept, and
- * the others are counted (icc_grid_info::n_stray).
+ * A vertex is inside if it lies strictly inside the boundary. Where a domain is thinner than the
+ * grid, the vertices inside may fall into several pieces; beyond 2-D only the largest is kept, and
+ * the vertices of the others are counted (icc_grid_info::n_stray).
  *
- * The grid of a mask (icc_domain_create_mask()) has the boundary's vertices among its own: each
- * cell of the mask is cut in an even number of parts along each axis, 2 or as many more as `cells`
- * asks for.
+ * The grid of a mask (icc_domain_create_mask()) includes the boundary's vertices: each cell of the
+ * mask is cut into an even number of parts along each axis, 2 or as many more as `cells` requires.
  *
  * @param[out] out the grid; owned by the caller
  * @param domain   the domain
  * @param cells    cells along the longest side of the bounding box, 2..16384; 0: 50. For masks: at
- *                 least so many; 0: two for each cell of the mask
+ *                 least that many; 0: two for each cell of the mask
  * @param env      may be NULL
  * @param err      may be NULL
  * @return ::ICC_OK, ::ICC_ERR_RESOLUTION (no vertex inside, or more than 2^28 vertices), ...
@@ -63,7 +62,8 @@ ICC_API icc_status icc_grid_create(icc_grid **out, const icc_domain *domain, int
                                    const icc_env *env, icc_error *err);
 
 /**
- * Makes a grid from a mask of its vertices: origin 0, spacing 1.
+ * Makes a grid from a mask of its vertices (not of cells, as icc_domain_create_mask() takes):
+ * origin 0, spacing 1.
  *
  * @param[out] out the grid; owned by the caller
  * @param dim      1..::ICC_MAX_DIM
@@ -77,9 +77,9 @@ ICC_API icc_status icc_grid_create_mask(icc_grid **out, int32_t dim, const size_
 
 /**
  * Makes a grid of half the spacing with the same inside: each simplex of the Kuhn triangulation is
- * cut into 2^dim, and a new vertex is inside when both ends of the edge that it halves are. Walls
- * one vertex thick stay so; for a grid that follows its domain more closely, make one with twice
- * icc_grid_info::cells.
+ * cut into 2^dim, and a new vertex is inside if both ends of the edge that it halves are. Walls one
+ * vertex thick stay one vertex thick; for a grid that follows its domain more closely, make one
+ * with twice icc_grid_info::cells.
  *
  * @param[out] out the grid; owned by the caller
  * @param grid     the grid
@@ -91,11 +91,12 @@ ICC_API icc_status icc_grid_refine(icc_grid **out, const icc_grid *grid, const i
                                    icc_error *err);
 
 /**
- * Copies a grid and takes some vertices outside.
+ * Copies a grid and moves some vertices to the outside.
  *
  * @param[out] out the grid; owned by the caller
  * @param grid     the grid
- * @param keep     one byte per vertex: 0 takes it outside, which icc_grid_info::n_stray counts
+ * @param keep     one byte per vertex: 0 moves it to the outside, which icc_grid_info::n_stray
+ *                 counts
  * @param env      may be NULL
  * @param err      may be NULL
  */
@@ -112,12 +113,12 @@ ICC_API icc_status icc_grid_get_info(const icc_grid *grid, icc_grid_info *info);
 ICC_API const uint8_t *icc_grid_inside(const icc_grid *grid);
 
 /**
- * The vertex farthest from the outside in the grassfire transform (Algorithm 1). Of several, the
- * one nearest to their mean is taken, then the one with the smallest index.
+ * Finds the vertex farthest from the outside in the grassfire transform (Algorithm 1). Of several,
+ * it takes the one nearest to their mean, then the one with the smallest index.
  *
  * @param grid           the grid
  * @param[out] vertex    the maximum
- * @param[out] rounds    how often the fire burnt before it reached the vertex (0 next to the
+ * @param[out] rounds    how many rounds the fire burnt before it reached the vertex (0 next to the
  *                       outside), or NULL
  * @param env            may be NULL
  * @param err            may be NULL
@@ -127,7 +128,7 @@ ICC_API const uint8_t *icc_grid_inside(const icc_grid *grid);
 ICC_API icc_status icc_grid_find_maximum(const icc_grid *grid, uint32_t *vertex, uint32_t *rounds,
                                          const icc_env *env, icc_error *err);
 
-/** The inside vertex nearest to a point (the smallest index of several). O(vertices). */
+/** Finds the inside vertex nearest to a point (of several, the smallest index). O(vertices). */
 ICC_API icc_status icc_grid_find_nearest(const icc_grid *grid, const double *point,
                                          uint32_t *vertex);
 
@@ -160,13 +161,13 @@ typedef struct icc_tree_report {
  *
  * In both forms the vertices outside that neighbour the inside have a generation: one more than the
  * smallest among their neighbours inside. In the thesis' form they and the vertices that they
- * expand into belong to the tree and have a parent; in the paper's form their parent is UINT32_MAX,
- * standing for all their neighbours inside. A grid made by icc_grid_create() is wide enough for
- * both layers; a mask may end at its last vertex, and layers beyond it are then absent.
+ * expand into belong to the tree and have a parent. In the paper's form their parent is UINT32_MAX,
+ * which stands for all their neighbours inside. A grid made by icc_grid_create() is wide enough for
+ * both layers; a mask may end at its last vertex, and then lacks the layers beyond.
  *
  * Theorem 2 of the paper (the result is a cousin tree) held in every 2-D case tried; it is false in
- * 3-D and beyond. Nothing is assumed here: see icc_tree_get_report(), and icc_tree_grow() for an
- * order that serves the purpose there.
+ * 3-D and beyond. The library assumes nothing: see icc_tree_get_report() to check, and
+ * icc_tree_grow() for an order that can be used instead.
  *
  * @param[out] out the tree; owned by the caller; keeps the grid alive
  * @param grid     the grid
@@ -187,8 +188,7 @@ ICC_API void icc_tree_free(icc_tree *tree);
 /** The parent of each vertex: UINT32_MAX for the root and for vertices without one; borrowed. */
 ICC_API const uint32_t *icc_tree_parents(const icc_tree *tree);
 
-/** The generation of each vertex: 0 for the root, -1 for vertices that are not reached;
- *  borrowed. */
+/** The generation of each vertex: 0 for the root, -1 for unreached vertices; borrowed. */
 ICC_API const int32_t *icc_tree_generations(const icc_tree *tree);
 
 /** Checks the cousin rule (Definition 2) on every pair of neighbours inside. O(vertices * dim). */
@@ -206,42 +206,43 @@ typedef struct icc_function_options {
     int32_t function;    /**< `ICC_FUNCTION_*`; 0: decay */
     int32_t constraints; /**< `ICC_CONSTRAINTS_*`; 0: needed */
     int32_t solver;      /**< `ICC_SOLVER_*`; 0: by the predicted work of a factorisation. Clamped
-                              and constrained bi-Laplace are always factorised; Laplace is iterated
-                              where a factorisation loses small values, as in long thin rings */
+                              and constrained bi-Laplace are always factorised; Laplace is solved
+                              iteratively where a factorisation would lose small values, as in long
+                              thin rings */
     double min_fall;     /**< least relative fall from parent to child, in (0, 0.01]; 0: 1e-6 */
     double leaf_min;     /**< constrained bi-Laplace: least value at vertices without children, in
                               (0, 0.01]; 0: 1e-9 */
 } icc_function_options;
 
-/** What icc_function_get_info() tells. Members that the function does not have are 0. */
+/** What icc_function_get_info() reports. Members that do not apply to the function are 0. */
 typedef struct icc_function_info {
     size_t size;            /**< set by the caller: `sizeof(icc_function_info)` */
     int32_t function;       /**< `ICC_FUNCTION_*` */
     int32_t constrained;    /**< 1: the tree's inequalities were imposed */
     int32_t solver;         /**< `ICC_SOLVER_*` */
-    size_t n_unknowns;      /**< vertices inside that the tree reaches, but for the root */
+    size_t n_unknowns;      /**< vertices inside that the tree reaches, except the root */
     size_t n_violated;      /**< tree edges where the function without constraints breaks the
-                                 inequality; of those here, if it was not constrained */
+                                 inequality; where this function does, if it was not constrained */
     size_t n_active;        /**< inequalities that hold with equality */
-    size_t n_iterations;    /**< of the active set or the interior point method; 0 without
-                                 constraints */
-    size_t n_inner;         /**< of conjugate gradients, all together */
+    size_t n_iterations;    /**< iterations of the active set or the interior point method; 0
+                                 without constraints */
+    size_t n_inner;         /**< iterations of conjugate gradients, in total */
     double work;            /**< multiplications of the largest factorisation */
     double residual_before; /**< KKT residual before the final sweep from the root to the leaves:
                                  the largest |min(slack, multiplier)| of an inequality, or |row of
                                  the equation| if there are none; f is 1 at the root */
-    double residual;        /**< the same after the sweep: for the function that is handed out */
+    double residual;        /**< the same after the sweep: for the function that is returned */
     double least_log;       /**< the smallest of icc_function_logs() inside; 0 if there are none */
-    double seconds_setup;   /**< time to number the rows and to build the matrices */
+    double seconds_setup;   /**< time to number the unknowns and build the matrices */
     double seconds_order;   /**< time for orderings and symbolic factorisations */
     double seconds_factor;  /**< time for factorisations */
     double seconds_solve;   /**< time for triangular solves and conjugate gradients */
     double seconds_verify;  /**< time to count critical points, sweep and find the residuals */
     double excess;          /**< by what share of its value at the root the function is greater at
-                                 `highest`; 0 when that is the root */
+                                 `highest`; 0 if that is the root */
     uint32_t highest;       /**< the vertex inside with the greatest value */
-    int32_t beside;         /**< 1: that is not the root, where curves are to end. Only seen for
-                                 bilaplace and clamped without inequalities; icc_chart_create()
+    int32_t beside;         /**< 1: `highest` is not the root, where curves should end. Only seen
+                                 for bilaplace and clamped without inequalities; icc_chart_create()
                                  then moves the root */
 } icc_function_info;
 
@@ -264,28 +265,34 @@ enum {
 };
 
 /**
- * Gives values to the vertices of a tree.
+ * Makes a function: a value for every vertex of a tree.
  *
  * decay: 10 at the root, times 0.95 with each generation (thesis, equation 4.1), and -1, -2, .. for
- * the generations where that would underflow, from about 13,850 on. distance: minus the generation.
- * Both depend on the generation alone.
+ * the generations where that would underflow, from about 13,850 on.
+ *
+ * distance: minus the generation. Decay and distance depend on the generation alone.
  *
  * laplace: 1 at the root, 0 at the vertices outside that neighbour the inside, and at every other
  * vertex the mean of its neighbours: the function with the least Dirichlet energy. (Beyond those
- * zeros, minus the value two steps back.) bilaplace: that with the least sum of squared Laplacians
- * over the vertices inside, which is f = c L^-2 e_root (simply supported, Navier); clamped: over
- * the vertices next to them outside, too. Laplace and bilaplace are positive inside, however far
- * from the root; clamped changes its sign unless it is constrained. With constraints, the least
- * energy among the functions that fall by `min_fall` along every tree edge inside and, for
- * bilaplace and clamped, are at least `leaf_min` at the leaves.
+ * zeros, minus the value two steps back.)
  *
- * Bilaplace and clamped are shapes of a plate that is loaded at the root, and a plate is highest
- * beside a load that is not in its middle: without constraints the maximum may be another vertex,
- * see icc_function_info::highest and icc_function_info::beside. (On a tree that grows from there
- * the function is another one; icc_chart_create() moves the root until the two agree.)
+ * bilaplace: the function with the least sum of squared Laplacians over the vertices inside, which
+ * is f = c L^-2 e_root (simply supported, Navier).
+ *
+ * clamped: the same, over the adjacent vertices outside, too.
+ *
+ * Laplace and bilaplace are positive inside, however far from the root; clamped changes its sign
+ * unless it is constrained. With constraints: the function of least energy among those that fall by
+ * `min_fall` along every tree edge inside and, for bilaplace and clamped, are at least `leaf_min`
+ * at the leaves.
+ *
+ * Bilaplace and clamped are shapes of a plate that is loaded at the root, and an off-centre load
+ * does not make a plate highest right under the load: without constraints the maximum may be
+ * another vertex, see icc_function_info::highest and icc_function_info::beside. (A tree grown from
+ * there has a different function; icc_chart_create() moves the root until the two agree.)
  *
  * Nothing is assumed about critical points: see icc_function_get_report(). Inequalities on a tree
- * that is not a cousin tree, as in 3-D, do not rule out others than the maximum.
+ * that is not a cousin tree, as in 3-D, do not rule out critical points besides the maximum.
  *
  * @param[out] out the function; owned by the caller; keeps the tree alive
  * @param tree     the tree
@@ -303,7 +310,8 @@ ICC_API icc_status icc_function_create(icc_function **out, const icc_tree *tree,
                                        const icc_function_options *options, const icc_env *env,
                                        icc_error *err);
 
-/** The function of a gradient chart, or NULL for other charts; borrowed, as is what hangs on it. */
+/** The function of a chart of method gradient or field, or NULL for other charts; borrowed, as are
+ *  the tree and the grid that belong to it. */
 ICC_API const icc_function *icc_chart_function(const icc_chart *chart);
 
 /** The tree that a function was made on; borrowed. */
@@ -322,7 +330,7 @@ ICC_API void icc_function_free(icc_function *function);
 ICC_API icc_status icc_function_get_info(const icc_function *function, icc_function_info *info);
 
 /** One value per grid vertex; NaN where the tree does not reach; borrowed. (Beyond 2-D the function
- *  of a gradient chart goes on to some vertices outside.) Laplace and bilaplace decay exponentially
+ *  of a gradient chart extends to some vertices outside.) Laplace and bilaplace decay exponentially
  *  in long limbs: values below 2^-1022 are 0 here, see icc_function_logs(). */
 ICC_API const double *icc_function_values(const icc_function *function);
 
@@ -360,51 +368,51 @@ ICC_API icc_status icc_function_get_edges(const icc_function *function, size_t c
 
 /** How icc_tree_grow() found an order. */
 enum {
-    ICC_GROW_AS_GIVEN = 1, /**< the order wished for is regular */
+    ICC_GROW_AS_GIVEN = 1, /**< the given order is regular */
     ICC_GROW_GROWN = 2,    /**< some vertices had to wait for others */
-    ICC_GROW_THINNED = 3   /**< growth got stuck; the vertices were removed one by one instead, and
-                                the order read backwards */
+    ICC_GROW_THINNED = 3   /**< growth got stuck; instead the vertices were removed one by one, and
+                                that order reversed */
 };
 
 /** What icc_tree_grow() found. */
 typedef struct icc_grow_report {
     size_t size;        /**< set by the caller: `sizeof(icc_grow_report)` */
     int32_t method;     /**< `ICC_GROW_*` */
-    uint32_t vertex;    /**< the first vertex in the order wished for that growth could not place,
-                             or UINT32_MAX */
+    uint32_t vertex;    /**< the first vertex in the given order that growth could not place, or
+                             UINT32_MAX */
     size_t n_vertices;  /**< vertices inside that the tree reaches */
     size_t n_deferred;  /**< vertices that had to wait while growing */
     size_t n_unplaced;  /**< vertices left when growth got stuck */
     size_t n_remaining; /**< vertices left, but for the root, when thinning got stuck, too */
-    size_t n_reversed;  /**< edges of the Kuhn triangulation along which the order is not as
-                             wished */
-    size_t n_tests;     /**< links that were looked at: less than 2^(dim+3) a vertex */
+    size_t n_reversed;  /**< edges of the Kuhn triangulation along which the order is not the given
+                             one */
+    size_t n_tests;     /**< links that were tested: less than 2^(dim+3) a vertex */
 } icc_grow_report;
 
 /**
  * Orders the vertices inside so that the root is the only critical one.
  *
- * In 2-D the tree's own order has been so in every case tried; beyond, it is often not (see
- * icc_tree_create()). Here a set grows from the root and takes, in the order wished for, each
- * vertex whose neighbours in the set are a contractible part of its link; others wait until they
- * are. (Links are those of the Kuhn triangulation, decided as for icc_function_report::n_saddles.)
- * If growth gets stuck, the set of all vertices is thinned down to the root instead. A function
- * that falls with the rank has one critical point, the maximum, in any dimension. There are shapes
- * where both fail, such as Bing's house with two rooms: a finer grid may help. Nothing helps a
- * shape that is not a ball, as the vertices inside a surface may be where parts of it come near
- * each other; growth then leaves the few vertices where it would close a ring.
+ * In 2-D the tree's own order had this property in every case tried; beyond, it often does not (see
+ * icc_tree_create()). Here a set grows from the root: in the given order it takes each vertex whose
+ * neighbours in the set are a contractible part of its link; other vertices wait until theirs are.
+ * (Links are those of the Kuhn triangulation, decided as for icc_function_report::n_saddles.) If
+ * growth gets stuck, the set of all vertices is thinned down to the root instead. A function that
+ * falls with the rank has one critical point, the maximum, in any dimension. For some shapes both
+ * fail, such as Bing's house with two rooms: a finer grid may help. Nothing helps if the vertices
+ * inside do not form a ball, as may happen where parts of a surface come close to each other;
+ * growth then leaves out the few vertices where it would close a ring.
  *
  * @param tree       the tree
- * @param values     the order wished for, one value per grid vertex, the largest first; equal ones
- *                   in the order of the tree. NULL: the order of the tree.
+ * @param values     the preferred order, as one value per grid vertex, the largest first; equal
+ *                   values in the order of the tree. NULL: the order of the tree.
  * @param[out] rank  room for one number per grid vertex: 0 for the root, then 1, 2, ..; UINT32_MAX
  *                   for vertices outside or not reached. After ::ICC_ERR_TOPOLOGY the vertices that
- *                   growth has placed have their ranks, the others UINT32_MAX: without these, as
- *                   icc_grid_restrict() makes the grid, the order has one critical vertex. After
- *                   another failure undefined.
+ *                   growth has placed have their ranks, the others UINT32_MAX: remove these with
+ *                   icc_grid_restrict(), and the order has one critical vertex. Undefined after any
+ *                   other failure.
  * @param[out] report what was done, or NULL; also after ::ICC_ERR_TOPOLOGY
  * @param env        may be NULL
- * @param err        may be NULL; `index` names the vertex where growth got stuck
+ * @param err        may be NULL; `index` is the vertex where growth got stuck
  * @return ::ICC_OK, ::ICC_ERR_TOPOLOGY (stuck), ::ICC_ERR_ARGUMENT (a value inside is NaN), ...
  *
  * Cost: less than 2^(dim+3) tests a vertex, in practice about one: 0.1 us in 2-D, 0.13 to 0.3 us in
@@ -415,12 +423,12 @@ ICC_API icc_status icc_tree_grow(const icc_tree *tree, const double *values, uin
 
 /**
  * Counts the critical vertices of any order of the vertices inside that the tree reaches, as
- * icc_function_get_report() does for functions: by looking at every link, whatever the order comes
+ * icc_function_get_report() does for functions: by testing every link, wherever the order comes
  * from.
  *
  * @param tree        the tree
- * @param rank        one number per grid vertex, smaller for higher vertices; equal ones count as
- *                    icc_function_get_report() says. Those of other vertices do not matter.
+ * @param rank        one number per grid vertex, smaller for higher vertices; equal numbers count
+ *                    as in icc_function_get_report(). Numbers of other vertices are ignored.
  * @param[out] report its `size` is set by the caller
  * @param env         may be NULL
  * @param err         may be NULL
@@ -442,8 +450,8 @@ ICC_API icc_status icc_tree_get_rank_report(const icc_tree *tree, const uint32_t
  * @param points         n_points * 2 coordinates
  * @param[out] triangles room for 3 * (2 * n_points - n_boundary - 2) vertex indices
  * @param env            may be NULL
- * @param err            may be NULL; `index` names a point that is not strictly inside the polygon,
- *                       or that repeats another
+ * @param err            may be NULL; `index` is a point that is not strictly inside the polygon, or
+ *                       that repeats another
  * @return ::ICC_OK, ::ICC_ERR_BOUNDARY, ::ICC_ERR_OUTSIDE, ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY,
  *         ...
  *

@@ -15,7 +15,7 @@ static bool are_finite(size_t n, const double *values)
     return true;
 }
 
-icc_status icc_binding_create(icc_binding **out, const icc_weights *kernel, size_t n,
+icc_status icc_binding_create(icc_binding **out, const icc_weights *weights, size_t n,
                               const double *points, int32_t derivatives, const icc_env *env,
                               icc_error *err)
 {
@@ -23,7 +23,7 @@ icc_status icc_binding_create(icc_binding **out, const icc_weights *kernel, size
         *out = NULL;
     iccp_env full_env;
     const char *missing = out == NULL               ? "out"
-                          : kernel == NULL          ? "kernel"
+                          : weights == NULL          ? "weights"
                           : n > 0 && points == NULL ? "points"
                                                     : NULL;
     const icc_status status = iccp_begin(&full_env, env, missing, err);
@@ -31,12 +31,12 @@ icc_status icc_binding_create(icc_binding **out, const icc_weights *kernel, size
         return status;
     if (derivatives < 0 || derivatives > 1)
         return iccp_fail(err, ICC_ERR_ARGUMENT, "derivatives is %ld", (long)derivatives);
-    for (size_t i = 0, dim = kernel->layout->dim; i < n; ++i)
+    for (size_t i = 0, dim = weights->nodes->dim; i < n; ++i)
         if (!are_finite(dim, points + dim * i))
             return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)i,
                                 "point %zu is not finite", i);
     return iccp_end_binding(
-        iccp_explain(err, iccp_binding_create(out, kernel, n, points, derivatives == 1, &full_env)),
+        iccp_explain(err, iccp_binding_create(out, weights, n, points, derivatives == 1, &full_env)),
         out, &full_env, err);
 }
 

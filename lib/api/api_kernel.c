@@ -187,57 +187,57 @@ icc_status icc_weights_create(icc_weights **out, const icc_sampling *sampling, s
                             out, &full_env, err);
 }
 
-void icc_weights_free(icc_weights *kernel)
+void icc_weights_free(icc_weights *weights)
 {
-    iccp_weights_release(kernel);
+    iccp_weights_release(weights);
 }
 
 /* ---- what is known ---- */
 
-icc_status icc_weights_get_info(const icc_weights *kernel, icc_weights_info *info)
+icc_status icc_weights_get_info(const icc_weights *weights, icc_weights_info *info)
 {
-    if (kernel == NULL || info == NULL)
+    if (weights == NULL || info == NULL)
         return ICC_ERR_ARGUMENT;
-    return iccp_write_struct(info, &kernel->info, sizeof kernel->info, "icc_weights_info", NULL);
+    return iccp_write_struct(info, &weights->info, sizeof weights->info, "icc_weights_info", NULL);
 }
 
-icc_status icc_weights_get_nodes(const icc_weights *kernel, double *points, double *initial,
-                                 double *weights, icc_status *status)
+icc_status icc_weights_get_nodes(const icc_weights *weights, double *points, double *initial,
+                                 double *values, icc_status *status)
 {
-    if (kernel == NULL)
+    if (weights == NULL)
         return ICC_ERR_ARGUMENT;
-    const iccp_layout *l = kernel->layout;
-    const size_t n_weights = l->n * l->n_handles;
+    const iccp_node_set *set = weights->nodes;
+    const size_t n_weights = set->n * set->n_handles;
     if (points != NULL)
-        memcpy(points, l->given, l->n * l->dim * sizeof *points);
+        memcpy(points, set->given, set->n * set->dim * sizeof *points);
     if (initial != NULL)
-        memcpy(initial, l->initial, n_weights * sizeof *initial);
-    if (weights != NULL)
-        memcpy(weights, kernel->weights, n_weights * sizeof *weights);
+        memcpy(initial, set->initial, n_weights * sizeof *initial);
+    if (values != NULL)
+        memcpy(values, weights->values, n_weights * sizeof *values);
     if (status != NULL)
-        memcpy(status, kernel->status, l->n * sizeof *status);
+        memcpy(status, weights->status, set->n * sizeof *status);
     return ICC_OK;
 }
 
-icc_status icc_weights_evaluate(const icc_weights *kernel, size_t n, const double *points,
-                                double *weights, double *gradients, icc_status *status,
+icc_status icc_weights_evaluate(const icc_weights *weights, size_t n, const double *points,
+                                double *values, double *gradients, icc_status *status,
                                 size_t *n_failed, const icc_env *env)
 {
-    if (kernel == NULL || (n > 0 && (points == NULL || weights == NULL)))
+    if (weights == NULL || (n > 0 && (points == NULL || values == NULL)))
         return ICC_ERR_ARGUMENT;
     iccp_env full_env;
     const icc_status read = iccp_env_read(&full_env, env, NULL);
     return read == ICC_OK
-               ? iccp_finish(&full_env, iccp_weights_evaluate(kernel, n, points, weights, gradients,
+               ? iccp_finish(&full_env, iccp_weights_evaluate(weights, n, points, values, gradients,
                                                               status, n_failed, &full_env))
                : read;
 }
 
-icc_status icc_weights_get_report(const icc_weights *kernel, size_t n, const double *points,
+icc_status icc_weights_get_report(const icc_weights *weights, size_t n, const double *points,
                                   icc_weights_report *report, const icc_env *env, icc_error *err)
 {
     iccp_env full_env;
-    const char *missing = kernel == NULL            ? "kernel"
+    const char *missing = weights == NULL            ? "weights"
                           : report == NULL          ? "report"
                           : n > 0 && points == NULL ? "points"
                                                     : NULL;
@@ -245,12 +245,12 @@ icc_status icc_weights_get_report(const icc_weights *kernel, size_t n, const dou
     if (status != ICC_OK)
         return status;
     icc_weights_report full;
-    const size_t i = first_infinite(n, kernel->layout->dim, points);
+    const size_t i = first_infinite(n, weights->nodes->dim, points);
     if (i < n)
         return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)i,
                             "point %zu is not finite", i);
     if (status == ICC_OK)
-        status = iccp_finish(&full_env, iccp_weights_measure(kernel, n, points, &full, &full_env));
+        status = iccp_finish(&full_env, iccp_weights_measure(weights, n, points, &full, &full_env));
     if (status == ICC_OK)
         return iccp_write_struct(report, &full, sizeof full, "icc_weights_report", err);
     return iccp_explain(err, status);
@@ -258,7 +258,7 @@ icc_status icc_weights_get_report(const icc_weights *kernel, size_t n, const dou
 
 /* ---- kernels from others ---- */
 
-icc_status icc_weights_paint(icc_weights **out, const icc_weights *kernel, size_t handle,
+icc_status icc_weights_paint(icc_weights **out, const icc_weights *weights, size_t handle,
                              const double *centre, double radius, double amount, const icc_env *env,
                              icc_error *err)
 {
@@ -266,66 +266,66 @@ icc_status icc_weights_paint(icc_weights **out, const icc_weights *kernel, size_
         *out = NULL;
     iccp_env full_env;
     const char *missing = out == NULL      ? "out"
-                          : kernel == NULL ? "kernel"
+                          : weights == NULL ? "weights"
                           : centre == NULL ? "centre"
                                            : NULL;
     const icc_status status = iccp_begin(&full_env, env, missing, err);
     if (status != ICC_OK)
         return status;
-    if (handle >= kernel->layout->n_handles)
+    if (handle >= weights->nodes->n_handles)
         return iccp_fail(err, ICC_ERR_ARGUMENT, "handle %zu does not exist", handle);
-    if (!are_finite(kernel->layout->dim, centre) || !(radius > 0) || !isfinite(radius) ||
+    if (!are_finite(weights->nodes->dim, centre) || !(radius > 0) || !isfinite(radius) ||
         !isfinite(amount))
         return iccp_fail(err, ICC_ERR_ARGUMENT,
                          "icc_weights_paint: radius %g, amount %g, or a centre that is not finite",
                          radius, amount);
-    return iccp_end_weights(iccp_explain(err, iccp_weights_paint(out, kernel, handle, centre,
+    return iccp_end_weights(iccp_explain(err, iccp_weights_paint(out, weights, handle, centre,
                                                                  radius, amount, &full_env)),
                             out, &full_env, err);
 }
 
-icc_status icc_weights_repaint(icc_weights **out, const icc_weights *kernel, size_t n,
-                               const uint32_t *nodes, const double *weights, const icc_env *env,
+icc_status icc_weights_repaint(icc_weights **out, const icc_weights *weights, size_t n,
+                               const uint32_t *nodes, const double *values, const icc_env *env,
                                icc_error *err)
 {
     if (out != NULL)
         *out = NULL;
     iccp_env full_env;
     const char *missing = out == NULL                ? "out"
-                          : kernel == NULL           ? "kernel"
+                          : weights == NULL           ? "weights"
                           : n > 0 && nodes == NULL   ? "nodes"
                           : n > 0 && weights == NULL ? "weights"
                                                      : NULL;
     const icc_status status = iccp_begin(&full_env, env, missing, err);
     if (status != ICC_OK)
         return status;
-    const size_t k = first_infinite(n, kernel->layout->n_handles, weights);
+    const size_t k = first_infinite(n, weights->nodes->n_handles, values);
     if (k < n)
         return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_NODE, (int64_t)k,
                             "a weight for node %lu is not finite", (unsigned long)nodes[k]);
     return iccp_end_weights(
-        iccp_explain(err, iccp_weights_repaint(out, kernel, n, nodes, weights, &full_env, err)),
+        iccp_explain(err, iccp_weights_repaint(out, weights, n, nodes, values, &full_env, err)),
         out, &full_env, err);
 }
 
-icc_status icc_weights_with_method(icc_weights **out, const icc_weights *kernel, int32_t method,
+icc_status icc_weights_with_method(icc_weights **out, const icc_weights *weights, int32_t method,
                                    const icc_env *env, icc_error *err)
 {
     if (out != NULL)
         *out = NULL;
     iccp_env full_env;
-    const char *missing = out == NULL ? "out" : kernel == NULL ? "kernel" : NULL;
+    const char *missing = out == NULL ? "out" : weights == NULL ? "weights" : NULL;
     const icc_status status = iccp_begin(&full_env, env, missing, err);
     if (status != ICC_OK)
         return status;
     if (method < ICC_WEIGHTS_QP || method > ICC_WEIGHTS_L1)
         return iccp_fail(err, ICC_ERR_ARGUMENT, "method is %ld", (long)method);
     return iccp_end_weights(
-        iccp_explain(err, iccp_weights_with_method(out, kernel, method, &full_env)), out, &full_env,
-        err);
+        iccp_explain(err, iccp_weights_with_method(out, weights, method, &full_env)), out,
+        &full_env, err);
 }
 
-icc_status icc_weights_stiffen(icc_weights **out, const icc_weights *kernel, size_t n,
+icc_status icc_weights_stiffen(icc_weights **out, const icc_weights *weights, size_t n,
                                const uint32_t *nodes, const double *rigidity, double energy[2],
                                const icc_env *env, icc_error *err)
 {
@@ -333,7 +333,7 @@ icc_status icc_weights_stiffen(icc_weights **out, const icc_weights *kernel, siz
         *out = NULL;
     iccp_env full_env;
     const char *missing = out == NULL              ? "out"
-                          : kernel == NULL         ? "kernel"
+                          : weights == NULL         ? "weights"
                           : n > 0 && nodes == NULL ? "nodes"
                                                    : NULL;
     const icc_status status = iccp_begin(&full_env, env, missing, err);
@@ -344,7 +344,7 @@ icc_status icc_weights_stiffen(icc_weights **out, const icc_weights *kernel, siz
             return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_NODE, (int64_t)k,
                                 "the rigidity of node %lu is %g", (unsigned long)nodes[k],
                                 rigidity[k]);
-    return iccp_end_weights(iccp_explain(err, iccp_weights_stiffen(out, kernel, n, nodes, rigidity,
+    return iccp_end_weights(iccp_explain(err, iccp_weights_stiffen(out, weights, n, nodes, rigidity,
                                                                    energy, &full_env, err)),
                             out, &full_env, err);
 }

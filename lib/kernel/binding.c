@@ -25,18 +25,18 @@ icc_status iccp_binding_allocate(icc_binding **out, size_t dim, size_t n, size_t
     return ICC_OK;
 }
 
-icc_status iccp_binding_create(icc_binding **out, const icc_weights *kernel, size_t n,
+icc_status iccp_binding_create(icc_binding **out, const icc_weights *weights, size_t n,
                                const double *points, bool derivatives, const iccp_env *env)
 {
-    const iccp_layout *l = kernel->layout;
+    const iccp_node_set *set = weights->nodes;
     icc_status status =
-        iccp_binding_allocate(out, l->dim, n, l->n_handles, derivatives, &env->memory);
+        iccp_binding_allocate(out, set->dim, n, set->n_handles, derivatives, &env->memory);
     if (status != ICC_OK)
         return status;
     icc_binding *b = *out;
-    memcpy(b->handles, l->given, l->n_handles * l->dim * sizeof *b->handles);
-    memcpy(b->points, points, n * l->dim * sizeof *b->points);
-    status = iccp_weights_evaluate(kernel, n, points, b->weights, b->gradients, NULL, NULL, env);
+    memcpy(b->handles, set->given, set->n_handles * set->dim * sizeof *b->handles);
+    memcpy(b->points, points, n * set->dim * sizeof *b->points);
+    status = iccp_weights_evaluate(weights, n, points, b->weights, b->gradients, NULL, NULL, env);
     if (status != ICC_OK) {
         iccp_binding_release(b);
         *out = NULL;

@@ -14,7 +14,7 @@ struct icc_binding {
 };
 
 /* See icc_binding_create(); all points are finite. */
-icc_status iccp_binding_create(icc_binding **out, const icc_weights *kernel, size_t n,
+icc_status iccp_binding_create(icc_binding **out, const icc_weights *weights, size_t n,
                                const double *points, bool derivatives, const iccp_env *env);
 
 /* A binding whose arrays are yet to be filled. */

@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 #include "base/threads.h"
-#include "kernel/places.h"
+#include "kernel/point_list.h"
 #include "kernel/spectrum.h"
 
 #include <math.h>
@@ -76,7 +76,7 @@ static icc_status survey_create(survey *s, const iccp_env *env)
     const icc_status status = iccp_for_chunks(env, "sample", s->n, 256, look_chunk, s);
     if (status != ICC_OK)
         return status;
-    return iccp_places_spacing(s->shape->dim, s->n, s->local, s->spacing, env);
+    return iccp_nearest_distances(s->shape->dim, s->n, s->local, s->spacing, env);
 }
 
 /* ------------------------------------------------------------------- check */

@@ -192,9 +192,9 @@ static icc_status complete(icc_shape *shape, const double *vertices, const uint3
     if (status == ICC_OK)
         status = plant(&shape->curves, shape, shape->n_segments, shape->sticks);
     if (status == ICC_OK)
-        status = iccp_web_create(&shape->web, shape->dim, shape->n_vertices,
-                                 shape->local + shape->dim * shape->n_walled, shape->n_segments,
-                                 shape->segments, &shape->memory);
+        status = iccp_segment_graph_create(&shape->graph, shape->dim, shape->n_vertices,
+                                           shape->local + shape->dim * shape->n_walled,
+                                           shape->n_segments, shape->segments, &shape->memory);
     return status == ICC_OK ? check_walls(shape, env, err) : iccp_explain(err, status);
 }
 
@@ -248,7 +248,7 @@ void iccp_shape_release(icc_shape *shape)
         iccp_domain_release(shape->regions[r]);
     iccp_facet_tree_free(&shape->walls, &memory);
     iccp_facet_tree_free(&shape->curves, &memory);
-    iccp_web_free(&shape->web);
+    iccp_segment_graph_free(&shape->graph);
     iccp_free(&memory, shape->regions);
     iccp_free(&memory, shape->vertices);
     iccp_free(&memory, shape->segments);

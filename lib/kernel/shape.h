@@ -5,7 +5,7 @@
 
 #include "domain/domain.h"
 #include "icc/kernel.h"
-#include "kernel/web.h"
+#include "kernel/segment_graph.h"
 
 #define ICCP_NOWHERE UINT32_MAX
 
@@ -24,7 +24,7 @@ struct icc_shape {
     uint32_t *facets, *owner;      /* all walls, and the region of each */
     uint32_t *sticks;              /* the segments, as facets (3-D: with the second end twice) */
     iccp_facet_tree walls, curves; /* empty (n == 0) without */
-    iccp_web web;                  /* of the segments */
+    iccp_segment_graph graph;      /* of the segments */
 };
 
 /* See icc_shape_create(); arguments have been checked for NULL and dim. */

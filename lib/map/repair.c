@@ -63,7 +63,7 @@ static bool is_worth_turning(const iccp_plmap *map, uint32_t corner)
 }
 
 /* Each turn raises the number of positive images, so this ends. */
-static void turn_edges(iccp_plmap *map)
+static void flip_edges(iccp_plmap *map)
 {
     bool turned = true;
     while (turned) {
@@ -85,14 +85,14 @@ static icc_status untangle_patches(iccp_plmap *map, size_t *n_left, const iccp_e
     const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
     uint8_t *marks = iccp_alloc(&env->memory, map->n_vertices, 1);
     icc_status status = marks != NULL ? ICC_OK : ICC_ERR_MEMORY;
-    turn_edges(map);
+    flip_edges(map);
     *n_left = iccp_simplicial_count_inverted(&simplicial);
     for (size_t k = 0; status == ICC_OK && *n_left > 0 && k < ICCP_PLANE_ROUNDS; ++k) {
         const iccp_env part = iccp_round(env, k, 1);
         status = iccp_untangle_patches(&simplicial, k, marks, &part);
         if (status != ICC_OK)
             break;
-        turn_edges(map);
+        flip_edges(map);
         *n_left = iccp_simplicial_count_inverted(&simplicial);
         if (*n_left > A_FEW + map->corners.n_triangles / MANY)
             break;

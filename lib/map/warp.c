@@ -7,7 +7,7 @@
 #include "map/warp.h"
 
 #include "base/threads.h"
-#include "map/rim.h"
+#include "map/boundary_pixels.h"
 #include "map/scan.h"
 #include "map/warp_points.h"
 
@@ -218,17 +218,17 @@ static icc_status warp_mesh(const icc_map *map, const icc_picture *source,
                             const icc_picture *target, const iccp_env *env)
 {
     warp w = {.map = map, .source = source, .target = target, .memory = &env->memory};
-    iccp_rim rim;
-    icc_status status = iccp_rim_create(&rim, map->target_domain, target, env);
+    iccp_boundary_pixels boundary;
+    icc_status status = iccp_boundary_pixels_create(&boundary, map->target_domain, target, env);
     if (status != ICC_OK)
         return status;
     status = prepare(&w);
     if (status == ICC_OK)
         status = iccp_for_chunks(env, "warp", (size_t)target->height, ROWS, paint_band, &w);
     if (status == ICC_OK)
-        iccp_rim_settle(&rim, map, source, target);
+        iccp_boundary_pixels_decide(&boundary, map, source, target);
     clear(&w);
-    iccp_rim_free(&rim);
+    iccp_boundary_pixels_free(&boundary);
     return status;
 }
 

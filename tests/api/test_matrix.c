@@ -393,7 +393,12 @@ static void chart_function(const subject *s)
     icc_function_info info = {.size = sizeof info};
     icc_function_report report = {.size = sizeof report};
     size_t n_edges = 0;
+    icc_chart_info chart = {.size = sizeof chart};
     ++n_pairs;
+    /* Charts of the two methods that follow a function have it, others none. */
+    ck_assert_int_eq(icc_chart_get_info(s->chart, &chart), ICC_OK);
+    ck_assert_int_eq(field != NULL,
+                     chart.method == ICC_METHOD_GRADIENT || chart.method == ICC_METHOD_FIELD);
     ck_assert_int_eq(icc_function_get_info(field, &info),
                      field != NULL ? ICC_OK : ICC_ERR_ARGUMENT);
     ck_assert_int_eq(icc_function_values(field) == NULL, field == NULL);

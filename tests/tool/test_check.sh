@@ -4,9 +4,15 @@
 . "$(dirname "$0")/lib.sh"
 make_cages
 
+# first_line TEXT: what check says first.
+first_line() {
+    head -n 1 out | grep -qE -- "^$1" || complain "the first line is not '$1': $(cat out)"
+}
+
 # Certified charts and maps.
 for method in foliation disc; do
     run 0 check -s source.txt -t target.txt -m "$method" --map curves
+    first_line 'one-to-one: yes, certified$'
     holds out 'source.txt: a simple polygon, 6 vertices, counter-clockwise, area 75'
     holds out "source.txt: $method chart certified"
     holds out "target.txt: $method chart certified"
@@ -16,6 +22,7 @@ for method in foliation disc; do
     holds out '"certified": true'
     holds out "\"method\": \"$method\""
     run 0 check -s source.txt -m "$method"
+    first_line 'one-to-one: yes, certified$'
     grep -q '^map' out && complain "a map without a target"
 done
 
@@ -35,9 +42,12 @@ awk -F '[:,]' '/"energy_before"/ { before = $2 } /"energy"/ { after = $2 } /"ste
 
 # Valid, but not certifiable.
 run 1 check -s source.txt -t target.txt -m gradient
+first_line "one-to-one: not proved: the source's chart: the curves of method gradient merge$"
 holds out 'source.txt: a simple polygon, 6 vertices, counter-clockwise, area 75'
 holds err 'not certifiable'
 [ "$(wc -l <err)" -eq 1 ] || complain "stderr is not one line"
+run 1 check -s source.txt -m gradient
+first_line 'one-to-one: not proved: the curves of method gradient merge$'
 run 1 check -s source.txt -m gradient --json
 holds out '"certified": false'
 
@@ -48,6 +58,7 @@ awk '{ print $1, $2 * 0.7 }' round >mild
 run 0 check -s round -t mild -m field -n 64
 holds out 'map: curves, certified one-to-one'
 run 1 check -s round -t flat -m field -n 64
+first_line 'one-to-one: not proved: [1-9][0-9]* of [0-9]* sample points do not come back'
 [ "$(grep -c 'field chart certified' out)" -eq 2 ] || complain "not both charts: $(cat out)"
 grep -q '^map: curves, not certified: [1-9][0-9]* of [0-9]* sample points do not come back' out || complain "no reason: $(cat out)"
 holds err 'the map is not certified'
@@ -65,6 +76,7 @@ grep -q '[^0-9]0 of' out && complain "a reason that is none"
 # Every crossing is listed, on its line.
 printf '0 0\n10 0\n10 10\n7 -5\n4 10\n1 -5\n0 10\n' >crossed
 run 1 check -s crossed
+first_line 'one-to-one: not proved: 4 defects$'
 [ "$(grep -c 'crosses' out)" -eq 4 ] || complain "not 4 crossings: $(cat out)"
 holds out 'crossed:1: the edge from vertex 0 crosses the edge from vertex 2 (line 3)'
 holds err 'libicc: crossed: 4 defects'

@@ -56,6 +56,7 @@ static int verdict_on_method(check *c)
     if (c->job.args->json && check_report(c) != DONE)
         return FAILED;
     if (!c->job.args->json) {
+        check_print_verdict(c);
         check_print_domains(c);
         check_print_certificates(c);
     }
@@ -105,9 +106,12 @@ static int run(check *c)
         result = check_find_defects(c);
     if (result != DONE)
         return result;
+    bool refused = c->n_defects > 0 && c->job.args->repair == NULL;
+    if (!c->job.args->json && refused)
+        check_print_verdict(c);
     if (!c->job.args->json)
         check_print_defects(c);
-    if (c->n_defects > 0 && c->job.args->repair == NULL)
+    if (refused)
         return verdict_on_defects(c);
     if (c->job.args->repair != NULL)
         result = in_plane(c)          ? check_repair(c)

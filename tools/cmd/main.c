@@ -85,17 +85,13 @@ static const command commands[] = {
      .usage = "--source FILE [--target FILE] [OPTION]...",
      .summary = "Checks cages and certifies the map between them",
      .details =
-         "In the plane it lists every crossing, contact, spike and repeated vertex, one per line; "
-         "elsewhere\n"
-         "the first defect is named. Exit code 0 means that the charts and the map are certified "
-         "to "
-         "be\n"
-         "one-to-one; the method gradient cannot be, so it gives 1. A mask by itself is only "
-         "checked "
-         "to be\n"
-         "one solid piece without holes; --boundary writes the vertices of its boundary, which, "
-         "moved, are\n"
-         "a target.\n"},
+         "The first line is the answer: 'one-to-one: yes, certified', or\n"
+         "'one-to-one: not proved: ' and why. In the plane every crossing, contact, spike\n"
+         "and repeated vertex is listed, one per line; elsewhere the first defect is named.\n"
+         "Exit code 0 means that the charts and the map are certified to be one-to-one; the\n"
+         "method gradient cannot be, so it gives 1. A mask by itself is only checked to be\n"
+         "one solid piece without holes; --boundary writes the vertices of its boundary,\n"
+         "which, moved, are a target.\n"},
     {.name = "info",
      .bit = FOR_INFO,
      .run = run_info,

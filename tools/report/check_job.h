@@ -26,6 +26,9 @@ bool check_mask_only(const check *c);
 
 /* ---- telling ---- */
 
+/* The answer, in the first line: is it one-to-one, or why is that not proved. Nothing of a mask by
+ * itself. */
+void check_print_verdict(const check *c);
 void check_print_defects(const check *c);
 void check_print_domains(const check *c);
 void check_print_certificates(const check *c);

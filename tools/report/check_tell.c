@@ -93,6 +93,38 @@ static void print_chart(const char *file, const chart_facts *chart)
     putchar('\n');
 }
 
+/* Why not all is certified: the map's own reason, or that of the first chart which is not. Never the
+ * words "not certified", which begin the reasons further down. */
+static void print_why(const check *c)
+{
+    char text[REASON_LENGTH];
+    size_t side = c->charts[0].common.certified ? 1 : 0;
+    if (c->map.kind != 0 && !c->map.certified && c->map.reason_side == 0)
+        fputs(reason_of_map(text, &c->map), stdout);
+    else if (c->map.kind != 0)
+        printf("the %s's chart: %s", cage_role_name(side == 0 ? CAGE_SOURCE : CAGE_TARGET),
+               reason_of_chart(text, &c->charts[side]));
+    else
+        fputs(reason_of_chart(text, &c->charts[0]), stdout);
+}
+
+void check_print_verdict(const check *c)
+{
+    if (check_mask_only(c))
+        return;
+    fputs("one-to-one: ", stdout);
+    if (c->certified)
+        fputs("yes, certified", stdout);
+    else {
+        fputs("not proved: ", stdout);
+        if (c->n_defects > 0)
+            printf("%zu defect%s", c->n_defects, c->n_defects == 1 ? "" : "s");
+        else
+            print_why(c);
+    }
+    putchar('\n');
+}
+
 void check_print_certificates(const check *c)
 {
     char text[REASON_LENGTH];

@@ -1,4 +1,4 @@
-"""Carry everything inside a shape along when its boundary moves.
+"""Move everything inside a shape along when its boundary moves.
 
     import libicc
     mapping = libicc.Map(before, after)      # two polygons, (n, 2) arrays

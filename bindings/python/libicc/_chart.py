@@ -54,10 +54,10 @@ class Chart(Saved):
 
     Args:
         domain: a Domain, or what `as_domain` takes
-        method: "foliation", "disc" (2-D), "field" or "gradient"; None: the best that there is
+        method: "foliation", "disc" (2-D), "field" or "gradient"; None: the best available
         cells: grid or mesh cells along the longest side; None: as many as suit
-        maximum: where the curves shall end, (dim,), or None
-        function: of the method gradient: "decay", "distance", "laplace", "bilaplace" or "clamped"
+        maximum: where the curves are to end, (dim,), or None
+        function: for the method gradient: "decay", "distance", "laplace", "bilaplace" or "clamped"
         constraints: whether it is made to fall along the tree: "needed", "none" or "all"
         solver: "direct" or "iterative"
         tree: "thesis" or "paper"
@@ -136,7 +136,7 @@ class Chart(Saved):
 
         Returns:
             facet (n,) uint32, bary (n, dim), t (n,), and with ``status`` an int32 array (n,): 0, or the
-            number of an `Error`. A point without coordinates has NaN in bary and t.
+            number of an `Error`. A point without coordinates has NaN in bary and t; it raises nothing.
         """
         points = points_of(points, self.dim)
         n, dim = points.shape

@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 
 Progress = Callable[[str, float], Any]
 """Called with the name of a stage and the share of the whole call that is done, which goes from 0 to 1 and never
-falls; to return true or to raise cancels the call. `icc/base.h` lists the stages.
-Every call that takes long takes one, and `threads`: how many it may use; None: one per processor."""
+falls; returning true or raising cancels the call. `icc/base.h` lists the stages.
+Every long call accepts one, and `threads`: how many it may use; None: one per processor."""
 
 _PROGRESS = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_char_p, ctypes.c_double)
 
@@ -150,7 +150,7 @@ def indices(values: ArrayLike, width: int, name: str) -> Indices:
 
 
 def address(array: Optional[Array]) -> Optional[int]:
-    """An array as an argument; a variable of the caller's keeps it alive."""
+    """An array as an argument; the caller must keep it alive in a variable."""
     return None if array is None else array.ctypes.data
 
 
@@ -265,10 +265,10 @@ class Saved(Handle):
     @classmethod
     def from_bytes(cls: Type[_S], data: Any, *, limit: Optional[int] = None,
                    progress: Optional[Progress] = None, threads: Optional[int] = None) -> _S:
-        """The object that `to_bytes` wrote: it answers as that does, bit for bit.
+        """The object that `to_bytes` wrote: it gives the same results, bit for bit.
 
         Args:
-            data: bytes, or what else has a buffer; any bytes are safe to try
+            data: bytes, or anything with a buffer; any bytes are safe to pass
             limit: bytes of memory that it may take beyond 64 for each of `data`; None: 256,000,000.
                 Time is limited in proportion. Charts on fine grids are rebuilt, and may need more; the error
                 message then names this as `icc_env.load_limit`.

@@ -84,7 +84,7 @@ class Domain(Handle):
         Args:
             vertices: (n, dim)
             simplices: (m, dim + 1) vertex indices
-            facets: (k, dim) vertex indices of the boundary, in an order of yours; or None
+            facets: (k, dim) vertex indices of the boundary, in any order; or None
         """
         vertices = np.ascontiguousarray(vertices, dtype=np.float64)
         if vertices.ndim != 2:
@@ -207,7 +207,7 @@ def _from_meshio(mesh: Any) -> Domain:
 
 
 def boundary_defects(vertices: ArrayLike) -> List[Tuple[str, int, int]]:
-    """Everything that keeps a closed polygon (n, 2) from being a boundary: a list of (kind, a, b)."""
+    """Every defect that keeps a closed polygon (n, 2) from being a boundary: a list of (kind, a, b)."""
     vertices = points_of(_outline(vertices), 2)
     call, n, capacity = Call(threads=1), ctypes.c_size_t(), 64
     while True:

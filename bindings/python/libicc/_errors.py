@@ -11,7 +11,7 @@ ITEMS = (None, "vertex", "facet", "simplex", "cell", "grid vertex", "axis", "poi
 
 
 class Error(Exception):
-    """What the library says about a call that failed.
+    """What the library reports about a call that failed.
 
     Attributes:
         status: the number of the status (``Error.ARGUMENT`` and so on)
@@ -50,7 +50,7 @@ class FormatError(Error, ValueError):
 
 
 class UnsupportedError(Error, NotImplementedError):
-    """This combination is not available."""
+    """This combination is not supported."""
 
 
 class ResolutionError(Error, ValueError):

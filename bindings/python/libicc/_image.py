@@ -26,12 +26,12 @@ def _picture(image: Array, alpha: bool) -> Any:
 def warp_image(image: ArrayLike, mapping: Map, out: Optional[ArrayLike] = None, *,
                alpha: Optional[bool] = None, progress: Optional[Progress] = None,
                threads: Optional[int] = None) -> Array:
-    """Carries a picture along a 2-D map.
+    """Warps a picture by a 2-D map.
 
     Args:
         image: (height, width) or (height, width, channels), uint8 or uint16, up to 4 channels. Pixel
             [j, i] covers [i, i + 1] x [j, j + 1] in the coordinates of the map's domains.
-        mapping: from where things are in the picture to where they shall be
+        mapping: from places in the picture to places in the result
         out: a picture to draw onto, with as many channels, of any size: its pixels outside the target
             stay. None: a copy of `image`.
         alpha: whether the last channel is opacity; None: if there are 2 or 4
@@ -63,7 +63,7 @@ class PixelTransform:
     """A 2-D map as ``skimage.transform.warp`` takes one: from places in the result to places in the
     picture, both as (column, row) with whole numbers at the centres of pixels.
 
-    ``skimage.transform.warp(image, PixelTransform(mapping))``; what is outside the target cage stays where
+    ``skimage.transform.warp(image, PixelTransform(mapping))``; whatever is outside the target cage stays where
     it is, or is left blank with ``outside="blank"``.
     """
 

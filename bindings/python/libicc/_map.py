@@ -37,18 +37,19 @@ KINDS = {"curves": 1, "mesh": 2}
 class Map(Saved):
     """A map from one domain to another that agrees with their boundaries.
 
-    Facet i of the source goes to facet i of the target. `apply` it, or just call it, with points; `apply_inverse`, or `inverse`, is the way back.
+    Facet i of the source goes to facet i of the target. Call the map with points, or use `apply`; `inverse`, or
+    `apply_inverse`, goes back.
 
     Args:
         source, target: Domains, or what `as_domain` takes
-        kind: "mesh" (2-D, and 3-D between domains with meshes) or "curves"; None: the best that there is
-        improve: steps of improvement on each level for kind mesh; None: as many as pay, 0: none
+        kind: "mesh" (2-D, and 3-D between domains with meshes) or "curves"; None: the best available
+        improve: improvement steps on each level for kind mesh; None: as long as they pay off, 0: none
         method, cells, maximum, ...: of the charts, see `Chart`; the maximum is the source's
-        target_maximum: where the target's maximum shall be, (dim,), or None
+        target_maximum: the target's maximum, (dim,), or None
         progress, threads: as for `Domain`
 
     Raises:
-        as `Chart`; BoundaryError if the domains do not correspond. ``side`` tells which is at fault.
+        as `Chart`; BoundaryError if the domains do not correspond. ``side`` says which one is at fault.
     """
 
     _free = "map_free"
@@ -96,12 +97,12 @@ class Map(Saved):
 
     @property
     def source_chart(self) -> Optional[Chart]:
-        """The chart of the source; None for maps made by `follow`."""
+        """The chart of the source; None for maps made by `retarget`."""
         return Chart._borrow(lib.map_source_chart(self), owner=self)
 
     @property
     def target_chart(self) -> Optional[Chart]:
-        """The chart of the target; None for maps made by `follow`."""
+        """The chart of the target; None for maps made by `retarget`."""
         return Chart._borrow(lib.map_target_chart(self), owner=self)
 
     def _apply(self, function: Any, points: ArrayLike, status: bool, progress: Optional[Progress],
@@ -123,7 +124,7 @@ class Map(Saved):
 
     def apply(self, points: ArrayLike, *, status: bool = False, progress: Optional[Progress] = None,
               threads: Optional[int] = None) -> Any:
-        """Source -> target: points (n, dim) -> images (n, dim), NaN where there is none. With
+        """Source -> target: points (n, dim) -> images (n, dim), NaN for points without one. With
         ``status`` also an int32 array (n,): 0, or the number of an `Error`."""
         return self._apply(lib.map_apply, points, status, progress, threads)
 
@@ -157,13 +158,13 @@ class Map(Saved):
     def improve(self, iterations: int = 0, levels: int = 0, tolerance: float = 0, *,
                 progress: Optional[Progress] = None,
                 threads: Optional[int] = None) -> Tuple["Map", SimpleNamespace]:
-        """A fairer map, and a report (kind mesh in 2-D). A progress callback that asks to stop ends it early,
-        without loss.
+        """A fairer map, and a report (kind mesh in 2-D). If a progress callback asks to stop, it ends early,
+        with the map reached so far.
 
         Args:
-            iterations: steps at most on each level; 0: 60
-            levels: refinements at most; 0: 4; -1: none
-            tolerance: a level ends with a step that gains less than this share of the energy; 0: 1e-4
+            iterations: at most so many steps on each level; 0: 60
+            levels: at most so many refinements; 0: 4; -1: none
+            tolerance: a level ends when a step gains less than this share of the energy; 0: 1e-4
 
         Returns:
             the map, and the members of ``icc_improve_report``
@@ -204,7 +205,7 @@ class Map(Saved):
 
     def certify(self, vertices: ArrayLike, simplices: ArrayLike, *, progress: Optional[Progress] = None,
                 threads: Optional[int] = None) -> Tuple[Floats, SimpleNamespace]:
-        """Maps the vertices of a mesh of yours and checks exactly what became of its simplices:
+        """Maps the vertices of your mesh and checks its simplices exactly:
         images (n, dim) and the members of ``icc_certificate``. 2-D and 3-D.
 
         Args:

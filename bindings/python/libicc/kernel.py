@@ -78,9 +78,9 @@ class Sampling(Saved):
         kind: "blue" (default) or "grid"
         spacing: distance of neighbours; None: 1/100 of the longest side, in 3-D 1/20
         steps: of relaxation (blue); None: as many as suit
-        margin: how far a grid goes beyond the regions, in spacings
+        margin: how far a grid extends beyond the regions, in spacings
         seed: of the random numbers
-        fixed: points (n, dim) that shall be samples (blue)
+        fixed: points (n, dim) that must be samples (blue)
         progress, threads: as for `libicc.Domain`
     """
 
@@ -102,7 +102,7 @@ class Sampling(Saved):
 
     @classmethod
     def from_points(cls, shape: Union[Shape, ShapeLike], points: ArrayLike) -> "Sampling":
-        """A sampling from points (n, dim) of yours."""
+        """A sampling from your own points (n, dim)."""
         shape = shape if isinstance(shape, Shape) else Shape([shape])
         points = points_of(points, shape._dim)
         return cls._wrap(create(lib.sampling_create_from_points, shape, len(points),
@@ -207,7 +207,7 @@ class Weights(Handle):
 
     def paint(self, handle: int, centre: ArrayLike, radius: float, amount: float, *,
               progress: Optional[Progress] = None, threads: Optional[int] = None) -> "Weights":
-        """A kernel with the weight of one handle raised around a place (dim,), by `amount` at the centre and
+        """New weights, with that of one handle raised around a place (dim,), by `amount` at the centre and
         smoothly less up to the radius, and optimised again."""
         centre = points_of(centre, self._info("weights_get_info", "weights_info").dim)
         return Weights._wrap(create(lib.weights_paint, self, handle, address(centre), radius,
@@ -215,7 +215,7 @@ class Weights(Handle):
 
     def repaint(self, nodes: ArrayLike, weights: ArrayLike, *, progress: Optional[Progress] = None,
                 threads: Optional[int] = None) -> "Weights":
-        """A kernel whose weights at some nodes (n,) start from wishes (n, n_handles)."""
+        """New weights, which at some nodes (n,) start from those given (n, n_handles)."""
         nodes = np.ascontiguousarray(nodes, dtype=np.uint32)
         m = self._info("weights_get_info", "weights_info").n_handles
         weights = floats(weights, (len(nodes), m), "weights")
@@ -224,7 +224,7 @@ class Weights(Handle):
 
     def with_method(self, method: str, *, progress: Optional[Progress] = None,
                     threads: Optional[int] = None) -> "Weights":
-        """The same nodes and initial weights with another method; what was painted is gone."""
+        """The same nodes and initial weights with another method; painting is lost."""
         return Weights._wrap(create(lib.weights_with_method, self,
                                    choose(method, METHODS, "method"), progress=progress,
                                    threads=threads))
@@ -232,14 +232,14 @@ class Weights(Handle):
     def stiffen(self, nodes: ArrayLike, rigidity: Optional[ArrayLike] = None, *,
                 progress: Optional[Progress] = None,
                 threads: Optional[int] = None) -> Tuple["Weights", Floats]:
-        """A kernel that is as rigid as may be at some nodes (n,), each of which may have its own rigidity (n,),
+        """New weights, as rigid as possible at some nodes (n,), each of which may have its own rigidity (n,),
         positive; and the energy before and after, (2,)."""
         nodes, energy = np.ascontiguousarray(nodes, dtype=np.uint32), np.empty(2)
         if rigidity is not None:
             rigidity = floats(rigidity, (len(nodes),), "rigidity")
-        kernel = create(lib.weights_stiffen, self, len(nodes), address(nodes),
-                        address(rigidity), address(energy), progress=progress, threads=threads)
-        return Weights._wrap(kernel), energy
+        weights = create(lib.weights_stiffen, self, len(nodes), address(nodes),
+                         address(rigidity), address(energy), progress=progress, threads=threads)
+        return Weights._wrap(weights), energy
 
     @overload
     def weights(self, points: ArrayLike, *, gradients: Literal[False] = ...,
@@ -264,7 +264,7 @@ class Weights(Handle):
 
     def report(self, points: ArrayLike, *, progress: Optional[Progress] = None,
                threads: Optional[int] = None) -> SimpleNamespace:
-        """How well the weights do what they should, at points; see ``icc_weights_report``."""
+        """How good the weights are, measured at points; see ``icc_weights_report``."""
         points = points_of(points, self._info("weights_get_info", "weights_info").dim)
         call, report = Call(progress, threads), new("weights_report")
         call.check(lib.weights_get_report(self, len(points), address(points),
@@ -273,7 +273,7 @@ class Weights(Handle):
 
     def bind(self, points: ArrayLike, *, derivatives: bool = False, progress: Optional[Progress] = None,
              threads: Optional[int] = None) -> "Binding":
-        """Points (n, dim) with their weights, for posing again and again."""
+        """Points (n, dim) with their weights, for repeated poses."""
         points = points_of(points, self._info("weights_get_info", "weights_info").dim)
         return Binding._wrap(create(lib.binding_create, self, len(points), address(points),
                                     int(derivatives), progress=progress, threads=threads))

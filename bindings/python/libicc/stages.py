@@ -30,7 +30,7 @@ def _view(pointer: Optional[int], n: int, dtype: Any, owner: Handle) -> Optional
 
 
 class Grid(Handle):
-    """A regular grid of vertices, each inside or outside of a shape.
+    """A regular grid of vertices, each inside or outside a shape.
 
     Arrays over its vertices have the grid's shape: axis k of the array is coordinate k.
 

@@ -64,33 +64,33 @@ static icc_sampling *sample_cube(void)
 static icc_weights *make(const icc_sampling *sampling, size_t n, const double *handles,
                          const icc_weights_options *options)
 {
-    icc_weights *kernel;
+    icc_weights *weights;
     icc_error err = {.size = sizeof err};
-    if (icc_weights_create(&kernel, sampling, n, handles, options, NULL, &err) != ICC_OK)
+    if (icc_weights_create(&weights, sampling, n, handles, options, NULL, &err) != ICC_OK)
         ck_abort_msg("%s", err.message);
-    return kernel;
-}
-
-static icc_weights_info info_of(const icc_weights *kernel)
-{
-    icc_weights_info info = {.size = sizeof info};
-    ck_assert_int_eq(icc_weights_get_info(kernel, &info), ICC_OK);
-    return info;
-}
-
-static double *weights_of(const icc_weights *kernel)
-{
-    const icc_weights_info info = info_of(kernel);
-    double *weights = allocate(info.n_nodes * info.n_handles, sizeof *weights);
-    ck_assert_int_eq(icc_weights_get_nodes(kernel, NULL, NULL, weights, NULL), ICC_OK);
     return weights;
 }
 
-static double *nodes_of(const icc_weights *kernel)
+static icc_weights_info info_of(const icc_weights *weights)
 {
-    const icc_weights_info info = info_of(kernel);
+    icc_weights_info info = {.size = sizeof info};
+    ck_assert_int_eq(icc_weights_get_info(weights, &info), ICC_OK);
+    return info;
+}
+
+static double *weights_of(const icc_weights *weights)
+{
+    const icc_weights_info info = info_of(weights);
+    double *values = allocate(info.n_nodes * info.n_handles, sizeof *values);
+    ck_assert_int_eq(icc_weights_get_nodes(weights, NULL, NULL, values, NULL), ICC_OK);
+    return values;
+}
+
+static double *nodes_of(const icc_weights *weights)
+{
+    const icc_weights_info info = info_of(weights);
     double *points = allocate(info.n_nodes * (size_t)info.dim, sizeof *points);
-    ck_assert_int_eq(icc_weights_get_nodes(kernel, points, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_weights_get_nodes(weights, points, NULL, NULL, NULL), ICC_OK);
     return points;
 }
 
@@ -104,12 +104,12 @@ static double *spread(size_t dim, size_t n)
     return points;
 }
 
-static icc_weights_report report_of(const icc_weights *kernel)
+static icc_weights_report report_of(const icc_weights *weights)
 {
-    const size_t dim = (size_t)info_of(kernel).dim;
+    const size_t dim = (size_t)info_of(weights).dim;
     double *points = spread(dim, 2000);
     icc_weights_report report = {.size = sizeof report};
-    ck_assert_int_eq(icc_weights_get_report(kernel, 2000, points, &report, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_weights_get_report(weights, 2000, points, &report, NULL, NULL), ICC_OK);
     free(points);
     return report;
 }
@@ -173,12 +173,12 @@ START_TEST(without_the_affine_function_sums_are_only_near_one)
     icc_sampling *sampling = sample_square(0.05);
     const icc_weights_options options = {
         .size = sizeof options, .kernel = ICC_KERNEL_GAUSS, .affine_tail = -1};
-    icc_weights *kernel = make(sampling, 4, SQUARE, &options);
-    const icc_weights_report report = report_of(kernel);
+    icc_weights *weights = make(sampling, 4, SQUARE, &options);
+    const icc_weights_report report = report_of(weights);
     ck_assert_double_gt(report.unity, 1e-6);
     ck_assert_double_lt(report.unity, 0.3);
     ck_assert_double_le(report.lagrange, 1e-11);
-    icc_weights_free(kernel);
+    icc_weights_free(weights);
     icc_sampling_free(sampling);
 }
 END_TEST
@@ -190,23 +190,23 @@ START_TEST(edges_are_linear)
     for (int32_t method = ICC_WEIGHTS_QP; method <= ICC_WEIGHTS_L1; ++method) {
         const icc_weights_options options = {
             .size = sizeof options, .method = method, .n_edges = 4, .edges = RING};
-        icc_weights *kernel = make(sampling, 5, HANDLES, &options);
-        ck_assert_int_eq(info_of(kernel).initial, ICC_INITIAL_EDGES);
-        double *weights = weights_of(kernel), *points = nodes_of(kernel);
+        icc_weights *weights = make(sampling, 5, HANDLES, &options);
+        ck_assert_int_eq(info_of(weights).initial, ICC_INITIAL_EDGES);
+        double *values = weights_of(weights), *points = nodes_of(weights);
         size_t n_on_edge = 0;
-        for (size_t i = 5; i < info_of(kernel).n_nodes; ++i)
+        for (size_t i = 5; i < info_of(weights).n_nodes; ++i)
             if (points[2 * i + 1] <= 0) {
-                ck_assert_double_eq_tol(weights[5 * i], 1 - points[2 * i], 1e-15);
-                ck_assert_double_eq_tol(weights[5 * i + 1], points[2 * i], 1e-15);
-                ck_assert(weights[5 * i + 2] == 0 && weights[5 * i + 3] == 0 &&
-                          weights[5 * i + 4] == 0);
+                ck_assert_double_eq_tol(values[5 * i], 1 - points[2 * i], 1e-15);
+                ck_assert_double_eq_tol(values[5 * i + 1], points[2 * i], 1e-15);
+                ck_assert(values[5 * i + 2] == 0 && values[5 * i + 3] == 0 &&
+                          values[5 * i + 4] == 0);
                 ++n_on_edge;
             }
         ck_assert_uint_gt(n_on_edge, 40);
-        ck_assert_double_lt(report_of(kernel).linearity, 0.03);
-        free(weights);
+        ck_assert_double_lt(report_of(weights).linearity, 0.03);
+        free(values);
         free(points);
-        icc_weights_free(kernel);
+        icc_weights_free(weights);
     }
     icc_sampling_free(sampling);
 }
@@ -217,13 +217,13 @@ START_TEST(a_cube_works_like_a_square)
     icc_sampling *sampling = sample_cube();
     for (int32_t method = ICC_WEIGHTS_QP; method <= ICC_WEIGHTS_L1; ++method) {
         const icc_weights_options options = {.size = sizeof options, .method = method};
-        icc_weights *kernel = make(sampling, 8, CUBE, &options);
-        const icc_weights_report report = report_of(kernel);
+        icc_weights *weights = make(sampling, 8, CUBE, &options);
+        const icc_weights_report report = report_of(weights);
         ck_assert_double_le(report.unity, 1e-11);
         ck_assert_double_le(report.reproduction, 1e-11);
         ck_assert_double_le(report.lagrange, 1e-11);
         ck_assert_double_gt(report.least_weight, -0.2);
-        icc_weights_free(kernel);
+        icc_weights_free(weights);
     }
     icc_sampling_free(sampling);
 }
@@ -247,10 +247,10 @@ START_TEST(initial_weights_can_be_given)
                                          .initial_weights = given,
                                          .n_lines = 1,
                                          .lines = &line};
-    icc_weights *kernel = make(sampling, 4, SQUARE, &options);
-    const size_t n = info_of(kernel).n_nodes;
-    double *initial = allocate(4 * n, sizeof *initial), *places = nodes_of(kernel);
-    ck_assert_int_eq(icc_weights_get_nodes(kernel, NULL, initial, NULL, NULL), ICC_OK);
+    icc_weights *weights = make(sampling, 4, SQUARE, &options);
+    const size_t n = info_of(weights).n_nodes;
+    double *initial = allocate(4 * n, sizeof *initial), *places = nodes_of(weights);
+    ck_assert_int_eq(icc_weights_get_nodes(weights, NULL, initial, NULL, NULL), ICC_OK);
     size_t n_found = 0;
     for (size_t i = 0; i < n; ++i)
         for (size_t s = 0; i >= 4 && s < info.n_samples; ++s)
@@ -261,7 +261,7 @@ START_TEST(initial_weights_can_be_given)
     ck_assert_uint_gt(n_found, n - 16);
     for (size_t j = 0; j < 16; ++j)
         ck_assert(initial[j] == (j % 5 == 0));
-    ck_assert_double_le(report_of(kernel).reproduction, 1e-11);
+    ck_assert_double_le(report_of(weights).reproduction, 1e-11);
     given[4 * 17 + 2] = NAN;
     icc_weights *none = (icc_weights *)&none;
     icc_error err = {.size = sizeof err};
@@ -269,7 +269,7 @@ START_TEST(initial_weights_can_be_given)
                      ICC_ERR_ARGUMENT);
     ck_assert_ptr_null(none);
     ck_assert_int_eq(err.index, 17);
-    icc_weights_free(kernel);
+    icc_weights_free(weights);
     icc_sampling_free(sampling);
     free(points);
     free(given);
@@ -286,7 +286,7 @@ START_TEST(weights_do_not_depend_on_the_unit)
     icc_sampling_info info = {.size = sizeof info};
     ck_assert_int_eq(icc_sampling_get_info(sampling, &info), ICC_OK);
     double *points = allocate(2 * info.n_samples, sizeof *points), handles[10], square[8];
-    double *weights[2], units[2] = {1, 1024};
+    double *values[2], units[2] = {1, 1024};
     for (int u = 0; u < 2; ++u) {
         ck_assert_int_eq(icc_sampling_get_points(sampling, points), ICC_OK);
         for (size_t i = 0; i < 2 * info.n_samples; ++i)
@@ -305,22 +305,22 @@ START_TEST(weights_do_not_depend_on_the_unit)
         ck_assert_int_eq(
             icc_sampling_create_from_points(&scaled, shape, info.n_samples, points, NULL, NULL),
             ICC_OK);
-        icc_weights *kernel = make(scaled, 5, handles, NULL);
-        weights[u] = allocate(500 * 5, sizeof **weights);
+        icc_weights *weights = make(scaled, 5, handles, NULL);
+        values[u] = allocate(500 * 5, sizeof **values);
         double *places = spread(2, 500);
         for (size_t i = 0; i < 1000; ++i)
             places[i] *= units[u];
         ck_assert_int_eq(
-            icc_weights_evaluate(kernel, 500, places, weights[u], NULL, NULL, NULL, NULL), ICC_OK);
-        icc_weights_free(kernel);
+            icc_weights_evaluate(weights, 500, places, values[u], NULL, NULL, NULL, NULL), ICC_OK);
+        icc_weights_free(weights);
         icc_sampling_free(scaled);
         icc_shape_free(shape);
         icc_domain_free(domain);
         free(places);
     }
-    ck_assert_mem_eq(weights[0], weights[1], 2500 * sizeof **weights);
-    free(weights[0]);
-    free(weights[1]);
+    ck_assert_mem_eq(values[0], values[1], 2500 * sizeof **values);
+    free(values[0]);
+    free(values[1]);
     free(points);
     icc_sampling_free(sampling);
 }
@@ -339,10 +339,10 @@ START_TEST(one_sample_will_do)
     ck_assert_int_eq(icc_sampling_create_from_points(&sampling, shape, 1, middle, NULL, NULL),
                      ICC_OK);
     const icc_weights_options options = {.size = sizeof options, .sigma = 0.4};
-    icc_weights *kernel = make(sampling, 4, SQUARE, &options);
-    ck_assert_double_le(report_of(kernel).reproduction, 1e-13);
-    ck_assert_double_le(report_of(kernel).lagrange, 1e-13);
-    icc_weights_free(kernel);
+    icc_weights *weights = make(sampling, 4, SQUARE, &options);
+    ck_assert_double_le(report_of(weights).reproduction, 1e-13);
+    ck_assert_double_le(report_of(weights).lagrange, 1e-13);
+    icc_weights_free(weights);
     icc_sampling_free(sampling);
     icc_shape_free(shape);
     icc_domain_free(domain);
@@ -353,24 +353,24 @@ END_TEST
 START_TEST(any_point_may_be_asked)
 {
     icc_sampling *sampling = sample_square(0.1);
-    icc_weights *kernel = make(sampling, 4, SQUARE, NULL);
+    icc_weights *weights = make(sampling, 4, SQUARE, NULL);
     const double points[8] = {0.5, 0.5, NAN, 0, 1e6, -1e6, 0.2, HUGE_VAL};
-    double weights[16], gradients[32];
+    double values[16], gradients[32];
     icc_status status[4];
     size_t n_failed;
     ck_assert_int_eq(
-        icc_weights_evaluate(kernel, 4, points, weights, gradients, status, &n_failed, NULL),
+        icc_weights_evaluate(weights, 4, points, values, gradients, status, &n_failed, NULL),
         ICC_OK);
     ck_assert_uint_eq(n_failed, 2);
     for (int i = 0; i < 4; ++i) {
         ck_assert_int_eq(status[i], i % 2 == 0 ? ICC_OK : ICC_ERR_ARGUMENT);
         const double sum =
-            weights[4 * i] + weights[4 * i + 1] + weights[4 * i + 2] + weights[4 * i + 3];
+            values[4 * i] + values[4 * i + 1] + values[4 * i + 2] + values[4 * i + 3];
         ck_assert(i % 2 == 0 ? fabs(sum - 1) < 1e-6
-                             : isnan(weights[4 * i]) && isnan(gradients[8 * i + 7]));
+                             : isnan(values[4 * i]) && isnan(gradients[8 * i + 7]));
     }
-    ck_assert_int_eq(icc_weights_evaluate(kernel, 0, NULL, NULL, NULL, NULL, NULL, NULL), ICC_OK);
-    icc_weights_free(kernel);
+    ck_assert_int_eq(icc_weights_evaluate(weights, 0, NULL, NULL, NULL, NULL, NULL, NULL), ICC_OK);
+    icc_weights_free(weights);
     icc_sampling_free(sampling);
 }
 END_TEST
@@ -378,23 +378,24 @@ END_TEST
 /* ---- lines ---- */
 
 /* The greatest deviation from linear of the weights between two places. */
-static double crookedness(const icc_weights *kernel, const double *from, const double *to, size_t n)
+static double crookedness(const icc_weights *weights, const double *from, const double *to,
+                          size_t n)
 {
-    const size_t m = info_of(kernel).n_handles;
+    const size_t m = info_of(weights).n_handles;
     double *points = allocate(2 * (n + 1), sizeof *points),
-           *weights = allocate(m * (n + 1), sizeof *weights);
+           *values = allocate(m * (n + 1), sizeof *values);
     double worst = 0;
     for (size_t i = 0; i <= 2 * n + 1; ++i)
         points[i] = from[i % 2] + (double)(i / 2) / (double)n * (to[i % 2] - from[i % 2]);
-    ck_assert_int_eq(icc_weights_evaluate(kernel, n + 1, points, weights, NULL, NULL, NULL, NULL),
+    ck_assert_int_eq(icc_weights_evaluate(weights, n + 1, points, values, NULL, NULL, NULL, NULL),
                      ICC_OK);
     for (size_t i = 0; i < m * (n + 1); ++i) {
         const double share = (double)(i / m) / (double)n;
-        const double line = (1 - share) * weights[i % m] + share * weights[m * n + i % m];
-        worst = fmax(worst, fabs(weights[i] - line));
+        const double line = (1 - share) * values[i % m] + share * values[m * n + i % m];
+        worst = fmax(worst, fabs(values[i] - line));
     }
     free(points);
-    free(weights);
+    free(values);
     return worst;
 }
 
@@ -425,23 +426,23 @@ START_TEST(lines_share_ends)
                                {.from = {0.7, 0.8}, .to = {0.8, 0.3}},
                                {.from = {0, 0}, .to = {1, 0}}};
     const icc_weights_options options = {.size = sizeof options, .n_lines = 3, .lines = lines};
-    icc_weights *kernel = make(sampling, 5, HANDLES, &options),
+    icc_weights *weights = make(sampling, 5, HANDLES, &options),
                 *plain = make(sampling, 5, HANDLES, NULL);
-    double *points = nodes_of(kernel), least = HUGE_VAL;
-    const size_t n = info_of(kernel).n_nodes;
+    double *points = nodes_of(weights), least = HUGE_VAL;
+    const size_t n = info_of(weights).n_nodes;
     for (size_t i = 0; i < n; ++i)
         for (size_t j = 0; j < i; ++j)
             least = fmin(
                 least, hypot(points[2 * i] - points[2 * j], points[2 * i + 1] - points[2 * j + 1]));
     ck_assert_double_gt(least, 0.4 * 0.04);
     for (int k = 0; k < 3; ++k)
-        ck_assert_double_le(crookedness(kernel, lines[k].from, lines[k].to, 600), 0.1);
+        ck_assert_double_le(crookedness(weights, lines[k].from, lines[k].to, 600), 0.1);
     ck_assert_double_gt(crookedness(plain, lines[0].from, lines[0].to, 600), 0.3);
     /* Both ends of the last one are handles: the pieces of a unit length are 25. */
-    ck_assert_double_le(crookedness(kernel, lines[2].from, lines[2].to, 25), 1e-13);
+    ck_assert_double_le(crookedness(weights, lines[2].from, lines[2].to, 25), 1e-13);
     free(points);
     icc_weights_free(plain);
-    icc_weights_free(kernel);
+    icc_weights_free(weights);
     icc_sampling_free(sampling);
 }
 END_TEST
@@ -454,12 +455,12 @@ START_TEST(parallel_lines_stay_parallel)
     const icc_line lines[2] = {{.from = {0.2, 0.25}, .to = {0.6, 0.35}},
                                {.from = {0.75, 0.8}, .to = {0.15, 0.65}, .parallel = 1}};
     const icc_weights_options options = {.size = sizeof options, .n_lines = 2, .lines = lines};
-    icc_weights *kernel = make(sampling, 5, HANDLES, &options);
+    icc_weights *weights = make(sampling, 5, HANDLES, &options);
     const double ends[8] = {0.2, 0.25, 0.6, 0.35, 0.75, 0.8, 0.15, 0.65};
     icc_binding *binding;
     double transforms[30], images[8];
     random_source r = {6};
-    ck_assert_int_eq(icc_binding_create(&binding, kernel, 4, ends, 0, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_binding_create(&binding, weights, 4, ends, 0, NULL, NULL), ICC_OK);
     for (int k = 0; k < 50; ++k) {
         ck_assert_int_eq(icc_pose_reset(2, 5, transforms), ICC_OK);
         for (int j = 0; j < 5; ++j) {
@@ -473,33 +474,33 @@ START_TEST(parallel_lines_stay_parallel)
         ck_assert_double_eq_tol(hypot(v[0], v[1]), 1.5 * hypot(u[0], u[1]), 1e-13);
     }
     icc_binding_free(binding);
-    icc_weights_free(kernel);
+    icc_weights_free(weights);
     icc_sampling_free(sampling);
 }
 END_TEST
 
 /* ---- kernels from others ---- */
 
-static icc_weights *paint(const icc_weights *kernel, size_t handle, double x, double y,
+static icc_weights *paint(const icc_weights *weights, size_t handle, double x, double y,
                           double radius, double amount)
 {
     icc_weights *painted;
     const double centre[2] = {x, y};
     ck_assert_int_eq(
-        icc_weights_paint(&painted, kernel, handle, centre, radius, amount, NULL, NULL), ICC_OK);
+        icc_weights_paint(&painted, weights, handle, centre, radius, amount, NULL, NULL), ICC_OK);
     return painted;
 }
 
 START_TEST(paint_changes_what_is_under_the_brush)
 {
     icc_sampling *sampling = sample_square(0.05);
-    icc_weights *kernel = make(sampling, 5, HANDLES, NULL);
+    icc_weights *weights = make(sampling, 5, HANDLES, NULL);
     icc_sampling_free(sampling);
-    icc_weights *painted = paint(kernel, 2, 0.5, 0.4, 0.2, 0.3),
-                *same = paint(kernel, 2, 0.5, 0.4, 0.2, 0);
-    double *before = weights_of(kernel), *after = weights_of(painted), *still = weights_of(same);
-    double *points = nodes_of(kernel), gain = 0;
-    for (size_t i = 0; i < info_of(kernel).n_nodes; ++i) {
+    icc_weights *painted = paint(weights, 2, 0.5, 0.4, 0.2, 0.3),
+                *same = paint(weights, 2, 0.5, 0.4, 0.2, 0);
+    double *before = weights_of(weights), *after = weights_of(painted), *still = weights_of(same);
+    double *points = nodes_of(weights), gain = 0;
+    for (size_t i = 0; i < info_of(weights).n_nodes; ++i) {
         const double d = hypot(points[2 * i] - 0.5, points[2 * i + 1] - 0.4);
         if (d >= 0.2)
             ck_assert_mem_eq(before + 5 * i, after + 5 * i, 5 * sizeof *before);
@@ -515,7 +516,7 @@ START_TEST(paint_changes_what_is_under_the_brush)
     free(after);
     free(still);
     free(points);
-    icc_weights_free(kernel);
+    icc_weights_free(weights);
     icc_weights_free(painted);
     icc_weights_free(same);
 }
@@ -526,15 +527,15 @@ END_TEST
 START_TEST(repainting_takes_wishes)
 {
     icc_sampling *sampling = sample_square(0.1);
-    icc_weights *kernel = make(sampling, 5, HANDLES, NULL), *both, *one, *two;
+    icc_weights *weights = make(sampling, 5, HANDLES, NULL), *both, *one, *two;
     const uint32_t nodes[3] = {20, 2, 33}, twice[2] = {20, 20}, none = 1u << 30;
     const double wishes[15] = {1, 0, 0, 0, 0, 7, 7, 7, 7, 7, 0, 0, 1, 0, 0};
     icc_error err = {.size = sizeof err};
-    ck_assert_int_eq(icc_weights_repaint(&both, kernel, 3, nodes, wishes, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(icc_weights_repaint(&one, kernel, 1, nodes, wishes, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_weights_repaint(&both, weights, 3, nodes, wishes, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_weights_repaint(&one, weights, 1, nodes, wishes, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_weights_repaint(&two, one, 2, nodes + 1, wishes + 5, NULL, NULL), ICC_OK);
-    double *a = weights_of(both), *b = weights_of(two), *old = weights_of(kernel), at[10], at2[10];
-    const size_t n = info_of(kernel).n_nodes;
+    double *a = weights_of(both), *b = weights_of(two), *old = weights_of(weights), at[10], at2[10];
+    const size_t n = info_of(weights).n_nodes;
     ck_assert_mem_eq(a, b, 5 * n * sizeof *a);
     for (size_t i = 0; i < 5 * n; ++i)
         ck_assert(a[i] == old[i] || i / 5 == 20 || i / 5 == 33);
@@ -544,16 +545,16 @@ START_TEST(repainting_takes_wishes)
     ck_assert_int_eq(icc_weights_evaluate(two, 2, points, at2, NULL, NULL, NULL, NULL), ICC_OK);
     ck_assert_mem_eq(at, at2, sizeof at);
     icc_weights_free(two);
-    ck_assert_int_eq(icc_weights_repaint(&two, kernel, 2, twice, wishes, NULL, &err),
+    ck_assert_int_eq(icc_weights_repaint(&two, weights, 2, twice, wishes, NULL, &err),
                      ICC_ERR_ARGUMENT);
     ck_assert_ptr_nonnull(strstr(err.message, "twice"));
-    ck_assert_int_eq(icc_weights_repaint(&two, kernel, 1, &none, wishes, NULL, &err),
+    ck_assert_int_eq(icc_weights_repaint(&two, weights, 1, &none, wishes, NULL, &err),
                      ICC_ERR_ARGUMENT);
     ck_assert_ptr_null(two);
     free(a);
     free(b);
     free(old);
-    icc_weights_free(kernel);
+    icc_weights_free(weights);
     icc_weights_free(both);
     icc_weights_free(one);
     icc_sampling_free(sampling);
@@ -568,8 +569,8 @@ START_TEST(another_method_starts_afresh)
     const icc_line line = {.from = {0.3, 0.2}, .to = {0.8, 0.5}};
     icc_weights_options options = {
         .size = sizeof options, .n_lines = 1, .lines = &line, .n_edges = 4, .edges = RING};
-    icc_weights *kernel = make(sampling, 5, HANDLES, &options);
-    icc_weights *painted = paint(kernel, 1, 0.4, 0.4, 0.3, 1);
+    icc_weights *weights = make(sampling, 5, HANDLES, &options);
+    icc_weights *painted = paint(weights, 1, 0.4, 0.4, 0.3, 1);
     double *points = spread(2, 300), *a = allocate(1500, sizeof *a), *b = allocate(1500, sizeof *b);
     for (int32_t method = ICC_WEIGHTS_QP; method <= ICC_WEIGHTS_L1; ++method) {
         icc_weights *switched, *direct;
@@ -588,26 +589,26 @@ START_TEST(another_method_starts_afresh)
     free(points);
     free(a);
     free(b);
-    icc_weights_free(kernel);
+    icc_weights_free(weights);
     icc_weights_free(painted);
     icc_sampling_free(sampling);
 }
 END_TEST
 
-static double gradient_energy(const icc_weights *kernel, size_t n, const uint32_t *nodes)
+static double gradient_energy(const icc_weights *weights, size_t n, const uint32_t *nodes)
 {
-    const size_t m = info_of(kernel).n_handles;
-    double *points = nodes_of(kernel), *weights = allocate(m, sizeof *weights), sum = 0;
+    const size_t m = info_of(weights).n_handles;
+    double *points = nodes_of(weights), *values = allocate(m, sizeof *values), sum = 0;
     double *gradients = allocate(2 * m, sizeof *gradients);
     for (size_t k = 0; k < n; ++k) {
-        ck_assert_int_eq(icc_weights_evaluate(kernel, 1, points + 2 * nodes[k], weights, gradients,
+        ck_assert_int_eq(icc_weights_evaluate(weights, 1, points + 2 * nodes[k], values, gradients,
                                               NULL, NULL, NULL),
                          ICC_OK);
         for (size_t j = 0; j < 2 * m; ++j)
             sum += 0.5 * gradients[j] * gradients[j];
     }
     free(points);
-    free(weights);
+    free(values);
     free(gradients);
     return sum;
 }
@@ -617,19 +618,19 @@ START_TEST(stiff_parts_vary_less)
 {
     icc_sampling *sampling = sample_square(0.05);
     const icc_weights_options options = {.size = sizeof options, .n_edges = 4, .edges = RING};
-    icc_weights *kernel = make(sampling, 5, HANDLES, &options), *stiff;
-    double *points = nodes_of(kernel), energy[2];
-    const size_t n = info_of(kernel).n_nodes;
+    icc_weights *weights = make(sampling, 5, HANDLES, &options), *stiff;
+    double *points = nodes_of(weights), energy[2];
+    const size_t n = info_of(weights).n_nodes;
     uint32_t *part = allocate(n, sizeof *part);
     size_t n_part = 0;
     for (uint32_t i = 0; i < n; ++i)
         if (hypot(points[2 * i] - 0.25, points[2 * i + 1] - 0.5) < 0.2)
             part[n_part++] = i;
-    ck_assert_int_eq(icc_weights_stiffen(&stiff, kernel, n_part, part, NULL, energy, NULL, NULL),
+    ck_assert_int_eq(icc_weights_stiffen(&stiff, weights, n_part, part, NULL, energy, NULL, NULL),
                      ICC_OK);
     ck_assert_double_lt(energy[1], 0.9 * energy[0]);
     ck_assert_double_eq_tol(gradient_energy(stiff, n_part, part) /
-                                gradient_energy(kernel, n_part, part),
+                                gradient_energy(weights, n_part, part),
                             energy[1] / energy[0], 1e-6);
     const icc_weights_report report = report_of(stiff);
     ck_assert_double_le(report.unity, 1e-11);
@@ -637,7 +638,7 @@ START_TEST(stiff_parts_vary_less)
     ck_assert_double_le(report.lagrange, 1e-11);
     free(points);
     free(part);
-    icc_weights_free(kernel);
+    icc_weights_free(weights);
     icc_weights_free(stiff);
     icc_sampling_free(sampling);
 }
@@ -649,14 +650,14 @@ static void refuse(const icc_sampling *sampling, size_t n, const double *handles
                    const icc_weights_options *options, icc_status status, const char *text,
                    int64_t index)
 {
-    icc_weights *kernel = (icc_weights *)&kernel;
+    icc_weights *weights = (icc_weights *)&weights;
     icc_error err = {.size = sizeof err};
-    const icc_status got = icc_weights_create(&kernel, sampling, n, handles, options, NULL, &err);
+    const icc_status got = icc_weights_create(&weights, sampling, n, handles, options, NULL, &err);
     ck_assert_msg(got == status && err.status == status && err.index == index &&
                       strstr(err.message, text) != NULL,
                   "status %d, index %d, '%s' instead of %d, %d, '%s'", (int)got, (int)err.index,
                   err.message, (int)status, (int)index, text);
-    ck_assert_ptr_null(kernel);
+    ck_assert_ptr_null(weights);
 }
 
 START_TEST(impossible_handles_are_named)
@@ -757,34 +758,34 @@ END_TEST
 START_TEST(impossible_calls_are_refused)
 {
     icc_sampling *sampling = sample_square(0.1);
-    icc_weights *kernel = make(sampling, 4, SQUARE, NULL), *other = (icc_weights *)&other;
+    icc_weights *weights = make(sampling, 4, SQUARE, NULL), *other = (icc_weights *)&other;
     const double centre[2] = {0.5, 0.5}, nowhere[2] = {0.5, NAN}, rigidity[1] = {-1},
                  wish[4] = {NAN};
     const uint32_t node = 9;
     double transforms[24], images[2], jacobians[4];
-    ck_assert_int_eq(icc_weights_paint(&other, kernel, 4, centre, 1, 1, NULL, NULL),
+    ck_assert_int_eq(icc_weights_paint(&other, weights, 4, centre, 1, 1, NULL, NULL),
                      ICC_ERR_ARGUMENT);
     ck_assert_ptr_null(other);
-    ck_assert_int_eq(icc_weights_paint(&other, kernel, 0, centre, 0, 1, NULL, NULL),
+    ck_assert_int_eq(icc_weights_paint(&other, weights, 0, centre, 0, 1, NULL, NULL),
                      ICC_ERR_ARGUMENT);
-    ck_assert_int_eq(icc_weights_paint(&other, kernel, 0, nowhere, 1, 1, NULL, NULL),
+    ck_assert_int_eq(icc_weights_paint(&other, weights, 0, nowhere, 1, 1, NULL, NULL),
                      ICC_ERR_ARGUMENT);
-    ck_assert_int_eq(icc_weights_paint(&other, kernel, 0, centre, 1, NAN, NULL, NULL),
+    ck_assert_int_eq(icc_weights_paint(&other, weights, 0, centre, 1, NAN, NULL, NULL),
                      ICC_ERR_ARGUMENT);
-    ck_assert_int_eq(icc_weights_paint(&other, kernel, 0, NULL, 1, 1, NULL, NULL),
+    ck_assert_int_eq(icc_weights_paint(&other, weights, 0, NULL, 1, 1, NULL, NULL),
                      ICC_ERR_ARGUMENT);
-    ck_assert_int_eq(icc_weights_paint(NULL, kernel, 0, centre, 1, 1, NULL, NULL),
+    ck_assert_int_eq(icc_weights_paint(NULL, weights, 0, centre, 1, 1, NULL, NULL),
                      ICC_ERR_ARGUMENT);
-    ck_assert_int_eq(icc_weights_repaint(&other, kernel, 1, &node, wish, NULL, NULL),
+    ck_assert_int_eq(icc_weights_repaint(&other, weights, 1, &node, wish, NULL, NULL),
                      ICC_ERR_ARGUMENT);
-    ck_assert_int_eq(icc_weights_with_method(&other, kernel, 4, NULL, NULL), ICC_ERR_ARGUMENT);
-    ck_assert_int_eq(icc_weights_stiffen(&other, kernel, 1, &node, rigidity, NULL, NULL, NULL),
+    ck_assert_int_eq(icc_weights_with_method(&other, weights, 4, NULL, NULL), ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_weights_stiffen(&other, weights, 1, &node, rigidity, NULL, NULL, NULL),
                      ICC_ERR_ARGUMENT);
     icc_binding *binding = (icc_binding *)&binding;
-    ck_assert_int_eq(icc_binding_create(&binding, kernel, 1, nowhere, 0, NULL, NULL),
+    ck_assert_int_eq(icc_binding_create(&binding, weights, 1, nowhere, 0, NULL, NULL),
                      ICC_ERR_ARGUMENT);
     ck_assert_ptr_null(binding);
-    ck_assert_int_eq(icc_binding_create(&binding, kernel, 1, centre, 0, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_binding_create(&binding, weights, 1, centre, 0, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_pose_reset(2, 4, transforms), ICC_OK);
     ck_assert_int_eq(icc_binding_pose(binding, transforms, images, jacobians, NULL),
                      ICC_ERR_UNSUPPORTED);
@@ -795,7 +796,7 @@ START_TEST(impossible_calls_are_refused)
     ck_assert_int_eq(icc_pose_turn(3, transforms, (double[3]){0}, (double[3]){0}, 1),
                      ICC_ERR_ARGUMENT);
     icc_binding_free(binding);
-    icc_weights_free(kernel);
+    icc_weights_free(weights);
     icc_weights_free(NULL);
     icc_binding_free(NULL);
     icc_sampling_free(sampling);
@@ -810,12 +811,12 @@ static void random_transforms(size_t dim, size_t n, double *transforms, random_s
         transforms[k] = random_between(r, -1, 1);
 }
 
-static void pose(const icc_weights *kernel, size_t n, const double *points,
+static void pose(const icc_weights *weights, size_t n, const double *points,
                  const double *transforms, double *images, double *jacobians)
 {
     icc_binding *binding;
-    ck_assert_int_eq(icc_binding_create(&binding, kernel, n, points, jacobians != NULL, NULL, NULL),
-                     ICC_OK);
+    ck_assert_int_eq(
+        icc_binding_create(&binding, weights, n, points, jacobians != NULL, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_binding_pose(binding, transforms, images, jacobians, NULL), ICC_OK);
     icc_binding_free(binding);
 }
@@ -829,7 +830,7 @@ START_TEST(jacobians_are_derivatives)
                                          .kernel = _i / 2 ? ICC_KERNEL_GAUSS : ICC_KERNEL_WENDLAND,
                                          .cutoff = 7,
                                          .sigma = dim == 2 ? 0 : 0.1};
-    icc_weights *kernel = make(sampling, m, dim == 2 ? HANDLES : CUBE, &options);
+    icc_weights *weights = make(sampling, m, dim == 2 ? HANDLES : CUBE, &options);
     double *points = spread(dim, n), *moved = allocate(n * dim, sizeof *moved), transforms[96],
            worst = 0;
     double *images = allocate(n * dim, sizeof *images),
@@ -837,15 +838,15 @@ START_TEST(jacobians_are_derivatives)
     double *ahead = allocate(n * dim, sizeof *images), *behind = allocate(n * dim, sizeof *images);
     random_source r = {12};
     random_transforms(dim, m, transforms, &r);
-    pose(kernel, n, points, transforms, images, jacobians);
+    pose(weights, n, points, transforms, images, jacobians);
     const double h = 1e-6;
     for (size_t k = 0; k < dim; ++k) {
         for (size_t i = 0; i < n * dim; ++i)
             moved[i] = points[i] + (i % dim == k ? h : 0);
-        pose(kernel, n, moved, transforms, ahead, NULL);
+        pose(weights, n, moved, transforms, ahead, NULL);
         for (size_t i = 0; i < n * dim; ++i)
             moved[i] = points[i] - (i % dim == k ? h : 0);
-        pose(kernel, n, moved, transforms, behind, NULL);
+        pose(weights, n, moved, transforms, behind, NULL);
         for (size_t i = 0; i < n * dim; ++i)
             worst = fmax(worst, fabs((ahead[i] - behind[i]) / (2 * h) - jacobians[dim * i + k]));
     }
@@ -856,7 +857,7 @@ START_TEST(jacobians_are_derivatives)
     free(jacobians);
     free(ahead);
     free(behind);
-    icc_weights_free(kernel);
+    icc_weights_free(weights);
     icc_sampling_free(sampling);
 }
 END_TEST
@@ -866,17 +867,17 @@ START_TEST(poses_are_affine_when_all_handles_agree)
 {
     const size_t dim = _i ? 3 : 2, m = dim == 2 ? 4 : 8, size = dim * (dim + 1), n = 300;
     icc_sampling *sampling = dim == 2 ? sample_square(0.1) : sample_cube();
-    icc_weights *kernel = make(sampling, m, dim == 2 ? SQUARE : CUBE, NULL);
+    icc_weights *weights = make(sampling, m, dim == 2 ? SQUARE : CUBE, NULL);
     double *points = spread(dim, n), *images = allocate(n * dim, sizeof *images);
     double *jacobians = allocate(n * dim * dim, sizeof *jacobians), transforms[96];
     random_source r = {3};
     ck_assert_int_eq(icc_pose_reset((int32_t)dim, m, transforms), ICC_OK);
-    pose(kernel, n, points, transforms, images, jacobians);
+    pose(weights, n, points, transforms, images, jacobians);
     ck_assert_mem_eq(points, images, n * dim * sizeof *points);
     random_transforms(dim, 1, transforms, &r);
     for (size_t j = 1; j < m; ++j)
         memcpy(transforms + size * j, transforms, size * sizeof *transforms);
-    pose(kernel, n, points, transforms, images, jacobians);
+    pose(weights, n, points, transforms, images, jacobians);
     for (size_t i = 0; i < n * dim; ++i) {
         const double *row = transforms + (dim + 1) * (i % dim), *x = points + i - i % dim;
         double image = row[dim];
@@ -889,7 +890,7 @@ START_TEST(poses_are_affine_when_all_handles_agree)
     free(points);
     free(images);
     free(jacobians);
-    icc_weights_free(kernel);
+    icc_weights_free(weights);
     icc_sampling_free(sampling);
 }
 END_TEST
@@ -951,7 +952,7 @@ static unsigned char *save(const icc_binding *binding, size_t *n_bytes)
 START_TEST(bindings_come_back_bit_for_bit)
 {
     icc_sampling *sampling = sample_square(0.1);
-    icc_weights *kernel = make(sampling, 5, HANDLES, NULL);
+    icc_weights *weights = make(sampling, 5, HANDLES, NULL);
     double *points = spread(2, 50), transforms[30], images[2][100], jacobians[2][200];
     random_source r = {1};
     random_transforms(2, 5, transforms, &r);
@@ -959,7 +960,7 @@ START_TEST(bindings_come_back_bit_for_bit)
         icc_binding *binding, *loaded;
         size_t n_bytes, n_points, n_handles;
         int32_t dim;
-        ck_assert_int_eq(icc_binding_create(&binding, kernel, 50, points, derivatives, NULL, NULL),
+        ck_assert_int_eq(icc_binding_create(&binding, weights, 50, points, derivatives, NULL, NULL),
                          ICC_OK);
         unsigned char *data = save(binding, &n_bytes);
         ck_assert_int_eq(icc_binding_load(&loaded, n_bytes, data, NULL, NULL), ICC_OK);
@@ -985,7 +986,7 @@ START_TEST(bindings_come_back_bit_for_bit)
         icc_binding_free(loaded);
     }
     free(points);
-    icc_weights_free(kernel);
+    icc_weights_free(weights);
     icc_sampling_free(sampling);
 }
 END_TEST
@@ -1005,11 +1006,11 @@ static icc_status try_load(size_t n_bytes, const void *data)
 START_TEST(hostile_bytes_are_refused)
 {
     icc_sampling *sampling = sample_square(0.2);
-    icc_weights *kernel = make(sampling, 4, SQUARE, NULL);
+    icc_weights *weights = make(sampling, 4, SQUARE, NULL);
     icc_binding *binding;
     double *points = spread(2, 3);
     size_t n_bytes;
-    ck_assert_int_eq(icc_binding_create(&binding, kernel, 3, points, 1, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_binding_create(&binding, weights, 3, points, 1, NULL, NULL), ICC_OK);
     unsigned char *data = save(binding, &n_bytes), *lie = allocate(n_bytes + 1, 1);
     ck_assert_int_eq(try_load(n_bytes, data), ICC_OK);
     for (size_t n = 0; n < n_bytes; ++n) {
@@ -1052,7 +1053,7 @@ START_TEST(hostile_bytes_are_refused)
     free(data);
     free(lie);
     icc_binding_free(binding);
-    icc_weights_free(kernel);
+    icc_weights_free(weights);
     icc_sampling_free(sampling);
 }
 END_TEST
@@ -1062,7 +1063,7 @@ END_TEST
 /* Everything that may fail, on few nodes. */
 typedef struct everything {
     icc_sampling *sampling;
-    icc_weights *kernel;
+    icc_weights *weights;
     double *points;
     unsigned char *data;
     size_t n_bytes;
@@ -1077,9 +1078,9 @@ static everything make_everything(double spacing)
     everything e = {.sampling = sample_square(spacing), .points = spread(2, N_PLACES)};
     const icc_weights_options options = {
         .size = sizeof options, .n_edges = 4, .edges = RING, .n_lines = 2, .lines = LINES};
-    e.kernel = make(e.sampling, 5, HANDLES, &options);
+    e.weights = make(e.sampling, 5, HANDLES, &options);
     icc_binding *binding;
-    ck_assert_int_eq(icc_binding_create(&binding, e.kernel, 5, e.points, 1, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_binding_create(&binding, e.weights, 5, e.points, 1, NULL, NULL), ICC_OK);
     e.data = save(binding, &e.n_bytes);
     icc_binding_free(binding);
     return e;
@@ -1087,20 +1088,21 @@ static everything make_everything(double spacing)
 
 static void clear_everything(everything *e)
 {
-    icc_weights_free(e->kernel);
+    icc_weights_free(e->weights);
     icc_sampling_free(e->sampling);
     free(e->points);
     free(e->data);
 }
 
 /* Weights at all places; frees the kernel. */
-static icc_status look(icc_status status, icc_weights *kernel, const everything *e, double *out)
+static icc_status look(icc_status status, icc_weights *weights, const everything *e, double *out)
 {
-    ck_assert_int_eq(status == ICC_OK, kernel != NULL);
+    ck_assert_int_eq(status == ICC_OK, weights != NULL);
     if (status == ICC_OK && out != NULL)
         ck_assert_int_eq(
-            icc_weights_evaluate(kernel, N_PLACES, e->points, out, NULL, NULL, NULL, NULL), ICC_OK);
-    icc_weights_free(kernel);
+            icc_weights_evaluate(weights, N_PLACES, e->points, out, NULL, NULL, NULL, NULL),
+            ICC_OK);
+    icc_weights_free(weights);
     return status;
 }
 
@@ -1117,29 +1119,29 @@ static icc_status run(int which, const everything *e, double *out, const icc_env
                                    .edges = RING,
                                    .n_lines = 2,
                                    .lines = LINES};
-    icc_weights *kernel = (icc_weights *)&kernel;
+    icc_weights *weights = (icc_weights *)&weights;
     icc_status status = -1;
     if (which < 3)
-        status = icc_weights_create(&kernel, e->sampling, 5, HANDLES, &options, env, err);
+        status = icc_weights_create(&weights, e->sampling, 5, HANDLES, &options, env, err);
     if (which == 3)
-        status = icc_weights_paint(&kernel, e->kernel, 1, CENTRE, 0.3, 0.5, env, err);
+        status = icc_weights_paint(&weights, e->weights, 1, CENTRE, 0.3, 0.5, env, err);
     if (which == 4)
-        status = icc_weights_repaint(&kernel, e->kernel, 3, NODES, WISHES, env, err);
+        status = icc_weights_repaint(&weights, e->weights, 3, NODES, WISHES, env, err);
     if (which == 5)
-        status = icc_weights_with_method(&kernel, e->kernel, ICC_WEIGHTS_L1, env, err);
+        status = icc_weights_with_method(&weights, e->weights, ICC_WEIGHTS_L1, env, err);
     if (which == 6)
-        status = icc_weights_stiffen(&kernel, e->kernel, 3, NODES, NULL, NULL, env, err);
+        status = icc_weights_stiffen(&weights, e->weights, 3, NODES, NULL, NULL, env, err);
     if (which < 7)
-        return look(status, kernel, e, out);
+        return look(status, weights, e, out);
     if (which == 7) {
         icc_weights_report report = {.size = sizeof report};
-        status = icc_weights_get_report(e->kernel, N_PLACES, e->points, &report, env, err);
+        status = icc_weights_get_report(e->weights, N_PLACES, e->points, &report, env, err);
         if (out != NULL)
             memcpy(out, &report, sizeof report);
         return status;
     }
     icc_binding *binding = (icc_binding *)&binding;
-    status = which == 8 ? icc_binding_create(&binding, e->kernel, N_PLACES, e->points, 1, env, err)
+    status = which == 8 ? icc_binding_create(&binding, e->weights, N_PLACES, e->points, 1, env, err)
                         : icc_binding_load(&binding, e->n_bytes, e->data, env, err);
     ck_assert_int_eq(status == ICC_OK, binding != NULL);
     if (status == ICC_OK && out != NULL) {

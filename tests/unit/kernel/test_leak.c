@@ -29,16 +29,16 @@ static double leak(int surrounded, int32_t visible, int32_t steps)
     const icc_weights_options options = {
         .size = sizeof options, .within_shape = visible, .steps = steps};
     icc_sampling *sampling;
-    icc_weights *kernel;
+    icc_weights *weights;
     icc_weights_info info = {.size = sizeof info};
     ck_assert_int_eq(icc_sampling_create(&sampling, shape, &sampling_options, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(icc_weights_create(&kernel, sampling, 4, HANDLES, &options, NULL, NULL),
+    ck_assert_int_eq(icc_weights_create(&weights, sampling, 4, HANDLES, &options, NULL, NULL),
                      ICC_OK);
-    ck_assert_int_eq(icc_weights_get_info(kernel, &info), ICC_OK);
+    ck_assert_int_eq(icc_weights_get_info(weights, &info), ICC_OK);
     double *points = malloc(info.n_nodes * 2 * sizeof *points), there = 0, all = 0;
     double *initial = malloc(info.n_nodes * 4 * sizeof *initial);
     ck_assert(points != NULL && initial != NULL);
-    ck_assert_int_eq(icc_weights_get_nodes(kernel, points, initial, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_weights_get_nodes(weights, points, initial, NULL, NULL), ICC_OK);
     for (size_t i = 0; i < info.n_nodes; ++i) {
         const double x = points[2 * i], y = points[2 * i + 1];
         const int in_u = fabs(x) < 0.6 + 1e-9 && y > -1e-9 && y < 6 + 1e-9 &&
@@ -48,7 +48,7 @@ static double leak(int surrounded, int32_t visible, int32_t steps)
     }
     free(initial);
     free(points);
-    icc_weights_free(kernel);
+    icc_weights_free(weights);
     icc_sampling_free(sampling);
     icc_shape_free(shape);
     return there / all;

@@ -4,7 +4,7 @@
 #include "../../random.h"
 #include "../../regions.h"
 #include "base/blob.h"
-#include "kernel/places.h"
+#include "kernel/point_list.h"
 #include "kernel/sampling.h"
 #include "kernel/spectrum.h"
 

@@ -78,21 +78,21 @@ static icc_sampling *make_samples(size_t n, const double *polygon, double around
 
 /* A kernel with its nodes. */
 typedef struct made {
-    icc_weights *kernel;
+    icc_weights *weights;
     icc_weights_info info;
-    double *points, *initial, *weights;
+    double *points, *initial, *values;
     icc_status *status;
 } made;
 
-static made take(icc_weights *kernel)
+static made take(icc_weights *weights)
 {
-    made m = {.kernel = kernel, .info = {.size = sizeof(icc_weights_info)}};
-    ck_assert_int_eq(icc_weights_get_info(kernel, &m.info), ICC_OK);
+    made m = {.weights = weights, .info = {.size = sizeof(icc_weights_info)}};
+    ck_assert_int_eq(icc_weights_get_info(weights, &m.info), ICC_OK);
     m.points = allocate(m.info.n_nodes, 2 * sizeof(double));
     m.initial = allocate(m.info.n_nodes, m.info.n_handles * sizeof(double));
-    m.weights = allocate(m.info.n_nodes, m.info.n_handles * sizeof(double));
+    m.values = allocate(m.info.n_nodes, m.info.n_handles * sizeof(double));
     m.status = allocate(m.info.n_nodes, sizeof *m.status);
-    ck_assert_int_eq(icc_weights_get_nodes(kernel, m.points, m.initial, m.weights, m.status),
+    ck_assert_int_eq(icc_weights_get_nodes(weights, m.points, m.initial, m.values, m.status),
                      ICC_OK);
     return m;
 }
@@ -100,19 +100,19 @@ static made take(icc_weights *kernel)
 static made make(const icc_sampling *sampling, size_t n, const double *handles,
                  const icc_weights_options *options)
 {
-    icc_weights *kernel;
+    icc_weights *weights;
     icc_error err = {.size = sizeof err};
-    if (icc_weights_create(&kernel, sampling, n, handles, options, NULL, &err) != ICC_OK)
+    if (icc_weights_create(&weights, sampling, n, handles, options, NULL, &err) != ICC_OK)
         ck_abort_msg("%s", err.message);
-    return take(kernel);
+    return take(weights);
 }
 
 static void clear(made *m)
 {
-    icc_weights_free(m->kernel);
+    icc_weights_free(m->weights);
     free(m->points);
     free(m->initial);
-    free(m->weights);
+    free(m->values);
     free(m->status);
 }
 
@@ -121,7 +121,7 @@ static double error_at(const made *m, const double *handles, size_t i)
 {
     double sum = -1, x = -m->points[2 * i], y = -m->points[2 * i + 1];
     for (size_t j = 0; j < m->info.n_handles; ++j) {
-        const double w = m->weights[m->info.n_handles * i + j];
+        const double w = m->values[m->info.n_handles * i + j];
         sum += w;
         x += w * handles[2 * j];
         y += w * handles[2 * j + 1];
@@ -161,7 +161,7 @@ static double energy_of(const made *m, size_t n, const uint32_t *part, const dou
     for (size_t i = 0; i < n; ++i)
         memcpy(points + 2 * i, m->points + 2 * (size_t)part[i], 2 * sizeof *points);
     ck_assert_int_eq(
-        icc_weights_evaluate(m->kernel, n, points, weights, gradients, NULL, NULL, NULL), ICC_OK);
+        icc_weights_evaluate(m->weights, n, points, weights, gradients, NULL, NULL, NULL), ICC_OK);
     for (size_t i = 0; i < n * k; ++i)
         energy += 0.5 * (rigidity != NULL ? rigidity[i / k] : 1) * gradients[i] * gradients[i];
     free(points);
@@ -174,7 +174,7 @@ static made stiffen(const made *m, size_t n, const uint32_t *part, const double 
                     double energy[2])
 {
     icc_weights *stiff;
-    ck_assert_int_eq(icc_weights_stiffen(&stiff, m->kernel, n, part, rigidity, energy, NULL, NULL),
+    ck_assert_int_eq(icc_weights_stiffen(&stiff, m->weights, n, part, rigidity, energy, NULL, NULL),
                      ICC_OK);
     return take(stiff);
 }
@@ -201,7 +201,7 @@ START_TEST(rigid_parts_lose_energy_and_edges_stay)
         for (size_t i = 0; i < before.info.n_nodes; ++i) {
             ck_assert_double_le(error_at(&after, star, i), 1e-10);
             for (size_t j = 0; after.status[i] == ICC_OK && j < TIPS; ++j)
-                ck_assert_double_ge(after.weights[TIPS * i + j], 0);
+                ck_assert_double_ge(after.values[TIPS * i + j], 0);
             bool on_edge = i < TIPS;
             for (size_t e = 0; e < TIPS; ++e) {
                 const double *p = star + 2 * e, *q = star + 2 * ((e + 1) % TIPS);
@@ -214,7 +214,7 @@ START_TEST(rigid_parts_lose_energy_and_edges_stay)
                     t > 0 && t < length;
             }
             if (on_edge)
-                ck_assert_mem_eq(after.weights + TIPS * i, before.weights + TIPS * i,
+                ck_assert_mem_eq(after.values + TIPS * i, before.values + TIPS * i,
                                  TIPS * sizeof(double));
         }
         free(part);
@@ -241,7 +241,7 @@ START_TEST(rigidity_may_vary)
         rigidity[i] = 1e-4;
     made scaled = stiffen(&before, n, part, rigidity, energy);
     for (size_t i = 0; i < TIPS * before.info.n_nodes; ++i)
-        ck_assert_double_le(fabs(scaled.weights[i] - even.weights[i]), 1e-6);
+        ck_assert_double_le(fabs(scaled.values[i] - even.values[i]), 1e-6);
     for (size_t i = 0; i < n; ++i)
         rigidity[i] = i < half ? 100 : 1;
     made uneven = stiffen(&before, n, part, rigidity, energy);
@@ -353,7 +353,7 @@ START_TEST(handles_keep_their_weights)
             double weights[TIPS * TIPS];
             made m = make(sampling, TIPS, star, &options);
             ck_assert_int_eq(
-                icc_weights_evaluate(m.kernel, TIPS, star, weights, NULL, NULL, NULL, NULL),
+                icc_weights_evaluate(m.weights, TIPS, star, weights, NULL, NULL, NULL, NULL),
                 ICC_OK);
             for (size_t k = 0; k < TIPS * TIPS; ++k)
                 ck_assert_double_le(fabs(weights[k] - (k / TIPS == k % TIPS ? 1 : 0)), 1e-11);
@@ -380,7 +380,7 @@ START_TEST(l1_ties_are_broken_by_squares)
         size_t changed = 0;
         ck_assert_double_le(error_at(&m, star, i), 1e-11);
         for (size_t j = 0; j < TIPS; ++j)
-            changed += fabs(m.weights[TIPS * i + j] - m.initial[TIPS * i + j]) > 1e-9;
+            changed += fabs(m.values[TIPS * i + j] - m.initial[TIPS * i + j]) > 1e-9;
         tied += changed > 3;
         ++inner;
     }
@@ -408,7 +408,7 @@ START_TEST(infeasible_nodes_are_counted_and_still_reproduce)
             farthest = fmax(farthest, -area);
         }
         for (size_t j = 0; j < TIPS; ++j)
-            least = fmin(least, m.weights[TIPS * i + j]);
+            least = fmin(least, m.values[TIPS * i + j]);
         ck_assert_double_le(error_at(&m, star, i), 1e-12);
         if (fabs(farthest) > 1e-9)
             ck_assert_int_eq(m.status[i], farthest > 0 ? ICC_ERR_SOLVER : ICC_OK);
@@ -439,7 +439,7 @@ static double greatest_jump(const made *m)
         points[2 * k + 1] = 0.47;
     }
     ck_assert_int_eq(
-        icc_weights_evaluate(m->kernel, STEPS, points, weights, NULL, NULL, NULL, NULL), ICC_OK);
+        icc_weights_evaluate(m->weights, STEPS, points, weights, NULL, NULL, NULL, NULL), ICC_OK);
     for (size_t k = 4; k + 4 < 4 * (size_t)STEPS; ++k)
         jump = fmax(jump, fabs(weights[k + 4] - 2 * weights[k] + weights[k - 4]));
     free(points);
@@ -464,13 +464,13 @@ START_TEST(the_default_kernel_is_smooth_and_definite)
     ck_assert_double_lt(jump[ICC_KERNEL_WENDLAND], 1e-5);
     ck_assert_double_gt(jump[ICC_KERNEL_GAUSS], 1e-4);
     for (double width = 1.6; width < 7; width *= 2) {
-        icc_weights *kernel;
+        icc_weights *weights;
         icc_error err = {.size = sizeof err};
         options = (icc_weights_options){
             .size = sizeof options, .kernel = ICC_KERNEL_GAUSS, .sigma = width * spacing};
-        ck_assert_int_eq(icc_weights_create(&kernel, sampling, 4, square, &options, NULL, &err),
+        ck_assert_int_eq(icc_weights_create(&weights, sampling, 4, square, &options, NULL, &err),
                          ICC_ERR_SOLVER);
-        ck_assert_ptr_null(kernel);
+        ck_assert_ptr_null(weights);
         ck_assert_ptr_nonnull(strstr(err.message, "sigma"));
         options.kernel = ICC_KERNEL_WENDLAND;
         made m = make(sampling, 4, square, &options);
@@ -563,7 +563,7 @@ START_TEST(hull_edges_are_solved)
             size_t used = 0;
             ck_assert_double_le(error_at(&m, polygon, i), 1e-12);
             for (size_t j = 0; j < SIDES; ++j)
-                used += m.weights[SIDES * i + j] > 1e-9;
+                used += m.values[SIDES * i + j] > 1e-9;
             on_hull += used <= 2;
         }
         clear(&m);
@@ -589,7 +589,7 @@ START_TEST(arithmetic_is_strict)
     icc_sampling *sampling = make_samples(4, square, 0, ICC_SAMPLING_BLUE, 0.1);
     made m = make(sampling, 4, square, NULL);
     ck_assert_int_eq(
-        icc_weights_evaluate(m.kernel, 2, points, weights, NULL, status, &n_failed, NULL), ICC_OK);
+        icc_weights_evaluate(m.weights, 2, points, weights, NULL, status, &n_failed, NULL), ICC_OK);
     ck_assert_uint_eq(n_failed, 1);
     ck_assert_int_eq(status[0], ICC_ERR_ARGUMENT);
     ck_assert_int_eq(status[1], ICC_OK);

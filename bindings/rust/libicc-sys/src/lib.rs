@@ -2386,7 +2386,7 @@ extern "C" {
 
     /// Makes weights for handles.
     ///
-    /// - `out` (out): the kernel; owned by the caller. It keeps the sampling alive.
+    /// - `out` (out): the weights; owned by the caller. They keep the sampling alive.
     /// - `sampling`: the samples
     /// - `n_handles`: handles, at least dim + 1
     /// - `handles`: n_handles * dim coordinates, in the shape, not all in one plane (2-D: line)
@@ -2411,24 +2411,24 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
-    /// Frees a kernel.
-    pub fn icc_weights_free(kernel: *mut icc_weights);
+    /// Frees weights.
+    pub fn icc_weights_free(weights: *mut icc_weights);
 
     /// Fills in `info`, whose `size` the caller has set. `ICC_OK` or `ICC_ERR_ARGUMENT`.
-    pub fn icc_weights_get_info(kernel: *const icc_weights, info: *mut icc_weights_info) -> icc_status;
+    pub fn icc_weights_get_info(weights: *const icc_weights, info: *mut icc_weights_info) -> icc_status;
 
     /// Copies the nodes.
     ///
-    /// - `kernel`: the kernel
+    /// - `weights`: the weights
     /// - `points` (out): n_nodes * dim coordinates, or NULL
     /// - `initial` (out): n_nodes * n_handles initial weights, or NULL
-    /// - `weights` (out): n_nodes * n_handles weights, or NULL
+    /// - `values` (out): n_nodes * n_handles weights, or NULL
     /// - `status` (out): n_nodes statuses: `ICC_OK`, or `ICC_ERR_SOLVER` where QP was relaxed; or NULL
     pub fn icc_weights_get_nodes(
-        kernel: *const icc_weights,
+        weights: *const icc_weights,
         points: *mut f64,
         initial: *mut f64,
-        weights: *mut f64,
+        values: *mut f64,
         status: *mut icc_status,
     ) -> icc_status;
 
@@ -2436,8 +2436,8 @@ extern "C" {
     /// again from there. The brush falls smoothly from 1 at the centre to 0 at the radius. Handles, nodes on lines and
     /// nodes on edges that are held stay as they are.
     ///
-    /// - `out` (out): a new kernel with the same nodes; owned by the caller. The old one is not changed.
-    /// - `kernel`: the kernel
+    /// - `out` (out): new weights at the same nodes; owned by the caller. The old ones do not change.
+    /// - `weights`: the weights to change
     /// - `handle`: whose weight
     /// - `centre`: dim coordinates
     /// - `radius`: positive
@@ -2449,7 +2449,7 @@ extern "C" {
     /// factor that there is.
     pub fn icc_weights_paint(
         out: *mut *mut icc_weights,
-        kernel: *const icc_weights,
+        weights: *const icc_weights,
         handle: usize,
         centre: *const f64,
         radius: f64,
@@ -2458,14 +2458,14 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
-    /// The same with wishes of the caller's: at node nodes\[i\] the weights start from
-    /// weights\[i * n_handles ...\] and are optimised again. No node may be named twice.
+    /// The same with given weights: at node nodes\[i\] they start from
+    /// values\[i * n_handles ...\] and are optimised again. No node may be named twice.
     pub fn icc_weights_repaint(
         out: *mut *mut icc_weights,
-        kernel: *const icc_weights,
+        weights: *const icc_weights,
         n: usize,
         nodes: *const u32,
-        weights: *const f64,
+        values: *const f64,
         env: *const icc_env,
         err: *mut icc_error,
     ) -> icc_status;
@@ -2474,7 +2474,7 @@ extern "C" {
     /// gone, as in the thesis (6.3.1).
     pub fn icc_weights_with_method(
         out: *mut *mut icc_weights,
-        kernel: *const icc_weights,
+        weights: *const icc_weights,
         method: i32,
         env: *const icc_env,
         err: *mut icc_error,
@@ -2485,8 +2485,8 @@ extern "C" {
     /// Sums and reproduction hold; handles, nodes on edges and on lines keep their weights. Nodes around the part,
     /// within the kernel's reach, give way. With QP no weight becomes negative at a node where none was.
     ///
-    /// - `out` (out): a new kernel; owned by the caller
-    /// - `kernel`: the kernel
+    /// - `out` (out): new weights; owned by the caller
+    /// - `weights`: the weights to change
     /// - `n`: nodes of the part
     /// - `nodes`: their indices
     /// - `rigidity`: n positive numbers, how much each matters; NULL: all the same
@@ -2495,7 +2495,7 @@ extern "C" {
     /// - `err`: may be NULL
     pub fn icc_weights_stiffen(
         out: *mut *mut icc_weights,
-        kernel: *const icc_weights,
+        weights: *const icc_weights,
         n: usize,
         nodes: *const u32,
         rigidity: *const f64,
@@ -2506,20 +2506,20 @@ extern "C" {
 
     /// Weights at points.
     ///
-    /// - `kernel`: the kernel
+    /// - `weights`: the weights
     /// - `n`: number of points
     /// - `points`: n * dim coordinates. Any finite point has weights; far from all nodes they are
     ///   those of the affine tail, or 0 without.
-    /// - `weights` (out): n * n_handles
+    /// - `values` (out): n * n_handles weights
     /// - `gradients` (out): n * n_handles * dim derivatives, or NULL (3.44)
-    /// - `status` (out): n statuses: `ICC_OK`, `ICC_ERR_ARGUMENT` (not finite; the weights are NaN); or NULL
+    /// - `status` (out): n statuses: `ICC_OK`, `ICC_ERR_ARGUMENT` (not finite; its values are NaN); or NULL
     /// - `n_failed` (out): how many points have none, or NULL
     /// - `env`: may be NULL
     pub fn icc_weights_evaluate(
-        kernel: *const icc_weights,
+        weights: *const icc_weights,
         n: usize,
         points: *const f64,
-        weights: *mut f64,
+        values: *mut f64,
         gradients: *mut f64,
         status: *mut icc_status,
         n_failed: *mut usize,
@@ -2528,7 +2528,7 @@ extern "C" {
 
     /// Measures the weights at n points (n * dim coordinates). The report's `size` is set by the caller.
     pub fn icc_weights_get_report(
-        kernel: *const icc_weights,
+        weights: *const icc_weights,
         n: usize,
         points: *const f64,
         report: *mut icc_weights_report,
@@ -2536,10 +2536,10 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
-    /// Binds points to the handles of a kernel.
+    /// Binds points to handles.
     ///
-    /// - `out` (out): the binding; owned by the caller. It does not need the kernel any more.
-    /// - `kernel`: the kernel
+    /// - `out` (out): the binding; owned by the caller. It does not need the weights any more.
+    /// - `weights`: the weights
     /// - `n`: number of points
     /// - `points`: n * dim coordinates, finite
     /// - `derivatives`: 1: poses have Jacobians, at dim * n_handles doubles a point more
@@ -2547,7 +2547,7 @@ extern "C" {
     /// - `err`: may be NULL
     pub fn icc_binding_create(
         out: *mut *mut icc_binding,
-        kernel: *const icc_weights,
+        weights: *const icc_weights,
         n: usize,
         points: *const f64,
         derivatives: i32,

@@ -8,7 +8,7 @@ use crate::weights::Weights;
 use std::ptr;
 
 object!(
-    /// Points with their weights, for posing again and again. It does not need the kernel any more.
+    /// Points with their weights, for repeated poses. It does not need the weights any more.
     Binding,
     icc_binding,
     icc_binding_free
@@ -28,16 +28,16 @@ pub struct Counts {
 saved!(Binding);
 
 impl Binding {
-    /// Binds points, n * dim coordinates, to the handles of a kernel. With `derivatives` poses have Jacobians.
+    /// Binds points, n * dim coordinates, to handles. With `derivatives` poses have Jacobians.
     ///
     /// # Errors
     /// [`Status::ARGUMENT`](crate::Status::ARGUMENT), with the point that is not finite as `index`.
-    pub fn new(kernel: &Weights, points: &[f64], derivatives: bool, env: &mut Env<'_>) -> Result<Binding> {
-        let n = count(points, kernel.info().dim as usize, "points")?;
+    pub fn new(weights: &Weights, points: &[f64], derivatives: bool, env: &mut Env<'_>) -> Result<Binding> {
+        let n = count(points, weights.info().dim as usize, "points")?;
         Binding::make(env, |out, env, err| {
-            let (kernel, points, derivatives) = (kernel.as_ptr(), points.as_ptr(), i32::from(derivatives));
+            let (weights, points, derivatives) = (weights.as_ptr(), points.as_ptr(), i32::from(derivatives));
             // SAFETY: n points.
-            unsafe { sys::icc_binding_create(out, kernel, n, points, derivatives, env, err) }
+            unsafe { sys::icc_binding_create(out, weights, n, points, derivatives, env, err) }
         })
     }
 
@@ -87,7 +87,7 @@ impl Binding {
         Ok((images, jacobians))
     }
 
-    /// The same with transforms of the caller's, per handle the dim rows of (A | b), written to slices.
+    /// The same with caller-supplied transforms, per handle the dim rows of (A | b), written to slices.
     pub fn pose_into(
         &self,
         transforms: &[f64],
@@ -117,7 +117,7 @@ impl Binding {
         })
     }
 
-    /// Reads a binding back, bit for bit; any bytes are safe to try.
+    /// Reads a binding back, bit for bit; any bytes are safe to pass.
     ///
     /// # Errors
     /// [`Status::FORMAT`](crate::Status::FORMAT), or [`Status::VERSION`](crate::Status::VERSION) for what a later
@@ -130,7 +130,7 @@ impl Binding {
     }
 }
 
-/// What becomes of the handles: an affine transform each.
+/// How the handles move: an affine transform each.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pose {
     dim: usize,
@@ -144,7 +144,7 @@ impl Pose {
         Pose::of_handles(binding.counts().dim, binding.handles()?)
     }
 
-    /// Handles at positions of the caller's, n * dim coordinates, at rest.
+    /// Handles at caller-supplied positions, n * dim coordinates, at rest.
     pub fn of_handles(dim: usize, handles: Vec<f64>) -> Result<Pose> {
         let n = count(&handles, dim, "handles")?;
         if dim != 2 && dim != 3 {
@@ -176,8 +176,8 @@ impl Pose {
         check(unsafe { sys::icc_pose_move(dim, transform, offset.as_ptr()) })
     }
 
-    /// Turns a handle about where it is, by an angle in radians, counter-clockwise with y upwards (2-D), or seen from
-    /// the tip of the axis (3-D).
+    /// Rotates a handle about the place it has moved to, by an angle in radians, counter-clockwise with y upwards
+    /// (2-D), or seen from the tip of the axis (3-D).
     pub fn turn(&mut self, handle: usize, axis: Option<[f64; 3]>, angle: f64) -> Result<()> {
         let dim = self.dim;
         let transform = self.transform(handle)?.as_mut_ptr();

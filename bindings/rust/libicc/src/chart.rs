@@ -42,7 +42,7 @@ pub enum Method {
     Gradient = sys::ICC_METHOD_GRADIENT,
     /// along leaves that cannot merge; certified
     Foliation = sys::ICC_METHOD_FOLIATION,
-    /// along a field that curves cannot merge in, on a grid in any dimension
+    /// along a vector field in which curves cannot merge, on a grid in any dimension
     Field = sys::ICC_METHOD_FIELD,
     /// polar coordinates of the harmonic map to a disc; certified
     Disc = sys::ICC_METHOD_DISC,
@@ -103,7 +103,7 @@ pub struct ChartOptions<'a> {
     pub method: Option<Method>,
     /// grid or mesh cells along the longest side; 0: 50
     pub cells: usize,
-    /// where the maximum shall be, dim coordinates
+    /// the requested maximum, dim coordinates
     pub maximum: Option<&'a [f64]>,
     /// gradient: the function
     pub function: Option<FunctionKind>,
@@ -147,20 +147,20 @@ pub struct Codes {
     pub start: BoundaryPoints,
     /// shares of the curves' arc length from the boundary, in \[0,1\]
     pub t: Vec<f64>,
-    /// what became of each point
+    /// the status of each point
     pub status: Vec<Status>,
     /// how many points have no coordinates
     pub n_failed: usize,
 }
 
-/// Where points have gone.
+/// Images of points.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Images {
     /// n * dim coordinates; NaN where there is no point
     pub points: Vec<f64>,
-    /// what became of each
+    /// the status of each
     pub status: Vec<Status>,
-    /// how many there are not
+    /// how many have no point or image
     pub n_failed: usize,
 }
 
@@ -195,12 +195,12 @@ impl Chart {
         })
     }
 
-    /// Reads a chart back; any bytes are safe to try. It answers as the one that was saved does, bit for bit. Charts
-    /// on a mesh are certified anew, those on a grid made again.
+    /// Reads a chart back; any bytes are safe to pass. It gives the same results as the saved one, bit for bit. Charts
+    /// on a mesh are certified anew, those on a grid rebuilt from their inputs.
     ///
     /// # Errors
-    /// [`Status::FORMAT`]; [`Status::VERSION`] for what a later version wrote, and for a chart on a grid that comes
-    /// out otherwise here than where it was saved.
+    /// [`Status::FORMAT`]; [`Status::VERSION`] for what a later version wrote, and for a chart on a grid that gives
+    /// different values here than where it was saved.
     pub fn from_bytes(data: &[u8], env: &mut Env<'_>) -> Result<Chart> {
         Chart::make(env, |out, env, err| {
             // SAFETY: as many bytes.
@@ -270,7 +270,7 @@ impl Chart {
         }
     }
 
-    /// The function of a gradient chart, `None` for others.
+    /// The function of a chart of method gradient or field, `None` for others.
     pub fn function(&self) -> Option<Borrowed<'_, Function>> {
         // SAFETY: the chart keeps its field.
         unsafe { Function::found(sys::icc_chart_function(self.as_ptr())).map(|field| Borrowed::new(field)) }

@@ -116,8 +116,8 @@ impl Domain {
 
     /// A conforming mesh of the inside: triangles in 2-D, tetrahedra in 3-D, simplices beyond.
     ///
-    /// `simplices` has rows of dim + 1 vertex indices. `facets`, rows of dim, is the boundary of the mesh in an
-    /// order of the caller's, or `None`.
+    /// `simplices` has rows of dim + 1 vertex indices. `facets`, rows of dim, is the boundary of the mesh in
+    /// any order, or `None`.
     ///
     /// # Errors
     /// [`Status::BOUNDARY`](crate::Status::BOUNDARY) or [`Status::TOPOLOGY`](crate::Status::TOPOLOGY), with the
@@ -177,12 +177,12 @@ impl Domain {
         Ok((vertices, facets))
     }
 
-    /// Says where points lie: n * dim coordinates.
+    /// Reports where points lie: n * dim coordinates.
     pub fn locate(&self, points: &[f64], env: &mut Env<'_>) -> Result<Vec<Place>> {
         Ok(self.search(points, false, env)?.0)
     }
 
-    /// Says where points lie, and finds the nearest point of the boundary for each.
+    /// Reports where points lie, and finds the nearest point of the boundary for each.
     pub fn nearest(&self, points: &[f64], env: &mut Env<'_>) -> Result<(Vec<Place>, BoundaryPoints)> {
         self.search(points, true, env)
     }
@@ -244,7 +244,7 @@ pub fn repair_mask(shape: &[usize], cells: &mut [u8], env: &mut Env<'_>) -> Resu
     Ok(n_filled)
 }
 
-/// Everything that keeps a closed polygon, n * 2 coordinates, from being the boundary of a domain.
+/// Every defect that keeps a closed polygon, n * 2 coordinates, from being the boundary of a domain.
 ///
 /// ```
 /// use libicc::{boundary_defects, sys, Env};

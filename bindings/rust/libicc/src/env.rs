@@ -12,7 +12,7 @@ use std::sync::{Mutex, PoisonError};
 type Progress<'a> = dyn FnMut(&str, f64) -> ControlFlow<()> + 'a;
 type Log<'a> = dyn Fn(&str) + Sync + 'a;
 
-/// How a call runs: on how many threads, and who hears of its progress and of what is remarkable.
+/// How a call runs: its threads, and its callbacks for progress and diagnostics.
 ///
 /// Results are bit-identical for every number of threads.
 ///
@@ -59,23 +59,23 @@ impl<'a> Env<'a> {
 
     /// How many bytes loading an object may take beyond 64 for each byte that it is read from; 0 means
     /// 256,000,000. Time is limited in proportion. Charts on fine grids are rebuilt and may need more;
-    /// `u64::MAX` is for bytes that are trusted.
+    /// `u64::MAX` is for trusted bytes.
     pub fn load_limit(mut self, bytes: u64) -> Self {
         self.load_limit = bytes;
         self
     }
 
-    /// Called on the calling thread now and then during long work, with the name of the stage and the share
+    /// Called on the calling thread from time to time during long work, with the name of the stage and the share
     /// of the whole call that is done, which goes from 0 to 1 and never falls. [`ControlFlow::Break`] cancels
     /// the call, which then fails with
-    /// [`Status::CANCELLED`](crate::Status::CANCELLED) as soon as it can. A panic cancels it, too, and goes on
-    /// when the library has cleaned up.
+    /// [`Status::CANCELLED`](crate::Status::CANCELLED) as soon as it can. A panic cancels it, too, and resumes
+    /// once the library has cleaned up.
     pub fn progress(mut self, callback: impl FnMut(&str, f64) -> ControlFlow<()> + 'a) -> Self {
         self.progress = Some(Box::new(callback));
         self
     }
 
-    /// Called with lines of diagnostics, on any thread. A panic goes on as one in [`progress`](Self::progress) does.
+    /// Called with lines of diagnostics, on any thread. A panic resumes as one in [`progress`](Self::progress) does.
     pub fn log(mut self, callback: impl Fn(&str) + Sync + 'a) -> Self {
         self.log = Some(Box::new(callback));
         self

@@ -1,7 +1,7 @@
 //! Kernel coordinates: smooth blending weights for handles, without a mesh.
 //!
 //! [`Shape`] (regions and curves) -> [`Sampling`] (points spread over it) -> [`Weights`] (handles, and a weight of
-//! each at every place) -> [`Binding`] (the same at points of the caller's) -> [`Pose`].
+//! each at every place) -> [`Binding`] (the same at caller-supplied points) -> [`Pose`].
 //!
 //! Nothing here is certified to be one-to-one; [`Weights::report`] measures how well weights do what they should.
 //!
@@ -14,9 +14,9 @@
 //! let sampling =
 //!     Sampling::new(&shape, &SamplingOptions { spacing: 1.0, ..Default::default() }, env)?;
 //! let handles = [2.0, 2.0, 8.0, 2.0, 5.0, 8.0];
-//! let kernel = Weights::new(&sampling, &handles, &WeightsOptions::default(), env)?;
+//! let weights = Weights::new(&sampling, &handles, &WeightsOptions::default(), env)?;
 //! let points = [5.0, 5.0, 2.0, 2.0];
-//! let binding = Binding::new(&kernel, &points, false, env)?;
+//! let binding = Binding::new(&weights, &points, false, env)?;
 //! let mut pose = Pose::rest(&binding)?;
 //! pose.shift(0, &[1.0, 0.5])?;
 //! let images = binding.pose(&pose, env)?;

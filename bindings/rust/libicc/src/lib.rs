@@ -1,4 +1,4 @@
-//! Carries everything inside a shape along, one-to-one, when its boundary moves.
+//! Moves everything inside a shape along, one-to-one, when its boundary moves.
 //!
 //! [`Domain`] (a boundary and what it encloses) -> [`Chart`] (coordinates of the inside: a boundary point and a share
 //! of the way to the maximum) -> [`Map`] (two charts, and the homeomorphism of their boundaries). [`stages`] has the
@@ -22,9 +22,9 @@
 //!
 //! Points are slices of coordinates, `dim` numbers each: [`flat`] and [`rows`] turn arrays into them and back without
 //! a copy. Results are `Vec`s; calls that end in `_into` write to slices instead. Every call that works takes an
-//! [`Env`]: threads, and callbacks that hear of progress and diagnostics and may cancel or panic. Angles are radians.
+//! [`Env`]: threads, and callbacks that receive progress and diagnostics and may cancel or panic. Angles are radians.
 //!
-//! Objects never change. They are `Send` and `Sync`, and keep what they were made from alive. A slice of the wrong
+//! Objects never change. They are `Send` and `Sync`, and keep alive what they were made from. A slice of the wrong
 //! length gives an [`Error`] with [`Status::ARGUMENT`], as wrong arguments do; nothing panics but [`rows`].
 //!
 //! Information structs and reports are those of C, see `libicc-sys` for their members; their `size` is of no interest

@@ -47,11 +47,11 @@ pub enum MapKind {
 pub struct MapOptions<'a> {
     /// how the map works
     pub kind: Option<MapKind>,
-    /// mesh: steps of improvement on each level; 0: as many as pay; -1: none
+    /// mesh: improvement steps on each level; 0: as long as they pay off; -1: none
     pub iterations: i32,
     /// for both charts; its maximum is the source's
     pub chart: ChartOptions<'a>,
-    /// where the target's maximum shall be, dim coordinates
+    /// the target's maximum, dim coordinates
     pub target_maximum: Option<&'a [f64]>,
 }
 
@@ -71,11 +71,11 @@ impl MapOptions<'_> {
 /// Options of [`Map::improve`]. 0 is the library's choice.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ImproveOptions {
-    /// steps at most on each level; 0: 60
+    /// at most so many steps on each level; 0: 60
     pub iterations: i32,
-    /// refinements at most; 0: 4; -1: none
+    /// at most so many refinements; 0: 4; -1: none
     pub levels: i32,
-    /// a level ends with a step that gains less than this share of the energy; 0: 1e-4
+    /// a level ends when a step gains less than this share of the energy; 0: 1e-4
     pub tolerance: f64,
 }
 
@@ -119,7 +119,7 @@ impl Map {
     ///
     /// # Errors
     /// Those of [`Chart::new`]; [`Status::BOUNDARY`] when the domains do not correspond.
-    /// [`Error::side`](crate::Error::side) tells which of the two is at fault.
+    /// [`Error::side`](crate::Error::side) says which of the two is at fault.
     pub fn new(source: &Domain, target: &Domain, options: &MapOptions<'_>, env: &mut Env<'_>) -> Result<Map> {
         let chart = options.chart.raw(source.dim())?;
         if let Some(maximum) = options.target_maximum {
@@ -147,7 +147,7 @@ impl Map {
         })
     }
 
-    /// Makes a fairer map from one of kind mesh. To cancel it ends it early, with what there is.
+    /// Makes a fairer map from one of kind mesh. Cancelling ends it early, with the map reached so far.
     pub fn improve(&self, options: &ImproveOptions, env: &mut Env<'_>) -> Result<(Map, ImproveReport)> {
         let raw = sys::icc_improve_options {
             iterations: options.iterations,

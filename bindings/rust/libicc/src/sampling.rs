@@ -130,7 +130,7 @@ impl Sampling {
         })
     }
 
-    /// A sampling from the caller's points, n * dim coordinates, which keep their order.
+    /// A sampling from caller-supplied points, n * dim coordinates, which keep their order.
     pub fn from_points(shape: &Shape, points: &[f64], env: &mut Env<'_>) -> Result<Sampling> {
         let n = count(points, shape.dim, "points")?;
         Sampling::make(env, |out, env, err| {

@@ -11,7 +11,7 @@ pub use crate::sys::icc_weights_info as WeightsInfo;
 pub use crate::sys::icc_weights_report as WeightsReport;
 
 object!(
-    /// Handles, and the weight of each at every place of a shape. Changes give new kernels that share what is the
+    /// Handles, and the weight of each at every place of a shape. Changes give new weights that share what is the
     /// same.
     Weights,
     icc_weights,
@@ -208,7 +208,7 @@ impl Weights {
         })
     }
 
-    /// The same with wishes of the caller's: node nodes\[i\] starts from row i of `weights`, n_handles numbers.
+    /// The same with given weights: node nodes\[i\] starts from row i of `weights`, n_handles numbers.
     pub fn repaint(&self, nodes: &[u32], weights: &[f64], env: &mut Env<'_>) -> Result<Weights> {
         exactly(weights, product(&[nodes.len(), self.info().n_handles])?, "weights")?;
         Weights::make(env, |out, env, err| {
@@ -238,7 +238,7 @@ impl Weights {
             exactly(rigidity, nodes.len(), "rigidity")?;
         }
         let mut energy = [0.0; 2];
-        let kernel = Weights::make(env, |out, env, err| {
+        let weights = Weights::make(env, |out, env, err| {
             // SAFETY: as many nodes as numbers.
             unsafe {
                 sys::icc_weights_stiffen(
@@ -253,7 +253,7 @@ impl Weights {
                 )
             }
         })?;
-        Ok((kernel, energy))
+        Ok((weights, energy))
     }
 
     /// Weights at points, n * dim coordinates, with derivatives if asked for.

@@ -2,9 +2,9 @@
 #include "kernel/sampling.h"
 
 #include "base/error.h"
-#include "kernel/blue.h"
-#include "kernel/rims.h"
-#include "kernel/sieve.h"
+#include "kernel/blue_noise.h"
+#include "kernel/boundary_samples.h"
+#include "kernel/lattice_filter.h"
 #include "math/vec.h"
 
 #include <math.h>
@@ -16,10 +16,10 @@ static const double DEFAULT_SPACING[] = {0.01, 0.05};
 static const int32_t DEFAULT_STEPS = 60;
 /* Of the spacing: samples on walls and curves keep this distance, where lines of them meet at sharp
  * angles. */
-static const double RIM_GAP = 0.55;
+static const double LINE_GAP = 0.55;
 /* On surfaces, where they are spread at random: such a limit leaves about one a square of the
  * spacing. */
-static const double SKIN_GAP = 0.75;
+static const double SURFACE_GAP = 0.75;
 /* In distances at which a point is on a wall: what is inside must be told from what is on the
  * edge. */
 static const double FINEST = 16;
@@ -56,28 +56,29 @@ static void grid_point(const void *lattice, const size_t *at, double *point)
         point[k] = g->lower[k] + ((double)at[k] - g->border) * g->spacing;
 }
 
-static icc_status spread_grid(iccp_places *places, const icc_shape *shape,
+static icc_status spread_grid(iccp_point_list *list, const icc_shape *shape,
                               const icc_sampling_options *options, const iccp_env *env,
                               icc_error *err)
 {
     const double *in = shape->frame.in;
     grid g = {.dim = shape->dim, .spacing = options->spacing, .border = floor(options->margin)};
-    iccp_sieve sieve = {.shape = shape, .count = {1, 1, 1}, .point = grid_point, .lattice = &g};
+    iccp_lattice_filter filter = {
+        .shape = shape, .count = {1, 1, 1}, .point = grid_point, .lattice = &g};
     /* A point at the margin to rounding belongs to it. */
-    sieve.margin = options->margin * (1 + COUNT_TOLERANCE) * (options->spacing * in[0] * in[1]);
+    filter.margin = options->margin * (1 + COUNT_TOLERANCE) * (options->spacing * in[0] * in[1]);
     double all = 1;
     for (size_t k = 0; k < shape->dim; ++k) {
         const double side = (shape->upper[k] - shape->lower[k]) / g.spacing;
         const double n = floor(side + COUNT_TOLERANCE) + 1 + 2 * g.border;
         g.lower[k] = shape->lower[k];
         all *= n;
-        if (!(all <= (double)ICCP_MAX_SIEVED))
+        if (!(all <= (double)ICCP_MAX_LATTICE))
             return fail_many(err);
-        sieve.count[k] = (size_t)n;
+        filter.count[k] = (size_t)n;
     }
-    const icc_status status = iccp_sieve_add(places, &sieve, env);
-    return status == ICC_OK && (double)places->n > MAX_SAMPLES ? fail_many(err)
-                                                               : iccp_explain(err, status);
+    const icc_status status = iccp_lattice_filter_add(list, &filter, env);
+    return status == ICC_OK && (double)list->n > MAX_SAMPLES ? fail_many(err)
+                                                             : iccp_explain(err, status);
 }
 
 /* -------------------------------------------------------------- blue noise */
@@ -129,8 +130,8 @@ static bool on_edge(const iccp_spot *spot)
 static icc_status check_fixed(const icc_shape *shape, const icc_sampling_options *options,
                               const iccp_env *env, icc_error *err)
 {
-    iccp_places places;
-    iccp_places_start(&places, shape->dim, env);
+    iccp_point_list list;
+    iccp_point_list_start(&list, shape->dim, env);
     double *distance = iccp_alloc(&env->memory, options->n_fixed, sizeof *distance);
     icc_status status = distance == NULL ? iccp_fail_memory(err) : ICC_OK;
     for (size_t i = 0; status == ICC_OK && i < options->n_fixed; ++i) {
@@ -138,77 +139,78 @@ static icc_status check_fixed(const icc_shape *shape, const icc_sampling_options
         if (!on_edge(&spot) && spot.region == ICCP_NOWHERE)
             status = iccp_fail_at(err, ICC_ERR_OUTSIDE, ICC_ITEM_POINT, (int64_t)i,
                                   "fixed point %zu lies in no region and on no curve", i);
-        iccp_places_add(&places, spot.at);
+        iccp_point_list_add(&list, spot.at);
     }
-    if (status == ICC_OK && places.failed)
+    if (status == ICC_OK && list.failed)
         status = iccp_fail_memory(err);
     if (status == ICC_OK)
         status = iccp_explain(
-            err, iccp_places_spacing(shape->dim, places.n, places.points, distance, env));
+            err, iccp_nearest_distances(shape->dim, list.n, list.points, distance, env));
     for (size_t i = 0; status == ICC_OK && i < options->n_fixed; ++i)
         if (!(distance[i] > 0))
             status = iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)i,
                                   "fixed point %zu is the same as another one", i);
-    iccp_places_free(&places);
+    iccp_point_list_free(&list);
     iccp_free(&env->memory, distance);
     return status;
 }
 
 /* The caller's points on walls and curves, or the others. */
-static void add_fixed(iccp_places *places, const icc_shape *shape,
+static void add_fixed(iccp_point_list *list, const icc_shape *shape,
                       const icc_sampling_options *options, bool edge)
 {
     for (size_t i = 0; i < options->n_fixed; ++i) {
         const iccp_spot spot = iccp_shape_spot(shape, options->fixed + shape->dim * i);
         if (on_edge(&spot) == edge)
-            iccp_places_add(places, spot.at);
+            iccp_point_list_add(list, spot.at);
     }
 }
 
 /* Lines first, then what is left of surfaces. */
-static icc_status add_rims(iccp_places *places, const icc_shape *shape, double spacing,
-                           uint64_t seed, const iccp_env *env)
+static icc_status add_boundary_samples(iccp_point_list *list, const icc_shape *shape,
+                                       double spacing, uint64_t seed, const iccp_env *env)
 {
-    const size_t n_fixed = places->n, dim = shape->dim;
+    const size_t n_fixed = list->n, dim = shape->dim;
     icc_status status =
-        iccp_rims_sample(places, shape->local + dim * shape->n_walled, shape->n_vertices,
-                         shape->n_segments, shape->segments, spacing, env);
+        iccp_segments_sample(list, shape->local + dim * shape->n_walled, shape->n_vertices,
+                             shape->n_segments, shape->segments, spacing, env);
     if (status == ICC_OK && dim == 2)
-        status = iccp_rims_sample(places, shape->local, shape->n_walled, shape->walls.n,
-                                  shape->facets, spacing, env);
+        status = iccp_segments_sample(list, shape->local, shape->n_walled, shape->walls.n,
+                                      shape->facets, spacing, env);
     if (status == ICC_OK && dim == 3 && shape->walls.n > 0)
-        status = iccp_creases_sample(places, shape, spacing, env);
+        status = iccp_creases_sample(list, shape, spacing, env);
     if (status == ICC_OK)
-        status = iccp_places_thin(places, n_fixed, RIM_GAP * spacing, env);
+        status = iccp_point_list_thin(list, n_fixed, LINE_GAP * spacing, env);
     if (status != ICC_OK || dim == 2 || shape->walls.n == 0)
         return status;
-    const size_t n_lines = places->n;
-    status = iccp_skin_sample(places, shape, spacing, seed);
-    return status == ICC_OK ? iccp_places_thin(places, n_lines, SKIN_GAP * spacing, env) : status;
+    const size_t n_lines = list->n;
+    status = iccp_surface_sample(list, shape, spacing, seed);
+    return status == ICC_OK ? iccp_point_list_thin(list, n_lines, SURFACE_GAP * spacing, env)
+                            : status;
 }
 
 /* All samples that stay where they are, those on walls and curves first. The caller's were first in
  * the competition for room. */
-static icc_status add_held(iccp_places *places, const icc_shape *shape,
+static icc_status add_held(iccp_point_list *list, const icc_shape *shape,
                            const icc_sampling_options *options, double spacing, const iccp_env *env)
 {
-    iccp_places rims;
-    iccp_places_start(&rims, shape->dim, env);
-    add_fixed(&rims, shape, options, true);
-    const size_t n_edge = rims.n;
-    add_fixed(&rims, shape, options, false);
-    const size_t n_fixed = rims.n;
-    const icc_status status = add_rims(&rims, shape, spacing, options->seed, env);
-    for (size_t i = 0; status == ICC_OK && i < rims.n; ++i)
+    iccp_point_list samples;
+    iccp_point_list_start(&samples, shape->dim, env);
+    add_fixed(&samples, shape, options, true);
+    const size_t n_edge = samples.n;
+    add_fixed(&samples, shape, options, false);
+    const size_t n_fixed = samples.n;
+    const icc_status status = add_boundary_samples(&samples, shape, spacing, options->seed, env);
+    for (size_t i = 0; status == ICC_OK && i < samples.n; ++i)
         if (i < n_edge || i >= n_fixed)
-            iccp_places_add(places, rims.points + shape->dim * i);
+            iccp_point_list_add(list, samples.points + shape->dim * i);
     for (size_t i = n_edge; status == ICC_OK && i < n_fixed; ++i)
-        iccp_places_add(places, rims.points + shape->dim * i);
-    iccp_places_free(&rims);
-    return status == ICC_OK && places->failed ? ICC_ERR_MEMORY : status;
+        iccp_point_list_add(list, samples.points + shape->dim * i);
+    iccp_point_list_free(&samples);
+    return status == ICC_OK && list->failed ? ICC_ERR_MEMORY : status;
 }
 
-static icc_status spread_blue(iccp_places *places, const icc_shape *shape,
+static icc_status spread_blue(iccp_point_list *list, const icc_shape *shape,
                               const icc_sampling_options *options, const iccp_env *env,
                               icc_error *err)
 {
@@ -222,13 +224,13 @@ static icc_status spread_blue(iccp_places *places, const icc_shape *shape,
     icc_status status = options->n_fixed > 0 ? check_fixed(shape, options, env, err) : ICC_OK;
     if (status != ICC_OK)
         return status;
-    status = add_held(places, shape, options, spacing, env);
+    status = add_held(list, shape, options, spacing, env);
     if (status == ICC_OK)
-        status = iccp_blue_fill(places, shape, spacing, steps, options->seed, env);
-    if (status == ICC_ERR_RESOLUTION || (status == ICC_OK && (double)places->n > MAX_SAMPLES))
+        status = iccp_blue_noise_fill(list, shape, spacing, steps, options->seed, env);
+    if (status == ICC_ERR_RESOLUTION || (status == ICC_OK && (double)list->n > MAX_SAMPLES))
         return fail_many(err);
-    for (size_t i = 0; i < places->n; ++i) {
-        double *x = places->points + shape->dim * i;
+    for (size_t i = 0; i < list->n; ++i) {
+        double *x = list->points + shape->dim * i;
         iccp_frame_out(&shape->frame, (int32_t)shape->dim, x, x);
     }
     return iccp_explain(err, status);
@@ -241,7 +243,7 @@ icc_status iccp_sampling_create(icc_sampling **out, const icc_shape *shape,
                                 icc_error *err)
 {
     icc_sampling_options full = *options;
-    iccp_places places;
+    iccp_point_list list;
     *out = NULL;
     if (!(full.spacing > 0))
         full.spacing = default_spacing(shape);
@@ -249,12 +251,12 @@ icc_status iccp_sampling_create(icc_sampling **out, const icc_shape *shape,
     const iccp_env whole = iccp_part(env, "sample", 0, 1);
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){3, 1}, &whole);
-    iccp_places_start(&places, shape->dim, env);
+    iccp_point_list_start(&list, shape->dim, env);
     icc_status status = full.kind == ICC_SAMPLING_GRID
-                            ? spread_grid(&places, shape, &full, &part[0], err)
-                            : spread_blue(&places, shape, &full, &part[0], err);
+                            ? spread_grid(&list, shape, &full, &part[0], err)
+                            : spread_blue(&list, shape, &full, &part[0], err);
     if (status == ICC_OK)
-        status = iccp_sampling_finish(out, shape, places.n, places.points, &info, &part[1], err);
-    iccp_places_free(&places);
+        status = iccp_sampling_finish(out, shape, list.n, list.points, &info, &part[1], err);
+    iccp_point_list_free(&list);
     return status;
 }

@@ -1,4 +1,4 @@
-#include "kernel/places.h"
+#include "kernel/point_list.h"
 
 #include "base/threads.h"
 #include "math/vec.h"
@@ -7,34 +7,34 @@
 #include <math.h>
 #include <string.h>
 
-void iccp_places_start(iccp_places *places, size_t dim, const iccp_env *env)
+void iccp_point_list_start(iccp_point_list *list, size_t dim, const iccp_env *env)
 {
-    *places = (iccp_places){.memory = env->memory, .dim = dim};
+    *list = (iccp_point_list){.memory = env->memory, .dim = dim};
 }
 
-void iccp_places_add(iccp_places *places, const double *point)
+void iccp_point_list_add(iccp_point_list *list, const double *point)
 {
-    if (places->n == places->capacity && !places->failed) {
-        const size_t capacity = places->capacity < 64 ? 64 : 2 * places->capacity;
-        double *points = iccp_grow(&places->memory, places->points, places->n, capacity,
-                                   places->dim * sizeof *points);
-        places->failed = points == NULL;
+    if (list->n == list->capacity && !list->failed) {
+        const size_t capacity = list->capacity < 64 ? 64 : 2 * list->capacity;
+        double *points =
+            iccp_grow(&list->memory, list->points, list->n, capacity, list->dim * sizeof *points);
+        list->failed = points == NULL;
         if (points != NULL) {
-            places->points = points;
-            places->capacity = capacity;
+            list->points = points;
+            list->capacity = capacity;
         }
     }
-    if (places->failed)
+    if (list->failed)
         return;
-    memcpy(places->points + places->dim * places->n, point, places->dim * sizeof *point);
-    ++places->n;
+    memcpy(list->points + list->dim * list->n, point, list->dim * sizeof *point);
+    ++list->n;
 }
 
-void iccp_places_free(iccp_places *places)
+void iccp_point_list_free(iccp_point_list *list)
 {
-    if (places->points != NULL)
-        iccp_free(&places->memory, places->points);
-    *places = (iccp_places){0};
+    if (list->points != NULL)
+        iccp_free(&list->memory, list->points);
+    *list = (iccp_point_list){0};
 }
 
 /* The nearest point to point i among those that `stays` (all without), below a squared distance, or
@@ -65,26 +65,27 @@ static size_t nearest_to(const iccp_cells *cells, size_t i, const bool *stays, d
     return found;
 }
 
-icc_status iccp_places_thin(iccp_places *places, size_t n_kept, double radius, const iccp_env *env)
+icc_status iccp_point_list_thin(iccp_point_list *list, size_t n_kept, double radius,
+                                const iccp_env *env)
 {
-    const size_t dim = places->dim;
+    const size_t dim = list->dim;
     iccp_cells cells;
-    bool *stays = iccp_alloc_zero(&env->memory, places->n, sizeof *stays);
+    bool *stays = iccp_alloc_zero(&env->memory, list->n, sizeof *stays);
     if (stays == NULL)
         return ICC_ERR_MEMORY;
-    if (iccp_cells_create(&cells, dim, places->n, places->points, radius, env) != ICC_OK) {
+    if (iccp_cells_create(&cells, dim, list->n, list->points, radius, env) != ICC_OK) {
         iccp_free(&env->memory, stays);
         return ICC_ERR_MEMORY;
     }
-    for (size_t i = 0; i < places->n; ++i) {
+    for (size_t i = 0; i < list->n; ++i) {
         double best2 = radius * radius;
-        stays[i] = i < n_kept || nearest_to(&cells, i, stays, &best2) == places->n;
+        stays[i] = i < n_kept || nearest_to(&cells, i, stays, &best2) == list->n;
     }
     size_t n = 0;
-    for (size_t i = 0; i < places->n; ++i)
+    for (size_t i = 0; i < list->n; ++i)
         if (stays[i])
-            memmove(places->points + dim * n++, places->points + dim * i, dim * sizeof(double));
-    places->n = n;
+            memmove(list->points + dim * n++, list->points + dim * i, dim * sizeof(double));
+    list->n = n;
     iccp_cells_free(&cells);
     iccp_free(&env->memory, stays);
     return ICC_OK;
@@ -112,8 +113,8 @@ static icc_status measure_chunk(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
-icc_status iccp_places_spacing(size_t dim, size_t n, const double *points, double *distance,
-                               const iccp_env *env)
+icc_status iccp_nearest_distances(size_t dim, size_t n, const double *points, double *distance,
+                                  const iccp_env *env)
 {
     measurement m = {.distance = distance};
     /* So small that the number of cells decides. */

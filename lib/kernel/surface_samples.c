@@ -2,7 +2,7 @@
  * P. Cignoni, R. Scopigno, Efficient and flexible sampling with blue noise properties of triangular
  * meshes, 2012. Each face gets its share by a running sum of areas, so that faces smaller than one
  * sample are treated fairly. */
-#include "kernel/rims.h"
+#include "kernel/boundary_samples.h"
 
 #include "base/random.h"
 #include "domain/complex.h"
@@ -61,7 +61,7 @@ static size_t find_creases(const icc_shape *shape, const uint32_t *across, uint3
     return n;
 }
 
-icc_status iccp_creases_sample(iccp_places *places, const icc_shape *shape, double spacing,
+icc_status iccp_creases_sample(iccp_point_list *list, const icc_shape *shape, double spacing,
                                const iccp_env *env)
 {
     const iccp_memory *memory = &env->memory;
@@ -74,14 +74,14 @@ icc_status iccp_creases_sample(iccp_places *places, const icc_shape *shape, doub
         status = iccp_complex_join(&complex, env, NULL);
     if (status == ICC_OK) {
         const size_t n = find_creases(shape, complex.across, creases);
-        status = iccp_rims_sample(places, shape->local, n_vertices, n, creases, spacing, env);
+        status = iccp_segments_sample(list, shape->local, n_vertices, n, creases, spacing, env);
     }
     iccp_free(memory, complex.across);
     iccp_free(memory, creases);
     return status;
 }
 
-static void add_random(iccp_places *places, const icc_shape *shape, uint32_t f, uint64_t *state)
+static void add_random(iccp_point_list *list, const icc_shape *shape, uint32_t f, uint64_t *state)
 {
     const double *c[3];
     double a = unit(state), b = unit(state), point[3];
@@ -92,33 +92,33 @@ static void add_random(iccp_places *places, const icc_shape *shape, uint32_t f, 
     }
     for (int k = 0; k < 3; ++k)
         point[k] = c[0][k] + a * (c[1][k] - c[0][k]) + b * (c[2][k] - c[0][k]);
-    iccp_places_add(places, point);
+    iccp_point_list_add(list, point);
 }
 
 /* Fisher and Yates' shuffle: in the order of the faces, the thinning would leave stripes. */
-static void shuffle(iccp_places *places, size_t first, uint64_t *state)
+static void shuffle(iccp_point_list *list, size_t first, uint64_t *state)
 {
-    for (size_t i = places->n; i-- > first + 1;) {
+    for (size_t i = list->n; i-- > first + 1;) {
         const size_t j = first + (size_t)(iccp_random(state) % (i + 1 - first));
         for (size_t k = 0; k < 3; ++k) {
-            const double x = places->points[3 * i + k];
-            places->points[3 * i + k] = places->points[3 * j + k];
-            places->points[3 * j + k] = x;
+            const double x = list->points[3 * i + k];
+            list->points[3 * i + k] = list->points[3 * j + k];
+            list->points[3 * j + k] = x;
         }
     }
 }
 
-icc_status iccp_skin_sample(iccp_places *places, const icc_shape *shape, double spacing,
-                            uint64_t seed)
+icc_status iccp_surface_sample(iccp_point_list *list, const icc_shape *shape, double spacing,
+                               uint64_t seed)
 {
-    const size_t first = places->n;
+    const size_t first = list->n;
     uint64_t state = seed;
     double due = 0;
     for (uint32_t f = 0; f < shape->walls.n; ++f) {
         due += POINTS_A_SQUARE * 0.5 * normal_of(shape, f, NULL) / (spacing * spacing);
-        for (; due >= 1 && !places->failed; --due)
-            add_random(places, shape, f, &state);
+        for (; due >= 1 && !list->failed; --due)
+            add_random(list, shape, f, &state);
     }
-    shuffle(places, first, &state);
-    return places->failed ? ICC_ERR_MEMORY : ICC_OK;
+    shuffle(list, first, &state);
+    return list->failed ? ICC_ERR_MEMORY : ICC_OK;
 }

@@ -1,6 +1,6 @@
 /* Scan conversion is right up to rounding, and half-open; domains are closed and decided exactly.
  * The few centres where that can differ are asked for one by one. */
-#include "map/rim.h"
+#include "map/boundary_pixels.h"
 
 #include "map/sampler.h"
 
@@ -20,19 +20,20 @@ static uint8_t *pixel_at(const icc_picture *p, int32_t column, int32_t row)
            (size_t)column * (size_t)(p->channels * p->bytes);
 }
 
-static icc_status add(iccp_rim *rim, const icc_picture *target, int32_t column, int32_t row)
+static icc_status add(iccp_boundary_pixels *boundary, const icc_picture *target, int32_t column,
+                      int32_t row)
 {
-    if (rim->n == rim->room) {
-        const size_t room = 2 * rim->room + 64;
-        struct iccp_rim_pixel *more =
-            iccp_grow(&rim->memory, rim->pixels, rim->n, room, sizeof *more);
+    if (boundary->n == boundary->room) {
+        const size_t room = 2 * boundary->room + 64;
+        struct iccp_boundary_pixel *more =
+            iccp_grow(&boundary->memory, boundary->pixels, boundary->n, room, sizeof *more);
         if (more == NULL)
             return ICC_ERR_MEMORY;
-        rim->pixels = more;
-        rim->room = room;
+        boundary->pixels = more;
+        boundary->room = room;
     }
-    struct iccp_rim_pixel *pixel = &rim->pixels[rim->n++];
-    *pixel = (struct iccp_rim_pixel){.column = column, .row = row};
+    struct iccp_boundary_pixel *pixel = &boundary->pixels[boundary->n++];
+    *pixel = (struct iccp_boundary_pixel){.column = column, .row = row};
     memcpy(pixel->before, pixel_at(target, column, row),
            (size_t)(target->channels * target->bytes));
     return ICC_OK;
@@ -53,8 +54,8 @@ static double x_at(const double a[2], const double b[2], double y)
     return y >= b[1] ? b[0] : a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0]);
 }
 
-static icc_status add_along(iccp_rim *rim, const icc_picture *target, const double *a,
-                            const double *b, double close)
+static icc_status add_along(iccp_boundary_pixels *boundary, const icc_picture *target,
+                            const double *a, const double *b, double close)
 {
     if (a[1] > b[1]) {
         const double *other = a;
@@ -68,31 +69,31 @@ static icc_status add_along(iccp_rim *rim, const icc_picture *target, const doub
         const int32_t last = first_centre(fmax(x[0], x[1]) + close, target->width);
         for (int32_t column = first_centre(fmin(x[0], x[1]) - close, target->width);
              column < last && status == ICC_OK; ++column)
-            status = add(rim, target, column, row);
+            status = add(boundary, target, column, row);
     }
     return status;
 }
 
-icc_status iccp_rim_create(iccp_rim *rim, const icc_domain *domain, const icc_picture *target,
-                           const iccp_env *env)
+icc_status iccp_boundary_pixels_create(iccp_boundary_pixels *boundary, const icc_domain *domain,
+                                       const icc_picture *target, const iccp_env *env)
 {
-    *rim = (iccp_rim){.memory = env->memory};
+    *boundary = (iccp_boundary_pixels){.memory = env->memory};
     double largest = 0;
     for (size_t k = 0; k < 2 * domain->n_vertices; ++k)
         largest = fmax(largest, fabs(domain->given[k]));
     icc_status status = ICC_OK;
     for (size_t i = 0; i < domain->n_facets && status == ICC_OK; ++i)
-        status = add_along(rim, target, domain->given + 2 * (size_t)domain->facets[2 * i],
+        status = add_along(boundary, target, domain->given + 2 * (size_t)domain->facets[2 * i],
                            domain->given + 2 * (size_t)domain->facets[2 * i + 1], CLOSE * largest);
     if (status != ICC_OK)
-        iccp_rim_free(rim);
+        iccp_boundary_pixels_free(boundary);
     return status;
 }
 
-void iccp_rim_free(iccp_rim *rim)
+void iccp_boundary_pixels_free(iccp_boundary_pixels *boundary)
 {
-    iccp_free(&rim->memory, rim->pixels);
-    *rim = (iccp_rim){.memory = rim->memory};
+    iccp_free(&boundary->memory, boundary->pixels);
+    *boundary = (iccp_boundary_pixels){.memory = boundary->memory};
 }
 
 /* ---- settling ---- */
@@ -114,11 +115,11 @@ static bool origin(const icc_map *map, const double centre[2], double place[2])
     return true;
 }
 
-void iccp_rim_settle(const iccp_rim *rim, const icc_map *map, const icc_picture *source,
-                     const icc_picture *target)
+void iccp_boundary_pixels_decide(const iccp_boundary_pixels *boundary, const icc_map *map,
+                                 const icc_picture *source, const icc_picture *target)
 {
-    for (size_t k = 0; k < rim->n; ++k) {
-        const struct iccp_rim_pixel *pixel = &rim->pixels[k];
+    for (size_t k = 0; k < boundary->n; ++k) {
+        const struct iccp_boundary_pixel *pixel = &boundary->pixels[k];
         const double centre[2] = {pixel->column + 0.5, pixel->row + 0.5};
         double place[2];
         uint8_t *to = pixel_at(target, pixel->column, pixel->row);

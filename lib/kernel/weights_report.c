@@ -12,16 +12,16 @@ enum { EDGE_PLACES = 64 };
 /* Weights below this are negative, others may be so by rounding. */
 static const double NEGATIVE = -1e-9;
 
-void iccp_weights_at(const icc_weights *kernel, const double *point, double *weights,
+void iccp_weights_at(const icc_weights *weights, const double *point, double *values,
                      double *gradients)
 {
-    const iccp_layout *l = kernel->layout;
+    const iccp_node_set *set = weights->nodes;
     double local[ICC_MAX_DIM];
-    iccp_frame_in(&l->sampling->shape->frame, (int32_t)l->dim, point, local);
-    iccp_collocation_evaluate(l->collocation, l->n_handles, kernel->coefficients, local, weights,
-                              gradients);
-    const double scale = iccp_layout_scale(l);
-    for (size_t k = 0; gradients != NULL && k < l->n_handles * l->dim; ++k)
+    iccp_frame_in(&set->sampling->shape->frame, (int32_t)set->dim, point, local);
+    iccp_collocation_evaluate(set->collocation, set->n_handles, weights->coefficients, local,
+                              values, gradients);
+    const double scale = iccp_node_set_scale(set);
+    for (size_t k = 0; gradients != NULL && k < set->n_handles * set->dim; ++k)
         gradients[k] *= scale;
 }
 
@@ -34,22 +34,22 @@ static bool is_finite(size_t dim, const double *point)
 }
 
 typedef struct evaluation {
-    const icc_weights *kernel;
+    const icc_weights *weights;
     const double *points;
-    double *weights, *gradients;
+    double *values, *gradients;
     icc_status *status;
 } evaluation;
 
 static icc_status evaluate_some(void *argument, size_t begin, size_t end)
 {
     const evaluation *e = argument;
-    const size_t dim = e->kernel->layout->dim, m = e->kernel->layout->n_handles;
+    const size_t dim = e->weights->nodes->dim, m = e->weights->nodes->n_handles;
     for (size_t i = begin; i < end; ++i) {
-        double *weights = e->weights + m * i;
+        double *weights = e->values + m * i;
         double *gradients = e->gradients != NULL ? e->gradients + dim * m * i : NULL;
         const bool finite = is_finite(dim, e->points + dim * i);
         if (finite)
-            iccp_weights_at(e->kernel, e->points + dim * i, weights, gradients);
+            iccp_weights_at(e->weights, e->points + dim * i, weights, gradients);
         for (size_t k = 0; !finite && k < m; ++k)
             weights[k] = NAN;
         for (size_t k = 0; !finite && gradients != NULL && k < dim * m; ++k)
@@ -60,12 +60,12 @@ static icc_status evaluate_some(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
-icc_status iccp_weights_evaluate(const icc_weights *kernel, size_t n, const double *points,
-                                 double *weights, double *gradients, icc_status *status,
+icc_status iccp_weights_evaluate(const icc_weights *weights, size_t n, const double *points,
+                                 double *values, double *gradients, icc_status *status,
                                  size_t *n_failed, const iccp_env *env)
 {
-    const size_t dim = kernel->layout->dim;
-    evaluation e = {kernel, points, weights, gradients, status};
+    const size_t dim = weights->nodes->dim;
+    evaluation e = {weights, points, values, gradients, status};
     size_t failed = 0;
     for (size_t i = 0; i < n; ++i)
         failed += !is_finite(dim, points + dim * i);
@@ -82,75 +82,75 @@ typedef struct quality {
 } quality;
 
 typedef struct measurement {
-    const icc_weights *kernel;
+    const icc_weights *weights;
     const iccp_memory *memory;
     const double *points;
     quality *quality; /* of each point */
 } measurement;
 
-static quality measure(const icc_weights *kernel, const double *point, double *weights)
+static quality measure(const icc_weights *weights, const double *point, double *values)
 {
-    const iccp_layout *l = kernel->layout;
+    const iccp_node_set *set = weights->nodes;
     quality q = {-1, 0, HUGE_VAL};
     double local[ICC_MAX_DIM];
-    iccp_frame_in(&l->sampling->shape->frame, (int32_t)l->dim, point, local);
-    iccp_weights_at(kernel, point, weights, NULL);
-    for (size_t j = 0; j < l->n_handles; ++j) {
-        q.unity += weights[j];
-        q.least = fmin(q.least, weights[j]);
-        for (size_t k = 0; k < l->dim; ++k)
-            local[k] -= weights[j] * l->points[l->dim * j + k];
+    iccp_frame_in(&set->sampling->shape->frame, (int32_t)set->dim, point, local);
+    iccp_weights_at(weights, point, values, NULL);
+    for (size_t j = 0; j < set->n_handles; ++j) {
+        q.unity += values[j];
+        q.least = fmin(q.least, values[j]);
+        for (size_t k = 0; k < set->dim; ++k)
+            local[k] -= values[j] * set->points[set->dim * j + k];
     }
     q.unity = fabs(q.unity);
-    for (size_t k = 0; k < l->dim; ++k)
+    for (size_t k = 0; k < set->dim; ++k)
         q.reproduction = hypot(q.reproduction, local[k]);
-    q.reproduction /= iccp_layout_scale(l);
+    q.reproduction /= iccp_node_set_scale(set);
     return q;
 }
 
 static icc_status measure_some(void *argument, size_t begin, size_t end)
 {
     const measurement *m = argument;
-    const iccp_layout *l = m->kernel->layout;
-    double *weights = iccp_alloc(m->memory, l->n_handles, sizeof *weights);
+    const iccp_node_set *set = m->weights->nodes;
+    double *weights = iccp_alloc(m->memory, set->n_handles, sizeof *weights);
     if (weights == NULL)
         return ICC_ERR_MEMORY;
     for (size_t i = begin; i < end; ++i)
-        m->quality[i] = measure(m->kernel, m->points + l->dim * i, weights);
+        m->quality[i] = measure(m->weights, m->points + set->dim * i, weights);
     iccp_free(m->memory, weights);
     return ICC_OK;
 }
 
 /* The greatest deviation at a place from weights 1 - share and share of two handles, and 0 of the
  * others. */
-static double deviation(const icc_weights *kernel, const double *place, const uint32_t ends[2],
-                        double share, double *weights)
+static double deviation(const icc_weights *weights, const double *place, const uint32_t ends[2],
+                        double share, double *values)
 {
     double worst = 0;
-    iccp_weights_at(kernel, place, weights, NULL);
-    for (size_t j = 0; j < kernel->layout->n_handles; ++j) {
+    iccp_weights_at(weights, place, values, NULL);
+    for (size_t j = 0; j < weights->nodes->n_handles; ++j) {
         const double wanted = j == ends[0] ? 1 - share : j == ends[1] ? share : 0;
-        worst = fmax(worst, fabs(weights[j] - wanted));
+        worst = fmax(worst, fabs(values[j] - wanted));
     }
     return worst;
 }
 
-static void measure_handles(const icc_weights *kernel, icc_weights_report *report, double *weights)
+static void measure_handles(const icc_weights *weights, icc_weights_report *report, double *values)
 {
-    const iccp_layout *l = kernel->layout;
-    for (uint32_t j = 0; j < l->n_handles; ++j)
-        report->lagrange = fmax(report->lagrange, deviation(kernel, l->given + l->dim * j,
-                                                            (uint32_t[2]){j, j}, 0, weights));
-    for (size_t e = 0; e < l->n_edges; ++e) {
-        const double *a = l->given + l->dim * l->edges[2 * e];
-        const double *b = l->given + l->dim * l->edges[2 * e + 1];
+    const iccp_node_set *set = weights->nodes;
+    for (uint32_t j = 0; j < set->n_handles; ++j)
+        report->lagrange = fmax(report->lagrange, deviation(weights, set->given + set->dim * j,
+                                                            (uint32_t[2]){j, j}, 0, values));
+    for (size_t e = 0; e < set->n_edges; ++e) {
+        const double *a = set->given + set->dim * set->edges[2 * e];
+        const double *b = set->given + set->dim * set->edges[2 * e + 1];
         for (int p = 1; p < EDGE_PLACES; ++p) {
             const double share = (double)p / EDGE_PLACES;
             double place[3];
-            for (size_t k = 0; k < l->dim; ++k)
+            for (size_t k = 0; k < set->dim; ++k)
                 place[k] = a[k] + share * (b[k] - a[k]);
-            report->linearity =
-                fmax(report->linearity, deviation(kernel, place, l->edges + 2 * e, share, weights));
+            report->linearity = fmax(report->linearity,
+                                     deviation(weights, place, set->edges + 2 * e, share, values));
         }
     }
 }
@@ -167,23 +167,23 @@ static void summarise(size_t n, const quality *q, icc_weights_report *report)
     }
 }
 
-icc_status iccp_weights_measure(const icc_weights *kernel, size_t n, const double *points,
+icc_status iccp_weights_measure(const icc_weights *weights, size_t n, const double *points,
                                 icc_weights_report *report, const iccp_env *env)
 {
     const iccp_memory *memory = &env->memory;
-    *report = (icc_weights_report){.n_infeasible = kernel->info.n_infeasible,
-                                   .definiteness = kernel->info.definiteness};
+    *report = (icc_weights_report){.n_infeasible = weights->info.n_infeasible,
+                                   .definiteness = weights->info.definiteness};
     quality *qualities = iccp_alloc(memory, n, sizeof *qualities);
-    double *weights = iccp_alloc(memory, kernel->layout->n_handles, sizeof *weights);
-    measurement m = {kernel, memory, points, qualities};
-    icc_status status = qualities != NULL && weights != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    double *values = iccp_alloc(memory, weights->nodes->n_handles, sizeof *values);
+    measurement m = {weights, memory, points, qualities};
+    icc_status status = qualities != NULL && values != NULL ? ICC_OK : ICC_ERR_MEMORY;
     if (status == ICC_OK)
         status = iccp_for_chunks(env, "check", n, GRAIN, measure_some, &m);
     if (status == ICC_OK) {
         summarise(n, qualities, report);
-        measure_handles(kernel, report, weights);
+        measure_handles(weights, report, values);
     }
     iccp_free(memory, qualities);
-    iccp_free(memory, weights);
+    iccp_free(memory, values);
     return status;
 }

@@ -5,11 +5,11 @@
  *
  * Containment: a sample that stays farther from all walls than the length of a step never crosses
  * one. */
-#include "kernel/blue.h"
+#include "kernel/blue_noise.h"
 
 #include "base/random.h"
 #include "base/threads.h"
-#include "kernel/sieve.h"
+#include "kernel/lattice_filter.h"
 #include "math/vec.h"
 
 #include <math.h>
@@ -56,31 +56,31 @@ static void lattice_point(const void *argument, const size_t *at, double *point)
     iccp_frame_out(&l->shape->frame, (int32_t)dim, local, point);
 }
 
-static icc_status add_lattice(iccp_places *places, const icc_shape *shape, double spacing,
+static icc_status add_lattice(iccp_point_list *list, const icc_shape *shape, double spacing,
                               uint64_t seed, const iccp_env *env)
 {
     static const double pitch[3] = {1, 0.86602540378443865, 0.81649658092772603};
     lattice l = {.shape = shape, .spacing = spacing, .seed = seed};
-    iccp_sieve sieve = {.shape = shape,
-                        .point = lattice_point,
-                        .lattice = &l,
-                        .count = {1, 1, 1},
-                        .clearance = CLEARANCE * spacing,
-                        .margin = -1};
+    iccp_lattice_filter filter = {.shape = shape,
+                                  .point = lattice_point,
+                                  .lattice = &l,
+                                  .count = {1, 1, 1},
+                                  .clearance = CLEARANCE * spacing,
+                                  .margin = -1};
     double all = 1, upper[3];
     iccp_frame_in(&shape->frame, (int32_t)shape->dim, shape->lower, l.lower);
     iccp_frame_in(&shape->frame, (int32_t)shape->dim, shape->upper, upper);
     for (size_t k = 0; k < shape->dim; ++k) {
         const double n = floor((upper[k] - l.lower[k]) / (pitch[k] * spacing)) + 5;
         all *= n;
-        if (all > (double)ICCP_MAX_SIEVED)
+        if (all > (double)ICCP_MAX_LATTICE)
             return ICC_ERR_RESOLUTION;
-        sieve.count[k] = (size_t)n;
+        filter.count[k] = (size_t)n;
     }
-    const size_t first = places->n;
-    const icc_status status = iccp_sieve_add(places, &sieve, env);
-    for (size_t i = first; i < places->n; ++i) {
-        double *x = places->points + shape->dim * i;
+    const size_t first = list->n;
+    const icc_status status = iccp_lattice_filter_add(list, &filter, env);
+    for (size_t i = first; i < list->n; ++i) {
+        double *x = list->points + shape->dim * i;
         iccp_frame_in(&shape->frame, (int32_t)shape->dim, x, x);
     }
     return status;
@@ -207,15 +207,15 @@ static icc_status relax_steps(relaxation *r, int32_t steps, const iccp_env *env)
     return ICC_OK;
 }
 
-static icc_status relax(iccp_places *places, size_t n_held, const icc_shape *shape, double spacing,
-                        int32_t steps, const iccp_env *env)
+static icc_status relax(iccp_point_list *list, size_t n_held, const icc_shape *shape,
+                        double spacing, int32_t steps, const iccp_env *env)
 {
     relaxation r = {.shape = shape,
-                    .dim = places->dim,
-                    .n = places->n,
+                    .dim = list->dim,
+                    .n = list->n,
                     .n_held = n_held,
                     .spacing = spacing,
-                    .points = places->points};
+                    .points = list->points};
     r.next = iccp_alloc(&env->memory, r.n, r.dim * sizeof *r.next);
     r.clearance = iccp_alloc_zero(&env->memory, r.n - n_held, sizeof *r.clearance);
     icc_status status = ICC_ERR_MEMORY;
@@ -226,18 +226,18 @@ static icc_status relax(iccp_places *places, size_t n_held, const icc_shape *sha
     return status;
 }
 
-icc_status iccp_blue_fill(iccp_places *places, const icc_shape *shape, double spacing,
-                          int32_t steps, uint64_t seed, const iccp_env *env)
+icc_status iccp_blue_noise_fill(iccp_point_list *list, const icc_shape *shape, double spacing,
+                                int32_t steps, uint64_t seed, const iccp_env *env)
 {
-    const size_t n_held = places->n;
+    const size_t n_held = list->n;
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){1, 4}, env);
-    icc_status status = add_lattice(places, shape, spacing, seed, &part[0]);
+    icc_status status = add_lattice(list, shape, spacing, seed, &part[0]);
     if (status == ICC_OK)
-        status = iccp_places_thin(places, n_held, 0.5 * TOO_NEAR * spacing, env);
-    if (status == ICC_OK && places->n > n_held)
-        status = relax(places, n_held, shape, spacing, steps, &part[1]);
+        status = iccp_point_list_thin(list, n_held, 0.5 * TOO_NEAR * spacing, env);
+    if (status == ICC_OK && list->n > n_held)
+        status = relax(list, n_held, shape, spacing, steps, &part[1]);
     if (status == ICC_OK)
-        status = iccp_places_thin(places, n_held, TOO_NEAR * spacing, env);
+        status = iccp_point_list_thin(list, n_held, TOO_NEAR * spacing, env);
     return status;
 }

@@ -1,29 +1,30 @@
 /* The points of a lattice that lie in a shape. */
-#ifndef ICCP_SIEVE_H
-#define ICCP_SIEVE_H
+#ifndef ICCP_LATTICE_FILTER_H
+#define ICCP_LATTICE_FILTER_H
 
-#include "kernel/places.h"
+#include "kernel/point_list.h"
 #include "kernel/shape.h"
 
 /* Most points of a lattice that are looked at: 2^27. */
-#define ICCP_MAX_SIEVED ((size_t)1 << 27)
+#define ICCP_MAX_LATTICE ((size_t)1 << 27)
 
 /* Where a point of the lattice is, in the caller's coordinates. */
-typedef void (*iccp_sieve_point)(const void *lattice, const size_t *at, double *point);
+typedef void (*iccp_lattice_point)(const void *lattice, const size_t *at, double *point);
 
-typedef struct iccp_sieve {
+typedef struct iccp_lattice_filter {
     const icc_shape *shape;
     size_t count
-        [3]; /* points along each axis, 1 beyond dim; their product is at most ICCP_MAX_SIEVED */
-    iccp_sieve_point point;
+        [3]; /* points along each axis, 1 beyond dim; their product is at most ICCP_MAX_LATTICE */
+    iccp_lattice_point point;
     const void *lattice;
     double
         clearance; /* inside, points nearer than this to a wall are dropped; outside, those farther
                       from one */
     double margin; /* than this, in local units; 0 keeps what is on a wall */
-} iccp_sieve;
+} iccp_lattice_filter;
 
 /* Adds the points that stay, the first axis fastest. */
-icc_status iccp_sieve_add(iccp_places *places, const iccp_sieve *sieve, const iccp_env *env);
+icc_status iccp_lattice_filter_add(iccp_point_list *list, const iccp_lattice_filter *filter,
+                                   const iccp_env *env);
 
 #endif

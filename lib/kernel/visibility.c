@@ -184,7 +184,7 @@ typedef struct step {
 static bool sees_along_curve(const icc_shape *shape, const iccp_spot *a, const iccp_spot *b)
 {
     enum { MOST_OPEN = 32, MOST_STEPS = 512 };
-    const iccp_web *web = &shape->web;
+    const iccp_segment_graph *graph = &shape->graph;
     step open[MOST_OPEN];
     size_t n = 0;
     if (a->curve == ICCP_NOWHERE || b->curve == ICCP_NOWHERE || a->curve == b->curve)
@@ -192,20 +192,22 @@ static bool sees_along_curve(const icc_shape *shape, const iccp_spot *a, const i
     const double longest = LONGEST_DETOUR * iccp_vec_distance(shape->dim, a->at, b->at);
     for (int i = 0; i < 2; ++i) {
         const uint32_t v = shape->segments[2 * (size_t)a->curve + (size_t)i];
-        open[n++] =
-            (step){a->curve, v, iccp_vec_distance(shape->dim, a->at, iccp_web_vertex(web, v))};
+        open[n++] = (step){
+            a->curve, v, iccp_vec_distance(shape->dim, a->at, iccp_segment_graph_vertex(graph, v))};
     }
     for (int steps = 0; n > 0 && steps < MOST_STEPS; ++steps) {
         const step at = open[--n];
-        const double rest = iccp_vec_distance(shape->dim, b->at, iccp_web_vertex(web, at.vertex));
+        const double rest =
+            iccp_vec_distance(shape->dim, b->at, iccp_segment_graph_vertex(graph, at.vertex));
         if (at.way + rest > longest)
             continue;
-        for (uint32_t i = web->first[at.vertex]; i < web->first[at.vertex + 1]; ++i) {
-            const uint32_t s = web->incident[i], v = iccp_web_other_end(web, s, at.vertex);
+        for (uint32_t i = graph->first[at.vertex]; i < graph->first[at.vertex + 1]; ++i) {
+            const uint32_t s = graph->incident[i],
+                           v = iccp_segment_graph_other_end(graph, s, at.vertex);
             if (s == b->curve)
                 return true;
             if (s != at.segment && n < MOST_OPEN)
-                open[n++] = (step){s, v, at.way + iccp_web_length(web, at.vertex, v)};
+                open[n++] = (step){s, v, at.way + iccp_segment_graph_length(graph, at.vertex, v)};
         }
     }
     return false;

@@ -1,6 +1,6 @@
 /* Where the weights of a kernel are: its nodes, and what follows from their places alone. */
-#ifndef ICCP_LAYOUT_H
-#define ICCP_LAYOUT_H
+#ifndef ICCP_NODE_SET_H
+#define ICCP_NODE_SET_H
 
 #include "kernel/interpolant.h"
 #include "kernel/sampling.h"
@@ -11,7 +11,7 @@
 
 /* What kernels on the same nodes share. Points in local coordinates are those of the shape's
  * frame. */
-typedef struct iccp_layout {
+typedef struct iccp_node_set {
     iccp_memory memory;
     atomic_size_t references;
     icc_sampling *sampling;
@@ -27,21 +27,21 @@ typedef struct iccp_layout {
     iccp_handles *handles;
     iccp_collocation *collocation;
     double *initial; /* n * n_handles, from iccp_weights_create() */
-} iccp_layout;
+} iccp_node_set;
 
 /* Members of `options` that may be 0 have got their defaults. */
-icc_status iccp_layout_create(iccp_layout **out, const icc_sampling *sampling, size_t n_handles,
-                              const double *handles, const icc_weights_options *options,
-                              const iccp_env *env, icc_error *err);
-iccp_layout *iccp_layout_retain(const iccp_layout *layout);
-void iccp_layout_release(iccp_layout *layout);
+icc_status iccp_node_set_create(iccp_node_set **out, const icc_sampling *sampling, size_t n_handles,
+                                const double *handles, const icc_weights_options *options,
+                                const iccp_env *env, icc_error *err);
+iccp_node_set *iccp_node_set_retain(const iccp_node_set *set);
+void iccp_node_set_release(iccp_node_set *set);
 
-iccp_nodes iccp_layout_nodes(const iccp_layout *layout);
+iccp_nodes iccp_node_set_view(const iccp_node_set *set);
 
 /* Local lengths are the caller's times this. */
-double iccp_layout_scale(const iccp_layout *layout);
+double iccp_node_set_scale(const iccp_node_set *set);
 
 /* The line that line k stays parallel to, or NULL. */
-const iccp_line_nodes *iccp_layout_parallel(const iccp_layout *layout, size_t k);
+const iccp_line_nodes *iccp_node_set_parallel(const iccp_node_set *set, size_t k);
 
 #endif

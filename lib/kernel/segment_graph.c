@@ -1,0 +1,45 @@
+#include "kernel/segment_graph.h"
+
+#include "math/vec.h"
+
+#include <math.h>
+
+icc_status iccp_segment_graph_create(iccp_segment_graph *graph, size_t dim, size_t n_vertices,
+                                     const double *vertices, size_t n_segments,
+                                     const uint32_t *segments, const iccp_memory *memory)
+{
+    *graph = (iccp_segment_graph){.memory = *memory,
+                                  .dim = dim,
+                                  .n_vertices = n_vertices,
+                                  .n_segments = n_segments,
+                                  .vertices = vertices,
+                                  .segments = segments};
+    graph->first = iccp_alloc_zero(memory, n_vertices + 1, sizeof *graph->first);
+    graph->incident = iccp_alloc(memory, n_segments, 2 * sizeof *graph->incident);
+    if (graph->first == NULL || graph->incident == NULL) {
+        iccp_segment_graph_free(graph);
+        return ICC_ERR_MEMORY;
+    }
+    for (size_t i = 0; i < 2 * n_segments; ++i)
+        ++graph->first[segments[i]];
+    for (size_t v = 0; v < n_vertices; ++v)
+        graph->first[v + 1] += graph->first[v];
+    for (size_t i = 2 * n_segments; i-- > 0;)
+        graph->incident[--graph->first[segments[i]]] = (uint32_t)(i / 2);
+    return ICC_OK;
+}
+
+void iccp_segment_graph_free(iccp_segment_graph *graph)
+{
+    if (graph->memory.dealloc != NULL) {
+        iccp_free(&graph->memory, graph->first);
+        iccp_free(&graph->memory, graph->incident);
+    }
+    *graph = (iccp_segment_graph){0};
+}
+
+double iccp_segment_graph_length(const iccp_segment_graph *graph, uint32_t a, uint32_t b)
+{
+    return iccp_vec_distance(graph->dim, iccp_segment_graph_vertex(graph, a),
+                             iccp_segment_graph_vertex(graph, b));
+}
