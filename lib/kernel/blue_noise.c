@@ -1,6 +1,6 @@
 /* Inverse mean shift (thesis, section 6.2.1, equation 6.4): every sample is pushed away from those
  * around it, by a Gaussian of their distance. The thesis starts from random points and takes 4,000
- * to 28,000 steps. Points of the densest lattice (hexagonal, face-centred cubic in 3-D), shaken,
+ * to 28,000 steps. Points of the densest lattice (hexagonal, face-centred cubic in 3-D), jittered,
  * are nearly there to begin with: some ten steps will do.
  *
  * Containment: a sample that stays farther from all walls than the length of a step never crosses
@@ -56,6 +56,9 @@ static void lattice_point(const void *argument, const size_t *at, double *point)
     iccp_frame_out(&l->shape->frame, (int32_t)dim, local, point);
 }
 
+/* The start: the densest lattice over the shape's box, jittered, less the points outside or near a
+ * wall. It begins and ends outside the box, as offset rows and jitter move its border.
+ * Filtered points are the caller's, the list is local. */
 static icc_status add_lattice(iccp_point_list *list, const icc_shape *shape, double spacing,
                               uint64_t seed, const iccp_env *env)
 {

@@ -30,6 +30,8 @@ static size_t nearest_sample(const icc_sampling *s, const double *place)
     return nearest;
 }
 
+/* The caller's weights, sample after sample: a node that is a sample takes its row, a node on a
+ * line that of the nearest sample, and handles are set by set_handles(). */
 static void take_given(const iccp_node_set *set, const double *given)
 {
     for (size_t i = set->n_handles; i < set->n; ++i) {
@@ -58,6 +60,8 @@ static void set_handles(const iccp_node_set *set, bool edges)
     }
 }
 
+/* Initial weights of all nodes by the method asked for. Diffusion starts from what set_handles()
+ * holds fixed. */
 static icc_status initialise(iccp_node_set *set, const icc_weights_options *options,
                              const iccp_env *env)
 {
@@ -85,6 +89,8 @@ typedef struct optimisation {
     const iccp_memory *memory;
 } optimisation;
 
+/* Weights of nodes [begin, end) of the list, or of all nodes without one. Each is optimised on its
+ * own, so tasks share nothing but read-only handles. */
 static icc_status optimise_some(void *argument, size_t begin, size_t end)
 {
     const optimisation *o = argument;

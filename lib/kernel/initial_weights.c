@@ -15,6 +15,7 @@
  * side is 10. */
 static const double REACH = 0.1;
 
+/* Of the handles' box. */
 static double longest_side(const iccp_nodes *nodes)
 {
     double longest = 0;
@@ -73,6 +74,9 @@ static icc_status find_spots(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
+/* Shares of the neighbours in the mean of their node. A node sees another or not as in
+ * iccp_spot_sees(), which is not mutual: rows of `share` follow those of the matrix, but are not
+ * symmetric. */
 static icc_status find_shares(void *argument, size_t begin, size_t end)
 {
     const diffusion *d = argument;
@@ -94,6 +98,8 @@ static icc_status find_shares(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
+/* One step for nodes [begin, end): a held node keeps its row, any other takes the mean of its
+ * neighbours' rows of m weights by their shares. */
 static icc_status take_means(void *argument, size_t begin, size_t end)
 {
     const diffusion *d = argument;
@@ -113,6 +119,8 @@ static icc_status take_means(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
+/* Jacobi steps between two arrays of n * n_handles weights, so that the result does not depend on
+ * the order of the tasks. `matrix` shares are found once, as who sees whom does not change. */
 static icc_status run(diffusion *d, int32_t steps, double *weights, double *other,
                       const iccp_env *env)
 {

@@ -133,6 +133,8 @@ static icc_status lower_energy(const iccp_rigid *r, const iccp_handles *handles,
     return ICC_OK;
 }
 
+/* Allocates all arrays of `vectors` by one table of their rows, so that each is there or NULL when
+ * they are freed. */
 static icc_status run(const iccp_rigid *r, const iccp_handles *handles, const bool *held,
                       bool positive, double *weights, double *coefficients, double energy[2],
                       const iccp_env *env)

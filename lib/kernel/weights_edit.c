@@ -1,5 +1,5 @@
-/* Weights made from others at the same nodes: what the thesis' window offers (section 6.3.1), and rigid
- * parts (5.4). */
+/* Weights made from others at the same nodes: what the thesis' window offers (section 6.3.1), and
+ * rigid parts (5.4). */
 #include "kernel/handle_weights.h"
 
 #include "base/error.h"
