@@ -57,6 +57,9 @@ static bool has_faces(const cage *c, problem *wrong)
            spoilt(wrong, 0, "there are no faces; a cage in space is a closed surface");
 }
 
+/* The kind of a cage is told by its first bytes, never by the file's name: standard input has
+ * none. Known formats that cannot be read are named first; plain coordinates, which begin with
+ * anything, come last. */
 static bool read_any(cage *out, cage_role role, size_t dim, const char *text, size_t n,
                      problem *wrong)
 {

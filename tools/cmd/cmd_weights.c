@@ -60,6 +60,8 @@ static int write_rows(const kernel_job *k, size_t n, const double *weights)
     return result;
 }
 
+/* Saves the points with their weights for `libicc pose --binding`. A point that is not finite is
+ * named by its line in the points' file. */
 static int write_binding(kernel_job *k, const table *points)
 {
     const char *name = k->job.args->binding;
@@ -113,6 +115,8 @@ static int report_weights(kernel_job *k, const table *points, size_t n_failed, d
     return report_close(&r) ? DONE : FAILED;
 }
 
+/* Weights of all points, a row of n_handles each, to everything that was asked for: binding,
+ * picture, table, report. */
 static int weigh(kernel_job *k, const table *points)
 {
     const args *a = k->job.args;

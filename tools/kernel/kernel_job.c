@@ -74,6 +74,8 @@ static int read_shape(kernel_job *k)
     return DONE;
 }
 
+/* Spreads samples over the regions of --source and of the handles' file together. Errors name the
+ * file of --source when there is nothing else, otherwise the handles' file. */
 static int make_samples(kernel_job *k)
 {
     const handle_set *set = &k->set;
@@ -106,6 +108,8 @@ static int make_samples(kernel_job *k)
                                                          : failed_set(k, "", &err);
 }
 
+/* Options as on the command line; --thesis takes what the thesis does where that differs from the
+ * library's defaults. */
 static int make_weights(kernel_job *k)
 {
     const handle_set *set = &k->set;
@@ -186,6 +190,8 @@ static int find_rigidity(kernel_job *k, size_t n, const double *nodes, double *r
     return result;
 }
 
+/* Replaces the weights by stiffened ones. `rigidity` is of each of n nodes first, then of the
+ * n_stiff nodes that `stiff` lists. */
 static int stiffen(kernel_job *k)
 {
     icc_weights_info info = {.size = sizeof info};

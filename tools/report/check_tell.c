@@ -131,6 +131,7 @@ const char *check_reason(char text[240], const check *c)
     return text;
 }
 
+/* What was checked and its certificate, with the reason if there is none; a mask alone has none. */
 static void report_certificates(const check *c, json *j)
 {
     char text[REASON_LENGTH];
