@@ -69,7 +69,7 @@ static int write_binding(kernel_job *k, const table *points)
     icc_error err = {.size = sizeof err, .index = -1};
     if (name == NULL)
         return DONE;
-    if (icc_binding_create(&binding, k->kernel, points->n, points->values, 0, &k->job.env, &err) !=
+    if (icc_binding_create(&binding, k->weights, points->n, points->values, 0, &k->job.env, &err) !=
         ICC_OK)
         return failed(k->job.args->points,
                       err.index >= 0 && points->lines != NULL ? points->lines[err.index] : 0, "%s",
@@ -123,7 +123,7 @@ static int weigh(kernel_job *k, const table *points)
     size_t n_failed = 0;
     double *weights = need(points->n, k->set.n_handles * sizeof *weights);
     double began = seconds_now();
-    icc_status status = icc_weights_evaluate(k->kernel, points->n, points->values, weights, NULL,
+    icc_status status = icc_weights_evaluate(k->weights, points->n, points->values, weights, NULL,
                                              NULL, &n_failed, &k->job.env);
     double seconds = seconds_now() - began;
     progress_end(&k->job.bar);

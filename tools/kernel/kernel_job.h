@@ -12,7 +12,7 @@ typedef struct kernel_job {
     handle_set set;
     icc_domain **regions; /* those of the handles' file */
     icc_sampling *sampling;
-    icc_weights *kernel;
+    icc_weights *weights;
     double energy[2]; /* of the rigid parts, before and after */
     double seconds_samples, seconds_weights, seconds_rigid;
 } kernel_job;

@@ -176,8 +176,8 @@ static icc_status fill(const sheet *s, picture *image)
         for (size_t i = 0; i < count; i++)
             locate(s, (double)((begin + i) % image->width) + 0.5,
                    (double)((begin + i) / image->width) + 0.5, points + 2 * i);
-        status = icc_weights_evaluate(s->job->kernel, count, points, weights, gradients, NULL, NULL,
-                                      &s->job->job.env);
+        status = icc_weights_evaluate(s->job->weights, count, points, weights, gradients, NULL,
+                                      NULL, &s->job->job.env);
         for (size_t i = 0; i < count && status == ICC_OK; i++)
             paint(s, image->samples + 3 * (begin + i), weights[m * i + s->handle],
                   gradients + 2 * (m * i + s->handle));
