@@ -59,9 +59,9 @@ static icc_status check_choices(const icc_weights_options *o, icc_error *err)
     if (status == ICC_OK)
         status = check_choice(o->steps, 0, MAX_STEPS, "steps", err);
     if (status == ICC_OK)
-        status = check_choice(o->affine_tail, -1, 1, "tail", err);
+        status = check_choice(o->affine_tail, -1, 1, "affine_tail", err);
     if (status == ICC_OK)
-        status = check_choice(o->within_shape, -1, 1, "visible", err);
+        status = check_choice(o->within_shape, -1, 1, "within_shape", err);
     if (status == ICC_OK)
         status = check_amount(o->sigma, HUGE_VAL, "sigma", err);
     return status == ICC_OK ? check_amount(o->cutoff, MAX_CUTOFF, "cutoff", err) : status;

@@ -41,8 +41,8 @@ icc_status iccp_check_function(const icc_function_options *options, const char *
     if (status == ICC_OK)
         status = check_choice(options->solver, ICC_SOLVER_ITERATIVE, name, "solver", err);
     if (status == ICC_OK)
-        status = check_share(options->min_fall, name, "eta", err);
-    return status == ICC_OK ? check_share(options->leaf_min, name, "leaf", err) : status;
+        status = check_share(options->min_fall, name, "min_fall", err);
+    return status == ICC_OK ? check_share(options->leaf_min, name, "leaf_min", err) : status;
 }
 
 icc_status iccp_read_chart_options(icc_chart_options *full, const icc_chart_options *options,

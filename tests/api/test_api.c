@@ -365,8 +365,8 @@ START_TEST(stages_refuse_bad_arguments)
         {.size = sizeof *bad, .leaf_min = HUGE_VAL}, {.size = sizeof *bad, .leaf_min = NAN},
     };
     static const char *const NAMED[] = {"function", "function", "constraints", "constraints",
-                                        "solver",   "solver",   "eta",         "eta",
-                                        "eta",      "leaf",     "leaf",        "leaf"};
+                                        "solver",   "solver",   "min_fall",    "min_fall",
+                                        "min_fall", "leaf_min", "leaf_min",    "leaf_min"};
     for (size_t k = 0; k < sizeof bad / sizeof *bad; ++k) {
         NOT_MADE(f, icc_function_create(&f, o.tree, &bad[k], NULL, &err));
         ck_assert_ptr_nonnull(strstr(err.message, NAMED[k]));
