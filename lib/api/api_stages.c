@@ -255,7 +255,7 @@ icc_status icc_tree_get_report(const icc_tree *tree, icc_tree_report *report, co
     return iccp_write_struct(report, &full, sizeof full, "icc_tree_report", err);
 }
 
-static icc_status check_wish(const icc_tree *tree, const double *values, icc_error *err)
+static icc_status check_values(const icc_tree *tree, const double *values, icc_error *err)
 {
     for (size_t i = 0; values != NULL && i < tree->n_inside; ++i)
         if (isnan(values[tree->order[i]]))
@@ -271,7 +271,7 @@ icc_status icc_tree_grow(const icc_tree *tree, const double *values, uint32_t *r
     const char *missing = tree == NULL ? "tree" : rank == NULL ? "rank" : NULL;
     icc_status status = begin(&full_env, env, missing, err);
     if (status == ICC_OK)
-        status = check_wish(tree, values, err);
+        status = check_values(tree, values, err);
     if (status != ICC_OK)
         return status;
     icc_grow_report full;

@@ -16,7 +16,8 @@
 #include <string.h>
 
 /* All in spacings; tests/bench/bench_sampling.c shows what comes of them. */
-static const double SHAKE = 0.3; /* points of the lattice are moved by up to this along each axis */
+static const double JITTER =
+    0.3; /* points of the lattice are moved by up to this along each axis */
 static const double CLEARANCE = 0.4; /* how far samples stay from walls */
 static const double SCALE = 0.45; /* s of the Gaussian; the thesis has about 1/3, for small steps */
 static const double REACH = 3;    /* in s: beyond it the push is below 6 % of the largest */
@@ -52,7 +53,7 @@ static void lattice_point(const void *argument, const size_t *at, double *point)
     double local[3];
     (void)iccp_random(&state);
     for (size_t k = 0; k < dim; ++k)
-        local[k] = l->lower[k] + l->spacing * (rest[k] + SHAKE * (2 * unit(&state) - 1));
+        local[k] = l->lower[k] + l->spacing * (rest[k] + JITTER * (2 * unit(&state) - 1));
     iccp_frame_out(&l->shape->frame, (int32_t)dim, local, point);
 }
 

@@ -215,8 +215,8 @@ static void describe(icc_weights *weights, const icc_weights_options *options)
     weights->info.definiteness = iccp_collocation_definiteness(set->collocation);
 }
 
-static icc_status finish(icc_weights **out, iccp_node_set *set, const icc_weights_options *options,
-                         const iccp_env *env)
+static icc_status create_at_nodes(icc_weights **out, iccp_node_set *set,
+                                  const icc_weights_options *options, const iccp_env *env)
 {
     const double start = iccp_seconds();
     iccp_env part[3];
@@ -247,7 +247,7 @@ icc_status iccp_weights_create(icc_weights **out, const icc_sampling *sampling, 
         iccp_node_set_create(&set, sampling, n_handles, handles, options, &part[0], err);
     const double seconds = iccp_seconds() - start;
     if (status == ICC_OK)
-        status = finish(out, set, options, &part[1]);
+        status = create_at_nodes(out, set, options, &part[1]);
     iccp_node_set_release(set);
     if (status == ICC_OK)
         (*out)->info.seconds_factor = seconds;

@@ -121,8 +121,8 @@ static icc_status take_means(void *argument, size_t begin, size_t end)
 
 /* Jacobi steps between two arrays of n * n_handles weights, so that the result does not depend on
  * the order of the tasks. `matrix` shares are found once, as who sees whom does not change. */
-static icc_status run(diffusion *d, int32_t steps, double *weights, double *other,
-                      const iccp_env *env)
+static icc_status take_steps(diffusion *d, int32_t steps, double *weights, double *other,
+                             const iccp_env *env)
 {
     const size_t n = d->nodes->n, m = d->nodes->n_handles;
     icc_status status = ICC_OK;
@@ -157,7 +157,7 @@ icc_status iccp_diffuse(const iccp_nodes *nodes, const iccp_symmetric *matrix, i
         d.spots = iccp_alloc(memory, n, sizeof *d.spots);
     icc_status status = ICC_ERR_MEMORY;
     if (other != NULL && d.share != NULL && d.own != NULL && (!visible || d.spots != NULL))
-        status = run(&d, steps, weights, other, env);
+        status = take_steps(&d, steps, weights, other, env);
     iccp_free(memory, other);
     iccp_free(memory, d.share);
     iccp_free(memory, d.own);

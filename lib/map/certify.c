@@ -141,7 +141,8 @@ static bool is_about_shape(icc_status status)
 }
 
 /* Repairs if asked to and possible, and judges. */
-static icc_status judge(mesh_check *m, bool repaired, const double *vertices, const iccp_env *env)
+static icc_status check_mesh(mesh_check *m, bool repaired, const double *vertices,
+                             const iccp_env *env)
 {
     icc_domain *domain;
     iccp_env part[3];
@@ -185,7 +186,7 @@ icc_status iccp_map_certify(const icc_map *map, size_t n_vertices, const double 
     if (status == ICC_OK)
         status = localise(&m, m.after, images, err);
     if (status == ICC_OK)
-        status = judge(&m, repaired, vertices, &part[1]);
+        status = check_mesh(&m, repaired, vertices, &part[1]);
     iccp_free(&env->memory, m.before);
     iccp_free(&env->memory, m.after);
     return iccp_explain(err, status);

@@ -45,6 +45,6 @@ icc_status iccp_map_begin(icc_map **out, const icc_domain *source, const icc_dom
 void iccp_map_add_charts(icc_map *map, const icc_chart *source, const icc_chart *target);
 
 /* Takes the certificate away from a map that its charts do not warrant: of method field. */
-icc_status iccp_map_judge(icc_map *map, const iccp_env *env);
+icc_status iccp_map_check_digits(icc_map *map, const iccp_env *env);
 
 #endif

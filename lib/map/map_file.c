@@ -132,7 +132,7 @@ static icc_status read_map(icc_map **out, iccp_blob_reader *r, const iccp_env *e
     if (status == ICC_OK && has_mesh)
         status = read_mesh(*out, r, &part[2]);
     if (status == ICC_OK)
-        status = iccp_map_judge(*out, &part[3]);
+        status = iccp_map_check_digits(*out, &part[3]);
     return status == ICC_OK && !iccp_blob_done(r) ? ICC_ERR_FORMAT : status;
 }
 
