@@ -62,6 +62,8 @@ static icc_status localise(mesh_check *m, double *local, const double *points, i
     return ICC_OK;
 }
 
+/* Counts, by exact signs, simplices that keep no positive volume, and remembers the first at
+ * fault. A simplex with a corner without image counts as neither flat nor inverted. */
 static void check_simplices(const mesh_check *m)
 {
     icc_certificate *c = m->result;

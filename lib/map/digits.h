@@ -1,6 +1,6 @@
 /* Whether doubles have digits enough for a map along curves of method field. Each of its charts may
  * be one-to-one and bring every point back to rounding, and the map lose all digits between the
- * two: where one chart tells points apart, to the other they are one. */
+ * two: points that one chart tells apart are one to the other. */
 #ifndef ICCP_DIGITS_H
 #define ICCP_DIGITS_H
 

@@ -8,7 +8,7 @@
 struct icc_map {
     iccp_memory memory;
     icc_domain *source_domain, *target_domain;
-    icc_chart *source, *target; /* both NULL for maps that follow another */
+    icc_chart *source, *target; /* both NULL for a retargeted map */
     iccp_mesh_map *mesh;        /* kind mesh in the plane, or NULL */
     iccp_solid_map *solid;      /* kind mesh in space, or NULL */
     icc_map_info info;
