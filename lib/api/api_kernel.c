@@ -49,6 +49,7 @@ static icc_status check_amount(double value, double most, const char *member, ic
     return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_weights_options.%s is %g", member, value);
 }
 
+/* Options that are wrong whatever the sampling. */
 static icc_status check_choices(const icc_weights_options *o, icc_error *err)
 {
     icc_status status = check_choice(o->kernel, 0, ICC_KERNEL_GAUSS, "kernel", err);

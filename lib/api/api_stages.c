@@ -164,6 +164,7 @@ icc_status icc_grid_find_nearest(const icc_grid *grid, const double *point, uint
 
 /* -------------------------------------------------------------------- tree */
 
+/* A permutation of the dim axes, each seen once; NULL is the given order. */
 static icc_status check_axis_order(const int32_t *order, int32_t dim, icc_error *err)
 {
     if (order == NULL)
@@ -255,6 +256,7 @@ icc_status icc_tree_get_report(const icc_tree *tree, icc_tree_report *report, co
     return iccp_write_struct(report, &full, sizeof full, "icc_tree_report", err);
 }
 
+/* Values of the grid's vertices; only those of the tree count, in its order. */
 static icc_status check_values(const icc_tree *tree, const double *values, icc_error *err)
 {
     for (size_t i = 0; values != NULL && i < tree->n_inside; ++i)
