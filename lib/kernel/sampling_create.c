@@ -56,6 +56,9 @@ static void grid_point(const void *lattice, const size_t *at, double *point)
         point[k] = g->lower[k] + ((double)at[k] - g->border) * g->spacing;
 }
 
+/* The grid has a point at the lower corner of the shape's box, so that samples of one shape at one
+ * spacing agree, and goes beyond the box by whole spacings up to the margin. Unlike those of blue
+ * noise its points are the caller's coordinates from the start. */
 static icc_status spread_grid(iccp_point_list *list, const icc_shape *shape,
                               const icc_sampling_options *options, const iccp_env *env,
                               icc_error *err)

@@ -13,7 +13,7 @@ static void give_up(icc_weights **out)
     *out = NULL;
 }
 
-/* Optimises some nodes of a copy, whose weights have been set to what is wished for. */
+/* Optimises some nodes of a copy, whose weights have been set to those given. */
 static icc_status optimise_changed(icc_weights *copy, const icc_weights *before, size_t n,
                                    const uint32_t *nodes, const iccp_env *env)
 {

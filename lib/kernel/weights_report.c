@@ -1,4 +1,4 @@
-/* Weights at points of the caller's, and how good they are. */
+/* Weights at caller-supplied points, and how good they are. */
 #include "base/threads.h"
 #include "kernel/handle_weights.h"
 
