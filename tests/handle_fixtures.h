@@ -1,4 +1,4 @@
-/* Handles, samplings and weights on a square and a cube that the tests of kernel coordinates share. */
+/* Handles, samplings and weights on a square and a cube, for the tests of kernel coordinates. */
 #ifndef TEST_HANDLE_FIXTURES_H
 #define TEST_HANDLE_FIXTURES_H
 

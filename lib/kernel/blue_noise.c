@@ -1,7 +1,7 @@
 /* Inverse mean shift (thesis, section 6.2.1, equation 6.4): every sample is pushed away from those
  * around it, by a Gaussian of their distance. The thesis starts from random points and takes 4,000
  * to 28,000 steps. Points of the densest lattice (hexagonal, face-centred cubic in 3-D), jittered,
- * are nearly there to begin with: some ten steps will do.
+ * are nearly there to begin with: about ten steps are enough.
  *
  * Containment: a sample that stays farther from all walls than the length of a step never crosses
  * one. */
@@ -15,7 +15,7 @@
 #include <math.h>
 #include <string.h>
 
-/* All in spacings; tests/bench/bench_sampling.c shows what comes of them. */
+/* All in spacings; tests/bench/bench_sampling.c shows their effect. */
 static const double JITTER =
     0.3; /* points of the lattice are moved by up to this along each axis */
 static const double CLEARANCE = 0.4; /* how far samples stay from walls */

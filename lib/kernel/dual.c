@@ -6,7 +6,7 @@
  * nothing can raise.
  *
  * The equations are combined so that their rows are orthonormal over the free components. Then all
- * that is asked is a product with one column, and what the columns span is told apart from
+ * that is asked is a product with one column, and what the columns span stands out from
  * rounding. Everything follows from which components are held and from the force on x[p], and is
  * computed from these anew in every step: nothing accumulates. */
 #include "kernel/dual.h"

@@ -121,8 +121,8 @@ icc_status iccp_weights_optimise(icc_weights *weights, size_t n, const uint32_t 
     return status;
 }
 
-/* Ends of lines that are nobody else's are optimised like any node, the nodes between them
- * never. */
+/* Ends of lines that no handle or earlier line has are optimised like any node, the nodes between
+ * them never. */
 static icc_status optimise_ends(icc_weights *weights, const iccp_env *env)
 {
     const iccp_node_set *set = weights->nodes;

@@ -2,7 +2,7 @@
  * Zurich 2016, equation 4.10), or diffusion (section 4.6). There a step multiplies the weights by K
  * over a constant, and what is far from the mean density of samples grows or fades with every step.
  * Here the rows of the matrix sum to 1, so that a step takes means: weights stay between those that
- * are held, and go on summing to 1 where all of them do. The thesis' kernel also reaches across
+ * are held, and still sum to 1 where all of them do. The thesis' kernel also reaches across
  * gaps; see iccp_spot_sees(). */
 #include "base/threads.h"
 #include "kernel/weights.h"
@@ -120,7 +120,7 @@ static icc_status take_means(void *argument, size_t begin, size_t end)
 }
 
 /* Jacobi steps between two arrays of n * n_handles weights, so that the result does not depend on
- * the order of the tasks. `matrix` shares are found once, as who sees whom does not change. */
+ * the order of the tasks. Shares are found once, since who sees whom does not change. */
 static icc_status take_steps(diffusion *d, int32_t steps, double *weights, double *other,
                              const iccp_env *env)
 {

@@ -1,7 +1,7 @@
 /* Handles come first, then the nodes on lines, then the samples that are not too near to one of
  * those. Distances between nodes decide how well the kernel's matrix is conditioned, so nothing is
- * placed within half the samples' spacing of anything else but ends of lines, which are where the
- * caller wants them. */
+ * placed within half the samples' spacing of anything else, except ends of lines, which stay where
+ * the caller put them. */
 #include "kernel/node_set.h"
 
 #include "base/error.h"
@@ -50,7 +50,7 @@ iccp_nodes iccp_node_set_view(const iccp_node_set *set)
                         set->edge,   set->share};
 }
 
-/* ---- places ---- */
+/* ---- placing nodes ---- */
 
 static void append(iccp_node_set *set, const double *place, uint32_t sample)
 {

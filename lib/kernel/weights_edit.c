@@ -57,7 +57,7 @@ icc_status iccp_weights_paint(icc_weights **out, const icc_weights *weights, siz
     return status;
 }
 
-/* Nodes that are named twice would be worked on by two threads. */
+/* Two threads would work on a node named twice. */
 static icc_status check_nodes(const iccp_node_set *set, size_t n, const uint32_t *nodes,
                               const iccp_env *env, icc_error *err)
 {

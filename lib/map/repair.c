@@ -19,8 +19,8 @@ enum { A_FEW = 10, MANY = 20, FEW = 50 };
  * missing. */
 enum { MOST_GROWTH = 2 };
 
-/* A flipped edge must not make triangles that are flatter than this, as points along one side of the
- * polygon would: their energy would never come down. */
+/* A flipped edge must not make triangles that are flatter than this, as points along one side of
+ * the polygon would: their energy would never come down. */
 static const double LEAST_ROUNDNESS = 1e-4;
 
 /* ---- flipping edges ---- */

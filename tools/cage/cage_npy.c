@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What the header tells. */
+/* What the header says. */
 typedef struct header {
     size_t size; /* bytes of a cell */
     bool fortran;

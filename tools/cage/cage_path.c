@@ -91,7 +91,7 @@ static size_t numbers_of(char command)
     }
 }
 
-/* Draws one step. `previous` tells whether the mirrored handle of S and T counts. */
+/* Draws one step. `previous`: whether the mirrored handle of S and T counts. */
 static void draw(pen *p, char command, char previous, const double *v)
 {
     bool after_cubic = previous == 'C' || previous == 'S';

@@ -1,4 +1,4 @@
-/* libicc mesh: carries the vertices of a mesh along, and tells what became of its triangles or
+/* libicc mesh: carries the vertices of a mesh along, and reports what became of its triangles or
  * tetrahedra. What lies outside the cage stays where it is, or nothing is written. */
 #include "cmd/commands.h"
 
@@ -135,7 +135,7 @@ static int make_and_map(job *j, const mesh_file *m)
     return result == DONE ? map_mesh(j, m) : result;
 }
 
-/* The mesh is read before the map is made, so that a mistake is told at once. */
+/* The mesh is read before the map is made, so that a mistake is reported at once. */
 static int read_and_map(job *j)
 {
     const char *name = j->args->operands[0];

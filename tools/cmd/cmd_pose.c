@@ -169,7 +169,7 @@ static int pose_input(pose *p, const char *text, size_t n)
                                : pose_mesh(p, text, n);
 }
 
-/* What is read is read first, so that a mistake is told at once; as is a result's name that says
+/* Files are read first, so that a mistake is reported at once; as is a result's name that says
  * something else than what it will be. */
 static int pose_shape(pose *p)
 {

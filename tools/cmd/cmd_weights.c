@@ -42,7 +42,7 @@ static int read_points(const kernel_job *k, table *points)
     return rows_read(points, a->points, &form);
 }
 
-/* Along a segment the first column tells how far along it is. */
+/* Along a segment the first column says how far along it is. */
 static int write_rows(const kernel_job *k, size_t n, const double *weights)
 {
     size_t m = k->set.n_handles;

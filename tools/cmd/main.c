@@ -170,7 +170,7 @@ static void print_help(void)
          "Carries everything inside a shape along when its boundary moves.\n\nCommands:");
     for (size_t i = 0; i < N_COMMANDS; i++)
         printf("  %-8s %s\n", commands[i].name, commands[i].summary);
-    puts("\n'libicc help COMMAND' tells about a command; 'libicc --version' prints the version.\n"
+    puts("\n'libicc help COMMAND' describes a command; 'libicc --version' prints the version.\n"
          "Exit codes: 0 done; 1 the input or the computation failed; 2 wrong usage; 4 done, but "
          "some\n"
          "points have no image.\n(Not related to ICC colour profiles.)");

@@ -149,7 +149,7 @@ static int check_inputs(const args *a, const command *c)
     return DONE;
 }
 
-/* What no single option can tell. */
+/* What no single option shows. */
 static int check_together(const args *a, const command *c)
 {
     int result = c->bit & FOR_KERNEL ? check_kernel(a, c) : check_charts(a, c);

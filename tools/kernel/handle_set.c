@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* The first handle tells whether this is the plane or space. */
+/* The first handle decides between the plane and space. */
 static bool read_handles(handle_set *set, const cJSON *list, problem *wrong)
 {
     int n_coordinates = cJSON_GetArraySize(cJSON_GetArrayItem(list, 0));

@@ -17,7 +17,8 @@ typedef struct kernel_job {
     double seconds_samples, seconds_weights, seconds_rigid;
 } kernel_job;
 
-/* As job_start() and so on. Reading comes first, so that a mistake in a file is told at once. */
+/* As job_start() and so on. Reading comes first, so that a mistake in a file is reported at
+ * once. */
 void kernel_job_start(kernel_job *k, const args *a);
 int kernel_job_read(kernel_job *k);
 int kernel_job_make(kernel_job *k);

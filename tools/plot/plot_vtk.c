@@ -1,8 +1,8 @@
 /* libicc plot OUT.vtk: the source in the legacy VTK format, for ParaView.
  *
- * One unstructured grid of four parts, told apart by the cell data `part`: 0 the cells of the grid
- * (methods gradient and field), 1 the tree's edges, 2 the boundary, 3 integral curves. A target
- * makes the point data `displacement`, which ParaView's filter Warp By Vector turns into the
+ * One unstructured grid of four parts, which the cell data `part` tells apart: 0 the cells of the
+ * grid (methods gradient and field), 1 the tree's edges, 2 the boundary, 3 integral curves. A
+ * target makes the point data `displacement`, which ParaView's filter Warp By Vector turns into the
  * target. */
 #include "plot/plot.h"
 
