@@ -100,9 +100,9 @@ static const command commands[] = {
      .bit = FOR_INFO,
      .run = run_info,
      .usage = "--source FILE [--target FILE] [OPTION]...",
-     .summary = "Tells what a chart is made of, and what it misses",
+     .summary = "Reports what a chart is made of and what it misses",
      .details =
-         "With a target it also tells how the map was made, what share of the inside collapses "
+         "With a target it also reports how the map was made, what share of the inside collapses "
          "or inverts,\n"
          "and how much the rest is distorted.\n"},
     {.name = "plot",
@@ -149,11 +149,12 @@ static const command commands[] = {
      .usage = "[--source FILE] --handles FILE --pose FILE [OPTION]... IN OUT",
      .summary = "Moves points, meshes and pictures with their handles",
      .details =
-         "IN is a list of points, a mesh (OBJ, OFF, PLY, Medit, VTK) or a PNG picture, told by its "
-         "content; see\n"
-         "'libicc weights --help' for the handles' file. With --binding FILE there is only OUT: "
-         "the points are\n"
-         "in the binding, and no source and no handles are needed. The pose is JSON, one of\n\n"
+         "IN is a list of points, a mesh (OBJ, OFF, PLY, Medit, VTK) or a PNG picture, recognised "
+         "by its content;\n"
+         "see 'libicc weights --help' for the handles' file. With --binding FILE there is only "
+         "OUT: "
+         "the points\n"
+         "are in the binding, and no source and no handles are needed. The pose is JSON, one of\n\n"
          "  {\"moves\": [{\"handle\": 0, \"move\": [dx, dy], \"turn\": degrees, \"axis\": "
          "[x, y, z],\n"
          "              \"matrix\": [[a, b], [c, d]]}, ..]}       the others stay\n"

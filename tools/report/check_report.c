@@ -123,7 +123,7 @@ const char *check_reason(char text[240], const check *c)
     if (c->charts[0].method == ICC_METHOD_GRADIENT)
         snprintf(text, 240,
                  "%s valid, but the method gradient is not certifiable: its curves merge ('libicc "
-                 "info' tells how much)",
+                 "info' says how much)",
                  pair ? "the cages are" : "the cage is");
     else
         snprintf(text, 240, "%s valid, but %s not certified; see the list",
