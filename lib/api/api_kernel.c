@@ -49,6 +49,7 @@ static icc_status check_amount(double value, double most, const char *member, ic
     return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_weights_options.%s is %g", member, value);
 }
 
+/* Options that are wrong whatever the sampling. */
 static icc_status check_choices(const icc_weights_options *o, icc_error *err)
 {
     icc_status status = check_choice(o->kernel, 0, ICC_KERNEL_GAUSS, "kernel", err);
@@ -59,9 +60,9 @@ static icc_status check_choices(const icc_weights_options *o, icc_error *err)
     if (status == ICC_OK)
         status = check_choice(o->steps, 0, MAX_STEPS, "steps", err);
     if (status == ICC_OK)
-        status = check_choice(o->affine_tail, -1, 1, "tail", err);
+        status = check_choice(o->affine_tail, -1, 1, "affine_tail", err);
     if (status == ICC_OK)
-        status = check_choice(o->within_shape, -1, 1, "visible", err);
+        status = check_choice(o->within_shape, -1, 1, "within_shape", err);
     if (status == ICC_OK)
         status = check_amount(o->sigma, HUGE_VAL, "sigma", err);
     return status == ICC_OK ? check_amount(o->cutoff, MAX_CUTOFF, "cutoff", err) : status;

@@ -155,6 +155,7 @@ icc_status icc_grid_find_nearest(const icc_grid *grid, const double *point, uint
 
 /* -------------------------------------------------------------------- tree */
 
+/* A permutation of the dim axes, each seen once; NULL is the given order. */
 static icc_status check_axis_order(const int32_t *order, int32_t dim, icc_error *err)
 {
     if (order == NULL)
@@ -246,7 +247,8 @@ icc_status icc_tree_get_report(const icc_tree *tree, icc_tree_report *report, co
     return iccp_write_struct(report, &full, sizeof full, "icc_tree_report", err);
 }
 
-static icc_status check_wish(const icc_tree *tree, const double *values, icc_error *err)
+/* Values of the grid's vertices; only those of the tree count, in its order. */
+static icc_status check_values(const icc_tree *tree, const double *values, icc_error *err)
 {
     for (size_t i = 0; values != NULL && i < tree->n_inside; ++i)
         if (isnan(values[tree->order[i]]))
@@ -262,7 +264,7 @@ icc_status icc_tree_grow(const icc_tree *tree, const double *values, uint32_t *r
     const char *missing = tree == NULL ? "tree" : rank == NULL ? "rank" : NULL;
     icc_status status = iccp_begin(&full_env, env, missing, err);
     if (status == ICC_OK)
-        status = check_wish(tree, values, err);
+        status = check_values(tree, values, err);
     if (status != ICC_OK)
         return status;
     icc_grow_report full;

@@ -4,6 +4,8 @@
 #include "base/options.h"
 #include "map/warp.h"
 
+/* Reads a picture of the caller's version and refuses one whose pixels would not fit in memory:
+ * below api/ every pixel of width * height is taken to be there. */
 static icc_status read_picture(icc_picture *full, const icc_picture *given, const char *name,
                                icc_error *err)
 {

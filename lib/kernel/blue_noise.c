@@ -1,7 +1,7 @@
 /* Inverse mean shift (thesis, section 6.2.1, equation 6.4): every sample is pushed away from those
  * around it, by a Gaussian of their distance. The thesis starts from random points and takes 4,000
- * to 28,000 steps. Points of the densest lattice (hexagonal, face-centred cubic in 3-D), shaken,
- * are nearly there to begin with: some ten steps will do.
+ * to 28,000 steps. Points of the densest lattice (hexagonal, face-centred cubic in 3-D), jittered,
+ * are nearly there to begin with: about ten steps are enough.
  *
  * Containment: a sample that stays farther from all walls than the length of a step never crosses
  * one. */
@@ -15,8 +15,9 @@
 #include <math.h>
 #include <string.h>
 
-/* All in spacings; tests/bench/bench_sampling.c shows what comes of them. */
-static const double SHAKE = 0.3; /* points of the lattice are moved by up to this along each axis */
+/* All in spacings; tests/bench/bench_sampling.c shows their effect. */
+static const double JITTER =
+    0.3; /* points of the lattice are moved by up to this along each axis */
 static const double CLEARANCE = 0.4; /* how far samples stay from walls */
 static const double SCALE = 0.45; /* s of the Gaussian; the thesis has about 1/3, for small steps */
 static const double REACH = 3;    /* in s: beyond it the push is below 6 % of the largest */
@@ -52,10 +53,13 @@ static void lattice_point(const void *argument, const size_t *at, double *point)
     double local[3];
     (void)iccp_random(&state);
     for (size_t k = 0; k < dim; ++k)
-        local[k] = l->lower[k] + l->spacing * (rest[k] + SHAKE * (2 * unit(&state) - 1));
+        local[k] = l->lower[k] + l->spacing * (rest[k] + JITTER * (2 * unit(&state) - 1));
     iccp_frame_out(&l->shape->frame, (int32_t)dim, local, point);
 }
 
+/* The start: the densest lattice over the shape's box, jittered, less the points outside or near a
+ * wall. It begins and ends outside the box, as offset rows and jitter move its border.
+ * Filtered points are the caller's, the list is local. */
 static icc_status add_lattice(iccp_point_list *list, const icc_shape *shape, double spacing,
                               uint64_t seed, const iccp_env *env)
 {

@@ -5,7 +5,7 @@
 #include "kernel/point_list.h"
 #include "kernel/shape.h"
 
-/* Adds samples to a list of some that stay where they are. All are in the shape's local
+/* Adds samples to a list, whose points stay where they are. All are in the shape's local
  * coordinates. No sample comes near a wall or leaves its region. ICC_ERR_RESOLUTION if there would
  * be too many to look at. */
 icc_status iccp_blue_noise_fill(iccp_point_list *list, const icc_shape *shape, double spacing,

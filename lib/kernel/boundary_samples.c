@@ -15,7 +15,7 @@ typedef struct sampler {
     double spacing;
     bool *followed; /* of each segment */
     bool *sampled;  /* of each vertex */
-    uint32_t *line; /* the vertices of the line at hand */
+    uint32_t *line; /* the vertices of the current line */
     double *arc;    /* and how far along it they are */
     size_t n_line;
 } sampler;
@@ -91,7 +91,7 @@ static void divide(const sampler *r, size_t i, size_t j, iccp_point_list *list)
     }
 }
 
-/* Stations of the line at hand: its ends, and corners that are not too near them or each other.
+/* Stations of the current line: its ends, and corners that are not too near them or each other.
  * With `between`, the samples between stations, else the stations. */
 static void sample_line(sampler *r, bool between, iccp_point_list *list)
 {

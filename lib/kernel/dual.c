@@ -6,7 +6,7 @@
  * nothing can raise.
  *
  * The equations are combined so that their rows are orthonormal over the free components. Then all
- * that is asked is a product with one column, and what the columns span is told apart from
+ * that is asked is a product with one column, and what the columns span stands out from
  * rounding. Everything follows from which components are held and from the force on x[p], and is
  * computed from these anew in every step: nothing accumulates. */
 #include "kernel/dual.h"
@@ -73,7 +73,7 @@ static void combine(state *s, double *target, size_t r, size_t from, double shar
 }
 
 /* The nearest x that meets the equations with those at 0 that are held. */
-static void settle(state *s)
+static void solve_held(state *s)
 {
     const iccp_nonneg *p = s->problem;
     double target[ICCP_ROWS];
@@ -124,7 +124,7 @@ static bool raise_and_hold(state *s, size_t p)
             return false;
         const bool enough = need <= growth;
         s->held[enough ? p : go] = enough ? 1 : 0;
-        settle(s);
+        solve_held(s);
         if (enough)
             return true;
         push += growth;
@@ -147,7 +147,7 @@ bool iccp_dual_solve(const iccp_nonneg *problem, double *x, double *work)
         size = fmax(size, fabs(x[j]));
     }
     s.steps = MOST_STEPS * m;
-    settle(&s);
+    solve_held(&s);
     for (;;) {
         double least = -ZERO * size;
         size_t p = m;

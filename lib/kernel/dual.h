@@ -12,8 +12,8 @@ enum { ICCP_ROWS = 4 };
  * negative. */
 typedef struct iccp_nonneg {
     size_t m;
-    const double
-        *columns; /* ICCP_ROWS each, of length 1 at most; they span all rows that are not 0 */
+    /* m, ICCP_ROWS numbers each, of length 1 at most; they span all rows that are not 0. */
+    const double *columns;
     double target[ICCP_ROWS];
     double total; /* the sum of all x that meet the equations, or HUGE_VAL where they leave it open:
                      then there must be a solution */

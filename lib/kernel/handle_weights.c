@@ -30,6 +30,8 @@ static size_t nearest_sample(const icc_sampling *s, const double *place)
     return nearest;
 }
 
+/* The caller's weights, sample after sample: a node that is a sample takes its row, a node on a
+ * line that of the nearest sample, and handles are set by set_handles(). */
 static void take_given(const iccp_node_set *set, const double *given)
 {
     for (size_t i = set->n_handles; i < set->n; ++i) {
@@ -58,6 +60,8 @@ static void set_handles(const iccp_node_set *set, bool edges)
     }
 }
 
+/* Initial weights of all nodes by the method asked for. Diffusion starts from what set_handles()
+ * holds fixed. */
 static icc_status initialise(iccp_node_set *set, const icc_weights_options *options,
                              const iccp_env *env)
 {
@@ -85,6 +89,8 @@ typedef struct optimisation {
     const iccp_memory *memory;
 } optimisation;
 
+/* Weights of nodes [begin, end) of the list, or of all nodes without one. Each is optimised on its
+ * own, so tasks share nothing but read-only handles. */
 static icc_status optimise_some(void *argument, size_t begin, size_t end)
 {
     const optimisation *o = argument;
@@ -115,8 +121,8 @@ icc_status iccp_weights_optimise(icc_weights *weights, size_t n, const uint32_t 
     return status;
 }
 
-/* Ends of lines that are nobody else's are optimised like any node, the nodes between them
- * never. */
+/* Ends of lines that no handle or earlier line has are optimised like any node, the nodes between
+ * them never. */
 static icc_status optimise_ends(icc_weights *weights, const iccp_env *env)
 {
     const iccp_node_set *set = weights->nodes;
@@ -209,8 +215,8 @@ static void describe(icc_weights *weights, const icc_weights_options *options)
     weights->info.definiteness = iccp_collocation_definiteness(set->collocation);
 }
 
-static icc_status finish(icc_weights **out, iccp_node_set *set, const icc_weights_options *options,
-                         const iccp_env *env)
+static icc_status create_at_nodes(icc_weights **out, iccp_node_set *set,
+                                  const icc_weights_options *options, const iccp_env *env)
 {
     const double start = iccp_seconds();
     iccp_env part[3];
@@ -241,7 +247,7 @@ icc_status iccp_weights_create(icc_weights **out, const icc_sampling *sampling, 
         iccp_node_set_create(&set, sampling, n_handles, handles, options, &part[0], err);
     const double seconds = iccp_seconds() - start;
     if (status == ICC_OK)
-        status = finish(out, set, options, &part[1]);
+        status = create_at_nodes(out, set, options, &part[1]);
     iccp_node_set_release(set);
     if (status == ICC_OK)
         (*out)->info.seconds_factor = seconds;

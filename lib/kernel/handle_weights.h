@@ -10,7 +10,7 @@ struct icc_weights {
     iccp_node_set *nodes;
     double *values;        /* n * n_handles */
     icc_status *status;    /* of each node */
-    double *coefficients;  /* of the interpolant */
+    double *coefficients;  /* of the interpolant: n + dim + 1 rows of n_handles */
     icc_weights_info info; /* but for `size` */
 };
 

@@ -2,9 +2,11 @@
  *
  * Weights w of a point x reproduce it and sum to 1 when A w = (1, x), where the columns of A are
  * the handles. The rows of A are replaced by orthonormal ones, Q, that span the same: A = L Q, and
- * the equations are Q w = L^-1 (1, x). So the nearest w that meets them, (4.4) to (4.6), is w0
- * + Q'(L^-1 (1, x) - Q w0), and whatever the handles' place and size, numbers in the iterative
- *   methods are of size 1. */
+ * the equations are Q w = L^-1 (1, x). So the nearest w that meets them, (4.4) to (4.6), is
+ *
+ *     w0 + Q'(L^-1 (1, x) - Q w0),
+ *
+ * and numbers in the iterative methods are of size 1 wherever the handles are. */
 #include "base/error.h"
 #include "kernel/l1.h"
 #include "kernel/weights.h"

@@ -2,7 +2,7 @@
  * Zurich 2016, equation 4.10), or diffusion (section 4.6). There a step multiplies the weights by K
  * over a constant, and what is far from the mean density of samples grows or fades with every step.
  * Here the rows of the matrix sum to 1, so that a step takes means: weights stay between those that
- * are held, and go on summing to 1 where all of them do. The thesis' kernel also reaches across
+ * are held, and still sum to 1 where all of them do. The thesis' kernel also reaches across
  * gaps; see iccp_spot_sees(). */
 #include "base/threads.h"
 #include "kernel/weights.h"
@@ -15,6 +15,7 @@
  * side is 10. */
 static const double REACH = 0.1;
 
+/* Of the handles' box. */
 static double longest_side(const iccp_nodes *nodes)
 {
     double longest = 0;
@@ -73,6 +74,9 @@ static icc_status find_spots(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
+/* Shares of the neighbours in the mean of their node. A node sees another or not as in
+ * iccp_spot_sees(), which is not mutual: rows of `share` follow those of the matrix, but are not
+ * symmetric. */
 static icc_status find_shares(void *argument, size_t begin, size_t end)
 {
     const diffusion *d = argument;
@@ -94,6 +98,8 @@ static icc_status find_shares(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
+/* One step for nodes [begin, end): a held node keeps its row, any other takes the mean of its
+ * neighbours' rows of m weights by their shares. */
 static icc_status take_means(void *argument, size_t begin, size_t end)
 {
     const diffusion *d = argument;
@@ -113,8 +119,10 @@ static icc_status take_means(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
-static icc_status run(diffusion *d, int32_t steps, double *weights, double *other,
-                      const iccp_env *env)
+/* Jacobi steps between two arrays of n * n_handles weights, so that the result does not depend on
+ * the order of the tasks. Shares are found once, since who sees whom does not change. */
+static icc_status take_steps(diffusion *d, int32_t steps, double *weights, double *other,
+                             const iccp_env *env)
 {
     const size_t n = d->nodes->n, m = d->nodes->n_handles;
     icc_status status = ICC_OK;
@@ -149,7 +157,7 @@ icc_status iccp_diffuse(const iccp_nodes *nodes, const iccp_symmetric *matrix, i
         d.spots = iccp_alloc(memory, n, sizeof *d.spots);
     icc_status status = ICC_ERR_MEMORY;
     if (other != NULL && d.share != NULL && d.own != NULL && (!visible || d.spots != NULL))
-        status = run(&d, steps, weights, other, env);
+        status = take_steps(&d, steps, weights, other, env);
     iccp_free(memory, other);
     iccp_free(memory, d.share);
     iccp_free(memory, d.own);

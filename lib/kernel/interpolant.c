@@ -46,6 +46,8 @@ static double tail_entry(const iccp_collocation *c, size_t i, size_t k)
     return k == 0 ? 1 : c->points[c->dim * i + k - 1];
 }
 
+/* Cholesky's factorisation of P'Z, (dim + 1) by (dim + 1), in place. False when a pivot is
+ * rounding: then the columns of P are dependent at the nodes. */
 static bool factorise_schur(iccp_collocation *c)
 {
     const size_t q = c->n_tail;
@@ -88,6 +90,7 @@ static void solve_schur(const iccp_collocation *c, double *x)
     }
 }
 
+/* Z = K^-1 P and the factor of P'Z: once for all weights on these nodes. */
 static icc_status prepare_tail(iccp_collocation *c, const iccp_env *env, icc_error *err)
 {
     const size_t q = c->n_tail = c->dim + 1;
@@ -110,6 +113,8 @@ static icc_status prepare_tail(iccp_collocation *c, const iccp_env *env, icc_err
 
 /* ---- creation ---- */
 
+/* The ratio of the least pivot to the greatest is kept as the measure of definiteness. Wendland's
+ * function is positive definite at any width: what fails then is precision. */
 static icc_status factorise(iccp_collocation *c, const iccp_env *env, icc_error *err)
 {
     icc_status status = iccp_ldlt_analyse(&c->factor, &c->kernel.matrix, 1, env);
@@ -247,6 +252,8 @@ static void split_affine(const iccp_collocation *c, size_t n_sides, double *b, d
             tail[n_sides * k + r] = t[r][k];
 }
 
+/* Solves for the columns sides[begin] up to sides[end], n values each. They are gathered into rows
+ * of `width` first, so that the factor is read once for all of them. */
 static icc_status solve_sides(void *argument, size_t begin, size_t end)
 {
     const solution *s = argument;

@@ -68,6 +68,8 @@ static size_t scan_run(const assembly *a, size_t i, size_t begin, size_t end, si
     return n;
 }
 
+/* The entries of row i, written behind `at` unless only counted. Cells that follow each other
+ * along the first axis are one run of points. */
 static size_t scan_row(const assembly *a, size_t i, size_t at)
 {
     const iccp_cells *cells = a->cells;
@@ -102,6 +104,8 @@ static icc_status fill_rows(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
+/* Two passes over the cells: the first counts the entries of each row, so that rows have their
+ * place and too many are refused before there is memory for them; the second writes them. */
 static icc_status fill(assembly *a, const iccp_env *env, icc_error *err)
 {
     iccp_kernel_matrix *out = a->out;

@@ -1,4 +1,4 @@
-/* Neighbours along a row mostly have the same region, and the distance from the walls tells so
+/* Neighbours along a row mostly have the same region, and the distance from the walls proves so
  * without looking. */
 #include "kernel/lattice_filter.h"
 

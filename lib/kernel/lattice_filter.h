@@ -13,14 +13,13 @@ typedef void (*iccp_lattice_point)(const void *lattice, const size_t *at, double
 
 typedef struct iccp_lattice_filter {
     const icc_shape *shape;
-    size_t count
-        [3]; /* points along each axis, 1 beyond dim; their product is at most ICCP_MAX_LATTICE */
+    /* Points along each axis, 1 beyond dim; their product is at most ICCP_MAX_LATTICE. */
+    size_t count[3];
     iccp_lattice_point point;
     const void *lattice;
-    double
-        clearance; /* inside, points nearer than this to a wall are dropped; outside, those farther
-                      from one */
-    double margin; /* than this, in local units; 0 keeps what is on a wall */
+    /* Inside, points nearer than `clearance` to a wall are dropped; outside, those farther than
+     * `margin` from one. In local units; a margin of 0 keeps what is on a wall. */
+    double clearance, margin;
 } iccp_lattice_filter;
 
 /* Adds the points that stay, the first axis fastest. */

@@ -1,7 +1,7 @@
 /* Handles come first, then the nodes on lines, then the samples that are not too near to one of
  * those. Distances between nodes decide how well the kernel's matrix is conditioned, so nothing is
- * placed within half the samples' spacing of anything else but ends of lines, which are where the
- * caller wants them. */
+ * placed within half the samples' spacing of anything else, except ends of lines, which stay where
+ * the caller put them. */
 #include "kernel/node_set.h"
 
 #include "base/error.h"
@@ -50,7 +50,7 @@ iccp_nodes iccp_node_set_view(const iccp_node_set *set)
                         set->edge,   set->share};
 }
 
-/* ---- places ---- */
+/* ---- placing nodes ---- */
 
 static void append(iccp_node_set *set, const double *place, uint32_t sample)
 {
@@ -71,6 +71,7 @@ static size_t count_near(const iccp_node_set *set, const iccp_cells *cells, cons
     return iccp_cells_near(cells, local, radius, 1, node);
 }
 
+/* Nodes 0 to n - 1. Handles at one place would make two equal rows of the matrix. */
 static icc_status place_handles(iccp_node_set *set, size_t n, const double *handles, icc_error *err)
 {
     const double same = SAME * set->sampling->info.spacing;
@@ -105,6 +106,8 @@ static size_t place_end(iccp_node_set *set, const iccp_cells *before, const doub
     return set->n - 1;
 }
 
+/* What is wrong with line k of the caller's n_lines. Parallel lines must be so before the weights
+ * are made: 5.11 transfers the change per length of one line to the other by direction. */
 static icc_status check_line(const iccp_node_set *set, size_t k, const icc_line *lines,
                              icc_error *err)
 {
@@ -135,6 +138,7 @@ static icc_status check_line(const iccp_node_set *set, size_t k, const icc_line 
                         k, (long)line->parallel - 1, off);
 }
 
+/* Nodes between the ends of a line, but for those too near to a node in `before`. */
 static void place_between(iccp_node_set *set, const iccp_cells *before, const icc_line *line,
                           size_t pieces)
 {
@@ -155,6 +159,9 @@ static double pieces_of(const iccp_node_set *set, const icc_line *line)
     return ceil(distance(set->dim, line->from, line->to) / set->sampling->info.spacing - SAME);
 }
 
+/* Adds the nodes of line k: its ends, shared with a handle or an earlier line where they coincide,
+ * and one for each spacing between them. `before` sorts the nodes of handles and earlier lines,
+ * which prevail. */
 static icc_status place_line(iccp_node_set *set, size_t k, const icc_line *lines,
                              const iccp_env *env, icc_error *err)
 {
@@ -292,6 +299,8 @@ static icc_status connect(iccp_node_set *set, const icc_weights_options *options
     return status;
 }
 
+/* Fills in a set that is all zero but for its sampling. The factorisation comes last, since it
+ * takes most of the time and everything else can be refused before. */
 static icc_status create(iccp_node_set *set, size_t n_handles, const double *handles,
                          const icc_weights_options *options, const iccp_env *env, icc_error *err)
 {

@@ -1,4 +1,4 @@
-/* Where the weights of a kernel are: its nodes, and what follows from their places alone. */
+/* Where weights are kept: the nodes, and what follows from their places alone. */
 #ifndef ICCP_NODE_SET_H
 #define ICCP_NODE_SET_H
 
@@ -9,21 +9,23 @@
 
 #define ICCP_NO_EDGE UINT32_MAX
 
-/* What kernels on the same nodes share. Points in local coordinates are those of the shape's
+/* What weights at the same nodes share. Nodes 0 to n_handles - 1 are the handles, then come
+ * n_line_nodes on lines, then samples. Points in local coordinates are those of the shape's
  * frame. */
 typedef struct iccp_node_set {
     iccp_memory memory;
     atomic_size_t references;
     icc_sampling *sampling;
     size_t dim, n, n_handles, n_edges, n_lines, n_line_nodes;
-    double *points, *given; /* local and the caller's */
-    uint32_t *sample;       /* of each node; UINT32_MAX for handles and nodes on lines */
-    uint32_t *edge;         /* see iccp_nodes */
-    double *share;
-    bool *held;      /* handles, nodes on lines, nodes on edges if those are held */
+    double *points, *given; /* n * dim: local, and in the caller's coordinates */
+    uint32_t *sample;       /* of each node: its index in the sampling, UINT32_MAX for handles and
+                               nodes on lines */
+    uint32_t *edge;         /* of each node: see iccp_nodes */
+    double *share;          /* the same */
+    bool *held;      /* of each node: handles, nodes on lines, nodes on edges if those are held */
     uint32_t *edges; /* n_edges * 2 handles */
-    iccp_line_nodes *lines;
-    int32_t *parallel; /* of each line, see icc_line */
+    iccp_line_nodes *lines; /* n_lines, in the caller's order */
+    int32_t *parallel;      /* of each line, see icc_line */
     iccp_handles *handles;
     iccp_collocation *collocation;
     double *initial; /* n * n_handles, from iccp_weights_create() */
@@ -36,6 +38,7 @@ icc_status iccp_node_set_create(iccp_node_set **out, const icc_sampling *samplin
 iccp_node_set *iccp_node_set_retain(const iccp_node_set *set);
 void iccp_node_set_release(iccp_node_set *set);
 
+/* The set as the functions of weights.h take it; borrowed. */
 iccp_nodes iccp_node_set_view(const iccp_node_set *set);
 
 /* Local lengths are the caller's times this. */

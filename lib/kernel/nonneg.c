@@ -128,6 +128,9 @@ static bool separates(const iccp_nonneg *p, const double *step, double tolerance
 
 typedef enum outcome { SOLVED, UNSOLVED, UNSOLVABLE } outcome;
 
+/* Newton's method on the dual of one point, from y = 0; x, of m components, is the start and, if
+ * SOLVED, the solution. With slope > 0 negative components are allowed at 1 / slope times the
+ * cost. A step along which the dual function falls without end shows that there is no solution. */
 static outcome iterate(const iccp_nonneg *p, double slope, size_t steps, double *x)
 {
     state s = {.y = {0}};

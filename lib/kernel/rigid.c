@@ -133,9 +133,11 @@ static icc_status lower_energy(const iccp_rigid *r, const iccp_handles *handles,
     return ICC_OK;
 }
 
-static icc_status run(const iccp_rigid *r, const iccp_handles *handles, const bool *held,
-                      bool positive, double *weights, double *coefficients, double energy[2],
-                      const iccp_env *env)
+/* Allocates all arrays of `vectors` by one table of their rows, so that each is there or NULL when
+ * they are freed. */
+static icc_status lower_with_room(const iccp_rigid *r, const iccp_handles *handles,
+                                  const bool *held, bool positive, double *weights,
+                                  double *coefficients, double energy[2], const iccp_env *env)
 {
     const size_t n = r->nodes->n, m = r->nodes->n_handles, dim = r->nodes->dim, size = r->matrix.n;
     const size_t scratch = iccp_optimise_work(handles) / m + 1;
@@ -168,7 +170,7 @@ icc_status iccp_stiffen(const iccp_nodes *nodes, const iccp_handles *handles,
         status = iccp_rigid_create(&r, nodes, collocation, n_part, part, rigidity, held, env);
     if (status != ICC_OK)
         return status;
-    status = run(&r, handles, held, positive, weights, coefficients, energy, env);
+    status = lower_with_room(&r, handles, held, positive, weights, coefficients, energy, env);
     iccp_rigid_free(&r);
     return status;
 }

@@ -25,6 +25,8 @@ static size_t count_entries(const iccp_rigid *r, size_t node)
     return n;
 }
 
+/* The area: the part first, in the caller's order, then the other nodes within the kernel's reach
+ * of it. Held nodes that some node of the area reaches become equations. */
 static void find_area(iccp_rigid *r, const uint32_t *part, const bool *held)
 {
     for (size_t i = 0; i < r->nodes->n; ++i)
@@ -58,6 +60,9 @@ static void set_weights(iccp_rigid *r, const double *rigidity)
     }
 }
 
+/* The derivatives of the area's kernels at the area's nodes: row dim * a + axis for node a of the
+ * area, columns for coefficients in the order of the area. A kernel's own slope at its node is 0
+ * and has no entry. */
 static void fill_slopes(iccp_rigid *r)
 {
     const size_t dim = r->nodes->dim;
@@ -137,6 +142,8 @@ static void add_equation(iccp_rigid *r, size_t h, size_t *end)
     }
 }
 
+/* Rows of the energy have the sign + and those of held values -, by which the factorisation shifts
+ * the diagonal. `end`: of each row, n + n_held of them. */
 static void fill_system(iccp_rigid *r, size_t *end)
 {
     const iccp_symmetric *g = &r->gram.matrix;
@@ -154,6 +161,9 @@ static void fill_system(iccp_rigid *r, size_t *end)
         add_equation(r, h, end);
 }
 
+/* Allocates and fills in the system, n unknowns and then n_held equations, and
+ * orders it. `end` counts the entries of each row first and marks their end while they are filled
+ * in. */
 static icc_status create_system(iccp_rigid *r, const iccp_env *env)
 {
     const size_t n = r->n + r->n_held;

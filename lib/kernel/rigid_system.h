@@ -14,10 +14,10 @@ typedef struct iccp_rigid {
     const iccp_collocation *collocation;
     const iccp_symmetric *kernel; /* the values between all nodes */
     size_t n_part, n, n_held;
-    uint32_t *area;     /* nodes: the part, then those that it reaches */
+    uint32_t *area;     /* n nodes: the part, then those that it reaches */
     uint32_t *number;   /* of each node: its place in the area, or UINT32_MAX */
-    uint32_t *held;     /* nodes that are, with a node of the area in reach */
-    double *weight;     /* of each derivative */
+    uint32_t *held;     /* n_held nodes: those held, with a node of the area in reach */
+    double *weight;     /* of each derivative: row dim * a + axis for node a of the area */
     iccp_sparse slopes; /* from coefficients to derivatives: dim rows a node of the area */
     iccp_gram gram;     /* the matrix of 5.16 */
     double scale;       /* its greatest diagonal entry; the system is divided by it */

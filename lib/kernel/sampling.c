@@ -149,8 +149,9 @@ static icc_status measure(const survey *s, icc_sampling_info *info, const iccp_e
     return status;
 }
 
-static icc_status make(icc_sampling **out, const icc_shape *shape, const icc_sampling_info *info,
-                       const double *points, const iccp_env *env)
+static icc_status copy_samples(icc_sampling **out, const icc_shape *shape,
+                               const icc_sampling_info *info, const double *points,
+                               const iccp_env *env)
 {
     icc_sampling *s = iccp_alloc_zero(&env->memory, 1, sizeof *s);
     if (s == NULL)
@@ -187,7 +188,7 @@ icc_status iccp_sampling_finish(icc_sampling **out, const icc_shape *shape, size
     if (status == ICC_OK)
         status = iccp_explain(err, measure(&s, &full, &part[1]));
     if (status == ICC_OK)
-        status = iccp_explain(err, make(out, shape, &full, points, env));
+        status = iccp_explain(err, copy_samples(out, shape, &full, points, env));
     survey_free(&s, &env->memory);
     return status;
 }

@@ -8,9 +8,9 @@ struct icc_sampling {
     iccp_memory memory;
     atomic_size_t references;
     icc_shape *shape;
-    double
-        *points; /* dim each, the caller's coordinates: edge samples first, but for a grid and the
-                    caller's own points, which keep their order */
+    /* n_samples * dim, the caller's coordinates: edge samples first, but for a grid and
+     * caller-supplied points, which keep their order. */
+    double *points;
     icc_sampling_info info; /* but for `size` */
 };
 

@@ -56,6 +56,9 @@ static void grid_point(const void *lattice, const size_t *at, double *point)
         point[k] = g->lower[k] + ((double)at[k] - g->border) * g->spacing;
 }
 
+/* The grid has a point at the lower corner of the shape's box, so that samples of one shape at one
+ * spacing agree, and goes beyond the box by whole spacings up to the margin. Unlike those of blue
+ * noise its points are the caller's coordinates from the start. */
 static icc_status spread_grid(iccp_point_list *list, const icc_shape *shape,
                               const icc_sampling_options *options, const iccp_env *env,
                               icc_error *err)
@@ -127,6 +130,8 @@ static bool on_edge(const iccp_spot *spot)
     return spot->wall != ICCP_NOWHERE || spot->curve != ICCP_NOWHERE;
 }
 
+/* Fixed points must lie in the shape and differ: two samples at one place would make the kernel's
+ * matrix singular. */
 static icc_status check_fixed(const icc_shape *shape, const icc_sampling_options *options,
                               const iccp_env *env, icc_error *err)
 {
@@ -210,6 +215,8 @@ static icc_status add_held(iccp_point_list *list, const icc_shape *shape,
     return status == ICC_OK && list->failed ? ICC_ERR_MEMORY : status;
 }
 
+/* Refuses what cannot be done before anything large is allocated, then places held samples and
+ * relaxes the rest among them. The list is local until the end. */
 static icc_status spread_blue(iccp_point_list *list, const icc_shape *shape,
                               const icc_sampling_options *options, const iccp_env *env,
                               icc_error *err)

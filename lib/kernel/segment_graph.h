@@ -16,7 +16,7 @@ typedef struct iccp_segment_graph {
 icc_status iccp_segment_graph_create(iccp_segment_graph *graph, size_t dim, size_t n_vertices,
                                      const double *vertices, size_t n_segments,
                                      const uint32_t *segments, const iccp_memory *memory);
-/* Accepts a web that is all zero. */
+/* Accepts a graph that is all zero. */
 void iccp_segment_graph_free(iccp_segment_graph *graph);
 
 static inline const double *iccp_segment_graph_vertex(const iccp_segment_graph *graph, uint32_t v)

@@ -16,6 +16,8 @@ static const double WALL_TOLERANCE = 1e-14;
  * numbers. */
 static const double ROUNDING = 4 * DBL_EPSILON;
 
+/* What the types do not rule out: n_vertices * dim coordinates are finite, n_segments * 2 indices
+ * exist, and no segment is a point, which has no direction to follow. */
 static icc_status check_curves(size_t dim, size_t n_vertices, const double *vertices,
                                size_t n_segments, const uint32_t *segments, icc_error *err)
 {

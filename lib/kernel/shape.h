@@ -13,15 +13,16 @@ struct icc_shape {
     iccp_memory memory;
     atomic_size_t references;
     size_t dim, n_regions, n_vertices, n_segments;
-    icc_domain **regions;
-    double *vertices; /* of the curves */
-    uint32_t *segments;
+    icc_domain **regions;      /* n_regions, retained */
+    double *vertices;          /* of the curves: n_vertices * dim, the caller's coordinates */
+    uint32_t *segments;        /* n_segments * 2 of these vertices */
     double lower[3], upper[3]; /* box around everything */
     iccp_frame frame; /* of everything together: what follows is in its local coordinates */
     double tolerance; /* points this close to a wall are on it */
     size_t n_walled;  /* vertices of walls */
     double *local;    /* vertices of all walls, region after region, then those of the curves */
-    uint32_t *facets, *owner;      /* all walls, and the region of each */
+    uint32_t *facets, *owner;      /* walls: dim of the local vertices each; and the region of
+                                      each */
     uint32_t *sticks;              /* the segments, as facets (3-D: with the second end twice) */
     iccp_facet_tree walls, curves; /* empty (n == 0) without */
     iccp_segment_graph graph;      /* of the segments */

@@ -1,4 +1,4 @@
-/* The width of a kernel that suits samples. */
+/* The width of the kernel that suits a set of samples. */
 #ifndef ICCP_SPECTRUM_H
 #define ICCP_SPECTRUM_H
 

@@ -1,7 +1,7 @@
 /* Lines that stay straight: Sakaridis, Kernel Coordinates (ETH Zurich 2016), section 5.3. Weights
- * that are linear along a line keep it straight under translations of the handles (5.3.1). Two lines
- * stay parallel when their weights change by the same vector per length (5.3.2). Both kinds of
- * weights sum to 1 and reproduce their points when those of the ends do.
+ * that are linear along a line keep it straight under translations of the handles (5.3.1). Two
+ * lines stay parallel when their weights change by the same vector per length (5.3.2). Both kinds
+ * of weights sum to 1 and reproduce their points when those of the ends do.
  *
  * Nodes beside a line follow it, which section 5.3.3 asks for without saying how. Weights on a line
  * are not those that would have been optimised there. This change keeps sums and reproduction, so
@@ -132,6 +132,8 @@ static void add_change(const change *c, double share, double strength, double *w
         weights[j] += strength * row[j];
 }
 
+/* Changes every free sample within reach of the line by a share that falls smoothly from 1 on it
+ * to 0 at the reach. Nodes on lines come before samples and keep theirs. */
 static void bend(icc_weights *weights, const change *c, double *row)
 {
     const iccp_node_set *set = c->nodes;

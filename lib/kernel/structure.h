@@ -18,9 +18,10 @@ typedef struct iccp_line_nodes {
 void iccp_straighten(const iccp_nodes *nodes, const iccp_line_nodes *line,
                      const iccp_line_nodes *parallel, double *weights);
 
-/* See icc_weights_stiffen(). held[i] for nodes that keep their weights; `positive`: no weight
- * becomes negative where none was; `rigidity` NULL: all 1. Changes the weights of the nodes and the
- * coefficients that belong to them. `energy` is in local coordinates. */
+/* See icc_weights_stiffen(). held[i] for nodes i that keep their weights; `part`: n_part nodes,
+ * with the rigidity of each; `positive`: no weight becomes negative where none was; `rigidity`
+ * NULL: all 1. Changes the weights of the nodes and the coefficients that belong to them. `energy`
+ * is in local coordinates. */
 icc_status iccp_stiffen(const iccp_nodes *nodes, const iccp_handles *handles,
                         const iccp_collocation *collocation, size_t n_part, const uint32_t *part,
                         const double *rigidity, const bool *held, bool positive, double *weights,

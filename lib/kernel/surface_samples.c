@@ -81,6 +81,8 @@ icc_status iccp_creases_sample(iccp_point_list *list, const icc_shape *shape, do
     return status;
 }
 
+/* A point on face f of the walls, equally likely everywhere: of two numbers in the unit square
+ * those beyond the diagonal are reflected into the triangle. */
 static void add_random(iccp_point_list *list, const icc_shape *shape, uint32_t f, uint64_t *state)
 {
     const double *c[3];

@@ -85,7 +85,7 @@ bool iccp_shape_holds(const icc_shape *shape, const double *point)
     return spot.region != ICCP_NOWHERE || spot.curve != ICCP_NOWHERE;
 }
 
-/* ------------------------------------------------------------------- sight */
+/* -------------------------------------------------------------- visibility */
 
 static bool stands_on(const icc_shape *shape, const iccp_spot *spot, uint32_t wall)
 {
@@ -127,6 +127,7 @@ static bool passes(const icc_shape *shape, const iccp_spot *a, const iccp_spot *
            in_plane(shape, b, wall);
 }
 
+/* Whether a wall crosses the segment between two spots, other than those that passes() excuses. */
 static bool blocked(const icc_shape *shape, const iccp_spot *a, const iccp_spot *b)
 {
     const size_t dim = shape->dim;
@@ -161,6 +162,8 @@ static uint32_t region_between(const icc_shape *shape, const iccp_spot *a, const
     return iccp_shape_region(shape, point);
 }
 
+/* The cheap certainties come first: most pairs of neighbours are in one ball that no wall reaches.
+ */
 static bool sees_through_region(const icc_shape *shape, const iccp_spot *a, const iccp_spot *b)
 {
     if (a->region == ICCP_NOWHERE && a->curve != ICCP_NOWHERE)

@@ -1,5 +1,5 @@
-/* Weights made from others at the same nodes: what the thesis' window offers (section 6.3.1), and rigid
- * parts (5.4). */
+/* Weights made from others at the same nodes: what the thesis' window offers (section 6.3.1), and
+ * rigid parts (5.4). */
 #include "kernel/handle_weights.h"
 
 #include "base/error.h"
@@ -13,7 +13,7 @@ static void give_up(icc_weights **out)
     *out = NULL;
 }
 
-/* Optimises some nodes of a copy, whose weights have been set to what is wished for. */
+/* Optimises some nodes of a copy, whose weights have been set to those given. */
 static icc_status optimise_changed(icc_weights *copy, const icc_weights *before, size_t n,
                                    const uint32_t *nodes, const iccp_env *env)
 {
@@ -57,7 +57,7 @@ icc_status iccp_weights_paint(icc_weights **out, const icc_weights *weights, siz
     return status;
 }
 
-/* Nodes that are named twice would be worked on by two threads. */
+/* Two threads would work on a node named twice. */
 static icc_status check_nodes(const iccp_node_set *set, size_t n, const uint32_t *nodes,
                               const iccp_env *env, icc_error *err)
 {

@@ -1,4 +1,4 @@
-/* Weights at points of the caller's, and how good they are. */
+/* Weights at caller-supplied points, and how good they are. */
 #include "base/threads.h"
 #include "kernel/handle_weights.h"
 
@@ -88,6 +88,7 @@ typedef struct measurement {
     quality *quality; /* of each point */
 } measurement;
 
+/* How far m weights are from summing to 1 and reproducing their point, in the caller's unit. */
 static quality measure(const icc_weights *weights, const double *point, double *values)
 {
     const iccp_node_set *set = weights->nodes;
@@ -135,6 +136,8 @@ static double deviation(const icc_weights *weights, const double *place, const u
     return worst;
 }
 
+/* At handles weights are to be 1 and 0, along edges linear between those of the ends, which is
+ * looked at between them, at EDGE_PLACES - 1 points an edge. */
 static void measure_handles(const icc_weights *weights, icc_weights_report *report, double *values)
 {
     const iccp_node_set *set = weights->nodes;
@@ -155,6 +158,7 @@ static void measure_handles(const icc_weights *weights, icc_weights_report *repo
     }
 }
 
+/* The worst of n points, and the mean deviation. */
 static void summarise(size_t n, const quality *q, icc_weights_report *report)
 {
     report->least_weight = n > 0 ? HUGE_VAL : 0;

@@ -138,7 +138,7 @@ static icc_status map_chunk(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
-static icc_status run(map_loop *loop, size_t n, size_t *n_failed, const iccp_env *env)
+static icc_status run_loop(map_loop *loop, size_t n, size_t *n_failed, const iccp_env *env)
 {
     const icc_status status = iccp_for_chunks(env, "trace", n, ICCP_CHART_MANY, map_chunk, loop);
     if (n_failed != NULL)
@@ -150,12 +150,12 @@ icc_status iccp_map_apply(const icc_map *map, bool inverse, size_t n, const doub
                           double *images, icc_status *status, size_t *n_failed, const iccp_env *env)
 {
     map_loop loop = {map, inverse, &env->memory, points, images, NULL, status, 0};
-    return run(&loop, n, n_failed, env);
+    return run_loop(&loop, n, n_failed, env);
 }
 
 icc_status iccp_map_jacobian(const icc_map *map, size_t n, const double *points, double *jacobians,
                              icc_status *status, size_t *n_failed, const iccp_env *env)
 {
     map_loop loop = {map, false, &env->memory, points, NULL, jacobians, status, 0};
-    return run(&loop, n, n_failed, env);
+    return run_loop(&loop, n, n_failed, env);
 }

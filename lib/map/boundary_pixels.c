@@ -96,7 +96,7 @@ void iccp_boundary_pixels_free(iccp_boundary_pixels *boundary)
     *boundary = (iccp_boundary_pixels){.memory = boundary->memory};
 }
 
-/* ---- settling ---- */
+/* ---- deciding ---- */
 
 /* Where a centre comes from; false when it is outside. Centres that are inside and yet in no
  * triangle are within rounding of the boundary. */

@@ -10,7 +10,7 @@ typedef struct iccp_boundary_pixels {
     size_t n, room;
     struct iccp_boundary_pixel {
         int32_t column, row;
-        uint8_t before[8];
+        uint8_t before[8]; /* what the target had there */
     } * pixels;
 } iccp_boundary_pixels;
 

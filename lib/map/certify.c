@@ -62,6 +62,8 @@ static icc_status localise(mesh_check *m, double *local, const double *points, i
     return ICC_OK;
 }
 
+/* Counts, by exact signs, simplices that keep no positive volume, and remembers the first at
+ * fault. A simplex with a corner without image counts as neither flat nor inverted. */
 static void check_simplices(const mesh_check *m)
 {
     icc_certificate *c = m->result;
@@ -141,7 +143,8 @@ static bool is_about_shape(icc_status status)
 }
 
 /* Repairs if asked to and possible, and judges. */
-static icc_status judge(mesh_check *m, bool repaired, const double *vertices, const iccp_env *env)
+static icc_status check_mesh(mesh_check *m, bool repaired, const double *vertices,
+                             const iccp_env *env)
 {
     icc_domain *domain;
     iccp_env part[3];
@@ -185,7 +188,7 @@ icc_status iccp_map_certify(const icc_map *map, size_t n_vertices, const double 
     if (status == ICC_OK)
         status = localise(&m, m.after, images, err);
     if (status == ICC_OK)
-        status = judge(&m, repaired, vertices, &part[1]);
+        status = check_mesh(&m, repaired, vertices, &part[1]);
     iccp_free(&env->memory, m.before);
     iccp_free(&env->memory, m.after);
     return iccp_explain(err, status);

@@ -1,4 +1,4 @@
-/* Checking the image of a caller's mesh. */
+/* Checking the image of a caller-supplied mesh. */
 #ifndef ICCP_CERTIFY_H
 #define ICCP_CERTIFY_H
 

@@ -303,7 +303,7 @@ static icc_status judge_way(const icc_chart *from, const icc_chart *to, icc_map_
     return status;
 }
 
-icc_status iccp_digits_judge(const icc_chart *source, const icc_chart *target, icc_map_info *info,
+icc_status iccp_digits_check(const icc_chart *source, const icc_chart *target, icc_map_info *info,
                              const iccp_env *env)
 {
     icc_status status = judge_way(source, target, info, env);

@@ -20,8 +20,8 @@ icc_status iccp_improve_images(const iccp_simplicial_map *map, size_t majorised,
 
 /* Lowers the symmetric Dirichlet energy of a map whose triangles are all positive, which they stay,
  * with the boundary fixed: at most `iterations` steps, until one gains less than `tolerance` of the
- * energy; then cuts the triangles with the most energy and goes on, at most `levels` times. On any
- * failure, ICC_ERR_CANCELLED included, the map is valid and no worse than before. */
+ * energy; then cuts the triangles with the most energy and continues, at most `levels` times. On
+ * any failure, ICC_ERR_CANCELLED included, the map is valid and no worse than before. */
 icc_status iccp_improve(iccp_plmap *map, size_t iterations, double tolerance, size_t levels,
                         iccp_improvement *improvement, const iccp_env *env);
 

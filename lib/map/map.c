@@ -98,14 +98,14 @@ void iccp_map_add_charts(icc_map *map, const icc_chart *source, const icc_chart 
     map->info.reason = map->info.reason_side == 2 ? target->info.reason : source->info.reason;
 }
 
-icc_status iccp_map_judge(icc_map *map, const iccp_env *env)
+icc_status iccp_map_check_digits(icc_map *map, const iccp_env *env)
 {
     const double start = iccp_seconds();
     icc_map_info *info = &map->info;
     if (info->kind != ICC_MAP_CURVES || !info->certified ||
         map->source->info.method != ICC_METHOD_FIELD)
         return ICC_OK;
-    const icc_status status = iccp_digits_judge(map->source, map->target, info, env);
+    const icc_status status = iccp_digits_check(map->source, map->target, info, env);
     info->seconds_certify = iccp_seconds() - start;
     return status;
 }
@@ -140,7 +140,7 @@ icc_status iccp_map_create_from_charts(icc_map **out, const icc_chart *source,
     if (status == ICC_OK && kind == ICC_MAP_MESH)
         status = add_mesh(map, options->iterations, env, err);
     else if (status == ICC_OK)
-        status = iccp_map_judge(map, env);
+        status = iccp_map_check_digits(map, env);
     if (status != ICC_OK) {
         iccp_map_release(map);
         return iccp_explain(err, status);

@@ -8,7 +8,7 @@
 struct icc_map {
     iccp_memory memory;
     icc_domain *source_domain, *target_domain;
-    icc_chart *source, *target; /* both NULL for maps that follow another */
+    icc_chart *source, *target; /* both NULL for a retargeted map */
     iccp_mesh_map *mesh;        /* kind mesh in the plane, or NULL */
     iccp_solid_map *solid;      /* kind mesh in space, or NULL */
     icc_map_info info;
@@ -45,6 +45,6 @@ icc_status iccp_map_begin(icc_map **out, const icc_domain *source, const icc_dom
 void iccp_map_add_charts(icc_map *map, const icc_chart *source, const icc_chart *target);
 
 /* Takes the certificate away from a map that its charts do not warrant: of method field. */
-icc_status iccp_map_judge(icc_map *map, const iccp_env *env);
+icc_status iccp_map_check_digits(icc_map *map, const iccp_env *env);
 
 #endif

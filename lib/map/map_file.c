@@ -133,7 +133,7 @@ static icc_status read_map(icc_map **out, iccp_blob *b, const iccp_env *env, icc
     iccp_split(part, 4, (const double[]){1, 6, 2, 1}, &whole);
     icc_status status = visit(b, out, part, err);
     if (status == ICC_OK)
-        status = iccp_map_judge(*out, &part[3]);
+        status = iccp_map_check_digits(*out, &part[3]);
     return status == ICC_OK && !iccp_blob_done(b) ? ICC_ERR_FORMAT : status;
 }
 

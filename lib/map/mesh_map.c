@@ -17,7 +17,7 @@ static const double TOLERANCE = 1e-4;
 enum { ITERATIONS = 60, LEVELS = 4 };
 
 /* Steps for a target that has moved a little: a frame of an animation has no time for more, and the
- * next frame goes on from here. */
+ * next frame continues from here. */
 enum { FOLLOW_ITERATIONS = 8 };
 
 /* ---- start ---- */

@@ -32,7 +32,7 @@ icc_status iccp_mesh_map_follow(iccp_mesh_map **out, const iccp_mesh_map *map,
                                 const iccp_env *env, icc_error *err);
 
 /* The rest of a map whose `pl` is there: certifies it, ICC_ERR_CERTIFICATE if that fails, and fills
- * in what `info` tells about the mesh's size. */
+ * in the members of `info` about the mesh's size. */
 icc_status iccp_mesh_map_finish(iccp_mesh_map *map, icc_map_info *info, const iccp_env *env,
                                 icc_error *err);
 void iccp_mesh_map_free(iccp_mesh_map *map, const iccp_memory *memory);

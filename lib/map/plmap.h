@@ -11,12 +11,12 @@ typedef struct iccp_plmap {
     iccp_corners corners;
     size_t n_vertices;
     size_t vertex_room, triangle_room;
-    double *points;      /* local in the source */
-    double *images;      /* local in the target */
-    uint8_t *fixed;      /* 1 for vertices on the boundary */
-    uint32_t *facet;     /* of fixed vertices: the facet of the boundary edge that begins there,
-                            counter- */
-    double *along;       /* clockwise, and where on the facet the vertex lies, in [0, 1] */
+    double *points;      /* 2 n_vertices: local in the source */
+    double *images;      /* 2 n_vertices: local in the target */
+    uint8_t *fixed;      /* of each vertex: 1 on the boundary */
+    uint32_t *facet;     /* of fixed vertices: the source's facet with the boundary edge that begins
+                            there, counter-clockwise */
+    double *along;       /* of fixed vertices: where on that facet they lie, in [0, 1] */
     int32_t orientation; /* of the source: facets run along with the boundary (1) or against it
                             (-1) */
     double stretch;      /* lengths of the source are multiplied by this for energies, so that both

@@ -19,11 +19,11 @@ enum { A_FEW = 10, MANY = 20, FEW = 50 };
  * missing. */
 enum { MOST_GROWTH = 2 };
 
-/* A turned edge must not make triangles that are flatter than this, as points along one side of the
- * polygon would: their energy would never come down. */
+/* A flipped edge must not make triangles that are flatter than this, as points along one side of
+ * the polygon would: their energy would never come down. */
 static const double LEAST_ROUNDNESS = 1e-4;
 
-/* ---- turning edges ---- */
+/* ---- flipping edges ---- */
 
 /* Twice the area over the square of the longest edge: 0.87 for an equilateral triangle, 0 for a
  * flat one, negative for an inverted one. */
@@ -39,10 +39,10 @@ static int sign_of(const double *a, const double *b, const double *c)
     return iccp_orient2d(a, b, c) > 0;
 }
 
-/* Turning the edge makes triangles x a y and y b x from x a b and y b a: allowed when neither is
+/* Flipping the edge makes triangles x a y and y b x from x a b and y b a: allowed when neither is
  * flat before the map, wanted when more of them are positive after it. An edge between two fixed
  * vertices must make both positive at once: nothing could repair it later. */
-static bool is_worth_turning(const iccp_plmap *map, uint32_t corner)
+static bool is_worth_flipping(const iccp_plmap *map, uint32_t corner)
 {
     const uint32_t twin = map->corners.twin[corner];
     if (twin == ICCP_NO_NEIGHBOUR)
@@ -55,31 +55,31 @@ static bool is_worth_turning(const iccp_plmap *map, uint32_t corner)
         return false;
     const double *x = iccp_plmap_image(map, corner), *y = iccp_plmap_image(map, twin);
     const double *a = iccp_plmap_image(map, after), *b = iccp_plmap_image(map, before);
-    const int turned = sign_of(x, a, y) + sign_of(y, b, x);
-    if (turned < 2 && map->fixed[map->corners.vertex[corner]] &&
+    const int flipped = sign_of(x, a, y) + sign_of(y, b, x);
+    if (flipped < 2 && map->fixed[map->corners.vertex[corner]] &&
         map->fixed[map->corners.vertex[twin]])
         return false;
-    return turned > sign_of(x, a, b) + sign_of(y, b, a);
+    return flipped > sign_of(x, a, b) + sign_of(y, b, a);
 }
 
-/* Each turn raises the number of positive images, so this ends. */
+/* Each flip raises the number of positive images, so this ends. */
 static void flip_edges(iccp_plmap *map)
 {
-    bool turned = true;
-    while (turned) {
-        turned = false;
+    bool flipped = true;
+    while (flipped) {
+        flipped = false;
         for (uint32_t t = 0; t < map->corners.n_triangles; ++t)
             for (uint32_t c = 3 * t; c < 3 * t + 3 && !iccp_plmap_positive_image(map, t); ++c)
-                if (is_worth_turning(map, c)) {
+                if (is_worth_flipping(map, c)) {
                     iccp_turn_edge(&map->corners, c);
-                    turned = true;
+                    flipped = true;
                 }
     }
 }
 
 /* ---- untangling and refining ---- */
 
-/* As iccp_untangle(), with turned edges in between. */
+/* As iccp_untangle(), with flipped edges in between. */
 static icc_status untangle_patches(iccp_plmap *map, size_t *n_left, const iccp_env *env)
 {
     const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
@@ -102,7 +102,7 @@ static icc_status untangle_patches(iccp_plmap *map, size_t *n_left, const iccp_e
 }
 
 /* Cuts, in `map`, the edges between the corners of triangles that are not positive in `tangled`.
- * Turned edges make the two differ, but they have the same vertices. */
+ * Flipped edges make the two differ, but they have the same vertices. */
 static icc_status refine_round(iccp_plmap *map, const iccp_plmap *tangled, const iccp_env *env)
 {
     const size_t n = map->corners.n_triangles, n_vertices = map->n_vertices;
@@ -122,7 +122,7 @@ static icc_status refine_round(iccp_plmap *map, const iccp_plmap *tangled, const
     return status;
 }
 
-/* Turned edges may join two fixed vertices; a vertex in their middle gives them something to
+/* Flipped edges may join two fixed vertices; a vertex in their middle gives them something to
  * move. */
 static icc_status cut_chords(iccp_plmap *map)
 {

@@ -5,7 +5,7 @@
 
 #include "map/plmap.h"
 
-/* Turns edges, untangles patches and then everything; where that is not enough, refines the mesh
+/* Flips edges, untangles patches and then everything; where that is not enough, refines the mesh
  * round what is left and begins again. Gives up early where many triangles are inverted. The
  * boundary's images stay. Iterations are capped, clocks are not read: the same input gives the same
  * bits. `n_left` says how many triangles are not positive in the end: 0 unless it failed. */

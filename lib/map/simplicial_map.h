@@ -12,9 +12,9 @@ typedef struct iccp_simplicial_map {
     size_t n_points, n_simplices;
     const uint32_t *corners; /* dim + 1 points of each simplex, which is positive before the map */
     const double *points;    /* dim of each */
-    double *images;
-    size_t n_rim;         /* the images of the first points are fixed, */
-    const uint8_t *fixed; /* and of those with fixed[v] != 0, unless this is NULL */
+    double *images;          /* dim of each */
+    size_t n_fixed;          /* the images of the first points are fixed, */
+    const uint8_t *fixed;    /* and of those with fixed[v] != 0, unless this is NULL */
     double stretch; /* lengths before the map are multiplied by this for energies, so that the areas
                        or volumes are the same and energies are those of shape alone */
 } iccp_simplicial_map;
@@ -24,7 +24,7 @@ iccp_simplicial_map iccp_simplicial_map_of(const iccp_simplices *mesh, double *i
 
 static inline bool iccp_simplicial_is_fixed(const iccp_simplicial_map *map, uint32_t point)
 {
-    return point < map->n_rim || (map->fixed != NULL && map->fixed[point]);
+    return point < map->n_fixed || (map->fixed != NULL && map->fixed[point]);
 }
 
 static ICCP_INLINE void iccp_simplicial_images(size_t dim, const iccp_simplicial_map *map,

@@ -61,8 +61,8 @@ static void multiply(const double *j, const double *a, double *b)
         b[r] = iccp_vec_dot(3, j + 3 * r, a);
 }
 
-/* The eigenvectors of J^T J by falling eigenvalues, the last one turned so that they are a
- * rotation. */
+/* The eigenvectors of J^T J by falling eigenvalues, the last one reversed if need be, so
+ * that they are a rotation. */
 static void set_right(const double *j, iccp_singular *s)
 {
     enum { SWEEPS = 8 };

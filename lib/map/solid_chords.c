@@ -190,7 +190,7 @@ static bool all_positive(const iccp_simplices *mesh)
 }
 
 /* Cuts every simplex twice: to count the pieces, and to write them. */
-static icc_status make(cutter *c, const iccp_env *env)
+static icc_status cut_simplices(cutter *c, const iccp_env *env)
 {
     const size_t dim = c->mesh->dim;
     iccp_simplices *out = c->out;
@@ -221,7 +221,7 @@ icc_status iccp_solid_cut_chords(iccp_simplices **out, const icc_domain *domain,
     icc_status status = find_chords(&c, env);
     if (status == ICC_OK && c.n_chords > 0) {
         c.out = iccp_alloc_zero(&env->memory, 1, sizeof *c.out);
-        status = c.out != NULL ? make(&c, env) : ICC_ERR_MEMORY;
+        status = c.out != NULL ? cut_simplices(&c, env) : ICC_ERR_MEMORY;
     }
     if (status == ICC_OK && c.out != NULL && all_positive(c.out)) {
         status = iccp_simplices_join(c.out, c.mesh->n_facets, domain->facets, NULL);

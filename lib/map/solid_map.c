@@ -30,14 +30,14 @@ typedef struct start {
 } start;
 
 /* NaN for a vertex without an image: the repair finds one. */
-static icc_status find_images(void *argument, size_t begin, size_t end)
+static icc_status find_images(void *argument, size_t find_start, size_t end)
 {
     const start *s = argument;
     const iccp_frame *from = &s->source->domain->frame, *to = &s->target->domain->frame;
     icc_status status = ICC_OK;
     iccp_path path;
     iccp_path_init(&path, s->memory);
-    for (size_t i = begin; i < end && status != ICC_ERR_MEMORY; ++i) {
+    for (size_t i = find_start; i < end && status != ICC_ERR_MEMORY; ++i) {
         const size_t v = s->mesh->n_rim + i;
         double point[3], image[3];
         iccp_frame_out(from, 3, s->mesh->points + 3 * v, point);
@@ -48,8 +48,8 @@ static icc_status find_images(void *argument, size_t begin, size_t end)
     return status == ICC_ERR_MEMORY ? status : ICC_OK;
 }
 
-static icc_status begin(iccp_solid_map *map, const icc_chart *source, const icc_chart *target,
-                        const iccp_env *env)
+static icc_status find_start(iccp_solid_map *map, const icc_chart *source, const icc_chart *target,
+                             const iccp_env *env)
 {
     const iccp_simplices *mesh = map->mesh;
     start s = {source, target, mesh, &env->memory, NULL};
@@ -118,7 +118,7 @@ static icc_status begin_without_chords(iccp_solid_map *map, const icc_chart *sou
     iccp_log(env, "tetrahedra between boundary vertices cannot be repaired: points are added");
     map->mesh = map->own;
     iccp_free(&env->memory, map->images);
-    return begin(map, source, target, env);
+    return find_start(map, source, target, env);
 }
 
 /* On the source's mesh if that can be repaired, else without its chords. */
@@ -128,7 +128,7 @@ static icc_status fit(iccp_solid_map *map, const icc_chart *source, const icc_ch
     bool cut = false;
     iccp_env part[4];
     iccp_split(part, 4, (const double[]){3, 1, 3, 1}, env);
-    icc_status status = begin(map, source, target, &part[0]);
+    icc_status status = find_start(map, source, target, &part[0]);
     if (status == ICC_OK && is_hopeless(map))
         status = begin_without_chords(map, source, target, &cut, &part[1]);
     if (status == ICC_OK)

@@ -23,8 +23,8 @@ typedef struct warp {
     iccp_place *places; /* of each vertex */
     iccp_scan *scans;   /* of each triangle */
     size_t n_bands;
-    size_t *first; /* n_bands + 1: where a band's triangles begin */
-    uint32_t *entries;
+    size_t *first;     /* n_bands + 1: where a band's triangles begin in `entries` */
+    uint32_t *entries; /* triangles, band after band */
 } warp;
 
 /* ---- triangles ---- */
@@ -125,6 +125,8 @@ static void widen(row *r, size_t begin, size_t end)
     r->end = end > r->end ? end : r->end;
 }
 
+/* Adds the samples of one triangle in this row to their pixels. Of the pixels, those whose centre
+ * the triangle holds are marked as its own. */
 static void gather(const warp *w, const iccp_scan *scan, row *r)
 {
     const size_t columns = (size_t)scan->columns;
@@ -172,6 +174,9 @@ static void store(const warp *w, row *r)
         memset(r->gathered + r->begin, 0, (r->end - r->begin) * sizeof *r->gathered);
 }
 
+/* Paints one row from the triangles of its band. Each triangle that does not gather writes its
+ * pixels at once, each centre being in one triangle only; the others add up and are written by
+ * store(). */
 static void paint_row(const warp *w, size_t band, row *r)
 {
     const size_t pixel = (size_t)(w->target->channels * w->target->bytes);
@@ -194,6 +199,8 @@ static void paint_row(const warp *w, size_t band, row *r)
     store(w, r);
 }
 
+/* Rows [begin, end) of the target, all in one band. Room for what is gathered is made only if a
+ * triangle needs it. */
 static icc_status paint_band(void *argument, size_t begin, size_t end)
 {
     const warp *w = argument;

@@ -43,7 +43,7 @@ static double distance(const double *a, const double *b)
     return hypot(a[0] - b[0], a[1] - b[1]);
 }
 
-/* Of two neighbours the nearer one counts: at a jump of the map the other one tells nothing about
+/* Of two neighbours the nearer one counts: at a jump of the map the other one says nothing about
  * this pixel. fmin passes over NaN. */
 static int32_t samples_between(const double *before, const double *here, const double *after)
 {

@@ -131,7 +131,7 @@ printf '<svg></svg>' | rejects ' ' 'no complete <path> or <polygon>'
 printf '<svg><path d="M0 0L1 0' | rejects ' ' 'no complete <path> or <polygon>'
 printf '<svg><path d="M0 0L1 0 1 1z"/><polygon points="0 0 1 0 1 1"/></svg>' | rejects ' ' '0 of the 2 shapes'
 printf '<svg>\n<path d="M0 0L1 0\n1 one z"/></svg>' | rejects 3: "'one'"
-printf '<svg><path d="M0 0L9 0 9 9zM1 1L2 1 2 2z"/></svg>' | rejects 1: 'goes on after Z'
+printf '<svg><path d="M0 0L9 0 9 9zM1 1L2 1 2 2z"/></svg>' | rejects 1: 'continues after Z'
 printf '<svg><path d="M0 0L9 0 9 9M1 1L2 1 2 2z"/></svg>' | rejects 1: 'several parts'
 printf '<svg><path d="M0 0A1 1 0 0 0 5 5z"/></svg>' | rejects 1: 'has an arc'
 printf '<svg><path d="L0 0 1 1 1 0"/></svg>' | rejects 1: 'does not begin with M'

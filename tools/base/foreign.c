@@ -1,4 +1,4 @@
-/* Foreign formats, told by their first bytes; by the root element where they are XML. */
+/* Foreign formats, recognised by their first bytes; XML by the root element. */
 #include "base/foreign.h"
 
 #include <stdint.h>
@@ -141,7 +141,7 @@ static uint32_t little_endian(const char *bytes, size_t n)
     return value;
 }
 
-/* What an archive is for is told by the name of its first file. */
+/* The name of its first file says what an archive is for. */
 static bool is_zip(const char *text, size_t n, problem *wrong)
 {
     static const struct {

@@ -1,4 +1,4 @@
-/* A report in JSON, written as it is told. */
+/* A report in JSON, written member by member. */
 #ifndef JSON_H
 #define JSON_H
 

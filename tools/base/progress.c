@@ -8,7 +8,7 @@
 #include <time.h>
 #include <unistd.h>
 
-/* Of what is left, for a call that nobody has announced: those that check cages and masks. */
+/* Of what is left, for a call that was not announced: those that check cages and masks. */
 static const double SMALL = 0.04;
 
 double seconds_now(void)

@@ -7,7 +7,7 @@
 #include <stdint.h>
 
 typedef struct progress {
-    bool wanted;   /* stderr is a terminal, and nobody asked for quiet */
+    bool wanted;   /* stderr is a terminal, without --quiet */
     bool visible;  /* there is a bar to wipe away */
     double drawn;  /* when it was last drawn, in seconds */
     double before; /* what the calls before the present one were worth */

@@ -32,7 +32,7 @@ static bool bad_word(const char *word, size_t line, const table_form *form, prob
     return spoilt(wrong, line, "'%s' is not a number; %s", shown, form->what);
 }
 
-/* One row between p and the line's end. *filled tells whether there was one. */
+/* One row between p and the line's end. *filled: whether there was one. */
 static bool read_row(const char *p, const char *end, size_t line, const table_form *form,
                      double *row, bool *filled, problem *wrong)
 {

@@ -20,7 +20,7 @@ typedef struct cage {
     size_t dim;      /* coordinates of a vertex; 0: nothing has been read */
     size_t n;        /* vertices; of a mask none, until its domain gives it some */
     double *points;  /* n * dim */
-    size_t *lines;   /* line of each vertex in its file, or 0 where the format does not tell */
+    size_t *lines;   /* line of each vertex in its file, or 0 where the format has none */
     size_t n_facets; /* dim vertices each; 0: the ring through the vertices */
     uint32_t *facets;
     size_t *facet_lines;       /* as `lines` */

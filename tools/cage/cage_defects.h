@@ -12,7 +12,7 @@ typedef struct defect_list {
     uint32_t *items; /* n pairs */
 } defect_list;
 
-/* Lists at most `limit` defects (0: all); `n_all`, if wanted, tells how many there are. */
+/* Lists at most `limit` defects (0: all); `n_all`: how many there are, or NULL. */
 icc_status defects_find(defect_list *out, const cage *c, size_t limit, size_t *n_all,
                         const icc_env *env, icc_error *err);
 

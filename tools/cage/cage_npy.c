@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What the header tells. */
+/* What the header says. */
 typedef struct header {
     size_t size; /* bytes of a cell */
     bool fortran;
@@ -104,6 +104,8 @@ static bool read_length(header *h, size_t *length)
     return n_digits > 0 || spoilt(h->wrong, 0, "the shape of the .npy file is no list of numbers");
 }
 
+/* The tuple of Python's syntax, as numpy writes it: a number of cells for each axis, and a comma
+ * even after the only one. */
 static bool read_shape(header *h)
 {
     cage *c = h->out;

@@ -91,7 +91,7 @@ static size_t numbers_of(char command)
     }
 }
 
-/* Draws one step. `previous` tells whether the mirrored handle of S and T counts. */
+/* Draws one step. `previous`: whether the mirrored handle of S and T counts. */
 static void draw(pen *p, char command, char previous, const double *v)
 {
     bool after_cubic = previous == 'C' || previous == 'S';
@@ -175,7 +175,7 @@ bool cage_read_path(cage *out, const char *data, const char *end, size_t line, p
         skip_separators(&p);
         if (p.at < p.end)
             return spoilt(wrong, p.line,
-                          "the path goes on after Z; a cage is one outline without holes");
+                          "the path continues after Z; a cage is one outline without holes");
     }
     cage_open_ring(out);
     return true;

@@ -1,4 +1,4 @@
-/* Which reader a file is for, told by how it begins. */
+/* Chooses the reader by how a file begins. */
 #include "cage/cage_read.h"
 
 #include "base/foreign.h"
@@ -57,6 +57,9 @@ static bool has_faces(const cage *c, problem *wrong)
            spoilt(wrong, 0, "there are no faces; a cage in space is a closed surface");
 }
 
+/* The first bytes decide the kind of a cage, never the file's name: standard input has
+ * none. Known formats that cannot be read are named first; plain coordinates, which begin with
+ * anything, come last. */
 static bool read_any(cage *out, cage_role role, size_t dim, const char *text, size_t n,
                      problem *wrong)
 {

@@ -4,7 +4,7 @@
 
 #include "cage/cage.h"
 
-/* Reads a cage from text[0..n), with text[n] == '\0'; the format is told by the content. `role`
+/* Reads a cage from text[0..n), with text[n] == '\0'; its content decides the format. `role`
  * chooses among several shapes: the GeoJSON feature with the property `role` "source" or "target",
  * the SVG element with that id or inkscape:label. A text file has `dim` numbers on a line; beyond 2
  * they are vertices without facets. False: see `wrong`, and `out` is empty. */

@@ -146,6 +146,8 @@ static shape find_shape(const char *text, cage_role role)
     return found;
 }
 
+/* The `points` of a polygon: pairs of numbers, separated by commas or spaces. The last vertex
+ * joins the first. */
 static bool read_polygon(cage *out, const char *p, const char *end, size_t line, problem *wrong)
 {
     double xy[2];

@@ -102,6 +102,8 @@ static bool read_ring(reader *r, cage *out)
     return expect(r, ')');
 }
 
+/* Up to the first bracket: PostGIS' SRID, which is passed over, [MULTI]POLYGON, and Z, M or ZM,
+ * which some programs write together with the word and which says how many numbers a vertex has. */
 static bool read_type(reader *r)
 {
     static const struct {

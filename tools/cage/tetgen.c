@@ -66,6 +66,8 @@ static bool write_surface(const cage *c, const char *folder, problem *wrong)
     return good || spoilt(wrong, 0, "%s: %s", folder, strerror(errno));
 }
 
+/* Runs tetgen without a shell, so that no folder's name is taken for a command, and without its
+ * output, which is long. */
 static bool run(const char *folder, problem *wrong)
 {
     size_t room = strlen(folder) + sizeof "/cage.off";

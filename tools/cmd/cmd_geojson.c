@@ -111,7 +111,7 @@ static int finish(const job *j, geo_result *r, const char *text, size_t n, doubl
     return PARTIAL;
 }
 
-/* Lines may be off by a thousandth of the result's size unless told otherwise. */
+/* Lines may be off by a thousandth of the result's size unless an option says otherwise. */
 static double choose_tolerance(const job *j)
 {
     icc_domain_info info = {.size = sizeof info};

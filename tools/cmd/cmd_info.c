@@ -47,6 +47,8 @@ static int examine_function(info *x, const stages *s)
     return examine_order(x, s);
 }
 
+/* Everything that is to be printed, in one pass before the first word of output: a failure leaves
+ * no half report behind. */
 static int gather(info *x)
 {
     job *j = &x->job;

@@ -1,4 +1,4 @@
-/* libicc mesh: carries the vertices of a mesh along, and tells what became of its triangles or
+/* libicc mesh: carries the vertices of a mesh along, and reports what became of its triangles or
  * tetrahedra. What lies outside the cage stays where it is, or nothing is written. */
 #include "cmd/commands.h"
 
@@ -40,6 +40,7 @@ static void print_tally(const job *j, const char *text, const icc_certificate *c
         printf("%s%s\n", text, verdict);
 }
 
+/* With --json one object, otherwise lines of text. `images`: a point per vertex of m. */
 static int report_tally(const job *j, const mesh_file *m, const double *images, const tally *t,
                         size_t n_failed, const icc_certificate *certificate)
 {
@@ -99,6 +100,8 @@ static int tell_outside(job *j, const mesh_file *m, const icc_status *status, si
     return PARTIAL;
 }
 
+/* Maps the vertices, certifies the simplices, then writes. A vertex outside stops the output
+ * unless --outside keep asks for it; the report names it all the same. */
 static int map_mesh(job *j, const mesh_file *m)
 {
     size_t n = m->n_vertices, n_failed = 0;
@@ -132,7 +135,7 @@ static int make_and_map(job *j, const mesh_file *m)
     return result == DONE ? map_mesh(j, m) : result;
 }
 
-/* The mesh is read before the map is made, so that a mistake is told at once. */
+/* The mesh is read before the map is made, so that a mistake is reported at once. */
 static int read_and_map(job *j)
 {
     const char *name = j->args->operands[0];

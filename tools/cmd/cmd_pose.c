@@ -36,6 +36,8 @@ static int read_pose(pose *p, size_t dim, size_t n_handles, const double *handle
 
 /* ------------------------------------------------------------------- points */
 
+/* Poses points as they come. --json also counts how many keep their orientation, which takes a
+ * Jacobian for each. */
 static int write_points(pose *p, const table *points)
 {
     size_t dim = p->kernel.set.dim, n_failed;
@@ -105,6 +107,7 @@ static int report_mesh(pose *p, const mesh_file *m, const double *images, size_t
     return report_close(&r) ? DONE : FAILED;
 }
 
+/* Poses the vertices of a mesh and writes it with the same simplices. */
 static int write_mesh(pose *p, const mesh_file *m)
 {
     size_t n_failed;
@@ -166,7 +169,7 @@ static int pose_input(pose *p, const char *text, size_t n)
                                : pose_mesh(p, text, n);
 }
 
-/* What is read is read first, so that a mistake is told at once; as is a result's name that says
+/* Files are read first, so that a mistake is reported at once; as is a result's name that says
  * something else than what it will be. */
 static int pose_shape(pose *p)
 {
@@ -192,6 +195,7 @@ static int pose_shape(pose *p)
     return result;
 }
 
+/* Poses the points of a saved binding, which needs neither the shape nor the handles' file. */
 static int write_bound(pose *p, const icc_binding *binding)
 {
     job *j = &p->kernel.job;

@@ -42,7 +42,7 @@ static int read_points(const kernel_job *k, table *points)
     return rows_read(points, a->points, &form);
 }
 
-/* Along a segment the first column tells how far along it is. */
+/* Along a segment the first column says how far along it is. */
 static int write_rows(const kernel_job *k, size_t n, const double *weights)
 {
     size_t m = k->set.n_handles;
@@ -60,6 +60,8 @@ static int write_rows(const kernel_job *k, size_t n, const double *weights)
     return result;
 }
 
+/* Saves the points with their weights for `libicc pose --binding`. A point that is not finite is
+ * named by its line in the points' file. */
 static int write_binding(kernel_job *k, const table *points)
 {
     const char *name = k->job.args->binding;
@@ -67,7 +69,7 @@ static int write_binding(kernel_job *k, const table *points)
     icc_error err = {.size = sizeof err, .index = -1};
     if (name == NULL)
         return DONE;
-    if (icc_binding_create(&binding, k->kernel, points->n, points->values, 0, &k->job.env, &err) !=
+    if (icc_binding_create(&binding, k->weights, points->n, points->values, 0, &k->job.env, &err) !=
         ICC_OK)
         return failed(k->job.args->points,
                       err.index >= 0 && points->lines != NULL ? points->lines[err.index] : 0, "%s",
@@ -113,13 +115,15 @@ static int report_weights(kernel_job *k, const table *points, size_t n_failed, d
     return report_close(&r) ? DONE : FAILED;
 }
 
+/* Weights of all points, a row of n_handles each, to everything that was asked for: binding,
+ * picture, table, report. */
 static int weigh(kernel_job *k, const table *points)
 {
     const args *a = k->job.args;
     size_t n_failed = 0;
     double *weights = need(points->n, k->set.n_handles * sizeof *weights);
     double began = seconds_now();
-    icc_status status = icc_weights_evaluate(k->kernel, points->n, points->values, weights, NULL,
+    icc_status status = icc_weights_evaluate(k->weights, points->n, points->values, weights, NULL,
                                              NULL, &n_failed, &k->job.env);
     double seconds = seconds_now() - began;
     progress_end(&k->job.bar);

@@ -96,9 +96,9 @@ static const command commands[] = {
      .bit = FOR_INFO,
      .run = run_info,
      .usage = "--source FILE [--target FILE] [OPTION]...",
-     .summary = "Tells what a chart is made of, and what it misses",
+     .summary = "Reports what a chart is made of and what it misses",
      .details =
-         "With a target it also tells how the map was made, what share of the inside collapses "
+         "With a target it also reports how the map was made, what share of the inside collapses "
          "or inverts,\n"
          "and how much the rest is distorted.\n"},
     {.name = "plot",
@@ -145,11 +145,12 @@ static const command commands[] = {
      .usage = "[--source FILE] --handles FILE --pose FILE [OPTION]... IN OUT",
      .summary = "Moves points, meshes and pictures with their handles",
      .details =
-         "IN is a list of points, a mesh (OBJ, OFF, PLY, Medit, VTK) or a PNG picture, told by its "
-         "content; see\n"
-         "'libicc weights --help' for the handles' file. With --binding FILE there is only OUT: "
-         "the points are\n"
-         "in the binding, and no source and no handles are needed. The pose is JSON, one of\n\n"
+         "IN is a list of points, a mesh (OBJ, OFF, PLY, Medit, VTK) or a PNG picture, recognised "
+         "by its content;\n"
+         "see 'libicc weights --help' for the handles' file. With --binding FILE there is only "
+         "OUT: "
+         "the points\n"
+         "are in the binding, and no source and no handles are needed. The pose is JSON, one of\n\n"
          "  {\"moves\": [{\"handle\": 0, \"move\": [dx, dy], \"turn\": degrees, \"axis\": "
          "[x, y, z],\n"
          "              \"matrix\": [[a, b], [c, d]]}, ..]}       the others stay\n"
@@ -166,7 +167,7 @@ static void print_help(void)
          "Carries everything inside a shape along when its boundary moves.\n\nCommands:");
     for (size_t i = 0; i < N_COMMANDS; i++)
         printf("  %-8s %s\n", commands[i].name, commands[i].summary);
-    puts("\n'libicc help COMMAND' tells about a command; 'libicc --version' prints the version.\n"
+    puts("\n'libicc help COMMAND' describes a command; 'libicc --version' prints the version.\n"
          "Exit codes: 0 done; 1 the input or the computation failed; 2 wrong usage; 4 done, but "
          "some\n"
          "points have no image.\n(Not related to ICC colour profiles.)");

@@ -23,7 +23,7 @@ typedef struct carrier {
     uint32_t *facets[2]; /* dim vertices each; facet i of one corresponds to facet i of the other */
 } carrier;
 
-/* Begins to carry between two domains, from the first; back if `inverse` tells that the map goes
+/* Begins to carry between two domains, from the first; back if `inverse` says that the map goes
  * from the second. snap < 0: 1e-9 of the cage's size, and no less than what rounding does to its
  * coordinates. To be freed in any case. */
 icc_status carrier_start(carrier *out, const icc_map *map, const icc_domain *from,

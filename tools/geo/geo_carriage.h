@@ -17,7 +17,7 @@ typedef struct carriage {
     problem *wrong;
     size_t line, line_at; /* the line of a place in the text, for the next one behind it */
     uint32_t fault_of;    /* the object of the last fault */
-    /* of the geometry at hand */
+    /* of the current geometry */
     uint32_t object;
     geo_shape shape;
     double *images;
@@ -28,11 +28,11 @@ typedef struct carriage {
     size_t n_lines, room_lines;
 } carriage;
 
-/* The object of the geometry at hand. */
+/* The object of the current geometry. */
 geo_object *geo_current(const carriage *c);
 
-/* Notes that the geometry at hand is not carried as it was. A feature has one entry; of two fates
- * that its geometries have the worse is told. */
+/* Notes that the current geometry is not carried as it was. A feature has one entry; of two fates
+ * of its geometries the worse is reported. */
 void geo_note_fault(carriage *c, size_t n_without, const char *fate);
 
 /* Notes that, and leaves nothing of it. Returns true. */
@@ -47,7 +47,7 @@ vertex geo_vertex_of(const carriage *c, const geo_node *node);
 bool geo_has_gap(const polyline *line);
 geo_writer geo_writer_of(carriage *c);
 
-/* Cuts the geometry at hand along the cage. False: see c->wrong. */
+/* Cuts the current geometry along the cage. False: see c->wrong. */
 bool geo_cut(carriage *c, size_t n_without);
 
 /* Sets each bbox to what is in its object, from the last object to the first, so that what an

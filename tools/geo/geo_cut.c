@@ -13,7 +13,7 @@ static void set_type(carriage *c, const char *type)
     edits_put_text(&c->out->edits, type);
 }
 
-/* Ends the list that has been written and tells what has come of the geometry. */
+/* Ends the list that has been written and returns the fate of the geometry. */
 static bool end_cut(carriage *c, size_t n_without, size_t n_written)
 {
     if (n_written == 0)

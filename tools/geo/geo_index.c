@@ -1,6 +1,6 @@
 /* One pass over the text, with a stack of its own: an object is noted where a member `geometry`,
  * `features` or `geometries` leads to it. As `type` may be the last member, only a second pass over
- * the objects tells which of these members mean what they seem to. */
+ * the objects shows which of these members mean what they seem to. */
 #include "geo/geo_index.h"
 
 #include "base/allocate.h"

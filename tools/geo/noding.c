@@ -1,6 +1,6 @@
 /* Nodes are shared: whatever comes within `near` of a corner of the cage is at that corner, and a
  * vertex that comes within `near` of an edge is a node of the edge. So what crosses is well apart
- * from what touches, and crossings can be told by exact signs. */
+ * from what touches, and exact signs decide crossings. */
 #include "geo/noding.h"
 
 #include "base/allocate.h"

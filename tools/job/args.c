@@ -88,6 +88,8 @@ static int set_point(reading *r, const option *o, const char *value)
     return DONE;
 }
 
+/* RRGGBB with or without alpha, two digits a channel; a # before it is what other programs print.
+ */
 static int set_colour(reading *r, const option *o, const char *value)
 {
     static const char digits[] = "0123456789abcdef";

@@ -80,7 +80,7 @@ typedef struct command {
  * when --help is among them; nothing else counts then. */
 int args_parse(args *out, const command *c, int argc, char **argv, bool *help);
 
-/* The last step of that: what no single option can tell. */
+/* The last step of that: what no single option shows. */
 int args_check(args *a, const command *c);
 
 /* Prints the help of a command on stdout. */

@@ -67,6 +67,8 @@ static bool has_bound(const args *a, const command *c)
     return c->bit & FOR_POSE && a->binding != NULL;
 }
 
+/* Files and options that exclude each other, before any file is read. The number of files depends
+ * on --geojson, and on --binding, which replaces one. */
 static int check_operands(const args *a, const command *c)
 {
     size_t n_operands = a->geojson ? c->n_operands_geojson : c->n_operands - has_bound(a, c);
@@ -96,6 +98,7 @@ static int check_operands(const args *a, const command *c)
     return DONE;
 }
 
+/* The same for the commands with handles. */
 static int check_kernel(const args *a, const command *c)
 {
     bool bound = has_bound(a, c);
@@ -146,7 +149,7 @@ static int check_inputs(const args *a, const command *c)
     return DONE;
 }
 
-/* What no single option can tell. */
+/* What no single option shows. */
 static int check_together(const args *a, const command *c)
 {
     int result = c->bit & FOR_KERNEL ? check_kernel(a, c) : check_charts(a, c);

@@ -25,7 +25,7 @@ bool function_solves(int32_t function);
 /* Its name, as in "laplace, unconstrained". */
 const char *function_label(char text[48], const icc_function_info *info);
 
-/* The members of the report that tell how it was made. */
+/* The members of the report on how it was made. */
 void function_report(json *j, const icc_function_info *info);
 
 #endif

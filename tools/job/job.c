@@ -191,7 +191,7 @@ static int make_source(job *j)
     return correspond(j);
 }
 
-/* What has been left out is told once all is well, so that an error is one line. */
+/* Reports what has been left out only after success, so that an error is one line. */
 static void note_heights(const job *j)
 {
     for (size_t side = 0; side < 2; side++)

@@ -32,8 +32,8 @@ typedef struct option {
     int32_t low, high;
     double most;
     bool zero;
-    bool quiet_letter; /* the letter works, but is not told about */
-    bool papers;       /* of the papers' method alone, and told about behind the others */
+    bool quiet_letter; /* the letter works, but help does not list it */
+    bool papers;       /* of the papers' method alone, listed after the others */
     const choice *choices;
     const char *value, *help;
 } option;

@@ -12,7 +12,7 @@ const char *output_format(const char *name);
  * MISUSED with a line on stderr; `name` may be NULL. */
 int output_fits(const char *of, const char *name, const char *formats);
 
-/* The same for all outputs of a command, as far as the options tell. */
+/* The same for all outputs of a command, as far as the options say. */
 int output_names_check(const args *a, const command *c);
 
 #endif

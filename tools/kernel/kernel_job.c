@@ -14,7 +14,7 @@ void kernel_job_start(kernel_job *k, const args *a)
 
 void kernel_job_end(kernel_job *k)
 {
-    icc_weights_free(k->kernel);
+    icc_weights_free(k->weights);
     icc_sampling_free(k->sampling);
     for (size_t i = 0; k->regions != NULL && i < k->set.n_regions; i++)
         icc_domain_free(k->regions[i]);
@@ -74,6 +74,8 @@ static int read_shape(kernel_job *k)
     return DONE;
 }
 
+/* Spreads samples over the regions of --source and of the handles' file together. Errors name the
+ * file of --source when there is nothing else, otherwise the handles' file. */
 static int make_samples(kernel_job *k)
 {
     const handle_set *set = &k->set;
@@ -106,6 +108,8 @@ static int make_samples(kernel_job *k)
                                                          : failed_set(k, "", &err);
 }
 
+/* Options as on the command line; --thesis takes what the thesis does where that differs from the
+ * library's defaults. */
 static int make_weights(kernel_job *k)
 {
     const handle_set *set = &k->set;
@@ -128,7 +132,7 @@ static int make_weights(kernel_job *k)
     icc_error err = {.size = sizeof err, .index = -1};
     double began = seconds_now();
     progress_expect(&k->job.bar, 0.8);
-    icc_status status = icc_weights_create(&k->kernel, k->sampling, set->n_handles, set->handles,
+    icc_status status = icc_weights_create(&k->weights, k->sampling, set->n_handles, set->handles,
                                            &how, &k->job.env, &err);
     k->seconds_weights = seconds_now() - began;
     return status == ICC_OK ? DONE : failed_set(k, "", &err);
@@ -186,14 +190,16 @@ static int find_rigidity(kernel_job *k, size_t n, const double *nodes, double *r
     return result;
 }
 
+/* Replaces the weights by stiffened ones. `rigidity` is of each of n nodes first, then of the
+ * n_stiff nodes that `stiff` lists. */
 static int stiffen(kernel_job *k)
 {
     icc_weights_info info = {.size = sizeof info};
-    icc_weights_get_info(k->kernel, &info);
+    icc_weights_get_info(k->weights, &info);
     size_t n = info.n_nodes, n_stiff = 0;
     double *nodes = need(n, k->set.dim * sizeof *nodes), *rigidity = need(n, sizeof *rigidity);
     uint32_t *stiff = need(n, sizeof *stiff);
-    icc_weights_get_nodes(k->kernel, nodes, NULL, NULL, NULL);
+    icc_weights_get_nodes(k->weights, nodes, NULL, NULL, NULL);
     double began = seconds_now();
     int result = find_rigidity(k, n, nodes, rigidity);
     for (size_t i = 0; i < n; i++)
@@ -203,12 +209,12 @@ static int stiffen(kernel_job *k)
         }
     icc_weights *stiffened = NULL;
     icc_error err = {.size = sizeof err, .index = -1};
-    if (result == DONE && icc_weights_stiffen(&stiffened, k->kernel, n_stiff, stiff, rigidity,
+    if (result == DONE && icc_weights_stiffen(&stiffened, k->weights, n_stiff, stiff, rigidity,
                                               k->energy, &k->job.env, &err) != ICC_OK)
         result = failed_set(k, "rigid", &err);
     if (result == DONE) {
-        icc_weights_free(k->kernel);
-        k->kernel = stiffened;
+        icc_weights_free(k->weights);
+        k->weights = stiffened;
     }
     k->seconds_rigid = seconds_now() - began;
     free(nodes);

@@ -12,12 +12,13 @@ typedef struct kernel_job {
     handle_set set;
     icc_domain **regions; /* those of the handles' file */
     icc_sampling *sampling;
-    icc_weights *kernel;
+    icc_weights *weights;
     double energy[2]; /* of the rigid parts, before and after */
     double seconds_samples, seconds_weights, seconds_rigid;
 } kernel_job;
 
-/* As job_start() and so on. Reading comes first, so that a mistake in a file is told at once. */
+/* As job_start() and so on. Reading comes first, so that a mistake in a file is reported at
+ * once. */
 void kernel_job_start(kernel_job *k, const args *a);
 int kernel_job_read(kernel_job *k);
 int kernel_job_make(kernel_job *k);

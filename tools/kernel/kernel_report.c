@@ -33,7 +33,7 @@ static int report_quality(json *out, kernel_job *k, size_t n, const double *poin
 {
     icc_weights_report q = {.size = sizeof q};
     icc_error err = {.size = sizeof err, .index = -1};
-    if (icc_weights_get_report(k->kernel, n, points, &q, &k->job.env, &err) != ICC_OK)
+    if (icc_weights_get_report(k->weights, n, points, &q, &k->job.env, &err) != ICC_OK)
         return job_failed(&k->job, &err);
     json_open(out, "quality", '{');
     json_count(out, "points", n);
@@ -65,7 +65,7 @@ static void report_seconds(json *out, const kernel_job *k, const icc_weights_inf
 int kernel_report_open(report *r, kernel_job *k, size_t n, const double *points)
 {
     icc_weights_info info = {.size = sizeof info};
-    icc_weights_get_info(k->kernel, &info);
+    icc_weights_get_info(k->weights, &info);
     if (!report_open(r, &k->job))
         return FAILED;
     report_sampling(&r->json, k);

@@ -112,6 +112,8 @@ static void draw_mask(const sheet *s)
     fputs("\"/></mask>\n", s->svg);
 }
 
+/* Regions, edges between handles, lines that stay straight and handles, over the picture of the
+ * weight. The handle whose weight is shown is red. */
 static void draw_structure(const sheet *s)
 {
     const handle_set *set = &s->job->set;
@@ -161,6 +163,8 @@ static void paint(const sheet *s, uint16_t *to, double weight, const double grad
         to[k] = (uint16_t)(shade * rgb[k] + 0.5);
 }
 
+/* Evaluates the weight at pixel centres, in batches that bound the memory for n_handles weights
+ * and gradients each. */
 static icc_status fill(const sheet *s, picture *image)
 {
     size_t m = s->job->set.n_handles, n = image->width * image->height;
@@ -172,8 +176,8 @@ static icc_status fill(const sheet *s, picture *image)
         for (size_t i = 0; i < count; i++)
             locate(s, (double)((begin + i) % image->width) + 0.5,
                    (double)((begin + i) / image->width) + 0.5, points + 2 * i);
-        status = icc_weights_evaluate(s->job->kernel, count, points, weights, gradients, NULL, NULL,
-                                      &s->job->job.env);
+        status = icc_weights_evaluate(s->job->weights, count, points, weights, gradients, NULL,
+                                      NULL, &s->job->job.env);
         for (size_t i = 0; i < count && status == ICC_OK; i++)
             paint(s, image->samples + 3 * (begin + i), weights[m * i + s->handle],
                   gradients + 2 * (m * i + s->handle));
@@ -201,6 +205,7 @@ static int draw_raster(const sheet *s)
 
 /* ------------------------------------------------------------------ legend */
 
+/* A bar with the picture's colours beside it, linear or by powers of ten. */
 static int draw_legend(const sheet *s)
 {
     double x = s->width + 2 * MARGIN, size = fmin(s->height, 300);

@@ -107,6 +107,8 @@ static bool is_huge(const drawing *d, size_t n, const double *ring)
     return !(length < 1e3 * (double)(d->from.width + d->from.height) + 1e6);
 }
 
+/* Triangles over one region: its boundary, n points of `ring`, and points inside, all posed by
+ * their own weights; the picture is then drawn triangle by triangle. */
 static int make_patch(drawing *d, const icc_domain *region, size_t n, const double *ring)
 {
     job *j = &d->pose->kernel.job;

@@ -23,7 +23,7 @@ static icc_status pose_finite(pose *p, size_t n, double *points, double *jacobia
     const icc_env *env = &p->kernel.job.env;
     icc_binding *binding;
     icc_status status =
-        icc_binding_create(&binding, p->kernel.kernel, n, points, jacobians != NULL, env, err);
+        icc_binding_create(&binding, p->kernel.weights, n, points, jacobians != NULL, env, err);
     if (status == ICC_OK)
         status = icc_binding_pose(binding, p->transforms, points, jacobians, env);
     icc_binding_free(binding);

@@ -23,7 +23,7 @@ bool mesh_read_off(lines *r)
     if (!lines_take(r, "OFF") || !lines_next_count(r, 4e9, &n_vertices) ||
         !lines_count(r, 4e9, &n_faces))
         return false;
-    r->at = r->end; /* the number of edges, which nobody needs */
+    r->at = r->end; /* the number of edges, which is not needed */
     for (uint32_t i = 0; i < n_vertices; i++) {
         if (!lines_word(r) || !lines_vertex(r))
             return false;

@@ -121,6 +121,9 @@ static void take_coordinate(ply *p, ply_use use, const char *type_end, const ply
     m->order[m->n_types++] = (unsigned char)use;
 }
 
+/* A property of the last element. Those that no map needs are carried along, but to skip them
+ * their size must be known; a coordinate that is declared twice would leave open which one counts.
+ */
 static bool read_property(ply *p)
 {
     char word[32];
@@ -181,6 +184,8 @@ static bool end_header(ply *p, bool formed)
     return next_line(p);
 }
 
+/* Lines up to end_header. Elements and properties may come in any order that PLY allows; comments
+ * are passed over. */
 static bool read_header(ply *p)
 {
     char word[32];

@@ -93,6 +93,8 @@ static bool read_old_cells(lines *r, cells *c)
     return true;
 }
 
+/* Cells as version 5 writes them, n + 1 offsets into a list of corners, or as older files do, each
+ * with its number of corners before it. */
 static bool read_cells(lines *r, cells *c)
 {
     uint32_t n, size;
@@ -120,6 +122,8 @@ static bool read_cells(lines *r, cells *c)
     return true;
 }
 
+/* The types come after the cells and decide what becomes of them: triangles and tetrahedra are the
+ * mesh, others are carried along. */
 static bool read_types(lines *r, cells *c)
 {
     uint32_t n, type = 0;

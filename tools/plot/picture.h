@@ -13,7 +13,7 @@ typedef struct picture {
     unsigned channels;     /* 1 grey, 2 grey + alpha, 3 RGB, 4 RGBA */
     unsigned depth;        /* 8 or 16 */
     uint16_t *samples;     /* height * width * channels, each below 2^depth */
-    struct png_keep *keep; /* what the file tells about colour and size of pixels; may be NULL */
+    struct png_keep *keep; /* what the file says about colour and size of pixels; may be NULL */
 } picture;
 
 /* A picture of zeros. */
@@ -33,7 +33,7 @@ void picture_set(picture *p, size_t pixel, const unsigned char rgba[4]);
  * see `wrong`. */
 bool picture_decode(picture *out, const char *bytes, size_t n, problem *wrong);
 
-/* Encodes a PNG with what `keep` tells, which may come from another picture. NULL: see `wrong`. */
+/* Encodes a PNG with what `keep` holds, which may come from another picture. NULL: see `wrong`. */
 unsigned char *picture_encode(const picture *p, const struct png_keep *keep, size_t *n,
                               problem *wrong);
 

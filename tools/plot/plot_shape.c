@@ -151,6 +151,7 @@ static void shade(const stages *s, double value, unsigned char rgba[4])
         rgba[k] = (unsigned char)(low[k] + t * (high[k] - low[k]) + 0.5);
 }
 
+/* One picture with the panel's pixels under the drawing: a value and a colour at each centre. */
 static int draw_shades(const panel *p, job *j)
 {
     picture image = picture_make((size_t)ceil(p->width), (size_t)ceil(p->height), 3, 8);

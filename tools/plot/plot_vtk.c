@@ -1,8 +1,8 @@
 /* libicc plot OUT.vtk: the source in the legacy VTK format, for ParaView.
  *
- * One unstructured grid of four parts, told apart by the cell data `part`: 0 the cells of the grid
- * (methods gradient and field), 1 the tree's edges, 2 the boundary, 3 integral curves. A target
- * makes the point data `displacement`, which ParaView's filter Warp By Vector turns into the
+ * One unstructured grid of four parts, which the cell data `part` tells apart: 0 the cells of the
+ * grid (methods gradient and field), 1 the tree's edges, 2 the boundary, 3 integral curves. A
+ * target makes the point data `displacement`, which ParaView's filter Warp By Vector turns into the
  * target. */
 #include "plot/plot.h"
 
@@ -169,6 +169,8 @@ static double facet_measure(const cage *c, const uint32_t *corners)
     return sqrt(fmax(0, s * (s - x) * (s - y) * (s - z)));
 }
 
+/* A curve from a point of the boundary to the maximum, as one polyline. Its n points carry the
+ * share of the length walked. `*curve` has room for *room doubles and grows as needed. */
 static void add_curve(vtk *v, const double *start, double **curve, size_t *room)
 {
     size_t n = 0, dim = v->dim;
@@ -237,6 +239,7 @@ static int move_places(vtk *v)
     return ran == ICC_OK ? DONE : job_failed_status(&v->job, ran);
 }
 
+/* An array per property, each with a value for every place. */
 static void write_point_data(const vtk *v, FILE *f)
 {
     fprintf(f, "POINT_DATA %zu\nSCALARS %s double 1\nLOOKUP_TABLE default\n", v->n_places,
@@ -262,6 +265,7 @@ static void write_point_data(const vtk *v, FILE *f)
         }
 }
 
+/* The legacy format of version 3.0, as text: every program that shows VTK files reads it. */
 static void write_vtk(const vtk *v, FILE *f)
 {
     fprintf(f, "# vtk DataFile Version 3.0\nlibicc %s\nASCII\nDATASET UNSTRUCTURED_GRID\n",
@@ -286,6 +290,7 @@ static void write_vtk(const vtk *v, FILE *f)
     write_point_data(v, f);
 }
 
+/* Grid, boundary and curves of one chart, moved along afterwards when there is a map. */
 static int make(vtk *v)
 {
     job *j = &v->job;

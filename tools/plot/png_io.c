@@ -186,6 +186,8 @@ static void carry_over(writer *w, const png_keep *k)
         png_set_pHYs(w->png, w->info, x, y, unit);
 }
 
+/* All calls of libpng that may fail: it leaves them by longjmp, which is why nothing is allocated
+ * here and `row` comes from outside. */
 static bool encode(writer *w, const picture *p, const png_keep *keep, png_byte *row)
 {
     static const int colour_types[] = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA,

@@ -1,4 +1,4 @@
-/* What `libicc check` writes: mended cages, and the boundaries of masks. */
+/* What `libicc check` writes: repaired cages, and the boundaries of masks. */
 #include "report/check_job.h"
 
 #include "base/allocate.h"

@@ -1,4 +1,4 @@
-/* What `libicc info` found out, and the two ways to tell it. */
+/* What `libicc info` found out, and the two ways to print it. */
 #ifndef INFO_H
 #define INFO_H
 

@@ -61,6 +61,8 @@ static void print_critical(const info *x)
     printf("            %s\n", info_reason(reason, x));
 }
 
+/* What the methods on grids found; the maximum is where the function is greatest, not where the
+ * caller asked for it. */
 static void print_grid(const info *x)
 {
     const icc_chart_info *c = &x->chart.common;
@@ -85,6 +87,8 @@ static void print_grid(const info *x)
     print_critical(x);
 }
 
+/* How much of the domain the chart does not cover one-to-one, as icc_chart_get_report() measures
+ * it. */
 static void print_shares(const info *x)
 {
     const icc_gradient_info *c = &x->chart.gradient;
@@ -172,6 +176,7 @@ static void print_mesh_map(const icc_map_info *m)
            m->energy, m->n_iterations, (int)m->n_levels);
 }
 
+/* The map, its certificate or why there is none, and how it distorts the source. */
 static void print_map(const info *x)
 {
     const icc_map_info *m = &x->map;

@@ -35,13 +35,14 @@ START_TEST(zero_means_the_default)
     const shape s = shape_l();
     icc_chart *chart = chart_of(&s, 0);
     ck_assert_int_eq(chart->info.method, ICC_METHOD_GRADIENT);
-    ck_assert_int_eq(chart->info.function, ICC_FUNCTION_DECAY);
-    ck_assert_int_eq(chart->info.tree, ICC_TREE_THESIS);
+    ck_assert_int_eq(chart->own.gradient.function, ICC_FUNCTION_DECAY);
+    ck_assert_int_eq(chart->own.gradient.tree, ICC_TREE_THESIS);
     ck_assert_double_eq_tol(chart->info.spacing, 3.0 / 50, 1e-15);
-    ck_assert_uint_eq(chart->info.n_unreachable + chart->info.n_cousin_violations, 0);
-    ck_assert_uint_eq(chart->info.n_maxima, 1);
-    ck_assert_uint_eq(chart->info.n_minima + chart->info.n_saddles, 0);
-    ck_assert_uint_gt(chart->info.n_compression, 0);
+    ck_assert_uint_eq(chart->own.gradient.n_unreachable + chart->own.gradient.n_cousin_violations,
+                      0);
+    ck_assert_uint_eq(chart->own.gradient.n_maxima, 1);
+    ck_assert_uint_eq(chart->own.gradient.n_minima + chart->own.gradient.n_saddles, 0);
+    ck_assert_uint_gt(chart->own.gradient.n_compression, 0);
     iccp_chart_release(chart);
 }
 END_TEST

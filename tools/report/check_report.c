@@ -157,7 +157,7 @@ const char *check_reason(char text[240], const check *c)
     if (c->charts[0].common.method == ICC_METHOD_GRADIENT)
         snprintf(text, 240,
                  "%s valid, but the method gradient is not certifiable: its curves merge ('libicc "
-                 "info' tells how much)",
+                 "info' says how much)",
                  pair ? "the cages are" : "the cage is");
     else
         snprintf(text, 240, "%s valid, but %s not certified; see the list",
@@ -165,6 +165,7 @@ const char *check_reason(char text[240], const check *c)
     return text;
 }
 
+/* What was checked and its certificate, with the reason if there is none; a mask alone has none. */
 static void report_certificates(const check *c, json *j)
 {
     char text[REASON_LENGTH];
