@@ -279,7 +279,7 @@ icc_status iccp_shelling_begin(icc_chart **out, const icc_domain *domain, iccp_s
     icc_chart_info *info = &(*out)->info;
     info->method = ICC_METHOD_FOLIATION;
     (*out)->own.shelling = (icc_shelling_info){.n_mesh_vertices = mesh->n_points,
-                                               .n_mesh_boundary = mesh->n_rim,
+                                               .n_mesh_boundary = mesh->n_boundary,
                                                .n_mesh_simplices = mesh->n_simplices};
     state->mesh = own;
     state->fibres.memory = env->memory;

@@ -251,20 +251,20 @@ icc_status iccp_domain_visit(iccp_blob *b, icc_domain **domain, const iccp_env *
 /* Without the points of the boundary, which are the domain's. */
 static void visit_filling(iccp_blob *b, iccp_simplices *mesh, const icc_domain *domain)
 {
-    const size_t dim = mesh->dim, n_rim = mesh->n_rim;
-    size_t n_inner = mesh->n_points - n_rim;
+    const size_t dim = mesh->dim, n_boundary = mesh->n_boundary;
+    size_t n_inner = mesh->n_points - n_boundary;
     visit_count(b, dim * ICCP_F64, &n_inner);
     visit_count(b, (dim + 1) * ICCP_U32, &mesh->n_simplices);
     iccp_blob_require(b, mesh->n_simplices > 0);
     if (b->reads) {
-        mesh->n_points = n_rim + n_inner;
+        mesh->n_points = n_boundary + n_inner;
         mesh->points = iccp_blob_alloc(b, mesh->n_points, dim * sizeof *mesh->points);
     }
     if (b->status != ICC_OK)
         return;
     if (b->reads)
-        memcpy(mesh->points, domain->vertices, dim * n_rim * sizeof *mesh->points);
-    iccp_blob_f64(b, dim * n_inner, mesh->points + dim * n_rim);
+        memcpy(mesh->points, domain->vertices, dim * n_boundary * sizeof *mesh->points);
+    iccp_blob_f64(b, dim * n_inner, mesh->points + dim * n_boundary);
     iccp_blob_array_u32(b, (dim + 1) * mesh->n_simplices, &mesh->corners);
 }
 
@@ -293,8 +293,9 @@ static bool all_used(const iccp_simplices *mesh, bool *used)
 
 static icc_status check_filling(iccp_simplices *mesh, const icc_domain *domain)
 {
-    const size_t n_inner = mesh->n_points - mesh->n_rim;
-    if (!iccp_are_local(mesh->dim, mesh->dim * n_inner, mesh->points + mesh->dim * mesh->n_rim))
+    const size_t n_inner = mesh->n_points - mesh->n_boundary;
+    if (!iccp_are_local(mesh->dim, mesh->dim * n_inner,
+                        mesh->points + mesh->dim * mesh->n_boundary))
         return ICC_ERR_FORMAT;
     icc_status status = iccp_simplices_check_corners(mesh, NULL);
     if (status != ICC_OK)
@@ -318,7 +319,7 @@ static icc_status read_filling(iccp_blob *b, iccp_simplices **out, const icc_dom
     *mesh = (iccp_simplices){.memory = b->memory,
                              .dim = (size_t)domain->dim,
                              .n_points = domain->n_vertices,
-                             .n_rim = domain->n_vertices};
+                             .n_boundary = domain->n_vertices};
     visit_filling(b, mesh, domain);
     const icc_status status = b->status == ICC_OK ? check_filling(mesh, domain) : b->status;
     if (status != ICC_OK) {

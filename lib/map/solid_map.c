@@ -38,7 +38,7 @@ static icc_status find_images(void *argument, size_t find_start, size_t end)
     iccp_path path;
     iccp_path_init(&path, s->memory);
     for (size_t i = find_start; i < end && status != ICC_ERR_MEMORY; ++i) {
-        const size_t v = s->mesh->n_rim + i;
+        const size_t v = s->mesh->n_boundary + i;
         double point[3], image[3];
         iccp_frame_out(from, 3, s->mesh->points + 3 * v, point);
         status = iccp_curves_point(s->source, s->target, point, image, NULL, &path);
@@ -57,8 +57,8 @@ static icc_status find_start(iccp_solid_map *map, const icc_chart *source, const
     if (map->images == NULL)
         return ICC_ERR_MEMORY;
     s.images = map->images;
-    memcpy(map->images, target->domain->vertices, 3 * mesh->n_rim * sizeof *map->images);
-    return iccp_for_chunks(env, "trace", mesh->n_points - mesh->n_rim, GRAIN, find_images, &s);
+    memcpy(map->images, target->domain->vertices, 3 * mesh->n_boundary * sizeof *map->images);
+    return iccp_for_chunks(env, "trace", mesh->n_points - mesh->n_boundary, GRAIN, find_images, &s);
 }
 
 static size_t count_inverted(const iccp_solid_map *map)
@@ -175,7 +175,7 @@ static icc_status visit(iccp_blob *b, iccp_solid_map *map, const icc_domain *sou
         return status;
     if (b->reads)
         map->mesh = map->own != NULL ? map->own : source->mesh;
-    const size_t n_rim = map->mesh->n_rim, n = map->mesh->n_points - n_rim;
+    const size_t n_rim = map->mesh->n_boundary, n = map->mesh->n_points - n_rim;
     iccp_blob_require(b, iccp_blob_has(b, n, 3 * ICCP_F64));
     if (b->reads)
         map->images = iccp_blob_alloc(b, map->mesh->n_points, 3 * sizeof *map->images);
@@ -189,7 +189,7 @@ static icc_status visit(iccp_blob *b, iccp_solid_map *map, const icc_domain *sou
 
 static icc_status certify(iccp_solid_map *map, const iccp_env *env)
 {
-    const size_t n_rim = map->mesh->n_rim, n = map->mesh->n_points - n_rim;
+    const size_t n_rim = map->mesh->n_boundary, n = map->mesh->n_points - n_rim;
     return iccp_are_local(3, 3 * n, map->images + 3 * n_rim) && count_inverted(map) == 0
                ? plant(map, env)
                : ICC_ERR_FORMAT;
