@@ -134,8 +134,8 @@ static inline void flux_check(const flux_case *c, const double *inflow, const do
     for (uint32_t s = 0; s < flux_sides(c->mesh); ++s) {
         const uint32_t other = c->mesh->across[s];
         const bool in_star = flux_in_star(c, iccp_simplex_of(c->mesh, s));
-        if ((other & ICCP_RIM) != 0)
-            FLUX_ASSERT(flux[s] == -inflow[other & ~ICCP_RIM], "%s: inflow", c->name);
+        if ((other & ICCP_ON_BOUNDARY) != 0)
+            FLUX_ASSERT(flux[s] == -inflow[other & ~ICCP_ON_BOUNDARY], "%s: inflow", c->name);
         else
             FLUX_ASSERT(flux[s] == -flux[other], "%s: sides differ", c->name);
         if (in_star && c->mesh->corners[s] != c->centre)

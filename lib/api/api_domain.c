@@ -5,7 +5,7 @@
 #include "base/threads.h"
 #include "domain/domain.h"
 #include "domain/mesh_domain.h"
-#include "domain/polygon.h"
+#include "domain/polygon_check.h"
 
 #include <math.h>
 #include <string.h>

@@ -36,7 +36,7 @@ static void run_chunk(loop *l, size_t index)
 
 /* Hands out the next chunk. Chunks are handed out in order, so every chunk before one that failed
  * has run or is running: the first failure is the same for every number of threads. */
-static bool take(loop *l, size_t *index)
+static bool take_chunk(loop *l, size_t *index)
 {
     if (atomic_load(&l->stop))
         return false;
@@ -48,7 +48,7 @@ static void *worker(void *argument)
 {
     loop *l = argument;
     size_t index;
-    while (take(l, &index))
+    while (take_chunk(l, &index))
         run_chunk(l, index);
     return NULL;
 }
@@ -63,7 +63,7 @@ static icc_status run_own_threads(loop *l, const iccp_env *env, const char *stag
         ++n_threads;
     icc_status status = ICC_OK;
     size_t index;
-    while (status == ICC_OK && take(l, &index)) {
+    while (status == ICC_OK && take_chunk(l, &index)) {
         status = iccp_progress(env, stage, (double)index / (double)l->n_chunks);
         if (status == ICC_OK)
             run_chunk(l, index);

@@ -12,7 +12,7 @@
 #include "function/make_function.h"
 #include "grid/grassfire.h"
 #include "grid/rasterise.h"
-#include "tree/settle.h"
+#include "tree/create_ranked.h"
 #include "tree/verify.h"
 
 #include <math.h>
@@ -78,8 +78,8 @@ static icc_status make_tree_on(iccp_field_state *state, icc_chart *chart, int32_
     if (status == ICC_OK && rank == NULL)
         status = ICC_ERR_MEMORY;
     if (status == ICC_OK)
-        status = iccp_tree_settle(&state->tree, grid, root, ICC_TREE_THESIS, NULL, MOST_LOST, rank,
-                                  &grown, &part[2], err);
+        status = iccp_tree_create_ranked(&state->tree, grid, root, ICC_TREE_THESIS, NULL, MOST_LOST,
+                                         rank, &grown, &part[2], err);
     if (status == ICC_OK)
         status = iccp_tree_verify(state->tree, &report, &part[3]);
     iccp_free(&env->memory, rank);

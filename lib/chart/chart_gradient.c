@@ -165,8 +165,8 @@ static icc_status make_boundary(iccp_gradient_state *state, const icc_domain *do
                                 const iccp_env *env)
 {
     const icc_grid *grid = state->tree->grid;
-    return domain->dim == 2 ? iccp_fence_create(&state->fence, domain, grid, env)
-                            : iccp_cage_cells_create(&state->cage, domain, grid, env);
+    return domain->dim == 2 ? iccp_boundary_cells2_create(&state->cells2, domain, grid, env)
+                            : iccp_boundary_cellsn_create(&state->cellsn, domain, grid, env);
 }
 
 static void place_maximum(iccp_gradient_state *state, icc_chart *chart)
@@ -316,9 +316,9 @@ static void free_state(icc_chart *chart)
 {
     iccp_gradient_state *state = chart->state;
     if (chart->domain->dim == 2)
-        iccp_fence_free(&state->fence);
+        iccp_boundary_cells2_free(&state->cells2);
     else
-        iccp_cage_cells_free(&state->cage);
+        iccp_boundary_cellsn_free(&state->cellsn);
     iccp_function_release(state->field);
     iccp_tree_release(state->tree);
     iccp_free(&chart->memory, state);

@@ -46,7 +46,7 @@ static icc_status make_inner(job *j, size_t k, const iccp_env *env, icc_error *e
     const icc_domain *domain = j->domain[k];
     icc_status status = ICC_OK;
     j->mesh[k] = domain->mesh;
-    if (domain->mesh->n_points == domain->mesh->n_rim) {
+    if (domain->mesh->n_points == domain->mesh->n_boundary) {
         status = iccp_split_deepest(&j->split[k], domain, env, err);
         j->mesh[k] = j->split[k];
     }

@@ -29,14 +29,14 @@ static icc_status down_in_plane(const iccp_gradient_state *state, const double *
                                 iccp_path *path, iccp_jetn *jet, iccp_gradient_line *line)
 {
     iccp_walk2 walk;
-    iccp_fence_hit hit;
+    iccp_boundary_hit2 hit;
     iccp_jet2 flat;
     if (jet != NULL)
         to_plane(jet, &flat);
     icc_status status = iccp_walk2_start(&walk, state->field, ICCP_DOWNHILL, from[0], from[1],
                                          jet != NULL ? &flat : NULL);
     if (status == ICC_OK)
-        status = iccp_trace_downhill(&walk, &state->fence, path, &hit);
+        status = iccp_trace_downhill(&walk, &state->cells2, path, &hit);
     if (status == ICC_OK)
         *line = (iccp_gradient_line){.s = walk.s,
                                      .merged = walk.merged,
@@ -53,10 +53,10 @@ icc_status iccp_gradient_down(const iccp_gradient_state *state, const double *fr
     if (is_plane(state))
         return down_in_plane(state, from, path, jet, line);
     iccp_walkn walk;
-    iccp_cage_hit hit;
+    iccp_boundary_hitn hit;
     icc_status status = iccp_walkn_start(&walk, state->field, ICCP_DOWNHILL, from, NULL, jet);
     if (status == ICC_OK)
-        status = iccp_walkn_downhill(&walk, &state->cage, path, &hit);
+        status = iccp_walkn_downhill(&walk, &state->cellsn, path, &hit);
     if (status != ICC_OK)
         return status;
     *line = (iccp_gradient_line){.s = walk.s, .merged = walk.merged, .facet = hit.facet};
@@ -109,7 +109,7 @@ static icc_status depart(const icc_chart *chart, uint32_t facet, const double *p
     const iccp_gradient_state *state = chart->state;
     double from[ICC_MAX_DIM], inward[ICC_MAX_DIM];
     iccp_gradient_to_lattice(state, point, from);
-    iccp_cage_inward(chart->domain, facet, inward);
+    iccp_facet_inward(chart->domain, facet, inward);
     return iccp_walkn_start(walk, state->field, ICCP_UPHILL, from, inward, jet);
 }
 

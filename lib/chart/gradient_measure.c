@@ -135,7 +135,7 @@ static void judge_boundary_point(const boundary_samples *samples, size_t index)
     place_on_facet(domain->dim, along, index, bary);
     iccp_domain_facet_point(domain, (uint32_t)facet, bary, point);
     iccp_gradient_to_lattice(state, point, lattice);
-    iccp_cage_inward(domain, (uint32_t)facet, inward);
+    iccp_facet_inward(domain, (uint32_t)facet, inward);
     samples->inward[index] = iccp_gradient_slope_sign(state, lattice, inward) > 0;
     samples->collapsed[index] = NAN;
     iccp_gradient_line line;
@@ -174,7 +174,7 @@ static void sum_extents(const icc_domain *domain, double *extent)
     extent[0] = 0;
     for (size_t f = 0; f < domain->n_facets; ++f) {
         double square = 0;
-        iccp_cage_inward(domain, (uint32_t)f, inward);
+        iccp_facet_inward(domain, (uint32_t)f, inward);
         for (int32_t k = 0; k < domain->dim; ++k)
             square += inward[k] * inward[k];
         extent[f + 1] = extent[f] + sqrt(square);

@@ -6,7 +6,7 @@ icc_status iccp_gradient_depart(const icc_chart *chart, uint32_t facet, const do
     const iccp_gradient_state *state = chart->state;
     double p[2], inward[2];
     iccp_gradient_to_lattice(state, point, p);
-    iccp_cage_inward(chart->domain, facet, inward);
+    iccp_facet_inward(chart->domain, facet, inward);
     const icc_status status = iccp_walk2_start(walk, state->field, ICCP_UPHILL, p[0], p[1], jet);
     if (status == ICC_OK)
         iccp_walk2_face(walk, inward);

@@ -3,18 +3,18 @@
 #define ICCP_GRADIENT_STATE_H
 
 #include "chart/recipe.h"
-#include "trace/cage_cells.h"
+#include "trace/boundary_cellsn.h"
 #include "trace/walk2.h"
 
 typedef struct iccp_gradient_state {
     iccp_recipe recipe;
     icc_tree *tree;
     icc_function *field;
-    uint32_t chosen;          /* the root that was asked for; the tree's may have moved */
-    iccp_fence fence;         /* the boundary as walks meet it: in the plane */
-    iccp_cage_cells cage;     /* and elsewhere */
-    double root[ICC_MAX_DIM]; /* the maximum in lattice coordinates */
-    double root_reach;        /* lattice: a point this close is the maximum */
+    uint32_t chosen;             /* the root that was asked for; the tree's may have moved */
+    iccp_boundary_cells2 cells2; /* the boundary as walks meet it: in the plane */
+    iccp_boundary_cellsn cellsn; /* and elsewhere */
+    double root[ICC_MAX_DIM];    /* the maximum in lattice coordinates */
+    double root_reach;           /* lattice: a point this close is the maximum */
 } iccp_gradient_state;
 
 static inline void iccp_gradient_to_lattice(const iccp_gradient_state *state, const double *local,

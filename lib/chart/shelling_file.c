@@ -41,7 +41,7 @@ static bool find_ranks(const order *o, uint32_t centre)
     for (size_t done = 0; done < n_queue; ++done)
         for (size_t i = 0; i < n; ++i) {
             const uint32_t side = mesh->across[n * o->queue[done] + i];
-            const size_t s = (side & ICCP_RIM) != 0 ? SIZE_MAX : side / n;
+            const size_t s = (side & ICCP_ON_BOUNDARY) != 0 ? SIZE_MAX : side / n;
             if (s == SIZE_MAX || o->n_ahead[s] == 0 || !(o->direction[side] < 0) ||
                 --o->n_ahead[s] > 0)
                 continue;
@@ -151,7 +151,7 @@ icc_status iccp_chart_shelling_read(icc_chart **out, const icc_domain *domain, i
         status = iccp_filling_read(&own, domain, r, env);
     const iccp_simplices *mesh = own != NULL ? own : domain->mesh;
     const uint64_t centre = iccp_blob_read_u64(r);
-    if (status == ICC_OK && (has_own > 1 || centre < mesh->n_rim || centre >= mesh->n_points))
+    if (status == ICC_OK && (has_own > 1 || centre < mesh->n_boundary || centre >= mesh->n_points))
         status = ICC_ERR_FORMAT;
     if (status == ICC_OK) {
         status = iccp_shelling_begin(out, domain, own, (uint32_t)centre, env);

@@ -305,7 +305,7 @@ icc_status iccp_shelling_begin(icc_chart **out, const icc_domain *domain, iccp_s
     icc_chart_info *info = &(*out)->info;
     info->method = ICC_METHOD_FOLIATION;
     info->n_mesh_vertices = mesh->n_points;
-    info->n_mesh_boundary = mesh->n_rim;
+    info->n_mesh_boundary = mesh->n_boundary;
     info->n_mesh_simplices = mesh->n_simplices;
     state->mesh = own;
     state->fibres.memory = env->memory;

@@ -1,6 +1,6 @@
 /* Strip tree in the manner of D. H. Ballard, Strip trees: a hierarchical representation for curves,
- * 1981, with boxes for strips: the tree halves the ring, not the plane. Consecutive edges lie close
- * together, so no sorting is needed. */
+ * 1981, with boxes for strips: the tree halves the polygon, not the plane. Consecutive edges lie
+ * close together, so no sorting is needed. */
 #include "domain/boxtree.h"
 
 #include "domain/segment.h"

@@ -1,4 +1,4 @@
-/* A tree of bounding boxes over the edges of a ring. */
+/* A tree of bounding boxes over the edges of a polygon. */
 #ifndef ICCP_BOXTREE_H
 #define ICCP_BOXTREE_H
 

@@ -42,14 +42,14 @@ static uint32_t slot(const iccp_buckets *b, int axis, double x)
 }
 
 /* Shapes the cells so that as few edges as possible share one: with Lx and Ly the lengths of the
- * ring along the axes, edges cross about Lx / hx + Ly / hy sides of cells, which for a given area
- * of cells is least when hx / hy = Lx / Ly. Column 0 lies outside the box, so each row starts
+ * polygon along the axes, edges cross about Lx / hx + Ly / hy sides of cells, which for a given
+ * area of cells is least when hx / hy = Lx / Ly. Column 0 lies outside the box, so each row starts
  * outside. */
-static void choose_cells(iccp_buckets *b, const iccp_ring *ring)
+static void choose_cells(iccp_buckets *b, const iccp_polygon *polygon)
 {
-    const double slack = SLACK * b->band.reach, n = (double)ring->n;
+    const double slack = SLACK * b->band.reach, n = (double)polygon->n;
     double length[2] = {0, 0}, side[2], count[2];
-    for (size_t k = 0; k < ring->n; ++k)
+    for (size_t k = 0; k < polygon->n; ++k)
         for (int axis = 0; axis < 2; ++axis)
             length[axis] += fabs(edge_start(b, k)[2 + axis] - edge_start(b, k)[axis]);
     for (int axis = 0; axis < 2; ++axis) {
@@ -175,22 +175,22 @@ static void explore_row(iccp_buckets *b, uint32_t row)
     }
 }
 
-icc_status iccp_buckets_create(iccp_buckets *buckets, const iccp_ring *ring, const double *lower,
-                               const double *upper, const iccp_band *band,
+icc_status iccp_buckets_create(iccp_buckets *buckets, const iccp_polygon *polygon,
+                               const double *lower, const double *upper, const iccp_band *band,
                                const iccp_memory *memory)
 {
     iccp_buckets *const b = buckets;
-    *b = (iccp_buckets){.points = ring->points, .band = *band};
+    *b = (iccp_buckets){.points = polygon->points, .band = *band};
     for (int axis = 0; axis < 2; ++axis) {
         b->lower[axis] = lower[axis] - band->reach;
         b->upper[axis] = upper[axis] + band->reach;
     }
-    choose_cells(b, ring);
+    choose_cells(b, polygon);
     const size_t n_cells = (size_t)b->size[0] * b->size[1];
     b->cells = iccp_alloc_zero(memory, n_cells + 1, sizeof *b->cells);
     if (b->cells == NULL)
         return ICC_ERR_MEMORY;
-    for (uint32_t edge = 0; edge < ring->n; ++edge)
+    for (uint32_t edge = 0; edge < polygon->n; ++edge)
         enter(b, edge, NULL);
     uint32_t n_entries = 0;
     for (size_t i = 0; i <= n_cells; ++i)
@@ -200,7 +200,7 @@ icc_status iccp_buckets_create(iccp_buckets *buckets, const iccp_ring *ring, con
         iccp_buckets_free(b, memory);
         return ICC_ERR_MEMORY;
     }
-    for (uint32_t edge = (uint32_t)ring->n; edge-- > 0;)
+    for (uint32_t edge = (uint32_t)polygon->n; edge-- > 0;)
         enter(b, edge, b->edges);
     for (uint32_t row = 0; row < b->size[1]; ++row)
         explore_row(b, row);
@@ -236,10 +236,10 @@ static bool in_band(const iccp_buckets *b, const double *a, double t, const doub
     return !iccp_band_is_wide(&b->band) || iccp_band_holds(&b->band, 2, gap);
 }
 
-iccp_place iccp_buckets_find(const iccp_buckets *buckets, const double *point)
+iccp_location iccp_buckets_find(const iccp_buckets *buckets, const double *point)
 {
     const iccp_buckets *const b = buckets;
-    iccp_place place = {ICC_OUTSIDE, 0, 0};
+    iccp_location place = {ICC_OUTSIDE, 0, 0};
     if (!(point[0] >= b->lower[0] && point[0] <= b->upper[0] && point[1] >= b->lower[1] &&
           point[1] <= b->upper[1]))
         return place;
@@ -262,7 +262,7 @@ iccp_place iccp_buckets_find(const iccp_buckets *buckets, const double *point)
             if ((distance2 < best || (distance2 == best && place.where != ICC_BOUNDARY)) &&
                 in_band(b, a, t, p)) {
                 best = distance2;
-                place = (iccp_place){ICC_BOUNDARY, edge, t};
+                place = (iccp_location){ICC_BOUNDARY, edge, t};
             }
         }
         inside ^= crosses(b, edge, p, q);

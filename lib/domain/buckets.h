@@ -5,7 +5,7 @@
 #define ICCP_BUCKETS_H
 
 #include "domain/band.h"
-#include "domain/ring.h"
+#include "domain/polygon.h"
 #include "icc/icc.h"
 
 typedef struct iccp_bucket {
@@ -14,7 +14,7 @@ typedef struct iccp_bucket {
 } iccp_bucket;
 
 typedef struct iccp_buckets {
-    const double *points;      /* the ring's, borrowed */
+    const double *points;      /* the polygon's, borrowed */
     double lower[2], upper[2]; /* beyond this box everything is outside */
     double origin[2];
     double step[2], rate[2]; /* size of a cell, and 1 / size */
@@ -25,19 +25,19 @@ typedef struct iccp_buckets {
 } iccp_buckets;
 
 /* What is known about a point. */
-typedef struct iccp_place {
+typedef struct iccp_location {
     int32_t where; /* ICC_INSIDE, ICC_BOUNDARY, ICC_OUTSIDE */
     uint32_t edge; /* for ICC_BOUNDARY: the nearest edge, */
     double t;      /* and the share of the way along it */
-} iccp_place;
+} iccp_location;
 
-/* For a simple ring in a box; points in the band count as on it. */
-icc_status iccp_buckets_create(iccp_buckets *buckets, const iccp_ring *ring, const double *lower,
-                               const double *upper, const iccp_band *band,
+/* For a simple polygon in a box; points in the band count as on it. */
+icc_status iccp_buckets_create(iccp_buckets *buckets, const iccp_polygon *polygon,
+                               const double *lower, const double *upper, const iccp_band *band,
                                const iccp_memory *memory);
 void iccp_buckets_free(iccp_buckets *buckets, const iccp_memory *memory);
 
 /* Exact but for the band. A point that is not finite is outside. */
-iccp_place iccp_buckets_find(const iccp_buckets *buckets, const double *p);
+iccp_location iccp_buckets_find(const iccp_buckets *buckets, const double *p);
 
 #endif

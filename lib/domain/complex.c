@@ -66,7 +66,7 @@ static void list_ridges(ridge_list *list)
 }
 
 /* "edge (3, 7)". */
-static void describe(const ridge_list *list, uint32_t r, char *text, size_t size)
+static void describe_ridge(const ridge_list *list, uint32_t r, char *text, size_t size)
 {
     const size_t width = list->tuples.width;
     int n = snprintf(text, size, "%s (", iccp_complex_ridge(list->c->dim));
@@ -76,7 +76,7 @@ static void describe(const ridge_list *list, uint32_t r, char *text, size_t size
     (void)snprintf(text + n, size - (size_t)n, ")");
 }
 
-static bool along(const iccp_complex *c, uint32_t r)
+static bool runs_along(const iccp_complex *c, uint32_t r)
 {
     uint32_t ridge[MAX];
     return read_ridge(c, r / c->dim, r % c->dim, ridge);
@@ -90,8 +90,8 @@ static size_t count_conflicts(const iccp_complex *c, size_t facet)
         const size_t other = c->across[c->dim * facet + i];
         for (size_t j = 0; j < c->dim; ++j)
             n += c->across[c->dim * other + j] == facet &&
-                 along(c, (uint32_t)(c->dim * facet + i)) ==
-                     along(c, (uint32_t)(c->dim * other + j));
+                 runs_along(c, (uint32_t)(c->dim * facet + i)) ==
+                     runs_along(c, (uint32_t)(c->dim * other + j));
     }
     return n;
 }
@@ -112,7 +112,7 @@ static icc_status fail_ridge(const ridge_list *list, int kind, const fault *foun
     const char *name = iccp_complex_facet(c->dim);
     const size_t f = at[0] / c->dim, g = kind == OPEN ? f : at[1] / c->dim;
     char ridge[96];
-    describe(list, at[0], ridge, sizeof ridge);
+    describe_ridge(list, at[0], ridge, sizeof ridge);
     if (kind == CROWDED)
         return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_FACET, (int64_t)(at[2] / c->dim),
                             "%s belongs to %zu %ss, among them %zu, %zu and %zu, instead of two",
@@ -140,7 +140,7 @@ static icc_status pair_ridges(iccp_complex *c, const ridge_list *list, icc_error
         if (kind == N_FAULTS) {
             c->across[at[0]] = at[1] / (uint32_t)c->dim;
             c->across[at[1]] = at[0] / (uint32_t)c->dim;
-            if (along(c, at[0]) != along(c, at[1]))
+            if (runs_along(c, at[0]) != runs_along(c, at[1]))
                 continue;
             kind = TWISTED;
         }

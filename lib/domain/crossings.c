@@ -32,10 +32,10 @@ int iccp_facet_crossed(const iccp_facet_tree *tree, uint32_t facet, size_t axis,
         for (size_t j = 0; j < dim; ++j)
             at[j] = s.at[j < i ? j : j + 1];
         const int sign = iccp_orient_beside(dim - 1, at);
-        const int turned = (dim - 1 - i) % 2 == 0 ? sign : -sign;
-        if (turned == 0 || turned == -common)
+        const int oriented = (dim - 1 - i) % 2 == 0 ? sign : -sign;
+        if (oriented == 0 || oriented == -common)
             return 0;
-        common = turned;
+        common = oriented;
     }
     return common;
 }
@@ -165,9 +165,9 @@ static bool within_sides(const iccp_facet_tree *tree, const double *const *corne
         at[n++] = from;
         at[n] = to;
         const int sign = iccp_orient(dim, at);
-        const int turned = i % 2 == 0 ? sign : -sign;
-        seen[0] |= turned < 0;
-        seen[1] |= turned > 0;
+        const int oriented = i % 2 == 0 ? sign : -sign;
+        seen[0] |= oriented < 0;
+        seen[1] |= oriented > 0;
     }
     return !(seen[0] && seen[1]);
 }

@@ -15,7 +15,7 @@ enum { PATIENCE = 64 };
 static const uint32_t NONE = UINT32_MAX;
 
 typedef struct walk {
-    const iccp_ring *ring;
+    const iccp_polygon *polygon;
     iccp_boxtree tree;
     uint32_t *order; /* finite points by x, y, index */
     uint32_t *twin;  /* the next point equal to this one, by index */
@@ -27,7 +27,7 @@ typedef struct walk {
 
 static const double *point(const walk *w, uint32_t k)
 {
-    return w->ring->points + 2 * (size_t)k;
+    return w->polygon->points + 2 * (size_t)k;
 }
 
 static bool finite(const walk *w, uint32_t k)
@@ -67,7 +67,7 @@ static bool flat(const walk *w)
 
 static bool spike(const walk *w, uint32_t v)
 {
-    const uint32_t before = iccp_ring_before(w->ring, v);
+    const uint32_t before = iccp_polygon_before(w->polygon, v);
     return has_length(w, before) && has_length(w, v) &&
            iccp_point_folds(point(w, v), point(w, before), point(w, v + 1));
 }
@@ -81,7 +81,7 @@ static bool overlap_from(const double *common, const double *p, const double *q)
 /* How two edges meet, beyond what repeated points and spikes already tell. */
 static int32_t meet(const walk *w, uint32_t e, uint32_t f)
 {
-    if (e == iccp_ring_before(w->ring, f) || f == iccp_ring_before(w->ring, e) ||
+    if (e == iccp_polygon_before(w->polygon, f) || f == iccp_polygon_before(w->polygon, e) ||
         !has_length(w, e) || !has_length(w, f))
         return 0;
     for (uint32_t i = 0; i < 2; ++i)
@@ -128,12 +128,12 @@ static void visit(walk *w, uint32_t a)
 static void find_twins(walk *w, uint32_t *work)
 {
     w->n_finite = 0;
-    for (uint32_t v = 0; v < w->ring->n; ++v) {
+    for (uint32_t v = 0; v < w->polygon->n; ++v) {
         w->twin[v] = NONE;
         if (finite(w, v))
             w->order[w->n_finite++] = v;
     }
-    iccp_order_points(w->order, work, w->n_finite, w->ring->points);
+    iccp_order_points(w->order, work, w->n_finite, w->polygon->points);
     for (size_t i = 1; i < w->n_finite; ++i)
         if (iccp_point_equal(point(w, w->order[i - 1]), point(w, w->order[i])))
             w->twin[w->order[i - 1]] = w->order[i];
@@ -143,9 +143,10 @@ static icc_status run(walk *w, const iccp_env *env)
 {
     if (flat(w))
         emit(w, ICC_DEFECT_FLAT, 0, 0);
-    for (uint32_t a = 0; a < w->ring->n && !done(w); ++a) {
+    for (uint32_t a = 0; a < w->polygon->n && !done(w); ++a) {
         if (a % 64 == 0) {
-            const icc_status status = iccp_progress(env, "check", (double)a / (double)w->ring->n);
+            const icc_status status =
+                iccp_progress(env, "check", (double)a / (double)w->polygon->n);
             if (status != ICC_OK)
                 return status;
         }
@@ -155,14 +156,14 @@ static icc_status run(walk *w, const iccp_env *env)
 }
 
 static icc_status list_up_to(iccp_defect_list *list, size_t enough, size_t patience,
-                             const iccp_ring *ring, const iccp_env *env)
+                             const iccp_polygon *polygon, const iccp_env *env)
 {
     const iccp_memory *memory = &env->memory;
-    walk w = {.ring = ring, .list = list, .enough = enough, .patience = patience};
-    w.order = iccp_alloc(memory, ring->n, sizeof *w.order);
-    w.twin = iccp_alloc(memory, ring->n, sizeof *w.twin);
-    uint32_t *work = iccp_alloc(memory, ring->n, sizeof *work);
-    iccp_boxtree_create(&w.tree, ring->points, ring->n, memory);
+    walk w = {.polygon = polygon, .list = list, .enough = enough, .patience = patience};
+    w.order = iccp_alloc(memory, polygon->n, sizeof *w.order);
+    w.twin = iccp_alloc(memory, polygon->n, sizeof *w.twin);
+    uint32_t *work = iccp_alloc(memory, polygon->n, sizeof *work);
+    iccp_boxtree_create(&w.tree, polygon->points, polygon->n, memory);
     icc_status status = ICC_ERR_MEMORY;
     list->n = 0;
     if (w.order != NULL && w.twin != NULL && work != NULL && w.tree.boxes != NULL) {
@@ -176,17 +177,18 @@ static icc_status list_up_to(iccp_defect_list *list, size_t enough, size_t patie
     return status;
 }
 
-icc_status iccp_defects_list(iccp_defect_list *list, const iccp_ring *ring, const iccp_env *env)
+icc_status iccp_defects_list(iccp_defect_list *list, const iccp_polygon *polygon,
+                             const iccp_env *env)
 {
-    return list_up_to(list, SIZE_MAX, SIZE_MAX, ring, env);
+    return list_up_to(list, SIZE_MAX, SIZE_MAX, polygon, env);
 }
 
-icc_status iccp_defects_first(iccp_defect *first, const iccp_ring *ring, const iccp_env *env)
+icc_status iccp_defects_first(iccp_defect *first, const iccp_polygon *polygon, const iccp_env *env)
 {
     int32_t kind = 0;
     uint32_t items[2] = {0, 0};
     iccp_defect_list list = {.capacity = 1, .kinds = &kind, .items = items};
-    const icc_status status = list_up_to(&list, 1, PATIENCE * ring->n, ring, env);
+    const icc_status status = list_up_to(&list, 1, PATIENCE * polygon->n, polygon, env);
     *first = (iccp_defect){kind, items[0], items[1]};
     return status;
 }

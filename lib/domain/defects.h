@@ -1,9 +1,9 @@
-/* Everything that is wrong with a ring, sorted. */
+/* Everything that is wrong with a polygon, sorted. */
 #ifndef ICCP_DEFECTS_H
 #define ICCP_DEFECTS_H
 
 #include "domain/defect.h"
-#include "domain/ring.h"
+#include "domain/polygon.h"
 
 /* Where a list goes; see icc_boundary_defects(). */
 typedef struct iccp_defect_list {
@@ -14,10 +14,11 @@ typedef struct iccp_defect_list {
 } iccp_defect_list;
 
 /* Points whose coordinates are NaN are listed as not finite. */
-icc_status iccp_defects_list(iccp_defect_list *list, const iccp_ring *ring, const iccp_env *env);
+icc_status iccp_defects_list(iccp_defect_list *list, const iccp_polygon *polygon,
+                             const iccp_env *env);
 
 /* The first of that list, or kind 0 if there is none or it takes long to find: only a number of
  * pairs of edges proportional to n is looked at. */
-icc_status iccp_defects_first(iccp_defect *first, const iccp_ring *ring, const iccp_env *env);
+icc_status iccp_defects_first(iccp_defect *first, const iccp_polygon *polygon, const iccp_env *env);
 
 #endif

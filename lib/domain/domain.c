@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "domain/locate.h"
 #include "domain/mask.h"
-#include "domain/polygon.h"
+#include "domain/polygon_check.h"
 #include "domain/simplices.h"
 #include "domain/simplicial.h"
 
@@ -66,27 +66,27 @@ static void view_tree(icc_domain *d)
                                 .facets = d->facets,
                                 .n_leaves = d->locator->tree.n_leaves,
                                 .boxes = d->locator->tree.boxes->lower,
-                                .order = d->locator->ring.facet};
+                                .order = d->locator->polygon.facet};
 }
 
 /* Everything that follows from the copied boundary. */
 static icc_status complete_polygon(icc_domain *d, const iccp_env *env, icc_error *err)
 {
     const size_t n = d->n_vertices;
-    iccp_ring ring = {0};
+    iccp_polygon polygon = {0};
     icc_status status = iccp_polygon_localise(&d->frame, d->vertices, n, d->given, err);
     if (status == ICC_OK)
-        status = iccp_ring_create(&ring, n, d->vertices, d->facets, &d->memory, err);
+        status = iccp_polygon_create(&polygon, n, d->vertices, d->facets, &d->memory, err);
     if (status == ICC_OK)
-        status = iccp_polygon_check(&ring, &d->frame, env, err);
+        status = iccp_polygon_check(&polygon, &d->frame, env, err);
     if (status != ICC_OK) {
-        iccp_ring_free(&ring, &d->memory);
+        iccp_polygon_free(&polygon, &d->memory);
         return status;
     }
     measure_box(d);
-    d->orientation = iccp_polygon_orientation(&ring);
-    d->measure = iccp_polygon_area(&ring);
-    d->locator = iccp_locator_create(&ring, d->lower, d->upper, &d->band, &d->memory);
+    d->orientation = iccp_polygon_orientation(&polygon);
+    d->measure = iccp_polygon_area(&polygon);
+    d->locator = iccp_locator_create(&polygon, d->lower, d->upper, &d->band, &d->memory);
     if (d->locator == NULL)
         return iccp_fail_memory(err);
     view_tree(d);

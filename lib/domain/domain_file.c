@@ -163,8 +163,8 @@ static void write_mesh(const icc_domain *d, iccp_blob_writer *w)
     iccp_blob_u64(w, mesh->n_points);
     iccp_blob_u64(w, mesh->n_simplices);
     iccp_blob_u64(w, mesh->n_facets);
-    iccp_blob_f64(w, mesh->dim * mesh->n_rim, d->given);
-    for (size_t v = mesh->n_rim; v < mesh->n_points; ++v)
+    iccp_blob_f64(w, mesh->dim * mesh->n_boundary, d->given);
+    for (size_t v = mesh->n_boundary; v < mesh->n_points; ++v)
         write_given(d, mesh->points + mesh->dim * v, w);
     iccp_blob_u32(w, (mesh->dim + 1) * mesh->n_simplices, mesh->corners);
     iccp_blob_u32(w, mesh->dim * mesh->n_facets, d->facets);
@@ -248,10 +248,10 @@ icc_status iccp_domain_read(icc_domain **out, iccp_blob_reader *r, const iccp_en
 
 void iccp_filling_write(const iccp_simplices *mesh, iccp_blob_writer *w)
 {
-    const size_t n_inner = mesh->n_points - mesh->n_rim;
+    const size_t n_inner = mesh->n_points - mesh->n_boundary;
     iccp_blob_u64(w, n_inner);
     iccp_blob_u64(w, mesh->n_simplices);
-    iccp_blob_f64(w, mesh->dim * n_inner, mesh->points + mesh->dim * mesh->n_rim);
+    iccp_blob_f64(w, mesh->dim * n_inner, mesh->points + mesh->dim * mesh->n_boundary);
     iccp_blob_u32(w, (mesh->dim + 1) * mesh->n_simplices, mesh->corners);
 }
 
@@ -297,13 +297,13 @@ static icc_status check_filling(iccp_simplices *mesh, const icc_domain *domain)
 static icc_status fill(iccp_simplices *mesh, const icc_domain *domain, size_t n_inner,
                        iccp_blob_reader *r)
 {
-    const size_t dim = mesh->dim, n_rim = mesh->n_rim, n_simplices = mesh->n_simplices;
+    const size_t dim = mesh->dim, n_boundary = mesh->n_boundary, n_simplices = mesh->n_simplices;
     mesh->points = iccp_alloc(&mesh->memory, mesh->n_points, dim * sizeof *mesh->points);
     mesh->corners = iccp_alloc(&mesh->memory, n_simplices, (dim + 1) * sizeof *mesh->corners);
     if (mesh->points == NULL || mesh->corners == NULL)
         return ICC_ERR_MEMORY;
-    double *inner = mesh->points + dim * n_rim;
-    memcpy(mesh->points, domain->vertices, dim * n_rim * sizeof *mesh->points);
+    double *inner = mesh->points + dim * n_boundary;
+    memcpy(mesh->points, domain->vertices, dim * n_boundary * sizeof *mesh->points);
     iccp_blob_read_f64(r, dim * n_inner, inner);
     iccp_blob_read_u32(r, (dim + 1) * n_simplices, mesh->corners);
     return !r->failed && iccp_are_local(dim, dim * n_inner, inner) ? check_filling(mesh, domain)
@@ -325,7 +325,7 @@ icc_status iccp_filling_read(iccp_simplices **out, const icc_domain *domain, icc
     *mesh = (iccp_simplices){.memory = env->memory,
                              .dim = dim,
                              .n_points = domain->n_vertices + n_inner,
-                             .n_rim = domain->n_vertices,
+                             .n_boundary = domain->n_vertices,
                              .n_simplices = n_simplices};
     const icc_status status = fill(mesh, domain, n_inner, r);
     if (status == ICC_OK)

@@ -11,9 +11,9 @@
 static int32_t locate_in_polygon(const icc_domain *domain, const double *point, bool nearest,
                                  uint32_t *facet, double *bary)
 {
-    const iccp_place place = iccp_locator_find(domain->locator, point, nearest);
+    const iccp_location place = iccp_locator_find(domain->locator, point, nearest);
     if (facet != NULL && (nearest || place.where == ICC_BOUNDARY)) {
-        *facet = domain->locator->ring.facet[place.edge];
+        *facet = domain->locator->polygon.facet[place.edge];
         bary[0] = 1 - place.t;
         bary[1] = place.t;
     }

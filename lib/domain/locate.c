@@ -2,19 +2,19 @@
 
 #include <math.h>
 
-iccp_locator *iccp_locator_create(iccp_ring *ring, const double *lower, const double *upper,
+iccp_locator *iccp_locator_create(iccp_polygon *polygon, const double *lower, const double *upper,
                                   const iccp_band *band, const iccp_memory *memory)
 {
     iccp_locator *locator = iccp_alloc_zero(memory, 1, sizeof *locator);
     if (locator == NULL) {
-        iccp_ring_free(ring, memory);
+        iccp_polygon_free(polygon, memory);
         return NULL;
     }
-    locator->ring = *ring;
-    *ring = (iccp_ring){0};
-    iccp_boxtree_create(&locator->tree, locator->ring.points, locator->ring.n, memory);
-    if (locator->tree.boxes == NULL || iccp_buckets_create(&locator->buckets, &locator->ring, lower,
-                                                           upper, band, memory) != ICC_OK) {
+    locator->polygon = *polygon;
+    *polygon = (iccp_polygon){0};
+    iccp_boxtree_create(&locator->tree, locator->polygon.points, locator->polygon.n, memory);
+    if (locator->tree.boxes == NULL || iccp_buckets_create(&locator->buckets, &locator->polygon,
+                                                           lower, upper, band, memory) != ICC_OK) {
         iccp_locator_free(locator, memory);
         return NULL;
     }
@@ -27,7 +27,7 @@ void iccp_locator_free(iccp_locator *locator, const iccp_memory *memory)
         return;
     iccp_buckets_free(&locator->buckets, memory);
     iccp_boxtree_free(&locator->tree, memory);
-    iccp_ring_free(&locator->ring, memory);
+    iccp_polygon_free(&locator->polygon, memory);
     iccp_free(memory, locator);
 }
 
@@ -37,9 +37,9 @@ static double within_reach(double x)
     return x > 1e100 ? 1e100 : x > -1e100 ? x : x == x ? -1e100 : 0;
 }
 
-iccp_place iccp_locator_find(const iccp_locator *locator, const double *p, bool nearest)
+iccp_location iccp_locator_find(const iccp_locator *locator, const double *p, bool nearest)
 {
-    iccp_place place = iccp_buckets_find(&locator->buckets, p);
+    iccp_location place = iccp_buckets_find(&locator->buckets, p);
     if (nearest && place.where != ICC_BOUNDARY) {
         const double reachable[2] = {within_reach(p[0]), within_reach(p[1])};
         double distance2;

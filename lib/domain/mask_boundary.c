@@ -200,24 +200,24 @@ static icc_status cut_boundary(boundary *b, icc_error *err)
 }
 
 /* In the plane: makes facet i join vertices i and i + 1. */
-static icc_status follow_ring(boundary *b)
+static icc_status follow_polygon(boundary *b)
 {
     const iccp_memory *memory = &b->env->memory;
     const size_t n = b->n_vertices;
-    double *ring = iccp_alloc(memory, n, 2 * sizeof *ring);
-    if (ring == NULL)
+    double *polygon = iccp_alloc(memory, n, 2 * sizeof *polygon);
+    if (polygon == NULL)
         return ICC_ERR_MEMORY;
     for (size_t i = 0; i < n; ++i)
         b->number[b->facets[2 * i]] = b->facets[2 * i + 1];
     uint32_t vertex = 0;
     for (size_t i = 0; i < n; ++i) {
-        memcpy(ring + 2 * i, b->vertices + 2 * (size_t)vertex, 2 * sizeof *ring);
+        memcpy(polygon + 2 * i, b->vertices + 2 * (size_t)vertex, 2 * sizeof *polygon);
         vertex = b->number[vertex];
         b->facets[2 * i] = (uint32_t)i;
         b->facets[2 * i + 1] = i + 1 < n ? (uint32_t)(i + 1) : 0;
     }
     iccp_free(memory, b->vertices);
-    b->vertices = ring;
+    b->vertices = polygon;
     return ICC_OK;
 }
 
@@ -229,7 +229,7 @@ static icc_status create(icc_domain **out, const iccp_mask *mask, const iccp_env
     boundary b = {.mask = mask, .env = &part[0]};
     icc_status status = cut_boundary(&b, err);
     if (status == ICC_OK && mask->dim == 2)
-        status = follow_ring(&b);
+        status = follow_polygon(&b);
     if (status == ICC_OK)
         status = iccp_domain_create(out, mask->dim, b.n_vertices, b.vertices, b.n_facets, b.facets,
                                     &part[1], err);

@@ -41,7 +41,7 @@ static bool within(const iccp_mask *mask, const int64_t *cell)
 }
 
 /* By how many the contacts grow when a cell is filled. */
-static int change(iccp_mask *mask, size_t position, const int64_t *cell)
+static int count_change(iccp_mask *mask, size_t position, const int64_t *cell)
 {
     const int before = count_contacts(mask, cell);
     mask->cells[position] = 1;
@@ -50,7 +50,7 @@ static int change(iccp_mask *mask, size_t position, const int64_t *cell)
     return after - before;
 }
 
-static bool mend(iccp_mask *mask, const size_t *at)
+static bool fill_gap(iccp_mask *mask, const size_t *at)
 {
     int n_axes, least = 1;
     const uint64_t block = iccp_mask_block(mask, at, &n_axes);
@@ -61,7 +61,7 @@ static bool mend(iccp_mask *mask, const size_t *at)
         (void)iccp_mask_coordinates(mask, position, cell);
         if ((block >> bit & 1) != 0 || !within(mask, cell))
             continue;
-        const int grows = change(mask, position, cell);
+        const int grows = count_change(mask, position, cell);
         if (grows < least) {
             least = grows;
             best = position;
@@ -82,7 +82,7 @@ icc_status iccp_mask_repair(iccp_mask *mask, size_t *n_filled, const iccp_env *e
         do {
             if (n_done++ % VERTICES_PER_REPORT == 0 && iccp_progress(env, "repair", 0) != ICC_OK)
                 return ICC_ERR_CANCELLED;
-            *n_filled += is_contact(mask, at) && mend(mask, at);
+            *n_filled += is_contact(mask, at) && fill_gap(mask, at);
         } while (iccp_mask_next(mask, at));
     } while (*n_filled > n_before);
     return ICC_OK;

@@ -17,12 +17,12 @@ typedef struct builder {
     iccp_simplices *mesh; /* in the caller's numbers, until renumber() */
     iccp_frame frame;
     uint32_t *number; /* of each of the caller's points: its new number, or NONE */
-    double *rim;      /* the boundary: points as given, */
+    double *boundary; /* the boundary: points as given, */
     uint32_t *facets; /* and facets by new numbers */
 } builder;
 
-static icc_status start(builder *b, size_t dim, size_t n_simplices, const uint32_t *simplices,
-                        const iccp_env *env)
+static icc_status copy_mesh(builder *b, size_t dim, size_t n_simplices, const uint32_t *simplices,
+                            const iccp_env *env)
 {
     iccp_simplices *mesh = b->mesh = iccp_alloc_zero(&env->memory, 1, sizeof *mesh);
     if (mesh == NULL)
@@ -58,7 +58,7 @@ static icc_status check_mesh(builder *b, size_t n_facets, const uint32_t *facets
 /* The boundary's points first, then the others that simplices have. */
 static void number_points(builder *b)
 {
-    enum { UNUSED, INNER, RIM };
+    enum { UNUSED, INNER, OUTER };
     iccp_simplices *mesh = b->mesh;
     const size_t n_corners = mesh->dim + 1;
     uint32_t n = 0;
@@ -66,14 +66,14 @@ static void number_points(builder *b)
     for (size_t side = 0; side < n_corners * mesh->n_simplices; ++side)
         b->number[mesh->corners[side]] = INNER;
     for (size_t side = 0; side < n_corners * mesh->n_simplices; ++side)
-        for (size_t i = 1; i < n_corners && (mesh->across[side] & ICCP_RIM) != 0; ++i)
-            b->number[mesh->corners[side - side % n_corners + (side + i) % n_corners]] = RIM;
+        for (size_t i = 1; i < n_corners && (mesh->across[side] & ICCP_ON_BOUNDARY) != 0; ++i)
+            b->number[mesh->corners[side - side % n_corners + (side + i) % n_corners]] = OUTER;
     for (size_t v = 0; v < b->n_given; ++v)
-        mesh->n_rim += b->number[v] == RIM;
-    uint32_t inner = (uint32_t)mesh->n_rim;
+        mesh->n_boundary += b->number[v] == OUTER;
+    uint32_t inner = (uint32_t)mesh->n_boundary;
     for (size_t v = 0; v < b->n_given; ++v) {
         const uint32_t kind = b->number[v];
-        b->number[v] = kind == RIM ? n++ : kind == INNER ? inner++ : NONE;
+        b->number[v] = kind == OUTER ? n++ : kind == INNER ? inner++ : NONE;
     }
     mesh->n_points = inner;
 }
@@ -85,8 +85,8 @@ static icc_status renumber(builder *b)
     number_points(b);
     double *points = iccp_alloc(&mesh->memory, mesh->n_points, size);
     mesh->given = iccp_alloc(&mesh->memory, mesh->n_points, sizeof *mesh->given);
-    b->rim = iccp_alloc(&mesh->memory, mesh->n_rim, size);
-    if (points == NULL || mesh->given == NULL || b->rim == NULL) {
+    b->boundary = iccp_alloc(&mesh->memory, mesh->n_boundary, size);
+    if (points == NULL || mesh->given == NULL || b->boundary == NULL) {
         iccp_free(&mesh->memory, points);
         return ICC_ERR_MEMORY;
     }
@@ -96,8 +96,8 @@ static icc_status renumber(builder *b)
             continue;
         mesh->given[to] = v;
         memcpy(points + mesh->dim * to, mesh->points + mesh->dim * v, size);
-        if (to < mesh->n_rim)
-            memcpy(b->rim + mesh->dim * to, b->given + mesh->dim * v, size);
+        if (to < mesh->n_boundary)
+            memcpy(b->boundary + mesh->dim * to, b->given + mesh->dim * v, size);
     }
     iccp_free(&mesh->memory, mesh->points);
     mesh->points = points;
@@ -121,9 +121,9 @@ static icc_status list_facets(builder *b, const uint32_t *facets)
         return ICC_OK;
     }
     for (size_t side = 0; side < (dim + 1) * mesh->n_simplices; ++side) {
-        if (!(mesh->across[side] & ICCP_RIM))
+        if (!(mesh->across[side] & ICCP_ON_BOUNDARY))
             continue;
-        uint32_t *to = b->facets + dim * (mesh->across[side] & ~ICCP_RIM);
+        uint32_t *to = b->facets + dim * (mesh->across[side] & ~ICCP_ON_BOUNDARY);
         iccp_simplices_side(mesh, side, to);
         if (iccp_sort_vertices(dim, to)) {
             const uint32_t swap = to[dim - 2];
@@ -134,8 +134,8 @@ static icc_status list_facets(builder *b, const uint32_t *facets)
     return ICC_OK;
 }
 
-static icc_status build(builder *b, size_t n_facets, const uint32_t *facets, const iccp_env *env,
-                        icc_error *err)
+static icc_status build_mesh(builder *b, size_t n_facets, const uint32_t *facets,
+                             const iccp_env *env, icc_error *err)
 {
     icc_status status = check_mesh(b, n_facets, facets, env, err);
     if (status != ICC_OK)
@@ -168,12 +168,12 @@ icc_status iccp_domain_create_mesh(icc_domain **out, int32_t dim, size_t n_verti
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){2, 1}, env);
     *out = NULL;
-    icc_status status = iccp_explain(err, start(&b, (size_t)dim, n_simplices, simplices, env));
+    icc_status status = iccp_explain(err, copy_mesh(&b, (size_t)dim, n_simplices, simplices, env));
     if (status == ICC_OK)
-        status = build(&b, n_facets, facets, &part[0], err);
+        status = build_mesh(&b, n_facets, facets, &part[0], err);
     if (status == ICC_OK)
-        status = iccp_domain_create(out, dim, b.mesh->n_rim, b.rim, b.mesh->n_facets, b.facets,
-                                    &part[1], err);
+        status = iccp_domain_create(out, dim, b.mesh->n_boundary, b.boundary, b.mesh->n_facets,
+                                    b.facets, &part[1], err);
     if (status == ICC_OK)
         status = check_frame(&b, *out, err);
     if (status == ICC_OK) {
@@ -184,7 +184,7 @@ icc_status iccp_domain_create_mesh(icc_domain **out, int32_t dim, size_t n_verti
         *out = NULL;
     }
     iccp_free(&env->memory, b.number);
-    iccp_free(&env->memory, b.rim);
+    iccp_free(&env->memory, b.boundary);
     iccp_free(&env->memory, b.facets);
     iccp_simplices_free(b.mesh);
     return status;

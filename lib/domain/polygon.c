@@ -1,200 +1,83 @@
 #include "domain/polygon.h"
 
 #include "base/error.h"
-#include "domain/defects.h"
-#include "domain/segment.h"
-#include "domain/sweep.h"
-#include "math/predicates.h"
 
-#include <math.h>
-#include <string.h>
+static const uint32_t NONE = UINT32_MAX;
 
-static bool finite_point(const double *p)
+/* Finds the facet that starts at each vertex. */
+static icc_status index_starts(uint32_t *start, size_t n, const uint32_t *facets, icc_error *err)
 {
-    return isfinite(p[0]) && isfinite(p[1]);
-}
-
-static icc_status fail_not_finite(icc_error *err, size_t vertex)
-{
-    return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_VERTEX, (int64_t)vertex,
-                        "vertex %zu is not finite", vertex);
-}
-
-static icc_status fail_too_small(icc_error *err, size_t vertex, const double *x)
-{
-    return iccp_fail_at(
-        err, ICC_ERR_BOUNDARY, ICC_ITEM_VERTEX, (int64_t)vertex,
-        "vertex %zu (%.17g, %.17g): a coordinate is not 0, but less than 2^-200 of the "
-        "largest one",
-        vertex, x[0], x[1]);
-}
-
-icc_status iccp_polygon_localise(iccp_frame *frame, double *local, size_t n, const double *vertices,
-                                 icc_error *err)
-{
-    for (size_t i = 0; i < n; ++i)
-        if (!finite_point(vertices + 2 * i))
-            return fail_not_finite(err, i);
-    iccp_frame_fit(frame, 2, n, vertices);
-    for (size_t i = 0; i < n; ++i) {
-        if (!iccp_frame_holds(frame, 2, vertices + 2 * i))
-            return fail_too_small(err, i, vertices + 2 * i);
-        iccp_frame_in(frame, 2, vertices + 2 * i, local + 2 * i);
+    for (size_t v = 0; v < n; ++v)
+        start[v] = NONE;
+    for (uint32_t f = 0; f < n; ++f) {
+        for (size_t end = 0; end < 2; ++end)
+            if (facets[2 * f + end] >= n)
+                return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_FACET, f,
+                                    "facet %lu names vertex %lu, but there are only %zu vertices",
+                                    (unsigned long)f, (unsigned long)facets[2 * f + end], n);
+        const uint32_t v = facets[2 * f];
+        if (start[v] != NONE)
+            return iccp_fail_at(
+                err, ICC_ERR_BOUNDARY, ICC_ITEM_FACET, f,
+                "facets %lu and %lu both start at vertex %lu; a boundary is one ring "
+                "of facets in one direction",
+                (unsigned long)start[v], (unsigned long)f, (unsigned long)v);
+        start[v] = f;
     }
     return ICC_OK;
 }
 
-/* "cross near (x, y)", with the vertices or edges in the caller's numbers. */
-static icc_status fail_pair(icc_error *err, const iccp_defect *defect, const iccp_ring *ring,
-                            const iccp_frame *frame)
-{
-    const double *a = ring->points + 2 * (size_t)defect->a,
-                 *b = ring->points + 2 * (size_t)defect->b;
-    double at[2];
-    iccp_segments_point(a, a + 2, b, b + 2, at);
-    iccp_frame_out(frame, 2, at, at);
-    const uint32_t e = ring->facet[defect->a], f = ring->facet[defect->b];
-    return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_FACET, e < f ? e : f,
-                        "edges %lu and %lu %s near (%.9g, %.9g)", (unsigned long)(e < f ? e : f),
-                        (unsigned long)(e < f ? f : e),
-                        defect->kind == ICC_DEFECT_CROSSING ? "cross" : "touch", at[0], at[1]);
-}
-
-static icc_status fail_defect(icc_error *err, const iccp_defect *defect, const iccp_ring *ring,
-                              const iccp_frame *frame)
-{
-    const uint32_t v = ring->vertex[defect->a], w = ring->vertex[defect->b];
-    switch (defect->kind) {
-    case ICC_DEFECT_REPEATED:
-        return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_VERTEX, v > w ? v : w,
-                            "vertex %lu repeats vertex %lu", (unsigned long)(v > w ? v : w),
-                            (unsigned long)(v > w ? w : v));
-    case ICC_DEFECT_SPIKE:
-        return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_VERTEX, v,
-                            "at vertex %lu the boundary runs back over itself", (unsigned long)v);
-    case ICC_DEFECT_FLAT:
-        return iccp_fail(err, ICC_ERR_BOUNDARY,
-                         "all vertices lie on one line: the shape has no area");
-    default:
-        return fail_pair(err, defect, ring, frame);
-    }
-}
-
-icc_status iccp_polygon_check(const iccp_ring *ring, const iccp_frame *frame, const iccp_env *env,
-                              icc_error *err)
-{
-    iccp_defect any, first = {0};
-    icc_status status = iccp_sweep(&any, ring, env);
-    if (status == ICC_OK && any.kind == 0)
-        return ICC_OK;
-    if (status == ICC_OK)
-        status = iccp_defects_first(&first, ring, env);
-    if (status != ICC_OK)
-        return iccp_explain(err, status);
-    return fail_defect(err, first.kind != 0 ? &first : &any, ring, frame);
-}
-
-icc_status iccp_polygon_check_points(size_t n, const double *points, const uint32_t *ring,
-                                     const iccp_env *env)
-{
-    if (n < 3)
-        return ICC_ERR_BOUNDARY;
-    iccp_ring copy = {.n = n};
-    copy.points = iccp_alloc(&env->memory, n + 1, 2 * sizeof *copy.points);
-    copy.vertex = iccp_alloc(&env->memory, n, sizeof *copy.vertex);
-    copy.facet = iccp_alloc(&env->memory, n, sizeof *copy.facet);
-    icc_status status = ICC_ERR_MEMORY;
-    if (copy.points != NULL && copy.vertex != NULL && copy.facet != NULL) {
-        for (uint32_t k = 0; k < n; ++k) {
-            const size_t from = ring != NULL ? ring[k] : k;
-            memcpy(copy.points + 2 * (size_t)k, points + 2 * from, 2 * sizeof *points);
-            copy.vertex[k] = copy.facet[k] = k;
-        }
-        memcpy(copy.points + 2 * n, copy.points, 2 * sizeof *points);
-        status = iccp_polygon_check(&copy, &iccp_frame_identity, env, NULL);
-    }
-    iccp_ring_free(&copy, &env->memory);
-    return status;
-}
-
-int iccp_polygon_orientation(const iccp_ring *ring)
+/* Walks from vertex 0 along the facets. No two start at the same vertex, so the walk has come all
+ * the way round when it is back at vertex 0 for the first time after n facets. */
+static icc_status walk(iccp_polygon *polygon, const uint32_t *start, const uint32_t *facets,
+                       icc_error *err)
 {
     uint32_t v = 0;
-    for (uint32_t k = 1; k < ring->n; ++k)
-        if (iccp_point_less(ring->points + 2 * (size_t)k, ring->points + 2 * (size_t)v))
-            v = k;
-    const double *p = ring->points + 2 * (size_t)v;
-    return iccp_orient2d(ring->points + 2 * (size_t)iccp_ring_before(ring, v), p, p + 2);
-}
-
-/* Half the sum of the cross products of the sides with vertex 0. Each product and each sum is
- * carried with its rounding error: T. Ogita, S. M. Rump, S. Oishi, Accurate sum and dot product,
- * 2005, algorithm 5.3. */
-double iccp_polygon_area(const iccp_ring *ring)
-{
-    const double *origin = ring->points;
-    double sum = 0, error = 0;
-    for (size_t k = 1; k + 1 < ring->n; ++k) {
-        const double *p = ring->points + 2 * k, *q = p + 2;
-        const double factors[2][2] = {{p[0] - origin[0], q[1] - origin[1]},
-                                      {origin[1] - p[1], q[0] - origin[0]}};
-        for (int i = 0; i < 2; ++i) {
-            const double product = factors[i][0] * factors[i][1];
-            const double total = sum + product, part = total - sum;
-            error += fma(factors[i][0], factors[i][1], -product);
-            error += (sum - (total - part)) + (product - part);
-            sum = total;
-        }
-    }
-    return 0.5 * fabs(sum + error);
-}
-
-/* Local coordinates for the list: a vertex that is not finite becomes NaN. The frame is that of the
- * finite ones, which `scratch` gathers. */
-static icc_status localise_finite(double *local, double *scratch, size_t n, const double *vertices,
-                                  icc_error *err)
-{
-    size_t n_finite = 0;
-    for (size_t i = 0; i < n; ++i)
-        if (finite_point(vertices + 2 * i)) {
-            scratch[2 * n_finite] = vertices[2 * i];
-            scratch[2 * n_finite + 1] = vertices[2 * i + 1];
-            ++n_finite;
-        }
-    iccp_frame frame = iccp_frame_identity;
-    if (n_finite > 0)
-        iccp_frame_fit(&frame, 2, n_finite, scratch);
-    for (size_t i = 0; i < n; ++i) {
-        if (!finite_point(vertices + 2 * i)) {
-            local[2 * i] = local[2 * i + 1] = NAN;
-            continue;
-        }
-        if (!iccp_frame_holds(&frame, 2, vertices + 2 * i))
-            return fail_too_small(err, i, vertices + 2 * i);
-        iccp_frame_in(&frame, 2, vertices + 2 * i, local + 2 * i);
+    for (size_t k = 0; k < polygon->n; ++k) {
+        polygon->vertex[k] = v;
+        polygon->facet[k] = start[v];
+        v = facets[2 * start[v] + 1];
+        if ((v == 0) != (k + 1 == polygon->n))
+            return iccp_fail_at(
+                err, ICC_ERR_BOUNDARY, ICC_ITEM_FACET, polygon->facet[k],
+                "the facets are not one ring through all %zu vertices: %zu steps from "
+                "vertex 0 lead to vertex %lu",
+                polygon->n, k + 1, (unsigned long)v);
     }
     return ICC_OK;
 }
 
-icc_status iccp_boundary_defects(size_t n, const double *vertices, size_t capacity, int32_t *kinds,
-                                 uint32_t *items, size_t *n_defects, const iccp_env *env,
-                                 icc_error *err)
+icc_status iccp_polygon_create(iccp_polygon *polygon, size_t n, const double *vertices,
+                               const uint32_t *facets, const iccp_memory *memory, icc_error *err)
 {
-    const iccp_memory *memory = &env->memory;
-    iccp_defect_list list = {.capacity = capacity, .kinds = kinds, .items = items};
-    iccp_ring ring = {.n = n, .points = iccp_alloc(memory, n + 1, 2 * sizeof(double))};
-    double *scratch = iccp_alloc(memory, n, 2 * sizeof(double));
-    icc_status status = ICC_ERR_MEMORY;
-    if (ring.points != NULL && scratch != NULL)
-        status = localise_finite(ring.points, scratch, n, vertices, err);
-    iccp_free(memory, scratch);
-    if (status == ICC_OK && n > 0) {
-        ring.points[2 * n] = ring.points[0];
-        ring.points[2 * n + 1] = ring.points[1];
-    }
+    polygon->n = n;
+    polygon->points = iccp_alloc(memory, n + 1, 2 * sizeof *polygon->points);
+    polygon->vertex = iccp_alloc(memory, n, sizeof *polygon->vertex);
+    polygon->facet = iccp_alloc(memory, n, sizeof *polygon->facet);
+    uint32_t *start = iccp_alloc(memory, n, sizeof *start);
+    icc_status status;
+    if (polygon->points == NULL || polygon->vertex == NULL || polygon->facet == NULL ||
+        start == NULL)
+        status = iccp_fail_memory(err);
+    else
+        status = index_starts(start, n, facets, err);
     if (status == ICC_OK)
-        status = iccp_defects_list(&list, &ring, env);
-    iccp_free(memory, ring.points);
-    *n_defects = list.n;
-    return iccp_explain(err, status);
+        status = walk(polygon, start, facets, err);
+    iccp_free(memory, start);
+    if (status != ICC_OK) {
+        iccp_polygon_free(polygon, memory);
+        return status;
+    }
+    for (size_t k = 0; k <= n; ++k)
+        for (size_t axis = 0; axis < 2; ++axis)
+            polygon->points[2 * k + axis] = vertices[2 * (size_t)polygon->vertex[k % n] + axis];
+    return ICC_OK;
+}
+
+void iccp_polygon_free(iccp_polygon *polygon, const iccp_memory *memory)
+{
+    iccp_free(memory, polygon->points);
+    iccp_free(memory, polygon->vertex);
+    iccp_free(memory, polygon->facet);
+    *polygon = (iccp_polygon){0};
 }

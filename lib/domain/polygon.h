@@ -1,33 +1,28 @@
-/* Checking polygons as the caller gives them, and saying what is wrong. */
+/* The vertices and facets of a polygon in the order in which one meets them walking round it. The
+ * rest of this folder works on rings; vertex and facet numbers come back where results leave it. */
 #ifndef ICCP_POLYGON_H
 #define ICCP_POLYGON_H
 
-#include "domain/frame.h"
-#include "domain/ring.h"
+#include "base/env.h"
 
-/* Fits a frame to the vertices and writes their local coordinates. ICC_ERR_BOUNDARY for a vertex
- * that is not finite, or too near an axis of the local frame to work with exactly. */
-icc_status iccp_polygon_localise(iccp_frame *frame, double *local, size_t n, const double *vertices,
-                                 icc_error *err);
+typedef struct iccp_polygon {
+    size_t n;
+    double *points; /* n + 1 local points; the last is the first again: edge k joins k and k + 1 */
+    uint32_t *vertex; /* vertex[k] is the number of point k */
+    uint32_t *facet;  /* facet[k] is the number of edge k */
+} iccp_polygon;
 
-/* ICC_ERR_BOUNDARY unless the ring, of at least 3 points, is a simple polygon. */
-icc_status iccp_polygon_check(const iccp_ring *ring, const iccp_frame *frame, const iccp_env *env,
-                              icc_error *err);
+/* Orders n facets over n vertices, starting with vertex 0, and takes over the coordinates.
+ * ICC_ERR_BOUNDARY when the facets are not one closed polygon in one direction. */
+icc_status iccp_polygon_create(iccp_polygon *polygon, size_t n, const double *vertices,
+                               const uint32_t *facets, const iccp_memory *memory, icc_error *err);
 
-/* The same for n local points by themselves: ring[0], ring[1], .. of `points`, or all in their
- * order (NULL). ICC_ERR_BOUNDARY also when there are fewer than 3. */
-icc_status iccp_polygon_check_points(size_t n, const double *points, const uint32_t *ring,
-                                     const iccp_env *env);
+/* Accepts a polygon that is all zero. */
+void iccp_polygon_free(iccp_polygon *polygon, const iccp_memory *memory);
 
-/* +1 counter-clockwise, -1 clockwise: exact for a simple polygon. */
-int iccp_polygon_orientation(const iccp_ring *ring);
-
-/* The area, in local units; accurate to a few units in the last place but for very thin shapes. */
-double iccp_polygon_area(const iccp_ring *ring);
-
-/* See icc_boundary_defects(). */
-icc_status iccp_boundary_defects(size_t n, const double *vertices, size_t capacity, int32_t *kinds,
-                                 uint32_t *items, size_t *n_defects, const iccp_env *env,
-                                 icc_error *err);
+static inline uint32_t iccp_polygon_before(const iccp_polygon *polygon, uint32_t k)
+{
+    return k > 0 ? k - 1 : (uint32_t)polygon->n - 1;
+}
 
 #endif

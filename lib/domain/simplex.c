@@ -81,7 +81,8 @@ static size_t list_corners(const search *s, unsigned subset, size_t *list)
     return n;
 }
 
-static void keep(search *s, double distance2, size_t n, const size_t *list, const double *bary)
+static void keep_nearest(search *s, double distance2, size_t n, const size_t *list,
+                         const double *bary)
 {
     if (!(distance2 < s->best2))
         return;
@@ -91,13 +92,13 @@ static void keep(search *s, double distance2, size_t n, const size_t *list, cons
         s->bary[list[i]] = bary[i];
 }
 
-static void look(search *s, unsigned subset)
+static void search_face(search *s, unsigned subset)
 {
     size_t list[MAX];
     double bary[MAX] = {1}, rest[MAX];
     const size_t n = list_corners(s, subset, list);
     if (n == 1) {
-        keep(s, s->distance2[list[0]], n, list, bary);
+        keep_nearest(s, s->distance2[list[0]], n, list, bary);
         return;
     }
     const int solid = project(s, n, list, bary + 1, rest);
@@ -107,11 +108,11 @@ static void look(search *s, unsigned subset)
     for (size_t i = 0; i < n; ++i)
         if (!solid || !(bary[i] > 0)) {
             within = 0;
-            look(s, subset & ~(1u << list[i]));
+            search_face(s, subset & ~(1u << list[i]));
         }
     /* Rounding may put a corner of one simplex into another nearby; only its own have it at 0. */
     if (within)
-        keep(s, iccp_vec_dot(s->dim, rest, rest) + DBL_MIN, n, list, bary);
+        keep_nearest(s, iccp_vec_dot(s->dim, rest, rest) + DBL_MIN, n, list, bary);
 }
 
 double iccp_simplex_nearest(size_t dim, size_t n, const double *const *corners, const double *p,
@@ -129,7 +130,7 @@ double iccp_simplex_nearest(size_t dim, size_t n, const double *const *corners, 
             return 0;
         }
     }
-    look(&s, (1u << n) - 1);
+    search_face(&s, (1u << n) - 1);
     memcpy(bary, s.bary, n * sizeof *bary);
     return s.best2;
 }

@@ -82,7 +82,7 @@ typedef struct side_list {
     iccp_simplices *mesh;
     iccp_tuples tuples;
     size_t n_sides;
-    uint32_t n_rim; /* facets of the boundary so far */
+    uint32_t n_boundary; /* facets of the boundary so far */
 } side_list;
 
 void iccp_simplices_side(const iccp_simplices *mesh, size_t side, uint32_t *points)
@@ -175,8 +175,9 @@ static icc_status join_facet(side_list *list, size_t begin, size_t end, bool giv
         mesh->across[at[1]] = at[0];
         return ICC_OK;
     }
-    mesh->across[at[0]] = ICCP_RIM | (given ? at[1] - (uint32_t)list->n_sides : list->n_rim);
-    ++list->n_rim;
+    mesh->across[at[0]] =
+        ICCP_ON_BOUNDARY | (given ? at[1] - (uint32_t)list->n_sides : list->n_boundary);
+    ++list->n_boundary;
     return ICC_OK;
 }
 
@@ -224,7 +225,7 @@ icc_status iccp_simplices_join(iccp_simplices *mesh, size_t n_facets, const uint
         end = iccp_tuples_end(&list.tuples, k);
         status = join_facet(&list, k, end, facets != NULL, err);
     }
-    mesh->n_facets = list.n_rim;
+    mesh->n_facets = list.n_boundary;
     iccp_tuples_free(&list.tuples);
     return status;
 }

@@ -10,22 +10,22 @@
 #include <stdbool.h>
 
 /* The mark of a side on the domain's boundary; the other bits are the number of the facet there. */
-#define ICCP_RIM 0x80000000u
+#define ICCP_ON_BOUNDARY 0x80000000u
 
 typedef struct iccp_simplices {
     iccp_memory memory;
     size_t dim;
     size_t n_points;
-    size_t n_rim; /* the first ones are the vertices of the domain, in its order */
+    size_t n_boundary; /* the first ones are the vertices of the domain, in its order */
     size_t n_simplices;
     size_t n_facets;   /* of the domain */
     double *points;    /* dim each, in the domain's local coordinates */
-    uint32_t *given;   /* of each point: the caller's number of it; ascending up to n_rim, and
+    uint32_t *given;   /* of each point: the caller's number of it; ascending up to n_boundary, and
                           beyond */
     uint32_t *corners; /* dim + 1 each, so that iccp_orient() of them is 1 */
     uint32_t
-        *across; /* of each side: the same side as seen from its other simplex, or ICCP_RIM and the
-                    domain's facet */
+        *across; /* of each side: the same side as seen from its other simplex, or ICCP_ON_BOUNDARY
+                    and the domain's facet */
 } iccp_simplices;
 
 void iccp_simplices_free(iccp_simplices *mesh);

@@ -16,7 +16,7 @@ static size_t flood(const iccp_simplices *mesh, bool *reached, uint32_t *queue)
     while (done < n) {
         const uint32_t *across = mesh->across + n_sides * queue[done++];
         for (size_t i = 0; i < n_sides; ++i) {
-            if (across[i] & ICCP_RIM)
+            if (across[i] & ICCP_ON_BOUNDARY)
                 continue;
             const uint32_t other = (uint32_t)iccp_simplex_of(mesh, across[i]);
             if (!reached[other]) {

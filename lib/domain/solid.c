@@ -63,7 +63,7 @@ static void reach(flood *f, size_t cell)
 }
 
 /* Reaches all cells of a kind that are joined to one through faces. */
-static icc_status spread(flood *f, size_t start, const iccp_env *env)
+static icc_status flood_from(flood *f, size_t start, const iccp_env *env)
 {
     const iccp_mask *mask = f->mask;
     const uint8_t kind = mask->cells[start];
@@ -101,7 +101,7 @@ static icc_status check_inside(flood *f, const iccp_env *env, icc_error *err)
     const size_t first = first_left(f, 1);
     if (first == mask->n_padded)
         return iccp_fail(err, ICC_ERR_TOPOLOGY, "the mask is empty: no cell is inside");
-    if (spread(f, first, env) != ICC_OK)
+    if (flood_from(f, first, env) != ICC_OK)
         return ICC_ERR_CANCELLED;
     const size_t other = first_left(f, 1);
     if (other == mask->n_padded)
@@ -122,7 +122,7 @@ static icc_status check_outside(flood *f, const iccp_env *env, icc_error *err)
     const iccp_mask *mask = f->mask;
     if (mask->dim == 1)
         return ICC_OK;
-    if (spread(f, 0, env) != ICC_OK)
+    if (flood_from(f, 0, env) != ICC_OK)
         return ICC_ERR_CANCELLED;
     const size_t other = first_left(f, 0);
     if (other == mask->n_padded)

@@ -13,7 +13,7 @@
 #include "math/predicates.h"
 
 typedef struct sweep {
-    const iccp_ring *ring;
+    const iccp_polygon *polygon;
     iccp_avl line;     /* edges that the sweep line meets, from below to above */
     uint32_t *node_of; /* by edge */
     iccp_defect found;
@@ -21,7 +21,7 @@ typedef struct sweep {
 
 static const double *point(const sweep *s, uint32_t k)
 {
-    return s->ring->points + 2 * (size_t)k;
+    return s->polygon->points + 2 * (size_t)k;
 }
 
 static void found(sweep *s, int32_t kind, uint32_t a, uint32_t b)
@@ -35,7 +35,7 @@ static void compare(sweep *s, uint32_t below, uint32_t above)
     if (below == 0 || above == 0)
         return;
     const uint32_t e = s->line.nodes[below].item, f = s->line.nodes[above].item;
-    if (e == iccp_ring_before(s->ring, f) || f == iccp_ring_before(s->ring, e))
+    if (e == iccp_polygon_before(s->polygon, f) || f == iccp_polygon_before(s->polygon, e))
         return;
     const int32_t kind =
         iccp_segments_meet(point(s, e), point(s, e + 1), point(s, f), point(s, f + 1));
@@ -92,7 +92,7 @@ static void pass_on(sweep *s, uint32_t from, uint32_t to)
 
 static void meet_point(sweep *s, uint32_t v)
 {
-    const uint32_t in = iccp_ring_before(s->ring, v), out = v;
+    const uint32_t in = iccp_polygon_before(s->polygon, v), out = v;
     const bool in_starts = iccp_point_less(point(s, v), point(s, in));
     const bool out_starts = iccp_point_less(point(s, v), point(s, v + 1));
     if (in_starts && out_starts)
@@ -108,13 +108,13 @@ static void meet_point(sweep *s, uint32_t v)
 /* Repeated points and spikes. */
 static void check_points(sweep *s, const uint32_t *order)
 {
-    for (size_t i = 1; i < s->ring->n; ++i)
+    for (size_t i = 1; i < s->polygon->n; ++i)
         if (iccp_point_equal(point(s, order[i - 1]), point(s, order[i]))) {
             found(s, ICC_DEFECT_REPEATED, order[i - 1], order[i]);
             return;
         }
-    for (uint32_t v = 0; v < s->ring->n; ++v)
-        if (iccp_point_folds(point(s, v), point(s, iccp_ring_before(s->ring, v)),
+    for (uint32_t v = 0; v < s->polygon->n; ++v)
+        if (iccp_point_folds(point(s, v), point(s, iccp_polygon_before(s->polygon, v)),
                              point(s, v + 1))) {
             found(s, ICC_DEFECT_SPIKE, v, v);
             return;
@@ -123,10 +123,10 @@ static void check_points(sweep *s, const uint32_t *order)
 
 static icc_status run(sweep *s, uint32_t *order, uint32_t *work, const iccp_env *env)
 {
-    const size_t n = s->ring->n;
+    const size_t n = s->polygon->n;
     for (uint32_t v = 0; v < n; ++v)
         order[v] = v;
-    iccp_order_points(order, work, n, s->ring->points);
+    iccp_order_points(order, work, n, s->polygon->points);
     check_points(s, order);
     for (size_t i = 0; i < n && s->found.kind == 0; ++i) {
         if (i % 4096 == 0) {
@@ -139,13 +139,13 @@ static icc_status run(sweep *s, uint32_t *order, uint32_t *work, const iccp_env 
     return ICC_OK;
 }
 
-icc_status iccp_sweep(iccp_defect *result, const iccp_ring *ring, const iccp_env *env)
+icc_status iccp_sweep(iccp_defect *result, const iccp_polygon *polygon, const iccp_env *env)
 {
     const iccp_memory *memory = &env->memory;
-    sweep s = {.ring = ring};
-    iccp_avl_create(&s.line, (uint32_t)ring->n, memory);
-    s.node_of = iccp_alloc(memory, ring->n, sizeof *s.node_of);
-    uint32_t *order = iccp_alloc(memory, ring->n, sizeof *order);
+    sweep s = {.polygon = polygon};
+    iccp_avl_create(&s.line, (uint32_t)polygon->n, memory);
+    s.node_of = iccp_alloc(memory, polygon->n, sizeof *s.node_of);
+    uint32_t *order = iccp_alloc(memory, polygon->n, sizeof *order);
     icc_status status = ICC_ERR_MEMORY;
     /* The sort is done with its work space before the sweep needs node_of. */
     if (s.line.nodes != NULL && s.node_of != NULL && order != NULL)

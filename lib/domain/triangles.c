@@ -31,9 +31,9 @@ static bool has_point(double t[3][2], const double *p)
 {
     bool left = false, right = false;
     for (int i = 0; i < 3; ++i) {
-        const int turn = iccp_orient2d(t[i], t[(i + 1) % 3], p);
-        left |= turn > 0;
-        right |= turn < 0;
+        const int orientation = iccp_orient2d(t[i], t[(i + 1) % 3], p);
+        left |= orientation > 0;
+        right |= orientation < 0;
     }
     return !(left && right);
 }

@@ -87,7 +87,7 @@ static int towards(const edge *e, int side)
 }
 
 /* ICC_EDGE_* or 0. */
-static int32_t judge(const edge *e)
+static int32_t classify_edge(const edge *e)
 {
     const int first = towards(e, 0);
     if (first == 0 || first != towards(e, 1))
@@ -108,7 +108,7 @@ iccp_edge_count iccp_function_edges(const icc_function *function, size_t capacit
                 if (!edge_at(&e, grid, i, j, kind) || !is_tested(function, &e))
                     continue;
                 ++count.n_tested;
-                const int32_t found = judge(&e);
+                const int32_t found = classify_edge(&e);
                 if (found == 0)
                     continue;
                 const size_t n = count.n_compression + count.n_expansion;

@@ -25,7 +25,8 @@ icc_status iccp_function_new(icc_function **out, const icc_tree *tree, const icc
     return ICC_OK;
 }
 
-static icc_status assign_logs(icc_function *function, const iccp_rows *rows, const iccp_scaled *f)
+static icc_status assign_logs(icc_function *function, const iccp_unknowns *unknowns,
+                              const iccp_scaled *f)
 {
     static const double LN_2 = 0.69314718055994530942;
     const icc_tree *tree = function->tree;
@@ -34,16 +35,16 @@ static icc_status assign_logs(icc_function *function, const iccp_rows *rows, con
         return ICC_ERR_MEMORY;
     for (size_t v = 0; v < tree->grid->n_vertices; ++v)
         function->logs[v] = tree->generation[v] < 0 ? NAN : -HUGE_VAL;
-    for (size_t k = 0; k < rows->n; ++k) {
+    for (size_t k = 0; k < unknowns->n; ++k) {
         const double u = log(f->fraction[k]) + LN_2 * f->exponent[k];
-        function->logs[rows->vertex[k]] = u;
+        function->logs[unknowns->vertex[k]] = u;
         function->info.least_log = fmin(function->info.least_log, u);
     }
     return ICC_OK;
 }
 
 /* Fractions in place of the values, which are kept for those who want plain numbers. */
-static icc_status assign_exponents(icc_function *function, const iccp_rows *rows,
+static icc_status assign_exponents(icc_function *function, const iccp_unknowns *unknowns,
                                    const iccp_scaled *f)
 {
     const size_t n = function->tree->grid->n_vertices;
@@ -56,9 +57,9 @@ static icc_status assign_exponents(icc_function *function, const iccp_rows *rows
         function->values[v] = function->plain[v];
         function->exponent[v] = ICCP_ZERO_EXPONENT;
     }
-    for (size_t k = 0; k < rows->n; ++k) {
-        function->values[rows->vertex[k]] = f->fraction[k];
-        function->exponent[rows->vertex[k]] = f->exponent[k];
+    for (size_t k = 0; k < unknowns->n; ++k) {
+        function->values[unknowns->vertex[k]] = f->fraction[k];
+        function->exponent[unknowns->vertex[k]] = f->exponent[k];
     }
     return ICC_OK;
 }
@@ -70,13 +71,13 @@ static uint32_t highest_behind(const icc_function *function, uint32_t v)
     const icc_grid *grid = function->tree->grid;
     uint32_t best = ICCP_NONE;
     for (int32_t i = 0; i < 2 * grid->dim; ++i) {
-        const uint32_t ring = iccp_grid_neighbour(grid, v, i / 2, i % 2 * 2 - 1);
-        if (ring == ICCP_NONE)
+        const uint32_t outside = iccp_grid_neighbour(grid, v, i / 2, i % 2 * 2 - 1);
+        if (outside == ICCP_NONE)
             continue;
-        if (grid->inside[ring])
+        if (grid->inside[outside])
             return ICCP_NONE;
         for (int32_t j = 0; j < 2 * grid->dim; ++j) {
-            const uint32_t u = iccp_grid_neighbour(grid, ring, j / 2, j % 2 * 2 - 1);
+            const uint32_t u = iccp_grid_neighbour(grid, outside, j / 2, j % 2 * 2 - 1);
             if (u != ICCP_NONE && grid->inside[u] && !isnan(function->values[u]) &&
                 (best == ICCP_NONE || iccp_function_compare(function, u, best) > 0))
                 best = u;
@@ -117,7 +118,8 @@ static void forget(icc_function *function)
     function->info.least_log = 0;
 }
 
-icc_status iccp_function_assign(icc_function *function, const iccp_rows *rows, const iccp_scaled *f)
+icc_status iccp_function_assign(icc_function *function, const iccp_unknowns *unknowns,
+                                const iccp_scaled *f)
 {
     const icc_tree *tree = function->tree;
     bool positive = true;
@@ -125,14 +127,14 @@ icc_status iccp_function_assign(icc_function *function, const iccp_rows *rows, c
     forget(function);
     for (size_t i = 0; i < tree->n_reached; ++i)
         function->values[tree->order[i]] = 0;
-    for (size_t k = 0; k < rows->n; ++k) {
-        function->values[rows->vertex[k]] = iccp_scaled_get(f, k, 0);
+    for (size_t k = 0; k < unknowns->n; ++k) {
+        function->values[unknowns->vertex[k]] = iccp_scaled_get(f, k, 0);
         positive = positive && f->fraction[k] > 0;
         least = f->exponent[k] < least ? f->exponent[k] : least;
     }
-    icc_status status = positive ? assign_logs(function, rows, f) : ICC_OK;
+    icc_status status = positive ? assign_logs(function, unknowns, f) : ICC_OK;
     if (status == ICC_OK && positive && least < LEAST_EXPONENT)
-        status = assign_exponents(function, rows, f);
+        status = assign_exponents(function, unknowns, f);
     if (status == ICC_OK)
         mirror(function);
     return status;

@@ -3,7 +3,7 @@
 #define ICCP_FUNCTION_H
 
 #include "math/scaled.h"
-#include "solver/rows.h"
+#include "solver/unknowns.h"
 
 struct icc_function {
     iccp_memory memory;
@@ -22,7 +22,7 @@ icc_status iccp_function_new(icc_function **out, const icc_tree *tree, const icc
  * beyond these minus the value two steps back, as if it went on. Logarithms are made when all are
  * positive, exponents when doubles would not hold them. May be called again. ICC_ERR_MEMORY leaves
  * the function usable only for iccp_function_release(). */
-icc_status iccp_function_assign(icc_function *function, const iccp_rows *rows,
+icc_status iccp_function_assign(icc_function *function, const iccp_unknowns *unknowns,
                                 const iccp_scaled *f);
 
 /* NULL is a no-op. Nothing shares a function yet, so it has one owner. */

@@ -6,20 +6,20 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "function/critical_points.h"
+#include "solver/active_set.h"
 #include "solver/bilaplace.h"
-#include "solver/constrained.h"
-#include "solver/glued.h"
 #include "solver/inequalities.h"
+#include "solver/tied.h"
 
 /* A function on its way: everything here is borrowed but for the arrays. */
 typedef struct job {
     icc_function *function;
     const icc_function_options *options;
-    iccp_rows rows;
+    iccp_unknowns unknowns;
     iccp_scaled f;
-    uint32_t *top; /* the gluing of nothing */
+    uint32_t *top; /* the ties of nothing */
     double *share;
-    uint32_t *order; /* as in iccp_gluing */
+    uint32_t *order; /* as in iccp_ties */
 } job;
 
 /* Most multiplications of a factorisation that are preferred to conjugate gradients. */
@@ -56,12 +56,12 @@ static int32_t choose_solver(const job *j)
     return predict_work(tree) <= most ? ICC_SOLVER_DIRECT : ICC_SOLVER_ITERATIVE;
 }
 
-static icc_status begin(job *j, const iccp_env *env)
+static icc_status begin_job(job *j, const iccp_env *env)
 {
-    icc_status status = iccp_rows_create(&j->rows, j->function->tree, env);
+    icc_status status = iccp_unknowns_create(&j->unknowns, j->function->tree, env);
     if (status != ICC_OK)
         return status;
-    const size_t n = j->rows.n;
+    const size_t n = j->unknowns.n;
     j->f.fraction = iccp_alloc(&env->memory, n, sizeof *j->f.fraction);
     j->f.exponent = iccp_alloc(&env->memory, n, sizeof *j->f.exponent);
     j->top = iccp_alloc(&env->memory, n, sizeof *j->top);
@@ -79,9 +79,9 @@ static icc_status begin(job *j, const iccp_env *env)
     return ICC_OK;
 }
 
-static void end(job *j, const iccp_env *env)
+static void free_job(job *j, const iccp_env *env)
 {
-    iccp_rows_free(&j->rows);
+    iccp_unknowns_free(&j->unknowns);
     iccp_free(&env->memory, j->f.fraction);
     iccp_free(&env->memory, j->f.exponent);
     iccp_free(&env->memory, j->top);
@@ -90,33 +90,33 @@ static void end(job *j, const iccp_env *env)
 }
 
 /* By factorisation where that works, else by iteration; `info` tells. */
-static icc_status solve_directly(const iccp_rows *rows, const iccp_gluing *gluing,
+static icc_status solve_directly(const iccp_unknowns *unknowns, const iccp_ties *ties,
                                  const iccp_scaled *f, icc_function_info *info, const iccp_env *env)
 {
-    const icc_status status = iccp_glued_direct(rows, gluing, f, info, env);
+    const icc_status status = iccp_tied_direct(unknowns, ties, f, info, env);
     if (status != ICC_ERR_SOLVER)
         return status;
     iccp_log(env, "the factorisation loses values far from the maximum: iterating instead");
     info->solver = ICC_SOLVER_ITERATIVE;
-    for (size_t k = 0; k < rows->n; ++k)
+    for (size_t k = 0; k < unknowns->n; ++k)
         iccp_scaled_set(f, k, 1, 0);
-    return iccp_glued_iterative(rows, gluing, f, info, env);
+    return iccp_tied_iterative(unknowns, ties, f, info, env);
 }
 
-static iccp_glued_solver glued_solver(const job *j)
+static iccp_tied_solver tied_solver(const job *j)
 {
-    return j->function->info.solver == ICC_SOLVER_DIRECT ? solve_directly : iccp_glued_iterative;
+    return j->function->info.solver == ICC_SOLVER_DIRECT ? solve_directly : iccp_tied_iterative;
 }
 
 static icc_status solve_laplace(job *j, const iccp_env *env)
 {
     icc_function_info *info = &j->function->info;
-    const iccp_gluing none = {j->top, j->share, j->order};
-    const icc_status status = glued_solver(j)(&j->rows, &none, &j->f, info, env);
+    const iccp_ties none = {j->top, j->share, j->order};
+    const icc_status status = tied_solver(j)(&j->unknowns, &none, &j->f, info, env);
     if (status != ICC_OK)
         return status;
-    for (size_t k = 1; k < j->rows.n; ++k)
-        info->residual = fmax(info->residual, fabs(iccp_laplacian_row(&j->rows, &j->f, k, 0)));
+    for (size_t k = 1; k < j->unknowns.n; ++k)
+        info->residual = fmax(info->residual, fabs(iccp_laplacian_row(&j->unknowns, &j->f, k, 0)));
     info->residual_before = info->residual;
     return ICC_OK;
 }
@@ -128,11 +128,11 @@ static icc_status solve(job *j, const iccp_env *env)
     const icc_status status =
         function == ICC_FUNCTION_LAPLACE
             ? solve_laplace(j, env)
-            : iccp_bilaplace(&j->rows, function, info->solver, &j->f, info, env);
+            : iccp_bilaplace(&j->unknowns, function, info->solver, &j->f, info, env);
     if (status != ICC_OK)
         return status;
     const double clock = iccp_seconds();
-    info->n_violated = iccp_inequalities_violated(&j->rows, j->options->min_fall, &j->f);
+    info->n_violated = iccp_inequalities_violated(&j->unknowns, j->options->min_fall, &j->f);
     info->seconds_verify += iccp_seconds() - clock;
     return ICC_OK;
 }
@@ -144,33 +144,34 @@ static icc_status constrain(job *j, const iccp_env *env)
     const double eta = j->options->min_fall;
     info->constrained = 1;
     if (function == ICC_FUNCTION_LAPLACE)
-        return iccp_constrained_laplace(&j->rows, eta, glued_solver(j), j->order, &j->f, info, env);
+        return iccp_active_set_laplace(&j->unknowns, eta, tied_solver(j), j->order, &j->f, info,
+                                       env);
     info->solver = ICC_SOLVER_DIRECT;
-    return iccp_bilaplace_constrained(&j->rows, function, eta, j->options->leaf_min, &j->f, info,
-                                      env);
+    return iccp_bilaplace_constrained(&j->unknowns, function, eta, j->options->leaf_min, &j->f,
+                                      info, env);
 }
 
-static icc_status make(job *j, const iccp_env *env)
+static icc_status find_function(job *j, const iccp_env *env)
 {
     icc_function *function = j->function;
     const int32_t constraints = j->options->constraints;
     iccp_env part[4];
     iccp_split(part, 4, (const double[]){1, 6, 1, constraints == ICC_CONSTRAINTS_NONE ? 0 : 8},
                env);
-    icc_status status = begin(j, &part[0]);
+    icc_status status = begin_job(j, &part[0]);
     if (status == ICC_OK)
         status = solve(j, &part[1]);
     bool enough = constraints == ICC_CONSTRAINTS_NONE;
     if (status == ICC_OK && constraints == ICC_CONSTRAINTS_NEEDED) {
         const double clock = iccp_seconds();
-        status = iccp_function_assign(function, &j->rows, &j->f);
+        status = iccp_function_assign(function, &j->unknowns, &j->f);
         if (status == ICC_OK)
             status = iccp_function_is_regular(function, &enough, &part[2]);
         function->info.seconds_verify += iccp_seconds() - clock;
     }
     if (status == ICC_OK && !enough)
         status = constrain(j, &part[3]);
-    return status == ICC_OK ? iccp_function_assign(function, &j->rows, &j->f) : status;
+    return status == ICC_OK ? iccp_function_assign(function, &j->unknowns, &j->f) : status;
 }
 
 icc_status iccp_laplace(icc_function *function, const icc_function_options *options,
@@ -186,8 +187,8 @@ icc_status iccp_laplace(icc_function *function, const icc_function_options *opti
             (unsigned long)tree->root);
     function->info.n_unknowns = tree->n_inside - 1;
     function->info.solver = choose_solver(&j);
-    const icc_status status = make(&j, env);
-    end(&j, env);
+    const icc_status status = find_function(&j, env);
+    free_job(&j, env);
     if (status == ICC_ERR_SOLVER)
         return iccp_fail(err, status, "the %s solver did not converge",
                          function->info.solver == ICC_SOLVER_DIRECT ? "direct" : "iterative");

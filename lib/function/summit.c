@@ -15,7 +15,7 @@
 enum { MOST_LOADS = 1000 };
 
 typedef struct plate {
-    iccp_rows rows;
+    iccp_unknowns unknowns;
     int32_t function, solver;
     iccp_laplacian_factor laplacian; /* L: simply supported, direct */
     iccp_sparse a;                   /* A, A'A and its factor: clamped */
@@ -28,7 +28,7 @@ typedef struct plate {
 
 static icc_status prepare_clamped(plate *p, const iccp_env *env)
 {
-    icc_status status = iccp_energy_create(&p->a, &p->rows, p->function, env);
+    icc_status status = iccp_energy_create(&p->a, &p->unknowns, p->function, env);
     if (status == ICC_OK)
         status = iccp_gram_create(&p->gram, &p->a, env);
     if (status != ICC_OK)
@@ -40,7 +40,7 @@ static icc_status prepare_clamped(plate *p, const iccp_env *env)
     return status == ICC_OK ? iccp_ldlt_factorise(&p->factor, &p->gram.matrix, env) : status;
 }
 
-static icc_status prepare(plate *p, const icc_function *function, const iccp_env *env)
+static icc_status prepare_plate(plate *p, const icc_function *function, const iccp_env *env)
 {
     *p = (plate){.function = function->info.function,
                  .solver = function->info.solver,
@@ -48,25 +48,25 @@ static icc_status prepare(plate *p, const icc_function *function, const iccp_env
                  .a = {.memory = env->memory},
                  .gram = {.memory = env->memory},
                  .factor = {.memory = env->memory}};
-    const icc_status status = iccp_rows_create(&p->rows, function->tree, env);
+    const icc_status status = iccp_unknowns_create(&p->unknowns, function->tree, env);
     if (status != ICC_OK)
         return status;
-    p->f = iccp_alloc(&env->memory, p->rows.n, sizeof *p->f);
-    p->residual = iccp_alloc(&env->memory, p->rows.n, sizeof *p->residual);
-    p->work = iccp_alloc(&env->memory, p->rows.n, sizeof *p->work);
-    p->exponent = iccp_alloc(&env->memory, p->rows.n, sizeof *p->exponent);
+    p->f = iccp_alloc(&env->memory, p->unknowns.n, sizeof *p->f);
+    p->residual = iccp_alloc(&env->memory, p->unknowns.n, sizeof *p->residual);
+    p->work = iccp_alloc(&env->memory, p->unknowns.n, sizeof *p->work);
+    p->exponent = iccp_alloc(&env->memory, p->unknowns.n, sizeof *p->exponent);
     if (p->f == NULL || p->residual == NULL || p->work == NULL || p->exponent == NULL)
         return ICC_ERR_MEMORY;
     if (p->function == ICC_FUNCTION_CLAMPED)
         return prepare_clamped(p, env);
     return p->solver == ICC_SOLVER_DIRECT
-               ? iccp_laplacian_factorise(&p->laplacian, &p->rows, &p->info, env)
+               ? iccp_laplacian_factorise(&p->laplacian, &p->unknowns, &p->info, env)
                : ICC_OK;
 }
 
-static void dismiss(plate *p, const iccp_env *env)
+static void free_plate(plate *p, const iccp_env *env)
 {
-    iccp_rows_free(&p->rows);
+    iccp_unknowns_free(&p->unknowns);
     iccp_laplacian_factor_free(&p->laplacian);
     iccp_sparse_free(&p->a);
     iccp_gram_free(&p->gram);
@@ -82,7 +82,7 @@ static void dismiss(plate *p, const iccp_env *env)
 static void load_clamped(plate *p, size_t loaded)
 {
     enum { CORRECTIONS = 2 };
-    const size_t n = p->rows.n;
+    const size_t n = p->unknowns.n;
     iccp_ldlt_solve(&p->factor, 1, p->f, p->work);
     for (int i = 0; i < CORRECTIONS; ++i) {
         iccp_energy_gradient(&p->a, p->f, p->wide, p->residual);
@@ -94,12 +94,12 @@ static void load_clamped(plate *p, size_t loaded)
 }
 
 /* f under a load on one row, 1 there. What doubles do not hold is far below the greatest value. */
-static icc_status load(plate *p, size_t loaded, const iccp_env *env)
+static icc_status load_plate(plate *p, size_t loaded, const iccp_env *env)
 {
-    const size_t n = p->rows.n;
+    const size_t n = p->unknowns.n;
     if (p->function != ICC_FUNCTION_CLAMPED && p->solver == ICC_SOLVER_ITERATIVE) {
         const iccp_scaled f = {p->work, p->exponent};
-        const icc_status status = iccp_bilaplace_iterative(&p->rows, loaded, &f, &p->info, env);
+        const icc_status status = iccp_bilaplace_iterative(&p->unknowns, loaded, &f, &p->info, env);
         for (size_t k = 0; k < n && status == ICC_OK; ++k)
             p->f[k] = iccp_scaled_get(&f, k, 0);
         return status;
@@ -121,16 +121,16 @@ static icc_status load(plate *p, size_t loaded, const iccp_env *env)
 static size_t find_highest(const plate *p, size_t loaded)
 {
     size_t highest = loaded;
-    for (size_t k = 0; k < p->rows.n; ++k)
+    for (size_t k = 0; k < p->unknowns.n; ++k)
         if (p->f[k] > p->f[highest])
             highest = k;
     return highest;
 }
 
-static size_t find_row(const plate *p, uint32_t vertex)
+static size_t find_unknown(const plate *p, uint32_t vertex)
 {
     size_t row = 0;
-    while (row < p->rows.n && p->rows.vertex[row] != vertex)
+    while (row < p->unknowns.n && p->unknowns.vertex[row] != vertex)
         ++row;
     return row;
 }
@@ -139,24 +139,24 @@ static size_t find_row(const plate *p, uint32_t vertex)
  * none. */
 static size_t find_beyond(const plate *p, size_t from, size_t to, int64_t stride)
 {
-    const icc_grid *grid = p->rows.tree->grid;
+    const icc_grid *grid = p->unknowns.tree->grid;
     uint32_t vertex = 0;
     for (int32_t k = 0; k < grid->dim; ++k) {
-        const int64_t x = iccp_grid_coordinate(grid, p->rows.vertex[from], k);
-        const int64_t y = iccp_grid_coordinate(grid, p->rows.vertex[to], k);
+        const int64_t x = iccp_grid_coordinate(grid, p->unknowns.vertex[from], k);
+        const int64_t y = iccp_grid_coordinate(grid, p->unknowns.vertex[to], k);
         const int64_t z = x + stride * (y - x);
         if (z < 0 || z >= (int64_t)grid->shape[k])
             return to;
         vertex += (uint32_t)z * (uint32_t)grid->stride[k];
     }
-    const size_t row = find_row(p, vertex);
-    return row < p->rows.n ? row : to;
+    const size_t row = find_unknown(p, vertex);
+    return row < p->unknowns.n ? row : to;
 }
 
 /* Steps grow as long as G(r, r), of the row r that is loaded, does: in a limb that widens slowly
  * the greatest value is always near the load. With f = 1 at each load, G(s, s) / G(r, r) = f_r(s) /
  * f_s(r). */
-static icc_status climb(plate *p, size_t *row, const iccp_env *env)
+static icc_status follow_loads(plate *p, size_t *row, const iccp_env *env)
 {
     size_t at = *row, next = at, top = at;
     double before = 1; /* f at `next` under the load that was accepted last */
@@ -164,7 +164,7 @@ static icc_status climb(plate *p, size_t *row, const iccp_env *env)
     for (int n = 0; n < MOST_LOADS; ++n) {
         icc_status status = iccp_progress(env, "solve", (double)n / (n + 1));
         if (status == ICC_OK)
-            status = load(p, next, env);
+            status = load_plate(p, next, env);
         if (status != ICC_OK)
             return status;
         if (next == top || before > p->f[at]) {
@@ -187,12 +187,12 @@ static icc_status climb(plate *p, size_t *row, const iccp_env *env)
 icc_status iccp_function_summit(const icc_function *function, uint32_t *summit, const iccp_env *env)
 {
     plate p;
-    icc_status status = prepare(&p, function, env);
+    icc_status status = prepare_plate(&p, function, env);
     if (status == ICC_OK) {
-        size_t row = find_row(&p, function->info.highest);
-        status = climb(&p, &row, env);
-        *summit = p.rows.vertex[row];
+        size_t row = find_unknown(&p, function->info.highest);
+        status = follow_loads(&p, &row, env);
+        *summit = p.unknowns.vertex[row];
     }
-    dismiss(&p, env);
+    free_plate(&p, env);
     return status;
 }

@@ -15,7 +15,7 @@ static void reach(flood *f, uint32_t vertex)
 }
 
 /* Adds the piece of a vertex to the queue. */
-static icc_status spread(flood *f, uint32_t vertex)
+static icc_status flood_from(flood *f, uint32_t vertex)
 {
     size_t next = f->n_reached;
     reach(f, vertex);
@@ -41,7 +41,7 @@ static icc_status find_largest(flood *f, size_t *begin, size_t *end)
         if (!f->grid->inside[v] || f->reached[v])
             continue;
         const size_t first = f->n_reached;
-        const icc_status status = spread(f, v);
+        const icc_status status = flood_from(f, v);
         if (status != ICC_OK)
             return status;
         if (f->n_reached - first > *end - *begin) {

@@ -85,7 +85,7 @@ static bool find_range(const work *w, uint32_t facet, double near, size_t *first
     return true;
 }
 
-static void look_closer(const work *w, uint32_t facet, double near)
+static void locate_near_facet(const work *w, uint32_t facet, double near)
 {
     const icc_grid *grid = w->grid;
     const size_t dim = (size_t)grid->dim;
@@ -110,7 +110,7 @@ static void look_closer(const work *w, uint32_t facet, double near)
     }
 }
 
-static icc_status look_at_facets(const work *w, const iccp_env *env)
+static icc_status locate_near_facets(const work *w, const iccp_env *env)
 {
     const icc_domain *domain = w->domain;
     double longest = 0;
@@ -120,7 +120,7 @@ static icc_status look_at_facets(const work *w, const iccp_env *env)
         if (f % FACETS_PER_REPORT == 0 &&
             iccp_progress(env, "grid", (double)f / (double)domain->n_facets) != ICC_OK)
             return ICC_ERR_CANCELLED;
-        look_closer(w, f, NEAR * longest);
+        locate_near_facet(w, f, NEAR * longest);
     }
     return ICC_OK;
 }
@@ -131,7 +131,7 @@ icc_status iccp_scan_surface(icc_grid *grid, const icc_domain *domain, const icc
     const size_t n_rows = grid->n_vertices / grid->shape[0];
     icc_status status = iccp_for_chunks(env, "grid", n_rows, ROWS_PER_CHUNK, scan_rows, &w);
     if (status == ICC_OK)
-        status = look_at_facets(&w, env);
+        status = locate_near_facets(&w, env);
     for (size_t v = 0; v < grid->n_vertices && status == ICC_OK; ++v)
         grid->n_inside += grid->inside[v];
     return status;

@@ -89,7 +89,7 @@ static void check_simplices(const mesh_check *m)
 /* Without images on the boundary there is nothing to go by. */
 static bool can_repair(const mesh_check *m, const iccp_simplices *mesh)
 {
-    for (size_t v = 0; v < mesh->n_rim; ++v)
+    for (size_t v = 0; v < mesh->n_boundary; ++v)
         if (!is_finite(m->dim, m->images + m->dim * mesh->given[v]))
             return false;
     return m->result->first >= 0;
@@ -110,7 +110,7 @@ static icc_status repair(mesh_check *m, const iccp_simplices *mesh, const iccp_e
     }
     icc_status status = iccp_mesh_repair(mesh, images, env);
     iccp_mesh_round(mesh, images);
-    for (size_t v = mesh->n_rim; status == ICC_OK && v < mesh->n_points; ++v)
+    for (size_t v = mesh->n_boundary; status == ICC_OK && v < mesh->n_points; ++v)
         iccp_frame_out(&m->frame, (int32_t)dim, images + dim * v, m->images + dim * mesh->given[v]);
     iccp_free(&env->memory, images);
     return status == ICC_OK ? localise(m, m->after, m->images, NULL) : status;

@@ -90,7 +90,7 @@ icc_status iccp_mesh_repair(const iccp_simplices *mesh, double *images, const ic
 
 void iccp_mesh_round(const iccp_simplices *mesh, double *images)
 {
-    for (size_t i = mesh->dim * mesh->n_rim; i < mesh->dim * mesh->n_points; ++i)
+    for (size_t i = mesh->dim * mesh->n_boundary; i < mesh->dim * mesh->n_points; ++i)
         if (fabs(images[i]) < NEXT_TO_NOTHING)
             images[i] = 0;
 }

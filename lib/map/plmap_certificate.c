@@ -3,7 +3,7 @@
 #include "map/plmap_certificate.h"
 
 #include "base/error.h"
-#include "domain/polygon.h"
+#include "domain/polygon_check.h"
 
 #include <string.h>
 

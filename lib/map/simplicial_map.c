@@ -11,7 +11,7 @@ iccp_simplicial_map iccp_simplicial_map_of(const iccp_simplices *mesh, double *i
                                  .corners = mesh->corners,
                                  .points = mesh->points,
                                  .images = images,
-                                 .n_rim = mesh->n_rim,
+                                 .n_rim = mesh->n_boundary,
                                  .stretch = 1};
 }
 

@@ -38,7 +38,7 @@ static size_t count_rim_edges(const cutter *c, size_t s)
 {
     size_t n_rim = 0;
     for (size_t i = 0; i < c->n; ++i)
-        n_rim += c->mesh->corners[c->n * s + i] < c->mesh->n_rim;
+        n_rim += c->mesh->corners[c->n * s + i] < c->mesh->n_boundary;
     return n_rim * (n_rim - 1) / 2 * (n_rim > 1);
 }
 
@@ -61,7 +61,7 @@ static void list_edges(cutter *c)
         const uint32_t *v = c->mesh->corners + c->n * s;
         for (size_t i = 0; i < c->n; ++i)
             for (size_t j = i + 1; j < c->n; ++j)
-                if (v[i] < c->mesh->n_rim && v[j] < c->mesh->n_rim) {
+                if (v[i] < c->mesh->n_boundary && v[j] < c->mesh->n_boundary) {
                     c->owner[place - c->n_facet_edges] = (uint32_t)(c->n * i + j);
                     put_edge(c, place++, v[i], v[j]);
                 }
@@ -102,7 +102,7 @@ static icc_status find_chords(cutter *c, const iccp_env *env)
     c->chord = iccp_alloc(&env->memory, n_edges, sizeof *c->chord);
     icc_status status = c->owner != NULL && c->chord != NULL ? ICC_OK : ICC_ERR_MEMORY;
     if (status == ICC_OK)
-        status = iccp_tuples_create(&c->edges, n_edges, 2, c->mesh->n_rim, &env->memory);
+        status = iccp_tuples_create(&c->edges, n_edges, 2, c->mesh->n_boundary, &env->memory);
     if (status == ICC_OK) {
         list_edges(c);
         number_chords(c);
@@ -197,7 +197,7 @@ static icc_status make(cutter *c, const iccp_env *env)
     *out = (iccp_simplices){.memory = env->memory,
                             .dim = dim,
                             .n_points = c->mesh->n_points + c->n_chords,
-                            .n_rim = c->mesh->n_rim};
+                            .n_boundary = c->mesh->n_boundary};
     for (size_t s = 0; s < c->mesh->n_simplices; ++s)
         out->n_simplices += cut(c, s, NULL);
     out->points = iccp_alloc(&env->memory, out->n_points, dim * sizeof *out->points);

@@ -38,7 +38,7 @@ static icc_status find_images(void *argument, size_t begin, size_t end)
     iccp_path path;
     iccp_path_init(&path, s->memory);
     for (size_t i = begin; i < end && status != ICC_ERR_MEMORY; ++i) {
-        const size_t v = s->mesh->n_rim + i;
+        const size_t v = s->mesh->n_boundary + i;
         double point[3], image[3];
         iccp_frame_out(from, 3, s->mesh->points + 3 * v, point);
         status = iccp_curves_point(s->source, s->target, point, image, NULL, &path);
@@ -57,8 +57,8 @@ static icc_status begin(iccp_solid_map *map, const icc_chart *source, const icc_
     if (map->images == NULL)
         return ICC_ERR_MEMORY;
     s.images = map->images;
-    memcpy(map->images, target->domain->vertices, 3 * mesh->n_rim * sizeof *map->images);
-    return iccp_for_chunks(env, "trace", mesh->n_points - mesh->n_rim, GRAIN, find_images, &s);
+    memcpy(map->images, target->domain->vertices, 3 * mesh->n_boundary * sizeof *map->images);
+    return iccp_for_chunks(env, "trace", mesh->n_points - mesh->n_boundary, GRAIN, find_images, &s);
 }
 
 static size_t count_inverted(const iccp_solid_map *map)
@@ -172,13 +172,13 @@ void iccp_solid_map_write(const iccp_solid_map *map, iccp_blob_writer *w)
     iccp_blob_u64(w, map->own != NULL);
     if (map->own != NULL)
         iccp_filling_write(map->own, w);
-    iccp_blob_f64(w, 3 * (mesh->n_points - mesh->n_rim), map->images + 3 * mesh->n_rim);
+    iccp_blob_f64(w, 3 * (mesh->n_points - mesh->n_boundary), map->images + 3 * mesh->n_boundary);
 }
 
 /* Images of the boundary are the target's vertices. */
 static icc_status read_images(iccp_solid_map *map, const icc_domain *target, iccp_blob_reader *r)
 {
-    const size_t n_rim = map->mesh->n_rim, n = map->mesh->n_points - n_rim;
+    const size_t n_rim = map->mesh->n_boundary, n = map->mesh->n_points - n_rim;
     if (n > (r->n - r->at) / (3 * sizeof(double)))
         return ICC_ERR_FORMAT;
     map->images = iccp_alloc(&map->memory, map->mesh->n_points, 3 * sizeof *map->images);

@@ -43,7 +43,7 @@ static void find_local(const factorisation *f, uint32_t s)
 }
 
 /* The entries of the matrix. */
-static void load(const factorisation *f, uint32_t s, const iccp_panel *p)
+static void load_entries(const factorisation *f, uint32_t s, const iccp_panel *p)
 {
     const iccp_ldlt *l = f->l;
     const iccp_symmetric *m = f->matrix;
@@ -105,7 +105,7 @@ static icc_status update_strips(void *argument, size_t strip, size_t strips)
     return ICC_OK;
 }
 
-static icc_status apply(factorisation *f, update *u)
+static icc_status apply_update(factorisation *f, update *u)
 {
     const size_t n_strips = (u->from.rows + STRIP - 1) / STRIP, depth = u->from.columns;
     icc_status status = ICC_OK;
@@ -145,7 +145,7 @@ static icc_status update_from(factorisation *f, uint32_t from, uint32_t to)
     for (size_t i = begin; i < panel.rows; ++i)
         f->offset[i] = iccp_panel_row(&target, f->local[below[i - panel.columns]]);
     update u = {f, panel, below, begin, end, target.value, nodes->column[to], 0, 0};
-    const icc_status status = apply(f, &u);
+    const icc_status status = apply_update(f, &u);
     enlist(f, from, end);
     return status;
 }
@@ -163,7 +163,7 @@ static double labour_of(const iccp_supernodes *nodes)
     return sum;
 }
 
-static icc_status run(factorisation *f)
+static icc_status factorise_panels(factorisation *f)
 {
     const iccp_supernodes *nodes = &f->l->nodes;
     f->labour.all = labour_of(nodes);
@@ -175,7 +175,7 @@ static icc_status run(factorisation *f)
     for (uint32_t s = 0; status == ICC_OK && s < nodes->n; ++s) {
         const iccp_panel panel = iccp_panel_of(nodes, s, f->l->value, f->l->pivot);
         find_local(f, s);
-        load(f, s, &panel);
+        load_entries(f, s, &panel);
         for (uint32_t from = f->waiting[s], next; status == ICC_OK && from != NONE; from = next) {
             next = f->next[from];
             status = update_from(f, from, s);
@@ -225,7 +225,7 @@ icc_status iccp_ldlt_factorise_signed(iccp_ldlt *factor, const iccp_symmetric *m
         f.offset = f.done + nodes->n;
         for (size_t k = 0; sign != NULL && k < factor->n; ++k)
             f.sign[k] = sign[factor->order[k]];
-        status = run(&f);
+        status = factorise_panels(&f);
     }
     iccp_free(memory, f.local);
     iccp_free(memory, f.waiting);

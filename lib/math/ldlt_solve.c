@@ -16,7 +16,7 @@ typedef struct group {
     size_t width;
 } group;
 
-enum { MOST_SIDES = 4 };
+enum { MOST_COLUMNS = 4 };
 
 static size_t least(size_t a, size_t b)
 {
@@ -37,7 +37,7 @@ static ICCP_INLINE void forward(const group *x, const iccp_panel *p, uint32_t fi
     const double *own = x->value + first * width, *strip = p->value;
     for (size_t i = 0; i < p->rows; i += STRIP, strip += STRIP * p->columns) {
         const size_t depth = least(i, p->columns);
-        double sum[MOST_SIDES][ICCP_STRIP];
+        double sum[MOST_COLUMNS][ICCP_STRIP];
         for (size_t s = 0; s < width; ++s)
             for (size_t r = 0; r < STRIP; ++r)
                 sum[s][r] = 0;
@@ -66,7 +66,7 @@ static ICCP_INLINE void backward(const group *x, const iccp_panel *p, uint32_t f
         i -= STRIP;
         const double *strip = p->value + i * p->columns;
         const size_t depth = least(i, p->columns);
-        double y[ICCP_STRIP][MOST_SIDES];
+        double y[ICCP_STRIP][MOST_COLUMNS];
         for (size_t s = 0; s < STRIP * width; ++s)
             y[s / width][s % width] = 0;
         for (size_t r = least(STRIP, p->rows - i); r-- > 0;) {
@@ -90,10 +90,10 @@ static ICCP_INLINE void pass_inline(const iccp_ldlt *factor, size_t s, const gro
     const iccp_supernodes *nodes = &factor->nodes;
     const iccp_panel panel = iccp_panel_of(nodes, s, factor->value, factor->pivot);
     const uint32_t first = nodes->column[s], *below = nodes->row + nodes->first_row[s];
-    if (x->width == MOST_SIDES && is_forward)
-        forward(x, &panel, first, below, MOST_SIDES);
-    else if (x->width == MOST_SIDES)
-        backward(x, &panel, first, below, MOST_SIDES);
+    if (x->width == MOST_COLUMNS && is_forward)
+        forward(x, &panel, first, below, MOST_COLUMNS);
+    else if (x->width == MOST_COLUMNS)
+        backward(x, &panel, first, below, MOST_COLUMNS);
     else if (is_forward)
         forward(x, &panel, first, below, 1);
     else
@@ -133,7 +133,7 @@ static pass choose_pass(void)
 /* The group that begins with side `done`: as wide as can be, or one side alone. */
 static group group_at(const iccp_ldlt *factor, size_t n_rhs, size_t done, double *work)
 {
-    return (group){work + factor->n * done, n_rhs - done < MOST_SIDES ? 1 : MOST_SIDES};
+    return (group){work + factor->n * done, n_rhs - done < MOST_COLUMNS ? 1 : MOST_COLUMNS};
 }
 
 /* A panel goes to all groups while it is in the cache. */

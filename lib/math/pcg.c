@@ -108,14 +108,14 @@ static icc_status solve(const problem *s, size_t n_rhs, double *b, double *work)
 {
     const size_t n = s->matrix->n;
     double *x = work, *r = work + n, *z = work + 2 * n, *p = work + 3 * n, *q = work + 4 * n;
-    for (size_t side = 0; side < n_rhs; ++side) {
+    for (size_t column = 0; column < n_rhs; ++column) {
         for (size_t i = 0; i < n; ++i)
-            r[i] = b[i * n_rhs + side];
+            r[i] = b[i * n_rhs + column];
         const icc_status status = iterate(s, x, r, z, p, q);
         if (status != ICC_OK)
             return status;
         for (size_t i = 0; i < n; ++i)
-            b[i * n_rhs + side] = x[i];
+            b[i * n_rhs + column] = x[i];
     }
     return ICC_OK;
 }

@@ -50,7 +50,7 @@ static void partition(iccp_supernodes *nodes, const iccp_etree *t, const uint32_
     nodes->column[nodes->n] = (uint32_t)n;
 }
 
-static void measure(iccp_supernodes *nodes, const iccp_etree *t, const uint32_t *count)
+static void lay_out_panels(iccp_supernodes *nodes, const iccp_etree *t, const uint32_t *count)
 {
     size_t n_rows = 0, n_values = 0;
     for (uint32_t s = 0; s < nodes->n; ++s) {
@@ -146,7 +146,7 @@ icc_status iccp_supernodes_create(iccp_supernodes *nodes, const iccp_etree *tree
             status = ICC_ERR_MEMORY;
     }
     if (status == ICC_OK) {
-        measure(nodes, tree, count);
+        lay_out_panels(nodes, tree, count);
         status = find_rows(nodes, tree, env);
     }
     if (status != ICC_OK)

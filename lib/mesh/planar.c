@@ -43,11 +43,11 @@ void iccp_planar_pieces(uint32_t *pieces, const icc_domain *a, const icc_domain 
 
 /* ---- boundary ---- */
 
-/* Edge k of the ring counter-clockwise, and whether its facet runs that way too. */
+/* Edge k of the polygon counter-clockwise, and whether its facet runs that way too. */
 static uint32_t ring_facet(const icc_domain *domain, size_t k)
 {
-    const iccp_ring *ring = &domain->locator->ring;
-    return ring->facet[domain->orientation > 0 ? k : ring->n - 1 - k];
+    const iccp_polygon *polygon = &domain->locator->polygon;
+    return polygon->facet[domain->orientation > 0 ? k : polygon->n - 1 - k];
 }
 
 static void place_boundary(iccp_planar *mesh, const icc_domain *domain)

@@ -60,8 +60,8 @@ static icc_status bound_depths(search *s, const iccp_env *env)
 {
     icc_status status = ICC_OK;
     for (uint32_t v = 0; v < s->mesh->n_points; ++v) {
-        s->bound[v] = v < s->mesh->n_rim ? 0 : HUGE_VAL;
-        if (v < s->mesh->n_rim)
+        s->bound[v] = v < s->mesh->n_boundary ? 0 : HUGE_VAL;
+        if (v < s->mesh->n_boundary)
             iccp_heap_put(&s->heap, v, 0);
     }
     for (size_t n = 0; s->heap.n_entries > 0 && status == ICC_OK; ++n) {
@@ -103,7 +103,7 @@ static icc_status find_deepest(search *s, const iccp_env *env)
 {
     const double size = size_of(s->domain[0]);
     icc_status status = bound_depths(s, env);
-    for (uint32_t v = (uint32_t)s->mesh->n_rim; v < s->mesh->n_points && status == ICC_OK; ++v)
+    for (uint32_t v = (uint32_t)s->mesh->n_boundary; v < s->mesh->n_points && status == ICC_OK; ++v)
         iccp_heap_put(&s->heap, v, -s->bound[v]);
     for (size_t n = 0; s->heap.n_entries > 0 && status == ICC_OK; ++n) {
         const uint32_t v = iccp_heap_pop(&s->heap);
@@ -113,9 +113,9 @@ static icc_status find_deepest(search *s, const iccp_env *env)
             status = iccp_progress(env, "order", 0.5);
         double depth = measure(s, v) / size;
         if (s->image != NULL && depth > s->depth)
-            depth =
-                fmin(depth, depth_of(s->domain[1], s->image + s->mesh->dim * (v - s->mesh->n_rim)) /
-                                size_of(s->domain[1]));
+            depth = fmin(
+                depth, depth_of(s->domain[1], s->image + s->mesh->dim * (v - s->mesh->n_boundary)) /
+                           size_of(s->domain[1]));
         if (depth > s->depth) {
             s->depth = depth;
             s->best = v;
@@ -149,14 +149,14 @@ icc_status iccp_deepest_centre(const icc_domain *domain, const iccp_simplices *m
     status = run_search(&s, env);
     iccp_gram_free(&edges);
     /* Vertices as near to the boundary as its rounding are as good as any. */
-    *centre = s.best != NONE ? s.best : (uint32_t)mesh->n_rim;
+    *centre = s.best != NONE ? s.best : (uint32_t)mesh->n_boundary;
     return status;
 }
 
 uint32_t iccp_nearest_centre(const iccp_simplices *mesh, const double *point)
 {
-    uint32_t nearest = (uint32_t)mesh->n_rim;
-    for (size_t v = mesh->n_rim; v < mesh->n_points; ++v)
+    uint32_t nearest = (uint32_t)mesh->n_boundary;
+    for (size_t v = mesh->n_boundary; v < mesh->n_points; ++v)
         if (distance(mesh, v, point) < distance(mesh, nearest, point))
             nearest = (uint32_t)v;
     return nearest;
@@ -167,7 +167,7 @@ uint32_t iccp_nearest_centre(const iccp_simplices *mesh, const double *point)
 static void set_weights(iccp_gram *g, const iccp_simplices *mesh, const icc_domain *to, double *sum,
                         double *right)
 {
-    const size_t dim = mesh->dim, n_rim = mesh->n_rim;
+    const size_t dim = mesh->dim, n_rim = mesh->n_boundary;
     for (size_t v = 0; v < mesh->n_points; ++v) {
         sum[v] = 0;
         for (size_t p = g->first[v]; p < g->first[v + 1]; ++p) {
@@ -193,7 +193,7 @@ static icc_status set_up(iccp_gram *inner, iccp_gram *edges, const iccp_simplice
     icc_status status = ICC_ERR_MEMORY;
     if (row != NULL && sum != NULL) {
         for (uint32_t v = 0; v < mesh->n_points; ++v)
-            row[v] = v < mesh->n_rim ? NONE : (uint32_t)(v - mesh->n_rim);
+            row[v] = v < mesh->n_boundary ? NONE : (uint32_t)(v - mesh->n_boundary);
         set_weights(edges, mesh, to, sum, right);
         status = iccp_stiffness_restrict(inner, edges, row, env);
     }
@@ -227,9 +227,9 @@ static uint32_t find_partner(const icc_domain *domain, const iccp_simplices *mes
                              const double *point)
 {
     const double depth = depth_of(domain, point);
-    uint32_t partner = (uint32_t)mesh->n_rim;
+    uint32_t partner = (uint32_t)mesh->n_boundary;
     double best = -HUGE_VAL;
-    for (size_t v = mesh->n_rim; v < mesh->n_points; ++v) {
+    for (size_t v = mesh->n_boundary; v < mesh->n_points; ++v) {
         const double away = distance(mesh, v, point);
         if (depth + away - DEPTH_PER_DISTANCE * away <= best)
             continue;
@@ -254,7 +254,7 @@ static icc_status pair(search *s, const iccp_simplices *const mesh[2], const uin
     if (s->best != NONE) {
         centre[0] = s->best;
         centre[1] = find_partner(s->domain[1], mesh[1],
-                                 s->image + mesh[0]->dim * (s->best - mesh[0]->n_rim));
+                                 s->image + mesh[0]->dim * (s->best - mesh[0]->n_boundary));
         return ICC_OK;
     }
     /* No image is inside. */
@@ -266,7 +266,7 @@ icc_status iccp_paired_centres(const icc_domain *const domain[2],
                                const iccp_simplices *const mesh[2], const uint32_t *given,
                                uint32_t centre[2], const iccp_env *env)
 {
-    const size_t n_inner = mesh[0]->n_points - mesh[0]->n_rim;
+    const size_t n_inner = mesh[0]->n_points - mesh[0]->n_boundary;
     double *image = iccp_alloc_zero(&env->memory, mesh[0]->dim * n_inner, sizeof *image);
     iccp_gram edges;
     if (image == NULL)

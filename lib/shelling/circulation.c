@@ -96,8 +96,8 @@ static void send_on(const iccp_circulation *c, const uint32_t *rank, size_t simp
     bool leaves[ICC_MAX_DIM + 1];
     for (size_t i = 0; i <= dim; ++i) {
         const uint32_t other = c->mesh->across[first + i];
-        leaves[i] =
-            (other & ICCP_RIM) == 0 && rank[iccp_simplex_of(c->mesh, other)] < rank[simplex];
+        leaves[i] = (other & ICCP_ON_BOUNDARY) == 0 &&
+                    rank[iccp_simplex_of(c->mesh, other)] < rank[simplex];
         received -= leaves[i] ? 0 : flux[first + i];
     }
     for (size_t i = 0; i <= dim; ++i) {
@@ -137,7 +137,7 @@ icc_status iccp_circulation_greedy(const iccp_circulation *c, const uint32_t *ra
 {
     for (size_t s = 0; s < (c->mesh->dim + 1) * c->mesh->n_simplices; ++s) {
         const uint32_t other = c->mesh->across[s];
-        flux[s] = (other & ICCP_RIM) != 0 ? -c->inflow[other & ~ICCP_RIM] : 0;
+        flux[s] = (other & ICCP_ON_BOUNDARY) != 0 ? -c->inflow[other & ~ICCP_ON_BOUNDARY] : 0;
     }
     return send_all(c, rank, c->reference, LEAST_SHARE, flux, env);
 }

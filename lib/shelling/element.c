@@ -120,7 +120,7 @@ double iccp_element_conductance(const iccp_simplices *mesh, size_t side)
     const uint32_t other = mesh->across[side];
     double here[ICC_MAX_DIM], there[ICC_MAX_DIM], square = 0;
     find_middle(mesh, simplex, no_corner, here);
-    if ((other & ICCP_RIM) != 0)
+    if ((other & ICCP_ON_BOUNDARY) != 0)
         find_middle(mesh, simplex, side % (dim + 1), there);
     else
         find_middle(mesh, iccp_simplex_of(mesh, other), no_corner, there);

@@ -177,8 +177,8 @@ static ICCP_INLINE bool cross(const iccp_fibre_word *record, size_t n, size_t ex
                               iccp_fibre_place *place, iccp_fibre_jet *jet, uint32_t *facet)
 {
     const uint32_t next = across(record, n, exit);
-    if ((next & ICCP_RIM) != 0) {
-        *facet = next & ~ICCP_RIM;
+    if ((next & ICCP_ON_BOUNDARY) != 0) {
+        *facet = next & ~ICCP_ON_BOUNDARY;
         return false;
     }
     place->simplex = next / (uint32_t)n;
@@ -191,7 +191,8 @@ static ICCP_INLINE bool cross(const iccp_fibre_word *record, size_t n, size_t ex
 static ICCP_INLINE void prefetch(const iccp_fibres *fibres, const iccp_fibre_word *record, size_t n)
 {
     for (size_t i = 0; i < n; ++i)
-        ICCP_PREFETCH(record_of(fibres, n, (across(record, n, i) & ~ICCP_RIM) / (uint32_t)n));
+        ICCP_PREFETCH(
+            record_of(fibres, n, (across(record, n, i) & ~ICCP_ON_BOUNDARY) / (uint32_t)n));
 }
 
 /* Through one simplex outside the star; false where the walk ends. */

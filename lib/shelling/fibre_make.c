@@ -80,9 +80,10 @@ static void fill_record(const maker *m, uint32_t place)
         const size_t given = n * simplex + i, k = m->side[given] % n;
         const uint32_t across = m->mesh->across[given];
         rate[k] = in_star ? 1 : m->direction[given];
-        record[n + 2 + k / 2].side[k % 2] = (across & ICCP_RIM) != 0 ? across : m->side[across];
-        if ((across & ICCP_RIM) != 0)
-            m->fibres->rim[across & ~ICCP_RIM] = m->side[given];
+        record[n + 2 + k / 2].side[k % 2] =
+            (across & ICCP_ON_BOUNDARY) != 0 ? across : m->side[across];
+        if ((across & ICCP_ON_BOUNDARY) != 0)
+            m->fibres->rim[across & ~ICCP_ON_BOUNDARY] = m->side[given];
     }
     for (size_t i = 0; i < n; ++i)
         record[i].number = rate[i];

@@ -47,7 +47,7 @@ static void add_row(network *w, size_t simplex)
         /* Bit for bit the same from either side. */
         const double wire = iccp_element_conductance(mesh, other < side ? other : side);
         w->diagonal[row] += wire;
-        if ((other & ICCP_RIM) != 0)
+        if ((other & ICCP_ON_BOUNDARY) != 0)
             continue;
         const uint32_t column = w->row[iccp_simplex_of(mesh, other)];
         if (column == NONE) {
@@ -93,7 +93,7 @@ static void list_points(const network *w, uint32_t *point, bool *fixed)
     const iccp_simplices *mesh = w->mesh;
     const size_t n_corners = mesh->dim + 1;
     for (size_t v = 0; v < mesh->n_points; ++v)
-        fixed[v] = v < mesh->n_rim;
+        fixed[v] = v < mesh->n_boundary;
     for (size_t t = 0; t < mesh->n_simplices; ++t)
         for (size_t i = 0; i < n_corners; ++i) {
             const uint32_t corner = mesh->corners[n_corners * t + i];
@@ -128,14 +128,14 @@ static void mix(const network *w, double harmonic, double *inflow)
     double sum_area = 0, sum_flux = 0;
     for (int pass = 0; pass < 2; ++pass)
         for (size_t s = 0; s < (mesh->dim + 1) * mesh->n_simplices; ++s) {
-            if ((mesh->across[s] & ICCP_RIM) == 0)
+            if ((mesh->across[s] & ICCP_ON_BOUNDARY) == 0)
                 continue;
             const uint32_t row = w->row[s / (mesh->dim + 1)];
             const double potential = row != NONE ? fmax(w->potential[row], 0) : 1;
             const double area = iccp_element_area(mesh, s);
             const double flux = potential * iccp_element_conductance(mesh, s);
             if (pass == 1)
-                inflow[mesh->across[s] & ~ICCP_RIM] =
+                inflow[mesh->across[s] & ~ICCP_ON_BOUNDARY] =
                     harmonic * (flux / sum_flux) + (1 - harmonic) * (area / sum_area);
             sum_area += pass == 0 ? area : 0;
             sum_flux += pass == 0 ? flux : 0;

@@ -55,7 +55,7 @@ static void number_rows(equations *e)
             const uint32_t other = mesh->across[s];
             if (iccp_element_has(mesh, t, e->centre))
                 break;
-            if ((other & ICCP_RIM) != 0)
+            if ((other & ICCP_ON_BOUNDARY) != 0)
                 e->row[s] = (uint32_t)e->n++;
             else if (other > s && !iccp_element_has(mesh, iccp_simplex_of(mesh, other), e->centre))
                 e->row[s] = e->row[other] = (uint32_t)e->n++;
@@ -169,8 +169,8 @@ static icc_status solve(equations *e, const double *inflow, const iccp_env *env)
     bool *fixed = iccp_alloc_zero(&env->memory, mesh->n_points, sizeof *fixed);
     icc_status status = ICC_ERR_MEMORY;
     for (size_t s = 0; s < (mesh->dim + 1) * mesh->n_simplices; ++s)
-        if (e->row[s] != NONE && (mesh->across[s] & ICCP_RIM) != 0)
-            e->unknown[e->row[s]] = inflow[mesh->across[s] & ~ICCP_RIM];
+        if (e->row[s] != NONE && (mesh->across[s] & ICCP_ON_BOUNDARY) != 0)
+            e->unknown[e->row[s]] = inflow[mesh->across[s] & ~ICCP_ON_BOUNDARY];
     if (point != NULL && fixed != NULL) {
         const iccp_unknowns unknowns = {mesh, fixed, mesh->dim, point};
         list_points(e, point, fixed);
@@ -204,8 +204,8 @@ static void settle_flux(const equations *e, const double *inflow, double *flux)
     const iccp_simplices *mesh = e->mesh;
     for (uint32_t s = 0; s < (mesh->dim + 1) * mesh->n_simplices; ++s) {
         const uint32_t other = mesh->across[s];
-        if ((other & ICCP_RIM) != 0) {
-            flux[s] = -inflow[other & ~ICCP_RIM];
+        if ((other & ICCP_ON_BOUNDARY) != 0) {
+            flux[s] = -inflow[other & ~ICCP_ON_BOUNDARY];
         } else if (other > s) {
             const bool both = e->row[s] != NONE;
             flux[s] = both ? 0.5 * (flux[s] - flux[other]) : flux[s] - flux[other];

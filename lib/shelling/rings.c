@@ -33,7 +33,7 @@ static void number_facets(iccp_rings *rings, const walk *w, uint32_t centre)
     const iccp_simplices *mesh = w->mesh;
     for (uint32_t s = 0; s < (mesh->dim + 1) * mesh->n_simplices; ++s) {
         const uint32_t other = mesh->across[s];
-        if ((other & ICCP_RIM) != 0 || (other > s && touches(mesh, s, centre))) {
+        if ((other & ICCP_ON_BOUNDARY) != 0 || (other > s && touches(mesh, s, centre))) {
             w->facet[s] = NONE;
         } else if (other > s) {
             w->facet[s] = (uint32_t)rings->n_facets;
@@ -55,7 +55,7 @@ static size_t go_round(const walk *w, size_t simplex, size_t out, size_t in, uin
     while ((w->gone[simplex] & pair_bit(out, in)) == 0) {
         w->gone[simplex] |= pair_bit(out, in);
         const uint32_t side = (uint32_t)(n_corners * simplex + out), other = mesh->across[side];
-        if ((other & ICCP_RIM) != 0)
+        if ((other & ICCP_ON_BOUNDARY) != 0)
             return 0;
         if (w->facet[side] != NONE)
             step[n++] = 2 * w->facet[side] + (other < side);

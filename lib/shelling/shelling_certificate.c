@@ -109,9 +109,9 @@ static void check_sides(const checker *c, uint8_t *met)
     const iccp_simplices *mesh = c->mesh;
     const size_t n_sides = (mesh->dim + 1) * mesh->n_simplices;
     for (uint32_t side = 0; side < n_sides; ++side) {
-        const uint32_t twin = mesh->across[side], facet = twin & ~ICCP_RIM;
+        const uint32_t twin = mesh->across[side], facet = twin & ~ICCP_ON_BOUNDARY;
         bool good;
-        if ((twin & ICCP_RIM) == 0) {
+        if ((twin & ICCP_ON_BOUNDARY) == 0) {
             good = twin < n_sides && mesh->across[twin] == side &&
                    iccp_simplex_of(mesh, twin) != iccp_simplex_of(mesh, side) &&
                    is_joined(c, side, twin);
@@ -155,7 +155,7 @@ static bool fill_sets(const checker *c, uint32_t s)
     for (size_t i = 0; i < n; ++i) {
         const uint32_t twin = mesh->across[n * s + i];
         const uint8_t bit = (uint8_t)(1u << i);
-        const bool rim = (twin & ICCP_RIM) != 0;
+        const bool rim = (twin & ICCP_ON_BOUNDARY) != 0;
         const uint32_t rank = rim ? UINT32_MAX : c->rank[iccp_simplex_of(mesh, twin)];
         set->rim |= rim ? bit : 0;
         set->in |= rim || rank > c->rank[s] ? bit : 0;

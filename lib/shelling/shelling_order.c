@@ -56,7 +56,7 @@ static double step_of(const iccp_order_wish *wish, size_t simplex)
     const size_t first = (mesh->dim + 1) * simplex;
     double step = 0;
     for (size_t side = first; side <= first + mesh->dim; ++side)
-        if (mesh->across[side] < ICCP_RIM) {
+        if (mesh->across[side] < ICCP_ON_BOUNDARY) {
             const double there = wish->potential[iccp_simplex_of(mesh, mesh->across[side])];
             step = fmax(step, fabs(there - wish->potential[simplex]));
         }
@@ -97,7 +97,7 @@ static void join_simplex(front *f, size_t s)
         f->touched[f->wish->faces->number[f->wish->faces->per_simplex * s + k]] = 1;
     for (size_t i = 0; i < n_sides; ++i) {
         const uint32_t across = mesh->across[n_sides * s + i];
-        if (across < ICCP_RIM)
+        if (across < ICCP_ON_BOUNDARY)
             approach(f, iccp_simplex_of(mesh, across), across % n_sides);
     }
 }
@@ -138,7 +138,7 @@ static void begin(front *f)
         if (!f->peeling && f->rank[s] == 0)
             join_simplex(f, s);
         for (size_t i = 0; i < n_sides && f->peeling; ++i)
-            if (mesh->across[n_sides * s + i] >= ICCP_RIM)
+            if (mesh->across[n_sides * s + i] >= ICCP_ON_BOUNDARY)
                 join_side(f, s, i);
     }
 }
@@ -168,7 +168,7 @@ static icc_status find_order(const iccp_order_wish *wish, bool peeling, uint32_t
 {
     const iccp_memory *memory = &env->memory;
     front f = {.wish = wish, .env = env, .peeling = peeling, .rank = rank};
-    assert(wish->centre >= wish->mesh->n_rim && wish->centre < wish->mesh->n_points);
+    assert(wish->centre >= wish->mesh->n_boundary && wish->centre < wish->mesh->n_points);
     f.facing = iccp_alloc(memory, wish->mesh->n_simplices, sizeof *f.facing);
     f.touched = iccp_alloc_zero(memory, wish->faces->n_faces, sizeof *f.touched);
     icc_status status = ICC_ERR_MEMORY;

@@ -69,7 +69,7 @@ static icc_status copy(iccp_simplices **out, const iccp_simplices *mesh, const i
     *m = (iccp_simplices){.memory = *memory,
                           .dim = dim,
                           .n_points = mesh->n_points + 1,
-                          .n_rim = mesh->n_rim,
+                          .n_boundary = mesh->n_boundary,
                           .n_simplices = mesh->n_simplices + dim,
                           .n_facets = mesh->n_facets};
     m->points = iccp_alloc(memory, m->n_points, dim * sizeof *m->points);
@@ -99,7 +99,7 @@ static void split(iccp_simplices *mesh, uint32_t simplex, const double *point)
             mesh->corners[side] = k == i ? (uint32_t)mesh->n_points - 1 : corners[k];
             mesh->across[side] = k == i ? across[i] : n * piece[k] + i;
         }
-        if ((across[i] & ICCP_RIM) == 0)
+        if ((across[i] & ICCP_ON_BOUNDARY) == 0)
             mesh->across[across[i]] = n * piece[i] + i;
     }
 }

@@ -38,7 +38,8 @@ static void find_entered(turner *t, const uint32_t *rank)
     memset(t->entered, 0, mesh->n_simplices);
     for (size_t side = 0; side < n_sides * mesh->n_simplices; ++side) {
         const uint32_t across = mesh->across[side];
-        if (across >= ICCP_RIM || rank[iccp_simplex_of(mesh, across)] > rank[side / n_sides])
+        if (across >= ICCP_ON_BOUNDARY ||
+            rank[iccp_simplex_of(mesh, across)] > rank[side / n_sides])
             t->entered[side / n_sides] |= (uint8_t)(1u << side % n_sides);
     }
 }
@@ -49,7 +50,8 @@ static bool is_before(const turner *t, size_t s, size_t i, bool by_leaving)
     const iccp_simplices *mesh = t->wish->mesh;
     const uint32_t across = mesh->across[(mesh->dim + 1) * s + i];
     const bool leaves = (t->entered[s] >> i & 1) == 0;
-    return across < ICCP_RIM && leaves == by_leaving && t->in[iccp_simplex_of(mesh, across)] != 0;
+    return across < ICCP_ON_BOUNDARY && leaves == by_leaving &&
+           t->in[iccp_simplex_of(mesh, across)] != 0;
 }
 
 /* Of each corner of one simplex the bit of the same corner in another, or 0. */
@@ -123,7 +125,7 @@ static icc_status pass(turner *t, const uint32_t *rank, const iccp_env *env)
     for (size_t side = 0; side < n * mesh->n_simplices; ++side) {
         const uint32_t across = mesh->across[side];
         const bool leaves = (t->entered[side / n] >> side % n & 1) == 0;
-        if (across < ICCP_RIM && leaves && t->wish->flux[side] < 0 && !t->barred[side] &&
+        if (across < ICCP_ON_BOUNDARY && leaves && t->wish->flux[side] < 0 && !t->barred[side] &&
             !in_star(rank, side / n) && !in_star(rank, across / n))
             iccp_heap_put(&t->heap, (uint32_t)side, t->wish->flux[side]);
     }

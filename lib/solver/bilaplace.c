@@ -28,31 +28,32 @@ static void scale(const iccp_scaled *f, size_t n)
 }
 
 /* ICC_ERR_SOLVER unless every component of L x = b is about what it should be. */
-static icc_status check_solution(const iccp_rows *rows, const iccp_scaled *x, const iccp_scaled *b,
-                                 const iccp_env *env)
+static icc_status check_solution(const iccp_unknowns *unknowns, const iccp_scaled *x,
+                                 const iccp_scaled *b, const iccp_env *env)
 {
     icc_status status = ICC_OK;
-    for (size_t k = 0; k < rows->n && status == ICC_OK; ++k) {
+    for (size_t k = 0; k < unknowns->n && status == ICC_OK; ++k) {
         const int32_t unit = x->exponent[k];
         if (k % ICCP_VERTICES_PER_REPORT == 0)
-            status = iccp_progress(env, "solve", (double)k / (double)rows->n);
-        const double r = iccp_laplacian_row(rows, x, k, unit) - iccp_scaled_get(b, k, unit);
-        if (!(fabs(r) <= MOST_RESIDUAL * rows->n_neighbours * x->fraction[k]))
+            status = iccp_progress(env, "solve", (double)k / (double)unknowns->n);
+        const double r = iccp_laplacian_row(unknowns, x, k, unit) - iccp_scaled_get(b, k, unit);
+        if (!(fabs(r) <= MOST_RESIDUAL * unknowns->n_neighbours * x->fraction[k]))
             return ICC_ERR_SOLVER;
     }
     return status;
 }
 
 /* L f = b. Takes f over into b if it is good. `work` is room. */
-static icc_status solve(const iccp_rows *rows, const iccp_ldlt *factor, const iccp_scaled *b,
-                        const iccp_scaled *f, const iccp_scaled *work, const iccp_env *env)
+static icc_status solve(const iccp_unknowns *unknowns, const iccp_ldlt *factor,
+                        const iccp_scaled *b, const iccp_scaled *f, const iccp_scaled *work,
+                        const iccp_env *env)
 {
-    const size_t n = rows->n;
+    const size_t n = unknowns->n;
     memcpy(f->fraction, b->fraction, n * sizeof *f->fraction);
     memcpy(f->exponent, b->exponent, n * sizeof *f->exponent);
     icc_status status = iccp_ldlt_solve_scaled(factor, f, work, env);
     if (status == ICC_OK)
-        status = check_solution(rows, f, b, env);
+        status = check_solution(unknowns, f, b, env);
     if (status != ICC_OK)
         return status;
     memcpy(b->fraction, f->fraction, n * sizeof *f->fraction);
@@ -60,10 +61,10 @@ static icc_status solve(const iccp_rows *rows, const iccp_ldlt *factor, const ic
     return ICC_OK;
 }
 
-static icc_status solve_twice(const iccp_rows *rows, const iccp_ldlt *factor, const iccp_scaled *f,
-                              const iccp_env *env)
+static icc_status solve_twice(const iccp_unknowns *unknowns, const iccp_ldlt *factor,
+                              const iccp_scaled *f, const iccp_env *env)
 {
-    const size_t n = rows->n;
+    const size_t n = unknowns->n;
     double *fraction = iccp_alloc(&env->memory, 2 * n, sizeof *fraction);
     int32_t *exponent = iccp_alloc(&env->memory, 2 * n, sizeof *exponent);
     icc_status status = fraction != NULL && exponent != NULL ? ICC_OK : ICC_ERR_MEMORY;
@@ -74,34 +75,34 @@ static icc_status solve_twice(const iccp_rows *rows, const iccp_ldlt *factor, co
         status = iccp_progress(env, "solve", 0.5 * pass);
         const iccp_scaled work = {fraction + n, exponent + n};
         if (status == ICC_OK)
-            status = solve(rows, factor, &b, f, &work, env);
+            status = solve(unknowns, factor, &b, f, &work, env);
     }
     iccp_free(&env->memory, fraction);
     iccp_free(&env->memory, exponent);
     return status;
 }
 
-static icc_status navier_direct(const iccp_rows *rows, const iccp_scaled *f,
+static icc_status navier_direct(const iccp_unknowns *unknowns, const iccp_scaled *f,
                                 icc_function_info *info, const iccp_env *env)
 {
     iccp_laplacian_factor l;
-    const icc_status created = iccp_laplacian_factorise(&l, rows, info, env);
+    const icc_status created = iccp_laplacian_factorise(&l, unknowns, info, env);
     if (created != ICC_OK)
         return created;
     const double start = iccp_seconds();
-    const icc_status status = solve_twice(rows, &l.factor, f, env);
+    const icc_status status = solve_twice(unknowns, &l.factor, f, env);
     info->seconds_solve += iccp_seconds() - start;
     iccp_laplacian_factor_free(&l);
     if (status == ICC_OK)
-        scale(f, rows->n);
+        scale(f, unknowns->n);
     return status;
 }
 
 /* Unknowns: all rows but the root. */
-static icc_status clamped(const iccp_rows *rows, const iccp_sparse *a, double *f,
+static icc_status clamped(const iccp_unknowns *unknowns, const iccp_sparse *a, double *f,
                           icc_function_info *info, const iccp_env *env)
 {
-    const size_t n = rows->n;
+    const size_t n = unknowns->n;
     uint32_t *unknown = iccp_alloc(&env->memory, n, sizeof *unknown);
     double *share = iccp_alloc(&env->memory, n, sizeof *share);
     icc_status status = ICC_ERR_MEMORY;
@@ -138,13 +139,13 @@ static icc_status find_residual(const iccp_sparse *a, const double *f, icc_funct
     return status;
 }
 
-icc_status iccp_bilaplace(const iccp_rows *rows, int32_t function, int32_t solver,
+icc_status iccp_bilaplace(const iccp_unknowns *unknowns, int32_t function, int32_t solver,
                           const iccp_scaled *f, icc_function_info *info, const iccp_env *env)
 {
-    const size_t n = rows->n;
+    const size_t n = unknowns->n;
     double start = iccp_seconds();
     iccp_sparse a;
-    icc_status status = iccp_energy_create(&a, rows, function, env);
+    icc_status status = iccp_energy_create(&a, unknowns, function, env);
     if (status != ICC_OK)
         return status;
     info->seconds_setup += iccp_seconds() - start;
@@ -152,11 +153,11 @@ icc_status iccp_bilaplace(const iccp_rows *rows, int32_t function, int32_t solve
     if (plain == NULL)
         status = ICC_ERR_MEMORY;
     else if (function == ICC_FUNCTION_CLAMPED)
-        status = clamped(rows, &a, plain, info, env);
+        status = clamped(unknowns, &a, plain, info, env);
     else if (solver == ICC_SOLVER_ITERATIVE)
-        status = iccp_bilaplace_iterative(rows, 0, f, info, env);
+        status = iccp_bilaplace_iterative(unknowns, 0, f, info, env);
     else
-        status = navier_direct(rows, f, info, env);
+        status = navier_direct(unknowns, f, info, env);
     start = iccp_seconds();
     for (size_t k = 0; k < n && status == ICC_OK; ++k) {
         if (function == ICC_FUNCTION_CLAMPED)

@@ -4,7 +4,7 @@
 
 #include "icc/stages.h"
 #include "math/scaled.h"
-#include "solver/rows.h"
+#include "solver/unknowns.h"
 
 /* Without inequalities. f: rows->n entries, normalised on return; 1 at the root. The maximum may be
  * elsewhere. Adds to `info` (work, n_inner, seconds_*) and sets both residuals.
@@ -15,13 +15,14 @@
  * is for shapes where no value is below 1e-7 or so. ICC_FUNCTION_CLAMPED, by factorisation whatever
  * the solver: changes its sign; the error is about 1e-16 times the condition of the Laplacian,
  * relative to the maximum: values below that, in long limbs, mean nothing. */
-icc_status iccp_bilaplace(const iccp_rows *rows, int32_t function, int32_t solver,
+icc_status iccp_bilaplace(const iccp_unknowns *unknowns, int32_t function, int32_t solver,
                           const iccp_scaled *f, icc_function_info *info, const iccp_env *env);
 
 /* ICC_FUNCTION_BILAPLACE by the iterative solver, without the residuals: c L^-2 e_loaded, which is
  * 1 at the row `loaded`. */
-icc_status iccp_bilaplace_iterative(const iccp_rows *rows, size_t loaded, const iccp_scaled *f,
-                                    icc_function_info *info, const iccp_env *env);
+icc_status iccp_bilaplace_iterative(const iccp_unknowns *unknowns, size_t loaded,
+                                    const iccp_scaled *f, icc_function_info *info,
+                                    const iccp_env *env);
 
 /* iccp_bilaplace() under f_parent >= (1 + eta) f_child along the edges of the tree and f >= leaf at
  * the rows without children. Fills in n_iterations (interior point method and active set together),
@@ -32,7 +33,7 @@ icc_status iccp_bilaplace_iterative(const iccp_rows *rows, size_t loaded, const 
  * a sweep from the leaves to the root raises what is too low for the bounds, and one back lowers
  * what is too high for its parent. Both change f by rounding errors and by what residual_before
  * says, and bounds hold to about 1e-16 of themselves per generation. */
-icc_status iccp_bilaplace_constrained(const iccp_rows *rows, int32_t function, double eta,
+icc_status iccp_bilaplace_constrained(const iccp_unknowns *unknowns, int32_t function, double eta,
                                       double leaf, const iccp_scaled *f, icc_function_info *info,
                                       const iccp_env *env);
 

@@ -5,7 +5,7 @@
 #include "base/clock.h"
 #include "solver/bilaplace.h"
 #include "solver/inequalities.h"
-#include "solver/interior.h"
+#include "solver/interior_point.h"
 #include "solver/polish.h"
 
 #include <math.h>
@@ -21,42 +21,41 @@ static const double TARGETS[] = {1e-12, 1e-14, 1e-16, 1e-18, 0};
 /* A slack below this, relative to the parent or the bound, is equality. */
 static const double EQUAL = 1e-12;
 
-static icc_status take_turns(const iccp_program *program, uint8_t *active,
-                             iccp_candidate *candidate, icc_function_info *info,
-                             const iccp_env *env)
+static icc_status alternate_methods(const iccp_qp *qp, uint8_t *active, iccp_candidate *candidate,
+                                    icc_function_info *info, const iccp_env *env)
 {
-    iccp_interior interior;
+    iccp_interior_point ip;
     bool stuck = false;
     iccp_env part = iccp_part(env, NULL, 0, 0.1);
-    icc_status status = iccp_interior_create(&interior, program, info, &part);
+    icc_status status = iccp_interior_point_create(&ip, qp, info, &part);
     if (status != ICC_OK)
         return status;
     part = iccp_part(env, NULL, 0.1, 1);
     for (size_t t = 0; status == ICC_OK && !stuck && candidate->residual > ENOUGH; ++t) {
-        status = iccp_interior_run(&interior, TARGETS[t], &stuck, info, &part);
-        for (size_t i = 0; i < iccp_program_inequalities(program); ++i)
-            active[i] = interior.multiplier[i] > interior.slack[i];
-        const iccp_env polishing = iccp_round(&part, interior.n_iterations, ICCP_INTERIOR_TYPICAL);
+        status = iccp_interior_point_run(&ip, TARGETS[t], &stuck, info, &part);
+        for (size_t i = 0; i < iccp_qp_inequalities(qp); ++i)
+            active[i] = ip.multiplier[i] > ip.slack[i];
+        const iccp_env polishing = iccp_round(&part, ip.n_iterations, ICCP_INTERIOR_POINT_TYPICAL);
         if (status == ICC_OK)
-            status = iccp_polish(program, active, ENOUGH, candidate, info, &polishing);
+            status = iccp_polish(qp, active, ENOUGH, candidate, info, &polishing);
     }
-    info->n_iterations += interior.n_iterations;
-    iccp_interior_free(&interior);
+    info->n_iterations += ip.n_iterations;
+    iccp_interior_point_free(&ip);
     return status;
 }
 
-static icc_status optimise(const iccp_program *program, iccp_candidate *candidate,
-                           icc_function_info *info, const iccp_env *env)
+static icc_status optimise(const iccp_qp *qp, iccp_candidate *candidate, icc_function_info *info,
+                           const iccp_env *env)
 {
-    const size_t m = iccp_program_inequalities(program);
+    const size_t m = iccp_qp_inequalities(qp);
     uint8_t *active = iccp_alloc_zero(&env->memory, m, sizeof *active);
     if (active == NULL)
         return ICC_ERR_MEMORY;
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){1, 4}, env);
-    icc_status status = iccp_polish(program, active, ENOUGH, candidate, info, &part[0]);
+    icc_status status = iccp_polish(qp, active, ENOUGH, candidate, info, &part[0]);
     if (status == ICC_OK && candidate->residual > GOOD)
-        status = take_turns(program, active, candidate, info, &part[1]);
+        status = alternate_methods(qp, active, candidate, info, &part[1]);
     iccp_free(&env->memory, active);
     if (status != ICC_OK || candidate->residual <= ACCEPTABLE)
         return status;
@@ -67,53 +66,54 @@ static icc_status optimise(const iccp_program *program, iccp_candidate *candidat
 
 /* Raises what is below the least value that the leaves' bounds allow, then sweeps from the root.
  * `f` as doubles follows. work: n */
-static void sweep(const iccp_program *program, double *f, const iccp_scaled *scaled, double *work)
+static void sweep(const iccp_qp *qp, double *f, const iccp_scaled *scaled, double *work)
 {
-    const size_t n = program->rows->n;
-    (void)iccp_program_least_root(program, work);
+    const size_t n = qp->unknowns->n;
+    (void)iccp_qp_least_root(qp, work);
     for (size_t k = 0; k < n; ++k)
         iccp_scaled_set(scaled, k, k == 0 ? 1 : fmax(f[k], work[k]), 0);
-    iccp_inequalities_sweep(program->rows, program->sigma - 1, scaled);
+    iccp_inequalities_sweep(qp->unknowns, qp->sigma - 1, scaled);
     for (size_t k = 0; k < n; ++k)
         f[k] = iccp_scaled_get(scaled, k, 0);
 }
 
-static size_t count_active(const iccp_program *program, const double *f)
+static size_t count_active(const iccp_qp *qp, const double *f)
 {
-    const uint32_t *parent = program->rows->parent;
+    const uint32_t *parent = qp->unknowns->parent;
     size_t n_active = 0;
-    for (size_t k = 1; k < program->rows->n; ++k)
-        n_active += f[parent[k]] * (1 - EQUAL) <= program->sigma * f[k];
-    for (size_t j = 0; j < program->n_leaves; ++j)
-        n_active += f[program->leaf_row[j]] * (1 - EQUAL) <= program->leaf;
+    for (size_t k = 1; k < qp->unknowns->n; ++k)
+        n_active += f[parent[k]] * (1 - EQUAL) <= qp->sigma * f[k];
+    for (size_t j = 0; j < qp->n_leaves; ++j)
+        n_active += f[qp->leaf_unknown[j]] * (1 - EQUAL) <= qp->leaf;
     return n_active;
 }
 
-static icc_status finish(const iccp_program *program, const iccp_candidate *candidate,
-                         const iccp_scaled *f, icc_function_info *info, const iccp_env *env)
+static icc_status sweep_and_report(const iccp_qp *qp, const iccp_candidate *candidate,
+                                   const iccp_scaled *f, icc_function_info *info,
+                                   const iccp_env *env)
 {
-    const size_t n = program->rows->n;
+    const size_t n = qp->unknowns->n;
     const double start = iccp_seconds();
-    double *work = iccp_alloc(&env->memory, program->a.n_rows + 2 * n, sizeof *work);
+    double *work = iccp_alloc(&env->memory, qp->a.n_rows + 2 * n, sizeof *work);
     if (work == NULL)
         return ICC_ERR_MEMORY;
-    double *gradient = work + program->a.n_rows + n;
+    double *gradient = work + qp->a.n_rows + n;
     const iccp_scaled plain = {candidate->f, NULL}, force = {gradient, NULL};
-    sweep(program, candidate->f, f, work);
-    iccp_energy_gradient(&program->a, candidate->f, work, gradient);
+    sweep(qp, candidate->f, f, work);
+    iccp_energy_gradient(&qp->a, candidate->f, work, gradient);
     info->residual_before = candidate->residual;
-    info->residual = iccp_inequalities_residual(program->rows, program->sigma - 1, program->leaf,
-                                                &plain, &force, work);
-    info->n_active = count_active(program, candidate->f);
+    info->residual =
+        iccp_inequalities_residual(qp->unknowns, qp->sigma - 1, qp->leaf, &plain, &force, work);
+    info->n_active = count_active(qp, candidate->f);
     info->seconds_verify += iccp_seconds() - start;
     iccp_free(&env->memory, work);
     return ICC_OK;
 }
 
 /* Whether the bounds of the leaves leave room below the root. */
-static icc_status check_room(const iccp_program *program, double *work, const iccp_env *env)
+static icc_status check_room(const iccp_qp *qp, double *work, const iccp_env *env)
 {
-    const double least = iccp_program_least_root(program, work);
+    const double least = iccp_qp_least_root(qp, work);
     if (least < 1)
         return ICC_OK;
     iccp_log(env, "bi-Laplace: the inequalities ask for %g at the root, where the function is 1",
@@ -121,24 +121,25 @@ static icc_status check_room(const iccp_program *program, double *work, const ic
     return ICC_ERR_SOLVER;
 }
 
-icc_status iccp_bilaplace_constrained(const iccp_rows *rows, int32_t function, double eta,
+icc_status iccp_bilaplace_constrained(const iccp_unknowns *unknowns, int32_t function, double eta,
                                       double leaf, const iccp_scaled *f, icc_function_info *info,
                                       const iccp_env *env)
 {
     const double start = iccp_seconds();
-    iccp_program program;
+    iccp_qp qp;
     info->n_iterations = 0;
-    icc_status status = iccp_program_create(&program, rows, function, eta, leaf, env);
+    icc_status status = iccp_qp_create(&qp, unknowns, function, eta, leaf, env);
     if (status != ICC_OK)
         return status;
     info->seconds_setup += iccp_seconds() - start;
-    iccp_candidate candidate = {iccp_alloc(&env->memory, rows->n, sizeof *candidate.f), HUGE_VAL};
-    status = candidate.f != NULL ? check_room(&program, candidate.f, env) : ICC_ERR_MEMORY;
+    iccp_candidate candidate = {iccp_alloc(&env->memory, unknowns->n, sizeof *candidate.f),
+                                HUGE_VAL};
+    status = candidate.f != NULL ? check_room(&qp, candidate.f, env) : ICC_ERR_MEMORY;
     if (status == ICC_OK)
-        status = optimise(&program, &candidate, info, env);
+        status = optimise(&qp, &candidate, info, env);
     if (status == ICC_OK)
-        status = finish(&program, &candidate, f, info, env);
+        status = sweep_and_report(&qp, &candidate, f, info, env);
     iccp_free(&env->memory, candidate.f);
-    iccp_program_free(&program);
+    iccp_qp_free(&qp);
     return status;
 }

@@ -13,27 +13,28 @@
 static const iccp_mg_goal GOAL = {.relative = 1e-11, .componentwise = 1e-9, .floor = 0};
 
 typedef struct poisson {
-    const iccp_rows *rows;
+    const iccp_unknowns *unknowns;
     iccp_multigrid mg;
     uint32_t *position; /* of each row, among the entries of the finest level */
     double *x, *r;      /* per entry */
 } poisson;
 
-static icc_status poisson_create(poisson *p, const iccp_rows *rows, const iccp_env *env)
+static icc_status poisson_create(poisson *p, const iccp_unknowns *unknowns, const iccp_env *env)
 {
-    *p = (poisson){.rows = rows, .mg = {.memory = env->memory}};
-    icc_status status = iccp_multigrid_create(&p->mg, rows->tree->grid, rows->n, rows->vertex, env);
+    *p = (poisson){.unknowns = unknowns, .mg = {.memory = env->memory}};
+    icc_status status =
+        iccp_multigrid_create(&p->mg, unknowns->tree->grid, unknowns->n, unknowns->vertex, env);
     if (status != ICC_OK)
         return status;
     const iccp_mg_level *level = &p->mg.level[0];
-    p->position = iccp_alloc(&env->memory, rows->n, sizeof *p->position);
+    p->position = iccp_alloc(&env->memory, unknowns->n, sizeof *p->position);
     p->x = iccp_alloc_zero(&env->memory, level->n_entries, sizeof *p->x);
     p->r = iccp_alloc_zero(&env->memory, level->n_entries, sizeof *p->r);
     if (p->position == NULL || p->x == NULL || p->r == NULL)
         return ICC_ERR_MEMORY;
-    for (size_t k = 0; k < rows->n; ++k) {
+    for (size_t k = 0; k < unknowns->n; ++k) {
         uint32_t x;
-        const size_t row = iccp_mg_row_of(level, rows->tree->grid, rows->vertex[k], &x);
+        const size_t row = iccp_mg_row_of(level, unknowns->tree->grid, unknowns->vertex[k], &x);
         p->position[k] = (uint32_t)iccp_mg_position(level, row, x);
     }
     return ICC_OK;
@@ -61,25 +62,26 @@ static icc_status solve(poisson *p, size_t loaded, icc_function_info *info, cons
     const double unit = p->x[p->position[loaded]];
     if (status != ICC_OK || !(unit > 0))
         return status != ICC_OK ? status : ICC_ERR_SOLVER;
-    for (size_t k = 0; k < p->rows->n; ++k)
+    for (size_t k = 0; k < p->unknowns->n; ++k)
         p->x[p->position[k]] /= unit;
     return ICC_OK;
 }
 
 static bool is_positive(const poisson *p)
 {
-    for (size_t k = 0; k < p->rows->n; ++k)
+    for (size_t k = 0; k < p->unknowns->n; ++k)
         if (!(p->x[p->position[k]] > 0))
             return false;
     return true;
 }
 
-icc_status iccp_bilaplace_iterative(const iccp_rows *rows, size_t loaded, const iccp_scaled *f,
-                                    icc_function_info *info, const iccp_env *env)
+icc_status iccp_bilaplace_iterative(const iccp_unknowns *unknowns, size_t loaded,
+                                    const iccp_scaled *f, icc_function_info *info,
+                                    const iccp_env *env)
 {
     const double begin = iccp_seconds();
     poisson p;
-    icc_status status = poisson_create(&p, rows, env);
+    icc_status status = poisson_create(&p, unknowns, env);
     const double middle = iccp_seconds();
     info->seconds_setup += middle - begin;
     if (status == ICC_OK) {
@@ -95,7 +97,7 @@ icc_status iccp_bilaplace_iterative(const iccp_rows *rows, size_t loaded, const 
         status = ICC_ERR_SOLVER;
     if (status == ICC_ERR_SOLVER)
         iccp_log(env, "bi-Laplace: values far from the root are too small for conjugate gradients");
-    for (size_t k = 0; k < rows->n && status == ICC_OK; ++k)
+    for (size_t k = 0; k < unknowns->n && status == ICC_OK; ++k)
         iccp_scaled_set(f, k, p.x[p.position[k]], 0);
     info->seconds_solve += iccp_seconds() - middle;
     poisson_free(&p, env);

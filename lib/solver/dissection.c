@@ -34,7 +34,7 @@ static const double THIN_IN_2D = 4, THIN_BEYOND = 0.25;
 static const double PI = 3.14159265358979323846;
 
 typedef struct dissection {
-    const iccp_rows *rows;
+    const iccp_unknowns *unknowns;
     const iccp_env *env;
     size_t n_axes;   /* the generation is the last one */
     uint32_t *order; /* parts are ranges of it, their rows rising */
@@ -54,13 +54,13 @@ typedef struct plane {
     double score;
 } plane;
 
-static icc_status visit(dissection *d, size_t n_rows)
+static icc_status count_visits(dissection *d, size_t n_rows)
 {
     const size_t reports = d->n_visited / ICCP_VERTICES_PER_REPORT;
     d->n_visited += n_rows;
     if (d->n_visited / ICCP_VERTICES_PER_REPORT == reports)
         return ICC_OK;
-    return iccp_progress(d->env, "solve", (double)d->n_done / (double)d->rows->n);
+    return iccp_progress(d->env, "solve", (double)d->n_done / (double)d->unknowns->n);
 }
 
 /* ------------------------------------------------------------------- bands */
@@ -68,9 +68,9 @@ static icc_status visit(dissection *d, size_t n_rows)
 /* How many rows lie in one line through each row, along one axis. */
 static icc_status find_runs(dissection *d, size_t axis)
 {
-    const size_t degree = (size_t)d->rows->n_neighbours;
-    const uint32_t *neighbour = d->rows->neighbour;
-    for (uint32_t k = 0; k < d->rows->n; ++k) {
+    const size_t degree = (size_t)d->unknowns->n_neighbours;
+    const uint32_t *neighbour = d->unknowns->neighbour;
+    for (uint32_t k = 0; k < d->unknowns->n; ++k) {
         if (neighbour[k * degree + 2 * axis] != ICCP_NONE)
             continue;
         uint32_t length = 0;
@@ -78,7 +78,7 @@ static icc_status find_runs(dissection *d, size_t axis)
             ++length;
         for (uint32_t i = k; i != ICCP_NONE; i = neighbour[i * degree + 2 * axis + 1])
             d->place[i * d->n_axes + axis] = length;
-        const icc_status status = visit(d, length);
+        const icc_status status = count_visits(d, length);
         if (status != ICC_OK)
             return status;
     }
@@ -100,19 +100,19 @@ static double rate(const uint32_t *run, size_t dim)
 /* The band of each row into `work`. */
 static icc_status find_bands(dissection *d, uint32_t *n_bands)
 {
-    const size_t n = d->rows->n, dim = d->n_axes - 1;
+    const size_t n = d->unknowns->n, dim = d->n_axes - 1;
     double *fall = iccp_alloc(&d->env->memory, n, sizeof *fall);
     icc_status status = fall != NULL ? ICC_OK : ICC_ERR_MEMORY;
     for (size_t axis = 0; axis < dim && status == ICC_OK; ++axis)
         status = find_runs(d, axis);
     *n_bands = 1;
     for (size_t k = 0; k < n && status == ICC_OK; ++k) {
-        const uint32_t parent = d->rows->parent[k];
+        const uint32_t parent = d->unknowns->parent[k];
         fall[k] = k == 0 ? 0 : fall[parent] + rate(d->place + k * d->n_axes, dim);
         d->work[k] = (uint32_t)(fall[k] / BAND);
         if (d->work[k] >= *n_bands)
             *n_bands = d->work[k] + 1;
-        status = visit(d, 1);
+        status = count_visits(d, 1);
     }
     iccp_free(&d->env->memory, fall);
     return status;
@@ -121,7 +121,7 @@ static icc_status find_bands(dissection *d, uint32_t *n_bands)
 /* Puts the rows in order by falling band; the ends of the bands into end[1..]. */
 static void sort_bands(dissection *d, size_t *end, uint32_t n_bands)
 {
-    const size_t n = d->rows->n;
+    const size_t n = d->unknowns->n;
     for (size_t k = 0; k < n; ++k)
         ++end[n_bands - d->work[k]];
     for (uint32_t b = 0; b < n_bands; ++b)
@@ -137,18 +137,18 @@ static void sort_bands(dissection *d, size_t *end, uint32_t n_bands)
 
 static icc_status find_places(dissection *d)
 {
-    const icc_tree *tree = d->rows->tree;
+    const icc_tree *tree = d->unknowns->tree;
     const size_t dim = d->n_axes - 1;
     icc_status status = ICC_OK;
-    for (size_t k = 0; k < d->rows->n && status == ICC_OK; ++k) {
-        uint32_t *place = d->place + k * d->n_axes, rest = d->rows->vertex[k];
+    for (size_t k = 0; k < d->unknowns->n && status == ICC_OK; ++k) {
+        uint32_t *place = d->place + k * d->n_axes, rest = d->unknowns->vertex[k];
         place[dim] = (uint32_t)tree->generation[rest];
         for (size_t axis = 0; axis < dim; ++axis) {
             const uint32_t shape = (uint32_t)tree->grid->shape[axis];
             place[axis] = rest % shape;
             rest /= shape;
         }
-        status = visit(d, 1);
+        status = count_visits(d, 1);
     }
     return status;
 }
@@ -256,7 +256,7 @@ static icc_status dissect(dissection *d, part band)
     icc_status status = ICC_OK;
     for (size_t height = 1; height > 0 && status == ICC_OK;) {
         const part p = stack[--height];
-        status = visit(d, p.end - p.begin);
+        status = count_visits(d, p.end - p.begin);
         if (!cut_part(d, &p, half)) {
             eliminate_from_far_end(d, &p);
             continue;
@@ -269,10 +269,10 @@ static icc_status dissect(dissection *d, part band)
 }
 
 /* Most planes across any axis. */
-static size_t most_planes(const iccp_rows *rows)
+static size_t most_planes(const iccp_unknowns *unknowns)
 {
-    const icc_tree *tree = rows->tree;
-    size_t most = (size_t)tree->generation[rows->vertex[rows->n - 1]] + 1;
+    const icc_tree *tree = unknowns->tree;
+    size_t most = (size_t)tree->generation[unknowns->vertex[unknowns->n - 1]] + 1;
     for (int32_t axis = 0; axis < tree->grid->dim; ++axis)
         most = tree->grid->shape[axis] > most ? tree->grid->shape[axis] : most;
     return most;
@@ -295,14 +295,16 @@ static icc_status run(dissection *d)
     return status;
 }
 
-icc_status iccp_dissection(const iccp_rows *rows, uint32_t *order, const iccp_env *env)
+icc_status iccp_dissection(const iccp_unknowns *unknowns, uint32_t *order, const iccp_env *env)
 {
     const iccp_memory *m = &env->memory;
-    dissection d = {
-        .rows = rows, .env = env, .n_axes = (size_t)rows->tree->grid->dim + 1, .order = order};
-    d.work = iccp_alloc(m, rows->n, sizeof *d.work);
-    d.place = iccp_alloc(m, rows->n, d.n_axes * sizeof *d.place);
-    d.count = iccp_alloc(m, most_planes(rows), sizeof *d.count);
+    dissection d = {.unknowns = unknowns,
+                    .env = env,
+                    .n_axes = (size_t)unknowns->tree->grid->dim + 1,
+                    .order = order};
+    d.work = iccp_alloc(m, unknowns->n, sizeof *d.work);
+    d.place = iccp_alloc(m, unknowns->n, d.n_axes * sizeof *d.place);
+    d.count = iccp_alloc(m, most_planes(unknowns), sizeof *d.count);
     icc_status status = ICC_ERR_MEMORY;
     if (d.work != NULL && d.place != NULL && d.count != NULL)
         status = run(&d);

@@ -2,11 +2,11 @@
 #ifndef ICCP_DISSECTION_H
 #define ICCP_DISSECTION_H
 
-#include "solver/rows.h"
+#include "solver/unknowns.h"
 
 /* order[k] is the row that is eliminated k-th; n entries. For factorisations of the Laplacian of
  * the rows, whose entries it keeps from underflow: no two rows are joined far beyond which values
  * fall by 10^87 or so along the tree. O(n log n) time; 12 + 4 dim bytes a row until it returns. */
-icc_status iccp_dissection(const iccp_rows *rows, uint32_t *order, const iccp_env *env);
+icc_status iccp_dissection(const iccp_unknowns *unknowns, uint32_t *order, const iccp_env *env);
 
 #endif

@@ -17,48 +17,48 @@ static const double SMALL_CORRECTION = 1e-15;
 /* A solution that is still corrected by more than this, relative to it, is not handed out. */
 static const double LARGE_CORRECTION = 1e-6;
 
-static uint32_t neighbour(const iccp_rows *rows, size_t k, int32_t d)
+static uint32_t neighbour(const iccp_unknowns *unknowns, size_t k, int32_t d)
 {
-    return rows->neighbour[k * (size_t)rows->n_neighbours + (size_t)d];
+    return unknowns->neighbour[k * (size_t)unknowns->n_neighbours + (size_t)d];
 }
 
 /* The vertex outside next to row k, or ICCP_NONE beyond the grid. */
-static uint32_t vertex_outside(const iccp_rows *rows, size_t k, int32_t d)
+static uint32_t vertex_outside(const iccp_unknowns *unknowns, size_t k, int32_t d)
 {
-    return iccp_grid_neighbour(rows->tree->grid, rows->vertex[k], d / 2, 2 * (d % 2) - 1);
+    return iccp_grid_neighbour(unknowns->tree->grid, unknowns->vertex[k], d / 2, 2 * (d % 2) - 1);
 }
 
-static void count_neighbours(const iccp_rows *rows, size_t *n_inside, size_t *n_outside)
+static void count_neighbours(const iccp_unknowns *unknowns, size_t *n_inside, size_t *n_outside)
 {
-    const size_t n = rows->n * (size_t)rows->n_neighbours;
+    const size_t n = unknowns->n * (size_t)unknowns->n_neighbours;
     *n_outside = 0;
     for (size_t i = 0; i < n; ++i)
-        *n_outside += rows->neighbour[i] == ICCP_NONE;
+        *n_outside += unknowns->neighbour[i] == ICCP_NONE;
     *n_inside = n - *n_outside;
 }
 
-static void set_inside(iccp_sparse *a, const iccp_rows *rows)
+static void set_inside(iccp_sparse *a, const iccp_unknowns *unknowns)
 {
     size_t p = 0;
-    for (uint32_t k = 0; k < rows->n; ++k) {
+    for (uint32_t k = 0; k < unknowns->n; ++k) {
         a->first[k] = p;
         a->column[p] = k;
-        a->value[p++] = rows->n_neighbours;
-        for (int32_t d = 0; d < rows->n_neighbours; ++d)
-            if (neighbour(rows, k, d) != ICCP_NONE) {
-                a->column[p] = neighbour(rows, k, d);
+        a->value[p++] = unknowns->n_neighbours;
+        for (int32_t d = 0; d < unknowns->n_neighbours; ++d)
+            if (neighbour(unknowns, k, d) != ICCP_NONE) {
+                a->column[p] = neighbour(unknowns, k, d);
                 a->value[p++] = -1;
             }
     }
-    a->first[rows->n] = p;
+    a->first[unknowns->n] = p;
 }
 
 /* The row of A of the vertex outside next to row k; numbers it when it is met for the first time. A
  * vertex beyond the grid has one neighbour inside, so that it is met only once. */
-static size_t row_outside(iccp_sparse *a, const iccp_rows *rows, uint32_t *row_of, size_t k,
+static size_t row_outside(iccp_sparse *a, const iccp_unknowns *unknowns, uint32_t *row_of, size_t k,
                           int32_t d)
 {
-    const uint32_t u = vertex_outside(rows, k, d);
+    const uint32_t u = vertex_outside(unknowns, k, d);
     if (u == ICCP_NONE)
         return a->n_rows++;
     if (row_of[u] == ICCP_NONE)
@@ -68,9 +68,9 @@ static size_t row_outside(iccp_sparse *a, const iccp_rows *rows, uint32_t *row_o
 
 /* Two passes over the neighbours outside, which number them alike: the first counts the entries of
  * their rows, the second writes them. */
-static icc_status set_outside(iccp_sparse *a, const iccp_rows *rows, const iccp_env *env)
+static icc_status set_outside(iccp_sparse *a, const iccp_unknowns *unknowns, const iccp_env *env)
 {
-    const size_t n = rows->n, n_vertices = rows->tree->grid->n_vertices, most = a->n_rows;
+    const size_t n = unknowns->n, n_vertices = unknowns->tree->grid->n_vertices, most = a->n_rows;
     uint32_t *row_of = iccp_alloc(&env->memory, n_vertices, sizeof *row_of);
     if (row_of == NULL)
         return ICC_ERR_MEMORY;
@@ -79,10 +79,10 @@ static icc_status set_outside(iccp_sparse *a, const iccp_rows *rows, const iccp_
         memset(row_of, 0xff, n_vertices * sizeof *row_of); /* ICCP_NONE */
         a->n_rows = n;
         for (uint32_t k = 0; k < n; ++k)
-            for (int32_t d = 0; d < rows->n_neighbours; ++d) {
-                if (neighbour(rows, k, d) != ICCP_NONE)
+            for (int32_t d = 0; d < unknowns->n_neighbours; ++d) {
+                if (neighbour(unknowns, k, d) != ICCP_NONE)
                     continue;
-                const size_t i = row_outside(a, rows, row_of, k, d);
+                const size_t i = row_outside(a, unknowns, row_of, k, d);
                 if (pass == 0) {
                     ++a->first[i + 1];
                 } else {
@@ -97,26 +97,26 @@ static icc_status set_outside(iccp_sparse *a, const iccp_rows *rows, const iccp_
     for (size_t i = a->n_rows; i > n; --i)
         a->first[i] = a->first[i - 1];
     size_t n_inside, n_outside;
-    count_neighbours(rows, &n_inside, &n_outside);
+    count_neighbours(unknowns, &n_inside, &n_outside);
     a->first[n] = n + n_inside;
     iccp_free(&env->memory, row_of);
     return ICC_OK;
 }
 
-icc_status iccp_energy_create(iccp_sparse *a, const iccp_rows *rows, int32_t function,
+icc_status iccp_energy_create(iccp_sparse *a, const iccp_unknowns *unknowns, int32_t function,
                               const iccp_env *env)
 {
     size_t n_inside, n_outside;
-    count_neighbours(rows, &n_inside, &n_outside);
+    count_neighbours(unknowns, &n_inside, &n_outside);
     if (function != ICC_FUNCTION_CLAMPED)
         n_outside = 0;
-    icc_status status =
-        iccp_sparse_create(a, rows->n + n_outside, rows->n, rows->n + n_inside + n_outside, env);
+    icc_status status = iccp_sparse_create(a, unknowns->n + n_outside, unknowns->n,
+                                           unknowns->n + n_inside + n_outside, env);
     if (status != ICC_OK)
         return status;
-    set_inside(a, rows);
+    set_inside(a, unknowns);
     if (n_outside > 0)
-        status = set_outside(a, rows, env);
+        status = set_outside(a, unknowns, env);
     if (status != ICC_OK)
         iccp_sparse_free(a);
     return status;
@@ -129,19 +129,19 @@ void iccp_energy_gradient(const iccp_sparse *a, const double *f, double *work, d
     iccp_sparse_apply_transpose(a, work, out);
 }
 
-/* B = A P: the columns of A that share an unknown, added up. */
+/* B = A P: the columns of A that share an variable, added up. */
 static icc_status reduce(iccp_sparse *b, const iccp_sparse *a, const iccp_reduction *reduction,
                          const iccp_env *env)
 {
     const icc_status status =
-        iccp_sparse_create(b, a->n_rows, reduction->n_unknowns, a->first[a->n_rows], env);
+        iccp_sparse_create(b, a->n_rows, reduction->n_variables, a->first[a->n_rows], env);
     if (status != ICC_OK)
         return status;
     size_t end = 0;
     for (size_t i = 0; i < a->n_rows; ++i) {
         b->first[i] = end;
         for (size_t p = a->first[i]; p < a->first[i + 1]; ++p) {
-            const uint32_t u = reduction->unknown[a->column[p]];
+            const uint32_t u = reduction->variable[a->column[p]];
             if (u == ICCP_NONE)
                 continue;
             size_t q = b->first[i];
@@ -170,8 +170,8 @@ typedef struct least_squares {
 static void expand(const least_squares *s, double *f)
 {
     for (size_t k = 0; k < s->a->n_columns; ++k)
-        if (s->reduction->unknown[k] != ICCP_NONE)
-            f[k] = s->reduction->share[k] * s->x[s->reduction->unknown[k]];
+        if (s->reduction->variable[k] != ICCP_NONE)
+            f[k] = s->reduction->share[k] * s->x[s->reduction->variable[k]];
 }
 
 /* One correction; returns its size relative to the solution. */
@@ -236,7 +236,7 @@ icc_status iccp_energy_minimise(const iccp_sparse *a, const iccp_reduction *redu
                                 icc_function_info *info, const iccp_env *env)
 {
     least_squares s = {.a = a, .reduction = reduction};
-    const size_t n = reduction->n_unknowns;
+    const size_t n = reduction->n_variables;
     s.residual = iccp_alloc(&env->memory, a->n_rows, sizeof *s.residual);
     s.x = iccp_alloc(&env->memory, n, sizeof *s.x);
     s.step = iccp_alloc(&env->memory, n, sizeof *s.step);

@@ -19,19 +19,19 @@ static bool is_violated(const iccp_scaled *f, double sigma, size_t parent, size_
     return ldexp(sigma * f->fraction[child], shift) > f->fraction[parent];
 }
 
-size_t iccp_inequalities_violated(const iccp_rows *rows, double eta, const iccp_scaled *f)
+size_t iccp_inequalities_violated(const iccp_unknowns *unknowns, double eta, const iccp_scaled *f)
 {
     size_t n_violated = 0;
-    for (size_t k = 1; k < rows->n; ++k)
-        n_violated += is_violated(f, 1 + eta, rows->parent[k], k);
+    for (size_t k = 1; k < unknowns->n; ++k)
+        n_violated += is_violated(f, 1 + eta, unknowns->parent[k], k);
     return n_violated;
 }
 
-void iccp_inequalities_sweep(const iccp_rows *rows, double eta, const iccp_scaled *f)
+void iccp_inequalities_sweep(const iccp_unknowns *unknowns, double eta, const iccp_scaled *f)
 {
     const double sigma = 1 + eta;
-    for (size_t k = 1; k < rows->n; ++k) {
-        const uint32_t p = rows->parent[k];
+    for (size_t k = 1; k < unknowns->n; ++k) {
+        const uint32_t p = unknowns->parent[k];
         if (!is_violated(f, sigma, p, k))
             continue;
         double x = f->fraction[p] / sigma;
@@ -43,12 +43,13 @@ void iccp_inequalities_sweep(const iccp_rows *rows, double eta, const iccp_scale
     }
 }
 
-double iccp_laplacian_row(const iccp_rows *rows, const iccp_scaled *f, size_t k, int32_t exponent)
+double iccp_laplacian_row(const iccp_unknowns *unknowns, const iccp_scaled *f, size_t k,
+                          int32_t exponent)
 {
     const double own = iccp_scaled_get(f, k, exponent);
-    const uint32_t *neighbour = rows->neighbour + k * (size_t)rows->n_neighbours;
+    const uint32_t *neighbour = unknowns->neighbour + k * (size_t)unknowns->n_neighbours;
     double sum = 0;
-    for (int32_t d = 0; d < rows->n_neighbours; ++d)
+    for (int32_t d = 0; d < unknowns->n_neighbours; ++d)
         sum += neighbour[d] == ICCP_NONE ? own : own - iccp_scaled_get(f, neighbour[d], exponent);
     return sum;
 }
@@ -57,19 +58,19 @@ double iccp_laplacian_row(const iccp_rows *rows, const iccp_scaled *f, size_t k,
  * raised at will, the bound's with it, and so on up the tree as long as edges are tight. `lift` is
  * the least price of that below a row: the largest slack on the way, by which a residual is bounded
  * where the multipliers are positive. */
-double iccp_inequalities_residual(const iccp_rows *rows, double eta, double leaf,
+double iccp_inequalities_residual(const iccp_unknowns *unknowns, double eta, double leaf,
                                   const iccp_scaled *f, const iccp_scaled *gradient, double *work)
 {
     const double sigma = 1 + eta;
-    double *sum = work, *lift = work + rows->n;
+    double *sum = work, *lift = work + unknowns->n;
     double residual = 0;
     assert(eta > 0 && leaf >= 0);
-    for (size_t k = 0; k < rows->n; ++k) {
+    for (size_t k = 0; k < unknowns->n; ++k) {
         sum[k] = 0;
         lift[k] = -1; /* no child has been here */
     }
-    for (size_t k = rows->n; k-- > 1;) {
-        const uint32_t p = rows->parent[k];
+    for (size_t k = unknowns->n; k-- > 1;) {
+        const uint32_t p = unknowns->parent[k];
         const double own = plain(f, k), slack = plain(f, p) - sigma * own;
         double lambda = (sum[k] - plain(gradient, k)) / sigma;
         if (lift[k] < 0 && leaf > 0) { /* no children: the bound takes what pulls downwards */

@@ -5,9 +5,10 @@
 
 #include <math.h>
 
-static icc_status set_matrix(iccp_laplacian_factor *l, const iccp_rows *rows, const iccp_env *env)
+static icc_status set_matrix(iccp_laplacian_factor *l, const iccp_unknowns *unknowns,
+                             const iccp_env *env)
 {
-    const size_t n = rows->n, degree = (size_t)rows->n_neighbours;
+    const size_t n = unknowns->n, degree = (size_t)unknowns->n_neighbours;
     l->first = iccp_alloc(&env->memory, n + 1, sizeof *l->first);
     l->column = iccp_alloc(&env->memory, n, degree * sizeof *l->column);
     l->value = iccp_alloc(&env->memory, n, degree * sizeof *l->value);
@@ -19,8 +20,8 @@ static icc_status set_matrix(iccp_laplacian_factor *l, const iccp_rows *rows, co
         l->first[k] = p;
         l->diagonal[k] = (double)degree;
         for (size_t d = 0; d < degree; ++d)
-            if (rows->neighbour[k * degree + d] != ICCP_NONE) {
-                l->column[p] = rows->neighbour[k * degree + d];
+            if (unknowns->neighbour[k * degree + d] != ICCP_NONE) {
+                l->column[p] = unknowns->neighbour[k * degree + d];
                 l->value[p++] = -1;
             }
     }
@@ -29,12 +30,13 @@ static icc_status set_matrix(iccp_laplacian_factor *l, const iccp_rows *rows, co
     return ICC_OK;
 }
 
-static icc_status analyse(iccp_laplacian_factor *l, const iccp_rows *rows, const iccp_env *env)
+static icc_status analyse(iccp_laplacian_factor *l, const iccp_unknowns *unknowns,
+                          const iccp_env *env)
 {
-    uint32_t *order = iccp_alloc(&env->memory, rows->n, sizeof *order);
+    uint32_t *order = iccp_alloc(&env->memory, unknowns->n, sizeof *order);
     if (order == NULL)
         return ICC_ERR_MEMORY;
-    icc_status status = iccp_dissection(rows, order, env);
+    icc_status status = iccp_dissection(unknowns, order, env);
     if (status == ICC_OK)
         status = iccp_ldlt_analyse_ordered(&l->factor, &l->matrix, order, env);
     iccp_free(&env->memory, order);
@@ -42,16 +44,16 @@ static icc_status analyse(iccp_laplacian_factor *l, const iccp_rows *rows, const
 }
 
 /* Times each of its three parts: the matrix, the order, the factorisation. */
-icc_status iccp_laplacian_factorise(iccp_laplacian_factor *l, const iccp_rows *rows,
+icc_status iccp_laplacian_factorise(iccp_laplacian_factor *l, const iccp_unknowns *unknowns,
                                     icc_function_info *info, const iccp_env *env)
 {
     *l = (iccp_laplacian_factor){.memory = env->memory, .factor = {.memory = env->memory}};
     double start = iccp_seconds();
-    icc_status status = set_matrix(l, rows, env);
+    icc_status status = set_matrix(l, unknowns, env);
     info->seconds_setup += iccp_seconds() - start;
     start = iccp_seconds();
     if (status == ICC_OK)
-        status = analyse(l, rows, env);
+        status = analyse(l, unknowns, env);
     info->seconds_order += iccp_seconds() - start;
     start = iccp_seconds();
     if (status == ICC_OK) {

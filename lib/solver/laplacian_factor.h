@@ -4,7 +4,7 @@
 
 #include "icc/stages.h"
 #include "math/ldlt.h"
-#include "solver/rows.h"
+#include "solver/unknowns.h"
 
 typedef struct iccp_laplacian_factor {
     iccp_memory memory;
@@ -17,7 +17,7 @@ typedef struct iccp_laplacian_factor {
 
 /* Eliminates in the order of nested dissection. Adds to `info` (work, seconds_*). On failure
  * nothing is left allocated. */
-icc_status iccp_laplacian_factorise(iccp_laplacian_factor *l, const iccp_rows *rows,
+icc_status iccp_laplacian_factorise(iccp_laplacian_factor *l, const iccp_unknowns *unknowns,
                                     icc_function_info *info, const iccp_env *env);
 
 /* Accepts what has only its memories and what has been freed. */

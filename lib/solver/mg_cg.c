@@ -65,10 +65,10 @@ static ICCP_INLINE void for_slab(solver *s, size_t slab, void (*act)(solver *, c
         }
 }
 
-static void turn(solver *s, const stretch *t)
+static void redirect(solver *s, const stretch *t)
 {
     const size_t at = iccp_mg_position(s->level, t->row, 2 * t->begin + (uint32_t)t->half);
-    s->level->kernels->turn(s->p + at, s->level->x + at, (float)s->beta, t->n);
+    s->level->kernels->redirect(s->p + at, s->level->x + at, (float)s->beta, t->n);
 }
 
 static void advance(solver *s, const stretch *t)
@@ -106,7 +106,7 @@ static icc_status pass_down(solver *s, const iccp_env *env)
         s->down.excess[j] = -HUGE_VAL;
     for (size_t slab = 0; slab < n + 4 && status == ICC_OK; ++slab) {
         if (slab < n)
-            for_slab(s, slab, turn);
+            for_slab(s, slab, redirect);
         if (slab >= 1 && slab - 1 < n)
             for_slab(s, slab - 1, advance);
         if (slab >= 1)

@@ -26,7 +26,7 @@ static ICCP_INLINE void add(float *restrict x, const float *const *near, size_t 
     }
 }
 
-static ICCP_INLINE void turn(float *restrict p, const float *z, float beta, size_t n)
+static ICCP_INLINE void redirect(float *restrict p, const float *z, float beta, size_t n)
 {
     for (size_t i = 0; i < n; ++i)
         p[i] = z[i] + beta * p[i];
@@ -109,7 +109,7 @@ static ICCP_INLINE void advance(const iccp_mg_step *step, const float *const *ne
     }                                                                                              \
     target static void turn_##name(float *restrict p, const float *z, float beta, size_t n)        \
     {                                                                                              \
-        turn(p, z, beta, n);                                                                       \
+        redirect(p, z, beta, n);                                                                   \
     }                                                                                              \
     target static void measure_##name(const float *z, const double *r, const float *const *near,   \
                                       size_t n, int32_t n_near, iccp_mg_upward *up)                \

@@ -39,7 +39,7 @@ typedef struct iccp_mg_kernels {
     /* x = sum of the neighbours */
     void (*add)(float *restrict x, const float *const *near, size_t n, int32_t n_near);
     /* p = z + beta p */
-    void (*turn)(float *restrict p, const float *z, float beta, size_t n);
+    void (*redirect)(float *restrict p, const float *z, float beta, size_t n);
     void (*measure)(const float *z, const double *r, const float *const *near, size_t n,
                     int32_t n_near, iccp_mg_upward *up);
     void (*advance)(const iccp_mg_step *step, const float *const *near, size_t n, int32_t n_near,

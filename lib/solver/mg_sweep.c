@@ -155,8 +155,8 @@ void iccp_mg_restrict(const iccp_mg_level *coarse, const iccp_mg_level *fine,
 }
 
 /* line[x - first] = sum of the coarse rows round a fine row, first even; their number. */
-static size_t spread(const iccp_mg_level *coarse, const iccp_mg_level *fine, size_t row,
-                     uint32_t first, size_t n_pairs, const iccp_mg_scratch *scratch)
+static size_t prolongate(const iccp_mg_level *coarse, const iccp_mg_level *fine, size_t row,
+                         uint32_t first, size_t n_pairs, const iccp_mg_scratch *scratch)
 {
     size_t odd[ICC_MAX_DIM], n_odd = 0, base = 0;
     for (int32_t k = 1; k < fine->dim; ++k) {
@@ -202,7 +202,7 @@ void iccp_mg_prolong(const iccp_mg_level *fine, const iccp_mg_level *coarse,
         first = first / 4 * 2; /* even x on the coarse level */
         const int half = half_of(fine, row, ICCP_RED);
         const size_t n_rows =
-            spread(coarse, fine, row, first, ((last + 1) / 2 - first) / 2 + 1, scratch);
+            prolongate(coarse, fine, row, first, ((last + 1) / 2 - first) / 2 + 1, scratch);
         const float weight = 1 / (float)n_rows;
         const iccp_mg_run *end, *run = iccp_mg_runs(fine, row, half, &end);
         for (; run < end; ++run) {

@@ -4,7 +4,7 @@
  * step where f gets as small as the bounds, and within a few steps from the last iterates of an
  * interior point method.
  *
- * Active edges glue children to parents. A cluster in which leaves are active is held: its values
+ * Active edges tie children to parents. A cluster in which leaves are active is held: its values
  * are the highest that one of these leaves asks for. The others are then above their bounds, as a
  * rule by no more than eta times the bound, which is nothing; if it is more than `enough`, they are
  * inactive. */
@@ -31,18 +31,18 @@ static const double WRONG = 0.1;
 enum { LIFTED = 1, RISES = 2, STAYS = 4 };
 
 typedef struct state {
-    const iccp_program *program;
+    const iccp_qp *qp;
     size_t n;
     double enough, tolerance;
-    uint8_t *active;   /* per inequality */
-    uint8_t *open;     /* per row: an active leaf is reached from here by active edges, downwards */
-    uint8_t *mark;     /* LIFTED: such a leaf bears what would be a negative multiplier of the row's
+    uint8_t *active; /* per inequality */
+    uint8_t *open;   /* per row: an active leaf is reached from here by active edges, downwards */
+    uint8_t *mark;   /* LIFTED: such a leaf bears what would be a negative multiplier of the row's
                           edge; RISES: the cluster of this top pulls at its leaves; STAYS: but not
                           here */
-    uint32_t *top;     /* of each row's cluster */
-    uint32_t *unknown; /* of its cluster, or ICCP_NONE if it is held */
-    double *share;     /* of the value of the top */
-    double *held;      /* per top: its value, or 0 */
+    uint32_t *top;   /* of each row's cluster */
+    uint32_t *variable; /* of its cluster, or ICCP_NONE if it is held */
+    double *share;      /* of the value of the top */
+    double *held;       /* per top: its value, or 0 */
     double *f, *gradient;
     double *sum; /* of the multipliers of the children's edges */
     double *work;
@@ -66,11 +66,11 @@ static uint8_t *leaf_active(const state *s, size_t j)
 
 static void find_clusters(state *s)
 {
-    const uint32_t *parent = s->program->rows->parent;
+    const uint32_t *parent = s->qp->unknowns->parent;
     for (uint32_t k = 0; k < s->n; ++k) {
-        const bool glued = k > 0 && s->active[k - 1];
-        s->top[k] = glued ? s->top[parent[k]] : k;
-        s->share[k] = glued ? s->share[parent[k]] / s->program->sigma : 1;
+        const bool tied = k > 0 && s->active[k - 1];
+        s->top[k] = tied ? s->top[parent[k]] : k;
+        s->share[k] = tied ? s->share[parent[k]] / s->qp->sigma : 1;
         s->held[k] = k == 0;
     }
 }
@@ -78,14 +78,14 @@ static void find_clusters(state *s)
 /* The root holds its cluster, whatever the leaves ask for. */
 static void hold_clusters(state *s)
 {
-    const iccp_program *p = s->program;
+    const iccp_qp *p = s->qp;
     for (size_t j = 0; j < p->n_leaves; ++j) {
-        const uint32_t k = p->leaf_row[j], t = s->top[k];
+        const uint32_t k = p->leaf_unknown[j], t = s->top[k];
         if (*leaf_active(s, j) && t > 0)
             s->held[t] = fmax(s->held[t], p->leaf / s->share[k]);
     }
     for (size_t j = 0; j < p->n_leaves; ++j) {
-        const uint32_t k = p->leaf_row[j];
+        const uint32_t k = p->leaf_unknown[j];
         if (s->held[s->top[k]] * s->share[k] > p->leaf + s->enough)
             *leaf_active(s, j) = 0;
     }
@@ -93,24 +93,24 @@ static void hold_clusters(state *s)
 
 static iccp_reduction reduce(state *s)
 {
-    size_t n_unknowns = 0;
+    size_t n_variables = 0;
     find_clusters(s);
     hold_clusters(s);
     for (uint32_t k = 0; k < s->n; ++k) {
         const uint32_t t = s->top[k];
         if (t != k)
-            s->unknown[k] = s->unknown[t];
+            s->variable[k] = s->variable[t];
         else
-            s->unknown[k] = s->held[k] > 0 ? ICCP_NONE : (uint32_t)n_unknowns++;
-        if (s->unknown[k] == ICCP_NONE)
+            s->variable[k] = s->held[k] > 0 ? ICCP_NONE : (uint32_t)n_variables++;
+        if (s->variable[k] == ICCP_NONE)
             s->f[k] = s->held[t] * s->share[k];
     }
-    return (iccp_reduction){n_unknowns, s->unknown, s->share};
+    return (iccp_reduction){n_variables, s->variable, s->share};
 }
 
 static icc_status solve(state *s, double *residual, icc_function_info *info, const iccp_env *env)
 {
-    const iccp_program *p = s->program;
+    const iccp_qp *p = s->qp;
     const iccp_reduction reduction = reduce(s);
     const icc_status status = iccp_energy_minimise(&p->a, &reduction, s->f, info, env);
     if (status != ICC_OK)
@@ -118,7 +118,8 @@ static icc_status solve(state *s, double *residual, icc_function_info *info, con
     const double start = iccp_seconds();
     const iccp_scaled f = {s->f, NULL}, gradient = {s->gradient, NULL};
     iccp_energy_gradient(&p->a, s->f, s->work, s->gradient);
-    *residual = iccp_inequalities_residual(p->rows, p->sigma - 1, p->leaf, &f, &gradient, s->work);
+    *residual =
+        iccp_inequalities_residual(p->unknowns, p->sigma - 1, p->leaf, &f, &gradient, s->work);
     info->seconds_verify += iccp_seconds() - start;
     return ICC_OK;
 }
@@ -126,11 +127,11 @@ static icc_status solve(state *s, double *residual, icc_function_info *info, con
 /* Returns how many leaves fell below their bound, which makes them active. */
 static size_t correct_leaves(state *s)
 {
-    const iccp_program *p = s->program;
+    const iccp_qp *p = s->qp;
     size_t n_wrong = 0;
     memset(s->open, 0, s->n);
     for (size_t j = 0; j < p->n_leaves; ++j) {
-        const uint32_t k = p->leaf_row[j];
+        const uint32_t k = p->leaf_unknown[j];
         s->open[k] = *leaf_active(s, j);
         if (!*leaf_active(s, j) && s->f[k] < p->leaf - s->tolerance) {
             *leaf_active(s, j) = decide(s);
@@ -146,12 +147,12 @@ static size_t correct_leaves(state *s)
  * what is then left over at the top must not be positive, or the cluster rises. */
 static size_t correct_edges(state *s)
 {
-    const iccp_program *p = s->program;
+    const iccp_qp *p = s->qp;
     size_t n_wrong = 0;
     memset(s->sum, 0, s->n * sizeof *s->sum);
     memset(s->mark, 0, s->n);
     for (size_t k = s->n; k-- > 1;) {
-        const uint32_t q = p->rows->parent[k];
+        const uint32_t q = p->unknowns->parent[k];
         double multiplier = (s->sum[k] - s->gradient[k]) / p->sigma;
         uint8_t *active = &s->active[k - 1];
         if (!*active) {
@@ -180,7 +181,7 @@ static size_t correct_edges(state *s)
  * inactive from now on. */
 static void let_rise(state *s)
 {
-    const iccp_program *p = s->program;
+    const iccp_qp *p = s->qp;
     for (uint32_t k = 1; k < s->n; ++k) {
         const uint32_t t = s->top[k];
         if (t == k || !(s->mark[t] & RISES))
@@ -189,10 +190,10 @@ static void let_rise(state *s)
             s->mark[k] |= STAYS;
             s->active[k - 1] = 0;
         } else
-            s->mark[k] |= s->mark[p->rows->parent[k]] & STAYS;
+            s->mark[k] |= s->mark[p->unknowns->parent[k]] & STAYS;
     }
     for (size_t j = 0; j < p->n_leaves; ++j) {
-        const uint32_t k = p->leaf_row[j];
+        const uint32_t k = p->leaf_unknown[j];
         if ((s->mark[s->top[k]] & RISES) && !(s->mark[k] & STAYS))
             *leaf_active(s, j) = 0;
     }
@@ -230,11 +231,11 @@ static icc_status iterate(state *s, iccp_candidate *candidate, icc_function_info
     return ICC_OK;
 }
 
-icc_status iccp_polish(const iccp_program *program, uint8_t *active, double enough,
-                       iccp_candidate *candidate, icc_function_info *info, const iccp_env *env)
+icc_status iccp_polish(const iccp_qp *qp, uint8_t *active, double enough, iccp_candidate *candidate,
+                       icc_function_info *info, const iccp_env *env)
 {
-    const size_t n = program->rows->n, n_work = program->a.n_rows + n; /* at least 2 n */
-    state s = {.program = program, .n = n, .active = active};
+    const size_t n = qp->unknowns->n, n_work = qp->a.n_rows + n; /* at least 2 n */
+    state s = {.qp = qp, .n = n, .active = active};
     s.enough = enough;
     s.tolerance = WRONG * enough;
     s.top = iccp_alloc(&env->memory, n, 2 * sizeof *s.top);
@@ -242,7 +243,7 @@ icc_status iccp_polish(const iccp_program *program, uint8_t *active, double enou
     s.room = iccp_alloc(&env->memory, 5 * n + n_work, sizeof *s.room);
     icc_status status = ICC_ERR_MEMORY;
     if (s.top != NULL && s.open != NULL && s.room != NULL) {
-        s.unknown = s.top + n;
+        s.variable = s.top + n;
         s.mark = s.open + n;
         s.share = s.room;
         s.held = s.room + n;

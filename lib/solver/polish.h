@@ -2,7 +2,7 @@
 #ifndef ICCP_POLISH_H
 #define ICCP_POLISH_H
 
-#include "solver/program.h"
+#include "solver/qp.h"
 
 /* A function and how far it is from being the solution. */
 typedef struct iccp_candidate {
@@ -14,7 +14,7 @@ typedef struct iccp_candidate {
  * which is overwritten, until nothing is wrong by more than `enough` or several corrections in a
  * row have not helped. Replaces the candidate by what is better. Adds to `info` (n_iterations,
  * work, seconds_*). */
-icc_status iccp_polish(const iccp_program *program, uint8_t *active, double enough,
-                       iccp_candidate *candidate, icc_function_info *info, const iccp_env *env);
+icc_status iccp_polish(const iccp_qp *qp, uint8_t *active, double enough, iccp_candidate *candidate,
+                       icc_function_info *info, const iccp_env *env);
 
 #endif

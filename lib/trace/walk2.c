@@ -44,8 +44,8 @@ typedef struct gradient {
  * rises that matter beside one of this size are normal. */
 static const double TINY_RISE = 1e-100;
 
-/* The sine of an angle below which a step runs along a fence's edge that it meets: rounding of
- * both. */
+/* The sine of an angle below which a step runs along an edge of the boundary that it meets:
+ * rounding of both. */
 static const double PARALLEL = 1e-12;
 
 static int sign(double x)
@@ -358,7 +358,7 @@ static icc_status step_from_vertex(iccp_walk2 *w)
 
 /* Direction from a walk that stands on an edge of its triangle, as far as that can be at a start,
  * to the triangle on the other side; false when it stands on none. */
-static bool other_side(const iccp_walk2 *w, int side[2])
+static bool across_edge(const iccp_walk2 *w, int side[2])
 {
     side[0] = w->upper ? -(w->u <= 0 && w->i > 0) : -(w->v > 0 && w->v >= w->u);
     side[1] = w->upper ? 0 : w->v > 0 ? w->v >= w->u : -(w->j > 0);
@@ -366,7 +366,7 @@ static bool other_side(const iccp_walk2 *w, int side[2])
 }
 
 /* To that triangle, if it has values. */
-static bool change_sides(iccp_walk2 *w, const int side[2])
+static bool cross_edge(iccp_walk2 *w, const int side[2])
 {
     iccp_walk2 there = *w;
     gradient g;
@@ -409,7 +409,7 @@ icc_status iccp_walk2_start(iccp_walk2 *walk, const icc_function *function, int 
     gradient g;
     int side[2];
     if (triangle_gradient(walk, walk->i, walk->j, walk->upper, &g) ||
-        (other_side(walk, side) && change_sides(walk, side)))
+        (across_edge(walk, side) && cross_edge(walk, side)))
         return ICC_OK;
     return ICC_ERR_TRACE;
 }
@@ -417,8 +417,8 @@ icc_status iccp_walk2_start(iccp_walk2 *walk, const icc_function *function, int 
 void iccp_walk2_face(iccp_walk2 *walk, const double ahead[2])
 {
     int side[2];
-    if (!walk->at_vertex && other_side(walk, side) && side[0] * ahead[0] + side[1] * ahead[1] > 0)
-        (void)change_sides(walk, side);
+    if (!walk->at_vertex && across_edge(walk, side) && side[0] * ahead[0] + side[1] * ahead[1] > 0)
+        (void)cross_edge(walk, side);
 }
 
 icc_status iccp_walk2_step(iccp_walk2 *walk)
@@ -469,9 +469,9 @@ icc_status iccp_trace_uphill(iccp_walk2 *walk, iccp_path *path, double *merge)
     return status;
 }
 
-/* Cuts the last step short at the fence. */
-static void end_at_fence(iccp_walk2 *w, double s_before, const iccp_jet2 *jet_before,
-                         const iccp_fence *fence, const iccp_fence_hit *hit)
+/* Cuts the last step short at the boundary. */
+static void end_at_boundary(iccp_walk2 *w, double s_before, const iccp_jet2 *jet_before,
+                            const iccp_boundary_cells2 *cells, const iccp_boundary_hit2 *hit)
 {
     const double dx = hit->share * (w->to[0] - w->from[0]);
     const double dy = hit->share * (w->to[1] - w->from[1]);
@@ -481,8 +481,8 @@ static void end_at_fence(iccp_walk2 *w, double s_before, const iccp_jet2 *jet_be
     w->to[1] = w->from[1] + dy;
     if (w->jet == NULL)
         return;
-    const double *a = fence->vertices + 2 * (size_t)fence->ends[2 * (size_t)hit->facet];
-    const double *b = fence->vertices + 2 * (size_t)fence->ends[2 * (size_t)hit->facet + 1];
+    const double *a = cells->vertices + 2 * (size_t)cells->ends[2 * (size_t)hit->facet];
+    const double *b = cells->vertices + 2 * (size_t)cells->ends[2 * (size_t)hit->facet + 1];
     double nx = a[1] - b[1], ny = b[0] - a[0];
     /* A step along the edge that it meets ends at the edge's end. */
     if (fabs(nx * dx + ny * dy) <= PARALLEL * hypot(nx, ny) * length) {
@@ -498,31 +498,31 @@ static void end_at_fence(iccp_walk2 *w, double s_before, const iccp_jet2 *jet_be
     }
 }
 
-icc_status iccp_trace_downhill(iccp_walk2 *walk, const iccp_fence *fence, iccp_path *path,
-                               iccp_fence_hit *hit)
+icc_status iccp_trace_downhill(iccp_walk2 *walk, const iccp_boundary_cells2 *cells, iccp_path *path,
+                               iccp_boundary_hit2 *hit)
 {
     icc_status status = begin_path(walk, path);
-    bool hit_fence = false;
+    bool hit_boundary = false;
     iccp_jet2 jet_before = {{0}, {0}, {0}};
-    while (status == ICC_OK && !hit_fence) {
+    while (status == ICC_OK && !hit_boundary) {
         const double s_before = walk->s;
         if (walk->jet != NULL)
             jet_before = *walk->jet;
         status = iccp_walk2_step(walk);
-        /* A step that leaves the grid may have passed the fence first. */
+        /* A step that leaves the grid may have passed the boundary first. */
         if (walk->s <= s_before && status != ICC_OK)
             return status;
-        hit_fence =
-            iccp_fence_first(fence, walk->cell[0], walk->cell[1], walk->from, walk->to, hit);
-        if (hit_fence)
-            end_at_fence(walk, s_before, &jet_before, fence, hit);
-        if (path != NULL && (hit_fence || status == ICC_OK)) {
+        hit_boundary = iccp_boundary_cells2_first(cells, walk->cell[0], walk->cell[1], walk->from,
+                                                  walk->to, hit);
+        if (hit_boundary)
+            end_at_boundary(walk, s_before, &jet_before, cells, hit);
+        if (path != NULL && (hit_boundary || status == ICC_OK)) {
             const icc_status appended = iccp_path_append(path, walk->to, walk->s);
             if (appended != ICC_OK)
                 return appended;
         }
     }
-    return hit_fence ? ICC_OK : status;
+    return hit_boundary ? ICC_OK : status;
 }
 
 int iccp_slope_sign(const icc_function *function, const double p[2], const double direction[2])

@@ -7,7 +7,7 @@
 #define ICCP_WALK2_H
 
 #include "function/function.h"
-#include "trace/fence.h"
+#include "trace/boundary_cells2.h"
 #include "trace/path.h"
 
 /* Derivatives by two parameters of what a walk computes, one column each. */
@@ -61,10 +61,10 @@ void iccp_walk2_position(const iccp_walk2 *walk, double p[2]);
  * the line first merges with others (walk->s if never); may be NULL. */
 icc_status iccp_trace_uphill(iccp_walk2 *walk, iccp_path *path, double *merge);
 
-/* Algorithm 5: to the boundary. The walk must have started inside. The last step ends on the fence;
- * walk->s and the jet include it. */
-icc_status iccp_trace_downhill(iccp_walk2 *walk, const iccp_fence *fence, iccp_path *path,
-                               iccp_fence_hit *hit);
+/* Algorithm 5: to the boundary. The walk must have started inside. The last step ends on the
+ * boundary; walk->s and the jet include it. */
+icc_status iccp_trace_downhill(iccp_walk2 *walk, const iccp_boundary_cells2 *cells, iccp_path *path,
+                               iccp_boundary_hit2 *hit);
 
 /* Sign of the derivative of f at a point along a direction, by the triangle that holds it: -1, 0,
  * +1, or 0 where there are no values. For judging transversality; not exact. */

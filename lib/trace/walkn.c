@@ -75,7 +75,7 @@ static bool leads_in(const iccp_walkn *w, const double *f, unsigned *corners)
 }
 
 /* The corners of the face that the line goes on in. */
-static icc_status choose(iccp_walkn *w, unsigned *corners)
+static icc_status choose_face(iccp_walkn *w, unsigned *corners)
 {
     double f[ICC_MAX_DIM + 1];
     w->slope.level = false;
@@ -85,13 +85,13 @@ static icc_status choose(iccp_walkn *w, unsigned *corners)
         if (leads_in(w, f, corners))
             return ICC_OK;
     }
-    return iccp_place_turn(&w->place, &w->slope, corners);
+    return iccp_place_find_steepest(&w->place, &w->slope, corners);
 }
 
 /* ---- steps ---- */
 
 /* Across the facet opposite to corner i, where the walk stands. */
-static icc_status cross(iccp_walkn *w, int i)
+static icc_status cross_facet(iccp_walkn *w, int i)
 {
     iccp_place *p = &w->place;
     const int dim = grid_of(w)->dim;
@@ -111,7 +111,7 @@ static icc_status cross(iccp_walkn *w, int i)
     return ICC_OK;
 }
 
-static void record(iccp_walkn *w, const iccp_motion *m)
+static void record_step(iccp_walkn *w, const iccp_motion *m)
 {
     const int dim = grid_of(w)->dim;
     for (int a = 1; a < m->n; ++a)
@@ -127,7 +127,7 @@ icc_status iccp_walkn_step(iccp_walkn *walk)
 {
     unsigned corners;
     iccp_motion m;
-    if (walk->steps_left == 0 || choose(walk, &corners) != ICC_OK)
+    if (walk->steps_left == 0 || choose_face(walk, &corners) != ICC_OK)
         return ICC_ERR_TRACE;
     --walk->steps_left;
     iccp_motion_find(&m, &walk->place, &walk->slope, corners);
@@ -136,12 +136,12 @@ icc_status iccp_walkn_step(iccp_walkn *walk)
         return ICC_ERR_TRACE;
     if (walk->jet != NULL)
         iccp_motion_carry(&m, &walk->place, left, walk->jet);
-    record(walk, &m);
+    record_step(walk, &m);
     walk->place.face = left;
     walk->ahead = false;
     for (int i = 0; i <= grid_of(walk)->dim; ++i)
         if ((left | 1u << i) == all_corners(walk))
-            return cross(walk, i);
+            return cross_facet(walk, i);
     walk->merged = true;
     return ICC_OK;
 }
@@ -160,7 +160,7 @@ bool iccp_walkn_at_root(const iccp_walkn *walk)
 /* ---- the start ---- */
 
 /* The simplex that holds a point, or of several the one to which `ahead` points. */
-static bool settle(iccp_walkn *w, const double *x, const double *ahead)
+static bool find_simplex(iccp_walkn *w, const double *x, const double *ahead)
 {
     const icc_grid *grid = grid_of(w);
     iccp_place *p = &w->place;
@@ -206,7 +206,7 @@ icc_status iccp_walkn_start(iccp_walkn *walk, const icc_function *function, int 
     const icc_grid *grid = function->tree->grid;
     double f[ICC_MAX_DIM + 1];
     *walk = (iccp_walkn){.slope = {function, direction, false}, .jet = jet};
-    if (!settle(walk, x, ahead != NULL ? ahead : NOWHERE))
+    if (!find_simplex(walk, x, ahead != NULL ? ahead : NOWHERE))
         return ICC_ERR_TRACE;
     memcpy(walk->to, x, (size_t)grid->dim * sizeof *x);
     walk->ahead = ahead != NULL && walk->place.face != all_corners(walk) && has_values(walk, f);
@@ -225,7 +225,7 @@ int iccp_walkn_slope_sign(const icc_function *function, const double *x, const d
 {
     iccp_walkn w = {.slope = {function, 1, false}};
     double f[ICC_MAX_DIM + 1], rise = 0;
-    if (!settle(&w, x, direction) || !has_values(&w, f))
+    if (!find_simplex(&w, x, direction) || !has_values(&w, f))
         return 0;
     for (int k = 0; k < function->tree->grid->dim; ++k)
         rise += (f[k + 1] - f[k]) * direction[w.place.simplex.axis[k]];
@@ -265,7 +265,7 @@ static void find_constraint(const iccp_walkn *w, const icc_domain *domain, uint3
 {
     const int dim = domain->dim;
     double step[ICC_MAX_DIM], along = 0, square = 0, length = 0;
-    iccp_cage_inward(domain, facet, normal);
+    iccp_facet_inward(domain, facet, normal);
     for (int k = 0; k < dim; ++k) {
         step[k] = w->to[k] - w->from[k];
         along += normal[k] * step[k];
@@ -277,8 +277,8 @@ static void find_constraint(const iccp_walkn *w, const icc_domain *domain, uint3
 }
 
 /* Cuts the last step short at the boundary, from what the arc length and the jet were before it. */
-static void end_at_cage(iccp_walkn *w, double s_before, const iccp_jetn *jet_before,
-                        const iccp_cage_cells *cage, const iccp_cage_hit *hit)
+static void end_at_boundary(iccp_walkn *w, double s_before, const iccp_jetn *jet_before,
+                            const iccp_boundary_cellsn *cells, const iccp_boundary_hitn *hit)
 {
     const int dim = grid_of(w)->dim;
     const double length = hit->share * (w->s - s_before);
@@ -287,7 +287,7 @@ static void end_at_cage(iccp_walkn *w, double s_before, const iccp_jetn *jet_bef
     if (w->jet == NULL)
         return;
     double normal[ICC_MAX_DIM], along = 0;
-    find_constraint(w, cage->domain, hit->facet, normal);
+    find_constraint(w, cells->domain, hit->facet, normal);
     for (int k = 0; k < dim; ++k)
         along += normal[k] * (w->to[k] - w->from[k]);
     *w->jet = *jet_before;
@@ -302,8 +302,8 @@ static void end_at_cage(iccp_walkn *w, double s_before, const iccp_jetn *jet_bef
     }
 }
 
-icc_status iccp_walkn_downhill(iccp_walkn *walk, const iccp_cage_cells *cage, iccp_path *path,
-                               iccp_cage_hit *hit)
+icc_status iccp_walkn_downhill(iccp_walkn *walk, const iccp_boundary_cellsn *cells, iccp_path *path,
+                               iccp_boundary_hitn *hit)
 {
     icc_status status = begin_path(walk, path);
     bool met = false;
@@ -315,11 +315,11 @@ icc_status iccp_walkn_downhill(iccp_walkn *walk, const iccp_cage_cells *cage, ic
         status = iccp_walkn_step(walk);
         /* A step that leaves the grid may have passed the boundary first. */
         if (walk->s > before || status == ICC_OK)
-            met = iccp_cage_cells_cross(cage, walk->cell, walk->from, walk->to, hit);
+            met = iccp_boundary_cellsn_cross(cells, walk->cell, walk->from, walk->to, hit);
         if (met) {
-            end_at_cage(walk, before, &jet_before, cage, hit);
+            end_at_boundary(walk, before, &jet_before, cells, hit);
         } else if (status != ICC_OK) {
-            return iccp_cage_cells_touch(cage, walk->to, hit) ? ICC_OK : status;
+            return iccp_boundary_cellsn_touch(cells, walk->to, hit) ? ICC_OK : status;
         }
         if (path != NULL) {
             const icc_status appended = iccp_path_append(path, walk->to, walk->s);

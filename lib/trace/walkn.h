@@ -9,7 +9,7 @@
 #ifndef ICCP_WALKN_H
 #define ICCP_WALKN_H
 
-#include "trace/cage_cells.h"
+#include "trace/boundary_cellsn.h"
 #include "trace/path.h"
 #include "trace/walkn_motion.h"
 
@@ -45,8 +45,8 @@ icc_status iccp_walkn_uphill(iccp_walkn *walk, iccp_path *path, double *merge);
 
 /* Algorithm 5: to the boundary. The walk must have started inside. The last step ends on the cage,
  * and walk->s and the jet include it. */
-icc_status iccp_walkn_downhill(iccp_walkn *walk, const iccp_cage_cells *cage, iccp_path *path,
-                               iccp_cage_hit *hit);
+icc_status iccp_walkn_downhill(iccp_walkn *walk, const iccp_boundary_cellsn *cells, iccp_path *path,
+                               iccp_boundary_hitn *hit);
 
 /* Sign of the derivative of f at a point along a direction, by the simplex that lies there: -1, 0,
  * +1, or 0 where there are no values. For judging transversality; not exact. */

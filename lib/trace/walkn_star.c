@@ -57,7 +57,7 @@ static unsigned full(const fan *way)
     return (1u << way->n) - 1;
 }
 
-static int count(unsigned set)
+static int count_axes(unsigned set)
 {
     int n = 0;
     for (; set > 0; set &= set - 1)
@@ -82,11 +82,11 @@ void iccp_slope_values(const iccp_slope *slope, size_t n, const uint32_t *vertic
 static bool gentler(const fan *way, unsigned a, unsigned b, unsigned c)
 {
     const double *f = way->f;
-    return iccp_cross_sign(f[c], f[b], count(b ^ a), 0, f[b], f[a], count(c ^ b), 0) < 0;
+    return iccp_cross_sign(f[c], f[b], count_axes(b ^ a), 0, f[b], f[a], count_axes(c ^ b), 0) < 0;
 }
 
 /* All longer chains; no deeper than there are axes. */
-static void extend(fan *way, const chain *c)
+static void extend_chain(fan *way, const chain *c)
 {
     const unsigned at = c->n > 0 ? c->set[c->n - 1] : 0;
     const unsigned before = c->n > 1 ? c->set[c->n - 2] : 0;
@@ -101,8 +101,8 @@ static void extend(fan *way, const chain *c)
             continue;
         chain longer = *c;
         longer.set[longer.n++] = (uint8_t)next;
-        longer.slope2 += rise * rise / count(block);
-        extend(way, &longer);
+        longer.slope2 += rise * rise / count_axes(block);
+        extend_chain(way, &longer);
     }
 }
 
@@ -111,7 +111,7 @@ static void find_chains(fan *way, double unit)
     for (unsigned set = 0; set <= full(way); ++set)
         way->steepest[set].slope2 = -1;
     way->unit = unit;
-    extend(way, &(chain){.n = 0});
+    extend_chain(way, &(chain){.n = 0});
 }
 
 /* For rises up to the highest of n values from `base`, below which no chain gets. */
@@ -150,13 +150,14 @@ static void take_apart(hinge *h, const iccp_place *place, const icc_grid *grid)
 
 /* The vertices of a fan. Those beyond the grid are replaced by the corner; returns the sets that
  * lead to the others, a bit for each. */
-static uint64_t list(const hinge *h, const fan *way, bool down, uint32_t corner, uint32_t *vertices)
+static uint64_t list_vertices(const hinge *h, const fan *way, bool down, uint32_t corner,
+                              uint32_t *vertices)
 {
     uint64_t there = 1;
     vertices[0] = corner;
     for (unsigned set = 1; set <= full(way); ++set) {
         const unsigned rest = set & (set - 1);
-        const int8_t axis = way->axis[count((set ^ rest) - 1)];
+        const int8_t axis = way->axis[count_axes((set ^ rest) - 1)];
         const uint32_t stride = (uint32_t)h->grid->stride[axis];
         const bool fits = down ? h->at[axis] > 0 : h->at[axis] + 1 < h->grid->shape[axis];
         vertices[set] = corner;
@@ -170,7 +171,7 @@ static uint64_t list(const hinge *h, const fan *way, bool down, uint32_t corner,
 
 /* The values of n vertices, the first of which is a corner. Around a level face, only what is as
  * high counts. */
-static void load(const iccp_slope *slope, size_t n, const uint32_t *vertices, double *f)
+static void load_values(const iccp_slope *slope, size_t n, const uint32_t *vertices, double *f)
 {
     const iccp_slope plain = {slope->function, slope->direction, false};
     iccp_slope_values(&plain, n, vertices, f);
@@ -179,7 +180,7 @@ static void load(const iccp_slope *slope, size_t n, const uint32_t *vertices, do
         f[i] = f[i] >= base && f[i] <= base ? slope->direction * (double)vertices[i] : NAN;
 }
 
-static void hide(size_t n, uint64_t there, double *f)
+static void hide_missing(size_t n, uint64_t there, double *f)
 {
     for (size_t i = 0; i < n; ++i)
         if (!(there >> i & 1))
@@ -187,16 +188,16 @@ static void hide(size_t n, uint64_t there, double *f)
 }
 
 /* Above and below the face: the steepest pair of chains that do not share an axis. */
-static void go_out(hinge *h, const iccp_slope *slope)
+static void find_outer_chains(hinge *h, const iccp_slope *slope)
 {
     const size_t n = (size_t)1 << h->up.n;
     uint32_t vertices[2 * SETS];
     double f[2 * SETS], best = -1;
-    const uint64_t above = list(h, &h->up, false, h->corner[h->n - 1], vertices);
-    const uint64_t below = list(h, &h->down, true, h->corner[0], vertices + n);
-    load(slope, 2 * n, vertices, f);
-    hide(n, above, f);
-    hide(n, below, f + n);
+    const uint64_t above = list_vertices(h, &h->up, false, h->corner[h->n - 1], vertices);
+    const uint64_t below = list_vertices(h, &h->down, true, h->corner[0], vertices + n);
+    load_values(slope, 2 * n, vertices, f);
+    hide_missing(n, above, f);
+    hide_missing(n, below, f + n);
     const double unit = fmax(unit_for(n, f, f[0]), unit_for(n, f + n, f[n]));
     h->up.f = f;
     h->down.f = f + n;
@@ -215,7 +216,7 @@ static void go_out(hinge *h, const iccp_slope *slope)
 }
 
 /* From a corner of the face to the next. */
-static void go_between(hinge *h, int i, const iccp_slope *slope)
+static void find_inner_chain(hinge *h, int i, const iccp_slope *slope)
 {
     fan *way = &h->between[i];
     if (way->n == 1) {
@@ -225,8 +226,8 @@ static void go_between(hinge *h, int i, const iccp_slope *slope)
     const size_t n = (size_t)1 << way->n;
     uint32_t vertices[SETS];
     double f[SETS];
-    (void)list(h, way, false, h->corner[i], vertices);
-    load(slope, n, vertices, f);
+    (void)list_vertices(h, way, false, h->corner[i], vertices);
+    load_values(slope, n, vertices, f);
     way->f = f;
     way->rising = false;
     find_chains(way, unit_for(n, f, fmin(f[0], f[n - 1])));
@@ -327,7 +328,7 @@ static void assemble(assembly *a, const hinge *h)
     place->simplex.corner[h->grid->dim] = corner;
 }
 
-icc_status iccp_place_turn(iccp_place *place, iccp_slope *slope, unsigned *corners)
+icc_status iccp_place_find_steepest(iccp_place *place, iccp_slope *slope, unsigned *corners)
 {
     const icc_grid *grid = slope->function->tree->grid;
     hinge h;
@@ -336,9 +337,9 @@ icc_status iccp_place_turn(iccp_place *place, iccp_slope *slope, unsigned *corne
     bool rises = false;
     for (int level = 0; level < 2 && !rises; ++level) {
         slope->level = level > 0;
-        go_out(&h, slope);
+        find_outer_chains(&h, slope);
         for (int i = 0; i + 1 < h.n; ++i)
-            go_between(&h, i, slope);
+            find_inner_chain(&h, i, slope);
         rises = finds_a_rise(&h, slope);
     }
     if (!rises)

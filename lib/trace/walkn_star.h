@@ -34,6 +34,6 @@ void iccp_slope_values(const iccp_slope *slope, size_t n, const uint32_t *vertic
  * itself included, the steepest: moves the place to a simplex of it and writes its corners there.
  * slope->level is set when f does not rise into any of them. ICC_ERR_TRACE when the place is a
  * vertex from which nothing rises, whose corner then is all there is. */
-icc_status iccp_place_turn(iccp_place *place, iccp_slope *slope, unsigned *corners);
+icc_status iccp_place_find_steepest(iccp_place *place, iccp_slope *slope, unsigned *corners);
 
 #endif

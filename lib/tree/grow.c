@@ -3,9 +3,9 @@
  * contractible part of its link may be added to the set, or taken from it, without a change of the
  * homotopy type.
  *
- * The tree's order (Algorithm 2) makes critical vertices beyond the plane. Here it is a wish only.
- * A set grows from the root: of the vertices that touch it, it takes the first one in the order
- * wished for whose neighbours in it are contractible, as are then the others (grid/kuhn.h). A
+ * The tree's order (Algorithm 2) makes critical vertices beyond the plane. Here it is a priority
+ * only. A set grows from the root: of the vertices that touch it, it takes the first one in the
+ * order wished for whose neighbours in it are contractible, as are then the others (grid/kuhn.h). A
  * vertex that is not has to wait until the set has taken another neighbour of it. When all are
  * taken, no vertex but the root is critical, whatever the shape.
  *
@@ -36,9 +36,9 @@ static const size_t TESTS_PER_REPORT = 1 << 12; /* of links: at most 0.1 s, in 6
 typedef struct growth {
     const icc_tree *tree;
     const iccp_env *env;
-    const uint32_t *wish; /* the n vertices, the root among them, in the order wished for */
-    uint32_t *sorted;     /* memory of `wish` where it is not the tree's */
-    uint32_t *place;      /* of each of them in `wish` */
+    const uint32_t *priority; /* the n vertices, the root among them, in the order wished for */
+    uint32_t *sorted;         /* memory of `priority` where it is not the tree's */
+    uint32_t *place;          /* of each of them in `priority` */
     uint8_t *state;
     uint32_t *rank;
     iccp_queue queue; /* places, or places from the end, of vertices to be tried */
@@ -70,7 +70,7 @@ static iccp_link_set neighbours_in_set(const growth *g, uint32_t v)
 }
 
 /* Puts the neighbours that are not taken yet into the queue. */
-static void call_neighbours(growth *g, uint32_t v)
+static void queue_neighbours(growth *g, uint32_t v)
 {
     const uint8_t wanted = g->thinning ? MEMBER | IN_SET : MEMBER;
     const iccp_link_set within =
@@ -87,17 +87,17 @@ static void call_neighbours(growth *g, uint32_t v)
 }
 
 /* Into the set, or out of it. */
-static void take(growth *g, uint32_t v)
+static void take_vertex(growth *g, uint32_t v)
 {
     g->state[v] ^= IN_SET;
     g->rank[v] = (uint32_t)(g->thinning ? g->n - g->n_taken : g->n_taken);
     ++g->n_taken;
-    call_neighbours(g, v);
+    queue_neighbours(g, v);
 }
 
 /* Takes vertices until there are none left to try. A vertex is tried once for each of its
  * neighbours that is taken, at most. */
-static icc_status take_all(growth *g)
+static icc_status take_vertices(growth *g)
 {
     for (;;) {
         const uint32_t key = iccp_queue_pop(&g->queue);
@@ -106,10 +106,10 @@ static icc_status take_all(growth *g)
         if (g->n_tests++ % TESTS_PER_REPORT == 0 &&
             iccp_progress(g->env, "tree", (double)g->n_taken / (double)g->n) != ICC_OK)
             return ICC_ERR_CANCELLED;
-        const uint32_t v = g->wish[g->thinning ? (uint32_t)g->n - 1 - key : key];
+        const uint32_t v = g->priority[g->thinning ? (uint32_t)g->n - 1 - key : key];
         const iccp_link_set set = neighbours_in_set(g, v);
         if (iccp_kuhn_regular(&g->star.kuhn, &set)) {
-            take(g, v);
+            take_vertex(g, v);
         } else {
             g->n_waited += (g->state[v] & WAITED) == 0;
             g->state[v] |= WAITED;
@@ -124,13 +124,13 @@ static icc_status grow(growth *g)
     g->thinning = false;
     g->n_taken = 1;
     for (size_t i = 0; i < g->n; ++i) {
-        g->rank[g->wish[i]] = ICCP_NONE;
-        g->state[g->wish[i]] &= (uint8_t)~IN_SET;
+        g->rank[g->priority[i]] = ICCP_NONE;
+        g->state[g->priority[i]] &= (uint8_t)~IN_SET;
     }
     g->rank[root] = 0;
     g->state[root] |= IN_SET;
-    call_neighbours(g, root);
-    return take_all(g);
+    queue_neighbours(g, root);
+    return take_vertices(g);
 }
 
 static icc_status thin(growth *g)
@@ -138,11 +138,11 @@ static icc_status thin(growth *g)
     g->thinning = true;
     g->n_taken = 1;
     for (size_t i = 0; i < g->n; ++i) {
-        g->state[g->wish[i]] |= IN_SET;
-        if (g->wish[i] != g->tree->root)
+        g->state[g->priority[i]] |= IN_SET;
+        if (g->priority[i] != g->tree->root)
             iccp_queue_push(&g->queue, (uint32_t)(g->n - 1 - i));
     }
-    return take_all(g);
+    return take_vertices(g);
 }
 
 /* ------------------------------------------------------------------ set-up */
@@ -153,9 +153,9 @@ static bool is_higher(const void *context, uint32_t u, uint32_t v)
     return values[u] > values[v];
 }
 
-static icc_status make_wish(growth *g, const double *values)
+static icc_status set_priority(growth *g, const double *values)
 {
-    g->wish = g->tree->order;
+    g->priority = g->tree->order;
     if (values == NULL)
         return ICC_OK;
     uint32_t *work = iccp_alloc(&g->env->memory, g->n, sizeof *work);
@@ -166,11 +166,11 @@ static icc_status make_wish(growth *g, const double *values)
     }
     const bool done = work != NULL && g->sorted != NULL;
     iccp_free(&g->env->memory, work);
-    g->wish = g->sorted;
+    g->priority = g->sorted;
     return done ? ICC_OK : ICC_ERR_MEMORY;
 }
 
-static icc_status start(growth *g, const double *values)
+static icc_status begin_growth(growth *g, const double *values)
 {
     const iccp_memory *memory = &g->env->memory;
     const size_t n_vertices = g->tree->grid->n_vertices;
@@ -179,14 +179,14 @@ static icc_status start(growth *g, const double *values)
     iccp_queue_create(&g->queue, g->n, memory);
     if (g->state == NULL || g->place == NULL || g->queue.level[0] == NULL)
         return ICC_ERR_MEMORY;
-    const icc_status status = make_wish(g, values);
+    const icc_status status = set_priority(g, values);
     if (status != ICC_OK)
         return status;
     iccp_star_init(&g->star, g->tree->grid, g->n);
     for (size_t v = 0; v < n_vertices; ++v)
         g->rank[v] = ICCP_NONE;
     for (size_t i = 0; i < g->n; ++i) {
-        const uint32_t v = g->wish[i];
+        const uint32_t v = g->priority[i];
         g->place[v] = (uint32_t)i;
         g->state[v] = iccp_star_is_cut(&g->star, v) ? MEMBER | CUT : MEMBER;
     }
@@ -194,7 +194,7 @@ static icc_status start(growth *g, const double *values)
     return ICC_OK;
 }
 
-static void end(growth *g)
+static void free_growth(growth *g)
 {
     const iccp_memory *memory = &g->env->memory;
     iccp_queue_free(&g->queue, memory);
@@ -206,26 +206,26 @@ static void end(growth *g)
 /* ------------------------------------------------------------- the outcome */
 
 /* Edges on which the order is not the one wished for. */
-static size_t count_turned(const growth *g)
+static size_t count_reversed(const growth *g)
 {
-    size_t n_turned = 0;
+    size_t n_reversed = 0;
     for (size_t k = 0; k < g->n; ++k) {
-        const uint32_t v = g->wish[k];
+        const uint32_t v = g->priority[k];
         const iccp_link_set within =
             g->state[v] & CUT ? iccp_star_within(&g->star, v) : g->star.kuhn.all;
         for (int i = 0; i < g->star.kuhn.n_neighbours; ++i) {
             const uint32_t u = iccp_star_vertex(&g->star, v, i);
-            n_turned += iccp_link_has(&within, i) && g->rank[u] < g->rank[v] && g->place[u] > k;
+            n_reversed += iccp_link_has(&within, i) && g->rank[u] < g->rank[v] && g->place[u] > k;
         }
     }
-    return n_turned;
+    return n_reversed;
 }
 
 static uint32_t first_without_rank(const growth *g)
 {
     for (size_t i = 0; i < g->n; ++i)
-        if (g->rank[g->wish[i]] == ICCP_NONE)
-            return g->wish[i];
+        if (g->rank[g->priority[i]] == ICCP_NONE)
+            return g->priority[i];
     return ICCP_NONE;
 }
 
@@ -266,7 +266,7 @@ static icc_status find_order(growth *g, icc_grow_report *report, icc_error *err)
     if (report->n_remaining > 0)
         return fail_stuck(g, report, err);
     if (report->method != ICC_GROW_AS_GIVEN)
-        report->n_reversed = count_turned(g);
+        report->n_reversed = count_reversed(g);
     return ICC_OK;
 }
 
@@ -275,9 +275,9 @@ icc_status iccp_tree_grow(const icc_tree *tree, const double *values, uint32_t *
 {
     growth g = {.tree = tree, .env = env, .rank = rank, .n = tree->n_inside};
     *report = (icc_grow_report){.n_vertices = g.n, .vertex = ICCP_NONE};
-    icc_status status = start(&g, values);
+    icc_status status = begin_growth(&g, values);
     if (status == ICC_OK)
         status = find_order(&g, report, err);
-    end(&g);
+    free_growth(&g);
     return iccp_explain(err, status);
 }

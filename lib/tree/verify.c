@@ -34,7 +34,7 @@ static bool in_tree(const icc_tree *tree, uint32_t v)
     return tree->grid->inside[v] && tree->generation[v] >= 0;
 }
 
-static icc_status check(void *argument, size_t begin, size_t end)
+static icc_status check_pairs(void *argument, size_t begin, size_t end)
 {
     const work *w = argument;
     const icc_tree *tree = w->tree;
@@ -63,7 +63,7 @@ icc_status iccp_tree_verify(const icc_tree *tree, icc_tree_report *report, const
     work w = {tree, iccp_alloc(&env->memory, n_chunks, sizeof *w.partial)};
     if (w.partial == NULL)
         return ICC_ERR_MEMORY;
-    const icc_status status = iccp_for_chunks(env, "check", n, GRAIN, check, &w);
+    const icc_status status = iccp_for_chunks(env, "check", n, GRAIN, check_pairs, &w);
     if (status == ICC_OK) {
         report->n_inside = tree->n_inside;
         report->n_outside = tree->n_reached - tree->n_inside;

@@ -39,13 +39,13 @@ static icc_tree *grow(const bench_case *c)
     return tree;
 }
 
-static void print_points(const icc_tree *tree, const iccp_rows *rows, const iccp_scaled *f,
+static void print_points(const icc_tree *tree, const iccp_unknowns *unknowns, const iccp_scaled *f,
                          const iccp_env *env)
 {
     icc_function *field;
     icc_function_report report = {.size = sizeof report};
     if (iccp_function_new(&field, tree, env) == ICC_OK &&
-        iccp_function_assign(field, rows, f) == ICC_OK &&
+        iccp_function_assign(field, unknowns, f) == ICC_OK &&
         iccp_function_verify(field, &report, env) == ICC_OK)
         printf(" %4zu %4zu %4zu", report.n_maxima, report.n_minima, report.n_saddles);
     iccp_function_release(field);
@@ -54,33 +54,33 @@ static void print_points(const icc_tree *tree, const iccp_rows *rows, const iccp
 static void measure(const bench_case *c, int32_t function, bool constrained)
 {
     iccp_env env;
-    iccp_rows rows;
+    iccp_unknowns unknowns;
     icc_function_info info = {.size = sizeof info};
     icc_error error = {.size = sizeof error};
     icc_tree *tree = grow(c);
     bench_check(iccp_env_read(&env, NULL, &error), &error);
-    bench_check(iccp_rows_create(&rows, tree, &env), &error);
-    const iccp_scaled f = {bench_alloc(rows.n, sizeof *f.fraction),
-                           bench_alloc(rows.n, sizeof *f.exponent)};
+    bench_check(iccp_unknowns_create(&unknowns, tree, &env), &error);
+    const iccp_scaled f = {bench_alloc(unknowns.n, sizeof *f.fraction),
+                           bench_alloc(unknowns.n, sizeof *f.exponent)};
     const double start = bench_seconds();
     const icc_status status =
-        constrained ? iccp_bilaplace_constrained(&rows, function, ETA, LEAF, &f, &info, &env)
-                    : iccp_bilaplace(&rows, function, ICC_SOLVER_DIRECT, &f, &info, &env);
-    printf("%-10s %d %5zu %8zu %-7s", c->shape, (int)c->dim, c->cells, rows.n,
+        constrained ? iccp_bilaplace_constrained(&unknowns, function, ETA, LEAF, &f, &info, &env)
+                    : iccp_bilaplace(&unknowns, function, ICC_SOLVER_DIRECT, &f, &info, &env);
+    printf("%-10s %d %5zu %8zu %-7s", c->shape, (int)c->dim, c->cells, unknowns.n,
            function == ICC_FUNCTION_CLAMPED ? "clamped" : "Navier");
     printf(" %8.3f %7.3f %8.3f %8.3f %5zu %5.1f", bench_seconds() - start, info.seconds_order,
            info.seconds_factor, info.seconds_solve, info.n_iterations,
-           100 * (double)info.n_active / (double)rows.n);
+           100 * (double)info.n_active / (double)unknowns.n);
     if (status == ICC_OK) {
         printf(" %8.1e %8.1e", info.residual_before, info.residual);
-        print_points(tree, &rows, &f, &env);
+        print_points(tree, &unknowns, &f, &env);
     } else
         printf(" %s", icc_status_name(status));
     printf("\n");
     fflush(stdout);
     free(f.fraction);
     free(f.exponent);
-    iccp_rows_free(&rows);
+    iccp_unknowns_free(&unknowns);
     icc_tree_free(tree);
 }
 

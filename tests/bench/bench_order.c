@@ -173,8 +173,9 @@ static void try_maxima(subject *s)
     size_t n_grown = 0, n_peeled = 0, n_neither = 0;
     for (int k = 0; k < N_MAXIMA; ++k) {
         double seconds;
-        (void)aim(s, (uint32_t)s->mesh->n_rim +
-                         (uint32_t)random_below(&r, (int)(s->mesh->n_points - s->mesh->n_rim)));
+        (void)aim(s,
+                  (uint32_t)s->mesh->n_boundary +
+                      (uint32_t)random_below(&r, (int)(s->mesh->n_points - s->mesh->n_boundary)));
         const bool grown = order(s, 8, false, &seconds) == 0,
                    peeled = order(s, 8, true, &seconds) == 0;
         n_grown += grown;

@@ -159,7 +159,7 @@ static double dissect(const grid *g, uint32_t *order, const iccp_env *env)
     icc_error error = {.size = sizeof error};
     icc_grid *lattice;
     icc_tree *tree;
-    iccp_rows rows;
+    iccp_unknowns unknowns;
     uint32_t root;
     for (size_t i = 0; i < g->size * g->size * g->layers; ++i)
         marks[i] = g->unknown[i] != OUTSIDE;
@@ -167,13 +167,13 @@ static double dissect(const grid *g, uint32_t *order, const iccp_env *env)
                 &error);
     bench_check(iccp_grassfire(lattice, &root, NULL, env, &error), &error);
     bench_check(iccp_tree_create(&tree, lattice, root, ICC_TREE_PAPER, NULL, env, &error), &error);
-    bench_check(iccp_rows_create(&rows, tree, env), &error);
+    bench_check(iccp_unknowns_create(&unknowns, tree, env), &error);
     const double start = seconds();
-    bench_check(iccp_dissection(&rows, order, env), &error);
+    bench_check(iccp_dissection(&unknowns, order, env), &error);
     const double end = seconds();
     for (size_t k = 0; k < g->n; ++k)
-        order[k] = g->unknown[rows.vertex[order[k]]];
-    iccp_rows_free(&rows);
+        order[k] = g->unknown[unknowns.vertex[order[k]]];
+    iccp_unknowns_free(&unknowns);
     iccp_tree_release(tree);
     iccp_grid_release(lattice);
     free(marks);

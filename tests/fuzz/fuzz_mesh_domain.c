@@ -71,7 +71,7 @@ static void check_copy(const icc_domain *d)
             const uint32_t across = s->across[side];
             corner[i] = iccp_corner_point(s, side);
             require(s->corners[side] < s->n_points);
-            if (across & ICCP_RIM)
+            if (across & ICCP_ON_BOUNDARY)
                 ++n_rim;
             else
                 require(s->across[across] == side);

@@ -86,10 +86,10 @@ static bool merges_below(const subject *s, const double p[2])
     const iccp_gradient_state *state = s->chart->state;
     double q[2];
     iccp_walk2 walk;
-    iccp_fence_hit hit;
+    iccp_boundary_hit2 hit;
     to_lattice(s, p, q);
     if (iccp_walk2_start(&walk, state->field, ICCP_DOWNHILL, q[0], q[1], NULL) != ICC_OK ||
-        iccp_trace_downhill(&walk, &state->fence, NULL, &hit) != ICC_OK)
+        iccp_trace_downhill(&walk, &state->cells2, NULL, &hit) != ICC_OK)
         return true;
     return walk.merged;
 }

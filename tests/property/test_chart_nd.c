@@ -377,7 +377,7 @@ START_TEST(inward_is_inward)
             for (int32_t m = 0; m < domain->dim; ++m)
                 bary[m] = 1.0 / domain->dim;
             iccp_domain_facet_point(domain, f, bary, middle);
-            iccp_cage_inward(domain, f, inward);
+            iccp_facet_inward(domain, f, inward);
             for (int32_t m = 0; m < domain->dim; ++m)
                 length += inward[m] * inward[m];
             ck_assert_double_gt(length, 0);

@@ -107,9 +107,9 @@ static bool alone_below(const icc_chart *chart, const double p[2])
     iccp_frame_in(&chart->domain->frame, 2, p, local);
     iccp_gradient_to_lattice(state, local, q);
     iccp_walk2 walk;
-    iccp_fence_hit hit;
+    iccp_boundary_hit2 hit;
     return iccp_walk2_start(&walk, state->field, ICCP_DOWNHILL, q[0], q[1], NULL) == ICC_OK &&
-           iccp_trace_downhill(&walk, &state->fence, NULL, &hit) == ICC_OK && !walk.merged;
+           iccp_trace_downhill(&walk, &state->cells2, NULL, &hit) == ICC_OK && !walk.merged;
 }
 
 START_TEST(a_shape_maps_to_itself)

@@ -170,7 +170,7 @@ START_TEST(inward_is_inward)
             const double bary[2] = {0.5, 0.5};
             double p[2], inward[2];
             iccp_domain_facet_point(chart->domain, facet, bary, p);
-            iccp_cage_inward(chart->domain, facet, inward);
+            iccp_facet_inward(chart->domain, facet, inward);
             for (int side = -1; side <= 1; side += 2) {
                 const double q[2] = {p[0] + side * 1e-6 * inward[0],
                                      p[1] + side * 1e-6 * inward[1]};

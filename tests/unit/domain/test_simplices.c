@@ -45,16 +45,16 @@ static void check_mesh(const icc_domain *d, const test_mesh *m)
     size_t n_rim_sides = 0;
     ck_assert_ptr_nonnull(s);
     ck_assert_uint_eq(s->dim, dim);
-    ck_assert_uint_eq(s->n_rim, d->n_vertices);
+    ck_assert_uint_eq(s->n_boundary, d->n_vertices);
     ck_assert_uint_eq(s->n_facets, d->n_facets);
     ck_assert_uint_eq(s->n_simplices, m->n_simplices);
-    ck_assert_mem_eq(s->points, d->vertices, s->n_rim * dim * sizeof(double));
+    ck_assert_mem_eq(s->points, d->vertices, s->n_boundary * dim * sizeof(double));
     for (size_t side = 0; side < (dim + 1) * s->n_simplices; ++side) {
         const uint32_t across = s->across[side];
         uint32_t mine[6], other[6];
         sorted_side(s, side, mine);
-        if (across & ICCP_RIM) {
-            const uint32_t f = across & ~ICCP_RIM;
+        if (across & ICCP_ON_BOUNDARY) {
+            const uint32_t f = across & ~ICCP_ON_BOUNDARY;
             ck_assert_uint_lt(f, d->n_facets);
             memcpy(other, d->facets + dim * f, dim * sizeof *other);
             qsort(other, dim, sizeof *other, compare);

@@ -122,17 +122,17 @@ static icc_function *steep_field(size_t n)
     icc_tree *tree = tree_on(1, (size_t[]){n + 4}, inside, 2, 0);
     icc_function *field;
     iccp_env env;
-    iccp_rows rows;
+    iccp_unknowns unknowns;
     double fraction[MAX_VERTICES];
     int32_t exponent[MAX_VERTICES];
     const iccp_scaled f = {fraction, exponent};
     ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
     ck_assert_int_eq(iccp_function_new(&field, tree, &env), ICC_OK);
-    ck_assert_int_eq(iccp_rows_create(&rows, tree, &env), ICC_OK);
+    ck_assert_int_eq(iccp_unknowns_create(&unknowns, tree, &env), ICC_OK);
     for (size_t k = 0; k < n; ++k)
         iccp_scaled_set(&f, k, 1 + 0.5 * (double)(k % 2), -20 * (int32_t)k);
-    ck_assert_int_eq(iccp_function_assign(field, &rows, &f), ICC_OK);
-    iccp_rows_free(&rows);
+    ck_assert_int_eq(iccp_function_assign(field, &unknowns, &f), ICC_OK);
+    iccp_unknowns_free(&unknowns);
     icc_tree_free(tree);
     return field;
 }

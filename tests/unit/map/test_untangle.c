@@ -100,7 +100,7 @@ static void tangle(cube *c, int kind, random_source *r)
         const double *x = c->mesh->points + dim * v;
         double *y = c->start + dim * v;
         bend(dim, x, y);
-        for (size_t k = 0; k < dim && v >= c->mesh->n_rim; ++k)
+        for (size_t k = 0; k < dim && v >= c->mesh->n_boundary; ++k)
             y[k] = kind == 0   ? 0.5 + 1e-3 * random_unit(r)
                    : kind == 1 ? random_between(r, -1, 2)
                                : x[k];
@@ -122,7 +122,8 @@ START_TEST(tangles)
                 if (count_inverted(&c) != 0)
                     ck_abort_msg("dim %d, n %zu, kind %d: %zu left of %zu", (int)dim, n, kind,
                                  count_inverted(&c), c.mesh->n_simplices);
-                ck_assert_mem_eq(c.images, c.start, c.mesh->dim * c.mesh->n_rim * sizeof(double));
+                ck_assert_mem_eq(c.images, c.start,
+                                 c.mesh->dim * c.mesh->n_boundary * sizeof(double));
                 memcpy(again, c.images, c.size);
                 ck_assert_int_eq(repair(NULL, NULL, &c), ICC_OK);
                 ck_assert_mem_eq(c.images, again, c.size);
@@ -139,7 +140,7 @@ START_TEST(what_is_far_away_stays)
     for (int32_t dim = 2; dim <= 3; ++dim) {
         cube c = cube_of(dim, 10, 0, false, &r);
         const size_t d = (size_t)dim;
-        size_t moved = c.mesh->n_rim;
+        size_t moved = c.mesh->n_boundary;
         while (fabs(c.start[d * moved] - c.start[d * moved + 1]) > 0 ||
                fabs(c.start[d * moved] - c.start[d * moved + d - 1]) > 0)
             ++moved;
@@ -188,7 +189,7 @@ START_TEST(points_without_an_image)
         cube c = cube_of(dim, 5, 0.1, true, &r);
         ck_assert_int_eq(repair(NULL, NULL, &c), ICC_OK);
         ck_assert_mem_eq(c.images, c.start, c.size);
-        for (size_t i = c.mesh->dim * c.mesh->n_rim; i < c.size / sizeof *c.start; ++i)
+        for (size_t i = c.mesh->dim * c.mesh->n_boundary; i < c.size / sizeof *c.start; ++i)
             c.start[i] = NAN;
         memcpy(c.images, c.start, c.size);
         iccp_simplicial_map map = iccp_simplicial_map_of(c.mesh, c.images);
@@ -230,7 +231,7 @@ START_TEST(steps_go_down)
                 bend(c.mesh->dim, c.mesh->points + c.mesh->dim * v, c.images + c.mesh->dim * v);
             ck_assert_uint_eq(count_inverted(&c), 0);
             ck_assert_int_eq(iccp_newton_create(&newton, &map, NULL, &env), ICC_OK);
-            ck_assert_uint_eq(newton.assembly.n_free, c.mesh->n_points - c.mesh->n_rim);
+            ck_assert_uint_eq(newton.assembly.n_free, c.mesh->n_points - c.mesh->n_boundary);
             ck_assert_int_eq(iccp_newton_solve(&newton, (iccp_energy)kind, 0.1, &slope, &env),
                              ICC_OK);
             ck_assert_double_lt(slope, 0);
@@ -258,7 +259,7 @@ START_TEST(shaken_maps_become_fair)
             iccp_improvement improvement = {0};
             cube c = cube_of(dim, 5, 0, false, &r);
             const iccp_simplicial_map map = iccp_simplicial_map_of(c.mesh, c.images);
-            for (size_t i = c.mesh->dim * c.mesh->n_rim; i < c.size / sizeof *c.images; ++i)
+            for (size_t i = c.mesh->dim * c.mesh->n_boundary; i < c.size / sizeof *c.images; ++i)
                 c.images[i] += random_between(&r, -0.02, 0.02);
             const double before = iccp_simplicial_energy(&map);
             ck_assert_int_eq(iccp_improve_images(&map, 3, steps, 1e-13, &improvement, &env),
@@ -266,7 +267,7 @@ START_TEST(shaken_maps_become_fair)
             const double after = iccp_simplicial_energy(&map);
             ck_assert_uint_le(improvement.n_iterations, steps);
             ck_assert_uint_eq(count_inverted(&c), 0);
-            ck_assert_mem_eq(c.images, c.start, c.mesh->dim * c.mesh->n_rim * sizeof(double));
+            ck_assert_mem_eq(c.images, c.start, c.mesh->dim * c.mesh->n_boundary * sizeof(double));
             ck_assert(steps == 0 ? after >= before : after < before);
             if (steps >= 15) {
                 ck_assert_double_eq_tol(after, 2 * dim, 1e-9);

@@ -27,14 +27,14 @@ static double depth_of(const icc_domain *domain, uint32_t vertex)
 static double greatest_depth(const icc_domain *domain)
 {
     double most = 0;
-    for (size_t v = domain->mesh->n_rim; v < domain->mesh->n_points; ++v)
+    for (size_t v = domain->mesh->n_boundary; v < domain->mesh->n_points; ++v)
         most = fmax(most, depth_of(domain, (uint32_t)v));
     return most;
 }
 
 static bool is_inner(const icc_domain *domain, uint32_t vertex)
 {
-    return vertex >= domain->mesh->n_rim && vertex < domain->mesh->n_points;
+    return vertex >= domain->mesh->n_boundary && vertex < domain->mesh->n_points;
 }
 
 START_TEST(deepest_of_all)
@@ -55,7 +55,7 @@ START_TEST(nearest_of_all)
     for (int k = 0; k < FLUX_CASES; ++k) {
         flux_case c = flux_number(k);
         const size_t dim = c.mesh->dim;
-        for (size_t v = c.mesh->n_rim; v < c.mesh->n_points; v += 1 + c.mesh->n_points / 50)
+        for (size_t v = c.mesh->n_boundary; v < c.mesh->n_points; v += 1 + c.mesh->n_points / 50)
             ck_assert_uint_eq(iccp_nearest_centre(c.mesh, c.mesh->points + dim * v), v);
         ck_assert(is_inner(c.domain, iccp_nearest_centre(c.mesh, c.mesh->points)));
         flux_free(&c);
@@ -109,7 +109,7 @@ START_TEST(given_centres_are_kept)
         flux_case c = flux_number(k);
         const icc_domain *const domains[2] = {c.domain, c.domain};
         const iccp_simplices *const meshes[2] = {c.mesh, c.mesh};
-        for (uint32_t v = (uint32_t)c.mesh->n_rim; v < c.mesh->n_points; v += 17) {
+        for (uint32_t v = (uint32_t)c.mesh->n_boundary; v < c.mesh->n_points; v += 17) {
             uint32_t centre[2];
             double away = 0;
             ck_assert_int_eq(iccp_paired_centres(domains, meshes, &v, centre, &env), ICC_OK);

@@ -42,8 +42,8 @@ static void rank_by_network(const flux_case *c, const double *wire, uint32_t *ra
             double sum = 0, total = 0;
             for (size_t s = n_corners * t; s < n_corners * (t + 1); ++s) {
                 const uint32_t other = mesh->across[s];
-                sum +=
-                    wire[s] * ((other & ICCP_RIM) != 0 ? 1 : value[iccp_simplex_of(mesh, other)]);
+                sum += wire[s] *
+                       ((other & ICCP_ON_BOUNDARY) != 0 ? 1 : value[iccp_simplex_of(mesh, other)]);
                 total += wire[s];
             }
             if (flux_in_star(c, t))
@@ -66,7 +66,7 @@ static void random_wires(const iccp_simplices *mesh, double spread, random_sourc
     for (uint32_t s = 0; s < flux_sides(mesh); ++s) {
         const uint32_t other = mesh->across[s];
         wire[s] = exp(random_between(r, -spread, spread));
-        if ((other & ICCP_RIM) == 0 && other < s)
+        if ((other & ICCP_ON_BOUNDARY) == 0 && other < s)
             wire[s] = wire[other];
     }
 }
@@ -80,7 +80,7 @@ static bool is_sound(const flux_case *c, const uint32_t *rank)
         bool up = false, down = false;
         for (size_t s = n_corners * t; s < n_corners * (t + 1); ++s) {
             const uint32_t other = c->mesh->across[s];
-            const bool rim = (other & ICCP_RIM) != 0;
+            const bool rim = (other & ICCP_ON_BOUNDARY) != 0;
             up = up || rim || rank[iccp_simplex_of(c->mesh, other)] > rank[t];
             down = down || (!rim && rank[iccp_simplex_of(c->mesh, other)] < rank[t]);
         }
@@ -145,7 +145,7 @@ static void check_flux(const setting *s, const char *when)
     flux_check(&s->c, s->inflow, s->flux);
     for (uint32_t side = 0; side < flux_sides(mesh); ++side) {
         const uint32_t other = mesh->across[side];
-        if ((other & ICCP_RIM) != 0)
+        if ((other & ICCP_ON_BOUNDARY) != 0)
             continue;
         const uint32_t here = s->rank[iccp_simplex_of(mesh, side)];
         const uint32_t there = s->rank[iccp_simplex_of(mesh, other)];
@@ -211,7 +211,7 @@ static size_t count_rings(const flux_case *c)
     face *all = mesh_alloc(most, sizeof *all), *rim = mesh_alloc(2 * most, sizeof *rim);
     size_t n_all = 0, n_rim = 0, n_central = 0;
     for (uint32_t s = 0; s < flux_sides(mesh); ++s)
-        if ((mesh->across[s] & ICCP_RIM) != 0)
+        if ((mesh->across[s] & ICCP_ON_BOUNDARY) != 0)
             n_rim += list_faces(mesh, iccp_simplex_of(mesh, s), s % n_corners, rim + n_rim);
     for (size_t t = 0; t < mesh->n_simplices; ++t)
         n_all += list_faces(mesh, t, n_corners, all + n_all);

@@ -212,7 +212,7 @@ static void check_sphere(const iccp_simplices *m, const catalogue *c, const uint
     for (size_t side = 0; side < 4 * m->n_simplices; ++side) {
         const size_t s = side / 4;
         const uint32_t across = m->across[side];
-        if (rank[s] > limit || (across < ICCP_RIM && rank[across / 4] <= limit))
+        if (rank[s] > limit || (across < ICCP_ON_BOUNDARY && rank[across / 4] <= limit))
             continue;
         const unsigned facet = 15u ^ 1u << side % 4;
         for (unsigned set = facet; set != 0; set = (set - 1) & facet) {
@@ -290,7 +290,7 @@ static problem begin(test_mesh mesh)
     ck_assert_msg(mesh_domain(&p.domain, &mesh, NULL, &err) == ICC_OK, "%s", err.message);
     mesh_free(&mesh);
     p.mesh = p.domain->mesh;
-    ck_assert_uint_gt(p.mesh->n_points, p.mesh->n_rim);
+    ck_assert_uint_gt(p.mesh->n_points, p.mesh->n_boundary);
     ck_assert_int_eq(iccp_faces_create(&p.faces, p.mesh, &env), ICC_OK);
     p.potential = room(p.mesh->n_simplices, sizeof *p.potential);
     p.flux = room((p.mesh->dim + 1) * p.mesh->n_simplices, sizeof *p.flux);
@@ -320,8 +320,8 @@ static const catalogue *faces_of(problem *p)
 
 static uint32_t random_centre(const problem *p, random_source *r)
 {
-    return (uint32_t)p->mesh->n_rim +
-           (uint32_t)random_below(r, (int)(p->mesh->n_points - p->mesh->n_rim));
+    return (uint32_t)p->mesh->n_boundary +
+           (uint32_t)random_below(r, (int)(p->mesh->n_points - p->mesh->n_boundary));
 }
 
 /* Steps from the star across facets, and what flows down that: not without sources. */
@@ -342,16 +342,17 @@ static void wish_near(problem *p, uint32_t centre)
         for (size_t i = 0; i < n_sides; ++i) {
             const uint32_t across = m->across[n_sides * queue[k] + i];
             const size_t there = across / n_sides;
-            if (across >= ICCP_RIM || p->potential[there] >= 0)
+            if (across >= ICCP_ON_BOUNDARY || p->potential[there] >= 0)
                 continue;
             p->potential[there] = p->potential[queue[k]] + 1;
             queue[n++] = (uint32_t)there;
         }
     ck_assert_uint_eq(n, m->n_simplices);
     for (size_t side = 0; side < n_sides * m->n_simplices; ++side)
-        p->flux[side] = m->across[side] >= ICCP_RIM ? -1
-                                                    : p->potential[side / n_sides] -
-                                                          p->potential[m->across[side] / n_sides];
+        p->flux[side] =
+            m->across[side] >= ICCP_ON_BOUNDARY
+                ? -1
+                : p->potential[side / n_sides] - p->potential[m->across[side] / n_sides];
     free(queue);
 }
 
@@ -361,9 +362,9 @@ static void wish_anything(problem *p, random_source *r)
         p->potential[s] = random_unit(r);
     for (size_t side = 0; side < (p->mesh->dim + 1) * p->mesh->n_simplices; ++side) {
         const uint32_t across = p->mesh->across[side];
-        p->flux[side] = across >= ICCP_RIM ? -1
-                        : across < side    ? -p->flux[across]
-                                           : random_unit(r) - 0.5;
+        p->flux[side] = across >= ICCP_ON_BOUNDARY ? -1
+                        : across < side            ? -p->flux[across]
+                                                   : random_unit(r) - 0.5;
     }
 }
 
@@ -564,7 +565,7 @@ static size_t turn_order(problem *p, uint32_t centre, size_t *n_turned)
     ck_assert_int_eq(iccp_order_turn(&wish, p->rank, &said, &env), ICC_OK);
     check_order(m, faces_of(p), centre, p->rank);
     for (size_t side = 0; side < (m->dim + 1) * m->n_simplices; ++side) {
-        if (m->across[side] >= ICCP_RIM)
+        if (m->across[side] >= ICCP_ON_BOUNDARY)
             continue;
         const size_t here = iccp_simplex_of(m, (uint32_t)side);
         const size_t there = iccp_simplex_of(m, m->across[side]);
@@ -614,7 +615,7 @@ static void check_contest(problem *p, uint32_t centre, const iccp_contest_info *
     check_order(p->mesh, faces_of(p), centre, p->rank);
     for (size_t side = 0; side < n_sides * p->mesh->n_simplices; ++side) {
         const uint32_t across = p->mesh->across[side];
-        if (across >= ICCP_RIM) {
+        if (across >= ICCP_ON_BOUNDARY) {
             must(flux[side] < 0);
             continue;
         }
@@ -744,20 +745,20 @@ START_TEST(star_is_complete_at_once)
         split_edge(&mesh, mesh.simplices[0],
                    mesh.simplices[dim]); /* the long diagonal, which all have */
         problem p = begin(mesh);
-        ck_assert_uint_eq(p.mesh->n_points, p.mesh->n_rim + 1);
-        wish_near(&p, (uint32_t)p.mesh->n_rim);
-        ck_assert_uint_eq(left_by(&p, (uint32_t)p.mesh->n_rim, 8, false), 0);
-        ck_assert_uint_eq(left_by(&p, (uint32_t)p.mesh->n_rim, 8, true), 0);
+        ck_assert_uint_eq(p.mesh->n_points, p.mesh->n_boundary + 1);
+        wish_near(&p, (uint32_t)p.mesh->n_boundary);
+        ck_assert_uint_eq(left_by(&p, (uint32_t)p.mesh->n_boundary, 8, false), 0);
+        ck_assert_uint_eq(left_by(&p, (uint32_t)p.mesh->n_boundary, 8, true), 0);
         for (size_t s = 0; s < p.mesh->n_simplices; ++s)
             must(p.rank[s] == 0);
         double *flux = room(p.mesh->n_simplices * (p.mesh->dim + 1), sizeof *flux);
         const iccp_env env = plain_env();
         iccp_contest_info info;
-        wish_flux(&p, (uint32_t)p.mesh->n_rim);
-        ck_assert_int_eq(iccp_contest(p.mesh, (uint32_t)p.mesh->n_rim, p.inflow, p.flux,
+        wish_flux(&p, (uint32_t)p.mesh->n_boundary);
+        ck_assert_int_eq(iccp_contest(p.mesh, (uint32_t)p.mesh->n_boundary, p.inflow, p.flux,
                                       p.potential, p.rank, flux, &info, &env, NULL),
                          ICC_OK);
-        check_contest(&p, (uint32_t)p.mesh->n_rim, &info, flux);
+        check_contest(&p, (uint32_t)p.mesh->n_boundary, &info, flux);
         free(flux);
         end(&p);
     }
@@ -772,7 +773,7 @@ static icc_status call_contest(const icc_env *given, icc_error *err, void *argum
     static double flux[4 * 6 * 27];
     ck_assert_int_eq(iccp_env_read(&env, given, NULL), ICC_OK);
     ck_assert_uint_eq(p->mesh->n_simplices, 6 * 27);
-    return iccp_contest(p->mesh, (uint32_t)p->mesh->n_rim, p->inflow, p->flux, p->potential,
+    return iccp_contest(p->mesh, (uint32_t)p->mesh->n_boundary, p->inflow, p->flux, p->potential,
                         p->rank, flux, &info, &env, err);
 }
 
@@ -784,8 +785,8 @@ static icc_status call_order(const icc_env *given, icc_error *err, void *argumen
     size_t n_left;
     ck_assert_int_eq(iccp_env_read(&env, given, NULL), ICC_OK);
     icc_status status = iccp_faces_create(&faces, p->mesh, &env);
-    const iccp_order_wish wish = {p->mesh, &faces, (uint32_t)p->mesh->n_rim, p->flux, p->potential,
-                                  2,       NULL};
+    const iccp_order_wish wish = {
+        p->mesh, &faces, (uint32_t)p->mesh->n_boundary, p->flux, p->potential, 2, NULL};
     if (status == ICC_OK)
         status = iccp_order_grow(&wish, p->rank, &n_left, &env);
     if (status == ICC_OK)
@@ -797,11 +798,11 @@ static icc_status call_order(const icc_env *given, icc_error *err, void *argumen
 START_TEST(every_failure_is_survived)
 {
     problem p = begin(cube(3, 6));
-    wish_near(&p, (uint32_t)p.mesh->n_rim);
+    wish_near(&p, (uint32_t)p.mesh->n_boundary);
     faulty_sweep(call_order, &p);
     end(&p);
     p = begin(cube(3, 3));
-    wish_flux(&p, (uint32_t)p.mesh->n_rim);
+    wish_flux(&p, (uint32_t)p.mesh->n_boundary);
     faulty_sweep(call_contest, &p);
     end(&p);
 }

@@ -67,7 +67,7 @@ START_TEST(geometry_of_simplices)
                         along += gradient[dim * j + d] * (corner[d] - last[d]);
                     FLUX_ASSERT(fabs(along) < 1e-9, "%s: gradient", c.name);
                 }
-                if ((other & ICCP_RIM) != 0)
+                if ((other & ICCP_ON_BOUNDARY) != 0)
                     continue;
                 FLUX_ASSERT(fabs(iccp_element_area(c.mesh, other) / area - 1) < 1e-12, "%s",
                             c.name);

@@ -37,7 +37,8 @@ static void direct(foliation *f)
 {
     for (size_t side = 0; side < f->n_sides; ++side) {
         const uint32_t twin = f->mesh.across[side];
-        const bool enters = (twin & ICCP_RIM) != 0 || f->rank[twin / f->n] > f->rank[side / f->n];
+        const bool enters =
+            (twin & ICCP_ON_BOUNDARY) != 0 || f->rank[twin / f->n] > f->rank[side / f->n];
         f->direction[side] = enters ? 0.5 : -0.25;
     }
 }
@@ -205,7 +206,7 @@ START_TEST(neighbours)
             const uint32_t keep = *across;
             *across = (uint32_t)random_below(&r, (int)f.n_sides);
             ck_assert(*across == keep || !holds(&f));
-            *across = ICCP_RIM | (uint32_t)random_below(&r, (int)f.mesh.n_facets);
+            *across = ICCP_ON_BOUNDARY | (uint32_t)random_below(&r, (int)f.mesh.n_facets);
             ck_assert(*across == keep || !holds(&f));
             *across = UINT32_MAX;
             ck_assert(!holds(&f));
@@ -229,7 +230,7 @@ static void take_out(foliation *f, uint32_t s)
     for (uint32_t i = 0; i < n; ++i) {
         const uint32_t a = f->mesh.across[n * s + i];
         ck_assert(a < f->n_sides);
-        f->mesh.across[a] = ICCP_RIM | ((uint32_t)f->mesh.n_facets + i);
+        f->mesh.across[a] = ICCP_ON_BOUNDARY | ((uint32_t)f->mesh.n_facets + i);
         for (uint32_t j = 0, c = 0; j < n; ++j)
             if (j != a % n)
                 f->facets[(f->mesh.n_facets + i) * (n - 1) + c++] = f->mesh.corners[a - a % n + j];
@@ -239,7 +240,7 @@ static void take_out(foliation *f, uint32_t s)
         const uint32_t a = f->mesh.across[n * last + i];
         f->mesh.corners[n * s + i] = f->mesh.corners[n * last + i];
         f->mesh.across[n * s + i] = a;
-        if ((a & ICCP_RIM) == 0)
+        if ((a & ICCP_ON_BOUNDARY) == 0)
             f->mesh.across[a] = n * s + i;
     }
     f->rank[s] = f->rank[last];
@@ -258,7 +259,7 @@ START_TEST(holes)
             bool inner = s < f.mesh.n_simplices && !in_star(&f, s);
             ck_assert(s < f.mesh.n_simplices || k == 0 || k == 2 || k == 5 || k == 7);
             for (size_t i = 0; inner && i < f.n; ++i)
-                inner = (f.mesh.across[f.n * s + i] & ICCP_RIM) == 0;
+                inner = (f.mesh.across[f.n * s + i] & ICCP_ON_BOUNDARY) == 0;
             if (inner)
                 take_out(&f, s);
             if (inner || s >= f.mesh.n_simplices)
@@ -296,8 +297,9 @@ START_TEST(order)
         size_t n_refused = 0, n_swaps = 0;
         for (uint32_t side = 0; side < f.n_sides; ++side) {
             const uint32_t twin = f.mesh.across[side];
-            const size_t a = side / f.n, b = (twin & ~ICCP_RIM) / f.n;
-            if ((twin & ICCP_RIM) != 0 || a > b || in_star(&f, a) || in_star(&f, b) || n_swaps > 60)
+            const size_t a = side / f.n, b = (twin & ~ICCP_ON_BOUNDARY) / f.n;
+            if ((twin & ICCP_ON_BOUNDARY) != 0 || a > b || in_star(&f, a) || in_star(&f, b) ||
+                n_swaps > 60)
                 continue;
             const uint32_t rank_a = f.rank[a], rank_b = f.rank[b];
             f.rank[a] = rank_b;
@@ -374,7 +376,7 @@ START_TEST(centre)
             const iccp_shelling_certificate c = look(&f);
             ck_assert(iccp_shelling_certificate_holds(&c) == (f.centre == keep));
             ck_assert((c.n_topology == 0) ==
-                      (f.centre >= f.mesh.n_rim && f.centre < f.mesh.n_points));
+                      (f.centre >= f.mesh.n_boundary && f.centre < f.mesh.n_points));
         }
         foliation_free(&f);
     }

@@ -3,7 +3,7 @@
 #include "function/critical_points.h"
 #include "solver/bilaplace.h"
 #include "solver/energy.h"
-#include "solver/interior.h"
+#include "solver/interior_point.h"
 #include "solver/polish.h"
 
 #include "../../faulty.h"
@@ -17,7 +17,7 @@
 
 typedef struct problem {
     icc_tree *tree;
-    iccp_rows rows;
+    iccp_unknowns unknowns;
     size_t n;
     iccp_scaled f;
 } problem;
@@ -39,8 +39,8 @@ static problem problem_on(int32_t dim, const size_t *sides, const uint8_t *insid
         ck_assert_int_eq(icc_grid_find_maximum(grid, &root, NULL, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_tree_create(&p.tree, grid, root, NULL, NULL, NULL), ICC_OK);
     icc_grid_free(grid);
-    ck_assert_int_eq(iccp_rows_create(&p.rows, p.tree, &env), ICC_OK);
-    p.n = p.rows.n;
+    ck_assert_int_eq(iccp_unknowns_create(&p.unknowns, p.tree, &env), ICC_OK);
+    p.n = p.unknowns.n;
     p.f.fraction = malloc(p.n * sizeof *p.f.fraction);
     p.f.exponent = malloc(p.n * sizeof *p.f.exponent);
     return p;
@@ -72,7 +72,7 @@ static problem random_problem(random_source *r, int32_t dim)
 
 static void problem_clear(problem *p)
 {
-    iccp_rows_free(&p->rows);
+    iccp_unknowns_free(&p->unknowns);
     icc_tree_free(p->tree);
     free(p->f.fraction);
     free(p->f.exponent);
@@ -114,7 +114,7 @@ static dense dense_laplacians(const problem *p, bool clamped)
     int(*place)[ICC_MAX_DIM] = malloc(most * sizeof *place);
     dense d = {n, n, calloc(most * n, sizeof *d.a)};
     for (size_t k = 0; k < n; ++k)
-        unpack(grid, p->rows.vertex[k], place[k]);
+        unpack(grid, p->unknowns.vertex[k], place[k]);
     for (size_t k = 0; k < n && clamped; ++k)
         for (int32_t i = 0; i < 2 * grid->dim; ++i) {
             memcpy(place[d.m], place[k], sizeof *place);
@@ -192,7 +192,7 @@ START_TEST(small_minima_are_those_of_a_dense_solver)
         for (int k = 0; k < 2; ++k) {
             icc_function_info info = {.size = sizeof info};
             ck_assert_int_eq(
-                iccp_bilaplace(&p.rows, FUNCTIONS[k], ICC_SOLVER_DIRECT, &p.f, &info, &env),
+                iccp_bilaplace(&p.unknowns, FUNCTIONS[k], ICC_SOLVER_DIRECT, &p.f, &info, &env),
                 ICC_OK);
             long double *f = dense_minimum(&p, FUNCTIONS[k] == ICC_FUNCTION_CLAMPED);
             ck_assert_double_eq(value(&p, 0), 1);
@@ -218,13 +218,13 @@ START_TEST(both_solvers_agree)
         const int32_t dim = mask_number(s).dim == 3 ? 3 : 2;
         problem p = problem_of(mask_number(s).shape, dim, dim == 3 ? 20 : 60);
         icc_function_info info = {.size = sizeof info};
-        ck_assert_int_eq(
-            iccp_bilaplace(&p.rows, ICC_FUNCTION_BILAPLACE, ICC_SOLVER_DIRECT, &p.f, &info, &env),
-            ICC_OK);
+        ck_assert_int_eq(iccp_bilaplace(&p.unknowns, ICC_FUNCTION_BILAPLACE, ICC_SOLVER_DIRECT,
+                                        &p.f, &info, &env),
+                         ICC_OK);
         double *direct = malloc(p.n * sizeof *direct);
         for (size_t k = 0; k < p.n; ++k)
             direct[k] = value(&p, k);
-        const icc_status status = iccp_bilaplace(&p.rows, ICC_FUNCTION_BILAPLACE,
+        const icc_status status = iccp_bilaplace(&p.unknowns, ICC_FUNCTION_BILAPLACE,
                                                  ICC_SOLVER_ITERATIVE, &p.f, &info, &env);
         ck_assert(status == ICC_OK || status == ICC_ERR_SOLVER);
         ck_assert_uint_gt(info.n_inner, 0);
@@ -244,7 +244,7 @@ START_TEST(nothing_underflows)
     problem p = problem_of(mask_serpentine, 2, 500);
     icc_function_info info = {.size = sizeof info};
     ck_assert_int_eq(
-        iccp_bilaplace(&p.rows, ICC_FUNCTION_BILAPLACE, ICC_SOLVER_DIRECT, &p.f, &info, &env),
+        iccp_bilaplace(&p.unknowns, ICC_FUNCTION_BILAPLACE, ICC_SOLVER_DIRECT, &p.f, &info, &env),
         ICC_OK);
     int32_t least = 0;
     for (size_t k = 0; k < p.n; ++k) {
@@ -284,13 +284,13 @@ static void add_inequalities(dense_program *d, const problem *p, double eta, dou
     d->m = n;
     for (size_t k = 1; k <= n; ++k) {
         bool is_leaf = true;
-        const uint32_t parent = p->rows.parent[k];
+        const uint32_t parent = p->unknowns.parent[k];
         if (parent > 0)
             d->g[(k - 1) * n + parent - 1] = 1;
         d->g[(k - 1) * n + k - 1] = -(1 + eta);
         d->b[k - 1] = parent > 0 ? 0 : -1;
         for (size_t j = 1; j <= n; ++j)
-            is_leaf = is_leaf && p->rows.parent[j] != k;
+            is_leaf = is_leaf && p->unknowns.parent[j] != k;
         if (is_leaf) {
             d->g[d->m * n + k - 1] = 1;
             d->b[d->m++] = leaf;
@@ -384,8 +384,8 @@ static void check_feasible(const problem *p, const double *f, double eta, double
     bool *has_child = calloc(p->n, sizeof *has_child);
     ck_assert_double_eq(f[0], 1);
     for (size_t k = 1; k < p->n; ++k) {
-        has_child[p->rows.parent[k]] = true;
-        ck_assert((1 + eta) * f[k] <= f[p->rows.parent[k]]);
+        has_child[p->unknowns.parent[k]] = true;
+        ck_assert((1 + eta) * f[k] <= f[p->unknowns.parent[k]]);
     }
     for (size_t k = 1; k < p->n; ++k)
         ck_assert(has_child[k] || f[k] >= leaf * (1 - 1e-12));
@@ -427,7 +427,7 @@ START_TEST(small_constrained_minima_have_the_least_energy)
         for (int k = 0; k < 2 && p.n > 1 && p.n < 40; ++k) {
             icc_function_info info = {.size = sizeof info};
             ck_assert_int_eq(
-                iccp_bilaplace_constrained(&p.rows, FUNCTIONS[k], eta, leaf, &p.f, &info, &env),
+                iccp_bilaplace_constrained(&p.unknowns, FUNCTIONS[k], eta, leaf, &p.f, &info, &env),
                 ICC_OK);
             ck_assert_double_le(info.residual_before, 1e-11);
             ck_assert_double_le(info.residual, 1e-9);
@@ -446,28 +446,28 @@ static icc_status solve_from_inside(const problem *p, int32_t function, double *
                                     const iccp_env *env)
 {
     icc_function_info info = {.size = sizeof info};
-    iccp_program program;
-    iccp_interior interior;
+    iccp_qp qp;
+    iccp_interior_point ip;
     bool stuck = false;
-    icc_status status = iccp_program_create(&program, &p->rows, function, 1e-6, 1e-9, env);
+    icc_status status = iccp_qp_create(&qp, &p->unknowns, function, 1e-6, 1e-9, env);
     if (status != ICC_OK)
         return status;
-    uint8_t *active = malloc(iccp_program_inequalities(&program));
+    uint8_t *active = malloc(iccp_qp_inequalities(&qp));
     iccp_candidate candidate = {f, HUGE_VAL};
-    status = iccp_interior_create(&interior, &program, &info, env);
+    status = iccp_interior_point_create(&ip, &qp, &info, env);
     if (status == ICC_OK) {
-        status = iccp_interior_run(&interior, 1e-17, &stuck, &info, env);
-        for (size_t i = 0; i < iccp_program_inequalities(&program); ++i) {
-            ck_assert(interior.slack[i] > 0 && interior.multiplier[i] > 0);
-            active[i] = interior.multiplier[i] > interior.slack[i];
+        status = iccp_interior_point_run(&ip, 1e-17, &stuck, &info, env);
+        for (size_t i = 0; i < iccp_qp_inequalities(&qp); ++i) {
+            ck_assert(ip.slack[i] > 0 && ip.multiplier[i] > 0);
+            active[i] = ip.multiplier[i] > ip.slack[i];
         }
         if (status == ICC_OK)
-            status = iccp_polish(&program, active, 1e-12, &candidate, &info, env);
-        iccp_interior_free(&interior);
+            status = iccp_polish(&qp, active, 1e-12, &candidate, &info, env);
+        iccp_interior_point_free(&ip);
     }
     *residual = candidate.residual;
     free(active);
-    iccp_program_free(&program);
+    iccp_qp_free(&qp);
     return status;
 }
 
@@ -481,9 +481,9 @@ START_TEST(both_ways_lead_to_the_same_function)
             problem p = problem_of(mask_number(shapes[s]).shape, dim, dim == 3 ? 20 : 50);
             icc_function_info info = {.size = sizeof info};
             double residual, *f = malloc(p.n * sizeof *f);
-            ck_assert_int_eq(
-                iccp_bilaplace_constrained(&p.rows, FUNCTIONS[k], 1e-6, 1e-9, &p.f, &info, &env),
-                ICC_OK);
+            ck_assert_int_eq(iccp_bilaplace_constrained(&p.unknowns, FUNCTIONS[k], 1e-6, 1e-9, &p.f,
+                                                        &info, &env),
+                             ICC_OK);
             ck_assert_int_eq(solve_from_inside(&p, FUNCTIONS[k], f, &residual, &env), ICC_OK);
             ck_assert_double_le(info.residual_before, 1e-11);
             ck_assert_double_le(residual, 1e-8);
@@ -501,7 +501,8 @@ START_TEST(a_letter_c_has_one_critical_point)
     problem p = problem_of(mask_c, 2, 200);
     icc_function_info info = {.size = sizeof info};
     ck_assert_int_eq(
-        iccp_bilaplace_constrained(&p.rows, FUNCTIONS[_i], 1e-6, 1e-9, &p.f, &info, &env), ICC_OK);
+        iccp_bilaplace_constrained(&p.unknowns, FUNCTIONS[_i], 1e-6, 1e-9, &p.f, &info, &env),
+        ICC_OK);
     ck_assert_double_le(info.residual_before, 1e-11);
     ck_assert_double_le(info.residual, 1e-9);
     ck_assert_uint_gt(info.n_active, p.n / 2);
@@ -511,7 +512,7 @@ START_TEST(a_letter_c_has_one_critical_point)
     icc_function *field;
     icc_function_report report = {.size = sizeof report};
     ck_assert_int_eq(iccp_function_new(&field, p.tree, &env), ICC_OK);
-    ck_assert_int_eq(iccp_function_assign(field, &p.rows, &p.f), ICC_OK);
+    ck_assert_int_eq(iccp_function_assign(field, &p.unknowns, &p.f), ICC_OK);
     ck_assert_int_eq(iccp_function_verify(field, &report, &env), ICC_OK);
     ck_assert_uint_eq(report.n_maxima, 1);
     ck_assert_uint_eq(report.n_minima + report.n_saddles, 0);
@@ -538,7 +539,7 @@ START_TEST(bounds_without_room_are_refused)
     problem p = problem_on(1, sides, inside, 0);
     icc_function_info info = {.size = sizeof info};
     ck_assert_int_eq(
-        iccp_bilaplace_constrained(&p.rows, FUNCTIONS[0], 0.01, 1e-9, &p.f, &info, &env),
+        iccp_bilaplace_constrained(&p.unknowns, FUNCTIONS[0], 0.01, 1e-9, &p.f, &info, &env),
         ICC_ERR_SOLVER);
     ck_assert(strstr(line, "at the root") != NULL);
     problem_clear(&p);
@@ -558,14 +559,14 @@ static icc_status solve_anew(const icc_env *outer, icc_error *err, void *argumen
     ck_assert_int_eq(iccp_env_read(&env, outer, err), ICC_OK);
     icc_function_info info = {.size = sizeof info};
     return iccp_explain(
-        err,
-        c->way == 0
-            ? iccp_bilaplace(&c->p.rows, c->function, ICC_SOLVER_DIRECT, &c->p.f, &info, &env)
-        : c->way == 3
-            ? iccp_bilaplace(&c->p.rows, c->function, ICC_SOLVER_ITERATIVE, &c->p.f, &info, &env)
-        : c->way == 1
-            ? iccp_bilaplace_constrained(&c->p.rows, c->function, 1e-6, 1e-9, &c->p.f, &info, &env)
-            : solve_from_inside(&c->p, c->function, c->p.f.fraction, &info.residual, &env));
+        err, c->way == 0   ? iccp_bilaplace(&c->p.unknowns, c->function, ICC_SOLVER_DIRECT, &c->p.f,
+                                            &info, &env)
+             : c->way == 3 ? iccp_bilaplace(&c->p.unknowns, c->function, ICC_SOLVER_ITERATIVE,
+                                            &c->p.f, &info, &env)
+             : c->way == 1
+                 ? iccp_bilaplace_constrained(&c->p.unknowns, c->function, 1e-6, 1e-9, &c->p.f,
+                                              &info, &env)
+                 : solve_from_inside(&c->p, c->function, c->p.f.fraction, &info.residual, &env));
 }
 
 START_TEST(failures_leave_nothing_behind)

@@ -1,8 +1,8 @@
-/* The V-cycle as a preconditioner, and the iterative solver of the glued problem against dense
+/* The V-cycle as a preconditioner, and the iterative solver of the tied problem against dense
  * elimination and the direct one. */
 #include "base/error.h"
-#include "solver/glued.h"
 #include "solver/mg_cg.h"
+#include "solver/tied.h"
 
 #include "../../faulty.h"
 #include "../../hard_masks.h"
@@ -26,7 +26,7 @@ static iccp_env default_env(void)
 typedef struct problem {
     icc_grid *grid;
     icc_tree *tree;
-    iccp_rows rows;
+    iccp_unknowns unknowns;
     uint32_t *top;
     double *share;
     iccp_scaled f;
@@ -40,11 +40,12 @@ static problem problem_of(int32_t dim, const size_t *shape, const uint8_t *insid
     if (root == ICCP_NONE)
         ck_assert_int_eq(icc_grid_find_maximum(p.grid, &root, NULL, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_tree_create(&p.tree, p.grid, root, NULL, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(iccp_rows_create(&p.rows, p.tree, &env), ICC_OK);
-    p.top = malloc(p.rows.n * sizeof *p.top);
-    p.share = malloc(p.rows.n * sizeof *p.share);
-    p.f = (iccp_scaled){malloc(p.rows.n * sizeof(double)), malloc(p.rows.n * sizeof(int32_t))};
-    for (uint32_t k = 0; k < p.rows.n; ++k) {
+    ck_assert_int_eq(iccp_unknowns_create(&p.unknowns, p.tree, &env), ICC_OK);
+    p.top = malloc(p.unknowns.n * sizeof *p.top);
+    p.share = malloc(p.unknowns.n * sizeof *p.share);
+    p.f = (iccp_scaled){malloc(p.unknowns.n * sizeof(double)),
+                        malloc(p.unknowns.n * sizeof(int32_t))};
+    for (uint32_t k = 0; k < p.unknowns.n; ++k) {
         p.top[k] = k;
         p.share[k] = 1;
         iccp_scaled_set(&p.f, k, 1, 0);
@@ -58,7 +59,7 @@ static void problem_clear(problem *p)
     free(p->share);
     free(p->f.fraction);
     free(p->f.exponent);
-    iccp_rows_free(&p->rows);
+    iccp_unknowns_free(&p->unknowns);
     icc_tree_free(p->tree);
     icc_grid_free(p->grid);
 }
@@ -96,12 +97,12 @@ static problem scattered(random_source *r, int32_t dim)
     return problem_of(dim, shape, inside, root);
 }
 
-/* Glues rows to their parents at random. */
-static void glue(problem *p, random_source *r, int percent, double least_share)
+/* Ties rows to their parents at random. */
+static void tie(problem *p, random_source *r, int percent, double least_share)
 {
-    for (uint32_t k = 1; k < p->rows.n; ++k)
+    for (uint32_t k = 1; k < p->unknowns.n; ++k)
         if (random_below(r, 100) < percent) {
-            const uint32_t parent = p->rows.parent[k];
+            const uint32_t parent = p->unknowns.parent[k];
             p->top[k] = p->top[parent];
             p->share[k] = p->share[parent] * random_between(r, least_share, 1);
         }
@@ -111,8 +112,8 @@ static icc_status solve(problem *p, size_t *n_inner)
 {
     const iccp_env env = default_env();
     icc_function_info info = {0};
-    const iccp_gluing gluing = {.top = p->top, .share = p->share};
-    const icc_status status = iccp_glued_iterative(&p->rows, &gluing, &p->f, &info, &env);
+    const iccp_ties ties = {.top = p->top, .share = p->share};
+    const icc_status status = iccp_tied_iterative(&p->unknowns, &ties, &p->f, &info, &env);
     if (n_inner != NULL)
         *n_inner = info.n_inner;
     return status;
@@ -149,7 +150,7 @@ static void run_kernels(const iccp_mg_kernels *kernels, size_t n, int32_t n_near
     }
     kernels->relax(o->x, vector[11], vector[10], near, n, n_near);
     kernels->add(o->sum, near, n, n_near);
-    kernels->turn(o->p, vector[9], 0.7f, n);
+    kernels->redirect(o->p, vector[9], 0.7f, n);
     kernels->measure(vector[8], o->r, near, n, n_near, &o->up);
     const iccp_mg_step step = {o->y, o->r, o->b, o->p, 0.3, 1e-3, 0.1};
     kernels->advance(&step, near, n, n_near, &o->down);
@@ -174,12 +175,12 @@ END_TEST
 /* P'LP densely: n * n, 0 in the rows and columns of members but for 1 on their diagonal. */
 static double *dense_matrix(const problem *p)
 {
-    const size_t n = p->rows.n, degree = (size_t)p->rows.n_neighbours;
+    const size_t n = p->unknowns.n, degree = (size_t)p->unknowns.n_neighbours;
     double *a = calloc(n * n, sizeof *a);
     for (size_t k = 0; k < n; ++k) {
         a[p->top[k] * n + p->top[k]] += (double)degree * p->share[k] * p->share[k];
         for (size_t d = 0; d < degree; ++d) {
-            const uint32_t j = p->rows.neighbour[k * degree + d];
+            const uint32_t j = p->unknowns.neighbour[k * degree + d];
             if (j != ICCP_NONE)
                 a[p->top[k] * n + p->top[j]] -= p->share[k] * p->share[j];
         }
@@ -208,7 +209,7 @@ static void eliminate(size_t n, double *a, double *b)
 
 static double *dense_solution(const problem *p)
 {
-    const size_t n = p->rows.n;
+    const size_t n = p->unknowns.n;
     double *a = dense_matrix(p), *b = calloc(n, sizeof *b);
     memset(a, 0, n * sizeof *a);
     a[0] = b[0] = 1;
@@ -222,12 +223,12 @@ static double *dense_solution(const problem *p)
 /* Row k of P'LP f, for every top, in units of its terms: the worst. */
 static double residual(const problem *p)
 {
-    const size_t n = p->rows.n, degree = (size_t)p->rows.n_neighbours;
+    const size_t n = p->unknowns.n, degree = (size_t)p->unknowns.n_neighbours;
     double *sum = calloc(n, sizeof *sum), *size = calloc(n, sizeof *size), worst = 0;
     for (size_t k = 0; k < n; ++k) {
         const uint32_t t = p->top[k];
         for (size_t d = 0; d < degree; ++d) {
-            const uint32_t j = p->rows.neighbour[k * degree + d];
+            const uint32_t j = p->unknowns.neighbour[k * degree + d];
             const double own = p->share[k] * iccp_scaled_get(&p->f, k, p->f.exponent[t]);
             const double other =
                 j == ICCP_NONE ? 0 : p->share[k] * iccp_scaled_get(&p->f, j, p->f.exponent[t]);
@@ -246,7 +247,7 @@ static double residual(const problem *p)
 /* Positive, normalised, 1 at the root, members in their share. */
 static void check_form(const problem *p)
 {
-    for (uint32_t k = 0; k < p->rows.n; ++k) {
+    for (uint32_t k = 0; k < p->unknowns.n; ++k) {
         ck_assert(p->f.fraction[k] >= 0.5 && p->f.fraction[k] < 1);
         const double wanted = p->share[k] * iccp_scaled_get(&p->f, p->top[k], p->f.exponent[k]);
         ck_assert_double_eq_tol(wanted, p->f.fraction[k], 1e-14);
@@ -258,10 +259,11 @@ static void check_form(const problem *p)
 static size_t false_maxima(const problem *p)
 {
     size_t count = 0;
-    for (uint32_t k = 1; k < p->rows.n; ++k) {
+    for (uint32_t k = 1; k < p->unknowns.n; ++k) {
         bool has_higher = false;
-        for (int32_t d = 0; d < p->rows.n_neighbours; ++d) {
-            const uint32_t j = p->rows.neighbour[k * (size_t)p->rows.n_neighbours + (size_t)d];
+        for (int32_t d = 0; d < p->unknowns.n_neighbours; ++d) {
+            const uint32_t j =
+                p->unknowns.neighbour[k * (size_t)p->unknowns.n_neighbours + (size_t)d];
             has_higher = has_higher || (j != ICCP_NONE && iccp_scaled_compare(&p->f, j, k) >= 0);
         }
         count += !has_higher;
@@ -273,7 +275,7 @@ static size_t false_maxima(const problem *p)
 static double difference(const problem *p, const iccp_scaled *g)
 {
     double worst = 0;
-    for (size_t k = 0; k < p->rows.n; ++k) {
+    for (size_t k = 0; k < p->unknowns.n; ++k) {
         const double f = p->f.fraction[k];
         worst = fmax(worst, fabs(iccp_scaled_get(g, k, p->f.exponent[k]) / f - 1));
     }
@@ -303,9 +305,9 @@ static double dot(size_t n, const double *a, const double *b)
 static void fill_inside(const problem *p, const iccp_mg_level *level, random_source *r, double *b)
 {
     memset(b, 0, level->n_entries * sizeof *b);
-    for (size_t k = 0; k < p->rows.n; ++k) {
+    for (size_t k = 0; k < p->unknowns.n; ++k) {
         uint32_t x;
-        const size_t row = iccp_mg_row_of(level, p->grid, p->rows.vertex[k], &x);
+        const size_t row = iccp_mg_row_of(level, p->grid, p->unknowns.vertex[k], &x);
         b[iccp_mg_position(level, row, x)] = random_between(r, -1, 1);
     }
 }
@@ -314,9 +316,10 @@ static void check_cycle(const problem *p, random_source *r)
 {
     const iccp_env env = default_env();
     iccp_multigrid mg;
-    ck_assert_int_eq(iccp_multigrid_create(&mg, p->grid, p->rows.n, p->rows.vertex, &env), ICC_OK);
+    ck_assert_int_eq(iccp_multigrid_create(&mg, p->grid, p->unknowns.n, p->unknowns.vertex, &env),
+                     ICC_OK);
     const size_t n = mg.level[0].n_entries;
-    ck_assert_uint_eq(mg.level[0].n_inside, p->rows.n);
+    ck_assert_uint_eq(mg.level[0].n_inside, p->unknowns.n);
     double *b = malloc(4 * n * sizeof *b), *c = b + n, *x = c + n, *y = x + n;
     fill_inside(p, &mg.level[0], r, b);
     fill_inside(p, &mg.level[0], r, c);
@@ -332,7 +335,7 @@ static void check_cycle(const problem *p, random_source *r)
     size_t n_positions = 0;
     for (size_t i = 0; i < n; ++i)
         n_positions += x[i] < 0 || x[i] > 0;
-    ck_assert_uint_le(n_positions, p->rows.n);
+    ck_assert_uint_le(n_positions, p->unknowns.n);
     free(b);
     iccp_multigrid_free(&mg);
 }
@@ -361,11 +364,12 @@ static size_t count_iterations(const problem *p)
     const iccp_env env = default_env();
     const iccp_mg_goal goal = {1e-10, 1e300, 1};
     iccp_multigrid mg;
-    ck_assert_int_eq(iccp_multigrid_create(&mg, p->grid, p->rows.n, p->rows.vertex, &env), ICC_OK);
+    ck_assert_int_eq(iccp_multigrid_create(&mg, p->grid, p->unknowns.n, p->unknowns.vertex, &env),
+                     ICC_OK);
     const iccp_mg_level *level = &mg.level[0];
     double *x = calloc(level->n_entries, sizeof *x), *r = calloc(level->n_entries, sizeof *r);
     uint32_t at;
-    const size_t row = iccp_mg_row_of(level, p->grid, p->rows.vertex[p->rows.n / 2], &at);
+    const size_t row = iccp_mg_row_of(level, p->grid, p->unknowns.vertex[p->unknowns.n / 2], &at);
     r[iccp_mg_position(level, row, at)] = 1;
     size_t n = 0;
     ck_assert_int_eq(iccp_mg_cg(&mg, x, r, 1, &goal, &n, &env), ICC_OK);
@@ -403,7 +407,7 @@ static void check_dense(problem *p)
     ck_assert_int_eq(solve(p, NULL), ICC_OK);
     check_form(p);
     double *wanted = dense_solution(p);
-    for (size_t k = 0; k < p->rows.n; ++k) {
+    for (size_t k = 0; k < p->unknowns.n; ++k) {
         const double f = iccp_scaled_get(&p->f, k, 0);
         ck_assert_double_eq_tol(f / wanted[k], 1, 1e-7);
     }
@@ -424,14 +428,14 @@ START_TEST(plain_agrees_with_elimination)
 }
 END_TEST
 
-START_TEST(glued_agrees_with_elimination)
+START_TEST(tied_agrees_with_elimination)
 {
     random_source r = {3};
     for (int32_t dim = 1; dim <= 4; ++dim)
         for (int trial = 0; trial < share_of(60); ++trial) {
             problem p = scattered(&r, dim);
             const int percent[4] = {5, 30, 60, 100};
-            glue(&p, &r, percent[trial % 4], trial % 3 == 0 ? 0.999999 : 0.5);
+            tie(&p, &r, percent[trial % 4], trial % 3 == 0 ? 0.999999 : 0.5);
             check_dense(&p);
             problem_clear(&p);
         }
@@ -441,10 +445,11 @@ END_TEST
 static void check_direct(const problem *p)
 {
     const iccp_env env = default_env();
-    const iccp_scaled g = {malloc(p->rows.n * sizeof(double)), malloc(p->rows.n * sizeof(int32_t))};
-    const iccp_gluing gluing = {.top = p->top, .share = p->share};
+    const iccp_scaled g = {malloc(p->unknowns.n * sizeof(double)),
+                           malloc(p->unknowns.n * sizeof(int32_t))};
+    const iccp_ties ties = {.top = p->top, .share = p->share};
     icc_function_info info = {0};
-    if (iccp_glued_direct(&p->rows, &gluing, &g, &info, &env) == ICC_OK)
+    if (iccp_tied_direct(&p->unknowns, &ties, &g, &info, &env) == ICC_OK)
         ck_assert_double_le(difference(p, &g), 1e-6);
     free(g.fraction);
     free(g.exponent);
@@ -477,7 +482,7 @@ START_TEST(decay_is_followed)
         ck_assert_double_le(residual(&p), 1e-8);
         ck_assert_uint_eq(false_maxima(&p), 0);
         int32_t least = 0;
-        for (size_t k = 0; k < p.rows.n; ++k)
+        for (size_t k = 0; k < p.unknowns.n; ++k)
             least = p.f.exponent[k] < least ? p.f.exponent[k] : least;
         ck_assert_int_lt(least, from_end ? -430 : -210);
         check_direct(&p);
@@ -487,14 +492,14 @@ START_TEST(decay_is_followed)
 }
 END_TEST
 
-/* The same with a tenth of the rows glued, as by the inequalities. */
-START_TEST(glued_decay_is_followed)
+/* The same with a tenth of the rows tied, as by the inequalities. */
+START_TEST(tied_decay_is_followed)
 {
     random_source r = {4};
     for (int k = 0; k < N_KINDS; ++k) {
         const mask_kind kind = kind_number(k);
         problem p = drawn(kind.shape, kind.dim == 3 ? 3 : 2, kind.dim == 3 ? 22 : 100);
-        glue(&p, &r, 10, 0.999999);
+        tie(&p, &r, 10, 0.999999);
         ck_assert_int_eq(solve(&p, NULL), ICC_OK);
         check_form(&p);
         ck_assert_double_le(residual(&p), 1e-8);
@@ -509,7 +514,7 @@ START_TEST(good_guess_saves_iterations)
     size_t cold, warm;
     problem p = drawn(mask_c, 2, 150);
     random_source r = {5};
-    glue(&p, &r, 5, 0.999999);
+    tie(&p, &r, 5, 0.999999);
     ck_assert_int_eq(solve(&p, &cold), ICC_OK);
     ck_assert_int_eq(solve(&p, &warm), ICC_OK);
     ck_assert_uint_lt(3 * warm, cold);
@@ -541,15 +546,15 @@ END_TEST
 static icc_status solve_in(const icc_env *outer, icc_error *err, void *argument)
 {
     problem *p = argument;
-    const iccp_gluing gluing = {.top = p->top, .share = p->share};
+    const iccp_ties ties = {.top = p->top, .share = p->share};
     icc_function_info info = {0};
     iccp_env env;
     const icc_status status = iccp_env_read(&env, outer, err);
     if (status != ICC_OK)
         return status;
-    for (size_t k = 0; k < p->rows.n; ++k)
+    for (size_t k = 0; k < p->unknowns.n; ++k)
         iccp_scaled_set(&p->f, k, 1, 0);
-    return iccp_explain(err, iccp_glued_iterative(&p->rows, &gluing, &p->f, &info, &env));
+    return iccp_explain(err, iccp_tied_iterative(&p->unknowns, &ties, &p->f, &info, &env));
 }
 
 START_TEST(gives_up_cleanly)
@@ -557,7 +562,7 @@ START_TEST(gives_up_cleanly)
     random_source r = {6};
     for (int percent = 0; percent <= 20; percent += 20) {
         problem p = drawn(mask_serpentine, 2, 40);
-        glue(&p, &r, percent, 0.9);
+        tie(&p, &r, percent, 0.9);
         faulty_sweep(solve_in, &p);
         problem_clear(&p);
     }
@@ -570,8 +575,8 @@ START_TEST(any_guess_will_do)
     random_source r = {7};
     for (int trial = 0; trial < 20; ++trial) {
         problem p = scattered(&r, 2);
-        glue(&p, &r, trial % 2 ? 30 : 0, 0.9);
-        for (size_t k = 0; k < p.rows.n; ++k)
+        tie(&p, &r, trial % 2 ? 30 : 0, 0.9);
+        for (size_t k = 0; k < p.unknowns.n; ++k)
             iccp_scaled_set(&p.f, k, random_between(&r, 0.1, 1), random_below(&r, 4000) - 3000);
         check_dense(&p);
         problem_clear(&p);
@@ -587,10 +592,10 @@ int main(void)
     tcase_add_test(tests, cycle_is_symmetric_positive_definite);
     tcase_add_test(tests, iterations_do_not_grow);
     tcase_add_test(tests, plain_agrees_with_elimination);
-    tcase_add_test(tests, glued_agrees_with_elimination);
+    tcase_add_test(tests, tied_agrees_with_elimination);
     tcase_add_test(tests, every_mask_is_solved);
     tcase_add_test(tests, decay_is_followed);
-    tcase_add_test(tests, glued_decay_is_followed);
+    tcase_add_test(tests, tied_decay_is_followed);
     tcase_add_test(tests, good_guess_saves_iterations);
     tcase_add_test(tests, smallest_problems);
     tcase_add_test(tests, gives_up_cleanly);

@@ -1,4 +1,4 @@
-/* Walks over hand-made functions, and the fence, against what can be said without walking. */
+/* Walks over hand-made functions, and the boundary, against what can be said without walking. */
 #include "trace/walk2.h"
 
 #include "../../random.h"
@@ -463,21 +463,21 @@ START_TEST(slope_sign_is_that_of_the_gradient)
 }
 END_TEST
 
-/* ---- the fence ---- */
+/* ---- the boundary ---- */
 
 enum { MAX_CORNERS = 24 };
 
-typedef struct field_with_fence {
+typedef struct field_with_boundary {
     world w;
     icc_domain domain;
     double corners[2 * MAX_CORNERS];
     uint32_t facets[2 * MAX_CORNERS];
-    iccp_fence fence;
-} fenced;
+    iccp_boundary_cells2 cells;
+} bounded;
 
 static const iccp_env ENV = {.memory = {NULL, NULL, NULL}, .threads = 1};
 
-static void fence_init(fenced *f, size_t n)
+static void bounded_init(bounded *f, size_t n)
 {
     iccp_env env = ENV;
     env.memory = iccp_memory_default;
@@ -488,7 +488,7 @@ static void fence_init(fenced *f, size_t n)
     f->domain = (icc_domain){.dim = 2, .n_vertices = n, .n_facets = n};
     f->domain.vertices = f->corners;
     f->domain.facets = f->facets;
-    ck_assert_int_eq(iccp_fence_create(&f->fence, &f->domain, &f->w.grid, &env), ICC_OK);
+    ck_assert_int_eq(iccp_boundary_cells2_create(&f->cells, &f->domain, &f->w.grid, &env), ICC_OK);
 }
 
 static long cross(const long a[2], const long b[2], const long c[2])
@@ -529,7 +529,7 @@ static double meets(const long p[2], const long q[2], const long a[2], const lon
 START_TEST(the_first_hit_is_that_of_all_edges)
 {
     random_source r = {7};
-    fenced f;
+    bounded f;
     world_init(&f.w, 7, 6, 0);
     int n_hits = 0, n_touches = 0;
     for (int round = 0; round < 100; ++round) {
@@ -542,7 +542,7 @@ START_TEST(the_first_hit_is_that_of_all_edges)
             } while (k > 0 && distance(corners[k], corners[k - 1]) < 1);
         for (size_t k = 0; k < 2 * n; ++k)
             f.corners[k] = (double)corners[k / 2][k % 2] / 8;
-        fence_init(&f, n);
+        bounded_init(&f, n);
         for (int k = 0; k < 200; ++k) {
             const int i = random_below(&r, 6), j = random_below(&r, 5);
             long p[2] = {8 * i + random_below(&r, 9), 8 * j + random_below(&r, 9)};
@@ -554,8 +554,9 @@ START_TEST(the_first_hit_is_that_of_all_edges)
                 first = fmin(first, meets(p, q, corners[e], corners[(e + 1) % n]));
             const double from[2] = {(double)p[0] / 8, (double)p[1] / 8};
             const double to[2] = {(double)q[0] / 8, (double)q[1] / 8};
-            iccp_fence_hit hit;
-            const bool found = iccp_fence_first(&f.fence, (size_t)i, (size_t)j, from, to, &hit);
+            iccp_boundary_hit2 hit;
+            const bool found =
+                iccp_boundary_cells2_first(&f.cells, (size_t)i, (size_t)j, from, to, &hit);
             ck_assert_int_eq(found, first <= 1);
             if (!found)
                 continue;
@@ -568,7 +569,7 @@ START_TEST(the_first_hit_is_that_of_all_edges)
             ++n_hits;
             n_touches += hit.along <= 0 || hit.along >= 1;
         }
-        iccp_fence_free(&f.fence);
+        iccp_boundary_cells2_free(&f.cells);
     }
     ck_assert_int_gt(n_hits, 2500);
     ck_assert_int_gt(n_touches, 125);
@@ -576,7 +577,7 @@ START_TEST(the_first_hit_is_that_of_all_edges)
 END_TEST
 
 /* A polygon between the outermost vertices and the rest, so that every descent must cross it. */
-static void random_fence(fenced *f, random_source *r)
+static void random_bounded(bounded *f, random_source *r)
 {
     const size_t n = 5 + (size_t)random_below(r, MAX_CORNERS - 5);
     for (size_t k = 0; k < n; ++k) {
@@ -585,10 +586,10 @@ static void random_fence(fenced *f, random_source *r)
         f->corners[2 * k] = (SIDE - 1) / 2.0 + radius * cos(a);
         f->corners[2 * k + 1] = (SIDE - 1) / 2.0 + radius * sin(a);
     }
-    fence_init(f, n);
+    bounded_init(f, n);
 }
 
-static bool inside_fence(const fenced *f, const double p[2])
+static bool inside_boundary(const bounded *f, const double p[2])
 {
     bool inside = false;
     for (size_t k = 0; k < f->domain.n_facets; ++k) {
@@ -602,27 +603,27 @@ static bool inside_fence(const fenced *f, const double p[2])
     return inside;
 }
 
-static void pick_inside(const fenced *f, random_source *r, double p[2])
+static void pick_inside(const bounded *f, random_source *r, double p[2])
 {
     do {
         p[0] = random_between(r, 0, SIDE - 1);
         p[1] = random_between(r, 0, SIDE - 1);
-    } while (!inside_fence(f, p));
+    } while (!inside_boundary(f, p));
 }
 
 typedef struct descent {
     icc_status status;
     iccp_walk2 walk;
-    iccp_fence_hit hit;
+    iccp_boundary_hit2 hit;
     iccp_jet2 jet;
 } descent;
 
-static descent descend(const fenced *f, const double p[2], iccp_path *path)
+static descent descend(const bounded *f, const double p[2], iccp_path *path)
 {
     descent d = {.jet = {{1, 0}, {0, 1}, {0, 0}}};
     d.status = iccp_walk2_start(&d.walk, &f->w.field, ICCP_DOWNHILL, p[0], p[1], &d.jet);
     if (d.status == ICC_OK)
-        d.status = iccp_trace_downhill(&d.walk, &f->fence, path, &d.hit);
+        d.status = iccp_trace_downhill(&d.walk, &f->cells, path, &d.hit);
     return d;
 }
 
@@ -637,12 +638,12 @@ static double to_segment(const double p[2], const double a[2], const double b[2]
 START_TEST(ascending_from_the_end_of_a_descent_comes_back)
 {
     random_source r = {8};
-    fenced f;
+    bounded f;
     world_init(&f.w, SIDE, SIDE, 0);
     int n_alone = 0, n_merged = 0;
     for (int round = 0; round < 300; ++round) {
         set_one_maximum(&f.w, &r, false);
-        random_fence(&f, &r);
+        random_bounded(&f, &r);
         iccp_path path;
         iccp_path_init(&path, &iccp_memory_default);
         for (int k = 0; k < 50; ++k) {
@@ -680,7 +681,7 @@ START_TEST(ascending_from_the_end_of_a_descent_comes_back)
             ++n_alone;
         }
         iccp_path_clear(&path);
-        iccp_fence_free(&f.fence);
+        iccp_boundary_cells2_free(&f.cells);
     }
     ck_assert_int_gt(n_alone, 1000);
     ck_assert_int_gt(n_merged, 1000);
@@ -701,19 +702,19 @@ static bool agrees(double minus, double at, double plus, double step, double der
 START_TEST(jets_are_derivatives)
 {
     random_source r = {9};
-    fenced f;
+    bounded f;
     world_init(&f.w, SIDE, SIDE, 0);
     int n_down = 0, n_up = 0;
     for (int round = 0; round < 200; ++round) {
         set_one_maximum(&f.w, &r, false);
-        random_fence(&f, &r);
+        random_bounded(&f, &r);
         for (int k = 0; k < 100; ++k) {
             double p[2];
             const double h = 1e-7;
             pick_inside(&f, &r, p);
             if (k % 8 == 0) /* on an edge */
                 p[0] = floor(p[0]);
-            if (k % 8 == 0 && !inside_fence(&f, p))
+            if (k % 8 == 0 && !inside_boundary(&f, p))
                 continue;
             const int c = k % 2;
             double low[2] = {p[0], p[1]}, high[2] = {p[0], p[1]};
@@ -737,7 +738,7 @@ START_TEST(jets_are_derivatives)
             n_up += agrees(up[0].s, up[1].s, up[2].s, h, jet.s[c]);
             ck_assert(fabs(jet.x[0]) + fabs(jet.x[1]) + fabs(jet.y[0]) + fabs(jet.y[1]) <= 0);
         }
-        iccp_fence_free(&f.fence);
+        iccp_boundary_cells2_free(&f.cells);
     }
     ck_assert_int_gt(n_down, 5000);
     ck_assert_int_gt(n_up, 5000);
@@ -764,18 +765,19 @@ static void give_back(void *user, void *memory)
 START_TEST(running_out_of_memory_is_reported)
 {
     random_source r = {10};
-    fenced f;
+    bounded f;
     world_init(&f.w, SIDE, SIDE, 0);
     set_one_maximum(&f.w, &r, false);
-    random_fence(&f, &r);
+    random_bounded(&f, &r);
     size_t left = 0;
     iccp_env env = ENV;
     env.memory = (iccp_memory){&left, no_memory, give_back};
     for (size_t k = 0; k < 3; ++k) {
-        iccp_fence fence;
+        iccp_boundary_cells2 cells;
         left = k;
-        ck_assert_int_eq(iccp_fence_create(&fence, &f.domain, &f.w.grid, &env), ICC_ERR_MEMORY);
-        ck_assert_ptr_null(fence.vertices);
+        ck_assert_int_eq(iccp_boundary_cells2_create(&cells, &f.domain, &f.w.grid, &env),
+                         ICC_ERR_MEMORY);
+        ck_assert_ptr_null(cells.vertices);
     }
     iccp_path path;
     iccp_path_init(&path, &env.memory);
@@ -804,18 +806,18 @@ START_TEST(running_out_of_memory_is_reported)
     ck_assert_uint_eq(path.n, 1365);
     ck_assert_double_eq(iccp_path_at(&path, 999)[1], 1998);
     iccp_path_clear(&path);
-    iccp_fence_free(&f.fence);
+    iccp_boundary_cells2_free(&f.cells);
 }
 END_TEST
 
 /* A path that cannot grow in the middle of a descent. */
 START_TEST(long_descents_need_memory)
 {
-    fenced f;
+    bounded f;
     world_init(&f.w, SIDE, SIDE, 0);
     set_linear(&f.w, 1, 1.5);
     memcpy(f.corners, (double[]){0.5, 0.25, 12.5, 0.25, 12.5, 12.5, 0.5, 12.5}, 8 * sizeof(double));
-    fence_init(&f, 4);
+    bounded_init(&f, 4);
     size_t left = 0;
     const iccp_memory memory = {&left, no_memory, give_back};
     double points[9];
@@ -823,7 +825,7 @@ START_TEST(long_descents_need_memory)
     const double p[2] = {9.3, 11.9};
     ck_assert_int_eq(descend(&f, p, &path).status, ICC_ERR_MEMORY);
     ck_assert_uint_eq(path.n, 3);
-    iccp_fence_free(&f.fence);
+    iccp_boundary_cells2_free(&f.cells);
 }
 END_TEST
 

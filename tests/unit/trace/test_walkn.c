@@ -653,9 +653,9 @@ static uint32_t cell_of(const icc_grid *grid, const double *x)
     return (uint32_t)cell;
 }
 
-static bool is_marked(const iccp_cage_cells *cage, uint32_t cell)
+static bool is_marked(const iccp_boundary_cellsn *cells, uint32_t cell)
 {
-    return cage->bits[cell / 64] >> (cell % 64) & 1;
+    return cells->bits[cell / 64] >> (cell % 64) & 1;
 }
 
 /* A point of the boundary, in lattice coordinates. */
@@ -693,22 +693,22 @@ START_TEST(cells_of_the_cage_are_those_at_the_boundary)
         const iccp_env env = {.memory = iccp_memory_default};
         icc_domain *domain = pick_domain(&r, dim);
         icc_grid *grid;
-        iccp_cage_cells cage;
+        iccp_boundary_cellsn cells;
         ck_assert_int_eq(
             iccp_grid_create(&grid, domain, 2 + random_below(&r, dim == 3 ? 30 : 8), &env, NULL),
             ICC_OK);
-        ck_assert_int_eq(iccp_cage_cells_create(&cage, domain, grid, &env), ICC_OK);
+        ck_assert_int_eq(iccp_boundary_cellsn_create(&cells, domain, grid, &env), ICC_OK);
         for (int k = 0; k < 2000; ++k) {
             double x[ICC_MAX_DIM];
             pick_on_boundary(domain, grid, &r, x);
             for (int32_t m = 0; m < dim; ++m)
                 x[m] += (random_below(&r, 3) - 1) * 1e-12;
-            if (!is_marked(&cage, cell_of(grid, x)))
+            if (!is_marked(&cells, cell_of(grid, x)))
                 ck_abort_msg("a cell is not marked");
         }
         size_t n_marked = 0;
         for (uint32_t v = 0; v < grid->n_vertices; ++v)
-            if (is_marked(&cage, v)) {
+            if (is_marked(&cells, v)) {
                 double middle[ICC_MAX_DIM];
                 for (int32_t m = 0; m < dim; ++m)
                     middle[m] = iccp_grid_coordinate(grid, v, m) + 0.5;
@@ -716,7 +716,7 @@ START_TEST(cells_of_the_cage_are_those_at_the_boundary)
                 ++n_marked;
             }
         ck_assert(n_marked > 0);
-        iccp_cage_cells_free(&cage);
+        iccp_boundary_cellsn_free(&cells);
         icc_grid_free(grid);
         icc_domain_free(domain);
     }
@@ -732,9 +732,9 @@ START_TEST(no_step_slips_through_the_cage)
         const iccp_env env = {.memory = iccp_memory_default};
         icc_domain *domain = pick_domain(&r, dim);
         icc_grid *grid;
-        iccp_cage_cells cage;
+        iccp_boundary_cellsn cells;
         ck_assert_int_eq(iccp_grid_create(&grid, domain, 9, &env, NULL), ICC_OK);
-        ck_assert_int_eq(iccp_cage_cells_create(&cage, domain, grid, &env), ICC_OK);
+        ck_assert_int_eq(iccp_boundary_cellsn_create(&cells, domain, grid, &env), ICC_OK);
         for (int k = 0; k < 2000; ++k) {
             double x[2][ICC_MAX_DIM], local[2][ICC_MAX_DIM], share, bary[ICC_MAX_DIM];
             uint32_t facet, cell = 0;
@@ -746,8 +746,8 @@ START_TEST(no_step_slips_through_the_cage)
                     local[i][m] = x[i][m] * grid->spacing + grid->origin[m];
                 }
             }
-            iccp_cage_hit hit;
-            const bool found = iccp_cage_cells_cross(&cage, cell, x[0], x[1], &hit);
+            iccp_boundary_hitn hit;
+            const bool found = iccp_boundary_cellsn_cross(&cells, cell, x[0], x[1], &hit);
             ck_assert_int_eq(found,
                              iccp_domain_cross(domain, local[0], local[1], &share, &facet, bary));
             n_hits += found;
@@ -755,10 +755,10 @@ START_TEST(no_step_slips_through_the_cage)
                 continue;
             ck_assert(hit.facet == facet && hit.share >= share && hit.share <= share);
             ck_assert_double_le(from_boundary(domain, grid, hit.point), 1e-12);
-            ck_assert(iccp_cage_cells_touch(&cage, hit.point, &hit));
-            ck_assert(!iccp_cage_cells_touch(&cage, (double[ICC_MAX_DIM]){0.5}, &hit));
+            ck_assert(iccp_boundary_cellsn_touch(&cells, hit.point, &hit));
+            ck_assert(!iccp_boundary_cellsn_touch(&cells, (double[ICC_MAX_DIM]){0.5}, &hit));
         }
-        iccp_cage_cells_free(&cage);
+        iccp_boundary_cellsn_free(&cells);
         icc_grid_free(grid);
         icc_domain_free(domain);
     }

@@ -4,9 +4,9 @@
 #include "base/error.h"
 #include "grid/kuhn.h"
 #include "tree/cousin.h"
+#include "tree/create_ranked.h"
 #include "tree/queue.h"
 #include "tree/ranks.h"
-#include "tree/settle.h"
 
 #include "../../faulty.h"
 #include "../../random.h"
@@ -551,8 +551,9 @@ START_TEST(rings_are_opened)
     icc_error err = {.size = sizeof err};
     for (int lenient = 0; lenient < 2; ++lenient) {
         icc_tree *tree;
-        const icc_status status = iccp_tree_settle(&tree, grid, root, ICC_TREE_THESIS, NULL,
-                                                   lenient ? 0.01 : 0.0, rank, &report, &env, &err);
+        const icc_status status =
+            iccp_tree_create_ranked(&tree, grid, root, ICC_TREE_THESIS, NULL, lenient ? 0.01 : 0.0,
+                                    rank, &report, &env, &err);
         ck_assert_int_eq(status, lenient ? ICC_OK : ICC_ERR_TOPOLOGY);
         ck_assert((tree != NULL) == lenient);
         if (lenient) {
@@ -608,13 +609,13 @@ static icc_status grow_and_lower(const icc_env *env, icc_error *err, void *argum
     icc_grid_free(fine);
     iccp_env full;
     icc_grow_report grown;
-    icc_tree *settled = NULL;
+    icc_tree *ranked = NULL;
     if (status == ICC_OK || status == ICC_ERR_TOPOLOGY)
         status = iccp_env_read(&full, env, err);
     if (status == ICC_OK)
-        status = iccp_tree_settle(&settled, j->tree->grid, j->tree->root, ICC_TREE_PAPER, NULL, 0.9,
-                                  rank, &grown, &full, err);
-    icc_tree_free(settled);
+        status = iccp_tree_create_ranked(&ranked, j->tree->grid, j->tree->root, ICC_TREE_PAPER,
+                                         NULL, 0.9, rank, &grown, &full, err);
+    icc_tree_free(ranked);
     return iccp_explain(err, status == ICC_ERR_TOPOLOGY ? ICC_OK : status);
 }
 

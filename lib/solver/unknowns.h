@@ -1,12 +1,12 @@
 /* The vertices inside as rows of a linear system, numbered as the tree reaches them: row 0 is the
  * root and parents come before their children, so that a forward pass goes from the root to the
  * leaves and a backward pass from the leaves to the root. */
-#ifndef ICCP_ROWS_H
-#define ICCP_ROWS_H
+#ifndef ICCP_UNKNOWNS_H
+#define ICCP_UNKNOWNS_H
 
 #include "tree/cousin.h"
 
-typedef struct iccp_rows {
+typedef struct iccp_unknowns {
     iccp_memory memory;
     const icc_tree *tree;   /* borrowed */
     size_t n;               /* the root included; at least 1 */
@@ -15,10 +15,10 @@ typedef struct iccp_rows {
     uint32_t *parent;       /* n: a smaller row; ICCP_NONE for row 0 */
     uint32_t *neighbour;    /* n * n_neighbours: rows, or ICCP_NONE for a vertex outside, in the
                                order axis 0 -, axis 0 +, axis 1 -, .. */
-} iccp_rows;
+} iccp_unknowns;
 
 /* O(vertices * dim) time; 4 + 8 dim bytes a row and, until it returns, 4 bytes a vertex. */
-icc_status iccp_rows_create(iccp_rows *rows, const icc_tree *tree, const iccp_env *env);
-void iccp_rows_free(iccp_rows *rows);
+icc_status iccp_unknowns_create(iccp_unknowns *unknowns, const icc_tree *tree, const iccp_env *env);
+void iccp_unknowns_free(iccp_unknowns *unknowns);
 
 #endif

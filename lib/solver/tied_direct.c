@@ -1,4 +1,4 @@
-/* The glued problem by factorisation. The clusters of rows, the root's apart, are the unknowns.
+/* The tied problem by factorisation. The clusters of rows, the root's apart, are the unknowns.
  *
  * Diagonal entries of P'LP are sums of squares, by s'Ls = sum of (s_u - s_v)^2 over neighbours u,
  * v: the accuracy of small components hangs on how far the diagonal exceeds the rest of its row,
@@ -6,8 +6,8 @@
 #include "base/clock.h"
 #include "math/ldlt.h"
 #include "solver/dissection.h"
-#include "solver/glued.h"
 #include "solver/inequalities.h"
+#include "solver/tied.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -20,8 +20,8 @@ enum { CLUSTERS_PER_REPORT = 1 << 16 };
 static const double MOST_RESIDUAL = 1e-6;
 
 typedef struct assembly {
-    const iccp_rows *rows;
-    const iccp_gluing *gluing;
+    const iccp_unknowns *unknowns;
+    const iccp_ties *ties;
     size_t n;           /* unknowns */
     uint32_t *unknown;  /* n rows: the cluster of each; ICCP_NONE: the root's */
     uint32_t *last;     /* per cluster: its last row */
@@ -35,9 +35,9 @@ typedef struct assembly {
 /* Numbers the clusters and links their rows. */
 static void find_clusters(assembly *a)
 {
-    const uint32_t *top = a->gluing->top;
+    const uint32_t *top = a->ties->top;
     a->n = 0;
-    for (uint32_t k = 0; k < a->rows->n; ++k) {
+    for (uint32_t k = 0; k < a->unknowns->n; ++k) {
         const bool is_top = top[k] == k;
         if (is_top)
             a->unknown[k] = k == 0 ? ICCP_NONE : (uint32_t)a->n++;
@@ -51,11 +51,11 @@ static void find_clusters(assembly *a)
 
 static size_t count_entries(const assembly *a)
 {
-    const size_t degree = (size_t)a->rows->n_neighbours;
+    const size_t degree = (size_t)a->unknowns->n_neighbours;
     size_t n_entries = 0;
-    for (size_t k = 0; k < a->rows->n; ++k)
+    for (size_t k = 0; k < a->unknowns->n; ++k)
         for (size_t d = 0; d < degree; ++d) {
-            const uint32_t j = a->rows->neighbour[k * degree + d];
+            const uint32_t j = a->unknowns->neighbour[k * degree + d];
             n_entries += j != ICCP_NONE && a->unknown[j] != a->unknown[k];
         }
     return n_entries; /* those of the root's row too: an upper bound is wanted */
@@ -98,12 +98,12 @@ static void subtract(assembly *a, size_t u, uint32_t v, double x, size_t *end)
 /* Row u of P'LP, which begins at first[u]. */
 static void assemble_row(assembly *a, size_t u)
 {
-    const size_t degree = (size_t)a->rows->n_neighbours;
-    const double *share = a->gluing->share;
+    const size_t degree = (size_t)a->unknowns->n_neighbours;
+    const double *share = a->ties->share;
     size_t end = a->first[u];
     for (uint32_t k = a->last[u]; k != ICCP_NONE; k = a->previous[k])
         for (size_t d = 0; d < degree; ++d) {
-            const uint32_t j = a->rows->neighbour[k * degree + d];
+            const uint32_t j = a->unknowns->neighbour[k * degree + d];
             if (j != ICCP_NONE && a->unknown[j] == u) {
                 const double step = share[k] - share[j];
                 a->diagonal[u] += 0.5 * step * step; /* met from either end */
@@ -123,7 +123,7 @@ static void assemble_row(assembly *a, size_t u)
 static icc_status assemble(assembly *a, const iccp_env *env)
 {
     const iccp_memory *m = &env->memory;
-    const size_t n = a->rows->n;
+    const size_t n = a->unknowns->n;
     a->unknown = iccp_alloc(m, n, sizeof *a->unknown);
     a->last = iccp_alloc(m, n, sizeof *a->last);
     a->previous = iccp_alloc(m, n, sizeof *a->previous);
@@ -145,9 +145,9 @@ static icc_status assemble(assembly *a, const iccp_env *env)
 /* x of the clusters into `f` of the rows. */
 static void expand(const assembly *a, const iccp_scaled *x, const iccp_scaled *f)
 {
-    for (size_t k = 0; k < a->rows->n; ++k) {
+    for (size_t k = 0; k < a->unknowns->n; ++k) {
         const uint32_t u = a->unknown[k];
-        const double share = a->gluing->share[k];
+        const double share = a->ties->share[k];
         if (u == ICCP_NONE)
             iccp_scaled_set(f, k, share, 0);
         else
@@ -166,7 +166,7 @@ static icc_status find_residual(const assembly *a, const iccp_scaled *x, const i
         if ((u + 1) % CLUSTERS_PER_REPORT == 0)
             status = iccp_progress(env, "solve", (double)u / (double)a->n);
         for (uint32_t k = a->last[u]; k != ICCP_NONE; k = a->previous[k])
-            sum -= a->gluing->share[k] * iccp_laplacian_row(a->rows, f, k, x->exponent[u]);
+            sum -= a->ties->share[k] * iccp_laplacian_row(a->unknowns, f, k, x->exponent[u]);
         iccp_scaled_set(residual, u, sum, x->exponent[u]);
     }
     return status;
@@ -237,7 +237,7 @@ static void contract_order(const assembly *a, const uint32_t *kept, uint32_t *or
     size_t end = a->n;
     for (size_t u = 0; u < a->n; ++u)
         a->slot[u] = 0;
-    for (size_t i = a->rows->n; i-- > 0;) {
+    for (size_t i = a->unknowns->n; i-- > 0;) {
         const uint32_t u = a->unknown[kept[i]];
         if (u != ICCP_NONE && a->slot[u]++ == 0)
             order[--end] = u;
@@ -247,20 +247,20 @@ static void contract_order(const assembly *a, const uint32_t *kept, uint32_t *or
 static icc_status analyse(const assembly *a, iccp_ldlt *factor, const iccp_symmetric *matrix,
                           const iccp_env *env)
 {
-    uint32_t *kept = a->gluing->order;
+    uint32_t *kept = a->ties->order;
     uint32_t *order = iccp_alloc(&env->memory, a->n, sizeof *order);
-    uint32_t *rows = iccp_alloc(&env->memory, kept == NULL ? a->rows->n : 0, sizeof *rows);
-    icc_status status = order != NULL && rows != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    uint32_t *fresh = iccp_alloc(&env->memory, kept == NULL ? a->unknowns->n : 0, sizeof *fresh);
+    icc_status status = order != NULL && fresh != NULL ? ICC_OK : ICC_ERR_MEMORY;
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){3, 1}, env);
     if (status == ICC_OK && (kept == NULL || kept[0] == ICCP_NONE))
-        status = iccp_dissection(a->rows, kept == NULL ? rows : kept, &part[0]);
+        status = iccp_dissection(a->unknowns, kept == NULL ? fresh : kept, &part[0]);
     if (status == ICC_OK) {
-        contract_order(a, kept == NULL ? rows : kept, order);
+        contract_order(a, kept == NULL ? fresh : kept, order);
         status = iccp_ldlt_analyse_ordered(factor, matrix, order, &part[1]);
     }
     iccp_free(&env->memory, order);
-    iccp_free(&env->memory, rows);
+    iccp_free(&env->memory, fresh);
     return status;
 }
 
@@ -272,10 +272,10 @@ static double lap(double *clock)
     return *clock - before;
 }
 
-icc_status iccp_glued_direct(const iccp_rows *rows, const iccp_gluing *gluing, const iccp_scaled *f,
-                             icc_function_info *info, const iccp_env *env)
+icc_status iccp_tied_direct(const iccp_unknowns *unknowns, const iccp_ties *ties,
+                            const iccp_scaled *f, icc_function_info *info, const iccp_env *env)
 {
-    assembly a = {.rows = rows, .gluing = gluing};
+    assembly a = {.unknowns = unknowns, .ties = ties};
     iccp_ldlt factor = {.memory = env->memory};
     double clock = iccp_seconds();
     iccp_env part[4];

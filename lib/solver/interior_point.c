@@ -7,7 +7,7 @@
  * the residuals of the two equations correct the step: M. Friedlander, D. Orban, A primal-dual
  * regularized interior-point method for convex quadratic programs, Math. Prog. Comp. 4, 2012,
  * section 5. */
-#include "solver/interior.h"
+#include "solver/interior_point.h"
 
 #include "base/clock.h"
 
@@ -41,17 +41,17 @@ static const double SHORT_STEP = 0.01;
 /* Error of a step, relative to the slacks. */
 static const double PREDICTOR_ERROR = 0.5, CORRECTOR_ERROR = 0.1;
 
-static size_t n_rows(const iccp_interior *p)
+static size_t n_rows(const iccp_interior_point *p)
 {
-    return p->program->rows->n;
+    return p->qp->unknowns->n;
 }
 
-static size_t n_pairs(const iccp_interior *p)
+static size_t n_pairs(const iccp_interior_point *p)
 {
-    return iccp_program_inequalities(p->program);
+    return iccp_qp_inequalities(p->qp);
 }
 
-static double mean_product(const iccp_interior *p)
+static double mean_product(const iccp_interior_point *p)
 {
     double sum = 0;
     for (size_t i = 0; i < n_pairs(p); ++i)
@@ -60,28 +60,29 @@ static double mean_product(const iccp_interior *p)
 }
 
 /* out = A'A f - G'y but for the root, which does not move. */
-static void stationarity(const iccp_interior *p, const double *f, const double *y, double *out)
+static void stationarity(const iccp_interior_point *p, const double *f, const double *y,
+                         double *out)
 {
-    iccp_energy_gradient(&p->program->a, f, p->work, out);
+    iccp_energy_gradient(&p->qp->a, f, p->work, out);
     for (size_t i = 0; i < n_pairs(p); ++i)
         p->work[i] = -y[i];
-    iccp_program_add_forces(p->program, p->work, out);
+    iccp_qp_add_forces(p->qp, p->work, out);
     out[0] = 0;
 }
 
-static void find_residuals(iccp_interior *p)
+static void find_residuals(iccp_interior_point *p)
 {
     stationarity(p, p->f, p->multiplier, p->dual);
-    iccp_program_slacks(p->program, p->f, false, p->primal);
+    iccp_qp_slacks(p->qp, p->f, false, p->primal);
     for (size_t i = 0; i < n_pairs(p); ++i)
         p->primal[i] -= p->slack[i];
 }
 
 /* ICC_ERR_SOLVER when the matrix is not positive definite however soft it gets. */
-static icc_status factorise(iccp_interior *p, icc_function_info *info, const iccp_env *env)
+static icc_status factorise(iccp_interior_point *p, icc_function_info *info, const iccp_env *env)
 {
     const double start = iccp_seconds();
-    double *w = p->weight + p->program->a.n_rows;
+    double *w = p->weight + p->qp->a.n_rows;
     icc_status status = ICC_ERR_SOLVER;
     for (int k = 0; k < MAX_SOFTENINGS && status == ICC_ERR_SOLVER; ++k) {
         p->softness *= k == 0 ? 1 : 100;
@@ -95,15 +96,15 @@ static icc_status factorise(iccp_interior *p, icc_function_info *info, const icc
 }
 
 /* Adds to the step what solves the two equations for the right sides `force` and `gap`. */
-static void add_solution(iccp_interior *p)
+static void add_solution(iccp_interior_point *p)
 {
-    const double *w = p->weight + p->program->a.n_rows;
+    const double *w = p->weight + p->qp->a.n_rows;
     for (size_t i = 0; i < n_pairs(p); ++i)
         p->work[i] = w[i] * p->gap[i];
-    iccp_program_add_forces(p->program, p->work, p->force);
+    iccp_qp_add_forces(p->qp, p->work, p->force);
     p->force[0] = 0;
     iccp_ldlt_solve(&p->factor, 1, p->force + 1, p->work);
-    iccp_program_slacks(p->program, p->force, true, p->work);
+    iccp_qp_slacks(p->qp, p->force, true, p->work);
     for (size_t k = 1; k < n_rows(p); ++k)
         p->step_f[k] += p->force[k];
     for (size_t i = 0; i < n_pairs(p); ++i)
@@ -111,13 +112,13 @@ static void add_solution(iccp_interior *p)
 }
 
 /* What the step leaves of the two equations; returns the largest gap in units of its slack. */
-static double find_errors(iccp_interior *p)
+static double find_errors(iccp_interior_point *p)
 {
     double error = 0;
     stationarity(p, p->step_f, p->step_multiplier, p->force);
     for (size_t k = 1; k < n_rows(p); ++k)
         p->force[k] = -p->dual[k] - p->force[k];
-    iccp_program_slacks(p->program, p->step_f, true, p->step_slack);
+    iccp_qp_slacks(p->qp, p->step_f, true, p->step_slack);
     for (size_t i = 0; i < n_pairs(p); ++i) {
         p->step_slack[i] += p->primal[i];
         p->gap[i] = -(p->product[i] + p->slack[i] * p->step_multiplier[i]) / p->multiplier[i] -
@@ -129,7 +130,7 @@ static double find_errors(iccp_interior *p)
 
 /* The step for the present residuals and products. The first correction brings what softness left
  * out, so that the error may grow there. */
-static void solve(iccp_interior *p, double tolerance)
+static void solve(iccp_interior_point *p, double tolerance)
 {
     double last = HUGE_VAL;
     memset(p->step_f, 0, n_rows(p) * sizeof *p->step_f);
@@ -154,7 +155,7 @@ static double reach(const double *x, const double *step, size_t n)
     return most;
 }
 
-static double step_length(const iccp_interior *p)
+static double step_length(const iccp_interior_point *p)
 {
     return fmin(reach(p->slack, p->step_slack, n_pairs(p)),
                 reach(p->multiplier, p->step_multiplier, n_pairs(p)));
@@ -163,7 +164,7 @@ static double step_length(const iccp_interior *p)
 /* Predictor: straight to products of 0. Corrector: to equal products, the smaller the further the
  * predictor got, with the predictor's second order terms. Where that leads into a wall, to
  * equal products alone. Returns the share of the residuals that a whole step makes up for. */
-static double find_step(iccp_interior *p)
+static double find_step(iccp_interior_point *p)
 {
     const double mean = mean_product(p);
     for (size_t i = 0; i < n_pairs(p); ++i)
@@ -189,7 +190,7 @@ static double find_step(iccp_interior *p)
     return 0;
 }
 
-static void take_step(iccp_interior *p, double length)
+static void take_step(iccp_interior_point *p, double length)
 {
     for (size_t k = 1; k < n_rows(p); ++k)
         p->f[k] += length * p->step_f[k];
@@ -200,7 +201,7 @@ static void take_step(iccp_interior *p, double length)
 }
 
 /* ICC_ERR_SOLVER when the step leads nowhere. */
-static icc_status iterate(iccp_interior *p, icc_function_info *info, const iccp_env *env)
+static icc_status iterate(iccp_interior_point *p, icc_function_info *info, const iccp_env *env)
 {
     find_residuals(p);
     const icc_status status = factorise(p, info, env);
@@ -218,26 +219,26 @@ static icc_status iterate(iccp_interior *p, icc_function_info *info, const iccp_
     return ICC_OK;
 }
 
-icc_status iccp_interior_run(iccp_interior *interior, double target, bool *stuck,
-                             icc_function_info *info, const iccp_env *env)
+icc_status iccp_interior_point_run(iccp_interior_point *ip, double target, bool *stuck,
+                                   icc_function_info *info, const iccp_env *env)
 {
     int patience = PATIENCE;
-    double mean = mean_product(interior);
+    double mean = mean_product(ip);
     *stuck = false;
     while (mean > target && !*stuck) {
-        const double remaining = interior->remaining;
-        const iccp_env part = iccp_round(env, interior->n_iterations, ICCP_INTERIOR_TYPICAL);
+        const double remaining = ip->remaining;
+        const iccp_env part = iccp_round(env, ip->n_iterations, ICCP_INTERIOR_POINT_TYPICAL);
         icc_status status = iccp_progress(&part, "solve", 0);
         if (status == ICC_OK)
-            status = iterate(interior, info, &part);
+            status = iterate(ip, info, &part);
         if (status != ICC_OK && status != ICC_ERR_SOLVER)
             return status;
         const double last = mean;
-        mean = mean_product(interior);
+        mean = mean_product(ip);
         const bool gets_feasible =
-            interior->remaining > NEARLY_FEASIBLE && interior->remaining < 0.98 * remaining;
+            ip->remaining > NEARLY_FEASIBLE && ip->remaining < 0.98 * remaining;
         patience = mean < 0.9 * last || gets_feasible ? PATIENCE : patience - 1;
-        *stuck = status != ICC_OK || patience == 0 || interior->n_iterations >= MAX_ITERATIONS;
+        *stuck = status != ICC_OK || patience == 0 || ip->n_iterations >= MAX_ITERATIONS;
     }
     return ICC_OK;
 }
@@ -254,38 +255,38 @@ static void stack_energy(iccp_sparse *b, const iccp_sparse *a, size_t *end)
     }
 }
 
-static icc_status stack(iccp_interior *p, const iccp_env *env)
+static icc_status stack(iccp_interior_point *p, const iccp_env *env)
 {
-    const iccp_sparse *a = &p->program->a;
-    const iccp_rows *rows = p->program->rows;
+    const iccp_sparse *a = &p->qp->a;
+    const iccp_unknowns *unknowns = p->qp->unknowns;
     iccp_sparse *b = &p->b;
-    const icc_status status = iccp_sparse_create(b, a->n_rows + n_pairs(p), rows->n - 1,
+    const icc_status status = iccp_sparse_create(b, a->n_rows + n_pairs(p), unknowns->n - 1,
                                                  a->first[a->n_rows] + 2 * n_pairs(p), env);
     if (status != ICC_OK)
         return status;
     size_t end = 0, i = a->n_rows;
     stack_energy(b, a, &end);
-    for (uint32_t k = 1; k < rows->n; ++k) {
+    for (uint32_t k = 1; k < unknowns->n; ++k) {
         b->first[i++] = end;
-        if (rows->parent[k] > 0) {
-            b->column[end] = rows->parent[k] - 1;
+        if (unknowns->parent[k] > 0) {
+            b->column[end] = unknowns->parent[k] - 1;
             b->value[end++] = 1;
         }
         b->column[end] = k - 1;
-        b->value[end++] = -p->program->sigma;
+        b->value[end++] = -p->qp->sigma;
     }
-    for (size_t j = 0; j < p->program->n_leaves; ++j) {
+    for (size_t j = 0; j < p->qp->n_leaves; ++j) {
         b->first[i++] = end;
-        b->column[end] = p->program->leaf_row[j] - 1;
+        b->column[end] = p->qp->leaf_unknown[j] - 1;
         b->value[end++] = 1;
     }
     b->first[i] = end;
     return ICC_OK;
 }
 
-static icc_status allocate(iccp_interior *p, const iccp_env *env)
+static icc_status allocate(iccp_interior_point *p, const iccp_env *env)
 {
-    const size_t n = n_rows(p), m = n_pairs(p), n_energy = p->program->a.n_rows;
+    const size_t n = n_rows(p), m = n_pairs(p), n_energy = p->qp->a.n_rows;
     double **const of_rows[] = {&p->f, &p->dual, &p->step_f, &p->force};
     double **const of_pairs[] = {&p->slack,      &p->multiplier,      &p->primal, &p->product,
                                  &p->step_slack, &p->step_multiplier, &p->gap};
@@ -306,9 +307,9 @@ static icc_status allocate(iccp_interior *p, const iccp_env *env)
 
 /* Slacks and multipliers of the function with the least energy and sum of squared slacks, where
  * they are positive and large enough. */
-static icc_status start(iccp_interior *p, icc_function_info *info, const iccp_env *env)
+static icc_status start(iccp_interior_point *p, icc_function_info *info, const iccp_env *env)
 {
-    const size_t n = n_rows(p), m = n_pairs(p), n_energy = p->program->a.n_rows;
+    const size_t n = n_rows(p), m = n_pairs(p), n_energy = p->qp->a.n_rows;
     for (size_t i = 0; i < n_energy; ++i)
         p->weight[i] = 1;
     for (size_t i = 0; i < m; ++i) {
@@ -323,12 +324,12 @@ static icc_status start(iccp_interior *p, icc_function_info *info, const iccp_en
         p->step_f[k] = 0;
     }
     stationarity(p, p->f, p->step_multiplier, p->dual);
-    iccp_program_slacks(p->program, p->f, false, p->primal);
+    iccp_qp_slacks(p->qp, p->f, false, p->primal);
     (void)find_errors(p);
     add_solution(p);
     for (size_t k = 1; k < n; ++k)
         p->f[k] = p->step_f[k];
-    iccp_program_slacks(p->program, p->f, false, p->slack);
+    iccp_qp_slacks(p->qp, p->f, false, p->slack);
     for (size_t i = 0; i < m; ++i) {
         p->multiplier[i] = fmax(LEAST_MULTIPLIER, -p->slack[i]);
         p->slack[i] = fmax(LEAST_SLACK, p->slack[i]);
@@ -336,12 +337,12 @@ static icc_status start(iccp_interior *p, icc_function_info *info, const iccp_en
     return ICC_OK;
 }
 
-icc_status iccp_interior_create(iccp_interior *interior, const iccp_program *program,
-                                icc_function_info *info, const iccp_env *env)
+icc_status iccp_interior_point_create(iccp_interior_point *ip, const iccp_qp *qp,
+                                      icc_function_info *info, const iccp_env *env)
 {
-    iccp_interior *p = interior;
-    *p = (iccp_interior){
-        .memory = env->memory, .program = program, .softness = SOFTNESS, .remaining = 1};
+    iccp_interior_point *p = ip;
+    *p = (iccp_interior_point){
+        .memory = env->memory, .qp = qp, .softness = SOFTNESS, .remaining = 1};
     p->b.memory = p->gram.memory = p->factor.memory = env->memory;
     double clock = iccp_seconds();
     iccp_env part[3];
@@ -360,15 +361,15 @@ icc_status iccp_interior_create(iccp_interior *interior, const iccp_program *pro
     if (status == ICC_OK)
         status = start(p, info, &part[2]);
     if (status != ICC_OK)
-        iccp_interior_free(p);
+        iccp_interior_point_free(p);
     return status;
 }
 
-void iccp_interior_free(iccp_interior *interior)
+void iccp_interior_point_free(iccp_interior_point *ip)
 {
-    iccp_free(&interior->memory, interior->room);
-    interior->room = NULL;
-    iccp_sparse_free(&interior->b);
-    iccp_gram_free(&interior->gram);
-    iccp_ldlt_free(&interior->factor);
+    iccp_free(&ip->memory, ip->room);
+    ip->room = NULL;
+    iccp_sparse_free(&ip->b);
+    iccp_gram_free(&ip->gram);
+    iccp_ldlt_free(&ip->factor);
 }

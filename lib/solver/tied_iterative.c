@@ -1,16 +1,16 @@
-/* The glued problem by conjugate gradients, in shells. What an iteration leaves as an error is
+/* The tied problem by conjugate gradients, in shells. What an iteration leaves as an error is
  * relative to the largest value. So a solution is accepted only where it exceeds CUT times that;
- * the rows left are solved for again, with the accepted ones as given values, in units of the
+ * the unknowns left are solved for again, with the accepted ones as given values, in units of the
  * largest of these. The equations are the same, so that the shells fit together to the accuracy of
  * each.
  *
  * A shell need not reach to the end of what is left: if it ends where the solution has fallen to v,
  * with 0 assumed beyond, a value of w is wrong by about (v / w)^2 of itself (sinh(D - s) / sinh(D)
- * in place of exp(-s)). Nothing flows into a shell from beyond but what has left it there: rows
+ * in place of exp(-s)). Nothing flows into a shell from beyond but what has left it there: unknowns
  * next to known ones always belong to it. */
 #include "base/clock.h"
-#include "solver/glued.h"
-#include "solver/glued_cg.h"
+#include "solver/tied.h"
+#include "solver/tied_cg.h"
 
 #include <string.h>
 
@@ -21,7 +21,7 @@ static const double CUT = 1e-7, TRUNCATION = 1e7;
 /* Values below this share of the largest are no help in guessing how large a shell should be. */
 static const double NEGLIGIBLE = 1e-14;
 
-/* Each shell is solved to this; a tenth of CUT, so that rows next to an accepted one are good,
+/* Each shell is solved to this; a tenth of CUT, so that unknowns next to an accepted one are good,
  * too. */
 static const iccp_mg_goal GOAL = {.relative = 1e-10, .componentwise = 1e-9, .floor = 1e-8};
 
@@ -30,42 +30,42 @@ enum { LEAST_GROWTH = 512 };
 enum { LEFT = 0, IN_SHELL = 1, KNOWN = 2 };
 
 typedef struct shells {
-    const iccp_rows *rows;
-    const iccp_gluing *gluing;
+    const iccp_unknowns *unknowns;
+    const iccp_ties *ties;
     const iccp_scaled *f;
     icc_function_info *info;
     const iccp_env *env;
-    uint32_t *order;   /* n rows, by their tops: members behind their top */
-    uint32_t *cluster; /* n + 1: where the rows with that top begin in `order` */
+    uint32_t *order;   /* n unknowns, by their tops: members behind their top */
+    uint32_t *cluster; /* n + 1: where the unknowns with that top begin in `order` */
     uint8_t *state;    /* n: LEFT, IN_SHELL, KNOWN */
-    uint32_t *row;     /* n: the shell's rows, members behind their top */
+    uint32_t *unknown; /* n: the shell's unknowns, members behind their top */
     size_t n;          /* their number */
-    size_t n_left;     /* rows that are LEFT */
-    size_t growth;     /* rows to be added to what the last shell leaves over */
+    size_t n_left;     /* unknowns that are LEFT */
+    size_t growth;     /* unknowns to be added to what the last shell leaves over */
     bool first;
 } shells;
 
 typedef struct shell {
-    uint32_t *vertex; /* grid vertices of its rows; later their positions */
-    iccp_glue *glue;
-    size_t n_glued;
+    uint32_t *vertex; /* grid vertices of its unknowns; later their positions */
+    iccp_tie *tie;
+    size_t n_tied;
     iccp_multigrid mg;
     double *x, *r, *q;
     int32_t exponent; /* x is in units of 2^exponent */
 } shell;
 
 /* Rows by their tops, stable: a counting sort. */
-static void sort_rows(shells *s)
+static void sort_unknowns(shells *s)
 {
-    const size_t n = s->rows->n;
+    const size_t n = s->unknowns->n;
     for (size_t k = 0; k < n; ++k)
-        ++s->cluster[s->gluing->top[k]];
+        ++s->cluster[s->ties->top[k]];
     for (size_t k = 0, sum = 0; k <= n; ++k) {
         sum += s->cluster[k];
         s->cluster[k] = (uint32_t)sum; /* the end of the cluster */
     }
     for (size_t k = n; k-- > 0;)
-        s->order[--s->cluster[s->gluing->top[k]]] = (uint32_t)k;
+        s->order[--s->cluster[s->ties->top[k]]] = (uint32_t)k;
 }
 
 static void add_cluster(shells *s, uint32_t top)
@@ -73,7 +73,7 @@ static void add_cluster(shells *s, uint32_t top)
     for (uint32_t i = s->cluster[top]; i < s->cluster[top + 1]; ++i) {
         s->n_left -= s->state[s->order[i]] == LEFT && !s->first;
         s->state[s->order[i]] = IN_SHELL;
-        s->row[s->n++] = s->order[i];
+        s->unknown[s->n++] = s->order[i];
     }
 }
 
@@ -86,38 +86,38 @@ static icc_status report(const shells *s, size_t i)
 static icc_status add_all(shells *s)
 {
     icc_status status = ICC_OK;
-    for (uint32_t k = 0; k < s->rows->n && status == ICC_OK; ++k) {
-        if (s->gluing->top[k] == k)
+    for (uint32_t k = 0; k < s->unknowns->n && status == ICC_OK; ++k) {
+        if (s->ties->top[k] == k)
             add_cluster(s, k);
         status = report(s, k);
     }
     return status;
 }
 
-static const uint32_t *neighbours(const shells *s, uint32_t row)
+static const uint32_t *neighbours(const shells *s, uint32_t unknown)
 {
-    return s->rows->neighbour + row * (size_t)s->rows->n_neighbours;
+    return s->unknowns->neighbour + unknown * (size_t)s->unknowns->n_neighbours;
 }
 
-static bool has_neighbour(const shells *s, uint32_t row, uint8_t state)
+static bool has_neighbour(const shells *s, uint32_t unknown, uint8_t state)
 {
-    for (int32_t d = 0; d < s->rows->n_neighbours; ++d) {
-        const uint32_t j = neighbours(s, row)[d];
+    for (int32_t d = 0; d < s->unknowns->n_neighbours; ++d) {
+        const uint32_t j = neighbours(s, unknown)[d];
         if (j != ICCP_NONE && s->state[j] == state)
             return true;
     }
     return false;
 }
 
-/* Adds rows in the order of their distance from those that are there. */
+/* Adds unknowns in the order of their distance from those that are there. */
 static void grow(shells *s)
 {
     const size_t least = s->n + s->growth;
     for (size_t i = 0; i < s->n && s->n < least; ++i)
-        for (int32_t d = 0; d < s->rows->n_neighbours; ++d) {
-            const uint32_t j = neighbours(s, s->row[i])[d];
+        for (int32_t d = 0; d < s->unknowns->n_neighbours; ++d) {
+            const uint32_t j = neighbours(s, s->unknown[i])[d];
             if (j != ICCP_NONE && s->state[j] == LEFT)
-                add_cluster(s, s->gluing->top[j]);
+                add_cluster(s, s->ties->top[j]);
         }
 }
 
@@ -128,8 +128,8 @@ static void find_exponent(const shells *s, shell *h)
 {
     h->exponent = s->first ? 0 : ICCP_ZERO_EXPONENT;
     for (size_t i = 0; i < s->n && !s->first; ++i)
-        for (int32_t d = 0; d < s->rows->n_neighbours; ++d) {
-            const uint32_t j = neighbours(s, s->row[i])[d];
+        for (int32_t d = 0; d < s->unknowns->n_neighbours; ++d) {
+            const uint32_t j = neighbours(s, s->unknown[i])[d];
             if (j != ICCP_NONE && s->state[j] == KNOWN && s->f->exponent[j] > h->exponent)
                 h->exponent = s->f->exponent[j];
         }
@@ -143,36 +143,36 @@ static void load(const shells *s, shell *h)
     if (s->first)
         h->r[h->vertex[0]] = 1;
     for (size_t i = 0; i < s->n && !s->first; ++i) {
-        const uint32_t row = s->row[i];
+        const uint32_t unknown = s->unknown[i];
         double sum = 0;
-        if (s->gluing->top[row] == row)
+        if (s->ties->top[unknown] == unknown)
             top = h->vertex[i];
-        for (int32_t d = 0; d < s->rows->n_neighbours; ++d) {
-            const uint32_t j = neighbours(s, row)[d];
+        for (int32_t d = 0; d < s->unknowns->n_neighbours; ++d) {
+            const uint32_t j = neighbours(s, unknown)[d];
             if (j != ICCP_NONE && s->state[j] == KNOWN)
                 sum += iccp_scaled_get(s->f, j, h->exponent);
         }
-        h->r[top] += s->gluing->share[row] * sum;
+        h->r[top] += s->ties->share[unknown] * sum;
     }
 }
 
-/* Replaces vertices by positions, lists what is glued and fills in the guess. */
+/* Replaces vertices by positions, lists what is tied and fills in the guess. */
 static icc_status place(const shells *s, shell *h)
 {
     const iccp_mg_level *level = &h->mg.level[0];
     icc_status status = ICC_OK;
     size_t top = 0;
     for (size_t i = 0; i < s->n && status == ICC_OK; ++i) {
-        const uint32_t row = s->row[i];
+        const uint32_t unknown = s->unknown[i];
         uint32_t x;
-        const size_t r = iccp_mg_row_of(level, s->rows->tree->grid, h->vertex[i], &x);
+        const size_t r = iccp_mg_row_of(level, s->unknowns->tree->grid, h->vertex[i], &x);
         const size_t at = iccp_mg_position(level, r, x);
         h->vertex[i] = (uint32_t)at;
-        if (s->gluing->top[row] == row) {
+        if (s->ties->top[unknown] == unknown) {
             top = at;
-            h->x[at] = iccp_scaled_get(s->f, row, h->exponent);
+            h->x[at] = iccp_scaled_get(s->f, unknown, h->exponent);
         } else
-            h->glue[h->n_glued++] = (iccp_glue){at, top, s->gluing->share[row]};
+            h->tie[h->n_tied++] = (iccp_tie){at, top, s->ties->share[unknown]};
         status = report(s, i);
     }
     return status;
@@ -183,8 +183,8 @@ static icc_status place(const shells *s, shell *h)
 static double begin_with_guess(shell *h)
 {
     const size_t n = h->mg.level[0].n_entries;
-    for (size_t i = 0; i < h->n_glued; ++i)
-        h->x[h->glue[i].member] = 0;
+    for (size_t i = 0; i < h->n_tied; ++i)
+        h->x[h->tie[i].member] = 0;
     const double size = sqrt(iccp_mg_dot(n, h->r, h->r)), xb = iccp_mg_dot(n, h->x, h->r);
     const double energy = iccp_mg_dot(n, h->x, h->q), scale = xb / energy;
     const bool usable = isfinite(scale) && energy > 0;
@@ -197,7 +197,7 @@ static double begin_with_guess(shell *h)
 
 static icc_status solve(shells *s, shell *h)
 {
-    iccp_glued_apply(&h->mg.level[0], h->n_glued, h->glue, h->x, h->q);
+    iccp_tied_apply(&h->mg.level[0], h->n_tied, h->tie, h->x, h->q);
     icc_status status = report(s, 0);
     if (status != ICC_OK)
         return status;
@@ -207,23 +207,23 @@ static icc_status solve(shells *s, shell *h)
     status = report(s, 0);
     if (status != ICC_OK)
         return status;
-    return h->n_glued > 0 ? iccp_glued_cg(&h->mg, h->n_glued, h->glue, h->x, h->r, size, &GOAL,
-                                          &s->info->n_inner, s->env)
-                          : iccp_mg_cg(&h->mg, h->x, h->r, size, &GOAL, &s->info->n_inner, s->env);
+    return h->n_tied > 0 ? iccp_tied_cg(&h->mg, h->n_tied, h->tie, h->x, h->r, size, &GOAL,
+                                        &s->info->n_inner, s->env)
+                         : iccp_mg_cg(&h->mg, h->x, h->r, size, &GOAL, &s->info->n_inner, s->env);
 }
 
 static bool allocate(const shells *s, shell *h)
 {
     const iccp_memory *m = &s->env->memory;
     const size_t n = h->mg.level[0].n_entries;
-    size_t n_glued = 0;
+    size_t n_tied = 0;
     for (size_t i = 0; i < s->n; ++i)
-        n_glued += s->gluing->top[s->row[i]] != s->row[i];
-    h->glue = iccp_alloc(m, n_glued, sizeof *h->glue);
+        n_tied += s->ties->top[s->unknown[i]] != s->unknown[i];
+    h->tie = iccp_alloc(m, n_tied, sizeof *h->tie);
     h->x = iccp_alloc_zero(m, n, sizeof *h->x);
     h->r = iccp_alloc_zero(m, n, sizeof *h->r);
     h->q = iccp_alloc_zero(m, n, sizeof *h->q);
-    return h->glue != NULL && h->x != NULL && h->r != NULL && h->q != NULL;
+    return h->tie != NULL && h->x != NULL && h->r != NULL && h->q != NULL;
 }
 
 static icc_status solve_shell(shells *s, shell *h)
@@ -233,8 +233,9 @@ static icc_status solve_shell(shells *s, shell *h)
     if (h->vertex == NULL)
         return ICC_ERR_MEMORY;
     for (size_t i = 0; i < s->n; ++i)
-        h->vertex[i] = s->rows->vertex[s->row[i]];
-    icc_status status = iccp_multigrid_create(&h->mg, s->rows->tree->grid, s->n, h->vertex, s->env);
+        h->vertex[i] = s->unknowns->vertex[s->unknown[i]];
+    icc_status status =
+        iccp_multigrid_create(&h->mg, s->unknowns->tree->grid, s->n, h->vertex, s->env);
     if (status == ICC_OK && !allocate(s, h))
         status = ICC_ERR_MEMORY;
     if (status != ICC_OK)
@@ -256,7 +257,7 @@ static void free_shell(const shells *s, shell *h)
     const iccp_memory *m = &s->env->memory;
     iccp_multigrid_free(&h->mg);
     iccp_free(m, h->vertex);
-    iccp_free(m, h->glue);
+    iccp_free(m, h->tie);
     iccp_free(m, h->x);
     iccp_free(m, h->r);
     iccp_free(m, h->q);
@@ -266,8 +267,8 @@ static void free_shell(const shells *s, shell *h)
 
 typedef struct extent {
     double peak;        /* the largest value */
-    double rim;         /* the largest next to rows that are left out */
-    size_t significant; /* rows with a value that is not negligible */
+    double border;      /* the largest next to unknowns that are left out */
+    size_t significant; /* unknowns with a value that is not negligible */
 } extent;
 
 /* Spreads x to the members on the way. */
@@ -275,78 +276,80 @@ static extent measure(const shells *s, shell *h)
 {
     extent e = {0, 0, 0};
     const size_t n = h->mg.level[0].n_entries;
-    for (size_t i = 0; i < h->n_glued; ++i)
-        h->x[h->glue[i].member] = h->glue[i].share * h->x[h->glue[i].top];
+    for (size_t i = 0; i < h->n_tied; ++i)
+        h->x[h->tie[i].member] = h->tie[i].share * h->x[h->tie[i].top];
     for (size_t i = 0; i < n; ++i)
         e.peak = h->x[i] > e.peak ? h->x[i] : e.peak;
     for (size_t i = 0; i < n; ++i)
         e.significant += h->x[i] > NEGLIGIBLE * e.peak;
     for (size_t i = 0; i < s->n && s->n_left > 0; ++i) {
         const double x = h->x[h->vertex[i]];
-        if (x > e.rim && has_neighbour(s, s->row[i], LEFT))
-            e.rim = x;
+        if (x > e.border && has_neighbour(s, s->unknown[i], LEFT))
+            e.border = x;
     }
     return e;
 }
 
 /* From the normalised value: shares may be tiny. */
-static void share_top(const shells *s, uint32_t row)
+static void share_top(const shells *s, uint32_t unknown)
 {
-    const uint32_t top = s->gluing->top[row];
-    iccp_scaled_set(s->f, row, s->gluing->share[row] * s->f->fraction[top], s->f->exponent[top]);
+    const uint32_t top = s->ties->top[unknown];
+    iccp_scaled_set(s->f, unknown, s->ties->share[unknown] * s->f->fraction[top],
+                    s->f->exponent[top]);
 }
 
-/* Takes over the rows whose tops exceed the limit. */
-static icc_status accept_rows(shells *s, const shell *h, double limit, double one)
+/* Takes over the unknowns whose tops exceed the limit. */
+static icc_status accept_unknowns(shells *s, const shell *h, double limit, double one)
 {
     icc_status status = ICC_OK;
     bool accepted = false;
     for (size_t i = 0; i < s->n && status == ICC_OK; ++i) {
-        const uint32_t row = s->row[i];
+        const uint32_t unknown = s->unknown[i];
         const double x = h->x[h->vertex[i]];
-        if (s->gluing->top[row] == row)
+        if (s->ties->top[unknown] == unknown)
             accepted = x > limit;
         status = report(s, i);
         if (!accepted)
             continue;
-        s->state[row] = KNOWN;
-        if (s->gluing->top[row] == row)
-            iccp_scaled_set(s->f, row, x / one, h->exponent);
+        s->state[unknown] = KNOWN;
+        if (s->ties->top[unknown] == unknown)
+            iccp_scaled_set(s->f, unknown, x / one, h->exponent);
         else
-            share_top(s, row);
+            share_top(s, unknown);
     }
     return status;
 }
 
-/* Whether the shell goes on with the cluster that begins at row[i]: it is worth it, or has to. */
+/* Whether the shell goes on with the cluster that begins at unknown[i]: it is worth it, or has
+ * to. */
 static bool is_kept(const shells *s, const shell *h, size_t i, size_t end, double negligible)
 {
-    if (s->state[s->row[i]] == KNOWN)
+    if (s->state[s->unknown[i]] == KNOWN)
         return false;
     bool kept = h->x[h->vertex[i]] > negligible;
     for (; i < end && !kept; ++i)
-        kept = has_neighbour(s, s->row[i], KNOWN);
+        kept = has_neighbour(s, s->unknown[i], KNOWN);
     return kept;
 }
 
 /* Puts together what the shell goes on with; its values are the guess for the next one. */
-static void keep_rows(shells *s, const shell *h, double negligible, double one)
+static void keep_unknowns(shells *s, const shell *h, double negligible, double one)
 {
     size_t n = 0;
     for (size_t i = 0, end = 0; i < s->n; i = end) {
-        const uint32_t top = s->row[i];
+        const uint32_t top = s->unknown[i];
         end = i + s->cluster[top + 1] - s->cluster[top];
         const bool kept = is_kept(s, h, i, end, negligible);
         const bool guessed = kept && h->x[h->vertex[i]] > 0;
         for (; i < end; ++i) {
-            const uint32_t row = s->row[i];
+            const uint32_t unknown = s->unknown[i];
             if (guessed)
-                iccp_scaled_set(s->f, row, h->x[h->vertex[i]] / one, h->exponent);
+                iccp_scaled_set(s->f, unknown, h->x[h->vertex[i]] / one, h->exponent);
             if (kept)
-                s->row[n++] = row;
-            else if (s->state[row] == IN_SHELL)
-                s->state[row] = LEFT;
-            s->n_left += s->state[row] == LEFT;
+                s->unknown[n++] = unknown;
+            else if (s->state[unknown] == IN_SHELL)
+                s->state[unknown] = LEFT;
+            s->n_left += s->state[unknown] == LEFT;
         }
     }
     s->n = n;
@@ -358,9 +361,9 @@ static void adapt_growth(shells *s, const extent *e)
     const double wanted = CUT / TRUNCATION * e->peak;
     if (s->first)
         s->growth = e->significant / 2;
-    else if (e->rim > wanted)
+    else if (e->border > wanted)
         s->growth += s->growth / 2;
-    else if (e->rim < 1e-3 * wanted)
+    else if (e->border < 1e-3 * wanted)
         s->growth -= s->growth / 8;
     s->growth = s->growth > LEAST_GROWTH ? s->growth : LEAST_GROWTH;
 }
@@ -369,16 +372,16 @@ static void adapt_growth(shells *s, const extent *e)
 static icc_status advance(shells *s, shell *h)
 {
     const extent e = measure(s, h);
-    const double limit = fmax(CUT * e.peak, TRUNCATION * e.rim);
+    const double limit = fmax(CUT * e.peak, TRUNCATION * e.border);
     const double one = s->first ? h->x[h->vertex[0]] : 1;
     if (!(e.peak > 0 && one > 0 && isfinite(one)))
         return ICC_ERR_SOLVER;
     icc_status status = report(s, 0);
     if (status == ICC_OK)
-        status = accept_rows(s, h, limit, one);
+        status = accept_unknowns(s, h, limit, one);
     if (status != ICC_OK)
         return status;
-    keep_rows(s, h, NEGLIGIBLE * e.peak, one);
+    keep_unknowns(s, h, NEGLIGIBLE * e.peak, one);
     adapt_growth(s, &e);
     s->first = false;
     grow(s);
@@ -395,28 +398,29 @@ static icc_status next_shell(shells *s)
     return status;
 }
 
-icc_status iccp_glued_iterative(const iccp_rows *rows, const iccp_gluing *gluing,
-                                const iccp_scaled *f, icc_function_info *info, const iccp_env *env)
+icc_status iccp_tied_iterative(const iccp_unknowns *unknowns, const iccp_ties *ties,
+                               const iccp_scaled *f, icc_function_info *info, const iccp_env *env)
 {
     const iccp_memory *m = &env->memory;
-    shells s = {.rows = rows, .gluing = gluing, .f = f, .info = info, .env = env, .first = true};
-    s.order = iccp_alloc(m, rows->n, sizeof *s.order);
-    s.cluster = iccp_alloc_zero(m, rows->n + 1, sizeof *s.cluster);
-    s.state = iccp_alloc_zero(m, rows->n, sizeof *s.state);
-    s.row = iccp_alloc(m, rows->n, sizeof *s.row);
+    shells s = {
+        .unknowns = unknowns, .ties = ties, .f = f, .info = info, .env = env, .first = true};
+    s.order = iccp_alloc(m, unknowns->n, sizeof *s.order);
+    s.cluster = iccp_alloc_zero(m, unknowns->n + 1, sizeof *s.cluster);
+    s.state = iccp_alloc_zero(m, unknowns->n, sizeof *s.state);
+    s.unknown = iccp_alloc(m, unknowns->n, sizeof *s.unknown);
     icc_status status = ICC_ERR_MEMORY;
-    if (s.order != NULL && s.cluster != NULL && s.state != NULL && s.row != NULL) {
-        sort_rows(&s);
+    if (s.order != NULL && s.cluster != NULL && s.state != NULL && s.unknown != NULL) {
+        sort_unknowns(&s);
         status = add_all(&s);
     }
     while (status == ICC_OK && s.n > 0) {
-        status = iccp_progress(env, "solve", 1 - (double)(s.n + s.n_left) / (double)rows->n);
+        status = iccp_progress(env, "solve", 1 - (double)(s.n + s.n_left) / (double)unknowns->n);
         if (status == ICC_OK)
             status = next_shell(&s);
     }
     iccp_free(m, s.order);
     iccp_free(m, s.cluster);
     iccp_free(m, s.state);
-    iccp_free(m, s.row);
+    iccp_free(m, s.unknown);
     return status;
 }

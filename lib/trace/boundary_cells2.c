@@ -1,4 +1,4 @@
-#include "trace/fence.h"
+#include "trace/boundary_cells2.h"
 
 #include "math/predicates.h"
 
@@ -17,77 +17,77 @@ static size_t cell_of(double x, size_t n)
 }
 
 /* Visits the cells of one edge: row by row, the part of the edge within the row. */
-static void visit_edge(iccp_fence *fence, uint32_t edge, bool fill)
+static void visit_edge(iccp_boundary_cells2 *cells, uint32_t edge, bool fill)
 {
-    const double *a = fence->vertices + 2 * (size_t)fence->ends[2 * (size_t)edge];
-    const double *b = fence->vertices + 2 * (size_t)fence->ends[2 * (size_t)edge + 1];
+    const double *a = cells->vertices + 2 * (size_t)cells->ends[2 * (size_t)edge];
+    const double *b = cells->vertices + 2 * (size_t)cells->ends[2 * (size_t)edge + 1];
     if (a[1] > b[1]) {
         const double *swap = a;
         a = b;
         b = swap;
     }
-    const size_t j_last = cell_of(b[1] + SLACK, fence->ny);
+    const size_t j_last = cell_of(b[1] + SLACK, cells->ny);
     const double slope = b[1] > a[1] ? (b[0] - a[0]) / (b[1] - a[1]) : 0;
-    for (size_t j = cell_of(a[1] - SLACK, fence->ny); j <= j_last; ++j) {
+    for (size_t j = cell_of(a[1] - SLACK, cells->ny); j <= j_last; ++j) {
         double x0 = a[0], x1 = b[0];
         if ((double)j > a[1] && b[1] > a[1])
             x0 = a[0] + ((double)j - a[1]) * slope;
         if ((double)(j + 1) < b[1] && b[1] > a[1])
             x1 = a[0] + ((double)(j + 1) - a[1]) * slope;
-        const size_t i_last = cell_of(fmax(x0, x1) + SLACK, fence->nx);
-        for (size_t i = cell_of(fmin(x0, x1) - SLACK, fence->nx); i <= i_last; ++i) {
-            const size_t cell = i + fence->nx * j;
+        const size_t i_last = cell_of(fmax(x0, x1) + SLACK, cells->nx);
+        for (size_t i = cell_of(fmin(x0, x1) - SLACK, cells->nx); i <= i_last; ++i) {
+            const size_t cell = i + cells->nx * j;
             if (fill)
-                fence->edges[--fence->first[cell]] = edge;
+                cells->edges[--cells->first[cell]] = edge;
             else
-                ++fence->first[cell];
+                ++cells->first[cell];
         }
     }
 }
 
-static icc_status list_edges(iccp_fence *fence, size_t n_edges)
+static icc_status list_edges(iccp_boundary_cells2 *cells, size_t n_edges)
 {
-    const size_t n_cells = fence->nx * fence->ny;
+    const size_t n_cells = cells->nx * cells->ny;
     for (size_t e = 0; e < n_edges; ++e)
-        visit_edge(fence, (uint32_t)e, false);
+        visit_edge(cells, (uint32_t)e, false);
     for (size_t c = 1; c <= n_cells; ++c)
-        fence->first[c] += fence->first[c - 1];
-    fence->edges = iccp_alloc(&fence->memory, fence->first[n_cells], sizeof *fence->edges);
-    if (fence->edges == NULL)
+        cells->first[c] += cells->first[c - 1];
+    cells->edges = iccp_alloc(&cells->memory, cells->first[n_cells], sizeof *cells->edges);
+    if (cells->edges == NULL)
         return ICC_ERR_MEMORY;
     for (size_t e = n_edges; e-- > 0;)
-        visit_edge(fence, (uint32_t)e, true);
+        visit_edge(cells, (uint32_t)e, true);
     return ICC_OK;
 }
 
-icc_status iccp_fence_create(iccp_fence *fence, const icc_domain *domain, const icc_grid *grid,
-                             const iccp_env *env)
+icc_status iccp_boundary_cells2_create(iccp_boundary_cells2 *cells, const icc_domain *domain,
+                                       const icc_grid *grid, const iccp_env *env)
 {
-    *fence = (iccp_fence){.memory = env->memory, .ends = domain->facets};
-    fence->nx = grid->shape[0] - 1;
-    fence->ny = grid->shape[1] - 1;
-    fence->vertices = iccp_alloc(&fence->memory, domain->n_vertices, 2 * sizeof(double));
-    fence->first = iccp_alloc_zero(&fence->memory, fence->nx * fence->ny + 1, sizeof(size_t));
-    if (fence->vertices == NULL || fence->first == NULL) {
-        iccp_fence_free(fence);
+    *cells = (iccp_boundary_cells2){.memory = env->memory, .ends = domain->facets};
+    cells->nx = grid->shape[0] - 1;
+    cells->ny = grid->shape[1] - 1;
+    cells->vertices = iccp_alloc(&cells->memory, domain->n_vertices, 2 * sizeof(double));
+    cells->first = iccp_alloc_zero(&cells->memory, cells->nx * cells->ny + 1, sizeof(size_t));
+    if (cells->vertices == NULL || cells->first == NULL) {
+        iccp_boundary_cells2_free(cells);
         return ICC_ERR_MEMORY;
     }
     for (size_t v = 0; v < domain->n_vertices; ++v)
         for (size_t k = 0; k < 2; ++k)
-            fence->vertices[2 * v + k] =
+            cells->vertices[2 * v + k] =
                 (domain->vertices[2 * v + k] - grid->origin[k]) / grid->spacing;
-    const icc_status status = list_edges(fence, domain->n_facets);
+    const icc_status status = list_edges(cells, domain->n_facets);
     if (status != ICC_OK)
-        iccp_fence_free(fence);
+        iccp_boundary_cells2_free(cells);
     return status;
 }
 
-void iccp_fence_free(iccp_fence *fence)
+void iccp_boundary_cells2_free(iccp_boundary_cells2 *cells)
 {
-    iccp_free(&fence->memory, fence->vertices);
-    iccp_free(&fence->memory, fence->first);
-    iccp_free(&fence->memory, fence->edges);
-    memset(fence, 0, sizeof *fence);
+    iccp_free(&cells->memory, cells->vertices);
+    iccp_free(&cells->memory, cells->first);
+    iccp_free(&cells->memory, cells->edges);
+    memset(cells, 0, sizeof *cells);
 }
 
 static double cross(const double a[2], const double b[2], const double c[2])
@@ -108,7 +108,7 @@ static bool between(const double a[2], const double b[2], const double c[2])
 
 /* An edge on the line of the step: the step begins on it or meets the end that comes first. */
 static bool hit_collinear(const double p[2], const double q[2], const double a[2],
-                          const double b[2], iccp_fence_hit *hit)
+                          const double b[2], iccp_boundary_hit2 *hit)
 {
     if (between(a, p, b)) {
         hit->share = 0;
@@ -127,7 +127,7 @@ static bool hit_collinear(const double p[2], const double q[2], const double a[2
 }
 
 static bool hit_edge(const double p[2], const double q[2], const double a[2], const double b[2],
-                     iccp_fence_hit *hit)
+                     iccp_boundary_hit2 *hit)
 {
     const int side_p = iccp_orient2d(a, b, p), side_q = iccp_orient2d(a, b, q);
     if (side_p == 0 && side_q == 0)
@@ -143,16 +143,16 @@ static bool hit_edge(const double p[2], const double q[2], const double a[2], co
     return true;
 }
 
-bool iccp_fence_first(const iccp_fence *fence, size_t i, size_t j, const double p[2],
-                      const double q[2], iccp_fence_hit *hit)
+bool iccp_boundary_cells2_first(const iccp_boundary_cells2 *cells, size_t i, size_t j,
+                                const double p[2], const double q[2], iccp_boundary_hit2 *hit)
 {
-    const size_t cell = i + fence->nx * j;
+    const size_t cell = i + cells->nx * j;
     bool found = false;
-    for (size_t k = fence->first[cell]; k < fence->first[cell + 1]; ++k) {
-        const uint32_t edge = fence->edges[k];
-        const double *a = fence->vertices + 2 * (size_t)fence->ends[2 * (size_t)edge];
-        const double *b = fence->vertices + 2 * (size_t)fence->ends[2 * (size_t)edge + 1];
-        iccp_fence_hit candidate = {.facet = edge};
+    for (size_t k = cells->first[cell]; k < cells->first[cell + 1]; ++k) {
+        const uint32_t edge = cells->edges[k];
+        const double *a = cells->vertices + 2 * (size_t)cells->ends[2 * (size_t)edge];
+        const double *b = cells->vertices + 2 * (size_t)cells->ends[2 * (size_t)edge + 1];
+        iccp_boundary_hit2 candidate = {.facet = edge};
         if (hit_edge(p, q, a, b, &candidate) && (!found || candidate.share < hit->share)) {
             *hit = candidate;
             found = true;

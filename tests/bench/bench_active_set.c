@@ -1,7 +1,7 @@
 /* Laplace's function under the tree's inequalities, beside the figures of a prototype on the same
  * masks: A with CHOLMOD, B with conjugate gradients and multigrid. Processor time of one thread. */
 #include "grid/grassfire.h"
-#include "solver/constrained.h"
+#include "solver/active_set.h"
 #include "solver/inequalities.h"
 
 #include "../hard_masks.h"
@@ -21,44 +21,44 @@ static double processor_seconds(void)
     return (double)clock() / CLOCKS_PER_SEC;
 }
 
-static void print_result(const one *c, const iccp_rows *rows, const iccp_scaled *f,
+static void print_result(const one *c, const iccp_unknowns *unknowns, const iccp_scaled *f,
                          const icc_function_info *info, const double seconds[2])
 {
     printf("%-10s %4zu^%d %8zu %7.3f %8.3f %4zu %5zu %6.1f %% %9.1e %9.1e %5zu   %s\n", c->name,
-           c->cells, (int)c->dim, rows->n, seconds[0], seconds[1], info->n_iterations,
-           info->n_inner, 100 * (double)info->n_active / (double)rows->n, info->residual_before,
-           info->residual, iccp_inequalities_violated(rows, 1e-6, f), c->figures);
+           c->cells, (int)c->dim, unknowns->n, seconds[0], seconds[1], info->n_iterations,
+           info->n_inner, 100 * (double)info->n_active / (double)unknowns->n, info->residual_before,
+           info->residual, iccp_inequalities_violated(unknowns, 1e-6, f), c->figures);
     printf("%43s matrices %.3f, orders %.3f, factors %.3f, solves %.3f, checks %.3f s\n", "",
            info->seconds_setup, info->seconds_order, info->seconds_factor, info->seconds_solve,
            info->seconds_verify);
     fflush(stdout);
 }
 
-static void measure(const one *c, const iccp_rows *rows, const iccp_env *env)
+static void measure(const one *c, const iccp_unknowns *unknowns, const iccp_env *env)
 {
-    const iccp_scaled f = {bench_alloc(rows->n, sizeof(double)),
-                           bench_alloc(rows->n, sizeof(int32_t))};
-    uint32_t *top = bench_alloc(rows->n, sizeof *top);
-    double *share = bench_alloc(rows->n, sizeof *share);
-    for (uint32_t k = 0; k < rows->n; ++k) {
+    const iccp_scaled f = {bench_alloc(unknowns->n, sizeof(double)),
+                           bench_alloc(unknowns->n, sizeof(int32_t))};
+    uint32_t *top = bench_alloc(unknowns->n, sizeof *top);
+    double *share = bench_alloc(unknowns->n, sizeof *share);
+    for (uint32_t k = 0; k < unknowns->n; ++k) {
         top[k] = k;
         share[k] = 1;
         iccp_scaled_set(&f, k, 1, 0);
     }
-    uint32_t *order = bench_alloc(rows->n, sizeof *order);
+    uint32_t *order = bench_alloc(unknowns->n, sizeof *order);
     order[0] = ICCP_NONE;
-    const iccp_gluing gluing = {top, share, order};
-    const iccp_glued_solver solve = c->iterative ? iccp_glued_iterative : iccp_glued_direct;
+    const iccp_ties ties = {top, share, order};
+    const iccp_tied_solver solve = c->iterative ? iccp_tied_iterative : iccp_tied_direct;
     icc_function_info info = {.size = sizeof info};
     const icc_error error = {.message = "no result"};
     double seconds[2], start = processor_seconds();
-    bench_check(solve(rows, &gluing, &f, &info, env), &error);
+    bench_check(solve(unknowns, &ties, &f, &info, env), &error);
     seconds[0] = processor_seconds() - start;
     info = (icc_function_info){.size = sizeof info};
     start = processor_seconds();
-    const icc_status status = iccp_constrained_laplace(rows, 1e-6, solve, order, &f, &info, env);
+    const icc_status status = iccp_active_set_laplace(unknowns, 1e-6, solve, order, &f, &info, env);
     seconds[1] = processor_seconds() - start;
-    print_result(c, rows, &f, &info, seconds);
+    print_result(c, unknowns, &f, &info, seconds);
     if (status != ICC_OK)
         printf("%43s %s\n", "", icc_status_name(status));
     free(f.fraction);
@@ -75,7 +75,7 @@ static void run(const one *c)
     icc_error error = {.size = sizeof error};
     icc_grid *grid;
     icc_tree *tree;
-    iccp_rows rows;
+    iccp_unknowns unknowns;
     uint32_t root;
     bench_check(iccp_env_read(&env, NULL, &error), &error);
     bench_check(iccp_grid_create_mask(&grid, m.dim, m.shape, m.inside, &env, &error), &error);
@@ -83,9 +83,9 @@ static void run(const one *c)
     bench_check(iccp_grassfire(grid, &root, NULL, &env, &error), &error);
     bench_check(iccp_tree_create(&tree, grid, root, ICC_TREE_THESIS, NULL, &env, &error), &error);
     iccp_grid_release(grid);
-    bench_check(iccp_rows_create(&rows, tree, &env), &error);
-    measure(c, &rows, &env);
-    iccp_rows_free(&rows);
+    bench_check(iccp_unknowns_create(&unknowns, tree, &env), &error);
+    measure(c, &unknowns, &env);
+    iccp_unknowns_free(&unknowns);
     iccp_tree_release(tree);
 }
 

@@ -1,8 +1,8 @@
-/* The glued problem by factorisation, the tree's inequalities, and Laplace's function under them.
+/* The tied problem by factorisation, the tree's inequalities, and Laplace's function under them.
  * Long double reaches down to 1e-4951, so that it can serve as a reference in long limbs, too. */
 #include "base/error.h"
 #include "grid/grassfire.h"
-#include "solver/constrained.h"
+#include "solver/active_set.h"
 #include "solver/inequalities.h"
 
 #include "../../faulty.h"
@@ -21,12 +21,12 @@ enum { MAX_DENSE = 90, MAX_MASK = 256 };
 typedef struct problem {
     iccp_env env;
     icc_tree *tree;
-    iccp_rows rows;
+    iccp_unknowns unknowns;
     iccp_scaled f;
     uint32_t *top;
     double *share;
     uint32_t *order;
-    iccp_gluing gluing;
+    iccp_ties ties;
 } problem;
 
 static problem problem_new(int32_t dim, const size_t *shape, const uint8_t *inside, uint32_t root)
@@ -40,8 +40,8 @@ static problem problem_new(int32_t dim, const size_t *shape, const uint8_t *insi
     ck_assert_int_eq(iccp_tree_create(&p.tree, grid, root, ICC_TREE_THESIS, NULL, &p.env, NULL),
                      ICC_OK);
     iccp_grid_release(grid);
-    ck_assert_int_eq(iccp_rows_create(&p.rows, p.tree, &p.env), ICC_OK);
-    const size_t n = p.rows.n;
+    ck_assert_int_eq(iccp_unknowns_create(&p.unknowns, p.tree, &p.env), ICC_OK);
+    const size_t n = p.unknowns.n;
     p.f = (iccp_scaled){malloc(n * sizeof(double)), malloc(n * sizeof(int32_t))};
     p.top = malloc(n * sizeof *p.top);
     p.share = malloc(n * sizeof *p.share);
@@ -52,13 +52,13 @@ static problem problem_new(int32_t dim, const size_t *shape, const uint8_t *insi
     }
     p.order = malloc(n * sizeof *p.order);
     p.order[0] = ICCP_NONE;
-    p.gluing = (iccp_gluing){p.top, p.share, p.order};
+    p.ties = (iccp_ties){p.top, p.share, p.order};
     return p;
 }
 
 static void problem_free(problem *p)
 {
-    iccp_rows_free(&p->rows);
+    iccp_unknowns_free(&p->unknowns);
     iccp_tree_release(p->tree);
     free(p->f.fraction);
     free(p->f.exponent);
@@ -119,7 +119,7 @@ static problem coarse_problem(random_source *r)
         while (m.inside[root] == 0);
         problem p = problem_new(dim, m.shape, m.inside, root);
         mask_free(&m);
-        if (p.rows.n > 1 && p.rows.n <= MAX_DENSE)
+        if (p.unknowns.n > 1 && p.unknowns.n <= MAX_DENSE)
             return p;
         problem_free(&p);
     }
@@ -136,7 +136,7 @@ static problem random_problem(random_source *r, int32_t dim)
             shape[k] = (size_t)(2 + random_below(r, largest[dim] - 1));
         const uint32_t root = draw_randomly(r, dim, shape, inside);
         problem p = problem_new(dim, shape, inside, root);
-        if (p.rows.n > 1 && p.rows.n <= MAX_DENSE)
+        if (p.unknowns.n > 1 && p.unknowns.n <= MAX_DENSE)
             return p;
         problem_free(&p);
     }
@@ -149,10 +149,10 @@ static long double value(const iccp_scaled *f, size_t k)
 
 static long double laplacian(const problem *p, const long double *f, size_t k)
 {
-    const size_t degree = (size_t)p->rows.n_neighbours;
+    const size_t degree = (size_t)p->unknowns.n_neighbours;
     long double sum = 0;
     for (size_t d = 0; d < degree; ++d) {
-        const uint32_t j = p->rows.neighbour[k * degree + d];
+        const uint32_t j = p->unknowns.neighbour[k * degree + d];
         sum += f[k] - (j == ICCP_NONE ? 0 : f[j]);
     }
     return sum;
@@ -160,8 +160,8 @@ static long double laplacian(const problem *p, const long double *f, size_t k)
 
 static long double *values(const problem *p)
 {
-    long double *f = malloc(p->rows.n * sizeof *f);
-    for (size_t k = 0; k < p->rows.n; ++k)
+    long double *f = malloc(p->unknowns.n * sizeof *f);
+    for (size_t k = 0; k < p->unknowns.n; ++k)
         f[k] = value(&p->f, k);
     return f;
 }
@@ -169,7 +169,7 @@ static long double *values(const problem *p)
 static long double energy(const problem *p, const long double *f)
 {
     long double sum = 0;
-    for (size_t k = 0; k < p->rows.n; ++k)
+    for (size_t k = 0; k < p->unknowns.n; ++k)
         sum += f[k] * laplacian(p, f, k);
     return sum;
 }
@@ -177,36 +177,36 @@ static long double energy(const problem *p, const long double *f)
 static icc_function_info solve(problem *p)
 {
     icc_function_info info = {.size = sizeof info};
-    ck_assert_int_eq(iccp_glued_direct(&p->rows, &p->gluing, &p->f, &info, &p->env), ICC_OK);
+    ck_assert_int_eq(iccp_tied_direct(&p->unknowns, &p->ties, &p->f, &info, &p->env), ICC_OK);
     return info;
 }
 
 static icc_function_info constrain(problem *p, double eta)
 {
     icc_function_info info = solve(p);
-    ck_assert_int_eq(
-        iccp_constrained_laplace(&p->rows, eta, iccp_glued_direct, p->order, &p->f, &info, &p->env),
-        ICC_OK);
+    ck_assert_int_eq(iccp_active_set_laplace(&p->unknowns, eta, iccp_tied_direct, p->order, &p->f,
+                                             &info, &p->env),
+                     ICC_OK);
     return info;
 }
 
-/* Glues some rows to their parents. */
-static void glue_some(problem *p, random_source *r, double sigma, int tenths)
+/* Ties some rows to their parents. */
+static void tie_some(problem *p, random_source *r, double sigma, int tenths)
 {
-    for (uint32_t k = 1; k < p->rows.n; ++k) {
-        const bool glued = random_below(r, 10) < tenths;
-        p->top[k] = glued ? p->top[p->rows.parent[k]] : k;
-        p->share[k] = glued ? p->share[p->rows.parent[k]] / sigma : 1;
+    for (uint32_t k = 1; k < p->unknowns.n; ++k) {
+        const bool tied = random_below(r, 10) < tenths;
+        p->top[k] = tied ? p->top[p->unknowns.parent[k]] : k;
+        p->share[k] = tied ? p->share[p->unknowns.parent[k]] / sigma : 1;
     }
 }
 
-/* --------------------------------------------------------- glued by factors */
+/* --------------------------------------------------------- tied by factors */
 
 /* The dense P'LP by its definition, without rows of the root's cluster, and Gauss-Jordan. */
 static void solve_densely(const problem *p, long double *f)
 {
     static long double a[MAX_DENSE][MAX_DENSE + 1];
-    const size_t n = p->rows.n, degree = (size_t)p->rows.n_neighbours;
+    const size_t n = p->unknowns.n, degree = (size_t)p->unknowns.n_neighbours;
     for (size_t t = 0; t < n; ++t)
         for (size_t s = 0; s <= n; ++s)
             a[t][s] = s == t && (p->top[t] != t || t == 0);
@@ -217,7 +217,7 @@ static void solve_densely(const problem *p, long double *f)
             continue;
         a[t][t] += (long double)degree * p->share[k] * p->share[k];
         for (size_t d = 0; d < degree; ++d) {
-            const uint32_t j = p->rows.neighbour[k * degree + d];
+            const uint32_t j = p->unknowns.neighbour[k * degree + d];
             if (j != ICCP_NONE)
                 a[t][p->top[j]] -= (long double)p->share[k] * p->share[j];
         }
@@ -232,7 +232,7 @@ static void solve_densely(const problem *p, long double *f)
         f[k] = p->share[k] * a[p->top[k]][n] / a[p->top[k]][p->top[k]];
 }
 
-/* The order that is kept from the solution without gluing never makes more work. */
+/* The order that is kept from the solution without ties never makes more work. */
 START_TEST(factorisation_agrees_with_dense_elimination)
 {
     random_source r = {1};
@@ -241,10 +241,10 @@ START_TEST(factorisation_agrees_with_dense_elimination)
         problem p = random_problem(&r, 1 + round % 4);
         const bool ordered = random_below(&r, 2);
         const double work = ordered ? solve(&p).work : HUGE_VAL;
-        glue_some(&p, &r, 1 + random_between(&r, 0, 0.3), round % 11);
+        tie_some(&p, &r, 1 + random_between(&r, 0, 0.3), round % 11);
         ck_assert(solve(&p).work <= work);
         solve_densely(&p, f);
-        for (size_t k = 0; k < p.rows.n; ++k)
+        for (size_t k = 0; k < p.unknowns.n; ++k)
             ck_assert(fabsl(value(&p.f, k) - f[k]) <= 1e-14L * f[k]);
         problem_free(&p);
     }
@@ -275,7 +275,7 @@ END_TEST
 
 static void scatter(problem *p, random_source *r, int32_t exponents)
 {
-    for (size_t k = 0; k < p->rows.n; ++k)
+    for (size_t k = 0; k < p->unknowns.n; ++k)
         iccp_scaled_set(&p->f, k, random_between(r, 0.9, 1.1), -random_below(r, exponents));
 }
 
@@ -283,9 +283,9 @@ static void scatter(problem *p, random_source *r, int32_t exponents)
 static size_t count_violated(const problem *p, double eta)
 {
     size_t n = 0;
-    for (size_t k = 1; k < p->rows.n; ++k) {
-        const int32_t unit = p->f.exponent[p->rows.parent[k]];
-        n += !(iccp_scaled_get(&p->f, p->rows.parent[k], unit) >=
+    for (size_t k = 1; k < p->unknowns.n; ++k) {
+        const int32_t unit = p->f.exponent[p->unknowns.parent[k]];
+        n += !(iccp_scaled_get(&p->f, p->unknowns.parent[k], unit) >=
                (1 + eta) * iccp_scaled_get(&p->f, k, unit));
     }
     return n;
@@ -299,13 +299,14 @@ START_TEST(nothing_is_violated_after_a_sweep)
         problem p = random_problem(&r, 1 + round % 4);
         const double eta = etas[random_below(&r, 4)];
         scatter(&p, &r, round % 2 == 0 ? 1 : 3000);
-        ck_assert_uint_eq(iccp_inequalities_violated(&p.rows, eta, &p.f), count_violated(&p, eta));
+        ck_assert_uint_eq(iccp_inequalities_violated(&p.unknowns, eta, &p.f),
+                          count_violated(&p, eta));
         long double *before = values(&p);
-        iccp_inequalities_sweep(&p.rows, eta, &p.f);
-        ck_assert_uint_eq(iccp_inequalities_violated(&p.rows, eta, &p.f), 0);
+        iccp_inequalities_sweep(&p.unknowns, eta, &p.f);
+        ck_assert_uint_eq(iccp_inequalities_violated(&p.unknowns, eta, &p.f), 0);
         ck_assert_uint_eq(count_violated(&p, eta), 0);
-        for (size_t k = 1; k < p.rows.n; ++k) { /* min(f_k, f_parent / sigma) */
-            const long double most = value(&p.f, p.rows.parent[k]) / (1 + (long double)eta);
+        for (size_t k = 1; k < p.unknowns.n; ++k) { /* min(f_k, f_parent / sigma) */
+            const long double most = value(&p.f, p.unknowns.parent[k]) / (1 + (long double)eta);
             ck_assert(fabsl(value(&p.f, k) / fminl(before[k], most) - 1) < 1e-15L);
             ck_assert(value(&p.f, k) <= before[k]);
         }
@@ -319,14 +320,15 @@ END_TEST
  * with slack and lambda in units of f_k if `relative`. */
 static long double residual(const problem *p, const long double *f, long double eta, bool relative)
 {
-    long double *lambda = calloc(p->rows.n, sizeof *lambda), largest = 0;
-    for (uint32_t j = 1; j < p->rows.n; ++j) {
+    long double *lambda = calloc(p->unknowns.n, sizeof *lambda), largest = 0;
+    for (uint32_t j = 1; j < p->unknowns.n; ++j) {
         long double share = -laplacian(p, f, j) / (1 + eta);
-        for (uint32_t k = j; k != 0 && fabsl(share) > 0; k = p->rows.parent[k], share /= 1 + eta)
+        for (uint32_t k = j; k != 0 && fabsl(share) > 0;
+             k = p->unknowns.parent[k], share /= 1 + eta)
             lambda[k] += share;
     }
-    for (size_t k = 1; k < p->rows.n; ++k) {
-        const long double slack = f[p->rows.parent[k]] - (1 + eta) * f[k];
+    for (size_t k = 1; k < p->unknowns.n; ++k) {
+        const long double slack = f[p->unknowns.parent[k]] - (1 + eta) * f[k];
         const long double r = fabsl(fminl(slack, lambda[k]));
         largest = fmaxl(largest, relative ? r / f[k] : r);
     }
@@ -342,14 +344,15 @@ START_TEST(residual_is_that_of_the_definition)
         const double eta = random_between(&r, 1e-6, 0.01);
         scatter(&p, &r, 3);
         double gradient[MAX_DENSE], fraction[MAX_DENSE], work[2 * MAX_DENSE];
-        for (size_t k = 0; k < p.rows.n; ++k) {
-            gradient[k] = iccp_laplacian_row(&p.rows, &p.f, k, 0);
+        for (size_t k = 0; k < p.unknowns.n; ++k) {
+            gradient[k] = iccp_laplacian_row(&p.unknowns, &p.f, k, 0);
             fraction[k] = (double)value(&p.f, k);
         }
         const iccp_scaled g = {gradient, NULL}, plain = {fraction, NULL};
         long double *f = values(&p);
-        const double found = iccp_inequalities_residual(&p.rows, eta, 0, &p.f, &g, work);
-        const double found_plain = iccp_inequalities_residual(&p.rows, eta, 0, &plain, &g, work);
+        const double found = iccp_inequalities_residual(&p.unknowns, eta, 0, &p.f, &g, work);
+        const double found_plain =
+            iccp_inequalities_residual(&p.unknowns, eta, 0, &plain, &g, work);
         ck_assert(fabsl(found - residual(&p, f, eta, false)) < 1e-13L);
         ck_assert(found >= found_plain && found <= found_plain);
         free(f);
@@ -366,37 +369,38 @@ START_TEST(residual_with_bounds_at_leaves)
     const double sigma = 1.01, leaf = 1e-3;
     for (int round = 0; round < share_of(2000); ++round) {
         problem p = random_problem(&r, 1 + round % 4);
-        const size_t n = p.rows.n;
+        const size_t n = p.unknowns.n;
         double f[MAX_DENSE], gradient[MAX_DENSE] = {0}, work[2 * MAX_DENSE];
         double lambda[MAX_DENSE] = {0};
         bool has_child[MAX_DENSE] = {false};
         for (size_t k = 1; k < n; ++k)
-            has_child[p.rows.parent[k]] = true;
+            has_child[p.unknowns.parent[k]] = true;
         for (size_t k = n; k-- > 0;) { /* upwards: slacks */
             f[k] = has_child[k] ? 0 : leaf * (random_below(&r, 2) ? 1 : 2);
             for (size_t c = k + 1; c < n; ++c)
-                if (p.rows.parent[c] == k)
+                if (p.unknowns.parent[c] == k)
                     f[k] = fmax(f[k], sigma * f[c]);
             if (random_below(&r, 3) == 0)
                 f[k] += random_unit(&r);
         }
         for (size_t k = 1; k < n; ++k) {
-            const bool tight = f[p.rows.parent[k]] - sigma * f[k] < 1e-12;
+            const bool tight = f[p.unknowns.parent[k]] - sigma * f[k] < 1e-12;
             lambda[k] = tight && random_below(&r, 3) > 0 ? random_unit(&r) : 0;
             gradient[k] -= sigma * lambda[k];
-            gradient[p.rows.parent[k]] += lambda[k];
+            gradient[p.unknowns.parent[k]] += lambda[k];
             if (!has_child[k] && f[k] < leaf * 1.5 && random_below(&r, 3) > 0)
                 gradient[k] += random_unit(&r);
         }
         const iccp_scaled x = {f, NULL}, g = {gradient, NULL};
-        ck_assert(iccp_inequalities_residual(&p.rows, sigma - 1, leaf, &x, &g, work) < 1e-12);
+        ck_assert(iccp_inequalities_residual(&p.unknowns, sigma - 1, leaf, &x, &g, work) < 1e-12);
         const size_t k = 1 + (size_t)random_below(&r, (int)n - 1);
-        if (f[p.rows.parent[k]] - sigma * f[k] > 1e-2 && f[k] > leaf + 1e-2 && !has_child[k]) {
+        if (f[p.unknowns.parent[k]] - sigma * f[k] > 1e-2 && f[k] > leaf + 1e-2 && !has_child[k]) {
             gradient[k] = 1e-3; /* nothing that is tight can hold this */
-            ck_assert(iccp_inequalities_residual(&p.rows, sigma - 1, leaf, &x, &g, work) > 9e-4);
+            ck_assert(iccp_inequalities_residual(&p.unknowns, sigma - 1, leaf, &x, &g, work) >
+                      9e-4);
         }
         f[k] = -1; /* below the bound, or its child's */
-        ck_assert(iccp_inequalities_residual(&p.rows, sigma - 1, leaf, &x, &g, work) > 1e-3);
+        ck_assert(iccp_inequalities_residual(&p.unknowns, sigma - 1, leaf, &x, &g, work) > 1e-3);
         problem_free(&p);
     }
 }
@@ -410,15 +414,15 @@ static void minimise_slowly(const problem *p, long double eta, long double *f)
 {
     static long double direction[MAX_DENSE][MAX_DENSE], image[MAX_DENSE][MAX_DENSE];
     long double slack[MAX_DENSE] = {0}, step = 1;
-    const size_t n = p->rows.n;
+    const size_t n = p->unknowns.n;
     f[0] = 1;
     for (size_t k = 1; k < n; ++k)
-        f[k] = f[p->rows.parent[k]] / (1 + eta);
+        f[k] = f[p->unknowns.parent[k]] / (1 + eta);
     for (size_t k = 1; k < n; ++k) {
         memset(direction[k], 0, sizeof direction[k]);
         direction[k][k] = -1 / (1 + eta);
         for (size_t j = k + 1; j < n; ++j)
-            direction[k][j] = direction[k][p->rows.parent[j]] / (1 + eta);
+            direction[k][j] = direction[k][p->unknowns.parent[j]] / (1 + eta);
         for (size_t j = 0; j < n; ++j)
             image[k][j] = laplacian(p, direction[k], j);
     }
@@ -453,7 +457,7 @@ START_TEST(energy_is_the_least)
         long double *f = values(&p);
         minimise_slowly(&p, eta, best);
         ck_assert(energy(&p, f) <= energy(&p, best) * (1 + 1e-13L));
-        for (size_t k = 0; k < p.rows.n; ++k)
+        for (size_t k = 0; k < p.unknowns.n; ++k)
             ck_assert(fabsl(f[k] - best[k]) < 1e-9L);
         ck_assert(info.residual_before < 1e-13 && info.residual < 1e-12);
         ck_assert(residual(&p, f, eta, true) < 1e-12L);
@@ -494,10 +498,10 @@ START_TEST(serpentine_beyond_the_range_of_double)
     const icc_function_info info = constrain(&p, 1e-6);
     long double *f = values(&p);
     int32_t least = 0;
-    for (size_t k = 0; k < p.rows.n; ++k)
+    for (size_t k = 0; k < p.unknowns.n; ++k)
         least = p.f.exponent[k] < least ? p.f.exponent[k] : least;
     ck_assert_int_lt(least, -1100);
-    ck_assert(info.n_active > p.rows.n / 100 && info.n_active < p.rows.n / 4);
+    ck_assert(info.n_active > p.unknowns.n / 100 && info.n_active < p.unknowns.n / 4);
     ck_assert(residual(&p, f, 1e-6L, true) < 1e-11L);
     ck_assert_uint_eq(count_violated(&p, 1e-6), 0);
     free(f);
@@ -520,38 +524,38 @@ END_TEST
 /* ---------------------------------------------------------- when things fail */
 
 /* Never settles. */
-static icc_status solve_randomly(const iccp_rows *rows, const iccp_gluing *gluing,
+static icc_status solve_randomly(const iccp_unknowns *unknowns, const iccp_ties *ties,
                                  const iccp_scaled *f, icc_function_info *info, const iccp_env *env)
 {
     random_source r = {++info->n_inner};
     (void)env;
-    for (size_t k = 0; k < rows->n; ++k)
-        iccp_scaled_set(f, k, gluing->share[k] * random_between(&r, 0.5, 1), 0);
+    for (size_t k = 0; k < unknowns->n; ++k)
+        iccp_scaled_set(f, k, ties->share[k] * random_between(&r, 0.5, 1), 0);
     return ICC_OK;
 }
 
 /* Right to 11 digits. */
-static icc_status solve_roughly(const iccp_rows *rows, const iccp_gluing *gluing,
+static icc_status solve_roughly(const iccp_unknowns *unknowns, const iccp_ties *ties,
                                 const iccp_scaled *f, icc_function_info *info, const iccp_env *env)
 {
     random_source r = {++info->n_inner};
-    const icc_status status = iccp_glued_direct(rows, gluing, f, info, env);
-    for (size_t k = 0; status == ICC_OK && k < rows->n; ++k)
-        if (gluing->top[k] == k && k > 0)
+    const icc_status status = iccp_tied_direct(unknowns, ties, f, info, env);
+    for (size_t k = 0; status == ICC_OK && k < unknowns->n; ++k)
+        if (ties->top[k] == k && k > 0)
             iccp_scaled_set(f, k, f->fraction[k] * (1 + random_between(&r, -1e-11, 1e-11)),
                             f->exponent[k]);
-    for (size_t k = 0; status == ICC_OK && k < rows->n; ++k)
-        iccp_scaled_set(f, k, f->fraction[gluing->top[k]] * gluing->share[k],
-                        f->exponent[gluing->top[k]]);
+    for (size_t k = 0; status == ICC_OK && k < unknowns->n; ++k)
+        iccp_scaled_set(f, k, f->fraction[ties->top[k]] * ties->share[k],
+                        f->exponent[ties->top[k]]);
     return status;
 }
 
 /* Everything is as high as the root. */
-static icc_status solve_flatly(const iccp_rows *rows, const iccp_gluing *gluing,
+static icc_status solve_flatly(const iccp_unknowns *unknowns, const iccp_ties *ties,
                                const iccp_scaled *f, icc_function_info *info, const iccp_env *env)
 {
-    (void)gluing, (void)info, (void)env;
-    for (size_t k = 0; k < rows->n; ++k)
+    (void)ties, (void)info, (void)env;
+    for (size_t k = 0; k < unknowns->n; ++k)
         iccp_scaled_set(f, k, 1, 0);
     return ICC_OK;
 }
@@ -561,12 +565,12 @@ START_TEST(back_ends_that_do_not_converge)
     problem p = problem_on(mask_c, 2, 20);
     icc_function_info info = {.size = sizeof info};
     ck_assert_int_eq(
-        iccp_constrained_laplace(&p.rows, 1e-6, solve_randomly, NULL, &p.f, &info, &p.env),
+        iccp_active_set_laplace(&p.unknowns, 1e-6, solve_randomly, NULL, &p.f, &info, &p.env),
         ICC_ERR_SOLVER);
     ck_assert_uint_eq(info.n_iterations, info.n_inner);
     info = solve(&p);
     ck_assert_int_eq(
-        iccp_constrained_laplace(&p.rows, 1e-6, solve_roughly, p.order, &p.f, &info, &p.env),
+        iccp_active_set_laplace(&p.unknowns, 1e-6, solve_roughly, p.order, &p.f, &info, &p.env),
         ICC_OK);
     ck_assert(info.n_iterations < 40 && info.residual < 1e-9);
     ck_assert_uint_eq(count_violated(&p, 1e-6), 0);
@@ -582,7 +586,7 @@ START_TEST(chains_too_long_for_their_shares)
     problem p = problem_new(1, (size_t[]){N}, inside, 0);
     icc_function_info info = {.size = sizeof info};
     ck_assert_int_eq(
-        iccp_constrained_laplace(&p.rows, 0.01, solve_flatly, NULL, &p.f, &info, &p.env),
+        iccp_active_set_laplace(&p.unknowns, 0.01, solve_flatly, NULL, &p.f, &info, &p.env),
         ICC_ERR_SOLVER);
     ck_assert_uint_eq(info.n_iterations, 0);
     problem_free(&p);
@@ -597,10 +601,10 @@ static icc_status call_constrained(const icc_env *env, icc_error *err, void *arg
     icc_function_info info = {.size = sizeof info};
     ck_assert_int_eq(iccp_env_read(&inner, env, err), ICC_OK);
     p->order[0] = ICCP_NONE;
-    icc_status status = iccp_glued_direct(&p->rows, &p->gluing, &p->f, &info, &inner);
+    icc_status status = iccp_tied_direct(&p->unknowns, &p->ties, &p->f, &info, &inner);
     if (status == ICC_OK)
-        status = iccp_constrained_laplace(&p->rows, 1e-6, iccp_glued_direct, p->order, &p->f, &info,
-                                          &inner);
+        status = iccp_active_set_laplace(&p->unknowns, 1e-6, iccp_tied_direct, p->order, &p->f,
+                                         &info, &inner);
     return iccp_explain(err, status);
 }
 

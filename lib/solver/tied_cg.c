@@ -1,8 +1,8 @@
 /* The preconditioner is P+ M P+' with the V-cycle M and P+ = (P'P)^-1 P', the weighted average over
- * each top and its members. Its inverse is at most P'LP if M is exact, whatever is glued, and
+ * each top and its members. Its inverse is at most P'LP if M is exact, whatever is tied, and
  * nearly that where functions are smooth: it takes two to three times the iterations that M takes
- * without gluing. (A Jacobi step for each top, added to it, costs more of them.) */
-#include "solver/glued_cg.h"
+ * without ties. (A Jacobi step for each top, added to it, costs more of them.) */
+#include "solver/tied_cg.h"
 
 #include "base/budget.h"
 
@@ -63,39 +63,39 @@ static void laplacian(const iccp_mg_level *level, const double *x, double *y)
         }
 }
 
-void iccp_glued_apply(const iccp_mg_level *level, size_t n_glued, const iccp_glue *glue, double *x,
-                      double *y)
+void iccp_tied_apply(const iccp_mg_level *level, size_t n_tied, const iccp_tie *tie, double *x,
+                     double *y)
 {
-    for (size_t i = 0; i < n_glued; ++i)
-        x[glue[i].member] = glue[i].share * x[glue[i].top];
+    for (size_t i = 0; i < n_tied; ++i)
+        x[tie[i].member] = tie[i].share * x[tie[i].top];
     laplacian(level, x, y);
-    for (size_t i = 0; i < n_glued; ++i) {
-        y[glue[i].top] += glue[i].share * y[glue[i].member];
-        y[glue[i].member] = 0;
+    for (size_t i = 0; i < n_tied; ++i) {
+        y[tie[i].top] += tie[i].share * y[tie[i].member];
+        y[tie[i].member] = 0;
     }
 }
 
 /* A top with members. */
-typedef struct glued_top {
+typedef struct tied_top {
     size_t at;
     double weight; /* diagonal entry of P'P */
-} glued_top;
+} tied_top;
 
 typedef struct solver {
     iccp_multigrid *mg;
     const iccp_mg_level *level;
-    size_t n, n_glued, n_tops;
-    const iccp_glue *glue;
-    glued_top *top;
+    size_t n, n_tied, n_tops;
+    const iccp_tie *tie;
+    tied_top *top;
     double *x, *r, *p, *q;
 } solver;
 
 static void find_tops(solver *s)
 {
-    for (size_t i = 0; i < s->n_glued; ++i) {
-        if (i == 0 || s->glue[i].top != s->glue[i - 1].top)
-            s->top[s->n_tops++] = (glued_top){s->glue[i].top, 1};
-        s->top[s->n_tops - 1].weight += s->glue[i].share * s->glue[i].share;
+    for (size_t i = 0; i < s->n_tied; ++i) {
+        if (i == 0 || s->tie[i].top != s->tie[i - 1].top)
+            s->top[s->n_tops++] = (tied_top){s->tie[i].top, 1};
+        s->top[s->n_tops - 1].weight += s->tie[i].share * s->tie[i].share;
     }
 }
 
@@ -107,12 +107,12 @@ static void precondition(solver *s)
         b[i] = (float)s->r[i];
     for (size_t i = 0; i < s->n_tops; ++i)
         b[s->top[i].at] = (float)(s->r[s->top[i].at] / s->top[i].weight);
-    for (size_t i = 0; i < s->n_glued; ++i)
-        b[s->glue[i].member] = (float)s->glue[i].share * b[s->glue[i].top];
+    for (size_t i = 0; i < s->n_tied; ++i)
+        b[s->tie[i].member] = (float)s->tie[i].share * b[s->tie[i].top];
     iccp_multigrid_cycle(s->mg);
-    for (size_t i = 0; i < s->n_glued; ++i) {
-        z[s->glue[i].top] += (float)s->glue[i].share * z[s->glue[i].member];
-        z[s->glue[i].member] = 0;
+    for (size_t i = 0; i < s->n_tied; ++i) {
+        z[s->tie[i].top] += (float)s->tie[i].share * z[s->tie[i].member];
+        z[s->tie[i].member] = 0;
     }
     for (size_t i = 0; i < s->n_tops; ++i)
         z[s->top[i].at] /= (float)s->top[i].weight;
@@ -170,7 +170,7 @@ static icc_status iterate(solver *s, double size, const iccp_mg_goal *goal, size
         for (size_t i = 0; i < s->n; ++i)
             s->p[i] = (double)z[i] + beta * s->p[i];
         rz = next;
-        iccp_glued_apply(s->level, s->n_glued, s->glue, s->p, s->q);
+        iccp_tied_apply(s->level, s->n_tied, s->tie, s->p, s->q);
         const double curvature = iccp_mg_dot(s->n, s->p, s->q);
         if (!(rz > 0 && curvature > 0))
             return ICC_ERR_SOLVER;
@@ -185,18 +185,18 @@ static icc_status iterate(solver *s, double size, const iccp_mg_goal *goal, size
     return ICC_OK;
 }
 
-icc_status iccp_glued_cg(iccp_multigrid *mg, size_t n_glued, const iccp_glue *glue, double *x,
-                         double *r, double size, const iccp_mg_goal *goal, size_t *n_iterations,
-                         const iccp_env *env)
+icc_status iccp_tied_cg(iccp_multigrid *mg, size_t n_tied, const iccp_tie *tie, double *x,
+                        double *r, double size, const iccp_mg_goal *goal, size_t *n_iterations,
+                        const iccp_env *env)
 {
     solver s = {.mg = mg,
                 .level = &mg->level[0],
                 .n = mg->level[0].n_entries,
-                .n_glued = n_glued,
-                .glue = glue,
+                .n_tied = n_tied,
+                .tie = tie,
                 .x = x,
                 .r = r};
-    s.top = iccp_alloc(&mg->memory, n_glued, sizeof *s.top);
+    s.top = iccp_alloc(&mg->memory, n_tied, sizeof *s.top);
     s.p = iccp_alloc_zero(&mg->memory, s.n, sizeof *s.p);
     s.q = iccp_alloc_zero(&mg->memory, s.n, sizeof *s.q);
     icc_status status = ICC_ERR_MEMORY;

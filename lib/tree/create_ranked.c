@@ -1,4 +1,4 @@
-#include "tree/settle.h"
+#include "tree/create_ranked.h"
 
 #include "tree/grow.h"
 
@@ -19,9 +19,10 @@ static icc_status keep_ranked(icc_grid **out, const icc_grid *grid, const uint32
     return status;
 }
 
-icc_status iccp_tree_settle(icc_tree **out, const icc_grid *grid, uint32_t root, int32_t form,
-                            const int32_t *axis_order, double most_lost, uint32_t *rank,
-                            icc_grow_report *report, const iccp_env *env, icc_error *err)
+icc_status iccp_tree_create_ranked(icc_tree **out, const icc_grid *grid, uint32_t root,
+                                   int32_t form, const int32_t *axis_order, double most_lost,
+                                   uint32_t *rank, icc_grow_report *report, const iccp_env *env,
+                                   icc_error *err)
 {
     const double n_whole = (double)grid->n_inside;
     icc_grid *part = iccp_grid_retain(grid);

@@ -1,6 +1,6 @@
 /* A tree and an order of its vertices with one critical vertex, at the price of a few vertices. */
-#ifndef ICCP_SETTLE_H
-#define ICCP_SETTLE_H
+#ifndef ICCP_CREATE_RANKED_H
+#define ICCP_CREATE_RANKED_H
 
 #include "tree/cousin.h"
 
@@ -10,8 +10,9 @@
  * tells. (The vertices inside a surface are not a ball where parts of it come near each other; one
  * vertex or two then close a ring.) Otherwise ICC_ERR_TOPOLOGY. The report is that of the last
  * growth. */
-icc_status iccp_tree_settle(icc_tree **out, const icc_grid *grid, uint32_t root, int32_t form,
-                            const int32_t *axis_order, double most_lost, uint32_t *rank,
-                            icc_grow_report *report, const iccp_env *env, icc_error *err);
+icc_status iccp_tree_create_ranked(icc_tree **out, const icc_grid *grid, uint32_t root,
+                                   int32_t form, const int32_t *axis_order, double most_lost,
+                                   uint32_t *rank, icc_grow_report *report, const iccp_env *env,
+                                   icc_error *err);
 
 #endif

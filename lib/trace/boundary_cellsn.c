@@ -1,6 +1,6 @@
 /* Facets are cut in half across their longest edge until the box of each piece is no wider than a
  * cell. */
-#include "trace/cage_cells.h"
+#include "trace/boundary_cellsn.h"
 
 #include <math.h>
 #include <string.h>
@@ -32,15 +32,15 @@ static void to_local(const icc_grid *grid, const double *lattice, double *local)
         local[k] = lattice[k] * grid->spacing + grid->origin[k];
 }
 
-static bool has(const iccp_cage_cells *cage, uint32_t cell)
+static bool has(const iccp_boundary_cellsn *cells, uint32_t cell)
 {
-    return cage->bits[cell / 64] >> (cell % 64) & 1;
+    return cells->bits[cell / 64] >> (cell % 64) & 1;
 }
 
 /* All cells that the box of a piece meets. */
-static void mark_box(iccp_cage_cells *cage, const double *lower, const double *upper)
+static void mark_box(iccp_boundary_cellsn *cells, const double *lower, const double *upper)
 {
-    const icc_grid *grid = cage->grid;
+    const icc_grid *grid = cells->grid;
     size_t first[ICC_MAX_DIM], last[ICC_MAX_DIM], at[ICC_MAX_DIM], cell = 0;
     for (int k = 0; k < grid->dim; ++k) {
         const double end = (double)grid->shape[k] - 2;
@@ -49,7 +49,7 @@ static void mark_box(iccp_cage_cells *cage, const double *lower, const double *u
         cell += at[k] * grid->stride[k];
     }
     for (int k = 0; k < grid->dim;) {
-        cage->bits[cell / 64] |= (uint64_t)1 << (cell % 64);
+        cells->bits[cell / 64] |= (uint64_t)1 << (cell % 64);
         for (k = 0; k < grid->dim; ++k) {
             cell += grid->stride[k];
             if (++at[k] <= last[k])
@@ -92,20 +92,20 @@ static double find_box(int dim, const piece *p, double *lower, double *upper)
     return longest;
 }
 
-static void mark_facet(iccp_cage_cells *cage, uint32_t facet)
+static void mark_facet(iccp_boundary_cellsn *cells, uint32_t facet)
 {
-    const int dim = cage->grid->dim;
+    const int dim = cells->grid->dim;
     piece pieces[MOST_PIECES];
     int n = 1;
     for (int i = 0; i < dim; ++i) {
-        const uint32_t v = cage->domain->facets[(size_t)dim * facet + (size_t)i];
-        to_lattice(cage->grid, cage->domain->vertices + (size_t)dim * v, pieces[0].corner[i]);
+        const uint32_t v = cells->domain->facets[(size_t)dim * facet + (size_t)i];
+        to_lattice(cells->grid, cells->domain->vertices + (size_t)dim * v, pieces[0].corner[i]);
     }
     while (n > 0) {
         piece *p = &pieces[n - 1], *q = p + 1;
         double lower[ICC_MAX_DIM], upper[ICC_MAX_DIM];
         if (find_box(dim, p, lower, upper) <= 1 || n == MOST_PIECES) {
-            mark_box(cage, lower, upper);
+            mark_box(cells, lower, upper);
             --n;
             continue;
         }
@@ -118,50 +118,51 @@ static void mark_facet(iccp_cage_cells *cage, uint32_t facet)
     }
 }
 
-icc_status iccp_cage_cells_create(iccp_cage_cells *cage, const icc_domain *domain,
-                                  const icc_grid *grid, const iccp_env *env)
+icc_status iccp_boundary_cellsn_create(iccp_boundary_cellsn *cells, const icc_domain *domain,
+                                       const icc_grid *grid, const iccp_env *env)
 {
-    *cage = (iccp_cage_cells){.memory = env->memory, .domain = domain, .grid = grid};
-    cage->bits = iccp_alloc_zero(&env->memory, grid->n_vertices / 64 + 1, sizeof *cage->bits);
-    if (cage->bits == NULL)
+    *cells = (iccp_boundary_cellsn){.memory = env->memory, .domain = domain, .grid = grid};
+    cells->bits = iccp_alloc_zero(&env->memory, grid->n_vertices / 64 + 1, sizeof *cells->bits);
+    if (cells->bits == NULL)
         return ICC_ERR_MEMORY;
     icc_status status = ICC_OK;
     for (size_t f = 0; status == ICC_OK && f < domain->n_facets; ++f) {
         if (f % FACETS_PER_REPORT == 0)
             status = iccp_progress(env, "grid", (double)f / (double)domain->n_facets);
-        mark_facet(cage, (uint32_t)f);
+        mark_facet(cells, (uint32_t)f);
     }
     return status;
 }
 
-void iccp_cage_cells_free(iccp_cage_cells *cage)
+void iccp_boundary_cellsn_free(iccp_boundary_cellsn *cells)
 {
-    iccp_free(&cage->memory, cage->bits);
-    cage->bits = NULL;
+    iccp_free(&cells->memory, cells->bits);
+    cells->bits = NULL;
 }
 
-bool iccp_cage_cells_cross(const iccp_cage_cells *cage, uint32_t cell, const double *from,
-                           const double *to, iccp_cage_hit *hit)
+bool iccp_boundary_cellsn_cross(const iccp_boundary_cellsn *cells, uint32_t cell,
+                                const double *from, const double *to, iccp_boundary_hitn *hit)
 {
     double ends[2][ICC_MAX_DIM];
-    if (!has(cage, cell))
+    if (!has(cells, cell))
         return false;
-    to_local(cage->grid, from, ends[0]);
-    to_local(cage->grid, to, ends[1]);
-    if (!iccp_domain_cross(cage->domain, ends[0], ends[1], &hit->share, &hit->facet, hit->bary))
+    to_local(cells->grid, from, ends[0]);
+    to_local(cells->grid, to, ends[1]);
+    if (!iccp_domain_cross(cells->domain, ends[0], ends[1], &hit->share, &hit->facet, hit->bary))
         return false;
-    for (int k = 0; k < cage->grid->dim; ++k)
+    for (int k = 0; k < cells->grid->dim; ++k)
         hit->point[k] = from[k] + hit->share * (to[k] - from[k]);
     return true;
 }
 
-bool iccp_cage_cells_touch(const iccp_cage_cells *cage, const double *point, iccp_cage_hit *hit)
+bool iccp_boundary_cellsn_touch(const iccp_boundary_cellsn *cells, const double *point,
+                                iccp_boundary_hitn *hit)
 {
     double local[ICC_MAX_DIM];
-    to_local(cage->grid, point, local);
+    to_local(cells->grid, point, local);
     hit->share = 1;
-    memcpy(hit->point, point, (size_t)cage->grid->dim * sizeof *point);
-    return iccp_domain_locate(cage->domain, local, true, &hit->facet, hit->bary) == ICC_BOUNDARY;
+    memcpy(hit->point, point, (size_t)cells->grid->dim * sizeof *point);
+    return iccp_domain_locate(cells->domain, local, true, &hit->facet, hit->bary) == ICC_BOUNDARY;
 }
 
 /* By elimination; overwrites the matrix. */
@@ -189,7 +190,7 @@ static double determinant(int n, double a[ICC_MAX_DIM][ICC_MAX_DIM])
 
 /* The determinant of a vector out of the domain and the facet's edges has the orientation's sign:
  * component k of the outward normal is the cofactor of that vector's component k. */
-void iccp_cage_inward(const icc_domain *domain, uint32_t facet, double *inward)
+void iccp_facet_inward(const icc_domain *domain, uint32_t facet, double *inward)
 {
     const int dim = domain->dim;
     const double *corners[ICC_MAX_DIM];

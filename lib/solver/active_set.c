@@ -1,9 +1,9 @@
 /* Primal-dual active set: M. Hintermueller, K. Ito, K. Kunisch, The primal-dual active set strategy
- * as a semismooth Newton method, SIAM J. Optim. 13, 2002. An active inequality glues a child to its
- * parent, so that each step solves a smaller problem of the same kind (glued.h), and one sweep from
+ * as a semismooth Newton method, SIAM J. Optim. 13, 2002. An active inequality ties a child to its
+ * parent, so that each step solves a smaller problem of the same kind (tied.h), and one sweep from
  * the leaves to the root gives the multipliers. All tests are relative to the function where they
  * are made: it spans hundreds of orders of magnitude in long limbs. */
-#include "solver/constrained.h"
+#include "solver/active_set.h"
 
 #include "base/clock.h"
 #include "base/random.h"
@@ -30,14 +30,14 @@ static const double NOISE = 3e-13, ACCEPTABLE = 1e-9;
 static const double LEAST_SHARE = 1e-120;
 
 typedef struct state {
-    const iccp_rows *rows;
+    const iccp_unknowns *unknowns;
     const iccp_scaled *f;
     double sigma;
     bool *active; /* the edge from each row to its parent */
     bool *wrong;  /* active with a negative multiplier, or violated */
     size_t n_wrong;
     double worst;  /* the largest multiplier or violation of these */
-    uint32_t *top; /* gluing by `active` */
+    uint32_t *top; /* ties by `active` */
     double *share;
     uint32_t *order;
     double *multiplier; /* of active edges, in units of 2^exponent of f at the row's top */
@@ -46,13 +46,13 @@ typedef struct state {
 } state;
 
 /* False when the share of a row underflows. */
-static bool glue(state *s)
+static bool tie(state *s)
 {
     double least = 1;
     s->top[0] = 0;
     s->share[0] = 1;
-    for (uint32_t k = 1; k < s->rows->n; ++k) {
-        const uint32_t p = s->rows->parent[k];
+    for (uint32_t k = 1; k < s->unknowns->n; ++k) {
+        const uint32_t p = s->unknowns->parent[k];
         s->top[k] = s->active[k] ? s->top[p] : k;
         s->share[k] = s->active[k] ? s->share[p] / s->sigma : 1;
         least = fmin(least, s->share[k]);
@@ -63,22 +63,22 @@ static bool glue(state *s)
 /* (1 + eta) multiplier_k = sum of those of k's active children - row k of the gradient. */
 static void find_multipliers(state *s)
 {
-    const iccp_rows *rows = s->rows;
-    for (size_t k = 0; k < rows->n; ++k)
+    const iccp_unknowns *unknowns = s->unknowns;
+    for (size_t k = 0; k < unknowns->n; ++k)
         s->multiplier[k] = 0;
-    for (size_t k = rows->n; k-- > 1;) {
+    for (size_t k = unknowns->n; k-- > 1;) {
         if (!s->active[k])
             continue;
-        const double row = iccp_laplacian_row(rows, s->f, k, s->f->exponent[s->top[k]]);
+        const double row = iccp_laplacian_row(unknowns, s->f, k, s->f->exponent[s->top[k]]);
         s->multiplier[k] = (s->multiplier[k] - row) / s->sigma;
-        s->multiplier[rows->parent[k]] += s->multiplier[k];
+        s->multiplier[unknowns->parent[k]] += s->multiplier[k];
     }
 }
 
 /* By how much f_parent >= sigma f_child fails, in units of f_parent. */
 static double violation(const state *s, size_t k)
 {
-    const uint32_t p = s->rows->parent[k];
+    const uint32_t p = s->unknowns->parent[k];
     return s->sigma * iccp_scaled_get(s->f, k, s->f->exponent[p]) / s->f->fraction[p] - 1;
 }
 
@@ -89,12 +89,12 @@ static double pull(const state *s, size_t k)
 }
 
 /* Marks the inequalities that are on the wrong side. */
-static void judge(state *s)
+static void mark_wrong(state *s)
 {
     find_multipliers(s);
     s->n_wrong = 0;
     s->worst = 0;
-    for (size_t k = 1; k < s->rows->n; ++k) {
+    for (size_t k = 1; k < s->unknowns->n; ++k) {
         const double by = s->active[k] ? pull(s, k) : violation(s, k);
         s->wrong[k] = by > NOISE;
         s->n_wrong += s->wrong[k];
@@ -107,7 +107,7 @@ static void judge(state *s)
  * positive definite matrix. To change the last alone, to which this comes as the level rises, is
  * Murty's rule, which reaches the solution from every state: K. Murty, Note on a Bard-type scheme
  * for solving the complementarity problem, Opsearch 11, 1974. */
-static void flip(state *s, int level)
+static void flip_some(state *s, int level)
 {
     const uint64_t mask = ((uint64_t)1 << level) - 1;
     size_t n_left = s->n_wrong, n_flipped = 0;
@@ -122,26 +122,26 @@ static void flip(state *s, int level)
     }
 }
 
-static icc_status iterate(state *s, iccp_glued_solver solve, icc_function_info *info,
+static icc_status iterate(state *s, iccp_tied_solver solve, icc_function_info *info,
                           const iccp_env *env)
 {
-    const iccp_gluing gluing = {s->top, s->share, s->order};
+    const iccp_ties ties = {s->top, s->share, s->order};
     int stalled = 0;
-    glue(s);
-    judge(s);
+    tie(s);
+    mark_wrong(s);
     for (size_t n_rounds = 0, least = s->n_wrong; s->n_wrong > 0;) {
         const iccp_env part = iccp_round(env, n_rounds++, TYPICAL_ROUNDS);
         icc_status status = iccp_progress(&part, "solve", 0);
         const int level = stalled / PATIENCE;
-        flip(s, level < MOST_LEVELS ? level : MOST_LEVELS);
-        if (status == ICC_OK && (!glue(s) || info->n_iterations == MOST_ITERATIONS))
+        flip_some(s, level < MOST_LEVELS ? level : MOST_LEVELS);
+        if (status == ICC_OK && (!tie(s) || info->n_iterations == MOST_ITERATIONS))
             status = ICC_ERR_SOLVER;
         if (status == ICC_OK)
-            status = solve(s->rows, &gluing, s->f, info, &part);
+            status = solve(s->unknowns, &ties, s->f, info, &part);
         if (status != ICC_OK)
             return status;
         ++info->n_iterations;
-        judge(s);
+        mark_wrong(s);
         stalled = s->n_wrong < least ? 0 : stalled + 1;
         if (stalled >= PATIENCE && s->worst <= ACCEPTABLE)
             break;
@@ -154,35 +154,35 @@ static icc_status iterate(state *s, iccp_glued_solver solve, icc_function_info *
 static double residual(const state *s)
 {
     const iccp_scaled row = {s->share, NULL};
-    for (size_t k = 0; k < s->rows->n; ++k)
-        s->share[k] = iccp_laplacian_row(s->rows, s->f, k, 0);
-    return iccp_inequalities_residual(s->rows, s->sigma - 1, 0, s->f, &row, s->work);
+    for (size_t k = 0; k < s->unknowns->n; ++k)
+        s->share[k] = iccp_laplacian_row(s->unknowns, s->f, k, 0);
+    return iccp_inequalities_residual(s->unknowns, s->sigma - 1, 0, s->f, &row, s->work);
 }
 
-static void finish(state *s, icc_function_info *info)
+static void sweep_and_report(state *s, icc_function_info *info)
 {
     const double start = iccp_seconds();
     info->n_active = 0;
-    for (size_t k = 1; k < s->rows->n; ++k)
+    for (size_t k = 1; k < s->unknowns->n; ++k)
         info->n_active += s->active[k];
     info->residual_before = residual(s);
-    iccp_inequalities_sweep(s->rows, s->sigma - 1, s->f);
+    iccp_inequalities_sweep(s->unknowns, s->sigma - 1, s->f);
     info->residual = residual(s);
     info->seconds_verify += iccp_seconds() - start;
 }
 
-icc_status iccp_constrained_laplace(const iccp_rows *rows, double eta, iccp_glued_solver solve,
-                                    uint32_t *order, const iccp_scaled *f, icc_function_info *info,
-                                    const iccp_env *env)
+icc_status iccp_active_set_laplace(const iccp_unknowns *unknowns, double eta,
+                                   iccp_tied_solver solve, uint32_t *order, const iccp_scaled *f,
+                                   icc_function_info *info, const iccp_env *env)
 {
     const iccp_memory *m = &env->memory;
-    const size_t n = rows->n;
+    const size_t n = unknowns->n;
     bool *flags = iccp_alloc_zero(m, 2 * n, sizeof *flags);
     uint32_t *top = iccp_alloc(m, n, sizeof *top);
     double *numbers = iccp_alloc(m, 3 * n, sizeof *numbers);
     icc_status status = ICC_ERR_MEMORY;
     if (flags != NULL && top != NULL && numbers != NULL) {
-        state s = {.rows = rows,
+        state s = {.unknowns = unknowns,
                    .f = f,
                    .sigma = 1 + eta,
                    .active = flags,
@@ -193,11 +193,11 @@ icc_status iccp_constrained_laplace(const iccp_rows *rows, double eta, iccp_glue
                    .multiplier = numbers + n,
                    .work = numbers + n,
                    .random = 1};
-        info->n_violated = iccp_inequalities_violated(rows, eta, f);
+        info->n_violated = iccp_inequalities_violated(unknowns, eta, f);
         info->n_iterations = 0;
         status = iterate(&s, solve, info, env);
         if (status == ICC_OK)
-            finish(&s, info);
+            sweep_and_report(&s, info);
     }
     iccp_free(m, flags);
     iccp_free(m, top);

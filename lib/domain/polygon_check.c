@@ -1,0 +1,200 @@
+#include "domain/polygon_check.h"
+
+#include "base/error.h"
+#include "domain/defects.h"
+#include "domain/segment.h"
+#include "domain/sweep.h"
+#include "math/predicates.h"
+
+#include <math.h>
+#include <string.h>
+
+static bool finite_point(const double *p)
+{
+    return isfinite(p[0]) && isfinite(p[1]);
+}
+
+static icc_status fail_not_finite(icc_error *err, size_t vertex)
+{
+    return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_VERTEX, (int64_t)vertex,
+                        "vertex %zu is not finite", vertex);
+}
+
+static icc_status fail_too_small(icc_error *err, size_t vertex, const double *x)
+{
+    return iccp_fail_at(
+        err, ICC_ERR_BOUNDARY, ICC_ITEM_VERTEX, (int64_t)vertex,
+        "vertex %zu (%.17g, %.17g): a coordinate is not 0, but less than 2^-200 of the "
+        "largest one",
+        vertex, x[0], x[1]);
+}
+
+icc_status iccp_polygon_localise(iccp_frame *frame, double *local, size_t n, const double *vertices,
+                                 icc_error *err)
+{
+    for (size_t i = 0; i < n; ++i)
+        if (!finite_point(vertices + 2 * i))
+            return fail_not_finite(err, i);
+    iccp_frame_fit(frame, 2, n, vertices);
+    for (size_t i = 0; i < n; ++i) {
+        if (!iccp_frame_holds(frame, 2, vertices + 2 * i))
+            return fail_too_small(err, i, vertices + 2 * i);
+        iccp_frame_in(frame, 2, vertices + 2 * i, local + 2 * i);
+    }
+    return ICC_OK;
+}
+
+/* "cross near (x, y)", with the vertices or edges in the caller's numbers. */
+static icc_status fail_pair(icc_error *err, const iccp_defect *defect, const iccp_polygon *polygon,
+                            const iccp_frame *frame)
+{
+    const double *a = polygon->points + 2 * (size_t)defect->a,
+                 *b = polygon->points + 2 * (size_t)defect->b;
+    double at[2];
+    iccp_segments_point(a, a + 2, b, b + 2, at);
+    iccp_frame_out(frame, 2, at, at);
+    const uint32_t e = polygon->facet[defect->a], f = polygon->facet[defect->b];
+    return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_FACET, e < f ? e : f,
+                        "edges %lu and %lu %s near (%.9g, %.9g)", (unsigned long)(e < f ? e : f),
+                        (unsigned long)(e < f ? f : e),
+                        defect->kind == ICC_DEFECT_CROSSING ? "cross" : "touch", at[0], at[1]);
+}
+
+static icc_status fail_defect(icc_error *err, const iccp_defect *defect,
+                              const iccp_polygon *polygon, const iccp_frame *frame)
+{
+    const uint32_t v = polygon->vertex[defect->a], w = polygon->vertex[defect->b];
+    switch (defect->kind) {
+    case ICC_DEFECT_REPEATED:
+        return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_VERTEX, v > w ? v : w,
+                            "vertex %lu repeats vertex %lu", (unsigned long)(v > w ? v : w),
+                            (unsigned long)(v > w ? w : v));
+    case ICC_DEFECT_SPIKE:
+        return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_VERTEX, v,
+                            "at vertex %lu the boundary runs back over itself", (unsigned long)v);
+    case ICC_DEFECT_FLAT:
+        return iccp_fail(err, ICC_ERR_BOUNDARY,
+                         "all vertices lie on one line: the shape has no area");
+    default:
+        return fail_pair(err, defect, polygon, frame);
+    }
+}
+
+icc_status iccp_polygon_check(const iccp_polygon *polygon, const iccp_frame *frame,
+                              const iccp_env *env, icc_error *err)
+{
+    iccp_defect any, first = {0};
+    icc_status status = iccp_sweep(&any, polygon, env);
+    if (status == ICC_OK && any.kind == 0)
+        return ICC_OK;
+    if (status == ICC_OK)
+        status = iccp_defects_first(&first, polygon, env);
+    if (status != ICC_OK)
+        return iccp_explain(err, status);
+    return fail_defect(err, first.kind != 0 ? &first : &any, polygon, frame);
+}
+
+icc_status iccp_polygon_check_points(size_t n, const double *points, const uint32_t *polygon,
+                                     const iccp_env *env)
+{
+    if (n < 3)
+        return ICC_ERR_BOUNDARY;
+    iccp_polygon copy = {.n = n};
+    copy.points = iccp_alloc(&env->memory, n + 1, 2 * sizeof *copy.points);
+    copy.vertex = iccp_alloc(&env->memory, n, sizeof *copy.vertex);
+    copy.facet = iccp_alloc(&env->memory, n, sizeof *copy.facet);
+    icc_status status = ICC_ERR_MEMORY;
+    if (copy.points != NULL && copy.vertex != NULL && copy.facet != NULL) {
+        for (uint32_t k = 0; k < n; ++k) {
+            const size_t from = polygon != NULL ? polygon[k] : k;
+            memcpy(copy.points + 2 * (size_t)k, points + 2 * from, 2 * sizeof *points);
+            copy.vertex[k] = copy.facet[k] = k;
+        }
+        memcpy(copy.points + 2 * n, copy.points, 2 * sizeof *points);
+        status = iccp_polygon_check(&copy, &iccp_frame_identity, env, NULL);
+    }
+    iccp_polygon_free(&copy, &env->memory);
+    return status;
+}
+
+int iccp_polygon_orientation(const iccp_polygon *polygon)
+{
+    uint32_t v = 0;
+    for (uint32_t k = 1; k < polygon->n; ++k)
+        if (iccp_point_less(polygon->points + 2 * (size_t)k, polygon->points + 2 * (size_t)v))
+            v = k;
+    const double *p = polygon->points + 2 * (size_t)v;
+    return iccp_orient2d(polygon->points + 2 * (size_t)iccp_polygon_before(polygon, v), p, p + 2);
+}
+
+/* Half the sum of the cross products of the sides with vertex 0. Each product and each sum is
+ * carried with its rounding error: T. Ogita, S. M. Rump, S. Oishi, Accurate sum and dot product,
+ * 2005, algorithm 5.3. */
+double iccp_polygon_area(const iccp_polygon *polygon)
+{
+    const double *origin = polygon->points;
+    double sum = 0, error = 0;
+    for (size_t k = 1; k + 1 < polygon->n; ++k) {
+        const double *p = polygon->points + 2 * k, *q = p + 2;
+        const double factors[2][2] = {{p[0] - origin[0], q[1] - origin[1]},
+                                      {origin[1] - p[1], q[0] - origin[0]}};
+        for (int i = 0; i < 2; ++i) {
+            const double product = factors[i][0] * factors[i][1];
+            const double total = sum + product, part = total - sum;
+            error += fma(factors[i][0], factors[i][1], -product);
+            error += (sum - (total - part)) + (product - part);
+            sum = total;
+        }
+    }
+    return 0.5 * fabs(sum + error);
+}
+
+/* Local coordinates for the list: a vertex that is not finite becomes NaN. The frame is that of the
+ * finite ones, which `scratch` gathers. */
+static icc_status localise_finite(double *local, double *scratch, size_t n, const double *vertices,
+                                  icc_error *err)
+{
+    size_t n_finite = 0;
+    for (size_t i = 0; i < n; ++i)
+        if (finite_point(vertices + 2 * i)) {
+            scratch[2 * n_finite] = vertices[2 * i];
+            scratch[2 * n_finite + 1] = vertices[2 * i + 1];
+            ++n_finite;
+        }
+    iccp_frame frame = iccp_frame_identity;
+    if (n_finite > 0)
+        iccp_frame_fit(&frame, 2, n_finite, scratch);
+    for (size_t i = 0; i < n; ++i) {
+        if (!finite_point(vertices + 2 * i)) {
+            local[2 * i] = local[2 * i + 1] = NAN;
+            continue;
+        }
+        if (!iccp_frame_holds(&frame, 2, vertices + 2 * i))
+            return fail_too_small(err, i, vertices + 2 * i);
+        iccp_frame_in(&frame, 2, vertices + 2 * i, local + 2 * i);
+    }
+    return ICC_OK;
+}
+
+icc_status iccp_boundary_defects(size_t n, const double *vertices, size_t capacity, int32_t *kinds,
+                                 uint32_t *items, size_t *n_defects, const iccp_env *env,
+                                 icc_error *err)
+{
+    const iccp_memory *memory = &env->memory;
+    iccp_defect_list list = {.capacity = capacity, .kinds = kinds, .items = items};
+    iccp_polygon polygon = {.n = n, .points = iccp_alloc(memory, n + 1, 2 * sizeof(double))};
+    double *scratch = iccp_alloc(memory, n, 2 * sizeof(double));
+    icc_status status = ICC_ERR_MEMORY;
+    if (polygon.points != NULL && scratch != NULL)
+        status = localise_finite(polygon.points, scratch, n, vertices, err);
+    iccp_free(memory, scratch);
+    if (status == ICC_OK && n > 0) {
+        polygon.points[2 * n] = polygon.points[0];
+        polygon.points[2 * n + 1] = polygon.points[1];
+    }
+    if (status == ICC_OK)
+        status = iccp_defects_list(&list, &polygon, env);
+    iccp_free(memory, polygon.points);
+    *n_defects = list.n;
+    return iccp_explain(err, status);
+}

@@ -1,0 +1,54 @@
+#include "solver/unknowns.h"
+
+#include <string.h>
+
+static void find_neighbours(iccp_unknowns *unknowns, const uint32_t *unknown_of, uint32_t k)
+{
+    const icc_grid *grid = unknowns->tree->grid;
+    uint32_t *neighbour = unknowns->neighbour + (size_t)k * (size_t)unknowns->n_neighbours;
+    for (int32_t axis = 0; axis < grid->dim; ++axis)
+        for (int32_t direction = 0; direction < 2; ++direction) {
+            const uint32_t u =
+                iccp_grid_neighbour(grid, unknowns->vertex[k], axis, 2 * direction - 1);
+            *neighbour++ = u == ICCP_NONE ? ICCP_NONE : unknown_of[u];
+        }
+    const uint32_t parent = unknowns->tree->parent[unknowns->vertex[k]];
+    unknowns->parent[k] = parent == ICCP_NONE ? ICCP_NONE : unknown_of[parent];
+}
+
+icc_status iccp_unknowns_create(iccp_unknowns *unknowns, const icc_tree *tree, const iccp_env *env)
+{
+    const size_t n = tree->n_inside;
+    *unknowns = (iccp_unknowns){.memory = env->memory,
+                                .tree = tree,
+                                .n = n,
+                                .n_neighbours = 2 * tree->grid->dim,
+                                .vertex = tree->order};
+    uint32_t *unknown_of = iccp_alloc(&env->memory, tree->grid->n_vertices, sizeof *unknown_of);
+    unknowns->parent = iccp_alloc(&env->memory, n, sizeof *unknowns->parent);
+    unknowns->neighbour =
+        iccp_alloc(&env->memory, n, (size_t)unknowns->n_neighbours * sizeof *unknowns->neighbour);
+    icc_status status = ICC_ERR_MEMORY;
+    if (unknown_of != NULL && unknowns->parent != NULL && unknowns->neighbour != NULL) {
+        memset(unknown_of, 0xff, tree->grid->n_vertices * sizeof *unknown_of); /* ICCP_NONE */
+        for (uint32_t k = 0; k < n; ++k)
+            unknown_of[unknowns->vertex[k]] = k;
+        status = ICC_OK;
+    }
+    for (uint32_t k = 0; k < n && status == ICC_OK; ++k) {
+        if (k % ICCP_VERTICES_PER_REPORT == 0)
+            status = iccp_progress(env, "solve", (double)k / (double)n);
+        find_neighbours(unknowns, unknown_of, k);
+    }
+    iccp_free(&env->memory, unknown_of);
+    if (status != ICC_OK)
+        iccp_unknowns_free(unknowns);
+    return status;
+}
+
+void iccp_unknowns_free(iccp_unknowns *unknowns)
+{
+    iccp_free(&unknowns->memory, unknowns->parent);
+    iccp_free(&unknowns->memory, unknowns->neighbour);
+    unknowns->parent = unknowns->neighbour = NULL;
+}
