@@ -1,5 +1,4 @@
-/* A conforming mesh of simplices that fills a domain, with its neighbours, in any dimension from
- * 2.
+/* A conforming mesh of simplices that fills a domain, with its neighbours, in any dimension from 2.
  *
  * A side of the mesh is a half-facet, a facet as seen from one simplex: side (dim + 1) s + i
  * belongs to simplex s and lies opposite its corner i. An inner facet has two sides, one of the
