@@ -66,6 +66,9 @@ static size_t cuts_for(const iccp_mask *mask, int32_t cells)
     return half > 1 ? 2 * half : 2;
 }
 
+/* Every cuts-th vertex along an axis is a corner of the mask's cells, so that the boundary runs
+ * along edges of the grid and cuts none of its cells. The first vertex lies MARGIN layers before
+ * the mask's corner. */
 static icc_status create_in_mask(icc_grid **out, const icc_domain *domain, int32_t cells,
                                  const iccp_env *env, icc_error *err)
 {
