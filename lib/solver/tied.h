@@ -1,9 +1,9 @@
 /* The discrete Dirichlet problem with some unknowns tied to others.
  *
- * An unknown k is tied to another one, its top, when its value is not free but a fixed share of
- * that of the top: so it is for a child whose inequality f_parent >= sigma f_child holds with
- * equality. Chains of such children have one top, the first of them that is free; all unknowns of
- * one top, its members, and the top itself make up a cluster.
+ * An unknown is tied to another one, its top, when its value is not free but a fixed share of that
+ * of the top: so it is for a child whose inequality f_parent >= sigma f_child holds with equality.
+ * Chains of such children share one top. The unknowns tied to a top are its members; with it they
+ * make up a cluster.
  *
  * Among all functions with f = 1 at the root, 0 outside and f_k = share_k f_top(k), the one with
  * the least Dirichlet energy, the sum of (f_u - f_v)^2 over neighbours u, v. With P the n by n_tops
