@@ -6,7 +6,7 @@
 
 /* Makes a tree as iccp_tree_create() does and writes ranks as iccp_tree_grow() does. When growth
  * and thinning get stuck with at most `most_lost` of the vertices inside left, as a share, these
- * become outside and both start again: the tree is then one on a restricted grid, and its n_stray
+ * become outside and both start again: the tree is then one on a restricted grid, whose n_stray
  * counts what was given up. (Where two parts of a surface come near each other, the vertices inside
  * are not a ball; a vertex or two then close a loop.) Otherwise ICC_ERR_TOPOLOGY. The report is
  * that of the last growth. */
