@@ -53,6 +53,9 @@ static void *worker(void *argument)
     return NULL;
 }
 
+/* The calling thread takes chunks like the others and is the only one that reports progress, so
+ * that the callback need not be safe for threads. Threads that cannot be started are done
+ * without. */
 static icc_status run_own_threads(loop *l, const iccp_env *env, const char *stage)
 {
     pthread_t threads[MAX_WORKERS];

@@ -15,7 +15,8 @@ typedef struct iccp_avl_node {
     int32_t height;         /* 0: no node; 1: a leaf */
 } iccp_avl_node;
 
-/* Node 0 stands for no node and closes the list to a ring: nodes[0].after is the first of all. */
+/* Node 0 stands for no node and closes the list into a circle: nodes[0].after is the first of
+ * all. */
 typedef struct iccp_avl {
     iccp_avl_node *nodes;
     uint32_t root;

@@ -33,7 +33,7 @@ static const double *edge_start(const iccp_buckets *b, size_t edge)
 }
 
 /* The column (axis 0) or row (axis 1) of a coordinate; what lies beyond the grid goes to its
- * rim. */
+ * border. */
 static uint32_t slot(const iccp_buckets *b, int axis, double x)
 {
     const double s = (x - b->origin[axis]) * b->rate[axis];

@@ -1,6 +1,6 @@
-/* A grid of cells over a ring that answers "inside, outside or on the edge" without a search: cells
- * that no edge comes near know the answer, the others know a point of theirs for which it is known
- * and the edges that can lie between. */
+/* A grid of cells over a polygon that answers "inside, outside or on the edge" without a search:
+ * cells that no edge comes near know the answer, the others know a point of theirs for which it
+ * is known and the edges that can lie between. */
 #ifndef ICCP_BUCKETS_H
 #define ICCP_BUCKETS_H
 
@@ -21,7 +21,7 @@ typedef struct iccp_buckets {
     uint32_t size[2];        /* cells along x and y */
     iccp_band band;
     iccp_bucket *cells; /* one more than there are cells */
-    uint32_t *edges;
+    uint32_t *edges;    /* positions in the polygon, cell by cell */
 } iccp_buckets;
 
 /* What is known about a point. */

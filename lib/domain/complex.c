@@ -96,7 +96,8 @@ static size_t count_conflicts(const iccp_complex *c, size_t facet)
     return n;
 }
 
-/* What can be wrong with a ridge, the worst first. */
+/* What can be wrong with a ridge, the worst first: more than two facets, only one, or two that run
+ * along it in the same direction. */
 enum { CROWDED, OPEN, TWISTED, N_FAULTS };
 
 typedef struct fault {
@@ -105,6 +106,9 @@ typedef struct fault {
     size_t n_sides; /* and how many facets it has */
 } fault;
 
+/* Names the first ridge at fault. The item is a facet: of a crowded ridge the third one, since two
+ * belong there; of a twisted one the facet that disagrees with more of its neighbours, most likely
+ * the one that was given the wrong way round. */
 static icc_status fail_ridge(const ridge_list *list, int kind, const fault *found, icc_error *err)
 {
     const iccp_complex *c = list->c;

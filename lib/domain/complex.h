@@ -8,9 +8,9 @@
 /* n_facets facets of dim corners each. */
 typedef struct iccp_complex {
     size_t dim, n_vertices, n_facets;
-    const uint32_t *facets;
-    uint32_t *across; /* across[dim f + i]: the facet on the other side of f's ridge opposite corner
-                         i */
+    const uint32_t *facets; /* n_facets * dim vertex numbers */
+    uint32_t *across;       /* n_facets * dim: across[dim f + i] is the other facet at the ridge of
+                         facet f opposite corner i */
 } iccp_complex;
 
 /* ICC_ERR_BOUNDARY unless every index is that of a vertex and no facet has one twice. */
@@ -21,8 +21,8 @@ icc_status iccp_complex_check_indices(const iccp_complex *c, icc_error *err);
  * directions. */
 icc_status iccp_complex_join(iccp_complex *c, const iccp_env *env, icc_error *err);
 
-/* ICC_ERR_BOUNDARY unless the facets at each vertex hang together across ridges at it; in 3-D they
- * form one cycle then. ICC_ERR_TOPOLOGY unless all facets hang together and, in 3-D, form a
+/* ICC_ERR_BOUNDARY unless the facets at each vertex are connected across ridges at it; in 3-D they
+ * then form one cycle. ICC_ERR_TOPOLOGY unless all facets are connected and, in 3-D, form a
  * sphere. */
 icc_status iccp_complex_check_shape(const iccp_complex *c, const iccp_env *env, icc_error *err);
 

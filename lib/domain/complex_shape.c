@@ -12,7 +12,7 @@ static const uint32_t *corners(const iccp_complex *c, size_t facet)
     return c->facets + c->dim * facet;
 }
 
-/* A corner of a facet is number dim f + i. Floods reach what hangs together with a first one. */
+/* A corner of a facet is number dim f + i. Floods reach what is connected to a first one. */
 typedef struct flood {
     const iccp_complex *c;
     bool *reached;   /* per corner */
@@ -51,6 +51,9 @@ static void flood_vertex(flood *f, uint32_t first)
     }
 }
 
+/* A vertex is a corner of several facets. Flooding from one of these corners must reach them
+ * all: if a corner is left whose vertex has been seen before, two fans of facets meet at that
+ * vertex only. */
 static icc_status check_vertices(flood *f, icc_error *err)
 {
     const iccp_complex *c = f->c;
@@ -74,7 +77,7 @@ static icc_status check_vertices(flood *f, icc_error *err)
     return ICC_OK;
 }
 
-/* How many facets hang together with facet 0; reached[] says which. */
+/* How many facets are connected to facet 0, itself included; reached[] says which. */
 static size_t flood_facets(flood *f)
 {
     const iccp_complex *c = f->c;

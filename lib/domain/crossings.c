@@ -17,7 +17,8 @@ static void cast(double *out, size_t dim, size_t axis, const double *x)
         out[k] = x[k < axis ? k : k + 1];
 }
 
-/* p lies within the simplex if it is on the same side as the corner opposite of every side. */
+/* p lies within the shadow, a simplex, if it is on the same side of each of its facets as the
+ * opposite corner. */
 int iccp_facet_crossed(const iccp_facet_tree *tree, uint32_t facet, size_t axis, const double *p)
 {
     const size_t dim = tree->dim;

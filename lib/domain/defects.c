@@ -155,6 +155,8 @@ static icc_status run(walk *w, const iccp_env *env)
     return ICC_OK;
 }
 
+/* Both uses in one: the list of everything, and the first defect for at most `patience` pairs of
+ * edges. Stops after `enough` defects. */
 static icc_status list_up_to(iccp_defect_list *list, size_t enough, size_t patience,
                              const iccp_polygon *polygon, const iccp_env *env)
 {

@@ -8,9 +8,9 @@
 /* Where a list goes; see icc_boundary_defects(). */
 typedef struct iccp_defect_list {
     size_t capacity;
-    int32_t *kinds;
-    uint32_t *items;
-    size_t n; /* also beyond capacity */
+    int32_t *kinds;  /* capacity: ICC_DEFECT_* */
+    uint32_t *items; /* 2 * capacity: positions in the polygon */
+    size_t n;        /* also beyond capacity */
 } iccp_defect_list;
 
 /* Points whose coordinates are NaN are listed as not finite. */

@@ -32,6 +32,10 @@ static icc_status copy_boundary(icc_domain *d, const double *vertices, const uin
     return ICC_OK;
 }
 
+/* The bounding box, and the band around the boundary within which points count as on it.
+ * Rounding depends on how large the coordinates are where the caller has them, hence the way out
+ * of the frame and back: `largest` is in units of the local frame, but measured from the
+ * caller's origin. */
 static void measure_box(icc_domain *d)
 {
     const size_t dim = (size_t)d->dim;
@@ -56,7 +60,7 @@ static void measure_box(icc_domain *d)
 
 /* ---------------------------------------------------------------- polygons */
 
-/* The ring's tree has the form of a facet tree's (domain/facet_tree.h). */
+/* The polygon's tree of boxes has the form of a facet tree (domain/facet_tree.h). */
 static void view_tree(icc_domain *d)
 {
     d->tree = (iccp_facet_tree){.dim = 2,

@@ -42,7 +42,7 @@ struct icc_domain {
                  same */
     double measure;               /* local length, area, volume, ... */
     iccp_facet_tree tree;         /* over local vertices; in 2-D a view of the locator's */
-    struct iccp_locator *locator; /* 2-D only, else NULL: the polygon as a polygon, and faster
+    struct iccp_locator *locator; /* 2-D only, else NULL: the polygon in its order, and faster
                                      answers */
     struct iccp_mask *mask;       /* what the boundary was made from, or NULL */
     struct iccp_simplices *mesh;  /* a mesh of the inside, or NULL */

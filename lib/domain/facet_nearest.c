@@ -28,6 +28,9 @@ typedef struct nearest {
     double *bary;
 } nearest;
 
+/* Takes the facets of a leaf that are nearer than the best so far. Of two at the same distance
+ * the smaller number wins, so that the result does not depend on the order of the tree. With a
+ * constant dim the loops over coordinates are unrolled. */
 static ICCP_INLINE void search_leaf(const iccp_facet_tree *tree, size_t dim, size_t node,
                                     const double *p, nearest *best)
 {
@@ -50,6 +53,9 @@ static ICCP_INLINE void search_leaf(const iccp_facet_tree *tree, size_t dim, siz
     }
 }
 
+/* Goes down to the leaf on the nearer side of every node and leaves the farther child on the
+ * stack with its distance. A child is dropped when it comes up and is farther than the best
+ * facet by then; the stack never holds more than one node per level. */
 static ICCP_INLINE void search(const iccp_facet_tree *tree, size_t dim, const double *p,
                                nearest *best)
 {

@@ -19,8 +19,8 @@ typedef struct iccp_facet_tree {
     const double *vertices; /* borrowed: dim coordinates each */
     const uint32_t *facets; /* borrowed: n_corners each, which is dim */
     size_t n_leaves;
-    double *boxes; /* 2 dim numbers a node: lower, upper */
-    uint32_t *order;
+    double *boxes;   /* 2 dim numbers a node: lower, upper */
+    uint32_t *order; /* n: the facet at each place */
 } iccp_facet_tree;
 
 /* tree->boxes is NULL if there is no memory. */
@@ -66,7 +66,7 @@ typedef struct iccp_facet_query {
     const iccp_facet_tree *tree;
     double box[2 * ICC_MAX_DIM]; /* may be made smaller at any time */
     const double *from, *to;     /* with a segment: only boxes that come near it; or NULL */
-    size_t node;                 /* where to go on after the leaf; 0: nowhere */
+    size_t node;                 /* to continue with after the leaf; 0: none */
     size_t next, end;            /* places of the current leaf yet to be looked at */
 } iccp_facet_query;
 

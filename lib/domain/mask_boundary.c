@@ -27,9 +27,9 @@ typedef struct axis_order {
 typedef struct boundary {
     const iccp_mask *mask;
     const iccp_env *env;
-    uint32_t *number; /* of each vertex of the cut lattice, where it is on the boundary */
-    double *vertices;
-    uint32_t *facets;
+    uint32_t *number; /* by vertex of the cut lattice: its number, where it is on the boundary */
+    double *vertices; /* n_vertices * dim */
+    uint32_t *facets; /* n_facets * dim */
     size_t n_vertices, n_facets;
     int n_orders; /* of the dim - 1 axes of a face */
     axis_order orders[MOST_ORDERS];

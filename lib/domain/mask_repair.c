@@ -50,6 +50,9 @@ static int count_change(iccp_mask *mask, size_t position, const int64_t *cell)
     return after - before;
 }
 
+/* Fills one of the empty cells around the vertex, edge, .. `at`: the first of those after which
+ * there are fewest contacts. False, and nothing filled, when every one of them would make more
+ * contacts than there were. */
 static bool fill_gap(iccp_mask *mask, const size_t *at)
 {
     int n_axes, least = 1;

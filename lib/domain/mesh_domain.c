@@ -16,9 +16,9 @@ typedef struct builder {
     size_t n_given;
     iccp_simplices *mesh; /* in the caller's numbers, until renumber() */
     iccp_frame frame;
-    uint32_t *number; /* of each of the caller's points: its new number, or NONE */
-    double *boundary; /* the boundary: points as given, */
-    uint32_t *facets; /* and facets by new numbers */
+    uint32_t *number; /* n_given: the new number of each of the caller's points, or NONE */
+    double *boundary; /* mesh->n_boundary * dim: points as given */
+    uint32_t *facets; /* mesh->n_facets * dim: new numbers of points */
 } builder;
 
 static icc_status copy_mesh(builder *b, size_t dim, size_t n_simplices, const uint32_t *simplices,
@@ -38,7 +38,7 @@ static icc_status copy_mesh(builder *b, size_t dim, size_t n_simplices, const ui
     return ICC_OK;
 }
 
-/* Simplices one by one, then side by side. */
+/* Checks simplices one by one, then in pairs across the facets that they share. */
 static icc_status check_mesh(builder *b, size_t n_facets, const uint32_t *facets,
                              const iccp_env *env, icc_error *err)
 {
@@ -78,6 +78,9 @@ static void number_points(builder *b)
     mesh->n_points = inner;
 }
 
+/* Moves points and corners to the new numbers. Points that no simplex has are dropped; the
+ * others keep their order within the boundary and within the interior, so that a mesh that is
+ * already in this order stays as it is. */
 static icc_status renumber(builder *b)
 {
     iccp_simplices *mesh = b->mesh;

@@ -1,5 +1,6 @@
-/* The vertices and facets of a polygon in the order in which one meets them walking round it. The
- * rest of this folder works on rings; vertex and facet numbers come back where results leave it. */
+/* A polygon as points and edges in the order in which one meets them walking round it, by position
+ * k = 0 .. n - 1. The 2-D files of this folder work on positions; the caller's numbers of vertices
+ * and facets come back where results leave the folder. */
 #ifndef ICCP_POLYGON_H
 #define ICCP_POLYGON_H
 
@@ -8,8 +9,8 @@
 typedef struct iccp_polygon {
     size_t n;
     double *points; /* n + 1 local points; the last is the first again: edge k joins k and k + 1 */
-    uint32_t *vertex; /* vertex[k] is the number of point k */
-    uint32_t *facet;  /* facet[k] is the number of edge k */
+    uint32_t *vertex; /* n: the caller's number of point k */
+    uint32_t *facet;  /* n: the caller's number of edge k */
 } iccp_polygon;
 
 /* Orders n facets over n vertices, starting with vertex 0, and takes over the coordinates.

@@ -10,7 +10,7 @@
 icc_status iccp_polygon_localise(iccp_frame *frame, double *local, size_t n, const double *vertices,
                                  icc_error *err);
 
-/* ICC_ERR_BOUNDARY unless the polygon, of at least 3 points, is a simple polygon. */
+/* ICC_ERR_BOUNDARY unless the polygon, of at least 3 points, is simple. */
 icc_status iccp_polygon_check(const iccp_polygon *polygon, const iccp_frame *frame,
                               const iccp_env *env, icc_error *err);
 

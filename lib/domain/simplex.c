@@ -19,11 +19,11 @@ enum { MAX = ICC_MAX_DIM };
 
 typedef struct search {
     size_t dim, n;
-    const double *const *corners;
+    const double *const *corners; /* n */
     const double *p;
-    double distance2[MAX]; /* of the corners */
-    double best2;
-    double bary[MAX]; /* of the best */
+    double distance2[MAX]; /* of the corners from p, squared */
+    double best2;          /* of the nearest point so far */
+    double bary[MAX];      /* by corner, of that point */
 } search;
 
 static void subtract_multiple(size_t dim, double *a, double factor, const double *b)
@@ -92,6 +92,10 @@ static void keep_nearest(search *s, double distance2, size_t n, const size_t *li
         s->bary[list[i]] = bary[i];
 }
 
+/* The point of a face, given as a subset of the corners, that is nearest to p: its projection if
+ * that lies within, else on a smaller face. A flat face has no projection, and all its faces are
+ * searched. Of the smaller faces only those opposite a corner with a negative coordinate can
+ * hold the point. */
 static void search_face(search *s, unsigned subset)
 {
     size_t list[MAX];

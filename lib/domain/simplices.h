@@ -1,7 +1,9 @@
 /* A conforming mesh of simplices that fills a domain, with its neighbours, in any dimension from 2.
  *
- * A side of the mesh is a facet as seen from one simplex: side (dim + 1) s + i belongs to simplex s
- * and lies opposite its corner i. */
+ * A side of the mesh is a half-facet, a facet as seen from one simplex: side (dim + 1) s + i
+ * belongs to simplex s and lies opposite its corner i. An inner facet has two sides, one of the
+ * boundary has one. `corners` has the same numbers: corner i of simplex s is entry (dim + 1) s +
+ * i. */
 #ifndef ICCP_SIMPLICES_H
 #define ICCP_SIMPLICES_H
 
@@ -63,8 +65,8 @@ icc_status iccp_simplices_join(iccp_simplices *mesh, size_t n_facets, const uint
 /* The points of a side, as seen from the other side of it: for the boundary, from outside. */
 void iccp_simplices_side(const iccp_simplices *mesh, size_t side, uint32_t *points);
 
-/* ICC_ERR_TOPOLOGY unless the simplices of a joined mesh hang together and their Euler
- * characteristic is 1. Every point must belong to a simplex. */
+/* ICC_ERR_TOPOLOGY unless the simplices of a joined mesh are connected across facets and their
+ * Euler characteristic is 1. Every point must belong to a simplex. */
 icc_status iccp_simplices_check_shape(const iccp_simplices *mesh, icc_error *err);
 
 #endif

@@ -6,7 +6,8 @@
 
 #include <string.h>
 
-/* How many simplices hang together with simplex 0 across facets; reached[] says which. */
+/* How many simplices are connected to simplex 0 across facets, itself included; reached[] says
+ * which. */
 static size_t flood(const iccp_simplices *mesh, bool *reached, uint32_t *queue)
 {
     const size_t n_sides = mesh->dim + 1;
@@ -28,6 +29,8 @@ static size_t flood(const iccp_simplices *mesh, bool *reached, uint32_t *queue)
     return n;
 }
 
+/* One flood decides: any simplex that it does not reach is a witness, and the message names the
+ * one with the smallest number. */
 static icc_status check_pieces(const iccp_simplices *mesh, icc_error *err)
 {
     const iccp_memory *memory = &mesh->memory;

@@ -168,7 +168,7 @@ static bool corner_before(const double *v, const double *a, const double *b)
     return sign < 0;
 }
 
-/* The turn of the polygon at its first corner, which tells the direction all round, as for any
+/* The orientation of the polygon at its first corner, which is that all round, as for any
  * simple polygon. */
 static int surface_orientation(const iccp_facet_tree *tree)
 {

@@ -37,8 +37,8 @@ static int64_t describe(const iccp_mask *mask, size_t cell, char *text)
 
 typedef struct flood {
     const iccp_mask *mask;
-    uint8_t *reached;
-    uint32_t *queue;
+    uint8_t *reached; /* by padded cell */
+    uint32_t *queue;  /* n_reached of these cells */
     size_t n_reached;
 } flood;
 

@@ -44,7 +44,7 @@ static void compare(sweep *s, uint32_t below, uint32_t above)
 }
 
 /* The highest edge below point v. An edge through v counts as above; it becomes a neighbour of v's
- * edges, and comparing them tells. */
+ * edges, and comparing them decides. */
 static uint32_t find_below(const sweep *s, uint32_t v)
 {
     const iccp_avl_node *const nodes = s->line.nodes;

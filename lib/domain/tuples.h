@@ -13,7 +13,7 @@ typedef struct iccp_tuples {
     size_t n_vertices;  /* all are smaller */
     uint32_t *vertices; /* n * width: filled in by the caller, ascending in each tuple */
     uint32_t *order;    /* n: the tuples in the order of their vertices, the same ones by number */
-    uint32_t *work, *count;
+    uint32_t *work, *count; /* n and n_vertices + 1: for the sort */
 } iccp_tuples;
 
 /* Makes room. n must be less than 2^32. */

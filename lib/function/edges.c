@@ -29,7 +29,7 @@ static const edge_kind KINDS[3] = {
 typedef struct edge {
     uint32_t vertex[4];
     double f[4];
-    const int *foot;
+    const int *foot; /* of the perpendicular, on either side: as in edge_kind */
 } edge;
 
 /* False when a corner lies beyond the grid. */

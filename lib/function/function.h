@@ -18,7 +18,7 @@ struct icc_function {
 /* A function whose values are all NaN. */
 icc_status iccp_function_new(icc_function **out, const icc_tree *tree, const iccp_env *env);
 
-/* Takes over the values of a function on the rows: 0 at the vertices outside next to them, and
+/* Takes over the values of a function on the unknowns: 0 at the vertices outside next to them, and
  * beyond these minus the value two steps back, as if it went on. Logarithms are made when all are
  * positive, exponents when doubles would not hold them. May be called again. ICC_ERR_MEMORY leaves
  * the function usable only for iccp_function_release(). */

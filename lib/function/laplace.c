@@ -17,9 +17,9 @@ typedef struct job {
     const icc_function_options *options;
     iccp_unknowns unknowns;
     iccp_scaled f;
-    uint32_t *top; /* the ties of nothing */
+    uint32_t *top; /* per unknown, as in iccp_ties, as are the next two; ties nothing */
     double *share;
-    uint32_t *order; /* as in iccp_ties */
+    uint32_t *order;
 } job;
 
 /* Most multiplications of a factorisation that are preferred to conjugate gradients. */
@@ -56,6 +56,8 @@ static int32_t choose_solver(const job *j)
     return predict_work(tree) <= most ? ICC_SOLVER_DIRECT : ICC_SOLVER_ITERATIVE;
 }
 
+/* Numbers the unknowns and makes room. No unknown is tied to another one yet, and the guess is 1
+ * everywhere. order[0] == ICCP_NONE says that no order of elimination is known. */
 static icc_status begin_job(job *j, const iccp_env *env)
 {
     icc_status status = iccp_unknowns_create(&j->unknowns, j->function->tree, env);
@@ -89,7 +91,7 @@ static void free_job(job *j, const iccp_env *env)
     iccp_free(&env->memory, j->order);
 }
 
-/* By factorisation where that works, else by iteration; `info` tells. */
+/* By factorisation where that works, else by iteration; `info` says which. */
 static icc_status solve_directly(const iccp_unknowns *unknowns, const iccp_ties *ties,
                                  const iccp_scaled *f, icc_function_info *info, const iccp_env *env)
 {
@@ -151,6 +153,8 @@ static icc_status constrain(job *j, const iccp_env *env)
                                       info, env);
 }
 
+/* Solves without the inequalities first: that solution is the guess for the one with them, and with
+ * ICC_CONSTRAINTS_NEEDED it may do. Its critical points on the grid decide. */
 static icc_status find_function(job *j, const iccp_env *env)
 {
     icc_function *function = j->function;

@@ -21,9 +21,9 @@ typedef struct plate {
     iccp_sparse a;                   /* A, A'A and its factor: clamped */
     iccp_gram gram;
     iccp_ldlt factor;
-    double *f, *residual, *work, *wide; /* a number per row; the last one per row of A */
-    int32_t *exponent;
-    icc_function_info info; /* the solvers' accounts, which nobody asks for here */
+    double *f, *residual, *work, *wide; /* a number per unknown; the last one per row of A */
+    int32_t *exponent;                  /* per unknown */
+    icc_function_info info;             /* what the solvers report; not used here */
 } plate;
 
 static icc_status prepare_clamped(plate *p, const iccp_env *env)
@@ -40,6 +40,8 @@ static icc_status prepare_clamped(plate *p, const iccp_env *env)
     return status == ICC_OK ? iccp_ldlt_factorise(&p->factor, &p->gram.matrix, env) : status;
 }
 
+/* Does once what every load needs: a factor of L, or of A'A when clamped. The iterative solver sets
+ * itself up for each load. On failure the plate is left for free_plate(). */
 static icc_status prepare_plate(plate *p, const icc_function *function, const iccp_env *env)
 {
     *p = (plate){.function = function->info.function,
@@ -93,7 +95,8 @@ static void load_clamped(plate *p, size_t loaded)
     }
 }
 
-/* f under a load on one row, 1 there. What doubles do not hold is far below the greatest value. */
+/* f under a load on one unknown, 1 there. What doubles do not hold is far below the greatest
+ * value. */
 static icc_status load_plate(plate *p, size_t loaded, const iccp_env *env)
 {
     const size_t n = p->unknowns.n;
@@ -129,13 +132,13 @@ static size_t find_highest(const plate *p, size_t loaded)
 
 static size_t find_unknown(const plate *p, uint32_t vertex)
 {
-    size_t row = 0;
-    while (row < p->unknowns.n && p->unknowns.vertex[row] != vertex)
-        ++row;
-    return row;
+    size_t unknown = 0;
+    while (unknown < p->unknowns.n && p->unknowns.vertex[unknown] != vertex)
+        ++unknown;
+    return unknown;
 }
 
-/* The row `stride` times as far from `from` as `to` is, in its direction; `to` where there is
+/* The unknown `stride` times as far from `from` as `to` is, in its direction; `to` where there is
  * none. */
 static size_t find_beyond(const plate *p, size_t from, size_t to, int64_t stride)
 {
@@ -149,16 +152,16 @@ static size_t find_beyond(const plate *p, size_t from, size_t to, int64_t stride
             return to;
         vertex += (uint32_t)z * (uint32_t)grid->stride[k];
     }
-    const size_t row = find_unknown(p, vertex);
-    return row < p->unknowns.n ? row : to;
+    const size_t unknown = find_unknown(p, vertex);
+    return unknown < p->unknowns.n ? unknown : to;
 }
 
-/* Steps grow as long as G(r, r), of the row r that is loaded, does: in a limb that widens slowly
- * the greatest value is always near the load. With f = 1 at each load, G(s, s) / G(r, r) = f_r(s) /
- * f_s(r). */
-static icc_status follow_loads(plate *p, size_t *row, const iccp_env *env)
+/* Steps grow as long as G(r, r), of the unknown r that is loaded, does: in a limb that widens
+ * slowly the greatest value is always near the load. With f = 1 at each load, G(s, s) / G(r, r) =
+ * f_r(s) / f_s(r). */
+static icc_status follow_loads(plate *p, size_t *unknown, const iccp_env *env)
 {
-    size_t at = *row, next = at, top = at;
+    size_t at = *unknown, next = at, top = at;
     double before = 1; /* f at `next` under the load that was accepted last */
     int64_t stride = 1;
     for (int n = 0; n < MOST_LOADS; ++n) {
@@ -171,7 +174,7 @@ static icc_status follow_loads(plate *p, size_t *row, const iccp_env *env)
             stride = next == at ? 1 : 2 * stride;
             at = next;
             top = find_highest(p, at);
-            *row = top;
+            *unknown = top;
             if (top == at)
                 break;
             next = find_beyond(p, at, top, stride);
@@ -189,9 +192,9 @@ icc_status iccp_function_summit(const icc_function *function, uint32_t *summit, 
     plate p;
     icc_status status = prepare_plate(&p, function, env);
     if (status == ICC_OK) {
-        size_t row = find_unknown(&p, function->info.highest);
-        status = follow_loads(&p, &row, env);
-        *summit = p.unknowns.vertex[row];
+        size_t unknown = find_unknown(&p, function->info.highest);
+        status = follow_loads(&p, &unknown, env);
+        *summit = p.unknowns.vertex[unknown];
     }
     free_plate(&p, env);
     return status;

@@ -3,8 +3,8 @@
 typedef struct flood {
     const icc_grid *grid;
     const iccp_env *env;
-    uint8_t *reached;
-    uint32_t *queue; /* one piece after the other */
+    uint8_t *reached; /* by grid vertex */
+    uint32_t *queue;  /* n_reached grid vertices, one piece after the other */
     size_t n_reached;
 } flood;
 

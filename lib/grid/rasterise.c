@@ -3,7 +3,6 @@
 #include "base/error.h"
 #include "domain/mask.h"
 #include "grid/pieces.h"
-#include "grid/scan_mask.h"
 #include "grid/scan_polygon.h"
 #include "grid/scan_surface.h"
 
@@ -55,6 +54,54 @@ static icc_status create_in_boundary(icc_grid **out, const icc_domain *domain, i
     return status == ICC_OK ? iccp_grid_keep_largest(*out, env) : status;
 }
 
+/* ---- masks ---- */
+
+/* The vertex of the lattice of halves in whose place a position counts: a wall, or the middle of a
+ * cell. */
+static size_t halves(size_t position, size_t cuts)
+{
+    return 2 * (position / cuts) + (position % cuts != 0);
+}
+
+/* The vertices along the first axis that lie in the mask or on its border. */
+static void scan_row(icc_grid *grid, const iccp_mask *mask, size_t cuts, size_t first, size_t *at)
+{
+    for (size_t i = 0; i <= cuts * mask->shape[0]; ++i) {
+        int n_axes;
+        at[0] = halves(i, cuts);
+        const bool within = iccp_mask_block(mask, at, &n_axes) == iccp_mask_full(n_axes);
+        grid->inside[first + i] = within;
+        grid->n_inside += within;
+    }
+}
+
+/* Which vertices of a grid lie inside a mask: those around which all cells do. The grid has `cuts`
+ * vertices to a cell along each axis, the walls between cells among them, and `margin` layers
+ * beyond the mask. */
+static icc_status scan_mask(icc_grid *grid, const iccp_mask *mask, size_t cuts, size_t margin,
+                            const iccp_env *env)
+{
+    const size_t row = cuts * mask->shape[0] + 1, n_rows = grid->n_vertices / grid->shape[0];
+    const size_t rows_per_report = 1 + ICCP_VERTICES_PER_REPORT / row;
+    size_t position[ICC_MAX_DIM] = {0}, at[ICC_MAX_DIM];
+    for (size_t n_done = 0;; ++n_done) {
+        if (n_done % rows_per_report == 0 &&
+            iccp_progress(env, "grid", (double)n_done / (double)n_rows) != ICC_OK)
+            return ICC_ERR_CANCELLED;
+        size_t first = margin;
+        for (int32_t k = 1; k < grid->dim; ++k) {
+            first += (position[k] + margin) * grid->stride[k];
+            at[k] = halves(position[k], cuts);
+        }
+        scan_row(grid, mask, cuts, first, at);
+        int32_t k = 1;
+        while (k < grid->dim && ++position[k] > cuts * mask->shape[k])
+            position[k++] = 0;
+        if (k >= grid->dim)
+            return ICC_OK;
+    }
+}
+
 /* Vertices to a cell of the mask: the least even number for which there are `cells` along the
  * longest side. */
 static size_t cuts_for(const iccp_mask *mask, int32_t cells)
@@ -66,6 +113,9 @@ static size_t cuts_for(const iccp_mask *mask, int32_t cells)
     return half > 1 ? 2 * half : 2;
 }
 
+/* Every cuts-th vertex along an axis is a corner of the mask's cells, so that the boundary runs
+ * along edges of the grid and cuts none of its cells. The first vertex lies MARGIN layers before
+ * the mask's corner. */
 static icc_status create_in_mask(icc_grid **out, const icc_domain *domain, int32_t cells,
                                  const iccp_env *env, icc_error *err)
 {
@@ -86,8 +136,10 @@ static icc_status create_in_mask(icc_grid **out, const icc_domain *domain, int32
     grid->cells = (int32_t)(cuts * longest);
     grid->spacing = 1.0 / (double)cuts * domain->frame.in[0] * domain->frame.in[1];
     iccp_frame_in(&domain->frame, mask->dim, first, grid->origin);
-    return iccp_scan_mask(grid, mask, cuts, MARGIN, env);
+    return scan_mask(grid, mask, cuts, MARGIN, env);
 }
+
+/* ---- any ---- */
 
 icc_status iccp_grid_create(icc_grid **out, const icc_domain *domain, int32_t cells,
                             const iccp_env *env, icc_error *err)

@@ -68,6 +68,9 @@ static void mark_crossing(icc_grid *grid, size_t j, const double *a, const doubl
         row(grid, j)[i] ^= TOGGLE;
 }
 
+/* Each edge is followed upwards and meets the rows from its lower to its upper end, the upper one
+ * excluded for toggles. The work is the number of crossings, so progress is reported by these, not
+ * by edges. */
 static icc_status mark_edges(icc_grid *grid, const icc_domain *domain, const iccp_env *env)
 {
     size_t n_crossings = 0, next_report = 0;

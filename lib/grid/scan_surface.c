@@ -85,6 +85,8 @@ static bool find_range(const work *w, uint32_t facet, double near, size_t *first
     return true;
 }
 
+/* Decides anew about the vertices within `near` of a facet. The odometer at[] visits the vertices
+ * of the facet's widened box; few of them are near enough to be located, which costs most. */
 static void locate_near_facet(const work *w, uint32_t facet, double near)
 {
     const icc_grid *grid = w->grid;

@@ -104,10 +104,10 @@ icc_status iccp_etree_build(const iccp_etree *tree, const iccp_env *env)
 /* What a column's rows are found with. In a postorder the descendants of column j are the columns
  * from first[j] to j. */
 typedef struct counting {
-    uint32_t *first;
-    uint32_t *latest;   /* first[] of the last leaf of a row's subtree, so far */
-    uint32_t *leaf;     /* that leaf */
-    uint32_t *ancestor; /* sets of columns whose common ancestor is known, as a forest */
+    uint32_t *first;    /* by column */
+    uint32_t *latest;   /* by row: first[] of the last leaf of its subtree, so far */
+    uint32_t *leaf;     /* by row: that leaf */
+    uint32_t *ancestor; /* by column: sets with a known common ancestor, as a forest */
 } counting;
 
 static uint32_t find_root(uint32_t *ancestor, uint32_t v)

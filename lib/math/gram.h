@@ -9,19 +9,20 @@
 typedef struct iccp_sparse {
     iccp_memory memory;
     size_t n_rows, n_columns;
-    size_t *first; /* n_rows + 1: where the rows begin in the two arrays below */
-    uint32_t *column;
+    size_t *first;    /* n_rows + 1: where the rows begin in the two arrays below */
+    uint32_t *column; /* of each entry */
     double *value;
 } iccp_sparse;
 
 typedef struct iccp_gram {
     iccp_memory memory;
     iccp_symmetric matrix; /* borrows the four arrays below */
-    size_t *first;
-    uint32_t *column;
-    double *value, *diagonal;
-    size_t *row_first; /* of the transpose of B: where its rows, the columns of B, begin */
-    uint32_t *row;
+    size_t *first;         /* n_columns + 1: as in iccp_symmetric, */
+    uint32_t *column;      /* by entry off the diagonal, */
+    double *value;         /* by the same, */
+    double *diagonal;      /* and n_columns */
+    size_t *row_first;     /* n_columns + 1, B by columns: where the entries of each begin */
+    uint32_t *row;         /* of each of these entries: its row of B */
     double *row_value;
     double *sum; /* n_columns: a row of the Gram matrix in the making */
 } iccp_gram;

@@ -50,17 +50,16 @@ icc_status iccp_ldlt_factorise_signed(iccp_ldlt *factor, const iccp_symmetric *m
 /* Accepts what was never analysed (zeroed but for its memory) or freed. */
 void iccp_ldlt_free(iccp_ldlt *factor);
 
-/* Solves for n_rhs right sides at once: entry i of side r at b[i * n_rhs + r], replaced by the
- * solution. `work` has room for n * n_rhs doubles. */
+/* Solves for n_rhs right-hand sides at once: entry i of column r at b[i * n_rhs + r], replaced
+ * by the solution. `work` has room for n * n_rhs doubles. */
 void iccp_ldlt_solve(const iccp_ldlt *factor, size_t n_rhs, double *b, double *work);
 
-/* The same for one right side of normalised numbers, without under- or overflow. `work` has room
- * for n of them. ICC_OK, or ICC_ERR_CANCELLED. The solution of an M-matrix with a right side that
- * is not negative is right to the last
- * few digits in every component, since nothing cancels, unless entries of L itself underflow:
- * orders that join rows directly whose numbers differ by 10^150 lose them. Orders by degree do that
- * in long rings, not where corridors end; an order by falling distance from the source never
- * does. */
+/* The same for one right-hand side of normalised numbers, without under- or overflow. `work` has
+ * room for n of them. ICC_OK, or ICC_ERR_CANCELLED. The solution of an M-matrix with a
+ * right-hand side that is not negative is right to the last few digits in every component, since
+ * nothing cancels, unless entries of L itself underflow: orders that join rows directly whose
+ * numbers differ by 10^150 lose them. Orders by degree do that in long loops, not where
+ * corridors end; an order by falling distance from the source never does. */
 icc_status iccp_ldlt_solve_scaled(const iccp_ldlt *factor, const iccp_scaled *b,
                                   const iccp_scaled *work, const iccp_env *env);
 

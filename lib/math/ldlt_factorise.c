@@ -23,12 +23,12 @@ typedef struct factorisation {
     int8_t *sign; /* in eliminated numbering, or NULL */
     iccp_multiply multiply;
     iccp_labour labour;
-    uint32_t *local;   /* n: where a row is in the current panel */
-    uint32_t *waiting; /* the first panel that waits for a panel, or NONE */
-    uint32_t *next;    /* the one that waits behind it */
-    size_t *done;      /* its first row that has not been used yet */
-    size_t *offset;    /* of the rows of one panel in another one */
-    double *packed;
+    uint32_t *local;   /* n: by row of the factor, where it is in the current panel */
+    uint32_t *waiting; /* by panel: the first panel that waits for it, or NONE */
+    uint32_t *next;    /* by panel: the one that waits behind it */
+    size_t *done;      /* by panel: its first row that has not been used yet */
+    size_t *offset;    /* by row of the updating panel: where it is in the updated one */
+    double *packed;    /* see iccp_panel_pack() */
 } factorisation;
 
 static void find_local(const factorisation *f, uint32_t s)
@@ -87,6 +87,8 @@ static void scatter(const update *u, const double *tile, size_t strip, size_t n_
     }
 }
 
+/* Takes strips two at a time where there are two, so that `multiply` uses each packed entry twice.
+ * Tiles above the diagonal are left out. */
 static icc_status update_strips(void *argument, size_t strip, size_t strips)
 {
     const update *u = argument;
@@ -163,6 +165,9 @@ static double labour_of(const iccp_supernodes *nodes)
     return sum;
 }
 
+/* Left-looking: panel s is finished before panel s + 1 begins. When it is s' turn, waiting[s]
+ * lists exactly the finished panels with rows among the columns of s; each moves on to the panel
+ * of its next row. */
 static icc_status factorise_panels(factorisation *f)
 {
     const iccp_supernodes *nodes = &f->l->nodes;

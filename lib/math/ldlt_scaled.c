@@ -51,7 +51,7 @@ static ICCP_INLINE void add(double *x, int32_t *e, double term, int32_t unit)
     }
 }
 
-/* The right side in eliminated numbering and in units of 2^512. */
+/* The right-hand side in eliminated numbering and in units of 2^512. */
 static void gather(const iccp_ldlt *l, const iccp_scaled *b, const iccp_scaled *work)
 {
     for (size_t k = 0; k < l->n; ++k) {
@@ -84,7 +84,7 @@ static bool share_unit(int32_t *unit, int32_t e)
     return e == *unit || e == ICCP_ZERO_EXPONENT;
 }
 
-/* sum[r] = what row r of a strip gives to its right side; unit[r] is the unit of it. */
+/* sum[r] = what row r of a strip gives to its right-hand side; unit[r] is the unit of it. */
 static void multiply_strip(double *sum, int32_t *unit, const double *strip, size_t depth,
                            const double *x, const int32_t *e, size_t n_alike, int32_t common)
 {
@@ -103,6 +103,9 @@ static void multiply_strip(double *sum, int32_t *unit, const double *strip, size
             add(&sum[r], &unit[r], -strip[STRIP * k + r] * x[k], e[k]);
 }
 
+/* x = L^-1 x for one panel. An entry is normalised when all before it have been used, and only
+ * then is it used itself. As long as the first columns share one unit, their products are plain
+ * doubles. */
 static void forward(const iccp_scaled *work, const iccp_panel *p, uint32_t first,
                     const uint32_t *below)
 {
@@ -144,6 +147,8 @@ static void multiply_transposed(double *x, int32_t *e, const double *strip, size
                 add(&x[k], &e[k], -strip[r] * y[r], unit[r]);
 }
 
+/* x = L^-T D^-1 x for one panel, from its last row upwards: the rows below are final, and each
+ * entry of the square is final, and normalised, before those above it use it. */
 static void backward(const iccp_scaled *work, const iccp_panel *p, uint32_t first,
                      const uint32_t *below)
 {

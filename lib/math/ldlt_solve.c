@@ -9,8 +9,8 @@
 
 #define STRIP ((size_t)ICCP_STRIP)
 
-/* Right sides next to each other within the work space: entry i of side s at value[i * width + s].
- * One pass over a panel serves a whole group of them. */
+/* Right-hand sides next to each other in the work space: entry i of column s at value[i * width
+ * + s]. One pass over a panel serves a whole group of them. */
 typedef struct group {
     double *value;
     size_t width;
@@ -30,7 +30,8 @@ static double *entries(const group *x, const iccp_panel *p, uint32_t first, cons
     return x->value + (i < p->columns ? first + i : below[i - p->columns]) * width;
 }
 
-/* With a constant width the loops over sides and rows are unrolled and run in vector registers. */
+/* With a constant width the loops over columns and rows are unrolled and run in vector
+ * registers. */
 static ICCP_INLINE void forward(const group *x, const iccp_panel *p, uint32_t first,
                                 const uint32_t *below, size_t width)
 {
@@ -56,6 +57,9 @@ static ICCP_INLINE void forward(const group *x, const iccp_panel *p, uint32_t fi
     }
 }
 
+/* x = L^-T D^-1 x for one panel: the mirror image of forward(). Strips are taken from below,
+ * each adding to the columns left of it; within the strip on the diagonal, the last row comes
+ * first. */
 static ICCP_INLINE void backward(const group *x, const iccp_panel *p, uint32_t first,
                                  const uint32_t *below, size_t width)
 {
@@ -109,7 +113,7 @@ static void pass_portable(const iccp_ldlt *factor, size_t s, const group *x, boo
 
 #if defined(__GNUC__) && defined(__x86_64__)
 
-/* The same bits: lanes are rows or sides, and nothing is contracted. */
+/* The same bits: lanes are rows or columns, and nothing is contracted. */
 __attribute__((target("avx2"))) static void pass_avx2(const iccp_ldlt *factor, size_t s,
                                                       const group *x, bool is_forward)
 {
@@ -130,7 +134,7 @@ static pass choose_pass(void)
 
 #endif
 
-/* The group that begins with side `done`: as wide as can be, or one side alone. */
+/* The group that begins with column `done`: as wide as can be, or one column alone. */
 static group group_at(const iccp_ldlt *factor, size_t n_rhs, size_t done, double *work)
 {
     return (group){work + factor->n * done, n_rhs - done < MOST_COLUMNS ? 1 : MOST_COLUMNS};

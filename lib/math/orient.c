@@ -31,6 +31,9 @@ static double read_rows(matrix a, size_t n, const double *const *points)
     return product;
 }
 
+/* The determinant by Gaussian elimination with partial pivoting, which bounds the growth of the
+ * entries that UNCERTAIN counts on. The rows have length 1, so that none of them is scaled to
+ * win the choice of the pivot. */
 static double eliminate(matrix a, size_t n)
 {
     double det = 1;

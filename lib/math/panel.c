@@ -79,6 +79,8 @@ typedef struct product {
     iccp_multiply multiply;
 } product;
 
+/* Like update_strips() in ldlt_factorise.c, but the panel updates itself: rows and columns of
+ * the tile are those of the panel, so that nothing is scattered. */
 static icc_status update_strips(void *argument, size_t strip, size_t strips)
 {
     const product *u = argument;

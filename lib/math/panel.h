@@ -11,7 +11,7 @@
 
 typedef struct iccp_panel {
     size_t columns, rows;
-    double *value;
+    double *value; /* `rows`, padded to strips, times `columns` */
     double *pivot; /* of its columns */
 } iccp_panel;
 

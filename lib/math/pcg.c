@@ -57,7 +57,7 @@ static icc_status precondition(const problem *s, const double *r, double *z)
     return s->part != NULL ? s->part(s->argument, r, z) : ICC_OK;
 }
 
-/* One right side: r holds it and becomes the residual; x becomes the solution. */
+/* One right-hand side: r holds it and becomes the residual; x becomes the solution. */
 static icc_status iterate(const problem *s, double *x, double *r, double *z, double *p, double *q)
 {
     const iccp_symmetric *m = s->matrix;

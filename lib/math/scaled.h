@@ -11,7 +11,7 @@
 
 /* A vector of such numbers. Normalised: |fraction| in [0.5, 1), or 0 with ICCP_ZERO_EXPONENT. */
 typedef struct iccp_scaled {
-    double *fraction;
+    double *fraction; /* per entry, as is the next */
     int32_t *exponent;
 } iccp_scaled;
 

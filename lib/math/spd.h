@@ -19,8 +19,8 @@ icc_status iccp_spd_create(iccp_spd *solver, const iccp_symmetric *matrix, bool 
                            const iccp_env *env);
 void iccp_spd_free(iccp_spd *solver);
 
-/* Solves for n_rhs right sides at once: entry i of side r at b[i * n_rhs + r], replaced by the
- * solution. ICC_ERR_SOLVER when the iteration does not converge. */
+/* Solves for n_rhs right-hand sides at once: entry i of column r at b[i * n_rhs + r], replaced
+ * by the solution. ICC_ERR_SOLVER when the iteration does not converge. */
 icc_status iccp_spd_solve(const iccp_spd *solver, size_t n_rhs, double *b, const iccp_env *env);
 
 #endif

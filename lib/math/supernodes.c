@@ -50,6 +50,9 @@ static void partition(iccp_supernodes *nodes, const iccp_etree *t, const uint32_
     nodes->column[nodes->n] = (uint32_t)n;
 }
 
+/* Numbers rows and values one supernode after the other. The last column of a supernode has the
+ * fewest rows, and all its columns share these: what is below a panel is the count of that
+ * column without its diagonal entry. */
 static void lay_out_panels(iccp_supernodes *nodes, const iccp_etree *t, const uint32_t *count)
 {
     size_t n_rows = 0, n_values = 0;

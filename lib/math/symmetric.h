@@ -8,8 +8,8 @@
 
 typedef struct iccp_symmetric {
     size_t n;
-    const size_t *first; /* n + 1: where the rows begin in the two arrays below */
-    const uint32_t *column;
+    const size_t *first;    /* n + 1: where the rows begin in the two arrays below */
+    const uint32_t *column; /* of each entry off the diagonal */
     const double *value;
     const double *diagonal; /* n */
 } iccp_symmetric;

@@ -22,8 +22,8 @@ enum {
 static const double TYPICAL_ROUNDS = 8;
 
 /* Slacks and multipliers in units of f are rounding errors up to the first: with a factorisation
- * they were 3e-14 at most (700,000 rows). Up to the second they are within what an iterative solver
- * can do. */
+ * they were 3e-14 at most (700,000 unknowns). Up to the second they are within what an iterative
+ * solver can do. */
 static const double NOISE = 3e-13, ACCEPTABLE = 1e-9;
 
 /* Shares are squared, and a tenth of the exponents is left for the entries of the factor. */
@@ -33,19 +33,20 @@ typedef struct state {
     const iccp_unknowns *unknowns;
     const iccp_scaled *f;
     double sigma;
-    bool *active; /* the edge from each row to its parent */
-    bool *wrong;  /* active with a negative multiplier, or violated */
+    bool *active; /* per unknown: the edge to its parent */
+    bool *wrong;  /* per unknown: its edge is active with a negative multiplier, or violated */
     size_t n_wrong;
     double worst;  /* the largest multiplier or violation of these */
-    uint32_t *top; /* ties by `active` */
+    uint32_t *top; /* ties by `active`: see iccp_ties, as for the next two */
     double *share;
     uint32_t *order;
-    double *multiplier; /* of active edges, in units of 2^exponent of f at the row's top */
+    double *multiplier; /* per unknown: of its edge if that is active, in units of 2^exponent of f
+                           at the unknown's top */
     double *work;       /* 2 n, the multipliers among them: for the residual */
     uint64_t random;
 } state;
 
-/* False when the share of a row underflows. */
+/* False when the share of an unknown underflows. */
 static bool tie(state *s)
 {
     double least = 1;
@@ -122,6 +123,9 @@ static void flip_some(state *s, int level)
     }
 }
 
+/* Begins with the empty set, for which f is the solution. All wrong inequalities are flipped as
+ * long as their number falls; every PATIENCE steps without a new minimum the share that is flipped
+ * is halved. What is then still wrong by no more than an iterative solver's errors is accepted. */
 static icc_status iterate(state *s, iccp_tied_solver solve, icc_function_info *info,
                           const iccp_env *env)
 {

@@ -98,24 +98,24 @@ static icc_status navier_direct(const iccp_unknowns *unknowns, const iccp_scaled
     return status;
 }
 
-/* Unknowns: all rows but the root. */
+/* The free variables are all unknowns but the root. */
 static icc_status clamped(const iccp_unknowns *unknowns, const iccp_sparse *a, double *f,
                           icc_function_info *info, const iccp_env *env)
 {
     const size_t n = unknowns->n;
-    uint32_t *unknown = iccp_alloc(&env->memory, n, sizeof *unknown);
+    uint32_t *variable = iccp_alloc(&env->memory, n, sizeof *variable);
     double *share = iccp_alloc(&env->memory, n, sizeof *share);
     icc_status status = ICC_ERR_MEMORY;
-    if (unknown != NULL && share != NULL) {
+    if (variable != NULL && share != NULL) {
         for (uint32_t k = 0; k < n; ++k) {
-            unknown[k] = k == 0 ? ICCP_NONE : k - 1;
+            variable[k] = k == 0 ? ICCP_NONE : k - 1;
             share[k] = 1;
         }
-        const iccp_reduction all = {n - 1, unknown, share};
+        const iccp_reduction all = {n - 1, variable, share};
         f[0] = 1;
         status = iccp_energy_minimise(a, &all, f, info, env);
     }
-    iccp_free(&env->memory, unknown);
+    iccp_free(&env->memory, variable);
     iccp_free(&env->memory, share);
     return status;
 }

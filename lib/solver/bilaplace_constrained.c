@@ -21,6 +21,9 @@ static const double TARGETS[] = {1e-12, 1e-14, 1e-16, 1e-18, 0};
 /* A slack below this, relative to the parent or the bound, is equality. */
 static const double EQUAL = 1e-12;
 
+/* Runs the interior point method to one target after the other and tries the active set that each
+ * iterate suggests: where the multiplier exceeds the slack. Ends with a residual that is good
+ * enough or when rounding stops the interior point method, which the last target forces. */
 static icc_status alternate_methods(const iccp_qp *qp, uint8_t *active, iccp_candidate *candidate,
                                     icc_function_info *info, const iccp_env *env)
 {
@@ -88,6 +91,8 @@ static size_t count_active(const iccp_qp *qp, const double *f)
     return n_active;
 }
 
+/* The sweep makes the inequalities hold in rounded arithmetic, at the price of the residual; that
+ * before and that after are both reported. Active is then what holds with equality. */
 static icc_status sweep_and_report(const iccp_qp *qp, const iccp_candidate *candidate,
                                    const iccp_scaled *f, icc_function_info *info,
                                    const iccp_env *env)

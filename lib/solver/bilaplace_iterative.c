@@ -15,7 +15,7 @@ static const iccp_mg_goal GOAL = {.relative = 1e-11, .componentwise = 1e-9, .flo
 typedef struct poisson {
     const iccp_unknowns *unknowns;
     iccp_multigrid mg;
-    uint32_t *position; /* of each row, among the entries of the finest level */
+    uint32_t *position; /* by unknown: where it is among the entries of the finest level */
     double *x, *r;      /* per entry */
 } poisson;
 
@@ -48,7 +48,7 @@ static void poisson_free(poisson *p, const iccp_env *env)
     iccp_free(&env->memory, p->r);
 }
 
-/* x = L^-1 r, divided by its value at the row that is loaded. */
+/* x = L^-1 r, divided by its value at the unknown that is loaded. */
 static icc_status solve(poisson *p, size_t loaded, icc_function_info *info, const iccp_env *env)
 {
     const size_t n = p->mg.level[0].n_entries;

@@ -1,13 +1,13 @@
 /* Nested dissection: A. George, Nested dissection of a regular finite element mesh, SIAM J. Numer.
  * Anal. 10, 1973. Neighbours differ by 1 in one coordinate, and by 1 in their generation of the
- * tree, which is one coordinate more here: the rows with one value of a coordinate separate those
- * below it from those above it. Parts that are thin along the tree are eliminated from their far
- * end.
+ * tree, which is one coordinate more here: the unknowns with one value of a coordinate separate
+ * those below it from those above it. Parts that are thin along the tree are eliminated from their
+ * far end.
  *
  * A separator in the middle of a long limb would be joined with the limb's ends by entries that
- * underflow, and the values beyond it would be lost. So the rows are first cut into bands, in each
- * of which values fall by a bounded factor on the way from the root, and the farthest band goes
- * first. */
+ * underflow, and the values beyond it would be lost. So the unknowns are first cut into bands, in
+ * each of which values fall by a bounded factor on the way from the root, and the farthest band
+ * goes first. */
 #include "solver/dissection.h"
 
 #include <math.h>
@@ -15,9 +15,9 @@
 #include <string.h>
 
 enum {
-    SMALL = 16,      /* rows: smaller parts are not cut */
+    SMALL = 16,      /* unknowns: smaller parts are not cut */
     MOST_PARTS = 64, /* that wait: the smaller half goes first, so that they halve */
-    MOST_PLANES = 16 /* per row of a part: coordinates that span more are not looked at */
+    MOST_PLANES = 16 /* per unknown of a part: coordinates that span more are not looked at */
 };
 
 /* Natural logarithm of what values fall by in a band: 2^-288, and entries of a factor may go down
@@ -37,10 +37,10 @@ typedef struct dissection {
     const iccp_unknowns *unknowns;
     const iccp_env *env;
     size_t n_axes;   /* the generation is the last one */
-    uint32_t *order; /* parts are ranges of it, their rows rising */
+    uint32_t *order; /* parts are ranges of it, their unknowns rising */
     uint32_t *work;  /* n */
-    uint32_t *place; /* n * n_axes: the coordinates of each row; at first the runs through it */
-    uint32_t *count; /* rows of a part in each plane across one axis */
+    uint32_t *place; /* n * n_axes: the coordinates of each unknown; at first the runs through it */
+    uint32_t *count; /* unknowns of a part in each plane across one axis */
     size_t n_done, n_visited;
 } dissection;
 
@@ -65,7 +65,7 @@ static icc_status count_visits(dissection *d, size_t n_rows)
 
 /* ------------------------------------------------------------------- bands */
 
-/* How many rows lie in one line through each row, along one axis. */
+/* How many unknowns lie in one line through each unknown, along one axis. */
 static icc_status find_runs(dissection *d, size_t axis)
 {
     const size_t degree = (size_t)d->unknowns->n_neighbours;
@@ -85,7 +85,8 @@ static icc_status find_runs(dissection *d, size_t axis)
     return ICC_OK;
 }
 
-/* About how fast functions fall along the longest run through a row, from the widths across it. */
+/* About how fast functions fall along the longest run through an unknown, from the widths across
+ * it. */
 static double rate(const uint32_t *run, size_t dim)
 {
     double sum = 0, least = HUGE_VAL;
@@ -97,7 +98,7 @@ static double rate(const uint32_t *run, size_t dim)
     return PI * sqrt(sum - least);
 }
 
-/* The band of each row into `work`. */
+/* The band of each unknown into `work`. */
 static icc_status find_bands(dissection *d, uint32_t *n_bands)
 {
     const size_t n = d->unknowns->n, dim = d->n_axes - 1;
@@ -118,7 +119,7 @@ static icc_status find_bands(dissection *d, uint32_t *n_bands)
     return status;
 }
 
-/* Puts the rows in order by falling band; the ends of the bands into end[1..]. */
+/* Puts the unknowns in order by falling band; the ends of the bands into end[1..]. */
 static void sort_bands(dissection *d, size_t *end, uint32_t n_bands)
 {
     const size_t n = d->unknowns->n;
@@ -153,8 +154,8 @@ static icc_status find_places(dissection *d)
     return status;
 }
 
-/* Counts the rows of a part in its planes across one axis, from the lowest on. Returns the number
- * of planes, 0 when there are too many. */
+/* Counts the unknowns of a part in its planes across one axis, from the lowest on. Returns the
+ * number of planes, 0 when there are too many. */
 static size_t count_planes(const dissection *d, const part *p, size_t axis, uint32_t *lowest)
 {
     const uint32_t *place = d->place + axis;
@@ -185,7 +186,7 @@ static bool is_thin(const dissection *d, const part *p, size_t n_generations)
            work <= factor * pow((double)(p->end - p->begin), fmax(1, 3 - 3 / dim));
 }
 
-/* Few rows in the plane, many on either side. The median's sides are never too large. */
+/* Few unknowns in the plane, many on either side. The median's sides are never too large. */
 static void choose_plane(const dissection *d, const part *p, size_t axis, size_t n_planes,
                          uint32_t lowest, plane *best)
 {
@@ -199,7 +200,7 @@ static void choose_plane(const dissection *d, const part *p, size_t axis, size_t
     }
 }
 
-/* The rows below a plane, those above it, then those in it. */
+/* The unknowns below a plane, those above it, then those in it. */
 static void split(dissection *d, const part *p, const plane *cut, part half[2])
 {
     size_t n[3] = {0, 0, 0};

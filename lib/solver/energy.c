@@ -22,7 +22,7 @@ static uint32_t neighbour(const iccp_unknowns *unknowns, size_t k, int32_t d)
     return unknowns->neighbour[k * (size_t)unknowns->n_neighbours + (size_t)d];
 }
 
-/* The vertex outside next to row k, or ICCP_NONE beyond the grid. */
+/* The vertex outside next to unknown k, or ICCP_NONE beyond the grid. */
 static uint32_t vertex_outside(const iccp_unknowns *unknowns, size_t k, int32_t d)
 {
     return iccp_grid_neighbour(unknowns->tree->grid, unknowns->vertex[k], d / 2, 2 * (d % 2) - 1);
@@ -53,8 +53,8 @@ static void set_inside(iccp_sparse *a, const iccp_unknowns *unknowns)
     a->first[unknowns->n] = p;
 }
 
-/* The row of A of the vertex outside next to row k; numbers it when it is met for the first time. A
- * vertex beyond the grid has one neighbour inside, so that it is met only once. */
+/* The row of A of the vertex outside next to unknown k; numbers it when it is met for the first
+ * time. A vertex beyond the grid has one neighbour inside, so that it is met only once. */
 static size_t row_outside(iccp_sparse *a, const iccp_unknowns *unknowns, uint32_t *row_of, size_t k,
                           int32_t d)
 {
@@ -164,7 +164,8 @@ typedef struct least_squares {
     iccp_sparse b;
     iccp_gram gram;
     iccp_ldlt factor;
-    double *residual, *x, *step, *work;
+    double *residual;        /* per row of A */
+    double *x, *step, *work; /* per variable */
 } least_squares;
 
 static void expand(const least_squares *s, double *f)
@@ -210,6 +211,8 @@ static icc_status solve(const least_squares *s, double *f, const iccp_env *env)
     return ICC_ERR_SOLVER;
 }
 
+/* Sets up B = A P and factorises B'B. The correction in correct() makes up for the digits that are
+ * lost by squaring, so the normal equations will do. */
 static icc_status factorise(least_squares *s, icc_function_info *info, const iccp_env *env)
 {
     double start = iccp_seconds();

@@ -1,4 +1,4 @@
-/* The bending energy 1/2 |A f|^2 of functions on the rows, A f being their Laplacian, and its
+/* The bending energy 1/2 |A f|^2 of functions on the unknowns, A f being their Laplacian, and its
  * minimum under fixed and tied values. */
 #ifndef ICCP_ENERGY_H
 #define ICCP_ENERGY_H
@@ -7,7 +7,7 @@
 #include "math/gram.h"
 #include "solver/unknowns.h"
 
-/* The Laplacians of the vertices inside, one row of A each in the order of `rows`, and for
+/* The Laplacians of the vertices inside, one row of A each in the order of `unknowns`, and for
  * ICC_FUNCTION_CLAMPED below them those of the vertices outside next to them, whether or not the
  * grid has them. One column per vertex inside; f is 0 outside. */
 icc_status iccp_energy_create(iccp_sparse *a, const iccp_unknowns *unknowns, int32_t function,
@@ -16,11 +16,11 @@ icc_status iccp_energy_create(iccp_sparse *a, const iccp_unknowns *unknowns, int
 /* out = A'A f; `work`: a->n_rows doubles. With A f first, digits that A'A would lose are kept. */
 void iccp_energy_gradient(const iccp_sparse *a, const double *f, double *work, double *out);
 
-/* f_k = share_k x_unknown(k), or what f_k is where variable(k) == ICCP_NONE. */
+/* f_k = share_k x_variable(k), or what f_k is where variable(k) == ICCP_NONE. */
 typedef struct iccp_reduction {
     size_t n_variables;
-    const uint32_t *variable;
-    const double *share; /* > 0 where there is an variable */
+    const uint32_t *variable; /* per unknown: its free variable, or ICCP_NONE */
+    const double *share;      /* > 0 where there is a variable */
 } iccp_reduction;
 
 /* Finds the least energy among such f. On entry f holds the known values; on return all. Refined

@@ -1,5 +1,5 @@
-/* Optimality under inequalities along a tree: each row but the root has one multiplier, that of the
- * edge to its parent, so that stationarity is a triangular system. */
+/* Optimality under inequalities along a tree: each unknown but the root has one multiplier, that of
+ * the edge to its parent, so that stationarity is a triangular system. */
 #include "solver/inequalities.h"
 
 #include <assert.h>
@@ -56,8 +56,8 @@ double iccp_laplacian_row(const iccp_unknowns *unknowns, const iccp_scaled *f, s
 
 /* A leaf's bound and its edge pull at the same value: with both tight, the edge's multiplier may be
  * raised at will, the bound's with it, and so on up the tree as long as edges are tight. `lift` is
- * the least price of that below a row: the largest slack on the way, by which a residual is bounded
- * where the multipliers are positive. */
+ * the least price of that below an unknown: the largest slack on the way, by which a residual is
+ * bounded where the multipliers are positive. */
 double iccp_inequalities_residual(const iccp_unknowns *unknowns, double eta, double leaf,
                                   const iccp_scaled *f, const iccp_scaled *gradient, double *work)
 {

@@ -13,8 +13,9 @@ size_t iccp_inequalities_violated(const iccp_unknowns *unknowns, double eta, con
  * of the violations above them. None is violated afterwards, in rounded arithmetic too. */
 void iccp_inequalities_sweep(const iccp_unknowns *unknowns, double eta, const iccp_scaled *f);
 
-/* How far the rows 1.. of f are from minimising an energy under the inequalities and, if `leaf` is
- * positive, under f >= leaf at the rows without children: the largest |min(slack, multiplier)|.
+/* How far the entries 1.. of f are from minimising an energy under the inequalities and, if `leaf`
+ * is positive, under f >= leaf at the unknowns without children: the largest |min(slack,
+ * multiplier)|.
  *
  * gradient: that of the energy. The multipliers lambda of the edges follow from it by one sweep
  * from the leaves to the root, (1 + eta) lambda_k = sum of those of k's children - gradient_k, so

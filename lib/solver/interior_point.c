@@ -255,6 +255,10 @@ static void stack_energy(iccp_sparse *b, const iccp_sparse *a, size_t *end)
     }
 }
 
+/* B = A above G, both without the column of the root, whose value is fixed. G has the rows of qp.h
+ * in their order: edges, with 1 at the parent and -sigma at the child, then the leaves' bounds.
+ * With weights 1 for the rows of A and W for those of G, B'WB is the matrix that each step solves
+ * with. */
 static icc_status stack(iccp_interior_point *p, const iccp_env *env)
 {
     const iccp_sparse *a = &p->qp->a;

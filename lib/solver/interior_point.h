@@ -1,4 +1,4 @@
-/* Interior point method for the program of program.h. */
+/* Interior point method for the quadratic program of qp.h. */
 #ifndef ICCP_INTERIOR_POINT_H
 #define ICCP_INTERIOR_POINT_H
 
@@ -8,7 +8,7 @@
 typedef struct iccp_interior_point {
     iccp_memory memory;
     const iccp_qp *qp;          /* borrowed */
-    double *f;                  /* per row; f_0 = 1 */
+    double *f;                  /* per unknown; f_0 = 1 */
     double *slack, *multiplier; /* per inequality; positive */
     size_t n_iterations;
     double remaining; /* share of the first iterate's residuals: each step takes its
@@ -18,15 +18,15 @@ typedef struct iccp_interior_point {
     iccp_gram gram;
     iccp_ldlt factor;
     double *weight;        /* per row of b */
-    double *dual, *primal; /* residuals: per row, per inequality */
+    double *dual, *primal; /* residuals: per unknown, per inequality */
     double *product;       /* per inequality: slack * multiplier, less what is wanted */
-    double *step_f, *step_slack, *step_multiplier;
-    double *force, *gap, *work; /* right sides, and room for the longest of all these */
+    double *step_f, *step_slack, *step_multiplier; /* as f, slack and multiplier */
+    double *force, *gap, *work; /* right-hand sides, and room for the longest of all these */
     double *room;               /* what all these arrays lie in */
 } iccp_interior_point;
 
 /* Analyses the systems and finds a point to start from. Memory: that of the factor, about 20
- * doubles per row and 12 per inequality. */
+ * doubles per unknown and 12 per inequality. */
 icc_status iccp_interior_point_create(iccp_interior_point *ip, const iccp_qp *qp,
                                       icc_function_info *info, const iccp_env *env);
 void iccp_interior_point_free(iccp_interior_point *ip);

@@ -5,6 +5,8 @@
 
 #include <math.h>
 
+/* The Laplacian of the vertices inside with f = 0 outside: neighbours outside have no entry, but
+ * count in the diagonal. That makes it a positive definite M-matrix. */
 static icc_status set_matrix(iccp_laplacian_factor *l, const iccp_unknowns *unknowns,
                              const iccp_env *env)
 {

@@ -1,4 +1,4 @@
-/* The factorised Laplacian of all rows, the root's included. */
+/* The factorised Laplacian of all unknowns, the root's included. */
 #ifndef ICCP_LAPLACIAN_FACTOR_H
 #define ICCP_LAPLACIAN_FACTOR_H
 
@@ -8,7 +8,7 @@
 
 typedef struct iccp_laplacian_factor {
     iccp_memory memory;
-    iccp_symmetric matrix;
+    iccp_symmetric matrix; /* borrows the four arrays below */
     size_t *first;
     uint32_t *column;
     double *value, *diagonal;

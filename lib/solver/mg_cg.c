@@ -21,7 +21,7 @@ static const size_t ENTRIES_PER_REPORT = (size_t)1 << 20;
 typedef struct solver {
     iccp_multigrid *mg;
     const iccp_mg_level *level;
-    double *x, *r;
+    double *x, *r; /* per entry of the level, as is p */
     float *p;
     double alpha, beta, bound, least;
     iccp_mg_upward up;     /* of the last pass up */
@@ -131,6 +131,9 @@ static icc_status pass_up(solver *s, const iccp_env *env)
     return status;
 }
 
+/* p'Ap is not summed up but follows from z'Az and the last step, as in the source. That is a
+ * difference, which rounding may spoil; the next direction is then z alone. What a pass down
+ * measures belongs to the x that it made, so that the goal is tested between the passes. */
 static icc_status iterate(solver *s, double size, const iccp_mg_goal *goal, size_t *n_iterations,
                           const iccp_env *env)
 {

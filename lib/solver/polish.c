@@ -24,7 +24,7 @@ enum {
 };
 
 /* Slacks and multipliers are wrong below minus this part of `enough`. With all of it, a contact
- * moves by one row a step where the function is tiny; with a hundredth, rounding errors get
+ * moves by one unknown a step where the function is tiny; with a hundredth, rounding errors get
  * active. */
 static const double WRONG = 0.1;
 
@@ -34,17 +34,18 @@ typedef struct state {
     const iccp_qp *qp;
     size_t n;
     double enough, tolerance;
-    uint8_t *active; /* per inequality */
-    uint8_t *open;   /* per row: an active leaf is reached from here by active edges, downwards */
-    uint8_t *mark;   /* LIFTED: such a leaf bears what would be a negative multiplier of the row's
-                          edge; RISES: the cluster of this top pulls at its leaves; STAYS: but not
-                          here */
-    uint32_t *top;   /* of each row's cluster */
-    uint32_t *variable; /* of its cluster, or ICCP_NONE if it is held */
-    double *share;      /* of the value of the top */
-    double *held;       /* per top: its value, or 0 */
-    double *f, *gradient;
-    double *sum; /* of the multipliers of the children's edges */
+    uint8_t *active;      /* per inequality */
+    uint8_t *open;        /* per unknown: an active leaf is reached from here by active edges,
+                             downwards */
+    uint8_t *mark;        /* LIFTED: such a leaf bears what would be a negative multiplier of the
+                             unknown's edge; RISES: the cluster of this top pulls at its leaves;
+                             STAYS: but not here */
+    uint32_t *top;        /* per unknown: the top of its cluster */
+    uint32_t *variable;   /* of its cluster, or ICCP_NONE if it is held */
+    double *share;        /* of the value of the top */
+    double *held;         /* per top: its value, or 0 */
+    double *f, *gradient; /* per unknown */
+    double *sum;          /* of the multipliers of the children's edges */
     double *work;
     double *room;  /* what the arrays of doubles lie in */
     bool hesitant; /* only every other change is made, by chance */
@@ -199,6 +200,9 @@ static void let_rise(state *s)
     }
 }
 
+/* The best candidate is kept, whatever becomes of the set. Patience is for steps that neither find
+ * a smaller residual nor fewer wrong inequalities than ever before; when some of it is used up,
+ * only every other change is made, which breaks cycles. */
 static icc_status iterate(state *s, iccp_candidate *candidate, icc_function_info *info,
                           const iccp_env *env)
 {

@@ -1,4 +1,4 @@
-/* Active set iteration for the program of program.h, from a good guess. */
+/* Active set iteration for the quadratic program of qp.h, from a good guess. */
 #ifndef ICCP_POLISH_H
 #define ICCP_POLISH_H
 
@@ -6,7 +6,7 @@
 
 /* A function and how far it is from being the solution. */
 typedef struct iccp_candidate {
-    double *f;       /* per row; f_0 = 1 */
+    double *f;       /* per unknown; f_0 = 1 */
     double residual; /* see iccp_inequalities_residual(); HUGE_VAL: nothing found yet */
 } iccp_candidate;
 

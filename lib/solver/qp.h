@@ -1,5 +1,5 @@
 /* The quadratic program of constrained bi-Laplace: 1/2 |A f|^2 is to be least among the f with f_0
- * = 1, f_parent >= sigma f_child on the edges of the tree and f >= leaf at the rows without
+ * = 1, f_parent >= sigma f_child on the edges of the tree and f >= leaf at the unknowns without
  * children. */
 #ifndef ICCP_QP_H
 #define ICCP_QP_H
@@ -8,7 +8,7 @@
 
 #include <stdbool.h>
 
-/* Inequality i < n - 1 belongs to the edge from row i + 1 to its parent, n - 1 + j to row
+/* Inequality i < n - 1 belongs to the edge from unknown i + 1 to its parent, n - 1 + j to unknown
  * leaf_unknown[j]. */
 typedef struct iccp_qp {
     const iccp_unknowns *unknowns;
@@ -16,7 +16,7 @@ typedef struct iccp_qp {
     double sigma;  /* 1 + eta */
     double leaf;
     size_t n_leaves;
-    uint32_t *leaf_unknown;
+    uint32_t *leaf_unknown; /* n_leaves: the unknowns without children, rising */
 } iccp_qp;
 
 icc_status iccp_qp_create(iccp_qp *qp, const iccp_unknowns *unknowns, int32_t function, double eta,

@@ -149,6 +149,9 @@ static double dot_float(size_t n, const double *a, const float *b)
 /* Of an iteration, with all levels. */
 static const double WORK_PER_ENTRY = 60;
 
+/* Preconditioned conjugate gradients as in every textbook, on the tops: the entries of members in
+ * r, p and q stay 0 or are completed by iccp_tied_apply(). Ends when the goal is reached, or fails
+ * when the residual has not fallen for PATIENCE iterations. */
 static icc_status iterate(solver *s, double size, const iccp_mg_goal *goal, size_t *n_iterations,
                           const iccp_env *env)
 {

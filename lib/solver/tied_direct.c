@@ -1,4 +1,4 @@
-/* The tied problem by factorisation. The clusters of rows, the root's apart, are the unknowns.
+/* The tied problem by factorisation. Each cluster of unknowns but the root's is one variable u.
  *
  * Diagonal entries of P'LP are sums of squares, by s'Ls = sum of (s_u - s_v)^2 over neighbours u,
  * v: the accuracy of small components hangs on how far the diagonal exceeds the rest of its row,
@@ -22,17 +22,19 @@ static const double MOST_RESIDUAL = 1e-6;
 typedef struct assembly {
     const iccp_unknowns *unknowns;
     const iccp_ties *ties;
-    size_t n;           /* unknowns */
-    uint32_t *unknown;  /* n rows: the cluster of each; ICCP_NONE: the root's */
-    uint32_t *last;     /* per cluster: its last row */
-    uint32_t *previous; /* n rows: the row before in the same cluster; ICCP_NONE at its top */
-    size_t *slot;       /* per column: where its entry of the current row is, if that is its own */
-    size_t *first;
+    size_t n;           /* clusters */
+    uint32_t *cluster;  /* per unknown: its cluster; ICCP_NONE: the root's */
+    uint32_t *last;     /* per cluster: its last unknown */
+    uint32_t *previous; /* per unknown: the one before in its cluster; ICCP_NONE at its top */
+    size_t *slot;       /* per cluster v: where entry (u, v) is, if that belongs to row u */
+    size_t *first;      /* n + 1, as in iccp_symmetric, as are the next two */
     uint32_t *column;
-    double *value, *diagonal, *known; /* known: the right side */
+    double *value;
+    double *diagonal; /* per cluster */
+    double *known;    /* per cluster: the right-hand side */
 } assembly;
 
-/* Numbers the clusters and links their rows. */
+/* Numbers the clusters by their tops and links their unknowns. */
 static void find_clusters(assembly *a)
 {
     const uint32_t *top = a->ties->top;
@@ -40,8 +42,8 @@ static void find_clusters(assembly *a)
     for (uint32_t k = 0; k < a->unknowns->n; ++k) {
         const bool is_top = top[k] == k;
         if (is_top)
-            a->unknown[k] = k == 0 ? ICCP_NONE : (uint32_t)a->n++;
-        const uint32_t u = a->unknown[k] = a->unknown[top[k]];
+            a->cluster[k] = k == 0 ? ICCP_NONE : (uint32_t)a->n++;
+        const uint32_t u = a->cluster[k] = a->cluster[top[k]];
         if (u == ICCP_NONE)
             continue;
         a->previous[k] = is_top ? ICCP_NONE : a->last[u];
@@ -56,9 +58,9 @@ static size_t count_entries(const assembly *a)
     for (size_t k = 0; k < a->unknowns->n; ++k)
         for (size_t d = 0; d < degree; ++d) {
             const uint32_t j = a->unknowns->neighbour[k * degree + d];
-            n_entries += j != ICCP_NONE && a->unknown[j] != a->unknown[k];
+            n_entries += j != ICCP_NONE && a->cluster[j] != a->cluster[k];
         }
-    return n_entries; /* those of the root's row too: an upper bound is wanted */
+    return n_entries; /* those of the root too: an upper bound is wanted */
 }
 
 static bool allocate(assembly *a, const iccp_env *env)
@@ -77,7 +79,7 @@ static bool allocate(assembly *a, const iccp_env *env)
 
 static void release(assembly *a, const iccp_env *env)
 {
-    void *const arrays[] = {a->unknown, a->last,  a->previous, a->slot, a->first,
+    void *const arrays[] = {a->cluster, a->last,  a->previous, a->slot, a->first,
                             a->column,  a->value, a->diagonal, a->known};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; ++i)
         iccp_free(&env->memory, arrays[i]);
@@ -104,7 +106,7 @@ static void assemble_row(assembly *a, size_t u)
     for (uint32_t k = a->last[u]; k != ICCP_NONE; k = a->previous[k])
         for (size_t d = 0; d < degree; ++d) {
             const uint32_t j = a->unknowns->neighbour[k * degree + d];
-            if (j != ICCP_NONE && a->unknown[j] == u) {
+            if (j != ICCP_NONE && a->cluster[j] == u) {
                 const double step = share[k] - share[j];
                 a->diagonal[u] += 0.5 * step * step; /* met from either end */
                 continue;
@@ -112,22 +114,24 @@ static void assemble_row(assembly *a, size_t u)
             a->diagonal[u] += share[k] * share[k];
             if (j == ICCP_NONE)
                 continue;
-            if (a->unknown[j] == ICCP_NONE)
+            if (a->cluster[j] == ICCP_NONE)
                 a->known[u] += share[k] * share[j];
             else
-                subtract(a, u, a->unknown[j], share[k] * share[j], &end);
+                subtract(a, u, a->cluster[j], share[k] * share[j], &end);
         }
     a->first[u + 1] = end;
 }
 
+/* P'LP row by row. The clusters are linked first: the number of entries between them is an upper
+ * bound for the arrays, and rows are filled one after the other without gaps. */
 static icc_status assemble(assembly *a, const iccp_env *env)
 {
     const iccp_memory *m = &env->memory;
     const size_t n = a->unknowns->n;
-    a->unknown = iccp_alloc(m, n, sizeof *a->unknown);
+    a->cluster = iccp_alloc(m, n, sizeof *a->cluster);
     a->last = iccp_alloc(m, n, sizeof *a->last);
     a->previous = iccp_alloc(m, n, sizeof *a->previous);
-    if (a->unknown == NULL || a->last == NULL || a->previous == NULL)
+    if (a->cluster == NULL || a->last == NULL || a->previous == NULL)
         return ICC_ERR_MEMORY;
     find_clusters(a);
     if (!allocate(a, env))
@@ -142,11 +146,11 @@ static icc_status assemble(assembly *a, const iccp_env *env)
     return status;
 }
 
-/* x of the clusters into `f` of the rows. */
+/* x of the clusters into `f` of the unknowns. */
 static void expand(const assembly *a, const iccp_scaled *x, const iccp_scaled *f)
 {
     for (size_t k = 0; k < a->unknowns->n; ++k) {
-        const uint32_t u = a->unknown[k];
+        const uint32_t u = a->cluster[k];
         const double share = a->ties->share[k];
         if (u == ICCP_NONE)
             iccp_scaled_set(f, k, share, 0);
@@ -185,7 +189,7 @@ static bool is_accurate(const assembly *a, const iccp_scaled *x, const iccp_scal
 }
 
 /* x = A^-1 b, and once more for what is left. Components are right as they are, but multipliers are
- * sums over many rows of the residual, and gain two digits. */
+ * sums over many entries of the residual, and gain two digits. */
 static icc_status solve_twice(const assembly *a, const iccp_ldlt *factor, const iccp_scaled *x,
                               const iccp_scaled *d, const iccp_scaled *work, const iccp_scaled *f,
                               const iccp_env *env)
@@ -229,16 +233,16 @@ static icc_status solve(const assembly *a, const iccp_ldlt *factor, const iccp_s
     return status;
 }
 
-/* Eliminates each cluster when its last row would be. This makes no new fill: a path through
- * clusters that come earlier is one through rows that come earlier, as the rows of a cluster hang
- * together. */
+/* Eliminates each cluster when its last unknown would be. This makes no new fill: a path through
+ * clusters that come earlier is one through unknowns that come earlier, as each cluster is
+ * connected. */
 static void contract_order(const assembly *a, const uint32_t *kept, uint32_t *order)
 {
     size_t end = a->n;
     for (size_t u = 0; u < a->n; ++u)
         a->slot[u] = 0;
     for (size_t i = a->unknowns->n; i-- > 0;) {
-        const uint32_t u = a->unknown[kept[i]];
+        const uint32_t u = a->cluster[kept[i]];
         if (u != ICCP_NONE && a->slot[u]++ == 0)
             order[--end] = u;
     }

@@ -226,6 +226,9 @@ static bool allocate(const shells *s, shell *h)
     return h->tie != NULL && h->x != NULL && h->r != NULL && h->q != NULL;
 }
 
+/* Sets up the multigrid on the shell's vertices alone, with the rest as the outside: known values
+ * enter by the load, those left count as 0. Whatever is allocated on the way stays in h for
+ * free_shell(), also on failure. */
 static icc_status solve_shell(shells *s, shell *h)
 {
     const double start = iccp_seconds();
@@ -320,8 +323,7 @@ static icc_status accept_unknowns(shells *s, const shell *h, double limit, doubl
     return status;
 }
 
-/* Whether the shell goes on with the cluster that begins at unknown[i]: it is worth it, or has
- * to. */
+/* Whether the next shell keeps the cluster that begins at unknown[i]: it is worth it, or has to. */
 static bool is_kept(const shells *s, const shell *h, size_t i, size_t end, double negligible)
 {
     if (s->state[s->unknown[i]] == KNOWN)
@@ -332,7 +334,7 @@ static bool is_kept(const shells *s, const shell *h, size_t i, size_t end, doubl
     return kept;
 }
 
-/* Puts together what the shell goes on with; its values are the guess for the next one. */
+/* Collects what the next shell keeps; its values are the guess there. */
 static void keep_unknowns(shells *s, const shell *h, double negligible, double one)
 {
     size_t n = 0;

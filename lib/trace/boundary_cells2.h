@@ -10,9 +10,9 @@ typedef struct iccp_boundary_cells2 {
     iccp_memory memory;
     size_t nx, ny;        /* cells along the axes */
     double *vertices;     /* the domain's, in lattice coordinates */
-    const uint32_t *ends; /* the domain's facets; borrowed */
+    const uint32_t *ends; /* 2 * facet + end: the domain's facets; borrowed */
     size_t *first;        /* nx * ny + 1: where a cell's edges begin in `edges` */
-    uint32_t *edges;
+    uint32_t *edges;      /* facets, cell by cell */
 } iccp_boundary_cells2;
 
 /* Where a step hits the boundary. */

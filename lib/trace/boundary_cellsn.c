@@ -92,6 +92,9 @@ static double find_box(int dim, const piece *p, double *lower, double *upper)
     return longest;
 }
 
+/* Halves pieces depth first: the top of the stack is either small enough, and marked, or cut in
+ * two, of which one replaces it. So the stack is as high as a piece has been halved, and when it is
+ * full the box of a piece that is too large is marked, which is safe. */
 static void mark_facet(iccp_boundary_cellsn *cells, uint32_t facet)
 {
     const int dim = cells->grid->dim;

@@ -11,7 +11,7 @@ typedef struct iccp_boundary_cellsn {
     iccp_memory memory;
     const icc_domain *domain; /* borrowed, as is the grid */
     const icc_grid *grid;
-    uint64_t *bits; /* by the lowest corner of each cell */
+    uint64_t *bits; /* one per grid vertex: of the cell of which it is the lowest corner */
 } iccp_boundary_cellsn;
 
 /* Where a step meets the boundary. */
@@ -22,7 +22,7 @@ typedef struct iccp_boundary_hitn {
     double point[ICC_MAX_DIM]; /* lattice coordinates */
 } iccp_boundary_hitn;
 
-/* O(n_vertices / 64 + area of the boundary in cells). cage->memory is set even on failure; free it
+/* O(n_vertices / 64 + area of the boundary in cells). cells->memory is set even on failure; free it
  * in any case. */
 icc_status iccp_boundary_cellsn_create(iccp_boundary_cellsn *cells, const icc_domain *domain,
                                        const icc_grid *grid, const iccp_env *env);

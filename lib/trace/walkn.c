@@ -74,7 +74,7 @@ static bool leads_in(const iccp_walkn *w, const double *f, unsigned *corners)
     return leads;
 }
 
-/* The corners of the face that the line goes on in. */
+/* The corners of the face in which the line continues. */
 static icc_status choose_face(iccp_walkn *w, unsigned *corners)
 {
     double f[ICC_MAX_DIM + 1];

@@ -43,8 +43,8 @@ bool iccp_walkn_at_root(const iccp_walkn *walk);
  * the line first merges with others (walk->s if never); may be NULL. */
 icc_status iccp_walkn_uphill(iccp_walkn *walk, iccp_path *path, double *merge);
 
-/* Algorithm 5: to the boundary. The walk must have started inside. The last step ends on the cage,
- * and walk->s and the jet include it. */
+/* Algorithm 5: to the boundary. The walk must have started inside. The last step ends on the
+ * boundary, and walk->s and the jet include it. */
 icc_status iccp_walkn_downhill(iccp_walkn *walk, const iccp_boundary_cellsn *cells, iccp_path *path,
                                iccp_boundary_hitn *hit);
 

@@ -126,6 +126,9 @@ static double unit_for(size_t n, const double *f, double base)
 
 /* ---- the star of a face ---- */
 
+/* Splits the axes of the place's simplex by the corners of the face: those between two corners make
+ * up a fan of their own, those before the first and after the last can be gone along upwards from
+ * the last corner or downwards from the first. at[] is the coordinate of the face along these. */
 static void take_apart(hinge *h, const iccp_place *place, const icc_grid *grid)
 {
     h->grid = grid;
@@ -280,7 +283,7 @@ static void add_chain(assembly *a, const fan *way, const chain *c, bool between)
     }
 }
 
-/* Axes that neither chain needs: the cell lies above the face if the grid goes on there. */
+/* Axes that neither chain needs: the cell lies above the face if the grid continues there. */
 static void add_others(assembly *a, const hinge *h, bool below)
 {
     const unsigned up = h->way_up->n > 0 ? h->way_up->set[h->way_up->n - 1] : 0;
@@ -293,6 +296,10 @@ static void add_others(assembly *a, const hinge *h, bool below)
     }
 }
 
+/* Lays the axes of the new simplex in their order: those that lie below for want of room above, the
+ * chain down from its far end, the chains between the corners of the face, the chain up, the rest.
+ * The point stays where it is: y is 1 on axes below the face, 0 on those above and as it was
+ * between. */
 static void assemble(assembly *a, const hinge *h)
 {
     iccp_place *place = a->place;

@@ -1,4 +1,4 @@
-/* Where a line of steepest ascent goes on from a face of the Kuhn triangulation. */
+/* Where a line of steepest ascent continues from a face of the Kuhn triangulation. */
 #ifndef ICCP_WALKN_STAR_H
 #define ICCP_WALKN_STAR_H
 

@@ -3,9 +3,9 @@
  * contractible part of its link may be added to the set, or taken from it, without a change of the
  * homotopy type.
  *
- * The tree's order (Algorithm 2) makes critical vertices beyond the plane. Here it is a priority
- * only. A set grows from the root: of the vertices that touch it, it takes the first one in the
- * order wished for whose neighbours in it are contractible, as are then the others (grid/kuhn.h). A
+ * The tree's order (Algorithm 2) makes critical vertices beyond the plane. Here it only sets the
+ * priority. A set grows from the root: of the vertices that touch it, it takes the first one in
+ * that order whose neighbours in it are contractible, as are then the others (grid/kuhn.h). A
  * vertex that is not has to wait until the set has taken another neighbour of it. When all are
  * taken, no vertex but the root is critical, whatever the shape.
  *
@@ -36,12 +36,12 @@ static const size_t TESTS_PER_REPORT = 1 << 12; /* of links: at most 0.1 s, in 6
 typedef struct growth {
     const icc_tree *tree;
     const iccp_env *env;
-    const uint32_t *priority; /* the n vertices, the root among them, in the order wished for */
+    const uint32_t *priority; /* the n vertices, the root among them, in the order preferred */
     uint32_t *sorted;         /* memory of `priority` where it is not the tree's */
-    uint32_t *place;          /* of each of them in `priority` */
-    uint8_t *state;
-    uint32_t *rank;
-    iccp_queue queue; /* places, or places from the end, of vertices to be tried */
+    uint32_t *place;          /* by grid vertex: its index in `priority` */
+    uint8_t *state;           /* by grid vertex: MEMBER | IN_SET | .. */
+    uint32_t *rank;           /* by grid vertex: the result */
+    iccp_queue queue;         /* places, or places from the end, of vertices to be tried */
     iccp_star star;
     bool thinning;
     size_t n, n_taken, n_tests, n_waited;
@@ -170,6 +170,8 @@ static icc_status set_priority(growth *g, const double *values)
     return done ? ICC_OK : ICC_ERR_MEMORY;
 }
 
+/* Makes place[] the inverse of priority[], marks who is to be taken, and gives nobody a rank. The
+ * root is no MEMBER: it is in the set from the start. */
 static icc_status begin_growth(growth *g, const double *values)
 {
     const iccp_memory *memory = &g->env->memory;
@@ -205,7 +207,7 @@ static void free_growth(growth *g)
 
 /* ------------------------------------------------------------- the outcome */
 
-/* Edges on which the order is not the one wished for. */
+/* Edges on which the order found is not that of priority[]. */
 static size_t count_reversed(const growth *g)
 {
     size_t n_reversed = 0;

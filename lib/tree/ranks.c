@@ -4,7 +4,7 @@
 
 typedef struct ranks {
     const icc_tree *tree;
-    const uint32_t *rank;
+    const uint32_t *rank; /* by grid vertex */
 } ranks;
 
 static bool is_ranked(const void *context, uint32_t v)

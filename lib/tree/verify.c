@@ -34,6 +34,8 @@ static bool in_tree(const icc_tree *tree, uint32_t v)
     return tree->grid->inside[v] && tree->generation[v] >= 0;
 }
 
+/* Counts each pair of neighbours from the vertex with the smaller coordinate, so that every pair
+ * belongs to one chunk. Of the violations a chunk finds, it keeps the first. */
 static icc_status check_pairs(void *argument, size_t begin, size_t end)
 {
     const work *w = argument;
