@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 #include "base/options.h"
-#include "chart/recipe.h"
+#include "chart/chart_parameters.h"
 
 #include <math.h>
 

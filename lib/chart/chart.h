@@ -10,7 +10,7 @@
 #include "field/flow.h"
 #include "icc/icc.h"
 #include "mesh/planar.h"
-#include "shelling/fibre.h"
+#include "shelling/leafn.h"
 #include "trace/path.h"
 
 /* Coordinates of one point. */
@@ -45,7 +45,7 @@ enum { ICCP_CHART_MANY = 128 };
 /* Where a point inside lies, in the terms of the methods that search for it. */
 typedef union iccp_chart_place {
     iccp_flow_place flow;   /* method field */
-    iccp_fibre_place fibre; /* method foliation on the domain's mesh */
+    iccp_leafn_place fibre; /* method foliation on the domain's mesh */
 } iccp_chart_place;
 
 /* All points are local. `path` is scratch. */

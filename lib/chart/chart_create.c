@@ -11,7 +11,8 @@
 /* Replaces the defaults, 0, by what they stand for in this dimension, and refuses combinations
  * that no method offers. `has_mesh`: the domain has a mesh of its inside, and so has the other
  * domain of a pair. */
-static icc_status complete(icc_chart_options *options, int32_t dim, bool has_mesh, icc_error *err)
+static icc_status complete_options(icc_chart_options *options, int32_t dim, bool has_mesh,
+                                   icc_error *err)
 {
     if (options->method == 0)
         options->method = dim == 2 || has_mesh ? ICC_METHOD_FOLIATION : ICC_METHOD_FIELD;
@@ -188,9 +189,9 @@ static icc_status create_harmonic(harmonic_job *job, icc_chart **out, const iccp
     return iccp_explain(err, status);
 }
 
-/* The maximum is the caller's, if there is one, else `wish`, which may be NULL. */
+/* The maximum is the caller's, if there is one, else `preferred`, which may be NULL. */
 static icc_status create_field(icc_chart **out, const icc_domain *domain,
-                               const icc_chart_options *options, const double *wish,
+                               const icc_chart_options *options, const double *preferred,
                                const iccp_env *env, icc_error *err)
 {
     double local[ICC_MAX_DIM];
@@ -199,9 +200,9 @@ static icc_status create_field(icc_chart **out, const icc_domain *domain,
         iccp_frame_in(&domain->frame, domain->dim, options->maximum, local);
         if (iccp_domain_locate(domain, local, true, NULL, NULL) != ICC_INSIDE)
             return iccp_fail(err, ICC_ERR_OUTSIDE, "the maximum is not inside the domain");
-        wish = local;
+        preferred = local;
     }
-    return iccp_explain(err, iccp_chart_field_create(out, domain, options, wish, env, err));
+    return iccp_explain(err, iccp_chart_field_create(out, domain, options, preferred, env, err));
 }
 
 /* Shifts the grids of unlucky charts if then all of them are certified; else they stay as they
@@ -248,17 +249,17 @@ static icc_status create_field_pair(icc_chart *out[2], const icc_domain *const d
     iccp_split(part, 3, (const double[]){4, 4, 1}, env);
     icc_status status = create_field(&out[0], domain[0], &options[0], NULL, &part[0], err);
     if (status == ICC_OK) {
-        const double *wish = guess_maximum(out[0], domain[1], image);
+        const double *preferred = guess_maximum(out[0], domain[1], image);
         side = 2;
-        status = create_field(&out[1], domain[1], &options[1], wish, &part[1], err);
-        if (status == ICC_OK && wish == NULL && options[0].maximum == NULL)
-            wish = guess_maximum(out[1], domain[0], image);
+        status = create_field(&out[1], domain[1], &options[1], preferred, &part[1], err);
+        if (status == ICC_OK && preferred == NULL && options[0].maximum == NULL)
+            preferred = guess_maximum(out[1], domain[0], image);
         else
-            wish = NULL;
-        if (wish != NULL) {
+            preferred = NULL;
+        if (preferred != NULL) {
             iccp_chart_release(out[0]);
             side = 1;
-            status = create_field(&out[0], domain[0], &options[0], wish, &part[2], err);
+            status = create_field(&out[0], domain[0], &options[0], preferred, &part[2], err);
         }
     }
     if (status == ICC_OK)
@@ -277,7 +278,7 @@ icc_status iccp_chart_create(icc_chart **out, const icc_domain *domain,
     icc_chart_options full = *options;
     *out = NULL;
     const bool has_mesh = domain->mesh != NULL;
-    icc_status status = complete(&full, domain->dim, has_mesh, err);
+    icc_status status = complete_options(&full, domain->dim, has_mesh, err);
     if (status != ICC_OK)
         return status;
     if (full.method == ICC_METHOD_GRADIENT)
@@ -324,9 +325,9 @@ icc_status iccp_chart_create_pair(icc_chart *out[2], const icc_domain *const dom
     icc_chart_options full[2] = {options[0], options[1]};
     out[0] = out[1] = NULL;
     const bool has_mesh = domain[0]->mesh != NULL && domain[1]->mesh != NULL;
-    icc_status status = complete(&full[0], domain[0]->dim, has_mesh, err);
+    icc_status status = complete_options(&full[0], domain[0]->dim, has_mesh, err);
     if (status == ICC_OK)
-        status = complete(&full[1], domain[1]->dim, has_mesh, err);
+        status = complete_options(&full[1], domain[1]->dim, has_mesh, err);
     if (status != ICC_OK)
         return status;
     if (full[0].method == ICC_METHOD_GRADIENT)

@@ -19,7 +19,7 @@ typedef struct disc_state {
 
 static const double ORIGIN[2] = {0, 0};
 
-static const double *rim(const disc_state *state, uint32_t k)
+static const double *boundary_image(const disc_state *state, uint32_t k)
 {
     return state->image + 2 * (size_t)(k < state->mesh.n_boundary ? k : 0);
 }
@@ -27,19 +27,20 @@ static const double *rim(const disc_state *state, uint32_t k)
 /* Whether the ray to z lies counter-clockwise of rim vertex k, by less than half a turn. */
 static bool is_past(const disc_state *state, uint32_t k, const double z[2])
 {
-    return iccp_orient2d(ORIGIN, rim(state, k), z) >= 0;
+    return iccp_orient2d(ORIGIN, boundary_image(state, k), z) >= 0;
 }
 
 /* The rim edge that the ray from the origin through z meets. Rim vertices come in order of angle,
  * from vertex 0 on, once round. */
-static uint32_t find_rim(const disc_state *state, const double z[2])
+static uint32_t find_boundary_edge(const disc_state *state, const double z[2])
 {
     const bool first_half = is_past(state, 0, z);
     uint32_t low = 0, high = (uint32_t)state->mesh.n_boundary;
     while (high - low > 1) {
         const uint32_t middle = low + (high - low) / 2;
         /* Is the vertex in the half turn after vertex 0? */
-        const bool middle_first = iccp_orient2d(ORIGIN, rim(state, 0), rim(state, middle)) > 0;
+        const bool middle_first =
+            iccp_orient2d(ORIGIN, boundary_image(state, 0), boundary_image(state, middle)) > 0;
         const bool past = middle_first == first_half ? is_past(state, middle, z) : middle_first;
         if (past)
             low = middle;
@@ -58,8 +59,8 @@ static double cross(const double a[2], const double b[2])
 static void to_polar(const disc_state *state, const double z[2], uint32_t *edge, double *lambda,
                      double *t)
 {
-    *edge = find_rim(state, z);
-    const double *p = rim(state, *edge), *q = rim(state, *edge + 1);
+    *edge = find_boundary_edge(state, z);
+    const double *p = boundary_image(state, *edge), *q = boundary_image(state, *edge + 1);
     const double alpha = cross(z, q) / cross(p, q), beta = cross(p, z) / cross(p, q);
     *lambda = fmin(fmax(beta / (alpha + beta), 0), 1);
     *t = fmin(fmax(1 - (alpha + beta), 0), 1);
@@ -68,7 +69,7 @@ static void to_polar(const disc_state *state, const double z[2], uint32_t *edge,
 /* Rows: derivative of lambda and of t by z. */
 static void polar_jet(const disc_state *state, const double z[2], uint32_t edge, double rows[2][2])
 {
-    const double *p = rim(state, edge), *q = rim(state, edge + 1);
+    const double *p = boundary_image(state, edge), *q = boundary_image(state, edge + 1);
     const double area = cross(p, q);
     const double alpha = cross(z, q) / area, beta = cross(p, z) / area, sum = alpha + beta;
     const double d_alpha[2] = {q[1] / area, -q[0] / area}, d_beta[2] = {-p[1] / area, p[0] / area};
@@ -147,7 +148,7 @@ static icc_status decode(const icc_chart *chart, const iccp_coords *coords, doub
     uint32_t triangle;
     const uint32_t edge =
         iccp_planar_edge(&state->mesh, chart->domain, coords->facet, coords->bary[1], &lambda);
-    const double *p = rim(state, edge), *q = rim(state, edge + 1);
+    const double *p = boundary_image(state, edge), *q = boundary_image(state, edge + 1);
     for (int i = 0; i < 2; ++i)
         z[i] = (1 - coords->t) * ((1 - lambda) * p[i] + lambda * q[i]);
     if (!iccp_finder_find(&state->after, z, &triangle, bary))
@@ -216,12 +217,12 @@ static icc_status trace(const icc_chart *chart, const double *point, const iccp_
     double lambda, start[2], r[2];
     const uint32_t edge =
         iccp_planar_edge(&state->mesh, chart->domain, coords.facet, coords.bary[1], &lambda);
-    const double *p = rim(state, edge), *q = rim(state, edge + 1);
+    const double *p = boundary_image(state, edge), *q = boundary_image(state, edge + 1);
     for (int i = 0; i < 2; ++i)
         r[i] = (1 - lambda) * p[i] + lambda * q[i];
     iccp_domain_facet_point(chart->domain, coords.facet, coords.bary, start);
     status = emit(argument, start);
-    uint32_t corner = state->mesh.rim[edge];
+    uint32_t corner = state->mesh.boundary_corner[edge];
     for (size_t left = state->mesh.n_triangles;
          status == ICC_OK && !holds_origin(state, corner / 3); --left) {
         const double *x = state->image + 2 * (size_t)state->mesh.triangles[corner];
@@ -263,7 +264,7 @@ static const iccp_chart_ops OPS = {
 /* The image's rim goes once round the origin: every edge turns left round it and the angles grow
  * from 0 to one turn. So the rim is simple and every ray from the origin meets it once; it need not
  * be convex, which rounding would spoil where boundary edges are very short. */
-static size_t count_rim_faults(const iccp_planar *mesh, const double *image)
+static size_t count_boundary_faults(const iccp_planar *mesh, const double *image)
 {
     const size_t n = mesh->n_boundary;
     size_t n_faults = 0, n_wraps = 0;
@@ -280,7 +281,7 @@ static icc_status certify(const iccp_planar *mesh, const double *image, icc_erro
     iccp_certificate domain = {0}, disc = {0};
     iccp_certify_mesh(mesh, mesh->points, &domain);
     iccp_certify_mesh(mesh, image, &disc);
-    const size_t n_rim = count_rim_faults(mesh, image);
+    const size_t n_rim = count_boundary_faults(mesh, image);
     if (iccp_certificate_holds(&domain) && iccp_certificate_holds(&disc) && n_rim == 0)
         return ICC_OK;
     return iccp_fail(
@@ -341,7 +342,7 @@ icc_status iccp_chart_disc_create(icc_chart **out, const icc_domain *domain, icc
             (void)iccp_fail(err, status, "the disc's centre lies in no triangle");
         return status;
     }
-    state->mesh = iccp_harmonic_take_mesh(base);
+    state->mesh = iccp_harmonic_move_mesh(base);
     chart->mesh = &state->mesh;
     state->image = *image;
     *image = NULL;

@@ -141,18 +141,19 @@ static icc_status make_vectors(iccp_field_state *state, icc_chart *chart, const 
                                icc_error *err)
 {
     const double start = iccp_seconds();
-    iccp_smooth smooth = {.memory = env->memory};
+    iccp_extension extension = {.memory = env->memory};
     iccp_env part[3];
     iccp_split(part, 3, (const double[]){1, 2, 4}, env);
     icc_status status =
-        iccp_cover_create(&state->cover, chart->domain, state->tree->grid, &part[0]);
+        iccp_incidence_create(&state->incidence, chart->domain, state->tree->grid, &part[0]);
     if (status == ICC_ERR_RESOLUTION)
         (void)iccp_fail(err, status, "the facets meet too many cells of the grid: use fewer");
     if (status == ICC_OK)
-        status = iccp_smooth_create(&smooth, state->field, &state->cover, SWEEPS, &part[1]);
+        status =
+            iccp_extension_create(&extension, state->field, &state->incidence, SWEEPS, &part[1]);
     if (status == ICC_OK)
-        status = iccp_cones_create(&state->cones, &smooth, &state->cover, &part[2]);
-    iccp_smooth_free(&smooth);
+        status = iccp_vectors_create(&state->vectors, &extension, &state->incidence, &part[2]);
+    iccp_extension_free(&extension);
     chart->own.field.seconds_solve = iccp_seconds() - start;
     return status;
 }
@@ -173,16 +174,16 @@ static void finish(iccp_field_state *state, icc_chart *chart)
     }
     state->flow = (iccp_flow){.grid = grid,
                               .domain = chart->domain,
-                              .cover = &state->cover,
-                              .cones = &state->cones,
+                              .incidence = &state->incidence,
+                              .vectors = &state->vectors,
                               .root = state->tree->root,
                               .most_steps = steps};
     iccp_chart_set_maximum(chart, root);
     chart->info.spacing = grid->spacing * chart->domain->frame.out[0] * chart->domain->frame.out[1];
     own->n_inside = grid->n_inside;
-    own->n_infeasible = state->cones.n_infeasible;
-    own->n_contacts = state->cones.n_contacts;
-    own->n_not_inward = state->cones.n_not_inward;
+    own->n_infeasible = state->vectors.n_infeasible;
+    own->n_contacts = state->vectors.n_contacts;
+    own->n_not_inward = state->vectors.n_not_inward;
     own->n_stray = grid->n_stray;
     chart->info.reason = own->n_infeasible > 0   ? ICC_REASON_INFEASIBLE
                          : own->n_not_inward > 0 ? ICC_REASON_NOT_INWARD
@@ -194,8 +195,8 @@ static void finish(iccp_field_state *state, icc_chart *chart)
 static void free_state(icc_chart *chart)
 {
     iccp_field_state *state = chart->state;
-    iccp_cones_free(&state->cones);
-    iccp_cover_free(&state->cover);
+    iccp_vectors_free(&state->vectors);
+    iccp_incidence_free(&state->incidence);
     iccp_function_release(state->field);
     iccp_tree_release(state->tree);
     iccp_free(&chart->memory, state);
@@ -214,18 +215,18 @@ static icc_status measure(const icc_chart *chart, size_t n_points, icc_chart_rep
 static uint64_t digest_of(const icc_chart *chart)
 {
     const iccp_field_state *state = chart->state;
-    const iccp_sides *sides = &state->cones.sides;
+    const iccp_sectors *sectors = &state->vectors.sectors;
     const size_t dim = (size_t)chart->domain->dim, n = state->tree->grid->n_vertices;
     uint64_t digest = iccp_digest_field(state->field);
-    digest = iccp_digest_f32(digest, dim * n, state->cones.vector);
-    digest = iccp_digest_u32(digest, sides->n, sides->vertex);
-    return iccp_digest_f32(digest, dim * sides->n_vectors, sides->vector);
+    digest = iccp_digest_f32(digest, dim * n, state->vectors.vector);
+    digest = iccp_digest_u32(digest, sectors->n, sectors->vertex);
+    return iccp_digest_f32(digest, dim * sectors->n_vectors, sectors->vector);
 }
 
 static void save(const icc_chart *chart, iccp_blob *w)
 {
     const iccp_field_state *state = chart->state;
-    iccp_recipe_write(&state->recipe, chart->domain->dim, digest_of(chart), w);
+    iccp_chart_parameters_write(&state->parameters, chart->domain->dim, digest_of(chart), w);
 }
 
 static const iccp_chart_ops OPS = {
@@ -262,7 +263,8 @@ icc_status iccp_chart_field_create(icc_chart **out, const icc_domain *domain,
     iccp_env part[3];
     iccp_split(part, 3, (const double[]){2, 3, 3}, env);
     if (state != NULL) {
-        state->cover.memory = state->cones.memory = state->cones.sides.memory = env->memory;
+        state->incidence.memory = state->vectors.memory = state->vectors.sectors.memory =
+            env->memory;
         status = make_tree(state, chart, options, maximum, &part[0], err);
     }
     if (status == ICC_OK)
@@ -274,7 +276,7 @@ icc_status iccp_chart_field_create(icc_chart **out, const icc_domain *domain,
         status = make_vectors(state, chart, &part[2], err);
     if (status == ICC_OK) {
         finish(state, chart);
-        iccp_recipe_keep(&state->recipe, options, maximum, domain->dim);
+        iccp_chart_parameters_set(&state->parameters, options, maximum, domain->dim);
         return ICC_OK;
     }
     iccp_chart_release(chart);
@@ -291,12 +293,12 @@ bool iccp_chart_field_is_unlucky(const icc_chart *chart)
 icc_status iccp_chart_field_shift(icc_chart **out, const icc_chart *chart, const iccp_env *env)
 {
     const iccp_field_state *state = chart->state;
-    icc_chart_options options = state->recipe.options;
+    icc_chart_options options = state->parameters.options;
     options.cells = chart->info.cells + 1;
     iccp_log(env, "field: %zu vertices were given up at %ld cells; %ld are tried",
              chart->own.field.n_stray, (long)chart->info.cells, (long)options.cells);
     const icc_status status = iccp_chart_field_create(
-        out, chart->domain, &options, iccp_recipe_maximum(&state->recipe), env, NULL);
+        out, chart->domain, &options, iccp_chart_parameters_maximum(&state->parameters), env, NULL);
     if (*out != NULL && !(*out)->info.certified) {
         iccp_chart_release(*out);
         *out = NULL;
@@ -307,13 +309,14 @@ icc_status iccp_chart_field_shift(icc_chart **out, const icc_chart *chart, const
 icc_status iccp_chart_field_read(icc_chart **out, const icc_domain *domain, iccp_blob *r,
                                  const iccp_env *env, icc_error *err)
 {
-    iccp_recipe recipe;
+    iccp_chart_parameters parameters;
     uint64_t wanted;
     *out = NULL;
-    icc_status status = iccp_recipe_read(&recipe, domain->dim, &wanted, r);
+    icc_status status = iccp_chart_parameters_read(&parameters, domain->dim, &wanted, r);
     if (status != ICC_OK)
         return status;
-    status = iccp_chart_field_create(out, domain, &recipe.options, iccp_recipe_maximum(&recipe),
-                                     env, NULL);
-    return iccp_recipe_judge(out, status, wanted, status == ICC_OK ? digest_of(*out) : 0, err);
+    status = iccp_chart_field_create(out, domain, &parameters.options,
+                                     iccp_chart_parameters_maximum(&parameters), env, NULL);
+    return iccp_chart_check_rebuilt(out, status, wanted, status == ICC_OK ? digest_of(*out) : 0,
+                                    err);
 }

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "foliation/certificate.h"
 #include "foliation/harmonic_file.h"
-#include "foliation/leaf.h"
+#include "foliation/leaf2.h"
 #include "foliation/psi_file.h"
 #include "math/vec.h"
 
@@ -101,8 +101,9 @@ static inline void walk(const foliation_state *state, leaf_length *l, iccp_cross
 
 /* The two parts of the leaf through a point; `end` becomes the leaf's crossing with the
  * boundary. */
-static void measure_leaf(const foliation_state *state, const iccp_leaf *leaf, const double point[2],
-                         bool derive, leaf_length *up, leaf_length *down, iccp_crossing *end)
+static void measure_leaf(const foliation_state *state, const iccp_leaf2 *leaf,
+                         const double point[2], bool derive, leaf_length *up, leaf_length *down,
+                         iccp_crossing *end)
 {
     double low[2], d_low[2], high[2], d_high[2] = {0, 0};
     iccp_crossing crossing = leaf->up;
@@ -118,13 +119,13 @@ static void measure_leaf(const foliation_state *state, const iccp_leaf *leaf, co
     *up = start_leaf(point, low, high, d_high);
     *down = start_leaf(point, high, low, d_low);
     if (!leaf->in_star && derive)
-        walk_deriving(state, up, &crossing, true, iccp_leaf_rise);
+        walk_deriving(state, up, &crossing, true, iccp_leaf2_rise);
     else if (!leaf->in_star)
-        walk(state, up, &crossing, true, iccp_leaf_rise);
+        walk(state, up, &crossing, true, iccp_leaf2_rise);
     if (derive)
-        walk_deriving(state, down, end, false, iccp_leaf_fall);
+        walk_deriving(state, down, end, false, iccp_leaf2_fall);
     else
-        walk(state, down, end, false, iccp_leaf_fall);
+        walk(state, down, end, false, iccp_leaf2_fall);
 }
 
 /* The label decides the leaf, so every derivative is that by the label times the label's
@@ -158,10 +159,10 @@ static icc_status encode(const icc_chart *chart, const double *point, const iccp
     const foliation_state *state = chart->state;
     uint32_t triangle;
     double bary[3];
-    iccp_leaf leaf;
+    iccp_leaf2 leaf;
     if (!iccp_finder_find(&state->finder, point, &triangle, bary))
         return ICC_ERR_TRACE;
-    const icc_status status = iccp_leaf_through(&state->mesh, &state->psi, triangle, bary, &leaf);
+    const icc_status status = iccp_leaf2_through(&state->mesh, &state->psi, triangle, bary, &leaf);
     if (status != ICC_OK)
         return status;
     leaf_length up, down;
@@ -183,7 +184,7 @@ static iccp_crossing boundary_crossing(const icc_chart *chart, const iccp_coords
     double lambda;
     const uint32_t edge =
         iccp_planar_edge(&state->mesh, chart->domain, coords->facet, coords->bary[1], &lambda);
-    return iccp_leaf_from_boundary(&state->psi, state->mesh.rim[edge], lambda);
+    return iccp_leaf2_from_boundary(&state->psi, state->mesh.boundary_corner[edge], lambda);
 }
 
 /* The leaf from a boundary point to the maximum, with its arc length. */
@@ -195,7 +196,7 @@ static icc_status follow(const icc_chart *chart, const iccp_coords *coords, iccp
     iccp_domain_facet_point(chart->domain, coords->facet, coords->bary, p);
     iccp_path_start(path, 2);
     icc_status status = iccp_path_append(path, p, 0);
-    while (status == ICC_OK && iccp_leaf_rise(&state->mesh, &state->psi, &crossing)) {
+    while (status == ICC_OK && iccp_leaf2_rise(&state->mesh, &state->psi, &crossing)) {
         iccp_crossing_point(&state->mesh, &crossing, q);
         length += iccp_vec_distance(2, p, q);
         status = iccp_path_append(path, q, length);
@@ -220,7 +221,7 @@ static void fill_decode_jet(const icc_chart *chart, const iccp_coords *coords,
     for (size_t k = 0; k + 1 < path->n; ++k) {
         const double *p = iccp_path_at(path, k), *q = iccp_path_at(path, k + 1);
         slope[0] = slope[1] = 0;
-        if (iccp_leaf_rise(&state->mesh, &state->psi, &crossing))
+        if (iccp_leaf2_rise(&state->mesh, &state->psi, &crossing))
             iccp_crossing_slope(&state->mesh, &crossing, slope);
         if (k == piece) {
             memcpy(ends[0], previous, sizeof previous);
@@ -262,7 +263,7 @@ static icc_status decode(const icc_chart *chart, const iccp_coords *coords, doub
     return ICC_OK;
 }
 
-static icc_status emit_down(const foliation_state *state, const iccp_leaf *leaf, iccp_path *path,
+static icc_status emit_down(const foliation_state *state, const iccp_leaf2 *leaf, iccp_path *path,
                             iccp_emit emit, void *argument)
 {
     iccp_crossing crossing = leaf->down;
@@ -272,13 +273,13 @@ static icc_status emit_down(const foliation_state *state, const iccp_leaf *leaf,
         double p[2];
         iccp_crossing_point(&state->mesh, &crossing, p);
         status = iccp_path_append(path, p, 0);
-    } while (status == ICC_OK && iccp_leaf_fall(&state->mesh, &state->psi, &crossing));
+    } while (status == ICC_OK && iccp_leaf2_fall(&state->mesh, &state->psi, &crossing));
     for (size_t k = path->n; status == ICC_OK && k-- > 0;)
         status = emit(argument, iccp_path_at(path, k));
     return status;
 }
 
-static icc_status emit_up(const foliation_state *state, const iccp_leaf *leaf, iccp_emit emit,
+static icc_status emit_up(const foliation_state *state, const iccp_leaf2 *leaf, iccp_emit emit,
                           void *argument)
 {
     icc_status status = ICC_OK;
@@ -288,7 +289,7 @@ static icc_status emit_up(const foliation_state *state, const iccp_leaf *leaf, i
             double p[2];
             iccp_crossing_point(&state->mesh, &crossing, p);
             status = emit(argument, p);
-        } while (status == ICC_OK && iccp_leaf_rise(&state->mesh, &state->psi, &crossing));
+        } while (status == ICC_OK && iccp_leaf2_rise(&state->mesh, &state->psi, &crossing));
     return status == ICC_OK ? emit(argument, centre_of(state)) : status;
 }
 
@@ -308,10 +309,10 @@ static icc_status trace(const icc_chart *chart, const double *point, const iccp_
     }
     uint32_t triangle;
     double bary[3];
-    iccp_leaf leaf;
+    iccp_leaf2 leaf;
     if (!iccp_finder_find(&state->finder, point, &triangle, bary))
         return ICC_ERR_TRACE;
-    icc_status status = iccp_leaf_through(&state->mesh, &state->psi, triangle, bary, &leaf);
+    icc_status status = iccp_leaf2_through(&state->mesh, &state->psi, triangle, bary, &leaf);
     if (status == ICC_OK)
         status = emit_down(state, &leaf, path, emit, argument);
     if (status == ICC_OK)
@@ -419,7 +420,7 @@ static icc_status finish(icc_chart **out, iccp_harmonic *base, icc_status status
         *out = NULL;
         return status;
     }
-    state->mesh = iccp_harmonic_take_mesh(base);
+    state->mesh = iccp_harmonic_move_mesh(base);
     chart->mesh = &state->mesh;
     iccp_chart_set_maximum(chart, centre_of(state));
     return ICC_OK;

@@ -4,9 +4,9 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "chart/gradient_boundary.h"
 #include "chart/gradient_jet.h"
 #include "chart/gradient_measure.h"
-#include "chart/gradient_rim.h"
 #include "function/critical_points.h"
 #include "function/edges.h"
 #include "function/make_function.h"
@@ -303,7 +303,8 @@ static void free_state(icc_chart *chart)
 static void save(const icc_chart *chart, iccp_blob *w)
 {
     const iccp_gradient_state *state = chart->state;
-    iccp_recipe_write(&state->recipe, chart->domain->dim, iccp_digest_field(state->field), w);
+    iccp_chart_parameters_write(&state->parameters, chart->domain->dim,
+                                iccp_digest_field(state->field), w);
 }
 
 static const iccp_chart_ops OPS = {
@@ -339,7 +340,7 @@ icc_status iccp_chart_gradient_create(icc_chart **out, const icc_domain *domain,
         status = make_boundary(state, domain, &part[2]);
     if (status == ICC_OK) {
         place_maximum(state, chart);
-        iccp_recipe_keep(&state->recipe, options, options->maximum, domain->dim);
+        iccp_chart_parameters_set(&state->parameters, options, options->maximum, domain->dim);
         return ICC_OK;
     }
     iccp_chart_release(chart);
@@ -350,17 +351,17 @@ icc_status iccp_chart_gradient_create(icc_chart **out, const icc_domain *domain,
 icc_status iccp_chart_gradient_read(icc_chart **out, const icc_domain *domain, iccp_blob *r,
                                     const iccp_env *env, icc_error *err)
 {
-    iccp_recipe recipe;
+    iccp_chart_parameters parameters;
     uint64_t wanted, digest = 0;
     *out = NULL;
-    icc_status status = iccp_recipe_read(&recipe, domain->dim, &wanted, r);
+    icc_status status = iccp_chart_parameters_read(&parameters, domain->dim, &wanted, r);
     if (status != ICC_OK)
         return status;
-    recipe.options.maximum = iccp_recipe_maximum(&recipe);
-    status = iccp_chart_gradient_create(out, domain, &recipe.options, env, NULL);
+    parameters.options.maximum = iccp_chart_parameters_maximum(&parameters);
+    status = iccp_chart_gradient_create(out, domain, &parameters.options, env, NULL);
     if (status == ICC_OK) {
         const iccp_gradient_state *state = (*out)->state;
         digest = iccp_digest_field(state->field);
     }
-    return iccp_recipe_judge(out, status, wanted, digest, err);
+    return iccp_chart_check_rebuilt(out, status, wanted, digest, err);
 }

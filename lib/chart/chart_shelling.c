@@ -5,8 +5,8 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "chart/shelling_state.h"
+#include "shelling/best_order.h"
 #include "shelling/centres.h"
-#include "shelling/contest.h"
 #include "shelling/reference.h"
 #include "shelling/shelling_certificate.h"
 #include "shelling/shelling_split.h"
@@ -124,7 +124,7 @@ static icc_status find_order(work *w, const iccp_simplices *mesh, uint32_t centr
                              icc_shelling_info *info, const iccp_env *env, icc_error *err)
 {
     const size_t n = mesh->n_simplices;
-    iccp_contest_info contest = {0};
+    iccp_best_order_info best_order = {0};
     const double start = iccp_seconds();
     w->inflow = iccp_alloc(&env->memory, mesh->n_facets, sizeof *w->inflow);
     w->reference = iccp_alloc(&env->memory, n, (mesh->dim + 1) * sizeof *w->reference);
@@ -143,17 +143,17 @@ static icc_status find_order(work *w, const iccp_simplices *mesh, uint32_t centr
     if (status != ICC_OK)
         (void)iccp_fail(err, status, "the equations of the harmonic flux cannot be solved");
     if (status == ICC_OK)
-        status = iccp_contest(mesh, centre, w->inflow, w->reference, w->potential, w->rank, w->flux,
-                              &contest, &part[2], err);
+        status = iccp_best_order(mesh, centre, w->inflow, w->reference, w->potential, w->rank,
+                                 w->flux, &best_order, &part[2], err);
     info->harmonic_share = HARMONIC_SHARE;
     info->seconds_solve = solved - start;
     info->seconds_order = iccp_seconds() - solved;
-    info->order_peeled = contest.peeled;
-    info->n_orders = (int32_t)contest.n_finished;
-    info->order_beta = contest.beta;
-    info->n_reversed = contest.n_reversed;
-    info->flux_energy = contest.energy;
-    info->flux_divergence = contest.divergence;
+    info->order_peeled = best_order.peeled;
+    info->n_orders = (int32_t)best_order.n_finished;
+    info->order_beta = best_order.beta;
+    info->n_reversed = best_order.n_reversed;
+    info->flux_energy = best_order.energy;
+    info->flux_divergence = best_order.divergence;
     return status;
 }
 
@@ -196,7 +196,7 @@ static icc_status certify(icc_chart *chart, const iccp_simplices *mesh, uint32_t
 }
 
 /* The order, the directions that it leads to, their certificate, and the leaves. */
-static icc_status make_fibres(icc_chart *chart, const iccp_simplices *mesh, uint32_t centre,
+static icc_status make_leaves(icc_chart *chart, const iccp_simplices *mesh, uint32_t centre,
                               const iccp_env *env, icc_error *err)
 {
     iccp_shelling_state *state = chart->state;
@@ -211,8 +211,8 @@ static icc_status make_fibres(icc_chart *chart, const iccp_simplices *mesh, uint
     }
     const double start = iccp_seconds();
     if (status == ICC_OK)
-        status = iccp_fibres_create(&state->fibres, mesh, centre, w.flux, chart->domain->band.reach,
-                                    &part[2]);
+        status = iccp_leafn_create(&state->leaves, mesh, centre, w.flux, chart->domain->band.reach,
+                                   &part[2]);
     info->seconds_leaves = iccp_seconds() - start;
     work_free(&w, &env->memory);
     return status;
@@ -226,7 +226,7 @@ static icc_status make_chart(job *j, size_t k, icc_chart **out, const iccp_env *
     if (status != ICC_OK)
         return status;
     (*out)->own.shelling.seconds_centre = j->seconds / (double)j->n;
-    return make_fibres(*out, j->mesh[k], j->centre[k], env, err);
+    return make_leaves(*out, j->mesh[k], j->centre[k], env, err);
 }
 
 icc_status iccp_chart_shelling_create(size_t n, icc_chart **out, const icc_domain *const *domain,

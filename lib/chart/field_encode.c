@@ -25,7 +25,7 @@ static icc_status walk_down(const iccp_field_state *state, const iccp_flow_place
     if (jet == NULL)
         return ICC_OK;
     iccp_flow_jet_within(&walk, s, jet);
-    const double *normal = state->cover.normal + dim * coords->facet;
+    const double *normal = state->incidence.normal + dim * coords->facet;
     return iccp_flow_jet_onto(&walk, s, normal, jet) ? ICC_OK : ICC_ERR_TRACE;
 }
 

@@ -3,7 +3,7 @@
 #include "chart/field_measure.h"
 
 #include "base/threads.h"
-#include "chart/spread.h"
+#include "chart/low_discrepancy.h"
 
 #include <math.h>
 #include <string.h>
@@ -21,14 +21,14 @@ typedef struct samples {
 enum { INSIDE = 1, UNREACHABLE = 2, OUTWARD = 4 };
 
 /* Whether an evenly spread point of the bounding box lies inside, and whether it can be encoded. */
-static uint8_t judge_point(const samples *s, size_t i)
+static uint8_t check_point(const samples *s, size_t i)
 {
     const icc_domain *domain = s->chart->domain;
     double point[ICC_MAX_DIM];
     iccp_coords coords;
     for (int32_t k = 0; k < domain->dim; ++k)
         point[k] = domain->lower[k] +
-                   (domain->upper[k] - domain->lower[k]) * iccp_spread(domain->dim, k, i);
+                   (domain->upper[k] - domain->lower[k]) * iccp_low_discrepancy(domain->dim, k, i);
     const icc_status status = iccp_chart_encode(s->chart, point, &coords, NULL);
     if (status == ICC_ERR_OUTSIDE)
         return 0;
@@ -52,7 +52,7 @@ static uint32_t find_facet(const samples *s, double share)
 /* Whether the vector at an evenly spread point of the boundary crosses it inward. Facets get
  * points by their share of the extent; the gaps between sorted numbers are barycentric
  * coordinates. */
-static uint8_t judge_boundary(const samples *s, size_t i)
+static uint8_t check_boundary(const samples *s, size_t i)
 {
     const icc_domain *domain = s->chart->domain;
     const icc_grid *grid = s->flow->grid;
@@ -63,7 +63,7 @@ static uint8_t judge_boundary(const samples *s, size_t i)
     cut[0] = 0;
     for (int32_t k = 1; k < dim; ++k) {
         int32_t at = k;
-        const double u = iccp_spread(dim, k, i);
+        const double u = iccp_low_discrepancy(dim, k, i);
         for (; at > 1 && cut[at - 1] > u; --at)
             cut[at] = cut[at - 1];
         cut[at] = u;
@@ -74,7 +74,7 @@ static uint8_t judge_boundary(const samples *s, size_t i)
     iccp_domain_facet_point(domain, facet, bary, x);
     for (int32_t k = 0; k < dim; ++k)
         x[k] = (x[k] - grid->origin[k]) / grid->spacing;
-    const double *normal = s->flow->cover->normal + (size_t)dim * facet;
+    const double *normal = s->flow->incidence->normal + (size_t)dim * facet;
     iccp_flow_place place;
     if (!iccp_flow_find(s->flow, x, normal, &place))
         return OUTWARD;
@@ -84,11 +84,11 @@ static uint8_t judge_boundary(const samples *s, size_t i)
     return inward > 0 ? 0 : OUTWARD;
 }
 
-static icc_status judge_chunk(void *argument, size_t begin, size_t end)
+static icc_status check_chunk(void *argument, size_t begin, size_t end)
 {
     samples *s = argument;
     for (size_t i = begin; i < end; ++i)
-        s->result[i] = (uint8_t)(judge_point(s, i) | judge_boundary(s, i));
+        s->result[i] = (uint8_t)(check_point(s, i) | check_boundary(s, i));
     return ICC_OK;
 }
 
@@ -122,7 +122,7 @@ icc_status iccp_field_measure(const icc_chart *chart, const iccp_flow *flow, siz
     icc_status status = cumulated != NULL && result != NULL ? ICC_OK : ICC_ERR_MEMORY;
     if (status == ICC_OK) {
         cumulate(chart->domain, cumulated);
-        status = iccp_for_chunks(env, "check", n_points, GRAIN, judge_chunk, &s);
+        status = iccp_for_chunks(env, "check", n_points, GRAIN, check_chunk, &s);
     }
     for (size_t i = 0; status == ICC_OK && i < n_points; ++i) {
         measures->n_points += (result[i] & INSIDE) != 0;

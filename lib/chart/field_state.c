@@ -38,7 +38,7 @@ int32_t iccp_field_locate(const icc_chart *chart, const double *point, iccp_char
     to_lattice(state, point, x);
     const bool found = iccp_flow_find(&state->flow, x, NULL, &place->flow);
     const uint32_t lowest = found ? place->flow.simplex.corner[0] : 0;
-    if (found && !iccp_band_is_wide(&chart->domain->band) && state->cover.bits[lowest] == 0 &&
+    if (found && !iccp_band_is_wide(&chart->domain->band) && state->incidence.bits[lowest] == 0 &&
         state->tree->grid->inside[lowest])
         return ICC_INSIDE;
     const int32_t where =

@@ -2,16 +2,16 @@
 #ifndef ICCP_FIELD_STATE_H
 #define ICCP_FIELD_STATE_H
 
-#include "chart/recipe.h"
-#include "field/cones.h"
+#include "chart/chart_parameters.h"
 #include "field/flow_follow.h"
+#include "field/vectors.h"
 
 typedef struct iccp_field_state {
-    iccp_recipe recipe;
+    iccp_chart_parameters parameters;
     icc_tree *tree;
     icc_function *field;
-    iccp_cover cover;
-    iccp_cones cones;
+    iccp_incidence incidence;
+    iccp_vectors vectors;
     iccp_flow flow;
 } iccp_field_state;
 

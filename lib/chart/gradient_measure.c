@@ -4,7 +4,7 @@
 
 #include "base/threads.h"
 #include "chart/gradient_line.h"
-#include "chart/spread.h"
+#include "chart/low_discrepancy.h"
 
 #include <math.h>
 
@@ -24,12 +24,12 @@ static void candidate(const icc_domain *domain, size_t index, double *p)
 {
     for (int32_t k = 0; k < domain->dim; ++k)
         p[k] = domain->lower[k] +
-               iccp_spread(domain->dim, k, index) * (domain->upper[k] - domain->lower[k]);
+               iccp_low_discrepancy(domain->dim, k, index) * (domain->upper[k] - domain->lower[k]);
 }
 
 /* Figure 6.12: a point is uncovered if its curve downhill merges with another, so that no
  * boundary point of its own leads to it. */
-static uint8_t judge_point(const iccp_gradient_state *state, const double *local)
+static uint8_t check_point(const iccp_gradient_state *state, const double *local)
 {
     double p[ICC_MAX_DIM];
     iccp_gradient_line down, up;
@@ -40,7 +40,7 @@ static uint8_t judge_point(const iccp_gradient_state *state, const double *local
     return down.merged ? UNCOVERED : COVERED;
 }
 
-static icc_status judge_chunk(void *argument, size_t begin, size_t end)
+static icc_status check_chunk(void *argument, size_t begin, size_t end)
 {
     const area_samples *samples = argument;
     const icc_domain *domain = samples->chart->domain;
@@ -48,7 +48,7 @@ static icc_status judge_chunk(void *argument, size_t begin, size_t end)
         double p[ICC_MAX_DIM];
         candidate(domain, i, p);
         samples->verdict[i] = iccp_domain_locate(domain, p, true, NULL, NULL) == ICC_INSIDE
-                                  ? judge_point(samples->chart->state, p)
+                                  ? check_point(samples->chart->state, p)
                                   : MISSED;
     }
     return ICC_OK;
@@ -72,7 +72,7 @@ static icc_status measure_area(const icc_chart *chart, size_t n_points, icc_char
     area_samples samples = {chart, iccp_alloc(&env->memory, n, 1)};
     if (samples.verdict == NULL)
         return ICC_ERR_MEMORY;
-    const icc_status status = iccp_for_chunks(env, "check", n, 64, judge_chunk, &samples);
+    const icc_status status = iccp_for_chunks(env, "check", n, 64, check_chunk, &samples);
     if (status == ICC_OK) {
         size_t count[4] = {0};
         for (size_t i = 0; i < n; ++i)
@@ -114,7 +114,7 @@ static void place_on_facet(int32_t dim, double along, size_t index, double *bary
 {
     double cut[ICC_MAX_DIM] = {along};
     for (int32_t k = 1; k < dim - 1; ++k) {
-        const double x = iccp_spread(dim - 2, k - 1, index);
+        const double x = iccp_low_discrepancy(dim - 2, k - 1, index);
         int32_t i = k;
         for (; i > 0 && cut[i - 1] < x; --i)
             cut[i] = cut[i - 1];
@@ -127,7 +127,7 @@ static void place_on_facet(int32_t dim, double along, size_t index, double *bary
 
 /* At a boundary point: whether the function rises inward, and on which share of its curve uphill
  * other curves have joined it. */
-static void judge_boundary_point(const boundary_samples *samples, size_t index)
+static void check_boundary_point(const boundary_samples *samples, size_t index)
 {
     const icc_domain *domain = samples->chart->domain;
     const iccp_gradient_state *state = samples->chart->state;
@@ -149,11 +149,11 @@ static void judge_boundary_point(const boundary_samples *samples, size_t index)
         samples->collapsed[index] = 1 - line.alone / line.s;
 }
 
-static icc_status judge_boundary_chunk(void *argument, size_t begin, size_t end)
+static icc_status check_boundary_chunk(void *argument, size_t begin, size_t end)
 {
     const boundary_samples *samples = argument;
     for (size_t i = begin; i < end; ++i)
-        judge_boundary_point(samples, i);
+        check_boundary_point(samples, i);
     return ICC_OK;
 }
 
@@ -200,7 +200,7 @@ static icc_status measure_boundary(const icc_chart *chart, size_t n_points,
     if (extent != NULL && collapsed != NULL && inward != NULL) {
         sum_extents(domain, extent);
         boundary_samples samples = {chart, extent, n_points, collapsed, inward};
-        status = iccp_for_chunks(env, "check", n_points, 64, judge_boundary_chunk, &samples);
+        status = iccp_for_chunks(env, "check", n_points, 64, check_boundary_chunk, &samples);
         if (status == ICC_OK)
             sum_boundary(&samples, measures);
     }

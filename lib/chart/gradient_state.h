@@ -2,12 +2,12 @@
 #ifndef ICCP_GRADIENT_STATE_H
 #define ICCP_GRADIENT_STATE_H
 
-#include "chart/recipe.h"
+#include "chart/chart_parameters.h"
 #include "trace/boundary_cellsn.h"
 #include "trace/walk2.h"
 
 typedef struct iccp_gradient_state {
-    iccp_recipe recipe;
+    iccp_chart_parameters parameters;
     icc_tree *tree;
     icc_function *field;
     uint32_t chosen;             /* the root that was asked for; the tree's may have moved */

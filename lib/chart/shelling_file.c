@@ -94,7 +94,7 @@ static icc_status certify(const order *o, const icc_domain *domain, uint32_t cen
 }
 
 /* The directions, certified with an order made for them, become leaves. */
-static icc_status read_fibres(icc_chart *chart, const iccp_simplices *mesh, uint32_t centre,
+static icc_status read_leaves(icc_chart *chart, const iccp_simplices *mesh, uint32_t centre,
                               iccp_blob *b, const iccp_env *env)
 {
     iccp_shelling_state *state = chart->state;
@@ -108,8 +108,8 @@ static icc_status read_fibres(icc_chart *chart, const iccp_simplices *mesh, uint
     if (status == ICC_OK)
         status = certify(&o, chart->domain, centre, env);
     if (status == ICC_OK)
-        status = iccp_fibres_create(&state->fibres, mesh, centre, direction,
-                                    chart->domain->band.reach, env);
+        status = iccp_leafn_create(&state->leaves, mesh, centre, direction,
+                                   chart->domain->band.reach, env);
     chart->info.certified = status == ICC_OK;
     iccp_free(&env->memory, direction);
     iccp_free(&env->memory, o.rank);
@@ -147,7 +147,7 @@ icc_status iccp_chart_shelling_read(icc_chart **out, const icc_domain *domain, i
     status = iccp_shelling_begin(out, domain, own, (uint32_t)centre, env);
     if (status == ICC_OK) {
         copy_story(&(*out)->own.shelling, &story);
-        status = read_fibres(*out, mesh, (uint32_t)centre, b, env);
+        status = read_leaves(*out, mesh, (uint32_t)centre, b, env);
     }
     if (status != ICC_OK) {
         iccp_chart_release(*out);

@@ -19,7 +19,7 @@ static int32_t locate(const icc_chart *chart, const double *point, iccp_chart_pl
     const iccp_shelling_state *state = chart->state;
     bool inner;
     const bool found =
-        iccp_fibres_find(&state->fibres, point, chart->domain->band.reach, &place->fibre, &inner);
+        iccp_leafn_find(&state->leaves, point, chart->domain->band.reach, &place->fibre, &inner);
     if (found && inner)
         return ICC_INSIDE;
     const int32_t where =
@@ -32,21 +32,21 @@ static int32_t locate(const icc_chart *chart, const double *point, iccp_chart_pl
 /* Lengths and derivatives of the two parts of a leaf. */
 typedef struct parts {
     double down, up;
-    iccp_fibre_jet down_jet, up_jet;
+    iccp_leafn_jet down_jet, up_jet;
 } parts;
 
-static void fill_encode_jet(const icc_chart *chart, const iccp_fibre_place *end, uint32_t facet,
+static void fill_encode_jet(const icc_chart *chart, const iccp_leafn_place *end, uint32_t facet,
                             const parts *p, iccp_encode_jet *jet)
 {
     const iccp_shelling_state *state = chart->state;
-    const size_t dim = state->fibres.dim;
+    const size_t dim = state->leaves.dim;
     const double length = p->down + p->up;
     for (size_t j = 0; j < dim; ++j) {
-        iccp_fibre_place slope = {.simplex = end->simplex};
+        iccp_leafn_place slope = {.simplex = end->simplex};
         double bary[ICC_MAX_DIM];
         for (size_t i = 0; i <= dim; ++i)
             slope.bary[i] = p->down_jet.bary[i][j];
-        iccp_fibres_facet(&state->fibres, &slope, facet_of(chart, facet), bary);
+        iccp_leafn_facet(&state->leaves, &slope, facet_of(chart, facet), bary);
         for (size_t i = 0; i < dim; ++i)
             jet->bary[i * dim + j] = bary[i];
         jet->t[j] =
@@ -54,12 +54,12 @@ static void fill_encode_jet(const icc_chart *chart, const iccp_fibre_place *end,
     }
 }
 
-static void end_on_facet(const icc_chart *chart, const iccp_fibre_place *end, iccp_coords *coords)
+static void end_on_facet(const icc_chart *chart, const iccp_leafn_place *end, iccp_coords *coords)
 {
     const iccp_shelling_state *state = chart->state;
-    const size_t dim = state->fibres.dim;
+    const size_t dim = state->leaves.dim;
     double sum = 0;
-    iccp_fibres_facet(&state->fibres, end, facet_of(chart, coords->facet), coords->bary);
+    iccp_leafn_facet(&state->leaves, end, facet_of(chart, coords->facet), coords->bary);
     for (size_t k = 0; k < dim; ++k)
         sum += coords->bary[k];
     for (size_t k = 0; k < dim; ++k)
@@ -73,16 +73,16 @@ static icc_status encode(const icc_chart *chart, const double *point, const iccp
 {
     (void)point;
     const iccp_shelling_state *state = chart->state;
-    iccp_fibre_place low = place->fibre, high = place->fibre;
+    iccp_leafn_place low = place->fibre, high = place->fibre;
     parts p;
     if (jet == NULL) {
-        p.down = iccp_fibres_fall(&state->fibres, &low, &coords->facet);
-        p.up = iccp_fibres_rise(&state->fibres, &high);
+        p.down = iccp_leafn_fall(&state->leaves, &low, &coords->facet);
+        p.up = iccp_leafn_rise(&state->leaves, &high);
     } else {
-        iccp_fibres_gradient(&state->fibres, place->fibre.simplex, &p.down_jet);
+        iccp_leafn_gradient(&state->leaves, place->fibre.simplex, &p.down_jet);
         p.up_jet = p.down_jet;
-        p.down = iccp_fibres_fall_jet(&state->fibres, &low, &coords->facet, &p.down_jet);
-        p.up = iccp_fibres_rise_jet(&state->fibres, &high, &p.up_jet, UINT32_MAX, NULL);
+        p.down = iccp_leafn_fall_jet(&state->leaves, &low, &coords->facet, &p.down_jet);
+        p.up = iccp_leafn_rise_jet(&state->leaves, &high, &p.up_jet, UINT32_MAX, NULL);
         fill_encode_jet(chart, &low, coords->facet, &p, jet);
     }
     end_on_facet(chart, &low, coords);
@@ -94,7 +94,7 @@ static icc_status encode(const icc_chart *chart, const double *point, const iccp
 
 /* Where a point is on its leaf: a note before it, and lengths. */
 typedef struct spot {
-    iccp_fibre_place from; /* where the leaf enters the simplex */
+    iccp_leafn_place from; /* where the leaf enters the simplex */
     double before;         /* the leaf's length up to there */
     double piece;          /* and within the simplex */
     double ahead;          /* from there to the point */
@@ -106,7 +106,7 @@ static spot find_spot(const iccp_path *path, double t)
     double share;
     spot s = {.total = iccp_path_length(path)};
     const size_t k = iccp_path_find(path, t * s.total, &share);
-    iccp_fibres_noted(path, k, &s.from);
+    iccp_leafn_noted(path, k, &s.from);
     s.before = iccp_path_length_at(path, k);
     s.piece = iccp_path_length_at(path, k + 1) - s.before;
     s.ahead = fmin(fmax(t * s.total - s.before, 0), s.piece);
@@ -115,25 +115,25 @@ static spot find_spot(const iccp_path *path, double t)
 
 /* Parameters are the barycentric coordinates but the first, which gives way, and t. */
 static void fill_decode_jet(const icc_chart *chart, const iccp_coords *coords,
-                            const iccp_fibre_place *place, const spot *s, iccp_decode_jet *jet)
+                            const iccp_leafn_place *place, const spot *s, iccp_decode_jet *jet)
 {
     const iccp_shelling_state *state = chart->state;
-    const iccp_fibres *fibres = &state->fibres;
-    const size_t dim = fibres->dim;
+    const iccp_leaves *leaves = &state->leaves;
+    const size_t dim = leaves->dim;
     const uint32_t *vertices = facet_of(chart, coords->facet);
-    iccp_fibre_place start;
-    iccp_fibre_jet whole = {.n = dim - 1}, part;
+    iccp_leafn_place start;
+    iccp_leafn_jet whole = {.n = dim - 1}, part;
     double d_ahead[ICC_MAX_DIM], d_piece[ICC_MAX_DIM], movement[ICC_MAX_DIM][ICC_MAX_DIM];
     for (size_t c = 1; c < dim; ++c) {
         double bary[ICC_MAX_DIM] = {-1};
         bary[c] = 1;
-        iccp_fibres_enter(fibres, coords->facet, vertices, bary, &start);
+        iccp_leafn_enter(leaves, coords->facet, vertices, bary, &start);
         for (size_t i = 0; i <= dim; ++i)
             whole.bary[i][c - 1] = start.bary[i];
     }
-    iccp_fibres_enter(fibres, coords->facet, vertices, coords->bary, &start);
+    iccp_leafn_enter(leaves, coords->facet, vertices, coords->bary, &start);
     part = whole;
-    (void)iccp_fibres_rise_jet(fibres, &start, &whole, s->from.simplex, &part);
+    (void)iccp_leafn_rise_jet(leaves, &start, &whole, s->from.simplex, &part);
     for (size_t c = 0; c + 1 < dim; ++c) {
         d_ahead[c] = coords->t * whole.length[c] - part.length[c];
         d_piece[c] = whole.length[c] - part.length[c];
@@ -143,8 +143,8 @@ static void fill_decode_jet(const icc_chart *chart, const iccp_coords *coords,
     d_piece[dim - 1] = 0;
     for (size_t i = 0; i <= dim; ++i)
         part.bary[i][dim - 1] = 0;
-    iccp_fibres_ahead_jet(fibres, &s->from, s->ahead, s->piece, d_ahead, d_piece, &part);
-    iccp_fibres_movement(fibres, place, &part, movement);
+    iccp_leafn_ahead_jet(leaves, &s->from, s->ahead, s->piece, d_ahead, d_piece, &part);
+    iccp_leafn_movement(leaves, place, &part, movement);
     for (size_t i = 0; i < dim; ++i) {
         jet->bary[i * dim] = 0;
         for (size_t c = 1; c < dim; ++c)
@@ -159,16 +159,16 @@ static icc_status decode(const icc_chart *chart, const iccp_coords *coords, doub
                          iccp_decode_jet *jet, iccp_path *path)
 {
     const iccp_shelling_state *state = chart->state;
-    iccp_fibre_place place;
-    iccp_fibres_enter(&state->fibres, coords->facet, facet_of(chart, coords->facet), coords->bary,
-                      &place);
-    const icc_status status = iccp_fibres_note_rise(&state->fibres, &place, path);
+    iccp_leafn_place place;
+    iccp_leafn_enter(&state->leaves, coords->facet, facet_of(chart, coords->facet), coords->bary,
+                     &place);
+    const icc_status status = iccp_leafn_note_rise(&state->leaves, &place, path);
     if (status != ICC_OK)
         return status;
     const spot s = find_spot(path, coords->t);
     place = s.from;
-    iccp_fibres_ahead(&state->fibres, s.ahead, s.piece, &place);
-    iccp_fibres_point(&state->fibres, &place, point);
+    iccp_leafn_ahead(&state->leaves, s.ahead, s.piece, &place);
+    iccp_leafn_point(&state->leaves, &place, point);
     if (jet != NULL)
         fill_decode_jet(chart, coords, &place, &s, jet);
     return ICC_OK;
@@ -180,12 +180,12 @@ static icc_status decode(const icc_chart *chart, const iccp_coords *coords, doub
 static icc_status emit_note(const iccp_shelling_state *state, const iccp_path *path, size_t k,
                             iccp_emit emit, void *argument)
 {
-    iccp_fibre_place place;
+    iccp_leafn_place place;
     double point[ICC_MAX_DIM];
     if (k > 0 && !(iccp_path_length_at(path, k) > iccp_path_length_at(path, k - 1)))
         return ICC_OK;
-    iccp_fibres_noted(path, k, &place);
-    iccp_fibres_point(&state->fibres, &place, point);
+    iccp_leafn_noted(path, k, &place);
+    iccp_leafn_point(&state->leaves, &place, point);
     return emit(argument, point);
 }
 
@@ -196,18 +196,18 @@ static icc_status trace(const icc_chart *chart, const double *point, const iccp_
 {
     (void)point;
     const iccp_shelling_state *state = chart->state;
-    iccp_fibre_place start = place->fibre;
+    iccp_leafn_place start = place->fibre;
     icc_status status = ICC_OK;
     if (boundary != NULL) {
-        iccp_fibres_enter(&state->fibres, boundary->facet, facet_of(chart, boundary->facet),
-                          boundary->bary, &start);
+        iccp_leafn_enter(&state->leaves, boundary->facet, facet_of(chart, boundary->facet),
+                         boundary->bary, &start);
     } else {
-        status = iccp_fibres_note_fall(&state->fibres, &start, path);
+        status = iccp_leafn_note_fall(&state->leaves, &start, path);
         for (size_t k = path->n; status == ICC_OK && k-- > 1;)
             status = emit_note(state, path, k, emit, argument);
     }
     if (status == ICC_OK)
-        status = iccp_fibres_note_rise(&state->fibres, &start, path);
+        status = iccp_leafn_note_rise(&state->leaves, &start, path);
     for (size_t k = 0; status == ICC_OK && k < path->n; ++k)
         status = emit_note(state, path, k, emit, argument);
     return status;
@@ -216,7 +216,7 @@ static icc_status trace(const icc_chart *chart, const double *point, const iccp_
 static void free_state(icc_chart *chart)
 {
     iccp_shelling_state *state = chart->state;
-    iccp_fibres_free(&state->fibres);
+    iccp_leafn_free(&state->leaves);
     iccp_simplices_free(state->mesh);
     iccp_free(&chart->memory, state);
 }
@@ -244,11 +244,11 @@ static void save(const icc_chart *chart, iccp_blob *b)
     iccp_simplices *own = state->mesh;
     const iccp_simplices *mesh = own != NULL ? own : chart->domain->mesh;
     icc_shelling_info story = chart->own.shelling;
-    uint64_t centre = state->fibres.centre;
+    uint64_t centre = state->leaves.centre;
     (void)iccp_shelling_visit_head(b, &story, &own, &centre, chart->domain);
     for (size_t s = 0; s < mesh->n_simplices; ++s) {
-        double direction[ICCP_FIBRE_CORNERS];
-        iccp_fibres_direction(&state->fibres, mesh, s, direction);
+        double direction[ICCP_LEAFN_CORNERS];
+        iccp_leafn_direction(&state->leaves, mesh, s, direction);
         iccp_blob_f64(b, mesh->dim + 1, direction);
     }
 }
@@ -282,7 +282,7 @@ icc_status iccp_shelling_begin(icc_chart **out, const icc_domain *domain, iccp_s
                                                .n_mesh_boundary = mesh->n_boundary,
                                                .n_mesh_simplices = mesh->n_simplices};
     state->mesh = own;
-    state->fibres.memory = env->memory;
+    state->leaves.memory = env->memory;
     iccp_chart_set_maximum(*out, mesh->points + mesh->dim * centre);
     return ICC_OK;
 }

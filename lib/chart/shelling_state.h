@@ -3,11 +3,11 @@
 #define ICCP_SHELLING_STATE_H
 
 #include "chart/chart.h"
-#include "shelling/fibre.h"
+#include "shelling/leafn.h"
 
 typedef struct iccp_shelling_state {
     iccp_simplices *mesh; /* the chart's own, where the domain's has no vertex inside; or NULL */
-    iccp_fibres fibres;
+    iccp_leaves leaves;
 } iccp_shelling_state;
 
 extern const iccp_chart_ops iccp_shelling_ops;

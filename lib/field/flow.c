@@ -46,7 +46,7 @@ void iccp_flow_vector(const iccp_flow *flow, const iccp_flow_place *place, doubl
     memset(vector, 0, (size_t)dim * sizeof *vector);
     for (int32_t i = 0; i <= dim; ++i) {
         const double below = i < dim ? place->at[place->simplex.axis[i]] : 0;
-        const float *x = iccp_cones_vector(flow->cones, place->simplex.corner[i], r, i);
+        const float *x = iccp_vectors_at(flow->vectors, place->simplex.corner[i], r, i);
         for (int32_t k = 0; k < dim; ++k)
             vector[k] += (above - below) * (double)x[k];
         above = below;
@@ -56,9 +56,9 @@ void iccp_flow_vector(const iccp_flow *flow, const iccp_flow_place *place, doubl
 bool iccp_flow_near_boundary(const iccp_flow *flow, const iccp_flow_place *place)
 {
     const uint32_t lowest = place->simplex.corner[0];
-    return flow->cover->bits[lowest] != 0 &&
-           iccp_cover_has(flow->cover, lowest,
-                          iccp_order_rank(flow->grid->dim, place->simplex.axis));
+    return flow->incidence->bits[lowest] != 0 &&
+           iccp_incidence_has(flow->incidence, lowest,
+                              iccp_order_rank(flow->grid->dim, place->simplex.axis));
 }
 
 /* ---- walking ---- */

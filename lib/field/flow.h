@@ -3,7 +3,7 @@
 #ifndef ICCP_FLOW_H
 #define ICCP_FLOW_H
 
-#include "field/cones.h"
+#include "field/vectors.h"
 #include "trace/path.h"
 
 enum {
@@ -15,8 +15,8 @@ enum {
 typedef struct iccp_flow {
     const icc_grid *grid;
     const icc_domain *domain;
-    const iccp_cover *cover;
-    const iccp_cones *cones;
+    const iccp_incidence *incidence;
+    const iccp_vectors *vectors;
     uint32_t root; /* where all curves end; in the simplices around it they are straight */
     size_t most_steps;
 } iccp_flow;

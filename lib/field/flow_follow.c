@@ -3,7 +3,7 @@
 
 #define LANES 1
 #define TARGET
-#include "field/flow_crowd.h"
+#include "field/flow_batch.h"
 
 int iccp_flow_kinds(void)
 {
@@ -24,7 +24,7 @@ icc_status iccp_flow_follow_as(int kind, const iccp_flow *flow, size_t n, iccp_f
         return iccp_flow_follow2(flow, n, curves, memory);
 #endif
     (void)kind;
-    return follow(flow, n, curves, memory);
+    return follow_batch(flow, n, curves, memory);
 }
 
 icc_status iccp_flow_follow(const iccp_flow *flow, size_t n, iccp_flow_curve *curves,

@@ -5,12 +5,12 @@
 
 #define LANES 2
 #define TARGET __attribute__((target("sse4.2")))
-#include "field/flow_crowd.h"
+#include "field/flow_batch.h"
 
 TARGET icc_status iccp_flow_follow2(const iccp_flow *flow, size_t n, iccp_flow_curve *curves,
                                     const iccp_memory *memory)
 {
-    return follow(flow, n, curves, memory);
+    return follow_batch(flow, n, curves, memory);
 }
 
 #endif

@@ -5,12 +5,12 @@
 
 #define LANES 4
 #define TARGET __attribute__((target("avx2")))
-#include "field/flow_crowd.h"
+#include "field/flow_batch.h"
 
 TARGET icc_status iccp_flow_follow4(const iccp_flow *flow, size_t n, iccp_flow_curve *curves,
                                     const iccp_memory *memory)
 {
-    return follow(flow, n, curves, memory);
+    return follow_batch(flow, n, curves, memory);
 }
 
 #endif

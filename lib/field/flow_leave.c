@@ -23,7 +23,7 @@ static double meet_plane(const iccp_flow_walk *w, uint32_t facet, double guess, 
     const icc_domain *domain = w->flow->domain;
     const icc_grid *grid = w->flow->grid;
     const int32_t dim = grid->dim;
-    const double *normal = w->flow->cover->normal + (size_t)dim * facet;
+    const double *normal = w->flow->incidence->normal + (size_t)dim * facet;
     const double *corner[ICC_MAX_DIM];
     double height[ICCP_FLOW_TERMS + 1] = {0}, local[ICC_MAX_DIM], at[ICC_MAX_DIM];
     iccp_facet_corners(&domain->tree, facet, corner);

@@ -1,4 +1,4 @@
-/* The pieces of one curve. What they are: flow_attempt.h; what is unusual is left to
+/* The pieces of one curve. What they are: flow_step.h; what is unusual is left to
  * flow_exit.c. */
 #include "field/flow_piece.h"
 
@@ -8,7 +8,7 @@
 
 #define LANES 1
 #define TARGET
-#include "field/flow_attempt.h"
+#include "field/flow_step.h"
 
 /* ---- within a piece ---- */
 
@@ -130,9 +130,9 @@ icc_status iccp_flow_find_piece_slowly(iccp_flow_walk *walk, double end)
 {
     static const double BEYOND = 1e-6; /* besides a tenth: a curve may start on the facet */
     const int32_t dim = walk->flow->grid->dim;
-    attempt a;
+    piece_step a;
     double first[3][ICC_MAX_DIM], size = 0;
-    load(&a, dim, 0, walk);
+    load_start(&a, dim, 0, walk);
     first_terms(&a, dim, first);
     add_size(dim, first[0], &size);
     const double reach = fmin(end > 0 ? 1.1 * end + BEYOND : HUGE_VAL, FARTHEST / a.norm);
@@ -151,10 +151,10 @@ icc_status iccp_flow_find_piece_slowly(iccp_flow_walk *walk, double end)
  * slow one. */
 static ICCP_INLINE icc_status curved_piece(iccp_flow_walk *w, int32_t dim)
 {
-    attempt a;
-    load(&a, dim, 0, w);
+    piece_step a;
+    load_start(&a, dim, 0, w);
     try_exit(&a, dim);
-    for (int n = 1; n < MOST_ATTEMPTS && again(&a, 0); ++n)
+    for (int n = 1; n < MOST_TRIES && prepare_retry(&a, 0); ++n)
         try_exit(&a, dim);
     if (ICCP_UNLIKELY(a.outcome > FOUND))
         return iccp_flow_find_piece_slowly(w, a.end);

@@ -51,7 +51,7 @@ static ICCP_INLINE icc_status iccp_flow_cross_in(iccp_flow_walk *w, int32_t dim)
         p->at[axis[dim - 1]] = 1;
     if (!iccp_kuhn_simplex_cross_in(&p->simplex, dim, w->flow->grid, i, &p->entry))
         return ICC_ERR_TRACE;
-    ICCP_PREFETCH(w->flow->cones->vector + (size_t)dim * p->simplex.corner[p->entry]);
+    ICCP_PREFETCH(w->flow->vectors->vector + (size_t)dim * p->simplex.corner[p->entry]);
     return ICC_OK;
 }
 

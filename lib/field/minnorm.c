@@ -124,7 +124,7 @@ static size_t lowest(size_t dim, size_t n, const double *points, const double *d
 
 /* Shrinks the corral until its nearest point is within it. False when its corners depend on each
  * other. */
-static bool settle(size_t dim, const double *points, corral *c)
+static bool shrink_corral(size_t dim, const double *points, corral *c)
 {
     double weight[MOST_CORNERS + 1];
     while (c->n > 1) {
@@ -152,7 +152,7 @@ double iccp_minnorm(size_t dim, size_t n, const double *points, double *nearest)
             break;
         c.corner[c.n] = low;
         c.weight[c.n++] = 0;
-        if (!settle(dim, points, &c))
+        if (!shrink_corral(dim, points, &c))
             break;
     }
     const double length = iccp_vec_norm(dim, nearest);

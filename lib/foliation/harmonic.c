@@ -59,7 +59,7 @@ void iccp_harmonic_free(iccp_harmonic *base)
     iccp_planar_free(&base->mesh);
 }
 
-iccp_planar iccp_harmonic_take_mesh(iccp_harmonic *base)
+iccp_planar iccp_harmonic_move_mesh(iccp_harmonic *base)
 {
     const iccp_planar mesh = base->mesh;
     base->mesh = (iccp_planar){.memory = mesh.memory};
@@ -78,9 +78,10 @@ icc_status iccp_harmonic_disc(const iccp_harmonic *base, const double *turns, do
     }
     for (size_t i = 0; i < l->matrix.n; ++i) {
         inner[2 * i] = inner[2 * i + 1] = 0;
-        for (size_t p = l->rim_first[i]; p < l->rim_first[i + 1]; ++p)
+        for (size_t p = l->boundary_first[i]; p < l->boundary_first[i + 1]; ++p)
             for (size_t d = 0; d < 2; ++d)
-                inner[2 * i + d] += l->rim_weight[p] * image[2 * (size_t)l->rim_vertex[p] + d];
+                inner[2 * i + d] +=
+                    l->boundary_weight[p] * image[2 * (size_t)l->boundary_vertex[p] + d];
     }
     return iccp_spd_solve(&base->solver, 2, inner, env);
 }

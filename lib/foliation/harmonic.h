@@ -29,7 +29,7 @@ void iccp_harmonic_describe(const iccp_harmonic *base, const icc_domain *domain,
                             icc_chart_info *info);
 
 /* Moves the mesh out of the base. */
-iccp_planar iccp_harmonic_take_mesh(iccp_harmonic *base);
+iccp_planar iccp_harmonic_move_mesh(iccp_harmonic *base);
 
 /* Where the vertices go in the harmonic map to the unit disc that takes boundary vertex k to the
  * angle `turns[k]`, in turns. `image`: 2 n_vertices. */

@@ -75,7 +75,7 @@ static icc_status finish(iccp_planar *mesh, const iccp_env *env)
     if (status == ICC_OK)
         status = is_manifold ? certify(mesh, env) : ICC_ERR_FORMAT;
     if (status == ICC_OK)
-        iccp_planar_list_rim(mesh);
+        iccp_planar_list_boundary(mesh);
     return status;
 }
 

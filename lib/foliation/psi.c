@@ -44,8 +44,8 @@ static icc_status boundary_flux(double *flux, const iccp_planar *mesh,
     if (status == ICC_OK) {
         double total = 0, perimeter = 0;
         for (size_t i = 0; i < n; ++i)
-            for (size_t p = laplacian->rim_first[i]; p < laplacian->rim_first[i + 1]; ++p)
-                inflow[laplacian->rim_vertex[p]] += laplacian->rim_weight[p] * green[i];
+            for (size_t p = laplacian->boundary_first[i]; p < laplacian->boundary_first[i + 1]; ++p)
+                inflow[laplacian->boundary_vertex[p]] += laplacian->boundary_weight[p] * green[i];
         for (uint32_t k = 0; k < n_boundary; ++k) {
             total += inflow[k];
             perimeter += boundary_length(mesh, k);
@@ -78,9 +78,10 @@ static void right_side(double *b, const iccp_planar *mesh, const iccp_laplacian 
         for (size_t p = open->first[i]; p < open->first[i + 1]; ++p)
             sum -= open->value[p] *
                    angle_between(mesh, centre, n_boundary + i, n_boundary + open->column[p]);
-        for (size_t p = open->rim_first[i]; p < open->rim_first[i + 1]; ++p) {
-            const uint32_t k = open->rim_vertex[p];
-            sum += open->rim_weight[p] * (phi[k] + angle_between(mesh, centre, n_boundary + i, k));
+        for (size_t p = open->boundary_first[i]; p < open->boundary_first[i + 1]; ++p) {
+            const uint32_t k = open->boundary_vertex[p];
+            sum += open->boundary_weight[p] *
+                   (phi[k] + angle_between(mesh, centre, n_boundary + i, k));
         }
         b[i] = sum;
     }

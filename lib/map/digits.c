@@ -7,7 +7,7 @@
 
 #include "base/threads.h"
 #include "chart/chart_field.h"
-#include "chart/spread.h"
+#include "chart/low_discrepancy.h"
 #include "function/function.h"
 #include "map/curves.h"
 #include "math/orient.h"
@@ -204,12 +204,12 @@ static void find_point(const samples *s, size_t index, double *point)
 {
     const icc_grid *grid = s->grid;
     const int32_t dim = grid->dim;
-    const size_t k = (size_t)((double)grid->n_inside * iccp_spread(1, 0, index));
+    const size_t k = (size_t)((double)grid->n_inside * iccp_low_discrepancy(1, 0, index));
     const uint32_t vertex = s->inside[k < grid->n_inside ? k : grid->n_inside - 1];
     double local[ICC_MAX_DIM];
     for (int32_t i = 0; i < dim; ++i)
         local[i] = grid->origin[i] + grid->spacing * (iccp_grid_coordinate(grid, vertex, i) +
-                                                      iccp_spread(dim, i, index) - 0.5);
+                                                      iccp_low_discrepancy(dim, i, index) - 0.5);
     iccp_frame_out(&s->from->domain->frame, dim, local, point);
 }
 

@@ -71,7 +71,7 @@ static void flip_edges(iccp_plmap *map)
         for (uint32_t t = 0; t < map->corners.n_triangles; ++t)
             for (uint32_t c = 3 * t; c < 3 * t + 3 && !iccp_plmap_positive_image(map, t); ++c)
                 if (is_worth_flipping(map, c)) {
-                    iccp_turn_edge(&map->corners, c);
+                    iccp_flip_edge(&map->corners, c);
                     flipped = true;
                 }
     }

@@ -209,7 +209,7 @@ static void attach(cutter *k, uint32_t corner, uint32_t index)
     if ((outer & LINK) != 0)
         k->links[outer & ~LINK].outer = corner;
     else
-        iccp_link(k->mesh, corner, outer);
+        iccp_link_twins(k->mesh, corner, outer);
 }
 
 /* Whether the chain turns towards the edge at a link. */
@@ -275,7 +275,7 @@ static void cut_all(cutter *k)
         }
     }
     assert(n_used == k->n_triangles);
-    iccp_link(k->mesh, l[k->last[LEFT]].outer, l[k->last[RIGHT]].outer);
+    iccp_link_twins(k->mesh, l[k->last[LEFT]].outer, l[k->last[RIGHT]].outer);
 }
 
 static bool must_flip(const cutter *k, uint32_t corner)

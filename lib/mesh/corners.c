@@ -42,7 +42,7 @@ void iccp_cut_edge(iccp_corners *corners, uint32_t corner, uint32_t m)
     link_twins(corners, twin, 3 * near_half);
 }
 
-void iccp_turn_edge(iccp_corners *corners, uint32_t corner)
+void iccp_flip_edge(iccp_corners *corners, uint32_t corner)
 {
     iccp_corners *c = corners;
     const uint32_t after = iccp_after(corner), before = iccp_before(corner);

@@ -17,7 +17,7 @@ typedef struct iccp_corners {
 void iccp_cut_edge(iccp_corners *corners, uint32_t corner, uint32_t m);
 
 /* Replaces the edge, which is not on the boundary, by the other diagonal of its two triangles. */
-void iccp_turn_edge(iccp_corners *corners, uint32_t corner);
+void iccp_flip_edge(iccp_corners *corners, uint32_t corner);
 
 /* Finds the twins of the corners of triangles that are all counter-clockwise, from their vertices
  * alone, which are smaller than n_vertices. False when an edge belongs to two triangles on the same

@@ -73,16 +73,16 @@ static uint32_t split(iccp_trimesh *mesh, uint32_t corner, uint32_t vertex)
     const uint32_t first = corner - corner % 3;
     const uint32_t fresh = 3 * mesh->n_triangles;
     const uint32_t corners[3] = {first, fresh, fresh + 3};
-    const uint32_t ring[3] = {c[first].vertex, c[first + 1].vertex, c[first + 2].vertex};
+    const uint32_t old[3] = {c[first].vertex, c[first + 1].vertex, c[first + 2].vertex};
     const uint32_t outer[3] = {c[first].twin, c[first + 1].twin, c[first + 2].twin};
     mesh->n_triangles += 2;
     for (uint32_t i = 0; i < 3; ++i) {
         const uint32_t k = corners[i];
         c[k].vertex = vertex;
-        c[k + 1].vertex = ring[(i + 1) % 3];
-        c[k + 2].vertex = ring[(i + 2) % 3];
-        iccp_link(mesh, k, outer[i]);
-        iccp_link(mesh, k + 1, corners[(i + 1) % 3] + 2);
+        c[k + 1].vertex = old[(i + 1) % 3];
+        c[k + 2].vertex = old[(i + 2) % 3];
+        iccp_link_twins(mesh, k, outer[i]);
+        iccp_link_twins(mesh, k + 1, corners[(i + 1) % 3] + 2);
     }
     return first;
 }
@@ -138,8 +138,8 @@ static void start(iccp_trimesh *mesh)
         c[ghost].vertex = mesh->n_points;
         c[ghost + 1].vertex = (i + 2) % 3;
         c[ghost + 2].vertex = (i + 1) % 3;
-        iccp_link(mesh, i, ghost);
-        iccp_link(mesh, ghost + 2, 3 + 3 * ((i + 1) % 3) + 1);
+        iccp_link_twins(mesh, i, ghost);
+        iccp_link_twins(mesh, ghost + 2, 3 + 3 * ((i + 1) % 3) + 1);
     }
 }
 

@@ -57,7 +57,7 @@ static void count_edge(iccp_laplacian *l, uint32_t n_boundary, uint32_t a, uint3
 {
     (void)weight;
     if (b < n_boundary) {
-        ++l->rim_first[a - n_boundary];
+        ++l->boundary_first[a - n_boundary];
     } else {
         ++l->first[a - n_boundary];
         ++l->first[b - n_boundary];
@@ -75,9 +75,9 @@ static void add_entry(iccp_laplacian *l, uint32_t row, uint32_t column, double w
 static void add_edge(iccp_laplacian *l, uint32_t n_boundary, uint32_t a, uint32_t b, double weight)
 {
     if (b < n_boundary) {
-        const size_t p = --l->rim_first[a - n_boundary];
-        l->rim_vertex[p] = b;
-        l->rim_weight[p] = weight;
+        const size_t p = --l->boundary_first[a - n_boundary];
+        l->boundary_vertex[p] = b;
+        l->boundary_weight[p] = weight;
         l->diagonal[a - n_boundary] += weight;
     } else {
         add_entry(l, a - n_boundary, b - n_boundary, weight);
@@ -93,12 +93,13 @@ static void sum_up(size_t *counts, size_t n)
 
 static icc_status allocate_entries(iccp_laplacian *l, size_t n)
 {
-    const size_t n_entries = l->first[n], n_rim = l->rim_first[n];
+    const size_t n_entries = l->first[n], n_boundary = l->boundary_first[n];
     l->column = iccp_alloc(&l->memory, n_entries, sizeof *l->column);
     l->value = iccp_alloc(&l->memory, n_entries, sizeof *l->value);
-    l->rim_vertex = iccp_alloc(&l->memory, n_rim, sizeof *l->rim_vertex);
-    l->rim_weight = iccp_alloc(&l->memory, n_rim, sizeof *l->rim_weight);
-    return l->column != NULL && l->value != NULL && l->rim_vertex != NULL && l->rim_weight != NULL
+    l->boundary_vertex = iccp_alloc(&l->memory, n_boundary, sizeof *l->boundary_vertex);
+    l->boundary_weight = iccp_alloc(&l->memory, n_boundary, sizeof *l->boundary_weight);
+    return l->column != NULL && l->value != NULL && l->boundary_vertex != NULL &&
+                   l->boundary_weight != NULL
                ? ICC_OK
                : ICC_ERR_MEMORY;
 }
@@ -111,13 +112,13 @@ icc_status iccp_laplacian_create(iccp_laplacian *laplacian, const iccp_planar *m
     iccp_laplacian *l = laplacian;
     *l = (iccp_laplacian){.memory = env->memory};
     l->first = iccp_alloc_zero(&l->memory, n + 1, sizeof *l->first);
-    l->rim_first = iccp_alloc_zero(&l->memory, n + 1, sizeof *l->rim_first);
+    l->boundary_first = iccp_alloc_zero(&l->memory, n + 1, sizeof *l->boundary_first);
     l->diagonal = iccp_alloc_zero(&l->memory, n, sizeof *l->diagonal);
     icc_status status = ICC_ERR_MEMORY;
-    if (l->first != NULL && l->rim_first != NULL && l->diagonal != NULL) {
+    if (l->first != NULL && l->boundary_first != NULL && l->diagonal != NULL) {
         visit_edges(l, mesh, left_out, false, count_edge);
         sum_up(l->first, n);
-        sum_up(l->rim_first, n);
+        sum_up(l->boundary_first, n);
         status = allocate_entries(l, n);
     }
     if (status != ICC_OK) {
@@ -138,8 +139,8 @@ void iccp_laplacian_free(iccp_laplacian *laplacian)
     iccp_free(&l->memory, l->column);
     iccp_free(&l->memory, l->value);
     iccp_free(&l->memory, l->diagonal);
-    iccp_free(&l->memory, l->rim_first);
-    iccp_free(&l->memory, l->rim_vertex);
-    iccp_free(&l->memory, l->rim_weight);
+    iccp_free(&l->memory, l->boundary_first);
+    iccp_free(&l->memory, l->boundary_vertex);
+    iccp_free(&l->memory, l->boundary_weight);
     *l = (iccp_laplacian){.memory = l->memory};
 }

@@ -12,9 +12,9 @@ typedef struct iccp_laplacian {
     size_t *first; /* what the matrix borrows */
     uint32_t *column;
     double *value, *diagonal;
-    size_t *rim_first;    /* n + 1: where a row's edges to the boundary begin */
-    uint32_t *rim_vertex; /* of each such edge: its boundary vertex */
-    double *rim_weight;   /* and its weight */
+    size_t *boundary_first;    /* n + 1: where a row's edges to the boundary begin */
+    uint32_t *boundary_vertex; /* of each such edge: its boundary vertex */
+    double *boundary_weight;   /* and its weight */
 } iccp_laplacian;
 
 /* Cotangent weights, kept within positive bounds. Edges at the vertex `left_out`

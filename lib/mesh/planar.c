@@ -160,11 +160,11 @@ static void split_chords(iccp_planar *mesh)
     mesh->n_triangles = corners.n_triangles;
 }
 
-void iccp_planar_list_rim(iccp_planar *mesh)
+void iccp_planar_list_boundary(iccp_planar *mesh)
 {
     for (uint32_t c = 0; c < 3 * mesh->n_triangles; ++c)
         if (mesh->twins[c] == ICCP_NO_NEIGHBOUR)
-            mesh->rim[mesh->triangles[iccp_after(c)]] = c;
+            mesh->boundary_corner[mesh->triangles[iccp_after(c)]] = c;
 }
 
 /* ---- all of it ---- */
@@ -174,10 +174,10 @@ static icc_status allocate_boundary(iccp_planar *mesh, const icc_domain *domain)
     const size_t n_facets = domain->n_facets;
     mesh->points = iccp_alloc(&mesh->memory, mesh->n_boundary, 2 * sizeof(double));
     mesh->facet = iccp_alloc(&mesh->memory, mesh->n_boundary, sizeof(uint32_t));
-    mesh->rim = iccp_alloc(&mesh->memory, mesh->n_boundary, sizeof(uint32_t));
+    mesh->boundary_corner = iccp_alloc(&mesh->memory, mesh->n_boundary, sizeof(uint32_t));
     mesh->first = iccp_alloc(&mesh->memory, n_facets, sizeof(uint32_t));
     mesh->pieces = iccp_alloc(&mesh->memory, n_facets, sizeof(uint32_t));
-    return mesh->points != NULL && mesh->facet != NULL && mesh->rim != NULL &&
+    return mesh->points != NULL && mesh->facet != NULL && mesh->boundary_corner != NULL &&
                    mesh->first != NULL && mesh->pieces != NULL
                ? ICC_OK
                : ICC_ERR_MEMORY;
@@ -246,7 +246,7 @@ static icc_status fill_mesh(iccp_planar *mesh, const icc_domain *domain, const u
     if (status == ICC_OK) {
         mesh->n_triangles = 2 * mesh->n_vertices - mesh->n_boundary - 2;
         split_chords(mesh);
-        iccp_planar_list_rim(mesh);
+        iccp_planar_list_boundary(mesh);
     }
     return status;
 }
@@ -282,7 +282,7 @@ void iccp_planar_free(iccp_planar *mesh)
     iccp_free(&mesh->memory, mesh->triangles);
     iccp_free(&mesh->memory, mesh->twins);
     iccp_free(&mesh->memory, mesh->facet);
-    iccp_free(&mesh->memory, mesh->rim);
+    iccp_free(&mesh->memory, mesh->boundary_corner);
     iccp_free(&mesh->memory, mesh->first);
     iccp_free(&mesh->memory, mesh->pieces);
     *mesh = (iccp_planar){.memory = mesh->memory};

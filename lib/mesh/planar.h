@@ -18,9 +18,9 @@ typedef struct iccp_planar {
     uint32_t *triangles; /* 3 n_triangles, counter-clockwise */
     uint32_t *twins;     /* 3 n_triangles: the corner facing the same edge, or ICCP_NO_NEIGHBOUR */
     uint32_t *facet;     /* n_boundary: the domain's facet that holds boundary edge k */
-    uint32_t *rim;       /* n_boundary: the corner that faces boundary edge k */
-    uint32_t *first;     /* n_facets: the boundary edge that holds a facet's first vertex */
-    uint32_t *pieces;    /* n_facets: boundary edges on a facet */
+    uint32_t *boundary_corner; /* n_boundary: the corner that faces boundary edge k */
+    uint32_t *first;           /* n_facets: the boundary edge that holds a facet's first vertex */
+    uint32_t *pieces;          /* n_facets: boundary edges on a facet */
 } iccp_planar;
 
 /* The lattice step for a number of cells along the longest side of the bounding box. */
@@ -40,12 +40,13 @@ icc_status iccp_planar_create(iccp_planar *mesh, const icc_domain *domain, const
 void iccp_planar_free(iccp_planar *mesh);
 
 /* A mesh with its boundary, cut into pieces, and room for what is still to be filled in: n_inner
- * points after those of the boundary, n_triangles triangles and their twins, and the rim. */
+ * points after those of the boundary, n_triangles triangles and their twins, and the corners at the
+ * boundary. */
 icc_status iccp_planar_begin(iccp_planar *mesh, const icc_domain *domain, const uint32_t *pieces,
                              size_t n_inner, size_t n_triangles, const iccp_env *env);
 
-/* Fills in the rim of a mesh whose boundary is as it should be. */
-void iccp_planar_list_rim(iccp_planar *mesh);
+/* Fills in `boundary_corner` of a mesh whose boundary is as it should be. */
+void iccp_planar_list_boundary(iccp_planar *mesh);
 
 /* A point of boundary edge k, `lambda` of the way along it, as a share of its facet; and back. */
 double iccp_planar_along(const iccp_planar *mesh, const icc_domain *domain, uint32_t k,

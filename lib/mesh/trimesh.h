@@ -46,7 +46,7 @@ static inline uint32_t iccp_around(const iccp_trimesh *mesh, uint32_t corner)
     return iccp_after(mesh->corners[iccp_after(corner)].twin);
 }
 
-static inline void iccp_link(iccp_trimesh *mesh, uint32_t a, uint32_t b)
+static inline void iccp_link_twins(iccp_trimesh *mesh, uint32_t a, uint32_t b)
 {
     mesh->corners[a].twin = b;
     mesh->corners[b].twin = a;
@@ -75,9 +75,9 @@ static inline void iccp_flip(iccp_trimesh *mesh, uint32_t corner)
     const uint32_t outer = c[twin_after].twin, twin_outer = c[after].twin;
     c[before].vertex = c[twin].vertex;
     c[twin_before].vertex = c[corner].vertex;
-    iccp_link(mesh, corner, outer);
-    iccp_link(mesh, twin, twin_outer);
-    iccp_link(mesh, after, twin_after);
+    iccp_link_twins(mesh, corner, outer);
+    iccp_link_twins(mesh, twin, twin_outer);
+    iccp_link_twins(mesh, after, twin_after);
 }
 
 #endif

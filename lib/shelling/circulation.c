@@ -22,8 +22,8 @@ static const double FACTOR = 1.5;
 /* Flux is kept above this, so that it never underflows to 0 along ever smaller shares. */
 static const double LEAST_FLUX = 1e-290;
 
-/* Rings between looks at the progress callback, and simplices. */
-enum { RINGS_PER_REPORT = 1 << 16, SIMPLICES_PER_REPORT = 1 << 16 };
+/* Links between looks at the progress callback, and simplices. */
+enum { LINKS_PER_REPORT = 1 << 16, SIMPLICES_PER_REPORT = 1 << 16 };
 
 /* What flows through each simplex, by the reference, over the sum of the areas of its sides. */
 static void find_densities(const iccp_circulation *c, double *density)
@@ -44,7 +44,7 @@ static void find_densities(const iccp_circulation *c, double *density)
 static icc_status weigh_facets(iccp_circulation *c, const iccp_env *env)
 {
     const iccp_simplices *mesh = c->mesh;
-    const size_t n = c->rings.n_facets;
+    const size_t n = c->links.n_facets;
     double *density = iccp_alloc(&env->memory, mesh->n_simplices, sizeof *density);
     c->weight = iccp_alloc(&env->memory, n, sizeof *c->weight);
     c->least = iccp_alloc(&env->memory, n, sizeof *c->least);
@@ -52,7 +52,7 @@ static icc_status weigh_facets(iccp_circulation *c, const iccp_env *env)
     if (good)
         find_densities(c, density);
     for (size_t f = 0; f < n && good; ++f) {
-        const uint32_t side = c->rings.side[f], other = mesh->across[side];
+        const uint32_t side = c->links.side[f], other = mesh->across[side];
         const double mean =
             0.5 * (density[iccp_simplex_of(mesh, side)] + density[iccp_simplex_of(mesh, other)]);
         c->weight[f] = iccp_element_conductance(mesh, side);
@@ -69,7 +69,7 @@ icc_status iccp_circulation_create(iccp_circulation *circulation, const iccp_sim
     iccp_circulation *c = circulation;
     *c = (iccp_circulation){
         .mesh = mesh, .centre = centre, .inflow = inflow, .reference = reference};
-    icc_status status = iccp_rings_create(&c->rings, mesh, centre, env);
+    icc_status status = iccp_links_create(&c->links, mesh, centre, env);
     if (status == ICC_OK)
         status = weigh_facets(c, env);
     if (status != ICC_OK)
@@ -79,19 +79,19 @@ icc_status iccp_circulation_create(iccp_circulation *circulation, const iccp_sim
 
 void iccp_circulation_free(iccp_circulation *circulation)
 {
-    const iccp_memory memory = circulation->rings.memory;
+    const iccp_memory memory = circulation->links.memory;
     iccp_free(&memory, circulation->weight);
     iccp_free(&memory, circulation->least);
-    iccp_rings_free(&circulation->rings);
+    iccp_links_free(&circulation->links);
     circulation->weight = NULL;
     circulation->least = NULL;
 }
 
-/* What a simplex receives leaves it through its sides to smaller rank as `wish` has it, but at
+/* What a simplex receives leaves it through its sides to smaller rank as `wanted` has it, but at
  * least a share of all through each. Flux here only ever is added up, so that rounding is all that
  * is amiss. */
 static void send_on(const iccp_circulation *c, const uint32_t *rank, size_t simplex,
-                    const double *wish, double least, double *flux)
+                    const double *wanted, double least, double *flux)
 {
     const size_t dim = c->mesh->dim, first = (dim + 1) * simplex;
     double received = 0, sum = 0, share[ICC_MAX_DIM + 1];
@@ -103,7 +103,7 @@ static void send_on(const iccp_circulation *c, const uint32_t *rank, size_t simp
         received -= leaves[i] ? 0 : flux[first + i];
     }
     for (size_t i = 0; i <= dim; ++i) {
-        share[i] = leaves[i] ? fmax(wish[first + i], least * received) : 0;
+        share[i] = leaves[i] ? fmax(wanted[first + i], least * received) : 0;
         sum += share[i];
     }
     for (size_t i = 0; i <= dim; ++i)
@@ -114,7 +114,7 @@ static void send_on(const iccp_circulation *c, const uint32_t *rank, size_t simp
 }
 
 /* All that comes from the boundary goes to the star. */
-static icc_status send_all(const iccp_circulation *c, const uint32_t *rank, const double *wish,
+static icc_status send_all(const iccp_circulation *c, const uint32_t *rank, const double *wanted,
                            double least, double *flux, const iccp_env *env)
 {
     const iccp_simplices *mesh = c->mesh;
@@ -128,7 +128,7 @@ static icc_status send_all(const iccp_circulation *c, const uint32_t *rank, cons
     for (uint32_t r = last; r > 0 && status == ICC_OK; --r) {
         if (r % SIMPLICES_PER_REPORT == 0)
             status = iccp_progress(env, "order", 1 - (double)r / (double)last);
-        send_on(c, rank, order[r], wish, least, flux);
+        send_on(c, rank, order[r], wanted, least, flux);
     }
     iccp_free(&env->memory, order);
     return status;
@@ -147,15 +147,15 @@ icc_status iccp_circulation_greedy(const iccp_circulation *c, const uint32_t *ra
 /* A facet during the sweeps: flux from the smaller of its sides, what that shall be, the weight of
  * the difference, and the least modulus. The sign never changes. */
 typedef struct gate {
-    double flux, wish, weight, least;
+    double flux, wanted, weight, least;
 } gate;
 
 /* The fluxes to be changed, in the order of the facets, so that a sweep reads one array. A facet
  * that starts with little flux may keep half of it. */
 static void open_gates(const iccp_circulation *c, const double *flux, gate *gates)
 {
-    for (size_t f = 0; f < c->rings.n_facets; ++f) {
-        const uint32_t side = c->rings.side[f];
+    for (size_t f = 0; f < c->links.n_facets; ++f) {
+        const uint32_t side = c->links.side[f];
         gates[f] = (gate){flux[side], c->reference[side], 1 / c->weight[f],
                           fmin(c->least[f], 0.5 * fabs(flux[side]))};
     }
@@ -164,14 +164,14 @@ static void open_gates(const iccp_circulation *c, const double *flux, gate *gate
 /* The best circulation is a mean of the differences; it may go too far by some. What runs along
  * with it can take all of it in one direction, what runs against it in the other, until little is
  * left. */
-static void relax_ring(gate *gates, const uint32_t *step, size_t n_steps)
+static void relax_link(gate *gates, const uint32_t *step, size_t n_steps)
 {
     double sum = 0, weight = 0, room_back = HUGE_VAL, room_on = HUGE_VAL;
     for (size_t k = 0; k < n_steps; ++k) {
         const gate *g = gates + step[k] / 2;
         const double sign = step[k] % 2 == 0 ? 1 : -1;
         const double along = sign * g->flux, room = fabs(along) - g->least;
-        sum += g->weight * sign * (g->wish - g->flux);
+        sum += g->weight * sign * (g->wanted - g->flux);
         weight += g->weight;
         room_back = along > 0 && room < room_back ? room : room_back;
         room_on = !(along > 0) && room < room_on ? room : room_on;
@@ -188,15 +188,15 @@ static void relax_ring(gate *gates, const uint32_t *step, size_t n_steps)
 }
 
 /* One Gauss-Seidel sweep over all cycles. */
-static icc_status sweep(const iccp_rings *rings, gate *gates, const iccp_env *env)
+static icc_status sweep(const iccp_links *links, gate *gates, const iccp_env *env)
 {
-    for (size_t r = 0; r < rings->n; ++r) {
-        if (r % RINGS_PER_REPORT == 0) {
-            const icc_status status = iccp_progress(env, "order", (double)r / (double)rings->n);
+    for (size_t r = 0; r < links->n; ++r) {
+        if (r % LINKS_PER_REPORT == 0) {
+            const icc_status status = iccp_progress(env, "order", (double)r / (double)links->n);
             if (status != ICC_OK)
                 return status;
         }
-        relax_ring(gates, rings->step + rings->first[r], rings->first[r + 1] - rings->first[r]);
+        relax_link(gates, links->step + links->first[r], links->first[r + 1] - links->first[r]);
     }
     return ICC_OK;
 }
@@ -206,7 +206,7 @@ static icc_status sweep(const iccp_rings *rings, gate *gates, const iccp_env *en
 icc_status iccp_circulation_relax(const iccp_circulation *c, const uint32_t *rank, size_t n_sweeps,
                                   double *flux, const iccp_env *env)
 {
-    gate *gates = iccp_alloc(&env->memory, c->rings.n_facets, sizeof *gates);
+    gate *gates = iccp_alloc(&env->memory, c->links.n_facets, sizeof *gates);
     if (gates == NULL)
         return ICC_ERR_MEMORY;
     icc_status status = ICC_OK;
@@ -214,13 +214,13 @@ icc_status iccp_circulation_relax(const iccp_circulation *c, const uint32_t *ran
     for (size_t k = 0; k < n_sweeps && status == ICC_OK; ++k) {
         const iccp_env part =
             iccp_part(env, NULL, (double)k / (double)n_sweeps, (double)(k + 1) / (double)n_sweeps);
-        status = sweep(&c->rings, gates, &part);
+        status = sweep(&c->links, gates, &part);
     }
-    for (size_t f = 0; f < c->rings.n_facets; ++f)
-        flux[c->rings.side[f]] = gates[f].flux;
+    for (size_t f = 0; f < c->links.n_facets; ++f)
+        flux[c->links.side[f]] = gates[f].flux;
     iccp_free(&env->memory, gates);
-    for (size_t f = 0; f < c->rings.n_facets; ++f)
-        flux[c->mesh->across[c->rings.side[f]]] = -flux[c->rings.side[f]];
+    for (size_t f = 0; f < c->links.n_facets; ++f)
+        flux[c->mesh->across[c->links.side[f]]] = -flux[c->links.side[f]];
     /* Where little is left of what there was, the rounding of that shows. */
     return status == ICC_OK ? send_all(c, rank, flux, 0, flux, env) : status;
 }
@@ -228,8 +228,8 @@ icc_status iccp_circulation_relax(const iccp_circulation *c, const uint32_t *ran
 double iccp_circulation_energy(const iccp_circulation *c, const double *flux)
 {
     double energy = 0;
-    for (size_t f = 0; f < c->rings.n_facets; ++f) {
-        const double off = flux[c->rings.side[f]] - c->reference[c->rings.side[f]];
+    for (size_t f = 0; f < c->links.n_facets; ++f) {
+        const double off = flux[c->links.side[f]] - c->reference[c->links.side[f]];
         energy += off * off / c->weight[f];
     }
     return energy;

@@ -4,8 +4,8 @@
 #ifndef ICCP_CIRCULATION_H
 #define ICCP_CIRCULATION_H
 
+#include "shelling/links.h"
 #include "shelling/reference.h"
-#include "shelling/rings.h"
 
 /* What is being fitted, whatever the order. */
 typedef struct iccp_circulation {
@@ -13,8 +13,8 @@ typedef struct iccp_circulation {
     uint32_t centre;
     const double *inflow;    /* through each facet of the domain */
     const double *reference; /* flux through each side */
-    iccp_rings rings;
-    double *weight; /* of each facet of the rings: area over the distance of the barycentres */
+    iccp_links links;
+    double *weight; /* of each facet of the links: area over the distance of the barycentres */
     double *least;  /* likewise: flux that it should have at least, a share of what flows nearby */
 } iccp_circulation;
 
@@ -30,8 +30,8 @@ void iccp_circulation_free(iccp_circulation *circulation);
 icc_status iccp_circulation_greedy(const iccp_circulation *c, const uint32_t *rank, double *flux,
                                    const iccp_env *env);
 
-/* Brings such a flux nearer to the reference: Gauss-Seidel sweeps over the rings, each time with
- * the circulation round the ring that lowers the energy most and leaves all fluxes positive. The
+/* Brings such a flux nearer to the reference: Gauss-Seidel sweeps over the links, each time with
+ * the circulation round the link that lowers the energy most and leaves all fluxes positive. The
  * energy never rises. O(n) a sweep. */
 icc_status iccp_circulation_relax(const iccp_circulation *c, const uint32_t *rank, size_t n_sweeps,
                                   double *flux, const iccp_env *env);

@@ -209,7 +209,7 @@ static void find_flux(const equations *e, size_t simplex, double *flux, double *
 /* Makes the two sides of each facet opposite to the last bit, by their mean, or, where one of
  * the simplices is in the star, by the one that was computed; facets of the domain get what was
  * prescribed. */
-static void settle_flux(const equations *e, const double *inflow, double *flux)
+static void match_sides(const equations *e, const double *inflow, double *flux)
 {
     const iccp_simplices *mesh = e->mesh;
     for (uint32_t s = 0; s < (mesh->dim + 1) * mesh->n_simplices; ++s) {
@@ -241,7 +241,7 @@ icc_status iccp_reference_flux(const iccp_simplices *mesh, uint32_t centre, cons
             if (!iccp_element_has(mesh, t, centre))
                 find_flux(&e, t, flux + n_corners * t, potential + t);
         }
-        settle_flux(&e, inflow, flux);
+        match_sides(&e, inflow, flux);
     }
     free_equations(&e, env);
     return status;

@@ -12,7 +12,7 @@ enum { CORNERS = ICC_MAX_DIM + 1, OTHERS = ICC_MAX_DIM - 2, REPORT = 4096 };
 
 /* Sets of corners of a simplex, or of the sides opposite to them. */
 typedef struct sets {
-    uint8_t in, out, rim;
+    uint8_t in, out, boundary;
     uint8_t centre; /* empty outside the star */
 } sets;
 
@@ -20,7 +20,7 @@ typedef struct sets {
 typedef struct face {
     uint32_t others[OTHERS]; /* ascending, then UINT32_MAX */
     uint32_t n_in, n_out;
-    bool used, at_star, on_rim;
+    bool used, at_star, on_boundary;
 } face;
 
 typedef struct checker {
@@ -155,12 +155,12 @@ static bool fill_sets(const checker *c, uint32_t s)
     for (size_t i = 0; i < n; ++i) {
         const uint32_t twin = mesh->across[n * s + i];
         const uint8_t bit = (uint8_t)(1u << i);
-        const bool rim = (twin & ICCP_ON_BOUNDARY) != 0;
-        const uint32_t rank = rim ? UINT32_MAX : c->rank[iccp_simplex_of(mesh, twin)];
-        set->rim |= rim ? bit : 0;
-        set->in |= rim || rank > c->rank[s] ? bit : 0;
-        set->out |= !rim && rank < c->rank[s] ? bit : 0;
-        tied = tied || (!rim && rank == c->rank[s]);
+        const bool boundary = (twin & ICCP_ON_BOUNDARY) != 0;
+        const uint32_t rank = boundary ? UINT32_MAX : c->rank[iccp_simplex_of(mesh, twin)];
+        set->boundary |= boundary ? bit : 0;
+        set->in |= boundary || rank > c->rank[s] ? bit : 0;
+        set->out |= !boundary && rank < c->rank[s] ? bit : 0;
+        tied = tied || (!boundary && rank == c->rank[s]);
     }
     return tied;
 }
@@ -238,7 +238,7 @@ static face *find_face(checker *c, const uint32_t *others)
 static void add_face(checker *c, const sets *set, unsigned corners, const uint32_t *others)
 {
     face *f = find_face(c, others);
-    f->on_rim = f->on_rim || (set->rim & ~corners) != 0;
+    f->on_boundary = f->on_boundary || (set->boundary & ~corners) != 0;
     if (set->centre != 0) {
         f->at_star = true;
         return;
@@ -289,7 +289,7 @@ static void check_faces_at(checker *c, uint32_t v)
         add_faces(c, c->around[i], v);
     for (size_t i = 0; i < c->n_used; ++i) {
         face *f = &c->table[c->used[i]];
-        c->found->n_irregular += f->n_in + f->at_star != 1 || f->n_out != (f->on_rim ? 0 : 1);
+        c->found->n_irregular += f->n_in + f->at_star != 1 || f->n_out != (f->on_boundary ? 0 : 1);
         f->used = false;
     }
 }

@@ -30,7 +30,7 @@ enum { GONE = 0x80 }; /* beyond the bits of 7 corners */
 static const size_t STEPS_PER_REPORT = 1 << 14;
 
 typedef struct front {
-    const iccp_order_wish *wish;
+    const iccp_order_priority *priority;
     const iccp_env *env;
     bool peeling;
     uint32_t *rank;
@@ -43,24 +43,25 @@ typedef struct front {
 
 /* The rule of shelling/shelling_order.h, in constant time: whether the face with the corners
  * `facing` touches the set is a look at `touched`. */
-static bool may_go(const front *f, size_t s)
+static bool can_join(const front *f, size_t s)
 {
     const unsigned facing = f->facing[s];
     const size_t size = iccp_set_size(facing);
-    return size <= f->wish->mesh->dim &&
-           (size == f->wish->mesh->dim || !f->touched[iccp_face(f->wish->faces, s, facing)]);
+    return size <= f->priority->mesh->dim &&
+           (size == f->priority->mesh->dim ||
+            !f->touched[iccp_face(f->priority->faces, s, facing)]);
 }
 
 /* How much the potential of a simplex differs from that of a neighbour, at most. */
-static double step_of(const iccp_order_wish *wish, size_t simplex)
+static double step_of(const iccp_order_priority *priority, size_t simplex)
 {
-    const iccp_simplices *mesh = wish->mesh;
+    const iccp_simplices *mesh = priority->mesh;
     const size_t first = (mesh->dim + 1) * simplex;
     double step = 0;
     for (size_t side = first; side <= first + mesh->dim; ++side)
         if (mesh->across[side] < ICCP_ON_BOUNDARY) {
-            const double there = wish->potential[iccp_simplex_of(mesh, mesh->across[side])];
-            step = fmax(step, fabs(there - wish->potential[simplex]));
+            const double there = priority->potential[iccp_simplex_of(mesh, mesh->across[side])];
+            step = fmax(step, fabs(there - priority->potential[simplex]));
         }
     return step;
 }
@@ -69,7 +70,7 @@ static double step_of(const iccp_order_wish *wish, size_t simplex)
  * greater rank if it went now, times a step of the potential. */
 static double key_of(const front *f, size_t s)
 {
-    const iccp_order_wish *w = f->wish;
+    const iccp_order_priority *w = f->priority;
     const double *flux = w->flux + (w->mesh->dim + 1) * s;
     double reversed = 0, total = 0;
     for (size_t i = 0; i <= w->mesh->dim; ++i) {
@@ -87,17 +88,17 @@ static double key_of(const front *f, size_t s)
 static void approach(front *f, size_t s, size_t corner)
 {
     f->facing[s] |= (uint8_t)(1u << corner);
-    if ((f->facing[s] & GONE) == 0 && may_go(f, s))
+    if ((f->facing[s] & GONE) == 0 && can_join(f, s))
         iccp_heap_put(&f->heap, (uint32_t)s, key_of(f, s));
 }
 
 static void join_simplex(front *f, size_t s)
 {
-    const iccp_simplices *mesh = f->wish->mesh;
+    const iccp_simplices *mesh = f->priority->mesh;
     const size_t n_sides = mesh->dim + 1;
     f->facing[s] |= GONE;
-    for (size_t k = 0; k < f->wish->faces->per_simplex; ++k)
-        f->touched[f->wish->faces->number[f->wish->faces->per_simplex * s + k]] = 1;
+    for (size_t k = 0; k < f->priority->faces->per_simplex; ++k)
+        f->touched[f->priority->faces->number[f->priority->faces->per_simplex * s + k]] = 1;
     for (size_t i = 0; i < n_sides; ++i) {
         const uint32_t across = mesh->across[n_sides * s + i];
         if (across < ICCP_ON_BOUNDARY)
@@ -108,11 +109,11 @@ static void join_simplex(front *f, size_t s)
 /* A side to the outside, with its faces. */
 static void join_side(front *f, size_t s, size_t corner)
 {
-    const size_t dim = f->wish->mesh->dim;
+    const size_t dim = f->priority->mesh->dim;
     const unsigned corners = ((2u << dim) - 1) ^ 1u << corner;
     for (unsigned set = corners; set != 0; set = (set - 1) & corners)
         if (iccp_set_size(set) < dim)
-            f->touched[iccp_face(f->wish->faces, s, set)] = 1;
+            f->touched[iccp_face(f->priority->faces, s, set)] = 1;
     approach(f, s, corner);
 }
 
@@ -120,10 +121,10 @@ static void join_side(front *f, size_t s, size_t corner)
  * besides. */
 static uint32_t rank_star(front *f)
 {
-    const iccp_simplices *mesh = f->wish->mesh;
+    const iccp_simplices *mesh = f->priority->mesh;
     uint32_t n = 0;
     for (size_t s = 0; s < mesh->n_simplices; ++s) {
-        const bool in_star = iccp_element_has(mesh, s, f->wish->centre);
+        const bool in_star = iccp_element_has(mesh, s, f->priority->centre);
         f->rank[s] = in_star ? 0 : UINT32_MAX;
         f->facing[s] = in_star ? GONE : 0;
         n += !in_star;
@@ -135,7 +136,7 @@ static uint32_t rank_star(front *f)
  * asked again when the queue gives them out. */
 static void begin(front *f)
 {
-    const iccp_simplices *mesh = f->wish->mesh;
+    const iccp_simplices *mesh = f->priority->mesh;
     const size_t n_sides = mesh->dim + 1;
     for (size_t s = 0; s < mesh->n_simplices; ++s) {
         if (!f->peeling && f->rank[s] == 0)
@@ -158,7 +159,7 @@ static icc_status advance(front *f, uint32_t n, size_t *n_left)
                 return status;
         }
         const uint32_t s = iccp_heap_pop(&f->heap);
-        if (!may_go(f, s))
+        if (!can_join(f, s))
             continue;
         f->rank[s] = f->peeling ? n - n_gone : n_gone + 1;
         ++n_gone;
@@ -170,16 +171,17 @@ static icc_status advance(front *f, uint32_t n, size_t *n_left)
 
 /* Growing and peeling differ in where the set starts, in the sign of the key and in the
  * direction of the ranks only. */
-static icc_status find_order(const iccp_order_wish *wish, bool peeling, uint32_t *rank,
+static icc_status find_order(const iccp_order_priority *priority, bool peeling, uint32_t *rank,
                              size_t *n_left, const iccp_env *env)
 {
     const iccp_memory *memory = &env->memory;
-    front f = {.wish = wish, .env = env, .peeling = peeling, .rank = rank};
-    assert(wish->centre >= wish->mesh->n_boundary && wish->centre < wish->mesh->n_points);
-    f.facing = iccp_alloc(memory, wish->mesh->n_simplices, sizeof *f.facing);
-    f.touched = iccp_alloc_zero(memory, wish->faces->n_faces, sizeof *f.touched);
+    front f = {.priority = priority, .env = env, .peeling = peeling, .rank = rank};
+    assert(priority->centre >= priority->mesh->n_boundary &&
+           priority->centre < priority->mesh->n_points);
+    f.facing = iccp_alloc(memory, priority->mesh->n_simplices, sizeof *f.facing);
+    f.touched = iccp_alloc_zero(memory, priority->faces->n_faces, sizeof *f.touched);
     icc_status status = ICC_ERR_MEMORY;
-    if (iccp_heap_create(&f.heap, wish->mesh->n_simplices, memory) && f.facing != NULL &&
+    if (iccp_heap_create(&f.heap, priority->mesh->n_simplices, memory) && f.facing != NULL &&
         f.touched != NULL) {
         const uint32_t n = rank_star(&f);
         begin(&f);
@@ -191,14 +193,14 @@ static icc_status find_order(const iccp_order_wish *wish, bool peeling, uint32_t
     return status;
 }
 
-icc_status iccp_order_grow(const iccp_order_wish *wish, uint32_t *rank, size_t *n_left,
+icc_status iccp_order_grow(const iccp_order_priority *priority, uint32_t *rank, size_t *n_left,
                            const iccp_env *env)
 {
-    return find_order(wish, false, rank, n_left, env);
+    return find_order(priority, false, rank, n_left, env);
 }
 
-icc_status iccp_order_peel(const iccp_order_wish *wish, uint32_t *rank, size_t *n_left,
+icc_status iccp_order_peel(const iccp_order_priority *priority, uint32_t *rank, size_t *n_left,
                            const iccp_env *env)
 {
-    return find_order(wish, true, rank, n_left, env);
+    return find_order(priority, true, rank, n_left, env);
 }

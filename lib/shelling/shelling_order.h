@@ -12,7 +12,7 @@
 #include "shelling/faces.h"
 
 /* What an order is made from. */
-typedef struct iccp_order_wish {
+typedef struct iccp_order_priority {
     const iccp_simplices *mesh;
     const iccp_faces *faces; /* of the mesh */
     uint32_t centre;         /* not on the boundary */
@@ -20,17 +20,17 @@ typedef struct iccp_order_wish {
     const double *potential; /* of each simplex: where it is small the rank shall be small */
     double beta;             /* how much reversed flux weighs against the potential */
     const double *bias;      /* added to the potential of each simplex in the comparison; or NULL */
-} iccp_order_wish;
+} iccp_order_priority;
 
 /* Adds simplices to the star of the centre, one by one. `rank` is of each simplex. `n_left` counts
  * those that could not be added; their rank is UINT32_MAX. ICC_OK, ICC_ERR_MEMORY or
  * ICC_ERR_CANCELLED. O(n log n). */
-icc_status iccp_order_grow(const iccp_order_wish *wish, uint32_t *rank, size_t *n_left,
+icc_status iccp_order_grow(const iccp_order_priority *priority, uint32_t *rank, size_t *n_left,
                            const iccp_env *env);
 
 /* The same from the other end: takes simplices at the boundary away, one by one, as long as a ball
  * is left, until the star of the centre remains. */
-icc_status iccp_order_peel(const iccp_order_wish *wish, uint32_t *rank, size_t *n_left,
+icc_status iccp_order_peel(const iccp_order_priority *priority, uint32_t *rank, size_t *n_left,
                            const iccp_env *env);
 
 #endif

@@ -4,8 +4,8 @@
  * complete for maxima by chance. Run by hand on a quiet machine. */
 #include "base/error.h"
 #include "shelling/centres.h"
-#include "shelling/contest.h"
-#include "shelling/turn.h"
+#include "shelling/best_order.h"
+#include "shelling/reverse.h"
 
 #include "../meshes.h"
 #include "bench.h"
@@ -78,11 +78,11 @@ static double aim(subject *s, uint32_t centre)
 
 static size_t order(const subject *s, double beta, bool peel, double *seconds)
 {
-    const iccp_order_wish wish = {s->mesh,      &s->faces, s->centre, s->reference,
+    const iccp_order_priority priority = {s->mesh,      &s->faces, s->centre, s->reference,
                                   s->potential, beta,      NULL};
     const double start = bench_seconds();
     size_t n_left = 0;
-    check((peel ? iccp_order_peel : iccp_order_grow)(&wish, s->rank, &n_left, &s->env));
+    check((peel ? iccp_order_peel : iccp_order_grow)(&priority, s->rank, &n_left, &s->env));
     *seconds = bench_seconds() - start;
     return n_left;
 }
@@ -91,8 +91,8 @@ static size_t order(const subject *s, double beta, bool peel, double *seconds)
 static void reversed(const subject *s, double share[2])
 {
     double all[2] = {0, 0}, turned[2] = {0, 0};
-    for (size_t f = 0; f < s->circulation.rings.n_facets; ++f) {
-        const uint32_t side = s->circulation.rings.side[f];
+    for (size_t f = 0; f < s->circulation.links.n_facets; ++f) {
+        const uint32_t side = s->circulation.links.side[f];
         const double flux[2] = {1, fabs(s->reference[side])};
         const bool falls = s->rank[side / 4] > s->rank[s->mesh->across[side] / 4];
         for (int k = 0; k < 2; ++k) {
@@ -120,11 +120,11 @@ static void tell(subject *s)
 
 static void turn(subject *s)
 {
-    const iccp_order_wish wish = {s->mesh,      &s->faces, s->centre, s->reference,
+    const iccp_order_priority priority = {s->mesh,      &s->faces, s->centre, s->reference,
                                   s->potential, 0,         NULL};
     size_t n_turned;
     const double start = bench_seconds();
-    check(iccp_order_turn(&wish, s->rank, &n_turned, &s->env));
+    check(iccp_order_reverse(&priority, s->rank, &n_turned, &s->env));
     printf("       turned %zu: %.2f us a tetrahedron", n_turned,
            1e6 * (bench_seconds() - start) / (double)s->mesh->n_simplices);
     tell(s);
@@ -152,10 +152,10 @@ static void compare_orders(subject *s)
 
 static void compete(subject *s, double seconds_flux)
 {
-    iccp_contest_info i;
+    iccp_best_order_info i;
     icc_error err = {.size = sizeof err};
     const double start = bench_seconds();
-    bench_check(iccp_contest(s->mesh, s->centre, s->inflow, s->reference, s->potential, s->rank,
+    bench_check(iccp_best_order(s->mesh, s->centre, s->inflow, s->reference, s->potential, s->rank,
                              s->flux, &i, &s->env, &err),
                 &err);
     const double seconds = bench_seconds() - start;

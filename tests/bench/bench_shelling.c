@@ -44,8 +44,8 @@ static void bench_circulation(stages *s)
     double then = bench_seconds();
     bench_check(iccp_circulation_create(&c, s->mesh, s->centre, s->inflow, s->reference, &s->env),
                 NULL);
-    printf("    rings      %8.1f ms, %zu with %zu steps\n", since(&then), c.rings.n,
-           c.rings.first[c.rings.n]);
+    printf("    rings      %8.1f ms, %zu with %zu steps\n", since(&then), c.links.n,
+           c.links.first[c.links.n]);
     bench_check(iccp_circulation_greedy(&c, s->rank, s->flux, &s->env), NULL);
     printf("    greedy     %8.1f ms, energy %.2e, divergence %.0e\n", since(&then),
            iccp_circulation_energy(&c, s->flux), iccp_circulation_divergence(&c, s->flux));
@@ -70,7 +70,7 @@ static bool bench_orders(stages *s)
     size_t n_left;
     bench_check(iccp_faces_create(&faces, s->mesh, &s->env), NULL);
     printf("    faces      %8.1f ms\n", since(&then));
-    const iccp_order_wish wish = {s->mesh, &faces, s->centre, s->reference, s->potential, 32, NULL};
+    const iccp_order_priority wish = {s->mesh, &faces, s->centre, s->reference, s->potential, 32, NULL};
     bench_check(iccp_order_grow(&wish, s->rank, &n_left, &s->env), NULL);
     printf("    grow       %8.1f ms, %zu left\n", since(&then), n_left);
     bench_check(iccp_order_peel(&wish, s->rank, &n_left, &s->env), NULL);

@@ -1,7 +1,7 @@
 /* The map of a foliation is one-to-one, without a "nearly": computed in rational numbers every
  * point comes back as itself, bit by bit. The library's own meshes and labels are taken as they
  * are; the share of the way is measured in |dx| + |dy|, which needs no square root; every decision
- * is that of foliation/leaf.c. With arc length in place of it, the library's doubles are compared
+ * is that of foliation/leaf2.c. With arc length in place of it, the library's doubles are compared
  * as well. */
 #include "domain/locate.h"
 #include "foliation/harmonic.h"
@@ -126,7 +126,7 @@ static void foliation_clear(foliation *f)
     iccp_harmonic_free(&f->base);
 }
 
-/* Where a leaf crosses the half-edge that a corner faces; see foliation/leaf.h. */
+/* Where a leaf crosses the half-edge that a corner faces; see foliation/leaf2.h. */
 typedef struct crossing {
     uint32_t corner;
     mpq_t below, above;

@@ -180,8 +180,8 @@ typedef struct world {
     iccp_env env;
     icc_domain *domain;
     icc_grid *grid;
-    iccp_cover cover;
-    iccp_cones cones;
+    iccp_incidence incidence;
+    iccp_vectors vectors;
     iccp_flow flow;
 } world;
 
@@ -198,17 +198,17 @@ static void world_init(world *w)
     ck_assert_int_eq(iccp_domain_create(&w->domain, 3, 8, corners, 12, FACES, &w->env, NULL),
                      ICC_OK);
     ck_assert_int_eq(iccp_grid_create(&w->grid, w->domain, 12, &w->env, NULL), ICC_OK);
-    ck_assert_int_eq(iccp_cover_create(&w->cover, w->domain, w->grid, &w->env), ICC_OK);
-    w->cones = (iccp_cones){.memory = w->env.memory, .grid = w->grid};
-    iccp_sides_init(&w->cones.sides, 3, &w->env.memory);
-    w->cones.vector = iccp_alloc_zero(&w->env.memory, w->grid->n_vertices, 3 * sizeof(float));
-    w->flow = (iccp_flow){w->grid, w->domain, &w->cover, &w->cones, 0, 10000};
+    ck_assert_int_eq(iccp_incidence_create(&w->incidence, w->domain, w->grid, &w->env), ICC_OK);
+    w->vectors = (iccp_vectors){.memory = w->env.memory, .grid = w->grid};
+    iccp_sectors_init(&w->vectors.sectors, 3, &w->env.memory);
+    w->vectors.vector = iccp_alloc_zero(&w->env.memory, w->grid->n_vertices, 3 * sizeof(float));
+    w->flow = (iccp_flow){w->grid, w->domain, &w->incidence, &w->vectors, 0, 10000};
 }
 
 static void world_free(world *w)
 {
-    iccp_cones_free(&w->cones);
-    iccp_cover_free(&w->cover);
+    iccp_vectors_free(&w->vectors);
+    iccp_incidence_free(&w->incidence);
     iccp_grid_release(w->grid);
     iccp_domain_release(w->domain);
 }
@@ -221,7 +221,7 @@ static void set_vectors(world *w, void (*field)(const double *x, double *v))
             x[k] = iccp_grid_coordinate(w->grid, v, k);
         field(x, y);
         for (int k = 0; k < 3; ++k)
-            w->cones.vector[3 * (size_t)v + (size_t)k] = (float)y[k];
+            w->vectors.vector[3 * (size_t)v + (size_t)k] = (float)y[k];
     }
 }
 
@@ -430,7 +430,7 @@ START_TEST(hopeless_walks_end)
     ck_assert_int_eq(iccp_flow_start(&walk, &w.flow, 1, &place), ICC_ERR_TRACE);
     set_vectors(&w, screw);
     for (uint32_t v = 0; v < w.grid->n_vertices; ++v)
-        w.cones.vector[3 * v + 2] = 0;
+        w.vectors.vector[3 * v + 2] = 0;
     icc_status status = iccp_flow_start(&walk, &w.flow, 1, &place);
     for (size_t k = 0; k < 10 * w.flow.most_steps && status == ICC_OK; ++k)
         status = iccp_flow_next(&walk);
@@ -503,7 +503,7 @@ START_TEST(many_curves_are_as_if_alone)
     set_vectors(&w, whirl);
     w.flow.most_steps = 300;
     w.flow.root = 8 * (uint32_t)(1 + w.grid->stride[1] + w.grid->stride[2]);
-    memset(w.cones.vector + 3 * (w.flow.root - 2), 0, 3 * sizeof(float));
+    memset(w.vectors.vector + 3 * (w.flow.root - 2), 0, 3 * sizeof(float));
     iccp_path_init(&path, &w.env.memory);
     for (size_t i = 0; i < N; ++i) {
         double x[3];

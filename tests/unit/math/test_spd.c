@@ -364,9 +364,9 @@ START_TEST(mesh_laplacians_are_solved)
                 ck_assert(l.value[p] < 0 && l.column[p] != i);
                 sum += l.value[p];
             }
-            for (size_t p = l.rim_first[i]; p < l.rim_first[i + 1]; ++p) {
-                ck_assert(l.rim_weight[p] > 0 && l.rim_vertex[p] < mesh.n_boundary);
-                sum -= l.rim_weight[p];
+            for (size_t p = l.boundary_first[i]; p < l.boundary_first[i + 1]; ++p) {
+                ck_assert(l.boundary_weight[p] > 0 && l.boundary_vertex[p] < mesh.n_boundary);
+                sum -= l.boundary_weight[p];
             }
             const bool is_own = k && i == l.matrix.n - 1;
             ck_assert_double_le(fabs(sum - is_own), 1e-13 * l.diagonal[i]);

@@ -134,7 +134,7 @@ START_TEST(random_changes_keep_every_invariant)
                 ck_assert(!is_joined(&c, a, b) && is_joined(&c, x, n_vertices - 1) &&
                           is_joined(&c, y, n_vertices - 1));
             } else if (twin != ICCP_NO_NEIGHBOUR && !is_joined(&c, x, y)) {
-                iccp_turn_edge(&c, k);
+                iccp_flip_edge(&c, k);
                 ck_assert_uint_eq(c.n_triangles, n_before);
                 ck_assert(!is_joined(&c, a, b) && is_joined(&c, x, y));
                 ++n_turns;
@@ -189,7 +189,7 @@ START_TEST(four_turns_change_nothing)
         const uint32_t inner = c.twin[0] != ICCP_NO_NEIGHBOUR   ? 0
                                : c.twin[1] != ICCP_NO_NEIGHBOUR ? 1
                                                                 : 2;
-        iccp_turn_edge(&c, inner);
+        iccp_flip_edge(&c, inner);
         check_disc(&c, 4);
         ck_assert(is_joined(&c, 0, 2) == (k % 2 == 0) && is_joined(&c, 1, 3) == (k % 2 == 1));
     }

@@ -156,7 +156,7 @@ static void check_flux(const setting *s, const char *when)
     ck_assert_msg(divergence <= 2e-15, "%s, %s: divergence %g", s->c.name, when, divergence);
 }
 
-/* ------------------------------------------------------------------- rings */
+/* ------------------------------------------------------------------- links */
 
 typedef struct face {
     uint32_t corner[ICC_MAX_DIM - 1];
@@ -204,7 +204,7 @@ static size_t drop_copies(face *faces, size_t n)
 }
 
 /* All faces, less those on the boundary, less those at the centre, which is not on the boundary. */
-static size_t count_rings(const flux_case *c)
+static size_t count_links(const flux_case *c)
 {
     const iccp_simplices *mesh = c->mesh;
     const size_t n_corners = mesh->dim + 1, most = n_corners * mesh->dim / 2 * mesh->n_simplices;
@@ -228,28 +228,28 @@ static size_t count_rings(const flux_case *c)
     return n_all - n_rim - n_central;
 }
 
-/* Every inner face has its ring, and a ring takes nothing from any simplex nor gives it
+/* Every inner face has its link, and a link takes nothing from any simplex nor gives it
  * anything. */
 START_TEST(rings_are_cycles)
 {
-    size_t n_rings = 0;
+    size_t n_links = 0;
     for (int k = 0; k <= FLUX_CASES; ++k) {
         flux_case c = flux_number(k);
         const iccp_env env = flux_env();
-        iccp_rings rings;
+        iccp_links links;
         double *balance = calloc(c.mesh->n_simplices, sizeof *balance);
         ck_assert_ptr_nonnull(balance);
-        ck_assert_int_eq(iccp_rings_create(&rings, c.mesh, c.centre, &env), ICC_OK);
-        ck_assert_msg(rings.n == count_rings(&c), "%s: %zu rings of %zu", c.name, rings.n,
-                      count_rings(&c));
-        for (size_t r = 0; r < rings.n; ++r) {
+        ck_assert_int_eq(iccp_links_create(&links, c.mesh, c.centre, &env), ICC_OK);
+        ck_assert_msg(links.n == count_links(&c), "%s: %zu rings of %zu", c.name, links.n,
+                      count_links(&c));
+        for (size_t r = 0; r < links.n; ++r) {
             double star = 0;
-            FLUX_ASSERT(rings.first[r + 1] - rings.first[r] >= 2, "%s: ring %zu", c.name, r);
+            FLUX_ASSERT(links.first[r + 1] - links.first[r] >= 2, "%s: ring %zu", c.name, r);
             for (int pass = 0; pass < 2; ++pass)
-                for (size_t p = rings.first[r]; p < rings.first[r + 1]; ++p) {
-                    const uint32_t side = rings.side[rings.step[p] / 2],
+                for (size_t p = links.first[r]; p < links.first[r + 1]; ++p) {
+                    const uint32_t side = links.side[links.step[p] / 2],
                                    other = c.mesh->across[side];
-                    const double on = rings.step[p] % 2 == 0 ? 1 : -1;
+                    const double on = links.step[p] % 2 == 0 ? 1 : -1;
                     const size_t t[2] = {iccp_simplex_of(c.mesh, side),
                                          iccp_simplex_of(c.mesh, other)};
                     FLUX_ASSERT(side < other, "%s: ring %zu", c.name, r);
@@ -264,18 +264,18 @@ START_TEST(rings_are_cycles)
                     }
                 }
             FLUX_ASSERT(!(fabs(star) > 0), "%s: ring %zu", c.name, r);
-            for (size_t p = rings.first[r]; p < rings.first[r + 1]; ++p) {
-                const uint32_t side = rings.side[rings.step[p] / 2];
+            for (size_t p = links.first[r]; p < links.first[r + 1]; ++p) {
+                const uint32_t side = links.side[links.step[p] / 2];
                 balance[iccp_simplex_of(c.mesh, side)] = 0;
                 balance[iccp_simplex_of(c.mesh, c.mesh->across[side])] = 0;
             }
         }
-        n_rings += rings.n;
-        iccp_rings_free(&rings);
+        n_links += links.n;
+        iccp_links_free(&links);
         free(balance);
         flux_free(&c);
     }
-    ck_assert_uint_gt(n_rings, 50000);
+    ck_assert_uint_gt(n_links, 50000);
 }
 END_TEST
 
@@ -364,15 +364,15 @@ START_TEST(reference_is_found_again)
         size_t n_ranked = 0;
         for (size_t t = 0; t < mesh->n_simplices; ++t)
             n_ranked += s.rank[t] != UINT32_MAX;
-        if (n_ranked == mesh->n_simplices && is_sound(&s.c, s.rank) && s.circulation.rings.n > 0) {
+        if (n_ranked == mesh->n_simplices && is_sound(&s.c, s.rank) && s.circulation.links.n > 0) {
             double size = 0, off = 0, missing = 0;
             ck_assert_int_eq(iccp_circulation_greedy(&s.circulation, s.rank, s.flux, &env), ICC_OK);
             check_flux(&s, "greedy");
             ck_assert_int_eq(iccp_circulation_relax(&s.circulation, s.rank, 400, s.flux, &env),
                              ICC_OK);
             check_flux(&s, "relaxed");
-            for (size_t f = 0; f < s.circulation.rings.n_facets; ++f) {
-                const uint32_t side = s.circulation.rings.side[f];
+            for (size_t f = 0; f < s.circulation.links.n_facets; ++f) {
+                const uint32_t side = s.circulation.links.side[f];
                 size += fabs(s.reference[side]);
                 off += fabs(s.flux[side] - s.reference[side]);
                 missing += fmax(s.circulation.least[f] - fabs(s.reference[side]), 0);
@@ -387,27 +387,27 @@ START_TEST(reference_is_found_again)
 }
 END_TEST
 
-/* No circulation round a single ring is left that would lower the energy. */
+/* No circulation round a single link is left that would lower the energy. */
 START_TEST(sweeps_end_at_the_least_energy)
 {
     for (int k = FLUX_CUBE; k < FLUX_CASES; k += FLUX_KINDS) {
         const iccp_env env = flux_env();
         setting s = set_up(k);
         random_source r = {3};
-        const iccp_rings *rings = &s.circulation.rings;
+        const iccp_links *links = &s.circulation.links;
         double gain = 0;
         ck_assert(draw_order(&s, 1, &r));
         ck_assert_int_eq(iccp_circulation_greedy(&s.circulation, s.rank, s.flux, &env), ICC_OK);
-        double *least = mesh_alloc(rings->n_facets, sizeof *least);
-        for (size_t f = 0; f < rings->n_facets; ++f)
-            least[f] = fmin(s.circulation.least[f], 0.5 * fabs(s.flux[rings->side[f]]));
+        double *least = mesh_alloc(links->n_facets, sizeof *least);
+        for (size_t f = 0; f < links->n_facets; ++f)
+            least[f] = fmin(s.circulation.least[f], 0.5 * fabs(s.flux[links->side[f]]));
         ck_assert_int_eq(iccp_circulation_relax(&s.circulation, s.rank, 1000, s.flux, &env),
                          ICC_OK);
-        for (size_t q = 0; q < rings->n; ++q) {
+        for (size_t q = 0; q < links->n; ++q) {
             double sum = 0, weight = 0, low = -1, high = 1;
-            for (size_t p = rings->first[q]; p < rings->first[q + 1]; ++p) {
-                const uint32_t f = rings->step[p] / 2, side = rings->side[f];
-                const double on = rings->step[p] % 2 == 0 ? 1 : -1, flux = on * s.flux[side];
+            for (size_t p = links->first[q]; p < links->first[q + 1]; ++p) {
+                const uint32_t f = links->step[p] / 2, side = links->side[f];
+                const double on = links->step[p] % 2 == 0 ? 1 : -1, flux = on * s.flux[side];
                 sum += (on * s.reference[side] - flux) / s.circulation.weight[f];
                 weight += 1 / s.circulation.weight[f];
                 if (flux > 0)

@@ -3,9 +3,9 @@
  * faces of a simplex as lists of vertices, and nothing of how orders are found. */
 #include "base/error.h"
 #include "domain/domain.h"
-#include "shelling/contest.h"
+#include "shelling/best_order.h"
 #include "shelling/heap.h"
-#include "shelling/turn.h"
+#include "shelling/reverse.h"
 
 #include "../../faulty.h"
 #include "../../meshes.h"
@@ -325,7 +325,7 @@ static uint32_t random_centre(const problem *p, random_source *r)
 }
 
 /* Steps from the star across facets, and what flows down that: not without sources. */
-static void wish_near(problem *p, uint32_t centre)
+static void prefer_near(problem *p, uint32_t centre)
 {
     const iccp_simplices *m = p->mesh;
     const size_t n_sides = m->dim + 1;
@@ -356,7 +356,7 @@ static void wish_near(problem *p, uint32_t centre)
     free(queue);
 }
 
-static void wish_anything(problem *p, random_source *r)
+static void prefer_anything(problem *p, random_source *r)
 {
     for (size_t s = 0; s < p->mesh->n_simplices; ++s)
         p->potential[s] = random_unit(r);
@@ -369,7 +369,7 @@ static void wish_anything(problem *p, random_source *r)
 }
 
 /* What charts ask for. */
-static void wish_flux(problem *p, uint32_t centre)
+static void prefer_flux(problem *p, uint32_t centre)
 {
     const iccp_env env = plain_env();
     ck_assert_int_eq(iccp_inflow(p->mesh, centre, 0.5, p->inflow, &env), ICC_OK);
@@ -380,10 +380,10 @@ static void wish_flux(problem *p, uint32_t centre)
 /* How many simplices are left; none: the order has been checked. */
 static size_t left_by(problem *p, uint32_t centre, double beta, bool peel)
 {
-    const iccp_order_wish wish = {p->mesh, &p->faces, centre, p->flux, p->potential, beta, NULL};
+    const iccp_order_priority priority = {p->mesh, &p->faces, centre, p->flux, p->potential, beta, NULL};
     const iccp_env env = plain_env();
     size_t n_left = 0, n_without = 0;
-    ck_assert_int_eq((peel ? iccp_order_peel : iccp_order_grow)(&wish, p->rank, &n_left, &env),
+    ck_assert_int_eq((peel ? iccp_order_peel : iccp_order_grow)(&priority, p->rank, &n_left, &env),
                      ICC_OK);
     for (size_t s = 0; s < p->mesh->n_simplices; ++s)
         n_without += p->rank[s] == NONE;
@@ -462,9 +462,9 @@ START_TEST(nothing_is_left_in_the_plane)
         const uint32_t centre = random_centre(&p, &r);
         for (int k = 0; k < 4; ++k) {
             if (k < 2)
-                wish_near(&p, centre);
+                prefer_near(&p, centre);
             else
-                wish_anything(&p, &r);
+                prefer_anything(&p, &r);
             ck_assert_uint_eq(left_by(&p, centre, 8, k % 2 != 0), 0);
         }
         end(&p);
@@ -484,9 +484,9 @@ START_TEST(complete_orders_are_shellings)
             const uint32_t centre = random_centre(&p, &r);
             for (int k = 0; k < 4; ++k) {
                 if (k < 2)
-                    wish_near(&p, centre);
+                    prefer_near(&p, centre);
                 else
-                    wish_anything(&p, &r);
+                    prefer_anything(&p, &r);
                 const size_t n_left = left_by(&p, centre, 2, k % 2 != 0);
                 n_complete[dim] += n_left == 0;
                 n_near[dim] += k < 2 && n_left == 0;
@@ -538,7 +538,7 @@ START_TEST(one_of_two_is_complete_for_any_maximum)
         problem p = mesh_by_number(number, &r);
         for (int trial = 0; trial < n_trials; ++trial) {
             const uint32_t centre = random_centre(&p, &r);
-            wish_flux(&p, centre);
+            prefer_flux(&p, centre);
             const bool grown = left_by(&p, centre, 8, false) == 0;
             const bool peeled = left_by(&p, centre, 8, true) == 0;
             ck_assert_msg(grown || peeled, "mesh %d, trial %d", number, trial);
@@ -556,13 +556,13 @@ END_TEST
  * was amiss. Returns how many facets that were are left so. */
 static size_t turn_order(problem *p, uint32_t centre, size_t *n_turned)
 {
-    const iccp_order_wish wish = {p->mesh, &p->faces, centre, p->flux, p->potential, 8, NULL};
+    const iccp_order_priority priority = {p->mesh, &p->faces, centre, p->flux, p->potential, 8, NULL};
     const iccp_env env = plain_env();
     const iccp_simplices *m = p->mesh;
     uint32_t *before = room(m->n_simplices, sizeof *before);
     size_t n_changed = 0, n_left = 0, said;
     memcpy(before, p->rank, m->n_simplices * sizeof *before);
-    ck_assert_int_eq(iccp_order_turn(&wish, p->rank, &said, &env), ICC_OK);
+    ck_assert_int_eq(iccp_order_reverse(&priority, p->rank, &said, &env), ICC_OK);
     check_order(m, faces_of(p), centre, p->rank);
     for (size_t side = 0; side < (m->dim + 1) * m->n_simplices; ++side) {
         if (m->across[side] >= ICCP_ON_BOUNDARY)
@@ -589,11 +589,11 @@ START_TEST(turned_orders_are_shellings)
         problem p = mesh_by_number(number, &r);
         const uint32_t centre = random_centre(&p, &r);
         for (int k = 0; k < 4; ++k) {
-            wish_flux(&p, centre);
+            prefer_flux(&p, centre);
             if (left_by(&p, centre, k < 2 ? 2 : 32, k % 2 != 0) > 0)
                 continue;
             n_left += turn_order(&p, centre, &n_turned);
-            wish_anything(&p, &r);
+            prefer_anything(&p, &r);
             (void)turn_order(&p, centre, &n_forced);
         }
         end(&p);
@@ -605,7 +605,7 @@ END_TEST
 
 /* The contest gives what it says, and nothing that a single order with its greedy flux has is
  * better. */
-static void check_contest(problem *p, uint32_t centre, const iccp_contest_info *info,
+static void check_contest(problem *p, uint32_t centre, const iccp_best_order_info *info,
                           const double *flux)
 {
     const iccp_env env = plain_env();
@@ -654,7 +654,7 @@ START_TEST(real_meshes)
         problem p = begin(mesh);
         for (int trial = 0; trial < share_of(6); ++trial) {
             const uint32_t centre = random_centre(&p, &r);
-            wish_flux(&p, centre);
+            prefer_flux(&p, centre);
             const bool grown = left_by(&p, centre, 32, false) == 0;
             ck_assert(left_by(&p, centre, 32, true) == 0 || grown);
         }
@@ -679,14 +679,14 @@ START_TEST(contests_are_won_by_the_best)
         const size_t n = p.mesh->n_simplices, n_sides = n * (p.mesh->dim + 1);
         double *flux = room(n_sides, sizeof *flux), *again = room(n_sides, sizeof *again);
         uint32_t *rank = room(n, sizeof *rank);
-        wish_flux(&p, centre);
-        iccp_contest_info info = {0}, other;
+        prefer_flux(&p, centre);
+        iccp_best_order_info info = {0}, other;
         for (int way = 0; way < 3; ++way) {
             iccp_env env = plain_env();
             env.threads = way == 1 ? 3 : 1;
             env.parallel_for = way == 2 ? backwards : NULL;
-            other = (iccp_contest_info){0};
-            ck_assert_int_eq(iccp_contest(p.mesh, centre, p.inflow, p.flux, p.potential,
+            other = (iccp_best_order_info){0};
+            ck_assert_int_eq(iccp_best_order(p.mesh, centre, p.inflow, p.flux, p.potential,
                                           way == 0 ? p.rank : rank, way == 0 ? flux : again,
                                           way == 0 ? &info : &other, &env, NULL),
                              ICC_OK);
@@ -715,9 +715,9 @@ START_TEST(houses_end_in_an_order_or_an_error)
     for (int trial = 0; trial < 2; ++trial) {
         const uint32_t centre = random_centre(&p, &r);
         icc_error err = {.size = sizeof err};
-        iccp_contest_info info;
-        wish_flux(&p, centre);
-        const icc_status status = iccp_contest(p.mesh, centre, p.inflow, p.flux, p.potential,
+        iccp_best_order_info info;
+        prefer_flux(&p, centre);
+        const icc_status status = iccp_best_order(p.mesh, centre, p.inflow, p.flux, p.potential,
                                                p.rank, flux, &info, &env, &err);
         ck_assert(status == ICC_OK || status == ICC_ERR_TOPOLOGY);
         if (status == ICC_OK) {
@@ -746,16 +746,16 @@ START_TEST(star_is_complete_at_once)
                    mesh.simplices[dim]); /* the long diagonal, which all have */
         problem p = begin(mesh);
         ck_assert_uint_eq(p.mesh->n_points, p.mesh->n_boundary + 1);
-        wish_near(&p, (uint32_t)p.mesh->n_boundary);
+        prefer_near(&p, (uint32_t)p.mesh->n_boundary);
         ck_assert_uint_eq(left_by(&p, (uint32_t)p.mesh->n_boundary, 8, false), 0);
         ck_assert_uint_eq(left_by(&p, (uint32_t)p.mesh->n_boundary, 8, true), 0);
         for (size_t s = 0; s < p.mesh->n_simplices; ++s)
             must(p.rank[s] == 0);
         double *flux = room(p.mesh->n_simplices * (p.mesh->dim + 1), sizeof *flux);
         const iccp_env env = plain_env();
-        iccp_contest_info info;
-        wish_flux(&p, (uint32_t)p.mesh->n_boundary);
-        ck_assert_int_eq(iccp_contest(p.mesh, (uint32_t)p.mesh->n_boundary, p.inflow, p.flux,
+        iccp_best_order_info info;
+        prefer_flux(&p, (uint32_t)p.mesh->n_boundary);
+        ck_assert_int_eq(iccp_best_order(p.mesh, (uint32_t)p.mesh->n_boundary, p.inflow, p.flux,
                                       p.potential, p.rank, flux, &info, &env, NULL),
                          ICC_OK);
         check_contest(&p, (uint32_t)p.mesh->n_boundary, &info, flux);
@@ -769,11 +769,11 @@ static icc_status call_contest(const icc_env *given, icc_error *err, void *argum
 {
     problem *p = argument;
     iccp_env env;
-    iccp_contest_info info;
+    iccp_best_order_info info;
     static double flux[4 * 6 * 27];
     ck_assert_int_eq(iccp_env_read(&env, given, NULL), ICC_OK);
     ck_assert_uint_eq(p->mesh->n_simplices, 6 * 27);
-    return iccp_contest(p->mesh, (uint32_t)p->mesh->n_boundary, p->inflow, p->flux, p->potential,
+    return iccp_best_order(p->mesh, (uint32_t)p->mesh->n_boundary, p->inflow, p->flux, p->potential,
                         p->rank, flux, &info, &env, err);
 }
 
@@ -785,12 +785,12 @@ static icc_status call_order(const icc_env *given, icc_error *err, void *argumen
     size_t n_left;
     ck_assert_int_eq(iccp_env_read(&env, given, NULL), ICC_OK);
     icc_status status = iccp_faces_create(&faces, p->mesh, &env);
-    const iccp_order_wish wish = {
+    const iccp_order_priority priority = {
         p->mesh, &faces, (uint32_t)p->mesh->n_boundary, p->flux, p->potential, 2, NULL};
     if (status == ICC_OK)
-        status = iccp_order_grow(&wish, p->rank, &n_left, &env);
+        status = iccp_order_grow(&priority, p->rank, &n_left, &env);
     if (status == ICC_OK)
-        status = iccp_order_peel(&wish, p->rank, &n_left, &env);
+        status = iccp_order_peel(&priority, p->rank, &n_left, &env);
     iccp_faces_free(&faces);
     return iccp_explain(err, status);
 }
@@ -798,11 +798,11 @@ static icc_status call_order(const icc_env *given, icc_error *err, void *argumen
 START_TEST(every_failure_is_survived)
 {
     problem p = begin(cube(3, 6));
-    wish_near(&p, (uint32_t)p.mesh->n_boundary);
+    prefer_near(&p, (uint32_t)p.mesh->n_boundary);
     faulty_sweep(call_order, &p);
     end(&p);
     p = begin(cube(3, 3));
-    wish_flux(&p, (uint32_t)p.mesh->n_boundary);
+    prefer_flux(&p, (uint32_t)p.mesh->n_boundary);
     faulty_sweep(call_contest, &p);
     end(&p);
 }

@@ -4,7 +4,7 @@
 #include "math/orient.h"
 #include "shelling/element.h"
 #include "shelling/reference.h"
-#include "shelling/rings.h"
+#include "shelling/links.h"
 
 #include "../../fluxes.h"
 
@@ -211,16 +211,16 @@ static void vector_of(const iccp_simplices *mesh, size_t simplex, const double *
 
 /* What one more unit round a ring would do to the energy, and the sum of the moduli of its
  * terms. */
-static double slope(const flux_case *c, const iccp_rings *rings, size_t ring, const double *flux,
+static double slope(const flux_case *c, const iccp_links *links, size_t ring, const double *flux,
                     double *size)
 {
     const iccp_simplices *mesh = c->mesh;
     const size_t n_corners = mesh->dim + 1;
     double sum = 0;
     *size = 0;
-    for (size_t p = rings->first[ring]; p < rings->first[ring + 1]; ++p) {
-        const uint32_t side = rings->side[rings->step[p] / 2];
-        const double on = rings->step[p] % 2 == 0 ? 1 : -1;
+    for (size_t p = links->first[ring]; p < links->first[ring + 1]; ++p) {
+        const uint32_t side = links->side[links->step[p] / 2];
+        const double on = links->step[p] % 2 == 0 ? 1 : -1;
         for (int k = 0; k < 2; ++k) {
             const uint32_t here = k == 0 ? side : mesh->across[side];
             const size_t t = iccp_simplex_of(mesh, here);
@@ -243,24 +243,24 @@ static double slope(const flux_case *c, const iccp_rings *rings, size_t ring, co
 
 START_TEST(flux_has_least_energy)
 {
-    size_t n_rings = 0;
+    size_t n_links = 0;
     for (int k = 0; k <= FLUX_CASES; ++k) {
         flux_case c = flux_number(k);
         fluxes f = solve(&c, 0.5);
         const iccp_env env = flux_env();
-        iccp_rings rings;
-        ck_assert_int_eq(iccp_rings_create(&rings, c.mesh, c.centre, &env), ICC_OK);
-        for (size_t r = 0; r < rings.n; ++r) {
+        iccp_links links;
+        ck_assert_int_eq(iccp_links_create(&links, c.mesh, c.centre, &env), ICC_OK);
+        for (size_t r = 0; r < links.n; ++r) {
             double size;
-            const double s = slope(&c, &rings, r, f.flux, &size);
+            const double s = slope(&c, &links, r, f.flux, &size);
             FLUX_ASSERT(fabs(s) <= 1e-7 * size, "%s: ring %zu: %g of %g", c.name, r, s, size);
         }
-        n_rings += rings.n;
-        iccp_rings_free(&rings);
+        n_links += links.n;
+        iccp_links_free(&links);
         fluxes_free(&f);
         flux_free(&c);
     }
-    ck_assert_uint_gt(n_rings, 10000);
+    ck_assert_uint_gt(n_links, 10000);
 }
 END_TEST
 

@@ -1,7 +1,7 @@
 /* The certificate of foliations of simplices holds for orders that the library finds, and for
  * nothing that is corrupted. */
 #include "shelling/centres.h"
-#include "shelling/contest.h"
+#include "shelling/best_order.h"
 #include "shelling/reference.h"
 #include "shelling/shelling_certificate.h"
 
@@ -50,12 +50,12 @@ static void find_order(foliation *f)
     double *flux = malloc(f->n_sides * sizeof *flux),
            *reference = malloc(f->n_sides * sizeof *flux);
     double *potential = malloc(mesh->n_simplices * sizeof *potential);
-    iccp_contest_info info;
+    iccp_best_order_info info;
     ck_assert_int_eq(iccp_deepest_centre(f->domain, mesh, &f->centre, &f->env), ICC_OK);
     ck_assert_int_eq(iccp_inflow(mesh, f->centre, 0.5, inflow, &f->env), ICC_OK);
     ck_assert_int_eq(iccp_reference_flux(mesh, f->centre, inflow, reference, potential, &f->env),
                      ICC_OK);
-    ck_assert_int_eq(iccp_contest(mesh, f->centre, inflow, reference, potential, f->rank, flux,
+    ck_assert_int_eq(iccp_best_order(mesh, f->centre, inflow, reference, potential, f->rank, flux,
                                   &info, &f->env, NULL),
                      ICC_OK);
     free(inflow);

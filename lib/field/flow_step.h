@@ -1,4 +1,4 @@
-/* An attempt to find the end of a piece, on LANES curves side by side: what includes this file says
+/* A step: one try at the end of a piece, on LANES curves side by side: what includes this file says
  * how many, and for which processor (TARGET). Nothing here branches on one lane only, and each gets
  * the bits that it would get alone.
  *
@@ -12,8 +12,8 @@
  *
  * Everything is in the order of the simplex' axes: barycentric coordinates are then differences of
  * neighbours. */
-#ifndef ICCP_FLOW_ATTEMPT_H
-#define ICCP_FLOW_ATTEMPT_H
+#ifndef ICCP_FLOW_STEP_H
+#define ICCP_FLOW_STEP_H
 
 #include "field/flow.h"
 
@@ -83,7 +83,7 @@ typedef struct series {
     lanes scale, term[ICCP_FLOW_TERMS][ICC_MAX_DIM];
 } series;
 
-/* How an attempt ended. */
+/* How a step ended. */
 enum {
     FOUND,
     NEARER, /* `end` is a better guess */
@@ -91,7 +91,7 @@ enum {
     FAILED  /* the last guess, if positive, is `end` */
 };
 
-typedef struct attempt {
+typedef struct piece_step {
     lanes at[ICC_MAX_DIM], corner[ICC_MAX_DIM + 1][ICC_MAX_DIM];
     lanes exit; /* the facet to try, or ICCP_FLOW_WITHIN for the one that seems to be the first */
     lanes end;  /* given with a facet: the parameter there, nearly; 0 when that is not known */
@@ -99,12 +99,12 @@ typedef struct attempt {
     lanes norm, column[ICC_MAX_DIM][ICC_MAX_DIM];
     series series;
     lanes finish[ICC_MAX_DIM], length;
-} attempt;
+} piece_step;
 
 /* ---- the equation ---- */
 
 /* A by its columns, and the sum of the sizes of its entries, a bound of its norm. */
-TARGET static ICCP_INLINE void set_matrix(attempt *a, int32_t dim)
+TARGET static ICCP_INLINE void set_matrix(piece_step *a, int32_t dim)
 {
     lanes norm = {0};
     for (int32_t i = 0; i < dim; ++i)
@@ -116,7 +116,7 @@ TARGET static ICCP_INLINE void set_matrix(attempt *a, int32_t dim)
     a->norm = norm;
 }
 
-TARGET static ICCP_INLINE void apply(const attempt *a, int32_t dim, const lanes *x, lanes *y)
+TARGET static ICCP_INLINE void apply(const piece_step *a, int32_t dim, const lanes *x, lanes *y)
 {
     for (int32_t k = 0; k < dim; ++k) {
         lanes sum = x[0] * a->column[0][k];
@@ -127,7 +127,7 @@ TARGET static ICCP_INLINE void apply(const attempt *a, int32_t dim, const lanes 
 }
 
 /* A^j x'(0). */
-TARGET static ICCP_INLINE void first_terms(attempt *a, int32_t dim, lanes first[3][ICC_MAX_DIM])
+TARGET static ICCP_INLINE void first_terms(piece_step *a, int32_t dim, lanes first[3][ICC_MAX_DIM])
 {
     set_matrix(a, dim);
     apply(a, dim, a->at, first[0]);
@@ -151,7 +151,7 @@ TARGET static ICCP_INLINE void product(int32_t dim, const lanes *a, const lanes 
 }
 
 /* Terms to parameter s, two at a time. A lane that has enough of them gets zeros. */
-TARGET static ICCP_INLINE void expand(attempt *a, int32_t dim, lanes first[3][ICC_MAX_DIM],
+TARGET static ICCP_INLINE void expand(piece_step *a, int32_t dim, lanes first[3][ICC_MAX_DIM],
                                       const lanes *s)
 {
     series *out = &a->series;
@@ -312,7 +312,7 @@ typedef struct beginning {
     lanes rate[3][ICC_MAX_DIM + 1]; /* derivatives */
 } beginning;
 
-TARGET static ICCP_INLINE void look_around(const attempt *a, int32_t dim,
+TARGET static ICCP_INLINE void look_around(const piece_step *a, int32_t dim,
                                            lanes first[3][ICC_MAX_DIM], beginning *b)
 {
     lanes value[ICC_MAX_DIM + 1];
@@ -326,7 +326,7 @@ TARGET static ICCP_INLINE void look_around(const attempt *a, int32_t dim,
 }
 
 /* Unless the facet is given: the first coordinate to be 0 when all continue as they start. */
-TARGET static ICCP_INLINE void choose_exit(attempt *a, int32_t dim, const beginning *b)
+TARGET static ICCP_INLINE void choose_exit(piece_step *a, int32_t dim, const beginning *b)
 {
     const lanes given = a->exit;
     lanes value = ALL(1), rate = ALL(0), exit = ALL(ICCP_FLOW_WITHIN);
@@ -366,7 +366,7 @@ TARGET static ICCP_INLINE void guess_time(int32_t dim, const beginning *b, const
 }
 
 /* The end of the series: the place, the vector and its derivative. */
-TARGET static ICCP_INLINE void add_up(const attempt *a, int32_t dim, lanes *place, motion *m)
+TARGET static ICCP_INLINE void add_up(const piece_step *a, int32_t dim, lanes *place, motion *m)
 {
     const series *x = &a->series;
     lanes sum[ICC_MAX_DIM] = {0};
@@ -384,7 +384,7 @@ TARGET static ICCP_INLINE void add_up(const attempt *a, int32_t dim, lanes *plac
 }
 
 /* How far from the end of the series the facet is, from three derivatives of its coordinate. */
-TARGET static ICCP_INLINE void find_rest(const attempt *a, int32_t dim, const beginning *b,
+TARGET static ICCP_INLINE void find_rest(const piece_step *a, int32_t dim, const beginning *b,
                                          const lanes *place, const motion *last, const lanes *bend,
                                          lanes *rest)
 {
@@ -419,7 +419,8 @@ TARGET static ICCP_INLINE void measure_rest(int32_t dim, const motion *m, const 
 }
 
 /* From the end of the series to the facet; near: whether that is near enough. */
-TARGET static ICCP_INLINE void reach_facet(attempt *a, int32_t dim, const beginning *b, mask *near)
+TARGET static ICCP_INLINE void reach_facet(piece_step *a, int32_t dim, const beginning *b,
+                                           mask *near)
 {
     lanes place[ICC_MAX_DIM], bend[ICC_MAX_DIM], rest, change, more;
     motion first, last;
@@ -446,7 +447,7 @@ TARGET static ICCP_INLINE void reach_facet(attempt *a, int32_t dim, const beginn
 
 /* negative: a coordinate that is so at the end, or ICCP_FLOW_WITHIN; dips: whether one may be so
  * before although it is not there. */
-TARGET static ICCP_INLINE void find_negative(const attempt *a, int32_t dim, const beginning *b,
+TARGET static ICCP_INLINE void find_negative(const piece_step *a, int32_t dim, const beginning *b,
                                              lanes *negative, mask *dips)
 {
     lanes all[ICC_MAX_DIM + 1];
@@ -460,10 +461,10 @@ TARGET static ICCP_INLINE void find_negative(const attempt *a, int32_t dim, cons
     }
 }
 
-/* One attempt: guesses the exit and when it is reached, adds up the series there, and goes the
+/* One try: guesses the exit and when it is reached, adds up the series there, and goes the
  * rest of the way. Accepted only if the rest was short and no other coordinate is, or may have
  * been, negative; else the outcome says what to try next. */
-TARGET static ICCP_INLINE void try_exit(attempt *a, int32_t dim)
+TARGET static ICCP_INLINE void try_exit(piece_step *a, int32_t dim)
 {
     lanes first[3][ICC_MAX_DIM], s, negative;
     beginning b;
@@ -488,10 +489,10 @@ TARGET static ICCP_INLINE void try_exit(attempt *a, int32_t dim)
 }
 
 /* Tries that are made before a piece is left to the slow way. */
-enum { MOST_ATTEMPTS = 6 };
+enum { MOST_TRIES = 6 };
 
 /* Whether a lane has got something else to try, and sets it up. */
-TARGET static ICCP_INLINE bool again(attempt *a, int l)
+TARGET static ICCP_INLINE bool prepare_retry(piece_step *a, int l)
 {
     const int outcome = (int)LANE(a->outcome, l);
     if (outcome == OTHER)
@@ -501,16 +502,17 @@ TARGET static ICCP_INLINE bool again(attempt *a, int l)
 
 /* ---- walks ---- */
 
-/* The start of a walk's piece goes to lane l of the attempt. */
-TARGET static ICCP_INLINE void load(attempt *a, int32_t dim, int l, const iccp_flow_walk *w)
+/* The start of a walk's piece goes to lane l of the step. */
+TARGET static ICCP_INLINE void load_start(piece_step *a, int32_t dim, int l,
+                                          const iccp_flow_walk *w)
 {
-    const iccp_cones *cones = w->flow->cones;
+    const iccp_vectors *vectors = w->flow->vectors;
     const iccp_kuhn_simplex *simplex = &w->place.simplex;
     for (int32_t i = 0; i <= dim; ++i) {
-        const float *x = cones->vector + (size_t)dim * simplex->corner[i];
+        const float *x = vectors->vector + (size_t)dim * simplex->corner[i];
         if (ICCP_UNLIKELY(x[0] >= ICCP_SEVERAL))
-            x = iccp_cones_vector(cones, simplex->corner[i], iccp_order_rank(dim, simplex->axis),
-                                  i);
+            x = iccp_vectors_at(vectors, simplex->corner[i], iccp_order_rank(dim, simplex->axis),
+                                i);
         for (int32_t k = 0; k < dim; ++k)
             LANE(a->corner[i][k], l) = w->sign * (double)x[simplex->axis[k]];
     }
@@ -521,7 +523,7 @@ TARGET static ICCP_INLINE void load(attempt *a, int32_t dim, int l, const iccp_f
 }
 
 /* The end of the piece that has been found. */
-TARGET static ICCP_INLINE void store_end(const attempt *a, int32_t dim, int l, iccp_flow_walk *w)
+TARGET static ICCP_INLINE void store_end(const piece_step *a, int32_t dim, int l, iccp_flow_walk *w)
 {
     for (int32_t k = 0; k < dim; ++k)
         w->finish[w->place.simplex.axis[k]] = LANE(a->finish[k], l);
@@ -535,7 +537,8 @@ TARGET static ICCP_INLINE void store_end(const attempt *a, int32_t dim, int l, i
 }
 
 /* What is needed to go anywhere within it. */
-TARGET static ICCP_INLINE void store_series(const attempt *a, int32_t dim, int l, iccp_flow_walk *w)
+TARGET static ICCP_INLINE void store_series(const piece_step *a, int32_t dim, int l,
+                                            iccp_flow_walk *w)
 {
     const int8_t *axis = w->place.simplex.axis;
     w->radial = false;

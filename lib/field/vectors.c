@@ -10,7 +10,7 @@
  * product with the vector, simplex by simplex (L. G. Gubin, B. T. Polyak, E. V. Raik, The Method of
  * Projections for Finding the Common Point of Convex Sets, 1967), and the vectors are found
  * anew. */
-#include "field/cones.h"
+#include "field/vectors.h"
 
 #include "base/threads.h"
 #include "field/minnorm.h"
@@ -31,16 +31,16 @@ static const double GOOD = 0.15, LEAST = 1e-6, AIM = 0.05;
  * vertex is corner k. Values and flags are indexed by a set of axes, bit i being axis i: those
  * at the vertex plus, or minus, one step along each axis of the set. */
 typedef struct star {
-    const iccp_smooth *smooth;
-    const iccp_cover *cover;
+    const iccp_extension *extension;
+    const iccp_incidence *incidence;
     const iccp_orders *orders;
     uint32_t vertex;
     int32_t exponent;
     double up[1 << ICC_MAX_DIM], down[1 << ICC_MAX_DIM]; /* values, by set of axes */
     uint8_t up_inside[1 << ICC_MAX_DIM], down_inside[1 << ICC_MAX_DIM];
     size_t n_gradients, n_normals;
-    double *direction;   /* gradients, then normals: length 1 */
-    const uint8_t *side; /* by simplex; only those on side `number` are looked at. NULL: all */
+    double *direction;     /* gradients, then normals: length 1 */
+    const uint8_t *sector; /* by simplex; only those in sector `number` are looked at. NULL: all */
     uint8_t number;
 } star;
 
@@ -55,23 +55,23 @@ static size_t most_directions(int32_t dim)
 
 /* Takes the values around a vertex, all with the greatest of their exponents, so that
  * differences make sense. */
-static void load(star *s, uint32_t v)
+static void load_star(star *s, uint32_t v)
 {
-    const icc_grid *grid = s->smooth->grid;
+    const icc_grid *grid = s->extension->grid;
     const int n_sets = 1 << grid->dim;
     s->vertex = v;
-    s->exponent = iccp_smooth_exponent(s->smooth, v);
-    for (int set = 1; set < n_sets && s->smooth->exponent != NULL; ++set) {
-        const int32_t a = s->smooth->exponent[(ptrdiff_t)v + s->orders->offset[set]];
-        const int32_t b = s->smooth->exponent[(ptrdiff_t)v - s->orders->offset[set]];
+    s->exponent = iccp_extension_exponent(s->extension, v);
+    for (int set = 1; set < n_sets && s->extension->exponent != NULL; ++set) {
+        const int32_t a = s->extension->exponent[(ptrdiff_t)v + s->orders->offset[set]];
+        const int32_t b = s->extension->exponent[(ptrdiff_t)v - s->orders->offset[set]];
         s->exponent = a > s->exponent ? a : s->exponent;
         s->exponent = b > s->exponent ? b : s->exponent;
     }
     for (int set = 0; set < n_sets; ++set) {
         const uint32_t up = (uint32_t)((ptrdiff_t)v + s->orders->offset[set]);
         const uint32_t down = (uint32_t)((ptrdiff_t)v - s->orders->offset[set]);
-        s->up[set] = iccp_smooth_get(s->smooth, up, s->exponent);
-        s->down[set] = iccp_smooth_get(s->smooth, down, s->exponent);
+        s->up[set] = iccp_extension_get(s->extension, up, s->exponent);
+        s->down[set] = iccp_extension_get(s->extension, down, s->exponent);
         s->up_inside[set] = grid->inside[up];
         s->down_inside[set] = grid->inside[down];
     }
@@ -93,9 +93,9 @@ static bool is_active(const star *s, int32_t r, int32_t k, uint32_t *lowest)
         any = any || s->up_inside[above];
     }
     *lowest = (uint32_t)((ptrdiff_t)s->vertex - s->orders->offset[below]);
-    if (s->side != NULL && s->side[iccp_side_simplex(dim, r, k)] != s->number)
+    if (s->sector != NULL && s->sector[iccp_sector_simplex(dim, r, k)] != s->number)
         return false;
-    return any || iccp_cover_has(s->cover, *lowest, r);
+    return any || iccp_incidence_has(s->incidence, *lowest, r);
 }
 
 /* The gradient in simplex r with the vertex as corner k, by axis. */
@@ -150,17 +150,17 @@ static void list_gradients(star *s)
         }
 }
 
-/* Whether a facet runs through some simplex on the side that is looked at. */
-static bool is_on_side(const star *s, uint32_t facet)
+/* Whether a facet runs through some simplex of the sector that is looked at. */
+static bool is_in_sector(const star *s, uint32_t facet)
 {
-    for (int32_t r = 0; s->side != NULL && r < s->orders->n; ++r)
+    for (int32_t r = 0; s->sector != NULL && r < s->orders->n; ++r)
         for (int32_t k = 0; k <= s->orders->dim; ++k) {
             uint32_t lowest;
             if (is_active(s, r, k, &lowest) &&
-                iccp_cover_touches(s->cover, facet, lowest, s->orders->axis[r]))
+                iccp_incidence_touches(s->incidence, facet, lowest, s->orders->axis[r]))
                 return true;
         }
-    return s->side == NULL;
+    return s->sector == NULL;
 }
 
 /* The inward normals of the facets at the vertex, behind the gradients. Parallel ones count
@@ -170,14 +170,14 @@ static void list_normals(star *s)
     static const double SAME = 1 - 1e-12;
     const size_t dim = (size_t)s->orders->dim;
     double *normals = s->direction + dim * s->n_gradients;
-    const uint32_t *facet = s->cover->facet;
-    for (uint32_t i = s->cover->first[s->vertex];
-         i < s->cover->first[s->vertex + 1] && s->n_normals < MOST_NORMALS; ++i) {
-        const double *normal = s->cover->normal + dim * facet[i];
+    const uint32_t *facet = s->incidence->facet;
+    for (uint32_t i = s->incidence->first[s->vertex];
+         i < s->incidence->first[s->vertex + 1] && s->n_normals < MOST_NORMALS; ++i) {
+        const double *normal = s->incidence->normal + dim * facet[i];
         bool fresh = true;
         for (size_t j = 0; fresh && j < s->n_normals; ++j)
             fresh = iccp_vec_dot(dim, normals + dim * j, normal) < SAME;
-        if (fresh && is_on_side(s, facet[i]))
+        if (fresh && is_in_sector(s, facet[i]))
             memcpy(normals + dim * s->n_normals++, normal, dim * sizeof *normal);
     }
 }
@@ -219,7 +219,7 @@ static bool is_radial(const star *s, double *x)
     for (int set = 1; set < n_sets; ++set)
         for (int sign = -1; sign <= 1; sign += 2)
             if ((ptrdiff_t)s->vertex + sign * s->orders->offset[set] ==
-                (ptrdiff_t)s->smooth->root) {
+                (ptrdiff_t)s->extension->root) {
                 for (int32_t k = 0; k < s->orders->dim; ++k)
                     x[k] = set >> k & 1 ? sign : 0;
                 return true;
@@ -229,15 +229,16 @@ static bool is_radial(const star *s, double *x)
 
 /* Tilts x, which agrees with n normals, towards `uphill` as far as it still agrees with them by
  * half as much: 4, 2, .. times `uphill` are tried. */
-static void tilt(int32_t dim, size_t n, const double *normals, const double *uphill, double *x)
+static void tilt_uphill(int32_t dim, size_t n, const double *normals, const double *uphill,
+                        double *x)
 {
     const double least = fmin(0.5 * least_product(dim, n, normals, x), AIM);
-    double turned[ICC_MAX_DIM];
+    double tilted[ICC_MAX_DIM];
     for (double share = 4; share > 0.1; share *= 0.5) {
         for (int32_t k = 0; k < dim; ++k)
-            turned[k] = x[k] + share * uphill[k];
-        if (normalise(dim, turned) && least_product(dim, n, normals, turned) >= least) {
-            memcpy(x, turned, (size_t)dim * sizeof *x);
+            tilted[k] = x[k] + share * uphill[k];
+        if (normalise(dim, tilted) && least_product(dim, n, normals, tilted) >= least) {
+            memcpy(x, tilted, (size_t)dim * sizeof *x);
             return;
         }
     }
@@ -248,7 +249,7 @@ static void tilt(int32_t dim, size_t n, const double *normals, const double *uph
  * normals together; if there is none, one for the normals, tilted uphill; or one for the
  * gradients alone, which comes before the normals when `gradients_first`. `agrees`: whether it
  * suits everything. */
-static bool choose(star *s, bool gradients_first, double *x, bool *agrees)
+static bool choose_vector(star *s, bool gradients_first, double *x, bool *agrees)
 {
     const int32_t dim = s->orders->dim;
     list_gradients(s);
@@ -270,7 +271,7 @@ static bool choose(star *s, bool gradients_first, double *x, bool *agrees)
         double uphill[ICC_MAX_DIM] = {0};
         (void)find_vector(dim, s->n_gradients, s->direction, uphill);
         if (find_vector(dim, s->n_normals, normals, x)) {
-            tilt(dim, s->n_normals, normals, uphill, x);
+            tilt_uphill(dim, s->n_normals, normals, uphill, x);
             return least_product(dim, s->n_gradients, s->direction, x) > LEAST;
         }
     }
@@ -278,34 +279,34 @@ static bool choose(star *s, bool gradients_first, double *x, bool *agrees)
 }
 
 typedef struct work {
-    iccp_cones *cones;
-    iccp_smooth *smooth;
-    const iccp_cover *cover;
+    iccp_vectors *vectors;
+    iccp_extension *extension;
+    const iccp_incidence *incidence;
     const iccp_orders *orders;
-    uint8_t *state;       /* by vertex: bits below */
-    iccp_smooth original; /* the function before any change; only its values are its own */
+    uint8_t *state;          /* by vertex: bits below */
+    iccp_extension original; /* the function before any change; only its values are its own */
 } work;
 
-enum { DIRTY = 1, FAILS = 2, GRADIENTS_FIRST = 4, SPLIT = 8, TORN = 16 };
+enum { DIRTY = 1, FAILS = 2, GRADIENTS_FIRST = 4, SPLIT = 8, CONFLICTS = 16 };
 
 /* The vector of a vertex as corner k of simplex r. */
 static void load_vector(const work *w, uint32_t v, int32_t r, int32_t k, double *x)
 {
     const int32_t dim = w->orders->dim;
-    const float *vector = iccp_cones_vector(w->cones, v, r, k);
+    const float *vector = iccp_vectors_at(w->vectors, v, r, k);
     for (int32_t i = 0; i < dim; ++i)
         x[i] = (double)vector[i];
 }
 
 static icc_status star_init(star *s, const work *w)
 {
-    *s = (star){.smooth = w->smooth, .cover = w->cover, .orders = w->orders};
-    s->direction = iccp_alloc(&w->cones->memory, most_directions(w->orders->dim),
+    *s = (star){.extension = w->extension, .incidence = w->incidence, .orders = w->orders};
+    s->direction = iccp_alloc(&w->vectors->memory, most_directions(w->orders->dim),
                               (size_t)w->orders->dim * sizeof *s->direction);
     return s->direction != NULL ? ICC_OK : ICC_ERR_MEMORY;
 }
 
-static void store(float *vector, int32_t dim, const double *x)
+static void store_vector(float *vector, int32_t dim, const double *x)
 {
     for (int32_t k = 0; k < dim; ++k)
         vector[k] = (float)x[k];
@@ -313,22 +314,22 @@ static void store(float *vector, int32_t dim, const double *x)
 
 /* Chooses the vectors of a vertex that has several, one for each sector; returns whether all are
  * uphill. */
-static bool choose_sides(work *w, star *s, uint32_t v)
+static bool choose_sectors(work *w, star *s, uint32_t v)
 {
-    const iccp_sides *sides = &w->cones->sides;
+    const iccp_sectors *sectors = &w->vectors->sectors;
     const int32_t dim = w->orders->dim;
-    const size_t entry = iccp_sides_find(sides, v);
+    const size_t entry = iccp_sectors_find(sectors, v);
     const uint32_t end =
-        entry + 1 < sides->n ? sides->first[entry + 1] : (uint32_t)sides->n_vectors;
+        entry + 1 < sectors->n ? sectors->first[entry + 1] : (uint32_t)sectors->n_vectors;
     bool good = true, agrees;
-    s->side = sides->side + entry * sides->n_simplices;
-    for (uint32_t i = sides->first[entry]; i < end; ++i) {
+    s->sector = sectors->sector + entry * sectors->n_simplices;
+    for (uint32_t i = sectors->first[entry]; i < end; ++i) {
         double x[ICC_MAX_DIM] = {0};
-        s->number = (uint8_t)(i - sides->first[entry]);
-        good = choose(s, w->state[v] & GRADIENTS_FIRST, x, &agrees) && good;
-        store(sides->vector + (size_t)dim * i, dim, x);
+        s->number = (uint8_t)(i - sectors->first[entry]);
+        good = choose_vector(s, w->state[v] & GRADIENTS_FIRST, x, &agrees) && good;
+        store_vector(sectors->vector + (size_t)dim * i, dim, x);
     }
-    s->side = NULL;
+    s->sector = NULL;
     return good;
 }
 
@@ -345,17 +346,17 @@ static icc_status choose_chunk(void *argument, size_t begin, size_t end)
             continue;
         double x[ICC_MAX_DIM] = {0};
         bool good, agrees = true;
-        load(&s, (uint32_t)v);
+        load_star(&s, (uint32_t)v);
         if (w->state[v] & SPLIT) {
-            good = choose_sides(w, &s, (uint32_t)v);
+            good = choose_sectors(w, &s, (uint32_t)v);
         } else {
-            good = choose(&s, w->state[v] & GRADIENTS_FIRST, x, &agrees);
-            store(w->cones->vector + dim * v, (int32_t)dim, x);
+            good = choose_vector(&s, w->state[v] & GRADIENTS_FIRST, x, &agrees);
+            store_vector(w->vectors->vector + dim * v, (int32_t)dim, x);
         }
         w->state[v] &= GRADIENTS_FIRST | SPLIT;
-        w->state[v] |= (uint8_t)((good ? 0 : FAILS) | (agrees ? 0 : TORN));
+        w->state[v] |= (uint8_t)((good ? 0 : FAILS) | (agrees ? 0 : CONFLICTS));
     }
-    iccp_free(&w->cones->memory, s.direction);
+    iccp_free(&w->vectors->memory, s.direction);
     return status;
 }
 
@@ -364,39 +365,39 @@ static void list_active(const star *s, uint8_t *active)
     for (int32_t r = 0; r < s->orders->n; ++r)
         for (int32_t k = 0; k <= s->orders->dim; ++k) {
             uint32_t lowest;
-            active[iccp_side_simplex(s->orders->dim, r, k)] = is_active(s, r, k, &lowest);
+            active[iccp_sector_simplex(s->orders->dim, r, k)] = is_active(s, r, k, &lowest);
         }
 }
 
 /* Gives several vectors to vertices outside, between parts of the domain, that no single vector
  * suits. Those next to the root stay radial. */
-static icc_status split_torn(work *w)
+static icc_status split_vertices(work *w)
 {
-    const icc_grid *grid = w->smooth->grid;
-    iccp_sides *sides = &w->cones->sides;
+    const icc_grid *grid = w->extension->grid;
+    iccp_sectors *sectors = &w->vectors->sectors;
     star s;
     icc_status status = star_init(&s, w);
-    uint8_t *active = iccp_alloc(&sides->memory, 2 * sides->n_simplices, sizeof *active);
+    uint8_t *active = iccp_alloc(&sectors->memory, 2 * sectors->n_simplices, sizeof *active);
     if (status == ICC_OK && active == NULL)
         status = ICC_ERR_MEMORY;
     for (uint32_t v = 0; status == ICC_OK && v < grid->n_vertices; ++v) {
         double x[ICC_MAX_DIM];
-        if (!(w->state[v] & TORN) || grid->inside[v])
+        if (!(w->state[v] & CONFLICTS) || grid->inside[v])
             continue;
-        load(&s, v);
+        load_star(&s, v);
         if (is_radial(&s, x))
             continue;
         list_active(&s, active);
-        uint8_t *side = active + sides->n_simplices;
-        const int n_sides = iccp_sides_split(w->cover, w->orders, v, active, side);
-        if (n_sides < 2)
+        uint8_t *sector = active + sectors->n_simplices;
+        const int n_sectors = iccp_sectors_split(w->incidence, w->orders, v, active, sector);
+        if (n_sectors < 2)
             continue;
-        status = iccp_sides_add(sides, v, n_sides, side);
+        status = iccp_sectors_add(sectors, v, n_sectors, sector);
         w->state[v] |= SPLIT | DIRTY;
-        w->cones->vector[(size_t)grid->dim * v] = ICCP_SEVERAL;
+        w->vectors->vector[(size_t)grid->dim * v] = ICCP_SEVERAL;
     }
-    iccp_free(&sides->memory, active);
-    iccp_free(&sides->memory, s.direction);
+    iccp_free(&sectors->memory, active);
+    iccp_free(&sectors->memory, s.direction);
     return status;
 }
 
@@ -405,8 +406,8 @@ static icc_status split_torn(work *w)
  * any factor, and what is little on one side is too much on the other. */
 static void find_bounds(const work *w, uint32_t v, int32_t exponent, double *low, double *high)
 {
-    const icc_grid *grid = w->smooth->grid;
-    const double own = iccp_smooth_get(&w->original, v, exponent);
+    const icc_grid *grid = w->extension->grid;
+    const double own = iccp_extension_get(&w->original, v, exponent);
     *low = fmin(0.5 * own, 2 * own);
     *high = fmax(0.5 * own, 2 * own);
     if (grid->inside[v])
@@ -416,7 +417,7 @@ static void find_bounds(const work *w, uint32_t v, int32_t exponent, double *low
         for (int sign = -1; sign <= 1; sign += 2) {
             const uint32_t u = (uint32_t)((ptrdiff_t)v + sign * w->orders->offset[set]);
             if (grid->inside[u])
-                least = fmin(least, fabs(iccp_smooth_get(&w->original, u, exponent)));
+                least = fmin(least, fabs(iccp_extension_get(&w->original, u, exponent)));
         }
     if (least < HUGE_VAL) {
         *low = -least;
@@ -428,17 +429,17 @@ static void find_bounds(const work *w, uint32_t v, int32_t exponent, double *low
 static void move_value(const work *w, uint32_t v, int32_t exponent, double step)
 {
     double low, high;
-    const double value = iccp_smooth_get(w->smooth, v, exponent) + step;
+    const double value = iccp_extension_get(w->extension, v, exponent) + step;
     find_bounds(w, v, exponent, &low, &high);
-    iccp_smooth_set(w->smooth, v, fmin(fmax(value, low), high), exponent);
+    iccp_extension_set(w->extension, v, fmin(fmax(value, low), high), exponent);
 }
 
 /* Moves the values of the corners of one simplex so that the gradient's product with x is AIM of
  * its length, as far as they may be; the root's, which is the largest, stays. The product is the
  * sum of the values, each times how much faster x goes along the axis before the corner than along
  * the one after it. */
-static bool project(const work *w, const star *s, int32_t r, uint32_t lowest, const double *x,
-                    const double *gradient)
+static bool project_values(const work *w, const star *s, int32_t r, uint32_t lowest,
+                           const double *x, const double *gradient)
 {
     const int8_t *axis = w->orders->axis[r];
     const int32_t dim = w->orders->dim;
@@ -450,23 +451,23 @@ static bool project(const work *w, const star *s, int32_t r, uint32_t lowest, co
     uint32_t corner = lowest;
     for (int32_t j = 0; j <= dim; ++j) {
         part[j] = (j > 0 ? x[axis[j - 1]] : 0) - (j < dim ? x[axis[j]] : 0);
-        part[j] = corner == w->smooth->root ? 0 : part[j];
+        part[j] = corner == w->extension->root ? 0 : part[j];
         norm2 += part[j] * part[j];
-        corner += j < dim ? (uint32_t)w->smooth->grid->stride[axis[j]] : 0;
+        corner += j < dim ? (uint32_t)w->extension->grid->stride[axis[j]] : 0;
     }
     corner = lowest;
     for (int32_t j = 0; j <= dim && norm2 > 0; ++j) {
         if (part[j] < 0 || part[j] > 0)
             move_value(w, corner, s->exponent, 1.0001 * lack * part[j] / norm2);
-        corner += j < dim ? (uint32_t)w->smooth->grid->stride[axis[j]] : 0;
+        corner += j < dim ? (uint32_t)w->extension->grid->stride[axis[j]] : 0;
     }
     return norm2 > 0;
 }
 
 /* Everything at the vertices around has to be looked at again. */
-static void soil(const work *w, uint32_t v)
+static void mark_dirty(const work *w, uint32_t v)
 {
-    const icc_grid *grid = w->smooth->grid;
+    const icc_grid *grid = w->extension->grid;
     size_t n = 1;
     for (int32_t k = 0; k < grid->dim; ++k)
         n *= 5;
@@ -475,38 +476,38 @@ static void soil(const work *w, uint32_t v)
         size_t rest = i;
         for (int32_t k = 0; k < grid->dim; ++k, rest /= 5)
             u += ((ptrdiff_t)(rest % 5) - 2) * (ptrdiff_t)grid->stride[k];
-        if (u >= 0 && (size_t)u < grid->n_vertices && w->smooth->needed[u])
+        if (u >= 0 && (size_t)u < grid->n_vertices && w->extension->needed[u])
             w->state[u] |= DIRTY;
     }
 }
 
 /* Projects the function, simplex by simplex, onto the values for which the vertex' vector is
  * uphill. One projection may spoil another: the caller repeats. */
-static void adjust(work *w, star *s, uint32_t v)
+static void adjust_values(work *w, star *s, uint32_t v)
 {
     const int32_t dim = w->orders->dim;
     double x[ICC_MAX_DIM], gradient[ICC_MAX_DIM];
     for (int32_t r = 0; r < w->orders->n; ++r)
         for (int32_t k = 0; k <= dim; ++k) {
             uint32_t lowest;
-            load(s, v);
+            load_star(s, v);
             if (!is_active(s, r, k, &lowest))
                 continue;
             load_vector(w, v, r, k, x);
             gradient_of(s, r, k, gradient);
             if (normalise(dim, x))
-                w->cones->n_adjusted += project(w, s, r, lowest, x, gradient);
+                w->vectors->n_adjusted += project_values(w, s, r, lowest, x, gradient);
         }
-    soil(w, v);
+    mark_dirty(w, v);
 }
 
 static icc_status choose_all(work *w, const iccp_env *env)
 {
     const icc_status status =
-        iccp_for_chunks(env, "solve", w->smooth->grid->n_vertices, GRAIN, choose_chunk, w);
-    w->cones->n_infeasible = 0;
-    for (size_t v = 0; v < w->smooth->grid->n_vertices; ++v)
-        w->cones->n_infeasible += (w->state[v] & FAILS) != 0;
+        iccp_for_chunks(env, "solve", w->extension->grid->n_vertices, GRAIN, choose_chunk, w);
+    w->vectors->n_infeasible = 0;
+    for (size_t v = 0; v < w->extension->grid->n_vertices; ++v)
+        w->vectors->n_infeasible += (w->state[v] & FAILS) != 0;
     return status;
 }
 
@@ -516,33 +517,33 @@ static icc_status adjust_all(work *w, const iccp_env *env)
 {
     star s;
     icc_status status = star_init(&s, w);
-    for (int round = 0; status == ICC_OK && w->cones->n_infeasible > 0 && round < MOST_ROUNDS;
+    for (int round = 0; status == ICC_OK && w->vectors->n_infeasible > 0 && round < MOST_ROUNDS;
          ++round) {
-        for (size_t v = 0; v < w->smooth->grid->n_vertices; ++v)
+        for (size_t v = 0; v < w->extension->grid->n_vertices; ++v)
             if (w->state[v] & FAILS) {
                 w->state[v] |= round >= FIRM_ROUNDS ? GRADIENTS_FIRST : 0;
-                adjust(w, &s, (uint32_t)v);
+                adjust_values(w, &s, (uint32_t)v);
             }
         const iccp_env part = iccp_round(env, (size_t)round, TYPICAL_ROUNDS);
         status = choose_all(w, &part);
     }
-    iccp_free(&w->cones->memory, s.direction);
+    iccp_free(&w->vectors->memory, s.direction);
     return status;
 }
 
-/* Facets at a vertex, or at one side of it, and those that its vector does not cross inward. */
+/* Facets at a vertex, or at one sector of it, and those that its vector does not cross inward. */
 static void count_contacts(work *w, const star *s, const float *vector)
 {
     const size_t dim = (size_t)w->orders->dim;
     double x[ICC_MAX_DIM];
     for (size_t k = 0; k < dim; ++k)
         x[k] = (double)vector[k];
-    for (uint32_t i = w->cover->first[s->vertex]; i < w->cover->first[s->vertex + 1]; ++i) {
-        const uint32_t facet = w->cover->facet[i];
-        if (!is_on_side(s, facet))
+    for (uint32_t i = w->incidence->first[s->vertex]; i < w->incidence->first[s->vertex + 1]; ++i) {
+        const uint32_t facet = w->incidence->facet[i];
+        if (!is_in_sector(s, facet))
             continue;
-        ++w->cones->n_contacts;
-        w->cones->n_not_inward += !(iccp_vec_dot(dim, w->cover->normal + dim * facet, x) > 0);
+        ++w->vectors->n_contacts;
+        w->vectors->n_not_inward += !(iccp_vec_dot(dim, w->incidence->normal + dim * facet, x) > 0);
     }
 }
 
@@ -550,45 +551,45 @@ static void count_contacts(work *w, const star *s, const float *vector)
  * through. */
 static icc_status check_inward(work *w)
 {
-    const iccp_sides *sides = &w->cones->sides;
+    const iccp_sectors *sectors = &w->vectors->sectors;
     const size_t dim = (size_t)w->orders->dim;
     star s;
     const icc_status status = star_init(&s, w);
     size_t entry = 0;
-    for (uint32_t v = 0; status == ICC_OK && v < w->smooth->grid->n_vertices; ++v) {
+    for (uint32_t v = 0; status == ICC_OK && v < w->extension->grid->n_vertices; ++v) {
         s.vertex = v;
-        s.side = NULL;
+        s.sector = NULL;
         if (!(w->state[v] & SPLIT)) {
-            count_contacts(w, &s, w->cones->vector + dim * v);
+            count_contacts(w, &s, w->vectors->vector + dim * v);
             continue;
         }
-        const size_t end = entry + 1 < sides->n ? sides->first[entry + 1] : sides->n_vectors;
-        load(&s, v);
-        s.side = sides->side + sides->n_simplices * entry;
-        for (size_t i = sides->first[entry]; i < end; ++i) {
-            s.number = (uint8_t)(i - sides->first[entry]);
-            count_contacts(w, &s, sides->vector + dim * i);
+        const size_t end = entry + 1 < sectors->n ? sectors->first[entry + 1] : sectors->n_vectors;
+        load_star(&s, v);
+        s.sector = sectors->sector + sectors->n_simplices * entry;
+        for (size_t i = sectors->first[entry]; i < end; ++i) {
+            s.number = (uint8_t)(i - sectors->first[entry]);
+            count_contacts(w, &s, sectors->vector + dim * i);
         }
         ++entry;
     }
-    iccp_free(&w->cones->memory, s.direction);
+    iccp_free(&w->vectors->memory, s.direction);
     return status;
 }
 
 /* One vector for each vertex; several where one does not suit; then the function is adjusted
  * where neither is enough. */
-static icc_status fill(work *w, const iccp_env *env)
+static icc_status find_vectors(work *w, const iccp_env *env)
 {
-    const icc_grid *grid = w->smooth->grid;
+    const icc_grid *grid = w->extension->grid;
     for (size_t v = 0; v < grid->n_vertices; ++v) {
-        w->state[v] = w->smooth->needed[v] && v != w->smooth->root ? DIRTY : 0;
-        w->cones->n_vertices += w->state[v];
+        w->state[v] = w->extension->needed[v] && v != w->extension->root ? DIRTY : 0;
+        w->vectors->n_vertices += w->state[v];
     }
     iccp_env part[3];
     iccp_split(part, 3, (const double[]){4, 1, 3}, env);
     icc_status status = choose_all(w, &part[0]);
     if (status == ICC_OK)
-        status = split_torn(w);
+        status = split_vertices(w);
     if (status == ICC_OK)
         status = choose_all(w, &part[1]);
     if (status == ICC_OK)
@@ -596,38 +597,38 @@ static icc_status fill(work *w, const iccp_env *env)
     return status == ICC_OK ? check_inward(w) : status;
 }
 
-static bool copy_values(iccp_smooth *copy, const iccp_smooth *smooth)
+static bool copy_values(iccp_extension *copy, const iccp_extension *extension)
 {
-    const size_t n = smooth->grid->n_vertices;
-    *copy = *smooth;
-    copy->value = iccp_alloc(&smooth->memory, n, sizeof *copy->value);
-    if (smooth->exponent != NULL)
-        copy->exponent = iccp_alloc(&smooth->memory, n, sizeof *copy->exponent);
-    if (copy->value == NULL || (smooth->exponent != NULL && copy->exponent == NULL))
+    const size_t n = extension->grid->n_vertices;
+    *copy = *extension;
+    copy->value = iccp_alloc(&extension->memory, n, sizeof *copy->value);
+    if (extension->exponent != NULL)
+        copy->exponent = iccp_alloc(&extension->memory, n, sizeof *copy->exponent);
+    if (copy->value == NULL || (extension->exponent != NULL && copy->exponent == NULL))
         return false;
-    memcpy(copy->value, smooth->value, n * sizeof *copy->value);
-    if (smooth->exponent != NULL)
-        memcpy(copy->exponent, smooth->exponent, n * sizeof *copy->exponent);
+    memcpy(copy->value, extension->value, n * sizeof *copy->value);
+    if (extension->exponent != NULL)
+        memcpy(copy->exponent, extension->exponent, n * sizeof *copy->exponent);
     return true;
 }
 
-icc_status iccp_cones_create(iccp_cones *cones, iccp_smooth *smooth, const iccp_cover *cover,
-                             const iccp_env *env)
+icc_status iccp_vectors_create(iccp_vectors *vectors, iccp_extension *extension,
+                               const iccp_incidence *incidence, const iccp_env *env)
 {
-    const icc_grid *grid = smooth->grid;
-    *cones = (iccp_cones){.memory = env->memory, .grid = grid};
-    iccp_sides_init(&cones->sides, grid->dim, &env->memory);
-    work w = {.cones = cones, .smooth = smooth, .cover = cover};
+    const icc_grid *grid = extension->grid;
+    *vectors = (iccp_vectors){.memory = env->memory, .grid = grid};
+    iccp_sectors_init(&vectors->sectors, grid->dim, &env->memory);
+    work w = {.vectors = vectors, .extension = extension, .incidence = incidence};
     iccp_orders *orders = iccp_alloc(&env->memory, 1, sizeof *orders);
     w.orders = orders;
     w.state = iccp_alloc(&env->memory, grid->n_vertices, sizeof *w.state);
-    const bool copied = copy_values(&w.original, smooth);
-    cones->vector =
-        iccp_alloc_zero(&env->memory, grid->n_vertices, (size_t)grid->dim * sizeof *cones->vector);
+    const bool copied = copy_values(&w.original, extension);
+    vectors->vector = iccp_alloc_zero(&env->memory, grid->n_vertices,
+                                      (size_t)grid->dim * sizeof *vectors->vector);
     icc_status status = ICC_ERR_MEMORY;
-    if (orders != NULL && w.state != NULL && copied && cones->vector != NULL) {
+    if (orders != NULL && w.state != NULL && copied && vectors->vector != NULL) {
         iccp_orders_init(orders, grid);
-        status = fill(&w, env);
+        status = find_vectors(&w, env);
     }
     iccp_free(&env->memory, orders);
     iccp_free(&env->memory, w.state);
@@ -636,9 +637,9 @@ icc_status iccp_cones_create(iccp_cones *cones, iccp_smooth *smooth, const iccp_
     return status;
 }
 
-void iccp_cones_free(iccp_cones *cones)
+void iccp_vectors_free(iccp_vectors *vectors)
 {
-    iccp_free(&cones->memory, cones->vector);
-    iccp_sides_free(&cones->sides);
-    *cones = (iccp_cones){.memory = cones->memory, .sides = cones->sides};
+    iccp_free(&vectors->memory, vectors->vector);
+    iccp_sectors_free(&vectors->sectors);
+    *vectors = (iccp_vectors){.memory = vectors->memory, .sectors = vectors->sectors};
 }

@@ -1,6 +1,6 @@
 /* Values for vertices outside that walks meet and no tree reaches. */
-#ifndef ICCP_GRADIENT_RIM_H
-#define ICCP_GRADIENT_RIM_H
+#ifndef ICCP_GRADIENT_BOUNDARY_H
+#define ICCP_GRADIENT_BOUNDARY_H
 
 #include "function/function.h"
 

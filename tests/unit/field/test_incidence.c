@@ -1,5 +1,5 @@
 /* Which simplices of a grid a boundary meets, and at which vertices its facets are noted. */
-#include "field/cover.h"
+#include "field/incidence.h"
 #include "grid/rasterise.h"
 
 #include "../../random.h"
@@ -98,48 +98,48 @@ static bool lies_in(const icc_domain *domain, const icc_grid *grid, size_t facet
     return in;
 }
 
-static bool is_noted(const iccp_cover *cover, uint32_t v, uint32_t facet)
+static bool is_noted(const iccp_incidence *incidence, uint32_t v, uint32_t facet)
 {
-    for (uint32_t i = cover->first[v]; i < cover->first[v + 1]; ++i)
-        if (cover->facet[i] == facet)
+    for (uint32_t i = incidence->first[v]; i < incidence->first[v + 1]; ++i)
+        if (incidence->facet[i] == facet)
             return true;
     return false;
 }
 
 /* Facets are noted exactly where they pass. */
-static void check_notes(const iccp_cover *cover)
+static void check_notes(const iccp_incidence *incidence)
 {
-    const icc_grid *grid = cover->grid;
+    const icc_grid *grid = incidence->grid;
     for (uint32_t v = 0; v < grid->n_vertices; ++v) {
         double p[ICC_MAX_DIM];
         for (int32_t k = 0; k < grid->dim; ++k)
             p[k] = iccp_grid_coordinate(grid, v, k);
         uint32_t n = 0;
-        for (uint32_t f = 0; f < cover->domain->n_facets; ++f)
-            if (lies_in(cover->domain, grid, f, p)) {
-                ck_assert(is_noted(cover, v, f));
+        for (uint32_t f = 0; f < incidence->domain->n_facets; ++f)
+            if (lies_in(incidence->domain, grid, f, p)) {
+                ck_assert(is_noted(incidence, v, f));
                 ++n;
             }
-        ck_assert_uint_eq(n, cover->first[v + 1] - cover->first[v]);
+        ck_assert_uint_eq(n, incidence->first[v + 1] - incidence->first[v]);
     }
 }
 
-static bool middle_is_inside(const iccp_cover *cover, uint32_t lowest, const int8_t *axis)
+static bool middle_is_inside(const iccp_incidence *incidence, uint32_t lowest, const int8_t *axis)
 {
-    const icc_grid *grid = cover->grid;
+    const icc_grid *grid = incidence->grid;
     double x[ICC_MAX_DIM];
     for (int32_t i = 0; i < grid->dim; ++i)
         x[axis[i]] =
             grid->origin[axis[i]] + grid->spacing * (iccp_grid_coordinate(grid, lowest, axis[i]) +
                                                      (double)(grid->dim - i) / (grid->dim + 1));
-    return iccp_domain_locate(cover->domain, x, true, NULL, NULL) == ICC_INSIDE;
+    return iccp_domain_locate(incidence->domain, x, true, NULL, NULL) == ICC_INSIDE;
 }
 
 /* The simplices in the mask with a vertex on the boundary have a bit, and no others; and their
  * faces there. */
-static void check_bits(const iccp_cover *cover)
+static void check_bits(const iccp_incidence *incidence)
 {
-    const icc_grid *grid = cover->grid;
+    const icc_grid *grid = incidence->grid;
     const int32_t dim = grid->dim;
     iccp_orders *orders = malloc(sizeof *orders);
     iccp_orders_init(orders, grid);
@@ -149,25 +149,25 @@ static void check_bits(const iccp_cover *cover)
         for (int32_t k = 0; k < dim; ++k)
             in_grid = in_grid && iccp_grid_coordinate(grid, lowest, k) + 1 < grid->shape[k];
         for (int32_t r = 0; in_grid && r < orders->n; ++r) {
-            if (!middle_is_inside(cover, lowest, orders->axis[r]))
+            if (!middle_is_inside(incidence, lowest, orders->axis[r]))
                 continue;
             for (int32_t k = 0, v = (int32_t)lowest; k <= dim; ++k) {
-                if (cover->first[v] < cover->first[v + 1]) {
+                if (incidence->first[v] < incidence->first[v + 1]) {
                     bits |= (uint32_t)1 << (r % 32);
                     for (int32_t i = 0; i <= dim; ++i)
-                        faces |= i != k ? iccp_cover_face_bit(dim, r, i) : 0;
+                        faces |= i != k ? iccp_incidence_face_bit(dim, r, i) : 0;
                 }
                 v += k < dim ? (int32_t)grid->stride[orders->axis[r][k]] : 0;
             }
         }
-        ck_assert_uint_eq(bits, cover->bits[lowest]);
-        ck_assert_uint_eq(faces, cover->faces[lowest]);
+        ck_assert_uint_eq(bits, incidence->bits[lowest]);
+        ck_assert_uint_eq(faces, incidence->faces[lowest]);
     }
     free(orders);
 }
 
 /* Against a cover that does not know of the mask, which may note more. */
-static void check_against(const iccp_cover *mask, const iccp_cover *any)
+static void check_against(const iccp_incidence *mask, const iccp_incidence *any)
 {
     const size_t dim = (size_t)mask->grid->dim;
     for (size_t i = 0; i < dim * mask->domain->n_facets; ++i)
@@ -191,19 +191,19 @@ START_TEST(facets_of_masks_are_noted_where_they_pass)
         /* Two, or four, grid steps to a cell. */
         const int32_t cells = dim < 4 && round % 2 == 0 ? 12 : 2;
         ck_assert_int_eq(iccp_grid_create(&grid, domain, cells, &env, NULL), ICC_OK);
-        iccp_cover mask, any;
-        ck_assert_int_eq(iccp_cover_create(&mask, domain, grid, &env), ICC_OK);
+        iccp_incidence mask, any;
+        ck_assert_int_eq(iccp_incidence_create(&mask, domain, grid, &env), ICC_OK);
         check_notes(&mask);
         check_bits(&mask);
         if (dim < 4) {
             struct iccp_mask *own = domain->mask;
             domain->mask = NULL;
-            ck_assert_int_eq(iccp_cover_create(&any, domain, grid, &env), ICC_OK);
+            ck_assert_int_eq(iccp_incidence_create(&any, domain, grid, &env), ICC_OK);
             domain->mask = own;
             check_against(&mask, &any);
-            iccp_cover_free(&any);
+            iccp_incidence_free(&any);
         }
-        iccp_cover_free(&mask);
+        iccp_incidence_free(&mask);
         iccp_grid_release(grid);
         icc_domain_free(domain);
     }
@@ -218,14 +218,14 @@ START_TEST(vertices_given_up_have_no_facets)
     static const uint8_t CELLS[8] = {1, 1, 1, 1, 1, 1, 1, 1};
     icc_domain *domain;
     icc_grid *grid, *part;
-    iccp_cover cover;
+    iccp_incidence incidence;
     ck_assert_int_eq(icc_domain_create_mask(&domain, 3, SHAPE, CELLS, NULL, NULL), ICC_OK);
     ck_assert_int_eq(iccp_grid_create(&grid, domain, 2, &env, NULL), ICC_OK);
     uint8_t *keep = calloc(grid->n_vertices, 1);
     const uint32_t middle = (uint32_t)(grid->n_vertices / 2);
     keep[middle] = 1;
     ck_assert_int_eq(iccp_grid_restrict(&part, grid, keep, &env, NULL), ICC_OK);
-    ck_assert_int_eq(iccp_cover_create(&cover, domain, part, &env), ICC_OK);
+    ck_assert_int_eq(iccp_incidence_create(&incidence, domain, part, &env), ICC_OK);
     for (uint32_t v = 0; v < part->n_vertices; ++v) {
         double p[3];
         bool any = false;
@@ -233,13 +233,13 @@ START_TEST(vertices_given_up_have_no_facets)
             p[k] = iccp_grid_coordinate(grid, v, k);
         for (uint32_t f = 0; f < domain->n_facets; ++f)
             any = any || lies_in(domain, grid, f, p);
-        ck_assert_int_eq(any, cover.first[v + 1] > cover.first[v]);
+        ck_assert_int_eq(any, incidence.first[v + 1] > incidence.first[v]);
         /* Outside, in the cell beyond a corner of the mask. */
         if (iccp_grid_coordinate(grid, v, 0) == 1)
-            ck_assert_uint_eq(cover.bits[v], 0);
+            ck_assert_uint_eq(incidence.bits[v], 0);
     }
     free(keep);
-    iccp_cover_free(&cover);
+    iccp_incidence_free(&incidence);
     iccp_grid_release(part);
     iccp_grid_release(grid);
     icc_domain_free(domain);
@@ -277,24 +277,24 @@ START_TEST(the_order_of_the_facets_does_not_matter)
     static const uint32_t ORDERS[2][4] = {{0, 1, 2, 3}, {3, 2, 1, 0}};
     const iccp_env env = plain_env();
     for (uint64_t seed = 0; seed < (uint64_t)share_of(2000); ++seed) {
-        iccp_cover cover[2];
+        iccp_incidence incidence[2];
         icc_domain *domain[2];
         icc_grid *grid[2];
         for (int i = 0; i < 2; ++i) {
             random_source r = {seed};
             domain[i] = random_tetrahedron(&r, &grid[i], ORDERS[i]);
-            ck_assert_int_eq(iccp_cover_create(&cover[i], domain[i], grid[i], &env), ICC_OK);
+            ck_assert_int_eq(iccp_incidence_create(&incidence[i], domain[i], grid[i], &env), ICC_OK);
         }
         for (uint32_t v = 0; v < grid[0]->n_vertices; ++v) {
-            ck_assert_uint_eq(cover[0].bits[v], cover[1].bits[v]);
-            ck_assert_uint_eq(cover[0].first[v], cover[1].first[v]);
-            for (uint32_t i = cover[0].first[v]; i < cover[0].first[v + 1]; ++i) {
-                ck_assert(i == cover[0].first[v] || cover[0].facet[i - 1] < cover[0].facet[i]);
-                ck_assert(is_noted(&cover[1], v, 3 - cover[0].facet[i]));
+            ck_assert_uint_eq(incidence[0].bits[v], incidence[1].bits[v]);
+            ck_assert_uint_eq(incidence[0].first[v], incidence[1].first[v]);
+            for (uint32_t i = incidence[0].first[v]; i < incidence[0].first[v + 1]; ++i) {
+                ck_assert(i == incidence[0].first[v] || incidence[0].facet[i - 1] < incidence[0].facet[i]);
+                ck_assert(is_noted(&incidence[1], v, 3 - incidence[0].facet[i]));
             }
         }
         for (int i = 0; i < 2; ++i) {
-            iccp_cover_free(&cover[i]);
+            iccp_incidence_free(&incidence[i]);
             iccp_grid_release(grid[i]);
             icc_domain_free(domain[i]);
         }

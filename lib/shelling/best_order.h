@@ -1,11 +1,11 @@
 /* The best of several orders of a mesh. */
-#ifndef ICCP_CONTEST_H
-#define ICCP_CONTEST_H
+#ifndef ICCP_BEST_ORDER_H
+#define ICCP_BEST_ORDER_H
 
 #include "shelling/circulation.h"
 #include "shelling/shelling_order.h"
 
-typedef struct iccp_contest_info {
+typedef struct iccp_best_order_info {
     int32_t peeled;    /* 1: the order that won was peeled, 0: grown */
     double beta;       /* its weight of reversed flux */
     double energy;     /* its flux, see iccp_circulation_energy() */
@@ -13,7 +13,7 @@ typedef struct iccp_contest_info {
     size_t n_reversed; /* facets where the reference flux runs the other way */
     size_t n_orders;   /* that took part */
     size_t n_finished; /* of them, those that were complete */
-} iccp_contest_info;
+} iccp_best_order_info;
 
 /* Grows and peels with several weights, reverses facets, and sends the flux along every complete
  * order. `inflow` is by facet of the domain, `reference` and `flux` by side, `potential` and `rank`
@@ -21,8 +21,9 @@ typedef struct iccp_contest_info {
  * are repeated with a bias for the simplices that were left: ICC_ERR_TOPOLOGY when that does not
  * help, as with some meshes of Bing's house with two rooms. The same for every number of threads.
  * O(n log n). */
-icc_status iccp_contest(const iccp_simplices *mesh, uint32_t centre, const double *inflow,
-                        const double *reference, const double *potential, uint32_t *rank,
-                        double *flux, iccp_contest_info *info, const iccp_env *env, icc_error *err);
+icc_status iccp_best_order(const iccp_simplices *mesh, uint32_t centre, const double *inflow,
+                           const double *reference, const double *potential, uint32_t *rank,
+                           double *flux, iccp_best_order_info *info, const iccp_env *env,
+                           icc_error *err);
 
 #endif

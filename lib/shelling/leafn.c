@@ -2,14 +2,14 @@
  * Transactions on Graphics 35, 2016: leaves through an ordered mesh. The side that a leaf leaves a
  * simplex by is the one whose barycentric coordinate vanishes first; as the corners are sorted, the
  * others keep their order when the next simplex is entered. */
-#include "shelling/fibre.h"
+#include "shelling/leafn.h"
 
 #include "math/vec.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { CORNERS = ICCP_FIBRE_CORNERS, MAX = ICC_MAX_DIM };
+enum { CORNERS = ICCP_LEAFN_CORNERS, MAX = ICC_MAX_DIM };
 
 /* In which direction a leaf is followed, as a factor of the rates. */
 static const double UP = 1, DOWN = -1;
@@ -17,18 +17,18 @@ static const double UP = 1, DOWN = -1;
 /* Everything that follows is written for n = dim + 1 corners; where the compiler knows n it need
  * not loop. */
 
-static ICCP_INLINE const iccp_fibre_word *record_of(const iccp_fibres *fibres, size_t n,
+static ICCP_INLINE const iccp_leafn_word *record_of(const iccp_leaves *leaves, size_t n,
                                                     uint32_t simplex)
 {
-    return fibres->records + iccp_fibre_stride(n) * simplex;
+    return leaves->records + iccp_leafn_stride(n) * simplex;
 }
 
-static ICCP_INLINE bool in_star(const iccp_fibre_word *record, size_t n)
+static ICCP_INLINE bool in_star(const iccp_leafn_word *record, size_t n)
 {
     return !(record[n].number > 0);
 }
 
-static ICCP_INLINE uint32_t across(const iccp_fibre_word *record, size_t n, size_t side)
+static ICCP_INLINE uint32_t across(const iccp_leafn_word *record, size_t n, size_t side)
 {
     return record[n + 2 + side / 2].side[side % 2];
 }
@@ -45,7 +45,7 @@ static ICCP_INLINE uint64_t bits_of(double x)
 /* The side that the leaf leaves by, and after how much of the rates; n where there is none, in the
  * star on the way up. Which it is cannot be predicted, so there are no branches: sides that are
  * entered have a negative reach, be it -0. Places never have a coordinate -0. */
-static ICCP_INLINE size_t find_exit(const iccp_fibre_word *record, size_t n, double way,
+static ICCP_INLINE size_t find_exit(const iccp_leafn_word *record, size_t n, double way,
                                     const double *bary, double *share)
 {
     double reach[CORNERS];
@@ -64,7 +64,7 @@ static ICCP_INLINE size_t find_exit(const iccp_fibre_word *record, size_t n, dou
     return least >> 63 == 0 ? exit : n;
 }
 
-static ICCP_INLINE void advance(const iccp_fibre_word *record, size_t n, double way, double share,
+static ICCP_INLINE void advance(const iccp_leafn_word *record, size_t n, double way, double share,
                                 double *bary)
 {
     for (size_t i = 0; i < n; ++i) {
@@ -84,7 +84,7 @@ static ICCP_INLINE void carry(size_t n, size_t from, size_t to, double *bary)
     bary[to] = 0;
 }
 
-static void carry_jet(size_t n, size_t from, size_t to, iccp_fibre_jet *jet)
+static void carry_jet(size_t n, size_t from, size_t to, iccp_leafn_jet *jet)
 {
     double rows[CORNERS][MAX];
     memcpy(rows, jet->bary, sizeof rows);
@@ -98,8 +98,8 @@ static void carry_jet(size_t n, size_t from, size_t to, iccp_fibre_jet *jet)
 }
 
 /* The share until the exit changes as its coordinate does. */
-static void advance_jet(const iccp_fibre_word *record, size_t n, double way, size_t exit,
-                        iccp_fibre_jet *jet)
+static void advance_jet(const iccp_leafn_word *record, size_t n, double way, size_t exit,
+                        iccp_leafn_jet *jet)
 {
     for (size_t p = 0; p < jet->n; ++p) {
         const double slope = -jet->bary[exit][p] / (way * record[exit].number);
@@ -111,47 +111,47 @@ static void advance_jet(const iccp_fibre_word *record, size_t n, double way, siz
 
 /* ---- in the star ---- */
 
-static size_t corner_of_centre(const iccp_fibres *fibres, uint32_t simplex)
+static size_t corner_of_centre(const iccp_leaves *leaves, uint32_t simplex)
 {
-    const size_t n = fibres->dim + 1;
+    const size_t n = leaves->dim + 1;
     size_t corner = 0;
-    while (fibres->corners[n * simplex + corner] != fibres->centre)
+    while (leaves->corners[n * simplex + corner] != leaves->centre)
         ++corner;
     return corner;
 }
 
 /* From the centre to a place in the star: the offset, and its length. */
-static double from_centre(const iccp_fibres *fibres, const iccp_fibre_place *place, double *offset)
+static double from_centre(const iccp_leaves *leaves, const iccp_leafn_place *place, double *offset)
 {
-    iccp_fibres_offset(fibres, place, corner_of_centre(fibres, place->simplex), offset);
-    return iccp_vec_norm(fibres->dim, offset);
+    iccp_leafn_offset(leaves, place, corner_of_centre(leaves, place->simplex), offset);
+    return iccp_vec_norm(leaves->dim, offset);
 }
 
 /* How the distance from the centre changes with the parameters of a jet. */
-static void distance_jet(const iccp_fibres *fibres, const iccp_fibre_place *place,
-                         const iccp_fibre_jet *jet, double *slope)
+static void distance_jet(const iccp_leaves *leaves, const iccp_leafn_place *place,
+                         const iccp_leafn_jet *jet, double *slope)
 {
     double offset[MAX], movement[MAX][MAX];
-    const double distance = from_centre(fibres, place, offset);
-    iccp_fibres_movement(fibres, place, jet, movement);
+    const double distance = from_centre(leaves, place, offset);
+    iccp_leafn_movement(leaves, place, jet, movement);
     for (size_t p = 0; p < jet->n; ++p) {
         slope[p] = 0;
-        for (size_t k = 0; k < fibres->dim && distance > 0; ++k)
+        for (size_t k = 0; k < leaves->dim && distance > 0; ++k)
             slope[p] += offset[k] / distance * movement[k][p];
     }
 }
 
 /* From a place in the star other than the centre to the side that faces the centre. */
-static double fall_through_star(const iccp_fibres *fibres, iccp_fibre_place *place, size_t corner,
-                                iccp_fibre_jet *jet)
+static double fall_through_star(const iccp_leaves *leaves, iccp_leafn_place *place, size_t corner,
+                                iccp_leafn_jet *jet)
 {
-    const size_t n = fibres->dim + 1;
+    const size_t n = leaves->dim + 1;
     double offset[MAX], slope[MAX];
-    const double distance = from_centre(fibres, place, offset);
+    const double distance = from_centre(leaves, place, offset);
     const double own = place->bary[corner];
-    const double others = iccp_fibre_sum(place->bary, n) - own;
+    const double others = iccp_leafn_sum(place->bary, n) - own;
     if (jet != NULL) {
-        distance_jet(fibres, place, jet, slope);
+        distance_jet(leaves, place, jet, slope);
         for (size_t p = 0; p < jet->n; ++p) {
             const double d_own = jet->bary[corner][p];
             double d_others = 0;
@@ -173,8 +173,8 @@ static double fall_through_star(const iccp_fibres *fibres, iccp_fibre_place *pla
 /* ---- walks ---- */
 
 /* Leaves the simplex through a side; false, with the facet, when that is the boundary. */
-static ICCP_INLINE bool cross(const iccp_fibre_word *record, size_t n, size_t exit,
-                              iccp_fibre_place *place, iccp_fibre_jet *jet, uint32_t *facet)
+static ICCP_INLINE bool cross(const iccp_leafn_word *record, size_t n, size_t exit,
+                              iccp_leafn_place *place, iccp_leafn_jet *jet, uint32_t *facet)
 {
     const uint32_t next = across(record, n, exit);
     if ((next & ICCP_ON_BOUNDARY) != 0) {
@@ -188,21 +188,21 @@ static ICCP_INLINE bool cross(const iccp_fibre_word *record, size_t n, size_t ex
     return true;
 }
 
-static ICCP_INLINE void prefetch(const iccp_fibres *fibres, const iccp_fibre_word *record, size_t n)
+static ICCP_INLINE void prefetch(const iccp_leaves *leaves, const iccp_leafn_word *record, size_t n)
 {
     for (size_t i = 0; i < n; ++i)
         ICCP_PREFETCH(
-            record_of(fibres, n, (across(record, n, i) & ~ICCP_ON_BOUNDARY) / (uint32_t)n));
+            record_of(leaves, n, (across(record, n, i) & ~ICCP_ON_BOUNDARY) / (uint32_t)n));
 }
 
 /* Through one simplex outside the star; false where the walk ends. */
-static ICCP_INLINE bool step(const iccp_fibres *fibres, size_t n, double way,
-                             iccp_fibre_place *place, double *length, iccp_fibre_jet *jet,
+static ICCP_INLINE bool step(const iccp_leaves *leaves, size_t n, double way,
+                             iccp_leafn_place *place, double *length, iccp_leafn_jet *jet,
                              uint32_t *facet)
 {
-    const iccp_fibre_word *record = record_of(fibres, n, place->simplex);
+    const iccp_leafn_word *record = record_of(leaves, n, place->simplex);
     double share;
-    prefetch(fibres, record, n);
+    prefetch(leaves, record, n);
     const size_t exit = find_exit(record, n, way, place->bary, &share);
     if (exit == n)
         return false;
@@ -214,90 +214,90 @@ static ICCP_INLINE bool step(const iccp_fibres *fibres, size_t n, double way,
     return cross(record, n, exit, place, jet, facet);
 }
 
-static ICCP_INLINE double rise(const iccp_fibres *fibres, size_t n, iccp_fibre_place *place)
+static ICCP_INLINE double rise(const iccp_leaves *leaves, size_t n, iccp_leafn_place *place)
 {
     double length = 0, offset[MAX];
     uint32_t facet;
-    while (step(fibres, n, UP, place, &length, NULL, &facet)) {
+    while (step(leaves, n, UP, place, &length, NULL, &facet)) {
     }
-    return length + from_centre(fibres, place, offset);
+    return length + from_centre(leaves, place, offset);
 }
 
-double iccp_fibres_rise(const iccp_fibres *fibres, iccp_fibre_place *place)
+double iccp_leafn_rise(const iccp_leaves *leaves, iccp_leafn_place *place)
 {
-    switch (fibres->dim) {
+    switch (leaves->dim) {
     case 2:
-        return rise(fibres, 3, place);
+        return rise(leaves, 3, place);
     case 3:
-        return rise(fibres, 4, place);
+        return rise(leaves, 4, place);
     default:
-        return rise(fibres, fibres->dim + 1, place);
+        return rise(leaves, leaves->dim + 1, place);
     }
 }
 
 /* The way out of the star, if the place is there: whether it goes on behind. */
-static bool leave_star(const iccp_fibres *fibres, iccp_fibre_place *place, double *length,
-                       iccp_fibre_jet *jet, uint32_t *facet)
+static bool leave_star(const iccp_leaves *leaves, iccp_leafn_place *place, double *length,
+                       iccp_leafn_jet *jet, uint32_t *facet)
 {
-    const size_t n = fibres->dim + 1;
-    const iccp_fibre_word *record = record_of(fibres, n, place->simplex);
+    const size_t n = leaves->dim + 1;
+    const iccp_leafn_word *record = record_of(leaves, n, place->simplex);
     if (!in_star(record, n))
         return true;
-    const size_t corner = corner_of_centre(fibres, place->simplex);
-    *length += fall_through_star(fibres, place, corner, jet);
+    const size_t corner = corner_of_centre(leaves, place->simplex);
+    *length += fall_through_star(leaves, place, corner, jet);
     return cross(record, n, corner, place, jet, facet);
 }
 
-static ICCP_INLINE double fall(const iccp_fibres *fibres, size_t n, iccp_fibre_place *place,
+static ICCP_INLINE double fall(const iccp_leaves *leaves, size_t n, iccp_leafn_place *place,
                                uint32_t *facet)
 {
     double length = 0;
-    bool more = leave_star(fibres, place, &length, NULL, facet);
+    bool more = leave_star(leaves, place, &length, NULL, facet);
     while (more)
-        more = step(fibres, n, DOWN, place, &length, NULL, facet);
+        more = step(leaves, n, DOWN, place, &length, NULL, facet);
     return length;
 }
 
-double iccp_fibres_fall(const iccp_fibres *fibres, iccp_fibre_place *place, uint32_t *facet)
+double iccp_leafn_fall(const iccp_leaves *leaves, iccp_leafn_place *place, uint32_t *facet)
 {
-    switch (fibres->dim) {
+    switch (leaves->dim) {
     case 2:
-        return fall(fibres, 3, place, facet);
+        return fall(leaves, 3, place, facet);
     case 3:
-        return fall(fibres, 4, place, facet);
+        return fall(leaves, 4, place, facet);
     default:
-        return fall(fibres, fibres->dim + 1, place, facet);
+        return fall(leaves, leaves->dim + 1, place, facet);
     }
 }
 
-double iccp_fibres_rise_jet(const iccp_fibres *fibres, iccp_fibre_place *place, iccp_fibre_jet *jet,
-                            uint32_t stop, iccp_fibre_jet *stopped)
+double iccp_leafn_rise_jet(const iccp_leaves *leaves, iccp_leafn_place *place, iccp_leafn_jet *jet,
+                           uint32_t stop, iccp_leafn_jet *stopped)
 {
     double length = 0, offset[MAX], slope[MAX];
     uint32_t facet;
     do {
         if (place->simplex == stop)
             *stopped = *jet;
-    } while (step(fibres, fibres->dim + 1, UP, place, &length, jet, &facet));
-    distance_jet(fibres, place, jet, slope);
+    } while (step(leaves, leaves->dim + 1, UP, place, &length, jet, &facet));
+    distance_jet(leaves, place, jet, slope);
     for (size_t p = 0; p < jet->n; ++p)
         jet->length[p] += slope[p];
-    return length + from_centre(fibres, place, offset);
+    return length + from_centre(leaves, place, offset);
 }
 
-double iccp_fibres_fall_jet(const iccp_fibres *fibres, iccp_fibre_place *place, uint32_t *facet,
-                            iccp_fibre_jet *jet)
+double iccp_leafn_fall_jet(const iccp_leaves *leaves, iccp_leafn_place *place, uint32_t *facet,
+                           iccp_leafn_jet *jet)
 {
     double length = 0;
-    bool more = leave_star(fibres, place, &length, jet, facet);
+    bool more = leave_star(leaves, place, &length, jet, facet);
     while (more)
-        more = step(fibres, fibres->dim + 1, DOWN, place, &length, jet, facet);
+        more = step(leaves, leaves->dim + 1, DOWN, place, &length, jet, facet);
     return length;
 }
 
 /* ---- notes: the barycentric coordinates, the simplex, and the length ---- */
 
-static ICCP_INLINE icc_status note(iccp_path *path, size_t n, const iccp_fibre_place *place,
+static ICCP_INLINE icc_status note(iccp_path *path, size_t n, const iccp_leafn_place *place,
                                    double length)
 {
     double *row = iccp_path_extend(path);
@@ -310,55 +310,55 @@ static ICCP_INLINE icc_status note(iccp_path *path, size_t n, const iccp_fibre_p
     return ICC_OK;
 }
 
-static ICCP_INLINE icc_status note_rise(const iccp_fibres *fibres, size_t n,
-                                        const iccp_fibre_place *start, iccp_path *path)
+static ICCP_INLINE icc_status note_rise(const iccp_leaves *leaves, size_t n,
+                                        const iccp_leafn_place *start, iccp_path *path)
 {
-    iccp_fibre_place place = *start;
+    iccp_leafn_place place = *start;
     double length = 0, offset[MAX];
     uint32_t facet;
     iccp_path_start(path, n + 1);
     icc_status status = note(path, n, &place, 0);
-    while (status == ICC_OK && step(fibres, n, UP, &place, &length, NULL, &facet))
+    while (status == ICC_OK && step(leaves, n, UP, &place, &length, NULL, &facet))
         status = note(path, n, &place, length);
     if (status != ICC_OK)
         return status;
-    length += from_centre(fibres, &place, offset);
+    length += from_centre(leaves, &place, offset);
     memset(place.bary, 0, sizeof place.bary);
-    place.bary[corner_of_centre(fibres, place.simplex)] = 1;
+    place.bary[corner_of_centre(leaves, place.simplex)] = 1;
     return note(path, n, &place, length);
 }
 
-icc_status iccp_fibres_note_rise(const iccp_fibres *fibres, const iccp_fibre_place *place,
-                                 iccp_path *path)
+icc_status iccp_leafn_note_rise(const iccp_leaves *leaves, const iccp_leafn_place *place,
+                                iccp_path *path)
 {
-    switch (fibres->dim) {
+    switch (leaves->dim) {
     case 2:
-        return note_rise(fibres, 3, place, path);
+        return note_rise(leaves, 3, place, path);
     case 3:
-        return note_rise(fibres, 4, place, path);
+        return note_rise(leaves, 4, place, path);
     default:
-        return note_rise(fibres, fibres->dim + 1, place, path);
+        return note_rise(leaves, leaves->dim + 1, place, path);
     }
 }
 
-icc_status iccp_fibres_note_fall(const iccp_fibres *fibres, const iccp_fibre_place *start,
-                                 iccp_path *path)
+icc_status iccp_leafn_note_fall(const iccp_leaves *leaves, const iccp_leafn_place *start,
+                                iccp_path *path)
 {
-    const size_t n = fibres->dim + 1;
-    iccp_fibre_place place = *start;
+    const size_t n = leaves->dim + 1;
+    iccp_leafn_place place = *start;
     double length = 0;
     uint32_t facet;
     iccp_path_start(path, n + 1);
     icc_status status = note(path, n, &place, 0);
-    bool more = leave_star(fibres, &place, &length, NULL, &facet);
+    bool more = leave_star(leaves, &place, &length, NULL, &facet);
     while (status == ICC_OK && more) {
         status = note(path, n, &place, length);
-        more = step(fibres, n, DOWN, &place, &length, NULL, &facet);
+        more = step(leaves, n, DOWN, &place, &length, NULL, &facet);
     }
     return status == ICC_OK ? note(path, n, &place, length) : status;
 }
 
-void iccp_fibres_noted(const iccp_path *path, size_t k, iccp_fibre_place *place)
+void iccp_leafn_noted(const iccp_path *path, size_t k, iccp_leafn_place *place)
 {
     const double *row = iccp_path_at(path, k);
     const size_t n = path->dim - 1;
@@ -366,17 +366,17 @@ void iccp_fibres_noted(const iccp_path *path, size_t k, iccp_fibre_place *place)
     place->simplex = (uint32_t)row[n];
 }
 
-void iccp_fibres_ahead(const iccp_fibres *fibres, double length, double piece,
-                       iccp_fibre_place *place)
+void iccp_leafn_ahead(const iccp_leaves *leaves, double length, double piece,
+                      iccp_leafn_place *place)
 {
-    const size_t n = fibres->dim + 1;
-    const iccp_fibre_word *record = record_of(fibres, n, place->simplex);
+    const size_t n = leaves->dim + 1;
+    const iccp_leafn_word *record = record_of(leaves, n, place->simplex);
     if (!in_star(record, n)) {
         advance(record, n, UP, length / record[n].number, place->bary);
         return;
     }
-    const size_t corner = corner_of_centre(fibres, place->simplex);
-    const double sum = iccp_fibre_sum(place->bary, n), share = piece > 0 ? length / piece : 1;
+    const size_t corner = corner_of_centre(leaves, place->simplex);
+    const double sum = iccp_leafn_sum(place->bary, n), share = piece > 0 ? length / piece : 1;
     for (size_t i = 0; i < n; ++i)
         place->bary[i] *= 1 - share;
     place->bary[corner] += share * sum;
@@ -384,15 +384,15 @@ void iccp_fibres_ahead(const iccp_fibres *fibres, double length, double piece,
 
 /* A move by `length` along the leaf adds its rate times length over speed; what the lengths' own
  * derivatives add is along the leaf, too. */
-void iccp_fibres_ahead_jet(const iccp_fibres *fibres, const iccp_fibre_place *place, double length,
-                           double piece, const double *d_length, const double *d_piece,
-                           iccp_fibre_jet *jet)
+void iccp_leafn_ahead_jet(const iccp_leaves *leaves, const iccp_leafn_place *place, double length,
+                          double piece, const double *d_length, const double *d_piece,
+                          iccp_leafn_jet *jet)
 {
-    const size_t n = fibres->dim + 1;
-    const iccp_fibre_word *record = record_of(fibres, n, place->simplex);
+    const size_t n = leaves->dim + 1;
+    const iccp_leafn_word *record = record_of(leaves, n, place->simplex);
     const bool star = in_star(record, n);
-    const size_t corner = star ? corner_of_centre(fibres, place->simplex) : n;
-    const double sum = iccp_fibre_sum(place->bary, n), share = length / piece;
+    const size_t corner = star ? corner_of_centre(leaves, place->simplex) : n;
+    const double sum = iccp_leafn_sum(place->bary, n), share = length / piece;
     for (size_t p = 0; p < jet->n; ++p)
         for (size_t i = 0; i < n; ++i)
             if (star) {

@@ -1,14 +1,14 @@
 /* The simplices are stored in the order of the leaves of their tree of boxes: what is near in space
  * is near in memory, and a simplex is one or two cache lines. */
-#include "shelling/fibre.h"
+#include "shelling/leafn.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { CORNERS = ICCP_FIBRE_CORNERS, CACHE_LINE = 64 };
+enum { CORNERS = ICCP_LEAFN_CORNERS, CACHE_LINE = 64 };
 
 typedef struct maker {
-    iccp_fibres *fibres;
+    iccp_leaves *leaves;
     const iccp_simplices *mesh;
     const double *direction;
     double tolerance;
@@ -17,15 +17,15 @@ typedef struct maker {
 
 /* Numbers the simplices in the order of the tree's leaves, sorts the corners of each, and notes
  * in `side` what every side of the mesh is called here. */
-static void number(const maker *m)
+static void number_simplices(const maker *m)
 {
     const iccp_simplices *mesh = m->mesh;
     const size_t n = mesh->dim + 1;
-    const uint32_t *order = m->fibres->tree.order;
+    const uint32_t *order = m->leaves->tree.order;
     for (uint32_t place = 0; place < mesh->n_simplices; ++place) {
         const uint32_t *given = mesh->corners + n * order[place];
-        m->fibres->place[order[place]] = place;
-        uint32_t *sorted = m->fibres->corners + n * place;
+        m->leaves->place[order[place]] = place;
+        uint32_t *sorted = m->leaves->corners + n * place;
         for (uint32_t i = 0; i < n; ++i) {
             uint32_t rank = 0;
             for (size_t j = 0; j < n; ++j)
@@ -37,15 +37,15 @@ static void number(const maker *m)
 }
 
 /* How fast the point moves, in length, when the barycentric coordinates change at these rates. */
-static double speed_of(const iccp_fibres *fibres, const uint32_t *corners, const double *rate)
+static double speed_of(const iccp_leaves *leaves, const uint32_t *corners, const double *rate)
 {
-    const size_t dim = fibres->dim;
+    const size_t dim = leaves->dim;
     double sum = 0;
     for (size_t k = 0; k < dim; ++k) {
-        const double origin = fibres->points[dim * corners[0] + k];
+        const double origin = leaves->points[dim * corners[0] + k];
         double x = 0;
         for (size_t i = 1; i <= dim; ++i)
-            x += rate[i] * (fibres->points[dim * corners[i] + k] - origin);
+            x += rate[i] * (leaves->points[dim * corners[i] + k] - origin);
         sum += x * x;
     }
     return sqrt(sum);
@@ -54,10 +54,10 @@ static double speed_of(const iccp_fibres *fibres, const uint32_t *corners, const
 /* Twice the tolerance over the least height, by the gradients of the barycentric coordinates. */
 static double margin_of(const maker *m, uint32_t simplex)
 {
-    const size_t dim = m->fibres->dim;
-    iccp_fibre_jet jet;
+    const size_t dim = m->leaves->dim;
+    iccp_leafn_jet jet;
     double steepest = 0;
-    iccp_fibres_gradient(m->fibres, simplex, &jet);
+    iccp_leafn_gradient(m->leaves, simplex, &jet);
     for (size_t i = 0; i <= dim; ++i) {
         double sum = 0;
         for (size_t k = 0; k < dim; ++k)
@@ -71,14 +71,14 @@ static double margin_of(const maker *m, uint32_t simplex)
  * one that a rising leaf leaves by, so that it ends there. */
 static void fill_record(const maker *m, uint32_t place)
 {
-    const size_t n = m->fibres->dim + 1;
-    const uint32_t simplex = m->fibres->tree.order[place];
-    const uint32_t *corners = m->fibres->corners + n * place;
-    iccp_fibre_word *record = m->fibres->records + iccp_fibre_stride(n) * place;
+    const size_t n = m->leaves->dim + 1;
+    const uint32_t simplex = m->leaves->tree.order[place];
+    const uint32_t *corners = m->leaves->corners + n * place;
+    iccp_leafn_word *record = m->leaves->records + iccp_leafn_stride(n) * place;
     double rate[CORNERS];
     bool in_star = false;
     for (size_t i = 0; i < n; ++i)
-        in_star = in_star || corners[i] == m->fibres->centre;
+        in_star = in_star || corners[i] == m->leaves->centre;
     for (size_t i = 0; i < n; ++i) {
         const size_t given = n * simplex + i, k = m->side[given] % n;
         const uint32_t across = m->mesh->across[given];
@@ -86,79 +86,80 @@ static void fill_record(const maker *m, uint32_t place)
         record[n + 2 + k / 2].side[k % 2] =
             (across & ICCP_ON_BOUNDARY) != 0 ? across : m->side[across];
         if ((across & ICCP_ON_BOUNDARY) != 0)
-            m->fibres->rim[across & ~ICCP_ON_BOUNDARY] = m->side[given];
+            m->leaves->boundary_side[across & ~ICCP_ON_BOUNDARY] = m->side[given];
     }
     for (size_t i = 0; i < n; ++i)
         record[i].number = rate[i];
-    record[n].number = in_star ? 0 : speed_of(m->fibres, corners, rate);
+    record[n].number = in_star ? 0 : speed_of(m->leaves, corners, rate);
     record[n + 1].number = margin_of(m, place);
 }
 
 /* The tree comes first, since its order of leaves is the order of everything else; in the end it
  * is told the new numbers, so that a query gives these. Records start at a cache line. */
-static icc_status make(maker *m)
+static icc_status build(maker *m)
 {
-    iccp_fibres *fibres = m->fibres;
+    iccp_leaves *leaves = m->leaves;
     const iccp_simplices *mesh = m->mesh;
     const size_t n = mesh->dim + 1, n_simplices = mesh->n_simplices;
-    iccp_facet_tree_create_solid(&fibres->tree, mesh->dim, mesh->points, n_simplices, mesh->corners,
-                                 &fibres->memory);
-    fibres->corners = iccp_alloc(&fibres->memory, n_simplices, n * sizeof *fibres->corners);
-    fibres->block = iccp_alloc(&fibres->memory, n_simplices + 1,
-                               iccp_fibre_stride(n) * sizeof *fibres->records);
-    fibres->rim = iccp_alloc(&fibres->memory, mesh->n_facets, sizeof *fibres->rim);
-    fibres->place = iccp_alloc(&fibres->memory, n_simplices, sizeof *fibres->place);
-    m->side = iccp_alloc(&fibres->memory, n_simplices, n * sizeof *m->side);
-    if (fibres->tree.boxes == NULL || fibres->corners == NULL || fibres->block == NULL ||
-        fibres->rim == NULL || fibres->place == NULL || m->side == NULL)
+    iccp_facet_tree_create_solid(&leaves->tree, mesh->dim, mesh->points, n_simplices, mesh->corners,
+                                 &leaves->memory);
+    leaves->corners = iccp_alloc(&leaves->memory, n_simplices, n * sizeof *leaves->corners);
+    leaves->block = iccp_alloc(&leaves->memory, n_simplices + 1,
+                               iccp_leafn_stride(n) * sizeof *leaves->records);
+    leaves->boundary_side =
+        iccp_alloc(&leaves->memory, mesh->n_facets, sizeof *leaves->boundary_side);
+    leaves->place = iccp_alloc(&leaves->memory, n_simplices, sizeof *leaves->place);
+    m->side = iccp_alloc(&leaves->memory, n_simplices, n * sizeof *m->side);
+    if (leaves->tree.boxes == NULL || leaves->corners == NULL || leaves->block == NULL ||
+        leaves->boundary_side == NULL || leaves->place == NULL || m->side == NULL)
         return ICC_ERR_MEMORY;
-    fibres->records = fibres->block;
-    while ((uintptr_t)fibres->records % CACHE_LINE != 0 &&
-           fibres->records < fibres->block + iccp_fibre_stride(n))
-        ++fibres->records;
-    number(m);
+    leaves->records = leaves->block;
+    while ((uintptr_t)leaves->records % CACHE_LINE != 0 &&
+           leaves->records < leaves->block + iccp_leafn_stride(n))
+        ++leaves->records;
+    number_simplices(m);
     for (uint32_t place = 0; place < n_simplices; ++place)
         fill_record(m, place);
-    fibres->tree.facets = fibres->corners;
+    leaves->tree.facets = leaves->corners;
     for (uint32_t place = 0; place < n_simplices; ++place)
-        fibres->tree.order[place] = place;
+        leaves->tree.order[place] = place;
     return ICC_OK;
 }
 
-icc_status iccp_fibres_create(iccp_fibres *fibres, const iccp_simplices *mesh, uint32_t centre,
-                              const double *direction, double tolerance, const iccp_env *env)
+icc_status iccp_leafn_create(iccp_leaves *leaves, const iccp_simplices *mesh, uint32_t centre,
+                             const double *direction, double tolerance, const iccp_env *env)
 {
-    *fibres = (iccp_fibres){.memory = env->memory,
+    *leaves = (iccp_leaves){.memory = env->memory,
                             .dim = mesh->dim,
                             .n_simplices = mesh->n_simplices,
                             .centre = centre,
                             .points = mesh->points};
-    maker m = {.fibres = fibres, .mesh = mesh, .direction = direction, .tolerance = tolerance};
-    const icc_status status = make(&m);
+    maker m = {.leaves = leaves, .mesh = mesh, .direction = direction, .tolerance = tolerance};
+    const icc_status status = build(&m);
     iccp_free(&env->memory, m.side);
     if (status != ICC_OK)
-        iccp_fibres_free(fibres);
+        iccp_leafn_free(leaves);
     return status;
 }
 
-void iccp_fibres_direction(const iccp_fibres *fibres, const iccp_simplices *mesh, size_t simplex,
-                           double *direction)
+void iccp_leafn_direction(const iccp_leaves *leaves, const iccp_simplices *mesh, size_t simplex,
+                          double *direction)
 {
-    const size_t n = fibres->dim + 1, place = fibres->place[simplex];
-    const uint32_t *given = mesh->corners + n * simplex, *sorted = fibres->corners + n * place;
-    const iccp_fibre_word *record = iccp_fibre_record(fibres, (uint32_t)place);
+    const size_t n = leaves->dim + 1, place = leaves->place[simplex];
+    const uint32_t *given = mesh->corners + n * simplex, *sorted = leaves->corners + n * place;
+    const iccp_leafn_word *record = iccp_leafn_record(leaves, (uint32_t)place);
     for (size_t i = 0; i < n; ++i)
         for (size_t k = 0; k < n; ++k)
             if (sorted[k] == given[i])
                 direction[i] = record[k].number;
 }
 
-void iccp_fibres_free(iccp_fibres *fibres)
+void iccp_leafn_free(iccp_leaves *leaves)
 {
-    iccp_facet_tree_free(&fibres->tree, &fibres->memory);
-    iccp_free(&fibres->memory, fibres->corners);
-    iccp_free(&fibres->memory, fibres->block);
-    iccp_free(&fibres->memory, fibres->rim);
-    iccp_free(&fibres->memory, fibres->place);
-    *fibres = (iccp_fibres){.memory = fibres->memory};
+    iccp_facet_tree_free(&leaves->tree, &leaves->memory);
+    iccp_free(&leaves->memory, leaves->corners);
+    iccp_free(&leaves->memory, leaves->block);
+    iccp_free(&leaves->memory, leaves->boundary_side);
+    iccp_free(&leaves->memory, leaves->place);
+    *leaves = (iccp_leaves){.memory = leaves->memory};
 }

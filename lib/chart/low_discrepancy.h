@@ -1,6 +1,6 @@
 /* Evenly spread points of the unit cube, for estimates by sampling. */
-#ifndef ICCP_SPREAD_H
-#define ICCP_SPREAD_H
+#ifndef ICCP_LOW_DISCREPANCY_H
+#define ICCP_LOW_DISCREPANCY_H
 
 #include "icc/base.h"
 
@@ -11,7 +11,7 @@
  * Unreasonable Effectiveness of Quasirandom Sequences, 2018), multiples of the powers of 1/x, x^(d
  * + 1) = x + 1. Its point 0 is the middle of the cube, which is special in a symmetric shape: left
  *   out. */
-static inline double iccp_spread(int32_t dim, int32_t k, size_t index)
+static inline double iccp_low_discrepancy(int32_t dim, int32_t k, size_t index)
 {
     static const double FIRST[ICC_MAX_DIM] = {0.61803398874989485, 0.75487766624669276,
                                               0.81917251339616444, 0.85667488385450287,

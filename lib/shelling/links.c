@@ -1,4 +1,4 @@
-#include "shelling/rings.h"
+#include "shelling/links.h"
 
 #include <stdbool.h>
 
@@ -9,9 +9,9 @@ enum { SIMPLICES_PER_REPORT = 1 << 14 };
 
 typedef struct walk {
     const iccp_simplices *mesh;
-    uint32_t *facet; /* of each side: its number among iccp_rings' facets, or NONE */
+    uint32_t *facet; /* of each side: its number among iccp_links' facets, or NONE */
     uint32_t
-        *gone; /* of each simplex: bit (a, b) stands for its face without the corners a and b */
+        *visited; /* of each simplex: bit (a, b) stands for its face without the corners a and b */
 } walk;
 
 static uint32_t pair_bit(size_t a, size_t b)
@@ -30,7 +30,7 @@ static bool touches(const iccp_simplices *mesh, size_t side, uint32_t vertex)
 
 /* Numbers the facets between simplices in the order of the smaller of their sides. NONE: on the
  * domain's boundary, or within the star. */
-static void number_facets(iccp_rings *rings, const walk *w, uint32_t centre)
+static void number_facets(iccp_links *links, const walk *w, uint32_t centre)
 {
     const iccp_simplices *mesh = w->mesh;
     for (uint32_t s = 0; s < (mesh->dim + 1) * mesh->n_simplices; ++s) {
@@ -38,8 +38,8 @@ static void number_facets(iccp_rings *rings, const walk *w, uint32_t centre)
         if ((other & ICCP_ON_BOUNDARY) != 0 || (other > s && touches(mesh, s, centre))) {
             w->facet[s] = NONE;
         } else if (other > s) {
-            w->facet[s] = (uint32_t)rings->n_facets;
-            rings->side[rings->n_facets++] = s;
+            w->facet[s] = (uint32_t)links->n_facets;
+            links->side[links->n_facets++] = s;
         } else {
             w->facet[s] = w->facet[other];
         }
@@ -49,13 +49,13 @@ static void number_facets(iccp_rings *rings, const walk *w, uint32_t centre)
 /* Writes the steps round the face of a simplex without the corners `out` and `in`, beginning
  * through the side opposite `out`. Returns how many; 0 if the way does not come back, or has been
  * gone before. */
-static size_t go_round(const walk *w, size_t simplex, size_t out, size_t in, uint32_t *step)
+static size_t walk_round_face(const walk *w, size_t simplex, size_t out, size_t in, uint32_t *step)
 {
     const iccp_simplices *mesh = w->mesh;
     const size_t start = simplex, n_corners = mesh->dim + 1;
     size_t n = 0;
-    while ((w->gone[simplex] & pair_bit(out, in)) == 0) {
-        w->gone[simplex] |= pair_bit(out, in);
+    while ((w->visited[simplex] & pair_bit(out, in)) == 0) {
+        w->visited[simplex] |= pair_bit(out, in);
         const uint32_t side = (uint32_t)(n_corners * simplex + out), other = mesh->across[side];
         if ((other & ICCP_ON_BOUNDARY) != 0)
             return 0;
@@ -70,64 +70,64 @@ static size_t go_round(const walk *w, size_t simplex, size_t out, size_t in, uin
     return simplex == start ? n : 0;
 }
 
-/* Tries to walk round every face of every simplex with two corners left out; `gone` stops all
+/* Tries to walk round every face of every simplex with two corners left out; `visited` stops all
  * but the first try at each face. */
-static icc_status find_rings(iccp_rings *rings, const walk *w, const iccp_env *env)
+static icc_status find_links(iccp_links *links, const walk *w, const iccp_env *env)
 {
     const iccp_simplices *mesh = w->mesh;
     icc_status status = ICC_OK;
-    rings->first[0] = 0;
+    links->first[0] = 0;
     for (size_t t = 0; t < mesh->n_simplices && status == ICC_OK; ++t) {
         if (t % SIMPLICES_PER_REPORT == 0)
             status = iccp_progress(env, "order", (double)t / (double)mesh->n_simplices);
         for (size_t b = 1; b <= mesh->dim; ++b)
             for (size_t a = 0; a < b; ++a) {
-                const size_t end = rings->first[rings->n];
-                const size_t n_steps = go_round(w, t, a, b, rings->step + end);
+                const size_t end = links->first[links->n];
+                const size_t n_steps = walk_round_face(w, t, a, b, links->step + end);
                 if (n_steps > 0)
-                    rings->first[++rings->n] = end + n_steps;
+                    links->first[++links->n] = end + n_steps;
             }
     }
     return status;
 }
 
-/* At most as many steps as there are faces of simplices, and at least two in a ring. */
-static icc_status allocate(iccp_rings *rings, walk *w, const iccp_env *env)
+/* At most as many steps as there are faces of simplices, and at least two in a link. */
+static icc_status allocate(iccp_links *links, walk *w, const iccp_env *env)
 {
     const iccp_simplices *mesh = w->mesh;
     const size_t n_sides = (mesh->dim + 1) * mesh->n_simplices, n_steps = n_sides * mesh->dim / 2;
-    *rings = (iccp_rings){.memory = env->memory};
-    rings->side = iccp_alloc(&env->memory, n_sides / 2, sizeof *rings->side);
-    rings->first = iccp_alloc(&env->memory, n_steps / 2 + 1, sizeof *rings->first);
-    rings->step = iccp_alloc(&env->memory, n_steps, sizeof *rings->step);
+    *links = (iccp_links){.memory = env->memory};
+    links->side = iccp_alloc(&env->memory, n_sides / 2, sizeof *links->side);
+    links->first = iccp_alloc(&env->memory, n_steps / 2 + 1, sizeof *links->first);
+    links->step = iccp_alloc(&env->memory, n_steps, sizeof *links->step);
     w->facet = iccp_alloc(&env->memory, n_sides, sizeof *w->facet);
-    w->gone = iccp_alloc_zero(&env->memory, mesh->n_simplices, sizeof *w->gone);
-    return rings->side != NULL && rings->first != NULL && rings->step != NULL && w->facet != NULL &&
-                   w->gone != NULL
+    w->visited = iccp_alloc_zero(&env->memory, mesh->n_simplices, sizeof *w->visited);
+    return links->side != NULL && links->first != NULL && links->step != NULL && w->facet != NULL &&
+                   w->visited != NULL
                ? ICC_OK
                : ICC_ERR_MEMORY;
 }
 
-icc_status iccp_rings_create(iccp_rings *rings, const iccp_simplices *mesh, uint32_t centre,
+icc_status iccp_links_create(iccp_links *links, const iccp_simplices *mesh, uint32_t centre,
                              const iccp_env *env)
 {
     walk w = {.mesh = mesh};
-    icc_status status = allocate(rings, &w, env);
+    icc_status status = allocate(links, &w, env);
     if (status == ICC_OK) {
-        number_facets(rings, &w, centre);
-        status = find_rings(rings, &w, env);
+        number_facets(links, &w, centre);
+        status = find_links(links, &w, env);
     }
     iccp_free(&env->memory, w.facet);
-    iccp_free(&env->memory, w.gone);
+    iccp_free(&env->memory, w.visited);
     if (status != ICC_OK)
-        iccp_rings_free(rings);
+        iccp_links_free(links);
     return status;
 }
 
-void iccp_rings_free(iccp_rings *rings)
+void iccp_links_free(iccp_links *links)
 {
-    iccp_free(&rings->memory, rings->side);
-    iccp_free(&rings->memory, rings->first);
-    iccp_free(&rings->memory, rings->step);
-    *rings = (iccp_rings){.memory = rings->memory};
+    iccp_free(&links->memory, links->side);
+    iccp_free(&links->memory, links->first);
+    iccp_free(&links->memory, links->step);
+    *links = (iccp_links){.memory = links->memory};
 }

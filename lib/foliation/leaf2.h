@@ -1,7 +1,7 @@
 /* Following a leaf of a foliation, a level line of psi, by its label: integers decide which
  * triangle comes next, doubles say where the leaf crosses an edge. Nothing accumulates. */
-#ifndef ICCP_LEAF_H
-#define ICCP_LEAF_H
+#ifndef ICCP_LEAF2_H
+#define ICCP_LEAF2_H
 
 #include "foliation/psi.h"
 #include "trace/path.h"
@@ -16,12 +16,12 @@ typedef struct iccp_crossing {
 } iccp_crossing;
 
 /* The leaf through a point of a triangle. */
-typedef struct iccp_leaf {
+typedef struct iccp_leaf2 {
     bool in_star;       /* the triangle touches the centre: the leaf is straight from `down` to
                            it */
     iccp_crossing down; /* where the leaf enters the triangle, coming from the boundary */
     iccp_crossing up;   /* where it leaves, seen from the next triangle; not in the star */
-} iccp_leaf;
+} iccp_leaf2;
 
 /* The derivative of the label of the leaf through a point, in units, by the point. Likewise. */
 void iccp_label_gradient(const iccp_planar *mesh, const iccp_psi *psi, uint32_t triangle,
@@ -29,11 +29,11 @@ void iccp_label_gradient(const iccp_planar *mesh, const iccp_psi *psi, uint32_t 
 
 /* The leaf through the point with the given barycentric coordinates. ICC_ERR_TRACE when the
  * triangle is flat, which a certified psi excludes, or the point is the centre. */
-icc_status iccp_leaf_through(const iccp_planar *mesh, const iccp_psi *psi, uint32_t triangle,
-                             const double bary[3], iccp_leaf *leaf);
+icc_status iccp_leaf2_through(const iccp_planar *mesh, const iccp_psi *psi, uint32_t triangle,
+                              const double bary[3], iccp_leaf2 *leaf);
 
 /* The leaf from boundary edge k, `lambda` of the way along it. `corner` faces the edge. */
-iccp_crossing iccp_leaf_from_boundary(const iccp_psi *psi, uint32_t corner, double lambda);
+iccp_crossing iccp_leaf2_from_boundary(const iccp_psi *psi, uint32_t corner, double lambda);
 
 /* The derivative of the crossing's point by the leaf's label, per unit. */
 void iccp_crossing_slope(const iccp_planar *mesh, const iccp_crossing *crossing, double slope[2]);
@@ -57,8 +57,8 @@ static inline void iccp_crossing_point(const iccp_planar *mesh, const iccp_cross
 }
 
 /* Moves to the next crossing towards the centre; false when the triangle touches the centre. */
-static inline bool iccp_leaf_rise(const iccp_planar *mesh, const iccp_psi *psi,
-                                  iccp_crossing *crossing)
+static inline bool iccp_leaf2_rise(const iccp_planar *mesh, const iccp_psi *psi,
+                                   iccp_crossing *crossing)
 {
     const uint32_t corner = crossing->corner, after = iccp_after(corner);
     if (mesh->triangles[corner] == psi->centre)
@@ -72,8 +72,8 @@ static inline bool iccp_leaf_rise(const iccp_planar *mesh, const iccp_psi *psi,
 }
 
 /* Moves to the next crossing towards the boundary; false when this one is on the boundary. */
-static inline bool iccp_leaf_fall(const iccp_planar *mesh, const iccp_psi *psi,
-                                  iccp_crossing *crossing)
+static inline bool iccp_leaf2_fall(const iccp_planar *mesh, const iccp_psi *psi,
+                                   iccp_crossing *crossing)
 {
     const uint32_t twin = mesh->twins[crossing->corner];
     if (twin == ICCP_NO_NEIGHBOUR)

@@ -3,11 +3,11 @@
  * so some are tried, each with facets reversed. Where all get stuck, they are repeated with a bias
  * for the simplices that were left, as in D. E. Joslin, D. P. Clements, Squeaky Wheel Optimization,
  * 1999. */
-#include "shelling/contest.h"
+#include "shelling/best_order.h"
 
 #include "base/error.h"
 #include "base/threads.h"
-#include "shelling/turn.h"
+#include "shelling/reverse.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -31,21 +31,21 @@ enum { N_ROUNDS = 12 };
  * meshes was complete after 2 to 4 rounds. */
 static const double BIAS_LEFT = 0.01;
 
-typedef struct contest {
-    iccp_order_wish wish;
+typedef struct best_order_search {
+    iccp_order_priority priority;
     iccp_faces faces;
     iccp_circulation circulation;
     iccp_env quiet;        /* for other threads than the caller's */
     double energy[N_RUNS]; /* HUGE_VAL for an order that was not complete */
-} contest;
+} best_order_search;
 
 /* An order and the flux along it. */
-typedef struct attempt {
+typedef struct candidate {
     uint32_t *rank;
     double *flux;
     size_t n_left;
     double energy;
-} attempt;
+} candidate;
 
 static bool is_peeling(size_t run)
 {
@@ -55,19 +55,19 @@ static bool is_peeling(size_t run)
 /* Makes one order, reverses facets of it, and sends the flux along it. The greedy flux will do
  * to compare: an order whose energy was least then was within 10 % of the least after 100
  * sweeps, too. The energy is HUGE_VAL if the order is not complete. */
-static icc_status try_order(const contest *c, size_t run, const double *bias, attempt *a,
-                            const iccp_env *env)
+static icc_status try_order(const best_order_search *c, size_t run, const double *bias,
+                            candidate *a, const iccp_env *env)
 {
-    size_t n_turned;
-    iccp_order_wish wish = c->wish;
-    wish.beta = BETA[run % N_BETAS];
-    wish.bias = bias;
+    size_t n_reversed;
+    iccp_order_priority priority = c->priority;
+    priority.beta = BETA[run % N_BETAS];
+    priority.bias = bias;
     a->energy = HUGE_VAL;
     icc_status status =
-        (is_peeling(run) ? iccp_order_peel : iccp_order_grow)(&wish, a->rank, &a->n_left, env);
+        (is_peeling(run) ? iccp_order_peel : iccp_order_grow)(&priority, a->rank, &a->n_left, env);
     if (status != ICC_OK || a->n_left > 0)
         return status;
-    status = iccp_order_turn(&wish, a->rank, &n_turned, env);
+    status = iccp_order_reverse(&priority, a->rank, &n_reversed, env);
     if (status == ICC_OK)
         status = iccp_circulation_greedy(&c->circulation, a->rank, a->flux, env);
     if (status == ICC_OK)
@@ -77,12 +77,12 @@ static icc_status try_order(const contest *c, size_t run, const double *bias, at
 
 /* Only the energy of a run is kept: the winner is made once more, which saves the memory of all
  * the others. */
-static icc_status compete(contest *c, size_t run)
+static icc_status try_run(best_order_search *c, size_t run)
 {
-    const iccp_simplices *mesh = c->wish.mesh;
+    const iccp_simplices *mesh = c->priority.mesh;
     const iccp_memory *memory = &c->quiet.memory;
-    attempt a = {.rank = iccp_alloc(memory, mesh->n_simplices, sizeof *a.rank),
-                 .flux = iccp_alloc(memory, (mesh->dim + 1) * mesh->n_simplices, sizeof *a.flux)};
+    candidate a = {.rank = iccp_alloc(memory, mesh->n_simplices, sizeof *a.rank),
+                   .flux = iccp_alloc(memory, (mesh->dim + 1) * mesh->n_simplices, sizeof *a.flux)};
     icc_status status = ICC_ERR_MEMORY;
     if (a.rank != NULL && a.flux != NULL)
         status = try_order(c, run, NULL, &a, &c->quiet);
@@ -92,16 +92,16 @@ static icc_status compete(contest *c, size_t run)
     return status;
 }
 
-static icc_status compete_all(void *argument, size_t begin, size_t end)
+static icc_status try_runs(void *argument, size_t begin, size_t end)
 {
     icc_status status = ICC_OK;
     for (size_t run = begin; run < end && status == ICC_OK; ++run)
-        status = compete(argument, run);
+        status = try_run(argument, run);
     return status;
 }
 
 /* The run that does best, or N_RUNS. */
-static size_t find_best(const contest *c, size_t *n_finished)
+static size_t find_best_run(const best_order_search *c, size_t *n_finished)
 {
     size_t best = N_RUNS;
     *n_finished = 0;
@@ -115,12 +115,12 @@ static size_t find_best(const contest *c, size_t *n_finished)
 
 /* Squeaky wheel: the simplices that were left get their turn earlier the next time, by a bias
  * that adds up over the rounds. Peeling wants the greatest potential first, growing the least. */
-static void learn(const contest *c, bool peeling, const uint32_t *rank, double *bias)
+static void raise_bias(const best_order_search *c, bool peeling, const uint32_t *rank, double *bias)
 {
-    const size_t n = c->wish.mesh->n_simplices;
+    const size_t n = c->priority.mesh->n_simplices;
     double range = 0;
     for (size_t s = 0; s < n; ++s)
-        range = fmax(range, c->wish.potential[s]);
+        range = fmax(range, c->priority.potential[s]);
     for (size_t s = 0; s < n; ++s)
         if (rank[s] == UINT32_MAX)
             bias[s] += (peeling ? BIAS_LEFT : -BIAS_LEFT) * range;
@@ -128,34 +128,34 @@ static void learn(const contest *c, bool peeling, const uint32_t *rank, double *
 
 /* Repeats an order, each time with a greater bias for the simplices that were left, until it is
  * complete. `n_least` is the least that was left in any round. */
-static icc_status practise(const contest *c, size_t run, double *bias, attempt *a, size_t *n_least,
-                           const iccp_env *env)
+static icc_status retry_run(const best_order_search *c, size_t run, double *bias, candidate *a,
+                            size_t *n_least, const iccp_env *env)
 {
-    memset(bias, 0, c->wish.mesh->n_simplices * sizeof *bias);
+    memset(bias, 0, c->priority.mesh->n_simplices * sizeof *bias);
     for (int round = 0; round<N_ROUNDS && * n_least> 0; ++round) {
         const icc_status status = try_order(c, run, bias, a, env);
         if (status != ICC_OK)
             return status;
         *n_least = a->n_left < *n_least ? a->n_left : *n_least;
-        learn(c, is_peeling(run), a->rank, bias);
+        raise_bias(c, is_peeling(run), a->rank, bias);
     }
     return ICC_OK;
 }
 
 /* The winner once more; or anything that is complete in the end, if there is none. */
-static icc_status repeat(const contest *c, size_t *run, attempt *a, size_t *n_least,
-                         const iccp_env *env)
+static icc_status repeat_best_run(const best_order_search *c, size_t *run, candidate *a,
+                                  size_t *n_least, const iccp_env *env)
 {
     if (*run < N_RUNS) {
         *n_least = 0;
         return try_order(c, *run, NULL, a, env);
     }
-    double *bias = iccp_alloc(&env->memory, c->wish.mesh->n_simplices, sizeof *bias);
+    double *bias = iccp_alloc(&env->memory, c->priority.mesh->n_simplices, sizeof *bias);
     icc_status status = bias != NULL ? ICC_OK : ICC_ERR_MEMORY;
     *n_least = SIZE_MAX;
     for (size_t k = 0; status == ICC_OK && *n_least > 0 && k < N_RUNS; k += N_BETAS) {
         *run = k;
-        status = practise(c, k, bias, a, n_least, env);
+        status = retry_run(c, k, bias, a, n_least, env);
     }
     iccp_free(&env->memory, bias);
     return status;
@@ -165,8 +165,8 @@ static icc_status repeat(const contest *c, size_t *run, attempt *a, size_t *n_le
 static size_t count_reversed(const iccp_circulation *c, const uint32_t *rank)
 {
     size_t n = 0;
-    for (size_t f = 0; f < c->rings.n_facets; ++f) {
-        const uint32_t side = c->rings.side[f];
+    for (size_t f = 0; f < c->links.n_facets; ++f) {
+        const uint32_t side = c->links.side[f];
         const size_t here = iccp_simplex_of(c->mesh, side);
         const size_t there = iccp_simplex_of(c->mesh, c->mesh->across[side]);
         n += c->reference[side] > 0 ? rank[here] < rank[there] : rank[here] > rank[there];
@@ -176,17 +176,17 @@ static size_t count_reversed(const iccp_circulation *c, const uint32_t *rank)
 
 /* All runs compete, in parallel, and the best is repeated into `best`. Its greedy flux is then
  * fitted to the reference, which pays for the winner only. */
-static icc_status hold(contest *c, attempt *best, iccp_contest_info *info, const iccp_env *env,
-                       icc_error *err)
+static icc_status find_best_order(best_order_search *c, candidate *best, iccp_best_order_info *info,
+                                  const iccp_env *env, icc_error *err)
 {
     iccp_env part[3];
     iccp_split(part, 3, (const double[]){4, 2, 2}, env);
-    icc_status status = iccp_for_chunks(&part[0], "order", N_RUNS, 1, compete_all, c);
+    icc_status status = iccp_for_chunks(&part[0], "order", N_RUNS, 1, try_runs, c);
     if (status != ICC_OK)
         return status;
-    *info = (iccp_contest_info){.n_orders = N_RUNS};
-    size_t n_least, run = find_best(c, &info->n_finished);
-    status = repeat(c, &run, best, &n_least, &part[1]);
+    *info = (iccp_best_order_info){.n_orders = N_RUNS};
+    size_t n_least, run = find_best_run(c, &info->n_finished);
+    status = repeat_best_run(c, &run, best, &n_least, &part[1]);
     if (status != ICC_OK)
         return status;
     if (n_least > 0)
@@ -194,7 +194,7 @@ static icc_status hold(contest *c, attempt *best, iccp_contest_info *info, const
             err, ICC_ERR_TOPOLOGY,
             "no order was found that builds up the domain from the maximum: at best %zu of "
             "the %zu simplices are left; try another maximum or a finer mesh",
-            n_least, c->wish.mesh->n_simplices);
+            n_least, c->priority.mesh->n_simplices);
     status = iccp_circulation_relax(&c->circulation, best->rank, SWEEPS, best->flux, &part[2]);
     if (status != ICC_OK)
         return status;
@@ -206,25 +206,26 @@ static icc_status hold(contest *c, attempt *best, iccp_contest_info *info, const
     return ICC_OK;
 }
 
-icc_status iccp_contest(const iccp_simplices *mesh, uint32_t centre, const double *inflow,
-                        const double *reference, const double *potential, uint32_t *rank,
-                        double *flux, iccp_contest_info *info, const iccp_env *env, icc_error *err)
+icc_status iccp_best_order(const iccp_simplices *mesh, uint32_t centre, const double *inflow,
+                           const double *reference, const double *potential, uint32_t *rank,
+                           double *flux, iccp_best_order_info *info, const iccp_env *env,
+                           icc_error *err)
 {
-    attempt best = {.rank = rank, .flux = flux};
-    contest c = {.quiet = *env, .circulation.rings.memory = env->memory};
+    candidate best = {.rank = rank, .flux = flux};
+    best_order_search c = {.quiet = *env, .circulation.links.memory = env->memory};
     c.quiet.progress = NULL;
-    c.wish = (iccp_order_wish){.mesh = mesh,
-                               .faces = &c.faces,
-                               .centre = centre,
-                               .flux = reference,
-                               .potential = potential};
+    c.priority = (iccp_order_priority){.mesh = mesh,
+                                       .faces = &c.faces,
+                                       .centre = centre,
+                                       .flux = reference,
+                                       .potential = potential};
     iccp_env part[3];
     iccp_split(part, 3, (const double[]){1, 1, 6}, env);
     icc_status status = iccp_faces_create(&c.faces, mesh, &part[0]);
     if (status == ICC_OK)
         status = iccp_circulation_create(&c.circulation, mesh, centre, inflow, reference, &part[1]);
     if (status == ICC_OK)
-        status = hold(&c, &best, info, &part[2], err);
+        status = find_best_order(&c, &best, info, &part[2], err);
     iccp_circulation_free(&c.circulation);
     iccp_faces_free(&c.faces);
     return iccp_explain(err, status);

@@ -1,11 +1,11 @@
 /* Barycentric coordinates by elimination with pivoting, which is backward stable: they give the
  * point back to rounding however flat the simplex is. */
-#include "shelling/fibre.h"
+#include "shelling/leafn.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { CORNERS = ICCP_FIBRE_CORNERS, MAX = ICC_MAX_DIM };
+enum { CORNERS = ICCP_LEAFN_CORNERS, MAX = ICC_MAX_DIM };
 
 /* Edges from the first corner as columns, and to their right n_right columns. */
 typedef double system[MAX][2 * MAX];
@@ -46,23 +46,23 @@ static ICCP_INLINE bool solve(system a, size_t dim, size_t n_right)
     return true;
 }
 
-static ICCP_INLINE const double *set_edges(const iccp_fibres *fibres, size_t dim, uint32_t simplex,
+static ICCP_INLINE const double *set_edges(const iccp_leaves *leaves, size_t dim, uint32_t simplex,
                                            system a)
 {
-    const uint32_t *v = fibres->corners + (dim + 1) * simplex;
-    const double *origin = fibres->points + dim * v[0];
+    const uint32_t *v = leaves->corners + (dim + 1) * simplex;
+    const double *origin = leaves->points + dim * v[0];
     for (size_t j = 0; j < dim; ++j)
         for (size_t k = 0; k < dim; ++k)
-            a[k][j] = fibres->points[dim * v[j + 1] + k] - origin[k];
+            a[k][j] = leaves->points[dim * v[j + 1] + k] - origin[k];
     return origin;
 }
 
 /* Barycentric coordinates; returns the least, or -HUGE_VAL for a flat simplex. */
-static ICCP_INLINE double coordinates(const iccp_fibres *fibres, size_t dim, uint32_t simplex,
+static ICCP_INLINE double coordinates(const iccp_leaves *leaves, size_t dim, uint32_t simplex,
                                       const double *point, double *bary)
 {
     system a;
-    const double *origin = set_edges(fibres, dim, simplex, a);
+    const double *origin = set_edges(leaves, dim, simplex, a);
     for (size_t k = 0; k < dim; ++k)
         a[k][dim] = point[k] - origin[k];
     if (!solve(a, dim, 1))
@@ -77,20 +77,20 @@ static ICCP_INLINE double coordinates(const iccp_fibres *fibres, size_t dim, uin
     return fmin(least, bary[0]);
 }
 
-static double coordinates_in(const iccp_fibres *fibres, uint32_t simplex, const double *point,
+static double coordinates_in(const iccp_leaves *leaves, uint32_t simplex, const double *point,
                              double *bary)
 {
-    return fibres->dim == 3 ? coordinates(fibres, 3, simplex, point, bary)
-                            : coordinates(fibres, fibres->dim, simplex, point, bary);
+    return leaves->dim == 3 ? coordinates(leaves, 3, simplex, point, bary)
+                            : coordinates(leaves, leaves->dim, simplex, point, bary);
 }
 
-void iccp_fibres_gradient(const iccp_fibres *fibres, uint32_t simplex, iccp_fibre_jet *jet)
+void iccp_leafn_gradient(const iccp_leaves *leaves, uint32_t simplex, iccp_leafn_jet *jet)
 {
-    const size_t dim = fibres->dim;
+    const size_t dim = leaves->dim;
     system a;
     memset(jet, 0, sizeof *jet);
     jet->n = dim;
-    (void)set_edges(fibres, dim, simplex, a);
+    (void)set_edges(leaves, dim, simplex, a);
     for (size_t k = 0; k < dim; ++k)
         for (size_t j = 0; j < dim; ++j)
             a[k][dim + j] = k == j;
@@ -105,10 +105,10 @@ void iccp_fibres_gradient(const iccp_fibres *fibres, uint32_t simplex, iccp_fibr
 
 /* If rounding leaves the point outside all simplices, the one that it is least outside of, by about
  * its distance. */
-bool iccp_fibres_find(const iccp_fibres *fibres, const double *point, double tolerance,
-                      iccp_fibre_place *place, bool *inner)
+bool iccp_leafn_find(const iccp_leaves *leaves, const double *point, double tolerance,
+                     iccp_leafn_place *place, bool *inner)
 {
-    const size_t dim = fibres->dim;
+    const size_t dim = leaves->dim;
     double box[2 * MAX], bary[CORNERS], best = -HUGE_VAL;
     iccp_facet_query query;
     uint32_t simplex;
@@ -116,10 +116,10 @@ bool iccp_fibres_find(const iccp_fibres *fibres, const double *point, double tol
         box[k] = point[k] - tolerance;
         box[dim + k] = point[k] + tolerance;
     }
-    iccp_facet_query_start(&query, &fibres->tree, box);
+    iccp_facet_query_start(&query, &leaves->tree, box);
     while (best < 0 && iccp_facet_query_next(&query, &simplex)) {
-        const double margin = iccp_fibre_record(fibres, simplex)[dim + 2].number;
-        const double depth = coordinates_in(fibres, simplex, point, bary) / margin;
+        const double margin = iccp_leafn_record(leaves, simplex)[dim + 2].number;
+        const double depth = coordinates_in(leaves, simplex, point, bary) / margin;
         if (!(depth > best))
             continue;
         best = depth;

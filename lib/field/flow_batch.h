@@ -1,40 +1,40 @@
 /* LANES curves side by side, each at its own place: a lane whose curve has ended takes the next
  * one. What includes this file says how many, and for which processor the arithmetic is compiled
- * (TARGET). A lane whose attempt was not the last for its piece tries again while the others
+ * (TARGET). A lane whose step was not the last for its piece tries again while the others
  * continue with their next. */
-#ifndef ICCP_FLOW_CROWD_H
-#define ICCP_FLOW_CROWD_H
+#ifndef ICCP_FLOW_BATCH_H
+#define ICCP_FLOW_BATCH_H
 
-#include "field/flow_attempt.h"
 #include "field/flow_follow.h"
 #include "field/flow_piece.h"
+#include "field/flow_step.h"
 
 typedef struct lane {
     iccp_flow_walk walk;
     iccp_flow_curve *curve; /* NULL: there is none left */
-    int n_attempts;
+    int n_tries;
     iccp_path path;
 } lane;
 
-/* Lanes that make an attempt together. */
+/* Lanes that try a step together. */
 typedef struct group {
     lane lane[LANES];
-    attempt attempt;
+    piece_step step;
 } group;
 
 /* While one group is busy the vectors for the other come from memory. */
 enum { GROUPS = 2 };
 
-typedef struct crowd {
+typedef struct batch {
     const iccp_flow *flow;
     iccp_flow_curve *next, *end; /* curves to come */
     size_t n_busy;
     icc_status status;
     group group[GROUPS];
-} crowd;
+} batch;
 
 /* The loops over dimensions are unrolled in compiled copies for 2 and 3. */
-TARGET static void try_exits(attempt *a, int32_t dim)
+TARGET static void try_exits(piece_step *a, int32_t dim)
 {
     if (dim == 3)
         try_exit(a, 3);
@@ -45,7 +45,7 @@ TARGET static void try_exits(attempt *a, int32_t dim)
 }
 
 /* The next curve, if any. */
-TARGET static void take(crowd *c, lane *x)
+TARGET static void take_curve(batch *c, lane *x)
 {
     x->curve = NULL;
     if (c->next == c->end) {
@@ -64,7 +64,7 @@ TARGET static void measure_volume(iccp_flow_curve *curve, const iccp_flow_walk *
 {
     const iccp_flow *flow = w->flow;
     const int32_t dim = flow->grid->dim;
-    const double *normal = flow->cover->normal + (size_t)dim * curve->facet;
+    const double *normal = flow->incidence->normal + (size_t)dim * curve->facet;
     double first[ICC_MAX_DIM], last[ICC_MAX_DIM], across = 0, speed2 = 0;
     iccp_flow_vector(flow, &curve->start, first);
     iccp_flow_velocity(w, s, last);
@@ -99,13 +99,13 @@ TARGET static icc_status find_place(lane *x)
 }
 
 /* Ends a lane's curve. */
-TARGET static void finish(lane *x, icc_status status)
+TARGET static void finish_curve(lane *x, icc_status status)
 {
     x->curve->status = status == ICC_OK && x->curve->share > 0 ? find_place(x) : status;
 }
 
 /* Whether the curve continues after the piece that has been found; `a` if its series is there. */
-TARGET static ICCP_INLINE bool goes_on(lane *x, int32_t dim, const attempt *a, int l)
+TARGET static ICCP_INLINE bool curve_continues(lane *x, int32_t dim, const piece_step *a, int l)
 {
     iccp_flow_walk *w = &x->walk;
     iccp_flow_curve *curve = x->curve;
@@ -127,20 +127,20 @@ TARGET static ICCP_INLINE bool goes_on(lane *x, int32_t dim, const attempt *a, i
 }
 
 /* After a piece: into the next simplex, or to the next curve. */
-TARGET static ICCP_INLINE void move_on(crowd *c, lane *x, int32_t dim, const attempt *a, int l,
-                                       icc_status status)
+TARGET static ICCP_INLINE void leave_piece(batch *c, lane *x, int32_t dim, const piece_step *a,
+                                           int l, icc_status status)
 {
-    const bool more = status == ICC_OK && goes_on(x, dim, a, l);
+    const bool more = status == ICC_OK && curve_continues(x, dim, a, l);
     if (more)
         status = iccp_flow_cross_in(&x->walk, dim);
     if (more && status == ICC_OK)
         return;
-    finish(x, status);
-    take(c, x);
+    finish_curve(x, status);
+    take_curve(c, x);
 }
 
 /* To where there is an exit to be found. */
-TARGET static ICCP_INLINE void advance(crowd *c, lane *x, int32_t dim)
+TARGET static ICCP_INLINE void advance_to_exit(batch *c, lane *x, int32_t dim)
 {
     int32_t corner;
     while (x->curve != NULL) {
@@ -150,28 +150,28 @@ TARGET static ICCP_INLINE void advance(crowd *c, lane *x, int32_t dim)
         }
         corner = iccp_flow_root_corner(x->walk.flow, &x->walk.place, dim);
         if (corner == ICCP_FLOW_WITHIN) {
-            x->n_attempts = 0;
+            x->n_tries = 0;
             return;
         }
-        move_on(c, x, dim, NULL, 0, iccp_flow_find_radial(&x->walk, corner));
+        leave_piece(c, x, dim, NULL, 0, iccp_flow_find_radial(&x->walk, corner));
     }
 }
 
-/* After an attempt. */
-TARGET static ICCP_INLINE void evaluate(crowd *c, group *g, int l, int32_t dim)
+/* After a step. */
+TARGET static ICCP_INLINE void finish_try(batch *c, group *g, int l, int32_t dim)
 {
     lane *x = &g->lane[l];
-    attempt *a = &g->attempt;
+    piece_step *a = &g->step;
     icc_status status = ICC_OK;
     const bool found = (int)LANE(a->outcome, l) == FOUND;
-    if (!found && ++x->n_attempts < MOST_ATTEMPTS && again(a, l))
+    if (!found && ++x->n_tries < MOST_TRIES && prepare_retry(a, l))
         return;
     if (found)
         store_end(a, dim, l, &x->walk);
     else
         status = iccp_flow_find_piece_slowly(&x->walk, LANE(a->end, l));
-    move_on(c, x, dim, found ? a : NULL, l, status);
-    advance(c, x, dim);
+    leave_piece(c, x, dim, found ? a : NULL, l, status);
+    advance_to_exit(c, x, dim);
 }
 
 /* Loads the lanes that have come to a new piece; the others continue with the one that they
@@ -179,45 +179,45 @@ TARGET static ICCP_INLINE void evaluate(crowd *c, group *g, int l, int32_t dim)
 TARGET static ICCP_INLINE void load_group(group *g, int32_t dim)
 {
     for (int l = 0; l < LANES; ++l)
-        if (g->lane[l].curve != NULL && g->lane[l].n_attempts == 0)
-            load(&g->attempt, dim, l, &g->lane[l].walk);
+        if (g->lane[l].curve != NULL && g->lane[l].n_tries == 0)
+            load_start(&g->step, dim, l, &g->lane[l].walk);
 }
 
 /* Two groups take turns: the loads of one are issued before the other's arithmetic, and arrive
  * in the meantime. */
-TARGET static ICCP_INLINE void run_in(crowd *c, int32_t dim)
+TARGET static ICCP_INLINE void run_batch_in(batch *c, int32_t dim)
 {
     for (int g = 0; g < GROUPS; ++g)
         for (int l = 0; l < LANES; ++l) {
-            take(c, &c->group[g].lane[l]);
-            advance(c, &c->group[g].lane[l], dim);
+            take_curve(c, &c->group[g].lane[l]);
+            advance_to_exit(c, &c->group[g].lane[l], dim);
         }
     load_group(&c->group[0], dim);
     for (int g = 0; c->n_busy > 0 && c->status == ICC_OK; g = (g + 1) % GROUPS) {
         group *this = &c->group[g];
-        try_exits(&this->attempt, dim);
+        try_exits(&this->step, dim);
         load_group(&c->group[(g + 1) % GROUPS], dim);
         for (int l = 0; l < LANES; ++l)
             if (this->lane[l].curve != NULL)
-                evaluate(c, this, l, dim);
+                finish_try(c, this, l, dim);
     }
 }
 
-TARGET static void run(crowd *c, int32_t dim)
+TARGET static void run_batch(batch *c, int32_t dim)
 {
     if (dim == 3)
-        run_in(c, 3);
+        run_batch_in(c, 3);
     else
-        run_in(c, dim);
+        run_batch_in(c, dim);
 }
 
-TARGET static icc_status follow(const iccp_flow *flow, size_t n, iccp_flow_curve *curves,
-                                const iccp_memory *memory)
+TARGET static icc_status follow_batch(const iccp_flow *flow, size_t n, iccp_flow_curve *curves,
+                                      const iccp_memory *memory)
 {
-    crowd c = {.flow = flow, .next = curves, .end = curves + n, .n_busy = GROUPS * LANES};
+    batch c = {.flow = flow, .next = curves, .end = curves + n, .n_busy = GROUPS * LANES};
     for (int l = 0; l < GROUPS * LANES; ++l)
         iccp_path_init(&c.group[l / LANES].lane[l % LANES].path, memory);
-    run(&c, flow->grid->dim);
+    run_batch(&c, flow->grid->dim);
     for (int l = 0; l < GROUPS * LANES; ++l)
         iccp_path_clear(&c.group[l / LANES].lane[l % LANES].path);
     return c.status;

@@ -1,4 +1,4 @@
-#include "chart/gradient_rim.h"
+#include "chart/gradient_boundary.h"
 
 /* The neighbour in a layer with the highest or the lowest value, or ICCP_NONE. */
 static uint32_t extreme(const icc_function *field, const uint8_t *layer, uint32_t v, int wanted,
@@ -16,7 +16,7 @@ static uint32_t extreme(const icc_function *field, const uint8_t *layer, uint32_
 }
 
 /* f(v) = f(u) + (f(u) - f(t)). */
-static void go_on(icc_function *field, uint32_t v, uint32_t u, uint32_t t)
+static void extrapolate(icc_function *field, uint32_t v, uint32_t u, uint32_t t)
 {
     if (field->plain != NULL)
         field->plain[v] = 2 * field->plain[u] - field->plain[t];
@@ -63,7 +63,7 @@ icc_status iccp_gradient_extend(icc_function *field, const iccp_env *env)
             const uint32_t u = extreme(field, layer, v, l - 1, -1);
             if (u == ICCP_NONE)
                 continue;
-            go_on(field, v, u, extreme(field, layer, u, l - 2, 1));
+            extrapolate(field, v, u, extreme(field, layer, u, l - 2, 1));
             layer[v] = (uint8_t)l;
         }
     }

@@ -1,4 +1,4 @@
-#include "field/smooth.h"
+#include "field/extension.h"
 
 #include "base/threads.h"
 
@@ -7,7 +7,7 @@
 static const size_t GRAIN = 1 << 14; /* vertices per chunk */
 
 /* Marks the corners of a simplex as needed. */
-static void mark(iccp_smooth *s, const iccp_orders *orders, uint32_t lowest, int32_t r)
+static void mark_simplex(iccp_extension *s, const iccp_orders *orders, uint32_t lowest, int32_t r)
 {
     uint32_t corner = lowest;
     s->needed[corner] = 1;
@@ -18,7 +18,8 @@ static void mark(iccp_smooth *s, const iccp_orders *orders, uint32_t lowest, int
 }
 
 /* The vertices of simplices with a vertex inside are those joined to one. */
-static void mark_needed(iccp_smooth *s, const iccp_orders *orders, const iccp_cover *cover)
+static void mark_needed(iccp_extension *s, const iccp_orders *orders,
+                        const iccp_incidence *incidence)
 {
     const icc_grid *grid = s->grid;
     for (size_t v = 0; v < grid->n_vertices; ++v) {
@@ -27,17 +28,17 @@ static void mark_needed(iccp_smooth *s, const iccp_orders *orders, const iccp_co
                 s->needed[(ptrdiff_t)v + orders->offset[set]] = 1;
                 s->needed[(ptrdiff_t)v - orders->offset[set]] = 1;
             }
-        for (int32_t r = 0; cover->bits[v] != 0 && r < orders->n; ++r)
-            if (iccp_cover_has(cover, (uint32_t)v, r))
-                mark(s, orders, (uint32_t)v, r);
+        for (int32_t r = 0; incidence->bits[v] != 0 && r < orders->n; ++r)
+            if (iccp_incidence_has(incidence, (uint32_t)v, r))
+                mark_simplex(s, orders, (uint32_t)v, r);
     }
 }
 
 /* A walk outwards through the simplices that facets run through. */
 typedef struct outskirts {
-    iccp_smooth *smooth;
+    iccp_extension *extension;
     const iccp_orders *orders;
-    const iccp_cover *cover;
+    const iccp_incidence *incidence;
     uint32_t *queue;   /* vertices, n so far */
     int32_t *distance; /* by vertex: steps from the vertices next to the inside; -1: none yet */
     double *scale;     /* by vertex: by which the function falls with each step */
@@ -48,12 +49,12 @@ typedef struct outskirts {
  * `from` is a vertex that has one. */
 static void reach(outskirts *o, uint32_t v, uint32_t from)
 {
-    iccp_smooth *s = o->smooth;
+    iccp_extension *s = o->extension;
     if (o->distance[v] >= 0)
         return;
     o->distance[v] = o->distance[from] + 1;
     o->scale[v] = o->scale[from];
-    iccp_smooth_set(s, v, -o->scale[v] * o->distance[v], iccp_smooth_exponent(s, from));
+    iccp_extension_set(s, v, -o->scale[v] * o->distance[v], iccp_extension_exponent(s, from));
     if (s->exponent != NULL)
         o->scale[v] = -s->value[v] / o->distance[v];
     o->queue[o->n++] = v;
@@ -67,16 +68,16 @@ static void reach_star(outskirts *o, uint32_t v)
     for (int32_t r = 0; r < orders->n; ++r) {
         uint32_t lowest = v;
         for (int32_t k = 0; k <= orders->dim; ++k) {
-            if (iccp_cover_has(o->cover, lowest, r)) {
+            if (iccp_incidence_has(o->incidence, lowest, r)) {
                 uint32_t corner = lowest;
                 for (int32_t j = 0; j <= orders->dim; ++j) {
                     reach(o, corner, v);
                     if (j < orders->dim)
-                        corner += (uint32_t)o->smooth->grid->stride[orders->axis[r][j]];
+                        corner += (uint32_t)o->extension->grid->stride[orders->axis[r][j]];
                 }
             }
             if (k < orders->dim)
-                lowest -= (uint32_t)o->smooth->grid->stride[orders->axis[r][k]];
+                lowest -= (uint32_t)o->extension->grid->stride[orders->axis[r][k]];
         }
     }
 }
@@ -85,22 +86,22 @@ static void reach_star(outskirts *o, uint32_t v)
  * start. */
 static double value_behind(const outskirts *o, uint32_t v)
 {
-    const icc_grid *grid = o->smooth->grid;
+    const icc_grid *grid = o->extension->grid;
     double most = 0;
     for (int set = 1; set < 1 << grid->dim; ++set)
         for (int sign = -1; sign <= 1; sign += 2) {
             const uint32_t u = (uint32_t)((ptrdiff_t)v + sign * o->orders->offset[set]);
             if (grid->inside[u])
-                most =
-                    fmax(most, iccp_smooth_get(o->smooth, u, iccp_smooth_exponent(o->smooth, v)));
+                most = fmax(most, iccp_extension_get(o->extension, u,
+                                                     iccp_extension_exponent(o->extension, v)));
         }
     return most;
 }
 
 /* Zeros take the exponent of what lies behind them, so that scales make sense. */
-static void start_ring(outskirts *o, uint32_t v)
+static void start_layer(outskirts *o, uint32_t v)
 {
-    iccp_smooth *s = o->smooth;
+    iccp_extension *s = o->extension;
     const icc_grid *grid = s->grid;
     if (s->exponent != NULL) {
         s->exponent[v] = ICCP_ZERO_EXPONENT;
@@ -122,20 +123,20 @@ static void start_ring(outskirts *o, uint32_t v)
 
 /* Breadth-first from the vertices outside that are next to the inside, so that distances are
  * least. */
-static void extend(outskirts *o)
+static void extend_outwards(outskirts *o)
 {
-    const icc_grid *grid = o->smooth->grid;
+    const icc_grid *grid = o->extension->grid;
     for (size_t v = 0; v < grid->n_vertices; ++v) {
         o->distance[v] = grid->inside[v] ? 0 : -1;
-        if (!grid->inside[v] && o->smooth->needed[v])
-            start_ring(o, (uint32_t)v);
+        if (!grid->inside[v] && o->extension->needed[v])
+            start_layer(o, (uint32_t)v);
     }
     for (size_t i = 0; i < o->n; ++i)
         reach_star(o, o->queue[i]);
 }
 
 typedef struct sweep {
-    const iccp_smooth *from;
+    const iccp_extension *from;
     const iccp_orders *orders;
     double *value;
     int32_t *exponent;
@@ -143,14 +144,14 @@ typedef struct sweep {
 
 /* Between a vertex inside and others: what lies outside may belong to a part of the domain across a
  * gap, where the function is larger by any factor. */
-static double mean_inside(const iccp_smooth *s, size_t v, int32_t exponent)
+static double mean_inside(const iccp_extension *s, size_t v, int32_t exponent)
 {
     const icc_grid *grid = s->grid;
     const double own = s->value[v];
     double sum = 0;
     for (int32_t k = 0; k < 2 * grid->dim; ++k) {
         const size_t u = k % 2 == 0 ? v - grid->stride[k / 2] : v + grid->stride[k / 2];
-        const double other = iccp_smooth_get(s, (uint32_t)u, exponent);
+        const double other = iccp_extension_get(s, (uint32_t)u, exponent);
         sum += grid->inside[u] ? other : fmax(fmin(other, own), -own);
     }
     return 0.5 * (own + sum / (2.0 * grid->dim));
@@ -159,17 +160,17 @@ static double mean_inside(const iccp_smooth *s, size_t v, int32_t exponent)
 /* Not above half of any value inside that it is joined to, for the same reason. */
 static double mean_outside(const sweep *w, size_t v, int32_t exponent)
 {
-    const iccp_smooth *s = w->from;
+    const iccp_extension *s = w->from;
     const icc_grid *grid = s->grid;
     double sum = 0, most = HUGE_VAL;
     for (int32_t k = 0; k < grid->dim; ++k)
-        sum += iccp_smooth_get(s, (uint32_t)(v - grid->stride[k]), exponent) +
-               iccp_smooth_get(s, (uint32_t)(v + grid->stride[k]), exponent);
+        sum += iccp_extension_get(s, (uint32_t)(v - grid->stride[k]), exponent) +
+               iccp_extension_get(s, (uint32_t)(v + grid->stride[k]), exponent);
     for (int set = 1; set < 1 << grid->dim; ++set)
         for (int sign = -1; sign <= 1; sign += 2) {
             const uint32_t u = (uint32_t)((ptrdiff_t)v + sign * w->orders->offset[set]);
             if (grid->inside[u])
-                most = fmin(most, 0.5 * iccp_smooth_get(s, u, exponent));
+                most = fmin(most, 0.5 * iccp_extension_get(s, u, exponent));
         }
     return fmin(0.5 * (s->value[v] + sum / (2.0 * grid->dim)), most);
 }
@@ -178,10 +179,10 @@ static double mean_outside(const sweep *w, size_t v, int32_t exponent)
 static icc_status sweep_chunk(void *argument, size_t begin, size_t end)
 {
     sweep *w = argument;
-    const iccp_smooth *s = w->from;
+    const iccp_extension *s = w->from;
     const iccp_scaled to = {w->value, w->exponent};
     for (size_t v = begin; v < end; ++v) {
-        const int32_t exponent = iccp_smooth_exponent(s, (uint32_t)v);
+        const int32_t exponent = iccp_extension_exponent(s, (uint32_t)v);
         w->value[v] = s->value[v];
         if (w->exponent != NULL)
             w->exponent[v] = exponent;
@@ -198,7 +199,7 @@ static icc_status sweep_chunk(void *argument, size_t begin, size_t end)
 }
 
 /* One Jacobi sweep into new arrays, which then take the place of the old ones. */
-static icc_status run_sweep(iccp_smooth *s, const iccp_orders *orders, const iccp_env *env)
+static icc_status run_sweep(iccp_extension *s, const iccp_orders *orders, const iccp_env *env)
 {
     const size_t n = s->grid->n_vertices;
     sweep w = {.from = s, .orders = orders};
@@ -223,7 +224,7 @@ static icc_status run_sweep(iccp_smooth *s, const iccp_orders *orders, const icc
 }
 
 /* Copies the function's values inside; 0 elsewhere. */
-static icc_status allocate(iccp_smooth *s, const icc_function *field)
+static icc_status allocate(iccp_extension *s, const icc_function *field)
 {
     const size_t n = s->grid->n_vertices;
     s->needed = iccp_alloc_zero(&s->memory, n, sizeof *s->needed);
@@ -241,17 +242,18 @@ static icc_status allocate(iccp_smooth *s, const icc_function *field)
     return ICC_OK;
 }
 
-static icc_status extend_all(iccp_smooth *s, const iccp_orders *orders, const iccp_cover *cover)
+static icc_status extend_all(iccp_extension *s, const iccp_orders *orders,
+                             const iccp_incidence *incidence)
 {
     const size_t n = s->grid->n_vertices;
-    outskirts o = {.smooth = s, .orders = orders, .cover = cover};
+    outskirts o = {.extension = s, .orders = orders, .incidence = incidence};
     o.queue = iccp_alloc(&s->memory, n, sizeof *o.queue);
     o.distance = iccp_alloc(&s->memory, n, sizeof *o.distance);
     o.scale = iccp_alloc(&s->memory, n, sizeof *o.scale);
     const bool has_memory = o.queue != NULL && o.distance != NULL && o.scale != NULL;
     if (has_memory) {
-        mark_needed(s, orders, cover);
-        extend(&o);
+        mark_needed(s, orders, incidence);
+        extend_outwards(&o);
     }
     iccp_free(&s->memory, o.queue);
     iccp_free(&s->memory, o.distance);
@@ -259,29 +261,29 @@ static icc_status extend_all(iccp_smooth *s, const iccp_orders *orders, const ic
     return has_memory ? ICC_OK : ICC_ERR_MEMORY;
 }
 
-icc_status iccp_smooth_create(iccp_smooth *smooth, const icc_function *field,
-                              const iccp_cover *cover, int sweeps, const iccp_env *env)
+icc_status iccp_extension_create(iccp_extension *extension, const icc_function *field,
+                                 const iccp_incidence *incidence, int sweeps, const iccp_env *env)
 {
-    *smooth =
-        (iccp_smooth){.memory = env->memory, .grid = field->tree->grid, .root = field->tree->root};
+    *extension = (iccp_extension){
+        .memory = env->memory, .grid = field->tree->grid, .root = field->tree->root};
     iccp_orders *orders = iccp_alloc(&env->memory, 1, sizeof *orders);
-    icc_status status = orders != NULL ? allocate(smooth, field) : ICC_ERR_MEMORY;
+    icc_status status = orders != NULL ? allocate(extension, field) : ICC_ERR_MEMORY;
     if (status == ICC_OK) {
-        iccp_orders_init(orders, smooth->grid);
-        status = extend_all(smooth, orders, cover);
+        iccp_orders_init(orders, extension->grid);
+        status = extend_all(extension, orders, incidence);
     }
     for (int k = 0; status == ICC_OK && k < sweeps; ++k) {
         const iccp_env part = iccp_part(env, NULL, (double)k / sweeps, (k + 1.0) / sweeps);
-        status = run_sweep(smooth, orders, &part);
+        status = run_sweep(extension, orders, &part);
     }
     iccp_free(&env->memory, orders);
     return status;
 }
 
-void iccp_smooth_free(iccp_smooth *smooth)
+void iccp_extension_free(iccp_extension *extension)
 {
-    iccp_free(&smooth->memory, smooth->value);
-    iccp_free(&smooth->memory, smooth->exponent);
-    iccp_free(&smooth->memory, smooth->needed);
-    *smooth = (iccp_smooth){.memory = smooth->memory};
+    iccp_free(&extension->memory, extension->value);
+    iccp_free(&extension->memory, extension->exponent);
+    iccp_free(&extension->memory, extension->needed);
+    *extension = (iccp_extension){.memory = extension->memory};
 }

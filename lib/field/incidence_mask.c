@@ -2,7 +2,7 @@
  * grid (domain/mask_boundary.c), a number of grid steps on each. All is found in whole numbers, and
  * once for every vertex of the grid on the boundary, not for every pair of a facet and a
  * simplex. */
-#include "field/cover_mask.h"
+#include "field/incidence_mask.h"
 
 #include "domain/mask.h"
 
@@ -16,7 +16,7 @@ static const double ROUNDING = 1e-9;
 
 /* The mask in the lattice. */
 typedef struct layout {
-    iccp_cover *cover;
+    iccp_incidence *incidence;
     const iccp_orders *orders;
     int64_t first[ICC_MAX_DIM]; /* lattice coordinates of the mask's lowest corner */
     int64_t half;               /* steps of the grid in half a cell of the mask */
@@ -41,8 +41,8 @@ static bool is_whole(double x)
  * sides. */
 static bool find_layout(layout *l)
 {
-    const icc_grid *grid = l->cover->grid;
-    const icc_domain *domain = l->cover->domain;
+    const icc_grid *grid = l->incidence->grid;
+    const icc_domain *domain = l->incidence->domain;
     if (domain->mask == NULL)
         return false;
     const double half = 0.5 * domain->frame.in[0] * domain->frame.in[1] / grid->spacing;
@@ -64,10 +64,11 @@ static bool find_layout(layout *l)
 /* Whether the cell of the grid with this lowest corner lies in the mask. */
 static bool is_solid(const layout *l, uint32_t lowest)
 {
-    const iccp_mask *mask = l->cover->domain->mask;
+    const iccp_mask *mask = l->incidence->domain->mask;
     size_t cell = 0;
     for (int32_t k = 0; k < mask->dim; ++k) {
-        const int64_t at = (int64_t)iccp_grid_coordinate(l->cover->grid, lowest, k) - l->first[k];
+        const int64_t at =
+            (int64_t)iccp_grid_coordinate(l->incidence->grid, lowest, k) - l->first[k];
         if (at < 0 || at >= 2 * l->half * (int64_t)mask->shape[k])
             return false;
         cell += mask->stride[k] * (size_t)(1 + at / (2 * l->half));
@@ -79,8 +80,8 @@ static bool is_solid(const layout *l, uint32_t lowest)
  * high. */
 static void load_chain(const layout *l, uint32_t facet, chain *c)
 {
-    const icc_grid *grid = l->cover->grid;
-    const icc_domain *domain = l->cover->domain;
+    const icc_grid *grid = l->incidence->grid;
+    const icc_domain *domain = l->incidence->domain;
     const int32_t dim = grid->dim;
     c->lowest = 0;
     c->normal_axis = 0;
@@ -120,7 +121,7 @@ static bool next_point(int32_t n, int64_t half, int64_t *step)
 
 static uint32_t point_of(const layout *l, const chain *c, const int64_t *step)
 {
-    const icc_grid *grid = l->cover->grid;
+    const icc_grid *grid = l->incidence->grid;
     size_t v = c->lowest;
     for (int32_t i = 0; i + 1 < grid->dim; ++i)
         v += (size_t)step[i] * grid->stride[c->axis[i]];
@@ -129,8 +130,8 @@ static uint32_t point_of(const layout *l, const chain *c, const int64_t *step)
 
 static void count_facet(layout *l, uint32_t facet)
 {
-    const int32_t dim = l->cover->grid->dim;
-    double *normal = l->cover->normal + (size_t)dim * facet;
+    const int32_t dim = l->incidence->grid->dim;
+    double *normal = l->incidence->normal + (size_t)dim * facet;
     int64_t step[ICC_MAX_DIM] = {0};
     chain c;
     load_chain(l, facet, &c);
@@ -149,16 +150,16 @@ static void note_facet(layout *l, uint32_t facet)
     load_chain(l, facet, &c);
     do {
         const uint32_t v = point_of(l, &c, step);
-        if (l->cover->first[v] < l->cover->first[v + 1])
-            l->cover->facet[l->count[v]++] = facet;
-    } while (next_point(l->cover->grid->dim - 1, l->half, step));
+        if (l->incidence->first[v] < l->incidence->first[v + 1])
+            l->incidence->facet[l->count[v]++] = facet;
+    } while (next_point(l->incidence->grid->dim - 1, l->half, step));
 }
 
 /* The lowest corner of the simplex of an order in which a vertex is corner k, and whether any is
  * inside. */
 static uint32_t lowest_of(const layout *l, uint32_t v, int32_t r, int32_t k, bool *any_inside)
 {
-    const icc_grid *grid = l->cover->grid;
+    const icc_grid *grid = l->incidence->grid;
     const int8_t *axis = l->orders->axis[r];
     uint32_t lowest = v;
     for (int32_t i = 0; i < k; ++i)
@@ -176,7 +177,7 @@ static uint32_t lowest_of(const layout *l, uint32_t v, int32_t r, int32_t k, boo
  * any. */
 static bool mark_star(const layout *l, uint32_t v)
 {
-    const int32_t dim = l->cover->grid->dim;
+    const int32_t dim = l->incidence->grid->dim;
     bool met = false;
     for (int32_t r = 0; r < l->orders->n; ++r)
         for (int32_t k = 0; k <= dim; ++k) {
@@ -185,10 +186,10 @@ static bool mark_star(const layout *l, uint32_t v)
             if (!active && !is_solid(l, lowest))
                 continue;
             met = true;
-            l->cover->bits[lowest] |= (uint32_t)1 << (r % 32);
+            l->incidence->bits[lowest] |= (uint32_t)1 << (r % 32);
             for (int32_t i = 0; i <= dim; ++i)
                 if (i != k)
-                    l->cover->faces[lowest] |= iccp_cover_face_bit(dim, r, i);
+                    l->incidence->faces[lowest] |= iccp_incidence_face_bit(dim, r, i);
         }
     return met;
 }
@@ -196,7 +197,7 @@ static bool mark_star(const layout *l, uint32_t v)
 static icc_status visit(layout *l, void (*visit_facet)(layout *l, uint32_t facet), double share,
                         const iccp_env *env)
 {
-    const size_t n = l->cover->domain->n_facets;
+    const size_t n = l->incidence->domain->n_facets;
     icc_status status = ICC_OK;
     for (size_t f = 0; status == ICC_OK && f < n; ++f) {
         if (f % FACETS_PER_REPORT == 0)
@@ -206,16 +207,17 @@ static icc_status visit(layout *l, void (*visit_facet)(layout *l, uint32_t facet
     return status;
 }
 
-bool iccp_cover_fits_mask(const iccp_cover *cover)
+bool iccp_incidence_fits_mask(const iccp_incidence *incidence)
 {
-    layout l = {.cover = (iccp_cover *)cover};
+    layout l = {.incidence = (iccp_incidence *)incidence};
     return find_layout(&l);
 }
 
-icc_status iccp_cover_mask(iccp_cover *cover, const iccp_orders *orders, const iccp_env *env)
+icc_status iccp_incidence_mask(iccp_incidence *incidence, const iccp_orders *orders,
+                               const iccp_env *env)
 {
-    const size_t n = cover->grid->n_vertices;
-    layout l = {.cover = cover, .orders = orders};
+    const size_t n = incidence->grid->n_vertices;
+    layout l = {.incidence = incidence, .orders = orders};
     (void)find_layout(&l);
     l.count = iccp_alloc_zero(&env->memory, n, sizeof *l.count);
     if (l.count == NULL)
@@ -225,7 +227,7 @@ icc_status iccp_cover_mask(iccp_cover *cover, const iccp_orders *orders, const i
         if (l.count[v] > 0 && !mark_star(&l, v))
             l.count[v] = 0;
     if (status == ICC_OK)
-        status = iccp_cover_make_room(cover, l.count);
+        status = iccp_incidence_make_room(incidence, l.count);
     if (status == ICC_OK)
         status = visit(&l, note_facet, 0.5, env);
     iccp_free(&env->memory, l.count);

@@ -1,9 +1,9 @@
 /* A simplex and a facet have a common point unless some plane separates them. Only the planes of
  * the simplex' own facets and the plane of the facet are tried, so that a few simplices are taken
  * to touch although they do not; none is missed. */
-#include "field/cover.h"
+#include "field/incidence.h"
 
-#include "field/cover_mask.h"
+#include "field/incidence_mask.h"
 
 #include <math.h>
 #include <string.h>
@@ -69,7 +69,7 @@ void iccp_orders_init(iccp_orders *orders, const icc_grid *grid)
 
 /* A facet on its way through the grid. */
 typedef struct scan {
-    iccp_cover *cover;
+    iccp_incidence *incidence;
     const icc_domain *domain;
     const iccp_orders *orders;
     uint32_t facet;
@@ -168,7 +168,7 @@ static double side_of(const scan *s, const double *v)
 static void load_corners(scan *s, uint32_t facet)
 {
     const int32_t dim = s->domain->dim;
-    const icc_grid *grid = s->cover->grid;
+    const icc_grid *grid = s->incidence->grid;
     s->facet = facet;
     for (int32_t i = 0; i < dim; ++i) {
         const double *p =
@@ -185,7 +185,7 @@ static void find_level(scan *s)
         s->level += s->normal[k] * s->corner[0][k];
 }
 
-static void load(scan *s, uint32_t facet)
+static void load_facet(scan *s, uint32_t facet)
 {
     const int32_t dim = s->domain->dim;
     load_corners(s, facet);
@@ -195,7 +195,7 @@ static void load(scan *s, uint32_t facet)
     const double outward = side_of(s, s->normal) * s->domain->orientation * parity;
     for (int32_t k = 0; k < dim; ++k) {
         s->normal[k] = outward > 0 ? -s->normal[k] : s->normal[k];
-        s->cover->normal[(size_t)dim * facet + (size_t)k] = s->normal[k];
+        s->incidence->normal[(size_t)dim * facet + (size_t)k] = s->normal[k];
     }
     find_level(s);
 }
@@ -247,7 +247,7 @@ static contact contact_with(scan *s, const int32_t *cell, const int8_t *axis)
 /* The corners of a simplex in a cell, and whether one is inside. */
 static bool corners_of(const scan *s, uint32_t lowest, const int8_t *axis, uint32_t *corner)
 {
-    const icc_grid *grid = s->cover->grid;
+    const icc_grid *grid = s->incidence->grid;
     bool any = grid->inside[lowest];
     corner[0] = lowest;
     for (int32_t k = 0; k < grid->dim; ++k) {
@@ -261,7 +261,7 @@ static bool corners_of(const scan *s, uint32_t lowest, const int8_t *axis, uint3
  * has a bit. */
 static bool middle_is_inside(const scan *s, const int32_t *cell, uint32_t lowest, int32_t r)
 {
-    const icc_grid *grid = s->cover->grid;
+    const icc_grid *grid = s->incidence->grid;
     const int8_t *axis = s->orders->axis[r];
     const uint32_t bit = s->orders->n <= 32 ? (uint32_t)1 << r : 0;
     double middle[ICC_MAX_DIM];
@@ -282,7 +282,7 @@ static bool reserve(scan *s)
     const size_t room = 2 * s->room + 1024, most = (size_t)s->domain->dim + 1;
     if (s->n_noted + most <= s->room)
         return true;
-    uint32_t *noted = iccp_grow(&s->cover->memory, s->noted, s->n_noted, room, sizeof *noted);
+    uint32_t *noted = iccp_grow(&s->incidence->memory, s->noted, s->n_noted, room, sizeof *noted);
     if (noted == NULL)
         return false;
     s->noted = noted;
@@ -308,21 +308,21 @@ static bool note(scan *s, const uint32_t *corner)
 
 static bool visit_simplex(scan *s, const int32_t *cell, uint32_t lowest, int32_t r)
 {
-    const icc_grid *grid = s->cover->grid;
+    const icc_grid *grid = s->incidence->grid;
     const int8_t *axis = s->orders->axis[r];
     uint32_t corner[ICC_MAX_DIM + 1];
     const contact c = contact_with(s, cell, axis);
     if (c == APART)
         return true;
     const bool any_inside = corners_of(s, lowest, axis, corner);
-    const bool has = iccp_cover_has(s->cover, lowest, r);
+    const bool has = iccp_incidence_has(s->incidence, lowest, r);
     /* What is grazed from outside belongs to nobody, unless another facet runs through it. */
     if (c == GRAZES && !any_inside && !has && !middle_is_inside(s, cell, lowest, r))
         return true;
-    s->cover->bits[lowest] |= (uint32_t)1 << (r % 32);
+    s->incidence->bits[lowest] |= (uint32_t)1 << (r % 32);
     for (int32_t i = 0; i <= grid->dim; ++i)
         if (s->faces >> i & 1)
-            s->cover->faces[lowest] |= iccp_cover_face_bit(grid->dim, r, i);
+            s->incidence->faces[lowest] |= iccp_incidence_face_bit(grid->dim, r, i);
     return s->second ? note(s, corner) : true;
 }
 
@@ -330,7 +330,7 @@ static bool visit_simplex(scan *s, const int32_t *cell, uint32_t lowest, int32_t
  * again. */
 static bool visit_cell(scan *s, const int32_t *cell)
 {
-    const icc_grid *grid = s->cover->grid;
+    const icc_grid *grid = s->incidence->grid;
     uint32_t lowest = 0;
     for (int32_t k = 0; k < grid->dim; ++k)
         lowest += (uint32_t)cell[k] * (uint32_t)grid->stride[k];
@@ -349,9 +349,9 @@ static bool visit_cell(scan *s, const int32_t *cell)
 static bool visit_facet(scan *s, uint32_t facet)
 {
     const int32_t dim = s->domain->dim;
-    const icc_grid *grid = s->cover->grid;
+    const icc_grid *grid = s->incidence->grid;
     int32_t first[ICC_MAX_DIM], last[ICC_MAX_DIM], cell[ICC_MAX_DIM];
-    load(s, facet);
+    load_facet(s, facet);
     for (int32_t k = 0; k < dim; ++k) {
         double low = s->corner[0][k], high = low;
         for (int32_t i = 1; i < dim; ++i) {
@@ -389,30 +389,30 @@ static icc_status visit_all(scan *s, const iccp_env *env)
     return status;
 }
 
-icc_status iccp_cover_make_room(iccp_cover *cover, uint32_t *count)
+icc_status iccp_incidence_make_room(iccp_incidence *incidence, uint32_t *count)
 {
-    const size_t n = cover->grid->n_vertices;
+    const size_t n = incidence->grid->n_vertices;
     size_t sum = 0;
     for (size_t v = 0; v < n; ++v) {
         const size_t own = count[v];
-        count[v] = cover->first[v] = (uint32_t)sum;
+        count[v] = incidence->first[v] = (uint32_t)sum;
         sum += own;
         if (sum > UINT32_MAX)
             return ICC_ERR_RESOLUTION;
     }
-    cover->first[n] = (uint32_t)sum;
-    cover->facet = iccp_alloc(&cover->memory, sum, sizeof *cover->facet);
-    return cover->facet != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    incidence->first[n] = (uint32_t)sum;
+    incidence->facet = iccp_alloc(&incidence->memory, sum, sizeof *incidence->facet);
+    return incidence->facet != NULL ? ICC_OK : ICC_ERR_MEMORY;
 }
 
 /* From the vertices of each facet to the facets at each vertex. */
 static icc_status turn_round(scan *s)
 {
-    const icc_status status = iccp_cover_make_room(s->cover, s->count);
+    const icc_status status = iccp_incidence_make_room(s->incidence, s->count);
     size_t i = 0;
     for (size_t f = 0; status == ICC_OK && f < s->domain->n_facets; ++f)
         for (; i < s->end[f]; ++i)
-            s->cover->facet[s->count[s->noted[i]]++] = (uint32_t)f;
+            s->incidence->facet[s->count[s->noted[i]]++] = (uint32_t)f;
     return status;
 }
 
@@ -427,14 +427,15 @@ static icc_status visit_twice(scan *s, const iccp_env *env)
     return status == ICC_OK ? turn_round(s) : status;
 }
 
-static icc_status fill(iccp_cover *cover, const iccp_orders *orders, const iccp_env *env)
+static icc_status fill_incidence(iccp_incidence *incidence, const iccp_orders *orders,
+                                 const iccp_env *env)
 {
-    const size_t n = cover->grid->n_vertices;
-    scan s = {.cover = cover, .domain = cover->domain, .orders = orders};
+    const size_t n = incidence->grid->n_vertices;
+    scan s = {.incidence = incidence, .domain = incidence->domain, .orders = orders};
     s.seen = iccp_alloc_zero(&env->memory, n, sizeof *s.seen);
     s.count = iccp_alloc_zero(&env->memory, n, sizeof *s.count);
     s.outside = iccp_alloc_zero(&env->memory, n, sizeof *s.outside);
-    s.end = iccp_alloc(&env->memory, cover->domain->n_facets, sizeof *s.end);
+    s.end = iccp_alloc(&env->memory, incidence->domain->n_facets, sizeof *s.end);
     icc_status status = ICC_ERR_MEMORY;
     if (s.seen != NULL && s.count != NULL && s.outside != NULL && s.end != NULL)
         status = visit_twice(&s, env);
@@ -446,49 +447,49 @@ static icc_status fill(iccp_cover *cover, const iccp_orders *orders, const iccp_
     return status;
 }
 
-icc_status iccp_cover_create(iccp_cover *cover, const icc_domain *domain, const icc_grid *grid,
-                             const iccp_env *env)
+icc_status iccp_incidence_create(iccp_incidence *incidence, const icc_domain *domain,
+                                 const icc_grid *grid, const iccp_env *env)
 {
     const size_t n = grid->n_vertices;
-    *cover = (iccp_cover){.memory = env->memory, .grid = grid, .domain = domain};
-    cover->bits = iccp_alloc_zero(&env->memory, n, sizeof *cover->bits);
-    cover->faces = iccp_alloc_zero(&env->memory, n, sizeof *cover->faces);
-    cover->first = iccp_alloc(&env->memory, n + 1, sizeof *cover->first);
-    cover->normal =
-        iccp_alloc(&env->memory, domain->n_facets * (size_t)domain->dim, sizeof *cover->normal);
+    *incidence = (iccp_incidence){.memory = env->memory, .grid = grid, .domain = domain};
+    incidence->bits = iccp_alloc_zero(&env->memory, n, sizeof *incidence->bits);
+    incidence->faces = iccp_alloc_zero(&env->memory, n, sizeof *incidence->faces);
+    incidence->first = iccp_alloc(&env->memory, n + 1, sizeof *incidence->first);
+    incidence->normal =
+        iccp_alloc(&env->memory, domain->n_facets * (size_t)domain->dim, sizeof *incidence->normal);
     iccp_orders *orders = iccp_alloc(&env->memory, 1, sizeof *orders);
     icc_status status = ICC_ERR_MEMORY;
-    if (cover->bits != NULL && cover->faces != NULL && cover->first != NULL &&
-        cover->normal != NULL && orders != NULL) {
+    if (incidence->bits != NULL && incidence->faces != NULL && incidence->first != NULL &&
+        incidence->normal != NULL && orders != NULL) {
         iccp_orders_init(orders, grid);
-        status = iccp_cover_fits_mask(cover) ? iccp_cover_mask(cover, orders, env)
-                                             : fill(cover, orders, env);
+        status = iccp_incidence_fits_mask(incidence) ? iccp_incidence_mask(incidence, orders, env)
+                                                     : fill_incidence(incidence, orders, env);
     }
     iccp_free(&env->memory, orders);
     return status;
 }
 
-bool iccp_cover_touches(const iccp_cover *cover, uint32_t facet, uint32_t lowest,
-                        const int8_t *axis)
+bool iccp_incidence_touches(const iccp_incidence *incidence, uint32_t facet, uint32_t lowest,
+                            const int8_t *axis)
 {
-    const int32_t dim = cover->grid->dim;
-    scan s = {.cover = (iccp_cover *)cover, .domain = cover->domain};
+    const int32_t dim = incidence->grid->dim;
+    scan s = {.incidence = (iccp_incidence *)incidence, .domain = incidence->domain};
     int32_t cell[ICC_MAX_DIM];
     load_corners(&s, facet);
     for (int32_t k = 0; k < dim; ++k) {
-        cell[k] = (int32_t)iccp_grid_coordinate(cover->grid, lowest, k);
-        s.normal[k] = cover->normal[(size_t)dim * facet + (size_t)k];
+        cell[k] = (int32_t)iccp_grid_coordinate(incidence->grid, lowest, k);
+        s.normal[k] = incidence->normal[(size_t)dim * facet + (size_t)k];
     }
     find_level(&s);
     return contact_with(&s, cell, axis) != APART;
 }
 
-void iccp_cover_free(iccp_cover *cover)
+void iccp_incidence_free(iccp_incidence *incidence)
 {
-    iccp_free(&cover->memory, cover->bits);
-    iccp_free(&cover->memory, cover->faces);
-    iccp_free(&cover->memory, cover->first);
-    iccp_free(&cover->memory, cover->facet);
-    iccp_free(&cover->memory, cover->normal);
-    *cover = (iccp_cover){.memory = cover->memory};
+    iccp_free(&incidence->memory, incidence->bits);
+    iccp_free(&incidence->memory, incidence->faces);
+    iccp_free(&incidence->memory, incidence->first);
+    iccp_free(&incidence->memory, incidence->facet);
+    iccp_free(&incidence->memory, incidence->normal);
+    *incidence = (iccp_incidence){.memory = incidence->memory};
 }

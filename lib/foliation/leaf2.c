@@ -1,6 +1,6 @@
 /* Level lines of a piecewise linear function in a triangle mesh; docs/theory.md, foliations. With
  * certified labels a leaf meets no triangle twice, so every walk ends. */
-#include "foliation/leaf.h"
+#include "foliation/leaf2.h"
 
 #include "math/predicates.h"
 
@@ -13,21 +13,21 @@ static int64_t part_of(int64_t rise, double share)
 
 /* In the star leaves are rays from the centre; `corner` is the centre's. */
 static icc_status leaf_in_star(const iccp_psi *psi, uint32_t corner, const double bary[3],
-                               iccp_leaf *leaf)
+                               iccp_leaf2 *leaf)
 {
     const double a = bary[iccp_after(corner) % 3], b = bary[iccp_before(corner) % 3];
     if (!(a + b > 0) || psi->rise[corner] <= 0)
         return ICC_ERR_TRACE;
     const int64_t below = part_of(psi->rise[corner], b / (a + b));
-    *leaf = (iccp_leaf){.in_star = true, .down = {corner, below, psi->rise[corner] - below}};
+    *leaf = (iccp_leaf2){.in_star = true, .down = {corner, below, psi->rise[corner] - below}};
     return ICC_OK;
 }
 
 /* The label is linear in a triangle without the centre: taken relative to corner 0, `own` is the
  * point's, rounded to strictly between the least and the greatest. The exact signs of the
  * corners' labels minus `own` then say which two edges the leaf crosses. */
-icc_status iccp_leaf_through(const iccp_planar *mesh, const iccp_psi *psi, uint32_t triangle,
-                             const double bary[3], iccp_leaf *leaf)
+icc_status iccp_leaf2_through(const iccp_planar *mesh, const iccp_psi *psi, uint32_t triangle,
+                              const double bary[3], iccp_leaf2 *leaf)
 {
     const uint32_t first = 3 * triangle;
     for (uint32_t k = 0; k < 3; ++k)
@@ -43,7 +43,7 @@ icc_status iccp_leaf_through(const iccp_planar *mesh, const iccp_psi *psi, uint3
     const double value = bary[0] * (double)(label[0] - low) + bary[1] * (double)(label[1] - low) +
                          bary[2] * (double)(label[2] - low);
     const int64_t own = low + part_of(high - low, value / (double)(high - low));
-    *leaf = (iccp_leaf){.in_star = false};
+    *leaf = (iccp_leaf2){.in_star = false};
     for (uint32_t k = 0; k < 3; ++k) {
         const int64_t a = label[(k + 1) % 3] - own, b = label[(k + 2) % 3] - own;
         if (a < 0 && b >= 0)
@@ -91,7 +91,7 @@ void iccp_label_gradient(const iccp_planar *mesh, const iccp_psi *psi, uint32_t 
     }
 }
 
-iccp_crossing iccp_leaf_from_boundary(const iccp_psi *psi, uint32_t corner, double lambda)
+iccp_crossing iccp_leaf2_from_boundary(const iccp_psi *psi, uint32_t corner, double lambda)
 {
     const int64_t below = part_of(psi->rise[corner], lambda);
     return (iccp_crossing){corner, below, psi->rise[corner] - below};

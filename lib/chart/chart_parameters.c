@@ -1,17 +1,17 @@
-#include "chart/recipe.h"
+#include "chart/chart_parameters.h"
 
 #include "base/error.h"
 
 #include <math.h>
 #include <string.h>
 
-void iccp_recipe_keep(iccp_recipe *recipe, const icc_chart_options *options, const double *maximum,
-                      int32_t dim)
+void iccp_chart_parameters_set(iccp_chart_parameters *parameters, const icc_chart_options *options,
+                               const double *maximum, int32_t dim)
 {
-    *recipe = (iccp_recipe){.options = *options, .has_maximum = maximum != NULL};
-    recipe->options.maximum = NULL;
+    *parameters = (iccp_chart_parameters){.options = *options, .has_maximum = maximum != NULL};
+    parameters->options.maximum = NULL;
     for (int32_t k = 0; maximum != NULL && k < dim; ++k)
-        recipe->maximum[k] = maximum[k];
+        parameters->maximum[k] = maximum[k];
 }
 
 static bool is_zero(double value)
@@ -19,10 +19,10 @@ static bool is_zero(double value)
     return !(fabs(value) > 0) && !signbit(value);
 }
 
-static void visit(iccp_blob *b, iccp_recipe *recipe, int32_t dim, uint64_t *digest)
+static void visit(iccp_blob *b, iccp_chart_parameters *parameters, int32_t dim, uint64_t *digest)
 {
-    icc_chart_options *o = &recipe->options;
-    int32_t has_maximum = recipe->has_maximum;
+    icc_chart_options *o = &parameters->options;
+    int32_t has_maximum = parameters->has_maximum;
     iccp_blob_i32(b, ICCP_U32, ICC_FUNCTION_DECAY, ICC_FUNCTION_CLAMPED, &o->function);
     iccp_blob_i32(b, ICCP_U32, ICC_TREE_THESIS, ICC_TREE_PAPER, &o->tree);
     iccp_blob_i32(b, ICCP_U32, 0, ICCP_MAX_CELLS, &o->cells);
@@ -31,28 +31,30 @@ static void visit(iccp_blob *b, iccp_recipe *recipe, int32_t dim, uint64_t *dige
     iccp_blob_i32(b, ICCP_U32, 0, 1, &has_maximum);
     iccp_blob_f64(b, 1, &o->min_fall);
     iccp_blob_f64(b, 1, &o->leaf_min);
-    iccp_blob_f64(b, (size_t)dim, recipe->maximum);
+    iccp_blob_f64(b, (size_t)dim, parameters->maximum);
     iccp_blob_u64(b, 1, digest);
-    recipe->has_maximum = has_maximum == 1;
+    parameters->has_maximum = has_maximum == 1;
 }
 
-void iccp_recipe_write(const iccp_recipe *recipe, int32_t dim, uint64_t digest, iccp_blob *b)
+void iccp_chart_parameters_write(const iccp_chart_parameters *parameters, int32_t dim,
+                                 uint64_t digest, iccp_blob *b)
 {
-    iccp_recipe copy = *recipe;
+    iccp_chart_parameters copy = *parameters;
     visit(b, &copy, dim, &digest);
 }
 
-icc_status iccp_recipe_read(iccp_recipe *recipe, int32_t dim, uint64_t *digest, iccp_blob *b)
+icc_status iccp_chart_parameters_read(iccp_chart_parameters *parameters, int32_t dim,
+                                      uint64_t *digest, iccp_blob *b)
 {
-    icc_chart_options *o = &recipe->options;
-    *recipe = (iccp_recipe){.options.size = sizeof *o};
-    visit(b, recipe, dim, digest);
+    icc_chart_options *o = &parameters->options;
+    *parameters = (iccp_chart_parameters){.options.size = sizeof *o};
+    visit(b, parameters, dim, digest);
     bool sound = b->status == ICC_OK && (o->cells == 0 || o->cells >= ICCP_MIN_CELLS) &&
                  o->min_fall >= 0 && o->min_fall <= ICCP_MAX_SHARE && o->leaf_min >= 0 &&
                  o->leaf_min <= ICCP_MAX_SHARE;
     for (int32_t k = 0; k < dim; ++k)
-        sound = sound && isfinite(recipe->maximum[k]) &&
-                (recipe->has_maximum || is_zero(recipe->maximum[k]));
+        sound = sound && isfinite(parameters->maximum[k]) &&
+                (parameters->has_maximum || is_zero(parameters->maximum[k]));
     return sound ? ICC_OK : ICC_ERR_FORMAT;
 }
 
@@ -107,8 +109,8 @@ uint64_t iccp_digest_field(const icc_function *field)
     return digest;
 }
 
-icc_status iccp_recipe_judge(icc_chart **chart, icc_status status, uint64_t wanted, uint64_t digest,
-                             icc_error *err)
+icc_status iccp_chart_check_rebuilt(icc_chart **chart, icc_status status, uint64_t wanted,
+                                    uint64_t digest, icc_error *err)
 {
     if (status == ICC_ERR_MEMORY || status == ICC_ERR_CANCELLED ||
         (status == ICC_OK && digest == wanted))

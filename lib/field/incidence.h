@@ -1,7 +1,7 @@
 /* Which simplices of the Kuhn triangulation meet a domain, and which facets of its boundary come
  * near each vertex of the grid. */
-#ifndef ICCP_COVER_H
-#define ICCP_COVER_H
+#ifndef ICCP_INCIDENCE_H
+#define ICCP_INCIDENCE_H
 
 #include "grid/kuhn_simplex.h"
 
@@ -20,7 +20,7 @@ void iccp_orders_init(iccp_orders *orders, const icc_grid *grid);
 /* The number of an order in lexicographic order. */
 int32_t iccp_order_rank(int32_t dim, const int8_t *axis);
 
-typedef struct iccp_cover {
+typedef struct iccp_incidence {
     iccp_memory memory;
     const icc_grid *grid;     /* borrowed */
     const icc_domain *domain; /* borrowed */
@@ -28,35 +28,37 @@ typedef struct iccp_cover {
      * the domain although no vertex of it is inside, or a facet runs through it. Beyond 4-D several
      * simplices share a bit. */
     uint32_t *bits;
-    uint32_t *faces; /* by cell, iccp_cover_face_bit(): a facet may meet a face of that simplex */
+    uint32_t *faces; /* by cell, iccp_incidence_face_bit(): a facet may meet a face of that
+                        simplex */
     uint32_t *first; /* n_vertices + 1: of the facets that run through simplices at each vertex */
     uint32_t *facet; /* those facets, vertex by vertex */
     double *normal;  /* dim for each facet: inward, length 1 */
-} iccp_cover;
+} iccp_incidence;
 
-/* cover->memory is set even on failure; free it in any case. */
-icc_status iccp_cover_create(iccp_cover *cover, const icc_domain *domain, const icc_grid *grid,
-                             const iccp_env *env);
-void iccp_cover_free(iccp_cover *cover);
+/* incidence->memory is set even on failure; free it in any case. */
+icc_status iccp_incidence_create(iccp_incidence *incidence, const icc_domain *domain,
+                                 const icc_grid *grid, const iccp_env *env);
+void iccp_incidence_free(iccp_incidence *incidence);
 
 /* From how many facets to note at each vertex, to where its first is noted, in `count` too. */
-icc_status iccp_cover_make_room(iccp_cover *cover, uint32_t *count);
+icc_status iccp_incidence_make_room(iccp_incidence *incidence, uint32_t *count);
 
 /* Whether a facet runs through a simplex, or may do so. */
-static inline bool iccp_cover_has(const iccp_cover *cover, uint32_t lowest, int32_t rank)
+static inline bool iccp_incidence_has(const iccp_incidence *incidence, uint32_t lowest,
+                                      int32_t rank)
 {
-    return cover->bits[lowest] >> (rank % 32) & 1;
+    return incidence->bits[lowest] >> (rank % 32) & 1;
 }
 
 /* Of the face opposite to corner i of the simplex with order number r. Beyond 3-D several share a
  * bit. */
-static inline uint32_t iccp_cover_face_bit(int32_t dim, int32_t r, int32_t i)
+static inline uint32_t iccp_incidence_face_bit(int32_t dim, int32_t r, int32_t i)
 {
     return (uint32_t)1 << ((r * (dim + 1) + i) % 32);
 }
 
 /* Whether a facet has a point in common with a simplex, or may have one. */
-bool iccp_cover_touches(const iccp_cover *cover, uint32_t facet, uint32_t lowest,
-                        const int8_t *axis);
+bool iccp_incidence_touches(const iccp_incidence *incidence, uint32_t facet, uint32_t lowest,
+                            const int8_t *axis);
 
 #endif

@@ -5,7 +5,7 @@
  * whose sides there are all entered, and those whose sides are all left, are as many as before.
  * Leaves must not run in circles either: where they do after a pass, its reversals there are
  * undone. */
-#include "shelling/turn.h"
+#include "shelling/reverse.h"
 
 #include "shelling/heap.h"
 
@@ -14,18 +14,18 @@
 
 enum { MOST_PASSES = 20 };
 
-typedef struct turner {
-    const iccp_order_wish *wish;
-    uint8_t *entered; /* of each simplex: the sides that leaves enter by, side i being bit i */
-    uint32_t
-        *turned; /* sides: reversed in this pass, as seen from the simplex of greater rank before */
-    size_t n_turned;
-    iccp_heap heap;    /* of sides */
-    uint8_t *barred;   /* of each side: 1: it has been turned back */
-    uint8_t *in;       /* of each simplex: 0: it has been taken out */
-    uint32_t *waiting; /* of each simplex: neighbours that must be taken out before it */
-    uint32_t *queue;   /* simplices */
-} turner;
+typedef struct reversal {
+    const iccp_order_priority *priority;
+    uint8_t *entered;   /* of each simplex: the sides that leaves enter by, side i being bit i */
+    uint32_t *reversed; /* sides: reversed in this pass, as seen from the simplex of greater rank
+                           before */
+    size_t n_reversed;
+    iccp_heap heap;     /* of sides */
+    uint8_t *barred;    /* of each side: 1: its reversal was undone */
+    uint8_t *remaining; /* of each simplex: 0: it has been taken out */
+    uint32_t *waiting;  /* of each simplex: neighbours that must be taken out before it */
+    uint32_t *queue;    /* simplices */
+} reversal;
 
 static bool in_star(const uint32_t *rank, size_t s)
 {
@@ -33,9 +33,9 @@ static bool in_star(const uint32_t *rank, size_t s)
 }
 
 /* Leaves enter a simplex from greater rank and from outside the domain. */
-static void find_entered(turner *t, const uint32_t *rank)
+static void find_entered(reversal *t, const uint32_t *rank)
 {
-    const iccp_simplices *mesh = t->wish->mesh;
+    const iccp_simplices *mesh = t->priority->mesh;
     const size_t n_sides = mesh->dim + 1;
     memset(t->entered, 0, mesh->n_simplices);
     for (size_t side = 0; side < n_sides * mesh->n_simplices; ++side) {
@@ -48,13 +48,13 @@ static void find_entered(turner *t, const uint32_t *rank)
 
 /* Whether there is, at side i of a simplex, a neighbour that is still in and that leaves pass to
  * from here (`by_leaving`), or come from. */
-static bool is_before(const turner *t, size_t s, size_t i, bool by_leaving)
+static bool has_neighbour(const reversal *t, size_t s, size_t i, bool by_leaving)
 {
-    const iccp_simplices *mesh = t->wish->mesh;
+    const iccp_simplices *mesh = t->priority->mesh;
     const uint32_t across = mesh->across[(mesh->dim + 1) * s + i];
     const bool leaves = (t->entered[s] >> i & 1) == 0;
     return across < ICCP_ON_BOUNDARY && leaves == by_leaving &&
-           t->in[iccp_simplex_of(mesh, across)] != 0;
+           t->remaining[iccp_simplex_of(mesh, across)] != 0;
 }
 
 /* Of each corner of simplex a, the bit of the same corner in simplex b, or 0: sets of corners
@@ -92,9 +92,9 @@ static int count_alike(unsigned a, unsigned sides_a, unsigned b, unsigned sides_
  * Each simplex must keep sides of both kinds. For every face of the facet, the two simplices at
  * the facet must count as before: other simplices at the face do not change. The sides at a face
  * are those opposite to other corners. */
-static bool may_turn(const turner *t, uint32_t side)
+static bool can_reverse(const reversal *t, uint32_t side)
 {
-    const iccp_simplices *mesh = t->wish->mesh;
+    const iccp_simplices *mesh = t->priority->mesh;
     const size_t n = mesh->dim + 1;
     const uint32_t twin = mesh->across[side];
     const size_t a = side / n, b = twin / n;
@@ -116,9 +116,9 @@ static bool may_turn(const turner *t, uint32_t side)
 }
 
 /* Reversing is its own inverse: both sides of the facet change kind. */
-static void turn(turner *t, uint32_t side)
+static void reverse_facet(reversal *t, uint32_t side)
 {
-    const iccp_simplices *mesh = t->wish->mesh;
+    const iccp_simplices *mesh = t->priority->mesh;
     const size_t n = mesh->dim + 1;
     const uint32_t twin = mesh->across[side];
     t->entered[side / n] ^= (uint8_t)(1u << side % n);
@@ -128,23 +128,23 @@ static void turn(turner *t, uint32_t side)
 /* One pass: queues the facets that the flux crosses the wrong way, and reverses, with most flux
  * first, those that may be at that moment. Facets at the star, and those that had to be undone,
  * are not tried. */
-static icc_status pass(turner *t, const uint32_t *rank, const iccp_env *env)
+static icc_status reverse_pass(reversal *t, const uint32_t *rank, const iccp_env *env)
 {
-    const iccp_simplices *mesh = t->wish->mesh;
+    const iccp_simplices *mesh = t->priority->mesh;
     const size_t n = mesh->dim + 1;
     for (size_t side = 0; side < n * mesh->n_simplices; ++side) {
         const uint32_t across = mesh->across[side];
         const bool leaves = (t->entered[side / n] >> side % n & 1) == 0;
-        if (across < ICCP_ON_BOUNDARY && leaves && t->wish->flux[side] < 0 && !t->barred[side] &&
-            !in_star(rank, side / n) && !in_star(rank, across / n))
-            iccp_heap_put(&t->heap, (uint32_t)side, t->wish->flux[side]);
+        if (across < ICCP_ON_BOUNDARY && leaves && t->priority->flux[side] < 0 &&
+            !t->barred[side] && !in_star(rank, side / n) && !in_star(rank, across / n))
+            iccp_heap_put(&t->heap, (uint32_t)side, t->priority->flux[side]);
     }
-    t->n_turned = 0;
+    t->n_reversed = 0;
     while (t->heap.n_entries > 0) {
         const uint32_t side = iccp_heap_pop(&t->heap);
-        if (may_turn(t, side)) {
-            turn(t, side);
-            t->turned[t->n_turned++] = side;
+        if (can_reverse(t, side)) {
+            reverse_facet(t, side);
+            t->reversed[t->n_reversed++] = side;
         }
     }
     return iccp_progress(env, "order", 0);
@@ -154,23 +154,23 @@ static icc_status pass(turner *t, const uint32_t *rank, const iccp_env *env)
  * simplices that leaves come to from none that is still in; or, from below, those that leaves go
  * from to none that is still in. `queue` holds them in this order. Returns how many: fewer than
  * were in if leaves run in circles. */
-static size_t take_out(turner *t, bool from_below)
+static size_t sort_by_leaves(reversal *t, bool from_below)
 {
-    const iccp_simplices *mesh = t->wish->mesh;
+    const iccp_simplices *mesh = t->priority->mesh;
     const size_t n = mesh->dim + 1;
     size_t n_out = 0, n_reached = 0;
     for (size_t s = 0; s < mesh->n_simplices; ++s) {
         t->waiting[s] = 0;
-        for (size_t i = 0; i < n && t->in[s]; ++i)
-            t->waiting[s] += is_before(t, s, i, from_below);
-        if (t->in[s] && t->waiting[s] == 0)
+        for (size_t i = 0; i < n && t->remaining[s]; ++i)
+            t->waiting[s] += has_neighbour(t, s, i, from_below);
+        if (t->remaining[s] && t->waiting[s] == 0)
             t->queue[n_reached++] = (uint32_t)s;
     }
     for (; n_out < n_reached; ++n_out) {
         const size_t s = t->queue[n_out];
-        t->in[s] = 0;
+        t->remaining[s] = 0;
         for (size_t i = 0; i < n; ++i)
-            if (is_before(t, s, i, !from_below)) {
+            if (has_neighbour(t, s, i, !from_below)) {
                 const size_t next = iccp_simplex_of(mesh, mesh->across[n * s + i]);
                 if (--t->waiting[next] == 0)
                     t->queue[n_reached++] = (uint32_t)next;
@@ -182,17 +182,17 @@ static size_t take_out(turner *t, bool from_below)
 /* Ranks all simplices but the star by sorting from below. Where leaves run in circles that is
  * impossible: sorting what is left from above as well leaves in only the simplices on circles or
  * between two of them. */
-static bool rank_anew(turner *t, uint32_t *rank)
+static bool rank_anew(reversal *t, uint32_t *rank)
 {
-    const size_t n = t->wish->mesh->n_simplices;
+    const size_t n = t->priority->mesh->n_simplices;
     size_t n_all = 0;
     for (size_t s = 0; s < n; ++s) {
-        t->in[s] = rank[s] != 0;
-        n_all += t->in[s];
+        t->remaining[s] = rank[s] != 0;
+        n_all += t->remaining[s];
     }
-    const size_t n_ranked = take_out(t, true);
+    const size_t n_ranked = sort_by_leaves(t, true);
     if (n_ranked < n_all) {
-        (void)take_out(t, false);
+        (void)sort_by_leaves(t, false);
         return false;
     }
     for (size_t k = 0; k < n_ranked; ++k)
@@ -202,67 +202,68 @@ static bool rank_anew(turner *t, uint32_t *rank)
 
 /* Undoes reversals of this pass, the last one first, and bars these facets for good: all of
  * them, or those between simplices that are in, where the circles are. Reversals that are kept
- * stay in `turned`. */
-static size_t turn_back(turner *t, bool all)
+ * stay in `reversed`. */
+static size_t undo_reversals(reversal *t, bool all)
 {
-    const iccp_simplices *mesh = t->wish->mesh;
-    size_t n_kept = t->n_turned, n_back = 0;
-    for (size_t k = t->n_turned; k-- > 0;) {
-        const uint32_t side = t->turned[k], twin = mesh->across[side];
-        const bool is_in = t->in[iccp_simplex_of(mesh, side)] && t->in[iccp_simplex_of(mesh, twin)];
-        if (all || (is_in && may_turn(t, twin))) {
-            turn(t, side);
+    const iccp_simplices *mesh = t->priority->mesh;
+    size_t n_kept = t->n_reversed, n_back = 0;
+    for (size_t k = t->n_reversed; k-- > 0;) {
+        const uint32_t side = t->reversed[k], twin = mesh->across[side];
+        const bool is_in =
+            t->remaining[iccp_simplex_of(mesh, side)] && t->remaining[iccp_simplex_of(mesh, twin)];
+        if (all || (is_in && can_reverse(t, twin))) {
+            reverse_facet(t, side);
             t->barred[side] = 1;
             ++n_back;
         } else {
-            t->turned[--n_kept] = side;
+            t->reversed[--n_kept] = side;
         }
     }
-    memmove(t->turned, t->turned + n_kept, (t->n_turned - n_kept) * sizeof *t->turned);
-    t->n_turned -= n_kept;
+    memmove(t->reversed, t->reversed + n_kept, (t->n_reversed - n_kept) * sizeof *t->reversed);
+    t->n_reversed -= n_kept;
     return n_back;
 }
 
 /* Passes until one changes nothing. Each ends with an order without circles: reversals on
  * circles are undone first, and all of the pass when none of these can be. */
-static icc_status turn_all(turner *t, uint32_t *rank, size_t *n_turned, const iccp_env *env)
+static icc_status reverse_all(reversal *t, uint32_t *rank, size_t *n_reversed, const iccp_env *env)
 {
     icc_status status = ICC_OK;
-    *n_turned = 0;
+    *n_reversed = 0;
     find_entered(t, rank);
     for (int k = 0; k < MOST_PASSES && status == ICC_OK; ++k) {
-        status = pass(t, rank, env);
-        while (t->n_turned > 0 && !rank_anew(t, rank))
-            if (turn_back(t, false) == 0)
-                (void)turn_back(t, true);
-        if (t->n_turned == 0)
+        status = reverse_pass(t, rank, env);
+        while (t->n_reversed > 0 && !rank_anew(t, rank))
+            if (undo_reversals(t, false) == 0)
+                (void)undo_reversals(t, true);
+        if (t->n_reversed == 0)
             break;
-        *n_turned += t->n_turned;
+        *n_reversed += t->n_reversed;
     }
     return status;
 }
 
-icc_status iccp_order_turn(const iccp_order_wish *wish, uint32_t *rank, size_t *n_turned,
-                           const iccp_env *env)
+icc_status iccp_order_reverse(const iccp_order_priority *priority, uint32_t *rank,
+                              size_t *n_reversed, const iccp_env *env)
 {
     const iccp_memory *memory = &env->memory;
-    const size_t n = wish->mesh->n_simplices, n_sides = (wish->mesh->dim + 1) * n;
-    turner t = {.wish = wish};
+    const size_t n = priority->mesh->n_simplices, n_sides = (priority->mesh->dim + 1) * n;
+    reversal t = {.priority = priority};
     t.entered = iccp_alloc(memory, n, sizeof *t.entered);
-    t.turned = iccp_alloc(memory, n_sides, sizeof *t.turned);
+    t.reversed = iccp_alloc(memory, n_sides, sizeof *t.reversed);
     t.barred = iccp_alloc_zero(memory, n_sides, sizeof *t.barred);
-    t.in = iccp_alloc(memory, n, sizeof *t.in);
+    t.remaining = iccp_alloc(memory, n, sizeof *t.remaining);
     t.waiting = iccp_alloc(memory, n, sizeof *t.waiting);
     t.queue = iccp_alloc(memory, n, sizeof *t.queue);
     icc_status status = ICC_ERR_MEMORY;
-    if (iccp_heap_create(&t.heap, n_sides, memory) && t.entered != NULL && t.turned != NULL &&
-        t.barred != NULL && t.in != NULL && t.waiting != NULL && t.queue != NULL)
-        status = turn_all(&t, rank, n_turned, env);
+    if (iccp_heap_create(&t.heap, n_sides, memory) && t.entered != NULL && t.reversed != NULL &&
+        t.barred != NULL && t.remaining != NULL && t.waiting != NULL && t.queue != NULL)
+        status = reverse_all(&t, rank, n_reversed, env);
     iccp_heap_free(&t.heap, memory);
     iccp_free(memory, t.entered);
-    iccp_free(memory, t.turned);
+    iccp_free(memory, t.reversed);
     iccp_free(memory, t.barred);
-    iccp_free(memory, t.in);
+    iccp_free(memory, t.remaining);
     iccp_free(memory, t.waiting);
     iccp_free(memory, t.queue);
     return status;
