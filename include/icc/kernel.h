@@ -77,9 +77,9 @@ typedef struct icc_sampling icc_sampling;
 /** How samples are spread. */
 enum {
     ICC_SAMPLING_GRID = 1,  /**< a regular grid from the lower corner of the regions' box, the first
-                                axis fastest */
+                                 axis fastest */
     ICC_SAMPLING_BLUE = 2,  /**< blue noise: random but evenly spaced, also on boundaries and
-                                curves */
+                                 curves */
     ICC_SAMPLING_POINTS = 3 /**< the caller's points: icc_sampling_create_from_points() only */
 };
 

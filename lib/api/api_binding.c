@@ -23,7 +23,7 @@ icc_status icc_binding_create(icc_binding **out, const icc_weights *weights, siz
         *out = NULL;
     iccp_env full_env;
     const char *missing = out == NULL               ? "out"
-                          : weights == NULL          ? "weights"
+                          : weights == NULL         ? "weights"
                           : n > 0 && points == NULL ? "points"
                                                     : NULL;
     const icc_status status = iccp_begin(&full_env, env, missing, err);
@@ -35,9 +35,9 @@ icc_status icc_binding_create(icc_binding **out, const icc_weights *weights, siz
         if (!are_finite(dim, points + dim * i))
             return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)i,
                                 "point %zu is not finite", i);
-    return iccp_end_binding(
-        iccp_explain(err, iccp_binding_create(out, weights, n, points, derivatives == 1, &full_env)),
-        out, &full_env, err);
+    return iccp_end_binding(iccp_explain(err, iccp_binding_create(out, weights, n, points,
+                                                                  derivatives == 1, &full_env)),
+                            out, &full_env, err);
 }
 
 void icc_binding_free(icc_binding *binding)

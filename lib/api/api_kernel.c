@@ -238,7 +238,7 @@ icc_status icc_weights_get_report(const icc_weights *weights, size_t n, const do
                                   icc_weights_report *report, const icc_env *env, icc_error *err)
 {
     iccp_env full_env;
-    const char *missing = weights == NULL            ? "weights"
+    const char *missing = weights == NULL           ? "weights"
                           : report == NULL          ? "report"
                           : n > 0 && points == NULL ? "points"
                                                     : NULL;
@@ -266,10 +266,10 @@ icc_status icc_weights_paint(icc_weights **out, const icc_weights *weights, size
     if (out != NULL)
         *out = NULL;
     iccp_env full_env;
-    const char *missing = out == NULL      ? "out"
+    const char *missing = out == NULL       ? "out"
                           : weights == NULL ? "weights"
-                          : centre == NULL ? "centre"
-                                           : NULL;
+                          : centre == NULL  ? "centre"
+                                            : NULL;
     const icc_status status = iccp_begin(&full_env, env, missing, err);
     if (status != ICC_OK)
         return status;
@@ -293,7 +293,7 @@ icc_status icc_weights_repaint(icc_weights **out, const icc_weights *weights, si
         *out = NULL;
     iccp_env full_env;
     const char *missing = out == NULL                ? "out"
-                          : weights == NULL           ? "weights"
+                          : weights == NULL          ? "weights"
                           : n > 0 && nodes == NULL   ? "nodes"
                           : n > 0 && weights == NULL ? "weights"
                                                      : NULL;
@@ -334,7 +334,7 @@ icc_status icc_weights_stiffen(icc_weights **out, const icc_weights *weights, si
         *out = NULL;
     iccp_env full_env;
     const char *missing = out == NULL              ? "out"
-                          : weights == NULL         ? "weights"
+                          : weights == NULL        ? "weights"
                           : n > 0 && nodes == NULL ? "nodes"
                                                    : NULL;
     const icc_status status = iccp_begin(&full_env, env, missing, err);

@@ -10,7 +10,7 @@ typedef struct iccp_complex {
     size_t dim, n_vertices, n_facets;
     const uint32_t *facets; /* n_facets * dim vertex numbers */
     uint32_t *across;       /* n_facets * dim: across[dim f + i] is the other facet at the ridge of
-                         facet f opposite corner i */
+                               facet f opposite corner i */
 } iccp_complex;
 
 /* ICC_ERR_BOUNDARY unless every index is that of a vertex and no facet has one twice. */

@@ -3,8 +3,8 @@
  * turned, the energy of the flux that is fitted, what the contest takes, and how often each way is
  * complete for maxima by chance. Run by hand on a quiet machine. */
 #include "base/error.h"
-#include "shelling/centres.h"
 #include "shelling/best_order.h"
+#include "shelling/centres.h"
 #include "shelling/reverse.h"
 
 #include "../meshes.h"
@@ -79,7 +79,7 @@ static double aim(subject *s, uint32_t centre)
 static size_t order(const subject *s, double beta, bool peel, double *seconds)
 {
     const iccp_order_priority priority = {s->mesh,      &s->faces, s->centre, s->reference,
-                                  s->potential, beta,      NULL};
+                                          s->potential, beta,      NULL};
     const double start = bench_seconds();
     size_t n_left = 0;
     check((peel ? iccp_order_peel : iccp_order_grow)(&priority, s->rank, &n_left, &s->env));
@@ -121,7 +121,7 @@ static void tell(subject *s)
 static void turn(subject *s)
 {
     const iccp_order_priority priority = {s->mesh,      &s->faces, s->centre, s->reference,
-                                  s->potential, 0,         NULL};
+                                          s->potential, 0,         NULL};
     size_t n_turned;
     const double start = bench_seconds();
     check(iccp_order_reverse(&priority, s->rank, &n_turned, &s->env));
@@ -156,7 +156,7 @@ static void compete(subject *s, double seconds_flux)
     icc_error err = {.size = sizeof err};
     const double start = bench_seconds();
     bench_check(iccp_best_order(s->mesh, s->centre, s->inflow, s->reference, s->potential, s->rank,
-                             s->flux, &i, &s->env, &err),
+                                s->flux, &i, &s->env, &err),
                 &err);
     const double seconds = bench_seconds() - start;
     printf(

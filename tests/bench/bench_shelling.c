@@ -70,7 +70,8 @@ static bool bench_orders(stages *s)
     size_t n_left;
     bench_check(iccp_faces_create(&faces, s->mesh, &s->env), NULL);
     printf("    faces      %8.1f ms\n", since(&then));
-    const iccp_order_priority wish = {s->mesh, &faces, s->centre, s->reference, s->potential, 32, NULL};
+    const iccp_order_priority wish = {s->mesh,      &faces, s->centre, s->reference,
+                                      s->potential, 32,     NULL};
     bench_check(iccp_order_grow(&wish, s->rank, &n_left, &s->env), NULL);
     printf("    grow       %8.1f ms, %zu left\n", since(&then), n_left);
     bench_check(iccp_order_peel(&wish, s->rank, &n_left, &s->env), NULL);

@@ -93,8 +93,8 @@ static void print_chart(const char *file, const chart_facts *chart)
     putchar('\n');
 }
 
-/* Why not all is certified: the map's own reason, or that of the first chart which is not. Never the
- * words "not certified", which begin the reasons further down. */
+/* Why not all is certified: the map's own reason, or that of the first chart which is not. Never
+ * the words "not certified", which begin the reasons further down. */
 static void print_why(const check *c)
 {
     char text[REASON_LENGTH];

@@ -283,13 +283,15 @@ START_TEST(the_order_of_the_facets_does_not_matter)
         for (int i = 0; i < 2; ++i) {
             random_source r = {seed};
             domain[i] = random_tetrahedron(&r, &grid[i], ORDERS[i]);
-            ck_assert_int_eq(iccp_incidence_create(&incidence[i], domain[i], grid[i], &env), ICC_OK);
+            ck_assert_int_eq(iccp_incidence_create(&incidence[i], domain[i], grid[i], &env),
+                             ICC_OK);
         }
         for (uint32_t v = 0; v < grid[0]->n_vertices; ++v) {
             ck_assert_uint_eq(incidence[0].bits[v], incidence[1].bits[v]);
             ck_assert_uint_eq(incidence[0].first[v], incidence[1].first[v]);
             for (uint32_t i = incidence[0].first[v]; i < incidence[0].first[v + 1]; ++i) {
-                ck_assert(i == incidence[0].first[v] || incidence[0].facet[i - 1] < incidence[0].facet[i]);
+                ck_assert(i == incidence[0].first[v] ||
+                          incidence[0].facet[i - 1] < incidence[0].facet[i]);
                 ck_assert(is_noted(&incidence[1], v, 3 - incidence[0].facet[i]));
             }
         }

@@ -380,7 +380,8 @@ static void prefer_flux(problem *p, uint32_t centre)
 /* How many simplices are left; none: the order has been checked. */
 static size_t left_by(problem *p, uint32_t centre, double beta, bool peel)
 {
-    const iccp_order_priority priority = {p->mesh, &p->faces, centre, p->flux, p->potential, beta, NULL};
+    const iccp_order_priority priority = {p->mesh,      &p->faces, centre, p->flux,
+                                          p->potential, beta,      NULL};
     const iccp_env env = plain_env();
     size_t n_left = 0, n_without = 0;
     ck_assert_int_eq((peel ? iccp_order_peel : iccp_order_grow)(&priority, p->rank, &n_left, &env),
@@ -556,7 +557,8 @@ END_TEST
  * was amiss. Returns how many facets that were are left so. */
 static size_t turn_order(problem *p, uint32_t centre, size_t *n_turned)
 {
-    const iccp_order_priority priority = {p->mesh, &p->faces, centre, p->flux, p->potential, 8, NULL};
+    const iccp_order_priority priority = {p->mesh,      &p->faces, centre, p->flux,
+                                          p->potential, 8,         NULL};
     const iccp_env env = plain_env();
     const iccp_simplices *m = p->mesh;
     uint32_t *before = room(m->n_simplices, sizeof *before);
@@ -687,8 +689,8 @@ START_TEST(contests_are_won_by_the_best)
             env.parallel_for = way == 2 ? backwards : NULL;
             other = (iccp_best_order_info){0};
             ck_assert_int_eq(iccp_best_order(p.mesh, centre, p.inflow, p.flux, p.potential,
-                                          way == 0 ? p.rank : rank, way == 0 ? flux : again,
-                                          way == 0 ? &info : &other, &env, NULL),
+                                             way == 0 ? p.rank : rank, way == 0 ? flux : again,
+                                             way == 0 ? &info : &other, &env, NULL),
                              ICC_OK);
             if (way == 0)
                 continue;
@@ -718,7 +720,7 @@ START_TEST(houses_end_in_an_order_or_an_error)
         iccp_best_order_info info;
         prefer_flux(&p, centre);
         const icc_status status = iccp_best_order(p.mesh, centre, p.inflow, p.flux, p.potential,
-                                               p.rank, flux, &info, &env, &err);
+                                                  p.rank, flux, &info, &env, &err);
         ck_assert(status == ICC_OK || status == ICC_ERR_TOPOLOGY);
         if (status == ICC_OK) {
             check_contest(&p, centre, &info, flux);
@@ -756,7 +758,7 @@ START_TEST(star_is_complete_at_once)
         iccp_best_order_info info;
         prefer_flux(&p, (uint32_t)p.mesh->n_boundary);
         ck_assert_int_eq(iccp_best_order(p.mesh, (uint32_t)p.mesh->n_boundary, p.inflow, p.flux,
-                                      p.potential, p.rank, flux, &info, &env, NULL),
+                                         p.potential, p.rank, flux, &info, &env, NULL),
                          ICC_OK);
         check_contest(&p, (uint32_t)p.mesh->n_boundary, &info, flux);
         free(flux);
@@ -774,7 +776,7 @@ static icc_status call_contest(const icc_env *given, icc_error *err, void *argum
     ck_assert_int_eq(iccp_env_read(&env, given, NULL), ICC_OK);
     ck_assert_uint_eq(p->mesh->n_simplices, 6 * 27);
     return iccp_best_order(p->mesh, (uint32_t)p->mesh->n_boundary, p->inflow, p->flux, p->potential,
-                        p->rank, flux, &info, &env, err);
+                           p->rank, flux, &info, &env, err);
 }
 
 static icc_status call_order(const icc_env *given, icc_error *err, void *argument)

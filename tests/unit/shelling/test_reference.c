@@ -3,8 +3,8 @@
 #include "base/error.h"
 #include "math/orient.h"
 #include "shelling/element.h"
-#include "shelling/reference.h"
 #include "shelling/links.h"
+#include "shelling/reference.h"
 
 #include "../../fluxes.h"
 

@@ -1,7 +1,7 @@
 /* The certificate of foliations of simplices holds for orders that the library finds, and for
  * nothing that is corrupted. */
-#include "shelling/centres.h"
 #include "shelling/best_order.h"
+#include "shelling/centres.h"
 #include "shelling/reference.h"
 #include "shelling/shelling_certificate.h"
 
@@ -56,7 +56,7 @@ static void find_order(foliation *f)
     ck_assert_int_eq(iccp_reference_flux(mesh, f->centre, inflow, reference, potential, &f->env),
                      ICC_OK);
     ck_assert_int_eq(iccp_best_order(mesh, f->centre, inflow, reference, potential, f->rank, flux,
-                                  &info, &f->env, NULL),
+                                     &info, &f->env, NULL),
                      ICC_OK);
     free(inflow);
     free(flux);
