@@ -37,6 +37,7 @@ template <class T> class view;
 
 /** Whether C is a view of something. */
 template <class C> inline constexpr bool is_view = false;
+/** A view is one. */
 template <class T> inline constexpr bool is_view<view<T>> = true;
 
 /** Whether E is a `std::array` of T: a point, the vertices of a facet. */
@@ -317,8 +318,9 @@ public:
 
 /** What keeps a polygon from being a boundary: icc_boundary_defects(). */
 struct defect {
-    std::int32_t kind;  /**< `ICC_DEFECT_*`, */
-    std::uint32_t a, b; /**< which says what they are */
+    std::int32_t kind; /**< `ICC_DEFECT_*` */
+    std::uint32_t a;   /**< a vertex or an edge, as `kind` says */
+    std::uint32_t b;   /**< the other, as `kind` says */
 };
 
 /** All defects of a closed polygon. */
@@ -476,7 +478,8 @@ private:
 
 /** The mesh of a map of kind mesh: icc_map_get_mesh(). */
 struct map_mesh {
-    std::vector<double> vertices, images; /**< `dim` coordinates each */
+    std::vector<double> vertices;         /**< `dim` coordinates each */
+    std::vector<double> images;           /**< of the vertices, `dim` coordinates each */
     std::vector<std::uint32_t> simplices; /**< `dim` + 1 vertices each */
 };
 
