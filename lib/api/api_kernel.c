@@ -292,11 +292,11 @@ icc_status icc_weights_repaint(icc_weights **out, const icc_weights *weights, si
     if (out != NULL)
         *out = NULL;
     iccp_env full_env;
-    const char *missing = out == NULL                ? "out"
-                          : weights == NULL          ? "weights"
-                          : n > 0 && nodes == NULL   ? "nodes"
-                          : n > 0 && weights == NULL ? "weights"
-                                                     : NULL;
+    const char *missing = out == NULL               ? "out"
+                          : weights == NULL         ? "weights"
+                          : n > 0 && nodes == NULL  ? "nodes"
+                          : n > 0 && values == NULL ? "values"
+                                                    : NULL;
     const icc_status status = iccp_begin(&full_env, env, missing, err);
     if (status != ICC_OK)
         return status;

@@ -590,7 +590,7 @@ START_TEST(what_is_missing_is_named)
     MISSING("handles", icc_weights_create(&w, o.sampling, 1, NULL, NULL, NULL, &err));
     MISSING("points", icc_weights_get_report(o.kernel, 1, NULL, &report, NULL, &err));
     MISSING("centre", icc_weights_paint(&w, o.kernel, 0, NULL, 1, 1, NULL, &err));
-    MISSING("weights", icc_weights_repaint(&w, o.kernel, 1, FACETS, NULL, NULL, &err));
+    MISSING("values", icc_weights_repaint(&w, o.kernel, 1, FACETS, NULL, NULL, &err));
     MISSING("weights", icc_weights_with_method(&w, NULL, 1, NULL, &err));
     MISSING("nodes", icc_weights_stiffen(&w, o.kernel, 1, NULL, NULL, NULL, NULL, &err));
     MISSING("points", icc_binding_create(&b, o.kernel, 1, NULL, 0, NULL, &err));
