@@ -67,25 +67,25 @@ misnamed() { # NAME ARGUMENT...
     [ "$(cat "$name")" = kept ] || complain "$name was written"
 }
 for name in o.jpg o.TIF o.webp o.svg o.txt o.png.gz; do
-    misnamed $name warp -s nowhere -t nowhere nowhere.png $name
+    misnamed "$name" warp -s nowhere -t nowhere nowhere.png "$name"
 done
 for name in o.png o.pdf o.obj o.json; do
-    misnamed $name plot -s nowhere $name
-    misnamed $name weights -s nowhere -a nowhere --picture $name
+    misnamed "$name" plot -s nowhere "$name"
+    misnamed "$name" weights -s nowhere -a nowhere --picture "$name"
 done
-for name in o.stl o.gltf o.txt o.png o.msh; do misnamed $name mesh -s nowhere -t nowhere nowhere.obj $name; done
+for name in o.stl o.gltf o.txt o.png o.msh; do misnamed "$name" mesh -s nowhere -t nowhere nowhere.obj "$name"; done
 for name in o.geojson o.csv o.xlsx o.npy; do
-    misnamed $name map -s nowhere -t nowhere -o $name
-    misnamed $name encode -s nowhere -o $name
-    misnamed $name decode -s nowhere -o $name
-    misnamed $name weights -s nowhere -a nowhere -o $name
+    misnamed "$name" map -s nowhere -t nowhere -o "$name"
+    misnamed "$name" encode -s nowhere -o "$name"
+    misnamed "$name" decode -s nowhere -o "$name"
+    misnamed "$name" weights -s nowhere -a nowhere -o "$name"
 done
 for name in o.kml o.gpkg o.shp o.txt o.geojsonl; do
-    misnamed $name map -s nowhere -t nowhere --geojson nowhere $name
+    misnamed "$name" map -s nowhere -t nowhere --geojson nowhere "$name"
 done
 for name in o.shp o.svg o.ply; do
-    misnamed $name check -s nowhere --repair $name
-    misnamed $name check -s nowhere --boundary $name
+    misnamed "$name" check -s nowhere --repair "$name"
+    misnamed "$name" check -s nowhere --boundary "$name"
 done
 misnamed o.txt info -s nowhere --json=o.txt
 misnamed o.svg weights -s nowhere -a nowhere --binding o.svg
