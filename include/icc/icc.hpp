@@ -6,8 +6,9 @@
  *     const auto after = icc::domain::polygon({0, 0, 4, 1, 4, 4, 0, 3});
  *     const std::vector<double> images = icc::map(before, after).apply({1, 1, 2, 1.5});
  *
- * A thin layer over icc/icc.h, where the contracts are. Whatever else the C interface has is one icc::call()
- * or icc::handle away. All of it is inline, so a program depends on the library no more than one in C does.
+ * A thin layer over icc/icc.h, where the contracts are. Whatever else the C interface has is one
+ * icc::call() or icc::handle away. All of it is inline, so a program depends on the library no more
+ * than one in C does.
  *
  * SPDX-License-Identifier: MIT
  */

@@ -257,7 +257,7 @@ icc_status icc_weights_get_report(const icc_weights *weights, size_t n, const do
     return iccp_explain(err, status);
 }
 
-/* ---- kernels from others ---- */
+/* ---- weights from others ---- */
 
 icc_status icc_weights_paint(icc_weights **out, const icc_weights *weights, size_t handle,
                              const double *centre, double radius, double amount, const icc_env *env,
