@@ -13,7 +13,7 @@ static void report_point(json *j, const char *name, size_t dim, const double *po
 
 static void report_growth(json *j, const info *x)
 {
-    static const char *const methods_of_growth[] = {"stuck", "as wished", "grown", "thinned"};
+    static const char *const methods_of_growth[] = {"stuck", "as given", "grown", "thinned"};
     const icc_grow_report *g = &x->growth;
     json_count(j, "given_up_vertices", x->grid.n_stray);
     json_count(j, "critical_in_tree_order", x->n_order_critical);
@@ -56,9 +56,11 @@ static void report_grid(json *j, const info *x)
     }
     if (x->domain.dim > 2)
         return;
-    json_count(j, "edges", c->gradient.n_edges);
-    json_count(j, "compression_edges", c->gradient.n_compression);
-    json_count(j, "expansion_edges", c->gradient.n_expansion);
+    if (c->common.method == ICC_METHOD_GRADIENT) {
+        json_count(j, "edges", c->gradient.n_edges);
+        json_count(j, "compression_edges", c->gradient.n_compression);
+        json_count(j, "expansion_edges", c->gradient.n_expansion);
+    }
     json_count(j, "expansion_edges_inside", x->n_inner_expansion);
 }
 

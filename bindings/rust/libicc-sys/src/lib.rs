@@ -1072,7 +1072,8 @@ extern "C" {
     pub fn icc_chart_get_field_info(chart: *const icc_chart, info: *mut icc_field_info) -> icc_status;
 
     /// The same for method foliation in 2-D, unless the domain brings a mesh.
-    pub fn icc_chart_get_foliation_info(chart: *const icc_chart, info: *mut icc_foliation_info) -> icc_status;
+    pub fn icc_chart_get_foliation_info(chart: *const icc_chart, info: *mut icc_foliation_info)
+        -> icc_status;
 
     /// The same for method foliation on a domain's mesh.
     pub fn icc_chart_get_shelling_info(chart: *const icc_chart, info: *mut icc_shelling_info) -> icc_status;
@@ -2567,7 +2568,11 @@ extern "C" {
     ) -> icc_status;
 
     /// Copies the handles' positions, n_handles * dim, and the weights, n_points * n_handles; each may be NULL.
-    pub fn icc_binding_get_weights(binding: *const icc_binding, handles: *mut f64, weights: *mut f64) -> icc_status;
+    pub fn icc_binding_get_weights(
+        binding: *const icc_binding,
+        handles: *mut f64,
+        weights: *mut f64,
+    ) -> icc_status;
 
     /// Poses the points: x -> sum of w_j(x) (A_j x + b_j) (3.37), computed as x + sum of w_j(x) (A_j x + b_j - x): the
     /// same where weights sum to 1, and the rest pose is exact.

@@ -87,11 +87,8 @@ impl<'a> Env<'a> {
         function: impl FnOnce(*const sys::icc_env, *mut sys::icc_error) -> sys::icc_status,
     ) -> Result<()> {
         let mut error = sys::icc_error { index: -1, ..Default::default() };
-        let mut raw = sys::icc_env {
-            threads: self.threads,
-            load_limit: self.load_limit,
-            ..Default::default()
-        };
+        let mut raw =
+            sys::icc_env { threads: self.threads, load_limit: self.load_limit, ..Default::default() };
         if self.progress.is_none() && self.log.is_none() {
             return finish(function(&raw, &mut error), &error);
         }

@@ -26,6 +26,6 @@
 pub use crate::binding::{Binding, Counts, Pose};
 pub use crate::sampling::{Sampling, SamplingInfo, SamplingKind, SamplingOptions, Shape};
 pub use crate::weights::{
-    InitialWeights, Weights, KernelForm, WeightsInfo, WeightsOptions, WeightsReport, Line, Nodes, WeightValues,
-    WeightsMethod,
+    InitialWeights, KernelForm, Line, Nodes, WeightValues, Weights, WeightsInfo, WeightsMethod,
+    WeightsOptions, WeightsReport,
 };

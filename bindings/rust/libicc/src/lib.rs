@@ -52,8 +52,8 @@ mod triangulate;
 mod weights;
 
 pub use chart::{
-    Chart, ChartInfo, ChartOptions, ChartReport, Codes, Constraints, DiscInfo, FieldInfo, FoliationInfo, FunctionKind,
-    GradientInfo, Images, Method, ShellingInfo, Solver, TreeForm,
+    Chart, ChartInfo, ChartOptions, ChartReport, Codes, Constraints, DiscInfo, FieldInfo, FoliationInfo,
+    FunctionKind, GradientInfo, Images, Method, ShellingInfo, Solver, TreeForm,
 };
 pub use domain::{boundary_defects, repair_mask, BoundaryPoints, Defect, Domain, DomainInfo, Place};
 pub use env::Env;

@@ -1,7 +1,7 @@
 //! Kernel coordinates from Rust.
 use libicc::kernel::{
-    Binding, InitialWeights, Weights, WeightsOptions, Line, Pose, Sampling, SamplingKind, SamplingOptions,
-    Shape, WeightsMethod,
+    Binding, InitialWeights, Line, Pose, Sampling, SamplingKind, SamplingOptions, Shape, Weights,
+    WeightsMethod, WeightsOptions,
 };
 use libicc::{Domain, Env, Status};
 

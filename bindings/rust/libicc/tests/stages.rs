@@ -81,7 +81,9 @@ fn fields_fall_from_the_root() {
     let grid = grid();
     let (root, _) = grid.maximum(env).unwrap();
     let tree = Tree::new(&grid, root, &TreeOptions::default(), env).unwrap();
-    for function in [FunctionKind::Decay, FunctionKind::Distance, FunctionKind::Laplace, FunctionKind::Bilaplace] {
+    for function in
+        [FunctionKind::Decay, FunctionKind::Distance, FunctionKind::Laplace, FunctionKind::Bilaplace]
+    {
         let options = FunctionOptions { function: Some(function), ..Default::default() };
         let field = Function::new(&tree, &options, env).unwrap();
         assert_eq!(field.info().function, function as i32);
