@@ -42,11 +42,11 @@ esac
 benchmarks=OFF
 [ "$tier" = plain ] || [ "$sanitized" = yes ] || benchmarks=ON
 case $tier in
-    plain) share=20 left_to_others='all|long' ;;
+    plain) share=8 left_to_others='all|long' ;;
     all) share=20 left_to_others=long ;;
     long) share=100 left_to_others=none ;;
 esac
-[ "$tier-$sanitized" = long-yes ] || [ "$sanitized" = no ] || share=4
+[ "$tier-$sanitized" = long-yes ] || [ "$sanitized" = no ] || share=3
 ICC_TEST_SHARE=${ICC_TEST_SHARE:-$share}
 export ICC_TEST_SHARE
 

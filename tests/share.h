@@ -23,7 +23,7 @@ static inline int share_of(int n)
  * which lie at irregular distances, so that nothing periodic is missed. */
 static inline size_t share_next(size_t k)
 {
-    enum { FEW = 40 };
+    enum { FEW = 20 };
     const size_t mean = 100 / (size_t)test_share();
     return k < FEW || mean == 1 ? k + 1 : k + 1 + k * 2654435761u % (2 * mean - 1);
 }
