@@ -54,17 +54,19 @@ static void *worker(void *argument)
 }
 
 /* The calling thread takes chunks like the others and is the only one that reports progress, so
- * that the callback need not be safe for threads. Threads that cannot be started are done
- * without. */
+ * that the callback need not be safe for threads; once before there are others, which may take all
+ * the chunks. Threads that cannot be started are done without. */
 static icc_status run_own_threads(loop *l, const iccp_env *env, const char *stage)
 {
     pthread_t threads[MAX_WORKERS];
     size_t n_threads = 0;
+    icc_status status = iccp_progress(env, stage, 0);
+    if (status != ICC_OK)
+        return status;
     const size_t wanted = env->threads < MAX_WORKERS ? (size_t)env->threads : MAX_WORKERS;
     while (n_threads + 1 < wanted && n_threads + 1 < l->n_chunks &&
            pthread_create(&threads[n_threads], NULL, worker, l) == 0)
         ++n_threads;
-    icc_status status = ICC_OK;
     size_t index;
     while (status == ICC_OK && take_chunk(l, &index)) {
         status = iccp_progress(env, stage, (double)index / (double)l->n_chunks);
