@@ -63,7 +63,7 @@ static void gather(const iccp_ldlt *l, const iccp_scaled *b, const iccp_scaled *
             continue;
         }
         const int32_t rest = (exponent + UNIT / 2) & (UNIT - 1);
-        work->fraction[k] = ldexp(b->fraction[row], rest - UNIT / 2);
+        work->fraction[k] = iccp_ldexp(b->fraction[row], rest - UNIT / 2);
         work->exponent[k] = (exponent + UNIT / 2 - rest) / UNIT;
     }
 }

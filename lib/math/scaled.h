@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 /* The exponent of 0: lower than any other, and still far from overflow when exponents are added. */
 #define ICCP_ZERO_EXPONENT (INT32_MIN / 4)
@@ -15,11 +16,37 @@ typedef struct iccp_scaled {
     int32_t *exponent;
 } iccp_scaled;
 
+/* frexp() and ldexp() without a call where x and the result are normal: the exponent is a field of
+ * the double, biased by 1023. A fraction in [0.5, 1) has 1022 in it. */
+static inline double iccp_frexp(double x, int *exponent)
+{
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    const int field = (int)(bits >> 52 & 0x7ff);
+    if (field == 0 || field == 0x7ff)
+        return frexp(x, exponent);
+    *exponent = field - 1022;
+    bits = (bits & ~((uint64_t)0x7ff << 52)) | (uint64_t)1022 << 52;
+    memcpy(&x, &bits, sizeof bits);
+    return x;
+}
+
+/* For |x| in [0.5, 2) or 0. */
+static inline double iccp_ldexp(double x, int32_t exponent)
+{
+    if (exponent < -1021 || exponent > 1022)
+        return ldexp(x, exponent);
+    const uint64_t bits = (uint64_t)(exponent + 1023) << 52;
+    double power;
+    memcpy(&power, &bits, sizeof bits);
+    return x * power;
+}
+
 /* Stores x * 2^exponent, x finite, in normalised form. */
 static inline void iccp_scaled_set(const iccp_scaled *vector, size_t i, double x, int32_t exponent)
 {
     int shift;
-    vector->fraction[i] = frexp(x, &shift);
+    vector->fraction[i] = iccp_frexp(x, &shift);
     vector->exponent[i] =
         vector->fraction[i] < 0 || vector->fraction[i] > 0 ? exponent + shift : ICCP_ZERO_EXPONENT;
 }
@@ -28,7 +55,7 @@ static inline void iccp_scaled_set(const iccp_scaled *vector, size_t i, double x
 static inline double iccp_scaled_get(const iccp_scaled *vector, size_t i, int32_t exponent)
 {
     const int32_t shift = vector->exponent[i] - exponent;
-    return shift < -2000 ? 0.0 : ldexp(vector->fraction[i], shift);
+    return shift < -2000 ? 0.0 : iccp_ldexp(vector->fraction[i], shift);
 }
 
 /* -1, 0 or 1 as entry i is smaller than, equal to or larger than entry j; both normalised, not

@@ -22,21 +22,18 @@ typedef struct poisson {
 static icc_status poisson_create(poisson *p, const iccp_unknowns *unknowns, const iccp_env *env)
 {
     *p = (poisson){.unknowns = unknowns, .mg = {.memory = env->memory}};
-    icc_status status =
-        iccp_multigrid_create(&p->mg, unknowns->tree->grid, unknowns->n, unknowns->vertex, env);
+    p->position = iccp_alloc(&env->memory, unknowns->n, sizeof *p->position);
+    if (p->position == NULL)
+        return ICC_ERR_MEMORY;
+    const icc_status status = iccp_multigrid_create(&p->mg, unknowns->tree->grid, unknowns->n,
+                                                    unknowns->vertex, p->position, env);
     if (status != ICC_OK)
         return status;
-    const iccp_mg_level *level = &p->mg.level[0];
-    p->position = iccp_alloc(&env->memory, unknowns->n, sizeof *p->position);
-    p->x = iccp_alloc_zero(&env->memory, level->n_entries, sizeof *p->x);
-    p->r = iccp_alloc_zero(&env->memory, level->n_entries, sizeof *p->r);
-    if (p->position == NULL || p->x == NULL || p->r == NULL)
+    const size_t n = p->mg.level[0].n_entries;
+    p->x = iccp_alloc_zero(&env->memory, n, sizeof *p->x);
+    p->r = iccp_alloc_zero(&env->memory, n, sizeof *p->r);
+    if (p->x == NULL || p->r == NULL)
         return ICC_ERR_MEMORY;
-    for (size_t k = 0; k < unknowns->n; ++k) {
-        uint32_t x;
-        const size_t row = iccp_mg_row_of(level, unknowns->tree->grid, unknowns->vertex[k], &x);
-        p->position[k] = (uint32_t)iccp_mg_position(level, row, x);
-    }
     return ICC_OK;
 }
 

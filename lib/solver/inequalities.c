@@ -16,7 +16,7 @@ static double plain(const iccp_scaled *vector, size_t i)
 static bool is_violated(const iccp_scaled *f, double sigma, size_t parent, size_t child)
 {
     const int32_t shift = f->exponent[child] - f->exponent[parent];
-    return ldexp(sigma * f->fraction[child], shift) > f->fraction[parent];
+    return iccp_ldexp(sigma * f->fraction[child], shift) > f->fraction[parent];
 }
 
 size_t iccp_inequalities_violated(const iccp_unknowns *unknowns, double eta, const iccp_scaled *f)

@@ -4,20 +4,6 @@
 
 #include <string.h>
 
-size_t iccp_mg_row_of(const iccp_mg_level *level, const icc_grid *grid, uint32_t vertex,
-                      uint32_t *x)
-{
-    size_t row = 0;
-    uint32_t rest = vertex / (uint32_t)grid->shape[0];
-    *x = vertex - rest * (uint32_t)grid->shape[0] - level->corner[0] + 1;
-    for (int32_t k = 1; k < grid->dim; ++k) {
-        const uint32_t next = rest / (uint32_t)grid->shape[k];
-        row += level->stride[k] * (rest - next * (uint32_t)grid->shape[k] - level->corner[k] + 1);
-        rest = next;
-    }
-    return row;
-}
-
 /* The rows of the box, their strides, parities and empty ranges. */
 icc_status iccp_mg_make_rows(iccp_mg_level *level, const iccp_memory *memory)
 {
@@ -124,68 +110,141 @@ icc_status iccp_mg_make_runs(iccp_mg_level *level, const iccp_memory *memory)
     return ICC_OK;
 }
 
-static void find_extent(iccp_mg_level *level, const icc_grid *grid, size_t n,
-                        const uint32_t *vertex)
+/* The grid's rows between the first and the last that a list of vertices meets: of each the first
+ * and the last x of the list, and later its number among the rows of the level. */
+typedef struct grid_rows {
+    const icc_grid *grid;
+    uint32_t first; /* the row with number 0 */
+    size_t n;
+    uint32_t *range; /* 2 n */
+    uint32_t *row;   /* n */
+} grid_rows;
+
+static icc_status make_grid_rows(grid_rows *g, const icc_grid *grid, size_t n,
+                                 const uint32_t *vertex, const iccp_memory *memory)
 {
-    uint32_t high[ICC_MAX_DIM] = {0};
-    for (int32_t k = 0; k < grid->dim; ++k)
-        level->corner[k] = UINT32_MAX;
-    for (size_t i = 0; i < n; ++i) {
-        uint32_t rest = vertex[i];
-        for (int32_t k = 0; k < grid->dim; ++k) {
-            const uint32_t next = rest / (uint32_t)grid->shape[k];
-            const uint32_t c = rest - next * (uint32_t)grid->shape[k];
-            level->corner[k] = c < level->corner[k] ? c : level->corner[k];
-            high[k] = c > high[k] ? c : high[k];
-            rest = next;
+    const uint32_t length = (uint32_t)grid->shape[0];
+    uint32_t range[2] = {UINT32_MAX, 0};
+    for (size_t i = 0; i < n; ++i)
+        iccp_mg_widen(range, vertex[i], vertex[i]);
+    *g = (grid_rows){.grid = grid, .first = range[0] / length};
+    g->n = range[1] / length - g->first + 1;
+    g->range = iccp_alloc(memory, 2 * g->n, sizeof *g->range);
+    g->row = iccp_alloc(memory, g->n, sizeof *g->row);
+    if (g->range == NULL || g->row == NULL)
+        return ICC_ERR_MEMORY;
+    for (size_t k = 0; k < g->n; ++k) {
+        g->range[2 * k] = UINT32_MAX;
+        g->range[2 * k + 1] = 0;
+    }
+    return ICC_OK;
+}
+
+static icc_status find_ranges(grid_rows *g, size_t n, const uint32_t *vertex, const iccp_env *env)
+{
+    const uint32_t length = (uint32_t)g->grid->shape[0];
+    icc_status status = ICC_OK;
+    for (size_t i = 0; i < n && status == ICC_OK; ++i) {
+        const uint32_t row = vertex[i] / length, x = vertex[i] - row * length;
+        iccp_mg_widen(g->range + 2 * (size_t)(row - g->first), x, x);
+        if (i % ICCP_VERTICES_PER_REPORT == 0)
+            status = iccp_progress(env, "solve", 0);
+    }
+    return status;
+}
+
+static bool is_met(const grid_rows *g, size_t row)
+{
+    return g->range[2 * row] <= g->range[2 * row + 1];
+}
+
+/* The smallest box round all vertices. */
+static void find_extent(iccp_mg_level *level, const grid_rows *g)
+{
+    uint32_t range[ICC_MAX_DIM][2];
+    for (int32_t k = 0; k < level->dim; ++k) {
+        range[k][0] = UINT32_MAX;
+        range[k][1] = 0;
+    }
+    for (size_t r = 0; r < g->n; ++r) {
+        if (!is_met(g, r))
+            continue;
+        size_t rest = g->first + r;
+        iccp_mg_widen(range[0], g->range[2 * r], g->range[2 * r + 1]);
+        for (int32_t k = 1; k < level->dim; ++k) {
+            const uint32_t at = (uint32_t)(rest % g->grid->shape[k]);
+            iccp_mg_widen(range[k], at, at);
+            rest /= g->grid->shape[k];
         }
     }
-    for (int32_t k = 0; k < grid->dim; ++k)
-        level->extent[k] = high[k] - level->corner[k] + 1;
+    for (int32_t k = 0; k < level->dim; ++k) {
+        level->corner[k] = range[k][0];
+        level->extent[k] = range[k][1] - range[k][0] + 1;
+    }
 }
 
-static icc_status find_ranges(iccp_mg_level *level, const icc_grid *grid, size_t n,
-                              const uint32_t *vertex, const iccp_env *env)
+/* Numbers the grid's rows as the level does, and hands over their ranges. */
+static void match_rows(iccp_mg_level *level, grid_rows *g)
 {
+    for (size_t r = 0; r < g->n; ++r) {
+        if (!is_met(g, r))
+            continue;
+        size_t rest = g->first + r, row = 0;
+        for (int32_t k = 1; k < level->dim; ++k) {
+            row += level->stride[k] * (rest % g->grid->shape[k] - level->corner[k] + 1);
+            rest /= g->grid->shape[k];
+        }
+        g->row[r] = (uint32_t)row;
+        level->range[2 * row] = g->range[2 * r] - level->corner[0] + 1;
+        level->range[2 * row + 1] = g->range[2 * r + 1] - level->corner[0] + 1;
+    }
+}
+
+static icc_status mark_inside(iccp_mg_level *level, const grid_rows *g, size_t n,
+                              const uint32_t *vertex, uint32_t *position, const iccp_env *env)
+{
+    const uint32_t length = (uint32_t)g->grid->shape[0];
     icc_status status = ICC_OK;
     for (size_t i = 0; i < n && status == ICC_OK; ++i) {
-        uint32_t x;
-        const size_t r = iccp_mg_row_of(level, grid, vertex[i], &x);
-        iccp_mg_widen(level->range + 2 * r, x, x);
+        const uint32_t row = vertex[i] / length, x = vertex[i] - row * length;
+        const size_t at = iccp_mg_position(level, g->row[row - g->first], x - level->corner[0] + 1);
+        level->inside[at] = 1;
+        position[i] = (uint32_t)at;
         if (i % ICCP_VERTICES_PER_REPORT == 0)
             status = iccp_progress(env, "solve", 0);
     }
     return status;
 }
 
-static icc_status mark_inside(iccp_mg_level *level, const icc_grid *grid, size_t n,
-                              const uint32_t *vertex, const iccp_env *env)
+static icc_status make_fine(iccp_mg_level *level, grid_rows *g, size_t n, const uint32_t *vertex,
+                            uint32_t *position, const iccp_env *env)
 {
-    icc_status status = ICC_OK;
-    for (size_t i = 0; i < n && status == ICC_OK; ++i) {
-        uint32_t x;
-        const size_t r = iccp_mg_row_of(level, grid, vertex[i], &x);
-        level->inside[iccp_mg_position(level, r, x)] = 1;
-        if (i % ICCP_VERTICES_PER_REPORT == 0)
-            status = iccp_progress(env, "solve", 0);
-    }
-    return status;
+    icc_status status = find_ranges(g, n, vertex, env);
+    if (status != ICC_OK)
+        return status;
+    find_extent(level, g);
+    status = iccp_mg_make_rows(level, &env->memory);
+    if (status != ICC_OK)
+        return status;
+    match_rows(level, g);
+    status = iccp_mg_make_windows(level, &env->memory);
+    if (status == ICC_OK)
+        status = mark_inside(level, g, n, vertex, position, env);
+    return status == ICC_OK ? iccp_mg_make_runs(level, &env->memory) : status;
 }
 
 icc_status iccp_mg_level_fine(iccp_mg_level *level, const icc_grid *grid, size_t n,
-                              const uint32_t *vertex, const iccp_env *env)
+                              const uint32_t *vertex, uint32_t *position, const iccp_env *env)
 {
     *level =
         (iccp_mg_level){.dim = grid->dim, .kernels = iccp_mg_kernels_choose(2 * grid->dim, false)};
-    find_extent(level, grid, n, vertex);
-    icc_status status = iccp_mg_make_rows(level, &env->memory);
+    grid_rows rows;
+    icc_status status = make_grid_rows(&rows, grid, n, vertex, &env->memory);
     if (status == ICC_OK)
-        status = find_ranges(level, grid, n, vertex, env);
-    if (status == ICC_OK)
-        status = iccp_mg_make_windows(level, &env->memory);
-    if (status == ICC_OK)
-        status = mark_inside(level, grid, n, vertex, env);
-    return status == ICC_OK ? iccp_mg_make_runs(level, &env->memory) : status;
+        status = make_fine(level, &rows, n, vertex, position, env);
+    iccp_free(&env->memory, rows.range);
+    iccp_free(&env->memory, rows.row);
+    return status;
 }
 
 void iccp_mg_level_drop_scaffold(iccp_mg_level *level, const iccp_memory *memory)

@@ -42,9 +42,10 @@ typedef struct iccp_mg_level {
     const iccp_mg_kernels *kernels;
 } iccp_mg_level;
 
-/* The vertices of a list, each at most once. */
+/* The vertices of a list, each at most once; `position` receives where each of them is stored, and
+ * may be the list itself. */
 icc_status iccp_mg_level_fine(iccp_mg_level *level, const icc_grid *grid, size_t n,
-                              const uint32_t *vertex, const iccp_env *env);
+                              const uint32_t *vertex, uint32_t *position, const iccp_env *env);
 
 /* Every other vertex of `fine`. `finest` is where distances to the outside are measured, 2^depth
  * times as fine as the new one. No vertices inside: nothing is allocated. */
@@ -67,10 +68,6 @@ static inline void iccp_mg_widen(uint32_t *range, uint32_t first, uint32_t last)
 
 void iccp_mg_level_drop_scaffold(iccp_mg_level *level, const iccp_memory *memory);
 void iccp_mg_level_free(iccp_mg_level *level, const iccp_memory *memory);
-
-/* The row and the x of a grid vertex on the finest level. */
-size_t iccp_mg_row_of(const iccp_mg_level *level, const icc_grid *grid, uint32_t vertex,
-                      uint32_t *x);
 
 /* Where a vertex is stored. */
 static inline size_t iccp_mg_position(const iccp_mg_level *level, size_t row, uint32_t x)

@@ -26,10 +26,10 @@ static icc_status make_scratch(iccp_multigrid *mg)
 }
 
 icc_status iccp_multigrid_create(iccp_multigrid *mg, const icc_grid *grid, size_t n,
-                                 const uint32_t *vertex, const iccp_env *env)
+                                 const uint32_t *vertex, uint32_t *position, const iccp_env *env)
 {
     *mg = (iccp_multigrid){.memory = env->memory, .n_levels = 1};
-    icc_status status = iccp_mg_level_fine(&mg->level[0], grid, n, vertex, env);
+    icc_status status = iccp_mg_level_fine(&mg->level[0], grid, n, vertex, position, env);
     if (status == ICC_OK)
         status = make_scratch(mg);
     while (status == ICC_OK && mg->n_levels < ICCP_MG_MAX_LEVELS) {

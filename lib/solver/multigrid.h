@@ -15,11 +15,12 @@ typedef struct iccp_multigrid {
     iccp_mg_scratch scratch;
 } iccp_multigrid;
 
-/* For n >= 1 vertices of a list, each at most once. Some 12 bytes a vertex of a large box, one more
- * while it is being made, and 40 for each row of the bounding box; vertices outside count where
- * they are stored (mg_level.h). */
+/* For n >= 1 vertices of a list, each at most once; `position` receives where each of them is
+ * among the entries of level[0], and may be the list itself. Some 12 bytes a vertex of a large
+ * box, one more while it is being made, and 40 for each row of the bounding box; vertices outside
+ * count where they are stored (mg_level.h). */
 icc_status iccp_multigrid_create(iccp_multigrid *mg, const icc_grid *grid, size_t n,
-                                 const uint32_t *vertex, const iccp_env *env);
+                                 const uint32_t *vertex, uint32_t *position, const iccp_env *env);
 void iccp_multigrid_free(iccp_multigrid *mg);
 
 /* level[0].x = M level[0].b, in the numbering of iccp_mg_position(); b is 0 outside and must not

@@ -46,7 +46,7 @@ typedef struct shells {
 } shells;
 
 typedef struct shell {
-    uint32_t *vertex; /* grid vertices of its unknowns; later their positions */
+    uint32_t *position; /* by unknown: where it is among the entries of the finest level */
     iccp_tie *tie;
     size_t n_tied;
     iccp_multigrid mg;
@@ -141,12 +141,12 @@ static void load(const shells *s, shell *h)
 {
     size_t top = 0;
     if (s->first)
-        h->r[h->vertex[0]] = 1;
+        h->r[h->position[0]] = 1;
     for (size_t i = 0; i < s->n && !s->first; ++i) {
         const uint32_t unknown = s->unknown[i];
         double sum = 0;
         if (s->ties->top[unknown] == unknown)
-            top = h->vertex[i];
+            top = h->position[i];
         for (int32_t d = 0; d < s->unknowns->n_neighbours; ++d) {
             const uint32_t j = neighbours(s, unknown)[d];
             if (j != ICCP_NONE && s->state[j] == KNOWN)
@@ -156,18 +156,14 @@ static void load(const shells *s, shell *h)
     }
 }
 
-/* Replaces vertices by positions, lists what is tied and fills in the guess. */
+/* Lists what is tied and fills in the guess. */
 static icc_status place(const shells *s, shell *h)
 {
-    const iccp_mg_level *level = &h->mg.level[0];
     icc_status status = ICC_OK;
     size_t top = 0;
     for (size_t i = 0; i < s->n && status == ICC_OK; ++i) {
         const uint32_t unknown = s->unknown[i];
-        uint32_t x;
-        const size_t r = iccp_mg_row_of(level, s->unknowns->tree->grid, h->vertex[i], &x);
-        const size_t at = iccp_mg_position(level, r, x);
-        h->vertex[i] = (uint32_t)at;
+        const size_t at = h->position[i];
         if (s->ties->top[unknown] == unknown) {
             top = at;
             h->x[at] = iccp_scaled_get(s->f, unknown, h->exponent);
@@ -232,13 +228,13 @@ static bool allocate(const shells *s, shell *h)
 static icc_status solve_shell(shells *s, shell *h)
 {
     const double start = iccp_seconds();
-    h->vertex = iccp_alloc(&s->env->memory, s->n, sizeof *h->vertex);
-    if (h->vertex == NULL)
+    h->position = iccp_alloc(&s->env->memory, s->n, sizeof *h->position);
+    if (h->position == NULL)
         return ICC_ERR_MEMORY;
     for (size_t i = 0; i < s->n; ++i)
-        h->vertex[i] = s->unknowns->vertex[s->unknown[i]];
-    icc_status status =
-        iccp_multigrid_create(&h->mg, s->unknowns->tree->grid, s->n, h->vertex, s->env);
+        h->position[i] = s->unknowns->vertex[s->unknown[i]];
+    icc_status status = iccp_multigrid_create(&h->mg, s->unknowns->tree->grid, s->n, h->position,
+                                              h->position, s->env);
     if (status == ICC_OK && !allocate(s, h))
         status = ICC_ERR_MEMORY;
     if (status != ICC_OK)
@@ -259,7 +255,7 @@ static void free_shell(const shells *s, shell *h)
 {
     const iccp_memory *m = &s->env->memory;
     iccp_multigrid_free(&h->mg);
-    iccp_free(m, h->vertex);
+    iccp_free(m, h->position);
     iccp_free(m, h->tie);
     iccp_free(m, h->x);
     iccp_free(m, h->r);
@@ -286,7 +282,7 @@ static extent measure(const shells *s, shell *h)
     for (size_t i = 0; i < n; ++i)
         e.significant += h->x[i] > NEGLIGIBLE * e.peak;
     for (size_t i = 0; i < s->n && s->n_left > 0; ++i) {
-        const double x = h->x[h->vertex[i]];
+        const double x = h->x[h->position[i]];
         if (x > e.border && has_neighbour(s, s->unknown[i], LEFT))
             e.border = x;
     }
@@ -308,7 +304,7 @@ static icc_status accept_unknowns(shells *s, const shell *h, double limit, doubl
     bool accepted = false;
     for (size_t i = 0; i < s->n && status == ICC_OK; ++i) {
         const uint32_t unknown = s->unknown[i];
-        const double x = h->x[h->vertex[i]];
+        const double x = h->x[h->position[i]];
         if (s->ties->top[unknown] == unknown)
             accepted = x > limit;
         status = report(s, i);
@@ -328,7 +324,7 @@ static bool is_kept(const shells *s, const shell *h, size_t i, size_t end, doubl
 {
     if (s->state[s->unknown[i]] == KNOWN)
         return false;
-    bool kept = h->x[h->vertex[i]] > negligible;
+    bool kept = h->x[h->position[i]] > negligible;
     for (; i < end && !kept; ++i)
         kept = has_neighbour(s, s->unknown[i], KNOWN);
     return kept;
@@ -342,11 +338,11 @@ static void keep_unknowns(shells *s, const shell *h, double negligible, double o
         const uint32_t top = s->unknown[i];
         end = i + s->cluster[top + 1] - s->cluster[top];
         const bool kept = is_kept(s, h, i, end, negligible);
-        const bool guessed = kept && h->x[h->vertex[i]] > 0;
+        const bool guessed = kept && h->x[h->position[i]] > 0;
         for (; i < end; ++i) {
             const uint32_t unknown = s->unknown[i];
             if (guessed)
-                iccp_scaled_set(s->f, unknown, h->x[h->vertex[i]] / one, h->exponent);
+                iccp_scaled_set(s->f, unknown, h->x[h->position[i]] / one, h->exponent);
             if (kept)
                 s->unknown[n++] = unknown;
             else if (s->state[unknown] == IN_SHELL)
@@ -375,7 +371,7 @@ static icc_status advance(shells *s, shell *h)
 {
     const extent e = measure(s, h);
     const double limit = fmax(CUT * e.peak, TRUNCATION * e.border);
-    const double one = s->first ? h->x[h->vertex[0]] : 1;
+    const double one = s->first ? h->x[h->position[0]] : 1;
     if (!(e.peak > 0 && one > 0 && isfinite(one)))
         return ICC_ERR_SOLVER;
     icc_status status = report(s, 0);

@@ -2,17 +2,21 @@
 
 #include <string.h>
 
+/* Vertices at the border of the grid have fewer neighbours; one division an axis tells. */
 static void find_neighbours(iccp_unknowns *unknowns, const uint32_t *unknown_of, uint32_t k)
 {
     const icc_grid *grid = unknowns->tree->grid;
+    const uint32_t v = unknowns->vertex[k];
     uint32_t *neighbour = unknowns->neighbour + (size_t)k * (size_t)unknowns->n_neighbours;
-    for (int32_t axis = 0; axis < grid->dim; ++axis)
-        for (int32_t direction = 0; direction < 2; ++direction) {
-            const uint32_t u =
-                iccp_grid_neighbour(grid, unknowns->vertex[k], axis, 2 * direction - 1);
-            *neighbour++ = u == ICCP_NONE ? ICCP_NONE : unknown_of[u];
-        }
-    const uint32_t parent = unknowns->tree->parent[unknowns->vertex[k]];
+    uint32_t rest = v;
+    for (int32_t axis = 0; axis < grid->dim; ++axis) {
+        const uint32_t length = (uint32_t)grid->shape[axis], stride = (uint32_t)grid->stride[axis];
+        const uint32_t next = rest / length, at = rest - next * length;
+        *neighbour++ = at == 0 ? ICCP_NONE : unknown_of[v - stride];
+        *neighbour++ = at + 1 == length ? ICCP_NONE : unknown_of[v + stride];
+        rest = next;
+    }
+    const uint32_t parent = unknowns->tree->parent[v];
     unknowns->parent[k] = parent == ICCP_NONE ? ICCP_NONE : unknown_of[parent];
 }
 
