@@ -10,6 +10,12 @@ if(CMAKE_C_COMPILER_ID MATCHES "GNU|Clang")
     -Wundef -Wvla -ffp-contract=off $<$<BOOL:${ICC_WERROR}>:-Werror>)
 endif()
 
+# The x87 computes with excess precision, which the exact predicates cannot do with.
+if(CMAKE_C_COMPILER_ID MATCHES "GNU|Clang" AND CMAKE_SIZEOF_VOID_P EQUAL 4 AND
+   CMAKE_SYSTEM_PROCESSOR MATCHES "^(i[3-6]86|x86|x86_64|AMD64)$")
+  target_compile_options(icc_flags INTERFACE -msse2 -mfpmath=sse)
+endif()
+
 # C11 without extensions, and nothing visible that is not declared so.
 function(icc_add_flags target)
   set_target_properties(${target} PROPERTIES C_EXTENSIONS OFF C_VISIBILITY_PRESET hidden)

@@ -50,9 +50,13 @@ esac
 ICC_TEST_SHARE=${ICC_TEST_SHARE:-$share}
 export ICC_TEST_SHARE
 
+# Under the thread sanitizer what uses threads is of interest, and in the long tier everything.
+target=all only=
+[ "$tier-$preset" != plain-tsan ] || target=tests_threads only='^threads$' left_to_others=long
+
 echo "building in $build"
 quietly "$build/configure.log" cmake --preset "$preset" -DICC_BUILD_BENCHMARKS=$benchmarks "$@"
-quietly "$build/build.log" cmake --build "$build" --parallel "$jobs"
+quietly "$build/build.log" cmake --build "$build" --parallel "$jobs" --target "$target"
 grep -A 4 'warning:' "$build/build.log" || true
 
 # also NAME COMMAND... counts as one more test; exit code 77 means that it cannot run here, and says why.
@@ -85,8 +89,8 @@ status=0
 (
     # shellcheck disable=SC3045 # dash and bash have it
     ulimit -t $most_seconds
-    ctest --test-dir "$build" --label-exclude "^($left_to_others)\$" --output-on-failure --parallel "$jobs" \
-        --output-log "$build/ctest.log" </dev/null
+    ctest --test-dir "$build" ${only:+--label-regex "$only"} --label-exclude "^($left_to_others)\$" \
+        --output-on-failure --parallel "$jobs" --output-log "$build/ctest.log" </dev/null
 ) || status=$?
 counts=$(awk '/tests? passed, .* tests? failed out of/ { print $NF - $4, $4 }' "$build/ctest.log")
 counts=${counts:-0 1}
@@ -125,6 +129,11 @@ elif [ "$sanitized" = no ]; then
     also "nothing is left out" test -z "$left_out"
     also "reference documentation" reference
     also "Debian packages" packages
+    if [ "$tier" = long ]; then
+        also "other machines" sh tests/ports.sh --long
+    else
+        also "other machines" sh tests/ports.sh arm64 s390x
+    fi
 fi
 if [ "$tier-$sanitized" = long-no ]; then
     also "a hundred times the fuzzers' variations" fuzz
