@@ -3,9 +3,10 @@
 # usage: sh tests/run.sh [--all | --long] [PRESET [CMAKE ARGUMENT ...]]      (presets: see CMakePresets.json)
 # Without a tier: what takes less than ten seconds, with a share of the cases of long sweeps. A few minutes.
 # --all: what CI runs: also tests labelled `all`, benchmarks compiled, what needs heavy packages, the layout of the
-#        sources, the reference documentation, and the Debian packages, built and tested in a system of their own.
+#        sources, the reference documentation, the Debian packages, built and tested in a system of their own, and
+#        two other machines, emulated.
 # --long: the same with all cases of every sweep, tests labelled `long`, a hundred times the variations of fuzzers'
-#         inputs (10^6 where one takes microseconds), and all of it under the sanitizers. Hours.
+#         inputs (10^6 where one takes microseconds), all other machines, and all of it under the sanitizers. Hours.
 # ICC_TEST_SHARE=PERCENT in the environment sets the share of the cases.
 set -eu
 cd "$(dirname "$0")/.."
