@@ -7,7 +7,15 @@ if(CMAKE_C_COMPILER_ID MATCHES "GNU|Clang")
   # to the next.
   target_compile_options(icc_flags INTERFACE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes
-    -Wundef -Wvla -ffp-contract=off $<$<BOOL:${ICC_WERROR}>:-Werror>)
+    -Wundef -Wvla -ffp-contract=off $<$<BOOL:${ICC_WERROR}>:-Werror>
+    # On s390x C11 would have GCC compute single precision in double.
+    $<$<C_COMPILER_ID:GNU>:-fexcess-precision=fast>)
+endif()
+
+# The x87 computes with excess precision, which the exact predicates cannot do with.
+if(CMAKE_C_COMPILER_ID MATCHES "GNU|Clang" AND CMAKE_SIZEOF_VOID_P EQUAL 4 AND
+   CMAKE_SYSTEM_PROCESSOR MATCHES "^(i[3-6]86|x86|x86_64|AMD64)$")
+  target_compile_options(icc_flags INTERFACE -msse2 -mfpmath=sse)
 endif()
 
 # C11 without extensions, and nothing visible that is not declared so.

@@ -40,26 +40,6 @@ remove_roots
 rm -rf "$work"
 mkdir -p "$work"
 
-# step NAME COMMAND... stops at the first command in it that fails; so it is not called in a condition.
-step() {
-    name=$1
-    shift
-    begin=$(date +%s)
-    set +e
-    (
-        set -e
-        "$@"
-    ) >"$work/$name.log" 2>&1 </dev/null
-    status=$?
-    set -e
-    if [ "$status" -ne 0 ]; then
-        tail -n 60 "$work/$name.log" >&2
-        echo "debian: $name failed (all of its output is in $work/$name.log)" >&2
-        exit 1
-    fi
-    printf 'debian: %-13s %4d s\n' "$name" $(($(date +%s) - begin))
-}
-
 # within ROOT COMMAND...: with /proc and /dev of the chroot there, but not in it.
 within() {
     # shellcheck disable=SC2016 # for the shell inside
@@ -70,22 +50,10 @@ within() {
         exec "$@"' within "$@"
 }
 
-# The mirror that apt uses here.
-mirror() {
-    # shellcheck disable=SC2016 # for apt-get
-    found=$(apt-get indextargets --format '$(RELEASE) $(REPO_URI)' 'Created-By: Packages' |
-        sed -n '/^bookworm /{s///p;q}')
-    if [ -z "$found" ]; then
-        echo "the sources of apt have no mirror of Debian bookworm" >&2
-        return 1
-    fi
-    echo "$found"
-}
-
 make_base() {
     base=${LIBICC_DEBIAN_BASE:-$work/base.tar}
     if ! [ -e "$base" ]; then
-        uri=$(mirror)
+        uri=$(debian_mirror)
         mmdebstrap --mode=root --variant=apt --dpkgopt=force-unsafe-io \
             --aptopt='APT::Install-Recommends "false"' bookworm "$base" "$uri"
     fi
@@ -140,12 +108,12 @@ test_installed() {
     within "$test_root" autopkgtest "$work"/*.changes -- chroot "$test_root"
 }
 
-step chroots make_base
-step dependencies install_build_dependencies
-step build build
-step lintian lint &
+step debian chroots make_base
+step debian dependencies install_build_dependencies
+step debian build build
+step debian lintian lint &
 lintian=$!
-step autopkgtest test_installed &
+step debian autopkgtest test_installed &
 autopkgtest=$!
 status=0
 wait $lintian || status=1

@@ -3,9 +3,10 @@
 # usage: sh tests/run.sh [--all | --long] [PRESET [CMAKE ARGUMENT ...]]      (presets: see CMakePresets.json)
 # Without a tier: what takes less than ten seconds, with a share of the cases of long sweeps. A few minutes.
 # --all: what CI runs: also tests labelled `all`, benchmarks compiled, what needs heavy packages, the layout of the
-#        sources, the reference documentation, and the Debian packages, built and tested in a system of their own.
+#        sources, the reference documentation, the Debian packages, built and tested in a system of their own, and
+#        two other machines, emulated.
 # --long: the same with all cases of every sweep, tests labelled `long`, a hundred times the variations of fuzzers'
-#         inputs (10^6 where one takes microseconds), and all of it under the sanitizers. Hours.
+#         inputs (10^6 where one takes microseconds), all other machines, and all of it under the sanitizers. Hours.
 # ICC_TEST_SHARE=PERCENT in the environment sets the share of the cases.
 set -eu
 cd "$(dirname "$0")/.."
@@ -50,9 +51,13 @@ esac
 ICC_TEST_SHARE=${ICC_TEST_SHARE:-$share}
 export ICC_TEST_SHARE
 
+# Under the thread sanitizer what uses threads is of interest, and in the long tier everything.
+target=all only=
+[ "$tier-$preset" != plain-tsan ] || target=tests_threads only='^threads$' left_to_others=long
+
 echo "building in $build"
 quietly "$build/configure.log" cmake --preset "$preset" -DICC_BUILD_BENCHMARKS=$benchmarks "$@"
-quietly "$build/build.log" cmake --build "$build" --parallel "$jobs"
+quietly "$build/build.log" cmake --build "$build" --parallel "$jobs" --target "$target"
 grep -A 4 'warning:' "$build/build.log" || true
 
 # also NAME COMMAND... counts as one more test; exit code 77 means that it cannot run here, and says why.
@@ -85,8 +90,8 @@ status=0
 (
     # shellcheck disable=SC3045 # dash and bash have it
     ulimit -t $most_seconds
-    ctest --test-dir "$build" --label-exclude "^($left_to_others)\$" --output-on-failure --parallel "$jobs" \
-        --output-log "$build/ctest.log" </dev/null
+    ctest --test-dir "$build" ${only:+--label-regex "$only"} --label-exclude "^($left_to_others)\$" \
+        --output-on-failure --parallel "$jobs" --output-log "$build/ctest.log" </dev/null
 ) || status=$?
 counts=$(awk '/tests? passed, .* tests? failed out of/ { print $NF - $4, $4 }' "$build/ctest.log")
 counts=${counts:-0 1}
@@ -125,6 +130,11 @@ elif [ "$sanitized" = no ]; then
     also "nothing is left out" test -z "$left_out"
     also "reference documentation" reference
     also "Debian packages" packages
+    if [ "$tier" = long ]; then
+        also "other machines" sh tests/ports.sh --long
+    else
+        also "other machines" sh tests/ports.sh arm64 s390x
+    fi
 fi
 if [ "$tier-$sanitized" = long-no ]; then
     also "a hundred times the fuzzers' variations" fuzz

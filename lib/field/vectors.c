@@ -472,7 +472,7 @@ static void mark_dirty(const work *w, uint32_t v)
     for (int32_t k = 0; k < grid->dim; ++k)
         n *= 5;
     for (size_t i = 0; i < n; ++i) {
-        ptrdiff_t u = v;
+        ptrdiff_t u = (ptrdiff_t)v;
         size_t rest = i;
         for (int32_t k = 0; k < grid->dim; ++k, rest /= 5)
             u += ((ptrdiff_t)(rest % 5) - 2) * (ptrdiff_t)grid->stride[k];

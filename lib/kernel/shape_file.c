@@ -31,7 +31,7 @@ static icc_status visit(iccp_blob *b, parts *p, const iccp_env *env)
         status = iccp_boundary_visit(b, &p->regions[i], (int32_t)p->dim, env);
     if (status != ICC_OK)
         return status;
-    iccp_blob_array_f64(b, p->n_vertices * p->dim, &p->vertices);
+    iccp_blob_array_f64(b, p->n_vertices * (size_t)p->dim, &p->vertices);
     iccp_blob_array_u32(b, p->n_segments * 2, &p->segments);
     return b->status;
 }

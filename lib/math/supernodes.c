@@ -52,10 +52,12 @@ static void partition(iccp_supernodes *nodes, const iccp_etree *t, const uint32_
 
 /* Numbers rows and values one supernode after the other. The last column of a supernode has the
  * fewest rows, and all its columns share these: what is below a panel is the count of that
- * column without its diagonal entry. */
-static void lay_out_panels(iccp_supernodes *nodes, const iccp_etree *t, const uint32_t *count)
+ * column without its diagonal entry. False for more values than can be addressed, which 32 bits are
+ * soon too few for. */
+static bool lay_out_panels(iccp_supernodes *nodes, const iccp_etree *t, const uint32_t *count)
 {
     size_t n_rows = 0, n_values = 0;
+    double size = 0;
     for (uint32_t s = 0; s < nodes->n; ++s) {
         const uint32_t last = nodes->column[s + 1] - 1;
         const size_t columns = iccp_supernodes_columns(nodes, s);
@@ -66,6 +68,7 @@ static void lay_out_panels(iccp_supernodes *nodes, const iccp_etree *t, const ui
         nodes->first_value[s] = n_values;
         n_rows += rows - columns;
         n_values += (rows + ICCP_STRIP - 1) / ICCP_STRIP * ICCP_STRIP * columns;
+        size += sizeof(double) * (double)(rows + ICCP_STRIP) * (double)columns;
         nodes->most_columns = columns > nodes->most_columns ? columns : nodes->most_columns;
         nodes->most_rows = rows > nodes->most_rows ? rows : nodes->most_rows;
     }
@@ -75,6 +78,7 @@ static void lay_out_panels(iccp_supernodes *nodes, const iccp_etree *t, const ui
         const uint32_t above = t->parent[nodes->column[s + 1] - 1];
         nodes->parent[s] = above == NONE ? NONE : nodes->owner[above];
     }
+    return size < (double)SIZE_MAX;
 }
 
 /* Row i reaches the supernodes of its entries and those above them in the tree, up to its own. */
@@ -145,13 +149,11 @@ icc_status iccp_supernodes_create(iccp_supernodes *nodes, const iccp_etree *tree
         nodes->first_row = iccp_alloc(&env->memory, nodes->n + 1, sizeof *nodes->first_row);
         nodes->first_value = iccp_alloc(&env->memory, nodes->n + 1, sizeof *nodes->first_value);
         if (nodes->owner == NULL || nodes->parent == NULL || nodes->first_row == NULL ||
-            nodes->first_value == NULL)
+            nodes->first_value == NULL || !lay_out_panels(nodes, tree, count))
             status = ICC_ERR_MEMORY;
     }
-    if (status == ICC_OK) {
-        lay_out_panels(nodes, tree, count);
+    if (status == ICC_OK)
         status = find_rows(nodes, tree, env);
-    }
     if (status != ICC_OK)
         iccp_supernodes_free(nodes, &env->memory);
     return status;

@@ -221,7 +221,7 @@ static face *find_face(checker *c, const uint32_t *others)
     uint64_t hash = 0;
     for (size_t k = 0; k < OTHERS; ++k)
         hash = (hash ^ others[k]) * 0x9e3779b97f4a7c15u;
-    for (size_t at = (hash >> 32) & (c->capacity - 1);; at = (at + 1) & (c->capacity - 1)) {
+    for (size_t at = (size_t)(hash >> 32) & (c->capacity - 1);; at = (at + 1) & (c->capacity - 1)) {
         face *f = &c->table[at];
         if (!f->used) {
             *f = (face){.used = true};

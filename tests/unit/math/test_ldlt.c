@@ -648,6 +648,33 @@ START_TEST(failures_leave_nothing_behind)
 }
 END_TEST
 
+/* A star whose middle is eliminated first, so that the factor is dense: 40 GB. That is no memory for
+ * 32 bits, in which the number of bytes, or of values, would be a small one. */
+START_TEST(factors_beyond_the_address_space_are_refused)
+{
+    enum { N = 70000 };
+    static size_t first[N + 1];
+    static uint32_t column[2 * N], order[N];
+    const iccp_env env = plain_env();
+    iccp_ldlt l;
+    for (uint32_t i = 0; i < N; ++i) {
+        order[i] = i;
+        first[i + 1] = N - 1 + i;
+        if (i > 0)
+            column[N - 2 + i] = 0;
+        if (i + 1 < N)
+            column[i] = i + 1;
+    }
+    const iccp_symmetric star = {N, first, column, NULL, NULL};
+    const icc_status status = iccp_ldlt_analyse_ordered(&l, &star, order, &env);
+    ck_assert_int_eq(status, SIZE_MAX > UINT32_MAX ? ICC_OK : ICC_ERR_MEMORY);
+    if (status != ICC_OK)
+        return;
+    ck_assert_double_ge(iccp_ldlt_bytes(&l), 8.0 * N * N);
+    iccp_ldlt_free(&l);
+}
+END_TEST
+
 START_TEST(nothing_is_factorised)
 {
     const size_t first[1] = {0};
@@ -680,6 +707,7 @@ int main(void)
     tcase_add_test(tests, long_factorisations_report_often);
     tcase_add_test(tests, threads_change_nothing);
     tcase_add_test(tests, failures_leave_nothing_behind);
+    tcase_add_test(tests, factors_beyond_the_address_space_are_refused);
     tcase_add_test(tests, nothing_is_factorised);
     suite_add_tcase(suite, tests);
     SRunner *runner = srunner_create(suite);

@@ -1,0 +1,112 @@
+#!/bin/sh
+# The library on other machines: built by Debian's cross compilers, run by qemu's user mode emulation. On each,
+# - unit tests pass,
+# - the program of golden hashes prints the lines of tests/golden,
+# - what it saves is loaded here, and what is saved here is loaded there, with the same hashes.
+# What is linked to comes from Debian's packages for that machine, unpacked into a folder: nothing foreign is installed.
+# usage: sh tests/ports.sh [--long] [arm64|armhf|i386|riscv64|s390x ...]
+# Without --long: the unit tests labelled `ports`, with 1 % of the cases of long sweeps instead of 4 %. Without machines:
+# all. Logs are in build/ports/MACHINE.
+set -eu
+cd "$(dirname "$0")/.."
+. cmake/deps.sh
+tests=ports
+export ICC_TEST_SHARE=1
+if [ "${1:-}" = --long ]; then
+    tests=all ICC_TEST_SHARE=4
+    shift
+fi
+[ $# -gt 0 ] || set -- arm64 armhf i386 riscv64 s390x
+golden=tests/golden
+here=build/release/tests/golden
+saved=$PWD/build/ports/saved
+jobs=$(nproc)
+need gcc libc6-dev make cmake pkg-config libpng-dev libcjson-dev check libgmp-dev libsuitesparse-dev qemu-user mmdebstrap
+
+# Names of a machine: its compiler's, qemu's; and the release of Debian that has packages for it.
+describe() {
+    release=bookworm
+    case $1 in
+        arm64) triplet=aarch64-linux-gnu cpu=aarch64 ;;
+        armhf) triplet=arm-linux-gnueabihf cpu=arm ;;
+        i386) triplet=i686-linux-gnu cpu=i386 ;;
+        riscv64) triplet=riscv64-linux-gnu cpu=riscv64 release=trixie ;;
+        s390x) triplet=s390x-linux-gnu cpu=s390x ;;
+        *) echo "ports.sh knows no machine $1" >&2 && exit 2 ;;
+    esac
+}
+
+# Headers and libraries. Packages of `extract` are unpacked only; their scripts do not run. Links to files of the root
+# are made to lead there from outside.
+make_root() {
+    [ ! -e "$root/complete" ] || return 0
+    rm -rf "$root"
+    uri=$(debian_mirror)
+    mmdebstrap --variant=extract --architectures="$1" --aptopt='APT::Install-Recommends "false"' \
+        --include=libc6-dev,check,libgmp-dev,libsuitesparse-dev "$release" "$root" "$uri"
+    [ -e "$root/lib" ] || ln -s usr/lib "$root/lib"
+    find "$root" -type l -lname '/*' | while read -r link; do
+        ln -sfn "$root$(readlink "$link")" "$link"
+    done
+    touch "$root/complete"
+}
+
+build() {
+    multiarch=$("$triplet-gcc" -print-multiarch)
+    export PKG_CONFIG_SYSROOT_DIR="$root" PKG_CONFIG_LIBDIR="$root/usr/lib/$multiarch/pkgconfig"
+    # What may be uninitialised GCC guesses, and differently for each machine.
+    cmake -S . -B "$work/build" -DCMAKE_BUILD_TYPE=Release -DICC_WERROR=ON -DCMAKE_C_FLAGS=-Wno-maybe-uninitialized \
+        -DICC_BUILD_TOOLS=OFF -DICC_BUILD_TESTS=ON \
+        -DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR="$cpu" -DCMAKE_C_COMPILER="$triplet-gcc" \
+        -DCMAKE_SYSROOT="$root" -DCMAKE_FIND_ROOT_PATH_MODE_PROGRAM=NEVER -DCMAKE_FIND_ROOT_PATH_MODE_LIBRARY=ONLY \
+        -DCMAKE_FIND_ROOT_PATH_MODE_INCLUDE=ONLY -DCMAKE_CROSSCOMPILING_EMULATOR="qemu-$cpu;-L;$root"
+    targets="golden tests_ports"
+    [ $tests = ports ] || targets=all
+    # The targets are a list of words.
+    # shellcheck disable=SC2086
+    cmake --build "$work/build" --parallel "$jobs" --target $targets
+}
+
+unit_tests() {
+    wanted="--label-regex ^ports\$"
+    [ $tests = ports ] || wanted="--tests-regex ^(unit|api)/"
+    # An option and its value.
+    # shellcheck disable=SC2086
+    ctest --test-dir "$work/build" $wanted --no-tests=error --output-on-failure --parallel "$jobs"
+}
+
+# Hashes of both kinds there; then objects of either side on the other one.
+there() {
+    emulated="qemu-$cpu -L $root $work/build/tests/golden"
+    mkdir -p "$saved/$1"
+    # A command and its arguments.
+    # shellcheck disable=SC2086
+    {
+        sh $golden/check.sh $golden/objects.txt $emulated objects "$saved/$1"
+        sh $golden/check.sh $golden/results.txt $emulated results
+        sh $golden/check.sh $golden/objects.txt $emulated load "$saved/here"
+        sh $golden/check.sh $golden/objects.txt $here load "$saved/$1"
+    }
+}
+
+native() {
+    [ -e build/release/CMakeCache.txt ] || cmake --preset release
+    cmake --build build/release --parallel "$jobs" --target golden
+    mkdir -p "$saved/here"
+    sh $golden/check.sh $golden/objects.txt $here objects "$saved/here"
+}
+
+work=$PWD/build/ports
+mkdir -p "$work"
+step "this machine" golden native
+for machine in "$@"; do
+    describe "$machine"
+    work=$PWD/build/ports/$machine
+    root=$work/root
+    mkdir -p "$work"
+    need "gcc-$triplet"
+    step "$machine" packages make_root "$machine"
+    step "$machine" build build
+    step "$machine" tests unit_tests
+    step "$machine" golden there "$machine"
+done
