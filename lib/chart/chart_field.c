@@ -12,6 +12,7 @@
 #include "function/make_function.h"
 #include "grid/grassfire.h"
 #include "grid/rasterise.h"
+#include "math/elementary.h"
 #include "tree/create_ranked.h"
 #include "tree/verify.h"
 
@@ -40,10 +41,10 @@ static int32_t choose_cells(const icc_domain *domain, int32_t cells)
         longest = fmax(longest, domain->upper[k] - domain->lower[k]);
     for (int32_t k = 0; k < domain->dim; ++k)
         box *= (domain->upper[k] - domain->lower[k]) / longest;
-    const double share = fabs(domain->measure) / pow(longest, domain->dim);
+    const double share = fabs(domain->measure) / iccp_power(longest, (size_t)domain->dim);
     const double inside = domain->dim == 2 ? PLANE_BUDGET : INSIDE_BUDGET;
-    const double n =
-        fmin(pow(inside / share, 1.0 / domain->dim), pow(BUDGET / box, 1.0 / domain->dim));
+    const double n = fmin(iccp_pow(inside / share, 1.0 / domain->dim),
+                          iccp_pow(BUDGET / box, 1.0 / domain->dim));
     return (int32_t)fmin(fmax(ceil(n), FEWEST), ICCP_MAX_CELLS);
 }
 

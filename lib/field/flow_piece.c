@@ -3,6 +3,7 @@
 #include "field/flow_piece.h"
 
 #include "field/flow_exit.h"
+#include "math/elementary.h"
 
 #include <float.h>
 
@@ -91,7 +92,7 @@ double iccp_flow_growth(const iccp_flow_walk *walk, double s)
     const int32_t dim = walk->flow->grid->dim;
     double trace = 0;
     if (walk->radial)
-        return (dim - 1) * log1p(-walk->sign * s);
+        return (dim - 1) * iccp_ln1p(-walk->sign * s);
     for (int32_t k = 0; k < dim; ++k)
         trace += walk->column[k][k];
     return s * trace;

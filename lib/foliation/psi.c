@@ -2,9 +2,9 @@
  * applications to 3D mesh parameterization, 2006; the statement and its limits: docs/theory.md. */
 #include "foliation/psi.h"
 
-#include <math.h>
+#include "math/elementary.h"
 
-static const double PI = 3.14159265358979323846;
+#include <math.h>
 
 /* Turns from the direction of a to the direction of b, both seen from the centre, in (-1/2, 1/2].
  * An edge that does not meet the centre is seen under less than half a turn. */
@@ -13,7 +13,7 @@ static double angle_between(const iccp_planar *mesh, uint32_t centre, uint32_t a
     const double *m = mesh->points + 2 * (size_t)centre;
     const double *p = mesh->points + 2 * (size_t)a, *q = mesh->points + 2 * (size_t)b;
     const double px = p[0] - m[0], py = p[1] - m[1], qx = q[0] - m[0], qy = q[1] - m[1];
-    return atan2(px * qy - py * qx, px * qx + py * qy) / (2 * PI);
+    return iccp_atan2_turns(px * qy - py * qx, px * qx + py * qy);
 }
 
 static uint32_t boundary_after(const iccp_planar *mesh, uint32_t k)
@@ -25,7 +25,7 @@ static double boundary_length(const iccp_planar *mesh, uint32_t k)
 {
     const double *p = mesh->points + 2 * (size_t)k;
     const double *q = mesh->points + 2 * (size_t)boundary_after(mesh, k);
-    return hypot(q[0] - p[0], q[1] - p[1]);
+    return iccp_hypot(q[0] - p[0], q[1] - p[1]);
 }
 
 /* The share of the turn that each boundary edge gets; they sum to 1. */

@@ -6,6 +6,7 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "function/critical_points.h"
+#include "math/elementary.h"
 #include "solver/active_set.h"
 #include "solver/bilaplace.h"
 #include "solver/inequalities.h"
@@ -40,7 +41,7 @@ static double predict_work(const icc_tree *tree)
         for (end = begin + 1; end < tree->n_inside; ++end)
             if (tree->generation[tree->order[end]] != generation)
                 break;
-        work += factor * pow((double)(end - begin), power);
+        work += factor * iccp_pow((double)(end - begin), power);
     }
     return work;
 }

@@ -10,6 +10,7 @@
 #include "base/random.h"
 #include "base/threads.h"
 #include "kernel/lattice_filter.h"
+#include "math/elementary.h"
 #include "math/vec.h"
 
 #include <math.h>
@@ -120,7 +121,7 @@ static void push_of(const relaxation *r, size_t i, double *push)
                     d[k] = x[k] - p[k];
                     d2 += d[k] * d[k];
                 }
-                const double weight = d2 < reach * reach ? exp(rate * d2) : 0;
+                const double weight = d2 < reach * reach ? iccp_exp(rate * d2) : 0;
                 for (size_t k = 0; k < dim; ++k)
                     push[k] += weight * d[k];
             }

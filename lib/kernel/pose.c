@@ -8,6 +8,7 @@
 #include "kernel/pose.h"
 
 #include "base/threads.h"
+#include "math/elementary.h"
 
 #include <math.h>
 #include <string.h>
@@ -103,7 +104,9 @@ void iccp_pose_move(size_t dim, double *transform, const double *offset)
 /* The matrix of a turn about the origin; in space by O. Rodrigues' formula. */
 static void turn_matrix(size_t dim, const double *axis, double angle, double matrix[9])
 {
-    const double c = cos(angle), s = sin(angle);
+    double z[2];
+    iccp_cis(angle, z);
+    const double c = z[0], s = z[1];
     if (dim == 2) {
         memcpy(matrix, (double[4]){c, -s, s, c}, 4 * sizeof *matrix);
         return;

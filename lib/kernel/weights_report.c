@@ -1,6 +1,7 @@
 /* Weights at caller-supplied points, and how good they are. */
 #include "base/threads.h"
 #include "kernel/handle_weights.h"
+#include "math/elementary.h"
 
 #include <math.h>
 #include <string.h>
@@ -104,7 +105,7 @@ static quality measure(const icc_weights *weights, const double *point, double *
     }
     q.unity = fabs(q.unity);
     for (size_t k = 0; k < set->dim; ++k)
-        q.reproduction = hypot(q.reproduction, local[k]);
+        q.reproduction = iccp_hypot(q.reproduction, local[k]);
     q.reproduction /= iccp_node_set_scale(set);
     return q;
 }

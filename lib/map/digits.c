@@ -10,6 +10,7 @@
 #include "chart/low_discrepancy.h"
 #include "function/function.h"
 #include "map/curves.h"
+#include "math/elementary.h"
 #include "math/orient.h"
 
 #include <float.h>
@@ -93,7 +94,7 @@ static icc_status send_back(const icc_chart *from, const icc_chart *to, size_t n
 /* Whether digits may be missing: not a number is suspect, too. */
 static bool is_suspect(const iccp_shares *shares)
 {
-    return !(shares->to - shares->from >= log(SUSPECT));
+    return !(shares->to - shares->from >= iccp_ln(SUSPECT));
 }
 
 icc_status iccp_digits_points(const icc_chart *from, const icc_chart *to, size_t n,
@@ -234,7 +235,7 @@ static icc_status judge_chunk(void *argument, size_t begin, size_t end)
         s->verdict[begin + i] = (verdict){
             .used = status[i] != ICC_ERR_OUTSIDE,
             .lost = !mapped,
-            .flat = mapped && !(shares[i].to - shares[i].from >= log(FLAT)),
+            .flat = mapped && !(shares[i].to - shares[i].from >= iccp_ln(FLAT)),
             .steep = mapped ? fmin(shares[i].from, shares[i].to) : HUGE_VAL,
         };
         if (mapped && (i % ONE_IN == 0 || is_suspect(&shares[i])))

@@ -8,6 +8,7 @@
 #include "map/untangling.h"
 
 #include "map/singular.h"
+#include "math/elementary.h"
 #include "math/jacobi.h"
 
 #include <string.h>
@@ -87,7 +88,7 @@ static profile evaluate(double n, double det, double epsilon)
     const double root = sqrt(epsilon * epsilon + det * det),
                  chi = iccp_untangling_chi(epsilon, det);
     const double first = chi / root, second = 0.5 * epsilon * epsilon / (root * root * root);
-    const double third = cbrt(chi), power = 1 / (third * third);
+    const double third = iccp_cbrt(chi), power = 1 / (third * third);
     const double shape = (1 - MEASURE_SHARE) / 3 * power, size = 0.5 * MEASURE_SHARE / chi;
     const double slope = first / chi, bend = second / chi, square = 1 + det * det;
     return (profile){

@@ -7,6 +7,7 @@
 #include "base/threads.h"
 #include "map/sampler.h"
 #include "map/scan.h"
+#include "math/elementary.h"
 
 #include <math.h>
 
@@ -40,7 +41,7 @@ static icc_status find_origins(warp *w, band *b)
 
 static double distance(const double *a, const double *b)
 {
-    return hypot(a[0] - b[0], a[1] - b[1]);
+    return iccp_hypot(a[0] - b[0], a[1] - b[1]);
 }
 
 /* Of two neighbours the nearer one counts: at a jump of the map the other one says nothing about

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "domain/locate.h"
+#include "math/elementary.h"
 #include "math/predicates.h"
 #include "mesh/corners.h"
 #include "mesh/grading.h"
@@ -19,7 +20,7 @@ static double facet_length(const icc_domain *domain, size_t facet)
 {
     const double *a = domain->vertices + 2 * (size_t)domain->facets[2 * facet];
     const double *b = domain->vertices + 2 * (size_t)domain->facets[2 * facet + 1];
-    return hypot(b[0] - a[0], b[1] - a[1]);
+    return iccp_hypot(b[0] - a[0], b[1] - a[1]);
 }
 
 static void raise_pieces(uint32_t *pieces, const icc_domain *domain, int32_t cells)
@@ -101,7 +102,7 @@ static void edge_lengths(const iccp_planar *mesh, double *length)
     double before = 0;
     for (size_t k = n; k-- > 0;) {
         const double *p = mesh->points + 2 * k, *q = mesh->points + 2 * ((k + 1) % n);
-        length[k] = hypot(q[0] - p[0], q[1] - p[1]);
+        length[k] = iccp_hypot(q[0] - p[0], q[1] - p[1]);
     }
     const double last = length[n - 1];
     for (size_t k = 0; k < n; ++k) {

@@ -2,6 +2,7 @@
  * vertices the depth differs by no more than their distance. */
 #include "shelling/centres.h"
 
+#include "math/elementary.h"
 #include "math/spd.h"
 #include "math/vec.h"
 #include "shelling/heap.h"
@@ -37,7 +38,7 @@ typedef struct search {
 
 static double size_of(const icc_domain *domain)
 {
-    return pow(fabs(domain->measure), 1.0 / domain->dim);
+    return iccp_pow(fabs(domain->measure), 1.0 / domain->dim);
 }
 
 static double distance(const iccp_simplices *mesh, size_t vertex, const double *point)

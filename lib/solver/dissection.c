@@ -10,6 +10,8 @@
  * goes first. */
 #include "solver/dissection.h"
 
+#include "math/elementary.h"
+
 #include <math.h>
 #include <stdbool.h>
 #include <string.h>
@@ -181,9 +183,9 @@ static bool is_thin(const dissection *d, const part *p, size_t n_generations)
     const double dim = (double)d->n_axes - 1, factor = dim > 2 ? THIN_BEYOND : THIN_IN_2D;
     double work = 0;
     for (size_t g = 0; g < n_generations; ++g)
-        work += pow(d->count[g], 3);
+        work += iccp_power(d->count[g], 3);
     return n_generations > 0 &&
-           work <= factor * pow((double)(p->end - p->begin), fmax(1, 3 - 3 / dim));
+           work <= factor * iccp_pow((double)(p->end - p->begin), fmax(1, 3 - 3 / dim));
 }
 
 /* Few unknowns in the plane, many on either side. The median's sides are never too large. */

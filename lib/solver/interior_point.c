@@ -177,7 +177,7 @@ static double find_step(iccp_interior_point *p)
                  (p->multiplier[i] + length * p->step_multiplier[i]);
     after /= (double)n_pairs(p) * mean;
     for (size_t i = 0; i < n_pairs(p); ++i)
-        p->product[i] += p->step_slack[i] * p->step_multiplier[i] - pow(after, 3) * mean;
+        p->product[i] += p->step_slack[i] * p->step_multiplier[i] - after * after * after * mean;
     solve(p, CORRECTOR_ERROR);
     if (step_length(p) >= SHORT_STEP)
         return 1;

@@ -1,5 +1,6 @@
 #include "trace/boundary_cells2.h"
 
+#include "math/elementary.h"
 #include "math/predicates.h"
 
 #include <math.h>
@@ -112,15 +113,16 @@ static bool hit_collinear(const double p[2], const double q[2], const double a[2
 {
     if (between(a, p, b)) {
         hit->share = 0;
-        hit->along = clamp01(hypot(p[0] - a[0], p[1] - a[1]) / hypot(b[0] - a[0], b[1] - a[1]));
+        hit->along =
+            clamp01(iccp_hypot(p[0] - a[0], p[1] - a[1]) / iccp_hypot(b[0] - a[0], b[1] - a[1]));
         return true;
     }
     const bool meets_a = between(p, a, q), meets_b = between(p, b, q);
     if (!meets_a && !meets_b)
         return false;
-    const double length = hypot(q[0] - p[0], q[1] - p[1]);
-    const double to_a = meets_a ? hypot(a[0] - p[0], a[1] - p[1]) : HUGE_VAL;
-    const double to_b = meets_b ? hypot(b[0] - p[0], b[1] - p[1]) : HUGE_VAL;
+    const double length = iccp_hypot(q[0] - p[0], q[1] - p[1]);
+    const double to_a = meets_a ? iccp_hypot(a[0] - p[0], a[1] - p[1]) : HUGE_VAL;
+    const double to_b = meets_b ? iccp_hypot(b[0] - p[0], b[1] - p[1]) : HUGE_VAL;
     hit->along = to_a <= to_b ? 0 : 1;
     hit->share = length > 0 ? clamp01(fmin(to_a, to_b) / length) : 0;
     return true;
