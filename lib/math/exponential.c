@@ -6,8 +6,8 @@
  *
  * log: x = 2^e m with m in [1, 2); of 64 intervals, that of m gives a quotient q with 7 bits near
  * 1 / m, so that r = q m - 1 is below 2^-6 and a double, without rounding. Then log x = e ln 2 -
- * log q + log(1 + r), the last by a Taylor polynomial of degree 9. From m = 1.42 on e counts one more,
- * and q twice as much: near x = 1 both logarithms are 0. */
+ * log q + log(1 + r), the last by a Taylor polynomial of degree 9. From m = 1.42 on e counts one
+ * more, and q twice as much: near x = 1 both e ln 2 and log q are 0. */
 #include "math/elementary.h"
 
 #include "math/expansion.h"
@@ -233,7 +233,7 @@ double iccp_pow(double x, double y)
         return 1;
     if (!(x > 0 && x < HUGE_VAL))
         return iccp_exp(y * log_beyond(x));
-    const double high = log_in_parts(x, &low);
+    const double most = log_in_parts(x, &low), high = iccp_fast_two_sum(most, low, &low);
     const double product = iccp_two_product(y, high, &rest);
     return exp_of_sum(product, rest + y * low);
 }
