@@ -1,5 +1,6 @@
 #include "function/function.h"
 
+#include "base/minmax.h"
 #include "math/elementary.h"
 
 #include <stdbool.h>
@@ -40,7 +41,7 @@ static icc_status assign_logs(icc_function *function, const iccp_unknowns *unkno
     for (size_t k = 0; k < unknowns->n; ++k) {
         const double u = iccp_ln(f->fraction[k]) + LN_2 * f->exponent[k];
         function->logs[unknowns->vertex[k]] = u;
-        function->info.least_log = fmin(function->info.least_log, u);
+        function->info.least_log = iccp_min(function->info.least_log, u);
     }
     return ICC_OK;
 }

@@ -7,6 +7,7 @@
  * one. */
 #include "kernel/blue_noise.h"
 
+#include "base/minmax.h"
 #include "base/random.h"
 #include "base/threads.h"
 #include "kernel/lattice_filter.h"
@@ -165,11 +166,11 @@ static void contain(relaxation *r, size_t i, const double *x, double *step)
     for (size_t k = 0; k < r->dim; ++k)
         toward += step[k] * away[k];
     for (size_t k = 0; k < r->dim; ++k) {
-        step[k] -= fmin(toward, 0) * away[k];
+        step[k] -= iccp_min(toward, 0) * away[k];
         there[k] = x[k] + step[k];
     }
     const double then = away_from_wall(r, there, away);
-    if (then >= fmin(least, *clearance)) {
+    if (then >= iccp_min(least, *clearance)) {
         *clearance = then;
         return;
     }

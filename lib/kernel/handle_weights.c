@@ -4,6 +4,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "base/minmax.h"
 #include "base/threads.h"
 #include "math/elementary.h"
 
@@ -26,7 +27,7 @@ static size_t nearest_sample(const icc_sampling *s, const double *place)
         for (size_t k = 0; k < dim; ++k)
             d = iccp_hypot(d, s->points[dim * i + k] - place[k]);
         nearest = d < least ? i : nearest;
-        least = fmin(least, d);
+        least = iccp_min(least, d);
     }
     return nearest;
 }

@@ -5,6 +5,7 @@
 #include "kernel/node_set.h"
 
 #include "base/error.h"
+#include "base/minmax.h"
 #include "base/threads.h"
 #include "math/elementary.h"
 
@@ -255,7 +256,7 @@ static icc_status make_room(iccp_node_set *set, size_t n_handles,
 {
     double most = (double)n_handles + (double)set->sampling->info.n_samples;
     for (size_t k = 0; k < options->n_lines; ++k)
-        most += 2 + fmax(0, pieces_of(set, &options->lines[k]));
+        most += 2 + iccp_max(0, pieces_of(set, &options->lines[k]));
     if (!(most <= (double)MOST_NODES))
         return iccp_fail(err, ICC_ERR_RESOLUTION, "there would be more than %zu nodes", MOST_NODES);
     const size_t n = (size_t)most, row = set->dim * sizeof(double);

@@ -2,6 +2,7 @@
 #include "kernel/sampling.h"
 
 #include "base/error.h"
+#include "base/minmax.h"
 #include "kernel/blue_noise.h"
 #include "kernel/boundary_samples.h"
 #include "kernel/lattice_filter.h"
@@ -39,7 +40,7 @@ static double default_spacing(const icc_shape *shape)
 {
     double longest = 0;
     for (size_t k = 0; k < shape->dim; ++k)
-        longest = fmax(longest, shape->upper[k] - shape->lower[k]);
+        longest = iccp_max(longest, shape->upper[k] - shape->lower[k]);
     return DEFAULT_SPACING[shape->dim == 3] * longest;
 }
 
@@ -113,7 +114,7 @@ static double expect_samples(const icc_shape *shape, double spacing)
         for (int32_t k = 0; k < d->dim; ++k)
             size *= d->frame.out[0] * shape->frame.in[0] * (d->frame.out[1] * shape->frame.in[1]) /
                     spacing;
-        inside = fmax(inside, size);
+        inside = iccp_max(inside, size);
     }
     for (uint32_t f = 0; f < shape->walls.n; ++f)
         n += facet_size(shape, &shape->walls, f) / iccp_power(spacing, shape->dim - 1);

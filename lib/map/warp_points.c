@@ -4,6 +4,7 @@
  * nothing from the far side of a fold gets in. */
 #include "map/warp_points.h"
 
+#include "base/minmax.h"
 #include "base/threads.h"
 #include "map/sampler.h"
 #include "map/scan.h"
@@ -48,8 +49,8 @@ static double distance(const double *a, const double *b)
  * this pixel. fmin passes over NaN. */
 static int32_t samples_between(const double *before, const double *here, const double *after)
 {
-    return iccp_samples_for(fmin(before != NULL ? distance(before, here) : NAN,
-                                 after != NULL ? distance(here, after) : NAN));
+    return iccp_samples_for(iccp_min(before != NULL ? distance(before, here) : NAN,
+                                     after != NULL ? distance(here, after) : NAN));
 }
 
 static void add_sample(const icc_picture *source, const double place[2], iccp_gathered *gathered)

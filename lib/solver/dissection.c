@@ -10,6 +10,7 @@
  * goes first. */
 #include "solver/dissection.h"
 
+#include "base/minmax.h"
 #include "math/elementary.h"
 
 #include <math.h>
@@ -95,7 +96,7 @@ static double rate(const uint32_t *run, size_t dim)
     for (size_t axis = 0; axis < dim; ++axis) {
         const double bend = 1 / ((run[axis] + 1.0) * (run[axis] + 1.0));
         sum += bend;
-        least = fmin(least, bend);
+        least = iccp_min(least, bend);
     }
     return PI * sqrt(sum - least);
 }
@@ -185,7 +186,7 @@ static bool is_thin(const dissection *d, const part *p, size_t n_generations)
     for (size_t g = 0; g < n_generations; ++g)
         work += iccp_power(d->count[g], 3);
     return n_generations > 0 &&
-           work <= factor * iccp_pow((double)(p->end - p->begin), fmax(1, 3 - 3 / dim));
+           work <= factor * iccp_pow((double)(p->end - p->begin), iccp_max(1, 3 - 3 / dim));
 }
 
 /* Few unknowns in the plane, many on either side. The median's sides are never too large. */
@@ -197,7 +198,7 @@ static void choose_plane(const dissection *d, const part *p, size_t axis, size_t
     for (size_t i = 0; i < n_planes; low += d->count[i++]) {
         const double high = n - low - d->count[i];
         const double score = (d->count[i] + 1.0) / ((low + 1) * (high + 1));
-        if (score < best->score && fmax(low, high) <= MOST_SIDE * n)
+        if (score < best->score && iccp_max(low, high) <= MOST_SIDE * n)
             *best = (plane){axis, lowest + (uint32_t)i, score};
     }
 }

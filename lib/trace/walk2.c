@@ -6,6 +6,7 @@
  * were perturbed. With both, f rises strictly along a walk, so that it cannot loop. */
 #include "trace/walk2.h"
 
+#include "base/minmax.h"
 #include "math/elementary.h"
 #include "math/predicates.h"
 
@@ -96,7 +97,8 @@ static int turn_sign(const gradient *g, double cu, double cv, double u, double v
     if (fabs(det) > 1e-15 * (fabs(left) + fabs(right)) && fabs(det) > 1e-290)
         return sign(det);
     int e;
-    (void)frexp(fmax(fmax(fabs(g->ua), fabs(g->ub)), fmax(fabs(g->va), fabs(g->vb))), &e);
+    (void)frexp(iccp_max(iccp_max(fabs(g->ua), fabs(g->ub)), iccp_max(fabs(g->va), fabs(g->vb))),
+                &e);
     return iccp_cross_sign(cu, u, ldexp(g->va, -e), ldexp(g->vb, -e), cv, v, ldexp(g->ua, -e),
                            ldexp(g->ub, -e));
 }
