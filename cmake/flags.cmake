@@ -7,7 +7,9 @@ if(CMAKE_C_COMPILER_ID MATCHES "GNU|Clang")
   # to the next.
   target_compile_options(icc_flags INTERFACE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes
-    -Wundef -Wvla -ffp-contract=off $<$<BOOL:${ICC_WERROR}>:-Werror>)
+    -Wundef -Wvla -ffp-contract=off $<$<BOOL:${ICC_WERROR}>:-Werror>
+    # On s390x C11 would have GCC compute single precision in double.
+    $<$<C_COMPILER_ID:GNU>:-fexcess-precision=fast>)
 endif()
 
 # C11 without extensions, and nothing visible that is not declared so.
