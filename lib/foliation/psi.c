@@ -5,6 +5,7 @@
 #include "math/elementary.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Turns from the direction of a to the direction of b, both seen from the centre, in (-1/2, 1/2].
  * An edge that does not meet the centre is seen under less than half a turn. */
@@ -68,22 +69,28 @@ static void boundary_phi(double *phi, const iccp_planar *mesh, uint32_t centre, 
         phi[k + 1] = phi[k] + flux[k] - angle_between(mesh, centre, k, k + 1);
 }
 
-/* Row i: sum over neighbours j of w_ij (phi_j - phi_i + angle from i to j) = 0. */
+/* Row i: sum over neighbours j of w_ij (phi_j - phi_i + angle from i to j) = 0. The angle from j to
+ * i is minus that from i to j. */
 static void right_side(double *b, const iccp_planar *mesh, const iccp_laplacian *open,
                        uint32_t centre, const double *phi)
 {
     const uint32_t n_boundary = (uint32_t)mesh->n_boundary;
+    memset(b, 0, open->matrix.n * sizeof *b);
     for (uint32_t i = 0; i < open->matrix.n; ++i) {
-        double sum = 0;
-        for (size_t p = open->first[i]; p < open->first[i + 1]; ++p)
-            sum -= open->value[p] *
-                   angle_between(mesh, centre, n_boundary + i, n_boundary + open->column[p]);
+        for (size_t p = open->first[i]; p < open->first[i + 1]; ++p) {
+            const uint32_t j = open->column[p];
+            if (j < i)
+                continue;
+            const double turn =
+                open->value[p] * angle_between(mesh, centre, n_boundary + i, n_boundary + j);
+            b[i] -= turn;
+            b[j] += turn;
+        }
         for (size_t p = open->boundary_first[i]; p < open->boundary_first[i + 1]; ++p) {
             const uint32_t k = open->boundary_vertex[p];
-            sum += open->boundary_weight[p] *
-                   (phi[k] + angle_between(mesh, centre, n_boundary + i, k));
+            b[i] += open->boundary_weight[p] *
+                    (phi[k] + angle_between(mesh, centre, n_boundary + i, k));
         }
-        b[i] = sum;
     }
 }
 

@@ -48,12 +48,14 @@ static const double COSINE[7] = {
 static const double ARCUS_TANGENT[7] = {-1.0 / 3,  1.0 / 5,  -1.0 / 7, 1.0 / 9,
                                         -1.0 / 11, 1.0 / 13, -1.0 / 15};
 
-static double polynomial(int n, const double *coefficient, double x)
+/* Even and odd powers apart: half as long a chain. */
+static inline double polynomial(int n, const double *coefficient, double x)
 {
-    double sum = 0;
+    const double x2 = x * x;
+    double sum[2] = {0, 0};
     while (n-- > 0)
-        sum = sum * x + coefficient[n];
-    return sum;
+        sum[n & 1] = sum[n & 1] * x2 + coefficient[n];
+    return sum[0] + sum[1] * x;
 }
 
 /* Of a + b and some quarters of a turn, |a| <= pi / 4 and b below an ulp of a. */
@@ -98,14 +100,22 @@ void iccp_cis(double radians, double z[2])
     cis_of_sum(high, low, (int32_t)quarters, z);
 }
 
-/* The angle of (x, y), 0 <= y <= x < 1 <= 2 x, y not so small that products with it lose digits:
- * result + *low turns. `i` eighths of x are what of y has its angle in the table. */
+/* c x = result + *low for a c of few bits. */
+static inline double short_product(double c, double x, double *low)
+{
+    const double product = c * x, high = iccp_upper_half(x);
+    *low = (c * high - product) + c * (x - high);
+    return product;
+}
+
+/* The angle of (x, y), 0 <= y <= x, whose products neither leave the range nor lose digits: result
+ * + *low turns. `i` eighths of x are what of y has its angle in the table. */
 static double first_eighth(double y, double x, double *low)
 {
     double c_low, s_low, error, rest;
     const int i = (int)(8 * (y / x) + 0.5);
-    const double c = iccp_two_product(0.125 * i, x, &c_low);
-    const double s = iccp_two_product(0.125 * i, y, &s_low);
+    const double c = short_product(0.125 * i, x, &c_low);
+    const double s = short_product(0.125 * i, y, &s_low);
     const double top = y - c, bottom = iccp_fast_two_sum(x, s, &error);
     const double high = top / bottom, product = iccp_two_product(high, bottom, &rest);
     const double missing = ((top - product) - rest - c_low) - high * (error + s_low);
@@ -123,6 +133,8 @@ static double first_eighth_of_any(double y, double x, double *low)
 {
     enum { LEAST = -100 };
     int e_y, e_x;
+    if (x < 0x1p400 && y > 0x1p-400)
+        return first_eighth(y, x, low);
     y = frexp(y, &e_y);
     x = frexp(x, &e_x);
     const int e = e_y - e_x;
