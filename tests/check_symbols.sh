@@ -1,6 +1,7 @@
 #!/bin/sh
 # The shared library exports exactly the functions that the public headers declare, under the version
-# ICC_0, and the static one defines nothing outside icc_ and iccp_.
+# ICC_0, and the static one defines nothing outside icc_ and iccp_. From the C library both take only what gives the
+# same bits everywhere: of its mathematics nothing but functions whose results IEEE 754 or C fixes exactly.
 # usage: check_symbols.sh CC NM INCLUDE_DIR SHARED_LIBRARY STATIC_LIBRARY
 set -eu
 cc=$1 nm=$2 include=$3 shared=$4 static=$5
@@ -32,6 +33,24 @@ fi
 if [ -s "$work/foreign" ]; then
     echo "the static library defines names outside icc_ and iccp_:"
     cat "$work/foreign"
+    failed=1
+fi
+
+# Names that begin with two underscores are the compilers' and sanitizers' own.
+imported() {
+    sed -n 's/^.* [Uw] //p' | sed 's/@.*//' | sort -u | grep -v -e '^icc_' -e '^iccp_' -e '^__' -e '^_ITM_' -e '^_GLOBAL_'
+}
+exact='ceil copysign fabs floor fmax fmin fmod frexp ldexp nextafter round scalbn sqrt trunc'
+other='amd_2 clock_gettime free malloc memcmp memcpy memmove memset snprintf vsnprintf'
+threads='pthread_create pthread_join pthread_mutex_destroy pthread_mutex_init pthread_mutex_lock pthread_mutex_unlock'
+echo "$exact $other $threads" | tr ' ' '\n' >"$work/allowed"
+"$nm" -D --undefined-only "$shared" | imported >"$work/imported"
+"$nm" --undefined-only "$static" | imported >>"$work/imported"
+for name in malloc memcpy; do
+    grep -qx "$name" "$work/imported" || { echo "nothing seen of what the library imports"; failed=1; }
+done
+if grep -vxF -f "$work/allowed" "$work/imported" | sort -u | grep .; then
+    echo "these are imported, and not known to give the same results with every C library"
     failed=1
 fi
 exit $failed

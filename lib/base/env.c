@@ -1,6 +1,7 @@
 #include "base/env.h"
 
 #include "base/error.h"
+#include "base/minmax.h"
 #include "base/options.h"
 
 #include <math.h>
@@ -63,7 +64,7 @@ icc_status iccp_progress(const iccp_env *env, const char *stage, double share)
     iccp_reported now = {env->stage != NULL ? env->stage : stage,
                          env->before + share * (1 - env->before - env->after)};
     if (env->reported != NULL) {
-        now.share = fmin(fmax(now.share, env->reported->share), 1);
+        now.share = iccp_min(iccp_max(now.share, env->reported->share), 1);
         *env->reported = now;
     }
     return env->progress(env->user, now.stage, now.share) != 0 ? ICC_ERR_CANCELLED : ICC_OK;

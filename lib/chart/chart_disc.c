@@ -4,6 +4,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "base/minmax.h"
 #include "foliation/certificate.h"
 #include "foliation/harmonic_file.h"
 #include "math/predicates.h"
@@ -62,8 +63,8 @@ static void to_polar(const disc_state *state, const double z[2], uint32_t *edge,
     *edge = find_boundary_edge(state, z);
     const double *p = boundary_image(state, *edge), *q = boundary_image(state, *edge + 1);
     const double alpha = cross(z, q) / cross(p, q), beta = cross(p, z) / cross(p, q);
-    *lambda = fmin(fmax(beta / (alpha + beta), 0), 1);
-    *t = fmin(fmax(1 - (alpha + beta), 0), 1);
+    *lambda = iccp_min(iccp_max(beta / (alpha + beta), 0), 1);
+    *t = iccp_min(iccp_max(1 - (alpha + beta), 0), 1);
 }
 
 /* Rows: derivative of lambda and of t by z. */
@@ -190,7 +191,7 @@ static icc_status emit_crossing(const disc_state *state, uint32_t corner, const 
     const uint32_t v = state->mesh.triangles[iccp_before(corner)];
     const double du = cross(r, state->image + 2 * (size_t)u);
     const double dv = cross(r, state->image + 2 * (size_t)v);
-    const double share = fabs(du - dv) > 0 ? fmin(fmax(du / (du - dv), 0), 1) : 0;
+    const double share = fabs(du - dv) > 0 ? iccp_min(iccp_max(du / (du - dv), 0), 1) : 0;
     const double *p = state->mesh.points + 2 * (size_t)u, *q = state->mesh.points + 2 * (size_t)v;
     const double point[2] = {p[0] + share * (q[0] - p[0]), p[1] + share * (q[1] - p[1])};
     return emit(argument, point);

@@ -6,12 +6,14 @@
 #include "base/budget.h"
 #include "base/clock.h"
 #include "base/error.h"
+#include "base/minmax.h"
 #include "chart/field_measure.h"
 #include "chart/field_state.h"
 #include "function/critical_points.h"
 #include "function/make_function.h"
 #include "grid/grassfire.h"
 #include "grid/rasterise.h"
+#include "math/elementary.h"
 #include "tree/create_ranked.h"
 #include "tree/verify.h"
 
@@ -37,14 +39,14 @@ static int32_t choose_cells(const icc_domain *domain, int32_t cells)
         return cells;
     double longest = 0, box = 1;
     for (int32_t k = 0; k < domain->dim; ++k)
-        longest = fmax(longest, domain->upper[k] - domain->lower[k]);
+        longest = iccp_max(longest, domain->upper[k] - domain->lower[k]);
     for (int32_t k = 0; k < domain->dim; ++k)
         box *= (domain->upper[k] - domain->lower[k]) / longest;
-    const double share = fabs(domain->measure) / pow(longest, domain->dim);
+    const double share = fabs(domain->measure) / iccp_power(longest, (size_t)domain->dim);
     const double inside = domain->dim == 2 ? PLANE_BUDGET : INSIDE_BUDGET;
-    const double n =
-        fmin(pow(inside / share, 1.0 / domain->dim), pow(BUDGET / box, 1.0 / domain->dim));
-    return (int32_t)fmin(fmax(ceil(n), FEWEST), ICCP_MAX_CELLS);
+    const double n = iccp_min(iccp_pow(inside / share, 1.0 / domain->dim),
+                              iccp_pow(BUDGET / box, 1.0 / domain->dim));
+    return (int32_t)iccp_min(iccp_max(ceil(n), FEWEST), ICCP_MAX_CELLS);
 }
 
 static icc_status choose_root(const icc_grid *grid, const double *maximum, uint32_t *root,

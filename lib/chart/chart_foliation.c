@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "base/minmax.h"
 #include "foliation/certificate.h"
 #include "foliation/harmonic_file.h"
 #include "foliation/leaf2.h"
@@ -172,7 +173,7 @@ static icc_status encode(const icc_chart *chart, const double *point, const iccp
     const double along =
         iccp_planar_along(&state->mesh, chart->domain, edge, iccp_crossing_share(&end));
     *coords = (iccp_coords){.facet = state->mesh.facet[edge], .bary = {1 - along, along}};
-    coords->t = fmin(fmax(down.length / (down.length + up.length), 0), 1);
+    coords->t = iccp_min(iccp_max(down.length / (down.length + up.length), 0), 1);
     if (jet != NULL)
         fill_encode_jet(chart, triangle, bary, &end, coords->facet, &up, &down, jet);
     return ICC_OK;

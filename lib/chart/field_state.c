@@ -1,6 +1,8 @@
 /* Places of points in the grid of a chart of method field. */
 #include "chart/field_state.h"
 
+#include "math/elementary.h"
+
 #include <math.h>
 
 static void to_lattice(const iccp_field_state *state, const double *local, double *x)
@@ -48,5 +50,5 @@ int32_t iccp_field_locate(const icc_chart *chart, const double *point, iccp_char
 
 double iccp_field_volume(const iccp_field_state *state, double volume, double length)
 {
-    return volume + log(state->tree->grid->spacing * length);
+    return volume + iccp_ln(state->tree->grid->spacing * length);
 }

@@ -2,6 +2,7 @@
  * uncovered, figure 6.12; compression edges), measured instead of drawn. */
 #include "chart/gradient_measure.h"
 
+#include "base/minmax.h"
 #include "base/threads.h"
 #include "chart/gradient_line.h"
 #include "chart/low_discrepancy.h"
@@ -61,7 +62,8 @@ static size_t count_candidates(const icc_domain *domain, size_t n)
     for (int32_t k = 0; k < domain->dim; ++k)
         box *= domain->upper[k] - domain->lower[k];
     const double fill = domain->measure / box;
-    return (size_t)ceil((double)n * fmin(fill > 0 ? 1 / fill : MOST_CANDIDATES, MOST_CANDIDATES));
+    return (size_t)ceil((double)n *
+                        iccp_min(fill > 0 ? 1 / fill : MOST_CANDIDATES, MOST_CANDIDATES));
 }
 
 /* Shares of the area by evenly spread points of the bounding box, those outside not counted. */

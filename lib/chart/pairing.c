@@ -3,6 +3,8 @@
  * better. */
 #include "chart/pairing.h"
 
+#include "math/elementary.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -34,7 +36,7 @@ static double weight_of(const icc_domain *domain, size_t facet, const double *mi
         away2 += (middle[k] - point[k]) * (middle[k] - point[k]);
         extent2 += (corner - middle[k]) * (corner - middle[k]);
     }
-    return pow(extent2, 0.5 * (double)(dim - 1)) / pow(away2 + extent2, (double)dim);
+    return iccp_power(sqrt(extent2), dim - 1) / iccp_power(away2 + extent2, dim);
 }
 
 static void add_means(fit *f, size_t dim, double weight, const double *p, const double *q)
@@ -75,7 +77,7 @@ static double depth_of(const icc_domain *domain, const double *point)
 {
     double bary[ICC_MAX_DIM], distance2;
     (void)iccp_facet_tree_nearest(&domain->tree, point, bary, &distance2);
-    return sqrt(distance2) / pow(fabs(domain->measure), 1.0 / domain->dim);
+    return sqrt(distance2) / iccp_pow(fabs(domain->measure), 1.0 / domain->dim);
 }
 
 bool iccp_pair_point(const icc_domain *from, const icc_domain *to, const double *point,

@@ -2,6 +2,7 @@
  * section 4; the curves are the leaves of docs/theory.md, foliations of simplices. */
 #include "chart/shelling_state.h"
 
+#include "base/minmax.h"
 #include "domain/domain_file.h"
 
 #include <math.h>
@@ -109,7 +110,7 @@ static spot find_spot(const iccp_path *path, double t)
     iccp_leafn_noted(path, k, &s.from);
     s.before = iccp_path_length_at(path, k);
     s.piece = iccp_path_length_at(path, k + 1) - s.before;
-    s.ahead = fmin(fmax(t * s.total - s.before, 0), s.piece);
+    s.ahead = iccp_min(iccp_max(t * s.total - s.before, 0), s.piece);
     return s;
 }
 

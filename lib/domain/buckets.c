@@ -3,6 +3,7 @@
  * for which the answer is known, and counts the edges between. */
 #include "domain/buckets.h"
 
+#include "base/minmax.h"
 #include "domain/frame.h"
 #include "domain/segment.h"
 #include "math/predicates.h"
@@ -56,15 +57,15 @@ static void choose_cells(iccp_buckets *b, const iccp_polygon *polygon)
         side[axis] = b->upper[axis] - b->lower[axis] + 2 * slack;
         length[axis] += slack;
     }
-    const double cells = fmax(MIN_CELLS, fmin(CELLS_PER_EDGE * n, MAX_CELLS));
+    const double cells = iccp_max(MIN_CELLS, iccp_min(CELLS_PER_EDGE * n, MAX_CELLS));
     count[0] = sqrt(cells * side[0] * length[1] / (side[1] * length[0]));
-    count[0] = fmax(1, fmin(count[0], cells));
+    count[0] = iccp_max(1, iccp_min(count[0], cells));
     count[1] = cells / count[0];
     const double entries = length[0] / side[0] * count[0] + length[1] / side[1] * count[1];
-    const double shrink = fmin(1, (ENTRIES_PER_EDGE * n + MIN_CELLS) / entries);
+    const double shrink = iccp_min(1, (ENTRIES_PER_EDGE * n + MIN_CELLS) / entries);
     for (int axis = 0; axis < 2; ++axis) {
-        count[axis] = fmin(count[axis] * shrink, side[axis] / (4 * slack));
-        count[axis] = fmax(1, floor(count[axis]));
+        count[axis] = iccp_min(count[axis] * shrink, side[axis] / (4 * slack));
+        count[axis] = iccp_max(1, floor(count[axis]));
         b->step[axis] = side[axis] / count[axis];
         b->rate[axis] = count[axis] / side[axis];
         b->size[axis] = (uint32_t)count[axis];
@@ -98,9 +99,9 @@ static void enter(iccp_buckets *b, uint32_t edge, uint32_t *edges)
         const double bottom = b->origin[1] + row * b->step[1];
         const double x0 = x_at(low, high, bottom - slack);
         const double x1 = x_at(low, high, bottom + b->step[1] + slack);
-        const uint32_t last = slot(b, 0, fmax(x0, x1) + slack);
+        const uint32_t last = slot(b, 0, iccp_max(x0, x1) + slack);
         iccp_bucket *const cells = b->cells + (size_t)row * b->size[0];
-        for (uint32_t column = slot(b, 0, fmin(x0, x1) - slack); column <= last; ++column) {
+        for (uint32_t column = slot(b, 0, iccp_min(x0, x1) - slack); column <= last; ++column) {
             if (edges != NULL)
                 edges[--cells[column].first] = edge;
             else

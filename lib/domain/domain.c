@@ -1,6 +1,7 @@
 #include "domain/domain.h"
 
 #include "base/error.h"
+#include "base/minmax.h"
 #include "domain/locate.h"
 #include "domain/mask.h"
 #include "domain/polygon_check.h"
@@ -53,8 +54,8 @@ static void measure_box(icc_domain *d)
     iccp_frame_out(&d->frame, d->dim, d->lower, given[0]);
     iccp_frame_out(&d->frame, d->dim, d->upper, given[1]);
     for (size_t k = 0; k < dim; ++k)
-        largest[k] = fmax(fmax(fabs(given[0][k]), fabs(given[1][k])), DBL_MIN) * d->frame.in[0] *
-                     d->frame.in[1];
+        largest[k] = iccp_max(iccp_max(fabs(given[0][k]), fabs(given[1][k])), DBL_MIN) *
+                     d->frame.in[0] * d->frame.in[1];
     d->band = iccp_band_of(dim, longest, largest);
 }
 

@@ -3,6 +3,8 @@
  * recursion. */
 #include "domain/facet_tree.h"
 
+#include "base/minmax.h"
+
 #include <math.h>
 
 enum { LEAF = ICCP_FACET_LEAF };
@@ -180,8 +182,8 @@ static bool passes(size_t dim, const double *box, const double *from, const doub
             continue; /* overlap() has looked */
         const double low = (box[k] - from[k]) / step, high = (box[dim + k] - from[k]) / step;
         const double slack = 1e-14 * (1 + fabs(from[k] / step));
-        enter = fmax(enter, fmin(low, high) - slack);
-        leave = fmin(leave, fmax(low, high) + slack);
+        enter = iccp_max(enter, iccp_min(low, high) - slack);
+        leave = iccp_min(leave, iccp_max(low, high) + slack);
     }
     return enter <= leave;
 }

@@ -4,6 +4,7 @@
 #include "domain/defects.h"
 #include "domain/segment.h"
 #include "domain/sweep.h"
+#include "math/expansion.h"
 #include "math/predicates.h"
 
 #include <math.h>
@@ -139,11 +140,11 @@ double iccp_polygon_area(const iccp_polygon *polygon)
         const double factors[2][2] = {{p[0] - origin[0], q[1] - origin[1]},
                                       {origin[1] - p[1], q[0] - origin[0]}};
         for (int i = 0; i < 2; ++i) {
-            const double product = factors[i][0] * factors[i][1];
-            const double total = sum + product, part = total - sum;
-            error += fma(factors[i][0], factors[i][1], -product);
-            error += (sum - (total - part)) + (product - part);
-            sum = total;
+            double lost, missed;
+            const double product = iccp_two_product(factors[i][0], factors[i][1], &lost);
+            sum = iccp_two_sum(sum, product, &missed);
+            error += lost;
+            error += missed;
         }
     }
     return 0.5 * fabs(sum + error);

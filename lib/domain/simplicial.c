@@ -1,6 +1,7 @@
 #include "domain/simplicial.h"
 
 #include "base/error.h"
+#include "base/minmax.h"
 #include "domain/triangles.h"
 #include "math/orient.h"
 #include "math/predicates.h"
@@ -131,7 +132,7 @@ icc_status iccp_simplicial_check_simple(const iccp_facet_tree *tree, const iccp_
     iccp_facet_box(tree, pair[0], a);
     iccp_facet_box(tree, pair[1], b);
     for (int k = 0; k < 3; ++k)
-        middle[k] = 0.5 * (fmax(a[k], b[k]) + fmin(a[3 + k], b[3 + k]));
+        middle[k] = 0.5 * (iccp_max(a[k], b[k]) + iccp_min(a[3 + k], b[3 + k]));
     iccp_frame_out(frame, 3, middle, middle);
     return iccp_fail_at(
         err, ICC_ERR_BOUNDARY, ICC_ITEM_FACET, pair[0],

@@ -1,5 +1,6 @@
 #include "field/extension.h"
 
+#include "base/minmax.h"
 #include "base/threads.h"
 
 #include <string.h>
@@ -92,8 +93,8 @@ static double value_behind(const outskirts *o, uint32_t v)
         for (int sign = -1; sign <= 1; sign += 2) {
             const uint32_t u = (uint32_t)((ptrdiff_t)v + sign * o->orders->offset[set]);
             if (grid->inside[u])
-                most = fmax(most, iccp_extension_get(o->extension, u,
-                                                     iccp_extension_exponent(o->extension, v)));
+                most = iccp_max(most, iccp_extension_get(o->extension, u,
+                                                         iccp_extension_exponent(o->extension, v)));
         }
     return most;
 }
@@ -152,7 +153,7 @@ static double mean_inside(const iccp_extension *s, size_t v, int32_t exponent)
     for (int32_t k = 0; k < 2 * grid->dim; ++k) {
         const size_t u = k % 2 == 0 ? v - grid->stride[k / 2] : v + grid->stride[k / 2];
         const double other = iccp_extension_get(s, (uint32_t)u, exponent);
-        sum += grid->inside[u] ? other : fmax(fmin(other, own), -own);
+        sum += grid->inside[u] ? other : iccp_max(iccp_min(other, own), -own);
     }
     return 0.5 * (own + sum / (2.0 * grid->dim));
 }
@@ -170,9 +171,9 @@ static double mean_outside(const sweep *w, size_t v, int32_t exponent)
         for (int sign = -1; sign <= 1; sign += 2) {
             const uint32_t u = (uint32_t)((ptrdiff_t)v + sign * w->orders->offset[set]);
             if (grid->inside[u])
-                most = fmin(most, 0.5 * iccp_extension_get(s, u, exponent));
+                most = iccp_min(most, 0.5 * iccp_extension_get(s, u, exponent));
         }
-    return fmin(0.5 * (s->value[v] + sum / (2.0 * grid->dim)), most);
+    return iccp_min(0.5 * (s->value[v] + sum / (2.0 * grid->dim)), most);
 }
 
 /* Reads the old values and writes new ones: the same for every number of threads. */

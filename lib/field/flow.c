@@ -2,6 +2,7 @@
  * flow_piece.c. */
 #include "field/flow_piece.h"
 
+#include "base/minmax.h"
 #include "domain/simplex.h"
 
 #include <math.h>
@@ -25,7 +26,7 @@ bool iccp_flow_find(const iccp_flow *flow, const double *x, const double *ahead,
     for (int32_t k = 0; k < dim; ++k) {
         const int8_t axis = place->simplex.axis[k];
         const double at = x[axis] - iccp_grid_coordinate(grid, place->simplex.corner[0], axis);
-        place->at[axis] = fmin(fmax(at, 0), above);
+        place->at[axis] = iccp_min(iccp_max(at, 0), above);
         above = place->at[axis];
     }
     return true;

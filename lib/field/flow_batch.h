@@ -8,6 +8,7 @@
 #include "field/flow_follow.h"
 #include "field/flow_piece.h"
 #include "field/flow_step.h"
+#include "math/elementary.h"
 
 typedef struct lane {
     iccp_flow_walk walk;
@@ -78,7 +79,7 @@ TARGET static void measure_volume(iccp_flow_curve *curve, const iccp_flow_walk *
     if (iccp_flow_root_corner(flow, place, dim) != ICCP_FLOW_WITHIN)
         speed2 = 1;
     const double growth = w->growth + iccp_flow_growth(w, s);
-    curve->volume = log(fabs(across)) - 0.5 * log(speed2) + w->sign * growth;
+    curve->volume = iccp_ln(fabs(across)) - 0.5 * iccp_ln(speed2) + w->sign * growth;
 }
 
 /* Of a curve uphill, the place that is wanted. */

@@ -2,6 +2,8 @@
  * Newton's method on each, kept within an interval that holds the root. */
 #include "field/flow_exit.h"
 
+#include "base/minmax.h"
+
 #include <math.h>
 
 enum { MOST = 60 };
@@ -14,7 +16,7 @@ static int32_t coordinate_series(const iccp_flow_walk *w, int32_t i, double *ser
     const int8_t *axis = w->place.simplex.axis;
     const double *at = w->place.at;
     series[0] = (i > 0 ? at[axis[i - 1]] : 1) - (i < dim ? at[axis[i]] : 0);
-    series[0] = fmax(series[0], ICCP_FLOW_SLACK);
+    series[0] = iccp_max(series[0], ICCP_FLOW_SLACK);
     for (int32_t j = 0; j < w->n_terms; ++j) {
         const double *term = w->term[j];
         series[j + 1] =

@@ -1,6 +1,7 @@
 /* Where a piece of a curve meets the boundary. */
 #include "field/flow.h"
 
+#include "base/minmax.h"
 #include "domain/simplex.h"
 
 #include <math.h>
@@ -42,7 +43,7 @@ static double meet_plane(const iccp_flow_walk *w, uint32_t facet, double guess, 
         }
         if (!(fabs(value / slope) * w->scale <= w->end))
             break;
-        share = fmin(fmax(share - value / slope, 0), w->end / w->scale);
+        share = iccp_min(iccp_max(share - value / slope, 0), w->end / w->scale);
     }
     *s = share * w->scale;
     iccp_flow_at(w, *s, at);
@@ -76,8 +77,8 @@ bool iccp_flow_leaves(const iccp_flow_walk *walk, double *s, uint32_t *facet, do
     const int32_t dim = grid->dim;
     for (int32_t k = 0; k < dim; ++k) {
         const double reach = 0.1 * grid->spacing;
-        box[k] = fmin(from[k], to[k]) - reach;
-        box[dim + k] = fmax(from[k], to[k]) + reach;
+        box[k] = iccp_min(from[k], to[k]) - reach;
+        box[dim + k] = iccp_max(from[k], to[k]) + reach;
     }
     uint32_t other;
     iccp_facet_query_start(&query, &domain->tree, box);

@@ -2,7 +2,9 @@
  * flow_exit.c. */
 #include "field/flow_piece.h"
 
+#include "base/minmax.h"
 #include "field/flow_exit.h"
+#include "math/elementary.h"
 
 #include <float.h>
 
@@ -91,7 +93,7 @@ double iccp_flow_growth(const iccp_flow_walk *walk, double s)
     const int32_t dim = walk->flow->grid->dim;
     double trace = 0;
     if (walk->radial)
-        return (dim - 1) * log1p(-walk->sign * s);
+        return (dim - 1) * iccp_ln1p(-walk->sign * s);
     for (int32_t k = 0; k < dim; ++k)
         trace += walk->column[k][k];
     return s * trace;
@@ -103,7 +105,7 @@ double iccp_flow_at_length(const iccp_flow_walk *walk, double length)
     enum { MOST = 50 };
     const int32_t dim = walk->flow->grid->dim;
     double low = 0, high = walk->end;
-    double s = walk->end_length > 0 ? walk->end * fmin(length / walk->end_length, 1) : 0;
+    double s = walk->end_length > 0 ? walk->end * iccp_min(length / walk->end_length, 1) : 0;
     for (int k = 0; k < MOST && !walk->radial; ++k) {
         double vector[ICC_MAX_DIM], speed2;
         const double miss = iccp_flow_length(walk, s) - length;
@@ -135,7 +137,7 @@ icc_status iccp_flow_find_piece_slowly(iccp_flow_walk *walk, double end)
     load_start(&a, dim, 0, walk);
     first_terms(&a, dim, first);
     add_size(dim, first[0], &size);
-    const double reach = fmin(end > 0 ? 1.1 * end + BEYOND : HUGE_VAL, FARTHEST / a.norm);
+    const double reach = iccp_min(end > 0 ? 1.1 * end + BEYOND : HUGE_VAL, FARTHEST / a.norm);
     if (!(size > 0 && reach < HUGE_VAL))
         return ICC_ERR_TRACE;
     expand(&a, dim, first, &reach);

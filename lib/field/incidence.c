@@ -3,6 +3,7 @@
  * to touch although they do not; none is missed. */
 #include "field/incidence.h"
 
+#include "base/minmax.h"
 #include "field/incidence_mask.h"
 
 #include <math.h>
@@ -355,11 +356,11 @@ static bool visit_facet(scan *s, uint32_t facet)
     for (int32_t k = 0; k < dim; ++k) {
         double low = s->corner[0][k], high = low;
         for (int32_t i = 1; i < dim; ++i) {
-            low = fmin(low, s->corner[i][k]);
-            high = fmax(high, s->corner[i][k]);
+            low = iccp_min(low, s->corner[i][k]);
+            high = iccp_max(high, s->corner[i][k]);
         }
-        first[k] = cell[k] = (int32_t)fmax(floor(low - CONTACT), 0);
-        last[k] = (int32_t)fmin(floor(high + CONTACT), (double)grid->shape[k] - 2);
+        first[k] = cell[k] = (int32_t)iccp_max(floor(low - CONTACT), 0);
+        last[k] = (int32_t)iccp_min(floor(high + CONTACT), (double)grid->shape[k] - 2);
     }
     for (int32_t k = 0; k < dim;) {
         double centre = -s->level, reach = CONTACT;

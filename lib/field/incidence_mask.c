@@ -4,6 +4,7 @@
  * simplex. */
 #include "field/incidence_mask.h"
 
+#include "base/minmax.h"
 #include "domain/mask.h"
 
 #include <math.h>
@@ -91,8 +92,8 @@ static void load_chain(const layout *l, uint32_t facet, chain *c)
             const size_t v = domain->facets[(size_t)dim * facet + (size_t)i];
             const double x = round(
                 (domain->vertices[(size_t)dim * v + (size_t)k] - grid->origin[k]) / grid->spacing);
-            least = fmin(least, x);
-            most = fmax(most, x);
+            least = iccp_min(least, x);
+            most = iccp_max(most, x);
             sum += x;
         }
         c->lowest += (uint32_t)(least * (double)grid->stride[k]);

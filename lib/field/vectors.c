@@ -12,6 +12,7 @@
  * anew. */
 #include "field/vectors.h"
 
+#include "base/minmax.h"
 #include "base/threads.h"
 #include "field/minnorm.h"
 #include "math/vec.h"
@@ -123,7 +124,7 @@ static bool normalise(int32_t dim, double *v)
 {
     double longest = 0;
     for (int32_t k = 0; k < dim; ++k)
-        longest = fmax(longest, fabs(v[k]));
+        longest = iccp_max(longest, fabs(v[k]));
     if (!(longest > 0))
         return false;
     for (int32_t k = 0; k < dim; ++k)
@@ -187,7 +188,7 @@ static double least_product(int32_t dim, size_t n, const double *direction, cons
 {
     double least = DBL_MAX;
     for (size_t i = 0; i < n; ++i)
-        least = fmin(least, iccp_vec_dot((size_t)dim, direction + (size_t)dim * i, x));
+        least = iccp_min(least, iccp_vec_dot((size_t)dim, direction + (size_t)dim * i, x));
     return least;
 }
 
@@ -232,7 +233,7 @@ static bool is_radial(const star *s, double *x)
 static void tilt_uphill(int32_t dim, size_t n, const double *normals, const double *uphill,
                         double *x)
 {
-    const double least = fmin(0.5 * least_product(dim, n, normals, x), AIM);
+    const double least = iccp_min(0.5 * least_product(dim, n, normals, x), AIM);
     double tilted[ICC_MAX_DIM];
     for (double share = 4; share > 0.1; share *= 0.5) {
         for (int32_t k = 0; k < dim; ++k)
@@ -408,8 +409,8 @@ static void find_bounds(const work *w, uint32_t v, int32_t exponent, double *low
 {
     const icc_grid *grid = w->extension->grid;
     const double own = iccp_extension_get(&w->original, v, exponent);
-    *low = fmin(0.5 * own, 2 * own);
-    *high = fmax(0.5 * own, 2 * own);
+    *low = iccp_min(0.5 * own, 2 * own);
+    *high = iccp_max(0.5 * own, 2 * own);
     if (grid->inside[v])
         return;
     double least = HUGE_VAL;
@@ -417,7 +418,7 @@ static void find_bounds(const work *w, uint32_t v, int32_t exponent, double *low
         for (int sign = -1; sign <= 1; sign += 2) {
             const uint32_t u = (uint32_t)((ptrdiff_t)v + sign * w->orders->offset[set]);
             if (grid->inside[u])
-                least = fmin(least, fabs(iccp_extension_get(&w->original, u, exponent)));
+                least = iccp_min(least, fabs(iccp_extension_get(&w->original, u, exponent)));
         }
     if (least < HUGE_VAL) {
         *low = -least;
@@ -431,7 +432,7 @@ static void move_value(const work *w, uint32_t v, int32_t exponent, double step)
     double low, high;
     const double value = iccp_extension_get(w->extension, v, exponent) + step;
     find_bounds(w, v, exponent, &low, &high);
-    iccp_extension_set(w->extension, v, fmin(fmax(value, low), high), exponent);
+    iccp_extension_set(w->extension, v, iccp_min(iccp_max(value, low), high), exponent);
 }
 
 /* Moves the values of the corners of one simplex so that the gradient's product with x is AIM of

@@ -6,11 +6,10 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "domain/locate.h"
+#include "math/elementary.h"
 
 #include <math.h>
 #include <string.h>
-
-static const double TWO_PI = 6.28318530717958647693;
 
 /* The mesh, its Laplacian and the factor of that, which the rest of both planar methods starts
  * from. */
@@ -72,10 +71,8 @@ icc_status iccp_harmonic_disc(const iccp_harmonic *base, const double *turns, do
     const iccp_laplacian *l = &base->laplacian;
     const size_t n_boundary = base->mesh.n_boundary;
     double *inner = image + 2 * n_boundary;
-    for (size_t k = 0; k < n_boundary; ++k) {
-        image[2 * k] = cos(TWO_PI * turns[k]);
-        image[2 * k + 1] = sin(TWO_PI * turns[k]);
-    }
+    for (size_t k = 0; k < n_boundary; ++k)
+        iccp_cis_turns(turns[k], image + 2 * k);
     for (size_t i = 0; i < l->matrix.n; ++i) {
         inner[2 * i] = inner[2 * i + 1] = 0;
         for (size_t p = l->boundary_first[i]; p < l->boundary_first[i + 1]; ++p)
@@ -93,7 +90,7 @@ void iccp_add_arc_length(const iccp_planar *mesh, double weight, double *turns)
     for (int pass = 0; pass < 2; ++pass)
         for (size_t k = 0; k < n; ++k) {
             const double *p = mesh->points + 2 * k, *q = mesh->points + 2 * ((k + 1) % n);
-            const double length = hypot(q[0] - p[0], q[1] - p[1]);
+            const double length = iccp_hypot(q[0] - p[0], q[1] - p[1]);
             if (pass == 0) {
                 total += length;
             } else {

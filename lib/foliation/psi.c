@@ -2,9 +2,10 @@
  * applications to 3D mesh parameterization, 2006; the statement and its limits: docs/theory.md. */
 #include "foliation/psi.h"
 
-#include <math.h>
+#include "math/elementary.h"
 
-static const double PI = 3.14159265358979323846;
+#include <math.h>
+#include <string.h>
 
 /* Turns from the direction of a to the direction of b, both seen from the centre, in (-1/2, 1/2].
  * An edge that does not meet the centre is seen under less than half a turn. */
@@ -13,7 +14,7 @@ static double angle_between(const iccp_planar *mesh, uint32_t centre, uint32_t a
     const double *m = mesh->points + 2 * (size_t)centre;
     const double *p = mesh->points + 2 * (size_t)a, *q = mesh->points + 2 * (size_t)b;
     const double px = p[0] - m[0], py = p[1] - m[1], qx = q[0] - m[0], qy = q[1] - m[1];
-    return atan2(px * qy - py * qx, px * qx + py * qy) / (2 * PI);
+    return iccp_atan2_turns(px * qy - py * qx, px * qx + py * qy);
 }
 
 static uint32_t boundary_after(const iccp_planar *mesh, uint32_t k)
@@ -25,7 +26,7 @@ static double boundary_length(const iccp_planar *mesh, uint32_t k)
 {
     const double *p = mesh->points + 2 * (size_t)k;
     const double *q = mesh->points + 2 * (size_t)boundary_after(mesh, k);
-    return hypot(q[0] - p[0], q[1] - p[1]);
+    return iccp_hypot(q[0] - p[0], q[1] - p[1]);
 }
 
 /* The share of the turn that each boundary edge gets; they sum to 1. */
@@ -68,22 +69,28 @@ static void boundary_phi(double *phi, const iccp_planar *mesh, uint32_t centre, 
         phi[k + 1] = phi[k] + flux[k] - angle_between(mesh, centre, k, k + 1);
 }
 
-/* Row i: sum over neighbours j of w_ij (phi_j - phi_i + angle from i to j) = 0. */
+/* Row i: sum over neighbours j of w_ij (phi_j - phi_i + angle from i to j) = 0. The angle from j to
+ * i is minus that from i to j. */
 static void right_side(double *b, const iccp_planar *mesh, const iccp_laplacian *open,
                        uint32_t centre, const double *phi)
 {
     const uint32_t n_boundary = (uint32_t)mesh->n_boundary;
+    memset(b, 0, open->matrix.n * sizeof *b);
     for (uint32_t i = 0; i < open->matrix.n; ++i) {
-        double sum = 0;
-        for (size_t p = open->first[i]; p < open->first[i + 1]; ++p)
-            sum -= open->value[p] *
-                   angle_between(mesh, centre, n_boundary + i, n_boundary + open->column[p]);
+        for (size_t p = open->first[i]; p < open->first[i + 1]; ++p) {
+            const uint32_t j = open->column[p];
+            if (j < i)
+                continue;
+            const double turn =
+                open->value[p] * angle_between(mesh, centre, n_boundary + i, n_boundary + j);
+            b[i] -= turn;
+            b[j] += turn;
+        }
         for (size_t p = open->boundary_first[i]; p < open->boundary_first[i + 1]; ++p) {
             const uint32_t k = open->boundary_vertex[p];
-            sum += open->boundary_weight[p] *
-                   (phi[k] + angle_between(mesh, centre, n_boundary + i, k));
+            b[i] += open->boundary_weight[p] *
+                    (phi[k] + angle_between(mesh, centre, n_boundary + i, k));
         }
-        b[i] = sum;
     }
 }
 

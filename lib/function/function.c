@@ -1,5 +1,8 @@
 #include "function/function.h"
 
+#include "base/minmax.h"
+#include "math/elementary.h"
+
 #include <stdbool.h>
 
 /* Below 2^LEAST_EXPONENT differences of neighbouring values would lose bits. */
@@ -36,9 +39,9 @@ static icc_status assign_logs(icc_function *function, const iccp_unknowns *unkno
     for (size_t v = 0; v < tree->grid->n_vertices; ++v)
         function->logs[v] = tree->generation[v] < 0 ? NAN : -HUGE_VAL;
     for (size_t k = 0; k < unknowns->n; ++k) {
-        const double u = log(f->fraction[k]) + LN_2 * f->exponent[k];
+        const double u = iccp_ln(f->fraction[k]) + LN_2 * f->exponent[k];
         function->logs[unknowns->vertex[k]] = u;
-        function->info.least_log = fmin(function->info.least_log, u);
+        function->info.least_log = iccp_min(function->info.least_log, u);
     }
     return ICC_OK;
 }

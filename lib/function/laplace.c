@@ -5,7 +5,9 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "base/minmax.h"
 #include "function/critical_points.h"
+#include "math/elementary.h"
 #include "solver/active_set.h"
 #include "solver/bilaplace.h"
 #include "solver/inequalities.h"
@@ -40,7 +42,7 @@ static double predict_work(const icc_tree *tree)
         for (end = begin + 1; end < tree->n_inside; ++end)
             if (tree->generation[tree->order[end]] != generation)
                 break;
-        work += factor * pow((double)(end - begin), power);
+        work += factor * iccp_pow((double)(end - begin), power);
     }
     return work;
 }
@@ -118,7 +120,8 @@ static icc_status solve_laplace(job *j, const iccp_env *env)
     if (status != ICC_OK)
         return status;
     for (size_t k = 1; k < j->unknowns.n; ++k)
-        info->residual = fmax(info->residual, fabs(iccp_laplacian_row(&j->unknowns, &j->f, k, 0)));
+        info->residual =
+            iccp_max(info->residual, fabs(iccp_laplacian_row(&j->unknowns, &j->f, k, 0)));
     info->residual_before = info->residual;
     return ICC_OK;
 }

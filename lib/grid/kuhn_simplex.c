@@ -3,6 +3,8 @@
  * 1976, chapter III. */
 #include "grid/kuhn_simplex.h"
 
+#include "base/minmax.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -27,7 +29,7 @@ bool iccp_kuhn_simplex_at(iccp_kuhn_simplex *simplex, const icc_grid *grid, cons
         const double last = (double)(grid->shape[k] - 1);
         if (!(x[k] >= 0 && x[k] <= last) || grid->shape[k] < 2)
             return false;
-        const double cell = fmin(floor(x[k]), last - 1);
+        const double cell = iccp_min(floor(x[k]), last - 1);
         u[k] = x[k] - cell;
         lowest += (size_t)cell * grid->stride[k];
     }

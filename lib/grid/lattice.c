@@ -2,6 +2,7 @@
 
 #include "base/budget.h"
 #include "base/error.h"
+#include "base/minmax.h"
 
 #include <assert.h>
 #include <math.h>
@@ -126,7 +127,7 @@ uint32_t iccp_grid_nearest(const icc_grid *grid, const double *point)
     /* In cells; a point so far away that squares would overflow is moved closer. */
     double at[ICC_MAX_DIM];
     for (int32_t k = 0; k < grid->dim; ++k)
-        at[k] = fmax(-1e150, fmin(1e150, (point[k] - grid->origin[k]) / grid->spacing));
+        at[k] = iccp_max(-1e150, iccp_min(1e150, (point[k] - grid->origin[k]) / grid->spacing));
     uint32_t nearest = ICCP_NONE;
     double least = HUGE_VAL;
     for (uint32_t v = 0; v < grid->n_vertices; ++v) {

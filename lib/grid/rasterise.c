@@ -1,6 +1,7 @@
 #include "grid/rasterise.h"
 
 #include "base/error.h"
+#include "base/minmax.h"
 #include "domain/mask.h"
 #include "grid/pieces.h"
 #include "grid/scan_polygon.h"
@@ -25,7 +26,7 @@ static icc_status cover_box(icc_grid **out, const icc_domain *domain, int32_t ce
     double side[ICC_MAX_DIM], longest = 0;
     for (int32_t k = 0; k < domain->dim; ++k) {
         side[k] = domain->upper[k] - domain->lower[k];
-        longest = fmax(longest, side[k]);
+        longest = iccp_max(longest, side[k]);
     }
     const double spacing = longest / cells;
     size_t shape[ICC_MAX_DIM];

@@ -6,6 +6,7 @@
  * outside. */
 #include "grid/scan_polygon.h"
 
+#include "base/minmax.h"
 #include "math/predicates.h"
 
 #include <math.h>
@@ -39,8 +40,8 @@ static void mark_horizontal(icc_grid *grid, const double *a, const double *b)
     const size_t j = first_from(grid, 1, a[1]);
     if (position(grid, 1, j) > a[1])
         return;
-    const double end = fmax(a[0], b[0]);
-    for (size_t i = first_from(grid, 0, fmin(a[0], b[0])); position(grid, 0, i) <= end; ++i)
+    const double end = iccp_max(a[0], b[0]);
+    for (size_t i = first_from(grid, 0, iccp_min(a[0], b[0])); position(grid, 0, i) <= end; ++i)
         row(grid, j)[i] |= ON_EDGE;
 }
 
@@ -49,7 +50,8 @@ static void mark_crossing(icc_grid *grid, size_t j, const double *a, const doubl
 {
     double p[2] = {0.0, position(grid, 1, j)};
     const double x = a[0] + (b[0] - a[0]) * ((p[1] - a[1]) / (b[1] - a[1]));
-    size_t i = first_from(grid, 0, fmax(fmin(a[0], b[0]), fmin(x, fmax(a[0], b[0]))));
+    size_t i =
+        first_from(grid, 0, iccp_max(iccp_min(a[0], b[0]), iccp_min(x, iccp_max(a[0], b[0]))));
     for (; i > 0; --i) {
         p[0] = position(grid, 0, i - 1);
         if (iccp_orient2d(a, b, p) > 0)

@@ -6,6 +6,7 @@
  * located. */
 #include "grid/scan_surface.h"
 
+#include "base/minmax.h"
 #include "base/threads.h"
 #include "domain/simplex.h"
 
@@ -117,7 +118,7 @@ static icc_status locate_near_facets(const work *w, const iccp_env *env)
     const icc_domain *domain = w->domain;
     double longest = 0;
     for (int32_t k = 0; k < domain->dim; ++k)
-        longest = fmax(longest, domain->upper[k] - domain->lower[k]);
+        longest = iccp_max(longest, domain->upper[k] - domain->lower[k]);
     for (uint32_t f = 0; f < domain->n_facets; ++f) {
         if (f % FACETS_PER_REPORT == 0 &&
             iccp_progress(env, "grid", (double)f / (double)domain->n_facets) != ICC_OK)

@@ -7,9 +7,11 @@
  * one. */
 #include "kernel/blue_noise.h"
 
+#include "base/minmax.h"
 #include "base/random.h"
 #include "base/threads.h"
 #include "kernel/lattice_filter.h"
+#include "math/elementary.h"
 #include "math/vec.h"
 
 #include <math.h>
@@ -120,7 +122,7 @@ static void push_of(const relaxation *r, size_t i, double *push)
                     d[k] = x[k] - p[k];
                     d2 += d[k] * d[k];
                 }
-                const double weight = d2 < reach * reach ? exp(rate * d2) : 0;
+                const double weight = d2 < reach * reach ? iccp_exp(rate * d2) : 0;
                 for (size_t k = 0; k < dim; ++k)
                     push[k] += weight * d[k];
             }
@@ -164,11 +166,11 @@ static void contain(relaxation *r, size_t i, const double *x, double *step)
     for (size_t k = 0; k < r->dim; ++k)
         toward += step[k] * away[k];
     for (size_t k = 0; k < r->dim; ++k) {
-        step[k] -= fmin(toward, 0) * away[k];
+        step[k] -= iccp_min(toward, 0) * away[k];
         there[k] = x[k] + step[k];
     }
     const double then = away_from_wall(r, there, away);
-    if (then >= fmin(least, *clearance)) {
+    if (then >= iccp_min(least, *clearance)) {
         *clearance = then;
         return;
     }

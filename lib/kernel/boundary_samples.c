@@ -3,6 +3,8 @@
  * period is approximately equal for distinct edges"). */
 #include "kernel/boundary_samples.h"
 
+#include "base/minmax.h"
+
 #include <math.h>
 
 /* A turn beyond this is a corner: 30 degrees, so that circles of 13 vertices and more are round. */
@@ -75,7 +77,7 @@ static void add_vertex(sampler *r, uint32_t v, iccp_point_list *list)
 static void divide(const sampler *r, size_t i, size_t j, iccp_point_list *list)
 {
     const double whole = r->arc[j] - r->arc[i];
-    const double n = fmax(1, floor(whole / r->spacing + 0.5));
+    const double n = iccp_max(1, floor(whole / r->spacing + 0.5));
     size_t at = i;
     for (double k = 1; k < n && !list->failed; ++k) {
         const double arc = r->arc[i] + whole * (k / n);

@@ -2,6 +2,7 @@
  * Detection, section 7.1. */
 #include "kernel/cells.h"
 
+#include "base/minmax.h"
 #include "math/vec.h"
 
 #include <math.h>
@@ -31,11 +32,11 @@ static void lay_out(iccp_cells *cells, double side)
     for (size_t k = 0; k < cells->dim; ++k) {
         double upper = cells->lower[k] = cells->n > 0 ? cells->points[k] : 0;
         for (size_t i = 1; i < cells->n; ++i) {
-            cells->lower[k] = fmin(cells->lower[k], cells->points[cells->dim * i + k]);
-            upper = fmax(upper, cells->points[cells->dim * i + k]);
+            cells->lower[k] = iccp_min(cells->lower[k], cells->points[cells->dim * i + k]);
+            upper = iccp_max(upper, cells->points[cells->dim * i + k]);
         }
         extent[k] = upper - cells->lower[k];
-        longest = fmax(longest, extent[k]);
+        longest = iccp_max(longest, extent[k]);
     }
     cells->side = side > 0 ? side : longest > 0 ? longest : 1;
     for (double n_cells = HUGE_VAL;; cells->side *= 1.5) {

@@ -11,6 +11,8 @@
  * computed from these anew in every step: nothing accumulates. */
 #include "kernel/dual.h"
 
+#include "base/minmax.h"
+
 #include <math.h>
 
 /* Of the size of the numbers: x[p] is not negative. */
@@ -103,7 +105,7 @@ static size_t first_to_go(const state *s, size_t p, double push, double *growth)
         const double loss = -dot(column(s, j), column(s, p));
         if (!is_held(s, j) || loss <= CHANGES)
             continue;
-        const double when = fmax(-value(s, j) - push * loss, 0) / loss;
+        const double when = iccp_max(-value(s, j) - push * loss, 0) / loss;
         if (when < *growth) {
             *growth = when;
             first = j;
@@ -144,7 +146,7 @@ bool iccp_dual_solve(const iccp_nonneg *problem, double *x, double *work)
     double size = sqrt(dot(problem->target, problem->target));
     for (size_t j = 0; j < m; ++j) {
         s.held[j] = 0;
-        size = fmax(size, fabs(x[j]));
+        size = iccp_max(size, fabs(x[j]));
     }
     s.steps = MOST_STEPS * m;
     solve_held(&s);
@@ -162,6 +164,6 @@ bool iccp_dual_solve(const iccp_nonneg *problem, double *x, double *work)
             return false;
     }
     for (size_t j = 0; j < m; ++j)
-        x[j] = is_held(&s, j) ? 0 : fmax(value(&s, j), 0);
+        x[j] = is_held(&s, j) ? 0 : iccp_max(value(&s, j), 0);
     return true;
 }

@@ -4,7 +4,9 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "base/minmax.h"
 #include "base/threads.h"
+#include "math/elementary.h"
 
 #include <math.h>
 #include <string.h>
@@ -23,9 +25,9 @@ static size_t nearest_sample(const icc_sampling *s, const double *place)
     for (size_t i = 0; i < s->info.n_samples; ++i) {
         double d = 0;
         for (size_t k = 0; k < dim; ++k)
-            d = hypot(d, s->points[dim * i + k] - place[k]);
+            d = iccp_hypot(d, s->points[dim * i + k] - place[k]);
         nearest = d < least ? i : nearest;
-        least = fmin(least, d);
+        least = iccp_min(least, d);
     }
     return nearest;
 }

@@ -8,6 +8,7 @@
  *
  * and numbers in the iterative methods are of size 1 wherever the handles are. */
 #include "base/error.h"
+#include "base/minmax.h"
 #include "kernel/l1.h"
 #include "kernel/weights.h"
 
@@ -67,7 +68,7 @@ static bool make_rows(iccp_handles *h, const double *points)
         for (size_t j = 0; j < h->m; ++j)
             h->columns[ICCP_ROWS * j + r] = entry(h, points, r, j);
         if (r > 0)
-            longest = fmax(longest, row_length(h, r));
+            longest = iccp_max(longest, row_length(h, r));
         make_orthogonal(h, r);
         make_orthogonal(h, r);
         h->lower[r][r] = row_length(h, r);

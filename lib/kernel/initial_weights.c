@@ -4,6 +4,7 @@
  * Here the rows of the matrix sum to 1, so that a step takes means: weights stay between those that
  * are held, and still sum to 1 where all of them do. The thesis' kernel also reaches across
  * gaps; see iccp_spot_sees(). */
+#include "base/minmax.h"
 #include "base/threads.h"
 #include "kernel/weights.h"
 
@@ -22,10 +23,10 @@ static double longest_side(const iccp_nodes *nodes)
     for (size_t k = 0; k < nodes->dim; ++k) {
         double low = nodes->points[k], high = low;
         for (size_t j = 1; j < nodes->n_handles; ++j) {
-            low = fmin(low, nodes->points[nodes->dim * j + k]);
-            high = fmax(high, nodes->points[nodes->dim * j + k]);
+            low = iccp_min(low, nodes->points[nodes->dim * j + k]);
+            high = iccp_max(high, nodes->points[nodes->dim * j + k]);
         }
-        longest = fmax(longest, high - low);
+        longest = iccp_max(longest, high - low);
     }
     return longest;
 }

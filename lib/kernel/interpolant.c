@@ -9,6 +9,7 @@
 #include "kernel/interpolant.h"
 
 #include "base/error.h"
+#include "base/minmax.h"
 #include "base/threads.h"
 
 #include <math.h>
@@ -122,8 +123,8 @@ static icc_status factorise(iccp_collocation *c, const iccp_env *env, icc_error 
         status = iccp_ldlt_factorise(&c->factor, &c->kernel.matrix, env);
     double least = HUGE_VAL, greatest = 0;
     for (size_t k = 0; status == ICC_OK && k < c->n; ++k) {
-        least = fmin(least, c->factor.pivot[k]);
-        greatest = fmax(greatest, c->factor.pivot[k]);
+        least = iccp_min(least, c->factor.pivot[k]);
+        greatest = iccp_max(greatest, c->factor.pivot[k]);
     }
     c->definiteness = least / greatest;
     if (status == ICC_ERR_SOLVER || (status == ICC_OK && !(c->definiteness > LEAST_PIVOT)))

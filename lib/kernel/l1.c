@@ -6,6 +6,8 @@
  * least sum of squares is found in the same way as in the first case. */
 #include "kernel/l1.h"
 
+#include "base/minmax.h"
+
 #include <assert.h>
 #include <math.h>
 
@@ -120,10 +122,10 @@ static size_t leaving(const iccp_l1 *p, const basis *b, size_t j, double sign)
         const double speed = sign * change[k] * b->sign[k];
         if (speed <= ZERO)
             continue;
-        const double when = fmax(b->x[k] * b->sign[k], 0) / speed;
+        const double when = iccp_max(b->x[k] * b->sign[k], 0) / speed;
         if (best == p->rows || when < least - ZERO ||
             (when <= least + ZERO && b->column[k] < b->column[best])) {
-            least = fmin(least, when);
+            least = iccp_min(least, when);
             best = k;
         }
     }
@@ -195,7 +197,7 @@ void iccp_l1_solve(const iccp_l1 *problem, double *x, double *work)
     iccp_l1 p = *problem;
     double size = 0;
     for (size_t k = 0; k < ICCP_ROWS; ++k)
-        size = fmax(size, fabs(p.target[k]));
+        size = iccp_max(size, fabs(p.target[k]));
     for (size_t j = 0; j < p.m; ++j)
         x[j] = 0;
     if (size <= 0)

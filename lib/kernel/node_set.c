@@ -5,7 +5,9 @@
 #include "kernel/node_set.h"
 
 #include "base/error.h"
+#include "base/minmax.h"
 #include "base/threads.h"
+#include "math/elementary.h"
 
 #include <math.h>
 #include <string.h>
@@ -28,7 +30,7 @@ static double distance(size_t dim, const double *a, const double *b)
 {
     double d = 0;
     for (size_t k = 0; k < dim; ++k)
-        d = hypot(d, a[k] - b[k]);
+        d = iccp_hypot(d, a[k] - b[k]);
     return d;
 }
 
@@ -129,8 +131,8 @@ static icc_status check_line(const iccp_node_set *set, size_t k, const icc_line 
         cosine +=
             (line->to[d] - line->from[d]) / length * ((other->to[d] - other->from[d]) / whole);
     for (size_t d = 0; d < set->dim; ++d)
-        off = hypot(off, (line->to[d] - line->from[d]) / length -
-                             cosine * ((other->to[d] - other->from[d]) / whole));
+        off = iccp_hypot(off, (line->to[d] - line->from[d]) / length -
+                                  cosine * ((other->to[d] - other->from[d]) / whole));
     if (off <= PARALLEL)
         return ICC_OK;
     return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_LINE, (int64_t)k,
@@ -254,7 +256,7 @@ static icc_status make_room(iccp_node_set *set, size_t n_handles,
 {
     double most = (double)n_handles + (double)set->sampling->info.n_samples;
     for (size_t k = 0; k < options->n_lines; ++k)
-        most += 2 + fmax(0, pieces_of(set, &options->lines[k]));
+        most += 2 + iccp_max(0, pieces_of(set, &options->lines[k]));
     if (!(most <= (double)MOST_NODES))
         return iccp_fail(err, ICC_ERR_RESOLUTION, "there would be more than %zu nodes", MOST_NODES);
     const size_t n = (size_t)most, row = set->dim * sizeof(double);

@@ -9,6 +9,8 @@
  * shortened. */
 #include "kernel/nonneg.h"
 
+#include "base/minmax.h"
+
 #include <float.h>
 #include <math.h>
 
@@ -68,7 +70,7 @@ static void newton_step(const state *s, double shift, double *step)
         for (size_t k = 0; k < c; ++k)
             pivot -= l[c][k] * l[c][k] * d[k];
         /* Below the shift there is only rounding. */
-        d[c] = fmax(pivot, shift);
+        d[c] = iccp_max(pivot, shift);
         for (size_t r = c + 1; r < ICCP_ROWS; ++r) {
             double sum = s->h[r][c];
             for (size_t k = 0; k < c; ++k)
@@ -105,7 +107,7 @@ static void advance(const iccp_nonneg *p, double slope, const double *start, con
         if (rise > 0) {
             high = share;
             /* Where the rise would be 0 if it were linear, but not too near to the ends. */
-            share = low + (high - low) * fmin(fmax(low_rise / (low_rise - rise), 0.1), 0.9);
+            share = low + (high - low) * iccp_min(iccp_max(low_rise / (low_rise - rise), 0.1), 0.9);
         } else {
             low = share;
             low_rise = rise;
@@ -136,13 +138,13 @@ static outcome iterate(const iccp_nonneg *p, double slope, size_t steps, double 
     state s = {.y = {0}};
     double size = sqrt(dot(p->target, p->target));
     for (size_t j = 0; j < p->m; ++j)
-        size = fmax(size, fabs(x[j]));
+        size = iccp_max(size, fabs(x[j]));
     evaluate(p, slope, x, &s);
     for (size_t k = 0; k <= steps; ++k) {
         double step[ICCP_ROWS];
         const double error = sqrt(dot(s.g, s.g));
         const double multiplier = slope > 0 ? sqrt(dot(s.y, s.y)) : 0;
-        if (error <= TIGHT * fmax(size, multiplier)) {
+        if (error <= TIGHT * iccp_max(size, multiplier)) {
             for (size_t j = 0; j < p->m; ++j) {
                 const double t = x[j] + dot(p->columns + ICCP_ROWS * j, s.y);
                 x[j] = t >= 0 ? t : slope > 0 ? slope * t : 0;

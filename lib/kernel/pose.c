@@ -7,7 +7,9 @@
  * quite sum to 1 do not draw anything towards the origin. */
 #include "kernel/pose.h"
 
+#include "base/minmax.h"
 #include "base/threads.h"
+#include "math/elementary.h"
 
 #include <math.h>
 #include <string.h>
@@ -103,12 +105,14 @@ void iccp_pose_move(size_t dim, double *transform, const double *offset)
 /* The matrix of a turn about the origin; in space by O. Rodrigues' formula. */
 static void turn_matrix(size_t dim, const double *axis, double angle, double matrix[9])
 {
-    const double c = cos(angle), s = sin(angle);
+    double z[2];
+    iccp_cis(angle, z);
+    const double c = z[0], s = z[1];
     if (dim == 2) {
         memcpy(matrix, (double[4]){c, -s, s, c}, 4 * sizeof *matrix);
         return;
     }
-    const double greatest = fmax(fabs(axis[0]), fmax(fabs(axis[1]), fabs(axis[2])));
+    const double greatest = iccp_max(fabs(axis[0]), iccp_max(fabs(axis[1]), fabs(axis[2])));
     const double a[3] = {axis[0] / greatest, axis[1] / greatest, axis[2] / greatest};
     const double length = sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
     for (size_t i = 0; i < 3; ++i) {

@@ -11,6 +11,7 @@
  *   of the weights.
  * Non-negativity, 5.35d, is restored node by node after minimising, which takes a quarter of the
  * gain on the star. */
+#include "base/minmax.h"
 #include "kernel/rigid_system.h"
 #include "kernel/structure.h"
 
@@ -123,7 +124,7 @@ static icc_status lower_energy(const iccp_rigid *r, const iccp_handles *handles,
     const double mixed = product_of(r, coefficients, v->coefficients, v);
     const double after = product_of(r, v->coefficients, v->coefficients, v);
     const double curvature = before - 2 * mixed + after;
-    const double share = curvature > 0 ? fmin(fmax((before - mixed) / curvature, 0), 1) : 0;
+    const double share = curvature > 0 ? iccp_min(iccp_max((before - mixed) / curvature, 0), 1) : 0;
     energy[0] = before;
     energy[1] = before - share * (2 * (before - mixed) - share * curvature);
     for (size_t k = 0; k < n * m; ++k)

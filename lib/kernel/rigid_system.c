@@ -3,6 +3,8 @@
  * from that of the other. */
 #include "kernel/rigid_system.h"
 
+#include "base/minmax.h"
+
 #include <math.h>
 
 #define NONE UINT32_MAX
@@ -101,7 +103,7 @@ static icc_status create_gram(iccp_rigid *r, const iccp_env *env)
         return status;
     iccp_gram_fill(&r->gram, &r->slopes, r->weight);
     for (size_t k = 0; k < r->n; ++k)
-        r->scale = fmax(r->scale, r->gram.diagonal[k]);
+        r->scale = iccp_max(r->scale, r->gram.diagonal[k]);
     /* A node alone: its coefficient does not matter. */
     if (!(r->scale > 0))
         r->scale = 1;

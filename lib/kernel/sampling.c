@@ -1,6 +1,7 @@
 #include "kernel/sampling.h"
 
 #include "base/error.h"
+#include "base/minmax.h"
 #include "base/threads.h"
 #include "kernel/point_list.h"
 #include "kernel/spectrum.h"
@@ -132,7 +133,7 @@ static icc_status measure(const survey *s, icc_sampling_info *info, const iccp_e
     for (size_t i = 0; i < s->n; ++i) {
         info->n_edge += s->where[i] == ON_EDGE;
         sum += s->spacing[i];
-        least = fmin(least, s->spacing[i]);
+        least = iccp_min(least, s->spacing[i]);
     }
     if (info->kind == ICC_SAMPLING_POINTS)
         spacing = s->n > 1 ? sum / (double)s->n : 1;

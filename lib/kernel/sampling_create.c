@@ -2,9 +2,11 @@
 #include "kernel/sampling.h"
 
 #include "base/error.h"
+#include "base/minmax.h"
 #include "kernel/blue_noise.h"
 #include "kernel/boundary_samples.h"
 #include "kernel/lattice_filter.h"
+#include "math/elementary.h"
 #include "math/vec.h"
 
 #include <math.h>
@@ -38,7 +40,7 @@ static double default_spacing(const icc_shape *shape)
 {
     double longest = 0;
     for (size_t k = 0; k < shape->dim; ++k)
-        longest = fmax(longest, shape->upper[k] - shape->lower[k]);
+        longest = iccp_max(longest, shape->upper[k] - shape->lower[k]);
     return DEFAULT_SPACING[shape->dim == 3] * longest;
 }
 
@@ -96,7 +98,7 @@ static double facet_size(const icc_shape *shape, const iccp_facet_tree *tree, ui
         v[k] = shape->dim == 3 ? c[2][k] - c[0][k] : 0;
     }
     if (shape->dim == 2)
-        return hypot(u[0], u[1]);
+        return iccp_hypot(u[0], u[1]);
     for (int k = 0; k < 3; ++k)
         n[k] = u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3];
     return 0.5 * sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
@@ -112,10 +114,10 @@ static double expect_samples(const icc_shape *shape, double spacing)
         for (int32_t k = 0; k < d->dim; ++k)
             size *= d->frame.out[0] * shape->frame.in[0] * (d->frame.out[1] * shape->frame.in[1]) /
                     spacing;
-        inside = fmax(inside, size);
+        inside = iccp_max(inside, size);
     }
     for (uint32_t f = 0; f < shape->walls.n; ++f)
-        n += facet_size(shape, &shape->walls, f) / pow(spacing, (double)shape->dim - 1);
+        n += facet_size(shape, &shape->walls, f) / iccp_power(spacing, shape->dim - 1);
     for (size_t s = 0; s < shape->n_segments; ++s) {
         const double *a = shape->local + shape->dim * (shape->n_walled + shape->segments[2 * s]);
         const double *b =

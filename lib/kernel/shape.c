@@ -3,6 +3,7 @@
 #include "kernel/shape.h"
 
 #include "base/error.h"
+#include "base/minmax.h"
 #include "domain/segment.h"
 #include "domain/triangles.h"
 
@@ -107,9 +108,9 @@ static icc_status localise(icc_shape *shape, size_t n, icc_error *err)
         shape->upper[k] = -HUGE_VAL;
         for (size_t i = 0; i < n; ++i) {
             const double x = shape->local[dim * i + k];
-            shape->lower[k] = fmin(shape->lower[k], x);
-            shape->upper[k] = fmax(shape->upper[k], x);
-            largest = fmax(largest, fabs(x));
+            shape->lower[k] = iccp_min(shape->lower[k], x);
+            shape->upper[k] = iccp_max(shape->upper[k], x);
+            largest = iccp_max(largest, fabs(x));
         }
     }
     iccp_frame_fit(&shape->frame, (int32_t)dim, n, shape->local);
@@ -122,9 +123,10 @@ static icc_status localise(icc_shape *shape, size_t n, icc_error *err)
     }
     const double *in = shape->frame.in;
     for (size_t k = 0; k < dim; ++k)
-        longest = fmax(longest, shape->upper[k] * in[0] * in[1] - shape->lower[k] * in[0] * in[1]);
+        longest =
+            iccp_max(longest, shape->upper[k] * in[0] * in[1] - shape->lower[k] * in[0] * in[1]);
     shape->tolerance =
-        WALL_TOLERANCE * longest + fmax(ROUNDING * largest, 4 * DBL_TRUE_MIN) * in[0] * in[1];
+        WALL_TOLERANCE * longest + iccp_max(ROUNDING * largest, 4 * DBL_TRUE_MIN) * in[0] * in[1];
     return ICC_OK;
 }
 

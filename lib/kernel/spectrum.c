@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "base/threads.h"
+#include "math/elementary.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -25,19 +26,21 @@ static const double DEVIATIONS = 6;
 enum { FEWEST = 200, MOST = 1500 };
 
 static const double TWO_PI = 6.28318530717958648;
+/* The golden angle, (3 - sqrt 5) / 2 turns. */
+static const double GOLDEN = 0.38196601125010515;
 
 /* Directions of half a circle, or half a sphere by a spiral of equal areas. */
 static void direction(size_t dim, size_t i, double *u)
 {
     const double share = ((double)i + 0.5) / N_DIRECTIONS;
     if (dim == 2) {
-        u[0] = cos(0.5 * TWO_PI * share);
-        u[1] = sin(0.5 * TWO_PI * share);
+        iccp_cis_turns(0.5 * share, u);
         return;
     }
-    const double flat = sqrt(1 - share * share), turn = 2.39996322972865332 * (double)i;
-    u[0] = flat * cos(turn);
-    u[1] = flat * sin(turn);
+    const double flat = sqrt(1 - share * share);
+    iccp_cis_turns(GOLDEN * (double)i, u);
+    u[0] *= flat;
+    u[1] *= flat;
     u[2] = share;
 }
 
@@ -56,13 +59,14 @@ static void transform_along(const transform *t, const double *u, double *power)
         double along = 0;
         for (size_t k = 0; k < t->dim; ++k)
             along += u[k] * (t->points[t->dim * i + k] - t->points[k]);
-        const double angle = TWO_PI * t->step * along, c = cos(angle), s = sin(angle);
-        double x = c, y = s;
+        double z[2];
+        iccp_cis_turns(t->step * along, z);
+        double x = z[0], y = z[1];
         for (size_t b = 0; b < ICCP_SPECTRUM_BINS; ++b) {
-            const double turned = x * c - y * s;
+            const double turned = x * z[0] - y * z[1];
             re[b] += x;
             im[b] += y;
-            y = x * s + y * c;
+            y = x * z[1] + y * z[0];
             x = turned;
         }
     }
@@ -128,7 +132,7 @@ static double find_rise(const double *power)
  * piece of the shape as wide as it is high: the list would begin with a strip of it. */
 static size_t cut_out(size_t dim, size_t n, const double *points, double spacing, double *piece)
 {
-    const double half = 0.5 * spacing * pow((double)MOST, 1 / (double)dim);
+    const double half = 0.5 * spacing * iccp_pow((double)MOST, 1 / (double)dim);
     const double *centre = points + dim * (n / 2);
     size_t n_piece = 0;
     for (size_t i = 0; i < n && n_piece < MOST; ++i) {

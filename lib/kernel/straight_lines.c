@@ -9,6 +9,8 @@
  * at some distance, and no more than keeps weights from becoming negative. */
 #include "kernel/handle_weights.h"
 
+#include "base/minmax.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -88,7 +90,7 @@ static double nearest(const iccp_node_set *set, const iccp_line_nodes *line, con
         along += (x[d] - a[d]) * (b[d] - a[d]);
         length2 += (b[d] - a[d]) * (b[d] - a[d]);
     }
-    *share = fmin(1, fmax(0, along / length2));
+    *share = iccp_min(1, iccp_max(0, along / length2));
     for (size_t d = 0; d < set->dim; ++d) {
         const double away = x[d] - a[d] - *share * (b[d] - a[d]);
         distance2 += away * away;
@@ -126,7 +128,7 @@ static void add_change(const change *c, double share, double strength, double *w
     for (size_t j = 0; j < m; ++j) {
         row[j] = before[j] + part * (after[j] - before[j]);
         if (row[j] < 0)
-            strength = fmin(strength, fmax(0, weights[j]) / -row[j]);
+            strength = iccp_min(strength, iccp_max(0, weights[j]) / -row[j]);
     }
     for (size_t j = 0; j < m; ++j)
         weights[j] += strength * row[j];

@@ -2,6 +2,7 @@
  * signs. */
 #include "kernel/shape.h"
 
+#include "base/minmax.h"
 #include "domain/inside.h"
 #include "domain/simplex.h"
 #include "math/orient.h"
@@ -110,7 +111,7 @@ static bool in_plane(const icc_shape *shape, const iccp_spot *spot, uint32_t wal
     if (dim == 3) {
         const double b = iccp_vec_distance(3, c[1], c[2]), d = iccp_vec_distance(3, c[2], c[0]),
                      h = 0.5 * (size + b + d);
-        area = 2 * sqrt(fmax(h * (h - size) * (h - b) * (h - d), 0));
+        area = 2 * sqrt(iccp_max(h * (h - size) * (h - b) * (h - d), 0));
         size = sqrt(area);
     }
     const double slack = shape->tolerance * (1 + iccp_vec_distance(dim, c[0], spot->at) / size);
@@ -135,8 +136,8 @@ static bool blocked(const icc_shape *shape, const iccp_spot *a, const iccp_spot 
     iccp_facet_query query;
     uint32_t wall;
     for (size_t k = 0; k < dim; ++k) {
-        box[k] = fmin(a->at[k], b->at[k]);
-        box[dim + k] = fmax(a->at[k], b->at[k]);
+        box[k] = iccp_min(a->at[k], b->at[k]);
+        box[dim + k] = iccp_max(a->at[k], b->at[k]);
     }
     iccp_facet_query_start(&query, &shape->walls, box);
     query.from = a->at;
@@ -172,7 +173,7 @@ static bool sees_through_region(const icc_shape *shape, const iccp_spot *a, cons
         return true;
     /* Well within a ball without walls. */
     if (iccp_vec_distance(shape->dim, a->at, b->at) <
-        fmax(a->clearance, b->clearance) - 2 * shape->tolerance)
+        iccp_max(a->clearance, b->clearance) - 2 * shape->tolerance)
         return true;
     return !blocked(shape, a, b) && region_between(shape, a, b) == a->region;
 }

@@ -3,6 +3,7 @@
 #include "kernel/handle_weights.h"
 
 #include "base/error.h"
+#include "math/elementary.h"
 
 #include <math.h>
 #include <string.h>
@@ -26,7 +27,7 @@ static double brush(const iccp_node_set *set, size_t node, const double *centre,
 {
     double d = 0;
     for (size_t k = 0; k < set->dim; ++k)
-        d = hypot(d, set->given[set->dim * node + k] - centre[k]);
+        d = iccp_hypot(d, set->given[set->dim * node + k] - centre[k]);
     d /= radius;
     return d < 1 ? (1 - d * d) * (1 - d * d) : 0;
 }

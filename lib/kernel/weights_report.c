@@ -1,6 +1,8 @@
 /* Weights at caller-supplied points, and how good they are. */
+#include "base/minmax.h"
 #include "base/threads.h"
 #include "kernel/handle_weights.h"
+#include "math/elementary.h"
 
 #include <math.h>
 #include <string.h>
@@ -98,13 +100,13 @@ static quality measure(const icc_weights *weights, const double *point, double *
     iccp_weights_at(weights, point, values, NULL);
     for (size_t j = 0; j < set->n_handles; ++j) {
         q.unity += values[j];
-        q.least = fmin(q.least, values[j]);
+        q.least = iccp_min(q.least, values[j]);
         for (size_t k = 0; k < set->dim; ++k)
             local[k] -= values[j] * set->points[set->dim * j + k];
     }
     q.unity = fabs(q.unity);
     for (size_t k = 0; k < set->dim; ++k)
-        q.reproduction = hypot(q.reproduction, local[k]);
+        q.reproduction = iccp_hypot(q.reproduction, local[k]);
     q.reproduction /= iccp_node_set_scale(set);
     return q;
 }
@@ -131,7 +133,7 @@ static double deviation(const icc_weights *weights, const double *place, const u
     iccp_weights_at(weights, place, values, NULL);
     for (size_t j = 0; j < weights->nodes->n_handles; ++j) {
         const double wanted = j == ends[0] ? 1 - share : j == ends[1] ? share : 0;
-        worst = fmax(worst, fabs(values[j] - wanted));
+        worst = iccp_max(worst, fabs(values[j] - wanted));
     }
     return worst;
 }
@@ -142,8 +144,8 @@ static void measure_handles(const icc_weights *weights, icc_weights_report *repo
 {
     const iccp_node_set *set = weights->nodes;
     for (uint32_t j = 0; j < set->n_handles; ++j)
-        report->lagrange = fmax(report->lagrange, deviation(weights, set->given + set->dim * j,
-                                                            (uint32_t[2]){j, j}, 0, values));
+        report->lagrange = iccp_max(report->lagrange, deviation(weights, set->given + set->dim * j,
+                                                                (uint32_t[2]){j, j}, 0, values));
     for (size_t e = 0; e < set->n_edges; ++e) {
         const double *a = set->given + set->dim * set->edges[2 * e];
         const double *b = set->given + set->dim * set->edges[2 * e + 1];
@@ -152,8 +154,8 @@ static void measure_handles(const icc_weights *weights, icc_weights_report *repo
             double place[3];
             for (size_t k = 0; k < set->dim; ++k)
                 place[k] = a[k] + share * (b[k] - a[k]);
-            report->linearity = fmax(report->linearity,
-                                     deviation(weights, place, set->edges + 2 * e, share, values));
+            report->linearity = iccp_max(
+                report->linearity, deviation(weights, place, set->edges + 2 * e, share, values));
         }
     }
 }
@@ -163,10 +165,10 @@ static void summarise(size_t n, const quality *q, icc_weights_report *report)
 {
     report->least_weight = n > 0 ? HUGE_VAL : 0;
     for (size_t i = 0; i < n; ++i) {
-        report->unity = fmax(report->unity, q[i].unity);
-        report->reproduction = fmax(report->reproduction, q[i].reproduction);
+        report->unity = iccp_max(report->unity, q[i].unity);
+        report->reproduction = iccp_max(report->reproduction, q[i].reproduction);
         report->reproduction_mean += q[i].reproduction / (double)n;
-        report->least_weight = fmin(report->least_weight, q[i].least);
+        report->least_weight = iccp_min(report->least_weight, q[i].least);
         report->n_negative += q[i].least < NEGATIVE;
     }
 }

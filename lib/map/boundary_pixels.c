@@ -2,6 +2,7 @@
  * The few centres where that can differ are asked for one by one. */
 #include "map/boundary_pixels.h"
 
+#include "base/minmax.h"
 #include "map/sampler.h"
 
 #include <math.h>
@@ -66,8 +67,8 @@ static icc_status add_along(iccp_boundary_pixels *boundary, const icc_picture *t
     icc_status status = ICC_OK;
     for (int32_t row = first_centre(a[1] - close, target->height); row < end; ++row) {
         const double x[2] = {x_at(a, b, row + 0.5 - close), x_at(a, b, row + 0.5 + close)};
-        const int32_t last = first_centre(fmax(x[0], x[1]) + close, target->width);
-        for (int32_t column = first_centre(fmin(x[0], x[1]) - close, target->width);
+        const int32_t last = first_centre(iccp_max(x[0], x[1]) + close, target->width);
+        for (int32_t column = first_centre(iccp_min(x[0], x[1]) - close, target->width);
              column < last && status == ICC_OK; ++column)
             status = add(boundary, target, column, row);
     }
@@ -80,7 +81,7 @@ icc_status iccp_boundary_pixels_create(iccp_boundary_pixels *boundary, const icc
     *boundary = (iccp_boundary_pixels){.memory = env->memory};
     double largest = 0;
     for (size_t k = 0; k < 2 * domain->n_vertices; ++k)
-        largest = fmax(largest, fabs(domain->given[k]));
+        largest = iccp_max(largest, fabs(domain->given[k]));
     icc_status status = ICC_OK;
     for (size_t i = 0; i < domain->n_facets && status == ICC_OK; ++i)
         status = add_along(boundary, target, domain->given + 2 * (size_t)domain->facets[2 * i],

@@ -3,6 +3,7 @@
 #include "map/curves.h"
 
 #include "chart/bulk.h"
+#include "math/elementary.h"
 
 #include <math.h>
 
@@ -72,7 +73,7 @@ static double share_of(const icc_chart *chart, const iccp_coords *coords, double
 {
     if (!(coords->t > 0 && coords->t < 1))
         return 0;
-    return volume + log(extent_of(chart->domain, coords->facet) / fabs(chart->domain->measure));
+    return volume + iccp_ln(extent_of(chart->domain, coords->facet) / fabs(chart->domain->measure));
 }
 
 icc_status iccp_curves_points(const icc_chart *from, const icc_chart *to, size_t n,

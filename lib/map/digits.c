@@ -5,11 +5,13 @@
  * cannot spoil. */
 #include "map/digits.h"
 
+#include "base/minmax.h"
 #include "base/threads.h"
 #include "chart/chart_field.h"
 #include "chart/low_discrepancy.h"
 #include "function/function.h"
 #include "map/curves.h"
+#include "math/elementary.h"
 #include "math/orient.h"
 
 #include <float.h>
@@ -41,7 +43,7 @@ static double rounding_of(const icc_domain *domain, double diagonal)
     const iccp_frame *frame = &domain->frame;
     double largest = 0;
     for (int32_t k = 0; k < domain->dim; ++k)
-        largest = fmax(largest, fabs(frame->shift[k]) * frame->in[0] * frame->in[1]);
+        largest = iccp_max(largest, fabs(frame->shift[k]) * frame->in[0] * frame->in[1]);
     return 4 * DBL_EPSILON * largest / diagonal;
 }
 
@@ -93,7 +95,7 @@ static icc_status send_back(const icc_chart *from, const icc_chart *to, size_t n
 /* Whether digits may be missing: not a number is suspect, too. */
 static bool is_suspect(const iccp_shares *shares)
 {
-    return !(shares->to - shares->from >= log(SUSPECT));
+    return !(shares->to - shares->from >= iccp_ln(SUSPECT));
 }
 
 icc_status iccp_digits_points(const icc_chart *from, const icc_chart *to, size_t n,
@@ -130,7 +132,7 @@ static bool is_positive(int32_t dim, const double *jacobian)
     const double *rows[ICC_MAX_DIM + 1] = {zero};
     double scaled[ICC_MAX_DIM * ICC_MAX_DIM], largest = 0;
     for (int32_t k = 0; k < dim * dim; ++k)
-        largest = fmax(largest, fabs(jacobian[k]));
+        largest = iccp_max(largest, fabs(jacobian[k]));
     for (int32_t k = 0; k < dim * dim; ++k)
         scaled[k] = jacobian[k] / largest;
     for (int32_t k = 0; k < dim; ++k)
@@ -161,7 +163,7 @@ static double miss_of(int32_t dim, const double *a, const double *b)
             double sum = i == j ? -1 : 0;
             for (int32_t k = 0; k < dim; ++k)
                 sum += a[i * dim + k] * b[k * dim + j];
-            worst = fmax(worst, isfinite(sum) ? fabs(sum) : HUGE_VAL);
+            worst = iccp_max(worst, isfinite(sum) ? fabs(sum) : HUGE_VAL);
         }
     return worst;
 }
@@ -234,8 +236,8 @@ static icc_status judge_chunk(void *argument, size_t begin, size_t end)
         s->verdict[begin + i] = (verdict){
             .used = status[i] != ICC_ERR_OUTSIDE,
             .lost = !mapped,
-            .flat = mapped && !(shares[i].to - shares[i].from >= log(FLAT)),
-            .steep = mapped ? fmin(shares[i].from, shares[i].to) : HUGE_VAL,
+            .flat = mapped && !(shares[i].to - shares[i].from >= iccp_ln(FLAT)),
+            .steep = mapped ? iccp_min(shares[i].from, shares[i].to) : HUGE_VAL,
         };
         if (mapped && (i % ONE_IN == 0 || is_suspect(&shares[i])))
             which[n_back++] = i;

@@ -1,6 +1,7 @@
 #include "map/mesh_repair.h"
 
 #include "map/untangle.h"
+#include "math/elementary.h"
 #include "math/predicates.h"
 
 #include <math.h>
@@ -84,7 +85,7 @@ icc_status iccp_mesh_repair(const iccp_simplices *mesh, double *images, const ic
         return status;
     const double before = measure_of(mesh, mesh->points), after = measure_of(mesh, images);
     if (before > 0 && after > 0)
-        map.stretch = mesh->dim == 2 ? sqrt(after / before) : cbrt(after / before);
+        map.stretch = mesh->dim == 2 ? sqrt(after / before) : iccp_cbrt(after / before);
     return iccp_untangle(&map, &n_left, env);
 }
 

@@ -4,6 +4,7 @@
  * gradients in space. */
 #include "map/newton.h"
 
+#include "base/minmax.h"
 #include "map/dirichlet.h"
 #include "map/truncated_cg.h"
 #include "map/untangling.h"
@@ -96,7 +97,7 @@ static ICCP_INLINE double find_least(size_t dim, const iccp_newton *s, size_t *n
     for (size_t e = 0; e < s->assembly.n_elements; ++e) {
         const double *image[4], *element = corner_images(dim, s, e, image);
         const double det = iccp_element_jacobian(dim, element, image, j);
-        least = fmin(least, det);
+        least = iccp_min(least, det);
         *n_bad += det <= 0;
     }
     return least;
@@ -168,7 +169,7 @@ static double first_root(double a, double b, double c)
         return HUGE_VAL;
     const double q = -0.5 * (b + copysign(sqrt(discriminant), b));
     const double r0 = q / c, r1 = fabs(q) > 0 ? a / q : HUGE_VAL;
-    const double low = fmin(r0, r1), high = fmax(r0, r1);
+    const double low = iccp_min(r0, r1), high = iccp_max(r0, r1);
     return low > 0 ? low : high > 0 ? high : HUGE_VAL;
 }
 
@@ -188,7 +189,8 @@ static double flip_limit(const iccp_newton *s)
         const double vx = p[2][0] - p[0][0], vy = p[2][1] - p[0][1];
         const double dux = d[1][0] - d[0][0], duy = d[1][1] - d[0][1];
         const double dvx = d[2][0] - d[0][0], dvy = d[2][1] - d[0][1];
-        limit = fmin(limit, first_root(ux * vy - uy * vx, ux * dvy + dux * vy - uy * dvx - duy * vx,
+        limit =
+            iccp_min(limit, first_root(ux * vy - uy * vx, ux * dvy + dux * vy - uy * dvx - duy * vx,
                                        dux * dvy - duy * dvx));
     }
     return limit;
@@ -219,7 +221,7 @@ double iccp_newton_move(iccp_newton *newton, iccp_energy energy, double epsilon,
     iccp_newton *s = newton;
     const size_t dim = s->map.dim;
     const bool guarded = energy != ICCP_UNTANGLE;
-    double length = guarded && dim == 2 ? fmin(1, SHARE_OF_FLIP * flip_limit(s)) : 1;
+    double length = guarded && dim == 2 ? iccp_min(1, SHARE_OF_FLIP * flip_limit(s)) : 1;
     for (size_t i = 0; i < s->assembly.n_free; ++i)
         memcpy(s->saved + dim * i, s->map.images + dim * s->assembly.free_point[i],
                dim * sizeof *s->saved);

@@ -1,6 +1,7 @@
 /* docs/theory.md, the mesh map; the untangling itself is in map/untangle.c. */
 #include "map/repair.h"
 
+#include "base/minmax.h"
 #include "map/untangle.h"
 #include "math/predicates.h"
 #include "math/vec.h"
@@ -30,8 +31,8 @@ static const double LEAST_ROUNDNESS = 1e-4;
 static double roundness(const double *a, const double *b, const double *c)
 {
     const double twice = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-    return twice / fmax(iccp_vec_distance2(2, a, b),
-                        fmax(iccp_vec_distance2(2, b, c), iccp_vec_distance2(2, c, a)));
+    return twice / iccp_max(iccp_vec_distance2(2, a, b),
+                            iccp_max(iccp_vec_distance2(2, b, c), iccp_vec_distance2(2, c, a)));
 }
 
 static int sign_of(const double *a, const double *b, const double *c)

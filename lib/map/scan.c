@@ -7,6 +7,8 @@
  * the thinnest triangle they stay between its corners. */
 #include "map/scan.h"
 
+#include "math/elementary.h"
+
 #include <math.h>
 
 /* Pixels of the source from sample to sample, at most. A bilinear sample sees two, so even at 1.25
@@ -35,8 +37,8 @@ static void choose_samples(iccp_scan *scan, const iccp_place *const p[3])
     const double au = p[1]->u - p[0]->u, av = p[1]->v - p[0]->v;
     const double bu = p[2]->u - p[0]->u, bv = p[2]->v - p[0]->v;
     const double area = ax * by - ay * bx;
-    scan->columns = iccp_samples_for(hypot(au * by - bu * ay, av * by - bv * ay) / fabs(area));
-    scan->rows = iccp_samples_for(hypot(bu * ax - au * bx, bv * ax - av * bx) / fabs(area));
+    scan->columns = iccp_samples_for(iccp_hypot(au * by - bu * ay, av * by - bv * ay) / fabs(area));
+    scan->rows = iccp_samples_for(iccp_hypot(bu * ax - au * bx, bv * ax - av * bx) / fabs(area));
 }
 
 void iccp_scan_create(iccp_scan *scan, const iccp_place *const places[3])

@@ -10,6 +10,7 @@
 #include "map/mesh_repair.h"
 #include "map/simplicial_map.h"
 #include "map/solid_chords.h"
+#include "math/elementary.h"
 #include "math/vec.h"
 
 #include <math.h>
@@ -158,7 +159,7 @@ icc_status iccp_solid_map_create(iccp_solid_map **out, const icc_chart *source,
     info->n_vertices = map->mesh->n_points;
     info->n_simplices = map->mesh->n_simplices;
     iccp_simplicial_map simplicial = iccp_simplicial_map_of(map->mesh, map->images);
-    simplicial.stretch = cbrt(fabs(target->domain->measure) / fabs(source->domain->measure));
+    simplicial.stretch = iccp_cbrt(fabs(target->domain->measure) / fabs(source->domain->measure));
     info->energy = info->energy_start = iccp_simplicial_energy(&simplicial);
     *out = map;
     return ICC_OK;

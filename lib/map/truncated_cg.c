@@ -2,6 +2,7 @@
  * points: factors of space fill up too much for a mesh as a whole. */
 #include "map/truncated_cg.h"
 
+#include "base/minmax.h"
 #include "math/vec.h"
 
 #include <math.h>
@@ -23,10 +24,10 @@ static void factorise_blocks(const iccp_symmetric *h, double *factor)
         factor[0] = d[0];
         factor[3] = x[0] / d[0];
         factor[4] = x[1] / d[0];
-        factor[1] = fmax(d[1] - factor[3] * x[0], SMALLEST_PIVOT * d[1]);
+        factor[1] = iccp_max(d[1] - factor[3] * x[0], SMALLEST_PIVOT * d[1]);
         const double rest = y[1] - factor[4] * x[0];
         factor[5] = rest / factor[1];
-        factor[2] = fmax(d[2] - factor[4] * x[1] - factor[5] * rest, SMALLEST_PIVOT * d[2]);
+        factor[2] = iccp_max(d[2] - factor[4] * x[1] - factor[5] * rest, SMALLEST_PIVOT * d[2]);
     }
 }
 

@@ -2,6 +2,7 @@
  * inverted, larger ones in turn: docs/theory.md, the mesh map. */
 #include "map/untangle.h"
 
+#include "base/minmax.h"
 #include "map/newton.h"
 #include "map/untangling.h"
 
@@ -94,7 +95,7 @@ static icc_status descend(iccp_newton *newton, const patches *round, const iccp_
         fewest = n_bad < fewest ? n_bad : fewest;
         if (least > 0 && after >= 0.99 * before)
             break;
-        epsilon = iccp_untangling_next(epsilon, least, fmax(1 - after / before, SLOWEST));
+        epsilon = iccp_untangling_next(epsilon, least, iccp_max(1 - after / before, SLOWEST));
     }
     return status == ICC_ERR_SOLVER ? ICC_OK : status;
 }

@@ -7,7 +7,9 @@
  * singular vectors a flip and a twist, and three in the space of the singular values. */
 #include "map/untangling.h"
 
+#include "base/minmax.h"
 #include "map/singular.h"
+#include "math/elementary.h"
 #include "math/jacobi.h"
 
 #include <string.h>
@@ -87,7 +89,7 @@ static profile evaluate(double n, double det, double epsilon)
     const double root = sqrt(epsilon * epsilon + det * det),
                  chi = iccp_untangling_chi(epsilon, det);
     const double first = chi / root, second = 0.5 * epsilon * epsilon / (root * root * root);
-    const double third = cbrt(chi), power = 1 / (third * third);
+    const double third = iccp_cbrt(chi), power = 1 / (third * third);
     const double shape = (1 - MEASURE_SHARE) / 3 * power, size = 0.5 * MEASURE_SHARE / chi;
     const double slope = first / chi, bend = second / chi, square = 1 + det * det;
     return (profile){
@@ -120,8 +122,8 @@ static void set_curvature(const profile *p, const double *sigma, curvature *h)
             a[i][k] = (i == k) * 2 * p->by_n + p->by_dd * minor[i] * minor[k] + p->by_d * third +
                       2 * p->by_nd * (sigma[i] * minor[k] + minor[i] * sigma[k]);
             if (i != k) {
-                const double flip = fmax(2 * p->by_n - p->by_d * third, 0);
-                const double twist = fmax(2 * p->by_n + p->by_d * third, 0);
+                const double flip = iccp_max(2 * p->by_n - p->by_d * third, 0);
+                const double twist = iccp_max(2 * p->by_n + p->by_d * third, 0);
                 h->same[i][k] = 0.5 * (flip + twist);
                 h->other[i][k] = 0.5 * (flip - twist);
             }
@@ -130,7 +132,7 @@ static void set_curvature(const profile *p, const double *sigma, curvature *h)
     for (int n = 0; n < 3; ++n)
         for (int i = 0; i < 3; ++i)
             for (int k = 0; k < 3; ++k)
-                h->singular[i][k] += fmax(a[n][n], 0) * v[n][i] * v[n][k];
+                h->singular[i][k] += iccp_max(a[n][n], 0) * v[n][i] * v[n][k];
 }
 
 /* The block of two corners whose gradients have coordinates `a` and `b` in the basis v, in the

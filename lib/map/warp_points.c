@@ -4,9 +4,11 @@
  * nothing from the far side of a fold gets in. */
 #include "map/warp_points.h"
 
+#include "base/minmax.h"
 #include "base/threads.h"
 #include "map/sampler.h"
 #include "map/scan.h"
+#include "math/elementary.h"
 
 #include <math.h>
 
@@ -40,15 +42,15 @@ static icc_status find_origins(warp *w, band *b)
 
 static double distance(const double *a, const double *b)
 {
-    return hypot(a[0] - b[0], a[1] - b[1]);
+    return iccp_hypot(a[0] - b[0], a[1] - b[1]);
 }
 
 /* Of two neighbours the nearer one counts: at a jump of the map the other one says nothing about
  * this pixel. fmin passes over NaN. */
 static int32_t samples_between(const double *before, const double *here, const double *after)
 {
-    return iccp_samples_for(fmin(before != NULL ? distance(before, here) : NAN,
-                                 after != NULL ? distance(here, after) : NAN));
+    return iccp_samples_for(iccp_min(before != NULL ? distance(before, here) : NAN,
+                                     after != NULL ? distance(here, after) : NAN));
 }
 
 static void add_sample(const icc_picture *source, const double place[2], iccp_gathered *gathered)

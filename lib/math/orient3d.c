@@ -3,6 +3,7 @@
  * math/predicates.c has. */
 #include "math/predicates.h"
 
+#include "base/minmax.h"
 #include "math/expansion.h"
 
 /* Relative error of the determinant of the rounded differences, (3 + 28 eps) eps. */
@@ -51,7 +52,7 @@ static int are_few_units(double x[3][3])
     double largest = 0.0;
     for (int i = 0; i < 3; ++i)
         for (int k = 0; k < 3; ++k)
-            largest = fmax(largest, fabs(x[i][k]));
+            largest = iccp_max(largest, fabs(x[i][k]));
     const double round = 0x1p37 * largest;
     int exact = 1;
     for (int i = 0; i < 3; ++i)

@@ -3,6 +3,8 @@
  * them at once; within a block the same is done for ICCP_TILE columns at a time. */
 #include "math/panel.h"
 
+#include "base/minmax.h"
+
 #include <math.h>
 
 #define STRIP ((size_t)ICCP_STRIP)
@@ -22,7 +24,7 @@ icc_status iccp_labour_add(iccp_labour *labour, double multiplications)
     if (labour->done - labour->reported < PER_REPORT)
         return ICC_OK;
     labour->reported = labour->done;
-    return iccp_progress(labour->env, "solve", fmin(1, labour->done / labour->all));
+    return iccp_progress(labour->env, "solve", iccp_min(1, labour->done / labour->all));
 }
 
 typedef struct shifted {
@@ -42,7 +44,7 @@ icc_status iccp_labour_strips(iccp_labour *labour, size_t begin, size_t end, dou
 {
     const iccp_env *quiet = &labour->quiet;
     const bool has_threads = quiet->threads > 1 || quiet->parallel_for != NULL;
-    const size_t most = (size_t)fmax(2, PER_REPORT / cost);
+    const size_t most = (size_t)iccp_max(2, PER_REPORT / cost);
     icc_status status = ICC_OK;
     for (size_t n; status == ICC_OK && begin < end; begin += n) {
         n = end - begin < most ? end - begin : most;

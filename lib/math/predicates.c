@@ -6,6 +6,7 @@
  * exactly. Shewchuk's stage between the last two is left out: inputs that need it are rare. */
 #include "math/predicates.h"
 
+#include "base/minmax.h"
 #include "math/expansion.h"
 
 /* Relative errors with eps = 2^-53: the second stage of cross_sign, (2 + 12 eps) eps, and the first
@@ -112,7 +113,7 @@ static int are_few_units(double x[3][2])
 {
     double largest = 0.0;
     for (int i = 0; i < 3; ++i)
-        largest = fmax(largest, fmax(fabs(x[i][0]), fabs(x[i][1])));
+        largest = iccp_max(largest, iccp_max(fabs(x[i][0]), fabs(x[i][1])));
     const double round = 0x1p42 * largest;
     int exact = 1;
     for (int i = 0; i < 3; ++i)

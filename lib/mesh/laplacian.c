@@ -4,6 +4,8 @@
  * one-to-one; these make them fair. */
 #include "mesh/laplacian.h"
 
+#include "base/minmax.h"
+
 #include <math.h>
 
 /* An equilateral mesh has weights of 0.58. */
@@ -23,7 +25,7 @@ static double half_cotangent(const iccp_planar *mesh, uint32_t corner)
 static double edge_weight(const iccp_planar *mesh, uint32_t corner)
 {
     const double w = half_cotangent(mesh, corner) + half_cotangent(mesh, mesh->twins[corner]);
-    return fmin(fmax(w, LEAST_WEIGHT), MOST_WEIGHT);
+    return iccp_min(iccp_max(w, LEAST_WEIGHT), MOST_WEIGHT);
 }
 
 /* An edge between two vertices of which the first, at least, is not on the boundary. */

@@ -2,7 +2,9 @@
 #include "mesh/planar.h"
 
 #include "base/error.h"
+#include "base/minmax.h"
 #include "domain/locate.h"
+#include "math/elementary.h"
 #include "math/predicates.h"
 #include "mesh/corners.h"
 #include "mesh/grading.h"
@@ -12,14 +14,15 @@
 
 double iccp_planar_step(const icc_domain *domain, int32_t cells)
 {
-    return fmax(domain->upper[0] - domain->lower[0], domain->upper[1] - domain->lower[1]) / cells;
+    return iccp_max(domain->upper[0] - domain->lower[0], domain->upper[1] - domain->lower[1]) /
+           cells;
 }
 
 static double facet_length(const icc_domain *domain, size_t facet)
 {
     const double *a = domain->vertices + 2 * (size_t)domain->facets[2 * facet];
     const double *b = domain->vertices + 2 * (size_t)domain->facets[2 * facet + 1];
-    return hypot(b[0] - a[0], b[1] - a[1]);
+    return iccp_hypot(b[0] - a[0], b[1] - a[1]);
 }
 
 static void raise_pieces(uint32_t *pieces, const icc_domain *domain, int32_t cells)
@@ -27,9 +30,10 @@ static void raise_pieces(uint32_t *pieces, const icc_domain *domain, int32_t cel
     double perimeter = 0;
     for (size_t f = 0; f < domain->n_facets; ++f)
         perimeter += facet_length(domain, f);
-    const double step = fmax(iccp_planar_step(domain, cells), perimeter / ((double)cells * cells));
+    const double step =
+        iccp_max(iccp_planar_step(domain, cells), perimeter / ((double)cells * cells));
     for (size_t f = 0; f < domain->n_facets; ++f)
-        pieces[f] = (uint32_t)fmax(pieces[f], ceil(facet_length(domain, f) / step));
+        pieces[f] = (uint32_t)iccp_max(pieces[f], ceil(facet_length(domain, f) / step));
 }
 
 void iccp_planar_pieces(uint32_t *pieces, const icc_domain *a, const icc_domain *b, int32_t cells)
@@ -82,7 +86,7 @@ uint32_t iccp_planar_edge(const iccp_planar *mesh, const icc_domain *domain, uin
     uint32_t piece = (uint32_t)(along * n);
     if (piece >= n)
         piece = n - 1;
-    const double rest = fmin(fmax(along * n - piece, 0), 1);
+    const double rest = iccp_min(iccp_max(along * n - piece, 0), 1);
     *lambda = domain->orientation > 0 ? rest : 1 - rest;
     return domain->orientation > 0 ? mesh->first[facet] + piece : mesh->first[facet] - piece;
 }
@@ -101,12 +105,12 @@ static void edge_lengths(const iccp_planar *mesh, double *length)
     double before = 0;
     for (size_t k = n; k-- > 0;) {
         const double *p = mesh->points + 2 * k, *q = mesh->points + 2 * ((k + 1) % n);
-        length[k] = hypot(q[0] - p[0], q[1] - p[1]);
+        length[k] = iccp_hypot(q[0] - p[0], q[1] - p[1]);
     }
     const double last = length[n - 1];
     for (size_t k = 0; k < n; ++k) {
         const double own = length[k];
-        length[k] = fmax(own, k > 0 ? before : last);
+        length[k] = iccp_max(own, k > 0 ? before : last);
         before = own;
     }
 }

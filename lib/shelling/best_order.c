@@ -6,6 +6,7 @@
 #include "shelling/best_order.h"
 
 #include "base/error.h"
+#include "base/minmax.h"
 #include "base/threads.h"
 #include "shelling/reverse.h"
 
@@ -120,7 +121,7 @@ static void raise_bias(const best_order_search *c, bool peeling, const uint32_t 
     const size_t n = c->priority.mesh->n_simplices;
     double range = 0;
     for (size_t s = 0; s < n; ++s)
-        range = fmax(range, c->priority.potential[s]);
+        range = iccp_max(range, c->priority.potential[s]);
     for (size_t s = 0; s < n; ++s)
         if (rank[s] == UINT32_MAX)
             bias[s] += (peeling ? BIAS_LEFT : -BIAS_LEFT) * range;

@@ -2,6 +2,8 @@
  * vertices the depth differs by no more than their distance. */
 #include "shelling/centres.h"
 
+#include "base/minmax.h"
+#include "math/elementary.h"
 #include "math/spd.h"
 #include "math/vec.h"
 #include "shelling/heap.h"
@@ -37,7 +39,7 @@ typedef struct search {
 
 static double size_of(const icc_domain *domain)
 {
-    return pow(fabs(domain->measure), 1.0 / domain->dim);
+    return iccp_pow(fabs(domain->measure), 1.0 / domain->dim);
 }
 
 static double distance(const iccp_simplices *mesh, size_t vertex, const double *point)
@@ -113,7 +115,7 @@ static icc_status find_deepest(search *s, const iccp_env *env)
             status = iccp_progress(env, "order", 0.5);
         double depth = measure(s, v) / size;
         if (s->image != NULL && depth > s->depth)
-            depth = fmin(
+            depth = iccp_min(
                 depth, depth_of(s->domain[1], s->image + s->mesh->dim * (v - s->mesh->n_boundary)) /
                            size_of(s->domain[1]));
         if (depth > s->depth) {
@@ -173,7 +175,7 @@ static void set_weights(iccp_gram *g, const iccp_simplices *mesh, const icc_doma
         for (size_t p = g->first[v]; p < g->first[v + 1]; ++p) {
             const uint32_t w = g->column[p];
             const double least = LEAST_WEIGHT * sqrt(g->diagonal[v] * g->diagonal[w]);
-            const double weight = fmax(-g->value[p], least);
+            const double weight = iccp_max(-g->value[p], least);
             g->value[p] = -weight;
             sum[v] += weight;
             for (size_t k = 0; k < dim && v >= n_rim && w < n_rim; ++k)

@@ -4,6 +4,7 @@
  * Control 9, 1971). */
 #include "shelling/circulation.h"
 
+#include "base/minmax.h"
 #include "shelling/element.h"
 
 #include <math.h>
@@ -103,12 +104,12 @@ static void send_on(const iccp_circulation *c, const uint32_t *rank, size_t simp
         received -= leaves[i] ? 0 : flux[first + i];
     }
     for (size_t i = 0; i <= dim; ++i) {
-        share[i] = leaves[i] ? fmax(wanted[first + i], least * received) : 0;
+        share[i] = leaves[i] ? iccp_max(wanted[first + i], least * received) : 0;
         sum += share[i];
     }
     for (size_t i = 0; i <= dim; ++i)
         if (leaves[i]) {
-            flux[first + i] = fmax(received * (share[i] / sum), LEAST_FLUX);
+            flux[first + i] = iccp_max(received * (share[i] / sum), LEAST_FLUX);
             flux[c->mesh->across[first + i]] = -flux[first + i];
         }
 }
@@ -157,7 +158,7 @@ static void open_gates(const iccp_circulation *c, const double *flux, gate *gate
     for (size_t f = 0; f < c->links.n_facets; ++f) {
         const uint32_t side = c->links.side[f];
         gates[f] = (gate){flux[side], c->reference[side], 1 / c->weight[f],
-                          fmin(c->least[f], 0.5 * fabs(flux[side]))};
+                          iccp_min(c->least[f], 0.5 * fabs(flux[side]))};
     }
 }
 
@@ -245,9 +246,9 @@ double iccp_circulation_divergence(const iccp_circulation *c, const double *flux
             continue;
         for (size_t s = n_corners * t; s < n_corners * (t + 1); ++s) {
             sum += flux[s];
-            leaving += fmax(flux[s], 0);
+            leaving += iccp_max(flux[s], 0);
         }
-        worst = fmax(worst, fabs(sum) / leaving);
+        worst = iccp_max(worst, fabs(sum) / leaving);
     }
     return worst;
 }

@@ -1,5 +1,6 @@
 #include "shelling/element.h"
 
+#include "base/minmax.h"
 #include "icc/base.h"
 
 #include <math.h>
@@ -34,7 +35,7 @@ static double invert(size_t n, tableau a, double size)
         for (size_t r = c + 1; r < n; ++r)
             best = fabs(a[r][c]) > fabs(a[best][c]) ? r : best;
         swap_rows(a[c], a[best], best == c ? 0 : 2 * n);
-        const double pivot = copysign(fmax(fabs(a[c][c]), THINNEST * size), a[c][c]);
+        const double pivot = copysign(iccp_max(fabs(a[c][c]), THINNEST * size), a[c][c]);
         determinant *= fabs(pivot);
         for (size_t k = 0; k < 2 * n; ++k)
             a[c][k] /= pivot;
@@ -60,7 +61,7 @@ double iccp_element_gradients(const iccp_simplices *mesh, size_t simplex, double
         for (size_t k = 0; k < n; ++k) {
             a[k][i] = corner[k] - origin[k];
             a[k][n + i] = k == i;
-            size = fmax(size, fabs(a[k][i]));
+            size = iccp_max(size, fabs(a[k][i]));
         }
     }
     volume = invert(n, a, size);
@@ -99,7 +100,7 @@ double iccp_element_area(const iccp_simplices *mesh, size_t side)
             square += edge[n][k] * edge[n][k];
         const double height = sqrt(square);
         for (size_t k = 0; k < dim; ++k)
-            edge[n][k] /= fmax(height, LEAST_LENGTH);
+            edge[n][k] /= iccp_max(height, LEAST_LENGTH);
         area *= height / (double)++n;
     }
     return area;
@@ -129,5 +130,5 @@ double iccp_element_conductance(const iccp_simplices *mesh, size_t side)
         find_middle(mesh, iccp_simplex_of(mesh, other), no_corner, there);
     for (size_t k = 0; k < dim; ++k)
         square += (there[k] - here[k]) * (there[k] - here[k]);
-    return iccp_element_area(mesh, side) / fmax(sqrt(square), LEAST_LENGTH);
+    return iccp_element_area(mesh, side) / iccp_max(sqrt(square), LEAST_LENGTH);
 }

@@ -4,6 +4,7 @@
  * digits. */
 #include "shelling/reference.h"
 
+#include "base/minmax.h"
 #include "shelling/element.h"
 #include "shelling/solve.h"
 
@@ -133,7 +134,7 @@ static void mix(const network *w, double harmonic, double *inflow)
             if ((mesh->across[s] & ICCP_ON_BOUNDARY) == 0)
                 continue;
             const uint32_t row = w->row[s / (mesh->dim + 1)];
-            const double potential = row != NONE ? fmax(w->potential[row], 0) : 1;
+            const double potential = row != NONE ? iccp_max(w->potential[row], 0) : 1;
             const double area = iccp_element_area(mesh, s);
             const double flux = potential * iccp_element_conductance(mesh, s);
             if (pass == 1)

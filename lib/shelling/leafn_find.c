@@ -2,6 +2,8 @@
  * point back to rounding however flat the simplex is. */
 #include "shelling/leafn.h"
 
+#include "base/minmax.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -71,10 +73,10 @@ static ICCP_INLINE double coordinates(const iccp_leaves *leaves, size_t dim, uin
     for (size_t i = 0; i < dim; ++i) {
         bary[i + 1] = a[i][dim];
         sum += a[i][dim];
-        least = fmin(least, a[i][dim]);
+        least = iccp_min(least, a[i][dim]);
     }
     bary[0] = 1 - sum;
-    return fmin(least, bary[0]);
+    return iccp_min(least, bary[0]);
 }
 
 static double coordinates_in(const iccp_leaves *leaves, uint32_t simplex, const double *point,

@@ -2,6 +2,8 @@
  * is near in memory, and a simplex is one or two cache lines. */
 #include "shelling/leafn.h"
 
+#include "base/minmax.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -62,7 +64,7 @@ static double margin_of(const maker *m, uint32_t simplex)
         double sum = 0;
         for (size_t k = 0; k < dim; ++k)
             sum += jet.bary[i][k] * jet.bary[i][k];
-        steepest = fmax(steepest, sum);
+        steepest = iccp_max(steepest, sum);
     }
     return 2 * m->tolerance * sqrt(steepest);
 }

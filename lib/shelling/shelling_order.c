@@ -18,6 +18,7 @@
  * at again before one of its neighbours went. */
 #include "shelling/shelling_order.h"
 
+#include "base/minmax.h"
 #include "shelling/element.h"
 #include "shelling/heap.h"
 
@@ -61,7 +62,7 @@ static double step_of(const iccp_order_priority *priority, size_t simplex)
     for (size_t side = first; side <= first + mesh->dim; ++side)
         if (mesh->across[side] < ICCP_ON_BOUNDARY) {
             const double there = priority->potential[iccp_simplex_of(mesh, mesh->across[side])];
-            step = fmax(step, fabs(there - priority->potential[simplex]));
+            step = iccp_max(step, fabs(there - priority->potential[simplex]));
         }
     return step;
 }

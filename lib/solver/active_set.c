@@ -6,6 +6,7 @@
 #include "solver/active_set.h"
 
 #include "base/clock.h"
+#include "base/minmax.h"
 #include "base/random.h"
 #include "solver/inequalities.h"
 
@@ -56,7 +57,7 @@ static bool tie(state *s)
         const uint32_t p = s->unknowns->parent[k];
         s->top[k] = s->active[k] ? s->top[p] : k;
         s->share[k] = s->active[k] ? s->share[p] / s->sigma : 1;
-        least = fmin(least, s->share[k]);
+        least = iccp_min(least, s->share[k]);
     }
     return least > LEAST_SHARE;
 }
@@ -99,7 +100,7 @@ static void mark_wrong(state *s)
         const double by = s->active[k] ? pull(s, k) : violation(s, k);
         s->wrong[k] = by > NOISE;
         s->n_wrong += s->wrong[k];
-        s->worst = fmax(s->worst, by);
+        s->worst = iccp_max(s->worst, by);
     }
 }
 

@@ -5,6 +5,7 @@
 #include "solver/bilaplace.h"
 
 #include "base/clock.h"
+#include "base/minmax.h"
 #include "solver/energy.h"
 #include "solver/inequalities.h"
 #include "solver/laplacian_factor.h"
@@ -131,7 +132,7 @@ static icc_status find_residual(const iccp_sparse *a, const double *f, icc_funct
         iccp_energy_gradient(a, f, work, gradient);
         info->residual = 0;
         for (size_t k = 1; k < a->n_columns; ++k)
-            info->residual = fmax(info->residual, fabs(gradient[k]));
+            info->residual = iccp_max(info->residual, fabs(gradient[k]));
         info->residual_before = info->residual;
     }
     iccp_free(&env->memory, work);

@@ -3,6 +3,7 @@
  * from the root f is as small as the leaves' bounds, and what is active there shows only in the
  * last iterates of the latter; so the two take turns. */
 #include "base/clock.h"
+#include "base/minmax.h"
 #include "solver/bilaplace.h"
 #include "solver/inequalities.h"
 #include "solver/interior_point.h"
@@ -74,7 +75,7 @@ static void sweep(const iccp_qp *qp, double *f, const iccp_scaled *scaled, doubl
     const size_t n = qp->unknowns->n;
     (void)iccp_qp_least_root(qp, work);
     for (size_t k = 0; k < n; ++k)
-        iccp_scaled_set(scaled, k, k == 0 ? 1 : fmax(f[k], work[k]), 0);
+        iccp_scaled_set(scaled, k, k == 0 ? 1 : iccp_max(f[k], work[k]), 0);
     iccp_inequalities_sweep(qp->unknowns, qp->sigma - 1, scaled);
     for (size_t k = 0; k < n; ++k)
         f[k] = iccp_scaled_get(scaled, k, 0);

@@ -10,6 +10,9 @@
  * goes first. */
 #include "solver/dissection.h"
 
+#include "base/minmax.h"
+#include "math/elementary.h"
+
 #include <math.h>
 #include <stdbool.h>
 #include <string.h>
@@ -93,7 +96,7 @@ static double rate(const uint32_t *run, size_t dim)
     for (size_t axis = 0; axis < dim; ++axis) {
         const double bend = 1 / ((run[axis] + 1.0) * (run[axis] + 1.0));
         sum += bend;
-        least = fmin(least, bend);
+        least = iccp_min(least, bend);
     }
     return PI * sqrt(sum - least);
 }
@@ -181,9 +184,9 @@ static bool is_thin(const dissection *d, const part *p, size_t n_generations)
     const double dim = (double)d->n_axes - 1, factor = dim > 2 ? THIN_BEYOND : THIN_IN_2D;
     double work = 0;
     for (size_t g = 0; g < n_generations; ++g)
-        work += pow(d->count[g], 3);
+        work += iccp_power(d->count[g], 3);
     return n_generations > 0 &&
-           work <= factor * pow((double)(p->end - p->begin), fmax(1, 3 - 3 / dim));
+           work <= factor * iccp_pow((double)(p->end - p->begin), iccp_max(1, 3 - 3 / dim));
 }
 
 /* Few unknowns in the plane, many on either side. The median's sides are never too large. */
@@ -195,7 +198,7 @@ static void choose_plane(const dissection *d, const part *p, size_t axis, size_t
     for (size_t i = 0; i < n_planes; low += d->count[i++]) {
         const double high = n - low - d->count[i];
         const double score = (d->count[i] + 1.0) / ((low + 1) * (high + 1));
-        if (score < best->score && fmax(low, high) <= MOST_SIDE * n)
+        if (score < best->score && iccp_max(low, high) <= MOST_SIDE * n)
             *best = (plane){axis, lowest + (uint32_t)i, score};
     }
 }

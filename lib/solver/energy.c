@@ -4,6 +4,7 @@
 #include "solver/energy.h"
 
 #include "base/clock.h"
+#include "base/minmax.h"
 #include "math/ldlt.h"
 
 #include <math.h>
@@ -186,8 +187,8 @@ static double correct(const least_squares *s, double *f)
     double largest = 0, size = 0;
     for (size_t u = 0; u < n; ++u) {
         s->x[u] -= s->step[u];
-        largest = fmax(largest, fabs(s->step[u]));
-        size = fmax(size, fabs(s->x[u]));
+        largest = iccp_max(largest, fabs(s->step[u]));
+        size = iccp_max(size, fabs(s->x[u]));
     }
     expand(s, f);
     return size > 0 ? largest / size : 0.0;
@@ -228,7 +229,7 @@ static icc_status factorise(least_squares *s, icc_function_info *info, const icc
     info->seconds_order += iccp_seconds() - start;
     if (status != ICC_OK)
         return status;
-    info->work = fmax(info->work, s->factor.work);
+    info->work = iccp_max(info->work, s->factor.work);
     start = iccp_seconds();
     status = iccp_ldlt_factorise(&s->factor, &s->gram.matrix, env);
     info->seconds_factor += iccp_seconds() - start;

@@ -2,6 +2,8 @@
  * the edge to its parent, so that stationarity is a triangular system. */
 #include "solver/inequalities.h"
 
+#include "base/minmax.h"
+
 #include <assert.h>
 #include <math.h>
 #include <stdbool.h>
@@ -74,18 +76,18 @@ double iccp_inequalities_residual(const iccp_unknowns *unknowns, double eta, dou
         const double own = plain(f, k), slack = plain(f, p) - sigma * own;
         double lambda = (sum[k] - plain(gradient, k)) / sigma;
         if (lift[k] < 0 && leaf > 0) { /* no children: the bound takes what pulls downwards */
-            residual = fmax(residual, fabs(fmin(own - leaf, fmax(0, -sigma * lambda))));
-            lambda = fmax(0, lambda);
+            residual = iccp_max(residual, fabs(iccp_min(own - leaf, iccp_max(0, -sigma * lambda))));
+            lambda = iccp_max(0, lambda);
         }
         if (lift[k] < 0)
             lift[k] = leaf > 0 ? fabs(own - leaf) : HUGE_VAL;
-        const double price = fmax(lift[k], fabs(slack));
+        const double price = iccp_max(lift[k], fabs(slack));
         if (lambda < 0 && lift[k] < -lambda) {
-            residual = fmax(residual, lift[k]);
+            residual = iccp_max(residual, lift[k]);
             lambda = 0;
         }
-        residual = fmax(residual, fabs(fmin(slack, lambda)));
-        lift[p] = lift[p] < 0 ? price : fmin(lift[p], price);
+        residual = iccp_max(residual, fabs(iccp_min(slack, lambda)));
+        lift[p] = lift[p] < 0 ? price : iccp_min(lift[p], price);
         sum[p] += lambda;
     }
     return residual;

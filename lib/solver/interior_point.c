@@ -10,6 +10,7 @@
 #include "solver/interior_point.h"
 
 #include "base/clock.h"
+#include "base/minmax.h"
 
 #include <math.h>
 #include <string.h>
@@ -123,7 +124,7 @@ static double find_errors(iccp_interior_point *p)
         p->step_slack[i] += p->primal[i];
         p->gap[i] = -(p->product[i] + p->slack[i] * p->step_multiplier[i]) / p->multiplier[i] -
                     p->step_slack[i];
-        error = fmax(error, fabs(p->gap[i]) / p->slack[i]);
+        error = iccp_max(error, fabs(p->gap[i]) / p->slack[i]);
     }
     return error;
 }
@@ -151,14 +152,14 @@ static double reach(const double *x, const double *step, size_t n)
     double most = 1;
     for (size_t i = 0; i < n; ++i)
         if (step[i] < 0)
-            most = fmin(most, -x[i] / step[i]);
+            most = iccp_min(most, -x[i] / step[i]);
     return most;
 }
 
 static double step_length(const iccp_interior_point *p)
 {
-    return fmin(reach(p->slack, p->step_slack, n_pairs(p)),
-                reach(p->multiplier, p->step_multiplier, n_pairs(p)));
+    return iccp_min(reach(p->slack, p->step_slack, n_pairs(p)),
+                    reach(p->multiplier, p->step_multiplier, n_pairs(p)));
 }
 
 /* Predictor: straight to products of 0. Corrector: to equal products, the smaller the further the
@@ -177,7 +178,7 @@ static double find_step(iccp_interior_point *p)
                  (p->multiplier[i] + length * p->step_multiplier[i]);
     after /= (double)n_pairs(p) * mean;
     for (size_t i = 0; i < n_pairs(p); ++i)
-        p->product[i] += p->step_slack[i] * p->step_multiplier[i] - pow(after, 3) * mean;
+        p->product[i] += p->step_slack[i] * p->step_multiplier[i] - after * after * after * mean;
     solve(p, CORRECTOR_ERROR);
     if (step_length(p) >= SHORT_STEP)
         return 1;
@@ -335,8 +336,8 @@ static icc_status start(iccp_interior_point *p, icc_function_info *info, const i
         p->f[k] = p->step_f[k];
     iccp_qp_slacks(p->qp, p->f, false, p->slack);
     for (size_t i = 0; i < m; ++i) {
-        p->multiplier[i] = fmax(LEAST_MULTIPLIER, -p->slack[i]);
-        p->slack[i] = fmax(LEAST_SLACK, p->slack[i]);
+        p->multiplier[i] = iccp_max(LEAST_MULTIPLIER, -p->slack[i]);
+        p->slack[i] = iccp_max(LEAST_SLACK, p->slack[i]);
     }
     return ICC_OK;
 }
@@ -361,7 +362,7 @@ icc_status iccp_interior_point_create(iccp_interior_point *ip, const iccp_qp *qp
     if (status == ICC_OK)
         status = iccp_ldlt_analyse(&p->factor, &p->gram.matrix, 1, &part[1]);
     info->seconds_order += iccp_seconds() - clock;
-    info->work = fmax(info->work, p->factor.work);
+    info->work = iccp_max(info->work, p->factor.work);
     if (status == ICC_OK)
         status = start(p, info, &part[2]);
     if (status != ICC_OK)

@@ -1,6 +1,7 @@
 #include "solver/laplacian_factor.h"
 
 #include "base/clock.h"
+#include "base/minmax.h"
 #include "solver/dissection.h"
 
 #include <math.h>
@@ -59,7 +60,7 @@ icc_status iccp_laplacian_factorise(iccp_laplacian_factor *l, const iccp_unknown
     info->seconds_order += iccp_seconds() - start;
     start = iccp_seconds();
     if (status == ICC_OK) {
-        info->work = fmax(info->work, l->factor.work);
+        info->work = iccp_max(info->work, l->factor.work);
         status = iccp_ldlt_factorise(&l->factor, &l->matrix, env);
     }
     info->seconds_factor += iccp_seconds() - start;

@@ -9,6 +9,7 @@
 #include "solver/mg_cg.h"
 
 #include "base/budget.h"
+#include "base/minmax.h"
 
 #include <math.h>
 
@@ -148,7 +149,7 @@ static icc_status iterate(solver *s, double size, const iccp_mg_goal *goal, size
         if (sqrt(rr) <= wanted && max_lanes(s->down.excess) <= 0)
             break;
         since = rr < least ? 0 : since + 1;
-        least = fmin(rr, least);
+        least = iccp_min(rr, least);
         if (!isfinite(rr) || since > PATIENCE)
             return ICC_ERR_SOLVER;
         status = pass_up(s, env);

@@ -11,6 +11,7 @@
 #include "solver/polish.h"
 
 #include "base/clock.h"
+#include "base/minmax.h"
 #include "base/random.h"
 #include "solver/inequalities.h"
 
@@ -83,7 +84,7 @@ static void hold_clusters(state *s)
     for (size_t j = 0; j < p->n_leaves; ++j) {
         const uint32_t k = p->leaf_unknown[j], t = s->top[k];
         if (*leaf_active(s, j) && t > 0)
-            s->held[t] = fmax(s->held[t], p->leaf / s->share[k]);
+            s->held[t] = iccp_max(s->held[t], p->leaf / s->share[k]);
     }
     for (size_t j = 0; j < p->n_leaves; ++j) {
         const uint32_t k = p->leaf_unknown[j];

@@ -1,5 +1,7 @@
 #include "solver/qp.h"
 
+#include "base/minmax.h"
+
 #include <math.h>
 
 static icc_status find_leaves(iccp_qp *p, const iccp_env *env)
@@ -48,7 +50,7 @@ double iccp_qp_least_root(const iccp_qp *qp, double *work)
     for (size_t k = 0; k < unknowns->n; ++k)
         work[k] = qp->leaf;
     for (size_t k = unknowns->n; k-- > 1;)
-        work[unknowns->parent[k]] = fmax(work[unknowns->parent[k]], qp->sigma * work[k]);
+        work[unknowns->parent[k]] = iccp_max(work[unknowns->parent[k]], qp->sigma * work[k]);
     return work[0];
 }
 

@@ -5,6 +5,7 @@
 #include "solver/tied_cg.h"
 
 #include "base/budget.h"
+#include "base/minmax.h"
 
 #include <math.h>
 #include <string.h>
@@ -159,7 +160,7 @@ static icc_status iterate(solver *s, double size, const iccp_mg_goal *goal, size
     size_t since = 0;
     while (!is_reached(s, rr, size, goal)) {
         since = rr < least ? 0 : since + 1;
-        least = fmin(rr, least);
+        least = iccp_min(rr, least);
         if (!isfinite(rr) || since > PATIENCE)
             return ICC_ERR_SOLVER;
         icc_status status = iccp_progress(env, "solve", 0);

@@ -4,6 +4,7 @@
  * v: the accuracy of small components hangs on how far the diagonal exceeds the rest of its row,
  * and in the difference of 2 dim |s|^2 and the products within the cluster that would be lost. */
 #include "base/clock.h"
+#include "base/minmax.h"
 #include "math/ldlt.h"
 #include "solver/dissection.h"
 #include "solver/inequalities.h"
@@ -289,7 +290,7 @@ icc_status iccp_tied_direct(const iccp_unknowns *unknowns, const iccp_ties *ties
     const iccp_symmetric matrix = {a.n, a.first, a.column, a.value, a.diagonal};
     if (status == ICC_OK)
         status = analyse(&a, &factor, &matrix, &part[1]);
-    info->work = fmax(info->work, factor.work);
+    info->work = iccp_max(info->work, factor.work);
     info->seconds_order += lap(&clock);
     if (status == ICC_OK)
         status = iccp_ldlt_factorise(&factor, &matrix, &part[2]);

@@ -9,6 +9,7 @@
  * in place of exp(-s)). Nothing flows into a shell from beyond but what has left it there: unknowns
  * next to known ones always belong to it. */
 #include "base/clock.h"
+#include "base/minmax.h"
 #include "solver/tied.h"
 #include "solver/tied_cg.h"
 
@@ -370,7 +371,7 @@ static void adapt_growth(shells *s, const extent *e)
 static icc_status advance(shells *s, shell *h)
 {
     const extent e = measure(s, h);
-    const double limit = fmax(CUT * e.peak, TRUNCATION * e.border);
+    const double limit = iccp_max(CUT * e.peak, TRUNCATION * e.border);
     const double one = s->first ? h->x[h->position[0]] : 1;
     if (!(e.peak > 0 && one > 0 && isfinite(one)))
         return ICC_ERR_SOLVER;

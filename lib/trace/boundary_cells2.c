@@ -1,5 +1,7 @@
 #include "trace/boundary_cells2.h"
 
+#include "base/minmax.h"
+#include "math/elementary.h"
 #include "math/predicates.h"
 
 #include <math.h>
@@ -34,8 +36,8 @@ static void visit_edge(iccp_boundary_cells2 *cells, uint32_t edge, bool fill)
             x0 = a[0] + ((double)j - a[1]) * slope;
         if ((double)(j + 1) < b[1] && b[1] > a[1])
             x1 = a[0] + ((double)(j + 1) - a[1]) * slope;
-        const size_t i_last = cell_of(fmax(x0, x1) + SLACK, cells->nx);
-        for (size_t i = cell_of(fmin(x0, x1) - SLACK, cells->nx); i <= i_last; ++i) {
+        const size_t i_last = cell_of(iccp_max(x0, x1) + SLACK, cells->nx);
+        for (size_t i = cell_of(iccp_min(x0, x1) - SLACK, cells->nx); i <= i_last; ++i) {
             const size_t cell = i + cells->nx * j;
             if (fill)
                 cells->edges[--cells->first[cell]] = edge;
@@ -112,17 +114,18 @@ static bool hit_collinear(const double p[2], const double q[2], const double a[2
 {
     if (between(a, p, b)) {
         hit->share = 0;
-        hit->along = clamp01(hypot(p[0] - a[0], p[1] - a[1]) / hypot(b[0] - a[0], b[1] - a[1]));
+        hit->along =
+            clamp01(iccp_hypot(p[0] - a[0], p[1] - a[1]) / iccp_hypot(b[0] - a[0], b[1] - a[1]));
         return true;
     }
     const bool meets_a = between(p, a, q), meets_b = between(p, b, q);
     if (!meets_a && !meets_b)
         return false;
-    const double length = hypot(q[0] - p[0], q[1] - p[1]);
-    const double to_a = meets_a ? hypot(a[0] - p[0], a[1] - p[1]) : HUGE_VAL;
-    const double to_b = meets_b ? hypot(b[0] - p[0], b[1] - p[1]) : HUGE_VAL;
+    const double length = iccp_hypot(q[0] - p[0], q[1] - p[1]);
+    const double to_a = meets_a ? iccp_hypot(a[0] - p[0], a[1] - p[1]) : HUGE_VAL;
+    const double to_b = meets_b ? iccp_hypot(b[0] - p[0], b[1] - p[1]) : HUGE_VAL;
     hit->along = to_a <= to_b ? 0 : 1;
-    hit->share = length > 0 ? clamp01(fmin(to_a, to_b) / length) : 0;
+    hit->share = length > 0 ? clamp01(iccp_min(to_a, to_b) / length) : 0;
     return true;
 }
 

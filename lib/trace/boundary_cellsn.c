@@ -2,6 +2,8 @@
  * cell. */
 #include "trace/boundary_cellsn.h"
 
+#include "base/minmax.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -44,8 +46,8 @@ static void mark_box(iccp_boundary_cellsn *cells, const double *lower, const dou
     size_t first[ICC_MAX_DIM], last[ICC_MAX_DIM], at[ICC_MAX_DIM], cell = 0;
     for (int k = 0; k < grid->dim; ++k) {
         const double end = (double)grid->shape[k] - 2;
-        first[k] = at[k] = (size_t)fmax(0, fmin(end, floor(lower[k] - SLACK)));
-        last[k] = (size_t)fmax(0, fmin(end, floor(upper[k] + SLACK)));
+        first[k] = at[k] = (size_t)iccp_max(0, iccp_min(end, floor(lower[k] - SLACK)));
+        last[k] = (size_t)iccp_max(0, iccp_min(end, floor(upper[k] + SLACK)));
         cell += at[k] * grid->stride[k];
     }
     for (int k = 0; k < grid->dim;) {
@@ -84,10 +86,10 @@ static double find_box(int dim, const piece *p, double *lower, double *upper)
     for (int k = 0; k < dim; ++k) {
         lower[k] = upper[k] = p->corner[0][k];
         for (int i = 1; i < dim; ++i) {
-            lower[k] = fmin(lower[k], p->corner[i][k]);
-            upper[k] = fmax(upper[k], p->corner[i][k]);
+            lower[k] = iccp_min(lower[k], p->corner[i][k]);
+            upper[k] = iccp_max(upper[k], p->corner[i][k]);
         }
-        longest = fmax(longest, upper[k] - lower[k]);
+        longest = iccp_max(longest, upper[k] - lower[k]);
     }
     return longest;
 }

@@ -6,6 +6,8 @@
  * were perturbed. With both, f rises strictly along a walk, so that it cannot loop. */
 #include "trace/walk2.h"
 
+#include "base/minmax.h"
+#include "math/elementary.h"
 #include "math/predicates.h"
 
 #include <assert.h>
@@ -95,7 +97,8 @@ static int turn_sign(const gradient *g, double cu, double cv, double u, double v
     if (fabs(det) > 1e-15 * (fabs(left) + fabs(right)) && fabs(det) > 1e-290)
         return sign(det);
     int e;
-    (void)frexp(fmax(fmax(fabs(g->ua), fabs(g->ub)), fmax(fabs(g->va), fabs(g->vb))), &e);
+    (void)frexp(iccp_max(iccp_max(fabs(g->ua), fabs(g->ub)), iccp_max(fabs(g->va), fabs(g->vb))),
+                &e);
     return iccp_cross_sign(cu, u, ldexp(g->va, -e), ldexp(g->vb, -e), cv, v, ldexp(g->ua, -e),
                            ldexp(g->ub, -e));
 }
@@ -137,7 +140,7 @@ static void carry_jet(iccp_walk2 *w, const gradient *g, int k)
     const crossing *across = &ACROSS[w->upper][k];
     const double nu = across->dj != 0 ? 0 : 1;
     const double nv = across->di != 0 ? 0 : across->dj != 0 ? 1 : -1;
-    const double steepness = hypot(g->gu, g->gv);
+    const double steepness = iccp_hypot(g->gu, g->gv);
     for (int c = 0; c < 2; ++c) {
         const double t = ratio(nu * w->jet->x[c] + nv * w->jet->y[c], nu * g->gu + nv * g->gv);
         w->jet->x[c] -= t * g->gu;
@@ -485,7 +488,7 @@ static void end_at_boundary(iccp_walk2 *w, double s_before, const iccp_jet2 *jet
     const double *b = cells->vertices + 2 * (size_t)cells->ends[2 * (size_t)hit->facet + 1];
     double nx = a[1] - b[1], ny = b[0] - a[0];
     /* A step along the edge that it meets ends at the edge's end. */
-    if (fabs(nx * dx + ny * dy) <= PARALLEL * hypot(nx, ny) * length) {
+    if (fabs(nx * dx + ny * dy) <= PARALLEL * iccp_hypot(nx, ny) * length) {
         nx = dx;
         ny = dy;
     }

@@ -8,6 +8,7 @@
  * loop. */
 #include "trace/walkn.h"
 
+#include "base/minmax.h"
 #include "math/predicates.h"
 #include "math/vec.h"
 
@@ -170,7 +171,7 @@ static bool find_simplex(iccp_walkn *w, const double *x, const double *ahead)
         const double last = (double)grid->shape[k] - 1;
         if (!(x[k] >= 0 && x[k] <= last) || last < 1)
             return false;
-        const double cell = fmin(floor(x[k]), last - 1);
+        const double cell = iccp_min(floor(x[k]), last - 1);
         const bool back = cell > 0 && x[k] <= cell && ahead[k] < 0;
         p->low[k] = (uint32_t)cell - back;
         u[k] = x[k] - p->low[k];

@@ -12,6 +12,7 @@
  * below and above share the axes only. */
 #include "trace/walkn_star.h"
 
+#include "base/minmax.h"
 #include "math/predicates.h"
 
 #include <math.h>
@@ -201,7 +202,7 @@ static void find_outer_chains(hinge *h, const iccp_slope *slope)
     load_values(slope, 2 * n, vertices, f);
     hide_missing(n, above, f);
     hide_missing(n, below, f + n);
-    const double unit = fmax(unit_for(n, f, f[0]), unit_for(n, f + n, f[n]));
+    const double unit = iccp_max(unit_for(n, f, f[0]), unit_for(n, f + n, f[n]));
     h->up.f = f;
     h->down.f = f + n;
     h->up.rising = h->down.rising = true;
@@ -233,7 +234,7 @@ static void find_inner_chain(hinge *h, int i, const iccp_slope *slope)
     load_values(slope, n, vertices, f);
     way->f = f;
     way->rising = false;
-    find_chains(way, unit_for(n, f, fmin(f[0], f[n - 1])));
+    find_chains(way, unit_for(n, f, iccp_min(f[0], f[n - 1])));
 }
 
 /* Whether f rises on the face or into one that holds it. */

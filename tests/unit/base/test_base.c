@@ -3,12 +3,14 @@
 #include "base/env.h"
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/minmax.h"
 #include "base/options.h"
 #include "base/sort.h"
 #include "base/threads.h"
 #include "base/version.h"
 
 #include <check.h>
+#include <math.h>
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdbool.h>
@@ -524,6 +526,26 @@ static int by_value(const void *a, const void *b)
 }
 
 /* Pairs of a value and a number: in order, and each still there. */
+static bool same_number(double a, double b)
+{
+    return a >= b && a <= b && !signbit(a) == !signbit(b);
+}
+
+START_TEST(the_lesser_and_the_greater_of_two)
+{
+    ck_assert(same_number(iccp_min(1, 2), 1) && same_number(iccp_min(2, 1), 1));
+    ck_assert(same_number(iccp_max(1, 2), 2) && same_number(iccp_max(2, 1), 2));
+    ck_assert(same_number(iccp_min(-HUGE_VAL, 1), -HUGE_VAL));
+    ck_assert(same_number(iccp_max(1, HUGE_VAL), HUGE_VAL));
+    /* A number rather than NaN; of two zeros the second. */
+    ck_assert(same_number(iccp_min(NAN, 1), 1) && same_number(iccp_min(1, NAN), 1));
+    ck_assert(same_number(iccp_max(NAN, 1), 1) && same_number(iccp_max(1, NAN), 1));
+    ck_assert(isnan(iccp_min(NAN, NAN)) && isnan(iccp_max(NAN, NAN)));
+    ck_assert(same_number(iccp_min(0.0, -0.0), -0.0) && same_number(iccp_min(-0.0, 0.0), 0.0));
+    ck_assert(same_number(iccp_max(0.0, -0.0), -0.0) && same_number(iccp_max(-0.0, 0.0), 0.0));
+}
+END_TEST
+
 START_TEST(sorting_keeps_everything)
 {
     enum { MOST = 300 };
@@ -584,6 +606,7 @@ int main(void)
     Suite *suite = suite_create("base");
     TCase *tests = tcase_create("base");
     tcase_add_test(tests, version_is_written_down_once);
+    tcase_add_test(tests, the_lesser_and_the_greater_of_two);
     tcase_add_test(tests, sorting_keeps_everything);
     tcase_add_test(tests, sorted_indices_keep_their_order_where_values_are_equal);
     tcase_add_test(tests, every_status_has_its_name);
