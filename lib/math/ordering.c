@@ -1,6 +1,8 @@
 /* Minimum degree on a quotient graph: P. Amestoy, T. Davis, I. Duff, An approximate minimum degree
  * ordering algorithm, SIAM J. Matrix Anal. Appl. 17, 1996; A. George, J. Liu, The evolution of the
- * minimum degree ordering algorithm, SIAM Review 31, 1989.
+ * minimum degree ordering algorithm, SIAM Review 31, 1989. Where degrees have become large, minimum
+ * mean fill: E. Rothberg, S. Eisenstat, Node selection strategies for bottom-up sparse matrix
+ * ordering, SIAM J. Matrix Anal. Appl. 19, 1998.
  *
  * Elimination joins all neighbours of a variable. In place of the edges between them, the graph
  * keeps the eliminated variable as an element: the list of the variables that it has joined. The
@@ -17,12 +19,19 @@
 
 #define NONE UINT32_MAX
 
-/* Tells where a list begins while lists are moved. */
+/* Tells where a list begins while lists are moved; and, in place of the variable before it, that
+ * one is the first that has its cost. */
 #define HEAD ((uint32_t)1 << 31)
 
 /* Neighbours from which on a variable is left for the end, in units of sqrt(n) and at the least. */
 static const double DENSE = 10;
 enum { LEAST_DENSE = 16 };
+
+/* Up to these degrees, and to twice the mean, variables are eliminated by degree. By fill from the
+ * beginning, grids and meshes in the plane took a tenth more multiplications, and graphs with long
+ * lists four times as long, since eliminations far from each other absorb little. Solids and walls
+ * take a fifth to a third fewer than by degree throughout (tests/bench/bench_ordering). */
+enum { SMALL_DEGREE = 32 };
 
 /* Lists are compared in up to so many buckets. */
 enum { MOST_BUCKETS = 1 << 14 };
@@ -36,8 +45,8 @@ typedef struct node {
     uint32_t n_elements;    /* of a variable: they come first in the list */
     int32_t size;           /* of a variable: how many it stands for; negative in the new element */
     uint32_t degree;        /* variables next to a variable, at the most; variables of an element */
-    uint32_t next, last;    /* of the same degree; or the next one in a bucket, and the hash; or
-                               the element that took in this one */
+    uint32_t next, last;    /* of the same cost; or the next one in a bucket, and the hash; or the
+                               element that took in this one */
     uint32_t mark;          /* of an element: the stamp and how many of it are outside the new one;
                                0: it is no more */
 } node;
@@ -47,37 +56,38 @@ typedef struct graph {
     size_t n;
     node *node;
     uint32_t *list, end, room; /* the lists of all nodes, up to `end` */
-    uint32_t *head;            /* by degree: the first variable, or NONE */
+    uint32_t *head;            /* by cost, n: the first variable, or NONE */
     uint32_t *bucket;          /* by hash: the first variable, or NONE */
     uint32_t *ring;            /* by variable: the next one that is eliminated together with it */
     uint32_t mask;             /* buckets - 1 */
     uint32_t stamp, most;      /* marks below the stamp are old; the most variables of an element */
-    uint32_t least;            /* no variable has a smaller degree */
+    uint32_t small;            /* degree */
+    uint32_t least;            /* no variable has a smaller cost */
     uint32_t n_left;           /* variables that are not eliminated */
 } graph;
 
 /* ------------------------------------------------------------------- lists */
 
-static void link_degree(graph *g, uint32_t i)
+static void link_cost(graph *g, uint32_t i, uint32_t cost)
 {
     node *v = &g->node[i];
-    v->last = NONE;
-    v->next = g->head[v->degree];
+    v->last = cost | HEAD;
+    v->next = g->head[cost];
     if (v->next != NONE)
         g->node[v->next].last = i;
-    g->head[v->degree] = i;
-    g->least = v->degree < g->least ? v->degree : g->least;
+    g->head[cost] = i;
+    g->least = cost < g->least ? cost : g->least;
 }
 
-static void unlink_degree(graph *g, uint32_t i)
+static void unlink_cost(graph *g, uint32_t i)
 {
     const node *v = &g->node[i];
     if (v->next != NONE)
         g->node[v->next].last = v->last;
-    if (v->last != NONE)
+    if ((v->last & HEAD) == 0)
         g->node[v->last].next = v->next;
     else
-        g->head[v->degree] = v->next;
+        g->head[v->last ^ HEAD] = v->next;
 }
 
 /* Variable j goes where i goes. */
@@ -127,7 +137,7 @@ static uint32_t take(graph *g, uint32_t begin, uint32_t length, uint32_t to, uin
             continue;
         *degree += (uint32_t)v->size;
         v->size = -v->size;
-        unlink_degree(g, i);
+        unlink_cost(g, i);
         g->list[to++] = i;
     }
     return to;
@@ -306,7 +316,18 @@ static void find_equals(graph *g, uint32_t p)
 
 /* --------------------------------------------------------------- the whole */
 
-/* Ends the making of element p: its variables are given their degrees. */
+/* The degree where it is small. Elsewhere the root of the pairs of neighbours that are not joined
+ * yet, for each variable that v stands for; `joined` neighbours are, by the new element. */
+static uint32_t cost_of(const graph *g, const node *v, uint32_t joined)
+{
+    if (v->degree <= g->small)
+        return v->degree;
+    const double all = v->degree, fill = all * (all - 1) - joined * (joined - 1.0);
+    const double cost = g->small + sqrt(fmax(0, fill) / v->size);
+    return cost < (double)g->n - 1 ? (uint32_t)cost : (uint32_t)g->n - 1;
+}
+
+/* Ends the making of element p: its variables are given their degrees and costs. */
 static void finish_element(graph *g, uint32_t p)
 {
     node *element = &g->node[p];
@@ -319,7 +340,7 @@ static void finish_element(graph *g, uint32_t p)
         const uint32_t others = g->n_left - (uint32_t)v->size;
         const uint32_t degree = v->degree + element->degree - (uint32_t)v->size;
         v->degree = degree < others ? degree : others;
-        link_degree(g, list[k]);
+        link_cost(g, list[k], cost_of(g, v, element->degree - (uint32_t)v->size));
         list[length++] = list[k];
     }
     if (element->begin + element->length == g->end)
@@ -333,7 +354,7 @@ static uint32_t next_pivot(graph *g)
     while (g->head[g->least] == NONE)
         ++g->least;
     const uint32_t p = g->head[g->least];
-    unlink_degree(g, p);
+    unlink_cost(g, p);
     return p;
 }
 
@@ -354,15 +375,16 @@ static uint32_t eliminate(graph *g)
     return p;
 }
 
-/* What elements stand for one after the other, each right behind all that it has taken in; this is
- * the same elimination, but what belongs together stays together. Elements come before those that
- * take them in: sizes of whole subtrees are summed up forwards, their places given out backwards,
- * from the end. */
+/* What elements stand for one after the other, each right behind all that it has taken in, in the
+ * order of rows: the same elimination, but what belongs together stays together. Elements come
+ * before those that take them in: sizes of whole subtrees are summed up forwards, into `length`;
+ * places within them are given out, those left over in `degree`; and these are made absolute
+ * backwards. */
 static void place_elements(const graph *g, uint32_t n, const uint32_t *element, uint32_t *order)
 {
-    uint32_t end_of_all = 0;
+    node root = {0};
     for (uint32_t k = 0; k < n; ++k)
-        g->node[element[k]].length = 0;
+        g->node[element[k]].length = g->node[element[k]].degree = 0;
     for (uint32_t k = 0; k < n; ++k) {
         node *e = &g->node[element[k]];
         uint32_t i = element[k];
@@ -370,15 +392,22 @@ static void place_elements(const graph *g, uint32_t n, const uint32_t *element, 
             ++e->length;
             i = g->ring[i];
         } while (i != element[k]);
-        *(e->next == NONE ? &end_of_all : &g->node[e->next].length) += e->length;
+        (e->next == NONE ? &root : &g->node[e->next])->length += e->length;
+    }
+    for (uint32_t i = 0; i < g->n; ++i) {
+        node *e = &g->node[i];
+        if (e->length == 0)
+            continue;
+        node *into = e->next == NONE ? &root : &g->node[e->next];
+        e->begin = into->degree;
+        into->degree += e->length;
     }
     for (uint32_t k = n; k-- > 0;) {
         node *e = &g->node[element[k]];
-        uint32_t *end = e->next == NONE ? &end_of_all : &g->node[e->next].begin, i = element[k];
-        e->begin = *end;
-        *end -= e->length;
+        e->begin += e->next == NONE ? 0 : g->node[e->next].begin;
+        uint32_t i = element[k], end = e->begin + e->length;
         do {
-            order[--e->begin] = i;
+            order[--end] = i;
             i = g->ring[i];
         } while (i != element[k]);
     }
@@ -414,7 +443,7 @@ static void load(graph *g, const iccp_symmetric *m)
             if (g->node[m->column[p]].size > 0)
                 g->list[g->end++] = m->column[p];
         v->length = v->degree = g->end - v->begin;
-        link_degree(g, i);
+        link_cost(g, i, cost_of(g, v, 0));
     }
 }
 
@@ -450,7 +479,9 @@ icc_status iccp_ordering(const iccp_symmetric *matrix, uint32_t *order, const ic
     const iccp_memory *memory = &env->memory;
     if (room >= HEAD)
         return ICC_ERR_RESOLUTION;
-    graph g = {.env = env, .n = n, .room = (uint32_t)room, .mask = 1};
+    graph g = {.env = env, .n = n, .room = (uint32_t)room, .mask = 1, .small = SMALL_DEGREE};
+    if (n > 0 && n_entries / n > SMALL_DEGREE / 2)
+        g.small = (uint32_t)(2 * n_entries / n);
     while (g.mask + 1 < n && g.mask + 1 < MOST_BUCKETS)
         g.mask = 2 * g.mask + 1;
     g.node = iccp_alloc(memory, n, sizeof *g.node);
