@@ -1,7 +1,7 @@
 /* Minimum degree on a quotient graph: P. Amestoy, T. Davis, I. Duff, An approximate minimum degree
  * ordering algorithm, SIAM J. Matrix Anal. Appl. 17, 1996; A. George, J. Liu, The evolution of the
  * minimum degree ordering algorithm, SIAM Review 31, 1989. Where degrees have become large, minimum
- * mean fill: E. Rothberg, S. Eisenstat, Node selection strategies for bottom-up sparse matrix
+ * fill: E. Rothberg, S. Eisenstat, Node selection strategies for bottom-up sparse matrix
  * ordering, SIAM J. Matrix Anal. Appl. 19, 1998.
  *
  * Elimination joins all neighbours of a variable. In place of the edges between them, the graph
@@ -27,10 +27,10 @@
 static const double DENSE = 10;
 enum { LEAST_DENSE = 16 };
 
-/* Up to these degrees, and to twice the mean, variables are eliminated by degree. By fill from the
- * beginning, grids and meshes in the plane took a tenth more multiplications, and graphs with long
- * lists four times as long, since eliminations far from each other absorb little. Solids and walls
- * take a fifth to a third fewer than by degree throughout (tests/bench/bench_ordering). */
+/* Up to this degree, or twice the mean, variables are eliminated by degree. By fill from the
+ * beginning, grids and meshes in the plane took a tenth more multiplications, and long lists four
+ * times as long, since eliminations far from each other absorb little. Solids and walls take a
+ * fifth to a third fewer than by degree throughout (tests/bench/bench_ordering). */
 enum { SMALL_DEGREE = 32 };
 
 /* Lists are compared in up to so many buckets. */
@@ -316,14 +316,16 @@ static void find_equals(graph *g, uint32_t p)
 
 /* --------------------------------------------------------------- the whole */
 
-/* The degree where it is small. Elsewhere the root of the pairs of neighbours that are not joined
- * yet, for each variable that v stands for; `joined` neighbours are, by the new element. */
+/* The degree where it is small. Elsewhere by how many pairs of neighbours are not joined yet:
+ * `joined` neighbours are, by the new element. In all (as in approximate minimum fill) makes wider
+ * supernodes, for each of the variables that v stands for (mean fill) less work; by the root of how
+ * many those are, factors take the least time. */
 static uint32_t cost_of(const graph *g, const node *v, uint32_t joined)
 {
     if (v->degree <= g->small)
         return v->degree;
     const double all = v->degree, fill = all * (all - 1) - joined * (joined - 1.0);
-    const double cost = g->small + sqrt(fmax(0, fill) / v->size);
+    const double cost = g->small + sqrt(fmax(0, fill) / sqrt(v->size));
     return cost < (double)g->n - 1 ? (uint32_t)cost : (uint32_t)g->n - 1;
 }
 
