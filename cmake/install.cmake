@@ -26,9 +26,9 @@ install(FILES ${PROJECT_BINARY_DIR}/libiccConfig.cmake
               ${PROJECT_BINARY_DIR}/libiccConfigVersion.cmake
   DESTINATION ${cmake_dir} COMPONENT Development)
 
-set(private_libraries "")
-if(ICC_WITH_AMD)
-  set(private_libraries "-lamd -lsuitesparseconfig ")
+set(private_libraries -lm)
+if(ICC_WITH_THREADS)
+  string(APPEND private_libraries " -lpthread")
 endif()
 # The prefix is known for certain only when installing (cmake --install --prefix). A prefix relative
 # to the .pc file would make pkg-config print -I/usr/include/../.. in a multiarch directory.

@@ -18,13 +18,13 @@ case ${1:-} in
         shift
         ;;
 esac
-need gcc g++ libc6-dev make cmake pkg-config libpng-dev libcjson-dev check libgmp-dev libsuitesparse-dev \
+need gcc g++ libc6-dev make cmake pkg-config libpng-dev libcjson-dev check libgmp-dev \
     abigail-tools python3-numpy python3-pytest python3-cffi tetgen
 if [ "$tier" = long ]; then
     need clang libclang-rt-dev llvm
 fi
 if [ "$tier" != plain ]; then
-    need cargo rustc python3-distributed python3-shapely python3-skimage python3-meshio python3-pil python3-matplotlib \
+    need libsuitesparse-dev cargo rustc python3-distributed python3-shapely python3-skimage python3-meshio python3-pil python3-matplotlib \
         python3-setuptools python3-wheel python3-pip python3-venv mypy netpbm librsvg2-bin doxygen \
         mandoc man-db clang-format
 fi

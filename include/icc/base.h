@@ -140,7 +140,8 @@ typedef struct icc_env {
      *  threads, and returns when all are done. Replaces the library's own threads. */
     void (*parallel_for)(void *user, size_t n_tasks, icc_task task, void *argument);
     /** Threads that a call may use, including the calling one; 0 and 1 mean one. The others live
-     *  only during the call. If one cannot be started, the others do its work. */
+     *  only during the call. If one cannot be started, the others do its work; a library built with
+     *  ICC_WITH_THREADS off starts none. */
     int32_t threads;
     /** Bytes of memory that loading an object may take, beyond 64 for each byte of its data; 0
      *  means 256,000,000. Charts of methods gradient and field, and domains made from masks, are

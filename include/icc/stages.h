@@ -303,8 +303,7 @@ enum {
  *         inequalities on bilaplace and clamped, where they ask for more than 1 at the root (as
  *         `leaf_min` and `min_fall` do of deep trees) or `leaf_min` is 1e-2; ::ICC_ERR_RESOLUTION
  *         when the root is the only vertex inside (laplace, bilaplace, clamped);
- *         ::ICC_ERR_UNSUPPORTED for clamped, and for bilaplace under inequalities, in a build
- *         without AMD; ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY, ::ICC_ERR_CANCELLED, ::ICC_ERR_VERSION
+ *         ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY, ::ICC_ERR_CANCELLED, ::ICC_ERR_VERSION
  */
 ICC_API icc_status icc_function_create(icc_function **out, const icc_tree *tree,
                                        const icc_function_options *options, const icc_env *env,

@@ -1,10 +1,11 @@
 #include "base/threads.h"
 
-#include <pthread.h>
 #include <stdatomic.h>
 #include <stdbool.h>
 
-enum { MAX_WORKERS = 64 };
+#ifdef ICC_WITH_THREADS
+#include <pthread.h>
+#endif
 
 typedef struct loop {
     iccp_chunk chunk;
@@ -13,7 +14,7 @@ typedef struct loop {
     size_t first;       /* chunk that task 0 of a parallel_for round stands for */
     atomic_size_t next; /* next chunk to hand out */
     atomic_bool stop;
-    pthread_mutex_t lock; /* guards the two below */
+    atomic_flag lock; /* guards the two below; held for a few instructions, after failures only */
     size_t failed_chunk;
     icc_status status;
 } loop;
@@ -25,12 +26,13 @@ static void run_chunk(loop *l, size_t index)
     const icc_status status = l->chunk(l->argument, begin, end);
     if (status == ICC_OK)
         return;
-    pthread_mutex_lock(&l->lock);
+    while (atomic_flag_test_and_set(&l->lock)) {
+    }
     if (l->status == ICC_OK || index < l->failed_chunk) {
         l->status = status;
         l->failed_chunk = index;
     }
-    pthread_mutex_unlock(&l->lock);
+    atomic_flag_clear(&l->lock);
     atomic_store(&l->stop, true);
 }
 
@@ -44,6 +46,26 @@ static bool take_chunk(loop *l, size_t *index)
     return *index < l->n_chunks;
 }
 
+/* The calling thread takes chunks like the others and is the only one that reports progress, so
+ * that the callback need not be safe for threads. */
+static icc_status run_this_thread(loop *l, const iccp_env *env, const char *stage)
+{
+    icc_status status = ICC_OK;
+    size_t index;
+    while (status == ICC_OK && take_chunk(l, &index)) {
+        status = iccp_progress(env, stage, (double)index / (double)l->n_chunks);
+        if (status == ICC_OK)
+            run_chunk(l, index);
+        else
+            atomic_store(&l->stop, true);
+    }
+    return status;
+}
+
+#ifdef ICC_WITH_THREADS
+
+enum { MAX_WORKERS = 64 };
+
 static void *worker(void *argument)
 {
     loop *l = argument;
@@ -53,9 +75,8 @@ static void *worker(void *argument)
     return NULL;
 }
 
-/* The calling thread takes chunks like the others and is the only one that reports progress, so
- * that the callback need not be safe for threads; once before there are others, which may take all
- * the chunks. Threads that cannot be started are done without. */
+/* Progress is reported once before there are other threads, which may take all the chunks. Threads
+ * that cannot be started are done without. */
 static icc_status run_own_threads(loop *l, const iccp_env *env, const char *stage)
 {
     pthread_t threads[MAX_WORKERS];
@@ -67,18 +88,17 @@ static icc_status run_own_threads(loop *l, const iccp_env *env, const char *stag
     while (n_threads + 1 < wanted && n_threads + 1 < l->n_chunks &&
            pthread_create(&threads[n_threads], NULL, worker, l) == 0)
         ++n_threads;
-    size_t index;
-    while (status == ICC_OK && take_chunk(l, &index)) {
-        status = iccp_progress(env, stage, (double)index / (double)l->n_chunks);
-        if (status == ICC_OK)
-            run_chunk(l, index);
-        else
-            atomic_store(&l->stop, true);
-    }
+    status = run_this_thread(l, env, stage);
     while (n_threads > 0)
         pthread_join(threads[--n_threads], NULL);
     return status;
 }
+
+#else
+
+#define run_own_threads run_this_thread
+
+#endif
 
 static void round_task(void *argument, size_t index)
 {
@@ -104,12 +124,10 @@ static icc_status run_callers_threads(loop *l, const iccp_env *env, const char *
 icc_status iccp_for_chunks(const iccp_env *env, const char *stage, size_t n, size_t grain,
                            iccp_chunk chunk, void *argument)
 {
-    loop l = {.chunk = chunk, .argument = argument, .n = n, .grain = grain};
+    loop l = {
+        .chunk = chunk, .argument = argument, .n = n, .grain = grain, .lock = ATOMIC_FLAG_INIT};
     l.n_chunks = n / grain + (n % grain != 0);
-    if (pthread_mutex_init(&l.lock, NULL) != 0)
-        return ICC_ERR_MEMORY;
     const icc_status status = env->parallel_for != NULL ? run_callers_threads(&l, env, stage)
                                                         : run_own_threads(&l, env, stage);
-    pthread_mutex_destroy(&l.lock);
     return status != ICC_OK ? status : l.status;
 }

@@ -33,7 +33,7 @@ icc_status iccp_harmonic_create(iccp_harmonic *base, const icc_domain *domain,
     if (status == ICC_OK) {
         status = iccp_laplacian_create(&base->laplacian, &base->mesh, ICCP_NO_NEIGHBOUR, &part[1]);
         if (status == ICC_OK)
-            status = iccp_spd_create(&base->solver, &base->laplacian.matrix, false, &part[2]);
+            status = iccp_spd_create(&base->solver, &base->laplacian.matrix, &part[2]);
         if (status != ICC_OK)
             (void)iccp_fail(err, status, "the mesh's equations cannot be factorised");
     }
@@ -53,7 +53,7 @@ void iccp_harmonic_describe(const iccp_harmonic *base, const icc_domain *domain,
 
 void iccp_harmonic_free(iccp_harmonic *base)
 {
-    iccp_spd_free(&base->solver);
+    iccp_ldlt_free(&base->solver);
     iccp_laplacian_free(&base->laplacian);
     iccp_planar_free(&base->mesh);
 }

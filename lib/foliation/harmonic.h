@@ -10,7 +10,7 @@
 typedef struct iccp_harmonic {
     iccp_planar mesh;
     iccp_laplacian laplacian;
-    iccp_spd solver;
+    iccp_ldlt solver;
     int32_t cells;
     double seconds_mesh, seconds_solve;
 } iccp_harmonic;

@@ -31,7 +31,7 @@ static double boundary_length(const iccp_planar *mesh, uint32_t k)
 
 /* The share of the turn that each boundary edge gets; they sum to 1. */
 static icc_status boundary_flux(double *flux, const iccp_planar *mesh,
-                                const iccp_laplacian *laplacian, const iccp_spd *solver,
+                                const iccp_laplacian *laplacian, const iccp_ldlt *solver,
                                 uint32_t centre, double harmonic, const iccp_env *env)
 {
     const size_t n = laplacian->matrix.n, n_boundary = mesh->n_boundary;
@@ -101,17 +101,17 @@ static icc_status solve_phi(double *phi, const iccp_planar *mesh, uint32_t centr
                             const iccp_env *env)
 {
     iccp_laplacian open;
-    iccp_spd solver;
+    iccp_ldlt solver;
     icc_status status = iccp_progress(env, "solve", 0);
     if (status == ICC_OK)
         status = iccp_laplacian_create(&open, mesh, centre, env);
     if (status != ICC_OK)
         return status;
-    status = iccp_spd_create(&solver, &open.matrix, false, env);
+    status = iccp_spd_create(&solver, &open.matrix, env);
     if (status == ICC_OK) {
         right_side(phi + mesh->n_boundary, mesh, &open, centre, phi);
         status = iccp_spd_solve(&solver, 1, phi + mesh->n_boundary, env);
-        iccp_spd_free(&solver);
+        iccp_ldlt_free(&solver);
     }
     iccp_laplacian_free(&open);
     return status;
@@ -146,7 +146,7 @@ static void quantise(iccp_psi *psi, const iccp_planar *mesh, const double *phi)
 }
 
 icc_status iccp_psi_create(iccp_psi *psi, const iccp_planar *mesh, const iccp_laplacian *laplacian,
-                           const iccp_spd *solver, uint32_t centre, double harmonic,
+                           const iccp_ldlt *solver, uint32_t centre, double harmonic,
                            const iccp_env *env)
 {
     *psi = (iccp_psi){.memory = env->memory, .centre = centre};

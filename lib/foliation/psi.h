@@ -24,7 +24,7 @@ typedef struct iccp_psi {
  * [0, 1); the rest is uniform in arc length. `solver` factorises the Laplacian of the whole
  * mesh. */
 icc_status iccp_psi_create(iccp_psi *psi, const iccp_planar *mesh, const iccp_laplacian *laplacian,
-                           const iccp_spd *solver, uint32_t centre, double harmonic,
+                           const iccp_ldlt *solver, uint32_t centre, double harmonic,
                            const iccp_env *env);
 void iccp_psi_free(iccp_psi *psi);
 

@@ -132,8 +132,6 @@ static icc_status factorise(iccp_collocation *c, const iccp_env *env, icc_error 
                          "sigma is too large: the matrix of the kernel is not positive definite%s",
                          c->radial.kind == ICC_KERNEL_GAUSS ? " (Wendland's would be)"
                                                             : " to working precision");
-    if (status == ICC_ERR_UNSUPPORTED)
-        return iccp_fail(err, status, "this build has no ordering for sparse matrices");
     return status;
 }
 

@@ -24,8 +24,8 @@ icc_status iccp_etree_build(const iccp_etree *tree, const iccp_env *env);
  * of the matrix. */
 icc_status iccp_etree_count(const iccp_etree *tree, uint32_t *count, const iccp_env *env);
 
-/* The three passes through the matrix of an analysis. */
-enum { ICCP_PASS_TREE, ICCP_PASS_COUNT, ICCP_PASS_ROWS, ICCP_N_PASSES };
+/* The four passes through the matrix of an analysis. */
+enum { ICCP_PASS_ORDER, ICCP_PASS_TREE, ICCP_PASS_COUNT, ICCP_PASS_ROWS, ICCP_N_PASSES };
 
 /* Reports progress now and then, when it is column k's turn. */
 icc_status iccp_etree_progress(const iccp_etree *tree, int pass, size_t k, const iccp_env *env);

@@ -104,32 +104,15 @@ static icc_status iterate(const problem *s, double *x, double *r, double *z, dou
     return least <= ACCEPTED * size ? ICC_OK : ICC_ERR_SOLVER;
 }
 
-static icc_status solve(const problem *s, size_t n_rhs, double *b, double *work)
+icc_status iccp_pcg_solve(const iccp_symmetric *matrix, iccp_pcg_part part, void *argument,
+                          double *b, double *work, const iccp_env *env)
 {
-    const size_t n = s->matrix->n;
-    double *x = work, *r = work + n, *z = work + 2 * n, *p = work + 3 * n, *q = work + 4 * n;
-    for (size_t column = 0; column < n_rhs; ++column) {
-        for (size_t i = 0; i < n; ++i)
-            r[i] = b[i * n_rhs + column];
-        const icc_status status = iterate(s, x, r, z, p, q);
-        if (status != ICC_OK)
-            return status;
-        for (size_t i = 0; i < n; ++i)
-            b[i * n_rhs + column] = x[i];
-    }
-    return ICC_OK;
-}
-
-icc_status iccp_pcg_solve(const iccp_symmetric *matrix, size_t n_rhs, double *b, double *work,
-                          const iccp_env *env)
-{
-    const problem s = {matrix, NULL, NULL, env};
-    return solve(&s, n_rhs, b, work);
-}
-
-icc_status iccp_pcg_solve_with(const iccp_symmetric *matrix, iccp_pcg_part part, void *argument,
-                               double *b, double *work, const iccp_env *env)
-{
+    const size_t n = matrix->n;
     const problem s = {matrix, part, argument, env};
-    return solve(&s, 1, b, work);
+    double *x = work, *r = work + n, *z = work + 2 * n, *p = work + 3 * n, *q = work + 4 * n;
+    memcpy(r, b, n * sizeof *r);
+    const icc_status status = iterate(&s, x, r, z, p, q);
+    if (status == ICC_OK)
+        memcpy(b, x, n * sizeof *b);
+    return status;
 }

@@ -8,19 +8,15 @@
 /* Doubles of work space per unknown. */
 enum { ICCP_PCG_WORK = 5 };
 
-/* Solves for n_rhs right-hand sides, one after the other: entry i of column r at b[i * n_rhs +
- * r], replaced by the solution. Iterates until the residual is 1e-13 of the right-hand side or
- * no longer falls; ICC_ERR_SOLVER when it then is above 1e-9, or a direction shows before that
- * the matrix is not positive definite. `work`: ICCP_PCG_WORK * n doubles. */
-icc_status iccp_pcg_solve(const iccp_symmetric *matrix, size_t n_rhs, double *b, double *work,
-                          const iccp_env *env);
-
 /* Adds to z what else shall precondition: a symmetric matrix without negative eigenvalues, times
  * r. */
 typedef icc_status (*iccp_pcg_part)(void *argument, const double *r, double *z);
 
-/* The same for one right-hand side, with one more part of the preconditioner, or NULL. */
-icc_status iccp_pcg_solve_with(const iccp_symmetric *matrix, iccp_pcg_part part, void *argument,
-                               double *b, double *work, const iccp_env *env);
+/* Solves for b, replaced by the solution; `part` may be NULL. Iterates until the residual is 1e-13
+ * of the right-hand side or no longer falls; ICC_ERR_SOLVER when it then is above 1e-9, or a
+ * direction shows before that the matrix is not positive definite. `work`: ICCP_PCG_WORK * n
+ * doubles. */
+icc_status iccp_pcg_solve(const iccp_symmetric *matrix, iccp_pcg_part part, void *argument,
+                          double *b, double *work, const iccp_env *env);
 
 #endif

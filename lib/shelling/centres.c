@@ -210,14 +210,14 @@ static icc_status find_images(iccp_gram *edges, const iccp_simplices *mesh, cons
                               double *image, const iccp_env *env)
 {
     iccp_gram inner;
-    iccp_spd solver;
+    iccp_ldlt solver;
     icc_status status = set_up(&inner, edges, mesh, to, image, env);
     if (status != ICC_OK)
         return status;
-    status = iccp_spd_create(&solver, &inner.matrix, false, env);
+    status = iccp_spd_create(&solver, &inner.matrix, env);
     if (status == ICC_OK) {
         status = iccp_spd_solve(&solver, mesh->dim, image, env);
-        iccp_spd_free(&solver);
+        iccp_ldlt_free(&solver);
     }
     iccp_gram_free(&inner);
     return status;

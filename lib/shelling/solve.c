@@ -4,7 +4,7 @@
  * in each simplex. The number of iterations does not grow with that of simplices. */
 #include "shelling/solve.h"
 
-#include "math/ordering.h"
+#include "math/pcg.h"
 #include "math/spd.h"
 #include "shelling/stiffness.h"
 
@@ -19,7 +19,7 @@ typedef struct auxiliary {
     const iccp_unknowns *unknowns;
     size_t n;      /* of them */
     uint32_t *row; /* of each point, or NONE */
-    iccp_spd solver;
+    iccp_ldlt solver;
     double *value; /* of each row */
     const iccp_env *env;
 } auxiliary;
@@ -31,7 +31,7 @@ static icc_status add_part(void *argument, const double *r, double *z)
     const size_t n_points = a->unknowns->n_points;
     const uint32_t *point = a->unknowns->point;
     const double share = 1 / (double)n_points;
-    for (size_t i = 0; i < a->solver.matrix.n; ++i)
+    for (size_t i = 0; i < a->solver.n; ++i)
         a->value[i] = 0;
     for (size_t i = 0; i < n_points * a->n; ++i)
         if (a->row[point[i]] != NONE)
@@ -66,18 +66,17 @@ static icc_status run(const iccp_symmetric *matrix, const iccp_gram *coarse, aux
                       double *b)
 {
     const iccp_env *env = a->env;
-    icc_status status = iccp_spd_create(&a->solver, &coarse->matrix, false, env);
+    icc_status status = iccp_spd_create(&a->solver, &coarse->matrix, env);
     if (status != ICC_OK)
         return status;
     double *work = iccp_alloc(&env->memory, ICCP_PCG_WORK * matrix->n, sizeof *work);
     a->value = iccp_alloc(&env->memory, coarse->matrix.n, sizeof *a->value);
     status = ICC_ERR_MEMORY;
     if (work != NULL && a->value != NULL)
-        status =
-            iccp_pcg_solve_with(matrix, coarse->matrix.n > 0 ? add_part : NULL, a, b, work, env);
+        status = iccp_pcg_solve(matrix, coarse->matrix.n > 0 ? add_part : NULL, a, b, work, env);
     iccp_free(&env->memory, work);
     iccp_free(&env->memory, a->value);
-    iccp_spd_free(&a->solver);
+    iccp_ldlt_free(&a->solver);
     return status;
 }
 
@@ -110,8 +109,6 @@ icc_status iccp_shelling_solve(const iccp_symmetric *matrix, const iccp_unknowns
                                double *b, const iccp_env *env)
 {
     iccp_ldlt factor;
-    if (!iccp_ordering_available())
-        return iterate(matrix, unknowns, b, env);
     icc_status status = iccp_ldlt_analyse(&factor, matrix, 1, env);
     if (status != ICC_OK)
         return status;

@@ -1,6 +1,6 @@
-/* Any bytes as a sparse symmetric matrix: both solvers solve it or refuse it, and where the
- * diagonal dominates the direct one does not refuse and both agree. */
-#include "math/ordering.h"
+/* Any bytes as a sparse symmetric matrix: a factorisation and an iteration solve it or refuse it,
+ * and where the diagonal dominates neither refuses and both agree. */
+#include "math/pcg.h"
 #include "math/spd.h"
 
 #include "outlines.h"
@@ -42,16 +42,19 @@ static iccp_symmetric read_matrix(sparse *s, size_t n, const uint8_t *data, size
 
 static icc_status solve(const iccp_symmetric *m, int iterative, double *x)
 {
+    double work[ICCP_PCG_WORK * MAX_ROWS];
     iccp_env env;
-    iccp_spd solver;
+    iccp_ldlt factor;
     require(iccp_env_read(&env, NULL, NULL) == ICC_OK);
-    icc_status status = iccp_spd_create(&solver, m, iterative, &env);
-    if (status != ICC_OK)
-        return status;
     for (size_t i = 0; i < m->n; ++i)
         x[i] = (double)(i % 7) - 3;
-    status = iccp_spd_solve(&solver, 1, x, &env);
-    iccp_spd_free(&solver);
+    if (iterative)
+        return iccp_pcg_solve(m, NULL, NULL, x, work, &env);
+    icc_status status = iccp_spd_create(&factor, m, &env);
+    if (status != ICC_OK)
+        return status;
+    status = iccp_spd_solve(&factor, 1, x, &env);
+    iccp_ldlt_free(&factor);
     return status;
 }
 

@@ -3,7 +3,7 @@
 //! - `LIBICC_DIR`: a folder with the library, or a prefix that it was installed to. Without it the command
 //!   `pkg-config` (or `PKG_CONFIG`) is asked.
 //! - `LIBICC_STATIC=1`, or the feature `static`: libicc.a instead of libicc.so.
-//! - `LIBICC_PRIVATE_LIBS`: what libicc.a in `LIBICC_DIR` needs, `amd suitesparseconfig m pthread` if not set.
+//! - `LIBICC_PRIVATE_LIBS`: what libicc.a in `LIBICC_DIR` needs, `m pthread` if not set.
 //!
 //! A dynamic library beyond the system's folders must be found when the program starts, too, by
 //! `LD_LIBRARY_PATH` or a run path.
@@ -41,8 +41,7 @@ fn link_folder(dir: &Path, linked_in: bool) {
     println!("cargo:rustc-link-search=native={}", folder.display());
     link_itself(linked_in);
     if linked_in {
-        let private =
-            env::var("LIBICC_PRIVATE_LIBS").unwrap_or_else(|_| "amd suitesparseconfig m pthread".to_string());
+        let private = env::var("LIBICC_PRIVATE_LIBS").unwrap_or_else(|_| "m pthread".to_string());
         for name in private.split_whitespace() {
             println!("cargo:rustc-link-lib={}", name);
         }

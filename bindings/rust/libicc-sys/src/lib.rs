@@ -194,7 +194,8 @@ pub struct icc_env {
         unsafe extern "C" fn(user: *mut c_void, n_tasks: usize, task: icc_task, argument: *mut c_void),
     >,
     /// Threads that a call may use, the calling one included; 0 and 1 mean one. Further
-    /// threads live only during the call. If one cannot be started, the others do its work.
+    /// threads live only during the call. If one cannot be started, the others do its work; a library
+    /// built with ICC_WITH_THREADS off starts none.
     pub threads: i32,
     /// Bytes that loading an object may take beyond 64 for each byte that it is read from; 0 means
     /// 256,000,000. Charts of methods gradient and field, and domains made of masks, are rebuilt
@@ -1899,9 +1900,8 @@ extern "C" {
     /// Returns `ICC_OK`; `ICC_ERR_SOLVER` when a solver did not converge, which has only been seen with
     /// inequalities on bilaplace and clamped, where they ask for more than 1 at the root (as `leaf_min` and `min_fall` do of
     /// deep trees) or `leaf_min` is 1e-2; `ICC_ERR_RESOLUTION` when the root is
-    /// the only vertex inside (laplace, bilaplace, clamped); `ICC_ERR_UNSUPPORTED` for clamped, and
-    /// for bilaplace under inequalities, in a build without AMD; `ICC_ERR_ARGUMENT`,
-    /// `ICC_ERR_MEMORY`, `ICC_ERR_CANCELLED`, `ICC_ERR_VERSION`
+    /// the only vertex inside (laplace, bilaplace, clamped); `ICC_ERR_ARGUMENT`, `ICC_ERR_MEMORY`,
+    /// `ICC_ERR_CANCELLED`, `ICC_ERR_VERSION`
     pub fn icc_function_create(
         out: *mut *mut icc_function,
         tree: *const icc_tree,
