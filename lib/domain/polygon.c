@@ -47,6 +47,12 @@ static icc_status walk(iccp_polygon *polygon, const uint32_t *start, const uint3
     return ICC_OK;
 }
 
+static void copy_point(double *to, const double *from)
+{
+    to[0] = from[0];
+    to[1] = from[1];
+}
+
 icc_status iccp_polygon_create(iccp_polygon *polygon, size_t n, const double *vertices,
                                const uint32_t *facets, const iccp_memory *memory, icc_error *err)
 {
@@ -68,9 +74,9 @@ icc_status iccp_polygon_create(iccp_polygon *polygon, size_t n, const double *ve
         iccp_polygon_free(polygon, memory);
         return status;
     }
-    for (size_t k = 0; k <= n; ++k)
-        for (size_t axis = 0; axis < 2; ++axis)
-            polygon->points[2 * k + axis] = vertices[2 * (size_t)polygon->vertex[k % n] + axis];
+    for (size_t k = 0; k < n; ++k)
+        copy_point(polygon->points + 2 * k, vertices + 2 * (size_t)polygon->vertex[k]);
+    copy_point(polygon->points + 2 * n, polygon->points);
     return ICC_OK;
 }
 

@@ -3,7 +3,9 @@
 #include "base/error.h"
 #include "domain/defects.h"
 #include "domain/segment.h"
+#include "domain/simple.h"
 #include "domain/sweep.h"
+#include "math/expansion.h"
 #include "math/predicates.h"
 
 #include <math.h>
@@ -80,15 +82,22 @@ static icc_status fail_defect(icc_error *err, const iccp_defect *defect,
     }
 }
 
-icc_status iccp_polygon_check(const iccp_polygon *polygon, const iccp_frame *frame,
-                              const iccp_env *env, icc_error *err)
+/* The quick test decides for most polygons, the sweep for the others. What is named is the first
+ * defect of the list, or, if that takes too long, what the sweep finds. */
+icc_status iccp_polygon_check(const iccp_polygon *polygon, const iccp_boxtree *tree,
+                              const iccp_frame *frame, const iccp_env *env, icc_error *err)
 {
-    iccp_defect any, first = {0};
-    icc_status status = iccp_sweep(&any, polygon, env);
-    if (status == ICC_OK && any.kind == 0)
+    iccp_defect any = {0}, first = {0};
+    iccp_simple quick;
+    icc_status status = iccp_simple_find(&quick, tree, env);
+    if (status == ICC_OK && quick.answer == ICCP_UNDECIDED)
+        status = iccp_sweep(&any, polygon, env);
+    if (status == ICC_OK && quick.answer != ICCP_NOT_SIMPLE && any.kind == 0)
         return ICC_OK;
     if (status == ICC_OK)
-        status = iccp_defects_first(&first, polygon, env);
+        status = iccp_defects_first(&first, polygon, tree, env);
+    if (status == ICC_OK && first.kind == 0 && any.kind == 0)
+        status = iccp_sweep(&any, polygon, env);
     if (status != ICC_OK)
         return iccp_explain(err, status);
     return fail_defect(err, first.kind != 0 ? &first : &any, polygon, frame);
@@ -100,6 +109,7 @@ icc_status iccp_polygon_check_points(size_t n, const double *points, const uint3
     if (n < 3)
         return ICC_ERR_BOUNDARY;
     iccp_polygon copy = {.n = n};
+    iccp_boxtree tree = {0};
     copy.points = iccp_alloc(&env->memory, n + 1, 2 * sizeof *copy.points);
     copy.vertex = iccp_alloc(&env->memory, n, sizeof *copy.vertex);
     copy.facet = iccp_alloc(&env->memory, n, sizeof *copy.facet);
@@ -111,8 +121,11 @@ icc_status iccp_polygon_check_points(size_t n, const double *points, const uint3
             copy.vertex[k] = copy.facet[k] = k;
         }
         memcpy(copy.points + 2 * n, copy.points, 2 * sizeof *points);
-        status = iccp_polygon_check(&copy, &iccp_frame_identity, env, NULL);
+        iccp_boxtree_create(&tree, copy.points, n, &env->memory);
+        if (tree.boxes != NULL)
+            status = iccp_polygon_check(&copy, &tree, &iccp_frame_identity, env, NULL);
     }
+    iccp_boxtree_free(&tree, &env->memory);
     iccp_polygon_free(&copy, &env->memory);
     return status;
 }
@@ -139,9 +152,10 @@ double iccp_polygon_area(const iccp_polygon *polygon)
         const double factors[2][2] = {{p[0] - origin[0], q[1] - origin[1]},
                                       {origin[1] - p[1], q[0] - origin[0]}};
         for (int i = 0; i < 2; ++i) {
-            const double product = factors[i][0] * factors[i][1];
+            double tail;
+            const double product = iccp_two_product(factors[i][0], factors[i][1], &tail);
             const double total = sum + product, part = total - sum;
-            error += fma(factors[i][0], factors[i][1], -product);
+            error += tail;
             error += (sum - (total - part)) + (product - part);
             sum = total;
         }
@@ -183,6 +197,7 @@ icc_status iccp_boundary_defects(size_t n, const double *vertices, size_t capaci
     const iccp_memory *memory = &env->memory;
     iccp_defect_list list = {.capacity = capacity, .kinds = kinds, .items = items};
     iccp_polygon polygon = {.n = n, .points = iccp_alloc(memory, n + 1, 2 * sizeof(double))};
+    iccp_boxtree tree = {0};
     double *scratch = iccp_alloc(memory, n, 2 * sizeof(double));
     icc_status status = ICC_ERR_MEMORY;
     if (polygon.points != NULL && scratch != NULL)
@@ -192,8 +207,12 @@ icc_status iccp_boundary_defects(size_t n, const double *vertices, size_t capaci
         polygon.points[2 * n] = polygon.points[0];
         polygon.points[2 * n + 1] = polygon.points[1];
     }
-    if (status == ICC_OK)
-        status = iccp_defects_list(&list, &polygon, env);
+    if (status == ICC_OK) {
+        iccp_boxtree_create(&tree, polygon.points, n, memory);
+        status =
+            tree.boxes != NULL ? iccp_defects_list(&list, &polygon, &tree, env) : ICC_ERR_MEMORY;
+    }
+    iccp_boxtree_free(&tree, memory);
     iccp_free(memory, polygon.points);
     *n_defects = list.n;
     return iccp_explain(err, status);

@@ -163,9 +163,99 @@ bool iccp_triangles_meet(const double *vertices, const uint32_t *s, const uint32
     }
 }
 
-icc_status iccp_triangles_find(const iccp_facet_tree *tree, uint32_t pair[2], const iccp_env *env)
+/* ------------------------------------------------------------ all pairs */
+
+typedef struct search {
+    const iccp_facet_tree *tree;
+    const iccp_env *env;
+    double *boxes; /* by place: 6 numbers, lower and upper */
+    bool met;
+    icc_status status;
+} search;
+
+static ICCP_INLINE bool boxes_meet(const double *a, const double *b)
 {
-    pair[0] = pair[1] = 0;
+    return (a[0] <= b[3]) & (b[0] <= a[3]) & (a[1] <= b[4]) & (b[1] <= a[4]) & (a[2] <= b[5]) &
+           (b[2] <= a[5]);
+}
+
+static bool places_meet(const search *s, size_t p, size_t q)
+{
+    const iccp_facet_tree *tree = s->tree;
+    return boxes_meet(s->boxes + 6 * p, s->boxes + 6 * q) &&
+           iccp_triangles_meet(tree->vertices, tree->facets + 3 * (size_t)tree->order[p],
+                               tree->facets + 3 * (size_t)tree->order[q]);
+}
+
+static size_t leaf_start(const search *s, size_t node)
+{
+    return (node - s->tree->n_leaves) * ICCP_FACET_LEAF;
+}
+
+static size_t leaf_end(const search *s, size_t node)
+{
+    const size_t end = leaf_start(s, node) + ICCP_FACET_LEAF;
+    return end < s->tree->n ? end : s->tree->n;
+}
+
+static void compare_in_leaf(search *s, size_t node)
+{
+    const size_t start = leaf_start(s, node), end = leaf_end(s, node);
+    if (s->status == ICC_OK && start % (64 * ICCP_FACET_LEAF) == 0)
+        s->status = iccp_progress(s->env, "check", (double)start / (double)s->tree->n);
+    for (size_t p = start; p < end; ++p)
+        for (size_t q = p + 1; q < end; ++q)
+            s->met = s->met || places_meet(s, p, q);
+}
+
+static void compare_leaves(search *s, size_t a, size_t b)
+{
+    const double *box = s->tree->boxes + 6 * b;
+    const size_t end_a = leaf_end(s, a), start_b = leaf_start(s, b), end_b = leaf_end(s, b);
+    for (size_t p = leaf_start(s, a); p < end_a; ++p)
+        if (boxes_meet(s->boxes + 6 * p, box))
+            for (size_t q = start_b; q < end_b; ++q)
+                s->met = s->met || places_meet(s, p, q);
+}
+
+static double extent(const double *box)
+{
+    return (box[3] - box[0]) + (box[4] - box[1]) + (box[5] - box[2]);
+}
+
+/* Compares the triangles below two nodes, none of which lies below the other. Of two boxes that
+ * overlap the larger is halved. */
+static void compare(search *s, size_t a, size_t b)
+{
+    const double *box_a = s->tree->boxes + 6 * a, *box_b = s->tree->boxes + 6 * b;
+    if (s->met || s->status != ICC_OK || !boxes_meet(box_a, box_b))
+        return;
+    const bool a_leaf = a >= s->tree->n_leaves, b_leaf = b >= s->tree->n_leaves;
+    if (a_leaf && b_leaf) {
+        compare_leaves(s, a, b);
+    } else if (b_leaf || (!a_leaf && extent(box_a) > extent(box_b))) {
+        compare(s, 2 * a, b);
+        compare(s, 2 * a + 1, b);
+    } else {
+        compare(s, a, 2 * b);
+        compare(s, a, 2 * b + 1);
+    }
+}
+
+static void compare_within(search *s, size_t node)
+{
+    if (node >= s->tree->n_leaves) {
+        compare_in_leaf(s, node);
+        return;
+    }
+    compare_within(s, 2 * node);
+    compare_within(s, 2 * node + 1);
+    compare(s, 2 * node, 2 * node + 1);
+}
+
+/* The first pair in the order of the tree. */
+static icc_status find_first(const iccp_facet_tree *tree, uint32_t pair[2], const iccp_env *env)
+{
     for (size_t place = 0; place < tree->n; ++place) {
         if (place % 256 == 0) {
             const icc_status status = iccp_progress(env, "check", (double)place / (double)tree->n);
@@ -185,4 +275,20 @@ icc_status iccp_triangles_find(const iccp_facet_tree *tree, uint32_t pair[2], co
             }
     }
     return ICC_OK;
+}
+
+/* The tree is compared with itself, which says whether there is a pair; which is the first, one by
+ * one. */
+icc_status iccp_triangles_find(const iccp_facet_tree *tree, uint32_t pair[2], const iccp_env *env)
+{
+    search s = {.tree = tree, .env = env};
+    pair[0] = pair[1] = 0;
+    s.boxes = iccp_alloc(&env->memory, tree->n, 6 * sizeof *s.boxes);
+    if (s.boxes == NULL)
+        return ICC_ERR_MEMORY;
+    for (size_t place = 0; place < tree->n; ++place)
+        iccp_facet_box_of(tree, 3, 3, tree->order[place], s.boxes + 6 * place);
+    compare_within(&s, 1);
+    iccp_free(&env->memory, s.boxes);
+    return s.status == ICC_OK && s.met ? find_first(tree, pair, env) : s.status;
 }
