@@ -14,18 +14,28 @@ enum {
 
 static const iccp_box empty = {{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
 
-static void include(iccp_box *box, const double *lower, const double *upper)
+static iccp_box hull(iccp_box a, iccp_box b)
 {
     for (int k = 0; k < 2; ++k) {
-        box->lower[k] = lower[k] < box->lower[k] ? lower[k] : box->lower[k];
-        box->upper[k] = upper[k] > box->upper[k] ? upper[k] : box->upper[k];
+        a.lower[k] = b.lower[k] < a.lower[k] ? b.lower[k] : a.lower[k];
+        a.upper[k] = b.upper[k] > a.upper[k] ? b.upper[k] : a.upper[k];
     }
+    return a;
 }
 
 static size_t leaf_end(const iccp_boxtree *tree, size_t node)
 {
     const size_t end = (node - tree->n_leaves + 1) * LEAF;
     return end < tree->n ? end : tree->n;
+}
+
+static iccp_box leaf_box(const iccp_boxtree *tree, size_t leaf)
+{
+    iccp_box box = empty;
+    const size_t end = leaf_end(tree, tree->n_leaves + leaf);
+    for (size_t edge = leaf * LEAF; edge < end; ++edge)
+        box = hull(box, iccp_boxtree_edge(tree, edge));
+    return box;
 }
 
 void iccp_boxtree_create(iccp_boxtree *tree, const double *points, size_t n,
@@ -37,14 +47,11 @@ void iccp_boxtree_create(iccp_boxtree *tree, const double *points, size_t n,
     tree->boxes = iccp_alloc(memory, 2 * tree->n_leaves, sizeof *tree->boxes);
     if (tree->boxes == NULL)
         return;
-    for (size_t node = 2 * tree->n_leaves; node-- > 0;)
-        tree->boxes[node] = empty;
-    for (size_t edge = 0; edge < n; ++edge) {
-        const iccp_box box = iccp_boxtree_edge(tree, edge);
-        include(&tree->boxes[tree->n_leaves + edge / LEAF], box.lower, box.upper);
-    }
-    for (size_t node = 2 * tree->n_leaves; node-- > 2;)
-        include(&tree->boxes[node / 2], tree->boxes[node].lower, tree->boxes[node].upper);
+    tree->boxes[0] = empty;
+    for (size_t leaf = 0; leaf < tree->n_leaves; ++leaf)
+        tree->boxes[tree->n_leaves + leaf] = leaf_box(tree, leaf);
+    for (size_t node = tree->n_leaves; node-- > 1;)
+        tree->boxes[node] = hull(tree->boxes[2 * node], tree->boxes[2 * node + 1]);
 }
 
 void iccp_boxtree_free(iccp_boxtree *tree, const iccp_memory *memory)

@@ -16,7 +16,7 @@ static icc_status copy_boundary(icc_domain *d, const double *vertices, const uin
 {
     const size_t dim = (size_t)d->dim, n = d->n_vertices;
     d->given = iccp_alloc(&d->memory, n, dim * sizeof *d->given);
-    d->vertices = iccp_alloc(&d->memory, n, dim * sizeof *d->vertices);
+    d->vertices = iccp_alloc(&d->memory, n + 1, dim * sizeof *d->vertices);
     d->facets = iccp_alloc(&d->memory, d->n_facets, dim * sizeof *d->facets);
     if (d->given == NULL || d->vertices == NULL || d->facets == NULL)
         return iccp_fail_memory(err);
@@ -84,8 +84,10 @@ static icc_status complete_polygon(icc_domain *d, const iccp_env *env, icc_error
     iccp_polygon polygon = {0};
     iccp_boxtree tree = {0};
     icc_status status = iccp_polygon_localise(&d->frame, d->vertices, n, d->given, err);
-    if (status == ICC_OK)
+    if (status == ICC_OK) {
+        memcpy(d->vertices + 2 * n, d->vertices, 2 * sizeof *d->vertices);
         status = iccp_polygon_create(&polygon, n, d->vertices, d->facets, &d->memory, err);
+    }
     if (status == ICC_OK)
         status = check_polygon(d, &polygon, &tree, env, err);
     if (status != ICC_OK) {
