@@ -1,6 +1,5 @@
 /* A tree of boxes halved at the median of the facets' centres along the longest side: C. Ericson,
- * Real-Time Collision Detection, sections 6.2 and 6.6. The halving runs level by level, without
- * recursion. */
+ * Real-Time Collision Detection, sections 6.2 and 6.6. */
 #include "domain/facet_tree.h"
 
 #include <math.h>
@@ -97,24 +96,21 @@ static ICCP_INLINE void split(size_t dim, double *rows, size_t axis, ptrdiff_t n
     }
 }
 
-static ICCP_INLINE void arrange_in(size_t dim, iccp_facet_tree *tree, double *rows)
+/* Arranges n rows at the places of `size`, one half after the other: what is small enough stays in
+ * the cache. Paths through the tree are short enough for recursion. */
+static void arrange(size_t dim, double *rows, size_t n, size_t size)
 {
-    for (size_t size = tree->n_leaves * LEAF; size > LEAF; size /= 2)
-        for (size_t first = 0; first + size / 2 < tree->n; first += size) {
-            const size_t n = tree->n - first < size ? tree->n - first : size;
-            double *const some = rows + (dim + 1) * first;
-            split(dim, some, widest_axis(dim, some, n), (ptrdiff_t)(size / 2), (ptrdiff_t)n);
-        }
-    for (size_t place = 0; place < tree->n; ++place)
-        tree->order[place] = (uint32_t)rows[(dim + 1) * place + dim];
-}
-
-static void arrange(iccp_facet_tree *tree, double *rows)
-{
-    if (tree->dim == 3)
-        arrange_in(3, tree, rows);
-    else
-        arrange_in(tree->dim, tree, rows);
+    const size_t half = size / 2;
+    if (size <= LEAF)
+        return;
+    if (n > half) {
+        if (dim == 3)
+            split(3, rows, widest_axis(3, rows, n), (ptrdiff_t)half, (ptrdiff_t)n);
+        else
+            split(dim, rows, widest_axis(dim, rows, n), (ptrdiff_t)half, (ptrdiff_t)n);
+        arrange(dim, rows + (dim + 1) * half, n - half, half);
+    }
+    arrange(dim, rows, n < half ? n : half, half);
 }
 
 static void fill_boxes(iccp_facet_tree *tree)
@@ -153,7 +149,9 @@ static void make(iccp_facet_tree *tree, const iccp_memory *memory)
             rows[(dim + 1) * f + k] = box[k] + box[dim + k];
         rows[(dim + 1) * f + dim] = f;
     }
-    arrange(tree, rows);
+    arrange(dim, rows, n, tree->n_leaves * LEAF);
+    for (size_t place = 0; place < n; ++place)
+        tree->order[place] = (uint32_t)rows[(dim + 1) * place + dim];
     fill_boxes(tree);
     iccp_free(memory, rows);
 }

@@ -84,24 +84,20 @@ static bool meet_apart(triangle s, triangle t)
     return false;
 }
 
-/* Whether the boxes of a segment and a triangle have no point in common. */
-static bool apart(const double *p, const double *q, triangle t)
+/* Whether a segment's box has a point in common with another. */
+static ICCP_INLINE bool segment_reaches(const double *p, const double *q, const double *box)
 {
+    bool reaches = true;
     for (int k = 0; k < 3; ++k) {
         const double low = p[k] < q[k] ? p[k] : q[k], high = p[k] < q[k] ? q[k] : p[k];
-        if ((t[0][k] < low && t[1][k] < low && t[2][k] < low) ||
-            (t[0][k] > high && t[1][k] > high && t[2][k] > high))
-            return true;
+        reaches &= (low <= box[3 + k]) & (box[k] <= high);
     }
-    return false;
+    return reaches;
 }
 
-/* s[0] and t[0] are the common corner. The first test is for the many pairs round a corner, the
- * second for those of a smooth surface. */
+/* s[0] and t[0] are the common corner, and neither opposite side is out of reach. */
 static bool meet_at_corner(triangle s, triangle t)
 {
-    if (apart(s[1], s[2], t) && apart(t[1], t[2], s))
-        return false;
     if (beside(s, 2, t + 1) || beside(t, 2, s + 1))
         return false;
     return segment_meets(s[1], s[2], t) || segment_meets(t[1], t[2], s);
@@ -121,46 +117,85 @@ static bool meet_at_side(triangle s, triangle t)
            iccp_orient2d(shadow[0], shadow[1], other);
 }
 
-/* Lists the corners with the common ones first, in the same order in both. */
-static int match(const double *vertices, const uint32_t *s, const uint32_t *t, const double **a,
-                 const double **b)
+/* Bit 3 i + j is set where s[i] = t[j]. */
+static ICCP_INLINE unsigned match(const uint32_t *s, const uint32_t *t)
 {
-    int n = 0, n_other = 0;
-    bool taken[3] = {false, false, false};
-    const double *rest[3];
-    for (int i = 0; i < 3; ++i) {
-        int j = 0;
-        while (j < 3 && s[i] != t[j])
-            ++j;
-        if (j < 3) {
-            taken[j] = true;
-            a[n] = b[n] = vertices + 3 * (size_t)s[i];
-            ++n;
-        } else {
-            rest[n_other++] = vertices + 3 * (size_t)s[i];
-        }
+    unsigned same = 0;
+    for (unsigned i = 0; i < 3; ++i)
+        for (unsigned j = 0; j < 3; ++j)
+            same |= (unsigned)(s[i] == t[j]) << (3 * i + j);
+    return same;
+}
+
+/* The corners of a triangle, beginning with corner i. */
+static ICCP_INLINE void list_from(const double *vertices, const uint32_t *t, unsigned i,
+                                  const double **corners)
+{
+    static const unsigned next[5] = {0, 1, 2, 0, 1};
+    for (unsigned k = 0; k < 3; ++k)
+        corners[k] = vertices + 3 * (size_t)t[next[i + k]];
+}
+
+/* One bit of `same` is set. Most pairs are of this kind, and for most of them it is enough to look
+ * at boxes. */
+static ICCP_INLINE bool meet_at_one(const double *vertices, const uint32_t *s, const uint32_t *t,
+                                    unsigned same, const double *box_s, const double *box_t)
+{
+    const double *a[3], *b[3];
+    const unsigned i = same > 32 ? 2 : same > 4 ? 1 : 0, row = same >> 3 * i;
+    list_from(vertices, s, i, a);
+    list_from(vertices, t, row >> 1, b); /* 1, 2, 4: corner 0, 1, 2 */
+    const bool reach = segment_reaches(a[1], a[2], box_t) | segment_reaches(b[1], b[2], box_s);
+    return reach && meet_at_corner(a, b);
+}
+
+/* Two bits of `same` are set: lists the two corners first, in the same order in both. */
+static bool meet_at_two(const double *vertices, const uint32_t *s, const uint32_t *t, unsigned same)
+{
+    const double *a[3], *b[3];
+    int n = 0;
+    for (unsigned i = 0; i < 3; ++i)
+        for (unsigned j = 0; j < 3; ++j)
+            if (same >> (3 * i + j) & 1) {
+                a[n] = b[n] = vertices + 3 * (size_t)s[i];
+                ++n;
+            }
+    for (unsigned i = 0; i < 3; ++i) {
+        if ((same >> 3 * i & 7) == 0)
+            a[2] = vertices + 3 * (size_t)s[i];
+        if ((same >> i & 0111) == 0)
+            b[2] = vertices + 3 * (size_t)t[i];
     }
-    for (int i = 0; i < n_other; ++i)
-        a[n + i] = rest[i];
-    for (int j = 0, k = n; j < 3; ++j)
-        if (!taken[j])
-            b[k++] = vertices + 3 * (size_t)t[j];
-    return n;
+    return meet_at_side(a, b);
+}
+
+static void find_box(const double *vertices, const uint32_t *t, double *box)
+{
+    const iccp_facet_tree one = {.vertices = vertices, .facets = t};
+    iccp_facet_box_of(&one, 3, 3, 0, box);
+}
+
+static bool triangles_meet(const double *vertices, const uint32_t *s, const uint32_t *t,
+                           const double *box_s, const double *box_t)
+{
+    const unsigned same = match(s, t), others = same & (same - 1);
+    if (same == 0) {
+        const double *a[3], *b[3];
+        list_from(vertices, s, 0, a);
+        list_from(vertices, t, 0, b);
+        return meet_apart(a, b);
+    }
+    if (others == 0)
+        return meet_at_one(vertices, s, t, same, box_s, box_t);
+    return (others & (others - 1)) != 0 || meet_at_two(vertices, s, t, same);
 }
 
 bool iccp_triangles_meet(const double *vertices, const uint32_t *s, const uint32_t *t)
 {
-    const double *a[3], *b[3];
-    switch (match(vertices, s, t, a, b)) {
-    case 0:
-        return meet_apart(a, b);
-    case 1:
-        return meet_at_corner(a, b);
-    case 2:
-        return meet_at_side(a, b);
-    default:
-        return true;
-    }
+    double box_s[6], box_t[6];
+    find_box(vertices, s, box_s);
+    find_box(vertices, t, box_t);
+    return triangles_meet(vertices, s, t, box_s, box_t);
 }
 
 /* ------------------------------------------------------------ all pairs */
@@ -168,8 +203,8 @@ bool iccp_triangles_meet(const double *vertices, const uint32_t *s, const uint32
 typedef struct search {
     const iccp_facet_tree *tree;
     const iccp_env *env;
-    double *boxes; /* by place: 6 numbers, lower and upper */
-    bool met;
+    double *boxes;   /* by place: 6 numbers, lower and upper */
+    size_t first[2]; /* places of the first pair that meets, so far; tree->n: none */
     icc_status status;
 } search;
 
@@ -179,12 +214,18 @@ static ICCP_INLINE bool boxes_meet(const double *a, const double *b)
            (b[2] <= a[5]);
 }
 
-static bool places_meet(const search *s, size_t p, size_t q)
+/* Looks at a pair unless one before it is known. */
+static void compare_places(search *s, size_t p, size_t q)
 {
     const iccp_facet_tree *tree = s->tree;
-    return boxes_meet(s->boxes + 6 * p, s->boxes + 6 * q) &&
-           iccp_triangles_meet(tree->vertices, tree->facets + 3 * (size_t)tree->order[p],
-                               tree->facets + 3 * (size_t)tree->order[q]);
+    const double *box_p = s->boxes + 6 * p, *box_q = s->boxes + 6 * q;
+    if (!boxes_meet(box_p, box_q) || p > s->first[0] || (p == s->first[0] && q > s->first[1]))
+        return;
+    if (triangles_meet(tree->vertices, tree->facets + 3 * (size_t)tree->order[p],
+                       tree->facets + 3 * (size_t)tree->order[q], box_p, box_q)) {
+        s->first[0] = p;
+        s->first[1] = q;
+    }
 }
 
 static size_t leaf_start(const search *s, size_t node)
@@ -205,7 +246,7 @@ static void compare_in_leaf(search *s, size_t node)
         s->status = iccp_progress(s->env, "check", (double)start / (double)s->tree->n);
     for (size_t p = start; p < end; ++p)
         for (size_t q = p + 1; q < end; ++q)
-            s->met = s->met || places_meet(s, p, q);
+            compare_places(s, p, q);
 }
 
 static void compare_leaves(search *s, size_t a, size_t b)
@@ -215,7 +256,7 @@ static void compare_leaves(search *s, size_t a, size_t b)
     for (size_t p = leaf_start(s, a); p < end_a; ++p)
         if (boxes_meet(s->boxes + 6 * p, box))
             for (size_t q = start_b; q < end_b; ++q)
-                s->met = s->met || places_meet(s, p, q);
+                compare_places(s, p, q);
 }
 
 static double extent(const double *box)
@@ -223,12 +264,12 @@ static double extent(const double *box)
     return (box[3] - box[0]) + (box[4] - box[1]) + (box[5] - box[2]);
 }
 
-/* Compares the triangles below two nodes, none of which lies below the other. Of two boxes that
- * overlap the larger is halved. */
+/* Compares the triangles below two nodes, the places below the second being the later ones. Of two
+ * boxes that overlap the larger is halved. */
 static void compare(search *s, size_t a, size_t b)
 {
     const double *box_a = s->tree->boxes + 6 * a, *box_b = s->tree->boxes + 6 * b;
-    if (s->met || s->status != ICC_OK || !boxes_meet(box_a, box_b))
+    if (s->status != ICC_OK || !boxes_meet(box_a, box_b))
         return;
     const bool a_leaf = a >= s->tree->n_leaves, b_leaf = b >= s->tree->n_leaves;
     if (a_leaf && b_leaf) {
@@ -253,35 +294,9 @@ static void compare_within(search *s, size_t node)
     compare(s, 2 * node, 2 * node + 1);
 }
 
-/* The first pair in the order of the tree. */
-static icc_status find_first(const iccp_facet_tree *tree, uint32_t pair[2], const iccp_env *env)
-{
-    for (size_t place = 0; place < tree->n; ++place) {
-        if (place % 256 == 0) {
-            const icc_status status = iccp_progress(env, "check", (double)place / (double)tree->n);
-            if (status != ICC_OK)
-                return status;
-        }
-        const uint32_t f = tree->order[place];
-        iccp_facet_query query;
-        uint32_t g;
-        iccp_facet_query_start_after(&query, tree, place);
-        while (iccp_facet_query_next(&query, &g))
-            if (iccp_triangles_meet(tree->vertices, tree->facets + 3 * (size_t)f,
-                                    tree->facets + 3 * (size_t)g)) {
-                pair[0] = f < g ? f : g;
-                pair[1] = f < g ? g : f;
-                return ICC_OK;
-            }
-    }
-    return ICC_OK;
-}
-
-/* The tree is compared with itself, which says whether there is a pair; which is the first, one by
- * one. */
 icc_status iccp_triangles_find(const iccp_facet_tree *tree, uint32_t pair[2], const iccp_env *env)
 {
-    search s = {.tree = tree, .env = env};
+    search s = {.tree = tree, .env = env, .first = {tree->n, tree->n}};
     pair[0] = pair[1] = 0;
     s.boxes = iccp_alloc(&env->memory, tree->n, 6 * sizeof *s.boxes);
     if (s.boxes == NULL)
@@ -290,5 +305,10 @@ icc_status iccp_triangles_find(const iccp_facet_tree *tree, uint32_t pair[2], co
         iccp_facet_box_of(tree, 3, 3, tree->order[place], s.boxes + 6 * place);
     compare_within(&s, 1);
     iccp_free(&env->memory, s.boxes);
-    return s.status == ICC_OK && s.met ? find_first(tree, pair, env) : s.status;
+    if (s.status == ICC_OK && s.first[0] < tree->n) {
+        const uint32_t f = tree->order[s.first[0]], g = tree->order[s.first[1]];
+        pair[0] = f < g ? f : g;
+        pair[1] = f < g ? g : f;
+    }
+    return s.status;
 }
