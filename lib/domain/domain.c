@@ -149,7 +149,7 @@ static icc_status check_geometry(icc_domain *d, const iccp_env *env, icc_error *
 {
     icc_status status = iccp_simplicial_check_flat(&d->tree, err);
     if (status == ICC_OK && d->dim == 3)
-        status = iccp_simplicial_check_simple(&d->tree, &d->frame, env, err);
+        status = iccp_simplicial_check_simple(&d->tree, d->n_vertices, &d->frame, env, err);
     if (status == ICC_OK)
         status = iccp_simplicial_measure(&d->tree, &d->orientation, &d->measure, err);
     return status;

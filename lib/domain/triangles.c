@@ -4,8 +4,12 @@
  * of one meets the other: what they share beyond the corner reaches one of these sides. */
 #include "domain/triangles.h"
 
+#include "domain/fans.h"
 #include "domain/segment.h"
 #include "math/predicates.h"
+
+#include <float.h>
+#include <math.h>
 
 typedef const double *const *triangle;
 
@@ -85,7 +89,7 @@ static bool meet_apart(triangle s, triangle t)
 }
 
 /* Whether a segment's box has a point in common with another. */
-static ICCP_INLINE bool segment_reaches(const double *p, const double *q, const double *box)
+static ICCP_INLINE bool segment_reaches(const double *p, const double *q, const float *box)
 {
     bool reaches = true;
     for (int k = 0; k < 3; ++k) {
@@ -139,7 +143,7 @@ static ICCP_INLINE void list_from(const double *vertices, const uint32_t *t, uns
 /* One bit of `same` is set. Most pairs are of this kind, and for most of them it is enough to look
  * at boxes. */
 static ICCP_INLINE bool meet_at_one(const double *vertices, const uint32_t *s, const uint32_t *t,
-                                    unsigned same, const double *box_s, const double *box_t)
+                                    unsigned same, const float *box_s, const float *box_t)
 {
     const double *a[3], *b[3];
     const unsigned i = same > 32 ? 2 : same > 4 ? 1 : 0, row = same >> 3 * i;
@@ -169,33 +173,57 @@ static bool meet_at_two(const double *vertices, const uint32_t *s, const uint32_
     return meet_at_side(a, b);
 }
 
-static void find_box(const double *vertices, const uint32_t *t, double *box)
+/* As the search has triangles, in the order of the tree. */
+typedef struct place {
+    float box[6];       /* lower and upper, a little too large */
+    uint32_t triangle;  /* its number */
+    uint32_t corner[3]; /* its vertices round which no triangles meet; not a vertex: another */
+} place;
+
+/* Whether two triangles meet, if not round a vertex at which that is known to be impossible. */
+static bool places_meet(const double *vertices, const uint32_t *triangles, const place *p,
+                        const place *q)
 {
-    const iccp_facet_tree one = {.vertices = vertices, .facets = t};
-    iccp_facet_box_of(&one, 3, 3, 0, box);
+    const uint32_t *s = triangles + 3 * (size_t)p->triangle,
+                   *t = triangles + 3 * (size_t)q->triangle;
+    const double *a[3], *b[3];
+    if (match(p->corner, q->corner) != 0)
+        return false;
+    const unsigned same = match(s, t), others = same & (same - 1);
+    if (same != 0 && others == 0)
+        return meet_at_one(vertices, s, t, same, p->box, q->box);
+    if (same != 0)
+        return (others & (others - 1)) != 0 || meet_at_two(vertices, s, t, same);
+    list_from(vertices, s, 0, a);
+    list_from(vertices, t, 0, b);
+    return meet_apart(a, b);
 }
 
-static bool triangles_meet(const double *vertices, const uint32_t *s, const uint32_t *t,
-                           const double *box_s, const double *box_t)
+/* Rounded to float, and so that the box only grows. */
+static void round_box(const double *exact, float *box)
 {
-    const unsigned same = match(s, t), others = same & (same - 1);
-    if (same == 0) {
-        const double *a[3], *b[3];
-        list_from(vertices, s, 0, a);
-        list_from(vertices, t, 0, b);
-        return meet_apart(a, b);
+    for (int k = 0; k < 6; ++k) {
+        const float x = (float)exact[k], slack = fabsf(x) * 0x1p-22f + FLT_MIN;
+        box[k] = k < 3 ? x - slack : x + slack;
     }
-    if (others == 0)
-        return meet_at_one(vertices, s, t, same, box_s, box_t);
-    return (others & (others - 1)) != 0 || meet_at_two(vertices, s, t, same);
+}
+
+static void find_box(const double *vertices, const uint32_t *corners, float *box)
+{
+    double exact[6];
+    const iccp_facet_tree one = {.vertices = vertices, .facets = corners};
+    iccp_facet_box_of(&one, 3, 3, 0, exact);
+    round_box(exact, box);
 }
 
 bool iccp_triangles_meet(const double *vertices, const uint32_t *s, const uint32_t *t)
 {
-    double box_s[6], box_t[6];
-    find_box(vertices, s, box_s);
-    find_box(vertices, t, box_t);
-    return triangles_meet(vertices, s, t, box_s, box_t);
+    const uint32_t both[6] = {s[0], s[1], s[2], t[0], t[1], t[2]};
+    place p = {.corner = {UINT32_MAX, UINT32_MAX, UINT32_MAX}}, q = {.triangle = 1};
+    find_box(vertices, s, p.box);
+    find_box(vertices, t, q.box);
+    q.corner[0] = q.corner[1] = q.corner[2] = UINT32_MAX - 1;
+    return places_meet(vertices, both, &p, &q);
 }
 
 /* ------------------------------------------------------------ all pairs */
@@ -203,12 +231,18 @@ bool iccp_triangles_meet(const double *vertices, const uint32_t *s, const uint32
 typedef struct search {
     const iccp_facet_tree *tree;
     const iccp_env *env;
-    double *boxes;   /* by place: 6 numbers, lower and upper */
+    place *places;
     size_t first[2]; /* places of the first pair that meets, so far; tree->n: none */
     icc_status status;
 } search;
 
-static ICCP_INLINE bool boxes_meet(const double *a, const double *b)
+static ICCP_INLINE bool boxes_meet(const float *a, const float *b)
+{
+    return (a[0] <= b[3]) & (b[0] <= a[3]) & (a[1] <= b[4]) & (b[1] <= a[4]) & (a[2] <= b[5]) &
+           (b[2] <= a[5]);
+}
+
+static ICCP_INLINE bool nodes_meet(const double *a, const double *b)
 {
     return (a[0] <= b[3]) & (b[0] <= a[3]) & (a[1] <= b[4]) & (b[1] <= a[4]) & (a[2] <= b[5]) &
            (b[2] <= a[5]);
@@ -217,12 +251,10 @@ static ICCP_INLINE bool boxes_meet(const double *a, const double *b)
 /* Looks at a pair unless one before it is known. */
 static void compare_places(search *s, size_t p, size_t q)
 {
-    const iccp_facet_tree *tree = s->tree;
-    const double *box_p = s->boxes + 6 * p, *box_q = s->boxes + 6 * q;
-    if (!boxes_meet(box_p, box_q) || p > s->first[0] || (p == s->first[0] && q > s->first[1]))
+    const place *a = &s->places[p], *b = &s->places[q];
+    if (!boxes_meet(a->box, b->box) || p > s->first[0] || (p == s->first[0] && q > s->first[1]))
         return;
-    if (triangles_meet(tree->vertices, tree->facets + 3 * (size_t)tree->order[p],
-                       tree->facets + 3 * (size_t)tree->order[q], box_p, box_q)) {
+    if (places_meet(s->tree->vertices, s->tree->facets, a, b)) {
         s->first[0] = p;
         s->first[1] = q;
     }
@@ -251,10 +283,11 @@ static void compare_in_leaf(search *s, size_t node)
 
 static void compare_leaves(search *s, size_t a, size_t b)
 {
-    const double *box = s->tree->boxes + 6 * b;
     const size_t end_a = leaf_end(s, a), start_b = leaf_start(s, b), end_b = leaf_end(s, b);
+    float box[6];
+    round_box(s->tree->boxes + 6 * b, box);
     for (size_t p = leaf_start(s, a); p < end_a; ++p)
-        if (boxes_meet(s->boxes + 6 * p, box))
+        if (boxes_meet(s->places[p].box, box))
             for (size_t q = start_b; q < end_b; ++q)
                 compare_places(s, p, q);
 }
@@ -269,7 +302,7 @@ static double extent(const double *box)
 static void compare(search *s, size_t a, size_t b)
 {
     const double *box_a = s->tree->boxes + 6 * a, *box_b = s->tree->boxes + 6 * b;
-    if (s->status != ICC_OK || !boxes_meet(box_a, box_b))
+    if (s->status != ICC_OK || !nodes_meet(box_a, box_b))
         return;
     const bool a_leaf = a >= s->tree->n_leaves, b_leaf = b >= s->tree->n_leaves;
     if (a_leaf && b_leaf) {
@@ -294,17 +327,35 @@ static void compare_within(search *s, size_t node)
     compare(s, 2 * node, 2 * node + 1);
 }
 
-icc_status iccp_triangles_find(const iccp_facet_tree *tree, uint32_t pair[2], const iccp_env *env)
+/* Places of the triangles; of their corners those that `good` names. */
+static void fill_places(search *s, const uint8_t *good)
 {
+    const iccp_facet_tree *tree = s->tree;
+    for (size_t k = 0; k < tree->n; ++k) {
+        place *p = &s->places[k];
+        const uint32_t *corners = tree->facets + 3 * (size_t)tree->order[k];
+        p->triangle = tree->order[k];
+        find_box(tree->vertices, corners, p->box);
+        for (uint32_t i = 0; i < 3; ++i)
+            p->corner[i] = good[corners[i]] ? corners[i] : UINT32_MAX - 3 * p->triangle - i;
+    }
+}
+
+icc_status iccp_triangles_find(const iccp_facet_tree *tree, size_t n_vertices, uint32_t pair[2],
+                               const iccp_env *env)
+{
+    const iccp_memory *memory = &env->memory;
     search s = {.tree = tree, .env = env, .first = {tree->n, tree->n}};
+    uint8_t *good = iccp_fans_find(tree, n_vertices, memory);
+    s.places = iccp_alloc(memory, tree->n, sizeof *s.places);
+    s.status = good != NULL && s.places != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    if (s.status == ICC_OK) {
+        fill_places(&s, good);
+        compare_within(&s, 1);
+    }
+    iccp_free(memory, s.places);
+    iccp_free(memory, good);
     pair[0] = pair[1] = 0;
-    s.boxes = iccp_alloc(&env->memory, tree->n, 6 * sizeof *s.boxes);
-    if (s.boxes == NULL)
-        return ICC_ERR_MEMORY;
-    for (size_t place = 0; place < tree->n; ++place)
-        iccp_facet_box_of(tree, 3, 3, tree->order[place], s.boxes + 6 * place);
-    compare_within(&s, 1);
-    iccp_free(&env->memory, s.boxes);
     if (s.status == ICC_OK && s.first[0] < tree->n) {
         const uint32_t f = tree->order[s.first[0]], g = tree->order[s.first[1]];
         pair[0] = f < g ? f : g;

@@ -404,7 +404,7 @@ START_TEST(soups_are_searched)
         iccp_facet_tree tree;
         iccp_facet_tree_create(&tree, 3, vertices, N, faces, &env.memory);
         REQUIRE(tree.boxes != NULL);
-        REQUIRE(iccp_triangles_find(&tree, pair, &env) == ICC_OK);
+        REQUIRE(iccp_triangles_find(&tree, 3 * N, pair, &env) == ICC_OK);
         REQUIRE((pair[0] != pair[1]) == met);
         if (met)
             REQUIRE(iccp_triangles_meet(vertices, faces + 3 * pair[0], faces + 3 * pair[1]));
