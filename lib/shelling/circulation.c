@@ -176,8 +176,9 @@ static void relax_link(gate *gates, const uint32_t *step, size_t n_steps)
         const double along = sign * g->flux, room = fabs(along) - g->least;
         sum += g->weight * sign * (g->wanted - g->flux);
         weight += g->weight;
-        room_back = along > 0 && room < room_back ? room : room_back;
-        room_on = !(along > 0) && room < room_on ? room : room_on;
+        const double back = along > 0 ? room : HUGE_VAL, on = along > 0 ? HUGE_VAL : room;
+        room_back = back < room_back ? back : room_back;
+        room_on = on < room_on ? on : room_on;
     }
     const double best = FACTOR * sum / weight;
     const double round = best < -room_back ? -room_back : best > room_on ? room_on : best;
