@@ -109,7 +109,8 @@ typedef struct icc_env {
     size_t size; /**< set by the caller: `sizeof(icc_env)` */
     void *user;  /**< passed to every callback below */
     /** Memory for any type, or NULL if there is none. Set both or neither; must be
-     *  thread-safe when tasks run in parallel. Default: malloc and free. */
+     *  thread-safe when tasks run in parallel, or threads share an object made with them: a domain
+     *  allocates when the first point of it is located. Default: malloc and free. */
     void *(*alloc)(void *user, size_t size);
     /** Frees what `alloc` returned; never called with NULL. */
     void (*dealloc)(void *user, void *memory);

@@ -8,39 +8,34 @@
 #include <math.h>
 
 enum {
-    LEAF = 4, /* edges in a leaf */
+    LEAF = ICCP_BOXTREE_LEAF,
     DEEP = 64 /* more than any path is long */
 };
 
 static const iccp_box empty = {{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
 
-static void include(iccp_box *box, const double *lower, const double *upper)
+static iccp_box hull(iccp_box a, iccp_box b)
 {
     for (int k = 0; k < 2; ++k) {
-        box->lower[k] = lower[k] < box->lower[k] ? lower[k] : box->lower[k];
-        box->upper[k] = upper[k] > box->upper[k] ? upper[k] : box->upper[k];
+        a.lower[k] = b.lower[k] < a.lower[k] ? b.lower[k] : a.lower[k];
+        a.upper[k] = b.upper[k] > a.upper[k] ? b.upper[k] : a.upper[k];
     }
-}
-
-static bool overlap(const iccp_box *a, const iccp_box *b)
-{
-    return a->lower[0] <= b->upper[0] && b->lower[0] <= a->upper[0] && a->lower[1] <= b->upper[1] &&
-           b->lower[1] <= a->upper[1];
-}
-
-static iccp_box edge_box(const iccp_boxtree *tree, size_t edge)
-{
-    const double *a = tree->points + 2 * edge;
-    iccp_box box = empty;
-    include(&box, a, a);
-    include(&box, a + 2, a + 2);
-    return box;
+    return a;
 }
 
 static size_t leaf_end(const iccp_boxtree *tree, size_t node)
 {
     const size_t end = (node - tree->n_leaves + 1) * LEAF;
     return end < tree->n ? end : tree->n;
+}
+
+static iccp_box leaf_box(const iccp_boxtree *tree, size_t leaf)
+{
+    iccp_box box = empty;
+    const size_t end = leaf_end(tree, tree->n_leaves + leaf);
+    for (size_t edge = leaf * LEAF; edge < end; ++edge)
+        box = hull(box, iccp_boxtree_edge(tree, edge));
+    return box;
 }
 
 void iccp_boxtree_create(iccp_boxtree *tree, const double *points, size_t n,
@@ -52,14 +47,11 @@ void iccp_boxtree_create(iccp_boxtree *tree, const double *points, size_t n,
     tree->boxes = iccp_alloc(memory, 2 * tree->n_leaves, sizeof *tree->boxes);
     if (tree->boxes == NULL)
         return;
-    for (size_t node = 2 * tree->n_leaves; node-- > 0;)
-        tree->boxes[node] = empty;
-    for (size_t edge = 0; edge < n; ++edge) {
-        const iccp_box box = edge_box(tree, edge);
-        include(&tree->boxes[tree->n_leaves + edge / LEAF], box.lower, box.upper);
-    }
-    for (size_t node = 2 * tree->n_leaves; node-- > 2;)
-        include(&tree->boxes[node / 2], tree->boxes[node].lower, tree->boxes[node].upper);
+    tree->boxes[0] = empty;
+    for (size_t leaf = 0; leaf < tree->n_leaves; ++leaf)
+        tree->boxes[tree->n_leaves + leaf] = leaf_box(tree, leaf);
+    for (size_t node = tree->n_leaves; node-- > 1;)
+        tree->boxes[node] = hull(tree->boxes[2 * node], tree->boxes[2 * node + 1]);
 }
 
 void iccp_boxtree_free(iccp_boxtree *tree, const iccp_memory *memory)
@@ -71,7 +63,8 @@ void iccp_boxtree_free(iccp_boxtree *tree, const iccp_memory *memory)
 void iccp_boxtree_start(iccp_boxtree_query *query, const iccp_boxtree *tree, uint32_t after)
 {
     const size_t first = (size_t)after + 1;
-    *query = (iccp_boxtree_query){.tree = tree, .box = edge_box(tree, after), .next = first};
+    *query =
+        (iccp_boxtree_query){.tree = tree, .box = iccp_boxtree_edge(tree, after), .next = first};
     query->node = tree->n_leaves + after / LEAF;
     query->end = leaf_end(tree, query->node);
 }
@@ -89,7 +82,7 @@ static bool next_leaf(iccp_boxtree_query *query)
     const iccp_boxtree *tree = query->tree;
     size_t node = skip(query->node);
     while (node != 0) {
-        if (!overlap(&tree->boxes[node], &query->box))
+        if (!iccp_boxes_meet(&tree->boxes[node], &query->box))
             node = skip(node);
         else if (node < tree->n_leaves)
             node = 2 * node;
@@ -109,8 +102,8 @@ bool iccp_boxtree_next(iccp_boxtree_query *query, uint32_t *edge)
     do {
         while (query->next < query->end) {
             const size_t e = query->next++;
-            const iccp_box box = edge_box(query->tree, e);
-            if (overlap(&box, &query->box)) {
+            const iccp_box box = iccp_boxtree_edge(query->tree, e);
+            if (iccp_boxes_meet(&box, &query->box)) {
                 *edge = (uint32_t)e;
                 return true;
             }

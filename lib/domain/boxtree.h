@@ -7,9 +7,17 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+enum { ICCP_BOXTREE_LEAF = 4 }; /* edges in a leaf */
+
 typedef struct iccp_box {
     double lower[2], upper[2];
 } iccp_box;
+
+static inline bool iccp_boxes_meet(const iccp_box *a, const iccp_box *b)
+{
+    return a->lower[0] <= b->upper[0] && b->lower[0] <= a->upper[0] && a->lower[1] <= b->upper[1] &&
+           b->lower[1] <= a->upper[1];
+}
 
 /* A complete binary tree stored as a heap: node i has children 2 i and 2 i + 1, node 1 is the root.
  * Leaf n_leaves + j holds edges 4 j to 4 j + 3; boxes of leaves beyond the last edge are empty. */
@@ -20,10 +28,17 @@ typedef struct iccp_boxtree {
     iccp_box *boxes;
 } iccp_boxtree;
 
-/* Coordinates that are NaN belong to no box. tree->boxes is NULL if there is no memory. */
+/* An edge with a coordinate that is NaN may be in no box. tree->boxes is NULL if there is no memory. */
 void iccp_boxtree_create(iccp_boxtree *tree, const double *points, size_t n,
                          const iccp_memory *memory);
 void iccp_boxtree_free(iccp_boxtree *tree, const iccp_memory *memory);
+
+static inline iccp_box iccp_boxtree_edge(const iccp_boxtree *tree, size_t edge)
+{
+    const double *a = tree->points + 2 * edge, *b = a + 2;
+    return (iccp_box){{a[0] < b[0] ? a[0] : b[0], a[1] < b[1] ? a[1] : b[1]},
+                      {a[0] > b[0] ? a[0] : b[0], a[1] > b[1] ? a[1] : b[1]}};
+}
 
 /* Lists the edges after edge `after` whose boxes meet that of `after`, in ascending order. */
 typedef struct iccp_boxtree_query {

@@ -46,11 +46,11 @@ static uint32_t slot(const iccp_buckets *b, int axis, double x)
  * polygon along the axes, edges cross about Lx / hx + Ly / hy sides of cells, which for a given
  * area of cells is least when hx / hy = Lx / Ly. Column 0 lies outside the box, so each row starts
  * outside. */
-static void choose_cells(iccp_buckets *b, const iccp_polygon *polygon)
+static void choose_cells(iccp_buckets *b)
 {
-    const double slack = SLACK * b->band.reach, n = (double)polygon->n;
+    const double slack = SLACK * b->band.reach, n = (double)b->n;
     double length[2] = {0, 0}, side[2], count[2];
-    for (size_t k = 0; k < polygon->n; ++k)
+    for (size_t k = 0; k < b->n; ++k)
         for (int axis = 0; axis < 2; ++axis)
             length[axis] += fabs(edge_start(b, k)[2 + axis] - edge_start(b, k)[axis]);
     for (int axis = 0; axis < 2; ++axis) {
@@ -176,22 +176,25 @@ static void explore_row(iccp_buckets *b, uint32_t row)
     }
 }
 
-icc_status iccp_buckets_create(iccp_buckets *buckets, const iccp_polygon *polygon,
-                               const double *lower, const double *upper, const iccp_band *band,
-                               const iccp_memory *memory)
+void iccp_buckets_start(iccp_buckets *buckets, const iccp_polygon *polygon, const double *lower,
+                        const double *upper, const iccp_band *band)
+{
+    *buckets = (iccp_buckets){.points = polygon->points, .n = polygon->n, .band = *band};
+    for (int axis = 0; axis < 2; ++axis) {
+        buckets->lower[axis] = lower[axis] - band->reach;
+        buckets->upper[axis] = upper[axis] + band->reach;
+    }
+}
+
+icc_status iccp_buckets_fill(iccp_buckets *buckets, const iccp_memory *memory)
 {
     iccp_buckets *const b = buckets;
-    *b = (iccp_buckets){.points = polygon->points, .band = *band};
-    for (int axis = 0; axis < 2; ++axis) {
-        b->lower[axis] = lower[axis] - band->reach;
-        b->upper[axis] = upper[axis] + band->reach;
-    }
-    choose_cells(b, polygon);
+    choose_cells(b);
     const size_t n_cells = (size_t)b->size[0] * b->size[1];
     b->cells = iccp_alloc_zero(memory, n_cells + 1, sizeof *b->cells);
     if (b->cells == NULL)
         return ICC_ERR_MEMORY;
-    for (uint32_t edge = 0; edge < polygon->n; ++edge)
+    for (uint32_t edge = 0; edge < b->n; ++edge)
         enter(b, edge, NULL);
     uint32_t n_entries = 0;
     for (size_t i = 0; i <= n_cells; ++i)
@@ -201,7 +204,7 @@ icc_status iccp_buckets_create(iccp_buckets *buckets, const iccp_polygon *polygo
         iccp_buckets_free(b, memory);
         return ICC_ERR_MEMORY;
     }
-    for (uint32_t edge = (uint32_t)polygon->n; edge-- > 0;)
+    for (uint32_t edge = (uint32_t)b->n; edge-- > 0;)
         enter(b, edge, b->edges);
     for (uint32_t row = 0; row < b->size[1]; ++row)
         explore_row(b, row);
@@ -237,25 +240,16 @@ static bool in_band(const iccp_buckets *b, const double *a, double t, const doub
     return !iccp_band_is_wide(&b->band) || iccp_band_holds(&b->band, 2, gap);
 }
 
-iccp_location iccp_buckets_find(const iccp_buckets *buckets, const double *point)
+/* Looks at edges[0] .. edges[n - 1], or edges 0 .. n - 1, from a point q on none of them that is
+ * known to be inside or not. */
+static iccp_location look(const iccp_buckets *b, size_t n, const uint32_t *edges, const double *q,
+                          bool inside, const double *point)
 {
-    const iccp_buckets *const b = buckets;
     iccp_location place = {ICC_OUTSIDE, 0, 0};
-    if (!(point[0] >= b->lower[0] && point[0] <= b->upper[0] && point[1] >= b->lower[1] &&
-          point[1] <= b->upper[1]))
-        return place;
-    const uint32_t row = slot(b, 1, point[1]), column = slot(b, 0, point[0]);
-    const iccp_bucket *cell = b->cells + (size_t)row * b->size[0] + column;
-    bool inside = cell->state & 1;
-    if (cell->first == cell[1].first) {
-        place.where = inside ? ICC_INSIDE : ICC_OUTSIDE;
-        return place;
-    }
     const double p[2] = {digestible(point[0]), digestible(point[1])};
-    double q[2], best = b->band.reach * b->band.reach;
-    candidate(b, row, column, cell->state / 2, q);
-    for (uint32_t i = cell->first; i < cell[1].first; ++i) {
-        const uint32_t edge = b->edges[i];
+    double best = b->band.reach * b->band.reach;
+    for (size_t i = 0; i < n; ++i) {
+        const uint32_t edge = edges != NULL ? edges[i] : (uint32_t)i;
         const double *a = edge_start(b, edge);
         double t;
         if (!far_from(a, p, b->band.reach)) {
@@ -271,4 +265,23 @@ iccp_location iccp_buckets_find(const iccp_buckets *buckets, const double *point
     if (place.where != ICC_BOUNDARY)
         place.where = inside ? ICC_INSIDE : ICC_OUTSIDE;
     return place;
+}
+
+iccp_location iccp_buckets_find(const iccp_buckets *buckets, const double *point)
+{
+    const iccp_buckets *const b = buckets;
+    double q[2] = {b->lower[0] - 1, b->lower[1] - 1};
+    if (!(point[0] >= b->lower[0] && point[0] <= b->upper[0] && point[1] >= b->lower[1] &&
+          point[1] <= b->upper[1]))
+        return (iccp_location){ICC_OUTSIDE, 0, 0};
+    if (b->cells == NULL)
+        return look(b, b->n, NULL, q, false, point);
+    const uint32_t row = slot(b, 1, point[1]), column = slot(b, 0, point[0]);
+    const iccp_bucket *cell = b->cells + (size_t)row * b->size[0] + column;
+    const bool inside = cell->state & 1;
+    const size_t n = cell[1].first - cell->first;
+    if (n == 0)
+        return (iccp_location){inside ? ICC_INSIDE : ICC_OUTSIDE, 0, 0};
+    candidate(b, row, column, cell->state / 2, q);
+    return look(b, n, b->edges + cell->first, q, inside, point);
 }

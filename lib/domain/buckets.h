@@ -15,12 +15,13 @@ typedef struct iccp_bucket {
 
 typedef struct iccp_buckets {
     const double *points;      /* the polygon's, borrowed */
+    size_t n;                  /* its edges */
     double lower[2], upper[2]; /* beyond this box everything is outside */
     double origin[2];
     double step[2], rate[2]; /* size of a cell, and 1 / size */
     uint32_t size[2];        /* cells along x and y */
     iccp_band band;
-    iccp_bucket *cells; /* one more than there are cells */
+    iccp_bucket *cells; /* one more than there are cells; NULL: none yet */
     uint32_t *edges;    /* positions in the polygon, cell by cell */
 } iccp_buckets;
 
@@ -31,13 +32,15 @@ typedef struct iccp_location {
     double t;      /* and the share of the way along it */
 } iccp_location;
 
-/* For a simple polygon in a box; points in the band count as on it. */
-icc_status iccp_buckets_create(iccp_buckets *buckets, const iccp_polygon *polygon,
-                               const double *lower, const double *upper, const iccp_band *band,
-                               const iccp_memory *memory);
+/* For a simple polygon in a box; points in the band count as on it. There are no cells yet. */
+void iccp_buckets_start(iccp_buckets *buckets, const iccp_polygon *polygon, const double *lower,
+                        const double *upper, const iccp_band *band);
+/* Makes the cells. ICC_ERR_MEMORY, and nothing is left of them, if there is no memory. */
+icc_status iccp_buckets_fill(iccp_buckets *buckets, const iccp_memory *memory);
 void iccp_buckets_free(iccp_buckets *buckets, const iccp_memory *memory);
 
-/* Exact but for the band. A point that is not finite is outside. */
+/* Exact but for the band. A point that is not finite is outside. Where there are no cells all edges
+ * are looked at, with the same result. */
 iccp_location iccp_buckets_find(const iccp_buckets *buckets, const double *p);
 
 #endif

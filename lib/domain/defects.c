@@ -2,7 +2,6 @@
  * of it need be kept. */
 #include "domain/defects.h"
 
-#include "domain/boxtree.h"
 #include "domain/point_order.h"
 #include "domain/segment.h"
 #include "math/predicates.h"
@@ -16,7 +15,7 @@ static const uint32_t NONE = UINT32_MAX;
 
 typedef struct walk {
     const iccp_polygon *polygon;
-    iccp_boxtree tree;
+    const iccp_boxtree *tree;
     uint32_t *order; /* finite points by x, y, index */
     uint32_t *twin;  /* the next point equal to this one, by index */
     size_t n_finite;
@@ -109,7 +108,7 @@ static void visit(walk *w, uint32_t a)
         emit(w, ICC_DEFECT_SPIKE, a, a);
     uint32_t twin = w->twin[a], b;
     iccp_boxtree_query query;
-    iccp_boxtree_start(&query, &w->tree, a);
+    iccp_boxtree_start(&query, w->tree, a);
     while (!done(w) && iccp_boxtree_next(&query, &b)) {
         ++w->n_pairs;
         const int32_t kind = meet(w, a, b);
@@ -158,21 +157,21 @@ static icc_status run(walk *w, const iccp_env *env)
 /* Both uses in one: the list of everything, and the first defect for at most `patience` pairs of
  * edges. Stops after `enough` defects. */
 static icc_status list_up_to(iccp_defect_list *list, size_t enough, size_t patience,
-                             const iccp_polygon *polygon, const iccp_env *env)
+                             const iccp_polygon *polygon, const iccp_boxtree *tree,
+                             const iccp_env *env)
 {
     const iccp_memory *memory = &env->memory;
-    walk w = {.polygon = polygon, .list = list, .enough = enough, .patience = patience};
+    walk w = {
+        .polygon = polygon, .tree = tree, .list = list, .enough = enough, .patience = patience};
     w.order = iccp_alloc(memory, polygon->n, sizeof *w.order);
     w.twin = iccp_alloc(memory, polygon->n, sizeof *w.twin);
     uint32_t *work = iccp_alloc(memory, polygon->n, sizeof *work);
-    iccp_boxtree_create(&w.tree, polygon->points, polygon->n, memory);
     icc_status status = ICC_ERR_MEMORY;
     list->n = 0;
-    if (w.order != NULL && w.twin != NULL && work != NULL && w.tree.boxes != NULL) {
+    if (w.order != NULL && w.twin != NULL && work != NULL) {
         find_twins(&w, work);
         status = run(&w, env);
     }
-    iccp_boxtree_free(&w.tree, memory);
     iccp_free(memory, work);
     iccp_free(memory, w.twin);
     iccp_free(memory, w.order);
@@ -180,17 +179,18 @@ static icc_status list_up_to(iccp_defect_list *list, size_t enough, size_t patie
 }
 
 icc_status iccp_defects_list(iccp_defect_list *list, const iccp_polygon *polygon,
-                             const iccp_env *env)
+                             const iccp_boxtree *tree, const iccp_env *env)
 {
-    return list_up_to(list, SIZE_MAX, SIZE_MAX, polygon, env);
+    return list_up_to(list, SIZE_MAX, SIZE_MAX, polygon, tree, env);
 }
 
-icc_status iccp_defects_first(iccp_defect *first, const iccp_polygon *polygon, const iccp_env *env)
+icc_status iccp_defects_first(iccp_defect *first, const iccp_polygon *polygon,
+                              const iccp_boxtree *tree, const iccp_env *env)
 {
     int32_t kind = 0;
     uint32_t items[2] = {0, 0};
     iccp_defect_list list = {.capacity = 1, .kinds = &kind, .items = items};
-    const icc_status status = list_up_to(&list, 1, PATIENCE * polygon->n, polygon, env);
+    const icc_status status = list_up_to(&list, 1, PATIENCE * polygon->n, polygon, tree, env);
     *first = (iccp_defect){kind, items[0], items[1]};
     return status;
 }

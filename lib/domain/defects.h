@@ -2,6 +2,7 @@
 #ifndef ICCP_DEFECTS_H
 #define ICCP_DEFECTS_H
 
+#include "domain/boxtree.h"
 #include "domain/defect.h"
 #include "domain/polygon.h"
 
@@ -13,12 +14,13 @@ typedef struct iccp_defect_list {
     size_t n;        /* also beyond capacity */
 } iccp_defect_list;
 
-/* Points whose coordinates are NaN are listed as not finite. */
+/* `tree` is the polygon's. Points whose coordinates are NaN are listed as not finite. */
 icc_status iccp_defects_list(iccp_defect_list *list, const iccp_polygon *polygon,
-                             const iccp_env *env);
+                             const iccp_boxtree *tree, const iccp_env *env);
 
 /* The first of that list, or kind 0 if there is none or it takes long to find: only a number of
  * pairs of edges proportional to n is looked at. */
-icc_status iccp_defects_first(iccp_defect *first, const iccp_polygon *polygon, const iccp_env *env);
+icc_status iccp_defects_first(iccp_defect *first, const iccp_polygon *polygon,
+                              const iccp_boxtree *tree, const iccp_env *env);
 
 #endif

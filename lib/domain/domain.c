@@ -17,7 +17,7 @@ static icc_status copy_boundary(icc_domain *d, const double *vertices, const uin
 {
     const size_t dim = (size_t)d->dim, n = d->n_vertices;
     d->given = iccp_alloc(&d->memory, n, dim * sizeof *d->given);
-    d->vertices = iccp_alloc(&d->memory, n, dim * sizeof *d->vertices);
+    d->vertices = iccp_alloc(&d->memory, n + 1, dim * sizeof *d->vertices);
     d->facets = iccp_alloc(&d->memory, d->n_facets, dim * sizeof *d->facets);
     if (d->given == NULL || d->vertices == NULL || d->facets == NULL)
         return iccp_fail_memory(err);
@@ -41,13 +41,8 @@ static void measure_box(icc_domain *d)
 {
     const size_t dim = (size_t)d->dim;
     double longest = 0, given[2][ICC_MAX_DIM], largest[ICC_MAX_DIM];
+    iccp_frame_bounds(d->dim, d->n_vertices, d->vertices, d->lower, d->upper);
     for (size_t k = 0; k < dim; ++k) {
-        d->lower[k] = d->upper[k] = d->vertices[k];
-        for (size_t i = 1; i < d->n_vertices; ++i) {
-            const double x = d->vertices[dim * i + k];
-            d->lower[k] = x < d->lower[k] ? x : d->lower[k];
-            d->upper[k] = x > d->upper[k] ? x : d->upper[k];
-        }
         const double side = d->upper[k] - d->lower[k];
         longest = side > longest ? side : longest;
     }
@@ -74,24 +69,37 @@ static void view_tree(icc_domain *d)
                                 .order = d->locator->polygon.facet};
 }
 
+static icc_status check_polygon(const icc_domain *d, const iccp_polygon *polygon,
+                                iccp_boxtree *tree, const iccp_env *env, icc_error *err)
+{
+    iccp_boxtree_create(tree, polygon->points, polygon->n, &d->memory);
+    if (tree->boxes == NULL)
+        return iccp_fail_memory(err);
+    return iccp_polygon_check(polygon, tree, &d->frame, env, err);
+}
+
 /* Everything that follows from the copied boundary. */
 static icc_status complete_polygon(icc_domain *d, const iccp_env *env, icc_error *err)
 {
     const size_t n = d->n_vertices;
     iccp_polygon polygon = {0};
+    iccp_boxtree tree = {0};
     icc_status status = iccp_polygon_localise(&d->frame, d->vertices, n, d->given, err);
-    if (status == ICC_OK)
+    if (status == ICC_OK) {
+        memcpy(d->vertices + 2 * n, d->vertices, 2 * sizeof *d->vertices);
         status = iccp_polygon_create(&polygon, n, d->vertices, d->facets, &d->memory, err);
+    }
     if (status == ICC_OK)
-        status = iccp_polygon_check(&polygon, &d->frame, env, err);
+        status = check_polygon(d, &polygon, &tree, env, err);
     if (status != ICC_OK) {
+        iccp_boxtree_free(&tree, &d->memory);
         iccp_polygon_free(&polygon, &d->memory);
         return status;
     }
     measure_box(d);
     d->orientation = iccp_polygon_orientation(&polygon);
     d->measure = iccp_polygon_area(&polygon);
-    d->locator = iccp_locator_create(&polygon, d->lower, d->upper, &d->band, &d->memory);
+    d->locator = iccp_locator_create(&polygon, &tree, d->lower, d->upper, &d->band, &d->memory);
     if (d->locator == NULL)
         return iccp_fail_memory(err);
     view_tree(d);
@@ -142,7 +150,7 @@ static icc_status check_geometry(icc_domain *d, const iccp_env *env, icc_error *
 {
     icc_status status = iccp_simplicial_check_flat(&d->tree, err);
     if (status == ICC_OK && d->dim == 3)
-        status = iccp_simplicial_check_simple(&d->tree, &d->frame, env, err);
+        status = iccp_simplicial_check_simple(&d->tree, d->n_vertices, &d->frame, env, err);
     if (status == ICC_OK)
         status = iccp_simplicial_measure(&d->tree, &d->orientation, &d->measure, err);
     return status;

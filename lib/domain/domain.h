@@ -31,7 +31,8 @@ struct icc_domain {
                             coordinates alike */
     size_t n_vertices, n_facets;
     double *given;    /* n_vertices * dim, as the caller gave them */
-    double *vertices; /* n_vertices * dim, local: what everything else works with. One that belongs
+    double *vertices; /* n_vertices * dim, local: what everything else works with. In 2-D the first
+                         follows once more. One that belongs
                          to no facet, which polygons do not have, is a copy of one that does. */
     uint32_t *facets; /* n_facets * dim vertex indices, as given or made up */
     iccp_frame frame;

@@ -1,6 +1,5 @@
 /* A tree of boxes halved at the median of the facets' centres along the longest side: C. Ericson,
- * Real-Time Collision Detection, sections 6.2 and 6.6. The halving runs level by level, without
- * recursion. */
+ * Real-Time Collision Detection, sections 6.2 and 6.6. */
 #include "domain/facet_tree.h"
 
 #include "base/minmax.h"
@@ -19,63 +18,78 @@ static void include(size_t dim, double *box, const double *other)
     }
 }
 
+/* While the tree is made a facet is a row: its centre, dim numbers, and its own number. Rows move as
+ * a whole, so that they are read one after the other. */
+
 /* The axis along which the centres spread most. */
-static size_t widest_axis(size_t dim, const double *centres, const uint32_t *order, size_t n)
+static ICCP_INLINE size_t widest_axis(size_t dim, const double *rows, size_t n)
 {
+    double low[ICC_MAX_DIM], high[ICC_MAX_DIM], most = -1;
     size_t widest = 0;
-    double most = -1;
-    for (size_t k = 0; k < dim; ++k) {
-        double low = HUGE_VAL, high = -HUGE_VAL;
-        for (size_t i = 0; i < n; ++i) {
-            const double x = centres[dim * order[i] + k];
-            low = x < low ? x : low;
-            high = x > high ? x : high;
+    for (size_t k = 0; k < dim; ++k)
+        low[k] = high[k] = rows[k];
+    for (size_t i = 1; i < n; ++i)
+        for (size_t k = 0; k < dim; ++k) {
+            const double x = rows[(dim + 1) * i + k];
+            low[k] = x < low[k] ? x : low[k];
+            high[k] = x > high[k] ? x : high[k];
         }
-        if (high - low > most) {
-            most = high - low;
+    for (size_t k = 0; k < dim; ++k)
+        if (high[k] - low[k] > most) {
+            most = high[k] - low[k];
             widest = k;
         }
-    }
     return widest;
 }
 
-typedef struct sorter {
-    const double *keys; /* of facet f: keys[stride f] */
-    size_t stride;
-} sorter;
+/* What rows are sorted by: a coordinate of the centre; of equal ones the smaller number comes
+ * first. */
+typedef struct sort_key {
+    double at, number;
+} sort_key;
 
-/* A strict order: of equal keys the smaller number comes first. */
-static bool before(const sorter *s, uint32_t a, uint32_t b)
+static ICCP_INLINE sort_key key_of(size_t dim, const double *row, size_t axis)
 {
-    const double x = s->keys[s->stride * a], y = s->keys[s->stride * b];
-    return x < y || (x == y && a < b);
+    return (sort_key){row[axis], row[dim]};
 }
 
-static uint32_t middle_of_three(const sorter *s, uint32_t a, uint32_t b, uint32_t c)
+static ICCP_INLINE bool before(sort_key a, sort_key b)
 {
-    if (before(s, a, b))
-        return before(s, b, c) ? b : before(s, a, c) ? c : a;
-    return before(s, a, c) ? a : before(s, b, c) ? c : b;
+    return a.at < b.at || (a.at == b.at && a.number < b.number);
+}
+
+static sort_key middle_of_three(sort_key a, sort_key b, sort_key c)
+{
+    if (before(a, b))
+        return before(b, c) ? b : before(a, c) ? c : a;
+    return before(a, c) ? a : before(b, c) ? c : b;
 }
 
 /* C. A. R. Hoare, Algorithm 65: Find, 1961: puts the n_first smallest of n at the beginning. */
-static void split(const sorter *s, uint32_t *order, ptrdiff_t n_first, ptrdiff_t n)
+static ICCP_INLINE void split(size_t dim, double *rows, size_t axis, ptrdiff_t n_first, ptrdiff_t n)
 {
+    const ptrdiff_t width = (ptrdiff_t)dim + 1;
     ptrdiff_t low = 0, high = n - 1;
     while (low < high) {
-        const uint32_t pivot =
-            middle_of_three(s, order[low], order[low + (high - low) / 2], order[high]);
+        const sort_key pivot =
+            middle_of_three(key_of(dim, rows + width * low, axis),
+                            key_of(dim, rows + width * (low + (high - low) / 2), axis),
+                            key_of(dim, rows + width * high, axis));
         ptrdiff_t i = low, j = high;
         while (i <= j) {
-            while (before(s, order[i], pivot))
+            while (before(key_of(dim, rows + width * i, axis), pivot))
                 ++i;
-            while (before(s, pivot, order[j]))
+            while (before(pivot, key_of(dim, rows + width * j, axis)))
                 --j;
             if (i > j)
                 break;
-            const uint32_t swap = order[i];
-            order[i++] = order[j];
-            order[j--] = swap;
+            for (ptrdiff_t k = 0; k < width; ++k) {
+                const double swap = rows[width * i + k];
+                rows[width * i + k] = rows[width * j + k];
+                rows[width * j + k] = swap;
+            }
+            ++i;
+            --j;
         }
         if (j < n_first)
             low = i;
@@ -84,17 +98,21 @@ static void split(const sorter *s, uint32_t *order, ptrdiff_t n_first, ptrdiff_t
     }
 }
 
-static void arrange(iccp_facet_tree *tree, const double *centres)
+/* Arranges n rows at the places of `size`, one half after the other: what is small enough stays in
+ * the cache. Paths through the tree are short enough for recursion. */
+static void arrange(size_t dim, double *rows, size_t n, size_t size)
 {
-    for (uint32_t f = 0; f < tree->n; ++f)
-        tree->order[f] = f;
-    for (size_t size = tree->n_leaves * LEAF; size > LEAF; size /= 2)
-        for (size_t first = 0; first + size / 2 < tree->n; first += size) {
-            const size_t n = tree->n - first < size ? tree->n - first : size;
-            const size_t axis = widest_axis(tree->dim, centres, tree->order + first, n);
-            const sorter s = {centres + axis, tree->dim};
-            split(&s, tree->order + first, (ptrdiff_t)(size / 2), (ptrdiff_t)n);
-        }
+    const size_t half = size / 2;
+    if (size <= LEAF)
+        return;
+    if (n > half) {
+        if (dim == 3)
+            split(3, rows, widest_axis(3, rows, n), (ptrdiff_t)half, (ptrdiff_t)n);
+        else
+            split(dim, rows, widest_axis(dim, rows, n), (ptrdiff_t)half, (ptrdiff_t)n);
+        arrange(dim, rows + (dim + 1) * half, n - half, half);
+    }
+    arrange(dim, rows, n < half ? n : half, half);
 }
 
 static void fill_boxes(iccp_facet_tree *tree)
@@ -118,11 +136,11 @@ static void make(iccp_facet_tree *tree, const iccp_memory *memory)
     tree->n_leaves = 1;
     while (tree->n_leaves * LEAF < n)
         tree->n_leaves *= 2;
-    double *centres = iccp_alloc(memory, n, dim * sizeof *centres);
+    double *rows = iccp_alloc(memory, n, (dim + 1) * sizeof *rows);
     tree->order = iccp_alloc(memory, n, sizeof *tree->order);
     tree->boxes = iccp_alloc(memory, 2 * tree->n_leaves, 2 * dim * sizeof *tree->boxes);
-    if (centres == NULL || tree->order == NULL || tree->boxes == NULL) {
-        iccp_free(memory, centres);
+    if (rows == NULL || tree->order == NULL || tree->boxes == NULL) {
+        iccp_free(memory, rows);
         iccp_facet_tree_free(tree, memory);
         return;
     }
@@ -130,11 +148,14 @@ static void make(iccp_facet_tree *tree, const iccp_memory *memory)
         double box[2 * ICC_MAX_DIM];
         iccp_facet_box(tree, f, box);
         for (size_t k = 0; k < dim; ++k)
-            centres[dim * f + k] = box[k] + box[dim + k];
+            rows[(dim + 1) * f + k] = box[k] + box[dim + k];
+        rows[(dim + 1) * f + dim] = f;
     }
-    arrange(tree, centres);
+    arrange(dim, rows, n, tree->n_leaves * LEAF);
+    for (size_t place = 0; place < n; ++place)
+        tree->order[place] = (uint32_t)rows[(dim + 1) * place + dim];
     fill_boxes(tree);
-    iccp_free(memory, centres);
+    iccp_free(memory, rows);
 }
 
 void iccp_facet_tree_create(iccp_facet_tree *tree, size_t dim, const double *vertices, size_t n,

@@ -1,19 +1,41 @@
 #include "domain/frame.h"
 
+#include "base/compiler.h"
+
 #include <math.h>
 
 const iccp_frame iccp_frame_identity = {{0}, {1, 1}, {1, 1}};
 
-/* The coordinate that axis k is shifted by; see the lemma in the header. The doubling overflows to
- * infinity at worst, which compares as it should. */
-static double axis_shift(int32_t dim, int32_t k, size_t n, const double *points)
+static ICCP_INLINE void find_bounds(size_t dim, size_t n, const double *points, double *lowest,
+                                    double *highest)
 {
-    double lowest = points[k], highest = points[k];
-    for (size_t i = 1; i < n; ++i) {
-        const double x = points[i * (size_t)dim + (size_t)k];
-        lowest = x < lowest ? x : lowest;
-        highest = x > highest ? x : highest;
+    double low[ICC_MAX_DIM], high[ICC_MAX_DIM];
+    for (size_t k = 0; k < dim; ++k)
+        low[k] = high[k] = points[k];
+    for (size_t i = 1; i < n; ++i)
+        for (size_t k = 0; k < dim; ++k) {
+            const double x = points[dim * i + k];
+            low[k] = x < low[k] ? x : low[k];
+            high[k] = x > high[k] ? x : high[k];
+        }
+    for (size_t k = 0; k < dim; ++k) {
+        lowest[k] = low[k];
+        highest[k] = high[k];
     }
+}
+
+void iccp_frame_bounds(int32_t dim, size_t n, const double *points, double *lowest, double *highest)
+{
+    if (dim == 2)
+        find_bounds(2, n, points, lowest, highest);
+    else
+        find_bounds((size_t)dim, n, points, lowest, highest);
+}
+
+/* The coordinate that an axis is shifted by; see the lemma in the header. The doubling overflows to
+ * infinity at worst, which compares as it should. */
+static double shift_of(double lowest, double highest)
+{
     if (lowest > 0 && highest <= 2 * lowest)
         return lowest;
     if (highest < 0 && lowest >= 2 * highest)
@@ -21,15 +43,16 @@ static double axis_shift(int32_t dim, int32_t k, size_t n, const double *points)
     return 0;
 }
 
+/* Rounding keeps the order, so the largest magnitude is that of a bound. */
 void iccp_frame_fit(iccp_frame *frame, int32_t dim, size_t n, const double *points)
 {
+    double lowest[ICC_MAX_DIM], highest[ICC_MAX_DIM], largest = 0;
     *frame = iccp_frame_identity;
-    for (int32_t k = 0; k < dim; ++k)
-        frame->shift[k] = axis_shift(dim, k, n, points);
-    double largest = 0;
-    for (size_t i = 0; i < n * (size_t)dim; ++i) {
-        const double x = fabs(points[i] - frame->shift[i % (size_t)dim]);
-        largest = x > largest ? x : largest;
+    iccp_frame_bounds(dim, n, points, lowest, highest);
+    for (int32_t k = 0; k < dim; ++k) {
+        frame->shift[k] = shift_of(lowest[k], highest[k]);
+        largest = fmax(largest, fabs(lowest[k] - frame->shift[k]));
+        largest = fmax(largest, fabs(highest[k] - frame->shift[k]));
     }
     int exponent = 0;
     (void)frexp(largest, &exponent);
@@ -38,14 +61,4 @@ void iccp_frame_fit(iccp_frame *frame, int32_t dim, size_t n, const double *poin
     frame->in[1] = ldexp(1, half - exponent);
     frame->out[0] = ldexp(1, half);
     frame->out[1] = ldexp(1, exponent - half);
-}
-
-bool iccp_frame_holds(const iccp_frame *frame, int32_t dim, const double *x)
-{
-    double local[ICC_MAX_DIM];
-    iccp_frame_in(frame, dim, x, local);
-    for (int32_t k = 0; k < dim; ++k)
-        if (fabs(local[k]) < ICCP_FRAME_SMALLEST && x[k] - frame->shift[k] != 0)
-            return false;
-    return true;
 }

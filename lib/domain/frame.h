@@ -10,6 +10,7 @@
 
 #include "icc/icc.h"
 
+#include <math.h>
 #include <stdbool.h>
 
 /* 2^-200, the smallest local magnitude but zero that the exact predicates promise to work with. */
@@ -28,15 +29,27 @@ extern const iccp_frame iccp_frame_identity;
  * lies in [1/2, 1], or all are 0. */
 void iccp_frame_fit(iccp_frame *frame, int32_t dim, size_t n, const double *points);
 
-/* Whether the local coordinates of a vertex are 0 or at least ICCP_FRAME_SMALLEST. If so for all
- * vertices, the scaling loses no bit of them. */
-bool iccp_frame_holds(const iccp_frame *frame, int32_t dim, const double *x);
+/* The bounding box of n points; n >= 1. */
+void iccp_frame_bounds(int32_t dim, size_t n, const double *points, double *lowest,
+                       double *highest);
 
 static inline void iccp_frame_in(const iccp_frame *frame, int32_t dim, const double *x,
                                  double *local)
 {
     for (int32_t k = 0; k < dim; ++k)
         local[k] = (x[k] - frame->shift[k]) * frame->in[0] * frame->in[1];
+}
+
+/* Whether the local coordinates of a vertex are 0 or at least ICCP_FRAME_SMALLEST. If so for all
+ * vertices, the scaling loses no bit of them. */
+static inline bool iccp_frame_holds(const iccp_frame *frame, int32_t dim, const double *x)
+{
+    for (int32_t k = 0; k < dim; ++k) {
+        const double moved = x[k] - frame->shift[k];
+        if (fabs(moved * frame->in[0] * frame->in[1]) < ICCP_FRAME_SMALLEST && moved != 0)
+            return false;
+    }
+    return true;
 }
 
 static inline void iccp_frame_out(const iccp_frame *frame, int32_t dim, const double *local,

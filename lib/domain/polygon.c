@@ -2,6 +2,8 @@
 
 #include "base/error.h"
 
+#include <stdbool.h>
+
 static const uint32_t NONE = UINT32_MAX;
 
 /* Finds the facet that starts at each vertex. */
@@ -47,37 +49,69 @@ static icc_status walk(iccp_polygon *polygon, const uint32_t *start, const uint3
     return ICC_OK;
 }
 
-icc_status iccp_polygon_create(iccp_polygon *polygon, size_t n, const double *vertices,
+/* Most polygons are: facet k leads from vertex k to the next one. */
+static bool is_in_order(size_t n, const uint32_t *facets)
+{
+    uint32_t wrong = 0;
+    for (uint32_t k = 0; k + 1 < n; ++k)
+        wrong |= (facets[2 * k] ^ k) | (facets[2 * k + 1] ^ (k + 1));
+    return wrong == 0 && facets[2 * n - 2] == n - 1 && facets[2 * n - 1] == 0;
+}
+
+static void copy_point(double *to, const double *from)
+{
+    to[0] = from[0];
+    to[1] = from[1];
+}
+
+static icc_status order_facets(iccp_polygon *polygon, const double *vertices,
                                const uint32_t *facets, const iccp_memory *memory, icc_error *err)
 {
-    polygon->n = n;
-    polygon->points = iccp_alloc(memory, n + 1, 2 * sizeof *polygon->points);
-    polygon->vertex = iccp_alloc(memory, n, sizeof *polygon->vertex);
-    polygon->facet = iccp_alloc(memory, n, sizeof *polygon->facet);
+    const size_t n = polygon->n;
     uint32_t *start = iccp_alloc(memory, n, sizeof *start);
+    polygon->facet = iccp_alloc(memory, n, sizeof *polygon->facet);
+    polygon->points = polygon->own = iccp_alloc(memory, n + 1, 2 * sizeof *polygon->own);
     icc_status status;
-    if (polygon->points == NULL || polygon->vertex == NULL || polygon->facet == NULL ||
-        start == NULL)
+    if (start == NULL || polygon->facet == NULL || polygon->own == NULL)
         status = iccp_fail_memory(err);
     else
         status = index_starts(start, n, facets, err);
     if (status == ICC_OK)
         status = walk(polygon, start, facets, err);
     iccp_free(memory, start);
-    if (status != ICC_OK) {
-        iccp_polygon_free(polygon, memory);
+    if (status != ICC_OK)
         return status;
-    }
-    for (size_t k = 0; k <= n; ++k)
-        for (size_t axis = 0; axis < 2; ++axis)
-            polygon->points[2 * k + axis] = vertices[2 * (size_t)polygon->vertex[k % n] + axis];
+    for (size_t k = 0; k < n; ++k)
+        copy_point(polygon->own + 2 * k, vertices + 2 * (size_t)polygon->vertex[k]);
+    copy_point(polygon->own + 2 * n, polygon->own);
     return ICC_OK;
+}
+
+icc_status iccp_polygon_create(iccp_polygon *polygon, size_t n, const double *vertices,
+                               const uint32_t *facets, const iccp_memory *memory, icc_error *err)
+{
+    *polygon = (iccp_polygon){.n = n, .points = vertices};
+    polygon->vertex = iccp_alloc(memory, n, sizeof *polygon->vertex);
+    icc_status status = ICC_OK;
+    if (polygon->vertex == NULL)
+        status = iccp_fail_memory(err);
+    else if (!is_in_order(n, facets))
+        status = order_facets(polygon, vertices, facets, memory, err);
+    else {
+        for (uint32_t k = 0; k < n; ++k)
+            polygon->vertex[k] = k;
+        polygon->facet = polygon->vertex;
+    }
+    if (status != ICC_OK)
+        iccp_polygon_free(polygon, memory);
+    return status;
 }
 
 void iccp_polygon_free(iccp_polygon *polygon, const iccp_memory *memory)
 {
-    iccp_free(memory, polygon->points);
+    iccp_free(memory, polygon->own);
+    if (polygon->facet != polygon->vertex)
+        iccp_free(memory, polygon->facet);
     iccp_free(memory, polygon->vertex);
-    iccp_free(memory, polygon->facet);
     *polygon = (iccp_polygon){0};
 }

@@ -8,12 +8,15 @@
 
 typedef struct iccp_polygon {
     size_t n;
-    double *points; /* n + 1 local points; the last is the first again: edge k joins k and k + 1 */
-    uint32_t *vertex; /* n: the caller's number of point k */
-    uint32_t *facet;  /* n: the caller's number of edge k */
+    const double *points; /* n + 1 local points; the last is the first again: edge k joins k and
+                             k + 1 */
+    double *own;          /* the same, or NULL: they are borrowed */
+    uint32_t *vertex;     /* n: the caller's number of point k */
+    uint32_t *facet; /* n: the caller's number of edge k; the same array where they are equal */
 } iccp_polygon;
 
-/* Orders n facets over n vertices, starting with vertex 0, and takes over the coordinates.
+/* Orders n facets over n vertices, starting with vertex 0. `vertices` holds n points and the first
+ * once more; where the facets take them in their order the polygon borrows them.
  * ICC_ERR_BOUNDARY when the facets are not one closed polygon in one direction. */
 icc_status iccp_polygon_create(iccp_polygon *polygon, size_t n, const double *vertices,
                                const uint32_t *facets, const iccp_memory *memory, icc_error *err);

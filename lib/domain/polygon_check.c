@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "domain/defects.h"
 #include "domain/segment.h"
+#include "domain/simple.h"
 #include "domain/sweep.h"
 #include "math/expansion.h"
 #include "math/predicates.h"
@@ -81,15 +82,22 @@ static icc_status fail_defect(icc_error *err, const iccp_defect *defect,
     }
 }
 
-icc_status iccp_polygon_check(const iccp_polygon *polygon, const iccp_frame *frame,
-                              const iccp_env *env, icc_error *err)
+/* The quick test decides for most polygons, the sweep for the others. What is named is the first
+ * defect of the list, or, if that takes too long, what the sweep finds. */
+icc_status iccp_polygon_check(const iccp_polygon *polygon, const iccp_boxtree *tree,
+                              const iccp_frame *frame, const iccp_env *env, icc_error *err)
 {
-    iccp_defect any, first = {0};
-    icc_status status = iccp_sweep(&any, polygon, env);
-    if (status == ICC_OK && any.kind == 0)
+    iccp_defect any = {0}, first = {0};
+    iccp_simple quick;
+    icc_status status = iccp_simple_find(&quick, tree, env);
+    if (status == ICC_OK && quick.answer == ICCP_UNDECIDED)
+        status = iccp_sweep(&any, polygon, env);
+    if (status == ICC_OK && quick.answer != ICCP_NOT_SIMPLE && any.kind == 0)
         return ICC_OK;
     if (status == ICC_OK)
-        status = iccp_defects_first(&first, polygon, env);
+        status = iccp_defects_first(&first, polygon, tree, env);
+    if (status == ICC_OK && first.kind == 0 && any.kind == 0)
+        status = iccp_sweep(&any, polygon, env);
     if (status != ICC_OK)
         return iccp_explain(err, status);
     return fail_defect(err, first.kind != 0 ? &first : &any, polygon, frame);
@@ -101,19 +109,23 @@ icc_status iccp_polygon_check_points(size_t n, const double *points, const uint3
     if (n < 3)
         return ICC_ERR_BOUNDARY;
     iccp_polygon copy = {.n = n};
-    copy.points = iccp_alloc(&env->memory, n + 1, 2 * sizeof *copy.points);
+    iccp_boxtree tree = {0};
+    copy.points = copy.own = iccp_alloc(&env->memory, n + 1, 2 * sizeof *copy.own);
     copy.vertex = iccp_alloc(&env->memory, n, sizeof *copy.vertex);
     copy.facet = iccp_alloc(&env->memory, n, sizeof *copy.facet);
     icc_status status = ICC_ERR_MEMORY;
-    if (copy.points != NULL && copy.vertex != NULL && copy.facet != NULL) {
+    if (copy.own != NULL && copy.vertex != NULL && copy.facet != NULL) {
         for (uint32_t k = 0; k < n; ++k) {
             const size_t from = polygon != NULL ? polygon[k] : k;
-            memcpy(copy.points + 2 * (size_t)k, points + 2 * from, 2 * sizeof *points);
+            memcpy(copy.own + 2 * (size_t)k, points + 2 * from, 2 * sizeof *points);
             copy.vertex[k] = copy.facet[k] = k;
         }
-        memcpy(copy.points + 2 * n, copy.points, 2 * sizeof *points);
-        status = iccp_polygon_check(&copy, &iccp_frame_identity, env, NULL);
+        memcpy(copy.own + 2 * n, copy.own, 2 * sizeof *points);
+        iccp_boxtree_create(&tree, copy.points, n, &env->memory);
+        if (tree.boxes != NULL)
+            status = iccp_polygon_check(&copy, &tree, &iccp_frame_identity, env, NULL);
     }
+    iccp_boxtree_free(&tree, &env->memory);
     iccp_polygon_free(&copy, &env->memory);
     return status;
 }
@@ -130,24 +142,25 @@ int iccp_polygon_orientation(const iccp_polygon *polygon)
 
 /* Half the sum of the cross products of the sides with vertex 0. Each product and each sum is
  * carried with its rounding error: T. Ogita, S. M. Rump, S. Oishi, Accurate sum and dot product,
- * 2005, algorithm 5.3. */
+ * 2005, algorithm 5.3. The two products of a cross product have a sum each, which do not wait for
+ * one another. */
 double iccp_polygon_area(const iccp_polygon *polygon)
 {
     const double *origin = polygon->points;
-    double sum = 0, error = 0;
+    double sum[2] = {0, 0}, error[2] = {0, 0}, tail;
     for (size_t k = 1; k + 1 < polygon->n; ++k) {
         const double *p = polygon->points + 2 * k, *q = p + 2;
         const double factors[2][2] = {{p[0] - origin[0], q[1] - origin[1]},
                                       {origin[1] - p[1], q[0] - origin[0]}};
         for (int i = 0; i < 2; ++i) {
-            double lost, missed;
-            const double product = iccp_two_product(factors[i][0], factors[i][1], &lost);
-            sum = iccp_two_sum(sum, product, &missed);
-            error += lost;
-            error += missed;
+            double lost[2];
+            const double product = iccp_two_product(factors[i][0], factors[i][1], &lost[0]);
+            sum[i] = iccp_two_sum(sum[i], product, &lost[1]);
+            error[i] += lost[0] + lost[1];
         }
     }
-    return 0.5 * fabs(sum + error);
+    const double both = iccp_two_sum(sum[0], sum[1], &tail);
+    return 0.5 * fabs(both + (tail + (error[0] + error[1])));
 }
 
 /* Local coordinates for the list: a vertex that is not finite becomes NaN. The frame is that of the
@@ -183,19 +196,25 @@ icc_status iccp_boundary_defects(size_t n, const double *vertices, size_t capaci
 {
     const iccp_memory *memory = &env->memory;
     iccp_defect_list list = {.capacity = capacity, .kinds = kinds, .items = items};
-    iccp_polygon polygon = {.n = n, .points = iccp_alloc(memory, n + 1, 2 * sizeof(double))};
+    double *points = iccp_alloc(memory, n + 1, 2 * sizeof *points);
+    const iccp_polygon polygon = {.n = n, .points = points};
+    iccp_boxtree tree = {0};
     double *scratch = iccp_alloc(memory, n, 2 * sizeof(double));
     icc_status status = ICC_ERR_MEMORY;
-    if (polygon.points != NULL && scratch != NULL)
-        status = localise_finite(polygon.points, scratch, n, vertices, err);
+    if (points != NULL && scratch != NULL)
+        status = localise_finite(points, scratch, n, vertices, err);
     iccp_free(memory, scratch);
     if (status == ICC_OK && n > 0) {
-        polygon.points[2 * n] = polygon.points[0];
-        polygon.points[2 * n + 1] = polygon.points[1];
+        points[2 * n] = points[0];
+        points[2 * n + 1] = points[1];
     }
-    if (status == ICC_OK)
-        status = iccp_defects_list(&list, &polygon, env);
-    iccp_free(memory, polygon.points);
+    if (status == ICC_OK) {
+        iccp_boxtree_create(&tree, points, n, memory);
+        status =
+            tree.boxes != NULL ? iccp_defects_list(&list, &polygon, &tree, env) : ICC_ERR_MEMORY;
+    }
+    iccp_boxtree_free(&tree, memory);
+    iccp_free(memory, points);
     *n_defects = list.n;
     return iccp_explain(err, status);
 }

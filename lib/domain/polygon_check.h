@@ -2,6 +2,7 @@
 #ifndef ICCP_POLYGON_CHECK_H
 #define ICCP_POLYGON_CHECK_H
 
+#include "domain/boxtree.h"
 #include "domain/frame.h"
 #include "domain/polygon.h"
 
@@ -10,9 +11,9 @@
 icc_status iccp_polygon_localise(iccp_frame *frame, double *local, size_t n, const double *vertices,
                                  icc_error *err);
 
-/* ICC_ERR_BOUNDARY unless the polygon, of at least 3 points, is simple. */
-icc_status iccp_polygon_check(const iccp_polygon *polygon, const iccp_frame *frame,
-                              const iccp_env *env, icc_error *err);
+/* ICC_ERR_BOUNDARY unless the polygon, of at least 3 points, is simple. `tree` is the polygon's. */
+icc_status iccp_polygon_check(const iccp_polygon *polygon, const iccp_boxtree *tree,
+                              const iccp_frame *frame, const iccp_env *env, icc_error *err);
 
 /* The same for n local points by themselves: polygon[0], polygon[1], .. of `points`, or all in
  * their order (NULL). ICC_ERR_BOUNDARY also when there are fewer than 3. */

@@ -34,7 +34,7 @@ void iccp_simplices_free(iccp_simplices *mesh);
 
 static inline size_t iccp_simplex_of(const iccp_simplices *mesh, uint32_t side)
 {
-    return side / (uint32_t)(mesh->dim + 1);
+    return mesh->dim == 3 ? side / 4 : side / (uint32_t)(mesh->dim + 1);
 }
 
 static inline const double *iccp_corner_point(const iccp_simplices *mesh, size_t side)

@@ -119,12 +119,13 @@ icc_status iccp_simplicial_check_flat(const iccp_facet_tree *tree, icc_error *er
                      dim == 3 ? "plane" : "hyperplane");
 }
 
-icc_status iccp_simplicial_check_simple(const iccp_facet_tree *tree, const iccp_frame *frame,
-                                        const iccp_env *env, icc_error *err)
+icc_status iccp_simplicial_check_simple(const iccp_facet_tree *tree, size_t n_vertices,
+                                        const iccp_frame *frame, const iccp_env *env,
+                                        icc_error *err)
 {
     uint32_t pair[2];
     double a[6], b[6], middle[3];
-    const icc_status status = iccp_triangles_find(tree, pair, env);
+    const icc_status status = iccp_triangles_find(tree, n_vertices, pair, env);
     if (status != ICC_OK)
         return iccp_explain(err, status);
     if (pair[0] == pair[1])

@@ -18,9 +18,11 @@ icc_status iccp_simplicial_localise(iccp_frame *frame, double *local, size_t dim
 /* ICC_ERR_BOUNDARY for a facet without area, or if all vertices lie in one hyperplane. */
 icc_status iccp_simplicial_check_flat(const iccp_facet_tree *tree, icc_error *err);
 
-/* dim == 3: ICC_ERR_BOUNDARY if the surface meets itself. */
-icc_status iccp_simplicial_check_simple(const iccp_facet_tree *tree, const iccp_frame *frame,
-                                        const iccp_env *env, icc_error *err);
+/* dim == 3: ICC_ERR_BOUNDARY if the surface meets itself, which is closed and connected round each
+ * vertex. */
+icc_status iccp_simplicial_check_simple(const iccp_facet_tree *tree, size_t n_vertices,
+                                        const iccp_frame *frame, const iccp_env *env,
+                                        icc_error *err);
 
 /* The orientation, +1 or -1, and the volume in local units. Exact and accurate to rounding for a
  * surface that is simple (dim == 3); beyond, ICC_ERR_BOUNDARY if doubles cannot tell the volume

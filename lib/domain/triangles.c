@@ -4,8 +4,12 @@
  * of one meets the other: what they share beyond the corner reaches one of these sides. */
 #include "domain/triangles.h"
 
+#include "domain/fans.h"
 #include "domain/segment.h"
 #include "math/predicates.h"
+
+#include <float.h>
+#include <math.h>
 
 typedef const double *const *triangle;
 
@@ -84,24 +88,20 @@ static bool meet_apart(triangle s, triangle t)
     return false;
 }
 
-/* Whether the boxes of a segment and a triangle have no point in common. */
-static bool apart(const double *p, const double *q, triangle t)
+/* Whether a segment's box has a point in common with another. */
+static ICCP_INLINE bool segment_reaches(const double *p, const double *q, const float *box)
 {
+    bool reaches = true;
     for (int k = 0; k < 3; ++k) {
         const double low = p[k] < q[k] ? p[k] : q[k], high = p[k] < q[k] ? q[k] : p[k];
-        if ((t[0][k] < low && t[1][k] < low && t[2][k] < low) ||
-            (t[0][k] > high && t[1][k] > high && t[2][k] > high))
-            return true;
+        reaches &= (low <= box[3 + k]) & (box[k] <= high);
     }
-    return false;
+    return reaches;
 }
 
-/* s[0] and t[0] are the common corner. The first test is for the many pairs round a corner, the
- * second for those of a smooth surface. */
+/* s[0] and t[0] are the common corner, and neither opposite side is out of reach. */
 static bool meet_at_corner(triangle s, triangle t)
 {
-    if (apart(s[1], s[2], t) && apart(t[1], t[2], s))
-        return false;
     if (beside(s, 2, t + 1) || beside(t, 2, s + 1))
         return false;
     return segment_meets(s[1], s[2], t) || segment_meets(t[1], t[2], s);
@@ -121,68 +121,245 @@ static bool meet_at_side(triangle s, triangle t)
            iccp_orient2d(shadow[0], shadow[1], other);
 }
 
-/* Lists the corners with the common ones first, in the same order in both. */
-static int match(const double *vertices, const uint32_t *s, const uint32_t *t, const double **a,
-                 const double **b)
+/* Bit 3 i + j is set where s[i] = t[j]. */
+static ICCP_INLINE unsigned match(const uint32_t *s, const uint32_t *t)
 {
-    int n = 0, n_other = 0;
-    bool taken[3] = {false, false, false};
-    const double *rest[3];
-    for (int i = 0; i < 3; ++i) {
-        int j = 0;
-        while (j < 3 && s[i] != t[j])
-            ++j;
-        if (j < 3) {
-            taken[j] = true;
-            a[n] = b[n] = vertices + 3 * (size_t)s[i];
-            ++n;
-        } else {
-            rest[n_other++] = vertices + 3 * (size_t)s[i];
-        }
+    unsigned same = 0;
+    for (unsigned i = 0; i < 3; ++i)
+        for (unsigned j = 0; j < 3; ++j)
+            same |= (unsigned)(s[i] == t[j]) << (3 * i + j);
+    return same;
+}
+
+/* The corners of a triangle, beginning with corner i. */
+static ICCP_INLINE void list_from(const double *vertices, const uint32_t *t, unsigned i,
+                                  const double **corners)
+{
+    static const unsigned next[5] = {0, 1, 2, 0, 1};
+    for (unsigned k = 0; k < 3; ++k)
+        corners[k] = vertices + 3 * (size_t)t[next[i + k]];
+}
+
+/* One bit of `same` is set. Most pairs are of this kind, and for most of them it is enough to look
+ * at boxes. */
+static ICCP_INLINE bool meet_at_one(const double *vertices, const uint32_t *s, const uint32_t *t,
+                                    unsigned same, const float *box_s, const float *box_t)
+{
+    const double *a[3], *b[3];
+    const unsigned i = same > 32 ? 2 : same > 4 ? 1 : 0, row = same >> 3 * i;
+    list_from(vertices, s, i, a);
+    list_from(vertices, t, row >> 1, b); /* 1, 2, 4: corner 0, 1, 2 */
+    const bool reach = segment_reaches(a[1], a[2], box_t) | segment_reaches(b[1], b[2], box_s);
+    return reach && meet_at_corner(a, b);
+}
+
+/* Two bits of `same` are set: lists the two corners first, in the same order in both. */
+static bool meet_at_two(const double *vertices, const uint32_t *s, const uint32_t *t, unsigned same)
+{
+    const double *a[3], *b[3];
+    int n = 0;
+    for (unsigned i = 0; i < 3; ++i)
+        for (unsigned j = 0; j < 3; ++j)
+            if (same >> (3 * i + j) & 1) {
+                a[n] = b[n] = vertices + 3 * (size_t)s[i];
+                ++n;
+            }
+    for (unsigned i = 0; i < 3; ++i) {
+        if ((same >> 3 * i & 7) == 0)
+            a[2] = vertices + 3 * (size_t)s[i];
+        if ((same >> i & 0111) == 0)
+            b[2] = vertices + 3 * (size_t)t[i];
     }
-    for (int i = 0; i < n_other; ++i)
-        a[n + i] = rest[i];
-    for (int j = 0, k = n; j < 3; ++j)
-        if (!taken[j])
-            b[k++] = vertices + 3 * (size_t)t[j];
-    return n;
+    return meet_at_side(a, b);
+}
+
+/* As the search has triangles, in the order of the tree. */
+typedef struct place {
+    float box[6];       /* lower and upper, a little too large */
+    uint32_t triangle;  /* its number */
+    uint32_t corner[3]; /* its vertices round which no triangles meet; not a vertex: another */
+} place;
+
+/* Whether two triangles meet, if not round a vertex at which that is known to be impossible. */
+static bool places_meet(const double *vertices, const uint32_t *triangles, const place *p,
+                        const place *q)
+{
+    const uint32_t *s = triangles + 3 * (size_t)p->triangle,
+                   *t = triangles + 3 * (size_t)q->triangle;
+    const double *a[3], *b[3];
+    if (match(p->corner, q->corner) != 0)
+        return false;
+    const unsigned same = match(s, t), others = same & (same - 1);
+    if (same != 0 && others == 0)
+        return meet_at_one(vertices, s, t, same, p->box, q->box);
+    if (same != 0)
+        return (others & (others - 1)) != 0 || meet_at_two(vertices, s, t, same);
+    list_from(vertices, s, 0, a);
+    list_from(vertices, t, 0, b);
+    return meet_apart(a, b);
+}
+
+/* Rounded to float, and so that the box only grows. */
+static void round_box(const double *exact, float *box)
+{
+    for (int k = 0; k < 6; ++k) {
+        const float x = (float)exact[k], slack = fabsf(x) * 0x1p-22f + FLT_MIN;
+        box[k] = k < 3 ? x - slack : x + slack;
+    }
+}
+
+static void find_box(const double *vertices, const uint32_t *corners, float *box)
+{
+    double exact[6];
+    const iccp_facet_tree one = {.vertices = vertices, .facets = corners};
+    iccp_facet_box_of(&one, 3, 3, 0, exact);
+    round_box(exact, box);
 }
 
 bool iccp_triangles_meet(const double *vertices, const uint32_t *s, const uint32_t *t)
 {
-    const double *a[3], *b[3];
-    switch (match(vertices, s, t, a, b)) {
-    case 0:
-        return meet_apart(a, b);
-    case 1:
-        return meet_at_corner(a, b);
-    case 2:
-        return meet_at_side(a, b);
-    default:
-        return true;
+    const uint32_t both[6] = {s[0], s[1], s[2], t[0], t[1], t[2]};
+    place p = {.corner = {UINT32_MAX, UINT32_MAX, UINT32_MAX}}, q = {.triangle = 1};
+    find_box(vertices, s, p.box);
+    find_box(vertices, t, q.box);
+    q.corner[0] = q.corner[1] = q.corner[2] = UINT32_MAX - 1;
+    return places_meet(vertices, both, &p, &q);
+}
+
+/* ------------------------------------------------------------ all pairs */
+
+typedef struct search {
+    const iccp_facet_tree *tree;
+    const iccp_env *env;
+    place *places;
+    size_t first[2]; /* places of the first pair that meets, so far; tree->n: none */
+    icc_status status;
+} search;
+
+static ICCP_INLINE bool boxes_meet(const float *a, const float *b)
+{
+    return (a[0] <= b[3]) & (b[0] <= a[3]) & (a[1] <= b[4]) & (b[1] <= a[4]) & (a[2] <= b[5]) &
+           (b[2] <= a[5]);
+}
+
+static ICCP_INLINE bool nodes_meet(const double *a, const double *b)
+{
+    return (a[0] <= b[3]) & (b[0] <= a[3]) & (a[1] <= b[4]) & (b[1] <= a[4]) & (a[2] <= b[5]) &
+           (b[2] <= a[5]);
+}
+
+/* Looks at a pair unless one before it is known. */
+static void compare_places(search *s, size_t p, size_t q)
+{
+    const place *a = &s->places[p], *b = &s->places[q];
+    if (!boxes_meet(a->box, b->box) || p > s->first[0] || (p == s->first[0] && q > s->first[1]))
+        return;
+    if (places_meet(s->tree->vertices, s->tree->facets, a, b)) {
+        s->first[0] = p;
+        s->first[1] = q;
     }
 }
 
-icc_status iccp_triangles_find(const iccp_facet_tree *tree, uint32_t pair[2], const iccp_env *env)
+static size_t leaf_start(const search *s, size_t node)
 {
-    pair[0] = pair[1] = 0;
-    for (size_t place = 0; place < tree->n; ++place) {
-        if (place % 256 == 0) {
-            const icc_status status = iccp_progress(env, "check", (double)place / (double)tree->n);
-            if (status != ICC_OK)
-                return status;
-        }
-        const uint32_t f = tree->order[place];
-        iccp_facet_query query;
-        uint32_t g;
-        iccp_facet_query_start_after(&query, tree, place);
-        while (iccp_facet_query_next(&query, &g))
-            if (iccp_triangles_meet(tree->vertices, tree->facets + 3 * (size_t)f,
-                                    tree->facets + 3 * (size_t)g)) {
-                pair[0] = f < g ? f : g;
-                pair[1] = f < g ? g : f;
-                return ICC_OK;
-            }
+    return (node - s->tree->n_leaves) * ICCP_FACET_LEAF;
+}
+
+static size_t leaf_end(const search *s, size_t node)
+{
+    const size_t end = leaf_start(s, node) + ICCP_FACET_LEAF;
+    return end < s->tree->n ? end : s->tree->n;
+}
+
+static void compare_in_leaf(search *s, size_t node)
+{
+    const size_t start = leaf_start(s, node), end = leaf_end(s, node);
+    if (s->status == ICC_OK && start % (64 * ICCP_FACET_LEAF) == 0)
+        s->status = iccp_progress(s->env, "check", (double)start / (double)s->tree->n);
+    for (size_t p = start; p < end; ++p)
+        for (size_t q = p + 1; q < end; ++q)
+            compare_places(s, p, q);
+}
+
+static void compare_leaves(search *s, size_t a, size_t b)
+{
+    const size_t end_a = leaf_end(s, a), start_b = leaf_start(s, b), end_b = leaf_end(s, b);
+    float box[6];
+    round_box(s->tree->boxes + 6 * b, box);
+    for (size_t p = leaf_start(s, a); p < end_a; ++p)
+        if (boxes_meet(s->places[p].box, box))
+            for (size_t q = start_b; q < end_b; ++q)
+                compare_places(s, p, q);
+}
+
+static double extent(const double *box)
+{
+    return (box[3] - box[0]) + (box[4] - box[1]) + (box[5] - box[2]);
+}
+
+/* Compares the triangles below two nodes, the places below the second being the later ones. Of two
+ * boxes that overlap the larger is halved. */
+static void compare(search *s, size_t a, size_t b)
+{
+    const double *box_a = s->tree->boxes + 6 * a, *box_b = s->tree->boxes + 6 * b;
+    if (s->status != ICC_OK || !nodes_meet(box_a, box_b))
+        return;
+    const bool a_leaf = a >= s->tree->n_leaves, b_leaf = b >= s->tree->n_leaves;
+    if (a_leaf && b_leaf) {
+        compare_leaves(s, a, b);
+    } else if (b_leaf || (!a_leaf && extent(box_a) > extent(box_b))) {
+        compare(s, 2 * a, b);
+        compare(s, 2 * a + 1, b);
+    } else {
+        compare(s, a, 2 * b);
+        compare(s, a, 2 * b + 1);
     }
-    return ICC_OK;
+}
+
+static void compare_within(search *s, size_t node)
+{
+    if (node >= s->tree->n_leaves) {
+        compare_in_leaf(s, node);
+        return;
+    }
+    compare_within(s, 2 * node);
+    compare_within(s, 2 * node + 1);
+    compare(s, 2 * node, 2 * node + 1);
+}
+
+/* Places of the triangles; of their corners those that `good` names. */
+static void fill_places(search *s, const uint8_t *good)
+{
+    const iccp_facet_tree *tree = s->tree;
+    for (size_t k = 0; k < tree->n; ++k) {
+        place *p = &s->places[k];
+        const uint32_t *corners = tree->facets + 3 * (size_t)tree->order[k];
+        p->triangle = tree->order[k];
+        find_box(tree->vertices, corners, p->box);
+        for (uint32_t i = 0; i < 3; ++i)
+            p->corner[i] = good[corners[i]] ? corners[i] : UINT32_MAX - 3 * p->triangle - i;
+    }
+}
+
+icc_status iccp_triangles_find(const iccp_facet_tree *tree, size_t n_vertices, uint32_t pair[2],
+                               const iccp_env *env)
+{
+    const iccp_memory *memory = &env->memory;
+    search s = {.tree = tree, .env = env, .first = {tree->n, tree->n}};
+    uint8_t *good = iccp_fans_find(tree, n_vertices, memory);
+    s.places = iccp_alloc(memory, tree->n, sizeof *s.places);
+    s.status = good != NULL && s.places != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    if (s.status == ICC_OK) {
+        fill_places(&s, good);
+        compare_within(&s, 1);
+    }
+    iccp_free(memory, s.places);
+    iccp_free(memory, good);
+    pair[0] = pair[1] = 0;
+    if (s.status == ICC_OK && s.first[0] < tree->n) {
+        const uint32_t f = tree->order[s.first[0]], g = tree->order[s.first[1]];
+        pair[0] = f < g ? f : g;
+        pair[1] = f < g ? g : f;
+    }
+    return s.status;
 }

@@ -32,21 +32,21 @@ enum { N_ROUNDS = 12 };
  * meshes was complete after 2 to 4 rounds. */
 static const double BIAS_LEFT = 0.01;
 
+/* An order and the flux along it. */
+typedef struct candidate {
+    uint32_t *rank; /* of each simplex */
+    double *flux;   /* of each side */
+    size_t n_left;
+    double energy; /* HUGE_VAL for an order that was not complete */
+} candidate;
+
 typedef struct best_order_search {
     iccp_order_priority priority;
     iccp_faces faces;
     iccp_circulation circulation;
-    iccp_env quiet;        /* for other threads than the caller's */
-    double energy[N_RUNS]; /* HUGE_VAL for an order that was not complete */
+    iccp_env quiet; /* for other threads than the caller's */
+    candidate runs[N_RUNS];
 } best_order_search;
-
-/* An order and the flux along it. */
-typedef struct candidate {
-    uint32_t *rank;
-    double *flux;
-    size_t n_left;
-    double energy;
-} candidate;
 
 static bool is_peeling(size_t run)
 {
@@ -76,20 +76,26 @@ static icc_status try_order(const best_order_search *c, size_t run, const double
     return status;
 }
 
-/* Only the energy of a run is kept: the winner is made once more, which saves the memory of all
- * the others. */
+static void free_candidate(candidate *a, const iccp_memory *memory)
+{
+    iccp_free(memory, a->rank);
+    iccp_free(memory, a->flux);
+    *a = (candidate){.energy = HUGE_VAL};
+}
+
+/* Kept, unless it is not complete, until all can be compared. */
 static icc_status try_run(best_order_search *c, size_t run)
 {
     const iccp_simplices *mesh = c->priority.mesh;
     const iccp_memory *memory = &c->quiet.memory;
-    candidate a = {.rank = iccp_alloc(memory, mesh->n_simplices, sizeof *a.rank),
-                   .flux = iccp_alloc(memory, (mesh->dim + 1) * mesh->n_simplices, sizeof *a.flux)};
+    candidate *a = &c->runs[run];
+    a->rank = iccp_alloc(memory, mesh->n_simplices, sizeof *a->rank);
+    a->flux = iccp_alloc(memory, (mesh->dim + 1) * mesh->n_simplices, sizeof *a->flux);
     icc_status status = ICC_ERR_MEMORY;
-    if (a.rank != NULL && a.flux != NULL)
-        status = try_order(c, run, NULL, &a, &c->quiet);
-    c->energy[run] = a.energy;
-    iccp_free(memory, a.rank);
-    iccp_free(memory, a.flux);
+    if (a->rank != NULL && a->flux != NULL)
+        status = try_order(c, run, NULL, a, &c->quiet);
+    if (status != ICC_OK || a->n_left > 0)
+        free_candidate(a, memory);
     return status;
 }
 
@@ -107,8 +113,8 @@ static size_t find_best_run(const best_order_search *c, size_t *n_finished)
     size_t best = N_RUNS;
     *n_finished = 0;
     for (size_t run = 0; run < N_RUNS; ++run) {
-        *n_finished += c->energy[run] < HUGE_VAL;
-        if (c->energy[run] < (best < N_RUNS ? c->energy[best] : HUGE_VAL))
+        *n_finished += c->runs[run].energy < HUGE_VAL;
+        if (c->runs[run].energy < (best < N_RUNS ? c->runs[best].energy : HUGE_VAL))
             best = run;
     }
     return best;
@@ -143,14 +149,20 @@ static icc_status retry_run(const best_order_search *c, size_t run, double *bias
     return ICC_OK;
 }
 
-/* The winner once more; or anything that is complete in the end, if there is none. */
-static icc_status repeat_best_run(const best_order_search *c, size_t *run, candidate *a,
-                                  size_t *n_least, const iccp_env *env)
+/* The winner's order and flux. */
+static void copy_run(const best_order_search *c, size_t run, candidate *best)
 {
-    if (*run < N_RUNS) {
-        *n_least = 0;
-        return try_order(c, *run, NULL, a, env);
-    }
+    const iccp_simplices *mesh = c->priority.mesh;
+    const candidate *a = &c->runs[run];
+    memcpy(best->rank, a->rank, mesh->n_simplices * sizeof *best->rank);
+    memcpy(best->flux, a->flux, (mesh->dim + 1) * mesh->n_simplices * sizeof *best->flux);
+    best->energy = a->energy;
+}
+
+/* Anything that is complete in the end, where no run is. */
+static icc_status retry_runs(const best_order_search *c, size_t *run, candidate *a, size_t *n_least,
+                             const iccp_env *env)
+{
     double *bias = iccp_alloc(&env->memory, c->priority.mesh->n_simplices, sizeof *bias);
     icc_status status = bias != NULL ? ICC_OK : ICC_ERR_MEMORY;
     *n_least = SIZE_MAX;
@@ -175,19 +187,22 @@ static size_t count_reversed(const iccp_circulation *c, const uint32_t *rank)
     return n;
 }
 
-/* All runs compete, in parallel, and the best is repeated into `best`. Its greedy flux is then
- * fitted to the reference, which pays for the winner only. */
+/* All runs compete, in parallel. The greedy flux of the best is then fitted to the reference, which
+ * pays for the winner only. */
 static icc_status find_best_order(best_order_search *c, candidate *best, iccp_best_order_info *info,
                                   const iccp_env *env, icc_error *err)
 {
     iccp_env part[3];
-    iccp_split(part, 3, (const double[]){4, 2, 2}, env);
+    iccp_split(part, 3, (const double[]){4, 1, 2}, env);
     icc_status status = iccp_for_chunks(&part[0], "order", N_RUNS, 1, try_runs, c);
     if (status != ICC_OK)
         return status;
     *info = (iccp_best_order_info){.n_orders = N_RUNS};
-    size_t n_least, run = find_best_run(c, &info->n_finished);
-    status = repeat_best_run(c, &run, best, &n_least, &part[1]);
+    size_t n_least = 0, run = find_best_run(c, &info->n_finished);
+    if (run < N_RUNS)
+        copy_run(c, run, best);
+    else
+        status = retry_runs(c, &run, best, &n_least, &part[1]);
     if (status != ICC_OK)
         return status;
     if (n_least > 0)
@@ -215,6 +230,8 @@ icc_status iccp_best_order(const iccp_simplices *mesh, uint32_t centre, const do
     candidate best = {.rank = rank, .flux = flux};
     best_order_search c = {.quiet = *env, .circulation.links.memory = env->memory};
     c.quiet.progress = NULL;
+    for (size_t run = 0; run < N_RUNS; ++run)
+        c.runs[run].energy = HUGE_VAL;
     c.priority = (iccp_order_priority){.mesh = mesh,
                                        .faces = &c.faces,
                                        .centre = centre,
@@ -227,6 +244,8 @@ icc_status iccp_best_order(const iccp_simplices *mesh, uint32_t centre, const do
         status = iccp_circulation_create(&c.circulation, mesh, centre, inflow, reference, &part[1]);
     if (status == ICC_OK)
         status = find_best_order(&c, &best, info, &part[2], err);
+    for (size_t run = 0; run < N_RUNS; ++run)
+        free_candidate(&c.runs[run], &env->memory);
     iccp_circulation_free(&c.circulation);
     iccp_faces_free(&c.faces);
     return iccp_explain(err, status);

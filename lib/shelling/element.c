@@ -1,5 +1,6 @@
 #include "shelling/element.h"
 
+#include "base/compiler.h"
 #include "base/minmax.h"
 #include "icc/base.h"
 
@@ -12,6 +13,8 @@ static const double THINNEST = 1e-4;
 
 /* Local units, in which domains have the size 1: lengths that are divided by. */
 static const double LEAST_LENGTH = 1e-12;
+
+/* Functions that take the dimension are compiled for 3 as well, where loops are unrolled. */
 
 /* A matrix with the identity, or what became of it, to its right. */
 typedef double tableau[ICC_MAX_DIM][2 * ICC_MAX_DIM];
@@ -27,7 +30,7 @@ static void swap_rows(double *a, double *b, size_t n)
 
 /* Elimination as far as the inverse, with the greatest entry of each column for a pivot. Returns
  * the modulus of the determinant. */
-static double invert(size_t n, tableau a, double size)
+static ICCP_INLINE double invert(size_t n, tableau a, double size)
 {
     double determinant = 1;
     for (size_t c = 0; c < n; ++c) {
@@ -48,16 +51,22 @@ static double invert(size_t n, tableau a, double size)
     return determinant;
 }
 
+static ICCP_INLINE const double *point_of(const iccp_simplices *mesh, size_t dim, size_t side)
+{
+    return mesh->points + dim * mesh->corners[side];
+}
+
 /* Gradients by inverting the matrix of the edges from corner 0; the first is minus the sum of
  * the others. */
-double iccp_element_gradients(const iccp_simplices *mesh, size_t simplex, double *gradient)
+static ICCP_INLINE double find_gradients(const iccp_simplices *mesh, size_t n, size_t simplex,
+                                         double *gradient)
 {
-    const size_t n = mesh->dim, side = (n + 1) * simplex;
-    const double *origin = iccp_corner_point(mesh, side);
+    const size_t side = (n + 1) * simplex;
+    const double *origin = point_of(mesh, n, side);
     tableau a;
     double size = 0, volume = 1;
     for (size_t i = 0; i < n; ++i) {
-        const double *corner = iccp_corner_point(mesh, side + i + 1);
+        const double *corner = point_of(mesh, n, side + i + 1);
         for (size_t k = 0; k < n; ++k) {
             a[k][i] = corner[k] - origin[k];
             a[k][n + i] = k == i;
@@ -77,10 +86,10 @@ double iccp_element_gradients(const iccp_simplices *mesh, size_t simplex, double
 }
 
 /* The product of the heights of the edges from one corner, by Gram and Schmidt, over (dim - 1)!. */
-double iccp_element_area(const iccp_simplices *mesh, size_t side)
+static ICCP_INLINE double find_area(const iccp_simplices *mesh, size_t dim, size_t side)
 {
-    const size_t dim = mesh->dim, out = side % (dim + 1), first = side - out, base = out == 0;
-    const double *origin = iccp_corner_point(mesh, first + base);
+    const size_t out = side % (dim + 1), first = side - out, base = out == 0;
+    const double *origin = point_of(mesh, dim, first + base);
     double edge[ICC_MAX_DIM][ICC_MAX_DIM], area = 1;
     size_t n = 0;
     for (size_t i = base + 1; i <= dim; ++i) {
@@ -88,7 +97,7 @@ double iccp_element_area(const iccp_simplices *mesh, size_t side)
             continue;
         double square = 0;
         for (size_t k = 0; k < dim; ++k)
-            edge[n][k] = iccp_corner_point(mesh, first + i)[k] - origin[k];
+            edge[n][k] = point_of(mesh, dim, first + i)[k] - origin[k];
         for (size_t j = 0; j < n; ++j) {
             double along = 0;
             for (size_t k = 0; k < dim; ++k)
@@ -107,28 +116,46 @@ double iccp_element_area(const iccp_simplices *mesh, size_t side)
 }
 
 /* The mean of the corners of a simplex, without the one opposite a side if that is given. */
-static void find_middle(const iccp_simplices *mesh, size_t simplex, size_t out, double *point)
+static ICCP_INLINE void find_middle(const iccp_simplices *mesh, size_t dim, size_t simplex,
+                                    size_t out, double *point)
 {
-    const size_t dim = mesh->dim, first = (dim + 1) * simplex;
+    const size_t first = (dim + 1) * simplex;
     const double n = (double)(dim + (out > dim));
     for (size_t k = 0; k < dim; ++k)
         point[k] = 0;
     for (size_t i = 0; i <= dim; ++i)
         for (size_t k = 0; k < dim && i != out; ++k)
-            point[k] += iccp_corner_point(mesh, first + i)[k] / n;
+            point[k] += point_of(mesh, dim, first + i)[k] / n;
+}
+
+static ICCP_INLINE double find_conductance(const iccp_simplices *mesh, size_t dim, size_t side)
+{
+    const size_t no_corner = SIZE_MAX;
+    const uint32_t other = mesh->across[side];
+    double here[ICC_MAX_DIM], there[ICC_MAX_DIM], square = 0;
+    find_middle(mesh, dim, side / (dim + 1), no_corner, here);
+    if ((other & ICCP_ON_BOUNDARY) != 0)
+        find_middle(mesh, dim, side / (dim + 1), side % (dim + 1), there);
+    else
+        find_middle(mesh, dim, other / (dim + 1), no_corner, there);
+    for (size_t k = 0; k < dim; ++k)
+        square += (there[k] - here[k]) * (there[k] - here[k]);
+    return find_area(mesh, dim, side) / iccp_max(sqrt(square), LEAST_LENGTH);
+}
+
+double iccp_element_gradients(const iccp_simplices *mesh, size_t simplex, double *gradient)
+{
+    return mesh->dim == 3 ? find_gradients(mesh, 3, simplex, gradient)
+                          : find_gradients(mesh, mesh->dim, simplex, gradient);
+}
+
+double iccp_element_area(const iccp_simplices *mesh, size_t side)
+{
+    return mesh->dim == 3 ? find_area(mesh, 3, side) : find_area(mesh, mesh->dim, side);
 }
 
 double iccp_element_conductance(const iccp_simplices *mesh, size_t side)
 {
-    const size_t dim = mesh->dim, simplex = side / (dim + 1), no_corner = SIZE_MAX;
-    const uint32_t other = mesh->across[side];
-    double here[ICC_MAX_DIM], there[ICC_MAX_DIM], square = 0;
-    find_middle(mesh, simplex, no_corner, here);
-    if ((other & ICCP_ON_BOUNDARY) != 0)
-        find_middle(mesh, simplex, side % (dim + 1), there);
-    else
-        find_middle(mesh, iccp_simplex_of(mesh, other), no_corner, there);
-    for (size_t k = 0; k < dim; ++k)
-        square += (there[k] - here[k]) * (there[k] - here[k]);
-    return iccp_element_area(mesh, side) / iccp_max(sqrt(square), LEAST_LENGTH);
+    return mesh->dim == 3 ? find_conductance(mesh, 3, side)
+                          : find_conductance(mesh, mesh->dim, side);
 }

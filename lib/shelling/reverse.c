@@ -16,33 +16,39 @@ enum { MOST_PASSES = 20 };
 
 typedef struct reversal {
     const iccp_order_priority *priority;
-    uint8_t *entered;   /* of each simplex: the sides that leaves enter by, side i being bit i */
+    uint8_t *entered; /* of each simplex: the sides that leaves enter by, side i being bit i */
+    uint8_t *inner;   /* likewise: the sides to simplices outside the star */
+    uint32_t *wrong;  /* sides that the flux crosses the wrong way and that may be tried */
+    size_t n_wrong;
     uint32_t *reversed; /* sides: reversed in this pass, as seen from the simplex of greater rank
                            before */
     size_t n_reversed;
     iccp_heap heap;     /* of sides */
-    uint8_t *barred;    /* of each side: 1: its reversal was undone */
     uint8_t *remaining; /* of each simplex: 0: it has been taken out */
     uint32_t *waiting;  /* of each simplex: neighbours that must be taken out before it */
     uint32_t *queue;    /* simplices */
 } reversal;
 
-static bool in_star(const uint32_t *rank, size_t s)
-{
-    return rank[s] == 0;
-}
-
-/* Leaves enter a simplex from greater rank and from outside the domain. */
-static void find_entered(reversal *t, const uint32_t *rank)
+/* Leaves enter a simplex from greater rank and from outside the domain. Wrong are sides that they
+ * leave by and that the flux enters by; facets at the star are not tried. */
+static void find_sides(reversal *t, const uint32_t *rank)
 {
     const iccp_simplices *mesh = t->priority->mesh;
-    const size_t n_sides = mesh->dim + 1;
-    memset(t->entered, 0, mesh->n_simplices);
-    for (size_t side = 0; side < n_sides * mesh->n_simplices; ++side) {
-        const uint32_t across = mesh->across[side];
-        if (across >= ICCP_ON_BOUNDARY ||
-            rank[iccp_simplex_of(mesh, across)] > rank[side / n_sides])
-            t->entered[side / n_sides] |= (uint8_t)(1u << side % n_sides);
+    const uint32_t n_sides = (uint32_t)mesh->dim + 1;
+    t->n_wrong = 0;
+    for (uint32_t s = 0, side = 0; s < mesh->n_simplices; ++s) {
+        unsigned entered = 0, inner = 0;
+        for (uint32_t i = 0; i < n_sides; ++i, ++side) {
+            const uint32_t across = mesh->across[side];
+            const bool outside = across >= ICCP_ON_BOUNDARY;
+            const uint32_t other = outside ? UINT32_MAX : rank[iccp_simplex_of(mesh, across)];
+            entered |= (unsigned)(other > rank[s]) << i;
+            inner |= (unsigned)(!outside && other != 0) << i;
+            if (other <= rank[s] && other != 0 && rank[s] != 0 && t->priority->flux[side] < 0)
+                t->wrong[t->n_wrong++] = side;
+        }
+        t->entered[s] = (uint8_t)entered;
+        t->inner[s] = (uint8_t)inner;
     }
 }
 
@@ -126,57 +132,77 @@ static void reverse_facet(reversal *t, uint32_t side)
 }
 
 /* One pass: queues the facets that the flux crosses the wrong way, and reverses, with most flux
- * first, those that may be at that moment. Facets at the star, and those that had to be undone,
- * are not tried. */
-static icc_status reverse_pass(reversal *t, const uint32_t *rank, const iccp_env *env)
+ * first, those that may be at that moment. No facet is reversed twice. */
+static icc_status reverse_pass(reversal *t, const iccp_env *env)
 {
-    const iccp_simplices *mesh = t->priority->mesh;
-    const size_t n = mesh->dim + 1;
-    for (size_t side = 0; side < n * mesh->n_simplices; ++side) {
-        const uint32_t across = mesh->across[side];
-        const bool leaves = (t->entered[side / n] >> side % n & 1) == 0;
-        if (across < ICCP_ON_BOUNDARY && leaves && t->priority->flux[side] < 0 &&
-            !t->barred[side] && !in_star(rank, side / n) && !in_star(rank, across / n))
-            iccp_heap_put(&t->heap, (uint32_t)side, t->priority->flux[side]);
-    }
+    size_t n_left = 0;
+    for (size_t k = 0; k < t->n_wrong; ++k)
+        iccp_heap_put(&t->heap, t->wrong[k], t->priority->flux[t->wrong[k]]);
     t->n_reversed = 0;
     while (t->heap.n_entries > 0) {
         const uint32_t side = iccp_heap_pop(&t->heap);
         if (can_reverse(t, side)) {
             reverse_facet(t, side);
             t->reversed[t->n_reversed++] = side;
+        } else {
+            t->wrong[n_left++] = side;
         }
     }
+    t->n_wrong = n_left;
     return iccp_progress(env, "order", 0);
 }
 
 /* A. B. Kahn, Topological sorting of large networks, 1962: takes out, one after the other,
- * simplices that leaves come to from none that is still in; or, from below, those that leaves go
- * from to none that is still in. `queue` holds them in this order. Returns how many: fewer than
- * were in if leaves run in circles. */
-static size_t sort_by_leaves(reversal *t, bool from_below)
+ * simplices that leaves go from to none that is still in. `queue` holds them in this order. Returns
+ * how many: fewer than were in if leaves run in circles. */
+static size_t sort_from_below(reversal *t)
 {
     const iccp_simplices *mesh = t->priority->mesh;
     const size_t n = mesh->dim + 1;
     size_t n_out = 0, n_reached = 0;
     for (size_t s = 0; s < mesh->n_simplices; ++s) {
-        t->waiting[s] = 0;
-        for (size_t i = 0; i < n && t->remaining[s]; ++i)
-            t->waiting[s] += has_neighbour(t, s, i, from_below);
+        t->waiting[s] = (uint32_t)iccp_set_size(t->inner[s] & ~(unsigned)t->entered[s]);
         if (t->remaining[s] && t->waiting[s] == 0)
             t->queue[n_reached++] = (uint32_t)s;
     }
     for (; n_out < n_reached; ++n_out) {
         const size_t s = t->queue[n_out];
+        const unsigned above = t->inner[s] & t->entered[s];
         t->remaining[s] = 0;
-        for (size_t i = 0; i < n; ++i)
-            if (has_neighbour(t, s, i, !from_below)) {
+        for (size_t i = 0; above >> i != 0; ++i)
+            if ((above >> i & 1) != 0) {
                 const size_t next = iccp_simplex_of(mesh, mesh->across[n * s + i]);
                 if (--t->waiting[next] == 0)
                     t->queue[n_reached++] = (uint32_t)next;
             }
     }
     return n_out;
+}
+
+/* The same from above, of what is left: simplices that leaves come to from none that is still
+ * in. */
+static void sort_from_above(reversal *t)
+{
+    const iccp_simplices *mesh = t->priority->mesh;
+    const size_t n = mesh->dim + 1;
+    size_t n_reached = 0;
+    for (size_t s = 0; s < mesh->n_simplices; ++s) {
+        t->waiting[s] = 0;
+        for (size_t i = 0; i < n && t->remaining[s]; ++i)
+            t->waiting[s] += has_neighbour(t, s, i, false);
+        if (t->remaining[s] && t->waiting[s] == 0)
+            t->queue[n_reached++] = (uint32_t)s;
+    }
+    for (size_t k = 0; k < n_reached; ++k) {
+        const size_t s = t->queue[k];
+        t->remaining[s] = 0;
+        for (size_t i = 0; i < n; ++i)
+            if (has_neighbour(t, s, i, true)) {
+                const size_t next = iccp_simplex_of(mesh, mesh->across[n * s + i]);
+                if (--t->waiting[next] == 0)
+                    t->queue[n_reached++] = (uint32_t)next;
+            }
+    }
 }
 
 /* Ranks all simplices but the star by sorting from below. Where leaves run in circles that is
@@ -190,9 +216,9 @@ static bool rank_anew(reversal *t, uint32_t *rank)
         t->remaining[s] = rank[s] != 0;
         n_all += t->remaining[s];
     }
-    const size_t n_ranked = sort_by_leaves(t, true);
+    const size_t n_ranked = sort_from_below(t);
     if (n_ranked < n_all) {
-        (void)sort_by_leaves(t, false);
+        sort_from_above(t);
         return false;
     }
     for (size_t k = 0; k < n_ranked; ++k)
@@ -200,9 +226,8 @@ static bool rank_anew(reversal *t, uint32_t *rank)
     return true;
 }
 
-/* Undoes reversals of this pass, the last one first, and bars these facets for good: all of
- * them, or those between simplices that are in, where the circles are. Reversals that are kept
- * stay in `reversed`. */
+/* Undoes reversals of this pass, the last one first: all of them, or those between simplices that
+ * are in, where the circles are. Reversals that are kept stay in `reversed`. */
 static size_t undo_reversals(reversal *t, bool all)
 {
     const iccp_simplices *mesh = t->priority->mesh;
@@ -213,7 +238,6 @@ static size_t undo_reversals(reversal *t, bool all)
             t->remaining[iccp_simplex_of(mesh, side)] && t->remaining[iccp_simplex_of(mesh, twin)];
         if (all || (is_in && can_reverse(t, twin))) {
             reverse_facet(t, side);
-            t->barred[side] = 1;
             ++n_back;
         } else {
             t->reversed[--n_kept] = side;
@@ -230,9 +254,9 @@ static icc_status reverse_all(reversal *t, uint32_t *rank, size_t *n_reversed, c
 {
     icc_status status = ICC_OK;
     *n_reversed = 0;
-    find_entered(t, rank);
+    find_sides(t, rank);
     for (int k = 0; k < MOST_PASSES && status == ICC_OK; ++k) {
-        status = reverse_pass(t, rank, env);
+        status = reverse_pass(t, env);
         while (t->n_reversed > 0 && !rank_anew(t, rank))
             if (undo_reversals(t, false) == 0)
                 (void)undo_reversals(t, true);
@@ -251,18 +275,21 @@ icc_status iccp_order_reverse(const iccp_order_priority *priority, uint32_t *ran
     reversal t = {.priority = priority};
     t.entered = iccp_alloc(memory, n, sizeof *t.entered);
     t.reversed = iccp_alloc(memory, n_sides, sizeof *t.reversed);
-    t.barred = iccp_alloc_zero(memory, n_sides, sizeof *t.barred);
+    t.inner = iccp_alloc(memory, n, sizeof *t.inner);
+    t.wrong = iccp_alloc(memory, n_sides, sizeof *t.wrong);
     t.remaining = iccp_alloc(memory, n, sizeof *t.remaining);
     t.waiting = iccp_alloc(memory, n, sizeof *t.waiting);
     t.queue = iccp_alloc(memory, n, sizeof *t.queue);
     icc_status status = ICC_ERR_MEMORY;
     if (iccp_heap_create(&t.heap, n_sides, memory) && t.entered != NULL && t.reversed != NULL &&
-        t.barred != NULL && t.remaining != NULL && t.waiting != NULL && t.queue != NULL)
+        t.inner != NULL && t.wrong != NULL && t.remaining != NULL && t.waiting != NULL &&
+        t.queue != NULL)
         status = reverse_all(&t, rank, n_reversed, env);
     iccp_heap_free(&t.heap, memory);
     iccp_free(memory, t.entered);
     iccp_free(memory, t.reversed);
-    iccp_free(memory, t.barred);
+    iccp_free(memory, t.inner);
+    iccp_free(memory, t.wrong);
     iccp_free(memory, t.remaining);
     iccp_free(memory, t.waiting);
     iccp_free(memory, t.queue);

@@ -3,6 +3,8 @@
 #include "domain/avl.h"
 #include "domain/domain.h"
 #include "domain/locate.h"
+#include "domain/simple.h"
+#include "domain/sweep.h"
 #include "icc/icc.h"
 
 #include "../../share.h"
@@ -205,12 +207,53 @@ static void check_agreement(size_t n, const double *points, const defects *d)
     ck_assert_msg(strstr(err.message, words[kind]) != NULL, "%d: %s", kind, err.message);
 }
 
+static iccp_env default_env(void)
+{
+    iccp_env env;
+    REQUIRE(iccp_env_read(&env, NULL, NULL) == ICC_OK);
+    return env;
+}
+
+/* The quick test of n points, the first of which follow once more. */
+static iccp_simple find_simple(size_t n, const double *points)
+{
+    const iccp_env env = default_env();
+    iccp_simple quick;
+    iccp_boxtree tree;
+    iccp_boxtree_create(&tree, points, n, &env.memory);
+    REQUIRE(tree.boxes != NULL && iccp_simple_find(&quick, &tree, &env) == ICC_OK);
+    iccp_boxtree_free(&tree, &env.memory);
+    return quick;
+}
+
+/* The quick test, unless it gives up, and the sweep. */
+static void check_tests(const shape *s, bool expected)
+{
+    static double points[2 * MAX_N + 2];
+    const iccp_env env = default_env();
+    const size_t n = (size_t)s->n;
+    const iccp_polygon polygon = {.n = n, .points = points};
+    iccp_defect found;
+    to_doubles(s, 1, 0, 0, points);
+    points[2 * n] = points[0];
+    points[2 * n + 1] = points[1];
+    const iccp_simple quick = find_simple(n, points);
+    if (quick.answer == ICCP_UNDECIDED)
+        REQUIRE(quick.n_tests > ICCP_SIMPLE_PATIENCE * n);
+    else
+        REQUIRE((quick.answer == ICCP_SIMPLE) == expected);
+    REQUIRE(iccp_sweep(&found, &polygon, &env) == ICC_OK);
+    REQUIRE((found.kind == 0) == expected);
+}
+
 static void check_shape(const shape *s, double scale, double x, double y)
 {
     static double points[2 * MAX_N];
     static defects expected, got;
     to_doubles(s, scale, x, y, points);
     slow_defects(&expected, s);
+    if (s->n >= 3)
+        check_tests(s, expected.n == 0);
     list(&got, (size_t)s->n, points);
     REQUIRE(got.n == expected.n);
     REQUIRE(memcmp(got.kinds, expected.kinds, got.n * sizeof *got.kinds) == 0);
@@ -540,6 +583,88 @@ START_TEST(test_nearly_degenerate)
 }
 END_TEST
 
+/* ------------------------------------------------------------------- work */
+
+enum { MANY = 1 << 15 };
+
+static double many[2 * MANY + 2];
+
+static void set(size_t i, double x, double y)
+{
+    many[2 * i] = x;
+    many[2 * i + 1] = y;
+}
+
+static void set_polar(size_t i, double radius, double angle)
+{
+    set(i, radius * cos(angle), radius * sin(angle));
+}
+
+enum { SMOOTH, ROUGH, WINDING, STAIRS, TEETH, ROWS, FAN, DIAGONAL, SLANTED, N_KINDS };
+
+/* Polygons of n points, n a multiple of 4. From FAN on most edges lie in the boxes of most others. */
+static void make_many(int kind, size_t n)
+{
+    const double turn = 6.283185307179586, step = 1 / (double)n;
+    for (size_t i = 0; i < n; ++i) {
+        const bool last = i + 1 == n, inner = i + 2 < n;
+        const double a = turn * (double)i * step, odd = (double)(i % 2);
+        const size_t half = i < n / 2 ? i : n - 1 - i;
+        const double shift = i < n / 2 ? 0 : 4;
+        switch (kind) {
+        case SMOOTH:
+            set_polar(i, 1 + 0.5 * sin(7 * a), a);
+            break;
+        case ROUGH:
+            set_polar(i, 1 + 0.5 * sin(7 * a) + 20 * unit() * step, a);
+            break;
+        case WINDING: {
+            const double b = turn * fmin(30, (double)n / 128) * 2 * step * (double)half;
+            set_polar(i, 1 + shift / 2 + b, b);
+            break;
+        }
+        case STAIRS: /* two, one beside the other */
+            set(i, (double)(half / 2) + shift, (double)((half + 1) / 2));
+            break;
+        case TEETH:
+            set(i, inner ? (double)i : last ? -1 : (double)n, inner ? odd : -9);
+            break;
+        case ROWS:
+            set(i, inner ? odd : -1, inner ? (double)i * step : last ? -step : 1);
+            break;
+        case FAN:
+            set_polar(i, i % 2 == 0 ? 1 : 1e-3, a);
+            break;
+        default: {
+            const double dx = kind == DIAGONAL ? 1 : 3, u = inner ? odd : -0.01;
+            const double v = inner ? (double)(i / 2) * step : last ? 0 : 1;
+            set(i, dx * u - v, u + dx * v);
+        }
+        }
+    }
+    set(n, many[0], many[1]);
+}
+
+/* Ordinary polygons take a number of tests in proportion to n; no polygon takes more than the
+ * patience. */
+START_TEST(test_work)
+{
+    for (int kind = 0; kind < N_KINDS; ++kind)
+        for (size_t n = 1 << 9; n <= MANY; n *= 4) {
+            icc_domain *domain;
+            make_many(kind, n);
+            const iccp_simple quick = find_simple(n, many);
+            const bool easy = kind < FAN;
+            ck_assert_msg(quick.answer == (easy ? ICCP_SIMPLE : ICCP_UNDECIDED),
+                          "kind %d, %zu points: %d after %zu tests", kind, n, quick.answer,
+                          quick.n_tests);
+            ck_assert_uint_le(quick.n_tests, (ICCP_SIMPLE_PATIENCE + 1) * n);
+            ck_assert_int_eq(icc_domain_create(&domain, 2, n, many, 0, NULL, NULL, NULL), ICC_OK);
+            icc_domain_free(domain);
+        }
+}
+END_TEST
+
 /* ---------------------------------------------------------------- facets */
 
 START_TEST(test_facets)
@@ -627,6 +752,15 @@ static void widen(int64_t *low, int64_t *high, int64_t x)
 {
     *low = x < *low ? x : *low;
     *high = x > *high ? x : *high;
+}
+
+/* The cells, which locating a point makes. */
+static const iccp_buckets *buckets_of(const icc_domain *domain)
+{
+    (void)iccp_domain_locate(domain, (double[]){0, 0}, true, NULL, NULL);
+    const iccp_buckets *buckets = atomic_load(&domain->locator->buckets);
+    ck_assert_ptr_nonnull(buckets);
+    return buckets;
 }
 
 /* Points on a grid four times as fine as the shape's: on vertices, edges, and between. */
@@ -744,7 +878,7 @@ START_TEST(test_sides_of_cells)
         icc_error err;
         if (create(&domain, (size_t)s.n, points, &err) != ICC_OK)
             continue;
-        const iccp_buckets *b = &domain->locator->buckets;
+        const iccp_buckets *b = buckets_of(domain);
         for (int i = 0; i < 1000; ++i) {
             const uint32_t e = (uint32_t)below(s.n);
             const double *p = domain->vertices + 2 * domain->facets[2 * e];
@@ -789,7 +923,7 @@ START_TEST(test_edge_through_known_point)
                         (p[1] > 0.25 && p[0] > x && p[0] < right ? ICC_OUTSIDE : ICC_INSIDE));
         }
         /* The next edge goes where this grid has such a point; the grid stays the same. */
-        const iccp_buckets *b = &domain->locator->buckets;
+        const iccp_buckets *b = buckets_of(domain);
         const double scale = domain->frame.out[0] * domain->frame.out[1];
         const double column = floor((0.5 / scale - b->origin[0]) * b->rate[0]) + 0.5;
         x = (b->origin[0] + column * b->step[0]) * scale;
@@ -1109,6 +1243,49 @@ START_TEST(test_memory_and_cancel)
 }
 END_TEST
 
+/* Where there is no memory for the cells points are found without. */
+START_TEST(test_locate_without_memory)
+{
+    enum { N = 3000 };
+    static shape s;
+    static double points[2 * MAX_N], queries[2 * N], bary[2][2 * N];
+    static int32_t where[2][N];
+    static uint32_t facet[2][N];
+    for (int round = 0; round < 12; ++round) {
+        icc_domain *domain, *poor;
+        icc_error err;
+        make_any(&s, round == 5 || round == 11 ? 4 : round);
+        to_doubles(&s, 1, round % 2 == 0 ? 0 : 1e9, 0, points);
+        ck_assert_int_eq(create(&domain, (size_t)s.n, points, &err), ICC_OK);
+        icc_domain_info info = {.size = sizeof info};
+        icc_domain_get_info(domain, &info);
+        for (int i = 0; i < N; ++i)
+            for (int k = 0; k < 2; ++k) {
+                const double *p = points + 2 * below(s.n);
+                const double at = info.lower[k] + unit() * (info.upper[k] - info.lower[k]);
+                queries[2 * i + k] = i % 3 == 0 ? p[k] : at;
+            }
+        icc_domain_locate(domain, N, queries, where[0], facet[0], bary[0], NULL);
+        budget b = {.left = 1000, .cancel_at = -1};
+        const icc_env env = {.size = sizeof env, .user = &b, .alloc = take, .dealloc = give};
+        ck_assert_int_eq(icc_domain_create(&poor, 2, (size_t)s.n, points, 0, NULL, &env, NULL),
+                         ICC_OK);
+        for (b.left = 0; b.left < 4; ++b.left) {
+            const long left = b.left, live = b.live;
+            icc_domain_locate(poor, N, queries, where[1], facet[1], bary[1], NULL);
+            ck_assert_int_eq(memcmp(where[0], where[1], sizeof where[0]), 0);
+            ck_assert_int_eq(memcmp(facet[0], facet[1], sizeof facet[0]), 0);
+            ck_assert_int_eq(memcmp(bary[0], bary[1], sizeof bary[0]), 0);
+            ck_assert_int_eq(b.live > live, left == 3);
+            b.left = left;
+        }
+        icc_domain_free(poor);
+        ck_assert_int_eq(b.live, 0);
+        icc_domain_free(domain);
+    }
+}
+END_TEST
+
 START_TEST(test_threads)
 {
     enum { N = 20000 };
@@ -1126,6 +1303,8 @@ START_TEST(test_threads)
     icc_domain_locate(domain, N, queries, where[0], facet[0], bary[0], NULL);
     for (int32_t threads = 2; threads <= 8; threads += 3) {
         const icc_env env = {.size = sizeof env, .threads = threads};
+        icc_domain_free(domain); /* the threads shall make the cells of a new one */
+        ck_assert_int_eq(create(&domain, (size_t)s.n, points, &err), ICC_OK);
         ck_assert_int_eq(icc_domain_locate(domain, N, queries, where[1], facet[1], bary[1], &env),
                          ICC_OK);
         ck_assert_int_eq(memcmp(where[0], where[1], sizeof where[0]), 0);
@@ -1200,6 +1379,7 @@ int main(void)
     tcase_add_test(checks, test_shapes);
     tcase_add_test(checks, test_slit);
     tcase_add_test(checks, test_nearly_degenerate);
+    tcase_add_test(checks, test_work);
     tcase_add_test(checks, test_facets);
     tcase_add_test(checks, test_locate_exactly);
     tcase_add_test(checks, test_clustered_vertices);
@@ -1214,6 +1394,7 @@ int main(void)
     tcase_add_test(checks, test_area_of_slivers);
     tcase_add_test(checks, test_arguments);
     tcase_add_test(checks, test_memory_and_cancel);
+    tcase_add_test(checks, test_locate_without_memory);
     tcase_add_test(checks, test_threads);
     tcase_add_test(checks, test_tree);
     tcase_set_timeout(checks, 120);

@@ -7,6 +7,7 @@
 #include "domain/crossings.h"
 #include "domain/domain.h"
 #include "domain/facet_tree.h"
+#include "domain/fans.h"
 #include "domain/simplex.h"
 #include "domain/triangles.h"
 #include "icc/icc.h"
@@ -404,7 +405,7 @@ START_TEST(soups_are_searched)
         iccp_facet_tree tree;
         iccp_facet_tree_create(&tree, 3, vertices, N, faces, &env.memory);
         REQUIRE(tree.boxes != NULL);
-        REQUIRE(iccp_triangles_find(&tree, pair, &env) == ICC_OK);
+        REQUIRE(iccp_triangles_find(&tree, 3 * N, pair, &env) == ICC_OK);
         REQUIRE((pair[0] != pair[1]) == met);
         if (met)
             REQUIRE(iccp_triangles_meet(vertices, faces + 3 * pair[0], faces + 3 * pair[1]));
@@ -412,6 +413,75 @@ START_TEST(soups_are_searched)
         n_found += met;
     }
     ck_assert(n_found > share_of(50) && n_found < share_of(350));
+}
+END_TEST
+
+/* A double cone over a ring of n points: fans with apexes n and n + 1. Rings wind `turns` times, or
+ * lie anywhere (0). */
+static void make_cones(uint32_t n, int turns, random_source *r, double *vertices, uint32_t *faces)
+{
+    for (uint32_t i = 0; i < n; ++i) {
+        const double angle = 6.283185307179586 * turns * i / n;
+        for (int k = 0; k < 3; ++k) {
+            const double at = k == 0 ? cos(angle) : k == 1 ? sin(angle) : 0;
+            vertices[3 * i + (uint32_t)k] =
+                turns > 0 ? at + 0.3 * (random_unit(r) - 0.5) : random_unit(r) - 0.5;
+        }
+        const uint32_t next = i + 1 < n ? i + 1 : 0;
+        const uint32_t both[6] = {n, i, next, n + 1, next, i};
+        memcpy(faces + 6 * i, both, sizeof both);
+    }
+    for (uint32_t k = 0; k < 6; ++k)
+        vertices[3 * n + k] = 0.2 * random_unit(r) + (k == 2 ? 1 : k == 5 ? -1 : 0);
+    for (uint32_t k = 0; k < 3; ++k) { /* turns the axis */
+        const uint32_t a = (uint32_t)random_below(r, 3), b = (uint32_t)random_below(r, 3);
+        for (uint32_t v = 0; v < n + 2; ++v) {
+            const double swap = vertices[3 * v + a];
+            vertices[3 * v + a] = vertices[3 * v + b];
+            vertices[3 * v + b] = swap;
+        }
+    }
+}
+
+/* Vertices at which triangles cannot meet are such, pentagrams are none, and the pair that is found
+ * is the first in the order of the tree. */
+START_TEST(fans_are_safe)
+{
+    enum { N = 12 };
+    random_source r = {5};
+    const iccp_env env = {.memory = iccp_memory_default};
+    int n_good = 0, n_met = 0, n_rounds = share_of(4000);
+    for (int round = 0; round < n_rounds; ++round) {
+        const int turns = round % 4 < 2 ? 1 : round % 4 == 2 ? 2 : 0;
+        const uint32_t n = turns == 2 ? 5 + 2 * (uint32_t)random_below(&r, 3)
+                                      : 3 + (uint32_t)random_below(&r, N - 2);
+        double vertices[3 * (N + 2)];
+        uint32_t faces[6 * N], pair[2], first[2] = {0, 0};
+        iccp_facet_tree tree;
+        make_cones(n, turns, &r, vertices, faces);
+        iccp_facet_tree_create(&tree, 3, vertices, 2 * n, faces, &env.memory);
+        uint8_t *good = iccp_fans_find(&tree, n + 2, &env.memory);
+        REQUIRE(tree.boxes != NULL && good != NULL);
+        for (uint32_t p = 2 * n; p-- > 0;)
+            for (uint32_t q = 2 * n; --q > p;) {
+                const uint32_t f = tree.order[p], g = tree.order[q];
+                if (!iccp_triangles_meet(vertices, faces + 3 * f, faces + 3 * g))
+                    continue;
+                first[0] = f < g ? f : g;
+                first[1] = f < g ? g : f;
+                for (uint32_t i = 0; i < 9; ++i)
+                    REQUIRE(faces[3 * f + i / 3] != faces[3 * g + i % 3] ||
+                            !good[faces[3 * f + i / 3]]);
+            }
+        REQUIRE(iccp_triangles_find(&tree, n + 2, pair, &env) == ICC_OK);
+        REQUIRE(pair[0] == first[0] && pair[1] == first[1]);
+        REQUIRE(turns != 2 || !good[n]);
+        n_good += good[n];
+        n_met += first[0] != first[1];
+        iccp_free(&env.memory, good);
+        iccp_facet_tree_free(&tree, &env.memory);
+    }
+    ck_assert(n_good > n_rounds / 5 && n_met > n_rounds / 5 && n_met < n_rounds * 4 / 5);
 }
 END_TEST
 
@@ -1114,6 +1184,7 @@ int main(void)
     tcase_add_test(tests, intersections_are_named);
     tcase_add_test(tests, triangles_agree_with_integers);
     tcase_add_test(tests, soups_are_searched);
+    tcase_add_test(tests, fans_are_safe);
     tcase_add_test(tests, stars_are_domains);
     tcase_add_test(tests, orientation_is_exact);
     tcase_add_test(tests, lattice_points_are_placed);

@@ -1,0 +1,23 @@
+/* Whether a polygon is simple: in O(n) for most, with no answer for the others. */
+#ifndef ICCP_SIMPLE_H
+#define ICCP_SIMPLE_H
+
+#include "base/env.h"
+#include "domain/boxtree.h"
+
+/* Tests of boxes and of pairs of edges, per edge, after which the search gives up. Outlines need 5
+ * to 15; polygons whose boxes nearly all overlap, such as a diagonal comb, up to n. */
+enum { ICCP_SIMPLE_PATIENCE = 48 };
+
+typedef enum iccp_simplicity { ICCP_UNDECIDED, ICCP_SIMPLE, ICCP_NOT_SIMPLE } iccp_simplicity;
+
+typedef struct iccp_simple {
+    iccp_simplicity answer;
+    size_t n_tests; /* of boxes and pairs of edges */
+} iccp_simple;
+
+/* For the tree of a polygon of at least 3 finite points. Exact, if there is an answer: not simple
+ * are repeated points, spikes, and edges that meet beyond the point that they share. */
+icc_status iccp_simple_find(iccp_simple *result, const iccp_boxtree *tree, const iccp_env *env);
+
+#endif

@@ -1,0 +1,186 @@
+/* What it costs to make a domain of a polygon, nearly all of which is the check that it does not
+ * meet itself, beside GEOSisValid() where GEOS is installed: nanoseconds a vertex, the least of
+ * some runs by turns. GEOS answers in doubles, ours is exact. The last rings are not simple.
+ * usage: bench_simple [LARGEST] */
+#define _POSIX_C_SOURCE 200809L
+
+#include "bench.h"
+
+#ifdef BENCH_WITH_GEOS
+#include <geos_c.h>
+#endif
+
+static const double TURN = 6.28318530717958647692;
+
+enum { SLOW_GEOS = 10000 }; /* vertices of a comb: GEOS takes quadratic time */
+
+static double now(void)
+{
+    struct timespec t;
+    (void)clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t); /* one thread; others may be busy */
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static double uniform(void)
+{
+    static uint64_t state = 1;
+    state = state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+    return (double)(state >> 11) * 0x1p-53;
+}
+
+/* ------------------------------------------------------------------- rings */
+
+typedef void (*maker)(size_t n, double *xy);
+
+static void polar(double *xy, double radius, double angle)
+{
+    xy[0] = radius * cos(angle);
+    xy[1] = radius * sin(angle);
+}
+
+static void make_smooth(size_t n, double *xy)
+{
+    for (size_t i = 0; i < n; ++i) {
+        const double angle = TURN * (double)i / (double)n;
+        polar(xy + 2 * i, 1 + 0.5 * sin(7 * angle) + 0.2 * sin(31 * angle), angle);
+    }
+}
+
+/* The same with a rough edge. */
+static void make_coast(size_t n, double *xy)
+{
+    for (size_t i = 0; i < n; ++i) {
+        const double angle = TURN * (double)i / (double)n, rough = 20 * uniform() / (double)n;
+        polar(xy + 2 * i, 1 + 0.5 * sin(7 * angle) + 0.2 * sin(31 * angle) + rough, angle);
+    }
+}
+
+/* Sixty turns there and back. */
+static void make_spiral(size_t n, double *xy)
+{
+    const size_t half = n / 2;
+    for (size_t i = 0; i < half; ++i) {
+        const double angle = 60 * TURN * (double)i / (double)half;
+        polar(xy + 2 * i, 1 + angle, angle);
+        polar(xy + 2 * (2 * half - 1 - i), 3 + angle, angle);
+    }
+    for (size_t i = 2 * half; i < n; ++i)
+        polar(xy + 2 * i, 2 - 0.1 * (double)(i - 2 * half), 0);
+}
+
+/* Stairs up, and a straight way back. */
+static void make_stairs(size_t n, double *xy)
+{
+    for (size_t i = 0; i + 1 < n; ++i) {
+        xy[2 * i] = (double)((i + 1) / 2);
+        xy[2 * i + 1] = (double)(i / 2);
+    }
+    xy[2 * n - 2] = -1;
+    xy[2 * n - 1] = (double)n;
+}
+
+/* Long thin teeth along a diagonal: all their boxes overlap. */
+static void make_comb(size_t n, double *xy)
+{
+    const double width = 1.0 / (double)n;
+    for (size_t i = 0; i + 2 < n; ++i) {
+        const double u = i % 2 == 0 ? 0 : 1, v = width * (double)i;
+        xy[2 * i] = u - v;
+        xy[2 * i + 1] = u + v;
+    }
+    xy[2 * n - 4] = -1.01;
+    xy[2 * n - 3] = 0.99;
+    xy[2 * n - 2] = xy[2 * n - 1] = -0.01;
+}
+
+/* The first quarter crosses the last one. */
+static void make_crossed(size_t n, double *xy)
+{
+    make_coast(n, xy);
+    for (size_t i = 0; i < 2; ++i) {
+        const double swap = xy[n / 4 * 2 + i];
+        xy[n / 4 * 2 + i] = xy[n / 4 * 6 + i];
+        xy[n / 4 * 6 + i] = swap;
+    }
+}
+
+/* A vertex near the end lies on an edge near the beginning. */
+static void make_touching(size_t n, double *xy)
+{
+    make_smooth(n, xy);
+    for (size_t i = 0; i < 2; ++i)
+        xy[2 * (n - n / 8) + i] = xy[2 * (n / 8) + i];
+}
+
+/* ----------------------------------------------------------------- timing */
+
+static double time_ours(size_t n, const double *xy, int *valid)
+{
+    icc_domain *domain;
+    const double start = now();
+    *valid = icc_domain_create(&domain, 2, n, xy, 0, NULL, NULL, NULL) == ICC_OK;
+    icc_domain_free(domain);
+    return now() - start;
+}
+
+#ifdef BENCH_WITH_GEOS
+static double time_geos(GEOSContextHandle_t geos, size_t n, const double *xy, int *valid)
+{
+    const double start = now();
+    GEOSCoordSequence *s = GEOSCoordSeq_create_r(geos, (unsigned)n + 1, 2);
+    for (size_t i = 0; i <= n; ++i)
+        (void)GEOSCoordSeq_setXY_r(geos, s, (unsigned)i, xy[2 * (i % n)], xy[2 * (i % n) + 1]);
+    GEOSGeometry *ring = GEOSGeom_createLinearRing_r(geos, s);
+    GEOSGeometry *polygon = GEOSGeom_createPolygon_r(geos, ring, NULL, 0);
+    *valid = GEOSisValid_r(geos, polygon) == 1;
+    GEOSGeom_destroy_r(geos, polygon);
+    return now() - start;
+}
+#endif
+
+static void measure(const char *name, maker make, size_t n)
+{
+    double *xy = bench_alloc(2 * n, sizeof *xy), ours = HUGE_VAL;
+    int valid = 0;
+    make(n, xy);
+#ifdef BENCH_WITH_GEOS
+    GEOSContextHandle_t geos = GEOS_init_r();
+    const int runs_geos = make != make_comb || n <= SLOW_GEOS;
+    double theirs = HUGE_VAL;
+    int valid_geos = 0;
+#endif
+    for (int run = 0; run < (n > 100000 ? 5 : 9); ++run) {
+        ours = fmin(ours, time_ours(n, xy, &valid));
+#ifdef BENCH_WITH_GEOS
+        if (runs_geos)
+            theirs = fmin(theirs, time_geos(geos, n, xy, &valid_geos));
+#endif
+    }
+    (void)printf("%-14s %8zu %-10s %9.1f", name, n, valid ? "simple" : "not simple",
+                 1e9 * ours / (double)n);
+#ifdef BENCH_WITH_GEOS
+    if (runs_geos)
+        (void)printf(" %9.1f %7.3f%s", 1e9 * theirs / (double)n, ours / theirs,
+                     valid == valid_geos ? "" : "  (GEOS says otherwise)");
+    GEOS_finish_r(geos);
+#endif
+    (void)printf("\n");
+    (void)fflush(stdout);
+    free(xy);
+}
+
+int main(int argc, char **argv)
+{
+    static const struct {
+        const char *name;
+        maker make;
+    } rings[] = {{"smooth", make_smooth},    {"coast", make_coast}, {"spiral", make_spiral},
+                 {"stairs", make_stairs},    {"comb", make_comb},   {"crossed", make_crossed},
+                 {"touching", make_touching}};
+    const size_t largest = argc > 1 ? (size_t)strtoull(argv[1], NULL, 10) : 1000000;
+    (void)printf("%-14s %8s %-10s %9s %9s %7s\n", "", "n", "", "ours ns", "GEOS ns", "ratio");
+    for (size_t n = 1000; n <= largest; n *= 10)
+        for (size_t k = 0; k < sizeof rings / sizeof rings[0]; ++k)
+            measure(rings[k].name, rings[k].make, n);
+    return 0;
+}
