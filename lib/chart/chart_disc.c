@@ -286,19 +286,19 @@ static size_t count_boundary_faults(const iccp_planar *mesh, const double *image
     return n_faults + (n_wraps != 1);
 }
 
-static icc_status certify(const iccp_planar *mesh, const double *image, icc_error *err)
+/* `domain`: what is known of the mesh in the domain. */
+static icc_status certify(const iccp_planar *mesh, const iccp_certificate *domain,
+                          const double *image, icc_error *err)
 {
-    iccp_certificate domain = {0}, disc = {0};
-    iccp_certify_mesh(mesh, mesh->points, &domain);
-    iccp_certify_mesh(mesh, image, &disc);
+    const size_t n_inverted = iccp_count_inverted(mesh, image);
     const size_t n_rim = count_boundary_faults(mesh, image);
-    if (iccp_certificate_holds(&domain) && iccp_certificate_holds(&disc) && n_rim == 0)
+    if (iccp_certificate_holds(domain) && n_inverted == 0 && n_rim == 0)
         return ICC_OK;
     return iccp_fail(
         err, ICC_ERR_CERTIFICATE,
         "the map to the disc cannot be certified: %zu triangles inverted in the domain "
         "and %zu in the disc, %zu faults of topology, %zu of the rim",
-        domain.n_inverted, disc.n_inverted, domain.n_topology, n_rim);
+        domain->n_inverted, n_inverted, domain->n_topology, n_rim);
 }
 
 /* The maximum is the point that goes to the origin. */
@@ -322,15 +322,11 @@ static icc_status fill_state(icc_chart *chart, const iccp_planar *mesh, const do
     return ICC_OK;
 }
 
-icc_status iccp_chart_disc_create(icc_chart **out, const icc_domain *domain, iccp_harmonic *base,
-                                  double **image, const iccp_env *env, icc_error *err)
+/* The certified chart; `seconds` is what that took. */
+static icc_status create(icc_chart **out, const icc_domain *domain, iccp_harmonic *base,
+                         double **image, double seconds, const iccp_env *env, icc_error *err)
 {
-    const double start = iccp_seconds();
-    icc_status status = certify(&base->mesh, *image, err);
-    if (status != ICC_OK)
-        return status;
-    const double seconds = iccp_seconds() - start;
-    status = iccp_chart_new(out, domain, env);
+    icc_status status = iccp_chart_new(out, domain, env);
     if (status != ICC_OK)
         return status;
     icc_chart *chart = *out;
@@ -361,6 +357,17 @@ icc_status iccp_chart_disc_create(icc_chart **out, const icc_domain *domain, icc
     return ICC_OK;
 }
 
+icc_status iccp_chart_disc_create(icc_chart **out, const icc_domain *domain, iccp_harmonic *base,
+                                  double **image, const iccp_env *env, icc_error *err)
+{
+    const double start = iccp_seconds();
+    iccp_certificate certificate = {0};
+    iccp_certify_mesh(&base->mesh, base->mesh.points, &certificate);
+    const icc_status status = certify(&base->mesh, &certificate, *image, err);
+    return status == ICC_OK ? create(out, domain, base, image, iccp_seconds() - start, env, err)
+                            : status;
+}
+
 static bool are_in_disc(size_t n, const double *numbers)
 {
     for (size_t i = 0; i < n; ++i)
@@ -369,6 +376,7 @@ static bool are_in_disc(size_t n, const double *numbers)
     return true;
 }
 
+/* The mesh is certified as it is read. */
 icc_status iccp_chart_disc_read(icc_chart **out, const icc_domain *domain, iccp_blob *r,
                                 const iccp_env *env)
 {
@@ -383,8 +391,10 @@ icc_status iccp_chart_disc_read(icc_chart **out, const icc_domain *domain, iccp_
     if (image != NULL) {
         iccp_blob_f64(r, n, image);
         status = r->status == ICC_OK && are_in_disc(n, image)
-                     ? iccp_chart_disc_create(out, domain, &base, &image, env, NULL)
+                     ? certify(&base.mesh, &(iccp_certificate){0}, image, NULL)
                      : ICC_ERR_FORMAT;
+        if (status == ICC_OK)
+            status = create(out, domain, &base, &image, 0, env, NULL);
     }
     iccp_free(&env->memory, image);
     iccp_harmonic_free(&base);

@@ -258,8 +258,8 @@ icc_status iccp_finder_ready(const iccp_finder *finder)
     return grid_of(finder) != NULL ? ICC_OK : ICC_ERR_MEMORY;
 }
 
-/* A convex set meets at most as many cells as its area is, and 2 for each line of the grid that it
- * crosses. */
+/* A triangle meets no more cells than its area, in cells, and 2 for each line of the grid that it
+ * crosses: as many as its edges are long along the axes, and 4. */
 icc_status iccp_finder_budget(const iccp_finder *finder, const iccp_env *env)
 {
     const iccp_finder *f = finder;
@@ -267,18 +267,15 @@ icc_status iccp_finder_budget(const iccp_finder *finder, const iccp_env *env)
         return ICC_OK;
     grid g = {0};
     choose_cells(f, &g);
-    double n_entries = (double)g.n_cells;
-    for (size_t t = 0; t < f->n_triangles; ++t) {
-        double q[3][2];
-        for (int k = 0; k < 3; ++k)
-            in_cells(f, &g, f->triangles[3 * t + (size_t)k], q[k]);
-        for (int k = 0; k < 2; ++k)
-            n_entries += 2 + 2 * (most(most(q[0][k], q[1][k]), q[2][k]) -
-                                  least(least(q[0][k], q[1][k]), q[2][k]));
+    double length = 0;
+    for (uint32_t c = 0; c < 3 * f->n_triangles; ++c) {
+        const double *a = f->points + 2 * (size_t)f->triangles[c];
+        const double *b = f->points + 2 * (size_t)f->triangles[iccp_after(c)];
+        length += fabs(b[0] - a[0]) + fabs(b[1] - a[1]);
     }
-    return n_entries > PLENTY * (double)f->n_triangles
-               ? iccp_budget_borrow(env, n_entries * sizeof *g.entries)
-               : ICC_OK;
+    const double n = (double)f->n_triangles;
+    const double n_entries = (double)g.n_cells + 4 * n + length * g.rate;
+    return n_entries > PLENTY * n ? iccp_budget_borrow(env, n_entries * sizeof *g.entries) : ICC_OK;
 }
 
 /* ---- looking for points ---- */
