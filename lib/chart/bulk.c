@@ -212,7 +212,9 @@ static icc_status decode_chunk(void *argument, size_t begin, size_t end)
 
 static icc_status run(bulk *b, size_t n, iccp_chunk chunk, size_t *n_failed, const iccp_env *env)
 {
-    const icc_status status = iccp_for_chunks(env, "trace", n, ICCP_CHART_MANY, chunk, b);
+    icc_status status = n > 0 ? iccp_chart_ready(b->chart, chunk == decode_chunk) : ICC_OK;
+    if (status == ICC_OK)
+        status = iccp_for_chunks(env, "trace", n, ICCP_CHART_MANY, chunk, b);
     if (n_failed != NULL)
         *n_failed = atomic_load(&b->n_failed);
     return status;

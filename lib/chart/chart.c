@@ -119,6 +119,11 @@ icc_status iccp_chart_decode(const icc_chart *chart, const iccp_coords *coords, 
     return jet != NULL ? ICC_ERR_TRACE : ICC_OK;
 }
 
+icc_status iccp_chart_ready(const icc_chart *chart, bool decodes)
+{
+    return chart->ops->ready != NULL ? chart->ops->ready(chart, decodes) : ICC_OK;
+}
+
 icc_status iccp_chart_trace(const icc_chart *chart, const double *point, iccp_path *path,
                             iccp_emit emit, void *argument)
 {

@@ -78,6 +78,9 @@ typedef struct iccp_chart_ops {
     /* Fills in everything but `size`; n_points > 0. NULL for methods that miss nothing. */
     icc_status (*measure)(const icc_chart *chart, size_t n_points, icc_chart_report *measures,
                           const iccp_env *env);
+    /* Makes what encode or decode makes when it is first asked: who asks in parallel does so first.
+     * ICC_OK or ICC_ERR_MEMORY. NULL for methods that have all they need. */
+    icc_status (*ready)(const icc_chart *chart, bool decodes);
     /* What the method's loader wants, without the domain (chart/load.h). */
     void (*save)(const icc_chart *chart, iccp_blob *w);
     void (*free_state)(icc_chart *chart);
@@ -125,6 +128,9 @@ icc_status iccp_chart_encode(const icc_chart *chart, const double *point, iccp_c
                              iccp_encode_jet *jet);
 icc_status iccp_chart_decode(const icc_chart *chart, const iccp_coords *coords, double *point,
                              iccp_decode_jet *jet, iccp_path *path);
+
+/* See iccp_chart_ops. */
+icc_status iccp_chart_ready(const icc_chart *chart, bool decodes);
 
 /* The curve through a point, from the boundary to the maximum; of the maximum, the point alone. */
 icc_status iccp_chart_trace(const icc_chart *chart, const double *point, iccp_path *path,

@@ -116,18 +116,20 @@ static icc_status encode(const icc_chart *chart, const double *point, const iccp
 {
     (void)place;
     const disc_state *state = chart->state;
-    uint32_t triangle, edge;
-    double bary[3], z[2], lambda, t;
-    if (!iccp_finder_find(&state->before, point, &triangle, bary))
-        return ICC_ERR_TRACE;
-    interpolate(&state->mesh, triangle, bary, state->image, z);
+    uint32_t edge;
+    double z[2], lambda, t;
+    iccp_found found;
+    const icc_status status = iccp_finder_find(&state->before, point, &found);
+    if (status != ICC_OK)
+        return status;
+    interpolate(&state->mesh, found.triangle, found.bary, state->image, z);
     to_polar(state, z, &edge, &lambda, &t);
     const double along = iccp_planar_along(&state->mesh, chart->domain, edge, lambda);
     *coords = (iccp_coords){.facet = state->mesh.facet[edge], .bary = {1 - along, along}, .t = t};
     if (jet == NULL)
         return ICC_OK;
     double inner[2][2], rows[2][2];
-    triangle_jacobian(&state->mesh, triangle, state->mesh.points, state->image, inner);
+    triangle_jacobian(&state->mesh, found.triangle, state->mesh.points, state->image, inner);
     polar_jet(state, z, edge, rows);
     for (int c = 0; c < 2; ++c) {
         jet->bary[2 + c] = iccp_planar_along_slope(&state->mesh, chart->domain, coords->facet) *
@@ -145,20 +147,21 @@ static icc_status decode(const icc_chart *chart, const iccp_coords *coords, doub
 {
     (void)path;
     const disc_state *state = chart->state;
-    double lambda, z[2], bary[3];
-    uint32_t triangle;
+    double lambda, z[2];
+    iccp_found found;
     const uint32_t edge =
         iccp_planar_edge(&state->mesh, chart->domain, coords->facet, coords->bary[1], &lambda);
     const double *p = boundary_image(state, edge), *q = boundary_image(state, edge + 1);
     for (int i = 0; i < 2; ++i)
         z[i] = (1 - coords->t) * ((1 - lambda) * p[i] + lambda * q[i]);
-    if (!iccp_finder_find(&state->after, z, &triangle, bary))
-        return ICC_ERR_TRACE;
-    interpolate(&state->mesh, triangle, bary, state->mesh.points, point);
+    const icc_status status = iccp_finder_find(&state->after, z, &found);
+    if (status != ICC_OK)
+        return status;
+    interpolate(&state->mesh, found.triangle, found.bary, state->mesh.points, point);
     if (jet == NULL)
         return ICC_OK;
     double outer[2][2];
-    triangle_jacobian(&state->mesh, triangle, state->image, state->mesh.points, outer);
+    triangle_jacobian(&state->mesh, found.triangle, state->image, state->mesh.points, outer);
     const double slope = iccp_planar_along_slope(&state->mesh, chart->domain, coords->facet);
     for (int i = 0; i < 2; ++i) {
         jet->t[i] = jet->bary[2 * i] = jet->bary[2 * i + 1] = 0;
@@ -247,6 +250,12 @@ static void free_state(icc_chart *chart)
     iccp_free(&chart->memory, state);
 }
 
+static icc_status ready(const icc_chart *chart, bool decodes)
+{
+    const disc_state *state = chart->state;
+    return iccp_finder_ready(decodes ? &state->after : &state->before);
+}
+
 static void save(const icc_chart *chart, iccp_blob *w)
 {
     const disc_state *state = chart->state;
@@ -258,6 +267,7 @@ static const iccp_chart_ops OPS = {
     .encode = encode,
     .decode = decode,
     .trace = trace,
+    .ready = ready,
     .save = save,
     .free_state = free_state,
 };
@@ -277,19 +287,19 @@ static size_t count_boundary_faults(const iccp_planar *mesh, const double *image
     return n_faults + (n_wraps != 1);
 }
 
-static icc_status certify(const iccp_planar *mesh, const double *image, icc_error *err)
+/* `domain`: what is known of the mesh in the domain. */
+static icc_status certify(const iccp_planar *mesh, const iccp_certificate *domain,
+                          const double *image, icc_error *err)
 {
-    iccp_certificate domain = {0}, disc = {0};
-    iccp_certify_mesh(mesh, mesh->points, &domain);
-    iccp_certify_mesh(mesh, image, &disc);
+    const size_t n_inverted = iccp_count_inverted(mesh, image);
     const size_t n_rim = count_boundary_faults(mesh, image);
-    if (iccp_certificate_holds(&domain) && iccp_certificate_holds(&disc) && n_rim == 0)
+    if (iccp_certificate_holds(domain) && n_inverted == 0 && n_rim == 0)
         return ICC_OK;
     return iccp_fail(
         err, ICC_ERR_CERTIFICATE,
         "the map to the disc cannot be certified: %zu triangles inverted in the domain "
         "and %zu in the disc, %zu faults of topology, %zu of the rim",
-        domain.n_inverted, disc.n_inverted, domain.n_topology, n_rim);
+        domain->n_inverted, n_inverted, domain->n_topology, n_rim);
 }
 
 /* The maximum is the point that goes to the origin. */
@@ -297,29 +307,27 @@ static icc_status fill_state(icc_chart *chart, const iccp_planar *mesh, const do
                              const iccp_env *env)
 {
     disc_state *state = chart->state;
-    icc_status status = iccp_finder_create(&state->before, mesh, mesh->points, env);
+    double maximum[2];
+    iccp_found found;
+    iccp_finder_init(&state->before, mesh, mesh->points, 0, &env->memory);
+    iccp_finder_init(&state->after, mesh, image, 0, &env->memory);
+    icc_status status = iccp_finder_budget(&state->before, env);
     if (status == ICC_OK)
-        status = iccp_finder_create(&state->after, mesh, image, env);
+        status = iccp_finder_budget(&state->after, env);
     if (status != ICC_OK)
         return status;
-    uint32_t triangle = 0;
-    double bary[3] = {1, 0, 0}, maximum[2];
-    if (!iccp_finder_find(&state->after, ORIGIN, &triangle, bary))
+    if (iccp_finder_find_alone(&state->after, ORIGIN, &found) != ICC_OK)
         return ICC_ERR_CERTIFICATE;
-    interpolate(mesh, triangle, bary, mesh->points, maximum);
+    interpolate(mesh, found.triangle, found.bary, mesh->points, maximum);
     iccp_chart_set_maximum(chart, maximum);
     return ICC_OK;
 }
 
-icc_status iccp_chart_disc_create(icc_chart **out, const icc_domain *domain, iccp_harmonic *base,
-                                  double **image, const iccp_env *env, icc_error *err)
+/* The certified chart; `seconds` is what that took. */
+static icc_status create(icc_chart **out, const icc_domain *domain, iccp_harmonic *base,
+                         double **image, double seconds, const iccp_env *env, icc_error *err)
 {
-    const double start = iccp_seconds();
-    icc_status status = certify(&base->mesh, *image, err);
-    if (status != ICC_OK)
-        return status;
-    const double seconds = iccp_seconds() - start;
-    status = iccp_chart_new(out, domain, env);
+    icc_status status = iccp_chart_new(out, domain, env);
     if (status != ICC_OK)
         return status;
     icc_chart *chart = *out;
@@ -350,6 +358,17 @@ icc_status iccp_chart_disc_create(icc_chart **out, const icc_domain *domain, icc
     return ICC_OK;
 }
 
+icc_status iccp_chart_disc_create(icc_chart **out, const icc_domain *domain, iccp_harmonic *base,
+                                  double **image, const iccp_env *env, icc_error *err)
+{
+    const double start = iccp_seconds();
+    iccp_certificate certificate = {0};
+    iccp_certify_mesh(&base->mesh, base->mesh.points, &certificate);
+    const icc_status status = certify(&base->mesh, &certificate, *image, err);
+    return status == ICC_OK ? create(out, domain, base, image, iccp_seconds() - start, env, err)
+                            : status;
+}
+
 static bool are_in_disc(size_t n, const double *numbers)
 {
     for (size_t i = 0; i < n; ++i)
@@ -358,6 +377,7 @@ static bool are_in_disc(size_t n, const double *numbers)
     return true;
 }
 
+/* The mesh is certified as it is read. */
 icc_status iccp_chart_disc_read(icc_chart **out, const icc_domain *domain, iccp_blob *r,
                                 const iccp_env *env)
 {
@@ -372,8 +392,10 @@ icc_status iccp_chart_disc_read(icc_chart **out, const icc_domain *domain, iccp_
     if (image != NULL) {
         iccp_blob_f64(r, n, image);
         status = r->status == ICC_OK && are_in_disc(n, image)
-                     ? iccp_chart_disc_create(out, domain, &base, &image, env, NULL)
+                     ? certify(&base.mesh, &(iccp_certificate){0}, image, NULL)
                      : ICC_ERR_FORMAT;
+        if (status == ICC_OK)
+            status = create(out, domain, &base, &image, 0, env, NULL);
     }
     iccp_free(&env->memory, image);
     iccp_harmonic_free(&base);

@@ -151,6 +151,15 @@ static void fill_encode_jet(const icc_chart *chart, uint32_t triangle, const dou
     }
 }
 
+static icc_status find_leaf(const foliation_state *state, const double *point, iccp_found *found,
+                            iccp_leaf2 *leaf)
+{
+    const icc_status status = iccp_finder_find(&state->finder, point, found);
+    return status == ICC_OK
+               ? iccp_leaf2_through(&state->mesh, &state->psi, found->triangle, found->bary, leaf)
+               : status;
+}
+
 /* Finds the leaf by its label, exactly; follows it both ways; t is the share of its length that
  * lies below the point. */
 static icc_status encode(const icc_chart *chart, const double *point, const iccp_chart_place *place,
@@ -158,12 +167,9 @@ static icc_status encode(const icc_chart *chart, const double *point, const iccp
 {
     (void)place;
     const foliation_state *state = chart->state;
-    uint32_t triangle;
-    double bary[3];
+    iccp_found found;
     iccp_leaf2 leaf;
-    if (!iccp_finder_find(&state->finder, point, &triangle, bary))
-        return ICC_ERR_TRACE;
-    const icc_status status = iccp_leaf2_through(&state->mesh, &state->psi, triangle, bary, &leaf);
+    const icc_status status = find_leaf(state, point, &found, &leaf);
     if (status != ICC_OK)
         return status;
     leaf_length up, down;
@@ -175,7 +181,7 @@ static icc_status encode(const icc_chart *chart, const double *point, const iccp
     *coords = (iccp_coords){.facet = state->mesh.facet[edge], .bary = {1 - along, along}};
     coords->t = iccp_min(iccp_max(down.length / (down.length + up.length), 0), 1);
     if (jet != NULL)
-        fill_encode_jet(chart, triangle, bary, &end, coords->facet, &up, &down, jet);
+        fill_encode_jet(chart, found.triangle, found.bary, &end, coords->facet, &up, &down, jet);
     return ICC_OK;
 }
 
@@ -308,12 +314,9 @@ static icc_status trace(const icc_chart *chart, const double *point, const iccp_
             status = emit(argument, iccp_path_at(path, k));
         return status;
     }
-    uint32_t triangle;
-    double bary[3];
+    iccp_found found;
     iccp_leaf2 leaf;
-    if (!iccp_finder_find(&state->finder, point, &triangle, bary))
-        return ICC_ERR_TRACE;
-    icc_status status = iccp_leaf2_through(&state->mesh, &state->psi, triangle, bary, &leaf);
+    icc_status status = find_leaf(state, point, &found, &leaf);
     if (status == ICC_OK)
         status = emit_down(state, &leaf, path, emit, argument);
     if (status == ICC_OK)
@@ -330,6 +333,12 @@ static void free_state(icc_chart *chart)
     iccp_free(&chart->memory, state);
 }
 
+static icc_status ready(const icc_chart *chart, bool decodes)
+{
+    const foliation_state *state = chart->state;
+    return decodes ? ICC_OK : iccp_finder_ready(&state->finder);
+}
+
 static void save(const icc_chart *chart, iccp_blob *w)
 {
     const foliation_state *state = chart->state;
@@ -343,6 +352,7 @@ static const iccp_chart_ops OPS = {
     .encode = encode,
     .decode = decode,
     .trace = trace,
+    .ready = ready,
     .save = save,
     .free_state = free_state,
 };
@@ -414,8 +424,10 @@ static icc_status finish(icc_chart **out, iccp_harmonic *base, icc_status status
 {
     icc_chart *chart = *out;
     foliation_state *state = chart != NULL ? chart->state : NULL;
-    if (status == ICC_OK)
-        status = iccp_finder_create(&state->finder, &base->mesh, base->mesh.points, env);
+    if (status == ICC_OK) {
+        iccp_finder_init(&state->finder, &base->mesh, base->mesh.points, 0, &env->memory);
+        status = iccp_finder_budget(&state->finder, env);
+    }
     if (status != ICC_OK) {
         iccp_chart_release(chart);
         *out = NULL;

@@ -18,25 +18,31 @@ static bool is_linked(const iccp_planar *mesh, uint32_t corner)
     const uint32_t b = mesh->triangles[iccp_before(corner)];
     const uint32_t twin = mesh->twins[corner];
     if (twin == ICCP_NO_NEIGHBOUR)
-        return a < mesh->n_boundary && b == (a + 1) % mesh->n_boundary;
+        return a < mesh->n_boundary && b == (a + 1 < mesh->n_boundary ? a + 1 : 0);
     return mesh->twins[twin] == corner && mesh->triangles[iccp_after(twin)] == b &&
            mesh->triangles[iccp_before(twin)] == a;
+}
+
+size_t iccp_count_inverted(const iccp_planar *mesh, const double *points)
+{
+    size_t n = 0;
+    for (size_t t = 0; t < mesh->n_triangles; ++t) {
+        const uint32_t *v = mesh->triangles + 3 * t;
+        n += iccp_orient2d(points + 2 * (size_t)v[0], points + 2 * (size_t)v[1],
+                           points + 2 * (size_t)v[2]) <= 0;
+    }
+    return n;
 }
 
 void iccp_certify_mesh(const iccp_planar *mesh, const double *points, iccp_certificate *certificate)
 {
     size_t n_boundary = 0;
-    certificate->n_inverted = certificate->n_topology = 0;
+    certificate->n_topology = 0;
     for (uint32_t c = 0; c < 3 * mesh->n_triangles; ++c) {
         n_boundary += mesh->twins[c] == ICCP_NO_NEIGHBOUR;
         certificate->n_topology += !is_linked(mesh, c);
     }
-    for (size_t t = 0; t < mesh->n_triangles; ++t) {
-        const uint32_t *v = mesh->triangles + 3 * t;
-        certificate->n_inverted +=
-            iccp_orient2d(points + 2 * (size_t)v[0], points + 2 * (size_t)v[1],
-                          points + 2 * (size_t)v[2]) <= 0;
-    }
+    certificate->n_inverted = iccp_count_inverted(mesh, points);
     /* vertices - edges + triangles = 1, with 2 edges = 3 triangles + boundary edges */
     const bool is_disc = n_boundary == mesh->n_boundary &&
                          2 * mesh->n_vertices == mesh->n_triangles + n_boundary + 2;

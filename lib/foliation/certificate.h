@@ -25,6 +25,9 @@ bool iccp_certificate_holds(const iccp_certificate *certificate);
 void iccp_certify_mesh(const iccp_planar *mesh, const double *points,
                        iccp_certificate *certificate);
 
+/* The triangles whose corners at `points` are not counter-clockwise, exactly. */
+size_t iccp_count_inverted(const iccp_planar *mesh, const double *points);
+
 /* Checks that the level lines of psi are leaves from the boundary to the centre that never meet:
  * n_open, n_flat, n_irregular and n_ties. */
 icc_status iccp_certify_psi(const iccp_planar *mesh, const iccp_psi *psi,

@@ -70,7 +70,7 @@ static ICCP_INLINE void list_neighbours(size_t dim, iccp_assembly *s, const size
             }
 }
 
-/* Writes the rows' lengths and columns; the values come with each assembly. */
+/* Writes the rows' lengths and columns. */
 static icc_status build_pattern(iccp_assembly *s, const uint32_t *degree, const size_t *room,
                                 const uint32_t *list)
 {
@@ -83,8 +83,7 @@ static icc_status build_pattern(iccp_assembly *s, const uint32_t *degree, const 
         }
     s->first[dim * s->n_free] = n_entries;
     s->column = iccp_alloc(&s->memory, n_entries, sizeof *s->column);
-    s->value = iccp_alloc(&s->memory, n_entries, sizeof *s->value);
-    if (s->column == NULL || s->value == NULL)
+    if (s->column == NULL)
         return ICC_ERR_MEMORY;
     for (uint32_t i = 0; i < s->n_free; ++i)
         for (uint32_t d = 0; d < dim; ++d) {
@@ -126,6 +125,16 @@ static icc_status find_pattern(iccp_assembly *s)
     return status;
 }
 
+/* Room for the sums. */
+static icc_status make_room(iccp_assembly *s)
+{
+    const size_t n = s->dim * s->n_free;
+    s->value = iccp_alloc(&s->memory, s->first[n], sizeof *s->value);
+    s->diagonal = iccp_alloc(&s->memory, n, sizeof *s->diagonal);
+    s->gradient = iccp_alloc(&s->memory, n, sizeof *s->gradient);
+    return s->value != NULL && s->diagonal != NULL && s->gradient != NULL ? ICC_OK : ICC_ERR_MEMORY;
+}
+
 icc_status iccp_assembly_create(iccp_assembly *assembly, const iccp_simplicial_map *map,
                                 const uint8_t *movable, const iccp_env *env)
 {
@@ -136,13 +145,33 @@ icc_status iccp_assembly_create(iccp_assembly *assembly, const iccp_simplicial_m
         const size_t n = s->dim * s->n_free, n_pairs = s->dim * (s->dim + 1);
         s->neighbour = iccp_alloc(&s->memory, s->n_elements, n_pairs * sizeof *s->neighbour);
         s->first = iccp_alloc(&s->memory, n + 1, sizeof *s->first);
-        s->diagonal = iccp_alloc(&s->memory, n, sizeof *s->diagonal);
-        s->gradient = iccp_alloc(&s->memory, n, sizeof *s->gradient);
-        status =
-            s->neighbour != NULL && s->first != NULL && s->diagonal != NULL && s->gradient != NULL
-                ? find_pattern(s)
-                : ICC_ERR_MEMORY;
+        status = s->neighbour != NULL && s->first != NULL ? find_pattern(s) : ICC_ERR_MEMORY;
     }
+    if (status == ICC_OK)
+        status = make_room(s);
+    if (status != ICC_OK)
+        iccp_assembly_free(s);
+    return status;
+}
+
+void iccp_assembly_drop_sums(iccp_assembly *assembly)
+{
+    iccp_assembly *s = assembly;
+    iccp_free(&s->memory, s->value);
+    iccp_free(&s->memory, s->diagonal);
+    iccp_free(&s->memory, s->gradient);
+    s->value = s->diagonal = s->gradient = NULL;
+}
+
+icc_status iccp_assembly_share(iccp_assembly *assembly, const iccp_assembly *pattern,
+                               const iccp_simplicial_map *map, const iccp_memory *memory)
+{
+    iccp_assembly *s = assembly;
+    *s = *pattern;
+    s->memory = *memory;
+    s->corners = map->corners;
+    s->borrows = true;
+    const icc_status status = make_room(s);
     if (status != ICC_OK)
         iccp_assembly_free(s);
     return status;
@@ -151,10 +180,10 @@ icc_status iccp_assembly_create(iccp_assembly *assembly, const iccp_simplicial_m
 void iccp_assembly_free(iccp_assembly *assembly)
 {
     iccp_assembly *s = assembly;
-    void *const owned[] = {s->free_point, s->slot,  s->simplex,  s->neighbour, s->first,
-                           s->column,     s->value, s->diagonal, s->gradient};
-    for (size_t k = 0; k < sizeof owned / sizeof *owned; ++k)
-        iccp_free(&s->memory, owned[k]);
+    void *const pattern[] = {s->free_point, s->slot, s->simplex, s->neighbour, s->first, s->column};
+    iccp_assembly_drop_sums(s);
+    for (size_t k = 0; k < sizeof pattern / sizeof *pattern && !s->borrows; ++k)
+        iccp_free(&s->memory, pattern[k]);
     *s = (iccp_assembly){.memory = s->memory};
 }
 

@@ -22,12 +22,21 @@ typedef struct iccp_assembly {
     uint32_t *column;
     double *value, *diagonal;
     double *gradient; /* dim n_free */
+    bool borrows;     /* everything but value, diagonal and gradient belongs to another one */
 } iccp_assembly;
 
 /* For the points with movable[v] != 0 that are not fixed; all of them when `movable` is NULL. */
 icc_status iccp_assembly_create(iccp_assembly *assembly, const iccp_simplicial_map *map,
                                 const uint8_t *movable, const iccp_env *env);
 void iccp_assembly_free(iccp_assembly *assembly);
+
+/* Leaves the pattern alone, to be shared: */
+void iccp_assembly_drop_sums(iccp_assembly *assembly);
+
+/* For another map of the same mesh with the same free points as the one that `pattern` is for, which
+ * must live longer; it is only read, and several may share it. */
+icc_status iccp_assembly_share(iccp_assembly *assembly, const iccp_assembly *pattern,
+                               const iccp_simplicial_map *map, const iccp_memory *memory);
 
 /* Begins a sum; adds an element to it; and adds to the diagonal what keeps a Hessian without its
  * negative curvature regular. */

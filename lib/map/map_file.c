@@ -72,7 +72,7 @@ static icc_status visit_story(iccp_blob *b, icc_map_info *info)
 static icc_status visit_plane_mesh(iccp_blob *b, icc_map *map, const iccp_env *env)
 {
     if (b->reads)
-        map->mesh = iccp_alloc_zero(&env->memory, 1, sizeof *map->mesh);
+        map->mesh = iccp_mesh_map_new(map->source_domain, map->target_domain, &env->memory);
     if (map->mesh == NULL)
         return ICC_ERR_MEMORY;
     const icc_status status =

@@ -11,6 +11,7 @@
 #include "map/untangle.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Defaults of icc_improve_options. */
 static const double TOLERANCE = 1e-4;
@@ -68,6 +69,17 @@ static icc_status start(iccp_plmap *pl, const icc_chart *source, const icc_chart
 
 /* ---- all of it ---- */
 
+iccp_mesh_map *iccp_mesh_map_new(const icc_domain *source, const icc_domain *target,
+                                 const iccp_memory *memory)
+{
+    iccp_mesh_map *map = iccp_alloc_zero(memory, 1, sizeof *map);
+    if (map != NULL) {
+        map->reach[0] = source->band.reach;
+        map->reach[1] = target->band.reach;
+    }
+    return map;
+}
+
 icc_status iccp_mesh_map_finish(iccp_mesh_map *map, icc_map_info *info, const iccp_env *env,
                                 icc_error *err)
 {
@@ -77,11 +89,14 @@ icc_status iccp_mesh_map_finish(iccp_mesh_map *map, icc_map_info *info, const ic
         status = iccp_plmap_certify(&map->pl, env, err);
     const iccp_planar mesh = {.n_vertices = map->pl.n_vertices,
                               .n_triangles = map->pl.corners.n_triangles,
-                              .triangles = map->pl.corners.vertex};
+                              .triangles = map->pl.corners.vertex,
+                              .twins = map->pl.corners.twin};
+    iccp_finder_init(&map->before, &mesh, map->pl.points, map->reach[0], &map->pl.memory);
+    iccp_finder_init(&map->after, &mesh, map->pl.images, map->reach[1], &map->pl.memory);
     if (status == ICC_OK)
-        status = iccp_finder_create(&map->before, &mesh, map->pl.points, env);
+        status = iccp_finder_budget(&map->before, env);
     if (status == ICC_OK)
-        status = iccp_finder_create(&map->after, &mesh, map->pl.images, env);
+        status = iccp_finder_budget(&map->after, env);
     info->n_vertices = map->pl.n_vertices;
     info->n_simplices = map->pl.corners.n_triangles;
     info->seconds_certify = iccp_seconds() - begin;
@@ -191,7 +206,7 @@ icc_status iccp_mesh_map_create(iccp_mesh_map **out, const icc_chart *source,
                                 const icc_chart *target, int32_t iterations, icc_map_info *info,
                                 const iccp_env *env, icc_error *err)
 {
-    iccp_mesh_map *map = iccp_alloc_zero(&env->memory, 1, sizeof *map);
+    iccp_mesh_map *map = iccp_mesh_map_new(source->domain, target->domain, &env->memory);
     *out = NULL;
     if (map == NULL)
         return ICC_ERR_MEMORY;
@@ -218,6 +233,7 @@ icc_status iccp_mesh_map_improve(iccp_mesh_map **out, const iccp_mesh_map *map,
     *out = NULL;
     if (better == NULL)
         return ICC_ERR_MEMORY;
+    memcpy(better->reach, map->reach, sizeof better->reach);
     iccp_improvement improvement = {0};
     bool cancelled = false;
     icc_map_info info = {0};
@@ -264,23 +280,66 @@ static void move_boundary(iccp_plmap *pl, const icc_domain *target)
         }
 }
 
+static bool same_memory(const iccp_memory *a, const iccp_memory *b)
+{
+    return a->user == b->user && a->alloc == b->alloc && a->dealloc == b->dealloc;
+}
+
+/* The plan of Newton's method for the map's mesh, which maps that follow it share; it is made when
+ * the first one does. NULL where they may not live on the same memory. Of several that are made at
+ * the same time the first one stays. */
+static icc_status plan_of(iccp_newton_plan **plan, const iccp_mesh_map *map, const iccp_env *env)
+{
+    iccp_mesh_map *shared = (iccp_mesh_map *)map;
+    const iccp_simplicial_map simplicial = iccp_plmap_simplicial(&map->pl);
+    iccp_newton_plan *fresh;
+    *plan = NULL;
+    if (!same_memory(&map->pl.memory, &env->memory))
+        return ICC_OK;
+    *plan = atomic_load(&shared->plan);
+    if (*plan != NULL)
+        return ICC_OK;
+    const icc_status status = iccp_newton_plan_create(&fresh, &simplicial, env);
+    if (status != ICC_OK)
+        return status;
+    if (atomic_compare_exchange_strong(&shared->plan, plan, fresh))
+        *plan = fresh;
+    else
+        iccp_newton_plan_release(fresh);
+    return ICC_OK;
+}
+
+/* Passes the plan on to a map whose mesh has not changed. */
+static void keep_plan(iccp_mesh_map *map, iccp_newton_plan *plan)
+{
+    const iccp_simplicial_map simplicial = iccp_plmap_simplicial(&map->pl);
+    map->pl.plan = NULL;
+    if (plan != NULL && iccp_newton_plan_fits(plan, &simplicial))
+        atomic_store(&map->plan, iccp_newton_plan_retain(plan));
+}
+
 icc_status iccp_mesh_map_follow(iccp_mesh_map **out, const iccp_mesh_map *map,
                                 const icc_domain *source, const icc_domain *old_target,
                                 const icc_domain *target, int32_t iterations, icc_map_info *info,
                                 const iccp_env *env, icc_error *err)
 {
-    iccp_mesh_map *next = iccp_alloc_zero(&env->memory, 1, sizeof *next);
+    iccp_mesh_map *next = iccp_mesh_map_new(source, target, &env->memory);
     *out = NULL;
     if (next == NULL)
         return ICC_ERR_MEMORY;
+    iccp_newton_plan *plan = NULL;
     icc_status status = iccp_plmap_copy(&next->pl, &map->pl, &env->memory);
+    if (status == ICC_OK && iterations >= 0)
+        status = plan_of(&plan, map, env);
     if (status == ICC_OK) {
+        next->pl.plan = plan;
         change_frame(&next->pl, &old_target->frame, &target->frame);
         move_boundary(&next->pl, target);
         next->pl.stretch = sqrt(target->measure / source->measure);
         const icc_improve_options options = {
             .iterations = iterations == 0 ? FOLLOW_ITERATIONS : iterations, .levels = -1};
         status = refit(next, &options, info, env, err);
+        keep_plan(next, plan);
     }
     if (status == ICC_OK && info->n_unrepaired == 0)
         *out = next;
@@ -296,26 +355,53 @@ void iccp_mesh_map_free(iccp_mesh_map *map, const iccp_memory *memory)
     iccp_plmap_free(&map->pl);
     iccp_finder_free(&map->before);
     iccp_finder_free(&map->after);
+    iccp_newton_plan_release(atomic_load(&map->plan));
     iccp_free(memory, map);
 }
 
 /* ---- points ---- */
 
+static const iccp_finder *finder_of(const iccp_mesh_map *map, bool inverse)
+{
+    return inverse ? &map->after : &map->before;
+}
+
+static const double *images_of(const iccp_mesh_map *map, bool inverse)
+{
+    return inverse ? map->pl.points : map->pl.images;
+}
+
 icc_status iccp_mesh_map_point(const iccp_mesh_map *map, bool inverse, const double *point,
                                double *image, double *jacobian)
 {
-    const double *to = inverse ? map->pl.points : map->pl.images;
-    uint32_t triangle;
-    double bary[3];
-    if (!iccp_finder_find(inverse ? &map->after : &map->before, point, &triangle, bary))
-        return ICC_ERR_TRACE;
-    const uint32_t *v = map->pl.corners.vertex + 3 * (size_t)triangle;
+    iccp_found found;
+    const icc_status status = iccp_finder_find(finder_of(map, inverse), point, &found);
+    if (status == ICC_OK)
+        iccp_mesh_map_image(map, inverse, &found, image, jacobian);
+    return status;
+}
+
+icc_status iccp_mesh_map_ready(const iccp_mesh_map *map, bool inverse)
+{
+    return iccp_finder_ready(finder_of(map, inverse));
+}
+
+void iccp_mesh_map_find(const iccp_mesh_map *map, bool inverse, size_t n, const double *points,
+                        iccp_found *found)
+{
+    iccp_finder_find_many(finder_of(map, inverse), n, points, images_of(map, inverse), found);
+}
+
+void iccp_mesh_map_image(const iccp_mesh_map *map, bool inverse, const iccp_found *found,
+                         double *image, double *jacobian)
+{
+    const double *to = images_of(map, inverse), *bary = found->bary;
+    const uint32_t *v = map->pl.corners.vertex + 3 * (size_t)found->triangle;
     for (size_t d = 0; d < 2; ++d)
         image[d] = bary[0] * to[2 * (size_t)v[0] + d] + bary[1] * to[2 * (size_t)v[1] + d] +
                    bary[2] * to[2 * (size_t)v[2] + d];
     if (jacobian != NULL) {
         const iccp_simplicial_map simplicial = iccp_plmap_simplicial(&map->pl);
-        iccp_simplicial_jacobian(&simplicial, inverse, triangle, jacobian);
+        iccp_simplicial_jacobian(&simplicial, inverse, found->triangle, jacobian);
     }
-    return ICC_OK;
 }

@@ -4,14 +4,21 @@
 
 #include "chart/chart.h"
 #include "map/improve.h"
+#include "map/newton.h"
 #include "mesh/finder.h"
 
-/* Immutable once made. */
+/* Immutable once made, but for what is made when it is first needed. */
 typedef struct iccp_mesh_map {
     iccp_plmap pl;
-    iccp_finder before; /* in the source */
-    iccp_finder after;  /* in the target */
+    double reach[2];                  /* of the bands of source and target (domain/band.h) */
+    iccp_finder before;               /* in the source */
+    iccp_finder after;                /* in the target */
+    _Atomic(iccp_newton_plan *) plan; /* of the mesh: NULL until the map is first followed */
 } iccp_mesh_map;
+
+/* All but `reach` is still to be filled in; NULL without memory. */
+iccp_mesh_map *iccp_mesh_map_new(const icc_domain *source, const icc_domain *target,
+                                 const iccp_memory *memory);
 
 /* Starts from two charts that were made together: their images of the source chart's mesh. Fills in
  * the mesh's members of `info`. When the repair fails, info->n_unrepaired is not 0 and *out is
@@ -38,8 +45,17 @@ icc_status iccp_mesh_map_finish(iccp_mesh_map *map, icc_map_info *info, const ic
 void iccp_mesh_map_free(iccp_mesh_map *map, const iccp_memory *memory);
 
 /* One local point, forward or back. `jacobian`: 4 numbers row by row, or NULL. ICC_ERR_TRACE when
- * no triangle holds the point, which can only be within rounding of the boundary. */
+ * no triangle holds the point, which can only be within rounding of the boundary; ICC_ERR_MEMORY
+ * when nothing of the kind has been asked before, and what that takes cannot be allocated. */
 icc_status iccp_mesh_map_point(const iccp_mesh_map *map, bool inverse, const double *point,
                                double *image, double *jacobian);
+
+/* Makes what points forward or back need; and for at most ICCP_FINDER_MANY of them, 2 local
+ * coordinates each, the triangles that hold them, and the image of one that was found. */
+icc_status iccp_mesh_map_ready(const iccp_mesh_map *map, bool inverse);
+void iccp_mesh_map_find(const iccp_mesh_map *map, bool inverse, size_t n, const double *points,
+                        iccp_found *found);
+void iccp_mesh_map_image(const iccp_mesh_map *map, bool inverse, const iccp_found *found,
+                         double *image, double *jacobian);
 
 #endif

@@ -10,6 +10,7 @@
 #include "map/untangling.h"
 
 #include <math.h>
+#include <stdatomic.h>
 #include <string.h>
 
 /* Of the way to the first flip. */
@@ -21,12 +22,89 @@ enum { MAX_HALVINGS = 40 };
 
 /* ---- set-up ---- */
 
+struct iccp_newton_plan {
+    iccp_memory memory;
+    atomic_size_t references;
+    iccp_assembly assembly; /* without sums */
+    iccp_ldlt factor;       /* without numbers */
+    size_t n_points, n_simplices;
+    uint32_t *corners; /* the mesh that it is for */
+};
+
+static icc_status analyse(iccp_assembly *assembly, iccp_ldlt *factor, const iccp_env *env)
+{
+    const iccp_symmetric hessian = iccp_assembly_hessian(assembly);
+    return iccp_ldlt_analyse(factor, &hessian, 2, env);
+}
+
+icc_status iccp_newton_plan_create(iccp_newton_plan **out, const iccp_simplicial_map *map,
+                                   const iccp_env *env)
+{
+    iccp_newton_plan *plan = *out = iccp_alloc_zero(&env->memory, 1, sizeof *plan);
+    if (plan == NULL)
+        return ICC_ERR_MEMORY;
+    const size_t n_corners = 3 * map->n_simplices;
+    plan->memory = plan->assembly.memory = plan->factor.memory = env->memory;
+    atomic_init(&plan->references, 1);
+    plan->n_points = map->n_points;
+    plan->n_simplices = map->n_simplices;
+    plan->corners = iccp_alloc(&env->memory, n_corners, sizeof *plan->corners);
+    icc_status status = plan->corners != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    if (status == ICC_OK) {
+        memcpy(plan->corners, map->corners, n_corners * sizeof *plan->corners);
+        status = iccp_assembly_create(&plan->assembly, map, NULL, env);
+    }
+    if (status == ICC_OK) {
+        iccp_assembly_drop_sums(&plan->assembly);
+        status = analyse(&plan->assembly, &plan->factor, env);
+    }
+    if (status != ICC_OK) {
+        iccp_newton_plan_release(plan);
+        *out = NULL;
+    }
+    return status;
+}
+
+iccp_newton_plan *iccp_newton_plan_retain(iccp_newton_plan *plan)
+{
+    if (plan != NULL)
+        atomic_fetch_add(&plan->references, 1);
+    return plan;
+}
+
+void iccp_newton_plan_release(iccp_newton_plan *plan)
+{
+    if (plan == NULL || atomic_fetch_sub(&plan->references, 1) != 1)
+        return;
+    iccp_assembly_free(&plan->assembly);
+    iccp_ldlt_free(&plan->factor);
+    const iccp_memory memory = plan->memory;
+    iccp_free(&memory, plan->corners);
+    iccp_free(&memory, plan);
+}
+
+bool iccp_newton_plan_fits(const iccp_newton_plan *plan, const iccp_simplicial_map *map)
+{
+    if (map->dim != 2 || plan->n_points != map->n_points || plan->n_simplices != map->n_simplices ||
+        memcmp(plan->corners, map->corners, 3 * map->n_simplices * sizeof *plan->corners) != 0)
+        return false;
+    bool fits = true;
+    for (uint32_t v = 0; v < map->n_points; ++v)
+        fits &= iccp_simplicial_is_fixed(map, v) == (plan->assembly.slot[v] == UINT32_MAX);
+    return fits;
+}
+
 icc_status iccp_newton_create(iccp_newton *newton, const iccp_simplicial_map *map,
                               const uint8_t *movable, const iccp_env *env)
 {
     iccp_newton *s = newton;
     *s = (iccp_newton){.map = *map};
-    icc_status status = iccp_assembly_create(&s->assembly, map, movable, env);
+    const iccp_newton_plan *plan = map->plan;
+    if (plan != NULL && (movable != NULL || !iccp_newton_plan_fits(plan, map)))
+        plan = NULL;
+    icc_status status = plan != NULL
+                            ? iccp_assembly_share(&s->assembly, &plan->assembly, map, &env->memory)
+                            : iccp_assembly_create(&s->assembly, map, movable, env);
     if (status != ICC_OK)
         return status;
     const iccp_memory *memory = &s->assembly.memory;
@@ -41,10 +119,10 @@ icc_status iccp_newton_create(iccp_newton *newton, const iccp_simplicial_map *ma
         status = ICC_ERR_MEMORY;
     for (size_t e = 0; status == ICC_OK && e < s->assembly.n_elements; ++e)
         iccp_simplicial_element(map, s->assembly.simplex[e], s->element + size * e);
-    if (status == ICC_OK && map->dim == 2) {
-        const iccp_symmetric hessian = iccp_assembly_hessian(&s->assembly);
-        status = iccp_ldlt_analyse(&s->factor, &hessian, 2, env);
-    }
+    if (status == ICC_OK && plan != NULL)
+        iccp_ldlt_share(&s->factor, &plan->factor, &env->memory);
+    else if (status == ICC_OK && map->dim == 2)
+        status = analyse(&s->assembly, &s->factor, env);
     if (status != ICC_OK)
         iccp_newton_free(s);
     return status;

@@ -20,7 +20,21 @@ typedef struct iccp_newton {
     iccp_ldlt factor; /* in the plane */
 } iccp_newton;
 
-/* For the points with movable[v] != 0 that are not fixed; all of them when `movable` is NULL. */
+/* What does not depend on the images but on the mesh alone, and which of its points are fixed: where
+ * entries of the Hessian are, and in which order they are eliminated. Immutable, but shared: maps
+ * of the same mesh may have it together. */
+typedef struct iccp_newton_plan iccp_newton_plan;
+
+/* In the plane. */
+icc_status iccp_newton_plan_create(iccp_newton_plan **out, const iccp_simplicial_map *map,
+                                   const iccp_env *env);
+iccp_newton_plan *iccp_newton_plan_retain(iccp_newton_plan *plan);
+void iccp_newton_plan_release(iccp_newton_plan *plan);
+
+/* Whether a plan is for that mesh and those fixed points. O(n). */
+bool iccp_newton_plan_fits(const iccp_newton_plan *plan, const iccp_simplicial_map *map);
+
+/* Follows map->plan where it fits. For the points with movable[v] != 0 that are not fixed; all of them when `movable` is NULL. */
 icc_status iccp_newton_create(iccp_newton *newton, const iccp_simplicial_map *map,
                               const uint8_t *movable, const iccp_env *env);
 void iccp_newton_free(iccp_newton *newton);

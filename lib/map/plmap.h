@@ -21,6 +21,7 @@ typedef struct iccp_plmap {
                             (-1) */
     double stretch;      /* lengths of the source are multiplied by this for energies, so that both
                             areas are the same and energies are those of shape alone */
+    const struct iccp_newton_plan *plan; /* as in iccp_simplicial_map, borrowed */
 } iccp_plmap;
 
 /* Room for so many vertices and triangles, which are still to be filled in. */
@@ -53,6 +54,7 @@ static inline iccp_simplicial_map iccp_plmap_simplicial(const iccp_plmap *map)
                                  .points = map->points,
                                  .images = map->images,
                                  .fixed = map->fixed,
+                                 .plan = map->plan,
                                  .stretch = map->stretch};
 }
 

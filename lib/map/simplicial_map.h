@@ -15,6 +15,7 @@ typedef struct iccp_simplicial_map {
     double *images;          /* dim of each */
     size_t n_fixed;          /* the images of the first points are fixed, */
     const uint8_t *fixed;    /* and of those with fixed[v] != 0, unless this is NULL */
+    const struct iccp_newton_plan *plan; /* of a map of the same mesh (map/newton.h), or NULL */
     double stretch; /* lengths before the map are multiplied by this for energies, so that the areas
                        or volumes are the same and energies are those of shape alone */
 } iccp_simplicial_map;

@@ -226,7 +226,9 @@ static icc_status warp_mesh(const icc_map *map, const icc_picture *source,
 {
     warp w = {.map = map, .source = source, .target = target, .memory = &env->memory};
     iccp_boundary_pixels boundary;
-    icc_status status = iccp_boundary_pixels_create(&boundary, map->target_domain, target, env);
+    icc_status status = iccp_mesh_map_ready(map->mesh, true);
+    if (status == ICC_OK)
+        status = iccp_boundary_pixels_create(&boundary, map->target_domain, target, env);
     if (status != ICC_OK)
         return status;
     status = prepare(&w);

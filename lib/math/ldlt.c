@@ -109,12 +109,22 @@ double iccp_ldlt_bytes(const iccp_ldlt *factor)
     return (double)sizeof(double) * ((double)n_values + (double)factor->n);
 }
 
+void iccp_ldlt_share(iccp_ldlt *factor, const iccp_ldlt *analysed, const iccp_memory *memory)
+{
+    *factor = *analysed;
+    factor->memory = *memory;
+    factor->value = factor->pivot = NULL;
+    factor->borrows = true;
+}
+
 void iccp_ldlt_free(iccp_ldlt *factor)
 {
-    iccp_free(&factor->memory, factor->order);
-    iccp_free(&factor->memory, factor->position);
     iccp_free(&factor->memory, factor->value);
     iccp_free(&factor->memory, factor->pivot);
-    iccp_supernodes_free(&factor->nodes, &factor->memory);
+    if (!factor->borrows) {
+        iccp_free(&factor->memory, factor->order);
+        iccp_free(&factor->memory, factor->position);
+        iccp_supernodes_free(&factor->nodes, &factor->memory);
+    }
     *factor = (iccp_ldlt){.memory = factor->memory};
 }

@@ -8,6 +8,8 @@
 #include "math/supernodes.h"
 #include "math/symmetric.h"
 
+#include <stdbool.h>
+
 typedef struct iccp_ldlt {
     iccp_memory memory;
     size_t n;
@@ -18,6 +20,7 @@ typedef struct iccp_ldlt {
     double work;      /* multiplications of one factorisation, without those by stored zeros */
     double *value;    /* the panels of L; NULL before the first factorisation */
     double *pivot;    /* D */
+    bool borrows;     /* everything but L and D belongs to another one */
 } iccp_ldlt;
 
 /* Orders and analyses a matrix by its pattern alone. Rows come in groups of `block` with the same
@@ -30,6 +33,10 @@ icc_status iccp_ldlt_analyse(iccp_ldlt *factor, const iccp_symmetric *matrix, si
  * that makes no difference to the factor. */
 icc_status iccp_ldlt_analyse_ordered(iccp_ldlt *factor, const iccp_symmetric *matrix,
                                      const uint32_t *order, const iccp_env *env);
+
+/* For a matrix of the same pattern as the one that `analysed` is for, which must live longer; it is
+ * only read, and several may share it. */
+void iccp_ldlt_share(iccp_ldlt *factor, const iccp_ldlt *analysed, const iccp_memory *memory);
 
 /* Bytes of L and D: all that a factorisation takes but for a few words per row and 32 doubles per
  * column of the widest supernode. */

@@ -1,6 +1,8 @@
 #include "mesh/corners.h"
 
-#include "domain/tuples.h"
+#include "base/compiler.h"
+
+#include <string.h>
 
 static void link_twins(iccp_corners *c, uint32_t a, uint32_t b)
 {
@@ -56,41 +58,85 @@ void iccp_flip_edge(iccp_corners *corners, uint32_t corner)
     link_twins(c, after, twin_after);
 }
 
-/* Links the half-edges with the same ends, from `begin` to `end`: one, or two in opposite
- * directions. */
-static bool link_equal(iccp_corners *c, const iccp_tuples *edges, size_t begin, size_t end)
+typedef struct half_edge {
+    uint32_t to;     /* the larger one of its ends */
+    uint32_t corner; /* that faces it */
+} half_edge;
+
+/* Half-edges by the smaller one of their ends, those that leave it before those that come to it. */
+typedef struct half_edges {
+    half_edge *list;
+    uint32_t *begin; /* of those that leave vertex v: begin[2 v], of those that come: 2 v + 1 */
+    uint32_t *from;  /* of each vertex: the other end of the last edge that was met there, */
+    uint32_t *twin;  /* and the corner that faces it and has no twin yet, or ICCP_NO_NEIGHBOUR */
+} half_edges;
+
+/* Counts the half-edges, or enters them into their lists from the ends of those. */
+static ICCP_INLINE void visit_half_edges(const iccp_corners *c, half_edges *h, bool enters)
 {
-    const uint32_t a = edges->order[begin], *ends = edges->vertices + 2 * (size_t)a;
-    c->twin[a] = ICCP_NO_NEIGHBOUR;
-    if (ends[0] == ends[1] || end - begin > 2)
-        return false;
-    if (end - begin == 1)
-        return true;
-    const uint32_t b = edges->order[begin + 1];
-    link_twins(c, a, b);
-    return c->vertex[iccp_after(a)] == c->vertex[iccp_before(b)];
+    for (size_t t = c->n_triangles; t-- > 0;)
+        for (size_t k = 3; k-- > 0;) {
+            const uint32_t a = c->vertex[3 * t + (k + 1) % 3], b = c->vertex[3 * t + (k + 2) % 3];
+            const size_t place = 2 * (size_t)(a < b ? a : b) + (a > b);
+            if (enters)
+                h->list[--h->begin[place]] = (half_edge){a < b ? b : a, (uint32_t)(3 * t + k)};
+            else
+                ++h->begin[place];
+        }
 }
 
-/* Sorting the half-edges by their two ends puts those of one edge side by side. */
+/* The half-edges at a vertex: those that leave it wait at their other ends, where those that come
+ * find them. */
+static bool link_vertex(iccp_corners *c, half_edges *h, uint32_t v, size_t begin, size_t middle,
+                        size_t end)
+{
+    bool is_manifold = true;
+    for (size_t k = begin; k < middle; ++k) {
+        const half_edge e = h->list[k];
+        is_manifold &= h->from[e.to] != v && e.to != v;
+        h->from[e.to] = v;
+        h->twin[e.to] = e.corner;
+        c->twin[e.corner] = ICCP_NO_NEIGHBOUR;
+    }
+    for (size_t k = middle; k < end; ++k) {
+        const half_edge e = h->list[k];
+        const uint32_t twin = h->from[e.to] == v ? h->twin[e.to] : ICCP_NO_NEIGHBOUR;
+        is_manifold &= h->from[e.to] != v || twin != ICCP_NO_NEIGHBOUR;
+        h->from[e.to] = v;
+        h->twin[e.to] = ICCP_NO_NEIGHBOUR;
+        link_twins(c, e.corner, twin);
+    }
+    return is_manifold;
+}
+
+static bool link_all(iccp_corners *c, half_edges *h, size_t n_vertices)
+{
+    bool is_manifold = true;
+    visit_half_edges(c, h, false);
+    for (size_t k = 1; k <= 2 * n_vertices; ++k)
+        h->begin[k] += h->begin[k - 1];
+    visit_half_edges(c, h, true);
+    memset(h->from, 0xff, n_vertices * sizeof *h->from);
+    for (size_t v = 0; v < n_vertices; ++v)
+        is_manifold &= link_vertex(c, h, (uint32_t)v, h->begin[2 * v], h->begin[2 * v + 1],
+                                   h->begin[2 * v + 2]);
+    return is_manifold;
+}
+
+/* A counting sort puts the half-edges of one edge into the lists of the same vertex. */
 icc_status iccp_find_twins(iccp_corners *corners, size_t n_vertices, bool *is_manifold,
                            const iccp_env *env)
 {
-    const size_t n = 3 * corners->n_triangles;
-    iccp_tuples edges;
-    icc_status status = iccp_tuples_create(&edges, n, 2, n_vertices, &env->memory);
-    if (status != ICC_OK)
-        return status;
-    for (uint32_t c = 0; c < n; ++c) {
-        const uint32_t a = corners->vertex[iccp_after(c)], b = corners->vertex[iccp_before(c)];
-        edges.vertices[2 * (size_t)c] = a < b ? a : b;
-        edges.vertices[2 * (size_t)c + 1] = a < b ? b : a;
-    }
-    iccp_tuples_sort(&edges);
-    *is_manifold = true;
-    for (size_t begin = 0, end; begin < n; begin = end) {
-        end = iccp_tuples_end(&edges, begin);
-        *is_manifold &= link_equal(corners, &edges, begin, end);
-    }
-    iccp_tuples_free(&edges);
-    return ICC_OK;
+    const iccp_memory *memory = &env->memory;
+    half_edges h = {.list = iccp_alloc(memory, corners->n_triangles, 3 * sizeof *h.list),
+                    .begin = iccp_alloc_zero(memory, 2 * n_vertices + 1, sizeof *h.begin),
+                    .from = iccp_alloc(memory, n_vertices, sizeof *h.from),
+                    .twin = iccp_alloc(memory, n_vertices, sizeof *h.twin)};
+    const bool ready = h.list != NULL && h.begin != NULL && h.from != NULL && h.twin != NULL;
+    *is_manifold = ready && link_all(corners, &h, n_vertices);
+    iccp_free(memory, h.list);
+    iccp_free(memory, h.begin);
+    iccp_free(memory, h.from);
+    iccp_free(memory, h.twin);
+    return ready ? ICC_OK : ICC_ERR_MEMORY;
 }

@@ -1,143 +1,284 @@
+/* A uniform grid of cells, each with the triangles that come near it: J. L. Bentley, B. W. Weide,
+ * A. C. Yao, Optimal expected-time algorithms for closest point problems, 1980. Points that are
+ * looked for together wait for memory together. */
 #include "mesh/finder.h"
 
 #include "base/budget.h"
+#include "base/compiler.h"
 #include "math/predicates.h"
 
 #include <math.h>
 
-/* Cells that a triangle misses by less than this, in cells, list it too: the slab arithmetic below
- * is rounded. */
-static const double SLACK = 1e-9;
+/* The last cell, beyond the others, stands for what lies outside of the box: it has no triangles and
+ * is near the boundary. */
+typedef struct iccp_finder_grid {
+    double lower[2], upper[2]; /* the mesh's box */
+    double rate;               /* cell = (point - lower) * rate */
+    double slack;              /* cells that a triangle misses by less, in cells, list it too */
+    size_t size[2], n_cells;
+    bool is_large;     /* the mesh and its grid do not fit the processor's own cache */
+    uint32_t *first;   /* n_cells + 2: twice the place in `entries` where the triangles of a cell
+                          begin, and 1 more where the mesh's boundary comes near the cell */
+    uint32_t *entries; /* triangles, cell by cell, rising */
+} grid;
+
+/* Cells per triangle: more make queries faster and the grid larger. */
+static const double DENSITY = 4;
+
+/* Entries per triangle that need no budget: two to five times what there are in fair meshes. */
+static const double PLENTY = 64;
+
+/* Bytes that stay in a cache of the second level. */
+static const size_t CACHE = (size_t)1 << 20;
 
 /* Of twice a triangle's area in the products that it is the sum of: below it barycentric
  * coordinates in plain doubles would be off by more than 1e-14. */
 static const double FLATTEST = 0.05;
 
-static size_t cell_of(double x, size_t n)
+/* For comparisons of numbers a call of fmin() takes longer than they do. */
+static inline double least(double a, double b)
 {
-    if (!(x > 0))
-        return 0;
-    return x < (double)n ? (size_t)x : n - 1;
+    return a < b ? a : b;
 }
 
-static void corner_in_cells(const iccp_finder *f, uint32_t triangle, int k, double q[2])
+static inline double most(double a, double b)
 {
-    const double *p = f->points + 2 * (size_t)f->triangles[3 * (size_t)triangle + (size_t)k];
-    q[0] = (p[0] - f->origin[0]) * f->rate;
-    q[1] = (p[1] - f->origin[1]) * f->rate;
+    return a > b ? a : b;
 }
 
-/* Widens [low, high] to the part of the segment a b with y in [bottom, bottom + 1]. */
-static void clip_to_row(const double a[2], const double b[2], double bottom, double *low,
-                        double *high)
+static inline size_t cell_of(double x, size_t n)
 {
-    const double lower = fmin(a[1], b[1]), upper = fmax(a[1], b[1]);
-    if (upper < bottom - SLACK || lower > bottom + 1 + SLACK)
+    return x > 0 ? (x < (double)n ? (size_t)x : n - 1) : 0;
+}
+
+/* ---- the cells that an edge or a triangle meets ---- */
+
+/* From its lower end up, in cells. */
+typedef struct edge {
+    double x, bottom, x_top, top, slope;
+} edge;
+
+static inline void in_cells(const iccp_finder *f, const grid *g, uint32_t vertex, double q[2])
+{
+    const double *p = f->points + 2 * (size_t)vertex;
+    q[0] = (p[0] - g->lower[0]) * g->rate;
+    q[1] = (p[1] - g->lower[1]) * g->rate;
+}
+
+static inline edge edge_of(const double a[2], const double b[2])
+{
+    const double *low = a[1] < b[1] ? a : b, *high = a[1] < b[1] ? b : a;
+    const double height = high[1] - low[1];
+    return (edge){low[0], low[1], high[0], high[1], height > 0 ? (high[0] - low[0]) / height : 0};
+}
+
+/* Widens [low, high] to the part of the edge with y in [bottom, top]. */
+static inline void clip(const edge *e, double bottom, double top, double *low, double *high)
+{
+    if (e->top < bottom || e->bottom > top)
         return;
-    double x[2] = {a[0], b[0]};
-    const double ends[2] = {a[1], b[1]};
-    for (int k = 0; k < 2; ++k) {
-        const double y = fmin(fmax(ends[k], bottom), bottom + 1);
-        if (upper > lower)
-            x[k] = a[0] + (b[0] - a[0]) * fmin(fmax((y - a[1]) / (b[1] - a[1]), 0), 1);
-    }
-    *low = fmin(*low, fmin(x[0], x[1]));
-    *high = fmax(*high, fmax(x[0], x[1]));
+    const double x0 = e->bottom >= bottom ? e->x : e->x + (bottom - e->bottom) * e->slope;
+    const double x1 = e->top <= top ? e->x_top : e->x + (top - e->bottom) * e->slope;
+    const double inner = least(e->x, e->x_top), outer = most(e->x, e->x_top);
+    *low = least(*low, most(least(x0, x1), inner));
+    *high = most(*high, least(most(x0, x1), outer));
 }
 
-/* Returns the number of cells. */
-static size_t visit_triangle(iccp_finder *f, uint32_t triangle, bool fill)
+/* Cells of a row that n edges come near to, from the first one to the end. */
+static inline void span_of(const grid *g, const edge *e, size_t n, size_t row, double slack,
+                           size_t *begin, size_t *end)
 {
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (size_t k = 0; k < n; ++k)
+        clip(&e[k], (double)row - slack, (double)row + 1 + slack, &low, &high);
+    *begin = g->size[0] * row + cell_of(low - slack, g->size[0]);
+    *end = g->size[0] * row + cell_of(high + slack, g->size[0]) + (low <= high);
+}
+
+/* Counts the triangle in its cells, or enters it into them from their ends. */
+static ICCP_INLINE void visit_triangle(const iccp_finder *f, grid *g, uint32_t triangle,
+                                       bool enters)
+{
+    const uint32_t *v = f->triangles + 3 * (size_t)triangle;
     double q[3][2];
     for (int k = 0; k < 3; ++k)
-        corner_in_cells(f, triangle, k, q[k]);
-    const double bottom = fmin(fmin(q[0][1], q[1][1]), q[2][1]);
-    const double top = fmax(fmax(q[0][1], q[1][1]), q[2][1]);
-    const size_t last = cell_of(top + SLACK, f->size[1]);
-    size_t n = 0;
-    for (size_t j = cell_of(bottom - SLACK, f->size[1]); j <= last; ++j) {
-        double low = HUGE_VAL, high = -HUGE_VAL;
-        for (int k = 0; k < 3; ++k)
-            clip_to_row(q[k], q[(k + 1) % 3], (double)j, &low, &high);
-        if (low > high)
-            continue;
-        const size_t i_last = cell_of(high + SLACK, f->size[0]);
-        for (size_t i = cell_of(low - SLACK, f->size[0]); i <= i_last; ++i, ++n) {
-            const size_t cell = i + f->size[0] * j;
-            if (fill)
-                f->entries[--f->first[cell]] = triangle;
+        in_cells(f, g, v[k], q[k]);
+    const double bottom = least(least(q[0][1], q[1][1]), q[2][1]);
+    const double top = most(most(q[0][1], q[1][1]), q[2][1]);
+    const size_t last = cell_of(top + g->slack, g->size[1]);
+    const edge e[3] = {edge_of(q[0], q[1]), edge_of(q[1], q[2]), edge_of(q[2], q[0])};
+    for (size_t row = cell_of(bottom - g->slack, g->size[1]); row <= last; ++row) {
+        size_t cell, end;
+        span_of(g, e, 3, row, g->slack, &cell, &end);
+        for (; cell < end; ++cell)
+            if (enters)
+                g->entries[(g->first[cell] -= 2) / 2] = triangle;
             else
-                ++f->first[cell];
-        }
+                g->first[cell] += 2;
     }
-    return n;
 }
 
-/* Cells per triangle: more make queries faster and the finder larger. */
-static const double DENSITY = 4;
-
-/* Entries per triangle that need no budget: two to five times what there are in fair meshes. */
-enum { PLENTY = 64 };
-
-static void choose_cells(iccp_finder *f, const iccp_planar *mesh)
+/* Marks the cells within `slack` of an edge. */
+static void mark_edge(const iccp_finder *f, grid *g, uint32_t from, uint32_t to, double slack)
 {
-    double lower[2] = {HUGE_VAL, HUGE_VAL}, upper[2] = {-HUGE_VAL, -HUGE_VAL};
-    for (size_t v = 0; v < mesh->n_vertices; ++v)
+    double a[2], b[2];
+    in_cells(f, g, from, a);
+    in_cells(f, g, to, b);
+    const edge e = edge_of(a, b);
+    const size_t last = cell_of(e.top + slack, g->size[1]);
+    for (size_t row = cell_of(e.bottom - slack, g->size[1]); row <= last; ++row) {
+        size_t cell, end;
+        span_of(g, &e, 1, row, slack, &cell, &end);
+        for (; cell < end; ++cell)
+            g->first[cell] |= 1;
+    }
+}
+
+/* ---- making the grid ---- */
+
+/* Coordinates in cells are rounded; slopes multiply what that makes of rows. */
+static void choose_cells(const iccp_finder *f, grid *g)
+{
+    for (int k = 0; k < 2; ++k) {
+        g->lower[k] = HUGE_VAL;
+        g->upper[k] = -HUGE_VAL;
+    }
+    for (size_t v = 0; v < f->n_vertices; ++v)
         for (int k = 0; k < 2; ++k) {
-            lower[k] = fmin(lower[k], f->points[2 * v + (size_t)k]);
-            upper[k] = fmax(upper[k], f->points[2 * v + (size_t)k]);
+            g->lower[k] = least(g->lower[k], f->points[2 * v + (size_t)k]);
+            g->upper[k] = most(g->upper[k], f->points[2 * v + (size_t)k]);
         }
-    const double width = upper[0] - lower[0], height = upper[1] - lower[1];
-    const double longest = fmax(width, height);
-    const double area = fmax(width * height, longest * longest / (double)mesh->n_triangles);
-    f->rate = sqrt(DENSITY * (double)mesh->n_triangles / area);
-    f->size[0] = (size_t)(width * f->rate) + 1;
-    f->size[1] = (size_t)(height * f->rate) + 1;
-    f->origin[0] = lower[0];
-    f->origin[1] = lower[1];
+    const double width = g->upper[0] - g->lower[0], height = g->upper[1] - g->lower[1];
+    const double longest = most(width, height), n = (double)f->n_triangles;
+    g->rate = sqrt(DENSITY * n / most(width * height, longest * longest / n));
+    g->size[0] = (size_t)(width * g->rate) + 1;
+    g->size[1] = (size_t)(height * g->rate) + 1;
+    g->n_cells = g->size[0] * g->size[1];
+    g->slack = 1e-9 + 0x1p-50 * longest * g->rate;
 }
 
-/* Two passes over the triangles: the first counts the entries of each cell, the second,
- * backwards, fills them in, which moves `first` from the ends of the cells to where they begin. */
-icc_status iccp_finder_create(iccp_finder *finder, const iccp_planar *mesh, const double *points,
-                              const iccp_env *env)
+/* Within four times the reach the cells are near: a mesh's boundary follows its domain's to within
+ * one and a half (map/apply.c). Where that is more than a cell, all are. */
+static void mark_boundary(const iccp_finder *f, grid *g)
 {
-    iccp_finder *f = finder;
-    *f = (iccp_finder){.memory = env->memory, .points = points, .triangles = mesh->triangles};
-    choose_cells(f, mesh);
-    const size_t n_cells = f->size[0] * f->size[1];
-    f->first = iccp_alloc_zero(&f->memory, n_cells + 1, sizeof *f->first);
-    if (f->first == NULL)
-        return ICC_ERR_MEMORY;
-    size_t n_entries = 0;
-    icc_status status = ICC_OK;
-    for (uint32_t t = 0; t < mesh->n_triangles && status == ICC_OK; ++t) {
-        n_entries += visit_triangle(f, t, false);
-        if (n_entries > PLENTY * mesh->n_triangles)
-            status = iccp_budget_borrow(env, (double)n_entries * sizeof *f->entries);
+    const double slack = g->slack + 4 * f->reach * g->rate;
+    for (size_t cell = 0; cell < g->n_cells && slack > 1; ++cell)
+        g->first[cell] |= 1;
+    for (uint32_t c = 0; c < 3 * f->n_triangles && slack <= 1; ++c)
+        if (f->twins[c] == ICCP_NO_NEIGHBOUR)
+            mark_edge(f, g, f->triangles[iccp_after(c)], f->triangles[iccp_before(c)], slack);
+}
+
+/* From counts to the ends of the cells. False if there are too many entries to count. */
+static bool find_ends(grid *g)
+{
+    uint64_t end = 0;
+    for (size_t cell = 0; cell < g->n_cells; ++cell) {
+        end += g->first[cell] & ~(uint32_t)1;
+        g->first[cell] = (uint32_t)end | (g->first[cell] & 1);
+        if (end >= UINT32_MAX)
+            return false;
     }
-    if (status != ICC_OK) {
-        iccp_finder_free(f);
-        return status;
+    g->first[g->n_cells] = (uint32_t)end | 1;
+    g->first[g->n_cells + 1] = (uint32_t)end;
+    return true;
+}
+
+static void free_grid(grid *g, const iccp_memory *memory)
+{
+    if (g != NULL) {
+        iccp_free(memory, g->first);
+        iccp_free(memory, g->entries);
     }
-    for (size_t c = 1; c <= n_cells; ++c)
-        f->first[c] += f->first[c - 1];
-    f->entries = iccp_alloc(&f->memory, f->first[n_cells], sizeof *f->entries);
-    if (f->entries == NULL) {
-        iccp_finder_free(f);
-        return ICC_ERR_MEMORY;
+    iccp_free(memory, g);
+}
+
+/* Two passes over the triangles: the first counts the entries of each cell, the second, backwards,
+ * fills them in, which moves `first` from the ends of the cells to where they begin. */
+static grid *make_grid(const iccp_finder *f)
+{
+    grid *g = iccp_alloc_zero(&f->memory, 1, sizeof *g);
+    if (g == NULL)
+        return NULL;
+    choose_cells(f, g);
+    g->first = iccp_alloc_zero(&f->memory, g->n_cells + 2, sizeof *g->first);
+    if (g->first != NULL) {
+        for (uint32_t t = 0; t < f->n_triangles; ++t)
+            visit_triangle(f, g, t, false);
+        mark_boundary(f, g);
+        if (find_ends(g))
+            g->entries = iccp_alloc(&f->memory, g->first[g->n_cells + 1] / 2, sizeof *g->entries);
     }
-    for (uint32_t t = (uint32_t)mesh->n_triangles; t-- > 0;)
-        (void)visit_triangle(f, t, true);
-    return ICC_OK;
+    if (g->entries == NULL) {
+        free_grid(g, &f->memory);
+        return NULL;
+    }
+    for (uint32_t t = (uint32_t)f->n_triangles; t-- > 0;)
+        visit_triangle(f, g, t, true);
+    const size_t mesh = 12 * f->n_triangles + 32 * f->n_vertices;
+    g->is_large = mesh + 4 * g->n_cells + 2 * (size_t)g->first[g->n_cells + 1] > CACHE;
+    return g;
+}
+
+/* Of several grids that are made at the same time the first one stays. */
+static const grid *grid_of(const iccp_finder *finder)
+{
+    iccp_finder *f = (iccp_finder *)finder;
+    grid *g = atomic_load_explicit(&f->grid, memory_order_acquire);
+    if (ICCP_LIKELY(g != NULL))
+        return g;
+    grid *fresh = make_grid(f);
+    if (fresh == NULL || atomic_compare_exchange_strong(&f->grid, &g, fresh))
+        return fresh;
+    free_grid(fresh, &f->memory);
+    return g;
+}
+
+void iccp_finder_init(iccp_finder *finder, const iccp_planar *mesh, const double *points,
+                      double reach, const iccp_memory *memory)
+{
+    finder->memory = *memory;
+    finder->points = points;
+    finder->triangles = mesh->triangles;
+    finder->twins = mesh->twins;
+    finder->n_vertices = mesh->n_vertices;
+    finder->n_triangles = mesh->n_triangles;
+    finder->reach = reach;
+    atomic_init(&finder->grid, NULL);
 }
 
 void iccp_finder_free(iccp_finder *finder)
 {
-    iccp_free(&finder->memory, finder->first);
-    iccp_free(&finder->memory, finder->entries);
-    *finder = (iccp_finder){.memory = finder->memory};
+    free_grid(atomic_load(&finder->grid), &finder->memory);
+    atomic_store(&finder->grid, NULL);
 }
+
+icc_status iccp_finder_ready(const iccp_finder *finder)
+{
+    return grid_of(finder) != NULL ? ICC_OK : ICC_ERR_MEMORY;
+}
+
+/* A triangle meets no more cells than its area, in cells, and 2 for each line of the grid that it
+ * crosses: as many as its edges are long along the axes, and 4. */
+icc_status iccp_finder_budget(const iccp_finder *finder, const iccp_env *env)
+{
+    const iccp_finder *f = finder;
+    if (env->budget == NULL)
+        return ICC_OK;
+    grid g = {0};
+    choose_cells(f, &g);
+    double length = 0;
+    for (uint32_t c = 0; c < 3 * f->n_triangles; ++c) {
+        const double *a = f->points + 2 * (size_t)f->triangles[c];
+        const double *b = f->points + 2 * (size_t)f->triangles[iccp_after(c)];
+        length += fabs(b[0] - a[0]) + fabs(b[1] - a[1]);
+    }
+    const double n = (double)f->n_triangles;
+    const double n_entries = (double)g.n_cells + 4 * n + length * g.rate;
+    return n_entries > PLENTY * n ? iccp_budget_borrow(env, n_entries * sizeof *g.entries) : ICC_OK;
+}
+
+/* ---- looking for points ---- */
 
 /* Of the sum of magnitudes: the rounding of an area's differences, products and their difference
  * stays below it, so that beyond it the sign is right. */
@@ -156,7 +297,7 @@ static bool holds_exactly(const double *const q[3], const double p[2], double ba
 
 /* Whether the triangle holds p, exactly; then `bary` are the areas that p makes with its edges. All
  * three are computed before anything is decided: one branch that is hard to predict, not three. */
-static bool holds(const iccp_finder *f, uint32_t triangle, const double p[2], double bary[3])
+static inline bool holds(const iccp_finder *f, uint32_t triangle, const double p[2], double bary[3])
 {
     const uint32_t *v = f->triangles + 3 * (size_t)triangle;
     const double *const q[3] = {f->points + 2 * (size_t)v[0], f->points + 2 * (size_t)v[1],
@@ -168,28 +309,113 @@ static bool holds(const iccp_finder *f, uint32_t triangle, const double p[2], do
     bary[0] = bc - cb;
     bary[1] = ca - ac;
     bary[2] = ab - ba;
-    const double least01 = bary[0] < bary[1] ? bary[0] : bary[1];
-    const double least = least01 < bary[2] ? least01 : bary[2];
-    if (least < -CERTAIN * size)
+    const double smallest = least(least(bary[0], bary[1]), bary[2]);
+    if (smallest < -CERTAIN * size)
         return false;
-    if (least > CERTAIN * size && bary[0] + bary[1] + bary[2] > FLATTEST * size)
+    if (smallest > CERTAIN * size && bary[0] + bary[1] + bary[2] > FLATTEST * size)
         return true;
     return holds_exactly(q, p, bary);
 }
 
-bool iccp_finder_find(const iccp_finder *finder, const double p[2], uint32_t *triangle,
-                      double bary[3])
+static inline size_t cell_at(const grid *g, const double p[2])
 {
-    const size_t i = cell_of((p[0] - finder->origin[0]) * finder->rate, finder->size[0]);
-    const size_t j = cell_of((p[1] - finder->origin[1]) * finder->rate, finder->size[1]);
-    const size_t cell = i + finder->size[0] * j;
-    for (size_t e = finder->first[cell]; e < finder->first[cell + 1]; ++e)
-        if (holds(finder, finder->entries[e], p, bary)) {
-            const double scale = 1 / (bary[0] + bary[1] + bary[2]);
-            for (int k = 0; k < 3; ++k)
-                bary[k] *= scale;
-            *triangle = finder->entries[e];
-            return true;
-        }
-    return false;
+    if (!(p[0] >= g->lower[0] && p[0] <= g->upper[0] && p[1] >= g->lower[1] && p[1] <= g->upper[1]))
+        return g->n_cells;
+    return cell_of((p[0] - g->lower[0]) * g->rate, g->size[0]) +
+           g->size[0] * cell_of((p[1] - g->lower[1]) * g->rate, g->size[1]);
+}
+
+static inline bool find_in(const iccp_finder *f, uint32_t triangle, const double p[2],
+                           iccp_found *found)
+{
+    if (!holds(f, triangle, p, found->bary))
+        return false;
+    const double scale = 1 / (found->bary[0] + found->bary[1] + found->bary[2]);
+    for (int k = 0; k < 3; ++k)
+        found->bary[k] *= scale;
+    found->triangle = triangle;
+    return true;
+}
+
+static inline void find_in_cell(const iccp_finder *f, const grid *g, size_t cell, const double p[2],
+                                iccp_found *found)
+{
+    const uint32_t end = g->first[cell + 1] / 2;
+    found->is_near = g->first[cell] & 1;
+    found->triangle = ICCP_NO_NEIGHBOUR;
+    for (uint32_t e = g->first[cell] / 2; e < end; ++e)
+        if (find_in(f, g->entries[e], p, found))
+            return;
+}
+
+icc_status iccp_finder_find(const iccp_finder *finder, const double p[2], iccp_found *found)
+{
+    const grid *g = grid_of(finder);
+    if (g == NULL)
+        return ICC_ERR_MEMORY;
+    find_in_cell(finder, g, cell_at(g, p), p, found);
+    return found->triangle != ICCP_NO_NEIGHBOUR ? ICC_OK : ICC_ERR_TRACE;
+}
+
+icc_status iccp_finder_find_alone(const iccp_finder *finder, const double p[2], iccp_found *found)
+{
+    for (uint32_t t = 0; t < finder->n_triangles; ++t)
+        if (find_in(finder, t, p, found))
+            return ICC_OK;
+    return ICC_ERR_TRACE;
+}
+
+/* ---- many points ---- */
+
+/* Triangles of a cell whose corners are fetched before it is known which one is wanted. */
+enum { AHEAD = 1 };
+
+/* Whether most points are in the cells of the points before them, or beside those: what they need
+ * has just been read. */
+static bool are_in_order(size_t n, const size_t *cell)
+{
+    size_t n_close = 0;
+    for (size_t k = 1; k < n; ++k)
+        n_close += cell[k] - cell[k - 1] + 2 <= 4;
+    return 2 * n_close >= n;
+}
+
+/* Each stage reads, for all points, what the stage before has asked the memory for. */
+static void fetch(const iccp_finder *f, const grid *g, size_t n, const size_t *cell)
+{
+    const uint32_t *entry[ICCP_FINDER_MANY];
+    uint32_t n_entries[ICCP_FINDER_MANY];
+    for (size_t k = 0; k < n; ++k)
+        ICCP_PREFETCH(g->first + cell[k]);
+    for (size_t k = 0; k < n; ++k) {
+        const uint32_t first = g->first[cell[k]] / 2, last = g->first[cell[k] + 1] / 2;
+        entry[k] = g->entries + first;
+        n_entries[k] = last - first < AHEAD ? last - first : AHEAD;
+        ICCP_PREFETCH(entry[k]);
+    }
+    for (size_t k = 0; k < n; ++k)
+        for (uint32_t e = 0; e < n_entries[k]; ++e)
+            ICCP_PREFETCH(f->triangles + 3 * (size_t)entry[k][e]);
+    for (size_t k = 0; k < n; ++k)
+        for (uint32_t e = 0; e < n_entries[k]; ++e)
+            for (size_t c = 0; c < 3; ++c)
+                ICCP_PREFETCH(f->points + 2 * (size_t)f->triangles[3 * (size_t)entry[k][e] + c]);
+}
+
+void iccp_finder_find_many(const iccp_finder *finder, size_t n, const double *points,
+                           const double *other, iccp_found *found)
+{
+    const iccp_finder *f = finder;
+    const grid *g = atomic_load_explicit(&f->grid, memory_order_acquire);
+    size_t cell[ICCP_FINDER_MANY];
+    for (size_t k = 0; k < n; ++k)
+        cell[k] = cell_at(g, points + 2 * k);
+    const bool fetches = g->is_large && !are_in_order(n, cell);
+    if (fetches)
+        fetch(f, g, n, cell);
+    for (size_t k = 0; k < n; ++k) {
+        find_in_cell(f, g, cell[k], points + 2 * k, &found[k]);
+        for (size_t c = 0; c < 3 && fetches && found[k].triangle != ICCP_NO_NEIGHBOUR; ++c)
+            ICCP_PREFETCH(other + 2 * (size_t)f->triangles[3 * (size_t)found[k].triangle + c]);
+    }
 }

@@ -4,25 +4,53 @@
 
 #include "mesh/planar.h"
 
-/* A grid of cells, each with the triangles that come near it. */
+#include <stdatomic.h>
+
+/* Finds by a grid, which is made when the first point is looked for: many meshes are never asked.
+ * Nothing else about a finder changes, so that several threads may ask at the same time: they may
+ * then make a grid each, of which one stays. */
 typedef struct iccp_finder {
     iccp_memory memory;
-    const double *points;      /* the mesh's own, or its image: borrowed */
-    const uint32_t *triangles; /* borrowed */
-    double origin[2], rate;    /* cell = (point - origin) * rate */
-    size_t size[2];
-    uint32_t *first;   /* cells + 1: where the triangles of a cell begin in `entries` */
-    uint32_t *entries; /* triangles, cell by cell */
+    const double *points; /* of the vertices, the mesh's own or their images: borrowed, as are */
+    const uint32_t *triangles; /* 3 n_triangles vertices, all triangles counter-clockwise */
+    const uint32_t *twins;     /* 3 n_triangles: ICCP_NO_NEIGHBOUR at the boundary */
+    size_t n_vertices, n_triangles;
+    double reach;                            /* see iccp_found */
+    _Atomic(struct iccp_finder_grid *) grid; /* NULL until it is needed */
 } iccp_finder;
 
-/* For the mesh's triangles with their corners at `points`, all counter-clockwise. */
-icc_status iccp_finder_create(iccp_finder *finder, const iccp_planar *mesh, const double *points,
-                              const iccp_env *env);
+/* Where a point lies. */
+typedef struct iccp_found {
+    uint32_t triangle; /* that holds it, exactly, the first of several; or ICCP_NO_NEIGHBOUR */
+    bool is_near;      /* whether it may be within `reach` of the mesh's boundary, or outside of the
+                          mesh's box; elsewhere in the mesh's plane it is farther away */
+    double bary[3];    /* in the triangle: not negative, sum 1 */
+} iccp_found;
+
+/* Points that are looked for at once, at most. */
+enum { ICCP_FINDER_MANY = 128 };
+
+/* For the triangles of a mesh with their corners at `points`. The grid's memory will be `memory`. */
+void iccp_finder_init(iccp_finder *finder, const iccp_planar *mesh, const double *points,
+                      double reach, const iccp_memory *memory);
 void iccp_finder_free(iccp_finder *finder);
 
-/* The triangle that holds p, exactly, the first of several, and p's barycentric coordinates in it:
- * not negative, sum 1. False when there is none. */
-bool iccp_finder_find(const iccp_finder *finder, const double p[2], uint32_t *triangle,
-                      double bary[3]);
+/* Asks the budget for what the grid will take where that is much. O(n). */
+icc_status iccp_finder_budget(const iccp_finder *finder, const iccp_env *env);
+
+/* Makes the grid if there is none: ICC_OK or ICC_ERR_MEMORY. Whoever asks in parallel does so
+ * first. */
+icc_status iccp_finder_ready(const iccp_finder *finder);
+
+/* ICC_OK; ICC_ERR_TRACE when no triangle holds the point; ICC_ERR_MEMORY without a grid. */
+icc_status iccp_finder_find(const iccp_finder *finder, const double p[2], iccp_found *found);
+
+/* The same for a single point, without a grid: ICC_OK or ICC_ERR_TRACE. O(n). */
+icc_status iccp_finder_find_alone(const iccp_finder *finder, const double p[2], iccp_found *found);
+
+/* The same as iccp_finder_find() for n points, 2 coordinates each, with a grid that is ready. `other` are other points of
+ * the vertices: those of the triangles that are found are about to be read. */
+void iccp_finder_find_many(const iccp_finder *finder, size_t n, const double *points,
+                           const double *other, iccp_found *found);
 
 #endif

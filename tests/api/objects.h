@@ -259,15 +259,32 @@ static inline icc_status call_chart_trace(const objects *o, outcome *out, const 
     return icc_chart_trace(o->chart, o->points, N_POINTS, out->numbers, &out->count, env, err);
 }
 
+/* Some memory is allocated for the object only when it is first used. What that call reports counts
+ * for the one that made the object. */
+static inline icc_status note_later(icc_status status, icc_error *err)
+{
+    if (status != ICC_OK && err != NULL) {
+        err->status = status;
+        strcpy(err->message, "when it was used");
+    }
+    return status;
+}
+
+static inline icc_status use_map(const objects *o, const icc_map *map, outcome *out, icc_error *err)
+{
+    return note_later(
+        icc_map_apply(map, N_POINTS, o->points, out->numbers, out->status, &out->count, NULL), err);
+}
+
 static inline icc_status call_map_create(const objects *o, outcome *out, const icc_env *env,
                                          icc_error *err)
 {
     icc_map *map = (icc_map *)&map;
     const icc_map_options options = {.size = sizeof options, .chart = &o->options};
-    const icc_status status = icc_map_create(&map, o->source, o->target, &options, env, err);
+    icc_status status = icc_map_create(&map, o->source, o->target, &options, env, err);
     HANDED_OVER(status, map);
     if (status == ICC_OK)
-        (void)icc_map_apply(map, N_POINTS, o->points, out->numbers, out->status, &out->count, NULL);
+        status = use_map(o, map, out, err);
     icc_map_free(map);
     return status;
 }
@@ -276,11 +293,10 @@ static inline icc_status call_map_create_from_charts(const objects *o, outcome *
                                                      const icc_env *env, icc_error *err)
 {
     icc_map *map = (icc_map *)&map;
-    const icc_status status =
-        icc_map_create_from_charts(&map, o->chart, o->target_chart, NULL, env, err);
+    icc_status status = icc_map_create_from_charts(&map, o->chart, o->target_chart, NULL, env, err);
     HANDED_OVER(status, map);
     if (status == ICC_OK)
-        (void)icc_map_apply(map, N_POINTS, o->points, out->numbers, out->status, &out->count, NULL);
+        status = use_map(o, map, out, err);
     icc_map_free(map);
     return status;
 }
@@ -315,11 +331,11 @@ static inline icc_status call_map_improve(const objects *o, outcome *out, const 
     icc_map *map = (icc_map *)&map;
     const icc_improve_options options = {.size = sizeof options, .iterations = 2, .levels = 1};
     icc_improve_report report = {.size = sizeof report};
-    const icc_status status = icc_map_improve(&map, o->mesh_map, &options, &report, env, err);
+    icc_status status = icc_map_improve(&map, o->mesh_map, &options, &report, env, err);
     HANDED_OVER(status, map);
     ck_assert(report.energy <= report.energy_start);
     if (status == ICC_OK)
-        (void)icc_map_apply(map, N_POINTS, o->points, out->numbers, out->status, &out->count, NULL);
+        status = use_map(o, map, out, err);
     icc_map_free(map);
     if (!report.cancelled)
         return status;
@@ -337,11 +353,11 @@ static inline icc_status call_map_follow(const objects *o, outcome *out, const i
     moved[2] += 0.25;
     ck_assert_int_eq(icc_domain_create(&target, 2, N_CORNERS, moved, 0, NULL, NULL, NULL), ICC_OK);
     icc_map *map = (icc_map *)&map;
-    const icc_status status = icc_map_retarget(&map, o->mesh_map, target, 2, env, err);
+    icc_status status = icc_map_retarget(&map, o->mesh_map, target, 2, env, err);
     HANDED_OVER(status, map);
     icc_domain_free(target);
     if (status == ICC_OK)
-        (void)icc_map_apply(map, N_POINTS, o->points, out->numbers, out->status, &out->count, NULL);
+        status = use_map(o, map, out, err);
     icc_map_free(map);
     return status;
 }
@@ -725,11 +741,13 @@ static inline icc_status call_chart_load(const objects *o, outcome *out, const i
     void *data = malloc(n);
     ck_assert_int_eq(icc_chart_save(o->chart, n, data, &n), ICC_OK);
     icc_chart *chart = (icc_chart *)&chart;
-    const icc_status status = icc_chart_load(&chart, n, data, env, err);
+    icc_status status = icc_chart_load(&chart, n, data, env, err);
     HANDED_OVER(status, chart);
     if (status == ICC_OK)
-        (void)icc_chart_encode(chart, N_POINTS, o->points, out->indices, out->numbers,
-                               out->numbers + 2 * N_POINTS, out->status, &out->count, NULL);
+        status = note_later(icc_chart_encode(chart, N_POINTS, o->points, out->indices, out->numbers,
+                                             out->numbers + 2 * N_POINTS, out->status, &out->count,
+                                             NULL),
+                            err);
     icc_chart_free(chart);
     free(data);
     return status;
@@ -743,10 +761,10 @@ static inline icc_status call_map_load(const objects *o, outcome *out, const icc
     void *data = malloc(n);
     ck_assert_int_eq(icc_map_save(o->mesh_map, n, data, &n), ICC_OK);
     icc_map *map = (icc_map *)&map;
-    const icc_status status = icc_map_load(&map, n, data, env, err);
+    icc_status status = icc_map_load(&map, n, data, env, err);
     HANDED_OVER(status, map);
     if (status == ICC_OK)
-        (void)icc_map_apply(map, N_POINTS, o->points, out->numbers, out->status, &out->count, NULL);
+        status = use_map(o, map, out, err);
     icc_map_free(map);
     free(data);
     return status;

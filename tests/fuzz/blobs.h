@@ -6,7 +6,7 @@
 
 #include <stdlib.h>
 
-enum { HEADER = 24, LARGEST = 1 << 16 };
+enum { HEADER = 32, LARGEST = 1 << 16 };
 
 /* assert() is off in release builds. */
 static inline void require(int holds)

@@ -21,17 +21,19 @@ static void check_rim(const iccp_planar *mesh, const icc_domain *domain)
 static void check_points(const iccp_planar *mesh, const icc_domain *domain, const iccp_env *env)
 {
     iccp_finder finder;
-    require(iccp_finder_create(&finder, mesh, mesh->points, env) == ICC_OK);
+    iccp_finder_init(&finder, mesh, mesh->points, 0, &env->memory);
     for (size_t t = 0; t < mesh->n_triangles; ++t) {
         const uint32_t *v = mesh->triangles + 3 * t;
-        double p[2], bary[3];
-        uint32_t found;
+        double p[2];
+        iccp_found found;
         for (size_t k = 0; k < 2; ++k)
             p[k] = 0.5 * mesh->points[2 * (size_t)v[0] + k] +
                    0.25 * mesh->points[2 * (size_t)v[1] + k] +
                    0.25 * mesh->points[2 * (size_t)v[2] + k];
-        if (iccp_finder_find(&finder, p, &found, bary))
-            require(fabs(bary[0] + bary[1] + bary[2] - 1) < 1e-15);
+        const icc_status status = iccp_finder_find(&finder, p, &found);
+        require(status == ICC_OK || status == ICC_ERR_TRACE);
+        if (status == ICC_OK)
+            require(fabs(found.bary[0] + found.bary[1] + found.bary[2] - 1) < 1e-15);
         else
             require(iccp_domain_locate(domain, p, true, NULL, NULL) != ICC_INSIDE);
     }

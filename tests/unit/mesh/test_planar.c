@@ -100,25 +100,26 @@ static void check_finder(const meshed *m, random_source *r)
 {
     const iccp_planar *mesh = &m->mesh;
     iccp_finder finder;
-    ck_assert_int_eq(iccp_finder_create(&finder, mesh, mesh->points, &m->env), ICC_OK);
+    iccp_finder_init(&finder, mesh, mesh->points, 0, &m->env.memory);
     for (int i = 0; i < share_of(2000); ++i) {
         const size_t t = (size_t)random_below(r, (int)mesh->n_triangles);
         double w[3] = {random_unit(r), random_unit(r), i % 3 == 0 ? 0 : random_unit(r)};
         if (i % 5 == 0)
             w[0] = w[2] = 0;
-        double p[2] = {0, 0}, bary[3], q[2] = {0, 0};
+        double p[2] = {0, 0}, q[2] = {0, 0};
         for (size_t k = 0; k < 3; ++k)
             for (size_t j = 0; j < 2; ++j)
                 p[j] +=
                     w[k] / (w[0] + w[1] + w[2]) * mesh->points[2 * mesh->triangles[3 * t + k] + j];
-        uint32_t found;
-        const bool is_found = iccp_finder_find(&finder, p, &found, bary);
+        iccp_found found;
+        const icc_status status = iccp_finder_find(&finder, p, &found);
+        const double *bary = found.bary;
         if (iccp_domain_locate(m->domain, p, true, NULL, NULL) == ICC_INSIDE)
-            ck_assert(is_found);
-        if (!is_found)
+            ck_assert_int_eq(status, ICC_OK);
+        if (status != ICC_OK)
             continue;
         for (size_t k = 0; k < 3; ++k) {
-            const uint32_t *v = mesh->triangles + 3 * (size_t)found;
+            const uint32_t *v = mesh->triangles + 3 * (size_t)found.triangle;
             ck_assert(bary[k] >= 0 &&
                       iccp_orient2d(mesh->points + 2 * (size_t)v[(k + 1) % 3],
                                     mesh->points + 2 * (size_t)v[(k + 2) % 3], p) >= 0);
@@ -130,9 +131,8 @@ static void check_finder(const meshed *m, random_source *r)
     }
     const double far_away[3][2] = {{5, 0}, {-5, -5}, {0, 1e50}};
     for (int k = 0; k < 3; ++k) {
-        uint32_t found;
-        double bary[3];
-        ck_assert(!iccp_finder_find(&finder, far_away[k], &found, bary));
+        iccp_found found;
+        ck_assert_int_eq(iccp_finder_find(&finder, far_away[k], &found), ICC_ERR_TRACE);
     }
     iccp_finder_free(&finder);
 }
