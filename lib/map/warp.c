@@ -18,7 +18,8 @@ enum { ROWS = 8 };
 
 typedef struct warp {
     const icc_map *map;
-    const icc_picture *source, *target;
+    const icc_picture *target;
+    iccp_sampler source;
     const iccp_memory *memory;
     iccp_place *places; /* of each vertex */
     iccp_scan *scans;   /* of each triangle */
@@ -137,7 +138,7 @@ static void gather(const warp *w, const iccp_scan *scan, row *r)
         const size_t begin = (size_t)iccp_scan_row(scan, y, scan->columns, w->target->width, &line);
         if (line.n == 0)
             continue;
-        iccp_sampler_gather(w->source, &line, weight, begin % columns, columns,
+        iccp_sampler_gather(&w->source, &line, weight, begin % columns, columns,
                             r->gathered + begin / columns);
         widen(r, begin / columns, (begin + line.n - 1) / columns + 1);
     }
@@ -157,7 +158,7 @@ static void paint_centre(const warp *w, const row *r, size_t column, uint8_t *to
         return;
     iccp_frame_out(&w->map->source_domain->frame, 2, image, place);
     const iccp_line line = {place[0] - 0.5, place[1] - 0.5, 0, 0, 1};
-    iccp_sampler_paint(w->source, &line, to);
+    iccp_sampler_paint(&w->source, &line, to);
 }
 
 static void store(const warp *w, row *r)
@@ -166,7 +167,7 @@ static void store(const warp *w, row *r)
     for (size_t i = r->begin; i < r->end; ++i) {
         const iccp_gathered *gathered = &r->gathered[i];
         if (gathered->owned && gathered->weight > 0)
-            iccp_sampler_store(w->source, gathered, r->pixels + i * pixel);
+            iccp_sampler_store(&w->source, gathered, r->pixels + i * pixel);
         else if (gathered->owned)
             paint_centre(w, r, i, r->pixels + i * pixel);
     }
@@ -194,7 +195,7 @@ static void paint_row(const warp *w, size_t band, row *r)
         const size_t begin =
             (size_t)iccp_scan_row(scan, r->number + 0.5, 1, w->target->width, &line);
         if (line.n > 0)
-            iccp_sampler_paint(w->source, &line, r->pixels + begin * pixel);
+            iccp_sampler_paint(&w->source, &line, r->pixels + begin * pixel);
     }
     store(w, r);
 }
@@ -224,7 +225,8 @@ static icc_status paint_band(void *argument, size_t begin, size_t end)
 static icc_status warp_mesh(const icc_map *map, const icc_picture *source,
                             const icc_picture *target, const iccp_env *env)
 {
-    warp w = {.map = map, .source = source, .target = target, .memory = &env->memory};
+    warp w = {.map = map, .target = target, .memory = &env->memory};
+    iccp_sampler_init(&w.source, source);
     iccp_boundary_pixels boundary;
     icc_status status = iccp_boundary_pixels_create(&boundary, map->target_domain, target, env);
     if (status != ICC_OK)
@@ -233,7 +235,7 @@ static icc_status warp_mesh(const icc_map *map, const icc_picture *source,
     if (status == ICC_OK)
         status = iccp_for_chunks(env, "warp", (size_t)target->height, ROWS, paint_band, &w);
     if (status == ICC_OK)
-        iccp_boundary_pixels_decide(&boundary, map, source, target);
+        iccp_boundary_pixels_decide(&boundary, map, &w.source, target);
     clear(&w);
     iccp_boundary_pixels_free(&boundary);
     return status;
