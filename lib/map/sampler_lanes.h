@@ -19,55 +19,8 @@ typedef uint32_t channels4 __attribute__((vector_size(16)));
 typedef uint32_t channels8 __attribute__((vector_size(32))); /* of two pixels */
 typedef double reals __attribute__((vector_size(32)));
 typedef float floats __attribute__((vector_size(16)));
-typedef uint64_t positions __attribute__((vector_size(32)));
 
-enum { BITS = ICCP_NARROW_BITS, LANES = 4, OPACITY = 3 };
-
-/* ---- positions ---- */
-
-/* The next samples of a walk: the pixels up and left of them, and how far they are from those. */
-typedef struct cells {
-    uint64_t column[LANES], row[LANES], right[LANES], down[LANES];
-} cells;
-
-/* The last row and column count as the far side of the cells before them. */
-TARGET static ICCP_INLINE void find_along(const positions *u, uint64_t last, uint64_t *index,
-                                          uint64_t *share)
-{
-    const positions whole = *u >> 32;
-    const positions i = whole + (positions)(whole > last); /* by one at most */
-    const positions rest = (*u - (i << 32)) >> (32 - BITS);
-    memcpy(index, &i, sizeof i);
-    memcpy(share, &rest, sizeof rest);
-}
-
-/* A walk, LANES samples at a time. */
-typedef struct stride4 {
-    positions u, v, du, dv;
-    uint64_t last_column, last_row;
-} stride4;
-
-TARGET static ICCP_INLINE void begin(stride4 *s, const icc_picture *p, const iccp_walk *w)
-{
-    const int64_t half = (int64_t)1 << (31 - BITS);
-    const int64_t u = w->u + half, v = w->v + half, du = w->du, dv = w->dv;
-    s->u = (positions){(uint64_t)u, (uint64_t)(u + du), (uint64_t)(u + 2 * du),
-                       (uint64_t)(u + 3 * du)};
-    s->v = (positions){(uint64_t)v, (uint64_t)(v + dv), (uint64_t)(v + 2 * dv),
-                       (uint64_t)(v + 3 * dv)};
-    s->du = (positions){0} + (uint64_t)(4 * du);
-    s->dv = (positions){0} + (uint64_t)(4 * dv);
-    s->last_column = (uint64_t)(p->width - 2);
-    s->last_row = p->height > 1 ? (uint64_t)(p->height - 2) : 0;
-}
-
-TARGET static ICCP_INLINE void find_cells(stride4 *s, cells *c)
-{
-    find_along(&s->u, s->last_column, c->column, c->right);
-    find_along(&s->v, s->last_row, c->row, c->down);
-    s->u += s->du;
-    s->v += s->dv;
-}
+enum { BITS = ICCP_NARROW_BITS, OPACITY = 3 };
 
 /* ---- vectors ---- */
 
@@ -142,22 +95,48 @@ typedef struct format {
     bool alpha;
 } format;
 
-/* What does not change along a walk. */
-typedef struct plane {
+/* A place on a walk. Of `right` and `down`, the position's fraction times 2^32, the upper BITS bits
+ * count. */
+typedef struct place {
     const uint8_t *pixels;
-    size_t stride, down;
-} plane;
+    size_t stride;
+    int64_t u, v, du, dv;
+    channels4 right, du4;
+    channels8 down, dv8;
+} place;
 
-static ICCP_INLINE plane make_plane(const icc_picture *p)
+/* False where the last column or row, which count as the far side of the cells before them, would
+ * be the near side. */
+static ICCP_INLINE bool is_plain(const icc_picture *p, const iccp_walk *w)
 {
-    return (plane){p->pixels, p->stride, p->height > 1 ? p->stride : 0};
+    const int64_t half = (int64_t)1 << (31 - BITS), n = (int64_t)w->n - 1;
+    const int64_t columns = (int64_t)(p->width - 1) * ((int64_t)1 << 32) - half;
+    const int64_t rows = (int64_t)(p->height - 1) * ((int64_t)1 << 32) - half;
+    return w->u < columns && w->u + n * w->du < columns && w->v < rows && w->v + n * w->dv < rows;
 }
 
-/* The four pixels round a position, each with four bytes, and the shares of the farther ones. */
-typedef struct sample {
-    uint64_t above, below;
-    uint32_t right, down;
-} sample;
+TARGET static ICCP_INLINE void begin(place *x, const icc_picture *p, const iccp_walk *w)
+{
+    const int64_t half = (int64_t)1 << (31 - BITS);
+    x->pixels = p->pixels;
+    x->stride = p->stride;
+    x->u = w->u + half;
+    x->v = w->v + half;
+    x->du = w->du;
+    x->dv = w->dv;
+    x->right = (channels4){0} + (uint32_t)x->u;
+    x->down = (channels8){0} + (uint32_t)x->v;
+    x->du4 = (channels4){0} + (uint32_t)x->du;
+    x->dv8 = (channels8){0} + (uint32_t)x->dv;
+}
+
+TARGET static ICCP_INLINE void advance(place *x)
+{
+    x->u += x->du;
+    x->v += x->dv;
+    x->right += x->du4;
+    x->down += x->dv8;
+}
 
 /* Two pixels of a row. */
 static ICCP_INLINE uint64_t load_pair(const uint8_t *left, format f)
@@ -173,11 +152,16 @@ static ICCP_INLINE uint64_t load_pair(const uint8_t *left, format f)
     return (first & 0xffffff) | (uint64_t)(second >> 8) << 32;
 }
 
-static ICCP_INLINE sample load(plane p, format f, const cells *c, size_t k)
+/* The four pixels round a place, each with four bytes. */
+typedef struct sample {
+    uint64_t above, below;
+} sample;
+
+static ICCP_INLINE sample load(const place *x, format f)
 {
-    const uint8_t *first = p.pixels + c->row[k] * p.stride + c->column[k] * (size_t)f.channels;
-    return (sample){load_pair(first, f), load_pair(first + p.down, f), (uint32_t)c->right[k],
-                    (uint32_t)c->down[k]};
+    const size_t column = (size_t)(x->u >> 32), row = (size_t)(x->v >> 32);
+    const uint8_t *first = x->pixels + row * x->stride + column * (size_t)f.channels;
+    return (sample){load_pair(first, f), load_pair(first + x->stride, f)};
 }
 
 static ICCP_INLINE bool same_opacity(const sample *s)
@@ -186,15 +170,15 @@ static ICCP_INLINE bool same_opacity(const sample *s)
     return (((s->above ^ s->below) | (s->above ^ swapped)) & UINT64_C(0xff000000ff000000)) == 0;
 }
 
-TARGET static ICCP_INLINE void plain_sums(const sample *s, channels4 *sums)
+TARGET static ICCP_INLINE void plain_sums(const place *x, const sample *s, channels4 *sums)
 {
     channels8 above, below;
     channels4 left, right;
     widen(s->above, &above);
     widen(s->below, &below);
-    const channels8 columns = (above << BITS) + s->down * (below - above);
+    const channels8 columns = (above << BITS) + (x->down >> (32 - BITS)) * (below - above);
     halves(&columns, &left, &right);
-    *sums = (left << BITS) + s->right * (right - left);
+    *sums = (left << BITS) + (x->right >> (32 - BITS)) * (right - left);
 }
 
 /* Two pixels' channels times their weights, and the weights last. */
@@ -211,33 +195,35 @@ TARGET static ICCP_INLINE void weigh(uint64_t pair, reals *left, reals *right)
     to_reals(&b, right);
 }
 
-TARGET static ICCP_INLINE void weighted_sums(const sample *s, reals *sums)
+TARGET static ICCP_INLINE void weighted_sums(const place *x, const sample *s, reals *sums)
 {
-    const double right = s->right, down = s->down;
-    reals a, b, c, d;
+    const channels4 across = x->right >> (32 - BITS);
+    const double down = (uint32_t)x->v >> (32 - BITS);
+    reals a, b, c, d, right;
     weigh(s->above, &a, &b);
     weigh(s->below, &c, &d);
+    to_reals(&across, &right);
     const reals first = (4096 - down) * a + down * c, second = (4096 - down) * b + down * d;
     *sums = (4096 - right) * first + right * second;
 }
 
 /* Equal opacities weight nothing: weighted sums are plain ones times the weight. */
-TARGET static ICCP_INLINE void find_sums(const sample *s, format f, reals *sums)
+TARGET static ICCP_INLINE void find_sums(const place *x, const sample *s, format f, reals *sums)
 {
+    const channels4 colours = {~0U, ~0U, ~0U, 0}, whole = {0, 0, 0, 1U << 24};
     channels4 plain;
     if (f.alpha && !same_opacity(s)) {
-        weighted_sums(s, sums);
+        weighted_sums(x, s, sums);
         return;
     }
-    plain_sums(s, &plain);
+    plain_sums(x, s, &plain);
+    if (f.alpha)
+        plain = (plain & colours) | whole;
     plain ^= 1U << 31;
     to_reals(&plain, sums);
     *sums += 0x1p31;
-    if (f.alpha) {
-        const reals colours = {1, 1, 1, 0}, whole = {0, 0, 0, 0x1p24};
-        const double opacity = (double)(s->above >> 56);
-        *sums = (*sums * colours + whole) * (256 * opacity + 1);
-    }
+    if (f.alpha)
+        *sums *= (double)(s->above >> 56 << ICCP_NARROW_FLOOR | 1);
 }
 
 /* ---- kernels ---- */
@@ -260,15 +246,15 @@ TARGET static ICCP_INLINE void put_weighted(const reals *sums, format f, uint8_t
     put(&colours, f, to);
 }
 
-TARGET static ICCP_INLINE void paint_one(const sample *s, format f, uint8_t *to)
+TARGET static ICCP_INLINE void paint_one(const place *x, const sample *s, format f, uint8_t *to)
 {
     if (f.alpha && !same_opacity(s)) {
         reals sums;
-        weighted_sums(s, &sums);
+        weighted_sums(x, s, &sums);
         put_weighted(&sums, f, to);
     } else {
         channels4 sums;
-        plain_sums(s, &sums);
+        plain_sums(x, s, &sums);
         sums = (sums + (1U << (2 * BITS - 1))) >> (2 * BITS);
         put(&sums, f, to);
     }
@@ -277,26 +263,24 @@ TARGET static ICCP_INLINE void paint_one(const sample *s, format f, uint8_t *to)
 TARGET static ICCP_INLINE void paint(const icc_picture *source, format f, const iccp_walk *w,
                                      uint8_t *to)
 {
-    const plane p = make_plane(source);
-    stride4 along;
-    cells c;
-    begin(&along, source, w);
-    for (size_t n = w->n; n > 0; n -= n < LANES ? n : LANES) {
-        find_cells(&along, &c);
-        for (size_t k = 0; k < LANES && k < n; ++k, to += f.channels) {
-            const sample s = load(p, f, &c, k);
-            paint_one(&s, f, to);
-        }
+    place x;
+    if (!is_plain(source, w)) {
+        iccp_sampler_portable(source)->paint(source, w, to);
+        return;
+    }
+    begin(&x, source, w);
+    for (size_t n = w->n; n > 0; --n, to += f.channels) {
+        const sample s = load(&x, f);
+        paint_one(&x, &s, f, to);
+        advance(&x);
     }
 }
 
-TARGET static ICCP_INLINE void add(iccp_gathered *to, const sample *s, format f, float weight)
+TARGET static ICCP_INLINE void add(iccp_gathered *to, const reals *exact, float weight)
 {
-    reals exact;
     floats sums;
-    find_sums(s, f, &exact);
     memcpy(&sums, to->sums, sizeof sums);
-    sums += weight * __builtin_convertvector(exact, floats);
+    sums += weight * __builtin_convertvector(*exact, floats);
     memcpy(to->sums, &sums, sizeof sums);
     to->weight += weight;
 }
@@ -305,19 +289,21 @@ TARGET static ICCP_INLINE void gather(const icc_picture *source, format f, const
                                       float weight, size_t phase, size_t per_pixel,
                                       iccp_gathered *pixels)
 {
-    const plane p = make_plane(source);
-    stride4 along;
-    cells c;
-    begin(&along, source, w);
-    for (size_t n = w->n; n > 0; n -= n < LANES ? n : LANES) {
-        find_cells(&along, &c);
-        for (size_t k = 0; k < LANES && k < n; ++k) {
-            const sample s = load(p, f, &c, k);
-            add(pixels, &s, f, weight);
-            if (++phase == per_pixel) {
-                phase = 0;
-                ++pixels;
-            }
+    place x;
+    if (!is_plain(source, w)) {
+        iccp_sampler_portable(source)->gather(source, w, weight, phase, per_pixel, pixels);
+        return;
+    }
+    begin(&x, source, w);
+    for (size_t n = w->n; n > 0; --n) {
+        reals sums;
+        const sample s = load(&x, f);
+        find_sums(&x, &s, f, &sums);
+        add(pixels, &sums, weight);
+        advance(&x);
+        if (++phase == per_pixel) {
+            phase = 0;
+            ++pixels;
         }
     }
 }
@@ -359,10 +345,9 @@ KERNELS(rgb, 3, false)
 KERNELS(rgbx, 4, false)
 KERNELS(rgba, 4, true)
 
-/* The two columns of a cell are loaded at once. */
 static const iccp_sampler_kernels *kernels_for(const icc_picture *p)
 {
-    if (p->bytes > 1 || p->channels < 3 || p->width < 2 || (p->channels == 3 && p->alpha))
+    if (p->bytes > 1 || p->channels < 3 || (p->channels == 3 && p->alpha))
         return NULL;
     return p->channels == 3 ? &rgb : p->alpha ? &rgba : &rgbx;
 }
