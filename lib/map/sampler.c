@@ -97,7 +97,8 @@ void iccp_sampler_gather(const iccp_sampler *sampler, const iccp_line *line, flo
     }
 }
 
-void iccp_sampler_store(const iccp_sampler *sampler, const iccp_gathered *gathered, uint8_t *to)
+void iccp_sampler_store(const iccp_sampler *sampler, const iccp_gathered *gathered, size_t n,
+                        uint8_t *to)
 {
-    sampler->kernels->store(gathered, to);
+    sampler->kernels->store(gathered, n, to);
 }

@@ -4,8 +4,6 @@
 
 #include "icc/icc.h"
 
-#include <stdbool.h>
-
 /* n positions in a picture, in pixels from the centre of the first one. Beyond the rectangle of the
  * pixels' centres the nearest place on it counts. */
 typedef struct iccp_line {
@@ -17,7 +15,6 @@ typedef struct iccp_line {
 typedef struct iccp_gathered {
     float sums[4];
     float weight;
-    bool owned; /* for the caller: whether the mean shall be written */
 } iccp_gathered;
 
 typedef struct iccp_sampler_kernels iccp_sampler_kernels;
@@ -41,7 +38,8 @@ void iccp_sampler_paint(const iccp_sampler *sampler, const iccp_line *line, uint
 void iccp_sampler_gather(const iccp_sampler *sampler, const iccp_line *line, float weight,
                          size_t phase, size_t per_pixel, iccp_gathered *pixels);
 
-/* Writes the mean of what has been gathered; weight must be positive. */
-void iccp_sampler_store(const iccp_sampler *sampler, const iccp_gathered *gathered, uint8_t *to);
+/* Writes the means of what has been gathered to n pixels; weights must be positive. */
+void iccp_sampler_store(const iccp_sampler *sampler, const iccp_gathered *gathered, size_t n,
+                        uint8_t *to);
 
 #endif

@@ -4,6 +4,8 @@
 
 #include "map/sampler.h"
 
+#include <stdbool.h>
+
 enum {
     ICCP_NARROW_BITS = 12, /* of a position between two centres, for samples of one byte */
     ICCP_WIDE_BITS = 14,
@@ -22,7 +24,7 @@ struct iccp_sampler_kernels {
     void (*paint)(const icc_picture *source, const iccp_walk *w, uint8_t *to);
     void (*gather)(const icc_picture *source, const iccp_walk *w, float weight, size_t phase,
                    size_t per_pixel, iccp_gathered *pixels);
-    void (*store)(const iccp_gathered *gathered, uint8_t *to);
+    void (*store)(const iccp_gathered *gathered, size_t n, uint8_t *to);
 };
 
 const iccp_sampler_kernels *iccp_sampler_portable(const icc_picture *p);

@@ -308,7 +308,7 @@ TARGET static ICCP_INLINE void gather(const icc_picture *source, format f, const
     }
 }
 
-TARGET static ICCP_INLINE void store(const iccp_gathered *gathered, format f, uint8_t *to)
+TARGET static ICCP_INLINE void store_one(const iccp_gathered *gathered, format f, uint8_t *to)
 {
     const float whole = gathered->weight * 0x1p24F;
     floats x;
@@ -325,6 +325,12 @@ TARGET static ICCP_INLINE void store(const iccp_gathered *gathered, format f, ui
     put(&colours, f, to);
 }
 
+TARGET static ICCP_INLINE void store(const iccp_gathered *gathered, size_t n, format f, uint8_t *to)
+{
+    for (; n > 0; --n, ++gathered, to += f.channels)
+        store_one(gathered, f, to);
+}
+
 #define KERNELS(name, channels, alpha)                                                             \
     TARGET static void paint_##name(const icc_picture *source, const iccp_walk *w, uint8_t *to)    \
     {                                                                                              \
@@ -335,9 +341,9 @@ TARGET static ICCP_INLINE void store(const iccp_gathered *gathered, format f, ui
     {                                                                                              \
         gather(source, (format){channels, alpha}, w, weight, phase, per_pixel, pixels);            \
     }                                                                                              \
-    TARGET static void store_##name(const iccp_gathered *gathered, uint8_t *to)                    \
+    TARGET static void store_##name(const iccp_gathered *gathered, size_t n, uint8_t *to)          \
     {                                                                                              \
-        store(gathered, (format){channels, alpha}, to);                                            \
+        store(gathered, n, (format){channels, alpha}, to);                                         \
     }                                                                                              \
     static const iccp_sampler_kernels name = {paint_##name, gather_##name, store_##name};
 

@@ -260,7 +260,7 @@ static ICCP_INLINE uint64_t rounded(float value, float largest)
     return (uint64_t)((value < largest ? value : largest) + 0.5F);
 }
 
-static ICCP_INLINE void store(const iccp_gathered *gathered, format f, uint8_t *to)
+static ICCP_INLINE void store_one(const iccp_gathered *gathered, format f, uint8_t *to)
 {
     const float largest = f.wide ? 65535 : 255;
     const float whole = gathered->weight * (float)((uint64_t)1 << (2 * position_bits(f)));
@@ -271,6 +271,12 @@ static ICCP_INLINE void store(const iccp_gathered *gathered, format f, uint8_t *
     const float opacity = (weight / whole - 1) / (float)(1 << floor_bits(f));
     if (f.alpha)
         put(to, f, n_colours, rounded(opacity > 0 ? opacity : 0, largest));
+}
+
+static ICCP_INLINE void store(const iccp_gathered *gathered, size_t n, format f, uint8_t *to)
+{
+    for (; n > 0; --n, ++gathered, to += f.channels << f.wide)
+        store_one(gathered, f, to);
 }
 
 /* One set for every format: all above is inlined into it, and the format is a constant. */
@@ -284,9 +290,9 @@ static ICCP_INLINE void store(const iccp_gathered *gathered, format f, uint8_t *
     {                                                                                              \
         gather(source, (format){channels, wide, alpha}, *w, weight, phase, per_pixel, pixels);     \
     }                                                                                              \
-    static void store_##name(const iccp_gathered *gathered, uint8_t *to)                           \
+    static void store_##name(const iccp_gathered *gathered, size_t n, uint8_t *to)                 \
     {                                                                                              \
-        store(gathered, (format){channels, wide, alpha}, to);                                      \
+        store(gathered, n, (format){channels, wide, alpha}, to);                                   \
     }                                                                                              \
     static const iccp_sampler_kernels name = {paint_##name, gather_##name, store_##name};
 

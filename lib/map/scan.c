@@ -14,6 +14,9 @@
  * contrast would be left, and 32 % at 1.1, as much as a mean over the whole pixel leaves. */
 static const double STEP = 1.1;
 
+/* Relative: well above the rounding of a place among samples. */
+static const double UNSURE = 1e-12;
+
 static iccp_edge make_edge(const iccp_place *a, const iccp_place *b)
 {
     const double height = b->y - a->y;
@@ -63,13 +66,15 @@ void iccp_scan_create(iccp_scan *scan, const iccp_place *const places[3])
 
 int64_t iccp_first_sample(double x, int32_t n, int64_t end)
 {
+    const double place = x * n;
     if (!(x > 0))
         return 0;
-    if (!(x * n < (double)end))
+    if (!(place < (double)end))
         return end;
-    int64_t k = (int64_t)(x * n);
-    if (n == 1)
-        return k + ((double)k + 0.5 < x);
+    /* Nearly always rounding cannot matter; else the definition decides. */
+    int64_t k = (int64_t)(place + 0.5);
+    if (0.5 - fabs(place - (double)k) > UNSURE * place)
+        return k;
     while (k > 0 && ((double)k - 0.5) / n >= x)
         --k;
     while (k < end && ((double)k + 0.5) / n < x)

@@ -4,6 +4,8 @@
 
 #include "map/sampler.h"
 
+#include <stdbool.h>
+
 /* A corner: its place in the target, and in the source from the centre of the first pixel. */
 typedef struct iccp_place {
     double x, y, u, v;

@@ -20,6 +20,7 @@ typedef struct warp {
     const icc_map *map;
     const icc_picture *target;
     iccp_sampler source;
+    size_t pixel; /* bytes */
     const iccp_memory *memory;
     iccp_place *places; /* of each vertex */
     iccp_scan *scans;   /* of each triangle */
@@ -126,8 +127,7 @@ static void widen(row *r, size_t begin, size_t end)
     r->end = end > r->end ? end : r->end;
 }
 
-/* Adds the samples of one triangle in this row to their pixels. Of the pixels, those whose centre
- * the triangle holds are marked as its own. */
+/* Adds the samples of one triangle in this row to their pixels. */
 static void gather(const warp *w, const iccp_scan *scan, row *r)
 {
     const size_t columns = (size_t)scan->columns;
@@ -142,11 +142,6 @@ static void gather(const warp *w, const iccp_scan *scan, row *r)
                             r->gathered + begin / columns);
         widen(r, begin / columns, (begin + line.n - 1) / columns + 1);
     }
-    const size_t begin = (size_t)iccp_scan_row(scan, r->number + 0.5, 1, w->target->width, &line);
-    for (size_t i = begin; i < begin + line.n; ++i)
-        r->gathered[i].owned = true;
-    if (line.n > 0)
-        widen(r, begin, begin + line.n);
 }
 
 /* A pixel in whose triangle, a thin one, there was no sample. */
@@ -161,43 +156,62 @@ static void paint_centre(const warp *w, const row *r, size_t column, uint8_t *to
     iccp_sampler_paint(&w->source, &line, to);
 }
 
-static void store(const warp *w, row *r)
+/* The pixels whose centres one triangle holds, in this row. */
+static int32_t find_pixels(const warp *w, const iccp_scan *scan, const row *r, iccp_line *line)
 {
-    const size_t pixel = (size_t)(w->target->channels * w->target->bytes);
-    for (size_t i = r->begin; i < r->end; ++i) {
-        const iccp_gathered *gathered = &r->gathered[i];
-        if (gathered->owned && gathered->weight > 0)
-            iccp_sampler_store(&w->source, gathered, r->pixels + i * pixel);
-        else if (gathered->owned)
-            paint_centre(w, r, i, r->pixels + i * pixel);
+    return (int32_t)iccp_scan_row(scan, r->number + 0.5, 1, w->target->width, line);
+}
+
+static void paint(const warp *w, const iccp_scan *scan, const row *r)
+{
+    iccp_line line;
+    const size_t begin = (size_t)find_pixels(w, scan, r, &line);
+    if (line.n > 0)
+        iccp_sampler_paint(&w->source, &line, r->pixels + begin * w->pixel);
+}
+
+/* The means of what has been gathered in the pixels of one triangle. */
+static void store(const warp *w, const iccp_scan *scan, const row *r)
+{
+    iccp_line line;
+    const size_t begin = (size_t)find_pixels(w, scan, r, &line), end = begin + line.n;
+    for (size_t i = begin, n; i < end; i += n) {
+        for (n = 0; i + n < end && r->gathered[i + n].weight > 0;)
+            ++n;
+        iccp_sampler_store(&w->source, r->gathered + i, n, r->pixels + i * w->pixel);
+        if (n == 0) {
+            paint_centre(w, r, i, r->pixels + i * w->pixel);
+            n = 1;
+        }
     }
-    if (r->begin < r->end)
-        memset(r->gathered + r->begin, 0, (r->end - r->begin) * sizeof *r->gathered);
+}
+
+/* Whether a triangle comes into a row. */
+static bool meets(const iccp_scan *scan, const row *r)
+{
+    return scan->top > r->number && scan->whole.start.y < (double)r->number + 1;
 }
 
 /* Paints one row from the triangles of its band. Each triangle that does not gather writes its
- * pixels at once, each centre being in one triangle only; the others add up and are written by
- * store(). */
+ * pixels at once, each centre being in one triangle only; the others add up before they write. */
 static void paint_row(const warp *w, size_t band, row *r)
 {
-    const size_t pixel = (size_t)(w->target->channels * w->target->bytes);
     r->begin = (size_t)w->target->width;
     r->end = 0;
     for (size_t e = w->first[band]; e < w->first[band + 1]; ++e) {
         const iccp_scan *scan = &w->scans[w->entries[e]];
-        if (scan->top <= r->number || scan->whole.start.y >= (double)r->number + 1)
-            continue;
-        if (gathers(scan)) {
+        if (meets(scan, r) && gathers(scan))
             gather(w, scan, r);
-            continue;
-        }
-        iccp_line line;
-        const size_t begin =
-            (size_t)iccp_scan_row(scan, r->number + 0.5, 1, w->target->width, &line);
-        if (line.n > 0)
-            iccp_sampler_paint(&w->source, &line, r->pixels + begin * pixel);
+        else if (meets(scan, r))
+            paint(w, scan, r);
     }
-    store(w, r);
+    for (size_t e = w->first[band]; e < w->first[band + 1] && r->gathered != NULL; ++e) {
+        const iccp_scan *scan = &w->scans[w->entries[e]];
+        if (meets(scan, r) && gathers(scan))
+            store(w, scan, r);
+    }
+    if (r->begin < r->end)
+        memset(r->gathered + r->begin, 0, (r->end - r->begin) * sizeof *r->gathered);
 }
 
 /* Rows [begin, end) of the target, all in one band. Room for what is gathered is made only if a
@@ -225,7 +239,10 @@ static icc_status paint_band(void *argument, size_t begin, size_t end)
 static icc_status warp_mesh(const icc_map *map, const icc_picture *source,
                             const icc_picture *target, const iccp_env *env)
 {
-    warp w = {.map = map, .target = target, .memory = &env->memory};
+    warp w = {.map = map,
+              .target = target,
+              .pixel = (size_t)(target->channels * target->bytes),
+              .memory = &env->memory};
     iccp_sampler_init(&w.source, source);
     iccp_boundary_pixels boundary;
     icc_status status = iccp_boundary_pixels_create(&boundary, map->target_domain, target, env);

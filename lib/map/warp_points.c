@@ -71,12 +71,12 @@ static icc_status paint_mean(const warp *w, const double *centre_origin, int32_t
     }
     const icc_status status =
         iccp_map_apply(w->map, true, n, points, points, NULL, NULL, &w->alone);
-    iccp_gathered gathered = {{0}, 0, true};
+    iccp_gathered gathered = {{0}, 0};
     for (size_t k = 0; k < n; ++k)
         add_sample(&w->source, points + 2 * k, &gathered);
     if (!(gathered.weight > 0))
         add_sample(&w->source, centre_origin, &gathered);
-    iccp_sampler_store(&w->source, &gathered, to);
+    iccp_sampler_store(&w->source, &gathered, 1, to);
     return status;
 }
 

@@ -79,7 +79,7 @@ static void sample(int kind, const icc_picture *p, const iccp_line *line, size_t
 {
     const size_t pixel = (size_t)(p->channels * p->bytes);
     const float weight = 1 / (float)per_pixel;
-    iccp_gathered gathered[MOST_SAMPLES + 1] = {{{0}, 0, false}};
+    iccp_gathered gathered[MOST_SAMPLES + 1] = {{{0}, 0}};
     iccp_sampler sampler;
     iccp_sampler_init_as(kind, &sampler, p);
     memset(out, 0, sizeof *out);
@@ -90,7 +90,7 @@ static void sample(int kind, const icc_picture *p, const iccp_line *line, size_t
             out->sums[k][c] = gathered[k].sums[c];
         out->sums[k][4] = gathered[k].weight;
         if (gathered[k].weight > 0)
-            iccp_sampler_store(&sampler, &gathered[k], out->stored + k * pixel);
+            iccp_sampler_store(&sampler, &gathered[k], 1, out->stored + k * pixel);
     }
 }
 
