@@ -11,8 +11,6 @@
 #include "map/scan.h"
 #include "map/warp_points.h"
 
-#include <string.h>
-
 /* Rows in a task; the triangles that come into them are listed once. */
 enum { ROWS = 8 };
 
@@ -108,131 +106,122 @@ static void clear(warp *w)
 
 /* ---- rows ---- */
 
-/* One row of the target. What is gathered is zero outside [begin, end). */
-typedef struct row {
-    int32_t number;
-    uint8_t *pixels;
+/* Rows [begin, end) of the target. */
+typedef struct band {
+    const warp *w;
+    int32_t begin, end;
     iccp_gathered *gathered; /* one for each pixel; NULL when no triangle gathers */
-    size_t begin, end;
-} row;
+} band;
 
 static bool gathers(const iccp_scan *scan)
 {
     return scan->columns > 1 || scan->rows > 1;
 }
 
-static void widen(row *r, size_t begin, size_t end)
+static iccp_gathered *gathered_at(const band *b, int32_t row, size_t column)
 {
-    r->begin = begin < r->begin ? begin : r->begin;
-    r->end = end > r->end ? end : r->end;
+    return b->gathered + (size_t)(row - b->begin) * (size_t)b->w->target->width + column;
 }
 
-/* Adds the samples of one triangle in this row to their pixels. */
-static void gather(const warp *w, const iccp_scan *scan, row *r)
+static uint8_t *pixel_at(const band *b, int32_t row, size_t column)
+{
+    const icc_picture *p = b->w->target;
+    return (uint8_t *)p->pixels + (size_t)row * p->stride + column * b->w->pixel;
+}
+
+/* Adds the samples of one triangle in a row to their pixels. */
+static void gather(const band *b, const iccp_scan *scan, int32_t row)
 {
     const size_t columns = (size_t)scan->columns;
     const float weight = 1 / (float)(scan->columns * scan->rows);
     iccp_line line;
     for (int32_t k = 0; k < scan->rows; ++k) {
-        const double y = ((double)r->number * scan->rows + k + 0.5) / scan->rows;
-        const size_t begin = (size_t)iccp_scan_row(scan, y, scan->columns, w->target->width, &line);
-        if (line.n == 0)
-            continue;
-        iccp_sampler_gather(&w->source, &line, weight, begin % columns, columns,
-                            r->gathered + begin / columns);
-        widen(r, begin / columns, (begin + line.n - 1) / columns + 1);
+        const double y = ((double)row * scan->rows + k + 0.5) / scan->rows;
+        const size_t begin =
+            (size_t)iccp_scan_row(scan, y, scan->columns, b->w->target->width, &line);
+        if (line.n > 0)
+            iccp_sampler_gather(&b->w->source, &line, weight, begin % columns, columns,
+                                gathered_at(b, row, begin / columns));
     }
 }
 
-/* A pixel in whose triangle, a thin one, there was no sample. */
-static void paint_centre(const warp *w, const row *r, size_t column, uint8_t *to)
+/* The pixels of a row whose centres one triangle holds, each being in one triangle only: the first,
+ * and where they come from. */
+static size_t find_pixels(const band *b, const iccp_scan *scan, int32_t row, iccp_line *line)
 {
-    double place[2] = {(double)column + 0.5, r->number + 0.5}, local[2], image[2];
-    iccp_frame_in(&w->map->target_domain->frame, 2, place, local);
-    if (iccp_mesh_map_point(w->map->mesh, true, local, image, NULL) != ICC_OK)
-        return;
-    iccp_frame_out(&w->map->source_domain->frame, 2, image, place);
-    const iccp_line line = {place[0] - 0.5, place[1] - 0.5, 0, 0, 1};
-    iccp_sampler_paint(&w->source, &line, to);
+    return (size_t)iccp_scan_row(scan, row + 0.5, 1, b->w->target->width, line);
 }
 
-/* The pixels whose centres one triangle holds, in this row. */
-static int32_t find_pixels(const warp *w, const iccp_scan *scan, const row *r, iccp_line *line)
-{
-    return (int32_t)iccp_scan_row(scan, r->number + 0.5, 1, w->target->width, line);
-}
-
-static void paint(const warp *w, const iccp_scan *scan, const row *r)
+static void paint(const band *b, const iccp_scan *scan, int32_t row)
 {
     iccp_line line;
-    const size_t begin = (size_t)find_pixels(w, scan, r, &line);
+    const size_t begin = find_pixels(b, scan, row, &line);
     if (line.n > 0)
-        iccp_sampler_paint(&w->source, &line, r->pixels + begin * w->pixel);
+        iccp_sampler_paint(&b->w->source, &line, pixel_at(b, row, begin));
 }
 
-/* The means of what has been gathered in the pixels of one triangle. */
-static void store(const warp *w, const iccp_scan *scan, const row *r)
+/* A pixel in whose triangle, a thin one, there was no sample. */
+static void paint_centre(const band *b, int32_t row, size_t column)
+{
+    const icc_map *map = b->w->map;
+    double place[2] = {(double)column + 0.5, row + 0.5}, local[2], image[2];
+    iccp_frame_in(&map->target_domain->frame, 2, place, local);
+    if (iccp_mesh_map_point(map->mesh, true, local, image, NULL) != ICC_OK)
+        return;
+    iccp_frame_out(&map->source_domain->frame, 2, image, place);
+    const iccp_line line = {place[0] - 0.5, place[1] - 0.5, 0, 0, 1};
+    iccp_sampler_paint(&b->w->source, &line, pixel_at(b, row, column));
+}
+
+/* The means of what all triangles have gathered in the pixels of one. */
+static void store(const band *b, const iccp_scan *scan, int32_t row)
 {
     iccp_line line;
-    const size_t begin = (size_t)find_pixels(w, scan, r, &line), end = begin + line.n;
+    const size_t begin = find_pixels(b, scan, row, &line), end = begin + line.n;
     for (size_t i = begin, n; i < end; i += n) {
-        for (n = 0; i + n < end && r->gathered[i + n].weight > 0;)
+        const iccp_gathered *gathered = gathered_at(b, row, i);
+        for (n = 0; i + n < end && gathered[n].weight > 0;)
             ++n;
-        iccp_sampler_store(&w->source, r->gathered + i, n, r->pixels + i * w->pixel);
+        iccp_sampler_store(&b->w->source, gathered, n, pixel_at(b, row, i));
         if (n == 0) {
-            paint_centre(w, r, i, r->pixels + i * w->pixel);
+            paint_centre(b, row, i);
             n = 1;
         }
     }
 }
 
-/* Whether a triangle comes into a row. */
-static bool meets(const iccp_scan *scan, const row *r)
+/* In the rows of a band that a triangle comes into. */
+static void each_row(void (*act)(const band *b, const iccp_scan *scan, int32_t row), const band *b,
+                     const iccp_scan *scan)
 {
-    return scan->top > r->number && scan->whole.start.y < (double)r->number + 1;
+    for (int32_t row = b->begin; row < b->end && row < scan->top; ++row)
+        if (scan->whole.start.y < (double)row + 1)
+            act(b, scan, row);
 }
 
-/* Paints one row from the triangles of its band. Each triangle that does not gather writes its
- * pixels at once, each centre being in one triangle only; the others add up before they write. */
-static void paint_row(const warp *w, size_t band, row *r)
-{
-    r->begin = (size_t)w->target->width;
-    r->end = 0;
-    for (size_t e = w->first[band]; e < w->first[band + 1]; ++e) {
-        const iccp_scan *scan = &w->scans[w->entries[e]];
-        if (meets(scan, r) && gathers(scan))
-            gather(w, scan, r);
-        else if (meets(scan, r))
-            paint(w, scan, r);
-    }
-    for (size_t e = w->first[band]; e < w->first[band + 1] && r->gathered != NULL; ++e) {
-        const iccp_scan *scan = &w->scans[w->entries[e]];
-        if (meets(scan, r) && gathers(scan))
-            store(w, scan, r);
-    }
-    if (r->begin < r->end)
-        memset(r->gathered + r->begin, 0, (r->end - r->begin) * sizeof *r->gathered);
-}
-
-/* Rows [begin, end) of the target, all in one band. Room for what is gathered is made only if a
+/* Rows [begin, end) of the target, all in one band. A triangle that does not gather writes its
+ * pixels at once; the others add up before they write. They are taken one after the other, since
+ * neighbouring rows of one come from the same places. Room for what is gathered is made only if a
  * triangle needs it. */
 static icc_status paint_band(void *argument, size_t begin, size_t end)
 {
     const warp *w = argument;
-    const size_t band = begin / ROWS;
-    row r = {.gathered = NULL};
-    for (size_t e = w->first[band]; e < w->first[band + 1] && r.gathered == NULL; ++e)
-        if (gathers(&w->scans[w->entries[e]])) {
-            r.gathered = iccp_alloc_zero(w->memory, (size_t)w->target->width, sizeof *r.gathered);
-            if (r.gathered == NULL)
+    const uint32_t *first = w->entries + w->first[begin / ROWS];
+    const uint32_t *last = w->entries + w->first[begin / ROWS + 1];
+    band b = {w, (int32_t)begin, (int32_t)end, NULL};
+    for (const uint32_t *e = first; e < last && b.gathered == NULL; ++e)
+        if (gathers(&w->scans[*e])) {
+            b.gathered = iccp_alloc_zero(w->memory, (end - begin) * (size_t)w->target->width,
+                                         sizeof *b.gathered);
+            if (b.gathered == NULL)
                 return ICC_ERR_MEMORY;
         }
-    for (size_t i = begin; i < end; ++i) {
-        r.number = (int32_t)i;
-        r.pixels = (uint8_t *)w->target->pixels + i * w->target->stride;
-        paint_row(w, band, &r);
-    }
-    iccp_free(w->memory, r.gathered);
+    for (const uint32_t *e = first; e < last; ++e)
+        each_row(gathers(&w->scans[*e]) ? gather : paint, &b, &w->scans[*e]);
+    for (const uint32_t *e = first; e < last; ++e)
+        if (gathers(&w->scans[*e]))
+            each_row(store, &b, &w->scans[*e]);
+    iccp_free(w->memory, b.gathered);
     return ICC_OK;
 }
 
