@@ -92,7 +92,7 @@ TARGET static ICCP_INLINE void to_reals(const channels4 *x, reals *y)
 /* What a kernel is compiled for. */
 typedef struct format {
     int channels;
-    bool alpha;
+    bool alpha, opaque; /* opaque: all opacities are 255 */
 } format;
 
 /* A place on a walk. Of `right` and `down`, the position's fraction times 2^32, the upper BITS bits
@@ -157,10 +157,15 @@ typedef struct sample {
     uint64_t above, below;
 } sample;
 
+/* Rows of the target follow each other: what the next ones need is fetched ahead, for maps that turn
+ * the picture by less than a quarter. */
+enum { AHEAD = 6 };
+
 static ICCP_INLINE sample load(const place *x, format f)
 {
     const size_t column = (size_t)(x->u >> 32), row = (size_t)(x->v >> 32);
     const uint8_t *first = x->pixels + row * x->stride + column * (size_t)f.channels;
+    ICCP_PREFETCH((const void *)((uintptr_t)first + AHEAD * x->stride));
     return (sample){load_pair(first, f), load_pair(first + x->stride, f)};
 }
 
@@ -207,23 +212,30 @@ TARGET static ICCP_INLINE void weighted_sums(const place *x, const sample *s, re
     *sums = (4096 - right) * first + right * second;
 }
 
+/* Exact. */
+TARGET static ICCP_INLINE void unsigned_to_reals(const channels4 *x, reals *y)
+{
+    const channels4 moved = *x ^ 1U << 31;
+    to_reals(&moved, y);
+    *y += 0x1p31;
+}
+
 /* Equal opacities weight nothing: weighted sums are plain ones times the weight. */
 TARGET static ICCP_INLINE void find_sums(const place *x, const sample *s, format f, reals *sums)
 {
     const channels4 colours = {~0U, ~0U, ~0U, 0}, whole = {0, 0, 0, 1U << 24};
     channels4 plain;
-    if (f.alpha && !same_opacity(s)) {
+    if (f.alpha && !f.opaque && !same_opacity(s)) {
         weighted_sums(x, s, sums);
         return;
     }
     plain_sums(x, s, &plain);
+    const double opacity = f.opaque ? 255 : (double)(s->above >> 56);
     if (f.alpha)
         plain = (plain & colours) | whole;
-    plain ^= 1U << 31;
-    to_reals(&plain, sums);
-    *sums += 0x1p31;
+    unsigned_to_reals(&plain, sums);
     if (f.alpha)
-        *sums *= (double)(s->above >> 56 << ICCP_NARROW_FLOOR | 1);
+        *sums *= 256 * opacity + 1;
 }
 
 /* ---- kernels ---- */
@@ -248,7 +260,7 @@ TARGET static ICCP_INLINE void put_weighted(const reals *sums, format f, uint8_t
 
 TARGET static ICCP_INLINE void paint_one(const place *x, const sample *s, format f, uint8_t *to)
 {
-    if (f.alpha && !same_opacity(s)) {
+    if (f.alpha && !f.opaque && !same_opacity(s)) {
         reals sums;
         weighted_sums(x, s, &sums);
         put_weighted(&sums, f, to);
@@ -331,31 +343,52 @@ TARGET static ICCP_INLINE void store(const iccp_gathered *gathered, size_t n, fo
         store_one(gathered, f, to);
 }
 
-#define KERNELS(name, channels, alpha)                                                             \
+#define KERNELS(name, channels, alpha, opaque)                                                     \
     TARGET static void paint_##name(const icc_picture *source, const iccp_walk *w, uint8_t *to)    \
     {                                                                                              \
-        paint(source, (format){channels, alpha}, w, to);                                           \
+        paint(source, (format){channels, alpha, opaque}, w, to);                                   \
     }                                                                                              \
     TARGET static void gather_##name(const icc_picture *source, const iccp_walk *w, float weight,  \
                                      size_t phase, size_t per_pixel, iccp_gathered *pixels)        \
     {                                                                                              \
-        gather(source, (format){channels, alpha}, w, weight, phase, per_pixel, pixels);            \
+        gather(source, (format){channels, alpha, opaque}, w, weight, phase, per_pixel, pixels);    \
     }                                                                                              \
     TARGET static void store_##name(const iccp_gathered *gathered, size_t n, uint8_t *to)          \
     {                                                                                              \
-        store(gathered, n, (format){channels, alpha}, to);                                         \
+        store(gathered, n, (format){channels, alpha, opaque}, to);                                 \
     }                                                                                              \
     static const iccp_sampler_kernels name = {paint_##name, gather_##name, store_##name};
 
-KERNELS(rgb, 3, false)
-KERNELS(rgbx, 4, false)
-KERNELS(rgba, 4, true)
+KERNELS(rgb, 3, false, false)
+KERNELS(rgbx, 4, false, false)
+KERNELS(rgba, 4, true, false)
+KERNELS(opaque, 4, true, true)
 
-static const iccp_sampler_kernels *kernels_for(const icc_picture *p)
+/* Whether all opacities are 255: much is simpler then, and most pictures end the search at once if
+ * they are not. */
+TARGET static bool is_opaque(const icc_picture *p)
+{
+    bool all = true;
+    for (int32_t j = 0; j < p->height && all; ++j) {
+        const uint8_t *row = (const uint8_t *)p->pixels + (size_t)j * p->stride;
+        uint32_t both = ~0U;
+        for (int32_t i = 0; i < p->width; ++i) {
+            uint32_t pixel;
+            memcpy(&pixel, row + 4 * (size_t)i, sizeof pixel);
+            both &= pixel;
+        }
+        all = both >> 24 == 255;
+    }
+    return all;
+}
+
+TARGET static const iccp_sampler_kernels *kernels_for(const icc_picture *p)
 {
     if (p->bytes > 1 || p->channels < 3 || (p->channels == 3 && p->alpha))
         return NULL;
-    return p->channels == 3 ? &rgb : p->alpha ? &rgba : &rgbx;
+    if (p->channels == 3)
+        return &rgb;
+    return !p->alpha ? &rgbx : is_opaque(p) ? &opaque : &rgba;
 }
 
 #endif

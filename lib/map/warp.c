@@ -129,35 +129,39 @@ static uint8_t *pixel_at(const band *b, int32_t row, size_t column)
     return (uint8_t *)p->pixels + (size_t)row * p->stride + column * b->w->pixel;
 }
 
-/* Adds the samples of one triangle in a row to their pixels. */
-static void gather(const band *b, const iccp_scan *scan, int32_t row)
+/* Samples of a triangle. All rows are found before any is sampled: that takes long for each alone,
+ * but not for many side by side. */
+typedef struct runs {
+    size_t n;
+    iccp_run run[ROWS * ICCP_MOST_SAMPLES];
+} runs;
+
+/* Adds the samples of one triangle to their pixels. */
+static void gather(const band *b, const iccp_scan *scan, runs *r)
 {
     const size_t columns = (size_t)scan->columns;
     const float weight = 1 / (float)(scan->columns * scan->rows);
-    iccp_line line;
-    for (int32_t k = 0; k < scan->rows; ++k) {
-        const double y = ((double)row * scan->rows + k + 0.5) / scan->rows;
-        const size_t begin =
-            (size_t)iccp_scan_row(scan, y, scan->columns, b->w->target->width, &line);
-        if (line.n > 0)
-            iccp_sampler_gather(&b->w->source, &line, weight, begin % columns, columns,
-                                gathered_at(b, row, begin / columns));
+    r->n = iccp_scan_rows(scan, b->begin, b->end, scan->columns, scan->rows, b->w->target->width,
+                          r->run);
+    for (size_t k = 0; k < r->n; ++k) {
+        const iccp_run *run = &r->run[k];
+        iccp_sampler_gather(&b->w->source, &run->line, weight, run->begin % columns, columns,
+                            gathered_at(b, run->row, run->begin / columns));
     }
 }
 
-/* The pixels of a row whose centres one triangle holds, each being in one triangle only: the first,
- * and where they come from. */
-static size_t find_pixels(const band *b, const iccp_scan *scan, int32_t row, iccp_line *line)
+/* The pixels whose centres one triangle holds: each is in one only. */
+static void find_pixels(const band *b, const iccp_scan *scan, runs *r)
 {
-    return (size_t)iccp_scan_row(scan, row + 0.5, 1, b->w->target->width, line);
+    r->n = iccp_scan_rows(scan, b->begin, b->end, 1, 1, b->w->target->width, r->run);
 }
 
-static void paint(const band *b, const iccp_scan *scan, int32_t row)
+static void paint(const band *b, const iccp_scan *scan, runs *r)
 {
-    iccp_line line;
-    const size_t begin = find_pixels(b, scan, row, &line);
-    if (line.n > 0)
-        iccp_sampler_paint(&b->w->source, &line, pixel_at(b, row, begin));
+    find_pixels(b, scan, r);
+    for (size_t k = 0; k < r->n; ++k)
+        iccp_sampler_paint(&b->w->source, &r->run[k].line,
+                           pixel_at(b, r->run[k].row, r->run[k].begin));
 }
 
 /* A pixel in whose triangle, a thin one, there was no sample. */
@@ -173,30 +177,27 @@ static void paint_centre(const band *b, int32_t row, size_t column)
     iccp_sampler_paint(&b->w->source, &line, pixel_at(b, row, column));
 }
 
-/* The means of what all triangles have gathered in the pixels of one. */
-static void store(const band *b, const iccp_scan *scan, int32_t row)
+/* The means of what all triangles have gathered, in a run of pixels. */
+static void store_run(const band *b, const iccp_run *run)
 {
-    iccp_line line;
-    const size_t begin = find_pixels(b, scan, row, &line), end = begin + line.n;
-    for (size_t i = begin, n; i < end; i += n) {
-        const iccp_gathered *gathered = gathered_at(b, row, i);
+    const size_t end = run->begin + run->line.n;
+    for (size_t i = run->begin, n; i < end; i += n) {
+        const iccp_gathered *gathered = gathered_at(b, run->row, i);
         for (n = 0; i + n < end && gathered[n].weight > 0;)
             ++n;
-        iccp_sampler_store(&b->w->source, gathered, n, pixel_at(b, row, i));
+        iccp_sampler_store(&b->w->source, gathered, n, pixel_at(b, run->row, i));
         if (n == 0) {
-            paint_centre(b, row, i);
+            paint_centre(b, run->row, i);
             n = 1;
         }
     }
 }
 
-/* In the rows of a band that a triangle comes into. */
-static void each_row(void (*act)(const band *b, const iccp_scan *scan, int32_t row), const band *b,
-                     const iccp_scan *scan)
+static void store(const band *b, const iccp_scan *scan, runs *r)
 {
-    for (int32_t row = b->begin; row < b->end && row < scan->top; ++row)
-        if (scan->whole.start.y < (double)row + 1)
-            act(b, scan, row);
+    find_pixels(b, scan, r);
+    for (size_t k = 0; k < r->n; ++k)
+        store_run(b, &r->run[k]);
 }
 
 /* Rows [begin, end) of the target, all in one band. A triangle that does not gather writes its
@@ -209,6 +210,7 @@ static icc_status paint_band(void *argument, size_t begin, size_t end)
     const uint32_t *first = w->entries + w->first[begin / ROWS];
     const uint32_t *last = w->entries + w->first[begin / ROWS + 1];
     band b = {w, (int32_t)begin, (int32_t)end, NULL};
+    runs r;
     for (const uint32_t *e = first; e < last && b.gathered == NULL; ++e)
         if (gathers(&w->scans[*e])) {
             b.gathered = iccp_alloc_zero(w->memory, (end - begin) * (size_t)w->target->width,
@@ -217,10 +219,10 @@ static icc_status paint_band(void *argument, size_t begin, size_t end)
                 return ICC_ERR_MEMORY;
         }
     for (const uint32_t *e = first; e < last; ++e)
-        each_row(gathers(&w->scans[*e]) ? gather : paint, &b, &w->scans[*e]);
+        (gathers(&w->scans[*e]) ? gather : paint)(&b, &w->scans[*e], &r);
     for (const uint32_t *e = first; e < last; ++e)
         if (gathers(&w->scans[*e]))
-            each_row(store, &b, &w->scans[*e]);
+            store(&b, &w->scans[*e], &r);
     iccp_free(w->memory, b.gathered);
     return ICC_OK;
 }
