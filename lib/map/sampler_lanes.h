@@ -49,6 +49,21 @@ TARGET static ICCP_INLINE void to_reals(const channels4 *x, reals *y)
     *y = _mm256_cvtepi32_pd((__m128i)*x);
 }
 
+TARGET static ICCP_INLINE void to_floats(const reals *x, floats *y)
+{
+    *y = _mm256_cvtpd_ps(*x);
+}
+
+TARGET static ICCP_INLINE void to_integers(const reals *x, channels4 *y)
+{
+    *y = (channels4)_mm256_cvttpd_epi32(*x);
+}
+
+TARGET static ICCP_INLINE void spread_last(const reals *x, reals *last)
+{
+    *last = _mm256_permute4x64_pd(*x, 0xff);
+}
+
 #else
 
 TARGET static ICCP_INLINE void join(channels4 left, channels4 right, channels8 *x)
@@ -77,12 +92,44 @@ TARGET static ICCP_INLINE void spread_opacity(const channels8 *x, channels8 *opa
          (channels4)_mm_shuffle_epi32((__m128i)right, 0xff), opacity);
 }
 
+TARGET static ICCP_INLINE void join_reals(__m128d low, __m128d high, reals *x)
+{
+    memcpy(x, &low, 16);
+    memcpy((char *)x + 16, &high, 16);
+}
+
+TARGET static ICCP_INLINE void half_reals(const reals *x, __m128d *low, __m128d *high)
+{
+    memcpy(low, x, 16);
+    memcpy(high, (const char *)x + 16, 16);
+}
+
 TARGET static ICCP_INLINE void to_reals(const channels4 *x, reals *y)
 {
-    const __m128d low = _mm_cvtepi32_pd((__m128i)*x);
-    const __m128d high = _mm_cvtepi32_pd(_mm_shuffle_epi32((__m128i)*x, 0xee));
-    memcpy(y, &low, 16);
-    memcpy((char *)y + 16, &high, 16);
+    join_reals(_mm_cvtepi32_pd((__m128i)*x), _mm_cvtepi32_pd(_mm_shuffle_epi32((__m128i)*x, 0xee)),
+               y);
+}
+
+TARGET static ICCP_INLINE void to_floats(const reals *x, floats *y)
+{
+    __m128d low, high;
+    half_reals(x, &low, &high);
+    *y = _mm_movelh_ps(_mm_cvtpd_ps(low), _mm_cvtpd_ps(high));
+}
+
+TARGET static ICCP_INLINE void to_integers(const reals *x, channels4 *y)
+{
+    __m128d low, high;
+    half_reals(x, &low, &high);
+    *y = (channels4)_mm_unpacklo_epi64(_mm_cvttpd_epi32(low), _mm_cvttpd_epi32(high));
+}
+
+TARGET static ICCP_INLINE void spread_last(const reals *x, reals *last)
+{
+    __m128d low, high;
+    half_reals(x, &low, &high);
+    high = _mm_unpackhi_pd(high, high);
+    join_reals(high, high, last);
 }
 
 #endif
@@ -202,12 +249,15 @@ TARGET static ICCP_INLINE void weigh(uint64_t pair, reals *left, reals *right)
 
 TARGET static ICCP_INLINE void weighted_sums(const place *x, const sample *s, reals *sums)
 {
-    const channels4 across = x->right >> (32 - BITS);
-    const double down = (uint32_t)x->v >> (32 - BITS);
-    reals a, b, c, d, right;
+    const channels4 share_right = x->right >> (32 - BITS);
+    const channels8 share_down = x->down >> (32 - BITS);
+    channels4 share, same;
+    reals a, b, c, d, right, down;
     weigh(s->above, &a, &b);
     weigh(s->below, &c, &d);
-    to_reals(&across, &right);
+    halves(&share_down, &share, &same);
+    to_reals(&share, &down);
+    to_reals(&share_right, &right);
     const reals first = (4096 - down) * a + down * c, second = (4096 - down) * b + down * d;
     *sums = (4096 - right) * first + right * second;
 }
@@ -230,12 +280,18 @@ TARGET static ICCP_INLINE void find_sums(const place *x, const sample *s, format
         return;
     }
     plain_sums(x, s, &plain);
-    const double opacity = f.opaque ? 255 : (double)(s->above >> 56);
     if (f.alpha)
         plain = (plain & colours) | whole;
     unsigned_to_reals(&plain, sums);
-    if (f.alpha)
-        *sums *= 256 * opacity + 1;
+    if (f.opaque)
+        *sums *= (255 << ICCP_NARROW_FLOOR) + 1.0;
+    else if (f.alpha) {
+        const channels4 weight =
+            (channels4){0} + ((uint32_t)(s->above >> 56) << ICCP_NARROW_FLOOR | 1);
+        reals w;
+        to_reals(&weight, &w);
+        *sums *= w;
+    }
 }
 
 /* ---- kernels ---- */
@@ -251,11 +307,15 @@ TARGET static ICCP_INLINE void put(const channels4 *x, format f, uint8_t *to)
 
 TARGET static ICCP_INLINE void put_weighted(const reals *sums, format f, uint8_t *to)
 {
-    const double weight = (*sums)[OPACITY];
-    reals x = (*sums + 0.5 * weight) / weight;
-    x[OPACITY] = (weight - 0x1p24) * 0x1p-32 + 0.5;
-    const channels4 colours = (channels4) __builtin_convertvector(x, __v4si);
-    put(&colours, f, to);
+    typedef int64_t mask __attribute__((vector_size(32)));
+    const mask colours = {-1, -1, -1, 0};
+    reals weight, x;
+    channels4 bytes;
+    spread_last(sums, &weight);
+    const reals mean = (*sums + 0.5 * weight) / weight, opacity = (*sums - 0x1p24) * 0x1p-32 + 0.5;
+    x = (reals)(((mask)mean & colours) | ((mask)opacity & ~colours));
+    to_integers(&x, &bytes);
+    put(&bytes, f, to);
 }
 
 TARGET static ICCP_INLINE void paint_one(const place *x, const sample *s, format f, uint8_t *to)
@@ -290,9 +350,10 @@ TARGET static ICCP_INLINE void paint(const icc_picture *source, format f, const 
 
 TARGET static ICCP_INLINE void add(iccp_gathered *to, const reals *exact, float weight)
 {
-    floats sums;
+    floats sums, more;
     memcpy(&sums, to->sums, sizeof sums);
-    sums += weight * __builtin_convertvector(*exact, floats);
+    to_floats(exact, &more);
+    sums += weight * more;
     memcpy(to->sums, &sums, sizeof sums);
     to->weight += weight;
 }
