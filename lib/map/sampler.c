@@ -6,31 +6,22 @@ static const double ONE = 4294967296.0; /* of a walk's positions */
 
 /* ---- choice ---- */
 
-int iccp_sampler_kinds(void)
-{
-#ifdef ICCP_SAMPLER_HAS_LANES
-    return __builtin_cpu_supports("avx2") ? 3 : __builtin_cpu_supports("sse4.2") ? 2 : 1;
-#else
-    return 1;
-#endif
-}
-
-void iccp_sampler_init_as(int kind, iccp_sampler *sampler, const icc_picture *source)
+void iccp_sampler_init_as(iccp_simd_level level, iccp_sampler *sampler, const icc_picture *source)
 {
     const iccp_sampler_kernels *lanes = NULL;
-#ifdef ICCP_SAMPLER_HAS_LANES
-    if (kind == 2)
+#ifdef ICCP_HAS_SIMD
+    if (level == ICCP_SIMD_AVX2)
         lanes = iccp_sampler_avx2(source);
-    else if (kind == 1)
+    else if (level == ICCP_SIMD_SSE42)
         lanes = iccp_sampler_sse(source);
 #endif
-    (void)kind;
+    (void)level;
     *sampler = (iccp_sampler){source, lanes != NULL ? lanes : iccp_sampler_portable(source)};
 }
 
 void iccp_sampler_init(iccp_sampler *sampler, const icc_picture *source)
 {
-    iccp_sampler_init_as(iccp_sampler_kinds() - 1, sampler, source);
+    iccp_sampler_init_as(iccp_simd(), sampler, source);
 }
 
 /* ---- lines ---- */

@@ -2,6 +2,7 @@
 #ifndef ICCP_SAMPLER_H
 #define ICCP_SAMPLER_H
 
+#include "base/simd.h"
 #include "icc/icc.h"
 
 /* n positions in a picture, in pixels from the centre of the first one. Beyond the rectangle of the
@@ -26,9 +27,8 @@ typedef struct iccp_sampler {
 
 void iccp_sampler_init(iccp_sampler *sampler, const icc_picture *source);
 
-/* How many ways to sample the processor supports, the last one being the fastest. */
-int iccp_sampler_kinds(void);
-void iccp_sampler_init_as(int kind, iccp_sampler *sampler, const icc_picture *source);
+/* At a level that the processor has. */
+void iccp_sampler_init_as(iccp_simd_level level, iccp_sampler *sampler, const icc_picture *source);
 
 /* Writes the samples to consecutive pixels, which have the source's format. Positions are rounded
  * to 2^-12 pixels (2^-14 with two bytes); from there on results are exact but for one rounding. */

@@ -1,10 +1,10 @@
 /* Samples with AVX2. */
 #include "map/sampler_kernels.h"
 
-#ifdef ICCP_SAMPLER_HAS_LANES
+#ifdef ICCP_HAS_SIMD
 
 #define WIDE 1
-#define TARGET __attribute__((target("avx2")))
+#define TARGET ICCP_AVX2
 #include "map/sampler_lanes.h"
 
 const iccp_sampler_kernels *iccp_sampler_avx2(const icc_picture *p)

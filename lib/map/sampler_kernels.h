@@ -29,10 +29,6 @@ struct iccp_sampler_kernels {
 
 const iccp_sampler_kernels *iccp_sampler_portable(const icc_picture *p);
 
-#if defined(__GNUC__) && defined(__x86_64__)
-#define ICCP_SAMPLER_HAS_LANES
-#endif
-
 /* For this processor; NULL for formats that have none. */
 const iccp_sampler_kernels *iccp_sampler_sse(const icc_picture *p);
 const iccp_sampler_kernels *iccp_sampler_avx2(const icc_picture *p);

@@ -3,7 +3,7 @@
  *
  * Two neighbouring pixels of a row, 8 bytes, are one vector; so both columns are blended between
  * the rows at once, and then with each other, in integers below 2^32. With opacities that differ
- * the sums have up to 48 bits, and doubles hold them exactly: the bits are those of the integers. */
+ * the sums have up to 48 bits. Doubles hold those exactly, so the bits are those of integers. */
 #ifndef ICCP_SAMPLER_LANES_H
 #define ICCP_SAMPLER_LANES_H
 
@@ -204,8 +204,8 @@ typedef struct sample {
     uint64_t above, below;
 } sample;
 
-/* Rows of the target follow each other: what the next ones need is fetched ahead, for maps that turn
- * the picture by less than a quarter. */
+/* Rows of the target follow each other: what the next ones need is fetched ahead, for maps that
+ * turn the picture by less than a quarter. */
 enum { AHEAD = 6 };
 
 static ICCP_INLINE sample load(const place *x, format f)

@@ -167,7 +167,7 @@ static ICCP_INLINE sums weighted_sums(const cell *c, format f)
     return s;
 }
 
-/* Equal opacities weight nothing: weighted sums are plain ones times the weight, to the last bit. */
+/* Equal opacities weight nothing: weighted sums are plain ones times the weight, exactly. */
 static ICCP_INLINE sums evenly_weighted_sums(const cell *c, format f)
 {
     sums s = plain_sums(c, f);

@@ -1,10 +1,10 @@
 /* Samples with SSE 4.2. */
 #include "map/sampler_kernels.h"
 
-#ifdef ICCP_SAMPLER_HAS_LANES
+#ifdef ICCP_HAS_SIMD
 
 #define WIDE 0
-#define TARGET __attribute__((target("sse4.2")))
+#define TARGET ICCP_SSE42
 #include "map/sampler_lanes.h"
 
 const iccp_sampler_kernels *iccp_sampler_sse(const icc_picture *p)

@@ -74,14 +74,14 @@ typedef struct result {
     float sums[MOST_SAMPLES + 1][5];
 } result;
 
-static void sample(int kind, const icc_picture *p, const iccp_line *line, size_t phase,
+static void sample(iccp_simd_level level, const icc_picture *p, const iccp_line *line, size_t phase,
                    size_t per_pixel, result *out)
 {
     const size_t pixel = (size_t)(p->channels * p->bytes);
     const float weight = 1 / (float)per_pixel;
     iccp_gathered gathered[MOST_SAMPLES + 1] = {{{0}, 0}};
     iccp_sampler sampler;
-    iccp_sampler_init_as(kind, &sampler, p);
+    iccp_sampler_init_as(level, &sampler, p);
     memset(out, 0, sizeof *out);
     iccp_sampler_paint(&sampler, line, out->painted);
     iccp_sampler_gather(&sampler, line, weight, phase, per_pixel, gathered);
@@ -101,9 +101,9 @@ static void compare(random_source *r, const icc_picture *p)
         const size_t per_pixel = 1 + (size_t)random_below(r, 5),
                      phase = (size_t)random_below(r, (int)per_pixel);
         result plain, other;
-        sample(0, p, &line, phase, per_pixel, &plain);
-        for (int kind = 1; kind < iccp_sampler_kinds(); ++kind) {
-            sample(kind, p, &line, phase, per_pixel, &other);
+        sample(ICCP_SIMD_NONE, p, &line, phase, per_pixel, &plain);
+        for (iccp_simd_level level = ICCP_SIMD_SSE42; level <= iccp_simd(); ++level) {
+            sample(level, p, &line, phase, per_pixel, &other);
             ck_assert_mem_eq(plain.painted, other.painted, sizeof plain.painted);
             ck_assert_mem_eq(plain.sums, other.sums, sizeof plain.sums);
             ck_assert_mem_eq(plain.stored, other.stored, sizeof plain.stored);
