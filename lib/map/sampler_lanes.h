@@ -185,7 +185,7 @@ TARGET static ICCP_INLINE void advance(place *x)
     x->down += x->dv8;
 }
 
-/* Two pixels of a row. */
+/* Two pixels of a row. With three channels the fourth byte means nothing. */
 static ICCP_INLINE uint64_t load_pair(const uint8_t *left, format f)
 {
     uint64_t both;
@@ -196,7 +196,7 @@ static ICCP_INLINE uint64_t load_pair(const uint8_t *left, format f)
     }
     memcpy(&first, left, 4);
     memcpy(&second, left + 2, 4);
-    return (first & 0xffffff) | (uint64_t)(second >> 8) << 32;
+    return first | (uint64_t)(second >> 8) << 32;
 }
 
 /* The four pixels round a place, each with four bytes. */
