@@ -1,6 +1,7 @@
 #include "domain/frame.h"
 
 #include "base/compiler.h"
+#include "base/minmax.h"
 
 #include <math.h>
 
@@ -51,8 +52,8 @@ void iccp_frame_fit(iccp_frame *frame, int32_t dim, size_t n, const double *poin
     iccp_frame_bounds(dim, n, points, lowest, highest);
     for (int32_t k = 0; k < dim; ++k) {
         frame->shift[k] = shift_of(lowest[k], highest[k]);
-        largest = fmax(largest, fabs(lowest[k] - frame->shift[k]));
-        largest = fmax(largest, fabs(highest[k] - frame->shift[k]));
+        largest = iccp_max(largest, fabs(lowest[k] - frame->shift[k]));
+        largest = iccp_max(largest, fabs(highest[k] - frame->shift[k]));
     }
     int exponent = 0;
     (void)frexp(largest, &exponent);

@@ -3,6 +3,7 @@
 #ifndef ICCP_FLOW_FOLLOW_H
 #define ICCP_FLOW_FOLLOW_H
 
+#include "base/simd.h"
 #include "field/flow.h"
 
 typedef struct iccp_flow_curve {
@@ -26,14 +27,9 @@ typedef struct iccp_flow_curve {
 icc_status iccp_flow_follow(const iccp_flow *flow, size_t n, iccp_flow_curve *curves,
                             const iccp_memory *memory);
 
-/* How many ways to do that the processor supports: the last one is the fastest. */
-int iccp_flow_kinds(void);
-icc_status iccp_flow_follow_as(int kind, const iccp_flow *flow, size_t n, iccp_flow_curve *curves,
-                               const iccp_memory *memory);
-
-#if defined(__GNUC__) && defined(__x86_64__)
-#define ICCP_FLOW_HAS_LANES
-#endif
+/* At a level that the processor has. */
+icc_status iccp_flow_follow_as(iccp_simd_level level, const iccp_flow *flow, size_t n,
+                               iccp_flow_curve *curves, const iccp_memory *memory);
 
 icc_status iccp_flow_follow2(const iccp_flow *flow, size_t n, iccp_flow_curve *curves,
                              const iccp_memory *memory);

@@ -1,10 +1,10 @@
 /* Two curves side by side, with SSE 4.2. */
 #include "field/flow_follow.h"
 
-#ifdef ICCP_FLOW_HAS_LANES
+#ifdef ICCP_HAS_SIMD
 
 #define LANES 2
-#define TARGET __attribute__((target("sse4.2")))
+#define TARGET ICCP_SSE42
 #include "field/flow_batch.h"
 
 TARGET icc_status iccp_flow_follow2(const iccp_flow *flow, size_t n, iccp_flow_curve *curves,

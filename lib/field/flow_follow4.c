@@ -1,10 +1,10 @@
 /* Four curves side by side, with AVX2. */
 #include "field/flow_follow.h"
 
-#ifdef ICCP_FLOW_HAS_LANES
+#ifdef ICCP_HAS_SIMD
 
 #define LANES 4
-#define TARGET __attribute__((target("avx2")))
+#define TARGET ICCP_AVX2
 #include "field/flow_batch.h"
 
 TARGET icc_status iccp_flow_follow4(const iccp_flow *flow, size_t n, iccp_flow_curve *curves,

@@ -8,8 +8,10 @@
  * nothing cancels. H. Wendland, Scattered Data Approximation, 2005, section 8.5. */
 #include "kernel/interpolant.h"
 
+#include "base/compiler.h"
 #include "base/error.h"
 #include "base/minmax.h"
+#include "base/simd.h"
 #include "base/threads.h"
 
 #include <math.h>
@@ -304,12 +306,21 @@ icc_status iccp_collocation_solve(const iccp_collocation *collocation, size_t m,
 
 /* ---- values ---- */
 
+enum { MOST_NEAR = 256, BLOCK = 8 };
+
 typedef struct query {
     const iccp_collocation *c;
     size_t m;
     const double *coefficients, *point;
     double *values, *gradients;
 } query;
+
+/* Nodes nearer than the reach, in a fixed order. */
+typedef struct near {
+    size_t n;
+    uint32_t node[MOST_NEAR];
+    double distance2[MOST_NEAR], offset[3][MOST_NEAR];
+} near;
 
 static void add_tail(const query *q)
 {
@@ -324,52 +335,117 @@ static void add_tail(const query *q)
     }
 }
 
-static void add_node(const query *q, const double *a, const double *offset, double distance2)
+/* Adds to `width` numbers, every stride-th from `sums`, the factors times the coefficients. The sums
+ * stay in registers. */
+static ICCP_INLINE void add_block(const query *q, const near *h, const double *factor, size_t j,
+                                  size_t width, double *sums, size_t stride)
 {
-    const double value = iccp_radial_value(&q->c->radial, distance2);
-    double *restrict values = q->values;
-    for (size_t j = 0; j < q->m; ++j)
-        values[j] += value * a[j];
-    if (q->gradients == NULL)
-        return;
-    const size_t dim = q->c->dim;
-    const double slope = 2 * iccp_radial_slope(&q->c->radial, distance2);
-    double *restrict gradients = q->gradients;
-    for (size_t j = 0; j < q->m; ++j)
-        for (size_t k = 0; k < dim; ++k)
-            gradients[dim * j + k] += slope * offset[k] * a[j];
+    double sum[BLOCK];
+    for (size_t t = 0; t < width; ++t)
+        sum[t] = sums[stride * t];
+    for (size_t i = 0; i < h->n; ++i) {
+        const double *a = q->coefficients + q->m * h->node[i] + j;
+        for (size_t t = 0; t < width; ++t)
+            sum[t] += factor[i] * a[t];
+    }
+    for (size_t t = 0; t < width; ++t)
+        sums[stride * t] = sum[t];
 }
 
-static void add_run(const query *q, size_t begin, size_t end)
+static ICCP_INLINE void add_all(const query *q, const near *h, const double *factor, double *sums,
+                                size_t stride)
+{
+    size_t j = 0;
+    for (; j + BLOCK <= q->m; j += BLOCK)
+        add_block(q, h, factor, j, BLOCK, sums + stride * j, stride);
+    for (; j + 4 <= q->m; j += 4)
+        add_block(q, h, factor, j, 4, sums + stride * j, stride);
+    for (; j < q->m; ++j)
+        add_block(q, h, factor, j, 1, sums + stride * j, stride);
+}
+
+/* Adds the kernels of the nodes that have been found, and forgets them. */
+static ICCP_INLINE void add_near(const query *q, near *h)
+{
+    double factor[MOST_NEAR], slope[MOST_NEAR];
+    const iccp_radial radial = q->c->radial;
+    for (size_t i = 0; i < h->n; ++i)
+        factor[i] = iccp_radial_value(&radial, h->distance2[i]);
+    add_all(q, h, factor, q->values, 1);
+    for (size_t i = 0; q->gradients != NULL && i < h->n; ++i)
+        slope[i] = iccp_radial_slope(&radial, h->distance2[i]);
+    for (size_t k = 0; q->gradients != NULL && k < q->c->dim; ++k) {
+        for (size_t i = 0; i < h->n; ++i)
+            factor[i] = 2 * slope[i] * h->offset[k][i];
+        add_all(q, h, factor, q->gradients + k, q->c->dim);
+    }
+    h->n = 0;
+}
+
+/* Which of the nodes of a run are near cannot be foreseen, so that nothing branches on it. */
+static ICCP_INLINE void find_near(const query *q, size_t begin, size_t end, size_t dim, near *h)
 {
     const iccp_collocation *c = q->c;
     const double reach2 = c->radial.reach * c->radial.reach;
     for (size_t p = begin; p < end; ++p) {
-        double offset[3], distance2 = 0;
-        for (size_t k = 0; k < c->dim; ++k) {
-            offset[k] = q->point[k] - c->sorted[c->dim * p + k];
-            distance2 += offset[k] * offset[k];
+        double distance2 = 0;
+        if (h->n == MOST_NEAR)
+            add_near(q, h);
+        for (size_t k = 0; k < dim; ++k) {
+            const double offset = q->point[k] - c->sorted[dim * p + k];
+            h->offset[k][h->n] = offset;
+            distance2 += offset * offset;
         }
-        if (distance2 < reach2)
-            add_node(q, q->coefficients + q->m * c->cells.order[p], offset, distance2);
+        h->distance2[h->n] = distance2;
+        h->node[h->n] = c->cells.order[p];
+        h->n += distance2 < reach2;
     }
 }
+
+static ICCP_INLINE void add_kernels(const query *q, const iccp_cell_box *box)
+{
+    const iccp_cells *cells = &q->c->cells;
+    near h = {.n = 0};
+    for (size_t z = box->from[2]; z <= box->to[2]; ++z)
+        for (size_t y = box->from[1]; y <= box->to[1]; ++y) {
+            const uint32_t *run = cells->first + cells->shape[0] * (y + cells->shape[1] * z);
+            if (q->c->dim == 2)
+                find_near(q, run[box->from[0]], run[box->to[0] + 1], 2, &h);
+            else
+                find_near(q, run[box->from[0]], run[box->to[0] + 1], q->c->dim, &h);
+        }
+    add_near(q, &h);
+}
+
+static void add_kernels_portable(const query *q, const iccp_cell_box *box)
+{
+    add_kernels(q, box);
+}
+
+#ifdef ICCP_HAS_SIMD
+
+/* The same bits: lanes are handles or nodes, and nothing is contracted. */
+ICCP_AVX2 static void add_kernels_avx2(const query *q, const iccp_cell_box *box)
+{
+    add_kernels(q, box);
+}
+
+#else
+
+#define add_kernels_avx2 add_kernels_portable
+
+#endif
 
 void iccp_collocation_evaluate(const iccp_collocation *collocation, size_t m,
                                const double *coefficients, const double *point, double *values,
                                double *gradients)
 {
-    const iccp_cells *cells = &collocation->cells;
     const query q = {collocation, m, coefficients, point, values, gradients};
     iccp_cell_box box;
     add_tail(&q);
-    if (!iccp_cells_box(cells, point, collocation->radial.reach, &box))
+    if (!iccp_cells_box(&collocation->cells, point, collocation->radial.reach, &box))
         return;
-    for (size_t z = box.from[2]; z <= box.to[2]; ++z)
-        for (size_t y = box.from[1]; y <= box.to[1]; ++y) {
-            const uint32_t *run = cells->first + cells->shape[0] * (y + cells->shape[1] * z);
-            add_run(&q, run[box.from[0]], run[box.to[0] + 1]);
-        }
+    (iccp_simd() == ICCP_SIMD_AVX2 ? add_kernels_avx2 : add_kernels_portable)(&q, &box);
 }
 
 void iccp_collocation_multiply(const iccp_collocation *collocation, size_t m, const double *x,

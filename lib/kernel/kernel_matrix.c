@@ -5,7 +5,6 @@
 
 #include "base/error.h"
 #include "base/threads.h"
-#include "math/elementary.h"
 
 #include <math.h>
 
@@ -20,24 +19,6 @@ enum { GRAIN = 1024 };
 iccp_radial iccp_radial_make(int32_t kind, double sigma, double cutoff)
 {
     return (iccp_radial){kind, sigma, sigma * (kind == ICC_KERNEL_GAUSS ? cutoff : WENDLAND_REACH)};
-}
-
-double iccp_radial_value(const iccp_radial *radial, double distance2)
-{
-    if (radial->kind == ICC_KERNEL_GAUSS)
-        return iccp_exp(-0.5 * distance2 / (radial->sigma * radial->sigma));
-    const double r = sqrt(distance2) / radial->reach, s = (1 - r) * (1 - r);
-    return s * s * (4 * r + 1);
-}
-
-double iccp_radial_slope(const iccp_radial *radial, double distance2)
-{
-    if (radial->kind == ICC_KERNEL_GAUSS) {
-        const double variance = radial->sigma * radial->sigma;
-        return -0.5 / variance * iccp_exp(-0.5 * distance2 / variance);
-    }
-    const double s = 1 - sqrt(distance2) / radial->reach;
-    return -10 * s * s * s / (radial->reach * radial->reach);
 }
 
 typedef struct assembly {

@@ -3,7 +3,6 @@
 #include "map/boundary_pixels.h"
 
 #include "base/minmax.h"
-#include "map/sampler.h"
 
 #include <math.h>
 #include <string.h>
@@ -117,7 +116,7 @@ static bool origin(const icc_map *map, const double centre[2], double place[2])
 }
 
 void iccp_boundary_pixels_decide(const iccp_boundary_pixels *boundary, const icc_map *map,
-                                 const icc_picture *source, const icc_picture *target)
+                                 const iccp_sampler *source, const icc_picture *target)
 {
     for (size_t k = 0; k < boundary->n; ++k) {
         const struct iccp_boundary_pixel *pixel = &boundary->pixels[k];

@@ -4,6 +4,7 @@
 #define ICCP_BOUNDARY_PIXELS_H
 
 #include "map/map.h"
+#include "map/sampler.h"
 
 typedef struct iccp_boundary_pixels {
     iccp_memory memory;
@@ -21,6 +22,6 @@ void iccp_boundary_pixels_free(iccp_boundary_pixels *boundary);
 
 /* Decides about each, exactly: puts the picture's pixel back or paints it. */
 void iccp_boundary_pixels_decide(const iccp_boundary_pixels *boundary, const icc_map *map,
-                                 const icc_picture *source, const icc_picture *target);
+                                 const iccp_sampler *source, const icc_picture *target);
 
 #endif

@@ -1,302 +1,33 @@
-/* Bilinear interpolation in integers, so that a position on a pixel's centre gives its colour
- * exactly.
- *
- * With opacity, colours are averaged with the weight 2^s a + 1 of an opacity a: what is transparent
- * does not bleed into what is not (by 1 in 2^s a), and yet the colour of what is all transparent
- * survives. The largest sums are 2^48 for one byte a sample, and just under 2^64 for two. */
-#include "map/sampler.h"
-
-#include "base/compiler.h"
-
-#include <string.h>
-
-enum {
-    NARROW_BITS = 12, /* of a position between two centres, for samples of one byte */
-    WIDE_BITS = 14,
-    NARROW_FLOOR = 8, /* s above */
-    WIDE_FLOOR = 4
-};
-
-/* Positions times 2^32, all n inside the rectangle of the pixels' centres. */
-typedef struct walk {
-    int64_t u, v, du, dv;
-    size_t n;
-} walk;
+/* Lines become walks in fixed point, which kernels compiled for the picture's format and for this
+ * processor take. */
+#include "map/sampler_kernels.h"
 
 static const double ONE = 4294967296.0; /* of a walk's positions */
 
-/* What a kernel is compiled for. */
-typedef struct format {
-    int channels;
-    bool wide, alpha;
-} format;
+/* ---- choice ---- */
 
-static ICCP_INLINE int position_bits(format f)
+void iccp_sampler_init_as(iccp_simd_level level, iccp_sampler *sampler, const icc_picture *source)
 {
-    return f.wide ? WIDE_BITS : NARROW_BITS;
+    const iccp_sampler_kernels *lanes = NULL;
+#ifdef ICCP_HAS_SIMD
+    if (level == ICCP_SIMD_AVX2)
+        lanes = iccp_sampler_avx2(source);
+    else if (level == ICCP_SIMD_SSE42)
+        lanes = iccp_sampler_sse(source);
+#endif
+    (void)level;
+    *sampler = (iccp_sampler){source, lanes != NULL ? lanes : iccp_sampler_portable(source)};
 }
 
-static ICCP_INLINE int floor_bits(format f)
+void iccp_sampler_init(iccp_sampler *sampler, const icc_picture *source)
 {
-    return f.wide ? WIDE_FLOOR : NARROW_FLOOR;
-}
-
-/* The pixel up and left of a position, how far the others of the four round it are in memory, and
- * how far it is from the first. */
-typedef struct cell {
-    const uint8_t *first;
-    size_t right, down;
-    uint64_t share_right, share_down;
-} cell;
-
-/* Sums over the four pixels, times 4^bits, channel by channel. */
-typedef struct sums {
-    uint64_t of[4];
-} sums;
-
-/* What does not change along a walk. */
-typedef struct plane {
-    const uint8_t *pixels;
-    size_t stride, right, down;
-    int64_t last_column, last_row;
-} plane;
-
-/* The last row and column count as the far side of the cells before them. */
-static ICCP_INLINE plane make_plane(const icc_picture *p, format f)
-{
-    const bool wide = p->width > 1, high = p->height > 1;
-    return (plane){p->pixels,
-                   p->stride,
-                   wide ? (size_t)(f.channels << f.wide) : 0,
-                   high ? p->stride : 0,
-                   wide ? p->width - 2 : 0,
-                   high ? p->height - 2 : 0};
-}
-
-static ICCP_INLINE cell find_cell(const plane *p, format f, int64_t u, int64_t v)
-{
-    const int bits = position_bits(f);
-    u += (int64_t)1 << (31 - bits);
-    v += (int64_t)1 << (31 - bits);
-    int64_t i = u >> 32, j = v >> 32;
-    i = i < p->last_column ? i : p->last_column;
-    j = j < p->last_row ? j : p->last_row;
-    const size_t pixel = (size_t)(f.channels << f.wide);
-    return (cell){p->pixels + (size_t)j * p->stride + (size_t)i * pixel, p->right, p->down,
-                  (uint64_t)(u - i * ((int64_t)1 << 32)) >> (32 - bits),
-                  (uint64_t)(v - j * ((int64_t)1 << 32)) >> (32 - bits)};
-}
-
-/* Differences may wrap, the result does not. */
-static ICCP_INLINE uint64_t blend(const cell *c, int bits, uint64_t s00, uint64_t s10, uint64_t s01,
-                                  uint64_t s11)
-{
-    const uint64_t top = (s00 << bits) + c->share_right * (s10 - s00);
-    const uint64_t bottom = (s01 << bits) + c->share_right * (s11 - s01);
-    return (top << bits) + c->share_down * (bottom - top);
-}
-
-static ICCP_INLINE uint64_t sample(const uint8_t *pixel, int channel, bool wide)
-{
-    if (!wide)
-        return pixel[channel];
-    uint16_t value;
-    memcpy(&value, pixel + 2 * channel, sizeof value);
-    return value;
-}
-
-static ICCP_INLINE void plain_sum(const cell *c, format f, int channel, sums *s)
-{
-    const uint8_t *p = c->first, *q = p + c->down;
-    if (channel < f.channels)
-        s->of[channel] = blend(c, position_bits(f), sample(p, channel, f.wide),
-                               sample(p + c->right, channel, f.wide), sample(q, channel, f.wide),
-                               sample(q + c->right, channel, f.wide));
-}
-
-/* Two samples of one byte in one number: their sums stay below 2^32. */
-static ICCP_INLINE uint64_t pair(const uint8_t *pixel, int channel)
-{
-    return pixel[channel] | (uint64_t)pixel[channel + 1] << 32;
-}
-
-static ICCP_INLINE void plain_sum_pair(const cell *c, format f, int channel, sums *s)
-{
-    const uint8_t *p = c->first, *q = p + c->down;
-    if (f.wide || channel + 1 >= f.channels) {
-        plain_sum(c, f, channel, s);
-        plain_sum(c, f, channel + 1, s);
-        return;
-    }
-    const uint64_t both = blend(c, position_bits(f), pair(p, channel), pair(p + c->right, channel),
-                                pair(q, channel), pair(q + c->right, channel));
-    s->of[channel] = both & UINT32_MAX;
-    s->of[channel + 1] = both >> 32;
-}
-
-static ICCP_INLINE sums plain_sums(const cell *c, format f)
-{
-    sums s = {{0}};
-    plain_sum_pair(c, f, 0, &s);
-    plain_sum_pair(c, f, 2, &s);
-    return s;
-}
-
-/* The weight of one of the four pixels: 2^s a + 1. */
-static ICCP_INLINE uint64_t weight_of(const uint8_t *pixel, format f)
-{
-    return (sample(pixel, f.channels - 1, f.wide) << floor_bits(f)) + 1;
-}
-
-static ICCP_INLINE void weighted_sum(const cell *c, format f, int channel, sums *s)
-{
-    const uint8_t *p = c->first, *q = p + c->down;
-    if (channel < f.channels - 1)
-        s->of[channel] = blend(c, position_bits(f), weight_of(p, f) * sample(p, channel, f.wide),
-                               weight_of(p + c->right, f) * sample(p + c->right, channel, f.wide),
-                               weight_of(q, f) * sample(q, channel, f.wide),
-                               weight_of(q + c->right, f) * sample(q + c->right, channel, f.wide));
-}
-
-/* Of the weighted colours, and of the weights last. */
-static ICCP_INLINE sums weighted_sums(const cell *c, format f)
-{
-    const uint8_t *p = c->first, *q = p + c->down;
-    sums s = {{0}};
-    weighted_sum(c, f, 0, &s);
-    weighted_sum(c, f, 1, &s);
-    weighted_sum(c, f, 2, &s);
-    s.of[f.channels - 1] = blend(c, position_bits(f), weight_of(p, f), weight_of(p + c->right, f),
-                                 weight_of(q, f), weight_of(q + c->right, f));
-    return s;
-}
-
-/* Equal opacities weight nothing: the result is the same to the last bit. */
-static ICCP_INLINE bool same_opacity(const cell *c, format f)
-{
-    const int last = f.channels - 1;
-    const uint8_t *p = c->first, *q = p + c->down;
-    const uint64_t opacity = sample(p, last, f.wide);
-    return sample(p + c->right, last, f.wide) == opacity && sample(q, last, f.wide) == opacity &&
-           sample(q + c->right, last, f.wide) == opacity;
-}
-
-static ICCP_INLINE void put(uint8_t *to, format f, int channel, uint64_t value)
-{
-    const uint16_t two = (uint16_t)value;
-    if (channel < f.channels && f.wide)
-        memcpy(to + 2 * channel, &two, sizeof two);
-    else if (channel < f.channels)
-        to[channel] = (uint8_t)value;
-}
-
-static ICCP_INLINE void put_plain(uint8_t *to, format f, const sums *s)
-{
-    const int bits = 2 * position_bits(f);
-    const uint64_t half = (uint64_t)1 << (bits - 1);
-    put(to, f, 0, (s->of[0] + half) >> bits);
-    put(to, f, 1, (s->of[1] + half) >> bits);
-    put(to, f, 2, (s->of[2] + half) >> bits);
-    put(to, f, 3, (s->of[3] + half) >> bits);
-}
-
-static ICCP_INLINE void put_weighted(uint8_t *to, format f, const sums *s)
-{
-    const int bits = 2 * position_bits(f), last = f.channels - 1;
-    const uint64_t one = (uint64_t)1 << bits, weight = s->of[last];
-    for (int channel = 0; channel < last; ++channel)
-        put(to, f, channel, (s->of[channel] + weight / 2) / weight);
-    put(to, f, last, (((weight - one) >> floor_bits(f)) + one / 2) >> bits);
-}
-
-static ICCP_INLINE void paint_one(const cell *c, format f, uint8_t *to)
-{
-    if (!f.alpha || same_opacity(c, f)) {
-        const sums s = plain_sums(c, f);
-        put_plain(to, f, &s);
-    } else {
-        const sums s = weighted_sums(c, f);
-        put_weighted(to, f, &s);
-    }
-}
-
-static ICCP_INLINE void paint(const icc_picture *picture, format f, walk w, uint8_t *to)
-{
-    const plane p = make_plane(picture, f);
-    for (; w.n > 0; --w.n, w.u += w.du, w.v += w.dv, to += f.channels << f.wide) {
-        const cell c = find_cell(&p, f, w.u, w.v);
-        paint_one(&c, f, to);
-    }
-}
-
-static ICCP_INLINE void add(iccp_gathered *to, format f, int channel, const sums *s, float weight)
-{
-    if (channel < f.channels)
-        to->sums[channel] +=
-            weight * (f.alpha ? (float)s->of[channel] : (float)(int64_t)s->of[channel]);
-}
-
-static ICCP_INLINE void gather(const icc_picture *picture, format f, walk w, float weight,
-                               size_t phase, size_t per_pixel, iccp_gathered *pixels)
-{
-    const plane p = make_plane(picture, f);
-    for (; w.n > 0; --w.n, w.u += w.du, w.v += w.dv) {
-        const cell c = find_cell(&p, f, w.u, w.v);
-        const sums s = f.alpha ? weighted_sums(&c, f) : plain_sums(&c, f);
-        add(pixels, f, 0, &s, weight);
-        add(pixels, f, 1, &s, weight);
-        add(pixels, f, 2, &s, weight);
-        add(pixels, f, 3, &s, weight);
-        pixels->weight += weight;
-        if (++phase == per_pixel) {
-            phase = 0;
-            ++pixels;
-        }
-    }
-}
-
-/* One kernel for every format: all above is inlined into it, and the format is a constant. */
-#define WITH_FORMAT(picture, CALL)                                                                 \
-    switch ((picture)->channels * 4 + ((picture)->bytes == 2) * 2 + (picture)->alpha) {            \
-        FORMAT(1, false, false, CALL)                                                              \
-        FORMAT(1, true, false, CALL)                                                               \
-        FORMAT(2, false, false, CALL)                                                              \
-        FORMAT(2, false, true, CALL)                                                               \
-        FORMAT(2, true, false, CALL)                                                               \
-        FORMAT(2, true, true, CALL)                                                                \
-        FORMAT(3, false, false, CALL)                                                              \
-        FORMAT(3, false, true, CALL)                                                               \
-        FORMAT(3, true, false, CALL)                                                               \
-        FORMAT(3, true, true, CALL)                                                                \
-        FORMAT(4, false, false, CALL)                                                              \
-        FORMAT(4, false, true, CALL)                                                               \
-        FORMAT(4, true, false, CALL)                                                               \
-        FORMAT(4, true, true, CALL)                                                                \
-    }
-#define FORMAT(channels, wide, alpha, CALL)                                                        \
-    case (channels)*4 + (wide)*2 + (alpha):                                                        \
-        CALL(((format){channels, wide, alpha}));                                                   \
-        break;
-
-static void paint_walk(const icc_picture *source, const walk *w, uint8_t *to)
-{
-#define PAINT(f) paint(source, f, *w, to)
-    WITH_FORMAT(source, PAINT)
-#undef PAINT
-}
-
-static void gather_walk(const icc_picture *source, const walk *w, float weight, size_t phase,
-                        size_t per_pixel, iccp_gathered *pixels)
-{
-#define GATHER(f) gather(source, f, *w, weight, phase, per_pixel, pixels)
-    WITH_FORMAT(source, GATHER)
-#undef GATHER
+    iccp_sampler_init_as(iccp_simd(), sampler, source);
 }
 
 /* ---- lines ---- */
 
 /* The end of a rounded walk is checked, not that of the line. */
-static bool walk_inside(walk *w, const icc_picture *picture, const iccp_line *line)
+static bool walk_inside(iccp_walk *w, const icc_picture *picture, const iccp_line *line)
 {
     const double right = picture->width - 1, bottom = picture->height - 1;
     const double steps = (double)(line->n - 1);
@@ -306,9 +37,9 @@ static bool walk_inside(walk *w, const icc_picture *picture, const iccp_line *li
         return false;
     /* A step of a single sample may be anything, and is not taken. */
     const bool moves = line->n > 1;
-    *w = (walk){(int64_t)(line->u * ONE), (int64_t)(line->v * ONE),
-                moves ? (int64_t)(line->du * ONE) : 0, moves ? (int64_t)(line->dv * ONE) : 0,
-                line->n};
+    *w = (iccp_walk){(int64_t)(line->u * ONE), (int64_t)(line->v * ONE),
+                     moves ? (int64_t)(line->du * ONE) : 0, moves ? (int64_t)(line->dv * ONE) : 0,
+                     line->n};
     const int64_t n = (int64_t)line->n - 1;
     const int64_t last_u = w->u + n * w->du, last_v = w->v + n * w->dv;
     return last_u >= 0 && last_u <= (int64_t)(right * ONE) && last_v >= 0 &&
@@ -322,56 +53,43 @@ static int64_t clamped(double x, int32_t n)
     return !(x > 0) ? 0 : (int64_t)((x < last ? x : last) * ONE);
 }
 
-static walk walk_clamped(const icc_picture *picture, const iccp_line *line, size_t k)
+static iccp_walk walk_clamped(const icc_picture *picture, const iccp_line *line, size_t k)
 {
     const double u = line->u + (double)k * line->du, v = line->v + (double)k * line->dv;
-    return (walk){clamped(u, picture->width), clamped(v, picture->height), 0, 0, 1};
+    return (iccp_walk){clamped(u, picture->width), clamped(v, picture->height), 0, 0, 1};
 }
 
-void iccp_sampler_paint(const icc_picture *source, const iccp_line *line, uint8_t *to)
+void iccp_sampler_paint(const iccp_sampler *sampler, const iccp_line *line, uint8_t *to)
 {
-    walk w;
-    const size_t pixel = (size_t)(source->channels * source->bytes);
-    if (walk_inside(&w, source, line)) {
-        paint_walk(source, &w, to);
+    iccp_walk w;
+    const size_t pixel = (size_t)(sampler->source->channels * sampler->source->bytes);
+    if (walk_inside(&w, sampler->source, line)) {
+        sampler->kernels->paint(sampler->source, &w, to);
         return;
     }
     for (size_t k = 0; k < line->n; ++k) {
-        w = walk_clamped(source, line, k);
-        paint_walk(source, &w, to + k * pixel);
+        w = walk_clamped(sampler->source, line, k);
+        sampler->kernels->paint(sampler->source, &w, to + k * pixel);
     }
 }
 
-void iccp_sampler_gather(const icc_picture *source, const iccp_line *line, float weight,
+void iccp_sampler_gather(const iccp_sampler *sampler, const iccp_line *line, float weight,
                          size_t phase, size_t per_pixel, iccp_gathered *pixels)
 {
-    walk w;
-    if (walk_inside(&w, source, line)) {
-        gather_walk(source, &w, weight, phase, per_pixel, pixels);
+    iccp_walk w;
+    if (walk_inside(&w, sampler->source, line)) {
+        sampler->kernels->gather(sampler->source, &w, weight, phase, per_pixel, pixels);
         return;
     }
     for (size_t k = 0; k < line->n; ++k) {
-        w = walk_clamped(source, line, k);
-        gather_walk(source, &w, weight, (phase + k) % per_pixel, per_pixel,
-                    pixels + (phase + k) / per_pixel);
+        w = walk_clamped(sampler->source, line, k);
+        sampler->kernels->gather(sampler->source, &w, weight, (phase + k) % per_pixel, per_pixel,
+                                 pixels + (phase + k) / per_pixel);
     }
 }
 
-static uint64_t rounded(float value, float largest)
+void iccp_sampler_store(const iccp_sampler *sampler, const iccp_gathered *gathered, size_t n,
+                        uint8_t *to)
 {
-    return (uint64_t)((value < largest ? value : largest) + 0.5F);
-}
-
-void iccp_sampler_store(const icc_picture *source, const iccp_gathered *gathered, uint8_t *to)
-{
-    const format f = {source->channels, source->bytes == 2, source->alpha != 0};
-    const float largest = f.wide ? 65535 : 255;
-    const float whole = gathered->weight * (float)((uint64_t)1 << (2 * position_bits(f)));
-    const float weight = f.alpha ? gathered->sums[f.channels - 1] : whole;
-    const int n_colours = f.channels - f.alpha;
-    for (int channel = 0; channel < n_colours; ++channel)
-        put(to, f, channel, rounded(gathered->sums[channel] / weight, largest));
-    const float opacity = (weight / whole - 1) / (float)(1 << floor_bits(f));
-    if (f.alpha)
-        put(to, f, n_colours, rounded(opacity > 0 ? opacity : 0, largest));
+    sampler->kernels->store(gathered, n, to);
 }

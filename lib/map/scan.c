@@ -16,6 +16,9 @@
  * contrast would be left, and 32 % at 1.1, as much as a mean over the whole pixel leaves. */
 static const double STEP = 1.1;
 
+/* Relative: well above the rounding of a place among samples. */
+static const double UNSURE = 1e-12;
+
 static iccp_edge make_edge(const iccp_place *a, const iccp_place *b)
 {
     const double height = b->y - a->y;
@@ -65,13 +68,15 @@ void iccp_scan_create(iccp_scan *scan, const iccp_place *const places[3])
 
 int64_t iccp_first_sample(double x, int32_t n, int64_t end)
 {
+    const double place = x * n;
     if (!(x > 0))
         return 0;
-    if (!(x * n < (double)end))
+    if (!(place < (double)end))
         return end;
-    int64_t k = (int64_t)(x * n);
-    if (n == 1)
-        return k + ((double)k + 0.5 < x);
+    /* Nearly always rounding cannot matter; else the definition decides. */
+    int64_t k = (int64_t)(place + 0.5);
+    if (0.5 - fabs(place - (double)k) > UNSURE * place)
+        return k;
     while (k > 0 && ((double)k - 0.5) / n >= x)
         --k;
     while (k < end && ((double)k + 0.5) / n < x)
@@ -86,24 +91,39 @@ static inline iccp_place crossing(const iccp_edge *e, double y)
                         e->start.v + t * e->slope.v};
 }
 
-int64_t iccp_scan_row(const iccp_scan *scan, double y, int32_t n, int32_t width, iccp_line *line)
+/* At one height; false when there are none. */
+static inline bool scan_row(const iccp_scan *scan, double y, int32_t n, int32_t width,
+                            size_t *begin, iccp_line *line)
 {
-    line->n = 0;
     if (!(scan->whole.start.y <= y && y < scan->top))
-        return 0;
+        return false;
     const iccp_place whole = crossing(&scan->whole, y);
     const iccp_place broken = crossing(y < scan->second.start.y ? &scan->first : &scan->second, y);
     const iccp_place *left = scan->whole_left ? &whole : &broken;
     const iccp_place *right = scan->whole_left ? &broken : &whole;
     const int64_t all = (int64_t)width * n;
-    const int64_t begin = iccp_first_sample(left->x, n, all);
+    const int64_t first = iccp_first_sample(left->x, n, all);
     const int64_t end = iccp_first_sample(right->x, n, all);
-    if (begin >= end)
-        return 0;
+    if (first >= end)
+        return false;
     const double rate = 1 / (right->x - left->x);
     const double du = (right->u - left->u) * rate, dv = (right->v - left->v) * rate;
-    const double ahead = ((double)begin + 0.5) / n - left->x;
+    const double ahead = ((double)first + 0.5) / n - left->x;
+    *begin = (size_t)first;
     *line = (iccp_line){left->u + ahead * du, left->v + ahead * dv, du / n, dv / n,
-                        (size_t)(end - begin)};
-    return begin;
+                        (size_t)(end - first)};
+    return true;
+}
+
+size_t iccp_scan_rows(const iccp_scan *scan, int32_t begin, int32_t end, int32_t columns,
+                      int32_t rows, int32_t width, iccp_run *runs)
+{
+    size_t n = 0;
+    for (int32_t row = begin; row < end && row < scan->top; ++row)
+        for (int32_t k = 0; k < rows && scan->whole.start.y < (double)row + 1; ++k) {
+            const double y = ((double)row * rows + k + 0.5) / rows;
+            runs[n].row = row;
+            n += scan_row(scan, y, columns, width, &runs[n].begin, &runs[n].line);
+        }
+    return n;
 }

@@ -4,6 +4,8 @@
 
 #include "map/sampler.h"
 
+#include <stdbool.h>
+
 /* A corner: its place in the target, and in the source from the centre of the first pixel. */
 typedef struct iccp_place {
     double x, y, u, v;
@@ -32,9 +34,19 @@ int32_t iccp_samples_for(double distance);
 /* The first k with (k + 1/2) / n >= x, in [0, end]. */
 int64_t iccp_first_sample(double x, int32_t n, int64_t end);
 
-/* The samples at ((k + 1/2) / n, y) in the triangle: begin <= k < end, of 0 <= k < n * width; those
- * on its lower boundaries included, so that each is in one triangle of a mesh. `line` holds where
- * they come from, and has n = 0 when there are none. */
-int64_t iccp_scan_row(const iccp_scan *scan, double y, int32_t n, int32_t width, iccp_line *line);
+/* Samples side by side in a row of pixels: the first one's number from the left edge, and where
+ * they come from. */
+typedef struct iccp_run {
+    int32_t row;
+    size_t begin;
+    iccp_line line;
+} iccp_run;
+
+/* The samples of a triangle in the rows of pixels [begin, end), columns x rows in a pixel, row by
+ * row: those at ((i + 1/2) / columns, (j + 1/2) / rows) with 0 <= i < columns * width; those on its
+ * lower boundaries included, so that each is in one triangle of a mesh. `runs` has room for
+ * (end - begin) * rows; returns how many there are, none of them empty. */
+size_t iccp_scan_rows(const iccp_scan *scan, int32_t begin, int32_t end, int32_t columns,
+                      int32_t rows, int32_t width, iccp_run *runs);
 
 #endif

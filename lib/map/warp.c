@@ -11,14 +11,14 @@
 #include "map/scan.h"
 #include "map/warp_points.h"
 
-#include <string.h>
-
 /* Rows in a task; the triangles that come into them are listed once. */
 enum { ROWS = 8 };
 
 typedef struct warp {
     const icc_map *map;
-    const icc_picture *source, *target;
+    const icc_picture *target;
+    iccp_sampler source;
+    size_t pixel; /* bytes */
     const iccp_memory *memory;
     iccp_place *places; /* of each vertex */
     iccp_scan *scans;   /* of each triangle */
@@ -106,125 +106,135 @@ static void clear(warp *w)
 
 /* ---- rows ---- */
 
-/* One row of the target. What is gathered is zero outside [begin, end). */
-typedef struct row {
-    int32_t number;
-    uint8_t *pixels;
+/* Rows [begin, end) of the target. */
+typedef struct band {
+    const warp *w;
+    int32_t begin, end;
     iccp_gathered *gathered; /* one for each pixel; NULL when no triangle gathers */
-    size_t begin, end;
-} row;
+} band;
 
 static bool gathers(const iccp_scan *scan)
 {
     return scan->columns > 1 || scan->rows > 1;
 }
 
-static void widen(row *r, size_t begin, size_t end)
+static iccp_gathered *gathered_at(const band *b, int32_t row, size_t column)
 {
-    r->begin = begin < r->begin ? begin : r->begin;
-    r->end = end > r->end ? end : r->end;
+    return b->gathered + (size_t)(row - b->begin) * (size_t)b->w->target->width + column;
 }
 
-/* Adds the samples of one triangle in this row to their pixels. Of the pixels, those whose centre
- * the triangle holds are marked as its own. */
-static void gather(const warp *w, const iccp_scan *scan, row *r)
+static uint8_t *pixel_at(const band *b, int32_t row, size_t column)
+{
+    const icc_picture *p = b->w->target;
+    return (uint8_t *)p->pixels + (size_t)row * p->stride + column * b->w->pixel;
+}
+
+/* Samples of a triangle. All rows are found before any is sampled: that takes long for each alone,
+ * but not for many side by side. */
+typedef struct runs {
+    size_t n;
+    iccp_run run[ROWS * ICCP_MOST_SAMPLES];
+} runs;
+
+/* Adds the samples of one triangle to their pixels. */
+static void gather(const band *b, const iccp_scan *scan, runs *r)
 {
     const size_t columns = (size_t)scan->columns;
     const float weight = 1 / (float)(scan->columns * scan->rows);
-    iccp_line line;
-    for (int32_t k = 0; k < scan->rows; ++k) {
-        const double y = ((double)r->number * scan->rows + k + 0.5) / scan->rows;
-        const size_t begin = (size_t)iccp_scan_row(scan, y, scan->columns, w->target->width, &line);
-        if (line.n == 0)
-            continue;
-        iccp_sampler_gather(w->source, &line, weight, begin % columns, columns,
-                            r->gathered + begin / columns);
-        widen(r, begin / columns, (begin + line.n - 1) / columns + 1);
+    r->n = iccp_scan_rows(scan, b->begin, b->end, scan->columns, scan->rows, b->w->target->width,
+                          r->run);
+    for (size_t k = 0; k < r->n; ++k) {
+        const iccp_run *run = &r->run[k];
+        iccp_sampler_gather(&b->w->source, &run->line, weight, run->begin % columns, columns,
+                            gathered_at(b, run->row, run->begin / columns));
     }
-    const size_t begin = (size_t)iccp_scan_row(scan, r->number + 0.5, 1, w->target->width, &line);
-    for (size_t i = begin; i < begin + line.n; ++i)
-        r->gathered[i].owned = true;
-    if (line.n > 0)
-        widen(r, begin, begin + line.n);
+}
+
+/* The pixels whose centres one triangle holds: each is in one only. */
+static void find_pixels(const band *b, const iccp_scan *scan, runs *r)
+{
+    r->n = iccp_scan_rows(scan, b->begin, b->end, 1, 1, b->w->target->width, r->run);
+}
+
+static void paint(const band *b, const iccp_scan *scan, runs *r)
+{
+    find_pixels(b, scan, r);
+    for (size_t k = 0; k < r->n; ++k)
+        iccp_sampler_paint(&b->w->source, &r->run[k].line,
+                           pixel_at(b, r->run[k].row, r->run[k].begin));
 }
 
 /* A pixel in whose triangle, a thin one, there was no sample. */
-static void paint_centre(const warp *w, const row *r, size_t column, uint8_t *to)
+static void paint_centre(const band *b, int32_t row, size_t column)
 {
-    double place[2] = {(double)column + 0.5, r->number + 0.5}, local[2], image[2];
-    iccp_frame_in(&w->map->target_domain->frame, 2, place, local);
-    if (iccp_mesh_map_point(w->map->mesh, true, local, image, NULL) != ICC_OK)
+    const icc_map *map = b->w->map;
+    double place[2] = {(double)column + 0.5, row + 0.5}, local[2], image[2];
+    iccp_frame_in(&map->target_domain->frame, 2, place, local);
+    if (iccp_mesh_map_point(map->mesh, true, local, image, NULL) != ICC_OK)
         return;
-    iccp_frame_out(&w->map->source_domain->frame, 2, image, place);
+    iccp_frame_out(&map->source_domain->frame, 2, image, place);
     const iccp_line line = {place[0] - 0.5, place[1] - 0.5, 0, 0, 1};
-    iccp_sampler_paint(w->source, &line, to);
+    iccp_sampler_paint(&b->w->source, &line, pixel_at(b, row, column));
 }
 
-static void store(const warp *w, row *r)
+/* The means of what all triangles have gathered, in a run of pixels. */
+static void store_run(const band *b, const iccp_run *run)
 {
-    const size_t pixel = (size_t)(w->target->channels * w->target->bytes);
-    for (size_t i = r->begin; i < r->end; ++i) {
-        const iccp_gathered *gathered = &r->gathered[i];
-        if (gathered->owned && gathered->weight > 0)
-            iccp_sampler_store(w->source, gathered, r->pixels + i * pixel);
-        else if (gathered->owned)
-            paint_centre(w, r, i, r->pixels + i * pixel);
-    }
-    if (r->begin < r->end)
-        memset(r->gathered + r->begin, 0, (r->end - r->begin) * sizeof *r->gathered);
-}
-
-/* Paints one row from the triangles of its band. Each triangle that does not gather writes its
- * pixels at once, each centre being in one triangle only; the others add up and are written by
- * store(). */
-static void paint_row(const warp *w, size_t band, row *r)
-{
-    const size_t pixel = (size_t)(w->target->channels * w->target->bytes);
-    r->begin = (size_t)w->target->width;
-    r->end = 0;
-    for (size_t e = w->first[band]; e < w->first[band + 1]; ++e) {
-        const iccp_scan *scan = &w->scans[w->entries[e]];
-        if (scan->top <= r->number || scan->whole.start.y >= (double)r->number + 1)
-            continue;
-        if (gathers(scan)) {
-            gather(w, scan, r);
-            continue;
+    const size_t end = run->begin + run->line.n;
+    for (size_t i = run->begin, n; i < end; i += n) {
+        const iccp_gathered *gathered = gathered_at(b, run->row, i);
+        for (n = 0; i + n < end && gathered[n].weight > 0;)
+            ++n;
+        iccp_sampler_store(&b->w->source, gathered, n, pixel_at(b, run->row, i));
+        if (n == 0) {
+            paint_centre(b, run->row, i);
+            n = 1;
         }
-        iccp_line line;
-        const size_t begin =
-            (size_t)iccp_scan_row(scan, r->number + 0.5, 1, w->target->width, &line);
-        if (line.n > 0)
-            iccp_sampler_paint(w->source, &line, r->pixels + begin * pixel);
     }
-    store(w, r);
 }
 
-/* Rows [begin, end) of the target, all in one band. Room for what is gathered is made only if a
+static void store(const band *b, const iccp_scan *scan, runs *r)
+{
+    find_pixels(b, scan, r);
+    for (size_t k = 0; k < r->n; ++k)
+        store_run(b, &r->run[k]);
+}
+
+/* Rows [begin, end) of the target, all in one band. A triangle that does not gather writes its
+ * pixels at once; the others add up before they write. They are taken one after the other, since
+ * neighbouring rows of one come from the same places. Room for what is gathered is made only if a
  * triangle needs it. */
 static icc_status paint_band(void *argument, size_t begin, size_t end)
 {
     const warp *w = argument;
-    const size_t band = begin / ROWS;
-    row r = {.gathered = NULL};
-    for (size_t e = w->first[band]; e < w->first[band + 1] && r.gathered == NULL; ++e)
-        if (gathers(&w->scans[w->entries[e]])) {
-            r.gathered = iccp_alloc_zero(w->memory, (size_t)w->target->width, sizeof *r.gathered);
-            if (r.gathered == NULL)
+    const uint32_t *first = w->entries + w->first[begin / ROWS];
+    const uint32_t *last = w->entries + w->first[begin / ROWS + 1];
+    band b = {w, (int32_t)begin, (int32_t)end, NULL};
+    runs r;
+    for (const uint32_t *e = first; e < last && b.gathered == NULL; ++e)
+        if (gathers(&w->scans[*e])) {
+            b.gathered = iccp_alloc_zero(w->memory, (end - begin) * (size_t)w->target->width,
+                                         sizeof *b.gathered);
+            if (b.gathered == NULL)
                 return ICC_ERR_MEMORY;
         }
-    for (size_t i = begin; i < end; ++i) {
-        r.number = (int32_t)i;
-        r.pixels = (uint8_t *)w->target->pixels + i * w->target->stride;
-        paint_row(w, band, &r);
-    }
-    iccp_free(w->memory, r.gathered);
+    for (const uint32_t *e = first; e < last; ++e)
+        (gathers(&w->scans[*e]) ? gather : paint)(&b, &w->scans[*e], &r);
+    for (const uint32_t *e = first; e < last; ++e)
+        if (gathers(&w->scans[*e]))
+            store(&b, &w->scans[*e], &r);
+    iccp_free(w->memory, b.gathered);
     return ICC_OK;
 }
 
 static icc_status warp_mesh(const icc_map *map, const icc_picture *source,
                             const icc_picture *target, const iccp_env *env)
 {
-    warp w = {.map = map, .source = source, .target = target, .memory = &env->memory};
+    warp w = {.map = map,
+              .target = target,
+              .pixel = (size_t)(target->channels * target->bytes),
+              .memory = &env->memory};
+    iccp_sampler_init(&w.source, source);
     iccp_boundary_pixels boundary;
     icc_status status = iccp_mesh_map_ready(map->mesh, true);
     if (status == ICC_OK)
@@ -235,7 +245,7 @@ static icc_status warp_mesh(const icc_map *map, const icc_picture *source,
     if (status == ICC_OK)
         status = iccp_for_chunks(env, "warp", (size_t)target->height, ROWS, paint_band, &w);
     if (status == ICC_OK)
-        iccp_boundary_pixels_decide(&boundary, map, source, target);
+        iccp_boundary_pixels_decide(&boundary, map, &w.source, target);
     clear(&w);
     iccp_boundary_pixels_free(&boundary);
     return status;

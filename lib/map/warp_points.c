@@ -17,7 +17,8 @@ enum { ROWS = 16 };
 
 typedef struct warp {
     const icc_map *map;
-    const icc_picture *source, *target;
+    const icc_picture *target;
+    iccp_sampler source;
     iccp_env alone; /* for calls from tasks */
     atomic_size_t n_failed;
 } warp;
@@ -53,7 +54,7 @@ static int32_t samples_between(const double *before, const double *here, const d
                                      after != NULL ? distance(here, after) : NAN));
 }
 
-static void add_sample(const icc_picture *source, const double place[2], iccp_gathered *gathered)
+static void add_sample(const iccp_sampler *source, const double place[2], iccp_gathered *gathered)
 {
     const iccp_line line = {place[0] - 0.5, place[1] - 0.5, 0, 0, 1};
     if (!isnan(place[0]))
@@ -72,12 +73,12 @@ static icc_status paint_mean(const warp *w, const double *centre_origin, int32_t
     }
     const icc_status status =
         iccp_map_apply(w->map, true, n, points, points, NULL, NULL, &w->alone);
-    iccp_gathered gathered = {{0}, 0, true};
+    iccp_gathered gathered = {{0}, 0};
     for (size_t k = 0; k < n; ++k)
-        add_sample(w->source, points + 2 * k, &gathered);
+        add_sample(&w->source, points + 2 * k, &gathered);
     if (!(gathered.weight > 0))
-        add_sample(w->source, centre_origin, &gathered);
-    iccp_sampler_store(w->source, &gathered, to);
+        add_sample(&w->source, centre_origin, &gathered);
+    iccp_sampler_store(&w->source, &gathered, 1, to);
     return status;
 }
 
@@ -96,7 +97,7 @@ static icc_status paint_pixel(const warp *w, const band *b, int32_t column, int3
     if (columns * rows > 1)
         return paint_mean(w, here, column, row, columns, rows, pixel);
     const iccp_line line = {here[0] - 0.5, here[1] - 0.5, 0, 0, 1};
-    iccp_sampler_paint(w->source, &line, pixel);
+    iccp_sampler_paint(&w->source, &line, pixel);
     return ICC_OK;
 }
 
@@ -139,9 +140,9 @@ icc_status iccp_warp_points(const icc_map *map, const icc_picture *source,
                             const icc_picture *target, size_t *n_failed, const iccp_env *env)
 {
     warp w = {.map = map,
-              .source = source,
               .target = target,
               .alone = {.memory = env->memory, .user = env->user, .threads = 1}};
+    iccp_sampler_init(&w.source, source);
     const icc_status status =
         iccp_for_chunks(env, "warp", (size_t)target->height, ROWS, paint_chunk, &w);
     if (n_failed != NULL)

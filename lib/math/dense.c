@@ -4,6 +4,7 @@
 #include "math/dense.h"
 
 #include "base/compiler.h"
+#include "base/simd.h"
 
 enum { STRIP = 4 };
 
@@ -34,15 +35,13 @@ void iccp_multiply_portable(double *tile, size_t n_strips, size_t width, const d
             multiply_strip(tile, 1, a, b, depth);
 }
 
-#if defined(__GNUC__) && defined(__x86_64__)
+#ifdef ICCP_HAS_SIMD
 
 #include <immintrin.h>
 
-#define AVX2 __attribute__((target("avx2")))
-
-AVX2 static ICCP_INLINE void multiply_avx2(double *tile, size_t n_strips, size_t width,
-                                           const double *a, size_t stride, const double *b,
-                                           size_t depth)
+ICCP_AVX2 static ICCP_INLINE void multiply_avx2(double *tile, size_t n_strips, size_t width,
+                                                const double *a, size_t stride, const double *b,
+                                                size_t depth)
 {
     __m256d sum[2][ICCP_TILE];
     for (size_t t = 0; t < n_strips; ++t)
@@ -61,8 +60,8 @@ AVX2 static ICCP_INLINE void multiply_avx2(double *tile, size_t n_strips, size_t
             _mm256_storeu_pd(tile + STRIP * (ICCP_TILE * t + c), sum[t][c]);
 }
 
-AVX2 static void choose_width(double *tile, size_t n_strips, size_t width, const double *a,
-                              size_t stride, const double *b, size_t depth)
+ICCP_AVX2 static void choose_width(double *tile, size_t n_strips, size_t width, const double *a,
+                                   size_t stride, const double *b, size_t depth)
 {
     if (width == 4 && n_strips == 2)
         multiply_avx2(tile, 2, 4, a, stride, b, depth);
@@ -80,7 +79,7 @@ AVX2 static void choose_width(double *tile, size_t n_strips, size_t width, const
 
 iccp_multiply iccp_multiply_choose(void)
 {
-    return __builtin_cpu_supports("avx2") ? choose_width : iccp_multiply_portable;
+    return iccp_simd() == ICCP_SIMD_AVX2 ? choose_width : iccp_multiply_portable;
 }
 
 #else

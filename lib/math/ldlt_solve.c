@@ -1,6 +1,7 @@
 /* Triangular solves with a supernodal factor (see ldlt_factorise.c), strip by strip: what a strip
  * of rows needs of the columns before its own is one product, then come the few entries beside the
  * diagonal. */
+#include "base/simd.h"
 #include "math/ldlt.h"
 #include "math/panel.h"
 
@@ -111,18 +112,17 @@ static void pass_portable(const iccp_ldlt *factor, size_t s, const group *x, boo
     pass_inline(factor, s, x, is_forward);
 }
 
-#if defined(__GNUC__) && defined(__x86_64__)
+#ifdef ICCP_HAS_SIMD
 
 /* The same bits: lanes are rows or columns, and nothing is contracted. */
-__attribute__((target("avx2"))) static void pass_avx2(const iccp_ldlt *factor, size_t s,
-                                                      const group *x, bool is_forward)
+ICCP_AVX2 static void pass_avx2(const iccp_ldlt *factor, size_t s, const group *x, bool is_forward)
 {
     pass_inline(factor, s, x, is_forward);
 }
 
 static pass choose_pass(void)
 {
-    return __builtin_cpu_supports("avx2") ? pass_avx2 : pass_portable;
+    return iccp_simd() == ICCP_SIMD_AVX2 ? pass_avx2 : pass_portable;
 }
 
 #else

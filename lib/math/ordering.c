@@ -11,6 +11,7 @@
  * all. */
 #include "math/ordering.h"
 
+#include "base/minmax.h"
 #include "math/etree.h"
 
 #include <math.h>
@@ -325,7 +326,7 @@ static uint32_t cost_of(const graph *g, const node *v, uint32_t joined)
     if (v->degree <= g->small)
         return v->degree;
     const double all = v->degree, fill = all * (all - 1) - joined * (joined - 1.0);
-    const double cost = g->small + sqrt(fmax(0, fill) / sqrt(v->size));
+    const double cost = g->small + sqrt(iccp_max(0, fill) / sqrt(v->size));
     return cost < (double)g->n - 1 ? (uint32_t)cost : (uint32_t)g->n - 1;
 }
 
@@ -418,7 +419,7 @@ static void place_elements(const graph *g, uint32_t n, const uint32_t *element, 
 /* Variables with many neighbours come last, and are left out of the graph. */
 static size_t place_dense(const graph *g, const iccp_symmetric *m, uint32_t *order)
 {
-    const double limit = fmax(LEAST_DENSE, DENSE * sqrt((double)m->n));
+    const double limit = iccp_max(LEAST_DENSE, DENSE * sqrt((double)m->n));
     size_t n_dense = 0;
     for (size_t i = m->n; i-- > 0;) {
         const bool is_dense = (double)(m->first[i + 1] - m->first[i]) > limit;

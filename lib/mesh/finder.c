@@ -5,6 +5,7 @@
 
 #include "base/budget.h"
 #include "base/compiler.h"
+#include "base/minmax.h"
 #include "math/predicates.h"
 
 #include <math.h>
@@ -291,7 +292,7 @@ static bool holds_exactly(const double *const q[3], const double p[2], double ba
         if (iccp_orient2d(q[(k + 1) % 3], q[(k + 2) % 3], p) < 0)
             return false;
     for (int k = 0; k < 3; ++k)
-        bary[k] = fmax(iccp_area2d(q[(k + 1) % 3], q[(k + 2) % 3], p), 0);
+        bary[k] = iccp_max(iccp_area2d(q[(k + 1) % 3], q[(k + 2) % 3], p), 0);
     return bary[0] + bary[1] + bary[2] > 0;
 }
 

@@ -3,6 +3,8 @@
  * bits are the same. */
 #include "solver/mg_kernel.h"
 
+#include "base/simd.h"
+
 enum { LANES = ICCP_MG_LANES };
 
 static ICCP_INLINE void relax(float *restrict x, const float *b, const float *inverse,
@@ -131,18 +133,15 @@ KERNELS(plane, PORTABLE, 4)
 KERNELS(space, PORTABLE, 6)
 KERNELS(any, PORTABLE, n_near)
 
-#if defined(__GNUC__) && defined(__x86_64__)
+#ifdef ICCP_HAS_SIMD
 
-#define AVX2 __attribute__((target("avx2")))
-KERNELS(plane_avx2, AVX2, 4)
-KERNELS(space_avx2, AVX2, 6)
+KERNELS(plane_avx2, ICCP_AVX2, 4)
+KERNELS(space_avx2, ICCP_AVX2, 6)
 
 static const iccp_mg_kernels *choose_avx2(int32_t n_near)
 {
     const bool known = n_near == 4 || n_near == 6;
-    return !known || !__builtin_cpu_supports("avx2") ? NULL
-           : n_near == 4                             ? &plane_avx2
-                                                     : &space_avx2;
+    return !known || iccp_simd() < ICCP_SIMD_AVX2 ? NULL : n_near == 4 ? &plane_avx2 : &space_avx2;
 }
 
 #else

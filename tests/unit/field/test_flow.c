@@ -519,8 +519,8 @@ START_TEST(many_curves_are_as_if_alone)
     ck_assert(n_lost > 0 && n_lost < N / 2);
     for (size_t n = 1, from = 0; from < N; from += n, n += 7) {
         n = from + n < N ? n : N - from;
-        for (int kind = 0; kind < iccp_flow_kinds(); ++kind) {
-            ck_assert_int_eq(iccp_flow_follow_as(kind, &w.flow, n, together + from, &w.env.memory),
+        for (iccp_simd_level level = ICCP_SIMD_NONE; level <= iccp_simd(); ++level) {
+            ck_assert_int_eq(iccp_flow_follow_as(level, &w.flow, n, together + from, &w.env.memory),
                              ICC_OK);
             for (size_t i = from; i < from + n; ++i, ++n_curves)
                 check_same(&alone[i], &together[i]);

@@ -1,0 +1,26 @@
+/* Instructions beyond those that every processor has: loops that gain from them are compiled for
+ * these as well, and what runs is chosen by iccp_simd(). The bits must be the same. */
+#ifndef ICCP_SIMD_H
+#define ICCP_SIMD_H
+
+#if defined(__GNUC__) && defined(__x86_64__)
+#define ICCP_HAS_SIMD
+#define ICCP_SSE42 __attribute__((target("sse4.2")))
+#define ICCP_AVX2 __attribute__((target("avx2")))
+#endif
+
+typedef enum iccp_simd_level { ICCP_SIMD_NONE, ICCP_SIMD_SSE42, ICCP_SIMD_AVX2 } iccp_simd_level;
+
+/* The highest that this processor has: it has all below, too. */
+static inline iccp_simd_level iccp_simd(void)
+{
+#ifdef ICCP_HAS_SIMD
+    return __builtin_cpu_supports("avx2")     ? ICCP_SIMD_AVX2
+           : __builtin_cpu_supports("sse4.2") ? ICCP_SIMD_SSE42
+                                              : ICCP_SIMD_NONE;
+#else
+    return ICCP_SIMD_NONE;
+#endif
+}
+
+#endif
