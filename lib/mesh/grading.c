@@ -107,10 +107,9 @@ static icc_status emit_leaf(builder *b, const level *l, const cell *c)
 {
     const double p[2] = {c->x, c->y};
     double t, distance2;
-    if (iccp_domain_locate(b->domain, p, true, NULL, NULL) != ICC_INSIDE)
-        return ICC_OK;
     (void)iccp_boxtree_nearest(&b->domain->locator->tree, p, &t, &distance2);
-    if (distance2 <= CLEARANCE * l->width * CLEARANCE * l->width)
+    if (distance2 <= CLEARANCE * l->width * CLEARANCE * l->width ||
+        iccp_domain_locate(b->domain, p, true, NULL, NULL) != ICC_INSIDE)
         return ICC_OK;
     if (b->n_points == b->point_room) {
         const size_t room = 2 * b->point_room + 256;
