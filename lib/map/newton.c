@@ -21,7 +21,7 @@ static const double DECREASE = 1e-4;
 enum { MAX_HALVINGS = 40 };
 
 /* Elements that a thread takes at once, and rows of a part of the assembly. */
-enum { GRAIN = 2048, PART_ROWS = 4096 };
+enum { GRAIN = 1024, PART_ROWS = 1024 };
 
 /* ---- set-up ---- */
 
