@@ -204,7 +204,7 @@ static icc_status run_sides(const iccp_env *env, size_t n, iccp_side task, void 
         for (size_t i = 0; i < own[k].n_lines; ++i)
             iccp_log(env, "%s", own[k].line[i]);
     if (atomic_load(&s.stop) == 0)
-        return ICC_ERR_CANCELLED;
+        return iccp_explain(err, ICC_ERR_CANCELLED);
     const size_t failed = atomic_load(&s.stop) - 1;
     if (status != ICC_OK && own[failed].error.status == status)
         iccp_error_copy(err, &own[failed].error);

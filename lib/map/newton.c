@@ -25,13 +25,13 @@ enum { GRAIN = 1024, PART_ROWS = 1024 };
 
 /* ---- set-up ---- */
 
-static icc_status analyse(iccp_newton *s, const iccp_env *env)
+static icc_status analyse(iccp_assembly *assembly, iccp_ldlt *factor, const iccp_env *env)
 {
-    const iccp_symmetric hessian = iccp_assembly_hessian(&s->assembly);
-    const size_t n_parts = iccp_has_threads(env) ? hessian.n / PART_ROWS : 1;
-    const icc_status status = iccp_ldlt_analyse(&s->factor, &hessian, 2, env);
-    return status == ICC_OK ? iccp_assembly_divide(&s->assembly, s->factor.position, n_parts)
-                            : status;
+    const iccp_symmetric hessian = iccp_assembly_hessian(assembly);
+    const icc_status status = iccp_ldlt_analyse(factor, &hessian, 2, env);
+    return status == ICC_OK
+               ? iccp_assembly_divide(assembly, factor->position, hessian.n / PART_ROWS)
+               : status;
 }
 
 icc_status iccp_newton_create(iccp_newton *newton, const iccp_simplicial_map *map,
@@ -59,7 +59,7 @@ icc_status iccp_newton_create(iccp_newton *newton, const iccp_simplicial_map *ma
     for (size_t e = 0; status == ICC_OK && e < s->assembly.n_elements; ++e)
         iccp_simplicial_element(map, s->assembly.simplex[e], s->element + size * e);
     if (status == ICC_OK && map->dim == 2)
-        status = analyse(s, env);
+        status = analyse(&s->assembly, &s->factor, env);
     if (status != ICC_OK)
         iccp_newton_free(s);
     return status;
