@@ -626,6 +626,49 @@ static uint32_t *dissection_of(uint32_t side)
     return order;
 }
 
+/* Groups of rows with one pattern are analysed as one row each: as if every row had been. */
+START_TEST(groups_are_analysed_as_their_rows)
+{
+    enum { SIDE = 30, BLOCK = 3, N = BLOCK * SIDE * SIDE };
+    const iccp_env env = plain_env();
+    lattice g = make_lattice(SIDE, SIDE, 1, everywhere);
+    size_t *first = malloc((N + 1) * sizeof *first), k = 0;
+    uint32_t *column = malloc((size_t)N * 5 * BLOCK * sizeof *column);
+    iccp_ldlt groups, rows;
+    for (uint32_t i = 0; i < N; ++i) {
+        first[i] = k;
+        for (uint32_t d = 0; d < BLOCK; ++d)
+            if (d != i % BLOCK)
+                column[k++] = i - i % BLOCK + d;
+        for (size_t p = g.first[i / BLOCK]; p < g.first[i / BLOCK + 1]; ++p)
+            for (uint32_t d = 0; d < BLOCK; ++d)
+                column[k++] = BLOCK * g.column[p] + d;
+    }
+    first[N] = k;
+    const iccp_symmetric m = {N, first, column, NULL, NULL};
+    if (iccp_ldlt_analyse(&groups, &m, BLOCK, &env) == ICC_OK) { /* there is an ordering */
+        const iccp_supernodes *a = &groups.nodes, *b = &rows.nodes;
+        ck_assert_int_eq(iccp_ldlt_analyse_ordered(&rows, &m, groups.order, &env), ICC_OK);
+        ck_assert_mem_eq(groups.order, rows.order, N * sizeof *rows.order);
+        ck_assert_mem_eq(groups.position, rows.position, N * sizeof *rows.position);
+        ck_assert(groups.n_entries == rows.n_entries && a->n == b->n);
+        ck_assert_double_eq_tol(groups.work, rows.work, 1e-12 * rows.work);
+        ck_assert_mem_eq(a->column, b->column, (a->n + 1) * sizeof *a->column);
+        ck_assert_mem_eq(a->parent, b->parent, a->n * sizeof *a->parent);
+        ck_assert_mem_eq(a->owner, b->owner, N * sizeof *a->owner);
+        ck_assert_mem_eq(a->first_row, b->first_row, (a->n + 1) * sizeof *a->first_row);
+        ck_assert_mem_eq(a->first_value, b->first_value, (a->n + 1) * sizeof *a->first_value);
+        ck_assert_mem_eq(a->row, b->row, a->first_row[a->n] * sizeof *a->row);
+        ck_assert(a->most_rows == b->most_rows && a->most_columns == b->most_columns);
+        iccp_ldlt_free(&rows);
+        iccp_ldlt_free(&groups);
+    }
+    free(first);
+    free(column);
+    lattice_clear(&g);
+}
+END_TEST
+
 static double work_of(const iccp_supernodes *nodes, size_t s)
 {
     const double columns = (double)iccp_supernodes_columns(nodes, s);
@@ -811,6 +854,7 @@ int main(void)
     tcase_add_test(tests, stored_zeros_carry_nothing);
     tcase_add_test(tests, long_factorisations_report_often);
     tcase_add_test(tests, threads_change_nothing);
+    tcase_add_test(tests, groups_are_analysed_as_their_rows);
     tcase_add_test(tests, subtrees_are_independent);
     tcase_add_test(tests, subtrees_change_nothing);
     tcase_add_test(tests, failures_leave_nothing_behind);
