@@ -7,11 +7,12 @@
 #include "share.h"
 
 #include <check.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 
 typedef struct faulty {
-    size_t n_live; /* allocations not yet given back */
-    size_t n_allocs;
+    atomic_size_t n_live; /* allocations not yet given back */
+    atomic_size_t n_allocs;
     size_t fail_at; /* this allocation fails, and only this one; 0: none */
     size_t n_reports;
     size_t cancel_at; /* this progress report is answered with "stop"; 0: none */

@@ -48,6 +48,13 @@ icc_status iccp_fail_at(icc_error *err, icc_status status, int32_t item, int64_t
     return status;
 }
 
+void iccp_error_copy(icc_error *err, const icc_error *own)
+{
+    icc_error full = *own;
+    if (err != NULL)
+        hand_over(err, &full);
+}
+
 icc_status iccp_fail_memory(icc_error *err)
 {
     return iccp_fail(err, ICC_ERR_MEMORY, "out of memory");

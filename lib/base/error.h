@@ -13,6 +13,9 @@ icc_status iccp_fail(icc_error *err, icc_status status, const char *format, ...)
 icc_status iccp_fail_at(icc_error *err, icc_status status, int32_t item, int64_t index,
                         const char *format, ...) ICCP_PRINTF(5, 6);
 
+/* Hands what one of the library's own structs says over to the caller's, which may be NULL. */
+void iccp_error_copy(icc_error *err, const icc_error *own);
+
 /* ICC_ERR_MEMORY with the usual text. */
 icc_status iccp_fail_memory(icc_error *err);
 

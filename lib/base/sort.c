@@ -10,7 +10,15 @@ typedef struct heap {
 static void exchange(const heap *h, size_t i, size_t k)
 {
     unsigned char *a = h->items + h->size * i, *b = h->items + h->size * k;
-    for (size_t byte = 0; byte < h->size; ++byte) {
+    size_t byte = 0;
+    for (; byte + sizeof(uint64_t) <= h->size; byte += sizeof(uint64_t)) {
+        uint64_t first, second;
+        memcpy(&first, a + byte, sizeof first);
+        memcpy(&second, b + byte, sizeof second);
+        memcpy(a + byte, &second, sizeof second);
+        memcpy(b + byte, &first, sizeof first);
+    }
+    for (; byte < h->size; ++byte) {
         const unsigned char kept = a[byte];
         a[byte] = b[byte];
         b[byte] = kept;

@@ -1,10 +1,14 @@
 #include "base/threads.h"
 
+#include "base/error.h"
+
+#include <assert.h>
 #include <stdatomic.h>
 #include <stdbool.h>
 
 #ifdef ICC_WITH_THREADS
 #include <pthread.h>
+#include <stdio.h>
 #endif
 
 typedef struct loop {
@@ -130,4 +134,120 @@ icc_status iccp_for_chunks(const iccp_env *env, const char *stage, size_t n, siz
     const icc_status status = env->parallel_for != NULL ? run_callers_threads(&l, env, stage)
                                                         : run_own_threads(&l, env, stage);
     return status != ICC_OK ? status : l.status;
+}
+
+/* ---- tasks side by side ---- */
+
+#ifdef ICC_WITH_THREADS
+
+typedef struct sides {
+    const iccp_env *env;
+    iccp_side task;
+    void *argument;
+    size_t n;
+    pthread_t caller;
+    atomic_size_t stop; /* tasks from this one on need not go on */
+    struct side *side;
+} sides;
+
+/* A task, and the lines that it logs: they wait until all tasks are done. */
+enum { MOST_LINES = 4, LINE = 240 };
+
+typedef struct side {
+    sides *all;
+    size_t k, n_lines;
+    icc_error error;
+    char line[MOST_LINES][LINE];
+} side;
+
+/* What a failure of task k leaves to the others: those before it still decide what is returned. */
+static void stop_from(sides *s, size_t k)
+{
+    size_t stop = atomic_load(&s->stop);
+    while (k < stop && !atomic_compare_exchange_weak(&s->stop, &stop, k))
+        continue;
+}
+
+/* The progress callback inside a task. */
+static int32_t report(void *user, const char *stage, double share)
+{
+    const side *s = user;
+    if (s->k >= atomic_load(&s->all->stop))
+        return 1;
+    if (pthread_equal(pthread_self(), s->all->caller) &&
+        iccp_progress(s->all->env, stage, share) != ICC_OK)
+        stop_from(s->all, 0);
+    return s->k >= atomic_load(&s->all->stop);
+}
+
+/* The log callback inside a task. */
+static void keep_line(void *user, const char *message)
+{
+    side *s = user;
+    if (s->n_lines < MOST_LINES)
+        (void)snprintf(s->line[s->n_lines++], LINE, "%s", message);
+}
+
+static icc_status run_side(void *argument, size_t begin, size_t end)
+{
+    const sides *all = argument;
+    const iccp_env *env = all->env;
+    side *s = &all->side[begin];
+    const size_t share = ((size_t)env->threads + all->n - end) / all->n;
+    const iccp_env own = {.memory = env->memory,
+                          .user = s,
+                          .log = env->log != NULL ? keep_line : NULL,
+                          .progress = report,
+                          .threads = env->parallel_for == NULL && share > 1 ? (int32_t)share : 1,
+                          .load_limit = env->load_limit};
+    const icc_status status = all->task(all->argument, begin, &own, &s->error);
+    if (status != ICC_OK)
+        stop_from(s->all, end);
+    return status;
+}
+
+/* The loop itself reports nothing and stops at nothing but a failure: tasks do. */
+static icc_status run_sides(const iccp_env *env, size_t n, iccp_side task, void *argument,
+                            icc_error *err)
+{
+    side own[ICCP_MOST_SIDES];
+    sides s = {.env = env, .task = task, .argument = argument, .n = n, .stop = n, .side = own};
+    iccp_env quiet = *env;
+    quiet.progress = NULL;
+    s.caller = pthread_self();
+    for (size_t k = 0; k < n; ++k) {
+        own[k].all = &s;
+        own[k].k = k;
+        own[k].n_lines = 0;
+        own[k].error = (icc_error){.size = sizeof own[k].error};
+    }
+    icc_status status = iccp_for_chunks(&quiet, "solve", n, 1, run_side, &s);
+    for (size_t k = 0; k < n; ++k)
+        for (size_t i = 0; i < own[k].n_lines; ++i)
+            iccp_log(env, "%s", own[k].line[i]);
+    if (atomic_load(&s.stop) == 0)
+        return iccp_explain(err, ICC_ERR_CANCELLED);
+    const size_t failed = atomic_load(&s.stop) - 1;
+    if (status != ICC_OK && own[failed].error.status == status)
+        iccp_error_copy(err, &own[failed].error);
+    return status;
+}
+
+#endif
+
+icc_status iccp_side_by_side(const iccp_env *env, size_t n, iccp_side task, void *argument,
+                             icc_error *err)
+{
+    assert(n <= ICCP_MOST_SIDES);
+    icc_status status = ICC_OK;
+#ifdef ICC_WITH_THREADS
+    if (n > 1 && iccp_has_threads(env) && env->budget == NULL)
+        return run_sides(env, n, task, argument, err);
+#endif
+    for (size_t k = 0; status == ICC_OK && k < n; ++k) {
+        const iccp_env part =
+            iccp_part(env, NULL, (double)k / (double)n, (double)(k + 1) / (double)n);
+        status = task(argument, k, &part, err);
+    }
+    return status;
 }

@@ -1,6 +1,7 @@
 #include "chart/chart_create.h"
 
 #include "base/error.h"
+#include "base/threads.h"
 #include "chart/chart_disc.h"
 #include "chart/chart_field.h"
 #include "chart/chart_foliation.h"
@@ -48,9 +49,12 @@ typedef struct harmonic_job {
     const icc_domain *const *domain;
     const icc_chart_options *options;
     int32_t cells;
+    uint32_t *pieces; /* of each facet, while the meshes are made */
+    double *turns;    /* of each boundary vertex, while the images are made */
     iccp_harmonic base[2];
     double *image[2]; /* in the disc; only where needed */
     uint32_t centre[2];
+    icc_chart **out;
 } harmonic_job;
 
 /* Says which of two domains is at fault. */
@@ -59,43 +63,47 @@ static icc_status blame(const harmonic_job *job, size_t k, icc_status status, ic
     return job->n > 1 ? iccp_fail_side(err, status, (int32_t)k + 1) : status;
 }
 
+static icc_status make_base(void *argument, size_t k, const iccp_env *env, icc_error *err)
+{
+    harmonic_job *job = argument;
+    const icc_status status =
+        iccp_harmonic_create(&job->base[k], job->domain[k], job->pieces, job->cells, env, err);
+    return status == ICC_OK ? ICC_OK : blame(job, k, status, err);
+}
+
 /* The meshes of the domains and their equations. Domains of a pair cut corresponding facets into
  * the same number of pieces, so that their boundary vertices correspond. */
 static icc_status make_bases(harmonic_job *job, const iccp_env *env, icc_error *err)
 {
     const icc_domain *other = job->n > 1 ? job->domain[1] : NULL;
-    uint32_t *pieces = iccp_alloc(&env->memory, job->domain[0]->n_facets, sizeof *pieces);
-    if (pieces == NULL)
+    job->pieces = iccp_alloc(&env->memory, job->domain[0]->n_facets, sizeof *job->pieces);
+    if (job->pieces == NULL)
         return ICC_ERR_MEMORY;
-    iccp_planar_pieces(pieces, job->domain[0], other, job->cells);
-    icc_status status = ICC_OK;
-    iccp_env part[2];
-    iccp_split(part, job->n, (const double[]){1, 1}, env);
-    for (size_t k = 0; status == ICC_OK && k < job->n; ++k) {
-        status =
-            iccp_harmonic_create(&job->base[k], job->domain[k], pieces, job->cells, &part[k], err);
-        if (status != ICC_OK)
-            (void)blame(job, k, status, err);
-    }
-    iccp_free(&env->memory, pieces);
+    iccp_planar_pieces(job->pieces, job->domain[0], other, job->cells);
+    const icc_status status = iccp_side_by_side(env, job->n, make_base, job, err);
+    iccp_free(&env->memory, job->pieces);
     return status;
+}
+
+static icc_status make_image(void *argument, size_t k, const iccp_env *env, icc_error *err)
+{
+    harmonic_job *job = argument;
+    (void)err;
+    job->image[k] = iccp_alloc(&env->memory, job->base[k].mesh.n_vertices, 2 * sizeof(double));
+    return job->image[k] != NULL ? iccp_harmonic_disc(&job->base[k], job->turns, job->image[k], env)
+                                 : ICC_ERR_MEMORY;
 }
 
 /* Both meshes to one circle, each boundary vertex to the mean of its two arc-length parameters. */
 static icc_status make_images(harmonic_job *job, const iccp_env *env)
 {
-    const size_t n_boundary = job->base[0].mesh.n_boundary;
-    double *turns = iccp_alloc_zero(&env->memory, n_boundary, sizeof *turns);
-    icc_status status = turns != NULL ? ICC_OK : ICC_ERR_MEMORY;
-    for (size_t k = 0; status == ICC_OK && k < job->n; ++k)
-        iccp_add_arc_length(&job->base[k].mesh, 1.0 / (double)job->n, turns);
-    for (size_t k = 0; status == ICC_OK && k < job->n; ++k) {
-        job->image[k] = iccp_alloc(&env->memory, job->base[k].mesh.n_vertices, 2 * sizeof(double));
-        status = job->image[k] != NULL
-                     ? iccp_harmonic_disc(&job->base[k], turns, job->image[k], env)
-                     : ICC_ERR_MEMORY;
-    }
-    iccp_free(&env->memory, turns);
+    job->turns = iccp_alloc_zero(&env->memory, job->base[0].mesh.n_boundary, sizeof *job->turns);
+    if (job->turns == NULL)
+        return ICC_ERR_MEMORY;
+    for (size_t k = 0; k < job->n; ++k)
+        iccp_add_arc_length(&job->base[k].mesh, 1.0 / (double)job->n, job->turns);
+    const icc_status status = iccp_side_by_side(env, job->n, make_image, job, NULL);
+    iccp_free(&env->memory, job->turns);
     return status;
 }
 
@@ -134,57 +142,57 @@ static icc_status choose_centres(harmonic_job *job, const iccp_env *env, icc_err
     return status;
 }
 
-static icc_status finish(harmonic_job *job, size_t k, icc_chart **out, const iccp_env *env,
-                         icc_error *err)
+static icc_status finish(void *argument, size_t k, const iccp_env *env, icc_error *err)
 {
+    harmonic_job *job = argument;
     const icc_status status =
         job->options[0].method == ICC_METHOD_DISC
-            ? iccp_chart_disc_create(out, job->domain[k], &job->base[k], &job->image[k], env, err)
-            : iccp_chart_foliation_create(out, job->domain[k], &job->base[k], job->centre[k], env,
-                                          err);
+            ? iccp_chart_disc_create(&job->out[k], job->domain[k], &job->base[k], &job->image[k],
+                                     env, err)
+            : iccp_chart_foliation_create(&job->out[k], job->domain[k], &job->base[k],
+                                          job->centre[k], env, err);
+    iccp_harmonic_free(&job->base[k]);
     return status == ICC_OK ? ICC_OK : blame(job, k, status, err);
 }
 
 /* One try at a resolution: meshes, then the images in the disc or the centres, then the charts.
  * All or nothing: if one fails, none is left. */
-static icc_status try_harmonic(harmonic_job *job, icc_chart **out, const iccp_env *env,
-                               icc_error *err)
+static icc_status try_harmonic(harmonic_job *job, const iccp_env *env, icc_error *err)
 {
-    iccp_env part[4];
-    iccp_split(part, 4, (const double[]){6, 1, 1, 1}, env);
+    iccp_env part[3];
+    iccp_split(part, 3, (const double[]){6, 1, 2}, env);
     icc_status status = make_bases(job, &part[0], err);
     if (status == ICC_OK)
         status = job->options[0].method == ICC_METHOD_DISC ? make_images(job, &part[1])
                                                            : choose_centres(job, &part[1], err);
-    for (size_t k = 0; status == ICC_OK && k < job->n; ++k)
-        status = finish(job, k, &out[k], &part[2 + k], err);
+    if (status == ICC_OK)
+        status = iccp_side_by_side(&part[2], job->n, finish, job, err);
     for (size_t k = 0; k < job->n; ++k) {
         iccp_harmonic_free(&job->base[k]);
         iccp_free(&env->memory, job->image[k]);
         job->image[k] = NULL;
         if (status != ICC_OK) {
-            iccp_chart_release(out[k]);
-            out[k] = NULL;
+            iccp_chart_release(job->out[k]);
+            job->out[k] = NULL;
         }
     }
     return status;
 }
 
 /* Certificates fail where a mesh is too coarse for its corners, so that finer ones are tried. */
-static icc_status create_harmonic(harmonic_job *job, icc_chart **out, const iccp_env *env,
-                                  icc_error *err)
+static icc_status create_harmonic(harmonic_job *job, const iccp_env *env, icc_error *err)
 {
     static const double COST[REFINEMENTS + 1] = {8, 1, 1};
     iccp_env part[REFINEMENTS + 1];
     iccp_split(part, REFINEMENTS + 1, COST, env);
     job->cells = job->options[0].cells;
-    icc_status status = try_harmonic(job, out, &part[0], err);
+    icc_status status = try_harmonic(job, &part[0], err);
     for (int k = 0;
          k < REFINEMENTS && status == ICC_ERR_CERTIFICATE && job->cells <= ICCP_MAX_CELLS / 2;
          ++k) {
         job->cells *= 2;
         iccp_log(env, "the chart cannot be certified: trying %ld cells", (long)job->cells);
-        status = try_harmonic(job, out, &part[k + 1], err);
+        status = try_harmonic(job, &part[k + 1], err);
     }
     return iccp_explain(err, status);
 }
@@ -295,27 +303,37 @@ icc_status iccp_chart_create(icc_chart **out, const icc_domain *domain,
     }
     if (full.method == ICC_METHOD_FOLIATION && has_mesh)
         return iccp_chart_shelling_create(1, out, &domain, &full, env, err);
-    harmonic_job job = {.n = 1, .domain = &domain, .options = &full};
-    return create_harmonic(&job, out, env, err);
+    harmonic_job job = {.n = 1, .domain = &domain, .options = &full, .out = out};
+    return create_harmonic(&job, env, err);
+}
+
+typedef struct gradient_job {
+    icc_chart **out;
+    const icc_domain *const *domain;
+    const icc_chart_options *options;
+} gradient_job;
+
+static icc_status create_gradient(void *argument, size_t k, const iccp_env *env, icc_error *err)
+{
+    const gradient_job *job = argument;
+    const icc_status status = iccp_explain(
+        err, iccp_chart_gradient_create(&job->out[k], job->domain[k], &job->options[k], env, err));
+    if (status != ICC_OK)
+        job->out[k] = NULL;
+    return status == ICC_OK ? ICC_OK : iccp_fail_side(err, status, (int32_t)k + 1);
 }
 
 static icc_status create_gradient_pair(icc_chart *out[2], const icc_domain *const domain[2],
                                        const icc_chart_options options[2], const iccp_env *env,
                                        icc_error *err)
 {
-    iccp_env part[2];
-    iccp_split(part, 2, (const double[]){1, 1}, env);
-    for (size_t k = 0; k < 2; ++k) {
-        const icc_status status = iccp_explain(
-            err, iccp_chart_gradient_create(&out[k], domain[k], &options[k], &part[k], err));
-        if (status != ICC_OK) {
-            if (k == 1)
-                iccp_chart_release(out[0]);
-            out[0] = out[1] = NULL;
-            return iccp_fail_side(err, status, (int32_t)k + 1);
-        }
+    gradient_job job = {out, domain, options};
+    const icc_status status = iccp_side_by_side(env, 2, create_gradient, &job, err);
+    for (size_t k = 0; status != ICC_OK && k < 2; ++k) {
+        iccp_chart_release(out[k]);
+        out[k] = NULL;
     }
-    return ICC_OK;
+    return status;
 }
 
 icc_status iccp_chart_create_pair(icc_chart *out[2], const icc_domain *const domain[2],
@@ -336,6 +354,6 @@ icc_status iccp_chart_create_pair(icc_chart *out[2], const icc_domain *const dom
         return create_field_pair(out, domain, full, env, err);
     if (full[0].method == ICC_METHOD_FOLIATION && has_mesh)
         return iccp_chart_shelling_create(2, out, domain, full, env, err);
-    harmonic_job job = {.n = 2, .domain = domain, .options = full};
-    return create_harmonic(&job, out, env, err);
+    harmonic_job job = {.n = 2, .domain = domain, .options = full, .out = out};
+    return create_harmonic(&job, env, err);
 }

@@ -233,6 +233,17 @@ static double digestible(double x)
     return fabs(x) < ICCP_FRAME_SMALLEST ? 0 : x;
 }
 
+/* Whether an edge lies beside the box of p and q: then it does not cross the way between them. */
+static bool beside(const double *a, const double *p, const double *q)
+{
+    for (int k = 0; k < 2; ++k) {
+        const double low = p[k] < q[k] ? p[k] : q[k], high = p[k] < q[k] ? q[k] : p[k];
+        if ((a[k] < low && a[2 + k] < low) || (a[k] > high && a[2 + k] > high))
+            return true;
+    }
+    return false;
+}
+
 /* Whether p belongs to the band of the edge from a, at share t of the way. */
 static bool in_band(const iccp_buckets *b, const double *a, double t, const double *p)
 {
@@ -260,7 +271,8 @@ static iccp_location look(const iccp_buckets *b, size_t n, const uint32_t *edges
                 place = (iccp_location){ICC_BOUNDARY, edge, t};
             }
         }
-        inside ^= crosses(b, edge, p, q);
+        if (!beside(a, p, q))
+            inside ^= crosses(b, edge, p, q);
     }
     if (place.where != ICC_BOUNDARY)
         place.where = inside ? ICC_INSIDE : ICC_OUTSIDE;

@@ -180,11 +180,77 @@ icc_status iccp_assembly_share(iccp_assembly *assembly, const iccp_assembly *pat
 void iccp_assembly_free(iccp_assembly *assembly)
 {
     iccp_assembly *s = assembly;
-    void *const pattern[] = {s->free_point, s->slot, s->simplex, s->neighbour, s->first, s->column};
+    void *const pattern[] = {s->free_point, s->slot, s->simplex,       s->neighbour, s->first,
+                             s->column,     s->part, s->first_element, s->element};
     iccp_assembly_drop_sums(s);
     for (size_t k = 0; k < sizeof pattern / sizeof *pattern && !s->borrows; ++k)
         iccp_free(&s->memory, pattern[k]);
     *s = (iccp_assembly){.memory = s->memory};
+}
+
+/* ---- parts ---- */
+
+/* Pairs of corners whose entry the factorisation does not read are left out. */
+static void leave_out(iccp_assembly *s, const uint32_t *position)
+{
+    const size_t dim = s->dim;
+    uint32_t *neighbour = s->neighbour;
+    for (size_t e = 0; e < s->n_elements; ++e)
+        for (size_t a = 0; a <= dim; ++a)
+            for (size_t b = 0; b <= dim; ++b)
+                if (a != b && *neighbour++ != NONE &&
+                    position[dim * slot_of(dim, s, e, a)] > position[dim * slot_of(dim, s, e, b)])
+                    neighbour[-1] = NONE;
+}
+
+/* Whether no corner of the element before this one is in its part. */
+static bool is_new_part(const iccp_assembly *s, size_t element, size_t corner)
+{
+    const uint32_t slot = slot_of(s->dim, s, element, corner);
+    for (size_t k = 0; slot != NONE && k < corner; ++k) {
+        const uint32_t other = slot_of(s->dim, s, element, k);
+        if (other != NONE && s->part[other] == s->part[slot])
+            return false;
+    }
+    return slot != NONE;
+}
+
+/* Two passes: the first counts the elements of each part, the second fills them in. */
+static icc_status list_elements(iccp_assembly *s)
+{
+    s->first_element = iccp_alloc_zero(&s->memory, s->n_parts + 1, sizeof *s->first_element);
+    if (s->first_element == NULL)
+        return ICC_ERR_MEMORY;
+    for (size_t e = 0; e < s->n_elements; ++e)
+        for (size_t k = 0; k <= s->dim; ++k)
+            if (is_new_part(s, e, k))
+                ++s->first_element[s->part[slot_of(s->dim, s, e, k)]];
+    for (size_t p = 1; p <= s->n_parts; ++p)
+        s->first_element[p] += s->first_element[p - 1];
+    s->element = iccp_alloc(&s->memory, s->first_element[s->n_parts], sizeof *s->element);
+    if (s->element == NULL)
+        return ICC_ERR_MEMORY;
+    for (size_t e = s->n_elements; e-- > 0;)
+        for (size_t k = 0; k <= s->dim; ++k)
+            if (is_new_part(s, e, k))
+                s->element[--s->first_element[s->part[slot_of(s->dim, s, e, k)]]] = (uint32_t)e;
+    return ICC_OK;
+}
+
+icc_status iccp_assembly_divide(iccp_assembly *assembly, const uint32_t *position, size_t n_parts)
+{
+    iccp_assembly *s = assembly;
+    const size_t n_rows = s->dim * s->n_free;
+    leave_out(s, position);
+    if (n_parts <= 1)
+        return ICC_OK;
+    s->n_parts = n_parts;
+    s->part = iccp_alloc(&s->memory, s->n_free, sizeof *s->part);
+    if (s->part == NULL)
+        return ICC_ERR_MEMORY;
+    for (size_t i = 0; i < s->n_free; ++i)
+        s->part[i] = (uint32_t)((uint64_t)position[s->dim * i] * n_parts / n_rows);
+    return list_elements(s);
 }
 
 /* ---- sums ---- */
@@ -198,12 +264,19 @@ void iccp_assembly_begin(iccp_assembly *assembly)
 }
 
 /* First each corner's gradient and own block, then the blocks of each pair of corners. */
-static ICCP_INLINE void add(size_t dim, iccp_assembly *s, size_t element, const iccp_local *local)
+static ICCP_INLINE void add(size_t dim, iccp_assembly *s, size_t part, size_t element,
+                            const iccp_local *local)
 {
     const size_t n = dim * (dim + 1);
     const uint32_t *neighbour = s->neighbour + n * element;
+    uint32_t slot[4];
     for (size_t a = 0; a <= dim; ++a) {
-        const uint32_t i = slot_of(dim, s, element, a);
+        slot[a] = slot_of(dim, s, element, a);
+        if (slot[a] != NONE && s->part != NULL && s->part[slot[a]] != part)
+            slot[a] = NONE;
+    }
+    for (size_t a = 0; a <= dim; ++a) {
+        const uint32_t i = slot[a];
         for (size_t d = 0; d < dim && i != NONE; ++d) {
             const double *row = local->hessian + n * (dim * a + d) + dim * a;
             double *value = s->value + s->first[dim * i + d];
@@ -217,8 +290,8 @@ static ICCP_INLINE void add(size_t dim, iccp_assembly *s, size_t element, const 
     for (size_t a = 0; a <= dim; ++a)
         for (size_t b = 0; b <= dim; ++b) {
             const uint32_t k = a != b ? *neighbour++ : NONE;
-            const uint32_t i = slot_of(dim, s, element, a);
-            for (size_t d = 0; d < dim && k != NONE; ++d) {
+            const uint32_t i = slot[a];
+            for (size_t d = 0; d < dim && k != NONE && i != NONE; ++d) {
                 const double *row = local->hessian + n * (dim * a + d) + dim * b;
                 double *value = s->value + s->first[dim * i + d] + dim - 1 + dim * k;
                 for (size_t c = 0; c < dim; ++c)
@@ -227,12 +300,13 @@ static ICCP_INLINE void add(size_t dim, iccp_assembly *s, size_t element, const 
         }
 }
 
-void iccp_assembly_add(iccp_assembly *assembly, size_t element, const iccp_local *local)
+void iccp_assembly_add(iccp_assembly *assembly, size_t part, size_t element,
+                       const iccp_local *local)
 {
     if (assembly->dim == 2)
-        add(2, assembly, element, local);
+        add(2, assembly, part, element, local);
     else
-        add(3, assembly, element, local);
+        add(3, assembly, part, element, local);
 }
 
 void iccp_assembly_end(iccp_assembly *assembly)

@@ -22,6 +22,10 @@ typedef struct iccp_assembly {
     uint32_t *column;
     double *value, *diagonal;
     double *gradient; /* dim n_free */
+    uint32_t *part;   /* of each free point; NULL: all are in one part */
+    size_t n_parts;
+    size_t *first_element; /* n_parts + 1: where the parts' elements begin in `element` */
+    uint32_t *element;     /* those with a corner in a part, rising */
     bool borrows;     /* everything but value, diagonal and gradient belongs to another one */
 } iccp_assembly;
 
@@ -38,10 +42,16 @@ void iccp_assembly_drop_sums(iccp_assembly *assembly);
 icc_status iccp_assembly_share(iccp_assembly *assembly, const iccp_assembly *pattern,
                                const iccp_simplicial_map *map, const iccp_memory *memory);
 
-/* Begins a sum; adds an element to it; and adds to the diagonal what keeps a Hessian without its
- * negative curvature regular. */
+/* Prepares for a factorisation that eliminates row i at position[i]: of two entries only the one in
+ * the row that comes first is summed from now on, the other stays 0. With `n_parts` > 1 the rows
+ * are divided among parts, about as many in each, that can be summed at the same time. */
+icc_status iccp_assembly_divide(iccp_assembly *assembly, const uint32_t *position, size_t n_parts);
+
+/* Begins a sum; adds an element to the rows of a part, in which it has a corner; and adds to the
+ * diagonal what keeps a Hessian without its negative curvature regular. */
 void iccp_assembly_begin(iccp_assembly *assembly);
-void iccp_assembly_add(iccp_assembly *assembly, size_t element, const iccp_local *local);
+void iccp_assembly_add(iccp_assembly *assembly, size_t part, size_t element,
+                       const iccp_local *local);
 void iccp_assembly_end(iccp_assembly *assembly);
 
 static inline iccp_symmetric iccp_assembly_hessian(const iccp_assembly *s)

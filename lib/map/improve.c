@@ -3,6 +3,7 @@
 
 #include "base/sort.h"
 #include "map/dirichlet.h"
+#include "map/movable.h"
 #include "map/newton.h"
 #include "math/vec.h"
 
@@ -25,7 +26,11 @@ icc_status iccp_improve_images(const iccp_simplicial_map *map, size_t majorised,
 {
     iccp_newton newton;
     iccp_env part = iccp_round(env, 0, TYPICAL_STEPS);
-    icc_status status = iccp_newton_create(&newton, map, NULL, &part);
+    uint8_t *movable;
+    icc_status status = iccp_movable_create(&movable, map, env);
+    if (status == ICC_OK)
+        status = iccp_newton_create(&newton, map, movable, &part);
+    iccp_free(&env->memory, movable);
     if (status != ICC_OK)
         return status;
     const size_t n_free = newton.assembly.n_free;

@@ -4,6 +4,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "base/threads.h"
 #include "chart/bulk.h"
 #include "map/compatible.h"
 #include "map/plmap_certificate.h"
@@ -11,6 +12,7 @@
 #include "map/untangle.h"
 
 #include <math.h>
+#include <stdatomic.h>
 #include <string.h>
 
 /* Defaults of icc_improve_options. */
@@ -41,28 +43,47 @@ static icc_status vertex_image(const icc_chart *source, const icc_chart *target,
     return status == ICC_OK ? iccp_chart_decode(target, &coords, image, NULL, path) : status;
 }
 
+typedef struct charts {
+    const icc_chart *source, *target;
+    const iccp_memory *memory;
+    double *images;
+    atomic_size_t first_lost; /* the first vertex that has no image */
+} charts;
+
+static icc_status find_images(void *argument, size_t begin, size_t end)
+{
+    charts *c = argument;
+    iccp_path path;
+    iccp_path_init(&path, c->memory);
+    icc_status status = ICC_OK;
+    for (size_t v = begin; status == ICC_OK && v < end; ++v) {
+        status = vertex_image(c->source, c->target, c->source->mesh, v, c->images + 2 * v, &path);
+        size_t first = atomic_load(&c->first_lost);
+        while (status != ICC_OK && v < first &&
+               !atomic_compare_exchange_weak(&c->first_lost, &first, v))
+            continue;
+    }
+    iccp_path_clear(&path);
+    return status;
+}
+
 /* The map of the source chart's mesh that the two charts give, which may be inverted in places. */
 static icc_status start(iccp_plmap *pl, const icc_chart *source, const icc_chart *target,
                         const iccp_env *env, icc_error *err)
 {
     const iccp_planar *mesh = source->mesh;
     double *images = iccp_alloc(&env->memory, mesh->n_vertices, 2 * sizeof *images);
-    iccp_path path;
-    iccp_path_init(&path, &env->memory);
-    icc_status status = images != NULL ? ICC_OK : ICC_ERR_MEMORY;
-    for (size_t v = 0; status == ICC_OK && v < mesh->n_vertices; ++v) {
-        if (v % 1024 == 0)
-            status = iccp_progress(env, "trace", (double)v / (double)mesh->n_vertices);
-        if (status == ICC_OK)
-            status = vertex_image(source, target, mesh, v, images + 2 * v, &path);
-        if (iccp_is_point_status(status) && status != ICC_OK)
-            (void)iccp_fail(err, status, "vertex %zu of the mesh has no image by the charts", v);
-    }
+    charts c = {source, target, &env->memory, images, SIZE_MAX};
+    icc_status status = ICC_ERR_MEMORY;
+    if (images != NULL)
+        status = iccp_for_chunks(env, "trace", mesh->n_vertices, 1024, find_images, &c);
+    if (iccp_is_point_status(status) && status != ICC_OK)
+        (void)iccp_fail(err, status, "vertex %zu of the mesh has no image by the charts",
+                        atomic_load(&c.first_lost));
     if (status == ICC_OK)
         status = iccp_plmap_create(pl, mesh, source->domain, images,
                                    sqrt(target->domain->measure / source->domain->measure),
                                    &env->memory);
-    iccp_path_clear(&path);
     iccp_free(&env->memory, images);
     return status;
 }

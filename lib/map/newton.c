@@ -5,6 +5,7 @@
 #include "map/newton.h"
 
 #include "base/minmax.h"
+#include "base/threads.h"
 #include "map/dirichlet.h"
 #include "map/truncated_cg.h"
 #include "map/untangling.h"
@@ -20,6 +21,9 @@ static const double SHARE_OF_FLIP = 0.9;
 static const double DECREASE = 1e-4;
 enum { MAX_HALVINGS = 40 };
 
+/* Elements that a thread takes at once, and rows of a part of the assembly. */
+enum { GRAIN = 1024, PART_ROWS = 1024 };
+
 /* ---- set-up ---- */
 
 struct iccp_newton_plan {
@@ -34,7 +38,10 @@ struct iccp_newton_plan {
 static icc_status analyse(iccp_assembly *assembly, iccp_ldlt *factor, const iccp_env *env)
 {
     const iccp_symmetric hessian = iccp_assembly_hessian(assembly);
-    return iccp_ldlt_analyse(factor, &hessian, 2, env);
+    const icc_status status = iccp_ldlt_analyse(factor, &hessian, 2, env);
+    return status == ICC_OK
+               ? iccp_assembly_divide(assembly, factor->position, hessian.n / PART_ROWS)
+               : status;
 }
 
 icc_status iccp_newton_plan_create(iccp_newton_plan **out, const iccp_simplicial_map *map,
@@ -98,7 +105,8 @@ icc_status iccp_newton_create(iccp_newton *newton, const iccp_simplicial_map *ma
                               const uint8_t *movable, const iccp_env *env)
 {
     iccp_newton *s = newton;
-    *s = (iccp_newton){.map = *map};
+    *s = (iccp_newton){.map = *map, .threads = *env};
+    s->threads.progress = NULL;
     const iccp_newton_plan *plan = map->plan;
     if (plan != NULL && (movable != NULL || !iccp_newton_plan_fits(plan, map)))
         plan = NULL;
@@ -115,7 +123,10 @@ icc_status iccp_newton_create(iccp_newton *newton, const iccp_simplicial_map *ma
     s->step = iccp_alloc(memory, n, sizeof *s->step);
     s->saved = iccp_alloc(memory, n, sizeof *s->saved);
     s->work = iccp_alloc(memory, n, n_work * sizeof *s->work);
-    if (s->element == NULL || s->step == NULL || s->saved == NULL || s->work == NULL)
+    if (iccp_has_threads(env))
+        s->term = iccp_alloc(memory, s->assembly.n_elements, sizeof *s->term);
+    if (s->element == NULL || s->step == NULL || s->saved == NULL || s->work == NULL ||
+        (s->term == NULL && iccp_has_threads(env)))
         status = ICC_ERR_MEMORY;
     for (size_t e = 0; status == ICC_OK && e < s->assembly.n_elements; ++e)
         iccp_simplicial_element(map, s->assembly.simplex[e], s->element + size * e);
@@ -136,6 +147,7 @@ void iccp_newton_free(iccp_newton *newton)
     iccp_free(&memory, s->step);
     iccp_free(&memory, s->saved);
     iccp_free(&memory, s->work);
+    iccp_free(&memory, s->term);
     iccp_ldlt_free(&s->factor);
     iccp_assembly_free(&s->assembly);
     *s = (iccp_newton){.assembly.memory = memory};
@@ -150,15 +162,48 @@ static ICCP_INLINE const double *corner_images(size_t dim, const iccp_newton *s,
     return s->element + ICCP_ELEMENT(dim) * e;
 }
 
+/* A loop over the elements, or over the parts of the assembly. */
+typedef struct loop {
+    iccp_newton *s;
+    iccp_energy energy;
+    double epsilon;
+} loop;
+
+/* On all threads; a loop that cannot be started on them is run here. */
+static void run(const iccp_newton *s, size_t n, size_t grain, iccp_chunk chunk, void *argument)
+{
+    if (n <= grain || iccp_for_chunks(&s->threads, "improve", n, grain, chunk, argument) != ICC_OK)
+        (void)chunk(argument, 0, n);
+}
+
+static ICCP_INLINE double energy_of(size_t dim, const iccp_newton *s, size_t e, iccp_energy energy,
+                                    double epsilon)
+{
+    const double *image[4], *element = corner_images(dim, s, e, image);
+    return energy == ICCP_UNTANGLE ? iccp_untangling_energy(dim, element, image, epsilon)
+                                   : iccp_dirichlet_energy(dim, element, image);
+}
+
+static icc_status find_terms(void *argument, size_t begin, size_t end)
+{
+    const loop *l = argument;
+    for (size_t e = begin; e < end; ++e)
+        l->s->term[e] = l->s->map.dim == 2 ? energy_of(2, l->s, e, l->energy, l->epsilon)
+                                           : energy_of(3, l->s, e, l->energy, l->epsilon);
+    return ICC_OK;
+}
+
+/* With threads the terms are found first; their sum has one order. */
 static ICCP_INLINE double sum_energy(size_t dim, const iccp_newton *s, iccp_energy energy,
                                      double epsilon)
 {
+    const size_t n = s->assembly.n_elements;
+    const bool found = s->term != NULL && n > GRAIN;
     double sum = 0;
-    for (size_t e = 0; e < s->assembly.n_elements && sum < HUGE_VAL; ++e) {
-        const double *image[4], *element = corner_images(dim, s, e, image);
-        sum += energy == ICCP_UNTANGLE ? iccp_untangling_energy(dim, element, image, epsilon)
-                                       : iccp_dirichlet_energy(dim, element, image);
-    }
+    if (found)
+        run(s, n, GRAIN, find_terms, &(loop){(iccp_newton *)s, energy, epsilon});
+    for (size_t e = 0; e < n && sum < HUGE_VAL; ++e)
+        sum += found ? s->term[e] : energy_of(dim, s, e, energy, epsilon);
     return sum;
 }
 
@@ -186,19 +231,37 @@ double iccp_newton_least(const iccp_newton *newton, size_t *n_bad)
     return newton->map.dim == 2 ? find_least(2, newton, n_bad) : find_least(3, newton, n_bad);
 }
 
+static void add_element(const loop *l, size_t part, size_t e)
+{
+    iccp_newton *s = l->s;
+    const size_t dim = s->map.dim;
+    const double *image[4], *element = corner_images(dim, s, e, image);
+    iccp_local local;
+    if (l->energy == ICCP_UNTANGLE)
+        iccp_untangling_local(dim, element, image, l->epsilon, &local);
+    else
+        iccp_dirichlet_local(dim, element, image, l->energy == ICCP_DIRICHLET_MAJORISED, &local);
+    iccp_assembly_add(&s->assembly, part, e, &local);
+}
+
+static icc_status assemble_parts(void *argument, size_t begin, size_t end)
+{
+    const loop *l = argument;
+    const iccp_assembly *a = &l->s->assembly;
+    for (size_t part = begin; part < end; ++part)
+        for (size_t k = a->first_element[part]; k < a->first_element[part + 1]; ++k)
+            add_element(l, part, a->element[k]);
+    return ICC_OK;
+}
+
 static void assemble(iccp_newton *s, iccp_energy energy, double epsilon)
 {
-    const size_t dim = s->map.dim;
-    iccp_local local;
+    loop l = {s, energy, epsilon};
     iccp_assembly_begin(&s->assembly);
-    for (size_t e = 0; e < s->assembly.n_elements; ++e) {
-        const double *image[4], *element = corner_images(dim, s, e, image);
-        if (energy == ICCP_UNTANGLE)
-            iccp_untangling_local(dim, element, image, epsilon, &local);
-        else
-            iccp_dirichlet_local(dim, element, image, energy == ICCP_DIRICHLET_MAJORISED, &local);
-        iccp_assembly_add(&s->assembly, e, &local);
-    }
+    if (s->assembly.n_parts > 1)
+        run(s, s->assembly.n_parts, 1, assemble_parts, &l);
+    for (size_t e = 0; s->assembly.n_parts <= 1 && e < s->assembly.n_elements; ++e)
+        add_element(&l, 0, e);
     iccp_assembly_end(&s->assembly);
 }
 
@@ -251,27 +314,45 @@ static double first_root(double a, double b, double c)
     return low > 0 ? low : high > 0 ? high : HUGE_VAL;
 }
 
+static double flip_of(const iccp_newton *s, size_t e)
+{
+    const uint32_t *v = s->map.corners + 3 * (size_t)s->assembly.simplex[e];
+    const double *p[3];
+    double d[3][2] = {{0}};
+    (void)corner_images(2, s, e, p);
+    for (size_t k = 0; k < 3; ++k)
+        if (s->assembly.slot[v[k]] != UINT32_MAX)
+            memcpy(d[k], s->step + 2 * (size_t)s->assembly.slot[v[k]], sizeof d[k]);
+    const double ux = p[1][0] - p[0][0], uy = p[1][1] - p[0][1];
+    const double vx = p[2][0] - p[0][0], vy = p[2][1] - p[0][1];
+    const double dux = d[1][0] - d[0][0], duy = d[1][1] - d[0][1];
+    const double dvx = d[2][0] - d[0][0], dvy = d[2][1] - d[0][1];
+    return first_root(ux * vy - uy * vx, ux * dvy + dux * vy - uy * dvx - duy * vx,
+                      dux * dvy - duy * dvx);
+}
+
+typedef struct limit {
+    const iccp_newton *s;
+    _Atomic double least;
+} limit;
+
+static icc_status find_flips(void *argument, size_t begin, size_t end)
+{
+    limit *l = argument;
+    double own = HUGE_VAL, least = atomic_load(&l->least);
+    for (size_t e = begin; e < end; ++e)
+        own = iccp_min(own, flip_of(l->s, e));
+    while (own < least && !atomic_compare_exchange_weak(&l->least, &least, own))
+        continue;
+    return ICC_OK;
+}
+
 /* How far the step can go before the first triangle loses its area, which is quadratic along it. */
 static double flip_limit(const iccp_newton *s)
 {
-    double limit = HUGE_VAL;
-    for (size_t e = 0; e < s->assembly.n_elements; ++e) {
-        const uint32_t *v = s->map.corners + 3 * (size_t)s->assembly.simplex[e];
-        const double *p[3];
-        double d[3][2] = {{0}};
-        (void)corner_images(2, s, e, p);
-        for (size_t k = 0; k < 3; ++k)
-            if (s->assembly.slot[v[k]] != UINT32_MAX)
-                memcpy(d[k], s->step + 2 * (size_t)s->assembly.slot[v[k]], sizeof d[k]);
-        const double ux = p[1][0] - p[0][0], uy = p[1][1] - p[0][1];
-        const double vx = p[2][0] - p[0][0], vy = p[2][1] - p[0][1];
-        const double dux = d[1][0] - d[0][0], duy = d[1][1] - d[0][1];
-        const double dvx = d[2][0] - d[0][0], dvy = d[2][1] - d[0][1];
-        limit =
-            iccp_min(limit, first_root(ux * vy - uy * vx, ux * dvy + dux * vy - uy * dvx - duy * vx,
-                                       dux * dvy - duy * dvx));
-    }
-    return limit;
+    limit l = {s, HUGE_VAL};
+    run(s, s->assembly.n_elements, GRAIN, find_flips, &l);
+    return atomic_load(&l.least);
 }
 
 static void set_images(iccp_newton *s, double length)
@@ -283,12 +364,25 @@ static void set_images(iccp_newton *s, double length)
                 s->saved[dim * i + d] + length * s->step[dim * i + d];
 }
 
+typedef struct verdict {
+    const iccp_newton *s;
+    atomic_bool is_positive;
+} verdict;
+
+static icc_status find_signs(void *argument, size_t begin, size_t end)
+{
+    verdict *v = argument;
+    for (size_t e = begin; e < end && atomic_load(&v->is_positive); ++e)
+        if (!iccp_simplicial_is_positive(&v->s->map, v->s->assembly.simplex[e]))
+            atomic_store(&v->is_positive, false);
+    return ICC_OK;
+}
+
 static bool all_positive(const iccp_newton *s)
 {
-    for (size_t e = 0; e < s->assembly.n_elements; ++e)
-        if (!iccp_simplicial_is_positive(&s->map, s->assembly.simplex[e]))
-            return false;
-    return true;
+    verdict v = {s, true};
+    run(s, s->assembly.n_elements, GRAIN, find_signs, &v);
+    return atomic_load(&v.is_positive);
 }
 
 /* In space nothing but the energy, infinite for what is inverted, keeps a first step of 1 from

@@ -17,6 +17,8 @@ typedef struct iccp_newton {
     double *element;      /* ICCP_ELEMENT(dim) for each of the assembly's */
     double *step, *saved; /* dim for each free point; `saved`: images to come back to */
     double *work;
+    double *term;     /* of each element: its energy; NULL without threads */
+    iccp_env threads; /* for loops over the elements, which report nothing */
     iccp_ldlt factor; /* in the plane */
 } iccp_newton;
 

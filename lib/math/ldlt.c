@@ -7,32 +7,18 @@
 
 #include <string.h>
 
-/* The groups of rows as a matrix of their own, without values: entries in the first row of each. */
-static icc_status order_groups(uint32_t *order, const iccp_symmetric *m, size_t block,
-                               const iccp_env *env)
+/* The pattern of the groups of rows: entries in the first row of each. */
+static void fill_groups(size_t *first, uint32_t *column, const iccp_symmetric *m, size_t block)
 {
     const size_t n = m->n / block;
-    size_t *first = iccp_alloc(&env->memory, n + 1, sizeof *first);
-    uint32_t *column = iccp_alloc(&env->memory, m->first[m->n] / block, sizeof *column);
-    icc_status status = first != NULL && column != NULL ? ICC_OK : ICC_ERR_MEMORY;
-    if (status == ICC_OK) {
-        size_t n_entries = 0;
-        for (size_t i = 0; i < n; ++i) {
-            first[i] = n_entries;
-            for (size_t p = m->first[block * i]; p < m->first[block * i + 1]; ++p)
-                if (m->column[p] % block == 0 && m->column[p] / block != i)
-                    column[n_entries++] = (uint32_t)(m->column[p] / block);
-        }
-        first[n] = n_entries;
-        const iccp_symmetric groups = {n, first, column, NULL, NULL};
-        status = iccp_ordering(&groups, order, env);
+    size_t n_entries = 0;
+    for (size_t i = 0; i < n; ++i) {
+        first[i] = n_entries;
+        for (size_t p = m->first[block * i]; p < m->first[block * i + 1]; ++p)
+            if (m->column[p] % block == 0 && m->column[p] / block != i)
+                column[n_entries++] = (uint32_t)(m->column[p] / block);
     }
-    for (size_t k = n; status == ICC_OK && k-- > 0;)
-        for (size_t d = block; d-- > 0;)
-            order[block * k + d] = (uint32_t)(block * order[k] + d);
-    iccp_free(&env->memory, first);
-    iccp_free(&env->memory, column);
-    return status;
+    first[n] = n_entries;
 }
 
 static icc_status allocate(iccp_ldlt *l, size_t n, const iccp_env *env)
@@ -43,37 +29,74 @@ static icc_status allocate(iccp_ldlt *l, size_t n, const iccp_env *env)
     return l->order != NULL && l->position != NULL ? ICC_OK : ICC_ERR_MEMORY;
 }
 
-static void predict(iccp_ldlt *l, const uint32_t *count)
+/* The columns of a group have as many entries as the group has rows below, and one less each. */
+static void predict(iccp_ldlt *l, const uint32_t *count, size_t block)
 {
     for (size_t j = 0; j < l->n; ++j) {
-        const double below = count[j] - 1.0;
-        l->n_entries += count[j] - 1;
-        l->work += below * (below + 3) / 2;
+        const size_t below = block * count[j / block] - j % block - 1;
+        l->n_entries += below;
+        l->work += (double)below * ((double)below + 3) / 2;
     }
+}
+
+/* From numbers of n groups to those of their rows, in place. */
+static void expand(uint32_t *number, size_t n, size_t block)
+{
+    for (size_t k = n; k-- > 0;)
+        for (size_t d = block; d-- > 0;)
+            number[block * k + d] = (uint32_t)(block * number[k] + d);
 }
 
 /* Of the vectors and the matrix that go with a factor; generous. */
 static const double BYTES_PER_ROW = 200;
 
-/* From the order on. */
-static icc_status analyse(iccp_ldlt *l, const iccp_symmetric *matrix, const iccp_env *env)
+/* From the order on, all by groups. */
+static icc_status analyse(iccp_ldlt *l, const iccp_symmetric *groups, size_t block,
+                          const iccp_env *env)
 {
-    uint32_t *parent = iccp_alloc(&env->memory, l->n, sizeof *parent);
-    uint32_t *count = iccp_alloc(&env->memory, l->n, sizeof *count);
-    const iccp_etree tree = {matrix, l->order, l->position, parent};
+    uint32_t *parent = iccp_alloc(&env->memory, groups->n, sizeof *parent);
+    uint32_t *count = iccp_alloc(&env->memory, groups->n, sizeof *count);
+    const iccp_etree tree = {groups, l->order, l->position, parent};
     icc_status status = parent != NULL && count != NULL ? ICC_OK : ICC_ERR_MEMORY;
     if (status == ICC_OK)
         status = iccp_etree_build(&tree, env);
     if (status == ICC_OK)
         status = iccp_etree_count(&tree, count, env);
     if (status == ICC_OK)
-        status = iccp_supernodes_create(&l->nodes, &tree, count, env);
+        status = iccp_supernodes_create(&l->nodes, &tree, block, count, env);
     if (status == ICC_OK) {
-        predict(l, count);
+        expand(l->order, groups->n, block);
+        expand(l->position, groups->n, block);
+        predict(l, count, block);
         status = iccp_budget_borrow(env, iccp_ldlt_bytes(l) + BYTES_PER_ROW * (double)l->n);
     }
     iccp_free(&env->memory, parent);
     iccp_free(&env->memory, count);
+    return status;
+}
+
+static icc_status order_and_analyse(iccp_ldlt *l, const iccp_symmetric *groups, size_t block,
+                                    const iccp_env *env)
+{
+    const icc_status status = iccp_ordering(groups, l->order, env);
+    return status == ICC_OK ? analyse(l, groups, block, env) : status;
+}
+
+/* The groups as a matrix of their own, without values. */
+static icc_status analyse_groups(iccp_ldlt *l, const iccp_symmetric *m, size_t block,
+                                 const iccp_env *env)
+{
+    const size_t n = m->n / block;
+    size_t *first = iccp_alloc(&env->memory, n + 1, sizeof *first);
+    uint32_t *column = iccp_alloc(&env->memory, m->first[m->n] / block, sizeof *column);
+    icc_status status = ICC_ERR_MEMORY;
+    if (first != NULL && column != NULL) {
+        const iccp_symmetric groups = {n, first, column, NULL, NULL};
+        fill_groups(first, column, m, block);
+        status = order_and_analyse(l, &groups, block, env);
+    }
+    iccp_free(&env->memory, first);
+    iccp_free(&env->memory, column);
     return status;
 }
 
@@ -82,9 +105,8 @@ icc_status iccp_ldlt_analyse(iccp_ldlt *factor, const iccp_symmetric *matrix, si
 {
     icc_status status = allocate(factor, matrix->n, env);
     if (status == ICC_OK)
-        status = order_groups(factor->order, matrix, block, env);
-    if (status == ICC_OK)
-        status = analyse(factor, matrix, env);
+        status = block > 1 ? analyse_groups(factor, matrix, block, env)
+                           : order_and_analyse(factor, matrix, 1, env);
     if (status != ICC_OK)
         iccp_ldlt_free(factor);
     return status;
@@ -96,7 +118,7 @@ icc_status iccp_ldlt_analyse_ordered(iccp_ldlt *factor, const iccp_symmetric *ma
     icc_status status = allocate(factor, matrix->n, env);
     if (status == ICC_OK) {
         memcpy(factor->order, order, matrix->n * sizeof *order);
-        status = analyse(factor, matrix, env);
+        status = analyse(factor, matrix, 1, env);
     }
     if (status != ICC_OK)
         iccp_ldlt_free(factor);

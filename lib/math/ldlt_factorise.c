@@ -1,9 +1,12 @@
 /* Left-looking supernodal factorisation: E. Ng, B. Peyton, Block sparse Cholesky algorithms on
  * advanced uniprocessor computers, SIAM J. Sci. Comput. 14, 1993, with L D L^T in place of L L^T. A
  * panel gets the entries of the matrix, then the product of each panel before it that has rows
- * among its columns, tile by tile, then it is factorised by itself. */
+ * among its columns, tile by tile, then it is factorised by itself. On several threads, subtrees of
+ * the elimination tree come first; what waits for panels above them is put into their lists when it
+ * would have been without threads, so that the bits are the same. */
 #include "math/ldlt.h"
 #include "math/panel.h"
+#include "math/subtrees.h"
 
 #include "base/budget.h"
 
@@ -15,20 +18,31 @@
 /* What a panel costs besides its products, in multiplications: about a microsecond. */
 static const double PER_PANEL = 2000;
 
-/* Work space of one factorisation. Each finished panel waits in the list of the next one that it
- * has rows for. */
+/* A factorisation with less labour is done sooner than threads are started: some .2 ms. */
+static const double LEAST_FOR_THREADS = 3e5;
+
+/* Panels in a row, in the order in which they came. */
+typedef struct queue {
+    uint32_t first, last; /* or NONE */
+} queue;
+
+/* Work space of one factorisation, or of the part of one that is done by one task. Each finished
+ * panel waits in the list of the next one that it has rows for, or, if that is not the task's, in
+ * the queue of those that leave. */
 typedef struct factorisation {
     iccp_ldlt *l;
     const iccp_symmetric *matrix;
     int8_t *sign; /* in eliminated numbering, or NULL */
     iccp_multiply multiply;
-    iccp_labour labour;
-    uint32_t *local;   /* n: by row of the factor, where it is in the current panel */
     uint32_t *waiting; /* by panel: the first panel that waits for it, or NONE */
     uint32_t *next;    /* by panel: the one that waits behind it */
     size_t *done;      /* by panel: its first row that has not been used yet */
-    size_t *offset;    /* by row of the updating panel: where it is in the updated one */
-    double *packed;    /* see iccp_panel_pack() */
+    uint32_t end;      /* the task's last panel is the one before this */
+    queue leaving;
+    iccp_labour labour;
+    uint32_t *local; /* n: by row of the factor, where it is in the current panel */
+    size_t *offset;  /* by row of the updating panel: where it is in the updated one */
+    double *packed;  /* see iccp_panel_pack() */
 } factorisation;
 
 static void find_local(const factorisation *f, uint32_t s)
@@ -121,6 +135,16 @@ static icc_status apply_update(factorisation *f, update *u)
     return status;
 }
 
+static void leave(factorisation *f, uint32_t from)
+{
+    f->next[from] = NONE;
+    if (f->leaving.last == NONE)
+        f->leaving.first = from;
+    else
+        f->next[f->leaving.last] = from;
+    f->leaving.last = from;
+}
+
 /* Panel `from` joins the list of the panel whose column its row `done` is. */
 static void enlist(factorisation *f, uint32_t from, size_t done)
 {
@@ -130,8 +154,12 @@ static void enlist(factorisation *f, uint32_t from, size_t done)
         return;
     const uint32_t to = nodes->owner[nodes->row[nodes->first_row[from] + done - columns]];
     f->done[from] = done;
-    f->next[from] = f->waiting[to];
-    f->waiting[to] = from;
+    if (to >= f->end) {
+        leave(f, from);
+    } else {
+        f->next[from] = f->waiting[to];
+        f->waiting[to] = from;
+    }
 }
 
 static icc_status update_from(factorisation *f, uint32_t from, uint32_t to)
@@ -152,47 +180,134 @@ static icc_status update_from(factorisation *f, uint32_t from, uint32_t to)
     return status;
 }
 
-/* All labour of a factorisation, zeros counted. A panel costs what it does to itself and to
- * others. */
-static double labour_of(const iccp_supernodes *nodes)
+/* Zeros counted: what a panel does to itself and to others. */
+static double labour_of(const iccp_supernodes *nodes, size_t s)
 {
-    double sum = 0;
-    for (size_t s = 0; s < nodes->n; ++s) {
-        const double columns = (double)iccp_supernodes_columns(nodes, s);
-        const double below = (double)iccp_supernodes_below(nodes, s);
-        sum += PER_PANEL + columns * (columns * columns / 6 + below * (columns + below) / 2);
-    }
-    return sum;
+    const double columns = (double)iccp_supernodes_columns(nodes, s);
+    const double below = (double)iccp_supernodes_below(nodes, s);
+    return PER_PANEL + columns * (columns * columns / 6 + below * (columns + below) / 2);
 }
 
-/* Left-looking: panel s is finished before panel s + 1 begins. When it is s' turn, waiting[s]
- * lists exactly the finished panels with rows among the columns of s; each moves on to the panel
- * of its next row. */
+/* When it is s' turn, waiting[s] lists exactly the finished panels with rows among the columns of
+ * s; each moves on to the panel of its next row. */
+static icc_status factorise_panel(factorisation *f, uint32_t s)
+{
+    const iccp_supernodes *nodes = &f->l->nodes;
+    const iccp_panel panel = iccp_panel_of(nodes, s, f->l->value, f->l->pivot);
+    const int8_t *sign = f->sign == NULL ? NULL : f->sign + nodes->column[s];
+    icc_status status = ICC_OK;
+    find_local(f, s);
+    load_entries(f, s, &panel);
+    for (uint32_t from = f->waiting[s], next; status == ICC_OK && from != NONE; from = next) {
+        next = f->next[from];
+        status = update_from(f, from, s);
+    }
+    if (status == ICC_OK)
+        status = iccp_panel_factorise(&panel, sign, f->multiply, f->packed, &f->labour);
+    if (status == ICC_OK)
+        status = iccp_labour_add(&f->labour, PER_PANEL);
+    if (status == ICC_OK)
+        enlist(f, s, panel.columns);
+    return status;
+}
+
+/* ---- subtrees ---- */
+
+typedef struct forest {
+    const factorisation *whole;
+    iccp_subtrees subtrees;
+    queue *leaving; /* of each run */
+} forest;
+
+static icc_status make_space(factorisation *f)
+{
+    const iccp_supernodes *nodes = &f->l->nodes;
+    const iccp_memory *memory = &f->labour.env->memory;
+    f->local = iccp_alloc(memory, f->l->n, sizeof *f->local);
+    f->offset = iccp_alloc(memory, nodes->most_rows, sizeof *f->offset);
+    f->packed = iccp_alloc(memory, nodes->most_columns, ICCP_BLOCK * sizeof *f->packed);
+    return f->local != NULL && f->offset != NULL && f->packed != NULL ? ICC_OK : ICC_ERR_MEMORY;
+}
+
+static void free_space(const factorisation *f)
+{
+    const iccp_memory *memory = &f->labour.env->memory;
+    iccp_free(memory, f->local);
+    iccp_free(memory, f->offset);
+    iccp_free(memory, f->packed);
+}
+
+/* One run, by one thread. */
+static icc_status factorise_run(void *argument, size_t begin, size_t end)
+{
+    const forest *t = argument;
+    const iccp_subtrees_run *run = &t->subtrees.run[begin];
+    factorisation f = *t->whole;
+    (void)end;
+    f.end = run->end;
+    f.labour.env = &f.labour.quiet;
+    f.labour.quiet.threads = 1;
+    f.labour.quiet.parallel_for = NULL;
+    icc_status status = make_space(&f);
+    for (uint32_t s = run->begin; status == ICC_OK && s < run->end; ++s)
+        status = factorise_panel(&f, s);
+    free_space(&f);
+    t->leaving[begin] = f.leaving;
+    return status;
+}
+
+/* All runs, on all threads. */
+static icc_status factorise_runs(forest *t, const factorisation *f)
+{
+    const iccp_env *env = f->labour.env;
+    icc_status status = iccp_subtrees_create(&t->subtrees, &f->l->nodes, labour_of, env);
+    if (status != ICC_OK)
+        return status;
+    t->leaving = iccp_alloc(&env->memory, t->subtrees.n, sizeof *t->leaving);
+    if (t->leaving == NULL)
+        return ICC_ERR_MEMORY;
+    const iccp_env part = iccp_part(env, NULL, 0, t->subtrees.labour / f->labour.all);
+    return iccp_for_chunks(&part, "solve", t->subtrees.n, 1, factorise_run, t);
+}
+
+/* What left a run goes on to the panels above it, in the order in which it came. */
+static void send_on(factorisation *f, const queue *leaving)
+{
+    for (uint32_t from = leaving->first, next; from != NONE; from = next) {
+        next = f->next[from];
+        enlist(f, from, f->done[from]);
+    }
+}
+
+/* ---- all of it ---- */
+
+/* Left-looking: panel s is finished before panel s + 1 begins, but for runs that have been done. */
 static icc_status factorise_panels(factorisation *f)
 {
     const iccp_supernodes *nodes = &f->l->nodes;
-    f->labour.all = labour_of(nodes);
-    icc_status status = iccp_progress(f->labour.env, "solve", 0);
-    if (status == ICC_OK)
-        status = iccp_budget_work(f->labour.env, f->labour.all);
-    for (uint32_t s = 0; s < nodes->n; ++s)
+    const iccp_env *env = f->labour.env;
+    forest t = {.whole = f};
+    for (uint32_t s = 0; s < nodes->n; ++s) {
+        f->labour.all += labour_of(nodes, s);
         f->waiting[s] = NONE;
-    for (uint32_t s = 0; status == ICC_OK && s < nodes->n; ++s) {
-        const iccp_panel panel = iccp_panel_of(nodes, s, f->l->value, f->l->pivot);
-        find_local(f, s);
-        load_entries(f, s, &panel);
-        for (uint32_t from = f->waiting[s], next; status == ICC_OK && from != NONE; from = next) {
-            next = f->next[from];
-            status = update_from(f, from, s);
-        }
-        const int8_t *sign = f->sign == NULL ? NULL : f->sign + nodes->column[s];
-        if (status == ICC_OK)
-            status = iccp_panel_factorise(&panel, sign, f->multiply, f->packed, &f->labour);
-        if (status == ICC_OK)
-            status = iccp_labour_add(&f->labour, PER_PANEL);
-        if (status == ICC_OK)
-            enlist(f, s, panel.columns);
     }
+    icc_status status = iccp_progress(env, "solve", 0);
+    if (status == ICC_OK)
+        status = iccp_budget_work(env, f->labour.all);
+    if (status == ICC_OK && iccp_has_threads(env) && f->labour.all > LEAST_FOR_THREADS)
+        status = factorise_runs(&t, f);
+    if (status == ICC_OK)
+        status = iccp_labour_add(&f->labour, t.subtrees.labour);
+    for (uint32_t s = 0, k = 0; status == ICC_OK && s < nodes->n;) {
+        if (k < t.subtrees.n && s == t.subtrees.run[k].begin) {
+            send_on(f, &t.leaving[k]);
+            s = t.subtrees.run[k++].end;
+        } else {
+            status = factorise_panel(f, s++);
+        }
+    }
+    iccp_subtrees_free(&t.subtrees, &env->memory);
+    iccp_free(&env->memory, t.leaving);
     return status;
 }
 
@@ -213,29 +328,27 @@ icc_status iccp_ldlt_factorise_signed(iccp_ldlt *factor, const iccp_symmetric *m
     factorisation f = {.l = factor,
                        .matrix = matrix,
                        .multiply = iccp_multiply_choose(),
+                       .end = (uint32_t)nodes->n,
+                       .leaving = {NONE, NONE},
                        .labour = {.env = env, .quiet = *env}};
     icc_status status = make_room(factor);
     f.labour.quiet.progress = NULL;
-    f.local = iccp_alloc(memory, factor->n, sizeof *f.local);
     f.waiting = iccp_alloc(memory, nodes->n, 2 * sizeof *f.waiting);
-    f.done = iccp_alloc(memory, nodes->n + nodes->most_rows, sizeof *f.done);
-    f.packed = iccp_alloc(memory, nodes->most_columns, ICCP_BLOCK * sizeof *f.packed);
+    f.done = iccp_alloc(memory, nodes->n, sizeof *f.done);
     if (sign != NULL)
         f.sign = iccp_alloc(memory, factor->n, sizeof *f.sign);
-    if (f.local == NULL || f.waiting == NULL || f.done == NULL || f.packed == NULL ||
+    if (make_space(&f) != ICC_OK || f.waiting == NULL || f.done == NULL ||
         (sign != NULL && f.sign == NULL))
         status = ICC_ERR_MEMORY;
     if (status == ICC_OK) {
         f.next = f.waiting + nodes->n;
-        f.offset = f.done + nodes->n;
         for (size_t k = 0; sign != NULL && k < factor->n; ++k)
             f.sign[k] = sign[factor->order[k]];
         status = factorise_panels(&f);
     }
-    iccp_free(memory, f.local);
+    free_space(&f);
     iccp_free(memory, f.waiting);
     iccp_free(memory, f.done);
-    iccp_free(memory, f.packed);
     iccp_free(memory, f.sign);
     return status;
 }

@@ -23,22 +23,29 @@ static bool is_worth_merging(double columns, double zeros, double room)
     return zeros <= share * room;
 }
 
-/* Goes through the columns; the supernodes so far are a stack, and a new one swallows those before
- * it whose parent it is while that pays. entries[s]: of the factor, in supernode s. */
-static void partition(iccp_supernodes *nodes, const iccp_etree *t, const uint32_t *count,
-                      double *entries)
+/* Entries of the columns of a group whose first column has `count` rows of groups. */
+static double entries_of(uint32_t count, size_t block)
+{
+    return (double)block * ((double)block * count - ((double)block - 1) / 2);
+}
+
+/* Goes through the groups of columns; the supernodes so far are a stack, and a new one swallows
+ * those before it whose parent it is while that pays. entries[s]: of the factor, in supernode s. */
+static void partition(iccp_supernodes *nodes, const iccp_etree *t, size_t block,
+                      const uint32_t *count, double *entries)
 {
     const size_t n = t->matrix->n;
     for (uint32_t begin = 0, end; begin < n; begin = end) {
         uint32_t first = begin;
-        double sum = count[begin];
+        double sum = entries_of(count[begin], block);
         for (end = begin + 1;
              end < n && t->parent[end - 1] == end && count[end - 1] == count[end] + 1;)
-            sum += count[end++];
+            sum += entries_of(count[end++], block);
         for (; nodes->n > 0 && t->parent[first - 1] < end; --nodes->n) {
             const uint32_t joint = nodes->column[nodes->n - 1];
-            const double columns = end - joint, all = sum + entries[nodes->n - 1];
-            const double room = room_of(columns, count[end - 1] - 1);
+            const double columns = (double)block * (end - joint);
+            const double all = sum + entries[nodes->n - 1];
+            const double room = room_of(columns, (double)block * (count[end - 1] - 1));
             if (!is_worth_merging(columns, room - all, room))
                 break;
             first = joint;
@@ -50,19 +57,20 @@ static void partition(iccp_supernodes *nodes, const iccp_etree *t, const uint32_
     nodes->column[nodes->n] = (uint32_t)n;
 }
 
-/* Numbers rows and values one supernode after the other. The last column of a supernode has the
- * fewest rows, and all its columns share these: what is below a panel is the count of that
- * column without its diagonal entry. False for more values than can be addressed, which 32 bits are
- * soon too few for. */
-static bool lay_out_panels(iccp_supernodes *nodes, const iccp_etree *t, const uint32_t *count)
+/* Numbers rows and values one supernode after the other. The last group of a supernode has the
+ * fewest rows, and all its columns share these: what is below a panel is the count of that group
+ * without itself. False for more values than can be addressed, which 32 bits are soon too few
+ * for. */
+static bool lay_out_panels(iccp_supernodes *nodes, const iccp_etree *t, size_t block,
+                           const uint32_t *count)
 {
     size_t n_rows = 0, n_values = 0;
     double size = 0;
     for (uint32_t s = 0; s < nodes->n; ++s) {
-        const uint32_t last = nodes->column[s + 1] - 1;
+        const uint32_t end = nodes->column[s + 1];
         const size_t columns = iccp_supernodes_columns(nodes, s);
-        const size_t rows = columns + count[last] - 1;
-        for (uint32_t j = nodes->column[s]; j <= last; ++j)
+        const size_t rows = columns + block * (count[end / block - 1] - 1);
+        for (uint32_t j = nodes->column[s]; j < end; ++j)
             nodes->owner[j] = s;
         nodes->first_row[s] = n_rows;
         nodes->first_value[s] = n_values;
@@ -75,15 +83,16 @@ static bool lay_out_panels(iccp_supernodes *nodes, const iccp_etree *t, const ui
     nodes->first_row[nodes->n] = n_rows;
     nodes->first_value[nodes->n] = n_values;
     for (size_t s = 0; s < nodes->n; ++s) {
-        const uint32_t above = t->parent[nodes->column[s + 1] - 1];
-        nodes->parent[s] = above == NONE ? NONE : nodes->owner[above];
+        const uint32_t above = t->parent[nodes->column[s + 1] / block - 1];
+        nodes->parent[s] = above == NONE ? NONE : nodes->owner[block * above];
     }
     return size < (double)SIZE_MAX;
 }
 
-/* Row i reaches the supernodes of its entries and those above them in the tree, up to its own. */
-static icc_status list_rows(iccp_supernodes *nodes, const iccp_etree *t, uint32_t *mark,
-                            size_t *end, const iccp_env *env)
+/* Group i reaches the supernodes of its entries and those above them in the tree, up to its
+ * own. */
+static icc_status list_rows(iccp_supernodes *nodes, const iccp_etree *t, size_t block,
+                            uint32_t *mark, size_t *end, const iccp_env *env)
 {
     const iccp_symmetric *m = t->matrix;
     icc_status status = ICC_OK;
@@ -92,68 +101,70 @@ static icc_status list_rows(iccp_supernodes *nodes, const iccp_etree *t, uint32_
         end[s] = nodes->first_row[s];
     }
     for (uint32_t i = 0; i < m->n && status == ICC_OK; ++i) {
-        const uint32_t row = t->order[i], own = nodes->owner[i];
+        const uint32_t row = t->order[i], own = nodes->owner[block * i];
         status = iccp_etree_progress(t, ICCP_PASS_ROWS, i, env);
         for (size_t p = m->first[row]; p < m->first[row + 1]; ++p) {
             if (t->position[m->column[p]] >= i)
                 continue;
-            uint32_t s = nodes->owner[t->position[m->column[p]]];
+            uint32_t s = nodes->owner[block * t->position[m->column[p]]];
             for (; s != own && mark[s] != i; s = nodes->parent[s]) {
                 mark[s] = i;
-                nodes->row[end[s]++] = i;
+                for (size_t d = 0; d < block; ++d)
+                    nodes->row[end[s]++] = (uint32_t)(block * i + d);
             }
         }
     }
     return status;
 }
 
-static icc_status find_rows(iccp_supernodes *nodes, const iccp_etree *t, const iccp_env *env)
+static icc_status find_rows(iccp_supernodes *nodes, const iccp_etree *t, size_t block,
+                            const iccp_env *env)
 {
     uint32_t *mark = iccp_alloc(&env->memory, nodes->n, sizeof *mark);
     size_t *end = iccp_alloc(&env->memory, nodes->n, sizeof *end);
     nodes->row = iccp_alloc(&env->memory, nodes->first_row[nodes->n], sizeof *nodes->row);
     icc_status status = ICC_ERR_MEMORY;
     if (mark != NULL && end != NULL && nodes->row != NULL)
-        status = list_rows(nodes, t, mark, end, env);
+        status = list_rows(nodes, t, block, mark, end, env);
     iccp_free(&env->memory, mark);
     iccp_free(&env->memory, end);
     return status;
 }
 
-static icc_status find_partition(iccp_supernodes *nodes, const iccp_etree *t, const uint32_t *count,
-                                 const iccp_env *env)
+static icc_status find_partition(iccp_supernodes *nodes, const iccp_etree *t, size_t block,
+                                 const uint32_t *count, const iccp_env *env)
 {
     const size_t n = t->matrix->n;
     uint32_t *column = iccp_alloc(&env->memory, n + 1, sizeof *column);
     double *entries = iccp_alloc(&env->memory, n, sizeof *entries);
     if (column != NULL && entries != NULL) {
         nodes->column = column;
-        partition(nodes, t, count, entries);
+        partition(nodes, t, block, count, entries);
         nodes->column = iccp_alloc(&env->memory, nodes->n + 1, sizeof *column);
-        if (nodes->column != NULL)
-            memcpy(nodes->column, column, (nodes->n + 1) * sizeof *column);
+        for (size_t s = 0; nodes->column != NULL && s <= nodes->n; ++s)
+            nodes->column[s] = (uint32_t)block * column[s];
     }
     iccp_free(&env->memory, column);
     iccp_free(&env->memory, entries);
     return nodes->column != NULL ? ICC_OK : ICC_ERR_MEMORY;
 }
 
-icc_status iccp_supernodes_create(iccp_supernodes *nodes, const iccp_etree *tree,
+icc_status iccp_supernodes_create(iccp_supernodes *nodes, const iccp_etree *tree, size_t block,
                                   const uint32_t *count, const iccp_env *env)
 {
     *nodes = (iccp_supernodes){0};
-    icc_status status = find_partition(nodes, tree, count, env);
+    icc_status status = find_partition(nodes, tree, block, count, env);
     if (status == ICC_OK) {
-        nodes->owner = iccp_alloc(&env->memory, tree->matrix->n, sizeof *nodes->owner);
+        nodes->owner = iccp_alloc(&env->memory, block * tree->matrix->n, sizeof *nodes->owner);
         nodes->parent = iccp_alloc(&env->memory, nodes->n, sizeof *nodes->parent);
         nodes->first_row = iccp_alloc(&env->memory, nodes->n + 1, sizeof *nodes->first_row);
         nodes->first_value = iccp_alloc(&env->memory, nodes->n + 1, sizeof *nodes->first_value);
         if (nodes->owner == NULL || nodes->parent == NULL || nodes->first_row == NULL ||
-            nodes->first_value == NULL || !lay_out_panels(nodes, tree, count))
+            nodes->first_value == NULL || !lay_out_panels(nodes, tree, block, count))
             status = ICC_ERR_MEMORY;
     }
     if (status == ICC_OK)
-        status = find_rows(nodes, tree, env);
+        status = find_rows(nodes, tree, block, env);
     if (status != ICC_OK)
         iccp_supernodes_free(nodes, &env->memory);
     return status;

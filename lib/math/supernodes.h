@@ -21,9 +21,10 @@ typedef struct iccp_supernodes {
     size_t most_rows;    /* of one panel */
 } iccp_supernodes;
 
-/* Neighbouring supernodes are merged where few zeros have to be stored for it. On failure nothing
+/* The tree is one of groups of `block` columns with the same pattern, and so are the counts.
+ * Neighbouring supernodes are merged where few zeros have to be stored for it. On failure nothing
  * is left allocated. */
-icc_status iccp_supernodes_create(iccp_supernodes *nodes, const iccp_etree *tree,
+icc_status iccp_supernodes_create(iccp_supernodes *nodes, const iccp_etree *tree, size_t block,
                                   const uint32_t *count, const iccp_env *env);
 void iccp_supernodes_free(iccp_supernodes *nodes, const iccp_memory *memory);
 

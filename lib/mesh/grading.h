@@ -13,8 +13,8 @@ typedef struct iccp_samples {
 } iccp_samples;
 
 /* Centres of the leaves of a quadtree that keep away from the boundary. A leaf is no wider than
- * `step`, nor than the length at any sample plus GROWTH times the distance to it. `points` gets an
- * array of the domain's memory, 2 doubles for each of `n_points`; the caller frees it. */
+ * `step`, nor than the length at any sample plus the distance to it. `points` gets an array of the
+ * domain's memory, 2 doubles for each of `n_points`; the caller frees it. */
 icc_status iccp_graded_points(const icc_domain *domain, const iccp_samples *samples, double step,
                               double **points, size_t *n_points, const iccp_env *env);
 

@@ -519,6 +519,146 @@ START_TEST(loops_can_be_cancelled)
 }
 END_TEST
 
+/* ----------------------------------------------------------- side by side */
+
+/* What two tasks do and see: a loop each, reports, a line in the log, and an error. */
+typedef struct pair {
+    const iccp_env *outer;
+    unsigned char *done[2];
+    int32_t threads[2];
+    size_t fails, fails_too; /* task numbers; 2: none */
+    atomic_int n_calls_inside;
+    int n_reports, cancel_at;
+    double share;
+    pthread_t caller;
+    char lines[64];
+    atomic_size_t n_tasks; /* that a caller's parallel_for has run */
+    icc_status status;
+} pair;
+
+static icc_status fill_side(void *argument, size_t begin, size_t end)
+{
+    for (size_t i = begin; i < end; ++i)
+        ++((unsigned char *)argument)[i];
+    return ICC_OK;
+}
+
+static icc_status run_task(void *argument, size_t k, const iccp_env *env, icc_error *err)
+{
+    pair *p = argument;
+    p->threads[k] = env->threads;
+    iccp_log(env, "task %zu", k);
+    const icc_status status = iccp_for_chunks(env, "loop", N_ITEMS, GRAIN, fill_side, p->done[k]);
+    if (status != ICC_OK)
+        return iccp_explain(err, status);
+    for (int i = 0; i < 100; ++i)
+        if (iccp_progress(env, "later", i / 99.0) != ICC_OK)
+            return iccp_explain(err, ICC_ERR_CANCELLED);
+    if (k == p->fails || k == p->fails_too)
+        return iccp_fail(err, k == p->fails ? ICC_ERR_SOLVER : ICC_ERR_TRACE, "task %zu fails", k);
+    return ICC_OK;
+}
+
+static void note_line(void *user, const char *message)
+{
+    pair *p = user;
+    ck_assert(pthread_equal(pthread_self(), p->caller));
+    (void)strcat(strcat(p->lines, message), ";");
+}
+
+static int32_t note_share(void *user, const char *stage, double share)
+{
+    pair *p = user;
+    (void)stage;
+    ck_assert(pthread_equal(pthread_self(), p->caller));
+    ck_assert(share >= p->share && share <= 1);
+    p->share = share;
+    return ++p->n_reports == p->cancel_at;
+}
+
+static void run_pair_on_two(void *user, size_t n, icc_task task, void *argument)
+{
+    pair *p = user;
+    size_t n_rounds = 0;
+    ck_assert_int_eq(atomic_fetch_add(&p->n_calls_inside, 1), 0); /* never from inside a task */
+    atomic_fetch_add(&p->n_tasks, n);
+    run_on_two(&n_rounds, n, task, argument);
+    atomic_fetch_sub(&p->n_calls_inside, 1);
+}
+
+/* `threads` 0: on the caller's. */
+static pair run_pair(int32_t threads, size_t fails, size_t fails_too, int cancel_at)
+{
+    pair p = {.fails = fails, .fails_too = fails_too, .cancel_at = cancel_at};
+    const icc_env given = {.size = sizeof given,
+                           .user = &p,
+                           .log = note_line,
+                           .progress = note_share,
+                           .threads = threads,
+                           .parallel_for = threads == 0 ? run_pair_on_two : NULL};
+    iccp_env env;
+    icc_error err = {.size = sizeof err};
+    p.caller = pthread_self();
+    for (int k = 0; k < 2; ++k)
+        p.done[k] = calloc(N_ITEMS, 1);
+    ck_assert_int_eq(iccp_env_read(&env, &given, NULL), ICC_OK);
+    p.status = iccp_side_by_side(&env, 2, run_task, &p, &err);
+    if (p.status != ICC_OK) {
+        ck_assert_int_eq(err.status, p.status);
+        ck_assert(cancel_at > 0 ||
+                  strcmp(err.message,
+                         fails == 1 && fails_too == 2 ? "task 1 fails" : "task 0 fails") == 0);
+    }
+    for (int k = 0; k < 2 && p.status == ICC_OK; ++k)
+        check_done_once(p.done[k], N_ITEMS);
+    free(p.done[0]);
+    free(p.done[1]);
+    return p;
+}
+
+START_TEST(tasks_run_side_by_side)
+{
+    for (int32_t threads = 0; threads <= 8; ++threads) {
+        const pair p = run_pair(threads, 2, 2, 0);
+        ck_assert_int_eq(p.status, ICC_OK);
+        ck_assert_str_eq(p.lines, "task 0;task 1;");
+        if (threads == 0)
+            ck_assert_uint_eq(p.n_tasks, 2);
+        if (threads > 1) {
+            ck_assert_int_eq(p.threads[0], (threads + 1) / 2);
+            ck_assert_int_eq(p.threads[1], threads / 2);
+        } else {
+            ck_assert(p.threads[0] == 1 && p.threads[1] == 1);
+        }
+    }
+}
+END_TEST
+
+START_TEST(the_first_task_that_fails_decides)
+{
+    for (int32_t threads = 0; threads <= 4; ++threads)
+        for (int round = 0; round < 5; ++round) {
+            ck_assert_int_eq(run_pair(threads, 0, 2, 0).status, ICC_ERR_SOLVER);
+            ck_assert_int_eq(run_pair(threads, 1, 2, 0).status, ICC_ERR_SOLVER);
+            ck_assert_int_eq(run_pair(threads, 0, 1, 0).status, ICC_ERR_SOLVER);
+            ck_assert_int_eq(run_pair(threads, 1, 0, 0).status, ICC_ERR_TRACE);
+        }
+}
+END_TEST
+
+/* A task that another thread runs has no reports to be cancelled by, but ends soon as well. */
+START_TEST(tasks_can_be_cancelled)
+{
+    for (int32_t threads = 1; threads <= 4; ++threads)
+        for (int cancel_at = 1; cancel_at <= 40; cancel_at += 13) {
+            const pair p = run_pair(threads, 2, 2, cancel_at);
+            /* Another thread may have done it all before the caller was asked that often. */
+            ck_assert(p.status == ICC_ERR_CANCELLED || (threads > 1 && p.n_reports < cancel_at));
+            ck_assert_int_le(p.n_reports, cancel_at);
+        }
+}
+END_TEST
+
 static int by_value(const void *a, const void *b)
 {
     const uint32_t *p = a, *q = b;
@@ -623,6 +763,9 @@ int main(void)
     tcase_add_test(tests, the_first_failure_wins);
     tcase_add_test(tests, the_callers_threads_are_used);
     tcase_add_test(tests, loops_can_be_cancelled);
+    tcase_add_test(tests, tasks_run_side_by_side);
+    tcase_add_test(tests, the_first_task_that_fails_decides);
+    tcase_add_test(tests, tasks_can_be_cancelled);
     suite_add_tcase(suite, tests);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_NORMAL);

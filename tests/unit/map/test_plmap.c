@@ -391,7 +391,7 @@ START_TEST(broken_maps_are_repaired_or_counted)
         for (int how = 0; how < N_BREAKS; ++how) {
             const shape s = shape_number(k);
             random_source r = {(uint64_t)(10 * k + how)};
-            iccp_plmap map = map_of(&s, 6, identity, 1);
+            iccp_plmap map = map_of(&s, 8, identity, 1);
             break_map(&map, how, &r);
             const size_t n_left = repair_and_check(&map, k < 2);
             n_failed += n_left > 0;

@@ -2,6 +2,7 @@
  * other, its factors against dense ones in long double. */
 #include "math/dense.h"
 #include "math/ldlt.h"
+#include "math/subtrees.h"
 
 #include "../../faulty.h"
 #include "../../random.h"
@@ -603,6 +604,148 @@ START_TEST(threads_change_nothing)
 }
 END_TEST
 
+/* Nested dissection of a square lattice: both halves, then the line between them. */
+static void dissect(uint32_t **order, uint32_t side, uint32_t x0, uint32_t x1, uint32_t y0,
+                    uint32_t y1)
+{
+    const bool is_wide = x1 - x0 > y1 - y0;
+    const uint32_t x = (x0 + x1) / 2, y = (y0 + y1) / 2;
+    if (x0 == x1 || y0 == y1)
+        return;
+    dissect(order, side, x0, is_wide ? x : x1, y0, is_wide ? y1 : y);
+    dissect(order, side, is_wide ? x + 1 : x0, x1, is_wide ? y0 : y + 1, y1);
+    for (uint32_t k = is_wide ? y0 : x0; k < (is_wide ? y1 : x1); ++k)
+        *(*order)++ = is_wide ? x + side * k : k + side * y;
+}
+
+static uint32_t *dissection_of(uint32_t side)
+{
+    uint32_t *order = malloc((size_t)side * side * sizeof *order), *end = order;
+    dissect(&end, side, 0, side, 0, side);
+    ck_assert_uint_eq((size_t)(end - order), (size_t)side * side);
+    return order;
+}
+
+/* Groups of rows with one pattern are analysed as one row each: as if every row had been. */
+START_TEST(groups_are_analysed_as_their_rows)
+{
+    enum { SIDE = 30, BLOCK = 3, N = BLOCK * SIDE * SIDE };
+    const iccp_env env = plain_env();
+    lattice g = make_lattice(SIDE, SIDE, 1, everywhere);
+    size_t *first = malloc((N + 1) * sizeof *first), k = 0;
+    uint32_t *column = malloc((size_t)N * 5 * BLOCK * sizeof *column);
+    iccp_ldlt groups, rows;
+    for (uint32_t i = 0; i < N; ++i) {
+        first[i] = k;
+        for (uint32_t d = 0; d < BLOCK; ++d)
+            if (d != i % BLOCK)
+                column[k++] = i - i % BLOCK + d;
+        for (size_t p = g.first[i / BLOCK]; p < g.first[i / BLOCK + 1]; ++p)
+            for (uint32_t d = 0; d < BLOCK; ++d)
+                column[k++] = BLOCK * g.column[p] + d;
+    }
+    first[N] = k;
+    const iccp_symmetric m = {N, first, column, NULL, NULL};
+    if (iccp_ldlt_analyse(&groups, &m, BLOCK, &env) == ICC_OK) { /* there is an ordering */
+        const iccp_supernodes *a = &groups.nodes, *b = &rows.nodes;
+        ck_assert_int_eq(iccp_ldlt_analyse_ordered(&rows, &m, groups.order, &env), ICC_OK);
+        ck_assert_mem_eq(groups.order, rows.order, N * sizeof *rows.order);
+        ck_assert_mem_eq(groups.position, rows.position, N * sizeof *rows.position);
+        ck_assert(groups.n_entries == rows.n_entries && a->n == b->n);
+        ck_assert_double_eq_tol(groups.work, rows.work, 1e-12 * rows.work);
+        ck_assert_mem_eq(a->column, b->column, (a->n + 1) * sizeof *a->column);
+        ck_assert_mem_eq(a->parent, b->parent, a->n * sizeof *a->parent);
+        ck_assert_mem_eq(a->owner, b->owner, N * sizeof *a->owner);
+        ck_assert_mem_eq(a->first_row, b->first_row, (a->n + 1) * sizeof *a->first_row);
+        ck_assert_mem_eq(a->first_value, b->first_value, (a->n + 1) * sizeof *a->first_value);
+        ck_assert_mem_eq(a->row, b->row, a->first_row[a->n] * sizeof *a->row);
+        ck_assert(a->most_rows == b->most_rows && a->most_columns == b->most_columns);
+        iccp_ldlt_free(&rows);
+        iccp_ldlt_free(&groups);
+    }
+    free(first);
+    free(column);
+    lattice_clear(&g);
+}
+END_TEST
+
+static double work_of(const iccp_supernodes *nodes, size_t s)
+{
+    const double columns = (double)iccp_supernodes_columns(nodes, s);
+    return columns * (columns + (double)iccp_supernodes_below(nodes, s));
+}
+
+/* Runs hold whole subtrees, most of the work, and none of them much of it. */
+START_TEST(subtrees_are_independent)
+{
+    const iccp_env env = plain_env();
+    lattice g = make_lattice(90, 90, 1, everywhere);
+    uint32_t *order = dissection_of(90);
+    iccp_ldlt l;
+    iccp_subtrees t;
+    ck_assert_int_eq(iccp_ldlt_analyse_ordered(&l, &g.m, order, &env), ICC_OK);
+    const iccp_supernodes *nodes = &l.nodes;
+    ck_assert_int_eq(iccp_subtrees_create(&t, nodes, work_of, &env), ICC_OK);
+    double all = 0, inside = 0;
+    for (size_t s = 0; s < nodes->n; ++s)
+        all += work_of(nodes, s);
+    ck_assert_uint_gt(t.n, 4);
+    for (size_t k = 0, end = 0; k < t.n; end = t.run[k++].end) {
+        double own = 0;
+        ck_assert(t.run[k].begin >= end && t.run[k].end > t.run[k].begin);
+        for (uint32_t s = t.run[k].begin; s < t.run[k].end; ++s)
+            own += work_of(nodes, s);
+        ck_assert_double_le(own, 0.1 * all);
+        inside += own;
+    }
+    ck_assert_double_eq_tol(inside, t.labour, 1e-9 * all);
+    ck_assert_double_gt(inside, 0.4 * all);
+    /* What is in a run has its children there: nothing outside has its parent in it. */
+    for (uint32_t s = 0; s < nodes->n; ++s)
+        for (size_t k = 0; k < t.n; ++k) {
+            const uint32_t parent = nodes->parent[s];
+            const bool is_in = s >= t.run[k].begin && s < t.run[k].end;
+            ck_assert(is_in || parent < t.run[k].begin || parent >= t.run[k].end);
+        }
+    iccp_subtrees_free(&t, &env.memory);
+    iccp_ldlt_free(&l);
+    free(order);
+    lattice_clear(&g);
+}
+END_TEST
+
+/* Of a matrix with many subtrees, with the bits of one thread. */
+START_TEST(subtrees_change_nothing)
+{
+    lattice g = make_lattice(90, 90, 1, everywhere);
+    uint32_t *order = dissection_of(90);
+    double *one = NULL;
+    size_t n_tasks = 0;
+    for (int32_t run = 0; run < 5; ++run) {
+        const icc_env outer = {.size = sizeof outer,
+                               .user = &n_tasks,
+                               .threads = run == 3 ? 8 : 1 + run,
+                               .parallel_for = run == 4 ? run_backwards : NULL};
+        iccp_env env;
+        iccp_ldlt l;
+        ck_assert_int_eq(iccp_env_read(&env, &outer, NULL), ICC_OK);
+        ck_assert_int_eq(iccp_ldlt_analyse_ordered(&l, &g.m, order, &env), ICC_OK);
+        ck_assert_int_eq(iccp_ldlt_factorise(&l, &g.m, &env), ICC_OK);
+        const size_t n_bytes = l.nodes.first_value[l.nodes.n] * sizeof *one;
+        if (run == 0) {
+            one = malloc(n_bytes);
+            memcpy(one, l.value, n_bytes);
+        }
+        ck_assert(memcmp(l.value, one, n_bytes) == 0);
+        iccp_ldlt_free(&l);
+    }
+    ck_assert_uint_gt(n_tasks, 4);
+    free(one);
+    free(order);
+    lattice_clear(&g);
+}
+END_TEST
+
 /* Analyses and factorises twice; what fails is tried again at once, with the memory that is
  * there. */
 static icc_status make_factor(const matrix *a, const uint32_t *order, const int8_t *sign,
@@ -675,6 +818,38 @@ START_TEST(factors_beyond_the_address_space_are_refused)
 }
 END_TEST
 
+/* Any allocation may fail in any task. */
+START_TEST(failures_in_subtrees_leave_nothing_behind)
+{
+    lattice g = make_lattice(70, 70, 1, everywhere);
+    uint32_t *order = dissection_of(70);
+    for (int32_t threads = 1; threads <= 3; ++threads)
+        for (int cancels = 0; cancels < 2; ++cancels) {
+            icc_status status = -1;
+            size_t k = 0;
+            while (status != ICC_OK) {
+                ++k;
+                faulty f = {.fail_at = cancels ? 0 : k, .cancel_at = cancels ? k : 0};
+                icc_env outer = faulty_env(&f);
+                outer.threads = threads;
+                iccp_env env;
+                iccp_ldlt l;
+                ck_assert_int_eq(iccp_env_read(&env, &outer, NULL), ICC_OK);
+                status = iccp_ldlt_analyse_ordered(&l, &g.m, order, &env);
+                if (status == ICC_OK)
+                    status = iccp_ldlt_factorise(&l, &g.m, &env);
+                iccp_ldlt_free(&l);
+                ck_assert_uint_eq(f.n_live, 0);
+                ck_assert(status == ICC_OK ||
+                          status == (cancels ? ICC_ERR_CANCELLED : ICC_ERR_MEMORY));
+            }
+            ck_assert_uint_gt(k, cancels ? 3 : threads > 1 ? 30 : 10);
+        }
+    free(order);
+    lattice_clear(&g);
+}
+END_TEST
+
 START_TEST(nothing_is_factorised)
 {
     const size_t first[1] = {0};
@@ -706,8 +881,12 @@ int main(void)
     tcase_add_test(tests, stored_zeros_carry_nothing);
     tcase_add_test(tests, long_factorisations_report_often);
     tcase_add_test(tests, threads_change_nothing);
+    tcase_add_test(tests, groups_are_analysed_as_their_rows);
+    tcase_add_test(tests, subtrees_are_independent);
+    tcase_add_test(tests, subtrees_change_nothing);
     tcase_add_test(tests, failures_leave_nothing_behind);
     tcase_add_test(tests, factors_beyond_the_address_space_are_refused);
+    tcase_add_test(tests, failures_in_subtrees_leave_nothing_behind);
     tcase_add_test(tests, nothing_is_factorised);
     suite_add_tcase(suite, tests);
     SRunner *runner = srunner_create(suite);

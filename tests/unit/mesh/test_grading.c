@@ -64,8 +64,8 @@ static double allowed(const graded *g, const double *p)
 {
     double width = g->step;
     for (size_t k = 0; k < g->n_samples; ++k)
-        width = fmin(width, g->length[k] + 0.6 * hypot(p[0] - g->samples[2 * k],
-                                                       p[1] - g->samples[2 * k + 1]));
+        width = fmin(width,
+                     g->length[k] + hypot(p[0] - g->samples[2 * k], p[1] - g->samples[2 * k + 1]));
     return width;
 }
 
