@@ -62,7 +62,7 @@ typedef struct graph {
     uint32_t *ring;            /* by variable: the next one that is eliminated together with it */
     uint32_t mask;             /* buckets - 1 */
     uint32_t stamp, most;      /* marks below the stamp are old; the most variables of an element */
-    uint32_t small;            /* degree */
+    uint32_t small;            /* the degree up to which that is the cost */
     uint32_t least;            /* no variable has a smaller cost */
     uint32_t n_left;           /* variables that are not eliminated */
 } graph;
@@ -194,13 +194,15 @@ static void count_outside(const graph *g, uint32_t p)
     }
 }
 
-/* Drops from the list of variable i what the new element p covers, and puts p in front. Elements
- * within p are no more. What is left over tells the degree outside of p and the hash; a variable
- * with nothing but p is eliminated together with p. */
-static void update(graph *g, uint32_t p, uint32_t i)
+/* What is left of a variable's list when all that the new element covers is dropped. */
+typedef struct leftover {
+    uint32_t length, n_elements, degree, hash;
+} leftover;
+
+static leftover shorten(const graph *g, uint32_t p, const node *v)
 {
-    node *v = &g->node[i];
-    uint32_t *list = g->list + v->begin, degree = 0, hash = 0, length = 0;
+    uint32_t *list = g->list + v->begin;
+    leftover r = {0, 0, 0, 0};
     for (uint32_t q = 0; q < v->n_elements; ++q) {
         node *e = &g->node[list[q]];
         const uint32_t outside = e->mark - g->stamp;
@@ -210,20 +212,29 @@ static void update(graph *g, uint32_t p, uint32_t i)
             absorb_element(e, p);
             continue;
         }
-        degree += outside;
-        hash += list[q];
-        list[length++] = list[q];
+        r.degree += outside;
+        r.hash += list[q];
+        list[r.length++] = list[q];
     }
-    const uint32_t n_elements = length;
+    r.n_elements = r.length;
     for (uint32_t q = v->n_elements; q < v->length; ++q) {
         const int32_t size = g->node[list[q]].size;
         if (size <= 0)
             continue;
-        degree += (uint32_t)size;
-        hash += list[q];
-        list[length++] = list[q];
+        r.degree += (uint32_t)size;
+        r.hash += list[q];
+        list[r.length++] = list[q];
     }
-    if (length == 0) {
+    return r;
+}
+
+/* Lets variable i go with the pivot if it has no neighbours beyond the new element p. Otherwise p
+ * comes first in its list, and it into the bucket of the rest. */
+static void update(graph *g, uint32_t p, uint32_t i)
+{
+    node *v = &g->node[i];
+    const leftover r = shorten(g, p, v);
+    if (r.length == 0) {
         g->node[p].degree -= (uint32_t)-v->size;
         g->n_left -= (uint32_t)-v->size;
         v->size = 0;
@@ -231,15 +242,16 @@ static void update(graph *g, uint32_t p, uint32_t i)
         join_rings(g, p, i);
         return;
     }
-    list[length] = list[n_elements];
-    list[n_elements] = list[0];
+    uint32_t *list = g->list + v->begin, *bucket = &g->bucket[r.hash & g->mask];
+    list[r.length] = list[r.n_elements];
+    list[r.n_elements] = list[0];
     list[0] = p;
-    v->n_elements = n_elements + 1;
-    v->length = length + 1;
-    v->degree = degree < v->degree ? degree : v->degree;
-    v->last = hash;
-    v->next = g->bucket[hash & g->mask];
-    g->bucket[hash & g->mask] = i;
+    v->n_elements = r.n_elements + 1;
+    v->length = r.length + 1;
+    v->degree = r.degree < v->degree ? r.degree : v->degree;
+    v->last = r.hash;
+    v->next = *bucket;
+    *bucket = i;
 }
 
 /* ------------------------------------------------------ variables alike */
