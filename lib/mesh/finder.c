@@ -9,8 +9,8 @@
 
 #include <math.h>
 
-/* The last cell, beyond the others, stands for what lies outside of the box: it has no triangles and
- * is near the boundary. */
+/* The last cell, beyond the others, stands for what lies outside of the box: it has no triangles
+ * and is near the boundary. */
 typedef struct iccp_finder_grid {
     double lower[2], upper[2]; /* the mesh's box */
     double rate;               /* cell = (point - lower) * rate */
@@ -22,8 +22,8 @@ typedef struct iccp_finder_grid {
     uint32_t *entries; /* triangles, cell by cell, rising */
 } grid;
 
-/* Cells per triangle. With MANY, most points lie in the first triangle of their cell: worth it while
- * the cells are no more than a LARGE grid has. */
+/* Cells per triangle. With MANY, most points lie in the first triangle of their cell; the grid is
+ * worth it until there are as many cells as LARGE says. */
 static const double FEW = 4, MANY = 16, LARGE = 1 << 19;
 
 /* Entries per triangle that need no budget: about twice what there are in fair meshes. */
