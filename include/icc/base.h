@@ -100,7 +100,8 @@ typedef void (*icc_task)(void *argument, size_t index);
  *
  * Zero-initialise it, set `size`, then whatever you need; NULL instead of the struct means all
  * defaults. The struct is read during the call only; but objects keep `user`, `alloc` and
- * `dealloc`, which must stay valid as long as the object lives.
+ * `dealloc`, which must stay valid as long as the object lives. They serve every call that uses the
+ * object: what only some calls need is made by the first that does.
  *
  * Results are bit-identical for every number of threads and for every
  * implementation of `parallel_for`.
@@ -109,8 +110,8 @@ typedef struct icc_env {
     size_t size; /**< set by the caller: `sizeof(icc_env)` */
     void *user;  /**< passed to every callback below */
     /** Memory for any type, or NULL if there is none. Set both or neither; must be
-     *  thread-safe when tasks run in parallel, or threads share an object made with them: a domain
-     *  allocates when the first point of it is located. Default: malloc and free. */
+     *  thread-safe when tasks run in parallel, or threads share an object made with it: some memory
+     *  is allocated when the first point is located. Default: malloc and free. */
     void *(*alloc)(void *user, size_t size);
     /** Frees what `alloc` returned; never called with NULL. */
     void (*dealloc)(void *user, void *memory);

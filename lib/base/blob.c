@@ -1,7 +1,7 @@
-/* The checksum follows xxHash (Y. Collet, 2012) in what makes it fast: four lanes of 64 bits that do
- * not wait for one another. Every step, of a lane for a word and of the end for a lane, takes
+/* The checksum follows xxHash (Y. Collet, 2012) in what makes it fast: four lanes of 64 bits that
+ * do not wait for one another. Every step, of a lane for a word and of the end for a lane, takes
  * different words to different states and different states to different ones, so that no change
- * within a single word, nor a single changed bit, goes unnoticed. */
+ * within a single word, such as a single bit, goes unnoticed. */
 #include "base/blob.h"
 
 #include "base/error.h"

@@ -309,8 +309,8 @@ static icc_status fill_state(icc_chart *chart, const iccp_planar *mesh, const do
     disc_state *state = chart->state;
     double maximum[2];
     iccp_found found;
-    iccp_finder_init(&state->before, mesh, mesh->points, 0, &env->memory);
-    iccp_finder_init(&state->after, mesh, image, 0, &env->memory);
+    iccp_finder_init(&state->before, mesh, mesh->points, 0, ICCP_FEW_POINTS, &env->memory);
+    iccp_finder_init(&state->after, mesh, image, 0, ICCP_FEW_POINTS, &env->memory);
     icc_status status = iccp_finder_budget(&state->before, env);
     if (status == ICC_OK)
         status = iccp_finder_budget(&state->after, env);

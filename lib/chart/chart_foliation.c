@@ -425,7 +425,8 @@ static icc_status finish(icc_chart **out, iccp_harmonic *base, icc_status status
     icc_chart *chart = *out;
     foliation_state *state = chart != NULL ? chart->state : NULL;
     if (status == ICC_OK) {
-        iccp_finder_init(&state->finder, &base->mesh, base->mesh.points, 0, &env->memory);
+        iccp_finder_init(&state->finder, &base->mesh, base->mesh.points, 0, ICCP_FEW_POINTS,
+                         &env->memory);
         status = iccp_finder_budget(&state->finder, env);
     }
     if (status != ICC_OK) {

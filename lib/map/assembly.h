@@ -37,8 +37,8 @@ void iccp_assembly_free(iccp_assembly *assembly);
 /* Leaves the pattern alone, to be shared: */
 void iccp_assembly_drop_sums(iccp_assembly *assembly);
 
-/* For another map of the same mesh with the same free points as the one that `pattern` is for, which
- * must live longer; it is only read, and several may share it. */
+/* For another map of the same mesh with the same free points as the one that `pattern` is for,
+ * which must live longer; it is only read, and several may share it. */
 icc_status iccp_assembly_share(iccp_assembly *assembly, const iccp_assembly *pattern,
                                const iccp_simplicial_map *map, const iccp_memory *memory);
 

@@ -112,8 +112,10 @@ icc_status iccp_mesh_map_finish(iccp_mesh_map *map, icc_map_info *info, const ic
                               .n_triangles = map->pl.corners.n_triangles,
                               .triangles = map->pl.corners.vertex,
                               .twins = map->pl.corners.twin};
-    iccp_finder_init(&map->before, &mesh, map->pl.points, map->reach[0], &map->pl.memory);
-    iccp_finder_init(&map->after, &mesh, map->pl.images, map->reach[1], &map->pl.memory);
+    iccp_finder_init(&map->before, &mesh, map->pl.points, map->reach[0], ICCP_MANY_POINTS,
+                     &map->pl.memory);
+    iccp_finder_init(&map->after, &mesh, map->pl.images, map->reach[1], ICCP_MANY_POINTS,
+                     &map->pl.memory);
     if (status == ICC_OK)
         status = iccp_finder_budget(&map->before, env);
     if (status == ICC_OK)

@@ -22,9 +22,8 @@ typedef struct iccp_newton {
     iccp_ldlt factor; /* in the plane */
 } iccp_newton;
 
-/* What does not depend on the images but on the mesh alone, and which of its points are fixed: where
- * entries of the Hessian are, and in which order they are eliminated. Immutable, but shared: maps
- * of the same mesh may have it together. */
+/* What depends on the mesh and its fixed points alone, not on the images: where the entries of the
+ * Hessian are, and in which order they are eliminated. Immutable; maps of one mesh share it. */
 typedef struct iccp_newton_plan iccp_newton_plan;
 
 /* In the plane. */
@@ -36,7 +35,8 @@ void iccp_newton_plan_release(iccp_newton_plan *plan);
 /* Whether a plan is for that mesh and those fixed points. O(n). */
 bool iccp_newton_plan_fits(const iccp_newton_plan *plan, const iccp_simplicial_map *map);
 
-/* Follows map->plan where it fits. For the points with movable[v] != 0 that are not fixed; all of them when `movable` is NULL. */
+/* For the points with movable[v] != 0 that are not fixed; all of them when `movable` is NULL. Then it
+ * follows map->plan, if that fits, which must live longer. */
 icc_status iccp_newton_create(iccp_newton *newton, const iccp_simplicial_map *map,
                               const uint8_t *movable, const iccp_env *env);
 void iccp_newton_free(iccp_newton *newton);

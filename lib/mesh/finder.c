@@ -10,8 +10,8 @@
 
 #include <math.h>
 
-/* The last cell, beyond the others, stands for what lies outside of the box: it has no triangles and
- * is near the boundary. */
+/* The last cell, beyond the others, stands for what lies outside of the box: it has no triangles
+ * and is near the boundary. */
 typedef struct iccp_finder_grid {
     double lower[2], upper[2]; /* the mesh's box */
     double rate;               /* cell = (point - lower) * rate */
@@ -23,10 +23,11 @@ typedef struct iccp_finder_grid {
     uint32_t *entries; /* triangles, cell by cell, rising */
 } grid;
 
-/* Cells per triangle: more make queries faster and the grid larger. */
-static const double DENSITY = 4;
+/* Cells per triangle. With MANY, most points lie in the first triangle of their cell; the grid is
+ * worth it until there are as many cells as LARGE says. */
+static const double FEW = 4, MANY = 16, LARGE = 1 << 19;
 
-/* Entries per triangle that need no budget: two to five times what there are in fair meshes. */
+/* Entries per triangle that need no budget: about twice what there are in fair meshes. */
 static const double PLENTY = 64;
 
 /* Bytes that stay in a cache of the second level. */
@@ -151,7 +152,7 @@ static void choose_cells(const iccp_finder *f, grid *g)
         }
     const double width = g->upper[0] - g->lower[0], height = g->upper[1] - g->lower[1];
     const double longest = most(width, height), n = (double)f->n_triangles;
-    g->rate = sqrt(DENSITY * n / most(width * height, longest * longest / n));
+    g->rate = sqrt(f->density * n / most(width * height, longest * longest / n));
     g->size[0] = (size_t)(width * g->rate) + 1;
     g->size[1] = (size_t)(height * g->rate) + 1;
     g->n_cells = g->size[0] * g->size[1];
@@ -236,7 +237,7 @@ static const grid *grid_of(const iccp_finder *finder)
 }
 
 void iccp_finder_init(iccp_finder *finder, const iccp_planar *mesh, const double *points,
-                      double reach, const iccp_memory *memory)
+                      double reach, iccp_demand demand, const iccp_memory *memory)
 {
     finder->memory = *memory;
     finder->points = points;
@@ -244,6 +245,9 @@ void iccp_finder_init(iccp_finder *finder, const iccp_planar *mesh, const double
     finder->twins = mesh->twins;
     finder->n_vertices = mesh->n_vertices;
     finder->n_triangles = mesh->n_triangles;
+    finder->density = FEW;
+    if (demand == ICCP_MANY_POINTS)
+        finder->density = most(FEW, least(MANY, LARGE / (double)mesh->n_triangles));
     finder->reach = reach;
     atomic_init(&finder->grid, NULL);
 }

@@ -11,12 +11,13 @@
  * then make a grid each, of which one stays. */
 typedef struct iccp_finder {
     iccp_memory memory;
-    const double *points; /* of the vertices, the mesh's own or their images: borrowed, as are */
+    const double *points;      /* of the vertices: the mesh's own, or their images */
     const uint32_t *triangles; /* 3 n_triangles vertices, all triangles counter-clockwise */
     const uint32_t *twins;     /* 3 n_triangles: ICCP_NO_NEIGHBOUR at the boundary */
     size_t n_vertices, n_triangles;
-    double reach;                            /* see iccp_found */
-    _Atomic(struct iccp_finder_grid *) grid; /* NULL until it is needed */
+    double density; /* cells of the grid per triangle */
+    double reach;   /* see iccp_found */
+    _Atomic(struct iccp_finder_grid *) grid;
 } iccp_finder;
 
 /* Where a point lies. */
@@ -30,9 +31,14 @@ typedef struct iccp_found {
 /* Points that are looked for at once, at most. */
 enum { ICCP_FINDER_MANY = 128 };
 
-/* For the triangles of a mesh with their corners at `points`. The grid's memory will be `memory`. */
+/* How many points will be looked for: a finer grid finds them faster, but takes longer to make, and
+ * more memory. */
+typedef enum iccp_demand { ICCP_FEW_POINTS, ICCP_MANY_POINTS } iccp_demand;
+
+/* For the triangles of a mesh with their corners at `points`, all of them borrowed. The grid will
+ * live in `memory`. */
 void iccp_finder_init(iccp_finder *finder, const iccp_planar *mesh, const double *points,
-                      double reach, const iccp_memory *memory);
+                      double reach, iccp_demand demand, const iccp_memory *memory);
 void iccp_finder_free(iccp_finder *finder);
 
 /* Asks the budget for what the grid will take where that is much. O(n). */
@@ -48,8 +54,8 @@ icc_status iccp_finder_find(const iccp_finder *finder, const double p[2], iccp_f
 /* The same for a single point, without a grid: ICC_OK or ICC_ERR_TRACE. O(n). */
 icc_status iccp_finder_find_alone(const iccp_finder *finder, const double p[2], iccp_found *found);
 
-/* The same as iccp_finder_find() for n points, 2 coordinates each, with a grid that is ready. `other` are other points of
- * the vertices: those of the triangles that are found are about to be read. */
+/* As iccp_finder_find(), for n points with 2 coordinates each, and a grid that is ready. `other` are
+ * other points of the vertices: of the triangles that are found, they are about to be read. */
 void iccp_finder_find_many(const iccp_finder *finder, size_t n, const double *points,
                            const double *other, iccp_found *found);
 

@@ -21,7 +21,7 @@ static void check_rim(const iccp_planar *mesh, const icc_domain *domain)
 static void check_points(const iccp_planar *mesh, const icc_domain *domain, const iccp_env *env)
 {
     iccp_finder finder;
-    iccp_finder_init(&finder, mesh, mesh->points, 0, &env->memory);
+    iccp_finder_init(&finder, mesh, mesh->points, 0, ICCP_FEW_POINTS, &env->memory);
     for (size_t t = 0; t < mesh->n_triangles; ++t) {
         const uint32_t *v = mesh->triangles + 3 * t;
         double p[2];

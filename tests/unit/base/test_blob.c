@@ -114,8 +114,8 @@ START_TEST(integers_beyond_their_range_are_refused)
 }
 END_TEST
 
-/* The bytes of docs/formats.md, the checksum from another program that follows it: the same on every
- * machine. */
+/* The bytes of docs/formats.md, the checksum from another program that follows it: the same on
+ * every machine. */
 START_TEST(the_format_is_the_documented_one)
 {
     static const unsigned char EXPECTED[40] = {
@@ -167,6 +167,81 @@ START_TEST(nothing_else_is_opened)
         data[bit / 8] ^= (unsigned char)(1u << bit % 8);
     }
     ck_assert_int_eq(iccp_blob_open(&r, data, n, "TEST", 4, MEMORY, &err), ICC_OK);
+}
+END_TEST
+
+/* Two changes could cancel in one lane of the checksum: two bits anywhere, and the same bits of
+ * words that are next to each other in their lane. */
+START_TEST(two_changed_bits_are_noticed)
+{
+    enum { WORDS = 24 };
+    double reals[WORDS - 4];
+    unsigned char data[8 * WORDS];
+    iccp_blob w, r;
+    size_t n;
+    for (size_t i = 0; i < WORDS - 4; ++i)
+        reals[i] = i % 3 == 0 ? 0 : 1.0 / (double)i;
+    iccp_blob_begin(&w, data, sizeof data, "TEST", 1);
+    iccp_blob_f64(&w, WORDS - 4, reals);
+    iccp_blob_end(&w, &n);
+    ck_assert_uint_eq(n, sizeof data);
+    for (size_t a = 8 * 32; a < 8 * 48; ++a)
+        for (size_t b = a + 1; b < 8 * n; ++b) {
+            data[a / 8] ^= (unsigned char)(1u << a % 8);
+            data[b / 8] ^= (unsigned char)(1u << b % 8);
+            ck_assert_int_eq(iccp_blob_open(&r, data, n, "TEST", 1, MEMORY, NULL), ICC_ERR_FORMAT);
+            data[a / 8] ^= (unsigned char)(1u << a % 8);
+            data[b / 8] ^= (unsigned char)(1u << b % 8);
+        }
+    ck_assert_int_eq(iccp_blob_open(&r, data, n, "TEST", 1, MEMORY, NULL), ICC_OK);
+}
+END_TEST
+
+/* Words that have changed places. */
+START_TEST(exchanged_words_are_noticed)
+{
+    enum { WORDS = 16 };
+    uint64_t words[WORDS];
+    unsigned char data[8 * (4 + WORDS)], old[8];
+    iccp_blob w, r;
+    size_t n;
+    for (size_t i = 0; i < WORDS; ++i)
+        words[i] = i * 0x9e3779b97f4a7c15u;
+    iccp_blob_begin(&w, data, sizeof data, "TEST", 1);
+    iccp_blob_u64(&w, WORDS, words);
+    iccp_blob_end(&w, &n);
+    for (size_t a = 0; a < WORDS; ++a)
+        for (size_t b = a + 1; b < WORDS; ++b)
+            for (int back = 0; back < 2; ++back) {
+                unsigned char *x = data + 32 + 8 * a, *y = data + 32 + 8 * b;
+                memcpy(old, x, 8);
+                memcpy(x, y, 8);
+                memcpy(y, old, 8);
+                ck_assert_int_eq(iccp_blob_open(&r, data, n, "TEST", 1, MEMORY, NULL),
+                                 back ? ICC_OK : ICC_ERR_FORMAT);
+            }
+}
+END_TEST
+
+/* Whatever their length modulo the lanes. */
+START_TEST(every_length_has_its_checksum)
+{
+    unsigned char data[128];
+    for (uint32_t n_numbers = 0; n_numbers < 20; ++n_numbers) {
+        uint32_t numbers[20] = {0};
+        iccp_blob w, r;
+        size_t n;
+        iccp_blob_begin(&w, data, sizeof data, "TEST", 1);
+        iccp_blob_u32(&w, n_numbers, numbers);
+        iccp_blob_end(&w, &n);
+        ck_assert_uint_eq(n, 32 + 4 * n_numbers);
+        ck_assert_int_eq(iccp_blob_open(&r, data, n, "TEST", 1, MEMORY, NULL), ICC_OK);
+        for (size_t i = 0; i < n; ++i) {
+            data[i] ^= 0x81;
+            ck_assert_int_eq(iccp_blob_open(&r, data, n, "TEST", 1, MEMORY, NULL), ICC_ERR_FORMAT);
+            data[i] ^= 0x81;
+        }
+    }
 }
 END_TEST
 
@@ -229,6 +304,9 @@ int main(void)
     tcase_add_test(c, the_format_is_the_documented_one);
     tcase_add_test(c, any_capacity_tells_what_is_needed);
     tcase_add_test(c, nothing_else_is_opened);
+    tcase_add_test(c, two_changed_bits_are_noticed);
+    tcase_add_test(c, exchanged_words_are_noticed);
+    tcase_add_test(c, every_length_has_its_checksum);
     tcase_add_test(c, counts_are_believed_only_if_the_bytes_are_there);
     tcase_add_test(c, a_failing_allocation_is_remembered);
     suite_add_tcase(suite, c);

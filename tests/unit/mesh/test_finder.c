@@ -72,7 +72,8 @@ START_TEST(all_ways_find_the_same)
     iccp_finder finder;
     static double points[2 * N];
     static iccp_found many[N];
-    iccp_finder_init(&finder, &m.mesh, m.mesh.points, 0, &m.env.memory);
+    iccp_finder_init(&finder, &m.mesh, m.mesh.points, 0,
+                     _i % 2 ? ICCP_MANY_POINTS : ICCP_FEW_POINTS, &m.env.memory);
     ck_assert_int_eq(iccp_finder_ready(&finder), ICC_OK);
     for (int round = 0; round < share_of(40); ++round) {
         const size_t n = round == 0 ? N : 1 + (size_t)random_below(&r, N);
@@ -108,7 +109,8 @@ START_TEST(what_is_near_is_known)
     for (size_t k = 0; k < sizeof REACHES / sizeof *REACHES; ++k) {
         iccp_finder finder;
         size_t n_far = 0;
-        iccp_finder_init(&finder, &m.mesh, m.mesh.points, REACHES[k], &m.env.memory);
+        iccp_finder_init(&finder, &m.mesh, m.mesh.points, REACHES[k], ICCP_FEW_POINTS,
+                         &m.env.memory);
         for (int i = 0; i < share_of(4000); ++i) {
             double p[2];
             iccp_found found;
@@ -143,7 +145,7 @@ START_TEST(a_grid_is_made_when_it_is_needed)
     const icc_env given = faulty_env(&f);
     const double middle[2] = {0.125, 0.125};
     ck_assert_int_eq(iccp_env_read(&env, &given, NULL), ICC_OK);
-    iccp_finder_init(&finder, &m.mesh, m.mesh.points, 0, &env.memory);
+    iccp_finder_init(&finder, &m.mesh, m.mesh.points, 0, ICCP_MANY_POINTS, &env.memory);
     ck_assert_int_eq(iccp_finder_find_alone(&finder, middle, &found), ICC_OK);
     ck_assert_uint_eq(f.n_allocs, 0);
     for (int k = 0; k < 3; ++k) {
@@ -190,7 +192,7 @@ START_TEST(threads_may_ask_at_once)
     for (int round = 0; round < share_of(40); ++round) {
         iccp_finder finder;
         asker askers[TOGETHER];
-        iccp_finder_init(&finder, &m.mesh, m.mesh.points, 0, &m.env.memory);
+        iccp_finder_init(&finder, &m.mesh, m.mesh.points, 0, ICCP_MANY_POINTS, &m.env.memory);
         for (int k = 0; k < TOGETHER; ++k)
             askers[k] = (asker){&finder, &m, 0};
         run_together(ask, askers, sizeof *askers);
@@ -229,7 +231,7 @@ START_TEST(large_grids_need_a_budget)
         icc_env given = faulty_env(&f);
         given.load_limit = k == 0 ? 1000 : 1000000;
         ck_assert_int_eq(iccp_env_read(&env, &given, NULL), ICC_OK);
-        iccp_finder_init(&finder, &mesh, points, 0, &env.memory);
+        iccp_finder_init(&finder, &mesh, points, 0, ICCP_MANY_POINTS, &env.memory);
         ck_assert_int_eq(iccp_finder_budget(&finder, &env), ICC_OK);
         const iccp_env limited = iccp_budget_begin(&budget, &env);
         ck_assert_int_eq(iccp_finder_budget(&finder, &limited),

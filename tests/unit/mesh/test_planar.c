@@ -100,7 +100,7 @@ static void check_finder(const meshed *m, random_source *r)
 {
     const iccp_planar *mesh = &m->mesh;
     iccp_finder finder;
-    iccp_finder_init(&finder, mesh, mesh->points, 0, &m->env.memory);
+    iccp_finder_init(&finder, mesh, mesh->points, 0, ICCP_FEW_POINTS, &m->env.memory);
     for (int i = 0; i < share_of(2000); ++i) {
         const size_t t = (size_t)random_below(r, (int)mesh->n_triangles);
         double w[3] = {random_unit(r), random_unit(r), i % 3 == 0 ? 0 : random_unit(r)};

@@ -161,7 +161,8 @@ pub struct icc_env {
     /// handed to every callback below
     pub user: *mut c_void,
     /// Memory for any type, or NULL if there is none. Set both or neither; must be
-    /// thread-safe when tasks run in parallel. Default: malloc and free.
+    /// thread-safe when tasks run in parallel, or several threads use the objects that are made
+    /// with it. Default: malloc and free.
     pub alloc: Option<unsafe extern "C" fn(user: *mut c_void, size: usize) -> *mut c_void>,
     /// Gives back what `alloc` returned; never called with NULL.
     pub dealloc: Option<unsafe extern "C" fn(user: *mut c_void, memory: *mut c_void)>,
@@ -1239,7 +1240,7 @@ extern "C" {
     ///
     /// Returns as `icc_chart_create()`, or `ICC_ERR_BOUNDARY`
     ///
-    /// Cost of kind mesh: that of two charts, then a few Newton steps on the mesh: from 5 ms for cages of
+    /// Cost of kind mesh: that of two charts, then a few Newton steps on the mesh: from 4 ms for cages of
     /// some tens of vertices to about a second for 15,000. Deterministic: iterations are capped, clocks are
     /// not read.
     pub fn icc_map_create(
