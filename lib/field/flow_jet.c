@@ -2,16 +2,16 @@
  * curve ends on a plane, it does so sooner or later as it moves. */
 #include "field/flow_jet.h"
 
+#include "base/compiler.h"
 #include "math/vec.h"
 
 #include <math.h>
 
 /* The derivative of the place moves with A y: the terms of that to parameter s, from y on. */
-static int32_t expand(const iccp_flow_walk *w, double s, const double *y,
-                      double change[ICCP_FLOW_TERMS][ICC_MAX_DIM])
+static ICCP_INLINE int32_t expand(const iccp_flow_walk *w, int32_t dim, double s, const double *y,
+                                  double change[ICCP_FLOW_TERMS][ICC_MAX_DIM])
 {
     static const double NEGLIGIBLE = 1e-17; /* of y */
-    const int32_t dim = w->flow->grid->dim;
     const double *power = y;
     double most = 0;
     for (int32_t k = 0; k < dim; ++k)
@@ -42,14 +42,13 @@ static const double WEIGHT[NODES] = {0.129484966168869693271, 0.2797053914892766
                                      0.381830050505118944950, 0.279705391489276667901,
                                      0.129484966168869693271};
 
-/* The length changes by the integral of v . v' / |v|: that of s^j v / |v| for all j, to parameter s
- * and in terms of it. */
-static void directions(const iccp_flow_walk *w, double s,
-                       double moment[ICCP_FLOW_TERMS][ICC_MAX_DIM])
+/* The length changes by the integral of v . v' / |v|: that of s^j v / |v| for all j < n, to
+ * parameter s and in terms of it. */
+static ICCP_INLINE void directions(const iccp_flow_walk *w, int32_t dim, double s, int32_t n,
+                                   double moment[ICCP_FLOW_TERMS][ICC_MAX_DIM])
 {
     enum { PARTS = 2 };
-    const int32_t dim = w->flow->grid->dim;
-    for (int32_t j = 0; j < ICCP_FLOW_TERMS; ++j)
+    for (int32_t j = 0; j < n; ++j)
         for (int32_t k = 0; k < dim; ++k)
             moment[j][k] = 0;
     for (int i = 0; i < PARTS * NODES; ++i) {
@@ -57,25 +56,38 @@ static void directions(const iccp_flow_walk *w, double s,
         double v[ICC_MAX_DIM];
         iccp_flow_velocity(w, s * at, v);
         double factor = WEIGHT[i % NODES] / (2 * PARTS) / iccp_vec_norm((size_t)dim, v);
-        for (int32_t j = 0; j < ICCP_FLOW_TERMS; ++j, factor *= at)
+        for (int32_t j = 0; j < n; ++j, factor *= at)
             for (int32_t k = 0; k < dim; ++k)
                 moment[j][k] += factor * v[k];
     }
 }
 
+static ICCP_INLINE void jet_within(const iccp_flow_walk *walk, int32_t dim, double s,
+                                   iccp_flow_jet *jet)
+{
+    double moment[ICCP_FLOW_TERMS][ICC_MAX_DIM];
+    double change[ICC_MAX_DIM][ICCP_FLOW_TERMS][ICC_MAX_DIM];
+    int32_t n[ICC_MAX_DIM], most = 0;
+    for (int32_t c = 0; c < jet->n; ++c) {
+        n[c] = expand(walk, dim, s, jet->place[c], change[c]);
+        most = n[c] > most ? n[c] : most;
+    }
+    directions(walk, dim, s, most, moment);
+    for (int32_t c = 0; c < jet->n; ++c)
+        for (int32_t j = 0; j < n[c]; ++j) {
+            jet->length[c] += s * iccp_vec_dot((size_t)dim, change[c][j], moment[j]);
+            for (int32_t k = 0; k < dim; ++k)
+                jet->place[c][k] += change[c][j][k] * (s / (j + 1));
+        }
+}
+
 void iccp_flow_jet_within(const iccp_flow_walk *walk, double s, iccp_flow_jet *jet)
 {
     const int32_t dim = walk->flow->grid->dim;
-    double moment[ICCP_FLOW_TERMS][ICC_MAX_DIM], change[ICCP_FLOW_TERMS][ICC_MAX_DIM];
-    directions(walk, s, moment);
-    for (int32_t c = 0; c < jet->n; ++c) {
-        const int32_t n = expand(walk, s, jet->place[c], change);
-        for (int32_t j = 0; j < n; ++j) {
-            jet->length[c] += s * iccp_vec_dot((size_t)dim, change[j], moment[j]);
-            for (int32_t k = 0; k < dim; ++k)
-                jet->place[c][k] += change[j][k] * (s / (j + 1));
-        }
-    }
+    if (dim == 3)
+        jet_within(walk, 3, s, jet);
+    else
+        jet_within(walk, dim, s, jet);
 }
 
 void iccp_flow_jet_advance(const iccp_flow_walk *walk, double s, const double *lengths,

@@ -35,13 +35,25 @@ void iccp_flow_at(const iccp_flow_walk *walk, double s, double *at)
         at[k] = walk->place.at[k] + s * sum[k];
 }
 
+/* As vector_at(), where the series is. */
+static ICCP_INLINE void velocity_in(const iccp_flow_walk *walk, int32_t dim, double s,
+                                    double *vector)
+{
+    const double share = s / walk->scale;
+    double sum[ICC_MAX_DIM] = {0};
+    for (int32_t j = walk->n_terms; j-- > 0;)
+        for (int32_t k = 0; k < dim; ++k)
+            sum[k] = sum[k] * share + walk->term[j][k];
+    for (int32_t k = 0; k < dim; ++k)
+        vector[k] = sum[k];
+}
+
 void iccp_flow_velocity(const iccp_flow_walk *walk, double s, double *vector)
 {
-    series x;
-    const int32_t dim = walk->flow->grid->dim;
-    const double share = s / walk->scale;
-    load_series(walk, dim, &x);
-    vector_at(&x, dim, &share, vector);
+    if (walk->flow->grid->dim == 3)
+        velocity_in(walk, 3, s, vector);
+    else
+        velocity_in(walk, walk->flow->grid->dim, s, vector);
 }
 
 static void motion_at(const iccp_flow_walk *w, int32_t dim, const series *x, double share,

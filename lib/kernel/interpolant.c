@@ -306,7 +306,12 @@ icc_status iccp_collocation_solve(const iccp_collocation *collocation, size_t m,
 
 /* ---- values ---- */
 
-enum { MOST_NEAR = 256, BLOCK = 8 };
+enum { MOST_NEAR = 256, FOUR = 4 };
+
+/* Numbers side by side; not aligned. */
+#ifdef __GNUC__
+typedef double four __attribute__((vector_size(8 * FOUR), aligned(8), may_alias));
+#endif
 
 typedef struct query {
     const iccp_collocation *c;
@@ -315,11 +320,12 @@ typedef struct query {
     double *values, *gradients;
 } query;
 
-/* Nodes nearer than the reach, in a fixed order. */
+/* Nodes nearer than the reach, in a fixed order: they are found first, then their kernels' values,
+ * then each sum, in registers. */
 typedef struct near {
     size_t n;
-    uint32_t node[MOST_NEAR];
-    double distance2[MOST_NEAR], offset[3][MOST_NEAR];
+    uint32_t place[MOST_NEAR]; /* in the order of the cells */
+    double distance2[MOST_NEAR];
 } near;
 
 static void add_tail(const query *q)
@@ -335,49 +341,52 @@ static void add_tail(const query *q)
     }
 }
 
-/* Adds to `width` numbers, every stride-th from `sums`, the factors times the coefficients. The sums
- * stay in registers. */
-static ICCP_INLINE void add_block(const query *q, const near *h, const double *factor, size_t j,
-                                  size_t width, double *sums, size_t stride)
-{
-    double sum[BLOCK];
-    for (size_t t = 0; t < width; ++t)
-        sum[t] = sums[stride * t];
-    for (size_t i = 0; i < h->n; ++i) {
-        const double *a = q->coefficients + q->m * h->node[i] + j;
-        for (size_t t = 0; t < width; ++t)
-            sum[t] += factor[i] * a[t];
-    }
-    for (size_t t = 0; t < width; ++t)
-        sums[stride * t] = sum[t];
-}
+/* The rows of coefficients of the nodes, and what they are multiplied by. */
+typedef struct terms {
+    size_t n;
+    const double *row[MOST_NEAR];
+    double factor[MOST_NEAR];
+} terms;
 
-static ICCP_INLINE void add_all(const query *q, const near *h, const double *factor, double *sums,
-                                size_t stride)
+/* Adds to m numbers, every stride-th from `sums`, the rows times their factors, row after row. */
+static ICCP_INLINE void add_rows(const terms *t, size_t m, double *sums, size_t stride)
 {
     size_t j = 0;
-    for (; j + BLOCK <= q->m; j += BLOCK)
-        add_block(q, h, factor, j, BLOCK, sums + stride * j, stride);
-    for (; j + 4 <= q->m; j += 4)
-        add_block(q, h, factor, j, 4, sums + stride * j, stride);
-    for (; j < q->m; ++j)
-        add_block(q, h, factor, j, 1, sums + stride * j, stride);
+#ifdef __GNUC__
+    for (; j + FOUR <= m; j += FOUR) {
+        four sum;
+        for (size_t l = 0; l < FOUR; ++l)
+            sum[l] = sums[stride * (j + l)];
+        for (size_t i = 0; i < t->n; ++i)
+            sum += t->factor[i] * *(const four *)(t->row[i] + j);
+        for (size_t l = 0; l < FOUR; ++l)
+            sums[stride * (j + l)] = sum[l];
+    }
+#endif
+    for (; j < m; ++j)
+        for (size_t i = 0; i < t->n; ++i)
+            sums[stride * j] += t->factor[i] * t->row[i][j];
 }
 
 /* Adds the kernels of the nodes that have been found, and forgets them. */
 static ICCP_INLINE void add_near(const query *q, near *h)
 {
-    double factor[MOST_NEAR], slope[MOST_NEAR];
-    const iccp_radial radial = q->c->radial;
+    const iccp_collocation *c = q->c;
+    const iccp_radial radial = c->radial;
+    double slope[MOST_NEAR];
+    terms t;
+    t.n = h->n;
     for (size_t i = 0; i < h->n; ++i)
-        factor[i] = iccp_radial_value(&radial, h->distance2[i]);
-    add_all(q, h, factor, q->values, 1);
+        t.row[i] = q->coefficients + q->m * c->cells.order[h->place[i]];
+    for (size_t i = 0; i < h->n; ++i)
+        t.factor[i] = iccp_radial_value(&radial, h->distance2[i]);
+    add_rows(&t, q->m, q->values, 1);
     for (size_t i = 0; q->gradients != NULL && i < h->n; ++i)
-        slope[i] = iccp_radial_slope(&radial, h->distance2[i]);
-    for (size_t k = 0; q->gradients != NULL && k < q->c->dim; ++k) {
+        slope[i] = 2 * iccp_radial_slope(&radial, h->distance2[i]);
+    for (size_t k = 0; q->gradients != NULL && k < c->dim; ++k) {
         for (size_t i = 0; i < h->n; ++i)
-            factor[i] = 2 * slope[i] * h->offset[k][i];
-        add_all(q, h, factor, q->gradients + k, q->c->dim);
+            t.factor[i] = slope[i] * (q->point[k] - c->sorted[c->dim * h->place[i] + k]);
+        add_rows(&t, q->m, q->gradients + k, c->dim);
     }
     h->n = 0;
 }
@@ -385,34 +394,47 @@ static ICCP_INLINE void add_near(const query *q, near *h)
 /* Which of the nodes of a run are near cannot be foreseen, so that nothing branches on it. */
 static ICCP_INLINE void find_near(const query *q, size_t begin, size_t end, size_t dim, near *h)
 {
-    const iccp_collocation *c = q->c;
-    const double reach2 = c->radial.reach * c->radial.reach;
+    const double *points = q->c->sorted;
+    const double reach2 = q->c->radial.reach * q->c->radial.reach;
+    double at[3];
+    size_t n = h->n;
+    for (size_t k = 0; k < dim; ++k)
+        at[k] = q->point[k];
     for (size_t p = begin; p < end; ++p) {
         double distance2 = 0;
+        for (size_t k = 0; k < dim; ++k)
+            distance2 += (at[k] - points[dim * p + k]) * (at[k] - points[dim * p + k]);
+        h->distance2[n] = distance2;
+        h->place[n] = (uint32_t)p;
+        n += distance2 < reach2;
+    }
+    h->n = n;
+}
+
+/* The same for a run of any length. */
+static ICCP_INLINE void add_run(const query *q, size_t begin, size_t end, near *h)
+{
+    while (begin < end) {
         if (h->n == MOST_NEAR)
             add_near(q, h);
-        for (size_t k = 0; k < dim; ++k) {
-            const double offset = q->point[k] - c->sorted[dim * p + k];
-            h->offset[k][h->n] = offset;
-            distance2 += offset * offset;
-        }
-        h->distance2[h->n] = distance2;
-        h->node[h->n] = c->cells.order[p];
-        h->n += distance2 < reach2;
+        const size_t room = MOST_NEAR - h->n, stop = end - begin < room ? end : begin + room;
+        if (q->c->dim == 2)
+            find_near(q, begin, stop, 2, h);
+        else
+            find_near(q, begin, stop, q->c->dim, h);
+        begin = stop;
     }
 }
 
 static ICCP_INLINE void add_kernels(const query *q, const iccp_cell_box *box)
 {
     const iccp_cells *cells = &q->c->cells;
-    near h = {.n = 0};
+    near h;
+    h.n = 0;
     for (size_t z = box->from[2]; z <= box->to[2]; ++z)
         for (size_t y = box->from[1]; y <= box->to[1]; ++y) {
             const uint32_t *run = cells->first + cells->shape[0] * (y + cells->shape[1] * z);
-            if (q->c->dim == 2)
-                find_near(q, run[box->from[0]], run[box->to[0] + 1], 2, &h);
-            else
-                find_near(q, run[box->from[0]], run[box->to[0] + 1], q->c->dim, &h);
+            add_run(q, run[box->from[0]], run[box->to[0] + 1], &h);
         }
     add_near(q, &h);
 }
@@ -436,16 +458,24 @@ ICCP_AVX2 static void add_kernels_avx2(const query *q, const iccp_cell_box *box)
 
 #endif
 
-void iccp_collocation_evaluate(const iccp_collocation *collocation, size_t m,
-                               const double *coefficients, const double *point, double *values,
-                               double *gradients)
+void iccp_collocation_evaluate_as(iccp_simd_level level, const iccp_collocation *collocation,
+                                  size_t m, const double *coefficients, const double *point,
+                                  double *values, double *gradients)
 {
     const query q = {collocation, m, coefficients, point, values, gradients};
     iccp_cell_box box;
     add_tail(&q);
     if (!iccp_cells_box(&collocation->cells, point, collocation->radial.reach, &box))
         return;
-    (iccp_simd() == ICCP_SIMD_AVX2 ? add_kernels_avx2 : add_kernels_portable)(&q, &box);
+    (level == ICCP_SIMD_AVX2 ? add_kernels_avx2 : add_kernels_portable)(&q, &box);
+}
+
+void iccp_collocation_evaluate(const iccp_collocation *collocation, size_t m,
+                               const double *coefficients, const double *point, double *values,
+                               double *gradients)
+{
+    iccp_collocation_evaluate_as(iccp_simd(), collocation, m, coefficients, point, values,
+                                 gradients);
 }
 
 void iccp_collocation_multiply(const iccp_collocation *collocation, size_t m, const double *x,

@@ -3,6 +3,7 @@
 #ifndef ICCP_INTERPOLANT_H
 #define ICCP_INTERPOLANT_H
 
+#include "base/simd.h"
 #include "kernel/kernel_matrix.h"
 #include "math/ldlt.h"
 
@@ -39,6 +40,11 @@ icc_status iccp_collocation_solve_some(const iccp_collocation *collocation, size
 void iccp_collocation_evaluate(const iccp_collocation *collocation, size_t m,
                                const double *coefficients, const double *point, double *values,
                                double *gradients);
+
+/* The same at a level that the processor has. */
+void iccp_collocation_evaluate_as(iccp_simd_level level, const iccp_collocation *collocation,
+                                  size_t m, const double *coefficients, const double *point,
+                                  double *values, double *gradients);
 
 /* Multiplies K by n rows of m numbers. */
 void iccp_collocation_multiply(const iccp_collocation *collocation, size_t m, const double *x,

@@ -310,6 +310,74 @@ START_TEST(gradients_are_those_of_the_values)
 }
 END_TEST
 
+/* Sum j of all kernels at a point, and its derivatives, term by term. */
+static void sum_plainly(size_t dim, size_t n, const double *nodes, const iccp_radial *radial,
+                        size_t m, const double *coefficients, const double *point, size_t j,
+                        double sum[4])
+{
+    for (size_t k = 0; k <= dim; ++k)
+        sum[k] = coefficients[m * (n + k) + j];
+    for (size_t k = 0; k < dim; ++k)
+        sum[0] += sum[k + 1] * point[k];
+    for (size_t i = 0; i < n; ++i) {
+        double distance2 = 0;
+        for (size_t k = 0; k < dim; ++k)
+            distance2 += pow(point[k] - nodes[dim * i + k], 2);
+        if (distance2 >= radial->reach * radial->reach)
+            continue;
+        sum[0] += iccp_radial_value(radial, distance2) * coefficients[m * i + j];
+        for (size_t k = 0; k < dim; ++k)
+            sum[k + 1] += 2 * iccp_radial_slope(radial, distance2) *
+                          (point[k] - nodes[dim * i + k]) * coefficients[m * i + j];
+    }
+}
+
+enum { MOST_SUMS = 13 };
+
+static void compare_sums(size_t dim, size_t n, const double *nodes, const iccp_radial *radial,
+                         const iccp_collocation *c, size_t m, const double *a, const double *point)
+{
+    double values[2][MOST_SUMS], gradients[2][3 * MOST_SUMS], sum[4];
+    for (int l = 0; l < 2; ++l)
+        iccp_collocation_evaluate_as(l == 0 ? ICCP_SIMD_NONE : iccp_simd(), c, m, a, point,
+                                     values[l], gradients[l]);
+    ck_assert_mem_eq(values[0], values[1], m * sizeof(double));
+    ck_assert_mem_eq(gradients[0], gradients[1], dim * m * sizeof(double));
+    for (size_t j = 0; j < m; ++j) {
+        sum_plainly(dim, n, nodes, radial, m, a, point, j, sum);
+        ck_assert_double_le(fabs(values[0][j] - sum[0]), 1e-12);
+        for (size_t k = 0; k < dim; ++k)
+            ck_assert_double_le(fabs(gradients[0][dim * j + k] - sum[k + 1]), 1e-10);
+    }
+}
+
+/* However many nodes are near, hundreds among them, and whatever the processor has. */
+START_TEST(sums_are_those_of_all_kernels)
+{
+    const size_t dim = _i < 2 ? 2 : 3;
+    const bool gauss = _i % 2 != 0;
+    random_source r = {12};
+    size_t n;
+    double *nodes = make_jittered(dim, dim == 2 ? 25 : 9, &n);
+    const iccp_radial radial = {gauss ? ICC_KERNEL_GAUSS : ICC_KERNEL_WENDLAND,
+                                dim == 2 ? 0.03 : 0.08, dim == 2 ? 0.4 : 0.55};
+    iccp_collocation *c = make(dim, n, nodes, radial, true);
+    double *a = malloc((n + dim + 1) * MOST_SUMS * sizeof *a);
+    ck_assert_ptr_nonnull(a);
+    for (size_t k = 0; k < (n + dim + 1) * MOST_SUMS; ++k)
+        a[k] = random_between(&r, -1, 1);
+    for (size_t m = 1; m <= MOST_SUMS; ++m) {
+        double point[3];
+        for (size_t k = 0; k < dim; ++k)
+            point[k] = random_between(&r, -0.1, 1.1);
+        compare_sums(dim, n, nodes, &radial, c, m, a, point);
+    }
+    iccp_collocation_release(c);
+    free(nodes);
+    free(a);
+}
+END_TEST
+
 /* What the affine function is for: sums and reproduction between the nodes, and far from them. */
 START_TEST(affine_values_are_continued_exactly)
 {
@@ -482,6 +550,7 @@ int main(void)
     tcase_add_test(tests, kernels_and_their_slopes_agree);
     tcase_add_loop_test(tests, values_at_nodes_are_taken, 0, 8);
     tcase_add_loop_test(tests, gradients_are_those_of_the_values, 0, 4);
+    tcase_add_loop_test(tests, sums_are_those_of_all_kernels, 0, 4);
     tcase_add_loop_test(tests, affine_values_are_continued_exactly, 0, 4);
     tcase_add_test(tests, a_cut_gaussian_can_be_too_wide);
     tcase_add_test(tests, a_cut_gaussian_jumps);
