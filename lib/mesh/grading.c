@@ -104,9 +104,8 @@ static icc_status add_child(const builder *b, const level *from, const cell *par
 static icc_status emit_leaf(builder *b, const level *l, const cell *c)
 {
     const double p[2] = {c->x, c->y};
-    double t, distance2;
-    (void)iccp_boxtree_nearest(&b->domain->locator->tree, p, &t, &distance2);
-    if (distance2 <= CLEARANCE * l->width * CLEARANCE * l->width ||
+    const double clearance2 = CLEARANCE * l->width * CLEARANCE * l->width;
+    if (iccp_boxtree_reaches(&b->domain->locator->tree, p, clearance2) ||
         iccp_domain_locate(b->domain, p, true, NULL, NULL) != ICC_INSIDE)
         return ICC_OK;
     if (b->n_points == b->point_room) {
