@@ -65,8 +65,8 @@ static icc_status push_entry(level *l, uint32_t sample, const iccp_memory *memor
 }
 
 /* Whether a sample is so near a point that it forbids cells of the given width there: its length
- * and the distance, less `slack`, do not reach the width. Cells that grow more slowly make twice as
- * many triangles without a fairer map; cells that grow faster are tied to a cage of few vertices. */
+ * and the distance, less `slack`, do not reach the width. Where cells grow .6 times as fast, twice
+ * as many triangles make hardly a fairer map. */
 static bool forbids(const iccp_samples *samples, uint32_t i, double x, double y, double width,
                     double slack)
 {
