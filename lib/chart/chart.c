@@ -111,6 +111,14 @@ icc_status iccp_chart_encode(const icc_chart *chart, const double *point, iccp_c
     return status == ICC_OK && jet != NULL ? ICC_ERR_TRACE : status;
 }
 
+icc_status iccp_chart_encode_vertex(const icc_chart *chart, size_t v, iccp_coords *coords)
+{
+    if (chart->ops->encode_vertex == NULL)
+        return iccp_chart_encode(chart, chart->mesh->points + 2 * v, coords, NULL);
+    chart->ops->encode_vertex(chart, v, coords);
+    return ICC_OK;
+}
+
 icc_status iccp_chart_decode(const icc_chart *chart, const iccp_coords *coords, double *point,
                              iccp_decode_jet *jet, iccp_path *path)
 {

@@ -58,6 +58,8 @@ typedef struct iccp_chart_ops {
      * (ICC_ERR_TRACE) where there is no derivative. */
     icc_status (*encode)(const icc_chart *chart, const double *point, const iccp_chart_place *place,
                          iccp_coords *coords, iccp_encode_jet *jet);
+    /* Vertex v inside the chart's own mesh; NULL for methods that look for it like any point. */
+    void (*encode_vertex)(const icc_chart *chart, size_t v, iccp_coords *coords);
     icc_status (*decode)(const icc_chart *chart, const iccp_coords *coords, double *point,
                          iccp_decode_jet *jet, iccp_path *path);
     /* The same without derivatives, bit for bit; NULL where that is not faster. For the n points
@@ -131,6 +133,9 @@ icc_status iccp_chart_decode(const icc_chart *chart, const iccp_coords *coords, 
 
 /* See iccp_chart_ops. */
 icc_status iccp_chart_ready(const icc_chart *chart, bool decodes);
+
+/* The same as of its point, up to rounding, for vertex v inside chart->mesh. */
+icc_status iccp_chart_encode_vertex(const icc_chart *chart, size_t v, iccp_coords *coords);
 
 /* The curve through a point, from the boundary to the maximum; of the maximum, the point alone. */
 icc_status iccp_chart_trace(const icc_chart *chart, const double *point, iccp_path *path,

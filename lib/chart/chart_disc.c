@@ -108,6 +108,16 @@ static void interpolate(const iccp_planar *mesh, uint32_t triangle, const double
                bary[2] * points[2 * (size_t)v[2] + i];
 }
 
+/* The coordinates of a point of the disc, and the edge of the rim that its ray meets. */
+static iccp_coords coords_of(const icc_chart *chart, const double z[2], uint32_t *edge)
+{
+    const disc_state *state = chart->state;
+    double lambda, t;
+    to_polar(state, z, edge, &lambda, &t);
+    const double along = iccp_planar_along(&state->mesh, chart->domain, *edge, lambda);
+    return (iccp_coords){.facet = state->mesh.facet[*edge], .bary = {1 - along, along}, .t = t};
+}
+
 /* The point goes to the disc with its triangle. There the ray from the centre through it ends on
  * an edge of the boundary's image, which gives the boundary point, and t is 1 minus the share of
  * the ray up to the point. The jet is the chain rule through both. */
@@ -117,15 +127,13 @@ static icc_status encode(const icc_chart *chart, const double *point, const iccp
     (void)place;
     const disc_state *state = chart->state;
     uint32_t edge;
-    double z[2], lambda, t;
+    double z[2];
     iccp_found found;
     const icc_status status = iccp_finder_find(&state->before, point, &found);
     if (status != ICC_OK)
         return status;
     interpolate(&state->mesh, found.triangle, found.bary, state->image, z);
-    to_polar(state, z, &edge, &lambda, &t);
-    const double along = iccp_planar_along(&state->mesh, chart->domain, edge, lambda);
-    *coords = (iccp_coords){.facet = state->mesh.facet[edge], .bary = {1 - along, along}, .t = t};
+    *coords = coords_of(chart, z, &edge);
     if (jet == NULL)
         return ICC_OK;
     double inner[2][2], rows[2][2];
@@ -138,6 +146,13 @@ static icc_status encode(const icc_chart *chart, const double *point, const iccp
         jet->t[c] = rows[1][0] * inner[0][c] + rows[1][1] * inner[1][c];
     }
     return ICC_OK;
+}
+
+static void encode_vertex(const icc_chart *chart, size_t v, iccp_coords *coords)
+{
+    const disc_state *state = chart->state;
+    uint32_t edge;
+    *coords = coords_of(chart, state->image + 2 * v, &edge);
 }
 
 /* The inverse of encode(): the point of the disc lies at 1 - t of the ray to the boundary
@@ -265,6 +280,7 @@ static void save(const icc_chart *chart, iccp_blob *w)
 
 static const iccp_chart_ops OPS = {
     .encode = encode,
+    .encode_vertex = encode_vertex,
     .decode = decode,
     .trace = trace,
     .ready = ready,

@@ -170,3 +170,21 @@ uint32_t iccp_boxtree_nearest(const iccp_boxtree *tree, const double *p, double 
         node = stack[depth].node;
     }
 }
+
+bool iccp_boxtree_reaches(const iccp_boxtree *tree, const double *p, double distance2)
+{
+    for (size_t node = 1; node != 0;) {
+        const bool is_near = box_distance2(&tree->boxes[node], p) <= distance2;
+        if (is_near && node < tree->n_leaves) {
+            node = 2 * node;
+            continue;
+        }
+        nearest best = {UINT32_MAX, 0, HUGE_VAL};
+        if (is_near)
+            search_leaf(tree, node, p, &best);
+        if (best.distance2 <= distance2)
+            return true;
+        node = skip(node);
+    }
+    return false;
+}

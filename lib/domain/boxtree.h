@@ -56,4 +56,7 @@ bool iccp_boxtree_next(iccp_boxtree_query *query, uint32_t *edge);
 uint32_t iccp_boxtree_nearest(const iccp_boxtree *tree, const double *p, double *t,
                               double *distance2);
 
+/* Whether the squared distance of that edge is at most `distance2`: asks less. */
+bool iccp_boxtree_reaches(const iccp_boxtree *tree, const double *p, double distance2);
+
 #endif

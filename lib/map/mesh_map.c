@@ -30,7 +30,6 @@ enum { FOLLOW_ITERATIONS = 8 };
 static icc_status vertex_image(const icc_chart *source, const icc_chart *target,
                                const iccp_planar *mesh, size_t v, double image[2], iccp_path *path)
 {
-    const double *point = mesh->points + 2 * v;
     iccp_coords coords;
     if (v < mesh->n_boundary) {
         const uint32_t k = (uint32_t)v;
@@ -39,7 +38,7 @@ static icc_status vertex_image(const icc_chart *source, const icc_chart *target,
         iccp_domain_facet_point(target->domain, mesh->facet[k], bary, image);
         return ICC_OK;
     }
-    const icc_status status = iccp_chart_encode(source, point, &coords, NULL);
+    const icc_status status = iccp_chart_encode_vertex(source, v, &coords);
     return status == ICC_OK ? iccp_chart_decode(target, &coords, image, NULL, path) : status;
 }
 

@@ -65,8 +65,8 @@ static icc_status push_entry(level *l, uint32_t sample, const iccp_memory *memor
 }
 
 /* Whether a sample is so near a point that it forbids cells of the given width there: its length
- * and the distance, less `slack`, do not reach the width. Cells that grow more slowly make twice as
- * many triangles without a fairer map; cells that grow faster are tied to a cage of few vertices. */
+ * and the distance, less `slack`, do not reach the width. Where cells grow .6 times as fast, twice
+ * as many triangles make hardly a fairer map. */
 static bool forbids(const iccp_samples *samples, uint32_t i, double x, double y, double width,
                     double slack)
 {
@@ -104,9 +104,8 @@ static icc_status add_child(const builder *b, const level *from, const cell *par
 static icc_status emit_leaf(builder *b, const level *l, const cell *c)
 {
     const double p[2] = {c->x, c->y};
-    double t, distance2;
-    (void)iccp_boxtree_nearest(&b->domain->locator->tree, p, &t, &distance2);
-    if (distance2 <= CLEARANCE * l->width * CLEARANCE * l->width ||
+    const double clearance2 = CLEARANCE * l->width * CLEARANCE * l->width;
+    if (iccp_boxtree_reaches(&b->domain->locator->tree, p, clearance2) ||
         iccp_domain_locate(b->domain, p, true, NULL, NULL) != ICC_INSIDE)
         return ICC_OK;
     if (b->n_points == b->point_room) {

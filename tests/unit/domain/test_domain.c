@@ -748,6 +748,19 @@ static void check_nearest(const double *points, int n, const double *p, uint32_t
     REQUIRE(fabs(hypot(at[0] - p[0], at[1] - p[1]) - least) <= 1e-14 * size);
 }
 
+/* What asks for an edge within reach finds the nearest one and none that is nearer. */
+static void check_reach(const icc_domain *domain, const double *x)
+{
+    double p[2], t, distance2;
+    iccp_frame_in(&domain->frame, 2, x, p);
+    const iccp_boxtree *tree = &domain->locator->tree;
+    (void)iccp_boxtree_nearest(tree, p, &t, &distance2);
+    REQUIRE(iccp_boxtree_reaches(tree, p, distance2));
+    REQUIRE(iccp_boxtree_reaches(tree, p, 3 * distance2));
+    REQUIRE(!(distance2 > 0) || !iccp_boxtree_reaches(tree, p, nextafter(distance2, 0)));
+    REQUIRE(!(distance2 > 0) || !iccp_boxtree_reaches(tree, p, distance2 / 3));
+}
+
 static void widen(int64_t *low, int64_t *high, int64_t x)
 {
     *low = x < *low ? x : *low;
@@ -799,6 +812,7 @@ START_TEST(test_locate_exactly)
             REQUIRE(where == again);
             ++n_points[where];
             check_nearest(points, s.n, x, facet, bary, (double)(high - low));
+            check_reach(domain, x);
             if (i % 3 == 0 && (quarter == 0 || quarter == 4))
                 REQUIRE(fmax(bary[0], bary[1]) == 1);
         }
