@@ -258,8 +258,8 @@ TARGET static ICCP_INLINE void weighted_sums(const place *x, const sample *s, re
     halves(&share_down, &share, &same);
     to_reals(&share, &down);
     to_reals(&share_right, &right);
-    const reals first = (4096 - down) * a + down * c, second = (4096 - down) * b + down * d;
-    *sums = (4096 - right) * first + right * second;
+    const reals left_of = (1 << BITS) - right, above = (1 << BITS) - down;
+    *sums = left_of * (above * a + down * c) + right * (above * b + down * d);
 }
 
 /* Exact. */
@@ -305,6 +305,8 @@ TARGET static ICCP_INLINE void put(const channels4 *x, format f, uint8_t *to)
     memcpy(to, &bytes, (size_t)f.channels);
 }
 
+/* A quotient that is no whole number is farther from any than it is rounded: weights have 41 bits,
+ * means 8. */
 TARGET static ICCP_INLINE void put_weighted(const reals *sums, format f, uint8_t *to)
 {
     typedef int64_t mask __attribute__((vector_size(32)));
