@@ -28,7 +28,8 @@ typedef struct iccp_boxtree {
     iccp_box *boxes;
 } iccp_boxtree;
 
-/* An edge with a coordinate that is NaN may be in no box. tree->boxes is NULL if there is no memory. */
+/* An edge with a coordinate that is NaN may be in no box. tree->boxes is NULL if there is no
+ * memory. */
 void iccp_boxtree_create(iccp_boxtree *tree, const double *points, size_t n,
                          const iccp_memory *memory);
 void iccp_boxtree_free(iccp_boxtree *tree, const iccp_memory *memory);

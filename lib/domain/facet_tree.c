@@ -18,8 +18,8 @@ static void include(size_t dim, double *box, const double *other)
     }
 }
 
-/* While the tree is made a facet is a row: its centre, dim numbers, and its own number. Rows move as
- * a whole, so that they are read one after the other. */
+/* While the tree is made a facet is a row: its centre, dim numbers, and its own number. Rows move
+ * as a whole, so that they are read one after the other. */
 
 /* The axis along which the centres spread most. */
 static ICCP_INLINE size_t widest_axis(size_t dim, const double *rows, size_t n)

@@ -27,8 +27,8 @@ iccp_locator *iccp_locator_create(iccp_polygon *polygon, iccp_boxtree *tree, con
 void iccp_locator_free(iccp_locator *locator, const iccp_memory *memory);
 
 /* Where a point lies: the same, but slower, where there is no memory for the buckets. Any number of
- * threads may ask at the same time. With `nearest`, place->edge and place->t are set whatever it is; a point that
- * is not finite counts as the origin then. */
+ * threads may ask at the same time. With `nearest`, place->edge and place->t are set whatever it
+ * is; a point that is not finite counts as the origin then. */
 iccp_location iccp_locator_find(const iccp_locator *locator, const double *p, bool nearest);
 
 #endif

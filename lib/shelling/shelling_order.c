@@ -96,10 +96,12 @@ static void approach(front *f, size_t s, size_t corner)
 static void join_simplex(front *f, size_t s)
 {
     const iccp_simplices *mesh = f->priority->mesh;
-    const size_t n_sides = mesh->dim + 1;
+    const size_t n_sides = mesh->dim + 1, per_simplex = f->priority->faces->per_simplex;
+    const uint32_t *face = f->priority->faces->number + per_simplex * s;
+    uint8_t *const touched = f->touched;
     f->facing[s] |= GONE;
-    for (size_t k = 0; k < f->priority->faces->per_simplex; ++k)
-        f->touched[f->priority->faces->number[f->priority->faces->per_simplex * s + k]] = 1;
+    for (size_t k = 0; k < per_simplex; ++k)
+        touched[face[k]] = 1;
     for (size_t i = 0; i < n_sides; ++i) {
         const uint32_t across = mesh->across[n_sides * s + i];
         if (across < ICCP_ON_BOUNDARY)

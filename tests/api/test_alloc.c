@@ -39,12 +39,13 @@ static size_t fail_each(const objects *o, const call *c)
         const icc_status status = c->run(o, &out, &env, &err);
         if (count.n_live != 0)
             ck_abort_msg("%s leaks %zu when allocation %zu fails", c->name, count.n_live, k);
+        /* Points are located without the cells that there is no memory for. */
         if (status == ICC_OK) {
-            if (count.n_calls > k)
-                ck_abort_msg("%s does not notice that allocation %zu failed", c->name, k);
             if (memcmp(&plain, &out, sizeof out) != 0)
-                ck_abort_msg("%s gives something else with another allocator", c->name);
-            return k;
+                ck_abort_msg("%s gives something else when allocation %zu fails", c->name, k);
+            if (count.n_calls <= k)
+                return k;
+            continue;
         }
         if (status != ICC_ERR_MEMORY ||
             (has_error(c) && (err.status != status || err.message[0] == '\0')))
