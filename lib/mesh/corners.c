@@ -56,6 +56,18 @@ void iccp_flip_edge(iccp_corners *corners, uint32_t corner)
     link_twins(c, after, twin_after);
 }
 
+void iccp_collapse_edge(iccp_corners *corners, uint32_t corner)
+{
+    iccp_corners *c = corners;
+    const uint32_t to = c->vertex[iccp_after(corner)];
+    const uint32_t facing = c->twin[iccp_before(corner)], last = iccp_before(facing);
+    uint32_t at = iccp_after(c->twin[iccp_after(corner)]);
+    for (; at != last; at = iccp_after(c->twin[iccp_after(at)]))
+        c->vertex[at] = to;
+    link_twins(c, c->twin[iccp_after(corner)], c->twin[corner]);
+    link_twins(c, c->twin[iccp_after(facing)], c->twin[last]);
+}
+
 /* Links the half-edges with the same ends, from `begin` to `end`: one, or two in opposite
  * directions. */
 static bool link_equal(iccp_corners *c, const iccp_tuples *edges, size_t begin, size_t end)

@@ -21,6 +21,21 @@ static iccp_env default_env(void)
     return env;
 }
 
+/* Without limits of work. */
+static icc_status repair(iccp_plmap *map, size_t *n_left, const iccp_env *env)
+{
+    iccp_work work = iccp_work_unlimited();
+    return iccp_repair(map, &work, n_left, env);
+}
+
+static icc_status improve(iccp_plmap *map, size_t iterations, double tolerance, size_t levels,
+                          iccp_improvement *improvement, const iccp_env *env)
+{
+    const iccp_schedule schedule = {iterations, tolerance, levels, HUGE_VAL};
+    iccp_work work = iccp_work_unlimited();
+    return iccp_improve(map, &schedule, &work, improvement, env);
+}
+
 typedef void image_function(const double p[2], double image[2]);
 
 static void identity(const double p[2], double image[2])
@@ -372,12 +387,12 @@ static size_t repair_and_check(iccp_plmap *map, bool twice)
     size_t n_left = 12345, n_again = 0;
     ck_assert_int_eq(iccp_plmap_copy(&broken, map, &env.memory), ICC_OK);
     ck_assert_int_eq(iccp_plmap_copy(&again, map, &env.memory), ICC_OK);
-    ck_assert_int_eq(iccp_repair(map, &n_left, &env), ICC_OK);
+    ck_assert_int_eq(repair(map, &n_left, &env), ICC_OK);
     check_mesh(map);
     check_boundary(map, &broken);
     ck_assert_uint_eq(iccp_plmap_count_inverted(map), n_left);
     if (twice)
-        ck_assert_int_eq(iccp_repair(&again, &n_again, &env), ICC_OK);
+        ck_assert_int_eq(repair(&again, &n_again, &env), ICC_OK);
     ck_assert(!twice || (is_same(map, &again) && n_again == n_left));
     iccp_plmap_free(&broken);
     iccp_plmap_free(&again);
@@ -423,7 +438,7 @@ START_TEST(there_is_nothing_to_repair)
     iccp_plmap map = map_of(&s, 10, wave, 1), copy;
     size_t n_left;
     ck_assert_int_eq(iccp_plmap_copy(&copy, &map, &env.memory), ICC_OK);
-    ck_assert_int_eq(iccp_repair(&map, &n_left, &env), ICC_OK);
+    ck_assert_int_eq(repair(&map, &n_left, &env), ICC_OK);
     ck_assert_uint_eq(n_left, 0);
     ck_assert(is_same(&map, &copy));
     iccp_plmap_free(&map);
@@ -451,7 +466,7 @@ START_TEST(more_steps_are_no_worse)
             iccp_plmap map;
             iccp_improvement improvement;
             ck_assert_int_eq(iccp_plmap_copy(&map, &start, &env.memory), ICC_OK);
-            ck_assert_int_eq(iccp_improve(&map, n, 1e-12, 0, &improvement, &env), ICC_OK);
+            ck_assert_int_eq(improve(&map, n, 1e-12, 0, &improvement, &env), ICC_OK);
             check_certified(&map);
             ck_assert_uint_le(improvement.n_iterations, n);
             ck_assert_uint_eq(improvement.n_levels, 0);
@@ -478,7 +493,7 @@ START_TEST(levels_refine_and_lower_the_energy)
         iccp_plmap map;
         iccp_improvement improvement;
         ck_assert_int_eq(iccp_plmap_copy(&map, &start, &env.memory), ICC_OK);
-        ck_assert_int_eq(iccp_improve(&map, 60, 1e-6, levels, &improvement, &env), ICC_OK);
+        ck_assert_int_eq(improve(&map, 60, 1e-6, levels, &improvement, &env), ICC_OK);
         check_certified(&map);
         ck_assert_uint_le(improvement.n_levels, levels);
         ck_assert_uint_ge(map.n_vertices, n_vertices);
@@ -505,7 +520,7 @@ static icc_status improve_copy(const icc_env *env, icc_error *err, void *argumen
     ck_assert_int_eq(iccp_env_read(&full, env, NULL), ICC_OK);
     icc_status status = iccp_plmap_copy(&map, start, &full.memory);
     if (status == ICC_OK) {
-        status = iccp_improve(&map, 4, 1e-6, 2, &improvement, &full);
+        status = improve(&map, 4, 1e-6, 2, &improvement, &full);
         check_certified(&map);
         ck_assert_double_le(iccp_plmap_energy(&map), iccp_plmap_energy(start) * (1 + 1e-14));
     }
@@ -524,7 +539,7 @@ static icc_status repair_copy(const icc_env *env, icc_error *err, void *argument
     if (status == ICC_OK) {
         random_source r = {3};
         break_map(&map, 2, &r);
-        status = iccp_repair(&map, &n_left, &full);
+        status = repair(&map, &n_left, &full);
         ck_assert(status != ICC_OK || n_left == iccp_plmap_count_inverted(&map));
     }
     iccp_plmap_free(&map);
@@ -543,7 +558,7 @@ static icc_status repair_in_vain(const icc_env *env, icc_error *err, void *argum
     if (status == ICC_OK) {
         for (size_t v = 0; v < map.n_vertices; ++v)
             map.images[2 * v] *= -1;
-        status = iccp_repair(&map, &n_left, &full);
+        status = repair(&map, &n_left, &full);
         ck_assert_uint_gt(n_left, 0);
     }
     iccp_plmap_free(&map);
