@@ -175,31 +175,29 @@ static void measure_own(int n_more)
         measure(cases[k].name, cases[k].n, cases[k].source, cases[k].target, n_more);
 }
 
-static void measure_random(int n_pairs, uint64_t seed, int n_more)
+/* A comb or a spiral to a coast, a coast turned onto itself, or a star by one vertex. */
+static void measure_random_pair(int k, uint64_t seed, int n_more)
 {
-    for (int k = 0; k < n_pairs; ++k) {
-        random_source r = {seed + (uint64_t)k};
-        char name[32];
-        const int kind = k % 4;
-        const size_t teeth = 5 + (size_t)random_below(&r, 100);
-        const size_t turns = 2 + (size_t)random_below(&r, 30);
-        const size_t per = 8 + (size_t)random_below(&r, 24);
-        const double width = random_between(&r, 0.1, 0.9);
-        const size_t n = kind == 0   ? 4 * teeth + 2
-                         : kind == 1 ? 2 * (turns * per + 1)
-                                     : 30 + (size_t)random_below(&r, 600);
-        double *source = kind == 0   ? comb(teeth, width, random_between(&r, 0.5, 10))
-                         : kind == 1 ? spiral(turns, per, width)
-                         : kind == 2 ? coast(n, &r)
-                                     : star(n -= n % 2, width / 3);
-        const size_t by = kind == 3 ? 1 : 1 + (size_t)random_below(&r, (int)n / 5);
-        double *target = kind < 2 ? coast(n, &r) : turned(n, source, by);
-        (void)snprintf(name, sizeof name, "%s %d",
-                       (const char *[]){"comb", "spiral", "coast", "star"}[kind], k);
-        measure(name, n, source, target, n_more);
-        free(source);
-        free(target);
-    }
+    static const char *const names[] = {"comb", "spiral", "coast", "star"};
+    random_source r = {seed};
+    const int kind = k % 4;
+    const size_t teeth = 5 + (size_t)random_below(&r, 100);
+    const size_t turns = 2 + (size_t)random_below(&r, 30), per = 8 + (size_t)random_below(&r, 24);
+    const double width = random_between(&r, 0.1, 0.9);
+    const size_t n = kind == 0   ? 4 * teeth + 2
+                     : kind == 1 ? 2 * (turns * per + 1)
+                                 : 30 + 2 * (size_t)random_below(&r, 300);
+    double *source = kind == 0   ? comb(teeth, width, random_between(&r, 0.5, 10))
+                     : kind == 1 ? spiral(turns, per, width)
+                     : kind == 2 ? coast(n, &r)
+                                 : star(n, width / 3);
+    const size_t by = kind == 3 ? 1 : 1 + (size_t)random_below(&r, (int)n / 5);
+    double *target = kind < 2 ? coast(n, &r) : turned(n, source, by);
+    char name[32];
+    (void)snprintf(name, sizeof name, "%s %d", names[kind], k);
+    measure(name, n, source, target, n_more);
+    free(source);
+    free(target);
 }
 
 /* ---- files ---- */
@@ -231,7 +229,8 @@ int main(int argc, char **argv)
     if (argc < 2)
         measure_own(n_more);
     if (argc > 3 && strcmp(argv[1], "random") == 0) {
-        measure_random(atoi(argv[2]), strtoull(argv[3], NULL, 10), n_more);
+        for (int k = 0; k < atoi(argv[2]); ++k)
+            measure_random_pair(k, strtoull(argv[3], NULL, 10) + (unsigned)k, n_more);
         return EXIT_SUCCESS;
     }
     for (int k = 1; k + 1 < argc; k += 2) {
