@@ -61,7 +61,7 @@ icc_status iccp_improve_images(const iccp_simplicial_map *map, const iccp_descen
         energy = after;
         ++improvement->n_iterations;
         n_slow = gain <= descent->slow * energy ? n_slow + 1 : 0;
-        if (k >= descent->majorised && (n_slow == 2 || gain <= descent->tolerance * energy))
+        if (k >= descent->majorised && (n_slow >= 2 || gain <= descent->tolerance * energy))
             break;
     }
     iccp_newton_free(&newton);

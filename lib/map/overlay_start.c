@@ -81,11 +81,13 @@ static icc_status mend(iccp_plmap *map, iccp_work *work, const iccp_env *env)
 static icc_status relax(iccp_plmap *map, iccp_work *work, const iccp_env *env)
 {
     icc_status status = ICC_OK;
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){1, 1}, env);
     for (int side = 0; side < 2; ++side) {
         const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
         iccp_improvement ignored = {0};
         if (status == ICC_OK)
-            status = iccp_improve_images(&simplicial, &DESCENT, work, &ignored, env);
+            status = iccp_improve_images(&simplicial, &DESCENT, work, &ignored, &part[side]);
         swap_sides(map);
     }
     return status;
@@ -96,10 +98,12 @@ static icc_status improve_round(iccp_plmap *map, iccp_work *work, double *gain, 
 {
     const double before = iccp_plmap_energy(map);
     size_t n_gone;
-    icc_status status = iccp_coarsen(map, RISE, &n_gone, env);
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){1, 2}, env);
+    icc_status status = iccp_coarsen(map, RISE, &n_gone, &part[0]);
     if (status == ICC_OK) {
         (void)iccp_flip_edges(map);
-        status = relax(map, work, env);
+        status = relax(map, work, &part[1]);
     }
     *gain = 1 - iccp_plmap_energy(map) / before;
     return status;
