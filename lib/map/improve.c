@@ -60,8 +60,10 @@ icc_status iccp_improve_images(const iccp_simplicial_map *map, const iccp_descen
         const double gain = energy - after;
         energy = after;
         ++improvement->n_iterations;
+        if (k < descent->majorised)
+            continue;
         n_slow = gain <= descent->slow * energy ? n_slow + 1 : 0;
-        if (k >= descent->majorised && (n_slow >= 2 || gain <= descent->tolerance * energy))
+        if (n_slow == 2 || gain <= descent->tolerance * energy)
             break;
     }
     iccp_newton_free(&newton);
