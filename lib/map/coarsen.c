@@ -1,8 +1,8 @@
 /* H. Hoppe et al., Mesh optimization, 1993, edge collapse; guarded by exact signs before and after
  * the map, and by its energy.
  *
- * A vertex is merged into the neighbour that leaves the least energy. Vertices wait in a queue, which
- * those round a merged one join again, so the work is proportional to what is merged. */
+ * A vertex is merged into the neighbour that leaves the least energy. Vertices wait in a queue,
+ * which those round a merged one join again, so the work is proportional to what is merged. */
 #include "map/coarsen.h"
 
 #include "map/candidate.h"
@@ -122,6 +122,7 @@ static void merge(coarsening *o, uint32_t vertex, const star *s, size_t j)
     }
 }
 
+/* Vertex after vertex from the queue, which holds all of them in the beginning. */
 static icc_status merge_all(coarsening *o, size_t *n_gone, const iccp_env *env)
 {
     const size_t n_vertices = o->map->n_vertices;

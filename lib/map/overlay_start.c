@@ -1,9 +1,9 @@
 /* docs/theory.md, the mesh map: compatible triangulations of the two cages, made coarse.
  *
- * Where diagonals of the two triangulations cross, their overlay has a vertex, and far more triangles
- * than it needs, most of them slivers, between which Newton's method can hardly move. Merging
- * vertices leaves few triangles; then both sides move, by turns, the images by the energy of the map
- * and the points by that of its inverse. Every state is one-to-one. */
+ * Where diagonals of the two triangulations cross, their overlay has a vertex, and far more
+ * triangles than it needs, most of them slivers, between which Newton's method can hardly move.
+ * Merging vertices leaves few triangles; then both sides move, by turns, the images by the energy
+ * of the map and the points by that of its inverse. Every state is one-to-one. */
 #include "map/overlay_start.h"
 
 #include "map/coarsen.h"
@@ -14,8 +14,8 @@
 
 #include <math.h>
 
-/* Half of the rounds, as far as progress goes, are TYPICAL. The last is one that lowers the energy by
- * less than LEAST_GAIN. */
+/* Half of the rounds, as far as progress goes, are TYPICAL. The last is one that lowers the energy
+ * by less than LEAST_GAIN. */
 enum { ROUNDS = 12, TYPICAL_ROUNDS = 2 };
 static const double LEAST_GAIN = 0.05;
 

@@ -1,5 +1,5 @@
-/* What Newton's method on a map may cost, counted in steps times simplices. No clock is read, so that
- * the same input gives the same bits; in the plane each takes about a microsecond. */
+/* What Newton's method on a map may cost, counted in steps times simplices. No clock is read, so
+ * that the same input gives the same bits; in the plane each takes about a microsecond. */
 #ifndef ICCP_WORK_H
 #define ICCP_WORK_H
 
