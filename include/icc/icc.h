@@ -791,12 +791,12 @@ typedef struct icc_map_info {
  * @return as icc_chart_create(), or ::ICC_ERR_BOUNDARY
  *
  * Cost of kind mesh in 2-D: two charts, then Newton steps on the mesh, which are counted in steps
- * times triangles, about a microsecond each. For n facets the repair takes at most W = 300,000 +
- * 300 n of them, improvement as many, and a start without the charts, where theirs cannot be
- * repaired, half as many. Most maps take a small part of that: from 5 ms for cages of a few dozen
- * vertices to about a second for 15,000; where W is used up, icc_map_improve() goes on. On all that
- * we have tried (letters, coasts, outlines turned onto themselves, stars, combs, spirals of up to
- * 200 turns) a map takes less than half a second and 15 times as long as one of kind curves by
+ * times triangles, about a microsecond each. For n facets improvement takes at most W = 300,000 +
+ * 300 n of them, the repair of a start as many, and a start without the charts, where theirs cannot
+ * be repaired, half as many. Most maps take a small part of that: from 5 ms for cages of a few
+ * dozen vertices to about a second for 15,000; where W is used up, icc_map_improve() goes on. Of
+ * all that we have tried (letters, coasts, outlines turned onto themselves, stars, combs, spirals
+ * of up to 200 turns) none takes more than half a second and 15 times as long as kind curves by
  * method disc. Deterministic: work is counted, and no clock is read.
  */
 ICC_API icc_status icc_map_create(icc_map **out, const icc_domain *source, const icc_domain *target,
@@ -840,8 +840,8 @@ typedef struct icc_improve_report {
  *
  * Steps and refinements end where they do not pay. When all options are 0, a call takes at most
  * 300,000 + 300 n steps times triangles, for n facets, about a microsecond each, and refines to at
- * most four times as many triangles, or 32,000: calling again goes on from there. With an option
- * set, that alone is the limit.
+ * most four times as many triangles, or 32,000: calling again goes on from there. When any is set,
+ * neither is limited.
  *
  * @param[out] out    the map; owned by the caller
  * @param map         a map of kind mesh in 2-D, else ::ICC_ERR_UNSUPPORTED

@@ -30,7 +30,7 @@ static const double SLOW = 5e-3;
 enum { MOST_STEPS = 20 };
 
 /* A refinement is in vain when it gains less than this. The first one is the last, or the second in
- * turn where the energy is HIGH: some triangles are long then, and have to be cut twice. */
+ * turn where the energy is HIGH: what is locked there may take two cuts to come free. */
 static const double LEAST_GAIN = 0.01, HIGH = 20;
 
 icc_status iccp_improve_images(const iccp_simplicial_map *map, const iccp_descent *descent,
