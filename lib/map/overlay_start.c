@@ -114,6 +114,7 @@ icc_status iccp_overlay_start(iccp_plmap *map, const icc_domain *source, const i
 {
     double gain = 1;
     iccp_env part[3];
+    *map = (iccp_plmap){.memory = env->memory};
     iccp_split(part, 3, (const double[]){1, 1, 2}, env);
     icc_status status = overlay(map, source, target, &part[0]);
     if (status == ICC_OK)
