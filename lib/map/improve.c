@@ -44,6 +44,7 @@ icc_status iccp_improve_images(const iccp_simplicial_map *map, const iccp_descen
     const size_t n_free = newton.assembly.n_free;
     double energy = iccp_newton_energy(&newton, ICCP_DIRICHLET, 0);
     size_t n_slow = 0;
+    improvement->is_converged = false;
     for (size_t k = 0; status == ICC_OK && k < descent->iterations && n_free > 0 &&
                        iccp_work_take(work, map->n_simplices);
          ++k) {
@@ -63,7 +64,8 @@ icc_status iccp_improve_images(const iccp_simplicial_map *map, const iccp_descen
         if (k < descent->majorised)
             continue;
         n_slow = gain <= descent->slow * energy ? n_slow + 1 : 0;
-        if (n_slow == 2 || gain <= descent->tolerance * energy)
+        improvement->is_converged = gain <= descent->tolerance * energy;
+        if (n_slow == 2 || improvement->is_converged)
             break;
     }
     iccp_newton_free(&newton);
@@ -189,7 +191,7 @@ icc_status iccp_improve(iccp_plmap *map, const iccp_schedule *schedule, iccp_wor
     icc_status status = descend(map, &first, work, improvement, &part[0]);
     if (status == ICC_OK && schedule->levels > 0)
         status = refine_often(map, schedule, slow, work, improvement, &part[1]);
-    if (status == ICC_OK && schedule->levels > 0)
+    if (status == ICC_OK && schedule->levels > 0 && !improvement->is_converged)
         status = descend(map, &last, work, improvement, &part[2]);
     return status;
 }

@@ -8,7 +8,8 @@
 typedef struct iccp_improvement {
     double energy; /* the map's at the end */
     size_t n_iterations;
-    size_t n_levels; /* refinements */
+    size_t n_levels;   /* refinements */
+    bool is_converged; /* the last step gained no more than the tolerance */
 } iccp_improvement;
 
 /* When steps on one mesh end. */
