@@ -797,9 +797,14 @@ typedef struct icc_map_info {
  * @param err      may be NULL; `side` is 1 for the source, 2 for the target
  * @return as icc_chart_create(), or ::ICC_ERR_BOUNDARY
  *
- * Cost of kind mesh: two charts, then a few Newton steps on the mesh: from 4 ms for cages of a few
- * dozen vertices to about a second for 15,000. Deterministic: iterations are capped, and no clock
- * is read.
+ * Cost of kind mesh in 2-D: two charts, then Newton steps on the mesh, which are counted in steps
+ * times triangles, about a microsecond each. For n facets improvement takes at most W = 300,000 +
+ * 300 n of them, the repair of a start as many, and a start without the charts, where theirs cannot
+ * be repaired, half as many. Most maps take a small part of that: from 4 ms for cages of a few
+ * dozen vertices to about a second for 15,000; where W is used up, icc_map_improve() goes on. Of
+ * all that we have tried (letters, coasts, outlines turned onto themselves, stars, combs, spirals
+ * of up to 200 turns) none takes more than half a second and 15 times as long as kind curves by
+ * method disc. Deterministic: work is counted, and no clock is read.
  */
 ICC_API icc_status icc_map_create(icc_map **out, const icc_domain *source, const icc_domain *target,
                                   const icc_map_options *options, const icc_env *env,
@@ -819,9 +824,9 @@ ICC_API icc_status icc_map_create_from_charts(icc_map **out, const icc_chart *so
 typedef struct icc_improve_options {
     size_t size;        /**< set by the caller: `sizeof(icc_improve_options)` */
     int32_t iterations; /**< at most so many steps on each level; 0: 60 */
-    int32_t levels;     /**< at most so many refinements; 0: 4; -1: none */
-    double tolerance;   /**< a level ends when a step gains less than this share of the energy; 0:
-                             1e-4 */
+    int32_t levels;     /**< at most so many refinements; 0: 16; -1: none */
+    double tolerance;   /**< the last level ends when a step gains less than this share of the
+                             energy; 0: 1e-4 */
 } icc_improve_options;
 
 /** What icc_map_improve() did. */
@@ -839,6 +844,11 @@ typedef struct icc_improve_report {
  * Makes a fairer map from one of kind mesh; the given map is not changed. The energy never rises
  * and every intermediate map is certified, so stopping early is safe: when the progress callback
  * asks to stop, the call succeeds with the map reached so far and says so in the report.
+ *
+ * Steps and refinements end where they do not pay. When all options are 0, a call takes at most
+ * 300,000 + 300 n steps times triangles, for n facets, about a microsecond each, and refines to at
+ * most four times as many triangles, or 32,000: calling again goes on from there. When any is set,
+ * neither is limited.
  *
  * @param[out] out    the map; owned by the caller
  * @param map         a map of kind mesh in 2-D, else ::ICC_ERR_UNSUPPORTED

@@ -26,7 +26,7 @@ typedef struct iccp_assembly {
     size_t n_parts;
     size_t *first_element; /* n_parts + 1: where the parts' elements begin in `element` */
     uint32_t *element;     /* those with a corner in a part, rising */
-    bool borrows;     /* everything but value, diagonal and gradient belongs to another one */
+    bool borrows;          /* everything but value, diagonal and gradient belongs to another one */
 } iccp_assembly;
 
 /* For the points with movable[v] != 0 that are not fixed; all of them when `movable` is NULL. */

@@ -13,7 +13,8 @@
 
 #include <string.h>
 
-enum { MOST_CROSSINGS = 1 << 20, CHORDS_PER_REPORT = 1024 };
+/* n corners have up to n^2. */
+enum { MOST_CROSSINGS = 100000, MOST_CROSSINGS_PER_CORNER = 100, CHORDS_PER_REPORT = 1024 };
 
 /* Of a diagonal of each polygon; a vertex of the result, number n + its index. */
 typedef struct crossing {
@@ -70,7 +71,7 @@ static icc_status push_piece(overlay *o, uint32_t triangle, uint32_t from, uint3
 
 static icc_status push_crossing(overlay *o, const crossing *c)
 {
-    if (o->n_crossings == MOST_CROSSINGS)
+    if (o->n_crossings == MOST_CROSSINGS + MOST_CROSSINGS_PER_CORNER * (size_t)o->n)
         return ICC_ERR_RESOLUTION;
     if (o->n_crossings == o->crossing_room) {
         const size_t room = 2 * o->crossing_room + 256;

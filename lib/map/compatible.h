@@ -7,8 +7,9 @@
 /* Maps the polygon of the boundary vertices of `base`, a mesh of `source`, to that of their images:
  * a triangulation of the one and of the other with the same connectivity, the same corners and
  * points inside of its own. Every triangle is positive before and after, but for rounding, which is
- * left to the repair. ICC_ERR_RESOLUTION when it would take more than 2^20 points. No regard is
- * paid to fairness. O(n log n + k log k) for n boundary vertices and k points inside. */
+ * left to the repair. ICC_ERR_RESOLUTION when it would take more than 100,000 + 100 n points
+ * inside. No regard is paid to fairness. O(n log n + k log k) for n boundary vertices and k points
+ * inside. */
 icc_status iccp_compatible_create(iccp_plmap *map, const iccp_planar *base,
                                   const icc_domain *source, const double *images, double stretch,
                                   const iccp_env *env);

@@ -1,11 +1,15 @@
 /* docs/theory.md, the mesh map; energies and their derivatives: map/dirichlet.c. */
 #include "map/improve.h"
 
+#include "base/minmax.h"
 #include "base/sort.h"
 #include "map/dirichlet.h"
+#include "map/flips.h"
 #include "map/movable.h"
 #include "map/newton.h"
 #include "math/vec.h"
+
+#include <math.h>
 
 /* First steps with SLIM's model, which gets far from a bad start; then Newton's, which
  * converges. */
@@ -18,11 +22,21 @@ static const double TYPICAL_STEPS = 8, TYPICAL_LEVELS = 2;
  * more than this share of all. */
 static const double EXCESS_SHARE = 0.7, MOST_CUT = 0.2;
 
-/* A refinement is the last when it gains less than this. */
-static const double LEAST_GAIN = 0.01;
+/* It multiplies the triangles by about GROWTH, and is made where there is work for so many STEPS on
+ * what comes of it. */
+static const double GROWTH = 1.4, STEPS = 6;
 
-icc_status iccp_improve_images(const iccp_simplicial_map *map, size_t majorised, size_t iterations,
-                               double tolerance, iccp_improvement *improvement, const iccp_env *env)
+/* Steps on all meshes but the last end when two in turn gain less than this, and after so many: a
+ * refinement gains more. */
+static const double SLOW = 5e-3;
+enum { MOST_STEPS = 20 };
+
+/* A refinement is in vain when it gains less than this. The first one is the last, or the second in
+ * turn where the energy is HIGH: what is locked there may take two cuts to come free. */
+static const double LEAST_GAIN = 0.01, HIGH = 20;
+
+icc_status iccp_improve_images(const iccp_simplicial_map *map, const iccp_descent *descent,
+                               iccp_work *work, iccp_improvement *improvement, const iccp_env *env)
 {
     iccp_newton newton;
     iccp_env part = iccp_round(env, 0, TYPICAL_STEPS);
@@ -35,8 +49,13 @@ icc_status iccp_improve_images(const iccp_simplicial_map *map, size_t majorised,
         return status;
     const size_t n_free = newton.assembly.n_free;
     double energy = iccp_newton_energy(&newton, ICCP_DIRICHLET, 0);
-    for (size_t k = 0; status == ICC_OK && k < iterations && n_free > 0; ++k) {
-        const iccp_energy model = k < majorised ? ICCP_DIRICHLET_MAJORISED : ICCP_DIRICHLET;
+    size_t n_slow = 0;
+    improvement->is_converged = false;
+    for (size_t k = 0; status == ICC_OK && k < descent->iterations && n_free > 0 &&
+                       iccp_work_take(work, map->n_simplices);
+         ++k) {
+        const iccp_energy model =
+            k < descent->majorised ? ICCP_DIRICHLET_MAJORISED : ICCP_DIRICHLET;
         double slope;
         part = iccp_round(env, k + 1, TYPICAL_STEPS);
         status = iccp_progress(&part, "improve", 0);
@@ -48,20 +67,22 @@ icc_status iccp_improve_images(const iccp_simplicial_map *map, size_t majorised,
         const double gain = energy - after;
         energy = after;
         ++improvement->n_iterations;
-        if (k >= majorised && gain <= tolerance * energy)
+        if (k < descent->majorised)
+            continue;
+        n_slow = gain <= descent->slow * energy ? n_slow + 1 : 0;
+        improvement->is_converged = gain <= descent->tolerance * energy;
+        if (n_slow == 2 || improvement->is_converged)
             break;
     }
     iccp_newton_free(&newton);
     return status == ICC_ERR_SOLVER ? ICC_OK : status;
 }
 
-/* Steps at one level. */
-static icc_status descend(iccp_plmap *map, size_t majorised, size_t iterations, double tolerance,
+static icc_status descend(iccp_plmap *map, const iccp_descent *descent, iccp_work *work,
                           iccp_improvement *improvement, const iccp_env *env)
 {
     const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
-    const icc_status status =
-        iccp_improve_images(&simplicial, majorised, iterations, tolerance, improvement, env);
+    const icc_status status = iccp_improve_images(&simplicial, descent, work, improvement, env);
     improvement->energy = iccp_simplicial_energy(&simplicial);
     return status;
 }
@@ -130,23 +151,53 @@ static icc_status refine(iccp_plmap *map, size_t *n_cut, const iccp_env *env)
     return status;
 }
 
-icc_status iccp_improve(iccp_plmap *map, size_t iterations, double tolerance, size_t levels,
-                        iccp_improvement *improvement, const iccp_env *env)
+static bool may_refine(const iccp_plmap *map, const iccp_schedule *schedule, const iccp_work *work,
+                       const iccp_improvement *improvement)
 {
-    *improvement = (iccp_improvement){0};
-    iccp_env part = iccp_round(env, 0, TYPICAL_LEVELS);
-    icc_status status = descend(map, MAJORISED_STEPS, iterations, tolerance, improvement, &part);
-    for (size_t level = 0; status == ICC_OK && level < levels; ++level) {
+    const double n = GROWTH * (double)map->corners.n_triangles;
+    return improvement->n_levels < schedule->levels && n <= schedule->most &&
+           STEPS * n <= work->left;
+}
+
+/* Refinements, with steps after each, as long as they pay. */
+static icc_status refine_often(iccp_plmap *map, const iccp_schedule *schedule, double slow,
+                               iccp_work *work, iccp_improvement *improvement, const iccp_env *env)
+{
+    const size_t most = schedule->iterations < MOST_STEPS ? schedule->iterations : MOST_STEPS;
+    const iccp_descent descent = {0, most, schedule->tolerance, slow};
+    size_t n_in_vain = 0;
+    icc_status status = ICC_OK;
+    while (status == ICC_OK && n_in_vain <= (improvement->energy > HIGH) &&
+           may_refine(map, schedule, work, improvement)) {
         const double before = improvement->energy;
+        const iccp_env part = iccp_round(env, improvement->n_levels, TYPICAL_LEVELS);
         size_t n_cut;
         status = refine(map, &n_cut, env);
         if (status != ICC_OK || n_cut == 0)
             break;
-        part = iccp_round(env, level + 1, TYPICAL_LEVELS);
-        status = descend(map, 0, iterations, tolerance, improvement, &part);
+        (void)iccp_flip_edges(map);
+        status = descend(map, &descent, work, improvement, &part);
         ++improvement->n_levels;
-        if (before - improvement->energy < LEAST_GAIN * before)
-            break;
+        n_in_vain = before - improvement->energy < LEAST_GAIN * before ? n_in_vain + 1 : 0;
     }
+    return status;
+}
+
+icc_status iccp_improve(iccp_plmap *map, const iccp_schedule *schedule, iccp_work *work,
+                        iccp_improvement *improvement, const iccp_env *env)
+{
+    const double slow = iccp_max(SLOW, schedule->tolerance);
+    const iccp_descent last = {0, schedule->iterations, schedule->tolerance, 0};
+    iccp_descent first = {MAJORISED_STEPS, schedule->iterations, schedule->tolerance, slow};
+    iccp_env part[3];
+    iccp_split(part, 3, (const double[]){2, 2, 1}, env);
+    *improvement = (iccp_improvement){0};
+    if (schedule->levels == 0)
+        first.slow = 0;
+    icc_status status = descend(map, &first, work, improvement, &part[0]);
+    if (status == ICC_OK && schedule->levels > 0)
+        status = refine_often(map, schedule, slow, work, improvement, &part[1]);
+    if (status == ICC_OK && schedule->levels > 0 && !improvement->is_converged)
+        status = descend(map, &last, work, improvement, &part[2]);
     return status;
 }

@@ -110,13 +110,14 @@ icc_status iccp_map_check_digits(icc_map *map, const iccp_env *env)
     return status;
 }
 
-static icc_status add_mesh(icc_map *map, int32_t iterations, const iccp_env *env, icc_error *err)
+static icc_status add_mesh(icc_map *map, int32_t iterations, bool overlay, const iccp_env *env,
+                           icc_error *err)
 {
     const icc_status status =
         is_solid(map->source)
             ? iccp_solid_map_create(&map->solid, map->source, map->target, &map->info, env)
-            : iccp_mesh_map_create(&map->mesh, map->source, map->target, iterations, &map->info,
-                                   env, err);
+            : iccp_mesh_map_create(&map->mesh, map->source, map->target, iterations, overlay,
+                                   &map->info, env, err);
     if (map->mesh != NULL || map->solid != NULL)
         map->info.kind = ICC_MAP_MESH;
     else if (status == ICC_OK)
@@ -125,9 +126,10 @@ static icc_status add_mesh(icc_map *map, int32_t iterations, const iccp_env *env
     return status;
 }
 
-icc_status iccp_map_create_from_charts(icc_map **out, const icc_chart *source,
-                                       const icc_chart *target, const icc_map_options *options,
-                                       const iccp_env *env, icc_error *err)
+/* `overlay`: see iccp_mesh_map_create(). */
+static icc_status create_from(icc_map **out, const icc_chart *source, const icc_chart *target,
+                              const icc_map_options *options, bool overlay, const iccp_env *env,
+                              icc_error *err)
 {
     const double start = iccp_seconds();
     int32_t kind = options->kind;
@@ -138,7 +140,7 @@ icc_status iccp_map_create_from_charts(icc_map **out, const icc_chart *source,
     if (status == ICC_OK)
         iccp_map_add_charts(map, source, target);
     if (status == ICC_OK && kind == ICC_MAP_MESH)
-        status = add_mesh(map, options->iterations, env, err);
+        status = add_mesh(map, options->iterations, overlay, env, err);
     else if (status == ICC_OK)
         status = iccp_map_check_digits(map, env);
     if (status != ICC_OK) {
@@ -150,17 +152,24 @@ icc_status iccp_map_create_from_charts(icc_map **out, const icc_chart *source,
     return ICC_OK;
 }
 
+icc_status iccp_map_create_from_charts(icc_map **out, const icc_chart *source,
+                                       const icc_chart *target, const icc_map_options *options,
+                                       const iccp_env *env, icc_error *err)
+{
+    return create_from(out, source, target, options, true, env, err);
+}
+
 static icc_status create_with(icc_map **out, const icc_domain *const domains[2],
                               const icc_map_options *options,
-                              const icc_chart_options chart_options[2], const iccp_env *env,
-                              icc_error *err)
+                              const icc_chart_options chart_options[2], bool overlay,
+                              const iccp_env *env, icc_error *err)
 {
     icc_chart *charts[2] = {NULL, NULL};
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){1, 2}, env);
     icc_status status = iccp_chart_create_pair(charts, domains, chart_options, &part[0], err);
     if (status == ICC_OK)
-        status = iccp_map_create_from_charts(out, charts[0], charts[1], options, &part[1], err);
+        status = create_from(out, charts[0], charts[1], options, overlay, &part[1], err);
     iccp_chart_release(charts[0]);
     iccp_chart_release(charts[1]);
     return status;
@@ -208,13 +217,14 @@ icc_status iccp_map_create(icc_map **out, const icc_domain *source, const icc_do
         return status;
     complete(full, domains, options->kind);
     const iccp_env first = iccp_part(env, NULL, 0, 0.9), second_part = iccp_part(env, NULL, 0.9, 1);
-    status = create_with(out, domains, options, full, &first, err);
-    /* Each start has shapes that it cannot be repaired from. */
+    status = create_with(out, domains, options, full, true, &first, err);
+    /* Each start has shapes that it cannot be repaired from; that of the overlay would be the same
+     * again. */
     if (status == ICC_OK && (*out)->info.n_unrepaired > 0 && chart_options[0].method == 0 &&
         full[0].method == ICC_METHOD_DISC) {
         icc_map *second = NULL;
         full[0].method = full[1].method = ICC_METHOD_FOLIATION;
-        status = create_with(&second, domains, options, full, &second_part, err);
+        status = create_with(&second, domains, options, full, false, &second_part, err);
         if (status == ICC_OK && second->info.n_unrepaired == 0) {
             iccp_map_release(*out);
             *out = second;
@@ -244,7 +254,8 @@ icc_status iccp_map_improve(icc_map **out, const icc_map *map, const icc_improve
     if (status == ICC_OK && map->source != NULL)
         iccp_map_add_charts(better, map->source, map->target);
     if (status == ICC_OK)
-        status = iccp_mesh_map_improve(&better->mesh, map->mesh, options, report, env, err);
+        status = iccp_mesh_map_improve(&better->mesh, map->mesh, map->source_domain->n_facets,
+                                       options, report, env, err);
     if (status != ICC_OK) {
         iccp_map_release(better);
         return iccp_explain(err, status);

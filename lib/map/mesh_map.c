@@ -6,10 +6,9 @@
 #include "base/error.h"
 #include "base/threads.h"
 #include "chart/bulk.h"
-#include "map/compatible.h"
+#include "map/overlay_start.h"
 #include "map/plmap_certificate.h"
 #include "map/repair.h"
-#include "map/untangle.h"
 
 #include <math.h>
 #include <stdatomic.h>
@@ -17,11 +16,35 @@
 
 /* Defaults of icc_improve_options. */
 static const double TOLERANCE = 1e-4;
-enum { ITERATIONS = 60, LEVELS = 4 };
+enum { ITERATIONS = 60, LEVELS = 16 };
+
+/* Refinements left to us stop at so many times the triangles of the start, or of a SMALL one. */
+static const double MOST_GROWTH = 4, SMALL = 8000;
+
+/* What improvement left to us may cost, in steps times triangles: so much, and so much for each
+ * facet. And as shares of that, a repair and a start from an overlay. */
+static const double WORK = 3e5, WORK_PER_FACET = 300, REPAIR_SHARE = 1, OVERLAY_SHARE = 0.5;
 
 /* Steps for a target that has moved a little: a frame of an animation has no time for more, and the
  * next frame continues from here. */
 enum { FOLLOW_ITERATIONS = 8 };
+
+typedef struct allowance {
+    iccp_work repair, overlay, improvement;
+} allowance;
+
+static allowance allow(size_t n_facets)
+{
+    const double work = WORK + WORK_PER_FACET * (double)n_facets;
+    return (allowance){.repair.left = REPAIR_SHARE * work,
+                       .overlay.left = OVERLAY_SHARE * work,
+                       .improvement.left = work};
+}
+
+static double spent(const allowance *work)
+{
+    return work->repair.spent + work->overlay.spent + work->improvement.spent;
+}
 
 /* ---- start ---- */
 
@@ -126,29 +149,32 @@ icc_status iccp_mesh_map_finish(iccp_mesh_map *map, icc_map_info *info, const ic
 }
 
 /* Improves as far as asked; when cancelled, says so in `cancelled` and keeps what there is. */
-static icc_status improve(iccp_plmap *pl, const icc_improve_options *options, bool *cancelled,
-                          iccp_improvement *improvement, const iccp_env *env)
+static icc_status improve(iccp_plmap *pl, const icc_improve_options *options, iccp_work *work,
+                          bool *cancelled, iccp_improvement *improvement, const iccp_env *env)
 {
-    const size_t iterations = options->iterations > 0 ? (size_t)options->iterations : ITERATIONS;
-    const size_t levels = options->levels < 0    ? 0
-                          : options->levels == 0 ? LEVELS
-                                                 : (size_t)options->levels;
-    const double tolerance = options->tolerance > 0 ? options->tolerance : TOLERANCE;
+    const bool is_limited = work->left < HUGE_VAL;
+    const iccp_schedule schedule = {
+        .iterations = options->iterations > 0 ? (size_t)options->iterations : ITERATIONS,
+        .tolerance = options->tolerance > 0 ? options->tolerance : TOLERANCE,
+        .levels = options->levels < 0    ? 0
+                  : options->levels == 0 ? LEVELS
+                                         : (size_t)options->levels,
+        .most = is_limited ? MOST_GROWTH * fmax(SMALL, (double)pl->corners.n_triangles) : HUGE_VAL};
     const iccp_env part = iccp_part(env, "improve", 0, 1);
-    const icc_status status = iccp_improve(pl, iterations, tolerance, levels, improvement, &part);
+    const icc_status status = iccp_improve(pl, &schedule, work, improvement, &part);
     *cancelled = status == ICC_ERR_CANCELLED;
     return *cancelled ? ICC_OK : status;
 }
 
 /* Repairs, improves and certifies what is in map->pl. */
-static icc_status refit(iccp_mesh_map *map, const icc_improve_options *options, icc_map_info *info,
-                        const iccp_env *env, icc_error *err)
+static icc_status refit(iccp_mesh_map *map, const icc_improve_options *options, allowance *work,
+                        icc_map_info *info, const iccp_env *env, icc_error *err)
 {
     const double begin = iccp_seconds();
     iccp_env part[3];
     iccp_split(part, 3, (const double[]){1, 4, 1}, env);
     info->n_inverted = iccp_plmap_count_inverted(&map->pl);
-    icc_status status = iccp_repair(&map->pl, &info->n_unrepaired, &part[0]);
+    icc_status status = iccp_repair(&map->pl, &work->repair, &info->n_unrepaired, &part[0]);
     const double repaired = iccp_seconds();
     info->seconds_repair = repaired - begin;
     if (status != ICC_OK || info->n_unrepaired > 0)
@@ -157,7 +183,7 @@ static icc_status refit(iccp_mesh_map *map, const icc_improve_options *options, 
     if (options->iterations >= 0) {
         iccp_improvement improvement;
         bool cancelled;
-        status = improve(&map->pl, options, &cancelled, &improvement, &part[1]);
+        status = improve(&map->pl, options, &work->improvement, &cancelled, &improvement, &part[1]);
         if (status == ICC_OK && cancelled)
             status = ICC_ERR_CANCELLED;
         info->energy = improvement.energy;
@@ -168,78 +194,50 @@ static icc_status refit(iccp_mesh_map *map, const icc_improve_options *options, 
     return status == ICC_OK ? iccp_mesh_map_finish(map, info, &part[2], err) : status;
 }
 
-static void swap_sides(iccp_plmap *pl)
-{
-    double *points = pl->points;
-    pl->points = pl->images;
-    pl->images = points;
-}
-
-/* The start that needs no repair but where rounding makes it: compatible triangulations, of any
- * shapes. Triangles of the source that rounding has spoilt are repaired like those of the
- * target. */
-static icc_status start_compatible(iccp_plmap *pl, const icc_chart *source, const icc_chart *target,
-                                   const iccp_env *env)
-{
-    const iccp_planar *mesh = source->mesh;
-    double *images = iccp_alloc(&env->memory, mesh->n_boundary, 2 * sizeof *images);
-    icc_status status = images != NULL ? ICC_OK : ICC_ERR_MEMORY;
-    for (size_t v = 0; status == ICC_OK && v < mesh->n_boundary; ++v)
-        status = vertex_image(source, target, mesh, v, images + 2 * v, NULL);
-    if (status == ICC_OK)
-        status =
-            iccp_compatible_create(pl, mesh, source->domain, images,
-                                   sqrt(target->domain->measure / source->domain->measure), env);
-    iccp_free(&env->memory, images);
-    if (status != ICC_OK)
-        return status;
-    size_t n_left = 0;
-    swap_sides(pl);
-    const iccp_simplicial_map reversed = iccp_plmap_simplicial(pl);
-    if (iccp_simplicial_count_inverted(&reversed) > 0)
-        status = iccp_untangle(&reversed, &n_left, env);
-    swap_sides(pl);
-    return status == ICC_OK && n_left > 0 ? ICC_ERR_CERTIFICATE : status;
-}
-
 /* Where the charts give a start that cannot be repaired. Leaves info->n_unrepaired as it is unless
  * it comes to a certified map. */
-static icc_status try_compatible(iccp_mesh_map *map, const icc_chart *source,
-                                 const icc_chart *target, const icc_improve_options *options,
-                                 icc_map_info *info, const iccp_env *env)
+static icc_status try_overlay(iccp_mesh_map *map, const icc_domain *source,
+                              const icc_domain *target, const icc_improve_options *options,
+                              allowance *work, icc_map_info *info, const iccp_env *env)
 {
+    const double begin = iccp_seconds();
     icc_map_info own = *info;
-    iccp_log(env, "%zu triangles could not be repaired: trying compatible triangulations",
+    iccp_log(env, "%zu triangles could not be repaired: trying the overlay of two triangulations",
              info->n_unrepaired);
     iccp_plmap_free(&map->pl);
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){1, 2}, env);
-    icc_status status = start_compatible(&map->pl, source, target, &part[0]);
+    icc_status status = iccp_overlay_start(&map->pl, source, target, &work->overlay, &part[0]);
+    const double seconds = iccp_seconds() - begin;
+    if (status == ICC_ERR_RESOLUTION)
+        iccp_log(env, "the two triangulations cross too often");
     if (status == ICC_OK)
-        status = refit(map, options, &own, &part[1], NULL);
+        status = refit(map, options, work, &own, &part[1], NULL);
     own.n_inverted = info->n_inverted;
-    own.seconds_repair += info->seconds_repair;
+    own.seconds_repair += info->seconds_repair + seconds;
     if (status == ICC_OK)
         *info = own;
     return status == ICC_ERR_MEMORY || status == ICC_ERR_CANCELLED ? status : ICC_OK;
 }
 
 icc_status iccp_mesh_map_create(iccp_mesh_map **out, const icc_chart *source,
-                                const icc_chart *target, int32_t iterations, icc_map_info *info,
-                                const iccp_env *env, icc_error *err)
+                                const icc_chart *target, int32_t iterations, bool overlay,
+                                icc_map_info *info, const iccp_env *env, icc_error *err)
 {
     iccp_mesh_map *map = iccp_mesh_map_new(source->domain, target->domain, &env->memory);
     *out = NULL;
     if (map == NULL)
         return ICC_ERR_MEMORY;
     const icc_improve_options options = {.iterations = iterations};
+    allowance work = allow(source->domain->n_facets);
     iccp_env part[3];
     iccp_split(part, 3, (const double[]){1, 7, 1}, env);
     icc_status status = start(&map->pl, source, target, &part[0], err);
     if (status == ICC_OK)
-        status = refit(map, &options, info, &part[1], err);
-    if (status == ICC_OK && info->n_unrepaired > 0)
-        status = try_compatible(map, source, target, &options, info, &part[2]);
+        status = refit(map, &options, &work, info, &part[1], err);
+    if (status == ICC_OK && info->n_unrepaired > 0 && overlay)
+        status = try_overlay(map, source->domain, target->domain, &options, &work, info, &part[2]);
+    map->work = spent(&work);
     if (status == ICC_OK && info->n_unrepaired == 0)
         *out = map;
     else
@@ -247,7 +245,7 @@ icc_status iccp_mesh_map_create(iccp_mesh_map **out, const icc_chart *source,
     return status;
 }
 
-icc_status iccp_mesh_map_improve(iccp_mesh_map **out, const iccp_mesh_map *map,
+icc_status iccp_mesh_map_improve(iccp_mesh_map **out, const iccp_mesh_map *map, size_t n_facets,
                                  const icc_improve_options *options, icc_improve_report *report,
                                  const iccp_env *env, icc_error *err)
 {
@@ -256,13 +254,15 @@ icc_status iccp_mesh_map_improve(iccp_mesh_map **out, const iccp_mesh_map *map,
     if (better == NULL)
         return ICC_ERR_MEMORY;
     memcpy(better->reach, map->reach, sizeof better->reach);
+    const bool is_free = options->iterations > 0 || options->levels != 0 || options->tolerance > 0;
+    iccp_work work = is_free ? iccp_work_unlimited() : allow(n_facets).improvement;
     iccp_improvement improvement = {0};
     bool cancelled = false;
     icc_map_info info = {0};
     report->energy_start = iccp_plmap_energy(&map->pl);
     icc_status status = iccp_plmap_copy(&better->pl, &map->pl, &env->memory);
     if (status == ICC_OK)
-        status = improve(&better->pl, options, &cancelled, &improvement, env);
+        status = improve(&better->pl, options, &work, &cancelled, &improvement, env);
     /* A callback that still asks to stop must not keep the result from being finished. */
     iccp_env quiet = *env;
     quiet.progress = NULL;
@@ -272,6 +272,7 @@ icc_status iccp_mesh_map_improve(iccp_mesh_map **out, const iccp_mesh_map *map,
         iccp_mesh_map_free(better, &env->memory);
         return status;
     }
+    better->work = work.spent;
     report->energy = improvement.energy;
     report->n_iterations = improvement.n_iterations;
     report->n_simplices = info.n_simplices;
@@ -360,7 +361,10 @@ icc_status iccp_mesh_map_follow(iccp_mesh_map **out, const iccp_mesh_map *map,
         next->pl.stretch = sqrt(target->measure / source->measure);
         const icc_improve_options options = {
             .iterations = iterations == 0 ? FOLLOW_ITERATIONS : iterations, .levels = -1};
-        status = refit(next, &options, info, env, err);
+        allowance work = allow(source->n_facets);
+        work.improvement = iccp_work_unlimited();
+        status = refit(next, &options, &work, info, env, err);
+        next->work = spent(&work);
         keep_plan(next, plan);
     }
     if (status == ICC_OK && info->n_unrepaired == 0)

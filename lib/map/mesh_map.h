@@ -14,23 +14,26 @@ typedef struct iccp_mesh_map {
     iccp_finder before;               /* in the source */
     iccp_finder after;                /* in the target */
     _Atomic(iccp_newton_plan *) plan; /* of the mesh: NULL until the map is first followed */
+    double work;                      /* that it took to make: see map/work.h */
 } iccp_mesh_map;
 
 /* All but `reach` is still to be filled in; NULL without memory. */
 iccp_mesh_map *iccp_mesh_map_new(const icc_domain *source, const icc_domain *target,
                                  const iccp_memory *memory);
 
-/* Starts from two charts that were made together: their images of the source chart's mesh. Fills in
- * the mesh's members of `info`. When the repair fails, info->n_unrepaired is not 0 and *out is
- * NULL, with ICC_OK. `iterations` as in icc_map_options. */
+/* Starts from two charts that were made together: their images of the source chart's mesh; or,
+ * where these cannot be repaired and `overlay` says so, from what map/overlay_start.h makes of the
+ * domains alone. Fills in the mesh's members of `info`. When no start leads to a map,
+ * info->n_unrepaired is not 0 and *out is NULL, with ICC_OK. `iterations` as in icc_map_options. */
 icc_status iccp_mesh_map_create(iccp_mesh_map **out, const icc_chart *source,
-                                const icc_chart *target, int32_t iterations, icc_map_info *info,
-                                const iccp_env *env, icc_error *err);
+                                const icc_chart *target, int32_t iterations, bool overlay,
+                                icc_map_info *info, const iccp_env *env, icc_error *err);
 
-/* A better one from a copy; see icc_map_improve(). */
-icc_status iccp_mesh_map_improve(iccp_mesh_map **out, const iccp_mesh_map *map,
+/* A better one from a copy, between domains of n_facets; see icc_map_improve(). */
+icc_status iccp_mesh_map_improve(iccp_mesh_map **out, const iccp_mesh_map *map, size_t n_facets,
                                  const icc_improve_options *options, icc_improve_report *report,
                                  const iccp_env *env, icc_error *err);
+
 /* The map to another target from the one to `old_target`; see icc_map_retarget(). Otherwise as
  * iccp_mesh_map_create(). */
 icc_status iccp_mesh_map_follow(iccp_mesh_map **out, const iccp_mesh_map *map,

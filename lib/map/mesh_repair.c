@@ -86,7 +86,8 @@ icc_status iccp_mesh_repair(const iccp_simplices *mesh, double *images, const ic
     const double before = measure_of(mesh, mesh->points), after = measure_of(mesh, images);
     if (before > 0 && after > 0)
         map.stretch = mesh->dim == 2 ? sqrt(after / before) : iccp_cbrt(after / before);
-    return iccp_untangle(&map, &n_left, env);
+    iccp_work work = iccp_work_unlimited();
+    return iccp_untangle(&map, &work, &n_left, env);
 }
 
 void iccp_mesh_round(const iccp_simplices *mesh, double *images)

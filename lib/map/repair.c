@@ -2,11 +2,8 @@
 #include "map/repair.h"
 
 #include "base/minmax.h"
-#include "map/untangle.h"
+#include "map/candidate.h"
 #include "math/predicates.h"
-#include "math/vec.h"
-
-#include <math.h>
 
 /* Rounds of refinement. */
 enum { ROUNDS = 4 };
@@ -26,15 +23,6 @@ static const double LEAST_ROUNDNESS = 1e-4;
 
 /* ---- flipping edges ---- */
 
-/* Twice the area over the square of the longest edge: 0.87 for an equilateral triangle, 0 for a
- * flat one, negative for an inverted one. */
-static double roundness(const double *a, const double *b, const double *c)
-{
-    const double twice = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-    return twice / iccp_max(iccp_vec_distance2(2, a, b),
-                            iccp_max(iccp_vec_distance2(2, b, c), iccp_vec_distance2(2, c, a)));
-}
-
 static int sign_of(const double *a, const double *b, const double *c)
 {
     return iccp_orient2d(a, b, c) > 0;
@@ -49,10 +37,10 @@ static bool is_worth_flipping(const iccp_plmap *map, uint32_t corner)
     if (twin == ICCP_NO_NEIGHBOUR)
         return false;
     const uint32_t after = iccp_after(corner), before = iccp_before(corner);
-    if (roundness(iccp_plmap_point(map, corner), iccp_plmap_point(map, after),
-                  iccp_plmap_point(map, twin)) < LEAST_ROUNDNESS ||
-        roundness(iccp_plmap_point(map, twin), iccp_plmap_point(map, before),
-                  iccp_plmap_point(map, corner)) < LEAST_ROUNDNESS)
+    if (iccp_roundness(iccp_plmap_point(map, corner), iccp_plmap_point(map, after),
+                       iccp_plmap_point(map, twin)) < LEAST_ROUNDNESS ||
+        iccp_roundness(iccp_plmap_point(map, twin), iccp_plmap_point(map, before),
+                       iccp_plmap_point(map, corner)) < LEAST_ROUNDNESS)
         return false;
     const double *x = iccp_plmap_image(map, corner), *y = iccp_plmap_image(map, twin);
     const double *a = iccp_plmap_image(map, after), *b = iccp_plmap_image(map, before);
@@ -81,7 +69,8 @@ static void flip_edges(iccp_plmap *map)
 /* ---- untangling and refining ---- */
 
 /* As iccp_untangle(), with flipped edges in between. */
-static icc_status untangle_patches(iccp_plmap *map, size_t *n_left, const iccp_env *env)
+static icc_status untangle_patches(iccp_plmap *map, iccp_work *work, size_t *n_left,
+                                   const iccp_env *env)
 {
     const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
     uint8_t *marks = iccp_alloc(&env->memory, map->n_vertices, 1);
@@ -90,7 +79,7 @@ static icc_status untangle_patches(iccp_plmap *map, size_t *n_left, const iccp_e
     *n_left = iccp_simplicial_count_inverted(&simplicial);
     for (size_t k = 0; status == ICC_OK && *n_left > 0 && k < ICCP_PLANE_ROUNDS; ++k) {
         const iccp_env part = iccp_round(env, k, 1);
-        status = iccp_untangle_patches(&simplicial, k, marks, &part);
+        status = iccp_untangle_patches(&simplicial, k, marks, work, &part);
         if (status != ICC_OK)
             break;
         flip_edges(map);
@@ -123,9 +112,7 @@ static icc_status refine_round(iccp_plmap *map, const iccp_plmap *tangled, const
     return status;
 }
 
-/* Flipped edges may join two fixed vertices; a vertex in their middle gives them something to
- * move. */
-static icc_status cut_chords(iccp_plmap *map)
+icc_status iccp_cut_chords(iccp_plmap *map)
 {
     icc_status status = ICC_OK;
     for (uint32_t c = 0; status == ICC_OK && c < 3 * map->corners.n_triangles; ++c) {
@@ -138,7 +125,7 @@ static icc_status cut_chords(iccp_plmap *map)
     return status;
 }
 
-icc_status iccp_repair(iccp_plmap *map, size_t *n_left, const iccp_env *env)
+icc_status iccp_repair(iccp_plmap *map, iccp_work *work, size_t *n_left, const iccp_env *env)
 {
     iccp_plmap start;
     const size_t most = MOST_GROWTH * map->corners.n_triangles;
@@ -146,7 +133,7 @@ icc_status iccp_repair(iccp_plmap *map, size_t *n_left, const iccp_env *env)
     if (status != ICC_OK)
         return status;
     const iccp_env first = iccp_round(env, 0, 1);
-    status = untangle_patches(map, n_left, &first);
+    status = untangle_patches(map, work, n_left, &first);
     for (int round = 0;
          status == ICC_OK && *n_left > 0 && round < ROUNDS &&
          *n_left <= A_FEW + map->corners.n_triangles / FEW && start.corners.n_triangles <= most;
@@ -158,8 +145,9 @@ icc_status iccp_repair(iccp_plmap *map, size_t *n_left, const iccp_env *env)
         }
         const iccp_env part = iccp_round(env, (size_t)round + 1, 1);
         if (status == ICC_OK)
-            status = untangle_patches(map, n_left, &part);
+            status = untangle_patches(map, work, n_left, &part);
     }
     iccp_plmap_free(&start);
-    return status == ICC_OK && *n_left == 0 ? cut_chords(map) : status;
+    /* Flipped edges may join two fixed vertices. */
+    return status == ICC_OK && *n_left == 0 ? iccp_cut_chords(map) : status;
 }

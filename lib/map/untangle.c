@@ -71,7 +71,8 @@ void iccp_untangle_mark(const iccp_simplicial_map *map, int rings, uint8_t *mark
 
 /* Newton steps, each for a smaller epsilon: Garanzha et al.: the faster the energy fell, the faster
  * epsilon goes to zero. */
-static icc_status descend(iccp_newton *newton, const patches *round, const iccp_env *env)
+static icc_status descend(iccp_newton *newton, const patches *round, iccp_work *work,
+                          const iccp_env *env)
 {
     size_t n_bad, fewest;
     int since = 0;
@@ -79,7 +80,8 @@ static icc_status descend(iccp_newton *newton, const patches *round, const iccp_
     double least = iccp_newton_least(newton, &n_bad);
     double epsilon = iccp_untangling_start(least);
     fewest = n_bad;
-    for (int k = 0; k < round->steps && since < round->patience && newton->assembly.n_free > 0;
+    for (int k = 0; k < round->steps && since < round->patience && newton->assembly.n_free > 0 &&
+                    iccp_work_take(work, newton->assembly.n_elements);
          ++k) {
         double slope;
         const double before = iccp_newton_energy(newton, ICCP_UNTANGLE, epsilon);
@@ -101,7 +103,7 @@ static icc_status descend(iccp_newton *newton, const patches *round, const iccp_
 }
 
 icc_status iccp_untangle_patches(const iccp_simplicial_map *map, size_t round, uint8_t *marks,
-                                 const iccp_env *env)
+                                 iccp_work *work, const iccp_env *env)
 {
     const patches *p = map->dim == 2 ? &PLANE[round] : &SPACE[round];
     iccp_newton newton;
@@ -110,12 +112,13 @@ icc_status iccp_untangle_patches(const iccp_simplicial_map *map, size_t round, u
     icc_status status = iccp_newton_create(&newton, map, p->rings > 0 ? marks : NULL, env);
     if (status != ICC_OK)
         return status;
-    status = descend(&newton, p, env);
+    status = descend(&newton, p, work, env);
     iccp_newton_free(&newton);
     return status;
 }
 
-icc_status iccp_untangle(const iccp_simplicial_map *map, size_t *n_left, const iccp_env *env)
+icc_status iccp_untangle(const iccp_simplicial_map *map, iccp_work *work, size_t *n_left,
+                         const iccp_env *env)
 {
     const size_t n = map->dim == 2 ? ICCP_PLANE_ROUNDS : sizeof SPACE / sizeof *SPACE;
     uint8_t *marks = iccp_alloc(&env->memory, map->n_points, 1);
@@ -125,7 +128,7 @@ icc_status iccp_untangle(const iccp_simplicial_map *map, size_t *n_left, const i
         if (map->dim == 3 && SPACE[k].rings > 0 && n_tasks > map->n_simplices / MANY)
             continue;
         const iccp_env part = iccp_round(env, k, 1);
-        status = iccp_untangle_patches(map, k, marks, &part);
+        status = iccp_untangle_patches(map, k, marks, work, &part);
         n_tasks = count_tasks(map);
     }
     *n_left = iccp_simplicial_count_inverted(map);

@@ -3,13 +3,14 @@
 #define ICCP_UNTANGLE_H
 
 #include "map/simplicial_map.h"
+#include "map/work.h"
 
 /* Moves images by Newton's method in the patches of round `round`, of which the plane has
- * ICCP_PLANE_ROUNDS. `marks`: room for a byte for each point. Steps are capped, clocks are not
- * read: the same input gives the same bits. */
+ * ICCP_PLANE_ROUNDS. `marks`: room for a byte for each point. Steps are capped, and end when there
+ * is no work left for one. */
 enum { ICCP_PLANE_ROUNDS = 4 };
 icc_status iccp_untangle_patches(const iccp_simplicial_map *map, size_t round, uint8_t *marks,
-                                 const iccp_env *env);
+                                 iccp_work *work, const iccp_env *env);
 
 /* Marks with 1 the corners of simplices to be repaired, and with 2 to `rings` rings of
  * neighbours. */
@@ -17,6 +18,7 @@ void iccp_untangle_mark(const iccp_simplicial_map *map, int rings, uint8_t *mark
 
 /* Round by round, patches and then everything, as far as that goes. `n_left` says how many
  * simplices are not positive in the end. */
-icc_status iccp_untangle(const iccp_simplicial_map *map, size_t *n_left, const iccp_env *env);
+icc_status iccp_untangle(const iccp_simplicial_map *map, iccp_work *work, size_t *n_left,
+                         const iccp_env *env);
 
 #endif

@@ -58,6 +58,18 @@ void iccp_flip_edge(iccp_corners *corners, uint32_t corner)
     link_twins(c, after, twin_after);
 }
 
+void iccp_collapse_edge(iccp_corners *corners, uint32_t corner)
+{
+    iccp_corners *c = corners;
+    const uint32_t to = c->vertex[iccp_after(corner)];
+    const uint32_t facing = c->twin[iccp_before(corner)], last = iccp_before(facing);
+    uint32_t at = iccp_after(c->twin[iccp_after(corner)]);
+    for (; at != last; at = iccp_after(c->twin[iccp_after(at)]))
+        c->vertex[at] = to;
+    link_twins(c, c->twin[iccp_after(corner)], c->twin[corner]);
+    link_twins(c, c->twin[iccp_after(facing)], c->twin[last]);
+}
+
 typedef struct half_edge {
     uint32_t to;     /* the larger one of its ends */
     uint32_t corner; /* that faces it */

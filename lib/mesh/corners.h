@@ -19,6 +19,11 @@ void iccp_cut_edge(iccp_corners *corners, uint32_t corner, uint32_t m);
 /* Replaces the edge, which is not on the boundary, by the other diagonal of its two triangles. */
 void iccp_flip_edge(iccp_corners *corners, uint32_t corner);
 
+/* Merges the vertex of a corner, no edge at which is on the boundary, into the vertex after it: the
+ * triangle of the corner and the one beside that edge are of no use any more, and nothing names
+ * them. The caller sees to it that no edge comes twice. */
+void iccp_collapse_edge(iccp_corners *corners, uint32_t corner);
+
 /* Finds the twins of the corners of triangles that are all counter-clockwise, from their vertices
  * alone, which are smaller than n_vertices. False when an edge belongs to two triangles on the same
  * side, or a corner's three vertices are not different: `corners->twin` is then of no use. O(n). */

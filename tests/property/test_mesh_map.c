@@ -546,6 +546,75 @@ START_TEST(cancelled_improvement_is_certified)
 }
 END_TEST
 
+/* ---- work ---- */
+
+static double allowed(size_t n_facets)
+{
+    return 3e5 + 300 * (double)n_facets;
+}
+
+/* Improvement and the repair may take as much as is allowed, a start without charts half as much. */
+START_TEST(work_is_bounded)
+{
+    for (int k = 0; k < N_PAIRS + 3; ++k) {
+        const uint64_t seed = (uint64_t)(k + 5 - N_PAIRS);
+        const shape source = shape_wild(40, seed), target = shape_wild(40, seed + 1);
+        icc_map *map =
+            k < N_PAIRS ? map_number(k, 0, NULL) : map_between(&source, &target, false, 0, NULL);
+        const double most = allowed(map->source_domain->n_facets);
+        ck_assert(map->mesh->work > 0 || info_of(map).n_iterations == 0);
+        ck_assert_double_le(map->mesh->work, 2.5 * most);
+        icc_improve_report report;
+        icc_map *better = improve(map, NULL, &report, NULL);
+        ck_assert_double_le(better->mesh->work, most);
+        ck_assert_uint_le(report.n_simplices, 4 * info_of(map).n_simplices + 32000);
+        icc_map_free(better);
+        icc_map_free(map);
+    }
+}
+END_TEST
+
+typedef struct told {
+    int n_overlays, n_crossings;
+} told;
+
+static void listen(void *user, const char *message)
+{
+    told *t = user;
+    t->n_overlays += strstr(message, "trying the overlay") != NULL;
+    t->n_crossings += strstr(message, "cross too often") != NULL;
+}
+
+/* A band and the same a quarter of the way round: all diagonals cross. No start leads to a mesh, the
+ * one without charts is tried once, and the log says why. */
+START_TEST(what_crosses_too_often_is_of_kind_curves)
+{
+    enum { N = 1200 };
+    static double xy[2][2 * N];
+    icc_domain *domains[2];
+    icc_map *map;
+    told t = {0, 0};
+    const icc_env env = {.size = sizeof env, .user = &t, .log = listen};
+    for (size_t k = 0; k < N; ++k) {
+        const bool below = k < N / 2;
+        xy[0][2 * k] = (double)(below ? k : N - 1 - k);
+        xy[0][2 * k + 1] = below ? 0 : 1;
+    }
+    for (size_t k = 0; k < N; ++k)
+        memcpy(xy[1] + 2 * k, xy[0] + 2 * ((k + N / 4) % N), 2 * sizeof(double));
+    for (int k = 0; k < 2; ++k)
+        ck_assert_int_eq(icc_domain_create(&domains[k], 2, N, xy[k], 0, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_map_create(&map, domains[0], domains[1], NULL, &env, NULL), ICC_OK);
+    ck_assert_int_eq(info_of(map).kind, ICC_MAP_CURVES);
+    ck_assert_int_eq(info_of(map).certified, 1);
+    ck_assert_int_eq(t.n_overlays, 1);
+    ck_assert_int_eq(t.n_crossings, 1);
+    icc_map_free(map);
+    icc_domain_free(domains[0]);
+    icc_domain_free(domains[1]);
+}
+END_TEST
+
 /* ---- the same bits ---- */
 
 static void run_backwards(void *user, size_t n_tasks, icc_task task, void *argument)
@@ -603,6 +672,8 @@ int main(void)
     tcase_add_test(tests, a_shape_maps_to_itself);
     tcase_add_test(tests, maps_can_be_improved_later);
     tcase_add_test(tests, cancelled_improvement_is_certified);
+    tcase_add_test(tests, work_is_bounded);
+    tcase_add_test(tests, what_crosses_too_often_is_of_kind_curves);
     tcase_add_test(tests, the_same_bits_every_time);
     suite_add_tcase(suite, tests);
     SRunner *runner = srunner_create(suite);

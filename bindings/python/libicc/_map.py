@@ -159,12 +159,12 @@ class Map(Saved):
                 progress: Optional[Progress] = None,
                 threads: Optional[int] = None) -> Tuple["Map", SimpleNamespace]:
         """A fairer map, and a report (kind mesh in 2-D). If a progress callback asks to stop, it ends early,
-        with the map reached so far.
+        with the map reached so far. Without arguments the work of a call is limited; another goes on from there.
 
         Args:
             iterations: at most so many steps on each level; 0: 60
-            levels: at most so many refinements; 0: 4; -1: none
-            tolerance: a level ends when a step gains less than this share of the energy; 0: 1e-4
+            levels: at most so many refinements; 0: 16; -1: none
+            tolerance: the last level ends when a step gains less than this share of the energy; 0: 1e-4
 
         Returns:
             the map, and the members of ``icc_improve_report``

@@ -6,6 +6,7 @@
 
 #include <check.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* The mesh has no points inside: only its boundary counts. */
 typedef struct pair {
@@ -132,6 +133,39 @@ START_TEST(test_same)
 }
 END_TEST
 
+/* A band with n vertices, its diagonals across, and the same a quarter of the way round: all cross,
+ * n^2 / 4 times. */
+START_TEST(test_too_many_crossings)
+{
+    enum { N = 1200 };
+    double band[2 * N], turned[2 * N];
+    icc_domain *domains[2];
+    iccp_planar base;
+    iccp_env env;
+    iccp_plmap map;
+    uint32_t pieces[N];
+    for (size_t k = 0; k < N; ++k) {
+        const bool below = k < N / 2;
+        band[2 * k] = (double)(below ? k : N - 1 - k);
+        band[2 * k + 1] = below ? 0 : 30;
+        pieces[k] = 1;
+    }
+    for (size_t k = 0; k < N; ++k)
+        memcpy(turned + 2 * k, band + 2 * ((k + N / 4) % N), 2 * sizeof *band);
+    ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
+    for (int k = 0; k < 2; ++k)
+        ck_assert_int_eq(
+            icc_domain_create(&domains[k], 2, N, k == 0 ? band : turned, 0, NULL, NULL, NULL),
+            ICC_OK);
+    ck_assert_int_eq(iccp_planar_create(&base, domains[0], pieces, 4, &env, NULL), ICC_OK);
+    ck_assert_int_eq(iccp_compatible_create(&map, &base, domains[0], domains[1]->vertices, 1, &env),
+                     ICC_ERR_RESOLUTION);
+    iccp_planar_free(&base);
+    icc_domain_free(domains[0]);
+    icc_domain_free(domains[1]);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("compatible triangulations");
@@ -139,6 +173,7 @@ int main(void)
     tcase_add_test(tests, test_wild_to_wild);
     tcase_add_test(tests, test_hard_to_wild);
     tcase_add_test(tests, test_same);
+    tcase_add_test(tests, test_too_many_crossings);
     suite_add_tcase(suite, tests);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_NORMAL);

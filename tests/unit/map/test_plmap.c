@@ -3,94 +3,23 @@
 #include "map/improve.h"
 #include "map/newton.h"
 #include "map/repair.h"
-#include "mesh/planar.h"
 
 #include "../../faulty.h"
-#include "../../hard_shapes.h"
+#include "../../plmaps.h"
 
-#include <check.h>
-#include <math.h>
-#include <stdbool.h>
-#include <stdlib.h>
-#include <string.h>
-
-static iccp_env default_env(void)
+/* Without limits of work. */
+static icc_status repair(iccp_plmap *map, size_t *n_left, const iccp_env *env)
 {
-    iccp_env env;
-    ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
-    return env;
+    iccp_work work = iccp_work_unlimited();
+    return iccp_repair(map, &work, n_left, env);
 }
 
-typedef void image_function(const double p[2], double image[2]);
-
-static void identity(const double p[2], double image[2])
+static icc_status improve(iccp_plmap *map, size_t iterations, double tolerance, size_t levels,
+                          iccp_improvement *improvement, const iccp_env *env)
 {
-    memcpy(image, p, 2 * sizeof *p);
-}
-
-/* One-to-one, and not affine. */
-static void wave(const double p[2], double image[2])
-{
-    image[0] = p[0] + 0.2 * sin(3 * p[1]);
-    image[1] = 1.5 * p[1] + 0.2 * sin(2 * p[0]);
-}
-
-static iccp_plmap map_of(const shape *s, int32_t cells, image_function *f, double stretch)
-{
-    icc_domain *domain;
-    iccp_planar mesh;
-    iccp_plmap map;
-    const iccp_env env = default_env();
-    uint32_t pieces[SHAPE_MAX];
-    ck_assert_int_eq(icc_domain_create(&domain, 2, s->n, s->xy, 0, NULL, NULL, NULL), ICC_OK);
-    iccp_planar_pieces(pieces, domain, NULL, cells);
-    ck_assert_int_eq(iccp_planar_create(&mesh, domain, pieces, cells, &env, NULL), ICC_OK);
-    double *images = malloc(2 * mesh.n_vertices * sizeof *images);
-    ck_assert_ptr_nonnull(images);
-    for (size_t v = 0; v < mesh.n_vertices; ++v)
-        f(mesh.points + 2 * v, images + 2 * v);
-    ck_assert_int_eq(iccp_plmap_create(&map, &mesh, domain, images, stretch, &env.memory), ICC_OK);
-    free(images);
-    iccp_planar_free(&mesh);
-    icc_domain_free(domain);
-    return map;
-}
-
-static bool is_same(const iccp_plmap *a, const iccp_plmap *b)
-{
-    const size_t n = 3 * a->corners.n_triangles * sizeof(uint32_t);
-    return a->n_vertices == b->n_vertices && a->corners.n_triangles == b->corners.n_triangles &&
-           memcmp(a->points, b->points, 2 * a->n_vertices * sizeof *a->points) == 0 &&
-           memcmp(a->images, b->images, 2 * a->n_vertices * sizeof *a->images) == 0 &&
-           memcmp(a->fixed, b->fixed, a->n_vertices) == 0 &&
-           memcmp(a->corners.vertex, b->corners.vertex, n) == 0 &&
-           memcmp(a->corners.twin, b->corners.twin, n) == 0;
-}
-
-/* A disc of triangles that are positive in the source, its boundary vertices and no others
- * fixed. */
-static void check_mesh(const iccp_plmap *map)
-{
-    const iccp_corners *c = &map->corners;
-    uint8_t *on_boundary = calloc(map->n_vertices, 1);
-    ck_assert_ptr_nonnull(on_boundary);
-    size_t n_open = 0, n_faults = 0;
-    for (uint32_t t = 0; t < c->n_triangles; ++t)
-        n_faults += !iccp_plmap_positive_point(map, t);
-    for (uint32_t k = 0; k < 3 * c->n_triangles; ++k) {
-        const uint32_t twin = c->twin[k];
-        if (twin == ICCP_NO_NEIGHBOUR) {
-            ++n_open;
-            on_boundary[c->vertex[iccp_after(k)]] = on_boundary[c->vertex[iccp_before(k)]] = 1;
-        } else
-            n_faults += twin >= 3 * c->n_triangles || c->twin[twin] != k ||
-                        c->vertex[iccp_after(twin)] != c->vertex[iccp_before(k)] ||
-                        c->vertex[iccp_before(twin)] != c->vertex[iccp_after(k)];
-    }
-    n_faults += memcmp(on_boundary, map->fixed, map->n_vertices) != 0;
-    n_faults += 2 * map->n_vertices != c->n_triangles + n_open + 2;
-    ck_assert_uint_eq(n_faults, 0);
-    free(on_boundary);
+    const iccp_schedule schedule = {iterations, tolerance, levels, HUGE_VAL};
+    iccp_work work = iccp_work_unlimited();
+    return iccp_improve(map, &schedule, &work, improvement, env);
 }
 
 /* The image of a point, through any triangle that holds it. */
@@ -110,18 +39,6 @@ static bool image_of(const iccp_plmap *map, const double p[2], double image[2])
         return true;
     }
     return false;
-}
-
-static double area_of(const iccp_plmap *map)
-{
-    const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
-    double sum = 0;
-    for (uint32_t t = 0; t < map->corners.n_triangles; ++t) {
-        double element[ICCP_ELEMENT(2)];
-        iccp_simplicial_element(&simplicial, t, element);
-        sum += element[0];
-    }
-    return sum;
 }
 
 /* ---- cutting ---- */
@@ -221,26 +138,6 @@ START_TEST(energies_of_simple_maps)
 END_TEST
 
 /* ---- Newton steps ---- */
-
-/* Moves vertices inside at random as long as their triangles stay positive. */
-static void shake(iccp_plmap *map, uint64_t seed, double amount)
-{
-    random_source r = {seed};
-    for (int round = 0; round < 3; ++round)
-        for (size_t v = 0; v < map->n_vertices; ++v) {
-            double *image = map->images + 2 * v;
-            const double old[2] = {image[0], image[1]};
-            if (map->fixed[v])
-                continue;
-            image[0] += random_between(&r, -amount, amount);
-            image[1] += random_between(&r, -amount, amount);
-            bool positive = true;
-            for (uint32_t c = 0; positive && c < 3 * map->corners.n_triangles; ++c)
-                positive = map->corners.vertex[c] != v || iccp_plmap_positive_image(map, c / 3);
-            if (!positive)
-                memcpy(image, old, sizeof old);
-        }
-}
 
 /* Energy and slope against differences along the step. */
 START_TEST(steps_go_down)
@@ -372,12 +269,12 @@ static size_t repair_and_check(iccp_plmap *map, bool twice)
     size_t n_left = 12345, n_again = 0;
     ck_assert_int_eq(iccp_plmap_copy(&broken, map, &env.memory), ICC_OK);
     ck_assert_int_eq(iccp_plmap_copy(&again, map, &env.memory), ICC_OK);
-    ck_assert_int_eq(iccp_repair(map, &n_left, &env), ICC_OK);
+    ck_assert_int_eq(repair(map, &n_left, &env), ICC_OK);
     check_mesh(map);
     check_boundary(map, &broken);
     ck_assert_uint_eq(iccp_plmap_count_inverted(map), n_left);
     if (twice)
-        ck_assert_int_eq(iccp_repair(&again, &n_again, &env), ICC_OK);
+        ck_assert_int_eq(repair(&again, &n_again, &env), ICC_OK);
     ck_assert(!twice || (is_same(map, &again) && n_again == n_left));
     iccp_plmap_free(&broken);
     iccp_plmap_free(&again);
@@ -423,7 +320,7 @@ START_TEST(there_is_nothing_to_repair)
     iccp_plmap map = map_of(&s, 10, wave, 1), copy;
     size_t n_left;
     ck_assert_int_eq(iccp_plmap_copy(&copy, &map, &env.memory), ICC_OK);
-    ck_assert_int_eq(iccp_repair(&map, &n_left, &env), ICC_OK);
+    ck_assert_int_eq(repair(&map, &n_left, &env), ICC_OK);
     ck_assert_uint_eq(n_left, 0);
     ck_assert(is_same(&map, &copy));
     iccp_plmap_free(&map);
@@ -432,12 +329,6 @@ START_TEST(there_is_nothing_to_repair)
 END_TEST
 
 /* ---- improvement ---- */
-
-static void check_certified(const iccp_plmap *map)
-{
-    check_mesh(map);
-    ck_assert_uint_eq(iccp_plmap_count_inverted(map), 0);
-}
 
 START_TEST(more_steps_are_no_worse)
 {
@@ -451,7 +342,7 @@ START_TEST(more_steps_are_no_worse)
             iccp_plmap map;
             iccp_improvement improvement;
             ck_assert_int_eq(iccp_plmap_copy(&map, &start, &env.memory), ICC_OK);
-            ck_assert_int_eq(iccp_improve(&map, n, 1e-12, 0, &improvement, &env), ICC_OK);
+            ck_assert_int_eq(improve(&map, n, 1e-12, 0, &improvement, &env), ICC_OK);
             check_certified(&map);
             ck_assert_uint_le(improvement.n_iterations, n);
             ck_assert_uint_eq(improvement.n_levels, 0);
@@ -478,7 +369,7 @@ START_TEST(levels_refine_and_lower_the_energy)
         iccp_plmap map;
         iccp_improvement improvement;
         ck_assert_int_eq(iccp_plmap_copy(&map, &start, &env.memory), ICC_OK);
-        ck_assert_int_eq(iccp_improve(&map, 60, 1e-6, levels, &improvement, &env), ICC_OK);
+        ck_assert_int_eq(improve(&map, 60, 1e-6, levels, &improvement, &env), ICC_OK);
         check_certified(&map);
         ck_assert_uint_le(improvement.n_levels, levels);
         ck_assert_uint_ge(map.n_vertices, n_vertices);
@@ -490,6 +381,68 @@ START_TEST(levels_refine_and_lower_the_energy)
     }
     ck_assert_uint_gt(n_vertices, start.n_vertices);
     iccp_plmap_free(&start);
+}
+END_TEST
+
+/* ---- work ---- */
+
+/* Steps end when there is no work left for one, wherever that is. */
+START_TEST(work_is_never_exceeded)
+{
+    const iccp_env env = default_env();
+    const shape s = shape_l();
+    iccp_plmap start = map_of(&s, 6, wave, 1);
+    shake(&start, 4, 0.1);
+    const double n = (double)start.corners.n_triangles, energy = iccp_plmap_energy(&start);
+    const double limits[] = {0, n - 1, n, 2.5 * n, 10 * n, 100 * n, 1000 * n, HUGE_VAL};
+    double last = energy;
+    for (size_t k = 0; k < sizeof limits / sizeof *limits; ++k) {
+        const iccp_schedule schedule = {60, 1e-6, 16, 4 * n};
+        iccp_work work = {.left = limits[k]};
+        iccp_plmap map;
+        iccp_improvement improvement;
+        ck_assert_int_eq(iccp_plmap_copy(&map, &start, &env.memory), ICC_OK);
+        ck_assert_int_eq(iccp_improve(&map, &schedule, &work, &improvement, &env), ICC_OK);
+        check_certified(&map);
+        ck_assert_double_le(work.spent, limits[k]);
+        ck_assert(work.left >= 0 && (isinf(limits[k]) || work.spent + work.left == limits[k]));
+        ck_assert((improvement.n_iterations == 0) == (limits[k] < n));
+        ck_assert_double_ge(work.spent, n * (double)improvement.n_iterations);
+        ck_assert_double_le((double)map.corners.n_triangles, 4 * n);
+        ck_assert_double_le(improvement.energy, (k < 4 ? last : energy) * (1 + 1e-14));
+        ck_assert(improvement.n_levels == 0 || limits[k] >= 6 * 1.4 * n);
+        last = improvement.energy;
+        iccp_plmap_free(&map);
+    }
+    iccp_plmap_free(&start);
+}
+END_TEST
+
+/* A repair that may not take a step flips edges and counts what is left. */
+START_TEST(repairs_take_no_more_work_than_there_is)
+{
+    const iccp_env env = default_env();
+    size_t n_unfinished = 0;
+    double spent[4];
+    for (int k = 0; k < 4; ++k) {
+        const shape s = shape_number(3);
+        random_source r = {7};
+        iccp_plmap map = map_of(&s, 6, identity, 1);
+        const double limit = (double[]){HUGE_VAL, 0, 100, 1000}[k];
+        iccp_work work = {.left = limit};
+        size_t n_left;
+        break_map(&map, 2, &r);
+        ck_assert_int_eq(iccp_repair(&map, &work, &n_left, &env), ICC_OK);
+        ck_assert_uint_eq(n_left, iccp_plmap_count_inverted(&map));
+        check_mesh(&map);
+        spent[k] = work.spent;
+        ck_assert_double_le(work.spent, limit);
+        n_unfinished += n_left > 0;
+        ck_assert(k > 0 || n_left == 0);
+        iccp_plmap_free(&map);
+    }
+    ck_assert(spent[0] > 0 && spent[1] == 0);
+    ck_assert_uint_gt(n_unfinished, 0);
 }
 END_TEST
 
@@ -505,7 +458,7 @@ static icc_status improve_copy(const icc_env *env, icc_error *err, void *argumen
     ck_assert_int_eq(iccp_env_read(&full, env, NULL), ICC_OK);
     icc_status status = iccp_plmap_copy(&map, start, &full.memory);
     if (status == ICC_OK) {
-        status = iccp_improve(&map, 4, 1e-6, 2, &improvement, &full);
+        status = improve(&map, 4, 1e-6, 2, &improvement, &full);
         check_certified(&map);
         ck_assert_double_le(iccp_plmap_energy(&map), iccp_plmap_energy(start) * (1 + 1e-14));
     }
@@ -524,7 +477,7 @@ static icc_status repair_copy(const icc_env *env, icc_error *err, void *argument
     if (status == ICC_OK) {
         random_source r = {3};
         break_map(&map, 2, &r);
-        status = iccp_repair(&map, &n_left, &full);
+        status = repair(&map, &n_left, &full);
         ck_assert(status != ICC_OK || n_left == iccp_plmap_count_inverted(&map));
     }
     iccp_plmap_free(&map);
@@ -543,7 +496,7 @@ static icc_status repair_in_vain(const icc_env *env, icc_error *err, void *argum
     if (status == ICC_OK) {
         for (size_t v = 0; v < map.n_vertices; ++v)
             map.images[2 * v] *= -1;
-        status = iccp_repair(&map, &n_left, &full);
+        status = repair(&map, &n_left, &full);
         ck_assert_uint_gt(n_left, 0);
     }
     iccp_plmap_free(&map);
@@ -596,6 +549,8 @@ int main(void)
     tcase_add_test(tests, there_is_nothing_to_repair);
     tcase_add_test(tests, more_steps_are_no_worse);
     tcase_add_test(tests, levels_refine_and_lower_the_energy);
+    tcase_add_test(tests, work_is_never_exceeded);
+    tcase_add_test(tests, repairs_take_no_more_work_than_there_is);
     tcase_add_test(tests, failures_leave_valid_maps);
     suite_add_tcase(suite, tests);
     SRunner *runner = srunner_create(suite);

@@ -171,7 +171,8 @@ START_TEST(what_cannot_be_repaired_is_counted)
             for (size_t i = 0; i < n_numbers; i += c.mesh->dim)
                 c.images[i] = -c.images[i];
             const iccp_simplicial_map map = iccp_simplicial_map_of(c.mesh, c.images);
-            ck_assert_int_eq(iccp_untangle(&map, &n_left, &env), ICC_OK);
+            iccp_work work = iccp_work_unlimited();
+            ck_assert_int_eq(iccp_untangle(&map, &work, &n_left, &env), ICC_OK);
             ck_assert_uint_ge(n_left, dim == 2 ? 2 * n : n == 1 ? 6 : 24);
             ck_assert_uint_eq(n_left, count_inverted(&c));
             for (size_t i = 0; i < n_numbers; ++i)
@@ -262,7 +263,9 @@ START_TEST(shaken_maps_become_fair)
             for (size_t i = c.mesh->dim * c.mesh->n_boundary; i < c.size / sizeof *c.images; ++i)
                 c.images[i] += random_between(&r, -0.02, 0.02);
             const double before = iccp_simplicial_energy(&map);
-            ck_assert_int_eq(iccp_improve_images(&map, 3, steps, 1e-13, &improvement, &env),
+            const iccp_descent descent = {3, steps, 1e-13, 0};
+            iccp_work work = iccp_work_unlimited();
+            ck_assert_int_eq(iccp_improve_images(&map, &descent, &work, &improvement, &env),
                              ICC_OK);
             const double after = iccp_simplicial_energy(&map);
             ck_assert_uint_le(improvement.n_iterations, steps);

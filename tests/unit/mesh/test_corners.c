@@ -147,6 +147,68 @@ START_TEST(random_changes_keep_every_invariant)
 }
 END_TEST
 
+static bool is_inner(const iccp_corners *c, uint32_t v)
+{
+    for (uint32_t k = 0; k < 3 * c->n_triangles; ++k)
+        if (c->vertex[k] == v && (c->twin[iccp_after(k)] == ICCP_NO_NEIGHBOUR ||
+                                  c->twin[iccp_before(k)] == ICCP_NO_NEIGHBOUR))
+            return false;
+    return true;
+}
+
+static size_t n_joined_to_both(const iccp_corners *c, uint32_t a, uint32_t b, uint32_t n_vertices)
+{
+    size_t n = 0;
+    for (uint32_t v = 0; v < n_vertices; ++v)
+        n += is_joined(c, a, v) && is_joined(c, b, v);
+    return n;
+}
+
+/* The last triangle takes another's place. */
+static void drop_triangle(iccp_corners *c, uint32_t t)
+{
+    const uint32_t last = (uint32_t)--c->n_triangles;
+    for (uint32_t k = 0; k < 3 && t != last; ++k) {
+        const uint32_t twin = c->twin[3 * last + k];
+        c->vertex[3 * t + k] = c->vertex[3 * last + k];
+        c->twin[3 * t + k] = twin;
+        if (twin != ICCP_NO_NEIGHBOUR)
+            c->twin[twin] = 3 * t + k;
+    }
+}
+
+/* Where the ends of an edge have two neighbours in common, they can be one vertex. */
+START_TEST(collapsed_edges_leave_a_disc)
+{
+    size_t n_collapsed = 0;
+    for (int run = 0; run < 60; ++run) {
+        random_source r = {(uint64_t)run};
+        iccp_corners c = fan(5, run % 2 == 0);
+        uint32_t n_vertices = run % 2 == 0 ? 6 : 7;
+        while (n_vertices < 30)
+            iccp_cut_edge(&c, (uint32_t)random_below(&r, 3 * (int)c.n_triangles), n_vertices++);
+        for (int step = 0; step < 100; ++step) {
+            const uint32_t k = (uint32_t)random_below(&r, 3 * (int)c.n_triangles);
+            const uint32_t v = c.vertex[k], to = c.vertex[iccp_after(k)];
+            if (!is_inner(&c, v) || n_joined_to_both(&c, v, to, n_vertices) != 2)
+                continue;
+            const uint32_t other = c.twin[iccp_before(k)] / 3, last = n_vertices - 1;
+            iccp_collapse_edge(&c, k);
+            drop_triangle(&c, k / 3 > other ? k / 3 : other);
+            drop_triangle(&c, k / 3 > other ? other : k / 3);
+            for (uint32_t x = 0; x < 3 * c.n_triangles; ++x) {
+                ck_assert_uint_ne(c.vertex[x], v);
+                if (c.vertex[x] == last)
+                    c.vertex[x] = v;
+            }
+            check_disc(&c, --n_vertices);
+            ++n_collapsed;
+        }
+    }
+    ck_assert_uint_gt(n_collapsed, 300);
+}
+END_TEST
+
 /* Twins follow from the vertices alone. */
 START_TEST(twins_are_found)
 {
@@ -220,6 +282,7 @@ int main(void)
     Suite *suite = suite_create("corners");
     TCase *tests = tcase_create("all");
     tcase_add_test(tests, random_changes_keep_every_invariant);
+    tcase_add_test(tests, collapsed_edges_leave_a_disc);
     tcase_add_test(tests, twins_are_found);
     tcase_add_test(tests, four_turns_change_nothing);
     tcase_add_test(tests, a_boundary_may_be_cut_again_and_again);

@@ -73,9 +73,9 @@ impl MapOptions<'_> {
 pub struct ImproveOptions {
     /// at most so many steps on each level; 0: 60
     pub iterations: i32,
-    /// at most so many refinements; 0: 4; -1: none
+    /// at most so many refinements; 0: 16; -1: none
     pub levels: i32,
-    /// a level ends when a step gains less than this share of the energy; 0: 1e-4
+    /// the last level ends when a step gains less than this share of the energy; 0: 1e-4
     pub tolerance: f64,
 }
 
