@@ -49,8 +49,8 @@ quietly() {
     fi
 }
 
-# step TOPIC NAME COMMAND... runs a command, whose output goes to $work/NAME.log, and prints the seconds that it took. It
-# stops at the first thing in it that fails; so it is not called in a condition.
+# step TOPIC NAME COMMAND... runs a command, whose output goes to $work/NAME.log, and prints the seconds that it
+# took. It stops at the first thing in it that fails; so it is not called in a condition.
 step() {
     topic=$1
     name=$2
