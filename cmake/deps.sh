@@ -54,18 +54,19 @@ quietly() {
 step() {
     topic=$1
     name=$2
+    log=${work:?}/$name.log
     shift 2
     begin=$(date +%s)
     set +e
     (
         set -e
         "$@"
-    ) >"$work/$name.log" 2>&1 </dev/null
+    ) >"$log" 2>&1 </dev/null
     status=$?
     set -e
     if [ "$status" -ne 0 ]; then
-        tail -n 60 "$work/$name.log" >&2
-        echo "$topic: $name failed (all of its output is in $work/$name.log)" >&2
+        tail -n 60 "$log" >&2
+        echo "$topic: $name failed (all of its output is in $log)" >&2
         exit 1
     fi
     printf '%s: %-13s %4d s\n' "$topic" "$name" $(($(date +%s) - begin))
