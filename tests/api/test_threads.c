@@ -362,9 +362,13 @@ int main(void)
     tcase_add_loop_test(tests, long_loops_run_every_task_once, 0, N_METHODS);
     tcase_add_loop_test(tests, functions_do_not_depend_on_the_number_of_threads, 0, N_LARGE);
     tcase_add_loop_test(tests, objects_may_be_shared, 0, N_METHODS);
-    tcase_add_loop_test(tests, every_long_call_can_be_cancelled, 0, N_METHODS);
-    tcase_add_loop_test(tests, progress_stays_on_the_calling_thread, 0, N_METHODS);
     suite_add_tcase(suite, tests);
+    TCase *progress = tcase_create("progress");
+    tcase_set_timeout(progress, 240);
+    tcase_set_tags(progress, "progress");
+    tcase_add_loop_test(progress, every_long_call_can_be_cancelled, 0, N_METHODS);
+    tcase_add_loop_test(progress, progress_stays_on_the_calling_thread, 0, N_METHODS);
+    suite_add_tcase(suite, progress);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_NORMAL);
     const int n_failed = srunner_ntests_failed(runner);
