@@ -49,23 +49,24 @@ quietly() {
     fi
 }
 
-# step TOPIC NAME COMMAND... runs a command, whose output goes to $work/NAME.log, and prints the seconds that it took. It
-# stops at the first thing in it that fails; so it is not called in a condition.
+# step TOPIC NAME COMMAND... runs a command, whose output goes to $work/NAME.log, and prints the seconds that it
+# took. It stops at the first thing in it that fails; so it is not called in a condition.
 step() {
     topic=$1
     name=$2
+    log=${work:?}/$name.log
     shift 2
     begin=$(date +%s)
     set +e
     (
         set -e
         "$@"
-    ) >"$work/$name.log" 2>&1 </dev/null
+    ) >"$log" 2>&1 </dev/null
     status=$?
     set -e
     if [ "$status" -ne 0 ]; then
-        tail -n 60 "$work/$name.log" >&2
-        echo "$topic: $name failed (all of its output is in $work/$name.log)" >&2
+        tail -n 60 "$log" >&2
+        echo "$topic: $name failed (all of its output is in $log)" >&2
         exit 1
     fi
     printf '%s: %-13s %4d s\n' "$topic" "$name" $(($(date +%s) - begin))

@@ -5,8 +5,8 @@
 # - what it saves is loaded here, and what is saved here is loaded there, with the same hashes.
 # What is linked to comes from Debian's packages for that machine, unpacked into a folder: nothing foreign is installed.
 # usage: sh tests/ports.sh [--long] [arm64|armhf|i386|riscv64|s390x ...]
-# Without --long: the unit tests labelled `ports`, with 1 % of the cases of long sweeps instead of 4 %. Without machines:
-# all. Logs are in build/ports/MACHINE.
+# Without --long: the unit tests labelled `ports`, with 1 % of the cases of long sweeps instead of 4 %. Without
+# machines: all. Logs are in build/ports/MACHINE.
 set -eu
 cd "$(dirname "$0")/.."
 . cmake/deps.sh
@@ -21,7 +21,8 @@ golden=tests/golden
 here=build/release/tests/golden
 saved=$PWD/build/ports/saved
 jobs=$(nproc)
-need gcc libc6-dev make cmake pkg-config libpng-dev libcjson-dev check libgmp-dev libsuitesparse-dev qemu-user mmdebstrap
+need gcc libc6-dev make cmake pkg-config libpng-dev libcjson-dev check libgmp-dev libsuitesparse-dev \
+    qemu-user mmdebstrap
 
 # Names of a machine: its compiler's, qemu's; and the release of Debian that has packages for it.
 describe() {
@@ -56,7 +57,7 @@ build() {
     export PKG_CONFIG_SYSROOT_DIR="$root" PKG_CONFIG_LIBDIR="$root/usr/lib/$multiarch/pkgconfig"
     # What may be uninitialised GCC guesses, and differently for each machine.
     cmake -S . -B "$work/build" -DCMAKE_BUILD_TYPE=Release -DICC_WERROR=ON -DCMAKE_C_FLAGS=-Wno-maybe-uninitialized \
-        -DICC_BUILD_TOOLS=OFF -DICC_BUILD_TESTS=ON \
+        -DICC_BUILD_TOOLS=OFF -DICC_BUILD_TESTS=ON -DCHOLMOD_LIBRARY= \
         -DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR="$cpu" -DCMAKE_C_COMPILER="$triplet-gcc" \
         -DCMAKE_SYSROOT="$root" -DCMAKE_FIND_ROOT_PATH_MODE_PROGRAM=NEVER -DCMAKE_FIND_ROOT_PATH_MODE_LIBRARY=ONLY \
         -DCMAKE_FIND_ROOT_PATH_MODE_INCLUDE=ONLY -DCMAKE_CROSSCOMPILING_EMULATOR="qemu-$cpu;-L;$root"

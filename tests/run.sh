@@ -51,9 +51,13 @@ esac
 ICC_TEST_SHARE=${ICC_TEST_SHARE:-$share}
 export ICC_TEST_SHARE
 
-# Under the thread sanitizer what uses threads is of interest, and in the long tier everything.
+# Under the thread sanitizer what uses threads is of interest, without its cases about progress, and in the long tier
+# everything.
 target=all only=
-[ "$tier-$preset" != plain-tsan ] || target=tests_threads only='^threads$' left_to_others=long
+if [ "$tier-$preset" = plain-tsan ]; then
+    target=tests_threads only='^threads$' left_to_others=long
+    export CK_EXCLUDE_TAGS=progress
+fi
 
 echo "building in $build"
 quietly "$build/configure.log" cmake --preset "$preset" -DICC_BUILD_BENCHMARKS=$benchmarks "$@"

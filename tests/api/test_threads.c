@@ -26,7 +26,7 @@ START_TEST(results_do_not_depend_on_the_number_of_threads)
     objects_init(&o, METHODS[_i]);
     for (int i = 0; i < N_CALLS; ++i) {
         serial(&o, &CALLS[i], &plain);
-        for (int32_t n = 1; n <= 8; ++n) {
+        for (int32_t n = test_share() < 100 ? 8 : 1; n <= 8; ++n) {
             const icc_env env = {.size = sizeof env, .threads = n};
             memset(&out, 0, sizeof out);
             ck_assert_int_eq(CALLS[i].run(&o, &out, &env, NULL), ICC_OK);
@@ -279,11 +279,12 @@ static void watch_tasks(void *user_pointer, size_t n_tasks, icc_task task, void 
     crew_run(&w->crew, n_tasks, task, argument);
 }
 
-/* Cancels a call at every chance that it gives, and returns how many there are. */
+/* Cancels a call at every chance that it gives, or a share of them, and returns how many there
+ * are. */
 static size_t cancel_everywhere(const objects *o, const call *c, int32_t threads, bool own_tasks)
 {
     static outcome out;
-    for (size_t k = 0;; ++k) {
+    for (size_t k = 0;; k = share_next(k)) {
         watcher w = {.caller = pthread_self(), .cancel_at = k};
         icc_env env = {.size = sizeof env,
                        .user = &w,
@@ -298,8 +299,8 @@ static size_t cancel_everywhere(const objects *o, const call *c, int32_t threads
         if (atomic_load(&w.n_live) != 0)
             ck_abort_msg("%s leaks when it is cancelled", c->name);
         if (status == ICC_OK) {
-            ck_assert_uint_eq(w.n_calls, k);
-            return k;
+            ck_assert_uint_le(w.n_calls, k);
+            return w.n_calls;
         }
         if (status != ICC_ERR_CANCELLED || w.n_calls != k + 1 ||
             (has_error(c) && (err.status != status || err.message[0] == '\0')))
@@ -361,9 +362,13 @@ int main(void)
     tcase_add_loop_test(tests, long_loops_run_every_task_once, 0, N_METHODS);
     tcase_add_loop_test(tests, functions_do_not_depend_on_the_number_of_threads, 0, N_LARGE);
     tcase_add_loop_test(tests, objects_may_be_shared, 0, N_METHODS);
-    tcase_add_loop_test(tests, every_long_call_can_be_cancelled, 0, N_METHODS);
-    tcase_add_loop_test(tests, progress_stays_on_the_calling_thread, 0, N_METHODS);
     suite_add_tcase(suite, tests);
+    TCase *progress = tcase_create("progress");
+    tcase_set_timeout(progress, 240);
+    tcase_set_tags(progress, "progress");
+    tcase_add_loop_test(progress, every_long_call_can_be_cancelled, 0, N_METHODS);
+    tcase_add_loop_test(progress, progress_stays_on_the_calling_thread, 0, N_METHODS);
+    suite_add_tcase(suite, progress);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_NORMAL);
     const int n_failed = srunner_ntests_failed(runner);

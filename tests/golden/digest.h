@@ -1,5 +1,5 @@
-/* Numbers as one of 64 bits that is the same wherever the numbers are: whatever the order of a machine's
- * bytes, the width of its size_t and the bits of its NaN. */
+/* Numbers as one of 64 bits that is the same wherever the numbers are: whatever the order of a
+ * machine's bytes, the width of its size_t and the bits of its NaN. */
 #ifndef TESTS_GOLDEN_DIGEST_H
 #define TESTS_GOLDEN_DIGEST_H
 

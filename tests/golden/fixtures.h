@@ -1,5 +1,5 @@
-/* Shapes for golden hashes, a source (side 0) and a target (side 1) of each. Their coordinates come of sums, products,
- * quotients and square roots alone, which IEEE 754 rounds alike everywhere. */
+/* Shapes for golden hashes, a source (side 0) and a target (side 1) of each. Their coordinates come
+ * of sums, products, quotients and square roots alone, which IEEE 754 rounds alike everywhere. */
 #ifndef TESTS_GOLDEN_FIXTURES_H
 #define TESTS_GOLDEN_FIXTURES_H
 
@@ -42,7 +42,8 @@ static inline icc_domain *domain_l(int side)
     return domain_of(2, 6, CORNERS[side], 0, NULL);
 }
 
-/* n corners on rays to points of a diamond's outline, at random shares of the way, `least` at least. */
+/* n corners on rays to points of a diamond's outline, at random shares of the way, `least` at
+ * least. */
 static inline void ring_outline(size_t n, double least, uint64_t seed, double *xy)
 {
     static const double DIAMOND[10] = {1, 0, 0, 1, -1, 0, 0, -1, 1, 0};

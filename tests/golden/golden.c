@@ -1,10 +1,11 @@
-/* Prints a line for every case: its name, and a hash of all that it gives. The lines are the same on every machine,
- * with every compiler. The folder's objects.txt and results.txt have them; check.sh compares.
+/* Prints a line for every case: its name, and a hash of all that it gives. The lines are the same
+ * on every machine, with every compiler. The folder's objects.txt and results.txt have them;
+ * check.sh compares.
  *
- * golden objects [FOLDER]   of charts, maps, samplings and bindings, and of the bytes that they are saved as, which
- *                           are written to files of that folder
- * golden load FOLDER        of the objects that are loaded from these, wherever they were written
- * golden results            of everything else */
+ * golden objects [FOLDER]   charts, maps, samplings and bindings: a hash of their answers, and one
+ *                           of the bytes that they are saved as, which are written to that folder
+ * golden load FOLDER        the same of the objects in it, wherever they were written
+ * golden results            everything else */
 #include "outcomes.h"
 
 #include <icc/stages.h>
@@ -524,7 +525,8 @@ static void try_defects(digest *d, size_t which)
     digest_u32(d, n < MOST ? 2 * n : 2 * MOST, items);
 }
 
-/* A square with random points, a third of them on a lattice, where four and more lie on a circle. */
+/* A square with random points, a third of them on a lattice, where four and more lie on a
+ * circle. */
 static void try_triangulation(digest *d, size_t which)
 {
     (void)which;

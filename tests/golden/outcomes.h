@@ -1,4 +1,5 @@
-/* What objects say of themselves and answer to fixed questions, as one number each. Times are left out. */
+/* What objects say of themselves and answer to fixed questions, as one number each. Times are left
+ * out. */
 #ifndef TESTS_GOLDEN_OUTCOMES_H
 #define TESTS_GOLDEN_OUTCOMES_H
 

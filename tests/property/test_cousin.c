@@ -168,10 +168,10 @@ static void grow(random_source *r, const iccp_kuhn *kuhn, const size_t *sides, s
             int steps = 0;
             bool in_grid = true;
             for (int32_t k = 0; k < kuhn->dim; ++k) {
-                const size_t at = v / stride[k] % sides[k] + (size_t)kuhn->step[i][k];
-                in_grid = in_grid && at < sides[k];
-                u += (size_t)kuhn->step[i][k] * stride[k];
-                steps += kuhn->step[i][k] != 0;
+                const size_t step = (size_t)kuhn->step[i][k];
+                in_grid = in_grid && v / stride[k] % sides[k] + step < sides[k];
+                u += step * stride[k];
+                steps += step != 0;
             }
             if (!in_grid || !inside[u])
                 continue;

@@ -74,12 +74,17 @@ static void add_length(mpq_t sum, double *arc, const vec *p, const vec *q)
     *arc += hypot(d[0], d[1]);
 }
 
+/* As two doubles, since GMP's integers may have 32 bits only. */
 static void set_units(mpq_t q, int64_t units)
 {
-    mpq_set_si(q, (long)units, 1);
+    const int64_t rest = units % ((int64_t)1 << 32);
+    mpq_t low;
+    mpq_init(low);
+    mpq_set_d(low, (double)rest);
+    mpq_set_d(q, (double)(units - rest));
+    mpq_add(q, q, low);
+    mpq_clear(low);
 }
-
-_Static_assert(sizeof(long) == sizeof(int64_t), "labels must fit into GMP's integers");
 
 /* ---- the foliation ---- */
 

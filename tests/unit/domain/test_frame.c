@@ -78,8 +78,8 @@ static void check_integers(int64_t span, const int64_t offset[2], int exponent)
 
 START_TEST(test_exact)
 {
-    static const int64_t offsets[] = {0,       1,          -1,        10,          1000,
-                                      -100000, 1000000000, -20000003, 1000000007L, 1L << 40};
+    static const int64_t offsets[] = {0,       1,          -1,        10,         1000,
+                                      -100000, 1000000000, -20000003, 1000000007, (int64_t)1 << 40};
     enum { OFFSETS = sizeof offsets / sizeof offsets[0] };
     for (int exponent = -1074; exponent <= 960; exponent += 226)
         for (int i = 0; i < OFFSETS; ++i)

@@ -118,9 +118,10 @@ static icc_grid *random_ball(random_source *r, int32_t dim, size_t side, size_t 
             int steps = 0;
             bool in_grid = true;
             for (int32_t k = 0; k < dim; ++k) {
-                in_grid = in_grid && v / stride[k] % side + (size_t)kuhn.step[i][k] < side;
-                u += (size_t)kuhn.step[i][k] * stride[k];
-                steps += kuhn.step[i][k] != 0;
+                const size_t step = (size_t)kuhn.step[i][k];
+                in_grid = in_grid && v / stride[k] % side + step < side;
+                u += step * stride[k];
+                steps += step != 0;
             }
             if (!in_grid || !inside[u])
                 continue;
