@@ -28,7 +28,7 @@
 static const double DENSE = 10;
 enum { LEAST_DENSE = 16 };
 
-/* Up to this degree, or twice the mean, variables are eliminated by degree. By fill from the
+/* Up to this degree, or three times the mean, variables are eliminated by degree. By fill from the
  * beginning, grids and meshes in the plane took a tenth more multiplications, and long lists four
  * times as long, since eliminations far from each other absorb little. Solids and walls take a
  * fifth to a third fewer than by degree throughout (tests/bench/bench_ordering). */
@@ -128,7 +128,7 @@ static void compact(graph *g)
 
 /* ------------------------------------------------------------- elimination */
 
-/* The variables of a list that are not in the new element yet go to list[to...]; returns its end. */
+/* The variables of a list that are not in the new element yet go to list[to..]; returns its end. */
 static uint32_t take(graph *g, uint32_t begin, uint32_t length, uint32_t to, uint32_t *degree)
 {
     for (uint32_t k = begin; k < begin + length; ++k) {
@@ -495,8 +495,8 @@ icc_status iccp_ordering(const iccp_symmetric *matrix, uint32_t *order, const ic
     if (room >= HEAD)
         return ICC_ERR_RESOLUTION;
     graph g = {.env = env, .n = n, .room = (uint32_t)room, .mask = 1, .small = SMALL_DEGREE};
-    if (n > 0 && n_entries / n > SMALL_DEGREE / 2)
-        g.small = (uint32_t)(2 * n_entries / n);
+    if (n > 0 && n_entries / n > SMALL_DEGREE / 3)
+        g.small = (uint32_t)(3 * n_entries / n);
     while (g.mask + 1 < n && g.mask + 1 < MOST_BUCKETS)
         g.mask = 2 * g.mask + 1;
     g.node = iccp_alloc(memory, n, sizeof *g.node);
