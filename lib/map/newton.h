@@ -35,8 +35,8 @@ void iccp_newton_plan_release(iccp_newton_plan *plan);
 /* Whether a plan is for that mesh and those fixed points. O(n). */
 bool iccp_newton_plan_fits(const iccp_newton_plan *plan, const iccp_simplicial_map *map);
 
-/* For the points with movable[v] != 0 that are not fixed; all of them when `movable` is NULL. Then it
- * follows map->plan, if that fits, which must live longer. */
+/* For the points with movable[v] != 0 that are not fixed; all of them when `movable` is NULL, and
+ * then by map->plan if that fits, which must live longer. */
 icc_status iccp_newton_create(iccp_newton *newton, const iccp_simplicial_map *map,
                               const uint8_t *movable, const iccp_env *env);
 void iccp_newton_free(iccp_newton *newton);

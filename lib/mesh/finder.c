@@ -138,7 +138,8 @@ static void mark_edge(const iccp_finder *f, grid *g, uint32_t from, uint32_t to,
 
 /* ---- making the grid ---- */
 
-/* Coordinates in cells are rounded; slopes multiply what that makes of rows. */
+/* The slack is for the rounding of coordinates in cells. Rows get it too, since flat edges multiply
+ * an error of y. */
 static void choose_cells(const iccp_finder *f, grid *g)
 {
     for (int k = 0; k < 2; ++k) {

@@ -54,8 +54,8 @@ icc_status iccp_finder_find(const iccp_finder *finder, const double p[2], iccp_f
 /* The same for a single point, without a grid: ICC_OK or ICC_ERR_TRACE. O(n). */
 icc_status iccp_finder_find_alone(const iccp_finder *finder, const double p[2], iccp_found *found);
 
-/* As iccp_finder_find(), for n points with 2 coordinates each, and a grid that is ready. `other` are
- * other points of the vertices: of the triangles that are found, they are about to be read. */
+/* As iccp_finder_find(), for n points with 2 coordinates each and a grid that is ready. `other` are
+ * other points of the vertices, which are about to be read for the triangles that are found. */
 void iccp_finder_find_many(const iccp_finder *finder, size_t n, const double *points,
                            const double *other, iccp_found *found);
 

@@ -117,18 +117,19 @@ static void measure_bytes(const icc_map *map)
 
 /* ---- frames ---- */
 
-/* The target swells and shrinks by 1 : 1000 along its axes, each frame from the one before. */
+/* The target swells and shrinks by about a tenth of an edge, each frame from the one before. */
 static void measure_frames(icc_map *map, const icc_domain *target)
 {
     enum { FRAMES = 12 };
     icc_error error = {.size = sizeof error};
     const icc_domain_info info = cage_info(target);
+    const double by = 0.1 / (double)info.n_vertices;
     double *given = bench_alloc(info.n_vertices, 2 * sizeof *given), times[FRAMES];
     double *moved = bench_alloc(info.n_vertices, 2 * sizeof *moved);
     bench_check(icc_domain_get_boundary(target, given, NULL), &error);
     for (int k = 0; k < FRAMES; ++k) {
         for (size_t i = 0; i < 2 * info.n_vertices; ++i)
-            moved[i] = given[i] + 1e-3 * (k % 2) * (given[i] - info.lower[i % 2]);
+            moved[i] = given[i] + by * (k % 2) * (given[i] - info.lower[i % 2]);
         const double start = processor_seconds();
         icc_domain *next = bench_domain(info.n_vertices, moved);
         icc_map *frame;
