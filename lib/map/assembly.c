@@ -203,37 +203,41 @@ static void leave_out(iccp_assembly *s, const uint32_t *position)
                     neighbour[-1] = NONE;
 }
 
-/* Whether no corner of the element before this one is in its part. */
-static bool is_new_part(const iccp_assembly *s, size_t element, size_t corner)
+/* The parts in which an element has a corner, each once; how many there are. */
+static ICCP_INLINE size_t parts_of(size_t dim, const iccp_assembly *s, size_t element,
+                                   uint32_t part[4])
 {
-    const uint32_t slot = slot_of(s->dim, s, element, corner);
-    for (size_t k = 0; slot != NONE && k < corner; ++k) {
-        const uint32_t other = slot_of(s->dim, s, element, k);
-        if (other != NONE && s->part[other] == s->part[slot])
-            return false;
+    size_t n = 0;
+    for (size_t k = 0; k <= dim; ++k) {
+        const uint32_t slot = slot_of(dim, s, element, k);
+        size_t i = slot == NONE ? n : 0;
+        if (slot != NONE)
+            part[n] = s->part[slot];
+        while (i < n && part[i] != part[n])
+            ++i;
+        n += slot != NONE && i == n;
     }
-    return slot != NONE;
+    return n;
 }
 
 /* Two passes: the first counts the elements of each part, the second fills them in. */
 static icc_status list_elements(iccp_assembly *s)
 {
+    uint32_t part[4];
     s->first_element = iccp_alloc_zero(&s->memory, s->n_parts + 1, sizeof *s->first_element);
     if (s->first_element == NULL)
         return ICC_ERR_MEMORY;
     for (size_t e = 0; e < s->n_elements; ++e)
-        for (size_t k = 0; k <= s->dim; ++k)
-            if (is_new_part(s, e, k))
-                ++s->first_element[s->part[slot_of(s->dim, s, e, k)]];
+        for (size_t k = parts_of(s->dim, s, e, part); k-- > 0;)
+            ++s->first_element[part[k]];
     for (size_t p = 1; p <= s->n_parts; ++p)
         s->first_element[p] += s->first_element[p - 1];
     s->element = iccp_alloc(&s->memory, s->first_element[s->n_parts], sizeof *s->element);
     if (s->element == NULL)
         return ICC_ERR_MEMORY;
     for (size_t e = s->n_elements; e-- > 0;)
-        for (size_t k = 0; k <= s->dim; ++k)
-            if (is_new_part(s, e, k))
-                s->element[--s->first_element[s->part[slot_of(s->dim, s, e, k)]]] = (uint32_t)e;
+        for (size_t k = parts_of(s->dim, s, e, part); k-- > 0;)
+            s->element[--s->first_element[part[k]]] = (uint32_t)e;
     return ICC_OK;
 }
 

@@ -22,7 +22,7 @@ static const double DECREASE = 1e-4;
 enum { MAX_HALVINGS = 40 };
 
 /* Elements that a thread takes at once, and rows of a part of the assembly. */
-enum { GRAIN = 1024, PART_ROWS = 1024 };
+enum { GRAIN = 8192, PART_ROWS = 2048 };
 
 /* ---- set-up ---- */
 
@@ -40,7 +40,7 @@ static icc_status analyse(iccp_assembly *assembly, iccp_ldlt *factor, const iccp
     const iccp_symmetric hessian = iccp_assembly_hessian(assembly);
     const icc_status status = iccp_ldlt_analyse(factor, &hessian, 2, env);
     return status == ICC_OK
-               ? iccp_assembly_divide(assembly, factor->position, hessian.n / PART_ROWS)
+               ? iccp_assembly_divide(assembly, factor->position, hessian.n / PART_ROWS + 1)
                : status;
 }
 

@@ -1,8 +1,7 @@
-/* Default maps of large cages: bench_cages [MOST], or
- * bench_cages SOURCE TARGET [PIECES]. Time on one and on two
- * threads, run by run in turn, and the memory that is in use at most. Without files the cages are
- * outlines with waves, of 100 vertices up to MOST (100000); of the files' cages each edge is cut
- * into PIECES. */
+/* Default maps of large cages: bench_cages [MOST], or bench_cages SOURCE TARGET [PIECES]. Processor
+ * time, time on one and on two threads, the least of runs in turn, and the memory that is in use at
+ * most. Without files the cages are outlines with waves, of 100 vertices up to MOST (100000); of
+ * the files' cages each edge is cut into PIECES. */
 #include "bench.h"
 #include "cages.h"
 
