@@ -5,8 +5,9 @@
 #include "base/env.h"
 #include "domain/boxtree.h"
 
-/* Tests of boxes and of pairs of edges, per edge, after which the search gives up. Outlines need 5
- * to 15; polygons whose boxes nearly all overlap, such as a diagonal comb, up to n. */
+/* Tests of boxes and of pairs of edges, per edge, after which the search gives up. Outlines need up
+ * to 2, most spirals up to 10; polygons whose boxes nearly all overlap, such as a diagonal comb, up
+ * to n. */
 enum { ICCP_SIMPLE_PATIENCE = 48 };
 
 typedef enum iccp_simplicity { ICCP_UNDECIDED, ICCP_SIMPLE, ICCP_NOT_SIMPLE } iccp_simplicity;

@@ -149,7 +149,8 @@ static ICCP_INLINE bool meet_at_one(const double *vertices, const uint32_t *s, c
     const unsigned i = same > 32 ? 2 : same > 4 ? 1 : 0, row = same >> 3 * i;
     list_from(vertices, s, i, a);
     list_from(vertices, t, row >> 1, b); /* 1, 2, 4: corner 0, 1, 2 */
-    const bool reach = segment_reaches(a[1], a[2], box_t) | segment_reaches(b[1], b[2], box_s);
+    bool reach = segment_reaches(a[1], a[2], box_t);
+    reach |= segment_reaches(b[1], b[2], box_s); /* both at once: branches here are guesses */
     return reach && meet_at_corner(a, b);
 }
 
