@@ -4,6 +4,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "base/minmax.h"
 #include "base/threads.h"
 #include "chart/bulk.h"
 #include "map/overlay_start.h"
@@ -98,6 +99,8 @@ static icc_status start(iccp_plmap *pl, const icc_chart *source, const icc_chart
     charts c = {source, target, &env->memory, images, SIZE_MAX};
     icc_status status = ICC_ERR_MEMORY;
     if (images != NULL)
+        status = iccp_chart_ready(target, true);
+    if (status == ICC_OK)
         status = iccp_for_chunks(env, "trace", mesh->n_vertices, 1024, find_images, &c);
     if (iccp_is_point_status(status) && status != ICC_OK)
         (void)iccp_fail(err, status, "vertex %zu of the mesh has no image by the charts",
@@ -159,7 +162,7 @@ static icc_status improve(iccp_plmap *pl, const icc_improve_options *options, ic
         .levels = options->levels < 0    ? 0
                   : options->levels == 0 ? LEVELS
                                          : (size_t)options->levels,
-        .most = is_limited ? MOST_GROWTH * fmax(SMALL, (double)pl->corners.n_triangles) : HUGE_VAL};
+        .most = is_limited ? MOST_GROWTH * iccp_max(SMALL, (double)pl->corners.n_triangles) : HUGE_VAL};
     const iccp_env part = iccp_part(env, "improve", 0, 1);
     const icc_status status = iccp_improve(pl, &schedule, work, improvement, &part);
     *cancelled = status == ICC_ERR_CANCELLED;
