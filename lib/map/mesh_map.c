@@ -162,7 +162,8 @@ static icc_status improve(iccp_plmap *pl, const icc_improve_options *options, ic
         .levels = options->levels < 0    ? 0
                   : options->levels == 0 ? LEVELS
                                          : (size_t)options->levels,
-        .most = is_limited ? MOST_GROWTH * iccp_max(SMALL, (double)pl->corners.n_triangles) : HUGE_VAL};
+        .most =
+            is_limited ? MOST_GROWTH * iccp_max(SMALL, (double)pl->corners.n_triangles) : HUGE_VAL};
     const iccp_env part = iccp_part(env, "improve", 0, 1);
     const icc_status status = iccp_improve(pl, &schedule, work, improvement, &part);
     *cancelled = status == ICC_ERR_CANCELLED;
