@@ -5,10 +5,10 @@
 #include <assert.h>
 #include <stdatomic.h>
 #include <stdbool.h>
+#include <stdio.h>
 
 #ifdef ICC_WITH_THREADS
 #include <pthread.h>
-#include <stdio.h>
 #endif
 
 typedef struct loop {
@@ -138,14 +138,12 @@ icc_status iccp_for_chunks(const iccp_env *env, const char *stage, size_t n, siz
 
 /* ---- tasks side by side ---- */
 
-#ifdef ICC_WITH_THREADS
-
 typedef struct sides {
     const iccp_env *env;
     iccp_side task;
     void *argument;
     size_t n;
-    pthread_t caller;
+    const void *caller; /* its thread */
     atomic_size_t stop; /* tasks from this one on need not go on */
     struct side *side;
 } sides;
@@ -159,6 +157,13 @@ typedef struct side {
     icc_error error;
     char line[MOST_LINES][LINE];
 } side;
+
+/* Nothing is stored there: each thread has its own, so that the address tells threads apart. */
+static const void *this_thread(void)
+{
+    static _Thread_local char own;
+    return &own;
+}
 
 /* What a failure of task k leaves to the others: those before it still decide what is returned. */
 static void stop_from(sides *s, size_t k)
@@ -174,8 +179,7 @@ static int32_t report(void *user, const char *stage, double share)
     const side *s = user;
     if (s->k >= atomic_load(&s->all->stop))
         return 1;
-    if (pthread_equal(pthread_self(), s->all->caller) &&
-        iccp_progress(s->all->env, stage, share) != ICC_OK)
+    if (this_thread() == s->all->caller && iccp_progress(s->all->env, stage, share) != ICC_OK)
         stop_from(s->all, 0);
     return s->k >= atomic_load(&s->all->stop);
 }
@@ -214,7 +218,7 @@ static icc_status run_sides(const iccp_env *env, size_t n, iccp_side task, void 
     sides s = {.env = env, .task = task, .argument = argument, .n = n, .stop = n, .side = own};
     iccp_env quiet = *env;
     quiet.progress = NULL;
-    s.caller = pthread_self();
+    s.caller = this_thread();
     for (size_t k = 0; k < n; ++k) {
         own[k].all = &s;
         own[k].k = k;
@@ -233,17 +237,13 @@ static icc_status run_sides(const iccp_env *env, size_t n, iccp_side task, void 
     return status;
 }
 
-#endif
-
 icc_status iccp_side_by_side(const iccp_env *env, size_t n, iccp_side task, void *argument,
                              icc_error *err)
 {
     assert(n <= ICCP_MOST_SIDES);
     icc_status status = ICC_OK;
-#ifdef ICC_WITH_THREADS
     if (n > 1 && iccp_has_threads(env) && env->budget == NULL)
         return run_sides(env, n, task, argument, err);
-#endif
     for (size_t k = 0; status == ICC_OK && k < n; ++k) {
         const iccp_env part =
             iccp_part(env, NULL, (double)k / (double)n, (double)(k + 1) / (double)n);
