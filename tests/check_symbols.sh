@@ -46,9 +46,7 @@ threads='pthread_create pthread_join'
 echo "$exact $other $threads" | tr ' ' '\n' >"$work/allowed"
 "$nm" -D --undefined-only "$shared" | imported >"$work/imported"
 "$nm" --undefined-only "$static" | imported >>"$work/imported"
-for name in malloc memcpy; do
-    grep -qx "$name" "$work/imported" || { echo "nothing seen of what the library imports"; failed=1; }
-done
+grep -qx malloc "$work/imported" || { echo "nothing seen of what the library imports"; failed=1; }
 if grep -vxF -f "$work/allowed" "$work/imported" | sort -u | grep .; then
     echo "these are imported, and not known to give the same results with every C library"
     failed=1

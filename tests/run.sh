@@ -47,7 +47,7 @@ case $tier in
     all) share=20 left_to_others=long ;;
     long) share=100 left_to_others=none ;;
 esac
-[ "$tier-$sanitized" = long-yes ] || [ "$sanitized" = no ] || share=3
+[ "$tier-$sanitized" = long-yes ] || [ "$sanitized" = no ] || share=4
 ICC_TEST_SHARE=${ICC_TEST_SHARE:-$share}
 export ICC_TEST_SHARE
 
