@@ -638,7 +638,7 @@ START_TEST(hostile_content_is_safe)
         size_t size;
         memcpy(changed, data, n);
         for (int k = random_below(&r, 3); k >= 0; --k) {
-            const size_t at = 32 + (size_t)(random_bits(&r) % (round % 2 == 0 ? 120 : n - 32));
+            const size_t at = 24 + (size_t)(random_bits(&r) % (round % 2 == 0 ? 120 : n - 24));
             const int bit = 1 << random_below(&r, 8), any = random_below(&r, 256);
             changed[at] = (unsigned char)(random_below(&r, 4) == 0 ? any : changed[at] ^ bit);
         }

@@ -382,7 +382,7 @@ START_TEST(content_is_checked)
         icc_map *map = small_map(k, &p);
         bytes b = map_bytes(map), changed = {b.n, saved_alloc(b.n)};
         for (int i = 0; i < share_of(k == 1 ? 200 : 3000); ++i) {
-            const size_t at = 32 + 4 * (size_t)random_below(&r, (int)(b.n - 40) / 4);
+            const size_t at = 24 + 4 * (size_t)random_below(&r, (int)(b.n - 32) / 4);
             memcpy(changed.data, b.data, b.n);
             if (i % 2 == 0)
                 for (size_t j = 0; j < 8; ++j)
