@@ -547,8 +547,8 @@ typedef struct icc_chart_report {
  *   direction (15 without AVX2). At most 70 bytes a grid vertex, and 150 for each of
  *   icc_field_info::n_contacts while it is made.
  * - foliation and disc in 2-D: a mesh of at most 2 n + 4 N^2 vertices (far fewer in practice),
- *   whose Laplacian is factorised: about 5 ms at N = 50 and n < 100, 0.1 s at n = 15,000. 500 bytes
- *   a vertex.
+ *   whose Laplacian is factorised: about 1 ms at N = 50 and n < 100, 0.06 s at n = 15,000. 500
+ *   bytes a vertex.
  * - foliation on a domain with a mesh, in 3-D: 12 us a tetrahedron, 20 us from 80,000 on, of which
  *   the certificate takes 2 to 4 %. A point takes 1 to 2 us in each direction at 20,000 tetrahedra,
  *   3 to 4 us at 80,000. 130 bytes a tetrahedron, 1.4 kB while it is made.
@@ -801,10 +801,10 @@ typedef struct icc_map_info {
  * times triangles, about a microsecond each. For n facets improvement takes at most W = 300,000 +
  * 300 n of them, the repair of a start as many, and a start without the charts, where theirs cannot
  * be repaired, half as many. Most maps take a small part of that: from 4 ms for cages of a few
- * dozen vertices to about a second for 15,000; where W is used up, icc_map_improve() goes on. Of
- * all that we have tried (letters, coasts, outlines turned onto themselves, stars, combs, spirals
- * of up to 200 turns) none takes more than half a second and 15 times as long as kind curves by
- * method disc. Deterministic: work is counted, and no clock is read.
+ * dozen vertices to 0.4 s for 15,000; where W is used up, icc_map_improve() goes on. Of all that we
+ * have tried (letters, coasts, outlines turned onto themselves, stars, combs, spirals of up to 200
+ * turns) none takes more than half a second and 15 times as long as kind curves by method disc.
+ * Deterministic: work is counted, and no clock is read.
  */
 ICC_API icc_status icc_map_create(icc_map **out, const icc_domain *source, const icc_domain *target,
                                   const icc_map_options *options, const icc_env *env,

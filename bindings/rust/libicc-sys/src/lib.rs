@@ -1049,7 +1049,7 @@ extern "C" {
     /// and way. Field the same: in 3-D at N = 64 0.05 to 0.5 s, 20 us a point and way; at most 70 bytes a grid
     /// vertex, and 150 for each of `icc_field_info.n_contacts` while it is made. Foliation and disc mesh
     /// the domain with at most 2 n + 4 N^2 vertices (far fewer in practice) and factorise its Laplacian:
-    /// about 5 ms at N = 50 and n \< 100, 0.1 s at n = 15,000; 500 bytes a vertex. Foliation on a domain with a
+    /// about 1 ms at N = 50 and n \< 100, 0.06 s at n = 15,000; 500 bytes a vertex. Foliation on a domain with a
     /// mesh: in 3-D about 25 us a tetrahedron, 40 us from 80,000 on, of which the certificate takes 2 %, then 1 to 2 us
     /// a point and way at 20,000 tetrahedra, 3 to 4 us at 80,000; 130 bytes a tetrahedron, 1.4 kB while it is made.
     pub fn icc_chart_create(
@@ -1240,9 +1240,9 @@ extern "C" {
     ///
     /// Returns as `icc_chart_create()`, or `ICC_ERR_BOUNDARY`
     ///
-    /// Cost of kind mesh: that of two charts, then a few Newton steps on the mesh: from 4 ms for cages of
-    /// some tens of vertices to about a second for 15,000. Deterministic: iterations are capped, clocks are
-    /// not read.
+    /// Cost of kind mesh: that of two charts, then Newton steps on the mesh: from 4 ms for cages of some tens
+    /// of vertices to 0.4 s for 15,000, and never more than a stated amount of work. Deterministic: work is
+    /// counted, clocks are not read.
     pub fn icc_map_create(
         out: *mut *mut icc_map,
         source: *const icc_domain,
