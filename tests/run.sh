@@ -48,6 +48,7 @@ case $tier in
     long) share=100 left_to_others=none ;;
 esac
 [ "$tier-$sanitized" = long-yes ] || [ "$sanitized" = no ] || share=4
+[ "$tier-$preset" != plain-tsan ] || share=2
 ICC_TEST_SHARE=${ICC_TEST_SHARE:-$share}
 export ICC_TEST_SHARE
 
