@@ -1,5 +1,5 @@
 /* Objects as bytes: little-endian numbers after a header with the kind of object, the version of
- * its format, the length and a checksum. Described in docs/formats.md.
+ * its format, the length and a checksum (CRC-32 of IEEE 802.3). Described in docs/formats.md.
  *
  * One function visits the parts of an object both ways: bytes are written from the values that it
  * names, or read into them. Visiting to write leaves all values alone, so that an object may be

@@ -169,11 +169,10 @@ typedef struct loop {
     double epsilon;
 } loop;
 
-/* On all threads; a loop that cannot be started on them is run here. */
+/* On all threads. Chunks do not fail, and a loop without progress cannot be stopped. */
 static void run(const iccp_newton *s, size_t n, size_t grain, iccp_chunk chunk, void *argument)
 {
-    if (n <= grain || iccp_for_chunks(&s->threads, "improve", n, grain, chunk, argument) != ICC_OK)
-        (void)chunk(argument, 0, n);
+    (void)iccp_for_chunks(&s->threads, "improve", n, grain, chunk, argument);
 }
 
 static ICCP_INLINE double energy_of(size_t dim, const iccp_newton *s, size_t e, iccp_energy energy,
