@@ -42,7 +42,8 @@ imported() {
 }
 exact='ceil copysign fabs floor fmod frexp ldexp nextafter round scalbn sqrt trunc'
 other='bcmp clock_gettime free malloc memcmp memcpy memmove memset snprintf vsnprintf'
-threads='pthread_create pthread_join'
+threads='pthread_create pthread_join pthread_mutex_init pthread_mutex_destroy pthread_mutex_lock
+  pthread_mutex_unlock pthread_cond_init pthread_cond_destroy pthread_cond_wait pthread_cond_broadcast'
 echo "$exact $other $threads" | tr ' ' '\n' >"$work/allowed"
 "$nm" -D --undefined-only "$shared" | imported >"$work/imported"
 "$nm" --undefined-only "$static" | imported >>"$work/imported"

@@ -55,7 +55,7 @@ static inline test_mesh flux_cone(int32_t dim, random_source *r)
     ck_assert_int_eq(mesh_domain(&domain, &box, NULL, NULL), ICC_OK);
     const size_t n = (size_t)dim;
     test_mesh cone = mesh_of(dim, domain->n_vertices + 1, domain->n_facets);
-    memcpy(cone.vertices, domain->given, n * domain->n_vertices * sizeof *cone.vertices);
+    ck_assert_int_eq(icc_domain_get_boundary(domain, cone.vertices, NULL), ICC_OK);
     for (size_t k = 0; k < n; ++k)
         cone.vertices[n * domain->n_vertices + k] = 0.7 + 0.1 * (double)k;
     for (size_t f = 0; f < domain->n_facets; ++f) {

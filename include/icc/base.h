@@ -73,7 +73,9 @@ enum {
     ICC_ITEM_HANDLE = 11,     /**< handles */
     ICC_ITEM_EDGE = 12,       /**< edges between handles */
     ICC_ITEM_LINE = 13,       /**< lines to keep straight */
-    ICC_ITEM_NODE = 14        /**< entries of a list of nodes */
+    ICC_ITEM_NODE = 14,       /**< entries of a list of nodes */
+    ICC_ITEM_FEATURE = 15,    /**< features of a domain */
+    ICC_ITEM_TIE = 16         /**< ties of a map */
 };
 
 /**

@@ -56,12 +56,13 @@ typedef struct icc_domain_info {
                                     counter-clockwise, with y upwards; 3-D each face
                                     counter-clockwise; any n: the determinants of the facets,
                                     seen from within, positive; 1-D the lower end first. Else -1 */
-    size_t n_vertices;         /**< vertices of the boundary */
+    size_t n_vertices;         /**< vertices of the boundary and of all features */
     size_t n_facets;           /**< facets of the boundary */
     double lower[ICC_MAX_DIM]; /**< bounding box */
     double upper[ICC_MAX_DIM]; /**< bounding box */
-    double measure;            /**< length, area (2-D), volume (3-D) and so on; may overflow to
-                                    HUGE_VAL for coordinates near 1e300 */
+    double measure;            /**< length, area (2-D), volume (3-D) and so on, without holes; may
+                                    overflow to HUGE_VAL for coordinates near 1e300 */
+    size_t n_features;         /**< features inside: see icc_domain_create_features() */
 } icc_domain_info;
 
 /**
@@ -114,6 +115,60 @@ typedef struct icc_domain_info {
 ICC_API icc_status icc_domain_create(icc_domain **out, int32_t dim, size_t n_vertices,
                                      const double *vertices, size_t n_facets,
                                      const uint32_t *facets, const icc_env *env, icc_error *err);
+
+/** What icc_feature::kind says. */
+enum {
+    ICC_FEATURE_HOLE = 1, /**< a simple polygon whose inside is not part of the domain */
+    ICC_FEATURE_LINE = 2, /**< a polyline that does not meet itself, of 2 or more vertices; with two
+                                of them, a bone */
+    ICC_FEATURE_POINT = 3 /**< one vertex */
+};
+
+/** Something inside a domain of the plane that a map takes to the feature of the same number in the
+ *  other domain, vertex by vertex and edges linearly. */
+typedef struct icc_feature {
+    size_t size;            /**< set by the caller: `sizeof(icc_feature)`, the same in all of an
+                                 array */
+    int32_t kind;           /**< `ICC_FEATURE_*` */
+    size_t n_vertices;      /**< hole: at least 3; line: at least 2; point: 1 */
+    const double *vertices; /**< 2 n_vertices coordinates */
+} icc_feature;
+
+/**
+ * Makes a domain of the plane with features inside: holes, lines and points, whose images a map
+ * prescribes.
+ *
+ * The vertices of the domain are those of the outer ring, then those of the features in their
+ * order; its facets are the edges of the outer ring, then those of the holes, which bound it as
+ * well. Features must lie strictly inside the outer ring and outside all holes, and may not meet
+ * themselves or one another. All of this is checked exactly, with the coordinates as given. Rings
+ * may run either way. A hole that touches the outer ring in a point is refused, since the domain
+ * would be pinched there: merge the rings. So is a point on the boundary: make it a vertex of the
+ * ring.
+ *
+ * To icc_domain_locate() what lies in a hole is outside; lines and points are inside, as what is
+ * around them. Only maps of kind mesh work on such a domain. What else takes domains refuses it
+ * with ::ICC_ERR_UNSUPPORTED. Without features the result is that of icc_domain_create().
+ *
+ * @param[out] out   the domain; owned by the caller, see icc_domain_free()
+ * @param n_outer    vertices of the outer ring, at least 3
+ * @param outer      2 n_outer coordinates
+ * @param n_features how many features there are
+ * @param features   n_features of them; they are copied
+ * @param env        may be NULL
+ * @param err        may be NULL. For a defect of the outer ring `index` is its vertex or edge; else
+ *                   it is the feature at fault (::ICC_ITEM_FEATURE), and the message names the
+ *                   vertex, and the other feature where there are two
+ * @return ::ICC_OK; ::ICC_ERR_OUTSIDE (a feature is not strictly inside the outer ring, or lies in
+ *         a hole); ::ICC_ERR_BOUNDARY (a ring or line meets itself, two features meet, two points
+ *         are the same); ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY, ::ICC_ERR_VERSION,
+ *         ::ICC_ERR_CANCELLED
+ *
+ * Cost: O(n log n) time and O(n) memory for n vertices in all.
+ */
+ICC_API icc_status icc_domain_create_features(icc_domain **out, size_t n_outer, const double *outer,
+                                              size_t n_features, const icc_feature *features,
+                                              const icc_env *env, icc_error *err);
 
 /**
  * Makes a domain from a mask of cells, such as voxels (not of vertices, as icc_grid_create_mask()
@@ -212,8 +267,33 @@ ICC_API void icc_domain_free(icc_domain *domain);
 /** Fills in `info`, whose `size` the caller has set. ::ICC_OK or ::ICC_ERR_ARGUMENT. */
 ICC_API icc_status icc_domain_get_info(const icc_domain *domain, icc_domain_info *info);
 
+/** What icc_domain_get_feature() reports. */
+typedef struct icc_feature_info {
+    size_t size;         /**< set by the caller: `sizeof(icc_feature_info)` */
+    int32_t kind;        /**< `ICC_FEATURE_*` */
+    int32_t orientation; /**< of a hole: +1 when it is listed counter-clockwise, with y upwards, -1
+                              clockwise; else 0 */
+    size_t first_vertex; /**< its vertices have this number among those of the domain and the
+                              following ones */
+    size_t n_vertices;   /**< how many there are */
+    size_t first_facet;  /**< of a hole: the facet from its first vertex to the next; as many follow
+                              as it has vertices. Else 0 */
+} icc_feature_info;
+
 /**
- * Copies the boundary as it was given.
+ * Reports a feature of a domain; icc_domain_get_boundary() has the coordinates.
+ *
+ * @param domain     the domain
+ * @param feature    its number, less than icc_domain_info::n_features
+ * @param[in,out] info `size` has been set; the rest is filled in
+ * @return ::ICC_OK or ::ICC_ERR_ARGUMENT
+ */
+ICC_API icc_status icc_domain_get_feature(const icc_domain *domain, size_t feature,
+                                          icc_feature_info *info);
+
+/**
+ * Copies the boundary as it was given: of a domain with features, the vertices of the outer ring
+ * and of all features, and the facets of the outer ring and of the holes.
  *
  * @param domain        the domain
  * @param[out] vertices room for n_vertices * dim doubles, or NULL
@@ -728,6 +808,18 @@ enum {
     ICC_MAP_MESH = 2
 };
 
+/** A path between two vertices of a domain with features, and where a map takes it: the map's image
+ *  of the one can be moved to the other with its ends held and without crossing a feature. */
+typedef struct icc_tie {
+    size_t size;          /**< set by the caller: `sizeof(icc_tie)`, the same in all of an array */
+    uint32_t vertex[2];   /**< where it begins and ends: vertices of the domain (see
+                               icc_domain_create_features()) */
+    size_t n_source;      /**< its bends in the source */
+    const double *source; /**< 2 n_source coordinates */
+    size_t n_target;      /**< its bends in the target, which may be more or fewer */
+    const double *target; /**< 2 n_target coordinates */
+} icc_tie;
+
 /** Options of icc_map_create(). */
 typedef struct icc_map_options {
     size_t size;                    /**< set by the caller: `sizeof(icc_map_options)` */
@@ -740,6 +832,11 @@ typedef struct icc_map_options {
                                          For kind mesh method 0 means disc (foliation when a maximum
                                          is given), and cells 0 means 20. */
     const double *target_maximum;   /**< the target's maximum, or NULL: as the method chooses */
+    size_t n_ties;                  /**< with features: as many as there are features; or 0 */
+    const icc_tie *ties; /**< which way round one another the features go: paths that join
+                                         all of them and the outer ring to a tree, inside both
+                                         domains and without crossing; or NULL: as seems least
+                                         twisted */
 } icc_map_options;
 
 /** What icc_map_get_info() reports. Members that do not apply to the kind are 0. */
@@ -791,20 +888,25 @@ typedef struct icc_map_info {
  * @param[out] out the map; owned by the caller, see icc_map_free()
  * @param source   domain before
  * @param target   domain after: same dimension, same number of vertices, same facets, and in 2-D
- *                 the same orientation, else ::ICC_ERR_BOUNDARY
+ *                 the same orientation, also of each hole, else ::ICC_ERR_BOUNDARY. Features i are
+ *                 of the same kind, with equally many vertices
  * @param options  may be NULL
  * @param env      may be NULL
  * @param err      may be NULL; `side` is 1 for the source, 2 for the target
  * @return as icc_chart_create(), or ::ICC_ERR_BOUNDARY
  *
  * Cost of kind mesh in 2-D: two charts, then Newton steps on the mesh, which are counted in steps
- * times triangles, about a microsecond each. For n facets improvement takes at most W = 300,000 +
- * 300 n of them, the repair of a start as many, and a start without the charts, where theirs cannot
- * be repaired, half as many. Most maps take a small part of that: from 4 ms for cages of a few
- * dozen vertices to 0.4 s for 15,000; where W is used up, icc_map_improve() goes on. Of all that we
- * have tried (letters, coasts, outlines turned onto themselves, stars, combs, spirals of up to 200
- * turns) none takes more than half a second and 15 times as long as kind curves by method disc.
- * Deterministic: work is counted, and no clock is read.
+ * times triangles, half a microsecond each; those of the repair take twice as long and count
+ * twice. For n facets all of it takes at most 1,600,000 + 225 n: improvement at most
+ * W = 300,000 + 300 n, the repair of a start as many steps, and a start without the charts, where
+ * theirs cannot be repaired, half as many. That start is the overlay of two triangulations, each of
+ * whose crossings counts as four; only they may exceed the budget, being 100,000 + 100 n at most.
+ * Most maps take a small part of it: from 4 ms for cages of a few dozen vertices to 0.4 s for
+ * 15,000; where W is used up, icc_map_improve() goes on. Of all that we have tried (letters,
+ * coasts, outlines turned onto themselves, stars, combs, spirals of up to 300 turns onto discs)
+ * none takes more than half a second and 15 times as long as kind curves by method disc, but for
+ * the overlay with the most crossings (800,000, of a spiral of 200 turns and a coast), which takes
+ * a third more. Deterministic: work is counted, and no clock is read.
  */
 ICC_API icc_status icc_map_create(icc_map **out, const icc_domain *source, const icc_domain *target,
                                   const icc_map_options *options, const icc_env *env,
@@ -1015,6 +1117,7 @@ ICC_API icc_status icc_map_jacobian(const icc_map *map, size_t n, const double *
 
 /**
  * Writes a map to memory, with its domains and charts, in two calls as icc_chart_save() does.
+ * Maps of domains with features cannot be saved: ::ICC_ERR_UNSUPPORTED.
  */
 ICC_API icc_status icc_map_save(const icc_map *map, size_t capacity, void *data, size_t *n_bytes);
 

@@ -220,6 +220,20 @@ struct places {
     std::vector<double> bary;         /**< `dim` barycentric coordinates on it for each */
 };
 
+/** What lies inside a domain of the plane: domain::with_features(). `icc::feature::hole({..})` and the like
+ *  borrow the coordinates. */
+struct feature {
+    std::int32_t kind;           /**< `ICC_FEATURE_*` */
+    view<const double> vertices; /**< 2 coordinates each */
+
+    /** A simple polygon that is cut out. */
+    static feature hole(view<const double> vertices) noexcept { return {ICC_FEATURE_HOLE, vertices}; }
+    /** A polyline. */
+    static feature line(view<const double> vertices) noexcept { return {ICC_FEATURE_LINE, vertices}; }
+    /** A point. */
+    static feature point(view<const double> vertex) noexcept { return {ICC_FEATURE_POINT, vertex}; }
+};
+
 /** A shape: its boundary, and what lies inside. */
 class domain : public handle<icc_domain, icc_domain_free> {
 public:
@@ -237,6 +251,24 @@ public:
     static domain polygon(view<const double> vertices, const env &e = {})
     {
         return domain(2, vertices, {}, e);
+    }
+
+    /** Of a simple polygon with holes, lines and points inside: icc_domain_create_features(). */
+    static domain with_features(view<const double> outer, const std::vector<feature> &features,
+                                const env &e = {})
+    {
+        std::vector<icc_feature> all;
+        all.reserve(features.size());
+        for (const feature &f : features) {
+            all.push_back(sized<icc_feature>());
+            all.back().kind = f.kind;
+            all.back().n_vertices = count(f.vertices, 2);
+            all.back().vertices = f.vertices.data();
+        }
+        return domain(e, [&](auto out, auto... rest) {
+            return icc_domain_create_features(out, count(outer, 2), outer.data(), all.size(), all.data(),
+                                              rest...);
+        });
     }
 
     /** Of a mesh of its inside, `dim` + 1 vertices a simplex: icc_domain_create_mesh(). */
@@ -274,7 +306,7 @@ public:
 
     icc_domain_info info() const { return tell(icc_domain_get_info); } /**< dimension, counts, .. */
 
-    /** A copy of the boundary's vertices. */
+    /** A copy of the boundary's vertices, and of those of all features. */
     std::vector<double> vertices() const
     {
         const auto about = info();
@@ -289,6 +321,15 @@ public:
         const auto about = info();
         std::vector<std::uint32_t> result(about.n_facets * static_cast<std::size_t>(about.dim));
         call({}, [&](auto...) { return icc_domain_get_boundary(get(), nullptr, result.data()); });
+        return result;
+    }
+
+    /** Its holes, lines and points; vertices() has the coordinates. */
+    std::vector<icc_feature_info> features() const
+    {
+        std::vector<icc_feature_info> result(info().n_features, sized<icc_feature_info>());
+        for (std::size_t f = 0; f < result.size(); ++f)
+            call({}, [&](auto...) { return icc_domain_get_feature(get(), f, &result[f]); });
         return result;
     }
 

@@ -4,6 +4,7 @@
 #include "base/options.h"
 #include "base/threads.h"
 #include "domain/domain.h"
+#include "domain/features.h"
 #include "domain/mesh_domain.h"
 #include "domain/polygon_check.h"
 
@@ -84,6 +85,76 @@ icc_status icc_domain_create_mesh(icc_domain **out, int32_t dim, size_t n_vertic
                            out, &full, err);
 }
 
+static icc_status check_feature(size_t f, const icc_feature *feature, icc_error *err)
+{
+    static const char *const counts[] = {"a hole has at least 3 vertices",
+                                         "a line has at least 2 vertices", "a point has 1 vertex"};
+    if (feature->kind < ICC_FEATURE_HOLE || feature->kind > ICC_FEATURE_POINT)
+        return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_FEATURE, (int64_t)f,
+                            "feature %zu has the kind %ld, which is none", f, (long)feature->kind);
+    if (!iccp_feature_allows(feature->kind, feature->n_vertices))
+        return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_FEATURE, (int64_t)f,
+                            "feature %zu: %s, not %zu", f, counts[feature->kind - 1],
+                            feature->n_vertices);
+    if (feature->vertices == NULL)
+        return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_FEATURE, (int64_t)f,
+                            "the vertices of feature %zu are NULL", f);
+    return ICC_OK;
+}
+
+/* Reads the caller's features, of whatever size, and checks their numbers. */
+static icc_status read_features(icc_feature *full, size_t n_outer, size_t n,
+                                const icc_feature *features, icc_error *err)
+{
+    const size_t stride = n > 0 ? features->size : 0;
+    size_t n_vertices = n_outer;
+    for (size_t f = 0; f < n; ++f) {
+        const icc_feature *given = (const icc_feature *)((const char *)features + f * stride);
+        icc_status status = iccp_read_struct(&full[f], sizeof full[f], given, "icc_feature", err);
+        if (status == ICC_OK && full[f].size != stride)
+            status = iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_FEATURE, (int64_t)f,
+                                  "icc_feature.size of feature %zu is not that of feature 0", f);
+        if (status == ICC_OK)
+            status = check_feature(f, &full[f], err);
+        if (status != ICC_OK)
+            return status;
+        if (full[f].n_vertices > ICCP_MAX_COUNT - n_vertices)
+            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_FEATURE, (int64_t)f,
+                                "too many vertices up to feature %zu; at most %zu in all", f,
+                                ICCP_MAX_COUNT);
+        n_vertices += full[f].n_vertices;
+    }
+    return ICC_OK;
+}
+
+icc_status icc_domain_create_features(icc_domain **out, size_t n_outer, const double *outer,
+                                      size_t n_features, const icc_feature *features,
+                                      const icc_env *env, icc_error *err)
+{
+    if (out == NULL)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "out is NULL");
+    *out = NULL;
+    if (features == NULL && n_features > 0)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "features is NULL");
+    iccp_env env_read;
+    icc_status status = iccp_env_read(&env_read, env, err);
+    if (status == ICC_OK)
+        status = check_counts(n_outer, outer, 0, NULL, err);
+    if (status == ICC_OK && n_features > ICCP_MAX_COUNT)
+        status = iccp_fail(err, ICC_ERR_ARGUMENT, "%zu features are too many; at most %zu",
+                           n_features, ICCP_MAX_COUNT);
+    if (status != ICC_OK)
+        return status;
+    icc_feature *full = iccp_alloc(&env_read.memory, n_features, sizeof *full);
+    if (full == NULL)
+        return iccp_fail_memory(err);
+    status = read_features(full, n_outer, n_features, features, err);
+    if (status == ICC_OK)
+        status = iccp_domain_create_features(out, n_outer, outer, n_features, full, &env_read, err);
+    iccp_free(&env_read.memory, full);
+    return status == ICC_OK ? iccp_end_domain(status, out, &env_read, err) : status;
+}
+
 void icc_domain_free(icc_domain *domain)
 {
     iccp_domain_release(domain);
@@ -99,6 +170,7 @@ icc_status icc_domain_get_info(const icc_domain *domain, icc_domain_info *info)
     full.orientation = domain->orientation;
     full.n_vertices = domain->n_vertices;
     full.n_facets = domain->n_facets;
+    full.n_features = domain->features != NULL ? domain->features->n : 0;
     iccp_frame_out(frame, domain->dim, domain->lower, full.lower);
     iccp_frame_out(frame, domain->dim, domain->upper, full.upper);
     full.measure = domain->measure;
@@ -107,13 +179,29 @@ icc_status icc_domain_get_info(const icc_domain *domain, icc_domain_info *info)
     return iccp_write_struct(info, &full, sizeof full, "icc_domain_info", NULL);
 }
 
+icc_status icc_domain_get_feature(const icc_domain *domain, size_t feature, icc_feature_info *info)
+{
+    if (domain == NULL || info == NULL || domain->features == NULL ||
+        feature >= domain->features->n)
+        return ICC_ERR_ARGUMENT;
+    const iccp_feature *item = &domain->features->item[feature];
+    icc_feature_info full = {0};
+    full.kind = item->kind;
+    full.orientation = item->orientation;
+    full.first_vertex = item->first;
+    full.n_vertices = item->n;
+    full.first_facet = item->kind == ICC_FEATURE_HOLE ? item->first_facet : 0;
+    return iccp_write_struct(info, &full, sizeof full, "icc_feature_info", NULL);
+}
+
 icc_status icc_domain_get_boundary(const icc_domain *domain, double *vertices, uint32_t *facets)
 {
     if (domain == NULL)
         return ICC_ERR_ARGUMENT;
     const size_t dim = (size_t)domain->dim;
     if (vertices != NULL)
-        memcpy(vertices, domain->given, domain->n_vertices * dim * sizeof *vertices);
+        for (size_t v = 0; v < domain->n_vertices; ++v)
+            iccp_domain_given(domain, v, vertices + dim * v);
     if (facets != NULL)
         memcpy(facets, domain->facets, domain->n_facets * dim * sizeof *facets);
     return ICC_OK;

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/options.h"
 #include "domain/domain.h"
+#include "domain/features.h"
 #include "function/critical_points.h"
 #include "function/edges.h"
 #include "function/make_function.h"
@@ -35,7 +36,9 @@ icc_status icc_grid_create(icc_grid **out, const icc_domain *domain, int32_t cel
         *out = NULL;
     iccp_env full_env;
     const char *missing = out == NULL ? "out" : domain == NULL ? "domain" : NULL;
-    const icc_status status = iccp_begin(&full_env, env, missing, err);
+    icc_status status = iccp_begin(&full_env, env, missing, err);
+    if (status == ICC_OK)
+        status = iccp_features_refuse(domain, "the domain of a grid", err);
     if (status != ICC_OK)
         return status;
     if (cells == 0)

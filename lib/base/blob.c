@@ -193,7 +193,7 @@ static void visit_numbers(iccp_blob *b, size_t n, size_t size, void *values)
 
 void iccp_blob_begin(iccp_blob *b, void *data, size_t capacity, const char *kind, uint32_t version)
 {
-    *b = (iccp_blob){.to = data, .size = capacity};
+    *b = (iccp_blob){.to = data, .size = capacity, .version = version};
     for (int i = 0; i < 4; ++i)
         (void)visit_number(b, (unsigned char)MAGIC[i], 1);
     for (int i = 0; i < 4; ++i)
@@ -234,6 +234,7 @@ icc_status iccp_blob_open(iccp_blob *b, const void *data, size_t n_bytes, const 
                          (unsigned long)written, (unsigned long)version);
     if (written == 0)
         return iccp_fail(err, ICC_ERR_FORMAT, "version 0 of the format does not exist");
+    b->version = written;
     return ICC_OK;
 }
 

@@ -20,6 +20,7 @@ typedef struct iccp_blob {
     const unsigned char *from; /* what is read, or: */
     unsigned char *to;         /* where to write as much as fits; all is counted */
     size_t size, at;           /* bytes there, and bytes so far */
+    uint32_t version;          /* of the format */
     iccp_memory memory;        /* of the arrays that are read */
 } iccp_blob;
 

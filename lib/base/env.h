@@ -24,7 +24,8 @@ typedef struct iccp_env {
     int32_t threads;
     const char *stage;    /* named in place of what the part's own parts are called; NULL: those */
     double before, after; /* shares of the whole call that come before this part and after it */
-    uint64_t load_limit;  /* 0: the default */
+    struct iccp_team *team;     /* base/team.h; NULL: loops start threads of their own */
+    uint64_t load_limit;        /* 0: the default */
     struct iccp_budget *budget; /* base/budget.h; NULL: no limits */
     iccp_reported *reported;    /* of the whole call: shares never fall; NULL: nobody looks */
     iccp_reported own;          /* what `reported` of the whole call points at */

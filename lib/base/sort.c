@@ -1,6 +1,8 @@
 /* Heapsort: J. W. J. Williams, Algorithm 232, 1964; R. W. Floyd, Algorithm 245, 1964. */
 #include "base/sort.h"
 
+enum { DIGIT_BITS = 9 };
+
 typedef struct heap {
     unsigned char *items;
     size_t size;
@@ -42,13 +44,45 @@ static void sink(const heap *h, size_t i, size_t n)
     }
 }
 
-void iccp_sort(void *items, size_t n, size_t size, int (*compare)(const void *, const void *))
+void iccp_sort_begin(void *items, size_t n, size_t size, int (*compare)(const void *, const void *))
 {
     const heap h = {items, size, compare};
     for (size_t i = n / 2; i-- > 0;)
         sink(&h, i, n);
-    for (size_t last = n; last-- > 1;) {
-        exchange(&h, 0, last);
-        sink(&h, 0, last);
-    }
+}
+
+void iccp_sort_next(void *items, size_t n, size_t size, int (*compare)(const void *, const void *))
+{
+    const heap h = {items, size, compare};
+    exchange(&h, 0, n - 1);
+    sink(&h, 0, n - 1);
+}
+
+void iccp_sort(void *items, size_t n, size_t size, int (*compare)(const void *, const void *))
+{
+    iccp_sort_begin(items, n, size, compare);
+    for (; n > 1; --n)
+        iccp_sort_next(items, n, size, compare);
+}
+
+/* One pass of a radix sort. */
+static void sort_by_digit(uint64_t *to, const uint64_t *from, size_t n, int shift)
+{
+    const uint64_t mask = (1u << DIGIT_BITS) - 1;
+    size_t start[(1 << DIGIT_BITS) + 1] = {0};
+    for (size_t i = 0; i < n; ++i)
+        ++start[(from[i] >> shift & mask) + 1];
+    for (size_t digit = 0; digit < mask; ++digit)
+        start[digit + 1] += start[digit];
+    for (size_t i = 0; i < n; ++i)
+        to[start[from[i] >> shift & mask]++] = from[i];
+}
+
+/* Least digit first: four of them, so that the keys end where they were. */
+void iccp_sort_keys(uint64_t *keys, uint64_t *work, size_t n, int shift)
+{
+    sort_by_digit(work, keys, n, shift);
+    sort_by_digit(keys, work, n, shift + DIGIT_BITS);
+    sort_by_digit(work, keys, n, shift + 2 * DIGIT_BITS);
+    sort_by_digit(keys, work, n, shift + 3 * DIGIT_BITS);
 }

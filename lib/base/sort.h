@@ -12,6 +12,16 @@
 /* As qsort(), NULL being fine for no items. Of equal items any may come first. O(n log n). */
 void iccp_sort(void *items, size_t n, size_t size, int (*compare)(const void *, const void *));
 
+/* Sorts keys by their bits from `shift`, 28 to 36, on; equal ones stay in their order. `work` has
+ * room for n. O(n). */
+void iccp_sort_keys(uint64_t *keys, uint64_t *work, size_t n, int shift);
+
+/* Of n items, one that none is greater than comes first; and the first of them becomes the last,
+ * one of the greatest among the others the first. O(n) and O(log n): where a few are enough. */
+void iccp_sort_begin(void *items, size_t n, size_t size,
+                     int (*compare)(const void *, const void *));
+void iccp_sort_next(void *items, size_t n, size_t size, int (*compare)(const void *, const void *));
+
 /* Whether index a belongs before index b. */
 typedef bool (*iccp_is_less)(const void *context, uint32_t a, uint32_t b);
 

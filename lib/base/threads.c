@@ -7,9 +7,24 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-#ifdef ICC_WITH_THREADS
-#include <pthread.h>
-#endif
+/* ---- teams ---- */
+
+void iccp_with_team(iccp_env *out, iccp_team *team, const iccp_env *env)
+{
+    *out = *env;
+    if (env->team != NULL || env->threads <= 1 || env->parallel_for != NULL)
+        return;
+    iccp_team_begin(team, (size_t)env->threads - 1);
+    out->team = team;
+}
+
+void iccp_without_team(const iccp_env *with, const iccp_env *env)
+{
+    if (with->team != env->team)
+        iccp_team_end(with->team);
+}
+
+/* ---- loops ---- */
 
 typedef struct loop {
     iccp_chunk chunk;
@@ -66,43 +81,32 @@ static icc_status run_this_thread(loop *l, const iccp_env *env, const char *stag
     return status;
 }
 
-#ifdef ICC_WITH_THREADS
-
-enum { MAX_WORKERS = 64 };
-
-static void *worker(void *argument)
+static void take_chunks(void *argument)
 {
     loop *l = argument;
     size_t index;
     while (take_chunk(l, &index))
         run_chunk(l, index);
-    return NULL;
 }
 
-/* Progress is reported once before there are other threads, which may take all the chunks. Threads
- * that cannot be started are done without. */
+/* Progress is reported once before other threads come, which may take all the chunks. */
 static icc_status run_own_threads(loop *l, const iccp_env *env, const char *stage)
 {
-    pthread_t threads[MAX_WORKERS];
-    size_t n_threads = 0;
+    if (env->threads <= 1 || l->n_chunks <= 1)
+        return run_this_thread(l, env, stage);
+    iccp_job job = {.work = take_chunks, .argument = l, .wanted = l->n_chunks - 1};
+    iccp_team own;
+    iccp_env with;
     icc_status status = iccp_progress(env, stage, 0);
     if (status != ICC_OK)
         return status;
-    const size_t wanted = env->threads < MAX_WORKERS ? (size_t)env->threads : MAX_WORKERS;
-    while (n_threads + 1 < wanted && n_threads + 1 < l->n_chunks &&
-           pthread_create(&threads[n_threads], NULL, worker, l) == 0)
-        ++n_threads;
+    iccp_with_team(&with, &own, env);
+    iccp_team_post(with.team, &job);
     status = run_this_thread(l, env, stage);
-    while (n_threads > 0)
-        pthread_join(threads[--n_threads], NULL);
+    iccp_team_recall(with.team, &job);
+    iccp_without_team(&with, env);
     return status;
 }
-
-#else
-
-#define run_own_threads run_this_thread
-
-#endif
 
 static void round_task(void *argument, size_t index)
 {
@@ -140,6 +144,7 @@ icc_status iccp_for_chunks(const iccp_env *env, const char *stage, size_t n, siz
 
 typedef struct sides {
     const iccp_env *env;
+    iccp_team *team;
     iccp_side task;
     void *argument;
     size_t n;
@@ -197,12 +202,12 @@ static icc_status run_side(void *argument, size_t begin, size_t end)
     const sides *all = argument;
     const iccp_env *env = all->env;
     side *s = &all->side[begin];
-    const size_t share = ((size_t)env->threads + all->n - end) / all->n;
     const iccp_env own = {.memory = env->memory,
                           .user = s,
                           .log = env->log != NULL ? keep_line : NULL,
                           .progress = report,
-                          .threads = env->parallel_for == NULL && share > 1 ? (int32_t)share : 1,
+                          .threads = env->parallel_for == NULL ? env->threads : 1,
+                          .team = all->team,
                           .load_limit = env->load_limit};
     const icc_status status = all->task(all->argument, begin, &own, &s->error);
     if (status != ICC_OK)
@@ -215,9 +220,12 @@ static icc_status run_sides(const iccp_env *env, size_t n, iccp_side task, void 
                             icc_error *err)
 {
     side own[ICCP_MOST_SIDES];
-    sides s = {.env = env, .task = task, .argument = argument, .n = n, .stop = n, .side = own};
-    iccp_env quiet = *env;
+    iccp_team team;
+    iccp_env quiet;
+    iccp_with_team(&quiet, &team, env);
     quiet.progress = NULL;
+    sides s = {.env = env, .task = task, .argument = argument, .n = n, .stop = n, .side = own};
+    s.team = quiet.team;
     s.caller = this_thread();
     for (size_t k = 0; k < n; ++k) {
         own[k].all = &s;
@@ -226,6 +234,7 @@ static icc_status run_sides(const iccp_env *env, size_t n, iccp_side task, void 
         own[k].error = (icc_error){.size = sizeof own[k].error};
     }
     icc_status status = iccp_for_chunks(&quiet, "solve", n, 1, run_side, &s);
+    iccp_without_team(&quiet, env);
     for (size_t k = 0; k < n; ++k)
         for (size_t i = 0; i < own[k].n_lines; ++i)
             iccp_log(env, "%s", own[k].line[i]);

@@ -4,12 +4,19 @@
 #define ICCP_THREADS_H
 
 #include "base/env.h"
+#include "base/team.h"
 
 #include <stdbool.h>
 
 /* Works on [begin, end). A status other than ICC_OK stops the loop; the chunk with the smallest
  * begin that failed decides what the loop returns. */
 typedef icc_status (*iccp_chunk)(void *argument, size_t begin, size_t end);
+
+/* The same environment with threads that stay from one loop to the next, if it is one that starts
+ * its own and has none yet. Both are for the calling thread, and for tasks that it runs side by
+ * side, until iccp_without_team(). */
+void iccp_with_team(iccp_env *out, iccp_team *team, const iccp_env *env);
+void iccp_without_team(const iccp_env *with, const iccp_env *env);
 
 /* Runs chunk() over [0, n) in pieces of `grain`, reporting progress between pieces from the
  * calling thread. Returns ICC_OK, ICC_ERR_CANCELLED, or what a chunk returned. */

@@ -8,6 +8,9 @@
 #include "chart/chart_gradient.h"
 #include "chart/chart_shelling.h"
 #include "chart/pairing.h"
+#include "domain/features.h"
+
+static const char CHART_DOMAIN[] = "the domain of a chart";
 
 /* Replaces the defaults, 0, by what they stand for in this dimension, and refuses combinations
  * that no method offers. `has_mesh`: the domain has a mesh of its inside, and so has the other
@@ -280,13 +283,15 @@ static icc_status create_field_pair(icc_chart *out[2], const icc_domain *const d
     return iccp_fail_side(err, status, side);
 }
 
-icc_status iccp_chart_create(icc_chart **out, const icc_domain *domain,
-                             const icc_chart_options *options, const iccp_env *env, icc_error *err)
+static icc_status create(icc_chart **out, const icc_domain *domain,
+                         const icc_chart_options *options, const iccp_env *env, icc_error *err)
 {
     icc_chart_options full = *options;
     *out = NULL;
     const bool has_mesh = domain->mesh != NULL;
-    icc_status status = complete_options(&full, domain->dim, has_mesh, err);
+    icc_status status = iccp_features_refuse(domain, CHART_DOMAIN, err);
+    if (status == ICC_OK)
+        status = complete_options(&full, domain->dim, has_mesh, err);
     if (status != ICC_OK)
         return status;
     if (full.method == ICC_METHOD_GRADIENT)
@@ -305,6 +310,17 @@ icc_status iccp_chart_create(icc_chart **out, const icc_domain *domain,
         return iccp_chart_shelling_create(1, out, &domain, &full, env, err);
     harmonic_job job = {.n = 1, .domain = &domain, .options = &full, .out = out};
     return create_harmonic(&job, env, err);
+}
+
+icc_status iccp_chart_create(icc_chart **out, const icc_domain *domain,
+                             const icc_chart_options *options, const iccp_env *env, icc_error *err)
+{
+    iccp_team team;
+    iccp_env with;
+    iccp_with_team(&with, &team, env);
+    const icc_status status = create(out, domain, options, &with, err);
+    iccp_without_team(&with, env);
+    return status;
 }
 
 typedef struct gradient_job {
@@ -343,7 +359,13 @@ icc_status iccp_chart_create_pair(icc_chart *out[2], const icc_domain *const dom
     icc_chart_options full[2] = {options[0], options[1]};
     out[0] = out[1] = NULL;
     const bool has_mesh = domain[0]->mesh != NULL && domain[1]->mesh != NULL;
-    icc_status status = complete_options(&full[0], domain[0]->dim, has_mesh, err);
+    icc_status status;
+    for (int32_t k = 0; k < 2; ++k) {
+        status = iccp_features_refuse(domain[k], CHART_DOMAIN, err);
+        if (status != ICC_OK)
+            return iccp_fail_side(err, status, k + 1);
+    }
+    status = complete_options(&full[0], domain[0]->dim, has_mesh, err);
     if (status == ICC_OK)
         status = complete_options(&full[1], domain[1]->dim, has_mesh, err);
     if (status != ICC_OK)

@@ -76,7 +76,7 @@ static void solve(fit *f, size_t dim)
 static double depth_of(const icc_domain *domain, const double *point)
 {
     double bary[ICC_MAX_DIM], distance2;
-    (void)iccp_facet_tree_nearest(&domain->tree, point, bary, &distance2);
+    (void)iccp_facet_tree_nearest(iccp_domain_tree(domain), point, bary, &distance2);
     return sqrt(distance2) / iccp_pow(fabs(domain->measure), 1.0 / domain->dim);
 }
 

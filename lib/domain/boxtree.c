@@ -14,15 +14,6 @@ enum {
 
 static const iccp_box empty = {{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
 
-static iccp_box hull(iccp_box a, iccp_box b)
-{
-    for (int k = 0; k < 2; ++k) {
-        a.lower[k] = b.lower[k] < a.lower[k] ? b.lower[k] : a.lower[k];
-        a.upper[k] = b.upper[k] > a.upper[k] ? b.upper[k] : a.upper[k];
-    }
-    return a;
-}
-
 static size_t leaf_end(const iccp_boxtree *tree, size_t node)
 {
     const size_t end = (node - tree->n_leaves + 1) * LEAF;
@@ -34,16 +25,22 @@ static iccp_box leaf_box(const iccp_boxtree *tree, size_t leaf)
     iccp_box box = empty;
     const size_t end = leaf_end(tree, tree->n_leaves + leaf);
     for (size_t edge = leaf * LEAF; edge < end; ++edge)
-        box = hull(box, iccp_boxtree_edge(tree, edge));
+        box = iccp_box_hull(box, iccp_boxtree_edge(tree, edge));
     return box;
+}
+
+iccp_boxtree iccp_boxtree_without_boxes(const double *points, size_t n)
+{
+    iccp_boxtree tree = {.points = points, .n = n, .n_leaves = 1};
+    while (tree.n_leaves * LEAF < n)
+        tree.n_leaves *= 2;
+    return tree;
 }
 
 void iccp_boxtree_create(iccp_boxtree *tree, const double *points, size_t n,
                          const iccp_memory *memory)
 {
-    *tree = (iccp_boxtree){.points = points, .n = n, .n_leaves = 1};
-    while (tree->n_leaves * LEAF < n)
-        tree->n_leaves *= 2;
+    *tree = iccp_boxtree_without_boxes(points, n);
     tree->boxes = iccp_alloc(memory, 2 * tree->n_leaves, sizeof *tree->boxes);
     if (tree->boxes == NULL)
         return;
@@ -51,7 +48,7 @@ void iccp_boxtree_create(iccp_boxtree *tree, const double *points, size_t n,
     for (size_t leaf = 0; leaf < tree->n_leaves; ++leaf)
         tree->boxes[tree->n_leaves + leaf] = leaf_box(tree, leaf);
     for (size_t node = tree->n_leaves; node-- > 1;)
-        tree->boxes[node] = hull(tree->boxes[2 * node], tree->boxes[2 * node + 1]);
+        tree->boxes[node] = iccp_box_hull(tree->boxes[2 * node], tree->boxes[2 * node + 1]);
 }
 
 void iccp_boxtree_free(iccp_boxtree *tree, const iccp_memory *memory)
@@ -82,7 +79,7 @@ static bool next_leaf(iccp_boxtree_query *query)
     const iccp_boxtree *tree = query->tree;
     size_t node = skip(query->node);
     while (node != 0) {
-        if (!iccp_boxes_meet(&tree->boxes[node], &query->box))
+        if (tree->boxes != NULL && !iccp_boxes_meet(&tree->boxes[node], &query->box))
             node = skip(node);
         else if (node < tree->n_leaves)
             node = 2 * node;
@@ -123,6 +120,11 @@ static double box_distance2(const iccp_box *box, const double *p)
     return sum;
 }
 
+static double node_distance2(const iccp_boxtree *tree, size_t node, const double *p)
+{
+    return tree->boxes != NULL ? box_distance2(&tree->boxes[node], p) : 0;
+}
+
 typedef struct nearest {
     uint32_t edge;
     double t, distance2;
@@ -151,8 +153,8 @@ uint32_t iccp_boxtree_nearest(const iccp_boxtree *tree, const double *p, double 
     size_t depth = 0, node = 1;
     for (;;) {
         while (node < tree->n_leaves) {
-            const double left = box_distance2(&tree->boxes[2 * node], p);
-            const double right = box_distance2(&tree->boxes[2 * node + 1], p);
+            const double left = node_distance2(tree, 2 * node, p);
+            const double right = node_distance2(tree, 2 * node + 1, p);
             const size_t far = right < left ? 2 * node : 2 * node + 1;
             stack[depth].node = far;
             stack[depth++].distance2 = right < left ? left : right;
@@ -174,7 +176,7 @@ uint32_t iccp_boxtree_nearest(const iccp_boxtree *tree, const double *p, double 
 bool iccp_boxtree_reaches(const iccp_boxtree *tree, const double *p, double distance2)
 {
     for (size_t node = 1; node != 0;) {
-        const bool is_near = box_distance2(&tree->boxes[node], p) <= distance2;
+        const bool is_near = node_distance2(tree, node, p) <= distance2;
         if (is_near && node < tree->n_leaves) {
             node = 2 * node;
             continue;

@@ -19,26 +19,41 @@ static inline bool iccp_boxes_meet(const iccp_box *a, const iccp_box *b)
            b->lower[1] <= a->upper[1];
 }
 
+/* Of two points. */
+static inline iccp_box iccp_box_of(const double *a, const double *b)
+{
+    return (iccp_box){{a[0] < b[0] ? a[0] : b[0], a[1] < b[1] ? a[1] : b[1]},
+                      {a[0] > b[0] ? a[0] : b[0], a[1] > b[1] ? a[1] : b[1]}};
+}
+
+static inline iccp_box iccp_box_hull(iccp_box a, iccp_box b)
+{
+    for (int k = 0; k < 2; ++k) {
+        a.lower[k] = b.lower[k] < a.lower[k] ? b.lower[k] : a.lower[k];
+        a.upper[k] = b.upper[k] > a.upper[k] ? b.upper[k] : a.upper[k];
+    }
+    return a;
+}
+
 /* A complete binary tree stored as a heap: node i has children 2 i and 2 i + 1, node 1 is the root.
  * Leaf n_leaves + j holds edges 4 j to 4 j + 3; boxes of leaves beyond the last edge are empty. */
 typedef struct iccp_boxtree {
     const double *points; /* n + 1 points, borrowed; edge k joins points k and k + 1 */
     size_t n;
     size_t n_leaves;
-    iccp_box *boxes;
+    iccp_box *boxes; /* or NULL: every node is looked into */
 } iccp_boxtree;
 
-/* An edge with a coordinate that is NaN may be in no box. tree->boxes is NULL if there is no
- * memory. */
+/* An edge with a coordinate that is NaN may be in no box. If there is no memory, tree->boxes is
+ * NULL: the answers are the same, but slow. */
 void iccp_boxtree_create(iccp_boxtree *tree, const double *points, size_t n,
                          const iccp_memory *memory);
+iccp_boxtree iccp_boxtree_without_boxes(const double *points, size_t n);
 void iccp_boxtree_free(iccp_boxtree *tree, const iccp_memory *memory);
 
 static inline iccp_box iccp_boxtree_edge(const iccp_boxtree *tree, size_t edge)
 {
-    const double *a = tree->points + 2 * edge, *b = a + 2;
-    return (iccp_box){{a[0] < b[0] ? a[0] : b[0], a[1] < b[1] ? a[1] : b[1]},
-                      {a[0] > b[0] ? a[0] : b[0], a[1] > b[1] ? a[1] : b[1]}};
+    return iccp_box_of(tree->points + 2 * edge, tree->points + 2 * edge + 2);
 }
 
 /* Lists the edges after edge `after` whose boxes meet that of `after`, in ascending order. */

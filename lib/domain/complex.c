@@ -1,5 +1,6 @@
 #include "domain/complex.h"
 
+#include "base/compiler.h"
 #include "base/error.h"
 #include "domain/tuples.h"
 
@@ -44,12 +45,15 @@ icc_status iccp_complex_check_indices(const iccp_complex *c, icc_error *err)
 /* ----------------------------------------------------------------- ridges */
 
 /* Writes the vertices of the ridge opposite corner i in ascending order; returns whether the facet
- * runs along it in the odd direction: (-1)^i times the sign of the sorting permutation. */
-static bool read_ridge(const iccp_complex *c, size_t facet, size_t i, uint32_t *ridge)
+ * runs along it in the odd direction: (-1)^i times the sign of the sorting permutation. `dim` is
+ * that of c, here and below: where the compiler knows it, nothing is divided by it. */
+static ICCP_INLINE bool read_ridge(const iccp_complex *c, size_t dim, size_t facet, size_t i,
+                                   uint32_t *ridge)
 {
-    for (size_t j = 0; j + 1 < c->dim; ++j)
-        ridge[j] = corners(c, facet)[j < i ? j : j + 1];
-    return iccp_sort_vertices(c->dim - 1, ridge) != (i % 2 != 0);
+    const uint32_t *corner = c->facets + dim * facet;
+    for (size_t j = 0; j + 1 < dim; ++j)
+        ridge[j] = corner[j < i ? j : j + 1];
+    return iccp_sort_vertices(dim - 1, ridge) != (i % 2 != 0);
 }
 
 /* Ridge dim f + i of all is the one of facet f opposite its corner i. */
@@ -58,11 +62,12 @@ typedef struct ridge_list {
     iccp_tuples tuples;
 } ridge_list;
 
-static void list_ridges(ridge_list *list)
+static ICCP_INLINE void list_ridges(ridge_list *list, size_t dim)
 {
-    const size_t dim = list->c->dim;
-    for (size_t r = 0; r < list->tuples.n; ++r)
-        (void)read_ridge(list->c, r / dim, r % dim, list->tuples.vertices + (dim - 1) * r);
+    uint32_t *ridge = list->tuples.vertices;
+    for (size_t f = 0; f < list->c->n_facets; ++f)
+        for (size_t i = 0; i < dim; ++i, ridge += dim - 1)
+            (void)read_ridge(list->c, dim, f, i, ridge);
 }
 
 /* "edge (3, 7)". */
@@ -76,22 +81,23 @@ static void describe_ridge(const ridge_list *list, uint32_t r, char *text, size_
     (void)snprintf(text + n, size - (size_t)n, ")");
 }
 
-static bool runs_along(const iccp_complex *c, uint32_t r)
+static ICCP_INLINE bool runs_along(const iccp_complex *c, uint32_t dim, uint32_t r)
 {
     uint32_t ridge[MAX];
-    return read_ridge(c, r / c->dim, r % c->dim, ridge);
+    return read_ridge(c, dim, r / dim, r % dim, ridge);
 }
 
 /* In how many directions a facet disagrees with its neighbours, as far as these are known. */
 static size_t count_conflicts(const iccp_complex *c, size_t facet)
 {
+    const uint32_t dim = (uint32_t)c->dim;
     size_t n = 0;
     for (size_t i = 0; i < c->dim; ++i) {
         const size_t other = c->across[c->dim * facet + i];
         for (size_t j = 0; j < c->dim; ++j)
             n += c->across[c->dim * other + j] == facet &&
-                 runs_along(c, (uint32_t)(c->dim * facet + i)) ==
-                     runs_along(c, (uint32_t)(c->dim * other + j));
+                 runs_along(c, dim, (uint32_t)(c->dim * facet + i)) ==
+                     runs_along(c, dim, (uint32_t)(c->dim * other + j));
     }
     return n;
 }
@@ -134,7 +140,8 @@ static icc_status fail_ridge(const ridge_list *list, int kind, const fault *foun
 }
 
 /* Equal ridges stand next to each other, that of the smallest facet first. */
-static icc_status pair_ridges(iccp_complex *c, const ridge_list *list, icc_error *err)
+static ICCP_INLINE icc_status pair_ridges(iccp_complex *c, uint32_t dim, const ridge_list *list,
+                                          icc_error *err)
 {
     fault faults[N_FAULTS] = {{0}};
     for (size_t k = 0, end; k < list->tuples.n; k = end) {
@@ -142,9 +149,9 @@ static icc_status pair_ridges(iccp_complex *c, const ridge_list *list, icc_error
         end = iccp_tuples_end(&list->tuples, k);
         int kind = end - k == 1 ? OPEN : end - k > 2 ? CROWDED : N_FAULTS;
         if (kind == N_FAULTS) {
-            c->across[at[0]] = at[1] / (uint32_t)c->dim;
-            c->across[at[1]] = at[0] / (uint32_t)c->dim;
-            if (runs_along(c, at[0]) != runs_along(c, at[1]))
+            c->across[at[0]] = at[1] / dim;
+            c->across[at[1]] = at[0] / dim;
+            if (runs_along(c, dim, at[0]) != runs_along(c, dim, at[1]))
                 continue;
             kind = TWISTED;
         }
@@ -159,6 +166,13 @@ static icc_status pair_ridges(iccp_complex *c, const ridge_list *list, icc_error
     return ICC_OK;
 }
 
+static ICCP_INLINE icc_status join(iccp_complex *c, uint32_t dim, ridge_list *list, icc_error *err)
+{
+    list_ridges(list, dim);
+    iccp_tuples_sort(&list->tuples);
+    return pair_ridges(c, dim, list, err);
+}
+
 icc_status iccp_complex_join(iccp_complex *c, const iccp_env *env, icc_error *err)
 {
     ridge_list list = {.c = c};
@@ -166,9 +180,7 @@ icc_status iccp_complex_join(iccp_complex *c, const iccp_env *env, icc_error *er
                                            c->n_vertices, &env->memory);
     if (status != ICC_OK)
         return iccp_explain(err, status);
-    list_ridges(&list);
-    iccp_tuples_sort(&list.tuples);
-    status = pair_ridges(c, &list, err);
+    status = c->dim == 3 ? join(c, 3, &list, err) : join(c, (uint32_t)c->dim, &list, err);
     iccp_tuples_free(&list.tuples);
     return status;
 }

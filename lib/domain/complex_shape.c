@@ -1,16 +1,12 @@
 #include "domain/complex.h"
 
+#include "base/compiler.h"
 #include "base/error.h"
 
 #include <stdbool.h>
 #include <string.h>
 
 static const uint32_t NONE = UINT32_MAX;
-
-static const uint32_t *corners(const iccp_complex *c, size_t facet)
-{
-    return c->facets + c->dim * facet;
-}
 
 /* A corner of a facet is number dim f + i. Floods reach what is connected to a first one. */
 typedef struct flood {
@@ -20,19 +16,21 @@ typedef struct flood {
     uint32_t *at;    /* per vertex: a facet there, or NONE */
 } flood;
 
-static size_t corner_of(const iccp_complex *c, size_t facet, uint32_t vertex)
+static ICCP_INLINE uint32_t corner_of(const iccp_complex *c, uint32_t dim, uint32_t facet,
+                                      uint32_t vertex)
 {
-    size_t i = 0;
-    while (corners(c, facet)[i] != vertex)
+    uint32_t i = 0;
+    while (c->facets[dim * facet + i] != vertex)
         ++i;
-    return i;
+    return dim * facet + i;
 }
 
-/* The corners at one vertex that can be reached across ridges at it. */
-static void flood_vertex(flood *f, uint32_t first)
+/* The corners at one vertex that can be reached across ridges at it. `dim` is that of the complex:
+ * where the compiler knows it, nothing is divided by it. */
+static ICCP_INLINE void flood_vertex(flood *f, uint32_t dim, uint32_t first)
 {
     const iccp_complex *c = f->c;
-    const uint32_t dim = (uint32_t)c->dim, vertex = c->facets[first];
+    const uint32_t vertex = c->facets[first];
     size_t n = 0, done = 0;
     f->queue[n++] = first;
     f->reached[first] = true;
@@ -42,7 +40,7 @@ static void flood_vertex(flood *f, uint32_t first)
             if (dim * facet + i == corner)
                 continue;
             const uint32_t other = c->across[dim * facet + i];
-            const uint32_t next = dim * other + (uint32_t)corner_of(c, other, vertex);
+            const uint32_t next = corner_of(c, dim, other, vertex);
             if (!f->reached[next]) {
                 f->reached[next] = true;
                 f->queue[n++] = next;
@@ -54,7 +52,7 @@ static void flood_vertex(flood *f, uint32_t first)
 /* A vertex is a corner of several facets. Flooding from one of these corners must reach them
  * all: if a corner is left whose vertex has been seen before, two fans of facets meet at that
  * vertex only. */
-static icc_status check_vertices(flood *f, icc_error *err)
+static ICCP_INLINE icc_status check_vertices(flood *f, uint32_t dim, icc_error *err)
 {
     const iccp_complex *c = f->c;
     for (size_t v = 0; v < c->n_vertices; ++v)
@@ -63,7 +61,7 @@ static icc_status check_vertices(flood *f, icc_error *err)
     for (uint32_t corner = 0; corner < c->dim * c->n_facets; ++corner) {
         if (f->reached[corner])
             continue;
-        const uint32_t v = c->facets[corner], facet = corner / (uint32_t)c->dim;
+        const uint32_t v = c->facets[corner], facet = corner / dim;
         const char *name = iccp_complex_facet(c->dim);
         if (f->at[v] != NONE)
             return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_VERTEX, v,
@@ -72,7 +70,7 @@ static icc_status check_vertices(flood *f, icc_error *err)
                                 (unsigned long)v, name, (unsigned long)f->at[v],
                                 (unsigned long)facet);
         f->at[v] = facet;
-        flood_vertex(f, corner);
+        flood_vertex(f, dim, corner);
     }
     return ICC_OK;
 }
@@ -140,7 +138,8 @@ icc_status iccp_complex_check_shape(const iccp_complex *c, const iccp_env *env, 
     if (f.reached == NULL || f.queue == NULL || f.at == NULL)
         status = iccp_fail_memory(err);
     if (status == ICC_OK)
-        status = check_vertices(&f, err);
+        status =
+            c->dim == 3 ? check_vertices(&f, 3, err) : check_vertices(&f, (uint32_t)c->dim, err);
     if (status == ICC_OK)
         status = check_connected(&f, err);
     if (status == ICC_OK && c->dim == 3)

@@ -53,13 +53,19 @@ static void emit(walk *w, int32_t kind, uint32_t a, uint32_t b)
     ++list->n;
 }
 
+/* Whether all finite points lie on one line: that through the first of them and the first other
+ * one. */
 static bool flat(const walk *w)
 {
-    if (w->n_finite == 0)
-        return true;
-    const double *first = point(w, w->order[0]), *last = point(w, w->order[w->n_finite - 1]);
-    for (size_t i = 1; i + 1 < w->n_finite; ++i)
-        if (iccp_orient2d(first, last, point(w, w->order[i])) != 0)
+    const uint32_t n = (uint32_t)w->polygon->n;
+    uint32_t a = 0, b;
+    while (a < n && !finite(w, a))
+        ++a;
+    for (b = a; b < n; ++b)
+        if (finite(w, b) && !iccp_point_equal(point(w, a), point(w, b)))
+            break;
+    for (uint32_t c = b; c < n; ++c)
+        if (finite(w, c) && iccp_orient2d(point(w, a), point(w, b), point(w, c)) != 0)
             return false;
     return true;
 }
@@ -182,6 +188,27 @@ icc_status iccp_defects_list(iccp_defect_list *list, const iccp_polygon *polygon
                              const iccp_boxtree *tree, const iccp_env *env)
 {
     return list_up_to(list, SIZE_MAX, SIZE_MAX, polygon, tree, env);
+}
+
+iccp_defect iccp_defects_at(const iccp_polygon *polygon, uint32_t a)
+{
+    const walk w = {.polygon = polygon};
+    const iccp_box box = iccp_box_of(point(&w, a), point(&w, a + 1));
+    if (flat(&w))
+        return (iccp_defect){ICC_DEFECT_FLAT, 0, 0};
+    if (spike(&w, a))
+        return (iccp_defect){ICC_DEFECT_SPIKE, a, a};
+    for (uint32_t b = a + 1; b < polygon->n; ++b) {
+        const iccp_box other = iccp_box_of(point(&w, b), point(&w, b + 1));
+        if (!iccp_boxes_meet(&box, &other))
+            continue;
+        if (iccp_point_equal(point(&w, a), point(&w, b)))
+            return (iccp_defect){ICC_DEFECT_REPEATED, a, b};
+        const int32_t kind = meet(&w, a, b);
+        if (kind != 0)
+            return (iccp_defect){kind, a, b};
+    }
+    return (iccp_defect){0, 0, 0};
 }
 
 icc_status iccp_defects_first(iccp_defect *first, const iccp_polygon *polygon,

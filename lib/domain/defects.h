@@ -18,6 +18,10 @@ typedef struct iccp_defect_list {
 icc_status iccp_defects_list(iccp_defect_list *list, const iccp_polygon *polygon,
                              const iccp_boxtree *tree, const iccp_env *env);
 
+/* The first entry of that list under a number, for finite points, of which no two that follow one
+ * another are equal, if no smaller number has one; kind 0 if there is none. O(n). */
+iccp_defect iccp_defects_at(const iccp_polygon *polygon, uint32_t number);
+
 /* The first of that list, or kind 0 if there is none or it takes long to find: only a number of
  * pairs of edges proportional to n is looked at. */
 icc_status iccp_defects_first(iccp_defect *first, const iccp_polygon *polygon,

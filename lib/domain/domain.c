@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/minmax.h"
+#include "domain/features.h"
 #include "domain/locate.h"
 #include "domain/mask.h"
 #include "domain/polygon_check.h"
@@ -12,16 +13,13 @@
 #include <math.h>
 #include <string.h>
 
-static icc_status copy_boundary(icc_domain *d, const double *vertices, const uint32_t *facets,
-                                icc_error *err)
+static icc_status copy_facets(icc_domain *d, const uint32_t *facets, icc_error *err)
 {
     const size_t dim = (size_t)d->dim, n = d->n_vertices;
-    d->given = iccp_alloc(&d->memory, n, dim * sizeof *d->given);
     d->vertices = iccp_alloc(&d->memory, n + 1, dim * sizeof *d->vertices);
     d->facets = iccp_alloc(&d->memory, d->n_facets, dim * sizeof *d->facets);
-    if (d->given == NULL || d->vertices == NULL || d->facets == NULL)
+    if (d->vertices == NULL || d->facets == NULL)
         return iccp_fail_memory(err);
-    memcpy(d->given, vertices, n * dim * sizeof *d->given);
     if (facets != NULL) {
         memcpy(d->facets, facets, d->n_facets * dim * sizeof *d->facets);
         return ICC_OK;
@@ -33,11 +31,39 @@ static icc_status copy_boundary(icc_domain *d, const double *vertices, const uin
     return ICC_OK;
 }
 
+/* Keeps the vertices as the caller has them unless they follow from the local ones. */
+static icc_status keep_given(icc_domain *d, const double *given, icc_error *err)
+{
+    const size_t dim = (size_t)d->dim, size = dim * sizeof *given;
+    double x[ICC_MAX_DIM];
+    bool same = true;
+    for (size_t v = 0; v < d->n_vertices && same; ++v) {
+        iccp_frame_restore(&d->frame, d->dim, d->vertices + dim * v, x);
+        same = memcmp(x, given + dim * v, size) == 0;
+    }
+    if (same)
+        return ICC_OK;
+    d->given = iccp_alloc(&d->memory, d->n_vertices, size);
+    if (d->given == NULL)
+        return iccp_fail_memory(err);
+    memcpy(d->given, given, d->n_vertices * size);
+    return ICC_OK;
+}
+
+void iccp_domain_given(const icc_domain *domain, size_t vertex, double *point)
+{
+    const size_t dim = (size_t)domain->dim;
+    if (domain->given != NULL)
+        memcpy(point, domain->given + dim * vertex, dim * sizeof *point);
+    else
+        iccp_frame_restore(&domain->frame, domain->dim, domain->vertices + dim * vertex, point);
+}
+
 /* The bounding box, and the band around the boundary within which points count as on it.
  * Rounding depends on how large the coordinates are where the caller has them, hence the way out
  * of the frame and back: `largest` is in units of the local frame, but measured from the
  * caller's origin. */
-static void measure_box(icc_domain *d)
+void iccp_domain_measure_box(icc_domain *d)
 {
     const size_t dim = (size_t)d->dim;
     double longest = 0, given[2][ICC_MAX_DIM], largest[ICC_MAX_DIM];
@@ -56,67 +82,50 @@ static void measure_box(icc_domain *d)
 
 /* ---------------------------------------------------------------- polygons */
 
-/* The polygon's tree of boxes has the form of a facet tree (domain/facet_tree.h). */
-static void view_tree(icc_domain *d)
+/* A tree over the polygon's edges (domain/boxtree.h) has the form of a facet tree. */
+static iccp_facet_tree tree_without_boxes(const icc_domain *d, const iccp_polygon *polygon)
 {
-    d->tree = (iccp_facet_tree){.dim = 2,
-                                .n_corners = 2,
-                                .n = d->n_facets,
-                                .vertices = d->vertices,
-                                .facets = d->facets,
-                                .n_leaves = d->locator->tree.n_leaves,
-                                .boxes = d->locator->tree.boxes->lower,
-                                .order = d->locator->polygon.facet};
-}
-
-static icc_status check_polygon(const icc_domain *d, const iccp_polygon *polygon,
-                                iccp_boxtree *tree, const iccp_env *env, icc_error *err)
-{
-    iccp_boxtree_create(tree, polygon->points, polygon->n, &d->memory);
-    if (tree->boxes == NULL)
-        return iccp_fail_memory(err);
-    return iccp_polygon_check(polygon, tree, &d->frame, env, err);
+    return (iccp_facet_tree){.dim = 2,
+                             .n_corners = 2,
+                             .n = d->n_facets,
+                             .vertices = d->vertices,
+                             .facets = d->facets,
+                             .n_leaves =
+                                 iccp_boxtree_without_boxes(polygon->points, polygon->n).n_leaves,
+                             .order = polygon->facet};
 }
 
 /* Everything that follows from the copied boundary. */
-static icc_status complete_polygon(icc_domain *d, const iccp_env *env, icc_error *err)
+static icc_status complete_polygon(icc_domain *d, const double *given, const uint32_t *facets,
+                                   const iccp_env *env, icc_error *err)
 {
     const size_t n = d->n_vertices;
     iccp_polygon polygon = {0};
-    iccp_boxtree tree = {0};
-    icc_status status = iccp_polygon_localise(&d->frame, d->vertices, n, d->given, err);
+    icc_status status = iccp_polygon_localise(&d->frame, d->vertices, n, given, err);
     if (status == ICC_OK) {
         memcpy(d->vertices + 2 * n, d->vertices, 2 * sizeof *d->vertices);
-        status = iccp_polygon_create(&polygon, n, d->vertices, d->facets, &d->memory, err);
+        status = iccp_polygon_create(&polygon, n, d->vertices, facets, &d->memory, err);
     }
     if (status == ICC_OK)
-        status = check_polygon(d, &polygon, &tree, env, err);
+        status = iccp_polygon_check(&polygon, &d->frame, env, err);
     if (status != ICC_OK) {
-        iccp_boxtree_free(&tree, &d->memory);
         iccp_polygon_free(&polygon, &d->memory);
         return status;
     }
-    measure_box(d);
+    iccp_domain_measure_box(d);
     d->orientation = iccp_polygon_orientation(&polygon);
     d->measure = iccp_polygon_area(&polygon);
+    const iccp_facet_tree tree = tree_without_boxes(d, &polygon);
     d->locator = iccp_locator_create(&polygon, &tree, d->lower, d->upper, &d->band, &d->memory);
     if (d->locator == NULL)
         return iccp_fail_memory(err);
-    view_tree(d);
+    d->tree = tree;
     return ICC_OK;
 }
 
-static icc_status check_polygon_counts(size_t n_vertices, size_t n_facets, const uint32_t *facets,
-                                       icc_error *err)
+const iccp_facet_tree *iccp_domain_tree(const icc_domain *domain)
 {
-    if (n_vertices < 3)
-        return iccp_fail(err, ICC_ERR_BOUNDARY, "a polygon needs at least 3 vertices, not %zu",
-                         n_vertices);
-    if (facets != NULL && n_facets != n_vertices)
-        return iccp_fail(err, ICC_ERR_BOUNDARY,
-                         "a closed ring through %zu vertices has as many facets, not %zu",
-                         n_vertices, n_facets);
-    return ICC_OK;
+    return domain->locator != NULL ? &iccp_locator_trees(domain->locator)->facets : &domain->tree;
 }
 
 /* -------------------------------------------------------- other dimensions */
@@ -156,19 +165,22 @@ static icc_status check_geometry(icc_domain *d, const iccp_env *env, icc_error *
     return status;
 }
 
-static icc_status complete_simplicial(icc_domain *d, const iccp_env *env, icc_error *err)
+static icc_status complete_simplicial(icc_domain *d, const double *given, const iccp_env *env,
+                                      icc_error *err)
 {
     iccp_complex c = {(size_t)d->dim, d->n_vertices, d->n_facets, d->facets, NULL};
     icc_status status = iccp_complex_check_indices(&c, err);
     if (status == ICC_OK)
-        status = iccp_simplicial_localise(&d->frame, d->vertices, c.dim, &c, d->given, env, err);
+        status = iccp_simplicial_localise(&d->frame, d->vertices, c.dim, &c, given, env, err);
+    if (status == ICC_OK)
+        status = keep_given(d, given, err);
     if (status == ICC_OK && d->dim > 1)
         status = check_complex(&c, env, err);
     if (status != ICC_OK)
         return status;
     if (iccp_progress(env, "check", 0.5) != ICC_OK)
         return iccp_explain(err, ICC_ERR_CANCELLED);
-    measure_box(d);
+    iccp_domain_measure_box(d);
     iccp_facet_tree_create(&d->tree, c.dim, d->vertices, d->n_facets, d->facets, &d->memory);
     if (d->tree.boxes == NULL)
         return iccp_fail_memory(err);
@@ -190,27 +202,35 @@ static icc_status check_counts(size_t dim, size_t n_vertices, size_t n_facets, i
     return ICC_OK;
 }
 
+icc_domain *iccp_domain_new(int32_t dim, const iccp_memory *memory)
+{
+    icc_domain *domain = iccp_alloc_zero(memory, 1, sizeof *domain);
+    if (domain == NULL)
+        return NULL;
+    domain->memory = *memory;
+    atomic_init(&domain->references, 1);
+    domain->dim = dim;
+    return domain;
+}
+
 icc_status iccp_domain_create(icc_domain **out, int32_t dim, size_t n_vertices,
                               const double *vertices, size_t n_facets, const uint32_t *facets,
                               const iccp_env *env, icc_error *err)
 {
     *out = NULL;
-    icc_status status = dim == 2 ? check_polygon_counts(n_vertices, n_facets, facets, err)
+    icc_status status = dim == 2 ? iccp_polygon_check_counts(n_vertices, n_facets, facets, err)
                                  : check_counts((size_t)dim, n_vertices, n_facets, err);
     if (status != ICC_OK)
         return status;
-    icc_domain *domain = iccp_alloc_zero(&env->memory, 1, sizeof *domain);
+    icc_domain *domain = iccp_domain_new(dim, &env->memory);
     if (domain == NULL)
         return iccp_fail_memory(err);
-    domain->memory = env->memory;
-    atomic_init(&domain->references, 1);
-    domain->dim = dim;
     domain->n_vertices = n_vertices;
     domain->n_facets = dim == 2 ? n_vertices : n_facets;
-    status = copy_boundary(domain, vertices, facets, err);
+    status = copy_facets(domain, facets, err);
     if (status == ICC_OK)
-        status =
-            dim == 2 ? complete_polygon(domain, env, err) : complete_simplicial(domain, env, err);
+        status = dim == 2 ? complete_polygon(domain, vertices, facets, env, err)
+                          : complete_simplicial(domain, vertices, env, err);
     if (status != ICC_OK) {
         iccp_domain_release(domain);
         return status;
@@ -235,6 +255,7 @@ void iccp_domain_release(icc_domain *domain)
     if (domain->locator == NULL)
         iccp_facet_tree_free(&domain->tree, &memory);
     iccp_locator_free(domain->locator, &memory);
+    iccp_features_free(domain->features, &memory);
     iccp_mask_free(domain->mask);
     iccp_simplices_free(domain->mesh);
     iccp_free(&memory, domain->given);

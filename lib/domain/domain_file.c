@@ -1,5 +1,6 @@
 #include "domain/domain_file.h"
 
+#include "domain/features_file.h"
 #include "domain/mask.h"
 #include "domain/mask_boundary.h"
 #include "domain/mesh_domain.h"
@@ -8,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { BOUNDARY = 1, MASK = 2, MESH = 3 };
+enum { BOUNDARY = 1, MASK = 2, MESH = 3, FEATURES = 4 };
 
 /* Arrays that a domain is made from; those of one that is written are its own. */
 typedef struct parts {
@@ -45,6 +46,20 @@ bool iccp_are_local(size_t dim, size_t n, const double *numbers)
 
 /* ---- boundaries ---- */
 
+/* As they were given, some at a time. */
+static void write_vertices(iccp_blob *b, const icc_domain *d)
+{
+    enum { SOME = 64 };
+    double given[SOME * ICC_MAX_DIM];
+    const size_t dim = (size_t)d->dim;
+    for (size_t v = 0; v < d->n_vertices; v += SOME) {
+        const size_t n = d->n_vertices - v < SOME ? d->n_vertices - v : SOME;
+        for (size_t i = 0; i < n; ++i)
+            iccp_domain_given(d, v + i, given + dim * i);
+        iccp_blob_f64(b, dim * n, given);
+    }
+}
+
 icc_status iccp_boundary_visit(iccp_blob *b, icc_domain **domain, int32_t dim, const iccp_env *env)
 {
     const size_t d = (size_t)dim;
@@ -52,11 +67,13 @@ icc_status iccp_boundary_visit(iccp_blob *b, icc_domain **domain, int32_t dim, c
     if (!b->reads)
         p = (parts){.n_points = (*domain)->n_vertices,
                     .n_facets = (*domain)->n_facets,
-                    .points = (*domain)->given,
                     .facets = (*domain)->facets};
     visit_count(b, d * ICCP_F64, &p.n_points);
     visit_count(b, d * ICCP_U32, &p.n_facets);
-    iccp_blob_array_f64(b, d * p.n_points, &p.points);
+    if (b->reads)
+        iccp_blob_array_f64(b, d * p.n_points, &p.points);
+    else
+        write_vertices(b, *domain);
     iccp_blob_array_u32(b, d * p.n_facets, &p.facets);
     if (!b->reads)
         return ICC_OK;
@@ -146,18 +163,7 @@ static icc_status read_mask(iccp_blob *b, icc_domain **domain, int32_t dim, cons
 
 /* ---- meshes ---- */
 
-/* What the caller gave, exactly: the frame loses nothing but the sign of a zero. */
-static void write_given(iccp_blob *b, const icc_domain *d, const double *local)
-{
-    double given[ICC_MAX_DIM];
-    iccp_frame_out(&d->frame, d->dim, local, given);
-    for (int32_t k = 0; k < d->dim; ++k)
-        if (given[k] == 0)
-            given[k] = copysign(0, local[k]);
-    iccp_blob_f64(b, (size_t)d->dim, given);
-}
-
-/* Points of a mesh that is written come from its domain, which keeps those of the boundary as they
+/* Points of a mesh that is written come from its domain, which knows those of the boundary as they
  * were given. */
 static void visit_mesh(iccp_blob *b, size_t dim, parts *p, const icc_domain *from)
 {
@@ -168,9 +174,12 @@ static void visit_mesh(iccp_blob *b, size_t dim, parts *p, const icc_domain *fro
     if (b->reads) {
         iccp_blob_array_f64(b, dim * p->n_points, &p->points);
     } else {
-        iccp_blob_f64(b, dim * from->n_vertices, from->given);
-        for (size_t v = from->n_vertices; v < p->n_points; ++v)
-            write_given(b, from, p->points + dim * v);
+        double given[ICC_MAX_DIM];
+        write_vertices(b, from);
+        for (size_t v = from->n_vertices; v < p->n_points; ++v) {
+            iccp_frame_restore(&from->frame, from->dim, p->points + dim * v, given);
+            iccp_blob_f64(b, dim, given);
+        }
     }
     iccp_blob_array_u32(b, (dim + 1) * p->n_simplices, &p->corners);
     iccp_blob_array_u32(b, dim * p->n_facets, &p->facets);
@@ -213,6 +222,8 @@ static icc_status read_mesh(iccp_blob *b, icc_domain **domain, int32_t dim, cons
 
 static int32_t kind_of(const icc_domain *domain)
 {
+    if (domain->features != NULL)
+        return FEATURES;
     return domain->mask != NULL ? MASK : domain->mesh != NULL ? MESH : BOUNDARY;
 }
 
@@ -221,6 +232,8 @@ static icc_status visit_kind(iccp_blob *b, int32_t kind, icc_domain **domain, in
 {
     if (kind == BOUNDARY)
         return iccp_boundary_visit(b, domain, dim, env);
+    if (kind == FEATURES)
+        return dim == 2 ? iccp_features_visit(b, domain, env) : ICC_ERR_FORMAT;
     if (b->reads)
         return kind == MASK ? read_mask(b, domain, dim, env) : read_mesh(b, domain, dim, env);
     if (kind == MASK)
@@ -230,13 +243,14 @@ static icc_status visit_kind(iccp_blob *b, int32_t kind, icc_domain **domain, in
     return ICC_OK;
 }
 
-icc_status iccp_domain_visit(iccp_blob *b, icc_domain **domain, const iccp_env *env)
+/* Of kinds up to `last`. */
+static icc_status visit_any(iccp_blob *b, icc_domain **domain, int32_t last, const iccp_env *env)
 {
     int32_t dim = b->reads ? 0 : (*domain)->dim, kind = b->reads ? 0 : kind_of(*domain);
     if (b->reads)
         *domain = NULL;
     iccp_blob_i32(b, ICCP_U32, 2, ICC_MAX_DIM, &dim);
-    iccp_blob_i32(b, ICCP_U32, BOUNDARY, MESH, &kind);
+    iccp_blob_i32(b, ICCP_U32, BOUNDARY, last, &kind);
     const icc_status status =
         b->status == ICC_OK ? visit_kind(b, kind, domain, dim, env) : b->status;
     if (status != ICC_OK) {
@@ -244,6 +258,16 @@ icc_status iccp_domain_visit(iccp_blob *b, icc_domain **domain, const iccp_env *
         *domain = NULL;
     }
     return status;
+}
+
+icc_status iccp_domain_visit(iccp_blob *b, icc_domain **domain, const iccp_env *env)
+{
+    return visit_any(b, domain, MESH, env);
+}
+
+icc_status iccp_domain_visit_any(iccp_blob *b, icc_domain **domain, const iccp_env *env)
+{
+    return visit_any(b, domain, FEATURES, env);
 }
 
 /* ---- other meshes of a domain ---- */

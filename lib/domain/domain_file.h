@@ -11,9 +11,12 @@
 /* The boundary alone; its dimension is written elsewhere. */
 icc_status iccp_boundary_visit(iccp_blob *b, icc_domain **domain, int32_t dim, const iccp_env *env);
 
-/* Whatever it was made from: a boundary, a mask or a mesh. Points of a mesh that is read have the
- * numbers that the domain gave them, not the first caller's. */
+/* Whatever it was made from: a boundary, a mask or a mesh, without features. Points of a mesh that
+ * is read have the numbers that the domain gave them, not the first caller's. */
 icc_status iccp_domain_visit(iccp_blob *b, icc_domain **domain, const iccp_env *env);
+
+/* The same, or a polygon with features. */
+icc_status iccp_domain_visit_any(iccp_blob *b, icc_domain **domain, const iccp_env *env);
 
 /* Another mesh of a domain, whose first points are its vertices, or NULL. It does not know the
  * caller's numbers. Refused unless it is positive, conforming and a ball, with the facets of the

@@ -13,7 +13,7 @@ static int32_t locate_in_polygon(const icc_domain *domain, const double *point, 
 {
     const iccp_location place = iccp_locator_find(domain->locator, point, nearest);
     if (facet != NULL && (nearest || place.where == ICC_BOUNDARY)) {
-        *facet = domain->locator->polygon.facet[place.edge];
+        *facet = iccp_polygon_facet(&domain->locator->polygon, place.edge);
         bary[0] = 1 - place.t;
         bary[1] = place.t;
     }
@@ -32,7 +32,7 @@ int32_t iccp_domain_locate(const icc_domain *domain, const double *point, bool b
                            uint32_t *facet, double *bary)
 {
     const bool nearest = facet != NULL && !boundary_only;
-    if (domain->dim == 2)
+    if (domain->locator != NULL)
         return locate_in_polygon(domain, point, nearest, facet, bary);
     const size_t dim = domain->tree.dim;
     double p[ICC_MAX_DIM], share[ICC_MAX_DIM], distance2;
@@ -40,9 +40,9 @@ int32_t iccp_domain_locate(const icc_domain *domain, const double *point, bool b
     int32_t where = ICC_OUTSIDE;
     iccp_inside_reach(dim, point, p);
     if (finite(dim, point))
-        where = iccp_inside_find(&domain->tree, &domain->band, p, &at, share);
+        where = iccp_inside_find(iccp_domain_tree(domain), &domain->band, p, &at, share);
     if (nearest && where != ICC_BOUNDARY)
-        at = iccp_facet_tree_nearest(&domain->tree, p, share, &distance2);
+        at = iccp_facet_tree_nearest(iccp_domain_tree(domain), p, share, &distance2);
     if (facet != NULL && (nearest || where == ICC_BOUNDARY)) {
         *facet = at;
         memcpy(bary, share, dim * sizeof *bary);
@@ -77,7 +77,7 @@ bool iccp_domain_cross(const icc_domain *domain, const double *from, const doubl
     const double *corners[ICC_MAX_DIM];
     iccp_inside_reach(dim, from, ends[0]);
     iccp_inside_reach(dim, to, ends[1]);
-    if (!iccp_segment_crossing(&domain->tree, ends[0], ends[1], share, facet))
+    if (!iccp_segment_crossing(iccp_domain_tree(domain), ends[0], ends[1], share, facet))
         return false;
     for (size_t k = 0; k < dim; ++k)
         at[k] = ends[0][k] + *share * (ends[1][k] - ends[0][k]);
@@ -91,5 +91,5 @@ size_t iccp_domain_line(const icc_domain *domain, int32_t axis, const double *po
 {
     double p[ICC_MAX_DIM];
     iccp_inside_reach(domain->tree.dim, point, p);
-    return iccp_line_crossings(&domain->tree, (size_t)axis, p, capacity, crossings);
+    return iccp_line_crossings(iccp_domain_tree(domain), (size_t)axis, p, capacity, crossings);
 }

@@ -22,6 +22,12 @@ static ICCP_INLINE double box_distance2(size_t dim, const double *box, const dou
     return sum;
 }
 
+static ICCP_INLINE double node_distance2(const iccp_facet_tree *tree, size_t dim, size_t node,
+                                         const double *p)
+{
+    return tree->boxes != NULL ? box_distance2(dim, tree->boxes + 2 * dim * node, p) : 0;
+}
+
 typedef struct nearest {
     uint32_t facet;
     double distance2;
@@ -36,7 +42,7 @@ static ICCP_INLINE void search_leaf(const iccp_facet_tree *tree, size_t dim, siz
 {
     const size_t first = (node - tree->n_leaves) * LEAF;
     for (size_t place = first; place < first + LEAF && place < tree->n; ++place) {
-        const uint32_t facet = tree->order[place];
+        const uint32_t facet = iccp_facet_at(tree, place);
         const double *corners[ICC_MAX_DIM];
         double box[2 * ICC_MAX_DIM], bary[ICC_MAX_DIM];
         iccp_facet_box_of(tree, dim, dim, facet, box);
@@ -63,12 +69,11 @@ static ICCP_INLINE void search(const iccp_facet_tree *tree, size_t dim, const do
         size_t node;
         double distance2;
     } stack[DEEP];
-    const size_t size = 2 * dim;
     size_t depth = 0, node = 1;
     for (;;) {
         while (node < tree->n_leaves) {
-            const double left = box_distance2(dim, tree->boxes + size * 2 * node, p);
-            const double right = box_distance2(dim, tree->boxes + size * (2 * node + 1), p);
+            const double left = node_distance2(tree, dim, 2 * node, p);
+            const double right = node_distance2(tree, dim, 2 * node + 1, p);
             const size_t far = right < left ? 2 * node : 2 * node + 1;
             stack[depth].node = far;
             stack[depth++].distance2 = right < left ? left : right;

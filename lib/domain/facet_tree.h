@@ -19,9 +19,14 @@ typedef struct iccp_facet_tree {
     const double *vertices; /* borrowed: dim coordinates each */
     const uint32_t *facets; /* borrowed: n_corners each, which is dim */
     size_t n_leaves;
-    double *boxes;   /* 2 dim numbers a node: lower, upper */
-    uint32_t *order; /* n: the facet at each place */
+    double *boxes;   /* 2 dim numbers a node: lower, upper; or NULL: every node is looked into */
+    uint32_t *order; /* n: the facet at each place; or NULL: the one with its number */
 } iccp_facet_tree;
+
+static inline uint32_t iccp_facet_at(const iccp_facet_tree *tree, size_t place)
+{
+    return tree->order != NULL ? tree->order[place] : (uint32_t)place;
+}
 
 /* tree->boxes is NULL if there is no memory. */
 void iccp_facet_tree_create(iccp_facet_tree *tree, size_t dim, const double *vertices,

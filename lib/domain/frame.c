@@ -4,8 +4,39 @@
 #include "base/minmax.h"
 
 #include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+enum { STRANDS = 8 }; /* numbers of points of the plane that are dealt with at once */
 
 const iccp_frame iccp_frame_identity = {{0}, {1, 1}, {1, 1}};
+
+/* The plane, in strands that do not wait for one another. */
+static void find_bounds_2d(size_t n, const double *points, double *lowest, double *highest)
+{
+    double low[STRANDS], high[STRANDS];
+    size_t i = 0;
+    for (size_t j = 0; j < STRANDS; ++j)
+        low[j] = high[j] = points[j % 2];
+    for (; 2 * i + STRANDS <= 2 * n; i += STRANDS / 2)
+        for (size_t j = 0; j < STRANDS; ++j) {
+            const double x = points[2 * i + j];
+            low[j] = x < low[j] ? x : low[j];
+            high[j] = x > high[j] ? x : high[j];
+        }
+    for (size_t j = 2 * i; j < 2 * n; ++j) {
+        low[j % 2] = points[j] < low[j % 2] ? points[j] : low[j % 2];
+        high[j % 2] = points[j] > high[j % 2] ? points[j] : high[j % 2];
+    }
+    for (size_t k = 0; k < 2; ++k) {
+        lowest[k] = low[k];
+        highest[k] = high[k];
+        for (size_t j = k; j < STRANDS; j += 2) {
+            lowest[k] = low[j] < lowest[k] ? low[j] : lowest[k];
+            highest[k] = high[j] > highest[k] ? high[j] : highest[k];
+        }
+    }
+}
 
 static ICCP_INLINE void find_bounds(size_t dim, size_t n, const double *points, double *lowest,
                                     double *highest)
@@ -28,7 +59,7 @@ static ICCP_INLINE void find_bounds(size_t dim, size_t n, const double *points, 
 void iccp_frame_bounds(int32_t dim, size_t n, const double *points, double *lowest, double *highest)
 {
     if (dim == 2)
-        find_bounds(2, n, points, lowest, highest);
+        find_bounds_2d(n, points, lowest, highest);
     else
         find_bounds((size_t)dim, n, points, lowest, highest);
 }
@@ -62,4 +93,45 @@ void iccp_frame_fit(iccp_frame *frame, int32_t dim, size_t n, const double *poin
     frame->in[1] = ldexp(1, half - exponent);
     frame->out[0] = ldexp(1, half);
     frame->out[1] = ldexp(1, exponent - half);
+}
+
+/* One coordinate to local; returns the larger of `lost` and what becomes too small. */
+static ICCP_INLINE double take_in(double x, double shift, const double *in, double lost,
+                                  double *local)
+{
+    const double moved = x - shift, scaled = moved * in[0] * in[1];
+    const double small = fabs(scaled) < ICCP_FRAME_SMALLEST ? fabs(moved) : 0;
+    *local = scaled;
+    return small > lost ? small : lost;
+}
+
+/* Without branches and in strands, for the compiler to do several at once. */
+bool iccp_frame_in_all(const iccp_frame *frame, size_t n, const double *points, double *local)
+{
+    const double in[2] = {frame->in[0], frame->in[1]};
+    const double shift[2] = {frame->shift[0], frame->shift[1]};
+    double lost[STRANDS] = {0};
+    size_t i = 0;
+    for (; i + STRANDS <= 2 * n; i += STRANDS)
+        for (size_t j = 0; j < STRANDS; ++j)
+            lost[j] = take_in(points[i + j], shift[j % 2], in, lost[j], &local[i + j]);
+    for (; i < 2 * n; ++i)
+        lost[0] = take_in(points[i], shift[i % 2], in, lost[0], &local[i]);
+    for (size_t j = 0; j < STRANDS; ++j)
+        if (lost[j] > 0)
+            return false;
+    return true;
+}
+
+/* A number is not finite if its exponent has all bits set: one more carries into the sign. */
+bool iccp_all_finite(size_t n, const double *numbers)
+{
+    const uint64_t exponent = UINT64_C(0x7ff) << 52, one = UINT64_C(1) << 52;
+    uint64_t carry = 0;
+    for (size_t i = 0; i < n; ++i) {
+        uint64_t bits;
+        memcpy(&bits, &numbers[i], sizeof bits);
+        carry |= (bits & exponent) + one;
+    }
+    return carry >> 63 == 0;
 }

@@ -52,11 +52,27 @@ static inline bool iccp_frame_holds(const iccp_frame *frame, int32_t dim, const 
     return true;
 }
 
+/* Both for n points of the plane; whether all are so. */
+bool iccp_frame_in_all(const iccp_frame *frame, size_t n, const double *points, double *local);
+
+/* Whether n numbers are finite. */
+bool iccp_all_finite(size_t n, const double *numbers);
+
 static inline void iccp_frame_out(const iccp_frame *frame, int32_t dim, const double *local,
                                   double *x)
 {
     for (int32_t k = 0; k < dim; ++k)
         x[k] = local[k] * frame->out[0] * frame->out[1] + frame->shift[k];
+}
+
+/* The same bit for bit, for a vertex: what the way out loses is the sign of a zero. */
+static inline void iccp_frame_restore(const iccp_frame *frame, int32_t dim, const double *local,
+                                      double *x)
+{
+    iccp_frame_out(frame, dim, local, x);
+    for (int32_t k = 0; k < dim; ++k)
+        if (x[k] == 0)
+            x[k] = copysign(0, local[k]);
 }
 
 #endif

@@ -69,10 +69,11 @@ static icc_status order_facets(iccp_polygon *polygon, const double *vertices,
 {
     const size_t n = polygon->n;
     uint32_t *start = iccp_alloc(memory, n, sizeof *start);
+    polygon->vertex = iccp_alloc(memory, n, sizeof *polygon->vertex);
     polygon->facet = iccp_alloc(memory, n, sizeof *polygon->facet);
     polygon->points = polygon->own = iccp_alloc(memory, n + 1, 2 * sizeof *polygon->own);
     icc_status status;
-    if (start == NULL || polygon->facet == NULL || polygon->own == NULL)
+    if (start == NULL || polygon->vertex == NULL || polygon->facet == NULL || polygon->own == NULL)
         status = iccp_fail_memory(err);
     else
         status = index_starts(start, n, facets, err);
@@ -91,17 +92,9 @@ icc_status iccp_polygon_create(iccp_polygon *polygon, size_t n, const double *ve
                                const uint32_t *facets, const iccp_memory *memory, icc_error *err)
 {
     *polygon = (iccp_polygon){.n = n, .points = vertices};
-    polygon->vertex = iccp_alloc(memory, n, sizeof *polygon->vertex);
     icc_status status = ICC_OK;
-    if (polygon->vertex == NULL)
-        status = iccp_fail_memory(err);
-    else if (!is_in_order(n, facets))
+    if (facets != NULL && !is_in_order(n, facets))
         status = order_facets(polygon, vertices, facets, memory, err);
-    else {
-        for (uint32_t k = 0; k < n; ++k)
-            polygon->vertex[k] = k;
-        polygon->facet = polygon->vertex;
-    }
     if (status != ICC_OK)
         iccp_polygon_free(polygon, memory);
     return status;
@@ -110,8 +103,7 @@ icc_status iccp_polygon_create(iccp_polygon *polygon, size_t n, const double *ve
 void iccp_polygon_free(iccp_polygon *polygon, const iccp_memory *memory)
 {
     iccp_free(memory, polygon->own);
-    if (polygon->facet != polygon->vertex)
-        iccp_free(memory, polygon->facet);
+    iccp_free(memory, polygon->facet);
     iccp_free(memory, polygon->vertex);
     *polygon = (iccp_polygon){0};
 }

@@ -78,9 +78,42 @@ static bool beside(triangle t, size_t n, triangle points)
     return side != 0;
 }
 
+/* Whether a side of s, which is oriented to the left or (-1) to the right, has all of t on its
+ * other side. */
+static bool has_dividing_side(double s[3][2], int orientation, double t[3][2])
+{
+    for (int i = 0; i < 3; ++i) {
+        int j = 0;
+        while (j < 3 && iccp_orient2d(s[i], s[(i + 1) % 3], t[j]) == -orientation)
+            ++j;
+        if (j == 3)
+            return true;
+    }
+    return false;
+}
+
+/* Convex polygons that do not meet are divided by a side of one of them: so it is for the
+ * difference of the two, whose sides are theirs, and zero. */
+static bool meet_coplanar(triangle s, triangle t)
+{
+    double shadow[3][2], other[3][2];
+    int axis;
+    cast_shadow(s, shadow, &axis);
+    for (int i = 0; i < 3; ++i)
+        drop(other[i], t[i], axis);
+    const int left = iccp_orient2d(shadow[0], shadow[1], shadow[2]);
+    const int other_left = iccp_orient2d(other[0], other[1], other[2]);
+    return !has_dividing_side(shadow, left, other) && !has_dividing_side(other, other_left, shadow);
+}
+
 static bool meet_apart(triangle s, triangle t)
 {
-    if (beside(s, 3, t) || beside(t, 3, s))
+    const int sides[3] = {iccp_orient3d(s[0], s[1], s[2], t[0]),
+                          iccp_orient3d(s[0], s[1], s[2], t[1]),
+                          iccp_orient3d(s[0], s[1], s[2], t[2])};
+    if (sides[0] == sides[1] && sides[0] == sides[2])
+        return sides[0] == 0 && meet_coplanar(s, t);
+    if (beside(t, 3, s))
         return false;
     for (int i = 0; i < 3; ++i)
         if (segment_meets(s[i], s[(i + 1) % 3], t) || segment_meets(t[i], t[(i + 1) % 3], s))
@@ -282,15 +315,28 @@ static void compare_in_leaf(search *s, size_t node)
             compare_places(s, p, q);
 }
 
+/* The places of a leaf whose boxes meet that of another; returns how many. Without branches. */
+static ICCP_INLINE size_t list_places(const search *s, size_t node, size_t other, size_t *list)
+{
+    const size_t start = leaf_start(s, node), end = leaf_end(s, node);
+    float box[6];
+    size_t n = 0;
+    round_box(s->tree->boxes + 6 * other, box);
+    for (size_t p = start; p < end; ++p) {
+        list[n] = p;
+        n += boxes_meet(s->places[p].box, box);
+    }
+    return n;
+}
+
 static void compare_leaves(search *s, size_t a, size_t b)
 {
-    const size_t end_a = leaf_end(s, a), start_b = leaf_start(s, b), end_b = leaf_end(s, b);
-    float box[6];
-    round_box(s->tree->boxes + 6 * b, box);
-    for (size_t p = leaf_start(s, a); p < end_a; ++p)
-        if (boxes_meet(s->places[p].box, box))
-            for (size_t q = start_b; q < end_b; ++q)
-                compare_places(s, p, q);
+    size_t of_a[ICCP_FACET_LEAF], of_b[ICCP_FACET_LEAF];
+    const size_t n_a = list_places(s, a, b, of_a);
+    const size_t n_b = n_a > 0 ? list_places(s, b, a, of_b) : 0;
+    for (size_t i = 0; i < n_a; ++i)
+        for (size_t j = 0; j < n_b; ++j)
+            compare_places(s, of_a[i], of_b[j]);
 }
 
 static double extent(const double *box)

@@ -58,8 +58,13 @@ size_t iccp_tuples_end(const iccp_tuples *tuples, size_t begin)
     const size_t width = tuples->width;
     const uint32_t *first = tuples->vertices + width * tuples->order[begin];
     size_t end = begin + 1;
-    while (end < tuples->n &&
-           memcmp(first, tuples->vertices + width * tuples->order[end], width * sizeof *first) == 0)
-        ++end;
+    for (; end < tuples->n; ++end) {
+        const uint32_t *other = tuples->vertices + width * tuples->order[end];
+        size_t same = 0;
+        while (same < width && first[same] == other[same])
+            ++same;
+        if (same < width)
+            break;
+    }
     return end;
 }

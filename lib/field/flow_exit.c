@@ -2,27 +2,44 @@
  * Newton's method on each, kept within an interval that holds the root. */
 #include "field/flow_exit.h"
 
+#include "base/compiler.h"
 #include "base/minmax.h"
 
 #include <math.h>
 
 enum { MOST = 60 };
 
-/* Of the barycentric coordinate of corner i, in terms of walk->scale; returns how many terms. One
- * that starts at 0, or less by rounding, starts at SLACK. */
-static int32_t coordinate_series(const iccp_flow_walk *w, int32_t i, double *series)
+/* The barycentric coordinates, in terms of walk->scale. */
+typedef struct coordinates {
+    int32_t n; /* terms of each */
+    double term[ICC_MAX_DIM + 1][ICCP_FLOW_TERMS + 1];
+} coordinates;
+
+/* A coordinate that starts at 0, or less by rounding, starts at SLACK. */
+static ICCP_INLINE void expand_coordinates(const iccp_flow_walk *w, int32_t dim, coordinates *c)
 {
-    const int32_t dim = w->flow->grid->dim;
     const int8_t *axis = w->place.simplex.axis;
     const double *at = w->place.at;
-    series[0] = (i > 0 ? at[axis[i - 1]] : 1) - (i < dim ? at[axis[i]] : 0);
-    series[0] = iccp_max(series[0], ICCP_FLOW_SLACK);
-    for (int32_t j = 0; j < w->n_terms; ++j) {
-        const double *term = w->term[j];
-        series[j + 1] =
-            w->scale / (j + 1) * ((i > 0 ? term[axis[i - 1]] : 0) - (i < dim ? term[axis[i]] : 0));
+    c->n = w->n_terms + 1;
+    for (int32_t i = 0; i <= dim; ++i) {
+        const double start = (i > 0 ? at[axis[i - 1]] : 1) - (i < dim ? at[axis[i]] : 0);
+        c->term[i][0] = iccp_max(start, ICCP_FLOW_SLACK);
     }
-    return w->n_terms + 1;
+    for (int32_t j = 0; j < w->n_terms; ++j) {
+        const double *term = w->term[j], factor = w->scale / (j + 1);
+        for (int32_t i = 0; i <= dim; ++i)
+            c->term[i][j + 1] =
+                factor * ((i > 0 ? term[axis[i - 1]] : 0) - (i < dim ? term[axis[i]] : 0));
+    }
+}
+
+static ICCP_INLINE void values_at(const coordinates *c, int32_t dim, double s, double *value)
+{
+    for (int32_t i = 0; i <= dim; ++i)
+        value[i] = 0;
+    for (int32_t j = c->n; j-- > 0;)
+        for (int32_t i = 0; i <= dim; ++i)
+            value[i] = value[i] * s + c->term[i][j];
 }
 
 static double value_of(const double *series, int32_t n, double s, double *slope)
@@ -66,19 +83,37 @@ static double root_of(const double *series, int32_t n, double high, double guess
     return s;
 }
 
+/* Bounds up to `end`: of the sum of the terms' sizes, and of the second derivative. */
+static double bend_of(const double *series, int32_t n, double end, double *size)
+{
+    double bend = 0;
+    *size = 0;
+    for (int32_t j = n; j-- > 0;) {
+        *size = *size * end + fabs(series[j]);
+        if (j >= 2)
+            bend = bend * end + j * (j - 1) * fabs(series[j]);
+    }
+    return bend;
+}
+
 /* Whether a coordinate that is positive at both ends falls below 0 between them; if so its first
- * root. */
+ * root. The least value is where the slope changes its sign; mostly all that is still near is soon
+ * seen to be positive. */
 static bool dips(const double *series, int32_t n, double end, double *root)
 {
-    double low = 0, high = end, slope;
+    static const double ROUNDING = 1e-12; /* of the terms' size; it is some n times 1e-16 */
+    double low = 0, high = end, slope, size;
     if (!(series[1] < 0) || series[0] + series[1] * end > 0)
         return false;
     (void)value_of(series, n, end, &slope);
     if (!(slope > 0))
         return false;
+    const double bend = bend_of(series, n, end, &size);
     for (int k = 0; k < MOST; ++k) {
-        const double middle = 0.5 * (low + high);
-        (void)value_of(series, n, middle, &slope);
+        const double middle = 0.5 * (low + high), reach = 0.5 * (high - low);
+        const double value = value_of(series, n, middle, &slope);
+        if (value - reach * (fabs(slope) + 0.5 * reach * bend) > ROUNDING * size)
+            return false;
         if (slope < 0)
             low = middle;
         else
@@ -92,27 +127,39 @@ static bool dips(const double *series, int32_t n, double end, double *root)
 
 /* The earliest root of all coordinates: each root that is found shortens the piece, and the
  * others are looked at again up to there. */
-void iccp_flow_find_exit(iccp_flow_walk *walk)
+static ICCP_INLINE void find_exit(iccp_flow_walk *walk, int32_t dim)
 {
-    double end = 1;
+    coordinates c;
+    double end = 1, value[ICC_MAX_DIM + 1];
     walk->exit = ICCP_FLOW_WITHIN;
+    expand_coordinates(walk, dim, &c);
+    values_at(&c, dim, end, value);
     for (bool found = true; found;) {
         found = false;
-        for (int32_t i = 0; i <= walk->flow->grid->dim; ++i) {
-            double series[ICCP_FLOW_TERMS + 1], root = HUGE_VAL, slope;
+        for (int32_t i = 0; i <= dim; ++i) {
+            double root = HUGE_VAL;
             if (i == walk->exit)
                 continue;
-            const int32_t n = coordinate_series(walk, i, series);
-            if (value_of(series, n, end, &slope) < 0)
-                root = root_of(series, n, end, 0.5 * end);
-            else if (!dips(series, n, end, &root))
+            if (value[i] < 0)
+                root = root_of(c.term[i], c.n, end, 0.5 * end);
+            else if (!dips(c.term[i], c.n, end, &root))
                 continue;
             if (root < end) {
                 end = root;
                 walk->exit = i;
                 found = true;
+                values_at(&c, dim, end, value);
             }
         }
     }
     walk->end = end * walk->scale;
+}
+
+/* Most are in space: loops are unrolled there. */
+void iccp_flow_find_exit(iccp_flow_walk *walk)
+{
+    if (walk->flow->grid->dim == 3)
+        find_exit(walk, 3);
+    else
+        find_exit(walk, walk->flow->grid->dim);
 }

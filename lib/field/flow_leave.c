@@ -81,7 +81,7 @@ bool iccp_flow_leaves(const iccp_flow_walk *walk, double *s, uint32_t *facet, do
         box[dim + k] = iccp_max(from[k], to[k]) + reach;
     }
     uint32_t other;
-    iccp_facet_query_start(&query, &domain->tree, box);
+    iccp_facet_query_start(&query, iccp_domain_tree(domain), box);
     while (iccp_facet_query_next(&query, &other)) {
         double other_s, other_bary[ICC_MAX_DIM];
         const double distance2 = meet_plane(walk, other, guess, &other_s, other_bary);

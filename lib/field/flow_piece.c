@@ -14,7 +14,7 @@
 
 /* ---- within a piece ---- */
 
-static void load_series(const iccp_flow_walk *w, int32_t dim, series *x)
+static ICCP_INLINE void load_series(const iccp_flow_walk *w, int32_t dim, series *x)
 {
     x->n = w->n_terms;
     x->scale = w->scale;
@@ -23,9 +23,8 @@ static void load_series(const iccp_flow_walk *w, int32_t dim, series *x)
             x->term[j][k] = w->term[j][k];
 }
 
-void iccp_flow_at(const iccp_flow_walk *walk, double s, double *at)
+static ICCP_INLINE void place_in(const iccp_flow_walk *walk, int32_t dim, double s, double *at)
 {
-    const int32_t dim = walk->flow->grid->dim;
     const double share = s / walk->scale;
     double sum[ICC_MAX_DIM] = {0};
     for (int32_t j = walk->n_terms; j-- > 0;)
@@ -33,6 +32,15 @@ void iccp_flow_at(const iccp_flow_walk *walk, double s, double *at)
             sum[k] = sum[k] * share + walk->term[j][k] * INVERSE[j + 1];
     for (int32_t k = 0; k < dim; ++k)
         at[k] = walk->place.at[k] + s * sum[k];
+}
+
+/* In space, as most are, loops over dimensions are unrolled, here and below. */
+void iccp_flow_at(const iccp_flow_walk *walk, double s, double *at)
+{
+    if (walk->flow->grid->dim == 3)
+        place_in(walk, 3, s, at);
+    else
+        place_in(walk, walk->flow->grid->dim, s, at);
 }
 
 /* As vector_at(), where the series is. */
@@ -56,8 +64,8 @@ void iccp_flow_velocity(const iccp_flow_walk *walk, double s, double *vector)
         velocity_in(walk, walk->flow->grid->dim, s, vector);
 }
 
-static void motion_at(const iccp_flow_walk *w, int32_t dim, const series *x, double share,
-                      motion *m)
+static ICCP_INLINE void motion_at(const iccp_flow_walk *w, int32_t dim, const series *x,
+                                  double share, motion *m)
 {
     vector_at(x, dim, &share, m->vector);
     for (int32_t k = 0; k < dim; ++k) {
@@ -67,35 +75,58 @@ static void motion_at(const iccp_flow_walk *w, int32_t dim, const series *x, dou
     }
 }
 
+/* What lengths within a piece have in common. */
+typedef struct ruler {
+    series series;
+    motion first;
+    double change;
+} ruler;
+
+static ICCP_INLINE void lay_ruler(const iccp_flow_walk *walk, int32_t dim, ruler *r)
+{
+    r->first = (motion){{0}, {0}};
+    load_series(walk, dim, &r->series);
+    find_change(&r->series, dim, &r->first, &r->change);
+}
+
 /* By integrate(), in as many equal parts as keep the vector's change in each within what its
  * last rule allows. */
-double iccp_flow_length(const iccp_flow_walk *walk, double s)
+static ICCP_INLINE double length_in(const iccp_flow_walk *walk, int32_t dim, const ruler *r,
+                                    double s)
 {
     enum { MOST_PARTS = 16 };
-    const int32_t dim = walk->flow->grid->dim;
     const double most = RULES[N_RULES - 1].most * RULES[N_RULES - 1].most;
     const double to = s / walk->scale;
-    series x;
-    motion first = {{0}, {0}}, last;
-    double change, length = 0;
+    motion first = r->first, last;
+    double change = r->change * (to * to), length = 0;
     int parts = 1;
-    if (walk->radial)
-        return walk->end_length * (s / walk->end);
-    load_series(walk, dim, &x);
-    find_change(&x, dim, &first, &change);
-    change *= to * to;
     for (; parts < MOST_PARTS && change > most; parts *= 2)
         change *= 0.25;
     const double share = to / parts;
     for (int p = 0; p < parts; ++p) {
         const double from = to * p / parts;
         double part;
-        motion_at(walk, dim, &x, to * (p + 1) / parts, &last);
-        integrate(&x, dim, &change, &from, &share, &first, &last, &part);
+        motion_at(walk, dim, &r->series, to * (p + 1) / parts, &last);
+        integrate(&r->series, dim, &change, &from, &share, &first, &last, &part);
         length += part;
         first = last;
     }
     return length;
+}
+
+static ICCP_INLINE double length_to(const iccp_flow_walk *walk, int32_t dim, double s)
+{
+    ruler r;
+    lay_ruler(walk, dim, &r);
+    return length_in(walk, dim, &r, s);
+}
+
+double iccp_flow_length(const iccp_flow_walk *walk, double s)
+{
+    const int32_t dim = walk->flow->grid->dim;
+    if (walk->radial)
+        return walk->end_length * (s / walk->end);
+    return dim == 3 ? length_to(walk, 3, s) : length_to(walk, dim, s);
 }
 
 /* Liouville: at the rate of the trace. Straight curves to a point spread in all directions but
@@ -112,20 +143,21 @@ double iccp_flow_growth(const iccp_flow_walk *walk, double s)
 }
 
 /* Newton's method on the length, kept within an interval that holds the answer. */
-double iccp_flow_at_length(const iccp_flow_walk *walk, double length)
+static ICCP_INLINE double at_length_in(const iccp_flow_walk *walk, int32_t dim, double s,
+                                       double length)
 {
     enum { MOST = 50 };
-    const int32_t dim = walk->flow->grid->dim;
     double low = 0, high = walk->end;
-    double s = walk->end_length > 0 ? walk->end * iccp_min(length / walk->end_length, 1) : 0;
-    for (int k = 0; k < MOST && !walk->radial; ++k) {
+    ruler r;
+    lay_ruler(walk, dim, &r);
+    for (int k = 0; k < MOST; ++k) {
         double vector[ICC_MAX_DIM], speed2;
-        const double miss = iccp_flow_length(walk, s) - length;
+        const double miss = length_in(walk, dim, &r, s) - length;
         if (miss < 0)
             low = s;
         else
             high = s;
-        iccp_flow_velocity(walk, s, vector);
+        velocity_in(walk, dim, s, vector);
         product(dim, vector, vector, &speed2);
         double next = s - miss / sqrt(speed2);
         if (!(next >= low && next <= high))
@@ -137,13 +169,21 @@ double iccp_flow_at_length(const iccp_flow_walk *walk, double length)
     return s;
 }
 
+double iccp_flow_at_length(const iccp_flow_walk *walk, double length)
+{
+    const int32_t dim = walk->flow->grid->dim;
+    const double s = walk->end_length > 0 ? walk->end * iccp_min(length / walk->end_length, 1) : 0;
+    if (walk->radial)
+        return s;
+    return dim == 3 ? at_length_in(walk, 3, s, length) : at_length_in(walk, dim, s, length);
+}
+
 /* ---- pieces ---- */
 
 /* With all safeguards, as far as somewhat beyond the last guess. */
-icc_status iccp_flow_find_piece_slowly(iccp_flow_walk *walk, double end)
+static ICCP_INLINE icc_status piece_slowly(iccp_flow_walk *walk, int32_t dim, double end)
 {
     static const double BEYOND = 1e-6; /* besides a tenth: a curve may start on the facet */
-    const int32_t dim = walk->flow->grid->dim;
     piece_step a;
     double first[3][ICC_MAX_DIM], size = 0;
     load_start(&a, dim, 0, walk);
@@ -159,6 +199,12 @@ icc_status iccp_flow_find_piece_slowly(iccp_flow_walk *walk, double end)
     walk->end_length = iccp_flow_length(walk, walk->end);
     walk->end_growth = iccp_flow_growth(walk, walk->end);
     return ICC_OK;
+}
+
+icc_status iccp_flow_find_piece_slowly(iccp_flow_walk *walk, double end)
+{
+    const int32_t dim = walk->flow->grid->dim;
+    return dim == 3 ? piece_slowly(walk, 3, end) : piece_slowly(walk, dim, end);
 }
 
 /* The fast way for nearly all pieces; what it cannot do in MOST_ATTEMPTS tries is left to the

@@ -106,7 +106,8 @@ uint32_t iccp_deepest_vertex(const iccp_planar *mesh, const icc_domain *domain)
     double depth = -1;
     for (size_t v = mesh->n_boundary; v < mesh->n_vertices; ++v) {
         double t, distance2;
-        (void)iccp_boxtree_nearest(&domain->locator->tree, mesh->points + 2 * v, &t, &distance2);
+        (void)iccp_boxtree_nearest(&iccp_locator_trees(domain->locator)->edges,
+                                   mesh->points + 2 * v, &t, &distance2);
         if (distance2 > depth) {
             depth = distance2;
             best = (uint32_t)v;

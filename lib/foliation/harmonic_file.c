@@ -58,7 +58,8 @@ static icc_status certify(const iccp_planar *mesh, const iccp_env *env)
     iccp_certificate certificate = {0};
     iccp_certify_mesh(mesh, mesh->points, &certificate);
     return iccp_certificate_holds(&certificate)
-               ? iccp_polygon_check_points(mesh->n_boundary, mesh->points, NULL, env)
+               ? iccp_polygon_check_points(mesh->n_boundary, mesh->points, NULL,
+                                           &iccp_frame_identity, env, NULL)
                : ICC_ERR_FORMAT;
 }
 

@@ -11,8 +11,8 @@ enum { ICCP_ROWS = 4 };
 /* Minimises |x - start|^2 where the sum of x[j] * column j is the target and no x[j] is
  * negative. */
 typedef struct iccp_nonneg {
-    size_t m;
-    /* m, ICCP_ROWS numbers each, of length 1 at most; they span all rows that are not 0. */
+    size_t m, rows; /* rows beyond these are 0 */
+    /* m, ICCP_ROWS numbers each, of length 1 at most; they span all `rows`. */
     const double *columns;
     double target[ICCP_ROWS];
     double total; /* the sum of all x that meet the equations, or HUGE_VAL where they leave it open:

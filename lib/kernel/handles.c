@@ -7,6 +7,7 @@
  *     w0 + Q'(L^-1 (1, x) - Q w0),
  *
  * and numbers in the iterative methods are of size 1 wherever the handles are. */
+#include "base/compiler.h"
 #include "base/error.h"
 #include "base/minmax.h"
 #include "kernel/l1.h"
@@ -151,7 +152,7 @@ void iccp_handles_free(iccp_handles *handles)
 }
 
 /* target -= Q weights */
-static void subtract_rows(const iccp_handles *h, const double *weights, double *target)
+static ICCP_INLINE void subtract_rows(const iccp_handles *h, const double *weights, double *target)
 {
     for (size_t j = 0; j < h->m; ++j)
         for (size_t r = 0; r < ICCP_ROWS; ++r)
@@ -159,7 +160,7 @@ static void subtract_rows(const iccp_handles *h, const double *weights, double *
 }
 
 /* weights += Q' target */
-static void add_rows(const iccp_handles *h, const double *target, double *weights)
+static ICCP_INLINE void add_rows(const iccp_handles *h, const double *target, double *weights)
 {
     for (size_t j = 0; j < h->m; ++j) {
         const double *c = h->columns + ICCP_ROWS * j;
@@ -168,7 +169,7 @@ static void add_rows(const iccp_handles *h, const double *target, double *weight
 }
 
 /* The nearest weights whose combinations are the target. */
-static void meet(const iccp_handles *h, const double *target, double *weights)
+static ICCP_INLINE void meet(const iccp_handles *h, const double *target, double *weights)
 {
     double missing[ICCP_ROWS];
     for (size_t r = 0; r < ICCP_ROWS; ++r)
@@ -216,16 +217,28 @@ static double greatest(size_t m, const double *x)
     return value;
 }
 
+/* L^-1 (1, x), for a constant number of rows. */
+static ICCP_INLINE void solve_lower(const iccp_handles *h, size_t rows, const double *point,
+                                    double *target)
+{
+    for (size_t r = 0; r < ICCP_ROWS; ++r)
+        target[r] = r == 0 ? 1 : r < rows ? point[r - 1] - h->centre[r - 1] : 0;
+    for (size_t k = 0; k < rows; ++k) {
+        target[k] /= h->lower[k][k];
+        for (size_t r = k + 1; r < rows; ++r)
+            target[r] -= h->lower[r][k] * target[k];
+    }
+}
+
 icc_status iccp_optimise(const iccp_handles *handles, int32_t method, const double *point,
                          double *weights, double *work)
 {
-    iccp_nonneg problem = {.m = handles->m, .columns = handles->columns, .total = 1};
-    for (size_t r = 0; r <= handles->dim; ++r) {
-        double right = r == 0 ? 1 : point[r - 1] - handles->centre[r - 1];
-        for (size_t k = 0; k < r; ++k)
-            right -= handles->lower[r][k] * problem.target[k];
-        problem.target[r] = right / handles->lower[r][r];
-    }
+    iccp_nonneg problem = {
+        .m = handles->m, .rows = handles->dim + 1, .columns = handles->columns, .total = 1};
+    if (handles->dim == 2)
+        solve_lower(handles, 3, point, problem.target);
+    else
+        solve_lower(handles, 4, point, problem.target);
     if (method == ICC_WEIGHTS_L1) {
         minimise_l1(handles, problem.target, weights, work);
         return ICC_OK;

@@ -368,6 +368,14 @@ static ICCP_INLINE void add_rows(const terms *t, size_t m, double *sums, size_t 
             sums[stride * j] += t->factor[i] * t->row[i][j];
 }
 
+/* Twice the slopes of the kernel; `kind` is a constant, so that nothing branches in the loop. */
+static ICCP_INLINE void fill_slopes(iccp_radial radial, int32_t kind, const near *h, double *slope)
+{
+    radial.kind = kind;
+    for (size_t i = 0; i < h->n; ++i)
+        slope[i] = 2 * iccp_radial_slope(&radial, h->distance2[i]);
+}
+
 /* Adds the kernels of the nodes that have been found, and forgets them. */
 static ICCP_INLINE void add_near(const query *q, near *h)
 {
@@ -381,8 +389,10 @@ static ICCP_INLINE void add_near(const query *q, near *h)
     for (size_t i = 0; i < h->n; ++i)
         t.factor[i] = iccp_radial_value(&radial, h->distance2[i]);
     add_rows(&t, q->m, q->values, 1);
-    for (size_t i = 0; q->gradients != NULL && i < h->n; ++i)
-        slope[i] = 2 * iccp_radial_slope(&radial, h->distance2[i]);
+    if (q->gradients != NULL && radial.kind == ICC_KERNEL_GAUSS)
+        fill_slopes(radial, ICC_KERNEL_GAUSS, h, slope);
+    else if (q->gradients != NULL)
+        fill_slopes(radial, ICC_KERNEL_WENDLAND, h, slope);
     for (size_t k = 0; q->gradients != NULL && k < c->dim; ++k) {
         for (size_t i = 0; i < h->n; ++i)
             t.factor[i] = slope[i] * (q->point[k] - c->sorted[c->dim * h->place[i] + k]);

@@ -162,7 +162,7 @@ static void optimise(const iccp_l1 *p, basis *b)
 static void least_squares(const iccp_l1 *p, const basis *b, double *x, double *work)
 {
     double *columns = work, *part = work + ICCP_ROWS * p->m;
-    iccp_nonneg face = {.columns = columns, .total = HUGE_VAL};
+    iccp_nonneg face = {.rows = p->rows, .columns = columns, .total = HUGE_VAL};
     for (size_t k = 0; k < ICCP_ROWS; ++k)
         face.target[k] = p->target[k];
     for (size_t j = 0; j < p->m; ++j) {
@@ -206,7 +206,7 @@ void iccp_l1_solve(const iccp_l1 *problem, double *x, double *work)
     for (size_t k = 0; k < ICCP_ROWS; ++k)
         p.target[k] /= scale;
     p.total /= scale;
-    iccp_nonneg positive = {.m = p.m, .columns = p.columns, .total = p.total};
+    iccp_nonneg positive = {.m = p.m, .rows = p.rows, .columns = p.columns, .total = p.total};
     for (size_t k = 0; k < ICCP_ROWS; ++k)
         positive.target[k] = p.target[k];
     if (!iccp_nonneg_solve(&positive, x, work)) {

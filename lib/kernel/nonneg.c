@@ -9,6 +9,7 @@
  * shortened. */
 #include "kernel/nonneg.h"
 
+#include "base/compiler.h"
 #include "base/minmax.h"
 
 #include <float.h>
@@ -26,81 +27,86 @@ static const double STEEP = 0.5;
  * taken. */
 enum { FEW_STEPS = 12, MOST_STEPS = 100, MOST_CUTS = 20 };
 
+/* What follows is compiled for three and for four equations: `rows` is a constant wherever it is a
+ * parameter, loops of a fixed length are unrolled, and numbers stay in registers. */
+
 typedef struct state {
     double y[ICCP_ROWS];
     double g[ICCP_ROWS];
     double h[ICCP_ROWS][ICCP_ROWS]; /* derivative of g */
 } state;
 
-static double dot(const double *a, const double *b)
+static ICCP_INLINE double dot(const double *a, const double *b)
 {
     return (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3]);
 }
 
-/* All at y: the columns pass once. */
-static void evaluate(const iccp_nonneg *p, double slope, const double *start, state *s)
+/* All at y: the columns pass once. `first`: y is 0. */
+static ICCP_INLINE void evaluate(const iccp_nonneg *p, size_t rows, double slope,
+                                 const double *start, state *s, bool first)
 {
     double g[ICCP_ROWS], h[ICCP_ROWS][ICCP_ROWS] = {{0}};
     for (size_t k = 0; k < ICCP_ROWS; ++k)
         g[k] = -p->target[k];
     for (size_t j = 0; j < p->m; ++j) {
         const double *c = p->columns + ICCP_ROWS * j;
-        const double t = start[j] + dot(c, s->y), weight = t >= 0 ? 1 : slope;
+        const double t = first ? start[j] : start[j] + dot(c, s->y), weight = t >= 0 ? 1 : slope;
         if (!(weight > 0))
             continue;
         for (size_t k = 0; k < ICCP_ROWS; ++k)
             g[k] += weight * t * c[k];
-        for (size_t r = 0; r < ICCP_ROWS; ++r)
+        for (size_t r = 0; r < rows; ++r)
             for (size_t k = 0; k < ICCP_ROWS; ++k)
                 h[r][k] += weight * c[r] * c[k];
     }
-    for (size_t r = 0; r < ICCP_ROWS; ++r) {
-        s->g[r] = g[r];
+    for (size_t k = 0; k < ICCP_ROWS; ++k)
+        s->g[k] = g[k];
+    for (size_t r = 0; r < rows; ++r)
         for (size_t k = 0; k < ICCP_ROWS; ++k)
             s->h[r][k] = h[r][k];
-    }
 }
 
-/* step = -(h + shift)^-1 g, by LDL^T. */
-static void newton_step(const state *s, double shift, double *step)
+/* A pivot: below the shift there is only rounding. */
+static ICCP_INLINE double pivot_of(double x, double shift)
 {
-    double l[ICCP_ROWS][ICCP_ROWS], d[ICCP_ROWS];
-    for (size_t c = 0; c < ICCP_ROWS; ++c) {
-        double pivot = s->h[c][c] + shift;
-        for (size_t k = 0; k < c; ++k)
-            pivot -= l[c][k] * l[c][k] * d[k];
-        /* Below the shift there is only rounding. */
-        d[c] = iccp_max(pivot, shift);
-        for (size_t r = c + 1; r < ICCP_ROWS; ++r) {
-            double sum = s->h[r][c];
-            for (size_t k = 0; k < c; ++k)
-                sum -= l[r][k] * l[c][k] * d[k];
-            l[r][c] = sum / d[c];
-        }
+    return iccp_max(x, shift);
+}
+
+/* step = -(h + shift)^-1 g, by LDL^T; written out, since compilers do not unroll triangles. */
+static ICCP_INLINE void newton_step(const state *s, size_t rows, double shift, double *step)
+{
+    const double(*h)[ICCP_ROWS] = s->h, *g = s->g;
+    const double d0 = pivot_of(h[0][0] + shift, shift);
+    const double l10 = h[1][0] / d0, l20 = h[2][0] / d0;
+    const double d1 = pivot_of(h[1][1] + shift - l10 * l10 * d0, shift);
+    const double l21 = (h[2][1] - l20 * l10 * d0) / d1;
+    const double d2 = pivot_of(h[2][2] + shift - l20 * l20 * d0 - l21 * l21 * d1, shift);
+    const double y0 = -g[0], y1 = -g[1] - l10 * y0, y2 = -g[2] - l20 * y0 - l21 * y1;
+    double l30 = 0, l31 = 0, l32 = 0;
+    step[3] = 0;
+    if (rows == 4) {
+        l30 = h[3][0] / d0;
+        l31 = (h[3][1] - l30 * l10 * d0) / d1;
+        l32 = (h[3][2] - l30 * l20 * d0 - l31 * l21 * d1) / d2;
+        const double rest = h[3][3] + shift - l30 * l30 * d0 - l31 * l31 * d1 - l32 * l32 * d2;
+        step[3] = (-g[3] - l30 * y0 - l31 * y1 - l32 * y2) / pivot_of(rest, shift);
     }
-    for (size_t r = 0; r < ICCP_ROWS; ++r) {
-        step[r] = -s->g[r];
-        for (size_t k = 0; k < r; ++k)
-            step[r] -= l[r][k] * step[k];
-    }
-    for (size_t r = ICCP_ROWS; r-- > 0;) {
-        step[r] /= d[r];
-        for (size_t k = r + 1; k < ICCP_ROWS; ++k)
-            step[r] -= l[k][r] * step[k];
-    }
+    step[2] = y2 / d2 - l32 * step[3];
+    step[1] = y1 / d1 - l21 * step[2] - l31 * step[3];
+    step[0] = y0 / d0 - l10 * step[1] - l20 * step[2] - l30 * step[3];
 }
 
 /* Goes along the step to where the dual function rises no longer steeply: all of it, or less. */
-static void advance(const iccp_nonneg *p, double slope, const double *start, const double *step,
-                    state *s)
+static ICCP_INLINE void advance(const iccp_nonneg *p, size_t rows, double slope,
+                                const double *start, const double *step, state *s)
 {
-    const state from = *s;
-    const double fall = dot(from.g, step);
+    const double from[ICCP_ROWS] = {s->y[0], s->y[1], s->y[2], s->y[3]};
+    const double fall = dot(s->g, step);
     double share = 1, low = 0, high = 1, low_rise = fall;
     for (int cut = 0; cut < MOST_CUTS; ++cut) {
         for (size_t k = 0; k < ICCP_ROWS; ++k)
-            s->y[k] = from.y[k] + share * step[k];
-        evaluate(p, slope, start, s);
+            s->y[k] = from[k] + share * step[k];
+        evaluate(p, rows, slope, start, s, false);
         const double rise = dot(s->g, step);
         if (rise <= -STEEP * fall && (share >= 1 || rise >= STEEP * fall))
             return;
@@ -119,7 +125,7 @@ static void advance(const iccp_nonneg *p, double slope, const double *start, con
 /* Whether a direction shows that no x meets the equations: the target lies farther along it than
  * all columns, times the total, by more than rounding. Where there is no solution, steps turn into
  * such a direction: they become normal to the columns with positive x. */
-static bool separates(const iccp_nonneg *p, const double *step, double tolerance)
+static ICCP_INLINE bool separates(const iccp_nonneg *p, const double *step, double tolerance)
 {
     const double target = dot(step, p->target) - tolerance * sqrt(dot(step, step));
     for (size_t j = 0; j < p->m; ++j)
@@ -133,13 +139,16 @@ typedef enum outcome { SOLVED, UNSOLVED, UNSOLVABLE } outcome;
 /* Newton's method on the dual of one point, from y = 0; x, of m components, is the start and, if
  * SOLVED, the solution. With slope > 0 negative components are allowed at 1 / slope times the
  * cost. A step along which the dual function falls without end shows that there is no solution. */
-static outcome iterate(const iccp_nonneg *p, double slope, size_t steps, double *x)
+static ICCP_INLINE outcome iterate_rows(const iccp_nonneg *p, size_t rows, double slope,
+                                        size_t steps, double *x)
 {
-    state s = {.y = {0}};
+    state s;
     double size = sqrt(dot(p->target, p->target));
     for (size_t j = 0; j < p->m; ++j)
         size = iccp_max(size, fabs(x[j]));
-    evaluate(p, slope, x, &s);
+    for (size_t k = 0; k < ICCP_ROWS; ++k)
+        s.y[k] = 0;
+    evaluate(p, rows, slope, x, &s, true);
     for (size_t k = 0; k <= steps; ++k) {
         double step[ICCP_ROWS];
         const double error = sqrt(dot(s.g, s.g));
@@ -151,12 +160,17 @@ static outcome iterate(const iccp_nonneg *p, double slope, size_t steps, double 
             }
             return SOLVED;
         }
-        newton_step(&s, DAMPING * error, step);
+        newton_step(&s, rows, DAMPING * error, step);
         if (slope <= 0 && p->total < HUGE_VAL && separates(p, step, OUTSIDE * size))
             return UNSOLVABLE;
-        advance(p, slope, x, step, &s);
+        advance(p, rows, slope, x, step, &s);
     }
     return UNSOLVED;
+}
+
+static outcome iterate(const iccp_nonneg *p, double slope, size_t steps, double *x)
+{
+    return p->rows == 3 ? iterate_rows(p, 3, slope, steps, x) : iterate_rows(p, 4, slope, steps, x);
 }
 
 bool iccp_nonneg_solve(const iccp_nonneg *problem, double *x, double *work)

@@ -2,6 +2,8 @@
  * the matrix is found once. */
 #include "map/assembly.h"
 
+#include "base/threads.h"
+
 #include <string.h>
 
 static const uint32_t NONE = UINT32_MAX;
@@ -9,6 +11,10 @@ static const uint32_t NONE = UINT32_MAX;
 /* Added to the diagonal, relative to its mean: where negative curvature was left out the Hessian
  * may be singular. */
 static const double SHIFT = 1e-10;
+
+/* Elements that a thread takes at once; and the most parts of the points that look for their
+ * neighbours at the same time: each goes through all elements. */
+enum { GRAIN = 1024, MOST_SEARCHES = 4 };
 
 /* ---- pattern ---- */
 
@@ -45,83 +51,114 @@ static icc_status list_parts(iccp_assembly *s, const iccp_simplicial_map *map,
     return ICC_OK;
 }
 
-/* Neighbours of each free point among the free ones, each once; `room` says where its list
- * begins. */
-static ICCP_INLINE void list_neighbours(size_t dim, iccp_assembly *s, const size_t *room,
-                                        uint32_t *degree, uint32_t *list)
+/* Where the neighbours of the free points are listed, until their columns are written. */
+typedef struct lists {
+    iccp_assembly *s;
+    size_t *room;     /* where the list of each begins */
+    uint32_t *degree; /* how long it is */
+    uint32_t *list;
+} lists;
+
+/* Neighbours of free points [begin, end) among all free ones, each once. */
+static ICCP_INLINE void list_neighbours(size_t dim, const lists *l, size_t begin, size_t end)
 {
+    const iccp_assembly *s = l->s;
     uint32_t *neighbour = s->neighbour;
-    memset(degree, 0, s->n_free * sizeof *degree);
+    memset(l->degree + begin, 0, (end - begin) * sizeof *l->degree);
     for (size_t e = 0; e < s->n_elements; ++e)
-        for (size_t i = 0; i <= dim; ++i)
-            for (size_t j = 0; j <= dim; ++j) {
-                const uint32_t a = slot_of(dim, s, e, i), b = slot_of(dim, s, e, j);
+        for (size_t i = 0; i <= dim; ++i, neighbour += dim) {
+            const uint32_t a = slot_of(dim, s, e, i);
+            if (a == NONE ? begin > 0 : a < begin || a >= end)
+                continue;
+            for (size_t j = 0, pair = 0; j <= dim; ++j) {
+                const uint32_t b = slot_of(dim, s, e, j);
                 if (i == j)
                     continue;
-                *neighbour++ = NONE;
+                uint32_t *at = &neighbour[pair++], k = 0;
+                *at = NONE;
                 if (a == NONE || b == NONE)
                     continue;
-                uint32_t *own = list + room[a], k = 0;
-                while (k < degree[a] && own[k] != b)
+                uint32_t *own = l->list + l->room[a];
+                while (k < l->degree[a] && own[k] != b)
                     ++k;
-                if (k == degree[a])
-                    own[degree[a]++] = b;
-                neighbour[-1] = k;
+                if (k == l->degree[a])
+                    own[l->degree[a]++] = b;
+                *at = k;
             }
+        }
 }
 
-/* Writes the rows' lengths and columns. */
-static icc_status build_pattern(iccp_assembly *s, const uint32_t *degree, const size_t *room,
-                                const uint32_t *list)
+static icc_status search(void *argument, size_t begin, size_t end)
 {
+    const lists *l = argument;
+    if (l->s->dim == 2)
+        list_neighbours(2, l, begin, end);
+    else
+        list_neighbours(3, l, begin, end);
+    return ICC_OK;
+}
+
+static icc_status write_columns(void *argument, size_t begin, size_t end)
+{
+    const lists *l = argument;
+    const iccp_assembly *s = l->s;
     const uint32_t dim = (uint32_t)s->dim;
-    size_t n_entries = 0;
-    for (size_t i = 0; i < s->n_free; ++i)
-        for (size_t d = 0; d < dim; ++d) {
-            s->first[dim * i + d] = n_entries;
-            n_entries += dim - 1 + dim * (size_t)degree[i];
-        }
-    s->first[dim * s->n_free] = n_entries;
-    s->column = iccp_alloc(&s->memory, n_entries, sizeof *s->column);
-    if (s->column == NULL)
-        return ICC_ERR_MEMORY;
-    for (uint32_t i = 0; i < s->n_free; ++i)
+    for (uint32_t i = (uint32_t)begin; i < end; ++i)
         for (uint32_t d = 0; d < dim; ++d) {
             uint32_t *column = s->column + s->first[dim * i + d];
             for (uint32_t c = 0; c < dim; ++c)
                 if (c != d)
                     *column++ = dim * i + c;
-            for (uint32_t k = 0; k < degree[i]; ++k)
+            for (uint32_t k = 0; k < l->degree[i]; ++k)
                 for (uint32_t c = 0; c < dim; ++c)
-                    *column++ = dim * list[room[i] + k] + c;
+                    *column++ = dim * l->list[l->room[i] + k] + c;
         }
     return ICC_OK;
 }
 
+/* Writes the rows' lengths and columns. */
+static icc_status build_pattern(lists *l, const iccp_env *env)
+{
+    iccp_assembly *s = l->s;
+    const size_t dim = s->dim;
+    size_t n_entries = 0;
+    for (size_t i = 0; i < s->n_free; ++i)
+        for (size_t d = 0; d < dim; ++d) {
+            s->first[dim * i + d] = n_entries;
+            n_entries += dim - 1 + dim * (size_t)l->degree[i];
+        }
+    s->first[dim * s->n_free] = n_entries;
+    s->column = iccp_alloc(&s->memory, n_entries, sizeof *s->column);
+    return s->column != NULL ? iccp_for_chunks(env, "improve", s->n_free, GRAIN, write_columns, l)
+                             : ICC_ERR_MEMORY;
+}
+
 /* Neighbours are listed with room for each pair of corners, then the pattern without it. */
-static icc_status find_pattern(iccp_assembly *s)
+static icc_status find_pattern(iccp_assembly *s, const iccp_env *env)
 {
     const size_t dim = s->dim;
-    size_t *room = iccp_alloc_zero(&s->memory, s->n_free + 1, sizeof *room);
-    uint32_t *degree = iccp_alloc(&s->memory, s->n_free, sizeof *degree);
-    uint32_t *list = iccp_alloc(&s->memory, dim * (dim + 1) * s->n_elements, sizeof *list);
+    const size_t n_searches = s->n_free < GRAIN              ? 1
+                              : env->threads < MOST_SEARCHES ? (size_t)env->threads
+                                                             : MOST_SEARCHES;
+    lists l = {.s = s,
+               .room = iccp_alloc_zero(&s->memory, s->n_free + 1, sizeof *l.room),
+               .degree = iccp_alloc(&s->memory, s->n_free, sizeof *l.degree),
+               .list = iccp_alloc(&s->memory, dim * (dim + 1) * s->n_elements, sizeof *l.list)};
     icc_status status = ICC_ERR_MEMORY;
-    if (room != NULL && degree != NULL && list != NULL) {
+    if (l.room != NULL && l.degree != NULL && l.list != NULL) {
         for (size_t e = 0; e < s->n_elements; ++e)
             for (size_t k = 0; k <= dim; ++k)
                 if (slot_of(dim, s, e, k) != NONE)
-                    room[slot_of(dim, s, e, k) + 1] += dim;
+                    l.room[slot_of(dim, s, e, k) + 1] += dim;
         for (size_t i = 0; i < s->n_free; ++i)
-            room[i + 1] += room[i];
-        if (dim == 2)
-            list_neighbours(2, s, room, degree, list);
-        else
-            list_neighbours(3, s, room, degree, list);
-        status = build_pattern(s, degree, room, list);
+            l.room[i + 1] += l.room[i];
+        status = iccp_for_chunks(env, "improve", s->n_free, s->n_free / n_searches + 1, search, &l);
     }
-    iccp_free(&s->memory, room);
-    iccp_free(&s->memory, degree);
-    iccp_free(&s->memory, list);
+    if (status == ICC_OK)
+        status = build_pattern(&l, env);
+    iccp_free(&s->memory, l.room);
+    iccp_free(&s->memory, l.degree);
+    iccp_free(&s->memory, l.list);
     return status;
 }
 
@@ -139,13 +176,16 @@ icc_status iccp_assembly_create(iccp_assembly *assembly, const iccp_simplicial_m
                                 const uint8_t *movable, const iccp_env *env)
 {
     iccp_assembly *s = assembly;
+    iccp_env quiet = *env;
+    quiet.progress = NULL;
     *s = (iccp_assembly){.memory = env->memory, .dim = map->dim, .corners = map->corners};
     icc_status status = list_parts(s, map, movable);
     if (status == ICC_OK) {
         const size_t n = s->dim * s->n_free, n_pairs = s->dim * (s->dim + 1);
         s->neighbour = iccp_alloc(&s->memory, s->n_elements, n_pairs * sizeof *s->neighbour);
         s->first = iccp_alloc(&s->memory, n + 1, sizeof *s->first);
-        status = s->neighbour != NULL && s->first != NULL ? find_pattern(s) : ICC_ERR_MEMORY;
+        status =
+            s->neighbour != NULL && s->first != NULL ? find_pattern(s, &quiet) : ICC_ERR_MEMORY;
     }
     if (status == ICC_OK)
         status = make_room(s);
@@ -190,17 +230,26 @@ void iccp_assembly_free(iccp_assembly *assembly)
 
 /* ---- parts ---- */
 
+typedef struct elimination {
+    iccp_assembly *s;
+    const uint32_t *position;
+} elimination;
+
 /* Pairs of corners whose entry the factorisation does not read are left out. */
-static void leave_out(iccp_assembly *s, const uint32_t *position)
+static icc_status leave_out(void *argument, size_t begin, size_t end)
 {
+    const elimination *el = argument;
+    const iccp_assembly *s = el->s;
     const size_t dim = s->dim;
-    uint32_t *neighbour = s->neighbour;
-    for (size_t e = 0; e < s->n_elements; ++e)
+    uint32_t *neighbour = s->neighbour + dim * (dim + 1) * begin;
+    for (size_t e = begin; e < end; ++e)
         for (size_t a = 0; a <= dim; ++a)
             for (size_t b = 0; b <= dim; ++b)
                 if (a != b && *neighbour++ != NONE &&
-                    position[dim * slot_of(dim, s, e, a)] > position[dim * slot_of(dim, s, e, b)])
+                    el->position[dim * slot_of(dim, s, e, a)] >
+                        el->position[dim * slot_of(dim, s, e, b)])
                     neighbour[-1] = NONE;
+    return ICC_OK;
 }
 
 /* The parts in which an element has a corner, each once; how many there are. */
@@ -241,13 +290,17 @@ static icc_status list_elements(iccp_assembly *s)
     return ICC_OK;
 }
 
-icc_status iccp_assembly_divide(iccp_assembly *assembly, const uint32_t *position, size_t n_parts)
+icc_status iccp_assembly_divide(iccp_assembly *assembly, const uint32_t *position, size_t n_parts,
+                                const iccp_env *env)
 {
     iccp_assembly *s = assembly;
     const size_t n_rows = s->dim * s->n_free;
-    leave_out(s, position);
-    if (n_parts <= 1)
-        return ICC_OK;
+    iccp_env quiet = *env;
+    quiet.progress = NULL;
+    const icc_status status = iccp_for_chunks(&quiet, "improve", s->n_elements, GRAIN, leave_out,
+                                              &(elimination){s, position});
+    if (status != ICC_OK || n_parts <= 1)
+        return status;
     s->n_parts = n_parts;
     s->part = iccp_alloc(&s->memory, s->n_free, sizeof *s->part);
     if (s->part == NULL)
@@ -276,7 +329,7 @@ static ICCP_INLINE void add(size_t dim, iccp_assembly *s, size_t part, size_t el
     uint32_t slot[4];
     for (size_t a = 0; a <= dim; ++a) {
         slot[a] = slot_of(dim, s, element, a);
-        if (slot[a] != NONE && s->part != NULL && s->part[slot[a]] != part)
+        if (slot[a] != NONE && part != ICCP_ALL_PARTS && s->part[slot[a]] != part)
             slot[a] = NONE;
     }
     for (size_t a = 0; a <= dim; ++a) {

@@ -45,7 +45,11 @@ icc_status iccp_assembly_share(iccp_assembly *assembly, const iccp_assembly *pat
 /* Prepares for a factorisation that eliminates row i at position[i]: of two entries only the one in
  * the row that comes first is summed from now on, the other stays 0. With `n_parts` > 1 the rows
  * are divided among parts, about as many in each, that can be summed at the same time. */
-icc_status iccp_assembly_divide(iccp_assembly *assembly, const uint32_t *position, size_t n_parts);
+icc_status iccp_assembly_divide(iccp_assembly *assembly, const uint32_t *position, size_t n_parts,
+                                const iccp_env *env);
+
+/* Instead of a part: all rows. */
+#define ICCP_ALL_PARTS SIZE_MAX
 
 /* Begins a sum; adds an element to the rows of a part, in which it has a corner; and adds to the
  * diagonal what keeps a Hessian without its negative curvature regular. */

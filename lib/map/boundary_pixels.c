@@ -78,13 +78,17 @@ icc_status iccp_boundary_pixels_create(iccp_boundary_pixels *boundary, const icc
                                        const icc_picture *target, const iccp_env *env)
 {
     *boundary = (iccp_boundary_pixels){.memory = env->memory};
-    double largest = 0;
-    for (size_t k = 0; k < 2 * domain->n_vertices; ++k)
-        largest = iccp_max(largest, fabs(domain->given[k]));
+    double largest = 0, ends[2][2];
+    for (size_t v = 0; v < domain->n_vertices; ++v) {
+        iccp_domain_given(domain, v, ends[0]);
+        largest = iccp_max(largest, iccp_max(fabs(ends[0][0]), fabs(ends[0][1])));
+    }
     icc_status status = ICC_OK;
-    for (size_t i = 0; i < domain->n_facets && status == ICC_OK; ++i)
-        status = add_along(boundary, target, domain->given + 2 * (size_t)domain->facets[2 * i],
-                           domain->given + 2 * (size_t)domain->facets[2 * i + 1], CLOSE * largest);
+    for (size_t i = 0; i < domain->n_facets && status == ICC_OK; ++i) {
+        for (size_t end = 0; end < 2; ++end)
+            iccp_domain_given(domain, domain->facets[2 * i + end], ends[end]);
+        status = add_along(boundary, target, ends[0], ends[1], CLOSE * largest);
+    }
     if (status != ICC_OK)
         iccp_boundary_pixels_free(boundary);
     return status;

@@ -8,14 +8,11 @@
 #include <math.h>
 #include <string.h>
 
-/* In the plane |J^-1| = |J| / det. */
 double iccp_dirichlet_energy(size_t dim, const double *element, const double *const *image)
 {
     double j[9], cofactor[9];
-    if (dim == 2) {
-        const double det = iccp_element_jacobian(2, element, image, j);
-        return det > 0 ? element[0] * iccp_squared_norm(2, j) * (1 + 1 / (det * det)) : HUGE_VAL;
-    }
+    if (dim == 2)
+        return iccp_dirichlet_energy2(element, image);
     const double det = iccp_element_jacobian(3, element, image, j);
     if (!(det > 0))
         return HUGE_VAL;

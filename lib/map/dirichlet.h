@@ -4,11 +4,20 @@
 
 #include "map/jacobian.h"
 
+#include <math.h>
 #include <stdbool.h>
 
 /* |J|^2 + |J^-1|^2 times the element's area or volume: 2 dim times it for an isometry, infinite
  * when the image is not positive. */
 double iccp_dirichlet_energy(size_t dim, const double *element, const double *const *image);
+
+/* In the plane, where |J^-1| = |J| / det. */
+static ICCP_INLINE double iccp_dirichlet_energy2(const double *element, const double *const *image)
+{
+    double j[4];
+    const double det = iccp_element_jacobian(2, element, image, j);
+    return det > 0 ? element[0] * iccp_squared_norm(2, j) * (1 + 1 / (det * det)) : HUGE_VAL;
+}
 
 /* With `majorise`, the Hessian is that of SLIM's quadratic model, which copes with a bad start;
  * otherwise the energy's own. The image must be positive. */

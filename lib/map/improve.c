@@ -3,6 +3,7 @@
 
 #include "base/minmax.h"
 #include "base/sort.h"
+#include "base/threads.h"
 #include "map/dirichlet.h"
 #include "map/flips.h"
 #include "map/movable.h"
@@ -31,6 +32,9 @@ static const double GROWTH = 1.4, STEPS = 6;
 static const double SLOW = 5e-3;
 enum { MOST_STEPS = 20 };
 
+/* Triangles that a thread ranks at once. */
+enum { GRAIN = 1024 };
+
 /* A refinement is in vain when it gains less than this. The first one is the last, or the second in
  * turn where the energy is HIGH: what is locked there may take two cuts to come free. */
 static const double LEAST_GAIN = 0.01, HIGH = 20;
@@ -38,6 +42,9 @@ static const double LEAST_GAIN = 0.01, HIGH = 20;
 icc_status iccp_improve_images(const iccp_simplicial_map *map, const iccp_descent *descent,
                                iccp_work *work, iccp_improvement *improvement, const iccp_env *env)
 {
+    improvement->is_converged = false;
+    if (!iccp_work_fits(work, map->n_simplices))
+        return ICC_OK;
     iccp_newton newton;
     iccp_env part = iccp_round(env, 0, TYPICAL_STEPS);
     uint8_t *movable;
@@ -50,7 +57,6 @@ icc_status iccp_improve_images(const iccp_simplicial_map *map, const iccp_descen
     const size_t n_free = newton.assembly.n_free;
     double energy = iccp_newton_energy(&newton, ICCP_DIRICHLET, 0);
     size_t n_slow = 0;
-    improvement->is_converged = false;
     for (size_t k = 0; status == ICC_OK && k < descent->iterations && n_free > 0 &&
                        iccp_work_take(work, map->n_simplices);
          ++k) {
@@ -78,12 +84,21 @@ icc_status iccp_improve_images(const iccp_simplicial_map *map, const iccp_descen
     return status == ICC_ERR_SOLVER ? ICC_OK : status;
 }
 
-static icc_status descend(iccp_plmap *map, const iccp_descent *descent, iccp_work *work,
-                          iccp_improvement *improvement, const iccp_env *env)
+/* Steps for the images; and, on both sides, as many for the points, by the energy of the inverse
+ * map, which is the same but for how triangles count: by their area after the map. */
+static icc_status descend(iccp_plmap *map, const iccp_descent *descent, bool both_sides,
+                          iccp_work *work, iccp_improvement *improvement, const iccp_env *env)
 {
+    icc_status status = ICC_OK;
+    for (int side = 0; side < (both_sides ? 2 : 1); ++side) {
+        const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
+        if (status == ICC_OK)
+            status = iccp_improve_images(&simplicial, descent, work, improvement, env);
+        if (both_sides)
+            iccp_plmap_swap(map);
+    }
     const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
-    const icc_status status = iccp_improve_images(&simplicial, descent, work, improvement, env);
-    improvement->energy = iccp_simplicial_energy(&simplicial);
+    improvement->energy = iccp_simplicial_energy_at_once(&simplicial, env);
     return status;
 }
 
@@ -96,8 +111,8 @@ static int by_excess(const void *a, const void *b)
 {
     const ranked *p = a, *q = b;
     if (p->excess < q->excess || p->excess > q->excess)
-        return p->excess < q->excess ? 1 : -1;
-    return (p->triangle > q->triangle) - (p->triangle < q->triangle);
+        return p->excess > q->excess ? 1 : -1;
+    return (p->triangle < q->triangle) - (p->triangle > q->triangle);
 }
 
 /* The corner that faces the edge which is longest, before and after the map taken together. */
@@ -119,35 +134,52 @@ static uint32_t longest_edge(const iccp_plmap *map, uint32_t triangle)
     return best;
 }
 
-/* Cuts the triangles that carry most of the excess energy. */
-static icc_status refine(iccp_plmap *map, size_t *n_cut, const iccp_env *env)
+typedef struct ranking {
+    iccp_simplicial_map map;
+    ranked *list;
+} ranking;
+
+static icc_status rank(void *argument, size_t begin, size_t end)
 {
-    const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
-    const size_t n = map->corners.n_triangles;
-    ranked *list = iccp_alloc(&env->memory, n, sizeof *list);
-    double excess = 0, reached = 0;
-    icc_status status = ICC_OK;
-    *n_cut = 0;
-    if (list == NULL)
-        return ICC_ERR_MEMORY;
-    for (uint32_t t = 0; t < n; ++t) {
+    const ranking *r = argument;
+    for (size_t t = begin; t < end; ++t) {
         const double *image[3];
         double element[ICCP_ELEMENT(2)];
-        iccp_simplicial_images(2, &simplicial, t, image);
-        iccp_simplicial_element(&simplicial, t, element);
-        list[t] = (ranked){iccp_dirichlet_energy(2, element, image) - 4 * element[0], t};
-        excess += list[t].excess;
+        iccp_simplicial_images(2, &r->map, t, image);
+        iccp_simplicial_element(&r->map, t, element);
+        r->list[t] =
+            (ranked){iccp_dirichlet_energy(2, element, image) - 4 * element[0], (uint32_t)t};
     }
-    iccp_sort(list, n, sizeof *list, by_excess);
-    for (size_t k = 0; status == ICC_OK && k < n && (double)k < MOST_CUT * (double)n &&
-                       reached < EXCESS_SHARE * excess;
-         ++k) {
+    return ICC_OK;
+}
+
+/* The triangle with most comes first. A heap is enough: a few of them are cut. */
+icc_status iccp_refine(iccp_plmap *map, size_t *n_cut, const iccp_env *env)
+{
+    const size_t n = map->corners.n_triangles;
+    iccp_env quiet = *env;
+    ranking r = {iccp_plmap_simplicial(map), iccp_alloc(&env->memory, n, sizeof(ranked))};
+    double excess = 0, reached = 0;
+    quiet.progress = NULL;
+    *n_cut = 0;
+    if (r.list == NULL)
+        return ICC_ERR_MEMORY;
+    icc_status status = iccp_for_chunks(&quiet, "improve", n, GRAIN, rank, &r);
+    for (size_t t = 0; t < n; ++t)
+        excess += r.list[t].excess;
+    iccp_sort_begin(r.list, n, sizeof(ranked), by_excess);
+    for (size_t left = n;
+         status == ICC_OK && left > 0 && (double)(n - left) < MOST_CUT * (double)n &&
+         reached < EXCESS_SHARE * excess;
+         --left) {
         bool done;
-        reached += list[k].excess;
-        status = iccp_plmap_cut(map, longest_edge(map, list[k].triangle), &done);
+        const ranked most = r.list[0];
+        iccp_sort_next(r.list, left, sizeof(ranked), by_excess);
+        reached += most.excess;
+        status = iccp_plmap_cut(map, longest_edge(map, most.triangle), &done);
         *n_cut += status == ICC_OK && done;
     }
-    iccp_free(&env->memory, list);
+    iccp_free(&env->memory, r.list);
     return status;
 }
 
@@ -171,12 +203,13 @@ static icc_status refine_often(iccp_plmap *map, const iccp_schedule *schedule, d
            may_refine(map, schedule, work, improvement)) {
         const double before = improvement->energy;
         const iccp_env part = iccp_round(env, improvement->n_levels, TYPICAL_LEVELS);
-        size_t n_cut;
-        status = refine(map, &n_cut, env);
+        size_t n_cut, n_flips;
+        status = iccp_refine(map, &n_cut, env);
         if (status != ICC_OK || n_cut == 0)
             break;
-        (void)iccp_flip_edges(map);
-        status = descend(map, &descent, work, improvement, &part);
+        status = iccp_flip_edges(map, &n_flips, env);
+        if (status == ICC_OK)
+            status = descend(map, &descent, schedule->both_sides, work, improvement, &part);
         ++improvement->n_levels;
         n_in_vain = before - improvement->energy < LEAST_GAIN * before ? n_in_vain + 1 : 0;
     }
@@ -194,10 +227,10 @@ icc_status iccp_improve(iccp_plmap *map, const iccp_schedule *schedule, iccp_wor
     *improvement = (iccp_improvement){0};
     if (schedule->levels == 0)
         first.slow = 0;
-    icc_status status = descend(map, &first, work, improvement, &part[0]);
+    icc_status status = descend(map, &first, schedule->both_sides, work, improvement, &part[0]);
     if (status == ICC_OK && schedule->levels > 0)
         status = refine_often(map, schedule, slow, work, improvement, &part[1]);
     if (status == ICC_OK && schedule->levels > 0 && !improvement->is_converged)
-        status = descend(map, &last, work, improvement, &part[2]);
+        status = descend(map, &last, false, work, improvement, &part[2]);
     return status;
 }

@@ -32,14 +32,18 @@ typedef struct iccp_schedule {
     double tolerance;  /* on the last mesh, until a step gains no more than this share */
     size_t levels;     /* refinements at most, */
     double most;       /* to no more triangles than this */
+    bool both_sides;   /* the points of inner vertices move, too */
 } iccp_schedule;
 
 /* Lowers the symmetric Dirichlet energy of a map whose triangles are all positive, which they stay,
- * with the boundary fixed: by steps as long as they gain enough; then cuts the triangles with the
+ * with what is fixed fixed: by steps as long as they gain enough; then cuts the triangles with the
  * most energy, flips edges and continues, as long as that gains enough and there is work left; the
  * last mesh takes steps down to the tolerance. On any failure, ICC_ERR_CANCELLED included, the map
  * is valid and no worse than before. */
 icc_status iccp_improve(iccp_plmap *map, const iccp_schedule *schedule, iccp_work *work,
                         iccp_improvement *improvement, const iccp_env *env);
+
+/* Cuts the triangles that carry most of the energy above an isometry's; each keeps its map. */
+icc_status iccp_refine(iccp_plmap *map, size_t *n_cut, const iccp_env *env);
 
 #endif

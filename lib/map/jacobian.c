@@ -1,33 +1,11 @@
 #include "map/jacobian.h"
 
-/* By Cramer's rule: the gradients are the cofactors of the edges from corner 0 over their
- * determinant. */
-static ICCP_INLINE void create(size_t dim, const double *const *corner, double *element)
-{
-    double edge[9], det = 0;
-    double *gradient = element + 1;
-    for (size_t i = 0; i < dim; ++i)
-        for (size_t k = 0; k < dim; ++k)
-            edge[dim * i + k] = corner[i + 1][k] - corner[0][k];
-    iccp_cofactors(dim, edge, gradient + dim);
-    for (size_t k = 0; k < dim; ++k)
-        det += edge[k] * gradient[dim + k];
-    element[0] = det / (dim == 2 ? 2 : 6);
-    for (size_t k = 0; k < dim; ++k) {
-        gradient[k] = 0;
-        for (size_t i = 1; i <= dim; ++i) {
-            gradient[dim * i + k] /= det;
-            gradient[k] -= gradient[dim * i + k];
-        }
-    }
-}
-
 void iccp_element_create(size_t dim, const double *const *corner, double *element)
 {
     if (dim == 2)
-        create(2, corner, element);
+        iccp_element_fill(2, corner, element);
     else
-        create(3, corner, element);
+        iccp_element_fill(3, corner, element);
 }
 
 /* Two columns at a time, which compilers turn into vector instructions. */

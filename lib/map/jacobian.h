@@ -74,6 +74,28 @@ static ICCP_INLINE void iccp_cofactors(size_t dim, const double *j, double *cofa
     }
 }
 
+/* As iccp_element_create(). By Cramer's rule: the gradients are the cofactors of the edges from
+ * corner 0 over their determinant. */
+static ICCP_INLINE void iccp_element_fill(size_t dim, const double *const *corner, double *element)
+{
+    double edge[9], det = 0;
+    double *gradient = element + 1;
+    for (size_t i = 0; i < dim; ++i)
+        for (size_t k = 0; k < dim; ++k)
+            edge[dim * i + k] = corner[i + 1][k] - corner[0][k];
+    iccp_cofactors(dim, edge, gradient + dim);
+    for (size_t k = 0; k < dim; ++k)
+        det += edge[k] * gradient[dim + k];
+    element[0] = det / (dim == 2 ? 2 : 6);
+    for (size_t k = 0; k < dim; ++k) {
+        gradient[k] = 0;
+        for (size_t i = 1; i <= dim; ++i) {
+            gradient[dim * i + k] /= det;
+            gradient[k] -= gradient[dim * i + k];
+        }
+    }
+}
+
 /* What a direction in the space of Jacobians, row by row, means for the corners. */
 static ICCP_INLINE void iccp_pull_back(size_t dim, const double *element, const double *by_j,
                                        double factor, double *by_corner)

@@ -2,7 +2,9 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "base/threads.h"
 #include "chart/chart_create.h"
+#include "domain/features_check.h"
 #include "map/digits.h"
 
 /* Cells of a mesh along the longest side: where the boundary is no finer, coarse is fair enough. */
@@ -15,6 +17,34 @@ static const char *turn_of(const icc_domain *domain)
     return domain->orientation > 0 ? "oriented outward" : "oriented inward";
 }
 
+/* Feature i goes to feature i: both are of one kind, with as many vertices, and holes turn the same
+ * way. */
+static icc_status check_features(const iccp_features *source, const iccp_features *target,
+                                 icc_error *err)
+{
+    const size_t n = source != NULL ? source->n : 0, m = target != NULL ? target->n : 0;
+    if (n != m)
+        return iccp_fail(err, ICC_ERR_BOUNDARY, "the source has %zu features, the target %zu", n,
+                         m);
+    for (size_t i = 0; i < n; ++i) {
+        const iccp_feature *a = &source->item[i], *b = &target->item[i];
+        if (a->kind != b->kind || a->n != b->n)
+            return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_FEATURE, (int64_t)i,
+                                "feature %zu is %s of %lu vertices, but in the source %s of "
+                                "%lu: vertex i must correspond to vertex i",
+                                i, iccp_feature_name(b->kind), (unsigned long)b->n,
+                                iccp_feature_name(a->kind), (unsigned long)a->n);
+        if (a->orientation != b->orientation)
+            return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_FEATURE, (int64_t)i,
+                                "feature %zu (%s) is %s, but in the source %s: both must turn "
+                                "the same way",
+                                i, iccp_feature_name(b->kind),
+                                b->orientation > 0 ? "counter-clockwise" : "clockwise",
+                                a->orientation > 0 ? "counter-clockwise" : "clockwise");
+    }
+    return ICC_OK;
+}
+
 /* The boundaries correspond when their facets join the same vertices and they turn the same way. */
 static icc_status check_correspondence(const icc_domain *source, const icc_domain *target,
                                        icc_error *err)
@@ -24,6 +54,8 @@ static icc_status check_correspondence(const icc_domain *source, const icc_domai
     if (source->dim != target->dim)
         status = iccp_fail(err, ICC_ERR_BOUNDARY, "the source has dimension %ld, the target %ld",
                            (long)source->dim, (long)target->dim);
+    else if ((status = check_features(source->features, target->features, err)) != ICC_OK)
+        return iccp_fail_side(err, status, 2);
     else if (source->n_vertices != target->n_vertices)
         status = iccp_fail(err, ICC_ERR_BOUNDARY,
                            "the source has %zu vertices, the target %zu: vertex i must "
@@ -110,6 +142,28 @@ icc_status iccp_map_check_digits(icc_map *map, const iccp_env *env)
     return status;
 }
 
+/* Maps of domains with features have no charts. */
+static icc_status create_with_features(icc_map **out, const icc_domain *source,
+                                       const icc_domain *target, const icc_map_options *options,
+                                       const iccp_env *env, icc_error *err)
+{
+    const double start = iccp_seconds();
+    icc_map *map = NULL;
+    icc_status status = iccp_map_begin(&map, source, target, env, err);
+    if (status == ICC_OK)
+        status = iccp_mesh_map_create_features(&map->mesh, source, target, options, &map->info, env,
+                                               err);
+    if (status != ICC_OK) {
+        iccp_map_release(map);
+        return iccp_explain(err, status);
+    }
+    map->info.kind = ICC_MAP_MESH;
+    map->info.certified = 1;
+    map->info.seconds = iccp_seconds() - start;
+    *out = map;
+    return ICC_OK;
+}
+
 static icc_status add_mesh(icc_map *map, int32_t iterations, bool overlay, const iccp_env *env,
                            icc_error *err)
 {
@@ -156,7 +210,12 @@ icc_status iccp_map_create_from_charts(icc_map **out, const icc_chart *source,
                                        const icc_chart *target, const icc_map_options *options,
                                        const iccp_env *env, icc_error *err)
 {
-    return create_from(out, source, target, options, true, env, err);
+    iccp_team team;
+    iccp_env with;
+    iccp_with_team(&with, &team, env);
+    const icc_status status = create_from(out, source, target, options, true, &with, err);
+    iccp_without_team(&with, env);
+    return status;
 }
 
 static icc_status create_with(icc_map **out, const icc_domain *const domains[2],
@@ -199,9 +258,9 @@ static void complete(icc_chart_options chart_options[2], const icc_domain *const
     }
 }
 
-icc_status iccp_map_create(icc_map **out, const icc_domain *source, const icc_domain *target,
-                           const icc_map_options *options, const icc_chart_options chart_options[2],
-                           const iccp_env *env, icc_error *err)
+static icc_status create(icc_map **out, const icc_domain *source, const icc_domain *target,
+                         const icc_map_options *options, const icc_chart_options chart_options[2],
+                         const iccp_env *env, icc_error *err)
 {
     const double start = iccp_seconds();
     const icc_domain *const domains[2] = {source, target};
@@ -215,6 +274,17 @@ icc_status iccp_map_create(icc_map **out, const icc_domain *source, const icc_do
                            source->dim == 3 ? " without meshes (icc_domain_create_mesh)" : "");
     if (status != ICC_OK)
         return status;
+    if (source->features != NULL &&
+        (options->kind == ICC_MAP_CURVES || chart_options[0].method != 0 ||
+         chart_options[0].maximum != NULL || chart_options[1].maximum != NULL))
+        return iccp_fail(err, ICC_ERR_UNSUPPORTED,
+                         "holes, lines or points inside: only kind mesh without charts can have "
+                         "them");
+    if (source->features == NULL && options->n_ties > 0)
+        return iccp_fail(err, ICC_ERR_ARGUMENT,
+                         "ties are between features, of which there are none");
+    if (source->features != NULL)
+        return create_with_features(out, source, target, options, env, err);
     complete(full, domains, options->kind);
     const iccp_env first = iccp_part(env, NULL, 0, 0.9), second_part = iccp_part(env, NULL, 0.9, 1);
     status = create_with(out, domains, options, full, true, &first, err);
@@ -242,6 +312,18 @@ icc_status iccp_map_create(icc_map **out, const icc_domain *source, const icc_do
     return status;
 }
 
+icc_status iccp_map_create(icc_map **out, const icc_domain *source, const icc_domain *target,
+                           const icc_map_options *options, const icc_chart_options chart_options[2],
+                           const iccp_env *env, icc_error *err)
+{
+    iccp_team team;
+    iccp_env with;
+    iccp_with_team(&with, &team, env);
+    const icc_status status = create(out, source, target, options, chart_options, &with, err);
+    iccp_without_team(&with, env);
+    return status;
+}
+
 icc_status iccp_map_improve(icc_map **out, const icc_map *map, const icc_improve_options *options,
                             icc_improve_report *report, const iccp_env *env, icc_error *err)
 {
@@ -250,12 +332,16 @@ icc_status iccp_map_improve(icc_map **out, const icc_map *map, const icc_improve
     if (map->mesh == NULL)
         return iccp_fail(err, ICC_ERR_UNSUPPORTED,
                          "only maps of kind mesh in the plane can be improved");
+    iccp_team team;
+    iccp_env with;
+    iccp_with_team(&with, &team, env);
     icc_status status = new_map(&better, map->source_domain, map->target_domain, env);
     if (status == ICC_OK && map->source != NULL)
         iccp_map_add_charts(better, map->source, map->target);
     if (status == ICC_OK)
         status = iccp_mesh_map_improve(&better->mesh, map->mesh, map->source_domain->n_facets,
-                                       options, report, env, err);
+                                       options, report, &with, err);
+    iccp_without_team(&with, env);
     if (status != ICC_OK) {
         iccp_map_release(better);
         return iccp_explain(err, status);
@@ -279,11 +365,15 @@ icc_status iccp_map_retarget(icc_map **out, const icc_map *map, const icc_domain
     if (map->mesh == NULL)
         return iccp_fail(err, ICC_ERR_UNSUPPORTED,
                          "only maps of kind mesh in the plane can be followed");
+    iccp_team team;
+    iccp_env with;
+    iccp_with_team(&with, &team, env);
     icc_status status = iccp_map_begin(&next, map->source_domain, target, env, err);
     if (status == ICC_OK)
         status =
             iccp_mesh_map_follow(&next->mesh, map->mesh, map->source_domain, map->target_domain,
-                                 target, iterations, &next->info, env, err);
+                                 target, iterations, &next->info, &with, err);
+    iccp_without_team(&with, env);
     if (status == ICC_OK && next->mesh == NULL)
         status = iccp_fail(err, ICC_ERR_CERTIFICATE,
                            "%zu triangles could not be repaired: the target has moved too far",

@@ -8,7 +8,21 @@
 #include "map/plmap_file.h"
 
 static const char KIND[] = "MAP_";
-static const uint32_t VERSION = 1;
+/* With features, and without. */
+static const uint32_t VERSION = 2, PLAIN_VERSION = 1;
+
+/* Each version has domains of its own kind, so that a map is saved in one way only. */
+static icc_status visit_domain(iccp_blob *b, icc_domain **domain, const iccp_env *env)
+{
+    if (b->version == PLAIN_VERSION)
+        return iccp_domain_visit(b, domain, env);
+    const icc_status status = iccp_domain_visit_any(b, domain, env);
+    if (status != ICC_OK || (*domain)->features != NULL)
+        return status;
+    iccp_domain_release(*domain);
+    *domain = NULL;
+    return ICC_ERR_FORMAT;
+}
 
 /* The domains, which the map then keeps. */
 static icc_status visit_domains(iccp_blob *b, icc_map **map, const iccp_env *env)
@@ -17,9 +31,9 @@ static icc_status visit_domains(iccp_blob *b, icc_map **map, const iccp_env *env
     icc_domain *target = b->reads ? NULL : (*map)->target_domain;
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){1, 1}, env);
-    icc_status status = iccp_domain_visit(b, &source, &part[0]);
+    icc_status status = visit_domain(b, &source, &part[0]);
     if (status == ICC_OK)
-        status = iccp_domain_visit(b, &target, &part[1]);
+        status = visit_domain(b, &target, &part[1]);
     if (!b->reads)
         return status;
     if (status == ICC_OK)
@@ -103,7 +117,8 @@ static icc_status visit(iccp_blob *b, icc_map **map, const iccp_env *part, icc_e
     int32_t has_charts = !b->reads && (*map)->source != NULL;
     iccp_blob_i32(b, ICCP_U32, ICC_MAP_CURVES, ICC_MAP_MESH, &kind);
     iccp_blob_i32(b, ICCP_U32, 0, 1, &has_charts);
-    iccp_blob_require(b, kind == ICC_MAP_MESH || has_charts);
+    iccp_blob_require(b, b->version == PLAIN_VERSION ? kind == ICC_MAP_MESH || has_charts
+                                                     : kind == ICC_MAP_MESH && !has_charts);
     icc_status status = b->status;
     if (status == ICC_OK)
         status = visit_domains(b, map, &part[0]);
@@ -121,7 +136,8 @@ void iccp_map_save(const icc_map *map, size_t capacity, void *data, size_t *n_by
     const iccp_env part[3] = {0};
     icc_map copy = *map, *written = &copy;
     iccp_blob b;
-    iccp_blob_begin(&b, data, capacity, KIND, VERSION);
+    iccp_blob_begin(&b, data, capacity, KIND,
+                    map->source_domain->features != NULL ? VERSION : PLAIN_VERSION);
     (void)visit(&b, &written, part, NULL);
     iccp_blob_end(&b, n_bytes);
 }

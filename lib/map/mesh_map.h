@@ -10,11 +10,11 @@
 /* Immutable once made, but for what is made when it is first needed. */
 typedef struct iccp_mesh_map {
     iccp_plmap pl;
-    double reach[2];                  /* of the bands of source and target (domain/band.h) */
-    iccp_finder before;               /* in the source */
-    iccp_finder after;                /* in the target */
-    _Atomic(iccp_newton_plan *) plan; /* of the mesh: NULL until the map is first followed */
-    double work;                      /* that it took to make: see map/work.h */
+    double reach[2];    /* of the bands of source and target (domain/band.h) */
+    iccp_finder before; /* in the source */
+    iccp_finder after;  /* in the target */
+    iccp_once plan;     /* Newton's, of the mesh: made when the map is first followed */
+    double work;        /* that it took to make: see map/work.h */
 } iccp_mesh_map;
 
 /* All but `reach` is still to be filled in; NULL without memory. */
@@ -28,6 +28,12 @@ iccp_mesh_map *iccp_mesh_map_new(const icc_domain *source, const icc_domain *tar
 icc_status iccp_mesh_map_create(iccp_mesh_map **out, const icc_chart *source,
                                 const icc_chart *target, int32_t iterations, bool overlay,
                                 icc_map_info *info, const iccp_env *env, icc_error *err);
+
+/* Between two domains with features that correspond, without charts. ICC_ERR_RESOLUTION when
+ * features are too close for doubles. Otherwise as above. */
+icc_status iccp_mesh_map_create_features(iccp_mesh_map **out, const icc_domain *source,
+                                         const icc_domain *target, const icc_map_options *options,
+                                         icc_map_info *info, const iccp_env *env, icc_error *err);
 
 /* A better one from a copy, between domains of n_facets; see icc_map_improve(). */
 icc_status iccp_mesh_map_improve(iccp_mesh_map **out, const iccp_mesh_map *map, size_t n_facets,

@@ -37,11 +37,16 @@ static double classify(const iccp_simplicial_map *map, uint16_t *class, double e
     return energy;
 }
 
+bool iccp_all_are_movable(size_t n_triangles)
+{
+    return n_triangles < FEW;
+}
+
 icc_status iccp_movable_create(uint8_t **movable, const iccp_simplicial_map *map,
                                const iccp_env *env)
 {
     *movable = NULL;
-    if (map->dim != 2 || map->n_simplices < FEW)
+    if (map->dim != 2 || iccp_all_are_movable(map->n_simplices))
         return ICC_OK;
     uint16_t *class = iccp_alloc(&env->memory, map->n_simplices, sizeof *class);
     uint8_t *marks = iccp_alloc_zero(&env->memory, map->n_points, 1);

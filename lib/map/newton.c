@@ -17,12 +17,15 @@
 /* Of the way to the first flip. */
 static const double SHARE_OF_FLIP = 0.9;
 
+/* Share of a motion by which a gradient is differentiated. */
+static const double DIFFERENCE = 1e-6;
+
 /* Sufficient decrease (Armijo), and how often a step is halved. */
 static const double DECREASE = 1e-4;
 enum { MAX_HALVINGS = 40 };
 
 /* Elements that a thread takes at once, and rows of a part of the assembly. */
-enum { GRAIN = 8192, PART_ROWS = 2048 };
+enum { GRAIN = 1024, PART_ROWS = 1024 };
 
 /* ---- set-up ---- */
 
@@ -35,13 +38,14 @@ struct iccp_newton_plan {
     uint32_t *corners; /* the mesh that it is for */
 };
 
+/* Without threads parts would only cost. */
 static icc_status analyse(iccp_assembly *assembly, iccp_ldlt *factor, const iccp_env *env)
 {
     const iccp_symmetric hessian = iccp_assembly_hessian(assembly);
+    const size_t n_parts = iccp_has_threads(env) ? hessian.n / PART_ROWS + 1 : 1;
     const icc_status status = iccp_ldlt_analyse(factor, &hessian, 2, env);
-    return status == ICC_OK
-               ? iccp_assembly_divide(assembly, factor->position, hessian.n / PART_ROWS + 1)
-               : status;
+    return status == ICC_OK ? iccp_assembly_divide(assembly, factor->position, n_parts, env)
+                            : status;
 }
 
 icc_status iccp_newton_plan_create(iccp_newton_plan **out, const iccp_simplicial_map *map,
@@ -101,6 +105,15 @@ bool iccp_newton_plan_fits(const iccp_newton_plan *plan, const iccp_simplicial_m
     return fits;
 }
 
+static icc_status find_elements(void *argument, size_t begin, size_t end)
+{
+    const iccp_newton *s = argument;
+    const size_t size = ICCP_ELEMENT(s->map.dim);
+    for (size_t e = begin; e < end; ++e)
+        iccp_simplicial_element(&s->map, s->assembly.simplex[e], s->element + size * e);
+    return ICC_OK;
+}
+
 icc_status iccp_newton_create(iccp_newton *newton, const iccp_simplicial_map *map,
                               const uint8_t *movable, const iccp_env *env)
 {
@@ -128,8 +141,9 @@ icc_status iccp_newton_create(iccp_newton *newton, const iccp_simplicial_map *ma
     if (s->element == NULL || s->step == NULL || s->saved == NULL || s->work == NULL ||
         (s->term == NULL && iccp_has_threads(env)))
         status = ICC_ERR_MEMORY;
-    for (size_t e = 0; status == ICC_OK && e < s->assembly.n_elements; ++e)
-        iccp_simplicial_element(map, s->assembly.simplex[e], s->element + size * e);
+    if (status == ICC_OK)
+        status = iccp_for_chunks(&s->threads, "improve", s->assembly.n_elements, GRAIN,
+                                 find_elements, s);
     if (status == ICC_OK && plan != NULL)
         iccp_ldlt_share(&s->factor, &plan->factor, &env->memory);
     else if (status == ICC_OK && map->dim == 2)
@@ -257,10 +271,11 @@ static void assemble(iccp_newton *s, iccp_energy energy, double epsilon)
 {
     loop l = {s, energy, epsilon};
     iccp_assembly_begin(&s->assembly);
-    if (s->assembly.n_parts > 1)
+    if (s->assembly.n_parts > 1 && iccp_has_threads(&s->threads))
         run(s, s->assembly.n_parts, 1, assemble_parts, &l);
-    for (size_t e = 0; s->assembly.n_parts <= 1 && e < s->assembly.n_elements; ++e)
-        add_element(&l, 0, e);
+    else
+        for (size_t e = 0; e < s->assembly.n_elements; ++e)
+            add_element(&l, ICCP_ALL_PARTS, e);
     iccp_assembly_end(&s->assembly);
 }
 
@@ -273,7 +288,7 @@ static icc_status solve_directly(iccp_newton *s, const iccp_symmetric *hessian, 
         return status;
     for (size_t i = 0; i < hessian->n; ++i)
         s->step[i] = -s->assembly.gradient[i];
-    iccp_ldlt_solve(&s->factor, 1, s->step, s->work);
+    iccp_ldlt_solve_at_once(&s->factor, 1, s->step, s->work, &s->threads);
     return ICC_OK;
 }
 
@@ -296,6 +311,33 @@ icc_status iccp_newton_solve(iccp_newton *newton, iccp_energy energy, double eps
     return s->map.dim == 3 || *slope <= 0 ? ICC_OK : ICC_ERR_SOLVER;
 }
 
+/* The change of the gradient along the motion is a difference of two; images come back bit for bit
+ * from `images`. */
+icc_status iccp_newton_answer(iccp_newton *newton, double *motion, double *images,
+                              const iccp_env *env)
+{
+    iccp_newton *s = newton;
+    const size_t n = 2 * s->map.n_points, n_free = 2 * s->assembly.n_free;
+    memcpy(images, s->map.images, n * sizeof *images);
+    for (size_t i = 0; i < n; ++i)
+        s->map.images[i] += DIFFERENCE * motion[i];
+    assemble(s, ICCP_DIRICHLET, 0);
+    memcpy(s->saved, s->assembly.gradient, n_free * sizeof *s->saved);
+    memcpy(s->map.images, images, n * sizeof *images);
+    assemble(s, ICCP_DIRICHLET, 0);
+    const iccp_symmetric hessian = iccp_assembly_hessian(&s->assembly);
+    const icc_status status = iccp_ldlt_factorise(&s->factor, &hessian, env);
+    if (status != ICC_OK)
+        return status;
+    for (size_t i = 0; i < n_free; ++i)
+        s->step[i] =
+            -s->assembly.gradient[i] - (s->saved[i] - s->assembly.gradient[i]) / DIFFERENCE;
+    iccp_ldlt_solve(&s->factor, 1, s->step, s->work);
+    for (size_t i = 0; i < s->assembly.n_free; ++i)
+        memcpy(motion + 2 * (size_t)s->assembly.free_point[i], s->step + 2 * i, 2 * sizeof *motion);
+    return ICC_OK;
+}
+
 /* ---- line search ---- */
 
 /* The smallest positive root of det(t) = a + b t + c t^2, where a > 0; infinite when there is
@@ -313,6 +355,17 @@ static double first_root(double a, double b, double c)
     return low > 0 ? low : high > 0 ? high : HUGE_VAL;
 }
 
+/* How far corners can go along d before their triangle loses its area. */
+static double flip_along(const double *const p[3], const double d[3][2])
+{
+    const double ux = p[1][0] - p[0][0], uy = p[1][1] - p[0][1];
+    const double vx = p[2][0] - p[0][0], vy = p[2][1] - p[0][1];
+    const double dux = d[1][0] - d[0][0], duy = d[1][1] - d[0][1];
+    const double dvx = d[2][0] - d[0][0], dvy = d[2][1] - d[0][1];
+    return first_root(ux * vy - uy * vx, ux * dvy + dux * vy - uy * dvx - duy * vx,
+                      dux * dvy - duy * dvx);
+}
+
 static double flip_of(const iccp_newton *s, size_t e)
 {
     const uint32_t *v = s->map.corners + 3 * (size_t)s->assembly.simplex[e];
@@ -322,12 +375,21 @@ static double flip_of(const iccp_newton *s, size_t e)
     for (size_t k = 0; k < 3; ++k)
         if (s->assembly.slot[v[k]] != UINT32_MAX)
             memcpy(d[k], s->step + 2 * (size_t)s->assembly.slot[v[k]], sizeof d[k]);
-    const double ux = p[1][0] - p[0][0], uy = p[1][1] - p[0][1];
-    const double vx = p[2][0] - p[0][0], vy = p[2][1] - p[0][1];
-    const double dux = d[1][0] - d[0][0], duy = d[1][1] - d[0][1];
-    const double dvx = d[2][0] - d[0][0], dvy = d[2][1] - d[0][1];
-    return first_root(ux * vy - uy * vx, ux * dvy + dux * vy - uy * dvx - duy * vx,
-                      dux * dvy - duy * dvx);
+    return flip_along(p, (const double(*)[2])d);
+}
+
+double iccp_newton_limit(const iccp_simplicial_map *map, const double *motion)
+{
+    double least = HUGE_VAL;
+    for (size_t t = 0; t < map->n_simplices; ++t) {
+        const double *p[3];
+        double d[3][2];
+        iccp_simplicial_images(2, map, t, p);
+        for (size_t k = 0; k < 3; ++k)
+            memcpy(d[k], motion + 2 * (size_t)map->corners[3 * t + k], sizeof d[k]);
+        least = iccp_min(least, flip_along(p, (const double(*)[2])d));
+    }
+    return least;
 }
 
 typedef struct limit {

@@ -56,4 +56,14 @@ icc_status iccp_newton_solve(iccp_newton *newton, iccp_energy energy, double eps
 double iccp_newton_move(iccp_newton *newton, iccp_energy energy, double epsilon, double before,
                         double slope);
 
+/* In the plane: fills in how free points answer a motion of fixed ones, 2 n_points displacements of
+ * which theirs are 0, where the symmetric Dirichlet energy is least by its model. `images` has room
+ * for 2 n_points. ICC_ERR_SOLVER when there is no answer. */
+icc_status iccp_newton_answer(iccp_newton *newton, double *motion, double *images,
+                              const iccp_env *env);
+
+/* In the plane: which share of a motion of all points there is before the first triangle's image
+ * loses its area; HUGE_VAL when none ever does. */
+double iccp_newton_limit(const iccp_simplicial_map *map, const double *motion);
+
 #endif

@@ -6,6 +6,7 @@
  * of the map and the points by that of its inverse. Every state is one-to-one. */
 #include "map/overlay_start.h"
 
+#include "base/minmax.h"
 #include "map/coarsen.h"
 #include "map/compatible.h"
 #include "map/flips.h"
@@ -19,8 +20,8 @@
 enum { ROUNDS = 12, TYPICAL_ROUNDS = 2 };
 static const double LEAST_GAIN = 0.05;
 
-/* What merging a vertex may add to the energy round it. */
-static const double RISE = 0.3;
+/* What a crossing costs until it is merged with others: a microsecond or two. */
+static const double CROSSING = 4;
 
 /* Of a round, on each side. */
 static const iccp_descent DESCENT = {3, 10, 1e-3, 0};
@@ -52,15 +53,6 @@ static icc_status overlay(iccp_plmap *map, const icc_domain *source, const icc_d
     return status;
 }
 
-/* The inverse map. */
-static void swap_sides(iccp_plmap *map)
-{
-    double *points = map->points;
-    map->points = map->images;
-    map->images = points;
-    map->stretch = 1 / map->stretch;
-}
-
 /* Untangles what rounding has spoilt, on one side and on the other. */
 static icc_status mend(iccp_plmap *map, iccp_work *work, const iccp_env *env)
 {
@@ -72,7 +64,7 @@ static icc_status mend(iccp_plmap *map, iccp_work *work, const iccp_env *env)
             status = iccp_untangle(&simplicial, work, &n_left, env);
         if (status == ICC_OK && n_left > 0)
             status = ICC_ERR_CERTIFICATE;
-        swap_sides(map);
+        iccp_plmap_swap(map);
     }
     return status;
 }
@@ -88,42 +80,52 @@ static icc_status relax(iccp_plmap *map, iccp_work *work, const iccp_env *env)
         iccp_improvement ignored = {0};
         if (status == ICC_OK)
             status = iccp_improve_images(&simplicial, &DESCENT, work, &ignored, &part[side]);
-        swap_sides(map);
+        iccp_plmap_swap(map);
     }
     return status;
 }
 
-/* One round; `gain`: the share by which the energy has fallen. */
-static icc_status improve_round(iccp_plmap *map, iccp_work *work, double *gain, const iccp_env *env)
+icc_status iccp_overlay_round(iccp_plmap *map, iccp_work *work, double *gain, const iccp_env *env)
 {
     const double before = iccp_plmap_energy(map);
-    size_t n_gone;
+    size_t n_gone, n_flips;
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){1, 2}, env);
-    icc_status status = iccp_coarsen(map, RISE, &n_gone, &part[0]);
-    if (status == ICC_OK) {
-        (void)iccp_flip_edges(map);
+    icc_status status = iccp_coarsen(map, ICCP_RISE, &n_gone, &part[0]);
+    if (status == ICC_OK)
+        status = iccp_flip_edges(map, &n_flips, env);
+    if (status == ICC_OK)
         status = relax(map, work, &part[1]);
-    }
     *gain = 1 - iccp_plmap_energy(map) / before;
     return status;
 }
 
-icc_status iccp_overlay_start(iccp_plmap *map, const icc_domain *source, const icc_domain *target,
-                              iccp_work *work, const iccp_env *env)
+icc_status iccp_overlay_relax(iccp_plmap *map, iccp_work *work, const iccp_env *env)
 {
     double gain = 1;
+    icc_status status = iccp_cut_chords(map);
+    for (size_t k = 0; status == ICC_OK && k < ROUNDS && gain >= LEAST_GAIN; ++k) {
+        const iccp_env round = iccp_round(env, k, TYPICAL_ROUNDS);
+        status = iccp_overlay_round(map, work, &gain, &round);
+    }
+    return status;
+}
+
+icc_status iccp_overlay_start(iccp_plmap *map, const icc_domain *source, const icc_domain *target,
+                              double most, iccp_work *work, const iccp_env *env)
+{
+    iccp_work steps = {.left = most};
     iccp_env part[3];
     *map = (iccp_plmap){.memory = env->memory};
     iccp_split(part, 3, (const double[]){1, 1, 2}, env);
     icc_status status = overlay(map, source, target, &part[0]);
-    if (status == ICC_OK)
-        status = mend(map, work, &part[1]);
-    if (status == ICC_OK)
-        status = iccp_cut_chords(map);
-    for (size_t k = 0; status == ICC_OK && k < ROUNDS && gain >= LEAST_GAIN; ++k) {
-        const iccp_env round = iccp_round(&part[2], k, TYPICAL_ROUNDS);
-        status = improve_round(map, work, &gain, &round);
+    if (status == ICC_OK) {
+        iccp_work_charge(work, CROSSING * (double)(map->n_vertices - source->n_facets));
+        status = mend(map, &steps, &part[1]);
     }
+    steps.left = iccp_min(steps.left, work->left - steps.spent);
+    if (status == ICC_OK)
+        status = iccp_overlay_relax(map, &steps, &part[2]);
+    iccp_work_charge(work, steps.spent);
     return status;
 }

@@ -43,10 +43,10 @@ static icc_status make_room(iccp_plmap *map, size_t n_vertices, size_t n_triangl
     return status == ICC_OK ? ICC_OK : ICC_ERR_MEMORY;
 }
 
-icc_status iccp_plmap_begin(iccp_plmap *map, size_t n_vertices, size_t n_triangles,
-                            int32_t orientation, double stretch, const iccp_memory *memory)
+icc_status iccp_plmap_begin(iccp_plmap *map, size_t n_vertices, size_t n_triangles, double stretch,
+                            const iccp_memory *memory)
 {
-    *map = (iccp_plmap){.memory = *memory, .stretch = stretch, .orientation = orientation};
+    *map = (iccp_plmap){.memory = *memory, .stretch = stretch};
     const icc_status status = make_room(map, n_vertices, n_triangles);
     if (status != ICC_OK) {
         iccp_plmap_free(map);
@@ -70,12 +70,12 @@ static void fill(iccp_plmap *map, const double *points, const double *images,
 icc_status iccp_plmap_create(iccp_plmap *map, const iccp_planar *mesh, const icc_domain *domain,
                              const double *images, double stretch, const iccp_memory *memory)
 {
-    const icc_status status = iccp_plmap_begin(map, mesh->n_vertices, mesh->n_triangles,
-                                               domain->orientation, stretch, memory);
+    const icc_status status =
+        iccp_plmap_begin(map, mesh->n_vertices, mesh->n_triangles, stretch, memory);
     if (status == ICC_OK)
         fill(map, mesh->points, images, mesh->triangles, mesh->twins);
     for (uint32_t v = 0; status == ICC_OK && v < mesh->n_vertices; ++v) {
-        map->fixed[v] = v < mesh->n_boundary;
+        map->fixed[v] = v < mesh->n_boundary ? iccp_plmap_sense(domain) : ICCP_FREE;
         map->facet[v] = map->fixed[v] ? mesh->facet[v] : 0;
         map->along[v] = map->fixed[v] ? iccp_planar_along(mesh, domain, v, 0) : 0;
     }
@@ -85,7 +85,7 @@ icc_status iccp_plmap_create(iccp_plmap *map, const iccp_planar *mesh, const icc
 icc_status iccp_plmap_copy(iccp_plmap *map, const iccp_plmap *other, const iccp_memory *memory)
 {
     const icc_status status = iccp_plmap_begin(map, other->n_vertices, other->corners.n_triangles,
-                                               other->orientation, other->stretch, memory);
+                                               other->stretch, memory);
     if (status == ICC_OK) {
         fill(map, other->points, other->images, other->corners.vertex, other->corners.twin);
         memcpy(map->fixed, other->fixed, other->n_vertices * sizeof *map->fixed);
@@ -144,16 +144,47 @@ static void middle_of(const double *a, const double *b, double m[2])
     m[1] = 0.5 * a[1] + 0.5 * b[1];
 }
 
-/* Vertex m in the middle of the edge from a to b, which may be one of the boundary. */
-static void place_on_boundary(iccp_plmap *map, size_t m, bool fixed, uint32_t a, uint32_t b)
+/* The lower one has the segment for its facet; the other has, too, or begins the next segment of
+ * the same line. */
+bool iccp_plmap_on_line(const iccp_plmap *map, uint32_t a, uint32_t b, uint32_t *facet,
+                        double *from, double *to)
 {
-    const double facet_end = map->orientation > 0 ? 1 : 0;
-    map->fixed[m] = fixed;
-    map->facet[m] = fixed ? map->facet[a] : 0;
-    map->along[m] = 0;
-    if (fixed)
-        map->along[m] =
-            0.5 * (map->along[a] + (map->facet[b] == map->facet[a] ? map->along[b] : facet_end));
+    const uint8_t *held = map->fixed;
+    for (int k = 0; k < 2; ++k) {
+        const uint32_t low = k == 0 ? a : b, high = k == 0 ? b : a;
+        const bool is_next = map->facet[high] == map->facet[low] + 1 && !(map->along[high] > 0) &&
+                             held[high] == ICCP_ON_LINE;
+        const bool is_same =
+            map->facet[high] == map->facet[low] && map->along[high] > map->along[low];
+        if ((held[low] != ICCP_LINE_BEGIN && held[low] != ICCP_ON_LINE) ||
+            (held[high] != ICCP_ON_LINE) || !(map->along[low] < 1) || !(is_next || is_same))
+            continue;
+        const double ends[2] = {map->along[low], is_next ? 1 : map->along[high]};
+        *facet = map->facet[low];
+        *from = ends[k];
+        *to = ends[1 - k];
+        return true;
+    }
+    return false;
+}
+
+/* Vertex m in the middle of the edge from a to b, which may be one of the boundary, the inside
+ * being on its left, or of a line. */
+static void place_on_edge(iccp_plmap *map, size_t m, bool is_boundary, uint32_t a, uint32_t b)
+{
+    uint32_t facet = 0;
+    double from = 0, to = 0;
+    map->fixed[m] = ICCP_FREE;
+    if (is_boundary) {
+        map->fixed[m] = map->fixed[a];
+        facet = map->facet[a];
+        from = map->along[a];
+        to = map->facet[b] == facet ? map->along[b] : map->fixed[a] == ICCP_ALONG ? 1 : 0;
+    } else if (map->fixed[a] != ICCP_FREE && map->fixed[b] != ICCP_FREE &&
+               iccp_plmap_on_line(map, a, b, &facet, &from, &to))
+        map->fixed[m] = ICCP_ON_LINE;
+    map->facet[m] = facet;
+    map->along[m] = 0.5 * (from + to);
 }
 
 icc_status iccp_plmap_cut(iccp_plmap *map, uint32_t corner, bool *done)
@@ -173,8 +204,8 @@ icc_status iccp_plmap_cut(iccp_plmap *map, uint32_t corner, bool *done)
     const size_t m = map->n_vertices++;
     memcpy(map->points + 2 * m, point, sizeof point);
     memcpy(map->images + 2 * m, image, sizeof image);
-    place_on_boundary(map, m, twin == ICCP_NO_NEIGHBOUR, map->corners.vertex[after],
-                      map->corners.vertex[before]);
+    place_on_edge(map, m, twin == ICCP_NO_NEIGHBOUR, map->corners.vertex[after],
+                  map->corners.vertex[before]);
     iccp_cut_edge(&map->corners, corner, (uint32_t)m);
     return ICC_OK;
 }

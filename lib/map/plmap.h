@@ -6,27 +6,35 @@
 #include "mesh/corners.h"
 #include "mesh/planar.h"
 
+/* What holds a vertex, and what its facet is then. */
+enum {
+    ICCP_FREE = 0,
+    ICCP_ALONG,      /* the boundary: that with the edge which begins there, counter-clockwise as
+                        seen from inside, and runs along with it, */
+    ICCP_AGAINST,    /* or against it */
+    ICCP_LINE_BEGIN, /* a line, whose first vertex this is: its first segment */
+    ICCP_ON_LINE,    /* a line: the segment that begins there, or the last one */
+    ICCP_ON_POINT    /* a point: its own */
+};
+
 typedef struct iccp_plmap {
     iccp_memory memory;
     iccp_corners corners;
     size_t n_vertices;
     size_t vertex_room, triangle_room;
-    double *points;      /* 2 n_vertices: local in the source */
-    double *images;      /* 2 n_vertices: local in the target */
-    uint8_t *fixed;      /* of each vertex: 1 on the boundary */
-    uint32_t *facet;     /* of fixed vertices: the source's facet with the boundary edge that begins
-                            there, counter-clockwise */
-    double *along;       /* of fixed vertices: where on that facet they lie, in [0, 1] */
-    int32_t orientation; /* of the source: facets run along with the boundary (1) or against it
-                            (-1) */
-    double stretch;      /* lengths of the source are multiplied by this for energies, so that both
+    double *points;  /* 2 n_vertices: local in the source */
+    double *images;  /* 2 n_vertices: local in the target */
+    uint8_t *fixed;  /* of each vertex: as above */
+    uint32_t *facet; /* of fixed vertices: the source's facet (domain/features.h) */
+    double *along;   /* of fixed vertices: where on that facet they lie, in [0, 1] */
+    double stretch;  /* lengths of the source are multiplied by this for energies, so that both
                             areas are the same and energies are those of shape alone */
     const struct iccp_newton_plan *plan; /* as in iccp_simplicial_map, borrowed */
 } iccp_plmap;
 
 /* Room for so many vertices and triangles, which are still to be filled in. */
-icc_status iccp_plmap_begin(iccp_plmap *map, size_t n_vertices, size_t n_triangles,
-                            int32_t orientation, double stretch, const iccp_memory *memory);
+icc_status iccp_plmap_begin(iccp_plmap *map, size_t n_vertices, size_t n_triangles, double stretch,
+                            const iccp_memory *memory);
 
 /* Copies the mesh of a domain. `images`: 2 n_vertices. */
 icc_status iccp_plmap_create(iccp_plmap *map, const iccp_planar *mesh, const icc_domain *domain,
@@ -68,6 +76,37 @@ static inline double iccp_plmap_energy(const iccp_plmap *map)
 {
     const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
     return iccp_simplicial_energy(&simplicial);
+}
+
+/* Makes it the inverse map. */
+static inline void iccp_plmap_swap(iccp_plmap *map)
+{
+    double *points = map->points;
+    map->points = map->images;
+    map->images = points;
+    map->stretch = 1 / map->stretch;
+}
+
+/* How the facets of a domain without features run. */
+static inline uint8_t iccp_plmap_sense(const icc_domain *domain)
+{
+    return domain->orientation > 0 ? ICCP_ALONG : ICCP_AGAINST;
+}
+
+/* Whether the edge between two neighbours in the mesh is a piece of a line: *facet is then the
+ * segment, and *from, *to say where on it they lie. */
+bool iccp_plmap_on_line(const iccp_plmap *map, uint32_t a, uint32_t b, uint32_t *facet,
+                        double *from, double *to);
+
+/* Whether the edge that a corner faces is a piece of a line, which must stay. */
+static inline bool iccp_plmap_is_line(const iccp_plmap *map, uint32_t corner)
+{
+    const uint32_t a = map->corners.vertex[iccp_after(corner)];
+    const uint32_t b = map->corners.vertex[iccp_before(corner)];
+    uint32_t facet;
+    double from, to;
+    return map->fixed[a] >= ICCP_LINE_BEGIN && map->fixed[b] >= ICCP_LINE_BEGIN &&
+           iccp_plmap_on_line(map, a, b, &facet, &from, &to);
 }
 
 /* Whether a triangle is positive before and after the map, exactly. */

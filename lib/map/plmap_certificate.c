@@ -4,56 +4,116 @@
 
 #include "base/error.h"
 #include "domain/polygon_check.h"
+#include "domain/sweep.h"
 
 #include <string.h>
 
-/* Follows next[v], the boundary vertex after boundary vertex v, from `first`, over n edges. False
- * unless they form one ring, which `ring` then lists. */
-static bool follow(const uint32_t *next, uint32_t first, size_t n, uint32_t *ring)
+/* The vertex after each one of the boundary, UINT32_MAX elsewhere. False when a vertex is followed
+ * by two. */
+static bool link_boundary(const iccp_corners *corners, size_t n_vertices, uint32_t *next)
 {
-    uint32_t v = first;
-    for (size_t k = 0; k < n; ++k) {
-        if (k > 0 && v == first)
-            return false;
-        ring[k] = v;
-        v = next[v];
-    }
-    return n >= 3 && v == first;
-}
-
-/* The boundary vertices in order; 0 unless they form one ring. */
-static size_t boundary_ring(const iccp_corners *corners, size_t n_vertices, uint32_t *next,
-                            uint32_t *ring)
-{
-    size_t n = 0;
-    uint32_t first = 0;
+    bool is_clear = true;
     memset(next, 0xff, n_vertices * sizeof *next);
     for (uint32_t c = 0; c < 3 * corners->n_triangles; ++c)
         if (corners->twin[c] == ICCP_NO_NEIGHBOUR) {
-            first = corners->vertex[iccp_after(c)];
-            if (next[first] != UINT32_MAX)
-                return 0;
-            next[first] = corners->vertex[iccp_before(c)];
-            ++n;
+            const uint32_t from = corners->vertex[iccp_after(c)];
+            is_clear &= next[from] == UINT32_MAX;
+            next[from] = corners->vertex[iccp_before(c)];
         }
-    return n > 0 && follow(next, first, n, ring) ? n : 0;
+    return is_clear;
 }
 
-/* ICC_ERR_BOUNDARY unless the half-edges without twins form one polygon that is simple before and
- * after the map. */
-static icc_status check_outline(const iccp_plmap *map, const iccp_env *env)
+/* Takes the ring through a vertex out of `next` and lists it; 0 when it does not close. */
+static size_t take_ring(uint32_t *next, uint32_t first, uint32_t *ring)
 {
-    uint32_t *next = iccp_alloc(&env->memory, map->n_vertices, sizeof *next);
-    uint32_t *ring = iccp_alloc(&env->memory, map->n_vertices, sizeof *ring);
-    icc_status status = next != NULL && ring != NULL ? ICC_OK : ICC_ERR_MEMORY;
-    if (status == ICC_OK) {
-        const size_t n = boundary_ring(&map->corners, map->n_vertices, next, ring);
-        status = n > 0 ? iccp_polygon_check_points(n, map->points, ring, env) : ICC_ERR_BOUNDARY;
-        if (status == ICC_OK)
-            status = iccp_polygon_check_points(n, map->images, ring, env);
+    size_t n = 0;
+    uint32_t v = first;
+    while (next[v] != UINT32_MAX) {
+        const uint32_t after = next[v];
+        next[v] = UINT32_MAX;
+        ring[n++] = v;
+        v = after;
     }
-    iccp_free(&env->memory, next);
-    iccp_free(&env->memory, ring);
+    return v == first ? n : 0;
+}
+
+/* The boundary's vertices ring by ring. */
+typedef struct outlines {
+    size_t n;
+    iccp_chain *ring; /* room for n_vertices / 3 + 1 */
+    uint32_t *vertex; /* of all rings, each with its first vertex once more */
+    double *points;   /* and their places */
+} outlines;
+
+/* False when the half-edges without twins do not form rings. */
+static bool list_rings(outlines *o, const iccp_plmap *map, uint32_t *next)
+{
+    uint32_t n = 0;
+    if (!link_boundary(&map->corners, map->n_vertices, next))
+        return false;
+    for (uint32_t v = 0; v < map->n_vertices; ++v) {
+        if (next[v] == UINT32_MAX)
+            continue;
+        const size_t n_own = take_ring(next, v, o->vertex + n);
+        if (n_own < 3)
+            return false;
+        o->ring[o->n++] = (iccp_chain){n, (uint32_t)n_own, true};
+        n += (uint32_t)n_own;
+        o->vertex[n++] = v;
+    }
+    return o->n > 0;
+}
+
+/* ICC_ERR_BOUNDARY unless the rings are simple, apart from each other, and one, with the inside on
+ * its left, is round the others, which have it on their left, too. */
+static icc_status check_rings(outlines *o, iccp_chain_place *place, const double *points,
+                              const iccp_env *env)
+{
+    const iccp_chain *last = &o->ring[o->n - 1];
+    const size_t n = last->first + last->n + 1;
+    iccp_defect found;
+    size_t n_outer = 0;
+    if (o->n == 1)
+        return iccp_polygon_check_points(last->n, points, o->vertex, &iccp_frame_identity, env,
+                                         NULL);
+    for (size_t k = 0; k < n; ++k)
+        memcpy(o->points + 2 * k, points + 2 * (size_t)o->vertex[k], 2 * sizeof *points);
+    const iccp_chains chains = {n, o->points, o->n, o->ring};
+    icc_status status = iccp_sweep_chains(&found, place, &chains, env);
+    if (status == ICC_OK && found.kind != 0)
+        status = ICC_ERR_BOUNDARY;
+    for (size_t k = 0; status == ICC_OK && k < o->n; ++k) {
+        const bool is_outer = place[k].around == ICCP_NO_CHAIN;
+        n_outer += is_outer;
+        if (place[k].orientation != (is_outer ? 1 : -1) ||
+            (!is_outer && place[place[k].around].around != ICCP_NO_CHAIN))
+            status = ICC_ERR_BOUNDARY;
+    }
+    return status == ICC_OK && n_outer != 1 ? ICC_ERR_BOUNDARY : status;
+}
+
+static icc_status check_outlines(const iccp_plmap *map, size_t *n_rings, const iccp_env *env)
+{
+    const iccp_memory *memory = &env->memory;
+    const size_t n = map->n_vertices, room = n + n / 3 + 1;
+    uint32_t *next = iccp_alloc(memory, n, sizeof *next);
+    iccp_chain_place *place = iccp_alloc(memory, n / 3 + 1, sizeof *place);
+    outlines o = {.ring = iccp_alloc(memory, n / 3 + 1, sizeof *o.ring),
+                  .vertex = iccp_alloc(memory, room, sizeof *o.vertex),
+                  .points = iccp_alloc(memory, room, 2 * sizeof *o.points)};
+    icc_status status = ICC_ERR_MEMORY;
+    if (next != NULL && place != NULL && o.ring != NULL && o.vertex != NULL && o.points != NULL)
+        status = list_rings(&o, map, next) ? ICC_OK : ICC_ERR_BOUNDARY;
+    if (status == ICC_OK)
+        status = check_rings(&o, place, map->points, env);
+    if (status == ICC_OK)
+        status = check_rings(&o, place, map->images, env);
+    *n_rings = o.n;
+    iccp_free(memory, next);
+    iccp_free(memory, place);
+    iccp_free(memory, o.ring);
+    iccp_free(memory, o.vertex);
+    iccp_free(memory, o.points);
     return status;
 }
 
@@ -72,12 +132,18 @@ icc_status iccp_plmap_certify(const iccp_plmap *map, const iccp_env *env, icc_er
                 map->corners.vertex[iccp_after(twin)] != map->corners.vertex[iccp_before(c)] ||
                 map->corners.vertex[iccp_before(twin)] != map->corners.vertex[iccp_after(c)];
     }
-    if (n_faults > 0 || 2 * map->n_vertices != n_triangles + n_open + 2)
+    if (n_faults > 0)
         return iccp_fail(err, ICC_ERR_CERTIFICATE, "the mesh map cannot be certified: %zu faults",
                          n_faults);
-    const icc_status status = check_outline(map, env);
-    return status == ICC_ERR_BOUNDARY
-               ? iccp_fail(err, ICC_ERR_CERTIFICATE,
-                           "the boundary of the mesh or of its image is not simple")
-               : status;
+    size_t n_rings = 0;
+    const icc_status status = check_outlines(map, &n_rings, env);
+    if (status == ICC_ERR_BOUNDARY)
+        return iccp_fail(err, ICC_ERR_CERTIFICATE,
+                         "the boundary of the mesh or of its image is not simple");
+    /* One piece with n_rings - 1 holes. */
+    if (status == ICC_OK && 2 * map->n_vertices + 2 * n_rings != n_triangles + n_open + 4)
+        return iccp_fail(err, ICC_ERR_CERTIFICATE,
+                         "the mesh map cannot be certified: its mesh is "
+                         "not in one piece");
+    return status;
 }

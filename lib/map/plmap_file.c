@@ -16,7 +16,7 @@ static icc_status link_triangles(iccp_plmap *map, const iccp_env *env)
 }
 
 /* Fixed are the vertices of the boundary. */
-static void find_boundary(iccp_plmap *map)
+static void find_boundary(iccp_plmap *map, const icc_domain *source)
 {
     for (size_t v = 0; v < map->n_vertices; ++v) {
         map->fixed[v] = 0;
@@ -25,7 +25,7 @@ static void find_boundary(iccp_plmap *map)
     }
     for (uint32_t c = 0; c < 3 * map->corners.n_triangles; ++c)
         if (map->corners.twin[c] == ICCP_NO_NEIGHBOUR)
-            map->fixed[map->corners.vertex[iccp_after(c)]] = 1;
+            map->fixed[map->corners.vertex[iccp_after(c)]] = iccp_plmap_sense(source);
 }
 
 /* ---- where the boundary is ---- */
@@ -42,16 +42,17 @@ static bool is_near(const icc_domain *domain, uint32_t facet, double along, cons
 /* Where facets start, counter-clockwise. */
 static bool starts_facet(const iccp_plmap *map, uint32_t v)
 {
-    return map->orientation > 0 ? !(map->along[v] > 0) : !(map->along[v] < 1);
+    return map->fixed[v] == ICCP_ALONG ? !(map->along[v] > 0) : !(map->along[v] < 1);
 }
 
 /* Whether edge a b of the boundary goes on along a facet, or to the start of the next one. */
 static bool goes_on(const iccp_plmap *map, const icc_domain *domain, uint32_t a, uint32_t b)
 {
-    const size_t f = map->facet[a], g = map->facet[b], forward = map->orientation > 0;
+    const size_t f = map->facet[a], g = map->facet[b], forward = map->fixed[a] == ICCP_ALONG;
     if (starts_facet(map, b))
         return domain->facets[2 * f + forward] == domain->facets[2 * g + 1 - forward];
-    return f == g && (map->along[b] - map->along[a]) * map->orientation >= 0;
+    const double ahead = map->along[b] - map->along[a];
+    return f == g && (forward ? ahead : -ahead) >= 0;
 }
 
 /* Once, since to the certificate it must be one ring, and simple. */
@@ -101,7 +102,7 @@ static icc_status read_rest(iccp_blob *b, iccp_plmap *map, const icc_domain *sou
     const icc_status status = link_triangles(map, env);
     if (status != ICC_OK)
         return status;
-    find_boundary(map);
+    find_boundary(map, source);
     visit_boundary(b, map, source->n_facets);
     return b->status == ICC_OK && follows_facets(map, source, target) ? ICC_OK : ICC_ERR_FORMAT;
 }
@@ -119,7 +120,7 @@ icc_status iccp_plmap_visit(iccp_blob *b, iccp_plmap *map, const icc_domain *sou
     }
     if (b->status != ICC_OK || n_triangles == 0 || 3 * (uint64_t)n_triangles >= UINT32_MAX)
         return ICC_ERR_FORMAT;
-    icc_status status = iccp_plmap_begin(map, n_vertices, n_triangles, source->orientation,
+    icc_status status = iccp_plmap_begin(map, n_vertices, n_triangles,
                                          sqrt(target->measure / source->measure), &env->memory);
     if (status != ICC_OK)
         return status;

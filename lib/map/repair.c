@@ -34,7 +34,7 @@ static int sign_of(const double *a, const double *b, const double *c)
 static bool is_worth_flipping(const iccp_plmap *map, uint32_t corner)
 {
     const uint32_t twin = map->corners.twin[corner];
-    if (twin == ICCP_NO_NEIGHBOUR)
+    if (twin == ICCP_NO_NEIGHBOUR || iccp_plmap_is_line(map, corner))
         return false;
     const uint32_t after = iccp_after(corner), before = iccp_before(corner);
     if (iccp_roundness(iccp_plmap_point(map, corner), iccp_plmap_point(map, after),
@@ -69,22 +69,23 @@ static void flip_edges(iccp_plmap *map)
 /* ---- untangling and refining ---- */
 
 /* As iccp_untangle(), with flipped edges in between. */
-static icc_status untangle_patches(iccp_plmap *map, iccp_work *work, size_t *n_left,
-                                   const iccp_env *env)
+static icc_status untangle_patches(iccp_plmap *map, double trial_work, iccp_work *work,
+                                   size_t *n_left, const iccp_env *env)
 {
     const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
     uint8_t *marks = iccp_alloc(&env->memory, map->n_vertices, 1);
     icc_status status = marks != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    const iccp_trial trial = {A_FEW + map->corners.n_triangles / MANY, trial_work};
     flip_edges(map);
-    *n_left = iccp_simplicial_count_inverted(&simplicial);
+    *n_left = iccp_simplicial_count_at_once(&simplicial, env);
     for (size_t k = 0; status == ICC_OK && *n_left > 0 && k < ICCP_PLANE_ROUNDS; ++k) {
         const iccp_env part = iccp_round(env, k, 1);
-        status = iccp_untangle_patches(&simplicial, k, marks, work, &part);
+        status = iccp_untangle_patches(&simplicial, k, marks, k == 0 ? &trial : NULL, work, &part);
         if (status != ICC_OK)
             break;
         flip_edges(map);
-        *n_left = iccp_simplicial_count_inverted(&simplicial);
-        if (*n_left > A_FEW + map->corners.n_triangles / MANY)
+        *n_left = iccp_simplicial_count_at_once(&simplicial, env);
+        if (*n_left > trial.most)
             break;
     }
     iccp_free(&env->memory, marks);
@@ -119,13 +120,14 @@ icc_status iccp_cut_chords(iccp_plmap *map)
         bool done;
         if (map->corners.twin[c] != ICCP_NO_NEIGHBOUR &&
             map->fixed[map->corners.vertex[iccp_after(c)]] &&
-            map->fixed[map->corners.vertex[iccp_before(c)]])
+            map->fixed[map->corners.vertex[iccp_before(c)]] && !iccp_plmap_is_line(map, c))
             status = iccp_plmap_cut(map, c, &done);
     }
     return status;
 }
 
-icc_status iccp_repair(iccp_plmap *map, iccp_work *work, size_t *n_left, const iccp_env *env)
+icc_status iccp_repair(iccp_plmap *map, double trial_work, iccp_work *work, size_t *n_left,
+                       const iccp_env *env)
 {
     iccp_plmap start;
     const size_t most = MOST_GROWTH * map->corners.n_triangles;
@@ -133,7 +135,7 @@ icc_status iccp_repair(iccp_plmap *map, iccp_work *work, size_t *n_left, const i
     if (status != ICC_OK)
         return status;
     const iccp_env first = iccp_round(env, 0, 1);
-    status = untangle_patches(map, work, n_left, &first);
+    status = untangle_patches(map, trial_work, work, n_left, &first);
     for (int round = 0;
          status == ICC_OK && *n_left > 0 && round < ROUNDS &&
          *n_left <= A_FEW + map->corners.n_triangles / FEW && start.corners.n_triangles <= most;
@@ -145,7 +147,7 @@ icc_status iccp_repair(iccp_plmap *map, iccp_work *work, size_t *n_left, const i
         }
         const iccp_env part = iccp_round(env, (size_t)round + 1, 1);
         if (status == ICC_OK)
-            status = untangle_patches(map, work, n_left, &part);
+            status = untangle_patches(map, trial_work, work, n_left, &part);
     }
     iccp_plmap_free(&start);
     /* Flipped edges may join two fixed vertices. */

@@ -7,10 +7,12 @@
 #include "map/untangle.h"
 
 /* Flips edges, untangles patches and then everything; where that is not enough, refines the mesh
- * round what is left and begins again. Gives up early where many triangles are inverted, and when
- * there is no work left. The boundary's images stay. `n_left` says how many triangles are not
- * positive in the end: 0 unless it failed. */
-icc_status iccp_repair(iccp_plmap *map, iccp_work *work, size_t *n_left, const iccp_env *env);
+ * round what is left and begins again. Gives up early where many triangles are inverted, still
+ * after `trial_work` (HUGE_VAL: or after a first round), and when there is no work left. The
+ * boundary's images stay. `n_left` says how many triangles are not positive in the end: 0 unless it
+ * failed. */
+icc_status iccp_repair(iccp_plmap *map, double trial_work, iccp_work *work, size_t *n_left,
+                       const iccp_env *env);
 
 /* Cuts the inner edges between two fixed vertices at their middle, which gives them something to
  * move. All triangles keep their signs. */

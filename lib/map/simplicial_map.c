@@ -1,7 +1,13 @@
 #include "map/simplicial_map.h"
 
+#include "base/threads.h"
 #include "map/dirichlet.h"
 #include "math/predicates.h"
+
+#include <stdatomic.h>
+
+/* Simplices that a thread takes at once, and those whose terms wait to be summed in order. */
+enum { GRAIN = 512, BLOCK = 4 * GRAIN };
 
 iccp_simplicial_map iccp_simplicial_map_of(const iccp_simplices *mesh, double *images)
 {
@@ -51,12 +57,35 @@ static bool has_image(const iccp_simplicial_map *map, size_t simplex)
     return is_finite;
 }
 
+typedef struct counting {
+    const iccp_simplicial_map *map;
+    atomic_size_t n;
+} counting;
+
+static icc_status count_some(void *argument, size_t begin, size_t end)
+{
+    counting *c = argument;
+    size_t n = 0;
+    for (size_t s = begin; s < end; ++s)
+        n += !has_image(c->map, s) || !iccp_simplicial_is_positive(c->map, s);
+    atomic_fetch_add(&c->n, n);
+    return ICC_OK;
+}
+
 size_t iccp_simplicial_count_inverted(const iccp_simplicial_map *map)
 {
-    size_t n = 0;
-    for (size_t s = 0; s < map->n_simplices; ++s)
-        n += !has_image(map, s) || !iccp_simplicial_is_positive(map, s);
-    return n;
+    counting c = {.map = map};
+    (void)count_some(&c, 0, map->n_simplices);
+    return atomic_load(&c.n);
+}
+
+size_t iccp_simplicial_count_at_once(const iccp_simplicial_map *map, const iccp_env *env)
+{
+    iccp_env quiet = *env;
+    counting c = {.map = map};
+    quiet.progress = NULL;
+    (void)iccp_for_chunks(&quiet, "check", map->n_simplices, GRAIN, count_some, &c);
+    return atomic_load(&c.n);
 }
 
 bool iccp_simplicial_is_free(const iccp_simplicial_map *map, size_t simplex)
@@ -83,16 +112,54 @@ void iccp_simplicial_jacobian(const iccp_simplicial_map *map, bool inverse, size
     (void)iccp_element_jacobian(map->dim, element, to, jacobian);
 }
 
-double iccp_simplicial_energy(const iccp_simplicial_map *map)
+/* Of the simplices from `first` on: the energy and the measure of each. */
+typedef struct terms {
+    const iccp_simplicial_map *map;
+    size_t first;
+    double energy[BLOCK], measure[BLOCK];
+} terms;
+
+static icc_status find_terms(void *argument, size_t begin, size_t end)
 {
-    double sum = 0, measure = 0;
-    for (size_t s = 0; s < map->n_simplices; ++s) {
+    terms *t = argument;
+    for (size_t k = begin; k < end; ++k) {
         const double *image[4];
         double element[ICCP_MAX_ELEMENT];
-        iccp_simplicial_images(map->dim, map, s, image);
-        iccp_simplicial_element(map, s, element);
-        sum += iccp_dirichlet_energy(map->dim, element, image);
-        measure += element[0];
+        iccp_simplicial_images(t->map->dim, t->map, t->first + k, image);
+        iccp_simplicial_element(t->map, t->first + k, element);
+        t->energy[k] = iccp_dirichlet_energy(t->map->dim, element, image);
+        t->measure[k] = element[0];
+    }
+    return ICC_OK;
+}
+
+static double mean_energy(const iccp_simplicial_map *map, const iccp_env *env)
+{
+    terms t;
+    double sum = 0, measure = 0;
+    t.map = map;
+    for (t.first = 0; t.first < map->n_simplices; t.first += BLOCK) {
+        const size_t left = map->n_simplices - t.first, n = left < BLOCK ? left : BLOCK;
+        if (env != NULL)
+            (void)iccp_for_chunks(env, "improve", n, GRAIN, find_terms, &t);
+        else
+            (void)find_terms(&t, 0, n);
+        for (size_t k = 0; k < n; ++k) {
+            sum += t.energy[k];
+            measure += t.measure[k];
+        }
     }
     return sum / measure;
+}
+
+double iccp_simplicial_energy(const iccp_simplicial_map *map)
+{
+    return mean_energy(map, NULL);
+}
+
+double iccp_simplicial_energy_at_once(const iccp_simplicial_map *map, const iccp_env *env)
+{
+    iccp_env quiet = *env;
+    quiet.progress = NULL;
+    return mean_energy(map, &quiet);
 }

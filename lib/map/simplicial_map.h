@@ -3,6 +3,7 @@
 #ifndef ICCP_SIMPLICIAL_MAP_H
 #define ICCP_SIMPLICIAL_MAP_H
 
+#include "base/env.h"
 #include "domain/simplices.h"
 #include "map/jacobian.h"
 
@@ -42,6 +43,7 @@ void iccp_simplicial_element(const iccp_simplicial_map *map, size_t simplex, dou
  * that are not finite. */
 bool iccp_simplicial_is_positive(const iccp_simplicial_map *map, size_t simplex);
 size_t iccp_simplicial_count_inverted(const iccp_simplicial_map *map);
+size_t iccp_simplicial_count_at_once(const iccp_simplicial_map *map, const iccp_env *env);
 
 /* Whether the image of a corner is not fixed. */
 bool iccp_simplicial_is_free(const iccp_simplicial_map *map, size_t simplex);
@@ -53,5 +55,8 @@ void iccp_simplicial_jacobian(const iccp_simplicial_map *map, bool inverse, size
 /* Mean of the symmetric Dirichlet energy over the stretched area or volume: 2 dim for an isometry,
  * infinite when a simplex is not positive. */
 double iccp_simplicial_energy(const iccp_simplicial_map *map);
+
+/* The same on all threads of `env`, and the same bits; so is the count above. */
+double iccp_simplicial_energy_at_once(const iccp_simplicial_map *map, const iccp_env *env);
 
 #endif

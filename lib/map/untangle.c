@@ -71,9 +71,10 @@ void iccp_untangle_mark(const iccp_simplicial_map *map, int rings, uint8_t *mark
 
 /* Newton steps, each for a smaller epsilon: Garanzha et al.: the faster the energy fell, the faster
  * epsilon goes to zero. */
-static icc_status descend(iccp_newton *newton, const patches *round, iccp_work *work,
-                          const iccp_env *env)
+static icc_status descend(iccp_newton *newton, const patches *round, const iccp_trial *trial,
+                          iccp_work *work, const iccp_env *env)
 {
+    const double begin = work->spent;
     size_t n_bad, fewest;
     int since = 0;
     icc_status status = ICC_OK;
@@ -95,6 +96,8 @@ static icc_status descend(iccp_newton *newton, const patches *round, iccp_work *
         least = iccp_newton_least(newton, &n_bad);
         since = n_bad < fewest ? 0 : since + 1;
         fewest = n_bad < fewest ? n_bad : fewest;
+        if (trial != NULL && n_bad > trial->most && work->spent - begin >= trial->work)
+            break;
         if (least > 0 && after >= 0.99 * before)
             break;
         epsilon = iccp_untangling_next(epsilon, least, iccp_max(1 - after / before, SLOWEST));
@@ -103,7 +106,7 @@ static icc_status descend(iccp_newton *newton, const patches *round, iccp_work *
 }
 
 icc_status iccp_untangle_patches(const iccp_simplicial_map *map, size_t round, uint8_t *marks,
-                                 iccp_work *work, const iccp_env *env)
+                                 const iccp_trial *trial, iccp_work *work, const iccp_env *env)
 {
     const patches *p = map->dim == 2 ? &PLANE[round] : &SPACE[round];
     iccp_newton newton;
@@ -112,7 +115,7 @@ icc_status iccp_untangle_patches(const iccp_simplicial_map *map, size_t round, u
     icc_status status = iccp_newton_create(&newton, map, p->rings > 0 ? marks : NULL, env);
     if (status != ICC_OK)
         return status;
-    status = descend(&newton, p, work, env);
+    status = descend(&newton, p, trial, work, env);
     iccp_newton_free(&newton);
     return status;
 }
@@ -128,7 +131,7 @@ icc_status iccp_untangle(const iccp_simplicial_map *map, iccp_work *work, size_t
         if (map->dim == 3 && SPACE[k].rings > 0 && n_tasks > map->n_simplices / MANY)
             continue;
         const iccp_env part = iccp_round(env, k, 1);
-        status = iccp_untangle_patches(map, k, marks, work, &part);
+        status = iccp_untangle_patches(map, k, marks, NULL, work, &part);
         n_tasks = count_tasks(map);
     }
     *n_left = iccp_simplicial_count_inverted(map);

@@ -136,6 +136,7 @@ void iccp_ldlt_share(iccp_ldlt *factor, const iccp_ldlt *analysed, const iccp_me
     *factor = *analysed;
     factor->memory = *memory;
     factor->value = factor->pivot = NULL;
+    factor->large = factor->small = (iccp_subtrees){0};
     factor->borrows = true;
 }
 
@@ -143,6 +144,8 @@ void iccp_ldlt_free(iccp_ldlt *factor)
 {
     iccp_free(&factor->memory, factor->value);
     iccp_free(&factor->memory, factor->pivot);
+    iccp_subtrees_free(&factor->large, &factor->memory);
+    iccp_subtrees_free(&factor->small, &factor->memory);
     if (!factor->borrows) {
         iccp_free(&factor->memory, factor->order);
         iccp_free(&factor->memory, factor->position);

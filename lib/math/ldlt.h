@@ -5,7 +5,7 @@
 
 #include "base/env.h"
 #include "math/scaled.h"
-#include "math/supernodes.h"
+#include "math/subtrees.h"
 #include "math/symmetric.h"
 
 #include <stdbool.h>
@@ -20,7 +20,9 @@ typedef struct iccp_ldlt {
     double work;      /* multiplications of one factorisation, without those by stored zeros */
     double *value;    /* the panels of L; NULL before the first factorisation */
     double *pivot;    /* D */
-    bool borrows;     /* everything but L and D belongs to another one */
+    iccp_subtrees large, small; /* with threads, from the first factorisation on: what can be done
+                                   at the same time, and before that, inside those */
+    bool borrows;               /* everything but these, L and D belongs to another one */
 } iccp_ldlt;
 
 /* Orders and analyses a matrix by its pattern alone. Rows come in groups of `block` with the same
@@ -60,6 +62,10 @@ void iccp_ldlt_free(iccp_ldlt *factor);
 /* Solves for n_rhs right-hand sides at once: entry i of column r at b[i * n_rhs + r], replaced
  * by the solution. `work` has room for n * n_rhs doubles. */
 void iccp_ldlt_solve(const iccp_ldlt *factor, size_t n_rhs, double *b, double *work);
+
+/* The same on all threads of `env`, and the same bits. */
+void iccp_ldlt_solve_at_once(const iccp_ldlt *factor, size_t n_rhs, double *b, double *work,
+                             const iccp_env *env);
 
 /* The same for one right-hand side of normalised numbers, without under- or overflow. `work` has
  * room for n of them. ICC_OK, or ICC_ERR_CANCELLED. The solution of an M-matrix with a

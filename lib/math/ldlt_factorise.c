@@ -6,7 +6,6 @@
  * would have been without threads, so that the bits are the same. */
 #include "math/ldlt.h"
 #include "math/panel.h"
-#include "math/subtrees.h"
 
 #include "base/budget.h"
 
@@ -18,8 +17,12 @@
 /* What a panel costs besides its products, in multiplications: about a microsecond. */
 static const double PER_PANEL = 2000;
 
-/* A factorisation with less labour is done sooner than threads are started: some .2 ms. */
-static const double LEAST_FOR_THREADS = 3e5;
+/* A factorisation with less labour is done sooner than threads come: some 30 us. */
+static const double LEAST_FOR_THREADS = 5e4;
+
+/* Of the whole: what subtrees take that are done first, many at the same time, and those that have
+ * such subtrees in them. */
+static const double SMALL = 1.0 / 16, LARGE = 1.0 / 3;
 
 /* Panels in a row, in the order in which they came. */
 typedef struct queue {
@@ -213,9 +216,11 @@ static icc_status factorise_panel(factorisation *f, uint32_t s)
 
 /* ---- subtrees ---- */
 
+/* Subtrees that are done at the same time, each by one thread. */
 typedef struct forest {
     const factorisation *whole;
-    iccp_subtrees subtrees;
+    const struct forest *inner; /* done before, in some of them; or NULL */
+    const iccp_subtrees *subtrees;
     queue *leaving; /* of each run */
 } forest;
 
@@ -237,39 +242,6 @@ static void free_space(const factorisation *f)
     iccp_free(memory, f->packed);
 }
 
-/* One run, by one thread. */
-static icc_status factorise_run(void *argument, size_t begin, size_t end)
-{
-    const forest *t = argument;
-    const iccp_subtrees_run *run = &t->subtrees.run[begin];
-    factorisation f = *t->whole;
-    (void)end;
-    f.end = run->end;
-    f.labour.env = &f.labour.quiet;
-    f.labour.quiet.threads = 1;
-    f.labour.quiet.parallel_for = NULL;
-    icc_status status = make_space(&f);
-    for (uint32_t s = run->begin; status == ICC_OK && s < run->end; ++s)
-        status = factorise_panel(&f, s);
-    free_space(&f);
-    t->leaving[begin] = f.leaving;
-    return status;
-}
-
-/* All runs, on all threads. */
-static icc_status factorise_runs(forest *t, const factorisation *f)
-{
-    const iccp_env *env = f->labour.env;
-    icc_status status = iccp_subtrees_create(&t->subtrees, &f->l->nodes, labour_of, env);
-    if (status != ICC_OK)
-        return status;
-    t->leaving = iccp_alloc(&env->memory, t->subtrees.n, sizeof *t->leaving);
-    if (t->leaving == NULL)
-        return ICC_ERR_MEMORY;
-    const iccp_env part = iccp_part(env, NULL, 0, t->subtrees.labour / f->labour.all);
-    return iccp_for_chunks(&part, "solve", t->subtrees.n, 1, factorise_run, t);
-}
-
 /* What left a run goes on to the panels above it, in the order in which it came. */
 static void send_on(factorisation *f, const queue *leaving)
 {
@@ -279,14 +251,97 @@ static void send_on(factorisation *f, const queue *leaving)
     }
 }
 
+/* Left-looking: panel s is finished before panel s + 1 begins, but for runs that have been done. */
+static icc_status factorise_range(factorisation *f, const forest *done, uint32_t begin,
+                                  uint32_t end)
+{
+    const size_t n = done != NULL ? done->subtrees->n : 0;
+    const iccp_subtrees_run *run = done != NULL ? done->subtrees->run : NULL;
+    icc_status status = ICC_OK;
+    size_t k = 0;
+    while (k < n && run[k].begin < begin)
+        ++k;
+    for (uint32_t s = begin; status == ICC_OK && s < end;) {
+        if (k < n && s == run[k].begin) {
+            send_on(f, &done->leaving[k]);
+            s = run[k++].end;
+        } else {
+            status = factorise_panel(f, s++);
+        }
+    }
+    return status;
+}
+
+/* One run, by one thread. */
+static icc_status factorise_run(void *argument, size_t begin, size_t end)
+{
+    const forest *t = argument;
+    const iccp_subtrees_run *run = &t->subtrees->run[begin];
+    factorisation f = *t->whole;
+    (void)end;
+    f.end = run->end;
+    f.labour.env = &f.labour.quiet;
+    f.labour.quiet.threads = 1;
+    f.labour.quiet.parallel_for = NULL;
+    icc_status status = make_space(&f);
+    if (status == ICC_OK)
+        status = factorise_range(&f, t->inner, run->begin, run->end);
+    free_space(&f);
+    t->leaving[begin] = f.leaving;
+    return status;
+}
+
+/* All runs, on all threads: from one share of the labour to another. */
+static icc_status factorise_runs(forest *t, double from, double to)
+{
+    const iccp_env *env = t->whole->labour.env;
+    const iccp_env part = iccp_part(env, NULL, from, to);
+    t->leaving = iccp_alloc(&env->memory, t->subtrees->n, sizeof *t->leaving);
+    return t->leaving != NULL ? iccp_for_chunks(&part, "solve", t->subtrees->n, 1, factorise_run, t)
+                              : ICC_ERR_MEMORY;
+}
+
+/* Finds the subtrees once for all factorisations. */
+static icc_status find_subtrees(iccp_ldlt *l, const iccp_env *env)
+{
+    iccp_env own = *env;
+    own.memory = l->memory;
+    icc_status status = ICC_OK;
+    if (l->large.run == NULL)
+        status = iccp_subtrees_create(&l->large, &l->nodes, LARGE, NULL, labour_of, &own);
+    if (status == ICC_OK && l->small.run == NULL)
+        status = iccp_subtrees_create(&l->small, &l->nodes, SMALL, &l->large, labour_of, &own);
+    return status;
+}
+
 /* ---- all of it ---- */
 
-/* Left-looking: panel s is finished before panel s + 1 begins, but for runs that have been done. */
+/* Many small subtrees, then a few large ones, then the panels above those. */
+static icc_status factorise_at_once(factorisation *f)
+{
+    iccp_ldlt *l = f->l;
+    const iccp_env *env = f->labour.env;
+    forest small = {.whole = f, .subtrees = &l->small};
+    forest large = {.whole = f, .subtrees = &l->large, .inner = &small};
+    icc_status status = find_subtrees(l, env);
+    const double first = l->small.labour / f->labour.all, both = l->large.labour / f->labour.all;
+    if (status == ICC_OK)
+        status = factorise_runs(&small, 0, first);
+    if (status == ICC_OK)
+        status = factorise_runs(&large, first, both);
+    if (status == ICC_OK)
+        status = iccp_labour_add(&f->labour, l->large.labour);
+    if (status == ICC_OK)
+        status = factorise_range(f, &large, 0, (uint32_t)l->nodes.n);
+    iccp_free(&env->memory, small.leaving);
+    iccp_free(&env->memory, large.leaving);
+    return status;
+}
+
 static icc_status factorise_panels(factorisation *f)
 {
     const iccp_supernodes *nodes = &f->l->nodes;
     const iccp_env *env = f->labour.env;
-    forest t = {.whole = f};
     for (uint32_t s = 0; s < nodes->n; ++s) {
         f->labour.all += labour_of(nodes, s);
         f->waiting[s] = NONE;
@@ -294,21 +349,11 @@ static icc_status factorise_panels(factorisation *f)
     icc_status status = iccp_progress(env, "solve", 0);
     if (status == ICC_OK)
         status = iccp_budget_work(env, f->labour.all);
-    if (status == ICC_OK && iccp_has_threads(env) && f->labour.all > LEAST_FOR_THREADS)
-        status = factorise_runs(&t, f);
-    if (status == ICC_OK)
-        status = iccp_labour_add(&f->labour, t.subtrees.labour);
-    for (uint32_t s = 0, k = 0; status == ICC_OK && s < nodes->n;) {
-        if (k < t.subtrees.n && s == t.subtrees.run[k].begin) {
-            send_on(f, &t.leaving[k]);
-            s = t.subtrees.run[k++].end;
-        } else {
-            status = factorise_panel(f, s++);
-        }
-    }
-    iccp_subtrees_free(&t.subtrees, &env->memory);
-    iccp_free(&env->memory, t.leaving);
-    return status;
+    if (status != ICC_OK)
+        return status;
+    return iccp_has_threads(env) && f->labour.all > LEAST_FOR_THREADS
+               ? factorise_at_once(f)
+               : factorise_range(f, NULL, 0, (uint32_t)nodes->n);
 }
 
 static icc_status make_room(iccp_ldlt *l)

@@ -2,6 +2,7 @@
  * of rows needs of the columns before its own is one product, then come the few entries beside the
  * diagonal. */
 #include "base/simd.h"
+#include "base/threads.h"
 #include "math/ldlt.h"
 #include "math/panel.h"
 
@@ -19,6 +20,14 @@ typedef struct group {
 
 enum { MOST_COLUMNS = 4 };
 
+/* Rows of a panel that are to be passed on to; all of them on the way back, where it is NULL. */
+typedef struct range {
+    size_t begin, end;
+} range;
+
+/* Factors with fewer entries are done with before other threads come. */
+enum { FEW_ENTRIES = 1 << 14 };
+
 static size_t least(size_t a, size_t b)
 {
     return a < b ? a : b;
@@ -34,10 +43,11 @@ static double *entries(const group *x, const iccp_panel *p, uint32_t first, cons
 /* With a constant width the loops over columns and rows are unrolled and run in vector
  * registers. */
 static ICCP_INLINE void forward(const group *x, const iccp_panel *p, uint32_t first,
-                                const uint32_t *below, size_t width)
+                                const uint32_t *below, const range *rows, size_t width)
 {
-    const double *own = x->value + first * width, *strip = p->value;
-    for (size_t i = 0; i < p->rows; i += STRIP, strip += STRIP * p->columns) {
+    const size_t start = rows->begin / STRIP * STRIP;
+    const double *own = x->value + first * width, *strip = p->value + start * p->columns;
+    for (size_t i = start; i < rows->end; i += STRIP, strip += STRIP * p->columns) {
         const size_t depth = least(i, p->columns);
         double sum[MOST_COLUMNS][ICCP_STRIP];
         for (size_t s = 0; s < width; ++s)
@@ -47,7 +57,8 @@ static ICCP_INLINE void forward(const group *x, const iccp_panel *p, uint32_t fi
             for (size_t s = 0; s < width; ++s)
                 for (size_t r = 0; r < STRIP; ++r)
                     sum[s][r] += strip[STRIP * k + r] * own[k * width + s];
-        for (size_t r = 0; r < least(STRIP, p->rows - i); ++r) {
+        for (size_t r = i < rows->begin ? rows->begin - i : 0; r < least(STRIP, rows->end - i);
+             ++r) {
             double *row = entries(x, p, first, below, i + r, width);
             for (size_t s = 0; s < width; ++s) {
                 for (size_t k = depth; k < least(i + r, p->columns); ++k)
@@ -90,34 +101,35 @@ static ICCP_INLINE void backward(const group *x, const iccp_panel *p, uint32_t f
 }
 
 static ICCP_INLINE void pass_inline(const iccp_ldlt *factor, size_t s, const group *x,
-                                    bool is_forward)
+                                    const range *rows)
 {
     const iccp_supernodes *nodes = &factor->nodes;
     const iccp_panel panel = iccp_panel_of(nodes, s, factor->value, factor->pivot);
     const uint32_t first = nodes->column[s], *below = nodes->row + nodes->first_row[s];
-    if (x->width == MOST_COLUMNS && is_forward)
-        forward(x, &panel, first, below, MOST_COLUMNS);
+    if (x->width == MOST_COLUMNS && rows != NULL)
+        forward(x, &panel, first, below, rows, MOST_COLUMNS);
     else if (x->width == MOST_COLUMNS)
         backward(x, &panel, first, below, MOST_COLUMNS);
-    else if (is_forward)
-        forward(x, &panel, first, below, 1);
+    else if (rows != NULL)
+        forward(x, &panel, first, below, rows, 1);
     else
         backward(x, &panel, first, below, 1);
 }
 
-typedef void (*pass)(const iccp_ldlt *factor, size_t s, const group *x, bool is_forward);
+typedef void (*pass)(const iccp_ldlt *factor, size_t s, const group *x, const range *rows);
 
-static void pass_portable(const iccp_ldlt *factor, size_t s, const group *x, bool is_forward)
+static void pass_portable(const iccp_ldlt *factor, size_t s, const group *x, const range *rows)
 {
-    pass_inline(factor, s, x, is_forward);
+    pass_inline(factor, s, x, rows);
 }
 
 #ifdef ICCP_HAS_SIMD
 
 /* The same bits: lanes are rows or columns, and nothing is contracted. */
-ICCP_AVX2 static void pass_avx2(const iccp_ldlt *factor, size_t s, const group *x, bool is_forward)
+ICCP_AVX2 static void pass_avx2(const iccp_ldlt *factor, size_t s, const group *x,
+                                const range *rows)
 {
-    pass_inline(factor, s, x, is_forward);
+    pass_inline(factor, s, x, rows);
 }
 
 static pass choose_pass(void)
@@ -140,35 +152,131 @@ static group group_at(const iccp_ldlt *factor, size_t n_rhs, size_t done, double
     return (group){work + factor->n * done, n_rhs - done < MOST_COLUMNS ? 1 : MOST_COLUMNS};
 }
 
+/* A system to be solved; and the subtrees that are done at the same time, if any. */
+typedef struct solution {
+    pass run;
+    const iccp_ldlt *factor;
+    const iccp_subtrees *subtrees;
+    size_t n_rhs;
+    double *work;
+} solution;
+
 /* A panel goes to all groups while it is in the cache. */
-static void pass_all(pass run, const iccp_ldlt *factor, size_t s, size_t n_rhs, double *work,
-                     bool is_forward)
+static void pass_all(const solution *x, size_t s, const range *rows)
 {
-    for (size_t done = 0; done < n_rhs;) {
-        const group x = group_at(factor, n_rhs, done, work);
-        run(factor, s, &x, is_forward);
-        done += x.width;
+    for (size_t done = 0; done < x->n_rhs;) {
+        const group g = group_at(x->factor, x->n_rhs, done, x->work);
+        x->run(x->factor, s, &g, rows);
+        done += g.width;
     }
 }
 
-void iccp_ldlt_solve(const iccp_ldlt *factor, size_t n_rhs, double *b, double *work)
+static size_t rows_of(const solution *x, size_t s)
 {
-    const size_t n_panels = factor->nodes.n;
-    const pass run = choose_pass();
+    const iccp_supernodes *nodes = &x->factor->nodes;
+    return iccp_supernodes_columns(nodes, s) + iccp_supernodes_below(nodes, s);
+}
+
+/* The first row of a panel that is not among those of its own subtrees. */
+static size_t first_outside(const solution *x, size_t s, const iccp_subtrees_run *run)
+{
+    const iccp_supernodes *nodes = &x->factor->nodes;
+    const uint32_t *row = nodes->row + nodes->first_row[s], end = nodes->column[run->end];
+    size_t low = 0, high = iccp_supernodes_below(nodes, s);
+    while (low < high) {
+        const size_t middle = (low + high) / 2;
+        if (row[middle] < end)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return iccp_supernodes_columns(nodes, s) + low;
+}
+
+/* What each subtree does to its own rows. */
+static icc_status go_forward(void *argument, size_t begin, size_t end)
+{
+    const solution *x = argument;
+    for (size_t k = begin; k < end; ++k) {
+        const iccp_subtrees_run *run = &x->subtrees->run[k];
+        for (size_t s = run->begin; s < run->end; ++s)
+            pass_all(x, s, &(range){0, first_outside(x, s, run)});
+    }
+    return ICC_OK;
+}
+
+static icc_status go_back(void *argument, size_t begin, size_t end)
+{
+    const solution *x = argument;
+    for (size_t k = begin; k < end; ++k)
+        for (size_t s = x->subtrees->run[k].end; s-- > x->subtrees->run[k].begin;)
+            pass_all(x, s, NULL);
+    return ICC_OK;
+}
+
+/* Each row gets what it gets in the order of the panels, whoever is first: forward, what subtrees
+ * do to the rows above them comes after all that they do to their own; and back, they come last. */
+static void solve_by_subtrees(const solution *x, const iccp_env *env)
+{
+    const iccp_subtrees *t = x->subtrees;
+    const size_t n_panels = x->factor->nodes.n;
+    iccp_env quiet = *env;
+    quiet.progress = NULL;
+    (void)iccp_for_chunks(&quiet, "solve", t->n, 1, go_forward, (void *)x);
+    for (size_t s = 0, k = 0; s < n_panels; ++s) {
+        while (k < t->n && t->run[k].end <= s)
+            ++k;
+        const bool is_inside = k < t->n && s >= t->run[k].begin;
+        pass_all(x, s, &(range){is_inside ? first_outside(x, s, &t->run[k]) : 0, rows_of(x, s)});
+    }
+    for (size_t s = n_panels, k = t->n; s-- > 0;) {
+        while (k > 0 && t->run[k - 1].begin > s)
+            --k;
+        if (k == 0 || s >= t->run[k - 1].end)
+            pass_all(x, s, NULL);
+    }
+    (void)iccp_for_chunks(&quiet, "solve", t->n, 1, go_back, (void *)x);
+}
+
+static void solve_in_turn(const solution *x)
+{
+    const size_t n_panels = x->factor->nodes.n;
+    for (size_t s = 0; s < n_panels; ++s)
+        pass_all(x, s, &(range){0, rows_of(x, s)});
+    for (size_t s = n_panels; s-- > 0;)
+        pass_all(x, s, NULL);
+}
+
+static void solve(const iccp_ldlt *factor, size_t n_rhs, double *b, double *work,
+                  const iccp_env *env)
+{
+    const solution all = {choose_pass(), factor, &factor->small, n_rhs, work};
     for (size_t done = 0, width; done < n_rhs; done += width) {
         const group x = group_at(factor, n_rhs, done, work);
         width = x.width;
         for (size_t k = 0; k < factor->n; ++k)
             memcpy(x.value + k * width, b + factor->order[k] * n_rhs + done, width * sizeof *b);
     }
-    for (size_t s = 0; s < n_panels; ++s)
-        pass_all(run, factor, s, n_rhs, work, true);
-    for (size_t s = n_panels; s-- > 0;)
-        pass_all(run, factor, s, n_rhs, work, false);
+    if (env != NULL && iccp_has_threads(env) && factor->small.n > 1 &&
+        factor->n_entries * n_rhs > FEW_ENTRIES)
+        solve_by_subtrees(&all, env);
+    else
+        solve_in_turn(&all);
     for (size_t done = 0, width; done < n_rhs; done += width) {
         const group x = group_at(factor, n_rhs, done, work);
         width = x.width;
         for (size_t k = 0; k < factor->n; ++k)
             memcpy(b + factor->order[k] * n_rhs + done, x.value + k * width, width * sizeof *b);
     }
+}
+
+void iccp_ldlt_solve(const iccp_ldlt *factor, size_t n_rhs, double *b, double *work)
+{
+    solve(factor, n_rhs, b, work, NULL);
+}
+
+void iccp_ldlt_solve_at_once(const iccp_ldlt *factor, size_t n_rhs, double *b, double *work,
+                             const iccp_env *env)
+{
+    solve(factor, n_rhs, b, work, env);
 }

@@ -2,6 +2,7 @@
  * Transactions on Graphics 9, 1990, for one point only. */
 #include "math/orient.h"
 
+#include "base/compiler.h"
 #include "math/predicates.h"
 
 /* Relative to the product of the lengths of the rows, for n = 4..6. Elimination with pivoting errs
@@ -12,7 +13,7 @@ static const double UNCERTAIN = 2e-14;
 typedef double matrix[ICCP_ORIENT_MAX][ICCP_ORIENT_MAX];
 
 /* Rows of length 1; returns the product of the lengths that they had, or 0. */
-static double read_rows(matrix a, size_t n, const double *const *points)
+static ICCP_INLINE double read_rows(matrix a, size_t n, const double *const *points)
 {
     double product = 1;
     for (size_t i = 0; i < n; ++i) {
@@ -34,7 +35,7 @@ static double read_rows(matrix a, size_t n, const double *const *points)
 /* The determinant by Gaussian elimination with partial pivoting, which bounds the growth of the
  * entries that UNCERTAIN counts on. The rows have length 1, so that none of them is scaled to
  * win the choice of the pivot. */
-static double eliminate(matrix a, size_t n)
+static ICCP_INLINE double eliminate(matrix a, size_t n)
 {
     double det = 1;
     for (size_t i = 0; i < n; ++i) {
@@ -59,13 +60,17 @@ static double eliminate(matrix a, size_t n)
     return det;
 }
 
-double iccp_orient_value(size_t n, const double *const *points)
+static ICCP_INLINE double value(size_t n, const double *const *points)
 {
-    if (n == 0)
-        return 1;
     matrix a;
     const double lengths = read_rows(a, n, points);
     return lengths > 0 ? lengths * eliminate(a, n) : 0;
+}
+
+/* Where the compiler knows n there are no loops. */
+double iccp_orient_value(size_t n, const double *const *points)
+{
+    return n == 0 ? 1 : n == 3 ? value(3, points) : value(n, points);
 }
 
 int iccp_orient(size_t n, const double *const *p)

@@ -7,8 +7,8 @@
 
 #define NONE ICCP_NO_PARENT
 
-/* Of the whole: what a run may take, about, and what it must take. */
-static const double MOST = 1.0 / 16, LEAST = 1.0 / 512;
+/* Of the whole: what a run must take. */
+static const double LEAST = 1.0 / 512;
 
 /* Appends a run if it is worth it. */
 static void add_run(iccp_subtrees *t, uint32_t begin, uint32_t end, double cost, double least)
@@ -19,32 +19,40 @@ static void add_run(iccp_subtrees *t, uint32_t begin, uint32_t end, double cost,
     t->labour += cost;
 }
 
-/* below[s]: what supernode s and its descendants take. A run ends before a supernode whose subtree
- * takes too much, and at the root of a subtree that makes the run large enough. */
-static void find_runs(iccp_subtrees *t, const iccp_supernodes *nodes, const double *below,
-                      double all)
+/* below[s]: what supernode s and its descendants take; a run may take `most`. It ends before a
+ * supernode whose subtree takes too much, at the root of a subtree that makes the run large enough,
+ * and where a run of `outer` begins or ends. */
+static void find_runs(iccp_subtrees *t, const iccp_supernodes *nodes, const iccp_subtrees *outer,
+                      const double *below, double most, double least)
 {
     uint32_t begin = 0;
     double cost = 0;
-    for (uint32_t s = 0; s < nodes->n; ++s) {
+    for (uint32_t s = 0, k = 0; s < nodes->n; ++s) {
         const uint32_t parent = nodes->parent[s];
-        if (below[s] > MOST * all) {
-            add_run(t, begin, s, cost, LEAST * all);
+        const bool is_root = parent == NONE || below[parent] > most;
+        while (outer != NULL && k < outer->n && outer->run[k].end <= s)
+            ++k;
+        const bool is_edge = outer != NULL && ((k > 0 && outer->run[k - 1].end == s) ||
+                                               (k < outer->n && outer->run[k].begin == s));
+        if (is_edge || below[s] > most) {
+            add_run(t, begin, s, cost, least);
+            begin = below[s] > most ? s + 1 : s;
+            cost = 0;
+        }
+        if (below[s] > most || !is_root)
+            continue;
+        cost += below[s];
+        if (cost > most / 2) {
+            add_run(t, begin, s + 1, cost, least);
             begin = s + 1;
             cost = 0;
-        } else if (parent == NONE || below[parent] > MOST * all) {
-            cost += below[s];
-            if (cost > MOST * all / 2) {
-                add_run(t, begin, s + 1, cost, LEAST * all);
-                begin = s + 1;
-                cost = 0;
-            }
         }
     }
-    add_run(t, begin, (uint32_t)nodes->n, cost, LEAST * all);
+    add_run(t, begin, (uint32_t)nodes->n, cost, least);
 }
 
-icc_status iccp_subtrees_create(iccp_subtrees *subtrees, const iccp_supernodes *nodes,
+icc_status iccp_subtrees_create(iccp_subtrees *subtrees, const iccp_supernodes *nodes, double share,
+                                const iccp_subtrees *outer,
                                 double (*cost)(const iccp_supernodes *nodes, size_t s),
                                 const iccp_env *env)
 {
@@ -61,7 +69,7 @@ icc_status iccp_subtrees_create(iccp_subtrees *subtrees, const iccp_supernodes *
             below[nodes->parent[s]] += below[s];
     }
     if (ready)
-        find_runs(subtrees, nodes, below, all);
+        find_runs(subtrees, nodes, outer, below, share * all, LEAST * all);
     else
         iccp_subtrees_free(subtrees, &env->memory);
     iccp_free(&env->memory, below);

@@ -18,9 +18,11 @@ typedef struct iccp_subtrees {
     double labour; /* of all of them, as the supernodes' */
 } iccp_subtrees;
 
-/* cost(nodes, s): what supernode s takes. Depends on nothing but the supernodes. On failure nothing
- * is left allocated. */
-icc_status iccp_subtrees_create(iccp_subtrees *subtrees, const iccp_supernodes *nodes,
+/* cost(nodes, s): what supernode s takes; `share`: of the whole, what a run may take, about. Runs
+ * do not reach across the ends of those of `outer`, unless that is NULL. Depends on nothing else.
+ * On failure nothing is left allocated. */
+icc_status iccp_subtrees_create(iccp_subtrees *subtrees, const iccp_supernodes *nodes, double share,
+                                const iccp_subtrees *outer,
                                 double (*cost)(const iccp_supernodes *nodes, size_t s),
                                 const iccp_env *env);
 void iccp_subtrees_free(iccp_subtrees *subtrees, const iccp_memory *memory);

@@ -167,7 +167,7 @@ static icc_status collect(cutter *k, uint32_t corner, const iccp_memory *memory)
     for (;;) {
         const uint32_t right = vertex_at(k, iccp_after(corner));
         const uint32_t left = vertex_at(k, iccp_before(corner));
-        if (iccp_is_boundary_edge(k->mesh, left, right))
+        if (iccp_is_wall(k->mesh, left, right))
             return fail_cross(k, left, right);
         const uint32_t twin = c[corner].twin, apex = c[twin].vertex;
         const int side = apex == k->to ? 0 : side_of(k, apex);
@@ -284,8 +284,7 @@ static bool must_flip(const cutter *k, uint32_t corner)
     const uint32_t twin = mesh->corners[corner].twin, beyond = vertex_at(k, twin);
     const uint32_t from = vertex_at(k, iccp_after(corner));
     const uint32_t to = vertex_at(k, iccp_before(corner));
-    return beyond != mesh->n_points && !k->waiting[twin / 3] &&
-           !iccp_is_boundary_edge(mesh, from, to) &&
+    return beyond != mesh->n_points && !k->waiting[twin / 3] && !iccp_is_wall(mesh, from, to) &&
            iccp_incircle(iccp_point(mesh, vertex_at(k, corner)), iccp_point(mesh, from),
                          iccp_point(mesh, to), iccp_point(mesh, beyond)) > 0;
 }
@@ -336,26 +335,41 @@ static icc_status insert_edge(cutter *k, const iccp_memory *memory)
     return ICC_OK;
 }
 
+/* The walls that begin at vertex i: of a polygon one, of walls those that go to larger numbers. */
+static icc_status insert_at(cutter *k, uint32_t i, const iccp_memory *memory)
+{
+    const iccp_walls *const walls = k->mesh->walls;
+    icc_status status = ICC_OK;
+    k->from = i;
+    if (walls == NULL) {
+        k->to = i + 1 < k->mesh->n_boundary ? i + 1 : 0;
+        return insert_edge(k, memory);
+    }
+    for (uint32_t j = walls->first[i]; status == ICC_OK && j < walls->first[i + 1]; ++j) {
+        k->to = walls->other[j];
+        status = k->to > i ? insert_edge(k, memory) : ICC_OK;
+    }
+    return status;
+}
+
 static icc_status insert_all(cutter *k, const iccp_env *env)
 {
     enum { REPORT = 1024 };
+    const uint32_t n = k->mesh->walls != NULL ? k->mesh->n_points : k->mesh->n_boundary;
     for (uint32_t corner = 0; corner < 3 * k->mesh->n_triangles; ++corner)
         if (vertex_at(k, corner) != k->mesh->n_points)
             k->corner_of[vertex_at(k, corner)] = corner;
-    for (uint32_t i = 0; i < k->mesh->n_boundary; ++i) {
-        if (i % REPORT == 0 &&
-            iccp_progress(env, "mesh", (double)i / (double)k->mesh->n_boundary) != ICC_OK)
+    for (uint32_t i = 0; i < n; ++i) {
+        if (i % REPORT == 0 && iccp_progress(env, "mesh", (double)i / (double)n) != ICC_OK)
             return ICC_ERR_CANCELLED;
-        k->from = i;
-        k->to = i + 1 < k->mesh->n_boundary ? i + 1 : 0;
-        const icc_status status = insert_edge(k, &env->memory);
+        const icc_status status = insert_at(k, i, &env->memory);
         if (status != ICC_OK)
             return status;
     }
     return ICC_OK;
 }
 
-/* Inserts the polygon's edges one at a time. The arrays for the region that an edge crosses are
+/* Inserts the walls one at a time. The arrays for the region that an edge crosses are
  * reused, and grow as needed. */
 icc_status iccp_constrain(iccp_trimesh *mesh, const iccp_env *env, icc_error *err)
 {

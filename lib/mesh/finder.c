@@ -12,7 +12,7 @@
 
 /* The last cell, beyond the others, stands for what lies outside of the box: it has no triangles
  * and is near the boundary. */
-typedef struct iccp_finder_grid {
+typedef struct grid {
     double lower[2], upper[2]; /* the mesh's box */
     double rate;               /* cell = (point - lower) * rate */
     double slack;              /* cells that a triangle misses by less, in cells, list it too */
@@ -223,18 +223,18 @@ static grid *make_grid(const iccp_finder *f)
     return g;
 }
 
-/* Of several grids that are made at the same time the first one stays. */
-static const grid *grid_of(const iccp_finder *finder)
+static const grid *grid_of(const iccp_finder *f)
 {
-    iccp_finder *f = (iccp_finder *)finder;
-    grid *g = atomic_load_explicit(&f->grid, memory_order_acquire);
-    if (ICCP_LIKELY(g != NULL))
-        return g;
+    const grid *known = iccp_once_get(&f->grid);
+    if (ICCP_LIKELY(known != NULL))
+        return known;
     grid *fresh = make_grid(f);
-    if (fresh == NULL || atomic_compare_exchange_strong(&f->grid, &g, fresh))
-        return fresh;
-    free_grid(fresh, &f->memory);
-    return g;
+    if (fresh == NULL)
+        return NULL;
+    known = iccp_once_keep(&f->grid, fresh);
+    if (known != fresh)
+        free_grid(fresh, &f->memory);
+    return known;
 }
 
 void iccp_finder_init(iccp_finder *finder, const iccp_planar *mesh, const double *points,
@@ -250,13 +250,13 @@ void iccp_finder_init(iccp_finder *finder, const iccp_planar *mesh, const double
     if (demand == ICCP_MANY_POINTS)
         finder->density = most(FEW, least(MANY, LARGE / (double)mesh->n_triangles));
     finder->reach = reach;
-    atomic_init(&finder->grid, NULL);
+    iccp_once_init(&finder->grid);
 }
 
 void iccp_finder_free(iccp_finder *finder)
 {
-    free_grid(atomic_load(&finder->grid), &finder->memory);
-    atomic_store(&finder->grid, NULL);
+    free_grid(iccp_once_get(&finder->grid), &finder->memory);
+    iccp_once_init(&finder->grid);
 }
 
 icc_status iccp_finder_ready(const iccp_finder *finder)
@@ -412,7 +412,7 @@ void iccp_finder_find_many(const iccp_finder *finder, size_t n, const double *po
                            const double *other, iccp_found *found)
 {
     const iccp_finder *f = finder;
-    const grid *g = atomic_load_explicit(&f->grid, memory_order_acquire);
+    const grid *g = iccp_once_get(&f->grid);
     size_t cell[ICCP_FINDER_MANY];
     for (size_t k = 0; k < n; ++k)
         cell[k] = cell_at(g, points + 2 * k);

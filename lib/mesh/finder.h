@@ -2,13 +2,11 @@
 #ifndef ICCP_FINDER_H
 #define ICCP_FINDER_H
 
+#include "base/once.h"
 #include "mesh/planar.h"
 
-#include <stdatomic.h>
-
 /* Finds by a grid, which is made when the first point is looked for: many meshes are never asked.
- * Nothing else about a finder changes, so that several threads may ask at the same time: they may
- * then make a grid each, of which one stays. */
+ * Nothing else about a finder changes, so that several threads may ask at the same time. */
 typedef struct iccp_finder {
     iccp_memory memory;
     const double *points;      /* of the vertices: the mesh's own, or their images */
@@ -17,7 +15,7 @@ typedef struct iccp_finder {
     size_t n_vertices, n_triangles;
     double density; /* cells of the grid per triangle */
     double reach;   /* see iccp_found */
-    _Atomic(struct iccp_finder_grid *) grid;
+    iccp_once grid;
 } iccp_finder;
 
 /* Where a point lies. */

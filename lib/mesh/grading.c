@@ -105,7 +105,7 @@ static icc_status emit_leaf(builder *b, const level *l, const cell *c)
 {
     const double p[2] = {c->x, c->y};
     const double clearance2 = CLEARANCE * l->width * CLEARANCE * l->width;
-    if (iccp_boxtree_reaches(&b->domain->locator->tree, p, clearance2) ||
+    if (iccp_boxtree_reaches(&iccp_locator_trees(b->domain->locator)->edges, p, clearance2) ||
         iccp_domain_locate(b->domain, p, true, NULL, NULL) != ICC_INSIDE)
         return ICC_OK;
     if (b->n_points == b->point_room) {

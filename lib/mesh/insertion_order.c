@@ -4,11 +4,13 @@
  * Cells of the curve in which many points cluster get a curve of their own. */
 #include "mesh/insertion_order.h"
 
+#include "base/sort.h"
+
 #include <stdbool.h>
 
 /* A key is, from the top: the round, 4 bits; the place on the curve, 32 bits; the index, 28
  * bits. */
-enum { ROUND_SHIFT = 60, CURVE_SHIFT = 28, CURVE_BITS = 16, DIGIT_BITS = 9, LAST_ROUND = 15 };
+enum { ROUND_SHIFT = 60, CURVE_SHIFT = 28, CURVE_BITS = 16, LAST_ROUND = 15 };
 
 /* The place on the Hilbert curve of a cell of the 2^16 x 2^16 square. The curve's four orientations
  * are states: a cell's quadrant gives a digit and the orientation within the quadrant. */
@@ -66,19 +68,6 @@ static uint32_t cell(const axis *a, double x)
     return place < 65535.0 ? (uint32_t)place : 65535u;
 }
 
-/* One pass of a radix sort, least digit first. */
-static void sort_by_digit(uint64_t *to, const uint64_t *from, size_t n, int shift)
-{
-    const uint64_t mask = (1u << DIGIT_BITS) - 1;
-    size_t start[(1 << DIGIT_BITS) + 1] = {0};
-    for (size_t i = 0; i < n; ++i)
-        ++start[(from[i] >> shift & mask) + 1];
-    for (size_t digit = 0; digit < mask; ++digit)
-        start[digit + 1] += start[digit];
-    for (size_t i = 0; i < n; ++i)
-        to[start[from[i] >> shift & mask]++] = from[i];
-}
-
 /* Places the points of some keys on a curve through their own bounding box, and sorts. */
 static void sort_along_curve(uint64_t *keys, uint64_t *scratch, size_t n, const double *points)
 {
@@ -88,10 +77,7 @@ static void sort_along_curve(uint64_t *keys, uint64_t *scratch, size_t n, const 
         const double *p = points + 2 * index_of(keys[i]);
         keys[i] = (keys[i] & ~curve) | hilbert(cell(&x, p[0]), cell(&y, p[1])) << CURVE_SHIFT;
     }
-    for (int shift = CURVE_SHIFT; shift < 64; shift += 2 * DIGIT_BITS) {
-        sort_by_digit(scratch, keys, n, shift);
-        sort_by_digit(keys, scratch, n, shift + DIGIT_BITS);
-    }
+    iccp_sort_keys(keys, scratch, n, CURVE_SHIFT);
 }
 
 /* Sorts again what shares a cell, when it is much; false when nothing was. */

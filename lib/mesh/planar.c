@@ -51,7 +51,8 @@ void iccp_planar_pieces(uint32_t *pieces, const icc_domain *a, const icc_domain 
 static uint32_t ring_facet(const icc_domain *domain, size_t k)
 {
     const iccp_polygon *polygon = &domain->locator->polygon;
-    return polygon->facet[domain->orientation > 0 ? k : polygon->n - 1 - k];
+    return iccp_polygon_facet(polygon,
+                              (uint32_t)(domain->orientation > 0 ? k : polygon->n - 1 - k));
 }
 
 static void place_boundary(iccp_planar *mesh, const icc_domain *domain)

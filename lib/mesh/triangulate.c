@@ -7,32 +7,58 @@
 #include "mesh/delaunay.h"
 
 #include <assert.h>
+#include <string.h>
 
 /* Of a triangle outside. */
 static const uint32_t OUTSIDE = UINT32_MAX;
 
-/* Marks what can be reached from the ghosts without crossing the polygon: number[t] becomes
- * OUTSIDE, and stays 0 inside. `stack` has room for every triangle. */
-static void mark_outside(const iccp_trimesh *mesh, uint32_t *number, uint32_t *stack)
+/* Sets number[t] of the triangles that can be reached from a seed without crossing a wall. `stack`
+ * has room for every triangle. */
+static void flood(const iccp_trimesh *mesh, uint32_t seed, uint32_t mark, uint32_t *number,
+                  uint32_t *stack)
 {
     const iccp_corner *const c = mesh->corners;
-    uint32_t seed = 0, n = 0;
-    while (c[seed].vertex != mesh->n_points)
-        ++seed;
-    stack[n++] = seed / 3;
-    number[seed / 3] = OUTSIDE;
+    uint32_t n = 0;
+    stack[n++] = seed;
+    number[seed] = mark;
     while (n > 0) {
         const uint32_t triangle = stack[--n];
         for (uint32_t corner = 3 * triangle; corner < 3 * triangle + 3; ++corner) {
             const uint32_t other = c[corner].twin / 3;
-            if (number[other] == OUTSIDE ||
-                iccp_is_boundary_edge(mesh, c[iccp_after(corner)].vertex,
-                                      c[iccp_before(corner)].vertex))
+            if (number[other] == mark ||
+                iccp_is_wall(mesh, c[iccp_after(corner)].vertex, c[iccp_before(corner)].vertex))
                 continue;
-            number[other] = OUTSIDE;
+            number[other] = mark;
             stack[n++] = other;
         }
     }
+}
+
+/* Marks what lies outside of the polygon, beginning with the ghosts: number[t] becomes OUTSIDE, and
+ * stays 0 inside. */
+static void mark_outside(const iccp_trimesh *mesh, uint32_t *number, uint32_t *stack)
+{
+    uint32_t seed = 0;
+    while (mesh->corners[seed].vertex != mesh->n_points)
+        ++seed;
+    flood(mesh, seed / 3, OUTSIDE, number, stack);
+}
+
+/* Leaves 0 in number[t] of what lies left of a wall, and OUTSIDE elsewhere. ICC_ERR_TOPOLOGY when
+ * that is not bounded by walls. */
+static icc_status mark_left(const iccp_trimesh *mesh, uint32_t from, uint32_t to, uint32_t *number,
+                            uint32_t *stack)
+{
+    const iccp_corner *const c = mesh->corners;
+    uint32_t seed = 0;
+    while (c[iccp_after(seed)].vertex != from || c[iccp_before(seed)].vertex != to)
+        ++seed;
+    memset(number, 0xff, mesh->n_triangles * sizeof *number);
+    flood(mesh, seed / 3, 0, number, stack);
+    for (uint32_t corner = 0; corner < 3 * mesh->n_triangles; ++corner)
+        if (c[corner].vertex == mesh->n_points && number[corner / 3] == 0)
+            return ICC_ERR_TOPOLOGY;
+    return ICC_OK;
 }
 
 /* The first point that is neither a vertex of the polygon nor inside, or n_points. */
@@ -121,6 +147,33 @@ icc_status iccp_triangulate_mesh(size_t n_boundary, size_t n_points, const doubl
     if (status == ICC_OK)
         status = extract(&mesh, triangles, neighbours, env, err);
     iccp_free(&env->memory, mesh.corners);
+    return status;
+}
+
+icc_status iccp_triangulate_walls(size_t n_points, const double *points, const iccp_walls *walls,
+                                  uint32_t from, uint32_t to, uint32_t *triangles,
+                                  uint32_t *neighbours, size_t *n_triangles, const iccp_env *env)
+{
+    const iccp_memory *memory = &env->memory;
+    const size_t room = 2 * n_points - 2;
+    iccp_trimesh mesh = {.points = points, .n_points = (uint32_t)n_points, .walls = walls};
+    uint32_t *number = iccp_alloc(memory, room, sizeof *number);
+    uint32_t *stack = iccp_alloc(memory, room, sizeof *stack);
+    mesh.corners = iccp_alloc(memory, room, 3 * sizeof *mesh.corners);
+    icc_status status = ICC_ERR_MEMORY;
+    if (number != NULL && stack != NULL && mesh.corners != NULL)
+        status = iccp_delaunay(&mesh, env, NULL);
+    if (status == ICC_OK)
+        status = iccp_constrain(&mesh, env, NULL);
+    if (status == ICC_OK)
+        status = mark_left(&mesh, from, to, number, stack);
+    if (status == ICC_OK) {
+        *n_triangles = number_inside(&mesh, number);
+        copy_out(&mesh, number, triangles, neighbours);
+    }
+    iccp_free(memory, mesh.corners);
+    iccp_free(memory, stack);
+    iccp_free(memory, number);
     return status;
 }
 

@@ -9,6 +9,7 @@
 #define ICCP_TRIMESH_H
 
 #include "base/env.h"
+#include "mesh/walls.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -24,7 +25,8 @@ typedef struct iccp_corner {
 typedef struct iccp_trimesh {
     const double *points; /* borrowed */
     uint32_t n_points;
-    uint32_t n_boundary; /* the first ones are the vertices of a polygon, in their order */
+    uint32_t n_boundary;     /* the first ones are the vertices of a polygon, in their order */
+    const iccp_walls *walls; /* borrowed: the segments to be kept; NULL: the polygon's edges */
     uint32_t n_triangles;
     iccp_corner *corners; /* room for 3 (2 n_points - 2), as many as there are in the end */
 } iccp_trimesh;
@@ -57,9 +59,11 @@ static inline const double *iccp_point(const iccp_trimesh *mesh, uint32_t vertex
     return mesh->points + 2 * (size_t)vertex;
 }
 
-/* Whether the segment between two vertices is an edge of the polygon. */
-static inline bool iccp_is_boundary_edge(const iccp_trimesh *mesh, uint32_t a, uint32_t b)
+/* Whether the segment between two vertices is to be kept. */
+static inline bool iccp_is_wall(const iccp_trimesh *mesh, uint32_t a, uint32_t b)
 {
+    if (mesh->walls != NULL)
+        return iccp_walls_have(mesh->walls, a, b);
     const uint32_t low = a < b ? a : b, high = a < b ? b : a;
     return high < mesh->n_boundary && (high - low == 1 || high - low == mesh->n_boundary - 1);
 }

@@ -15,9 +15,10 @@ typedef struct iccp_best_order_info {
     size_t n_finished; /* of them, those that were complete */
 } iccp_best_order_info;
 
-/* Grows and peels with several weights, reverses facets, and sends the flux along every complete
- * order. `inflow` is by facet of the domain, `reference` and `flux` by side, `potential` and `rank`
- * by simplex. The flux along the one with the least energy is fitted. If no order is complete, two
+/* Grows and peels with one weight after the other until an order is complete, reverses facets, and
+ * sends the flux along every complete order. `inflow` is by facet of the domain, `reference` and
+ * `flux` by side, `potential` and `rank` by simplex. The flux along the one with the least energy
+ * is fitted. If no order is complete, two
  * are repeated with a bias for the simplices that were left: ICC_ERR_TOPOLOGY when that does not
  * help, as with some meshes of Bing's house with two rooms. The same for every number of threads.
  * O(n log n). */

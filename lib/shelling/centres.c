@@ -2,11 +2,11 @@
  * vertices the depth differs by no more than their distance. */
 #include "shelling/centres.h"
 
+#include "base/heap.h"
 #include "base/minmax.h"
 #include "math/elementary.h"
 #include "math/spd.h"
 #include "math/vec.h"
-#include "shelling/heap.h"
 #include "shelling/stiffness.h"
 
 #include <math.h>
@@ -15,11 +15,6 @@
 
 /* Vertices between looks at the progress callback. */
 enum { VERTICES_PER_REPORT = 1 << 10 };
-
-/* The weight of an edge, of the geometric mean of its ends' diagonals: obtuse and thin simplices
- * would give less or a negative one. Any positive weights put images between those of the
- * neighbours. */
-static const double LEAST_WEIGHT = 0.02;
 
 /* How much deeper a vertex must be to be taken at some distance from where the image of the other
  * centre lies: with 1.2 to 1.5, pairs of real bodies are a fifth to a half deeper than with the
@@ -53,7 +48,7 @@ static double depth_of(const icc_domain *domain, const double *point)
     double bary[ICC_MAX_DIM], square;
     if (iccp_domain_locate(domain, point, true, NULL, NULL) != ICC_INSIDE)
         return 0;
-    (void)iccp_facet_tree_nearest(&domain->tree, point, bary, &square);
+    (void)iccp_facet_tree_nearest(iccp_domain_tree(domain), point, bary, &square);
     return sqrt(square);
 }
 
@@ -164,26 +159,16 @@ uint32_t iccp_nearest_centre(const iccp_simplices *mesh, const double *point)
     return nearest;
 }
 
-/* Positive weights in place of the matrix's; those to the boundary bring the second domain's
- * vertices to the right side, one number for each dimension. */
-static void set_weights(iccp_gram *g, const iccp_simplices *mesh, const icc_domain *to, double *sum,
-                        double *right)
+/* Weights to the boundary bring the second domain's vertices to the right side, one number for each
+ * dimension. */
+static void fill_right(const iccp_gram *g, const iccp_simplices *mesh, const icc_domain *to,
+                       double *right)
 {
     const size_t dim = mesh->dim, n_rim = mesh->n_boundary;
-    for (size_t v = 0; v < mesh->n_points; ++v) {
-        sum[v] = 0;
-        for (size_t p = g->first[v]; p < g->first[v + 1]; ++p) {
-            const uint32_t w = g->column[p];
-            const double least = LEAST_WEIGHT * sqrt(g->diagonal[v] * g->diagonal[w]);
-            const double weight = iccp_max(-g->value[p], least);
-            g->value[p] = -weight;
-            sum[v] += weight;
-            for (size_t k = 0; k < dim && v >= n_rim && w < n_rim; ++k)
-                right[dim * (v - n_rim) + k] += weight * to->vertices[dim * w + k];
-        }
-    }
-    for (size_t v = 0; v < mesh->n_points; ++v)
-        g->diagonal[v] = sum[v];
+    for (size_t v = n_rim; v < mesh->n_points; ++v)
+        for (size_t p = g->first[v]; p < g->first[v + 1]; ++p)
+            for (size_t k = 0; k < dim && g->column[p] < n_rim; ++k)
+                right[dim * (v - n_rim) + k] -= g->value[p] * to->vertices[dim * g->column[p] + k];
 }
 
 /* The equations of the inner vertices. */
@@ -191,16 +176,14 @@ static icc_status set_up(iccp_gram *inner, iccp_gram *edges, const iccp_simplice
                          const icc_domain *to, double *right, const iccp_env *env)
 {
     uint32_t *row = iccp_alloc(&env->memory, mesh->n_points, sizeof *row);
-    double *sum = iccp_alloc(&env->memory, mesh->n_points, sizeof *sum);
-    icc_status status = ICC_ERR_MEMORY;
-    if (row != NULL && sum != NULL) {
+    icc_status status = row != NULL ? iccp_stiffness_to_network(edges, env) : ICC_ERR_MEMORY;
+    if (status == ICC_OK) {
         for (uint32_t v = 0; v < mesh->n_points; ++v)
             row[v] = v < mesh->n_boundary ? NONE : (uint32_t)(v - mesh->n_boundary);
-        set_weights(edges, mesh, to, sum, right);
+        fill_right(edges, mesh, to, right);
         status = iccp_stiffness_restrict(inner, edges, row, env);
     }
     iccp_free(&env->memory, row);
-    iccp_free(&env->memory, sum);
     return status;
 }
 

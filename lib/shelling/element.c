@@ -3,6 +3,7 @@
 #include "base/compiler.h"
 #include "base/minmax.h"
 #include "icc/base.h"
+#include "math/vec.h"
 
 #include <math.h>
 
@@ -14,7 +15,8 @@ static const double THINNEST = 1e-4;
 /* Local units, in which domains have the size 1: lengths that are divided by. */
 static const double LEAST_LENGTH = 1e-12;
 
-/* Functions that take the dimension are compiled for 3 as well, where loops are unrolled. */
+/* Functions that take the dimension are compiled for 3 as well, where loops are unrolled. What
+ * takes an elimination elsewhere is a cross product there. */
 
 /* A matrix with the identity, or what became of it, to its right. */
 typedef double tableau[ICC_MAX_DIM][2 * ICC_MAX_DIM];
@@ -85,6 +87,34 @@ static ICCP_INLINE double find_gradients(const iccp_simplices *mesh, size_t n, s
     return volume;
 }
 
+/* The same for tetrahedra, 0 for those that are so flat that a pivot might be below the least: if
+ * none is then their product is at most four times that, since pivots below the first may grow to
+ * twice the longest edge. */
+static double find_gradients_3(const iccp_simplices *mesh, size_t simplex, double *gradient)
+{
+    const double *origin = point_of(mesh, 3, 4 * simplex);
+    double edge[3][3], size = 0;
+    for (size_t i = 0; i < 3; ++i) {
+        const double *corner = point_of(mesh, 3, 4 * simplex + i + 1);
+        for (size_t k = 0; k < 3; ++k) {
+            edge[i][k] = corner[k] - origin[k];
+            size = iccp_max(size, fabs(edge[i][k]));
+        }
+    }
+    iccp_vec_cross(edge[1], edge[2], gradient + 3);
+    iccp_vec_cross(edge[2], edge[0], gradient + 6);
+    iccp_vec_cross(edge[0], edge[1], gradient + 9);
+    const double determinant = iccp_vec_dot(3, edge[0], gradient + 3);
+    if (!(fabs(determinant) > 4 * THINNEST * size * size * size))
+        return 0;
+    for (size_t k = 0; k < 3; ++k) {
+        for (size_t i = 3; i < 12; i += 3)
+            gradient[i + k] /= determinant;
+        gradient[k] = -gradient[3 + k] - gradient[6 + k] - gradient[9 + k];
+    }
+    return fabs(determinant) / 6;
+}
+
 /* The product of the heights of the edges from one corner, by Gram and Schmidt, over (dim - 1)!. */
 static ICCP_INLINE double find_area(const iccp_simplices *mesh, size_t dim, size_t side)
 {
@@ -115,17 +145,30 @@ static ICCP_INLINE double find_area(const iccp_simplices *mesh, size_t dim, size
     return area;
 }
 
+static double find_area_3(const iccp_simplices *mesh, size_t side)
+{
+    const size_t first = side / 4 * 4, out = side % 4;
+    const double *a = point_of(mesh, 3, first + (out + 1) % 4);
+    const double *b = point_of(mesh, 3, first + (out + 2) % 4);
+    const double *c = point_of(mesh, 3, first + (out + 3) % 4);
+    const double ab[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+    const double ac[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
+    double cross[3];
+    iccp_vec_cross(ab, ac, cross);
+    return 0.5 * iccp_vec_norm(3, cross);
+}
+
 /* The mean of the corners of a simplex, without the one opposite a side if that is given. */
 static ICCP_INLINE void find_middle(const iccp_simplices *mesh, size_t dim, size_t simplex,
                                     size_t out, double *point)
 {
     const size_t first = (dim + 1) * simplex;
-    const double n = (double)(dim + (out > dim));
+    const double share = 1 / (double)(dim + (out > dim));
     for (size_t k = 0; k < dim; ++k)
         point[k] = 0;
     for (size_t i = 0; i <= dim; ++i)
         for (size_t k = 0; k < dim && i != out; ++k)
-            point[k] += point_of(mesh, dim, first + i)[k] / n;
+            point[k] += share * point_of(mesh, dim, first + i)[k];
 }
 
 static ICCP_INLINE double find_conductance(const iccp_simplices *mesh, size_t dim, size_t side)
@@ -140,18 +183,20 @@ static ICCP_INLINE double find_conductance(const iccp_simplices *mesh, size_t di
         find_middle(mesh, dim, other / (dim + 1), no_corner, there);
     for (size_t k = 0; k < dim; ++k)
         square += (there[k] - here[k]) * (there[k] - here[k]);
-    return find_area(mesh, dim, side) / iccp_max(sqrt(square), LEAST_LENGTH);
+    return iccp_element_area(mesh, side) / iccp_max(sqrt(square), LEAST_LENGTH);
 }
 
 double iccp_element_gradients(const iccp_simplices *mesh, size_t simplex, double *gradient)
 {
-    return mesh->dim == 3 ? find_gradients(mesh, 3, simplex, gradient)
-                          : find_gradients(mesh, mesh->dim, simplex, gradient);
+    if (mesh->dim != 3)
+        return find_gradients(mesh, mesh->dim, simplex, gradient);
+    const double volume = find_gradients_3(mesh, simplex, gradient);
+    return volume > 0 ? volume : find_gradients(mesh, 3, simplex, gradient);
 }
 
 double iccp_element_area(const iccp_simplices *mesh, size_t side)
 {
-    return mesh->dim == 3 ? find_area(mesh, 3, side) : find_area(mesh, mesh->dim, side);
+    return mesh->dim == 3 ? find_area_3(mesh, side) : find_area(mesh, mesh->dim, side);
 }
 
 double iccp_element_conductance(const iccp_simplices *mesh, size_t side)

@@ -10,7 +10,7 @@
 #include "domain/simplices.h"
 
 /* What enters through each facet of the domain, n_facets positive numbers that sum to 1:
- * `harmonic`, in [0,1), of it in proportion to the flux of the potential of the dual graph, the
+ * `harmonic`, in [0,1), of it in proportion to the flux of a potential that is about harmonic, the
  * rest to the area. ICC_OK, ICC_ERR_MEMORY, ICC_ERR_CANCELLED or, when doubles cannot do it,
  * ICC_ERR_SOLVER. */
 icc_status iccp_inflow(const iccp_simplices *mesh, uint32_t centre, double harmonic, double *inflow,

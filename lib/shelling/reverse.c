@@ -7,7 +7,7 @@
  * undone. */
 #include "shelling/reverse.h"
 
-#include "shelling/heap.h"
+#include "base/heap.h"
 
 #include <stdbool.h>
 #include <string.h>

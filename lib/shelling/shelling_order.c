@@ -18,9 +18,9 @@
  * at again before one of its neighbours went. */
 #include "shelling/shelling_order.h"
 
+#include "base/heap.h"
 #include "base/minmax.h"
 #include "shelling/element.h"
-#include "shelling/heap.h"
 
 #include <assert.h>
 #include <math.h>

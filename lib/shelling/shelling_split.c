@@ -38,7 +38,7 @@ static bool can_split(const iccp_simplices *mesh, size_t simplex, const double *
 static double depth_of(const icc_domain *domain, const double *point)
 {
     double bary[ICC_MAX_DIM], square;
-    (void)iccp_facet_tree_nearest(&domain->tree, point, bary, &square);
+    (void)iccp_facet_tree_nearest(iccp_domain_tree(domain), point, bary, &square);
     return square;
 }
 

@@ -1,44 +1,170 @@
 #include "shelling/stiffness.h"
 
+#include "base/minmax.h"
+#include "math/vec.h"
 #include "shelling/element.h"
 
 #include <math.h>
 
 #define NONE UINT32_MAX
 
-/* The gradients: a row for each component in each simplex, times the root of its volume. */
-static void fill_gradients(iccp_sparse *b, const iccp_simplices *mesh)
+/* Of the weight of an edge: a share of the geometric mean of its ends' diagonals. */
+static const double LEAST_WEIGHT = 0.02;
+
+/* What the matrix is made from: of every vertex the sides opposite to it, of every simplex the
+ * gradients times the root of its volume. */
+typedef struct assembly {
+    const iccp_simplices *mesh;
+    size_t *first;  /* n_points + 1: where the sides of each begin */
+    uint32_t *side; /* opposite to it, rising */
+    double *gradient;
+    uint32_t
+        *place; /* of each point: its entry in the row in the making, from the row's beginning */
+} assembly;
+
+/* Counting moves the beginning of each vertex's sides to its end, where the next one's begin. */
+static void list_sides(assembly *a)
 {
-    const size_t dim = mesh->dim, n_corners = dim + 1;
-    double gradient[(ICC_MAX_DIM + 1) * ICC_MAX_DIM];
-    size_t end = 0;
-    b->first[0] = 0;
+    const size_t n = a->mesh->n_points, n_sides = (a->mesh->dim + 1) * a->mesh->n_simplices;
+    for (size_t v = 0; v <= n; ++v)
+        a->first[v] = 0;
+    for (size_t s = 0; s < n_sides; ++s)
+        ++a->first[a->mesh->corners[s] + 1];
+    for (size_t v = 0; v < n; ++v)
+        a->first[v + 1] += a->first[v];
+    for (uint32_t s = 0; s < n_sides; ++s)
+        a->side[a->first[a->mesh->corners[s]]++] = s;
+    for (size_t v = n; v > 0; --v)
+        a->first[v] = a->first[v - 1];
+    a->first[0] = 0;
+}
+
+static icc_status prepare(assembly *a, const iccp_simplices *mesh, const iccp_env *env)
+{
+    const size_t dim = mesh->dim, n_sides = (dim + 1) * mesh->n_simplices;
+    *a = (assembly){.mesh = mesh};
+    a->first = iccp_alloc(&env->memory, mesh->n_points + 1, sizeof *a->first);
+    a->side = iccp_alloc(&env->memory, n_sides, sizeof *a->side);
+    a->gradient = iccp_alloc(&env->memory, n_sides, dim * sizeof *a->gradient);
+    a->place = iccp_alloc(&env->memory, mesh->n_points, sizeof *a->place);
+    if (a->first == NULL || a->side == NULL || a->gradient == NULL || a->place == NULL)
+        return ICC_ERR_MEMORY;
+    list_sides(a);
     for (size_t t = 0; t < mesh->n_simplices; ++t) {
+        double *gradient = a->gradient + dim * (dim + 1) * t;
         const double root = sqrt(iccp_element_gradients(mesh, t, gradient));
-        for (size_t k = 0; k < dim; ++k) {
-            for (size_t i = 0; i < n_corners; ++i) {
-                b->column[end] = mesh->corners[n_corners * t + i];
-                b->value[end++] = root * gradient[dim * i + k];
+        for (size_t k = 0; k < dim * (dim + 1); ++k)
+            gradient[k] *= root;
+    }
+    return ICC_OK;
+}
+
+static void discard(assembly *a, const iccp_env *env)
+{
+    iccp_free(&env->memory, a->first);
+    iccp_free(&env->memory, a->side);
+    iccp_free(&env->memory, a->gradient);
+    iccp_free(&env->memory, a->place);
+}
+
+/* How many neighbours vertex v has; a place tells by which vertex a point was met last. */
+static size_t count_neighbours(const assembly *a, uint32_t v)
+{
+    const size_t n_corners = a->mesh->dim + 1;
+    size_t n = 0;
+    a->place[v] = v;
+    for (size_t p = a->first[v]; p < a->first[v + 1]; ++p) {
+        const uint32_t *corner = a->mesh->corners + a->side[p] / n_corners * n_corners;
+        for (size_t i = 0; i < n_corners; ++i) {
+            n += a->place[corner[i]] != v;
+            a->place[corner[i]] = v;
+        }
+    }
+    return n;
+}
+
+/* A row: its columns in the order in which the simplices have them. A place that is not that of the
+ * column in this row is one of an earlier row. */
+static void fill_row(const assembly *a, iccp_gram *g, uint32_t v)
+{
+    const size_t dim = a->mesh->dim, n_corners = dim + 1, begin = g->first[v];
+    uint32_t n = 0;
+    g->diagonal[v] = 0;
+    for (size_t p = a->first[v]; p < a->first[v + 1]; ++p) {
+        const size_t first = a->side[p] / n_corners * n_corners;
+        const double *own = a->gradient + dim * a->side[p];
+        for (size_t s = first; s < first + n_corners; ++s) {
+            const uint32_t w = a->mesh->corners[s];
+            const double product = iccp_vec_dot(dim, own, a->gradient + dim * s);
+            if (w == v) {
+                g->diagonal[v] += product;
+                continue;
             }
-            b->first[dim * t + k + 1] = end;
+            if (a->place[w] >= n || g->column[begin + a->place[w]] != w) {
+                a->place[w] = n;
+                g->column[begin + n] = w;
+                g->value[begin + n++] = 0;
+            }
+            g->value[begin + a->place[w]] += product;
         }
     }
 }
 
+static icc_status assemble(const assembly *a, iccp_gram *g, const iccp_env *env)
+{
+    const size_t n = a->mesh->n_points;
+    g->first = iccp_alloc(&env->memory, n + 1, sizeof *g->first);
+    g->diagonal = iccp_alloc(&env->memory, n, sizeof *g->diagonal);
+    if (g->first == NULL || g->diagonal == NULL)
+        return ICC_ERR_MEMORY;
+    for (size_t v = 0; v < n; ++v)
+        a->place[v] = NONE;
+    g->first[0] = 0;
+    for (uint32_t v = 0; v < n; ++v)
+        g->first[v + 1] = g->first[v] + count_neighbours(a, v);
+    g->column = iccp_alloc(&env->memory, g->first[n], sizeof *g->column);
+    g->value = iccp_alloc(&env->memory, g->first[n], sizeof *g->value);
+    if (g->column == NULL || g->value == NULL)
+        return ICC_ERR_MEMORY;
+    for (uint32_t v = 0; v < n; ++v)
+        fill_row(a, g, v);
+    g->matrix = (iccp_symmetric){n, g->first, g->column, g->value, g->diagonal};
+    return ICC_OK;
+}
+
 icc_status iccp_stiffness_create(iccp_gram *gram, const iccp_simplices *mesh, const iccp_env *env)
 {
-    const size_t n_rows = mesh->dim * mesh->n_simplices;
-    iccp_sparse b;
-    icc_status status =
-        iccp_sparse_create(&b, n_rows, mesh->n_points, (mesh->dim + 1) * n_rows, env);
+    assembly a;
+    *gram = (iccp_gram){.memory = env->memory};
+    icc_status status = iccp_progress(env, "solve", 0);
+    if (status == ICC_OK) {
+        status = prepare(&a, mesh, env);
+        if (status == ICC_OK)
+            status = assemble(&a, gram, env);
+        discard(&a, env);
+    }
     if (status != ICC_OK)
-        return status;
-    fill_gradients(&b, mesh);
-    status = iccp_gram_create(gram, &b, env);
-    if (status == ICC_OK)
-        iccp_gram_fill(gram, &b, NULL);
-    iccp_sparse_free(&b);
+        iccp_gram_free(gram);
     return status;
+}
+
+icc_status iccp_stiffness_to_network(iccp_gram *gram, const iccp_env *env)
+{
+    const size_t n = gram->matrix.n;
+    double *sum = iccp_alloc_zero(&env->memory, n, sizeof *sum);
+    if (sum == NULL)
+        return ICC_ERR_MEMORY;
+    for (size_t v = 0; v < n; ++v)
+        for (size_t p = gram->first[v]; p < gram->first[v + 1]; ++p) {
+            const double ends = gram->diagonal[v] * gram->diagonal[gram->column[p]];
+            const double weight = iccp_max(-gram->value[p], LEAST_WEIGHT * sqrt(ends));
+            gram->value[p] = -weight;
+            sum[v] += weight;
+        }
+    for (size_t v = 0; v < n; ++v)
+        gram->diagonal[v] = sum[v];
+    iccp_free(&env->memory, sum);
+    return ICC_OK;
 }
 
 static size_t count_entries(const iccp_gram *gram, const uint32_t *row, size_t *n_rows)

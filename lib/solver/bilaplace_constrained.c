@@ -1,12 +1,16 @@
 /* An active set iteration is fast when it converges, and then exact up to rounding. When it does
  * not, an interior point method, which is slower and always converges, tells it where to begin. Far
  * from the root f is as small as the leaves' bounds, and what is active there shows only in the
- * last iterates of the latter; so the two take turns. */
+ * last iterates of the latter; so the two take turns.
+ *
+ * From the empty set it takes more steps the larger the grid is, and goes astray in the end. So it
+ * is told by coarser grids (nested.h) where to begin on large ones. */
 #include "base/clock.h"
 #include "base/minmax.h"
 #include "solver/bilaplace.h"
 #include "solver/inequalities.h"
 #include "solver/interior_point.h"
+#include "solver/nested.h"
 #include "solver/polish.h"
 
 #include <math.h>
@@ -21,6 +25,10 @@ static const double TARGETS[] = {1e-12, 1e-14, 1e-16, 1e-18, 0};
 
 /* A slack below this, relative to the parent or the bound, is equality. */
 static const double EQUAL = 1e-12;
+
+/* Unknowns from which on coarser grids pay, the most of the coarsest one, and steps of the active
+ * set afterwards. */
+enum { LARGE = 50000, COARSEST = 3000, STEPS = 8 };
 
 /* Runs the interior point method to one target after the other and tries the active set that each
  * iterate suggests: where the multiplier exceeds the slack. Ends with a residual that is good
@@ -38,28 +46,60 @@ static icc_status alternate_methods(const iccp_qp *qp, uint8_t *active, iccp_can
     for (size_t t = 0; status == ICC_OK && !stuck && candidate->residual > ENOUGH; ++t) {
         status = iccp_interior_point_run(&ip, TARGETS[t], &stuck, info, &part);
         for (size_t i = 0; i < iccp_qp_inequalities(qp); ++i)
-            active[i] = ip.multiplier[i] > ip.slack[i];
+            active[i] = ip.newton.multiplier[i] > ip.newton.slack[i];
         const iccp_env polishing = iccp_round(&part, ip.n_iterations, ICCP_INTERIOR_POINT_TYPICAL);
         if (status == ICC_OK)
-            status = iccp_polish(qp, active, ENOUGH, candidate, info, &polishing);
+            status = iccp_polish(qp, active, ENOUGH, ICCP_POLISH_MOST, candidate, info, &polishing);
     }
     info->n_iterations += ip.n_iterations;
     iccp_interior_point_free(&ip);
     return status;
 }
 
-static icc_status optimise(const iccp_qp *qp, iccp_candidate *candidate, icc_function_info *info,
-                           const iccp_env *env)
+/* From coarse to fine; then a few steps of the active set, which give the same function with those
+ * inequalities as equations that are active. When they lead elsewhere, the function stays as it
+ * is. */
+static icc_status start_coarse(const iccp_qp *qp, int32_t function, uint8_t *active,
+                               iccp_candidate *candidate, icc_function_info *info,
+                               const iccp_env *env)
+{
+    const size_t n = qp->unknowns->n;
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){9, 1}, env);
+    icc_status status =
+        iccp_nested(qp, function, COARSEST, ENOUGH, candidate, active, info, &part[0]);
+    if (status != ICC_OK || candidate->residual > GOOD)
+        return status;
+    iccp_candidate exact = {iccp_alloc(&env->memory, n, sizeof *exact.f), HUGE_VAL};
+    status = exact.f != NULL ? iccp_polish(qp, active, ENOUGH, STEPS, &exact, info, &part[1])
+                             : ICC_ERR_MEMORY;
+    if (status == ICC_OK && exact.residual <= GOOD) {
+        memcpy(candidate->f, exact.f, n * sizeof *exact.f);
+        candidate->residual = exact.residual;
+    }
+    iccp_free(&env->memory, exact.f);
+    return status;
+}
+
+/* Large problems from coarse to fine first; where that is not enough, and for small ones, the
+ * active set. */
+static icc_status optimise(const iccp_qp *qp, int32_t function, iccp_candidate *candidate,
+                           icc_function_info *info, const iccp_env *env)
 {
     const size_t m = iccp_qp_inequalities(qp);
     uint8_t *active = iccp_alloc_zero(&env->memory, m, sizeof *active);
     if (active == NULL)
         return ICC_ERR_MEMORY;
-    iccp_env part[2];
-    iccp_split(part, 2, (const double[]){1, 4}, env);
-    icc_status status = iccp_polish(qp, active, ENOUGH, candidate, info, &part[0]);
+    iccp_env part[3];
+    const bool is_large = qp->unknowns->n >= LARGE;
+    iccp_split(part, 3, (const double[]){is_large ? 5 : 0, 1, 4}, env);
+    icc_status status = ICC_OK;
+    if (is_large)
+        status = start_coarse(qp, function, active, candidate, info, &part[0]);
     if (status == ICC_OK && candidate->residual > GOOD)
-        status = alternate_methods(qp, active, candidate, info, &part[1]);
+        status = iccp_polish(qp, active, ENOUGH, ICCP_POLISH_MOST, candidate, info, &part[1]);
+    if (status == ICC_OK && candidate->residual > GOOD)
+        status = alternate_methods(qp, active, candidate, info, &part[2]);
     iccp_free(&env->memory, active);
     if (status != ICC_OK || candidate->residual <= ACCEPTABLE)
         return status;
@@ -142,7 +182,7 @@ icc_status iccp_bilaplace_constrained(const iccp_unknowns *unknowns, int32_t fun
                                 HUGE_VAL};
     status = candidate.f != NULL ? check_room(&qp, candidate.f, env) : ICC_ERR_MEMORY;
     if (status == ICC_OK)
-        status = optimise(&qp, &candidate, info, env);
+        status = optimise(&qp, function, &candidate, info, env);
     if (status == ICC_OK)
         status = sweep_and_report(&qp, &candidate, f, info, env);
     iccp_free(&env->memory, candidate.f);

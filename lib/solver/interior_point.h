@@ -2,31 +2,15 @@
 #ifndef ICCP_INTERIOR_POINT_H
 #define ICCP_INTERIOR_POINT_H
 
-#include "math/ldlt.h"
-#include "solver/qp.h"
+#include "solver/newton_qp.h"
 
 typedef struct iccp_interior_point {
-    iccp_memory memory;
-    const iccp_qp *qp;          /* borrowed */
-    double *f;                  /* per unknown; f_0 = 1 */
-    double *slack, *multiplier; /* per inequality; positive */
+    iccp_newton_qp newton;
     size_t n_iterations;
-    double remaining; /* share of the first iterate's residuals: each step takes its
-                         length off */
-    double softness;  /* see interior.c */
-    iccp_sparse b;    /* A above G, without the root's column */
-    iccp_gram gram;
-    iccp_ldlt factor;
-    double *weight;        /* per row of b */
-    double *dual, *primal; /* residuals: per unknown, per inequality */
-    double *product;       /* per inequality: slack * multiplier, less what is wanted */
-    double *step_f, *step_slack, *step_multiplier; /* as f, slack and multiplier */
-    double *force, *gap, *work; /* right-hand sides, and room for the longest of all these */
-    double *room;               /* what all these arrays lie in */
+    double remaining; /* share of the first iterate's residuals: each step takes its length off */
 } iccp_interior_point;
 
-/* Analyses the systems and finds a point to start from. Memory: that of the factor, about 20
- * doubles per unknown and 12 per inequality. */
+/* Analyses the systems and finds a point to start from. Memory: see newton_qp.h. */
 icc_status iccp_interior_point_create(iccp_interior_point *ip, const iccp_qp *qp,
                                       icc_function_info *info, const iccp_env *env);
 void iccp_interior_point_free(iccp_interior_point *ip);

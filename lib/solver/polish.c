@@ -20,8 +20,7 @@
 
 enum {
     PATIENCE = 20, /* corrections with neither a smaller residual nor fewer changes */
-    TRUST = 3,     /* of these are made in full */
-    MAX_CORRECTIONS = 1000
+    TRUST = 3      /* of these are made in full */
 };
 
 /* Slacks and multipliers are wrong below minus this part of `enough`. With all of it, a contact
@@ -204,12 +203,12 @@ static void let_rise(state *s)
 /* The best candidate is kept, whatever becomes of the set. Patience is for steps that neither find
  * a smaller residual nor fewer wrong inequalities than ever before; when some of it is used up,
  * only every other change is made, which breaks cycles. */
-static icc_status iterate(state *s, iccp_candidate *candidate, icc_function_info *info,
+static icc_status iterate(state *s, size_t most, iccp_candidate *candidate, icc_function_info *info,
                           const iccp_env *env)
 {
     int patience = PATIENCE;
     size_t fewest = SIZE_MAX;
-    for (int k = 0; k < MAX_CORRECTIONS && patience > 0; ++k) {
+    for (size_t k = 0; k < most && patience > 0; ++k) {
         double residual;
         const icc_status status = solve(s, &residual, info, env);
         if (status == ICC_ERR_SOLVER)
@@ -236,8 +235,8 @@ static icc_status iterate(state *s, iccp_candidate *candidate, icc_function_info
     return ICC_OK;
 }
 
-icc_status iccp_polish(const iccp_qp *qp, uint8_t *active, double enough, iccp_candidate *candidate,
-                       icc_function_info *info, const iccp_env *env)
+icc_status iccp_polish(const iccp_qp *qp, uint8_t *active, double enough, size_t most,
+                       iccp_candidate *candidate, icc_function_info *info, const iccp_env *env)
 {
     const size_t n = qp->unknowns->n, n_work = qp->a.n_rows + n; /* at least 2 n */
     state s = {.qp = qp, .n = n, .active = active};
@@ -256,7 +255,7 @@ icc_status iccp_polish(const iccp_qp *qp, uint8_t *active, double enough, iccp_c
         s.gradient = s.room + 3 * n;
         s.sum = s.room + 4 * n;
         s.work = s.room + 5 * n;
-        status = iterate(&s, candidate, info, env);
+        status = iterate(&s, most, candidate, info, env);
     }
     iccp_free(&env->memory, s.top);
     iccp_free(&env->memory, s.open);

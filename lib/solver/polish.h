@@ -4,6 +4,9 @@
 
 #include "solver/qp.h"
 
+/* Systems to solve at most when there is nothing else to try. */
+#define ICCP_POLISH_MOST 1000
+
 /* A function and how far it is from being the solution. */
 typedef struct iccp_candidate {
     double *f;       /* per unknown; f_0 = 1 */
@@ -11,10 +14,10 @@ typedef struct iccp_candidate {
 } iccp_candidate;
 
 /* Solves with those inequalities as equations that have active[i] != 0, and corrects this set,
- * which is overwritten, until nothing is wrong by more than `enough` or several corrections in a
- * row have not helped. Replaces the candidate by what is better. Adds to `info` (n_iterations,
- * work, seconds_*). */
-icc_status iccp_polish(const iccp_qp *qp, uint8_t *active, double enough, iccp_candidate *candidate,
-                       icc_function_info *info, const iccp_env *env);
+ * which is overwritten, until nothing is wrong by more than `enough`, several corrections in a row
+ * have not helped, or `most` systems have been solved. Replaces the candidate by what is better.
+ * Adds to `info` (n_iterations, work, seconds_*). */
+icc_status iccp_polish(const iccp_qp *qp, uint8_t *active, double enough, size_t most,
+                       iccp_candidate *candidate, icc_function_info *info, const iccp_env *env);
 
 #endif

@@ -540,6 +540,26 @@ static inline icc_status call_domain_create_mask(const objects *o, outcome *out,
     return status;
 }
 
+/* In the L: a hole, a line and a point. */
+static const icc_feature FEATURES[3] = {
+    {sizeof(icc_feature), ICC_FEATURE_HOLE, 3, (const double[]){0.2, 0.2, 0.2, 0.8, 0.8, 0.2}},
+    {sizeof(icc_feature), ICC_FEATURE_LINE, 2, (const double[]){1.5, 0.5, 2.5, 0.5}},
+    {sizeof(icc_feature), ICC_FEATURE_POINT, 1, (const double[]){0.5, 2}}};
+
+static inline icc_status call_domain_create_features(const objects *o, outcome *out,
+                                                     const icc_env *env, icc_error *err)
+{
+    (void)o;
+    icc_domain *domain = (icc_domain *)&domain;
+    const icc_status status =
+        icc_domain_create_features(&domain, N_CORNERS, SOURCE, 3, FEATURES, env, err);
+    HANDED_OVER(status, domain);
+    if (status == ICC_OK)
+        (void)icc_domain_get_boundary(domain, out->numbers, out->indices);
+    icc_domain_free(domain);
+    return status;
+}
+
 static inline icc_status call_domain_create_mesh(const objects *o, outcome *out, const icc_env *env,
                                                  icc_error *err)
 {
@@ -785,6 +805,7 @@ static const call CALLS[] = {
     {"icc_domain_create", call_domain_create},
     {"icc_domain_create_mask", call_domain_create_mask},
     {"icc_domain_create_mesh", call_domain_create_mesh},
+    {"icc_domain_create_features", call_domain_create_features},
     {"icc_domain_locate", call_domain_locate},
     {"icc_boundary_defects", call_boundary_defects},
     {"icc_chart_create", call_chart_create},

@@ -44,6 +44,8 @@ IS(ICC_ITEM_HANDLE, 11);
 IS(ICC_ITEM_EDGE, 12);
 IS(ICC_ITEM_LINE, 13);
 IS(ICC_ITEM_NODE, 14);
+IS(ICC_ITEM_FEATURE, 15);
+IS(ICC_ITEM_TIE, 16);
 
 IS(ICC_INSIDE, 1);
 IS(ICC_BOUNDARY, 2);
@@ -55,6 +57,9 @@ IS(ICC_DEFECT_SPIKE, 3);
 IS(ICC_DEFECT_CROSSING, 4);
 IS(ICC_DEFECT_TOUCH, 5);
 IS(ICC_DEFECT_FLAT, 6);
+IS(ICC_FEATURE_HOLE, 1);
+IS(ICC_FEATURE_LINE, 2);
+IS(ICC_FEATURE_POINT, 3);
 
 IS(ICC_METHOD_GRADIENT, 1);
 IS(ICC_METHOD_FOLIATION, 2);
@@ -132,7 +137,7 @@ AT(icc_env, parallel_for, 48);
 AT(icc_env, threads, 56);
 AT(icc_env, load_limit, 64);
 
-SIZE(icc_domain_info, 136);
+SIZE(icc_domain_info, 144);
 AT(icc_domain_info, size, 0);
 AT(icc_domain_info, dim, 8);
 AT(icc_domain_info, orientation, 12);
@@ -141,6 +146,21 @@ AT(icc_domain_info, n_facets, 24);
 AT(icc_domain_info, lower, 32);
 AT(icc_domain_info, upper, 80);
 AT(icc_domain_info, measure, 128);
+AT(icc_domain_info, n_features, 136);
+
+SIZE(icc_feature, 32);
+AT(icc_feature, size, 0);
+AT(icc_feature, kind, 8);
+AT(icc_feature, n_vertices, 16);
+AT(icc_feature, vertices, 24);
+
+SIZE(icc_feature_info, 40);
+AT(icc_feature_info, size, 0);
+AT(icc_feature_info, kind, 8);
+AT(icc_feature_info, orientation, 12);
+AT(icc_feature_info, first_vertex, 16);
+AT(icc_feature_info, n_vertices, 24);
+AT(icc_feature_info, first_facet, 32);
 
 SIZE(icc_chart_options, 56);
 AT(icc_chart_options, size, 0);
@@ -250,12 +270,22 @@ AT(icc_chart_report, uncovered, 32);
 AT(icc_chart_report, collapsed, 40);
 AT(icc_chart_report, not_inward, 48);
 
-SIZE(icc_map_options, 32);
+SIZE(icc_tie, 48);
+AT(icc_tie, size, 0);
+AT(icc_tie, vertex, 8);
+AT(icc_tie, n_source, 16);
+AT(icc_tie, source, 24);
+AT(icc_tie, n_target, 32);
+AT(icc_tie, target, 40);
+
+SIZE(icc_map_options, 48);
 AT(icc_map_options, size, 0);
 AT(icc_map_options, kind, 8);
 AT(icc_map_options, iterations, 12);
 AT(icc_map_options, chart, 16);
 AT(icc_map_options, target_maximum, 24);
+AT(icc_map_options, n_ties, 32);
+AT(icc_map_options, ties, 40);
 
 SIZE(icc_map_info, 144);
 AT(icc_map_info, size, 0);

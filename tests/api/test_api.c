@@ -797,6 +797,17 @@ static icc_status write_domain_info(const objects *o, void *info)
     return icc_domain_get_info(o->source, info);
 }
 
+static icc_status write_feature_info(const objects *o, void *info)
+{
+    icc_domain *domain;
+    (void)o;
+    ck_assert_int_eq(
+        icc_domain_create_features(&domain, N_CORNERS, SOURCE, 3, FEATURES, NULL, NULL), ICC_OK);
+    const icc_status status = icc_domain_get_feature(domain, 0, info);
+    icc_domain_free(domain);
+    return status;
+}
+
 static icc_status write_chart_info(const objects *o, void *info)
 {
     return icc_chart_get_info(o->chart, info);
@@ -924,6 +935,7 @@ START_TEST(infos_may_be_older_or_newer)
         writer write;
         size_t size;
     } WRITERS[] = {{write_domain_info, sizeof(icc_domain_info)},
+                   {write_feature_info, sizeof(icc_feature_info)},
                    {write_chart_info, sizeof(icc_chart_info)},
                    {write_measures, sizeof(icc_chart_report)},
                    {write_map_info, sizeof(icc_map_info)},

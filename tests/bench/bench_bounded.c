@@ -157,6 +157,7 @@ static void measure(const char *name, size_t n, const double *before, const doub
 
 static void measure_own(int n_more)
 {
+    random_source r = {1};
     const struct {
         const char *name;
         size_t n;
@@ -169,7 +170,10 @@ static void measure_own(int n_more)
         {"spiral 20", 962, spiral(20, 24, 0.4), circle(962)},
         {"spiral 50", 2402, spiral(50, 24, 0.4), circle(2402)},
         {"spiral 80", 2562, spiral(80, 16, 0.4), circle(2562)},
+        {"spiral 100", 4802, spiral(100, 24, 0.4), circle(4802)},
         {"spiral 200", 9602, spiral(200, 24, 0.4), circle(9602)},
+        {"spiral 300", 14402, spiral(300, 24, 0.4), circle(14402)},
+        {"spiral to coast", 9602, spiral(200, 24, 0.4), coast(9602, &r)},
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k)
         measure(cases[k].name, cases[k].n, cases[k].source, cases[k].target, n_more);

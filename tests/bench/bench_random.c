@@ -1,5 +1,5 @@
 /* Whether foliation and disc charts of random simple polygons are made and certified, alone and in
- * pairs, and how far points come back. Arguments: how many polygons, the first seed, and `-v` to
+ * pairs, and default maps of pairs with one step a level; and how far points come back. Arguments: how many polygons, the first seed, and `-v` to
  * print the polygon of each failure. */
 #include "random_polygons.h"
 
@@ -120,6 +120,27 @@ static void try_pair(tally *t, int method, const int kinds[2], uint64_t seed, co
     icc_map_free(map);
 }
 
+/* A default map, which has to be a mesh, and certified. */
+static void try_default(tally *t, const int kinds[2], uint64_t seed, const polygon *p,
+                        icc_domain *const domains[2])
+{
+    const icc_map_options options = {.size = sizeof options, .iterations = 1};
+    icc_map_info info = {.size = sizeof info};
+    icc_map *map;
+    icc_error error = {.size = sizeof error};
+    const double start = bench_seconds();
+    const icc_status status = icc_map_create(&map, domains[0], domains[1], &options, NULL, &error);
+    note_time(t, start);
+    if (status == ICC_OK)
+        (void)icc_map_get_info(map, &info);
+    if (status != ICC_OK || info.kind != ICC_MAP_MESH || info.certified != 1) {
+        ++t->n_failed;
+        report_failure("default map", kinds[0], seed, p, &error);
+    } else
+        try_points(t, seed, map, domains[0]);
+    icc_map_free(map);
+}
+
 static void print_tally(const char *name, const tally *t)
 {
     printf("%-20s %6zu %6zu %6zu %6zu %6zu  %6.2f %7.1f", name, t->n, t->n_failed, t->n_refined,
@@ -131,7 +152,7 @@ static void print_tally(const char *name, const tally *t)
 }
 
 typedef struct tallies {
-    tally charts[POLYGON_KINDS][N_METHODS], pairs[N_METHODS];
+    tally charts[POLYGON_KINDS][N_METHODS], pairs[N_METHODS], defaults;
     size_t n_not_drawn;
 } tallies;
 
@@ -152,6 +173,8 @@ static void try_seed(tallies *all, uint64_t seed)
         if (domains[0] != NULL && domains[1] != NULL)
             try_pair(&all->pairs[method], method, kinds, seed, &p[0], domains);
     }
+    if (domains[0] != NULL && domains[1] != NULL)
+        try_default(&all->defaults, kinds, seed, &p[0], domains);
     all->n_not_drawn += domains[0] == NULL;
     icc_domain_free(domains[0]);
     icc_domain_free(domains[1]);
@@ -180,5 +203,6 @@ int main(int argc, char **argv)
         }
     print_tally("foliation pairs", &all.pairs[0]);
     print_tally("disc pairs", &all.pairs[1]);
+    print_tally("default maps", &all.defaults);
     return EXIT_SUCCESS;
 }

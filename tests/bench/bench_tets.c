@@ -8,7 +8,7 @@
 #include "bench.h"
 #include "quality.h"
 
-enum { N_POINTS = 20000 };
+enum { N_POINTS = 20000, N_BUILDS = 3 };
 
 /* Of the processor, with one thread: what a quiet machine takes. */
 static double seconds(void)
@@ -166,11 +166,15 @@ static void run_pair(const char *source_path)
     icc_domain *target = make_domain(target_path, "bench_target");
     bench_check(icc_domain_get_info(source, &info[0]), NULL);
     bench_check(icc_domain_get_info(target, &info[1]), NULL);
-    icc_map *map;
-    const double start = seconds();
+    icc_map *map = NULL;
     const icc_map_options options = {.size = sizeof options, .kind = ICC_MAP_CURVES};
-    bench_check(icc_map_create(&map, source, target, &options, NULL, &err), &err);
-    f.build = seconds() - start;
+    f.build = HUGE_VAL;
+    for (int k = 0; k < N_BUILDS; ++k) {
+        icc_map_free(map);
+        const double start = seconds();
+        bench_check(icc_map_create(&map, source, target, &options, NULL, &err), &err);
+        f.build = fmin(f.build, seconds() - start);
+    }
     print_chart("source", icc_map_source_chart(map));
     print_chart("target", icc_map_target_chart(map));
     fill_points(source, &info[0]);

@@ -1,5 +1,7 @@
 /* Any bytes at all must give a cage of finite-sized arrays or a reason, and leak nothing. */
+#include "cage/cage_features.h"
 #include "cage/cage_read.h"
+#include "cage/cage_ties.h"
 
 #include <stdint.h>
 #include <stdlib.h>
@@ -14,6 +16,30 @@ static void require(bool fact)
         abort();
 }
 
+static bool is_message(const problem *wrong)
+{
+    return wrong->text[0] != '\0' && strpbrk(wrong->text, "\r\n") == NULL &&
+           strlen(wrong->text) < sizeof wrong->text;
+}
+
+/* Holes first, by their place; then lines and points by rising numbers, then ties likewise. */
+static void check_features(const cage *c, size_t size)
+{
+    size_t n_holes = cage_count(c, ICC_FEATURE_HOLE);
+    char text[120];
+    for (size_t i = 0; i < c->n_features; i++) {
+        const cage_feature *f = &c->features[i];
+        size_t least = f->kind == ICC_FEATURE_HOLE ? 3 : f->kind == ICC_FEATURE_LINE ? 2 : 1;
+        require(f->n >= least && f->points != NULL && f->line <= size + 1);
+        require((f->kind == ICC_FEATURE_HOLE) == (i < n_holes));
+        require(i >= n_holes || f->number == (int64_t)i + 1);
+        require(i <= n_holes || f->number > f[-1].number);
+    }
+    for (size_t i = 0; i < c->n_ties; i++)
+        require(c->ties[i].n >= 2 && (i == 0 || c->ties[i].number > c->ties[i - 1].number));
+    require(strlen(cage_inside_text(text, c)) < sizeof text);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     char *text = malloc(size + 1);
@@ -21,17 +47,29 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         return 0;
     memcpy(text, data, size);
     text[size] = '\0';
+    cage cages[2];
+    problem wrong = {.text = ""};
     for (int role = CAGE_SOURCE; role <= CAGE_TARGET; role++) {
-        cage c;
-        problem wrong = {.text = ""};
-        bool good = cage_read(&c, (cage_role)role, 2, text, size, &wrong);
-        require(good ? c.cells != NULL || c.n > c.dim : c.dim == 0 && c.points == NULL);
-        require(good || (wrong.text[0] != '\0' && strpbrk(wrong.text, "\r\n") == NULL));
-        require(strlen(wrong.text) < sizeof wrong.text);
-        for (size_t i = 0; i < c.n; i++)
-            require(c.lines[i] <= size + 1);
-        cage_free(&c);
+        cage *c = &cages[role == CAGE_TARGET];
+        wrong.text[0] = '\0';
+        bool good = cage_read(c, (cage_role)role, 2, text, size, &wrong);
+        require(good ? c->cells != NULL || c->n > c->dim : c->dim == 0 && c->points == NULL);
+        require(good || is_message(&wrong));
+        for (size_t i = 0; i < c->n; i++)
+            require(c->lines[i] <= size + 1);
+        check_features(c, size);
     }
+    int side;
+    if (cages[0].dim == 2 && cages[1].dim == 2 &&
+        !(features_correspond(&cages[0], &cages[1], &wrong) &&
+          ties_correspond(&cages[0], &cages[1], &side, &wrong)))
+        require(is_message(&wrong));
+    cage_is_named(CAGE_TARGET, text, size);
+    char message[64];
+    features_translate(message, sizeof message, &cages[0], text);
+    require(strlen(message) < sizeof message);
+    cage_free(&cages[0]);
+    cage_free(&cages[1]);
     free(text);
     return 0;
 }

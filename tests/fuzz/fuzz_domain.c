@@ -1,11 +1,11 @@
 /* Any bytes as a polygon: icc_domain_create() and icc_boundary_defects() must agree on it, and a
  * domain must find its own vertices and not contradict itself about other points.
  *
- * Byte 0 chooses how the rest is read. Small integers make degenerate polygons likely, a nudge by
- * one unit in the last place nearly degenerate ones, and raw doubles anything. */
+ * Byte 0 chooses how the rest is read: by coordinates.h, or as raw doubles, which may be anything. */
 #include "icc/icc.h"
 
-#include <math.h>
+#include "coordinates.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -19,22 +19,9 @@ static void require(int condition)
         abort();
 }
 
-static double small_integer(uint8_t byte)
-{
-    return (double)((int)(byte & 15) - 8);
-}
-
-static double nearly_integer(uint8_t byte)
-{
-    const double x = small_integer(byte) / 3;
-    return byte & 64 ? nextafter(x, byte & 128 ? 10 : -10) : x;
-}
-
 /* Two bytes or two doubles a vertex. */
 static size_t read_vertices(const uint8_t *data, size_t size, double *vertices)
 {
-    static const double scales[4] = {1, 1e300, 1e-310, 0x1p-40};
-    static const double offsets[4] = {0, 1e9, -0x1p50, 12345.678};
     const int mode = data[0];
     const size_t width = mode & 1 ? sizeof(double) : 1;
     size_t n = (size - 1) / (2 * width);
@@ -43,10 +30,8 @@ static size_t read_vertices(const uint8_t *data, size_t size, double *vertices)
         memcpy(vertices, data + 1, 2 * n * sizeof *vertices);
         return n;
     }
-    for (size_t i = 0; i < 2 * n; ++i) {
-        const double x = mode & 2 ? nearly_integer(data[1 + i]) : small_integer(data[1 + i]);
-        vertices[i] = x * scales[mode >> 2 & 3] + offsets[mode >> 4 & 3];
-    }
+    for (size_t i = 0; i < 2 * n; ++i)
+        vertices[i] = coordinate(mode, data[1 + i]);
     return n;
 }
 

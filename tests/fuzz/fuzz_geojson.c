@@ -18,27 +18,34 @@ static void require(bool fact)
         abort();
 }
 
-/* An L with a slanted image; made once and kept to the end of the program. */
+/* An L with a slanted image, without holes or with two; made once and kept to the end of the
+ * program. */
 typedef struct cages {
     icc_domain *domains[2];
     icc_map *map;
     carrier carrier;
 } cages;
 
-static const cages *make_cages(void)
+static const cages *make_cages(bool holes)
 {
     static const double corners[2][12] = {{0, 0, 10, 0, 10, 5, 5, 5, 5, 10, 0, 10},
                                           {0, 0, 12, 1, 12, 6, 6.5, 7, 5, 12, -1, 10}};
-    static cages c;
-    if (c.map != NULL)
-        return &c;
-    for (size_t side = 0; side < 2; side++)
-        require(icc_domain_create(&c.domains[side], 2, 6, corners[side], 0, NULL, NULL, NULL) ==
-                ICC_OK);
-    require(icc_map_create(&c.map, c.domains[0], c.domains[1], NULL, NULL, NULL) == ICC_OK);
-    require(carrier_start(&c.carrier, c.map, c.domains[0], c.domains[1], false, -1, NULL) ==
+    static const double rings[2][2][8] = {{{1, 1, 3, 1, 3, 3, 1, 3}, {6, 2, 6, 3, 8, 3, 8, 1}},
+                                          {{1, 1, 3, 1, 3, 3, 1, 3}, {7, 3, 7, 4, 9, 4, 9, 2}}};
+    static cages all[2];
+    cages *c = &all[holes];
+    if (c->map != NULL)
+        return c;
+    for (size_t side = 0; side < 2; side++) {
+        const icc_feature features[2] = {{sizeof *features, ICC_FEATURE_HOLE, 4, rings[side][0]},
+                                         {sizeof *features, ICC_FEATURE_HOLE, 4, rings[side][1]}};
+        require(icc_domain_create_features(&c->domains[side], 6, corners[side], holes ? 2 : 0,
+                                           features, NULL, NULL) == ICC_OK);
+    }
+    require(icc_map_create(&c->map, c->domains[0], c->domains[1], NULL, NULL, NULL) == ICC_OK);
+    require(carrier_start(&c->carrier, c->map, c->domains[0], c->domains[1], false, -1, NULL) ==
             ICC_OK);
-    return &c;
+    return c;
 }
 
 static char *write_result(geo_result *r, const char *text, size_t n, size_t *n_out)
@@ -72,7 +79,7 @@ static void check_result(geo_result *r, const char *text, size_t n)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    const cages *c = make_cages();
+    const cages *c = make_cages(size % 2 == 1);
     char *text = malloc(size + 1);
     if (text == NULL)
         return 0;

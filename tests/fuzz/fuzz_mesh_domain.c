@@ -24,8 +24,9 @@ static void give_facets(test_mesh *m)
     m->n_facets = domain->n_facets;
     m->facets = mesh_alloc(m->n_facets * (size_t)m->dim, sizeof *m->facets);
     for (size_t i = 0; i < m->n_facets * (size_t)m->dim; ++i) {
-        const double *x = domain->given + (size_t)m->dim * domain->facets[i];
+        double x[ICC_MAX_DIM];
         uint32_t v = 0;
+        iccp_domain_given(domain, domain->facets[i], x);
         while (memcmp(m->vertices + (size_t)m->dim * v, x, (size_t)m->dim * sizeof *x) != 0)
             ++v;
         m->facets[i] = v;

@@ -317,6 +317,36 @@ void asks_charts_and_domains()
           "too few cells");
 }
 
+void has_features()
+{
+    using icc::feature;
+    const std::vector<double> square{0, 0, 9, 0, 9, 9, 0, 9};
+    const icc::domain domain = icc::domain::with_features(
+        square, {feature::hole({1, 1, 1, 3, 3, 3}), feature::line({5, 5, 7, 5}), feature::point({2, 8})});
+    const icc_domain_info info = domain.info();
+    check(info.n_features == 3 && info.n_vertices == 10 && info.n_facets == 7 && info.measure > 78.9 &&
+              info.measure < 79.1,
+          "a domain with features");
+    const std::vector<icc_feature_info> features = domain.features();
+    check(features.size() == 3 && features[0].kind == ICC_FEATURE_HOLE && features[0].orientation == -1 &&
+              features[0].first_facet == 4 && features[1].kind == ICC_FEATURE_LINE &&
+              features[1].first_vertex == 7 && features[1].n_vertices == 2 &&
+              features[2].kind == ICC_FEATURE_POINT,
+          "its features");
+    check(domain.vertices()[19] > 7.9 && domain.facets().size() == 14, "its vertices");
+    check(domain.locate({1.5, 2.5, 6, 5}) == std::vector<std::int32_t>{ICC_OUTSIDE, ICC_INSIDE}, "its hole");
+    check(source.features().empty() && icc::domain::with_features(square, {}).info().n_features == 0,
+          "no features");
+    const icc::error refused =
+        thrown([&] { icc::domain::with_features(square, {feature::point({1, 1}), feature::point({9, 1})}); }, none);
+    check(refused.status == ICC_ERR_OUTSIDE && refused.index == 1 && refused.item == ICC_ITEM_FEATURE,
+          "a point on the boundary");
+    check(thrown([&] { icc::domain::with_features(square, {feature::line({1, 1, 2})}); }, none).status ==
+              ICC_ERR_ARGUMENT,
+          "half a vertex");
+    check(thrown([&] { icc::chart chart(domain); }, none).status == ICC_ERR_UNSUPPORTED, "no chart");
+}
+
 void saves()
 {
     const icc::map map(source, target);
@@ -344,5 +374,6 @@ int main()
     tells_statuses();
     makes_maps_of_maps();
     asks_charts_and_domains();
+    has_features();
     return n_failed != 0;
 }

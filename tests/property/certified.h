@@ -82,9 +82,12 @@ static inline void pick_inside(const subject *s, random_source *r, double p[2])
         double share = random_unit(r);
         const size_t a = (size_t)random_below(r, (int)d->n_vertices);
         const size_t b = (size_t)random_below(r, (int)d->n_vertices);
+        double from[2], to[2];
+        iccp_domain_given(d, a, from);
+        iccp_domain_given(d, b, to);
         for (size_t k = 0; k < 2; ++k)
             p[k] = tries < 50 ? random_between(r, s->shape.lower[k], s->shape.upper[k])
-                              : d->given[2 * a + k] * (1 - share) + d->given[2 * b + k] * share;
+                              : from[k] * (1 - share) + to[k] * share;
         if (is_inside(d, p))
             return;
         ck_assert_int_lt(tries, 100000);

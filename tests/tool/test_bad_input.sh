@@ -56,9 +56,9 @@ says 'libicc: source.txt:'
 # WKT.
 printf 'POLYGON ((0 0, 1 0, 1 1' | rejects 1: "')' is missing"
 printf 'POLYGON ((0 0,\n 1 zero, 1 1))' | rejects 2: "'zero,' is not a number"
-printf 'POLYGON ((0 0, 9 0, 9 9), (1 1, 2 1, 2 2))' | rejects 1: 'has a hole'
+printf 'POLYGON ((0 0, 9 0, 9 9),\n(1 1, 2 1, 1 1))' | rejects 2: 'hole 1 has 2 vertices'
 printf 'MULTIPOLYGON (((0 0, 9 0, 9 9)), ((0 0, 9 0, 9 9), (1 1, 2 1, 2 2)),\n((0 0, 1 1, 1 0)))' | rejects 1: '3 parts'
-printf 'MULTIPOLYGON (((0 0, 9 0, 9 9), (1 1, 2 1, 2 2)))' | rejects 1: 'has a hole'
+printf 'MULTIPOLYGON (((0 0, 9 0, 9 9), (1 1, 2 1, 2 2), (3 3)))' | rejects 1: 'hole 2 has 1 vertex;'
 printf 'MULTIPOLYGON (((0 0, 9 0, 9 9))' | rejects 1: "')' is missing"
 printf 'MULTIPOLYGON EMPTY' | rejects 1: 'is empty'
 printf 'MULTILINESTRING ((0 0, 1 1))' | rejects 1: 'a cage is a POLYGON'
@@ -73,7 +73,9 @@ printf 'POLYGON ((0 0, 1 0, 1 1)) POINT (1 1)' | rejects 1: 'more text behind'
 # GeoJSON.
 printf '{"type":"Polygon",\n"coordinates":[[[0,0],' | rejects 2: 'the JSON ends early'
 printf '{"type":"Polygon",\n"coordinates":[[[0,0] [1,1]]]}' | rejects 2: 'not valid JSON'
-printf '{"type":"Polygon","coordinates":[[[0,0],[1,0],[1,1]],[[0,0],[1,0],[1,1]]]}' | rejects ' ' '1 hole;'
+printf '{"type":"Polygon","coordinates":[[[0,0],[1,0],[1,1]],[[0,0],[1,0],[0,0]]]}' | rejects ' ' 'hole 1 has 2 vertices'
+printf '{"type":"Polygon","coordinates":[[[0,0],[9,0],[9,9]],[],[[0,0]]]}' | rejects ' ' 'hole 1 has 0 vertices'
+printf '{"type":"Polygon","coordinates":[[[0,0],[9,0],[9,9]],[[1,1],[2]]]}' | rejects ' ' 'vertex 1 of hole 1 is not a pair'
 printf '{"type":"MultiPolygon","coordinates":[[[[0,0],[1,0],[1,1]]],[[[0,0],[1,0],[1,1]]]]}' | rejects ' ' '2 parts'
 printf '{"type":"Polygon","coordinates":[[[0,0],[1,"a"],[1,1]]]}' | rejects ' ' 'vertex 1 is not a pair'
 printf '{"type":"Polygon","coordinates":[[[0,0],[1e999,0],[1,1]]]}' | rejects ' ' 'vertex 1 is not finite'
@@ -131,8 +133,9 @@ printf '<svg></svg>' | rejects ' ' 'no complete <path> or <polygon>'
 printf '<svg><path d="M0 0L1 0' | rejects ' ' 'no complete <path> or <polygon>'
 printf '<svg><path d="M0 0L1 0 1 1z"/><polygon points="0 0 1 0 1 1"/></svg>' | rejects ' ' '0 of the 2 shapes'
 printf '<svg>\n<path d="M0 0L1 0\n1 one z"/></svg>' | rejects 3: "'one'"
-printf '<svg><path d="M0 0L9 0 9 9zM1 1L2 1 2 2z"/></svg>' | rejects 1: 'continues after Z'
-printf '<svg><path d="M0 0L9 0 9 9M1 1L2 1 2 2z"/></svg>' | rejects 1: 'several parts'
+printf '<svg><path d="M0 0L9 0 9 9zL2 1 2 2z"/></svg>' | rejects 1: 'continues after Z'
+printf '<svg><path d="M0 0L9 0 9 9zz"/></svg>' | rejects 1: 'nothing to close'
+printf '<svg><path d="M0 0L9 0 9 9M1 1\nM2 1 2 2z"/></svg>' | rejects 1: 'hole 1 has 1 vertex;'
 printf '<svg><path d="M0 0A1 1 0 0 0 5 5z"/></svg>' | rejects 1: 'has an arc'
 printf '<svg><path d="L0 0 1 1 1 0"/></svg>' | rejects 1: 'does not begin with M'
 printf '<svg><path d="M0 0B1 1"/></svg>' | rejects 1: "'B' is not a command"

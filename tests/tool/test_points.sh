@@ -108,6 +108,46 @@ run 0 map -s source.txt -t target.txt -p points.txt -o nowhere.txt
 [ -L nowhere.txt ] || complain "the link to nowhere was replaced"
 same kept/later kept/images "through a link to nowhere"
 
+# The triangles of the map, as PROJ reads them: all the cage's vertices with their images, counter-clockwise before and
+# after, and both areas; whole or not at all.
+run 0 map -s source.txt -t target.txt -p points.txt --triangulation mesh.json
+cp out expected
+run 0 map -s source.txt -t target.txt --triangulation again.json </dev/null
+[ ! -s out ] || complain "no points, but images"
+same mesh.json again.json
+run 0 map -s source.txt -t target.txt -i -p target.txt --triangulation again.json
+same mesh.json again.json "the inverse"
+for member in '"file_type": "triangulation_file"' '"format_version": "1.1"' '"transformed_components": ["horizontal"]' \
+    '"fallback_strategy": "none"' '"vertices_columns": ["source_x", "source_y", "target_x", "target_y"]' \
+    '"triangles_columns": ["idx_vertex1", "idx_vertex2", "idx_vertex3"]'; do
+    holds mesh.json "$member"
+done
+tr -d '[],' <mesh.json | awk '
+    function area(x, y, i, j, k) { return ((x[j] - x[i]) * (y[k] - y[i]) - (x[k] - x[i]) * (y[j] - y[i])) / 2 }
+    BEGIN { n = 0 } /"vertices":/ { part = 1; next } /"triangles":/ { part = 2; next }
+    part == 1 && NF == 4 { x[n] = $1; y[n] = $2; u[n] = $3; v[n] = $4; n++ }
+    part == 2 && NF == 3 { a = area(x, y, $1, $2, $3); b = area(u, v, $1, $2, $3); before += a; after += b
+                           if (!(a > 0 && b > 0)) bad = 1 }
+    END { exit bad || before < 75 - 1e-9 || before > 75 + 1e-9 || after < 105 - 1e-9 || after > 105 + 1e-9 }' ||
+    complain "these are not the triangles of the map"
+paste -d ' ' source.txt target.txt | while read -r line; do
+    holds mesh.json "[$(echo "$line" | sed 's/ /, /g')]"
+done
+printf 'old\n' >mesh.json
+run 1 map -s source.txt -t target.txt -p some.txt --outside fail --triangulation mesh.json
+run 1 map -s source.txt -t target.txt -p nowhere --triangulation mesh.json
+run 2 map -s source.txt -t target.txt -p points.txt -m gradient --triangulation mesh.json
+says '--triangulation needs a map of kind mesh'
+run 2 map -s source.txt -t target.txt -p points.txt --triangulation -
+says '--triangulation goes to a file'
+run 2 map -s source.txt -t target.txt -p points.txt --triangulation mesh.png
+[ "$(cat mesh.json)" = old ] || complain "a triangulation was written where nothing should be"
+run 1 map -s source.txt -t target.txt -p points.txt --triangulation nowhere/mesh.json
+says 'libicc: nowhere/mesh.json: cannot be written'
+make_cubes
+run 1 map -s cube.obj -t moved.obj -p points.txt --triangulation mesh.json
+says '3 dimensions; --triangulation needs cages in the plane'
+
 # Threads and locale do not change a bit.
 awk 'BEGIN { for (i = 0; i < 3000; i++) printf "%.6f %.6f\n", (i * 0.618034) % 1 * 10, (i * 0.754878) % 1 * 10 }' >many.txt
 run 4 map -s source.txt -t target.txt -p many.txt -j 1

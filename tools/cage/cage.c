@@ -37,15 +37,6 @@ void cage_add_corner(cage *c, size_t k, uint32_t vertex, size_t line)
     c->fan[1] = vertex;
 }
 
-void cage_open_ring(cage *c)
-{
-    if (c->n < 2)
-        return;
-    const double *last = c->points + 2 * (c->n - 1);
-    if (last[0] == c->points[0] && last[1] == c->points[1])
-        c->n--;
-}
-
 void cage_free(cage *c)
 {
     free(c->points);
@@ -53,6 +44,12 @@ void cage_free(cage *c)
     free(c->facets);
     free(c->facet_lines);
     free(c->cells);
+    for (size_t i = 0; i < c->n_features; i++)
+        free(c->features[i].points);
+    for (size_t i = 0; i < c->n_ties; i++)
+        free(c->ties[i].points);
+    free(c->features);
+    free(c->ties);
     *c = (cage){0};
 }
 

@@ -3,18 +3,29 @@
  * In the plane a ring of vertices (text, GeoJSON, WKT, SVG), in space a closed surface (OBJ, OFF,
  * PLY); in 1 to 6 dimensions the mask of a solid (.npy). Nothing is re-wound or sorted, because
  * source and target correspond by index. In a ring a last vertex that repeats the first closes it
- * and is dropped. */
+ * and is dropped. Holes, lines and points inside a ring are kept apart from it. */
 #ifndef CAGE_H
 #define CAGE_H
 
 #include "base/say.h"
 
-#include <icc/base.h>
+#include <icc/icc.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
 typedef enum cage_role { CAGE_SOURCE = 1, CAGE_TARGET = 2 } cage_role;
+
+/* Something inside a cage in the plane. Kinds are those of icc_feature, and a tie. */
+enum { CAGE_TIE = 100 };
+
+typedef struct cage_feature {
+    int32_t kind;
+    int64_t number; /* a hole's among the holes, from 1; else what the file says */
+    size_t n;
+    double *points; /* 2 n */
+    size_t line;    /* of its first vertex, or 0 */
+} cage_feature;
 
 typedef struct cage {
     size_t dim;      /* coordinates of a vertex; 0: nothing has been read */
@@ -27,7 +38,11 @@ typedef struct cage {
     uint8_t *cells;            /* of a mask: one byte each, the first axis fastest; else NULL */
     size_t shape[ICC_MAX_DIM]; /* of a mask: cells along each axis */
     size_t n_heights;          /* vertices of a polygon whose further coordinates were left out */
-    size_t room_points, room_lines, room_facets, room_facet_lines;
+    size_t n_features;         /* inside a polygon; in this order they are the domain's */
+    cage_feature *features;
+    size_t n_ties;
+    cage_feature *ties; /* polylines from a vertex to a vertex */
+    size_t room_points, room_lines, room_facets, room_facet_lines, room_features;
     uint32_t fan[3]; /* of the face that is being read */
 } cage;
 
@@ -41,9 +56,6 @@ void cage_add(cage *c, double x, double y, size_t line);
 
 /* Adds corner `k` (from 0) of a face; from the third on each ends a triangle of its fan. */
 void cage_add_corner(cage *c, size_t k, uint32_t vertex, size_t line);
-
-/* Drops the last vertex if it repeats the first. */
-void cage_open_ring(cage *c);
 
 /* The name of a role: "source" or "target". */
 const char *cage_role_name(cage_role role);

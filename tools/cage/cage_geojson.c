@@ -1,12 +1,17 @@
-/* Cages as GeoJSON (RFC 7946): a Polygon, a Feature or a FeatureCollection.
+/* Cages as GeoJSON (RFC 7946): a Polygon, a Feature or a FeatureCollection. Rings behind the first
+ * are holes. In a FeatureCollection the property `role` says what belongs to which cage: "source"
+ * and "target" Polygons, Points and LineStrings, these paired by an integer property `feature`, and
+ * LineStrings "source-tie" and "target-tie" with numbers of their own.
  *
  * A ring that is not closed is taken as it is, like one in text. */
 #include "cage/cage_readers.h"
 
 #include "base/foreign.h"
 #include "base/json_in.h"
+#include "cage/cage_features.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 static const char *type_of(const cJSON *object)
@@ -29,34 +34,50 @@ static bool is_foreign(const cJSON *object, problem *wrong)
     return false;
 }
 
-static bool read_position(cage *out, const cJSON *position, problem *wrong)
+/* What is being read, for messages: "", or like " of line 7". */
+typedef const char *place;
+
+static bool read_position(cage *out, const cJSON *position, size_t number, place of, problem *wrong)
 {
     const cJSON *x = cJSON_GetArrayItem(position, 0), *y = cJSON_GetArrayItem(position, 1);
     if (!cJSON_IsArray(position) || !cJSON_IsNumber(x) || !cJSON_IsNumber(y))
-        return spoilt(wrong, 0, "vertex %zu is not a pair of numbers [x, y]", out->n);
+        return spoilt(wrong, 0, "vertex %zu%s is not a pair of numbers [x, y]", number, of);
     out->n_heights += cJSON_GetArraySize(position) > 2;
     if (!isfinite(x->valuedouble) || !isfinite(y->valuedouble))
-        return spoilt(wrong, 0, "vertex %zu is not finite", out->n);
+        return spoilt(wrong, 0, "vertex %zu%s is not finite", number, of);
     cage_add(out, x->valuedouble, y->valuedouble, 0);
     return true;
 }
 
+static bool read_positions(cage *out, const cJSON *list, place of, problem *wrong)
+{
+    const cJSON *position;
+    size_t n = 0;
+    cJSON_ArrayForEach(position, list)
+    {
+        if (!read_position(out, position, n++, of, wrong))
+            return false;
+    }
+    return true;
+}
+
+/* The outer ring, then the holes. */
 static bool read_rings(cage *out, const cJSON *rings, problem *wrong)
 {
     if (!cJSON_IsArray(rings) || cJSON_GetArraySize(rings) == 0)
         return spoilt(wrong, 0, "the polygon has no coordinates");
-    if (cJSON_GetArraySize(rings) > 1)
-        return spoilt(wrong, 0,
-                      "the polygon has %d hole%s; cut it open into parts without holes and "
-                      "make one map per part",
-                      cJSON_GetArraySize(rings) - 1, cJSON_GetArraySize(rings) > 2 ? "s" : "");
-    const cJSON *position;
-    cJSON_ArrayForEach(position, cJSON_GetArrayItem(rings, 0))
+    const cJSON *ring;
+    size_t n = 0;
+    cJSON_ArrayForEach(ring, rings)
     {
-        if (!read_position(out, position, wrong))
+        char of[40] = "";
+        if (n > 0)
+            snprintf(of, sizeof of, " of hole %zu", n);
+        size_t first = out->n;
+        if (!read_positions(out, ring, of, wrong) || !cage_end_ring(out, first, wrong))
             return false;
+        n++;
     }
-    cage_open_ring(out);
     return true;
 }
 
@@ -76,14 +97,83 @@ static bool read_geometry(cage *out, const cJSON *geometry, problem *wrong)
     return spoilt(wrong, 0, "the geometry is a '%s'; a cage is a Polygon", quoted(shown, type));
 }
 
-static bool has_role(const cJSON *feature, cage_role role)
+/* Whether a feature has the role "source" or "target", or with `behind` "-tie" that of a tie. */
+static bool has_role(const cJSON *feature, cage_role role, const char *behind)
 {
     const cJSON *properties = json_get(feature, "properties");
-    const char *value = cJSON_GetStringValue(json_get(properties, "role"));
-    return value != NULL && strcmp(value, cage_role_name(role)) == 0;
+    const char *value = cJSON_GetStringValue(json_get(properties, "role")),
+               *name = cage_role_name(role);
+    size_t n = strlen(name);
+    return value != NULL && strncmp(value, name, n) == 0 && strcmp(value + n, behind) == 0;
 }
 
-/* The feature with the role, else the only one. */
+enum { IS_CAGE = 0, IS_UNKNOWN = -1 };
+
+static const cJSON *number_of(const cJSON *feature)
+{
+    return json_get(json_get(feature, "properties"), "feature");
+}
+
+/* What a feature with a role is: an ICC_FEATURE_*, or the cage. What has a number is no cage. */
+static int32_t kind_of(const cJSON *feature)
+{
+    const char *type = type_of(json_get(feature, "geometry"));
+    bool numbered = number_of(feature) != NULL && strstr(type, "Polygon") == NULL;
+    return strcmp(type, "LineString") == 0 ? ICC_FEATURE_LINE
+           : strcmp(type, "Point") == 0    ? ICC_FEATURE_POINT
+           : numbered                      ? IS_UNKNOWN
+                                           : IS_CAGE;
+}
+
+/* A Point, a LineString or a tie, with the number that pairs it. */
+static bool read_feature(cage *out, int32_t kind, const cJSON *feature, problem *wrong)
+{
+    const double most = 9007199254740992; /* 2^53 */
+    const cJSON *number = number_of(feature);
+    const cJSON *coordinates = json_get(json_get(feature, "geometry"), "coordinates");
+    const char *type = type_of(json_get(feature, "geometry"));
+    char shown[32], of[64];
+    if (!cJSON_IsNumber(number) || !(fabs(number->valuedouble) <= most) ||
+        floor(number->valuedouble) != number->valuedouble)
+        return spoilt(wrong, 0,
+                      "a %s with a role has no whole number as its property \"feature\", which "
+                      "pairs it",
+                      quoted(shown, type));
+    cage_feature named = {.kind = kind, .number = (int64_t)number->valuedouble};
+    feature_text name;
+    size_t first = out->n;
+    snprintf(of, sizeof of, " of %s", feature_name(name, &named));
+    if (kind == IS_UNKNOWN)
+        return spoilt(wrong, 0, "feature %lld is a '%s'; it may be a Point or a LineString",
+                      (long long)named.number, quoted(shown, type));
+    if (kind == CAGE_TIE && strcmp(type, "LineString") != 0)
+        return spoilt(wrong, 0, "%s is a '%s'; a tie is a LineString", name, quoted(shown, type));
+    if (!(kind == ICC_FEATURE_POINT ? read_position(out, coordinates, 0, of, wrong)
+                                    : read_positions(out, coordinates, of, wrong)))
+        return false;
+    if (kind != ICC_FEATURE_POINT && out->n - first < 2)
+        return spoilt(wrong, 0, "%s has %zu %s; a line has at least 2", name, out->n - first,
+                      out->n - first == 1 ? "vertex" : "vertices");
+    cage_add_feature(out, kind, named.number, first);
+    return true;
+}
+
+/* The features inside the cage, and the ties. */
+static bool read_features(cage *out, cage_role role, const cJSON *collection, problem *wrong)
+{
+    const cJSON *feature;
+    cJSON_ArrayForEach(feature, json_get(collection, "features"))
+    {
+        bool tie = has_role(feature, role, "-tie");
+        int32_t kind = tie ? CAGE_TIE : has_role(feature, role, "") ? kind_of(feature) : IS_CAGE;
+        if (kind != IS_CAGE && !read_feature(out, kind, feature, wrong))
+            return false;
+    }
+    return true;
+}
+
+/* The feature that is the cage: of those with the role the one that is no line or point, else the
+ * only one of all. */
 static const cJSON *choose_feature(const cJSON *collection, cage_role role, problem *wrong)
 {
     const cJSON *features = json_get(collection, "features");
@@ -91,7 +181,7 @@ static const cJSON *choose_feature(const cJSON *collection, cage_role role, prob
     int n_chosen = 0;
     cJSON_ArrayForEach(feature, features)
     {
-        if (has_role(feature, role)) {
+        if (has_role(feature, role, "") && kind_of(feature) == IS_CAGE) {
             chosen = feature;
             n_chosen++;
         }
@@ -100,7 +190,8 @@ static const cJSON *choose_feature(const cJSON *collection, cage_role role, prob
         return cJSON_GetArrayItem(features, 0);
     if (n_chosen != 1) {
         spoilt(wrong, 0,
-               "%s of the %d features has the property \"role\": \"%s\"; exactly one must",
+               "%s of the %d features is a Polygon with the property \"role\": \"%s\"; exactly one "
+               "must be",
                n_chosen == 0 ? "none" : "more than one", cJSON_GetArraySize(features),
                cage_role_name(role));
         return NULL;
@@ -112,14 +203,28 @@ static bool read_object(cage *out, cage_role role, const cJSON *object, problem 
 {
     if (is_foreign(object, wrong))
         return false;
+    const cJSON *collection = NULL;
     if (strcmp(type_of(object), "FeatureCollection") == 0) {
-        object = choose_feature(object, role, wrong);
+        collection = object;
+        object = choose_feature(collection, role, wrong);
         if (object == NULL)
             return false;
     }
     if (strcmp(type_of(object), "Feature") == 0)
         object = json_get(object, "geometry");
-    return read_geometry(out, object, wrong);
+    return read_geometry(out, object, wrong) && read_features(out, role, collection, wrong);
+}
+
+bool cage_geojson_has(cage_role role, const char *text, size_t n)
+{
+    problem ignored;
+    cJSON *object = json_parse(text, n, &ignored);
+    const cJSON *feature;
+    bool found = false;
+    cJSON_ArrayForEach(feature, json_get(object, "features")) found =
+        found || has_role(feature, role, "");
+    cJSON_Delete(object);
+    return found;
 }
 
 bool cage_read_geojson(cage *out, cage_role role, const char *text, size_t n, problem *wrong)

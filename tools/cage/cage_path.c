@@ -1,10 +1,12 @@
-/* The data of an SVG path: one subpath of M L H V C S Q T Z, absolute or relative.
+/* The data of an SVG path: subpaths of M L H V C S Q T Z, absolute or relative, the first of which
+ * is the outline and the others are holes.
  *
  * Each curve becomes CURVE_SEGMENTS edges at equal steps of its parameter, whatever its size: so
  * the same path with moved points gives the same number of vertices, and they correspond. */
 #include "cage/cage_readers.h"
 
 #include "base/number.h"
+#include "cage/cage_features.h"
 
 #include <string.h>
 
@@ -14,7 +16,10 @@ typedef struct pen {
     cage *out;
     const char *at, *end;
     size_t line;
+    size_t first;              /* vertex of the subpath */
+    bool closed;               /* nothing has been drawn since Z */
     double x, y;               /* where the pen is */
+    double start_x, start_y;   /* of the subpath */
     double handle_x, handle_y; /* the last control point of a curve, else where the pen is */
     problem *wrong;
 } pen;
@@ -99,6 +104,10 @@ static void draw(pen *p, char command, char previous, const double *v)
     double mx = 2 * p->x - p->handle_x, my = 2 * p->y - p->handle_y;
     switch (command) {
     case 'M':
+        p->start_x = v[0];
+        p->start_y = v[1];
+        line_to(p, v[0], v[1]);
+        break;
     case 'L':
         line_to(p, v[0], v[1]);
         break;
@@ -130,6 +139,18 @@ static void make_absolute(const pen *p, char command, size_t n, double *v)
         v[i] += command == 'V' || (command != 'H' && i % 2 == 1) ? p->y : p->x;
 }
 
+/* The next subpath begins behind the vertices that the cage has then; relative commands go on from
+ * where this one began. */
+static bool end_subpath(pen *p)
+{
+    bool good = cage_end_ring(p->out, p->first, p->wrong);
+    p->first = p->out->n;
+    p->closed = true;
+    p->x = p->handle_x = p->start_x;
+    p->y = p->handle_y = p->start_y;
+    return good;
+}
+
 /* One command with all the groups of numbers that follow it. */
 static bool read_command(pen *p, char letter, char *previous)
 {
@@ -141,11 +162,14 @@ static bool read_command(pen *p, char letter, char *previous)
     if (n == 0)
         return spoilt(p->wrong, p->line, "'%c' is not a command of a path",
                       letter > 32 && letter < 127 ? letter : '?');
-    if ((command == 'M') != (p->out->n == 0))
+    if (command != 'M' && p->closed)
         return spoilt(p->wrong, p->line,
                       p->out->n == 0
                           ? "the path does not begin with M"
-                          : "the path has several parts; a cage is one outline without holes");
+                          : "the path continues after Z without M; a hole begins with M");
+    if (command == 'M' && !p->closed && !end_subpath(p))
+        return false;
+    p->closed = false;
     bool relative = letter >= 'a';
     do {
         double v[6];
@@ -163,20 +187,15 @@ static bool read_command(pen *p, char letter, char *previous)
 
 bool cage_read_path(cage *out, const char *data, const char *end, size_t line, problem *wrong)
 {
-    pen p = {.out = out, .at = data, .end = end, .line = line, .wrong = wrong};
+    pen p = {.out = out, .at = data, .end = end, .line = line, .closed = true, .wrong = wrong};
     char previous = '\0';
     for (skip_separators(&p); p.at < p.end; skip_separators(&p)) {
         char letter = *p.at++;
-        if (letter != 'Z' && letter != 'z') {
-            if (!read_command(&p, letter, &previous))
-                return false;
-            continue;
-        }
-        skip_separators(&p);
-        if (p.at < p.end)
-            return spoilt(wrong, p.line,
-                          "the path continues after Z; a cage is one outline without holes");
+        bool ends = letter == 'Z' || letter == 'z';
+        if (ends && p.closed)
+            return spoilt(wrong, p.line, "the path has a Z where there is nothing to close");
+        if (!(ends ? end_subpath(&p) : read_command(&p, letter, &previous)))
+            return false;
     }
-    cage_open_ring(out);
-    return true;
+    return p.closed || end_subpath(&p);
 }

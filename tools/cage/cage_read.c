@@ -2,6 +2,7 @@
 #include "cage/cage_read.h"
 
 #include "base/foreign.h"
+#include "cage/cage_features.h"
 #include "cage/cage_readers.h"
 
 #include <string.h>
@@ -57,16 +58,27 @@ static bool has_faces(const cage *c, problem *wrong)
            spoilt(wrong, 0, "there are no faces; a cage in space is a closed surface");
 }
 
+/* Behind a mark of UTF-8 and white space. */
+static const char *first_word(const char *text, size_t n)
+{
+    const char *p = text;
+    if (n >= 3 && memcmp(p, "\xef\xbb\xbf", 3) == 0)
+        p += 3;
+    return p + strspn(p, " \t\r\n");
+}
+
+static bool is_json(const char *p)
+{
+    return *p == '{' || *p == '[';
+}
+
 /* The first bytes decide the kind of a cage, never the file's name: standard input has
  * none. Known formats that cannot be read are named first; plain coordinates, which begin with
  * anything, come last. */
 static bool read_any(cage *out, cage_role role, size_t dim, const char *text, size_t n,
                      problem *wrong)
 {
-    const char *p = text;
-    if (n >= 3 && memcmp(p, "\xef\xbb\xbf", 3) == 0)
-        p += 3;
-    p += strspn(p, " \t\r\n");
+    const char *p = first_word(text, n);
     if (foreign_told(text, n, wrong))
         return false;
     if (strncmp(p, "# vtk DataFile", 14) == 0 || strncmp(p, "MeshVersion", 11) == 0)
@@ -78,7 +90,7 @@ static bool read_any(cage *out, cage_role role, size_t dim, const char *text, si
     if (n >= 6 && memcmp(text, "\x93NUMPY", 6) == 0)
         return cage_read_npy(out, text, n, wrong);
     out->dim = 2;
-    if (*p == '{' || *p == '[')
+    if (is_json(p))
         return cage_read_geojson(out, role, text, n, wrong);
     if (*p == '<')
         return cage_read_svg(out, role, text, n, wrong);
@@ -93,10 +105,17 @@ bool cage_read(cage *out, cage_role role, size_t dim, const char *text, size_t n
     *out = (cage){0};
     bool good = read_any(out, role, dim, text, n, wrong);
     size_t least = out->dim + 1;
+    good = good && cage_sort_features(out, wrong);
     if (good && out->cells == NULL && out->n < least)
         good = spoilt(wrong, 0, "%zu %s; a cage has at least %zu", out->n,
                       out->n == 1 ? "vertex" : "vertices", least);
     if (!good)
         cage_free(out);
     return good;
+}
+
+bool cage_is_named(cage_role role, const char *text, size_t n)
+{
+    const char *p = first_word(text, n);
+    return is_json(p) ? cage_geojson_has(role, text, n) : *p == '<' && cage_svg_has(role, text);
 }

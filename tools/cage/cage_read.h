@@ -10,4 +10,7 @@
  * they are vertices without facets. False: see `wrong`, and `out` is empty. */
 bool cage_read(cage *out, cage_role role, size_t dim, const char *text, size_t n, problem *wrong);
 
+/* Whether the file names a shape with the role, so that it holds this cage for sure. */
+bool cage_is_named(cage_role role, const char *text, size_t n);
+
 #endif

@@ -8,6 +8,11 @@ bool cage_read_text(cage *out, size_t dim, const char *text, size_t n, problem *
 bool cage_read_geojson(cage *out, cage_role role, const char *text, size_t n, problem *wrong);
 bool cage_read_wkt(cage *out, const char *text, size_t n, problem *wrong);
 bool cage_read_svg(cage *out, cage_role role, const char *text, size_t n, problem *wrong);
+
+/* Whether something in the file has the role. */
+bool cage_geojson_has(cage_role role, const char *text, size_t n);
+bool cage_svg_has(cage_role role, const char *text);
+
 bool cage_read_npy(cage *out, const char *text, size_t n, problem *wrong);
 
 /* OBJ, OFF and PLY. Faces with more than three corners become fans of triangles. */

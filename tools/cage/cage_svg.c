@@ -7,6 +7,7 @@
 #include "cage/cage_readers.h"
 
 #include "base/number.h"
+#include "cage/cage_features.h"
 
 #include <string.h>
 
@@ -166,8 +167,12 @@ static bool read_polygon(cage *out, const char *p, const char *end, size_t line,
     }
     if (n % 2 == 1)
         return spoilt(wrong, line, "the polygon's last vertex lacks its y");
-    cage_open_ring(out);
-    return true;
+    return cage_end_ring(out, 0, wrong);
+}
+
+bool cage_svg_has(cage_role role, const char *text)
+{
+    return find_shape(text, role).n_chosen > 0;
 }
 
 bool cage_read_svg(cage *out, cage_role role, const char *text, size_t n, problem *wrong)

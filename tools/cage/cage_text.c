@@ -1,4 +1,5 @@
 /* Cages as text: one vertex per line. */
+#include "cage/cage_features.h"
 #include "cage/cage_readers.h"
 
 #include "base/table.h"
@@ -19,7 +20,5 @@ bool cage_read_text(cage *out, size_t dim, const char *text, size_t n, problem *
     for (size_t i = 0; good && i < rows.n; i++)
         cage_add_point(out, rows.values + dim * i, rows.lines[i]);
     table_free(&rows);
-    if (dim == 2)
-        cage_open_ring(out);
-    return good;
+    return good && (dim != 2 || cage_end_ring(out, 0, wrong));
 }

@@ -1,9 +1,10 @@
-/* Cages as well-known text: POLYGON ((x y, x y, ...)), or a MULTIPOLYGON of one part, with or
- * without SRID=...; in front. Heights and measures (Z, M, ZM, or just more numbers) are left out.
+/* Cages as well-known text: POLYGON ((x y, x y, ...), (..), ..), the holes behind the outer ring, or
+ * a MULTIPOLYGON of one part, with or without SRID=...; in front. Heights and measures (Z, M, ZM, or just more numbers) are left out.
  */
 #include "cage/cage_readers.h"
 
 #include "base/number.h"
+#include "cage/cage_features.h"
 
 #include <string.h>
 
@@ -13,6 +14,8 @@ typedef struct reader {
     problem *wrong;
     size_t n_numbers; /* of each vertex; 0: as many as the first has */
     bool several;     /* a MULTIPOLYGON */
+    size_t line;      /* of `counted` */
+    const char *counted;
 } reader;
 
 static const char blanks[] = " \t\r\n";
@@ -88,18 +91,17 @@ static bool read_ring(reader *r, cage *out)
 {
     if (!expect(r, '('))
         return false;
-    size_t line = 1;
-    const char *counted = r->text;
+    size_t first = out->n;
     do {
         double xy[2];
         if (!read_vertex(r, xy))
             return false;
-        line += line_of(counted, r->at) - 1;
-        counted = r->at;
-        cage_add(out, xy[0], xy[1], line);
+        r->line += line_of(r->counted, r->at) - 1;
+        r->counted = r->at;
+        cage_add(out, xy[0], xy[1], r->line);
         out->n_heights += r->n_numbers > 2;
     } while (next_is(r, ','));
-    return expect(r, ')');
+    return expect(r, ')') && cage_end_ring(out, first, r->wrong);
 }
 
 /* Up to the first bracket: PostGIS' SRID, which is passed over, [MULTI]POLYGON, and Z, M or ZM,
@@ -146,18 +148,18 @@ static size_t count_parts(const char *p)
 
 static bool read_polygon(reader *r, cage *out)
 {
-    if (!expect(r, '(') || !read_ring(r, out))
+    if (!expect(r, '('))
         return false;
-    if (next_is(r, ','))
-        return spoilt(r->wrong, line_of(r->text, r->at),
-                      "the polygon has a hole; cut it open into parts "
-                      "without holes and make one map per part");
+    do {
+        if (!read_ring(r, out))
+            return false;
+    } while (next_is(r, ','));
     return expect(r, ')');
 }
 
 bool cage_read_wkt(cage *out, const char *text, size_t n, problem *wrong)
 {
-    reader r = {.text = text, .at = text, .wrong = wrong};
+    reader r = {.text = text, .at = text, .wrong = wrong, .line = 1, .counted = text};
     if (n >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0)
         r.at += 3;
     r.at += strspn(r.at, blanks);
@@ -174,6 +176,5 @@ bool cage_read_wkt(cage *out, const char *text, size_t n, problem *wrong)
     r.at += strspn(r.at, blanks);
     if (r.at != text + n)
         return spoilt(wrong, line_of(text, r.at), "there is more text behind the polygon");
-    cage_open_ring(out);
     return true;
 }

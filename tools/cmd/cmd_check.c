@@ -32,10 +32,11 @@ static int certify(check *c)
         return result;
     c->certified = true;
     for (size_t side = 0; side < (pair ? 2 : 1); side++) {
-        c->charts[side] = chart_facts_of(!pair       ? c->job.chart
-                                         : side == 0 ? icc_map_source_chart(c->job.map)
-                                                     : icc_map_target_chart(c->job.map));
-        c->certified = c->certified && c->charts[side].common.certified;
+        const icc_chart *chart = !pair       ? c->job.chart
+                                 : side == 0 ? icc_map_source_chart(c->job.map)
+                                             : icc_map_target_chart(c->job.map);
+        c->charts[side] = chart_facts_of(chart);
+        c->certified = c->certified && (chart == NULL || c->charts[side].common.certified);
     }
     if (!pair)
         return DONE;
@@ -91,6 +92,8 @@ static int check_options(const check *c)
         return failed(a->source, 0,
                       "--repair is for cages in the plane, and for surfaces and masks without a "
                       "target");
+    if (a->repair != NULL && c->job.cages[0].n_features > 0)
+        return failed(a->source, 0, "--repair is for cages without holes, lines or points inside");
     return output_fits(a->command, a->boundary, job_dim(&c->job) == 3 ? "text, OBJ" : "text") ==
                    DONE
                ? output_fits(a->command, a->repair, repaired_formats(c))

@@ -4,6 +4,7 @@
 #include "base/allocate.h"
 #include "geo/geo_carry.h"
 #include "job/job.h"
+#include "job/triangulation.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -98,6 +99,8 @@ static int finish(const job *j, geo_result *r, const char *text, size_t n, doubl
             in, 0,
             "would be overwritten, and not all of it can be carried: %s; write to another file",
             names);
+    if (result == DONE)
+        result = triangulation_write(j);
     outfile file;
     if (result != DONE || !outfile_open(&file, to))
         return FAILED;

@@ -52,8 +52,11 @@ static int examine_function(info *x, const stages *s)
 static int gather(info *x)
 {
     job *j = &x->job;
+    int result = job_read_cages(j);
+    if (result != DONE)
+        return result;
     bool pair = j->args->target != NULL;
-    int result = pair ? job_make_map(j) : job_make_chart(j);
+    result = pair ? job_make_map(j) : job_make_chart(j);
     if (result != DONE)
         return result;
     const icc_chart *chart = pair ? icc_map_source_chart(j->map) : j->chart;

@@ -3,6 +3,7 @@
 
 #include "base/allocate.h"
 #include "job/point_file.h"
+#include "job/triangulation.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -45,7 +46,9 @@ static int write_points(job *j, const table *points, double *images, const icc_s
     if (n_failed > 0 && (j->args->outside == OUTSIDE_FAIL || file_is_same(j->args->points, out)))
         return refuse(j, points, status, n_failed);
     settle_outside(j, points, images, status);
-    int result = rows_write(out, points->n, points->columns, images);
+    int result = triangulation_write(j);
+    if (result == DONE)
+        result = rows_write(out, points->n, points->columns, images);
     if (result == DONE)
         result = report_points(j, points->n, n_failed, seconds);
     return result == DONE ? job_partial(j, points->n, status, "points") : result;
@@ -79,7 +82,9 @@ int run_map(const args *a)
     job j;
     table points;
     job_start(&j, a);
-    int result = job_make_map(&j);
+    int result = triangulation_check(&j);
+    if (result == DONE)
+        result = job_make_map(&j);
     if (result == DONE) {
         table_form form = rows_of_points(job_dim(&j));
         result = rows_read(&points, a->points, &form);

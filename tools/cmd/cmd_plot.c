@@ -96,7 +96,7 @@ static panel make_panel(const plot *x, int what, size_t i)
 /* ---------------------------------------------------------------- captions */
 
 /* Below the panels; what they show, and of the function how its shades are to be read. */
-static void write_captions(const plot *x, int what, const column *c)
+static void write_captions(const plot *x, int what, const column *c, bool triangles)
 {
     static const char *const captions[N_ROWS] = {"uv map", "checkerboard",
                                                  "function and integral curves", "elevation"};
@@ -109,7 +109,7 @@ static void write_captions(const plot *x, int what, const column *c)
              x->n_columns != 2 || x->n_functions > 1 ? ""
              : c->side == 1                          ? "source: "
                                                      : "target: ",
-             bare ? (x->job.args->triangles ? "triangles" : "integral curves") : captions[what]);
+             bare ? (triangles ? "triangles" : "integral curves") : captions[what]);
     svg_label(x->svg, middle, below, text);
     if (s->field == NULL || what < ROW_SHAPE)
         return;
@@ -137,7 +137,7 @@ static int draw_panel(plot *x, int what, size_t i, places *from)
     job *j = &x->job;
     panel p = make_panel(x, what, i);
     int result = DONE;
-    write_captions(x, what, c);
+    write_captions(x, what, c, panel_shows_triangles(&p, j));
     plot_clip(&p, &j->cages[c->side == 2]);
     if (what == ROW_SHAPE)
         return plot_shape(&p, j);
@@ -247,6 +247,9 @@ int run_plot(const args *a)
     double began = seconds_now();
     job_start(&x.job, a);
     int result = job_read_plane(&x.job, "an SVG (unlike OUT.vtk)");
+    if (result == DONE && a->triangles && x.job.args->target == NULL)
+        result =
+            misused(a->command, "--triangles needs a map of kind mesh: --target FILE --map mesh");
     if (result == DONE)
         result = make_columns(&x);
     if (result == DONE)

@@ -3,11 +3,31 @@
 #include "geo/carrier.h"
 
 #include "base/allocate.h"
+#include "geo/inner_point.h"
 
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* The outer ring has the inside on its left if it is counter-clockwise, a hole if it is not. */
+static void find_holes(carrier *c, const icc_domain_info *domain)
+{
+    c->reversed = need(c->n_facets, sizeof *c->reversed);
+    c->in_holes = need(domain->n_features, 2 * sizeof *c->in_holes);
+    for (size_t i = 0; i < c->n_facets; i++)
+        c->reversed[i] = domain->orientation < 0;
+    for (size_t k = 0; k < domain->n_features; k++) {
+        icc_feature_info hole = {.size = sizeof hole};
+        icc_domain_get_feature(c->from, k, &hole);
+        if (hole.kind != ICC_FEATURE_HOLE)
+            continue;
+        for (size_t i = 0; i < hole.n_vertices; i++)
+            c->reversed[hole.first_facet + i] = hole.orientation > 0;
+        inner_point(hole.n_vertices, c->vertices[0] + 2 * hole.first_vertex,
+                    c->in_holes + 2 * c->n_holes++);
+    }
+}
 
 icc_status carrier_start(carrier *out, const icc_map *map, const icc_domain *from,
                          const icc_domain *to, bool inverse, double snap, const icc_env *env)
@@ -29,7 +49,8 @@ icc_status carrier_start(carrier *out, const icc_map *map, const icc_domain *fro
     out->dim = (size_t)info[0].dim;
     out->n_vertices = info[0].n_vertices;
     out->n_facets = info[0].n_facets;
-    out->orientation = info[0].orientation;
+    if (out->dim == 2)
+        find_holes(out, &info[0]);
     double largest = 0;
     for (size_t k = 0; k < out->dim; k++) {
         out->lower[k] = info[0].lower[k];
@@ -49,6 +70,8 @@ void carrier_free(carrier *c)
         free(c->vertices[side]);
         free(c->facets[side]);
     }
+    free(c->reversed);
+    free(c->in_holes);
     *c = (carrier){0};
 }
 

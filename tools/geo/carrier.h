@@ -14,13 +14,15 @@ typedef struct carrier {
     const icc_env *env;
     bool inverse;
     size_t dim;
-    int32_t orientation; /* of the facets: 1 if they are listed as seen from outside, else -1 */
-    double snap;         /* how far outside counts as on the cage */
-    double size;         /* of the cage: the longest side of its box */
+    double snap; /* how far outside counts as on the cage */
+    double size; /* of the cage: the longest side of its box */
     double lower[ICC_MAX_DIM], upper[ICC_MAX_DIM];
     size_t n_vertices, n_facets;
     double *vertices[2]; /* of the cage and of its image */
     uint32_t *facets[2]; /* dim vertices each; facet i of one corresponds to facet i of the other */
+    bool *reversed;      /* in the plane: which facets of the cage have its inside on their right */
+    size_t n_holes;
+    double *in_holes; /* a point in each */
 } carrier;
 
 /* Begins to carry between two domains, from the first; back if `inverse` says that the map goes

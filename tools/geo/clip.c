@@ -142,10 +142,10 @@ static void cut_cage(clipper *c, size_t n_on, const geo_node *on)
         uint32_t last = find_node(c, cage_end(cage, facet, 0));
         for (; k < n_on && on[k].facet == facet; k++) {
             uint32_t next = find_node(c, on[k].at);
-            add_piece(&c->cage, last, next, cage->orientation < 0);
+            add_piece(&c->cage, last, next, cage->reversed[facet]);
             last = next;
         }
-        add_piece(&c->cage, last, find_node(c, cage_end(cage, facet, 1)), cage->orientation < 0);
+        add_piece(&c->cage, last, find_node(c, cage_end(cage, facet, 1)), cage->reversed[facet]);
     }
 }
 

@@ -4,6 +4,7 @@
 #include "geo/geo_carry.h"
 
 #include "base/allocate.h"
+#include "base/orientation.h"
 #include "geo/geo_carriage.h"
 
 #include <math.h>
@@ -134,6 +135,32 @@ static bool node_all(carriage *c)
     return whole;
 }
 
+/* Whether one of the polygons is around a point: a ray to the right of it meets its rings an odd
+ * number of times. */
+static bool is_around(const geo_shape *s, const double p[2])
+{
+    bool odd = false;
+    for (size_t r = 0; r < s->n_paths; r++) {
+        if (r > 0 && s->paths[r].part != s->paths[r - 1].part && odd)
+            return true;
+        for (size_t i = 1; i < s->paths[r].n; i++) {
+            const double *b = s->points + 2 * (s->paths[r].first + i), *a = b - 2;
+            if ((a[1] > p[1]) != (b[1] > p[1]))
+                odd ^= orientation(a, b, p) * (b[1] > a[1] ? 1 : -1) > 0;
+        }
+    }
+    return odd;
+}
+
+/* Whether a polygon all rings of which lie in the cage is around a hole of it. */
+static bool covers_hole(const carriage *c)
+{
+    for (size_t k = 0; k < c->cage->n_holes; k++)
+        if (is_around(&c->shape, c->cage->in_holes + 2 * k))
+            return true;
+    return false;
+}
+
 /* Points are lines without pieces. */
 static bool take_points(carriage *c)
 {
@@ -199,6 +226,8 @@ static bool carry_geometry(carriage *c)
         return false;
     bool points = o->type <= GEO_MULTI_POINT;
     bool whole = points ? take_points(c) : node_all(c) && n_without == 0;
+    if (whole && c->policy == GEO_CLIP && o->type > GEO_MULTI_LINE)
+        whole = !covers_hole(c);
     if (c->noding.status != ICC_OK)
         return stop(c, c->noding.status);
     bool writes = whole || c->policy == GEO_KEEP;

@@ -13,6 +13,7 @@ typedef struct args {
     const char *command;
     /* files */
     const char *source, *target, *mesh, *target_mesh, *points, *coords, *output, *repair, *boundary;
+    const char *triangulation;
     const char *json_file, *handles, *pose, *binding, *picture;
     const char *operands[2];
     size_t n_operands;
@@ -27,6 +28,7 @@ typedef struct args {
     double snap;      /* below 0: the command's choice */
     double maximum[ICC_MAX_DIM], target_maximum[ICC_MAX_DIM];
     size_t n_maximum, n_target_maximum; /* their coordinates; 0: not given */
+    bool needs_target, may_pair;        /* what the command does with two cages */
     bool constrained, unconstrained;
     /* how weights are made */
     int32_t sampling, seed, weights, kernel, initial, steps;
@@ -58,6 +60,7 @@ enum {
     FOR_INFO = 64,
     FOR_PLOT = 128,
     FOR_CHARTS = 255, /* all of the above */
+    MAY_PAIR = FOR_MAP | FOR_WARP | FOR_MESH | FOR_CHECK | FOR_INFO | FOR_PLOT,
     FOR_WEIGHTS = 256,
     FOR_POSE = 512,
     FOR_KERNEL = FOR_WEIGHTS | FOR_POSE,

@@ -23,9 +23,10 @@ static int check_method(const args *a, const command *c)
         return misused(c->name, "--%s needs --method gradient", gradient_only);
     if (a->map == ICC_MAP_MESH && a->method == ICC_METHOD_GRADIENT)
         return misused(c->name, "--map mesh needs a method that can be certified, not gradient");
-    if (a->triangles &&
-        (a->target == NULL || a->map == ICC_MAP_CURVES || a->method == ICC_METHOD_GRADIENT))
+    if (a->triangles && (a->map == ICC_MAP_CURVES || a->method == ICC_METHOD_GRADIENT))
         return misused(c->name, "--triangles needs a map of kind mesh: --target FILE --map mesh");
+    if (a->triangulation != NULL && (a->map == ICC_MAP_CURVES || a->method == ICC_METHOD_GRADIENT))
+        return misused(c->name, "--triangulation needs a map of kind mesh, which is the default");
     if (a->method == ICC_METHOD_DISC && (a->n_maximum > 0 || a->n_target_maximum > 0))
         return misused(c->name, "--method disc has no --maximum: it finds its own");
     return DONE;
@@ -125,8 +126,6 @@ static int check_charts(const args *a, const command *c)
 {
     if (a->source == NULL)
         return misused(c->name, "--source FILE is missing");
-    if (c->needs_target && a->target == NULL)
-        return misused(c->name, "--target FILE is missing");
     int result = check_method(a, c);
     return result == DONE ? check_functions(a, c) : result;
 }
@@ -177,11 +176,15 @@ static int settle_streams(args *a, const command *c)
         result != NULL && strcmp(result, "-") == 0)
         return misused(c->name,
                        "result and report cannot both go to standard output; use --json=FILE");
+    if (a->triangulation != NULL && strcmp(a->triangulation, "-") == 0)
+        return misused(c->name, "--triangulation goes to a file, beside the result");
     return DONE;
 }
 
 int args_check(args *a, const command *c)
 {
+    a->needs_target = c->needs_target;
+    a->may_pair = (c->bit & MAY_PAIR) != 0;
     settle_functions(a);
     int result = settle_streams(a, c);
     return result != DONE ? result : check_together(a, c);

@@ -1,6 +1,8 @@
 #include "job/correspond.h"
 
 #include "base/allocate.h"
+#include "cage/cage_features.h"
+#include "cage/cage_ties.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -58,10 +60,16 @@ int correspond(job *j)
     if (source->n == 0)
         return DONE;
     if (source->n != target->n)
-        return failed(j->args->target, 0,
-                      "%zu vertices, but the %s %s has %zu; they correspond one by one", target->n,
-                      source->cells != NULL ? "boundary of the mask" : "source", j->args->source,
-                      source->n);
+        return failed(
+            j->args->target, 0, "%s%zu vertices, but the %s %s has %zu; they correspond one by one",
+            job_side(j, 2), target->n, source->cells != NULL ? "boundary of the mask" : "source",
+            j->args->source, source->n);
+    problem wrong;
+    if (!features_correspond(source, target, &wrong))
+        return failed(j->args->target, wrong.line, "%s%s", job_side(j, 2), wrong.text);
+    int side;
+    if (!ties_correspond(source, target, &side, &wrong))
+        return failed(job_file(j, side), wrong.line, "%s%s", job_side(j, side), wrong.text);
     if (target->n_facets > 0)
         return compare_facets(j);
     if (source->n_facets > 0)

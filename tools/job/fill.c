@@ -30,6 +30,9 @@ static int check(const job *j)
         return failed(j->args->source, 0, "%zu dimensions; meshes have 2 or 3", job_dim(j));
     if (j->cages[0].cells != NULL)
         return failed(j->args->source, 0, "a mask; --mesh is for cages");
+    if (j->cages[0].n_features > 0)
+        return failed(j->args->source, 0,
+                      "holes, lines or points inside; --mesh is for cages without");
     if (j->args->target_mesh != NULL && j->args->target == NULL)
         return misused(j->args->command, "--target-mesh needs --target");
     return DONE;

@@ -2,11 +2,8 @@
 
 #include "job/job.h"
 
-#include "cage/cage_defects.h"
-#include "cage/cage_read.h"
-#include "cage/weld.h"
-#include "job/correspond.h"
-#include "job/fill.h"
+#include "cage/cage_features.h"
+#include "cage/cage_ties.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,7 +16,9 @@ static const double MADE = 0.8;
 void job_start(job *j, const args *a)
 {
     long processors = sysconf(_SC_NPROCESSORS_ONLN);
-    *j = (job){.args = a, .started = seconds_now()};
+    *j = (job){.own = *a, .started = seconds_now()};
+    j->args = &j->own;
+    j->both = a->source != NULL && a->target != NULL && strcmp(a->source, a->target) == 0;
     progress_start(&j->bar, a->quiet);
     j->env = (icc_env){.size = sizeof j->env, .user = &j->bar, .progress = progress_show};
     j->env.threads = a->threads > 0                        ? a->threads
@@ -44,10 +43,19 @@ const char *job_file(const job *j, int side)
     return side == 2 && a->target != NULL ? a->target : a->source != NULL ? a->source : a->handles;
 }
 
+const char *job_side(const job *j, int side)
+{
+    return !j->both ? "" : side == 1 ? "source: " : side == 2 ? "target: " : "";
+}
+
 /* In the plane edge i begins at vertex i. Beyond, the index is that of a facet, unless the message
  * is about a vertex. */
 static size_t line_at_fault(const cage *c, const icc_error *err)
 {
+    if (err->item == ICC_ITEM_FEATURE && err->index >= 0)
+        return (size_t)err->index < c->n_features ? c->features[err->index].line : 0;
+    if (err->item == ICC_ITEM_TIE)
+        return 0;
     bool of_grid = err->status == ICC_ERR_RESOLUTION || err->status == ICC_ERR_SOLVER;
     bool of_face = c->dim != 2 && c->n_facets > 0 && strncmp(err->message, "vertex", 6) != 0 &&
                    strncmp(err->message, "two surfaces share vertex", 25) != 0;
@@ -57,17 +65,20 @@ static size_t line_at_fault(const cage *c, const icc_error *err)
     return (of_face ? c->facet_lines : c->lines)[err->index];
 }
 
-static int failed_with(job *j, const icc_error *err, const char *hint)
+int job_failed_with(job *j, const icc_error *err, const char *hint)
 {
     progress_end(&j->bar);
-    size_t line = line_at_fault(&j->cages[err->side == 2], err);
-    const char *message = err->message[0] != '\0' ? err->message : icc_status_name(err->status);
-    return failed(job_file(j, err->side), line, "%s%s", message, hint);
+    const cage *c = &j->cages[err->side == 2];
+    char translated[512];
+    features_translate(translated, sizeof translated, c,
+                       err->message[0] != '\0' ? err->message : icc_status_name(err->status));
+    return failed(job_file(j, err->side), line_at_fault(c, err), "%s%s%s", job_side(j, err->side),
+                  translated, hint);
 }
 
 int job_failed(job *j, const icc_error *err)
 {
-    return failed_with(j, err, "");
+    return job_failed_with(j, err, "");
 }
 
 int job_failed_status(job *j, icc_status status)
@@ -79,141 +90,6 @@ int job_failed_status(job *j, icc_status status)
 size_t job_dim(const job *j)
 {
     return j->cages[0].dim;
-}
-
-static int read_cage(job *j, size_t side)
-{
-    const char *name = job_file(j, (int)side + 1);
-    size_t n;
-    char *text = file_read(name, &n);
-    if (text == NULL)
-        return FAILED;
-    problem wrong;
-    bool good = side == 0 ? cage_read(&j->cages[0], CAGE_SOURCE, 2, text, n, &wrong)
-                          : cage_read(&j->cages[1], CAGE_TARGET, job_dim(j), text, n, &wrong);
-    free(text);
-    return good ? DONE : failed(name, wrong.line, "%s", wrong.text);
-}
-
-/* Points of options must have as many coordinates as the cage. */
-static int check_points(const job *j)
-{
-    const args *a = j->args;
-    const struct {
-        const char *name;
-        size_t n;
-    } points[] = {{"maximum", a->n_maximum}, {"target-maximum", a->n_target_maximum}};
-    for (size_t i = 0; i < 2; i++)
-        if (points[i].n > 0 && points[i].n != job_dim(j))
-            return misused(a->command, "--%s has %zu coordinates, but the cage %zu", points[i].name,
-                           points[i].n, job_dim(j));
-    return DONE;
-}
-
-int job_read_cages(job *j)
-{
-    if (job_dim(j) > 0)
-        return DONE;
-    int result = read_cage(j, 0);
-    if (result == DONE)
-        result = check_points(j);
-    if (result == DONE && j->args->target != NULL)
-        result = read_cage(j, 1);
-    if (result == DONE && j->args->target != NULL)
-        result = correspond(j);
-    j->seconds_read = seconds_now() - j->started;
-    return result;
-}
-
-int job_read_plane(job *j, const char *what)
-{
-    int result = job_read_cages(j);
-    if (result == DONE && job_dim(j) != 2)
-        result = failed(j->args->source, 0, "%zu dimension%s; %s needs cages in the plane",
-                        job_dim(j), job_dim(j) == 1 ? "" : "s", what);
-    return result;
-}
-
-/* A boundary that is no boundary: names the first defect by its line, and counts the others. */
-static int failed_boundary(job *j, size_t side, const icc_error *err)
-{
-    const cage *c = &j->cages[side];
-    defect_list list;
-    size_t n_all;
-    if (defects_find(&list, c, 1, &n_all, &j->env, NULL) != ICC_OK || list.n == 0)
-        return job_failed(j, err);
-    progress_end(&j->bar);
-    char text[200], more[80] = "";
-    if (n_all > 1)
-        snprintf(more, sizeof more, " (%zu defects in all; 'libicc check' lists them)", n_all);
-    failed(job_file(j, (int)side + 1), c->lines[list.items[0]], "%s%s",
-           defect_text(text, &list, 0, c), more);
-    defects_free(&list);
-    return FAILED;
-}
-
-/* A surface that is none: perhaps only because its faces do not share their vertices. */
-static int failed_surface(job *j, size_t side, const icc_error *err)
-{
-    char hint[120] = "";
-    size_t n = weld_count(&j->cages[side]);
-    if (n > 0)
-        snprintf(hint, sizeof hint,
-                 "; %zu vertices coincide with others: 'libicc check --repair OUT.obj' joins them",
-                 n);
-    return failed_with(j, err, hint);
-}
-
-static int make_domain(job *j, size_t side)
-{
-    const cage *c = &j->cages[side];
-    icc_error err = {.size = sizeof err, .index = -1};
-    icc_status status = c->cells != NULL && c->n == 0
-                            ? icc_domain_create_mask(&j->domains[side], (int32_t)c->dim, c->shape,
-                                                     c->cells, &j->env, &err)
-                            : icc_domain_create(&j->domains[side], (int32_t)c->dim, c->n, c->points,
-                                                c->n_facets, c->facets, &j->env, &err);
-    if (status == ICC_OK)
-        return DONE;
-    err.side = (int32_t)side + 1;
-    return status == ICC_ERR_BOUNDARY && c->dim == 2 ? failed_boundary(j, side, &err)
-           : c->cells == NULL && c->n_facets > 0     ? failed_surface(j, side, &err)
-                                                     : job_failed(j, &err);
-}
-
-/* The domain of a mask knows what its boundary is. */
-static int make_source(job *j)
-{
-    int result = make_domain(j, 0);
-    if (result != DONE || j->cages[0].cells == NULL)
-        return result;
-    cage_take_boundary(&j->cages[0], j->domains[0]);
-    return correspond(j);
-}
-
-/* Reports what has been left out only after success, so that an error is one line. */
-static void note_heights(const job *j)
-{
-    for (size_t side = 0; side < 2; side++)
-        if (j->cages[side].n_heights > 0)
-            note("%s: heights are left out; a cage in the plane has x and y",
-                 job_file(j, (int)side + 1));
-}
-
-int job_make_domains(job *j)
-{
-    if (j->domains[0] != NULL)
-        return DONE;
-    int result = job_read_cages(j);
-    if (result == DONE)
-        result = make_source(j);
-    if (result == DONE && j->args->target != NULL)
-        result = make_domain(j, 1);
-    if (result == DONE)
-        result = fill_domains(j);
-    if (result == DONE)
-        note_heights(j);
-    return result;
 }
 
 static icc_chart_options chart_options(const job *j)
@@ -237,6 +113,10 @@ int job_make_chart(job *j)
     int result = job_make_domains(j);
     if (result != DONE)
         return result;
+    if (j->cages[0].n_features > 0)
+        return failed(j->args->source, 0,
+                      "cages with holes, lines or points inside have maps, but no charts%s",
+                      j->args->may_pair ? "; --target FILE is missing" : "");
     double began = seconds_now();
     icc_chart_options options = chart_options(j);
     icc_error err = {.size = sizeof err, .index = -1};
@@ -259,8 +139,14 @@ int job_make_map(job *j)
     if (j->args->n_target_maximum > 0)
         options.target_maximum = j->args->target_maximum;
     icc_error err = {.size = sizeof err, .index = -1};
+    icc_tie *ties = ties_list(&j->cages[0], &j->cages[1]);
+    options.n_ties = j->cages[0].n_ties;
+    options.ties = ties;
     progress_expect(&j->bar, MADE);
-    if (icc_map_create(&j->map, j->domains[0], j->domains[1], &options, &j->env, &err) != ICC_OK)
+    icc_status status =
+        icc_map_create(&j->map, j->domains[0], j->domains[1], &options, &j->env, &err);
+    free(ties);
+    if (status != ICC_OK)
         return job_failed(j, &err);
     j->seconds_made = seconds_now() - began;
     return DONE;
@@ -310,6 +196,13 @@ bool report_open(report *r, const job *j)
     if (job_dim(j) > 0) {
         json_count(&r->json, "dimension", job_dim(j));
         json_count(&r->json, "vertices", j->cages[0].n);
+    }
+    if (j->cages[0].n_features > 0) {
+        json_open(&r->json, "inside", '{');
+        json_count(&r->json, "holes", cage_count(&j->cages[0], ICC_FEATURE_HOLE));
+        json_count(&r->json, "lines", cage_count(&j->cages[0], ICC_FEATURE_LINE));
+        json_count(&r->json, "points", cage_count(&j->cages[0], ICC_FEATURE_POINT));
+        json_close(&r->json, '}');
     }
     if (j->cages[0].n_facets > 0)
         json_count(&r->json, "facets", j->cages[0].n_facets);

@@ -13,10 +13,12 @@
 #include <icc/icc.h>
 
 typedef struct job {
-    const args *args;
+    const args *args; /* own */
+    args own;
     progress bar;
     icc_env env;
     cage cages[2]; /* source, target */
+    bool both;     /* are in one file */
     icc_domain *domains[2];
     size_t function;  /* which of args->functions; the first unless there are several */
     icc_chart *chart; /* of the source */
@@ -30,7 +32,8 @@ void job_start(job *j, const args *a);
 void job_end(job *j);
 
 /* Reads the source, and the target if there is one; they then correspond, unless the source is a
- * mask. */
+ * mask. Where no target was named, and one is needed, or the source has features, which only maps
+ * take, the source's file may hold both. */
 int job_read_cages(job *j);
 
 /* Coordinates of a point, once the cages have been read. */
@@ -53,8 +56,14 @@ int job_make_map(job *j);
  * any case. */
 int job_start_carrier(job *j, carrier *c);
 
+/* The word that tells which cage of a file with both is meant: "source: ", "target: ", or "". */
+const char *job_side(const job *j, int side);
+
 /* Says what the library said, with the file and the line at fault; returns FAILED. */
 int job_failed(job *j, const icc_error *err);
+
+/* The same with more behind it. */
+int job_failed_with(job *j, const icc_error *err, const char *hint);
 
 /* The same for a call that has no icc_error. */
 int job_failed_status(job *j, icc_status status);

@@ -38,11 +38,6 @@ const char *choice_name(const choice *choices, int32_t value)
     return "unknown";
 }
 
-enum {
-    FOR_PAIRS = FOR_MAP | FOR_WARP | FOR_MESH,
-    MAY_PAIR = FOR_PAIRS | FOR_CHECK | FOR_INFO | FOR_PLOT
-};
-
 #define AT(member) offsetof(args, member)
 const option options[N_OPTIONS] = {
     {.name = "source",
@@ -58,7 +53,8 @@ const option options[N_OPTIONS] = {
      .commands = MAY_PAIR,
      .offset = AT(target),
      .value = "FILE",
-     .help = "the cage after; vertices and faces correspond by their order"},
+     .help = "the cage after; vertices and faces correspond by their order; it may be in the "
+             "source's file"},
     {.name = "mesh",
      .kind = OPTION_TEXT,
      .commands = FOR_CHARTS,
@@ -174,6 +170,12 @@ const option options[N_OPTIONS] = {
      .offset = AT(output),
      .value = "FILE",
      .help = "where the result goes (default: -)"},
+    {.name = "triangulation",
+     .kind = OPTION_TEXT,
+     .commands = FOR_MAP,
+     .offset = AT(triangulation),
+     .value = "FILE.json",
+     .help = "write the map's triangles as well, for PROJ (tinshift)"},
     {.name = "background",
      .kind = OPTION_COLOUR,
      .commands = FOR_WARP | FOR_POSE,

@@ -145,6 +145,7 @@ int output_names_check(const args *a, const command *c)
     const struct {
         const char *name, *formats;
     } outputs[] = {{a->output, "text"},
+                   {a->triangulation, "JSON"},
                    {a->repair, "text, GeoJSON, JSON, OBJ, NumPy"},
                    {a->boundary, "text, OBJ"},
                    {a->picture, "SVG"},

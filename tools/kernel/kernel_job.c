@@ -57,6 +57,9 @@ static int read_shape(kernel_job *k)
         int result = job_make_domains(j);
         if (result != DONE)
             return result;
+        if (j->cages[0].n_features > 0)
+            return failed(j->args->source, 0,
+                          "holes, lines or points inside; weights and poses are for cages without");
         if (job_dim(j) != set->dim)
             return failed(j->args->handles, 0, "the handles have %zu coordinates, but the cage %zu",
                           set->dim, job_dim(j));

@@ -25,8 +25,12 @@ void panel_locate(const panel *p, double x, double y, double out[2]);
 /* Defines the clip path of the shape. */
 void plot_clip(const panel *p, const cage *c);
 
-/* The outline, drawn last. */
+/* The outline with what is inside, and ties; drawn last. */
 void plot_cage(const panel *p, const cage *c);
+
+/* Whether the shape is drawn with the triangles of the map: where that is asked for, and where
+ * there is no chart with curves. */
+bool panel_shows_triangles(const panel *p, const job *j);
 
 /* Function as shades, tree, expansion edges, integral curves, maximum. */
 int plot_shape(const panel *p, job *j);

@@ -26,34 +26,87 @@ void panel_locate(const panel *p, double x, double y, double out[2])
                        : box->upper[1] - (y - p->top) / p->scale;
 }
 
-static void write_ring(const panel *p, const cage *c)
+static void write_path(const panel *p, size_t n, const double *points, bool closed)
 {
-    double *ring = need(c->n, 2 * sizeof *ring);
-    for (size_t i = 0; i < c->n; i++)
-        panel_place(p, c->points + 2 * i, ring + 2 * i);
-    svg_polyline(p->svg, c->n, ring);
-    fputc('Z', p->svg);
-    free(ring);
+    double *path = need(n, 2 * sizeof *path);
+    for (size_t i = 0; i < n; i++)
+        panel_place(p, points + 2 * i, path + 2 * i);
+    svg_polyline(p->svg, n, path);
+    if (closed)
+        fputc('Z', p->svg);
+    free(path);
+}
+
+/* The outer ring and the holes; with `lines` those too. */
+static void write_outline(const panel *p, const cage *c, bool lines)
+{
+    write_path(p, c->n, c->points, true);
+    for (size_t i = 0; i < c->n_features; i++) {
+        const cage_feature *f = &c->features[i];
+        if (f->kind == ICC_FEATURE_HOLE || (f->kind == ICC_FEATURE_LINE && lines))
+            write_path(p, f->n, f->points, f->kind == ICC_FEATURE_HOLE);
+    }
 }
 
 void plot_clip(const panel *p, const cage *c)
 {
-    fprintf(p->svg, "<clipPath id=\"%s\"><path d=\"", p->clip);
-    write_ring(p, c);
+    fprintf(p->svg, "<clipPath id=\"%s\"><path %sd=\"", p->clip,
+            c->n_features > 0 ? "clip-rule=\"evenodd\" " : "");
+    write_outline(p, c, false);
     fputs("\"/></clipPath>\n", p->svg);
 }
 
+/* Of points inside with a pale rim, so that they show on any ground. */
+static void draw_vertices(const panel *p, size_t n, const double *points, double radius, bool rim)
+{
+    for (size_t i = 0; i < n; i++) {
+        double at[2];
+        panel_place(p, points + 2 * i, at);
+        fprintf(p->svg, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"%g\" fill=\"#111\"%s/>\n", at[0],
+                at[1], radius, rim ? " stroke=\"white\"" : "");
+    }
+}
+
+/* The ties, dashed, and the pale ground of lines and ties: they show on any pattern. */
+static void draw_lines(const panel *p, const cage *c)
+{
+    fputs("<path fill=\"none\" stroke=\"white\" stroke-width=\"4\" stroke-linejoin=\"round\" "
+          "stroke-opacity=\"0.7\" d=\"",
+          p->svg);
+    for (size_t i = 0; i < c->n_ties; i++)
+        write_path(p, c->ties[i].n, c->ties[i].points, false);
+    for (size_t i = 0; i < c->n_features; i++)
+        if (c->features[i].kind == ICC_FEATURE_LINE)
+            write_path(p, c->features[i].n, c->features[i].points, false);
+    fputs("\"/>\n", p->svg);
+    for (size_t i = 0; i < c->n_ties; i++) {
+        fputs("<path fill=\"none\" stroke=\"#dc2626\" stroke-width=\"1.8\" "
+              "stroke-dasharray=\"6 3\" d=\"",
+              p->svg);
+        write_path(p, c->ties[i].n, c->ties[i].points, false);
+        fputs("\"/>\n", p->svg);
+    }
+}
+
+/* Dots are vertices where there are not too many of them, and points inside always. */
 void plot_cage(const panel *p, const cage *c)
 {
+    size_t n = c->n;
+    if (c->n_features > 0)
+        draw_lines(p, c);
     fputs("<path fill=\"none\" stroke=\"#111\" stroke-width=\"1.5\" stroke-linejoin=\"round\" d=\"",
           p->svg);
-    write_ring(p, c);
+    write_outline(p, c, true);
     fputs("\"/>\n", p->svg);
-    for (size_t i = 0; c->n <= MAX_HANDLES && i < c->n; i++) {
-        double at[2];
-        panel_place(p, c->points + 2 * i, at);
-        fprintf(p->svg, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"2.4\" fill=\"#111\"/>\n", at[0],
-                at[1]);
+    for (size_t i = 0; i < c->n_features; i++)
+        n += c->features[i].kind == ICC_FEATURE_POINT ? 0 : c->features[i].n;
+    if (n <= MAX_HANDLES)
+        draw_vertices(p, c->n, c->points, 2.4, false);
+    for (size_t i = 0; i < c->n_features; i++) {
+        const cage_feature *f = &c->features[i];
+        if (f->kind == ICC_FEATURE_POINT || n <= MAX_HANDLES)
+            draw_vertices(p, f->n, f->points, f->kind == ICC_FEATURE_POINT ? 3.6 : 2.4,
+                          f->kind == ICC_FEATURE_POINT);
     }
 }
 
@@ -254,22 +307,27 @@ static int draw_triangles(const panel *p)
     return DONE;
 }
 
+bool panel_shows_triangles(const panel *p, const job *j)
+{
+    return j->args->triangles || p->stages->chart == NULL;
+}
+
 int plot_shape(const panel *p, job *j)
 {
-    bool has_tree = p->stages->tree != NULL;
-    int result = j->args->triangles ? DONE : draw_shades(p, j);
+    bool has_tree = p->stages->tree != NULL, triangles = panel_shows_triangles(p, j);
+    int result = triangles ? DONE : draw_shades(p, j);
     fprintf(p->svg, "<g clip-path=\"url(#%s)\">\n", p->clip);
     if (has_tree)
         draw_tree(p);
     if (result == DONE)
-        result = j->args->triangles ? draw_triangles(p) : draw_curves(p, j);
+        result = triangles ? draw_triangles(p) : draw_curves(p, j);
     if (j->args->compression)
         draw_edges(p, ICC_EDGE_COMPRESSION, "#f59e0b");
     if (has_tree)
         draw_edges(p, ICC_EDGE_EXPANSION, "#a21caf");
     fputs("</g>\n", p->svg);
     plot_cage(p, &j->cages[p->side == 2]);
-    if (!j->args->triangles)
+    if (!triangles)
         draw_maximum(p);
     return result;
 }

@@ -72,6 +72,8 @@ int stages_make(stages *out, job *j, int side)
                  : side == 2    ? icc_map_target_chart(j->map)
                                 : icc_map_source_chart(j->map);
     icc_domain_get_info(out->domain, &out->box);
+    if (out->chart == NULL)
+        return DONE;
     icc_chart_get_info(out->chart, &out->chart_info);
     out->field = icc_chart_function(out->chart);
     if (out->field == NULL)

@@ -33,6 +33,8 @@ chart_facts chart_facts_of(const icc_chart *chart)
                      .foliation = {.size = sizeof c.foliation},
                      .shelling = {.size = sizeof c.shelling}};
     icc_disc_info disc = {.size = sizeof disc};
+    if (chart == NULL)
+        return c;
     icc_chart_get_info(chart, &c.common);
     if (icc_chart_get_gradient_info(chart, &c.gradient) == ICC_OK)
         c.grid = GRID_FACTS(c.gradient, c.gradient.tree);

@@ -33,6 +33,7 @@ typedef struct chart_facts {
     bool is_shelling; /* a foliation on the domain's mesh */
 } chart_facts;
 
+/* Of NULL nothing: the method is 0. */
 chart_facts chart_facts_of(const icc_chart *chart);
 
 /* Whether the chart was made on a grid (methods gradient and field). */

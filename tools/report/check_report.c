@@ -2,6 +2,7 @@
 #include "report/check_job.h"
 #include "report/reason.h"
 
+#include "cage/cage_features.h"
 #include "job/option_table.h"
 
 #include <stdio.h>
@@ -45,11 +46,14 @@ static void print_mask(const cage *mask, const icc_domain_info *info)
 
 static void print_domain(const cage *c, const icc_domain_info *info)
 {
+    char inside[120];
     if (c->cells != NULL)
         print_mask(c, info);
     else if (info->dim == 2)
-        printf("a simple polygon, %zu vertices, %s, area %.12g\n", info->n_vertices,
-               info->orientation > 0 ? "counter-clockwise" : "clockwise", info->measure);
+        printf("a simple polygon, %zu vertices, %s, area %.12g%s\n",
+               c->n_features > 0 ? c->n : info->n_vertices,
+               info->orientation > 0 ? "counter-clockwise" : "clockwise", info->measure,
+               cage_inside_text(inside, c));
     else if (info->dim == 3)
         printf("a closed surface that does not meet itself, %zu vertices, %zu faces, %s, volume "
                "%.12g\n",

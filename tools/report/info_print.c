@@ -1,6 +1,7 @@
 #include "report/info.h"
 #include "report/reason.h"
 
+#include "cage/cage_features.h"
 #include "job/option_table.h"
 
 #include <math.h>
@@ -20,11 +21,13 @@ static void print_domain(const info *x)
     const char *const measures[] = {"measure", "length", "area", "volume"};
     const char *const turns[] = {"facing inward", "facing outward", "clockwise",
                                  "counter-clockwise"};
-    printf("cage        %zu vertices, ", d->n_vertices);
+    const cage *c = &x->job.cages[0];
+    char inside[120];
+    printf("cage        %zu vertices, ", c->n_features > 0 ? c->n : d->n_vertices);
     if (d->dim != 2)
         printf("%zu facets, ", d->n_facets);
-    printf("%s, %s %.12g\n", turns[(d->dim == 2 ? 2 : 0) + (d->orientation > 0)],
-           measures[d->dim > 3 ? 0 : d->dim], d->measure);
+    printf("%s, %s %.12g%s\n", turns[(d->dim == 2 ? 2 : 0) + (d->orientation > 0)],
+           measures[d->dim > 3 ? 0 : d->dim], d->measure, cage_inside_text(inside, c));
     print_point(x, "box         ", d->lower, " to ");
     print_point(x, "", d->upper, "\n");
 }
@@ -231,17 +234,17 @@ void info_print(const info *x)
         print_gradient(x);
     else if (c->common.method == ICC_METHOD_FIELD)
         print_field(x);
-    else
+    else if (c->common.method != 0)
         print_certified(x);
     if (x->shares.n > 0)
         print_map(x);
     printf("seconds     read %.4f, ", x->job.seconds_read);
     if (chart_has_grid(c))
         print_grid_seconds(x);
-    else
+    else if (c->common.method != 0)
         print_mesh_seconds(c);
     if (x->map.kind == ICC_MAP_MESH)
-        printf(", repair %.4f, improve %.4f, certify %.4f", x->map.seconds_repair,
-               x->map.seconds_improve, x->map.seconds_certify);
+        printf("%srepair %.4f, improve %.4f, certify %.4f", c->common.method != 0 ? ", " : "",
+               x->map.seconds_repair, x->map.seconds_improve, x->map.seconds_certify);
     printf(", all %.4f\n", seconds_now() - x->job.started);
 }

@@ -172,7 +172,7 @@ static void report_seconds(json *j, const info *x)
         json_number(j, "grid", c->grid.seconds_grid);
         json_number(j, "tree", c->grid.seconds_tree);
         json_number(j, "function", c->grid.seconds_function);
-    } else {
+    } else if (c->common.method != 0) {
         json_number(j, "mesh", c->mesh.seconds_mesh);
         json_number(j, "solve", c->mesh.seconds_solve);
         if (c->is_shelling)
@@ -194,7 +194,8 @@ int info_report(const info *x)
     else
         json_text(&r.json, "orientation", x->domain.orientation > 0 ? "outward" : "inward");
     json_number(&r.json, x->domain.dim == 2 ? "area" : "measure", x->domain.measure);
-    report_chart(&r.json, x);
+    if (x->chart.common.method != 0)
+        report_chart(&r.json, x);
     if (x->chart.common.method != ICC_METHOD_FIELD || x->measures.n_points > 0)
         report_shares(&r.json, &x->measures);
     if (x->shares.n > 0)

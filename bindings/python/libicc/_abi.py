@@ -16,7 +16,9 @@ MAX_DIM = 6
 STRUCTS = """
 error status:i32 side:i32 index:i64 item:i32 message:char[252]
 env user:ptr alloc:ptr dealloc:ptr log:ptr progress:ptr parallel_for:ptr threads:i32 load_limit:u64
-domain_info dim:i32 orientation:i32 n_vertices:size n_facets:size lower:f64[6] upper:f64[6] measure:f64
+domain_info dim:i32 orientation:i32 n_vertices:size n_facets:size lower:f64[6] upper:f64[6] measure:f64 n_features:size
+feature kind:i32 n_vertices:size vertices:ptr
+feature_info kind:i32 orientation:i32 first_vertex:size n_vertices:size first_facet:size
 chart_options method:i32 function:i32 tree:i32 cells:i32 maximum:ptr constraints:i32 solver:i32 min_fall:f64 leaf_min:f64
 chart_info dim:i32 method:i32 certified:i32 reason:i32 cells:i32 maximum:f64[6] spacing:f64
 gradient_info function:i32 tree:i32 n_grid:size n_inside:size n_tree:size n_unreachable:size n_cousin_violations:size n_maxima:size n_minima:size n_saddles:size n_edges:size n_compression:size n_expansion:size moved:f64 seconds_grid:f64 seconds_tree:f64 seconds_function:f64
@@ -25,7 +27,8 @@ foliation_info n_mesh_vertices:size n_mesh_boundary:size n_mesh_simplices:size n
 shelling_info n_mesh_vertices:size n_mesh_boundary:size n_mesh_simplices:size harmonic_share:f64 order_peeled:i32 n_orders:i32 order_beta:f64 n_reversed:size flux_energy:f64 flux_divergence:f64 seconds_centre:f64 seconds_solve:f64 seconds_order:f64 seconds_certify:f64 seconds_leaves:f64
 disc_info n_mesh_vertices:size n_mesh_boundary:size n_mesh_simplices:size seconds_mesh:f64 seconds_solve:f64 seconds_certify:f64
 chart_report n_points:size n_boundary:size unreachable:f64 uncovered:f64 collapsed:f64 not_inward:f64
-map_options kind:i32 iterations:i32 chart:ptr target_maximum:ptr
+tie vertex:u32[2] n_source:size source:ptr n_target:size target:ptr
+map_options kind:i32 iterations:i32 chart:ptr target_maximum:ptr n_ties:size ties:ptr
 map_info dim:i32 kind:i32 certified:i32 n_levels:i32 n_vertices:size n_simplices:size n_inverted:size n_unrepaired:size n_iterations:size energy_start:f64 energy:f64 seconds:f64 seconds_repair:f64 seconds_improve:f64 seconds_certify:f64 n_samples:size n_lost:size n_flat:size reason:i32 reason_side:i32
 improve_options iterations:i32 levels:i32 tolerance:f64
 improve_report energy_start:f64 energy:f64 n_iterations:size n_simplices:size n_levels:i32 cancelled:i32
@@ -51,11 +54,13 @@ char*:version
 i32:version_number
 char*:status_name i32
 domain_create domain** i32 size f64* size u32* env* error*
+domain_create_features domain** size f64* size feature* env* error*
 domain_create_mask domain** i32 size* u8* env* error*
 domain_create_mesh domain** i32 size f64* size u32* size u32* env* error*
 mask_repair i32 size* u8* size* env* error*
 void:domain_free domain*
 domain_get_info domain* domain_info*
+domain_get_feature domain* size feature_info*
 domain_get_boundary domain* f64* u32*
 domain_locate domain* size f64* i32* u32* f64* env*
 boundary_defects size f64* size i32* u32* size* env* error*

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import ctypes
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any, List, Literal, Optional, Tuple, overload
+from typing import TYPE_CHECKING, Any, Iterable, List, Literal, Optional, Tuple, overload
 
 import numpy as np
 
-from ._abi import lib
+from ._abi import lib, new, structs
 from ._core import (
     Call,
     Handle,
@@ -30,6 +30,7 @@ from ._errors import check
 if TYPE_CHECKING:
     from ._types import ArrayLike, Bools, Floats, Indices, Ints, ShapeLike
 
+FEATURES = {"hole": 1, "line": 2, "point": 3}
 DEFECTS = {"not finite": 1, "repeated": 2, "spike": 3, "crossing": 4, "touch": 5, "flat": 6}
 
 INSIDE, BOUNDARY, OUTSIDE = 1, 2, 3
@@ -42,20 +43,32 @@ class Domain(Handle):
     Args:
         vertices: float array of shape (n, dim). A polygon without facets may be a closed ring, whose last
             vertex is the first one again; or a shapely Polygon, LinearRing or MultiPolygon of one part
-            (without holes; heights are left out).
+            (its holes come before those of ``holes``; heights are left out).
         facets: int array of shape (m, dim): vertex indices of the boundary's edges (2-D), triangles
             (3-D) and so on. May be left out in 2-D: a polygon through the vertices in their order.
+        holes: polygons inside a polygon without facets, which are not part of the shape
+        lines: polylines inside it, (n, 2) each; two vertices make a bone
+        points: points inside it, (n, 2). The features are numbered in this order: holes, lines, points. A
+            `Map` takes each to that of the same number, vertex by vertex; only maps of kind "mesh" can.
         progress, threads: see `libicc.Progress`; threads default to one per processor, results are
             the same for every number
 
     Raises:
-        BoundaryError, TopologyError: with the vertex or facet at fault as ``index``
+        BoundaryError, TopologyError, OutsideError: with the vertex, facet or feature at fault as ``index``
     """
 
     _free = "domain_free"
 
     def __init__(self, vertices: ArrayLike, facets: Optional[ArrayLike] = None, *,
-                 progress: Optional[Progress] = None, threads: Optional[int] = None):
+                 holes: Iterable[ArrayLike] = (), lines: Iterable[ArrayLike] = (),
+                 points: Optional[ArrayLike] = None, progress: Optional[Progress] = None,
+                 threads: Optional[int] = None):
+        features = _features([*_holes_of(vertices), *holes], lines, points)
+        if features:
+            if facets is not None:
+                raise ValueError("facets cannot be given with holes, lines or points")
+            self._take_features(points_of(_outline(vertices, True), 2), features, progress, threads)
+            return
         vertices = _outline(vertices) if facets is None else np.ascontiguousarray(vertices, dtype=np.float64)
         if vertices.ndim != 2:
             raise ValueError(f"vertices must have the shape (n, dim), not {vertices.shape}")
@@ -64,6 +77,16 @@ class Domain(Handle):
         self._take(create(lib.domain_create, dim, n, address(vertices),
                           0 if facets is None else len(facets), address(facets),
                           progress=progress, threads=threads))
+
+    def _take_features(self, outer: Floats, features: List[Tuple[str, Floats]],
+                       progress: Optional[Progress], threads: Optional[int]) -> None:
+        all_features = (structs.feature * len(features))()
+        for feature, (kind, vertices) in zip(all_features, features):
+            feature.size = ctypes.sizeof(structs.feature)
+            feature.kind, feature.n_vertices = FEATURES[kind], len(vertices)
+            feature.vertices = address(vertices)
+        self._take(create(lib.domain_create_features, len(outer), address(outer), len(features),
+                          ctypes.addressof(all_features), progress=progress, threads=threads))
 
     @classmethod
     def from_mask(cls, mask: ArrayLike, *, progress: Optional[Progress] = None,
@@ -98,7 +121,7 @@ class Domain(Handle):
 
     @property
     def info(self) -> SimpleNamespace:
-        """dim, orientation, n_vertices, n_facets, lower, upper, measure."""
+        """dim, orientation, n_vertices, n_facets, lower, upper, measure, n_features."""
         info = self._info("domain_get_info", "domain_info")
         return fields(info, info.dim)
 
@@ -106,7 +129,7 @@ class Domain(Handle):
 
     @property
     def vertices(self) -> Floats:
-        """A copy of the vertices, (n, dim)."""
+        """A copy of the vertices, (n, dim); those of the features come last."""
         info = self._info("domain_get_info", "domain_info")
         vertices = np.empty((info.n_vertices, info.dim))
         check(lib.domain_get_boundary(self, address(vertices), None))
@@ -119,6 +142,17 @@ class Domain(Handle):
         facets = np.empty((info.n_facets, info.dim), dtype=np.uint32)
         check(lib.domain_get_boundary(self, None, address(facets)))
         return facets
+
+    @property
+    def features(self) -> List[Tuple[str, Floats]]:
+        """What lies inside, in order: "hole", "line" or "point", and its vertices."""
+        vertices, features = self.vertices, []
+        for number in range(self._info("domain_get_info", "domain_info").n_features):
+            info = new("feature_info")
+            check(lib.domain_get_feature(self, number, ctypes.addressof(info)))
+            own = vertices[info.first_vertex:info.first_vertex + info.n_vertices]
+            features.append((name_of(info.kind, FEATURES) or "", own))
+        return features
 
     @overload
     def locate(self, points: ArrayLike, *, nearest: Literal[False] = ..., progress: Optional[Progress] = ...,
@@ -153,7 +187,7 @@ class Domain(Handle):
 def as_domain(shape: ShapeLike) -> Domain:
     """A domain from whatever describes one.
 
-    Takes a Domain; what `Domain` takes: an array of polygon vertices, a shapely polygon without holes; a
+    Takes a Domain; what `Domain` takes: an array of polygon vertices, a shapely polygon; a
     pair (vertices, facets); a boolean mask; a meshio Mesh of triangles in space (a surface), of triangles in the plane or
     of tetrahedra (a conforming mesh).
     """
@@ -169,23 +203,39 @@ def as_domain(shape: ShapeLike) -> Domain:
     return Domain.from_mask(array) if array.dtype == bool else Domain(array)
 
 
-def _outline(shape: ArrayLike) -> Floats:
+def _features(holes: Iterable[ArrayLike], lines: Iterable[ArrayLike],
+              points: Optional[ArrayLike]) -> List[Tuple[str, Floats]]:
+    """What lies inside: kinds and vertices."""
+    features = [("hole", points_of(_outline(hole), 2)) for hole in holes]
+    features += [("line", points_of(line, 2)) for line in (parts_of(lines) if is_geometry(lines) else lines)]
+    if points is not None and not (isinstance(points, (list, tuple)) and len(points) == 0):
+        features += [("point", point.reshape(1, 2)) for point in points_of(points, 2)]
+    return features
+
+
+def _holes_of(shape: Any) -> List[Any]:
+    """The holes of a shapely polygon."""
+    parts = parts_of(shape) if is_geometry(shape) else []
+    return list(getattr(parts[0], "interiors", ())) if len(parts) == 1 else []
+
+
+def _outline(shape: ArrayLike, without_holes: bool = False) -> Floats:
     """The vertices of a polygon, each once."""
     if is_geometry(shape):
-        shape = _ring_of(shape)
+        shape = _ring_of(shape, without_holes)
     vertices = np.ascontiguousarray(shape, dtype=np.float64)
     is_closed = vertices.ndim == 2 and len(vertices) > 3 and (vertices[0] == vertices[-1]).all()
     return vertices[:-1] if is_closed else vertices
 
 
-def _ring_of(shape: Any) -> Floats:
+def _ring_of(shape: Any, without_holes: bool) -> Floats:
     """The outline of a shapely geometry, without heights."""
     parts = parts_of(shape)
     if len(parts) != 1:
         raise ValueError(f"the {_kind_of(shape)} has {len(parts)} parts; make one map for each part")
     part = parts[0]
-    if len(getattr(part, "interiors", ())) > 0:
-        raise ValueError("the polygon has holes; make one map for each part without")
+    if not without_holes and len(getattr(part, "interiors", ())) > 0:
+        raise ValueError("the polygon has holes")
     if _kind_of(part) in ("Point", "MultiPoint", "MultiLineString"):
         raise ValueError(f"a {_kind_of(part)} is no outline; a domain is made of a Polygon")
     return coordinates([getattr(part, "exterior", part)])[:, :2]

@@ -6,7 +6,7 @@ from ._abi import lib
 
 
 ITEMS = (None, "vertex", "facet", "simplex", "cell", "grid vertex", "axis", "point", "region", "segment", "sample",
-         "handle", "edge", "line", "node")
+         "handle", "edge", "line", "node", "feature", "tie")
 """What `Error.item` may be: the ``ICC_ITEM_*`` of the C library in order."""
 
 

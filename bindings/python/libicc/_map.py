@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import ctypes
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any, Literal, Optional, Tuple, overload
+from typing import TYPE_CHECKING, Any, List, Literal, Optional, Sequence, Tuple, overload
 
 import numpy as np
 
-from ._abi import lib, new
+from ._abi import lib, new, structs
 from ._chart import Chart, chart_options
 from ._core import (
     Call,
@@ -46,6 +46,9 @@ class Map(Saved):
         improve: improvement steps on each level for kind mesh; None: as long as they pay off, 0: none
         method, cells, maximum, ...: of the charts, see `Chart`; the maximum is the source's
         target_maximum: the target's maximum, (dim,), or None
+        ties: with features, as many as there are of them, or none: (vertices, source, target), two vertices of
+            the domain, and the bends of a path from one to the other, (n, 2), in each of the domains. Together
+            they join the features and the outer ring, and say which way round one another these go
         progress, threads: as for `Domain`
 
     Raises:
@@ -62,8 +65,8 @@ class Map(Saved):
                  target_maximum: Optional[ArrayLike] = None, function: Optional[str] = None,
                  constraints: Optional[str] = None, solver: Optional[str] = None,
                  tree: Optional[str] = None, min_fall: Optional[float] = None,
-                 leaf_min: Optional[float] = None, progress: Optional[Progress] = None,
-                 threads: Optional[int] = None):
+                 leaf_min: Optional[float] = None, ties: Sequence[Tuple[Sequence[int], ArrayLike, ArrayLike]] = (),
+                 progress: Optional[Progress] = None, threads: Optional[int] = None):
         source, target = as_domain(source), as_domain(target)
         chart = chart_options(source.dim, method, cells, maximum, function, constraints, solver, tree,
                               min_fall, leaf_min)
@@ -72,6 +75,9 @@ class Map(Saved):
         if target_maximum is not None:
             point = floats(target_maximum, (target.dim,), "target_maximum")
             options.target_maximum = address(point)
+        all_ties, keep = _ties(ties)
+        if ties:
+            options.n_ties, options.ties = len(ties), ctypes.addressof(all_ties)
         self._take(create(lib.map_create, source, target,
                           ctypes.addressof(options), progress=progress, threads=threads))
 
@@ -224,3 +230,17 @@ class Map(Saved):
         info = self.info
         word = "certified" if info.certified else "not certified"
         return f"<libicc.Map: {info.kind}, {info.dim}-D, {word}>"
+
+
+def _ties(ties: Sequence[Tuple[Sequence[int], ArrayLike, ArrayLike]]) -> Tuple[Any, List[Floats]]:
+    """An array of ``icc_tie``, and what it points to."""
+    result, keep = (structs.tie * len(ties))(), []
+    for tie, (vertices, source, target) in zip(result, ties):
+        tie.size = ctypes.sizeof(structs.tie)
+        tie.vertex[:] = vertices
+        for side, bends in (("source", source), ("target", target)):
+            points = points_of(np.reshape(np.asarray(bends, dtype=float), (-1, 2)), 2)
+            setattr(tie, "n_" + side, len(points))
+            setattr(tie, side, address(points))
+            keep.append(points)
+    return result, keep

@@ -164,9 +164,40 @@ def test_shapely(before, after, inside, neighbour):
     shapely = neighbour("shapely.geometry")
     mapping = libicc.Map(shapely.Polygon(before), shapely.Polygon(after))
     assert np.array_equal(mapping(inside), libicc.Map(before, after)(inside))
-    ring = shapely.Polygon(before, [[[1, 1], [2, 1], [2, 2]]])
+    ring = shapely.Polygon([[0, 0], [9, 0], [9, 9]], [[[5, 1], [6, 1], [6, 2]]])
+    domain = libicc.Domain(ring, holes=[shapely.LinearRing([[7, 1], [8, 1], [8, 2]])],
+                           lines=shapely.MultiLineString([[[3, 1], [4, 1]]]), points=shapely.Point(2, 1))
+    assert [kind for kind, _ in domain.features] == ["hole", "hole", "line", "point"]
+    assert libicc.as_domain(ring).info.n_features == 1
     with pytest.raises(ValueError, match="holes"):
-        libicc.Domain.info.fget(libicc.as_domain(ring))
+        libicc.boundary_defects(ring)
+
+
+def test_features():
+    square, hole = [[0, 0], [9, 0], [9, 9], [0, 9]], [[1, 1], [1, 3], [3, 3], [1, 1]]
+    bone, line = [[5, 5], [7, 5]], np.array([[5, 6], [6, 7], [7, 6]])
+    domain = libicc.Domain(square, holes=[hole], lines=[bone, line], points=[[2, 8], [8, 8]])
+    assert domain.info.n_features == 5 and domain.info.measure == 79
+    assert len(domain.vertices) == 4 + 3 + 2 + 3 + 2 and domain.facets[4:].tolist() == [[4, 5], [5, 6], [6, 4]]
+    given = [("hole", hole[:3]), ("line", bone), ("line", line.tolist()), ("point", [[2, 8]]), ("point", [[8, 8]])]
+    assert [(kind, vertices.tolist()) for kind, vertices in domain.features] == given
+    where = domain.locate([[2.9, 2], [1.5, 2.5], [1, 2], [6, 5], [2, 8]])
+    assert where.tolist() == [libicc.INSIDE, libicc.OUTSIDE, libicc.BOUNDARY, libicc.INSIDE, libicc.INSIDE]
+    assert libicc.Domain(square).features == [] and libicc.Domain(square, points=[]).info.n_features == 0
+    assert libicc.Domain(square, points=[3, 4]).features[0][1].tolist() == [[3, 4]]
+    with pytest.raises(libicc.OutsideError, match="feature 1 .a point., vertex 0, lies in feature 0") as caught:
+        libicc.Domain(square, holes=[hole], points=[[1.5, 2.5]])
+    assert caught.value.index == 1 and caught.value.item == "feature"
+    with pytest.raises(libicc.BoundaryError, match="feature 2 .a point.*feature 1"):
+        libicc.Domain(square, lines=[bone, line], points=[[6, 7]])
+    with pytest.raises(libicc.ArgumentError, match="a line has at least 2 vertices"):
+        libicc.Domain(square, lines=[[[1, 1]]])
+    with pytest.raises(ValueError, match="facets"):
+        libicc.Domain(square, [[0, 1], [1, 2], [2, 3], [3, 0]], holes=[hole])
+    with pytest.raises(ValueError, match="shape"):
+        libicc.Domain(square, points=[[1, 1, 1]])
+    with pytest.raises(libicc.UnsupportedError, match="holes, lines or points"):
+        libicc.Chart(domain)
 
 
 def test_closed_rings(before, after, inside):
@@ -216,3 +247,22 @@ def test_geometries_as_points(before, after, inside, neighbour):
 @pytest.mark.parametrize("kind", [libicc.Domain, libicc.Chart, libicc.Map])
 def test_help(kind):
     assert kind.__init__.__doc__ == kind.__doc__ and "Args:" in kind.__doc__
+
+
+def test_maps_of_features():
+    square, hole = [[0, 0], [9, 0], [9, 9], [0, 9]], [[3, 3], [3, 5], [5, 5], [5, 3]]
+    source = libicc.Domain(square, holes=[hole], points=[[7, 2]])
+    target = libicc.Domain(square, holes=[[[4, 4], [4, 6], [6, 6], [6, 4]]], points=[[2, 7]])
+    mapped = libicc.Map(source, target)
+    assert mapped.certified and mapped.info.kind == "mesh"
+    assert np.abs(mapped(source.vertices) - target.vertices).max() < 1e-14
+    images, status = mapped.apply([[4, 4], [7, 2]], status=True)
+    assert status.tolist() == [libicc.Error.OUTSIDE, 0] and images[1].tolist() == [2, 7]
+    # As it is, and with hole and point turned once.
+    short = libicc.Map(source, source, ties=[((0, 4), [], []), ((7, 8), [], [])])
+    turn = [[8, 0.5], [8, 8], [1, 8], [2, 3]]
+    long = libicc.Map(source, source, ties=[((0, 4), [], turn), ((7, 8), [], [])])
+    assert short.info.energy == pytest.approx(4) and long.certified and long.info.energy > 10
+    with pytest.raises(libicc.TopologyError, match="tie 1 joins") as caught:
+        libicc.Map(source, source, ties=[((0, 4), [], []), ((1, 7), [], [])])
+    assert caught.value.index == 1 and caught.value.item == "tie"

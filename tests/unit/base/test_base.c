@@ -17,6 +17,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 /* ---------------------------------------------------------------- version */
 
@@ -499,6 +500,63 @@ static void run_in_order(void *user, size_t n, icc_task task, void *argument)
         task(argument, i);
 }
 
+/* Loops inside the tasks of a loop. */
+typedef struct nest {
+    const iccp_env *env;
+    job *inner;
+} nest;
+
+static icc_status run_inner(void *argument, size_t begin, size_t end)
+{
+    const nest *t = argument;
+    icc_status status = ICC_OK;
+    for (size_t k = begin; k < end && status == ICC_OK; ++k)
+        status = iccp_for_chunks(t->env, "inner", N_ITEMS / 10, GRAIN, work, &t->inner[k]);
+    return status;
+}
+
+/* A team passes from loop to loop, after naps too; without threads the callers do it all. */
+START_TEST(teams_stay_from_loop_to_loop)
+{
+    enum { N_INNER = 6 };
+    for (int32_t threads = 1; threads <= 8; threads += 1 + threads / 3)
+        for (int has_threads = 0; has_threads < 2; ++has_threads) {
+            const icc_env given = {.size = sizeof given, .threads = threads};
+            iccp_env env, with;
+            iccp_team team, idle;
+            job inner[N_INNER];
+            ck_assert_int_eq(iccp_env_read(&env, &given, NULL), ICC_OK);
+            iccp_team_begin(&idle, 0);
+            if (has_threads == 0)
+                env.team = &idle;
+            iccp_with_team(&with, &team, &env);
+            ck_assert((with.team == &team) == (threads > 1 && has_threads == 1));
+            for (int round = 0; round < 12; ++round) {
+                job j = new_job(SIZE_MAX, SIZE_MAX);
+                const size_t n = round % 3 == 0 ? N_ITEMS : 3 * GRAIN;
+                if (round % 4 == 3)
+                    (void)nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
+                ck_assert_int_eq(iccp_for_chunks(&with, "loop", n, GRAIN, work, &j), ICC_OK);
+                check_done_once(j.done, n);
+                free(j.done);
+            }
+            for (int k = 0; k < N_INNER; ++k)
+                inner[k] = new_job(k == 3 ? 300 : SIZE_MAX, SIZE_MAX);
+            ck_assert_int_eq(iccp_for_chunks(&with, "loop", 3, 1, run_inner, &(nest){&with, inner}),
+                             ICC_OK);
+            for (int k = 0; k < 3; ++k)
+                check_done_once(inner[k].done, N_ITEMS / 10);
+            ck_assert_int_eq(
+                iccp_for_chunks(&with, "loop", N_INNER, 1, run_inner, &(nest){&with, inner}),
+                ICC_ERR_SOLVER);
+            for (int k = 0; k < N_INNER; ++k)
+                free(inner[k].done);
+            iccp_without_team(&with, &env);
+            iccp_team_end(&idle);
+        }
+}
+END_TEST
+
 START_TEST(loops_can_be_cancelled)
 {
     for (int32_t threads = 0; threads <= 8; ++threads) /* 0: the caller's */
@@ -624,12 +682,8 @@ START_TEST(tasks_run_side_by_side)
         ck_assert_str_eq(p.lines, "task 0;task 1;");
         if (threads == 0)
             ck_assert_uint_eq(p.n_tasks, 2);
-        if (threads > 1) {
-            ck_assert_int_eq(p.threads[0], (threads + 1) / 2);
-            ck_assert_int_eq(p.threads[1], threads / 2);
-        } else {
-            ck_assert(p.threads[0] == 1 && p.threads[1] == 1);
-        }
+        for (int k = 0; k < 2; ++k)
+            ck_assert_int_eq(p.threads[k], threads > 1 ? threads : 1);
     }
 }
 END_TEST
@@ -762,6 +816,7 @@ int main(void)
     tcase_add_test(tests, loops_do_everything_once);
     tcase_add_test(tests, the_first_failure_wins);
     tcase_add_test(tests, the_callers_threads_are_used);
+    tcase_add_test(tests, teams_stay_from_loop_to_loop);
     tcase_add_test(tests, loops_can_be_cancelled);
     tcase_add_test(tests, tasks_run_side_by_side);
     tcase_add_test(tests, the_first_task_that_fails_decides);

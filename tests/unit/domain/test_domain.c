@@ -219,18 +219,32 @@ static iccp_simple find_simple(size_t n, const double *points)
 {
     const iccp_env env = default_env();
     iccp_simple quick;
-    iccp_boxtree tree;
-    iccp_boxtree_create(&tree, points, n, &env.memory);
-    REQUIRE(tree.boxes != NULL && iccp_simple_find(&quick, &tree, &env) == ICC_OK);
-    iccp_boxtree_free(&tree, &env.memory);
+    REQUIRE(iccp_simple_find(&quick, points, n, &env) == ICC_OK);
     return quick;
 }
 
+/* The number of the first defect but that all points lie on one line. */
+static size_t first_number(const defects *d)
+{
+    const size_t k = d->kinds[0] == ICC_DEFECT_FLAT;
+    REQUIRE(d->n > k);
+    return d->items[2 * k];
+}
+
+static bool has_empty_edge(const shape *s)
+{
+    for (int i = 0; i < s->n; ++i)
+        if (same(corner(s, i), corner(s, i + 1)))
+            return true;
+    return false;
+}
+
 /* The quick test, unless it gives up, and the sweep. */
-static void check_tests(const shape *s, bool expected)
+static void check_tests(const shape *s, const defects *list)
 {
     static double points[2 * MAX_N + 2];
     const iccp_env env = default_env();
+    const bool expected = list->n == 0;
     const size_t n = (size_t)s->n;
     const iccp_polygon polygon = {.n = n, .points = points};
     iccp_defect found;
@@ -242,6 +256,11 @@ static void check_tests(const shape *s, bool expected)
         REQUIRE(quick.n_tests > ICCP_SIMPLE_PATIENCE * n);
     else
         REQUIRE((quick.answer == ICCP_SIMPLE) == expected);
+    if (quick.answer != ICCP_NOT_SIMPLE || has_empty_edge(s) ||
+        quick.n_tests > ICCP_SIMPLE_PATIENCE * n)
+        REQUIRE(quick.first == n);
+    else
+        REQUIRE(quick.first == first_number(list));
     REQUIRE(iccp_sweep(&found, &polygon, &env) == ICC_OK);
     REQUIRE((found.kind == 0) == expected);
 }
@@ -253,7 +272,7 @@ static void check_shape(const shape *s, double scale, double x, double y)
     to_doubles(s, scale, x, y, points);
     slow_defects(&expected, s);
     if (s->n >= 3)
-        check_tests(s, expected.n == 0);
+        check_tests(s, &expected);
     list(&got, (size_t)s->n, points);
     REQUIRE(got.n == expected.n);
     REQUIRE(memcmp(got.kinds, expected.kinds, got.n * sizeof *got.kinds) == 0);
@@ -531,6 +550,78 @@ START_TEST(test_shapes)
 }
 END_TEST
 
+static spot polar_spot(double radius, double angle)
+{
+    return (spot){(int64_t)(radius * cos(angle)), (int64_t)(radius * sin(angle))};
+}
+
+/* Long stretches that lead one way: round outlines, windings, stairs with flat and steep parts. */
+static void make_long(shape *s, int kind, int n)
+{
+    const double turn = 6.283185307179586;
+    s->n = n;
+    for (int i = 0; i < n; ++i) {
+        const double angle = turn * i / n, half = 8 * turn * (i < n / 2 ? i : n - 1 - i) / n;
+        if (kind == 0)
+            s->at[i] = polar_spot(1e5 * (1 + 0.5 * sin(3 * angle) + 0.1 * sin(11 * angle)), angle);
+        else if (kind == 1)
+            s->at[i] = polar_spot(1e4 * ((i < n / 2 ? 1 : 3) + half), half);
+        else
+            s->at[i] = i == 0 ? (spot){0, 0} : s->at[i - 1];
+        if (kind == 2 && i + 1 < n)
+            *(below(2) == 0 ? &s->at[i].x : &s->at[i].y) += 2 + 2 * below(9);
+        if (kind == 2 && i + 1 == n)
+            s->at[i] = (spot){-2 - 2 * below(3), s->at[i].y + 2 * below(3)};
+    }
+}
+
+/* Begins elsewhere, and another way round or up. */
+static void turn_about(shape *s)
+{
+    static shape old;
+    const int start = below(s->n), way = below(2), swap = below(2), sign = 1 - 2 * below(2);
+    old = *s;
+    for (int i = 0; i < s->n; ++i) {
+        const spot p = corner(&old, way == 0 ? start + i : start + s->n - i);
+        s->at[i] = swap == 0 ? (spot){sign * p.x, p.y} : (spot){p.y, sign * p.x};
+    }
+}
+
+/* Makes vertices meet others, or edges, or a whole stretch run along another. */
+static void make_touch(shape *s, int way)
+{
+    const int a = below(s->n), b = below(s->n), reach = way < 2 ? 1 : 1 + below(5);
+    for (int i = 0; i < reach; ++i) {
+        const spot p = corner(s, b + i), q = corner(s, b + i + 1);
+        spot *v = &s->at[(way == 3 ? a + s->n - i : a + i) % s->n];
+        *v = way == 0 ? (spot){(p.x + q.x) / 2, (p.y + q.y) / 2} : p;
+    }
+}
+
+/* Chains of many edges, whole and touching themselves. */
+START_TEST(test_chains)
+{
+    static shape s;
+    defects d;
+    int n_simple[3] = {0}, n_spoilt[4] = {0};
+    for (int round = 0; round < share_of(1200); ++round) {
+        make_long(&s, round % 3, 12 + below(round % 40 == 0 ? 900 : 120));
+        turn_about(&s);
+        slow_defects(&d, &s);
+        n_simple[round % 3] += d.n == 0;
+        check_shape(&s, 1, 0, 0);
+        make_touch(&s, round % 4);
+        slow_defects(&d, &s);
+        n_spoilt[round % 4] += d.n > 0;
+        check_shape(&s, 1, 0, 0);
+    }
+    for (int kind = 0; kind < 3; ++kind)
+        ck_assert_int_gt(n_simple[kind], share_of(1200) / 5);
+    for (int way = 0; way < 4; ++way)
+        ck_assert_int_gt(n_spoilt[way], share_of(1200) / 5);
+}
+END_TEST
+
 /* A slit one unit in the last place wide is open; of width zero it is not. */
 START_TEST(test_slit)
 {
@@ -753,12 +844,36 @@ static void check_reach(const icc_domain *domain, const double *x)
 {
     double p[2], t, distance2;
     iccp_frame_in(&domain->frame, 2, x, p);
-    const iccp_boxtree *tree = &domain->locator->tree;
+    const iccp_boxtree *tree = &iccp_locator_trees(domain->locator)->edges;
     (void)iccp_boxtree_nearest(tree, p, &t, &distance2);
     REQUIRE(iccp_boxtree_reaches(tree, p, distance2));
     REQUIRE(iccp_boxtree_reaches(tree, p, 3 * distance2));
     REQUIRE(!(distance2 > 0) || !iccp_boxtree_reaches(tree, p, nextafter(distance2, 0)));
     REQUIRE(!(distance2 > 0) || !iccp_boxtree_reaches(tree, p, distance2 / 3));
+}
+
+/* Trees without boxes, for want of memory, answer the same. */
+static void check_without_boxes(const icc_domain *domain, const double *x)
+{
+    const iccp_edge_trees *full = iccp_locator_trees(domain->locator),
+                          *bare = &domain->locator->bare_trees;
+    double p[2], t[2], distance2[2], bary[2][2], share[2];
+    uint32_t facet[2] = {0, 0};
+    iccp_frame_in(&domain->frame, 2, x, p);
+    REQUIRE(full->edges.boxes != NULL && bare->edges.boxes == NULL);
+    REQUIRE(iccp_boxtree_nearest(&full->edges, p, &t[0], &distance2[0]) ==
+            iccp_boxtree_nearest(&bare->edges, p, &t[1], &distance2[1]));
+    REQUIRE(t[0] == t[1] && distance2[0] == distance2[1]);
+    REQUIRE(iccp_boxtree_reaches(&bare->edges, p, distance2[0]));
+    REQUIRE(!(distance2[0] > 0) || !iccp_boxtree_reaches(&bare->edges, p, distance2[0] / 3));
+    REQUIRE(iccp_facet_tree_nearest(&full->facets, p, bary[0], &distance2[0]) ==
+            iccp_facet_tree_nearest(&domain->tree, p, bary[1], &distance2[1]));
+    REQUIRE(memcmp(bary[0], bary[1], sizeof bary[0]) == 0 && distance2[0] == distance2[1]);
+    const bool crosses =
+        iccp_segment_crossing(&full->facets, p, domain->vertices, &share[0], &facet[0]);
+    REQUIRE(crosses ==
+            iccp_segment_crossing(&domain->tree, p, domain->vertices, &share[1], &facet[1]));
+    REQUIRE(!crosses || (share[0] == share[1] && facet[0] == facet[1]));
 }
 
 static void widen(int64_t *low, int64_t *high, int64_t x)
@@ -771,7 +886,7 @@ static void widen(int64_t *low, int64_t *high, int64_t x)
 static const iccp_buckets *buckets_of(const icc_domain *domain)
 {
     (void)iccp_domain_locate(domain, (double[]){0, 0}, true, NULL, NULL);
-    const iccp_buckets *buckets = atomic_load(&domain->locator->buckets);
+    const iccp_buckets *buckets = iccp_once_get(&domain->locator->buckets);
     ck_assert_ptr_nonnull(buckets);
     return buckets;
 }
@@ -813,6 +928,7 @@ START_TEST(test_locate_exactly)
             ++n_points[where];
             check_nearest(points, s.n, x, facet, bary, (double)(high - low));
             check_reach(domain, x);
+            check_without_boxes(domain, x);
             if (i % 3 == 0 && (quarter == 0 || quarter == 4))
                 REQUIRE(fmax(bary[0], bary[1]) == 1);
         }
@@ -1391,6 +1507,7 @@ int main(void)
     tcase_add_test(checks, test_list_capacity);
     tcase_add_test(checks, test_random_integers);
     tcase_add_test(checks, test_shapes);
+    tcase_add_test(checks, test_chains);
     tcase_add_test(checks, test_slit);
     tcase_add_test(checks, test_nearly_degenerate);
     tcase_add_test(checks, test_work);

@@ -137,14 +137,28 @@ static void shuffle(test_mesh *m, random_source *r)
     free(number);
 }
 
+/* The vertices are known bit for bit. */
+static void check_given(const icc_domain *d, const double *expected)
+{
+    const size_t dim = (size_t)d->dim;
+    double x[ICC_MAX_DIM];
+    for (size_t v = 0; v < d->n_vertices; ++v) {
+        iccp_domain_given(d, v, x);
+        ck_assert_mem_eq(x, expected + dim * v, dim * sizeof *x);
+    }
+}
+
 /* The caller's numbers of the vertices of the boundary, which are the domain's in this order. */
 static size_t list_rim(const icc_domain *d, const test_mesh *m, uint32_t *rim)
 {
     const size_t size = (size_t)m->dim * sizeof(double);
+    double x[ICC_MAX_DIM];
     size_t n = 0;
-    for (uint32_t v = 0; v < m->n_vertices && n < d->n_vertices; ++v)
-        if (memcmp(m->vertices + (size_t)m->dim * v, d->given + (size_t)m->dim * n, size) == 0)
+    for (uint32_t v = 0; v < m->n_vertices && n < d->n_vertices; ++v) {
+        iccp_domain_given(d, n, x);
+        if (memcmp(m->vertices + (size_t)m->dim * v, x, size) == 0)
             rim[n++] = v;
+    }
     return n;
 }
 
@@ -185,9 +199,12 @@ START_TEST(the_boundary_is_an_ordinary_one)
     for (int32_t dim = 2; dim <= 4; ++dim) {
         test_mesh m = mesh_ball(dim, 4, 0.1, &r);
         icc_domain *d = make(&m), *alone;
-        ck_assert_int_eq(icc_domain_create(&alone, dim, d->n_vertices, d->given, d->n_facets,
+        double *given = mesh_alloc(d->n_vertices * (size_t)dim, sizeof *given);
+        ck_assert_int_eq(icc_domain_get_boundary(d, given, NULL), ICC_OK);
+        ck_assert_int_eq(icc_domain_create(&alone, dim, d->n_vertices, given, d->n_facets,
                                            d->facets, NULL, NULL),
                          ICC_OK);
+        free(given);
         check_mesh(d, &m);
         ck_assert_mem_eq(d->vertices, alone->vertices,
                          d->n_vertices * (size_t)dim * sizeof(double));
@@ -221,7 +238,7 @@ START_TEST(polygons)
             icc_domain *d = make(&m);
             check_mesh(d, &m);
             ck_assert_uint_eq(d->n_vertices, shapes[k].n);
-            ck_assert_mem_eq(d->given, shapes[k].xy, 2 * shapes[k].n * sizeof(double));
+            check_given(d, shapes[k].xy);
             icc_domain_free(d);
             mesh_free(&m);
         }
@@ -712,7 +729,7 @@ START_TEST(meshes_by_tetgen)
     if (mesh_tetgen(&m, s.n_vertices, s.vertices, s.n_faces, s.faces, "test_simplices_star")) {
         icc_domain *d = make(&m);
         check_mesh(d, &m);
-        ck_assert_mem_eq(d->given, s.vertices, 3 * s.n_vertices * sizeof(double));
+        check_given(d, s.vertices);
         ck_assert_mem_eq(d->facets, s.faces, 3 * s.n_faces * sizeof(uint32_t));
         icc_domain_free(d);
         mesh_free(&m);

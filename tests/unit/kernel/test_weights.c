@@ -183,7 +183,7 @@ START_TEST(both_ways_agree)
         iccp_handles *handles = make_handles(&p);
         for (int k = 0; k < 30; ++k) {
             double columns[ICCP_ROWS * MOST] = {0}, other[MOST];
-            iccp_nonneg same = {.m = p.m, .columns = columns, .total = 1};
+            iccp_nonneg same = {.m = p.m, .rows = p.dim + 1, .columns = columns, .total = 1};
             point_inside(&p, &r);
             random_start(&p, &r);
             same.target[0] = 1;

@@ -357,13 +357,13 @@ START_TEST(what_frames_share_changes_nothing)
     ck_assert_int_eq(icc_map_load(&map, x.saved.n, x.saved.data, NULL, NULL), ICC_OK);
     for (int k = 0; k < 3; ++k)
         same_bytes(follow(map, 0.05 * k, NULL, NULL), follow(map, 0.05 * k, &apart, NULL));
-    ck_assert_ptr_nonnull(atomic_load(&map->mesh->plan));
+    ck_assert_ptr_nonnull(iccp_once_get(&map->mesh->plan));
     frame = map;
     for (int k = 0; k < 4; ++k) { /* each from the one before, which is freed */
-        iccp_newton_plan *plan = atomic_load(&frame->mesh->plan);
+        iccp_newton_plan *plan = iccp_once_get(&frame->mesh->plan);
         const bytes other = follow(frame, 0.04 * k, &apart, NULL);
         same_bytes(follow(frame, 0.04 * k, NULL, &next), other);
-        ck_assert_ptr_eq(atomic_load(&next->mesh->plan), plan);
+        ck_assert_ptr_eq(iccp_once_get(&next->mesh->plan), plan);
         icc_map_free(frame);
         frame = next;
     }

@@ -345,6 +345,30 @@ START_TEST(damage_is_noticed)
 }
 END_TEST
 
+/* Bytes of maps without features are of version 1, and of no other. */
+START_TEST(versions)
+{
+    static const icc_status expected[] = {ICC_ERR_FORMAT, ICC_OK, ICC_ERR_FORMAT, ICC_ERR_VERSION};
+    for (int k = 0; k < N_SMALL; ++k) {
+        pair p;
+        icc_map *map = small_map(k, &p), *again;
+        bytes b = map_bytes(map);
+        for (uint32_t version = 0; version < 4; ++version) {
+            iccp_blob w;
+            size_t n;
+            iccp_blob_begin(&w, b.data, b.n, "MAP_", version);
+            w.at = b.n;
+            iccp_blob_end(&w, &n);
+            ck_assert_int_eq(icc_map_load(&again, b.n, b.data, NULL, NULL), expected[version]);
+            icc_map_free(again);
+        }
+        free(b.data);
+        icc_map_free(map);
+        free_pair(&p);
+    }
+}
+END_TEST
+
 static void check_harmless(const bytes *b, const icc_domain *source)
 {
     static images found;
@@ -524,6 +548,7 @@ int main(void)
     tcase_add_test(c, cut_chords);
     tcase_add_test(c, surfaces);
     tcase_add_test(c, damage_is_noticed);
+    tcase_add_test(c, versions);
     tcase_add_test(c, content_is_checked);
     tcase_add_test(c, false_meshes_are_refused);
     tcase_add_test(c, false_images_in_space_are_refused);

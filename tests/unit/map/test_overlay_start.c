@@ -64,11 +64,24 @@ static double check_shapes(const shape *a, const shape *b, uint64_t seed, double
     pair p = pair_of(a, b, seed);
     iccp_plmap map, again;
     iccp_work work = {.left = limit}, work_again = work;
-    ck_assert_int_eq(iccp_overlay_start(&map, p.source, p.target, &work, &env), ICC_OK);
+    ck_assert_int_eq(iccp_overlay_start(&map, p.source, p.target, HUGE_VAL, &work, &env), ICC_OK);
     check_start(&p, &map);
-    ck_assert(work.spent <= limit && work.left == limit - work.spent);
-    ck_assert_int_eq(iccp_overlay_start(&again, p.source, p.target, &work_again, &env), ICC_OK);
+    ck_assert(work.left == limit - work.spent);
+    ck_assert_int_eq(iccp_overlay_start(&again, p.source, p.target, HUGE_VAL, &work_again, &env),
+                     ICC_OK);
     ck_assert(is_same(&map, &again));
+    iccp_plmap_free(&again);
+    /* Crossings cost what they cost; steps are made with what is left. */
+    iccp_work crossings = {0};
+    ck_assert_int_eq(iccp_overlay_start(&again, p.source, p.target, HUGE_VAL, &crossings, &env),
+                     ICC_OK);
+    ck_assert_double_le(crossings.spent, 4 * (double)(p.source->n_facets * p.source->n_facets));
+    ck_assert_double_ge(work.spent, crossings.spent);
+    ck_assert_double_le(work.spent, fmax(limit, crossings.spent));
+    iccp_plmap_free(&again);
+    iccp_work capped = {.left = limit};
+    ck_assert_int_eq(iccp_overlay_start(&again, p.source, p.target, 1000, &capped, &env), ICC_OK);
+    ck_assert_double_le(capped.spent, crossings.spent + 1000);
     const double energy = iccp_plmap_energy(&map);
     iccp_plmap_free(&map);
     iccp_plmap_free(&again);
@@ -116,7 +129,8 @@ static icc_status start(const icc_env *env, icc_error *err, void *argument)
     iccp_plmap map;
     iccp_work work = {.left = 2000};
     ck_assert_int_eq(iccp_env_read(&full, env, NULL), ICC_OK);
-    const icc_status status = iccp_overlay_start(&map, p->source, p->target, &work, &full);
+    const icc_status status =
+        iccp_overlay_start(&map, p->source, p->target, HUGE_VAL, &work, &full);
     if (status == ICC_OK)
         check_start(p, &map);
     iccp_plmap_free(&map);

@@ -11,13 +11,13 @@
 static icc_status repair(iccp_plmap *map, size_t *n_left, const iccp_env *env)
 {
     iccp_work work = iccp_work_unlimited();
-    return iccp_repair(map, &work, n_left, env);
+    return iccp_repair(map, HUGE_VAL, &work, n_left, env);
 }
 
 static icc_status improve(iccp_plmap *map, size_t iterations, double tolerance, size_t levels,
                           iccp_improvement *improvement, const iccp_env *env)
 {
-    const iccp_schedule schedule = {iterations, tolerance, levels, HUGE_VAL};
+    const iccp_schedule schedule = {iterations, tolerance, levels, HUGE_VAL, false};
     iccp_work work = iccp_work_unlimited();
     return iccp_improve(map, &schedule, &work, improvement, env);
 }
@@ -397,7 +397,7 @@ START_TEST(work_is_never_exceeded)
     const double limits[] = {0, n - 1, n, 2.5 * n, 10 * n, 100 * n, 1000 * n, HUGE_VAL};
     double last = energy;
     for (size_t k = 0; k < sizeof limits / sizeof *limits; ++k) {
-        const iccp_schedule schedule = {60, 1e-6, 16, 4 * n};
+        const iccp_schedule schedule = {60, 1e-6, 16, 4 * n, false};
         iccp_work work = {.left = limits[k]};
         iccp_plmap map;
         iccp_improvement improvement;
@@ -432,7 +432,7 @@ START_TEST(repairs_take_no_more_work_than_there_is)
         iccp_work work = {.left = limit};
         size_t n_left;
         break_map(&map, 2, &r);
-        ck_assert_int_eq(iccp_repair(&map, &work, &n_left, &env), ICC_OK);
+        ck_assert_int_eq(iccp_repair(&map, HUGE_VAL, &work, &n_left, &env), ICC_OK);
         ck_assert_uint_eq(n_left, iccp_plmap_count_inverted(&map));
         check_mesh(&map);
         spent[k] = work.spent;
@@ -443,6 +443,35 @@ START_TEST(repairs_take_no_more_work_than_there_is)
     }
     ck_assert(spent[0] > 0 && spent[1] == 0);
     ck_assert_uint_gt(n_unfinished, 0);
+}
+END_TEST
+
+/* A start that a repair mends in a number of steps: not after a trial that ends with the first, and
+ * as without one after a trial that is long enough. */
+START_TEST(a_trial_ends_what_takes_longer)
+{
+    const iccp_env env = default_env();
+    const shape s = shape_number(3);
+    iccp_plmap maps[3];
+    double spent[3], trial = HUGE_VAL;
+    for (int k = 0; k < 3; ++k) {
+        random_source r = {7};
+        iccp_work work = iccp_work_unlimited();
+        size_t n_left;
+        maps[k] = map_of(&s, 6, identity, 1);
+        break_map(&maps[k], 2, &r);
+        ck_assert_int_eq(iccp_repair(&maps[k], trial, &work, &n_left, &env), ICC_OK);
+        ck_assert((n_left > 0) == (k == 1));
+        check_mesh(&maps[k]);
+        spent[k] = work.spent;
+        trial = k == 0 ? 1 : spent[0];
+    }
+    ck_assert_double_le(spent[1], (double)maps[1].corners.n_triangles);
+    ck_assert_double_gt(spent[0], 2 * spent[1]);
+    ck_assert_uint_eq(maps[0].n_vertices, maps[2].n_vertices);
+    ck_assert_mem_eq(maps[0].images, maps[2].images, maps[0].n_vertices * 2 * sizeof(double));
+    for (int k = 0; k < 3; ++k)
+        iccp_plmap_free(&maps[k]);
 }
 END_TEST
 
@@ -551,6 +580,7 @@ int main(void)
     tcase_add_test(tests, levels_refine_and_lower_the_energy);
     tcase_add_test(tests, work_is_never_exceeded);
     tcase_add_test(tests, repairs_take_no_more_work_than_there_is);
+    tcase_add_test(tests, a_trial_ends_what_takes_longer);
     tcase_add_test(tests, failures_leave_valid_maps);
     suite_add_tcase(suite, tests);
     SRunner *runner = srunner_create(suite);

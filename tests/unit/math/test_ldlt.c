@@ -675,39 +675,60 @@ static double work_of(const iccp_supernodes *nodes, size_t s)
     return columns * (columns + (double)iccp_supernodes_below(nodes, s));
 }
 
-/* Runs hold whole subtrees, most of the work, and none of them much of it. */
+/* Runs hold whole subtrees, `least` of the work, and none of them much more than its share. */
+static void check_runs(const iccp_subtrees *t, const iccp_supernodes *nodes, double share,
+                       double least)
+{
+    double all = 0, inside = 0;
+    for (size_t s = 0; s < nodes->n; ++s)
+        all += work_of(nodes, s);
+    for (size_t k = 0, end = 0; k < t->n; end = t->run[k++].end) {
+        double own = 0;
+        ck_assert(t->run[k].begin >= end && t->run[k].end > t->run[k].begin);
+        for (uint32_t s = t->run[k].begin; s < t->run[k].end; ++s)
+            own += work_of(nodes, s);
+        ck_assert_double_le(own, 1.6 * share * all);
+        inside += own;
+    }
+    ck_assert_double_eq_tol(inside, t->labour, 1e-9 * all);
+    ck_assert_double_gt(inside, least * all);
+    /* What is in a run has its children there: nothing outside has its parent in it. */
+    for (uint32_t s = 0; s < nodes->n; ++s)
+        for (size_t k = 0; k < t->n; ++k) {
+            const uint32_t parent = nodes->parent[s];
+            const bool is_in = s >= t->run[k].begin && s < t->run[k].end;
+            ck_assert(is_in || parent < t->run[k].begin || parent >= t->run[k].end);
+        }
+}
+
+/* And those of an inner level lie within those of the outer one. */
 START_TEST(subtrees_are_independent)
 {
     const iccp_env env = plain_env();
     lattice g = make_lattice(90, 90, 1, everywhere);
     uint32_t *order = dissection_of(90);
     iccp_ldlt l;
-    iccp_subtrees t;
     ck_assert_int_eq(iccp_ldlt_analyse_ordered(&l, &g.m, order, &env), ICC_OK);
     const iccp_supernodes *nodes = &l.nodes;
-    ck_assert_int_eq(iccp_subtrees_create(&t, nodes, work_of, &env), ICC_OK);
-    double all = 0, inside = 0;
-    for (size_t s = 0; s < nodes->n; ++s)
-        all += work_of(nodes, s);
-    ck_assert_uint_gt(t.n, 4);
-    for (size_t k = 0, end = 0; k < t.n; end = t.run[k++].end) {
-        double own = 0;
-        ck_assert(t.run[k].begin >= end && t.run[k].end > t.run[k].begin);
-        for (uint32_t s = t.run[k].begin; s < t.run[k].end; ++s)
-            own += work_of(nodes, s);
-        ck_assert_double_le(own, 0.1 * all);
-        inside += own;
-    }
-    ck_assert_double_eq_tol(inside, t.labour, 1e-9 * all);
-    ck_assert_double_gt(inside, 0.4 * all);
-    /* What is in a run has its children there: nothing outside has its parent in it. */
-    for (uint32_t s = 0; s < nodes->n; ++s)
-        for (size_t k = 0; k < t.n; ++k) {
-            const uint32_t parent = nodes->parent[s];
-            const bool is_in = s >= t.run[k].begin && s < t.run[k].end;
-            ck_assert(is_in || parent < t.run[k].begin || parent >= t.run[k].end);
+    for (double large = 0.4; large > 0.1; large *= 0.8) {
+        iccp_subtrees outer, inner;
+        ck_assert_int_eq(iccp_subtrees_create(&outer, nodes, large, NULL, work_of, &env), ICC_OK);
+        ck_assert_int_eq(iccp_subtrees_create(&inner, nodes, 1.0 / 16, &outer, work_of, &env),
+                         ICC_OK);
+        ck_assert_uint_gt(outer.n, 1);
+        ck_assert_uint_gt(inner.n, 4);
+        check_runs(&outer, nodes, large, 0.5);
+        check_runs(&inner, nodes, 1.0 / 16, 0.4);
+        for (size_t k = 0; k < inner.n; ++k) {
+            size_t n_around = 0;
+            for (size_t j = 0; j < outer.n; ++j)
+                n_around += inner.run[k].begin >= outer.run[j].begin &&
+                            inner.run[k].end <= outer.run[j].end;
+            ck_assert_uint_eq(n_around, 1);
         }
-    iccp_subtrees_free(&t, &env.memory);
+        iccp_subtrees_free(&outer, &env.memory);
+        iccp_subtrees_free(&inner, &env.memory);
+    }
     iccp_ldlt_free(&l);
     free(order);
     lattice_clear(&g);

@@ -72,7 +72,7 @@ static double allowed(const graded *g, const double *p)
 static double boundary_distance(const graded *g, const double *p)
 {
     double t, distance2;
-    (void)iccp_boxtree_nearest(&g->domain->locator->tree, p, &t, &distance2);
+    (void)iccp_boxtree_nearest(&iccp_locator_trees(g->domain->locator)->edges, p, &t, &distance2);
     return sqrt(distance2);
 }
 

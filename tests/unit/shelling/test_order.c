@@ -2,9 +2,9 @@
  * wells and houses with two rooms, coarse and finer, in 2 to 6 dimensions. The checker knows the
  * faces of a simplex as lists of vertices, and nothing of how orders are found. */
 #include "base/error.h"
+#include "base/heap.h"
 #include "domain/domain.h"
 #include "shelling/best_order.h"
-#include "shelling/heap.h"
 #include "shelling/reverse.h"
 
 #include "../../faulty.h"

@@ -2,6 +2,7 @@
  * vectors that are, the one with the least energy: two properties that have it all. */
 #include "base/error.h"
 #include "math/orient.h"
+#include "shelling/arranged.h"
 #include "shelling/element.h"
 #include "shelling/links.h"
 #include "shelling/reference.h"
@@ -360,6 +361,72 @@ START_TEST(flat_simplices_do_no_harm)
 }
 END_TEST
 
+/* From the middle of a round disc as much reaches every stretch of the boundary. */
+START_TEST(harmonic_inflow_of_a_disc)
+{
+    enum { N = 96 };
+    double xy[2 * N];
+    for (int i = 0; i < N; ++i) {
+        xy[2 * i] = cos(2 * 3.14159265358979323846 * i / N);
+        xy[2 * i + 1] = sin(2 * 3.14159265358979323846 * i / N);
+    }
+    test_mesh m = mesh_polygon(N, xy, 0.06);
+    const double origin[2] = {0, 0};
+    const iccp_env env = flux_env();
+    icc_domain *domain;
+    double windows[4] = {0};
+    ck_assert_int_eq(mesh_domain(&domain, &m, NULL, NULL), ICC_OK);
+    fluxes f = room_for(domain->mesh);
+    ck_assert_int_eq(
+        iccp_inflow(domain->mesh, iccp_nearest_centre(domain->mesh, origin), 1, f.inflow, &env),
+        ICC_OK);
+    for (size_t i = 0; i < domain->n_facets; ++i) {
+        const double *p = domain->vertices + 2 * domain->facets[2 * i];
+        const double *q = domain->vertices + 2 * domain->facets[2 * i + 1];
+        windows[(p[0] + q[0] > 0) + 2 * (p[1] + q[1] > 0)] += f.inflow[i];
+    }
+    for (int k = 0; k < 4; ++k)
+        ck_assert_double_eq_tol(windows[k], 0.25, 0.02);
+    fluxes_free(&f);
+    icc_domain_free(domain);
+    mesh_free(&m);
+}
+END_TEST
+
+/* The same simplices with the same neighbours, in an order of their own. */
+START_TEST(arranged_meshes_are_the_same)
+{
+    for (int k = 0; k < FLUX_CASES; ++k) {
+        const iccp_env env = flux_env();
+        flux_case c = flux_number(k);
+        const size_t n = c.mesh->dim + 1, n_sides = flux_sides(c.mesh);
+        iccp_arranged a;
+        ck_assert_int_eq(iccp_arranged_create(&a, c.mesh, &env), ICC_OK);
+        double *here = mesh_alloc(n_sides, sizeof *here);
+        double *there = mesh_alloc(n_sides, sizeof *there);
+        for (size_t s = 0; s < n_sides; ++s) {
+            const uint32_t across = a.mesh.across[s];
+            const size_t given = n * a.order[s / n] + s % n;
+            const uint32_t expected = c.mesh->across[given];
+            ck_assert_uint_eq(a.mesh.corners[s], c.mesh->corners[given]);
+            if (expected >= ICCP_ON_BOUNDARY)
+                ck_assert_uint_eq(across, expected);
+            else
+                ck_assert_uint_eq(n * a.order[across / n] + across % n, expected);
+            here[s] = (double)given;
+            there[s] = -1;
+        }
+        iccp_arranged_restore(&a, here, there);
+        for (size_t s = 0; s < n_sides; ++s)
+            ck_assert(fabs(there[s] - (double)s) < 0.5);
+        iccp_arranged_free(&a);
+        free(here);
+        free(there);
+        flux_free(&c);
+    }
+}
+END_TEST
+
 /* A factor would take a gigabyte. */
 static void *small_alloc(void *user, size_t size)
 {
@@ -418,6 +485,8 @@ int main(void)
     tcase_add_test(test, inflow_is_positive);
     tcase_add_test(test, uniform_inflow_goes_by_area);
     tcase_add_test(test, harmonic_inflow_falls_along_a_corridor);
+    tcase_add_test(test, harmonic_inflow_of_a_disc);
+    tcase_add_test(test, arranged_meshes_are_the_same);
     tcase_add_test(test, flux_has_no_sources);
     tcase_add_test(test, flux_has_least_energy);
     tcase_add_test(test, potential_of_a_disc);

@@ -4,6 +4,7 @@
 #include "solver/bilaplace.h"
 #include "solver/energy.h"
 #include "solver/interior_point.h"
+#include "solver/nested.h"
 #include "solver/polish.h"
 
 #include "../../faulty.h"
@@ -458,11 +459,11 @@ static icc_status solve_from_inside(const problem *p, int32_t function, double *
     if (status == ICC_OK) {
         status = iccp_interior_point_run(&ip, 1e-17, &stuck, &info, env);
         for (size_t i = 0; i < iccp_qp_inequalities(&qp); ++i) {
-            ck_assert(ip.slack[i] > 0 && ip.multiplier[i] > 0);
-            active[i] = ip.multiplier[i] > ip.slack[i];
+            ck_assert(ip.newton.slack[i] > 0 && ip.newton.multiplier[i] > 0);
+            active[i] = ip.newton.multiplier[i] > ip.newton.slack[i];
         }
         if (status == ICC_OK)
-            status = iccp_polish(&qp, active, 1e-12, &candidate, &info, env);
+            status = iccp_polish(&qp, active, 1e-12, ICCP_POLISH_MOST, &candidate, &info, env);
         iccp_interior_point_free(&ip);
     }
     *residual = candidate.residual;
@@ -492,6 +493,85 @@ START_TEST(both_ways_lead_to_the_same_function)
             free(f);
             problem_clear(&p);
         }
+}
+END_TEST
+
+/* The same from coarse to fine, without what follows for large problems. */
+static icc_status solve_nested(const problem *p, int32_t function, size_t coarsest, double *f,
+                               double *residual, icc_function_info *info, const iccp_env *env)
+{
+    iccp_qp qp;
+    icc_status status = iccp_qp_create(&qp, &p->unknowns, function, 1e-6, 1e-9, env);
+    if (status != ICC_OK)
+        return status;
+    uint8_t *active = calloc(iccp_qp_inequalities(&qp), 1);
+    iccp_candidate candidate = {f, HUGE_VAL};
+    status = iccp_nested(&qp, function, coarsest, 1e-12, &candidate, active, info, env);
+    *residual = candidate.residual;
+    free(active);
+    iccp_qp_free(&qp);
+    return status;
+}
+
+START_TEST(coarse_to_fine_leads_there_too)
+{
+    const iccp_env env = plain_env();
+    const int shapes[] = {0, 2, 3, 4};
+    for (size_t s = 0; s < sizeof shapes / sizeof *shapes; ++s)
+        for (int k = 0; k < 2; ++k) {
+            problem p = problem_of(mask_number(shapes[s]).shape, 2, 64);
+            icc_function_info info = {.size = sizeof info}, nested = {.size = sizeof nested};
+            double residual, *f = malloc(p.n * sizeof *f);
+            ck_assert_int_eq(iccp_bilaplace_constrained(&p.unknowns, FUNCTIONS[k], 1e-6, 1e-9, &p.f,
+                                                        &info, &env),
+                             ICC_OK);
+            ck_assert_int_eq(solve_nested(&p, FUNCTIONS[k], 300, f, &residual, &nested, &env),
+                             ICC_OK);
+            ck_assert_double_le(residual, 1e-11);
+            for (size_t i = 0; i < p.n; ++i)
+                ck_assert_double_le(fabs(f[i] - value(&p, i)), 1e-8);
+            free(f);
+            problem_clear(&p);
+        }
+}
+END_TEST
+
+/* A comb whose teeth no coarser grid has: there is no candidate, and that is all. */
+START_TEST(grids_that_lose_the_shape_are_not_used)
+{
+    enum { N = 41 };
+    const iccp_env env = plain_env();
+    static uint8_t inside[N * N];
+    for (size_t v = 0; v < sizeof inside; ++v)
+        inside[v] = v / N == 20 || v % N % 2 == 1;
+    const size_t sides[2] = {N, N};
+    problem p = problem_on(2, sides, inside, 20 * N);
+    icc_function_info info = {.size = sizeof info};
+    double residual, *f = malloc(p.n * sizeof *f);
+    ck_assert_int_eq(solve_nested(&p, FUNCTIONS[0], 10, f, &residual, &info, &env), ICC_OK);
+    ck_assert(residual == HUGE_VAL);
+    free(f);
+    problem_clear(&p);
+}
+END_TEST
+
+/* As large as needs coarser grids within iccp_bilaplace_constrained(). */
+START_TEST(large_problems_hold_every_inequality)
+{
+    const iccp_env env = plain_env();
+    problem p = problem_of(mask_c, 2, 330);
+    icc_function_info info = {.size = sizeof info};
+    ck_assert_uint_ge(p.n, 50000);
+    ck_assert_int_eq(
+        iccp_bilaplace_constrained(&p.unknowns, FUNCTIONS[_i], 1e-6, 1e-9, &p.f, &info, &env),
+        ICC_OK);
+    ck_assert_double_le(info.residual_before, 1e-11);
+    ck_assert_double_le(info.residual, 1e-9);
+    ck_assert_uint_gt(info.n_active, p.n / 2);
+    double *f = values(&p);
+    check_feasible(&p, f, 1e-6, 1e-9);
+    free(f);
+    problem_clear(&p);
 }
 END_TEST
 
@@ -549,7 +629,8 @@ END_TEST
 typedef struct sweep_case {
     problem p;
     int32_t function;
-    int way; /* without inequalities, with them, by the interior point method, iteratively */
+    int way; /* without inequalities, with them, by the interior point method, iteratively, from coarse
+                to fine */
 } sweep_case;
 
 static icc_status solve_anew(const icc_env *outer, icc_error *err, void *argument)
@@ -558,6 +639,9 @@ static icc_status solve_anew(const icc_env *outer, icc_error *err, void *argumen
     iccp_env env;
     ck_assert_int_eq(iccp_env_read(&env, outer, err), ICC_OK);
     icc_function_info info = {.size = sizeof info};
+    if (c->way == 4)
+        return iccp_explain(err, solve_nested(&c->p, c->function, 30, c->p.f.fraction,
+                                              &info.residual, &info, &env));
     return iccp_explain(
         err, c->way == 0   ? iccp_bilaplace(&c->p.unknowns, c->function, ICC_SOLVER_DIRECT, &c->p.f,
                                             &info, &env)
@@ -571,7 +655,7 @@ static icc_status solve_anew(const icc_env *outer, icc_error *err, void *argumen
 
 START_TEST(failures_leave_nothing_behind)
 {
-    for (int k = 0; k < 8; ++k) {
+    for (int k = 0; k < 10; ++k) {
         sweep_case c = {problem_of(mask_c, 2, 16), FUNCTIONS[k % 2], k / 2};
         faulty_sweep(solve_anew, &c);
         problem_clear(&c.p);
@@ -589,6 +673,9 @@ int main(void)
     tcase_add_test(tests, nothing_underflows);
     tcase_add_test(tests, small_constrained_minima_have_the_least_energy);
     tcase_add_test(tests, both_ways_lead_to_the_same_function);
+    tcase_add_test(tests, coarse_to_fine_leads_there_too);
+    tcase_add_test(tests, grids_that_lose_the_shape_are_not_used);
+    tcase_add_loop_test(tests, large_problems_hold_every_inequality, 0, 2);
     tcase_add_loop_test(tests, a_letter_c_has_one_critical_point, 0, 2);
     tcase_add_test(tests, bounds_without_room_are_refused);
     tcase_add_test(tests, failures_leave_nothing_behind);

@@ -117,6 +117,10 @@ pub const ICC_ITEM_EDGE: i32 = 12;
 pub const ICC_ITEM_LINE: i32 = 13;
 /// entries of a list of nodes
 pub const ICC_ITEM_NODE: i32 = 14;
+/// features of a domain
+pub const ICC_ITEM_FEATURE: i32 = 15;
+/// ties of a map
+pub const ICC_ITEM_TIE: i32 = 16;
 
 /// What went wrong, filled in by the call that failed.
 ///
@@ -248,7 +252,7 @@ pub struct icc_domain_info {
     /// counter-clockwise; any n: the determinants of the facets,
     /// seen from within, positive; 1-D the lower end first. Else -1
     pub orientation: i32,
-    /// vertices of the boundary
+    /// vertices of the boundary and of all features
     pub n_vertices: usize,
     /// facets of the boundary
     pub n_facets: usize,
@@ -256,11 +260,58 @@ pub struct icc_domain_info {
     pub lower: [f64; ICC_MAX_DIM],
     /// bounding box
     pub upper: [f64; ICC_MAX_DIM],
-    /// length, area (2-D), volume (3-D) and so on; may overflow to
-    /// HUGE_VAL for coordinates near 1e300
+    /// length, area (2-D), volume (3-D) and so on, without holes; may
+    /// overflow to HUGE_VAL for coordinates near 1e300
     pub measure: f64,
+    /// features inside: see `icc_domain_create_features()`
+    pub n_features: usize,
 }
 sized!(icc_domain_info);
+
+// What `icc_feature.kind` says.
+/// a simple polygon whose inside is not part of the domain
+pub const ICC_FEATURE_HOLE: i32 = 1;
+/// a polyline that does not meet itself, of 2 or more vertices; with two of
+/// them, a bone
+pub const ICC_FEATURE_LINE: i32 = 2;
+/// one vertex
+pub const ICC_FEATURE_POINT: i32 = 3;
+
+/// Something inside a domain of the plane that a map takes to the feature of the same number in the
+/// other domain, vertex by vertex and edges linearly.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct icc_feature {
+    /// set by the caller: `sizeof(icc_feature)`, the same in all of an array
+    pub size: usize,
+    /// `ICC_FEATURE_*`
+    pub kind: i32,
+    /// hole: at least 3; line: at least 2; point: 1
+    pub n_vertices: usize,
+    /// 2 n_vertices coordinates
+    pub vertices: *const f64,
+}
+sized!(icc_feature);
+
+/// What `icc_domain_get_feature()` reports.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct icc_feature_info {
+    /// set by the caller: `sizeof(icc_feature_info)`
+    pub size: usize,
+    /// `ICC_FEATURE_*`
+    pub kind: i32,
+    /// of a hole: +1 when it is listed counter-clockwise, with y upwards, -1 clockwise; else 0
+    pub orientation: i32,
+    /// its vertices have this number among those of the domain and the following ones
+    pub first_vertex: usize,
+    /// how many there are
+    pub n_vertices: usize,
+    /// of a hole: the facet from its first vertex to the next; as many follow as it has vertices.
+    /// Else 0
+    pub first_facet: usize,
+}
+sized!(icc_feature_info);
 
 // Defects that `icc_boundary_defects()` lists. `a` and `b` are vertex or facet indices.
 /// vertex a has a coordinate that is not finite; b = a
@@ -645,6 +696,26 @@ pub const ICC_MAP_CURVES: i32 = 1;
 /// on it to one unit in the last place).
 pub const ICC_MAP_MESH: i32 = 2;
 
+/// A path between two vertices of a domain with features, and where a map takes it: the map's image
+/// of the one can be moved to the other with its ends held and without crossing a feature.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct icc_tie {
+    /// set by the caller: `sizeof(icc_tie)`, the same in all of an array
+    pub size: usize,
+    /// where it begins and ends: vertices of the domain (see `icc_domain_create_features()`)
+    pub vertex: [u32; 2],
+    /// its bends in the source
+    pub n_source: usize,
+    /// 2 n_source coordinates
+    pub source: *const f64,
+    /// its bends in the target, which may be more or fewer
+    pub n_target: usize,
+    /// 2 n_target coordinates
+    pub target: *const f64,
+}
+sized!(icc_tie);
+
 /// Options of `icc_map_create()`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
@@ -664,6 +735,11 @@ pub struct icc_map_options {
     /// where the target's maximum shall be, or NULL: as the method
     /// chooses
     pub target_maximum: *const f64,
+    /// with features: as many as there are features; or 0
+    pub n_ties: usize,
+    /// which way round one another the features go: paths that join all of them and the outer ring
+    /// to a tree, inside both domains and without crossing; or NULL: as seems least twisted
+    pub ties: *const icc_tie,
 }
 sized!(icc_map_options);
 
@@ -862,6 +938,46 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
+    /// Makes a domain of the plane with features inside: holes, lines and points, whose images a map
+    /// prescribes.
+    ///
+    /// The vertices of the domain are those of the outer ring, then those of the features in their
+    /// order; its facets are the edges of the outer ring, then those of the holes, which bound it as
+    /// well. Features must lie strictly inside the outer ring and outside all holes, and may not meet
+    /// themselves or one another. All of this is checked exactly, with the coordinates as given. Rings
+    /// may run either way. A hole that touches the outer ring in a point is refused, since the domain
+    /// would be pinched there: merge the rings. So is a point on the boundary: make it a vertex of the
+    /// ring.
+    ///
+    /// To `icc_domain_locate()` what lies in a hole is outside; lines and points are inside, as what is
+    /// around them. Only maps of kind mesh work on such a domain. What else takes domains refuses it
+    /// with `ICC_ERR_UNSUPPORTED`. Without features the result is that of `icc_domain_create()`.
+    ///
+    /// - `out` (out): the domain; owned by the caller, see `icc_domain_free()`
+    /// - `n_outer`: vertices of the outer ring, at least 3
+    /// - `outer`: 2 n_outer coordinates
+    /// - `n_features`: how many features there are
+    /// - `features`: n_features of them; they are copied
+    /// - `env`: may be NULL
+    /// - `err`: may be NULL. For a defect of the outer ring `index` is its vertex or edge; else it is
+    ///   the feature at fault (`ICC_ITEM_FEATURE`), and the message names the vertex, and the other
+    ///   feature where there are two
+    ///
+    /// Returns `ICC_OK`; `ICC_ERR_OUTSIDE` (a feature is not strictly inside the outer ring, or lies in
+    /// a hole); `ICC_ERR_BOUNDARY` (a ring or line meets itself, two features meet, two points are the
+    /// same); `ICC_ERR_ARGUMENT`, `ICC_ERR_MEMORY`, `ICC_ERR_VERSION`, `ICC_ERR_CANCELLED`
+    ///
+    /// Cost: O(n log n) time and O(n) memory for n vertices in all.
+    pub fn icc_domain_create_features(
+        out: *mut *mut icc_domain,
+        n_outer: usize,
+        outer: *const f64,
+        n_features: usize,
+        features: *const icc_feature,
+        env: *const icc_env,
+        err: *mut icc_error,
+    ) -> icc_status;
+
     /// Makes a domain from the cells of a mask, such as the voxels of a picture: cell (i_0, i_1, ..) covers
     /// \[i_0, i_0 + 1\] x \[i_1, i_1 + 1\] x .. in coordinates 0, 1, ..
     ///
@@ -970,7 +1086,21 @@ extern "C" {
     /// Fills in `info`, whose `size` the caller has set. `ICC_OK` or `ICC_ERR_ARGUMENT`.
     pub fn icc_domain_get_info(domain: *const icc_domain, info: *mut icc_domain_info) -> icc_status;
 
-    /// Copies the boundary as it was given.
+    /// Reports a feature of a domain; `icc_domain_get_boundary()` has the coordinates.
+    ///
+    /// - `domain`: the domain
+    /// - `feature`: its number, less than `icc_domain_info.n_features`
+    /// - `info` (in and out): `size` has been set; the rest is filled in
+    ///
+    /// Returns `ICC_OK` or `ICC_ERR_ARGUMENT`
+    pub fn icc_domain_get_feature(
+        domain: *const icc_domain,
+        feature: usize,
+        info: *mut icc_feature_info,
+    ) -> icc_status;
+
+    /// Copies the boundary as it was given: of a domain with features, the vertices of the outer ring
+    /// and of all features, and the facets of the outer ring and of the holes.
     ///
     /// - `domain`: the domain
     /// - `vertices` (out): room for n_vertices * dim doubles, or NULL

@@ -7,6 +7,7 @@ use crate::sys;
 use std::ptr;
 
 pub use crate::sys::icc_domain_info as DomainInfo;
+pub use crate::sys::icc_feature_info as FeatureInfo;
 
 object!(
     /// A shape: its boundary, and what lies inside.
@@ -57,6 +58,33 @@ pub struct Defect {
     pub items: [u32; 2],
 }
 
+/// Something inside a domain of the plane: x and y of each vertex. See [`Domain::with_features`].
+#[derive(Clone, Copy, Debug)]
+pub enum Feature<'a> {
+    /// A simple polygon that is cut out.
+    Hole(&'a [f64]),
+    /// A polyline; of two vertices, a bone.
+    Line(&'a [f64]),
+    /// One vertex.
+    Point(&'a [f64; 2]),
+}
+
+impl Feature<'_> {
+    fn raw(&self) -> Result<sys::icc_feature> {
+        let (kind, vertices): (i32, &[f64]) = match self {
+            Feature::Hole(vertices) => (sys::ICC_FEATURE_HOLE, vertices),
+            Feature::Line(vertices) => (sys::ICC_FEATURE_LINE, vertices),
+            Feature::Point(vertex) => (sys::ICC_FEATURE_POINT, &vertex[..]),
+        };
+        Ok(sys::icc_feature {
+            kind,
+            n_vertices: count(vertices, 2, "the vertices of a feature")?,
+            vertices: vertices.as_ptr(),
+            ..Default::default()
+        })
+    }
+}
+
 impl Domain {
     /// The inside of a simple polygon: n * 2 coordinates, in either direction; the last vertex joins the first.
     ///
@@ -69,6 +97,33 @@ impl Domain {
         Domain::make(env, |out, env, err| {
             // SAFETY: n vertices in 2-D.
             unsafe { sys::icc_domain_create(out, 2, n, vertices.as_ptr(), 0, ptr::null(), env, err) }
+        })
+    }
+
+    /// A simple polygon with holes, lines and points inside, which maps of kind mesh take to those of the same
+    /// numbers, vertex by vertex; nothing else works on it.
+    ///
+    /// ```
+    /// use libicc::{Domain, Env, Feature, Place};
+    /// let hole = Feature::Hole(&[1.0, 1.0, 2.0, 1.0, 2.0, 2.0]);
+    /// let square = [0.0, 0.0, 4.0, 0.0, 4.0, 4.0, 0.0, 4.0];
+    /// let plate = Domain::with_features(&square, &[hole, Feature::Point(&[3.0, 3.0])], &mut Env::new())?;
+    /// assert_eq!(plate.info().measure, 15.5);
+    /// assert_eq!(plate.locate(&[1.75, 1.25], &mut Env::new())?, [Place::OUTSIDE]);
+    /// # Ok::<(), libicc::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Status::BOUNDARY`](crate::Status::BOUNDARY) or [`Status::OUTSIDE`](crate::Status::OUTSIDE), with the
+    /// feature at fault as `index`.
+    pub fn with_features(outer: &[f64], features: &[Feature<'_>], env: &mut Env<'_>) -> Result<Domain> {
+        let n = count(outer, 2, "outer")?;
+        let raw = features.iter().map(Feature::raw).collect::<Result<Vec<_>>>()?;
+        Domain::make(env, |out, env, err| {
+            // SAFETY: the counts are those of the slices.
+            unsafe {
+                sys::icc_domain_create_features(out, n, outer.as_ptr(), raw.len(), raw.as_ptr(), env, err)
+            }
         })
     }
 
@@ -164,7 +219,17 @@ impl Domain {
         self.info().dim as usize
     }
 
-    /// The boundary as it was given: n_vertices * dim coordinates and n_facets * dim vertex indices.
+    /// The features inside, in their order; [`Domain::boundary`] has the coordinates.
+    pub fn features(&self) -> Vec<FeatureInfo> {
+        let mut features = vec![FeatureInfo::default(); self.info().n_features];
+        for (number, info) in features.iter_mut().enumerate() {
+            // SAFETY: `size` is set, and there is such a feature. It cannot fail.
+            unsafe { sys::icc_domain_get_feature(self.as_ptr(), number, info) };
+        }
+        features
+    }
+
+    /// The boundary as it was given, and all features: n_vertices * dim coordinates and n_facets * dim vertex indices.
     pub fn boundary(&self) -> Result<(Vec<f64>, Vec<u32>)> {
         let info = self.info();
         let dim = info.dim as usize;

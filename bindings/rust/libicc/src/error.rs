@@ -98,10 +98,12 @@ pub enum Item {
     Line,
     /// entries of a list of nodes
     Node,
+    /// features of a domain
+    Feature,
 }
 
 /// In the order of the numbers `ICC_ITEM_*`, from 1.
-const ITEMS: [Item; sys::ICC_ITEM_NODE as usize] = [
+const ITEMS: [Item; sys::ICC_ITEM_FEATURE as usize] = [
     Item::Vertex,
     Item::Facet,
     Item::Simplex,
@@ -116,6 +118,7 @@ const ITEMS: [Item; sys::ICC_ITEM_NODE as usize] = [
     Item::Edge,
     Item::Line,
     Item::Node,
+    Item::Feature,
 ];
 
 /// Why a call failed.

@@ -55,7 +55,9 @@ pub use chart::{
     Chart, ChartInfo, ChartOptions, ChartReport, Codes, Constraints, DiscInfo, FieldInfo, FoliationInfo,
     FunctionKind, GradientInfo, Images, Method, ShellingInfo, Solver, TreeForm,
 };
-pub use domain::{boundary_defects, repair_mask, BoundaryPoints, Defect, Domain, DomainInfo, Place};
+pub use domain::{
+    boundary_defects, repair_mask, BoundaryPoints, Defect, Domain, DomainInfo, Feature, FeatureInfo, Place,
+};
 pub use env::Env;
 pub use error::{Error, Item, Result, Side, Status};
 pub use map::{Certificate, ImproveOptions, ImproveReport, Map, MapInfo, MapKind, MapMesh, MapOptions};

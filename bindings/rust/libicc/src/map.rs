@@ -53,12 +53,40 @@ pub struct MapOptions<'a> {
     pub chart: ChartOptions<'a>,
     /// the target's maximum, dim coordinates
     pub target_maximum: Option<&'a [f64]>,
+    /// with features: as many as there are features, or none
+    pub ties: &'a [Tie<'a>],
+}
+
+/// A path between two vertices of a domain with features, and where a map takes it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Tie<'a> {
+    /// where it begins and ends
+    pub vertices: [u32; 2],
+    /// its bends in the source, 2 coordinates each
+    pub source: &'a [f64],
+    /// its bends in the target, which may be more or fewer
+    pub target: &'a [f64],
+}
+
+impl Tie<'_> {
+    fn raw(&self) -> sys::icc_tie {
+        sys::icc_tie {
+            vertex: self.vertices,
+            n_source: self.source.len() / 2,
+            source: self.source.as_ptr(),
+            n_target: self.target.len() / 2,
+            target: self.target.as_ptr(),
+            ..Default::default()
+        }
+    }
 }
 
 impl MapOptions<'_> {
-    /// As C takes them; `chart` must outlive them.
-    fn raw(&self, chart: &sys::icc_chart_options) -> sys::icc_map_options {
+    /// As C takes them; `chart` and `ties` must outlive them.
+    fn raw(&self, chart: &sys::icc_chart_options, ties: &[sys::icc_tie]) -> sys::icc_map_options {
         sys::icc_map_options {
+            n_ties: ties.len(),
+            ties: pointer((!ties.is_empty()).then_some(ties)),
             kind: self.kind.map_or(0, |kind| kind as i32),
             iterations: self.iterations,
             chart,
@@ -125,7 +153,8 @@ impl Map {
         if let Some(maximum) = options.target_maximum {
             exactly(maximum, target.dim(), "target_maximum")?;
         }
-        let raw = options.raw(&chart);
+        let ties: Vec<_> = options.ties.iter().map(Tie::raw).collect();
+        let raw = options.raw(&chart, &ties);
         Map::make(env, |out, env, err| {
             // SAFETY: the options are valid during the call.
             unsafe { sys::icc_map_create(out, source.as_ptr(), target.as_ptr(), &raw, env, err) }
@@ -140,7 +169,7 @@ impl Map {
         env: &mut Env<'_>,
     ) -> Result<Map> {
         let chart = sys::icc_chart_options::default();
-        let raw = MapOptions { target_maximum: None, ..*options }.raw(&chart);
+        let raw = MapOptions { target_maximum: None, ..*options }.raw(&chart, &[]);
         Map::make(env, |out, env, err| {
             // SAFETY: the options are valid during the call.
             unsafe { sys::icc_map_create_from_charts(out, source.as_ptr(), target.as_ptr(), &raw, env, err) }

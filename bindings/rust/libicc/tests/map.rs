@@ -1,7 +1,7 @@
 //! Maps and charts from Rust: what comes back, what fails and how, threads and callbacks.
 use libicc::{
-    flat, Certificate, Chart, ChartOptions, Domain, Env, Images, ImproveOptions, Layout, Map, MapKind,
-    MapOptions, Method, Picture, PictureMut, Side, Status,
+    flat, Certificate, Chart, ChartOptions, Domain, Env, Feature, Images, ImproveOptions, Item, Layout, Map,
+    MapKind, MapOptions, Method, Picture, PictureMut, Side, Status,
 };
 use std::cell::Cell;
 use std::ops::ControlFlow;
@@ -35,6 +35,33 @@ fn farthest(a: &[f64], b: &[f64]) -> f64 {
 
 fn bits(values: &[f64]) -> Vec<u64> {
     values.iter().map(|value| value.to_bits()).collect()
+}
+
+#[test]
+fn domains_have_features() {
+    let square = [0.0, 0.0, 9.0, 0.0, 9.0, 9.0, 0.0, 9.0];
+    let hole = Feature::Hole(&[1.0, 1.0, 1.0, 3.0, 3.0, 3.0]);
+    let bone = Feature::Line(&[5.0, 5.0, 7.0, 5.0]);
+    let env = &mut Env::new();
+    let domain = Domain::with_features(&square, &[hole, bone, Feature::Point(&[2.0, 8.0])], env).unwrap();
+    assert_eq!((domain.info().n_features, domain.info().measure), (3, 79.0));
+    let (vertices, facets) = domain.boundary().unwrap();
+    assert_eq!(
+        (vertices.len(), &vertices[18..], &facets[8..]),
+        (20, &[2.0, 8.0][..], &[4, 5, 5, 6, 6, 4][..])
+    );
+    let told: Vec<_> = domain.features().iter().map(|f| (f.kind, f.first_vertex, f.n_vertices)).collect();
+    assert_eq!(told, [(1, 4, 3), (2, 7, 2), (3, 9, 1)]);
+    assert_eq!(domain.features()[0].orientation, -1);
+
+    let error = Domain::with_features(&square, &[bone, Feature::Point(&[9.0, 5.0])], env).unwrap_err();
+    assert_eq!((error.status, error.index, error.item), (Status::OUTSIDE, Some(1), Some(Item::Feature)));
+    let error = Domain::with_features(&square, &[bone, Feature::Point(&[6.0, 5.0])], env).unwrap_err();
+    assert_eq!(error.status, Status::BOUNDARY);
+    let error = Domain::with_features(&square, &[Feature::Line(&[1.0; 3])], env).unwrap_err();
+    assert_eq!(error.status, Status::ARGUMENT);
+    let error = Chart::new(&domain, &ChartOptions::default(), env).unwrap_err();
+    assert_eq!(error.status, Status::UNSUPPORTED);
 }
 
 #[test]

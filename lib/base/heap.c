@@ -1,7 +1,7 @@
 /* Based on: J. W. J. Williams, Algorithm 232: Heapsort, 1964. Four children to a node, as in D. B.
  * Johnson, Priority Queues with Update and Finding Minimum Spanning Trees, 1975: fewer levels,
  * fewer cache lines. */
-#include "shelling/heap.h"
+#include "base/heap.h"
 
 #include <string.h>
 
@@ -23,6 +23,12 @@ void iccp_heap_free(iccp_heap *heap, const iccp_memory *memory)
     iccp_free(memory, heap->place);
     heap->entry = NULL;
     heap->place = NULL;
+}
+
+void iccp_heap_clear(iccp_heap *heap)
+{
+    while (heap->n_entries > 0)
+        heap->place[heap->entry[--heap->n_entries].number] = UINT32_MAX;
 }
 
 static bool comes_before(iccp_heap_entry a, iccp_heap_entry b)

@@ -22,6 +22,9 @@ typedef struct iccp_heap {
 bool iccp_heap_create(iccp_heap *heap, size_t n, const iccp_memory *memory);
 void iccp_heap_free(iccp_heap *heap, const iccp_memory *memory);
 
+/* Takes everything out. */
+void iccp_heap_clear(iccp_heap *heap);
+
 /* Takes in a number, or gives it another key. O(log n). */
 void iccp_heap_put(iccp_heap *heap, uint32_t number, double key);
 

@@ -1,0 +1,186 @@
+#include "domain/features.h"
+
+#include "base/error.h"
+#include "domain/features_check.h"
+#include "domain/polygon_check.h"
+
+#include <string.h>
+
+void iccp_features_free(iccp_features *features, const iccp_memory *memory)
+{
+    if (features == NULL)
+        return;
+    iccp_free(memory, features->item);
+    iccp_free(memory, features);
+}
+
+icc_status iccp_features_refuse(const icc_domain *domain, const char *what, icc_error *err)
+{
+    if (domain->features == NULL)
+        return ICC_OK;
+    return iccp_fail(err, ICC_ERR_UNSUPPORTED,
+                     "%s cannot have holes, lines or points inside: only maps of kind mesh can",
+                     what);
+}
+
+static size_t count_facets(const icc_feature *feature)
+{
+    return feature->kind == ICC_FEATURE_LINE ? feature->n_vertices - 1 : feature->n_vertices;
+}
+
+/* Gives the features their facets: first the holes, which belong to the boundary. Returns the
+ * number of the next facet. */
+static uint32_t number_facets(iccp_features *features, const icc_feature *given, bool of_holes,
+                              uint32_t next)
+{
+    for (size_t f = 0; f < features->n; ++f) {
+        iccp_feature *feature = &features->item[f];
+        if ((feature->kind == ICC_FEATURE_HOLE) != of_holes)
+            continue;
+        feature->first_facet = next;
+        feature->n_facets = (uint32_t)count_facets(&given[f]);
+        next += feature->n_facets;
+    }
+    return next;
+}
+
+/* The numbers of vertices and facets. */
+static icc_status lay_out(icc_domain *d, size_t n_outer, size_t n, const icc_feature *given,
+                          icc_error *err)
+{
+    iccp_features *features = d->features = iccp_alloc_zero(&d->memory, 1, sizeof *features);
+    if (features == NULL)
+        return iccp_fail_memory(err);
+    features->n = n;
+    features->n_outer = n_outer;
+    features->item = iccp_alloc_zero(&d->memory, n, sizeof *features->item);
+    if (features->item == NULL)
+        return iccp_fail_memory(err);
+    d->n_vertices = n_outer;
+    for (size_t f = 0; f < n; ++f) {
+        features->item[f].kind = given[f].kind;
+        features->item[f].first = (uint32_t)d->n_vertices;
+        features->item[f].n = (uint32_t)given[f].n_vertices;
+        d->n_vertices += given[f].n_vertices;
+        features->n_holes += given[f].kind == ICC_FEATURE_HOLE;
+        features->n_lines += given[f].kind == ICC_FEATURE_LINE;
+        features->n_points += given[f].kind == ICC_FEATURE_POINT;
+    }
+    d->n_facets = number_facets(features, given, true, (uint32_t)n_outer);
+    features->n_places = number_facets(features, given, false, (uint32_t)d->n_facets);
+    return ICC_OK;
+}
+
+/* Edges from each of n_facets vertices to the next, from the last one of n back to the first; a
+ * point has one to itself. */
+static void fill_facets(uint32_t *facets, uint32_t first, uint32_t n, uint32_t n_facets)
+{
+    for (uint32_t k = 0; k < n_facets; ++k) {
+        facets[2 * k] = first + k;
+        facets[2 * k + 1] = first + (k + 1) % n;
+    }
+}
+
+static icc_status copy_boundary(icc_domain *d, const double *outer, const icc_feature *given,
+                                icc_error *err)
+{
+    const iccp_features *features = d->features;
+    const size_t n = d->n_vertices, n_outer = features->n_outer;
+    d->given = iccp_alloc(&d->memory, n, 2 * sizeof *d->given);
+    d->vertices = iccp_alloc(&d->memory, n + 1, 2 * sizeof *d->vertices);
+    d->facets = iccp_alloc(&d->memory, features->n_places, 2 * sizeof *d->facets);
+    if (d->given == NULL || d->vertices == NULL || d->facets == NULL)
+        return iccp_fail_memory(err);
+    memcpy(d->given, outer, 2 * n_outer * sizeof *outer);
+    fill_facets(d->facets, 0, (uint32_t)n_outer, (uint32_t)n_outer);
+    for (size_t f = 0; f < features->n; ++f) {
+        const iccp_feature *feature = &features->item[f];
+        memcpy(d->given + 2 * (size_t)feature->first, given[f].vertices,
+               2 * (size_t)feature->n * sizeof *d->given);
+        fill_facets(d->facets + 2 * (size_t)feature->first_facet, feature->first, feature->n,
+                    feature->n_facets);
+    }
+    return ICC_OK;
+}
+
+/* ---- local coordinates ---- */
+
+/* All in the frame of all vertices: what lies outside the outer ring is exact as well, until it is
+ * refused. */
+static icc_status localise(icc_domain *d, icc_error *err)
+{
+    const iccp_features *features = d->features;
+    icc_error own = {.size = sizeof own};
+    icc_status status = iccp_polygon_check_finite(features->n_outer, d->given, err);
+    if (status != ICC_OK)
+        return status;
+    for (size_t f = 0; f < features->n; ++f) {
+        const iccp_feature *feature = &features->item[f];
+        if (iccp_polygon_check_finite(feature->n, d->given + 2 * (size_t)feature->first, &own) !=
+            ICC_OK)
+            return iccp_features_blame(err, &own, f, feature->kind);
+    }
+    iccp_frame_fit(&d->frame, 2, d->n_vertices, d->given);
+    status = iccp_polygon_bring_in(&d->frame, d->vertices, features->n_outer, d->given, err);
+    if (status != ICC_OK)
+        return status;
+    for (size_t f = 0; f < features->n; ++f) {
+        const iccp_feature *feature = &features->item[f];
+        const size_t first = 2 * (size_t)feature->first;
+        if (iccp_polygon_bring_in(&d->frame, d->vertices + first, feature->n, d->given + first,
+                                  &own) != ICC_OK)
+            return iccp_features_blame(err, &own, f, feature->kind);
+    }
+    memcpy(d->vertices + 2 * d->n_vertices, d->vertices, 2 * sizeof *d->vertices);
+    return ICC_OK;
+}
+
+static double ring_area(const icc_domain *d, size_t first, size_t n)
+{
+    const iccp_polygon ring = {.n = n, .points = d->vertices + 2 * first};
+    return iccp_polygon_area(&ring);
+}
+
+static icc_status complete(icc_domain *d, const iccp_env *env, icc_error *err)
+{
+    const iccp_features *features = d->features;
+    icc_status status = localise(d, err);
+    if (status == ICC_OK)
+        status = iccp_features_check(d, env, err);
+    if (status != ICC_OK)
+        return status;
+    d->measure = ring_area(d, 0, features->n_outer);
+    for (size_t f = 0; f < features->n; ++f)
+        if (features->item[f].kind == ICC_FEATURE_HOLE)
+            d->measure -= ring_area(d, features->item[f].first, features->item[f].n);
+    d->measure = d->measure > 0 ? d->measure : 0; /* rounding */
+    iccp_domain_measure_box(d);
+    iccp_facet_tree_create(&d->tree, 2, d->vertices, d->n_facets, d->facets, &d->memory);
+    return d->tree.boxes != NULL ? ICC_OK : iccp_fail_memory(err);
+}
+
+icc_status iccp_domain_create_features(icc_domain **out, size_t n_outer, const double *outer,
+                                       size_t n_features, const icc_feature *features,
+                                       const iccp_env *env, icc_error *err)
+{
+    if (n_features == 0)
+        return iccp_domain_create(out, 2, n_outer, outer, 0, NULL, env, err);
+    *out = NULL;
+    icc_status status = iccp_polygon_check_counts(n_outer, 0, NULL, err);
+    if (status != ICC_OK)
+        return status;
+    icc_domain *domain = iccp_domain_new(2, &env->memory);
+    if (domain == NULL)
+        return iccp_fail_memory(err);
+    status = lay_out(domain, n_outer, n_features, features, err);
+    if (status == ICC_OK)
+        status = copy_boundary(domain, outer, features, err);
+    if (status == ICC_OK)
+        status = complete(domain, env, err);
+    if (status != ICC_OK) {
+        iccp_domain_release(domain);
+        return status;
+    }
+    *out = domain;
+    return ICC_OK;
+}

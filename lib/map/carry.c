@@ -1,0 +1,170 @@
+/* A predictor and a corrector, as in E. L. Allgower, K. Georg, Introduction to numerical
+ * continuation methods, 1990: what is free answers the motion by the energy's own model, both go
+ * together as far as no triangle flips, and a Newton step corrects. Without the predictor handles
+ * run into their own triangles, which then have hardly any room left.
+ *
+ * Where the way is blocked all the same, the mesh is in the way, not the map: a mesh that fits what
+ * has been reached lets it go on. */
+#include "map/carry.h"
+
+#include "base/minmax.h"
+#include "map/flips.h"
+#include "map/improve.h"
+#include "map/newton.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Of the way to the first flip. */
+static const double SHARE_OF_FLIP = 0.7;
+
+/* Parts that get less far than this are blocked; so many blocked ones in turn are the end of it. */
+static const double BLOCKED = 0.2;
+enum { MOST_BLOCKED = 12, MOST_HALVINGS = 30 };
+
+/* Of a new mesh. */
+enum { ROUNDS = 2 };
+static const iccp_descent RELAXATION = {0, 4, 1e-2, 0};
+
+/* After each part. */
+static const iccp_descent CORRECTION = {0, 2, 1e-2, 0};
+
+typedef struct carry {
+    iccp_plmap *map;
+    const icc_domain *target;
+    double *motion, *images; /* 2 n_vertices each */
+    size_t room;
+} carry;
+
+void iccp_carry_place(const iccp_plmap *map, const icc_domain *target, size_t vertex,
+                      double place[2])
+{
+    const double bary[2] = {1 - map->along[vertex], map->along[vertex]};
+    iccp_domain_facet_point(target, map->facet[vertex], bary, place);
+}
+
+static icc_status make_room(carry *c, const iccp_env *env)
+{
+    const size_t n = c->map->n_vertices;
+    if (n <= c->room)
+        return ICC_OK;
+    iccp_free(&env->memory, c->motion);
+    iccp_free(&env->memory, c->images);
+    c->room = n + n / 2;
+    c->motion = iccp_alloc(&env->memory, c->room, 2 * sizeof *c->motion);
+    c->images = iccp_alloc(&env->memory, c->room, 2 * sizeof *c->images);
+    return c->motion != NULL && c->images != NULL ? ICC_OK : ICC_ERR_MEMORY;
+}
+
+/* What is left to go for fixed vertices; 0 for others. Returns whether anything is. */
+static bool find_motion(carry *c)
+{
+    bool is_left = false;
+    for (size_t v = 0; v < c->map->n_vertices; ++v) {
+        double place[2] = {c->map->images[2 * v], c->map->images[2 * v + 1]};
+        if (c->map->fixed[v] != ICCP_FREE)
+            iccp_carry_place(c->map, c->target, v, place);
+        for (size_t d = 0; d < 2; ++d) {
+            c->motion[2 * v + d] = place[d] - c->map->images[2 * v + d];
+            is_left |= place[d] < c->map->images[2 * v + d] || place[d] > c->map->images[2 * v + d];
+        }
+    }
+    return is_left;
+}
+
+static bool all_positive(const iccp_plmap *map)
+{
+    for (uint32_t t = 0; t < map->corners.n_triangles; ++t)
+        if (!iccp_plmap_positive_image(map, t))
+            return false;
+    return true;
+}
+
+/* Goes a share of the motion from `images`; all of it ends exactly where it should. */
+static void go(carry *c, double share)
+{
+    iccp_plmap *map = c->map;
+    for (size_t i = 0; i < 2 * map->n_vertices; ++i)
+        map->images[i] = c->images[i] + share * c->motion[i];
+    for (size_t v = 0; share >= 1 && v < map->n_vertices; ++v)
+        if (map->fixed[v] != ICCP_FREE)
+            iccp_carry_place(map, c->target, v, map->images + 2 * v);
+}
+
+/* One part: as far as nothing flips. */
+static icc_status advance(carry *c, double *share, const iccp_env *env)
+{
+    const iccp_simplicial_map simplicial = iccp_plmap_simplicial(c->map);
+    iccp_newton newton;
+    icc_status status = iccp_newton_create(&newton, &simplicial, NULL, env);
+    if (status != ICC_OK)
+        return status;
+    status = iccp_newton_answer(&newton, c->motion, c->images, env);
+    iccp_newton_free(&newton);
+    *share = 0;
+    if (status != ICC_OK)
+        return status == ICC_ERR_SOLVER ? ICC_OK : status;
+    double length = iccp_min(1, SHARE_OF_FLIP * iccp_newton_limit(&simplicial, c->motion));
+    for (int k = 0; k < MOST_HALVINGS; ++k, length *= 0.5) {
+        go(c, length);
+        if (all_positive(c->map)) {
+            *share = length;
+            return ICC_OK;
+        }
+    }
+    go(c, 0);
+    return ICC_OK;
+}
+
+/* A mesh that fits better: finer where it is strained most; other edges; and points and images both
+ * go where they have more room. */
+static icc_status remesh(iccp_plmap *map, iccp_work *work, const iccp_env *env)
+{
+    size_t n_cut;
+    icc_status status = iccp_refine(map, &n_cut, env);
+    map->plan = NULL;
+    for (int round = 0; status == ICC_OK && round < ROUNDS; ++round) {
+        size_t n_flips;
+        status = iccp_flip_edges(map, &n_flips, env);
+        for (int side = 0; side < 2; ++side) {
+            const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
+            iccp_improvement ignored = {0};
+            if (status == ICC_OK)
+                status = iccp_improve_images(&simplicial, &RELAXATION, work, &ignored, env);
+            iccp_plmap_swap(map);
+        }
+    }
+    return status;
+}
+
+static icc_status correct(iccp_plmap *map, iccp_work *work, const iccp_env *env)
+{
+    const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
+    iccp_improvement ignored = {0};
+    return iccp_improve_images(&simplicial, &CORRECTION, work, &ignored, env);
+}
+
+icc_status iccp_carry(iccp_plmap *map, const icc_domain *target, iccp_work *work, bool *reached,
+                      const iccp_env *env)
+{
+    carry c = {.map = map, .target = target};
+    size_t n_blocked = 0;
+    icc_status status = make_room(&c, env);
+    *reached = status == ICC_OK && !find_motion(&c);
+    while (status == ICC_OK && !*reached && n_blocked < MOST_BLOCKED &&
+           iccp_work_take(work, 2 * map->corners.n_triangles)) {
+        double share;
+        status = advance(&c, &share, env);
+        *reached = share >= 1;
+        n_blocked = share < BLOCKED ? n_blocked + 1 : 0;
+        if (status == ICC_OK && !*reached)
+            status = n_blocked > 0 ? remesh(map, work, env) : correct(map, work, env);
+        if (status == ICC_OK && !*reached)
+            status = make_room(&c, env);
+        if (status == ICC_OK && !*reached)
+            *reached = !find_motion(&c);
+    }
+    iccp_free(&env->memory, c.motion);
+    iccp_free(&env->memory, c.images);
+    return status;
+}

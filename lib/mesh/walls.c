@@ -1,0 +1,27 @@
+#include "mesh/walls.h"
+
+icc_status iccp_walls_create(iccp_walls *walls, size_t n_points, size_t n_walls,
+                             const uint32_t *pairs, const iccp_memory *memory)
+{
+    walls->first = iccp_alloc_zero(memory, n_points + 1, sizeof *walls->first);
+    walls->other = iccp_alloc(memory, 2 * n_walls, sizeof *walls->other);
+    if (walls->first == NULL || walls->other == NULL) {
+        iccp_walls_free(walls, memory);
+        return ICC_ERR_MEMORY;
+    }
+    for (size_t k = 0; k < 2 * n_walls; ++k)
+        ++walls->first[pairs[k]];
+    for (size_t v = 0; v < n_points; ++v)
+        walls->first[v + 1] += walls->first[v];
+    /* From the ends of the lists, which leaves `first` at their beginnings. */
+    for (size_t k = 2 * n_walls; k-- > 0;)
+        walls->other[--walls->first[pairs[k]]] = pairs[k ^ 1];
+    return ICC_OK;
+}
+
+void iccp_walls_free(iccp_walls *walls, const iccp_memory *memory)
+{
+    iccp_free(memory, walls->first);
+    iccp_free(memory, walls->other);
+    *walls = (iccp_walls){0};
+}

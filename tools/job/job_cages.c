@@ -1,0 +1,185 @@
+/* Files to cages, and cages to domains. */
+#include "job/job.h"
+
+#include "base/allocate.h"
+#include "cage/cage_defects.h"
+#include "cage/cage_read.h"
+#include "cage/weld.h"
+#include "job/correspond.h"
+#include "job/fill.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+static int read_cage(job *j, size_t side, const char *text, size_t n)
+{
+    problem wrong;
+    size_t dim = side == 0 ? 2 : job_dim(j);
+    if (cage_read(&j->cages[side], side == 0 ? CAGE_SOURCE : CAGE_TARGET, dim, text, n, &wrong))
+        return DONE;
+    j->both = j->both || (j->args->target == NULL && cage_is_named(CAGE_TARGET, text, n));
+    return failed(job_file(j, (int)side + 1), wrong.line, "%s%s", job_side(j, (int)side + 1),
+                  wrong.text);
+}
+
+/* The target from its own file, or, where it was left out, from that of the source, if it has one.
+ * A source without features may do without, even if there is one. */
+static int read_target(job *j, const char *text, size_t n)
+{
+    args *a = &j->own;
+    if (a->target == NULL && !a->needs_target && !(a->may_pair && j->cages[0].n_features > 0))
+        return DONE;
+    if (a->target == NULL && cage_is_named(CAGE_TARGET, text, n)) {
+        a->target = a->source;
+        j->both = true;
+        return read_cage(j, 1, text, n);
+    }
+    if (a->target == NULL)
+        return a->needs_target ? misused(a->command, "--target FILE is missing") : DONE;
+    char *own = file_read(a->target, &n);
+    int result = own != NULL ? read_cage(j, 1, own, n) : FAILED;
+    free(own);
+    return result;
+}
+
+/* Points of options must have as many coordinates as the cage. */
+static int check_points(const job *j)
+{
+    const args *a = j->args;
+    const struct {
+        const char *name;
+        size_t n;
+    } points[] = {{"maximum", a->n_maximum}, {"target-maximum", a->n_target_maximum}};
+    for (size_t i = 0; i < 2; i++)
+        if (points[i].n > 0 && points[i].n != job_dim(j))
+            return misused(a->command, "--%s has %zu coordinates, but the cage %zu", points[i].name,
+                           points[i].n, job_dim(j));
+    return DONE;
+}
+
+int job_read_cages(job *j)
+{
+    if (job_dim(j) > 0)
+        return DONE;
+    size_t n;
+    char *text = file_read(job_file(j, 1), &n);
+    if (text == NULL)
+        return FAILED;
+    int result = read_cage(j, 0, text, n);
+    if (result == DONE)
+        result = check_points(j);
+    if (result == DONE)
+        result = read_target(j, text, n);
+    free(text);
+    if (result == DONE && j->args->target != NULL)
+        result = correspond(j);
+    j->seconds_read = seconds_now() - j->started;
+    return result;
+}
+
+int job_read_plane(job *j, const char *what)
+{
+    int result = job_read_cages(j);
+    if (result == DONE && job_dim(j) != 2)
+        result = failed(j->args->source, 0, "%zu dimension%s; %s needs cages in the plane",
+                        job_dim(j), job_dim(j) == 1 ? "" : "s", what);
+    return result;
+}
+
+/* A boundary that is no boundary: names the first defect by its line, and counts the others. */
+static int failed_boundary(job *j, size_t side, const icc_error *err)
+{
+    const cage *c = &j->cages[side];
+    defect_list list;
+    size_t n_all;
+    if (defects_find(&list, c, 1, &n_all, &j->env, NULL) != ICC_OK || list.n == 0)
+        return job_failed(j, err);
+    progress_end(&j->bar);
+    char text[200], more[80] = "";
+    if (n_all > 1)
+        snprintf(more, sizeof more, " (%zu defects in all; 'libicc check' lists them)", n_all);
+    failed(job_file(j, (int)side + 1), c->lines[list.items[0]], "%s%s%s",
+           job_side(j, (int)side + 1), defect_text(text, &list, 0, c), more);
+    defects_free(&list);
+    return FAILED;
+}
+
+/* A surface that is none: perhaps only because its faces do not share their vertices. */
+static int failed_surface(job *j, size_t side, const icc_error *err)
+{
+    char hint[120] = "";
+    size_t n = weld_count(&j->cages[side]);
+    if (n > 0)
+        snprintf(hint, sizeof hint,
+                 "; %zu vertices coincide with others: 'libicc check --repair OUT.obj' joins them",
+                 n);
+    return job_failed_with(j, err, hint);
+}
+
+static icc_status make_polygon(icc_domain **out, const cage *c, const icc_env *env, icc_error *err)
+{
+    icc_feature *features = need(c->n_features, sizeof *features);
+    for (size_t i = 0; i < c->n_features; i++)
+        features[i] = (icc_feature){.size = sizeof *features,
+                                    .kind = c->features[i].kind,
+                                    .n_vertices = c->features[i].n,
+                                    .vertices = c->features[i].points};
+    icc_status status =
+        icc_domain_create_features(out, c->n, c->points, c->n_features, features, env, err);
+    free(features);
+    return status;
+}
+
+static int make_domain(job *j, size_t side)
+{
+    const cage *c = &j->cages[side];
+    icc_error err = {.size = sizeof err, .index = -1};
+    icc_status status =
+        c->cells != NULL && c->n == 0 ? icc_domain_create_mask(&j->domains[side], (int32_t)c->dim,
+                                                               c->shape, c->cells, &j->env, &err)
+        : c->n_features > 0           ? make_polygon(&j->domains[side], c, &j->env, &err)
+                            : icc_domain_create(&j->domains[side], (int32_t)c->dim, c->n, c->points,
+                                                c->n_facets, c->facets, &j->env, &err);
+    if (status == ICC_OK)
+        return DONE;
+    err.side = (int32_t)side + 1;
+    bool of_ring = status == ICC_ERR_BOUNDARY && c->dim == 2 && err.item != ICC_ITEM_FEATURE;
+    return of_ring                               ? failed_boundary(j, side, &err)
+           : c->cells == NULL && c->n_facets > 0 ? failed_surface(j, side, &err)
+                                                 : job_failed(j, &err);
+}
+
+/* The domain of a mask knows what its boundary is. */
+static int make_source(job *j)
+{
+    int result = make_domain(j, 0);
+    if (result != DONE || j->cages[0].cells == NULL)
+        return result;
+    cage_take_boundary(&j->cages[0], j->domains[0]);
+    return correspond(j);
+}
+
+/* Reports what has been left out only after success, so that an error is one line. */
+static void note_heights(const job *j)
+{
+    for (size_t side = 0; side < 2; side++)
+        if (j->cages[side].n_heights > 0)
+            note("%s: heights are left out; a cage in the plane has x and y",
+                 job_file(j, (int)side + 1));
+}
+
+int job_make_domains(job *j)
+{
+    if (j->domains[0] != NULL)
+        return DONE;
+    int result = job_read_cages(j);
+    if (result == DONE)
+        result = make_source(j);
+    if (result == DONE && j->args->target != NULL)
+        result = make_domain(j, 1);
+    if (result == DONE)
+        result = fill_domains(j);
+    if (result == DONE)
+        note_heights(j);
+    return result;
+}
