@@ -6,6 +6,7 @@
 #include "chart/chart_create.h"
 #include "domain/features_check.h"
 #include "map/digits.h"
+#include "map/follow.h"
 
 /* Cells of a mesh along the longest side: where the boundary is no finer, coarse is fair enough. */
 enum { MESH_CELLS = 20 };

@@ -1,0 +1,128 @@
+/* docs/theory.md, the mesh map: that to a target that has moved, from the one to where it was. */
+#include "map/follow.h"
+
+#include "base/clock.h"
+#include "base/error.h"
+#include "domain/features.h"
+#include "map/carry.h"
+#include "map/density.h"
+#include "map/fit.h"
+
+#include <math.h>
+
+/* Steps for a target that has moved a little: a frame of an animation has no time for more, and the
+ * next frame continues from here. */
+enum { FOLLOW_ITERATIONS = 8, CARRY_ITERATIONS = 1 };
+
+/* Cells along the longest side of a target with features that move: what is carried along has no
+ * longer edges, for a map as coarse as it may be cannot follow. */
+enum { CARRIED_CELLS = 15, CARRIED_TRIANGLES = 1500 };
+
+/* Images in the local coordinates of one target become those in another's; where the inside goes
+ * from there is up to the repair. */
+static void change_frame(iccp_plmap *pl, const iccp_frame *from, const iccp_frame *to)
+{
+    for (size_t v = 0; v < pl->n_vertices; ++v) {
+        double own[2];
+        iccp_frame_out(from, 2, pl->images + 2 * v, own);
+        iccp_frame_in(to, 2, own, pl->images + 2 * v);
+    }
+}
+
+/* Moves the boundary's images to where another target wants them. */
+static void move_boundary(iccp_plmap *pl, const icc_domain *target)
+{
+    for (size_t v = 0; v < pl->n_vertices; ++v)
+        if (pl->fixed[v] != ICCP_FREE)
+            iccp_carry_place(pl, target, v, pl->images + 2 * v);
+}
+
+/* Features must not be torn from one another: no state between is repaired. */
+static icc_status carry(iccp_mesh_map *map, const icc_domain *target,
+                        const icc_improve_options *options, iccp_allowance *work,
+                        icc_map_info *info, const iccp_env *env, icc_error *err)
+{
+    const double begin = iccp_seconds();
+    bool reached = false;
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){3, 1}, env);
+    icc_status status = ICC_OK;
+    if (map->pl.corners.n_triangles < CARRIED_TRIANGLES)
+        status = iccp_limit_edges(&map->pl, iccp_planar_step(target, CARRIED_CELLS), &part[0]);
+    if (status == ICC_OK)
+        status = iccp_carry(&map->pl, target, &work->repair, &reached, &part[0]);
+    info->seconds_repair = iccp_seconds() - begin;
+    if (status == ICC_OK && !reached)
+        return iccp_fail(err, ICC_ERR_CERTIFICATE,
+                         "features moved straight to their new places would meet, or the work "
+                         "allowed is not enough: go there in several steps, or make a new map");
+    if (status == ICC_OK)
+        status = iccp_fit_complete(map, options, &work->improvement, info, &part[1], err);
+    return status;
+}
+
+static bool same_memory(const iccp_memory *a, const iccp_memory *b)
+{
+    return a->user == b->user && a->alloc == b->alloc && a->dealloc == b->dealloc;
+}
+
+/* The plan of Newton's method for the map's mesh, which maps that follow it share; it is made when
+ * the first one does. NULL where they may not live on the same memory. */
+static icc_status plan_of(iccp_newton_plan **plan, const iccp_mesh_map *map, const iccp_env *env)
+{
+    const iccp_simplicial_map simplicial = iccp_plmap_simplicial(&map->pl);
+    iccp_newton_plan *fresh;
+    *plan = NULL;
+    if (!same_memory(&map->pl.memory, &env->memory))
+        return ICC_OK;
+    *plan = iccp_once_get(&map->plan);
+    if (*plan != NULL)
+        return ICC_OK;
+    const icc_status status = iccp_newton_plan_create(&fresh, &simplicial, env);
+    if (status != ICC_OK)
+        return status;
+    *plan = iccp_once_keep(&map->plan, fresh);
+    if (*plan != fresh)
+        iccp_newton_plan_release(fresh);
+    return ICC_OK;
+}
+
+icc_status iccp_mesh_map_follow(iccp_mesh_map **out, const iccp_mesh_map *map,
+                                const icc_domain *source, const icc_domain *old_target,
+                                const icc_domain *target, int32_t iterations, icc_map_info *info,
+                                const iccp_env *env, icc_error *err)
+{
+    iccp_mesh_map *next = iccp_mesh_map_new(source, target, &env->memory);
+    *out = NULL;
+    if (next == NULL)
+        return ICC_ERR_MEMORY;
+    iccp_newton_plan *plan = NULL;
+    icc_status status = iccp_plmap_copy(&next->pl, &map->pl, &env->memory);
+    if (status == ICC_OK && iterations >= 0)
+        status = plan_of(&plan, map, env);
+    if (status == ICC_OK) {
+        const icc_improve_options options = {.iterations = iterations != 0 ? iterations
+                                                           : source->features != NULL
+                                                               ? CARRY_ITERATIONS
+                                                               : FOLLOW_ITERATIONS,
+                                             .levels = -1};
+        iccp_allowance work = iccp_allow(source->n_facets);
+        work.improvement = iccp_work_unlimited();
+        work.all = HUGE_VAL;
+        next->pl.plan = plan;
+        change_frame(&next->pl, &old_target->frame, &target->frame);
+        next->pl.stretch = sqrt(target->measure / source->measure);
+        if (source->features == NULL) {
+            move_boundary(&next->pl, target);
+            status = iccp_refit(next, &options, &work, info, env, err);
+        } else
+            status = carry(next, target, &options, &work, info, env, err);
+        next->work = iccp_spent(&work);
+        iccp_fit_keep_plan(next, plan);
+    }
+    if (status == ICC_OK && info->n_unrepaired == 0)
+        *out = next;
+    else
+        iccp_mesh_map_free(next, &env->memory);
+    return status;
+}
