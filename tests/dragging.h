@@ -60,8 +60,8 @@ static inline drag drag_create(int n, double travel, double apart, double gap, u
             d.start[k][i] = random_between(&r, apart / 2, 1 - apart / 2);
         d.phase[k] = random_between(&r, 0, 6.28318530717958647692);
         for (int i = 0; i < k; ++i)
-            fits = fits && hypot(d.start[k][0] - d.start[i][0], d.start[k][1] - d.start[i][1]) >
-                               apart;
+            fits =
+                fits && hypot(d.start[k][0] - d.start[i][0], d.start[k][1] - d.start[i][1]) > apart;
         k += fits && drag_fits(&d, k, gap);
     }
     return d;
@@ -172,7 +172,8 @@ static inline int drag_by_begin(const void *a, const void *b)
 }
 
 /* The piece of a level path in a triangle, left end first. */
-static inline bool drag_clip(const double *p[3], const double *q[3], double level, drag_piece *piece)
+static inline bool drag_clip(const double *p[3], const double *q[3], double level,
+                             drag_piece *piece)
 {
     double x[2], image[2][2];
     int n = 0;

@@ -61,6 +61,20 @@ static icc_status carry(iccp_mesh_map *map, const icc_domain *target,
     return status;
 }
 
+/* The images where they were, in the frame of the new target. */
+static icc_status begin(iccp_plmap *pl, const iccp_plmap *old, const icc_domain *source,
+                        const icc_domain *old_target, const icc_domain *target,
+                        const iccp_newton_plan *plan, const iccp_memory *memory)
+{
+    const icc_status status = iccp_plmap_copy(pl, old, memory);
+    if (status != ICC_OK)
+        return status;
+    change_frame(pl, &old_target->frame, &target->frame);
+    pl->plan = plan;
+    pl->stretch = sqrt(target->measure / source->measure);
+    return ICC_OK;
+}
+
 static bool same_memory(const iccp_memory *a, const iccp_memory *b)
 {
     return a->user == b->user && a->alloc == b->alloc && a->dealloc == b->dealloc;
@@ -87,6 +101,31 @@ static icc_status plan_of(iccp_newton_plan **plan, const iccp_mesh_map *map, con
     return ICC_OK;
 }
 
+/* A cage moves at once; where that cannot be repaired, in parts. */
+static icc_status follow_cage(iccp_mesh_map *next, const iccp_mesh_map *map,
+                              const icc_domain *source, const icc_domain *old_target,
+                              const icc_domain *target, const icc_improve_options *options,
+                              iccp_allowance *work, icc_map_info *info, const iccp_env *env,
+                              icc_error *err)
+{
+    bool reached = false;
+    icc_map_info own = *info;
+    const iccp_newton_plan *plan = next->pl.plan;
+    move_boundary(&next->pl, target);
+    icc_status status = iccp_refit(next, options, work, info, env, err);
+    if (status != ICC_OK || info->n_unrepaired == 0)
+        return status;
+    iccp_plmap_free(&next->pl);
+    status = begin(&next->pl, &map->pl, source, old_target, target, plan, &env->memory);
+    if (status == ICC_OK)
+        status = iccp_carry(&next->pl, target, &work->overlay, &reached, env);
+    if (status == ICC_OK && reached)
+        status = iccp_fit_complete(next, options, &work->improvement, &own, env, err);
+    if (status == ICC_OK && reached)
+        *info = own;
+    return status;
+}
+
 icc_status iccp_mesh_map_follow(iccp_mesh_map **out, const iccp_mesh_map *map,
                                 const icc_domain *source, const icc_domain *old_target,
                                 const icc_domain *target, int32_t iterations, icc_map_info *info,
@@ -97,9 +136,9 @@ icc_status iccp_mesh_map_follow(iccp_mesh_map **out, const iccp_mesh_map *map,
     if (next == NULL)
         return ICC_ERR_MEMORY;
     iccp_newton_plan *plan = NULL;
-    icc_status status = iccp_plmap_copy(&next->pl, &map->pl, &env->memory);
-    if (status == ICC_OK && iterations >= 0)
-        status = plan_of(&plan, map, env);
+    icc_status status = iterations >= 0 ? plan_of(&plan, map, env) : ICC_OK;
+    if (status == ICC_OK)
+        status = begin(&next->pl, &map->pl, source, old_target, target, plan, &env->memory);
     if (status == ICC_OK) {
         const icc_improve_options options = {.iterations = iterations != 0 ? iterations
                                                            : source->features != NULL
@@ -109,14 +148,9 @@ icc_status iccp_mesh_map_follow(iccp_mesh_map **out, const iccp_mesh_map *map,
         iccp_allowance work = iccp_allow(source->n_facets);
         work.improvement = iccp_work_unlimited();
         work.all = HUGE_VAL;
-        next->pl.plan = plan;
-        change_frame(&next->pl, &old_target->frame, &target->frame);
-        next->pl.stretch = sqrt(target->measure / source->measure);
-        if (source->features == NULL) {
-            move_boundary(&next->pl, target);
-            status = iccp_refit(next, &options, &work, info, env, err);
-        } else
-            status = carry(next, target, &options, &work, info, env, err);
+        status = source->features == NULL ? follow_cage(next, map, source, old_target, target,
+                                                        &options, &work, info, env, err)
+                                          : carry(next, target, &options, &work, info, env, err);
         next->work = iccp_spent(&work);
         iccp_fit_keep_plan(next, plan);
     }

@@ -63,8 +63,8 @@ static void follow(const drag *d, tally *t)
         t->energy = fmax(t->energy, info.energy);
         t->n_triangles = info.n_simplices > t->n_triangles ? info.n_simplices : t->n_triangles;
         if (getenv("BENCH_FRAMES") != NULL)
-            printf("    %3d %6.2f ms, energy %6.2f, %zu triangles, words %zu %zu\n", frame, t->ms[frame],
-                   info.energy, info.n_simplices, expected[0].n, expected[2].n);
+            printf("    %3d %6.2f ms, energy %6.2f, %zu triangles, words %zu %zu\n", frame,
+                   t->ms[frame], info.energy, info.n_simplices, expected[0].n, expected[2].n);
         last = angle;
     }
     icc_map_free(map);
@@ -83,8 +83,8 @@ int main(int argc, char **argv)
             qsort(t.ms, FRAMES, sizeof *t.ms, by_size);
             printf("travel .%d, set %d: %6.2f ms median, %6.2f p95, %6.2f most; %3zu of %d frames "
                    "refused, class changed %zu times, energy at most %.1f, %zu triangles\n",
-                   k, set, t.ms[FRAMES / 2], t.ms[FRAMES * 95 / 100], t.ms[FRAMES - 1],
-                   t.n_refused, FRAMES, t.n_changed, t.energy, t.n_triangles);
+                   k, set, t.ms[FRAMES / 2], t.ms[FRAMES * 95 / 100], t.ms[FRAMES - 1], t.n_refused,
+                   FRAMES, t.n_changed, t.energy, t.n_triangles);
             (void)fflush(stdout);
         }
     return EXIT_SUCCESS;
