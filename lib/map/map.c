@@ -358,7 +358,7 @@ icc_status iccp_map_improve(icc_map **out, const icc_map *map, const icc_improve
     return ICC_OK;
 }
 
-/* Cages that correspond have one map but for how fair it is, so a new one will do. Its mesh alone is
+/* Cages that correspond have one map but for how fair it is: a new one will do. Its mesh alone is
  * of use. */
 static icc_status begin_anew(icc_map *map, int32_t iterations, const iccp_env *env, icc_error *err)
 {
