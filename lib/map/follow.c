@@ -7,6 +7,7 @@
 #include "map/carry.h"
 #include "map/density.h"
 #include "map/fit.h"
+#include "map/tend.h"
 
 #include <math.h>
 
@@ -51,6 +52,9 @@ static icc_status carry(iccp_mesh_map *map, const icc_domain *target,
         status = iccp_limit_edges(&map->pl, iccp_planar_step(target, CARRIED_CELLS), &part[0]);
     if (status == ICC_OK)
         status = iccp_carry(&map->pl, target, &work->repair, &reached, &part[0]);
+    bool changed;
+    if (status == ICC_OK && reached)
+        status = iccp_tend(&map->pl, iccp_planar_step(target, CARRIED_CELLS), &work->overlay, &changed, env);
     info->seconds_repair = iccp_seconds() - begin;
     if (status == ICC_OK && !reached)
         return iccp_fail(err, ICC_ERR_CERTIFICATE,
