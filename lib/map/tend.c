@@ -33,7 +33,7 @@ static uint32_t longest_edge(const iccp_plmap *map, uint32_t t)
 icc_status iccp_tend(iccp_plmap *map, double longest, iccp_work *work, bool *changed,
                      const iccp_env *env)
 {
-    const double HIGH = P("HIGH", 50), SHORT = P("SHORT", 0.1) * longest;
+    const double HIGH = iccp_max(P("HIGH", 50), P("REL",0) * iccp_plmap_energy(map)), SHORT = P("SHORT", 0.1) * longest;
     icc_status status = ICC_OK;
     *changed = false;
     const int ROUNDS = (int)P("ROUNDS", 1);
