@@ -33,7 +33,7 @@ typedef struct args {
     /* how weights are made */
     int32_t sampling, seed, weights, kernel, initial, steps;
     double spacing, sigma;
-    bool thesis;
+    bool thesis, certified;
     /* their figures */
     int32_t handle;
     double along[ICC_MAX_DIM];
