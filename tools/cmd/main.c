@@ -162,7 +162,10 @@ static const command commands[] = {
          "  {\"transforms\": [[[a, b, tx], [c, d, ty]], ..]}      one per handle\n\n"
          "A matrix and a turn are about the handle, and come before its move. A turn goes from x "
          "to y. Poses\n"
-         "can fold; in a picture what is the right way round then hides what is not.\n"},
+         "can fold; in a picture what is the right way round then hides what is not. With "
+         "--certified they\n"
+         "cannot: handles and outline go where they should, the rest is a certified map near the "
+         "pose.\n"},
 };
 enum { N_COMMANDS = sizeof commands / sizeof *commands };
 

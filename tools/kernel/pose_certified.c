@@ -1,10 +1,12 @@
-/* Poses that are one-to-one. Kernel coordinates say where the outline goes and where the handles do; the rest is a certified map of the shape to what the posed outline bounds, with the handles
- * inside as its points. */
+/* Poses that are one-to-one. Kernel coordinates say where the outline goes, the handles inside, and
+ * other places inside round which they do not fold; a certified map of the shape with all of these
+ * as its points does the rest. */
 #include "kernel/pose_job.h"
 
 #include "base/allocate.h"
 #include "job/args.h"
 #include "kernel/pose_outline.h"
+#include "kernel/pose_places.h"
 #include "plot/picture_warp.h"
 
 #include <math.h>
@@ -12,18 +14,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Lines of the outline may be off by a thousandth of the shape's size unless an option says
+/* Where the outline bends, it may be off by such a share of the shape's size unless an option says
  * otherwise. */
-static double choose_tolerance(const pose *p, size_t n, const double *ring)
-{
-    double lower[2] = {HUGE_VAL, HUGE_VAL}, upper[2] = {-HUGE_VAL, -HUGE_VAL};
-    for (size_t i = 0; i < 2 * n; i++) {
-        lower[i % 2] = fmin(lower[i % 2], ring[i]);
-        upper[i % 2] = fmax(upper[i % 2], ring[i]);
-    }
-    double given = p->kernel.job.args->tolerance;
-    return given > 0 ? given : fmax(upper[0] - lower[0], upper[1] - lower[1]) / 1000;
-}
+static const double TOLERANCE = 1e-3;
 
 /* The shape must be one region: a map goes from one polygon to another. */
 int pose_certified_check(const pose *p)
@@ -42,113 +35,118 @@ int pose_certified_check(const pose *p)
 
 /* ---------------------------------------------------------------------- map */
 
-typedef struct inner_handles {
-    size_t n;
-    size_t *handles; /* their numbers */
-    double *places[2];
-    icc_feature *features[2];
-} inner_handles;
-
 /* The handles that are not on the outline, at rest and where their transforms take them. */
-static inner_handles take_inside(const pose *p, const bool *on_ring)
+static void take_handles(posed_places *in, const pose *p, const bool *on_ring)
 {
-    const handle_set *set = &p->kernel.set;
-    inner_handles in = {.handles = need(set->n_handles, sizeof *in.handles)};
-    for (size_t side = 0; side < 2; side++) {
-        in.places[side] = need(set->n_handles, 2 * sizeof(double));
-        in.features[side] = need(set->n_handles, sizeof(icc_feature));
-    }
-    for (size_t h = 0; h < set->n_handles; h++) {
-        if (on_ring[h])
-            continue;
-        const double *at = set->handles + 2 * h, *t = p->transforms + 6 * h;
-        for (size_t side = 0; side < 2; side++)
-            in.features[side][in.n] = (icc_feature){.size = sizeof(icc_feature),
-                                                    .kind = ICC_FEATURE_POINT,
-                                                    .n_vertices = 1,
-                                                    .vertices = in.places[side] + 2 * in.n};
-        for (size_t c = 0; c < 2; c++) {
-            in.places[0][2 * in.n + c] = at[c];
-            in.places[1][2 * in.n + c] = t[3 * c] * at[0] + t[3 * c + 1] * at[1] + t[3 * c + 2];
-        }
-        in.handles[in.n++] = h;
-    }
-    return in;
-}
-
-static void free_inside(inner_handles *in)
-{
-    free(in->handles);
-    for (size_t side = 0; side < 2; side++) {
-        free(in->places[side]);
-        free(in->features[side]);
+    for (size_t h = 0; h < p->kernel.set.n_handles; h++) {
+        const double *at = p->kernel.set.handles + 2 * h, *t = p->transforms + 6 * h;
+        const double image[2] = {t[0] * at[0] + t[1] * at[1] + t[2],
+                                 t[3] * at[0] + t[4] * at[1] + t[5]};
+        if (!on_ring[h])
+            posed_places_add(in, at, image, h);
     }
 }
 
 /* What keeps the handles from being points of a map, by their numbers. */
-static int failed_handle(pose *p, const inner_handles *in, const icc_error *err)
+static int failed_handle(pose *p, const posed_places *in, const icc_error *err)
 {
-    const char *name = p->kernel.job.args->pose;
+    progress_end(&p->kernel.job.bar);
     if (err->item != ICC_ITEM_FEATURE || err->index < 0 || (size_t)err->index >= in->n)
-        return job_failed(&p->kernel.job, err);
-    size_t handle = in->handles[err->index];
+        return failed(p->kernel.job.args->pose, 0, "%s",
+                      err->message[0] != '\0' ? err->message : icc_status_name(err->status));
     const char *why = err->status == ICC_ERR_OUTSIDE    ? "is not inside the posed outline"
                       : err->status == ICC_ERR_BOUNDARY ? "is where another one is"
                                                         : err->message;
-    progress_end(&p->kernel.job.bar);
-    return failed(name, 0, "handle %zu, posed, %s: --certified takes both inside and apart", handle,
-                  why);
+    return failed(p->kernel.job.args->pose, 0,
+                  "handle %zu, posed, %s; --certified needs all of them inside and apart",
+                  in->handles[err->index], why);
 }
 
-static int make_map(pose *p, const posed_outline *ring, const inner_handles *in)
+static icc_status make_sides(icc_domain *sides[2], const pose *p, const posed_outline *ring,
+                             const posed_places *in, icc_error *err)
 {
-    const icc_env *env = &p->kernel.job.env;
     const double *rings[2] = {ring->rest, ring->posed};
-    icc_error err = {.size = sizeof err, .index = -1};
+    icc_feature *points = need(in->n, sizeof *points);
     icc_status status = ICC_OK;
-    for (size_t side = 0; side < 2 && status == ICC_OK; side++)
-        status = icc_domain_create_features(&p->sides[side], ring->n, rings[side], in->n,
-                                            in->features[side], env, &err);
-    if (status != ICC_OK)
-        return failed_handle(p, in, &err);
-    icc_domain_info info[2] = {{.size = sizeof *info}, {.size = sizeof *info}};
-    for (size_t side = 0; side < 2; side++)
-        icc_domain_get_info(p->sides[side], &info[side]);
-    if (info[0].orientation != info[1].orientation)
-        return failed(p->kernel.job.args->pose, 0, "the pose turns the outline over");
+    for (size_t side = 0; side < 2 && status == ICC_OK; side++) {
+        for (size_t i = 0; i < in->n; i++)
+            points[i] = (icc_feature){.size = sizeof *points,
+                                      .kind = ICC_FEATURE_POINT,
+                                      .n_vertices = 1,
+                                      .vertices = in->places[side] + 2 * i};
+        status = icc_domain_create_features(&sides[side], ring->n, rings[side], in->n, points,
+                                            &p->kernel.job.env, err);
+    }
+    free(points);
+    return status;
+}
+
+/* The map of the outline and what is inside, if it can be certified and has at most so many times
+ * the energy of what there is. */
+static icc_status try_map(pose *p, const posed_outline *ring, const posed_places *in, double times,
+                          icc_error *err)
+{
+    icc_domain *sides[2] = {NULL, NULL};
+    icc_map *map = NULL;
+    icc_map_info info = {.size = sizeof info};
+    icc_status status = make_sides(sides, p, ring, in, err);
+    if (status == ICC_OK)
+        status = icc_map_create(&map, sides[0], sides[1], NULL, &p->kernel.job.env, err);
+    if (status == ICC_OK)
+        icc_map_get_info(map, &info);
+    if (status == ICC_OK && info.kind == ICC_MAP_MESH && info.certified &&
+        (p->map == NULL || info.energy <= times * p->energy)) {
+        pose_certified_free(p);
+        memcpy(p->sides, sides, sizeof sides);
+        p->map = map;
+        p->energy = info.energy;
+        p->n_followed = in->n;
+        return ICC_OK;
+    }
+    icc_map_free(map);
+    icc_domain_free(sides[0]);
+    icc_domain_free(sides[1]);
+    return status;
+}
+
+/* The places of the pose are followed unless the energy is then so many times that of the map of
+ * the handles alone: near folds places get entangled. */
+static const double DEAR = 1.5;
+
+static int make_map(pose *p, const posed_samples *samples, const posed_outline *ring,
+                    const bool *on_ring)
+{
+    posed_places in = {0};
+    icc_error err = {.size = sizeof err, .index = -1};
+    take_handles(&in, p, on_ring);
+    size_t n_handles = in.n;
     progress_expect(&p->kernel.job.bar, 0.9);
-    status = icc_map_create(&p->map, p->sides[0], p->sides[1], NULL, env, &err);
+    icc_status status = try_map(p, ring, &in, 1, &err);
+    int result = status != ICC_OK ? failed_handle(p, &in, &err)
+                 : p->map == NULL ? failed(p->kernel.job.args->pose, 0,
+                                           "no map to the posed outline could be certified")
+                                  : posed_places_follow(&in, p, samples, ring);
+    if (result == DONE && in.n > n_handles)
+        (void)try_map(p, ring, &in, DEAR, NULL);
+    if (result == DONE)
+        p->n_followed -= n_handles;
+    posed_places_free(&in);
     progress_end(&p->kernel.job.bar);
-    if (status != ICC_OK)
-        return failed_handle(p, in, &err);
-    icc_map_info made = {.size = sizeof made};
-    icc_map_get_info(p->map, &made);
-    return made.certified ? DONE
-                          : failed(p->kernel.job.args->pose, 0,
-                                   "no map to the posed outline could be certified");
+    return result;
 }
 
 /* ------------------------------------------------------------- how far off */
 
-/* Compares the map with the pose at the samples of the shape. */
-static int compare(pose *p)
+/* Compares the map with the pose by the weights alone. */
+static int compare(pose *p, const posed_samples *s)
 {
-    icc_sampling_info info = {.size = sizeof info};
-    icc_sampling_get_info(p->kernel.sampling, &info);
-    size_t n = info.n_samples, n_failed;
-    double *at = need(n, 2 * sizeof *at), *posed = need(n, 2 * sizeof *posed),
-           *mapped = need(n, 2 * sizeof *mapped), *slopes = need(n, 4 * sizeof *slopes);
-    icc_map *map = p->map;
-    icc_sampling_get_points(p->kernel.sampling, at);
-    p->map = NULL;
-    int result = pose_points(p, n, at, posed, slopes, &n_failed);
-    p->map = map;
-    if (result == DONE)
-        result = pose_points(p, n, at, mapped, NULL, &n_failed);
-    turned t = pose_count_turned(2, n, slopes);
-    size_t n_both = 0;
-    for (size_t i = 0; i < n && result == DONE; i++) {
-        double off = hypot(posed[2 * i] - mapped[2 * i], posed[2 * i + 1] - mapped[2 * i + 1]);
+    size_t n_failed, n_folded = 0, n_both = 0;
+    double *mapped = need(s->n, 2 * sizeof *mapped);
+    int result = pose_points(p, s->n, s->rest, mapped, NULL, &n_failed);
+    for (size_t i = 0; i < s->n && result == DONE; i++) {
+        double off =
+            hypot(s->posed[2 * i] - mapped[2 * i], s->posed[2 * i + 1] - mapped[2 * i + 1]);
+        n_folded += !(s->growth[i] > 0);
         if (isnan(off))
             continue;
         n_both++;
@@ -156,11 +154,8 @@ static int compare(pose *p)
         p->off_most = fmax(p->off_most, off);
     }
     p->off_mean /= n_both > 0 ? (double)n_both : 1;
-    p->folded = n > 0 ? (double)(t.inverted + t.collapsed) / (double)n : 0;
-    free(at);
-    free(posed);
+    p->folded = s->n > 0 ? (double)n_folded / (double)s->n : 0;
     free(mapped);
-    free(slopes);
     return result;
 }
 
@@ -173,19 +168,22 @@ int pose_certified_make(pose *p)
     const double *ring = k->job.domains[0] != NULL ? source->points : k->set.regions[0].points;
     bool *on_ring = need(k->set.n_handles, sizeof *on_ring);
     posed_outline posed;
-    int result =
-        posed_outline_make(&posed, p, region, n, ring, choose_tolerance(p, n, ring), on_ring);
+    posed_samples samples = {0};
+    double given = k->job.args->tolerance;
+    double tolerance = given > 0 ? given : TOLERANCE * ring_size(n, ring);
+    int result = posed_outline_make(&posed, p, region, n, ring, tolerance, on_ring);
     if (result == DONE)
         result = posed_outline_check(&posed, p);
-    inner_handles in = take_inside(p, on_ring);
     if (result == DONE)
-        result = make_map(p, &posed, &in);
+        result = posed_samples_make(&samples, p);
+    if (result == DONE)
+        result = make_map(p, &samples, &posed, on_ring);
     if (result == DONE) {
         icc_status ran =
             carrier_start(&p->carrier, p->map, p->sides[0], p->sides[1], false, -1, &k->job.env);
-        result = ran == ICC_OK ? compare(p) : job_failed_status(&p->kernel.job, ran);
+        result = ran == ICC_OK ? compare(p, &samples) : job_failed_status(&p->kernel.job, ran);
     }
-    free_inside(&in);
+    posed_samples_free(&samples);
     posed_outline_free(&posed);
     free(on_ring);
     return result;
@@ -223,9 +221,9 @@ void pose_certified_say(const pose *p)
         return;
     icc_map_get_info(p->map, &info);
     snprintf(text, sizeof text,
-             "certified one-to-one: %zu triangles; the pose itself turns over %.2g %% of the "
-             "shape, and is %.3g away on average, %.3g at most",
-             info.n_simplices, 100 * p->folded, p->off_mean, p->off_most);
+             "certified one-to-one: %zu triangles, through %zu places of the pose; by weights "
+             "alone %.2g %% of the shape is turned over, and is %.3g away on average, %.3g at most",
+             info.n_simplices, p->n_followed, 100 * p->folded, p->off_mean, p->off_most);
     pose_say(p, text);
 }
 
@@ -238,6 +236,7 @@ void pose_certified_report(const pose *p, json *out)
     json_open(out, "certified", '{');
     json_count(out, "triangles", info.n_simplices);
     json_number(out, "energy", info.energy);
+    json_count(out, "followed", p->n_followed);
     json_number(out, "folded_pose", p->folded);
     json_number(out, "off_mean", p->off_mean);
     json_number(out, "off_most", p->off_most);
@@ -250,4 +249,6 @@ void pose_certified_free(pose *p)
     icc_map_free(p->map);
     icc_domain_free(p->sides[0]);
     icc_domain_free(p->sides[1]);
+    p->map = NULL;
+    p->sides[0] = p->sides[1] = NULL;
 }

@@ -1,6 +1,7 @@
 #include "kernel/pose_outline.h"
 
 #include "base/allocate.h"
+#include "geo/clip_rings.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -8,6 +9,16 @@
 
 /* An edge is cut in two so many times at most, each part of it again. */
 enum { MOST_CUTS = 7 };
+
+double ring_size(size_t n, const double *ring)
+{
+    double lower[2] = {HUGE_VAL, HUGE_VAL}, upper[2] = {-HUGE_VAL, -HUGE_VAL};
+    for (size_t i = 0; i < 2 * n; i++) {
+        lower[i % 2] = fmin(lower[i % 2], ring[i]);
+        upper[i % 2] = fmax(upper[i % 2], ring[i]);
+    }
+    return fmax(upper[0] - lower[0], upper[1] - lower[1]);
+}
 
 static void add(posed_outline *o, const double *rest, size_t edge)
 {
@@ -156,8 +167,10 @@ int posed_outline_check(const posed_outline *o, pose *p)
     if (icc_boundary_defects(o->n, o->posed, 1, &kind, item, &n_defects, &p->kernel.job.env,
                              &err) != ICC_OK)
         return job_failed(&p->kernel.job, &err);
-    if (n_defects == 0)
+    if (n_defects == 0 && ring_area(o->n, o->posed, 2) * ring_area(o->n, o->rest, 2) > 0)
         return DONE;
+    if (n_defects == 0)
+        return failed(name, 0, "the pose turns the outline over");
     const char *advice = "a map that is one-to-one needs a simple one; move the handles less";
     if (kind == ICC_DEFECT_NOT_FINITE || kind == ICC_DEFECT_FLAT)
         return failed(name, 0, "the posed outline %s",

@@ -15,6 +15,9 @@ typedef struct posed_outline {
  * `on_ring`. Free `out` in any case. */
 int posed_outline_make(posed_outline *out, pose *p, const icc_domain *region, size_t n,
                        const double *ring, double tolerance, bool *on_ring);
+/* The longest side of the box round a ring. */
+double ring_size(size_t n, const double *ring);
+
 void posed_outline_free(posed_outline *out);
 
 /* DONE, or FAILED with a line on stderr that says what keeps the posed outline from being a simple
