@@ -3,8 +3,8 @@
 
     python3 examples/character.py FOLDER      writes character.geojson
 
-The outline is drawn round the joints of five limbs, so that it has the same vertices in every pose; the bones are lines inside.
-Import it for poses in between: rig(share) gives the outline and the bones, from rest (0) to posed (1).
+The outline is drawn round the joints of five limbs, so that it has the same vertices in every pose; the bones are
+lines inside. Import it for poses in between: rig(share) gives the outline and the bones, from rest (0) to posed (1).
 """
 
 import json
@@ -14,7 +14,7 @@ import numpy as np
 
 # Joints of each limb, at rest and posed, and how wide the limb is at each of them.
 SPINE = ([[0, -.1], [0, 1.3], [0, 2.6], [0, 4.2]], [[0, -.1], [.12, 1.3], [.1, 2.6], [-.15, 4.15]])
-RIGHT_ARM = ([[.9, 2.75], [1.45, 1.5], [1.5, .2]], [[.95, 2.85], [1.9, 3.5], [1.75, 4.9]])
+RIGHT_ARM = ([[.9, 2.75], [1.45, 1.5], [1.5, .2]], [[.95, 2.85], [1.9, 3.5], [2.1, 4.8]])
 LEFT_ARM = ([[-.9, 2.75], [-1.45, 1.5], [-1.5, .2]], [[-.8, 2.7], [-2.0, 2.2], [-3.1, 2.9]])
 RIGHT_LEG = ([[.55, -.5], [.7, -2.1], [.8, -3.7]], [[.6, -.5], [1.7, -1.6], [1.5, -3.1]])
 LEFT_LEG = ([[-.55, -.5], [-.7, -2.1], [-.8, -3.7]], [[-.55, -.5], [-.75, -2.1], [-.7, -3.75]])
@@ -22,7 +22,11 @@ ARM, LEG = [.38, .36, .32], [.46, .42, .36]
 
 
 def between(pair, share):
-    return (1 - share) * np.array(pair[0], float) + share * np.array(pair[1], float)
+    """Joints part of the way from the first pose to the second: bones turn, so that they keep their lengths."""
+    first, second = (np.array(joints, float) @ [1, 1j] for joints in pair)
+    bones = np.diff(first) * (np.diff(second) / np.diff(first)) ** share
+    joints = np.cumsum(np.concatenate([(1 - share) * first[:1] + share * second[:1], bones]))
+    return np.column_stack([joints.real, joints.imag])
 
 
 def sides(joints, widths):

@@ -3,8 +3,8 @@
 
     python3 examples/county.py FOLDER      writes county.geojson and county-data.geojson, in kilometres
 
-A lake becomes a reservoir, a pond is drained, the river below the dam becomes a canal, and seven towns move. The data, roads and
-two places between towns, are to be carried along.
+A lake becomes a reservoir, a pond is drained, the river below the dam becomes a canal, and seven towns move. The
+data, roads and two places between towns, are to be carried along.
 """
 
 import json
@@ -29,7 +29,8 @@ reservoir = ring(17.6, 14.2, 4.3, 16, [(2, .2, .3), (3, .08, 1)], 1.35)
 drained = ring(27.8, 19.4, 0.35, 12, [(2, .2, 1)])
 river = [[17.6, 13.6], [19, 12.2], [20.2, 12.6], [21.4, 11.2], [22.8, 11.4], [24, 9.8], [25.2, 9.6], [26.6, 8.2]]
 canal = [[24.6, 12.6], [25.1, 12.0], [25.6, 11.4], [26.0, 10.8], [26.3, 10.1], [26.5, 9.5], [26.6, 8.9], [26.6, 8.2]]
-towns = {"Alder": ([12, 16.4], [10.2, 18.6]), "Birch": ([16.6, 16.2], [16.4, 21.0]), "Cedar": ([19.4, 14.2], [25.4, 14.4]),
+towns = {"Alder": ([12, 16.4], [10.2, 18.6]),
+         "Birch": ([16.6, 16.2], [16.4, 21.0]), "Cedar": ([19.4, 14.2], [25.4, 14.4]),
          "Elm": ([13.4, 11.6], [11.6, 8.4]), "Fir": ([23.6, 15.4], [27.0, 16.0]), "Hazel": ([28.6, 11.6], [28.8, 12.0]),
          "Larch": ([20.6, 9.6], [21.2, 7.2])}
 roads = [["Alder", "Birch", "Fir", "Hazel"], ["Elm", "Larch", "Hazel"], ["Cedar", "Fir"]]

@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
-"""The usual way to carry a map or a picture along with control points, beside libicc's: a thin-plate spline (F. L.
-Bookstein, Principal warps, IEEE Transactions on Pattern Analysis and Machine Intelligence 11, 1989). It is smooth and goes
-through all points, but it is not one-to-one: where points move far, it folds over. How much of the shape does is counted.
+"""The usual way to carry a map or a picture along with control points, beside libicc's: a thin-plate spline
+(F. L. Bookstein, Principal warps, IEEE Transactions on Pattern Analysis and Machine Intelligence 11, 1989). It is
+smooth and goes through all points, but it is not one-to-one: where points move far, it folds over. How much of the
+shape does is counted.
 
     python3 examples/thin_plate.py CASE.geojson [OUT.png [--picture IN.png]]
 
-CASE.geojson holds both sides, as `libicc map` reads them: Polygons with holes, Points and LineStrings. The spline gets all
-their vertices, and points on their edges. OUT.png has three panels: before, by the spline, by libicc; what the spline turns
-over is red. With a picture the coordinates are its pixels, y down. Needs libicc for Python and NumPy; to draw, Pillow.
+CASE.geojson holds both sides, as `libicc map` reads them: Polygons with holes, Points and LineStrings. The spline
+gets all their vertices, and points on their edges. OUT.png has three panels: before, by the spline, by libicc; what
+the spline turns over is red. With a picture the coordinates are its pixels, y down. Needs libicc for Python and
+NumPy; to draw, Pillow.
 """
 
 import argparse
@@ -157,7 +159,8 @@ def to_pixels(sides, size=300, margin=6):
     low, high = corners.min(axis=0), corners.max(axis=0)
     scale = (size - 2 * margin) / (high - low).max()
     width, height = ((high - low) * scale).astype(int) + 2 * margin
-    moved = [[(kind, (places - [low[0], high[1]]) * [scale, -scale] + margin) for kind, places in side] for side in sides]
+    moved = [[(kind, (places - [low[0], high[1]]) * [scale, -scale] + margin) for kind, places in side]
+             for side in sides]
     return moved, checkerboard(width, height)
 
 
@@ -172,7 +175,8 @@ def main():
     mapping = libicc.Map(source, target)
     share = folded(spline(controls(before), controls(after)), *evenly(source))
     print(f"thin-plate spline through {len(controls(before))} points: {100 * share:.1f} % of the shape is turned over")
-    print(f"libicc: {mapping.info.n_simplices} triangles, {'certified, none' if mapping.certified else 'not certified'}")
+    proof = "certified, none" if mapping.certified else "not certified"
+    print(f"libicc: {mapping.info.n_simplices} triangles, {proof}")
     if options.out is not None:
         if options.picture is not None:
             from PIL import Image
