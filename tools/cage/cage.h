@@ -42,6 +42,8 @@ typedef struct cage {
     cage_feature *features;
     size_t n_ties;
     cage_feature *ties; /* polylines from a vertex to a vertex */
+    size_t n_more;
+    struct cage *more; /* of several polygons those behind the first */
     size_t room_points, room_lines, room_facets, room_facet_lines, room_features;
     uint32_t fan[3]; /* of the face that is being read */
 } cage;

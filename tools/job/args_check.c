@@ -189,6 +189,7 @@ int args_check(args *a, const command *c)
 {
     a->needs_target = c->needs_target;
     a->may_pair = (c->bit & MAY_PAIR) != 0;
+    a->takes_parts = (c->bit & TAKES_PARTS) != 0;
     settle_functions(a);
     int result = settle_streams(a, c);
     return result != DONE ? result : check_together(a, c);

@@ -55,6 +55,11 @@ const option options[N_OPTIONS] = {
      .value = "FILE",
      .help = "the cage after; vertices and faces correspond by their order; it may be in the "
              "source's file"},
+    {.name = "fill-holes",
+     .kind = OPTION_FLAG,
+     .commands = TAKES_PARTS,
+     .offset = AT(fill_holes),
+     .help = "holes have an inside, which is carried as well"},
     {.name = "mesh",
      .kind = OPTION_TEXT,
      .commands = FOR_CHARTS,

@@ -179,8 +179,9 @@ int pose_certified_make(pose *p)
     if (result == DONE)
         result = make_map(p, &samples, &posed, on_ring);
     if (result == DONE) {
-        icc_status ran =
-            carrier_start(&p->carrier, p->map, p->sides[0], p->sides[1], false, -1, &k->job.env);
+        carrier_start(&p->carrier, false, &k->job.env);
+        icc_status ran = carrier_add(&p->carrier, p->map, p->sides[0], p->sides[1], CARRIER_ALL);
+        carrier_set_snap(&p->carrier, -1);
         result = ran == ICC_OK ? compare(p, &samples) : job_failed_status(&p->kernel.job, ran);
     }
     posed_samples_free(&samples);
