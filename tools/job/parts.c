@@ -92,8 +92,6 @@ static void make_parts(job *j, const cage_hole *nesting)
                 fill_hole(&part->cages[side], &j->cages[side], nesting, (cage_hole){i, h});
         }
     j->n_parts = 0;
-    if (n > 0)
-        snprintf(j->name, sizeof j->name, "polygon 1: ");
     j->place = nesting[0];
     j->n_polygons = n + 1;
     for (size_t i = 0; i < n; i++) {
@@ -191,6 +189,7 @@ static int check_nesting(const job *j, const cage_hole *source)
 int parts_make(job *j)
 {
     const cage *c = j->cages;
+    side_text where;
     bool fills = j->args->fill_holes && cage_count(&c[0], ICC_FEATURE_HOLE) > 0;
     if (c[0].n_more + c[1].n_more == 0 && !fills)
         return j->args->target != NULL ? correspond(j) : DONE;
@@ -200,8 +199,8 @@ int parts_make(job *j)
     for (size_t i = 0; i < c[0].n_more && result == DONE; i++)
         if (cage_count(&c[0].more[i], ICC_FEATURE_HOLE) !=
             cage_count(&c[1].more[i], ICC_FEATURE_HOLE))
-            result =
-                failed(job_file(j, 2), 0, "polygon %zu has other holes than in the source", i + 2);
+            result = failed(job_file(j, 2), 0, "%spolygon %zu has other holes than in the source",
+                            job_side(where, j, 2), i + 2);
     if (result != DONE)
         return result;
     cage_hole *nesting = need(c[0].n_more + 1, sizeof *nesting);
@@ -212,6 +211,8 @@ int parts_make(job *j)
         make_parts(j, nesting);
     if (result == DONE)
         result = share_features(j);
+    if (result == DONE && j->n_polygons > 1)
+        snprintf(j->name, sizeof j->name, "polygon 1: ");
     for (size_t i = 0; i < j->n_parts && result == DONE; i++)
         result = correspond(&j->parts[i]);
     free(nesting);
