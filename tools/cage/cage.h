@@ -16,14 +16,16 @@
 
 typedef enum cage_role { CAGE_SOURCE = 1, CAGE_TARGET = 2 } cage_role;
 
-/* Something inside a cage in the plane. Kinds are those of icc_feature, and a tie. */
-enum { CAGE_TIE = 100 };
+/* Something inside a cage in the plane. Kinds are those of icc_feature, a tie, and the circle round
+ * a point with a radius: a line to the library. */
+enum { CAGE_TIE = 100, CAGE_CIRCLE };
 
 typedef struct cage_feature {
     int32_t kind;
     int64_t number; /* a hole's among the holes, from 1; else what the file says */
     size_t n;
     double *points; /* 2 n */
+    double radius;  /* of a point; 0: none */
     size_t line;    /* of its first vertex, or 0 */
 } cage_feature;
 

@@ -139,6 +139,17 @@ static int32_t kind_of(const cJSON *feature)
                                            : IS_CAGE;
 }
 
+/* How large a Point is, if it says so. */
+static bool read_radius(double *out, const cJSON *feature, const char *name, problem *wrong)
+{
+    const cJSON *radius = json_get(json_get(feature, "properties"), "radius");
+    if (radius == NULL || cJSON_IsNull(radius))
+        return true;
+    *out = radius->valuedouble;
+    return (cJSON_IsNumber(radius) && *out >= 0 && isfinite(*out)) ||
+           spoilt(wrong, 0, "the radius of %s is no number from 0 up", name);
+}
+
 /* A Point, a LineString or a tie, with the number that pairs it. */
 static bool read_feature(cage *out, int32_t kind, const cJSON *feature, problem *wrong)
 {
@@ -168,7 +179,10 @@ static bool read_feature(cage *out, int32_t kind, const cJSON *feature, problem 
     if (kind != ICC_FEATURE_POINT && out->n - first < 2)
         return spoilt(wrong, 0, "%s has %zu %s; a line has at least 2", name, out->n - first,
                       out->n - first == 1 ? "vertex" : "vertices");
+    if (kind == ICC_FEATURE_POINT && !read_radius(&named.radius, feature, name, wrong))
+        return false;
     cage_add_feature(out, kind, named.number, first);
+    out->features[out->n_features - 1].radius = named.radius;
     return true;
 }
 
