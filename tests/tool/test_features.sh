@@ -217,6 +217,27 @@ for pair in '1,2' '3,4' '9,4' '3,8'; do
     tr -d ' ' <out.geojson | grep -qF "[$pair]" || complain "$pair is not in $(cat out.geojson)"
 done
 
+# A point with a radius takes the circle round it along, a larger or smaller one if need be.
+sized() { # ROLE COORDINATES RADIUS [NUMBER]
+    feature "$1" Point "$2" "${4:-3}" | sed "s/}, \"geometry\"/, \"radius\": $3&/"
+}
+collection "$source" "$target" "$(sized source '[2,8]' 1)" "$(sized target '[3,7]' 1.5)" >sized.geojson
+printf '2 8\n3 8\n2 9\n1 8\n2 7\n1.29289321881345248 8.70710678118654752\n' >on.txt
+printf '3 7\n4.5 7\n3 8.5\n1.5 7\n3 5.5\n1.93933982822017872 8.06066017177982128\n' >expected
+run 0 map -s sized.geojson -p on.txt
+close_to out expected 1e-12
+run 0 check -s sized.geojson
+holds out ', with 1 hole and 1 point inside'
+refuses 'source: the radius of point 3 is no number from 0 up' "$source" "$target" "$(sized source '[2,8]' -1)" "$partner"
+refuses 'source: the radius of point 3 is no number from 0 up' "$source" "$target" "$(sized source '[2,8]' '"1"')" "$partner"
+refuses 'target: circle of point 3 of the source has no partner' "$source" "$target" "$(sized source '[2,8]' 1)" "$partner"
+refuses 'source: circle of point 3, vertex' "$source" "$target" "$(sized source '[2,8]' 4)" "$(sized target '[2,8]' 1)"
+refuses 'points with a radius and ties do not go together' "$source" "$target" "$(sized source '[2,8]' 1)" \
+    "$(sized target '[2,8]' 1)" "$(feature source-tie LineString '[[0,10],[2,8]]' 1)"
+collection "$source" "$target" "$(sized source '[2,8]' 0)" "$(sized target '[3,8]' null)" >none.geojson
+printf '2 8\n' >on.txt
+run 0 map -s none.geojson -p on.txt
+
 # Lines and polygons are cut at holes.
 collection "$(feature none LineString '[[1,3],[9,3]]')" "$(feature none Polygon '[[[1,1],[3,1],[3,3],[1,3],[1,1]]]')" >in.geojson
 collection "$source" "$(feature target Polygon "[$square, $hole]")" >same.geojson

@@ -114,12 +114,19 @@ static int finish(const job *j, geo_result *r, const char *text, size_t n, doubl
     return PARTIAL;
 }
 
-/* Lines may be off by a thousandth of the result's size unless an option says otherwise. */
-static double choose_tolerance(const job *j)
+static double size_of(const job *j)
 {
     icc_domain_info info = {.size = sizeof info};
     icc_domain_get_info(j->domains[!j->args->inverse], &info);
-    double size = fmax(info.upper[0] - info.lower[0], info.upper[1] - info.lower[1]);
+    return fmax(info.upper[0] - info.lower[0], info.upper[1] - info.lower[1]);
+}
+
+/* Lines may be off by a thousandth of the result's size unless an option says otherwise. */
+static double choose_tolerance(const job *j)
+{
+    double size = size_of(j);
+    for (size_t i = 0; i < j->n_parts; i++)
+        size = fmax(size, size_of(&j->parts[i]));
     return j->args->tolerance > 0 ? j->args->tolerance : size / 1000;
 }
 
