@@ -6,8 +6,6 @@
 #include "base/threads.h"
 #include "map/dirichlet.h"
 #include "map/flips.h"
-#include "map/movable.h"
-#include "map/newton.h"
 #include "math/vec.h"
 
 #include <math.h>
@@ -16,8 +14,8 @@
  * converges. */
 enum { MAJORISED_STEPS = 3 };
 
-/* Shares of progress: half of a descent, and half of all descents. */
-static const double TYPICAL_STEPS = 8, TYPICAL_LEVELS = 2;
+/* Half of all descents, as far as progress goes. */
+static const double TYPICAL_LEVELS = 2;
 
 /* A refinement cuts the triangles that carry this share of the energy above an isometry's, but no
  * more than this share of all. */
@@ -39,65 +37,13 @@ enum { GRAIN = 1024 };
  * turn where the energy is HIGH: what is locked there may take two cuts to come free. */
 static const double LEAST_GAIN = 0.01, HIGH = 20;
 
-icc_status iccp_improve_images(const iccp_simplicial_map *map, const iccp_descent *descent,
-                               iccp_work *work, iccp_improvement *improvement, const iccp_env *env)
-{
-    improvement->is_converged = false;
-    if (!iccp_work_fits(work, map->n_simplices))
-        return ICC_OK;
-    iccp_newton newton;
-    iccp_env part = iccp_round(env, 0, TYPICAL_STEPS);
-    uint8_t *movable;
-    icc_status status = iccp_movable_create(&movable, map, env);
-    if (status == ICC_OK)
-        status = iccp_newton_create(&newton, map, movable, &part);
-    iccp_free(&env->memory, movable);
-    if (status != ICC_OK)
-        return status;
-    const size_t n_free = newton.assembly.n_free;
-    double energy = iccp_newton_energy(&newton, ICCP_DIRICHLET, 0);
-    size_t n_slow = 0;
-    for (size_t k = 0; status == ICC_OK && k < descent->iterations && n_free > 0 &&
-                       iccp_work_take(work, map->n_simplices);
-         ++k) {
-        const iccp_energy model =
-            k < descent->majorised ? ICCP_DIRICHLET_MAJORISED : ICCP_DIRICHLET;
-        double slope;
-        part = iccp_round(env, k + 1, TYPICAL_STEPS);
-        status = iccp_progress(&part, "improve", 0);
-        if (status == ICC_OK)
-            status = iccp_newton_solve(&newton, model, 0, &slope, &part);
-        if (status != ICC_OK)
-            break;
-        const double after = iccp_newton_move(&newton, model, 0, energy, slope);
-        const double gain = energy - after;
-        energy = after;
-        ++improvement->n_iterations;
-        if (k < descent->majorised)
-            continue;
-        n_slow = gain <= descent->slow * energy ? n_slow + 1 : 0;
-        improvement->is_converged = gain <= descent->tolerance * energy;
-        if (n_slow == 2 || improvement->is_converged)
-            break;
-    }
-    iccp_newton_free(&newton);
-    return status == ICC_ERR_SOLVER ? ICC_OK : status;
-}
-
-/* Steps for the images; and, on both sides, as many for the points, by the energy of the inverse
- * map, which is the same but for how triangles count: by their area after the map. */
 static icc_status descend(iccp_plmap *map, const iccp_descent *descent, bool both_sides,
                           iccp_work *work, iccp_improvement *improvement, const iccp_env *env)
 {
-    icc_status status = ICC_OK;
-    for (int side = 0; side < (both_sides ? 2 : 1); ++side) {
-        const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
-        if (status == ICC_OK)
-            status = iccp_improve_images(&simplicial, descent, work, improvement, env);
-        if (both_sides)
-            iccp_plmap_swap(map);
-    }
+    if (both_sides)
+        return iccp_improve_both_sides(map, descent, work, improvement, env);
     const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
+    const icc_status status = iccp_improve_images(&simplicial, descent, work, improvement, env);
     improvement->energy = iccp_simplicial_energy_at_once(&simplicial, env);
     return status;
 }
