@@ -59,7 +59,7 @@ icc_status iccp_improve_images(const iccp_simplicial_map *map, const iccp_descen
             continue;
         n_slow = gain <= descent->slow * energy ? n_slow + 1 : 0;
         improvement->is_converged = gain <= descent->tolerance * energy;
-        if (n_slow == 2 || improvement->is_converged)
+        if (n_slow == (descent->is_hasty ? 1 : 2) || improvement->is_converged)
             break;
     }
     iccp_newton_free(&newton);
@@ -88,12 +88,7 @@ static bool is_spoilt(const retreat *r, uint32_t triangle)
     if (!iccp_plmap_positive_image(r->map, triangle) ||
         roundness_of(r->map->images, v) < iccp_min(LEAST_ROUNDNESS, roundness_of(r->before, v)))
         return true;
-    iccp_plmap inverse = *r->map;
-    iccp_candidate there = iccp_no_candidate(), back = there;
-    iccp_plmap_swap(&inverse);
-    iccp_candidate_add(&there, r->map, v[0], v[1], v[2]);
-    iccp_candidate_add(&back, &inverse, v[0], v[1], v[2]);
-    return !(there.area > 0 && there.energy < HUGE_VAL && back.area > 0 && back.energy < HUGE_VAL);
+    return !iccp_candidate_is_sound(r->map, v[0], v[1], v[2]);
 }
 
 /* Gives the corners of a triangle the images that they had; false when they all have them. */

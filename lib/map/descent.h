@@ -17,7 +17,8 @@ typedef struct iccp_descent {
     size_t majorised;  /* the first steps are by SLIM's model */
     size_t iterations; /* at most so many, */
     double tolerance;  /* until one gains no more than this share of the energy, */
-    double slow;       /* or two in turn no more than this share each */
+    double slow;       /* or two in turn no more than this share each, */
+    bool is_hasty;     /* or one */
 } iccp_descent;
 
 /* Lowers the symmetric Dirichlet energy of a map in the plane or in space, all of whose simplices

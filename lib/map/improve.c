@@ -37,6 +37,9 @@ enum { GRAIN = 1024 };
  * turn where the energy is HIGH: what is locked there may take two cuts to come free. */
 static const double LEAST_GAIN = 0.01, HIGH = 20;
 
+/* Where a map that was relaxed is as good as this, a refinement in vain can be told beforehand. */
+static const double NEAR = 5;
+
 static icc_status descend(iccp_plmap *map, const iccp_descent *descent, bool both_sides,
                           iccp_work *work, iccp_improvement *improvement, const iccp_env *env)
 {
@@ -137,13 +140,21 @@ static bool may_refine(const iccp_plmap *map, const iccp_schedule *schedule, con
            STEPS * n <= work->left;
 }
 
+/* Whether the next refinement of a map NEAR an isometry is in vain, as its gain falls short of the
+ * last one's by the same share as that of the one before. */
+static bool is_settled(double energy, double gain, double gain_before)
+{
+    return energy < NEAR && gain < gain_before && gain * gain < LEAST_GAIN * gain_before;
+}
+
 /* Refinements, with steps after each, as long as they pay. */
 static icc_status refine_often(iccp_plmap *map, const iccp_schedule *schedule, double slow,
                                iccp_work *work, iccp_improvement *improvement, const iccp_env *env)
 {
     const size_t most = schedule->iterations < MOST_STEPS ? schedule->iterations : MOST_STEPS;
-    const iccp_descent descent = {0, most, schedule->tolerance, slow};
+    const iccp_descent descent = {0, most, schedule->tolerance, slow, schedule->is_relaxed};
     size_t n_in_vain = 0;
+    double gain_before = 0;
     icc_status status = ICC_OK;
     while (status == ICC_OK && n_in_vain <= (improvement->energy > HIGH) &&
            may_refine(map, schedule, work, improvement)) {
@@ -157,7 +168,14 @@ static icc_status refine_often(iccp_plmap *map, const iccp_schedule *schedule, d
         if (status == ICC_OK)
             status = descend(map, &descent, schedule->both_sides, work, improvement, &part);
         ++improvement->n_levels;
-        n_in_vain = before - improvement->energy < LEAST_GAIN * before ? n_in_vain + 1 : 0;
+        const double gain = (before - improvement->energy) / before;
+        n_in_vain = gain < LEAST_GAIN ? n_in_vain + 1 : 0;
+        if (status == ICC_OK && schedule->is_relaxed &&
+            is_settled(improvement->energy, gain, gain_before)) {
+            improvement->is_converged = true;
+            break;
+        }
+        gain_before = gain;
     }
     return status;
 }
@@ -167,7 +185,8 @@ icc_status iccp_improve(iccp_plmap *map, const iccp_schedule *schedule, iccp_wor
 {
     const double slow = iccp_max(SLOW, schedule->tolerance);
     const iccp_descent last = {0, schedule->iterations, schedule->tolerance, 0};
-    iccp_descent first = {MAJORISED_STEPS, schedule->iterations, schedule->tolerance, slow};
+    iccp_descent first = {schedule->is_relaxed ? 0 : MAJORISED_STEPS, schedule->iterations,
+                          schedule->tolerance, slow, schedule->is_relaxed};
     iccp_env part[3];
     iccp_split(part, 3, (const double[]){2, 2, 1}, env);
     *improvement = (iccp_improvement){0};

@@ -11,6 +11,7 @@ typedef struct iccp_schedule {
     size_t levels;     /* refinements at most, */
     double most;       /* to no more triangles than this */
     bool both_sides;   /* the points of inner vertices move, too */
+    bool is_relaxed;   /* they have: the energy has come down, and what is left is refined */
 } iccp_schedule;
 
 /* Lowers the symmetric Dirichlet energy of a map whose triangles are all positive, which they stay,
