@@ -35,7 +35,7 @@ typedef struct feature_mix {
 /* The first n features with the outer ring. */
 static inline icc_status mix_domain(icc_domain **out, const feature_mix *m, int side, size_t n)
 {
-    icc_feature features[MIX_FEATURES];
+    icc_feature features[MIX_FEATURES] = {{0}};
     const double *own = m->vertices[side] + 2 * m->n_outer;
     for (size_t f = 0; f < n; ++f) {
         features[f] = (icc_feature){.size = sizeof *features,

@@ -184,7 +184,7 @@ icc_status iccp_improve(iccp_plmap *map, const iccp_schedule *schedule, iccp_wor
                         iccp_improvement *improvement, const iccp_env *env)
 {
     const double slow = iccp_max(SLOW, schedule->tolerance);
-    const iccp_descent last = {0, schedule->iterations, schedule->tolerance, 0};
+    const iccp_descent last = {0, schedule->iterations, schedule->tolerance, 0, false};
     iccp_descent first = {schedule->is_relaxed ? 0 : MAJORISED_STEPS, schedule->iterations,
                           schedule->tolerance, slow, schedule->is_relaxed};
     iccp_env part[3];
