@@ -142,8 +142,7 @@ static inline void mix_free(feature_mix *m)
     icc_domain_free(m->domain[1]);
 }
 
-/* How many vertices of the source do not go to those of the target, or back: bit for bit, but for
- * one unit in the last place when all of it is far from zero. */
+/* How many coordinates of vertices do not go to those of the target's, or back, bit for bit. */
 static inline size_t mix_count_off(const feature_mix *m, const icc_map *map, bool is_swapped)
 {
     double found[2 * MIX_VERTICES];
@@ -156,11 +155,8 @@ static inline size_t mix_count_off(const feature_mix *m, const icc_map *map, boo
                 : icc_map_apply_inverse(map, m->n_vertices, from, found, NULL, NULL, NULL);
         if (status != ICC_OK)
             return SIZE_MAX;
-        for (size_t k = 0; k < 2 * m->n_vertices; ++k) {
-            const double least = m->offset > 0 ? nextafter(to[k], -HUGE_VAL) : to[k];
-            const double most = m->offset > 0 ? nextafter(to[k], HUGE_VAL) : to[k];
-            n_off += !(found[k] >= least && found[k] <= most);
-        }
+        for (size_t k = 0; k < 2 * m->n_vertices; ++k)
+            n_off += !(found[k] >= to[k] && found[k] <= to[k]);
     }
     return n_off;
 }

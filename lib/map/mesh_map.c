@@ -589,13 +589,19 @@ void iccp_mesh_map_find(const iccp_mesh_map *map, bool inverse, size_t n, const 
     iccp_finder_find_many(finder_of(map, inverse), n, points, images_of(map, inverse), found);
 }
 
-/* Whether it is corner k, whose own coordinate may be rounded. */
-static bool is_corner(const double bary[3], int k)
+/* Its own coordinate may be rounded. */
+bool iccp_mesh_map_is_given(const iccp_mesh_map *map, const iccp_found *found, uint32_t *vertex)
 {
-    return !(bary[(k + 1) % 3] > 0) && !(bary[(k + 2) % 3] > 0);
+    const uint32_t *v = map->pl.corners.vertex + 3 * (size_t)found->triangle;
+    for (size_t k = 0; k < 3; ++k)
+        if (map->pl.fixed[v[k]] >= ICCP_LINE_BEGIN && !(found->bary[(k + 1) % 3] > 0) &&
+            !(found->bary[(k + 2) % 3] > 0)) {
+            *vertex = v[k];
+            return true;
+        }
+    return false;
 }
 
-/* Vertices of lines and points go to theirs bit for bit. */
 void iccp_mesh_map_image(const iccp_mesh_map *map, bool inverse, const iccp_found *found,
                          double *image, double *jacobian)
 {
@@ -604,9 +610,9 @@ void iccp_mesh_map_image(const iccp_mesh_map *map, bool inverse, const iccp_foun
     for (size_t d = 0; d < 2; ++d)
         image[d] = bary[0] * to[2 * (size_t)v[0] + d] + bary[1] * to[2 * (size_t)v[1] + d] +
                    bary[2] * to[2 * (size_t)v[2] + d];
-    for (int k = 0; k < 3; ++k)
-        if (map->pl.fixed[v[k]] >= ICCP_LINE_BEGIN && is_corner(bary, k))
-            memcpy(image, to + 2 * (size_t)v[k], 2 * sizeof *to);
+    uint32_t given;
+    if (iccp_mesh_map_is_given(map, found, &given))
+        memcpy(image, to + 2 * (size_t)given, 2 * sizeof *to);
     if (jacobian != NULL) {
         const iccp_simplicial_map simplicial = iccp_plmap_simplicial(&map->pl);
         iccp_simplicial_jacobian(&simplicial, inverse, found->triangle, jacobian);
