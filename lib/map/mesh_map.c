@@ -218,10 +218,14 @@ icc_status iccp_mesh_map_finish(iccp_mesh_map *map, icc_map_info *info, const ic
     return status;
 }
 
+/* How: the rest of a schedule is up to options. */
+static const iccp_schedule PLAIN = {0}, RELAXED = {.is_relaxed = true},
+                           BOTH_SIDES = {.both_sides = true, .is_relaxed = true};
+
 /* Improves as far as asked; when cancelled, says so in `cancelled` and keeps what there is. */
-static icc_status improve(iccp_plmap *pl, const icc_improve_options *options, bool both_sides,
-                          iccp_work *work, bool *cancelled, iccp_improvement *improvement,
-                          const iccp_env *env)
+static icc_status improve(iccp_plmap *pl, const icc_improve_options *options,
+                          const iccp_schedule *how, iccp_work *work, bool *cancelled,
+                          iccp_improvement *improvement, const iccp_env *env)
 {
     const bool is_limited = work->left < HUGE_VAL;
     const iccp_schedule schedule = {
@@ -232,7 +236,8 @@ static icc_status improve(iccp_plmap *pl, const icc_improve_options *options, bo
                                          : (size_t)options->levels,
         .most =
             is_limited ? MOST_GROWTH * iccp_max(SMALL, (double)pl->corners.n_triangles) : HUGE_VAL,
-        .both_sides = both_sides};
+        .both_sides = how->both_sides,
+        .is_relaxed = how->is_relaxed};
     const iccp_env part = iccp_part(env, "improve", 0, 1);
     const icc_status status = iccp_improve(pl, &schedule, work, improvement, &part);
     *cancelled = status == ICC_ERR_CANCELLED;
@@ -240,8 +245,9 @@ static icc_status improve(iccp_plmap *pl, const icc_improve_options *options, bo
 }
 
 /* Improves and certifies what is in map->pl, which is one-to-one. */
-static icc_status complete(iccp_mesh_map *map, const icc_improve_options *options, iccp_work *work,
-                           icc_map_info *info, const iccp_env *env, icc_error *err)
+static icc_status complete(iccp_mesh_map *map, const icc_improve_options *options,
+                           const iccp_schedule *how, iccp_work *work, icc_map_info *info,
+                           const iccp_env *env, icc_error *err)
 {
     const double begin = iccp_seconds();
     icc_status status = ICC_OK;
@@ -252,7 +258,7 @@ static icc_status complete(iccp_mesh_map *map, const icc_improve_options *option
     if (options->iterations >= 0) {
         iccp_improvement improvement;
         bool cancelled;
-        status = improve(&map->pl, options, false, work, &cancelled, &improvement, &part[0]);
+        status = improve(&map->pl, options, how, work, &cancelled, &improvement, &part[0]);
         if (status == ICC_OK && cancelled)
             status = ICC_ERR_CANCELLED;
         info->energy = improvement.energy;
@@ -278,7 +284,7 @@ static icc_status refit(iccp_mesh_map *map, const icc_improve_options *options, 
     info->seconds_repair = iccp_seconds() - begin;
     if (status != ICC_OK || info->n_unrepaired > 0)
         return status;
-    return complete(map, options, bound(&work->improvement, 1, work), info, &part[1], err);
+    return complete(map, options, &PLAIN, bound(&work->improvement, 1, work), info, &part[1], err);
 }
 
 /* Where the charts give a start that cannot be repaired. Leaves info->n_unrepaired as it is unless
@@ -357,7 +363,7 @@ static icc_status disentangle(iccp_plmap *pl, const icc_improve_options *options
     bool cancelled = false;
     icc_status status = ICC_OK;
     if (iccp_plmap_energy(pl) > ENTANGLED)
-        status = improve(pl, options, true, &half, &cancelled, &ignored, env);
+        status = improve(pl, options, &BOTH_SIDES, &half, &cancelled, &ignored, env);
     work->left -= half.spent;
     work->spent += half.spent;
     return cancelled ? ICC_ERR_CANCELLED : status;
@@ -384,7 +390,7 @@ icc_status iccp_mesh_map_create_features(iccp_mesh_map **out, const icc_domain *
     if (status == ICC_OK && options->iterations >= 0)
         status = disentangle(&map->pl, &improvement, &work.improvement, &part[1]);
     if (status == ICC_OK)
-        status = complete(map, &improvement, &work.improvement, info, &part[2], err);
+        status = complete(map, &improvement, &RELAXED, &work.improvement, info, &part[2], err);
     map->work = spent(&work);
     if (status == ICC_OK)
         *out = map;
@@ -410,7 +416,7 @@ icc_status iccp_mesh_map_improve(iccp_mesh_map **out, const iccp_mesh_map *map, 
     report->energy_start = iccp_plmap_energy(&map->pl);
     icc_status status = iccp_plmap_copy(&better->pl, &map->pl, &env->memory);
     if (status == ICC_OK)
-        status = improve(&better->pl, options, false, &work, &cancelled, &improvement, env);
+        status = improve(&better->pl, options, &PLAIN, &work, &cancelled, &improvement, env);
     /* A callback that still asks to stop must not keep the result from being finished. */
     iccp_env quiet = *env;
     quiet.progress = NULL;
@@ -469,7 +475,7 @@ static icc_status carry(iccp_mesh_map *map, const icc_domain *target,
                          "features moved straight to their new places would meet, or the work "
                          "allowed is not enough: go there in several steps, or make a new map");
     if (status == ICC_OK)
-        status = complete(map, options, &work->improvement, info, &part[1], err);
+        status = complete(map, options, &PLAIN, &work->improvement, info, &part[1], err);
     return status;
 }
 
@@ -583,6 +589,19 @@ void iccp_mesh_map_find(const iccp_mesh_map *map, bool inverse, size_t n, const 
     iccp_finder_find_many(finder_of(map, inverse), n, points, images_of(map, inverse), found);
 }
 
+/* Its own coordinate may be rounded. */
+bool iccp_mesh_map_is_given(const iccp_mesh_map *map, const iccp_found *found, uint32_t *vertex)
+{
+    const uint32_t *v = map->pl.corners.vertex + 3 * (size_t)found->triangle;
+    for (size_t k = 0; k < 3; ++k)
+        if (map->pl.fixed[v[k]] >= ICCP_LINE_BEGIN && !(found->bary[(k + 1) % 3] > 0) &&
+            !(found->bary[(k + 2) % 3] > 0)) {
+            *vertex = v[k];
+            return true;
+        }
+    return false;
+}
+
 void iccp_mesh_map_image(const iccp_mesh_map *map, bool inverse, const iccp_found *found,
                          double *image, double *jacobian)
 {
@@ -591,6 +610,9 @@ void iccp_mesh_map_image(const iccp_mesh_map *map, bool inverse, const iccp_foun
     for (size_t d = 0; d < 2; ++d)
         image[d] = bary[0] * to[2 * (size_t)v[0] + d] + bary[1] * to[2 * (size_t)v[1] + d] +
                    bary[2] * to[2 * (size_t)v[2] + d];
+    uint32_t given;
+    if (iccp_mesh_map_is_given(map, found, &given))
+        memcpy(image, to + 2 * (size_t)given, 2 * sizeof *to);
     if (jacobian != NULL) {
         const iccp_simplicial_map simplicial = iccp_plmap_simplicial(&map->pl);
         iccp_simplicial_jacobian(&simplicial, inverse, found->triangle, jacobian);
