@@ -1117,7 +1117,6 @@ ICC_API icc_status icc_map_jacobian(const icc_map *map, size_t n, const double *
 
 /**
  * Writes a map to memory, with its domains and charts, in two calls as icc_chart_save() does.
- * Maps of domains with features cannot be saved: ::ICC_ERR_UNSUPPORTED.
  */
 ICC_API icc_status icc_map_save(const icc_map *map, size_t capacity, void *data, size_t *n_bytes);
 

@@ -287,8 +287,6 @@ icc_status icc_map_save(const icc_map *map, size_t capacity, void *data, size_t 
 {
     if (map == NULL || n_bytes == NULL || (capacity > 0 && data == NULL))
         return ICC_ERR_ARGUMENT;
-    if (map->source_domain->features != NULL)
-        return ICC_ERR_UNSUPPORTED;
     iccp_map_save(map, capacity, data, n_bytes);
     return ICC_OK;
 }

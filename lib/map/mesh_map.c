@@ -383,6 +383,7 @@ icc_status iccp_mesh_map_create_features(iccp_mesh_map **out, const icc_domain *
     info->seconds_repair = iccp_seconds() - begin;
     if (status == ICC_OK && options->iterations >= 0)
         status = disentangle(&map->pl, &improvement, &work.improvement, &part[1]);
+    map->pl.stretch = sqrt(target->measure / source->measure); /* swapping may have rounded it */
     if (status == ICC_OK)
         status = complete(map, &improvement, &work.improvement, info, &part[2], err);
     map->work = spent(&work);
@@ -454,7 +455,7 @@ static icc_status carry(iccp_mesh_map *map, const icc_domain *target,
                         const icc_improve_options *options, allowance *work, icc_map_info *info,
                         const iccp_env *env, icc_error *err)
 {
-    const double begin = iccp_seconds();
+    const double begin = iccp_seconds(), stretch = map->pl.stretch;
     bool reached = false;
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){3, 1}, env);
@@ -463,6 +464,7 @@ static icc_status carry(iccp_mesh_map *map, const icc_domain *target,
         status = iccp_limit_edges(&map->pl, iccp_planar_step(target, CARRIED_CELLS), &part[0]);
     if (status == ICC_OK)
         status = iccp_carry(&map->pl, target, &work->repair, &reached, &part[0]);
+    map->pl.stretch = stretch;
     info->seconds_repair = iccp_seconds() - begin;
     if (status == ICC_OK && !reached)
         return iccp_fail(err, ICC_ERR_CERTIFICATE,
