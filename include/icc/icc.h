@@ -872,6 +872,20 @@ typedef struct icc_map_info {
                                  1e-6 of its mean. At most 0.2 % if certified */
     int32_t reason;         /**< `ICC_REASON_*`: why it is not certified; 0 if it is */
     int32_t reason_side;    /**< 1: because the source's chart is not, 2: the target's; else 0 */
+    size_t n_holes;         /**< features inside: holes, */
+    size_t n_lines;         /**< lines */
+    size_t n_points;        /**< and points */
+    size_t n_ties;          /**< with features: as many ties, see icc_map_get_tie() */
+    double detour;          /**< lengths of these in the target over those of the straight lines
+                                 between their ends: what is much more than 1 is twisted */
+    int32_t class_kept;     /**< with features, 1: the map can be moved, while it stays one-to-one,
+                                 to what its ties, or the cuts chosen for it, said; and after
+                                 icc_map_retarget() to what became of the map before while every
+                                 vertex of the target went straight to its new place. Checked by
+                                 which edges of a triangulation the images of cuts cross; 0: not
+                                 so, or rounding or the way of the vertices leaves it open */
+    int32_t n_trees;        /**< with features: ways to cut them apart that were tried and led to a
+                                 map; 1 with ties */
 } icc_map_info;
 
 /**

@@ -11,6 +11,7 @@
 #include "map/carry.h"
 #include "map/density.h"
 #include "map/feature_start.h"
+#include "map/isotopy.h"
 #include "map/movable.h"
 #include "map/overlay_start.h"
 #include "map/plmap_certificate.h"
@@ -386,6 +387,12 @@ icc_status iccp_mesh_map_create_features(iccp_mesh_map **out, const icc_domain *
     map->pl.stretch = sqrt(target->measure / source->measure); /* swapping may have rounded it */
     if (status == ICC_OK)
         status = complete(map, &improvement, &work.improvement, info, &part[2], err);
+    bool kept = false;
+    if (status == ICC_OK)
+        status = iccp_isotopy_has_cuts(&kept, &map->pl, source, target, &report.cuts, env);
+    info->class_kept = kept;
+    info->n_trees = (int32_t)report.n_trees;
+    iccp_cuts_free(&report.cuts);
     map->work = spent(&work);
     if (status == ICC_OK)
         *out = map;

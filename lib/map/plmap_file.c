@@ -104,24 +104,6 @@ static bool is_place(const uint8_t *kind, const icc_domain *domain, uint32_t fac
     return kind[facet] == ICCP_ON_POINT ? !(along > 0) : along < 1 || is_last;
 }
 
-/* Whether every vertex of the domain is that of the mesh once. */
-static bool has_each_once(const iccp_plmap *map, const icc_domain *domain, uint8_t *seen)
-{
-    size_t n = 0;
-    memset(seen, 0, domain->n_vertices);
-    for (size_t v = 0; v < map->n_vertices; ++v) {
-        const uint32_t *ends = domain->facets + 2 * (size_t)map->facet[v];
-        if (map->fixed[v] == ICCP_FREE || (map->along[v] > 0 && map->along[v] < 1))
-            continue;
-        uint8_t *mark = &seen[ends[map->along[v] > 0]];
-        if (*mark != 0)
-            return false;
-        *mark = 1;
-        ++n;
-    }
-    return n == domain->n_vertices;
-}
-
 /* Whether the edges that are pieces of lines lead from the beginning of each to its end: one leaves
  * each vertex but the last, and one reaches each but the first. `seen`: of each vertex, 1 for one
  * that leaves and 2 for one that arrives. */
@@ -200,23 +182,24 @@ static icc_status read_features(iccp_blob *b, iccp_plmap *map, const icc_domain 
                                 const icc_domain *target, const iccp_env *env)
 {
     const size_t n_places = source->features->n_places;
-    const size_t room = map->n_vertices > source->n_vertices ? map->n_vertices : source->n_vertices;
     uint8_t *kind = iccp_alloc(&env->memory, n_places, sizeof *kind);
-    uint8_t *seen = iccp_alloc(&env->memory, room, sizeof *seen);
+    uint8_t *seen = iccp_alloc(&env->memory, map->n_vertices, sizeof *seen);
+    uint32_t *vertex = iccp_alloc(&env->memory, source->n_vertices, sizeof *vertex);
     icc_status status = ICC_ERR_MEMORY;
-    if (kind != NULL && seen != NULL) {
+    if (kind != NULL && seen != NULL && vertex != NULL) {
         list_kinds(kind, source);
         for (size_t v = 0; v < map->n_vertices; ++v)
             if (map->fixed[v] != ICCP_FREE)
                 map->fixed[v] = kind[map->facet[v]];
         read_inner(b, map, source, kind);
-        status = b->status == ICC_OK && has_each_once(map, source, seen) &&
+        status = b->status == ICC_OK && iccp_plmap_find_vertices(map, source, vertex) &&
                          follows_lines(map, source, target, seen)
                      ? ICC_OK
                      : ICC_ERR_FORMAT;
     }
     iccp_free(&env->memory, kind);
     iccp_free(&env->memory, seen);
+    iccp_free(&env->memory, vertex);
     return status;
 }
 
