@@ -1129,6 +1129,33 @@ ICC_API icc_status icc_map_jacobian(const icc_map *map, size_t n, const double *
                                     double *jacobians, icc_status *status, size_t *n_failed,
                                     const icc_env *env);
 
+/** What icc_map_get_tie() reports. */
+typedef struct icc_tie_info {
+    size_t size;        /**< set by the caller: `sizeof(icc_tie_info)` */
+    uint32_t vertex[2]; /**< as in icc_tie */
+    size_t n_source;    /**< its bends in the source: none as yet, they are edges of a triangulation
+                             of the source's vertices */
+    size_t n_target;    /**< and in the target */
+    double length[2];   /**< of the tie in the source, and in the target */
+} icc_tie_info;
+
+/**
+ * Reports a tie of a map of domains with features: which way round one another the features go. All
+ * of them, as icc_map_options::ties, make another map that can be moved to this one while it stays
+ * one-to-one. They follow from the map alone: the source's are a shortest tree of straight lines
+ * between vertices, in which the ties that it was made with, if any, need not be; the target's are
+ * drawn with few bends and do not cross.
+ *
+ * @param map         the map
+ * @param tie         its number, less than icc_map_info::n_ties
+ * @param[out] info   `size` is set by the caller
+ * @param[out] source 2 * n_source coordinates of bends, or NULL
+ * @param[out] target 2 * n_target coordinates of bends, or NULL
+ * @return ::ICC_OK; ::ICC_ERR_ARGUMENT (`map` or `info` is NULL, or there is no such tie)
+ */
+ICC_API icc_status icc_map_get_tie(const icc_map *map, size_t tie, icc_tie_info *info,
+                                   double *source, double *target);
+
 /**
  * Writes a map to memory, with its domains and charts, in two calls as icc_chart_save() does.
  */

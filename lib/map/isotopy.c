@@ -92,16 +92,37 @@ static icc_status find_tree(iccp_cuts *tree, const iccp_scene *scene, const iccp
 
 /* ---- an isotopy class ---- */
 
+static double length_of(const iccp_polyline *line)
+{
+    double length = 0;
+    for (uint32_t k = 1; k < line->n; ++k)
+        length += length_between(line->points, k - 1, k);
+    return length;
+}
+
 static double detour_of(const iccp_isotopy *isotopy)
 {
     double length = 0, straight = 0;
     for (size_t i = 0; i < isotopy->n; ++i) {
         const iccp_polyline *line = &isotopy->line[i];
-        for (uint32_t k = 1; k < line->n; ++k)
-            length += length_between(line->points, k - 1, k);
+        length += length_of(line);
         straight += length_between(line->points, 0, (uint32_t)line->n - 1);
     }
     return straight > 0 ? length / straight : 1;
+}
+
+icc_tie_info iccp_isotopy_tie(const iccp_isotopy *isotopy, size_t tie, const icc_domain *source,
+                              const icc_domain *target, double *bends)
+{
+    const iccp_polyline *line = &isotopy->line[tie];
+    const uint32_t *ends = isotopy->words.word[tie].ends;
+    const double *scale[2] = {source->frame.out, target->frame.out};
+    icc_tie_info info = {.vertex = {ends[0], ends[1]}, .n_target = line->n - 2};
+    info.length[0] = length_between(source->vertices, ends[0], ends[1]) * scale[0][0] * scale[0][1];
+    info.length[1] = length_of(line) * scale[1][0] * scale[1][1];
+    for (size_t k = 0; bends != NULL && k < info.n_target; ++k)
+        iccp_frame_out(&target->frame, 2, line->points + 2 * (k + 1), bends + 2 * k);
+    return info;
 }
 
 static icc_status describe(iccp_isotopy *isotopy, const iccp_plmap *map, const iccp_scene *scene,

@@ -18,6 +18,10 @@ typedef struct iccp_isotopy {
 /* *out is NULL, with ICC_OK, where rounding is in the way. */
 icc_status iccp_isotopy_create(iccp_isotopy **out, const iccp_plmap *map, const icc_domain *source,
                                const icc_domain *target, const iccp_env *env);
+
+/* A tie as icc_map_get_tie() tells it; `bends` in the target may be NULL. */
+icc_tie_info iccp_isotopy_tie(const iccp_isotopy *isotopy, size_t tie, const icc_domain *source,
+                              const icc_domain *target, double *bends);
 /* Accepts NULL. */
 void iccp_isotopy_free(iccp_isotopy *isotopy);
 
