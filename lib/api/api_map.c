@@ -89,8 +89,8 @@ icc_status icc_map_get_tie(const icc_map *map, size_t tie, icc_tie_info *info, d
 {
     if (map == NULL || info == NULL || map->isotopy == NULL || tie >= map->isotopy->n)
         return ICC_ERR_ARGUMENT;
-    const icc_tie_info full = iccp_isotopy_tie(map->isotopy, tie, map->source_domain,
-                                               map->target_domain, target);
+    const icc_tie_info full =
+        iccp_isotopy_tie(map->isotopy, tie, map->source_domain, map->target_domain, target);
     (void)source; /* there are no bends */
     return iccp_write_struct(info, &full, sizeof full, "icc_tie_info", NULL);
 }

@@ -1,6 +1,6 @@
 /* Two maps are isotopic when the images of a tree of paths that joins all components are, path by
- * path; and a path can be moved to another when both cross the same edges once neither crosses one in
- * vain (map/word.h). */
+ * path; and a path can be moved to another when both cross the same edges once neither crosses one
+ * in vain (map/word.h). */
 #include "map/isotopy.h"
 
 #include "base/sort.h"
@@ -57,8 +57,8 @@ static uint32_t find(uint32_t *parent, uint32_t i)
     return i;
 }
 
-/* J. B. Kruskal, On the shortest spanning subtree of a graph, 1956. Straight, without bends; what is
- * not the source's is not there. */
+/* J. B. Kruskal, On the shortest spanning subtree of a graph, 1956. Straight, without bends; what
+ * is not the source's is not there. */
 static icc_status find_tree(iccp_cuts *tree, const iccp_scene *scene, const iccp_env *env)
 {
     const size_t n = scene->n_components;
@@ -229,8 +229,7 @@ static icc_status copy_words(iccp_words *to, const iccp_words *from, const iccp_
         const iccp_word *word = &from->word[i];
         memcpy(to->word[i].ends, word->ends, sizeof word->ends);
         for (size_t k = 0; status == ICC_OK && k < word->n; ++k)
-            status =
-                iccp_word_add(&to->word[i], word->sides[2 * k], word->sides[2 * k + 1], env);
+            status = iccp_word_add(&to->word[i], word->sides[2 * k], word->sides[2 * k + 1], env);
     }
     if (status != ICC_OK)
         iccp_words_free(to);
@@ -243,8 +242,8 @@ static icc_status begin_move(iccp_moving_net *moving, const iccp_scene *old,
 {
     const icc_domain *old_target = old->domain[1];
     iccp_net net;
-    icc_status status = iccp_net_create(&net, &old->mesh[1], old->n, old_target->vertices,
-                                        &old->walls, memory);
+    icc_status status =
+        iccp_net_create(&net, &old->mesh[1], old->n, old_target->vertices, &old->walls, memory);
     if (status == ICC_OK)
         status = iccp_moving_net_create(moving, &net, old->n, old_target->vertices, memory);
     iccp_net_free(&net, memory);

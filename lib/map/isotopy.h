@@ -5,8 +5,8 @@
 
 #include "map/word.h"
 
-/* The shortest tree of edges of the source's bare triangulation that joins its components, and where
- * the images of these can be moved to in the target. It follows from the map alone. */
+/* The shortest tree of edges of the source's bare triangulation that joins its components, and
+ * where the images of these can be moved to in the target. It follows from the map alone. */
 typedef struct iccp_isotopy {
     iccp_memory memory;
     size_t n;

@@ -360,14 +360,16 @@ icc_status iccp_map_improve(icc_map **out, const icc_map *map, const icc_improve
         status = iccp_mesh_map_improve(&better->mesh, map->mesh, map->source_domain->n_facets,
                                        options, report, &with, err);
     iccp_without_team(&with, env);
-    better->info = map->info;
-    if (status == ICC_OK)
+    if (status == ICC_OK) {
+        better->info = map->info;
         status = iccp_map_tell_features(better, env);
+    }
     if (status != ICC_OK) {
         iccp_map_release(better);
         return iccp_explain(err, status);
     }
-    better->info.class_kept = map->info.class_kept && iccp_isotopy_same(map->isotopy, better->isotopy);
+    better->info.class_kept =
+        map->info.class_kept && iccp_isotopy_same(map->isotopy, better->isotopy);
     better->info.n_vertices = better->mesh->pl.n_vertices;
     better->info.n_simplices = better->mesh->pl.corners.n_triangles;
     better->info.energy = report->energy;

@@ -46,8 +46,8 @@ icc_status iccp_map_begin(icc_map **out, const icc_domain *source, const icc_dom
                           const iccp_env *env, icc_error *err);
 void iccp_map_add_charts(icc_map *map, const icc_chart *source, const icc_chart *target);
 
-/* Once the mesh of a map is there: between domains with features, its isotopy and what the info says
- * of features, but for class_kept. */
+/* Once the mesh of a map is there: between domains with features, its isotopy and what the info
+ * says of features, but for class_kept. */
 icc_status iccp_map_tell_features(icc_map *map, const iccp_env *env);
 
 /* Takes the certificate away from a map that its charts do not warrant: of method field. */

@@ -57,8 +57,8 @@ static bool goes_on(const iccp_plmap *map, const icc_domain *domain, uint32_t a,
     return f == g && (forward ? ahead : -ahead) >= 0;
 }
 
-/* Once, since to the certificate rings are simple and apart; with features each vertex of the domain
- * is also met once. */
+/* Once, since to the certificate rings are simple and apart; with features each vertex of the
+ * domain is also met once. */
 static bool follows_facets(const iccp_plmap *map, const icc_domain *source,
                            const icc_domain *target)
 {
@@ -99,8 +99,7 @@ static void list_kinds(uint8_t *kind, const icc_domain *domain)
  * the next one, but for the last of a line. */
 static bool is_place(const uint8_t *kind, const icc_domain *domain, uint32_t facet, double along)
 {
-    const bool is_last =
-        facet + 1 == domain->features->n_places || kind[facet + 1] != ICCP_ON_LINE;
+    const bool is_last = facet + 1 == domain->features->n_places || kind[facet + 1] != ICCP_ON_LINE;
     return kind[facet] == ICCP_ON_POINT ? !(along > 0) : along < 1 || is_last;
 }
 

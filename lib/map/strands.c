@@ -74,8 +74,7 @@ static bool is_less(const void *context, uint32_t a, uint32_t b)
     const iccp_crossing *x = &s->routes.crossing[a], *y = &s->routes.crossing[b];
     if (x->edge != y->edge)
         return x->edge < y->edge;
-    const int ahead =
-        part(traveller_at(s, a, x->is_forward), traveller_at(s, b, y->is_forward));
+    const int ahead = part(traveller_at(s, a, x->is_forward), traveller_at(s, b, y->is_forward));
     if (ahead != 0)
         return ahead < 0;
     return part(traveller_at(s, a, !x->is_forward), traveller_at(s, b, !y->is_forward)) > 0;
@@ -113,12 +112,12 @@ static void enter_crossings(strands *s, const iccp_net *net)
             const uint32_t edge = iccp_net_edge(net, right, left);
             s->word[k] = i;
             s->order[k] = k;
-            r->crossing[k] = (iccp_crossing){.path = i,
-                                             .place = place,
-                                             .edge = edge,
-                                             .next = ICCP_NO_NEIGHBOUR,
-                                             .is_forward =
-                                                 net->mesh->vertex[iccp_after(edge)] == right};
+            r->crossing[k] =
+                (iccp_crossing){.path = i,
+                                .place = place,
+                                .edge = edge,
+                                .next = ICCP_NO_NEIGHBOUR,
+                                .is_forward = net->mesh->vertex[iccp_after(edge)] == right};
         }
     }
 }

@@ -1,6 +1,6 @@
 /* Words by crossed edges, as in M. Dehn's proof that curves on surfaces can be told apart: inside a
- * domain cut into triangles by its own vertices, what lies over a triangulation without its vertices
- * is a tree of triangles, in which the shortest way between two is unique.
+ * domain cut into triangles by its own vertices, what lies over a triangulation without its
+ * vertices is a tree of triangles, in which the shortest way between two is unique.
  *
  * A polyline is followed as if its bends were moved by an infinitesimal vector (1, e), e being
  * smaller still: after H. Edelsbrunner, E. P. Muecke, Simulation of simplicity, 1990. Then it meets
@@ -20,8 +20,7 @@ enum { STEP = 40 };
 /* ---- triangulations ---- */
 
 icc_status iccp_net_create(iccp_net *net, const iccp_corners *mesh, size_t n_vertices,
-                           const double *points, const iccp_walls *walls,
-                           const iccp_memory *memory)
+                           const double *points, const iccp_walls *walls, const iccp_memory *memory)
 {
     *net = (iccp_net){.mesh = mesh, .points = points, .walls = walls};
     net->corner = iccp_alloc(memory, n_vertices, sizeof *net->corner);
@@ -181,8 +180,8 @@ static const double *point_at(const iccp_net *net, uint32_t corner)
     return net->points + 2 * (size_t)net->mesh->vertex[corner];
 }
 
-/* The corner at a piece's beginning between whose sides the piece leaves; NONE: it does not. `to`: a
- * vertex that the piece may end at, or NONE. */
+/* The corner at a piece's beginning between whose sides the piece leaves; NONE: it does not. `to`:
+ * a vertex that the piece may end at, or NONE. */
 static uint32_t find_start(const iccp_net *net, const piece *s, uint32_t from, uint32_t to)
 {
     const uint32_t *v = net->mesh->vertex, first = clockwise_most(net, net->corner[from]);
@@ -316,8 +315,8 @@ static icc_status read_images(iccp_words *words, const iccp_cuts *cuts, const ic
         if (status == ICC_OK)
             status = list_middles(&line, &before, map, env);
         if (status == ICC_OK)
-            status = iccp_word_read(&words->word[i], target, ends[0], ends[1], line.n, line.points,
-                                    env);
+            status =
+                iccp_word_read(&words->word[i], target, ends[0], ends[1], line.n, line.points, env);
     }
     iccp_free(&env->memory, before.sides);
     iccp_polyline_free(&line, &env->memory);
@@ -337,8 +336,7 @@ icc_status iccp_words_of_images(iccp_words *words, const iccp_cuts *cuts, const 
         status = ICC_ERR_TOPOLOGY;
     if (status == ICC_OK) {
         status =
-            iccp_net_create(&mesh, &map->corners, map->n_vertices, map->points, NULL,
-                                 &env->memory);
+            iccp_net_create(&mesh, &map->corners, map->n_vertices, map->points, NULL, &env->memory);
         if (status == ICC_OK)
             status = read_images(words, cuts, map, vertex, &mesh, target, env);
         iccp_net_free(&mesh, &env->memory);

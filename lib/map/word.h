@@ -23,8 +23,9 @@ void iccp_net_free(iccp_net *net, const iccp_memory *memory);
 uint32_t iccp_net_edge(const iccp_net *net, uint32_t a, uint32_t b);
 
 /* A path, reduced: it crosses no edge forth and back at once, begins with an edge that does not end
- * where it does, and ends likewise. Two paths with the same ends can be moved one to the other, with
- * turns about their own ends where these are single points, just when they are the same edges. */
+ * where it does, and ends likewise. Two paths with the same ends can be moved one to the other,
+ * with turns about their own ends where these are single points, just when they are the same
+ * edges. */
 typedef struct iccp_word {
     uint32_t ends[2];
     size_t n, room;

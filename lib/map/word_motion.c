@@ -76,17 +76,14 @@ static int side_of_vertex(const flip *f, uint32_t v)
 }
 
 /* Between what is on one side and on the other, a path now crosses the new edge. */
-static icc_status add_new(iccp_word *to, const flip *f, int before, int after,
-                          const iccp_env *env)
+static icc_status add_new(iccp_word *to, const flip *f, int before, int after, const iccp_env *env)
 {
     if (before * after >= 0)
         return ICC_OK;
-    return before < 0 ? iccp_word_add(to, f->b, f->d, env)
-                      : iccp_word_add(to, f->d, f->b, env);
+    return before < 0 ? iccp_word_add(to, f->b, f->d, env) : iccp_word_add(to, f->d, f->b, env);
 }
 
-static icc_status rewrite(iccp_word *to, const iccp_word *word, const flip *f,
-                          const iccp_env *env)
+static icc_status rewrite(iccp_word *to, const iccp_word *word, const flip *f, const iccp_env *env)
 {
     int before = side_of_vertex(f, word->ends[0]);
     icc_status status = ICC_OK;
@@ -163,8 +160,8 @@ static double cross(const double a[2], const double b[2])
     return a[0] * b[1] - a[1] * b[0];
 }
 
-/* When a triangle whose sides p and q grow by u and v each while all of the way is gone becomes flat
- * first, after now; HUGE_VAL: never. */
+/* When a triangle whose sides p and q grow by u and v each while all of the way is gone becomes
+ * flat first, after now; HUGE_VAL: never. */
 static double flat_at(const double p[2], const double q[2], const double u[2], const double v[2])
 {
     const double a = cross(u, v), b = cross(p, v) + cross(u, q), c = cross(p, q);

@@ -17,9 +17,9 @@ icc_status iccp_moving_net_create(iccp_moving_net *moving, const iccp_net *net, 
                                   const double *points, const iccp_memory *memory);
 void iccp_moving_net_free(iccp_moving_net *moving);
 
-/* Moves the vertices to other places, all at once and straight, and takes words along; edges flip as
- * they must. *arrived: whether they are there, which is false if vertices meet walls or one another on
- * the way, or come too close to tell. */
+/* Moves the vertices to other places, all at once and straight, and takes words along; edges flip
+ * as they must. *arrived: whether they are there, which is false if vertices meet walls or one
+ * another on the way, or come too close to tell. */
 icc_status iccp_words_move(iccp_words *words, iccp_moving_net *moving, const double *places,
                            bool *arrived, const iccp_env *env);
 

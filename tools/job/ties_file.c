@@ -28,12 +28,11 @@ size_t ties_of_map(const icc_map *map, const cage *c, int side, cage_feature **t
         icc_map_get_tie(map, i, &tie, NULL, NULL);
         size_t n = 2 + (side == 1 ? tie.n_source : tie.n_target);
         double *points = need(n, 2 * sizeof *points);
-        icc_map_get_tie(map, i, &tie, side == 1 ? points + 2 : NULL,
-                        side == 2 ? points + 2 : NULL);
+        icc_map_get_tie(map, i, &tie, side == 1 ? points + 2 : NULL, side == 2 ? points + 2 : NULL);
         memcpy(points, vertex_of(c, tie.vertex[0]), 2 * sizeof *points);
         memcpy(points + 2 * (n - 1), vertex_of(c, tie.vertex[1]), 2 * sizeof *points);
-        (*ties)[i] = (cage_feature){
-            .kind = CAGE_TIE, .number = (int64_t)i + 1, .n = n, .points = points};
+        (*ties)[i] =
+            (cage_feature){.kind = CAGE_TIE, .number = (int64_t)i + 1, .n = n, .points = points};
     }
     return info.n_ties;
 }

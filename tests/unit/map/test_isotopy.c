@@ -100,8 +100,8 @@ static size_t spiral(int turns, double *bends)
     const size_t n = turns == 0 ? 0 : PLACES * (size_t)turns;
     for (size_t k = 0; k < n; ++k) {
         const double share = ((double)k + 0.5) / (double)n;
-        const double a = from + share * (to - 6.283185307179586 + 6.283185307179586 * (1 - turns) -
-                                         from);
+        const double a =
+            from + share * (to - 6.283185307179586 + 6.283185307179586 * (1 - turns) - from);
         const double r = 4 - 2 * share;
         bends[2 * k] = centre[0] + r * cos(a);
         bends[2 * k + 1] = centre[1] + r * sin(a);
@@ -118,9 +118,9 @@ static void read_word(iccp_words *words, const icc_domain *domain, size_t n, con
     double local[6 * PLACES];
     ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
     ck_assert_int_eq(iccp_scene_create(&scene, domain, domain, &env), ICC_OK);
-    ck_assert_int_eq(iccp_net_create(&net, &scene.mesh[1], scene.n, domain->vertices, &scene.walls,
-                                     &env.memory),
-                     ICC_OK);
+    ck_assert_int_eq(
+        iccp_net_create(&net, &scene.mesh[1], scene.n, domain->vertices, &scene.walls, &env.memory),
+        ICC_OK);
     for (size_t k = 0; k < n; ++k)
         iccp_frame_in(&domain->frame, 2, bends + 2 * k, local + 2 * k);
     ck_assert_int_eq(iccp_words_begin(words, 1, &env.memory), ICC_OK);
@@ -320,9 +320,9 @@ START_TEST(there_and_back)
         ck_assert_int_eq(iccp_net_create(&net, &scene.mesh[1], scene.n, domains[0]->vertices,
                                          &scene.walls, &env.memory),
                          ICC_OK);
-        ck_assert_int_eq(iccp_moving_net_create(&moving, &net, scene.n, domains[0]->vertices,
-                                                &env.memory),
-                         ICC_OK);
+        ck_assert_int_eq(
+            iccp_moving_net_create(&moving, &net, scene.n, domains[0]->vertices, &env.memory),
+            ICC_OK);
         iccp_words *words = &map->isotopy->words;
         ck_assert_int_eq(iccp_words_move(words, &moving, domains[1]->vertices, &arrived, &env),
                          ICC_OK);
@@ -379,12 +379,11 @@ START_TEST(words)
                      ICC_OK);
     ck_assert_uint_eq(word.n, 0);
     /* Round the middle, and round it the other way. */
-    ck_assert_int_eq(
-        iccp_word_read(&word, &net, 0, 2, 2, (const double[]){1, 3, 2, 3}, &env), ICC_OK);
-    ck_assert(word.n == 1 && word.sides[0] == 4 && word.sides[1] == 3);
-    ck_assert_int_eq(iccp_word_read(&word, &net, 0, 2, 3,
-                                    (const double[]){1, 3, 1, 3, 1, 0.5}, &env),
+    ck_assert_int_eq(iccp_word_read(&word, &net, 0, 2, 2, (const double[]){1, 3, 2, 3}, &env),
                      ICC_OK);
+    ck_assert(word.n == 1 && word.sides[0] == 4 && word.sides[1] == 3);
+    ck_assert_int_eq(
+        iccp_word_read(&word, &net, 0, 2, 3, (const double[]){1, 3, 1, 3, 1, 0.5}, &env), ICC_OK);
     ck_assert(word.n == 1 && word.sides[0] == 1 && word.sides[1] == 4);
     /* Once more than round, and back. */
     const double round[8] = {3, 1, 3, 3, 1, 3, 1, 0.5};
