@@ -138,11 +138,12 @@ static icc_status choose(iccp_plmap *map, const iccp_scene *scene, iccp_cutter *
             is_good = energy <= GOOD || (energy <= FAIR && detour <= STRAIGHT);
             if (energy < best) {
                 const iccp_plmap worse = *map;
+                const iccp_cuts others = report->cuts;
                 *map = other;
                 other = worse;
+                report->cuts = cuts;
+                cuts = others;
                 best = energy;
-                report->n_cuts = cuts.n;
-                report->detour = detour_of(&cuts, 1);
             }
         }
         iccp_cuts_free(&cuts);
@@ -158,13 +159,12 @@ static icc_status start_from_ties(iccp_plmap *map, const iccp_scene *scene,
                                   const icc_map_options *options, iccp_feature_report *report,
                                   const iccp_env *env, icc_error *err)
 {
-    iccp_cuts cuts;
-    icc_status status = iccp_ties_read(&cuts, scene, options->n_ties, options->ties, env, err);
+    icc_status status =
+        iccp_ties_read(&report->cuts, scene, options->n_ties, options->ties, env, err);
     if (status != ICC_OK)
         return status;
-    status = start_from(map, scene, &cuts, env);
-    *report = (iccp_feature_report){cuts.n, 1, detour_of(&cuts, 1)};
-    iccp_cuts_free(&cuts);
+    status = start_from(map, scene, &report->cuts, env);
+    report->n_trees = 1;
     if (status == ICC_OK)
         status = thin_out(map, env);
     return is_lost(status) || status == ICC_OK ? status : ICC_ERR_RESOLUTION;
@@ -190,7 +190,7 @@ icc_status iccp_feature_start(iccp_plmap *map, const icc_domain *source, const i
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){1, 2}, env);
     *map = (iccp_plmap){.memory = env->memory};
-    *report = (iccp_feature_report){0};
+    *report = (iccp_feature_report){.cuts.memory = env->memory};
     icc_status status = iccp_scene_create(&scene, source, target, env);
     if (status == ICC_OK && options->ties != NULL)
         status = start_from_ties(map, &scene, options, report, &part[0], err);

@@ -2,14 +2,14 @@
 #ifndef ICCP_FEATURE_START_H
 #define ICCP_FEATURE_START_H
 
+#include "map/cuts.h"
 #include "map/plmap.h"
 #include "map/work.h"
 
 /* What is known of a start. */
 typedef struct iccp_feature_report {
-    size_t n_cuts, n_trees; /* paths of a tree; trees that led to a start */
-    double detour; /* lengths of the paths in the target over those of the straight lines between
-                      their ends */
+    size_t n_trees; /* of cuts that led to a start */
+    iccp_cuts cuts; /* those that it was made with; the caller frees them in any case */
 } iccp_feature_report;
 
 /* A map that takes every feature of one domain to the same of the other, vertex by vertex, and is

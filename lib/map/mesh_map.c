@@ -11,6 +11,7 @@
 #include "map/carry.h"
 #include "map/density.h"
 #include "map/feature_start.h"
+#include "map/isotopy.h"
 #include "map/movable.h"
 #include "map/overlay_start.h"
 #include "map/plmap_certificate.h"
@@ -389,8 +390,15 @@ icc_status iccp_mesh_map_create_features(iccp_mesh_map **out, const icc_domain *
     info->seconds_repair = iccp_seconds() - begin;
     if (status == ICC_OK && options->iterations >= 0)
         status = disentangle(&map->pl, &improvement, &work.improvement, &part[1]);
+    map->pl.stretch = sqrt(target->measure / source->measure); /* swapping may have rounded it */
     if (status == ICC_OK)
         status = complete(map, &improvement, &RELAXED, &work.improvement, info, &part[2], err);
+    bool kept = false;
+    if (status == ICC_OK)
+        status = iccp_isotopy_has_cuts(&kept, &map->pl, source, target, &report.cuts, env);
+    info->class_kept = kept;
+    info->n_trees = (int32_t)report.n_trees;
+    iccp_cuts_free(&report.cuts);
     map->work = spent(&work);
     if (status == ICC_OK)
         *out = map;
@@ -460,7 +468,7 @@ static icc_status carry(iccp_mesh_map *map, const icc_domain *target,
                         const icc_improve_options *options, allowance *work, icc_map_info *info,
                         const iccp_env *env, icc_error *err)
 {
-    const double begin = iccp_seconds();
+    const double begin = iccp_seconds(), stretch = map->pl.stretch;
     bool reached = false;
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){3, 1}, env);
@@ -469,6 +477,7 @@ static icc_status carry(iccp_mesh_map *map, const icc_domain *target,
         status = iccp_limit_edges(&map->pl, iccp_planar_step(target, CARRIED_CELLS), &part[0]);
     if (status == ICC_OK)
         status = iccp_carry(&map->pl, target, &work->repair, &reached, &part[0]);
+    map->pl.stretch = stretch;
     info->seconds_repair = iccp_seconds() - begin;
     if (status == ICC_OK && !reached)
         return iccp_fail(err, ICC_ERR_CERTIFICATE,

@@ -193,6 +193,24 @@ collection "$source" "$target" "$point" "$partner" "$ends" "$(feature target-tie
 run 1 map -s bad -p given.txt
 says 'as many as features'
 
+# The map's own ties, in a file that makes a map of the same ties.
+run 0 map -s case.geojson -p given.txt --ties own.geojson
+[ "$(grep -c -- '-tie"' own.geojson)" -eq 6 ] || complain "not three ties on each side: $(cat own.geojson)"
+run 0 map -s own.geojson -p given.txt --ties again.geojson
+close_to out images.txt 1e-12
+same own.geojson again.geojson
+run 0 info -s tied.geojson --ties own.geojson
+holds out 'ties        3, '
+run 0 info -s own.geojson --json --ties again.geojson
+holds out '"ties": 3,'
+holds out '"class_kept": true'
+same own.geojson again.geojson
+run 2 map -s case.geojson -p given.txt --ties -
+says '--ties goes to a file'
+run 2 map -s case.geojson -p given.txt --ties own.png
+run 1 map -s source.txt -t target.txt -p points.txt --ties own.geojson
+says 'no ties to write'
+
 # The other commands.
 run 0 check -s case.geojson
 head -n 1 out | grep -qx 'one-to-one: yes, certified' || complain "not certified: $(head -n 1 out)"
@@ -209,6 +227,7 @@ run 0 plot -s case.geojson out.svg
 holds out.svg 'clip-rule="evenodd"'
 holds out.svg 'target: triangles'
 run 0 plot -s case.geojson --triangles out.svg
+[ "$(grep -c stroke-dasharray out.svg)" -eq 18 ] || complain "the map's own ties are not drawn"
 run 0 plot -s tied.geojson out.svg
 [ "$(grep -c stroke-dasharray out.svg)" -eq 18 ] || complain "three ties are not drawn in each of six panels"
 collection "$(feature none Polygon "[$square, $hole]")" "$(feature none LineString "$line")" "$(feature none Point '[2,8]')" >in.geojson

@@ -4,6 +4,7 @@
 #include "base/allocate.h"
 #include "geo/geo_carry.h"
 #include "job/job.h"
+#include "job/ties_file.h"
 #include "job/triangulation.h"
 
 #include <math.h>
@@ -101,6 +102,8 @@ static int finish(const job *j, geo_result *r, const char *text, size_t n, doubl
             names);
     if (result == DONE)
         result = triangulation_write(j);
+    if (result == DONE)
+        result = ties_write(j);
     outfile file;
     if (result != DONE || !outfile_open(&file, to))
         return FAILED;
@@ -162,6 +165,8 @@ int run_geojson(const args *a)
     job j;
     job_start(&j, a);
     int result = job_read_plane(&j, "--geojson");
+    if (result == DONE)
+        result = ties_check(&j);
     if (result == DONE)
         result = job_make_map(&j);
     if (result == DONE)

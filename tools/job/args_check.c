@@ -182,6 +182,8 @@ static int settle_streams(args *a, const command *c)
                        "result and report cannot both go to standard output; use --json=FILE");
     if (a->triangulation != NULL && strcmp(a->triangulation, "-") == 0)
         return misused(c->name, "--triangulation goes to a file, beside the result");
+    if (a->ties != NULL && strcmp(a->ties, "-") == 0)
+        return misused(c->name, "--ties goes to a file, beside the result");
     return DONE;
 }
 
